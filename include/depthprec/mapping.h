@@ -1,0 +1,60 @@
+/* SPDX-License-Identifier: MIT */
+/**
+ * @file mapping.h  Mappings: how an eye depth becomes a window depth.
+ *
+ * Eye depth z > 0 is measured along the view axis in scene units; near and far are n and f; d is the window depth
+ * in [0, 1] and q = 1 - d its complement. With phi = n/f, which is 0 when f is infinite:
+ *
+ *     d3d, gl                 d = (1 - n/z) / (1 - phi)       orthographic  (z - n) / (f - n)
+ *     reversed, gl-reversed   d = (n/z - phi) / (1 - phi)     orthographic  (f - z) / (f - n)
+ *     linear                  d = z / f
+ *     log                     d = log(C z + 1) / log(C f + 1)
+ *
+ * gl and d3d are the same real number and differ only in what is rounded before the buffer.
+ */
+#ifndef DEPTHPREC_MAPPING_H
+#define DEPTHPREC_MAPPING_H
+
+#include <stddef.h>
+
+#include "depthprec/status.h"
+
+DP_BEGIN
+
+typedef enum dp_mapping {
+    DP_MAPPING_D3D = 0,
+    DP_MAPPING_GL,
+    DP_MAPPING_REVERSED,
+    DP_MAPPING_GL_REVERSED,
+    DP_MAPPING_LINEAR,
+    DP_MAPPING_LOG,
+    DP_MAPPING_COUNT
+} dp_mapping;
+
+/** The curve that a mapping follows under a perspective projection. */
+typedef enum dp_curve { DP_CURVE_PERSPECTIVE = 0, DP_CURVE_LINEAR, DP_CURVE_LOG } dp_curve;
+
+/** What is known of a mapping. The index of its row is its dp_mapping. */
+typedef struct dp_mapping_row {
+    const char *name;
+    const char *aliases; /**< other accepted spellings, separated by one space */
+    dp_curve curve;
+    int reversed;     /**< near is stored as 1, far as 0 */
+    int ndc_signed;   /**< NDC depth runs over [-1, 1] and is mapped to [0, 1] afterwards */
+    int far_infinite; /**< far may be infinite */
+    int ortho;        /**< has an orthographic form */
+    const char *note;
+    const char *source;
+} dp_mapping_row;
+
+/** The row of a mapping; null when out of range. */
+DP_API const dp_mapping_row *dp_mapping_get(dp_mapping mapping);
+
+/**
+ * Finds a mapping by its name or one of its aliases; letter case is ignored.
+ * @return DP_OK, or DP_ERROR_MAPPING and *out is left as it was
+ */
+DP_API dp_status dp_mapping_parse(const char *name, dp_mapping *out);
+
+DP_END
+#endif

@@ -1,0 +1,62 @@
+/* SPDX-License-Identifier: MIT */
+/**
+ * @file setup.h  A set-up: camera planes, mapping, format, rounding and model, checked once.
+ *
+ * dp_setup_init() is the only door. What it lets through cannot fail, overflow or divide by zero anywhere behind it.
+ */
+#ifndef DEPTHPREC_SETUP_H
+#define DEPTHPREC_SETUP_H
+
+#include "depthprec/format.h"
+#include "depthprec/mapping.h"
+#include "depthprec/status.h"
+
+DP_BEGIN
+
+/** What is modelled of the arithmetic between the eye depth and the buffer. */
+typedef enum dp_model {
+    DP_MODEL_EXACT = 0, /**< real arithmetic and one rounding into the format: the lattice of codes */
+    DP_MODEL_COUNT
+} dp_model;
+
+/** What is asked for. Start from dp_spec_default() and change what differs. */
+typedef struct dp_spec {
+    double znear;         /**< near plane, scene units, in [1e-12, 1e12] */
+    double zfar;          /**< far plane, scene units, at most 1e18, or INFINITY; (far - near)/near >= 1e-6 */
+    int ortho;            /**< nonzero: orthographic projection (d3d, gl, reversed and gl-reversed only) */
+    dp_mapping mapping;
+    dp_format format;
+    dp_rounding rounding;
+    dp_model model;
+    double log_c;         /**< constant C of the logarithmic mapping, in [1e-12, 1e12]; read for log only */
+} dp_spec;
+
+/** near 0.1, far 1000, perspective, d3d, fp32, nearest, exact, C = 1. */
+DP_API dp_spec dp_spec_default(void);
+
+/** A checked set-up. Everything after `spec` is derived from it by dp_setup_init() and private to the library. */
+typedef struct dp_setup {
+    dp_spec spec;
+    dp_curve curve; /**< the curve in force: an orthographic projection turns PERSPECTIVE into LINEAR */
+    int reversed;
+    double anchor;    /**< the depth that a LINEAR curve sends to its near end: near (orthographic) or 0 (linear) */
+    double kappa;     /**< PERSPECTIVE: 1/n - 1/f; LINEAR: f - anchor; LOG: log(C f + 1) */
+    double scale;     /**< PERSPECTIVE: d = (z - n)/z scale, or (f - z)/z scale when reversed */
+    double levels;    /**< UNORM: 2^N - 1; FLOAT: 1 */
+    double log_hi;    /**< LOG: log(C f + 1) as an unevaluated sum of two doubles */
+    double log_lo;
+    unsigned code_near; /**< the codes of the two planes */
+    unsigned code_far;
+} dp_setup;
+
+/**
+ * Checks a specification and prepares a set-up.
+ * @return DP_OK, or what is wrong with it; *setup is then left as it was
+ */
+DP_API dp_status dp_setup_init(dp_setup *setup, const dp_spec *spec);
+
+/** "exact", ...; null when out of range. */
+DP_API const char *dp_model_name(dp_model model);
+
+DP_END
+#endif
