@@ -21,16 +21,16 @@ DP_BEGIN
  * is named. Values are rounded outward: never below the truth, at most 1e-12 relative above.
  */
 typedef struct dp_worst {
-    double lo, hi;           /**< the range asked about */
-    double error;            /**< max |stored - z| over depths in the range; INFINITY where the last cell is unbounded */
-    double error_z;          /**< the depth that reaches it: an end of a cell or of the range */
-    uint32_t error_code;     /**< the code stored there (on the side of the cell that has this error) */
-    double interval;         /**< widest cell, whole, of those that touch the range */
-    double interval_lo;      /**< that cell */
+    double lo, hi;       /**< the range asked about */
+    double error;        /**< max |stored - z| over depths in the range; INFINITY where the last cell is unbounded */
+    double error_z;      /**< the depth that reaches it: an end of a cell or of the range */
+    uint32_t error_code; /**< the code stored there (on the side of the cell that has this error) */
+    double interval;     /**< widest cell, whole, of those that touch the range */
+    double interval_lo;  /**< that cell */
     double interval_hi;
     uint32_t interval_code;
-    double blind_from;       /**< where the unbounded cell of an infinite far plane begins: behind it nothing is told
-                                  apart; NaN when the range touches no unbounded cell */
+    double blind_from; /**< where the unbounded cell of an infinite far plane begins: behind it nothing is told
+                            apart; NaN when the range touches no unbounded cell */
 } dp_worst;
 
 /**

@@ -27,7 +27,7 @@
 #define DP_VERSION_MAJOR 0
 #define DP_VERSION_MINOR 1
 #define DP_VERSION_PATCH 0
-#define DP_VERSION "0.1.0"
+#define DP_VERSION       "0.1.0"
 
 DP_BEGIN
 

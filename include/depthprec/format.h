@@ -25,9 +25,10 @@ typedef enum dp_format_kind { DP_FORMAT_UNORM = 0, DP_FORMAT_FLOAT } dp_format_k
 
 /** How a depth between two codes is rounded. */
 typedef enum dp_rounding {
-    DP_ROUND_NEAREST = 0, /**< UNORM: ties up, floor(d M + 0.5) (D3D 11.3 functional spec 3.2.3.6); FLOAT: ties to even */
-    DP_ROUND_EVEN,        /**< ties to the even code in either kind */
-    DP_ROUND_ZERO,        /**< truncated (D3D 11.3 functional spec 3.2.2, for a float to a smaller float) */
+    DP_ROUND_NEAREST =
+        0,         /**< UNORM: ties up, floor(d M + 0.5) (D3D 11.3 functional spec 3.2.3.6); FLOAT: ties to even */
+    DP_ROUND_EVEN, /**< ties to the even code in either kind */
+    DP_ROUND_ZERO, /**< truncated (D3D 11.3 functional spec 3.2.2, for a float to a smaller float) */
     DP_ROUNDING_COUNT
 } dp_rounding;
 

@@ -52,7 +52,7 @@ DP_API const dp_mapping_row *dp_mapping_get(dp_mapping mapping);
 
 /**
  * Finds a mapping by its name or one of its aliases; letter case is ignored.
- * @return DP_OK, or DP_ERROR_MAPPING and *out is left as it was
+ * @return DP_OK; DP_ERROR_MAPPING or DP_ERROR_NULL, and *out is left as it was
  */
 DP_API dp_status dp_mapping_parse(const char *name, dp_mapping *out);
 

@@ -21,14 +21,14 @@ typedef enum dp_model {
 
 /** What is asked for. Start from dp_spec_default() and change what differs. */
 typedef struct dp_spec {
-    double znear;         /**< near plane, scene units, in [1e-12, 1e12] */
-    double zfar;          /**< far plane, scene units, at most 1e18, or INFINITY; (far - near)/near >= 1e-6 */
-    int ortho;            /**< nonzero: orthographic projection (d3d, gl, reversed and gl-reversed only) */
+    double znear; /**< near plane, scene units, in [1e-12, 1e12] */
+    double zfar;  /**< far plane, scene units, at most 1e18, or INFINITY; (far - near)/near >= 1e-6 */
+    int ortho;    /**< nonzero: orthographic projection (d3d, gl, reversed and gl-reversed only) */
     dp_mapping mapping;
     dp_format format;
     dp_rounding rounding;
     dp_model model;
-    double log_c;         /**< constant C of the logarithmic mapping, in [1e-12, 1e12]; read for log only */
+    double log_c; /**< constant C of the logarithmic mapping, in [1e-12, 1e12]; read for log only */
 } dp_spec;
 
 /** near 0.1, far 1000, perspective, d3d, fp32, nearest, exact, C = 1. */
@@ -39,14 +39,14 @@ typedef struct dp_setup {
     dp_spec spec;
     dp_curve curve; /**< the curve in force: an orthographic projection turns PERSPECTIVE into LINEAR */
     int reversed;
-    double anchor;    /**< the depth that a LINEAR curve sends to its near end: near (orthographic) or 0 (linear) */
-    double kappa;     /**< PERSPECTIVE: 1/n - 1/f; LINEAR: f - anchor; LOG: log(C f + 1) */
-    double scale;     /**< PERSPECTIVE: d = (z - n)/z scale, or (f - z)/z scale when reversed */
-    double levels;    /**< UNORM: 2^N - 1; FLOAT: 1 */
-    double log_hi;    /**< LOG: log(C f + 1) as an unevaluated sum of two doubles */
+    double anchor; /**< the depth that a LINEAR curve sends to its near end: near (orthographic) or 0 (linear) */
+    double kappa;  /**< PERSPECTIVE: 1/n - 1/f; LINEAR: f - anchor; LOG: log(C f + 1) */
+    double scale;  /**< d is this times (z - n)/z, (f - z)/z, z - n, f - z, z or log(C z + 1) */
+    double den;    /**< lattice points and rounding boundaries are num/den: UNORM 2 (2^N - 1); FLOAT 1 */
+    double log_hi; /**< LOG: log(C f + 1) as an unevaluated sum of two doubles */
     double log_lo;
-    unsigned code_near; /**< the codes of the two planes */
-    unsigned code_far;
+    uint32_t code_near; /**< the codes of the two planes */
+    uint32_t code_far;
 } dp_setup;
 
 /**

@@ -11,7 +11,7 @@
 
 #ifdef __cplusplus
 #define DP_BEGIN extern "C" {
-#define DP_END }
+#define DP_END   }
 #else
 #define DP_BEGIN
 #define DP_END

@@ -1,0 +1,279 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+# depthprec: `make demo` shows it, `make help` lists the rest.
+
+CONF ?= release                 # release, asan, coverage or fuzz; each has a build folder of its own
+CONF := $(strip $(CONF))
+B := $(if $(filter release,$(CONF)),build,build/$(CONF))
+
+prefix ?= $(or $(PREFIX),/usr/local)
+exec_prefix ?= $(prefix)
+bindir ?= $(exec_prefix)/bin
+libdir ?= $(exec_prefix)/lib
+libexecdir ?= $(exec_prefix)/libexec
+includedir ?= $(prefix)/include
+datarootdir ?= $(prefix)/share
+mandir ?= $(datarootdir)/man
+INSTALL ?= install
+INSTALL_PROGRAM ?= $(INSTALL) -m 755
+INSTALL_DATA ?= $(INSTALL) -m 644
+
+# What pkg-config is asked for: by the full program, and by the tests. src/packages.sh knows who has them.
+PKGS_build := cairo gsl
+PKGS_check := cmocka mpfr gmp jansson
+
+# ---- Rooms: a new file in a layer's folder is picked up ----------------------------------------------------------
+
+HEADERS := $(wildcard include/depthprec/*.h)
+CORE := $(wildcard src/core/*.c)
+CLI := $(wildcard src/cli/*.c)
+ROOMS := $(wildcard src/plot/*.c src/method/*.c src/need/*.c src/texture/*.c)
+TESTS := $(wildcard tests/test_*.c)
+SUPPORT := $(filter-out $(TESTS),$(wildcard tests/*.c))
+FUZZ := $(wildcard tests/fuzz/fuzz_*.c)
+MAN := $(wildcard man/*.[1-9])
+TOOLS := tests/run.sh tests/coverage.sh
+SCRIPTS := $(wildcard src/*.sh tests/*.sh plots/*.sh)
+ALL_C := $(CORE) $(CLI) $(ROOMS) $(TESTS) $(SUPPORT) $(FUZZ)
+ALL_H := $(HEADERS) $(wildcard src/*/*.h tests/*.h tests/*/*.h)
+
+objects = $(patsubst %.c,$(B)/obj/%.o,$(1))
+CORE_O := $(call objects,$(CORE))
+CLI_O := $(call objects,$(CLI))
+ROOMS_O := $(call objects,$(ROOMS))
+TESTS_O := $(call objects,$(TESTS))
+SUPPORT_O := $(call objects,$(SUPPORT))
+FUZZ_O := $(call objects,$(FUZZ))
+TEST_PROGRAMS := $(patsubst tests/%.c,$(B)/tests/%,$(TESTS))
+FUZZ_PROGRAMS := $(patsubst tests/fuzz/%.c,$(B)/%,$(FUZZ))
+
+# ---- Flags: CC, CFLAGS, CPPFLAGS and LDFLAGS are the user's; what correctness needs stands apart ------------------
+
+SANITIZE := address,undefined -fno-sanitize-recover=all -fno-omit-frame-pointer
+CFLAGS_release := -O3
+CFLAGS_asan := -O1 -g -fsanitize=$(SANITIZE)
+CFLAGS_coverage := -O0 -g --coverage
+CFLAGS_fuzz := -O1 -g -fsanitize=fuzzer-no-link,$(SANITIZE)
+CFLAGS ?= $(CFLAGS_$(CONF))
+ifeq ($(CONF)-$(origin CC),fuzz-default)
+CC := clang
+endif
+
+WARN := -Wall -Wextra -Wshadow -Wconversion -Wdouble-promotion -Wstrict-prototypes $(WERROR)
+EXACT := -fno-math-errno -ffp-contract=off -fopenmp-simd
+OPENMP := $(if $(filter fuzz,$(CONF)),,-fopenmp)
+INCLUDES := -Iinclude -Isrc -Itests
+COMPILE = $(CC) -std=gnu11 $(INCLUDES) $(CPPFLAGS) $(WARN) $(CFLAGS) $(EXACT) -fvisibility=hidden -fPIC -MMD -MP
+LINK = $(CC) $(CFLAGS) $(LDFLAGS) -Wl,--as-needed
+
+Q := $(if $(filter 1,$(V)),,@)
+say = @$(if $(Q),printf '  %-7s %s\n' $(1) $@,:)
+JOBS ?= $(shell nproc 2>/dev/null || echo 1)
+SUBMAKE = $(MAKE) --no-print-directory $(if $(findstring -j,$(MAKEFLAGS)),,-j$(JOBS))
+
+# ---- Build -------------------------------------------------------------------------------------------------------
+
+.PHONY: all lib programs demo packages
+all: lib programs
+lib: $(B)/libdepthprec.a $(B)/libdepthprec.so.0
+programs: $(if $(CLI),$(B)/depthprec $(B)/depthprec-full)
+
+demo:
+	@sh src/packages.sh build
+	@$(SUBMAKE) all
+	@sh src/demo.sh $(B)/depthprec build/demo
+
+packages:
+	@sh src/packages.sh check
+
+$(B)/obj/%.o: %.c Makefile
+	@mkdir -p $(@D)
+	$(call say,CC)
+	$(Q)$(COMPILE) $(EXTRA) -c -o $@ $<
+
+# The rooms above the core may use the big libraries and threads; the core and the light program may not.
+$(ROOMS_O): EXTRA = $(OPENMP) @$(B)/build.cflags
+$(ROOMS_O): | $(B)/build.cflags
+$(TESTS_O) $(SUPPORT_O): EXTRA = @$(B)/check.cflags
+$(TESTS_O) $(SUPPORT_O): | $(B)/check.cflags
+
+# pkg-config is asked when a recipe runs, because it may have been installed a moment ago.
+$(B)/%.cflags $(B)/%.libs:
+	@mkdir -p $(@D)
+	@pkg-config --exists $(PKGS_$*) 2>/dev/null || \
+	    { echo "depthprec: some of $(PKGS_$*) is not installed: run 'make packages' (or 'make demo')" >&2; exit 1; }
+	@pkg-config --cflags $(PKGS_$*) >$(B)/$*.cflags && pkg-config --libs $(PKGS_$*) >$(B)/$*.libs
+
+$(B)/libdepthprec.a: $(CORE_O)
+$(B)/libcli.a: $(CLI_O)
+$(B)/librooms.a: $(ROOMS_O) $(filter-out %/main.o,$(CLI_O))
+$(B)/libsupport.a: $(SUPPORT_O)
+$(B)/%.a:
+	@mkdir -p $(@D)
+	$(call say,AR)
+	$(Q)rm -f $@ && $(AR) rcs $@ $^
+
+$(B)/libdepthprec.so.0: $(CORE_O)
+	$(call say,LD)
+	$(Q)$(LINK) -shared -Wl,-soname,$(@F) -o $@ $^ -lm
+
+# The light program takes main and what main refers to strongly from libcli.a; a command that the verb table declares
+# weak stays out, and main hands it to the full program. So the verb table alone says which commands are light.
+$(B)/depthprec: $(B)/obj/src/cli/main.o $(B)/libcli.a $(B)/libdepthprec.a
+	$(call say,LD)
+	$(Q)$(LINK) -o $@ $^ -lm
+
+$(B)/depthprec-full: $(CLI_O) $(ROOMS_O) $(B)/libdepthprec.a | $(B)/build.libs
+	$(call say,LD)
+	$(Q)$(LINK) $(OPENMP) -o $@ $^ @$(B)/build.libs -lm
+
+# ---- Tests -------------------------------------------------------------------------------------------------------
+
+.PHONY: check check-full check-programs asan fuzz coverage
+SHELL_TESTS := $(filter-out $(TOOLS),$(wildcard tests/*.sh))
+ONCE := tests/layers.sh tests/headers.sh tests/install.sh
+RUN_TESTS := $(TEST_PROGRAMS) $(if $(filter release,$(CONF)),$(SHELL_TESTS),$(filter-out $(ONCE),$(SHELL_TESTS)))
+export CONF B CC
+
+check:
+	@sh src/packages.sh check
+	@$(SUBMAKE) all check-programs
+	@DEPTHPREC=$(CURDIR)/$(B)/depthprec sh tests/run.sh $(RUN_TESTS)
+
+check-programs: $(TEST_PROGRAMS)
+
+check-full:
+	@DEPTHPREC_FULL=1 $(MAKE) --no-print-directory check
+
+asan:
+	@DEPTHPREC_QUICK=1 $(MAKE) --no-print-directory CONF=asan check
+
+$(B)/tests/%: $(B)/obj/tests/%.o $(B)/libsupport.a $(B)/librooms.a $(B)/libdepthprec.a | $(B)/check.libs $(B)/build.libs
+	@mkdir -p $(@D)
+	$(call say,LD)
+	$(Q)$(LINK) $(OPENMP) -o $@ $^ @$(B)/check.libs @$(B)/build.libs -lm
+
+FUZZ_SECONDS ?= 20
+ifeq ($(CONF),fuzz)
+fuzz: $(FUZZ_PROGRAMS)
+	@for f in $^; do mkdir -p $$f.corpus && echo "  FUZZ    $$f" && \
+	    $$f -max_total_time=$(FUZZ_SECONDS) -verbosity=0 -print_final_stats=1 $$f.corpus || exit 1; done
+else
+fuzz:
+	@$(MAKE) --no-print-directory CONF=fuzz fuzz
+endif
+
+$(B)/fuzz_%: $(B)/obj/tests/fuzz/fuzz_%.o $(B)/librooms.a $(B)/libdepthprec.a | $(B)/build.libs
+	$(call say,LD)
+	$(Q)$(LINK) -fsanitize=fuzzer -o $@ $^ @$(B)/build.libs -lm
+
+ifeq ($(CONF),coverage)
+coverage: check
+	@sh tests/coverage.sh $(B)
+else
+coverage:
+	@DEPTHPREC_QUICK=1 $(MAKE) --no-print-directory CONF=coverage coverage
+endif
+
+# ---- Lint: `make -k lint` goes on after a failure ----------------------------------------------------------------
+
+.PHONY: lint lint-format lint-gcc lint-clang lint-cppcheck lint-man lint-spell lint-scripts lint-licence
+lint: lint-format lint-gcc lint-clang lint-cppcheck lint-man lint-spell lint-scripts lint-licence
+lint-format lint-gcc lint-clang lint-cppcheck lint-man lint-spell lint-scripts lint-licence: lint-packages
+
+.PHONY: lint-packages
+lint-packages:
+	@sh src/packages.sh lint
+
+lint-format:
+	$(Q)clang-format --dry-run -Werror $(ALL_C) $(ALL_H)
+
+lint-gcc:
+	$(Q)$(SUBMAKE) B=build/lint CC=gcc WERROR=-Werror all check-programs
+
+lint-clang: $(B)/build.cflags $(B)/check.cflags
+	$(Q)clang -fsyntax-only -std=gnu11 $(INCLUDES) $(WARN) -Werror $(EXACT) @$(B)/build.cflags @$(B)/check.cflags $(ALL_C)
+
+lint-cppcheck:
+	$(Q)cppcheck -q --std=c11 --error-exitcode=1 --inline-suppr --enable=warning,performance,portability \
+	    --suppress=missingIncludeSystem -Iinclude -Isrc src
+
+lint-man:
+	$(Q)$(if $(MAN),mandoc -T lint -W warning $(MAN))
+
+lint-spell:
+	$(Q)codespell $(wildcard README.md) Makefile include src man tests/*.[ch] tests/*.sh
+
+lint-scripts:
+	$(Q)for f in $(SCRIPTS); do sh -n $$f || exit 1; done; bash -n .ci/run
+
+lint-licence:
+	$(Q)! grep -L 'SPDX-License-Identifier: ' $(ALL_C) $(ALL_H) $(SCRIPTS) Makefile | grep .
+
+# ---- Install -----------------------------------------------------------------------------------------------------
+
+.PHONY: install uninstall installcheck plots bench clean distclean dist help
+VERSION = $(shell sed -n 's/^.define DP_VERSION "\(.*\)"/\1/p' include/depthprec/depthprec.h)
+D = $(DESTDIR)
+
+$(B)/depthprec.pc: src/depthprec.pc.in include/depthprec/depthprec.h Makefile
+	$(Q)sed -e 's|@prefix@|$(prefix)|' -e 's|@libdir@|$(libdir)|' -e 's|@includedir@|$(includedir)|' \
+	    -e 's|@version@|$(VERSION)|' $< >$@
+
+install: all
+	$(Q)$(MAKE) --no-print-directory -B $(B)/depthprec.pc
+	$(Q)$(INSTALL) -d $(D)$(bindir) $(D)$(libexecdir)/depthprec $(D)$(libdir)/pkgconfig $(D)$(includedir)/depthprec
+	$(Q)$(INSTALL_PROGRAM) $(B)/depthprec $(D)$(bindir)/depthprec
+	$(Q)$(INSTALL_PROGRAM) $(B)/depthprec-full $(D)$(libexecdir)/depthprec/depthprec-full
+	$(Q)$(INSTALL_PROGRAM) $(B)/libdepthprec.so.0 $(D)$(libdir)/libdepthprec.so.0
+	$(Q)ln -sf libdepthprec.so.0 $(D)$(libdir)/libdepthprec.so
+	$(Q)$(INSTALL_DATA) $(B)/libdepthprec.a $(D)$(libdir)/libdepthprec.a
+	$(Q)$(INSTALL_DATA) $(B)/depthprec.pc $(D)$(libdir)/pkgconfig/depthprec.pc
+	$(Q)$(INSTALL_DATA) $(HEADERS) $(D)$(includedir)/depthprec
+	$(Q)for m in $(MAN); do s=$(D)$(mandir)/man$${m##*.}; $(INSTALL) -d $$s && $(INSTALL_DATA) $$m $$s || exit 1; done
+
+uninstall:
+	$(Q)rm -f $(D)$(bindir)/depthprec $(D)$(libdir)/libdepthprec.so.0 $(D)$(libdir)/libdepthprec.so \
+	    $(D)$(libdir)/libdepthprec.a $(D)$(libdir)/pkgconfig/depthprec.pc
+	$(Q)for m in $(notdir $(MAN)); do rm -f $(D)$(mandir)/man$${m##*.}/$$m; done
+	$(Q)rm -rf $(D)$(libexecdir)/depthprec $(D)$(includedir)/depthprec
+
+installcheck:
+	$(Q)$(D)$(bindir)/depthprec --version
+	$(Q)$(D)$(bindir)/depthprec table -n 0.1 -f 1000 -F unorm24 -m d3d --at 10 --csv | grep -q ',16611104,'
+
+# ---- The rest ----------------------------------------------------------------------------------------------------
+
+plots: all
+	$(Q)sh plots/draw.sh $(B)/depthprec plots
+
+bench: all
+	$(Q)$(B)/depthprec bench
+
+clean distclean:
+	$(Q)rm -rf build
+
+dist:
+	@mkdir -p build
+	$(Q)git archive --prefix=depthprec-$(VERSION)/ -o build/depthprec-$(VERSION).tar.gz HEAD
+	@echo build/depthprec-$(VERSION).tar.gz
+
+help:
+	@sed -n 's/^## \{0,1\}//p' Makefile
+
+## make demo        install what is missing, build, print the table of one camera and draw its figures
+## make             build the libraries and the programs into build/
+## make check       install what is missing, build, run the quick tests
+## make check-full  the exhaustive tests too
+## make asan        the tests under the address and undefined-behaviour sanitizers
+## make fuzz        each fuzz target for FUZZ_SECONDS=20 (needs clang)
+## make coverage    the lines that the tests reach, per file
+## make lint        format, warnings of gcc and clang, cppcheck, manual pages, spelling, scripts, licences
+## make plots       draw the gallery in plots/ again
+## make bench       measure the methods
+## make packages    install what building and testing need
+## make install     to PREFIX=/usr/local (DESTDIR, bindir, libdir, ... as usual); uninstall, installcheck
+## make dist        a source archive in build/; make clean removes build/
+##
+## CONF=release|asan|coverage|fuzz  V=1 shows the commands  CC, CFLAGS, CPPFLAGS, LDFLAGS as usual
+
+-include $(patsubst %.o,%.d,$(CORE_O) $(CLI_O) $(ROOMS_O) $(TESTS_O) $(SUPPORT_O) $(FUZZ_O))

@@ -1,0 +1,83 @@
+/* SPDX-License-Identifier: MIT */
+#include "core/curve.h"
+
+#include "core/expansion.h"
+#include "core/logarithm.h"
+
+/*
+ * The divisor that every perspective formula shares: f S + n T with S + T = den, or S when f is infinite, where S and
+ * T are the point's shares of the near and the far end.
+ */
+static double divisor(const dp_setup *setup, dp_point p) {
+    const double to_near = setup->reversed ? p.num : p.comp;
+    const double to_far = setup->reversed ? p.comp : p.num;
+    return isinf(setup->spec.zfar) ? to_near : setup->spec.zfar * to_near + setup->spec.znear * to_far;
+}
+
+double dp_curve_eye(const dp_setup *setup, dp_point p) {
+    const double n = setup->spec.znear;
+    const double f = setup->spec.zfar;
+    if (setup->curve == DP_CURVE_PERSPECTIVE)
+        return (isinf(f) ? n : n * f) * p.den / divisor(setup, p);
+    if (setup->curve == DP_CURVE_LINEAR) {
+        const double to_near = setup->reversed ? p.num : p.comp;
+        const double to_far = setup->reversed ? p.comp : p.num;
+        return (setup->anchor * to_near + f * to_far) / p.den;
+    }
+    return expm1(p.num / p.den * setup->kappa) / setup->spec.log_c;
+}
+
+double dp_curve_gap(const dp_setup *setup, dp_point p, double z) {
+    const double n = setup->spec.znear;
+    const double f = setup->spec.zfar;
+    const double sign = setup->reversed ? -1.0 : 1.0;
+    if (setup->curve == DP_CURVE_LOG) {
+        const double c = setup->spec.log_c;
+        const dp_pair top = {setup->log_hi, setup->log_lo};
+        return (z + 1.0 / c) * expm1(dp_scaled_difference(p.num, p.den, top, dp_log1p_product(c, z)));
+    }
+    if (setup->curve == DP_CURVE_LINEAR) {
+        const double a = setup->anchor;
+        const double end = setup->reversed ? f : a;
+        return dp_exact_residual(1.0, p.den, end, z, sign, p.num, f, a) / p.den;
+    }
+    const double below = divisor(setup, p);
+    if (below == 0.0)
+        return HUGE_VAL;
+    if (isinf(f))
+        return (setup->reversed ? dp_exact_residual(n, p.den, 1.0, 0.0, -z, p.num, 1.0, 0.0)
+                                : dp_exact_residual(1.0, p.den, n, z, z, p.num, 1.0, 0.0)) /
+               below;
+    return (setup->reversed ? dp_exact_residual(n, p.den, f, z, -z, p.num, f, n)
+                            : dp_exact_residual(f, p.den, n, z, z, p.num, f, n)) /
+           below;
+}
+
+double dp_curve_span(const dp_setup *setup, dp_point a, dp_point b) {
+    const double step = fabs(b.num - a.num) / a.den;
+    if (setup->curve == DP_CURVE_PERSPECTIVE)
+        return step == 0.0 ? 0.0 : dp_curve_eye(setup, a) * dp_curve_eye(setup, b) * (step * setup->kappa);
+    if (setup->curve == DP_CURVE_LINEAR)
+        return step * setup->kappa;
+    return (dp_curve_eye(setup, a) + 1.0 / setup->spec.log_c) * expm1(step * setup->kappa);
+}
+
+double dp_curve_reach(const dp_setup *setup, double z, double step) {
+    const double change = step * setup->kappa;
+    return setup->curve == DP_CURVE_PERSPECTIVE ? z * z * change
+           : setup->curve == DP_CURVE_LINEAR    ? change
+                                                : (z + 1.0 / setup->spec.log_c) * expm1(change);
+}
+
+double dp_curve_ahead(const dp_setup *setup, double num, double z) {
+    const double den = setup->den;
+    if (setup->curve != DP_CURVE_PERSPECTIVE)
+        return dp_curve_reach(setup, z, num / den);
+    /* z h / (1 - h) with h = z kappa num/den; 1 - h cancels where one step reaches far beyond z */
+    const double n = setup->spec.znear;
+    const double f = setup->spec.zfar;
+    const double rest = isinf(f) ? dp_exact_residual(1.0, den, n, 0.0, -z, num, 1.0, 0.0)
+                                 : dp_exact_residual(f, den, n, 0.0, -z, num, f, n);
+    const double reach = isinf(f) ? z * num : z * num * (f - n);
+    return rest > 0.0 ? z * reach / rest : HUGE_VAL;
+}

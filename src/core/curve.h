@@ -1,0 +1,35 @@
+/* SPDX-License-Identifier: MIT */
+/*
+ * Curves: from lattice points back to eye depths, and differences of eye depths without cancellation.
+ *
+ * With t the share of the way from the near to the far end (t = d, or q when reversed) and s = 1 - t:
+ *
+ *     PERSPECTIVE   1/z = s/n + t/f
+ *     LINEAR        z = s anchor + t f
+ *     LOG           C z + 1 = (C f + 1)^t
+ */
+#ifndef CORE_CURVE_H
+#define CORE_CURVE_H
+
+#include "core/lattice.h"
+#include "depthprec/setup.h"
+
+/* The eye depth of a point: few units of 2^-53 relative, log 2^-45. */
+double dp_curve_eye(const dp_setup *setup, dp_point point);
+
+/*
+ * dp_curve_eye(point) - z, good to 2^-49 relative and with the right sign (log: where it is not below 2^-88 of the
+ * depth's logarithm). Positive: the point lies behind z. INFINITY at the infinite far plane.
+ */
+double dp_curve_gap(const dp_setup *setup, dp_point point, double z);
+
+/* The distance between two points of one lattice, a not farther than b; few units of 2^-53 relative. */
+double dp_curve_span(const dp_setup *setup, dp_point a, dp_point b);
+
+/* An upper bound of the distance from z to the depth that lies `step` of d nearer to the camera. */
+double dp_curve_reach(const dp_setup *setup, double z, double step);
+
+/* z(d + step) - z for a step of num/den in d towards far; INFINITY where there is no such depth. */
+double dp_curve_ahead(const dp_setup *setup, double num, double z);
+
+#endif

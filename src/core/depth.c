@@ -1,0 +1,164 @@
+/* SPDX-License-Identifier: MIT */
+#include "depthprec/depth.h"
+
+#include "core/curve.h"
+#include "core/engine.h"
+
+/* d(z) as computed is within 6 units of 2^-53; 2^-49 leaves room for the product with the scale. */
+static const double window_error = 0x1p-49;
+
+double dp_window(const dp_setup *setup, double z) {
+    const double n = setup->spec.znear;
+    const double f = setup->spec.zfar;
+    double d;
+    if (setup->curve == DP_CURVE_LOG)
+        d = log1p(setup->spec.log_c * z) / setup->kappa;
+    else if (setup->curve == DP_CURVE_LINEAR)
+        d = (setup->reversed ? f - z : z - setup->anchor) / setup->kappa;
+    else if (isinf(f))
+        d = setup->reversed ? n / z : (z - n) / z;
+    else
+        d = (setup->reversed ? f - z : z - n) / z * setup->scale;
+    return d < 1.0 ? d : 1.0;
+}
+
+double dp_eye(const dp_setup *setup, double d, double q) {
+    return dp_curve_eye(setup, (dp_point){d, q, 1.0});
+}
+
+uint32_t dp_code_quick(const dp_setup *setup, double z, int *certain) {
+    const dp_scaled s = dp_scale_depth(&setup->spec.format, dp_window(setup, z));
+    const double slack = s.t * window_error;
+    const double whole = floor(s.t);
+    const double part = s.t - whole;
+    const uint32_t floor_code = s.base + (uint32_t)whole;
+    if (setup->spec.rounding == DP_ROUND_ZERO) {
+        *certain = part > slack && 1.0 - part > slack;
+        return floor_code;
+    }
+    *certain = fabs(part - 0.5) > slack;
+    return floor_code + (part > 0.5);
+}
+
+/* Whether d(z) rounds to a code below `code`. */
+static int rounds_below(const dp_setup *setup, double z, uint32_t code) {
+    const dp_spec *spec = &setup->spec;
+    const dp_point boundary = dp_point_below(&spec->format, spec->rounding, code);
+    const double gap = dp_curve_gap(setup, boundary, z);
+    if (gap == 0.0)
+        return !dp_ties_up(&spec->format, spec->rounding) && (code & 1U) != 0;
+    return (gap > 0.0) != setup->reversed;
+}
+
+uint32_t dp_code_exact(const dp_setup *setup, double z, uint32_t start) {
+    const uint32_t code_max = setup->spec.format.code_max;
+    uint32_t code = start < code_max ? start : code_max;
+    while (code > 0 && rounds_below(setup, z, code))
+        code--;
+    while (code < code_max && !rounds_below(setup, z, code + 1))
+        code++;
+    return code;
+}
+
+uint32_t dp_code(const dp_setup *setup, double z) {
+    if (!(z > setup->spec.znear))
+        return setup->code_near;
+    if (z >= setup->spec.zfar)
+        return setup->code_far;
+    int certain;
+    const uint32_t code = dp_code_quick(setup, z, &certain);
+    return certain ? code : dp_code_exact(setup, z, code);
+}
+
+double dp_stored(const dp_setup *setup, uint32_t code) {
+    return dp_curve_eye(setup, dp_point_of_code(&setup->spec.format, code));
+}
+
+double dp_error(const dp_setup *setup, uint32_t code, double z) {
+    if (isinf(z))
+        return isinf(dp_stored(setup, code)) ? 0.0 : -HUGE_VAL;
+    return dp_curve_gap(setup, dp_point_of_code(&setup->spec.format, code), z);
+}
+
+dp_cell dp_cell_of(const dp_setup *setup, uint32_t code) {
+    const dp_spec *spec = &setup->spec;
+    const int reversed = setup->reversed;
+    dp_cell cell = {.code = code, .stored = dp_stored(setup, code)};
+    const int nearer = reversed ? code > setup->code_near : code < setup->code_near;
+    const int farther = reversed ? code < setup->code_far : code > setup->code_far;
+    if (nearer || farther) {
+        cell.lo = cell.hi = nearer ? spec->znear : spec->zfar;
+        return cell;
+    }
+    /* The boundary towards the near plane and the one towards far; only a code beside a plane may lack one. */
+    const int first = code == setup->code_near;
+    const int last = code == setup->code_far;
+    const dp_rounding r = spec->rounding;
+    dp_point to_near = {0};
+    dp_point to_far = {0};
+    if (!first)
+        to_near = dp_point_below(&spec->format, r, code + (uint32_t)reversed);
+    if (!last)
+        to_far = dp_point_below(&spec->format, r, code + (uint32_t)!reversed);
+    cell.lo = first ? spec->znear : dp_curve_eye(setup, to_near);
+    cell.hi = last ? spec->zfar : dp_curve_eye(setup, to_far);
+    if (first)
+        cell.width = last ? spec->zfar - spec->znear : dp_curve_gap(setup, to_far, spec->znear);
+    else if (last)
+        cell.width = isinf(spec->zfar) ? HUGE_VAL : -dp_curve_gap(setup, to_near, spec->zfar);
+    else
+        cell.width = dp_curve_span(setup, to_near, to_far);
+    return cell;
+}
+
+/* The sign of d(z) - v, decided exactly where the computed d is too near to v. */
+static int compare_window(const dp_setup *setup, double z, double d, double v) {
+    if (fabs(d - v) > v * window_error)
+        return d > v ? 1 : -1;
+    const double gap = dp_curve_gap(setup, dp_point_make(v, 1.0), z);
+    return gap == 0.0 ? 0 : (gap < 0.0) != setup->reversed ? 1 : -1;
+}
+
+/* The step of a FLOAT that certainly leads from the cell of z to another, towards far: see dp_separation(). */
+static double float_step(const dp_setup *setup, double z) {
+    const dp_format *format = &setup->spec.format;
+    const double d = dp_window(setup, z);
+    int e = dp_binade(format, d);
+    const int lowest = 1 - format->bias;
+    if (e > lowest && compare_window(setup, z, d, dp_power2(e)) < 0)
+        e--;
+    else if (compare_window(setup, z, d, dp_power2(e + 1)) >= 0)
+        e++;
+    const double step = dp_step_num(format, e);
+    if (!setup->reversed && compare_window(setup, z, d, dp_power2(e + 1) - step) > 0)
+        return 2.0 * step;
+    return step;
+}
+
+double dp_separation(const dp_setup *setup, double z) {
+    if (isinf(z))
+        return HUGE_VAL;
+    const double num = setup->spec.format.kind == DP_FORMAT_UNORM ? 2.0 : float_step(setup, z);
+    return dp_curve_ahead(setup, num, z) * (1.0 + 0x1p-48);
+}
+
+dp_status dp_sample_at(const dp_setup *setup, double z, dp_sample *out) {
+    if (setup == NULL || out == NULL)
+        return DP_ERROR_NULL;
+    if (!(z >= setup->spec.znear && z <= setup->spec.zfar))
+        return DP_ERROR_DEPTH;
+    const uint32_t code = dp_code(setup, z);
+    const dp_cell cell = dp_cell_of(setup, code);
+    *out = (dp_sample){
+        .z = z,
+        .code = code,
+        .depth = isinf(z) ? (setup->reversed ? 0.0 : 1.0) : dp_window(setup, z),
+        .stored = cell.stored,
+        .error = dp_error(setup, code, z),
+        .lo = cell.lo,
+        .hi = cell.hi,
+        .interval = cell.width,
+        .separation = dp_separation(setup, z),
+    };
+    return DP_OK;
+}

@@ -1,0 +1,18 @@
+/* SPDX-License-Identifier: MIT */
+/* The engine's inner steps, for the bounds, the tests and the benchmarks. */
+#ifndef CORE_ENGINE_H
+#define CORE_ENGINE_H
+
+#include "core/lattice.h"
+#include "depthprec/depth.h"
+
+/*
+ * The quick estimate of a code. *certain tells whether it is proven: whether d(z), as computed, keeps its distance
+ * from every rounding boundary by more than its own error. Otherwise the code is within one of the right one.
+ */
+uint32_t dp_code_quick(const dp_setup *setup, double z, int *certain);
+
+/* The right code, decided exactly from any code to start from. */
+uint32_t dp_code_exact(const dp_setup *setup, double z, uint32_t start);
+
+#endif

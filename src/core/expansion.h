@@ -1,0 +1,43 @@
+/* SPDX-License-Identifier: MIT */
+/*
+ * Sums and products of doubles without rounding: the exact decisions of the engine.
+ *
+ * Building blocks by Dekker and Knuth; expansions as in Shewchuk, Adaptive precision floating-point arithmetic and
+ * fast robust geometric predicates, 1997. All need round-to-nearest and no contraction.
+ */
+#ifndef CORE_EXPANSION_H
+#define CORE_EXPANSION_H
+
+#include <math.h>
+
+/* An unevaluated sum hi + lo with |lo| at most half a unit in the last place of hi. */
+typedef struct dp_pair {
+    double hi;
+    double lo;
+} dp_pair;
+
+static inline dp_pair dp_two_sum(double a, double b) {
+    double s = a + b;
+    double t = s - a;
+    return (dp_pair){s, (a - (s - t)) + (b - t)};
+}
+
+/* |a| >= |b|, or a = 0 */
+static inline dp_pair dp_quick_two_sum(double a, double b) {
+    double s = a + b;
+    return (dp_pair){s, b - (s - a)};
+}
+
+static inline dp_pair dp_two_product(double a, double b) {
+    double p = a * b;
+    return (dp_pair){p, fma(a, b, -p)};
+}
+
+/*
+ * p a (x1 - x2) + q b (y1 - y2), evaluated exactly and rounded once at the end: the sign is right, zero means zero,
+ * and the value is good to 2^-50 relative. No argument may exceed 1e60 or, unless 0, fall below 1e-60 in magnitude,
+ * nor any difference below 1e-60: then no product or its rounding error leaves the normal range.
+ */
+double dp_exact_residual(double p, double a, double x1, double x2, double q, double b, double y1, double y2);
+
+#endif

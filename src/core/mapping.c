@@ -1,0 +1,60 @@
+/* SPDX-License-Identifier: MIT */
+#include "depthprec/mapping.h"
+
+#include "core/text.h"
+
+/* clang-format off */
+static const dp_mapping_row rows[DP_MAPPING_COUNT] = {
+    [DP_MAPPING_D3D] = {
+        .name = "d3d", .aliases = "zo vulkan vk metal webgpu standard directx rh_zo lh_zo",
+        .curve = DP_CURVE_PERSPECTIVE, .far_infinite = 1, .ortho = 1,
+        .note = "clip depth in [0, 1], near stored as 0: D3D, Vulkan, Metal, WebGPU",
+        .source = "D3D 11.3 functional specification 15.6; Vulkan 1.3 specification 27.4",
+    },
+    [DP_MAPPING_GL] = {
+        .name = "gl", .aliases = "no opengl webgl rh_no lh_no",
+        .curve = DP_CURVE_PERSPECTIVE, .ndc_signed = 1, .far_infinite = 1, .ortho = 1,
+        .note = "NDC depth in [-1, 1], then halved and moved to [0, 1], near stored as 0: OpenGL, WebGL",
+        .source = "OpenGL 4.6 core specification 13.8",
+    },
+    [DP_MAPPING_REVERSED] = {
+        .name = "reversed", .aliases = "rev reverse reversed-z reverse-z reversed_zo reversed-d3d d3d-reversed",
+        .curve = DP_CURVE_PERSPECTIVE, .reversed = 1, .far_infinite = 1, .ortho = 1,
+        .note = "clip depth in [0, 1], near stored as 1",
+        .source = "Lapidous and Jiao, Optimal depth buffer for low-cost graphics hardware, 1999; Reed 2015",
+    },
+    [DP_MAPPING_GL_REVERSED] = {
+        .name = "gl-reversed", .aliases = "reversed-gl glrev gl_reversed reversed_no",
+        .curve = DP_CURVE_PERSPECTIVE, .reversed = 1, .ndc_signed = 1, .far_infinite = 1, .ortho = 1,
+        .note = "NDC depth in [-1, 1] with near at +1: the rounding of NDC spoils what reversing gains",
+        .source = "ARB_clip_control, issue 5",
+    },
+    [DP_MAPPING_LINEAR] = {
+        .name = "linear", .aliases = "w w-buffer wbuffer linear01",
+        .curve = DP_CURVE_LINEAR,
+        .note = "W-buffer, Unity's linear 0-1 depth: eye depth over far; near is not stored as 0",
+        .source = "Blinn, W pleasure, W fun, IEEE CG&A 18(3), 1998",
+    },
+    [DP_MAPPING_LOG] = {
+        .name = "log", .aliases = "logarithmic logdepth",
+        .curve = DP_CURVE_LOG,
+        .note = "logarithmic depth, log(C z + 1)/log(C f + 1)",
+        .source = "Kemen, Logarithmic depth buffer, 2009 (Outerra)",
+    },
+};
+/* clang-format on */
+
+const dp_mapping_row *dp_mapping_get(dp_mapping mapping) {
+    return (unsigned)mapping < DP_MAPPING_COUNT ? &rows[mapping] : NULL;
+}
+
+dp_status dp_mapping_parse(const char *name, dp_mapping *out) {
+    if (name == NULL || out == NULL)
+        return DP_ERROR_NULL;
+    for (unsigned i = 0; i < DP_MAPPING_COUNT; i++)
+        if (dp_word_among(name, rows[i].name) || dp_word_among(name, rows[i].aliases)) {
+            *out = (dp_mapping)i;
+            return DP_OK;
+        }
+    return DP_ERROR_MAPPING;
+}

@@ -1,0 +1,97 @@
+/* SPDX-License-Identifier: MIT */
+#include "depthprec/setup.h"
+
+#include "core/engine.h"
+#include "core/lattice.h"
+#include "core/logarithm.h"
+
+static const char *const model_names[DP_MODEL_COUNT] = {
+    [DP_MODEL_EXACT] = "exact",
+};
+
+const char *dp_model_name(dp_model model) {
+    return (unsigned)model < DP_MODEL_COUNT ? model_names[model] : NULL;
+}
+
+dp_spec dp_spec_default(void) {
+    dp_spec spec = {.znear = 0.1, .zfar = 1000.0, .mapping = DP_MAPPING_D3D, .log_c = 1.0};
+    for (size_t i = 0; i < dp_format_count(); i++)
+        if (dp_format_get(i)->format.bits == 31)
+            spec.format = dp_format_get(i)->format;
+    return spec;
+}
+
+/* The fields that everything behind the door relies on; they may come from a caller's own hand. */
+static int format_is_sound(const dp_format *f) {
+    if (f->kind == DP_FORMAT_UNORM)
+        return f->bits >= 1 && f->bits <= 32 && f->code_max == 0xFFFFFFFFU >> (32 - f->bits);
+    return f->kind == DP_FORMAT_FLOAT && f->exponent_bits >= 2 && f->exponent_bits <= 8 && f->mantissa_bits >= 1 &&
+           f->mantissa_bits <= 23 && f->bits == f->exponent_bits + f->mantissa_bits && f->bias >= 1 &&
+           f->bias < 1 << f->exponent_bits && f->code_max == (uint32_t)f->bias << f->mantissa_bits;
+}
+
+static int within(double value, double lowest, double highest) {
+    return value >= lowest && value <= highest;
+}
+
+static dp_status check(const dp_spec *spec) {
+    const dp_mapping_row *row = dp_mapping_get(spec->mapping);
+    if (row == NULL)
+        return DP_ERROR_MAPPING;
+    const struct {
+        int good;
+        dp_status status;
+    } rules[] = {
+        {format_is_sound(&spec->format), DP_ERROR_FORMAT},
+        {dp_rounding_name(spec->rounding) != NULL, DP_ERROR_ROUNDING},
+        {dp_model_name(spec->model) != NULL, DP_ERROR_MODEL},
+        {within(spec->znear, 1e-12, 1e12), DP_ERROR_NEAR},
+        {(spec->zfar > spec->znear && spec->zfar <= 1e18) || spec->zfar == HUGE_VAL, DP_ERROR_FAR},
+        {(spec->zfar - spec->znear) / spec->znear >= 1e-6, DP_ERROR_PLANES},
+        {!spec->ortho || row->ortho, DP_ERROR_ORTHO},
+        {!isinf(spec->zfar) || (row->far_infinite && !spec->ortho), DP_ERROR_INFINITE},
+        {row->curve != DP_CURVE_LOG || within(spec->log_c, 1e-12, 1e12), DP_ERROR_LOG_C},
+    };
+    for (size_t i = 0; i < sizeof rules / sizeof rules[0]; i++)
+        if (!rules[i].good)
+            return rules[i].status;
+    return DP_OK;
+}
+
+dp_status dp_setup_init(dp_setup *setup, const dp_spec *spec) {
+    if (setup == NULL || spec == NULL)
+        return DP_ERROR_NULL;
+    const dp_status status = check(spec);
+    if (status != DP_OK)
+        return status;
+
+    const dp_mapping_row *row = dp_mapping_get(spec->mapping);
+    const double n = spec->znear;
+    const double f = spec->zfar;
+    *setup = (dp_setup){.spec = *spec,
+                        .curve = spec->ortho ? DP_CURVE_LINEAR : row->curve,
+                        .reversed = row->reversed,
+                        .den = dp_point_den(&spec->format)};
+    if (setup->curve == DP_CURVE_PERSPECTIVE) {
+        setup->kappa = isinf(f) ? 1.0 / n : (f - n) / n / f;
+        setup->scale = isinf(f) ? 1.0 : (row->reversed ? n : f) / (f - n);
+    } else if (setup->curve == DP_CURVE_LINEAR) {
+        setup->anchor = spec->ortho ? n : 0.0;
+        setup->kappa = f - setup->anchor;
+    } else {
+        const dp_pair top = dp_log1p_product(spec->log_c, f);
+        setup->kappa = top.hi;
+        setup->log_hi = top.hi;
+        setup->log_lo = top.lo;
+    }
+    const uint32_t code_max = spec->format.code_max;
+    const uint32_t near_end = row->reversed ? code_max : 0;
+    /* Only the linear and logarithmic mappings store near as something else than an end of [0, 1]. */
+    setup->code_near = near_end;
+    if (!spec->ortho && row->curve != DP_CURVE_PERSPECTIVE) {
+        int certain;
+        setup->code_near = dp_code_exact(setup, n, dp_code_quick(setup, n, &certain));
+    }
+    setup->code_far = code_max - near_end;
+    return DP_OK;
+}
