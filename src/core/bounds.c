@@ -94,7 +94,7 @@ dp_status dp_worst_over(const dp_setup *setup, double lo, double hi, dp_worst *o
         return DP_ERROR_NULL;
     if (!(lo >= setup->spec.znear && lo <= hi && hi <= setup->spec.zfar) || isinf(lo))
         return DP_ERROR_RANGE;
-    *out = (dp_worst){.lo = lo, .hi = hi, .error = -1.0, .interval = -1.0, .blind_from = NAN};
+    *out = (dp_worst){.lo = lo, .hi = hi, .error = -1.0, .interval = -1.0, .blind_from = (double)NAN};
     const uint32_t code_lo = dp_code(setup, lo);
     const uint32_t code_hi = dp_code(setup, hi);
     const uint32_t bottom = setup->reversed ? code_hi : code_lo;
