@@ -17,10 +17,12 @@
 #ifndef DEPTHPREC_DEPTHPREC_H
 #define DEPTHPREC_DEPTHPREC_H
 
+#include "depthprec/arith.h"
 #include "depthprec/bounds.h"
 #include "depthprec/depth.h"
 #include "depthprec/format.h"
 #include "depthprec/mapping.h"
+#include "depthprec/pipeline.h"
 #include "depthprec/setup.h"
 #include "depthprec/status.h"
 

@@ -7,6 +7,7 @@
 #ifndef DEPTHPREC_SETUP_H
 #define DEPTHPREC_SETUP_H
 
+#include "depthprec/arith.h"
 #include "depthprec/format.h"
 #include "depthprec/mapping.h"
 #include "depthprec/status.h"
@@ -16,6 +17,8 @@ DP_BEGIN
 /** What is modelled of the arithmetic between the eye depth and the buffer. */
 typedef enum dp_model {
     DP_MODEL_EXACT = 0, /**< real arithmetic and one rounding into the format: the lattice of codes */
+    DP_MODEL_STAGED,    /**< NDC depth, then window depth, each rounded once to binary32, then the format */
+    DP_MODEL_FP32,      /**< every operation in binary32: see pipeline.h; perspective and orthographic mappings only */
     DP_MODEL_COUNT
 } dp_model;
 

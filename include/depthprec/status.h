@@ -33,6 +33,7 @@ typedef enum dp_status {
     DP_ERROR_MAPPING,  /**< not a mapping */
     DP_ERROR_ROUNDING, /**< not a rounding mode */
     DP_ERROR_MODEL,    /**< not a model, or one that this set-up does not have */
+    DP_ERROR_ARITH,    /**< not an arithmetic */
     DP_ERROR_DEPTH,    /**< an eye depth outside [near, far], or not a number */
     DP_ERROR_RANGE,    /**< a range that is empty, reversed, or leaves [near, far] */
     DP_ERROR_CODE,     /**< a code above the one that stores 1 */

@@ -17,6 +17,7 @@ static const char *const sentences[DP_STATUS_COUNT] = {
     [DP_ERROR_MAPPING] = "a mapping must be one of d3d, gl, reversed, gl-reversed, linear, log",
     [DP_ERROR_ROUNDING] = "rounding must be one of nearest, even, zero",
     [DP_ERROR_MODEL] = "not a model that this set-up has",
+    [DP_ERROR_ARITH] = "not an arithmetic: see the list of ariths",
     [DP_ERROR_DEPTH] = "a depth must lie in [near, far]",
     [DP_ERROR_RANGE] = "a range must go from a depth to one not nearer, both in [near, far]",
     [DP_ERROR_CODE] = "a code must not exceed the one that stores 1",

@@ -1,0 +1,41 @@
+/* SPDX-License-Identifier: MIT */
+/** @file arith.h  Variants of the binary32 arithmetic between a vertex and the depth buffer, a row each. */
+#ifndef DEPTHPREC_ARITH_H
+#define DEPTHPREC_ARITH_H
+
+#include <stddef.h>
+
+#include "depthprec/status.h"
+
+DP_BEGIN
+
+/** How a binary32 window depth becomes a UNORM code; FLOAT formats are rounded as the set-up's rounding says. */
+typedef enum dp_conversion {
+    DP_CONVERT_EXACT = 0,    /**< the exact product d (2^N - 1), rounded as the set-up says (nearest: ties up) */
+    DP_CONVERT_PRODUCT_EVEN, /**< the binary32 product fl(d (2^N - 1)), to nearest even */
+    DP_CONVERT_PRODUCT_ZERO  /**< that product truncated */
+} dp_conversion;
+
+/** One variant. The index of a row is its dp_arith. */
+typedef struct dp_arith_row {
+    const char *name;
+    int fused;      /**< A z + B is one fused operation */
+    int reciprocal; /**< z_clip fl(1/w) instead of z_clip / w */
+    int remap;      /**< NDC of [-1, 1] is moved to [0, 1] before the divide, fl(fl(z_clip + w) 0.5), by the shader */
+    dp_conversion conversion;
+    const char *note;
+    const char *source;
+} dp_arith_row;
+
+/** An index into the rows. */
+typedef size_t dp_arith;
+
+/** The variants, the first being the default `ieee`; index below dp_arith_count(), else null. */
+DP_API size_t dp_arith_count(void);
+DP_API const dp_arith_row *dp_arith_get(dp_arith index);
+
+/** Finds a variant by name, letter case ignored. @return DP_OK; DP_ERROR_ARITH or DP_ERROR_NULL and *out unchanged */
+DP_API dp_status dp_arith_parse(const char *name, dp_arith *out);
+
+DP_END
+#endif

@@ -1,0 +1,46 @@
+/* SPDX-License-Identifier: MIT */
+#include "depthprec/arith.h"
+
+#include "core/text.h"
+
+/* clang-format off */
+static const dp_arith_row rows[] = {
+    {"ieee", 0, 0, 0, DP_CONVERT_EXACT,
+     "each operation rounded, true division, exact UNORM conversion with ties up",
+     "IEEE 754-2019; D3D 11.3 functional specification 3.2.3.6"},
+    {"fused", 1, 0, 0, DP_CONVERT_EXACT, "as ieee, A z + B fused", "IEEE 754-2019 fusedMultiplyAdd"},
+    {"reciprocal", 0, 1, 0, DP_CONVERT_EXACT, "as ieee, times the rounded reciprocal of w", "common in GPUs"},
+    {"fused-reciprocal", 1, 1, 0, DP_CONVERT_EXACT, "as reciprocal, A z + B fused", "common in GPUs"},
+    {"product", 0, 0, 0, DP_CONVERT_PRODUCT_EVEN, "as ieee, UNORM from the binary32 product, nearest even",
+     "common in software"},
+    {"mesa", 0, 1, 0, DP_CONVERT_PRODUCT_EVEN, "llvmpipe, lavapipe, SwiftShader",
+     "stored codes of Mesa 22.3.6 and SwiftShader (Chromium 156)"},
+    {"softpipe", 0, 1, 0, DP_CONVERT_PRODUCT_ZERO, "softpipe: as mesa, truncated",
+     "stored codes of Mesa 22.3.6 softpipe"},
+    {"ieee-remap", 0, 0, 1, DP_CONVERT_EXACT, "as ieee, [-1, 1] remapped in the vertex shader",
+     "GL programs translated to a zero-to-one API"},
+    {"mesa-remap", 0, 1, 1, DP_CONVERT_PRODUCT_EVEN, "as mesa, [-1, 1] remapped in the vertex shader",
+     "stored codes of lavapipe and SwiftShader with the remap"},
+};
+/* clang-format on */
+
+enum { ROW_COUNT = sizeof rows / sizeof rows[0] };
+
+size_t dp_arith_count(void) {
+    return ROW_COUNT;
+}
+
+const dp_arith_row *dp_arith_get(dp_arith index) {
+    return index < ROW_COUNT ? &rows[index] : NULL;
+}
+
+dp_status dp_arith_parse(const char *name, dp_arith *out) {
+    if (name == NULL || out == NULL)
+        return DP_ERROR_NULL;
+    for (size_t i = 0; i < ROW_COUNT; i++)
+        if (dp_word_among(name, rows[i].name)) {
+            *out = i;
+            return DP_OK;
+        }
+    return DP_ERROR_ARITH;
+}
