@@ -31,7 +31,7 @@ TESTS := $(wildcard tests/test_*.c)
 SUPPORT := $(filter-out $(TESTS),$(wildcard tests/*.c))
 FUZZ := $(wildcard tests/fuzz/fuzz_*.c)
 MAN := $(wildcard man/*.[1-9])
-TOOLS := tests/run.sh tests/coverage.sh
+TOOLS := tests/run.sh tests/tap.sh tests/coverage.sh
 SCRIPTS := $(wildcard src/*.sh tests/*.sh plots/*.sh)
 ALL_C := $(CORE) $(CLI) $(ROOMS) $(TESTS) $(SUPPORT) $(FUZZ)
 ALL_H := $(HEADERS) $(wildcard src/*/*.h tests/*.h tests/*/*.h)
@@ -77,10 +77,15 @@ all: lib programs
 lib: $(B)/libdepthprec.a $(B)/libdepthprec.so.0
 programs: $(if $(CLI),$(B)/depthprec $(B)/depthprec-full)
 
+DEMO_CAMERA := --near 0.1 --far 1000 --format all --mapping d3d,reversed
+DEMO_FIGURES := $(foreach f,distribution share error interval map,$f.svg $f.png)
 demo:
 	@sh src/packages.sh build
 	@$(SUBMAKE) all
-	@sh src/demo.sh $(B)/depthprec build/demo
+	@$(B)/depthprec table $(DEMO_CAMERA)
+	@mkdir -p $(B)/demo
+	@for f in $(DEMO_FIGURES); do $(B)/depthprec plot $${f%.*} $(DEMO_CAMERA) -o $(B)/demo/$$f || exit 1; done
+	@echo "Figures: $(addprefix $(B)/demo/,$(DEMO_FIGURES))"
 
 packages:
 	@sh src/packages.sh check
@@ -215,19 +220,15 @@ lint-licence:
 VERSION = $(shell sed -n 's/^.define DP_VERSION "\(.*\)"/\1/p' include/depthprec/depthprec.h)
 D = $(DESTDIR)
 
-$(B)/depthprec.pc: src/depthprec.pc.in include/depthprec/depthprec.h Makefile
-	$(Q)sed -e 's|@prefix@|$(prefix)|' -e 's|@libdir@|$(libdir)|' -e 's|@includedir@|$(includedir)|' \
-	    -e 's|@version@|$(VERSION)|' $< >$@
-
 install: all
-	$(Q)$(MAKE) --no-print-directory -B $(B)/depthprec.pc
 	$(Q)$(INSTALL) -d $(D)$(bindir) $(D)$(libexecdir)/depthprec $(D)$(libdir)/pkgconfig $(D)$(includedir)/depthprec
 	$(Q)$(INSTALL_PROGRAM) $(B)/depthprec $(D)$(bindir)/depthprec
 	$(Q)$(INSTALL_PROGRAM) $(B)/depthprec-full $(D)$(libexecdir)/depthprec/depthprec-full
 	$(Q)$(INSTALL_PROGRAM) $(B)/libdepthprec.so.0 $(D)$(libdir)/libdepthprec.so.0
 	$(Q)ln -sf libdepthprec.so.0 $(D)$(libdir)/libdepthprec.so
 	$(Q)$(INSTALL_DATA) $(B)/libdepthprec.a $(D)$(libdir)/libdepthprec.a
-	$(Q)$(INSTALL_DATA) $(B)/depthprec.pc $(D)$(libdir)/pkgconfig/depthprec.pc
+	$(Q)sed -e 's|@prefix@|$(prefix)|' -e 's|@libdir@|$(libdir)|' -e 's|@includedir@|$(includedir)|' \
+	    -e 's|@version@|$(VERSION)|' src/depthprec.pc.in >$(D)$(libdir)/pkgconfig/depthprec.pc
 	$(Q)$(INSTALL_DATA) $(HEADERS) $(D)$(includedir)/depthprec
 	$(Q)for m in $(MAN); do s=$(D)$(mandir)/man$${m##*.}; $(INSTALL) -d $$s && $(INSTALL_DATA) $$m $$s || exit 1; done
 

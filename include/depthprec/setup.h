@@ -31,7 +31,8 @@ typedef struct dp_spec {
     dp_format format;
     dp_rounding rounding;
     dp_model model;
-    double log_c; /**< constant C of the logarithmic mapping, in [1e-12, 1e12]; read for log only */
+    dp_arith arith; /**< the arithmetic of DP_MODEL_FP32 and of dp_pipeline_init() */
+    double log_c;   /**< constant C of the logarithmic mapping, in [1e-12, 1e12]; read for log only */
 } dp_spec;
 
 /** near 0.1, far 1000, perspective, d3d, fp32, nearest, exact, C = 1. */
