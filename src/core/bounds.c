@@ -1,7 +1,9 @@
 /* SPDX-License-Identifier: MIT */
 #include "depthprec/bounds.h"
 
+#include "core/boundary.h"
 #include "core/curve.h"
+#include "core/engine.h"
 #include "depthprec/depth.h"
 
 /* Outward by more than the rounding errors of any width or error below. */
@@ -19,6 +21,10 @@ static uint32_t code_of_rank(const search *s, uint32_t rank) {
     return s->setup->reversed ? s->code_lo - rank : s->code_lo + rank;
 }
 
+static double larger(double a, double b) {
+    return a > b ? a : b;
+}
+
 static void offer_error(dp_worst *worst, double error, double z, uint32_t code) {
     if (error > worst->error || (error == worst->error && z < worst->error_z)) {
         worst->error = error;
@@ -29,10 +35,9 @@ static void offer_error(dp_worst *worst, double error, double z, uint32_t code) 
 
 /* The error at one end of a cell that is a boundary of the lattice: closed form, nothing cancels. */
 static double error_at_boundary(const dp_setup *setup, uint32_t code, int far_end) {
-    const dp_format *format = &setup->spec.format;
     const uint32_t upper = far_end != setup->reversed ? code + 1 : code;
-    const dp_point boundary = dp_point_below(format, setup->spec.rounding, upper);
-    const dp_point centre = dp_point_of_code(format, code);
+    const dp_point boundary = dp_boundary_below(setup, upper).point;
+    const dp_point centre = dp_point_of_code(&setup->spec.format, code);
     return far_end ? dp_curve_span(setup, centre, boundary) : dp_curve_span(setup, boundary, centre);
 }
 
@@ -89,6 +94,127 @@ static void visit_piece(const search *s, uint32_t first, uint32_t last, double s
         visit(s, last - back + 1);
 }
 
+/*
+ * staged: a piece has one step of the format, one of the window depth and one of the NDC depth. The cells differ by
+ * whole binary32 steps, in a pattern with two classes at most, so the codes at the ends of the piece are visited and
+ * the rest is bounded by the widest class, as if it stood at the far end.
+ */
+typedef struct stage {
+    double code;   /* step of the format, in d */
+    double window; /* step of the window depth */
+    double ndc;    /* step of the NDC depth, in d */
+    int ndc_signed;
+} stage;
+
+/*
+ * The width of the widest cell of codes low..high in d. Cells hold a whole number of steps of the coarser binary32
+ * lattice; where x is the finer one, its ties to even give or take one of its steps.
+ */
+static double staged_width(const dp_setup *setup, const stage *g, uint32_t low, uint32_t high) {
+    const double coarse = larger(g->window, g->ndc);
+    const double tie = g->ndc < g->window ? g->ndc : 0.0;
+    if (setup->spec.format.kind == DP_FORMAT_FLOAT) {
+        /* The steps are powers of two: every cell holds the same number, or ties to even add one to every second. */
+        const double ratio = g->code / coarse;
+        return (ratio < 2.0 ? 1.0 : ratio + (setup->spec.rounding != DP_ROUND_ZERO)) * coarse + tie;
+    }
+    /* Boundaries at equal distances, rounded up to a lattice: cells hold the average, rounded down or up. */
+    const float first = dp_staged_window(setup, low);
+    const float last = dp_staged_window(setup, high);
+    const double span = g->window >= g->ndc
+                            ? (double)last - (double)first
+                            : 0.5 * ((double)dp_staged_ndc(setup, last) - (double)dp_staged_ndc(setup, first));
+    const double total = span / coarse;
+    const double cells = (double)(high - low);
+    const double steps = ceil(total / cells);
+    /* Cells of one even number of steps all begin alike, and their ties cancel. */
+    const int alike = steps * cells == total && fmod(steps, 2.0) == 0.0;
+    return steps * coarse + (alike ? 0.0 : tie);
+}
+
+static double staged_error(const dp_setup *setup, const stage *g) {
+    const double format = g->code > g->window ? (setup->spec.rounding == DP_ROUND_ZERO ? g->code : 0.5 * g->code) : 0.0;
+    return format + 0.5 * g->ndc + (g->ndc_signed && g->window > g->ndc ? 0.5 * g->window : 0.0);
+}
+
+static uint32_t rank_of_code(const search *s, uint32_t code) {
+    return s->setup->reversed ? s->code_lo - code : code - s->code_lo;
+}
+
+static void visit_staged(const search *s, const stage *g, uint32_t low, uint32_t high) {
+    const dp_setup *setup = s->setup;
+    const double wide = g->code + g->ndc + (g->ndc_signed ? g->window : 0.0);
+    const double error = staged_error(setup, g);
+    const double z_end = dp_cell_of(setup, setup->reversed ? low : high).hi;
+    if (dp_curve_reach(setup, z_end, wide) * outward < s->worst->interval &&
+        dp_curve_reach(setup, z_end, error) * outward < s->worst->error)
+        return;
+    for (int i = 0; i < 3 && low < high; i++) {
+        visit(s, rank_of_code(s, low));
+        low = dp_boundary_below(setup, low + 1).above;
+    }
+    for (int i = 0; i < 3 && low < high; i++) {
+        visit(s, rank_of_code(s, high));
+        high = dp_boundary_below(setup, high).below;
+    }
+    if (low == high)
+        visit(s, rank_of_code(s, low));
+    if (low >= high)
+        return;
+    const double z = dp_cell_of(setup, setup->reversed ? low : high).hi;
+    s->worst->interval = larger(s->worst->interval, dp_curve_reach(setup, z, staged_width(setup, g, low, high)));
+    s->worst->error = larger(s->worst->error, dp_curve_reach(setup, z, error));
+}
+
+/* The ends of the staged pieces, from 1 down to 0: powers of two in w and, with signed NDC, in x = 2w - 1. */
+static double staged_end(int ndc_signed, int index) {
+    if (!ndc_signed)
+        return index < 150 ? dp_power2(-index) : 0.0;
+    if (index < 25)
+        return 0.5 + dp_power2(-index - 1);
+    if (index < 50)
+        return 0.5 - dp_power2(index - 51);
+    return index < 75 ? dp_power2(47 - index) : 0.0;
+}
+
+static void search_staged(const search *s, uint32_t bottom, uint32_t top) {
+    const dp_setup *setup = s->setup;
+    const dp_format *format = &setup->spec.format;
+    const int ndc_signed = dp_mapping_get(setup->spec.mapping)->ndc_signed;
+    visit(s, 0);
+    visit(s, s->count);
+    double end = staged_end(ndc_signed, 0);
+    for (int i = 1; end > 0.0; i++) {
+        const double begin = staged_end(ndc_signed, i);
+        const uint32_t low = dp_staged_code(setup, begin);
+        const uint32_t high = dp_staged_code(setup, end);
+        const double middle = 0.5 * (begin + end);
+        const stage g = {.code = dp_step_num(format, dp_binade(format, middle)) / setup->den,
+                         .window = dp_staged_window_step(middle),
+                         .ndc = dp_staged_ndc_step(setup, middle),
+                         .ndc_signed = ndc_signed};
+        end = begin;
+        if (low <= top && high >= bottom)
+            visit_staged(s, &g, low > bottom ? low : bottom, high < top ? high : top);
+    }
+}
+
+static void search_exact(const search *s, uint32_t bottom, uint32_t top) {
+    const dp_setup *setup = s->setup;
+    const dp_format *format = &setup->spec.format;
+    /* Pieces from the coarsest step to the finest, so that most of the fine ones are dismissed at sight. */
+    const int shift = format->kind == DP_FORMAT_UNORM ? 32 : format->mantissa_bits;
+    for (int64_t piece = (int64_t)((uint64_t)top >> shift); piece >= (int64_t)((uint64_t)bottom >> shift); piece--) {
+        const uint64_t begin = (uint64_t)piece << shift;
+        const uint64_t end = (uint64_t)(piece + 1) << shift;
+        const uint32_t low = begin > bottom ? (uint32_t)begin : bottom;
+        const uint32_t high = end < top ? (uint32_t)end : top;
+        const int e = (int)(piece > 1 ? piece : 1) - format->bias;
+        visit_piece(s, rank_of_code(s, setup->reversed ? high : low), rank_of_code(s, setup->reversed ? low : high),
+                    dp_step_num(format, e) / setup->den);
+    }
+}
+
 dp_status dp_worst_over(const dp_setup *setup, double lo, double hi, dp_worst *out) {
     if (setup == NULL || out == NULL)
         return DP_ERROR_NULL;
@@ -100,18 +226,10 @@ dp_status dp_worst_over(const dp_setup *setup, double lo, double hi, dp_worst *o
     const uint32_t bottom = setup->reversed ? code_hi : code_lo;
     const uint32_t top = setup->reversed ? code_lo : code_hi;
     const search s = {setup, out, code_lo, top - bottom};
-    const dp_format *format = &setup->spec.format;
-    /* Pieces from the coarsest step to the finest, so that most of the fine ones are dismissed at sight. */
-    const int shift = format->kind == DP_FORMAT_UNORM ? 32 : format->mantissa_bits;
-    for (int64_t piece = (int64_t)((uint64_t)top >> shift); piece >= (int64_t)((uint64_t)bottom >> shift); piece--) {
-        const uint64_t begin = (uint64_t)piece << shift;
-        const uint64_t end = (uint64_t)(piece + 1) << shift;
-        const uint32_t low = begin > bottom ? (uint32_t)begin : bottom;
-        const uint32_t high = end < top ? (uint32_t)end : top;
-        const int e = (int)(piece > 1 ? piece : 1) - format->bias;
-        visit_piece(&s, setup->reversed ? code_lo - high : low - code_lo,
-                    setup->reversed ? code_lo - low : high - code_lo, dp_step_num(format, e) / setup->den);
-    }
+    if (setup->spec.model == DP_MODEL_EXACT || dp_staged_is_exact(setup))
+        search_exact(&s, bottom, top);
+    else
+        search_staged(&s, bottom, top);
     out->error *= outward;
     out->interval *= outward;
     return DP_OK;

@@ -53,8 +53,17 @@ double dp_curve_gap(const dp_setup *setup, dp_point p, double z) {
            below;
 }
 
+/* b - a along d, to full accuracy: numerators over one denominator differ exactly. */
+static double distance(dp_point a, dp_point b) {
+    if (a.den == b.den)
+        return fabs(b.num - a.num) / a.den;
+    const dp_pair p = dp_two_product(b.num, a.den);
+    const dp_pair q = dp_two_product(a.num, b.den);
+    return fabs((p.hi - q.hi) + (p.lo - q.lo)) / a.den / b.den;
+}
+
 double dp_curve_span(const dp_setup *setup, dp_point a, dp_point b) {
-    const double step = fabs(b.num - a.num) / a.den;
+    const double step = distance(a, b);
     if (setup->curve == DP_CURVE_PERSPECTIVE)
         return step == 0.0 ? 0.0 : dp_curve_eye(setup, a) * dp_curve_eye(setup, b) * (step * setup->kappa);
     if (setup->curve == DP_CURVE_LINEAR)
@@ -69,8 +78,7 @@ double dp_curve_reach(const dp_setup *setup, double z, double step) {
                                                 : (z + 1.0 / setup->spec.log_c) * expm1(change);
 }
 
-double dp_curve_ahead(const dp_setup *setup, double num, double z) {
-    const double den = setup->den;
+double dp_curve_ahead(const dp_setup *setup, double num, double den, double z) {
     if (setup->curve != DP_CURVE_PERSPECTIVE)
         return dp_curve_reach(setup, z, num / den);
     /* z h / (1 - h) with h = z kappa num/den; 1 - h cancels where one step reaches far beyond z */

@@ -23,13 +23,13 @@ double dp_curve_eye(const dp_setup *setup, dp_point point);
  */
 double dp_curve_gap(const dp_setup *setup, dp_point point, double z);
 
-/* The distance between two points of one lattice, a not farther than b; few units of 2^-53 relative. */
+/* The distance between two points, a not farther than b; few units of 2^-53 relative. */
 double dp_curve_span(const dp_setup *setup, dp_point a, dp_point b);
 
 /* An upper bound of the distance from z to the depth that lies `step` of d nearer to the camera. */
 double dp_curve_reach(const dp_setup *setup, double z, double step);
 
 /* z(d + step) - z for a step of num/den in d towards far; INFINITY where there is no such depth. */
-double dp_curve_ahead(const dp_setup *setup, double num, double z);
+double dp_curve_ahead(const dp_setup *setup, double num, double den, double z);
 
 #endif

@@ -1,11 +1,9 @@
 /* SPDX-License-Identifier: MIT */
 #include "depthprec/depth.h"
 
+#include "core/boundary.h"
 #include "core/curve.h"
 #include "core/engine.h"
-
-/* d(z) as computed is within 6 units of 2^-53; 2^-49 leaves room for the product with the scale. */
-static const double window_error = 0x1p-49;
 
 double dp_window(const dp_setup *setup, double z) {
     const double n = setup->spec.znear;
@@ -26,9 +24,21 @@ double dp_eye(const dp_setup *setup, double d, double q) {
     return dp_curve_eye(setup, (dp_point){d, q, 1.0});
 }
 
+/* The stages are monotone: where both ends of the error interval of d get one code, so does d. */
+static uint32_t staged_quick(const dp_setup *setup, double d, int *certain) {
+    const double slack = d * DP_WINDOW_ERROR + 0x1p-52; /* the second term is for 2d - 1 */
+    const uint32_t low = dp_staged_code(setup, d - slack > 0.0 ? d - slack : 0.0);
+    const uint32_t high = dp_staged_code(setup, d + slack < 1.0 ? d + slack : 1.0);
+    *certain = low == high;
+    return low;
+}
+
 uint32_t dp_code_quick(const dp_setup *setup, double z, int *certain) {
-    const dp_scaled s = dp_scale_depth(&setup->spec.format, dp_window(setup, z));
-    const double slack = s.t * window_error;
+    const double d = dp_window(setup, z);
+    if (setup->spec.model != DP_MODEL_EXACT)
+        return staged_quick(setup, d, certain);
+    const dp_scaled s = dp_scale_depth(&setup->spec.format, d);
+    const double slack = s.t * DP_WINDOW_ERROR;
     const double whole = floor(s.t);
     const double part = s.t - whole;
     const uint32_t floor_code = s.base + (uint32_t)whole;
@@ -40,23 +50,27 @@ uint32_t dp_code_quick(const dp_setup *setup, double z, int *certain) {
     return floor_code + (part > 0.5);
 }
 
-/* Whether d(z) rounds to a code below `code`. */
-static int rounds_below(const dp_setup *setup, double z, uint32_t code) {
-    const dp_spec *spec = &setup->spec;
-    const dp_point boundary = dp_point_below(&spec->format, spec->rounding, code);
-    const double gap = dp_curve_gap(setup, boundary, z);
-    if (gap == 0.0)
-        return !dp_ties_up(&spec->format, spec->rounding) && (code & 1U) != 0;
-    return (gap > 0.0) != setup->reversed;
+/* Whether z is stored as a code below the boundary. */
+static int stored_below(const dp_setup *setup, double z, const dp_boundary *boundary) {
+    const double gap = dp_curve_gap(setup, boundary->point, z);
+    return gap == 0.0 ? !boundary->ties_up : (gap > 0.0) != setup->reversed;
 }
 
 uint32_t dp_code_exact(const dp_setup *setup, double z, uint32_t start) {
     const uint32_t code_max = setup->spec.format.code_max;
     uint32_t code = start < code_max ? start : code_max;
-    while (code > 0 && rounds_below(setup, z, code))
-        code--;
-    while (code < code_max && !rounds_below(setup, z, code + 1))
-        code++;
+    while (code > 0) {
+        const dp_boundary b = dp_boundary_below(setup, code);
+        if (!stored_below(setup, z, &b))
+            break;
+        code = b.below;
+    }
+    while (code < code_max) {
+        const dp_boundary b = dp_boundary_below(setup, code + 1);
+        if (stored_below(setup, z, &b))
+            break;
+        code = b.above;
+    }
     return code;
 }
 
@@ -93,13 +107,12 @@ dp_cell dp_cell_of(const dp_setup *setup, uint32_t code) {
     /* The boundary towards the near plane and the one towards far; only a code beside a plane may lack one. */
     const int first = code == setup->code_near;
     const int last = code == setup->code_far;
-    const dp_rounding r = spec->rounding;
     dp_point to_near = {0};
     dp_point to_far = {0};
     if (!first)
-        to_near = dp_point_below(&spec->format, r, code + (uint32_t)reversed);
+        to_near = dp_boundary_below(setup, code + (uint32_t)reversed).point;
     if (!last)
-        to_far = dp_point_below(&spec->format, r, code + (uint32_t)!reversed);
+        to_far = dp_boundary_below(setup, code + (uint32_t)!reversed).point;
     cell.lo = first ? spec->znear : dp_curve_eye(setup, to_near);
     cell.hi = last ? spec->zfar : dp_curve_eye(setup, to_far);
     if (first)
@@ -109,37 +122,6 @@ dp_cell dp_cell_of(const dp_setup *setup, uint32_t code) {
     else
         cell.width = dp_curve_span(setup, to_near, to_far);
     return cell;
-}
-
-/* The sign of d(z) - v, decided exactly where the computed d is too near to v. */
-static int compare_window(const dp_setup *setup, double z, double d, double v) {
-    if (fabs(d - v) > v * window_error)
-        return d > v ? 1 : -1;
-    const double gap = dp_curve_gap(setup, dp_point_make(v, 1.0), z);
-    return gap == 0.0 ? 0 : (gap < 0.0) != setup->reversed ? 1 : -1;
-}
-
-/* The step of a FLOAT that certainly leads from the cell of z to another, towards far: see dp_separation(). */
-static double float_step(const dp_setup *setup, double z) {
-    const dp_format *format = &setup->spec.format;
-    const double d = dp_window(setup, z);
-    int e = dp_binade(format, d);
-    const int lowest = 1 - format->bias;
-    if (e > lowest && compare_window(setup, z, d, dp_power2(e)) < 0)
-        e--;
-    else if (compare_window(setup, z, d, dp_power2(e + 1)) >= 0)
-        e++;
-    const double step = dp_step_num(format, e);
-    if (!setup->reversed && compare_window(setup, z, d, dp_power2(e + 1) - step) > 0)
-        return 2.0 * step;
-    return step;
-}
-
-double dp_separation(const dp_setup *setup, double z) {
-    if (isinf(z))
-        return HUGE_VAL;
-    const double num = setup->spec.format.kind == DP_FORMAT_UNORM ? 2.0 : float_step(setup, z);
-    return dp_curve_ahead(setup, num, z) * (1.0 + 0x1p-48);
 }
 
 dp_status dp_sample_at(const dp_setup *setup, double z, dp_sample *out) {

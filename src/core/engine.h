@@ -12,7 +12,10 @@
  */
 uint32_t dp_code_quick(const dp_setup *setup, double z, int *certain);
 
-/* The right code, decided exactly from any code to start from. */
+/* d(z) as dp_window() computes it is within 6 units of 2^-53; this leaves room for the product with a scale. */
+#define DP_WINDOW_ERROR 0x1p-49
+
+/* The right code, decided exactly from any stored code to start from. */
 uint32_t dp_code_exact(const dp_setup *setup, double z, uint32_t start);
 
 #endif

@@ -46,7 +46,7 @@ static dp_status check(const dp_spec *spec) {
     } rules[] = {
         {format_is_sound(&spec->format), DP_ERROR_FORMAT},
         {dp_rounding_name(spec->rounding) != NULL, DP_ERROR_ROUNDING},
-        {dp_model_name(spec->model) != NULL && spec->model == DP_MODEL_EXACT, DP_ERROR_MODEL},
+        {dp_model_name(spec->model) != NULL && spec->model != DP_MODEL_FP32, DP_ERROR_MODEL},
         {dp_arith_get(spec->arith) != NULL, DP_ERROR_ARITH},
         {within(spec->znear, 1e-12, 1e12), DP_ERROR_NEAR},
         {(spec->zfar > spec->znear && spec->zfar <= 1e18) || spec->zfar == HUGE_VAL, DP_ERROR_FAR},

@@ -1,0 +1,80 @@
+/* SPDX-License-Identifier: MIT */
+#include "core/boundary.h"
+
+static int ndc_signed(const dp_setup *setup) {
+    return dp_mapping_get(setup->spec.mapping)->ndc_signed;
+}
+
+static uint32_t code_of_window(const dp_setup *setup, float w) {
+    return dp_format_encode(&setup->spec.format, setup->spec.rounding, (double)w);
+}
+
+static float window_of_ndc(const dp_setup *setup, float x) {
+    return ndc_signed(setup) ? 0.5F * x + 0.5F : x;
+}
+
+uint32_t dp_staged_code(const dp_setup *setup, double d) {
+    const float x = (float)(ndc_signed(setup) ? 2.0 * d - 1.0 : d);
+    return code_of_window(setup, window_of_ndc(setup, x));
+}
+
+float dp_staged_window(const dp_setup *setup, uint32_t code) {
+    const dp_point p = dp_point_below(&setup->spec.format, setup->spec.rounding, code);
+    float w = (float)(p.num / p.den); /* within one step of the answer, because rounding is monotone */
+    while (w > 0.0F && code_of_window(setup, w) >= code)
+        w = nextafterf(w, 0.0F);
+    while (code_of_window(setup, w) < code)
+        w = nextafterf(w, 2.0F);
+    return w;
+}
+
+float dp_staged_ndc(const dp_setup *setup, float window) {
+    if (!ndc_signed(setup))
+        return window;
+    /* x/2 + 1/2 rounds to window or above from the midpoint below it upwards, give or take the tie and x's own step. */
+    const double middle = 0.5 * ((double)nextafterf(window, 0.0F) + (double)window);
+    float x = (float)(2.0 * middle - 1.0);
+    while (window_of_ndc(setup, x) >= window)
+        x = nextafterf(x, -2.0F);
+    while (window_of_ndc(setup, x) < window)
+        x = nextafterf(x, 2.0F);
+    return x;
+}
+
+static dp_boundary staged_below(const dp_setup *setup, uint32_t code) {
+    const float x = dp_staged_ndc(setup, dp_staged_window(setup, code));
+    const float before = nextafterf(x, -2.0F);
+    const double middle = 0.5 * ((double)before + (double)x);
+    uint32_t bits;
+    memcpy(&bits, &x, sizeof bits);
+    /* With signed NDC d = (1 + middle)/2. The sum is exact: |middle| is at least 2^-26 and has 25 significant bits. */
+    dp_point point = ndc_signed(setup) ? (dp_point){1.0 + middle, 1.0 - middle, 2.0} : dp_point_make(middle, 1.0);
+    return (dp_boundary){.point = point,
+                         .ties_up = (bits & 1U) == 0,
+                         .below = code_of_window(setup, window_of_ndc(setup, before)),
+                         .above = code_of_window(setup, window_of_ndc(setup, x))};
+}
+
+int dp_staged_is_exact(const dp_setup *setup) {
+    const dp_format *f = &setup->spec.format;
+    return f->kind == DP_FORMAT_FLOAT && f->mantissa_bits == 23 && f->bias == 127 && !ndc_signed(setup) &&
+           setup->spec.rounding != DP_ROUND_ZERO;
+}
+
+dp_boundary dp_boundary_below(const dp_setup *setup, uint32_t code) {
+    const dp_spec *spec = &setup->spec;
+    if (spec->model != DP_MODEL_EXACT)
+        return staged_below(setup, code);
+    return (dp_boundary){.point = dp_point_below(&spec->format, spec->rounding, code),
+                         .ties_up = dp_ties_up(&spec->format, spec->rounding) || (code & 1U) == 0,
+                         .below = code - 1,
+                         .above = code};
+}
+
+double dp_staged_window_step(double d) {
+    return d < 0x1p-126 ? 0x1p-149 : dp_power2(dp_exponent(d) - 23);
+}
+
+double dp_staged_ndc_step(const dp_setup *setup, double d) {
+    return ndc_signed(setup) ? 0.5 * dp_staged_window_step(fabs(2.0 * d - 1.0)) : dp_staged_window_step(d);
+}

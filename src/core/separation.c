@@ -1,0 +1,65 @@
+/* SPDX-License-Identifier: MIT */
+/* The separation: what must lie between two surfaces for their codes to differ, however they meet the lattice. */
+#include "core/boundary.h"
+#include "core/curve.h"
+#include "core/engine.h"
+#include "depthprec/depth.h"
+
+/* The sign of d(z) - v, decided exactly where the computed d is too near to v. */
+static int compare_window(const dp_setup *setup, double z, double d, double v) {
+    if (fabs(d - v) > v * DP_WINDOW_ERROR)
+        return d > v ? 1 : -1;
+    const double gap = dp_curve_gap(setup, dp_point_make(v, 1.0), z);
+    return gap == 0.0 ? 0 : (gap < 0.0) != setup->reversed ? 1 : -1;
+}
+
+/* The step of a FLOAT that certainly leads from the cell of z to another, towards far: see dp_separation(). */
+static double float_step(const dp_setup *setup, double z) {
+    const dp_format *format = &setup->spec.format;
+    const double d = dp_window(setup, z);
+    int e = dp_binade(format, d);
+    const int lowest = 1 - format->bias;
+    if (e > lowest && compare_window(setup, z, d, dp_power2(e)) < 0)
+        e--;
+    else if (compare_window(setup, z, d, dp_power2(e + 1)) >= 0)
+        e++;
+    const double step = dp_step_num(format, e);
+    if (!setup->reversed && compare_window(setup, z, d, dp_power2(e + 1) - step) > 0)
+        return 2.0 * step;
+    return step;
+}
+
+static double exact_step(const dp_setup *setup, double z) {
+    return setup->spec.format.kind == DP_FORMAT_UNORM ? 2.0 : float_step(setup, z);
+}
+
+static double larger(double a, double b) {
+    return a > b ? a : b;
+}
+
+/*
+ * The stages widen a step of the format by at most one binary32 step each: a cell is what rounds into one run of
+ * window depths, and that run into one run of NDC depths. Each step is taken where it is larger, at z or behind it.
+ */
+static double staged_step(const dp_setup *setup, double z) {
+    const dp_format *format = &setup->spec.format;
+    const double here = dp_window(setup, z) * (1.0 + DP_WINDOW_ERROR);
+    const double code = exact_step(setup, z) / setup->den;
+    const double first = code + dp_staged_window_step(here) + dp_staged_ndc_step(setup, here);
+    const double there = setup->reversed ? here - 4.0 * first : here + 4.0 * first;
+    const double wide = setup->reversed || format->kind == DP_FORMAT_UNORM
+                            ? code
+                            : larger(code, dp_step_num(format, dp_binade(format, there)));
+    const double ndc = larger(dp_staged_ndc_step(setup, here), dp_staged_ndc_step(setup, there));
+    const double window = larger(dp_staged_window_step(here), dp_staged_window_step(fabs(there)));
+    return wide + ndc + (dp_mapping_get(setup->spec.mapping)->ndc_signed ? window : 0.0);
+}
+
+double dp_separation(const dp_setup *setup, double z) {
+    if (isinf(z))
+        return HUGE_VAL;
+    const double s = setup->spec.model == DP_MODEL_EXACT || dp_staged_is_exact(setup)
+                         ? dp_curve_ahead(setup, exact_step(setup, z), setup->den, z)
+                         : dp_curve_ahead(setup, staged_step(setup, z), 1.0, z);
+    return s * (1.0 + 0x1p-48);
+}
