@@ -28,22 +28,24 @@ CORE := $(wildcard src/core/*.c)
 CLI := $(wildcard src/cli/*.c)
 ROOMS := $(wildcard src/plot/*.c src/method/*.c src/need/*.c src/texture/*.c)
 TESTS := $(wildcard tests/test_*.c)
-SUPPORT := $(filter-out $(TESTS),$(wildcard tests/*.c))
+BENCHES := $(wildcard tests/bench_*.c)
+SUPPORT := $(filter-out $(TESTS) $(BENCHES),$(wildcard tests/*.c))
 FUZZ := $(wildcard tests/fuzz/fuzz_*.c)
 MAN := $(wildcard man/*.[1-9])
 TOOLS := tests/run.sh tests/tap.sh tests/coverage.sh
 SCRIPTS := $(wildcard src/*.sh tests/*.sh plots/*.sh)
-ALL_C := $(CORE) $(CLI) $(ROOMS) $(TESTS) $(SUPPORT) $(FUZZ)
+ALL_C := $(CORE) $(CLI) $(ROOMS) $(TESTS) $(BENCHES) $(SUPPORT) $(FUZZ)
 ALL_H := $(HEADERS) $(wildcard src/*/*.h tests/*.h tests/*/*.h)
 
 objects = $(patsubst %.c,$(B)/obj/%.o,$(1))
 CORE_O := $(call objects,$(CORE))
 CLI_O := $(call objects,$(CLI))
 ROOMS_O := $(call objects,$(ROOMS))
-TESTS_O := $(call objects,$(TESTS))
+TESTS_O := $(call objects,$(TESTS) $(BENCHES))
 SUPPORT_O := $(call objects,$(SUPPORT))
 FUZZ_O := $(call objects,$(FUZZ))
 TEST_PROGRAMS := $(patsubst tests/%.c,$(B)/tests/%,$(TESTS))
+BENCH_PROGRAMS := $(patsubst tests/%.c,$(B)/tests/%,$(BENCHES))
 FUZZ_PROGRAMS := $(patsubst tests/fuzz/%.c,$(B)/%,$(FUZZ))
 
 # ---- Flags: CC, CFLAGS, CPPFLAGS and LDFLAGS are the user's; what correctness needs stands apart ------------------
@@ -72,6 +74,7 @@ SUBMAKE = $(MAKE) --no-print-directory $(if $(findstring -j,$(MAKEFLAGS)),,-j$(J
 
 # ---- Build -------------------------------------------------------------------------------------------------------
 
+.DELETE_ON_ERROR:
 .PHONY: all lib programs demo packages
 all: lib programs
 lib: $(B)/libdepthprec.a $(B)/libdepthprec.so.0
@@ -85,7 +88,7 @@ demo:
 	@$(B)/depthprec table $(DEMO_CAMERA)
 	@mkdir -p $(B)/demo
 	@for f in $(DEMO_FIGURES); do $(B)/depthprec plot $${f%.*} $(DEMO_CAMERA) -o $(B)/demo/$$f || exit 1; done
-	@echo "Figures: $(addprefix $(B)/demo/,$(DEMO_FIGURES))"
+	@echo "Figures in $(B)/demo: $(DEMO_FIGURES)"
 
 packages:
 	@sh src/packages.sh check
@@ -102,11 +105,12 @@ $(TESTS_O) $(SUPPORT_O): EXTRA = @$(B)/check.cflags
 $(TESTS_O) $(SUPPORT_O): | $(B)/check.cflags
 
 # pkg-config is asked when a recipe runs, because it may have been installed a moment ago.
-$(B)/%.cflags $(B)/%.libs:
+$(B)/build.cflags $(B)/check.cflags: $(B)/%.cflags: Makefile
 	@mkdir -p $(@D)
-	@pkg-config --exists $(PKGS_$*) 2>/dev/null || \
-	    { echo "depthprec: some of $(PKGS_$*) is not installed: run 'make packages' (or 'make demo')" >&2; exit 1; }
-	@pkg-config --cflags $(PKGS_$*) >$(B)/$*.cflags && pkg-config --libs $(PKGS_$*) >$(B)/$*.libs
+	@pkg-config --cflags $(PKGS_$*) 2>/dev/null >$@ || \
+	    { echo "depthprec: not everything of $(PKGS_$*) is installed: run 'make packages' (or 'make demo')" >&2; exit 1; }
+$(B)/build.libs $(B)/check.libs: $(B)/%.libs: $(B)/%.cflags
+	@pkg-config --libs $(PKGS_$*) >$@
 
 $(B)/libdepthprec.a: $(CORE_O)
 $(B)/libcli.a: $(CLI_O)
@@ -136,13 +140,12 @@ $(B)/depthprec-full: $(CLI_O) $(ROOMS_O) $(B)/libdepthprec.a | $(B)/build.libs
 .PHONY: check check-full check-programs asan fuzz coverage
 SHELL_TESTS := $(filter-out $(TOOLS),$(wildcard tests/*.sh))
 ONCE := tests/layers.sh tests/headers.sh tests/install.sh
-RUN_TESTS := $(TEST_PROGRAMS) $(if $(filter release,$(CONF)),$(SHELL_TESTS),$(filter-out $(ONCE),$(SHELL_TESTS)))
-export CONF B CC
+RUN_TESTS = $(TEST_PROGRAMS) $(if $(filter release,$(CONF)),$(SHELL_TESTS),$(filter-out $(ONCE),$(SHELL_TESTS)))
 
 check:
 	@sh src/packages.sh check
 	@$(SUBMAKE) all check-programs
-	@DEPTHPREC=$(CURDIR)/$(B)/depthprec sh tests/run.sh $(RUN_TESTS)
+	@B=$(B) CC='$(CC)' DEPTHPREC=$(CURDIR)/$(B)/depthprec sh tests/run.sh $(RUN_TESTS)
 
 check-programs: $(TEST_PROGRAMS)
 
@@ -164,9 +167,11 @@ fuzz: $(FUZZ_PROGRAMS)
 	    $$f -max_total_time=$(FUZZ_SECONDS) -verbosity=0 -print_final_stats=1 $$f.corpus || exit 1; done
 else
 fuzz:
-	@$(MAKE) --no-print-directory CONF=fuzz fuzz
+	@sh src/packages.sh fuzz
+	@$(SUBMAKE) CONF=fuzz fuzz
 endif
 
+.SECONDARY: $(FUZZ_O)
 $(B)/fuzz_%: $(B)/obj/tests/fuzz/fuzz_%.o $(B)/librooms.a $(B)/libdepthprec.a | $(B)/build.libs
 	$(call say,LD)
 	$(Q)$(LINK) -fsanitize=fuzzer -o $@ $^ @$(B)/build.libs -lm
@@ -195,8 +200,10 @@ lint-format:
 lint-gcc:
 	$(Q)$(SUBMAKE) B=build/lint CC=gcc WERROR=-Werror all check-programs
 
+# clang takes every INFINITY and NAN for a promoted float; gcc, which does not, judges promotions alone.
 lint-clang: $(B)/build.cflags $(B)/check.cflags
-	$(Q)clang -fsyntax-only -std=gnu11 $(INCLUDES) $(WARN) -Werror $(EXACT) @$(B)/build.cflags @$(B)/check.cflags $(ALL_C)
+	$(Q)clang -fsyntax-only -std=gnu11 $(INCLUDES) $(WARN) -Wno-double-promotion -Werror $(EXACT) \
+	    @$(B)/build.cflags @$(B)/check.cflags $(ALL_C)
 
 lint-cppcheck:
 	$(Q)cppcheck -q --std=c11 --error-exitcode=1 --inline-suppr --enable=warning,performance,portability \
@@ -244,11 +251,13 @@ installcheck:
 
 # ---- The rest ----------------------------------------------------------------------------------------------------
 
+# One line a figure in plots/recipes: its name, then the arguments of `depthprec plot`.
 plots: all
-	$(Q)sh plots/draw.sh $(B)/depthprec plots
+	@while read -r name arguments; do case $$name in '' | '#'*) continue ;; esac; \
+	    echo "  PLOT    plots/$$name.svg"; $(B)/depthprec plot $$arguments -o plots/$$name.svg || exit 1; done <plots/recipes
 
-bench: all
-	$(Q)$(B)/depthprec bench
+bench: all $(BENCH_PROGRAMS)
+	@for b in $(filter-out %/bench_empty,$(BENCH_PROGRAMS)); do $$b $(B)/depthprec || exit 1; done
 
 clean distclean:
 	$(Q)rm -rf build
@@ -270,7 +279,7 @@ help:
 ## make coverage    the lines that the tests reach, per file
 ## make lint        format, warnings of gcc and clang, cppcheck, manual pages, spelling, scripts, licences
 ## make plots       draw the gallery in plots/ again
-## make bench       measure the methods
+## make bench       measure the speed of the engine and of the program's start
 ## make packages    install what building and testing need
 ## make install     to PREFIX=/usr/local (DESTDIR, bindir, libdir, ... as usual); uninstall, installcheck
 ## make dist        a source archive in build/; make clean removes build/

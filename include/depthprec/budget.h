@@ -1,0 +1,61 @@
+/* SPDX-License-Identifier: MIT */
+/**
+ * @file budget.h  The guaranteed separation of the binary32 pipeline, and which cause takes how much of it.
+ *
+ * Two surfaces at binary32 depths z1 = z and z2 >= z + separation are always stored in the right order, whatever
+ * their depths are: their real window depths differ by more than all rounding errors of both and one step of the
+ * format together. Forward error analysis of the operations in pipeline.h; depthprec(7) derives each term.
+ *
+ * This speaks of depths computed at a point. Across a slanted triangle a rasterizer interpolates, and nothing is
+ * promised unless its error is given as `interpolation`.
+ */
+#ifndef DEPTHPREC_BUDGET_H
+#define DEPTHPREC_BUDGET_H
+
+#include "depthprec/setup.h"
+#include "depthprec/status.h"
+
+DP_BEGIN
+
+/** The causes, in the order in which they arise. */
+typedef enum dp_cause {
+    DP_CAUSE_COMPOSITION = 0, /**< view and projection multiplied into one binary32 matrix */
+    DP_CAUSE_PROJECTION,      /**< A z + B in binary32 (and the remap, if any) */
+    DP_CAUSE_NDC,             /**< the divide and the viewport */
+    DP_CAUSE_INTERPOLATION,   /**< across a triangle, as given */
+    DP_CAUSE_FORMAT,          /**< the step of the format and its conversion */
+    DP_CAUSE_LINEARIZATION,   /**< reading back: eye depth from the stored value in a binary32 shader */
+    DP_CAUSE_COUNT
+} dp_cause;
+
+/** What may be added to the pipeline. All zero: what the separation of DP_MODEL_FP32 counts. */
+typedef struct dp_budget_terms {
+    double interpolation; /**< error of an interpolated window depth, in units of 2^-24 of d; at least 0 */
+    double world;         /**< largest |coordinate| of world positions and camera, scene units, if one precomposed
+                               view-projection matrix transforms them; 0: eye depth is given */
+    int linearize;        /**< nonzero: the depth is read back by 1/(z d + w) in binary32 */
+} dp_budget_terms;
+
+/** A separation and its parts. */
+typedef struct dp_budget {
+    double separation;            /**< scene units; INFINITY where nothing behind z is certain */
+    double window;                /**< the same as a distance in window depth */
+    double cause[DP_CAUSE_COUNT]; /**< the parts of `separation`, which they add up to */
+} dp_budget;
+
+/** A word for a cause, "projection"; null when out of range. */
+DP_API const char *dp_cause_name(dp_cause cause);
+
+/**
+ * The budget at a depth, in the arithmetic of setup->spec.arith, whatever the set-up's model.
+ *
+ * @param z      eye depth in [near, far]; rounded to binary32 as a shader has it
+ * @param terms  null for none
+ * @return DP_OK, DP_ERROR_NULL, DP_ERROR_DEPTH, or DP_ERROR_MODEL for linear and log, which have no pipeline
+ *
+ * Bound: never violated by the pipeline of pipeline.h with depth clamp. Cost: some 100 operations.
+ */
+DP_API dp_status dp_budget_at(const dp_setup *setup, double z, const dp_budget_terms *terms, dp_budget *out);
+
+DP_END
+#endif

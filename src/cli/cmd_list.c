@@ -1,0 +1,187 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* list: the rows of the tables that the program works from, with what is claimed of each and where it comes from. */
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+#include "cli/csv.h"
+#include "cli/json.h"
+#include "cli/list.h"
+#include "cli/number.h"
+#include "cli/options.h"
+#include "cli/suggest.h"
+
+int cmd_list(const options *o);
+
+static bool list_format(size_t index, list_item *item) {
+    const dp_format_row *row = dp_format_get(index);
+    if (row == NULL)
+        return false;
+    *item = (list_item){row->format.name, row->aliases, row->note, "", row->source};
+    char absolute[NUMBER_SIZE];
+    char relative[NUMBER_SIZE];
+    number_shortest(row->claim_absolute, absolute);
+    number_shortest(row->claim_relative, relative);
+    if (row->claim_relative == 0.0)
+        snprintf(item->bound, sizeof item->bound, "|value - d| <= %s", absolute);
+    else
+        snprintf(item->bound, sizeof item->bound, "|value - d| <= %s + %s d", absolute, relative);
+    return true;
+}
+
+static bool list_mapping(size_t index, list_item *item) {
+    const dp_mapping_row *row = index < DP_MAPPING_COUNT ? dp_mapping_get((dp_mapping)index) : NULL;
+    if (row == NULL)
+        return false;
+    *item = (list_item){row->name, row->aliases, row->note, "", row->source};
+    return true;
+}
+
+/* What can be listed. A topic whose table lives in the full program has a null `get` in the light one. */
+static const struct topic {
+    const char *name, *note;
+    list_get get;
+} topics[] = {
+    {"formats", "depth formats, and what their rounding is held to", list_format},
+    {"mappings", "how an eye depth becomes a window depth", list_mapping},
+    {"figures", "what plot can draw", list_figure},
+};
+enum { TOPIC_COUNT = sizeof topics / sizeof topics[0] };
+
+static bool list_topic(size_t index, list_item *item) {
+    if (index >= TOPIC_COUNT)
+        return false;
+    *item = (list_item){topics[index].name, "", topics[index].note, "", ""};
+    return true;
+}
+
+static const char *text_of(const char *text) {
+    return text != NULL ? text : "";
+}
+
+/* A line of its own, broken between words before column 96. */
+static void put_wrapped(output *out, const char *label, const char *text) {
+    enum { LEFT = 14, RIGHT = 96 };
+    if (*text == '\0')
+        return;
+    output_format(out, "  %-*s", LEFT - 2, label);
+    int column = LEFT;
+    while (*text != '\0') {
+        int word = (int)strcspn(text, " ");
+        if (column > LEFT && column + 1 + word > RIGHT) {
+            output_format(out, "\n%*s", LEFT, "");
+            column = LEFT;
+        }
+        output_format(out, "%s%.*s", column > LEFT ? " " : "", word, text);
+        column += word + (column > LEFT);
+        text += word + (text[word] == ' ');
+    }
+    output_char(out, '\n');
+}
+
+static void write_text(output *out, const char *what, list_get get) {
+    list_item item;
+    bool brief = get == list_topic;
+    if (brief)
+        output_text(out, "depthprec list WHAT, where WHAT is one of\n");
+    for (size_t i = 0; get(i, &item); i++) {
+        if (brief) {
+            output_format(out, "  %-12s%s\n", item.name, item.note);
+            continue;
+        }
+        output_format(out, "%s%s\n", i > 0 ? "\n" : "", item.name);
+        put_wrapped(out, "", text_of(item.note));
+        put_wrapped(out, "bound", item.bound);
+        put_wrapped(out, "source", text_of(item.source));
+        put_wrapped(out, "also", text_of(item.aliases));
+    }
+    if (strcmp(what, "formats") == 0)
+        output_text(out,
+                    "\nunormN, floatE.M, floatE.MbB\n"
+                    "              formats for teaching: N = 1..32 bits; E = 2..8 exponent bits, M = 1..23 mantissa\n"
+                    "              bits, bias B = 1..2^E-1\n"
+                    "\ndepth24plus, depth24plus-stencil8\n"
+                    "              unorm24 or fp32, as the implementation likes: stands for both\n");
+}
+
+static void json_aliases(json *j, const char *aliases) {
+    json_array(j, "aliases");
+    while (*aliases != '\0') {
+        char name[64];
+        size_t length = strcspn(aliases, " ");
+        snprintf(name, sizeof name, "%.*s", (int)length, aliases);
+        json_string(j, NULL, name);
+        aliases += length + (aliases[length] == ' ');
+    }
+    json_end(j);
+}
+
+static void write_json(output *out, const char *what, list_get get) {
+    list_item item;
+    json j = json_start(out, "list");
+    json_string(&j, "what", what);
+    json_array(&j, "items");
+    for (size_t i = 0; get(i, &item); i++) {
+        json_object(&j, NULL);
+        json_string(&j, "name", item.name);
+        json_aliases(&j, text_of(item.aliases));
+        json_string(&j, "note", text_of(item.note));
+        json_string(&j, "bound", *item.bound != '\0' ? item.bound : NULL);
+        json_string(&j, "source", *text_of(item.source) != '\0' ? item.source : NULL);
+        json_end(&j);
+    }
+    json_finish(&j);
+}
+
+static void write_csv(output *out, const char *what, list_get get) {
+    static const char *const heads[] = {"name", "aliases", "note", "bound", "source"};
+    list_item item;
+    csv c = csv_start(out);
+    (void)what;
+    for (size_t i = 0; i < sizeof heads / sizeof heads[0]; i++)
+        csv_string(&c, heads[i]);
+    csv_end(&c);
+    for (size_t i = 0; get(i, &item); i++) {
+        csv_string(&c, item.name);
+        csv_string(&c, text_of(item.aliases));
+        csv_string(&c, text_of(item.note));
+        csv_string(&c, item.bound);
+        csv_string(&c, text_of(item.source));
+        csv_end(&c);
+    }
+}
+
+static int unknown_topic(const char *name) {
+    suggestion s = suggest_start(name);
+    char text[SUGGEST_TEXT_SIZE];
+    for (size_t i = 0; i < TOPIC_COUNT; i++)
+        suggest_offer(&s, topics[i].name);
+    char allowed[128] = "";
+    for (size_t i = 0; i < TOPIC_COUNT; i++) {
+        if (i > 0)
+            strcat(allowed, i + 1 < TOPIC_COUNT ? ", " : " or ");
+        strcat(allowed, topics[i].name);
+    }
+    return usage_error("list: WHAT must be %s, got '%s'%s", allowed, name, suggest_text(&s, "", text));
+}
+
+int cmd_list(const options *o) {
+    static void (*const writers[])(output *, const char *, list_get) = {
+        [FORM_TEXT] = write_text, [FORM_JSON] = write_json, [FORM_CSV] = write_csv};
+    const char *what = o->operand_count > 0 ? o->operands[0] : "topics";
+    list_get get = o->operand_count > 0 ? NULL : list_topic;
+    for (size_t i = 0; i < TOPIC_COUNT && o->operand_count > 0; i++)
+        if (strcmp(topics[i].name, what) == 0) {
+            if (topics[i].get == NULL)
+                return verb_run_full(o->argv);
+            get = topics[i].get;
+        }
+    if (get == NULL)
+        return unknown_topic(what);
+    output out;
+    int status = output_open(&out, o->output);
+    if (status != EXIT_FINE)
+        return status;
+    writers[o->form](&out, what, get);
+    return output_close(&out);
+}

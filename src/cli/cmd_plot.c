@@ -1,0 +1,185 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* plot: a figure, drawn (SVG, PDF, PNG by the ending of -o) or as its numbers (--csv, --json). */
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "cli/list.h"
+#include "cli/number.h"
+#include "cli/options.h"
+#include "cli/plot_data.h"
+#include "cli/setups.h"
+#include "cli/suggest.h"
+#include "plot/draw.h"
+#include "plot/figure.h"
+
+int cmd_plot(const options *o);
+
+enum { WIDTH = 800, HEIGHT = 500, COMMAND_SIZE = 4096 };
+
+bool list_figure(size_t index, list_item *item) {
+    const figure_row *row = figure_get(index);
+    if (row == NULL)
+        return false;
+    *item = (list_item){.name = row->name, .note = row->summary};
+    return true;
+}
+
+static int unknown_figure(const char *name) {
+    suggestion s = suggest_start(name);
+    char text[SUGGEST_TEXT_SIZE], all[256] = "";
+    for (size_t i = 0; figure_get(i) != NULL; i++) {
+        suggest_offer(&s, figure_get(i)->name);
+        snprintf(all + strlen(all), sizeof all - strlen(all), "%s%s", i > 0 ? ", " : "", figure_get(i)->name);
+    }
+    return usage_error("plot: FIGURE must be one of %s, got '%s'%s", all, name, suggest_text(&s, "", text));
+}
+
+/* In quotes where a shell would see more in it than a word. */
+static void append_word(char *out, const char *word) {
+    static const char plain[] = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789-_=+,.:/%@";
+    char quoted[COMMAND_SIZE];
+    size_t used = 0;
+    if (*word != '\0' && word[strspn(word, plain)] == '\0') {
+        snprintf(quoted, sizeof quoted, "%s", word);
+    } else {
+        quoted[used++] = '\'';
+        for (; *word != '\0' && used < sizeof quoted - 8; word++)
+            if (*word == '\'')
+                used += (size_t)snprintf(quoted + used, sizeof quoted - used, "'\\''");
+            else
+                quoted[used++] = *word;
+        snprintf(quoted + used, sizeof quoted - used, "'");
+    }
+    size_t length = strlen(out);
+    snprintf(out + length, COMMAND_SIZE - length, " %s", quoted);
+}
+
+/* The command line for the metadata, without where it was written to: a figure is the same under any name. */
+static void command_of(const options *o, char out[COMMAND_SIZE]) {
+    snprintf(out, COMMAND_SIZE, "depthprec plot %s", o->operands[0]);
+    for (char **word = o->argv + 2; *word != NULL; word++) {
+        bool next_is_output = word[1] != NULL && word[1] == o->output;
+        bool holds_output = o->output != NULL && o->output >= *word && o->output <= *word + strlen(*word);
+        if (*word != o->operands[0] && strcmp(*word, "--") != 0 && !next_is_output && !holds_output)
+            append_word(out, *word);
+    }
+}
+
+/* The depth and range of the request; what this figure has no use for is refused rather than ignored. */
+static int resolve_depths(const options *o, const figure_row *row, figure_request *request) {
+    if (option_given(o, OPTION_AT)) {
+        if (!row->takes_at)
+            return option_error(OPTION_AT, "has no meaning in the figure %s; --range cuts its axis", row->name);
+        if (o->at.count != 1)
+            return option_error(OPTION_AT, "must be one depth in the figure %s, got %zu", row->name, o->at.count);
+        if (option_given(o, OPTION_RANGE))
+            return option_error(OPTION_AT, "must not be given together with --range");
+        request->at = o->at.lo;
+    }
+    if (option_given(o, OPTION_RANGE))
+        return range_resolve(o, &request->lo, &request->hi);
+    return EXIT_FINE;
+}
+
+/* What holds for all set-ups: the full label without the name in front. */
+static void subtitle_of(const figure_request *request, char *out, size_t size) {
+    char full[SETUP_LABEL_SIZE], lo[NUMBER_SIZE], hi[NUMBER_SIZE];
+    setup_label(&request->setups[0], true, full);
+    const char *rest = strstr(full, ", ");
+    const char *one = request->count == 1 ? full : rest != NULL ? rest + 2 : "";
+    number_shortest(isnan(request->at) ? request->lo : request->at, lo);
+    number_shortest(request->hi, hi);
+    if (!isnan(request->at))
+        snprintf(out, size, "%s, at depth %s", one, lo);
+    else if (!isnan(request->lo))
+        snprintf(out, size, "%s, depths %s to %s", one, lo, hi);
+    else
+        snprintf(out, size, "%s", one);
+}
+
+static bool picture(const options *o, const chart *c, output *out) {
+    char command[COMMAND_SIZE];
+    canvas_bytes bytes;
+    command_of(o, command);
+    if (!draw_chart(c, theme_get(o->theme), canvas_format_of(o->output), o->width > 0 ? o->width : WIDTH,
+                    o->height > 0 ? o->height : HEIGHT, command, &bytes))
+        return false;
+    output_bytes(out, bytes.at, bytes.size);
+    free(bytes.at);
+    return true;
+}
+
+static int write_figure(const options *o, const figure_row *row, const figure_request *request, chart *c) {
+    output out;
+    int status = output_open(&out, o->output);
+    if (status != EXIT_FINE)
+        return status;
+    const char *wrong = row->build(request, c);
+    if (wrong != NULL) {
+        output_abandon(&out);
+        return usage_error("%s", wrong);
+    }
+    if (c->title[0] == '\0')
+        snprintf(c->title, sizeof c->title, "%s", row->title);
+    bool good = !chart_failed(c);
+    if (good && o->form == FORM_JSON)
+        plot_data_json(&out, row->name, c);
+    else if (good && o->form == FORM_CSV)
+        plot_data_csv(&out, c);
+    else if (good)
+        good = picture(o, c, &out);
+    if (good)
+        return output_close(&out);
+    output_abandon(&out);
+    fprintf(stderr, "depthprec: no memory for the figure\n");
+    return EXIT_IO;
+}
+
+static int check_size(const options *o) {
+    if (o->width > 0 && (o->width < DRAW_WIDTH_MIN || o->width > DRAW_SIZE_MAX))
+        return option_error(OPTION_WIDTH, "must be from %d to %d px, got %d", DRAW_WIDTH_MIN, DRAW_SIZE_MAX, o->width);
+    if (o->height > 0 && (o->height < DRAW_HEIGHT_MIN || o->height > DRAW_SIZE_MAX))
+        return option_error(OPTION_HEIGHT, "must be from %d to %d px, got %d", DRAW_HEIGHT_MIN, DRAW_SIZE_MAX,
+                            o->height);
+    if (o->form == FORM_TEXT && o->output == NULL)
+        return usage_error("plot: needs -o FILE that ends in .svg, .pdf or .png, or --csv or --json for the numbers");
+    if (o->form == FORM_TEXT && canvas_format_of(o->output) == CANVAS_FORMAT_COUNT)
+        return option_error(OPTION_OUTPUT, "must end in .svg, .pdf or .png, got '%s'", o->output);
+    return EXIT_FINE;
+}
+
+int cmd_plot(const options *o) {
+    const figure_row *row = figure_find(o->operands[0]);
+    if (row == NULL)
+        return unknown_figure(o->operands[0]);
+    setups all = {0};
+    char text[CHART_SERIES][SETUP_LABEL_SIZE];
+    const char *names[CHART_SERIES];
+    figure_request request = {.names = names, .lo = NAN, .hi = NAN, .at = NAN};
+    request.columns = o->width > 0 ? o->width : WIDTH;
+    int status = check_size(o);
+    if (status == EXIT_FINE)
+        status = setups_make(o, &all);
+    if (status == EXIT_FINE)
+        status = resolve_depths(o, row, &request);
+    if (status == EXIT_FINE && all.count > row->setups_max)
+        status = usage_error("plot %s: shows at most %zu set-ups, got %zu: name fewer with --format or --mapping",
+                             row->name, row->setups_max, all.count);
+    chart *c = status == EXIT_FINE ? chart_new() : NULL;
+    if (c != NULL) {
+        request.setups = all.items;
+        request.count = all.count;
+        for (size_t i = 0; i < all.count; i++)
+            names[i] = setup_label(&all.items[i], false, text[i]);
+        snprintf(c->title, sizeof c->title, "%s", o->title != NULL ? o->title : "");
+        subtitle_of(&request, c->subtitle, sizeof c->subtitle);
+        status = write_figure(o, row, &request, c);
+    } else if (status == EXIT_FINE) {
+        status = usage_error("plot: no memory");
+    }
+    chart_free(c);
+    setups_release(&all);
+    return status;
+}

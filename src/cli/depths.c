@@ -1,0 +1,143 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "cli/depths.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "cli/number.h"
+#include "cli/options.h"
+
+static const double infinite_far_ratio = 1e6; /* the default depths end at this many nears when far is infinite */
+
+double depths_get(const depths *d, size_t i) {
+    if (d->kind == DEPTHS_LIST)
+        return d->list[i];
+    if (i == 0)
+        return d->lo;
+    if (i + 1 >= d->count)
+        return d->hi;
+    double share = (double)i / (double)(d->count - 1);
+    double z = d->kind == DEPTHS_LOG ? d->lo * pow(d->hi / d->lo, share) : d->lo + (d->hi - d->lo) * share;
+    return fmin(fmax(z, d->lo), d->hi);
+}
+
+depths depths_spaced(depths_kind kind, double lo, double hi, size_t count) {
+    return (depths){.kind = kind, .lo = lo, .hi = hi, .count = count};
+}
+
+static int wrong_form(const char *text) {
+    return option_error(OPTION_AT, "must be Z[,Z...] or LO:HI:log|lin:COUNT, got '%s'", text);
+}
+
+static int parse_spaced(const char *text, depths *out) {
+    const char *hi = strchr(text, ':') + 1;
+    const char *kind = strchr(hi, ':');
+    const char *count = kind != NULL ? strchr(kind + 1, ':') : NULL;
+    if (count == NULL)
+        return wrong_form(text);
+    depths d = {.kind = DEPTHS_LOG};
+    size_t kind_length = (size_t)(count++ - ++kind);
+    if (!number_parse_part(text, (size_t)(hi - 1 - text), NUMBER_FINITE, &d.lo))
+        return option_error(OPTION_AT, "LO must be a number, got '%.*s' in '%s'", (int)(hi - 1 - text), text, text);
+    if (!number_parse_part(hi, (size_t)(kind - 1 - hi), NUMBER_FINITE, &d.hi))
+        return option_error(OPTION_AT, "HI must be a number, got '%.*s' in '%s'", (int)(kind - 1 - hi), hi, text);
+    if (kind_length != 3 || (memcmp(kind, "log", 3) != 0 && memcmp(kind, "lin", 3) != 0))
+        return option_error(OPTION_AT, "spacing must be log or lin, got '%.*s' in '%s'", (int)kind_length, kind, text);
+    if (memcmp(kind, "lin", 3) == 0)
+        d.kind = DEPTHS_LIN;
+    unsigned long rows;
+    if (!number_parse_count(count, DEPTHS_MAX, &rows) || rows < 2)
+        return option_error(OPTION_AT, "COUNT must be a whole number from 2 to %d, got '%s'", DEPTHS_MAX, count);
+    if (!(d.lo < d.hi))
+        return option_error(OPTION_AT, "LO must be less than HI, got '%s'", text);
+    d.count = rows;
+    *out = d;
+    return EXIT_FINE;
+}
+
+static int parse_list(const char *text, depths *out) {
+    depths d = {.kind = DEPTHS_LIST, .lo = (double)INFINITY, .hi = -(double)INFINITY};
+    size_t count = 1;
+    for (const char *c = text; *c != '\0'; c++)
+        count += *c == ',';
+    if (count > DEPTHS_MAX)
+        return option_error(OPTION_AT, "must be at most %d depths, got %zu", DEPTHS_MAX, count);
+    d.list = malloc(count * sizeof *d.list);
+    if (d.list == NULL)
+        return option_error(OPTION_AT, "no memory for %zu depths", count);
+    for (const char *item = text; d.count < count; d.count++) {
+        size_t length = strcspn(item, ",");
+        double z;
+        if (!number_parse_part(item, length, NUMBER_FINITE, &z)) {
+            free(d.list);
+            return option_error(OPTION_AT, "must be Z[,Z...] or LO:HI:log|lin:COUNT, got '%.*s'%s%s%s", (int)length,
+                                item, count > 1 ? " in '" : "", count > 1 ? text : "", count > 1 ? "'" : "");
+        }
+        d.list[d.count] = z;
+        d.lo = fmin(d.lo, z);
+        d.hi = fmax(d.hi, z);
+        item += length + 1;
+    }
+    *out = d;
+    return EXIT_FINE;
+}
+
+int depths_parse(const char *text, depths *out) {
+    free(out->list); /* of an earlier --at: the last one counts */
+    *out = (depths){.kind = DEPTHS_LIST};
+    return strchr(text, ':') != NULL ? parse_spaced(text, out) : parse_list(text, out);
+}
+
+/* "[0.1, 1000]", or "[0.1, inf)". */
+static const char *planes_text(const options *o, char *out, size_t size) {
+    char lo[NUMBER_SIZE];
+    char hi[NUMBER_SIZE];
+    number_shortest(o->znear, lo);
+    number_shortest(o->zfar, hi);
+    snprintf(out, size, "[%s, %s%c", lo, hi, isinf(o->zfar) ? ')' : ']');
+    return out;
+}
+
+static int outside(const options *o, option_id id, double z) {
+    char planes[2 * NUMBER_SIZE + 8];
+    char text[NUMBER_SIZE];
+    number_shortest(z, text);
+    return option_error(id, "depths must lie in [near, far] = %s, got %s", planes_text(o, planes, sizeof planes), text);
+}
+
+int depths_resolve(const options *o, size_t count, depths *out) {
+    *out = o->at;
+    if (o->at.count == 0)
+        *out = depths_spaced(DEPTHS_LOG, o->znear, isinf(o->zfar) ? o->znear * infinite_far_ratio : o->zfar, count);
+    if (out->lo < o->znear)
+        return outside(o, OPTION_AT, out->lo);
+    if (out->hi > o->zfar)
+        return outside(o, OPTION_AT, out->hi);
+    return EXIT_FINE;
+}
+
+int range_parse(const char *text, double *lo, double *hi) {
+    const char *colon = strchr(text, ':');
+    if (colon == NULL)
+        return option_error(OPTION_RANGE, "must be LO:HI, got '%s'", text);
+    if (!number_parse_part(text, (size_t)(colon - text), NUMBER_FINITE, lo))
+        return option_error(OPTION_RANGE, "LO must be a number, got '%.*s' in '%s'", (int)(colon - text), text, text);
+    if (!number_parse(colon + 1, NUMBER_FINITE, hi))
+        return option_error(OPTION_RANGE, "HI must be a number, got '%s' in '%s'", colon + 1, text);
+    if (!(*lo < *hi))
+        return option_error(OPTION_RANGE, "LO must be less than HI, got '%s'", text);
+    return EXIT_FINE;
+}
+
+int range_resolve(const options *o, double *lo, double *hi) {
+    bool asked = option_given(o, OPTION_RANGE);
+    *lo = asked ? o->range_lo : o->znear;
+    *hi = asked ? o->range_hi : o->zfar;
+    if (*lo < o->znear)
+        return outside(o, OPTION_RANGE, *lo);
+    if (*hi > o->zfar)
+        return outside(o, OPTION_RANGE, *hi);
+    return EXIT_FINE;
+}

@@ -1,0 +1,48 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/**
+ * @file depths.h  The depths that a command is asked about: a list, or LO:HI:log|lin:COUNT.
+ *
+ * A spaced set is never stored: depth i is computed when it is asked for, so a million rows cost no memory.
+ */
+#ifndef CLI_DEPTHS_H
+#define CLI_DEPTHS_H
+
+#include <stddef.h>
+
+struct options;
+
+enum { DEPTHS_MAX = 1000000 };
+
+typedef enum depths_kind { DEPTHS_LIST = 0, DEPTHS_LOG, DEPTHS_LIN } depths_kind;
+
+typedef struct depths {
+    depths_kind kind;
+    double lo, hi; /**< least and greatest depth, scene units */
+    size_t count;
+    double *list; /**< DEPTHS_LIST: the depths in the order given, owned by the options; else null */
+} depths;
+
+/** Depth i, i < count. The first of a spaced set is exactly lo, the last exactly hi, and none leaves [lo, hi]. */
+double depths_get(const depths *d, size_t i);
+
+/** Log-spaced (or linear) depths from lo to hi; count >= 2, or 1 for lo alone. */
+depths depths_spaced(depths_kind kind, double lo, double hi, size_t count);
+
+/** Reads the argument of --at. @return EXIT_FINE, or EXIT_USAGE after one line on stderr */
+int depths_parse(const char *text, depths *out);
+
+/**
+ * The depths of a command: those of --at, or `count` log-spaced ones from near to far (to 1e6 near when far is
+ * infinite). Call it after setups_make(), which checks near and far.
+ *
+ * @return EXIT_FINE, or EXIT_USAGE after one line when a depth lies outside [near, far]
+ */
+int depths_resolve(const struct options *o, size_t count, depths *out);
+
+/** The range of a command: that of --range, or [near, far]; *hi may then be INFINITY. Return as depths_resolve(). */
+int range_resolve(const struct options *o, double *lo, double *hi);
+
+/** Reads the argument of --range, LO:HI with LO < HI. @return EXIT_FINE, or EXIT_USAGE after one line on stderr */
+int range_parse(const char *text, double *lo, double *hi);
+
+#endif

@@ -1,0 +1,28 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/**
+ * @file list.h  What `depthprec list WHAT` can list: rows of topics, each a walk over somebody's table.
+ */
+#ifndef CLI_LIST_H
+#define CLI_LIST_H
+
+#include <stdbool.h>
+#include <stddef.h>
+
+enum { LIST_TEXT_SIZE = 128 };
+
+/** One listed thing. Texts are static, except `bound`, which is written in place. */
+typedef struct list_item {
+    const char *name;
+    const char *aliases;        /**< separated by one space; null or "" when there are none */
+    const char *note;           /**< what it is, one line */
+    char bound[LIST_TEXT_SIZE]; /**< the claim, "" when nothing is claimed */
+    const char *source;         /**< null or "" when there is none */
+} list_item;
+
+/** Fills in thing `index`; false when there is none. */
+typedef bool (*list_get)(size_t index, list_item *item);
+
+/** The figures, by the plot command; weak, as the light program has none. */
+bool list_figure(size_t index, list_item *item) __attribute__((weak));
+
+#endif

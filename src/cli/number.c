@@ -1,0 +1,103 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "cli/number.h"
+
+#include <errno.h>
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "cli/shortest.h"
+
+/*
+ * strtod and printf follow LC_NUMERIC, which stays "C" in a program that never calls setlocale. strtod alone is too
+ * kind: it skips leading space, stops at the first thing it does not know, and reads "nan".
+ */
+bool number_parse(const char *text, number_kind kind, double *out) {
+    const char *first = text + (*text == '+' || *text == '-');
+    bool digit = (*first >= '0' && *first <= '9') || *first == '.';
+    bool infinite = *first == 'i' || *first == 'I';
+    if (!digit && !(infinite && kind == NUMBER_FAR && *text != '-'))
+        return false;
+    char *end;
+    errno = 0;
+    double value = strtod(text, &end);
+    if (end == text || *end != '\0')
+        return false;
+    /* Too large, or too small for a double; a subnormal is fine although some C libraries flag it. */
+    if (errno == ERANGE && (isinf(value) || value == 0.0))
+        return false;
+    *out = value;
+    return true;
+}
+
+bool number_parse_part(const char *text, size_t length, number_kind kind, double *out) {
+    char part[128]; /* no double needs more characters to be told apart from its neighbours */
+    if (length >= sizeof part)
+        return false;
+    memcpy(part, text, length);
+    part[length] = '\0';
+    return number_parse(part, kind, out);
+}
+
+bool number_parse_count(const char *text, unsigned long max, unsigned long *out) {
+    unsigned long value = 0;
+    if (*text == '\0')
+        return false;
+    for (; *text != '\0'; text++) {
+        if (*text < '0' || *text > '9')
+            return false;
+        unsigned long digit = (unsigned long)(*text - '0');
+        if (digit > max || value > (max - digit) / 10)
+            return false;
+        value = 10 * value + digit;
+    }
+    *out = value;
+    return true;
+}
+
+static size_t text_copy(const char *text, char out[NUMBER_SIZE]) {
+    size_t length = strlen(text);
+    memcpy(out, text, length + 1);
+    return length;
+}
+
+/* Small whole numbers are common (near, far, codes given as depths) and need no search. */
+static size_t whole_number(double value, char out[NUMBER_SIZE]) {
+    char reversed[16];
+    size_t digits = 0;
+    size_t length = 0;
+    unsigned long rest = (unsigned long)fabs(value);
+    do
+        reversed[digits++] = (char)('0' + rest % 10);
+    while ((rest /= 10) > 0);
+    if (value < 0.0)
+        out[length++] = '-';
+    while (digits > 0)
+        out[length++] = reversed[--digits];
+    out[length] = '\0';
+    return length;
+}
+
+size_t number_shortest(double value, char out[NUMBER_SIZE]) {
+    if (!isfinite(value))
+        return number_digits(value, 1, out);
+    if (fabs(value) < 1e9 && value == trunc(value))
+        return whole_number(value, out);
+    size_t quick = shortest_quick(value, out);
+    if (quick > 0)
+        return quick;
+    for (int digits = 15;; digits++) {
+        int length = snprintf(out, NUMBER_SIZE, "%.*g", digits, value);
+        if (digits == 17 || strtod(out, NULL) == value)
+            return (size_t)length;
+    }
+}
+
+size_t number_digits(double value, int digits, char out[NUMBER_SIZE]) {
+    if (isnan(value))
+        return text_copy("nan", out);
+    if (isinf(value))
+        return text_copy(value < 0.0 ? "-inf" : "inf", out);
+    return (size_t)snprintf(out, NUMBER_SIZE, "%.*g", digits, value + 0.0); /* -0 becomes 0 */
+}

@@ -1,0 +1,36 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/** @file number.h  Numbers in and out, in the C locale whatever the environment says (setlocale is never called). */
+#ifndef CLI_NUMBER_H
+#define CLI_NUMBER_H
+
+#include <stdbool.h>
+#include <stddef.h>
+
+/** The room that number_shortest() and number_digits() need, with the terminating null. */
+enum { NUMBER_SIZE = 32 };
+
+/** What number_parse() lets through. */
+typedef enum number_kind {
+    NUMBER_FINITE, /**< a finite decimal (or C99 hexadecimal) number */
+    NUMBER_FAR     /**< the same, and inf or infinity in any case */
+} number_kind;
+
+/**
+ * Reads a number that must be the whole text: no space, no rest, no nan, no overflow (1e400), no underflow to zero.
+ * @return true and *out, or false and *out is left as it was
+ */
+bool number_parse(const char *text, number_kind kind, double *out);
+
+/** The same for the `length` characters at text. */
+bool number_parse_part(const char *text, size_t length, number_kind kind, double *out);
+
+/** Reads a whole number of decimal digits, nothing else, at most `max`. */
+bool number_parse_count(const char *text, unsigned long max, unsigned long *out);
+
+/** The shortest text that reads back to the same double, by %.15g, %.16g, %.17g; "inf" for INFINITY. @return length */
+size_t number_shortest(double value, char out[NUMBER_SIZE]);
+
+/** %.*g with "inf" for INFINITY. @return length */
+size_t number_digits(double value, int digits, char out[NUMBER_SIZE]);
+
+#endif

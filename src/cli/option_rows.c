@@ -1,0 +1,310 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "cli/option_rows.h"
+
+#include <math.h>
+#include <string.h>
+
+#include "cli/number.h"
+#include "cli/suggest.h"
+
+/* Steps through a comma-separated list: copies the next item, moves *text behind it. False when an item is too long. */
+static bool next_item(const char **text, char *item, size_t size) {
+    size_t length = strcspn(*text, ",");
+    if (length >= size)
+        return false;
+    memcpy(item, *text, length);
+    item[length] = '\0';
+    *text += length + ((*text)[length] == ',' && (*text)[length + 1] != '\0');
+    return true;
+}
+
+/* Items are separated by one comma each: an empty one, also at the end, is a slip of the hand. */
+static bool well_separated(const char *text) {
+    size_t length = strlen(text);
+    return length > 0 && *text != ',' && text[length - 1] != ',' && strstr(text, ",,") == NULL;
+}
+
+static int parse_near(options *o, const char *value) {
+    if (!number_parse(value, NUMBER_FINITE, &o->znear))
+        return option_error(OPTION_NEAR, "must be a number from 1e-12 to 1e12, got '%s'", value);
+    return EXIT_FINE;
+}
+
+static int parse_far(options *o, const char *value) {
+    if (!number_parse(value, NUMBER_FAR, &o->zfar))
+        return option_error(OPTION_FAR, "must be a number greater than near and at most 1e18, or inf, got '%s'", value);
+    return EXIT_FINE;
+}
+
+static void add_format(options *o, const dp_format *format) {
+    for (size_t i = 0; i < o->format_count; i++)
+        if (strcmp(o->formats[i].name, format->name) == 0)
+            return;
+    if (o->format_count < OPTIONS_FORMATS_MAX)
+        o->formats[o->format_count++] = *format;
+}
+
+static int unknown_format(const char *name) {
+    suggestion s = suggest_start(name);
+    char text[SUGGEST_TEXT_SIZE];
+    for (size_t i = 0; i < dp_format_count(); i++) {
+        suggest_offer(&s, dp_format_get(i)->format.name);
+        suggest_offer(&s, dp_format_get(i)->aliases);
+    }
+    suggest_offer(&s, "all depth24plus");
+    return option_error(
+        OPTION_FORMAT,
+        "must be all, fp16, fp32, unorm16, unorm24 (or a name from 'depthprec list formats'), unormN or "
+        "floatE.M[bB], got '%s'%s",
+        name, suggest_text(&s, "", text));
+}
+
+static int parse_format(options *o, const char *value) {
+    char name[64];
+    const char *rest = value;
+    o->format_count = 0;
+    if (!well_separated(value))
+        return option_error(OPTION_FORMAT, "must be NAME[,NAME...] or all, got '%s'", value);
+    while (*rest != '\0') {
+        dp_format found[2];
+        if (!next_item(&rest, name, sizeof name))
+            return unknown_format(value);
+        size_t count = dp_format_parse(name, found);
+        if (count == 0 && strcmp(name, "all") != 0)
+            return unknown_format(name);
+        for (size_t i = 0; i < count; i++)
+            add_format(o, &found[i]);
+        for (size_t i = 0; count == 0 && i < dp_format_count(); i++)
+            add_format(o, &dp_format_get(i)->format);
+    }
+    return EXIT_FINE;
+}
+
+static void add_mapping(options *o, dp_mapping mapping) {
+    for (size_t i = 0; i < o->mapping_count; i++)
+        if (o->mappings[i] == mapping)
+            return;
+    o->mappings[o->mapping_count++] = mapping;
+}
+
+static int unknown_mapping(const char *name) {
+    suggestion s = suggest_start(name);
+    char text[SUGGEST_TEXT_SIZE];
+    for (int i = 0; i < DP_MAPPING_COUNT; i++) {
+        suggest_offer(&s, dp_mapping_get((dp_mapping)i)->name);
+        suggest_offer(&s, dp_mapping_get((dp_mapping)i)->aliases);
+    }
+    suggest_offer(&s, "all");
+    return option_error(OPTION_MAPPING,
+                        "must be all, d3d, gl, reversed, gl-reversed, linear or log (or a name from 'depthprec list "
+                        "mappings'), got '%s'%s",
+                        name, suggest_text(&s, "", text));
+}
+
+static int parse_mapping(options *o, const char *value) {
+    char name[64];
+    const char *rest = value;
+    o->mapping_count = 0;
+    if (!well_separated(value))
+        return option_error(OPTION_MAPPING, "must be NAME[,NAME...] or all, got '%s'", value);
+    while (*rest != '\0') {
+        dp_mapping mapping;
+        if (!next_item(&rest, name, sizeof name))
+            return unknown_mapping(value);
+        if (strcmp(name, "all") == 0) {
+            add_mapping(o, DP_MAPPING_D3D);
+            add_mapping(o, DP_MAPPING_REVERSED);
+        } else if (dp_mapping_parse(name, &mapping) == DP_OK) {
+            add_mapping(o, mapping);
+        } else {
+            return unknown_mapping(name);
+        }
+    }
+    return EXIT_FINE;
+}
+
+static int parse_ortho(options *o, const char *value) {
+    (void)value;
+    o->ortho = true;
+    return EXIT_FINE;
+}
+
+/* One word out of a row of names; `names` gives name i or null behind the last. */
+static int parse_word(option_id id, const char *(*names)(unsigned), const char *value, unsigned *out) {
+    suggestion s = suggest_start(value);
+    char text[SUGGEST_TEXT_SIZE];
+    char allowed[128] = "";
+    for (unsigned i = 0; names(i) != NULL; i++) {
+        if (strcmp(names(i), value) == 0) {
+            *out = i;
+            return EXIT_FINE;
+        }
+        suggest_offer(&s, names(i));
+        if (i > 0)
+            strcat(allowed, names(i + 1) != NULL ? ", " : " or ");
+        strcat(allowed, names(i));
+    }
+    return option_error(id, "must be %s, got '%s'%s", allowed, value, suggest_text(&s, "", text));
+}
+
+static const char *rounding_name(unsigned index) {
+    return dp_rounding_name((dp_rounding)index);
+}
+
+static const char *model_name(unsigned index) {
+    return dp_model_name((dp_model)index);
+}
+
+static const char *theme_name(unsigned index) {
+    static const char *const names[THEME_COUNT] = {
+        [THEME_LIGHT] = "light", [THEME_DARK] = "dark", [THEME_PRINT] = "print"};
+    return index < THEME_COUNT ? names[index] : NULL;
+}
+
+static int parse_rounding(options *o, const char *value) {
+    unsigned index = (unsigned)o->rounding;
+    int status = parse_word(OPTION_ROUNDING, rounding_name, value, &index);
+    o->rounding = (dp_rounding)index;
+    return status;
+}
+
+static int parse_model(options *o, const char *value) {
+    unsigned index = (unsigned)o->model;
+    int status = parse_word(OPTION_MODEL, model_name, value, &index);
+    o->model = (dp_model)index;
+    return status;
+}
+
+static int parse_theme(options *o, const char *value) {
+    unsigned index = (unsigned)o->theme;
+    int status = parse_word(OPTION_THEME, theme_name, value, &index);
+    o->theme = (theme_id)index;
+    return status;
+}
+
+static int parse_log_c(options *o, const char *value) {
+    if (!number_parse(value, NUMBER_FINITE, &o->log_c))
+        return option_error(OPTION_LOG_C, "must be a number from 1e-12 to 1e12, got '%s'", value);
+    return EXIT_FINE;
+}
+
+static int parse_at(options *o, const char *value) {
+    return depths_parse(value, &o->at);
+}
+
+static int parse_range(options *o, const char *value) {
+    return range_parse(value, &o->range_lo, &o->range_hi);
+}
+
+static int parse_pixels(option_id id, const char *value, int *out) {
+    unsigned long pixels;
+    if (!number_parse_count(value, OPTIONS_PIXELS_MAX, &pixels) || pixels < OPTIONS_PIXELS_MIN)
+        return option_error(id, "must be a whole number of pixels from %d to %d, got '%s'", OPTIONS_PIXELS_MIN,
+                            OPTIONS_PIXELS_MAX, value);
+    *out = (int)pixels;
+    return EXIT_FINE;
+}
+
+static int parse_width(options *o, const char *value) {
+    return parse_pixels(OPTION_WIDTH, value, &o->width);
+}
+
+static int parse_height(options *o, const char *value) {
+    return parse_pixels(OPTION_HEIGHT, value, &o->height);
+}
+
+static int parse_title(options *o, const char *value) {
+    o->title = value;
+    return EXIT_FINE;
+}
+
+static int set_form(options *o, option_id id, output_form form, const char *other) {
+    if (o->form != FORM_TEXT && o->form != form)
+        return option_error(id, "must not be given together with --%s", other);
+    o->form = form;
+    return EXIT_FINE;
+}
+
+static int parse_json(options *o, const char *value) {
+    (void)value;
+    return set_form(o, OPTION_JSON, FORM_JSON, "csv");
+}
+
+static int parse_csv(options *o, const char *value) {
+    (void)value;
+    return set_form(o, OPTION_CSV, FORM_CSV, "json");
+}
+
+static int parse_output(options *o, const char *value) {
+    if (*value == '\0')
+        return option_error(OPTION_OUTPUT, "must be a file name, or - for stdout, got ''");
+    o->output = value;
+    return EXIT_FINE;
+}
+
+static int parse_quiet(options *o, const char *value) {
+    (void)value;
+    o->quiet = true;
+    return EXIT_FINE;
+}
+
+static int parse_verbose(options *o, const char *value) {
+    (void)value;
+    o->verbose = true;
+    return EXIT_FINE;
+}
+
+/* Which commands take what. */
+enum { CAMERA = VERB_TABLE | VERB_PLOT, DRAWN = VERB_PLOT, WRITTEN = VERB_TABLE | VERB_PLOT | VERB_LIST, EVERY = ~0 };
+
+/* clang-format off */
+const option_row option_rows[OPTION_COUNT] = {
+    [OPTION_NEAR] = {"near", 'n', "Z", CAMERA,
+        "near plane, scene units, 1e-12 to 1e12 (default 0.1)", parse_near},
+    [OPTION_FAR] = {"far", 'f', "Z|inf", CAMERA,
+        "far plane, scene units, up to 1e18, or inf (default 1000)", parse_far},
+    [OPTION_FORMAT] = {"format", 'F', "NAME[,NAME...]|all", CAMERA,
+        "depth formats: fp16, fp32, unorm16, unorm24, names as the APIs\n"
+        "write them, unormN, floatE.M[bB] (default all: the first four)", parse_format},
+    [OPTION_MAPPING] = {"mapping", 'm', "NAME[,NAME...]|all", CAMERA,
+        "d3d, gl, reversed, gl-reversed, linear, log\n"
+        "(default all: d3d and reversed)", parse_mapping},
+    [OPTION_ORTHO] = {"ortho", 0, NULL, CAMERA,
+        "orthographic projection (default: perspective)", parse_ortho},
+    [OPTION_ROUNDING] = {"rounding", 0, "nearest|even|zero", CAMERA,
+        "how a depth between two codes is rounded (default nearest)", parse_rounding},
+    [OPTION_MODEL] = {"model", 0, "exact|staged", CAMERA,
+        "the arithmetic before the buffer: none, the lattice alone, or\n"
+        "NDC and window depth each rounded to binary32 (default exact)", parse_model},
+    [OPTION_LOG_C] = {"log-c", 0, "C", CAMERA,
+        "constant of the log mapping, 1e-12 to 1e12 (default 1)", parse_log_c},
+    [OPTION_AT] = {"at", 0, "Z[,Z...]|LO:HI:log|lin:COUNT", CAMERA,
+        "the depths asked about, at most 1000000, within [near, far]\n"
+        "(default: nine, log-spaced from near to far)", parse_at},
+    [OPTION_RANGE] = {"range", 0, "LO:HI", CAMERA,
+        "the depths that worst cases are taken over\n"
+        "(default: near to far)", parse_range},
+    [OPTION_THEME] = {"theme", 0, "light|dark|print", DRAWN,
+        "colours of the figure (default light)", parse_theme},
+    [OPTION_WIDTH] = {"width", 0, "PX", DRAWN,
+        "width of the figure in pixels (default: as suits it)", parse_width},
+    [OPTION_HEIGHT] = {"height", 0, "PX", DRAWN,
+        "height of the figure in pixels (default: as suits it)", parse_height},
+    [OPTION_TITLE] = {"title", 0, "TEXT", DRAWN,
+        "title of the figure in place of its own", parse_title},
+    [OPTION_JSON] = {"json", 0, NULL, WRITTEN,
+        "write JSON, one object, schema depthprec/1", parse_json},
+    [OPTION_CSV] = {"csv", 0, NULL, WRITTEN,
+        "write CSV (RFC 4180) with units in the header row", parse_csv},
+    [OPTION_OUTPUT] = {"output", 'o', "FILE", WRITTEN,
+        "write to FILE when all is done; - is stdout (default)", parse_output},
+    [OPTION_QUIET] = {"quiet", 'q', NULL, WRITTEN,
+        "no messages and no progress, only data and errors", parse_quiet},
+    [OPTION_VERBOSE] = {"verbose", 'v', NULL, WRITTEN,
+        "say more: the cell around each depth", parse_verbose},
+    [OPTION_HELP] = {"help", 'h', NULL, (unsigned)EVERY,
+        "this help", NULL},
+    [OPTION_VERSION] = {"version", 0, NULL, (unsigned)EVERY,
+        "version and licence", NULL},
+};
+/* clang-format on */

@@ -1,0 +1,117 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/**
+ * @file options.h  The command line: one table of option rows, from which parsing, help and completion are made.
+ *
+ * A command receives a `const options *` that is already checked option by option: numbers are whole numbers or
+ * finite values in their own range, names are known. What needs several options at once is checked by setups_make()
+ * (near, far, mapping), range_resolve() and depths_resolve().
+ */
+#ifndef CLI_OPTIONS_H
+#define CLI_OPTIONS_H
+
+#include <stdbool.h>
+#include <stddef.h>
+#include <stdint.h>
+
+#include "cli/depths.h"
+#include "cli/output.h"
+#include "cli/verbs.h"
+#include "depthprec/depthprec.h"
+
+/** The options, in the order in which help lists them. The index of an option's row is its id. */
+typedef enum option_id {
+    OPTION_NEAR = 0,
+    OPTION_FAR,
+    OPTION_FORMAT,
+    OPTION_MAPPING,
+    OPTION_ORTHO,
+    OPTION_ROUNDING,
+    OPTION_MODEL,
+    OPTION_LOG_C,
+    OPTION_AT,
+    OPTION_RANGE,
+    OPTION_THEME,
+    OPTION_WIDTH,
+    OPTION_HEIGHT,
+    OPTION_TITLE,
+    OPTION_JSON,
+    OPTION_CSV,
+    OPTION_OUTPUT,
+    OPTION_QUIET,
+    OPTION_VERBOSE,
+    OPTION_HELP,
+    OPTION_VERSION,
+    OPTION_COUNT
+} option_id;
+
+/** How data are written. */
+typedef enum output_form { FORM_TEXT = 0, FORM_JSON, FORM_CSV } output_form;
+
+/** Values of --theme. */
+typedef enum theme_id { THEME_LIGHT = 0, THEME_DARK, THEME_PRINT, THEME_COUNT } theme_id;
+
+enum { OPTIONS_FORMATS_MAX = 64, OPTIONS_PIXELS_MIN = 64, OPTIONS_PIXELS_MAX = 16384 };
+
+typedef struct options {
+    const verb *verb;
+    char **argv;     /**< the whole command line, for metadata and for verb_run_full() */
+    char **operands; /**< what is neither option nor command; operand_count is within the verb's bounds */
+    int operand_count;
+    uint64_t given; /**< bit OPTION_X is set when the user gave that option; see option_given() */
+
+    double znear; /**< scene units; default 0.1 */
+    double zfar;  /**< scene units or INFINITY; default 1000 */
+    bool ortho;
+    dp_format formats[OPTIONS_FORMATS_MAX]; /**< in the order given, each once */
+    size_t format_count;
+    dp_mapping mappings[DP_MAPPING_COUNT]; /**< in the order given, each once */
+    size_t mapping_count;
+    dp_rounding rounding;
+    dp_model model;
+    double log_c;
+
+    depths at;                 /**< what --at said; count is 0 when it was not given. See depths_resolve() */
+    double range_lo, range_hi; /**< what --range said, lo < hi. See range_resolve() */
+
+    theme_id theme;    /**< default light */
+    int width, height; /**< px; 0 when not given, so that each figure has its own default */
+    const char *title; /**< null when not given */
+
+    output_form form;
+    const char *output; /**< the argument of -o; null when not given. "-" is stdout: hand it to output_open() */
+    bool quiet, verbose;
+} options;
+
+/**
+ * Reads a command line. argv[0] is the program; the command is argv[1] unless that is missing or an option, and then
+ * `table` is meant. Prints help and version itself.
+ *
+ * @return -1 to go on, or the exit status: EXIT_FINE after help or version, EXIT_USAGE after one line on stderr
+ */
+int options_parse(options *o, int argc, char **argv);
+
+/** Frees what options_parse() allocated, whatever it returned. */
+void options_release(options *o);
+
+/** Did the user give this option? */
+static inline bool option_given(const options *o, option_id id) {
+    return (o->given >> id & 1) != 0;
+}
+
+/**
+ * Prints "depthprec: --NAME: " and the rest, one line, on stderr. The rest says what is allowed and what was given:
+ *     return option_error(OPTION_WIDTH, "must be a whole number from 64 to 16384, got '%s'", text);
+ * @return EXIT_USAGE
+ */
+int option_error(option_id id, const char *format, ...) __attribute__((format(printf, 2, 3)));
+
+/** The same without an option: "depthprec: " and the rest. @return EXIT_USAGE */
+int usage_error(const char *format, ...) __attribute__((format(printf, 1, 2)));
+
+/** The long name of an option without its dashes. */
+const char *option_name(option_id id);
+
+/** Help on stdout: of one command, or the list of commands when v is null. @return EXIT_FINE or EXIT_IO */
+int options_help(const verb *v);
+
+#endif

@@ -1,0 +1,172 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "cli/output.h"
+
+#include <errno.h>
+#include <fcntl.h>
+#include <signal.h>
+#include <stdarg.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include "cli/verbs.h"
+
+/* The temporary file, for the signal handler: empty when there is none. */
+static char temporary[4096 + 64];
+
+static const int deadly[] = {SIGHUP, SIGINT, SIGQUIT, SIGTERM};
+
+static void remove_and_die(int number) {
+    if (temporary[0] != '\0')
+        unlink(temporary);
+    signal(number, SIG_DFL);
+    raise(number);
+}
+
+/* A signal that the parent made us ignore (nohup, a background job) stays ignored. */
+static void watch_signals(void) {
+    struct sigaction action = {.sa_handler = remove_and_die};
+    sigemptyset(&action.sa_mask);
+    for (size_t i = 0; i < sizeof deadly / sizeof deadly[0]; i++) {
+        struct sigaction before;
+        if (sigaction(deadly[i], NULL, &before) == 0 && before.sa_handler == SIG_DFL)
+            sigaction(deadly[i], &action, NULL);
+    }
+    signal(SIGXFSZ, SIG_IGN); /* so that a file size limit is a failed write, not a death */
+}
+
+static int cannot_write(const char *path, int error) {
+    if (path == NULL)
+        fprintf(stderr, "depthprec: cannot write to stdout: %s\n", strerror(error));
+    else
+        fprintf(stderr, "depthprec: --output: cannot write '%s': %s\n", path, strerror(error));
+    return EXIT_IO;
+}
+
+/* Opens TARGET's temporary neighbour, which is named after the process and not after the target: no name too long. */
+static int open_temporary(const char *target, const struct stat *old) {
+    const char *slash = strrchr(target, '/');
+    int folder = slash == NULL ? 0 : (int)(slash - target) + 1;
+    int length = snprintf(temporary, sizeof temporary, "%.*s.depthprec-%ld.tmp", folder, target, (long)getpid());
+    if (length < 0 || (size_t)length >= sizeof temporary) {
+        temporary[0] = '\0';
+        errno = ENAMETOOLONG;
+        return -1;
+    }
+    watch_signals();
+    unlink(temporary); /* only a killed process of the same number can have left one */
+    int fd = open(temporary, O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
+    if (fd < 0)
+        temporary[0] = '\0';
+    else if (old != NULL)
+        (void)!fchmod(fd, old->st_mode & 0777);
+    return fd;
+}
+
+int output_open(output *out, const char *path) {
+    out->fd = STDOUT_FILENO;
+    out->error = 0;
+    out->path = NULL;
+    out->target = NULL;
+    out->used = 0;
+    if (path == NULL || strcmp(path, "-") == 0)
+        return EXIT_FINE;
+    out->path = path;
+    struct stat old;
+    struct stat standard;
+    bool exists = stat(path, &old) == 0;
+    bool link = !exists && lstat(path, &old) == 0; /* a symbolic link that points nowhere yet */
+    if (exists && fstat(STDOUT_FILENO, &standard) == 0 && standard.st_dev == old.st_dev &&
+        standard.st_ino == old.st_ino && !S_ISDIR(old.st_mode))
+        return EXIT_FINE; /* /dev/stdout by any name: to replace the file would cut off what the shell writes to it */
+    if (link || (exists && !S_ISREG(old.st_mode))) {
+        out->fd = open(path, O_WRONLY | O_CLOEXEC | (link ? O_CREAT : 0), 0666);
+        return out->fd < 0 ? cannot_write(path, errno) : EXIT_FINE;
+    }
+    if (exists && access(path, W_OK) != 0) /* a rename would not care, but the owner does */
+        return cannot_write(path, errno);
+    out->target = exists ? realpath(path, NULL) : strdup(path); /* a link to a file stays a link */
+    if (out->target == NULL)
+        return cannot_write(path, errno);
+    out->fd = open_temporary(out->target, exists ? &old : NULL);
+    if (out->fd >= 0)
+        return EXIT_FINE;
+    int error = errno;
+    free(out->target);
+    out->target = NULL;
+    return cannot_write(path, error);
+}
+
+static void write_all(output *out, const char *bytes, size_t size) {
+    while (size > 0 && out->error == 0) {
+        ssize_t written = write(out->fd, bytes, size);
+        if (written < 0 && errno != EINTR)
+            out->error = errno;
+        if (written > 0) {
+            bytes += written;
+            size -= (size_t)written;
+        }
+    }
+}
+
+static void flush(output *out) {
+    write_all(out, out->buffer, out->used);
+    out->used = 0;
+}
+
+void output_bytes(output *out, const void *bytes, size_t size) {
+    if (size > OUTPUT_BUFFER_SIZE - out->used)
+        flush(out);
+    if (size > OUTPUT_BUFFER_SIZE) {
+        write_all(out, bytes, size);
+        return;
+    }
+    memcpy(out->buffer + out->used, bytes, size);
+    out->used += size;
+}
+
+void output_text(output *out, const char *text) {
+    output_bytes(out, text, strlen(text));
+}
+
+void output_format(output *out, const char *format, ...) {
+    char line[1024];
+    va_list arguments;
+    va_start(arguments, format);
+    int length = vsnprintf(line, sizeof line, format, arguments);
+    va_end(arguments);
+    if (length > 0)
+        output_bytes(out, line, (size_t)length < sizeof line ? (size_t)length : sizeof line - 1);
+}
+
+static void drop_temporary(output *out) {
+    if (temporary[0] != '\0')
+        unlink(temporary);
+    temporary[0] = '\0';
+    free(out->target);
+    out->target = NULL;
+}
+
+int output_close(output *out) {
+    flush(out);
+    if (close(out->fd) != 0 && out->error == 0 && errno != EINTR)
+        out->error = errno;
+    if (out->target != NULL && out->error == 0) {
+        if (rename(temporary, out->target) == 0)
+            temporary[0] = '\0';
+        else
+            out->error = errno;
+    }
+    drop_temporary(out);
+    if (out->error == EPIPE) /* the reader has seen enough */
+        return EXIT_IO;
+    return out->error == 0 ? EXIT_FINE : cannot_write(out->path, out->error);
+}
+
+void output_abandon(output *out) {
+    if (out->fd != STDOUT_FILENO)
+        close(out->fd);
+    drop_temporary(out);
+}

@@ -1,0 +1,64 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/**
+ * @file output.h  Where data go: stdout, or a file that appears only when it is complete.
+ *
+ *     output out;
+ *     int status = output_open(&out, o->output);     // null or "-" is stdout
+ *     if (status != EXIT_FINE)
+ *         return status;
+ *     output_text(&out, "hello\n");                  // as often as needed; errors are remembered
+ *     return output_close(&out);                     // EXIT_FINE, or EXIT_IO after one line on stderr
+ *
+ * A file is written under a temporary name in the same folder and renamed by output_close(), so an interrupted or
+ * failed run leaves an old file as it was. A target that exists and is no regular file (a device, a fifo) is written
+ * straight to. One output may be open at a time. Output is collected in a buffer: a short one is a single write(2).
+ */
+#ifndef CLI_OUTPUT_H
+#define CLI_OUTPUT_H
+
+#include <stdbool.h>
+#include <stddef.h>
+
+enum { OUTPUT_BUFFER_SIZE = 1 << 16 };
+
+typedef struct output {
+    int fd;
+    int error;        /**< errno of the first write that failed; later writes are dropped */
+    const char *path; /**< the name for messages */
+    char *target;     /**< what the temporary file is renamed to; null when writing straight */
+    size_t used;      /**< bytes waiting in the buffer */
+    char buffer[OUTPUT_BUFFER_SIZE];
+} output;
+
+/**
+ * Opens an output. Call it after all options are checked and before long work, so that a missing folder is told at
+ * once.
+ * @param path  null or "-" for stdout; not the empty string
+ * @return EXIT_FINE, or EXIT_IO after one line on stderr
+ */
+int output_open(output *out, const char *path);
+
+/** Adds bytes. Failures are remembered for output_close(); a loop may ask output_failed() to stop early. */
+void output_bytes(output *out, const void *bytes, size_t size);
+void output_text(output *out, const char *text);
+void output_format(output *out, const char *format, ...) __attribute__((format(printf, 2, 3)));
+
+static inline void output_char(output *out, char c) {
+    if (out->used == OUTPUT_BUFFER_SIZE)
+        output_bytes(out, &c, 1);
+    else
+        out->buffer[out->used++] = c;
+}
+
+static inline bool output_failed(const output *out) {
+    return out->error != 0;
+}
+
+/** Writes what waits, closes, renames. @return EXIT_FINE, or EXIT_IO after one line on stderr (a closed pipe is quiet)
+ */
+int output_close(output *out);
+
+/** Gives up: removes the temporary file, says nothing. For a command that fails half-way. */
+void output_abandon(output *out);
+
+#endif

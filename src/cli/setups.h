@@ -1,0 +1,49 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/** @file setups.h  From options to set-ups: every format with every mapping, checked. */
+#ifndef CLI_SETUPS_H
+#define CLI_SETUPS_H
+
+#include <stddef.h>
+
+#include "cli/csv.h"
+#include "cli/json.h"
+#include "cli/options.h"
+
+enum { SETUPS_MAX = OPTIONS_FORMATS_MAX * DP_MAPPING_COUNT };
+
+typedef struct setups {
+    dp_setup *items;
+    size_t count;
+} setups;
+
+/**
+ * Expands formats x mappings, format-major in the order given (fp16 d3d, fp16 reversed, fp32 d3d, ...), and checks
+ * each with dp_setup_init(). depth24plus stands for two formats, so it gives two set-ups per mapping.
+ *
+ * @return EXIT_FINE, or EXIT_USAGE after one line on stderr that names the option at fault
+ */
+int setups_make(const options *o, setups *out);
+
+void setups_release(setups *s);
+
+/** The room that setup_label() needs, with the terminating null. */
+enum { SETUP_LABEL_SIZE = 160 };
+
+/**
+ * One line about a set-up for legends and headers, "unorm24 d3d", and, where `full`, the rest as well:
+ * "unorm24 d3d, near 0.1, far 1000, perspective, nearest, exact". @return out
+ */
+const char *setup_label(const dp_setup *setup, bool full, char out[SETUP_LABEL_SIZE]);
+
+/**
+ * What names a set-up in JSON and CSV: near, far, projection, mapping, format, rounding, model. In JSON, into the
+ * object that is open; `log_c` follows where the mapping is log.
+ */
+void setup_json(json *j, const dp_setup *setup);
+void setup_csv_head(csv *c);
+void setup_csv(csv *c, const dp_setup *setup);
+
+/** "perspective" or "orthographic". */
+const char *setup_projection(const dp_setup *setup);
+
+#endif

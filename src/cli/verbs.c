@@ -1,0 +1,67 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "cli/verbs.h"
+
+#include <errno.h>
+#include <stdbool.h>
+#include <stdio.h>
+#include <string.h>
+#include <unistd.h>
+
+#include "cli/help.h"
+
+int cmd_table(const struct options *o);
+int cmd_list(const struct options *o);
+/* Commands that need a heavy library: null in the light program. */
+int cmd_plot(const struct options *o) __attribute__((weak));
+
+/* clang-format off */
+const verb verb_rows[] = {
+    {"table", VERB_TABLE, cmd_table, "", 0, 0, NULL,
+     "what each depth stores, its error, its interval; the worst case",
+     "  depthprec table -n 0.1 -f 1000 -F unorm24 -m d3d,reversed\n"
+     "  depthprec table -n 0.1 -f inf -F fp32 -m reversed --at 1,10,100,1000\n"
+     "  depthprec table -F d32f --at 1:1000:log:10000 --csv -o depths.csv\n"},
+    {"plot", VERB_PLOT, cmd_plot, "FIGURE", 1, 1, "'depthprec list figures' names them",
+     "draws a figure: SVG, PDF or PNG by the ending of -o",
+     "  depthprec plot error -F all -m d3d,reversed -o error.svg\n"
+     "  depthprec plot distribution -F unorm4 -n 1 -f 10 -o staircase.png --theme dark\n"},
+    {"list", VERB_LIST, cmd_list, "WHAT", 0, 1, NULL,
+     "formats, mappings, figures, with bounds and sources",
+     "  depthprec list\n"
+     "  depthprec list formats\n"
+     "  depthprec list mappings --json\n"},
+    {"help", VERB_HELP, cmd_help, "COMMAND", 0, 1, NULL,
+     "the options of a command",
+     "  depthprec help table\n"},
+};
+/* clang-format on */
+const size_t verb_count = sizeof verb_rows / sizeof verb_rows[0];
+
+const verb *verb_find(const char *name) {
+    for (size_t i = 0; i < verb_count; i++)
+        if (strcmp(verb_rows[i].name, name) == 0)
+            return &verb_rows[i];
+    return NULL;
+}
+
+int verb_run_full(char **argv) {
+    static const char *const places[] = {"depthprec-full", "../libexec/depthprec/depthprec-full"};
+    char path[4096 + 64];
+    ssize_t length = readlink("/proc/self/exe", path, 4096);
+    path[length > 0 ? length : 0] = '\0';
+    char *slash = strrchr(path, '/');
+    if (slash == NULL) {
+        fprintf(stderr, "depthprec: cannot tell where depthprec-full is: %s\n", strerror(errno));
+        return EXIT_IO;
+    }
+    char *name = slash + 1;
+    /* The full program has every command; if it lands here, to run itself again would never end. */
+    bool is_full = strcmp(name, places[0]) == 0;
+    for (size_t i = 0; i < sizeof places / sizeof places[0] && !is_full; i++) {
+        strcpy(name, places[i]);
+        execv(path, argv);
+    }
+    fprintf(stderr, "depthprec: '%s' needs depthprec-full, which is not beside this program: %s\n", argv[1],
+            is_full ? "it was built without it" : strerror(errno));
+    return EXIT_IO;
+}

@@ -1,0 +1,233 @@
+/* SPDX-License-Identifier: MIT */
+/*
+ * Every operation below is one binary32 operation of the hardware, in its order: float in, float out, no operation
+ * contracted into another and none kept in a wider register. The build must say -ffp-contract=off; a caller that
+ * compiles this file with x87 arithmetic is stopped here.
+ */
+#include "depthprec/pipeline.h"
+
+#include <float.h>
+#include <math.h>
+
+_Static_assert(FLT_EVAL_METHOD == 0, "binary32 operations must be rounded to binary32");
+
+/* ---- The matrix: entries in double, rounded once ------------------------------------------------------------- */
+
+typedef struct entries {
+    double a, b;
+} entries;
+
+static entries perspective(double n, double f, int ndc_signed, int reversed) {
+    if (isinf(f)) {
+        if (ndc_signed)
+            return reversed ? (entries){-1.0, 2.0 * n} : (entries){1.0, -2.0 * n};
+        return reversed ? (entries){0.0, n} : (entries){1.0, -n};
+    }
+    if (ndc_signed) {
+        const entries gl = {(f + n) / (f - n), -2.0 * n * f / (f - n)};
+        return reversed ? (entries){-gl.a, -gl.b} : gl;
+    }
+    return reversed ? (entries){n / (n - f), n * f / (f - n)} : (entries){f / (f - n), -n * f / (f - n)};
+}
+
+static entries orthographic(double n, double f, int ndc_signed, int reversed) {
+    if (ndc_signed) {
+        const entries gl = {2.0 / (f - n), -(f + n) / (f - n)};
+        return reversed ? (entries){-gl.a, -gl.b} : gl;
+    }
+    return reversed ? (entries){1.0 / (n - f), f / (f - n)} : (entries){1.0 / (f - n), -n / (f - n)};
+}
+
+/* The binary32 values next to a double, so that a plane is never stepped over. */
+static float round_up(double value) {
+    const float f = (float)value;
+    return (double)f < value ? nextafterf(f, INFINITY) : f;
+}
+
+static float round_down(double value) {
+    const float f = (float)value;
+    return (double)f > value ? nextafterf(f, 0.0f) : f;
+}
+
+dp_status dp_pipeline_init(dp_pipeline *pipeline, const dp_setup *setup) {
+    if (pipeline == NULL || setup == NULL)
+        return DP_ERROR_NULL;
+    const dp_spec *spec = &setup->spec;
+    const dp_mapping_row *row = dp_mapping_get(spec->mapping);
+    const dp_arith_row *arith = dp_arith_get(spec->arith);
+    if (row == NULL || arith == NULL || row->curve != DP_CURVE_PERSPECTIVE)
+        return DP_ERROR_MODEL;
+    const entries e = (spec->ortho ? orthographic : perspective)(spec->znear, spec->zfar, row->ndc_signed,
+                                                                 row->reversed);
+    *pipeline = (dp_pipeline){.format = spec->format,
+                              .rounding = spec->rounding,
+                              .arith = arith,
+                              .a = (float)e.a,
+                              .b = (float)e.b,
+                              .reversed = row->reversed,
+                              .ndc_signed = row->ndc_signed,
+                              .ortho = spec->ortho != 0,
+                              .znear = round_up(spec->znear),
+                              .zfar = round_down(spec->zfar)};
+    return DP_OK;
+}
+
+/* ---- One depth ----------------------------------------------------------------------------------------------- */
+
+static float clip_w(const dp_pipeline *p, float z) {
+    return p->ortho ? 1.0f : z;
+}
+
+/* The shader's remap turns [-1, 1] into [0, 1]; everything behind it then is zero-to-one. */
+static int remapped(const dp_pipeline *p) {
+    return p->ndc_signed && p->arith->remap;
+}
+
+static int clip_is_signed(const dp_pipeline *p) {
+    return p->ndc_signed && !p->arith->remap;
+}
+
+float dp_pipeline_clip(const dp_pipeline *p, float z) {
+    float clip;
+    if (p->arith->fused) {
+        clip = fmaf(p->a, z, p->b);
+    } else {
+        const float product = p->a * z;
+        clip = product + p->b;
+    }
+    if (remapped(p)) {
+        const float sum = clip + clip_w(p, z);
+        clip = sum * 0.5f;
+    }
+    return clip;
+}
+
+float dp_pipeline_window(const dp_pipeline *p, float z) {
+    const float clip = dp_pipeline_clip(p, z);
+    const float w = clip_w(p, z);
+    float ndc;
+    if (p->arith->reciprocal) {
+        const float inverse = 1.0f / w;
+        ndc = clip * inverse;
+    } else {
+        ndc = clip / w;
+    }
+    if (!clip_is_signed(p))
+        return ndc;
+    const float half = 0.5f * ndc;
+    return half + 0.5f;
+}
+
+uint32_t dp_pipeline_convert(const dp_pipeline *p, float window) {
+    const float d = window > 0.0f ? (window < 1.0f ? window : 1.0f) : 0.0f; /* NaN becomes 0 */
+    if (p->format.kind == DP_FORMAT_FLOAT || p->arith->conversion == DP_CONVERT_EXACT)
+        return dp_format_encode(&p->format, p->rounding, (double)d);
+    /* Above 24 bits the factor itself is rounded, to 2^N, so the product may pass the last code. */
+    const float product = d * (float)p->format.code_max;
+    const double whole = p->arith->conversion == DP_CONVERT_PRODUCT_ZERO ? trunc((double)product) : rint((double)product);
+    return whole < (double)p->format.code_max ? (uint32_t)whole : p->format.code_max;
+}
+
+uint32_t dp_pipeline_code(const dp_pipeline *p, float z) {
+    return dp_pipeline_convert(p, dp_pipeline_window(p, z));
+}
+
+/* ---- Clipping ------------------------------------------------------------------------------------------------ */
+
+static int above_lower(const dp_pipeline *p, float z) {
+    return dp_pipeline_clip(p, z) >= (clip_is_signed(p) ? -clip_w(p, z) : 0.0f);
+}
+
+static int below_upper(const dp_pipeline *p, float z) {
+    return dp_pipeline_clip(p, z) <= clip_w(p, z);
+}
+
+int dp_pipeline_drawn(const dp_pipeline *p, float z) {
+    return above_lower(p, z) && below_upper(p, z);
+}
+
+/* Positive binary32 values are ordered as their bit patterns, which are walked as integers. */
+static uint32_t bits_of(float value) {
+    union {
+        float f;
+        uint32_t u;
+    } pun = {.f = value};
+    return pun.u;
+}
+
+static float of_bits(uint32_t bits) {
+    union {
+        uint32_t u;
+        float f;
+    } pun = {.u = bits};
+    return pun.f;
+}
+
+static int near_keeps(const dp_pipeline *p, uint32_t bits) {
+    return p->reversed ? below_upper(p, of_bits(bits)) : above_lower(p, of_bits(bits));
+}
+
+static int far_keeps(const dp_pipeline *p, uint32_t bits) {
+    return p->reversed ? above_lower(p, of_bits(bits)) : below_upper(p, of_bits(bits));
+}
+
+/* z, fl(A z) and z_clip stay in one binade each, so that all three have one step throughout lo..hi. */
+static int same_steps(const dp_pipeline *p, uint32_t lo, uint32_t hi) {
+    const float z[2] = {of_bits(lo), of_bits(hi)};
+    return ilogbf(z[0]) == ilogbf(z[1]) && ilogbf(p->a * z[0]) == ilogbf(p->a * z[1]) &&
+           ilogbf(dp_pipeline_clip(p, z[0])) == ilogbf(dp_pipeline_clip(p, z[1]));
+}
+
+/*
+ * The farthest depth in lo..hi that the far plane keeps, or 0.
+ *
+ * Where w is constant or grows against z_clip, keeping is monotone in z. Not so for the standard perspective, where
+ * z_clip <= z compares two growing numbers. But while the binades stay, z_clip - z in steps is a non-decreasing
+ * whole number plus at most one step that depends on whether z is even (rounding ties): a depth that is lost, and
+ * its neighbour lost too, lose all that follow in the binade. So halving finds the last one without looking at each.
+ */
+static uint32_t farthest_kept(const dp_pipeline *p, uint32_t lo, uint32_t hi) {
+    while (lo <= hi) {
+        if (far_keeps(p, hi))
+            return hi;
+        if (hi - lo < 4) {
+            hi--;
+            continue;
+        }
+        if (same_steps(p, lo, hi) && !far_keeps(p, lo) && !far_keeps(p, lo + 1))
+            return 0;
+        const uint32_t middle = lo + (hi - lo) / 2;
+        const uint32_t found = farthest_kept(p, middle, hi - 1);
+        if (found != 0)
+            return found;
+        hi = middle - 1;
+    }
+    return 0;
+}
+
+/* The nearest depth that the near plane keeps: that condition is monotone in z for every row. */
+static uint32_t nearest_kept(const dp_pipeline *p, uint32_t lo, uint32_t hi) {
+    while (lo < hi) {
+        const uint32_t middle = lo + (hi - lo) / 2;
+        if (near_keeps(p, middle))
+            hi = middle;
+        else
+            lo = middle + 1;
+    }
+    return lo;
+}
+
+void dp_pipeline_planes(const dp_pipeline *p, float *znear, float *zfar) {
+    const uint32_t lo = bits_of(p->znear);
+    const uint32_t hi = bits_of(isinf(p->zfar) ? FLT_MAX : p->zfar);
+    uint32_t first = nearest_kept(p, lo, hi);
+    uint32_t last = farthest_kept(p, first, hi);
+    /* Planes that nearly touch leave a few thousand depths, where the two conditions may interfere: look at each. */
+    while (first <= last && !dp_pipeline_drawn(p, of_bits(first)))
+        first++;
+    while (first <= last && !dp_pipeline_drawn(p, of_bits(last)))
+        last--;
+    const int drawn = first <= last;
+    *znear = drawn ? of_bits(first) : NAN;
+    *zfar = drawn ? (last == hi ? p->zfar : of_bits(last)) : NAN;
+}

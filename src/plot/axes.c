@@ -1,0 +1,154 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "plot/axes.h"
+
+#include <math.h>
+#include <stdio.h>
+
+#define TICK_LENGTH  5.0
+#define MINOR_LENGTH 3.0
+#define LABEL_GAP    4.0
+
+pencil pencil_make(canvas *c, const theme *t, double scale) {
+    const canvas_colour none = {0, 0, 0, 0};
+    return (pencil){
+        .c = c,
+        .theme = t,
+        .scale = scale,
+        .title = {17 * scale, true, t->text, none},
+        .heading = {13 * scale, true, t->text, none},
+        .text = {13 * scale, false, t->text, none},
+        .small = {12 * scale, false, t->faint, none},
+    };
+}
+
+static double within(double share) {
+    return fmin(fmax(share, -20), 20);
+}
+
+double axes_x(const axes *a, double value) {
+    return a->frame.x + within(chart_axis_share(a->x, value)) * a->frame.w;
+}
+
+double axes_y(const axes *a, double value) {
+    return a->frame.y + (1 - within(chart_axis_share(a->y, value))) * a->frame.h;
+}
+
+int axes_room_x(const pencil *p, double width) {
+    return (int)fmax(2, width / (58 * p->scale));
+}
+
+int axes_room_y(const pencil *p, double height) {
+    return (int)fmax(2, height / (30 * p->scale));
+}
+
+static double widest(const pencil *p, const chart_axis *axis, int room) {
+    ticks t;
+    ticks_make(axis, room, &t);
+    double width = 0;
+    for (size_t i = 0; i < t.count; i++)
+        width = fmax(width, canvas_text_width(p->c, t.items[i].text, &p->small));
+    return width;
+}
+
+double axes_label_width(const pencil *p, const chart_axis *axis, double height) {
+    return widest(p, axis, axes_room_y(p, height));
+}
+
+double axes_x_label_width(const pencil *p, const chart_axis *axis, double width) {
+    return widest(p, axis, axes_room_x(p, width));
+}
+
+/* Lines of one px lie on pixel centres: sharp at the natural size. */
+static double snap(double v) {
+    return floor(v) + 0.5;
+}
+
+/* The labels of a horizontal axis may be wider than thought: fewer of them until they stand apart. */
+static void ticks_that_fit(const pencil *p, const axes *a, ticks *out) {
+    for (int room = axes_room_x(p, a->frame.w); room >= 2; room--) {
+        ticks_make(a->x, room, out);
+        double end = -INFINITY;
+        bool apart = true;
+        for (size_t i = 0; i < out->count; i++) {
+            if (out->items[i].text[0] == '\0')
+                continue;
+            double half = canvas_text_width(p->c, out->items[i].text, &p->small) / 2;
+            double at = axes_x(a, out->items[i].at);
+            apart = apart && at - half > end + 6 * p->scale;
+            end = at + half;
+        }
+        if (apart)
+            return;
+    }
+}
+
+void axes_draw_grid(const pencil *p, const axes *a) {
+    ticks t;
+    canvas_pen pen = {.colour = p->theme->grid, .width = p->scale};
+    ticks_that_fit(p, a, &t);
+    for (size_t i = 0; i < t.count; i++)
+        if (t.items[i].text[0] != '\0') {
+            double x = snap(axes_x(a, t.items[i].at));
+            canvas_segment(p->c, x, a->frame.y, x, a->frame.y + a->frame.h, &pen);
+        }
+    ticks_make(a->y, axes_room_y(p, a->frame.h), &t);
+    for (size_t i = 0; i < t.count; i++)
+        if (t.items[i].text[0] != '\0') {
+            double y = snap(axes_y(a, t.items[i].at));
+            canvas_segment(p->c, a->frame.x, y, a->frame.x + a->frame.w, y, &pen);
+        }
+}
+
+static void draw_x_ticks(const pencil *p, const axes *a, const canvas_pen *pen, bool labels) {
+    ticks t;
+    double bottom = snap(a->frame.y + a->frame.h);
+    ticks_that_fit(p, a, &t);
+    for (size_t i = 0; i < t.count; i++) {
+        bool major = t.items[i].text[0] != '\0';
+        double x = snap(axes_x(a, t.items[i].at));
+        canvas_segment(p->c, x, bottom, x, bottom + (major ? TICK_LENGTH : MINOR_LENGTH) * p->scale, pen);
+        if (labels)
+            canvas_text(p->c, x, bottom + (TICK_LENGTH + LABEL_GAP) * p->scale + 0.73 * p->small.size, t.items[i].text,
+                        &p->small, CANVAS_MIDDLE, 0);
+    }
+}
+
+/* side -1: ticks and labels to the left of x; +1: to the right. */
+static void draw_y_ticks(const pencil *p, const axes *a, double x, int side, const canvas_pen *pen, bool labels) {
+    ticks t;
+    ticks_make(a->y, axes_room_y(p, a->frame.h), &t);
+    for (size_t i = 0; i < t.count; i++) {
+        bool major = t.items[i].text[0] != '\0';
+        double y = snap(axes_y(a, t.items[i].at));
+        canvas_segment(p->c, x, y, x + side * (major ? TICK_LENGTH : MINOR_LENGTH) * p->scale, y, pen);
+        if (labels)
+            canvas_text(p->c, x + side * (TICK_LENGTH + LABEL_GAP) * p->scale, y + 0.36 * p->small.size,
+                        t.items[i].text, &p->small, side < 0 ? CANVAS_RIGHT : CANVAS_LEFT, 0);
+    }
+}
+
+static void draw_box(const pencil *p, canvas_rect f, const canvas_pen *pen) {
+    double x0 = snap(f.x), y0 = snap(f.y), x1 = snap(f.x + f.w), y1 = snap(f.y + f.h);
+    canvas_line(p->c, (canvas_point[]){{x0, y0}, {x1, y0}, {x1, y1}, {x0, y1}, {x0, y0}}, 5, pen);
+}
+
+void axes_draw_frame(const pencil *p, const axes *a, bool x_labels, bool y_labels) {
+    canvas_pen pen = {.colour = p->theme->frame, .width = p->scale};
+    draw_box(p, a->frame, &pen);
+    draw_x_ticks(p, a, &pen, x_labels);
+    draw_y_ticks(p, a, snap(a->frame.x), -1, &pen, y_labels);
+}
+
+void axes_draw_scale(const pencil *p, const axes *a) {
+    canvas_pen pen = {.colour = p->theme->frame, .width = p->scale};
+    draw_box(p, a->frame, &pen);
+    draw_y_ticks(p, a, snap(a->frame.x + a->frame.w), 1, &pen, true);
+}
+
+char *axes_caption(const chart_axis *axis, char out[CHART_TEXT]) {
+    if (axis->unit[0] == '\0')
+        snprintf(out, CHART_TEXT, "%s", axis->label);
+    else
+        snprintf(out, CHART_TEXT, "%s (%s)", axis->label, axis->unit);
+    return out;
+}

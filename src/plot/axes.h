@@ -1,0 +1,53 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/** @file axes.h  The frame of one panel: grid, ticks, labels, and the way from values to px. */
+#ifndef PLOT_AXES_H
+#define PLOT_AXES_H
+
+#include "plot/canvas.h"
+#include "plot/chart.h"
+#include "plot/theme.h"
+#include "plot/ticks.h"
+
+/** What every part of the drawing needs. */
+typedef struct pencil {
+    canvas *c;
+    const theme *theme;
+    double scale; /**< 1 at the size that figures are designed for, 800 x 500 px */
+    canvas_font title, heading, text, small;
+} pencil;
+
+/** A panel in its place. */
+typedef struct axes {
+    const chart_axis *x, *y;
+    canvas_rect frame; /**< px; the area between the axes */
+} axes;
+
+pencil pencil_make(canvas *c, const theme *t, double scale);
+
+/** Where a value lies, px; far outside the frame for values off the axis, never infinite. */
+double axes_x(const axes *a, double value);
+double axes_y(const axes *a, double value);
+
+/** How many labels fit. */
+int axes_room_x(const pencil *p, double width);
+int axes_room_y(const pencil *p, double height);
+
+/** The widest label that a vertical axis of this height has, px. */
+double axes_label_width(const pencil *p, const chart_axis *axis, double height);
+
+/** The widest label of a horizontal axis, px. */
+double axes_x_label_width(const pencil *p, const chart_axis *axis, double width);
+
+/** Grid lines: drawn below the data. */
+void axes_draw_grid(const pencil *p, const axes *a);
+
+/** Frame, ticks and their labels, drawn above the data; the labels of an axis only where asked for. */
+void axes_draw_frame(const pencil *p, const axes *a, bool x_labels, bool y_labels);
+
+/** A vertical axis at the right side of a strip (a colour bar): frame, ticks and labels to the right of it. */
+void axes_draw_scale(const pencil *p, const axes *a);
+
+/** "label (unit)" in out. @return out */
+char *axes_caption(const chart_axis *axis, char out[CHART_TEXT]);
+
+#endif

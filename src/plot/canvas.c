@@ -1,0 +1,236 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "plot/canvas.h"
+
+#include <cairo-pdf.h>
+#include <cairo-svg.h>
+#include <cairo.h>
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+#include <strings.h>
+#include <time.h>
+
+#include "plot/notes.h"
+
+/* Points per px in a PDF: CSS has 96 px to the inch, PDF 72 points. */
+#define POINTS_PER_PX 0.75
+#define FONT_FAMILY   "DejaVu Sans"
+
+struct canvas {
+    cairo_surface_t *surface;
+    cairo_t *cr;
+    canvas_format format;
+    notes_buffer bytes;
+    canvas_notes notes;
+};
+
+static cairo_status_t append(void *closure, const unsigned char *data, unsigned int size) {
+    return notes_append(closure, data, size) ? CAIRO_STATUS_SUCCESS : CAIRO_STATUS_WRITE_ERROR;
+}
+
+canvas_format canvas_format_of(const char *path) {
+    static const char *const endings[CANVAS_FORMAT_COUNT] = {".svg", ".pdf", ".png"};
+    size_t length = strlen(path);
+    for (int i = 0; i < CANVAS_FORMAT_COUNT; i++)
+        if (length > 4 && strcasecmp(path + length - 4, endings[i]) == 0)
+            return (canvas_format)i;
+    return CANVAS_FORMAT_COUNT;
+}
+
+/* cairo would stamp the hour of the run. The empty date leaves the entry out; SOURCE_DATE_EPOCH puts its own in. */
+static void pdf_metadata(cairo_surface_t *surface, const canvas_notes *notes) {
+    char date[32] = "";
+    const char *epoch = getenv("SOURCE_DATE_EPOCH");
+    if (epoch != NULL && *epoch != '\0') {
+        char *end;
+        time_t seconds = (time_t)strtoll(epoch, &end, 10);
+        struct tm utc;
+        if (*end == '\0' && gmtime_r(&seconds, &utc) != NULL)
+            strftime(date, sizeof date, "%Y-%m-%dT%H:%M:%SZ", &utc);
+    }
+    cairo_pdf_surface_set_metadata(surface, CAIRO_PDF_METADATA_CREATE_DATE, date);
+    cairo_pdf_surface_set_metadata(surface, CAIRO_PDF_METADATA_TITLE, notes->title);
+    cairo_pdf_surface_set_metadata(surface, CAIRO_PDF_METADATA_SUBJECT, notes->description);
+    cairo_pdf_surface_set_metadata(surface, CAIRO_PDF_METADATA_CREATOR, notes->command);
+    cairo_pdf_surface_set_metadata(surface, CAIRO_PDF_METADATA_KEYWORDS, notes->data);
+}
+
+canvas *canvas_new(canvas_format format, int width, int height, const canvas_notes *notes) {
+    canvas *c = calloc(1, sizeof *c);
+    if (c == NULL)
+        return NULL;
+    c->format = format;
+    c->notes = *notes;
+    if (format == CANVAS_SVG) {
+        c->surface = cairo_svg_surface_create_for_stream(append, &c->bytes, width, height);
+        cairo_svg_surface_set_document_unit(c->surface, CAIRO_SVG_UNIT_PX);
+    } else if (format == CANVAS_PDF) {
+        c->surface =
+            cairo_pdf_surface_create_for_stream(append, &c->bytes, width * POINTS_PER_PX, height * POINTS_PER_PX);
+        pdf_metadata(c->surface, notes);
+    } else {
+        c->surface = cairo_image_surface_create(CAIRO_FORMAT_RGB24, width, height);
+    }
+    c->cr = cairo_create(c->surface);
+    if (format == CANVAS_PDF)
+        cairo_scale(c->cr, POINTS_PER_PX, POINTS_PER_PX);
+    cairo_set_line_join(c->cr, CAIRO_LINE_JOIN_ROUND);
+    return c;
+}
+
+bool canvas_finish(canvas *c, canvas_bytes *out) {
+    cairo_status_t drawn = cairo_status(c->cr);
+    cairo_destroy(c->cr);
+    if (drawn == CAIRO_STATUS_SUCCESS && c->format == CANVAS_PNG)
+        drawn = cairo_surface_write_to_png_stream(c->surface, append, &c->bytes);
+    cairo_surface_finish(c->surface);
+    if (drawn == CAIRO_STATUS_SUCCESS)
+        drawn = cairo_surface_status(c->surface);
+    cairo_surface_destroy(c->surface);
+    bool good = drawn == CAIRO_STATUS_SUCCESS && !c->bytes.failed;
+    if (good && c->format == CANVAS_SVG)
+        good = notes_into_svg(&c->bytes, &c->notes);
+    if (good && c->format == CANVAS_PNG)
+        good = notes_into_png(&c->bytes, &c->notes);
+    if (!good) {
+        free(c->bytes.at);
+        c->bytes = (notes_buffer){0};
+    }
+    *out = (canvas_bytes){c->bytes.at, c->bytes.size};
+    free(c);
+    return good;
+}
+
+static double reach(double v) {
+    return isnan(v) ? 0 : fmin(fmax(v, -CANVAS_REACH), CANVAS_REACH);
+}
+
+static void use_colour(canvas *c, canvas_colour colour) {
+    cairo_set_source_rgba(c->cr, colour.r, colour.g, colour.b, colour.a);
+}
+
+static void stroke(canvas *c, const canvas_pen *pen) {
+    use_colour(c, pen->colour);
+    cairo_set_line_width(c->cr, pen->width);
+    cairo_set_dash(c->cr, pen->dash, pen->dash_count, 0);
+    cairo_stroke(c->cr);
+}
+
+void canvas_path_begin(canvas *c) {
+    cairo_new_path(c->cr);
+}
+
+void canvas_path_to(canvas *c, double x, double y) {
+    cairo_line_to(c->cr, reach(x), reach(y));
+}
+
+void canvas_path_break(canvas *c) {
+    cairo_new_sub_path(c->cr);
+}
+
+void canvas_path_end(canvas *c, const canvas_pen *pen) {
+    stroke(c, pen);
+}
+
+static void trace(canvas *c, const canvas_point *points, size_t count) {
+    cairo_new_path(c->cr);
+    for (size_t i = 0; i < count; i++)
+        canvas_path_to(c, points[i].x, points[i].y);
+}
+
+void canvas_fill(canvas *c, canvas_rect area, canvas_colour colour) {
+    use_colour(c, colour);
+    cairo_rectangle(c->cr, reach(area.x), reach(area.y), reach(area.w), reach(area.h));
+    cairo_fill(c->cr);
+}
+
+void canvas_polygon(canvas *c, const canvas_point *points, size_t count, canvas_colour colour) {
+    trace(c, points, count);
+    cairo_close_path(c->cr);
+    use_colour(c, colour);
+    cairo_fill(c->cr);
+}
+
+void canvas_line(canvas *c, const canvas_point *points, size_t count, const canvas_pen *pen) {
+    trace(c, points, count);
+    stroke(c, pen);
+}
+
+void canvas_segment(canvas *c, double x0, double y0, double x1, double y1, const canvas_pen *pen) {
+    canvas_line(c, (canvas_point[]){{x0, y0}, {x1, y1}}, 2, pen);
+}
+
+void canvas_disc(canvas *c, double x, double y, double radius, canvas_colour fill, const canvas_pen *pen) {
+    cairo_new_path(c->cr);
+    cairo_arc(c->cr, reach(x), reach(y), radius, 0, 8 * atan(1));
+    use_colour(c, fill);
+    if (pen == NULL) {
+        cairo_fill(c->cr);
+    } else {
+        cairo_fill_preserve(c->cr);
+        stroke(c, pen);
+    }
+}
+
+static void use_font(canvas *c, const canvas_font *font) {
+    cairo_select_font_face(c->cr, FONT_FAMILY, CAIRO_FONT_SLANT_NORMAL,
+                           font->bold ? CAIRO_FONT_WEIGHT_BOLD : CAIRO_FONT_WEIGHT_NORMAL);
+    cairo_set_font_size(c->cr, font->size);
+}
+
+double canvas_text_width(canvas *c, const char *text, const canvas_font *font) {
+    cairo_text_extents_t extents;
+    use_font(c, font);
+    cairo_text_extents(c->cr, text, &extents);
+    return extents.x_advance;
+}
+
+void canvas_text(canvas *c, double x, double y, const char *text, const canvas_font *font, canvas_align align,
+                 int quarter_turns) {
+    double back = canvas_text_width(c, text, font) * (double)align / 2;
+    cairo_save(c->cr);
+    cairo_translate(c->cr, reach(x), reach(y));
+    cairo_rotate(c->cr, -quarter_turns * 2 * atan(1));
+    if (font->halo.a > 0) {
+        cairo_move_to(c->cr, -back, 0);
+        cairo_text_path(c->cr, text);
+        stroke(c, &(canvas_pen){.colour = font->halo, .width = font->size / 4});
+    }
+    use_colour(c, font->colour);
+    cairo_move_to(c->cr, -back, 0);
+    cairo_show_text(c->cr, text);
+    cairo_restore(c->cr);
+    cairo_new_path(c->cr);
+}
+
+void canvas_image(canvas *c, canvas_rect area, int columns, int rows, const uint32_t *pixels) {
+    cairo_surface_t *image = cairo_image_surface_create(CAIRO_FORMAT_ARGB32, columns, rows);
+    unsigned char *data = cairo_image_surface_get_data(image);
+    if (data != NULL) {
+        cairo_surface_flush(image);
+        for (int row = 0; row < rows; row++)
+            memcpy(data + (ptrdiff_t)row * cairo_image_surface_get_stride(image), pixels + (ptrdiff_t)row * columns,
+                   (size_t)columns * sizeof *pixels);
+        cairo_surface_mark_dirty(image);
+    }
+    cairo_save(c->cr);
+    cairo_translate(c->cr, area.x, area.y);
+    cairo_scale(c->cr, area.w / columns, area.h / rows);
+    cairo_set_source_surface(c->cr, image, 0, 0);
+    cairo_pattern_set_filter(cairo_get_source(c->cr), CAIRO_FILTER_NEAREST);
+    cairo_pattern_set_extend(cairo_get_source(c->cr), CAIRO_EXTEND_PAD);
+    cairo_rectangle(c->cr, 0, 0, columns, rows);
+    cairo_fill(c->cr);
+    cairo_restore(c->cr);
+    cairo_surface_destroy(image);
+}
+
+void canvas_clip(canvas *c, canvas_rect area) {
+    cairo_save(c->cr);
+    cairo_rectangle(c->cr, area.x, area.y, area.w, area.h);
+    cairo_clip(c->cr);
+}
+
+void canvas_unclip(canvas *c) {
+    cairo_restore(c->cr);
+}

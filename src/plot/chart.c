@@ -1,0 +1,187 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "plot/chart.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+/* A chain of blocks: the link, then the caller's bytes. */
+typedef union block {
+    union block *next;
+    max_align_t align;
+} block;
+
+chart *chart_new(void) {
+    return calloc(1, sizeof(chart));
+}
+
+void chart_free(chart *c) {
+    if (c == NULL)
+        return;
+    for (block *b = c->memory; b != NULL;) {
+        block *next = b->next;
+        free(b);
+        b = next;
+    }
+    free(c);
+}
+
+void *chart_memory(chart *c, size_t count, size_t size) {
+    block *b = count < SIZE_MAX / 2 / size ? calloc(1, sizeof *b + count * size) : NULL;
+    if (b == NULL) {
+        c->failed = true;
+        return NULL;
+    }
+    b->next = c->memory;
+    c->memory = b;
+    return b + 1;
+}
+
+chart_panel *chart_add_panel(chart *c) {
+    if (c->panel_count == CHART_PANELS) {
+        c->failed = true;
+        return NULL;
+    }
+    return &c->panels[c->panel_count++];
+}
+
+chart_series *chart_add_series(chart *c, chart_panel *panel, chart_kind kind, size_t count) {
+    if (panel == NULL || panel->series_count == CHART_SERIES) {
+        c->failed = true;
+        return NULL;
+    }
+    chart_series *s = &panel->series[panel->series_count];
+    *s = (chart_series){.kind = kind, .style = {.marker = -1}, .count = count};
+    s->x = chart_memory(c, count, sizeof *s->x);
+    s->y = chart_memory(c, count, sizeof *s->y);
+    if (s->x == NULL || s->y == NULL)
+        return NULL;
+    panel->series_count++;
+    return s;
+}
+
+bool chart_add_map(chart *c, chart_panel *panel, int columns, int rows) {
+    chart_map m = {.columns = columns, .rows = rows};
+    m.x = chart_memory(c, (size_t)columns, sizeof *m.x);
+    m.y = chart_memory(c, (size_t)rows, sizeof *m.y);
+    m.value = chart_memory(c, (size_t)columns * (size_t)rows, sizeof *m.value);
+    if (m.x == NULL || m.y == NULL || m.value == NULL)
+        return false;
+    for (int i = 0; i < columns; i++)
+        m.x[i] = chart_axis_at(&panel->x, (i + 0.5) / columns);
+    for (int i = 0; i < rows; i++)
+        m.y[i] = chart_axis_at(&panel->y, (i + 0.5) / rows);
+    panel->map = m;
+    return true;
+}
+
+double chart_axis_at(const chart_axis *axis, double t) {
+    if (axis->scale == CHART_LOG)
+        return exp(log(axis->lo) + t * (log(axis->hi) - log(axis->lo)));
+    return axis->lo + t * (axis->hi - axis->lo);
+}
+
+double chart_axis_share(const chart_axis *axis, double value) {
+    if (axis->scale == CHART_LOG)
+        return value > 0 ? (log(value) - log(axis->lo)) / (log(axis->hi) - log(axis->lo)) : (double)-INFINITY;
+    return (value - axis->lo) / (axis->hi - axis->lo);
+}
+
+typedef struct extent {
+    double lo, hi;
+} extent;
+
+static void widen(extent *e, const double *values, size_t count, chart_scale scale) {
+    for (size_t i = 0; i < count; i++)
+        if (isfinite(values[i]) && (scale == CHART_LINEAR || values[i] > 0)) {
+            e->lo = fmin(e->lo, values[i]);
+            e->hi = fmax(e->hi, values[i]);
+        }
+}
+
+/* A little air at both ends, so that no curve runs along the frame. */
+static void fit(chart_axis *axis, extent e, bool air) {
+    if (axis->lo != axis->hi)
+        return;
+    if (!(e.lo <= e.hi))
+        e = (extent){axis->scale == CHART_LOG ? 0.1 : 0, 1};
+    if (axis->scale == CHART_LOG) {
+        double step = air ? fmax(pow(e.hi / e.lo, 0.04), 1.05) : e.lo < e.hi ? 1 : 1.05;
+        axis->lo = fmax(e.lo / step, 1e-300);
+        axis->hi = fmin(e.hi * step, 1e300);
+    } else {
+        double step = e.hi > e.lo ? (e.hi - e.lo) * (air ? 0.04 : 0) : fmax(fabs(e.hi), 1) * 0.05;
+        axis->lo = e.lo - step;
+        axis->hi = e.hi + step;
+    }
+}
+
+void chart_fit(chart *c) {
+    extent x = {INFINITY, -INFINITY}, y = x, value = x;
+    for (size_t p = 0; p < c->panel_count; p++) {
+        const chart_panel *panel = &c->panels[p];
+        for (size_t s = 0; s < panel->series_count; s++) {
+            widen(&x, panel->series[s].x, panel->series[s].count, panel->x.scale);
+            widen(&y, panel->series[s].y, panel->series[s].count, panel->y.scale);
+        }
+        widen(&value, panel->map.value, (size_t)panel->map.columns * (size_t)panel->map.rows, c->value.scale);
+    }
+    for (size_t p = 0; p < c->panel_count; p++) {
+        fit(&c->panels[p].x, x, false);
+        fit(&c->panels[p].y, y, true);
+    }
+    fit(&c->value, value, false);
+}
+
+static void mix(uint64_t *h, const char *text) {
+    do {
+        *h = (*h ^ (unsigned char)*text) * UINT64_C(0x100000001B3);
+    } while (*text++ != '\0');
+}
+
+static void mix_numbers(uint64_t *h, const double *values, size_t count) {
+    for (size_t i = 0; i < count; i++) {
+        int exponent = 0;
+        double mantissa = isfinite(values[i]) ? frexp(values[i], &exponent)
+                          : isnan(values[i])  ? 2
+                                              : copysign(3, values[i]);
+        uint64_t word = (uint64_t)llrint(ldexp(mantissa, 30)) << 16 ^ (uint64_t)(exponent & 0xFFFF);
+        for (int byte = 0; byte < 8; byte++)
+            *h = (*h ^ (word >> 8 * byte & 255)) * UINT64_C(0x100000001B3);
+    }
+}
+
+static void mix_axis(uint64_t *h, const chart_axis *axis) {
+    mix(h, axis->key != NULL ? axis->key : "");
+    mix(h, axis->unit != NULL ? axis->unit : "");
+}
+
+uint64_t chart_digest(const chart *c) {
+    uint64_t h = UINT64_C(0xCBF29CE484222325);
+    mix_axis(&h, &c->value);
+    for (size_t p = 0; p < c->panel_count; p++) {
+        const chart_panel *panel = &c->panels[p];
+        mix(&h, panel->title);
+        mix_axis(&h, &panel->x);
+        mix_axis(&h, &panel->y);
+        for (size_t s = 0; s < panel->series_count; s++) {
+            mix(&h, panel->series[s].name);
+            mix_numbers(&h, panel->series[s].x, panel->series[s].count);
+            mix_numbers(&h, panel->series[s].y, panel->series[s].count);
+        }
+        mix_numbers(&h, panel->map.x, (size_t)panel->map.columns);
+        mix_numbers(&h, panel->map.y, (size_t)panel->map.rows);
+        mix_numbers(&h, panel->map.value, (size_t)panel->map.columns * (size_t)panel->map.rows);
+    }
+    return h;
+}
+
+bool chart_has_blind(const chart *c) {
+    for (size_t p = 0; p < c->panel_count; p++)
+        for (size_t s = 0; s < c->panels[p].series_count; s++) {
+            const chart_series *series = &c->panels[p].series[s];
+            if (series->kind == CHART_LINE && series->count > 0 && isinf(series->y[series->count - 1]))
+                return true;
+        }
+    return false;
+}

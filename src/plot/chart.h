@@ -1,0 +1,113 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/**
+ * @file chart.h  What a figure shows, as numbers and words, before anything is drawn.
+ *
+ * A figure is computed into a chart; from the chart it is drawn, listed as CSV or JSON, and digested: so the numbers
+ * a test compares are the very numbers that reach the picture. Memory belongs to the chart and is freed with it; when
+ * it runs out, the chart remembers and chart_failed() tells, so builders need not check each step.
+ */
+#ifndef PLOT_CHART_H
+#define PLOT_CHART_H
+
+#include <stdbool.h>
+#include <stddef.h>
+#include <stdint.h>
+
+enum { CHART_TEXT = 192, CHART_SERIES = 32, CHART_PANELS = 8, CHART_LEVELS = 64 };
+
+typedef enum chart_scale { CHART_LINEAR = 0, CHART_LOG } chart_scale;
+
+/** One direction of a panel. */
+typedef struct chart_axis {
+    chart_scale scale;
+    double lo, hi;     /**< finite, lo < hi, both above 0 on a log axis; lo == hi asks for the extent of the data */
+    const char *label; /**< "z-fighting interval" */
+    const char *key;   /**< the column's name in CSV and JSON, "interval" */
+    const char *unit;  /**< "scene units", "%"; "" for a pure number */
+} chart_axis;
+
+/** How a series is drawn; the index of its row in series.c. */
+typedef enum chart_kind {
+    CHART_LINE = 0, /**< through the points; a point at y = INFINITY ends it with an arrow to the top */
+    CHART_DROPS,    /**< each point joined to both axes: the codes of a small format */
+    CHART_POINTS,   /**< markers, with their labels where given */
+    CHART_KIND_COUNT
+} chart_kind;
+
+/** Indices into the theme: see theme_pen() and theme_marker(). */
+typedef struct chart_style {
+    int colour; /**< of CHART_POINTS also -1, the colour of the text */
+    int stroke;
+    int marker; /**< -1 for none */
+} chart_style;
+
+typedef struct chart_series {
+    chart_kind kind;
+    chart_style style;
+    char name[CHART_TEXT]; /**< for the data, and for the legend unless `unlisted` */
+    char note[64];         /**< follows the name in the legend only */
+    bool unlisted;
+    size_t count;
+    double *x, *y;
+    char (*labels)[CHART_TEXT]; /**< CHART_POINTS: a label each, or null */
+} chart_series;
+
+/** A grid of values, colour-coded: value[row * columns + column], row 0 at the bottom. NaN is left empty. */
+typedef struct chart_map {
+    int columns, rows;
+    double *x, *y; /**< centres, evenly spaced on the panel's axes */
+    double *value;
+} chart_map;
+
+typedef struct chart_panel {
+    char title[CHART_TEXT]; /**< "" when the chart has one panel */
+    chart_axis x, y;
+    size_t series_count;
+    chart_series series[CHART_SERIES];
+    chart_map map; /**< columns is 0 when there is none */
+} chart_panel;
+
+typedef struct chart {
+    char title[CHART_TEXT];
+    char subtitle[2 * CHART_TEXT]; /**< what holds for all of it: planes, projection, model */
+    size_t panel_count;
+    chart_panel panels[CHART_PANELS];
+    chart_axis value; /**< the colour scale shared by the maps; label is null when there is none */
+    bool contours;    /**< lines at the decades of the maps */
+    void *memory;     /**< everything chart_numbers() gave out */
+    bool failed;
+} chart;
+
+/** An empty chart; null when out of memory. */
+chart *chart_new(void);
+void chart_free(chart *c);
+static inline bool chart_failed(const chart *c) {
+    return c == NULL || c->failed;
+}
+
+/** A block that lives as long as the chart, zeroed; null when out of memory. */
+void *chart_memory(chart *c, size_t count, size_t size);
+
+/** The next panel or series, empty; null when the room or the memory is used up. */
+chart_panel *chart_add_panel(chart *c);
+chart_series *chart_add_series(chart *c, chart_panel *panel, chart_kind kind, size_t count);
+
+/** Fits every axis with lo == hi to the finite data, the same axis in all panels alike. */
+void chart_fit(chart *c);
+
+/** A map of columns x rows, centred on the panel's axes (which must be set); false when out of memory. */
+bool chart_add_map(chart *c, chart_panel *panel, int columns, int rows);
+
+/** The value at share t (0..1) of an axis. */
+double chart_axis_at(const chart_axis *axis, double t);
+
+/** The share of a value: 0 at lo, 1 at hi; infinite values keep their sign. */
+double chart_axis_share(const chart_axis *axis, double value);
+
+/** 64 bits (FNV-1a) over every name and every number to 30 bits: equal when the figures say the same. */
+uint64_t chart_digest(const chart *c);
+
+/** Does the chart have a CHART_LINE that ends in an arrow? */
+bool chart_has_blind(const chart *c);
+
+#endif

@@ -1,0 +1,92 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include <math.h>
+#include <stdio.h>
+
+#include "plot/envelope.h"
+
+enum { STAIRCASE_CODES = 128 /* the most lines that can be told apart in one frame */ };
+
+static double density(const dp_worst *worst) {
+    return 1 / worst->interval;
+}
+
+/* A linear axis shows the picture of the textbooks, but not beyond a factor of a hundred. */
+static chart_scale scale_of(double lo, double hi) {
+    return hi / lo <= 100 ? CHART_LINEAR : CHART_LOG;
+}
+
+/* An infinite far ends a little behind the depth from which nothing is told apart, seen by the farthest sighted. */
+static void staircase_range(const figure_request *request, double *lo, double *hi) {
+    figure_range(request, lo, hi);
+    if (!isnan(request->hi) || !isinf(request->setups[0].spec.zfar))
+        return;
+    double end = 0;
+    for (size_t i = 0; i < request->count; i++) {
+        dp_worst worst;
+        if (dp_worst_over(&request->setups[i], *lo, INFINITY, &worst) == DP_OK && !isnan(worst.blind_from))
+            end = fmax(end, worst.blind_from);
+    }
+    if (end > *lo)
+        *hi = end * (scale_of(*lo, 1.15 * end) == CHART_LINEAR ? 1.15 : 2);
+}
+
+static void add_codes(const figure_request *request, chart *out, chart_panel *panel, size_t i) {
+    const dp_setup *setup = &request->setups[i];
+    uint32_t a = dp_code(setup, panel->x.lo), b = dp_code(setup, panel->x.hi);
+    uint32_t first = a < b ? a : b, last = a < b ? b : a;
+    chart_series *s = chart_add_series(out, panel, CHART_DROPS, (size_t)(last - first) + 1);
+    if (s == NULL)
+        return;
+    s->style.colour = 1;
+    snprintf(s->name, sizeof s->name, "codes and the depths they give back");
+    s->count = 0;
+    for (uint32_t code = first; code <= last; code++) {
+        double z = dp_stored(setup, code);
+        if (!(z >= panel->x.lo && z <= panel->x.hi))
+            continue;
+        s->x[s->count] = z;
+        s->y[s->count++] = dp_format_value(&setup->spec.format, code);
+    }
+}
+
+static void add_curve(const figure_request *request, chart *out, chart_panel *panel, size_t i) {
+    chart_series *s = chart_add_series(out, panel, CHART_LINE, (size_t)request->columns + 1);
+    if (s == NULL)
+        return;
+    snprintf(s->name, sizeof s->name, "window depth d(z)");
+    for (int k = 0; k <= request->columns; k++) {
+        s->x[k] = envelope_edge(panel->x.scale, panel->x.lo, panel->x.hi, k, request->columns);
+        s->y[k] = dp_window(&request->setups[i], s->x[k]);
+    }
+}
+
+static void build_staircases(const figure_request *request, chart *out) {
+    double lo, hi;
+    staircase_range(request, &lo, &hi);
+    for (size_t i = 0; i < request->count; i++) {
+        chart_panel *panel = chart_add_panel(out);
+        if (panel == NULL)
+            return;
+        panel->x = figure_depth_axis(scale_of(lo, hi), lo, hi);
+        panel->y = (chart_axis){CHART_LINEAR, 0, 1, "window depth d", "depth", ""};
+        snprintf(panel->title, sizeof panel->title, "%s, %u codes", request->names[i],
+                 request->setups[i].spec.format.code_max + 1);
+        add_codes(request, out, panel, i);
+        add_curve(request, out, panel, i);
+    }
+}
+
+const char *distribution_build(const figure_request *request, chart *out) {
+    size_t small = 0;
+    for (size_t i = 0; i < request->count; i++)
+        small += request->setups[i].spec.format.code_max < STAIRCASE_CODES;
+    if (small == request->count) {
+        if (small > CHART_PANELS)
+            return "--format, --mapping: must make at most 8 set-ups for staircases";
+        build_staircases(request, out);
+        return NULL;
+    }
+    chart_axis y = {.scale = CHART_LOG, .label = "codes, fewest", .key = "density", .unit = "per scene unit of depth"};
+    envelope_build(request, out, y, density);
+    return NULL;
+}

@@ -1,0 +1,188 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "plot/draw.h"
+
+#include <inttypes.h>
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "plot/heat.h"
+#include "plot/legend.h"
+#include "plot/notes.h"
+#include "plot/series.h"
+#include "plot/words.h"
+
+/* All in px at scale 1. */
+#define PAGE_WIDTH  800.0
+#define PAGE_HEIGHT 500.0
+#define MARGIN      16.0
+#define SPACE       8.0
+#define TICK_ROOM   11.0 /* from the frame to the tick labels */
+#define PANEL_GAP   20.0
+#define BAR_WIDTH   16.0
+#define PANEL_SHAPE 1.5 /* the width of a panel over its height that looks best */
+
+/* The panels in rows and columns. */
+typedef struct grid {
+    int columns, rows;
+    canvas_rect area; /* of all frames and the headings above them */
+    double heading;   /* height above each frame */
+} grid;
+
+static int columns_for(size_t count, canvas_rect area) {
+    int best = 1;
+    double best_score = INFINITY;
+    for (int columns = 1; columns <= (int)count; columns++) {
+        int rows = ((int)count + columns - 1) / columns;
+        double empty = columns * rows - (double)count;
+        double score = fabs(log(area.w / columns / (area.h / rows) / PANEL_SHAPE)) + 0.25 * empty;
+        if (score < best_score) {
+            best_score = score;
+            best = columns;
+        }
+    }
+    return best;
+}
+
+static canvas_rect panel_frame(const pencil *p, const grid *g, int index) {
+    double gap = PANEL_GAP * p->scale;
+    double w = (g->area.w - gap * (g->columns - 1)) / g->columns;
+    double h = (g->area.h - gap * (g->rows - 1)) / g->rows;
+    canvas_rect frame = {g->area.x + index % g->columns * (w + gap), g->area.y + index / g->columns * (h + gap), w, h};
+    frame.y += g->heading;
+    frame.h -= g->heading;
+    return frame;
+}
+
+/* Title, subtitle, legend. Returns the y below them. */
+static double draw_head(const pencil *p, const chart *c, double width) {
+    double x = MARGIN * p->scale, y = 0.75 * MARGIN * p->scale, room = width - 2 * x;
+    words title = words_break(p, c->title, &p->title, room, 2);
+    y = words_draw(p, &title, &p->title, x, y) + 1 * p->scale;
+    words subtitle = words_break(p, c->subtitle, &p->small, room, 3);
+    y = words_draw(p, &subtitle, &p->small, x, y) + 0.75 * SPACE * p->scale;
+    legend l = legend_make(p, c, room);
+    if (l.count > 0)
+        y = legend_draw(p, &l, x, y) + 0.75 * SPACE * p->scale;
+    return y;
+}
+
+static void draw_caption(const pencil *p, const chart_axis *axis, canvas_align align, double x, double y, double room) {
+    char text[CHART_TEXT];
+    words w = words_break(p, axes_caption(axis, text), &p->text, room, 1);
+    if (w.count > 0)
+        canvas_text(p->c, x, y, w.lines[0], &p->text, align, 0);
+}
+
+static bool draw_panel(const pencil *p, const chart *c, const grid *g, int index) {
+    const chart_panel *panel = &c->panels[index];
+    axes a = {&panel->x, &panel->y, panel_frame(p, g, index)};
+    bool lowest = (size_t)(index + g->columns) >= c->panel_count, leftmost = index % g->columns == 0;
+    if (g->heading > 0) {
+        words w = words_break(p, panel->title, &p->heading, a.frame.w, 1);
+        words_draw(p, &w, &p->heading, a.frame.x, a.frame.y - g->heading);
+    }
+    if (panel->map.columns > 0) {
+        canvas_clip(p->c, a.frame);
+        bool good = heat_draw(p, &a, panel, &c->value, c->contours);
+        canvas_unclip(p->c);
+        if (!good)
+            return false;
+    } else {
+        axes_draw_grid(p, &a);
+    }
+    canvas_clip(p->c, (canvas_rect){a.frame.x, a.frame.y, a.frame.w + 1, a.frame.h + 1});
+    for (size_t s = 0; s < panel->series_count; s++)
+        if (panel->series[s].kind != CHART_POINTS)
+            series_draw(p, &a, &panel->series[s], s, panel->series_count);
+    canvas_unclip(p->c);
+    axes_draw_frame(p, &a, lowest, leftmost);
+    /* Points may stand on the frame; they are not cut by it. */
+    for (size_t s = 0; s < panel->series_count; s++)
+        if (panel->series[s].kind == CHART_POINTS)
+            series_draw(p, &a, &panel->series[s], s, panel->series_count);
+    return true;
+}
+
+static bool draw_page(const pencil *p, const chart *c, double width, double height) {
+    const chart_axis *x = &c->panels[0].x, *y = &c->panels[0].y;
+    double s = p->scale, caption = words_height(&p->text), label = words_height(&p->small);
+    canvas_fill(p->c, (canvas_rect){0, 0, width, height}, p->theme->background);
+    double top = draw_head(p, c, width) + caption;
+    double bottom = height - 0.75 * MARGIN * s - caption - label - TICK_ROOM * s;
+    grid g = {1, 1, {MARGIN * s, top, width - 2 * MARGIN * s, fmax(bottom - top, 40 * s)}, 0};
+    g.columns = columns_for(c->panel_count, g.area);
+    g.rows = ((int)c->panel_count + g.columns - 1) / g.columns;
+    g.heading = c->panel_count > 1 ? words_height(&p->heading) + 0.25 * SPACE * s : 0;
+    /* The topmost tick label rises half its height above the frame; the caption stays clear of it. */
+    double clear = g.heading > 0 ? 0.75 * SPACE * s : 0.5 * p->small.size + 0.75 * SPACE * s;
+    g.area.y += clear;
+    g.area.h -= clear;
+
+    /* Tick labels stand to the left of the panels, and half of the last one to their right. */
+    double panel_height = g.area.h / g.rows - g.heading;
+    double left = axes_label_width(p, y, panel_height) + TICK_ROOM * s;
+    double right = axes_x_label_width(p, x, g.area.w / g.columns) / 2;
+    double bar = c->value.label != NULL
+                     ? SPACE * 2 * s + BAR_WIDTH * s + TICK_ROOM * s + axes_label_width(p, &c->value, panel_height)
+                     : 0;
+    g.area.x += left;
+    g.area.w -= left + fmax(bar, right - 0.75 * MARGIN * s);
+
+    double above = g.area.y - clear, room = width - 2 * MARGIN * s;
+    draw_caption(p, y, CANVAS_LEFT, MARGIN * s, above, bar > 0 ? room * 0.46 : room);
+    draw_caption(p, x, CANVAS_MIDDLE, g.area.x + g.area.w / 2, height - 0.75 * MARGIN * s - 0.25 * caption,
+                 fmin(g.area.w + left, 2 * (width - MARGIN * s - g.area.x - g.area.w / 2)));
+    if (bar > 0) {
+        canvas_rect strip = {width - MARGIN * s - bar + 2 * SPACE * s, g.area.y + g.heading, BAR_WIDTH * s,
+                             g.area.h - g.heading};
+        draw_caption(p, &c->value, CANVAS_RIGHT, width - MARGIN * s, above, room * 0.5);
+        heat_draw_bar(p, strip, &c->value);
+    }
+    for (int i = 0; i < (int)c->panel_count; i++)
+        if (!draw_panel(p, c, &g, i))
+            return false;
+    return true;
+}
+
+void draw_digest(const chart *c, char out[17]) {
+    snprintf(out, 17, "%016" PRIx64, chart_digest(c));
+}
+
+/* One paragraph: title, what holds for all, then what is shown. */
+static void describe(const chart *c, char *out, size_t size) {
+    snprintf(out, size, "%s. %s.", c->title, c->subtitle);
+    for (size_t p = 0; p < c->panel_count; p++) {
+        const chart_panel *panel = &c->panels[p];
+        if (panel->title[0] != '\0')
+            snprintf(out + strlen(out), size - strlen(out), " %s.", panel->title);
+        for (size_t s = 0; s < panel->series_count; s++)
+            snprintf(out + strlen(out), size - strlen(out), "%s %s%s", s == 0 ? " Shown:" : ";", panel->series[s].name,
+                     s + 1 == panel->series_count ? "." : "");
+    }
+}
+
+bool draw_chart(const chart *c, const theme *t, canvas_format format, int width, int height, const char *command,
+                canvas_bytes *out) {
+    char digest[17], description[CHART_TEXT * 32], clean_title[CHART_TEXT], clean_command[4096];
+    char clean_description[sizeof description];
+    describe(c, description, sizeof description);
+    draw_digest(c, digest);
+    canvas_notes notes = {notes_clean(clean_title, sizeof clean_title, c->title),
+                          notes_clean(clean_description, sizeof clean_description, description),
+                          notes_clean(clean_command, sizeof clean_command, command), digest};
+    *out = (canvas_bytes){NULL, 0};
+    canvas *surface = canvas_new(format, width, height, &notes);
+    if (surface == NULL)
+        return false;
+    double scale = fmax(fmin(width / PAGE_WIDTH, height / PAGE_HEIGHT), 0.75);
+    pencil p = pencil_make(surface, t, scale);
+    bool good = draw_page(&p, c, width, height);
+    if (!canvas_finish(surface, out) || !good) {
+        free(out->at);
+        *out = (canvas_bytes){NULL, 0};
+        return false;
+    }
+    return true;
+}

@@ -1,0 +1,62 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/**
+ * @file figure.h  The figures, one row each. Adding a figure is writing its file and adding its row to figures.c.
+ *
+ * A figure is a function from set-ups to a chart; it computes with the library alone, the way the table does, and
+ * draws nothing. draw.h makes the picture.
+ */
+#ifndef PLOT_FIGURE_H
+#define PLOT_FIGURE_H
+
+#include <stdbool.h>
+#include <stddef.h>
+
+#include "depthprec/depthprec.h"
+#include "plot/chart.h"
+
+/** What is asked for. */
+typedef struct figure_request {
+    const dp_setup *setups; /**< at least one; all with the same planes and projection */
+    size_t count;
+    const char *const *names; /**< "unorm24 d3d" of each, for legends */
+    double lo, hi;            /**< eye depths to show; both NaN when the user left it to the figure */
+    double at;                /**< a single depth for the figures that take one, else NaN */
+    int columns;              /**< how finely to compute: pixel columns of the figure */
+} figure_request;
+
+typedef struct figure_row {
+    const char *name;
+    const char *title;
+    const char *summary; /**< one line for `depthprec list figures` */
+    size_t setups_max;   /**< most set-ups that stay legible */
+    bool takes_at;       /**< one depth may be given with --at */
+    /**
+     * Fills in an empty chart whose subtitle is set; an empty title is replaced by the row's when left empty.
+     * @return null, or a sentence about what of the request cannot be drawn; chart_failed() tells of memory
+     */
+    const char *(*build)(const figure_request *request, chart *out);
+} figure_row;
+
+/** Figures by index; null beyond the last. */
+const figure_row *figure_get(size_t index);
+
+/** The figure of a name; null when there is none. */
+const figure_row *figure_find(const char *name);
+
+/** Colour, stroke and marker of set-up i: the format decides the colour and the marker, the mapping the stroke;
+ *  where all share the one or the other, each set-up has its own of all three. */
+chart_style figure_style(const figure_request *request, size_t i);
+
+/** The range of a curve: what was asked, or near to far; to 1e6 near when far is infinite. */
+void figure_range(const figure_request *request, double *lo, double *hi);
+
+/** The usual horizontal axis, eye depth. */
+chart_axis figure_depth_axis(chart_scale scale, double lo, double hi);
+
+const char *distribution_build(const figure_request *request, chart *out);
+const char *share_build(const figure_request *request, chart *out);
+const char *error_build(const figure_request *request, chart *out);
+const char *interval_build(const figure_request *request, chart *out);
+const char *map_build(const figure_request *request, chart *out);
+
+#endif

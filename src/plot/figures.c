@@ -1,0 +1,71 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include <math.h>
+#include <string.h>
+
+#include "plot/figure.h"
+
+static const figure_row rows[] = {
+    {"distribution", "Where the codes are",
+     "the curve d(z) with every code carried over to z (up to 128 codes); codes per unit of depth for real formats",
+     CHART_SERIES, false, distribution_build},
+    {"share", "Share of the codes spent between near and z", "cumulative share of the codes between near and z",
+     CHART_SERIES, false, share_build},
+    {"error", "Worst error of the stored depth", "certified envelope of |stored - z| against z, log-log", CHART_SERIES,
+     false, error_build},
+    {"interval", "Z-fighting interval", "certified envelope of the z-fighting interval against z, log-log",
+     CHART_SERIES, false, interval_build},
+    {"map", "Worst z-fighting interval for each near and far plane",
+     "near against far, colour = worst z-fighting interval over the range, or the interval at --at Z", CHART_PANELS,
+     true, map_build},
+};
+
+const figure_row *figure_get(size_t index) {
+    return index < sizeof rows / sizeof *rows ? &rows[index] : NULL;
+}
+
+const figure_row *figure_find(const char *name) {
+    for (size_t i = 0; i < sizeof rows / sizeof *rows; i++)
+        if (strcmp(rows[i].name, name) == 0)
+            return &rows[i];
+    return NULL;
+}
+
+/* Which of the different formats (or mappings) set-up i has, counted in the order in which they appear. */
+static int rank(const figure_request *r, size_t i, bool mapping, int *kinds) {
+    size_t first[CHART_SERIES];
+    int count = 0, found = 0;
+    for (size_t k = 0; k < r->count && count < CHART_SERIES; k++) {
+        int same = -1;
+        for (int j = 0; j < count; j++) {
+            const dp_spec *a = &r->setups[first[j]].spec, *b = &r->setups[k].spec;
+            if (mapping ? a->mapping == b->mapping : strcmp(a->format.name, b->format.name) == 0)
+                same = j;
+        }
+        if (same < 0)
+            first[same = count++] = k;
+        if (k == i)
+            found = same;
+    }
+    *kinds = count;
+    return found;
+}
+
+chart_style figure_style(const figure_request *request, size_t i) {
+    int formats, mappings;
+    int format = rank(request, i, false, &formats), mapping = rank(request, i, true, &mappings);
+    if (formats > 1 && mappings > 1)
+        return (chart_style){format, mapping, format};
+    return (chart_style){(int)i, (int)i, (int)i};
+}
+
+void figure_range(const figure_request *request, double *lo, double *hi) {
+    const dp_spec *spec = &request->setups[0].spec;
+    *lo = isnan(request->lo) ? spec->znear : request->lo;
+    *hi = isnan(request->hi) ? spec->zfar : request->hi;
+    if (isinf(*hi))
+        *hi = fmax(spec->znear * 1e6, *lo * 1e3);
+}
+
+chart_axis figure_depth_axis(chart_scale scale, double lo, double hi) {
+    return (chart_axis){scale, lo, hi, "eye depth z", "z", "scene units"};
+}

@@ -1,0 +1,174 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "plot/heat.h"
+
+#include <math.h>
+#include <stdlib.h>
+
+#include "plot/series.h"
+
+enum { BAR_STEPS = 256 };
+
+static void draw_hatch(const pencil *p, canvas_rect f) {
+    canvas_pen pen = {.colour = p->theme->frame, .width = p->scale};
+    double step = 9 * p->scale;
+    pen.colour.a = 0.35;
+    canvas_fill(p->c, f, p->theme->empty);
+    for (double x = f.x - f.h; x < f.x + f.w; x += step)
+        canvas_segment(p->c, x, f.y + f.h, x + f.h, f.y, &pen);
+}
+
+static bool draw_pixels(const pencil *p, canvas_rect f, const chart_map *m, const chart_axis *value) {
+    size_t count = (size_t)m->columns * (size_t)m->rows;
+    uint32_t *pixels = calloc(count, sizeof *pixels);
+    if (pixels == NULL)
+        return false;
+    for (int row = 0; row < m->rows; row++)
+        for (int column = 0; column < m->columns; column++) {
+            double v = m->value[(size_t)row * (size_t)m->columns + (size_t)column];
+            if (!isnan(v))
+                pixels[(size_t)(m->rows - 1 - row) * (size_t)m->columns + (size_t)column] =
+                    theme_pixel(theme_viridis(chart_axis_share(value, v)));
+        }
+    canvas_image(p->c, f, m->columns, m->rows, pixels);
+    free(pixels);
+    return true;
+}
+
+/* Where the value crosses the level between two grid points, as a share of the way; NaN when it does not. */
+static double crossing(double from, double to, double level, chart_scale scale) {
+    if (scale == CHART_LOG) {
+        from = log(from);
+        to = log(to);
+        level = log(level);
+    }
+    return (from < level) != (to < level) && isfinite(from) && isfinite(to) ? (level - from) / (to - from)
+                                                                            : (double)NAN;
+}
+
+/* Marching squares on every CONTOUR_STRIDE-th point: lines as smooth to the eye, at a third of the size. The four edges
+ * of a square, from corner to corner; corners: 0 1 below, 2 3 above. */
+enum { CONTOUR_STRIDE = 3 };
+static const int edges[4][2] = {{0, 1}, {1, 3}, {2, 3}, {0, 2}};
+
+static void square_contour(const pencil *p, canvas_rect f, const chart_map *m, int column, int row, double level,
+                           chart_scale scale) {
+    double dx = f.w / m->columns, dy = f.h / m->rows, corner[4];
+    int at[4][2], found = 0;
+    for (int i = 0; i < 4; i++) {
+        at[i][0] = column + CONTOUR_STRIDE * (i & 1);
+        at[i][1] = row + CONTOUR_STRIDE * (i >> 1);
+        corner[i] = m->value[(size_t)at[i][1] * (size_t)m->columns + (size_t)at[i][0]];
+        if (isnan(corner[i]))
+            return;
+    }
+    for (int e = 0; e < 4; e++) {
+        const int *from = at[edges[e][0]], *to = at[edges[e][1]];
+        double t = crossing(corner[edges[e][0]], corner[edges[e][1]], level, scale);
+        if (isnan(t))
+            continue;
+        if (found++ % 2 == 0)
+            canvas_path_break(p->c);
+        canvas_path_to(p->c, f.x + (from[0] + 0.5 + t * (to[0] - from[0])) * dx,
+                       f.y + f.h - (from[1] + 0.5 + t * (to[1] - from[1])) * dy);
+    }
+}
+
+static void draw_contour(const pencil *p, canvas_rect f, const chart_map *m, double level, chart_scale scale,
+                         const canvas_pen *pen) {
+    canvas_path_begin(p->c);
+    for (int row = 0; row + CONTOUR_STRIDE < m->rows; row += CONTOUR_STRIDE)
+        for (int column = 0; column + CONTOUR_STRIDE < m->columns; column += CONTOUR_STRIDE)
+            square_contour(p, f, m, column, row, level, scale);
+    canvas_path_end(p->c, pen);
+}
+
+static double map_at(const chart_map *m, double x, double y) {
+    int column = (int)fmin(x * m->columns, m->columns - 1), row = (int)fmin(y * m->rows, m->rows - 1);
+    return m->value[(size_t)row * (size_t)m->columns + (size_t)column];
+}
+
+/* Where labels may not go: what is there already. */
+typedef struct boxes {
+    size_t count;
+    canvas_rect at[TICKS_MAX];
+} boxes;
+
+static bool free_place(const boxes *taken, canvas_rect frame, canvas_rect r) {
+    if (r.x < frame.x || r.y < frame.y || r.x + r.w > frame.x + frame.w || r.y + r.h > frame.y + frame.h)
+        return false;
+    for (size_t i = 0; i < taken->count; i++) {
+        const canvas_rect *t = &taken->at[i];
+        if (r.x < t->x + t->w && t->x < r.x + r.w && r.y < t->y + t->h && t->y < r.y + r.h)
+            return false;
+    }
+    return taken->count < TICKS_MAX;
+}
+
+static bool draw_label(const pencil *p, canvas_rect f, boxes *taken, canvas_point at, const char *text) {
+    canvas_font font = p->small;
+    double half = canvas_text_width(p->c, text, &font) / 2, gap = 3 * p->scale;
+    canvas_rect box = {at.x - half - gap, at.y - font.size / 2 - gap, 2 * (half + gap), font.size + 2 * gap};
+    if (!free_place(taken, f, box))
+        return false;
+    taken->at[taken->count++] = box;
+    font.colour = (canvas_colour){0, 0, 0, 1};
+    font.halo = (canvas_colour){1, 1, 1, 0.8};
+    canvas_text(p->c, at.x, at.y + 0.36 * font.size, text, &font, CANVAS_MIDDLE, 0);
+    return true;
+}
+
+/* One label a contour, where it meets a falling line: first the diagonal, the way on which such maps change most,
+ * then its neighbours to both sides. */
+static void draw_labels(const pencil *p, canvas_rect f, const chart_map *m, const ticks *levels, chart_scale scale,
+                        boxes *taken) {
+    enum { STEPS = 500 };
+    static const double shifts[] = {0, 0.15, -0.15, 0.3, -0.3, 0.45, -0.45, 0.6, -0.6};
+    for (size_t k = 0; k < levels->count; k++) {
+        const tick *level = &levels->items[k];
+        bool done = level->text[0] == '\0';
+        for (size_t shift = 0; shift < sizeof shifts / sizeof *shifts && !done; shift++) {
+            double before = (double)NAN;
+            for (int i = 0; i < STEPS && !done; i++) {
+                double x = (i + 0.5) / STEPS, y = 1 - x + shifts[shift];
+                double value = y >= 0 && y < 1 ? map_at(m, x, y) : (double)NAN;
+                if (!isnan(crossing(before, value, level->at, scale)))
+                    done = draw_label(p, f, taken, (canvas_point){f.x + x * f.w, f.y + (1 - y) * f.h}, level->text);
+                before = value;
+            }
+        }
+    }
+}
+
+bool heat_draw(const pencil *p, const axes *a, const chart_panel *panel, const chart_axis *value, bool contours) {
+    ticks levels;
+    boxes taken = {0};
+    const chart_map *m = &panel->map;
+    draw_hatch(p, a->frame);
+    if (!draw_pixels(p, a->frame, m, value))
+        return false;
+    if (!contours)
+        return true;
+    ticks_make(value, axes_room_y(p, a->frame.h), &levels);
+    for (size_t i = 0; i < levels.count; i++) {
+        if (levels.items[i].text[0] == '\0')
+            continue;
+        bool dark = chart_axis_share(value, levels.items[i].at) < 0.6;
+        canvas_pen pen = {.colour = {dark, dark, dark, dark ? 0.75 : 0.6}, .width = p->scale};
+        draw_contour(p, a->frame, m, levels.items[i].at, value->scale, &pen);
+    }
+    for (size_t s = 0; s < panel->series_count; s++)
+        for (size_t i = 0; panel->series[s].kind == CHART_POINTS && i < panel->series[s].count; i++)
+            if (taken.count < TICKS_MAX)
+                taken.at[taken.count++] = series_point_box(p, a, &panel->series[s], i);
+    draw_labels(p, a->frame, m, &levels, value->scale, &taken);
+    return true;
+}
+
+void heat_draw_bar(const pencil *p, canvas_rect strip, const chart_axis *value) {
+    uint32_t pixels[BAR_STEPS];
+    for (int i = 0; i < BAR_STEPS; i++)
+        pixels[i] = theme_pixel(theme_viridis(1 - (i + 0.5) / BAR_STEPS));
+    canvas_image(p->c, strip, 1, BAR_STEPS, pixels);
+    axes a = {value, value, strip};
+    axes_draw_scale(p, &a);
+}

@@ -1,0 +1,14 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/** @file heat.h  Draws a map: colours, the hatch where there is no value, contour lines with labels, the colour bar. */
+#ifndef PLOT_HEAT_H
+#define PLOT_HEAT_H
+
+#include "plot/axes.h"
+
+/** The map of a panel within its frame; contour labels keep clear of its points. @return false when out of memory */
+bool heat_draw(const pencil *p, const axes *a, const chart_panel *panel, const chart_axis *value, bool contours);
+
+/** The colour bar in a strip. */
+void heat_draw_bar(const pencil *p, canvas_rect strip, const chart_axis *value);
+
+#endif

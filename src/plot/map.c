@@ -1,0 +1,91 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include <math.h>
+#include <stdio.h>
+
+#include "plot/figure.h"
+
+/* Set-ups computed for the whole figure, shared between its panels. */
+enum { GRID_COLUMNS = 400, GRID_ROWS = 300 };
+
+/* How far the axes reach round the camera, as a factor. */
+static const double around = 100, infinite_from = 10, infinite_to = 1e7;
+
+/* What the colour shows for one camera; NaN when there is no such camera, or it does not see what was asked. */
+static double cell_value(const dp_setup *like, const figure_request *request, double znear, double zfar) {
+    dp_setup setup;
+    dp_spec spec = like->spec;
+    dp_sample sample;
+    dp_worst worst;
+    spec.znear = znear;
+    spec.zfar = zfar;
+    if (dp_setup_init(&setup, &spec) != DP_OK)
+        return NAN;
+    if (!isnan(request->at))
+        return dp_sample_at(&setup, request->at, &sample) == DP_OK ? sample.interval : (double)NAN;
+    double lo = isnan(request->lo) ? znear : request->lo, hi = isnan(request->hi) ? zfar : request->hi;
+    return dp_worst_over(&setup, lo, hi, &worst) == DP_OK ? worst.interval : (double)NAN;
+}
+
+static void fill(chart_map *m, const dp_setup *like, const figure_request *request) {
+#pragma omp parallel for schedule(dynamic, 4)
+    for (int row = 0; row < m->rows; row++)
+        for (int column = 0; column < m->columns; column++)
+            m->value[(size_t)row * (size_t)m->columns + (size_t)column] =
+                cell_value(like, request, m->x[column], m->y[row]);
+}
+
+static void add_camera(chart *out, chart_panel *panel, const dp_spec *spec, bool labelled) {
+    chart_series *s = chart_add_series(out, panel, CHART_POINTS, 1);
+    if (s == NULL)
+        return;
+    s->unlisted = true;
+    s->style = (chart_style){-1, 0, 0};
+    snprintf(s->name, sizeof s->name, "camera");
+    s->x[0] = spec->znear;
+    s->y[0] = isinf(spec->zfar) ? panel->y.hi : spec->zfar;
+    if (!labelled)
+        return;
+    s->labels = chart_memory(out, 1, sizeof *s->labels);
+    if (s->labels != NULL)
+        snprintf(s->labels[0], sizeof s->labels[0], isinf(spec->zfar) ? "near %.4g, far inf" : "near %.4g, far %.4g",
+                 spec->znear, spec->zfar);
+}
+
+static void add_panel(const figure_request *request, chart *out, size_t i, double shrink) {
+    const dp_setup *like = &request->setups[i];
+    const dp_spec *spec = &like->spec;
+    bool infinite = isinf(spec->zfar);
+    chart_panel *panel = chart_add_panel(out);
+    if (panel == NULL)
+        return;
+    panel->x = (chart_axis){
+        CHART_LOG,    fmax(spec->znear / around, 1e-12), fmin(spec->znear * around, 1e12), "near plane", "near",
+        "scene units"};
+    panel->y = (chart_axis){CHART_LOG,
+                            infinite ? spec->znear * infinite_from : spec->zfar / around,
+                            fmin(infinite ? spec->znear * infinite_to : spec->zfar * around, 1e18),
+                            "far plane",
+                            "far",
+                            "scene units"};
+    if (request->count > 1)
+        snprintf(panel->title, sizeof panel->title, "%s", request->names[i]);
+    if (!chart_add_map(out, panel, (int)(GRID_COLUMNS * shrink), (int)(GRID_ROWS * shrink)))
+        return;
+    fill(&panel->map, like, request);
+    add_camera(out, panel, spec, request->count == 1);
+}
+
+const char *map_build(const figure_request *request, chart *out) {
+    out->value = (chart_axis){
+        .scale = CHART_LOG, .label = "worst z-fighting interval", .key = "interval", .unit = "scene units"};
+    if (!isnan(request->at))
+        out->value.label = "z-fighting interval";
+    if (!isnan(request->at) && out->title[0] == '\0')
+        snprintf(out->title, sizeof out->title, "Z-fighting interval at depth %.6g for each near and far plane",
+                 request->at);
+    out->contours = true;
+    for (size_t i = 0; i < request->count; i++)
+        add_panel(request, out, i, 1 / sqrt((double)request->count));
+    chart_fit(out);
+    return NULL;
+}

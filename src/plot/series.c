@@ -1,0 +1,151 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "plot/series.h"
+
+#include <math.h>
+
+#include "plot/trace.h"
+
+#define MARKER_SPACING 120.0 /* px along x at scale 1 */
+
+static canvas_pen pen_of(const pencil *p, const chart_series *s) {
+    return theme_pen(p->theme, s->style.colour, s->style.stroke, p->scale);
+}
+
+void series_arrow(const pencil *p, double x, double y, canvas_colour colour) {
+    double half = 4.5 * p->scale, length = 9 * p->scale;
+    canvas_polygon(p->c, (canvas_point[]){{x, y}, {x + half, y + length}, {x - half, y + length}}, 3, colour);
+}
+
+/* Every second stroke has hollow markers: two curves of one colour that lie on each other still show. */
+static void draw_marker(const pencil *p, const chart_series *s, double x, double y, double size) {
+    int marker = s->style.marker < 0 ? 0 : s->style.marker;
+    theme_marker(p->c, p->theme, x, y, marker, s->style.colour, s->style.stroke % 2 == 1, size * p->scale);
+}
+
+static void draw_markers(const pencil *p, const axes *a, const chart_series *s, size_t index, size_t count) {
+    double spacing = fmin(MARKER_SPACING * p->scale, a->frame.w / 3);
+    double next = a->frame.x + spacing * ((double)index + 0.5) / (double)count;
+    for (size_t i = 0; i < s->count; i++) {
+        double x = axes_x(a, s->x[i]), y = axes_y(a, s->y[i]);
+        if (x < next || !isfinite(s->y[i]))
+            continue;
+        draw_marker(p, s, x, y, 1);
+        next += spacing * (1 + floor((x - next) / spacing));
+    }
+}
+
+static void draw_line(const pencil *p, const axes *a, const chart_series *s, size_t index, size_t count) {
+    canvas_pen pen = pen_of(p, s);
+    trace t = trace_start(p->c);
+    double end = NAN;
+    for (size_t i = 0; i < s->count; i++) {
+        if (isinf(s->y[i])) {
+            end = axes_x(a, s->x[i]);
+            trace_point(&t, end, a->frame.y);
+            break;
+        }
+        if (isnan(s->y[i]))
+            trace_break(&t);
+        else
+            trace_point(&t, axes_x(a, s->x[i]), axes_y(a, s->y[i]));
+    }
+    trace_finish(&t, &pen);
+    if (!isnan(end))
+        series_arrow(p, end, a->frame.y, pen.colour);
+    if (s->style.marker >= 0)
+        draw_markers(p, a, s, index, count);
+}
+
+/* From the height of a code on the left axis to the curve, and down to the bottom axis: the staircase. */
+static void draw_drops(const pencil *p, const axes *a, const chart_series *s, size_t index, size_t count) {
+    (void)index;
+    (void)count;
+    double bottom = a->frame.y + a->frame.h, rug = 7 * p->scale;
+    double crowd = fmax(1, (double)s->count / (a->frame.h / (7 * p->scale)));
+    canvas_pen thin = {.colour = p->theme->curves[s->style.colour % THEME_COLOURS]};
+    canvas_pen thick = thin;
+    thin.width = 1.1 * p->scale / sqrt(crowd);
+    thin.colour.a = 0.6;
+    thick.width = 1.6 * p->scale / sqrt(crowd);
+    for (size_t i = 0; i < s->count; i++) {
+        double x = axes_x(a, s->x[i]), y = axes_y(a, s->y[i]);
+        canvas_line(p->c, (canvas_point[]){{a->frame.x, y}, {x, y}, {x, bottom}}, 3, &thin);
+        canvas_segment(p->c, a->frame.x, y, a->frame.x + rug, y, &thick);
+        canvas_segment(p->c, x, bottom, x, bottom - rug, &thick);
+    }
+}
+
+/* A label stands to the right of its point, to the left where it would leave the frame, and never above the frame. */
+typedef struct point_label {
+    double x, baseline, width;
+    canvas_align align;
+    canvas_font font;
+} point_label;
+
+static point_label place_label(const pencil *p, const axes *a, const chart_series *s, size_t i) {
+    double x = axes_x(a, s->x[i]), y = axes_y(a, s->y[i]), gap = 9 * p->scale;
+    point_label l = {.font = p->small};
+    l.font.colour = p->theme->text;
+    l.font.halo = p->theme->background;
+    l.width = s->labels != NULL ? canvas_text_width(p->c, s->labels[i], &l.font) : 0;
+    bool left = x + gap + l.width > a->frame.x + a->frame.w;
+    l.align = left ? CANVAS_RIGHT : CANVAS_LEFT;
+    l.x = left ? x - gap : x + gap;
+    l.baseline = fmax(y + 0.36 * l.font.size, a->frame.y + 1.2 * l.font.size);
+    return l;
+}
+
+canvas_rect series_point_box(const pencil *p, const axes *a, const chart_series *s, size_t i) {
+    point_label l = place_label(p, a, s, i);
+    double x = axes_x(a, s->x[i]), half = 8 * p->scale;
+    double far_end = l.align == CANVAS_LEFT ? l.x + l.width : l.x - l.width;
+    double lo = fmin(x - half, far_end), hi = fmax(x + half, far_end);
+    return (canvas_rect){lo, l.baseline - 1.2 * l.font.size, hi - lo, 1.7 * l.font.size};
+}
+
+static void draw_points(const pencil *p, const axes *a, const chart_series *s, size_t index, size_t count) {
+    (void)index;
+    (void)count;
+    for (size_t i = 0; i < s->count; i++) {
+        draw_marker(p, s, axes_x(a, s->x[i]), axes_y(a, s->y[i]), 1.5);
+        if (s->labels == NULL)
+            continue;
+        point_label l = place_label(p, a, s, i);
+        canvas_text(p->c, l.x, l.baseline, s->labels[i], &l.font, l.align, 0);
+    }
+}
+
+static void swatch_line(const pencil *p, const chart_series *s, double x, double y, double width) {
+    canvas_pen pen = pen_of(p, s);
+    canvas_segment(p->c, x, y, x + width, y, &pen);
+    if (s->style.marker >= 0)
+        draw_marker(p, s, x + width / 2, y, 1);
+}
+
+static void swatch_drops(const pencil *p, const chart_series *s, double x, double y, double width) {
+    canvas_pen pen = {.colour = p->theme->curves[s->style.colour % THEME_COLOURS], .width = 1.1 * p->scale};
+    double half = 5 * p->scale;
+    for (int i = 1; i < 4; i++)
+        canvas_segment(p->c, x + width * i / 4, y - half, x + width * i / 4, y + half, &pen);
+}
+
+static void swatch_points(const pencil *p, const chart_series *s, double x, double y, double width) {
+    draw_marker(p, s, x + width / 2, y, 1.5);
+}
+
+static const struct {
+    void (*draw)(const pencil *, const axes *, const chart_series *, size_t index, size_t count);
+    void (*swatch)(const pencil *, const chart_series *, double x, double y, double width);
+} kinds[CHART_KIND_COUNT] = {
+    [CHART_LINE] = {draw_line, swatch_line},
+    [CHART_DROPS] = {draw_drops, swatch_drops},
+    [CHART_POINTS] = {draw_points, swatch_points},
+};
+
+void series_draw(const pencil *p, const axes *a, const chart_series *s, size_t index, size_t count) {
+    kinds[s->kind].draw(p, a, s, index, count);
+}
+
+void series_swatch(const pencil *p, const chart_series *s, double x, double y, double width) {
+    kinds[s->kind].swatch(p, s, x, y, width);
+}

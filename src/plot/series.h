@@ -1,0 +1,20 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/** @file series.h  Draws one series of a panel, and its swatch in the legend: a row of functions per kind. */
+#ifndef PLOT_SERIES_H
+#define PLOT_SERIES_H
+
+#include "plot/axes.h"
+
+/** @param index, count  this is series `index` of `count`: their markers are staggered, so that equal curves show */
+void series_draw(const pencil *p, const axes *a, const chart_series *s, size_t index, size_t count);
+
+/** A sample `width` px wide, centred at height y. */
+void series_swatch(const pencil *p, const chart_series *s, double x, double y, double width);
+
+/** What point i of CHART_POINTS covers with its label. */
+canvas_rect series_point_box(const pencil *p, const axes *a, const chart_series *s, size_t i);
+
+/** The arrow that ends a curve where its value grows without bound; its tip is at (x, y). */
+void series_arrow(const pencil *p, double x, double y, canvas_colour colour);
+
+#endif

@@ -1,0 +1,106 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "plot/ticks.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+/* Plain decades lie in [10^PLAIN_LO, 10^PLAIN_HI]. */
+enum { PLAIN_LO = -3, PLAIN_HI = 4 };
+
+static void add(ticks *out, const chart_axis *axis, double at, const char *text) {
+    double share = chart_axis_share(axis, at);
+    if (out->count == TICKS_MAX || !(share >= -1e-9 && share <= 1 + 1e-9))
+        return;
+    tick *t = &out->items[out->count++];
+    t->at = at;
+    snprintf(t->text, sizeof t->text, "%s", text);
+}
+
+static void superscript(char *out, size_t size, int power) {
+    static const char *const digits[] = {"\u2070", "\u00b9", "\u00b2", "\u00b3", "\u2074",
+                                         "\u2075", "\u2076", "\u2077", "\u2078", "\u2079"};
+    char plain[16];
+    snprintf(plain, sizeof plain, "%d", power < 0 ? -power : power);
+    snprintf(out, size, "%s", power < 0 ? "\u207b" : "");
+    for (const char *p = plain; *p != '\0'; p++)
+        snprintf(out + strlen(out), size - strlen(out), "%s", digits[*p - '0']);
+}
+
+void ticks_label(double value, bool powers, char out[TICKS_TEXT]) {
+    if (!powers || value == 0) {
+        snprintf(out, TICKS_TEXT, fabs(value) >= 1e3 && fabs(value) < 1e6 ? "%.6g" : "%.3g", value);
+        return;
+    }
+    int power = (int)floor(log10(fabs(value)) + 1e-9);
+    double factor = value / pow(10, power);
+    char raised[16];
+    superscript(raised, sizeof raised, power);
+    if (fabs(factor - 1) < 1e-6)
+        snprintf(out, TICKS_TEXT, "10%s", raised);
+    else
+        snprintf(out, TICKS_TEXT, "%.3g\u00b710%s", factor, raised);
+}
+
+static void linear(const chart_axis *axis, int room, ticks *out) {
+    double span = axis->hi - axis->lo, step = pow(10, floor(log10(span / room)));
+    static const double factors[] = {1, 2, 5, 10, 20};
+    for (size_t i = 0; i < 5; i++)
+        if (floor(span / (step * factors[i])) + 1 <= room) {
+            step *= factors[i];
+            break;
+        }
+    double first = ceil(axis->lo / step - 1e-9);
+    for (int i = 0; i < TICKS_MAX && (first + i) * step <= axis->hi + 1e-9 * span; i++) {
+        double at = (first + i) * step;
+        double largest = fmax(fabs(axis->lo), fabs(axis->hi));
+        int digits = (int)fmin(17, fmax(3, floor(log10(largest / step)) + 2));
+        char text[TICKS_TEXT];
+        if (fabs(at) < step * 1e-6)
+            at = 0;
+        /* Plain numbers from 10000 to 999999 too: 20000 reads better than 2e+04. */
+        snprintf(text, sizeof text, "%.*g", largest >= 1e4 && largest < 1e6 && step >= 1 ? 6 : digits, at);
+        add(out, axis, at, text);
+    }
+}
+
+static void decades(const chart_axis *axis, int room, ticks *out) {
+    int first = (int)ceil(log10(axis->lo) - 1e-9), last = (int)floor(log10(axis->hi) + 1e-9);
+    bool powers = first < PLAIN_LO || last > PLAIN_HI;
+    int stride = 1;
+    while ((last - first) / stride + 1 > room)
+        stride++;
+    for (int power = first - 1; power <= last; power++) {
+        double decade = pow(10, power);
+        char text[TICKS_TEXT] = "";
+        if (power % stride == 0) /* by the power itself: so that 1 is labelled, and two axes agree */
+            ticks_label(decade, powers, text);
+        add(out, axis, decade, text);
+        for (int factor = 2; stride == 1 && factor < 10; factor++) {
+            text[0] = '\0';
+            if ((factor == 2 || factor == 5) && last - first < 2 && 3 * (last - first + 1) <= room)
+                ticks_label(factor * decade, powers, text);
+            add(out, axis, factor * decade, text);
+        }
+    }
+}
+
+static size_t labelled(const ticks *t) {
+    size_t count = 0;
+    for (size_t i = 0; i < t->count; i++)
+        count += t->items[i].text[0] != '\0';
+    return count;
+}
+
+void ticks_make(const chart_axis *axis, int room, ticks *out) {
+    out->count = 0;
+    if (room < 2)
+        room = 2;
+    if (axis->scale == CHART_LOG) {
+        decades(axis, room, out);
+        if (labelled(out) >= 2)
+            return;
+        out->count = 0;
+    }
+    linear(axis, room, out);
+}

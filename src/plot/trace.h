@@ -1,0 +1,33 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/**
+ * @file trace.h  Thins a curve on its way to the canvas without a visible change.
+ *
+ * First to the first, least, greatest and last point of each pixel column, so that a million points cost no more than
+ * the picture is wide; then to the corners of a polyline that stays within TRACE_TOLERANCE of every point left.
+ * x must not decrease.
+ */
+#ifndef PLOT_TRACE_H
+#define PLOT_TRACE_H
+
+#include "plot/canvas.h"
+
+#define TRACE_TOLERANCE 0.1 /* px */
+
+typedef struct trace {
+    canvas *c;
+    bool column_open; /* the pixel column being gathered */
+    canvas_point first, least, greatest, last;
+    bool anchored; /* the segment being stretched */
+    canvas_point anchor, end;
+    double slope_lo, slope_hi;
+    size_t emitted;
+} trace;
+
+trace trace_start(canvas *c);
+void trace_point(trace *t, double x, double y);
+void trace_break(trace *t);
+
+/** Draws what was traced. @return how many points the canvas was given */
+size_t trace_finish(trace *t, const canvas_pen *pen);
+
+#endif

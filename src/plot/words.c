@@ -1,0 +1,68 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "plot/words.h"
+
+#include <stdio.h>
+#include <string.h>
+
+#define ELLIPSIS "\u2026"
+
+/* Shortens a line from its end, whole UTF-8 characters at a time, until it fits with an ellipsis. */
+static void cut(const pencil *p, char line[WORDS_TEXT], const canvas_font *font, double width) {
+    size_t length = strlen(line);
+    if (length > WORDS_TEXT - sizeof ELLIPSIS)
+        length = WORDS_TEXT - sizeof ELLIPSIS;
+    do {
+        while (length > 0 && (line[length] & 0xC0) == 0x80)
+            length--;
+        while (length > 0 && line[length - 1] == ' ')
+            length--;
+        memcpy(line + length, ELLIPSIS, sizeof ELLIPSIS);
+    } while (length > 0 && canvas_text_width(p->c, line, font) > width && length-- > 0);
+}
+
+words words_break(const pencil *p, const char *text, const canvas_font *font, double width, size_t max_lines) {
+    words w = {0};
+    while (*text == ' ')
+        text++;
+    while (*text != '\0' && w.count < max_lines) {
+        char *line = w.lines[w.count++];
+        if (w.count == max_lines) { /* the last line takes what is left */
+            snprintf(line, WORDS_TEXT, "%s", text);
+            if (canvas_text_width(p->c, line, font) > width)
+                cut(p, line, font, width);
+            break;
+        }
+        size_t fits = 0;
+        for (size_t end = strcspn(text, " ");; end += 1 + strcspn(text + end + 1, " ")) {
+            snprintf(line, WORDS_TEXT, "%.*s", (int)end, text);
+            if (end >= WORDS_TEXT || canvas_text_width(p->c, line, font) > width)
+                break;
+            fits = end;
+            if (text[end] == '\0')
+                break;
+        }
+        if (fits == 0) { /* one word wider than the line */
+            fits = strcspn(text, " ");
+            snprintf(line, WORDS_TEXT, "%.*s", (int)fits, text);
+            cut(p, line, font, width);
+        } else {
+            snprintf(line, WORDS_TEXT, "%.*s", (int)fits, text);
+        }
+        text += fits;
+        while (*text == ' ')
+            text++;
+    }
+    return w;
+}
+
+double words_height(const canvas_font *font) {
+    return 1.35 * font->size;
+}
+
+double words_draw(const pencil *p, const words *w, const canvas_font *font, double x, double y) {
+    for (size_t i = 0; i < w->count; i++) {
+        canvas_text(p->c, x, y + font->size, w->lines[i], font, CANVAS_LEFT, 0);
+        y += words_height(font);
+    }
+    return y;
+}

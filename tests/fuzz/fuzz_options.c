@@ -1,0 +1,85 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/*
+ * The command line as anybody might mangle it: arguments are the lines of the input. Whatever is accepted must give
+ * set-ups, depths and a range that keep what the headers promise.
+ */
+#include <math.h>
+#include <stdint.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "cli/setups.h"
+
+enum { ARGUMENTS_MAX = 32 };
+
+int LLVMFuzzerInitialize(int *argc, char ***argv);
+int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size);
+
+int LLVMFuzzerInitialize(int *argc, char ***argv) {
+    (void)argc, (void)argv;
+    /* Errors are expected, thousands of them a second. */
+    return freopen("/dev/null", "w", stderr) == NULL;
+}
+
+static void demand(int truth) {
+    if (!truth)
+        abort();
+}
+
+static int asks_for_help(char **argv) {
+    for (; *argv != NULL; argv++)
+        if (strncmp(*argv, "--h", 3) == 0 || strncmp(*argv, "--vers", 6) == 0 || (**argv == '-' && strchr(*argv, 'h')))
+            return 1;
+    return 0;
+}
+
+static void use(const options *o) {
+    setups all;
+    depths at;
+    double lo;
+    double hi;
+    if (setups_make(o, &all) != EXIT_FINE)
+        return;
+    demand(all.count == o->format_count * o->mapping_count);
+    if (range_resolve(o, &lo, &hi) == EXIT_FINE)
+        demand(o->znear <= lo && lo < hi && hi <= o->zfar);
+    if (depths_resolve(o, 9, &at) == EXIT_FINE) {
+        demand(at.count >= 1 && at.count <= DEPTHS_MAX);
+        size_t step = at.count / 16 + 1;
+        for (size_t i = 0; i < at.count; i += step) {
+            dp_sample sample;
+            demand(dp_sample_at(&all.items[0], depths_get(&at, i), &sample) == DP_OK);
+        }
+        demand(at.kind == DEPTHS_LIST || depths_get(&at, at.count - 1) == at.hi);
+    }
+    char label[SETUP_LABEL_SIZE];
+    demand(strlen(setup_label(&all.items[all.count - 1], true, label)) < SETUP_LABEL_SIZE - 1);
+    setups_release(&all);
+}
+
+int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size) {
+    char *text = malloc(size + 1);
+    char *argv[ARGUMENTS_MAX + 2] = {(char[]){"depthprec"}};
+    int argc = 1;
+    if (text == NULL)
+        return 0;
+    memcpy(text, data, size);
+    text[size] = '\0';
+    for (char *line = text; line != NULL && argc < ARGUMENTS_MAX;) {
+        char *end = strchr(line, '\n');
+        if (end != NULL)
+            *end++ = '\0';
+        argv[argc++] = line;
+        line = end;
+    }
+    argv[argc] = NULL;
+    if (!asks_for_help(argv)) { /* that would print to stdout and close it */
+        options o;
+        if (options_parse(&o, argc, argv) < 0)
+            use(&o);
+        options_release(&o);
+    }
+    free(text);
+    return 0;
+}

@@ -1,0 +1,25 @@
+#!/bin/sh
+# SPDX-License-Identifier: GPL-3.0-or-later
+# Each public header compiles alone and twice over, as C11 and as C++17, with the strictest warnings.
+. tests/tap.sh
+
+strict="-Iinclude -pedantic -Wall -Wextra -Wconversion -Werror -fsyntax-only"
+
+alone() { # alone HEADER COMPILER...
+    header=$1
+    shift
+    printf '#include "depthprec/%s"\n#include "depthprec/%s"\n' "$header" "$header" | "$@" $strict -
+}
+
+for path in include/depthprec/*.h; do
+    header=${path##*/}
+    check "$header as C11 ($CC)" alone "$header" $CC -std=c11 -x c
+    for cxx in g++ clang++; do
+        if command -v $cxx >/dev/null 2>&1; then
+            check "$header as C++17 ($cxx)" alone "$header" $cxx -std=c++17 -x c++
+        else
+            skip "$header as C++17 ($cxx)" "no $cxx"
+        fi
+    done
+done
+finish

@@ -1,0 +1,80 @@
+#!/bin/sh
+# SPDX-License-Identifier: GPL-3.0-or-later
+# Installs into a folder, uses what was installed as a stranger would, and takes it away again.
+. tests/tap.sh
+
+stage=$scratch/stage
+unset MAKEFLAGS MFLAGS MAKELEVEL
+install_to() { make --no-print-directory "$1" DESTDIR="$stage" PREFIX=/usr; }
+check "make install" install_to install
+[ $failures -eq 0 ] || { finish; exit 1; }
+
+export PKG_CONFIG_SYSROOT_DIR="$stage" PKG_CONFIG_LIBDIR="$stage/usr/lib/pkgconfig"
+export PKG_CONFIG_ALLOW_SYSTEM_CFLAGS=1 PKG_CONFIG_ALLOW_SYSTEM_LIBS=1
+cat >"$scratch/user.c" <<'END'
+#include <depthprec/depthprec.h>
+#include <stdio.h>
+int main(void) {
+    dp_format format[2];
+    dp_spec spec = dp_spec_default();
+    dp_setup setup;
+    if (dp_format_parse("unorm24", format) != 1)
+        return 1;
+    spec.format = format[0];
+    if (dp_setup_init(&setup, &spec) != DP_OK)
+        return 1;
+    printf("%u\n", (unsigned)dp_code(&setup, 10.0));
+    return 0;
+}
+END
+
+# expect_code PROGRAM: near 0.1, far 1000, z 10: round((1000/999.9) (1 - 0.01) (2^24 - 1)) is 16611104
+expect_code() { [ "$(LD_LIBRARY_PATH=$stage/usr/lib "$1")" = 16611104 ]; }
+build_shared() { $CC -o "$scratch/shared" "$scratch/user.c" $(pkg-config --cflags --libs depthprec); }
+build_static() {
+    $CC -o "$scratch/static" "$scratch/user.c" $(pkg-config --static --cflags --libs depthprec |
+        sed 's/-ldepthprec/-l:libdepthprec.a/')
+}
+needs() { readelf -d "$1" | grep -q "NEEDED.*$2"; }
+needs_not() { [ -x "$1" ] && ! needs "$@"; }
+
+header_version() { sed -n 's/^#define DP_VERSION "\(.*\)"/\1/p' include/depthprec/depthprec.h; }
+same_version() { [ "$(pkg-config --modversion depthprec)" = "$(header_version)" ]; }
+soname() { readelf -d "$stage/usr/lib/libdepthprec.so" | grep -q 'SONAME.*\[libdepthprec\.so\.0\]'; }
+
+check "pkg-config knows the version" same_version
+check "a program links with the shared library" build_shared
+check "it needs libdepthprec.so.0" needs "$scratch/shared" 'libdepthprec\.so\.0'
+check "it prints the right code" expect_code "$scratch/shared"
+check "a program links with the static library" build_static
+check "it needs no libdepthprec.so" needs_not "$scratch/static" libdepthprec
+check "it prints the right code" expect_code "$scratch/static"
+check "the SONAME is libdepthprec.so.0" soname
+
+exported() { nm -D --defined-only "$stage/usr/lib/libdepthprec.so.0" | sed 's/.* //' | sort; }
+declared() { cat include/depthprec/*.h | tr '\n' ' ' | grep -oE 'DP_API [^(;]*\(' | grep -oE 'dp_[a-z0-9_]+\($' | tr -d '(' | sort; }
+exports_declared() {
+    exported >"$scratch/exported"
+    declared >"$scratch/declared"
+    diff "$scratch/declared" "$scratch/exported" && grep -q . "$scratch/declared"
+}
+check "the library exports exactly what the headers declare with DP_API" exports_declared
+
+pages() {
+    for page in man/*.[1-9]; do
+        [ ! -e "$page" ] || cmp "$page" "$stage/usr/share/man/man${page##*.}/${page##*/}" || return 1
+    done
+}
+table() { "$stage/usr/bin/depthprec" table -n 0.1 -f 1000 -F unorm24 -m d3d --at 10 --csv | grep -q ',16611104,'; }
+figure() { "$stage/usr/bin/depthprec" plot error -o "$scratch/error.svg" && grep -q '</svg>' "$scratch/error.svg"; }
+needed() { readelf -d "$1" | sed -n 's/.*(NEEDED).*\[\(lib[a-z]*\)\.so.*/\1/p' | sort | tr '\n' ' '; }
+only_libc() { case $(needed "$stage/usr/bin/depthprec") in 'libc ' | 'libc libm ') ;; *) return 1 ;; esac; }
+check "the manual pages are installed" pages
+check "the installed program prints the right code" table
+check "the installed program needs only libc and libm" only_libc
+check "it finds depthprec-full in libexec and draws" figure
+
+check "make uninstall" install_to uninstall
+nothing_left() { [ -d "$stage" ] && empty find "$stage" ! -type d; }
+check "nothing is left" nothing_left
+finish

@@ -1,0 +1,58 @@
+#!/bin/sh
+# SPDX-License-Identifier: GPL-3.0-or-later
+# The rules of the house: an include goes down only, one file knows cairo, and the core needs nothing but libm.
+. tests/tap.sh
+
+# folder | the layers that its files may include
+layers='
+include/depthprec | depthprec
+src/core          | depthprec core
+src/texture       | depthprec core texture
+src/method        | depthprec core texture method
+src/need          | depthprec core need
+src/plot          | depthprec core plot
+src/cli           | depthprec core texture method need plot cli
+'
+
+strangers() { # strangers FOLDER LAYER...: prints the quoted includes that name another layer, or none
+    folder=$1
+    shift
+    grep -Hn '^[[:space:]]*#[[:space:]]*include[[:space:]]*"' "$folder"/*.[ch] 2>/dev/null |
+        grep -vE "\"($(echo "$*" | tr ' ' '|'))/[a-z0-9_]+\.h\""
+}
+
+includes() { # includes WHAT FOLDER...: prints the includes of <WHAT...>
+    what=$1
+    shift
+    grep -rn "^[[:space:]]*#[[:space:]]*include[[:space:]]*[<\"]$what" "$@"
+}
+
+cairo_elsewhere() { includes cairo include src | grep -v '^src/plot/canvas\.c:'; }
+
+echo "$layers" >"$scratch/layers"
+while IFS='|' read -r folder allowed; do
+    folder=${folder%% *}
+    [ -d "$folder" ] || continue
+    check "$folder includes only: ${allowed# }" empty strangers "$folder" $allowed
+done <"$scratch/layers"
+check "every folder of src has its row" empty sh -c 'for d in src/*/; do grep -q "^${d%/} " "$1" || echo "$d"; done' - "$scratch/layers"
+check "cairo is included in src/plot/canvas.c alone" empty cairo_elsewhere
+check "GSL is not in the library" empty includes gsl/ include src/core
+
+# What the library may take from outside itself: the C library's memory and string functions, libm, and what
+# compilers add by themselves.
+outside='mem(cpy|move|set|cmp|chr)|str(len|n?cmp|n?cpy|n?cat|r?chr|spn|cspn|pbrk|str|tod|toull?|toll?)'
+outside="$outside|(sqrt|fabs|floor|ceil|trunc|rint|nearbyint|round|lrint|llrint|fma|fmin|fmax|fmod|frexp|ldexp|scalbn)f?"
+outside="$outside|(ilogb|logb|exp|exp2|expm1|log|log2|log10|log1p|pow|cbrt|hypot|nextafter|copysign|remainder)f?"
+outside="$outside|(sin|cos|tan|asin|acos|atan|atan2)f?|fe[gs]etround"
+outside="$outside|__stack_chk_fail|__cpu_model|__cpu_indicator_init|__(popcount|clz|ctz)[a-z0-9]*"
+outside="$outside|__cxa_finalize|__gmon_start__|_ITM_(de)?registerTMCloneTable"
+foreign() { nm -D --undefined-only "$B/libdepthprec.so.0" | sed 's/^.* //; s/@.*//' | grep -vxE "$outside"; }
+check "the library needs only memory, strings and libm: no allocation, no output" empty foreign
+
+# Constant tables of pointers lie in .data.rel.ro, read-only once loaded; anything in .data or .bss could change.
+mutable() { objdump -t "$B/libdepthprec.a" | awk '/\*COM\*| \.(data|bss|tdata|tbss)(\.[^r][^ \t]*)?[ \t]/ && $NF !~ /^\./ { print $NF }'; }
+check "the library keeps no state between calls" empty mutable
+global() { nm -g --defined-only "$B/libdepthprec.a" | awk 'NF == 3 && $3 !~ /^dp_/ { print $3 }'; }
+check "every global name of the library begins with dp_" empty global
+finish

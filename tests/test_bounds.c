@@ -1,0 +1,266 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Certified worst cases against the exhaustive sweep of all codes. */
+#include <math.h>
+#include <stdio.h>
+
+#include "oracle.h"
+#include "support.h"
+#include "sweep.h"
+
+static const double bound = 1e-12;
+
+static int above_by_little(double got, const mpq_t want) {
+    if (!isfinite(got))
+        return 0;
+    mpq_t x;
+    mpq_init(x);
+    mpq_set_d(x, got);
+    int right = mpq_cmp(x, want) >= 0 && oracle_relative(got, want) <= bound;
+    mpq_clear(x);
+    return right;
+}
+
+static void check_worst(const dp_spec *spec, double lo, double hi, tally *t) {
+    char text[256];
+    oracle_describe(spec, text, sizeof text);
+    dp_setup setup;
+    dp_worst got = {0};
+    dp_status status = dp_setup_init(&setup, spec);
+    if (status == DP_OK)
+        status = dp_worst_over(&setup, lo, hi, &got);
+    if (status != DP_OK)
+        fail_msg("%s over %a .. %a: %s", text, lo, hi, dp_status_text(status));
+    oracle o;
+    sweep want;
+    oracle_init(&o, spec);
+    sweep_init(&want);
+    sweep_over(&want, &o, lo, hi);
+
+    TALLY(t, got.lo == lo && got.hi == hi, "%s: range %a .. %a comes back as %a .. %a", text, lo, hi, got.lo, got.hi);
+    const sweep_best *e = &want.error, *w = &want.interval;
+    if (e->infinite) {
+        TALLY(t, isinf(got.error) && got.error > 0, "%s over %a .. %a: error %g, should be infinite", text, lo, hi, got.error);
+        TALLY(t, got.error_z >= oracle_double(e->z) * (1 - bound), "%s over %a .. %a: error_z %g, nearer than %g", text, lo, hi,
+              got.error_z, oracle_double(e->z));
+    } else {
+        TALLY(t, above_by_little(got.error, e->value), "%s over %a .. %a: error %.17g, should be %.17g at %.17g code %u (%.3g rel)", text,
+              lo, hi, got.error, oracle_double(e->value), oracle_double(e->z), e->code, got.error / oracle_double(e->value) - 1);
+        TALLY(t, oracle_relative(got.error_z, e->z) <= bound, "%s over %a .. %a: error_z %.17g (code %u), should be %.17g (code %u)",
+              text, lo, hi, got.error_z, got.error_code, oracle_double(e->z), e->code);
+        TALLY(t, got.error_code == e->code || got.error_code == e->other,
+              "%s over %a .. %a: error code %u, should be %u", text, lo, hi, got.error_code, e->code);
+    }
+    TALLY(t, got.interval_code == w->code, "%s over %a .. %a: interval code %u, should be %u", text, lo, hi, got.interval_code,
+          w->code);
+    TALLY(t, oracle_relative(got.interval_lo, w->z) <= bound, "%s over %a .. %a: interval_lo %.17g, should be %.17g", text, lo,
+          hi, got.interval_lo, oracle_double(w->z));
+    if (w->infinite) {
+        TALLY(t, isinf(got.interval) && isinf(got.interval_hi), "%s over %a .. %a: interval %g .. %g, should be infinite", text,
+              lo, hi, got.interval, got.interval_hi);
+    } else {
+        TALLY(t, above_by_little(got.interval, w->value), "%s over %a .. %a: interval %.17g, should be %.17g (%.3g rel)", text, lo, hi,
+              got.interval, oracle_double(w->value), got.interval / oracle_double(w->value) - 1);
+        TALLY(t, oracle_relative(got.interval_hi, want.interval_hi) <= bound,
+              "%s over %a .. %a: interval_hi %.17g, should be %.17g", text, lo, hi, got.interval_hi,
+              oracle_double(want.interval_hi));
+    }
+    if (want.blind)
+        TALLY(t, oracle_relative(got.blind_from, want.blind_from) <= bound,
+              "%s over %a .. %a: blind from %.17g, should be %.17g", text, lo, hi, got.blind_from,
+              oracle_double(want.blind_from));
+    else
+        TALLY(t, isnan(got.blind_from), "%s over %a .. %a: blind from %g, but no cell is unbounded", text, lo, hi,
+              got.blind_from);
+    sweep_clear(&want);
+    oracle_clear(&o);
+}
+
+/* ---- fixed cameras: every kind ---- */
+
+typedef struct camera {
+    dp_mapping mapping;
+    int ortho;
+    double znear, zfar, log_c;
+    dp_rounding rounding;
+    double lo, hi; /* 0, 0: the whole range */
+} camera;
+
+static const camera cameras[] = {
+    {DP_MAPPING_D3D, 0, 0.1, 1000, 1, DP_ROUND_NEAREST, 0, 0},
+    {DP_MAPPING_REVERSED, 0, 0.1, 1000, 1, DP_ROUND_NEAREST, 0, 0},
+    {DP_MAPPING_GL, 0, 0.01, 10000, 1, DP_ROUND_EVEN, 0.5, 432.1},
+    {DP_MAPPING_GL_REVERSED, 0, 1, 1e9, 1, DP_ROUND_NEAREST, 17, 3e6},
+    {DP_MAPPING_D3D, 0, 0.3, 77.7, 1, DP_ROUND_ZERO, 0, 0},
+    {DP_MAPPING_D3D, 1, 0.1, 1000, 1, DP_ROUND_NEAREST, 0, 0},
+    {DP_MAPPING_REVERSED, 1, 0.7, 333.3, 1, DP_ROUND_NEAREST, 1, 300},
+    {DP_MAPPING_LINEAR, 0, 0.1, 1000, 1, DP_ROUND_NEAREST, 0, 0},
+    {DP_MAPPING_LOG, 0, 0.1, 1e7, 1, DP_ROUND_NEAREST, 0, 0},
+    {DP_MAPPING_LOG, 0, 1e-3, 1e5, 0.001, DP_ROUND_NEAREST, 0.7, 5e4},
+    {DP_MAPPING_D3D, 0, 0.1, (double)INFINITY, 1, DP_ROUND_NEAREST, 0.1, 5000},
+    {DP_MAPPING_REVERSED, 0, 0.25, (double)INFINITY, 1, DP_ROUND_NEAREST, 0.25, 1e6},
+    {DP_MAPPING_D3D, 0, 1e-12, 1e18, 1, DP_ROUND_NEAREST, 1e-11, 1e-3},
+    {DP_MAPPING_REVERSED, 0, 1e12, 1.00001e12, 1, DP_ROUND_NEAREST, 0, 0},
+};
+enum { CAMERAS = sizeof cameras / sizeof *cameras };
+
+static dp_spec spec_of(const camera *c, const dp_format *format) {
+    dp_spec spec = dp_spec_default();
+    spec.mapping = c->mapping;
+    spec.ortho = c->ortho;
+    spec.znear = c->znear;
+    spec.zfar = c->zfar;
+    spec.log_c = c->log_c;
+    spec.rounding = c->rounding;
+    spec.format = *format;
+    return spec;
+}
+
+static void sweep_format(const dp_format *format, tally *t) {
+    for (int i = 0; i < CAMERAS; i++) {
+        const camera *c = &cameras[i];
+        dp_spec spec = spec_of(c, format);
+        check_worst(&spec, c->lo > 0 ? c->lo : c->znear, c->hi > 0 ? c->hi : c->zfar, t);
+    }
+}
+
+static void sweep_small(void **state) {
+    (void)state;
+    tally t = {.name = "fp16, unorm16 and small formats"};
+    const dp_format formats[] = {oracle_float(5, 10, 15), oracle_unorm(16),      oracle_unorm(1),
+                                 oracle_unorm(4),         oracle_float(3, 3, 5), oracle_float(3, 3, 3),
+                                 oracle_float(2, 1, 1),   oracle_float(8, 4, 200)};
+    for (size_t i = 0; i < sizeof formats / sizeof *formats; i++)
+        sweep_format(&formats[i], &t);
+    tally_end(&t);
+}
+
+static void sweep_unorm24(void **state) {
+    (void)state;
+    tally t = {.name = "unorm24"};
+    dp_format format = oracle_unorm(24);
+    sweep_format(&format, &t);
+    tally_end(&t);
+}
+
+static void sweep_fp32(void **state) {
+    (void)state;
+    tally t = {.name = "fp32"};
+    dp_format format = oracle_float(8, 23, 127);
+    sweep_format(&format, &t);
+    tally_end(&t);
+}
+
+/* ---- random cameras and ranges ---- */
+
+static void random_ranges(void **state) {
+    (void)state;
+    rng r = rng_make("bounds");
+    tally t = {.name = "random cameras and ranges"};
+    uint64_t count = test_cases(60, 3000, 10000);
+    for (uint64_t i = 0; i < count; i++) {
+        dp_spec spec = dp_spec_default();
+        int kind = (int)rng_below(&r, 14); /* 6 mappings, 4 orthographic, 4 infinite */
+        spec.mapping = (dp_mapping)(kind < 6 ? kind : kind < 10 ? kind - 6 : kind - 10);
+        spec.ortho = kind >= 6 && kind < 10;
+        spec.rounding = (dp_rounding)rng_below(&r, DP_ROUNDING_COUNT);
+        spec.znear = rng_below(&r, 2) ? rng_log(&r, 0.01, 10) : rng_log(&r, 1e-12, 1e12);
+        spec.zfar = rng_below(&r, 2) ? spec.znear * rng_log(&r, 2, 1e6)
+                                     : fmin(1e18, spec.znear * (1 + rng_log(&r, 1.0001e-6, 1e30)));
+        if (kind >= 10)
+            spec.zfar = INFINITY;
+        spec.log_c = rng_below(&r, 2) ? 1 : rng_log(&r, 1e-6, 1e6);
+        int e = 2 + (int)rng_below(&r, 7), pick = (int)rng_below(&r, 6);
+        if (pick < 2)
+            spec.format = oracle_unorm(pick == 0 ? 16 : 1 + (int)rng_below(&r, 20));
+        else if (pick < 4)
+            spec.format = oracle_float(5, 10, 15);
+        else if (pick == 4)
+            spec.format = oracle_float(e, 1 + (int)rng_below(&r, 12), 1 + (int)rng_below(&r, (1u << e) - 1));
+        else
+            spec.format = oracle_float(8, 23, 127);
+        double zfar = isinf(spec.zfar) ? spec.znear * 1e9 : spec.zfar;
+        double lo = rng_log(&r, spec.znear, zfar), hi = rng_log(&r, spec.znear, zfar);
+        if (spec.format.bits > 24) { /* a short range of a long format */
+            hi = fmin(zfar, lo * (1 + rng_log(&r, 1e-9, 1e-2)));
+        } else {
+            switch (rng_below(&r, 6)) {
+            case 0:
+                lo = spec.znear;
+                hi = zfar;
+                break;
+            case 1:
+                hi = lo;
+                break;
+            case 2: /* within a cell or a few */
+                hi = fmin(zfar, lo * (1 + rng_log(&r, 1e-15, 1e-3)));
+                break;
+            case 3:
+                hi = spec.zfar;
+                break;
+            default:
+                break;
+            }
+        }
+        check_worst(&spec, fmin(lo, hi), fmax(lo, hi), &t);
+    }
+    tally_end(&t);
+}
+
+static void infinite_range(void **state) {
+    (void)state;
+    tally t = {.name = "infinite range"};
+    const dp_format formats[] = {oracle_float(5, 10, 15), oracle_unorm(16), oracle_unorm(24), oracle_float(8, 23, 127)};
+    for (int i = 0; i < 4; i++) {
+        for (int m = DP_MAPPING_D3D; m <= DP_MAPPING_GL_REVERSED; m++) {
+            dp_setup setup;
+            dp_worst got;
+            dp_spec spec = dp_spec_default();
+            spec.mapping = (dp_mapping)m;
+            spec.format = formats[i];
+            spec.zfar = INFINITY;
+            assert_int_equal(dp_setup_init(&setup, &spec), DP_OK);
+            assert_int_equal(dp_worst_over(&setup, spec.znear, INFINITY, &got), DP_OK);
+            uint32_t last = m >= DP_MAPPING_REVERSED ? 0 : formats[i].code_max;
+            oracle o;
+            oracle_cell cell;
+            oracle_init(&o, &spec);
+            oracle_cell_init(&cell);
+            oracle_cell_of(&o, &cell, last);
+            TALLY(&t, isinf(got.error) && isinf(got.interval) && isinf(got.interval_hi), "%s %d: not infinite",
+                  formats[i].name, m);
+            TALLY(&t, got.error_code == last && got.interval_code == last, "%s %d: codes %u and %u", formats[i].name, m,
+                  got.error_code, got.interval_code);
+            TALLY(&t, oracle_relative(got.blind_from, cell.lo) <= bound && got.interval_lo == got.blind_from,
+                  "%s %d: blind from %g, cell from %g", formats[i].name, m, got.blind_from, got.interval_lo);
+            oracle_cell_clear(&cell);
+            oracle_clear(&o);
+        }
+    }
+    tally_end(&t);
+}
+
+int main(void) {
+    const struct CMUnitTest quick[] = {
+        cmocka_unit_test(sweep_small),
+        cmocka_unit_test(random_ranges),
+        cmocka_unit_test(infinite_range),
+    };
+    const struct CMUnitTest check[] = {
+        cmocka_unit_test(sweep_small),
+        cmocka_unit_test(random_ranges),
+        cmocka_unit_test(infinite_range),
+        cmocka_unit_test(sweep_unorm24),
+    };
+    const struct CMUnitTest full[] = {
+        cmocka_unit_test(sweep_small),   cmocka_unit_test(random_ranges), cmocka_unit_test(infinite_range),
+        cmocka_unit_test(sweep_unorm24), cmocka_unit_test(sweep_fp32),
+    };
+    switch (test_effort()) {
+    case EFFORT_QUICK:
+        return run_tap(quick);
+    case EFFORT_FULL:
+        return run_tap(full);
+    default:
+        return run_tap(check);
+    }
+}

@@ -1,0 +1,145 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Numbers in and out: what is read, and that the quick shortest digits are those of printf and strtod. */
+#include <float.h>
+#include <math.h>
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include <cmocka.h>
+
+#include "cli/number.h"
+#include "cli/shortest.h"
+
+static const char *reference(double value, char out[64]) {
+    for (int digits = 15; digits <= 17; digits++) {
+        snprintf(out, 64, "%.*g", digits, value);
+        if (strtod(out, NULL) == value)
+            break;
+    }
+    return out;
+}
+
+static void same_as_reference(double value) {
+    char got[NUMBER_SIZE];
+    char want[64];
+    size_t length = number_shortest(value, got);
+    assert_string_equal(got, reference(value, want));
+    assert_int_equal(length, strlen(got));
+}
+
+/* xorshift: the same numbers in every run. */
+static uint64_t next(uint64_t *state) {
+    *state ^= *state << 13;
+    *state ^= *state >> 7;
+    *state ^= *state << 17;
+    return *state;
+}
+
+static void random_bits(void **unused) {
+    (void)unused;
+    uint64_t state = 20140611;
+    long quick = 0;
+    long inside = 0;
+    for (int i = 0; i < 300000; i++) {
+        uint64_t bits = next(&state);
+        if (i % 2 == 0) /* half of them where the quick way works */
+            bits = (bits & 0x800FFFFFFFFFFFFFU) | (897 + (bits >> 52) % 180) << 52;
+        double value;
+        char text[SHORTEST_SIZE];
+        memcpy(&value, &bits, sizeof value);
+        if (!isfinite(value))
+            continue;
+        same_as_reference(value);
+        inside += fabs(value) >= 1e-38 && fabs(value) < 1e17;
+        quick += shortest_quick(value, text) > 0;
+    }
+    printf("# seed 20140611; the quick way served %ld of %ld\n", quick, inside);
+    assert_true(quick > inside / 2);
+}
+
+/* Decimals as people type them, which need few digits, and their neighbours, which need seventeen. */
+static void short_decimals(void **unused) {
+    (void)unused;
+    uint64_t state = 7;
+    for (int i = 0; i < 100000; i++) {
+        char text[64];
+        snprintf(text, sizeof text, "%de%d", (int)(next(&state) % 100000), (int)(next(&state) % 50) - 38);
+        double value = strtod(text, NULL);
+        same_as_reference(value);
+        same_as_reference(nextafter(value, INFINITY));
+        same_as_reference(0.0 - value); /* a zero stays without sign */
+    }
+}
+
+static void edges(void **unused) {
+    (void)unused;
+    for (int e = -320; e <= 308; e++) {
+        char text[16];
+        snprintf(text, sizeof text, "1e%d", e);
+        double power = strtod(text, NULL);
+        same_as_reference(power);
+        same_as_reference(nextafter(power, 0.0));
+        same_as_reference(nextafter(power, INFINITY));
+    }
+    for (int e = -1074; e < 1024; e++)
+        same_as_reference(ldexp(1.0, e));
+    same_as_reference(0.0);
+    same_as_reference(DBL_MAX);
+    same_as_reference(999999999.0);
+    same_as_reference(1000000000.0);
+    char text[NUMBER_SIZE];
+    number_shortest(INFINITY, text);
+    assert_string_equal(text, "inf");
+}
+
+static void reading(void **unused) {
+    (void)unused;
+    static const struct {
+        const char *text;
+        number_kind kind;
+        int good;
+        double value;
+    } cases[] = {
+        {"1", NUMBER_FINITE, 1, 1.0},          {"+0.5", NUMBER_FINITE, 1, 0.5},
+        {".5", NUMBER_FINITE, 1, 0.5},         {"-2e3", NUMBER_FINITE, 1, -2000.0},
+        {"0x1p-3", NUMBER_FINITE, 1, 0.125},   {"0", NUMBER_FINITE, 1, 0.0},
+        {"4e-320", NUMBER_FINITE, 1, 4e-320},  {"inf", NUMBER_FAR, 1, INFINITY},
+        {"INFINITY", NUMBER_FAR, 1, INFINITY}, {"+inf", NUMBER_FAR, 1, INFINITY},
+        {"inf", NUMBER_FINITE, 0, 0.0},        {"-inf", NUMBER_FAR, 0, 0.0},
+        {"nan", NUMBER_FAR, 0, 0.0},           {"", NUMBER_FAR, 0, 0.0},
+        {" 1", NUMBER_FINITE, 0, 0.0},         {"1 ", NUMBER_FINITE, 0, 0.0},
+        {"1,5", NUMBER_FINITE, 0, 0.0},        {"1e400", NUMBER_FAR, 0, 0.0},
+        {"1e-400", NUMBER_FINITE, 0, 0.0},     {"--1", NUMBER_FINITE, 0, 0.0},
+        {"1e", NUMBER_FINITE, 0, 0.0},         {".", NUMBER_FINITE, 0, 0.0},
+        {"0x", NUMBER_FINITE, 0, 0.0},         {"infx", NUMBER_FAR, 0, 0.0},
+        {"- 1", NUMBER_FINITE, 0, 0.0},        {"+", NUMBER_FINITE, 0, 0.0},
+        {"1\n", NUMBER_FINITE, 0, 0.0},
+    };
+    for (size_t i = 0; i < sizeof cases / sizeof cases[0]; i++) {
+        double value = -7.0;
+        assert_int_equal(number_parse(cases[i].text, cases[i].kind, &value), cases[i].good);
+        assert_true(value == (cases[i].good ? cases[i].value : -7.0));
+    }
+    unsigned long count = 0;
+    assert_true(number_parse_count("1000000", 1000000, &count) && count == 1000000);
+    assert_false(number_parse_count("1000001", 1000000, &count));
+    assert_false(number_parse_count("99999999999999999999999999", 1000000, &count));
+    assert_false(number_parse_count("", 10, &count));
+    assert_false(number_parse_count("-1", 10, &count));
+    assert_true(number_parse_count("007", 10, &count) && count == 7);
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(reading),
+        cmocka_unit_test(random_bits),
+        cmocka_unit_test(short_decimals),
+        cmocka_unit_test(edges),
+    };
+    return cmocka_run_group_tests_name("number", tests, NULL, NULL);
+}

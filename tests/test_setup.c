@@ -1,0 +1,235 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* The doors: what is refused, with which status, and that nothing is written then. */
+#include <ctype.h>
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+#include "oracle.h"
+#include "support.h"
+
+static void refuse(const dp_spec *spec, dp_status want, int line) {
+    unsigned char before[sizeof(dp_setup)];
+    dp_setup setup;
+    memset(&setup, 0xA5, sizeof setup);
+    memcpy(before, &setup, sizeof setup);
+    dp_status got = dp_setup_init(&setup, spec);
+    char text[256];
+    if (got != want)
+        fail_msg("line %d: status %d (%s), should be %d (%s): %s", line, got, dp_status_text(got), want,
+                 dp_status_text(want), spec ? oracle_describe(spec, text, sizeof text) : "null");
+    if (memcmp(before, &setup, sizeof setup) != 0)
+        fail_msg("line %d: the set-up was written to in spite of %s", line, dp_status_text(got));
+}
+
+static void accept_spec(const dp_spec *spec, int line) {
+    dp_setup setup;
+    dp_status got = dp_setup_init(&setup, spec);
+    char text[256];
+    if (got != DP_OK)
+        fail_msg("line %d: refused: %s: %s", line, dp_status_text(got), oracle_describe(spec, text, sizeof text));
+    assert_memory_equal(&setup.spec.znear, &spec->znear, sizeof spec->znear);
+    assert_memory_equal(&setup.spec.zfar, &spec->zfar, sizeof spec->zfar);
+}
+
+#define REFUSE(want, ...)                                                                                              \
+    do {                                                                                                               \
+        dp_spec spec = dp_spec_default();                                                                              \
+        __VA_ARGS__;                                                                                                   \
+        refuse(&spec, want, __LINE__);                                                                                 \
+    } while (0)
+#define ACCEPT(...)                                                                                                    \
+    do {                                                                                                               \
+        dp_spec spec = dp_spec_default();                                                                              \
+        __VA_ARGS__;                                                                                                   \
+        accept_spec(&spec, __LINE__);                                                                                  \
+    } while (0)
+
+static void defaults(void **state) {
+    (void)state;
+    dp_spec spec = dp_spec_default();
+    assert_true(spec.znear == 0.1 && spec.zfar == 1000 && spec.ortho == 0 && spec.log_c == 1);
+    assert_true(spec.mapping == DP_MAPPING_D3D && spec.rounding == DP_ROUND_NEAREST && spec.model == DP_MODEL_EXACT);
+    assert_string_equal(spec.format.name, "fp32");
+    accept_spec(&spec, __LINE__);
+}
+
+static void near_plane(void **state) {
+    (void)state;
+    static const double bad[] = {0.0, -0.0, -0.1, -INFINITY, INFINITY, NAN, 1e-13, 1e13, -1e300, 0x1p-1074};
+    for (size_t i = 0; i < sizeof bad / sizeof *bad; i++)
+        REFUSE(DP_ERROR_NEAR, spec.znear = bad[i]; spec.zfar = INFINITY);
+    REFUSE(DP_ERROR_NEAR, spec.znear = nextafter(1e-12, 0));
+    REFUSE(DP_ERROR_NEAR, spec.znear = nextafter(1e12, INFINITY); spec.zfar = 1e18);
+    ACCEPT(spec.znear = 1e-12);
+    ACCEPT(spec.znear = 1e12; spec.zfar = 1e18);
+}
+
+static void far_plane(void **state) {
+    (void)state;
+    static const double bad[] = {0.0, -1.0, -INFINITY, NAN, 0.05, 0.1, 1e19, 0x1p-1074};
+    for (size_t i = 0; i < sizeof bad / sizeof *bad; i++)
+        REFUSE(DP_ERROR_FAR, spec.zfar = bad[i]);
+    REFUSE(DP_ERROR_FAR, spec.zfar = nextafter(1e18, INFINITY));
+    REFUSE(DP_ERROR_FAR, spec.zfar = 1.7976931348623157e308);
+    ACCEPT(spec.zfar = 1e18);
+    ACCEPT(spec.zfar = INFINITY);
+    ACCEPT(spec.znear = 1e-12; spec.zfar = 1e18);
+}
+
+static void too_close(void **state) {
+    (void)state;
+    REFUSE(DP_ERROR_PLANES, spec.znear = 1; spec.zfar = nextafter(1, 2));
+    REFUSE(DP_ERROR_PLANES, spec.znear = 1; spec.zfar = 1 + 0.99e-6);
+    REFUSE(DP_ERROR_PLANES, spec.znear = 1e-12; spec.zfar = 1e-12 * (1 + 0.99e-6));
+    REFUSE(DP_ERROR_PLANES, spec.znear = 1e12; spec.zfar = 1e12 * (1 + 0.99e-6));
+    ACCEPT(spec.znear = 1; spec.zfar = 1 + 1.01e-6);
+    ACCEPT(spec.znear = 1e-12; spec.zfar = 1e-12 * (1 + 1.01e-6));
+    ACCEPT(spec.znear = 1e12; spec.zfar = 1e12 * (1 + 1.01e-6));
+}
+
+static void infinite_far(void **state) {
+    (void)state;
+    static const dp_mapping perspective[] = {DP_MAPPING_D3D, DP_MAPPING_GL, DP_MAPPING_REVERSED, DP_MAPPING_GL_REVERSED};
+    for (int i = 0; i < 4; i++) {
+        ACCEPT(spec.mapping = perspective[i]; spec.zfar = INFINITY);
+        ACCEPT(spec.mapping = perspective[i]; spec.ortho = 1);
+        REFUSE(DP_ERROR_INFINITE, spec.mapping = perspective[i]; spec.zfar = INFINITY; spec.ortho = 1);
+    }
+    REFUSE(DP_ERROR_INFINITE, spec.mapping = DP_MAPPING_LINEAR; spec.zfar = INFINITY);
+    REFUSE(DP_ERROR_INFINITE, spec.mapping = DP_MAPPING_LOG; spec.zfar = INFINITY);
+    ACCEPT(spec.mapping = DP_MAPPING_LINEAR);
+    ACCEPT(spec.mapping = DP_MAPPING_LOG);
+}
+
+static void orthographic(void **state) {
+    (void)state;
+    REFUSE(DP_ERROR_ORTHO, spec.mapping = DP_MAPPING_LINEAR; spec.ortho = 1);
+    REFUSE(DP_ERROR_ORTHO, spec.mapping = DP_MAPPING_LOG; spec.ortho = 1);
+    ACCEPT(spec.ortho = -1);
+}
+
+static void log_constant(void **state) {
+    (void)state;
+    static const double bad[] = {0.0, -1.0, 1e-13, 1e13, NAN, INFINITY, -INFINITY};
+    for (size_t i = 0; i < sizeof bad / sizeof *bad; i++) {
+        REFUSE(DP_ERROR_LOG_C, spec.mapping = DP_MAPPING_LOG; spec.log_c = bad[i]);
+        ACCEPT(spec.log_c = bad[i]); /* read for log only */
+    }
+    ACCEPT(spec.mapping = DP_MAPPING_LOG; spec.log_c = 1e-12);
+    ACCEPT(spec.mapping = DP_MAPPING_LOG; spec.log_c = 1e12);
+}
+
+static void bad_rows(void **state) {
+    (void)state;
+    REFUSE(DP_ERROR_MAPPING, spec.mapping = DP_MAPPING_COUNT);
+    REFUSE(DP_ERROR_MAPPING, spec.mapping = (dp_mapping)-1);
+    REFUSE(DP_ERROR_ROUNDING, spec.rounding = DP_ROUNDING_COUNT);
+    REFUSE(DP_ERROR_ROUNDING, spec.rounding = (dp_rounding)-1);
+    REFUSE(DP_ERROR_MODEL, spec.model = DP_MODEL_COUNT);
+    REFUSE(DP_ERROR_MODEL, spec.model = (dp_model)-1);
+    REFUSE(DP_ERROR_FORMAT, memset(&spec.format, 0, sizeof spec.format));
+    REFUSE(DP_ERROR_FORMAT, memset(&spec.format, 0xFF, sizeof spec.format));
+    REFUSE(DP_ERROR_FORMAT, spec.format.kind = (dp_format_kind)2);
+    REFUSE(DP_ERROR_FORMAT, spec.format = oracle_unorm(16); spec.format.bits = 0);
+    REFUSE(DP_ERROR_FORMAT, spec.format = oracle_unorm(16); spec.format.bits = 33);
+    REFUSE(DP_ERROR_FORMAT, spec.format = oracle_unorm(16); spec.format.code_max = 65536);
+    REFUSE(DP_ERROR_FORMAT, spec.format.mantissa_bits = 24);
+    REFUSE(DP_ERROR_FORMAT, spec.format.exponent_bits = 9);
+    REFUSE(DP_ERROR_FORMAT, spec.format.bias = 0);
+    REFUSE(DP_ERROR_FORMAT, spec.format.code_max++);
+}
+
+static void null_pointers(void **state) {
+    (void)state;
+    dp_setup setup;
+    dp_spec spec = dp_spec_default();
+    refuse(NULL, DP_ERROR_NULL, __LINE__);
+    assert_int_equal(dp_setup_init(NULL, &spec), DP_ERROR_NULL);
+    assert_int_equal(dp_setup_init(NULL, NULL), DP_ERROR_NULL);
+    assert_int_equal(dp_setup_init(&setup, &spec), DP_OK);
+    dp_sample sample;
+    dp_worst worst;
+    assert_int_equal(dp_sample_at(NULL, 1, &sample), DP_ERROR_NULL);
+    assert_int_equal(dp_sample_at(&setup, 1, NULL), DP_ERROR_NULL);
+    assert_int_equal(dp_worst_over(NULL, 1, 2, &worst), DP_ERROR_NULL);
+    assert_int_equal(dp_worst_over(&setup, 1, 2, NULL), DP_ERROR_NULL);
+}
+
+static void depths(void **state) {
+    (void)state;
+    static const double bad[] = {0.0, -1.0, NAN, INFINITY, -INFINITY, 0x1p-1074, 1e300};
+    dp_setup setup;
+    dp_spec spec = dp_spec_default();
+    assert_int_equal(dp_setup_init(&setup, &spec), DP_OK);
+    double more[] = {nextafter(0.1, 0), nextafter(1000, INFINITY)};
+    for (size_t i = 0; i < 9; i++) {
+        double z = i < 7 ? bad[i] : more[i - 7];
+        dp_sample sample;
+        unsigned char before[sizeof sample];
+        memset(&sample, 0x5A, sizeof sample);
+        memcpy(before, &sample, sizeof sample);
+        assert_int_equal(dp_sample_at(&setup, z, &sample), DP_ERROR_DEPTH);
+        assert_memory_equal(before, &sample, sizeof sample);
+    }
+    dp_sample sample;
+    assert_int_equal(dp_sample_at(&setup, 0.1, &sample), DP_OK);
+    assert_int_equal(dp_sample_at(&setup, 1000, &sample), DP_OK);
+}
+
+static void ranges(void **state) {
+    (void)state;
+    double below = nextafter(0.1, 0), above = nextafter(1000, INFINITY);
+    const double bad[][2] = {{2, 1},        {below, 1},     {1, above}, {NAN, 1},      {1, NAN},      {NAN, NAN},
+                             {1, INFINITY}, {INFINITY, 1},  {-1, 1},    {0, 1},        {-INFINITY, 1}, {2000, 3000},
+                             {0.01, 0.02},  {1000, 0.1}};
+    dp_setup setup;
+    dp_spec spec = dp_spec_default();
+    assert_int_equal(dp_setup_init(&setup, &spec), DP_OK);
+    for (size_t i = 0; i < sizeof bad / sizeof *bad; i++) {
+        dp_worst worst;
+        unsigned char before[sizeof worst];
+        memset(&worst, 0x5A, sizeof worst);
+        memcpy(before, &worst, sizeof worst);
+        dp_status got = dp_worst_over(&setup, bad[i][0], bad[i][1], &worst);
+        if (got != DP_ERROR_RANGE)
+            fail_msg("range %g .. %g gives status %d", bad[i][0], bad[i][1], got);
+        assert_memory_equal(before, &worst, sizeof worst);
+    }
+    dp_worst worst;
+    assert_int_equal(dp_worst_over(&setup, 0.1, 1000, &worst), DP_OK);
+    assert_int_equal(dp_worst_over(&setup, 5, 5, &worst), DP_OK);
+}
+
+static void texts(void **state) {
+    (void)state;
+    for (int i = 0; i < DP_STATUS_COUNT; i++) {
+        const char *text = dp_status_text((dp_status)i);
+        assert_non_null(text);
+        size_t length = strlen(text);
+        assert_true(length > 0);
+        assert_true(text[length - 1] != '.');
+        assert_null(strchr(text, '\n'));
+        for (int k = 0; k < i; k++)
+            assert_string_not_equal(text, dp_status_text((dp_status)k));
+    }
+    assert_non_null(dp_status_text(DP_STATUS_COUNT));
+    assert_non_null(dp_status_text((dp_status)-1));
+    assert_non_null(dp_status_text((dp_status)1000000));
+    assert_string_equal(dp_model_name(DP_MODEL_EXACT), "exact");
+    for (int i = 0; i < DP_MODEL_COUNT; i++)
+        assert_non_null(dp_model_name((dp_model)i));
+    assert_null(dp_model_name(DP_MODEL_COUNT));
+    assert_null(dp_model_name((dp_model)-1));
+    assert_string_equal(dp_version(), DP_VERSION);
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(defaults),     cmocka_unit_test(near_plane),   cmocka_unit_test(far_plane),
+        cmocka_unit_test(too_close),    cmocka_unit_test(infinite_far), cmocka_unit_test(orthographic),
+        cmocka_unit_test(log_constant), cmocka_unit_test(bad_rows),     cmocka_unit_test(null_pointers),
+        cmocka_unit_test(depths),       cmocka_unit_test(ranges),       cmocka_unit_test(texts),
+    };
+    return run_tap(tests);
+}
