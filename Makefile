@@ -50,27 +50,28 @@ FUZZ_PROGRAMS := $(patsubst tests/fuzz/%.c,$(B)/%,$(FUZZ))
 
 # ---- Flags: CC, CFLAGS, CPPFLAGS and LDFLAGS are the user's; what correctness needs stands apart ------------------
 
+CFLAGS ?= $(or $(OPTIMIZE_$(CONF)),-O1 -g)
+OPTIMIZE_release := -O3
+
 SANITIZE := address,undefined -fno-sanitize-recover=all -fno-omit-frame-pointer
-CFLAGS_release := -O3
-CFLAGS_asan := -O1 -g -fsanitize=$(SANITIZE)
-CFLAGS_coverage := -O0 -g --coverage
-CFLAGS_fuzz := -O1 -g -fsanitize=fuzzer-no-link,$(SANITIZE)
-CFLAGS ?= $(CFLAGS_$(CONF))
+MODE_asan := -fsanitize=$(SANITIZE)
+MODE_coverage := --coverage
+MODE_fuzz := -fsanitize=fuzzer-no-link,$(SANITIZE)
+MODE := $(MODE_$(CONF))
 ifeq ($(CONF)-$(origin CC),fuzz-default)
 CC := clang
 endif
 
 WARN := -Wall -Wextra -Wshadow -Wconversion -Wdouble-promotion -Wstrict-prototypes $(WERROR)
 EXACT := -fno-math-errno -ffp-contract=off -fopenmp-simd
-OPENMP := $(if $(filter fuzz,$(CONF)),,-fopenmp)
 INCLUDES := -Iinclude -Isrc -Itests
-COMPILE = $(CC) -std=gnu11 $(INCLUDES) $(CPPFLAGS) $(WARN) $(CFLAGS) $(EXACT) -fvisibility=hidden -fPIC -MMD -MP
-LINK = $(CC) $(CFLAGS) $(LDFLAGS) -Wl,--as-needed
+COMPILE = $(CC) -std=gnu11 $(INCLUDES) $(CPPFLAGS) $(WARN) $(CFLAGS) $(MODE) $(EXACT) -fvisibility=hidden -fPIC -MMD -MP
+LINK = $(CC) $(CFLAGS) $(MODE) $(LDFLAGS) -Wl,--as-needed
 
 Q := $(if $(filter 1,$(V)),,@)
 say = @$(if $(Q),printf '  %-7s %s\n' $(1) $@,:)
 JOBS ?= $(shell nproc 2>/dev/null || echo 1)
-SUBMAKE = $(MAKE) --no-print-directory $(if $(findstring -j,$(MAKEFLAGS)),,-j$(JOBS))
+PARALLEL = --no-print-directory --output-sync=target $(if $(findstring -j,$(MAKEFLAGS)),,-j$(JOBS))
 
 # ---- Build -------------------------------------------------------------------------------------------------------
 
@@ -84,7 +85,7 @@ DEMO_CAMERA := --near 0.1 --far 1000 --format all --mapping d3d,reversed
 DEMO_FIGURES := $(foreach f,distribution share error interval map,$f.svg $f.png)
 demo:
 	@sh src/packages.sh build
-	@$(SUBMAKE) all
+	@$(MAKE) $(PARALLEL) all
 	@$(B)/depthprec table $(DEMO_CAMERA)
 	@mkdir -p $(B)/demo
 	@for f in $(DEMO_FIGURES); do $(B)/depthprec plot $${f%.*} $(DEMO_CAMERA) -o $(B)/demo/$$f || exit 1; done
@@ -99,18 +100,19 @@ $(B)/obj/%.o: %.c Makefile
 	$(Q)$(COMPILE) $(EXTRA) -c -o $@ $<
 
 # The rooms above the core may use the big libraries and threads; the core and the light program may not.
-$(ROOMS_O): EXTRA = $(OPENMP) @$(B)/build.cflags
+$(ROOMS_O): EXTRA = @$(B)/build.cflags
 $(ROOMS_O): | $(B)/build.cflags
 $(TESTS_O) $(SUPPORT_O): EXTRA = @$(B)/check.cflags
 $(TESTS_O) $(SUPPORT_O): | $(B)/check.cflags
 
-# pkg-config is asked when a recipe runs, because it may have been installed a moment ago.
+# pkg-config is asked when a recipe runs, because it may have been installed a moment ago. Not every clang has OpenMP.
 $(B)/build.cflags $(B)/check.cflags: $(B)/%.cflags: Makefile
 	@mkdir -p $(@D)
 	@pkg-config --cflags $(PKGS_$*) 2>/dev/null >$@ || \
 	    { echo "depthprec: not everything of $(PKGS_$*) is installed: run 'make packages' (or 'make demo')" >&2; exit 1; }
+	@echo 'int main(void) { return 0; }' | $(CC) -fopenmp -x c -o $@.probe - 2>/dev/null && echo -fopenmp >>$@; rm -f $@.probe
 $(B)/build.libs $(B)/check.libs: $(B)/%.libs: $(B)/%.cflags
-	@pkg-config --libs $(PKGS_$*) >$@
+	@pkg-config --libs $(PKGS_$*) >$@ && sed -n '/^-fopenmp/p' $< >>$@
 
 $(B)/libdepthprec.a: $(CORE_O)
 $(B)/libcli.a: $(CLI_O)
@@ -133,7 +135,7 @@ $(B)/depthprec: $(B)/obj/src/cli/main.o $(B)/libcli.a $(B)/libdepthprec.a
 
 $(B)/depthprec-full: $(CLI_O) $(ROOMS_O) $(B)/libdepthprec.a | $(B)/build.libs
 	$(call say,LD)
-	$(Q)$(LINK) $(OPENMP) -o $@ $^ @$(B)/build.libs -lm
+	$(Q)$(LINK) -o $@ $^ @$(B)/build.libs -lm
 
 # ---- Tests -------------------------------------------------------------------------------------------------------
 
@@ -144,7 +146,7 @@ RUN_TESTS = $(TEST_PROGRAMS) $(if $(filter release,$(CONF)),$(SHELL_TESTS),$(fil
 
 check:
 	@sh src/packages.sh check
-	@$(SUBMAKE) all check-programs
+	@$(MAKE) $(PARALLEL) all check-programs
 	@B=$(B) CC='$(CC)' DEPTHPREC=$(CURDIR)/$(B)/depthprec sh tests/run.sh $(RUN_TESTS)
 
 check-programs: $(TEST_PROGRAMS)
@@ -158,17 +160,17 @@ asan:
 $(B)/tests/%: $(B)/obj/tests/%.o $(B)/libsupport.a $(B)/librooms.a $(B)/libdepthprec.a | $(B)/check.libs $(B)/build.libs
 	@mkdir -p $(@D)
 	$(call say,LD)
-	$(Q)$(LINK) $(OPENMP) -o $@ $^ @$(B)/check.libs @$(B)/build.libs -lm
+	$(Q)$(LINK) -o $@ $^ @$(B)/check.libs @$(B)/build.libs -lm
 
 FUZZ_SECONDS ?= 20
 ifeq ($(CONF),fuzz)
 fuzz: $(FUZZ_PROGRAMS)
 	@for f in $^; do mkdir -p $$f.corpus && echo "  FUZZ    $$f" && \
-	    $$f -max_total_time=$(FUZZ_SECONDS) -verbosity=0 -print_final_stats=1 $$f.corpus || exit 1; done
+	    $$f -max_total_time=$(FUZZ_SECONDS) -artifact_prefix=$$f. -verbosity=0 -print_final_stats=1 $$f.corpus || exit 1; done
 else
 fuzz:
 	@sh src/packages.sh fuzz
-	@$(SUBMAKE) CONF=fuzz fuzz
+	@$(MAKE) $(PARALLEL) CONF=fuzz fuzz
 endif
 
 .SECONDARY: $(FUZZ_O)
@@ -184,21 +186,19 @@ coverage:
 	@DEPTHPREC_QUICK=1 $(MAKE) --no-print-directory CONF=coverage coverage
 endif
 
-# ---- Lint: `make -k lint` goes on after a failure ----------------------------------------------------------------
+# ---- Lint --------------------------------------------------------------------------------------------------------
 
-.PHONY: lint lint-format lint-gcc lint-clang lint-cppcheck lint-man lint-spell lint-scripts lint-licence
-lint: lint-format lint-gcc lint-clang lint-cppcheck lint-man lint-spell lint-scripts lint-licence
-lint-format lint-gcc lint-clang lint-cppcheck lint-man lint-spell lint-scripts lint-licence: lint-packages
-
-.PHONY: lint-packages
-lint-packages:
+LINTS := lint-format lint-gcc lint-clang lint-cppcheck lint-man lint-spell lint-scripts lint-licence
+.PHONY: lint $(LINTS)
+lint:
 	@sh src/packages.sh lint
+	@$(MAKE) $(PARALLEL) --keep-going $(LINTS)
 
 lint-format:
 	$(Q)clang-format --dry-run -Werror $(ALL_C) $(ALL_H)
 
 lint-gcc:
-	$(Q)$(SUBMAKE) B=build/lint CC=gcc WERROR=-Werror all check-programs
+	$(Q)$(MAKE) $(PARALLEL) B=build/lint CC=gcc WERROR=-Werror all check-programs
 
 # clang takes every INFINITY and NAN for a promoted float; gcc, which does not, judges promotions alone.
 lint-clang: $(B)/build.cflags $(B)/check.cflags
@@ -213,7 +213,7 @@ lint-man:
 	$(Q)$(if $(MAN),mandoc -T lint -W warning $(MAN))
 
 lint-spell:
-	$(Q)codespell $(wildcard README.md) Makefile include src man tests/*.[ch] tests/*.sh
+	$(Q)codespell -L nd,eror $(wildcard README.md) Makefile include src man tests/*.[ch] tests/*.sh
 
 lint-scripts:
 	$(Q)for f in $(SCRIPTS); do sh -n $$f || exit 1; done; bash -n .ci/run
@@ -224,7 +224,7 @@ lint-licence:
 # ---- Install -----------------------------------------------------------------------------------------------------
 
 .PHONY: install uninstall installcheck plots bench clean distclean dist help
-VERSION = $(shell sed -n 's/^.define DP_VERSION "\(.*\)"/\1/p' include/depthprec/depthprec.h)
+VERSION = $(shell sed -n 's/^.define DP_VERSION *"\(.*\)"/\1/p' include/depthprec/depthprec.h)
 D = $(DESTDIR)
 
 install: all
@@ -251,10 +251,8 @@ installcheck:
 
 # ---- The rest ----------------------------------------------------------------------------------------------------
 
-# One line a figure in plots/recipes: its name, then the arguments of `depthprec plot`.
 plots: all
-	@while read -r name arguments; do case $$name in '' | '#'*) continue ;; esac; \
-	    echo "  PLOT    plots/$$name.svg"; $(B)/depthprec plot $$arguments -o plots/$$name.svg || exit 1; done <plots/recipes
+	@sh plots/draw.sh $(B)/depthprec plots
 
 bench: all $(BENCH_PROGRAMS)
 	@for b in $(filter-out %/bench_empty,$(BENCH_PROGRAMS)); do $$b $(B)/depthprec || exit 1; done

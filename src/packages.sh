@@ -17,6 +17,8 @@ check | library mpfr                                  | libmpfr-dev       | mpfr
 check | library jansson                               | libjansson-dev    | jansson-devel      | jansson
 check | command mandoc                                | mandoc            | mandoc             | mandoc
 check | command rsvg-convert                          | librsvg2-bin      | librsvg2-tools     | librsvg
+check | command g++                                   | g++               | gcc-c++            | gcc
+check | command xmllint                               | libxml2-utils     | libxml2            | libxml2
 check | command jq                                    | jq                | jq                 | jq
 lint  | command clang                                 | clang             | clang              | clang
 lint  | command clang-format                          | clang-format      | clang-tools-extra  | clang

@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 # The lines that the tests reached, per file, after `make CONF=coverage check`:  coverage.sh BUILD_FOLDER
 set -eu
-find "$1/obj/src" -name '*.gcda' | sort | xargs gcov -n |
+find "$1/obj/src" -name '*.gcno' | sort | xargs gcov -n 2>/dev/null |
     awk '/^File / { file = $2; gsub("\047", "", file); next }
          /^Lines executed:/ && file ~ /^(src|include)\// {
              split($0, part, /[:% ]+/)

@@ -38,8 +38,8 @@ build_static() {
 needs() { readelf -d "$1" | grep -q "NEEDED.*$2"; }
 needs_not() { [ -x "$1" ] && ! needs "$@"; }
 
-header_version() { sed -n 's/^#define DP_VERSION "\(.*\)"/\1/p' include/depthprec/depthprec.h; }
-same_version() { [ "$(pkg-config --modversion depthprec)" = "$(header_version)" ]; }
+header_version() { sed -n 's/^#define DP_VERSION *"\(.*\)"/\1/p' include/depthprec/depthprec.h; }
+same_version() { [ -n "$(header_version)" ] && [ "$(pkg-config --modversion depthprec)" = "$(header_version)" ]; }
 soname() { readelf -d "$stage/usr/lib/libdepthprec.so" | grep -q 'SONAME.*\[libdepthprec\.so\.0\]'; }
 
 check "pkg-config knows the version" same_version

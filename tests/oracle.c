@@ -317,7 +317,9 @@ void oracle_cell_init(oracle_cell *cell) {
     mpq_inits(cell->lo, cell->hi, cell->stored, cell->whole, NULL);
 }
 
-void oracle_cell_clear(oracle_cell *cell) { mpq_clears(cell->lo, cell->hi, cell->stored, cell->whole, NULL); }
+void oracle_cell_clear(oracle_cell *cell) {
+    mpq_clears(cell->lo, cell->hi, cell->stored, cell->whole, NULL);
+}
 
 static void clip(const oracle *o, mpq_t z) {
     if (mpq_cmp(z, o->znear) < 0)
@@ -380,7 +382,7 @@ static int steps(const oracle *o, const mpq_t d, mpq_t step, mpq_t larger) {
     int at_start = mpq_sgn(d) > 0 && mpq_equal(start, d);
     int either = 0;
     if (e == 0 || (o->reversed && at_start))
-        e--; /* downwards from a binade end, or at 1, above which nothing is: the binade below */
+        e--;               /* downwards from a binade end, or at 1, above which nothing is: the binade below */
     int flat = e < lowest; /* subnormal: the binade above has the same step */
     mpq_set_ui(end, 1, 1);
     scale_q(end, e + 1);
@@ -443,7 +445,7 @@ double oracle_double(const mpq_t x) {
 
 double oracle_distance(double got, const mpq_t want) {
     if (!isfinite(got))
-        return INFINITY;
+        return HUGE_VAL;
     mpq_t t;
     mpq_init(t);
     mpq_set_d(t, got);

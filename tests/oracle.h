@@ -29,7 +29,7 @@ typedef struct oracle {
     mp_bitcnt_t shift;
     mpz_t a, b, g, h;
     mpq_t znear, zfar;
-    mpfr_t log_c, log_far; /* LOG: C, and log(C f + 1) */
+    mpfr_t log_c, log_far;      /* LOG: C, and log(C f + 1) */
     mpz_t num, den, t1, t2, t3; /* scratch */
     mpfr_t x, y;
 } oracle;
@@ -67,8 +67,8 @@ double oracle_eye_below(oracle *o, const mpz_t num, const mpz_t den);
 /* ---- cells ---- */
 
 typedef struct oracle_cell {
-    mpq_t lo, hi, stored;       /* clipped to [near, far]; stored is not */
-    mpq_t whole;                /* the width before clipping to near, for tolerances */
+    mpq_t lo, hi, stored; /* clipped to [near, far]; stored is not */
+    mpq_t whole;          /* the width before clipping to near, for tolerances */
     int lo_infinite, hi_infinite, stored_infinite;
 } oracle_cell;
 

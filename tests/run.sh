@@ -62,7 +62,7 @@ for test; do
     [ "$bad" -eq 0 ] || printf ', %d failed' "$bad"
     [ "$skip" -eq 0 ] || printf ', %d skipped' "$skip"
     printf ', %.1f s%s\n' "$seconds" "${why:+ ($why)}"
-    [ "$bad" -eq 0 ] || sed 's/^/      /' "$folder/$number.out"
+    [ "$bad" -eq 0 ] || sed '/^ok /d; s/^/      /' "$folder/$number.out"
     [ "$skip" -eq 0 ] || sed -n 's/^\(not \)*ok.*# SKIP/          skipped:/p' "$folder/$number.out"
 done
 

@@ -39,15 +39,21 @@ rng rng_make(const char *name) {
     return r;
 }
 
-uint64_t rng_next(rng *r) { return mix(r->state += 0x9E3779B97F4A7C15u); }
+uint64_t rng_next(rng *r) {
+    return mix(r->state += 0x9E3779B97F4A7C15u);
+}
 
 uint64_t rng_below(rng *r, uint64_t count) {
     return (uint64_t)(((unsigned __int128)rng_next(r) * count) >> 64);
 }
 
-double rng_unit(rng *r) { return (double)(rng_next(r) >> 11) * 0x1p-53; }
+double rng_unit(rng *r) {
+    return (double)(rng_next(r) >> 11) * 0x1p-53;
+}
 
-double rng_uniform(rng *r, double lo, double hi) { return fmin(hi, lo + (hi - lo) * rng_unit(r)); }
+double rng_uniform(rng *r, double lo, double hi) {
+    return fmin(hi, lo + (hi - lo) * rng_unit(r));
+}
 
 double rng_log(rng *r, double lo, double hi) {
     double x = exp(rng_uniform(r, log(lo), log(hi)));

@@ -11,12 +11,19 @@
 #ifndef TESTS_SUPPORT_H
 #define TESTS_SUPPORT_H
 
+#include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
 #include <stdint.h>
 
 #include <cmocka.h>
+
+/* The macros of math.h are floats; clang warns wherever they become doubles. */
+#undef INFINITY
+#undef NAN
+#define INFINITY ((double)__builtin_inff())
+#define NAN      ((double)__builtin_nanf(""))
 
 /** Numbers of a test: splitmix64, one independent stream per name. */
 typedef struct rng {
@@ -26,10 +33,10 @@ typedef struct rng {
 /** The stream of a name under the seed of this run; the first call prints "# seed ...". */
 rng rng_make(const char *name);
 uint64_t rng_next(rng *r);
-uint64_t rng_below(rng *r, uint64_t count);     /**< 0 .. count-1 */
-double rng_unit(rng *r);                        /**< [0, 1) */
+uint64_t rng_below(rng *r, uint64_t count); /**< 0 .. count-1 */
+double rng_unit(rng *r);                    /**< [0, 1) */
 double rng_uniform(rng *r, double lo, double hi);
-double rng_log(rng *r, double lo, double hi);   /**< log-uniform in [lo, hi], both positive */
+double rng_log(rng *r, double lo, double hi); /**< log-uniform in [lo, hi], both positive */
 
 typedef enum effort { EFFORT_QUICK = 0, EFFORT_CHECK, EFFORT_FULL } effort;
 effort test_effort(void);
@@ -58,17 +65,18 @@ void tally_fail(tally *t, const char *format, ...) __attribute__((format(printf,
 void tally_end_at(const tally *t, const char *file, int line);
 
 /* Comparisons, each named after its unit. */
-#define assert_codes(got, want) assert_codes_at((got), (want), #got, __FILE__, __LINE__)
-#define assert_ulp(got, want, ulps) assert_ulp_at((got), (want), (ulps), #got, __FILE__, __LINE__)
+#define assert_codes(got, want)           assert_codes_at((got), (want), #got, __FILE__, __LINE__)
+#define assert_ulp(got, want, ulps)       assert_ulp_at((got), (want), (ulps), #got, __FILE__, __LINE__)
 #define assert_relative(got, want, bound) assert_relative_at((got), (want), (bound), #got, __FILE__, __LINE__)
-#define assert_scene(got, want, bound) assert_scene_at((got), (want), (bound), #got, __FILE__, __LINE__)
+#define assert_scene(got, want, bound)    assert_scene_at((got), (want), (bound), #got, __FILE__, __LINE__)
 void assert_codes_at(uint32_t got, uint32_t want, const char *what, const char *file, int line);
 void assert_ulp_at(double got, double want, double ulps, const char *what, const char *file, int line);
 void assert_relative_at(double got, double want, double bound, const char *what, const char *file, int line);
 /** |got - want| <= bound, all three in scene units (or any other unit that the three share). */
 void assert_scene_at(double got, double want, double bound, const char *what, const char *file, int line);
 
-/** The distance of two doubles in units of the last place of the larger; 0 when equal, INFINITY when only one is finite. */
+/** The distance of two doubles in units of the last place of the larger; 0 when equal, INFINITY when only one is
+ * finite. */
 double ulp_distance(double a, double b);
 
 enum { VECTOR_FIELDS = 16 };

@@ -87,7 +87,7 @@ static void consider(sweep *s, oracle *o, const range *r, uint32_t code) {
 typedef struct fast {
     const dp_format *format;
     int zero, reversed, log, perspective;
-    double phi, reach, scale; /* reach: n (1 - phi), or f - anchor; scale: log(C f + 1) */
+    double phi, reach, scale;          /* reach: n (1 - phi), or f - anchor; scale: log(C f + 1) */
     double below[BLOCK], above[BLOCK]; /* errors at the two ends of each cell of a block, in d's direction */
 } fast;
 
@@ -205,8 +205,8 @@ static peak peak_of(fast *x, uint32_t first, int count) {
 }
 
 /* Considers exactly the codes near the peak: in one direction, up to CAP of each kind. */
-static void pick(sweep *s, oracle *o, const range *r, fast *x, const peak *blocks, peak top, uint32_t low, uint32_t high,
-                 int downwards) {
+static void pick(sweep *s, oracle *o, const range *r, fast *x, const peak *blocks, peak top, uint32_t low,
+                 uint32_t high, int downwards) {
     uint64_t count = (uint64_t)high - low + 1, block_count = (count + BLOCK - 1) / BLOCK;
     double error = top.error * (1 - 1e-13), width = top.width * (1 - 1e-13);
     int errors_left = CAP, widths_left = CAP;

@@ -21,7 +21,7 @@ typedef struct sweep_best {
 typedef struct sweep {
     sweep_best error, interval;
     mpq_t interval_hi;
-    int blind;            /* the range touches an unbounded cell */
+    int blind; /* the range touches an unbounded cell */
     mpq_t blind_from;
     uint64_t codes, candidates;
 } sweep;

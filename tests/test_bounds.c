@@ -20,57 +20,110 @@ static int above_by_little(double got, const mpq_t want) {
     return right;
 }
 
+/*
+ * Whether the exact value of what the library named lies within the bound of the greatest without reaching it: worst
+ * values that differ by less than the bound may change places. An exact tie may not: there the nearest is to be named.
+ */
+static int nearly_tied(const mpq_t value, const sweep_best *best) {
+    mpq_t apart;
+    mpq_init(apart);
+    mpq_sub(apart, best->value, value);
+    int tied = mpq_sgn(apart) > 0 && oracle_double(apart) <= bound * oracle_double(best->value);
+    mpq_clear(apart);
+    return tied;
+}
+
+/* The exact error of the code named at the depth named: the end of the cell or of the range that it stands for. */
+static int error_nearly_tied(oracle *o, const dp_worst *got, const sweep_best *best) {
+    oracle_cell cell;
+    mpq_t end[4], value;
+    oracle_cell_init(&cell);
+    mpq_inits(end[0], end[1], end[2], end[3], value, NULL);
+    oracle_cell_of(o, &cell, got->error_code);
+    mpq_set(end[0], cell.lo);
+    mpq_set(end[1], cell.hi);
+    mpq_set_d(end[2], got->lo);
+    mpq_set_d(end[3], isinf(got->hi) ? got->lo : got->hi);
+    int tied = 0;
+    for (int i = 0; i < 4; i++) {
+        mpq_sub(value, cell.stored, end[i]);
+        mpq_abs(value, value);
+        tied |= oracle_relative(got->error_z, end[i]) <= bound && nearly_tied(value, best);
+    }
+    mpq_clears(end[0], end[1], end[2], end[3], value, NULL);
+    oracle_cell_clear(&cell);
+    return tied;
+}
+
+static void check_error(oracle *o, const dp_worst *got, const sweep_best *want, const char *text, tally *t) {
+    if (want->infinite) {
+        TALLY(t, isinf(got->error) && got->error > 0, "%s: error %g, should be infinite", text, got->error);
+        TALLY(t, got->error_z >= oracle_double(want->z) * (1 - bound), "%s: error_z %g, nearer than %g", text,
+              got->error_z, oracle_double(want->z));
+        return;
+    }
+    double value = oracle_double(want->value);
+    TALLY(t, above_by_little(got->error, want->value), "%s: error %.17g, should be %.17g (%.3g relative)", text,
+          got->error, value, got->error / value - 1);
+    int named = oracle_relative(got->error_z, want->z) <= bound &&
+                (got->error_code == want->code || got->error_code == want->other);
+    TALLY(t, named || error_nearly_tied(o, got, want), "%s: error of code %u at %.17g, should be of %u at %.17g", text,
+          got->error_code, got->error_z, want->code, oracle_double(want->z));
+}
+
+static void check_interval(oracle *o, const dp_worst *got, const sweep *sweep, const char *text, tally *t) {
+    const sweep_best *want = &sweep->interval;
+    oracle_cell cell;
+    mpq_t width;
+    oracle_cell_init(&cell);
+    mpq_init(width);
+    oracle_cell_of(o, &cell, got->interval_code);
+    TALLY(t, oracle_relative(got->interval_lo, cell.lo) <= bound, "%s: interval of code %u from %.17g, should be %.17g",
+          text, got->interval_code, got->interval_lo, oracle_double(cell.lo));
+    if (want->infinite) {
+        TALLY(t, isinf(got->interval) && isinf(got->interval_hi), "%s: interval %g to %g, should be infinite", text,
+              got->interval, got->interval_hi);
+        TALLY(t, got->interval_code == want->code, "%s: interval code %u, should be %u", text, got->interval_code,
+              want->code);
+    } else {
+        double value = oracle_double(want->value);
+        TALLY(t, oracle_relative(got->interval_hi, cell.hi) <= bound,
+              "%s: interval of code %u to %.17g, should be %.17g", text, got->interval_code, got->interval_hi,
+              oracle_double(cell.hi));
+        TALLY(t, above_by_little(got->interval, want->value), "%s: interval %.17g, should be %.17g (%.3g relative)",
+              text, got->interval, value, got->interval / value - 1);
+        mpq_sub(width, cell.hi, cell.lo);
+        TALLY(t, got->interval_code == want->code || nearly_tied(width, want),
+              "%s: interval of code %u at %.17g, should be of %u at %.17g", text, got->interval_code, got->interval_lo,
+              want->code, oracle_double(want->z));
+    }
+    if (sweep->blind)
+        TALLY(t, oracle_relative(got->blind_from, sweep->blind_from) <= bound, "%s: blind from %.17g, should be %.17g",
+              text, got->blind_from, oracle_double(sweep->blind_from));
+    else
+        TALLY(t, isnan(got->blind_from), "%s: blind from %g, but no cell is unbounded", text, got->blind_from);
+    mpq_clear(width);
+    oracle_cell_clear(&cell);
+}
+
 static void check_worst(const dp_spec *spec, double lo, double hi, tally *t) {
-    char text[256];
-    oracle_describe(spec, text, sizeof text);
+    char camera_text[256], text[400];
+    snprintf(text, sizeof text, "%s over %a .. %a", oracle_describe(spec, camera_text, sizeof camera_text), lo, hi);
     dp_setup setup;
     dp_worst got = {0};
     dp_status status = dp_setup_init(&setup, spec);
     if (status == DP_OK)
         status = dp_worst_over(&setup, lo, hi, &got);
     if (status != DP_OK)
-        fail_msg("%s over %a .. %a: %s", text, lo, hi, dp_status_text(status));
+        fail_msg("%s: %s", text, dp_status_text(status));
     oracle o;
     sweep want;
     oracle_init(&o, spec);
     sweep_init(&want);
     sweep_over(&want, &o, lo, hi);
-
-    TALLY(t, got.lo == lo && got.hi == hi, "%s: range %a .. %a comes back as %a .. %a", text, lo, hi, got.lo, got.hi);
-    const sweep_best *e = &want.error, *w = &want.interval;
-    if (e->infinite) {
-        TALLY(t, isinf(got.error) && got.error > 0, "%s over %a .. %a: error %g, should be infinite", text, lo, hi, got.error);
-        TALLY(t, got.error_z >= oracle_double(e->z) * (1 - bound), "%s over %a .. %a: error_z %g, nearer than %g", text, lo, hi,
-              got.error_z, oracle_double(e->z));
-    } else {
-        TALLY(t, above_by_little(got.error, e->value), "%s over %a .. %a: error %.17g, should be %.17g at %.17g code %u (%.3g rel)", text,
-              lo, hi, got.error, oracle_double(e->value), oracle_double(e->z), e->code, got.error / oracle_double(e->value) - 1);
-        TALLY(t, oracle_relative(got.error_z, e->z) <= bound, "%s over %a .. %a: error_z %.17g (code %u), should be %.17g (code %u)",
-              text, lo, hi, got.error_z, got.error_code, oracle_double(e->z), e->code);
-        TALLY(t, got.error_code == e->code || got.error_code == e->other,
-              "%s over %a .. %a: error code %u, should be %u", text, lo, hi, got.error_code, e->code);
-    }
-    TALLY(t, got.interval_code == w->code, "%s over %a .. %a: interval code %u, should be %u", text, lo, hi, got.interval_code,
-          w->code);
-    TALLY(t, oracle_relative(got.interval_lo, w->z) <= bound, "%s over %a .. %a: interval_lo %.17g, should be %.17g", text, lo,
-          hi, got.interval_lo, oracle_double(w->z));
-    if (w->infinite) {
-        TALLY(t, isinf(got.interval) && isinf(got.interval_hi), "%s over %a .. %a: interval %g .. %g, should be infinite", text,
-              lo, hi, got.interval, got.interval_hi);
-    } else {
-        TALLY(t, above_by_little(got.interval, w->value), "%s over %a .. %a: interval %.17g, should be %.17g (%.3g rel)", text, lo, hi,
-              got.interval, oracle_double(w->value), got.interval / oracle_double(w->value) - 1);
-        TALLY(t, oracle_relative(got.interval_hi, want.interval_hi) <= bound,
-              "%s over %a .. %a: interval_hi %.17g, should be %.17g", text, lo, hi, got.interval_hi,
-              oracle_double(want.interval_hi));
-    }
-    if (want.blind)
-        TALLY(t, oracle_relative(got.blind_from, want.blind_from) <= bound,
-              "%s over %a .. %a: blind from %.17g, should be %.17g", text, lo, hi, got.blind_from,
-              oracle_double(want.blind_from));
-    else
-        TALLY(t, isnan(got.blind_from), "%s over %a .. %a: blind from %g, but no cell is unbounded", text, lo, hi,
-              got.blind_from);
+    TALLY(t, got.lo == lo && got.hi == hi, "%s: the range comes back as %a .. %a", text, got.lo, got.hi);
+    check_error(&o, &got, &want.error, text, t);
+    check_interval(&o, &got, &want, text, t);
     sweep_clear(&want);
     oracle_clear(&o);
 }
@@ -96,8 +149,8 @@ static const camera cameras[] = {
     {DP_MAPPING_LINEAR, 0, 0.1, 1000, 1, DP_ROUND_NEAREST, 0, 0},
     {DP_MAPPING_LOG, 0, 0.1, 1e7, 1, DP_ROUND_NEAREST, 0, 0},
     {DP_MAPPING_LOG, 0, 1e-3, 1e5, 0.001, DP_ROUND_NEAREST, 0.7, 5e4},
-    {DP_MAPPING_D3D, 0, 0.1, (double)INFINITY, 1, DP_ROUND_NEAREST, 0.1, 5000},
-    {DP_MAPPING_REVERSED, 0, 0.25, (double)INFINITY, 1, DP_ROUND_NEAREST, 0.25, 1e6},
+    {DP_MAPPING_D3D, 0, 0.1, INFINITY, 1, DP_ROUND_NEAREST, 0.1, 5000},
+    {DP_MAPPING_REVERSED, 0, 0.25, INFINITY, 1, DP_ROUND_NEAREST, 0.25, 1e6},
     {DP_MAPPING_D3D, 0, 1e-12, 1e18, 1, DP_ROUND_NEAREST, 1e-11, 1e-3},
     {DP_MAPPING_REVERSED, 0, 1e12, 1.00001e12, 1, DP_ROUND_NEAREST, 0, 0},
 };
@@ -126,8 +179,8 @@ static void sweep_format(const dp_format *format, tally *t) {
 static void sweep_small(void **state) {
     (void)state;
     tally t = {.name = "fp16, unorm16 and small formats"};
-    const dp_format formats[] = {oracle_float(5, 10, 15), oracle_unorm(16),      oracle_unorm(1),
-                                 oracle_unorm(4),         oracle_float(3, 3, 5), oracle_float(3, 3, 3),
+    const dp_format formats[] = {oracle_float(5, 10, 15), oracle_unorm(16),       oracle_unorm(1),
+                                 oracle_unorm(4),         oracle_float(3, 3, 5),  oracle_float(3, 3, 3),
                                  oracle_float(2, 1, 1),   oracle_float(8, 4, 200)};
     for (size_t i = 0; i < sizeof formats / sizeof *formats; i++)
         sweep_format(&formats[i], &t);

@@ -53,10 +53,18 @@ static void names_of_rows(void **state) {
 static void names_of_interfaces(void **state) {
     (void)state;
     static const char *const name[][2] = {
-        {"D16_UNORM", "unorm16"},         {"D24_UNORM_S8_UINT", "unorm24"}, {"X8_D24_UNORM_PACK32", "unorm24"},
-        {"D32_SFLOAT", "fp32"},           {"DXGI_FORMAT_D32_FLOAT", "fp32"}, {"DEPTH_COMPONENT24", "unorm24"},
-        {"depth32float", "fp32"},         {"d16_unorm", "unorm16"},         {"Depth32Float", "fp32"},
-        {"d24_unorm_s8_uint", "unorm24"}, {"FP16", "fp16"},                 {"Unorm24", "unorm24"},
+        {"D16_UNORM", "unorm16"},
+        {"D24_UNORM_S8_UINT", "unorm24"},
+        {"X8_D24_UNORM_PACK32", "unorm24"},
+        {"D32_SFLOAT", "fp32"},
+        {"DXGI_FORMAT_D32_FLOAT", "fp32"},
+        {"DEPTH_COMPONENT24", "unorm24"},
+        {"depth32float", "fp32"},
+        {"d16_unorm", "unorm16"},
+        {"Depth32Float", "fp32"},
+        {"d24_unorm_s8_uint", "unorm24"},
+        {"FP16", "fp16"},
+        {"Unorm24", "unorm24"},
     };
     for (size_t i = 0; i < sizeof name / sizeof *name; i++) {
         dp_format got[2];
@@ -113,12 +121,48 @@ static void parametric_names(void **state) {
 static void rejected_names(void **state) {
     (void)state;
     static const char *const name[] = {
-        "",           " ",          "unorm",      "unorm0",      "unorm33",    "unorm-1",       "unorm24x",
-        "unorm24 ",   " unorm24",   "unorm2.4",   "unorm+8",     "floaty",     "float3",        "float3.",
-        "float1.3",   "float9.3",   "float3.0",   "float3.24",   "float3.3b0", "float3.3b8",    "float3.3b",
-        "float3.3b5x", "float3.3 ", "float.3",    "float-3.3",   "float3.-3",  "float3.3b-1",   "float8.23b256",
-        "fp",         "fp8",        "fp33",       "fp16 fp32",   "d3d",        "depth",         "unorm99999999999",
-        "float3.99999999999999", "float3.3b4294967301", "unorm4294967312", "D16_UNORM D24", "f", "fp1", "fp161",
+        "",
+        " ",
+        "unorm",
+        "unorm0",
+        "unorm33",
+        "unorm-1",
+        "unorm24x",
+        "unorm24 ",
+        " unorm24",
+        "unorm2.4",
+        "unorm+8",
+        "floaty",
+        "float3",
+        "float3.",
+        "float1.3",
+        "float9.3",
+        "float3.0",
+        "float3.24",
+        "float3.3b0",
+        "float3.3b8",
+        "float3.3b",
+        "float3.3b5x",
+        "float3.3 ",
+        "float.3",
+        "float-3.3",
+        "float3.-3",
+        "float3.3b-1",
+        "float8.23b256",
+        "fp",
+        "fp8",
+        "fp33",
+        "fp16 fp32",
+        "d3d",
+        "depth",
+        "unorm99999999999",
+        "float3.99999999999999",
+        "float3.3b4294967301",
+        "unorm4294967312",
+        "D16_UNORM D24",
+        "f",
+        "fp1",
+        "fp161",
     };
     for (size_t i = 0; i < sizeof name / sizeof *name; i++) {
         dp_format got[2];
@@ -197,8 +241,8 @@ static void values(void **state) {
     (void)state;
     tally right = {.name = "values"}, trips = {.name = "encode(value(code))"};
     dp_format format[2];
-    static const char *const small[] = {"fp16", "unorm16", "unorm1", "unorm2", "unorm8", "float2.1", "float3.3b5",
-                                        "float5.10b31", "float8.4b255", "float2.9b1"};
+    static const char *const small[] = {"fp16",     "unorm16",    "unorm1",       "unorm2",       "unorm8",
+                                        "float2.1", "float3.3b5", "float5.10b31", "float8.4b255", "float2.9b1"};
     for (size_t i = 0; i < sizeof small / sizeof *small; i++) {
         assert_int_equal(dp_format_parse(small[i], format), 1);
         check_codes(format, 0, format->code_max, 1, &right, &trips);
@@ -240,11 +284,12 @@ static void check_around(const dp_format *format, double d, tally *t) {
 
 static void encode(void **state) {
     (void)state;
-    static const char *const name[] = {"fp16",     "fp32",       "unorm16",  "unorm24",     "unorm1",      "unorm32",
-                                       "unorm10",  "float3.3b5", "float2.1", "float8.23b1", "float8.1b255", "float5.11"};
+    static const char *const name[] = {"fp16",    "fp32",       "unorm16",  "unorm24",     "unorm1",       "unorm32",
+                                       "unorm10", "float3.3b5", "float2.1", "float8.23b1", "float8.1b255", "float5.11"};
     static const double special[] = {
-        0.0, -0.0, 1.0, 0.5, -1.0, -0x1p-1074, 0x1p-1074, 0x1p-1022, 0x1.fffffffffffffp-1023, 0x1p-149, 0x1p-150,
-        0x1.8p-150, 0x1p-151, 0x1p-24, 0x1p-25, 0x1.8p-25, 0x1p-126, 1.5, 2.0, 1e300, INFINITY, -INFINITY, NAN, 0x1p-277,
+        0.0,      -0.0,     1.0,        0.5,       -1.0,    -0x1p-1074, 0x1p-1074, 0x1p-1022, 0x1.fffffffffffffp-1023,
+        0x1p-149, 0x1p-150, 0x1.8p-150, 0x1p-151,  0x1p-24, 0x1p-25,    0x1.8p-25, 0x1p-126,  1.5,
+        2.0,      1e300,    INFINITY,   -INFINITY, NAN,     0x1p-277,
     };
     rng random = rng_make("encode");
     tally t = {.name = "encode"};
@@ -315,9 +360,10 @@ static void claims(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(names_of_rows), cmocka_unit_test(names_of_interfaces), cmocka_unit_test(parametric_names),
-        cmocka_unit_test(rejected_names), cmocka_unit_test(rounding_names),     cmocka_unit_test(values),
-        cmocka_unit_test(encode),         cmocka_unit_test(claims),
+        cmocka_unit_test(names_of_rows),    cmocka_unit_test(names_of_interfaces),
+        cmocka_unit_test(parametric_names), cmocka_unit_test(rejected_names),
+        cmocka_unit_test(rounding_names),   cmocka_unit_test(values),
+        cmocka_unit_test(encode),           cmocka_unit_test(claims),
     };
     return run_tap(tests);
 }

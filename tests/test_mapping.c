@@ -127,8 +127,8 @@ static void window_and_back(void **state) {
             oracle_window(&o, d, z);
             double got = dp_window(&setup, z);
             double off = oracle_relative(got, d);
-            TALLY(&window, off <= 0x1p-50 && got >= 0 && got <= 1, "%s: window(%a) = %a, off by %g of 2^-50", text, z, got,
-                  off * 0x1p50);
+            TALLY(&window, off <= 0x1p-50 && got >= 0 && got <= 1, "%s: window(%a) = %a, off by %g of 2^-50", text, z,
+                  got, off * 0x1p50);
 
             /* the pair, each member rounded once */
             mpq_set_ui(q, 1, 1);
@@ -137,8 +137,8 @@ static void window_and_back(void **state) {
             got = dp_eye(&setup, pair_d, pair_q);
             mpq_set_d(at, z);
             off = oracle_relative(got, at);
-            TALLY(&trip, off <= bound + 0x1p-53, "%s: eye(%a, %a) = %a, off by %g of the bound", text, pair_d, pair_q, got,
-                  off / bound);
+            TALLY(&trip, off <= bound + 0x1p-53, "%s: eye(%a, %a) = %a, off by %g of the bound", text, pair_d, pair_q,
+                  got, off / bound);
 
             /* any d: the pair is d and the rounded 1 - d, which moves 1/z by 2^-53 at most */
             mpq_set_d(d, k & 1 ? rng_unit(&r) : 1 - rng_log(&r, 1e-16, 1));
@@ -150,8 +150,8 @@ static void window_and_back(void **state) {
                 continue;
             got = dp_eye(&setup, pair_d, pair_q);
             off = oracle_relative(got, want);
-            TALLY(&eye, off <= bound + 0x1p-53, "%s: eye(%a, %a) = %a, off by %g of the bound", text, pair_d, pair_q, got,
-                  off / bound);
+            TALLY(&eye, off <= bound + 0x1p-53, "%s: eye(%a, %a) = %a, off by %g of the bound", text, pair_d, pair_q,
+                  got, off / bound);
         }
         oracle_clear(&o);
     }

@@ -26,7 +26,9 @@ static void as_printed(const vector_row *row, int column, double got, double uni
         fail_msg("%s:%d: column %d: %.15g, published %s", row->file, row->line, column + 1, got, row->field[column]);
 }
 
-static int is_given(const vector_row *row, int column) { return strcmp(vector_text(row, column), "-") != 0; }
+static int is_given(const vector_row *row, int column) {
+    return strcmp(vector_text(row, column), "-") != 0;
+}
 
 static dp_setup make(const char *format, const char *mapping, double znear, double zfar) {
     dp_format formats[2];
@@ -144,7 +146,8 @@ static void counts(void **state) {
 /* The greatest error near z: the widest distance from a stored depth within the cell, in percent of far. */
 static double percent_of_far(const dp_setup *setup, double z) {
     dp_cell cell = dp_cell_of(setup, dp_code(setup, z));
-    return 100 / setup->spec.zfar * fmax(fabs(dp_error(setup, cell.code, cell.lo)), fabs(dp_error(setup, cell.code, cell.hi)));
+    return 100 / setup->spec.zfar *
+           fmax(fabs(dp_error(setup, cell.code, cell.lo)), fabs(dp_error(setup, cell.code, cell.hi)));
 }
 
 static void pettineo_row(const vector_row *row, void *context) {
@@ -193,8 +196,8 @@ static void not_90_percent(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(reference_values), cmocka_unit_test(header_example),  cmocka_unit_test(outerra_log_depth),
-        cmocka_unit_test(zero_radiance),    cmocka_unit_test(counts),          cmocka_unit_test(pettineo_linear),
+        cmocka_unit_test(reference_values), cmocka_unit_test(header_example), cmocka_unit_test(outerra_log_depth),
+        cmocka_unit_test(zero_radiance),    cmocka_unit_test(counts),         cmocka_unit_test(pettineo_linear),
         cmocka_unit_test(not_98_percent),   cmocka_unit_test(not_90_percent),
     };
     return run_tap(tests);

@@ -90,7 +90,8 @@ static void too_close(void **state) {
 
 static void infinite_far(void **state) {
     (void)state;
-    static const dp_mapping perspective[] = {DP_MAPPING_D3D, DP_MAPPING_GL, DP_MAPPING_REVERSED, DP_MAPPING_GL_REVERSED};
+    static const dp_mapping perspective[] = {DP_MAPPING_D3D, DP_MAPPING_GL, DP_MAPPING_REVERSED,
+                                             DP_MAPPING_GL_REVERSED};
     for (int i = 0; i < 4; i++) {
         ACCEPT(spec.mapping = perspective[i]; spec.zfar = INFINITY);
         ACCEPT(spec.mapping = perspective[i]; spec.ortho = 1);
@@ -128,6 +129,10 @@ static void bad_rows(void **state) {
     REFUSE(DP_ERROR_ROUNDING, spec.rounding = (dp_rounding)-1);
     REFUSE(DP_ERROR_MODEL, spec.model = DP_MODEL_COUNT);
     REFUSE(DP_ERROR_MODEL, spec.model = (dp_model)-1);
+    REFUSE(DP_ERROR_ARITH, spec.arith = (dp_arith)-1);
+    REFUSE(DP_ERROR_ARITH, spec.arith = (dp_arith)1000000);
+    REFUSE(DP_ERROR_MODEL, spec.model = DP_MODEL_FP32; spec.mapping = DP_MAPPING_LINEAR);
+    REFUSE(DP_ERROR_MODEL, spec.model = DP_MODEL_FP32; spec.mapping = DP_MAPPING_LOG);
     REFUSE(DP_ERROR_FORMAT, memset(&spec.format, 0, sizeof spec.format));
     REFUSE(DP_ERROR_FORMAT, memset(&spec.format, 0xFF, sizeof spec.format));
     REFUSE(DP_ERROR_FORMAT, spec.format.kind = (dp_format_kind)2);
@@ -180,9 +185,9 @@ static void depths(void **state) {
 static void ranges(void **state) {
     (void)state;
     double below = nextafter(0.1, 0), above = nextafter(1000, INFINITY);
-    const double bad[][2] = {{2, 1},        {below, 1},     {1, above}, {NAN, 1},      {1, NAN},      {NAN, NAN},
-                             {1, INFINITY}, {INFINITY, 1},  {-1, 1},    {0, 1},        {-INFINITY, 1}, {2000, 3000},
-                             {0.01, 0.02},  {1000, 0.1}};
+    const double bad[][2] = {{2, 1},         {below, 1},    {1, above},    {NAN, 1},   {1, NAN},
+                             {NAN, NAN},     {1, INFINITY}, {INFINITY, 1}, {-1, 1},    {0, 1},
+                             {-INFINITY, 1}, {2000, 3000},  {0.01, 0.02},  {1000, 0.1}};
     dp_setup setup;
     dp_spec spec = dp_spec_default();
     assert_int_equal(dp_setup_init(&setup, &spec), DP_OK);

@@ -13,6 +13,7 @@
 #include "cli/suggest.h"
 #include "plot/draw.h"
 #include "plot/figure.h"
+#include "plot/notes.h"
 
 int cmd_plot(const options *o);
 
@@ -173,7 +174,7 @@ int cmd_plot(const options *o) {
         request.count = all.count;
         for (size_t i = 0; i < all.count; i++)
             names[i] = setup_label(&all.items[i], false, text[i]);
-        snprintf(c->title, sizeof c->title, "%s", o->title != NULL ? o->title : "");
+        notes_clean(c->title, sizeof c->title, o->title != NULL ? o->title : "");
         subtitle_of(&request, c->subtitle, sizeof c->subtitle);
         status = write_figure(o, row, &request, c);
     } else if (status == EXIT_FINE) {

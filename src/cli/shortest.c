@@ -53,7 +53,7 @@ static uint64_t scale(big value, int k) {
 
 /* Like %g: n has `digits` digits, the first of them stands for 10^exponent. */
 static size_t write_general(uint64_t n, int digits, int exponent, bool negative, char *out) {
-    char text[24];
+    char text[24] = "";
     char *start = out;
     int kept = digits;
     for (int i = digits - 1; i >= 0; i--, n /= 10)

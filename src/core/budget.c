@@ -58,11 +58,16 @@ typedef struct chain {
     double overshoot; /* how far the real window depth leaves [0, 1] inside the planes: clamped there */
 } chain;
 
-/* Rounding errors in window depth, by cause. */
-typedef struct errors {
+/*
+ * What the roundings of two depths can take from the distance of their window depths, by cause, and the slope of that
+ * distance: half slope (1/z1 - 1/z2), or half slope (z2 - z1) when orthographic.
+ */
+typedef struct demand {
     double projection;
     double ndc;
-} errors;
+    double format;
+    double slope;
+} demand;
 
 static double real_clip(const chain *c, double z) {
     return c->a * z + c->b;
@@ -90,71 +95,66 @@ static chain make_chain(const dp_pipeline *p) {
     return c;
 }
 
+/* The clip depths of one narrow range of eye depths, as they are computed. */
+typedef struct clip_range {
+    double error;  /* of one clip depth, where the errors of two are independent */
+    double shared; /* an error that all clip depths of the range have in common */
+    double most;   /* largest magnitude */
+    double least;  /* smallest, never above the truth; negative when the sign changes */
+} clip_range;
+
 /*
- * The errors of the pipeline for every depth in [z1, z2], which must not be wide: each rounding at the largest value
- * that it meets there. A sum whose terms are multiples of a granule, and smaller than 2^24 of them, is exact.
+ * A z + B. Where the products are multiples of a granule that is no finer than the sums' last place, adding B rounds
+ * every sum alike: then two sums differ exactly as their products do.
  */
-static errors errors_over(const chain *c, double z1, double z2) {
-    const dp_arith_row *arith = c->pipeline.arith;
-    const double p = fabs(c->a) * z2;
-    const double product = c->a_exact || arith->fused ? 0.0 : half_ulp(p);
+static clip_range clip_over(const chain *c, double z1, double z2) {
+    const int fused = c->pipeline.arith->fused;
+    const double product = c->a_exact || fused ? 0.0 : half_ulp(fabs(c->a) * z2);
     const double p_granule = c->a_exact ? granule(c->a) * 2.0 * half_ulp(z1) : 2.0 * half_ulp(fabs(c->a) * z1);
-    double clip = larger(fabs(real_clip(c, z1)), fabs(real_clip(c, z2))) + product;
-    const int sum_exact = c->a == 0.0 || (!arith->fused && clip < 0x1p24 * smaller(p_granule, c->b_granule));
-    double error = product + (sum_exact ? 0.0 : half_ulp(clip));
-    clip += error;
-    if (c->pipeline.ndc_signed && arith->remap) {
-        const double w = c->pipeline.ortho ? 1.0 : z2;
-        const double sum =
-            larger(fabs(real_clip(c, z1) + (c->pipeline.ortho ? 1.0 : z1)), fabs(real_clip(c, z2) + w)) + error;
-        error = 0.5 * (error + half_ulp(sum));
-        clip = 0.5 * sum + error;
-    }
-    errors e = {.projection = error, .ndc = 0.0};
-    double ndc = clip;
-    if (!c->pipeline.ortho) {
-        const double reciprocal = arith->reciprocal ? clip * half_ulp(1.0 / z1) : 0.0;
-        e.projection = error / z1;
-        ndc = clip / z1 + reciprocal;
-        e.ndc = reciprocal + half_ulp(smaller(ndc, 1.0 - unit_below_one));
-    }
-    if (!c->two_stage)
-        return e;
-    e.projection *= 0.5;
-    e.ndc *= 0.5;
-    /* 0.5 ndc + 0.5: both are multiples of half of ndc's last place, taken where ndc is smallest */
-    const double ndc_least = smaller(fabs(real_clip(c, z1)) / (c->pipeline.ortho ? 1.0 : z1),
-                                     fabs(real_clip(c, z2)) / (c->pipeline.ortho ? 1.0 : z2)) -
-                             2.0 * (e.projection + e.ndc);
-    const double window =
-        smaller(larger(real_window(c, z1), real_window(c, z2)) + e.projection + e.ndc, 1.0 - unit_below_one);
-    const int crosses = (real_clip(c, z1) < 0.0) != (real_clip(c, z2) < 0.0);
-    const double step = crosses || ndc_least <= 0.0 ? 0.0 : half_ulp(ndc_least);
-    if (!(window < 0x1p24 * step))
-        e.ndc += half_ulp(larger(window, 0.0));
-    return e;
+    const double c1 = fabs(real_clip(c, z1));
+    const double c2 = fabs(real_clip(c, z2));
+    clip_range r = {.error = product, .most = larger(c1, c2) + product, .least = smaller(c1, c2) - product};
+    if ((real_clip(c, z1) < 0.0) != (real_clip(c, z2) < 0.0))
+        r.least = -1.0;
+    if (c->a == 0.0)
+        return r;
+    const double sum = half_ulp(r.most);
+    const int exact = !fused && r.most < 0x1p24 * smaller(p_granule, c->b_granule);
+    const int alike = !fused && r.least > 0.0 && half_ulp(r.least) == sum && 2.0 * sum <= p_granule &&
+                      fmod(fabs(c->b), 2.0 * sum) != sum;
+    if (alike)
+        r.shared = exact ? 0.0 : sum;
+    else if (!exact)
+        r.error += sum;
+    r.most += sum;
+    r.least -= sum;
+    return r;
 }
 
-/* The errors for every depth from z to the far plane: each rounding relative to a value that only falls, or at most 1.
- */
-static errors errors_beyond(const chain *c, double z) {
-    const dp_arith_row *arith = c->pipeline.arith;
-    const double w = c->pipeline.ortho ? 1.0 : z;
-    const double g = larger(fabs(real_clip(c, z)) / w, c->g_far) * (1.0 + 0x1p-20);
-    const double zfar = (double)c->pipeline.zfar;
-    const double slope = c->pipeline.ortho ? fabs(c->a) * zfar : fabs(c->a);
-    double error = c->a_exact || arith->fused ? 0.0 : unit * slope;
-    error += c->a == 0.0 ? 0.0 : unit * (g + error);
-    if (c->pipeline.ndc_signed && arith->remap)
-        error = 0.5 * (error + unit * (1.0 + g + error));
-    errors e = {.projection = error, .ndc = 0.0};
-    if (!c->pipeline.ortho)
-        e.ndc = half_ulp(smaller(g + error, 1.0 - unit_below_one)) + (arith->reciprocal ? unit * (g + error) : 0.0);
-    if (c->two_stage) {
-        e.projection *= 0.5;
-        e.ndc = 0.5 * e.ndc + unit_below_one;
-    }
-    return e;
+/* (clip + w)/2, the remap of the vertex shader */
+static clip_range remap_over(const chain *c, clip_range r, double z1, double z2) {
+    const double s1 = real_clip(c, z1) + (c->pipeline.ortho ? 1.0 : z1);
+    const double s2 = real_clip(c, z2) + (c->pipeline.ortho ? 1.0 : z2);
+    const double most = larger(fabs(s1), fabs(s2)) + r.error + r.shared;
+    const double least = smaller(s1, s2) - r.error - r.shared;
+    const double sum = half_ulp(most);
+    return (clip_range){.error = 0.5 * (r.error + sum),
+                        .shared = 0.5 * r.shared,
+                        .most = 0.5 * (most + sum),
+                        .least = 0.5 * (least - sum)};
+}
+
+/* The rounding of the viewport, 0.5 ndc + 0.5: none where all terms are multiples of the sum's last place. */
+static double viewport_error(const chain *c, double z1, double z2, double error) {
+    const double w1 = c->pipeline.ortho ? 1.0 : z1;
+    const double w2 = c->pipeline.ortho ? 1.0 : z2;
+    const double n1 = real_clip(c, z1) / w1;
+    const double n2 = real_clip(c, z2) / w2;
+    const double window = smaller(0.5 + 0.5 * larger(n1, n2) + error, 1.0 - unit_below_one);
+    const double ndc_least = (n1 < 0.0) != (n2 < 0.0) ? 0.0 : smaller(fabs(n1), fabs(n2)) - 2.0 * error;
+    if (ndc_least > 0.0 && window < 0x1p24 * half_ulp(ndc_least))
+        return 0.0;
+    return half_ulp(larger(window, 0.0));
 }
 
 /* The largest distance of two binary32 window depths up to `window` that are stored as one code. */
@@ -174,11 +174,95 @@ static double format_step(const dp_setup *setup, const chain *c, double window) 
     return (ulp < 1.0 ? 1.0 + ulp : ulp) / levels;
 }
 
-/* The distance behind z at which the real window depth has moved by `window`. */
-static double distance(const chain *c, double z, double window) {
+/*
+ * Whether every binary32 window depth of [lo, hi] has a code of its own. Where a step of the window depth is at most
+ * one code, codes rise by 0 or 1 a step: so they all rise if they do in total.
+ */
+static int codes_are_distinct(const dp_setup *setup, const chain *c, double lo, double hi) {
+    const dp_format *format = &setup->spec.format;
+    if (format->kind != DP_FORMAT_UNORM || lo <= 0.0)
+        return 0;
+    const float first = nextafterf((float)lo, 0.0F);
+    const float last = nextafterf((float)hi, 2.0F);
+    if (!(last < 1.0F) || half_ulp((double)first) != half_ulp((double)last))
+        return 0;
+    const double step = 2.0 * half_ulp((double)first);
+    const double levels = (double)format->code_max;
+    if (step * levels > 1.0 ||
+        (c->pipeline.arith->conversion != DP_CONVERT_EXACT && half_ulp((double)first * levels) < 0.5))
+        return 0;
+    const double codes =
+        (double)dp_pipeline_convert(&c->pipeline, last) - (double)dp_pipeline_convert(&c->pipeline, first);
+    return codes == ((double)last - (double)first) / step;
+}
+
+/*
+ * The demand of any two depths of [z1, z2], z1 being one of them: each rounding at the largest value that it meets.
+ */
+static demand demand_over(const dp_setup *setup, const chain *c, double z1, double z2) {
+    const dp_arith_row *arith = c->pipeline.arith;
+    const int ortho = c->pipeline.ortho;
+    clip_range clip = clip_over(c, z1, z2);
+    if (c->pipeline.ndc_signed && arith->remap)
+        clip = remap_over(c, clip, z1, z2);
+    const double per_ndc = c->two_stage ? 0.5 : 1.0;
+    const double w = ortho ? 1.0 : z1;
+    const double error = clip.error / w;
+    const double reciprocal = !ortho && arith->reciprocal ? clip.most * half_ulp(1.0 / z1) : 0.0;
+    const double ndc = ortho ? 0.0 : reciprocal + half_ulp(smaller(clip.most / z1 + reciprocal, 1.0 - unit_below_one));
+    demand d = {.projection = 2.0 * per_ndc * error,
+                .ndc = 2.0 * per_ndc * ndc,
+                .slope = ortho ? fabs(c->a) : larger(fabs(c->b) - clip.shared / c->half * per_ndc, 0.0)};
+    const double so_far = per_ndc * (error + clip.shared / w + ndc);
+    const double viewport = c->two_stage ? viewport_error(c, z1, z2, so_far) : 0.0;
+    d.ndc += 2.0 * viewport;
+    const double g1 = real_window(c, z1);
+    const double g2 = real_window(c, z2);
+    const double high = larger(g1, g2) + so_far + viewport;
+    const double low = smaller(g1, g2) - so_far - viewport;
+    d.format = codes_are_distinct(setup, c, low, high) ? 0.0 : format_step(setup, c, high);
+    /*
+     * Reversed, and clip not negative: A < 0, so the computed clip depth never rises with z, and the distance of two
+     * quotients is at least clip (1/z1 - 1/z2) with the farther clip depth: its rounding can only help.
+     */
+    const double gentle = real_clip(c, z2) > 0.0 ? clip.least : 0.0;
+    if (c->pipeline.reversed && !ortho && !(c->pipeline.ndc_signed && arith->remap) && gentle > 0.0 &&
+        d.projection > 0.0 && (d.ndc + d.format) * d.slope < (d.projection + d.ndc + d.format) * gentle) {
+        d.projection = 0.0;
+        d.slope = gentle;
+    }
+    return d;
+}
+
+/* The demand of z and any depth behind it: each rounding relative to a value that only falls, or that is at most 1. */
+static demand demand_beyond(const dp_setup *setup, const chain *c, double z) {
+    const dp_arith_row *arith = c->pipeline.arith;
+    const int ortho = c->pipeline.ortho;
+    const double zfar = (double)c->pipeline.zfar;
+    const double g = larger(fabs(real_clip(c, z)) / (ortho ? 1.0 : z), c->g_far) * (1.0 + 0x1p-20);
+    double error = c->a_exact || arith->fused ? 0.0 : unit * fabs(c->a) * (ortho ? zfar : 1.0);
+    error += c->a == 0.0 ? 0.0 : unit * (g + error);
+    if (c->pipeline.ndc_signed && arith->remap)
+        error = 0.5 * (error + unit * (1.0 + g + error));
+    double ndc = 0.0;
+    if (!ortho)
+        ndc = half_ulp(smaller(g + error, 1.0 - unit_below_one)) + (arith->reciprocal ? unit * (g + error) : 0.0);
+    if (c->two_stage) {
+        error *= 0.5;
+        ndc = 0.5 * ndc + unit_below_one;
+    }
+    const double high = setup->reversed ? real_window(c, z) + error + ndc : 1.0;
+    return (demand){.projection = 2.0 * error,
+                    .ndc = 2.0 * ndc,
+                    .format = format_step(setup, c, high),
+                    .slope = ortho ? fabs(c->a) : fabs(c->b)};
+}
+
+/* The distance behind z at which the window depth has moved by `window`, at a slope. */
+static double distance(const chain *c, double z, double window, double slope) {
     if (c->pipeline.ortho)
-        return window / (c->half * fabs(c->a));
-    const double x = window * z / (c->half * fabs(c->b));
+        return window / (c->half * slope);
+    const double x = window * z / (c->half * slope);
     return x < 1.0 ? z * x / (1.0 - x) : HUGE_VAL;
 }
 
@@ -205,8 +289,9 @@ static double linearization_error(const dp_setup *setup, const chain *c, double 
     return slope * unit * (3.0 * terms / sum + 2.0);
 }
 
-static double total_of(const errors *e) {
-    return e->projection + e->ndc;
+/* Window depth that a pair needs in all; a plane that the rounded matrix moves inwards clamps what lies beyond it. */
+static double total_of(const chain *c, const demand *d, double extra) {
+    return larger(d->projection + d->ndc, c->overshoot + 0.5 * (d->projection + d->ndc)) + d->format + extra;
 }
 
 dp_status dp_budget_at(const dp_setup *setup, double z, const dp_budget_terms *terms, dp_budget *out) {
@@ -221,50 +306,40 @@ dp_status dp_budget_at(const dp_setup *setup, double z, const dp_budget_terms *t
     *out = (dp_budget){.separation = HUGE_VAL, .window = 1.0};
     if (isinf(z))
         return DP_OK;
-    const dp_budget_terms none = {0};
-    const dp_budget_terms t = terms != NULL ? *terms : none;
     const chain c = make_chain(&pipeline);
     const double z1 = (double)(float)z;
-
-    const double extra = 2.0 * (composition_error(&c, z1, t.world) + t.interpolation * unit +
-                                (t.linearize ? linearization_error(setup, &c, z1) : 0.0));
-    const errors here = errors_over(&c, z1, z1);
-
-    /* First a separation that holds against every depth behind; then, up to there, the errors are those near z. */
-    const errors beyond = errors_beyond(&c, z1);
-    const double g = real_window(&c, z1);
-    const double far_step = format_step(setup, &c, setup->reversed ? g + total_of(&here) : 1.0);
-    double safe = total_of(&here) + total_of(&beyond) + extra;
-    safe = larger(safe, c.overshoot + total_of(&here)) + far_step;
-    const double z_end =
-        smaller(z1 + distance(&c, z1, safe) * outward, isinf(setup->spec.zfar) ? HUGE_VAL : setup->spec.zfar);
-
-    errors behind = beyond;
-    double step = far_step;
-    if (!isinf(z_end) && z_end < 2.0 * z1) {
-        const errors close = errors_over(&c, z1, z_end);
-        if (total_of(&close) < total_of(&beyond))
-            behind = close;
-        const double w_end = real_window(&c, z_end) + total_of(&behind);
-        step = smaller(step, format_step(setup, &c, larger(g + total_of(&here), w_end)));
+    double part[DP_CAUSE_COUNT] = {0};
+    if (terms != NULL) {
+        part[DP_CAUSE_COMPOSITION] = 2.0 * composition_error(&c, z1, terms->world);
+        part[DP_CAUSE_INTERPOLATION] = 2.0 * terms->interpolation * unit;
+        part[DP_CAUSE_LINEARIZATION] = terms->linearize ? 2.0 * linearization_error(setup, &c, z1) : 0.0;
     }
-    const double projection = here.projection + behind.projection;
-    double ndc = here.ndc + behind.ndc;
-    ndc += larger(0.0, c.overshoot + total_of(&here) - (projection + ndc)); /* clamped ends tie as well */
-    const double part[DP_CAUSE_COUNT] = {
-        [DP_CAUSE_COMPOSITION] = 2.0 * composition_error(&c, z1, t.world),
-        [DP_CAUSE_PROJECTION] = projection,
-        [DP_CAUSE_NDC] = ndc,
-        [DP_CAUSE_INTERPOLATION] = 2.0 * t.interpolation * unit,
-        [DP_CAUSE_FORMAT] = step,
-        [DP_CAUSE_LINEARIZATION] = t.linearize ? 2.0 * linearization_error(setup, &c, z1) : 0.0,
-    };
-    double sum = 0.0;
+    const double extra = part[DP_CAUSE_COMPOSITION] + part[DP_CAUSE_INTERPOLATION] + part[DP_CAUSE_LINEARIZATION];
+
+    /*
+     * First a separation that holds against every depth behind. Then, as long as it helps: all depths farther than the
+     * separation so far are safe, so only those between need a demand of their own, which is smaller.
+     */
+    demand best = demand_beyond(setup, &c, z1);
+    double window = total_of(&c, &best, extra);
+    double separation = distance(&c, z1, window, best.slope) * outward;
+    for (double before = HUGE_VAL; separation < z1 && separation < 0.97 * before;) {
+        before = separation;
+        const demand close = demand_over(setup, &c, z1, z1 + separation);
+        const double need = total_of(&c, &close, extra);
+        const double s = close.slope > 0.0 ? distance(&c, z1, need, close.slope) * outward : HUGE_VAL;
+        if (s >= separation)
+            break;
+        separation = s;
+        best = close;
+        window = need;
+    }
+    part[DP_CAUSE_PROJECTION] = best.projection;
+    part[DP_CAUSE_FORMAT] = best.format;
+    part[DP_CAUSE_NDC] = window - extra - best.projection - best.format; /* with what clamping takes */
+    out->separation = separation;
+    out->window = window;
     for (int i = 0; i < DP_CAUSE_COUNT; i++)
-        sum += part[i];
-    out->window = sum * outward;
-    out->separation = distance(&c, z1, out->window) * outward;
-    for (int i = 0; i < DP_CAUSE_COUNT; i++)
-        out->cause[i] = part[i] > 0.0 ? out->separation * (part[i] / sum) : 0.0;
+        out->cause[i] = part[i] > 0.0 ? separation * (part[i] / window) : 0.0;
     return DP_OK;
 }

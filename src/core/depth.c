@@ -9,6 +9,8 @@ double dp_window(const dp_setup *setup, double z) {
     const double n = setup->spec.znear;
     const double f = setup->spec.zfar;
     double d;
+    if (setup->reversed ? z <= n : z >= f)
+        return 1.0;
     if (setup->curve == DP_CURVE_LOG)
         d = log1p(setup->spec.log_c * z) / setup->kappa;
     else if (setup->curve == DP_CURVE_LINEAR)
@@ -134,7 +136,7 @@ dp_status dp_sample_at(const dp_setup *setup, double z, dp_sample *out) {
     *out = (dp_sample){
         .z = z,
         .code = code,
-        .depth = isinf(z) ? (setup->reversed ? 0.0 : 1.0) : dp_window(setup, z),
+        .depth = dp_window(setup, z),
         .stored = cell.stored,
         .error = dp_error(setup, code, z),
         .lo = cell.lo,

@@ -9,6 +9,8 @@
 #include <float.h>
 #include <math.h>
 
+#include "core/clip.h"
+
 _Static_assert(FLT_EVAL_METHOD == 0, "binary32 operations must be rounded to binary32");
 
 /* ---- The matrix: entries in double, rounded once ------------------------------------------------------------- */
@@ -57,8 +59,8 @@ dp_status dp_pipeline_init(dp_pipeline *pipeline, const dp_setup *setup) {
     const dp_arith_row *arith = dp_arith_get(spec->arith);
     if (row == NULL || arith == NULL || row->curve != DP_CURVE_PERSPECTIVE)
         return DP_ERROR_MODEL;
-    const entries e = (spec->ortho ? orthographic : perspective)(spec->znear, spec->zfar, row->ndc_signed,
-                                                                 row->reversed);
+    const entries e =
+        (spec->ortho ? orthographic : perspective)(spec->znear, spec->zfar, row->ndc_signed, row->reversed);
     *pipeline = (dp_pipeline){.format = spec->format,
                               .rounding = spec->rounding,
                               .arith = arith,
@@ -78,44 +80,12 @@ static float clip_w(const dp_pipeline *p, float z) {
     return p->ortho ? 1.0f : z;
 }
 
-/* The shader's remap turns [-1, 1] into [0, 1]; everything behind it then is zero-to-one. */
-static int remapped(const dp_pipeline *p) {
-    return p->ndc_signed && p->arith->remap;
-}
-
-static int clip_is_signed(const dp_pipeline *p) {
-    return p->ndc_signed && !p->arith->remap;
-}
-
 float dp_pipeline_clip(const dp_pipeline *p, float z) {
-    float clip;
-    if (p->arith->fused) {
-        clip = fmaf(p->a, z, p->b);
-    } else {
-        const float product = p->a * z;
-        clip = product + p->b;
-    }
-    if (remapped(p)) {
-        const float sum = clip + clip_w(p, z);
-        clip = sum * 0.5f;
-    }
-    return clip;
+    return dp_clip_remap(p, dp_clip_project(p, z), clip_w(p, z));
 }
 
 float dp_pipeline_window(const dp_pipeline *p, float z) {
-    const float clip = dp_pipeline_clip(p, z);
-    const float w = clip_w(p, z);
-    float ndc;
-    if (p->arith->reciprocal) {
-        const float inverse = 1.0f / w;
-        ndc = clip * inverse;
-    } else {
-        ndc = clip / w;
-    }
-    if (!clip_is_signed(p))
-        return ndc;
-    const float half = 0.5f * ndc;
-    return half + 0.5f;
+    return dp_clip_window(p, dp_pipeline_clip(p, z), clip_w(p, z));
 }
 
 uint32_t dp_pipeline_convert(const dp_pipeline *p, float window) {
@@ -124,7 +94,8 @@ uint32_t dp_pipeline_convert(const dp_pipeline *p, float window) {
         return dp_format_encode(&p->format, p->rounding, (double)d);
     /* Above 24 bits the factor itself is rounded, to 2^N, so the product may pass the last code. */
     const float product = d * (float)p->format.code_max;
-    const double whole = p->arith->conversion == DP_CONVERT_PRODUCT_ZERO ? trunc((double)product) : rint((double)product);
+    const double whole =
+        p->arith->conversion == DP_CONVERT_PRODUCT_ZERO ? trunc((double)product) : rint((double)product);
     return whole < (double)p->format.code_max ? (uint32_t)whole : p->format.code_max;
 }
 
@@ -135,7 +106,7 @@ uint32_t dp_pipeline_code(const dp_pipeline *p, float z) {
 /* ---- Clipping ------------------------------------------------------------------------------------------------ */
 
 static int above_lower(const dp_pipeline *p, float z) {
-    return dp_pipeline_clip(p, z) >= (clip_is_signed(p) ? -clip_w(p, z) : 0.0f);
+    return dp_pipeline_clip(p, z) >= (dp_clip_is_signed(p) ? -clip_w(p, z) : 0.0f);
 }
 
 static int below_upper(const dp_pipeline *p, float z) {

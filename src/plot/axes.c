@@ -38,7 +38,7 @@ int axes_room_x(const pencil *p, double width) {
 }
 
 int axes_room_y(const pencil *p, double height) {
-    return (int)fmax(2, height / (30 * p->scale));
+    return (int)fmax(2, height / (25 * p->scale));
 }
 
 static double widest(const pencil *p, const chart_axis *axis, int room) {
@@ -63,68 +63,87 @@ static double snap(double v) {
     return floor(v) + 0.5;
 }
 
-/* The labels of a horizontal axis may be wider than thought: fewer of them until they stand apart. */
-static void ticks_that_fit(const pencil *p, const axes *a, ticks *out) {
-    for (int room = axes_room_x(p, a->frame.w); room >= 2; room--) {
-        ticks_make(a->x, room, out);
-        double end = -INFINITY;
-        bool apart = true;
-        for (size_t i = 0; i < out->count; i++) {
-            if (out->items[i].text[0] == '\0')
-                continue;
-            double half = canvas_text_width(p->c, out->items[i].text, &p->small) / 2;
-            double at = axes_x(a, out->items[i].at);
-            apart = apart && at - half > end + 6 * p->scale;
+/* Whether the labels stand apart; with `drop`, those that do not lose their text. */
+static bool labels_apart(const pencil *p, const axes *a, ticks *t, bool drop) {
+    double end = -INFINITY;
+    bool apart = true;
+    for (size_t i = 0; i < t->count; i++) {
+        if (t->items[i].text[0] == '\0')
+            continue;
+        double half = canvas_text_width(p->c, t->items[i].text, &p->small) / 2, at = axes_x(a, t->items[i].at);
+        if (at - half > end + 6 * p->scale) {
             end = at + half;
+        } else {
+            apart = false;
+            if (drop)
+                t->items[i].text[0] = '\0';
         }
-        if (apart)
-            return;
     }
+    return apart;
 }
 
+/* The labels of a horizontal axis may be wider than thought: fewer of them until they stand apart. */
+static void ticks_that_fit(const pencil *p, const axes *a, ticks *out) {
+    int room = axes_room_x(p, a->frame.w);
+    ticks_make(a->x, room, out);
+    while (!labels_apart(p, a, out, room <= 2) && room > 2)
+        ticks_make(a->x, --room, out);
+}
+
+/* All lines of one pen are one path: an SVG spends two hundred bytes on each path's style. */
 void axes_draw_grid(const pencil *p, const axes *a) {
     ticks t;
     canvas_pen pen = {.colour = p->theme->grid, .width = p->scale};
+    canvas_path_begin(p->c);
     ticks_that_fit(p, a, &t);
     for (size_t i = 0; i < t.count; i++)
         if (t.items[i].text[0] != '\0') {
             double x = snap(axes_x(a, t.items[i].at));
-            canvas_segment(p->c, x, a->frame.y, x, a->frame.y + a->frame.h, &pen);
+            canvas_path_segment(p->c, x, a->frame.y, x, a->frame.y + a->frame.h);
         }
     ticks_make(a->y, axes_room_y(p, a->frame.h), &t);
     for (size_t i = 0; i < t.count; i++)
         if (t.items[i].text[0] != '\0') {
             double y = snap(axes_y(a, t.items[i].at));
-            canvas_segment(p->c, a->frame.x, y, a->frame.x + a->frame.w, y, &pen);
+            canvas_path_segment(p->c, a->frame.x, y, a->frame.x + a->frame.w, y);
         }
+    canvas_path_end(p->c, &pen);
+}
+
+static double tick_length(const pencil *p, const tick *t) {
+    return (t->text[0] != '\0' ? TICK_LENGTH : MINOR_LENGTH) * p->scale;
 }
 
 static void draw_x_ticks(const pencil *p, const axes *a, const canvas_pen *pen, bool labels) {
     ticks t;
     double bottom = snap(a->frame.y + a->frame.h);
     ticks_that_fit(p, a, &t);
+    canvas_path_begin(p->c);
     for (size_t i = 0; i < t.count; i++) {
-        bool major = t.items[i].text[0] != '\0';
         double x = snap(axes_x(a, t.items[i].at));
-        canvas_segment(p->c, x, bottom, x, bottom + (major ? TICK_LENGTH : MINOR_LENGTH) * p->scale, pen);
-        if (labels)
-            canvas_text(p->c, x, bottom + (TICK_LENGTH + LABEL_GAP) * p->scale + 0.73 * p->small.size, t.items[i].text,
-                        &p->small, CANVAS_MIDDLE, 0);
+        canvas_path_segment(p->c, x, bottom, x, bottom + tick_length(p, &t.items[i]));
     }
+    canvas_path_end(p->c, pen);
+    for (size_t i = 0; i < t.count && labels; i++)
+        canvas_text(p->c, snap(axes_x(a, t.items[i].at)),
+                    bottom + (TICK_LENGTH + LABEL_GAP) * p->scale + 0.73 * p->small.size, t.items[i].text, &p->small,
+                    CANVAS_MIDDLE, 0);
 }
 
 /* side -1: ticks and labels to the left of x; +1: to the right. */
 static void draw_y_ticks(const pencil *p, const axes *a, double x, int side, const canvas_pen *pen, bool labels) {
     ticks t;
     ticks_make(a->y, axes_room_y(p, a->frame.h), &t);
+    canvas_path_begin(p->c);
     for (size_t i = 0; i < t.count; i++) {
-        bool major = t.items[i].text[0] != '\0';
         double y = snap(axes_y(a, t.items[i].at));
-        canvas_segment(p->c, x, y, x + side * (major ? TICK_LENGTH : MINOR_LENGTH) * p->scale, y, pen);
-        if (labels)
-            canvas_text(p->c, x + side * (TICK_LENGTH + LABEL_GAP) * p->scale, y + 0.36 * p->small.size,
-                        t.items[i].text, &p->small, side < 0 ? CANVAS_RIGHT : CANVAS_LEFT, 0);
+        canvas_path_segment(p->c, x, y, x + side * tick_length(p, &t.items[i]), y);
     }
+    canvas_path_end(p->c, pen);
+    for (size_t i = 0; i < t.count && labels; i++)
+        canvas_text(p->c, x + side * (TICK_LENGTH + LABEL_GAP) * p->scale,
+                    snap(axes_y(a, t.items[i].at)) + 0.36 * p->small.size, t.items[i].text, &p->small,
+                    side < 0 ? CANVAS_RIGHT : CANVAS_LEFT, 0);
 }
 
 static void draw_box(const pencil *p, canvas_rect f, const canvas_pen *pen) {

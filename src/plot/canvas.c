@@ -128,6 +128,12 @@ void canvas_path_break(canvas *c) {
     cairo_new_sub_path(c->cr);
 }
 
+void canvas_path_segment(canvas *c, double x0, double y0, double x1, double y1) {
+    canvas_path_break(c);
+    canvas_path_to(c, x0, y0);
+    canvas_path_to(c, x1, y1);
+}
+
 void canvas_path_end(canvas *c, const canvas_pen *pen) {
     stroke(c, pen);
 }
@@ -187,6 +193,8 @@ double canvas_text_width(canvas *c, const char *text, const canvas_font *font) {
 
 void canvas_text(canvas *c, double x, double y, const char *text, const canvas_font *font, canvas_align align,
                  int quarter_turns) {
+    if (*text == '\0')
+        return;
     double back = canvas_text_width(c, text, font) * (double)align / 2;
     cairo_save(c->cr);
     cairo_translate(c->cr, reach(x), reach(y));

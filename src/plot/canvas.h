@@ -83,6 +83,7 @@ void canvas_segment(canvas *c, double x0, double y0, double x1, double y1, const
 void canvas_path_begin(canvas *c);
 void canvas_path_to(canvas *c, double x, double y);
 void canvas_path_break(canvas *c); /**< the next point begins a new piece */
+void canvas_path_segment(canvas *c, double x0, double y0, double x1, double y1); /**< a piece of its own */
 void canvas_path_end(canvas *c, const canvas_pen *pen);
 
 /** A filled circle with a rim; pen may be null. */

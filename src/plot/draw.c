@@ -28,6 +28,7 @@ typedef struct grid {
     int columns, rows;
     canvas_rect area; /* of all frames and the headings above them */
     double heading;   /* height above each frame */
+    double gap_x, gap_y;
 } grid;
 
 static int columns_for(size_t count, canvas_rect area) {
@@ -45,11 +46,11 @@ static int columns_for(size_t count, canvas_rect area) {
     return best;
 }
 
-static canvas_rect panel_frame(const pencil *p, const grid *g, int index) {
-    double gap = PANEL_GAP * p->scale;
-    double w = (g->area.w - gap * (g->columns - 1)) / g->columns;
-    double h = (g->area.h - gap * (g->rows - 1)) / g->rows;
-    canvas_rect frame = {g->area.x + index % g->columns * (w + gap), g->area.y + index / g->columns * (h + gap), w, h};
+static canvas_rect panel_frame(const grid *g, int index) {
+    double w = (g->area.w - g->gap_x * (g->columns - 1)) / g->columns;
+    double h = (g->area.h - g->gap_y * (g->rows - 1)) / g->rows;
+    canvas_rect frame = {g->area.x + index % g->columns * (w + g->gap_x),
+                         g->area.y + index / g->columns * (h + g->gap_y), w, h};
     frame.y += g->heading;
     frame.h -= g->heading;
     return frame;
@@ -77,7 +78,7 @@ static void draw_caption(const pencil *p, const chart_axis *axis, canvas_align a
 
 static bool draw_panel(const pencil *p, const chart *c, const grid *g, int index) {
     const chart_panel *panel = &c->panels[index];
-    axes a = {&panel->x, &panel->y, panel_frame(p, g, index)};
+    axes a = {&panel->x, &panel->y, panel_frame(g, index)};
     bool lowest = (size_t)(index + g->columns) >= c->panel_count, leftmost = index % g->columns == 0;
     if (g->heading > 0) {
         words w = words_break(p, panel->title, &p->heading, a.frame.w, 1);
@@ -111,7 +112,7 @@ static bool draw_page(const pencil *p, const chart *c, double width, double heig
     canvas_fill(p->c, (canvas_rect){0, 0, width, height}, p->theme->background);
     double top = draw_head(p, c, width) + caption;
     double bottom = height - 0.75 * MARGIN * s - caption - label - TICK_ROOM * s;
-    grid g = {1, 1, {MARGIN * s, top, width - 2 * MARGIN * s, fmax(bottom - top, 40 * s)}, 0};
+    grid g = {1, 1, {MARGIN * s, top, width - 2 * MARGIN * s, fmax(bottom - top, 40 * s)}, 0, 0, 0};
     g.columns = columns_for(c->panel_count, g.area);
     g.rows = ((int)c->panel_count + g.columns - 1) / g.columns;
     g.heading = c->panel_count > 1 ? words_height(&p->heading) + 0.25 * SPACE * s : 0;
@@ -123,7 +124,9 @@ static bool draw_page(const pencil *p, const chart *c, double width, double heig
     /* Tick labels stand to the left of the panels, and half of the last one to their right. */
     double panel_height = g.area.h / g.rows - g.heading;
     double left = axes_label_width(p, y, panel_height) + TICK_ROOM * s;
-    double right = axes_x_label_width(p, x, g.area.w / g.columns) / 2;
+    double x_label = axes_x_label_width(p, x, g.area.w / g.columns), right = x_label / 2;
+    g.gap_x = fmax(PANEL_GAP * s, x_label + SPACE * s); /* two neighbours' end labels meet there */
+    g.gap_y = PANEL_GAP * s;
     double bar = c->value.label != NULL
                      ? SPACE * 2 * s + BAR_WIDTH * s + TICK_ROOM * s + axes_label_width(p, &c->value, panel_height)
                      : 0;

@@ -8,13 +8,22 @@
 
 enum { BAR_STEPS = 256 };
 
+static bool has_holes(const chart_map *m) {
+    for (size_t i = 0; i < (size_t)m->columns * (size_t)m->rows; i++)
+        if (isnan(m->value[i]))
+            return true;
+    return false;
+}
+
 static void draw_hatch(const pencil *p, canvas_rect f) {
     canvas_pen pen = {.colour = p->theme->frame, .width = p->scale};
     double step = 9 * p->scale;
     pen.colour.a = 0.35;
     canvas_fill(p->c, f, p->theme->empty);
+    canvas_path_begin(p->c);
     for (double x = f.x - f.h; x < f.x + f.w; x += step)
-        canvas_segment(p->c, x, f.y + f.h, x + f.h, f.y, &pen);
+        canvas_path_segment(p->c, x, f.y + f.h, x + f.h, f.y);
+    canvas_path_end(p->c, &pen);
 }
 
 static bool draw_pixels(const pencil *p, canvas_rect f, const chart_map *m, const chart_axis *value) {
@@ -55,8 +64,8 @@ static void square_contour(const pencil *p, canvas_rect f, const chart_map *m, i
     double dx = f.w / m->columns, dy = f.h / m->rows, corner[4];
     int at[4][2], found = 0;
     for (int i = 0; i < 4; i++) {
-        at[i][0] = column + CONTOUR_STRIDE * (i & 1);
-        at[i][1] = row + CONTOUR_STRIDE * (i >> 1);
+        at[i][0] = (int)fmin(column + CONTOUR_STRIDE * (i & 1), m->columns - 1);
+        at[i][1] = (int)fmin(row + CONTOUR_STRIDE * (i >> 1), m->rows - 1);
         corner[i] = m->value[(size_t)at[i][1] * (size_t)m->columns + (size_t)at[i][0]];
         if (isnan(corner[i]))
             return;
@@ -76,8 +85,8 @@ static void square_contour(const pencil *p, canvas_rect f, const chart_map *m, i
 static void draw_contour(const pencil *p, canvas_rect f, const chart_map *m, double level, chart_scale scale,
                          const canvas_pen *pen) {
     canvas_path_begin(p->c);
-    for (int row = 0; row + CONTOUR_STRIDE < m->rows; row += CONTOUR_STRIDE)
-        for (int column = 0; column + CONTOUR_STRIDE < m->columns; column += CONTOUR_STRIDE)
+    for (int row = 0; row + 1 < m->rows; row += CONTOUR_STRIDE)
+        for (int column = 0; column + 1 < m->columns; column += CONTOUR_STRIDE)
             square_contour(p, f, m, column, row, level, scale);
     canvas_path_end(p->c, pen);
 }
@@ -143,7 +152,8 @@ bool heat_draw(const pencil *p, const axes *a, const chart_panel *panel, const c
     ticks levels;
     boxes taken = {0};
     const chart_map *m = &panel->map;
-    draw_hatch(p, a->frame);
+    if (has_holes(m))
+        draw_hatch(p, a->frame);
     if (!draw_pixels(p, a->frame, m, value))
         return false;
     if (!contours)

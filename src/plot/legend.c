@@ -46,6 +46,15 @@ static bool arrange(const pencil *p, legend *l, size_t rows, double width) {
     return sum <= width;
 }
 
+/* How many entries stand together: those of one format, which share a colour. 1 when they do not come in equal groups.
+ */
+static size_t group_size(const legend *l) {
+    size_t size = 1;
+    while (size < l->count && l->entries[size]->style.colour == l->entries[0]->style.colour)
+        size++;
+    return size < l->count && l->count % size == 0 ? size : 1;
+}
+
 legend legend_make(const pencil *p, const chart *c, double width) {
     legend l = {0};
     for (size_t i = 0; i < c->panel_count; i++)
@@ -54,9 +63,12 @@ legend legend_make(const pencil *p, const chart *c, double width) {
                 l.entries[l.count++] = &c->panels[i].series[s];
     l.width = width;
     l.arrows = l.count > 0 && chart_has_blind(c);
-    for (size_t rows = 1; rows <= l.count; rows++)
-        if (arrange(p, &l, rows, width))
-            break;
+    /* The fewest rows that fit; then as many more as keep each group in one column. */
+    size_t rows = 1, group = group_size(&l);
+    while (rows < l.count && !arrange(p, &l, rows, width))
+        rows++;
+    if (l.count > 0)
+        arrange(p, &l, (rows + group - 1) / group * group, width);
     return l;
 }
 

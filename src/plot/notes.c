@@ -5,16 +5,18 @@
 #include <stdlib.h>
 #include <string.h>
 
+static bool grow(notes_buffer *b, size_t size) {
+    size_t room = 2 * b->room + size + 4096;
+    unsigned char *at = realloc(b->at, room);
+    if (at == NULL)
+        return false;
+    b->at = at;
+    b->room = room;
+    return true;
+}
+
 bool notes_append(notes_buffer *b, const void *bytes, size_t size) {
-    if (!b->failed && b->room - b->size < size) {
-        size_t room = 2 * b->room + size + 4096;
-        unsigned char *at = realloc(b->at, room);
-        b->failed = at == NULL;
-        if (!b->failed) {
-            b->at = at;
-            b->room = room;
-        }
-    }
+    b->failed = b->failed || (b->room - b->size < size && !grow(b, size));
     if (b->failed)
         return false;
     memcpy(b->at + b->size, bytes, size);

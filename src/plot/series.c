@@ -67,12 +67,20 @@ static void draw_drops(const pencil *p, const axes *a, const chart_series *s, si
     thin.width = 1.1 * p->scale / sqrt(crowd);
     thin.colour.a = 0.6;
     thick.width = 1.6 * p->scale / sqrt(crowd);
+    canvas_path_begin(p->c);
     for (size_t i = 0; i < s->count; i++) {
         double x = axes_x(a, s->x[i]), y = axes_y(a, s->y[i]);
-        canvas_line(p->c, (canvas_point[]){{a->frame.x, y}, {x, y}, {x, bottom}}, 3, &thin);
-        canvas_segment(p->c, a->frame.x, y, a->frame.x + rug, y, &thick);
-        canvas_segment(p->c, x, bottom, x, bottom - rug, &thick);
+        canvas_path_segment(p->c, a->frame.x, y, x, y);
+        canvas_path_to(p->c, x, bottom);
     }
+    canvas_path_end(p->c, &thin);
+    canvas_path_begin(p->c);
+    for (size_t i = 0; i < s->count; i++) {
+        double x = axes_x(a, s->x[i]), y = axes_y(a, s->y[i]);
+        canvas_path_segment(p->c, a->frame.x, y, a->frame.x + rug, y);
+        canvas_path_segment(p->c, x, bottom, x, bottom - rug);
+    }
+    canvas_path_end(p->c, &thick);
 }
 
 /* A label stands to the right of its point, to the left where it would leave the frame, and never above the frame. */

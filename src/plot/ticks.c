@@ -45,11 +45,14 @@ void ticks_label(double value, bool powers, char out[TICKS_TEXT]) {
 static void linear(const chart_axis *axis, int room, ticks *out) {
     double span = axis->hi - axis->lo, step = pow(10, floor(log10(span / room)));
     static const double factors[] = {1, 2, 5, 10, 20};
-    for (size_t i = 0; i < 5; i++)
-        if (floor(span / (step * factors[i])) + 1 <= room) {
-            step *= factors[i];
+    for (size_t i = 0; i < sizeof factors / sizeof *factors; i++) {
+        double finer = i > 0 ? factors[i - 1] : 1, next = step * factors[i];
+        double count = floor(axis->hi / next) - ceil(axis->lo / next) + 1;
+        if (count <= room) {
+            step *= count < 2 && room > 2 ? finer : factors[i]; /* rather one too many than a single one */
             break;
         }
+    }
     double first = ceil(axis->lo / step - 1e-9);
     for (int i = 0; i < TICKS_MAX && (first + i) * step <= axis->hi + 1e-9 * span; i++) {
         double at = (first + i) * step;
@@ -70,10 +73,13 @@ static void decades(const chart_axis *axis, int room, ticks *out) {
     int stride = 1;
     while ((last - first) / stride + 1 > room)
         stride++;
+    /* By the power itself, so that 1 is labelled and two axes agree; from the first where that leaves fewer than two.
+     */
+    int origin = floor((double)last / stride) - ceil((double)first / stride) < 1 ? first : 0;
     for (int power = first - 1; power <= last; power++) {
         double decade = pow(10, power);
         char text[TICKS_TEXT] = "";
-        if (power % stride == 0) /* by the power itself: so that 1 is labelled, and two axes agree */
+        if ((power - origin) % stride == 0)
             ticks_label(decade, powers, text);
         add(out, axis, decade, text);
         for (int factor = 2; stride == 1 && factor < 10; factor++) {

@@ -23,7 +23,7 @@ typedef struct ticks {
 /**
  * Ticks in [lo, hi], in growing order.
  *
- * @param room  at most this many labelled ticks, 2 or more
+ * @param room  about this many labelled ticks, 2 or more; at most two above it
  *
  * A log axis has labels at every decade, or at every second, third, ... when there are too many, and minor ticks in
  * between; where it spans less than two decades also at 2 and 5, or at even steps when it spans less than that.

@@ -1,0 +1,14 @@
+#!/bin/sh
+# SPDX-License-Identifier: GPL-3.0-or-later
+# Draws the gallery:  draw.sh PROGRAM [FOLDER [NAME...]]     (all recipes when none is named)
+set -eu
+program=$1
+folder=${2:-plots}
+shift $(($# < 2 ? $# : 2))
+grep -v '^#' "$(dirname "$0")/recipes" | while read -r name arguments; do
+    case " $* " in '  ' | *" $name "*) ;; *) continue ;; esac
+    echo "  PLOT    $folder/$name.svg"
+    # A recipe is words without quotes or patterns.
+    # shellcheck disable=SC2086
+    "$program" plot $arguments -o "$folder/$name.svg"
+done

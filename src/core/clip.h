@@ -1,0 +1,44 @@
+/* SPDX-License-Identifier: MIT */
+/* The steps of the binary32 pipeline, each float in, float out: what a vertex at w becomes. */
+#ifndef CORE_CLIP_H
+#define CORE_CLIP_H
+
+#include <math.h>
+
+#include "depthprec/pipeline.h"
+
+/* The shader's remap turns [-1, 1] into [0, 1]; everything behind it then is zero-to-one. */
+static inline int dp_clip_is_signed(const dp_pipeline *p) {
+    return p->ndc_signed && !p->arith->remap;
+}
+
+/* fl(fl(A z) + B), or fused */
+static inline float dp_clip_project(const dp_pipeline *p, float z) {
+    if (p->arith->fused)
+        return fmaf(p->a, z, p->b);
+    const float product = p->a * z;
+    return product + p->b;
+}
+
+static inline float dp_clip_remap(const dp_pipeline *p, float clip, float w) {
+    if (!(p->ndc_signed && p->arith->remap))
+        return clip;
+    const float sum = clip + w;
+    return sum * 0.5f;
+}
+
+static inline float dp_clip_window(const dp_pipeline *p, float clip, float w) {
+    float ndc;
+    if (p->arith->reciprocal) {
+        const float inverse = 1.0f / w;
+        ndc = clip * inverse;
+    } else {
+        ndc = clip / w;
+    }
+    if (!dp_clip_is_signed(p))
+        return ndc;
+    const float half = 0.5f * ndc;
+    return half + 0.5f;
+}
+
+#endif

@@ -1,0 +1,450 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/*
+ * One pass in two levels. The range is cut into segments inside one band, and each is swept from its far end, block
+ * after block. For every run of 64 depths the sweep keeps the greatest key and the least key from it on to the
+ * segment's end. Two depths at least D steps apart that are out of order show themselves there, so a run is looked at
+ * one by one only when it may hold an interval longer than the longest so far; where D is below a run's length, the
+ * depths themselves are compared with what lies D steps behind, a vector at a time. Far to near is the right way
+ * round: intervals mostly grow with distance, so the longest is met early and little is looked at twice.
+ *
+ * Intervals that leave a segment are found afterwards from the least and greatest key of each block. Both parts
+ * compute again the few keys that they need: no code is stored.
+ */
+#include "method/census.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "method/census_range.h"
+
+enum { SEGMENT = 1 << 18, SEGMENT_RUNS = SEGMENT / CENSUS_RUN };
+
+typedef struct segment {
+    uint32_t first, count;
+    size_t block; /* its first block, in the list of all */
+    int band;
+    census_band found; /* pairs and bounds are not filled in */
+} segment;
+
+typedef struct census {
+    const census_request *request;
+    const census_level *level;
+    census_plan plan;
+    uint32_t first, last; /* of the whole range */
+    segment *segments;
+    size_t segment_count, block_count;
+    uint32_t *block_first;
+    int32_t *least, *greatest; /* of each block; least becomes the least from there on to the end */
+} census;
+
+/* ---- A segment --------------------------------------------------------------------------------------------------- */
+
+typedef struct sweep {
+    const census *c;
+    segment *s;
+    uint32_t last;                    /* of the segment */
+    uint32_t runs;                    /* with those that fill the last block up */
+    double step;                      /* of the band */
+    double bound;                     /* the least guaranteed separation in the block at hand */
+    double bound_above;               /* at the far end of the block at hand */
+    int before_known;                 /* whether `before` belongs to the block behind the one at hand */
+    int32_t beyond[SEGMENT_RUNS + 1]; /* least key from a run on to the end */
+    int32_t peak[SEGMENT_RUNS];       /* greatest key of a run */
+    int32_t key[CENSUS_BLOCK] __attribute__((aligned(64)));
+    int32_t reach[CENSUS_BLOCK] __attribute__((aligned(64)));
+    int32_t before[CENSUS_RUN];
+} sweep;
+
+static void run_keys(const sweep *w, uint32_t run, int32_t key[CENSUS_RUN]) {
+    float z[CENSUS_RUN];
+    for (uint32_t i = 0; i < CENSUS_RUN; i++) {
+        const uint32_t bits = w->s->first + run * CENSUS_RUN + i;
+        z[i] = census_depth(bits < w->last ? bits : w->last);
+    }
+    w->c->level->keys(&w->c->plan, z, CENSUS_RUN, key);
+}
+
+/* Only intervals of more than this many steps tell anything new. */
+static uint32_t known_steps(const sweep *w) {
+    double steps = w->s->found.longest / w->step;
+    const double by_slack = w->s->found.slack * w->bound / w->step;
+    if (by_slack < steps)
+        steps = floor(by_slack);
+    return steps < SEGMENT ? (uint32_t)steps : SEGMENT;
+}
+
+/* The last of runs from..end whose keys, or those behind, come down to v. There is one: beyond[from] <= v. */
+static uint32_t last_run(const sweep *w, uint32_t from, int32_t v) {
+    uint32_t end = w->runs - 1;
+    while (from < end) {
+        const uint32_t middle = end - (end - from) / 2;
+        if (w->beyond[middle] <= v)
+            from = middle;
+        else
+            end = middle - 1;
+    }
+    return from;
+}
+
+/* Looks at a run's depths. One whose key a nearer depth of the run reaches has the shorter interval: left out. */
+static void look_at_run(sweep *w, uint32_t run) {
+    int32_t home[CENSUS_RUN];
+    int32_t away[CENSUS_RUN];
+    uint32_t away_run = UINT32_MAX;
+    int32_t highest = INT32_MIN;
+    segment *s = w->s;
+    uint32_t known = known_steps(w);
+    run_keys(w, run, home);
+    for (uint32_t i = 0; i < CENSUS_RUN; i++) {
+        const uint32_t place = run * CENSUS_RUN + i;
+        const uint32_t from = place + known + 1;
+        const int32_t v = home[i];
+        if (from >= s->count)
+            return;
+        if ((i > 0 && v <= highest) || w->beyond[from / CENSUS_RUN] > v)
+            continue;
+        highest = v;
+        const uint32_t other = last_run(w, from / CENSUS_RUN, v);
+        if (other != away_run)
+            run_keys(w, away_run = other, away);
+        uint32_t end = CENSUS_RUN - 1;
+        while (end > 0 && away[end] > v)
+            end--;
+        end += other * CENSUS_RUN;
+        if (end >= s->count)
+            end = s->count - 1;
+        if (end < from)
+            continue;
+        census_note(w->c->request, &s->found, census_depth(s->first + place), census_depth(s->first + end));
+        known = known_steps(w);
+    }
+}
+
+/* Which runs of the block that begins with run `base` may hold something new: bit i for the i-th from the far end. */
+static uint32_t suspects(sweep *w, uint32_t base) {
+    const uint32_t known = known_steps(w);
+    const uint32_t ahead = (known + 1) / CENSUS_RUN;
+    uint32_t mask = 0;
+    for (uint32_t i = 0; i < CENSUS_RUNS; i++) {
+        const uint32_t run = base + CENSUS_RUNS - 1 - i;
+        const uint32_t other = run + ahead < w->runs ? run + ahead : w->runs;
+        mask |= (uint32_t)(w->beyond[other] <= w->peak[run]) << i;
+    }
+    if (mask == 0 || known + 1 >= CENSUS_RUN) {
+        w->before_known = 0;
+        return mask;
+    }
+    int32_t beyond[CENSUS_RUNS];
+    for (uint32_t i = 0; i < CENSUS_RUNS; i++)
+        beyond[i] = w->beyond[base + CENSUS_RUNS - i];
+    w->c->level->reach(w->key, beyond, w->reach);
+    if (!w->before_known)
+        for (uint32_t i = 0; i < CENSUS_RUN; i++)
+            w->before[i] = INT32_MIN; /* anything may be there */
+    mask &= w->c->level->far_disorder(w->key, w->reach, w->before, known + 1);
+    for (uint32_t i = 0; i < CENSUS_RUN; i++)
+        w->before[i] = w->reach[i * CENSUS_RUNS + CENSUS_RUNS - 1];
+    w->before_known = 1;
+    return mask;
+}
+
+static void update_bound(sweep *w, uint32_t first) {
+    const census_request *r = w->c->request;
+    if (r->bound == NULL)
+        return;
+    const double here = r->bound(r->setup, (double)census_depth(first));
+    w->bound = here < w->bound_above ? here : w->bound_above;
+    w->bound_above = here;
+}
+
+static void count_block(sweep *w, const census_sight *sight, uint32_t offset) {
+    census_band *found = &w->s->found;
+    const uint32_t real = w->s->count - offset < CENSUS_BLOCK ? w->s->count - offset : CENSUS_BLOCK;
+    const uint32_t filling = CENSUS_BLOCK - real; /* copies of the last depth, each a tie */
+    found->ties += sight->ties - filling;
+    found->swaps += sight->swaps;
+    found->clipped += sight->clipped;
+    if (filling > 0 && !dp_pipeline_drawn(&w->c->plan.pipeline, census_depth(w->last)))
+        found->clipped -= filling;
+}
+
+static void sweep_segment(const census *c, segment *s, sweep *w) {
+    const uint32_t blocks = (s->count + CENSUS_BLOCK - 1) / CENSUS_BLOCK;
+    w->c = c;
+    w->s = s;
+    w->last = s->first + s->count - 1;
+    w->runs = blocks * CENSUS_RUNS;
+    w->step = census_step(s->first);
+    w->bound = w->bound_above = HUGE_VAL;
+    w->beyond[w->runs] = INT32_MAX;
+    for (uint32_t i = 0; i < CENSUS_RUN; i++)
+        w->before[i] = INT32_MAX;
+    w->before_known = 1;
+    s->found = (census_band){.longest_z = (double)NAN, .slack_z = (double)NAN};
+    const int has_next = w->last < c->last;
+    int32_t next = has_next ? census_key(&c->plan, census_depth(w->last + 1)) : 0;
+    for (uint32_t b = blocks; b-- > 0;) {
+        census_sight sight;
+        c->level->block(&c->plan, s->first + b * CENSUS_BLOCK, w->last, w->key, &sight);
+        count_block(w, &sight, b * CENSUS_BLOCK);
+        if (has_next || b + 1 < blocks) {
+            s->found.ties += next == w->key[0];
+            s->found.swaps += next < w->key[0];
+        }
+        next = w->key[CENSUS_BLOCK - 1];
+        const uint32_t base = b * CENSUS_RUNS;
+        int32_t greatest = INT32_MIN;
+        for (uint32_t i = 0; i < CENSUS_RUNS; i++) {
+            const uint32_t run = base + CENSUS_RUNS - 1 - i;
+            w->peak[run] = sight.greatest[i];
+            w->beyond[run] = sight.least[i] < w->beyond[run + 1] ? sight.least[i] : w->beyond[run + 1];
+            greatest = sight.greatest[i] > greatest ? sight.greatest[i] : greatest;
+        }
+        int32_t least = sight.least[0];
+        for (uint32_t i = 1; i < CENSUS_RUNS; i++)
+            least = sight.least[i] < least ? sight.least[i] : least;
+        c->greatest[s->block + b] = greatest;
+        c->least[s->block + b] = least;
+        c->block_first[s->block + b] = s->first + b * CENSUS_BLOCK;
+        update_bound(w, s->first + b * CENSUS_BLOCK);
+        uint32_t mask = suspects(w, base);
+        for (uint32_t i = 0; mask != 0; i++, mask >>= 1)
+            if (mask & 1)
+                look_at_run(w, base + CENSUS_RUNS - 1 - i);
+    }
+}
+
+/*
+ * The sweep met the farthest of the longest intervals first; the nearest is wanted. With what the sweep has left, a
+ * walk from the near end stops at the first run that has one.
+ */
+static double nearest_longest(const census *c, segment *s, sweep *w) {
+    const census_band found = s->found;
+    sweep_segment(c, s, w);
+    w->bound = HUGE_VAL;
+    s->found.longest = found.longest - w->step;
+    s->found.slack = HUGE_VAL;
+    for (uint32_t run = 0; run < w->runs && s->found.longest < found.longest; run++) {
+        const uint32_t other = run + (known_steps(w) + 1) / CENSUS_RUN;
+        if (w->beyond[other < w->runs ? other : w->runs] <= w->peak[run])
+            look_at_run(w, run);
+    }
+    const double z = s->found.longest_z;
+    s->found = found;
+    return z;
+}
+
+/* ---- Across segments --------------------------------------------------------------------------------------------- */
+
+static uint32_t block_last(const census *c, size_t block) {
+    return block + 1 < c->block_count ? c->block_first[block + 1] - 1 : c->last;
+}
+
+static void keys_of_block(const census *c, size_t block, int32_t key[CENSUS_BLOCK]) {
+    float z[CENSUS_BLOCK];
+    const uint32_t first = c->block_first[block];
+    const uint32_t last = block_last(c, block);
+    for (uint32_t i = 0; i < CENSUS_BLOCK; i++)
+        z[i] = census_depth(first + i < last ? first + i : last);
+    c->level->keys(&c->plan, z, CENSUS_BLOCK, key);
+}
+
+/* The last block from `from` on whose keys, or those behind, come down to v; least[from] <= v. */
+static size_t last_block(const census *c, size_t from, int32_t v) {
+    size_t end = c->block_count - 1;
+    while (from < end) {
+        const size_t middle = end - (end - from) / 2;
+        if (c->least[middle] <= v)
+            from = middle;
+        else
+            end = middle - 1;
+    }
+    return from;
+}
+
+/* The intervals that begin in a block and end in or behind block `from`; keys up to `highest` were met nearer. */
+static void look_at_block(const census *c, size_t block, size_t from, int32_t highest, int any, census_band *band) {
+    int32_t home[CENSUS_BLOCK];
+    int32_t away[CENSUS_BLOCK];
+    size_t away_block = SIZE_MAX;
+    const uint32_t count = block_last(c, block) - c->block_first[block] + 1;
+    keys_of_block(c, block, home);
+    for (uint32_t i = 0; i < count; i++) {
+        const int32_t v = home[i];
+        if ((any && v <= highest) || c->least[from] > v)
+            continue;
+        highest = v;
+        any = 1;
+        const size_t other = last_block(c, from, v);
+        if (other != away_block)
+            keys_of_block(c, away_block = other, away);
+        uint32_t end = block_last(c, other) - c->block_first[other];
+        while (end > 0 && away[end] > v)
+            end--;
+        census_note(c->request, band, census_depth(c->block_first[block] + i), census_depth(c->block_first[other] + end));
+    }
+}
+
+static int worth_a_look(const census *c, size_t block, size_t from, const census_band *band) {
+    const census_request *r = c->request;
+    const double z1 = (double)census_depth(c->block_first[block]);
+    const double most = (double)census_depth(block_last(c, last_block(c, from, c->greatest[block]))) - z1;
+    if (most >= band->longest)
+        return 1;
+    return r->bound != NULL &&
+           most >= band->slack * fmin(r->bound(r->setup, z1),
+                                      r->bound(r->setup, (double)census_depth(block_last(c, block))));
+}
+
+/* Intervals from one segment into a later one. Needs `least` to run on to the end. */
+static void bridge(const census *c, census_result *result) {
+    int band = -1;
+    int any = 0;
+    int32_t highest = 0;
+    for (size_t i = 0; i + 1 < c->segment_count; i++) {
+        const segment *s = &c->segments[i];
+        const size_t from = c->segments[i + 1].block;
+        if (s->band != band) {
+            band = s->band;
+            any = 0;
+        }
+        for (size_t block = s->block; block < from; block++) {
+            const int32_t top = c->greatest[block];
+            if (any && top <= highest)
+                continue;
+            if (top >= c->least[from] && worth_a_look(c, block, from, &result->bands[band]))
+                look_at_block(c, block, from, highest, any, &result->bands[band]);
+            highest = top;
+            any = 1;
+        }
+    }
+}
+
+/* ---- The whole --------------------------------------------------------------------------------------------------- */
+
+static size_t cut(census *c, segment *segments) {
+    size_t count = 0;
+    size_t block = 0;
+    for (uint64_t first = c->first; first <= c->last; count++) {
+        uint64_t end = (first | 0x7FFFFFU) + 1; /* of the band */
+        if (end > (uint64_t)c->last + 1)
+            end = (uint64_t)c->last + 1;
+        if (end - first > SEGMENT)
+            end = first + SEGMENT;
+        if (segments != NULL)
+            segments[count] = (segment){.first = (uint32_t)first,
+                                        .count = (uint32_t)(end - first),
+                                        .block = block,
+                                        .band = census_band_of(c->first, (uint32_t)first)};
+        block += (end - first + CENSUS_BLOCK - 1) / CENSUS_BLOCK;
+        first = end;
+    }
+    c->segment_count = count;
+    c->block_count = block;
+    return count;
+}
+
+static int allocate(census *c) {
+    c->segments = malloc(cut(c, NULL) * sizeof *c->segments);
+    c->block_first = malloc(c->block_count * sizeof *c->block_first);
+    c->least = malloc(c->block_count * sizeof *c->least);
+    c->greatest = malloc(c->block_count * sizeof *c->greatest);
+    return c->segments != NULL && c->block_first != NULL && c->least != NULL && c->greatest != NULL;
+}
+
+static void release(census *c) {
+    free(c->segments);
+    free(c->block_first);
+    free(c->least);
+    free(c->greatest);
+}
+
+/* @return whether it was stopped */
+static int sweep_all(census *c) {
+    const census_request *r = c->request;
+    uint64_t done = 0;
+    int stop = 0;
+#pragma omp parallel num_threads(r->threads) if (r->threads != 1)
+    {
+        sweep w;
+#pragma omp for schedule(dynamic)
+        for (size_t i = 0; i < c->segment_count; i++) {
+            int stopped;
+#pragma omp atomic read
+            stopped = stop;
+            if (stopped)
+                continue;
+            sweep_segment(c, &c->segments[i], &w);
+#pragma omp critical(census_progress)
+            {
+                done += c->segments[i].count;
+                if (r->progress != NULL && r->progress(r->context, done)) {
+#pragma omp atomic write
+                    stop = 1;
+                }
+            }
+        }
+    }
+    return stop;
+}
+
+static void gather(census *c, census_result *result) {
+    for (size_t i = 0; i < c->segment_count; i++) {
+        const segment *s = &c->segments[i];
+        census_band *band = &result->bands[s->band];
+        band->pairs += s->count;
+        band->ties += s->found.ties;
+        band->swaps += s->found.swaps;
+        band->clipped += s->found.clipped;
+        band->longest = fmax(band->longest, s->found.longest);
+        if (s->found.slack > band->slack) {
+            band->slack = s->found.slack;
+            band->slack_z = s->found.slack_z;
+        }
+    }
+    result->bands[result->band_count - 1].pairs--; /* the last depth has no neighbour behind it */
+    for (size_t i = c->block_count - 1; i-- > 0;)
+        if (c->least[i + 1] < c->least[i])
+            c->least[i] = c->least[i + 1];
+    bridge(c, result);
+}
+
+/* Where a band's longest interval is inside a segment, the first such segment knows the nearest. */
+static int locate(census *c, census_result *result) {
+    sweep *w = malloc(sizeof *w);
+    int band = -1;
+    for (size_t i = 0; w != NULL && i < c->segment_count; i++) {
+        segment *s = &c->segments[i];
+        census_band *b = &result->bands[s->band];
+        if (s->band == band || b->longest <= 0.0 || s->found.longest < b->longest)
+            continue;
+        band = s->band;
+        const double z = nearest_longest(c, s, w);
+        b->longest_z = b->longest_z < z ? b->longest_z : z;
+    }
+    const int good = w != NULL;
+    free(w);
+    return good;
+}
+
+census_status census_run(const census_request *request, census_result *result) {
+    census c = {.request = request, .level = request->level != NULL ? request->level : census_level_best()};
+    census_status status = census_open(request, &c.plan, result, &c.first, &c.last);
+    if (status != CENSUS_DONE)
+        return status;
+    if (!allocate(&c)) {
+        release(&c);
+        return CENSUS_NO_MEMORY;
+    }
+    cut(&c, c.segments);
+    if (sweep_all(&c)) {
+        status = CENSUS_STOPPED;
+    } else {
+        gather(&c, result);
+        status = locate(&c, result) ? CENSUS_DONE : CENSUS_NO_MEMORY;
+        census_close(request, &c.plan, c.first, c.last, result);
+    }
+    release(&c);
+    return status;
+}

@@ -1,0 +1,94 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "method/census_range.h"
+
+#include <float.h>
+#include <math.h>
+
+static int ends_of(double lo, double hi, uint32_t *first, uint32_t *last) {
+    if (!(lo > 0.0 && lo <= hi && hi <= (double)FLT_MAX))
+        return 0;
+    const float znear = (float)lo;
+    const float zfar = (float)hi;
+    *first = census_bits(znear) + ((double)znear < lo);
+    *last = census_bits(zfar) - ((double)zfar > hi);
+    return *first >= 1U << 23 && *first <= *last;
+}
+
+uint64_t census_count(double lo, double hi) {
+    uint32_t first, last;
+    return ends_of(lo, hi, &first, &last) ? (uint64_t)last - first + 1 : 0;
+}
+
+census_status census_open(const census_request *request, census_plan *plan, census_result *result, uint32_t *first,
+                          uint32_t *last) {
+    dp_pipeline pipeline;
+    if (dp_pipeline_init(&pipeline, request->setup) != DP_OK)
+        return CENSUS_MODEL;
+    if (!ends_of(request->lo, request->hi, first, last))
+        return CENSUS_RANGE;
+    *plan = census_plan_make(&pipeline);
+    *result = (census_result){.band_count = census_band_of(*first, *last) + 1};
+    for (int i = 0; i < result->band_count; i++) {
+        census_band *band = &result->bands[i];
+        const uint32_t field = (*first >> 23) + (uint32_t)i;
+        band->lo = i == 0 ? request->lo : (double)census_depth(field << 23);
+        band->hi = i == result->band_count - 1 ? request->hi : 2.0 * (double)census_depth(field << 23);
+        band->longest_z = band->slack_z = band->bound = (double)NAN;
+        if (request->bound != NULL)
+            band->bound = fmax(request->bound(request->setup, band->lo), request->bound(request->setup, band->hi));
+    }
+    return CENSUS_DONE;
+}
+
+void census_note(const census_request *request, census_band *band, float z1, float z2) {
+    const double length = (double)z2 - (double)z1;
+    if (length > band->longest || (length == band->longest && (double)z1 < band->longest_z)) {
+        band->longest = length;
+        band->longest_z = (double)z1;
+    }
+    if (request->bound == NULL)
+        return;
+    const double bound = request->bound(request->setup, (double)z1);
+    const double slack = bound > 0.0 ? length / bound : HUGE_VAL; /* no bound at all is a broken one */
+    if (slack > band->slack || (slack == band->slack && (double)z1 < band->slack_z)) {
+        band->slack = slack;
+        band->slack_z = (double)z1;
+    }
+}
+
+/* How many depths lie in first..last and outside [lo, hi]; all, when these are NaN. */
+static uint64_t outside(uint32_t first, uint32_t last, double lo, double hi) {
+    return isnan(lo) ? (uint64_t)last - first + 1 : (uint64_t)(census_bits((float)lo) - first) + (last - census_bits((float)hi));
+}
+
+void census_close(const census_request *request, const census_plan *plan, uint32_t first, uint32_t last,
+                  census_result *result) {
+    census_band *all = &result->all;
+    *all = (census_band){.lo = request->lo, .hi = request->hi, .longest_z = (double)NAN, .slack_z = (double)NAN, .bound = (double)NAN};
+    for (int i = 0; i < result->band_count; i++) {
+        const census_band *band = &result->bands[i];
+        all->pairs += band->pairs;
+        all->ties += band->ties;
+        all->swaps += band->swaps;
+        all->clipped += band->clipped;
+        all->bound = fmax(all->bound, band->bound);
+        if (band->longest > all->longest) {
+            all->longest = band->longest;
+            all->longest_z = band->longest_z;
+        }
+        if (band->slack > all->slack) {
+            all->slack = band->slack;
+            all->slack_z = band->slack_z;
+        }
+    }
+    /* The planes of a part of the camera's range: the same search between its ends. */
+    dp_pipeline part = plan->pipeline;
+    float znear, zfar;
+    part.znear = census_depth(first);
+    part.zfar = census_depth(last);
+    dp_pipeline_planes(&part, &znear, &zfar);
+    result->near_effective = (double)znear;
+    result->far_effective = (double)zfar;
+    const uint64_t lost = outside(first, last, result->near_effective, result->far_effective);
+    result->holes = all->clipped > lost ? all->clipped - lost : 0;
+}

@@ -1,0 +1,163 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include <float.h>
+#include <math.h>
+#include <string.h>
+
+#include "method/census_range.h"
+
+enum { BATCH = CENSUS_BLOCK, LADDER = 31 };
+
+typedef struct sample {
+    const census_sample_request *request;
+    const census_level *level;
+    census_plan plan;
+    uint32_t first, last;
+} sample;
+
+/* Draw i of a seed: the finalizer of splitmix64 over a counter, so that any draw can be made without the others. */
+static uint64_t draw(uint64_t seed, uint64_t i) {
+    uint64_t x = seed + (i + 1) * UINT64_C(0x9E3779B97F4A7C15);
+    x = (x ^ x >> 30) * UINT64_C(0xBF58476D1CE4E5B9);
+    x = (x ^ x >> 27) * UINT64_C(0x94D049BB133111EB);
+    return x ^ x >> 31;
+}
+
+static uint32_t depth_of_draw(const sample *s, uint64_t i) {
+    const census_sample_request *r = s->request;
+    if (r->count == 0)
+        return s->first + (uint32_t)i;
+    const uint64_t count = (uint64_t)s->last - s->first + 1; /* below 2^32, so the product of halves cannot overflow */
+    return s->first + (uint32_t)((draw(r->seed, i) >> 32) * count >> 32);
+}
+
+static float partner(const sample *s, uint32_t bits) {
+    if (s->request->gap > 0.0)
+        return (float)((double)census_depth(bits) + s->request->gap);
+    return census_depth(bits + 1);
+}
+
+static int out_of_order(const sample *s, int32_t key, uint32_t bits) {
+    return census_key(&s->plan, census_depth(bits)) <= key;
+}
+
+/*
+ * Steps away from a depth in doubling strides, keeps the last place out of order, and closes in on the change from
+ * there. Codes are not monotone, so a longer interval may be missed, but what is found is one.
+ */
+static void walk(const sample *s, uint32_t bits, int32_t key, census_band *band) {
+    uint64_t wrong = 0;
+    uint64_t right = 0;
+    const uint64_t room = s->last - bits;
+    for (int i = 0; i < LADDER; i++) {
+        const uint64_t stride = UINT64_C(1) << i < room ? UINT64_C(1) << i : room;
+        if (out_of_order(s, key, bits + (uint32_t)stride)) {
+            wrong = stride;
+            right = 0;
+        } else if (right == 0) {
+            right = stride;
+        }
+        if (stride == room)
+            break;
+    }
+    if (right == 0)
+        right = wrong + 1;
+    while (right > wrong + 1) {
+        const uint64_t middle = wrong + (right - wrong) / 2;
+        if (out_of_order(s, key, bits + (uint32_t)middle))
+            wrong = middle;
+        else
+            right = middle;
+    }
+    if (wrong > 0)
+        census_note(&s->request->common, band, census_depth(bits), census_depth(bits + (uint32_t)wrong));
+}
+
+static void judge(const sample *s, uint64_t from, size_t count, census_band *bands) {
+    uint32_t bits[BATCH];
+    float near_z[BATCH], far_z[BATCH];
+    int32_t near_key[BATCH], far_key[BATCH];
+    const float end = census_depth(s->last);
+    for (size_t i = 0; i < count; i++) {
+        bits[i] = depth_of_draw(s, from + i);
+        near_z[i] = census_depth(bits[i]);
+        const float z = partner(s, bits[i]);
+        far_z[i] = z <= end ? z : 0.0f; /* leaves the range: not a pair */
+    }
+    s->level->keys(&s->plan, near_z, count, near_key);
+    s->level->keys(&s->plan, far_z, count, far_key);
+    for (size_t i = 0; i < count; i++) {
+        if (far_z[i] == 0.0f)
+            continue;
+        census_band *band = &bands[census_band_of(s->first, bits[i])];
+        band->pairs++;
+        band->ties += far_key[i] == near_key[i];
+        band->swaps += far_key[i] < near_key[i];
+        if (s->request->gap <= 0.0)
+            walk(s, bits[i], near_key[i], band);
+    }
+}
+
+/* Bands of the threads are added up; of intervals as long, the nearest is kept, so their order does not matter. */
+static void add(census_band *to, const census_band *from) {
+    to->pairs += from->pairs;
+    to->ties += from->ties;
+    to->swaps += from->swaps;
+    if (from->longest > to->longest || (from->longest == to->longest && from->longest_z < to->longest_z)) {
+        to->longest = from->longest;
+        to->longest_z = from->longest_z;
+    }
+    if (from->slack > to->slack || (from->slack == to->slack && from->slack_z < to->slack_z)) {
+        to->slack = from->slack;
+        to->slack_z = from->slack_z;
+    }
+}
+
+static int judge_all(const sample *s, uint64_t total, census_result *result) {
+    const census_request *r = &s->request->common;
+    uint64_t done = 0;
+    int stop = 0;
+#pragma omp parallel num_threads(r->threads) if (r->threads != 1)
+    {
+        census_band mine[CENSUS_BANDS_MAX];
+        memset(mine, 0, sizeof mine);
+#pragma omp for schedule(dynamic, 16)
+        for (uint64_t from = 0; from < total; from += BATCH) {
+            int stopped;
+#pragma omp atomic read
+            stopped = stop;
+            if (stopped)
+                continue;
+            const size_t count = total - from < BATCH ? (size_t)(total - from) : (size_t)BATCH;
+            judge(s, from, count, mine);
+            if (r->progress == NULL)
+                continue;
+#pragma omp critical(sample_progress)
+            {
+                done += count;
+                if (r->progress(r->context, done)) {
+#pragma omp atomic write
+                    stop = 1;
+                }
+            }
+        }
+#pragma omp critical(sample_add)
+        for (int i = 0; i < result->band_count; i++)
+            add(&result->bands[i], &mine[i]);
+    }
+    return stop;
+}
+
+census_status census_sample(const census_sample_request *request, census_result *result) {
+    const census_request *r = &request->common;
+    sample s = {.request = request, .level = r->level != NULL ? r->level : census_level_best()};
+    if (!(request->gap >= 0.0) || (request->count == 0 && request->gap <= 0.0))
+        return CENSUS_RANGE;
+    const census_status status = census_open(r, &s.plan, result, &s.first, &s.last);
+    if (status != CENSUS_DONE)
+        return status;
+    const uint64_t total = request->count > 0 ? request->count : (uint64_t)s.last - s.first + 1;
+    if (judge_all(&s, total, result))
+        return CENSUS_STOPPED;
+    census_close(r, &s.plan, s.first, s.last, result);
+    return CENSUS_DONE;
+}

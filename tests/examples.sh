@@ -1,0 +1,124 @@
+#!/bin/sh
+# SPDX-License-Identifier: GPL-3.0-or-later
+# Every example of README.md and the manual pages runs, and must print what the page says, to the byte (but for the
+# carriage returns of CSV). An example is a block with lines that begin with "$ ": a command, "> " lines that go on with
+# it, then its output. A C block behind a comment "file: NAME" is written to NAME first. Then the pages themselves: each
+# option, format, mapping and public function must be in them.
+. tests/tap.sh
+
+root=$PWD
+mkdir "$scratch/bin" "$scratch/run"
+ln -s "$DEPTHPREC" "$scratch/bin/depthprec"
+
+# `cc` of the examples: finds the library where it was built, and what instrumented objects need.
+case $B in
+*asan) extra='-fsanitize=address,undefined' ;;
+*coverage) extra=--coverage ;;
+*) extra= ;;
+esac
+compiler=$(command -v "${CC%% *}") # its path, because the name may be cc
+case $CC in *' '*) compiler="$compiler ${CC#* }" ;; esac
+printf '#!/bin/sh\nexec %s %s -I"%s/include" "$@" -L"%s/%s" -lm\n' "$compiler" "$extra" "$root" "$root" "$B" \
+    >"$scratch/bin/cc"
+chmod +x "$scratch/bin/cc"
+
+# split PAGE: NUMBER.sh, NUMBER.want and NUMBER.name of each example, and the files, into $scratch/run
+split() {
+    awk -v to="$scratch/run" -v man="${1##*.}" '
+        function plain(s) {
+            if (man != "md") {
+                gsub(/\\-/, "-", s); gsub(/\\\(aq/, "\047", s); gsub(/\\&/, "", s); gsub(/\\e/, "\\", s)
+            }
+            return s
+        }
+        man == "md" ? /^```/ : /^\.(Bd|Ed)/ {
+            inside = man == "md" ? !inside : /^\.Bd/
+            part = ""
+            if (inside && file) part = to "/" file
+            if (part) printf "" >part
+            file = ""
+            next
+        }
+        !inside && /file: [a-z]+\.c/ { file = $0; sub(/.*file: /, "", file); sub(/[^a-z.].*/, "", file); next }
+        !inside { next }
+        part && part !~ /\.(sh|want)$/ { print plain($0) >part; next }
+        /^\$ / {
+            number++
+            part = to "/" number ".want"
+            printf "" >part
+            print plain(substr($0, 3)) >(to "/" number ".sh")
+            print plain(substr($0, 3)) >(to "/" number ".name")
+            next
+        }
+        /^> / && number { print plain(substr($0, 3)) >(to "/" number ".sh"); next }
+        part { print plain($0) >part }' "$1"
+}
+
+same() { # same NUMBER: runs an example and compares
+    (cd "$scratch/run" && PATH=$scratch/bin:$PATH sh "$1.sh" </dev/null 2>&1) | tr -d '\r' >"$scratch/got"
+    diff "$scratch/run/$1.want" "$scratch/got"
+}
+
+for page in README.md man/*.[0-9]; do
+    rm -rf "$scratch/run" && mkdir "$scratch/run"
+    split "$page"
+    number=1
+    while [ -e "$scratch/run/$number.sh" ]; do
+        check "$page: $(cut -c 1-90 "$scratch/run/$number.name")" same $number
+        number=$((number + 1))
+    done
+    case $page in
+    README.md | *.[13]) check "$page: has examples" [ $number -gt 1 ] ;;
+    esac
+done
+
+# ---- The pages name what there is ----
+
+page() { # the text of a page without its macros
+    sed -e 's/^\.[A-Z][a-z] //' -e 's/\\-/-/g' "man/depthprec.$1" | tr -s ' ,' '\n\n'
+}
+
+names_in() { # names_in SECTION: prints the names on stdin that the page does not have
+    page "$1" >"$scratch/words"
+    while read -r word; do
+        grep -qxF -e "$word" -e "$word." "$scratch/words" || echo "not in depthprec.$1: $word"
+    done
+}
+
+options() { # long options, as mdoc writes them: -near for --near
+    for verb in table plot list help; do
+        "$DEPTHPREC" help $verb | sed -n 's/^  \(-[a-zA-Z],\)* *-\(-[a-z][-a-z]*\).*/\2/p'
+    done | sort -u
+}
+
+aliases() { # names and aliases of a table
+    "$DEPTHPREC" list "$1" --csv | tr -d '\r"' | sed 1d | cut -d, -f 1,2 | tr ', ' '\n\n' | grep .
+}
+
+functions() {
+    cat include/depthprec/*.h | sed -n 's/^DP_API .*[ *]\(dp_[a-z0-9_]*\)(.*/\1/p'
+}
+
+statuses() {
+    sed -n 's/^ *\(DP_\(OK\|ERROR_[A-Z_]*\)\)[, ].*/\1/p' include/depthprec/status.h
+}
+
+documented() { # documented SECTION LIST...: no name of a list that is not empty is missing
+    section=$1
+    shift
+    "$@" >"$scratch/names"
+    [ -s "$scratch/names" ] || return 1
+    empty names_in "$section" <"$scratch/names"
+}
+
+check "depthprec.1: every option" documented 1 options
+check "depthprec.1: every format" documented 1 aliases formats
+check "depthprec.1: every mapping" documented 1 aliases mappings
+check "depthprec.1: every figure" documented 1 aliases figures
+check "depthprec.3: every function" documented 3 functions
+check "depthprec.3: every status" documented 3 statuses
+check "depthprec.7: every test it names exists" sh -c '
+    grep -o "tests/[a-z_]*\.c" man/depthprec.7 | sort -u | while read -r file; do
+        [ -e "$file" ] || { echo "$file" && exit 1; }
+    done'
+finish

@@ -1,0 +1,82 @@
+#!/bin/sh
+# SPDX-License-Identifier: GPL-3.0-or-later
+# Figures: the drawn gallery still says what the program computes; files, formats, errors, same bytes twice.
+. tests/tap.sh
+export LSAN_OPTIONS="suppressions=$PWD/tests/lsan.supp:print_suppressions=0"
+
+facts() { sed -n '/^<metadata>/,/^<.metadata>/p' "$1"; } # the command and the digest of the numbers of an SVG
+recipes() { sed -n 's/^\([a-z][^ ]*\) .*/\1/p' plots/recipes; }
+same_numbers() { facts "$1" >"$scratch/a" && grep -q '^data: ' "$scratch/a" && facts "$2" | diff "$scratch/a" -; }
+refuses() { # refuses STATUS WORDS ARGUMENT...: the exit status, and words of the one line on stderr
+    status=$1 words=$2
+    shift 2
+    got=0
+    "$DEPTHPREC" plot "$@" >"$scratch/out" 2>"$scratch/err" || got=$?
+    cat "$scratch/err"
+    [ $got -eq "$status" ] && [ "$(wc -l <"$scratch/err")" -eq 1 ] && grep -q -e "$words" "$scratch/err"
+}
+
+mkdir "$scratch/drawn"
+check "every recipe draws" sh plots/draw.sh "$DEPTHPREC" "$scratch/drawn"
+for drawn in $(recipes); do
+    check "plots/$drawn.svg shows the numbers of today" same_numbers "plots/$drawn.svg" "$scratch/drawn/$drawn.svg"
+    check "plots/README.md shows $drawn" grep -q "]($drawn.svg)" plots/README.md
+done
+has_recipe() { recipes | grep -qx "$1"; }
+for drawn in plots/*.svg; do
+    check "$drawn has a recipe" has_recipe "$(basename "$drawn" .svg)"
+done
+
+# The comparison above can fail: another near plane, one part in a million away, is noticed.
+"$DEPTHPREC" plot error -o "$scratch/a.svg" && "$DEPTHPREC" plot error -n 0.1000001 -o "$scratch/b.svg"
+digest() { sed -n 's/^data: //p' "$1"; }
+check "a changed number changes the digest" [ "$(digest "$scratch/a.svg")" != "$(digest "$scratch/b.svg")" ]
+
+for figure in distribution share error interval map; do
+    for ending in svg pdf png; do
+        "$DEPTHPREC" plot $figure -F unorm24,fp32 -m reversed -o "$scratch/1.$ending"
+        "$DEPTHPREC" plot $figure -F unorm24,fp32 -m reversed -o "$scratch/2.$ending"
+        check "$figure.$ending: the same bytes twice" cmp "$scratch/1.$ending" "$scratch/2.$ending"
+    done
+    check "$figure.svg: title, description, command" sh -c '
+        grep -q "^<title id=\"title\">." "$1" && grep -q "^<desc id=\"desc\">.*near 0.1, far 1000" "$1" &&
+        grep -qx "command: depthprec plot '$figure' -F unorm24,fp32 -m reversed" "$1"' - "$scratch/1.svg"
+    check "$figure.pdf is a PDF without a date" sh -c 'head -c 5 "$1" | grep -q "%PDF-" && ! grep -aq CreationDate "$1"' - "$scratch/1.pdf"
+    check "$figure.png: the command" sh -c 'head -c 4096 "$1" | grep -aq "depthprec plot '$figure' -F"' - "$scratch/1.png"
+    check "$figure: as CSV" sh -c '"$1" plot '$figure' --csv -F unorm16 | head -n 1 | grep -q "^panel,series,"' - "$DEPTHPREC"
+    check "$figure: as JSON" sh -c '"$1" plot '$figure' --json -F unorm16 | head -c 200 | grep -q "\"figure\":\"'$figure'\""' - "$DEPTHPREC"
+done
+check "SOURCE_DATE_EPOCH dates a PDF" sh -c '
+    SOURCE_DATE_EPOCH=86400 "$1" plot share -o "$2" && grep -aq "CreationDate (.*19700102000000" "$2"' - "$DEPTHPREC" "$scratch/dated.pdf"
+if command -v xmllint >"$scratch/log" 2>&1; then
+    check "SVG is well-formed, whatever the title" sh -c '
+        "$1" plot share --title "a < b & \"c\" $(printf "\377\001") ü" -o "$2" && xmllint --noout "$2"' - "$DEPTHPREC" "$scratch/odd.svg"
+fi
+
+check "an unknown figure" refuses 2 "must be one of distribution, .*got 'eror'.*error" eror -o "$scratch/x.svg"
+check "an unknown ending" refuses 2 "--output: must end in .svg, .pdf or .png, got" error -o "$scratch/x.gif"
+check "no -o" refuses 2 "needs -o FILE" error
+check "a folder that is not there" refuses 3 "" error -o "$scratch/none/x.svg"
+check "a width too small" refuses 2 "--width: must be from" error --width 100 -o "$scratch/x.svg"
+check "a range outside the planes" refuses 2 "--range: " error --range 1:2000 -o "$scratch/x.svg"
+check "--at where it has no meaning" refuses 2 "--at: " error --at 3 -o "$scratch/x.svg"
+check "--at with two depths" refuses 2 "--at: must be one depth" map -F fp32 --at 3,4 -o "$scratch/x.svg"
+check "too many set-ups for maps" refuses 2 "at most 8 set-ups, got" map -m d3d,gl,reversed -o "$scratch/x.svg"
+check "too many staircases" refuses 2 "at most 8 set-ups" distribution -F unorm2,unorm3,unorm4 -m d3d,gl,reversed -o "$scratch/x.svg"
+check "nothing was left behind by the refused ones" [ ! -e "$scratch/x.svg" ]
+
+# A failed run leaves the old figure as it was.
+echo old >"$scratch/kept.svg"
+"$DEPTHPREC" plot distribution -F unorm2,unorm3,unorm4 -m d3d,gl,reversed -o "$scratch/kept.svg" 2>"$scratch/log"
+check "a failed run leaves the old file" grep -qx old "$scratch/kept.svg"
+
+# Processor time, both threads together: what other tests do beside this one does not count.
+"$DEPTHPREC" plot map -F fp32 -m reversed -o "$scratch/warm.svg"
+took=$(sh -c '"$1" plot map -F fp32 -m reversed -o "$2" && times' - "$DEPTHPREC" "$scratch/map.svg" |
+    awk 'NR == 2 { split($1, u, /[ms]/); split($2, k, /[ms]/); printf "%d", 1000 * (60 * (u[1] + k[1]) + u[2] + k[2]) }')
+if [ "${CONF:-release}" = release ]; then
+    check "a map of 400 x 300 set-ups takes less than a second: $took ms" [ "$took" -lt 1000 ]
+else
+    skip "a map in less than a second" "not an optimized build"
+fi
+finish

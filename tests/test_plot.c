@@ -1,0 +1,457 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* The numbers of each figure against the library, and what drawing may not change about them. */
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "depthprec/depthprec.h"
+#include "plot/draw.h"
+#include "plot/envelope.h"
+#include "plot/figure.h"
+#include "plot/notes.h"
+#include "plot/ticks.h"
+#include "plot/trace.h"
+#include "plot/words.h"
+#include "support.h"
+
+/* For the leak sanitizer: what fontconfig read stays in memory until the program ends. */
+const char *__lsan_default_suppressions(void);
+const char *__lsan_default_suppressions(void) {
+    return "leak:libfontconfig\n";
+}
+
+/* A request about some set-ups, with the room it points to. */
+typedef struct asked {
+    dp_setup setups[CHART_SERIES];
+    const char *names[CHART_SERIES];
+    figure_request request;
+} asked;
+
+static void ask(asked *a, double znear, double zfar) {
+    *a = (asked){.request = {.lo = NAN, .hi = NAN, .at = NAN, .columns = 300}};
+    a->request.setups = a->setups;
+    a->request.names = a->names;
+    a->setups[0].spec = dp_spec_default();
+    a->setups[0].spec.znear = znear;
+    a->setups[0].spec.zfar = zfar;
+}
+
+static void ask_add(asked *a, const char *format, dp_mapping mapping) {
+    dp_format found[2];
+    dp_spec spec = a->setups[0].spec;
+    assert_true(dp_format_parse(format, found) > 0);
+    spec.format = found[0];
+    spec.mapping = mapping;
+    assert_int_equal(dp_setup_init(&a->setups[a->request.count], &spec), DP_OK);
+    a->names[a->request.count++] = format;
+}
+
+static chart *build(const asked *a, const char *figure) {
+    chart *c = chart_new();
+    assert_non_null(c);
+    snprintf(c->title, sizeof c->title, "%s", figure);
+    assert_null(figure_find(figure)->build(&a->request, c));
+    assert_false(chart_failed(c));
+    return c;
+}
+
+/* ---- each figure shows what the library says ---- */
+
+static void test_staircase(void **state) {
+    (void)state;
+    static const char *const formats[] = {"unorm4", "float3.3b5"};
+    for (int f = 0; f < 2; f++)
+        for (int m = 0; m < DP_MAPPING_COUNT; m++) {
+            asked a;
+            ask(&a, 1, 20);
+            ask_add(&a, formats[f], (dp_mapping)m);
+            chart *c = build(&a, "distribution");
+            const chart_series *codes = &c->panels[0].series[0], *curve = &c->panels[0].series[1];
+            const dp_setup *setup = &a.setups[0];
+            size_t expected = 0;
+            for (uint32_t code = 0; code <= setup->spec.format.code_max; code++) {
+                double z = dp_stored(setup, code);
+                if (z < 1 || z > 20)
+                    continue;
+                assert_true(expected < codes->count);
+                assert_ulp(codes->x[expected], z, 0);
+                assert_ulp(codes->y[expected], dp_format_value(&setup->spec.format, code), 0);
+                expected++;
+            }
+            assert_int_equal(codes->count, expected);
+            assert_true(expected > 5);
+            for (size_t i = 0; i < curve->count; i++)
+                assert_ulp(curve->y[i], dp_window(setup, curve->x[i]), 0);
+            assert_ulp(curve->x[0], 1, 0);
+            assert_ulp(curve->x[curve->count - 1], 20, 0);
+            chart_free(c);
+        }
+}
+
+/* The published count: float3.3b5 has 40 values in [0, 1), so 41 with 1, and the staircase of the whole range shows
+ * each that a depth in [near, far] gives back. */
+static void test_published_count(void **state) {
+    (void)state;
+    asked a;
+    ask(&a, 1, 1000);
+    ask_add(&a, "float3.3b5", DP_MAPPING_REVERSED);
+    chart *c = build(&a, "distribution");
+    assert_int_equal(c->panels[0].series[0].count, 41);
+    chart_free(c);
+}
+
+static const char *const formats[] = {"fp16", "fp32", "unorm16", "unorm24", "float3.3b5"};
+
+static dp_setup random_camera(rng *r, asked *a) {
+    double znear = rng_log(r, 1e-3, 10);
+    bool infinite = rng_below(r, 4) == 0;
+    dp_mapping mapping = (dp_mapping)rng_below(r, infinite ? 4 : DP_MAPPING_COUNT);
+    ask(a, znear, infinite ? (double)INFINITY : znear * rng_log(r, 2, 1e7));
+    ask_add(a, formats[rng_below(r, 5)], mapping);
+    return a->setups[0];
+}
+
+/* No depth of a slice is worse than the curve; and the curve is no higher than the cells that the slice touches. */
+static void test_envelopes(void **state) {
+    (void)state;
+    rng r = rng_make("envelopes");
+    tally t = {.name = "envelopes"};
+    for (uint64_t n = test_cases(10, 60, 1000); n > 0; n--) {
+        asked a;
+        dp_setup setup = random_camera(&r, &a);
+        chart *error = build(&a, "error"), *interval = build(&a, "interval");
+        const chart_series *e = error->panels[0].series, *w = interval->panels[0].series;
+        double lo, hi;
+        figure_range(&a.request, &lo, &hi);
+        for (int k = 0; k < a.request.columns; k++) {
+            double from = envelope_edge(CHART_LOG, lo, hi, k, a.request.columns);
+            double to = envelope_edge(CHART_LOG, lo, hi, k + 1, a.request.columns);
+            dp_worst worst;
+            assert_int_equal(dp_worst_over(&setup, from, to, &worst), DP_OK);
+            double z = rng_uniform(&r, from, to);
+            dp_sample s;
+            assert_int_equal(dp_sample_at(&setup, z, &s), DP_OK);
+            TALLY(&t, w->y[k] == worst.interval && w->y[k] >= s.interval, "interval at %a: %a", z, w->y[k]);
+            TALLY(&t, e->y[k] >= fabs(s.error) && e->y[k] >= worst.error, "error at %a: %a", z, e->y[k]);
+            /* The planes cut cells, and may leave the depth that a code gives back outside. */
+            double back[2] = {dp_stored(&setup, dp_code(&setup, from)), dp_stored(&setup, dp_code(&setup, to))};
+            bool whole = back[0] >= setup.spec.znear && back[1] <= setup.spec.zfar;
+            TALLY(&t, !whole || e->y[k] <= w->y[k] * (1 + 1e-9), "error above the cell at %a: %a", z, e->y[k]);
+            TALLY(&t, w->x[k] >= from && w->x[k] <= to && e->x[k] == w->x[k], "x at %a", z);
+        }
+        chart_free(error);
+        chart_free(interval);
+    }
+    tally_end(&t);
+}
+
+/* Over the whole range the curve reaches the certified worst case, and nothing above. */
+static void test_envelope_top(void **state) {
+    (void)state;
+    asked a;
+    ask(&a, 0.1, 1000);
+    for (int f = 0; f < 4; f++) {
+        ask_add(&a, formats[f], DP_MAPPING_D3D);
+        ask_add(&a, formats[f], DP_MAPPING_REVERSED);
+    }
+    chart *error = build(&a, "error"), *interval = build(&a, "interval");
+    for (size_t i = 0; i < a.request.count; i++) {
+        double top[2] = {0, 0};
+        dp_worst worst;
+        assert_int_equal(dp_worst_over(&a.setups[i], 0.1, 1000, &worst), DP_OK);
+        for (int k = 0; k < a.request.columns; k++) {
+            top[0] = fmax(top[0], error->panels[0].series[i].y[k]);
+            top[1] = fmax(top[1], interval->panels[0].series[i].y[k]);
+        }
+        assert_relative(top[0], worst.error, 1e-11);
+        assert_relative(top[1], worst.interval, 1e-11);
+    }
+    chart_free(error);
+    chart_free(interval);
+}
+
+static void test_blind(void **state) {
+    (void)state;
+    asked a;
+    ask(&a, 0.1, INFINITY);
+    ask_add(&a, "unorm16", DP_MAPPING_D3D);
+    chart *c = build(&a, "interval");
+    const chart_series *s = &c->panels[0].series[0];
+    dp_worst worst;
+    assert_int_equal(dp_worst_over(&a.setups[0], 0.1, INFINITY, &worst), DP_OK);
+    assert_true(chart_has_blind(c));
+    for (size_t i = 1; i < s->count; i++) {
+        assert_true(isinf(s->y[i]) || s->x[i] < worst.blind_from * 1.05);
+        assert_false(isinf(s->y[i]) && s->x[i] < worst.blind_from / 1.05);
+    }
+    assert_non_null(strstr(s->note, "13107"));
+    chart_free(c);
+}
+
+static void test_share(void **state) {
+    (void)state;
+    rng r = rng_make("share");
+    for (int n = 0; n < 30; n++) {
+        asked a;
+        dp_setup setup = random_camera(&r, &a);
+        chart *c = build(&a, "share");
+        const chart_series *s = &c->panels[0].series[0];
+        double first = dp_code(&setup, setup.spec.znear), last = dp_code(&setup, setup.spec.zfar);
+        assert_ulp(s->y[0], 0, 0);
+        if (!isinf(setup.spec.zfar))
+            assert_ulp(s->y[s->count - 1], 100, 0);
+        for (size_t i = 1; i < s->count; i++) {
+            assert_true(s->y[i] >= s->y[i - 1]);
+            assert_ulp(s->y[i], 100 * fabs(dp_code(&setup, s->x[i]) - first) / fabs(last - first), 2);
+        }
+        chart_free(c);
+    }
+}
+
+static void check_map(const asked *a) {
+    chart *c = build(a, "map");
+    const chart_map *m = &c->panels[0].map;
+    rng r = rng_make("map");
+    assert_int_equal(m->columns * m->rows, 400 * 300);
+    int empty = 0;
+    for (int n = 0; n < 2000; n++) {
+        int column = (int)rng_below(&r, (uint64_t)m->columns), row = (int)rng_below(&r, (uint64_t)m->rows);
+        double got = m->value[row * m->columns + column], want = (double)NAN;
+        dp_spec spec = a->setups[0].spec;
+        dp_setup setup;
+        dp_sample s;
+        dp_worst worst;
+        spec.znear = m->x[column];
+        spec.zfar = m->y[row];
+        if (dp_setup_init(&setup, &spec) == DP_OK) {
+            if (!isnan(a->request.at))
+                want = dp_sample_at(&setup, a->request.at, &s) == DP_OK ? s.interval : (double)NAN;
+            else
+                want = dp_worst_over(&setup, spec.znear, spec.zfar, &worst) == DP_OK ? worst.interval : (double)NAN;
+        }
+        empty += isnan(want);
+        assert_true(isnan(want) ? isnan(got) : got == want);
+    }
+    assert_true(isnan(a->request.at) ? empty == 0 : empty > 0);
+    chart_free(c);
+}
+
+static void test_map(void **state) {
+    (void)state;
+    asked a;
+    ask(&a, 0.1, 1000);
+    ask_add(&a, "fp32", DP_MAPPING_REVERSED);
+    check_map(&a);
+    a.request.at = 100;
+    check_map(&a);
+}
+
+/* ---- every row of the table, in every theme and format, large and small: the same bytes twice ---- */
+
+static void test_every_figure_draws(void **state) {
+    (void)state;
+    static const int sizes[][2] = {{800, 500}, {DRAW_WIDTH_MIN, DRAW_HEIGHT_MIN}, {1700, 300}};
+    for (size_t i = 0; figure_get(i) != NULL; i++) {
+        asked a;
+        ask(&a, 0.1, i % 2 == 0 ? 1000 : (double)INFINITY);
+        ask_add(&a, "unorm24", DP_MAPPING_D3D);
+        ask_add(&a, "unorm24", DP_MAPPING_REVERSED);
+        chart *c = build(&a, figure_get(i)->name);
+        for (size_t t = 0; theme_get(t) != NULL; t++)
+            for (int format = 0; format < CANVAS_FORMAT_COUNT; format++) {
+                canvas_bytes one, two;
+                const int *size = sizes[(t + i) % 3];
+                assert_true(draw_chart(c, theme_get(t), (canvas_format)format, size[0], size[1], "command", &one));
+                assert_true(draw_chart(c, theme_get(t), (canvas_format)format, size[0], size[1], "command", &two));
+                assert_true(one.size > 1000 && two.size > 1000);
+                /* cairo numbers the parts of an SVG through the life of a program; tests/plots.sh compares those. */
+                if (format != CANVAS_SVG)
+                    assert_true(one.size == two.size && memcmp(one.at, two.at, one.size) == 0);
+                free(one.at);
+                free(two.at);
+            }
+        chart_free(c);
+    }
+}
+
+static void test_digest(void **state) {
+    (void)state;
+    asked a;
+    ask(&a, 0.1, 1000);
+    ask_add(&a, "fp32", DP_MAPPING_D3D);
+    chart *c = build(&a, "error");
+    uint64_t before = chart_digest(c);
+    double *y = &c->panels[0].series[0].y[150], kept = *y;
+    *y = kept * (1 + 1e-14);
+    assert_true(chart_digest(c) == before); /* not the last bits */
+    *y = kept * (1 + 1e-6);
+    assert_false(chart_digest(c) == before);
+    *y = kept;
+    c->panels[0].series[0].name[0]++;
+    assert_false(chart_digest(c) == before);
+    chart_free(c);
+}
+
+/* ---- the parts ---- */
+
+static void test_ticks(void **state) {
+    (void)state;
+    rng r = rng_make("ticks");
+    tally t = {.name = "ticks"};
+    for (uint64_t n = test_cases(2000, 20000, 200000); n > 0; n--) {
+        chart_axis axis = {.scale = (chart_scale)rng_below(&r, 2)};
+        double spread = rng_log(&r, 1e-5, 1e20);
+        axis.lo = rng_log(&r, 1e-12, 1e12);
+        axis.hi = axis.lo * (1 + spread);
+        int room = 2 + (int)rng_below(&r, 20), labels = 0;
+        ticks out;
+        ticks_make(&axis, room, &out);
+        bool sorted = true, inside = true;
+        for (size_t i = 0; i < out.count; i++) {
+            labels += out.items[i].text[0] != '\0';
+            sorted = sorted && (i == 0 || out.items[i].at > out.items[i - 1].at);
+            double share = chart_axis_share(&axis, out.items[i].at);
+            inside = inside && share >= -1e-8 && share <= 1 + 1e-8;
+        }
+        TALLY(&t, sorted && inside, "order in %a..%a scale %d", axis.lo, axis.hi, (int)axis.scale);
+        TALLY(&t, labels <= room + 2, "%d labels for %d in %a..%a", labels, room, axis.lo, axis.hi);
+        TALLY(&t, labels >= (room >= 4 ? 2 : 1), "%d labels in %a..%a room %d", labels, axis.lo, axis.hi, room);
+    }
+    tally_end(&t);
+}
+
+static void test_tick_words(void **state) {
+    (void)state;
+    char text[TICKS_TEXT];
+    ticks_label(1000, false, text);
+    assert_string_equal(text, "1000");
+    ticks_label(0.001, false, text);
+    assert_string_equal(text, "0.001");
+    ticks_label(1e-10, true, text);
+    assert_string_equal(text, "10\u207b\u00b9\u2070");
+    ticks_label(3.3554432e6, true, text);
+    assert_string_equal(text, "3.36\u00b710\u2076");
+}
+
+static double distance(const double p[2], const double a[2], const double b[2]) {
+    double ux = b[0] - a[0], uy = b[1] - a[1], along = ux * ux + uy * uy;
+    double t = along > 0 ? fmin(fmax(((p[0] - a[0]) * ux + (p[1] - a[1]) * uy) / along, 0), 1) : 0;
+    return hypot(p[0] - a[0] - t * ux, p[1] - a[1] - t * uy);
+}
+
+/* Thinned curves stay within a pixel column of every point, in the SVG itself. */
+static void test_trace(void **state) {
+    (void)state;
+    enum { POINTS = 20000, CORNERS = 5000 };
+    static double points[POINTS][2], corners[CORNERS][2];
+    canvas_notes notes = {"", "", "", ""};
+    rng r = rng_make("trace");
+    for (int shape = 0; shape < 3; shape++) {
+        canvas *c = canvas_new(CANVAS_SVG, 500, 500, &notes);
+        trace t = trace_start(c);
+        for (int i = 0; i < POINTS; i++) {
+            points[i][0] = 500.0 * i / POINTS;
+            points[i][1] = shape == 0   ? 250 + 200 * sin(points[i][0] / 30)
+                           : shape == 1 ? rng_uniform(&r, 0, 500)
+                                        : points[i][0];
+            trace_point(&t, points[i][0], points[i][1]);
+        }
+        size_t emitted = trace_finish(&t, &(canvas_pen){.colour = {0, 0, 0, 1}, .width = 1});
+        assert_true(emitted <= (shape == 0 ? 400u : shape == 1 ? 2001u : 3u));
+        canvas_bytes bytes;
+        assert_true(canvas_finish(c, &bytes));
+        const char *path = strstr((const char *)bytes.at, " d=\"M ");
+        assert_non_null(path);
+        int count = 0, used;
+        path += 4;
+        while (count < CORNERS &&
+               sscanf(path, "%*[ ML]%lf %lf%n", &corners[count][0], &corners[count][1], &used) == 2) {
+            path += used;
+            count++;
+        }
+        assert_true(count >= 2);
+        free(bytes.at);
+        double worst = 0;
+        for (int i = 0; i < POINTS; i += 7) {
+            double least = INFINITY;
+            for (int k = 0; k + 1 < count; k++)
+                if (corners[k][0] <= points[i][0] + 2 && corners[k + 1][0] >= points[i][0] - 2)
+                    least = fmin(least, distance(points[i], corners[k], corners[k + 1]));
+            worst = fmax(worst, least);
+        }
+        assert_true(worst <= 1.0);
+    }
+}
+
+static void test_words(void **state) {
+    (void)state;
+    canvas_notes notes = {"", "", "", ""};
+    canvas *c = canvas_new(CANVAS_PNG, 100, 100, &notes);
+    pencil p = pencil_make(c, theme_get(0), 1);
+    rng r = rng_make("words");
+    for (int n = 0; n < 300; n++) {
+        char text[400] = "";
+        for (uint64_t left = rng_below(&r, 60); left > 0; left--)
+            strcat(text, rng_below(&r, 4) == 0 ? " " : rng_below(&r, 5) == 0 ? "\u00fc" : "Mi");
+        double width = rng_uniform(&r, 40, 400);
+        words w = words_break(&p, text, &p.text, width, 1 + rng_below(&r, 3));
+        for (size_t i = 0; i < w.count; i++) {
+            char clean[WORDS_TEXT];
+            assert_true(canvas_text_width(c, w.lines[i], &p.text) <= width);
+            assert_string_equal(w.lines[i], notes_clean(clean, sizeof clean, w.lines[i])); /* no half characters */
+        }
+    }
+    canvas_bytes bytes;
+    assert_true(canvas_finish(c, &bytes));
+    free(bytes.at);
+}
+
+static void test_clean(void **state) {
+    (void)state;
+    char out[16];
+    assert_string_equal(notes_clean(out, sizeof out, "a\xffz\x01\xc3\xbc\xc3"), "a?z?\xc3\xbc?");
+    assert_string_equal(notes_clean(out, sizeof out, "\xed\xa0\x80"), "???"); /* a surrogate */
+    assert_string_equal(notes_clean(out, 4, "ab\xe2\x82\xac"), "ab");         /* no half a character at the end */
+}
+
+static void test_format_of(void **state) {
+    (void)state;
+    assert_int_equal(canvas_format_of("a.svg"), CANVAS_SVG);
+    assert_int_equal(canvas_format_of("folder/a.b.PDF"), CANVAS_PDF);
+    assert_int_equal(canvas_format_of("a.png"), CANVAS_PNG);
+    assert_int_equal(canvas_format_of(".png"), CANVAS_FORMAT_COUNT);
+    assert_int_equal(canvas_format_of("png"), CANVAS_FORMAT_COUNT);
+    assert_int_equal(canvas_format_of("a.svgz"), CANVAS_FORMAT_COUNT);
+}
+
+static void test_palettes(void **state) {
+    (void)state;
+    assert_int_equal(theme_pixel(theme_viridis(0)), 0xFF440154);
+    assert_int_equal(theme_pixel(theme_viridis(1)), 0xFFFDE725);
+    assert_int_equal(theme_pixel(theme_viridis(0.5)), 0xFF21908C);
+    double last = -1;
+    for (int i = 0; i <= 100; i++) { /* lighter all the way: it survives a grey printer */
+        canvas_colour c = theme_viridis(i / 100.0);
+        double light = 0.2126 * c.r + 0.7152 * c.g + 0.0722 * c.b;
+        assert_true(light > last);
+        last = light;
+    }
+    for (size_t t = 0; theme_get(t) != NULL; t++) /* what is written can be read */
+        assert_true(fabs(theme_get(t)->text.g - theme_get(t)->background.g) > 0.6 &&
+                    fabs(theme_get(t)->faint.g - theme_get(t)->background.g) > 0.5);
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(test_staircase),  cmocka_unit_test(test_published_count),
+        cmocka_unit_test(test_envelopes),  cmocka_unit_test(test_envelope_top),
+        cmocka_unit_test(test_blind),      cmocka_unit_test(test_share),
+        cmocka_unit_test(test_map),        cmocka_unit_test(test_every_figure_draws),
+        cmocka_unit_test(test_digest),     cmocka_unit_test(test_ticks),
+        cmocka_unit_test(test_tick_words), cmocka_unit_test(test_trace),
+        cmocka_unit_test(test_words),      cmocka_unit_test(test_clean),
+        cmocka_unit_test(test_format_of),  cmocka_unit_test(test_palettes),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

@@ -1,0 +1,237 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Model `staged` against MPFR: NDC depth, then window depth, each rounded once to binary32, then the format. */
+#include <math.h>
+
+#include "oracle.h"
+#include "support.h"
+
+/* Binary32 as MPFR sees it: 24 bits, subnormals down to 2^-149. */
+static float to_binary32(const mpq_t x) {
+    mpfr_t r;
+    mpfr_init2(r, 24);
+    const mpfr_exp_t emin = mpfr_get_emin();
+    mpfr_set_emin(-148);
+    const int ternary = mpfr_set_q(r, x, MPFR_RNDN);
+    mpfr_subnormalize(r, ternary, MPFR_RNDN);
+    const float result = mpfr_get_flt(r, MPFR_RNDN);
+    mpfr_set_emin(emin);
+    mpfr_clear(r);
+    return result;
+}
+
+static int is_signed(const dp_spec *spec) {
+    return spec->mapping == DP_MAPPING_GL || spec->mapping == DP_MAPPING_GL_REVERSED;
+}
+
+static uint32_t staged_code(oracle *o, double z) {
+    mpq_t d, half;
+    mpq_inits(d, half, NULL);
+    oracle_window(o, d, z);
+    float w;
+    if (is_signed(&o->spec)) {
+        mpq_set_si(half, -1, 1);
+        mpq_add(d, d, d);
+        mpq_add(d, d, half);
+        mpq_set_d(d, (double)to_binary32(d));
+        mpq_set_si(half, 1, 2);
+        mpq_mul(d, d, half);
+        mpq_add(d, d, half);
+        w = to_binary32(d);
+    } else {
+        w = to_binary32(d);
+    }
+    mpq_clears(d, half, NULL);
+    return oracle_encode(&o->spec.format, o->spec.rounding, (double)w);
+}
+
+static const char *const format_names[] = {"fp16", "unorm16", "unorm24", "fp32", "unorm32", "unorm10", "float5.20"};
+enum { FORMAT_NAMES = sizeof format_names / sizeof format_names[0] };
+
+/* A random set-up of the model; 0 when the combination is not allowed. */
+static int random_setup(rng *r, dp_spec *spec, dp_setup *setup) {
+    dp_format format[2];
+    *spec = dp_spec_default();
+    dp_format_parse(format_names[rng_below(r, FORMAT_NAMES)], format);
+    spec->format = format[0];
+    spec->mapping = (dp_mapping)rng_below(r, DP_MAPPING_COUNT);
+    spec->rounding = (dp_rounding)rng_below(r, DP_ROUNDING_COUNT);
+    spec->ortho = rng_below(r, 4) == 0;
+    spec->znear = rng_log(r, 1e-3, 1e2);
+    spec->zfar = rng_below(r, 4) == 0 ? HUGE_VAL : spec->znear * rng_log(r, 1.01, 1e6);
+    spec->model = DP_MODEL_STAGED;
+    return dp_setup_init(setup, spec) == DP_OK;
+}
+
+static double range_end(const dp_spec *spec) {
+    return isinf(spec->zfar) ? 1e6 * spec->znear : spec->zfar;
+}
+
+static void codes_match_mpfr(void **state) {
+    (void)state;
+    tally t = {"staged codes"};
+    rng r = rng_make("staged codes");
+    for (uint64_t i = test_cases(2000, 40000, 1000000); i > 0; i--) {
+        dp_spec spec;
+        dp_setup setup;
+        if (!random_setup(&r, &spec, &setup))
+            continue;
+        oracle o;
+        oracle_init(&o, &spec);
+        const double z0 = fmin(fmax(rng_log(&r, spec.znear, range_end(&spec)), spec.znear), spec.zfar);
+        const dp_cell cell = dp_cell_of(&setup, dp_code(&setup, z0));
+        /* A random depth, and the doubles around both ends of its cell. */
+        double z[7] = {z0,
+                       cell.lo,
+                       nextafter(cell.lo, 0),
+                       nextafter(cell.lo, HUGE_VAL),
+                       cell.hi,
+                       nextafter(cell.hi, 0),
+                       nextafter(cell.hi, HUGE_VAL)};
+        for (int k = 0; k < 7; k++) {
+            if (!(z[k] >= spec.znear && z[k] <= spec.zfar) || isinf(z[k]))
+                continue;
+            const uint32_t want = staged_code(&o, z[k]);
+            const uint32_t got = dp_code(&setup, z[k]);
+            char text[256];
+            TALLY(&t, got == want, "z = %a: code %u, MPFR %u; %s", z[k], got, want,
+                  oracle_describe(&spec, text, sizeof text));
+        }
+        /* The cell ends where the code changes. */
+        if (cell.lo > spec.znear && cell.hi < spec.zfar && cell.width > 1e-13 * cell.hi) {
+            const double inside_lo = cell.lo + 0.25 * cell.width;
+            const double inside_hi = cell.hi - 0.25 * cell.width;
+            TALLY(&t, staged_code(&o, inside_lo) == cell.code && staged_code(&o, inside_hi) == cell.code, "cell of %u",
+                  cell.code);
+            const double before = cell.lo * (1.0 - 1e-14);
+            const double after = cell.hi * (1.0 + 1e-14);
+            TALLY(&t, staged_code(&o, before) != cell.code && staged_code(&o, after) != cell.code,
+                  "cell of %u is larger than [%a, %a]", cell.code, cell.lo, cell.hi);
+        }
+        oracle_clear(&o);
+    }
+    tally_end(&t);
+}
+
+static void separation_is_safe(void **state) {
+    (void)state;
+    tally t = {"staged separation"};
+    rng r = rng_make("staged separation");
+    for (uint64_t i = test_cases(2000, 40000, 1000000); i > 0; i--) {
+        dp_spec spec;
+        dp_setup setup;
+        if (!random_setup(&r, &spec, &setup))
+            continue;
+        oracle o;
+        oracle_init(&o, &spec);
+        double z = fmin(fmax(rng_log(&r, spec.znear, range_end(&spec)), spec.znear), spec.zfar);
+        if (rng_below(&r, 2) == 0)
+            z = fmax(dp_cell_of(&setup, dp_code(&setup, z)).lo, spec.znear);
+        const double behind = nextafter(z + dp_separation(&setup, z), HUGE_VAL);
+        if (behind <= spec.zfar && !isinf(behind)) {
+            const uint32_t a = staged_code(&o, z);
+            const uint32_t b = staged_code(&o, behind);
+            char text[256];
+            TALLY(&t, setup.reversed ? b < a : b > a, "z = %a: codes %u and %u; %s", z, a, b,
+                  oracle_describe(&spec, text, sizeof text));
+        } else {
+            t.skipped++;
+        }
+        oracle_clear(&o);
+    }
+    tally_end(&t);
+}
+
+/* The code next to `code` that is stored at all, towards far. */
+static uint32_t next_code(const dp_setup *setup, const dp_cell *cell) {
+    const double z = cell->hi + 1e-13 * cell->hi;
+    uint32_t code = dp_code(setup, z);
+    return code;
+}
+
+/*
+ * The certified worst case against a walk over every cell of the 16-bit formats (their cells are checked above):
+ * never below, and above by less than one step of window depth and one of NDC depth.
+ */
+static void worst_is_certified(void **state) {
+    (void)state;
+    static const double cameras[][2] = {{0.1, 1000}, {0.3, 77}, {1, 1.5},  {0.01, 1e6}, {5, 5000},      {0.05, 4000},
+                                        {0.25, 128}, {1, 2},    {10, 1e5}, {2, 65536},  {0.1, HUGE_VAL}};
+    static const char *const formats[] = {"fp16", "unorm16", "unorm10"};
+    tally t = {"staged worst case"};
+    const uint64_t count = test_cases(2, 11, 11);
+    for (uint64_t c = 0; c < count; c++)
+        for (int f = 0; f < 3; f++)
+            for (int m = 0; m < DP_MAPPING_COUNT; m++)
+                for (int k = 0; k < 2; k++) {
+                    dp_spec spec = dp_spec_default();
+                    dp_format format[2];
+                    dp_format_parse(formats[f], format);
+                    spec.format = format[0];
+                    spec.mapping = (dp_mapping)m;
+                    spec.rounding = k ? DP_ROUND_ZERO : DP_ROUND_NEAREST;
+                    spec.znear = cameras[c][0];
+                    spec.zfar = cameras[c][1];
+                    spec.model = DP_MODEL_STAGED;
+                    dp_setup setup;
+                    if (dp_setup_init(&setup, &spec) != DP_OK)
+                        continue;
+                    const double end = isinf(spec.zfar) ? 100.0 : spec.zfar;
+                    double interval = 0.0;
+                    double step_there = 0.0;
+                    dp_cell cell = dp_cell_of(&setup, dp_code(&setup, spec.znear));
+                    for (;;) {
+                        if (cell.width > interval) {
+                            interval = cell.width;
+                            /* the largest step of window depth and that of NDC depth, 2^-24 and 2^-25, at the far end
+                             * of the cell */
+                            step_there = dp_separation(&setup, fmin(cell.hi, end)) * 0x1.8p-24 *
+                                         (spec.format.kind == DP_FORMAT_UNORM ? (double)spec.format.code_max : 8192.0);
+                        }
+                        if (cell.hi >= end)
+                            break;
+                        cell = dp_cell_of(&setup, next_code(&setup, &cell));
+                    }
+                    dp_worst worst;
+                    assert_int_equal(dp_worst_over(&setup, spec.znear, end, &worst), DP_OK);
+                    TALLY(&t, worst.interval >= interval, "%s: %.17g below %.17g", formats[f], worst.interval,
+                          interval);
+                    TALLY(&t, worst.interval <= interval + step_there, "%s, mapping %d: %.17g far above %.17g",
+                          formats[f], m, worst.interval, interval);
+                    TALLY(&t, worst.interval_hi - worst.interval_lo <= interval * (1.0 + 1e-9),
+                          "the named cell is one");
+                }
+    tally_end(&t);
+}
+
+/* numerics: with NDC in [-1, 1] reversed-Z loses its advantage: window depths below 1/2 are multiples of 2^-25. */
+static void gl_reversed_is_spoilt(void **state) {
+    (void)state;
+    dp_spec spec = dp_spec_default();
+    spec.mapping = DP_MAPPING_GL_REVERSED;
+    spec.model = DP_MODEL_STAGED;
+    dp_setup gl, reversed;
+    assert_int_equal(dp_setup_init(&gl, &spec), DP_OK);
+    spec.mapping = DP_MAPPING_REVERSED;
+    assert_int_equal(dp_setup_init(&reversed, &spec), DP_OK);
+    rng r = rng_make("gl-reversed");
+    for (int i = 0; i < 10000; i++) {
+        const double z = rng_log(&r, 0.21, 999.0);
+        const double d = dp_format_value(&spec.format, dp_code(&gl, z));
+        assert_true(fmod(d, 0x1p-25) == 0.0);
+    }
+    dp_worst a, b;
+    dp_worst_over(&gl, 0.1, 1000.0, &a);
+    dp_worst_over(&reversed, 0.1, 1000.0, &b);
+    assert_true(a.interval > 1e4 * b.interval);
+    assert_relative(b.interval, 2.95082468e-05, 1e-8); /* NDC is the window depth: as exact */
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(codes_match_mpfr),
+        cmocka_unit_test(separation_is_safe),
+        cmocka_unit_test(worst_is_certified),
+        cmocka_unit_test(gl_reversed_is_spoilt),
+    };
+    return run_tap(tests);
+}
