@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 # Runs tests side by side and tells of them in the order given:  run.sh TEST...
 # A test is a program or a .sh that prints TAP lines. One that crashes, prints none, or stops before its plan counts
-# as failed. JOBS and TEST_SECONDS change how many run at once and how long one may take.
+# as failed. JOBS and TEST_SECONDS change how many run at once and how long one may take (600 s; 3600 s in full).
 set -u
 LC_ALL=C CMOCKA_MESSAGE_OUTPUT=TAP
 export LC_ALL CMOCKA_MESSAGE_OUTPUT
@@ -16,7 +16,7 @@ if [ "${1-}" = --one ]; then # run.sh --one FOLDER NUMBER TEST
     /*) set -- "$test" ;;
     *) set -- "./$test" ;;
     esac
-    timeout "${TEST_SECONDS:-1200}" "$@" >"$folder.out" 2>&1 </dev/null
+    timeout "${TEST_SECONDS:-${DEPTHPREC_FULL:+3}600}" "$@" >"$folder.out" 2>&1 </dev/null
     status=$?
     awk -v status=$status -v started="$started" -v ended="$(date +%s.%N)" '
         /^(not )?ok .*# SKIP/ { skipped++; next }

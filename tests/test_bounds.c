@@ -71,8 +71,8 @@ static void check_error(oracle *o, const dp_worst *got, const sweep_best *want, 
           got->error_code, got->error_z, want->code, oracle_double(want->z));
 }
 
-static void check_interval(oracle *o, const dp_worst *got, const sweep *sweep, const char *text, tally *t) {
-    const sweep_best *want = &sweep->interval;
+static void check_interval(oracle *o, const dp_worst *got, const sweep *all, const char *text, tally *t) {
+    const sweep_best *want = &all->interval;
     oracle_cell cell;
     mpq_t width;
     oracle_cell_init(&cell);
@@ -97,9 +97,9 @@ static void check_interval(oracle *o, const dp_worst *got, const sweep *sweep, c
               "%s: interval of code %u at %.17g, should be of %u at %.17g", text, got->interval_code, got->interval_lo,
               want->code, oracle_double(want->z));
     }
-    if (sweep->blind)
-        TALLY(t, oracle_relative(got->blind_from, sweep->blind_from) <= bound, "%s: blind from %.17g, should be %.17g",
-              text, got->blind_from, oracle_double(sweep->blind_from));
+    if (all->blind)
+        TALLY(t, oracle_relative(got->blind_from, all->blind_from) <= bound, "%s: blind from %.17g, should be %.17g",
+              text, got->blind_from, oracle_double(all->blind_from));
     else
         TALLY(t, isnan(got->blind_from), "%s: blind from %g, but no cell is unbounded", text, got->blind_from);
     mpq_clear(width);

@@ -39,7 +39,11 @@ typedef struct dp_worst {
  * @param lo, hi  eye depths, near <= lo <= hi <= far; hi may be INFINITY when far is
  * @return DP_OK, or DP_ERROR_RANGE, DP_ERROR_NULL; *out is then left as it was
  *
- * Cost: O(pieces): one for UNORM, at most 127 for fp32, most of them dismissed by a bound.
+ * In the model `staged` the cells of a piece hold varying numbers of binary32 steps: error and interval are then at
+ * most one step of window depth and one of NDC depth above what is reached at the depths named. In `fp32` there are no
+ * cells: all values are NaN.
+ *
+ * Cost: O(pieces): one for UNORM, at most 128 for fp32, most of them dismissed by a bound.
  */
 DP_API dp_status dp_worst_over(const dp_setup *setup, double lo, double hi, dp_worst *out);
 

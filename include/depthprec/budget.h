@@ -12,6 +12,8 @@
 #ifndef DEPTHPREC_BUDGET_H
 #define DEPTHPREC_BUDGET_H
 
+#include <stddef.h>
+
 #include "depthprec/setup.h"
 #include "depthprec/status.h"
 
@@ -56,6 +58,24 @@ DP_API const char *dp_cause_name(dp_cause cause);
  * Bound: never violated by the pipeline of pipeline.h with depth clamp. Cost: some 100 operations.
  */
 DP_API dp_status dp_budget_at(const dp_setup *setup, double z, const dp_budget_terms *terms, dp_budget *out);
+
+/** What the choice of a model rests on. */
+typedef struct dp_choice {
+    dp_model model;                 /**< the simplest whose neglected share stays within the tolerance */
+    double share[DP_MODEL_COUNT];   /**< largest share that each model neglects; NaN for one the set-up lacks */
+    double share_z[DP_MODEL_COUNT]; /**< the depth where it does */
+} dp_choice;
+
+/**
+ * Chooses the simplest model that is good enough: at every depth, what it neglects adds at most `tolerance` to the
+ * separation that it finds. The measure is the fullest model that the set-up has: fp32, or staged for linear and log.
+ *
+ * @param z, count   eye depths in [near, far]; count >= 1
+ * @param tolerance  share, 0.05 for 5 %; at least 0
+ * @return DP_OK, DP_ERROR_NULL (also for count 0), DP_ERROR_DEPTH; *out is then left as it was
+ */
+DP_API dp_status dp_model_choose(const dp_setup *setup, const double *z, size_t count, double tolerance,
+                                 dp_choice *out);
 
 DP_END
 #endif

@@ -55,14 +55,15 @@ DP_API double dp_window(const dp_setup *setup, double z);
 DP_API double dp_eye(const dp_setup *setup, double d, double q);
 
 /**
- * The code that stores z: the correctly rounded value of d(z) in the set-up's format and rounding mode, for every
- * double z in [near, far].
+ * The code that stores z: in the model `exact` the correctly rounded value of d(z) in the set-up's format and rounding
+ * mode, for every double z in [near, far].
  *
  * Perspective, linear and orthographic depths are rational functions of doubles, so the rounding is decided exactly
  * (floating-point expansions) whenever the quick estimate lies within its own error of a rounding boundary, about one
- * input in 2^26 for 24-bit formats. The logarithmic mapping is decided with a logarithm of about 100 bits: it is the
+ * input in 2^25 for 24-bit formats. The logarithmic mapping is decided with a logarithm of about 100 bits: it is the
  * correctly rounded code unless log(Cz+1)/log(Cf+1) lies within 2^-90 (relative) of a boundary.
- * Outside [near, far] z is clamped, as a depth clamp does.
+ * In the model `staged` it is that of the staged roundings, decided with the same care; in `fp32` that of the pipeline
+ * at z rounded to binary32. Outside [near, far] z is clamped, as a depth clamp does.
  */
 DP_API uint32_t dp_code(const dp_setup *setup, double z);
 
@@ -77,17 +78,20 @@ DP_API double dp_error(const dp_setup *setup, uint32_t code, double z);
 
 /**
  * The cell of a code. A code that no depth in [near, far] is stored as (below the near plane of the linear and log
- * mappings) has lo = hi = the plane it lies beyond, and width 0.
+ * mappings) has lo = hi = the plane it lies beyond, and width 0; so has, between its neighbours, a code that the stages
+ * of `staged` skip. In the model `fp32` the depths of a code need not be an interval: lo, hi and width are NaN.
  */
 DP_API dp_cell dp_cell_of(const dp_setup *setup, uint32_t code);
 
 /**
  * The separation: how far behind z a surface must lie to be certain of a code behind z's, however the two are
- * aligned to the lattice. It is one step of the format taken from z, z(d + step) - z, with the larger of the two
- * steps where d to d + step reaches across a binade end; so it has no sawtooth inside a binade.
+ * aligned to the lattice. In the model `exact` it is one step of the format taken from z, z(d + step) - z, with the
+ * larger of the two steps where d to d + step reaches across a binade end; so it has no sawtooth inside a binade.
  *
- * Bound: never below the true value, at most 1e-12 relative above. The far plane does not end it: where one step
- * passes far but has a depth, that depth is used; INFINITY where no depth lies one step behind z.
+ * In `staged` a step of each binary32 rounding is added; in `fp32` it is the guaranteed separation of dp_budget_at().
+ *
+ * Bound: never below the true value, in `exact` at most 1e-12 relative above. The far plane does not end it: where one
+ * step passes far but has a depth, that depth is used; INFINITY where no depth lies one step behind z.
  */
 DP_API double dp_separation(const dp_setup *setup, double z);
 

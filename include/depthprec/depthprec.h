@@ -19,6 +19,7 @@
 
 #include "depthprec/arith.h"
 #include "depthprec/bounds.h"
+#include "depthprec/budget.h"
 #include "depthprec/depth.h"
 #include "depthprec/format.h"
 #include "depthprec/mapping.h"

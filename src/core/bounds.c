@@ -6,15 +6,13 @@
 #include "core/engine.h"
 #include "depthprec/depth.h"
 
-/* Outward by more than the rounding errors of any width or error below. */
-static const double outward = 1.0 + 0x1p-48;
-
 /* The codes from the nearest to the farthest of a range, as steps: rank 0 is the code at lo. */
 typedef struct search {
     const dp_setup *setup;
     dp_worst *worst;
     uint32_t code_lo; /* the code stored at the range's near end */
     uint32_t count;   /* codes beyond it, towards far */
+    double outward;   /* a factor above all rounding errors */
 } search;
 
 static uint32_t code_of_rank(const search *s, uint32_t rank) {
@@ -76,8 +74,8 @@ static int dismissed(const search *s, uint32_t last, double step) {
     const uint32_t code = code_of_rank(s, last);
     const double z =
         code == setup->code_far ? setup->spec.zfar : dp_stored(setup, setup->reversed ? code - 1 : code + 1);
-    const double width = dp_curve_reach(setup, z, 2.0 * step) * outward;
-    const double error = setup->spec.rounding == DP_ROUND_ZERO ? width : dp_curve_reach(setup, z, step) * outward;
+    const double width = dp_curve_reach(setup, z, 2.0 * step) * s->outward;
+    const double error = setup->spec.rounding == DP_ROUND_ZERO ? width : dp_curve_reach(setup, z, step) * s->outward;
     return width < s->worst->interval && error < s->worst->error;
 }
 
@@ -146,8 +144,8 @@ static void visit_staged(const search *s, const stage *g, uint32_t low, uint32_t
     const double wide = g->code + g->ndc + (g->ndc_signed ? g->window : 0.0);
     const double error = staged_error(setup, g);
     const double z_end = dp_cell_of(setup, setup->reversed ? low : high).hi;
-    if (dp_curve_reach(setup, z_end, wide) * outward < s->worst->interval &&
-        dp_curve_reach(setup, z_end, error) * outward < s->worst->error)
+    if (dp_curve_reach(setup, z_end, wide) * s->outward < s->worst->interval &&
+        dp_curve_reach(setup, z_end, error) * s->outward < s->worst->error)
         return;
     for (int i = 0; i < 3 && low < high; i++) {
         visit(s, rank_of_code(s, low));
@@ -220,17 +218,22 @@ dp_status dp_worst_over(const dp_setup *setup, double lo, double hi, dp_worst *o
         return DP_ERROR_NULL;
     if (!(lo >= setup->spec.znear && lo <= hi && hi <= setup->spec.zfar) || isinf(lo))
         return DP_ERROR_RANGE;
-    *out = (dp_worst){.lo = lo, .hi = hi, .error = -1.0, .interval = -1.0, .blind_from = (double)NAN};
+    const double none = (double)NAN;
+    if (setup->spec.model == DP_MODEL_FP32) {
+        *out = (dp_worst){lo, hi, none, none, 0, none, none, none, 0, none};
+        return DP_OK;
+    }
+    *out = (dp_worst){.lo = lo, .hi = hi, .error = -1.0, .interval = -1.0, .blind_from = none};
     const uint32_t code_lo = dp_code(setup, lo);
     const uint32_t code_hi = dp_code(setup, hi);
     const uint32_t bottom = setup->reversed ? code_hi : code_lo;
     const uint32_t top = setup->reversed ? code_lo : code_hi;
-    const search s = {setup, out, code_lo, top - bottom};
+    const search s = {setup, out, code_lo, top - bottom, dp_curve_outward(setup)};
     if (setup->spec.model == DP_MODEL_EXACT || dp_staged_is_exact(setup))
         search_exact(&s, bottom, top);
     else
         search_staged(&s, bottom, top);
-    out->error *= outward;
-    out->interval *= outward;
+    out->error *= s.outward;
+    out->interval *= s.outward;
     return DP_OK;
 }

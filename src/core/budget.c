@@ -67,6 +67,7 @@ typedef struct demand {
     double ndc;
     double format;
     double slope;
+    double error; /* of one window depth */
 } demand;
 
 static double real_clip(const chain *c, double z) {
@@ -218,8 +219,9 @@ static demand demand_over(const dp_setup *setup, const chain *c, double z1, doub
     d.ndc += 2.0 * viewport;
     const double g1 = real_window(c, z1);
     const double g2 = real_window(c, z2);
-    const double high = larger(g1, g2) + so_far + viewport;
-    const double low = smaller(g1, g2) - so_far - viewport;
+    d.error = so_far + viewport;
+    const double high = larger(g1, g2) + d.error;
+    const double low = smaller(g1, g2) - d.error;
     d.format = codes_are_distinct(setup, c, low, high) ? 0.0 : format_step(setup, c, high);
     /*
      * Reversed, and clip not negative: A < 0, so the computed clip depth never rises with z, and the distance of two
@@ -255,7 +257,8 @@ static demand demand_beyond(const dp_setup *setup, const chain *c, double z) {
     return (demand){.projection = 2.0 * error,
                     .ndc = 2.0 * ndc,
                     .format = format_step(setup, c, high),
-                    .slope = ortho ? fabs(c->a) : fabs(c->b)};
+                    .slope = ortho ? fabs(c->a) : fabs(c->b),
+                    .error = error + ndc};
 }
 
 /* The distance behind z at which the window depth has moved by `window`, at a slope. */
@@ -289,9 +292,15 @@ static double linearization_error(const dp_setup *setup, const chain *c, double 
     return slope * unit * (3.0 * terms / sum + 2.0);
 }
 
-/* Window depth that a pair needs in all; a plane that the rounded matrix moves inwards clamps what lies beyond it. */
-static double total_of(const chain *c, const demand *d, double extra) {
-    return larger(d->projection + d->ndc, c->overshoot + 0.5 * (d->projection + d->ndc)) + d->format + extra;
+/*
+ * Window depth that a pair needs in all. Where the rounded matrix carries the window depth of a plane out of [0, 1],
+ * all beyond is clamped to one value: a tie that no rounding of the pair accounts for.
+ */
+static double total_of(const chain *c, const demand *d, double z1, double extra) {
+    const double g = real_window(c, z1);
+    const int clamped = g + d->error >= 1.0 || g - d->error <= 0.0;
+    const double roundings = d->projection + d->ndc;
+    return (clamped ? larger(roundings, c->overshoot + d->error) : roundings) + d->format + extra;
 }
 
 dp_status dp_budget_at(const dp_setup *setup, double z, const dp_budget_terms *terms, dp_budget *out) {
@@ -321,12 +330,12 @@ dp_status dp_budget_at(const dp_setup *setup, double z, const dp_budget_terms *t
      * separation so far are safe, so only those between need a demand of their own, which is smaller.
      */
     demand best = demand_beyond(setup, &c, z1);
-    double window = total_of(&c, &best, extra);
+    double window = total_of(&c, &best, z1, extra);
     double separation = distance(&c, z1, window, best.slope) * outward;
     for (double before = HUGE_VAL; separation < z1 && separation < 0.97 * before;) {
         before = separation;
         const demand close = demand_over(setup, &c, z1, z1 + separation);
-        const double need = total_of(&c, &close, extra);
+        const double need = total_of(&c, &close, z1, extra);
         const double s = close.slope > 0.0 ? distance(&c, z1, need, close.slope) * outward : HUGE_VAL;
         if (s >= separation)
             break;

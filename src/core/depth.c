@@ -4,6 +4,7 @@
 #include "core/boundary.h"
 #include "core/curve.h"
 #include "core/engine.h"
+#include "depthprec/pipeline.h"
 
 double dp_window(const dp_setup *setup, double z) {
     const double n = setup->spec.znear;
@@ -76,7 +77,18 @@ uint32_t dp_code_exact(const dp_setup *setup, double z, uint32_t start) {
     return code;
 }
 
+/* The pipeline's code of the binary32 depth that a shader has for z. */
+static uint32_t pipeline_code(const dp_setup *setup, double z) {
+    dp_pipeline pipeline;
+    if (dp_pipeline_init(&pipeline, setup) != DP_OK)
+        return 0;
+    const double clamped = z < setup->spec.znear ? setup->spec.znear : z < setup->spec.zfar ? z : setup->spec.zfar;
+    return dp_pipeline_code(&pipeline, (float)clamped);
+}
+
 uint32_t dp_code(const dp_setup *setup, double z) {
+    if (setup->spec.model == DP_MODEL_FP32)
+        return pipeline_code(setup, z);
     if (!(z > setup->spec.znear))
         return setup->code_near;
     if (z >= setup->spec.zfar)
@@ -100,6 +112,10 @@ dp_cell dp_cell_of(const dp_setup *setup, uint32_t code) {
     const dp_spec *spec = &setup->spec;
     const int reversed = setup->reversed;
     dp_cell cell = {.code = code, .stored = dp_stored(setup, code)};
+    if (spec->model == DP_MODEL_FP32) {
+        cell.lo = cell.hi = cell.width = (double)NAN;
+        return cell;
+    }
     const int nearer = reversed ? code > setup->code_near : code < setup->code_near;
     const int farther = reversed ? code < setup->code_far : code > setup->code_far;
     if (nearer || farther) {
@@ -115,8 +131,9 @@ dp_cell dp_cell_of(const dp_setup *setup, uint32_t code) {
         to_near = dp_boundary_below(setup, code + (uint32_t)reversed).point;
     if (!last)
         to_far = dp_boundary_below(setup, code + (uint32_t)!reversed).point;
-    cell.lo = first ? spec->znear : dp_curve_eye(setup, to_near);
-    cell.hi = last ? spec->zfar : dp_curve_eye(setup, to_far);
+    /* An end rounded beyond a plane, or before the other end, belongs on it. */
+    cell.lo = first ? spec->znear : fmin(fmax(dp_curve_eye(setup, to_near), spec->znear), spec->zfar);
+    cell.hi = last ? spec->zfar : fmin(fmax(dp_curve_eye(setup, to_far), cell.lo), spec->zfar);
     if (first)
         cell.width = last ? spec->zfar - spec->znear : dp_curve_gap(setup, to_far, spec->znear);
     else if (last)

@@ -35,8 +35,8 @@ static inline dp_pair dp_two_product(double a, double b) {
 
 /*
  * p a (x1 - x2) + q b (y1 - y2), evaluated exactly and rounded once at the end: the sign is right, zero means zero,
- * and the value is good to 2^-50 relative. No argument may exceed 1e60 or, unless 0, fall below 1e-60 in magnitude,
- * nor any difference below 1e-60: then no product or its rounding error leaves the normal range.
+ * and the value is good to 2^-50 relative. Arguments up to 1e60, and no two of them so small that the last bit of a
+ * product falls below 2^-1074: the library's are depths in [1e-12, 1e18] and quotients of at least 2^-278.
  */
 double dp_exact_residual(double p, double a, double x1, double x2, double q, double b, double y1, double y2);
 

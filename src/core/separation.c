@@ -3,6 +3,7 @@
 #include "core/boundary.h"
 #include "core/curve.h"
 #include "core/engine.h"
+#include "depthprec/budget.h"
 #include "depthprec/depth.h"
 
 /* The sign of d(z) - v, decided exactly where the computed d is too near to v. */
@@ -58,8 +59,12 @@ static double staged_step(const dp_setup *setup, double z) {
 double dp_separation(const dp_setup *setup, double z) {
     if (isinf(z))
         return HUGE_VAL;
+    if (setup->spec.model == DP_MODEL_FP32) {
+        dp_budget budget;
+        return dp_budget_at(setup, z, NULL, &budget) == DP_OK ? budget.separation : HUGE_VAL;
+    }
     const double s = setup->spec.model == DP_MODEL_EXACT || dp_staged_is_exact(setup)
                          ? dp_curve_ahead(setup, exact_step(setup, z), setup->den, z)
                          : dp_curve_ahead(setup, staged_step(setup, z), 1.0, z);
-    return s * (1.0 + 0x1p-48);
+    return s * dp_curve_outward(setup);
 }

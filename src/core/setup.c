@@ -46,13 +46,14 @@ static dp_status check(const dp_spec *spec) {
     } rules[] = {
         {format_is_sound(&spec->format), DP_ERROR_FORMAT},
         {dp_rounding_name(spec->rounding) != NULL, DP_ERROR_ROUNDING},
-        {dp_model_name(spec->model) != NULL && spec->model != DP_MODEL_FP32, DP_ERROR_MODEL},
+        {dp_model_name(spec->model) != NULL, DP_ERROR_MODEL},
         {dp_arith_get(spec->arith) != NULL, DP_ERROR_ARITH},
         {within(spec->znear, 1e-12, 1e12), DP_ERROR_NEAR},
         {(spec->zfar > spec->znear && spec->zfar <= 1e18) || spec->zfar == HUGE_VAL, DP_ERROR_FAR},
         {(spec->zfar - spec->znear) / spec->znear >= 1e-6, DP_ERROR_PLANES},
         {!spec->ortho || row->ortho, DP_ERROR_ORTHO},
         {!isinf(spec->zfar) || (row->far_infinite && !spec->ortho), DP_ERROR_INFINITE},
+        {spec->model != DP_MODEL_FP32 || row->curve == DP_CURVE_PERSPECTIVE, DP_ERROR_MODEL},
         {row->curve != DP_CURVE_LOG || within(spec->log_c, 1e-12, 1e12), DP_ERROR_LOG_C},
     };
     for (size_t i = 0; i < sizeof rules / sizeof rules[0]; i++)
@@ -96,5 +97,9 @@ dp_status dp_setup_init(dp_setup *setup, const dp_spec *spec) {
         setup->code_near = dp_code_exact(setup, n, dp_code_quick(setup, n, &certain));
     }
     setup->code_far = code_max - near_end;
+    if (spec->model == DP_MODEL_FP32) {
+        setup->code_near = dp_code(setup, n);
+        setup->code_far = dp_code(setup, f);
+    }
     return DP_OK;
 }

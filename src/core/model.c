@@ -1,0 +1,55 @@
+/* SPDX-License-Identifier: MIT */
+/* Which model is enough: judged by the separation, which every model has. */
+#include <math.h>
+
+#include "depthprec/budget.h"
+#include "depthprec/depth.h"
+
+/* The set-up with another model; 0 when it has no such model. */
+static int with_model(const dp_setup *setup, dp_model model, dp_setup *out) {
+    dp_spec spec = setup->spec;
+    spec.model = model;
+    return dp_setup_init(out, &spec) == DP_OK;
+}
+
+/* What is missing from `part`, in units of it. */
+static double missing_share(double part, double whole) {
+    if (isinf(part) || whole <= part)
+        return 0.0;
+    return whole / part - 1.0;
+}
+
+dp_status dp_model_choose(const dp_setup *setup, const double *z, size_t count, double tolerance, dp_choice *out) {
+    if (setup == NULL || z == NULL || out == NULL || count == 0)
+        return DP_ERROR_NULL;
+    for (size_t i = 0; i < count; i++)
+        if (!(z[i] >= setup->spec.znear && z[i] <= setup->spec.zfar))
+            return DP_ERROR_DEPTH;
+
+    dp_setup model[DP_MODEL_COUNT];
+    int has[DP_MODEL_COUNT];
+    int fullest = DP_MODEL_EXACT;
+    dp_choice choice = {0};
+    for (int m = 0; m < DP_MODEL_COUNT; m++) {
+        has[m] = with_model(setup, (dp_model)m, &model[m]);
+        fullest = has[m] ? m : fullest;
+        choice.share[m] = has[m] ? 0.0 : (double)NAN;
+        choice.share_z[m] = z[0];
+    }
+    for (size_t i = 0; i < count; i++) {
+        const double whole = dp_separation(&model[fullest], z[i]);
+        for (int m = 0; m < fullest; m++) {
+            const double share = missing_share(dp_separation(&model[m], z[i]), whole);
+            if (share > choice.share[m]) {
+                choice.share[m] = share;
+                choice.share_z[m] = z[i];
+            }
+        }
+    }
+    int chosen = DP_MODEL_EXACT;
+    while (chosen < fullest && choice.share[chosen] > tolerance)
+        chosen++;
+    choice.model = (dp_model)chosen;
+    *out = choice;
+    return DP_OK;
+}

@@ -1,0 +1,154 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Real rasterizers: every stored code and every clip decision, from the row of arithmetic that claims to be theirs. */
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "depthprec/depthprec.h"
+#include "support.h"
+
+enum { COLUMNS = 8, FIRST_COLUMN = 6 };
+
+/* One target at a time: its set-up, a pipeline per column, and what has been seen. */
+typedef struct target {
+    dp_setup setup;
+    dp_pipeline pipeline[COLUMNS];
+    dp_pipeline strange[4]; /* rows that are not these rasterizers' */
+    char name[COLUMNS][32];
+    int columns;
+    tally codes, clips, ideal;
+    unsigned long drawn, clipped, strange_codes[4];
+    unsigned targets;
+} target;
+
+static const char *const strangers[4] = {"ieee", "fused", "reciprocal", "product"};
+
+static const char *arith_of(const char *column) {
+    if (strstr(column, "softpipe") != NULL)
+        return "softpipe";
+    return strstr(column, "_rmp") != NULL ? "mesa-remap" : "mesa";
+}
+
+static dp_pipeline pipeline_of(dp_spec spec, const char *arith) {
+    dp_setup setup;
+    dp_pipeline pipeline;
+    assert_int_equal(dp_arith_parse(arith, &spec.arith), DP_OK);
+    assert_int_equal(dp_setup_init(&setup, &spec), DP_OK);
+    assert_int_equal(dp_pipeline_init(&pipeline, &setup), DP_OK);
+    return pipeline;
+}
+
+static void begin_target(target *t, const vector_row *row) {
+    dp_spec spec = dp_spec_default();
+    dp_format format[2];
+    spec.znear = vector_number(row, 1);
+    spec.zfar = vector_number(row, 2);
+    spec.ortho = strcmp(vector_text(row, 3), "orthographic") == 0;
+    assert_int_equal(dp_mapping_parse(vector_text(row, 4), &spec.mapping), DP_OK);
+    assert_int_equal(dp_format_parse(vector_text(row, 5), format), 1);
+    spec.format = format[0];
+    assert_int_equal(dp_setup_init(&t->setup, &spec), DP_OK);
+    t->columns = row->count - FIRST_COLUMN;
+    assert_in_range(t->columns, 1, COLUMNS);
+    for (int i = 0; i < t->columns; i++) {
+        snprintf(t->name[i], sizeof t->name[i], "%s", vector_text(row, FIRST_COLUMN + i));
+        t->pipeline[i] = pipeline_of(spec, arith_of(t->name[i]));
+    }
+    for (int i = 0; i < 4; i++)
+        t->strange[i] = pipeline_of(spec, strangers[i]);
+    t->targets++;
+}
+
+/*
+ * What the arithmetic may do to a code, as measured over the whole data: one code of 16 bits, three of 24 (a truncated
+ * product loses another), 4 x 2^-24 of the window depth.
+ */
+static int near_ideal(const target *t, float z, uint32_t code, int truncated) {
+    const uint32_t ideal = dp_code(&t->setup, (double)z);
+    const dp_format *format = &t->setup.spec.format;
+    if (format->kind == DP_FORMAT_FLOAT)
+        return fabs(dp_format_value(format, code) - dp_format_value(format, ideal)) <= 4.0 * 0x1p-24;
+    const int64_t off = (int64_t)code - (int64_t)ideal;
+    return llabs(off) <= (format->bits == 16 ? 1 : 3) + truncated;
+}
+
+static void visit(const vector_row *row, void *context) {
+    target *t = context;
+    if (strcmp(vector_text(row, 0), "camera") == 0) {
+        begin_target(t, row);
+        return;
+    }
+    const uint32_t bits = (uint32_t)strtoul(vector_text(row, 0), NULL, 16);
+    float z;
+    memcpy(&z, &bits, sizeof z);
+    const char *text = vector_text(row, 1);
+    for (int i = 0; i < t->columns; i++) {
+        if (row->count > 2 && strcmp(vector_text(row, 1 + i), "=") != 0)
+            text = vector_text(row, 1 + i);
+        const dp_pipeline *p = &t->pipeline[i];
+        const int stored = *text != '-';
+        TALLY(&t->clips, dp_pipeline_drawn(p, z) == stored, "line %d, %s: z %.9g", row->line, t->name[i], (double)z);
+        t->drawn += stored != 0;
+        t->clipped += stored == 0;
+        if (!stored)
+            continue;
+        const uint32_t code = (uint32_t)strtoul(text, NULL, 16);
+        const uint32_t got = dp_pipeline_code(p, z);
+        TALLY(&t->codes, got == code, "line %d, %s: z %.9g stored %x, computed %x", row->line, t->name[i], (double)z,
+              (unsigned)code, (unsigned)got);
+        TALLY(&t->ideal, near_ideal(t, z, code, p->arith->conversion == DP_CONVERT_PRODUCT_ZERO),
+              "line %d, %s: z %.9g stored %x, ideal %x", row->line, t->name[i], (double)z, (unsigned)code,
+              (unsigned)dp_code(&t->setup, (double)z));
+        for (int k = 0; k < 4; k++)
+            t->strange_codes[k] += dp_pipeline_code(&t->strange[k], z) != code;
+    }
+}
+
+static target *seen(void) {
+    static target t = {
+        .codes = {.name = "stored codes"}, .clips = {.name = "clip decisions"}, .ideal = {.name = "against the ideal"}};
+    if (t.targets == 0)
+        vectors_read("rasterizers.txt", visit, &t);
+    return &t;
+}
+
+static void every_code(void **state) {
+    (void)state;
+    const target *t = seen();
+    printf("# %u targets, %lu codes, %lu clipped\n", t->targets, t->drawn, t->clipped);
+    assert_int_equal(t->targets, 117);
+    tally_end(&t->codes);
+}
+
+static void every_clip_decision(void **state) {
+    (void)state;
+    const target *t = seen();
+    assert_true(t->clipped > 500);
+    tally_end(&t->clips);
+}
+
+static void close_to_ideal(void **state) {
+    (void)state;
+    tally_end(&seen()->ideal);
+}
+
+/* The points tell the arithmetics apart: each other row misses codes. */
+static void rows_differ(void **state) {
+    (void)state;
+    const target *t = seen();
+    for (int i = 0; i < 4; i++) {
+        printf("# %s would miss %lu\n", strangers[i], t->strange_codes[i]);
+        assert_true(t->strange_codes[i] > 1000);
+    }
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(every_code),
+        cmocka_unit_test(every_clip_decision),
+        cmocka_unit_test(close_to_ideal),
+        cmocka_unit_test(rows_differ),
+    };
+    return run_tap(tests);
+}
