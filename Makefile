@@ -155,7 +155,8 @@ check-full:
 	@DEPTHPREC_FULL=1 $(MAKE) --no-print-directory check
 
 asan:
-	@DEPTHPREC_QUICK=1 $(MAKE) --no-print-directory CONF=asan check
+	@DEPTHPREC_QUICK=1 LSAN_OPTIONS=suppressions=$(CURDIR)/tests/lsan.supp:print_suppressions=0 \
+	    $(MAKE) --no-print-directory CONF=asan check
 
 $(B)/tests/%: $(B)/obj/tests/%.o $(B)/libsupport.a $(B)/librooms.a $(B)/libdepthprec.a | $(B)/check.libs $(B)/build.libs
 	@mkdir -p $(@D)

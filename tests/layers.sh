@@ -50,8 +50,12 @@ outside="$outside|__cxa_finalize|__gmon_start__|_ITM_(de)?registerTMCloneTable"
 foreign() { nm -D --undefined-only "$B/libdepthprec.so.0" | sed 's/^.* //; s/@.*//' | grep -vxE "$outside"; }
 check "the library needs only memory, strings and libm: no allocation, no output" empty foreign
 
-# Constant tables of pointers lie in .data.rel.ro, read-only once loaded; anything in .data or .bss could change.
-mutable() { objdump -t "$B/libdepthprec.a" | awk '/\*COM\*| \.(data|bss|tdata|tbss)(\.[^r][^ \t]*)?[ \t]/ && $NF !~ /^\./ { print $NF }'; }
+# Constant tables of pointers lie in .data.rel.ro, read-only once loaded; anything else in .data or .bss could change.
+mutable() {
+    objdump -t "$B/libdepthprec.a" | awk -F '\t' '
+        { name = $2; section = $1; sub(/.* /, "", name); sub(/.* /, "", section) }
+        section ~ /^(\.t?data|\.t?bss|\*COM\*)/ && section !~ /^\.data\.rel\.ro/ && name != section { print name }'
+}
 check "the library keeps no state between calls" empty mutable
 global() { nm -g --defined-only "$B/libdepthprec.a" | awk 'NF == 3 && $3 !~ /^dp_/ { print $3 }'; }
 check "every global name of the library begins with dp_" empty global

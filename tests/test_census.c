@@ -103,7 +103,7 @@ static int same_result(const census_result *a, const census_result *b) {
 
 /* A set-up of any kind that has a pipeline. */
 static dp_setup random_setup(rng *r) {
-    static const char *const formats[] = {"fp32",    "unorm24", "unorm16", "fp16",     "unorm8",      "unorm20",
+    static const char *const formats[] = {"fp32",    "unorm24", "unorm16", "fp16",     "unorm8",     "unorm20",
                                           "unorm28", "unorm32", "unorm23", "float5.9", "float3.3b5", "float8.20b130"};
     for (;;) {
         dp_spec spec = dp_spec_default();
@@ -403,9 +403,9 @@ static void refuses(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(matches_plain), cmocka_unit_test(counts),  cmocka_unit_test(clipped),
+        cmocka_unit_test(matches_plain), cmocka_unit_test(counts),     cmocka_unit_test(clipped),
         cmocka_unit_test(same_levels),   cmocka_unit_test(same_codes), cmocka_unit_test(same_threads),
-        cmocka_unit_test(sampled),       cmocka_unit_test(gaps),    cmocka_unit_test(stops),
+        cmocka_unit_test(sampled),       cmocka_unit_test(gaps),       cmocka_unit_test(stops),
         cmocka_unit_test(refuses),
     };
     return run_tap(tests);

@@ -148,7 +148,7 @@ static void cells(void **state) {
     (void)state;
     rng r = rng_make("cells");
     tally t = {.name = "cells"}, planes = {.name = "cells stay between the planes"};
-    uint64_t cameras = test_cases(100, 4000, 60000);
+    uint64_t cameras = test_cases(100, 4000, 20000);
     for (uint64_t i = 0; i < cameras; i++) {
         scene s;
         random_spec(&r, &s.spec);
@@ -274,7 +274,7 @@ static void samples(void **state) {
     (void)state;
     rng r = rng_make("samples");
     tally t = {.name = "samples"};
-    uint64_t cameras = test_cases(100, 4000, 60000);
+    uint64_t cameras = test_cases(100, 4000, 20000);
     for (uint64_t i = 0; i < cameras; i++) {
         scene s;
         random_spec(&r, &s.spec);
@@ -299,7 +299,7 @@ static void round_trips(void **state) {
     (void)state;
     rng r = rng_make("round trips");
     tally t = {.name = "code(stored(code))"};
-    uint64_t cameras = test_cases(4, 40, 200);
+    uint64_t cameras = test_cases(4, 40, 60);
     for (uint64_t i = 0; i < cameras; i++) {
         scene s;
         do
@@ -376,7 +376,7 @@ static void separations(void **state) {
     tally t = {.name = "separations"};
     mpq_t value;
     mpq_init(value);
-    uint64_t cameras = test_cases(100, 6000, 60000);
+    uint64_t cameras = test_cases(100, 6000, 30000);
     for (uint64_t i = 0; i < cameras; i++) {
         scene s;
         random_spec(&r, &s.spec);
@@ -420,7 +420,7 @@ static void guarantee(void **state) {
     tally behind = {.name = "behind z + s is a code behind"}, tight = {.name = "s is needed"};
     mpq_t boundary, z, at, hair;
     mpq_inits(boundary, z, at, hair, NULL);
-    uint64_t cameras = test_cases(100, 6000, 60000);
+    uint64_t cameras = test_cases(100, 6000, 30000);
     for (uint64_t i = 0; i < cameras; i++) {
         scene s;
         random_spec(&r, &s.spec);

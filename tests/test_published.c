@@ -111,7 +111,10 @@ static void outerra_log_depth(void **state) {
     vectors_read("outerra.txt", outerra_row, NULL);
 }
 
-/* "Quantitative analysis of z-buffer precision", zero-radiance, 2020: reversed, near 0.1 m, far 10 km. */
+/*
+ * "Quantitative Analysis of Z-Buffer Precision", 2020, https://zero-radiance.github.io/post/z-buffer/: reversed,
+ * near 0.1 m, far 10 km.
+ */
 static void zero_radiance(void **state) {
     (void)state;
     dp_setup fp32 = make("fp32", "reversed", 0.1, 1e4), unorm24 = make("unorm24", "reversed", 0.1, 1e4);

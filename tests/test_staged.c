@@ -68,7 +68,7 @@ static double range_end(const dp_spec *spec) {
 
 static void codes_match_mpfr(void **state) {
     (void)state;
-    tally t = {"staged codes"};
+    tally t = {.name = "staged codes"};
     rng r = rng_make("staged codes");
     for (uint64_t i = test_cases(2000, 40000, 1000000); i > 0; i--) {
         dp_spec spec;
@@ -114,7 +114,7 @@ static void codes_match_mpfr(void **state) {
 
 static void separation_is_safe(void **state) {
     (void)state;
-    tally t = {"staged separation"};
+    tally t = {.name = "staged separation"};
     rng r = rng_make("staged separation");
     for (uint64_t i = test_cases(2000, 40000, 1000000); i > 0; i--) {
         dp_spec spec;
@@ -157,7 +157,7 @@ static void worst_is_certified(void **state) {
     static const double cameras[][2] = {{0.1, 1000}, {0.3, 77}, {1, 1.5},  {0.01, 1e6}, {5, 5000},      {0.05, 4000},
                                         {0.25, 128}, {1, 2},    {10, 1e5}, {2, 65536},  {0.1, HUGE_VAL}};
     static const char *const formats[] = {"fp16", "unorm16", "unorm10"};
-    tally t = {"staged worst case"};
+    tally t = {.name = "staged worst case"};
     const uint64_t count = test_cases(2, 11, 11);
     for (uint64_t c = 0; c < count; c++)
         for (int f = 0; f < 3; f++)

@@ -133,7 +133,7 @@ static int parse_ortho(options *o, const char *value) {
 static int parse_word(option_id id, const char *(*names)(unsigned), const char *value, unsigned *out) {
     suggestion s = suggest_start(value);
     char text[SUGGEST_TEXT_SIZE];
-    char allowed[128] = "";
+    char allowed[256] = "";
     for (unsigned i = 0; names(i) != NULL; i++) {
         if (strcmp(names(i), value) == 0) {
             *out = i;
@@ -153,6 +153,11 @@ static const char *rounding_name(unsigned index) {
 
 static const char *model_name(unsigned index) {
     return dp_model_name((dp_model)index);
+}
+
+static const char *arith_name(unsigned index) {
+    const dp_arith_row *row = dp_arith_get(index);
+    return row != NULL ? row->name : NULL;
 }
 
 static const char *theme_name(unsigned index) {
@@ -175,6 +180,13 @@ static int parse_model(options *o, const char *value) {
     return status;
 }
 
+static int parse_arith(options *o, const char *value) {
+    unsigned index = (unsigned)o->arith;
+    int status = parse_word(OPTION_ARITH, arith_name, value, &index);
+    o->arith = index;
+    return status;
+}
+
 static int parse_theme(options *o, const char *value) {
     unsigned index = (unsigned)o->theme;
     int status = parse_word(OPTION_THEME, theme_name, value, &index);
@@ -194,6 +206,40 @@ static int parse_at(options *o, const char *value) {
 
 static int parse_range(options *o, const char *value) {
     return range_parse(value, &o->range_lo, &o->range_hi);
+}
+
+static int parse_gap(options *o, const char *value) {
+    if (!number_parse(value, NUMBER_FINITE, &o->gap) || !(o->gap > 0.0))
+        return option_error(OPTION_GAP, "must be a positive number of scene units, got '%s'", value);
+    return EXIT_FINE;
+}
+
+/* A whole number from least to most. */
+static int parse_whole(option_id id, const char *value, unsigned long least, unsigned long most, unsigned long *out) {
+    if (!number_parse_count(value, most, out) || *out < least)
+        return option_error(id, "must be a whole number from %lu to %lu, got '%s'", least, most, value);
+    return EXIT_FINE;
+}
+
+static int parse_sample(options *o, const char *value) {
+    unsigned long count = 0;
+    int status = parse_whole(OPTION_SAMPLE, value, 1, 1000000000000ul, &count);
+    o->sample = count;
+    return status;
+}
+
+static int parse_seed(options *o, const char *value) {
+    unsigned long seed = 0;
+    int status = parse_whole(OPTION_SEED, value, 0, 1ul << 53, &seed); /* JSON holds it exactly */
+    o->seed = seed;
+    return status;
+}
+
+static int parse_threads(options *o, const char *value) {
+    unsigned long threads = 0;
+    int status = parse_whole(OPTION_THREADS, value, 1, 1024, &threads);
+    o->threads = (int)threads;
+    return status;
 }
 
 static int parse_pixels(option_id id, const char *value, int *out) {
@@ -255,7 +301,14 @@ static int parse_verbose(options *o, const char *value) {
 }
 
 /* Which commands take what. */
-enum { CAMERA = VERB_TABLE | VERB_PLOT, DRAWN = VERB_PLOT, WRITTEN = VERB_TABLE | VERB_PLOT | VERB_LIST, EVERY = ~0 };
+enum {
+    MODELLED = VERB_TABLE | VERB_PLOT,
+    CAMERA = MODELLED | VERB_ZFIGHT,
+    COUNTED = VERB_ZFIGHT,
+    DRAWN = VERB_PLOT,
+    WRITTEN = CAMERA | VERB_LIST,
+    EVERY = ~0
+};
 
 /* clang-format off */
 const option_row option_rows[OPTION_COUNT] = {
@@ -273,17 +326,30 @@ const option_row option_rows[OPTION_COUNT] = {
         "orthographic projection (default: perspective)", parse_ortho},
     [OPTION_ROUNDING] = {"rounding", 0, "nearest|even|zero", CAMERA,
         "how a depth between two codes is rounded (default nearest)", parse_rounding},
-    [OPTION_MODEL] = {"model", 0, "exact|staged", CAMERA,
+    [OPTION_MODEL] = {"model", 0, "exact|staged", MODELLED,
         "the arithmetic before the buffer: none, the lattice alone, or\n"
         "NDC and window depth each rounded to binary32 (default exact)", parse_model},
-    [OPTION_LOG_C] = {"log-c", 0, "C", CAMERA,
+    [OPTION_ARITH] = {"arith", 0, "NAME", COUNTED,
+        "the binary32 arithmetic: ieee, fused, reciprocal,\n"
+        "fused-reciprocal, product, mesa, softpipe, ieee-remap,\n"
+        "mesa-remap (default ieee)", parse_arith},
+    [OPTION_LOG_C] = {"log-c", 0, "C", MODELLED,
         "constant of the log mapping, 1e-12 to 1e12 (default 1)", parse_log_c},
-    [OPTION_AT] = {"at", 0, "Z[,Z...]|LO:HI:log|lin:COUNT", CAMERA,
+    [OPTION_AT] = {"at", 0, "Z[,Z...]|LO:HI:log|lin:COUNT", MODELLED,
         "the depths asked about, at most 1000000, within [near, far]\n"
         "(default: nine, log-spaced from near to far)", parse_at},
     [OPTION_RANGE] = {"range", 0, "LO:HI", CAMERA,
         "the depths that worst cases are taken over\n"
         "(default: near to far)", parse_range},
+    [OPTION_GAP] = {"gap", 0, "G", COUNTED,
+        "ties and swaps of surfaces G apart, scene units\n"
+        "(default: of neighbouring binary32 depths)", parse_gap},
+    [OPTION_SAMPLE] = {"sample", 0, "N", COUNTED,
+        "draw N pairs at random (default: visit every depth)", parse_sample},
+    [OPTION_SEED] = {"seed", 0, "S", COUNTED,
+        "seed of --sample: the same pairs for the same seed (default 0)", parse_seed},
+    [OPTION_THREADS] = {"threads", 0, "N", COUNTED,
+        "at most N threads (default: all cores); results are the same", parse_threads},
     [OPTION_THEME] = {"theme", 0, "light|dark|print", DRAWN,
         "colours of the figure (default light)", parse_theme},
     [OPTION_WIDTH] = {"width", 0, "PX", DRAWN,

@@ -27,9 +27,14 @@ typedef enum option_id {
     OPTION_ORTHO,
     OPTION_ROUNDING,
     OPTION_MODEL,
+    OPTION_ARITH,
     OPTION_LOG_C,
     OPTION_AT,
     OPTION_RANGE,
+    OPTION_GAP,
+    OPTION_SAMPLE,
+    OPTION_SEED,
+    OPTION_THREADS,
     OPTION_THEME,
     OPTION_WIDTH,
     OPTION_HEIGHT,
@@ -68,10 +73,16 @@ typedef struct options {
     size_t mapping_count;
     dp_rounding rounding;
     dp_model model;
+    dp_arith arith;
     double log_c;
 
     depths at;                 /**< what --at said; count is 0 when it was not given. See depths_resolve() */
     double range_lo, range_hi; /**< what --range said, lo < hi. See range_resolve() */
+
+    double gap;      /**< scene units; 0 when not given */
+    uint64_t sample; /**< pairs to draw; 0 when not given */
+    uint64_t seed;
+    int threads; /**< 0 when not given: as many as there are cores */
 
     theme_id theme;    /**< default light */
     int width, height; /**< px; 0 when not given, so that each figure has its own default */

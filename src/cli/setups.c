@@ -65,6 +65,7 @@ int setups_make(const options *o, setups *out) {
                     .ortho = o->ortho,
                     .rounding = o->rounding,
                     .model = o->model,
+                    .arith = o->arith,
                     .log_c = o->log_c};
     for (size_t f = 0; f < o->format_count; f++)
         for (size_t m = 0; m < o->mapping_count; m++) {
@@ -98,6 +99,8 @@ void setup_json(json *j, const dp_setup *setup) {
     json_string(j, "format", spec->format.name);
     json_string(j, "rounding", dp_rounding_name(spec->rounding));
     json_string(j, "model", dp_model_name(spec->model));
+    if (spec->model == DP_MODEL_FP32)
+        json_string(j, "arith", dp_arith_get(spec->arith)->name);
     if (spec->mapping == DP_MAPPING_LOG)
         json_number(j, "log_c", spec->log_c);
 }
@@ -133,7 +136,9 @@ const char *setup_label(const dp_setup *setup, bool full, char out[SETUP_LABEL_S
     number_shortest(spec->zfar, zfar);
     if (spec->mapping == DP_MAPPING_LOG)
         number_shortest(spec->log_c, log_c + sprintf(log_c, " C "));
-    snprintf(out + length, SETUP_LABEL_SIZE - (size_t)length, "%s, near %s, far %s, %s, %s, %s", log_c, znear, zfar,
-             setup_projection(setup), dp_rounding_name(spec->rounding), dp_model_name(spec->model));
+    const bool arith = spec->model == DP_MODEL_FP32;
+    snprintf(out + length, SETUP_LABEL_SIZE - (size_t)length, "%s, near %s, far %s, %s, %s, %s%s%s", log_c, znear, zfar,
+             setup_projection(setup), dp_rounding_name(spec->rounding), dp_model_name(spec->model), arith ? " " : "",
+             arith ? dp_arith_get(spec->arith)->name : "");
     return out;
 }

@@ -37,7 +37,7 @@ const char *setup_label(const dp_setup *setup, bool full, char out[SETUP_LABEL_S
 
 /**
  * What names a set-up in JSON and CSV: near, far, projection, mapping, format, rounding, model. In JSON, into the
- * object that is open; `log_c` follows where the mapping is log.
+ * object that is open; `arith` follows where the model is fp32, `log_c` where the mapping is log.
  */
 void setup_json(json *j, const dp_setup *setup);
 void setup_csv_head(csv *c);

@@ -13,6 +13,7 @@ int cmd_table(const struct options *o);
 int cmd_list(const struct options *o);
 /* Commands that need a heavy library: null in the light program. */
 int cmd_plot(const struct options *o) __attribute__((weak));
+int cmd_zfight(const struct options *o) __attribute__((weak));
 
 /* clang-format off */
 const verb verb_rows[] = {
@@ -25,6 +26,11 @@ const verb verb_rows[] = {
      "draws a figure: SVG, PDF or PNG by the ending of -o",
      "  depthprec plot error -F all -m d3d,reversed -o error.svg\n"
      "  depthprec plot distribution -F unorm4 -n 1 -f 10 -o staircase.png --theme dark\n"},
+    {"zfight", VERB_ZFIGHT, cmd_zfight, "", 0, 0, NULL,
+     "ties, swaps, longest interval of the binary32 pipeline, every depth",
+     "  depthprec zfight -n 0.1 -f 1000 -F unorm24,fp32 -m d3d,reversed\n"
+     "  depthprec zfight -F d24 -m gl --arith mesa --gap 0.01\n"
+     "  depthprec zfight -f inf -F fp32 -m reversed --range 0.1:1e9 --sample 1000000 --seed 7\n"},
     {"list", VERB_LIST, cmd_list, "WHAT", 0, 1, NULL,
      "formats, mappings, figures, with bounds and sources",
      "  depthprec list\n"

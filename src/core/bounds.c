@@ -61,7 +61,7 @@ static void visit(const search *s, uint32_t rank) {
         worst->interval_hi = cell.hi;
         worst->interval_code = code;
     }
-    if (isinf(cell.width))
+    if (isinf(cell.width) && !isinf(cell.lo)) /* truncated d3d stores infinity itself as a code of its own */
         worst->blind_from = cell.lo;
 }
 

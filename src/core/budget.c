@@ -280,16 +280,20 @@ static double composition_error(const chain *c, double z, double world) {
     return c->half * (clip + w) / (c->pipeline.ortho ? 1.0 : z);
 }
 
-/* 1/(z d + w) in binary32, relative to the depth, carried back to window depth by the slope. */
+/*
+ * Reading back in binary32, as window depth: z = 1/(zb d + wb), or n + (f - n) d when orthographic. Each constant is
+ * rounded once, d is converted once, then product, sum and reciprocal; errors are relative to the terms of the sum.
+ */
 static double linearization_error(const dp_setup *setup, const chain *c, double z) {
     const double n = setup->spec.znear;
     const double f = setup->spec.zfar;
-    const double slope = c->half * fabs(c->b) / z; /* d changes by slope for a relative change of z */
-    if (c->pipeline.ortho)
-        return unit * (1.0 + n / (f - n)) + unit * z / (f - n);
-    const double sum = 1.0 / z; /* = zb d + wb, of terms up to 1/n when the mapping is standard */
-    const double terms = setup->reversed ? sum : 1.0 / n + (1.0 / n - sum);
-    return slope * unit * (3.0 * terms / sum + 2.0);
+    if (c->pipeline.ortho) {
+        const double start = setup->reversed ? f : n;
+        return unit * (3.0 * fabs(z - start) + start + z) / (f - n) * outward;
+    }
+    const double start = setup->reversed ? 1.0 / f : 1.0 / n;
+    const double relative = unit * ((3.0 * fabs(1.0 / z - start) + start) * z + 2.0) * outward;
+    return relative * c->half * fabs(c->b) / z;
 }
 
 /*
@@ -301,6 +305,15 @@ static double total_of(const chain *c, const demand *d, double z1, double extra)
     const int clamped = g + d->error >= 1.0 || g - d->error <= 0.0;
     const double roundings = d->projection + d->ndc;
     return (clamped ? larger(roundings, c->overshoot + d->error) : roundings) + d->format + extra;
+}
+
+/*
+ * Two binary32 depths from z on lie whole steps of z apart. So what holds beyond `separation` holds beyond the whole
+ * steps in it: they are the answer, and a little, because two depths just so far apart may still tie.
+ */
+static double whole_steps(double separation, double step) {
+    const double steps = floor(separation / step);
+    return steps >= 1.0 && steps < 0x1p20 ? steps * step * outward : separation;
 }
 
 dp_status dp_budget_at(const dp_setup *setup, double z, const dp_budget_terms *terms, dp_budget *out) {
@@ -343,6 +356,7 @@ dp_status dp_budget_at(const dp_setup *setup, double z, const dp_budget_terms *t
         best = close;
         window = need;
     }
+    separation = whole_steps(separation, 2.0 * half_ulp(z1));
     part[DP_CAUSE_PROJECTION] = best.projection;
     part[DP_CAUSE_FORMAT] = best.format;
     part[DP_CAUSE_NDC] = window - extra - best.projection - best.format; /* with what clamping takes */

@@ -122,24 +122,22 @@ dp_cell dp_cell_of(const dp_setup *setup, uint32_t code) {
         cell.lo = cell.hi = nearer ? spec->znear : spec->zfar;
         return cell;
     }
-    /* The boundary towards the near plane and the one towards far; only a code beside a plane may lack one. */
+    /* From the near plane or a boundary to a boundary or the far plane. Planes lie on the lattice, but for the near
+       plane of the linear and logarithmic mappings. */
     const int first = code == setup->code_near;
     const int last = code == setup->code_far;
-    dp_point to_near = {0};
-    dp_point to_far = {0};
-    if (!first)
-        to_near = dp_boundary_below(setup, code + (uint32_t)reversed).point;
-    if (!last)
-        to_far = dp_boundary_below(setup, code + (uint32_t)!reversed).point;
+    const int off_lattice = first && !spec->ortho && dp_mapping_get(spec->mapping)->curve != DP_CURVE_PERSPECTIVE;
+    const double end = setup->den;
+    const dp_point to_near =
+        first ? dp_point_make(reversed ? end : 0.0, end) : dp_boundary_below(setup, code + (uint32_t)reversed).point;
+    const dp_point to_far =
+        last ? dp_point_make(reversed ? 0.0 : end, end) : dp_boundary_below(setup, code + (uint32_t)!reversed).point;
     /* An end rounded beyond a plane, or before the other end, belongs on it. */
     cell.lo = first ? spec->znear : fmin(fmax(dp_curve_eye(setup, to_near), spec->znear), spec->zfar);
     cell.hi = last ? spec->zfar : fmin(fmax(dp_curve_eye(setup, to_far), cell.lo), spec->zfar);
-    if (first)
-        cell.width = last ? spec->zfar - spec->znear : dp_curve_gap(setup, to_far, spec->znear);
-    else if (last)
-        cell.width = isinf(spec->zfar) ? HUGE_VAL : -dp_curve_gap(setup, to_near, spec->zfar);
-    else
-        cell.width = dp_curve_span(setup, to_near, to_far);
+    cell.width = isinf(cell.hi) ? HUGE_VAL
+                 : off_lattice  ? dp_curve_gap(setup, to_far, spec->znear)
+                                : dp_curve_span(setup, to_near, to_far);
     return cell;
 }
 

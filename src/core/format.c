@@ -178,10 +178,11 @@ uint32_t dp_format_encode(const dp_format *format, dp_rounding rounding, double 
     /* What the product lost: nothing for FLOAT, whose scale is a power of two. */
     double lost = format->kind == DP_FORMAT_UNORM ? fma(d, s.scale, -s.t) : 0.0;
     double whole = floor(s.t);
-    double above = (s.t - whole) - 0.5; /* exact, or too far from 0 for its sign to be in doubt */
+    double part = s.t - whole;
+    double above = part - 0.5; /* exact, or too far from 0 for its sign to be in doubt */
     uint32_t code = s.base + (uint32_t)whole;
     if (rounding == DP_ROUND_ZERO)
-        return code - (above == -0.5 && lost < 0.0);
+        return code - (part == 0.0 && lost < 0.0);
     if (above == -lost)
         return code + (dp_ties_up(format, rounding) || (code & 1U) != 0);
     return code + (above > -lost);

@@ -282,7 +282,8 @@ static void look_at_block(const census *c, size_t block, size_t from, int32_t hi
         uint32_t end = block_last(c, other) - c->block_first[other];
         while (end > 0 && away[end] > v)
             end--;
-        census_note(c->request, band, census_depth(c->block_first[block] + i), census_depth(c->block_first[other] + end));
+        census_note(c->request, band, census_depth(c->block_first[block] + i),
+                    census_depth(c->block_first[other] + end));
     }
 }
 
@@ -293,8 +294,8 @@ static int worth_a_look(const census *c, size_t block, size_t from, const census
     if (most >= band->longest)
         return 1;
     return r->bound != NULL &&
-           most >= band->slack * fmin(r->bound(r->setup, z1),
-                                      r->bound(r->setup, (double)census_depth(block_last(c, block))));
+           most >= band->slack *
+                       fmin(r->bound(r->setup, z1), r->bound(r->setup, (double)census_depth(block_last(c, block))));
 }
 
 /* Intervals from one segment into a later one. Needs `least` to run on to the end. */

@@ -24,15 +24,15 @@ enum { CENSUS_BANDS_MAX = 256 };
 
 /** One band, or all of them together. */
 typedef struct census_band {
-    double lo, hi;         /**< a binade of z cut to the range; hi is the next band's lo */
-    uint64_t pairs;        /**< neighbours whose nearer one is in the band */
-    uint64_t ties, swaps;  /**< of those pairs */
-    uint64_t clipped;      /**< depths of the band that clipping would lose */
-    double longest;        /**< scene units; 0 when every pair is in order */
-    double longest_z;      /**< its nearer depth, the nearest where several intervals are as long; NaN when none */
-    double bound;          /**< the greater of the guaranteed separations at lo and hi; NaN without a bound function */
-    double slack;          /**< greatest (z2 - z1)/bound(z1) over all intervals: above 1 the guarantee is broken */
-    double slack_z;        /**< a depth where it is reached */
+    double lo, hi;        /**< a binade of z cut to the range; hi is the next band's lo */
+    uint64_t pairs;       /**< neighbours whose nearer one is in the band */
+    uint64_t ties, swaps; /**< of those pairs */
+    uint64_t clipped;     /**< depths of the band that clipping would lose */
+    double longest;       /**< scene units; 0 when every pair is in order */
+    double longest_z;     /**< its nearer depth, the nearest where several intervals are as long; NaN when none */
+    double bound;         /**< the greater of the guaranteed separations at lo and hi; NaN without a bound function */
+    double slack;         /**< greatest (z2 - z1)/bound(z1) over all intervals: above 1 the guarantee is broken */
+    double slack_z;       /**< a depth where it is reached */
 } census_band;
 
 typedef struct census_result {
@@ -46,9 +46,9 @@ typedef struct census_result {
 
 typedef enum census_status {
     CENSUS_DONE = 0,
-    CENSUS_STOPPED,  /**< progress asked for it */
-    CENSUS_RANGE,    /**< no binary32 depth in the range, or an infinite one */
-    CENSUS_MODEL,    /**< the mapping has no pipeline */
+    CENSUS_STOPPED, /**< progress asked for it */
+    CENSUS_RANGE,   /**< no binary32 depth in the range, or an infinite one */
+    CENSUS_MODEL,   /**< the mapping has no pipeline */
     CENSUS_NO_MEMORY
 } census_status;
 

@@ -42,7 +42,7 @@ static float_rule float_rule_of(const dp_format *f, int nearest) {
 KERNEL uint32_t float_code(float_rule r, int32_t d, int nearest) {
     const uint32_t bits = (uint32_t)d;
     const uint32_t normal = ((bits + r.round + (bits >> r.shift & r.even)) >> r.shift) - r.rebias;
-    const int32_t small = d < r.normal ? d : r.normal; /* so that the side not taken converts too */
+    const int32_t small = d < r.normal ? d : r.normal;                     /* so that the side not taken converts too */
     const float steps = census_depth((uint32_t)small) * r.up[0] * r.up[1]; /* exact; at most 2^23 */
     const uint32_t subnormal = nearest ? census_bits(steps + 0x1p23f) - census_bits(0x1p23f) : (uint32_t)(int32_t)steps;
     return d < r.normal ? subnormal : normal;
@@ -58,7 +58,7 @@ KERNEL uint32_t float_code(float_rule r, int32_t d, int nearest) {
         memcpy(&bits, &window[i], sizeof bits);                                                                        \
         bits = bits > 0 ? bits : 0;                                                                                    \
         bits = bits < one ? bits : one;                                                                                \
-        const float d = census_depth((uint32_t)bits);                                                                       \
+        const float d = census_depth((uint32_t)bits);                                                                  \
         (void)d;                                                                                                       \
         key[i] = (int32_t)((CODE) ^ flip);                                                                             \
     }                                                                                                                  \
@@ -107,8 +107,8 @@ static census_conversion conversion_of(const dp_pipeline *p) {
         return CENSUS_PLAIN;
     static const census_conversion exact[DP_ROUNDING_COUNT] = {
         [DP_ROUND_NEAREST] = CENSUS_UP, [DP_ROUND_EVEN] = CENSUS_EVEN, [DP_ROUND_ZERO] = CENSUS_ZERO};
-    static const census_conversion rows[] = {[DP_CONVERT_PRODUCT_EVEN] = CENSUS_PRODUCT_EVEN,
-                                             [DP_CONVERT_PRODUCT_ZERO] = CENSUS_PRODUCT_ZERO};
+    static const census_conversion rows[] = {
+        [DP_CONVERT_PRODUCT_EVEN] = CENSUS_PRODUCT_EVEN, [DP_CONVERT_PRODUCT_ZERO] = CENSUS_PRODUCT_ZERO};
     return p->arith->conversion == DP_CONVERT_EXACT ? exact[p->rounding] : rows[p->arith->conversion];
 }
 

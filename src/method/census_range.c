@@ -58,13 +58,15 @@ void census_note(const census_request *request, census_band *band, float z1, flo
 
 /* How many depths lie in first..last and outside [lo, hi]; all, when these are NaN. */
 static uint64_t outside(uint32_t first, uint32_t last, double lo, double hi) {
-    return isnan(lo) ? (uint64_t)last - first + 1 : (uint64_t)(census_bits((float)lo) - first) + (last - census_bits((float)hi));
+    return isnan(lo) ? (uint64_t)last - first + 1
+                     : (uint64_t)(census_bits((float)lo) - first) + (last - census_bits((float)hi));
 }
 
 void census_close(const census_request *request, const census_plan *plan, uint32_t first, uint32_t last,
                   census_result *result) {
     census_band *all = &result->all;
-    *all = (census_band){.lo = request->lo, .hi = request->hi, .longest_z = (double)NAN, .slack_z = (double)NAN, .bound = (double)NAN};
+    *all = (census_band){
+        .lo = request->lo, .hi = request->hi, .longest_z = (double)NAN, .slack_z = (double)NAN, .bound = (double)NAN};
     for (int i = 0; i < result->band_count; i++) {
         const census_band *band = &result->bands[i];
         all->pairs += band->pairs;

@@ -1,0 +1,194 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/*
+ * The census against a plain scalar one, as a ratio within one run: they take turns, and the median is shown with the
+ * spread (largest over smallest). The plain one keeps all codes in one array and the least code from each depth on in
+ * another, and is compiled at -O2 without vectors, as a first attempt would be. A missed target is a line in a table,
+ * never a failure.
+ */
+#include <math.h>
+#include <stdint.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <time.h>
+
+#include "method/census.h"
+
+enum { RUNS = 5 };
+
+typedef struct timing {
+    double sample[64];
+    int count;
+} timing;
+
+static double now(void) {
+    struct timespec t;
+    clock_gettime(CLOCK_MONOTONIC, &t);
+    return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
+}
+
+static int ascending(const void *a, const void *b) {
+    const double x = *(const double *)a;
+    const double y = *(const double *)b;
+    return (x > y) - (x < y);
+}
+
+static double median(timing *t) {
+    qsort(t->sample, (size_t)t->count, sizeof t->sample[0], ascending);
+    return t->sample[t->count / 2];
+}
+
+static double spread(const timing *sorted) {
+    return sorted->sample[sorted->count - 1] / sorted->sample[0];
+}
+
+#if defined(__GNUC__) && !defined(__clang__)
+#define PLAIN __attribute__((optimize("O2", "no-tree-vectorize"), noinline))
+#else
+#define PLAIN __attribute__((noinline))
+#endif
+
+typedef struct plain_result {
+    uint64_t ties, swaps;
+    double longest;
+} plain_result;
+
+/* d3d into fp32, one operation after the other. */
+PLAIN static plain_result plain_census(float a, float b, uint32_t first, size_t count, uint32_t *code,
+                                       uint32_t *least) {
+    plain_result r = {0, 0, 0.0};
+    for (size_t i = 0; i < count; i++) {
+        const float z = census_depth(first + (uint32_t)i);
+        const float product = a * z;
+        const float clip = product + b;
+        const float window = clip / z;
+        code[i] = census_bits(window > 0.0f ? window < 1.0f ? window : 1.0f : 0.0f);
+        if (i > 0) {
+            r.ties += code[i] == code[i - 1];
+            r.swaps += code[i] < code[i - 1];
+        }
+    }
+    for (size_t i = count; i-- > 0;)
+        least[i] = i + 1 < count && least[i + 1] < code[i] ? least[i + 1] : code[i];
+    size_t end = 0;
+    for (size_t i = 0; i < count; i++) {
+        if (end < i)
+            end = i;
+        while (end + 1 < count && least[end + 1] <= code[i])
+            end++;
+        const double length = (double)census_depth(first + (uint32_t)end) - (double)census_depth(first + (uint32_t)i);
+        if (least[end] <= code[i] && code[end] <= code[i] && length > r.longest)
+            r.longest = length;
+    }
+    return r;
+}
+
+static dp_setup make(const char *format, dp_mapping mapping, double zfar) {
+    dp_format formats[2];
+    dp_spec spec = dp_spec_default();
+    dp_setup setup;
+    spec.mapping = mapping;
+    spec.zfar = zfar;
+    if (dp_format_parse(format, formats) > 0)
+        spec.format = formats[0];
+    if (dp_setup_init(&setup, &spec) != DP_OK)
+        exit(2);
+    return setup;
+}
+
+static double timed(const census_request *q, census_result *result) {
+    const double start = now();
+    if (census_run(q, result) != CENSUS_DONE)
+        exit(2);
+    return now() - start;
+}
+
+static void line(const char *what, double value, const char *unit, double spread_of, const char *target, int met) {
+    printf("%-44s %11.4g %-8s %6.2f   %-12s %s\n", what, value, unit, spread_of, target,
+           *target == '\0' ? ""
+           : met           ? "met"
+                           : "missed");
+}
+
+/* Both over the farthest binade of the camera, one thread each. */
+static void against_plain(void) {
+    const dp_setup setup = make("fp32", DP_MAPPING_D3D, 1000.0);
+    const uint32_t first = census_bits(256.0f);
+    const size_t count = (1U << 23) + 1;
+    uint32_t *code = malloc(count * sizeof *code);
+    uint32_t *least = malloc(count * sizeof *least);
+    static census_result result;
+    dp_pipeline p;
+    timing plain = {.count = RUNS};
+    timing fast = {.count = RUNS};
+    const census_request q = {.setup = &setup, .lo = 256.0, .hi = 512.0, .threads = 1};
+    if (code == NULL || least == NULL || dp_pipeline_init(&p, &setup) != DP_OK)
+        exit(2);
+    plain_result r = plain_census(p.a, p.b, first, count, code, least); /* the first run brings the pages in */
+    timed(&q, &result);
+    if (r.ties != result.all.ties || r.swaps != result.all.swaps || r.longest > result.all.longest) {
+        fprintf(stderr, "bench_census: the two do not agree\n");
+        exit(2);
+    }
+    for (int i = 0; i < RUNS; i++) {
+        const double start = now();
+        plain_census(p.a, p.b, first, count, code, least);
+        plain.sample[i] = now() - start;
+        fast.sample[i] = timed(&q, &result);
+    }
+    const double slow = median(&plain);
+    const double quick = median(&fast);
+    line("census, plain scalar two arrays, -O2", 1e9 * slow / (double)count, "ns/depth", spread(&plain), "", 1);
+    line("census, one thread", 1e9 * quick / (double)count, "ns/depth", spread(&fast), "", 1);
+    line("  plain / census", slow / quick, "x", spread(&fast), ">= 10 x", slow >= 10.0 * quick);
+    free(code);
+    free(least);
+}
+
+/* The whole camera 0.1..1000, 112 million depths, on all cores and by each level on one. */
+static void whole_camera(void) {
+    static const struct {
+        const char *format;
+        dp_mapping mapping;
+    } rows[] = {{"fp32", DP_MAPPING_D3D},
+                {"fp32", DP_MAPPING_REVERSED},
+                {"unorm24", DP_MAPPING_GL},
+                {"unorm16", DP_MAPPING_D3D},
+                {"fp16", DP_MAPPING_REVERSED}};
+    static census_result result;
+    char text[64];
+    for (size_t i = 0; i < sizeof rows / sizeof rows[0]; i++) {
+        const dp_setup setup = make(rows[i].format, rows[i].mapping, 1000.0);
+        const census_request q = {.setup = &setup, .lo = 0.1, .hi = 1000.0};
+        timing t = {.count = 3};
+        for (int k = 0; k < t.count; k++)
+            t.sample[k] = timed(&q, &result);
+        snprintf(text, sizeof text, "census 0.1..1000, %s %s", rows[i].format, dp_mapping_get(rows[i].mapping)->name);
+        const double seconds = median(&t);
+        line(text, seconds, "s", spread(&t), "seconds", seconds < 5.0);
+    }
+}
+
+static void each_level(void) {
+    const dp_setup setup = make("unorm24", DP_MAPPING_D3D, 1000.0);
+    static census_result result;
+    char text[64];
+    for (size_t i = 0; i < census_level_count; i++) {
+        if (!census_levels[i].supported())
+            continue;
+        const census_request q = {.setup = &setup, .lo = 64.0, .hi = 128.0, .threads = 1, .level = &census_levels[i]};
+        timing t = {.count = RUNS};
+        for (int k = 0; k < RUNS; k++)
+            t.sample[k] = timed(&q, &result);
+        snprintf(text, sizeof text, "census unorm24 d3d, one thread, %s", census_levels[i].name);
+        const double seconds = median(&t);
+        line(text, 1e9 * seconds / (double)result.all.pairs, "ns/depth", spread(&t), "", 1);
+    }
+}
+
+int main(void) {
+    printf("%-44s %11s %-8s %6s   %-12s\n", "census", "median", "", "spread", "target");
+    against_plain();
+    each_level();
+    whole_camera();
+    return 0;
+}
