@@ -214,7 +214,7 @@ lint-man:
 	$(Q)$(if $(MAN),mandoc -T lint -W warning $(MAN))
 
 lint-spell:
-	$(Q)codespell -L nd,eror $(wildcard README.md) Makefile include src man tests/*.[ch] tests/*.sh
+	$(Q)codespell -L nd,eror,arithmetics $(wildcard README.md) Makefile include src man tests/*.[ch] tests/*.sh
 
 lint-scripts:
 	$(Q)for f in $(SCRIPTS); do sh -n $$f || exit 1; done; bash -n .ci/run

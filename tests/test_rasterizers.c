@@ -8,7 +8,7 @@
 #include "depthprec/depthprec.h"
 #include "support.h"
 
-enum { COLUMNS = 8, FIRST_COLUMN = 6 };
+enum { COLUMNS = 8, FIRST_COLUMN = 6, POINTS = 128 };
 
 /* One target at a time: its set-up, a pipeline per column, and what has been seen. */
 typedef struct target {
@@ -17,7 +17,11 @@ typedef struct target {
     dp_pipeline strange[4]; /* rows that are not these rasterizers' */
     char name[COLUMNS][32];
     int columns;
-    tally codes, clips, ideal;
+    tally codes, clips, ideal, order;
+    double reach[POINTS]; /* of each point, nearest first: behind it everything is stored behind it */
+    float z[POINTS];
+    int64_t key[COLUMNS][POINTS]; /* grows with distance; -1 where clipped */
+    int points;
     unsigned long drawn, clipped, strange_codes[4];
     unsigned targets;
 } target;
@@ -58,6 +62,30 @@ static void begin_target(target *t, const vector_row *row) {
     for (int i = 0; i < 4; i++)
         t->strange[i] = pipeline_of(spec, strangers[i]);
     t->targets++;
+    t->points = 0;
+}
+
+/* The guaranteed separation of any arithmetic at all: the greatest. */
+static double reach_of(const target *t, float z) {
+    dp_spec spec = t->setup.spec;
+    double greatest = 0.0;
+    spec.model = DP_MODEL_FP32;
+    for (spec.arith = 0; spec.arith < dp_arith_count(); spec.arith++) {
+        dp_setup setup;
+        assert_int_equal(dp_setup_init(&setup, &spec), DP_OK);
+        greatest = fmax(greatest, dp_separation(&setup, (double)z));
+    }
+    return (double)z + greatest;
+}
+
+/* Every point behind the reach of an earlier one must be stored behind it. The points of a target come in order. */
+static void judge_order(target *t, const vector_row *row) {
+    const int n = t->points;
+    for (int i = 0; i < t->columns; i++)
+        for (int k = 0; k < n && t->key[i][n] >= 0; k++)
+            if (t->key[i][k] >= 0 && (double)t->z[n] >= t->reach[k])
+                TALLY(&t->order, t->key[i][n] > t->key[i][k], "line %d, %s: z %.9g is not behind %.9g", row->line,
+                      t->name[i], (double)t->z[n], (double)t->z[k]);
 }
 
 /*
@@ -83,6 +111,13 @@ static void visit(const vector_row *row, void *context) {
     float z;
     memcpy(&z, &bits, sizeof z);
     const char *text = vector_text(row, 1);
+    const int n = t->points;
+    assert_in_range(n, 0, POINTS - 1);
+    assert_true(n == 0 || z > t->z[n - 1]);
+    t->z[n] = z;
+    /* The guarantee is about [near, far]; rounding draws some points just outside it. */
+    const int inside = (double)z >= t->setup.spec.znear && (double)z <= t->setup.spec.zfar;
+    t->reach[n] = inside ? reach_of(t, z) : HUGE_VAL;
     for (int i = 0; i < t->columns; i++) {
         if (row->count > 2 && strcmp(vector_text(row, 1 + i), "=") != 0)
             text = vector_text(row, 1 + i);
@@ -91,10 +126,12 @@ static void visit(const vector_row *row, void *context) {
         TALLY(&t->clips, dp_pipeline_drawn(p, z) == stored, "line %d, %s: z %.9g", row->line, t->name[i], (double)z);
         t->drawn += stored != 0;
         t->clipped += stored == 0;
+        t->key[i][n] = -1;
         if (!stored)
             continue;
         const uint32_t code = (uint32_t)strtoul(text, NULL, 16);
         const uint32_t got = dp_pipeline_code(p, z);
+        t->key[i][n] = t->setup.reversed ? (int64_t)t->setup.spec.format.code_max - (int64_t)code : (int64_t)code;
         TALLY(&t->codes, got == code, "line %d, %s: z %.9g stored %x, computed %x", row->line, t->name[i], (double)z,
               (unsigned)code, (unsigned)got);
         TALLY(&t->ideal, near_ideal(t, z, code, p->arith->conversion == DP_CONVERT_PRODUCT_ZERO),
@@ -103,11 +140,16 @@ static void visit(const vector_row *row, void *context) {
         for (int k = 0; k < 4; k++)
             t->strange_codes[k] += dp_pipeline_code(&t->strange[k], z) != code;
     }
+    if (inside)
+        judge_order(t, row);
+    t->points++;
 }
 
 static target *seen(void) {
-    static target t = {
-        .codes = {.name = "stored codes"}, .clips = {.name = "clip decisions"}, .ideal = {.name = "against the ideal"}};
+    static target t = {.codes = {.name = "stored codes"},
+                       .clips = {.name = "clip decisions"},
+                       .ideal = {.name = "against the ideal"},
+                       .order = {.name = "guaranteed order"}};
     if (t.targets == 0)
         vectors_read("rasterizers.txt", visit, &t);
     return &t;
@@ -133,6 +175,13 @@ static void close_to_ideal(void **state) {
     tally_end(&seen()->ideal);
 }
 
+static void guaranteed_order(void **state) {
+    (void)state;
+    const target *t = seen();
+    printf("# %llu pairs of points beyond the guaranteed separation\n", (unsigned long long)t->order.cases);
+    tally_end(&t->order);
+}
+
 /* The points tell the arithmetics apart: each other row misses codes. */
 static void rows_differ(void **state) {
     (void)state;
@@ -145,10 +194,8 @@ static void rows_differ(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(every_code),
-        cmocka_unit_test(every_clip_decision),
-        cmocka_unit_test(close_to_ideal),
-        cmocka_unit_test(rows_differ),
+        cmocka_unit_test(every_code),       cmocka_unit_test(every_clip_decision), cmocka_unit_test(close_to_ideal),
+        cmocka_unit_test(guaranteed_order), cmocka_unit_test(rows_differ),
     };
     return run_tap(tests);
 }

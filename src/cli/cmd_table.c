@@ -1,11 +1,13 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /*
- * table: what each depth becomes in each set-up, and the certified worst case over the range. Rows are computed and
- * written one by one, so a million of them need no more memory than nine.
+ * table: what each depth becomes in each set-up, the certified worst case over the range, and which model is enough.
+ * Rows are computed and written one by one, so a million of them need no more memory than nine.
  */
 #include <math.h>
 #include <unistd.h>
 
+#include "cli/choice.h"
+#include "cli/clipping.h"
 #include "cli/csv.h"
 #include "cli/json.h"
 #include "cli/options.h"
@@ -28,14 +30,35 @@ typedef struct table {
     uint64_t done;
 } table;
 
-static void each_row(table *t, const dp_setup *setup, void (*emit)(void *, const dp_setup *, const dp_sample *),
-                     void *to) {
+/* One row: a sample, and beside it the separation in binary32 arithmetic, NaN where that is not modelled. */
+typedef struct row {
+    dp_sample sample;
+    double binary32;
+} row;
+
+static double separation_in_binary32(const dp_setup *setup, const dp_sample *sample) {
+    dp_budget budget;
+    if (setup->spec.model == DP_MODEL_FP32)
+        return sample->separation;
+    return dp_budget_at(setup, sample->z, NULL, &budget) == DP_OK ? budget.separation : (double)NAN;
+}
+
+/* Writes the rows; gathers for the choice of a model on the way, where one is asked for. */
+static void each_row(table *t, const dp_setup *setup, void (*emit)(void *, const dp_setup *, const row *), void *to,
+                     choosing *choice) {
     for (size_t i = 0; i < t->at.count && !output_failed(t->out); i++) {
-        dp_sample sample;
-        if (dp_sample_at(setup, depths_get(&t->at, i), &sample) == DP_OK) /* depths_resolve() has seen to it */
-            emit(to, setup, &sample);
+        row r;
+        double z = depths_get(&t->at, i);
+        if (dp_sample_at(setup, z, &r.sample) == DP_OK) { /* depths_resolve() has seen to it */
+            r.binary32 = separation_in_binary32(setup, &r.sample);
+            emit(to, setup, &r);
+            if (choice != NULL)
+                choosing_add(choice, z);
+        }
         progress_step(&t->progress, ++t->done);
     }
+    if (choice != NULL)
+        choosing_finish(choice);
 }
 
 static dp_worst worst_of(const table *t, const dp_setup *setup) {
@@ -51,10 +74,10 @@ typedef struct text_target {
     table_style style;
 } text_target;
 
-static void text_row(void *to, const dp_setup *setup, const dp_sample *sample) {
+static void text_row(void *to, const dp_setup *setup, const row *r) {
     text_target *target = to;
     (void)setup;
-    table_text_row(target->out, &target->style, sample);
+    table_text_row(target->out, &target->style, &r->sample, r->binary32);
 }
 
 static void write_text(table *t) {
@@ -62,17 +85,23 @@ static void write_text(table *t) {
     for (size_t i = 0; i < t->all.count; i++) {
         const dp_setup *setup = &t->all.items[i];
         dp_worst worst = worst_of(t, setup);
+        clipping planes = clipping_of(setup);
+        choosing choice = choosing_start(setup, t->o->tolerance);
+        char sentence[CHOICE_SENTENCE_SIZE];
         if (i > 0)
             output_char(t->out, '\n');
         table_text_head(t->out, &target.style, setup);
-        each_row(t, setup, text_row, &target);
+        each_row(t, setup, text_row, &target, &choice);
         table_text_worst(t->out, &target.style, &worst);
+        table_text_clipping(t->out, &target.style, &planes);
+        output_format(t->out, "  %s\n", choice_sentence(&choice, sentence));
     }
 }
 
 /* ---- JSON ---- */
 
-static void json_row(void *to, const dp_setup *setup, const dp_sample *s) {
+static void json_row(void *to, const dp_setup *setup, const row *r) {
+    const dp_sample *s = &r->sample;
     json *j = to;
     (void)setup;
     json_object(j, NULL);
@@ -85,10 +114,15 @@ static void json_row(void *to, const dp_setup *setup, const dp_sample *s) {
     json_number(j, "cell_hi", s->hi);
     json_number(j, "interval", s->interval);
     json_number(j, "separation", s->separation);
+    json_number(j, "separation_fp32", r->binary32);
     json_end(j);
 }
 
 static void json_worst(json *j, const dp_worst *w) {
+    if (isnan(w->error)) { /* a model without cells */
+        json_null(j, "worst");
+        return;
+    }
     json_object(j, "worst");
     json_number(j, "lo", w->lo);
     json_number(j, "hi", w->hi);
@@ -109,12 +143,19 @@ static void write_json(table *t) {
     for (size_t i = 0; i < t->all.count; i++) {
         const dp_setup *setup = &t->all.items[i];
         dp_worst worst = worst_of(t, setup);
+        clipping planes = clipping_of(setup);
+        choosing choice = choosing_start(setup, t->o->tolerance);
         json_object(&j, NULL);
         setup_json(&j, setup);
         json_array(&j, "rows");
-        each_row(t, setup, json_row, &j);
+        each_row(t, setup, json_row, &j, &choice);
         json_end(&j);
         json_worst(&j, &worst);
+        if (setup->spec.model == DP_MODEL_FP32) {
+            json_number(&j, "near_effective", planes.znear);
+            json_number(&j, "far_effective", planes.zfar);
+        }
+        choice_json(&j, &choice);
         json_end(&j);
     }
     json_finish(&j);
@@ -122,9 +163,18 @@ static void write_json(table *t) {
 
 /* ---- CSV ---- */
 
-static void csv_row(void *to, const dp_setup *setup, const dp_sample *s) {
-    csv *c = to;
+typedef struct csv_target {
+    csv lines;
+    bool with_arith; /* a column that only fp32 fills, so there only when some set-up has that model */
+} csv_target;
+
+static void csv_row(void *to, const dp_setup *setup, const row *r) {
+    const dp_sample *s = &r->sample;
+    csv_target *target = to;
+    csv *c = &target->lines;
     setup_csv(c, setup);
+    if (target->with_arith)
+        csv_string(c, setup->spec.model == DP_MODEL_FP32 ? dp_arith_get(setup->spec.arith)->name : "");
     csv_number(c, s->z);
     csv_integer(c, s->code);
     csv_number(c, s->depth);
@@ -134,6 +184,7 @@ static void csv_row(void *to, const dp_setup *setup, const dp_sample *s) {
     csv_number(c, s->hi);
     csv_number(c, s->interval);
     csv_number(c, s->separation);
+    csv_number(c, r->binary32);
     csv_end(c);
 }
 
@@ -146,14 +197,19 @@ static void write_csv(table *t) {
                                         "cell_lo [scene]",
                                         "cell_hi [scene]",
                                         "interval [scene]",
-                                        "separation [scene]"};
-    csv c = csv_start(t->out);
-    setup_csv_head(&c);
-    for (size_t i = 0; i < sizeof heads / sizeof heads[0]; i++)
-        csv_string(&c, heads[i]);
-    csv_end(&c);
+                                        "separation [scene]",
+                                        "separation_fp32 [scene]"};
+    csv_target c = {.lines = csv_start(t->out)};
     for (size_t i = 0; i < t->all.count; i++)
-        each_row(t, &t->all.items[i], csv_row, &c);
+        c.with_arith = c.with_arith || t->all.items[i].spec.model == DP_MODEL_FP32;
+    setup_csv_head(&c.lines);
+    if (c.with_arith)
+        csv_string(&c.lines, "arith");
+    for (size_t i = 0; i < sizeof heads / sizeof heads[0]; i++)
+        csv_string(&c.lines, heads[i]);
+    csv_end(&c.lines);
+    for (size_t i = 0; i < t->all.count; i++)
+        each_row(t, &t->all.items[i], csv_row, &c, NULL);
 }
 
 int cmd_table(const options *o) {
@@ -169,12 +225,17 @@ int cmd_table(const options *o) {
     if (status == EXIT_FINE)
         status = output_open(&out, o->output);
     if (status == EXIT_FINE) {
+        setups_choose(o, &t.at, &t.all);
         /* Rows on the same terminal are progress enough. */
         bool silent = o->quiet || isatty(out.fd);
         t.progress = progress_start("rows", (uint64_t)t.all.count * t.at.count, silent);
         writers[o->form](&t);
         progress_end(&t.progress);
         status = output_close(&out);
+        for (size_t i = 0; i < t.all.count && status == EXIT_FINE && !o->quiet; i++) {
+            clipping planes = clipping_of(&t.all.items[i]);
+            clipping_warn(&t.all.items[i], &planes);
+        }
     }
     setups_release(&t.all);
     return status;

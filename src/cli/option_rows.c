@@ -151,8 +151,9 @@ static const char *rounding_name(unsigned index) {
     return dp_rounding_name((dp_rounding)index);
 }
 
+/* The models of the library, and behind them the wish to have one chosen. */
 static const char *model_name(unsigned index) {
-    return dp_model_name((dp_model)index);
+    return index == DP_MODEL_COUNT ? "auto" : dp_model_name((dp_model)index);
 }
 
 static const char *arith_name(unsigned index) {
@@ -176,7 +177,8 @@ static int parse_rounding(options *o, const char *value) {
 static int parse_model(options *o, const char *value) {
     unsigned index = (unsigned)o->model;
     int status = parse_word(OPTION_MODEL, model_name, value, &index);
-    o->model = (dp_model)index;
+    o->model_auto = index == DP_MODEL_COUNT;
+    o->model = o->model_auto ? DP_MODEL_EXACT : (dp_model)index;
     return status;
 }
 
@@ -206,6 +208,37 @@ static int parse_at(options *o, const char *value) {
 
 static int parse_range(options *o, const char *value) {
     return range_parse(value, &o->range_lo, &o->range_hi);
+}
+
+/* A share, or a percentage with its sign. */
+static int parse_tolerance(options *o, const char *value) {
+    size_t length = strlen(value);
+    bool percent = length > 0 && value[length - 1] == '%';
+    double share;
+    if (!number_parse_part(value, length - percent, NUMBER_FINITE, &share) || !(share >= 0.0))
+        return option_error(OPTION_TOLERANCE, "must be a share such as 0.05, or 5%%, not negative, got '%s'", value);
+    o->tolerance = percent ? share / 100.0 : share;
+    return EXIT_FINE;
+}
+
+static int parse_interpolation(options *o, const char *value) {
+    double *units = &o->terms.interpolation;
+    if (!number_parse(value, NUMBER_FINITE, units) || !(*units >= 0.0 && *units <= 0x1p24))
+        return option_error(OPTION_INTERPOLATION, "must be from 0 to 16777216 units of 2^-24, got '%s'", value);
+    return EXIT_FINE;
+}
+
+static int parse_world(options *o, const char *value) {
+    double *radius = &o->terms.world;
+    if (!number_parse(value, NUMBER_FINITE, radius) || !(*radius >= 0.0 && *radius <= 1e18))
+        return option_error(OPTION_WORLD, "must be from 0 to 1e18 scene units, got '%s'", value);
+    return EXIT_FINE;
+}
+
+static int parse_linearize(options *o, const char *value) {
+    (void)value;
+    o->terms.linearize = 1;
+    return EXIT_FINE;
 }
 
 static int parse_gap(options *o, const char *value) {
@@ -303,7 +336,9 @@ static int parse_verbose(options *o, const char *value) {
 /* Which commands take what. */
 enum {
     MODELLED = VERB_TABLE | VERB_PLOT,
-    CAMERA = MODELLED | VERB_ZFIGHT,
+    BUDGETED = VERB_BUDGET | VERB_PLOT,
+    ASKED = MODELLED | VERB_BUDGET,
+    CAMERA = ASKED | VERB_ZFIGHT,
     COUNTED = VERB_ZFIGHT,
     DRAWN = VERB_PLOT,
     WRITTEN = CAMERA | VERB_LIST,
@@ -326,21 +361,33 @@ const option_row option_rows[OPTION_COUNT] = {
         "orthographic projection (default: perspective)", parse_ortho},
     [OPTION_ROUNDING] = {"rounding", 0, "nearest|even|zero", CAMERA,
         "how a depth between two codes is rounded (default nearest)", parse_rounding},
-    [OPTION_MODEL] = {"model", 0, "exact|staged", MODELLED,
-        "the arithmetic before the buffer: none, the lattice alone, or\n"
-        "NDC and window depth each rounded to binary32 (default exact)", parse_model},
-    [OPTION_ARITH] = {"arith", 0, "NAME", COUNTED,
+    [OPTION_MODEL] = {"model", 0, "exact|staged|fp32|auto", MODELLED,
+        "the arithmetic before the buffer: none, the lattice alone;\n"
+        "NDC and window depth each rounded to binary32; every operation\n"
+        "in binary32; or the simplest that is enough (default exact)", parse_model},
+    [OPTION_ARITH] = {"arith", 0, "NAME", CAMERA,
         "the binary32 arithmetic: ieee, fused, reciprocal,\n"
         "fused-reciprocal, product, mesa, softpipe, ieee-remap,\n"
         "mesa-remap (default ieee)", parse_arith},
+    [OPTION_TOLERANCE] = {"tolerance", 0, "SHARE", ASKED,
+        "a model is enough when what it neglects adds no more to the\n"
+        "separation, 0.05 or 5% (default 5%)", parse_tolerance},
     [OPTION_LOG_C] = {"log-c", 0, "C", MODELLED,
         "constant of the log mapping, 1e-12 to 1e12 (default 1)", parse_log_c},
-    [OPTION_AT] = {"at", 0, "Z[,Z...]|LO:HI:log|lin:COUNT", MODELLED,
+    [OPTION_AT] = {"at", 0, "Z[,Z...]|LO:HI:log|lin:COUNT", ASKED,
         "the depths asked about, at most 1000000, within [near, far]\n"
         "(default: nine, log-spaced from near to far)", parse_at},
-    [OPTION_RANGE] = {"range", 0, "LO:HI", CAMERA,
+    [OPTION_RANGE] = {"range", 0, "LO:HI", MODELLED | VERB_ZFIGHT,
         "the depths that worst cases are taken over\n"
         "(default: near to far)", parse_range},
+    [OPTION_INTERPOLATION] = {"interpolation", 0, "E", BUDGETED,
+        "error of a window depth interpolated across a triangle, in\n"
+        "units of 2^-24, at most 16777216 (default 0)", parse_interpolation},
+    [OPTION_WORLD] = {"world", 0, "R", BUDGETED,
+        "world positions and camera, none farther out than R, go through\n"
+        "one precomposed matrix (default 0: eye depth is given)", parse_world},
+    [OPTION_LINEARIZE] = {"linearize", 0, NULL, BUDGETED,
+        "count reading the eye depth back in a binary32 shader", parse_linearize},
     [OPTION_GAP] = {"gap", 0, "G", COUNTED,
         "ties and swaps of surfaces G apart, scene units\n"
         "(default: of neighbouring binary32 depths)", parse_gap},

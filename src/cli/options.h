@@ -28,9 +28,13 @@ typedef enum option_id {
     OPTION_ROUNDING,
     OPTION_MODEL,
     OPTION_ARITH,
+    OPTION_TOLERANCE,
     OPTION_LOG_C,
     OPTION_AT,
     OPTION_RANGE,
+    OPTION_INTERPOLATION,
+    OPTION_WORLD,
+    OPTION_LINEARIZE,
     OPTION_GAP,
     OPTION_SAMPLE,
     OPTION_SEED,
@@ -73,11 +77,15 @@ typedef struct options {
     size_t mapping_count;
     dp_rounding rounding;
     dp_model model;
+    bool model_auto; /**< --model auto: see choice.h; `model` is then exact */
     dp_arith arith;
+    double tolerance; /**< of the choice, a share; default 0.05 */
     double log_c;
 
     depths at;                 /**< what --at said; count is 0 when it was not given. See depths_resolve() */
     double range_lo, range_hi; /**< what --range said, lo < hi. See range_resolve() */
+
+    dp_budget_terms terms; /**< --interpolation, --world, --linearize; zero when not given */
 
     double gap;      /**< scene units; 0 when not given */
     uint64_t sample; /**< pairs to draw; 0 when not given */

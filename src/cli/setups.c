@@ -15,7 +15,7 @@ static const option_id culprits[DP_STATUS_COUNT] = {
     [DP_ERROR_ROUNDING] = OPTION_ROUNDING,
 };
 
-static int refused(const dp_spec *spec, dp_status status) {
+static int refused(const options *o, const dp_spec *spec, dp_status status) {
     char znear[NUMBER_SIZE];
     char zfar[NUMBER_SIZE];
     char log_c[NUMBER_SIZE];
@@ -41,9 +41,10 @@ static int refused(const dp_spec *spec, dp_status status) {
     case DP_ERROR_ORTHO:
         snprintf(got, sizeof got, "%s, %s", projection, mapping);
         break;
-    case DP_ERROR_MODEL:
-        snprintf(got, sizeof got, "%s", dp_model_name(spec->model));
-        break;
+    case DP_ERROR_MODEL: /* of the models that have a name, fp32 alone is not for all */
+        id = option_given(o, OPTION_MODEL) ? OPTION_MODEL : OPTION_MAPPING;
+        return option_error(id, "%s needs one of the mappings d3d, gl, reversed, gl-reversed, got %s",
+                            id == OPTION_MODEL ? "fp32" : "binary32 arithmetic", mapping);
     default:
         snprintf(got, sizeof got, "%s %s", spec->format.name, mapping);
     }
@@ -74,7 +75,7 @@ int setups_make(const options *o, setups *out) {
             dp_status status = dp_setup_init(&out->items[out->count++], &spec);
             if (status != DP_OK) {
                 setups_release(out);
-                return refused(&spec, status);
+                return refused(o, &spec, status);
             }
         }
     return EXIT_FINE;

@@ -10,7 +10,7 @@
 #include "cli/setups.h"
 
 /* Beyond fifteen digits a decimal shows its own rounding (0.10000000000000001). */
-enum { DIGITS_FEW = 6, DIGITS_USUAL = 9, DIGITS_DEPTH = 12, DIGITS_MOST = 15 };
+enum { DIGITS_FEW = 6, DIGITS_USUAL = 9, DIGITS_DEPTH = 7, DIGITS_DEPTH_MOST = 10, DIGITS_MOST = 15 };
 
 /* The columns, left to right; the last two are shown with --verbose only. */
 enum {
@@ -21,6 +21,7 @@ enum {
     COLUMN_ERROR,
     COLUMN_INTERVAL,
     COLUMN_SEPARATION,
+    COLUMN_BINARY32,
     COLUMN_LO,
     COLUMN_HI,
     COLUMN_COUNT
@@ -32,11 +33,12 @@ static const struct {
 } columns[COLUMN_COUNT] = {
     [COLUMN_Z] = {"z", 12},
     [COLUMN_CODE] = {"code", 11},
-    [COLUMN_DEPTH] = {"depth", 14},
-    [COLUMN_STORED] = {"stored", 19},
+    [COLUMN_DEPTH] = {"depth", 13},
+    [COLUMN_STORED] = {"stored", 15},
     [COLUMN_ERROR] = {"error", 13},
     [COLUMN_INTERVAL] = {"interval", 12},
     [COLUMN_SEPARATION] = {"separation", 12},
+    [COLUMN_BINARY32] = {"in binary32", 12},
     [COLUMN_LO] = {"cell from", 19},
     [COLUMN_HI] = {"to", 19},
 };
@@ -61,11 +63,15 @@ static void put_number(output *out, int column, double value, int digits) {
 }
 
 /* The digits that it takes to see that a value near `at` is off by `step`, with two digits of the step. */
-static int digits_to_see(double at, double step) {
+static int digits_within(double at, double step, int least, int most) {
     if (!isfinite(at) || !isfinite(step) || at == 0.0 || step == 0.0)
-        return DIGITS_USUAL;
+        return least;
     double digits = floor(log10(fabs(at))) - floor(log10(fabs(step))) + 2.0;
-    return (int)fmin(fmax(digits, DIGITS_USUAL), DIGITS_MOST);
+    return (int)fmin(fmax(digits, least), most);
+}
+
+static int digits_to_see(double at, double step) {
+    return digits_within(at, step, DIGITS_USUAL, DIGITS_MOST);
 }
 
 table_style table_style_of(const options *o, const output *out) {
@@ -86,17 +92,17 @@ void table_text_head(output *out, const table_style *style, const dp_setup *setu
     output_format(out, "%s\n", style->plain);
 }
 
-void table_text_row(output *out, const table_style *style, const dp_sample *s) {
+void table_text_row(output *out, const table_style *style, const dp_sample *s, double binary32) {
     char code[NUMBER_SIZE];
     put_number(out, COLUMN_Z, s->z, DIGITS_USUAL);
     put(out, COLUMN_CODE, code, number_shortest((double)s->code, code));
     /* A depth just short of 1 should not look like the far plane's. */
-    int depth_digits = digits_to_see(s->depth, 1.0 - s->depth);
-    put_number(out, COLUMN_DEPTH, s->depth, depth_digits < DIGITS_DEPTH ? depth_digits : DIGITS_DEPTH);
+    put_number(out, COLUMN_DEPTH, s->depth, digits_within(s->depth, 1.0 - s->depth, DIGITS_DEPTH, DIGITS_DEPTH_MOST));
     put_number(out, COLUMN_STORED, s->stored, digits_to_see(s->z, s->error));
     put_number(out, COLUMN_ERROR, s->error, DIGITS_FEW);
     put_number(out, COLUMN_INTERVAL, s->interval, DIGITS_FEW);
     put_number(out, COLUMN_SEPARATION, s->separation, DIGITS_FEW);
+    put_number(out, COLUMN_BINARY32, binary32, DIGITS_FEW);
     if (style->cells) {
         put_number(out, COLUMN_LO, s->lo, digits_to_see(s->lo, s->interval));
         put_number(out, COLUMN_HI, s->hi, digits_to_see(s->lo, s->interval));
@@ -108,6 +114,8 @@ void table_text_worst(output *out, const table_style *style, const dp_worst *w) 
     char value[NUMBER_SIZE];
     char lo[NUMBER_SIZE];
     char hi[NUMBER_SIZE];
+    if (isnan(w->error))
+        return;
     number_digits(w->error, DIGITS_FEW, value);
     number_digits(w->error_z, DIGITS_USUAL, lo);
     output_format(out, "  %sworst error%s     ", style->strong, style->plain);
@@ -129,4 +137,18 @@ void table_text_worst(output *out, const table_style *style, const dp_worst *w) 
     number_digits(w->blind_from, DIGITS_USUAL, value);
     output_format(out, "  %sblind%s           from z = %s: behind it nothing is told apart\n", style->strong,
                   style->plain, value);
+}
+
+void table_text_clipping(output *out, const table_style *style, const clipping *c) {
+    char znear[NUMBER_SIZE];
+    char zfar[NUMBER_SIZE];
+    if (isnan(c->znear) && !c->loses)
+        return;
+    number_digits(c->znear, DIGITS_USUAL, znear);
+    number_digits(c->zfar, DIGITS_USUAL, zfar);
+    output_format(out, "  %sdrawn%s           ", style->strong, style->plain);
+    if (isnan(c->znear))
+        output_text(out, "nothing: clipping loses all depths\n");
+    else
+        output_format(out, "from %s to %s%s\n", znear, zfar, c->loses ? ": clipping loses the rest" : "");
 }

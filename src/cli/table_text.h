@@ -1,8 +1,9 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/** @file table_text.h  The table as people read it: about 90 columns, as many digits as tell two depths apart. */
+/** @file table_text.h  The table as people read it: 100 columns, as many digits as tell two depths apart. */
 #ifndef CLI_TABLE_TEXT_H
 #define CLI_TABLE_TEXT_H
 
+#include "cli/clipping.h"
 #include "cli/options.h"
 
 /** How the text is dressed: bold and dim on a terminal, plain elsewhere or when NO_COLOR is set. */
@@ -14,7 +15,14 @@ typedef struct table_style {
 table_style table_style_of(const options *o, const output *out);
 
 void table_text_head(output *out, const table_style *style, const dp_setup *setup);
-void table_text_row(output *out, const table_style *style, const dp_sample *sample);
+
+/** @param binary32  the guaranteed separation in binary32 arithmetic; NaN where there is no such pipeline */
+void table_text_row(output *out, const table_style *style, const dp_sample *sample, double binary32);
+
+/** The worst case; nothing in a model without cells. */
 void table_text_worst(output *out, const table_style *style, const dp_worst *worst);
+
+/** The planes that binary32 clipping leaves; nothing when they are NaN and none is lost. */
+void table_text_clipping(output *out, const table_style *style, const clipping *c);
 
 #endif

@@ -10,6 +10,7 @@
 #include "cli/help.h"
 
 int cmd_table(const struct options *o);
+int cmd_budget(const struct options *o);
 int cmd_list(const struct options *o);
 /* Commands that need a heavy library: null in the light program. */
 int cmd_plot(const struct options *o) __attribute__((weak));
@@ -31,8 +32,12 @@ const verb verb_rows[] = {
      "  depthprec zfight -n 0.1 -f 1000 -F unorm24,fp32 -m d3d,reversed\n"
      "  depthprec zfight -F d24 -m gl --arith mesa --gap 0.01\n"
      "  depthprec zfight -f inf -F fp32 -m reversed --range 0.1:1e9 --sample 1000000 --seed 7\n"},
+    {"budget", VERB_BUDGET, cmd_budget, "", 0, 0, NULL,
+     "which cause takes how much of the separation; which model is enough",
+     "  depthprec budget -n 0.1 -f 1000 -F unorm24 -m d3d\n"
+     "  depthprec budget -F fp32 -m reversed --world 5000 --linearize --at 10,100,1000\n"},
     {"list", VERB_LIST, cmd_list, "WHAT", 0, 1, NULL,
-     "formats, mappings, figures, with bounds and sources",
+     "formats, mappings, models, ariths, causes, figures, with sources",
      "  depthprec list\n"
      "  depthprec list formats\n"
      "  depthprec list mappings --json\n"},

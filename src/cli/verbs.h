@@ -22,7 +22,14 @@ enum {
 };
 
 /** One bit per command, for the `commands` column of the option table. */
-enum { VERB_TABLE = 1u << 0, VERB_PLOT = 1u << 1, VERB_LIST = 1u << 2, VERB_HELP = 1u << 3, VERB_ZFIGHT = 1u << 4 };
+enum {
+    VERB_TABLE = 1u << 0,
+    VERB_PLOT = 1u << 1,
+    VERB_LIST = 1u << 2,
+    VERB_HELP = 1u << 3,
+    VERB_ZFIGHT = 1u << 4,
+    VERB_BUDGET = 1u << 5
+};
 
 typedef struct verb {
     const char *name;

@@ -163,21 +163,23 @@ KERNEL uint32_t codes(const census_plan *plan, const float *restrict z, size_t c
 /* ---- A block ----------------------------------------------------------------------------------------------------- */
 
 KERNEL void look(const int32_t *restrict key, census_sight *restrict sight) {
-    int32_t least[CENSUS_RUNS];
-    int32_t greatest[CENSUS_RUNS];
+    int32_t least[CENSUS_BLOCK / 2];
+    int32_t greatest[CENSUS_BLOCK / 2];
     uint32_t ties = 0;
     uint32_t swaps = 0;
-    memcpy(least, key, sizeof least);
-    memcpy(greatest, key, sizeof greatest);
     for (size_t i = CENSUS_RUNS; i < CENSUS_BLOCK; i++) {
         ties += key[i - CENSUS_RUNS] == key[i];
         swaps += key[i - CENSUS_RUNS] < key[i];
     }
-    for (size_t row = 1; row < CENSUS_RUN; row++)
-        for (size_t run = 0; run < CENSUS_RUNS; run++) {
-            const int32_t k = key[row * CENSUS_RUNS + run];
-            least[run] = k < least[run] ? k : least[run];
-            greatest[run] = k > greatest[run] ? k : greatest[run];
+    /* Folded in half until one row is left: no step waits for the one before it. */
+    for (size_t i = 0; i < CENSUS_BLOCK / 2; i++) {
+        least[i] = key[i] < key[i + CENSUS_BLOCK / 2] ? key[i] : key[i + CENSUS_BLOCK / 2];
+        greatest[i] = key[i] > key[i + CENSUS_BLOCK / 2] ? key[i] : key[i + CENSUS_BLOCK / 2];
+    }
+    for (size_t half = CENSUS_BLOCK / 4; half >= CENSUS_RUNS; half /= 2)
+        for (size_t i = 0; i < half; i++) {
+            least[i] = least[i] < least[i + half] ? least[i] : least[i + half];
+            greatest[i] = greatest[i] > greatest[i + half] ? greatest[i] : greatest[i + half];
         }
     const int32_t *nearest = key + CENSUS_BLOCK - CENSUS_RUNS; /* of each run; its neighbour heads the next run */
     for (size_t run = 1; run < CENSUS_RUNS; run++) {
@@ -186,8 +188,8 @@ KERNEL void look(const int32_t *restrict key, census_sight *restrict sight) {
     }
     sight->ties = ties;
     sight->swaps = swaps;
-    memcpy(sight->least, least, sizeof least);
-    memcpy(sight->greatest, greatest, sizeof greatest);
+    memcpy(sight->least, least, sizeof sight->least);
+    memcpy(sight->greatest, greatest, sizeof sight->greatest);
 }
 
 KERNEL void block_keys(const census_plan *plan, uint32_t first, uint32_t last, int32_t *key, census_sight *sight) {

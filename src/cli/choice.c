@@ -1,0 +1,121 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "cli/choice.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+#include "cli/number.h"
+
+/* The fullest model that the set-up has: what the others are measured by. */
+static int fullest(const dp_choice *choice) {
+    return isnan(choice->share[DP_MODEL_FP32]) ? DP_MODEL_STAGED : DP_MODEL_FP32;
+}
+
+choosing choosing_start(const dp_setup *setup, double tolerance) {
+    return (choosing){.setup = setup, .tolerance = tolerance};
+}
+
+/* The worst of two blocks, and the simplest model that is good enough for both. */
+static void take_block(choosing *c) {
+    dp_choice block;
+    if (c->waiting == 0 || dp_model_choose(c->setup, c->z, c->waiting, c->tolerance, &block) != DP_OK)
+        return;
+    c->waiting = 0;
+    if (!c->begun) {
+        c->choice = block;
+        c->begun = true;
+        return;
+    }
+    for (int m = 0; m < DP_MODEL_COUNT; m++)
+        if (block.share[m] > c->choice.share[m]) {
+            c->choice.share[m] = block.share[m];
+            c->choice.share_z[m] = block.share_z[m];
+        }
+    int model = DP_MODEL_EXACT;
+    while (model < fullest(&c->choice) && c->choice.share[model] > c->tolerance)
+        model++;
+    c->choice.model = (dp_model)model;
+}
+
+void choosing_add(choosing *c, double z) {
+    c->z[c->waiting++] = z;
+    if (c->waiting == CHOICE_BLOCK)
+        take_block(c);
+}
+
+void choosing_finish(choosing *c) {
+    take_block(c);
+}
+
+choosing choose_at(const dp_setup *setup, double tolerance, const depths *at) {
+    choosing c = choosing_start(setup, tolerance);
+    for (size_t i = 0; i < at->count; i++)
+        choosing_add(&c, depths_get(at, i));
+    choosing_finish(&c);
+    return c;
+}
+
+void setups_choose(const options *o, const depths *at, setups *s) {
+    for (size_t i = 0; i < s->count && o->model_auto; i++) {
+        dp_spec spec = s->items[i].spec;
+        spec.model = choose_at(&s->items[i], o->tolerance, at).choice.model;
+        dp_setup_init(&s->items[i], &spec); /* the choice is among the models that the set-up has */
+    }
+}
+
+/* "adds 171 % to the separation at z = 316.228"; beyond tenfold a percentage says less than a factor. */
+static void effect(double share, double z, bool at_most, char *out, size_t size) {
+    char value[NUMBER_SIZE];
+    char depth[NUMBER_SIZE];
+    number_digits(share < 10.0 ? 100.0 * share : share + 1.0, 3, value);
+    number_digits(z, 6, depth);
+    if (isinf(share))
+        snprintf(out, size, "leaves no separation certain at z = %s", depth);
+    else if (share >= 10.0)
+        snprintf(out, size, "makes the separation %s times as large at z = %s", value, depth);
+    else
+        snprintf(out, size, "adds %s%s %% to the separation at z = %s", at_most ? "at most " : "", value, depth);
+}
+
+const char *choice_sentence(const choosing *c, char out[CHOICE_SENTENCE_SIZE]) {
+    const dp_choice *choice = &c->choice;
+    const char *subject = fullest(choice) == DP_MODEL_FP32 ? "arithmetic" : "rounding to binary32";
+    char name[NUMBER_SIZE] = "";
+    if (c->setup->spec.arith != 0 && fullest(choice) == DP_MODEL_FP32)
+        snprintf(name, sizeof name, " (%s)", dp_arith_get(c->setup->spec.arith)->name);
+    char what[CHOICE_SENTENCE_SIZE / 2];
+    const double share = choice->share[DP_MODEL_EXACT];
+    effect(share, choice->share_z[DP_MODEL_EXACT], choice->model == DP_MODEL_EXACT, what, sizeof what);
+    if (choice->model == DP_MODEL_EXACT) {
+        snprintf(out, CHOICE_SENTENCE_SIZE, "model exact is enough: %s%s %s", subject, name,
+                 share > 0.0 ? what : "adds nothing to the separation");
+        return out;
+    }
+    const char *model = dp_model_name(choice->model);
+    const char *advice = c->setup->spec.model == choice->model ? "as model" : "see --model";
+    snprintf(out, CHOICE_SENTENCE_SIZE, "%s%s %s: %s %s%s", subject, name, what, advice, model,
+             c->setup->spec.model == choice->model ? " shows" : "");
+    return out;
+}
+
+static void json_share(json *j, const dp_choice *choice, int model) {
+    const double share = choice->share[model];
+    json_number(j, "share", share);
+    json_number(j, "z", share > 0.0 ? choice->share_z[model] : (double)NAN);
+}
+
+void choice_json(json *j, const choosing *c) {
+    json_object(j, "auto");
+    json_string(j, "model", dp_model_name(c->choice.model));
+    json_share(j, &c->choice, (int)c->choice.model);
+    json_number(j, "tolerance", c->tolerance);
+    json_object(j, "neglected");
+    for (int m = 0; m < fullest(&c->choice); m++) {
+        json_object(j, dp_model_name((dp_model)m));
+        json_share(j, &c->choice, m);
+        json_end(j);
+    }
+    json_end(j);
+    json_end(j);
+}

@@ -1,0 +1,53 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/**
+ * @file choice.h  Which model is enough at all depths asked about: dp_model_choose() for a million of them, in words.
+ *
+ *     choosing c = choosing_start(setup, o->tolerance);
+ *     for each depth: choosing_add(&c, z);
+ *     choosing_finish(&c);                               // c.choice and c.best say what it came to
+ */
+#ifndef CLI_CHOICE_H
+#define CLI_CHOICE_H
+
+#include <stdbool.h>
+#include <stddef.h>
+
+#include "cli/depths.h"
+#include "cli/json.h"
+#include "cli/setups.h"
+#include "depthprec/depthprec.h"
+
+enum { CHOICE_BLOCK = 64, CHOICE_SENTENCE_SIZE = 256 };
+
+typedef struct choosing {
+    const dp_setup *setup;
+    double tolerance;
+    dp_choice choice;
+    size_t waiting;
+    double z[CHOICE_BLOCK];
+    bool begun;
+} choosing;
+
+choosing choosing_start(const dp_setup *setup, double tolerance);
+void choosing_add(choosing *c, double z); /**< z in [near, far] */
+void choosing_finish(choosing *c);
+
+/** All at once. */
+choosing choose_at(const dp_setup *setup, double tolerance, const depths *at);
+
+/** Under --model auto, gives each set-up the model that is enough at these depths; else leaves all as they are. */
+void setups_choose(const options *o, const depths *at, setups *s);
+
+/**
+ * One sentence without a line end: which model is enough and what decides it. The set-up's own model is taken into
+ * account: it is not recommended again. @return out
+ */
+const char *choice_sentence(const choosing *c, char out[CHOICE_SENTENCE_SIZE]);
+
+/**
+ * "auto": the model chosen, the share that it neglects and the depth where it does (null where it neglects nothing),
+ * the tolerance, and under "neglected" the same of each model simpler than the fullest.
+ */
+void choice_json(json *j, const choosing *c);
+
+#endif
