@@ -1,116 +1,319 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /*
- * The guaranteed separation against the census: never violated, and not much too large. With DEPTHPREC_FULL every
- * depth of every camera and the slack of every band; otherwise one binade of each set-up, another for another seed.
+ * The guaranteed separation of the binary32 pipeline: never violated by any pair of binary32 depths, and tight; and
+ * each of its parts alone, against arithmetic in which only that part is binary32.
  */
+#include <float.h>
 #include <math.h>
 #include <stdio.h>
-#include <string.h>
 
 #include "depthprec/depthprec.h"
 #include "method/census.h"
 #include "support.h"
 
-static const struct {
-    double znear, zfar;
-    int ortho;
-} cameras[] = {
-    {0.1, 100.0, 0},   {0.1, 1000.0, 0},   {0.01, 1e4, 0}, {0.3, 1000.0, 0}, {1.0, 10.0, 0},
-    {0.05, 4000.0, 0}, {1.0, 1e6, 0},      {10.0, 1e5, 0}, {1e-3, 10.0, 0},  {1e3, 1e7, 0},
-    {0.25, 256.0, 0},  {0.1, HUGE_VAL, 0}, {1.0, 1.01, 0}, {0.1, 100.0, 1},  {1.0, 1e4, 1},
-};
-static const char *const formats[] = {"fp32", "unorm24", "unorm16", "fp16"};
+static const double cameras[][2] = {{0.1, 100}, {0.1, 1000},  {0.3, 1000}, {0.01, 10000}, {1, 10},  {0.1, HUGE_VAL},
+                                    {5, 5000},  {0.05, 4000}, {10, 1e5},   {0.25, 256},   {1, 1e4}, {0.02, 50}};
+static const char *const format_names[] = {"fp16", "unorm16", "unorm24", "fp32"};
 enum { CAMERAS = sizeof cameras / sizeof cameras[0], FORMATS = 4, MAPPINGS = 4 };
 
-static dp_setup setup_of(size_t camera, int format, int mapping, dp_arith arith) {
+static int make(dp_setup *setup, int camera, int mapping, int format, dp_arith arith, int ortho) {
+    dp_format f[2];
+    dp_format_parse(format_names[format], f);
     dp_spec spec = dp_spec_default();
-    dp_format found[2];
-    dp_setup setup;
-    dp_format_parse(formats[format], found);
-    spec.znear = cameras[camera].znear;
-    spec.zfar = cameras[camera].zfar;
-    spec.ortho = cameras[camera].ortho;
+    spec.znear = cameras[camera][0];
+    spec.zfar = cameras[camera][1];
     spec.mapping = (dp_mapping)mapping;
-    spec.format = found[0];
-    spec.model = DP_MODEL_FP32;
+    spec.format = f[0];
     spec.arith = arith;
-    assert_int_equal(dp_setup_init(&setup, &spec), DP_OK);
-    return setup;
+    spec.ortho = ortho;
+    spec.model = DP_MODEL_FP32;
+    return dp_setup_init(setup, &spec) == DP_OK;
 }
 
-static void describe(char out[160], const dp_setup *setup) {
-    const dp_spec *s = &setup->spec;
-    snprintf(out, 160, "near %g far %g%s %s %s %s", s->znear, s->zfar, s->ortho ? " ortho" : "", s->format.name,
-             dp_mapping_get(s->mapping)->name, dp_arith_get(s->arith)->name);
+static double range_end(const dp_setup *setup) {
+    return isinf(setup->spec.zfar) ? 1e4 * setup->spec.znear : setup->spec.zfar;
 }
 
-typedef struct seen {
-    tally held, tight;
-    double worst_factor;
-    uint64_t depths;
-} seen;
-
-/* Where a band is at least four separations wide, the guarantee is at most 4 times what was found, or one step. */
-static void judge(seen *t, const dp_setup *setup, const census_result *r) {
-    char text[160];
-    describe(text, setup);
-    for (int i = 0; i < r->band_count; i++) {
-        const census_band *b = &r->bands[i];
-        if (b->pairs == 0)
-            continue;
-        t->depths += b->pairs;
-        TALLY(&t->held, b->slack < 1.0, "%s, band %g to %g: longest %.17g at %.17g, used %.17g", text, b->lo, b->hi,
-              b->longest, b->longest_z, b->slack);
-        const double step = ldexp(1.0, ilogb(b->lo) - 23);
-        const double factor = b->bound / fmax(b->longest, step);
-        if (test_effort() == EFFORT_FULL)
-            printf("# %s, %g to %g: longest %.6g, bound %.6g, used %.4f\n", text, b->lo, b->hi, b->longest, b->bound,
-                   b->slack);
-        if (b->hi < 2.0 * b->lo || b->hi - b->lo < 4.0 * b->bound)
-            continue;
-        t->worst_factor = fmax(t->worst_factor, factor);
-        TALLY(&t->tight, factor <= 4.0, "%s, band %g to %g: bound %.17g, longest %.17g", text, b->lo, b->hi, b->bound,
-              b->longest);
+/*
+ * The largest separation that a band is judged by: over its depths, but for those whose interval reaches into the next
+ * binade, where the arithmetic is coarser; they are judged with that band.
+ */
+static double band_separation(const dp_setup *setup, double lo, double hi) {
+    double most = 0.0;
+    for (int i = 0; i <= 64; i++) {
+        const double z = (double)(float)(lo + (hi - lo) * i / 64.0);
+        const double s = z >= lo && z < hi ? dp_separation(setup, z) : 0.0;
+        if (z + s < hi && s > most)
+            most = s;
     }
+    return most;
 }
 
-static void one(seen *t, rng *r, const dp_setup *setup) {
-    static census_result result;
-    census_request q = {.setup = setup, .lo = setup->spec.znear, .bound = dp_separation};
-    q.hi = isinf(setup->spec.zfar) ? 1e6 * q.lo : setup->spec.zfar;
-    if (test_effort() != EFFORT_FULL) { /* one whole binade where there is one, and what follows it */
-        const int lowest = ilogb(q.lo) + 1;
-        const int binades = ilogb(q.hi) - lowest;
-        if (binades > 0) {
-            q.lo = ldexp(1.0, lowest + (int)rng_below(r, (uint64_t)binades));
-            q.hi = fmin(q.hi, 2.01 * q.lo);
+typedef struct slack_report {
+    double most, sum;
+    uint64_t bands;
+    char worst[192];
+} slack_report;
+
+static void check_setup(const dp_setup *setup, double lo, double hi, tally *violated, tally *loose,
+                        slack_report *slack) {
+    census_result result;
+    const census_request request = {.setup = setup, .lo = lo, .hi = hi, .bound = dp_separation};
+    if (census_run(&request, &result) != CENSUS_DONE)
+        return;
+    const char *arith = dp_arith_get(setup->spec.arith)->name;
+    for (int i = 0; i < result.band_count; i++) {
+        const census_band *band = &result.bands[i];
+        char text[192];
+        snprintf(text, sizeof text, "%s %s %s%s near %g far %g, band %g..%g", arith, setup->spec.format.name,
+                 dp_mapping_get(setup->spec.mapping)->name, setup->spec.ortho ? " ortho" : "", setup->spec.znear,
+                 setup->spec.zfar, band->lo, band->hi);
+        TALLY(violated, !(band->slack > 1.0), "%s: violated, %.6g of the bound", text, band->slack);
+        const double s = band_separation(setup, band->lo, band->hi);
+        if (s == 0.0 || band->hi - band->lo < 4.0 * s)
+            continue;
+        const double step = (double)nextafterf((float)band->lo, HUGE_VALF) - (double)(float)band->lo;
+        const double ratio = s / fmax(band->longest, step);
+        TALLY(loose, ratio <= 4.0 * (1.0 + 1e-9), "%s: %.6g is %.2f x %.6g", text, s, ratio, fmax(band->longest, step));
+        slack->bands++;
+        slack->sum += ratio;
+        if (ratio > slack->most) {
+            slack->most = ratio;
+            snprintf(slack->worst, sizeof slack->worst, "%s", text);
         }
     }
-    assert_int_equal(census_run(&q, &result), CENSUS_DONE);
-    judge(t, setup, &result);
 }
 
-static void guarantee(void **state) {
+static void report(const char *what, const slack_report *slack) {
+    printf("# %s: %llu bands, bound / longest at most %.2f, mean %.2f; %s\n", what, (unsigned long long)slack->bands,
+           slack->most, slack->sum / (double)slack->bands, slack->worst);
+}
+
+/* Every pair of a census, for 12 cameras x 4 mappings x 4 formats; by default in `ieee`, with effort in every row. */
+static void never_violated_and_tight(void **state) {
     (void)state;
-    seen t = {.held = {.name = "guarantee held"}, .tight = {.name = "guarantee is tight"}};
-    rng r = rng_make("guarantee");
-    const uint64_t share = test_cases(16, 1, 1); /* every 16th set-up only, under the sanitizers */
-    uint64_t n = 0;
-    for (size_t camera = 0; camera < CAMERAS; camera++)
-        for (int format = 0; format < FORMATS; format++)
-            for (int mapping = 0; mapping < MAPPINGS; mapping++, n++) {
-                if (n % share != 0)
-                    continue;
-                const dp_arith arith = test_effort() == EFFORT_FULL ? 0 : rng_below(&r, dp_arith_count());
-                const dp_setup setup = setup_of(camera, format, mapping, arith);
-                one(&t, &r, &setup);
-            }
-    printf("# %llu depths; the bound is at most %.3f x the longest\n", (unsigned long long)t.depths, t.worst_factor);
-    tally_end(&t.held);
-    tally_end(&t.tight);
+    const dp_arith rows = test_cases(1, 1, dp_arith_count());
+    const int count = (int)test_cases(1, CAMERAS, CAMERAS);
+    for (dp_arith a = 0; a < rows; a++) {
+        tally violated = {.name = "guarantee"};
+        tally loose = {.name = "tightness"};
+        slack_report slack = {0};
+        for (int c = 0; c < count; c++)
+            for (int m = 0; m < MAPPINGS; m++)
+                for (int f = 0; f < FORMATS; f++) {
+                    dp_setup setup;
+                    assert_true(make(&setup, c, m, f, a, 0));
+                    check_setup(&setup, setup.spec.znear, range_end(&setup), &violated, &loose, &slack);
+                }
+        report(dp_arith_get(a)->name, &slack);
+        tally_end(&violated);
+        tally_end(&loose);
+    }
+}
+
+/* Every row, perspective and orthographic, in random stretches of some hundred thousand depths. */
+static void every_arithmetic(void **state) {
+    (void)state;
+    rng r = rng_make("every arithmetic");
+    for (dp_arith a = 0; a < dp_arith_count(); a++) {
+        tally violated = {.name = "guarantee"};
+        tally loose = {.name = "tightness in stretches is not judged"};
+        slack_report slack = {0};
+        for (uint64_t i = test_cases(20, 400, 4000); i > 0; i--) {
+            dp_setup setup;
+            if (!make(&setup, (int)rng_below(&r, CAMERAS), (int)rng_below(&r, MAPPINGS), (int)rng_below(&r, FORMATS), a,
+                      rng_below(&r, 3) == 0))
+                continue;
+            const double end = range_end(&setup);
+            const double lo = fmin(rng_log(&r, setup.spec.znear, end), 0.999 * end);
+            const double stretch = fmin(lo * 0x1p-23 * 300000.0, end - lo);
+            check_setup(&setup, fmax(lo, setup.spec.znear), fmax(lo, setup.spec.znear) + stretch, &violated, &loose,
+                        &slack);
+        }
+        tally_end(&violated);
+    }
+}
+
+/*
+ * Parts alone. Half of the projection's and of the NDC's part is what one depth may be off by: the pipeline is followed
+ * in double (whose own errors are 2^-29 of the binary32 ones), with one step of it in binary32.
+ */
+typedef struct part_case {
+    dp_cause cause;
+    double (*off)(const dp_pipeline *p, double z);
+} part_case;
+
+static double real_clip(const dp_pipeline *p, double z) {
+    return (double)p->a * z + (double)p->b;
+}
+
+static double window_of_clip(const dp_pipeline *p, double clip, double z) {
+    const double ndc = clip / (p->ortho ? 1.0 : z);
+    return p->ndc_signed ? 0.5 * ndc + 0.5 : ndc;
+}
+
+static double projection_off(const dp_pipeline *p, double z) {
+    const double clip = (double)dp_pipeline_clip(p, (float)z);
+    return fabs(window_of_clip(p, clip, z) - window_of_clip(p, real_clip(p, z), z));
+}
+
+static double ndc_off(const dp_pipeline *p, double z) {
+    const double clip = (double)dp_pipeline_clip(p, (float)z);
+    return fabs((double)dp_pipeline_window(p, (float)z) - window_of_clip(p, clip, z));
+}
+
+static void parts_alone(void **state) {
+    (void)state;
+    static const part_case parts[] = {{DP_CAUSE_PROJECTION, projection_off}, {DP_CAUSE_NDC, ndc_off}};
+    rng r = rng_make("parts");
+    for (int k = 0; k < 2; k++) {
+        tally within = {.name = dp_cause_name(parts[k].cause)};
+        double most = 0.0;
+        for (uint64_t i = test_cases(20000, 400000, 20000000); i > 0; i--) {
+            dp_setup setup;
+            /* `ieee` and `reciprocal`, where each part counts every rounding of its own independently */
+            if (!make(&setup, (int)rng_below(&r, CAMERAS), (int)rng_below(&r, 2), 3, rng_below(&r, 2) ? 0 : 2, 0))
+                continue;
+            const double z = (double)(float)rng_log(&r, setup.spec.znear * 1.001, range_end(&setup) * 0.999);
+            dp_pipeline p;
+            dp_budget budget;
+            dp_pipeline_init(&p, &setup);
+            assert_int_equal(dp_budget_at(&setup, z, NULL, &budget), DP_OK);
+            const double part = 0.5 * budget.window * budget.cause[parts[k].cause] / budget.separation;
+            /* Where adding B rounds all alike, that common error is no part of a pair's: a unit of 2^-24 at most. */
+            const double alike = parts[k].cause == DP_CAUSE_PROJECTION ? 0x1p-24 : 0.0;
+            const float window = dp_pipeline_window(&p, (float)z);
+            if (!(window > 0.0F && window < 1.0F))
+                continue; /* clamped: beyond the planes that the rounded matrix has */
+            const double off = parts[k].off(&p, z);
+            TALLY(&within, off <= part * (1.0 + 1e-6) + alike, "z = %a: off %.6g, part %.6g", z, off, part);
+            if (part > 0.0 && off / part > most)
+                most = off / part;
+        }
+        printf("# %s: off by at most %.3f of its part\n", dp_cause_name(parts[k].cause), most);
+        tally_end(&within);
+        assert_true(most > 0.5);
+    }
+}
+
+/* Reading back: 1/(zb d + wb) in binary32, constants rounded once, against the exact inverse. */
+static void linearization_alone(void **state) {
+    (void)state;
+    rng r = rng_make("linearization");
+    tally within = {.name = "linearization"};
+    double most = 0.0;
+    for (uint64_t i = test_cases(20000, 400000, 20000000); i > 0; i--) {
+        dp_setup setup;
+        if (!make(&setup, (int)rng_below(&r, CAMERAS), rng_below(&r, 2) ? 0 : 2, 3, 0, 0))
+            continue;
+        const double n = setup.spec.znear;
+        const double f = setup.spec.zfar;
+        const double z = (double)(float)rng_log(&r, n * 1.001, range_end(&setup) * 0.999);
+        const double d = dp_window(&setup, z);
+        const float zb = (float)(setup.reversed ? 1.0 / n - 1.0 / f : 1.0 / f - 1.0 / n);
+        const float wb = (float)(setup.reversed ? 1.0 / f : 1.0 / n);
+        const float product = zb * (float)d;
+        const float sum = product + wb;
+        const double back = (double)(1.0F / sum);
+        const dp_budget_terms terms = {.linearize = 1};
+        dp_budget budget;
+        assert_int_equal(dp_budget_at(&setup, z, &terms, &budget), DP_OK);
+        if (isinf(budget.separation))
+            continue;
+        /* The part as window depth, and what the depth read back is off by as window depth. */
+        const double part = 0.5 * budget.window * budget.cause[DP_CAUSE_LINEARIZATION] / budget.separation;
+        const double off = fabs(back - z) / back * (n / z) / (1.0 - n / f);
+        TALLY(&within, off <= part, "z = %a: off %.6g, part %.6g", z, off, part);
+        most = fmax(most, off / part);
+    }
+    printf("# linearization: off by at most %.3f of its part\n", most);
+    tally_end(&within);
+    assert_true(most > 0.3);
+}
+
+/* A precomposed view-projection with a camera far from the origin: rounded entries, four products, three sums. */
+static void composition_alone(void **state) {
+    (void)state;
+    rng r = rng_make("composition");
+    tally within = {.name = "composition"};
+    double most = 0.0;
+    for (uint64_t i = test_cases(20000, 200000, 2000000); i > 0; i--) {
+        dp_setup setup;
+        if (!make(&setup, (int)rng_below(&r, CAMERAS), rng_below(&r, 2) ? 0 : 2, 3, 0, 0))
+            continue;
+        const double world = rng_log(&r, 1.0, 1e4);
+        double axis[3], eye[3];
+        float position[3];
+        double length = 0.0;
+        for (int k = 0; k < 3; k++) {
+            axis[k] = rng_uniform(&r, -1.0, 1.0);
+            eye[k] = rng_uniform(&r, -world, world);
+            position[k] = (float)rng_uniform(&r, -world, world);
+            length += axis[k] * axis[k];
+        }
+        dp_pipeline p;
+        dp_pipeline_init(&p, &setup);
+        /* Rows of the matrix: w = axis . (x - eye), clip = A w + B. */
+        double t = 0.0;
+        double z = 0.0;
+        for (int k = 0; k < 3; k++) {
+            axis[k] /= sqrt(length);
+            t -= axis[k] * eye[k];
+            z += axis[k] * ((double)position[k] - eye[k]);
+        }
+        if (!(z > setup.spec.znear * 1.001 && z < range_end(&setup) * 0.999))
+            continue;
+        float clip = 0.0F;
+        float w = 0.0F;
+        for (int k = 0; k < 3; k++) {
+            const float pc = (float)((double)p.a * axis[k]) * position[k];
+            const float pw = (float)axis[k] * position[k];
+            clip = k == 0 ? pc : clip + pc;
+            w = k == 0 ? pw : w + pw;
+        }
+        clip = clip + (float)((double)p.a * t + (double)p.b);
+        w = w + (float)t;
+        const double off = fabs((double)clip / (double)w - real_clip(&p, z) / z);
+        const dp_budget_terms terms = {.world = world};
+        dp_budget budget;
+        assert_int_equal(dp_budget_at(&setup, z, &terms, &budget), DP_OK);
+        if (isinf(budget.separation) || !(w > 0.5F * (float)z))
+            continue;
+        const double part = 0.5 * budget.window * budget.cause[DP_CAUSE_COMPOSITION] / budget.separation;
+        TALLY(&within, off <= part, "z = %g, world %g: off %.6g, part %.6g", z, world, off, part);
+        most = fmax(most, off / part);
+    }
+    printf("# composition: off by at most %.3f of its part\n", most);
+    tally_end(&within);
+    assert_true(most > 0.15);
+}
+
+static void parts_add_up(void **state) {
+    (void)state;
+    rng r = rng_make("sum of parts");
+    for (int i = 0; i < 20000; i++) {
+        dp_setup setup;
+        if (!make(&setup, (int)rng_below(&r, CAMERAS), (int)rng_below(&r, MAPPINGS), (int)rng_below(&r, FORMATS),
+                  rng_below(&r, dp_arith_count()), (int)rng_below(&r, 2)))
+            continue;
+        const dp_budget_terms terms = {rng_unit(&r) * 4.0, rng_log(&r, 0.1, 10.0), (int)rng_below(&r, 2)};
+        dp_budget budget;
+        const double z = rng_log(&r, setup.spec.znear, range_end(&setup));
+        if (dp_budget_at(&setup, fmin(z, range_end(&setup)), &terms, &budget) != DP_OK || isinf(budget.separation))
+            continue;
+        double sum = 0.0;
+        for (int k = 0; k < DP_CAUSE_COUNT; k++) {
+            assert_true(budget.cause[k] >= 0.0);
+            sum += budget.cause[k];
+        }
+        assert_relative(sum, budget.separation, 1e-12);
+    }
 }
 
 int main(void) {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(guarantee)};
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(never_violated_and_tight), cmocka_unit_test(every_arithmetic),  cmocka_unit_test(parts_alone),
+        cmocka_unit_test(linearization_alone),      cmocka_unit_test(composition_alone), cmocka_unit_test(parts_add_up),
+    };
     return run_tap(tests);
 }

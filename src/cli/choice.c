@@ -92,10 +92,11 @@ const char *choice_sentence(const choosing *c, char out[CHOICE_SENTENCE_SIZE]) {
                  share > 0.0 ? what : "adds nothing to the separation");
         return out;
     }
-    const char *model = dp_model_name(choice->model);
-    const char *advice = c->setup->spec.model == choice->model ? "as model" : "see --model";
-    snprintf(out, CHOICE_SENTENCE_SIZE, "%s%s %s: %s %s%s", subject, name, what, advice, model,
-             c->setup->spec.model == choice->model ? " shows" : "");
+    const bool shown = c->setup->spec.model == choice->model;
+    snprintf(out, CHOICE_SENTENCE_SIZE, "%s%s %s: %s", subject, name, what,
+             choice->model == DP_MODEL_STAGED ? "model staged is enough"
+             : shown                          ? "model fp32 is needed"
+                                              : "see --model fp32");
     return out;
 }
 

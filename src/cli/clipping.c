@@ -5,7 +5,6 @@
 #include <stdio.h>
 
 #include "cli/number.h"
-#include "cli/setups.h"
 
 clipping clipping_of(const dp_setup *setup) {
     dp_pipeline p;
@@ -17,7 +16,7 @@ clipping clipping_of(const dp_setup *setup) {
     return (clipping){(double)znear, (double)zfar, !(znear == p.znear && zfar == p.zfar)};
 }
 
-void clipping_warn(const dp_setup *setup, const clipping *c) {
+static void warn(const dp_setup *setup, const clipping *c) {
     char label[SETUP_LABEL_SIZE];
     char from[NUMBER_SIZE];
     char to[NUMBER_SIZE];
@@ -30,4 +29,11 @@ void clipping_warn(const dp_setup *setup, const clipping *c) {
         fprintf(stderr, "depthprec: warning: %s: clipping in binary32 loses everything\n", label);
     else
         fprintf(stderr, "depthprec: warning: %s: clipping in binary32 keeps only %s to %s\n", label, from, to);
+}
+
+void clipping_warn(const setups *all) {
+    for (size_t i = 0; i < all->count; i++) {
+        clipping c = clipping_of(&all->items[i]);
+        warn(&all->items[i], &c);
+    }
 }

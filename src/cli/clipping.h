@@ -1,11 +1,12 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/** @file clipping.h  What binary32 clipping draws of what lies between the planes: words around dp_pipeline_planes(). */
+/** @file clipping.h  What binary32 clipping draws of what lies between the planes: words around dp_pipeline_planes().
+ */
 #ifndef CLI_CLIPPING_H
 #define CLI_CLIPPING_H
 
 #include <stdbool.h>
 
-#include "depthprec/depthprec.h"
+#include "cli/setups.h"
 
 typedef struct clipping {
     double znear, zfar; /**< the effective planes; both NaN when nothing is drawn, or there is no pipeline */
@@ -15,7 +16,7 @@ typedef struct clipping {
 /** Of a set-up of the model fp32; NaN and false for the others. */
 clipping clipping_of(const dp_setup *setup);
 
-/** A line on stderr where geometry is lost. */
-void clipping_warn(const dp_setup *setup, const clipping *c);
+/** A line on stderr for each set-up that loses geometry. */
+void clipping_warn(const setups *all);
 
 #endif

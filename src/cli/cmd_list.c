@@ -37,6 +37,43 @@ static bool list_mapping(size_t index, list_item *item) {
     return true;
 }
 
+static bool list_model(size_t index, list_item *item) {
+    static const char *const notes[] = {
+        [DP_MODEL_EXACT] = "real arithmetic and one rounding into the format: the lattice of codes",
+        [DP_MODEL_STAGED] = "NDC depth, then window depth, each rounded once to binary32, then the format",
+        [DP_MODEL_FP32] = "every operation in binary32, see 'depthprec list ariths'; not for linear and log",
+        "the simplest of the three that is enough at the depths asked about, see --tolerance",
+    };
+    if (index >= sizeof notes / sizeof notes[0])
+        return false;
+    const char *name = dp_model_name((dp_model)index);
+    *item = (list_item){name != NULL ? name : "auto", "", notes[index], "", ""};
+    return true;
+}
+
+static bool list_arith(size_t index, list_item *item) {
+    const dp_arith_row *row = dp_arith_get(index);
+    if (row == NULL)
+        return false;
+    *item = (list_item){row->name, "", row->note, "", row->source};
+    return true;
+}
+
+static bool list_cause(size_t index, list_item *item) {
+    static const char *const notes[DP_CAUSE_COUNT] = {
+        [DP_CAUSE_COMPOSITION] = "view and projection multiplied into one binary32 matrix, with --world",
+        [DP_CAUSE_PROJECTION] = "A z + B in binary32, and the remap if there is one",
+        [DP_CAUSE_NDC] = "the divide and the viewport",
+        [DP_CAUSE_INTERPOLATION] = "across a triangle, as given with --interpolation",
+        [DP_CAUSE_FORMAT] = "the step of the format and the conversion into it",
+        [DP_CAUSE_LINEARIZATION] = "reading eye depth back in a binary32 shader, with --linearize",
+    };
+    if (index >= DP_CAUSE_COUNT)
+        return false;
+    *item = (list_item){dp_cause_name((dp_cause)index), "", notes[index], "", ""};
+    return true;
+}
+
 /* What can be listed. A topic whose table lives in the full program has a null `get` in the light one. */
 static const struct topic {
     const char *name, *note;
@@ -44,6 +81,9 @@ static const struct topic {
 } topics[] = {
     {"formats", "depth formats, and what their rounding is held to", list_format},
     {"mappings", "how an eye depth becomes a window depth", list_mapping},
+    {"models", "what is modelled of the arithmetic before the buffer", list_model},
+    {"ariths", "the variants of binary32 arithmetic", list_arith},
+    {"causes", "what takes a part of the separation", list_cause},
     {"figures", "what plot can draw", list_figure},
 };
 enum { TOPIC_COUNT = sizeof topics / sizeof topics[0] };

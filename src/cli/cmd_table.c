@@ -232,10 +232,8 @@ int cmd_table(const options *o) {
         writers[o->form](&t);
         progress_end(&t.progress);
         status = output_close(&out);
-        for (size_t i = 0; i < t.all.count && status == EXIT_FINE && !o->quiet; i++) {
-            clipping planes = clipping_of(&t.all.items[i]);
-            clipping_warn(&t.all.items[i], &planes);
-        }
+        if (status == EXIT_FINE && !o->quiet)
+            clipping_warn(&t.all);
     }
     setups_release(&t.all);
     return status;

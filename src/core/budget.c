@@ -269,15 +269,18 @@ static double distance(const chain *c, double z, double window, double slope) {
     return x < 1.0 ? z * x / (1.0 - x) : HUGE_VAL;
 }
 
-/* World positions through one binary32 matrix: four rounded entries, four products, three sums, in any order. */
+/*
+ * World positions through one binary32 matrix, whose rows of clip z and clip w are A and 1 times the view axis. Each
+ * entry is rounded, each product, and three sums in any order: so the products count five times and the constant four.
+ * The axis has length 1, so neither |axis . position| nor |axis . camera| exceeds sqrt(3) world.
+ */
 static double composition_error(const chain *c, double z, double world) {
     if (world <= 0.0)
         return 0.0;
-    const double entries = 3.0 * fabs(c->a) * world;               /* |m| |x| of the three axes at most */
-    const double constant = 3.0 * fabs(c->a) * world + fabs(c->b); /* the camera's own position, and B */
-    const double clip = 8.0 * unit * (entries + constant);
-    const double w = c->pipeline.ortho ? 0.0 : 8.0 * unit * 6.0 * world; /* the row of w, from the same positions */
-    return c->half * (clip + w) / (c->pipeline.ortho ? 1.0 : z);
+    const double along = 1.7321 * world;
+    const double clip = unit * (5.0 * fabs(c->a) * along + 4.0 * (fabs(c->a) * along + fabs(c->b)));
+    const double w = c->pipeline.ortho ? 0.0 : unit * 9.0 * along; /* times |ndc|, at most 1 */
+    return c->half * (clip + w) / (c->pipeline.ortho ? 1.0 : z) * (1.0 + 0x1p-16);
 }
 
 /*

@@ -35,10 +35,8 @@ typedef struct census {
     segment *segments;
     size_t segment_count, block_count;
     uint32_t *block_first;
-    int32_t *least, *greatest; /* of each block; least becomes the least from there on to the end */
-    struct {
-        double longest, slack; /* so far, of each band: what a segment need not look for */
-    } known[CENSUS_BANDS_MAX];
+    int32_t *least, *greatest;      /* of each block; least becomes the least from there on to the end */
+    double known[CENSUS_BANDS_MAX]; /* longest so far of each band: a segment need not look for less */
 } census;
 
 /* ---- A segment --------------------------------------------------------------------------------------------------- */
@@ -49,7 +47,7 @@ typedef struct sweep {
     uint32_t last;                    /* of the segment */
     uint32_t runs;                    /* with those that fill the last block up */
     double step;                      /* of the band */
-    double steps_known, slack_known;  /* only what is above these tells anything new */
+    double steps_known;               /* what is not above it tells nothing new */
     double bound;                     /* the least guaranteed separation in the block at hand */
     double bound_above;               /* at the far end of the block at hand */
     int before_known;                 /* whether `before` belongs to the block behind the one at hand */
@@ -72,7 +70,7 @@ static void run_keys(const sweep *w, uint32_t run, int32_t key[CENSUS_RUN]) {
 /* Only intervals of more than this many steps tell anything new. */
 static uint32_t known_steps(const sweep *w) {
     double steps = fmax(w->s->found.longest / w->step, w->steps_known);
-    const double by_slack = fmax(w->s->found.slack, w->slack_known) * w->bound / w->step;
+    const double by_slack = w->s->found.slack * w->bound / w->step;
     if (by_slack < steps)
         steps = floor(by_slack);
     return steps < SEGMENT ? (uint32_t)steps : SEGMENT;
@@ -174,11 +172,11 @@ static void count_block(sweep *w, const census_sight *sight, uint32_t offset) {
 }
 
 /*
- * Finds the segment's longest interval if it is at least as long as `longest`, and its greatest slack if that is above
- * `slack`. As long, and not only longer: so whichever segment of a band comes first, all that reach the band's
- * longest know it in the end, and the nearest can be named.
+ * Finds the segment's longest interval if it is at least as long as `longest`, and its greatest slack. As long, and not
+ * only longer: so whichever segment of a band comes first, all that reach the band's longest know it in the end, and
+ * the nearest can be named.
  */
-static void sweep_segment(const census *c, segment *s, double longest, double slack, sweep *w) {
+static void sweep_segment(const census *c, segment *s, double longest, sweep *w) {
     const uint32_t blocks = (s->count + CENSUS_BLOCK - 1) / CENSUS_BLOCK;
     w->c = c;
     w->s = s;
@@ -186,13 +184,12 @@ static void sweep_segment(const census *c, segment *s, double longest, double sl
     w->runs = blocks * CENSUS_RUNS;
     w->step = census_step(s->first);
     w->steps_known = longest / w->step - 1.0;
-    w->slack_known = slack;
     w->bound = w->bound_above = HUGE_VAL;
     w->beyond[w->runs] = INT32_MAX;
     for (uint32_t i = 0; i < CENSUS_RUN; i++)
         w->before[i] = INT32_MAX;
     w->before_known = 1;
-    s->found = (census_band){.longest_z = (double)NAN};
+    s->found = (census_band){.longest_z = (double)NAN, .slack_z = (double)NAN};
     const int has_next = w->last < c->last;
     int32_t next = has_next ? census_key(&c->plan, census_depth(w->last + 1)) : 0;
     for (uint32_t b = blocks; b-- > 0;) {
@@ -232,8 +229,9 @@ static void sweep_segment(const census *c, segment *s, double longest, double sl
  */
 static double nearest_longest(const census *c, segment *s, sweep *w) {
     const census_band found = s->found;
-    sweep_segment(c, s, found.longest, HUGE_VAL, w);
+    sweep_segment(c, s, found.longest, w);
     s->found.longest = 0.0;
+    s->found.slack = HUGE_VAL; /* not asked about */
     for (uint32_t run = 0; run < w->runs && s->found.longest < found.longest; run++) {
         const uint32_t other = run + (known_steps(w) + 1) / CENSUS_RUN;
         if (w->beyond[other < w->runs ? other : w->runs] <= w->peak[run])
@@ -382,20 +380,18 @@ static int sweep_all(census *c) {
         for (size_t i = 0; i < c->segment_count; i++) {
             segment *s = &c->segments[c->segment_count - 1 - i];
             int stopped;
-            double longest, slack;
+            double longest;
 #pragma omp critical(census_progress)
             {
                 stopped = stop;
-                longest = c->known[s->band].longest;
-                slack = c->known[s->band].slack;
+                longest = c->known[s->band];
             }
             if (stopped)
                 continue;
-            sweep_segment(c, s, longest, slack, &w);
+            sweep_segment(c, s, longest, &w);
 #pragma omp critical(census_progress)
             {
-                c->known[s->band].longest = fmax(c->known[s->band].longest, s->found.longest);
-                c->known[s->band].slack = fmax(c->known[s->band].slack, s->found.slack);
+                c->known[s->band] = fmax(c->known[s->band], s->found.longest);
                 done += s->count;
                 if (r->progress != NULL && r->progress(r->context, done))
                     stop = 1;
@@ -414,7 +410,10 @@ static void gather(census *c, census_result *result) {
         band->swaps += s->found.swaps;
         band->clipped += s->found.clipped;
         band->longest = fmax(band->longest, s->found.longest);
-        band->slack = fmax(band->slack, s->found.slack);
+        if (s->found.slack > band->slack) {
+            band->slack = s->found.slack;
+            band->slack_z = s->found.slack_z;
+        }
     }
     result->bands[result->band_count - 1].pairs--; /* the last depth has no neighbour behind it */
     for (size_t i = c->block_count - 1; i-- > 0;)

@@ -32,6 +32,7 @@ typedef struct census_band {
     double longest_z;     /**< its nearer depth, the nearest where several intervals are as long; NaN when none */
     double bound;         /**< the greater of the guaranteed separations at lo and hi; NaN without a bound function */
     double slack;         /**< greatest (z2 - z1)/bound(z1) over all intervals: above 1 the guarantee is broken */
+    double slack_z;       /**< a depth where it is reached */
 } census_band;
 
 typedef struct census_result {

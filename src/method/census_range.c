@@ -33,7 +33,7 @@ census_status census_open(const census_request *request, census_plan *plan, cens
         const uint32_t field = (*first >> 23) + (uint32_t)i;
         band->lo = i == 0 ? request->lo : (double)census_depth(field << 23);
         band->hi = i == result->band_count - 1 ? request->hi : 2.0 * (double)census_depth(field << 23);
-        band->longest_z = band->bound = (double)NAN;
+        band->longest_z = band->slack_z = band->bound = (double)NAN;
         if (request->bound != NULL)
             band->bound = fmax(request->bound(request->setup, band->lo), request->bound(request->setup, band->hi));
     }
@@ -49,7 +49,11 @@ void census_note(const census_request *request, census_band *band, float z1, flo
     if (request->bound == NULL)
         return;
     const double bound = request->bound(request->setup, (double)z1);
-    band->slack = fmax(band->slack, bound > 0.0 ? length / bound : HUGE_VAL); /* no bound at all is a broken one */
+    const double slack = bound > 0.0 ? length / bound : HUGE_VAL; /* no bound at all is a broken one */
+    if (slack > band->slack || (slack == band->slack && (double)z1 < band->slack_z)) {
+        band->slack = slack;
+        band->slack_z = (double)z1;
+    }
 }
 
 /* How many depths lie in first..last and outside [lo, hi]; all, when these are NaN. */
@@ -62,7 +66,7 @@ void census_close(const census_request *request, const census_plan *plan, uint32
                   census_result *result) {
     census_band *all = &result->all;
     *all = (census_band){
-        .lo = request->lo, .hi = request->hi, .longest_z = (double)NAN, .bound = (double)NAN};
+        .lo = request->lo, .hi = request->hi, .longest_z = (double)NAN, .slack_z = (double)NAN, .bound = (double)NAN};
     for (int i = 0; i < result->band_count; i++) {
         const census_band *band = &result->bands[i];
         all->pairs += band->pairs;
@@ -74,7 +78,10 @@ void census_close(const census_request *request, const census_plan *plan, uint32
             all->longest = band->longest;
             all->longest_z = band->longest_z;
         }
-        all->slack = fmax(all->slack, band->slack);
+        if (band->slack > all->slack) {
+            all->slack = band->slack;
+            all->slack_z = band->slack_z;
+        }
     }
     /* The planes of a part of the camera's range: the same search between its ends. */
     dp_pipeline part = plan->pipeline;

@@ -106,7 +106,10 @@ static void add(census_band *to, const census_band *from) {
         to->longest = from->longest;
         to->longest_z = from->longest_z;
     }
-    to->slack = fmax(to->slack, from->slack);
+    if (from->slack > to->slack || (from->slack == to->slack && from->slack_z < to->slack_z)) {
+        to->slack = from->slack;
+        to->slack_z = from->slack_z;
+    }
 }
 
 static int judge_all(const sample *s, uint64_t total, census_result *result) {
