@@ -169,7 +169,7 @@ static void matches_plain(void **state) {
     rng r = rng_make("census");
     compare_plain(&t, &r, test_cases(30, 400, 4000), 200.0);
     compare_plain(&t, &r, test_cases(20, 300, 3000), 5000.0);
-    compare_plain(&t, &r, test_cases(2, 40, 400), 1.5e6);
+    compare_plain(&t, &r, test_cases(2, 24, 400), 1.5e6);
     tally_end(&t);
 }
 

@@ -13,6 +13,7 @@
 #define DEPTHPREC_BUDGET_H
 
 #include <stddef.h>
+#include <stdint.h>
 
 #include "depthprec/setup.h"
 #include "depthprec/status.h"
@@ -58,6 +59,15 @@ DP_API const char *dp_cause_name(dp_cause cause);
  * Bound: never violated by the pipeline of pipeline.h with depth clamp. Cost: some 100 operations.
  */
 DP_API dp_status dp_budget_at(const dp_setup *setup, double z, const dp_budget_terms *terms, dp_budget *out);
+
+/**
+ * The codes that the pipeline may store at a depth, given only the set-up's matrix entries and the error bound of its
+ * arithmetic: what another implementation of the same operations, in whatever order of rounding, must fall into.
+ *
+ * @param z  eye depth in [near, far], finite; rounded to binary32
+ * @return DP_OK, DP_ERROR_NULL, DP_ERROR_DEPTH, DP_ERROR_MODEL
+ */
+DP_API dp_status dp_code_range(const dp_setup *setup, double z, uint32_t *lowest, uint32_t *highest);
 
 /** What the choice of a model rests on. */
 typedef struct dp_choice {

@@ -369,3 +369,21 @@ dp_status dp_budget_at(const dp_setup *setup, double z, const dp_budget_terms *t
         out->cause[i] = part[i] > 0.0 ? separation * (part[i] / window) : 0.0;
     return DP_OK;
 }
+
+dp_status dp_code_range(const dp_setup *setup, double z, uint32_t *lowest, uint32_t *highest) {
+    if (setup == NULL || lowest == NULL || highest == NULL)
+        return DP_ERROR_NULL;
+    if (!(z >= setup->spec.znear && z <= setup->spec.zfar) || isinf(z))
+        return DP_ERROR_DEPTH;
+    dp_pipeline pipeline;
+    const dp_status status = dp_pipeline_init(&pipeline, setup);
+    if (status != DP_OK)
+        return status;
+    const chain c = make_chain(&pipeline);
+    const double z1 = (double)(float)z;
+    const double error = demand_over(setup, &c, z1, z1).error * outward + 0x1p-149;
+    const double g = real_window(&c, z1);
+    *lowest = dp_pipeline_convert(&pipeline, nextafterf((float)(g - error), -2.0F));
+    *highest = dp_pipeline_convert(&pipeline, nextafterf((float)(g + error), 2.0F));
+    return DP_OK;
+}

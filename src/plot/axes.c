@@ -164,6 +164,11 @@ void axes_draw_scale(const pencil *p, const axes *a) {
     draw_y_ticks(p, a, snap(a->frame.x + a->frame.w), 1, &pen, true);
 }
 
+void axes_draw_right(const pencil *p, const axes *a, bool labels) {
+    canvas_pen pen = {.colour = p->theme->frame, .width = p->scale};
+    draw_y_ticks(p, a, snap(a->frame.x + a->frame.w), 1, &pen, labels);
+}
+
 char *axes_caption(const chart_axis *axis, char out[CHART_TEXT]) {
     if (axis->unit[0] == '\0')
         snprintf(out, CHART_TEXT, "%s", axis->label);

@@ -44,6 +44,9 @@ void axes_draw_grid(const pencil *p, const axes *a);
 /** Frame, ticks and their labels, drawn above the data; the labels of an axis only where asked for. */
 void axes_draw_frame(const pencil *p, const axes *a, bool x_labels, bool y_labels);
 
+/** A second vertical axis at the right side of a panel whose frame is drawn: ticks, and labels where asked for. */
+void axes_draw_right(const pencil *p, const axes *a, bool labels);
+
 /** A vertical axis at the right side of a strip (a colour bar): frame, ticks and labels to the right of it. */
 void axes_draw_scale(const pencil *p, const axes *a);
 

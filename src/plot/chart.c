@@ -116,19 +116,27 @@ static void fit(chart_axis *axis, extent e, bool air) {
     }
 }
 
+/* Bands stand on each other: what they reach is their sum. */
+static void widen_y(extent *e, const chart_panel *panel, bool second, chart_scale scale) {
+    for (size_t s = 0; s < panel->series_count; s++)
+        if (panel->series[s].kind != CHART_AREA && panel->series[s].second == second)
+            widen(e, panel->series[s].y, panel->series[s].count, scale);
+}
+
 void chart_fit(chart *c) {
-    extent x = {INFINITY, -INFINITY}, y = x, value = x;
+    extent x = {INFINITY, -INFINITY}, y = x, second = x, value = x;
     for (size_t p = 0; p < c->panel_count; p++) {
         const chart_panel *panel = &c->panels[p];
-        for (size_t s = 0; s < panel->series_count; s++) {
+        for (size_t s = 0; s < panel->series_count; s++)
             widen(&x, panel->series[s].x, panel->series[s].count, panel->x.scale);
-            widen(&y, panel->series[s].y, panel->series[s].count, panel->y.scale);
-        }
+        widen_y(&y, panel, false, panel->y.scale);
+        widen_y(&second, panel, true, panel->second.scale);
         widen(&value, panel->map.value, (size_t)panel->map.columns * (size_t)panel->map.rows, c->value.scale);
     }
     for (size_t p = 0; p < c->panel_count; p++) {
         fit(&c->panels[p].x, x, false);
         fit(&c->panels[p].y, y, true);
+        fit(&c->panels[p].second, second, true);
     }
     fit(&c->value, value, false);
 }
@@ -164,6 +172,8 @@ uint64_t chart_digest(const chart *c) {
         mix(&h, panel->title);
         mix_axis(&h, &panel->x);
         mix_axis(&h, &panel->y);
+        if (panel->second.label != NULL)
+            mix_axis(&h, &panel->second);
         for (size_t s = 0; s < panel->series_count; s++) {
             mix(&h, panel->series[s].name);
             mix_numbers(&h, panel->series[s].x, panel->series[s].count);

@@ -31,14 +31,16 @@ typedef enum chart_kind {
     CHART_LINE = 0, /**< through the points; a point at y = INFINITY ends it with an arrow to the top */
     CHART_DROPS,    /**< each point joined to both axes: the codes of a small format */
     CHART_POINTS,   /**< markers, with their labels where given */
+    CHART_AREA,     /**< a band as thick as y, standing on the bands before it; its name is written into it */
     CHART_KIND_COUNT
 } chart_kind;
 
 /** Indices into the theme: see theme_pen() and theme_marker(). */
 typedef struct chart_style {
-    int colour; /**< of CHART_POINTS also -1, the colour of the text */
+    int colour; /**< -1 is the colour of the text */
     int stroke;
     int marker; /**< -1 for none */
+    bool thin;  /**< a line in the background */
 } chart_style;
 
 typedef struct chart_series {
@@ -47,6 +49,7 @@ typedef struct chart_series {
     char name[CHART_TEXT]; /**< for the data, and for the legend unless `unlisted` */
     char note[64];         /**< follows the name in the legend only */
     bool unlisted;
+    bool second; /**< CHART_LINE: y is measured on the panel's second axis */
     size_t count;
     double *x, *y;
     char (*labels)[CHART_TEXT]; /**< CHART_POINTS: a label each, or null */
@@ -62,6 +65,7 @@ typedef struct chart_map {
 typedef struct chart_panel {
     char title[CHART_TEXT]; /**< "" when the chart has one panel */
     chart_axis x, y;
+    chart_axis second; /**< on the right; label is null when there is none. All panels have one, or none has */
     size_t series_count;
     chart_series series[CHART_SERIES];
     chart_map map; /**< columns is 0 when there is none */

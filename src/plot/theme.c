@@ -77,8 +77,12 @@ const theme *theme_get(size_t index) {
     return index < sizeof themes / sizeof *themes ? &themes[index] : NULL;
 }
 
+canvas_colour theme_colour(const theme *t, int colour) {
+    return colour < 0 ? t->text : t->curves[colour % THEME_COLOURS];
+}
+
 canvas_pen theme_pen(const theme *t, int colour, int stroke, double scale) {
-    canvas_pen pen = {.colour = t->curves[colour % THEME_COLOURS], .width = t->line_width * scale};
+    canvas_pen pen = {.colour = theme_colour(t, colour), .width = t->line_width * scale};
     pen.dash_count = strokes[stroke % THEME_STROKES].count;
     for (int i = 0; i < pen.dash_count; i++)
         pen.dash[i] = strokes[stroke % THEME_STROKES].dash[i] * pen.width;
@@ -98,7 +102,7 @@ canvas_colour theme_viridis(double t) {
 void theme_marker(canvas *c, const theme *t, double x, double y, int marker, int colour, bool hollow, double scale) {
     double radius = (hollow ? 3.2 : 3.6) * scale;
     size_t count = markers[marker % THEME_MARKERS].count;
-    canvas_colour own = colour < 0 ? t->text : t->curves[colour % THEME_COLOURS];
+    canvas_colour own = theme_colour(t, colour);
     canvas_colour fill = hollow ? t->background : own;
     canvas_pen rim = {.colour = hollow ? own : t->background, .width = 1.4 * scale};
     if (count == 0) {

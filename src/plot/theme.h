@@ -28,7 +28,10 @@ typedef struct theme {
 /** Themes by index: light, dark, print; null beyond. The order is that of the option --theme. */
 const theme *theme_get(size_t index);
 
-/** A pen for curve `colour` with stroke style `stroke` (0 is solid), both taken modulo what there is. */
+/** Colour `colour` of the palette, taken modulo what there is; -1 is that of the text. */
+canvas_colour theme_colour(const theme *t, int colour);
+
+/** A pen for curve `colour` with stroke style `stroke` (0 is solid), taken modulo what there is. */
 canvas_pen theme_pen(const theme *t, int colour, int stroke, double scale);
 
 /** viridis: 0 is dark violet, 1 yellow; outside it is clamped. */
