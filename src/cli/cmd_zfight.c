@@ -268,7 +268,10 @@ static void warn(const zfight *z) {
         setup_label(&z->all.items[i], false, label);
         number_digits(r->near_effective, PLANE_DIGITS, from);
         number_digits(r->far_effective, PLANE_DIGITS, to);
-        if (kept == 0)
+        if (kept == census_count(z->lo, z->hi))
+            fprintf(stderr, "depthprec: warning: %s: clipping in binary32 loses %llu depths between %s and %s\n", label,
+                    (unsigned long long)r->holes, from, to);
+        else if (kept == 0)
             fprintf(stderr, "depthprec: warning: %s: clipping in binary32 loses everything\n", label);
         else
             fprintf(stderr, "depthprec: warning: %s: clipping in binary32 keeps only %s to %s%s\n", label, from, to,

@@ -25,7 +25,7 @@ static void json_series(json *j, const chart_panel *panel, const chart_series *s
     for (size_t i = 0; i < s->count; i++) {
         json_object(j, NULL);
         json_number(j, panel->x.key, s->x[i]);
-        json_number(j, panel->y.key, s->y[i]);
+        json_number(j, s->second ? panel->second.key : panel->y.key, s->y[i]);
         json_end(j);
     }
     json_end(j);
@@ -59,6 +59,8 @@ void plot_data_json(output *out, const char *figure, const chart *c) {
     json_string(&j, "data", digest);
     json_axis(&j, "x", &c->panels[0].x);
     json_axis(&j, "y", &c->panels[0].y);
+    if (c->panels[0].second.label != NULL)
+        json_axis(&j, "second", &c->panels[0].second);
     if (c->value.label != NULL)
         json_axis(&j, "value", &c->value);
     json_array(&j, "panels");
@@ -92,6 +94,9 @@ void plot_data_csv(output *out, const chart *c) {
     csv_string(&lines, "series");
     csv_head(&lines, &c->panels[0].x);
     csv_head(&lines, &c->panels[0].y);
+    const bool two = c->panels[0].second.label != NULL;
+    if (two)
+        csv_head(&lines, &c->panels[0].second);
     if (c->value.label != NULL)
         csv_head(&lines, &c->value);
     csv_end(&lines);
@@ -102,7 +107,11 @@ void plot_data_csv(output *out, const chart *c) {
                 csv_string(&lines, panel->title);
                 csv_string(&lines, panel->series[s].name);
                 csv_number(&lines, panel->series[s].x[i]);
+                if (panel->series[s].second)
+                    csv_string(&lines, "");
                 csv_number(&lines, panel->series[s].y[i]);
+                if (two && !panel->series[s].second)
+                    csv_string(&lines, "");
                 if (c->value.label != NULL)
                     csv_string(&lines, "");
                 csv_end(&lines);

@@ -373,7 +373,7 @@ static int sweep_all(census *c) {
     const census_request *r = c->request;
     uint64_t done = 0;
     int stop = 0;
-#pragma omp parallel num_threads(r->threads) if (r->threads != 1 && c->segment_count > 1)
+#pragma omp parallel num_threads(census_threads(r)) if (c->segment_count > 1)
     {
         sweep w;
 #pragma omp for schedule(dynamic)

@@ -30,7 +30,7 @@ typedef struct census_band {
     uint64_t clipped;     /**< depths of the band that clipping would lose */
     double longest;       /**< scene units; 0 when every pair is in order */
     double longest_z;     /**< its nearer depth, the nearest where several intervals are as long; NaN when none */
-    double bound;         /**< the greater of the guaranteed separations at lo and hi; NaN without a bound function */
+    double bound;         /**< the greatest guaranteed separation at 1025 depths of the band; NaN without a bound */
     double slack;         /**< greatest (z2 - z1)/bound(z1) over all intervals: above 1 the guarantee is broken */
     double slack_z;       /**< a depth where it is reached */
 } census_band;

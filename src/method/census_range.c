@@ -3,6 +3,9 @@
 
 #include <float.h>
 #include <math.h>
+#ifdef _OPENMP
+#include <omp.h>
+#endif
 
 static int ends_of(double lo, double hi, uint32_t *first, uint32_t *last) {
     if (!(lo > 0.0 && lo <= hi && hi <= (double)FLT_MAX))
@@ -14,9 +17,28 @@ static int ends_of(double lo, double hi, uint32_t *first, uint32_t *last) {
     return *first >= 1U << 23 && *first <= *last;
 }
 
+int census_threads(const census_request *request) {
+#ifdef _OPENMP
+    return request->threads > 0 ? request->threads : omp_get_max_threads();
+#else
+    (void)request;
+    return 1;
+#endif
+}
+
 uint64_t census_count(double lo, double hi) {
     uint32_t first, last;
     return ends_of(lo, hi, &first, &last) ? (uint64_t)last - first + 1 : 0;
+}
+
+/* The guarantee is neither monotone nor smooth: look at it all over the band, and at its last depth. */
+static double greatest_bound(const census_request *request, const census_band *band, int last) {
+    enum { LOOKS = 1024 };
+    const double end = last ? band->hi : (double)nextafterf((float)band->hi, 0.0f);
+    double greatest = request->bound(request->setup, end);
+    for (int i = 0; i < LOOKS; i++)
+        greatest = fmax(greatest, request->bound(request->setup, band->lo + (end - band->lo) * i / LOOKS));
+    return greatest;
 }
 
 census_status census_open(const census_request *request, census_plan *plan, census_result *result, uint32_t *first,
@@ -35,7 +57,7 @@ census_status census_open(const census_request *request, census_plan *plan, cens
         band->hi = i == result->band_count - 1 ? request->hi : 2.0 * (double)census_depth(field << 23);
         band->longest_z = band->slack_z = band->bound = (double)NAN;
         if (request->bound != NULL)
-            band->bound = fmax(request->bound(request->setup, band->lo), request->bound(request->setup, band->hi));
+            band->bound = greatest_bound(request, band, i == result->band_count - 1);
     }
     return CENSUS_DONE;
 }
@@ -68,7 +90,9 @@ void census_close(const census_request *request, const census_plan *plan, uint32
     *all = (census_band){
         .lo = request->lo, .hi = request->hi, .longest_z = (double)NAN, .slack_z = (double)NAN, .bound = (double)NAN};
     for (int i = 0; i < result->band_count; i++) {
-        const census_band *band = &result->bands[i];
+        census_band *band = &result->bands[i];
+        if (request->bound != NULL && band->longest > 0.0)
+            band->bound = fmax(band->bound, request->bound(request->setup, band->longest_z));
         all->pairs += band->pairs;
         all->ties += band->ties;
         all->swaps += band->swaps;

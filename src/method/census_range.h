@@ -9,6 +9,9 @@
 census_status census_open(const census_request *request, census_plan *plan, census_result *result, uint32_t *first,
                           uint32_t *last);
 
+/* How many threads a request wants, at least 1. */
+int census_threads(const census_request *request);
+
 /* The index of a depth's band. */
 static inline int census_band_of(uint32_t first, uint32_t bits) {
     return (int)(bits >> 23) - (int)(first >> 23);

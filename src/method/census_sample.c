@@ -116,7 +116,7 @@ static int judge_all(const sample *s, uint64_t total, census_result *result) {
     const census_request *r = &s->request->common;
     uint64_t done = 0;
     int stop = 0;
-#pragma omp parallel num_threads(r->threads) if (r->threads != 1 && total > 16 * BATCH)
+#pragma omp parallel num_threads(census_threads(r)) if (total > 16 * BATCH)
     {
         census_band mine[CENSUS_BANDS_MAX];
         memset(mine, 0, sizeof mine);

@@ -138,6 +138,12 @@ void canvas_path_end(canvas *c, const canvas_pen *pen) {
     stroke(c, pen);
 }
 
+void canvas_path_fill(canvas *c, canvas_colour colour) {
+    cairo_close_path(c->cr);
+    use_colour(c, colour);
+    cairo_fill(c->cr);
+}
+
 static void trace(canvas *c, const canvas_point *points, size_t count) {
     cairo_new_path(c->cr);
     for (size_t i = 0; i < count; i++)
@@ -152,9 +158,7 @@ void canvas_fill(canvas *c, canvas_rect area, canvas_colour colour) {
 
 void canvas_polygon(canvas *c, const canvas_point *points, size_t count, canvas_colour colour) {
     trace(c, points, count);
-    cairo_close_path(c->cr);
-    use_colour(c, colour);
-    cairo_fill(c->cr);
+    canvas_path_fill(c, colour);
 }
 
 void canvas_line(canvas *c, const canvas_point *points, size_t count, const canvas_pen *pen) {

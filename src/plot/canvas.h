@@ -85,6 +85,7 @@ void canvas_path_to(canvas *c, double x, double y);
 void canvas_path_break(canvas *c); /**< the next point begins a new piece */
 void canvas_path_segment(canvas *c, double x0, double y0, double x1, double y1); /**< a piece of its own */
 void canvas_path_end(canvas *c, const canvas_pen *pen);
+void canvas_path_fill(canvas *c, canvas_colour colour); /**< instead of the end: closes it and fills the inside */
 
 /** A filled circle with a rim; pen may be null. */
 void canvas_disc(canvas *c, double x, double y, double radius, canvas_colour fill, const canvas_pen *pen);

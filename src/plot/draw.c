@@ -7,6 +7,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "plot/area.h"
 #include "plot/heat.h"
 #include "plot/legend.h"
 #include "plot/notes.h"
@@ -78,8 +79,9 @@ static void draw_caption(const pencil *p, const chart_axis *axis, canvas_align a
 
 static bool draw_panel(const pencil *p, const chart *c, const grid *g, int index) {
     const chart_panel *panel = &c->panels[index];
-    axes a = {&panel->x, &panel->y, panel_frame(g, index)};
+    axes a = {&panel->x, &panel->y, panel_frame(g, index)}, right = {&panel->x, &panel->second, a.frame};
     bool lowest = (size_t)(index + g->columns) >= c->panel_count, leftmost = index % g->columns == 0;
+    bool rightmost = (index + 1) % g->columns == 0 || (size_t)index + 1 == c->panel_count;
     if (g->heading > 0) {
         words w = words_break(p, panel->title, &p->heading, a.frame.w, 1);
         words_draw(p, &w, &p->heading, a.frame.x, a.frame.y - g->heading);
@@ -94,11 +96,19 @@ static bool draw_panel(const pencil *p, const chart *c, const grid *g, int index
         axes_draw_grid(p, &a);
     }
     canvas_clip(p->c, (canvas_rect){a.frame.x, a.frame.y, a.frame.w + 1, a.frame.h + 1});
-    for (size_t s = 0; s < panel->series_count; s++)
-        if (panel->series[s].kind != CHART_POINTS)
+    for (size_t s = panel->series_count; s-- > 0;)
+        if (panel->series[s].kind == CHART_AREA)
             series_draw(p, &a, &panel->series[s], s, panel->series_count);
+    for (size_t s = 0; s < panel->series_count; s++)
+        if (panel->series[s].kind != CHART_POINTS && panel->series[s].kind != CHART_AREA)
+            series_draw(p, panel->series[s].second ? &right : &a, &panel->series[s], s, panel->series_count);
+    for (size_t s = 0; s < panel->series_count; s++)
+        if (panel->series[s].kind == CHART_AREA)
+            area_label(p, &a, &panel->series[s], s);
     canvas_unclip(p->c);
     axes_draw_frame(p, &a, lowest, leftmost);
+    if (panel->second.label != NULL)
+        axes_draw_right(p, &right, rightmost);
     /* Points may stand on the frame; they are not cut by it. */
     for (size_t s = 0; s < panel->series_count; s++)
         if (panel->series[s].kind == CHART_POINTS)
@@ -107,7 +117,7 @@ static bool draw_panel(const pencil *p, const chart *c, const grid *g, int index
 }
 
 static bool draw_page(const pencil *p, const chart *c, double width, double height) {
-    const chart_axis *x = &c->panels[0].x, *y = &c->panels[0].y;
+    const chart_axis *x = &c->panels[0].x, *y = &c->panels[0].y, *second = &c->panels[0].second;
     double s = p->scale, caption = words_height(&p->text), label = words_height(&p->small);
     canvas_fill(p->c, (canvas_rect){0, 0, width, height}, p->theme->background);
     double top = draw_head(p, c, width) + caption;
@@ -130,11 +140,14 @@ static bool draw_page(const pencil *p, const chart *c, double width, double heig
     double bar = c->value.label != NULL
                      ? SPACE * 2 * s + BAR_WIDTH * s + TICK_ROOM * s + axes_label_width(p, &c->value, panel_height)
                      : 0;
+    double scale = second->label != NULL ? TICK_ROOM * s + axes_label_width(p, second, panel_height) : 0;
     g.area.x += left;
-    g.area.w -= left + fmax(bar, right - 0.75 * MARGIN * s);
+    g.area.w -= left + fmax(fmax(bar, scale), right - 0.75 * MARGIN * s);
 
     double above = g.area.y - clear, room = width - 2 * MARGIN * s;
-    draw_caption(p, y, CANVAS_LEFT, MARGIN * s, above, bar > 0 ? room * 0.46 : room);
+    draw_caption(p, y, CANVAS_LEFT, MARGIN * s, above, bar + scale > 0 ? room * 0.46 : room);
+    if (scale > 0)
+        draw_caption(p, second, CANVAS_RIGHT, width - MARGIN * s, above, room * 0.5);
     draw_caption(p, x, CANVAS_MIDDLE, g.area.x + g.area.w / 2, height - 0.75 * MARGIN * s - 0.25 * caption,
                  fmin(g.area.w + left, 2 * (width - MARGIN * s - g.area.x - g.area.w / 2)));
     if (bar > 0) {

@@ -21,15 +21,24 @@ typedef struct figure_request {
     const char *const *names; /**< "unorm24 d3d" of each, for legends */
     double lo, hi;            /**< eye depths to show; both NaN when the user left it to the figure */
     double at;                /**< a single depth for the figures that take one, else NaN */
+    dp_budget_terms terms;    /**< what is added to the pipeline, for the figures that take it */
     int columns;              /**< how finely to compute: pixel columns of the figure */
 } figure_request;
+
+/** What a figure can make something of. */
+enum {
+    FIGURE_AT = 1 << 0,       /**< one depth, given with --at */
+    FIGURE_TERMS = 1 << 1,    /**< --interpolation, --world, --linearize */
+    FIGURE_FP32 = 1 << 2,     /**< set-ups of the model fp32, which have no cells */
+    FIGURE_BINARY32 = 1 << 3, /**< nothing but set-ups of the model fp32, whatever --model says */
+};
 
 typedef struct figure_row {
     const char *name;
     const char *title;
     const char *summary; /**< one line for `depthprec list figures` */
     size_t setups_max;   /**< most set-ups that stay legible */
-    bool takes_at;       /**< one depth may be given with --at */
+    unsigned takes;      /**< FIGURE_... bits */
     /**
      * Fills in an empty chart whose subtitle is set; an empty title is replaced by the row's when left empty.
      * @return null, or a sentence about what of the request cannot be drawn; chart_failed() tells of memory
@@ -57,6 +66,7 @@ const char *distribution_build(const figure_request *request, chart *out);
 const char *share_build(const figure_request *request, chart *out);
 const char *error_build(const figure_request *request, chart *out);
 const char *interval_build(const figure_request *request, chart *out);
+const char *budget_build(const figure_request *request, chart *out);
 const char *map_build(const figure_request *request, chart *out);
 
 #endif

@@ -7,16 +7,21 @@
 static const figure_row rows[] = {
     {"distribution", "Where the codes are",
      "the curve d(z) with every code carried over to z (up to 128 codes); codes per unit of depth for real formats",
-     CHART_SERIES, false, distribution_build},
+     CHART_SERIES, 0, distribution_build},
     {"share", "Share of the codes spent between near and z", "cumulative share of the codes between near and z",
-     CHART_SERIES, false, share_build},
+     CHART_SERIES, FIGURE_FP32, share_build},
     {"error", "Worst error of the stored depth", "certified envelope of |stored - z| against z, log-log", CHART_SERIES,
-     false, error_build},
-    {"interval", "Z-fighting interval", "certified envelope of the z-fighting interval against z, log-log",
-     CHART_SERIES, false, interval_build},
+     0, error_build},
+    {"interval", "Z-fighting interval",
+     "certified envelope of the z-fighting interval against z, log-log; in the model fp32 the guaranteed separation "
+     "beside it",
+     CHART_SERIES, FIGURE_FP32, interval_build},
+    {"budget", "What takes the separation",
+     "shares of the separation that binary32 arithmetic guarantees, cause by cause, against z", CHART_PANELS,
+     FIGURE_TERMS | FIGURE_FP32 | FIGURE_BINARY32, budget_build},
     {"map", "Worst z-fighting interval for each near and far plane",
      "near against far, colour = worst z-fighting interval over the range, or the interval at --at Z", CHART_PANELS,
-     true, map_build},
+     FIGURE_AT, map_build},
 };
 
 const figure_row *figure_get(size_t index) {

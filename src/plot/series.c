@@ -3,12 +3,13 @@
 
 #include <math.h>
 
+#include "plot/area.h"
 #include "plot/trace.h"
 
 #define MARKER_SPACING 120.0 /* px along x at scale 1 */
 
 static canvas_pen pen_of(const pencil *p, const chart_series *s) {
-    return theme_pen(p->theme, s->style.colour, s->style.stroke, p->scale);
+    return theme_pen(p->theme, s->style.colour, s->style.stroke, s->style.thin ? 0.5 * p->scale : p->scale);
 }
 
 void series_arrow(const pencil *p, double x, double y, canvas_colour colour) {
@@ -34,8 +35,8 @@ static void draw_markers(const pencil *p, const axes *a, const chart_series *s, 
     }
 }
 
-static void draw_line(const pencil *p, const axes *a, const chart_series *s, size_t index, size_t count) {
-    canvas_pen pen = pen_of(p, s);
+/* Strokes the line; returns where it leaves the frame upwards for ever, or NaN. */
+static double stroke_line(const pencil *p, const axes *a, const chart_series *s, const canvas_pen *pen) {
     trace t = trace_start(p->c);
     double end = NAN;
     for (size_t i = 0; i < s->count; i++) {
@@ -49,11 +50,26 @@ static void draw_line(const pencil *p, const axes *a, const chart_series *s, siz
         else
             trace_point(&t, axes_x(a, s->x[i]), axes_y(a, s->y[i]));
     }
-    trace_finish(&t, &pen);
+    trace_finish(&t, pen);
+    return end;
+}
+
+static void draw_line(const pencil *p, const axes *a, const chart_series *s, size_t index, size_t count) {
+    canvas_pen pen = pen_of(p, s);
+    if (s->second) { /* it runs over the bands of the first axis */
+        canvas_pen rim = {.colour = p->theme->background, .width = 2.5 * pen.width};
+        stroke_line(p, a, s, &rim);
+    }
+    double end = stroke_line(p, a, s, &pen);
     if (!isnan(end))
         series_arrow(p, end, a->frame.y, pen.colour);
     if (s->style.marker >= 0)
         draw_markers(p, a, s, index, count);
+}
+
+static void draw_area(const pencil *p, const axes *a, const chart_series *s, size_t index, size_t count) {
+    (void)count;
+    area_draw(p, a, s, index);
 }
 
 /* From the height of a code on the left axis to the curve, and down to the bottom axis: the staircase. */
@@ -141,6 +157,11 @@ static void swatch_points(const pencil *p, const chart_series *s, double x, doub
     draw_marker(p, s, x + width / 2, y, 1.5);
 }
 
+static void swatch_area(const pencil *p, const chart_series *s, double x, double y, double width) {
+    double half = 5 * p->scale;
+    canvas_fill(p->c, (canvas_rect){x, y - half, width, 2 * half}, area_tint(p->theme, s->style.colour));
+}
+
 static const struct {
     void (*draw)(const pencil *, const axes *, const chart_series *, size_t index, size_t count);
     void (*swatch)(const pencil *, const chart_series *, double x, double y, double width);
@@ -148,6 +169,7 @@ static const struct {
     [CHART_LINE] = {draw_line, swatch_line},
     [CHART_DROPS] = {draw_drops, swatch_drops},
     [CHART_POINTS] = {draw_points, swatch_points},
+    [CHART_AREA] = {draw_area, swatch_area},
 };
 
 void series_draw(const pencil *p, const axes *a, const chart_series *s, size_t index, size_t count) {

@@ -25,6 +25,7 @@ static void anchor_at(trace *t, canvas_point p) {
  * slope lies in it can be the new end; else the old end becomes a corner. */
 static void stretch(trace *t, canvas_point p) {
     if (!t->anchored) {
+        t->begin = p;
         anchor_at(t, p);
         return;
     }
@@ -78,6 +79,16 @@ void trace_break(trace *t) {
         emit(t, t->end);
     t->anchored = false;
     canvas_path_break(t->c);
+}
+
+void trace_fill(trace *t, double bottom, canvas_colour colour) {
+    close_column(t);
+    if (t->anchored) {
+        emit(t, t->end);
+        emit(t, (canvas_point){t->end.x, bottom});
+        emit(t, (canvas_point){t->begin.x, bottom});
+    }
+    canvas_path_fill(t->c, colour);
 }
 
 size_t trace_finish(trace *t, const canvas_pen *pen) {

@@ -18,7 +18,7 @@ typedef struct trace {
     bool column_open; /* the pixel column being gathered */
     canvas_point first, least, greatest, last;
     bool anchored; /* the segment being stretched */
-    canvas_point anchor, end;
+    canvas_point begin, anchor, end;
     double slope_lo, slope_hi;
     size_t emitted;
 } trace;
@@ -26,6 +26,9 @@ typedef struct trace {
 trace trace_start(canvas *c);
 void trace_point(trace *t, double x, double y);
 void trace_break(trace *t);
+
+/** Fills between what was traced, in one piece, and the horizontal at y = bottom. */
+void trace_fill(trace *t, double bottom, canvas_colour colour);
 
 /** Draws what was traced. @return how many points the canvas was given */
 size_t trace_finish(trace *t, const canvas_pen *pen);

@@ -1,0 +1,20 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/** @file area.h  Bands that stand on each other, and their names written into them: a second cue beside the colour. */
+#ifndef PLOT_AREA_H
+#define PLOT_AREA_H
+
+#include "plot/axes.h"
+
+/** The tint of a band: its colour, softened so that text and lines on it can be read. */
+canvas_colour area_tint(const theme *t, int colour);
+
+/**
+ * Fills from the top edge of band `index` down to the axis. The bands below it are painted over that, so draw the
+ * topmost first. s - index is the first series of the panel; a point that is NaN leaves a gap.
+ */
+void area_draw(const pencil *p, const axes *a, const chart_series *s, size_t index);
+
+/** Writes the name where the band is thickest; nothing where it is too thin everywhere. */
+void area_label(const pencil *p, const axes *a, const chart_series *s, size_t index);
+
+#endif
