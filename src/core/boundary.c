@@ -1,6 +1,31 @@
 /* SPDX-License-Identifier: MIT */
 #include "core/boundary.h"
 
+/* The next binary32 number, by its bits: nextafterf() is a call, and these are the steps of every search below. */
+static float step_away(float x) {
+    uint32_t bits;
+    memcpy(&bits, &x, sizeof bits);
+    bits++;
+    memcpy(&x, &bits, sizeof x);
+    return x;
+}
+
+static float step_to_zero(float x) {
+    uint32_t bits;
+    memcpy(&bits, &x, sizeof bits);
+    bits--;
+    memcpy(&x, &bits, sizeof x);
+    return x;
+}
+
+static float next_up(float x) {
+    return x < 0.0F ? step_to_zero(x) : step_away(x == 0.0F ? 0.0F : x);
+}
+
+static float next_down(float x) {
+    return x > 0.0F ? step_to_zero(x) : -step_away(x == 0.0F ? 0.0F : -x);
+}
+
 static int ndc_signed(const dp_setup *setup) {
     return dp_mapping_get(setup->spec.mapping)->ndc_signed;
 }
@@ -22,9 +47,9 @@ float dp_staged_window(const dp_setup *setup, uint32_t code) {
     const dp_point p = dp_point_below(&setup->spec.format, setup->spec.rounding, code);
     float w = (float)(p.num / p.den); /* within one step of the answer, because rounding is monotone */
     while (w > 0.0F && code_of_window(setup, w) >= code)
-        w = nextafterf(w, 0.0F);
+        w = next_down(w);
     while (code_of_window(setup, w) < code)
-        w = nextafterf(w, 2.0F);
+        w = next_up(w);
     return w;
 }
 
@@ -32,18 +57,18 @@ float dp_staged_ndc(const dp_setup *setup, float window) {
     if (!ndc_signed(setup))
         return window;
     /* x/2 + 1/2 rounds to window or above from the midpoint below it upwards, give or take the tie and x's own step. */
-    const double middle = 0.5 * ((double)nextafterf(window, 0.0F) + (double)window);
+    const double middle = 0.5 * ((double)next_down(window) + (double)window);
     float x = (float)(2.0 * middle - 1.0);
     while (window_of_ndc(setup, x) >= window)
-        x = nextafterf(x, -2.0F);
+        x = next_down(x);
     while (window_of_ndc(setup, x) < window)
-        x = nextafterf(x, 2.0F);
+        x = next_up(x);
     return x;
 }
 
 static dp_boundary staged_below(const dp_setup *setup, uint32_t code) {
     const float x = dp_staged_ndc(setup, dp_staged_window(setup, code));
-    const float before = nextafterf(x, -2.0F);
+    const float before = next_down(x);
     const double middle = 0.5 * ((double)before + (double)x);
     uint32_t bits;
     memcpy(&bits, &x, sizeof bits);
