@@ -241,6 +241,61 @@ static int parse_linearize(options *o, const char *value) {
     return EXIT_FINE;
 }
 
+static int unknown_preset(const char *name) {
+    suggestion s = suggest_start(name);
+    char text[SUGGEST_TEXT_SIZE];
+    for (size_t i = 0; preset_get(i) != NULL; i++)
+        suggest_offer(&s, preset_get(i)->name);
+    return option_error(OPTION_PRESET, "must be a name from 'depthprec list presets', got '%s'%s", name,
+                        suggest_text(&s, "", text));
+}
+
+static int parse_preset(options *o, const char *value) {
+    o->preset = preset_find(value);
+    return o->preset != NULL ? EXIT_FINE : unknown_preset(value);
+}
+
+static int unknown_api(const char *name) {
+    suggestion s = suggest_start(name);
+    char text[SUGGEST_TEXT_SIZE];
+    for (size_t i = 0; bias_api_get(i) != NULL; i++) {
+        suggest_offer(&s, bias_api_get(i)->name);
+        suggest_offer(&s, bias_api_get(i)->aliases);
+    }
+    return option_error(OPTION_API, "must be a name from 'depthprec list apis', got '%s'%s", name,
+                        suggest_text(&s, "", text));
+}
+
+static int parse_api(options *o, const char *value) {
+    o->api = bias_api_find(value);
+    return o->api != NULL ? EXIT_FINE : unknown_api(value);
+}
+
+/* Bias states are binary32 numbers or integers in every API. */
+static int parse_state(option_id id, const char *value, double *out) {
+    if (!number_parse(value, NUMBER_FINITE, out) || fabs(*out) > 1e12)
+        return option_error(id, "must be a number from -1e12 to 1e12, got '%s'", value);
+    return EXIT_FINE;
+}
+
+static int parse_units(options *o, const char *value) {
+    return parse_state(OPTION_UNITS, value, &o->units);
+}
+
+static int parse_factor(options *o, const char *value) {
+    return parse_state(OPTION_FACTOR, value, &o->factor);
+}
+
+static int parse_clamp(options *o, const char *value) {
+    return parse_state(OPTION_CLAMP, value, &o->clamp);
+}
+
+static int parse_slope(options *o, const char *value) {
+    if (!number_parse(value, NUMBER_FINITE, &o->slope) || !(o->slope >= 0.0 && o->slope <= 1e12))
+        return option_error(OPTION_SLOPE, "must be from 0 to 1e12 scene units per pixel, got '%s'", value);
+    return EXIT_FINE;
+}
+
 static int parse_gap(options *o, const char *value) {
     if (!number_parse(value, NUMBER_FINITE, &o->gap) || !(o->gap > 0.0))
         return option_error(OPTION_GAP, "must be a positive number of scene units, got '%s'", value);
@@ -341,26 +396,29 @@ enum {
     CAMERA = ASKED | VERB_ZFIGHT,
     COUNTED = VERB_ZFIGHT,
     DRAWN = VERB_PLOT,
-    WRITTEN = CAMERA | VERB_LIST,
+    WRITTEN = CAMERA | VERB_LIST | VERB_BIAS,
     EVERY = ~0
 };
 
 /* clang-format off */
 const option_row option_rows[OPTION_COUNT] = {
-    [OPTION_NEAR] = {"near", 'n', "Z", CAMERA,
+    [OPTION_NEAR] = {"near", 'n', "Z", CAMERA | VERB_BIAS,
         "near plane, scene units, 1e-12 to 1e12 (default 0.1)", parse_near},
-    [OPTION_FAR] = {"far", 'f', "Z|inf", CAMERA,
+    [OPTION_FAR] = {"far", 'f', "Z|inf", CAMERA | VERB_BIAS,
         "far plane, scene units, up to 1e18, or inf (default 1000)", parse_far},
-    [OPTION_FORMAT] = {"format", 'F', "NAME[,NAME...]|all", CAMERA,
+    [OPTION_FORMAT] = {"format", 'F', "NAME[,NAME...]|all", CAMERA | VERB_BIAS,
         "depth formats: fp16, fp32, unorm16, unorm24, names as the APIs\n"
         "write them, unormN, floatE.M[bB] (default all: the first four)", parse_format},
-    [OPTION_MAPPING] = {"mapping", 'm', "NAME[,NAME...]|all", CAMERA,
+    [OPTION_MAPPING] = {"mapping", 'm', "NAME[,NAME...]|all", CAMERA | VERB_BIAS,
         "d3d, gl, reversed, gl-reversed, linear, log\n"
         "(default all: d3d and reversed)", parse_mapping},
-    [OPTION_ORTHO] = {"ortho", 0, NULL, CAMERA,
+    [OPTION_ORTHO] = {"ortho", 0, NULL, CAMERA | VERB_BIAS,
         "orthographic projection (default: perspective)", parse_ortho},
-    [OPTION_ROUNDING] = {"rounding", 0, "nearest|even|zero", CAMERA,
+    [OPTION_ROUNDING] = {"rounding", 0, "nearest|even|zero", CAMERA | VERB_BIAS,
         "how a depth between two codes is rounded (default nearest)", parse_rounding},
+    [OPTION_PRESET] = {"preset", 0, "NAME", CAMERA | VERB_BIAS,
+        "fill in near, far, mapping and format as an engine sets them,\n"
+        "where they are not given; 'depthprec list presets'", parse_preset},
     [OPTION_MODEL] = {"model", 0, "exact|staged|fp32|auto", MODELLED,
         "the arithmetic before the buffer: none, the lattice alone;\n"
         "NDC and window depth each rounded to binary32; every operation\n"
@@ -372,12 +430,12 @@ const option_row option_rows[OPTION_COUNT] = {
     [OPTION_TOLERANCE] = {"tolerance", 0, "SHARE", ASKED,
         "a model is enough when what it neglects adds no more to the\n"
         "separation, 0.05 or 5% (default 5%)", parse_tolerance},
-    [OPTION_LOG_C] = {"log-c", 0, "C", MODELLED,
+    [OPTION_LOG_C] = {"log-c", 0, "C", MODELLED | VERB_BIAS,
         "constant of the log mapping, 1e-12 to 1e12 (default 1)", parse_log_c},
-    [OPTION_AT] = {"at", 0, "Z[,Z...]|LO:HI:log|lin:COUNT", ASKED,
+    [OPTION_AT] = {"at", 0, "Z[,Z...]|LO:HI:log|lin:COUNT", ASKED | VERB_BIAS,
         "the depths asked about, at most 1000000, within [near, far]\n"
         "(default: nine, log-spaced from near to far)", parse_at},
-    [OPTION_RANGE] = {"range", 0, "LO:HI", MODELLED | VERB_ZFIGHT,
+    [OPTION_RANGE] = {"range", 0, "LO:HI", MODELLED | VERB_ZFIGHT | VERB_BIAS,
         "the depths that worst cases are taken over\n"
         "(default: near to far)", parse_range},
     [OPTION_INTERPOLATION] = {"interpolation", 0, "E", BUDGETED,
@@ -388,9 +446,24 @@ const option_row option_rows[OPTION_COUNT] = {
         "one precomposed matrix (default 0: eye depth is given)", parse_world},
     [OPTION_LINEARIZE] = {"linearize", 0, NULL, BUDGETED,
         "count reading the eye depth back in a binary32 shader", parse_linearize},
-    [OPTION_GAP] = {"gap", 0, "G", COUNTED,
-        "ties and swaps of surfaces G apart, scene units\n"
-        "(default: of neighbouring binary32 depths)", parse_gap},
+    [OPTION_API] = {"api", 0, "NAME", VERB_BIAS,
+        "whose rule: d3d11 (also d3d12), webgpu, vulkan, vulkan-exact,\n"
+        "vulkan-unorm, vulkan-float, gl, d3d9 (default d3d11)", parse_api},
+    [OPTION_UNITS] = {"units", 0, "U", VERB_BIAS,
+        "constant bias in units of r; in window depth for d3d9 and\n"
+        "vulkan-float", parse_units},
+    [OPTION_FACTOR] = {"factor", 0, "F", VERB_BIAS,
+        "bias in units of the window slope (default 0)", parse_factor},
+    [OPTION_CLAMP] = {"clamp", 0, "C", VERB_BIAS,
+        "greatest bias, or least when negative, in window depth\n"
+        "(default 0: none)", parse_clamp},
+    [OPTION_SLOPE] = {"slope", 0, "S", VERB_BIAS,
+        "eye depth changes by S scene units from one pixel to the next\n"
+        "(default 0: facing the camera)", parse_slope},
+    [OPTION_GAP] = {"gap", 0, "G", COUNTED | VERB_BIAS,
+        "zfight: ties and swaps of surfaces G apart, scene units\n"
+        "(default: of neighbouring binary32 depths); bias: how much\n"
+        "nearer a layer must come (default 0: be told apart)", parse_gap},
     [OPTION_SAMPLE] = {"sample", 0, "N", COUNTED,
         "draw N pairs at random (default: visit every depth)", parse_sample},
     [OPTION_SEED] = {"seed", 0, "S", COUNTED,

@@ -17,6 +17,8 @@
 #include "cli/output.h"
 #include "cli/verbs.h"
 #include "depthprec/depthprec.h"
+#include "need/bias.h"
+#include "need/presets.h"
 
 /** The options, in the order in which help lists them. The index of an option's row is its id. */
 typedef enum option_id {
@@ -25,6 +27,7 @@ typedef enum option_id {
     OPTION_FORMAT,
     OPTION_MAPPING,
     OPTION_ORTHO,
+    OPTION_PRESET,
     OPTION_ROUNDING,
     OPTION_MODEL,
     OPTION_ARITH,
@@ -35,6 +38,11 @@ typedef enum option_id {
     OPTION_INTERPOLATION,
     OPTION_WORLD,
     OPTION_LINEARIZE,
+    OPTION_API,
+    OPTION_UNITS,
+    OPTION_FACTOR,
+    OPTION_CLAMP,
+    OPTION_SLOPE,
     OPTION_GAP,
     OPTION_SAMPLE,
     OPTION_SEED,
@@ -86,6 +94,12 @@ typedef struct options {
     double range_lo, range_hi; /**< what --range said, lo < hi. See range_resolve() */
 
     dp_budget_terms terms; /**< --interpolation, --world, --linearize; zero when not given */
+
+    const preset *preset; /**< --preset; null when not given. What the user did not give is already filled in */
+    const bias_api *api;  /**< --api; null when not given */
+    double units, factor; /**< of a bias; 0 when not given */
+    double clamp;         /**< of a bias, window depth; 0 is none */
+    double slope;         /**< scene units per pixel, not negative; 0 when not given */
 
     double gap;      /**< scene units; 0 when not given */
     uint64_t sample; /**< pairs to draw; 0 when not given */

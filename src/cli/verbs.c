@@ -11,6 +11,7 @@
 
 int cmd_table(const struct options *o);
 int cmd_budget(const struct options *o);
+int cmd_bias(const struct options *o);
 int cmd_list(const struct options *o);
 /* Commands that need a heavy library: null in the light program. */
 int cmd_plot(const struct options *o) __attribute__((weak));
@@ -36,8 +37,13 @@ const verb verb_rows[] = {
      "which cause takes how much of the separation; which model is enough",
      "  depthprec budget -n 0.1 -f 1000 -F unorm24 -m d3d\n"
      "  depthprec budget -F fp32 -m reversed --world 5000 --linearize --at 10,100,1000\n"},
+    {"bias", VERB_BIAS, cmd_bias, "", 0, 0, NULL,
+     "depth-bias units to scene units, per API; how much bias is enough",
+     "  depthprec bias --api gl -F d24 -m gl --units -1 --at 1,10,100\n"
+     "  depthprec bias --api webgpu -F depth24plus -m d3d --gap 0.01 --range 1:100\n"
+     "  depthprec bias --preset bevy --api vulkan --units 4 --factor 1 --slope 0.02\n"},
     {"list", VERB_LIST, cmd_list, "WHAT", 0, 1, NULL,
-     "formats, mappings, models, ariths, causes, figures, with sources",
+     "formats, mappings, models, ariths, causes, presets, apis, figures",
      "  depthprec list\n"
      "  depthprec list formats\n"
      "  depthprec list mappings --json\n"},

@@ -28,7 +28,8 @@ enum {
     VERB_LIST = 1u << 2,
     VERB_HELP = 1u << 3,
     VERB_ZFIGHT = 1u << 4,
-    VERB_BUDGET = 1u << 5
+    VERB_BUDGET = 1u << 5,
+    VERB_BIAS = 1u << 8
 };
 
 typedef struct verb {
