@@ -147,36 +147,37 @@ static void text_head(const report *r) {
     output_char(r->out, '\n');
 }
 
-static const char *digits_of(double value, char out[NUMBER_SIZE]) {
-    number_digits(value, DIGITS_Z, out);
-    return out;
+/* "  told apart  -2 units from 0.1 to 1000 (needed at z = 0.1)" */
+static void text_needed(output *out, const char *what, double units, double lo, double hi, double z) {
+    output_format(out, "  %-12s", what);
+    if (isnan(units))
+        output_text(out, "no bias is enough");
+    else
+        put_number(out, 0, DIGITS_Z, units);
+    output_text(out, isnan(units) ? " from " : fabs(units) == 1.0 ? " unit from " : " units from ");
+    put_number(out, 0, DIGITS_Z, lo);
+    output_text(out, " to ");
+    put_number(out, 0, DIGITS_Z, hi);
+    if (!isnan(units)) {
+        output_text(out, " (needed at z = ");
+        put_number(out, 0, DIGITS_Z, z);
+        output_text(out, ")");
+    }
+    output_char(out, '\n');
 }
 
-static void text_range(const report *r, const dp_setup *setup, const bias_range *range) {
-    char lo[NUMBER_SIZE], hi[NUMBER_SIZE], units[NUMBER_SIZE], z[NUMBER_SIZE], gap[NUMBER_SIZE];
-    digits_of(range->lo, lo);
-    digits_of(range->hi, hi);
-    if (isnan(range->apart))
-        output_format(r->out, "  from %s to %s no bias tells coplanar layers apart at z = %s\n", lo, hi,
-                      digits_of(range->apart_z, z));
-    else
-        output_format(r->out, "  from %s to %s %s units tell coplanar layers apart; z = %s needs them\n", lo, hi,
-                      digits_of(range->apart, units), digits_of(range->apart_z, z));
+static void text_range(const report *r, const bias_range *range) {
+    text_needed(r->out, "told apart", range->apart, range->lo, range->hi, range->apart_z);
     if (r->goal.gap == 0.0)
         return;
-    digits_of(range->gap_lo, lo);
-    digits_of(r->goal.gap, gap);
-    if (isnan(range->gap)) {
-        output_format(r->out, "  no bias brings a layer nearer by %s there\n", gap);
+    text_needed(r->out, "the gap", range->gap, range->gap_lo, range->hi, range->gap_z);
+    if (isnan(range->shift_hi))
         return;
-    }
-    output_format(r->out, "  from %s to %s %s units bring a layer nearer by %s or more; z = %s needs them\n", lo, hi,
-                  digits_of(range->gap, units), gap, digits_of(range->gap_z, z));
-    if (isfinite(range->shift_hi)) {
-        number_digits(fabs(range->shift_hi), DIGITS, gap);
-        output_format(r->out, "  the same units bring it nearer by %s at z = %s\n", gap, hi);
-    }
-    (void)setup;
+    output_text(r->out, "              the same units bring a layer nearer by ");
+    put_number(r->out, 0, DIGITS, fabs(range->shift_hi));
+    output_text(r->out, " at z = ");
+    put_number(r->out, 0, DIGITS_Z, range->hi);
+    output_char(r->out, '\n');
 }
 
 static void text_notes(const report *r, const dp_setup *setup, bool limited) {
@@ -224,7 +225,7 @@ static int write_text(report *r) {
         each_row(r, setup, text_row, &limited);
         if (r->inverse) {
             const bias_range range = over_range(r, setup, lo, hi);
-            text_range(r, setup, &range);
+            text_range(r, &range);
         }
         text_notes(r, setup, limited);
     }

@@ -132,7 +132,7 @@ double bias_window_slope(const dp_setup *setup, double z, double slope) {
         return 0.0;
     switch (setup->curve) {
     case DP_CURVE_PERSPECTIVE:
-        return slope * setup->kappa / (z * z);
+        return slope / (setup->kappa * z * z);
     case DP_CURVE_LINEAR:
         return slope / setup->kappa;
     case DP_CURVE_LOG:
@@ -165,7 +165,7 @@ static double window_of_gap(const dp_setup *setup, double z, double gap) {
         return (double)INFINITY;
     switch (setup->curve) {
     case DP_CURVE_PERSPECTIVE:
-        return gap * setup->kappa / (z * to);
+        return gap / (setup->kappa * z * to);
     case DP_CURVE_LINEAR:
         return gap / setup->kappa;
     case DP_CURVE_LOG:
