@@ -347,6 +347,19 @@ static int parse_height(options *o, const char *value) {
     return parse_pixels(OPTION_HEIGHT, value, &o->height);
 }
 
+static const char *report_name(unsigned index) {
+    static const char *const names[REPORT_COUNT] = {
+        [REPORT_TEXT] = "text", [REPORT_JSON] = "json", [REPORT_JUNIT] = "junit"};
+    return index < REPORT_COUNT ? names[index] : NULL;
+}
+
+static int parse_report(options *o, const char *value) {
+    unsigned index = (unsigned)o->report;
+    int status = parse_word(OPTION_REPORT, report_name, value, &index);
+    o->report = (report_form)index;
+    return status;
+}
+
 static int parse_title(options *o, const char *value) {
     o->title = value;
     return EXIT_FINE;
@@ -395,8 +408,9 @@ enum {
     ASKED = MODELLED | VERB_BUDGET,
     CAMERA = ASKED | VERB_ZFIGHT,
     COUNTED = VERB_ZFIGHT,
+    SPREAD = COUNTED | VERB_CHECK,
     DRAWN = VERB_PLOT,
-    WRITTEN = CAMERA | VERB_LIST | VERB_BIAS,
+    WRITTEN = CAMERA | VERB_LIST | VERB_BIAS | VERB_CHECK,
     EVERY = ~0
 };
 
@@ -468,7 +482,7 @@ const option_row option_rows[OPTION_COUNT] = {
         "draw N pairs at random (default: visit every depth)", parse_sample},
     [OPTION_SEED] = {"seed", 0, "S", COUNTED,
         "seed of --sample: the same pairs for the same seed (default 0)", parse_seed},
-    [OPTION_THREADS] = {"threads", 0, "N", COUNTED,
+    [OPTION_THREADS] = {"threads", 0, "N", SPREAD,
         "at most N threads (default: all cores); results are the same", parse_threads},
     [OPTION_THEME] = {"theme", 0, "light|dark|print", DRAWN,
         "colours of the figure (default light)", parse_theme},
@@ -478,6 +492,8 @@ const option_row option_rows[OPTION_COUNT] = {
         "height of the figure in pixels (default: as suits it)", parse_height},
     [OPTION_TITLE] = {"title", 0, "TEXT", DRAWN,
         "title of the figure in place of its own", parse_title},
+    [OPTION_REPORT] = {"report", 0, "text|json|junit", VERB_CHECK,
+        "how verdicts are written (default text)", parse_report},
     [OPTION_JSON] = {"json", 0, NULL, WRITTEN,
         "write JSON, one object, schema depthprec/1", parse_json},
     [OPTION_CSV] = {"csv", 0, NULL, WRITTEN,

@@ -51,6 +51,7 @@ typedef enum option_id {
     OPTION_WIDTH,
     OPTION_HEIGHT,
     OPTION_TITLE,
+    OPTION_REPORT,
     OPTION_JSON,
     OPTION_CSV,
     OPTION_OUTPUT,
@@ -66,6 +67,9 @@ typedef enum output_form { FORM_TEXT = 0, FORM_JSON, FORM_CSV } output_form;
 
 /** Values of --theme. */
 typedef enum theme_id { THEME_LIGHT = 0, THEME_DARK, THEME_PRINT, THEME_COUNT } theme_id;
+
+/** Values of --report. */
+typedef enum report_form { REPORT_TEXT = 0, REPORT_JSON, REPORT_JUNIT, REPORT_COUNT } report_form;
 
 enum { OPTIONS_FORMATS_MAX = 64, OPTIONS_PIXELS_MIN = 64, OPTIONS_PIXELS_MAX = 16384 };
 
@@ -110,6 +114,7 @@ typedef struct options {
     int width, height; /**< px; 0 when not given, so that each figure has its own default */
     const char *title; /**< null when not given */
 
+    report_form report; /**< default text */
     output_form form;
     const char *output; /**< the argument of -o; null when not given. "-" is stdout: hand it to output_open() */
     bool quiet, verbose;

@@ -16,6 +16,7 @@ int cmd_list(const struct options *o);
 /* Commands that need a heavy library: null in the light program. */
 int cmd_plot(const struct options *o) __attribute__((weak));
 int cmd_zfight(const struct options *o) __attribute__((weak));
+int cmd_check(const struct options *o) __attribute__((weak));
 
 /* clang-format off */
 const verb verb_rows[] = {
@@ -37,6 +38,10 @@ const verb verb_rows[] = {
      "which cause takes how much of the separation; which model is enough",
      "  depthprec budget -n 0.1 -f 1000 -F unorm24 -m d3d\n"
      "  depthprec budget -F fp32 -m reversed --world 5000 --linearize --at 10,100,1000\n"},
+    {"check", VERB_CHECK, cmd_check, "FILE...", 1, 1000, "requirement files, see depthprec(5)",
+     "whether cameras meet the requirements of files; exit 1 when not",
+     "  depthprec check engine.need\n"
+     "  depthprec check --report junit -o depth.xml engine.need\n"},
     {"bias", VERB_BIAS, cmd_bias, "", 0, 0, NULL,
      "depth-bias units to scene units, per API; how much bias is enough",
      "  depthprec bias --api gl -F d24 -m gl --units -1 --at 1,10,100\n"

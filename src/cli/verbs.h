@@ -29,6 +29,7 @@ enum {
     VERB_HELP = 1u << 3,
     VERB_ZFIGHT = 1u << 4,
     VERB_BUDGET = 1u << 5,
+    VERB_CHECK = 1u << 6,
     VERB_BIAS = 1u << 8
 };
 
