@@ -86,7 +86,7 @@ names_in() { # names_in SECTION: prints the names on stdin that the page does no
 }
 
 options() { # long options, as mdoc writes them: -near for --near
-    for verb in table plot list help; do
+    for verb in table plot zfight budget list help; do
         "$DEPTHPREC" help $verb | sed -n 's/^  \(-[a-zA-Z],\)* *-\(-[a-z][-a-z]*\).*/\2/p'
     done | sort -u
 }
@@ -115,6 +115,11 @@ check "depthprec.1: every option" documented 1 options
 check "depthprec.1: every format" documented 1 aliases formats
 check "depthprec.1: every mapping" documented 1 aliases mappings
 check "depthprec.1: every figure" documented 1 aliases figures
+check "depthprec.1: every model" documented 1 aliases models
+check "depthprec.1: every arithmetic" documented 1 aliases ariths
+check "depthprec.1: every cause" documented 1 aliases causes
+verbs() { "$DEPTHPREC" help | sed -n '/^Commands/,/^$/s/^  \([a-z]*\) .*/\1/p'; }
+check "depthprec.1: every command" documented 1 verbs
 check "depthprec.3: every function" documented 3 functions
 check "depthprec.3: every status" documented 3 statuses
 check "depthprec.7: every test it names exists" sh -c '

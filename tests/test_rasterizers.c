@@ -17,7 +17,8 @@ typedef struct target {
     dp_pipeline strange[4]; /* rows that are not these rasterizers' */
     char name[COLUMNS][32];
     int columns;
-    tally codes, clips, ideal, order;
+    tally codes, clips, ideal, order, range;
+    double widest;        /* range of codes, in steps of 2^-24 of d or in codes, whichever is coarser */
     double reach[POINTS]; /* of each point, nearest first: behind it everything is stored behind it */
     float z[POINTS];
     int64_t key[COLUMNS][POINTS]; /* grows with distance; -1 where clipped */
@@ -78,6 +79,25 @@ static double reach_of(const target *t, float z) {
     return (double)z + greatest;
 }
 
+/* The codes that the error bound allows at z, whatever the arithmetic. */
+static void range_of(target *t, float z, uint32_t *lowest, uint32_t *highest) {
+    dp_spec spec = t->setup.spec;
+    *lowest = UINT32_MAX;
+    *highest = 0;
+    for (spec.arith = 0; spec.arith < dp_arith_count(); spec.arith++) {
+        dp_setup setup;
+        uint32_t low, high;
+        assert_int_equal(dp_setup_init(&setup, &spec), DP_OK);
+        assert_int_equal(dp_code_range(&setup, (double)z, &low, &high), DP_OK);
+        *lowest = low < *lowest ? low : *lowest;
+        *highest = high > *highest ? high : *highest;
+    }
+    const dp_format *format = &spec.format;
+    const double width = dp_format_value(format, *highest) - dp_format_value(format, *lowest);
+    const double step = format->kind == DP_FORMAT_UNORM ? 1.0 / (double)format->code_max : 0x1p-24;
+    t->widest = fmax(t->widest, width / step);
+}
+
 /* Every point behind the reach of an earlier one must be stored behind it. The points of a target come in order. */
 static void judge_order(target *t, const vector_row *row) {
     const int n = t->points;
@@ -118,6 +138,10 @@ static void visit(const vector_row *row, void *context) {
     /* The guarantee is about [near, far]; rounding draws some points just outside it. */
     const int inside = (double)z >= t->setup.spec.znear && (double)z <= t->setup.spec.zfar;
     t->reach[n] = inside ? reach_of(t, z) : HUGE_VAL;
+    uint32_t lowest = 0;
+    uint32_t highest = 0;
+    if (inside)
+        range_of(t, z, &lowest, &highest);
     for (int i = 0; i < t->columns; i++) {
         if (row->count > 2 && strcmp(vector_text(row, 1 + i), "=") != 0)
             text = vector_text(row, 1 + i);
@@ -134,6 +158,9 @@ static void visit(const vector_row *row, void *context) {
         t->key[i][n] = t->setup.reversed ? (int64_t)t->setup.spec.format.code_max - (int64_t)code : (int64_t)code;
         TALLY(&t->codes, got == code, "line %d, %s: z %.9g stored %x, computed %x", row->line, t->name[i], (double)z,
               (unsigned)code, (unsigned)got);
+        if (inside)
+            TALLY(&t->range, code >= lowest && code <= highest, "line %d, %s: z %.9g stored %x, allowed %x..%x",
+                  row->line, t->name[i], (double)z, (unsigned)code, (unsigned)lowest, (unsigned)highest);
         TALLY(&t->ideal, near_ideal(t, z, code, p->arith->conversion == DP_CONVERT_PRODUCT_ZERO),
               "line %d, %s: z %.9g stored %x, ideal %x", row->line, t->name[i], (double)z, (unsigned)code,
               (unsigned)dp_code(&t->setup, (double)z));
@@ -149,7 +176,8 @@ static target *seen(void) {
     static target t = {.codes = {.name = "stored codes"},
                        .clips = {.name = "clip decisions"},
                        .ideal = {.name = "against the ideal"},
-                       .order = {.name = "guaranteed order"}};
+                       .order = {.name = "guaranteed order"},
+                       .range = {.name = "guaranteed range"}};
     if (t.targets == 0)
         vectors_read("rasterizers.txt", visit, &t);
     return &t;
@@ -182,7 +210,16 @@ static void guaranteed_order(void **state) {
     tally_end(&t->order);
 }
 
-/* The points tell the arithmetics apart: each other row misses codes. */
+/* The bound holds whatever the row, and is not wide: a few steps of binary32 below 1, or of the format. */
+static void guaranteed_range(void **state) {
+    (void)state;
+    const target *t = seen();
+    printf("# allowed codes span at most %.2f steps of 2^-24, or of the format\n", t->widest);
+    tally_end(&t->range);
+    assert_true(t->widest < 16.0);
+}
+
+/* The points tell the kinds of arithmetic apart: each other row misses codes. */
 static void rows_differ(void **state) {
     (void)state;
     const target *t = seen();
@@ -195,7 +232,7 @@ static void rows_differ(void **state) {
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(every_code),       cmocka_unit_test(every_clip_decision), cmocka_unit_test(close_to_ideal),
-        cmocka_unit_test(guaranteed_order), cmocka_unit_test(rows_differ),
+        cmocka_unit_test(guaranteed_order), cmocka_unit_test(guaranteed_range),    cmocka_unit_test(rows_differ),
     };
     return run_tap(tests);
 }

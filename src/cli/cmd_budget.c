@@ -124,6 +124,7 @@ static void text_advice(const report *r, const summary *s) {
     char z[NUMBER_SIZE];
     char now[NUMBER_SIZE];
     char then[NUMBER_SIZE];
+    char step[NUMBER_SIZE];
     if (!isnan(s->hopeless)) {
         number_digits(s->hopeless, DIGITS_MORE, z);
         output_format(r->out, "  at z = %s no separation is certain: what lies behind may share its code\n", z);
@@ -133,10 +134,13 @@ static void text_advice(const report *r, const summary *s) {
     number_digits(s->worst.z, DIGITS_MORE, z);
     number_digits(s->worst.parts.separation, DIGITS, now);
     number_digits(s->remedy.separation, DIGITS, then);
+    number_digits(remedy_step(s->worst.z), DIGITS, step);
     output_format(r->out, "  at z = %s %s takes %.0f %%: ", z, dp_cause_name(s->cause),
                   100.0 * share_of(&s->worst, (int)s->cause));
     if (s->remedy.text != NULL)
         output_format(r->out, "%s would need %s in place of %s\n", s->remedy.text, then, now);
+    else if (s->worst.parts.separation < 2.0 * remedy_step(s->worst.z))
+        output_format(r->out, "nothing to gain, binary32 depths themselves are %s apart there\n", step);
     else
         output_text(r->out, "nothing that could be chosen otherwise helps against it\n");
 }

@@ -5,6 +5,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "cli/choice.h"
 #include "cli/list.h"
 #include "cli/number.h"
 #include "cli/options.h"
@@ -71,7 +72,7 @@ static void command_of(const options *o, char out[COMMAND_SIZE]) {
 /* The depth and range of the request; what this figure has no use for is refused rather than ignored. */
 static int resolve_depths(const options *o, const figure_row *row, figure_request *request) {
     if (option_given(o, OPTION_AT)) {
-        if (!row->takes_at)
+        if ((row->takes & FIGURE_AT) == 0)
             return option_error(OPTION_AT, "has no meaning in the figure %s; --range cuts its axis", row->name);
         if (o->at.count != 1)
             return option_error(OPTION_AT, "must be one depth in the figure %s, got %zu", row->name, o->at.count);
@@ -84,10 +85,54 @@ static int resolve_depths(const options *o, const figure_row *row, figure_reques
     return EXIT_FINE;
 }
 
+/* Options that this figure has no use for. */
+static int check_options(const options *o, const figure_row *row) {
+    static const option_id terms[] = {OPTION_INTERPOLATION, OPTION_WORLD, OPTION_LINEARIZE};
+    for (size_t i = 0; i < sizeof terms / sizeof terms[0]; i++)
+        if (option_given(o, terms[i]) && (row->takes & FIGURE_TERMS) == 0)
+            return option_error(terms[i], "has no meaning in the figure %s, but in budget", row->name);
+    if (option_given(o, OPTION_MODEL) && (row->takes & FIGURE_BINARY32) != 0 && o->model != DP_MODEL_FP32)
+        return option_error(OPTION_MODEL, "must be fp32 in the figure %s, got '%s'", row->name,
+                            o->model_auto ? "auto" : dp_model_name(o->model));
+    if (option_given(o, OPTION_TOLERANCE) && !o->model_auto)
+        return option_error(OPTION_TOLERANCE, "needs --model auto in a figure");
+    return EXIT_FINE;
+}
+
+/* --model auto: what is enough over the whole range that the figure shows. */
+static void choose_models(const options *o, const figure_request *request, setups *all) {
+    enum { CHOICE_DEPTHS = 257 };
+    double lo, hi;
+    figure_range(request, &lo, &hi);
+    depths at = depths_spaced(DEPTHS_LOG, lo, hi, CHOICE_DEPTHS);
+    setups_choose(o, &at, all);
+}
+
+/* Curves of a quantity that only cells have. */
+static int check_cells(const figure_row *row, const setups *all) {
+    for (size_t i = 0; i < all->count && (row->takes & FIGURE_FP32) == 0; i++)
+        if (all->items[i].spec.model == DP_MODEL_FP32)
+            return option_error(OPTION_MODEL,
+                                "fp32 has no cells for the figure %s to show; interval and budget draw its separation",
+                                row->name);
+    return EXIT_FINE;
+}
+
+/* Set-ups differ by format and mapping and, where they were chosen one by one, by model. */
+static const char *name_of(const options *o, const dp_setup *setup, char out[SETUP_LABEL_SIZE]) {
+    setup_label(setup, false, out);
+    if (o->model_auto)
+        snprintf(out + strlen(out), SETUP_LABEL_SIZE - strlen(out), ", %s", dp_model_name(setup->spec.model));
+    return out;
+}
+
 /* What holds for all set-ups: the full label without the name in front. */
-static void subtitle_of(const figure_request *request, char *out, size_t size) {
+static void subtitle_of(const options *o, const figure_request *request, char *out, size_t size) {
     char full[SETUP_LABEL_SIZE], lo[NUMBER_SIZE], hi[NUMBER_SIZE];
     setup_label(&request->setups[0], true, full);
+    char *model = strrchr(full, ',');
+    if (o->model_auto && request->count > 1 && model != NULL)
+        *model = '\0'; /* the names say it */
     const char *rest = strstr(full, ", ");
     const char *one = request->count == 1 ? full : rest != NULL ? rest + 2 : "";
     number_shortest(isnan(request->at) ? request->lo : request->at, lo);
@@ -158,24 +203,32 @@ int cmd_plot(const options *o) {
     setups all = {0};
     char text[CHART_SERIES][SETUP_LABEL_SIZE];
     const char *names[CHART_SERIES];
-    figure_request request = {.names = names, .lo = NAN, .hi = NAN, .at = NAN};
+    figure_request request = {.names = names, .lo = NAN, .hi = NAN, .at = NAN, .terms = o->terms};
+    options in_binary32 = *o;
+    in_binary32.model = (row->takes & FIGURE_BINARY32) != 0 ? DP_MODEL_FP32 : o->model;
     request.columns = o->width > 0 ? o->width : WIDTH;
     int status = check_size(o);
     if (status == EXIT_FINE)
-        status = setups_make(o, &all);
+        status = check_options(o, row);
+    if (status == EXIT_FINE)
+        status = setups_make(&in_binary32, &all);
     if (status == EXIT_FINE)
         status = resolve_depths(o, row, &request);
     if (status == EXIT_FINE && all.count > row->setups_max)
         status = usage_error("plot %s: shows at most %zu set-ups, got %zu: name fewer with --format or --mapping",
                              row->name, row->setups_max, all.count);
+    request.setups = all.items;
+    request.count = all.count;
+    if (status == EXIT_FINE) {
+        choose_models(o, &request, &all);
+        status = check_cells(row, &all);
+    }
     chart *c = status == EXIT_FINE ? chart_new() : NULL;
     if (c != NULL) {
-        request.setups = all.items;
-        request.count = all.count;
         for (size_t i = 0; i < all.count; i++)
-            names[i] = setup_label(&all.items[i], false, text[i]);
+            names[i] = name_of(o, &all.items[i], text[i]);
         notes_clean(c->title, sizeof c->title, o->title != NULL ? o->title : "");
-        subtitle_of(&request, c->subtitle, sizeof c->subtitle);
+        subtitle_of(o, &request, c->subtitle, sizeof c->subtitle);
         status = write_figure(o, row, &request, c);
     } else if (status == EXIT_FINE) {
         status = usage_error("plot: no memory");

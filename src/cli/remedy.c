@@ -73,7 +73,6 @@ enum {
     AGAINST_COMPOSITION = 1 << DP_CAUSE_COMPOSITION,
     AGAINST_ROUNDING = 1 << DP_CAUSE_PROJECTION | 1 << DP_CAUSE_NDC,
     AGAINST_PROJECTION = 1 << DP_CAUSE_PROJECTION,
-    AGAINST_NDC = 1 << DP_CAUSE_NDC,
     AGAINST_FORMAT = 1 << DP_CAUSE_FORMAT,
     AGAINST_LINEARIZATION = 1 << DP_CAUSE_LINEARIZATION
 };
@@ -87,7 +86,7 @@ static const struct {
     {AGAINST_COMPOSITION, "positions relative to the camera", use_relative},
     {AGAINST_LINEARIZATION, "reading back by the complement form", use_complement},
     {AGAINST_PROJECTION, "a fused A z + B", use_fused},
-    {AGAINST_NDC, "NDC from 0 to 1", use_zero_to_one},
+    {AGAINST_ROUNDING, "NDC from 0 to 1", use_zero_to_one},
     {AGAINST_FORMAT, "unorm24", use_unorm24},
     {AGAINST_FORMAT, "fp32", use_fp32},
     {AGAINST_ROUNDING, "an infinite far plane", use_infinite},
@@ -95,6 +94,11 @@ static const struct {
     {AGAINST_ROUNDING, "reversed depth and an infinite far plane", use_infinite_reversed},
     {AGAINST_ROUNDING | AGAINST_FORMAT, "reversed depth in fp32", use_reversed_fp32},
 };
+
+double remedy_step(double z) {
+    const float here = (float)z;
+    return (double)nextafterf(here, HUGE_VALF) - (double)here;
+}
 
 remedy_result remedy_find(const dp_setup *setup, const dp_budget_terms *terms, double z, dp_cause cause) {
     static const double about_as_well = 0.95;
@@ -107,8 +111,9 @@ remedy_result remedy_find(const dp_setup *setup, const dp_budget_terms *terms, d
         if ((rows[i].causes >> cause & 1) == 0 || !rows[i].change(&p) || dp_setup_init(&changed, &p.spec) != DP_OK ||
             dp_budget_at(&changed, z, &p.terms, &budget) != DP_OK)
             continue;
-        if (budget.separation < about_as_well * best.separation)
-            best = (remedy_result){rows[i].text, budget.separation};
+        const double separation = fmax(budget.separation, remedy_step(z));
+        if (separation < about_as_well * best.separation)
+            best = (remedy_result){rows[i].text, separation};
     }
     return best;
 }

@@ -13,7 +13,13 @@ typedef struct remedy_result {
     double separation; /**< what would be left; the separation as it is where nothing helps */
 } remedy_result;
 
-/** The best remedy against a cause at z; of two that do about as well, the simpler. */
+/** The distance of the binary32 depths at z: no two surfaces that a shader knows are nearer to each other. */
+double remedy_step(double z);
+
+/**
+ * The best remedy against a cause at z; of two that do about as well, the simpler. What lies below the step of binary32
+ * depths is no gain.
+ */
 remedy_result remedy_find(const dp_setup *setup, const dp_budget_terms *terms, double z, dp_cause cause);
 
 #endif

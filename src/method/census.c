@@ -332,14 +332,16 @@ static void bridge(const census *c, census_result *result) {
 /* ---- The whole --------------------------------------------------------------------------------------------------- */
 
 static size_t cut(census *c, segment *segments) {
+    const uint32_t asked = c->request->segment;
+    const uint32_t longest = asked > 0 && asked < SEGMENT ? asked : SEGMENT;
     size_t count = 0;
     size_t block = 0;
     for (uint64_t first = c->first; first <= c->last; count++) {
         uint64_t end = (first | 0x7FFFFFU) + 1; /* of the band */
         if (end > (uint64_t)c->last + 1)
             end = (uint64_t)c->last + 1;
-        if (end - first > SEGMENT)
-            end = first + SEGMENT;
+        if (end - first > longest)
+            end = first + longest;
         if (segments != NULL)
             segments[count] = (segment){.first = (uint32_t)first,
                                         .count = (uint32_t)(end - first),

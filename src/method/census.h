@@ -62,6 +62,7 @@ typedef struct census_request {
     int (*progress)(void *context, uint64_t done);
     void *context;
     const census_level *level; /**< null: the fastest */
+    uint32_t segment; /**< depths swept as one, at most 2^18; 0: that many. Tests take fewer, to have more borders */
 } census_request;
 
 /** How many depths the census will visit. */

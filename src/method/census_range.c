@@ -64,7 +64,8 @@ census_status census_open(const census_request *request, census_plan *plan, cens
 
 void census_note(const census_request *request, census_band *band, float z1, float z2) {
     const double length = (double)z2 - (double)z1;
-    if (length > band->longest || (length == band->longest && (double)z1 < band->longest_z)) {
+    /* A place is NaN while it is not known: anything is nearer. */
+    if (length > band->longest || (length == band->longest && !((double)z1 >= band->longest_z))) {
         band->longest = length;
         band->longest_z = (double)z1;
     }
@@ -72,7 +73,7 @@ void census_note(const census_request *request, census_band *band, float z1, flo
         return;
     const double bound = request->bound(request->setup, (double)z1);
     const double slack = bound > 0.0 ? length / bound : HUGE_VAL; /* no bound at all is a broken one */
-    if (slack > band->slack || (slack == band->slack && (double)z1 < band->slack_z)) {
+    if (slack > band->slack || (slack == band->slack && !((double)z1 >= band->slack_z))) {
         band->slack = slack;
         band->slack_z = (double)z1;
     }

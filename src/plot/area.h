@@ -14,7 +14,10 @@ canvas_colour area_tint(const theme *t, int colour);
  */
 void area_draw(const pencil *p, const axes *a, const chart_series *s, size_t index);
 
-/** Writes the name where the band is thickest; nothing where it is too thin everywhere. */
-void area_label(const pencil *p, const axes *a, const chart_series *s, size_t index);
+/**
+ * Writes the name of band `index` where it is thickest, clear of the lines; nothing where it is too thin everywhere.
+ * @param right  the axes of the lines
+ */
+void area_label(const pencil *p, const axes *a, const axes *right, const chart_panel *panel, size_t index);
 
 #endif

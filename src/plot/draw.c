@@ -104,7 +104,7 @@ static bool draw_panel(const pencil *p, const chart *c, const grid *g, int index
             series_draw(p, panel->series[s].second ? &right : &a, &panel->series[s], s, panel->series_count);
     for (size_t s = 0; s < panel->series_count; s++)
         if (panel->series[s].kind == CHART_AREA)
-            area_label(p, &a, &panel->series[s], s);
+            area_label(p, &a, &right, panel, s);
     canvas_unclip(p->c);
     axes_draw_frame(p, &a, lowest, leftmost);
     if (panel->second.label != NULL)

@@ -56,15 +56,20 @@ static void add_curve(const figure_request *request, chart *out, chart_panel *pa
     }
 }
 
-void envelope_build(const figure_request *request, chart *out, chart_axis y, envelope_value value) {
+chart_panel *envelope_curves(const figure_request *request, chart *out, chart_axis y, envelope_value value) {
     chart_panel *panel = chart_add_panel(out);
     if (panel == NULL)
-        return;
+        return NULL;
     double lo, hi;
     figure_range(request, &lo, &hi);
     panel->x = figure_depth_axis(CHART_LOG, lo, hi);
     panel->y = y;
     for (size_t i = 0; i < request->count; i++)
         add_curve(request, out, panel, i, value);
+    return panel;
+}
+
+void envelope_build(const figure_request *request, chart *out, chart_axis y, envelope_value value) {
+    envelope_curves(request, out, y, value);
     chart_fit(out);
 }

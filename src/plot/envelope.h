@@ -17,7 +17,10 @@ typedef double (*envelope_value)(const dp_worst *worst);
 /** Edge i of `count` slices between lo and hi, evenly spaced on the scale; 0 is exactly lo and count exactly hi. */
 double envelope_edge(chart_scale scale, double lo, double hi, int i, int count);
 
-/** One panel with an axis of depth and the given one, and a curve for each set-up: a whole figure. */
+/** One panel with an axis of depth and the given one, and a curve for each set-up, in their order; to be fitted. */
+chart_panel *envelope_curves(const figure_request *request, chart *out, chart_axis y, envelope_value value);
+
+/** The same, fitted: a whole figure. */
 void envelope_build(const figure_request *request, chart *out, chart_axis y, envelope_value value);
 
 #endif

@@ -16,7 +16,7 @@ static const figure_row rows[] = {
      "certified envelope of the z-fighting interval against z, log-log; in the model fp32 the guaranteed separation "
      "beside it",
      CHART_SERIES, FIGURE_FP32, interval_build},
-    {"budget", "What takes the separation",
+    {"budget", "Causes of the guaranteed separation",
      "shares of the separation that binary32 arithmetic guarantees, cause by cause, against z", CHART_PANELS,
      FIGURE_TERMS | FIGURE_FP32 | FIGURE_BINARY32, budget_build},
     {"map", "Worst z-fighting interval for each near and far plane",
@@ -59,8 +59,8 @@ chart_style figure_style(const figure_request *request, size_t i) {
     int formats, mappings;
     int format = rank(request, i, false, &formats), mapping = rank(request, i, true, &mappings);
     if (formats > 1 && mappings > 1)
-        return (chart_style){format, mapping, format};
-    return (chart_style){(int)i, (int)i, (int)i};
+        return (chart_style){format, mapping, format, false};
+    return (chart_style){(int)i, (int)i, (int)i, false};
 }
 
 void figure_range(const figure_request *request, double *lo, double *hi) {

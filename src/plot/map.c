@@ -39,7 +39,7 @@ static void add_camera(chart *out, chart_panel *panel, const dp_spec *spec, bool
     if (s == NULL)
         return;
     s->unlisted = true;
-    s->style = (chart_style){-1, 0, 0};
+    s->style = (chart_style){.colour = -1};
     snprintf(s->name, sizeof s->name, "camera");
     s->x[0] = spec->znear;
     s->y[0] = isinf(spec->zfar) ? panel->y.hi : spec->zfar;

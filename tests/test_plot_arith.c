@@ -1,0 +1,170 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* The figures about binary32 arithmetic show the library's numbers; bands stop where there are none. */
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "depthprec/depthprec.h"
+#include "plot/area.h"
+#include "plot/draw.h"
+#include "plot/figure.h"
+#include "support.h"
+
+enum { COLUMNS = 200 };
+
+static dp_setup make(const char *format, dp_mapping mapping, dp_model model) {
+    dp_format found[2];
+    dp_setup setup;
+    dp_spec spec = dp_spec_default();
+    assert_true(dp_format_parse(format, found) == 1);
+    spec.format = found[0];
+    spec.mapping = mapping;
+    spec.model = model;
+    assert_int_equal(dp_setup_init(&setup, &spec), DP_OK);
+    return setup;
+}
+
+static chart *build(const char *figure, const figure_request *request) {
+    chart *c = chart_new();
+    assert_non_null(c);
+    assert_null(figure_find(figure)->build(request, c));
+    assert_false(chart_failed(c));
+    return c;
+}
+
+static const chart_series *find(const chart_panel *panel, const char *name) {
+    for (size_t i = 0; i < panel->series_count; i++)
+        if (strcmp(panel->series[i].name, name) == 0)
+            return &panel->series[i];
+    return NULL;
+}
+
+static void budget_shows_the_library(void **state) {
+    (void)state;
+    const dp_setup setups[] = {make("unorm24", DP_MAPPING_GL, DP_MODEL_FP32),
+                               make("fp16", DP_MAPPING_D3D, DP_MODEL_FP32)};
+    const char *names[] = {"one", "two"};
+    const figure_request request = {.setups = setups,
+                                    .count = 2,
+                                    .names = names,
+                                    .lo = NAN,
+                                    .hi = NAN,
+                                    .at = NAN,
+                                    .terms = {.world = 10.0, .linearize = 1},
+                                    .columns = COLUMNS};
+    chart *c = build("budget", &request);
+    assert_int_equal(c->panel_count, 2);
+    for (size_t p = 0; p < 2; p++) {
+        const chart_series *line = find(&c->panels[p], "separation, right axis");
+        assert_non_null(line);
+        assert_null(find(&c->panels[p], "interpolation")); /* was not asked for */
+        size_t unbounded = 0;
+        for (size_t k = 0; k < line->count; k++) {
+            dp_budget b;
+            double sum = 0;
+            assert_int_equal(dp_budget_at(&setups[p], line->x[k], &request.terms, &b), DP_OK);
+            assert_true(line->y[k] == b.separation);
+            for (int cause = 0; cause < DP_CAUSE_COUNT; cause++) {
+                const chart_series *band = find(&c->panels[p], dp_cause_name((dp_cause)cause));
+                if (band == NULL)
+                    continue;
+                assert_true(band->kind == CHART_AREA && band->x[k] == line->x[k]);
+                assert_true(isinf(b.separation) || band->y[k] == 100 * b.cause[cause] / b.separation);
+                sum += band->y[k];
+            }
+            assert_true(isinf(b.separation) ? isnan(sum) : fabs(sum - 100) < 1e-9);
+            unbounded += isinf(b.separation) ? 1 : 0;
+        }
+        assert_true(p == 0 ? unbounded == 0 : unbounded > 0);
+    }
+    chart_free(c);
+}
+
+static void interval_shows_both(void **state) {
+    (void)state;
+    const dp_setup setups[] = {make("unorm24", DP_MAPPING_D3D, DP_MODEL_FP32),
+                               make("unorm24", DP_MAPPING_LOG, DP_MODEL_STAGED)};
+    const dp_setup exact[] = {make("unorm24", DP_MAPPING_D3D, DP_MODEL_EXACT), setups[1]};
+    const char *names[] = {"a", "b"};
+    figure_request request = {
+        .setups = setups, .count = 2, .names = names, .lo = NAN, .hi = NAN, .at = NAN, .columns = COLUMNS};
+    chart *c = build("interval", &request);
+    request.setups = exact;
+    chart *lattice = build("interval", &request);
+    const chart_series *bound = find(&c->panels[0], "a"), *behind = find(&c->panels[0], "a, lattice");
+    assert_non_null(bound);
+    assert_non_null(behind);
+    assert_true(behind->style.thin && behind->unlisted && !bound->style.thin && !bound->unlisted);
+    for (size_t k = 0; k < bound->count; k++) {
+        assert_true(bound->y[k] == dp_separation(&setups[0], bound->x[k]));
+        assert_true(behind->y[k] == lattice->panels[0].series[0].y[k]);
+        assert_true(find(&c->panels[0], "b")->y[k] == lattice->panels[0].series[1].y[k]);
+    }
+    assert_non_null(strstr(c->subtitle, "Thin: the interval of the lattice"));
+    assert_null(strstr(lattice->subtitle, "Thin"));
+    chart_free(c);
+    chart_free(lattice);
+}
+
+/* Both axes fit their own series alone. */
+static void axes_are_fitted_apart(void **state) {
+    (void)state;
+    const dp_setup setup = make("unorm24", DP_MAPPING_D3D, DP_MODEL_FP32);
+    const char *name = "a";
+    const figure_request request = {
+        .setups = &setup, .count = 1, .names = &name, .lo = 1, .hi = 100, .at = NAN, .columns = COLUMNS};
+    chart *c = build("budget", &request);
+    const chart_panel *panel = &c->panels[0];
+    const chart_series *line = find(panel, "separation, right axis");
+    assert_true(panel->y.lo == 0 && panel->y.hi == 100);
+    assert_true(panel->second.lo < line->y[0] && panel->second.lo > line->y[0] / 2);
+    assert_true(panel->second.hi > line->y[line->count - 1] && panel->second.hi < 2 * line->y[line->count - 1]);
+    chart_free(c);
+}
+
+/* Where a band has no value it is not drawn: each is two shapes, and a third in the legend. */
+static void a_gap_parts_a_band(void **state) {
+    (void)state;
+    chart *c = chart_new();
+    assert_non_null(c);
+    chart_panel *panel = chart_add_panel(c);
+    panel->x = (chart_axis){CHART_LINEAR, 0, 100, "x", "x", ""};
+    panel->y = (chart_axis){CHART_LINEAR, 0, 100, "y", "y", ""};
+    for (int band = 0; band < 2; band++) {
+        chart_series *s = chart_add_series(c, panel, CHART_AREA, 101);
+        assert_non_null(s);
+        s->style.colour = band;
+        snprintf(s->name, sizeof s->name, "band %d", band);
+        for (int i = 0; i <= 100; i++) {
+            s->x[i] = i;
+            s->y[i] = i > 50 && i < 76 ? (double)NAN : band == 0 ? 60 : 40;
+        }
+    }
+    canvas_bytes bytes;
+    const theme *t = theme_get(0);
+    assert_true(draw_chart(c, t, CANVAS_SVG, 800, 500, "test", &bytes));
+    char *svg = calloc(bytes.size + 1, 1), tint[64];
+    assert_non_null(svg);
+    memcpy(svg, bytes.at, bytes.size);
+    for (int band = 0; band < 2; band++) {
+        int found = 0;
+        snprintf(tint, sizeof tint, "fill:rgb(%d", (int)(100 * area_tint(t, band).r));
+        for (char *at = strstr(svg, tint); at != NULL; at = strstr(at + 1, tint))
+            found++;
+        assert_int_equal(found, 3);
+    }
+    free(svg);
+    free(bytes.at);
+    chart_free(c);
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(budget_shows_the_library),
+        cmocka_unit_test(interval_shows_both),
+        cmocka_unit_test(axes_are_fitted_apart),
+        cmocka_unit_test(a_gap_parts_a_band),
+    };
+    return run_tap(tests);
+}
