@@ -57,11 +57,13 @@ static void error_in(const need *n, const dp_setup *setup, check_verdict *v) {
     if (n->lo == n->hi) {
         worst.error = fabs(dp_error(setup, dp_code(setup, n->lo), n->lo));
         worst.error_z = n->lo;
+        worst.error_code = dp_code(setup, n->lo);
     } else {
         dp_worst_over(setup, n->lo, n->hi, &worst);
     }
     v->value = worst.error;
     v->z = worst.error_z;
+    v->code = worst.error_code;
     v->passed = v->value <= n->limit;
 }
 
@@ -124,7 +126,7 @@ long check_all(const check_request *request, check_verdict *out) {
                 judge_error(n, camera, &camera->setups[k], out);
             else if (!judge_ties(request, n, &camera->setups[k], out))
                 return -1;
-            if (isfinite(out->z))
+            if (n->kind != NEED_ERROR && isfinite(out->z))
                 out->code = dp_code(&out->setup, out->z);
             failed += !out->passed;
         }

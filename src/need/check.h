@@ -31,7 +31,7 @@ typedef struct check_verdict {
     const need_camera *camera;
     dp_setup setup; /**< in the model that decided */
     check_method method;
-    double value;  /**< never below the truth (a sample apart); what is compared with the limit */
+    double value;  /**< at z; where `separation` decided over a range, all others are at most 2^-10 above it */
     double z;      /**< the depth where it is worst; NaN where there is none to name */
     uint32_t code; /**< stored there; of no meaning where z is NaN or infinite */
     bool passed;

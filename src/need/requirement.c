@@ -211,10 +211,14 @@ static bool read_all(reader *r, config_setting_t *root) {
     config_setting_t *found[3];
     if (!reader_keys(r, root, "file", names, found) || (found[0] != NULL && !reader_unit(r, found[0])))
         return false;
-    for (int k = 1; k < 3; k++)
+    bool (*const parts[])(reader *, config_setting_t *) = {NULL, read_cameras, read_needs};
+    for (int k = 1; k < 3; k++) {
         if (found[k] == NULL)
             return reader_fail(r, NULL, "needs a group '%s'", names[k]);
-    return read_cameras(r, found[1]) && read_needs(r, found[2]);
+        if (!parts[k](r, found[k]))
+            return false;
+    }
+    return true;
 }
 
 /* What libconfig would follow or stop at without a word. */
@@ -253,7 +257,11 @@ bool need_parse(const char *path, const char *text, size_t size, need_file *out,
     bool good = is_plain(&r, text, size);
     if (good && !config_read_string(config, text)) {
         error->line = config_error_line(config);
-        good = reader_fail(&r, NULL, "%s; expected KEY = VALUE; as depthprec(5) describes", config_error_text(config));
+        const char *text_of = config_error_text(config);
+        /* libconfig's arrays hold values of one type, and 50 is not of the type of 0.5 */
+        good = reader_fail(&r, NULL, "%s; expected %s", text_of,
+                           strstr(text_of, "element type") != NULL ? "two numbers alike, [0.5, 50.0], or (0.5, 50)"
+                                                                   : "KEY = VALUE; as depthprec(5) describes");
     }
     good = good && read_all(&r, config_root_setting(config));
     if (!good)
