@@ -121,9 +121,9 @@ static void text_row(void *to, const report *r, const dp_setup *setup, const bia
         put_number(r->out, 13, DIGITS, e->m);
     if (r->inverse) {
         put_number(r->out, 13, DIGITS, e->limited ? (double)NAN : fabs(e->shift));
-        put_number(r->out, 14, DIGITS_Z, row->apart);
+        put_number(r->out, 17, DIGITS_Z, row->apart);
         if (r->goal.gap > 0.0)
-            put_number(r->out, 14, DIGITS_Z, row->gap);
+            put_number(r->out, 17, DIGITS_Z, row->gap);
     } else {
         *limited = *limited || e->limited;
         put_number(r->out, 13, DIGITS, e->offset);
@@ -139,11 +139,11 @@ static void text_head(const report *r) {
     if (r->goal.slope > 0.0)
         output_format(r->out, " %12s", "slope");
     if (r->inverse)
-        output_format(r->out, " %12s %13s", "one unit", "told apart");
+        output_format(r->out, " %12s %16s", "one unit", "told apart");
     else
         output_format(r->out, " %12s %10s %10s %17s %12s", "bias", "code", "moved to", "stands for", "shift");
     if (r->inverse && r->goal.gap > 0.0)
-        output_format(r->out, " %13s", "the gap");
+        output_format(r->out, " %16s", "the gap");
     output_char(r->out, '\n');
 }
 

@@ -232,10 +232,11 @@ static double needed_with(const dp_setup *setup, const bias_goal *goal, double z
     const double m = bias_window_slope(setup, z, goal->slope);
     const double step = certain_step(goal, format, e, r, m);
     const double gap = window_of_gap(setup, z, goal->gap);
-    /* The outward factor covers the few roundings above; a single step is exact and stays a single step. */
     const double window = fmax(step, gap) - goal->factor * m;
-    const double outward = gap > step || m > 0.0 ? 1.0 + 0x1p-48 : 1.0;
-    const double units = round_up(goal->api, format, fmax(window * outward / r, 0.0));
+    /* Covers the roundings above and, where o itself is rounded to binary32, those; a single step is exact. */
+    const double outward = gap <= step && m == 0.0 ? 0.0 : goal->api->binary32 ? 0x1p-22 : 0x1p-48;
+    const double units =
+        round_up(goal->api, format, fmax((window + (fmax(step, gap) + fabs(goal->factor) * m) * outward) / r, 0.0));
     return units <= units_most ? units : (double)INFINITY;
 }
 
