@@ -3,6 +3,7 @@
 
 #include "core/curve.h"
 #include "core/engine.h"
+#include "core/extremes.h"
 #include "depthprec/pipeline.h"
 
 /* Half a unit in the last place of binary32 at 1 and just below 1, and the smallest there is. */
@@ -23,14 +24,6 @@ static const char *const names[DP_CAUSE_COUNT] = {
 
 const char *dp_cause_name(dp_cause cause) {
     return (unsigned)cause < DP_CAUSE_COUNT ? names[cause] : NULL;
-}
-
-static double larger(double a, double b) {
-    return a > b ? a : b;
-}
-
-static double smaller(double a, double b) {
-    return a < b ? a : b;
 }
 
 /* The largest error of rounding a number of magnitude up to x to binary32. */

@@ -3,6 +3,7 @@
 #include "core/boundary.h"
 #include "core/curve.h"
 #include "core/engine.h"
+#include "core/extremes.h"
 #include "depthprec/budget.h"
 #include "depthprec/depth.h"
 
@@ -32,10 +33,6 @@ static double float_step(const dp_setup *setup, double z) {
 
 static double exact_step(const dp_setup *setup, double z) {
     return setup->spec.format.kind == DP_FORMAT_UNORM ? 2.0 : float_step(setup, z);
-}
-
-static double larger(double a, double b) {
-    return a > b ? a : b;
 }
 
 /*
