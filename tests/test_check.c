@@ -74,10 +74,10 @@ static void known_answers(void **state) {
         {"near = 0.1; far = \"inf\"; mapping = \"reversed\"; format = \"fp32\";",
          "range = [\"1 m\", \"5 km\"]; separation = \"1 mm\";", true, 0.00045474739, 5000},
         {"near = 0.1; far = \"inf\"; mapping = \"reversed\"; format = \"unorm24\";",
-         "range = [1, \"inf\"]; separation = 1e6;", false, INFINITY, INFINITY},
-        {"near = 0.1; far = 1000; mapping = \"reversed\"; format = \"fp32\";", "range = [0.1, 1000]; error = 1.476e-5;",
+         "range = (1, \"inf\"); separation = 1e6;", false, INFINITY, INFINITY},
+        {"near = 0.1; far = 1000; mapping = \"reversed\"; format = \"fp32\";", "range = (0.1, 1000); error = 1.476e-5;",
          true, 1.47541248e-05, 450.33},
-        {"near = 0.1; far = 1000; mapping = \"d3d\"; format = \"unorm16\";", "range = [0.1, 1000]; error = 70;", false,
+        {"near = 0.1; far = 1000; mapping = \"d3d\"; format = \"unorm16\";", "range = (0.1, 1000); error = 70;", false,
          70.880207558, 0},
         {"near = 0.1; far = 1000; mapping = \"d3d\"; format = \"unorm24\";", "at = 100; error = 2.2e-5;", true,
          2.14576780e-05, 100},
@@ -184,7 +184,7 @@ static void ties_are_counted_when_needed(void **state) {
     j = judge_one(d3d, "range = [1, 2]; ties = \"20 %\";");
     assert_true(j.counted == 1 && j.failed == 1);
     done(&j);
-    j = judge_one(reversed, "range = [0.1, 1e30]; ties = 0.5;"); /* more depths than a census is for */
+    j = judge_one(reversed, "range = (0.1, 1e30); ties = 0.5;"); /* more depths than a census is for */
     assert_true(j.counted == 1 && j.verdicts[0].method == CHECK_SAMPLED);
     done(&j);
     share_to_find = -1.0; /* the caller gives up */
