@@ -210,6 +210,32 @@ static int parse_range(options *o, const char *value) {
     return range_parse(value, &o->range_lo, &o->range_hi);
 }
 
+static const char *target_name(unsigned index) {
+    static const char *const names[] = {"near", "far", "format", "mapping", "separation"};
+    return index < sizeof names / sizeof names[0] ? names[index] : NULL;
+}
+
+static int parse_for(options *o, const char *value) {
+    unsigned index = 0;
+    int status = parse_word(OPTION_FOR, target_name, value, &index);
+    o->target = (solve_target)(index + 1);
+    return status;
+}
+
+static int parse_length(option_id id, const char *value, double *out) {
+    if (!number_parse(value, NUMBER_FINITE, out) || !(*out > 0.0))
+        return option_error(id, "must be a positive number of scene units, got '%s'", value);
+    return EXIT_FINE;
+}
+
+static int parse_separation(options *o, const char *value) {
+    return parse_length(OPTION_SEPARATION, value, &o->wanted_separation);
+}
+
+static int parse_error(options *o, const char *value) {
+    return parse_length(OPTION_ERROR, value, &o->wanted_error);
+}
+
 /* A share, or a percentage with its sign. */
 static int parse_tolerance(options *o, const char *value) {
     size_t length = strlen(value);
@@ -410,30 +436,30 @@ enum {
     COUNTED = VERB_ZFIGHT,
     SPREAD = COUNTED | VERB_CHECK,
     DRAWN = VERB_PLOT,
-    WRITTEN = CAMERA | VERB_LIST | VERB_BIAS | VERB_CHECK,
+    WRITTEN = CAMERA | VERB_LIST | VERB_BIAS | VERB_CHECK | VERB_SOLVE,
     EVERY = ~0
 };
 
 /* clang-format off */
 const option_row option_rows[OPTION_COUNT] = {
-    [OPTION_NEAR] = {"near", 'n', "Z", CAMERA | VERB_BIAS,
+    [OPTION_NEAR] = {"near", 'n', "Z", CAMERA | VERB_BIAS | VERB_SOLVE,
         "near plane, scene units, 1e-12 to 1e12 (default 0.1)", parse_near},
-    [OPTION_FAR] = {"far", 'f', "Z|inf", CAMERA | VERB_BIAS,
+    [OPTION_FAR] = {"far", 'f', "Z|inf", CAMERA | VERB_BIAS | VERB_SOLVE,
         "far plane, scene units, up to 1e18, or inf (default 1000)", parse_far},
-    [OPTION_FORMAT] = {"format", 'F', "NAME[,NAME...]|all", CAMERA | VERB_BIAS,
+    [OPTION_FORMAT] = {"format", 'F', "NAME[,NAME...]|all", CAMERA | VERB_BIAS | VERB_SOLVE,
         "depth formats: fp16, fp32, unorm16, unorm24, names as the APIs\n"
         "write them, unormN, floatE.M[bB] (default all: the first four)", parse_format},
-    [OPTION_MAPPING] = {"mapping", 'm', "NAME[,NAME...]|all", CAMERA | VERB_BIAS,
+    [OPTION_MAPPING] = {"mapping", 'm', "NAME[,NAME...]|all", CAMERA | VERB_BIAS | VERB_SOLVE,
         "d3d, gl, reversed, gl-reversed, linear, log\n"
         "(default all: d3d and reversed)", parse_mapping},
-    [OPTION_ORTHO] = {"ortho", 0, NULL, CAMERA | VERB_BIAS,
+    [OPTION_ORTHO] = {"ortho", 0, NULL, CAMERA | VERB_BIAS | VERB_SOLVE,
         "orthographic projection (default: perspective)", parse_ortho},
-    [OPTION_ROUNDING] = {"rounding", 0, "nearest|even|zero", CAMERA | VERB_BIAS,
+    [OPTION_ROUNDING] = {"rounding", 0, "nearest|even|zero", CAMERA | VERB_BIAS | VERB_SOLVE,
         "how a depth between two codes is rounded (default nearest)", parse_rounding},
-    [OPTION_PRESET] = {"preset", 0, "NAME", CAMERA | VERB_BIAS,
+    [OPTION_PRESET] = {"preset", 0, "NAME", CAMERA | VERB_BIAS | VERB_SOLVE,
         "fill in near, far, mapping and format as an engine sets them,\n"
         "where they are not given; 'depthprec list presets'", parse_preset},
-    [OPTION_MODEL] = {"model", 0, "exact|staged|fp32|auto", MODELLED,
+    [OPTION_MODEL] = {"model", 0, "exact|staged|fp32|auto", MODELLED | VERB_SOLVE,
         "the arithmetic before the buffer: none, the lattice alone;\n"
         "NDC and window depth each rounded to binary32; every operation\n"
         "in binary32; or the simplest that is enough (default exact)", parse_model},
@@ -444,14 +470,21 @@ const option_row option_rows[OPTION_COUNT] = {
     [OPTION_TOLERANCE] = {"tolerance", 0, "SHARE", ASKED,
         "a model is enough when what it neglects adds no more to the\n"
         "separation, 0.05 or 5% (default 5%)", parse_tolerance},
-    [OPTION_LOG_C] = {"log-c", 0, "C", MODELLED | VERB_BIAS,
+    [OPTION_LOG_C] = {"log-c", 0, "C", MODELLED | VERB_BIAS | VERB_SOLVE,
         "constant of the log mapping, 1e-12 to 1e12 (default 1)", parse_log_c},
-    [OPTION_AT] = {"at", 0, "Z[,Z...]|LO:HI:log|lin:COUNT", ASKED | VERB_BIAS,
+    [OPTION_AT] = {"at", 0, "Z[,Z...]|LO:HI:log|lin:COUNT", ASKED | VERB_BIAS | VERB_SOLVE,
         "the depths asked about, at most 1000000, within [near, far]\n"
         "(default: nine, log-spaced from near to far)", parse_at},
-    [OPTION_RANGE] = {"range", 0, "LO:HI", MODELLED | VERB_ZFIGHT | VERB_BIAS,
+    [OPTION_RANGE] = {"range", 0, "LO:HI", MODELLED | VERB_ZFIGHT | VERB_BIAS | VERB_SOLVE,
         "the depths that worst cases are taken over\n"
         "(default: near to far)", parse_range},
+    [OPTION_FOR] = {"for", 0, "WHAT", VERB_SOLVE,
+        "what to solve for: near, far, format, mapping or separation\n"
+        "(default: the first of them that is not given)", parse_for},
+    [OPTION_SEPARATION] = {"separation", 0, "S", VERB_SOLVE,
+        "surfaces S apart, scene units, must be told apart", parse_separation},
+    [OPTION_ERROR] = {"error", 0, "E", VERB_SOLVE,
+        "or: the stored depth may be E off, scene units, not more", parse_error},
     [OPTION_INTERPOLATION] = {"interpolation", 0, "E", BUDGETED,
         "error of a window depth interpolated across a triangle, in\n"
         "units of 2^-24, at most 16777216 (default 0)", parse_interpolation},

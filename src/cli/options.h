@@ -35,6 +35,9 @@ typedef enum option_id {
     OPTION_LOG_C,
     OPTION_AT,
     OPTION_RANGE,
+    OPTION_FOR,
+    OPTION_SEPARATION,
+    OPTION_ERROR,
     OPTION_INTERPOLATION,
     OPTION_WORLD,
     OPTION_LINEARIZE,
@@ -68,6 +71,17 @@ typedef enum output_form { FORM_TEXT = 0, FORM_JSON, FORM_CSV } output_form;
 /** Values of --theme. */
 typedef enum theme_id { THEME_LIGHT = 0, THEME_DARK, THEME_PRINT, THEME_COUNT } theme_id;
 
+/** Values of --for, and SOLVE_FOR_ANY when it was not given. The planes come first. */
+typedef enum solve_target {
+    SOLVE_FOR_ANY = 0,
+    SOLVE_FOR_NEAR,
+    SOLVE_FOR_FAR,
+    SOLVE_FOR_FORMAT,
+    SOLVE_FOR_MAPPING,
+    SOLVE_FOR_SEPARATION,
+    SOLVE_FOR_COUNT
+} solve_target;
+
 /** Values of --report. */
 typedef enum report_form { REPORT_TEXT = 0, REPORT_JSON, REPORT_JUNIT, REPORT_COUNT } report_form;
 
@@ -96,6 +110,9 @@ typedef struct options {
 
     depths at;                 /**< what --at said; count is 0 when it was not given. See depths_resolve() */
     double range_lo, range_hi; /**< what --range said, lo < hi. See range_resolve() */
+
+    solve_target target;                    /**< --for */
+    double wanted_separation, wanted_error; /**< positive, scene units; 0 when not given */
 
     dp_budget_terms terms; /**< --interpolation, --world, --linearize; zero when not given */
 

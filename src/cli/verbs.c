@@ -17,6 +17,7 @@ int cmd_list(const struct options *o);
 int cmd_plot(const struct options *o) __attribute__((weak));
 int cmd_zfight(const struct options *o) __attribute__((weak));
 int cmd_check(const struct options *o) __attribute__((weak));
+int cmd_solve(const struct options *o) __attribute__((weak));
 
 /* clang-format off */
 const verb verb_rows[] = {
@@ -25,10 +26,11 @@ const verb verb_rows[] = {
      "  depthprec table -n 0.1 -f 1000 -F unorm24 -m d3d,reversed\n"
      "  depthprec table -n 0.1 -f inf -F fp32 -m reversed --at 1,10,100,1000\n"
      "  depthprec table -F d32f --at 1:1000:log:10000 --csv -o depths.csv\n"},
-    {"plot", VERB_PLOT, cmd_plot, "FIGURE", 1, 1, "'depthprec list figures' names them",
+    {"plot", VERB_PLOT, cmd_plot, "FIGURE [FILE]", 1, 2, "'depthprec list figures' names them",
      "draws a figure: SVG, PDF or PNG by the ending of -o",
      "  depthprec plot error -F all -m d3d,reversed -o error.svg\n"
-     "  depthprec plot distribution -F unorm4 -n 1 -f 10 -o staircase.png --theme dark\n"},
+     "  depthprec plot distribution -F unorm4 -n 1 -f 10 -o staircase.png --theme dark\n"
+     "  depthprec plot scene engine.need -o scene.svg\n"},
     {"zfight", VERB_ZFIGHT, cmd_zfight, "", 0, 0, NULL,
      "ties, swaps, longest interval of the binary32 pipeline, every depth",
      "  depthprec zfight -n 0.1 -f 1000 -F unorm24,fp32 -m d3d,reversed\n"
@@ -42,6 +44,11 @@ const verb verb_rows[] = {
      "whether cameras meet the requirements of files; exit 1 when not",
      "  depthprec check engine.need\n"
      "  depthprec check --report junit -o depth.xml engine.need\n"},
+    {"solve", VERB_SOLVE, cmd_solve, "", 0, 0, NULL,
+     "the near, far, format or mapping that a separation needs",
+     "  depthprec solve -F unorm24 -m d3d -f 10000 --separation 0.01 --at 5000\n"
+     "  depthprec solve -n 0.1 -f 4000 --separation 0.001 --range 0.1:100\n"
+     "  depthprec solve --for far -n 0.1 -F d24 -m d3d --error 0.05 --at 500\n"},
     {"bias", VERB_BIAS, cmd_bias, "", 0, 0, NULL,
      "depth-bias units to scene units, per API; how much bias is enough",
      "  depthprec bias --api gl -F d24 -m gl --units -1 --at 1,10,100\n"

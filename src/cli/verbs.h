@@ -30,6 +30,7 @@ enum {
     VERB_ZFIGHT = 1u << 4,
     VERB_BUDGET = 1u << 5,
     VERB_CHECK = 1u << 6,
+    VERB_SOLVE = 1u << 7,
     VERB_BIAS = 1u << 8
 };
 
