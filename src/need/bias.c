@@ -9,7 +9,7 @@
 static const bias_api rows[] = {
     {"d3d11", "d3d10 d3d12 direct3d11 direct3d12", BIAS_CODE, BIAS_EXPONENT, true, true, true, false,
      "DepthBias is an integer; all is computed in binary32, at the vertices, after clipping",
-     "Direct3D 11 programming guide, Depth Bias; Direct3D 11.3 functional specification"},
+     "Direct3D 11 programming guide, output merger stage, Depth Bias"},
     {"webgpu", "wgpu", BIAS_CODE, BIAS_EXPONENT, true, true, false, false,
      "depthBias is an integer; depth24plus may follow either rule (gpuweb/gpuweb#6350)",
      "WebGPU, biased fragment depth; gpuweb/cts depth_bias.spec.ts"},
@@ -28,7 +28,7 @@ static const bias_api rows[] = {
     {"gl", "opengl gles webgl", BIAS_FREE, BIAS_EXPONENT, false, true, false, true,
      "glPolygonOffset(factor, units); the clamp is EXT_polygon_offset_clamp or GL 4.6; for integer buffers r is the "
      "implementation's choice, 2^-N is assumed",
-     "OpenGL 4.6 specification, Depth Offset"},
+     "OpenGL specification, Depth Offset; EXT_polygon_offset_clamp"},
     {"d3d9", "direct3d9 d3d8to9", BIAS_ONE, BIAS_ONE, false, false, false, false,
      "D3DRS_DEPTHBIAS is a window depth; there is no clamp",
      "Direct3D 9, Depth Bias: Offset = m D3DRS_SLOPESCALEDEPTHBIAS + D3DRS_DEPTHBIAS"},

@@ -48,7 +48,7 @@ static const preset rows[] = {
      "format",
      "CesiumJS, PerspectiveFrustum.js (near, far), writeLogDepth.glsl", CHECKED},
     {"mujoco", 0.01, 50.0, DP_MAPPING_REVERSED, "fp32", "extents",
-     "one scene unit is the model's extent: multiply by it; offscreen buffers since 3.0",
+     "one scene unit is the model's extent: multiply by it; offscreen buffers",
      "near, far",
      "MuJoCo, mjVisual.map (znear, zfar); google-deepmind/mujoco#978 (reversed, 32-bit float)", CHECKED},
 };
