@@ -167,8 +167,10 @@ $(B)/tests/%: $(B)/obj/tests/%.o $(B)/libsupport.a $(B)/librooms.a $(B)/libdepth
 FUZZ_SECONDS ?= 20
 ifeq ($(CONF),fuzz)
 fuzz: $(FUZZ_PROGRAMS)
-	@for f in $^; do mkdir -p $$f.corpus && echo "  FUZZ    $$f" && \
-	    $$f -max_total_time=$(FUZZ_SECONDS) -artifact_prefix=$$f. -verbosity=0 -print_final_stats=1 $$f.corpus || exit 1; done
+	@export LSAN_OPTIONS=suppressions=$(CURDIR)/tests/lsan.supp:print_suppressions=0; \
+	for f in $^; do mkdir -p $$f.corpus && echo "  FUZZ    $$f" && \
+	    $$f -max_total_time=$(FUZZ_SECONDS) -artifact_prefix=$$f. -verbosity=0 -print_final_stats=1 $$f.corpus \
+	    $$(ls -d tests/fuzz/corpus/$${f##*/fuzz_} 2>/dev/null) || exit 1; done
 else
 fuzz:
 	@sh src/packages.sh fuzz

@@ -22,6 +22,9 @@ static const figure_row rows[] = {
     {"map", "Worst z-fighting interval for each near and far plane",
      "near against far, colour = worst z-fighting interval over the range, or the interval at --at Z", CHART_PANELS,
      FIGURE_AT, map_build},
+    {"scene", "What the scene needs and what the cameras give",
+     "a requirement file: the separation (or error) that each requirement allows against what its set-up gives",
+     CHART_PANELS, FIGURE_FP32 | FIGURE_NEEDS, scene_build},
 };
 
 const figure_row *figure_get(size_t index) {
