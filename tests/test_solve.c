@@ -233,7 +233,7 @@ static void test_known(void **state) {
     assert_true(s.possible);
     assert_int_equal(s.island_count, 1);
     assert_relative(s.value, 146.8240652736, 1e-12);
-    assert_true(s.upto == 5000.0 && s.worst.z == 5000.0);
+    assert_true(s.until == 5000.0 && s.worst.z == 5000.0);
     p.spec.zfar = INFINITY;
     assert_int_equal(solve(&p, &s), DP_OK);
     assert_relative(s.value, 149.0119188435, 1e-12);
@@ -252,7 +252,7 @@ static void test_known(void **state) {
 
     p = problem_of("fp32", DP_MAPPING_REVERSED, SOLVE_NEAR, INFINITY, 1e-3, 5000.0);
     assert_int_equal(solve(&p, &s), DP_OK); /* below a millimetre whatever near is */
-    assert_true(s.possible && s.value == 1e-12 && s.upto == 5000.0 && s.island_count == 1);
+    assert_true(s.possible && s.value == 1e-12 && s.until == 5000.0 && s.island_count == 1);
     p.limit = 0.0004; /* between a step and the next binade's: an island in each binade */
     assert_int_equal(solve(&p, &s), DP_OK);
     assert_true(s.possible && s.island_count == 53);
@@ -297,7 +297,7 @@ static void test_door(void **state) {
     p.lo = p.hi = 100.0; /* at far itself near must keep its distance */
     p.limit = 1.0;
     assert_int_equal(solve(&p, &s), DP_OK);
-    assert_true(s.possible && s.most < 100.0 && s.upto == s.most);
+    assert_true(s.possible && s.most < 100.0 && s.until == s.most);
 }
 
 /* The measure of an error is one: no stored depth lies farther off, and some nearly as far. */

@@ -96,7 +96,7 @@ static dp_status solve_plane(const solve_report *r, solve_candidate *c, solve_un
     c->unknown = unknown;
     c->possible = result->possible;
     c->worst = result->worst;
-    c->upto = result->upto;
+    c->until = result->until;
     c->least = result->least;
     c->most = result->most;
     c->island_count = result->island_count;

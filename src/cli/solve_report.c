@@ -43,9 +43,9 @@ static double in_binary32(const solve_report *r, const solve_candidate *c) {
  * A few digits, rounded to the safe side, away from what fails: typed in again they pass. All digits where an island
  * is too narrow for that.
  */
-static const char *safe_digits(double value, double upto, char out[NUMBER_SIZE]) {
+static const char *safe_digits(double value, double until, char out[NUMBER_SIZE]) {
     number_digits(value, DIGITS, out);
-    const double sign = upto >= value ? 1.0 : -1.0;
+    const double sign = until >= value ? 1.0 : -1.0;
     double shown = strtod(out, NULL);
     if (isinf(value) || shown == value)
         return out;
@@ -54,7 +54,7 @@ static const char *safe_digits(double value, double upto, char out[NUMBER_SIZE])
         number_digits(shown + sign * unit, DIGITS, out);
         shown = strtod(out, NULL);
     }
-    if (!((shown - value) * sign >= 0.0 && (upto - shown) * sign >= 0.0))
+    if (!((shown - value) * sign >= 0.0 && (until - shown) * sign >= 0.0))
         number_shortest(value, out);
     return out;
 }
@@ -108,6 +108,13 @@ static const char *given_phrase(const solve_report *r, const solve_candidate *c,
     return out;
 }
 
+static bool is_cheapest(const solve_report *r) {
+    for (size_t i = 1; i < r->count; i++)
+        if (r->items[i].possible && !r->items[i].solved && cost_compare(&r->items[i].price, &r->items[0].price) < 0)
+            return false;
+    return r->count > 1;
+}
+
 static void text_sentence(const solve_report *r, output *out) {
     const solve_candidate *c = &r->items[0];
     char goal[PHRASE_SIZE];
@@ -120,20 +127,24 @@ static void text_sentence(const solve_report *r, output *out) {
         return;
     }
     goal_phrase(r, r->limit, c->possible && c->solved ? "" : "s", goal);
-    if (!c->possible && !c->solved)
+    if (isinf(c->worst.value))
+        output_format(out, "Impossible: %s has no %s that %s: no depth lies one step behind.\n", given,
+                      target_names[r->target], goal);
+    else if (!c->possible && !c->solved)
         output_format(out, "Impossible: no %s with near and far as they are %s; %s comes nearest, with %s.\n",
                       target_names[r->target], goal, given, digits(c->worst.value, best));
     else if (!c->possible)
         output_format(out, "Impossible: no %s of %s %s; %s %s comes nearest, with %s.\n", target_names[r->target],
                       given, goal, target_names[r->target], digits(plane_of(c), text), digits(c->worst.value, best));
     else if (!c->solved)
-        output_format(out, "%s %s%s.\n", given, goal, r->count > 1 ? ", the cheapest that does" : "");
+        output_format(out, "%s %s%s.\n", given, goal, is_cheapest(r) ? ", the cheapest that does" : "");
     else if (plane_of(c) == (is_near(c) ? c->least : c->most))
         output_format(out, "Any %s from %s to %s will do for %s to %s.\n", target_names[r->target],
-                      digits(fmin(plane_of(c), c->upto), text), digits(fmax(plane_of(c), c->upto), best), given, goal);
+                      safe_digits(fmin(plane_of(c), c->until), fmax(plane_of(c), c->until), text),
+                      safe_digits(fmax(plane_of(c), c->until), fmin(plane_of(c), c->until), best), given, goal);
     else
         output_format(out, "%s %s for %s to %s.\n", is_near(c) ? "Near must be at least" : "Far may be at most",
-                      safe_digits(plane_of(c), c->upto, text), given, goal);
+                      safe_digits(plane_of(c), c->until, text), given, goal);
 }
 
 static void text_islands(const solve_report *r, output *out) {
@@ -153,8 +164,8 @@ static void text_verification(const solve_report *r, output *out) {
     char a[NUMBER_SIZE];
     char b[NUMBER_SIZE];
     if (c->solved && c->possible) {
-        const double lo = fmin(plane_of(c), c->upto);
-        const double hi = fmax(plane_of(c), c->upto);
+        const double lo = fmin(plane_of(c), c->until);
+        const double hi = fmax(plane_of(c), c->until);
         number_shortest(plane_of(c), a);
         output_format(out, "  %-14s %s exactly\n", target_names[r->target], a);
         output_format(out, "  %-14s every %s from %s to %s\n", "passes", target_names[r->target],
@@ -166,9 +177,13 @@ static void text_verification(const solve_report *r, output *out) {
         output_format(out, ", wanted %s", digits(r->limit, a));
     output_char(out, '\n');
     const double binary32 = in_binary32(r, c);
-    if (!isnan(binary32))
-        output_format(out, "  %-14s %s is certain%s\n", "in binary32", digits(binary32, a),
-                      binary32 > r->limit ? ": arithmetic costs more than the format, see 'depthprec budget'" : "");
+    if (isinf(c->worst.value))
+        return;
+    if (isinf(binary32))
+        output_format(out, "  %-14s nothing is certain there: 'depthprec budget' says why\n", "in binary32");
+    else if (!isnan(binary32))
+        output_format(out, "  %-14s %s is certain there%s\n", "in binary32", digits(binary32, a),
+                      binary32 > r->limit * (1.0 + 1e-6) ? ", too much: 'depthprec budget' says why" : "");
 }
 
 /* The first possible alternative with its format, so that a caution is said once. */
@@ -201,7 +216,7 @@ static void text_alternatives(const solve_report *r, output *out) {
             output_format(out, "%12s\n", digits(c->worst.value, value));
             continue;
         }
-        safe_digits(far_asked ? c->spec.zfar : c->spec.znear, c->solved ? c->upto : (double)NAN, plane);
+        safe_digits(far_asked ? c->spec.zfar : c->spec.znear, c->solved ? c->until : (double)NAN, plane);
         output_format(out, "%12s %12s %6d  %s\n", c->possible ? plane : "none", digits(c->worst.value, value),
                       c->price.bytes, c->price.available);
     }
@@ -227,7 +242,7 @@ static void json_candidate(json *j, const solve_report *r, const solve_candidate
     json_number(j, "z", c->worst.z);
     json_number(j, "separation_fp32", in_binary32(r, c));
     if (c->solved && c->possible)
-        json_number(j, "upto", c->upto);
+        json_number(j, "until", c->until);
     json_integer(j, "bytes", (uint64_t)c->price.bytes);
     json_string(j, "available", c->price.available);
     json_string(j, "caution", c->price.caution);
@@ -299,8 +314,8 @@ static void write_csv(const solve_report *r, output *out) {
         const solve_candidate *item = &r->items[i];
         const bool solved = item->solved && item->possible;
         csv_candidate(&c, r, item, i == 0 ? "answer" : "alternative",
-                      solved ? fmin(plane_of(item), item->upto) : (double)NAN,
-                      solved ? fmax(plane_of(item), item->upto) : (double)NAN);
+                      solved ? fmin(plane_of(item), item->until) : (double)NAN,
+                      solved ? fmax(plane_of(item), item->until) : (double)NAN);
         for (int k = 0; i == 0 && k + 1 < item->island_count; k++)
             csv_candidate(&c, r, item, "island", r->islands[k].lo, r->islands[k].hi);
     }

@@ -14,11 +14,11 @@ typedef struct solve_candidate {
     bool possible;
     measure_worst worst; /**< what is reached with `spec` */
     cost price;
-    int islands_from;         /**< of near or far: index of its islands in solve_report.islands */
-    int island_count;         /**< 0 where neither plane was solved for */
-    solve_unknown unknown;    /**< the plane that was solved for, where one was */
-    bool solved;              /**< one was */
-    double least, most, upto; /**< see solve_result */
+    int islands_from;          /**< of near or far: index of its islands in solve_report.islands */
+    int island_count;          /**< 0 where neither plane was solved for */
+    solve_unknown unknown;     /**< the plane that was solved for, where one was */
+    bool solved;               /**< one was */
+    double least, most, until; /**< see solve_result */
 } solve_candidate;
 
 enum { SOLVE_CANDIDATES_MAX = OPTIONS_FORMATS_MAX * DP_MAPPING_COUNT + 16 };

@@ -189,8 +189,10 @@ static double residual(double t, void *context) {
 
 static double find_root(equation *e, double a, double b) {
     gsl_root_fsolver *brent = e->s->brent;
-    gsl_function function = {.function = residual, .params = e};
-    if (gsl_root_fsolver_set(brent, &function, log(a), log(b)) != GSL_SUCCESS)
+    gsl_function curve;
+    curve.function = residual;
+    curve.params = e;
+    if (gsl_root_fsolver_set(brent, &curve, log(a), log(b)) != GSL_SUCCESS)
         return a;
     for (int i = 0; i < ITERATIONS; i++) {
         if (gsl_root_fsolver_iterate(brent) != GSL_SUCCESS)
@@ -357,9 +359,9 @@ static void conclude(search *s) {
         const solve_island *last = &r->islands[r->island_count - 1];
         const bool znear = s->problem->unknown == SOLVE_NEAR;
         r->value = znear ? last->lo : last->hi;
-        r->upto = znear ? last->hi : last->lo;
+        r->until = znear ? last->hi : last->lo;
     } else {
-        r->value = r->upto = s->best;
+        r->value = r->until = s->best;
     }
     r->worst = whole(s, r->value);
 }

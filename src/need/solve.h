@@ -36,9 +36,9 @@ enum { SOLVE_ISLANDS_MAX = 512 };
 typedef struct solve_result {
     double least, most; /**< the values searched: near from 1e-12 to lo, far from hi to 1e18 or INFINITY */
     bool possible;
-    double value; /**< the near beyond which all pass up to `upto`, or the largest far; impossible: the value that
+    double value; /**< the near beyond which all pass up to `until`, or the largest far; impossible: the value that
                        comes nearest */
-    double upto;  /**< the other end of the island of `value`; equal to `value` when impossible */
+    double until; /**< the other end of the island of `value`; equal to `value` when impossible */
     measure_worst worst;                     /**< the measure at `value`, evaluated, and the depth that reaches it */
     int island_count;                        /**< the last one is that of `value` */
     solve_island islands[SOLVE_ISLANDS_MAX]; /**< ascending */
