@@ -95,6 +95,8 @@ typedef struct clip_range {
     double shared; /* an error that all clip depths of the range have in common */
     double most;   /* largest magnitude */
     double least;  /* smallest, never above the truth; negative when the sign changes */
+    int exact;     /* adding B loses nothing */
+    int falls;     /* it never rises with z, as computed */
 } clip_range;
 
 /*
@@ -110,10 +112,12 @@ static clip_range clip_over(const chain *c, double z1, double z2) {
     clip_range r = {.error = product, .most = larger(c1, c2) + product, .least = smaller(c1, c2) - product};
     if ((real_clip(c, z1) < 0.0) != (real_clip(c, z2) < 0.0))
         r.least = -1.0;
+    r.falls = c->pipeline.reversed; /* A <= 0, and each rounding keeps the order */
     if (c->a == 0.0)
         return r;
     const double sum = half_ulp(r.most);
     const int exact = !fused && r.most < 0x1p24 * smaller(p_granule, c->b_granule);
+    r.exact = exact;
     const int alike = !fused && r.least > 0.0 && half_ulp(r.least) == sum && 2.0 * sum <= p_granule &&
                       fmod(fabs(c->b), 2.0 * sum) != sum;
     if (alike)
@@ -125,14 +129,23 @@ static clip_range clip_over(const chain *c, double z1, double z2) {
     return r;
 }
 
-/* (clip + w)/2, the remap of the vertex shader */
+/*
+ * (clip + w)/2, the remap of the vertex shader. clip falls and w rises, so the sum as computed has no direction of its
+ * own. But where A <= -1, and z and its product share a binade, each step of z moves the product by a whole step or
+ * more; with an exact sum behind it, clip + z never rises.
+ */
 static clip_range remap_over(const chain *c, clip_range r, double z1, double z2) {
     const double s1 = real_clip(c, z1) + (c->pipeline.ortho ? 1.0 : z1);
     const double s2 = real_clip(c, z2) + (c->pipeline.ortho ? 1.0 : z2);
     const double most = larger(fabs(s1), fabs(s2)) + r.error + r.shared;
     const double least = smaller(s1, s2) - r.error - r.shared;
     const double sum = half_ulp(most);
-    return (clip_range){.error = 0.5 * (r.error + sum),
+    const double first = half_ulp(z1);
+    const int one_binade =
+        half_ulp(z2) == first && half_ulp(fabs(c->a) * z1) == first && half_ulp(fabs(c->a) * z2) == first;
+    const int falls = c->pipeline.ortho ? r.falls : r.falls && r.exact && c->a <= -1.0 && one_binade;
+    return (clip_range){.falls = falls,
+                        .error = 0.5 * (r.error + sum),
                         .shared = 0.5 * r.shared,
                         .most = 0.5 * (most + sum),
                         .least = 0.5 * (least - sum)};
@@ -217,12 +230,13 @@ static demand demand_over(const dp_setup *setup, const chain *c, double z1, doub
     const double low = smaller(g1, g2) - d.error;
     d.format = codes_are_distinct(setup, c, low, high) ? 0.0 : format_step(setup, c, high);
     /*
-     * Reversed, and clip not negative: A < 0, so the computed clip depth never rises with z, and the distance of two
-     * quotients is at least clip (1/z1 - 1/z2) with the farther clip depth: its rounding can only help.
+     * Where the computed clip depth never rises with z, and is not negative, the distance of two quotients is at least
+     * clip (1/z1 - 1/z2) with the farther clip depth: its rounding can only help.
      */
-    const double gentle = real_clip(c, z2) > 0.0 ? clip.least : 0.0;
-    if (c->pipeline.reversed && !ortho && !(c->pipeline.ndc_signed && arith->remap) && gentle > 0.0 &&
-        d.projection > 0.0 && (d.ndc + d.format) * d.slope < (d.projection + d.ndc + d.format) * gentle) {
+    const int remapped = c->pipeline.ndc_signed && arith->remap;
+    const double gentle = remapped ? clip.least / c->half : real_clip(c, z2) > 0.0 ? clip.least : 0.0;
+    if (clip.falls && !ortho && gentle > 0.0 && d.projection > 0.0 &&
+        (d.ndc + d.format) * d.slope < (d.projection + d.ndc + d.format) * gentle) {
         d.projection = 0.0;
         d.slope = gentle;
     }

@@ -106,7 +106,7 @@ static int one_of(reader *r, const config_setting_t *group, config_setting_t *co
 }
 
 static bool read_need(reader *r, config_setting_t *group, bool listed, need *n) {
-    config_setting_t *found[KEY_COUNT];
+    config_setting_t *found[KEY_COUNT] = {NULL};
     n->line = (int)config_setting_source_line(group);
     n->name = config_setting_name(group);
     if (!reader_keys(r, group, "requirement", listed ? keys : keys + 1, listed ? found : found + 1))

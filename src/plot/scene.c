@@ -24,6 +24,10 @@ static void range_of(const figure_request *r, double *lo, double *hi) {
         *lo = fmin(*lo, n->lo);
         *hi = fmax(*hi, isinf(n->hi) ? 100 * n->lo : n->hi);
     }
+    if (r->need_count == 0) { /* cameras without requirements: what there is to see of the first */
+        *lo = r->setups[0].spec.znear;
+        *hi = fmin(r->setups[0].spec.zfar, 1e6 * *lo);
+    }
     const double margin = pow(*hi / *lo, 0.05) * 1.2;
     *lo /= margin;
     *hi *= pow(margin, 5);
