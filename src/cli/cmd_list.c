@@ -85,6 +85,7 @@ static const struct topic {
     {"ariths", "the variants of binary32 arithmetic", list_arith},
     {"causes", "what takes a part of the separation", list_cause},
     {"figures", "what plot can draw", list_figure},
+    {"methods", "ways to a quantity, by family: what each claims, for which set-up and far/near", list_method},
 };
 enum { TOPIC_COUNT = sizeof topics / sizeof topics[0] };
 

@@ -8,7 +8,7 @@
 #include <stdbool.h>
 #include <stddef.h>
 
-enum { LIST_TEXT_SIZE = 128 };
+enum { LIST_TEXT_SIZE = 192 };
 
 /** One listed thing. Texts are static, except `bound`, which is written in place. */
 typedef struct list_item {
@@ -24,5 +24,8 @@ typedef bool (*list_get)(size_t index, list_item *item);
 
 /** The figures, by the plot command; weak, as the light program has none. */
 bool list_figure(size_t index, list_item *item) __attribute__((weak));
+
+/** The methods, by the room that runs them; weak likewise. */
+bool list_method(size_t index, list_item *item) __attribute__((weak));
 
 #endif

@@ -339,22 +339,23 @@ enum {
     BUDGETED = VERB_BUDGET | VERB_PLOT,
     ASKED = MODELLED | VERB_BUDGET,
     CAMERA = ASKED | VERB_ZFIGHT,
+    PLACED = CAMERA | VERB_BENCH,
     COUNTED = VERB_ZFIGHT,
     DRAWN = VERB_PLOT,
-    WRITTEN = CAMERA | VERB_LIST,
+    WRITTEN = PLACED | VERB_STABILITY | VERB_LIST,
     EVERY = ~0
 };
 
 /* clang-format off */
 const option_row option_rows[OPTION_COUNT] = {
-    [OPTION_NEAR] = {"near", 'n', "Z", CAMERA,
+    [OPTION_NEAR] = {"near", 'n', "Z", PLACED,
         "near plane, scene units, 1e-12 to 1e12 (default 0.1)", parse_near},
-    [OPTION_FAR] = {"far", 'f', "Z|inf", CAMERA,
+    [OPTION_FAR] = {"far", 'f', "Z|inf", PLACED,
         "far plane, scene units, up to 1e18, or inf (default 1000)", parse_far},
-    [OPTION_FORMAT] = {"format", 'F', "NAME[,NAME...]|all", CAMERA,
+    [OPTION_FORMAT] = {"format", 'F', "NAME[,NAME...]|all", PLACED,
         "depth formats: fp16, fp32, unorm16, unorm24, names as the APIs\n"
         "write them, unormN, floatE.M[bB] (default all: the first four)", parse_format},
-    [OPTION_MAPPING] = {"mapping", 'm', "NAME[,NAME...]|all", CAMERA,
+    [OPTION_MAPPING] = {"mapping", 'm', "NAME[,NAME...]|all", PLACED,
         "d3d, gl, reversed, gl-reversed, linear, log\n"
         "(default all: d3d and reversed)", parse_mapping},
     [OPTION_ORTHO] = {"ortho", 0, NULL, CAMERA,
@@ -369,9 +370,10 @@ const option_row option_rows[OPTION_COUNT] = {
         "the binary32 arithmetic: ieee, fused, reciprocal,\n"
         "fused-reciprocal, product, mesa, softpipe, ieee-remap,\n"
         "mesa-remap (default ieee)", parse_arith},
-    [OPTION_TOLERANCE] = {"tolerance", 0, "SHARE", ASKED,
+    [OPTION_TOLERANCE] = {"tolerance", 0, "SHARE", ASKED | VERB_BENCH,
         "a model is enough when what it neglects adds no more to the\n"
-        "separation, 0.05 or 5% (default 5%)", parse_tolerance},
+        "separation, 0.05 or 5% (default 5%); in bench, the worst error\n"
+        "that the cheapest method to be marked may claim", parse_tolerance},
     [OPTION_LOG_C] = {"log-c", 0, "C", MODELLED,
         "constant of the log mapping, 1e-12 to 1e12 (default 1)", parse_log_c},
     [OPTION_AT] = {"at", 0, "Z[,Z...]|LO:HI:log|lin:COUNT", ASKED,

@@ -28,7 +28,9 @@ enum {
     VERB_LIST = 1u << 2,
     VERB_HELP = 1u << 3,
     VERB_ZFIGHT = 1u << 4,
-    VERB_BUDGET = 1u << 5
+    VERB_BUDGET = 1u << 5,
+    VERB_BENCH = 1u << 6,
+    VERB_STABILITY = 1u << 7
 };
 
 typedef struct verb {
