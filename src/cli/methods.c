@@ -109,6 +109,7 @@ typedef struct arrays {
     double ns[STABILITY_MAX], claimed[STABILITY_MAX], breaks[STABILITY_MAX], ratios[STABILITY_STEPS_MAX];
     double errors[STABILITY_MAX * STABILITY_STEPS_MAX];
     bool front[STABILITY_MAX];
+    int group[STABILITY_MAX];
     char text[STABILITY_MAX][64];
     bench_result bench[BENCH_METHODS_MAX];
     stability_result walk[STABILITY_MAX];
@@ -117,7 +118,9 @@ typedef struct arrays {
 static size_t fill_bench(const methods_asked *asked, arrays *a) {
     size_t count = bench_run(asked->family, asked->which, &asked->setup, METHODS_REPETITIONS, a->bench);
     for (size_t i = 0; i < count; i++) {
-        a->names[i] = a->bench[i].row->name;
+        a->group[i] = (a->bench[i].row->domain & METHOD_PIPELINE) != 0;
+        snprintf(a->text[i], sizeof a->text[i], "%s%s", a->bench[i].row->name, a->group[i] ? " (pipeline)" : "");
+        a->names[i] = a->text[i];
         a->ns[i] = a->bench[i].ns;
         a->errors[i] = measured_error(asked->family, &a->bench[i].measured);
         a->front[i] = a->bench[i].front;
@@ -166,6 +169,7 @@ int methods_figure_make(const options *o, bool times, const char *family, method
                                   .names = a->names,
                                   .ns = a->ns,
                                   .errors = a->errors,
+                                  .group = a->group,
                                   .front = a->front,
                                   .steps = steps,
                                   .ratios = a->ratios,

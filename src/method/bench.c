@@ -110,6 +110,8 @@ static void mark_front(const method_family_row *family, bench_result *results, s
         double error = measured_error(family, &results[i].measured);
         results[i].front = !isnan(error);
         for (size_t k = 0; k < count && results[i].front; k++) {
+            if ((results[k].row->domain & METHOD_PIPELINE) != (results[i].row->domain & METHOD_PIPELINE))
+                continue;
             double other = measured_error(family, &results[k].measured);
             bool better =
                 (other < error && results[k].ns <= results[i].ns) || (other <= error && results[k].ns < results[i].ns);

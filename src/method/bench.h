@@ -34,7 +34,7 @@ typedef struct bench_result {
     measured measured;
     double at_absolute, at_relative, at_ulp; /**< the inputs that reach the worst: eye or window depths */
     double claim;                            /**< for this set-up; NaN where the row claims nothing of it */
-    bool front;                              /**< no other method is both faster and more exact */
+    bool front; /**< no other method with the same reference is both faster and more exact */
 } bench_result;
 
 /** The claim of a row for a set-up of a case; NaN where it makes none. */

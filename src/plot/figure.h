@@ -33,6 +33,7 @@ typedef struct figure_methods {
     const char *const *names;
     const double *ns;     /**< pareto: time an element */
     const double *errors; /**< pareto: a worst error each; stability: `steps` each, for the far/near of `ratios` */
+    const int *group;     /**< pareto: methods of one group (0 or 1) answer the same question and share a front */
     const bool *front;    /**< pareto: no other is both faster and more exact */
     size_t steps;
     const double *ratios;  /**< stability: evenly spaced on a log axis */

@@ -15,11 +15,11 @@ static bool shown(const figure_methods *m, size_t i) {
     return isfinite(m->errors[i]) && isfinite(m->ns[i]) && m->ns[i] > 0;
 }
 
-/* The front, fastest first. */
-static size_t front_of(const figure_methods *m, size_t *order) {
+/* The front of a group, fastest first. */
+static size_t front_of(const figure_methods *m, int group, size_t *order) {
     size_t count = 0;
     for (size_t i = 0; i < m->count; i++) {
-        if (!shown(m, i) || !m->front[i])
+        if (!shown(m, i) || !m->front[i] || m->group[i] != group)
             continue;
         size_t k = count++;
         for (; k > 0 && m->ns[order[k - 1]] > m->ns[i]; k--)
@@ -84,7 +84,9 @@ const char *pareto_build(const figure_request *request, chart *out) {
     const figure_methods *m = request->methods;
     size_t order[MOST], count;
     chart_panel *panel = chart_add_panel(out);
-    if (panel == NULL || m == NULL || m->count > MOST)
+    if (m == NULL || m->count > MOST)
+        return "no methods to show";
+    if (panel == NULL)
         return NULL;
     double lo[2] = {(double)INFINITY, (double)INFINITY}, hi[2] = {0, 0};
     for (size_t i = 0; i < m->count; i++) {
@@ -101,19 +103,21 @@ const char *pareto_build(const figure_request *request, chart *out) {
     panel->y = (chart_axis){.scale = CHART_LOG, .label = "worst error", .key = "error", .unit = m->measure};
     fit(&panel->x, lo[0], hi[0]);
     fit(&panel->y, lo[1], hi[1]);
-    count = front_of(m, order);
-    chart_series *line = count > 1 ? chart_add_series(out, panel, CHART_LINE, count) : NULL;
-    if (line != NULL) {
-        line->unlisted = true;
-        line->style = (chart_style){0, 0, -1, true};
-        snprintf(line->name, sizeof line->name, "front");
-        for (size_t i = 0; i < count; i++) {
-            line->x[i] = m->ns[order[i]];
-            line->y[i] = drawn(m->errors[order[i]]);
+    for (int group = 0; group < 2; group++) {
+        count = front_of(m, group, order);
+        chart_series *line = count > 1 ? chart_add_series(out, panel, CHART_LINE, count) : NULL;
+        if (line != NULL) {
+            line->unlisted = true;
+            line->style = (chart_style){0, 0, -1, true};
+            snprintf(line->name, sizeof line->name, "front");
+            for (size_t i = 0; i < count; i++) {
+                line->x[i] = m->ns[order[i]];
+                line->y[i] = drawn(m->errors[order[i]]);
+            }
         }
     }
-    add_points(m, out, panel, true);
     add_points(m, out, panel, false);
+    add_points(m, out, panel, true);
     add_labels(m, out, panel);
     return NULL;
 }

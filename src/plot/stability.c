@@ -34,7 +34,9 @@ static void add_marks(const figure_methods *m, chart *out, chart_panel *panel, c
 const char *stability_build(const figure_request *request, chart *out) {
     const figure_methods *m = request->methods;
     chart_panel *panel = chart_add_panel(out);
-    if (panel == NULL || m == NULL)
+    if (m == NULL || m->steps < 2)
+        return "no methods to show";
+    if (panel == NULL)
         return NULL;
     const char **names = chart_memory(out, m->count, sizeof *names);
     if (names == NULL)
@@ -50,7 +52,10 @@ const char *stability_build(const figure_request *request, chart *out) {
                             .unit = ""};
     panel->y =
         (chart_axis){.lo = 0, .hi = (double)m->count, .label = "method", .key = "method", .unit = "", .names = names};
-    out->value = (chart_axis){.lo = 0, .hi = most_digits, .label = "digits left", .key = "digits", .unit = ""};
+    double most = 1;
+    for (size_t i = 0; i < m->count * m->steps; i++)
+        most = fmax(most, digits(m->errors[i]));
+    out->value = (chart_axis){.lo = 0, .hi = ceil(most), .label = "digits left", .key = "digits", .unit = ""};
     if (!chart_add_map(out, panel, (int)m->steps, (int)m->count))
         return NULL;
     for (size_t i = 0; i < m->count; i++)
