@@ -18,7 +18,7 @@ INSTALL_PROGRAM ?= $(INSTALL) -m 755
 INSTALL_DATA ?= $(INSTALL) -m 644
 
 # What pkg-config is asked for: by the full program, and by the tests. src/packages.sh knows who has them.
-PKGS_build := cairo gsl
+PKGS_build := cairo gsl libconfig
 PKGS_check := cmocka mpfr gmp jansson
 
 # ---- Rooms: a new file in a layer's folder is picked up ----------------------------------------------------------
@@ -26,7 +26,8 @@ PKGS_check := cmocka mpfr gmp jansson
 HEADERS := $(wildcard include/depthprec/*.h)
 CORE := $(wildcard src/core/*.c)
 CLI := $(wildcard src/cli/*.c)
-ROOMS := $(wildcard src/plot/*.c src/method/*.c src/need/*.c src/texture/*.c)
+LIGHT := src/need/presets.c src/need/bias.c# needs of the light program: no big library
+ROOMS := $(filter-out $(LIGHT),$(wildcard src/plot/*.c src/method/*.c src/need/*.c src/texture/*.c))
 TESTS := $(wildcard tests/test_*.c)
 BENCHES := $(wildcard tests/bench_*.c)
 SUPPORT := $(filter-out $(TESTS) $(BENCHES),$(wildcard tests/*.c))
@@ -34,12 +35,12 @@ FUZZ := $(wildcard tests/fuzz/fuzz_*.c)
 MAN := $(wildcard man/*.[1-9])
 TOOLS := tests/run.sh tests/tap.sh tests/coverage.sh
 SCRIPTS := $(wildcard src/*.sh tests/*.sh plots/*.sh)
-ALL_C := $(CORE) $(CLI) $(ROOMS) $(TESTS) $(BENCHES) $(SUPPORT) $(FUZZ)
+ALL_C := $(CORE) $(CLI) $(LIGHT) $(ROOMS) $(TESTS) $(BENCHES) $(SUPPORT) $(FUZZ)
 ALL_H := $(HEADERS) $(wildcard src/*/*.h tests/*.h tests/*/*.h)
 
 objects = $(patsubst %.c,$(B)/obj/%.o,$(1))
 CORE_O := $(call objects,$(CORE))
-CLI_O := $(call objects,$(CLI))
+CLI_O := $(call objects,$(CLI) $(LIGHT))
 ROOMS_O := $(call objects,$(ROOMS))
 TESTS_O := $(call objects,$(TESTS) $(BENCHES))
 SUPPORT_O := $(call objects,$(SUPPORT))
@@ -166,8 +167,10 @@ $(B)/tests/%: $(B)/obj/tests/%.o $(B)/libsupport.a $(B)/librooms.a $(B)/libdepth
 FUZZ_SECONDS ?= 20
 ifeq ($(CONF),fuzz)
 fuzz: $(FUZZ_PROGRAMS)
-	@for f in $^; do mkdir -p $$f.corpus && echo "  FUZZ    $$f" && \
-	    $$f -max_total_time=$(FUZZ_SECONDS) -artifact_prefix=$$f. -verbosity=0 -print_final_stats=1 $$f.corpus || exit 1; done
+	@export LSAN_OPTIONS=suppressions=$(CURDIR)/tests/lsan.supp:print_suppressions=0; \
+	for f in $^; do mkdir -p $$f.corpus && echo "  FUZZ    $$f" && \
+	    $$f -max_total_time=$(FUZZ_SECONDS) -artifact_prefix=$$f. -verbosity=0 -print_final_stats=1 $$f.corpus \
+	    $$(ls -d tests/fuzz/corpus/$${f##*/fuzz_} 2>/dev/null) || exit 1; done
 else
 fuzz:
 	@sh src/packages.sh fuzz

@@ -86,7 +86,7 @@ names_in() { # names_in SECTION: prints the names on stdin that the page does no
 }
 
 options() { # long options, as mdoc writes them: -near for --near
-    for verb in table plot zfight budget list help; do
+    for verb in table plot zfight budget bias list help; do
         "$DEPTHPREC" help $verb | sed -n 's/^  \(-[a-zA-Z],\)* *-\(-[a-z][-a-z]*\).*/\2/p'
     done | sort -u
 }
@@ -115,6 +115,8 @@ check "depthprec.1: every option" documented 1 options
 check "depthprec.1: every format" documented 1 aliases formats
 check "depthprec.1: every mapping" documented 1 aliases mappings
 check "depthprec.1: every figure" documented 1 aliases figures
+check "depthprec.1: every preset" documented 1 aliases presets
+check "depthprec.1: every API of depth bias" documented 1 aliases apis
 check "depthprec.1: every model" documented 1 aliases models
 check "depthprec.1: every arithmetic" documented 1 aliases ariths
 check "depthprec.1: every cause" documented 1 aliases causes

@@ -103,7 +103,8 @@ static void never_violated_and_tight(void **state) {
                 for (int f = 0; f < FORMATS; f++) {
                     dp_setup setup;
                     assert_true(make(&setup, c, m, f, a, 0));
-                    check_setup(&setup, setup.spec.znear, range_end(&setup), &violated, &loose, &slack);
+                    const double reach = test_effort() == EFFORT_QUICK ? 4.0 * setup.spec.znear : HUGE_VAL;
+                    check_setup(&setup, setup.spec.znear, fmin(reach, range_end(&setup)), &violated, &loose, &slack);
                 }
         report(dp_arith_get(a)->name, &slack);
         tally_end(&violated);

@@ -102,7 +102,8 @@ static double share_at(const dp_setup *setup, int model, double z) {
     spec.model = (dp_model)model;
     if (dp_setup_init(&part, &spec) != DP_OK)
         return (double)NAN;
-    const double some = dp_separation(&part, z);
+    /* Below one binary32 step of z a separation is as good as one step. */
+    const double some = fmax(dp_separation(&part, z), isinf(z) ? HUGE_VAL : ldexp(1.0, ilogb(z) - 23));
     const double all = dp_separation(&whole, z);
     return isinf(some) || all <= some ? 0.0 : all / some - 1.0;
 }

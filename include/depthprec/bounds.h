@@ -47,5 +47,32 @@ typedef struct dp_worst {
  */
 DP_API dp_status dp_worst_over(const dp_setup *setup, double lo, double hi, dp_worst *out);
 
+/** The largest separation over a range. */
+typedef struct dp_separation_worst {
+    double lo, hi;     /**< the range asked about */
+    double bound;      /**< holds at every depth of the range: what lies farther behind any of them is told apart */
+    double separation; /**< dp_separation() at z, at most `bound` */
+    double z;          /**< the depth where the largest one was found; where several tie, one of them */
+} dp_separation_worst;
+
+/**
+ * The largest dp_separation() over [lo, hi].
+ *
+ * In the model `exact` the separation rises with z inside a binade, so the ends of binades are all that can be worst.
+ * In `staged` and `fp32` the range is divided until an upper bound of each part is either at most 2^-10 above the
+ * largest separation found, or at most `limit`, or the part is a single depth.
+ *
+ * @param lo, hi  eye depths, near <= lo <= hi <= far, lo finite
+ * @param limit   scene units; where it lies between `separation` and `bound`, the search goes on until it does not.
+ *                0: no limit
+ * @return DP_OK, DP_ERROR_RANGE, DP_ERROR_NULL; *out is then left as it was
+ *
+ * Bound: `bound` is never below the truth; `exact`: at most 1e-12 relative above it, else as above unless 2^16
+ * evaluations are not enough. In `fp32` it is a guarantee of its own, found with the error analysis of dp_budget_at()
+ * over parts of the range; at a single depth dp_separation(), which stops refining at 3 %, may be that much above it.
+ */
+DP_API dp_status dp_separation_over(const dp_setup *setup, double lo, double hi, double limit,
+                                    dp_separation_worst *out);
+
 DP_END
 #endif

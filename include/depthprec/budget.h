@@ -78,7 +78,8 @@ typedef struct dp_choice {
 
 /**
  * Chooses the simplest model that is good enough: at every depth, what it neglects adds at most `tolerance` to the
- * separation that it finds. The measure is the fullest model that the set-up has: fp32, or staged for linear and log.
+ * separation that it finds. Separations below one binary32 step of z, which no shader's depths can have, count as one
+ * step. The measure is the fullest model that the set-up has: fp32, or staged for linear and log.
  *
  * @param z, count   eye depths in [near, far]; count >= 1
  * @param tolerance  share, 0.05 for 5 %; at least 0

@@ -110,7 +110,7 @@ static void text_row(void *to, const report *r, const dp_setup *setup, const bud
         const double share = share_of(row, i);
         if (!is_asked(r->o, i))
             continue;
-        if (isnan(share)) {
+        if (isinf(row->parts.separation)) { /* no parts of what does not exist */
             output_format(r->out, " %12s %5s", "-", "-");
             continue;
         }

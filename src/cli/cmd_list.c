@@ -74,6 +74,40 @@ static bool list_cause(size_t index, list_item *item) {
     return true;
 }
 
+static bool list_preset(size_t index, list_item *item) {
+    const preset *row = preset_get(index);
+    char znear[NUMBER_SIZE];
+    char zfar[NUMBER_SIZE];
+    if (row == NULL)
+        return false;
+    *item = (list_item){row->name, "", row->note, "", row->source};
+    number_shortest(row->znear, znear);
+    number_shortest(row->zfar, zfar);
+    const bool confirmed = row->unconfirmed[0] == '\0';
+    snprintf(item->bound, sizeof item->bound, "near %s, far %s, %s, %s, scene in %s; checked %s, %s%s", znear, zfar,
+             dp_mapping_get(row->mapping)->name, row->format, row->unit, row->checked,
+             confirmed ? "confirmed" : "not confirmed: ", row->unconfirmed);
+    return true;
+}
+
+static bool list_api(size_t index, list_item *item) {
+    static const char *const rules[] = {
+        [BIAS_ONE] = "1",
+        [BIAS_CODE] = "1/(2^N - 1) as binary32",
+        [BIAS_POWER] = "2^-N",
+        [BIAS_BOUND] = "at most 2 x 2^-N",
+        [BIAS_FREE] = "the implementation's choice",
+        [BIAS_EXPONENT] = "2^(e - 23), e of the greatest depth",
+        [BIAS_MANTISSA] = "2^-24",
+    };
+    const bias_api *row = bias_api_get(index);
+    if (row == NULL)
+        return false;
+    *item = (list_item){row->name, row->aliases, row->note, "", row->source};
+    snprintf(item->bound, sizeof item->bound, "unorm: r = %s; fp32: r = %s", rules[row->unorm], rules[row->real]);
+    return true;
+}
+
 /* What can be listed. A topic whose table lives in the full program has a null `get` in the light one. */
 static const struct topic {
     const char *name, *note;
@@ -84,6 +118,8 @@ static const struct topic {
     {"models", "what is modelled of the arithmetic before the buffer", list_model},
     {"ariths", "the variants of binary32 arithmetic", list_arith},
     {"causes", "what takes a part of the separation", list_cause},
+    {"presets", "cameras as engines set them, for --preset", list_preset},
+    {"apis", "what one unit of depth bias is, for bias --api", list_api},
     {"figures", "what plot can draw", list_figure},
     {"methods", "ways to a quantity, by family: what each claims, for which set-up and far/near", list_method},
 };
@@ -120,6 +156,11 @@ static void put_wrapped(output *out, const char *label, const char *text) {
     output_char(out, '\n');
 }
 
+/* What the topics write into `bound`. */
+static const char *bound_label(const char *what) {
+    return strcmp(what, "presets") == 0 ? "camera" : strcmp(what, "apis") == 0 ? "rule" : "bound";
+}
+
 static void write_text(output *out, const char *what, list_get get) {
     list_item item;
     bool brief = get == list_topic;
@@ -132,7 +173,7 @@ static void write_text(output *out, const char *what, list_get get) {
         }
         output_format(out, "%s%s\n", i > 0 ? "\n" : "", item.name);
         put_wrapped(out, "", text_of(item.note));
-        put_wrapped(out, "bound", item.bound);
+        put_wrapped(out, bound_label(what), item.bound);
         put_wrapped(out, "source", text_of(item.source));
         put_wrapped(out, "also", text_of(item.aliases));
     }
@@ -167,7 +208,7 @@ static void write_json(output *out, const char *what, list_get get) {
         json_string(&j, "name", item.name);
         json_aliases(&j, text_of(item.aliases));
         json_string(&j, "note", text_of(item.note));
-        json_string(&j, "bound", *item.bound != '\0' ? item.bound : NULL);
+        json_string(&j, bound_label(what), *item.bound != '\0' ? item.bound : NULL);
         json_string(&j, "source", *text_of(item.source) != '\0' ? item.source : NULL);
         json_end(&j);
     }
@@ -175,12 +216,11 @@ static void write_json(output *out, const char *what, list_get get) {
 }
 
 static void write_csv(output *out, const char *what, list_get get) {
-    static const char *const heads[] = {"name", "aliases", "note", "bound", "source"};
+    static const char *const heads[] = {"name", "aliases", "note", NULL, "source"};
     list_item item;
     csv c = csv_start(out);
-    (void)what;
     for (size_t i = 0; i < sizeof heads / sizeof heads[0]; i++)
-        csv_string(&c, heads[i]);
+        csv_string(&c, heads[i] == NULL ? bound_label(what) : heads[i]);
     csv_end(&c);
     for (size_t i = 0; get(i, &item); i++) {
         csv_string(&c, item.name);

@@ -11,6 +11,7 @@
 #include "cli/number.h"
 #include "cli/options.h"
 #include "cli/plot_data.h"
+#include "cli/plot_scene.h"
 #include "cli/setups.h"
 #include "cli/suggest.h"
 #include "plot/draw.h"
@@ -83,6 +84,22 @@ static int resolve_depths(const options *o, const figure_row *row, figure_reques
     }
     if (option_given(o, OPTION_RANGE))
         return range_resolve(o, &request->lo, &request->hi);
+    return EXIT_FINE;
+}
+
+/* A file is for the figure that shows requirements, and brings all that makes a set-up. */
+static int check_file_given(const options *o, const figure_row *row) {
+    static const option_id camera[] = {OPTION_NEAR,  OPTION_FAR,   OPTION_FORMAT, OPTION_MAPPING,  OPTION_ORTHO,
+                                       OPTION_MODEL, OPTION_ARITH, OPTION_LOG_C,  OPTION_ROUNDING, OPTION_PRESET};
+    if ((row->takes & FIGURE_NEEDS) == 0)
+        return o->operand_count == 1 || (row->takes & FIGURE_METHODS) != 0
+                   ? EXIT_FINE
+                   : usage_error("plot %s: takes no file, got '%s'", row->name, o->operands[1]);
+    if (o->operand_count < 2)
+        return usage_error("plot %s: needs FILE, a requirement file, see depthprec(5)", row->name);
+    for (size_t i = 0; i < sizeof camera / sizeof camera[0]; i++)
+        if (option_given(o, camera[i]))
+            return option_error(camera[i], "has no meaning in the figure %s: the file says it", row->name);
     return EXIT_FINE;
 }
 
@@ -224,6 +241,10 @@ int cmd_plot(const options *o) {
     request.columns = o->width > 0 ? o->width : WIDTH;
     int status = check_size(o);
     if (status == EXIT_FINE)
+        status = check_file_given(o, row);
+    if (status == EXIT_FINE && (row->takes & FIGURE_NEEDS) != 0)
+        return plot_scene(o, row, write_figure);
+    if (status == EXIT_FINE)
         status = check_options(o, row);
     if (status == EXIT_FINE)
         status = setups_make(&in_binary32, &all);
@@ -242,8 +263,6 @@ int cmd_plot(const options *o) {
     char of_methods[2 * CHART_TEXT];
     const char *family = o->operand_count > 1 ? o->operands[1] : NULL;
     bool methodical = (row->takes & FIGURE_METHODS) != 0;
-    if (status == EXIT_FINE && family != NULL && !methodical)
-        status = usage_error("plot %s: unexpected argument '%s'", row->name, family);
     if (status == EXIT_FINE && methodical)
         status =
             methods_figure_make(o, (row->takes & FIGURE_PARETO) != 0, family, &walked, of_methods, sizeof of_methods);

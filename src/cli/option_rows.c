@@ -5,6 +5,7 @@
 #include <string.h>
 
 #include "cli/number.h"
+#include "cli/option_bias.h"
 #include "cli/suggest.h"
 
 /* Steps through a comma-separated list: copies the next item, moves *text behind it. False when an item is too long. */
@@ -210,6 +211,32 @@ static int parse_range(options *o, const char *value) {
     return range_parse(value, &o->range_lo, &o->range_hi);
 }
 
+static const char *target_name(unsigned index) {
+    static const char *const names[] = {"near", "far", "format", "mapping", "separation"};
+    return index < sizeof names / sizeof names[0] ? names[index] : NULL;
+}
+
+static int parse_for(options *o, const char *value) {
+    unsigned index = 0;
+    int status = parse_word(OPTION_FOR, target_name, value, &index);
+    o->target = (solve_target)(index + 1);
+    return status;
+}
+
+static int parse_length(option_id id, const char *value, double *out) {
+    if (!number_parse(value, NUMBER_FINITE, out) || !(*out > 0.0))
+        return option_error(id, "must be a positive number of scene units, got '%s'", value);
+    return EXIT_FINE;
+}
+
+static int parse_separation(options *o, const char *value) {
+    return parse_length(OPTION_SEPARATION, value, &o->wanted_separation);
+}
+
+static int parse_error(options *o, const char *value) {
+    return parse_length(OPTION_ERROR, value, &o->wanted_error);
+}
+
 /* A share, or a percentage with its sign. */
 static int parse_tolerance(options *o, const char *value) {
     size_t length = strlen(value);
@@ -292,6 +319,19 @@ static int parse_height(options *o, const char *value) {
     return parse_pixels(OPTION_HEIGHT, value, &o->height);
 }
 
+static const char *report_name(unsigned index) {
+    static const char *const names[REPORT_COUNT] = {
+        [REPORT_TEXT] = "text", [REPORT_JSON] = "json", [REPORT_JUNIT] = "junit"};
+    return index < REPORT_COUNT ? names[index] : NULL;
+}
+
+static int parse_report(options *o, const char *value) {
+    unsigned index = (unsigned)o->report;
+    int status = parse_word(OPTION_REPORT, report_name, value, &index);
+    o->report = (report_form)index;
+    return status;
+}
+
 static int parse_title(options *o, const char *value) {
     o->title = value;
     return EXIT_FINE;
@@ -341,28 +381,32 @@ enum {
     CAMERA = ASKED | VERB_ZFIGHT,
     PLACED = CAMERA | VERB_BENCH,
     COUNTED = VERB_ZFIGHT,
+    SPREAD = COUNTED | VERB_CHECK,
     DRAWN = VERB_PLOT,
-    WRITTEN = PLACED | VERB_STABILITY | VERB_LIST,
+    WRITTEN = PLACED | VERB_STABILITY | VERB_LIST | VERB_BIAS | VERB_CHECK | VERB_SOLVE,
     EVERY = ~0
 };
 
 /* clang-format off */
 const option_row option_rows[OPTION_COUNT] = {
-    [OPTION_NEAR] = {"near", 'n', "Z", PLACED,
+    [OPTION_NEAR] = {"near", 'n', "Z", PLACED | VERB_BIAS | VERB_SOLVE,
         "near plane, scene units, 1e-12 to 1e12 (default 0.1)", parse_near},
-    [OPTION_FAR] = {"far", 'f', "Z|inf", PLACED,
+    [OPTION_FAR] = {"far", 'f', "Z|inf", PLACED | VERB_BIAS | VERB_SOLVE,
         "far plane, scene units, up to 1e18, or inf (default 1000)", parse_far},
-    [OPTION_FORMAT] = {"format", 'F', "NAME[,NAME...]|all", PLACED,
+    [OPTION_FORMAT] = {"format", 'F', "NAME[,NAME...]|all", PLACED | VERB_BIAS | VERB_SOLVE,
         "depth formats: fp16, fp32, unorm16, unorm24, names as the APIs\n"
         "write them, unormN, floatE.M[bB] (default all: the first four)", parse_format},
-    [OPTION_MAPPING] = {"mapping", 'm', "NAME[,NAME...]|all", PLACED,
+    [OPTION_MAPPING] = {"mapping", 'm', "NAME[,NAME...]|all", PLACED | VERB_BIAS | VERB_SOLVE,
         "d3d, gl, reversed, gl-reversed, linear, log\n"
         "(default all: d3d and reversed)", parse_mapping},
-    [OPTION_ORTHO] = {"ortho", 0, NULL, CAMERA,
+    [OPTION_ORTHO] = {"ortho", 0, NULL, CAMERA | VERB_BIAS | VERB_SOLVE,
         "orthographic projection (default: perspective)", parse_ortho},
-    [OPTION_ROUNDING] = {"rounding", 0, "nearest|even|zero", CAMERA,
+    [OPTION_ROUNDING] = {"rounding", 0, "nearest|even|zero", CAMERA | VERB_BIAS | VERB_SOLVE,
         "how a depth between two codes is rounded (default nearest)", parse_rounding},
-    [OPTION_MODEL] = {"model", 0, "exact|staged|fp32|auto", MODELLED,
+    [OPTION_PRESET] = {"preset", 0, "NAME", CAMERA | VERB_BIAS | VERB_SOLVE,
+        "fill in near, far, mapping and format as an engine sets them,\n"
+        "where they are not given; 'depthprec list presets'", parse_preset},
+    [OPTION_MODEL] = {"model", 0, "exact|staged|fp32|auto", MODELLED | VERB_SOLVE,
         "the arithmetic before the buffer: none, the lattice alone;\n"
         "NDC and window depth each rounded to binary32; every operation\n"
         "in binary32; or the simplest that is enough (default exact)", parse_model},
@@ -374,14 +418,21 @@ const option_row option_rows[OPTION_COUNT] = {
         "a model is enough when what it neglects adds no more to the\n"
         "separation, 0.05 or 5% (default 5%); in bench, the worst error\n"
         "that the cheapest method to be marked may claim", parse_tolerance},
-    [OPTION_LOG_C] = {"log-c", 0, "C", MODELLED,
+    [OPTION_LOG_C] = {"log-c", 0, "C", MODELLED | VERB_BIAS | VERB_SOLVE,
         "constant of the log mapping, 1e-12 to 1e12 (default 1)", parse_log_c},
-    [OPTION_AT] = {"at", 0, "Z[,Z...]|LO:HI:log|lin:COUNT", ASKED,
+    [OPTION_AT] = {"at", 0, "Z[,Z...]|LO:HI:log|lin:COUNT", ASKED | VERB_BIAS | VERB_SOLVE,
         "the depths asked about, at most 1000000, within [near, far]\n"
         "(default: nine, log-spaced from near to far)", parse_at},
-    [OPTION_RANGE] = {"range", 0, "LO:HI", MODELLED | VERB_ZFIGHT,
+    [OPTION_RANGE] = {"range", 0, "LO:HI", MODELLED | VERB_ZFIGHT | VERB_BIAS | VERB_SOLVE,
         "the depths that worst cases are taken over\n"
         "(default: near to far)", parse_range},
+    [OPTION_FOR] = {"for", 0, "WHAT", VERB_SOLVE,
+        "what to solve for: near, far, format, mapping or separation\n"
+        "(default: the first of them that is not given)", parse_for},
+    [OPTION_SEPARATION] = {"separation", 0, "S", VERB_SOLVE,
+        "surfaces S apart, scene units, must be told apart", parse_separation},
+    [OPTION_ERROR] = {"error", 0, "E", VERB_SOLVE,
+        "or: the stored depth may be E off, scene units, not more", parse_error},
     [OPTION_INTERPOLATION] = {"interpolation", 0, "E", BUDGETED,
         "error of a window depth interpolated across a triangle, in\n"
         "units of 2^-24, at most 16777216 (default 0)", parse_interpolation},
@@ -390,14 +441,29 @@ const option_row option_rows[OPTION_COUNT] = {
         "one precomposed matrix (default 0: eye depth is given)", parse_world},
     [OPTION_LINEARIZE] = {"linearize", 0, NULL, BUDGETED,
         "count reading the eye depth back in a binary32 shader", parse_linearize},
-    [OPTION_GAP] = {"gap", 0, "G", COUNTED,
-        "ties and swaps of surfaces G apart, scene units\n"
-        "(default: of neighbouring binary32 depths)", parse_gap},
+    [OPTION_API] = {"api", 0, "NAME", VERB_BIAS,
+        "whose rule: d3d11 (also d3d12), webgpu, vulkan, vulkan-exact,\n"
+        "vulkan-unorm, vulkan-float, gl, d3d9 (default d3d11)", parse_api},
+    [OPTION_UNITS] = {"units", 0, "U", VERB_BIAS,
+        "constant bias in units of r; in window depth for d3d9 and\n"
+        "vulkan-float", parse_units},
+    [OPTION_FACTOR] = {"factor", 0, "F", VERB_BIAS,
+        "bias in units of the window slope (default 0)", parse_factor},
+    [OPTION_CLAMP] = {"clamp", 0, "C", VERB_BIAS,
+        "greatest bias, or least when negative, in window depth\n"
+        "(default 0: none)", parse_clamp},
+    [OPTION_SLOPE] = {"slope", 0, "S", VERB_BIAS,
+        "eye depth changes by S scene units from one pixel to the next\n"
+        "(default 0: facing the camera)", parse_slope},
+    [OPTION_GAP] = {"gap", 0, "G", COUNTED | VERB_BIAS,
+        "zfight: ties and swaps of surfaces G apart, scene units\n"
+        "(default: of neighbouring binary32 depths); bias: how much\n"
+        "nearer a layer must come (default 0: be told apart)", parse_gap},
     [OPTION_SAMPLE] = {"sample", 0, "N", COUNTED,
         "draw N pairs at random (default: visit every depth)", parse_sample},
     [OPTION_SEED] = {"seed", 0, "S", COUNTED,
         "seed of --sample: the same pairs for the same seed (default 0)", parse_seed},
-    [OPTION_THREADS] = {"threads", 0, "N", COUNTED,
+    [OPTION_THREADS] = {"threads", 0, "N", SPREAD,
         "at most N threads (default: all cores); results are the same", parse_threads},
     [OPTION_THEME] = {"theme", 0, "light|dark|print", DRAWN,
         "colours of the figure (default light)", parse_theme},
@@ -407,6 +473,8 @@ const option_row option_rows[OPTION_COUNT] = {
         "height of the figure in pixels (default: as suits it)", parse_height},
     [OPTION_TITLE] = {"title", 0, "TEXT", DRAWN,
         "title of the figure in place of its own", parse_title},
+    [OPTION_REPORT] = {"report", 0, "text|json|junit", VERB_CHECK,
+        "how verdicts are written (default text)", parse_report},
     [OPTION_JSON] = {"json", 0, NULL, WRITTEN,
         "write JSON, one object, schema depthprec/1", parse_json},
     [OPTION_CSV] = {"csv", 0, NULL, WRITTEN,

@@ -138,6 +138,26 @@ static int check_operands(const options *o) {
     return -1;
 }
 
+/* A preset gives what the user did not. */
+static void fill_from_preset(options *o) {
+    const preset *p = o->preset;
+    if (p == NULL)
+        return;
+    if (!option_given(o, OPTION_NEAR))
+        o->znear = p->znear;
+    if (!option_given(o, OPTION_FAR))
+        o->zfar = p->zfar;
+    if (!option_given(o, OPTION_FORMAT)) {
+        dp_format formats[2];
+        o->format_count = preset_formats(p, formats);
+        memcpy(o->formats, formats, o->format_count * sizeof formats[0]);
+    }
+    if (!option_given(o, OPTION_MAPPING)) {
+        o->mapping_count = 1;
+        o->mappings[0] = p->mapping;
+    }
+}
+
 /* argv[0] of what is left is the program, or the command in its place. */
 static int read_options(options *o, int argc, char **argv, const verb *asked) {
     char letters[2 * OPTION_COUNT + 2];
@@ -165,6 +185,7 @@ static int read_options(options *o, int argc, char **argv, const verb *asked) {
             return status;
         o->given |= (uint64_t)1 << id;
     }
+    fill_from_preset(o);
     o->operands = argv + optind;
     o->operand_count = argc - optind;
     return check_operands(o);

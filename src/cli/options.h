@@ -17,6 +17,8 @@
 #include "cli/output.h"
 #include "cli/verbs.h"
 #include "depthprec/depthprec.h"
+#include "need/bias.h"
+#include "need/presets.h"
 
 /** The options, in the order in which help lists them. The index of an option's row is its id. */
 typedef enum option_id {
@@ -25,6 +27,7 @@ typedef enum option_id {
     OPTION_FORMAT,
     OPTION_MAPPING,
     OPTION_ORTHO,
+    OPTION_PRESET,
     OPTION_ROUNDING,
     OPTION_MODEL,
     OPTION_ARITH,
@@ -32,9 +35,17 @@ typedef enum option_id {
     OPTION_LOG_C,
     OPTION_AT,
     OPTION_RANGE,
+    OPTION_FOR,
+    OPTION_SEPARATION,
+    OPTION_ERROR,
     OPTION_INTERPOLATION,
     OPTION_WORLD,
     OPTION_LINEARIZE,
+    OPTION_API,
+    OPTION_UNITS,
+    OPTION_FACTOR,
+    OPTION_CLAMP,
+    OPTION_SLOPE,
     OPTION_GAP,
     OPTION_SAMPLE,
     OPTION_SEED,
@@ -43,6 +54,7 @@ typedef enum option_id {
     OPTION_WIDTH,
     OPTION_HEIGHT,
     OPTION_TITLE,
+    OPTION_REPORT,
     OPTION_JSON,
     OPTION_CSV,
     OPTION_OUTPUT,
@@ -58,6 +70,20 @@ typedef enum output_form { FORM_TEXT = 0, FORM_JSON, FORM_CSV } output_form;
 
 /** Values of --theme. */
 typedef enum theme_id { THEME_LIGHT = 0, THEME_DARK, THEME_PRINT, THEME_COUNT } theme_id;
+
+/** Values of --for, and SOLVE_FOR_ANY when it was not given. The planes come first. */
+typedef enum solve_target {
+    SOLVE_FOR_ANY = 0,
+    SOLVE_FOR_NEAR,
+    SOLVE_FOR_FAR,
+    SOLVE_FOR_FORMAT,
+    SOLVE_FOR_MAPPING,
+    SOLVE_FOR_SEPARATION,
+    SOLVE_FOR_COUNT
+} solve_target;
+
+/** Values of --report. */
+typedef enum report_form { REPORT_TEXT = 0, REPORT_JSON, REPORT_JUNIT, REPORT_COUNT } report_form;
 
 enum { OPTIONS_FORMATS_MAX = 64, OPTIONS_PIXELS_MIN = 64, OPTIONS_PIXELS_MAX = 16384 };
 
@@ -85,7 +111,16 @@ typedef struct options {
     depths at;                 /**< what --at said; count is 0 when it was not given. See depths_resolve() */
     double range_lo, range_hi; /**< what --range said, lo < hi. See range_resolve() */
 
+    solve_target target;                    /**< --for */
+    double wanted_separation, wanted_error; /**< positive, scene units; 0 when not given */
+
     dp_budget_terms terms; /**< --interpolation, --world, --linearize; zero when not given */
+
+    const preset *preset; /**< --preset; null when not given. What the user did not give is already filled in */
+    const bias_api *api;  /**< --api; null when not given */
+    double units, factor; /**< of a bias; 0 when not given */
+    double clamp;         /**< of a bias, window depth; 0 is none */
+    double slope;         /**< scene units per pixel, not negative; 0 when not given */
 
     double gap;      /**< scene units; 0 when not given */
     uint64_t sample; /**< pairs to draw; 0 when not given */
@@ -96,6 +131,7 @@ typedef struct options {
     int width, height; /**< px; 0 when not given, so that each figure has its own default */
     const char *title; /**< null when not given */
 
+    report_form report; /**< default text */
     output_form form;
     const char *output; /**< the argument of -o; null when not given. "-" is stdout: hand it to output_open() */
     bool quiet, verbose;

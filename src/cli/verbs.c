@@ -11,12 +11,15 @@
 
 int cmd_table(const struct options *o);
 int cmd_budget(const struct options *o);
+int cmd_bias(const struct options *o);
 int cmd_list(const struct options *o);
 /* Commands that need a heavy library: null in the light program. */
 int cmd_plot(const struct options *o) __attribute__((weak));
 int cmd_zfight(const struct options *o) __attribute__((weak));
 int cmd_bench(const struct options *o) __attribute__((weak));
 int cmd_stability(const struct options *o) __attribute__((weak));
+int cmd_check(const struct options *o) __attribute__((weak));
+int cmd_solve(const struct options *o) __attribute__((weak));
 
 /* clang-format off */
 const verb verb_rows[] = {
@@ -25,10 +28,11 @@ const verb verb_rows[] = {
      "  depthprec table -n 0.1 -f 1000 -F unorm24 -m d3d,reversed\n"
      "  depthprec table -n 0.1 -f inf -F fp32 -m reversed --at 1,10,100,1000\n"
      "  depthprec table -F d32f --at 1:1000:log:10000 --csv -o depths.csv\n"},
-    {"plot", VERB_PLOT, cmd_plot, "FIGURE", 1, 2, "'depthprec list figures' names them",
+    {"plot", VERB_PLOT, cmd_plot, "FIGURE [FILE|FAMILY]", 1, 2, "'depthprec list figures' names them",
      "draws a figure: SVG, PDF or PNG by the ending of -o",
      "  depthprec plot error -F all -m d3d,reversed -o error.svg\n"
-     "  depthprec plot distribution -F unorm4 -n 1 -f 10 -o staircase.png --theme dark\n"},
+     "  depthprec plot distribution -F unorm4 -n 1 -f 10 -o staircase.png --theme dark\n"
+     "  depthprec plot scene engine.need -o scene.svg\n"},
     {"zfight", VERB_ZFIGHT, cmd_zfight, "", 0, 0, NULL,
      "ties, swaps, longest interval of the binary32 pipeline, every depth",
      "  depthprec zfight -n 0.1 -f 1000 -F unorm24,fp32 -m d3d,reversed\n"
@@ -47,8 +51,22 @@ const verb verb_rows[] = {
      "where the methods of a family lose what they claim",
      "  depthprec stability linearize\n"
      "  depthprec plot stability interval -o stability.svg\n"},
+    {"check", VERB_CHECK, cmd_check, "FILE...", 1, 1000, "requirement files, see depthprec(5)",
+     "whether cameras meet the requirements of files; exit 1 when not",
+     "  depthprec check engine.need\n"
+     "  depthprec check --report junit -o depth.xml engine.need\n"},
+    {"solve", VERB_SOLVE, cmd_solve, "", 0, 0, NULL,
+     "the near, far, format or mapping that a separation needs",
+     "  depthprec solve -F unorm24 -m d3d -f 10000 --separation 0.01 --at 5000\n"
+     "  depthprec solve -n 0.1 -f 4000 --separation 0.001 --range 0.1:100\n"
+     "  depthprec solve --for far -n 0.1 -F d24 -m d3d --error 0.05 --at 500\n"},
+    {"bias", VERB_BIAS, cmd_bias, "", 0, 0, NULL,
+     "depth-bias units to scene units, per API; how much bias is enough",
+     "  depthprec bias --api gl -F d24 -m gl --units -1 --at 1,10,100\n"
+     "  depthprec bias --api webgpu -F depth24plus -m d3d --gap 0.01 --range 1:100\n"
+     "  depthprec bias --preset bevy --api vulkan --units 4 --factor 1 --slope 0.02\n"},
     {"list", VERB_LIST, cmd_list, "WHAT", 0, 1, NULL,
-     "formats, mappings, models, ariths, causes, figures, methods",
+     "formats, mappings, models, ariths, causes, presets, apis, figures, methods",
      "  depthprec list\n"
      "  depthprec list formats\n"
      "  depthprec list mappings --json\n"},

@@ -29,8 +29,11 @@ enum {
     VERB_HELP = 1u << 3,
     VERB_ZFIGHT = 1u << 4,
     VERB_BUDGET = 1u << 5,
-    VERB_BENCH = 1u << 6,
-    VERB_STABILITY = 1u << 7
+    VERB_CHECK = 1u << 6,
+    VERB_SOLVE = 1u << 7,
+    VERB_BIAS = 1u << 8,
+    VERB_BENCH = 1u << 9,
+    VERB_STABILITY = 1u << 10
 };
 
 typedef struct verb {

@@ -4,6 +4,7 @@
 #include "core/boundary.h"
 #include "core/curve.h"
 #include "core/engine.h"
+#include "core/extremes.h"
 #include "depthprec/depth.h"
 
 /* The codes from the nearest to the farthest of a range, as steps: rank 0 is the code at lo. */
@@ -17,10 +18,6 @@ typedef struct search {
 
 static uint32_t code_of_rank(const search *s, uint32_t rank) {
     return s->setup->reversed ? s->code_lo - rank : s->code_lo + rank;
-}
-
-static double larger(double a, double b) {
-    return a > b ? a : b;
 }
 
 static void offer_error(dp_worst *worst, double error, double z, uint32_t code) {

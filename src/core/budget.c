@@ -3,6 +3,7 @@
 
 #include "core/curve.h"
 #include "core/engine.h"
+#include "core/extremes.h"
 #include "depthprec/pipeline.h"
 
 /* Half a unit in the last place of binary32 at 1 and just below 1, and the smallest there is. */
@@ -23,14 +24,6 @@ static const char *const names[DP_CAUSE_COUNT] = {
 
 const char *dp_cause_name(dp_cause cause) {
     return (unsigned)cause < DP_CAUSE_COUNT ? names[cause] : NULL;
-}
-
-static double larger(double a, double b) {
-    return a > b ? a : b;
-}
-
-static double smaller(double a, double b) {
-    return a < b ? a : b;
 }
 
 /* The largest error of rounding a number of magnitude up to x to binary32. */
@@ -368,6 +361,37 @@ dp_status dp_budget_at(const dp_setup *setup, double z, const dp_budget_terms *t
     for (int i = 0; i < DP_CAUSE_COUNT; i++)
         out->cause[i] = part[i] > 0.0 ? separation * (part[i] / window) : 0.0;
     return DP_OK;
+}
+
+/*
+ * The same for a run of depths at once: every rounding at the largest value that it meets anywhere in it. All that the
+ * demands are made of rises with the range that they are taken over, so this is a separation of each depth of the run.
+ */
+double dp_budget_bound(const dp_setup *setup, float nearest, float farthest) {
+    dp_pipeline pipeline;
+    if (dp_pipeline_init(&pipeline, setup) != DP_OK || isinf(farthest))
+        return HUGE_VAL;
+    const chain c = make_chain(&pipeline);
+    const double z1 = (double)nearest;
+    const double z2 = (double)farthest;
+    demand d = demand_beyond(setup, &c, z1);
+    const demand end = demand_beyond(setup, &c, z2);
+    d.projection = larger(d.projection, end.projection);
+    d.ndc = larger(d.ndc, end.ndc);
+    d.format = larger(d.format, end.format);
+    d.error = larger(d.error, end.error);
+    double window = larger(total_of(&c, &d, z1, 0.0), total_of(&c, &d, z2, 0.0));
+    double separation = distance(&c, z2, window, d.slope) * outward;
+    for (double before = HUGE_VAL; separation < z1 && separation < 0.97 * before;) {
+        before = separation;
+        const demand close = demand_over(setup, &c, z1, z2 + separation);
+        window = larger(total_of(&c, &close, z1, 0.0), total_of(&c, &close, z2, 0.0));
+        const double s = close.slope > 0.0 ? distance(&c, z2, window, close.slope) * outward : HUGE_VAL;
+        if (s >= separation)
+            break;
+        separation = s;
+    }
+    return whole_steps(separation, 2.0 * half_ulp(z2));
 }
 
 dp_status dp_code_range(const dp_setup *setup, double z, uint32_t *lowest, uint32_t *highest) {

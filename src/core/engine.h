@@ -18,4 +18,14 @@ uint32_t dp_code_quick(const dp_setup *setup, double z, int *certain);
 /* The right code, decided exactly from any stored code to start from. */
 uint32_t dp_code_exact(const dp_setup *setup, double z, uint32_t start);
 
+/*
+ * A separation that dp_budget_at() guarantees at every binary32 depth from `nearest` to `farthest`, two depths of one
+ * binade: as good as the worst of them when the run is short. INFINITY where there is none.
+ */
+double dp_budget_bound(const dp_setup *setup, float nearest, float farthest);
+
+/* The models exact and staged: the steps of d that dp_separation() takes at the depths of [nearest, farthest], at most.
+ */
+double dp_separation_step(const dp_setup *setup, double nearest, double farthest);
+
 #endif

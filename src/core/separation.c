@@ -3,6 +3,7 @@
 #include "core/boundary.h"
 #include "core/curve.h"
 #include "core/engine.h"
+#include "core/extremes.h"
 #include "depthprec/budget.h"
 #include "depthprec/depth.h"
 
@@ -34,10 +35,6 @@ static double exact_step(const dp_setup *setup, double z) {
     return setup->spec.format.kind == DP_FORMAT_UNORM ? 2.0 : float_step(setup, z);
 }
 
-static double larger(double a, double b) {
-    return a > b ? a : b;
-}
-
 /*
  * The stages widen a step of the format by at most one binary32 step each: a cell is what rounds into one run of
  * window depths, and that run into one run of NDC depths. Each step is taken where it is larger, at z or behind it.
@@ -53,6 +50,39 @@ static double staged_step(const dp_setup *setup, double z) {
                             : larger(code, dp_step_num(format, dp_binade(format, there)));
     const double ndc = larger(dp_staged_ndc_step(setup, here), dp_staged_ndc_step(setup, there));
     const double window = larger(dp_staged_window_step(here), dp_staged_window_step(fabs(there)));
+    return wide + ndc + (dp_mapping_get(setup->spec.mapping)->ndc_signed ? window : 0.0);
+}
+
+/* The step of the format where d is at most `d`, or, at a binade end, the larger one that lies ahead. */
+static double largest_code_step(const dp_setup *setup, double d) {
+    const dp_format *format = &setup->spec.format;
+    if (format->kind == DP_FORMAT_UNORM)
+        return 2.0 / setup->den;
+    const double step = dp_step_num(format, dp_binade(format, d));
+    return setup->reversed ? step : dp_step_num(format, dp_binade(format, d + step));
+}
+
+/* Every term of staged_step() at the end of the range where it is largest. */
+double dp_separation_step(const dp_setup *setup, double nearest, double farthest) {
+    const double a = dp_window(setup, nearest);
+    const double b = dp_window(setup, farthest);
+    double high = larger(a, b) * (1.0 + 2.0 * DP_WINDOW_ERROR);
+    double low = (a < b ? a : b) * (1.0 - 2.0 * DP_WINDOW_ERROR);
+    const double code = largest_code_step(setup, high);
+    if (setup->spec.model == DP_MODEL_EXACT || dp_staged_is_exact(setup))
+        return code;
+    const double first =
+        code + dp_staged_window_step(high) + larger(dp_staged_ndc_step(setup, low), dp_staged_ndc_step(setup, high));
+    if (setup->reversed)
+        low -= 4.0 * first;
+    else
+        high += 4.0 * first;
+    const dp_format *format = &setup->spec.format;
+    const double wide = setup->reversed || format->kind == DP_FORMAT_UNORM
+                            ? code
+                            : larger(code, dp_step_num(format, dp_binade(format, high)));
+    const double ndc = larger(dp_staged_ndc_step(setup, low), dp_staged_ndc_step(setup, high));
+    const double window = larger(dp_staged_window_step(fabs(low)), dp_staged_window_step(high));
     return wide + ndc + (dp_mapping_get(setup->spec.mapping)->ndc_signed ? window : 0.0);
 }
 

@@ -57,7 +57,7 @@ static void half_run(const dp_setup *setup, const void *state, const method_inpu
 
 #if defined(__x86_64__)
 static bool has_f16c(void) {
-    return __builtin_cpu_supports("avx2") && __builtin_cpu_supports("f16c");
+    return __builtin_cpu_supports("avx2"); /* has F16C too; clang has no name for it here */
 }
 
 __attribute__((target("avx,f16c"))) static void f16c_run(const dp_setup *setup, const void *state,

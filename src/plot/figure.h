@@ -14,14 +14,27 @@
 #include "depthprec/depthprec.h"
 #include "plot/chart.h"
 
+/** A requirement of a set-up and how it was judged, for the figure that shows them. Lengths in scene units. */
+typedef struct figure_need {
+    const char *name;
+    size_t setup;  /**< index into the request's set-ups */
+    bool is_error; /**< it limits the error of the stored depth; else the separation */
+    bool passed;
+    double lo, hi; /**< the range, equal for a single depth; hi may be INFINITY */
+    double limit;
+    double z; /**< where it is worst */
+} figure_need;
+
 /** What is asked for. */
 typedef struct figure_request {
     const dp_setup *setups; /**< at least one; all with the same planes and projection */
     size_t count;
-    const char *const *names;             /**< "unorm24 d3d" of each, for legends */
-    double lo, hi;                        /**< eye depths to show; both NaN when the user left it to the figure */
-    double at;                            /**< a single depth for the figures that take one, else NaN */
-    dp_budget_terms terms;                /**< what is added to the pipeline, for the figures that take it */
+    const char *const *names; /**< "unorm24 d3d" of each, for legends */
+    double lo, hi;            /**< eye depths to show; both NaN when the user left it to the figure */
+    double at;                /**< a single depth for the figures that take one, else NaN */
+    dp_budget_terms terms;    /**< what is added to the pipeline, for the figures that take it */
+    const figure_need *needs; /**< for the figures that take them */
+    size_t need_count;
     const struct figure_methods *methods; /**< for the figures that show methods, else null */
     int columns;                          /**< how finely to compute: pixel columns of the figure */
 } figure_request;
@@ -46,8 +59,9 @@ enum {
     FIGURE_AT = 1 << 0,     /**< one depth, given with --at */
     FIGURE_TERMS = 1 << 1,  /**< --interpolation, --world, --linearize */
     FIGURE_FP32 = 1 << 2,   /**< set-ups of the model fp32, which have no cells */
-    FIGURE_PARETO = 1 << 4, /**< methods and their times */
-    FIGURE_WALK = 1 << 5,   /**< methods walked over far/near */
+    FIGURE_NEEDS = 1 << 4,  /**< a requirement file, which brings its own set-ups, with planes of their own */
+    FIGURE_PARETO = 1 << 5, /**< methods and their times */
+    FIGURE_WALK = 1 << 6,   /**< methods walked over far/near */
     FIGURE_METHODS = FIGURE_PARETO | FIGURE_WALK,
     FIGURE_BINARY32 = 1 << 3, /**< nothing but set-ups of the model fp32, whatever --model says */
 };
@@ -86,6 +100,7 @@ const char *share_build(const figure_request *request, chart *out);
 const char *error_build(const figure_request *request, chart *out);
 const char *interval_build(const figure_request *request, chart *out);
 const char *budget_build(const figure_request *request, chart *out);
+const char *scene_build(const figure_request *request, chart *out);
 const char *map_build(const figure_request *request, chart *out);
 const char *pareto_build(const figure_request *request, chart *out);
 const char *stability_build(const figure_request *request, chart *out);

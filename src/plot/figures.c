@@ -28,6 +28,9 @@ static const figure_row rows[] = {
     {"stability", "Where methods lose their digits",
      "methods of a family, linearize by default, against far/near: colour = digits left, with the claims' ends",
      CHART_SERIES, FIGURE_WALK | FIGURE_FP32, stability_build},
+    {"scene", "What the scene needs and what the cameras give",
+     "a requirement file: the separation (or error) that each requirement allows against what its set-up gives",
+     CHART_PANELS, FIGURE_FP32 | FIGURE_NEEDS, scene_build},
 };
 
 const figure_row *figure_get(size_t index) {

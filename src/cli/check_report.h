@@ -1,0 +1,26 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/** @file check_report.h  Verdicts as text, JSON, JUnit XML or CSV. */
+#ifndef CLI_CHECK_REPORT_H
+#define CLI_CHECK_REPORT_H
+
+#include "cli/options.h"
+#include "need/check.h"
+
+typedef struct check_file {
+    need_file file;
+    size_t count;
+    check_verdict *verdicts;
+    long failed;
+} check_file;
+
+/** Writes the report that the options ask for. */
+void check_report(const options *o, output *out, const check_file *files, size_t count);
+
+/** Reads a requirement file. @return EXIT_FINE, EXIT_USAGE or EXIT_IO after one line on stderr that names the line */
+int check_read(const char *path, need_file *file);
+
+/** A check_counter that runs a census or a sample; context is the options. */
+bool check_count_ties(void *context, const dp_setup *setup, double lo, double hi, bool sample, double *share,
+                      double *z);
+
+#endif

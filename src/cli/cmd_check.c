@@ -1,0 +1,119 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* check: the requirements of files, judged: exit 1 with the depth at which one fails. */
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "cli/check_report.h"
+#include "cli/progress.h"
+#include "cli/suggest.h"
+#include "method/census.h"
+
+int cmd_check(const options *o);
+
+static int refuse(const char *path, const need_error *e) {
+    char where[32] = "";
+    char text[SUGGEST_TEXT_SIZE] = "";
+    if (e->line > 0)
+        snprintf(where, sizeof where, ":%d", e->line);
+    if (e->given[0] != '\0') {
+        suggestion s = suggest_start(e->given);
+        suggest_offer(&s, e->known);
+        suggest_text(&s, "", text);
+    }
+    const int status = usage_error("%s%s: %s%s", path, where, e->text, text);
+    return e->unreadable ? EXIT_IO : status;
+}
+
+int check_read(const char *path, need_file *file) {
+    need_error error;
+    return need_read(path, file, &error) ? EXIT_FINE : refuse(path, &error);
+}
+
+/* The census tells how many depths it has done; a census of some seconds shows a bar. */
+static int advance(void *context, uint64_t done) {
+    progress_step(context, done);
+    return 0;
+}
+
+bool check_count_ties(void *context, const dp_setup *setup, double lo, double hi, bool sample, double *share,
+                      double *z) {
+    const options *o = context;
+    census_result *result = malloc(sizeof *result);
+    if (result == NULL)
+        return false;
+    progress bar = progress_start("depths", sample ? (uint64_t)CHECK_SAMPLE : census_count(lo, hi), o->quiet);
+    census_sample_request request = {
+        .common = {.setup = setup, .lo = lo, .hi = hi, .threads = o->threads, .progress = advance, .context = &bar},
+        .count = CHECK_SAMPLE,
+        .seed = CHECK_SEED};
+    const census_status status = sample ? census_sample(&request, result) : census_run(&request.common, result);
+    progress_end(&bar);
+    double worst = -1.0;
+    *share = 0.0;
+    *z = lo;
+    for (int i = 0; status == CENSUS_DONE && i < result->band_count; i++) {
+        const census_band *b = &result->bands[i];
+        const double of_band = b->pairs > 0 ? (double)(b->ties + b->swaps) / (double)b->pairs : 0.0;
+        if (of_band > worst) {
+            worst = of_band;
+            *z = b->lo;
+        }
+    }
+    if (status == CENSUS_DONE && result->all.pairs > 0)
+        *share = (double)(result->all.ties + result->all.swaps) / (double)result->all.pairs;
+    free(result);
+    return status == CENSUS_DONE || status == CENSUS_RANGE; /* a range of one depth has no pair to tie */
+}
+
+static int judge(const options *o, check_file *f) {
+    const check_request request = {.file = &f->file, .count = check_count_ties, .context = (void *)(uintptr_t)o};
+    f->count = check_count(&f->file);
+    f->verdicts = calloc(f->count, sizeof *f->verdicts);
+    if (f->verdicts == NULL)
+        return usage_error("%s: no memory for %zu verdicts", f->file.path, f->count);
+    f->failed = check_all(&request, f->verdicts);
+    if (f->failed < 0)
+        return usage_error("%s: no memory to count ties", f->file.path);
+    return EXIT_FINE;
+}
+
+static int judge_all(const options *o, check_file *files, size_t count, long *failed) {
+    int status = EXIT_FINE;
+    for (size_t i = 0; i < count && status == EXIT_FINE; i++) /* a mistake in the last file is told at once */
+        status = check_read(o->operands[i], &files[i].file);
+    for (size_t i = 0; i < count && status == EXIT_FINE; i++) {
+        status = judge(o, &files[i]);
+        *failed += files[i].failed;
+    }
+    return status;
+}
+
+int cmd_check(const options *o) {
+    const size_t count = (size_t)o->operand_count;
+    long failed = 0;
+    output out;
+    if (o->report != REPORT_TEXT && o->form != FORM_TEXT)
+        return option_error(OPTION_REPORT, "must not be given together with --json or --csv");
+    int status = output_open(&out, o->output);
+    if (status != EXIT_FINE)
+        return status;
+    check_file *files = calloc(count, sizeof *files);
+    if (files == NULL)
+        status = usage_error("no memory for %zu files", count);
+    if (status == EXIT_FINE)
+        status = judge_all(o, files, count, &failed);
+    if (status == EXIT_FINE) {
+        check_report(o, &out, files, count);
+        status = output_close(&out);
+    } else {
+        output_abandon(&out);
+    }
+    for (size_t i = 0; i < count && files != NULL; i++) {
+        need_release(&files[i].file);
+        free(files[i].verdicts);
+    }
+    free(files);
+    return status == EXIT_FINE && failed > 0 ? EXIT_FAILED : status;
+}

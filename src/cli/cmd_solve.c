@@ -1,0 +1,290 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* solve: the missing one of near, far, format, mapping and separation; and what is possible where that is not. */
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include <gsl/gsl_errno.h>
+
+#include "cli/number.h"
+#include "cli/setups.h"
+#include "cli/solve_report.h"
+
+int cmd_solve(const options *o);
+
+static const char *const target_names[SOLVE_FOR_COUNT] = {"", "near", "far", "format", "mapping", "separation"};
+
+/* ---- What is asked ----------------------------------------------------------------------------------------------- */
+
+static bool is_known(const options *o, option_id id) {
+    return option_given(o, id) || o->preset != NULL;
+}
+
+static int check_target(const options *o, solve_report *r) {
+    static const option_id givens[] = {OPTION_NEAR, OPTION_FAR, OPTION_FORMAT, OPTION_MAPPING};
+    const bool limited = option_given(o, OPTION_SEPARATION) || option_given(o, OPTION_ERROR);
+    if (option_given(o, OPTION_SEPARATION) && option_given(o, OPTION_ERROR))
+        return option_error(OPTION_ERROR, "must not be given together with --separation");
+    r->kind = option_given(o, OPTION_ERROR) ? MEASURE_ERROR : MEASURE_SEPARATION;
+    r->limit = !limited ? (double)NAN : r->kind == MEASURE_ERROR ? o->wanted_error : o->wanted_separation;
+    r->target = o->target;
+    if (r->target == SOLVE_FOR_ANY && !limited)
+        r->target = SOLVE_FOR_SEPARATION;
+    for (int i = 0; i < 4 && r->target == SOLVE_FOR_ANY; i++)
+        if (!is_known(o, givens[i]))
+            r->target = (solve_target)(SOLVE_FOR_NEAR + i);
+    if (r->target == SOLVE_FOR_ANY)
+        return usage_error("solve: nothing is left to solve for: leave out --near, --far, --format, --mapping or "
+                           "--separation, or name one with --for");
+    if (r->target == SOLVE_FOR_SEPARATION && limited)
+        return option_error(OPTION_FOR, "separation is what is solved for, got --%s too",
+                            option_name(r->kind == MEASURE_ERROR ? OPTION_ERROR : OPTION_SEPARATION));
+    if (r->target != SOLVE_FOR_SEPARATION && !limited)
+        return option_error(OPTION_SEPARATION, "must be given (or --error), to solve for %s", target_names[r->target]);
+    if (r->target <= SOLVE_FOR_FAR && option_given(o, givens[r->target - SOLVE_FOR_NEAR]))
+        return option_error(OPTION_FOR, "%s is what is solved for, got --%s too", target_names[r->target],
+                            target_names[r->target]);
+    if (o->model_auto || o->model != DP_MODEL_EXACT)
+        return option_error(OPTION_MODEL,
+                            "must be exact: in the others nothing is monotone that a root could be found of, got "
+                            "'%s'; 'depthprec budget' judges the answer",
+                            o->model_auto ? "auto" : dp_model_name(o->model));
+    return EXIT_FINE;
+}
+
+static int check_depths(const options *o, solve_report *r) {
+    const bool range = option_given(o, OPTION_RANGE);
+    if (range && o->at.count > 0)
+        return option_error(OPTION_RANGE, "must not be given together with --at");
+    if (!range && o->at.count == 0)
+        return option_error(OPTION_AT, "must be given, or --range LO:HI");
+    if (o->at.count > 1)
+        return option_error(OPTION_AT, "solve takes one depth, or --range LO:HI, got %zu depths", o->at.count);
+    r->lo = range ? o->range_lo : o->at.lo;
+    r->hi = range ? o->range_hi : o->at.lo;
+    const option_id id = range ? OPTION_RANGE : OPTION_AT;
+    const bool free_near = r->target == SOLVE_FOR_NEAR;
+    const bool free_far = r->target == SOLVE_FOR_FAR || !is_known(o, OPTION_FAR);
+    const double least = free_near ? 1e-12 : o->znear;
+    const double most = free_far ? 1e18 : o->zfar;
+    if (r->lo >= least && r->hi <= most)
+        return EXIT_FINE;
+    char lo[NUMBER_SIZE];
+    char hi[NUMBER_SIZE];
+    char got[NUMBER_SIZE];
+    number_shortest(least, lo);
+    number_shortest(most, hi);
+    number_shortest(r->lo >= least ? r->hi : r->lo, got);
+    return option_error(id, "depths must lie in [%s, %s] = [%s, %s], got %s", free_near ? "1e-12" : "near",
+                        free_far ? "1e18" : "far", lo, hi, got);
+}
+
+/* ---- Candidates -------------------------------------------------------------------------------------------------- */
+
+static bool asks_for_choice(solve_target target) {
+    return target == SOLVE_FOR_FORMAT || target == SOLVE_FOR_MAPPING;
+}
+
+static dp_status solve_plane(const solve_report *r, solve_candidate *c, solve_unknown unknown, solve_result *result) {
+    const solve_problem p = {
+        .spec = c->spec, .unknown = unknown, .kind = r->kind, .limit = r->limit, .lo = r->lo, .hi = r->hi};
+    const dp_status status = solve(&p, result);
+    if (status != DP_OK)
+        return status;
+    *(unknown == SOLVE_NEAR ? &c->spec.znear : &c->spec.zfar) = result->value;
+    c->solved = true;
+    c->unknown = unknown;
+    c->possible = result->possible;
+    c->worst = result->worst;
+    c->until = result->until;
+    c->least = result->least;
+    c->most = result->most;
+    c->island_count = result->island_count;
+    return DP_OK;
+}
+
+static dp_status evaluate(const solve_report *r, solve_candidate *c) {
+    dp_setup setup;
+    const dp_status status = dp_setup_init(&setup, &c->spec);
+    if (status != DP_OK)
+        return status;
+    c->worst = measure_over(r->kind, &setup, r->lo, r->hi);
+    c->possible = isnan(r->limit) || c->worst.value <= r->limit;
+    return DP_OK;
+}
+
+/* Fills in what is missing. */
+static dp_status try_candidate(const solve_report *r, solve_candidate *c, solve_result *result) {
+    if (r->target == SOLVE_FOR_NEAR)
+        return solve_plane(r, c, SOLVE_NEAR, result);
+    if (r->target == SOLVE_FOR_FAR)
+        return solve_plane(r, c, SOLVE_FAR, result);
+    return evaluate(r, c);
+}
+
+/* Where the planes are given and do not do, the near plane that this format and mapping would need. */
+static void try_other_near(const solve_report *r, solve_candidate *c, solve_result *result) {
+    solve_candidate other = *c;
+    if (c->possible || isnan(r->limit) || solve_plane(r, &other, SOLVE_NEAR, result) != DP_OK || !other.possible)
+        return;
+    *c = other;
+}
+
+static bool listed(const solve_report *r, const dp_spec *spec) {
+    for (size_t i = 0; i < r->count; i++)
+        if (r->items[i].spec.mapping == spec->mapping && strcmp(r->items[i].spec.format.name, spec->format.name) == 0)
+            return true;
+    return false;
+}
+
+static dp_spec spec_of(const options *o) {
+    return (dp_spec){.znear = o->znear,
+                     .zfar = is_known(o, OPTION_FAR) ? o->zfar : (double)HUGE_VAL,
+                     .ortho = o->ortho,
+                     .rounding = o->rounding,
+                     .model = DP_MODEL_EXACT,
+                     .log_c = o->log_c};
+}
+
+static int refused(const solve_report *r, const solve_candidate *c, dp_status status) {
+    const char *mapping = dp_mapping_get(c->spec.mapping)->name;
+    if (status == DP_ERROR_INFINITE && !is_known(r->o, OPTION_FAR))
+        return option_error(OPTION_FAR, "must be given: %s has no infinite far",
+                            c->spec.ortho ? "an orthographic projection" : mapping);
+    const option_id id = status == DP_ERROR_ORTHO   ? OPTION_ORTHO
+                         : status == DP_ERROR_NEAR  ? OPTION_NEAR
+                         : status == DP_ERROR_LOG_C ? OPTION_LOG_C
+                                                    : OPTION_FAR;
+    return option_error(id, "%s, got %s %s", dp_status_text(status), c->spec.format.name, mapping);
+}
+
+static void add(solve_report *r, const dp_spec *spec, bool asked) {
+    solve_candidate *c = &r->items[r->count++];
+    *c = (solve_candidate){.spec = *spec, .asked = asked, .price = cost_of(&spec->format, spec->mapping)};
+}
+
+static int add_asked(solve_report *r, solve_result *result) {
+    const options *o = r->o;
+    dp_spec spec = spec_of(o);
+    for (size_t f = 0; f < o->format_count; f++)
+        for (size_t m = 0; m < o->mapping_count; m++) {
+            spec.format = o->formats[f];
+            spec.mapping = o->mappings[m];
+            add(r, &spec, true);
+            solve_candidate *c = &r->items[r->count - 1];
+            const dp_status status = try_candidate(r, c, result);
+            if (status != DP_OK)
+                return refused(r, c, status);
+        }
+    return EXIT_FINE;
+}
+
+/* What else there is: the real depth buffers with the mappings that an engine can choose. */
+static void add_others(solve_report *r, solve_result *result) {
+    static const char *const formats[] = {"unorm16", "unorm24", "fp32"};
+    static const dp_mapping mappings[] = {DP_MAPPING_D3D, DP_MAPPING_REVERSED, DP_MAPPING_LOG};
+    dp_spec spec = spec_of(r->o);
+    for (size_t f = 0; f < sizeof formats / sizeof formats[0]; f++)
+        for (size_t m = 0; m < sizeof mappings / sizeof mappings[0]; m++) {
+            dp_format found[2];
+            dp_format_parse(formats[f], found);
+            spec.format = found[0];
+            spec.mapping = mappings[m];
+            if (listed(r, &spec) || (spec.mapping == DP_MAPPING_D3D && r->o->mappings[0] == DP_MAPPING_GL))
+                continue;
+            add(r, &spec, false);
+            if (try_candidate(r, &r->items[r->count - 1], result) != DP_OK)
+                r->count--;
+        }
+}
+
+/* ---- Order ------------------------------------------------------------------------------------------------------- */
+
+static int compare_numbers(double a, double b) {
+    return (a > b) - (a < b);
+}
+
+/* Alternatives: what is possible, the cheapest first; then what comes nearest. */
+static int compare_alternatives(const void *a, const void *b) {
+    const solve_candidate *x = a;
+    const solve_candidate *y = b;
+    if (x->possible != y->possible)
+        return x->possible ? -1 : 1;
+    if (x->possible && x->solved != y->solved) /* as it is, rather than with another near */
+        return x->solved ? 1 : -1;
+    const int price = cost_compare(&x->price, &y->price);
+    if (x->possible && price != 0)
+        return price;
+    const int value = compare_numbers(x->worst.value, y->worst.value);
+    return value != 0 ? value : price;
+}
+
+/* The answer among what was asked: with a plane left open, the one that leaves it the most room. */
+static int compare_answers(const solve_report *r, const solve_candidate *x, const solve_candidate *y) {
+    if (x->asked != y->asked)
+        return x->asked ? -1 : 1;
+    const bool choice = asks_for_choice(r->target) || r->target == SOLVE_FOR_SEPARATION;
+    if (x->possible == y->possible && x->possible && !choice) {
+        const int room = x->unknown == SOLVE_NEAR ? compare_numbers(x->spec.znear, y->spec.znear)
+                                                  : compare_numbers(y->spec.zfar, x->spec.zfar);
+        if (room != 0)
+            return room;
+    }
+    if (r->target == SOLVE_FOR_SEPARATION && x->worst.value != y->worst.value)
+        return compare_numbers(x->worst.value, y->worst.value);
+    return compare_alternatives(x, y);
+}
+
+/* Puts the answer first, the rest behind it in order, and its islands where the report finds them. */
+static void arrange(solve_report *r, solve_result *result) {
+    size_t best = 0;
+    for (size_t i = 1; i < r->count; i++)
+        if (compare_answers(r, &r->items[i], &r->items[best]) < 0)
+            best = i;
+    const solve_candidate answer = r->items[best];
+    r->items[best] = r->items[0];
+    r->items[0] = answer;
+    for (size_t i = 1; i < r->count; i++)
+        if (asks_for_choice(r->target))
+            try_other_near(r, &r->items[i], result);
+    if (r->count > 1)
+        qsort(r->items + 1, r->count - 1, sizeof r->items[0], compare_alternatives);
+    if (!answer.solved)
+        return;
+    solve_candidate again = answer;
+    solve_plane(r, &again, answer.unknown, result);
+    r->islands = result->islands;
+}
+
+static int run(solve_report *r, solve_result *result, output *out) {
+    int status = add_asked(r, result);
+    if (status != EXIT_FINE)
+        return status;
+    if (!isnan(r->limit))
+        add_others(r, result);
+    arrange(r, result);
+    status = output_open(out, r->o->output);
+    if (status != EXIT_FINE)
+        return status;
+    const bool possible = r->items[0].possible;
+    solve_report_write(r, out);
+    status = output_close(out);
+    return status == EXIT_FINE && !possible ? EXIT_FAILED : status;
+}
+
+int cmd_solve(const options *o) {
+    static output out;
+    solve_report r = {.o = o};
+    gsl_set_error_handler_off();
+    int status = check_target(o, &r);
+    if (status == EXIT_FINE)
+        status = check_depths(o, &r);
+    if (status != EXIT_FINE)
+        return status;
+    solve_result *result = malloc(sizeof *result);
+    r.items = malloc(SOLVE_CANDIDATES_MAX * sizeof *r.items);
+    status = result != NULL && r.items != NULL ? run(&r, result, &out) : usage_error("solve: no memory");
+    free(r.items);
+    free(result);
+    return status;
+}

@@ -1,0 +1,178 @@
+/* SPDX-License-Identifier: MIT */
+/* The largest separation over a range: at binade ends in the model exact, by branch and bound in the others. */
+#include "core/boundary.h"
+#include "core/curve.h"
+#include "core/engine.h"
+#include "depthprec/bounds.h"
+#include "depthprec/depth.h"
+
+enum { PARTS_MAX = 512, EVALUATIONS_MAX = 1 << 16 };
+
+/* The search stops refining what is no more than this above what was found. */
+static const double slack = 1.0 + 0x1p-10;
+
+static double larger(double a, double b) {
+    return a > b ? a : b;
+}
+
+static double smaller(double a, double b) {
+    return a < b ? a : b;
+}
+
+/* A part of the range. fp32: its ends are binary32 depths, and it holds these only. */
+typedef struct part {
+    double lo, hi;
+    double bound;
+} part;
+
+typedef struct search {
+    const dp_setup *setup;
+    dp_separation_worst *worst;
+    double limit;
+    int evaluations;
+    int count;
+    part parts[PARTS_MAX]; /* a stack */
+} search;
+
+/* fp32: the binary32 depth nearest to an end of the range may lie just outside, and is meant by that end. */
+static void look(dp_separation_worst *worst, const dp_setup *setup, double depth) {
+    const double z = smaller(larger(depth, worst->lo), worst->hi);
+    const double s = dp_separation(setup, z);
+    if (s > worst->separation) {
+        worst->separation = s;
+        worst->z = z;
+    }
+}
+
+/* An upper bound of the separation at every depth of the part. */
+static double bound_of(const dp_setup *setup, double lo, double hi) {
+    if (setup->spec.model == DP_MODEL_FP32)
+        return dp_budget_bound(setup, (float)lo, (float)hi);
+    const double step = dp_separation_step(setup, lo, hi) * (1.0 + 0x1p-50);
+    return dp_curve_ahead(setup, step, 1.0, hi) * dp_curve_outward(setup);
+}
+
+/* Nothing lies between the ends of the part. */
+static int is_single(const dp_setup *setup, const part *p) {
+    if (setup->spec.model == DP_MODEL_FP32)
+        return (double)nextafterf((float)p->lo, HUGE_VALF) >= p->hi;
+    return nextafter(p->lo, HUGE_VAL) >= p->hi;
+}
+
+static void settle(dp_separation_worst *worst, double bound) {
+    worst->bound = larger(worst->bound, bound);
+}
+
+/* A part is of no interest when it cannot be worse than what is known; then its bound is the range's, too. */
+static void offer(search *s, double lo, double hi) {
+    look(s->worst, s->setup, lo);
+    look(s->worst, s->setup, hi);
+    part p = {lo, hi, 0.0};
+    if (is_single(s->setup, &p)) {
+        settle(s->worst, s->worst->separation);
+        return;
+    }
+    p.bound = bound_of(s->setup, lo, hi);
+    s->evaluations++;
+    if (s->count == PARTS_MAX)
+        settle(s->worst, p.bound);
+    else
+        s->parts[s->count++] = p;
+}
+
+/* The depths of a part that lie on either side of its middle; binary32 depths have no depth between them. */
+static void divide(search *s, const part *p) {
+    const double middle = p->lo < 0.5 * p->hi ? sqrt(p->lo) * sqrt(p->hi) : 0.5 * p->lo + 0.5 * p->hi;
+    if (s->setup->spec.model == DP_MODEL_FP32) {
+        float m = (float)middle;
+        if ((double)m >= p->hi)
+            m = nextafterf(m, 0.0F);
+        offer(s, p->lo, (double)m);
+        offer(s, (double)nextafterf(m, HUGE_VALF), p->hi);
+        return;
+    }
+    offer(s, p->lo, middle);
+    offer(s, middle, p->hi);
+}
+
+static void refine(search *s) {
+    while (s->count > 0) {
+        const part p = s->parts[--s->count];
+        const double enough = s->limit > 0.0 ? s->limit : slack * s->worst->separation;
+        const int hopeless = s->limit > 0.0 && s->worst->separation > s->limit;
+        if (p.bound <= enough || hopeless || s->evaluations >= EVALUATIONS_MAX || isinf(s->worst->separation))
+            settle(s->worst, p.bound);
+        else
+            divide(s, &p);
+    }
+}
+
+/* fp32: parts within one binade, the nearest first, so that the farthest is looked at first. */
+static void begin(search *s) {
+    const dp_separation_worst *w = s->worst;
+    if (s->setup->spec.model != DP_MODEL_FP32) {
+        offer(s, w->lo, w->hi);
+        return;
+    }
+    const double hi = (double)(float)w->hi;
+    double lo = (double)(float)w->lo;
+    while (lo < hi) {
+        const double next = 2.0 * dp_power2(dp_exponent(lo));
+        offer(s, lo, next <= hi ? (double)nextafterf((float)next, 0.0F) : hi);
+        lo = next;
+    }
+    if (lo == hi)
+        offer(s, lo, hi);
+}
+
+static void branch_and_bound(const dp_setup *setup, double limit, dp_separation_worst *out) {
+    search s = {.setup = setup, .worst = out, .limit = limit};
+    out->bound = out->separation;
+    begin(&s);
+    refine(&s);
+    out->bound = larger(out->bound, out->separation);
+}
+
+/*
+ * exact, reversed floats: with depth the steps only become finer, so the far end of each binade has its largest
+ * separation. The step from a binade's end is its own, the larger one.
+ */
+static void over_binades(const dp_setup *setup, dp_separation_worst *out) {
+    const dp_format *format = &setup->spec.format;
+    const int lowest = 1 - format->bias;
+    for (int e = dp_binade(format, dp_window(setup, out->lo)) + 1; e >= lowest; e--) {
+        const double end = e == lowest ? out->hi : dp_curve_eye(setup, dp_point_make(dp_power2(e), 1.0));
+        if (end * (1.0 + 0x1p-46) < out->lo)
+            continue;
+        const double z = smaller(end * (1.0 + 0x1p-46), out->hi);
+        settle(out, dp_curve_ahead(setup, dp_step_num(format, e), 1.0, z) * dp_curve_outward(setup));
+        look(out, setup, smaller(larger(end * (1.0 - 0x1p-46), out->lo), out->hi));
+        if (end * (1.0 - 0x1p-46) > out->hi)
+            break;
+    }
+}
+
+dp_status dp_separation_over(const dp_setup *setup, double lo, double hi, double limit, dp_separation_worst *out) {
+    if (setup == NULL || out == NULL)
+        return DP_ERROR_NULL;
+    if (!(lo >= setup->spec.znear && lo <= hi && hi <= setup->spec.zfar) || isinf(lo))
+        return DP_ERROR_RANGE;
+    dp_separation_worst worst = {.lo = lo, .hi = hi, .z = hi};
+    look(&worst, setup, hi);
+    look(&worst, setup, lo);
+    const int exact =
+        setup->spec.model == DP_MODEL_EXACT || (setup->spec.model == DP_MODEL_STAGED && dp_staged_is_exact(setup));
+    if (isinf(worst.separation)) {
+        worst.bound = worst.separation;
+    } else if (exact) {
+        if (setup->reversed && setup->spec.format.kind == DP_FORMAT_FLOAT)
+            over_binades(setup, &worst);
+        worst.bound = larger(worst.bound, worst.separation) * dp_curve_outward(setup);
+    } else {
+        branch_and_bound(setup, 0.0, &worst);
+        if (worst.separation <= limit && worst.bound > limit)
+            branch_and_bound(setup, limit, &worst);
+    }
+    *out = worst;
+    return DP_OK;
+}

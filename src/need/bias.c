@@ -1,0 +1,276 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "need/bias.h"
+
+#include <math.h>
+#include <string.h>
+#include <strings.h>
+
+/* clang-format off */
+static const bias_api rows[] = {
+    {"d3d11", "d3d10 d3d12 direct3d11 direct3d12", BIAS_CODE, BIAS_EXPONENT, true, true, true, false,
+     "DepthBias is an integer; all is computed in binary32, at the vertices, after clipping",
+     "Direct3D 11 programming guide, output merger stage, Depth Bias"},
+    {"webgpu", "wgpu", BIAS_CODE, BIAS_EXPONENT, true, true, false, false,
+     "depthBias is an integer; depth24plus may follow either rule (gpuweb/gpuweb#6350)",
+     "WebGPU, biased fragment depth; gpuweb/cts depth_bias.spec.ts"},
+    {"vulkan", "vk", BIAS_BOUND, BIAS_EXPONENT, false, true, false, true,
+     "for integer buffers r is the implementation's choice, at most 2 x 2^-N",
+     "Vulkan specification, Depth Bias Computation"},
+    {"vulkan-exact", "vk-exact", BIAS_POWER, BIAS_EXPONENT, false, true, false, false,
+     "VK_EXT_depth_bias_control with depthBiasExact: r = 2^-N, less than the distance of two codes",
+     "Vulkan specification, Depth Bias Computation; VK_EXT_depth_bias_control"},
+    {"vulkan-unorm", "vk-unorm", BIAS_POWER, BIAS_MANTISSA, false, true, false, false,
+     "representation LEAST_REPRESENTABLE_VALUE_FORCE_UNORM with depthBiasExact: one r for all depths of a float buffer",
+     "Vulkan specification, Depth Bias Computation; VK_EXT_depth_bias_control"},
+    {"vulkan-float", "vk-float", BIAS_ONE, BIAS_ONE, false, true, false, false,
+     "representation FLOAT: r = 1, units are window depth, as in d3d9",
+     "Vulkan specification, Depth Bias Computation; VK_EXT_depth_bias_control"},
+    {"gl", "opengl gles webgl", BIAS_FREE, BIAS_EXPONENT, false, true, false, true,
+     "glPolygonOffset(factor, units); the clamp is EXT_polygon_offset_clamp or GL 4.6; for integer buffers r is the "
+     "implementation's choice, 2^-N is assumed",
+     "OpenGL specification, Depth Offset; EXT_polygon_offset_clamp"},
+    {"d3d9", "direct3d9 d3d8to9", BIAS_ONE, BIAS_ONE, false, false, false, false,
+     "D3DRS_DEPTHBIAS is a window depth; there is no clamp",
+     "Direct3D 9, Depth Bias: Offset = m D3DRS_SLOPESCALEDEPTHBIAS + D3DRS_DEPTHBIAS"},
+};
+/* clang-format on */
+enum { ROW_COUNT = sizeof rows / sizeof rows[0] };
+
+enum { BINARY32_MANTISSA = 23, BINARY32_LOWEST = -126 };
+static const double units_most = 0x1p31; /* beyond what an integer bias can hold */
+
+const bias_api *bias_api_get(size_t index) {
+    return index < ROW_COUNT ? &rows[index] : NULL;
+}
+
+static bool among(const char *names, const char *name) {
+    const size_t size = strlen(name);
+    for (; *names != '\0'; names += names[0] == ' ') {
+        const size_t length = strcspn(names, " ");
+        if (length == size && strncasecmp(names, name, length) == 0)
+            return true;
+        names += length;
+    }
+    return false;
+}
+
+const bias_api *bias_api_find(const char *name) {
+    for (size_t i = 0; i < ROW_COUNT; i++)
+        if (strcasecmp(rows[i].name, name) == 0 || among(rows[i].aliases, name))
+            return &rows[i];
+    return NULL;
+}
+
+/* ---- What the APIs add ------------------------------------------------------------------------------------------- */
+
+static double to_binary32(double value) {
+    return (double)(float)value;
+}
+
+/* The exponent of the binary32 number nearest to d, not below the lowest that numbers of the format have. */
+static int exponent_of(const dp_format *format, double d) {
+    const bool is_float = format->kind == DP_FORMAT_FLOAT;
+    const int lowest = is_float ? 1 - format->bias : BINARY32_LOWEST;
+    const double held = to_binary32(d);
+    int e = lowest + 1;
+    if (held > 0.0)
+        (void)frexp(held, &e);
+    return e - 1 > lowest ? e - 1 : lowest;
+}
+
+/* r.least when the greatest depth has the exponent e. */
+static double unit_of(const bias_api *api, const dp_format *format, int e) {
+    const bool is_float = format->kind == DP_FORMAT_FLOAT;
+    switch (is_float ? api->real : api->unorm) {
+    case BIAS_CODE:
+        return to_binary32(1.0 / (double)format->code_max);
+    case BIAS_POWER:
+    case BIAS_BOUND:
+    case BIAS_FREE:
+        return ldexp(1.0, -format->bits);
+    case BIAS_EXPONENT:
+        return ldexp(1.0, e - format->mantissa_bits);
+    case BIAS_MANTISSA:
+        return ldexp(1.0, -(format->mantissa_bits + 1));
+    case BIAS_ONE:
+        break;
+    }
+    return 1.0;
+}
+
+bias_unit bias_unit_at(const bias_api *api, const dp_format *format, double d) {
+    const double least = unit_of(api, format, exponent_of(format, d));
+    const bool is_unorm = format->kind == DP_FORMAT_UNORM;
+    double most = least;
+    if (is_unorm && api->unorm == BIAS_BOUND)
+        most = 2.0 * least;
+    else if (is_unorm && api->unorm == BIAS_FREE)
+        most = (double)INFINITY;
+    return (bias_unit){least, most};
+}
+
+double bias_offset(const bias_state *state, double r, double m) {
+    double o = state->units * r + state->factor * m;
+    if (state->api->binary32) /* two binary32 factors: the products are exact in double, so each is rounded once */
+        o = to_binary32(to_binary32(state->units) * r);
+    if (state->api->binary32)
+        o = to_binary32(o + to_binary32(to_binary32(state->factor) * to_binary32(m)));
+    if (state->clamp > 0.0)
+        return fmin(o, state->clamp);
+    return state->clamp < 0.0 ? fmax(o, state->clamp) : o;
+}
+
+/* ---- Between window depth and scene ------------------------------------------------------------------------------ */
+
+int bias_sign(const dp_setup *setup) {
+    return setup->reversed ? 1 : -1;
+}
+
+double bias_window_slope(const dp_setup *setup, double z, double slope) {
+    const double c = setup->spec.log_c;
+    if (isinf(z) || slope == 0.0)
+        return 0.0;
+    switch (setup->curve) {
+    case DP_CURVE_PERSPECTIVE:
+        return slope / (setup->kappa * z * z);
+    case DP_CURVE_LINEAR:
+        return slope / setup->kappa;
+    case DP_CURVE_LOG:
+        break;
+    }
+    return slope * c / ((c * z + 1.0) * setup->kappa);
+}
+
+/* How far z moves when its window depth moves by t towards far; the result lies between the planes. */
+static double shift_of(const dp_setup *setup, double z, double t) {
+    const double c = setup->spec.log_c;
+    switch (setup->curve) {
+    case DP_CURVE_PERSPECTIVE: /* 1/z' = 1/z - t kappa */
+        return t * setup->kappa * z * (z / (1.0 - t * setup->kappa * z));
+    case DP_CURVE_LINEAR:
+        return t * setup->kappa;
+    case DP_CURVE_LOG:
+        break;
+    }
+    return (c * z + 1.0) / c * expm1(t * setup->kappa);
+}
+
+/* The window distance from z to z - gap; INFINITY when that lies before the near plane. */
+static double window_of_gap(const dp_setup *setup, double z, double gap) {
+    const double c = setup->spec.log_c;
+    const double to = z - gap;
+    if (gap == 0.0)
+        return 0.0;
+    if (!(to >= setup->spec.znear))
+        return (double)INFINITY;
+    switch (setup->curve) {
+    case DP_CURVE_PERSPECTIVE:
+        return gap / (setup->kappa * z * to);
+    case DP_CURVE_LINEAR:
+        return gap / setup->kappa;
+    case DP_CURVE_LOG:
+        break;
+    }
+    return -log1p(-c * gap / (c * z + 1.0)) / setup->kappa;
+}
+
+bias_effect bias_at(const dp_setup *setup, const bias_state *state, double slope, double z) {
+    const dp_format *format = &setup->spec.format;
+    const double d = dp_window(setup, z);
+    bias_effect effect = {.z = z, .r = bias_unit_at(state->api, format, d), .code = dp_code(setup, z)};
+    effect.m = bias_window_slope(setup, z, slope);
+    effect.offset = bias_offset(state, effect.r.least, effect.m);
+    effect.depth = d + effect.offset;
+    if (effect.offset == 0.0) {
+        effect.moved = effect.code;
+        effect.to = z;
+        return effect;
+    }
+    effect.limited = effect.depth < 0.0 || effect.depth > 1.0;
+    effect.depth = fmin(fmax(effect.depth, 0.0), 1.0);
+    effect.moved = dp_format_encode(format, setup->spec.rounding, effect.depth);
+    if (effect.limited) {
+        effect.to = (effect.depth > 0.5) != (setup->reversed != 0) ? setup->spec.zfar : setup->spec.znear;
+        effect.shift = effect.to - z;
+        return effect;
+    }
+    effect.shift = shift_of(setup, z, -effect.offset * bias_sign(setup));
+    effect.to = z + effect.shift;
+    return effect;
+}
+
+/* ---- How much is enough ------------------------------------------------------------------------------------------ */
+
+/*
+ * The window distance that certainly leads from one code to another, for depths below 2^(e+1) that are binary32
+ * numbers. In a format other than binary32 the sum d + o is rounded to binary32 and then to a code that it may meet at
+ * any alignment; layers that are sampled apart have, besides m, two depths that were rounded by themselves.
+ */
+static double certain_step(const bias_goal *goal, const dp_format *format, int e, double r, double m) {
+    const bool is_unorm = format->kind == DP_FORMAT_UNORM;
+    const bool is_binary32 = !is_unorm && format->mantissa_bits == BINARY32_MANTISSA;
+    const double step = is_unorm ? 1.0 / (double)format->code_max : ldexp(1.0, e - format->mantissa_bits);
+    const double half = fmin(0x1p-25, 0x1p-24 * (ldexp(2.0, e) + step + m)); /* half a step of binary32 below 1 */
+    const double apart = m > 0.0 ? m + 2.0 * half : 0.0;
+    if (goal->api->guaranteed)
+        return r + apart;
+    return (is_binary32 ? step : is_unorm ? step + half : 2.0 * step + half) + apart;
+}
+
+static double round_up(const bias_api *api, const dp_format *format, double units) {
+    const bias_rule rule = format->kind == DP_FORMAT_FLOAT ? api->real : api->unorm;
+    if (rule != BIAS_ONE)
+        return ceil(units);
+    const float nearest = (float)units;
+    return (double)((double)nearest < units ? nextafterf(nearest, HUGE_VALF) : nearest);
+}
+
+/* bias_needed() at z for a primitive whose greatest window depth has the exponent e. */
+static double needed_with(const dp_setup *setup, const bias_goal *goal, double z, int e) {
+    const dp_format *format = &setup->spec.format;
+    const double r = unit_of(goal->api, format, e);
+    const double m = bias_window_slope(setup, z, goal->slope);
+    const double step = certain_step(goal, format, e, r, m);
+    const double gap = window_of_gap(setup, z, goal->gap);
+    const double window = fmax(step, gap) - goal->factor * m;
+    /* Covers the roundings above and, where o itself is rounded to binary32, those; a single step is exact. */
+    const double outward = gap <= step && m == 0.0 ? 0.0 : goal->api->binary32 ? 0x1p-22 : 0x1p-48;
+    const double units =
+        round_up(goal->api, format, fmax((window + (fmax(step, gap) + fabs(goal->factor) * m) * outward) / r, 0.0));
+    return units <= units_most ? units : (double)INFINITY;
+}
+
+double bias_needed(const dp_setup *setup, const bias_goal *goal, double z) {
+    return needed_with(setup, goal, z, exponent_of(&setup->spec.format, dp_window(setup, z)));
+}
+
+static double clamped(double z, double lo, double hi) {
+    return fmin(fmax(z, lo), hi);
+}
+
+/*
+ * r and the steps change only where the exponent of d does, and between two such places the need is monotone in z, or
+ * was 0 before it rises: the greatest is at an end of the range or of a binade of d, seen from either side.
+ */
+double bias_needed_over(const dp_setup *setup, const bias_goal *goal, double lo, double hi, double *worst) {
+    const dp_format *format = &setup->spec.format;
+    const double d_lo = dp_window(setup, lo);
+    const double d_hi = isinf(hi) ? (setup->reversed ? 0.0 : 1.0) : dp_window(setup, hi);
+    const int first = exponent_of(format, fmin(d_lo, d_hi));
+    const int last = exponent_of(format, fmax(d_lo, d_hi));
+    double most = -1.0;
+    for (int i = 0; i <= last - first; i++) {
+        const int e = setup->reversed ? last - i : first + i; /* from the camera outwards */
+        const double ends[2] = {ldexp(1.0, setup->reversed ? e + 1 : e), ldexp(1.0, setup->reversed ? e : e + 1)};
+        for (int end = 0; end < 2; end++) {
+            const double d = fmin(ends[end], 1.0);
+            const double z = clamped(dp_eye(setup, d, 1.0 - d), lo, hi);
+            const double needed = needed_with(setup, goal, z, e);
+            if (needed > most) {
+                most = needed;
+                *worst = z;
+            }
+        }
+    }
+    return most;
+}

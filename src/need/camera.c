@@ -1,0 +1,179 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* The cameras of a requirement file. */
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+#include "need/presets.h"
+#include "need/reader.h"
+
+enum {
+    KEY_PRESET,
+    KEY_NEAR,
+    KEY_FAR,
+    KEY_MAPPING,
+    KEY_FORMAT,
+    KEY_ORTHO,
+    KEY_ROUNDING,
+    KEY_MODEL,
+    KEY_ARITH,
+    KEY_LOG_C,
+    KEY_COUNT
+};
+
+static const char *const keys[KEY_COUNT + 1] = {"preset",   "near",  "far",   "mapping", "format", "ortho",
+                                                "rounding", "model", "arith", "log_c",   NULL};
+
+typedef struct draft {
+    dp_spec spec;
+    dp_format formats[NEED_SETUPS_MAX];
+    size_t format_count;
+    bool automatic;
+} draft;
+
+/* A word among names; its index, or -1 after an error that lists them. */
+static int word_among(reader *r, const config_setting_t *s, const char *(*name)(size_t)) {
+    const char *text;
+    if (!reader_string(r, s, &text))
+        return -1;
+    for (size_t i = 0; name(i) != NULL; i++)
+        if (strcmp(name(i), text) == 0)
+            return (int)i;
+    char all[NEED_TEXT_SIZE / 2] = "";
+    for (size_t i = 0; name(i) != NULL; i++) {
+        const size_t used = strlen(all);
+        reader_known(r, text, name(i));
+        snprintf(all + used, sizeof all - used, "%s%s", i > 0 ? ", " : "", name(i));
+    }
+    reader_fail(r, s, "%s: must be one of %s, got '%.40s'", config_setting_name(s), all, text);
+    return -1;
+}
+
+static const char *rounding_name(size_t i) {
+    return dp_rounding_name((dp_rounding)i);
+}
+
+static const char *model_name(size_t i) {
+    return i == DP_MODEL_COUNT ? "auto" : dp_model_name((dp_model)i);
+}
+
+static const char *arith_name(size_t i) {
+    return i < dp_arith_count() ? dp_arith_get(i)->name : NULL;
+}
+
+static const char *preset_name(size_t i) {
+    return preset_get(i) != NULL ? preset_get(i)->name : NULL;
+}
+
+static bool take_preset(reader *r, const config_setting_t *s, draft *d) {
+    const int index = word_among(r, s, preset_name);
+    if (index < 0)
+        return false;
+    const preset *row = preset_get((size_t)index);
+    const double mm = strcmp(row->unit, "m") == 0 ? 1000.0 : strcmp(row->unit, "cm") == 0 ? 10.0 : 0.0;
+    /* Where the file says what its scene unit is, a preset in metres is converted into it. */
+    const double factor = mm > 0.0 && r->scene_mm > 0.0 ? mm : 1.0;
+    const double divisor = factor == 1.0 ? 1.0 : r->scene_mm;
+    d->spec.znear = row->znear * factor / divisor;
+    d->spec.zfar = row->zfar * factor / divisor;
+    d->spec.mapping = row->mapping;
+    d->format_count = preset_formats(row, d->formats);
+    return true;
+}
+
+static bool take_mapping(reader *r, const config_setting_t *s, draft *d) {
+    const char *text;
+    if (!reader_string(r, s, &text))
+        return false;
+    if (dp_mapping_parse(text, &d->spec.mapping) == DP_OK)
+        return true;
+    for (int i = 0; i < DP_MAPPING_COUNT; i++) {
+        reader_known(r, text, dp_mapping_get((dp_mapping)i)->name);
+        reader_known(r, text, dp_mapping_get((dp_mapping)i)->aliases);
+    }
+    return reader_fail(r, s, "mapping: must be one of d3d, gl, reversed, gl-reversed, linear, log, got '%.40s'", text);
+}
+
+static bool take_format(reader *r, const config_setting_t *s, draft *d) {
+    const char *text;
+    if (!reader_string(r, s, &text))
+        return false;
+    d->format_count = dp_format_parse(text, d->formats);
+    if (d->format_count > 0)
+        return true;
+    for (size_t i = 0; i < dp_format_count(); i++) {
+        reader_known(r, text, dp_format_get(i)->format.name);
+        reader_known(r, text, dp_format_get(i)->aliases);
+    }
+    return reader_fail(r, s, "format: must be a depth format as 'depthprec list formats' names them, got '%.40s'",
+                       text);
+}
+
+static bool take_ortho(reader *r, const config_setting_t *s, draft *d) {
+    if (config_setting_type(s) != CONFIG_TYPE_BOOL)
+        return reader_fail(r, s, "ortho: must be true or false, got %s", reader_shown(r, s));
+    d->spec.ortho = config_setting_get_bool(s);
+    return true;
+}
+
+static bool take_words(reader *r, config_setting_t *const *found, draft *d) {
+    const int rounding = found[KEY_ROUNDING] != NULL ? word_among(r, found[KEY_ROUNDING], rounding_name) : 0;
+    const int model = rounding >= 0 && found[KEY_MODEL] != NULL ? word_among(r, found[KEY_MODEL], model_name) : 0;
+    const int arith =
+        rounding >= 0 && model >= 0 && found[KEY_ARITH] != NULL ? word_among(r, found[KEY_ARITH], arith_name) : 0;
+    if (rounding < 0 || model < 0 || arith < 0)
+        return false;
+    d->automatic = model == DP_MODEL_COUNT;
+    d->spec.rounding = (dp_rounding)rounding;
+    d->spec.model = d->automatic ? DP_MODEL_EXACT : (dp_model)model;
+    d->spec.arith = (dp_arith)arith;
+    return true;
+}
+
+static bool make_setups(reader *r, const config_setting_t *group, const draft *d, need_camera *out) {
+    out->automatic = d->automatic;
+    out->count = d->format_count;
+    for (size_t i = 0; i < d->format_count; i++) {
+        dp_spec spec = d->spec;
+        spec.format = d->formats[i];
+        const dp_status status = dp_setup_init(&out->setups[i], &spec);
+        if (status == DP_ERROR_MODEL)
+            return reader_fail(r, group,
+                               "camera '%s': the model fp32 needs one of the mappings d3d, gl, reversed, "
+                               "gl-reversed, got %s",
+                               out->name, dp_mapping_get(spec.mapping)->name);
+        if (status != DP_OK)
+            return reader_fail(r, group, "camera '%s': %s, got near %.15g, far %.15g, %s, %s", out->name,
+                               dp_status_text(status), spec.znear, spec.zfar, dp_mapping_get(spec.mapping)->name,
+                               spec.ortho ? "orthographic" : "perspective");
+    }
+    return true;
+}
+
+bool reader_camera(reader *r, config_setting_t *group, need_camera *out) {
+    config_setting_t *found[KEY_COUNT];
+    draft d = {.spec = dp_spec_default()};
+    out->line = (int)config_setting_source_line(group);
+    out->name = config_setting_name(group);
+    if (!reader_name(r, group, out->name) || !reader_keys(r, group, "camera", keys, found))
+        return false;
+    for (int k = KEY_NEAR; k <= KEY_FORMAT && found[KEY_PRESET] == NULL; k++)
+        if (found[k] == NULL)
+            return reader_fail(r, group, "camera '%s': needs %s, or a preset", out->name, keys[k]);
+    const bool good =
+        (found[KEY_PRESET] == NULL || take_preset(r, found[KEY_PRESET], &d)) &&
+        (found[KEY_NEAR] == NULL || reader_length(r, found[KEY_NEAR], "near", READER_POSITIVE, &d.spec.znear)) &&
+        (found[KEY_FAR] == NULL ||
+         reader_length(r, found[KEY_FAR], "far", READER_POSITIVE | READER_INFINITE, &d.spec.zfar)) &&
+        (found[KEY_MAPPING] == NULL || take_mapping(r, found[KEY_MAPPING], &d)) &&
+        (found[KEY_FORMAT] == NULL || take_format(r, found[KEY_FORMAT], &d)) &&
+        (found[KEY_ORTHO] == NULL || take_ortho(r, found[KEY_ORTHO], &d)) && take_words(r, found, &d) &&
+        (found[KEY_LOG_C] == NULL || reader_length(r, found[KEY_LOG_C], "log_c", READER_POSITIVE, &d.spec.log_c));
+    if (good && found[KEY_LOG_C] != NULL && d.spec.mapping != DP_MAPPING_LOG)
+        return reader_fail(r, found[KEY_LOG_C], "log_c: is for the mapping log only, got %s",
+                           dp_mapping_get(d.spec.mapping)->name);
+    if (good && found[KEY_LOG_C] != NULL && config_setting_type(found[KEY_LOG_C]) == CONFIG_TYPE_STRING)
+        return reader_fail(r, found[KEY_LOG_C], "log_c: must be a number per scene unit, got %s",
+                           reader_shown(r, found[KEY_LOG_C]));
+    return good && make_setups(r, group, &d, out);
+}

@@ -1,0 +1,135 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "need/check.h"
+
+#include <math.h>
+
+/* What the exact lattice refuses by this factor, no arithmetic in front of it can save: see check.h. */
+static const double hopeless = 4.0;
+
+const char *check_method_name(check_method method) {
+    static const char *const names[CHECK_METHOD_COUNT] = {
+        [CHECK_LATTICE] = "lattice", [CHECK_STAGED] = "staged lattice", [CHECK_GUARANTEE] = "guarantee",
+        [CHECK_CENSUS] = "census",   [CHECK_SAMPLED] = "sample",
+    };
+    return (unsigned)method < CHECK_METHOD_COUNT ? names[method] : NULL;
+}
+
+static bool with_model(const dp_setup *setup, dp_model model, dp_setup *out) {
+    dp_spec spec = setup->spec;
+    spec.model = model;
+    return dp_setup_init(out, &spec) == DP_OK;
+}
+
+/* The verdict that a set-up in its own model gives on a separation. */
+static void separation_in(const need *n, const dp_setup *setup, check_verdict *v) {
+    dp_separation_worst worst = {.bound = HUGE_VAL, .separation = HUGE_VAL, .z = n->hi};
+    v->setup = *setup;
+    v->method = setup->spec.model == DP_MODEL_EXACT    ? CHECK_LATTICE
+                : setup->spec.model == DP_MODEL_STAGED ? CHECK_STAGED
+                                                       : CHECK_GUARANTEE;
+    if (n->lo == n->hi)
+        worst.bound = worst.separation = dp_separation(setup, n->lo);
+    else
+        dp_separation_over(setup, n->lo, n->hi, n->limit, &worst); /* need_read() has checked the range */
+    v->passed = worst.bound <= n->limit;
+    v->value = v->passed || worst.separation > n->limit ? worst.separation : worst.bound;
+    v->z = worst.z;
+}
+
+static void judge_separation(const need *n, const need_camera *camera, const dp_setup *asked, check_verdict *v) {
+    dp_setup setup;
+    const bool heavy = camera->automatic || asked->spec.model == DP_MODEL_FP32;
+    if (!heavy || !with_model(asked, DP_MODEL_EXACT, &setup)) {
+        separation_in(n, asked, v);
+        return;
+    }
+    separation_in(n, &setup, v);
+    if (v->value > (camera->automatic ? 1.0 : hopeless) * n->limit)
+        return;
+    if (with_model(asked, DP_MODEL_FP32, &setup) || with_model(asked, DP_MODEL_STAGED, &setup))
+        separation_in(n, &setup, v);
+}
+
+static void error_in(const need *n, const dp_setup *setup, check_verdict *v) {
+    dp_worst worst = {.error = HUGE_VAL, .error_z = n->hi};
+    v->setup = *setup;
+    v->method = setup->spec.model == DP_MODEL_EXACT ? CHECK_LATTICE : CHECK_STAGED;
+    if (n->lo == n->hi) {
+        worst.error = fabs(dp_error(setup, dp_code(setup, n->lo), n->lo));
+        worst.error_z = n->lo;
+        worst.error_code = dp_code(setup, n->lo);
+    } else {
+        dp_worst_over(setup, n->lo, n->hi, &worst);
+    }
+    v->value = worst.error;
+    v->z = worst.error_z;
+    v->code = worst.error_code;
+    v->passed = v->value <= n->limit;
+}
+
+static void judge_error(const need *n, const need_camera *camera, const dp_setup *asked, check_verdict *v) {
+    dp_setup setup;
+    error_in(n, asked, v);
+    if (camera->automatic && v->passed && with_model(asked, DP_MODEL_STAGED, &setup))
+        error_in(n, &setup, v);
+}
+
+/* Whether the guarantee holds between any two neighbours: then nothing ties. Binade by binade, as the step of z. */
+static bool never_ties(const dp_setup *setup, double lo, double hi) {
+    while (lo < hi) {
+        const double power = exp2(floor(log2(lo)));
+        const double step = 0x1p-23 * power;
+        const double next = fmin(2.0 * power, hi);
+        dp_separation_worst worst;
+        if (dp_separation_over(setup, lo, fmax(lo, fmin(next, 2.0 * power - step)), step, &worst) != DP_OK ||
+            worst.bound >= step)
+            return false;
+        lo = next;
+    }
+    return true;
+}
+
+static bool judge_ties(const check_request *request, const need *n, const dp_setup *asked, check_verdict *v) {
+    if (!with_model(asked, DP_MODEL_FP32, &v->setup))
+        return false; /* need_read() has refused it */
+    v->method = CHECK_GUARANTEE;
+    v->value = 0.0;
+    v->z = (double)NAN;
+    if (!never_ties(&v->setup, n->lo, n->hi)) {
+        const double depths = 0x1p23 * (log2(n->hi / n->lo) + 1.0); /* not fewer than there are */
+        v->method = depths > CHECK_CENSUS_MAX ? CHECK_SAMPLED : CHECK_CENSUS;
+        if (!request->count(request->context, &v->setup, n->lo, n->hi, v->method == CHECK_SAMPLED, &v->value, &v->z))
+            return false;
+    }
+    v->passed = v->value <= n->limit;
+    return true;
+}
+
+size_t check_count(const need_file *file) {
+    size_t count = 0;
+    for (size_t i = 0; i < file->count; i++)
+        count += file->cameras[file->needs[i].camera].count;
+    return count;
+}
+
+long check_all(const check_request *request, check_verdict *out) {
+    const need_file *file = request->file;
+    long failed = 0;
+    for (size_t i = 0; i < file->count; i++) {
+        const need *n = &file->needs[i];
+        const need_camera *camera = &file->cameras[n->camera];
+        for (size_t k = 0; k < camera->count; k++, out++) {
+            *out = (check_verdict){.asked = n, .camera = camera};
+            if (n->kind == NEED_SEPARATION)
+                judge_separation(n, camera, &camera->setups[k], out);
+            else if (n->kind == NEED_ERROR)
+                judge_error(n, camera, &camera->setups[k], out);
+            else if (!judge_ties(request, n, &camera->setups[k], out))
+                return -1;
+            if (n->kind != NEED_ERROR && isfinite(out->z))
+                out->code = dp_code(&out->setup, out->z);
+            failed += !out->passed;
+        }
+    }
+    return failed;
+}

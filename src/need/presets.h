@@ -1,0 +1,39 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/**
+ * @file presets.h  The cameras that engines start with, one row each. Adding an engine is adding a row to presets.c.
+ *
+ * A value that no public source of first hand confirms is named in `unconfirmed`; the others have been compared with
+ * the row's source on the date of `checked`.
+ */
+#ifndef NEED_PRESETS_H
+#define NEED_PRESETS_H
+
+#include <stddef.h>
+
+#include "depthprec/depthprec.h"
+
+typedef struct preset {
+    const char *name;
+    double znear; /**< in `unit` */
+    double zfar;  /**< in `unit`, or INFINITY */
+    dp_mapping mapping;
+    const char *format;      /**< a name for dp_format_parse(): depth24plus stands for two formats */
+    const char *unit;        /**< what the scene is measured in, "m", "cm", "units" when it is left open */
+    const char *note;        /**< one line */
+    const char *unconfirmed; /**< the values without a source of first hand, "near, far"; "" when there are none */
+    const char *source;
+    const char *checked; /**< the day on which source and values were compared, ISO 8601 */
+} preset;
+
+/** The rows in order; null for an index that is not below their number. */
+const preset *preset_get(size_t index);
+
+/** The row of a name, letter case ignored; null when there is none. */
+const preset *preset_find(const char *name);
+
+/**
+ * The formats of a preset, one or two. @return their number
+ */
+size_t preset_formats(const preset *row, dp_format out[2]);
+
+#endif

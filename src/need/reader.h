@@ -1,0 +1,40 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Values of a requirement file, each checked where it is read; the pieces that requirement.c puts together. */
+#ifndef NEED_READER_H
+#define NEED_READER_H
+
+#include <libconfig.h>
+
+#include "need/requirement.h"
+
+typedef struct reader {
+    need_file *file;
+    need_error *error;
+    double scene_mm; /* millimetres in a scene unit; 0 when the file does not say */
+    char shown[80];
+} reader;
+
+/* What a length may be besides finite and not negative. */
+enum { READER_POSITIVE = 1 << 0, READER_INFINITE = 1 << 1 };
+
+/* Notes what is wrong and where; s may be null. @return false */
+bool reader_fail(reader *r, const config_setting_t *s, const char *format, ...) __attribute__((format(printf, 3, 4)));
+
+/* Adds a name to those that would have been known in place of `given`. */
+void reader_known(reader *r, const char *given, const char *name);
+
+/* A value as messages show it: "'text'", "12", "a group". */
+const char *reader_shown(reader *r, const config_setting_t *s);
+
+/* found[i] = the setting names[i] of a group, or null; any other setting in it is an error. names ends with null. */
+bool reader_keys(reader *r, const config_setting_t *group, const char *what, const char *const *names,
+                 config_setting_t **found);
+
+bool reader_string(reader *r, const config_setting_t *s, const char **out);
+bool reader_name(reader *r, const config_setting_t *s, const char *name); /* fit for a line of a report */
+bool reader_unit(reader *r, const config_setting_t *s);
+bool reader_length(reader *r, const config_setting_t *s, const char *key, unsigned allowed, double *out);
+bool reader_share(reader *r, const config_setting_t *s, const char *key, double *out);
+bool reader_camera(reader *r, config_setting_t *group, need_camera *out);
+
+#endif

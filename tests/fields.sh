@@ -1,0 +1,42 @@
+#!/bin/sh
+# SPDX-License-Identifier: GPL-3.0-or-later
+# depthprec.5 names every field of each command's JSON, in that command's section or in that of a set-up.
+. tests/tap.sh
+
+section() { # section NAME: its lines that name fields, a word a line
+    awk -v name="$1" '
+        /^\.S[sh] / { inside = ($0 == ".Ss " name || $0 == ".Ss A set-up" || $0 == ".Sh JSON FIELDS") }
+        inside && /^\.It Fa / { sub(/^\.It Fa /, ""); gsub(/ , /, "\n"); print }' man/depthprec.5
+    # what a cause, a term and a model are called
+    awk -v name="$1" '/^\.S[sh] / { inside = $0 == ".Ss " name } inside && /:|with/ { gsub(/[,:]/, " "); print }' \
+        man/depthprec.5 | tr -s ' ' '\n'
+}
+
+fields() { # fields COMMAND ARGUMENTS...: prints the fields that the page does not name
+    section "$1" | sort -u >"$scratch/known"
+    "$DEPTHPREC" "$@" --json >"$scratch/json"
+    [ -s "$scratch/json" ] || echo "no JSON"
+    jq -r '[.. | objects | keys[]] | unique[]' "$scratch/json" | sort -u | comm -23 - "$scratch/known"
+}
+
+all_named() { # all_named COMMAND ARGUMENTS...
+    check "depthprec.5: $*" empty fields "$@"
+}
+
+all_named table --at 10 -m d3d,log -F unorm24
+all_named table --at 10 --model auto
+all_named table --at 10 --model fp32
+all_named plot interval
+all_named plot map -F unorm24
+all_named plot budget -F unorm24
+all_named plot scene tests/needs/village.need
+for what in formats mappings presets apis figures; do all_named list $what; done
+all_named zfight -n 1 -f 1.5 -F unorm16
+all_named zfight -n 1 -f 1.5 -F unorm16 --sample 100 --gap 0.01
+all_named budget --at 10
+all_named check tests/needs/village.need
+all_named solve -f 1000 -F unorm24 -m d3d --separation 0.01 --at 100
+all_named solve -f 1000 -F unorm24 -m d3d --error 0.01 --at 100
+all_named bias --at 10 --units 1
+all_named bias --range 1:10 --gap 0.01
+finish

@@ -1,0 +1,395 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/*
+ * Depth bias: the rule of each API, the conformance rows of WebGPU, the way into the scene and back, and whether as
+ * many units as are said to be enough are enough for every binary32 depth.
+ */
+#include <stdio.h>
+#include <string.h>
+
+#include "need/bias.h"
+#include "support.h"
+
+static dp_format format_of(const char *name) {
+    dp_format found[2];
+    assert_true(dp_format_parse(name, found) >= 1);
+    return found[0];
+}
+
+static dp_setup setup_of(double znear, double zfar, dp_mapping mapping, const char *format) {
+    dp_spec spec = dp_spec_default();
+    dp_setup setup;
+    spec.znear = znear;
+    spec.zfar = zfar;
+    spec.mapping = mapping;
+    spec.format = format_of(format);
+    assert_int_equal(dp_setup_init(&setup, &spec), DP_OK);
+    return setup;
+}
+
+static double held(double d) { /* as the hardware holds a depth */
+    return (double)(float)d;
+}
+
+/* The window depth that a rasterizer stores: the sum in binary32, clamped. */
+static double biased(double d, double o) {
+    return fmin(fmax(held(d + o), 0.0), 1.0);
+}
+
+/* ---- The rules --------------------------------------------------------------------------------------------------- */
+
+/* WebGPU conformance, depth_bias.spec.ts: a flat quad at 0.25, or one from 0 to 0.5 across one pixel. */
+static void test_webgpu_rows(void **state) {
+    static const struct {
+        double d, most, m, units, factor, clamp, want;
+    } rows[] = {
+        {0.25, 0.25, 0.0, 8388608.0, 0.0, 0.0, 0.5},    {0.25, 0.25, 0.0, 8388608.0, 0.0, 0.125, 0.375},
+        {0.25, 0.25, 0.0, -8388608.0, 0.0, 0.125, 0.0}, {0.25, 0.25, 0.0, -8388608.0, 0.0, -0.125, 0.125},
+        {0.25, 0.5, 0.5, 0.0, 0.0, 0.0, 0.25},          {0.25, 0.5, 0.5, 0.0, 1.0, 0.0, 0.75},
+        {0.25, 0.5, 0.5, 0.0, -0.5, 0.0, 0.0},
+    };
+    static const char *const apis[] = {"webgpu", "d3d11", "d3d12", "vulkan", "vulkan-exact", "gl"};
+    const dp_format fp32 = format_of("depth32float");
+    (void)state;
+    for (size_t a = 0; a < sizeof apis / sizeof apis[0]; a++)
+        for (size_t i = 0; i < sizeof rows / sizeof rows[0]; i++) {
+            const bias_state s = {bias_api_find(apis[a]), rows[i].units, rows[i].factor, rows[i].clamp};
+            const double o = bias_offset(&s, bias_unit_at(s.api, &fp32, rows[i].most).least, rows[i].m);
+            assert_codes(dp_format_encode(&fp32, DP_ROUND_NEAREST, biased(rows[i].d, o)),
+                         dp_format_encode(&fp32, DP_ROUND_NEAREST, rows[i].want));
+        }
+}
+
+/* Its rows for depth24plus: drawn over a depth of 0.4 where greater, whichever format stands behind it. */
+static void test_webgpu_depth24plus(void **state) {
+    static const struct {
+        double most, m, factor, clamp;
+        int drawn;
+    } rows[] = {{0.25, 0.0, 0.0, 0.0, 1}, {0.5, 0.5, 1.0, 0.0, 1}, {0.25, 0.0, 0.0, 0.1, 0}};
+    dp_format both[2];
+    (void)state;
+    assert_int_equal(dp_format_parse("depth24plus", both), 2);
+    for (size_t f = 0; f < 2; f++)
+        for (size_t i = 0; i < 3; i++) {
+            const bias_state s = {bias_api_find("webgpu"), 0.25 * (1 << 25), rows[i].factor, rows[i].clamp};
+            const double o = bias_offset(&s, bias_unit_at(s.api, &both[f], rows[i].most).least, rows[i].m);
+            assert_int_equal(biased(0.25, o) > 0.4, rows[i].drawn);
+        }
+}
+
+static void test_units(void **state) {
+    static const struct {
+        const char *api, *format;
+        double d, least, most;
+    } rows[] = {
+        {"d3d11", "unorm24", 0.3, 0x1.000002p-24, 0x1.000002p-24}, /* 1/(2^24 - 1) lies just above a tie */
+        {"webgpu", "unorm16", 0.3, 0x1.0001p-16, 0x1.0001p-16},
+        {"vulkan", "unorm24", 0.3, 0x1p-24, 0x1p-23},
+        {"vulkan-exact", "unorm24", 0.3, 0x1p-24, 0x1p-24},
+        {"vulkan-unorm", "fp32", 0.3, 0x1p-24, 0x1p-24},
+        {"vulkan-unorm", "unorm16", 0.3, 0x1p-16, 0x1p-16},
+        {"vulkan-float", "fp32", 0.3, 1.0, 1.0},
+        {"d3d9", "unorm16", 0.3, 1.0, 1.0},
+        {"gl", "unorm16", 0.3, 0x1p-16, INFINITY},
+        {"gl", "fp32", 1.0, 0x1p-23, 0x1p-23},
+        {"d3d11", "fp32", 0.5, 0x1p-24, 0x1p-24},
+        {"d3d11", "fp32", 0x1.fffffep-2, 0x1p-25, 0x1p-25},
+        {"d3d11", "fp32", 0x1.ffffffffp-2, 0x1p-24, 0x1p-24}, /* held as 0.5 */
+        {"vulkan", "fp32", 0x1p-130, 0x1p-149, 0x1p-149},
+        {"webgpu", "fp32", 0.0, 0x1p-149, 0x1p-149},
+        {"vulkan", "fp16", 0.3, 0x1p-12, 0x1p-12},
+    };
+    (void)state;
+    for (size_t i = 0; i < sizeof rows / sizeof rows[0]; i++) {
+        const dp_format format = format_of(rows[i].format);
+        const bias_unit unit = bias_unit_at(bias_api_find(rows[i].api), &format, rows[i].d);
+        assert_ulp(unit.least, rows[i].least, 0.0);
+        assert_true(unit.most == rows[i].most);
+    }
+}
+
+static void test_names(void **state) {
+    (void)state;
+    for (size_t i = 0; bias_api_get(i) != NULL; i++) {
+        const bias_api *row = bias_api_get(i);
+        assert_true(bias_api_find(row->name) == row);
+        assert_true(row->note[0] != '\0' && row->source[0] != '\0');
+        char names[128];
+        strcpy(names, row->aliases);
+        for (char *name = strtok(names, " "); name != NULL; name = strtok(NULL, " "))
+            assert_true(bias_api_find(name) == row);
+    }
+    assert_true(bias_api_find("D3D12") == bias_api_find("d3d11"));
+    assert_null(bias_api_find("metal2"));
+    assert_null(bias_api_find(""));
+    assert_null(bias_api_find("d3d1"));
+}
+
+static void test_clamp(void **state) {
+    const bias_api *d3d11 = bias_api_find("d3d11");
+    (void)state;
+    const bias_state up = {d3d11, 100.0, 2.0, 0x1p-20};
+    const bias_state down = {d3d11, -100.0, -2.0, -0x1p-20};
+    const bias_state other = {d3d11, -100.0, -2.0, 0x1p-20}; /* a positive clamp does not hold a negative bias */
+    assert_true(bias_offset(&up, 0x1p-24, 0.5) == 0x1p-20);
+    assert_true(bias_offset(&down, 0x1p-24, 0.5) == -0x1p-20);
+    assert_true(bias_offset(&other, 0x1p-24, 0.5) < -1.0);
+    /* All in binary32: the small term is lost beside the large one. */
+    const bias_state lost = {d3d11, 1.0, 1.0, 0.0};
+    const bias_state kept = {bias_api_find("webgpu"), 1.0, 1.0, 0.0};
+    assert_true(bias_offset(&lost, 0x1p-24, 4.0) == 4.0);
+    assert_true(bias_offset(&kept, 0x1p-24, 4.0) > 4.0);
+}
+
+/* ---- Into the scene ---------------------------------------------------------------------------------------------- */
+
+enum { KINDS = 6 };
+
+static dp_setup any_setup(rng *r, const char *format, double *lo, double *hi) {
+    const dp_mapping mapping = (dp_mapping)rng_below(r, KINDS);
+    const double znear = rng_log(r, 1e-3, 10.0);
+    const int infinite = dp_mapping_get(mapping)->far_infinite && rng_below(r, 4) == 0;
+    const double zfar = infinite ? INFINITY : znear * rng_log(r, 2.0, 1e6);
+    *lo = znear;
+    *hi = infinite ? znear * 1e6 : zfar;
+    return setup_of(znear, zfar, mapping, format);
+}
+
+/* z' - z in quadruple precision, from the definition of each curve; the logarithm to first and second order. */
+static double shift_reference(const dp_setup *setup, double z, double o) {
+    const __float128 n = setup->spec.znear;
+    const __float128 f = setup->spec.zfar;
+    const __float128 t = setup->reversed ? -(__float128)o : (__float128)o;
+    switch (setup->spec.mapping) {
+    case DP_MAPPING_LINEAR:
+        return (double)(t * f);
+    case DP_MAPPING_LOG: {
+        const double top = log1p(setup->spec.zfar);
+        return (1.0 + z) * expm1(o * top);
+    }
+    default:
+        break;
+    }
+    const __float128 kappa = 1 / n - (isinf(setup->spec.zfar) ? 0 : 1 / f);
+    return (double)(1 / (1 / (__float128)z - t * kappa) - z);
+}
+
+static void test_shift(void **state) {
+    rng r = rng_make("bias shift");
+    tally t = {.name = "shift"};
+    (void)state;
+    for (uint64_t i = 0; i < test_cases(2000, 100000, 1000000); i++) {
+        double lo, hi;
+        const dp_setup setup = any_setup(&r, rng_below(&r, 2) ? "unorm24" : "fp32", &lo, &hi);
+        const bias_state s = {bias_api_find("vulkan-float"), 0.0, 0.0, 0.0};
+        bias_state one = s;
+        const double z = rng_log(&r, lo, hi);
+        const double d = dp_window(&setup, z);
+        one.units = rng_log(&r, 1e-12, 1e-3) * (rng_below(&r, 2) ? 1.0 : -1.0) * (setup.reversed ? d : 1.0 - d);
+        const bias_effect e = bias_at(&setup, &one, 0.0, z);
+        if (e.limited) {
+            t.skipped++;
+            continue;
+        }
+        const double want = shift_reference(&setup, z, one.units);
+        TALLY(&t, fabs(e.shift - want) <= 1e-12 * fabs(want), "near %a far %a %s z %a o %a: %a, %a", setup.spec.znear,
+              setup.spec.zfar, dp_mapping_get(setup.spec.mapping)->name, z, one.units, e.shift, want);
+        TALLY(&t, (e.shift < 0.0) == (one.units * bias_sign(&setup) > 0.0), "sign at z %a", z);
+        TALLY(&t, fabs(dp_window(&setup, e.to) - e.depth) <= 0x1p-44 * fmax(e.depth, 0x1p-6), "depth at z %a", z);
+        TALLY(&t, e.code == dp_code(&setup, z), "code at z %a", z);
+    }
+    tally_end(&t);
+}
+
+/* The derivative of the window depth, against a difference quotient. */
+static void test_slope(void **state) {
+    rng r = rng_make("bias slope");
+    tally t = {.name = "slope"};
+    (void)state;
+    for (uint64_t i = 0; i < test_cases(1000, 20000, 100000); i++) {
+        double lo, hi;
+        const dp_setup setup = any_setup(&r, "fp32", &lo, &hi);
+        const double z = rng_log(&r, lo, hi);
+        const double m = bias_window_slope(&setup, z, 3.0);
+        const double o = 1e-7 * m; /* three tenths of a millionth of a scene unit */
+        const bias_state s = {bias_api_find("d3d9"), o, 0.0, 0.0};
+        const double shift = bias_at(&setup, &s, 0.0, z).shift;
+        if (bias_at(&setup, &s, 0.0, z).limited) {
+            t.skipped++;
+            continue;
+        }
+        TALLY(&t, fabs(fabs(shift) - 3e-7) <= 3e-7 * (1e-9 + 6e-7 / z), "z %a: %a", z, shift);
+    }
+    tally_end(&t);
+}
+
+static void test_limited(void **state) {
+    const dp_setup d3d = setup_of(0.1, INFINITY, DP_MAPPING_D3D, "fp32");
+    const dp_setup reversed = setup_of(0.1, 1000.0, DP_MAPPING_REVERSED, "unorm24");
+    const bias_state plus = {bias_api_find("d3d9"), 0.5, 0.0, 0.0};
+    const bias_state minus = {bias_api_find("d3d9"), -0.5, 0.0, 0.0};
+    (void)state;
+    bias_effect e = bias_at(&d3d, &plus, 0.0, 100.0);
+    assert_true(e.limited && isinf(e.to) && isinf(e.shift) && e.moved == d3d.spec.format.code_max);
+    e = bias_at(&d3d, &minus, 0.0, 0.11);
+    assert_true(e.limited && e.to == 0.1 && e.moved == 0);
+    e = bias_at(&reversed, &plus, 0.0, 0.11);
+    assert_true(e.limited && e.to == 0.1 && e.moved == 0xffffff);
+    e = bias_at(&reversed, &minus, 0.0, 100.0);
+    assert_true(e.limited && e.to == 1000.0 && e.moved == 0);
+}
+
+/* ---- How much is enough ------------------------------------------------------------------------------------------ */
+
+static uint32_t stored(const dp_setup *setup, double d) {
+    return dp_format_encode(&setup->spec.format, setup->spec.rounding, d);
+}
+
+/* One unit of r = code 1 is not always enough for an integer buffer: 0.5 and the next number store the same code. */
+static void test_one_unit_can_fail(void **state) {
+    static const char *const formats[] = {"unorm16", "unorm24"};
+    const bias_api *api = bias_api_find("d3d11");
+    (void)state;
+    for (size_t i = 0; i < 2; i++) {
+        const dp_setup setup = setup_of(0.1, 1000.0, DP_MAPPING_REVERSED, formats[i]);
+        const double r = bias_unit_at(api, &setup.spec.format, 0.5).least;
+        const bias_goal goal = {.api = api};
+        assert_codes(stored(&setup, biased(0.5, r)), stored(&setup, 0.5));
+        assert_true(stored(&setup, biased(0.5, 2.0 * r)) > stored(&setup, 0.5));
+        assert_true(bias_needed(&setup, &goal, dp_eye(&setup, 0.5, 0.5)) == 2.0);
+    }
+    const dp_setup setup = setup_of(0.1, 1000.0, DP_MAPPING_REVERSED, "fp32"); /* a binary32 step is a code */
+    const bias_goal goal = {.api = api};
+    double worst;
+    assert_true(bias_needed_over(&setup, &goal, 0.1, 1000.0, &worst) == 1.0);
+}
+
+/*
+ * Two layers, up to one pixel apart where there is a slope: the one that the bias brings nearer is stored in front.
+ * Depths are drawn anywhere, at powers of two and at rounding boundaries of the format.
+ */
+static double any_depth(rng *r, const dp_format *format) {
+    switch (rng_below(r, 4)) {
+    case 0:
+        return held(rng_unit(r));
+    case 1: /* about a power of two */
+        return held(ldexp(1.0, -(int)rng_below(r, 20)) * (1.0 + 0x1p-23 * (rng_unit(r) - 0.5) * 8.0));
+    case 2:
+        return held(exp2(-rng_uniform(r, 0.0, 40.0)));
+    default:
+        return held(((double)rng_below(r, format->code_max) + 0.5) / (double)format->code_max);
+    }
+}
+
+static void test_enough(void **state) {
+    static const char *const formats[] = {"unorm16", "unorm24", "fp32", "fp16"};
+    rng r = rng_make("bias enough");
+    tally t = {.name = "told apart"};
+    (void)state;
+    for (uint64_t i = 0; i < test_cases(20000, 1000000, 20000000); i++) {
+        const int reversed = (int)rng_below(&r, 2);
+        const char *format = formats[rng_below(&r, 4)];
+        const dp_setup setup = setup_of(0.1, 1000.0, reversed ? DP_MAPPING_REVERSED : DP_MAPPING_D3D, format);
+        bias_goal goal = {.api = bias_api_get(rng_below(&r, 8))};
+        if (goal.api->guaranteed && setup.spec.format.kind == DP_FORMAT_UNORM) {
+            t.skipped++; /* there r is what the implementation found to be enough */
+            continue;
+        }
+        if (goal.api->guaranteed && strcmp(format, "fp16") == 0)
+            continue;
+        const double sign = bias_sign(&setup);
+        const double d = fmin(any_depth(&r, &setup.spec.format), 1.0);
+        const double z = dp_eye(&setup, d, 1.0 - d);
+        if (rng_below(&r, 2)) {
+            goal.slope = rng_log(&r, 1e-9, 1.0) * z;
+            goal.factor = (double)rng_below(&r, 5) / 4.0;
+        }
+        const double m = bias_window_slope(&setup, z, goal.slope);
+        const double other =
+            d - sign * m * (rng_below(&r, 2) ? 1.0 : rng_unit(&r)); /* the other sample of the same plane */
+        const bias_state s = {goal.api, sign * bias_needed(&setup, &goal, z), sign * goal.factor, 0.0};
+        const double unit = bias_unit_at(goal.api, &setup.spec.format, d).least;
+        const double o = bias_offset(&s, unit, m);
+        if (!(fmin(other, d) + fmin(o, 0.0) > 0.0 && fmax(other, d) + fmax(o, 0.0) < 1.0) || fabs(s.units) > 0x1p24) {
+            t.skipped++;
+            continue;
+        }
+        /* The layer brought nearer is sampled farther away, the other one at d: other lies behind d by at most m. */
+        const double front = biased(held(other), o);
+        const double back = held(d);
+        const int ok =
+            sign > 0.0 ? stored(&setup, front) > stored(&setup, back) : stored(&setup, front) < stored(&setup, back);
+        TALLY(&t, ok, "%s %s %s d %a other %a m %a factor %g units %g", goal.api->name, format,
+              reversed ? "reversed" : "d3d", d, other, m, goal.factor, s.units);
+    }
+    tally_end(&t);
+}
+
+/* The gap is reached at every depth of the range with as many units, and with one fewer it is not everywhere. */
+static void test_gap(void **state) {
+    rng r = rng_make("bias gap");
+    tally t = {.name = "gap"};
+    (void)state;
+    for (uint64_t i = 0; i < test_cases(200, 5000, 50000); i++) {
+        double lo, hi, worst;
+        const dp_setup setup = any_setup(&r, rng_below(&r, 2) ? "unorm24" : "fp32", &lo, &hi);
+        bias_goal goal = {.api = bias_api_get(rng_below(&r, 8)), .gap = lo * rng_log(&r, 1e-4, 1.0)};
+        lo += goal.gap;
+        if (!(lo * 1.01 < hi))
+            continue;
+        const double from = rng_log(&r, lo, hi / 1.01);
+        const double to = rng_log(&r, from * 1.005, hi);
+        const double units = bias_needed_over(&setup, &goal, from, to, &worst);
+        if (isinf(units)) {
+            t.skipped++;
+            continue;
+        }
+        TALLY(&t, worst >= from && worst <= to, "worst %a in [%a, %a]", worst, from, to);
+        const bias_state s = {goal.api, units * bias_sign(&setup), 0.0, 0.0};
+        double most = 0.0;
+        for (int k = 0; k < 40; k++) {
+            const double z = k == 0   ? from
+                             : k == 1 ? to
+                             : k == 2 ? fmin(worst * (1.0 + 2e-7), to)
+                             : k == 3 ? fmax(worst * (1.0 - 2e-7), from)
+                             : k == 4 ? worst
+                                      : rng_log(&r, from, to);
+            const bias_effect e = bias_at(&setup, &s, 0.0, fmin(fmax(z, from), to));
+            TALLY(&t, -e.shift >= goal.gap || e.to <= setup.spec.znear, "%s %s z %a gap %a shift %a units %g",
+                  goal.api->name, dp_mapping_get(setup.spec.mapping)->name, z, goal.gap, e.shift, units);
+            TALLY(&t, bias_needed(&setup, &goal, e.z) <= units, "z %a needs more than the range", e.z);
+            most = fmax(most, bias_needed(&setup, &goal, e.z));
+        }
+        TALLY(&t, most * (1.0 + 1e-5) + 1.0 >= units, "%s %s from %a to %a gap %a: %.9g, only %.9g needed",
+              goal.api->name, dp_mapping_get(setup.spec.mapping)->name, from, to, goal.gap, units, most);
+    }
+    tally_end(&t);
+}
+
+static void test_impossible(void **state) {
+    const dp_setup setup = setup_of(1.0, 1000.0, DP_MAPPING_D3D, "unorm24");
+    const bias_goal past = {.api = bias_api_find("d3d11"), .gap = 2.0};
+    double worst;
+    (void)state;
+    assert_true(isinf(bias_needed(&setup, &past, 2.5)));
+    assert_true(isfinite(bias_needed(&setup, &past, 3.0)));
+    assert_true(isinf(bias_needed_over(&setup, &past, 2.5, 100.0, &worst)));
+    assert_true(worst == 2.5);
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(test_webgpu_rows),
+        cmocka_unit_test(test_webgpu_depth24plus),
+        cmocka_unit_test(test_units),
+        cmocka_unit_test(test_names),
+        cmocka_unit_test(test_clamp),
+        cmocka_unit_test(test_shift),
+        cmocka_unit_test(test_slope),
+        cmocka_unit_test(test_limited),
+        cmocka_unit_test(test_one_unit_can_fail),
+        cmocka_unit_test(test_enough),
+        cmocka_unit_test(test_gap),
+        cmocka_unit_test(test_impossible),
+    };
+    return run_tap(tests);
+}

@@ -1,0 +1,92 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* The cameras of engines: each row makes set-ups, says where it comes from and what is not confirmed. */
+#include <ctype.h>
+#include <string.h>
+
+#include "need/presets.h"
+#include "support.h"
+
+static size_t count(void) {
+    size_t rows = 0;
+    while (preset_get(rows) != NULL)
+        rows++;
+    return rows;
+}
+
+static void test_required(void **state) {
+    static const char *const names[] = {"unity", "unity-gl",     "unreal", "godot-forward", "godot-mobile",
+                                        "three", "three-webgpu", "bevy",   "cesium",        "mujoco"};
+    (void)state;
+    for (size_t i = 0; i < sizeof names / sizeof names[0]; i++)
+        assert_non_null(preset_find(names[i]));
+    assert_true(preset_find("BEVY") == preset_find("bevy"));
+    assert_null(preset_find("quake"));
+    assert_null(preset_find(""));
+    assert_null(preset_get(count()));
+}
+
+static void test_rows(void **state) {
+    (void)state;
+    for (size_t i = 0; i < count(); i++) {
+        const preset *row = preset_get(i);
+        assert_true(preset_find(row->name) == row); /* no name twice */
+        for (const char *c = row->name; *c != '\0'; c++)
+            assert_true(islower((unsigned char)*c) || isdigit((unsigned char)*c) || *c == '-');
+        assert_true(row->unit[0] != '\0' && row->note[0] != '\0' && row->source[0] != '\0');
+        assert_int_equal(strlen(row->checked), 10);
+        assert_true(strspn(row->checked, "0123456789-") == 10 && row->checked[4] == '-' && row->checked[7] == '-');
+        dp_format formats[2];
+        const size_t found = preset_formats(row, formats);
+        assert_true(found >= 1);
+        for (size_t f = 0; f < found; f++) {
+            dp_spec spec = dp_spec_default();
+            dp_setup setup;
+            spec.znear = row->znear;
+            spec.zfar = row->zfar;
+            spec.mapping = row->mapping;
+            spec.format = formats[f];
+            assert_int_equal(dp_setup_init(&setup, &spec), DP_OK);
+        }
+    }
+}
+
+/* What is not confirmed is named by the columns that a row has. */
+static void test_unconfirmed(void **state) {
+    static const char *const columns[] = {"near", "far", "mapping", "format"};
+    (void)state;
+    for (size_t i = 0; i < count(); i++) {
+        char text[64];
+        assert_true(strlen(preset_get(i)->unconfirmed) < sizeof text);
+        strcpy(text, preset_get(i)->unconfirmed);
+        for (char *word = strtok(text, ", "); word != NULL; word = strtok(NULL, ", ")) {
+            int known = 0;
+            for (size_t c = 0; c < 4; c++)
+                known |= strcmp(word, columns[c]) == 0;
+            assert_true(known);
+        }
+    }
+}
+
+static void test_known_values(void **state) {
+    dp_format formats[2];
+    (void)state;
+    assert_int_equal(preset_formats(preset_find("three-webgpu"), formats), 2); /* depth24plus */
+    assert_string_equal(preset_find("unreal")->unit, "cm");
+    assert_true(isinf(preset_find("unreal")->zfar) && isinf(preset_find("bevy")->zfar));
+    assert_int_equal(preset_find("unity")->mapping, DP_MAPPING_REVERSED);
+    assert_int_equal(preset_find("unity-gl")->mapping, DP_MAPPING_GL);
+    assert_int_equal(preset_find("cesium")->mapping, DP_MAPPING_LOG);
+    assert_true(strstr(preset_find("mujoco")->unconfirmed, "near") != NULL);
+    preset_formats(preset_find("godot-mobile"), formats);
+    assert_string_equal(formats[0].name, "unorm24");
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(test_required),
+        cmocka_unit_test(test_rows),
+        cmocka_unit_test(test_unconfirmed),
+        cmocka_unit_test(test_known_values),
+    };
+    return run_tap(tests);
+}

@@ -1,0 +1,194 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* The largest separation over a range: never below that of any depth in it, and no more above than is promised. */
+#include <stdio.h>
+
+#include "depthprec/depthprec.h"
+#include "method/census.h"
+#include "support.h"
+
+static const char *const format_names[] = {"fp32", "unorm24", "unorm16", "fp16", "float3.3b5", "unorm5"};
+
+/* A random set-up with the given model; 0 when there is no such. */
+static int random_setup(rng *r, dp_model model, dp_setup *setup) {
+    dp_spec spec = dp_spec_default();
+    dp_format found[2];
+    dp_format_parse(format_names[rng_below(r, 6)], found);
+    spec.format = found[0];
+    spec.znear = rng_log(r, 1e-3, 1e2);
+    spec.zfar = rng_below(r, 5) == 0 ? INFINITY : spec.znear * (1.0 + rng_log(r, 1e-2, 1e7));
+    spec.mapping = (dp_mapping)rng_below(r, DP_MAPPING_COUNT);
+    spec.ortho = rng_below(r, 6) == 0;
+    spec.rounding = (dp_rounding)rng_below(r, 3);
+    spec.model = model;
+    spec.arith = rng_below(r, dp_arith_count());
+    return dp_setup_init(setup, &spec) == DP_OK;
+}
+
+static const char *name_of(const dp_setup *s) {
+    static char text[200];
+    snprintf(text, sizeof text, "%s %s near %a far %a%s %s %s %s", s->spec.format.name,
+             dp_mapping_get(s->spec.mapping)->name, s->spec.znear, s->spec.zfar, s->spec.ortho ? " ortho" : "",
+             dp_rounding_name(s->spec.rounding), dp_model_name(s->spec.model), dp_arith_get(s->spec.arith)->name);
+    return text;
+}
+
+/* A range inside the planes: often wide, sometimes a few steps, sometimes one depth. */
+static void random_range(rng *r, const dp_setup *s, double *lo, double *hi) {
+    const double far_end = isinf(s->spec.zfar) ? 1e7 * s->spec.znear : s->spec.zfar;
+    *lo = fmin(rng_log(r, s->spec.znear, far_end), far_end);
+    *lo = fmax(*lo, s->spec.znear);
+    *hi = rng_below(r, 3) == 0 ? *lo * (1.0 + rng_log(r, 1e-9, 1e-2)) : rng_log(r, *lo, far_end);
+    if (rng_below(r, 8) == 0)
+        *hi = far_end;
+    if (rng_below(r, 8) == 0)
+        *lo = s->spec.znear;
+    if (rng_below(r, 16) == 0)
+        *hi = *lo;
+    *hi = fmin(fmax(*hi, *lo), far_end);
+}
+
+/* Depths of the range: spread evenly, and close round the places where the steps of formats change. */
+static double probe(rng *r, const dp_setup *s, double lo, double hi) {
+    double z = rng_below(r, 2) == 0 ? rng_log(r, lo, hi) : rng_uniform(r, lo, hi);
+    if (rng_below(r, 3) == 0) {
+        const double d = ldexp(1.0, -(int)rng_below(r, 30));
+        const double w = rng_below(r, 2) == 0 ? d : rng_below(r, 2) == 0 ? 0.5 + 0.5 * d : 0.5 - 0.5 * d;
+        z = dp_eye(s, w, 1.0 - w) * (1.0 + ldexp(rng_unit(r) - 0.5, -(int)rng_below(r, 53)));
+    }
+    if (rng_below(r, 4) == 0)
+        z = ldexp(1.0, (int)rng_below(r, 30) - 10) * (1.0 + ldexp(rng_unit(r) - 0.5, -(int)rng_below(r, 53)));
+    return z >= lo && z <= hi ? z : rng_uniform(r, lo, hi);
+}
+
+/* At a depth the analysis of fp32 stops refining where a round gains less than 3 %; over a range it may go on. */
+static const double round_of_fp32 = 1.0 / 0.97;
+
+static void sweep(dp_model model, const char *name, double excess) {
+    const double more = model == DP_MODEL_FP32 ? round_of_fp32 : 1.0;
+    tally never_below = {.name = "never below the separation of a depth"};
+    tally near = {.name = "not far above"};
+    rng r = rng_make(name);
+    const uint64_t cases = test_cases(60, 1500, 20000);
+    for (uint64_t i = 0; i < cases; i++) {
+        dp_setup s;
+        dp_separation_worst w;
+        double lo;
+        double hi;
+        if (!random_setup(&r, model, &s))
+            continue;
+        random_range(&r, &s, &lo, &hi);
+        assert_int_equal(dp_separation_over(&s, lo, hi, 0.0, &w), DP_OK);
+        assert_true(w.z >= lo && w.z <= hi);
+        assert_true(dp_separation(&s, w.z) == w.separation);
+        for (int k = 0; k < 400; k++) {
+            const double z = fmin(fmax(probe(&r, &s, lo, hi), lo), hi);
+            const double found = dp_separation(&s, z);
+            TALLY(&never_below, found <= w.bound * more, "%s: over %a %a: bound %a, but %a at %a", name_of(&s), lo, hi,
+                  w.bound, found, z);
+        }
+        TALLY(&near, w.bound <= w.separation * excess, "%s: over %a %a: bound %g, separation %g at %g", name_of(&s), lo,
+              hi, w.bound, w.separation, w.z);
+    }
+    tally_end(&never_below);
+    tally_end(&near);
+}
+
+static void exact(void **state) {
+    (void)state;
+    sweep(DP_MODEL_EXACT, "separation exact", 1.0 + 1e-9);
+}
+
+static void staged(void **state) {
+    (void)state;
+    sweep(DP_MODEL_STAGED, "separation staged", 1.0 + 0x1p-9);
+}
+
+static void binary32(void **state) {
+    (void)state;
+    sweep(DP_MODEL_FP32, "separation fp32", 1.0 + 0x1p-9);
+}
+
+/* A limit just above or below the worst is decided, whichever side it is on. */
+static void limits_are_decided(void **state) {
+    (void)state;
+    tally decided = {.name = "a limit beside the worst separation is decided"};
+    rng r = rng_make("separation limits");
+    for (uint64_t i = 0; i < test_cases(50, 600, 6000); i++) {
+        dp_setup s;
+        dp_separation_worst w;
+        double lo;
+        double hi;
+        if (!random_setup(&r, (dp_model)rng_below(&r, DP_MODEL_COUNT), &s))
+            continue;
+        random_range(&r, &s, &lo, &hi);
+        assert_int_equal(dp_separation_over(&s, lo, hi, 0.0, &w), DP_OK);
+        if (isinf(w.separation))
+            continue;
+        const double limit = w.separation * (1.0 + ldexp(rng_unit(&r) - 0.25, -(int)rng_below(&r, 40)));
+        assert_int_equal(dp_separation_over(&s, lo, hi, limit, &w), DP_OK);
+        TALLY(&decided, w.bound <= limit * (1.0 + 1e-12) || w.separation > limit,
+              "%s: over %a %a: limit %.17g: %g to %g", name_of(&s), lo, hi, limit, w.separation, w.bound);
+    }
+    tally_end(&decided);
+}
+
+/* Every binary32 depth of some ranges through the pipeline: no pair so far apart is stored in the wrong order. */
+static void census_keeps_the_bound(void **state) {
+    (void)state;
+    tally kept = {.name = "no interval in the census is longer than the bound"};
+    rng r = rng_make("separation census");
+    for (uint64_t i = 0; i < test_cases(2, 60, 600); i++) {
+        dp_setup s;
+        dp_separation_worst w;
+        if (!random_setup(&r, DP_MODEL_FP32, &s))
+            continue;
+        const double lo = rng_log(&r, s.spec.znear, fmin(s.spec.zfar, s.spec.znear * 1e4));
+        const double hi = fmin(s.spec.zfar, lo * (1.0 + rng_log(&r, 1e-4, 2e-2)));
+        if (census_count(lo, hi) < 16)
+            continue;
+        census_request request = {.setup = &s, .lo = lo, .hi = hi, .threads = 1};
+        census_result result;
+        assert_int_equal(census_run(&request, &result), CENSUS_DONE);
+        assert_int_equal(dp_separation_over(&s, lo, hi, 0.0, &w), DP_OK);
+        TALLY(&kept, result.all.longest <= w.bound, "%s: over %a %a: longest %g, bound %g", name_of(&s), lo, hi,
+              result.all.longest, w.bound);
+    }
+    tally_end(&kept);
+}
+
+static void known_answers(void **state) {
+    (void)state;
+    dp_spec spec = dp_spec_default();
+    dp_format found[2];
+    dp_setup s;
+    dp_separation_worst w;
+    dp_format_parse("unorm24", found);
+    spec.format = found[0];
+    spec.znear = 0.01;
+    spec.zfar = 1e4;
+    assert_int_equal(dp_setup_init(&s, &spec), DP_OK);
+    assert_int_equal(dp_separation_over(&s, 1.0, 5000.0, 0.0, &w), DP_OK);
+    assert_true(w.z == 5000.0);
+    assert_relative(w.separation, 153.588769, 1e-8);
+    assert_int_equal(dp_separation_over(&s, 0.001, 5000.0, 0.0, &w), DP_ERROR_RANGE);
+    assert_int_equal(dp_separation_over(&s, 1.0, INFINITY, 0.0, &w), DP_ERROR_RANGE);
+    assert_int_equal(dp_separation_over(&s, 5.0, 1.0, 0.0, &w), DP_ERROR_RANGE);
+    assert_int_equal(dp_separation_over(&s, NAN, 1.0, 0.0, &w), DP_ERROR_RANGE);
+    assert_int_equal(dp_separation_over(NULL, 1.0, 2.0, 0.0, &w), DP_ERROR_NULL);
+    spec.zfar = INFINITY;
+    assert_int_equal(dp_setup_init(&s, &spec), DP_OK);
+    assert_int_equal(dp_separation_over(&s, 1.0, INFINITY, 0.0, &w), DP_OK);
+    assert_true(isinf(w.bound) && isinf(w.separation));
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(exact),
+        cmocka_unit_test(staged),
+        cmocka_unit_test(binary32),
+        cmocka_unit_test(limits_are_decided),
+        cmocka_unit_test(census_keeps_the_bound),
+        cmocka_unit_test(known_answers),
+    };
+    return run_tap(tests);
+}
