@@ -76,7 +76,7 @@ typedef struct dp_batch {
         double value, value_rest;
         float z_lo, z_hi, reach, reach_rest, reach_inverse, offset;
         int32_t whole;
-        float unit, unit_rest, eye_top, eye_near, eye_far;
+        float unit, unit_rest, split, eye_top, eye_near, eye_far;
     } numbers;
 } dp_batch;
 

@@ -206,17 +206,19 @@ LOOP(REVERSED_32, real32, word32, , {REVERSED})
 /* ---- Direct: float window depth to UNORM and back, N from 2 to 24, to nearest ------------------------------------ */
 
 /*
- * A float is at a distance of whole numbers from 2^23 on, so that one fused operation rounds the exact product to a
- * whole number: below 1/2 with 2^23 added. Without: the product of 48 bits is exact in double. The only tie is d = 1/2,
- * whose even neighbour is the upper one.
+ * From 2^23 on floats are whole numbers apart, so that one fused operation rounds the exact product to a whole number:
+ * with 2^23 added where the product is below 2^23, which is up to d = 1/2 for N = 24 and always for N < 24. Without
+ * fused operations the product of 48 bits is exact in double. The only tie is d = 1/2, whose even neighbour is the
+ * upper one.
  */
 #define UNIT                                                                                                           \
     const float raised = from[i] > 0.0F ? from[i] : 0.0F;                                                              \
     const float d = raised < 1.0F ? raised : 1.0F;
 #if FUSED
 #define PRODUCT                                                                                                        \
-    const float shift = d * k.unit < 0x1p23F ? 0x1p23F : 0.0F;                                                         \
-    const int32_t code = (int32_t)fmaf(d, k.unit, shift) - (int32_t)shift;
+    const int32_t upper = (int32_t)(bits32(k.split) - bits32(d)) >> 31; /* all ones where d > split */                 \
+    const float product = fmaf(d, k.unit, real_of32(0x4B000000U & ~(uint32_t)upper));                                  \
+    const uint32_t code = bits32(product) - 0x4B000000U + (0x800000U & (uint32_t)upper);
 #else
 #define PRODUCT const uint32_t code = (uint32_t)bits64((double)d * (double)k.unit + 0x1.8p52);
 #endif

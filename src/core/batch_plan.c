@@ -110,6 +110,7 @@ static int nearest_unorm(dp_batch *b) {
     if (f->bits < 2 || f->bits > 24 || b->setup.spec.rounding == DP_ROUND_ZERO)
         return 0;
     b->numbers.unit = (float)f->code_max;
+    b->numbers.split = f->bits == 24 ? 0.5F : 1.0F;
     return 1;
 }
 
