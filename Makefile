@@ -260,6 +260,8 @@ plots: all
 
 bench: all $(BENCH_PROGRAMS)
 	@for b in $(filter-out %/bench_empty,$(BENCH_PROGRAMS)); do $$b $(B)/depthprec || exit 1; done
+	@for f in interval linearize encode worst; do echo && $(B)/depthprec bench $$f || exit 1; done
+	@sh plots/draw.sh $(B)/depthprec plots pareto-interval pareto-linearize
 
 clean distclean:
 	$(Q)rm -rf build
@@ -281,7 +283,7 @@ help:
 ## make coverage    the lines that the tests reach, per file
 ## make lint        format, warnings of gcc and clang, cppcheck, manual pages, spelling, scripts, licences
 ## make plots       draw the gallery in plots/ again
-## make bench       measure the speed of the engine and of the program's start
+## make bench       measure the speed of the engine and the methods, redraw the charts of both
 ## make packages    install what building and testing need
 ## make install     to PREFIX=/usr/local (DESTDIR, bindir, libdir, ... as usual); uninstall, installcheck
 ## make dist        a source archive in build/; make clean removes build/

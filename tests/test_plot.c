@@ -21,6 +21,24 @@ const char *__lsan_default_suppressions(void) {
     return "leak:libfontconfig\n";
 }
 
+/* Three methods, one without error and one beaten, for the figures that show methods. */
+static const char *const method_names[] = {"rough", "beaten", "exact"};
+static const double method_ns[] = {1, 5, 100}, method_ratios[] = {10, 100}, method_ends[] = {100, NAN, INFINITY};
+static const double method_errors[] = {0.1, 0.5, 0, 1e-3, INFINITY, 0};
+static const bool method_front[] = {true, false, true};
+static const int method_groups[] = {0, 0, 0};
+static const figure_methods methods = {.measure = "relative error",
+                                       .count = 3,
+                                       .names = method_names,
+                                       .ns = method_ns,
+                                       .errors = method_errors,
+                                       .group = method_groups,
+                                       .front = method_front,
+                                       .steps = 2,
+                                       .ratios = method_ratios,
+                                       .claimed = method_ends,
+                                       .breaks = method_ends};
+
 /* A request about some set-ups, with the room it points to. */
 typedef struct asked {
     dp_setup setups[CHART_SERIES];
@@ -29,7 +47,7 @@ typedef struct asked {
 } asked;
 
 static void ask(asked *a, double znear, double zfar) {
-    *a = (asked){.request = {.lo = NAN, .hi = NAN, .at = NAN, .columns = 300}};
+    *a = (asked){.request = {.lo = NAN, .hi = NAN, .at = NAN, .methods = &methods, .columns = 300}};
     a->request.setups = a->setups;
     a->request.names = a->names;
     a->setups[0].spec = dp_spec_default();

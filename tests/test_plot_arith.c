@@ -129,8 +129,8 @@ static void a_gap_parts_a_band(void **state) {
     chart *c = chart_new();
     assert_non_null(c);
     chart_panel *panel = chart_add_panel(c);
-    panel->x = (chart_axis){CHART_LINEAR, 0, 100, "x", "x", ""};
-    panel->y = (chart_axis){CHART_LINEAR, 0, 100, "y", "y", ""};
+    panel->x = (chart_axis){CHART_LINEAR, 0, 100, "x", "x", "", NULL};
+    panel->y = (chart_axis){CHART_LINEAR, 0, 100, "y", "y", "", NULL};
     for (int band = 0; band < 2; band++) {
         chart_series *s = chart_add_series(c, panel, CHART_AREA, 101);
         assert_non_null(s);

@@ -18,6 +18,7 @@
 #define DEPTHPREC_DEPTHPREC_H
 
 #include "depthprec/arith.h"
+#include "depthprec/batch.h"
 #include "depthprec/bounds.h"
 #include "depthprec/budget.h"
 #include "depthprec/depth.h"

@@ -121,6 +121,7 @@ static const struct topic {
     {"presets", "cameras as engines set them, for --preset", list_preset},
     {"apis", "what one unit of depth bias is, for bias --api", list_api},
     {"figures", "what plot can draw", list_figure},
+    {"methods", "ways to a quantity, by family: what each claims, for which set-up and far/near", list_method},
 };
 enum { TOPIC_COUNT = sizeof topics / sizeof topics[0] };
 

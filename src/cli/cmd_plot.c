@@ -7,6 +7,7 @@
 
 #include "cli/choice.h"
 #include "cli/list.h"
+#include "cli/methods.h"
 #include "cli/number.h"
 #include "cli/options.h"
 #include "cli/plot_data.h"
@@ -91,8 +92,9 @@ static int check_file_given(const options *o, const figure_row *row) {
     static const option_id camera[] = {OPTION_NEAR,  OPTION_FAR,   OPTION_FORMAT, OPTION_MAPPING,  OPTION_ORTHO,
                                        OPTION_MODEL, OPTION_ARITH, OPTION_LOG_C,  OPTION_ROUNDING, OPTION_PRESET};
     if ((row->takes & FIGURE_NEEDS) == 0)
-        return o->operand_count == 1 ? EXIT_FINE
-                                     : usage_error("plot %s: takes no file, got '%s'", row->name, o->operands[1]);
+        return o->operand_count == 1 || (row->takes & FIGURE_METHODS) != 0
+                   ? EXIT_FINE
+                   : usage_error("plot %s: takes no file, got '%s'", row->name, o->operands[1]);
     if (o->operand_count < 2)
         return usage_error("plot %s: needs FILE, a requirement file, see depthprec(5)", row->name);
     for (size_t i = 0; i < sizeof camera / sizeof camera[0]; i++)
@@ -173,6 +175,18 @@ static bool picture(const options *o, const chart *c, output *out) {
     return true;
 }
 
+/* How much was computed for the picture: no more than one value a pixel column and curve, or one a field of a map. */
+static void say_values(const chart *c) {
+    size_t values = 0, curves = 0;
+    for (size_t p = 0; p < c->panel_count; p++) {
+        curves += c->panels[p].series_count;
+        values += (size_t)c->panels[p].map.columns * (size_t)c->panels[p].map.rows;
+        for (size_t s = 0; s < c->panels[p].series_count; s++)
+            values += c->panels[p].series[s].count;
+    }
+    fprintf(stderr, "depthprec: %zu values computed, %zu series in %zu panels\n", values, curves, c->panel_count);
+}
+
 static int write_figure(const options *o, const figure_row *row, const figure_request *request, chart *c) {
     output out;
     int status = output_open(&out, o->output);
@@ -192,6 +206,8 @@ static int write_figure(const options *o, const figure_row *row, const figure_re
         plot_data_csv(&out, c);
     else if (good)
         good = picture(o, c, &out);
+    if (good && o->verbose)
+        say_values(c);
     if (good)
         return output_close(&out);
     output_abandon(&out);
@@ -243,17 +259,28 @@ int cmd_plot(const options *o) {
         choose_models(o, &request, &all);
         status = check_cells(row, &all);
     }
+    methods_figure walked = {0};
+    char of_methods[2 * CHART_TEXT];
+    const char *family = o->operand_count > 1 ? o->operands[1] : NULL;
+    bool methodical = (row->takes & FIGURE_METHODS) != 0;
+    if (status == EXIT_FINE && methodical)
+        status =
+            methods_figure_make(o, (row->takes & FIGURE_PARETO) != 0, family, &walked, of_methods, sizeof of_methods);
+    request.methods = &walked.shown;
     chart *c = status == EXIT_FINE ? chart_new() : NULL;
     if (c != NULL) {
         for (size_t i = 0; i < all.count; i++)
             names[i] = name_of(o, &all.items[i], text[i]);
         notes_clean(c->title, sizeof c->title, o->title != NULL ? o->title : "");
         subtitle_of(o, &request, c->subtitle, sizeof c->subtitle);
+        if (methodical)
+            notes_clean(c->subtitle, sizeof c->subtitle, of_methods);
         status = write_figure(o, row, &request, c);
     } else if (status == EXIT_FINE) {
         status = usage_error("plot: no memory");
     }
     chart_free(c);
+    methods_figure_free(&walked);
     setups_release(&all);
     return status;
 }

@@ -1,9 +1,12 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* No setlocale here or anywhere: numbers are read and written in the C locale whatever LC_ALL says. */
 #include "cli/options.h"
+#include "method/method.h"
 
 int main(int argc, char **argv) {
     options o;
+    if (method_start != NULL) /* the light program has no methods */
+        method_start();
     int status = options_parse(&o, argc, argv);
     if (status < 0)
         status = o.verb->run != NULL ? o.verb->run(&o) : verb_run_full(argv);

@@ -379,23 +379,24 @@ enum {
     BUDGETED = VERB_BUDGET | VERB_PLOT,
     ASKED = MODELLED | VERB_BUDGET,
     CAMERA = ASKED | VERB_ZFIGHT,
+    PLACED = CAMERA | VERB_BENCH,
     COUNTED = VERB_ZFIGHT,
     SPREAD = COUNTED | VERB_CHECK,
     DRAWN = VERB_PLOT,
-    WRITTEN = CAMERA | VERB_LIST | VERB_BIAS | VERB_CHECK | VERB_SOLVE,
+    WRITTEN = PLACED | VERB_STABILITY | VERB_LIST | VERB_BIAS | VERB_CHECK | VERB_SOLVE,
     EVERY = ~0
 };
 
 /* clang-format off */
 const option_row option_rows[OPTION_COUNT] = {
-    [OPTION_NEAR] = {"near", 'n', "Z", CAMERA | VERB_BIAS | VERB_SOLVE,
+    [OPTION_NEAR] = {"near", 'n', "Z", PLACED | VERB_BIAS | VERB_SOLVE,
         "near plane, scene units, 1e-12 to 1e12 (default 0.1)", parse_near},
-    [OPTION_FAR] = {"far", 'f', "Z|inf", CAMERA | VERB_BIAS | VERB_SOLVE,
+    [OPTION_FAR] = {"far", 'f', "Z|inf", PLACED | VERB_BIAS | VERB_SOLVE,
         "far plane, scene units, up to 1e18, or inf (default 1000)", parse_far},
-    [OPTION_FORMAT] = {"format", 'F', "NAME[,NAME...]|all", CAMERA | VERB_BIAS | VERB_SOLVE,
+    [OPTION_FORMAT] = {"format", 'F', "NAME[,NAME...]|all", PLACED | VERB_BIAS | VERB_SOLVE,
         "depth formats: fp16, fp32, unorm16, unorm24, names as the APIs\n"
         "write them, unormN, floatE.M[bB] (default all: the first four)", parse_format},
-    [OPTION_MAPPING] = {"mapping", 'm', "NAME[,NAME...]|all", CAMERA | VERB_BIAS | VERB_SOLVE,
+    [OPTION_MAPPING] = {"mapping", 'm', "NAME[,NAME...]|all", PLACED | VERB_BIAS | VERB_SOLVE,
         "d3d, gl, reversed, gl-reversed, linear, log\n"
         "(default all: d3d and reversed)", parse_mapping},
     [OPTION_ORTHO] = {"ortho", 0, NULL, CAMERA | VERB_BIAS | VERB_SOLVE,
@@ -413,9 +414,10 @@ const option_row option_rows[OPTION_COUNT] = {
         "the binary32 arithmetic: ieee, fused, reciprocal,\n"
         "fused-reciprocal, product, mesa, softpipe, ieee-remap,\n"
         "mesa-remap (default ieee)", parse_arith},
-    [OPTION_TOLERANCE] = {"tolerance", 0, "SHARE", ASKED,
+    [OPTION_TOLERANCE] = {"tolerance", 0, "SHARE", ASKED | VERB_BENCH,
         "a model is enough when what it neglects adds no more to the\n"
-        "separation, 0.05 or 5% (default 5%)", parse_tolerance},
+        "separation, 0.05 or 5% (default 5%); in bench, the worst error\n"
+        "that the cheapest method to be marked may claim", parse_tolerance},
     [OPTION_LOG_C] = {"log-c", 0, "C", MODELLED | VERB_BIAS | VERB_SOLVE,
         "constant of the log mapping, 1e-12 to 1e12 (default 1)", parse_log_c},
     [OPTION_AT] = {"at", 0, "Z[,Z...]|LO:HI:log|lin:COUNT", ASKED | VERB_BIAS | VERB_SOLVE,

@@ -16,6 +16,8 @@ int cmd_list(const struct options *o);
 /* Commands that need a heavy library: null in the light program. */
 int cmd_plot(const struct options *o) __attribute__((weak));
 int cmd_zfight(const struct options *o) __attribute__((weak));
+int cmd_bench(const struct options *o) __attribute__((weak));
+int cmd_stability(const struct options *o) __attribute__((weak));
 int cmd_check(const struct options *o) __attribute__((weak));
 int cmd_solve(const struct options *o) __attribute__((weak));
 
@@ -26,7 +28,7 @@ const verb verb_rows[] = {
      "  depthprec table -n 0.1 -f 1000 -F unorm24 -m d3d,reversed\n"
      "  depthprec table -n 0.1 -f inf -F fp32 -m reversed --at 1,10,100,1000\n"
      "  depthprec table -F d32f --at 1:1000:log:10000 --csv -o depths.csv\n"},
-    {"plot", VERB_PLOT, cmd_plot, "FIGURE [FILE]", 1, 2, "'depthprec list figures' names them",
+    {"plot", VERB_PLOT, cmd_plot, "FIGURE [FILE|FAMILY]", 1, 2, "'depthprec list figures' names them",
      "draws a figure: SVG, PDF or PNG by the ending of -o",
      "  depthprec plot error -F all -m d3d,reversed -o error.svg\n"
      "  depthprec plot distribution -F unorm4 -n 1 -f 10 -o staircase.png --theme dark\n"
@@ -40,6 +42,15 @@ const verb verb_rows[] = {
      "which cause takes how much of the separation; which model is enough",
      "  depthprec budget -n 0.1 -f 1000 -F unorm24 -m d3d\n"
      "  depthprec budget -F fp32 -m reversed --world 5000 --linearize --at 10,100,1000\n"},
+    {"bench", VERB_BENCH, cmd_bench, "FAMILY", 1, 1, "interval, linearize, encode or worst",
+     "methods of a family: ns an element against worst error",
+     "  depthprec bench linearize -n 0.1 -f 1000\n"
+     "  depthprec bench interval -F fp32 -m reversed --tolerance 1e-6\n"
+     "  depthprec plot pareto linearize -o pareto.svg\n"},
+    {"stability", VERB_STABILITY, cmd_stability, "FAMILY", 1, 1, "interval, linearize, encode or worst",
+     "where the methods of a family lose what they claim",
+     "  depthprec stability linearize\n"
+     "  depthprec plot stability interval -o stability.svg\n"},
     {"check", VERB_CHECK, cmd_check, "FILE...", 1, 1000, "requirement files, see depthprec(5)",
      "whether cameras meet the requirements of files; exit 1 when not",
      "  depthprec check engine.need\n"
@@ -55,7 +66,7 @@ const verb verb_rows[] = {
      "  depthprec bias --api webgpu -F depth24plus -m d3d --gap 0.01 --range 1:100\n"
      "  depthprec bias --preset bevy --api vulkan --units 4 --factor 1 --slope 0.02\n"},
     {"list", VERB_LIST, cmd_list, "WHAT", 0, 1, NULL,
-     "formats, mappings, models, ariths, causes, presets, apis, figures",
+     "formats, mappings, models, ariths, causes, presets, apis, figures, methods",
      "  depthprec list\n"
      "  depthprec list formats\n"
      "  depthprec list mappings --json\n"},

@@ -31,7 +31,9 @@ enum {
     VERB_BUDGET = 1u << 5,
     VERB_CHECK = 1u << 6,
     VERB_SOLVE = 1u << 7,
-    VERB_BIAS = 1u << 8
+    VERB_BIAS = 1u << 8,
+    VERB_BENCH = 1u << 9,
+    VERB_STABILITY = 1u << 10
 };
 
 typedef struct verb {

@@ -29,7 +29,8 @@ double dp_eye(const dp_setup *setup, double d, double q) {
 
 /* The stages are monotone: where both ends of the error interval of d get one code, so does d. */
 static uint32_t staged_quick(const dp_setup *setup, double d, int *certain) {
-    const double slack = d * DP_WINDOW_ERROR + 0x1p-52; /* the second term is for 2d - 1 */
+    /* The second term is for 2d - 1. */
+    const double slack = d * DP_WINDOW_ERROR + (dp_mapping_get(setup->spec.mapping)->ndc_signed ? 0x1p-52 : 0.0);
     const uint32_t low = dp_staged_code(setup, d - slack > 0.0 ? d - slack : 0.0);
     const uint32_t high = dp_staged_code(setup, d + slack < 1.0 ? d + slack : 1.0);
     *certain = low == high;

@@ -46,7 +46,7 @@ static void add_panel(const figure_request *request, chart *out, size_t i, int s
     if (panel == NULL)
         return;
     panel->x = figure_depth_axis(CHART_LOG, lo, hi);
-    panel->y = (chart_axis){CHART_LINEAR, 0, 100, "share of the separation", "share", "%"};
+    panel->y = (chart_axis){CHART_LINEAR, 0, 100, "share of the separation", "share", "%", NULL};
     panel->second =
         (chart_axis){.scale = CHART_LOG, .label = "guaranteed separation", .key = "separation", .unit = "scene units"};
     if (request->count > 1)

@@ -24,6 +24,8 @@ typedef struct chart_axis {
     const char *label; /**< "z-fighting interval" */
     const char *key;   /**< the column's name in CSV and JSON, "interval" */
     const char *unit;  /**< "scene units", "%"; "" for a pure number */
+    /** Null, or what the numbers 0, 1, ... below hi stand for: a tick with that name half a step above each. */
+    const char *const *names;
 } chart_axis;
 
 /** How a series is drawn; the index of its row in series.c. */
@@ -31,6 +33,7 @@ typedef enum chart_kind {
     CHART_LINE = 0, /**< through the points; a point at y = INFINITY ends it with an arrow to the top */
     CHART_DROPS,    /**< each point joined to both axes: the codes of a small format */
     CHART_POINTS,   /**< markers, with their labels where given */
+    CHART_LABELS,   /**< the labels of points, each where it is free of the points and of the others */
     CHART_AREA,     /**< a band as thick as y, standing on the bands before it; its name is written into it */
     CHART_KIND_COUNT
 } chart_kind;
@@ -52,7 +55,7 @@ typedef struct chart_series {
     bool second; /**< CHART_LINE: y is measured on the panel's second axis */
     size_t count;
     double *x, *y;
-    char (*labels)[CHART_TEXT]; /**< CHART_POINTS: a label each, or null */
+    char (*labels)[CHART_TEXT]; /**< CHART_POINTS, CHART_LABELS: a label each, or null */
 } chart_series;
 
 /** A grid of values, colour-coded: value[row * columns + column], row 0 at the bottom. NaN is left empty. */

@@ -68,7 +68,7 @@ static void build_staircases(const figure_request *request, chart *out) {
         if (panel == NULL)
             return;
         panel->x = figure_depth_axis(scale_of(lo, hi), lo, hi);
-        panel->y = (chart_axis){CHART_LINEAR, 0, 1, "window depth d", "depth", ""};
+        panel->y = (chart_axis){CHART_LINEAR, 0, 1, "window depth d", "depth", "", NULL};
         snprintf(panel->title, sizeof panel->title, "%s, %u codes", request->names[i],
                  request->setups[i].spec.format.code_max + 1);
         add_codes(request, out, panel, i);

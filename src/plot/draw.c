@@ -100,7 +100,8 @@ static bool draw_panel(const pencil *p, const chart *c, const grid *g, int index
         if (panel->series[s].kind == CHART_AREA)
             series_draw(p, &a, &panel->series[s], s, panel->series_count);
     for (size_t s = 0; s < panel->series_count; s++)
-        if (panel->series[s].kind != CHART_POINTS && panel->series[s].kind != CHART_AREA)
+        if (panel->series[s].kind != CHART_POINTS && panel->series[s].kind != CHART_LABELS &&
+            panel->series[s].kind != CHART_AREA)
             series_draw(p, panel->series[s].second ? &right : &a, &panel->series[s], s, panel->series_count);
     for (size_t s = 0; s < panel->series_count; s++)
         if (panel->series[s].kind == CHART_AREA)
@@ -111,7 +112,7 @@ static bool draw_panel(const pencil *p, const chart *c, const grid *g, int index
         axes_draw_right(p, &right, rightmost);
     /* Points may stand on the frame; they are not cut by it. */
     for (size_t s = 0; s < panel->series_count; s++)
-        if (panel->series[s].kind == CHART_POINTS)
+        if (panel->series[s].kind == CHART_POINTS || panel->series[s].kind == CHART_LABELS)
             series_draw(p, &a, &panel->series[s], s, panel->series_count);
     return true;
 }

@@ -35,15 +35,34 @@ typedef struct figure_request {
     dp_budget_terms terms;    /**< what is added to the pipeline, for the figures that take it */
     const figure_need *needs; /**< for the figures that take them */
     size_t need_count;
-    int columns; /**< how finely to compute: pixel columns of the figure */
+    const struct figure_methods *methods; /**< for the figures that show methods, else null */
+    int columns;                          /**< how finely to compute: pixel columns of the figure */
 } figure_request;
+
+/** Methods of one family, measured: what the figures pareto and stability show. */
+typedef struct figure_methods {
+    const char *measure; /**< "relative error" */
+    size_t count;
+    const char *const *names;
+    const double *ns;     /**< pareto: time an element */
+    const double *errors; /**< pareto: a worst error each; stability: `steps` each, for the far/near of `ratios` */
+    const int *group;     /**< pareto: methods of one group (0 or 1) answer the same question and share a front */
+    const bool *front;    /**< pareto: no other is both faster and more exact */
+    size_t steps;
+    const double *ratios;  /**< stability: evenly spaced on a log axis */
+    const double *claimed; /**< stability: the far/near up to which a claim is made; NaN for none */
+    const double *breaks;  /**< stability: the far/near from which on it does not hold; INFINITY for none */
+} figure_methods;
 
 /** What a figure can make something of. */
 enum {
-    FIGURE_AT = 1 << 0,       /**< one depth, given with --at */
-    FIGURE_TERMS = 1 << 1,    /**< --interpolation, --world, --linearize */
-    FIGURE_FP32 = 1 << 2,     /**< set-ups of the model fp32, which have no cells */
-    FIGURE_NEEDS = 1 << 4,    /**< a requirement file, which brings its own set-ups, with planes of their own */
+    FIGURE_AT = 1 << 0,     /**< one depth, given with --at */
+    FIGURE_TERMS = 1 << 1,  /**< --interpolation, --world, --linearize */
+    FIGURE_FP32 = 1 << 2,   /**< set-ups of the model fp32, which have no cells */
+    FIGURE_NEEDS = 1 << 4,  /**< a requirement file, which brings its own set-ups, with planes of their own */
+    FIGURE_PARETO = 1 << 5, /**< methods and their times */
+    FIGURE_WALK = 1 << 6,   /**< methods walked over far/near */
+    FIGURE_METHODS = FIGURE_PARETO | FIGURE_WALK,
     FIGURE_BINARY32 = 1 << 3, /**< nothing but set-ups of the model fp32, whatever --model says */
 };
 
@@ -83,5 +102,7 @@ const char *interval_build(const figure_request *request, chart *out);
 const char *budget_build(const figure_request *request, chart *out);
 const char *scene_build(const figure_request *request, chart *out);
 const char *map_build(const figure_request *request, chart *out);
+const char *pareto_build(const figure_request *request, chart *out);
+const char *stability_build(const figure_request *request, chart *out);
 
 #endif

@@ -22,6 +22,12 @@ static const figure_row rows[] = {
     {"map", "Worst z-fighting interval for each near and far plane",
      "near against far, colour = worst z-fighting interval over the range, or the interval at --at Z", CHART_PANELS,
      FIGURE_AT, map_build},
+    {"pareto", "Speed against accuracy",
+     "methods of a family, interval by default: ns an element against worst error, log-log, the Pareto front marked",
+     CHART_SERIES, FIGURE_PARETO | FIGURE_FP32, pareto_build},
+    {"stability", "Where methods lose their digits",
+     "methods of a family, linearize by default, against far/near: colour = digits left, with the claims' ends",
+     CHART_SERIES, FIGURE_WALK | FIGURE_FP32, stability_build},
     {"scene", "What the scene needs and what the cameras give",
      "a requirement file: the separation (or error) that each requirement allows against what its set-up gives",
      CHART_PANELS, FIGURE_FP32 | FIGURE_NEEDS, scene_build},
@@ -75,5 +81,5 @@ void figure_range(const figure_request *request, double *lo, double *hi) {
 }
 
 chart_axis figure_depth_axis(chart_scale scale, double lo, double hi) {
-    return (chart_axis){scale, lo, hi, "eye depth z", "z", "scene units"};
+    return (chart_axis){scale, lo, hi, "eye depth z", "z", "scene units", NULL};
 }

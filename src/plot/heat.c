@@ -26,8 +26,25 @@ static void draw_hatch(const pencil *p, canvas_rect f) {
     canvas_path_end(p->c, &pen);
 }
 
+/* Few fields: each a rectangle, for an image as small as that is blurred by those who show it. */
+static void draw_fields(const pencil *p, canvas_rect f, const chart_map *m, const chart_axis *value) {
+    const double w = f.w / m->columns, h = f.h / m->rows, seam = 0.5;
+    for (int row = m->rows - 1; row >= 0; row--)
+        for (int column = 0; column < m->columns; column++) {
+            double v = m->value[(size_t)row * (size_t)m->columns + (size_t)column];
+            if (!isnan(v))
+                canvas_fill(p->c, (canvas_rect){f.x + column * w, f.y + f.h - (row + 1) * h, w + seam, h + seam},
+                            theme_viridis(chart_axis_share(value, v)));
+        }
+}
+
 static bool draw_pixels(const pencil *p, canvas_rect f, const chart_map *m, const chart_axis *value) {
+    enum { FEW = 4096 };
     size_t count = (size_t)m->columns * (size_t)m->rows;
+    if (count < FEW) {
+        draw_fields(p, f, m, value);
+        return true;
+    }
     uint32_t *pixels = calloc(count, sizeof *pixels);
     if (pixels == NULL)
         return false;

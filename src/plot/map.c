@@ -58,15 +58,20 @@ static void add_panel(const figure_request *request, chart *out, size_t i, doubl
     chart_panel *panel = chart_add_panel(out);
     if (panel == NULL)
         return;
-    panel->x = (chart_axis){
-        CHART_LOG,    fmax(spec->znear / around, 1e-12), fmin(spec->znear * around, 1e12), "near plane", "near",
-        "scene units"};
+    panel->x = (chart_axis){CHART_LOG,
+                            fmax(spec->znear / around, 1e-12),
+                            fmin(spec->znear * around, 1e12),
+                            "near plane",
+                            "near",
+                            "scene units",
+                            NULL};
     panel->y = (chart_axis){CHART_LOG,
                             infinite ? spec->znear * infinite_from : spec->zfar / around,
                             fmin(infinite ? spec->znear * infinite_to : spec->zfar * around, 1e18),
                             "far plane",
                             "far",
-                            "scene units"};
+                            "scene units",
+                            NULL};
     if (request->count > 1)
         snprintf(panel->title, sizeof panel->title, "%s", request->names[i]);
     if (!chart_add_map(out, panel, (int)(GRID_COLUMNS * shrink), (int)(GRID_ROWS * shrink)))

@@ -166,9 +166,8 @@ static const struct {
     void (*draw)(const pencil *, const axes *, const chart_series *, size_t index, size_t count);
     void (*swatch)(const pencil *, const chart_series *, double x, double y, double width);
 } kinds[CHART_KIND_COUNT] = {
-    [CHART_LINE] = {draw_line, swatch_line},
-    [CHART_DROPS] = {draw_drops, swatch_drops},
-    [CHART_POINTS] = {draw_points, swatch_points},
+    [CHART_LINE] = {draw_line, swatch_line},       [CHART_DROPS] = {draw_drops, swatch_drops},
+    [CHART_POINTS] = {draw_points, swatch_points}, [CHART_LABELS] = {labels_draw, swatch_points},
     [CHART_AREA] = {draw_area, swatch_area},
 };
 

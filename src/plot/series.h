@@ -14,6 +14,9 @@ void series_swatch(const pencil *p, const chart_series *s, double x, double y, d
 /** What point i of CHART_POINTS covers with its label. */
 canvas_rect series_point_box(const pencil *p, const axes *a, const chart_series *s, size_t i);
 
+/** Draws the labels of CHART_LABELS: beside their points, or a little away with a line to the point. labels.c */
+void labels_draw(const pencil *p, const axes *a, const chart_series *s, size_t index, size_t count);
+
 /** The arrow that ends a curve where its value grows without bound; its tip is at (x, y). */
 void series_arrow(const pencil *p, double x, double y, canvas_colour colour);
 

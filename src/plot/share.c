@@ -16,7 +16,8 @@ const char *share_build(const figure_request *request, chart *out) {
     double lo, hi;
     figure_range(request, &lo, &hi);
     panel->x = figure_depth_axis(CHART_LOG, lo, hi);
-    panel->y = (chart_axis){CHART_LINEAR, 0, 100, "codes between near and z", "share", "% of all between the planes"};
+    panel->y =
+        (chart_axis){CHART_LINEAR, 0, 100, "codes between near and z", "share", "% of all between the planes", NULL};
     for (size_t i = 0; i < request->count; i++) {
         const dp_setup *setup = &request->setups[i];
         uint32_t near_code = dp_code(setup, setup->spec.znear);

@@ -100,6 +100,11 @@ static size_t labelled(const ticks *t) {
 
 void ticks_make(const chart_axis *axis, int room, ticks *out) {
     out->count = 0;
+    if (axis->names != NULL) {
+        for (int i = 0; i < axis->hi; i++)
+            add(out, axis, i + 0.5, axis->names[i]);
+        return;
+    }
     if (room < 2)
         room = 2;
     if (axis->scale == CHART_LOG) {

@@ -8,7 +8,7 @@
 
 #include "plot/chart.h"
 
-enum { TICKS_MAX = 128, TICKS_TEXT = 32 };
+enum { TICKS_MAX = 128, TICKS_TEXT = 48 };
 
 typedef struct tick {
     double at;

@@ -1,0 +1,107 @@
+/* SPDX-License-Identifier: MIT */
+/**
+ * @file batch.h  Whole arrays at a time: depths into codes and back, at the speed of the memory they lie in.
+ *
+ *     dp_batch batch;
+ *     if (dp_batch_init(&batch, &setup, DP_TASK_CODE, DP_REAL_FLOAT, DP_WORD_32, dp_path_best()) == DP_OK)
+ *         dp_batch_run(&batch, depths, codes, count);
+ *
+ * A path is the same arithmetic compiled for another instruction set. All paths give the same bits, those of the
+ * scalar functions where a task says so. Codes are always the correctly rounded ones: a quick estimate with a proven
+ * error decides nearly every element, and where it lies too near a rounding boundary dp_code() decides.
+ */
+#ifndef DEPTHPREC_BATCH_H
+#define DEPTHPREC_BATCH_H
+
+#include <stddef.h>
+#include <stdint.h>
+
+#include "depthprec/setup.h"
+#include "depthprec/status.h"
+
+DP_BEGIN
+
+/** What is done to each element. Codes above code_max count as code_max in every task that reads codes. */
+typedef enum dp_task {
+    DP_TASK_CODE = 0, /**< eye depth to code, as dp_code(); outside [near, far] clamped, NaN as near */
+    DP_TASK_EYE,      /**< code to eye depth: double as dp_stored(), bit for bit; float within DP_BATCH_EYE_ERROR,
+                           INFINITY beyond the largest float */
+    DP_TASK_WIDTH,    /**< code to cell width, within DP_BATCH_WIDTH_ERROR of dp_cell_of(); float: that, rounded */
+    DP_TASK_ENCODE,   /**< window depth to code, as dp_format_encode(); outside [0, 1] clamped, NaN as 0 */
+    DP_TASK_DECODE,   /**< code to window depth, as dp_format_value(); float: that, rounded */
+    DP_TASK_COUNT
+} dp_task;
+
+/** Relative error of an eye depth in float against dp_stored(): 3.1 units of 2^-24. */
+#define DP_BATCH_EYE_ERROR 1.85e-7
+
+/** Relative difference of a width in double from that of dp_cell_of(): 2^-49, six roundings in either. */
+#define DP_BATCH_WIDTH_ERROR 1.78e-15
+
+/** The type of depths and widths. */
+typedef enum dp_real { DP_REAL_FLOAT = 0, DP_REAL_DOUBLE, DP_REAL_COUNT } dp_real;
+
+/** The type of codes: uint16_t, for formats of at most 16 bits, or uint32_t. */
+typedef enum dp_word { DP_WORD_16 = 0, DP_WORD_32, DP_WORD_COUNT } dp_word;
+
+/** Instruction sets. BASELINE is what the library was compiled for and always there. */
+typedef enum dp_path { DP_PATH_BASELINE = 0, DP_PATH_AVX2, DP_PATH_AVX512, DP_PATH_COUNT } dp_path;
+
+/** "baseline", "avx2", "avx512"; null when out of range. */
+DP_API const char *dp_path_name(dp_path path);
+
+/** Whether this processor and this library have a path: AVX2 with FMA and F16C; AVX-512 F, BW, DQ and VL besides. */
+DP_API int dp_path_available(dp_path path);
+
+/** The fastest path that is available. */
+DP_API dp_path dp_path_best(void);
+
+/** A prepared task. Made by dp_batch_init(); may be copied, and used by many threads at once. */
+typedef struct dp_batch {
+    dp_setup setup;
+    dp_task task;
+    dp_real real;
+    dp_word word;
+    dp_path path;
+    size_t in_size, out_size; /**< bytes of an element read and of one written */
+    /** The rest is private to the library. */
+    int kernel, direct;
+    int32_t doubt;
+    struct dp_batch_numbers {
+        double lo, hi, from, slope, scale, magic;
+        uint64_t half;
+        int shift, cut, mantissa, bias;
+        uint32_t rebias, code_max, first, last;
+        double least_normal, top, to_near, to_far, den, below, above, width, first_width, last_width;
+        double value, value_rest;
+        float z_lo, z_hi, reach, reach_rest, reach_inverse, offset;
+        int32_t whole;
+        float unit, unit_rest, split, eye_top, eye_near, eye_far;
+    } numbers;
+} dp_batch;
+
+/**
+ * Prepares a task. ENCODE and DECODE read only the set-up's format and rounding.
+ *
+ * CODE and WIDTH in the models `staged` and `fp32`, and CODE, WIDTH and EYE of the logarithmic mapping, have no vector
+ * kernel: each element then costs what the scalar function does.
+ *
+ * @return DP_OK; DP_ERROR_NULL; DP_ERROR_BATCH for a task, type or path that does not exist or is not available;
+ *         DP_ERROR_FORMAT for DP_WORD_16 with a format of more bits. *batch is then left as it was
+ */
+DP_API dp_status dp_batch_init(dp_batch *batch, const dp_setup *setup, dp_task task, dp_real real, dp_word word,
+                               dp_path path);
+
+/**
+ * Does the task to `count` elements, which may be 0.
+ *
+ * @param in   depths (CODE, ENCODE) or codes, aligned to their type, no more
+ * @param out  codes, or depths; the same address as `in` is allowed where an element written is not larger than one
+ *             read. Any other overlap is not.
+ *
+ * Cost: one thread, no allocation, some 24 KiB of stack.
+ */
+DP_API void dp_batch_run(const dp_batch *batch, const void *in, void *out, size_t count);
+
+DP_END
+#endif

@@ -1,0 +1,211 @@
+/* SPDX-License-Identifier: MIT */
+/* Arrays by blocks: a kernel does a block, and what it leaves in doubt is done by the scalar functions. */
+#include "depthprec/batch.h"
+
+#include <string.h>
+#if defined(__x86_64__) && defined(__GNUC__)
+#include <cpuid.h>
+#endif
+
+#include "core/batch_plan.h"
+#include "depthprec/depth.h"
+
+enum { BLOCK = 1024, PATCH = 16 };
+
+/* ---- Paths ------------------------------------------------------------------------------------------------------- */
+
+static int always(void) {
+    return 1;
+}
+
+#if defined(__x86_64__) && defined(__GNUC__)
+/* Not every compiler has a name for F16C in __builtin_cpu_supports(). */
+static int has_avx2(void) {
+    unsigned a, b, c, d;
+    return __builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma") && __get_cpuid(1, &a, &b, &c, &d) &&
+           (c & bit_F16C) != 0;
+}
+
+static int has_avx512(void) {
+    return has_avx2() && __builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512bw") &&
+           __builtin_cpu_supports("avx512dq") && __builtin_cpu_supports("avx512vl");
+}
+#else
+static int has_avx2(void) {
+    return 0;
+}
+
+static int has_avx512(void) {
+    return 0;
+}
+#endif
+
+static const struct {
+    const char *name;
+    int (*available)(void);
+    dp_batch_kernel *const *table;
+} paths[DP_PATH_COUNT] = {
+    [DP_PATH_BASELINE] = {"baseline", always, dp_batch_baseline},
+    [DP_PATH_AVX2] = {"avx2", has_avx2, dp_batch_avx2},
+    [DP_PATH_AVX512] = {"avx512", has_avx512, dp_batch_avx512},
+};
+
+const char *dp_path_name(dp_path path) {
+    return (unsigned)path < DP_PATH_COUNT ? paths[path].name : NULL;
+}
+
+int dp_path_available(dp_path path) {
+    return (unsigned)path < DP_PATH_COUNT && paths[path].available();
+}
+
+dp_path dp_path_best(void) {
+    unsigned best = DP_PATH_COUNT - 1;
+    while (!paths[best].available())
+        best--;
+    return (dp_path)best;
+}
+
+dp_batch_kernel *const *dp_batch_table(dp_path path) {
+    return paths[path].table;
+}
+
+/* ---- Making -------------------------------------------------------------------------------------------------------*/
+
+dp_status dp_batch_init(dp_batch *batch, const dp_setup *setup, dp_task task, dp_real real, dp_word word,
+                        dp_path path) {
+    if (batch == NULL || setup == NULL)
+        return DP_ERROR_NULL;
+    if ((unsigned)task >= DP_TASK_COUNT || (unsigned)real >= DP_REAL_COUNT || (unsigned)word >= DP_WORD_COUNT ||
+        !dp_path_available(path))
+        return DP_ERROR_BATCH;
+    if (word == DP_WORD_16 && setup->spec.format.bits > 16)
+        return DP_ERROR_FORMAT;
+    const size_t real_size = real == DP_REAL_FLOAT ? sizeof(float) : sizeof(double);
+    const size_t word_size = word == DP_WORD_16 ? sizeof(uint16_t) : sizeof(uint32_t);
+    const int reads_code = dp_task_reads_code(task);
+    *batch = (dp_batch){.setup = *setup,
+                        .task = task,
+                        .real = real,
+                        .word = word,
+                        .path = path,
+                        .in_size = reads_code ? word_size : real_size,
+                        .out_size = reads_code ? real_size : word_size};
+    dp_batch_plan(batch);
+    return DP_OK;
+}
+
+/* ---- Running ------------------------------------------------------------------------------------------------------*/
+
+static double read_real(const dp_batch *b, const unsigned char *at) {
+    float narrow;
+    double wide;
+    if (b->real == DP_REAL_FLOAT) {
+        memcpy(&narrow, at, sizeof narrow);
+        return (double)narrow;
+    }
+    memcpy(&wide, at, sizeof wide);
+    return wide;
+}
+
+static void write_real(const dp_batch *b, unsigned char *at, double wide) {
+    const float narrow = (float)wide;
+    if (b->real == DP_REAL_FLOAT)
+        memcpy(at, &narrow, sizeof narrow);
+    else
+        memcpy(at, &wide, sizeof wide);
+}
+
+static uint32_t read_code(const dp_batch *b, const unsigned char *at) {
+    uint16_t narrow;
+    uint32_t wide;
+    if (b->word == DP_WORD_16) {
+        memcpy(&narrow, at, sizeof narrow);
+        wide = narrow;
+    } else {
+        memcpy(&wide, at, sizeof wide);
+    }
+    return wide < b->setup.spec.format.code_max ? wide : b->setup.spec.format.code_max;
+}
+
+static void write_code(const dp_batch *b, unsigned char *at, uint32_t wide) {
+    const uint16_t narrow = (uint16_t)wide;
+    if (b->word == DP_WORD_16)
+        memcpy(at, &narrow, sizeof narrow);
+    else
+        memcpy(at, &wide, sizeof wide);
+}
+
+/* One by one. */
+static void run_plain(const dp_batch *b, const unsigned char *from, unsigned char *to, size_t count) {
+    const dp_spec *spec = &b->setup.spec;
+    for (size_t i = 0; i < count; i++, from += b->in_size, to += b->out_size)
+        switch (b->task) {
+        case DP_TASK_CODE:
+            write_code(b, to, dp_code(&b->setup, read_real(b, from)));
+            break;
+        case DP_TASK_ENCODE:
+            write_code(b, to, dp_format_encode(&spec->format, spec->rounding, read_real(b, from)));
+            break;
+        case DP_TASK_EYE:
+            write_real(b, to, dp_stored(&b->setup, read_code(b, from)));
+            break;
+        case DP_TASK_WIDTH:
+            write_real(b, to, dp_cell_of(&b->setup, read_code(b, from)).width);
+            break;
+        case DP_TASK_DECODE:
+        default:
+            write_real(b, to, dp_format_value(&spec->format, read_code(b, from)));
+        }
+}
+
+/* One kernel call, with conversions around a general one; at most BLOCK elements. */
+static int32_t run_kernel(const dp_batch *b, const void *from, void *to, size_t count) {
+    dp_batch_kernel *const *const kernel = paths[b->path].table;
+    if (b->direct)
+        return kernel[b->kernel](b, from, to, count);
+    double wide[BLOCK];
+    uint32_t codes[BLOCK];
+    const int narrow_real = b->real == DP_REAL_FLOAT;
+    const int narrow_code = b->word == DP_WORD_16;
+    if (dp_task_reads_code(b->task)) {
+        if (narrow_code)
+            kernel[DP_KERNEL_WIDEN_CODE](b, from, codes, count);
+        kernel[b->kernel](b, narrow_code ? codes : from, narrow_real ? wide : to, count);
+        if (narrow_real)
+            kernel[DP_KERNEL_NARROW_REAL](b, wide, to, count);
+        return INT32_MAX;
+    }
+    if (narrow_real)
+        kernel[DP_KERNEL_WIDEN_REAL](b, from, wide, count);
+    const int32_t least = kernel[b->kernel](b, narrow_real ? wide : from, narrow_code ? codes : to, count);
+    if (narrow_code)
+        kernel[DP_KERNEL_NARROW_CODE](b, codes, to, count);
+    return least;
+}
+
+/* A block in doubt: again in small pieces, so that few elements are done one by one. */
+static void run_patches(const dp_batch *b, const unsigned char *from, unsigned char *to, size_t count) {
+    for (size_t i = 0; i < count; i += PATCH) {
+        const size_t some = count - i < PATCH ? count - i : PATCH;
+        if (run_kernel(b, from + i * b->in_size, to + i * b->out_size, some) < b->doubt)
+            run_plain(b, from + i * b->in_size, to + i * b->out_size, some);
+    }
+}
+
+void dp_batch_run(const dp_batch *batch, const void *in, void *out, size_t count) {
+    const unsigned char *from = in;
+    unsigned char *to = out;
+    double saved[BLOCK]; /* in place, what is read must outlive what is written */
+    for (size_t i = 0; i < count; i += BLOCK, from += BLOCK * batch->in_size, to += BLOCK * batch->out_size) {
+        const size_t some = count - i < BLOCK ? count - i : BLOCK;
+        const unsigned char *source = from;
+        if (in == out) {
+            memcpy(saved, from, some * batch->in_size);
+            source = (const unsigned char *)saved;
+        }
+        if (batch->kernel == DP_KERNEL_NONE)
+            run_plain(batch, source, to, some);
+        else if (run_kernel(batch, source, to, some) < batch->doubt)
+            run_patches(batch, source, to, some);
+    }
+}

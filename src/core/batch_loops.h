@@ -1,0 +1,279 @@
+/* SPDX-License-Identifier: MIT */
+/*
+ * The kernels, once. A path defines TARGET, FUSED and TABLE and includes this file; HALF_BY_HARDWARE says that it
+ * brings its own conversions of binary16. Every operation is one IEEE operation, so that each path gives the same
+ * bits; fused operations stand where they make a result exact, in kernels whose codes are proven whatever they do.
+ */
+#include <string.h>
+
+#include "core/batch_plan.h"
+
+/* Arrays may be looked at as another type than the caller's, in place. */
+#define ALIAS __attribute__((may_alias))
+typedef float ALIAS real32;
+typedef double ALIAS real64;
+typedef uint16_t ALIAS word16;
+typedef uint32_t ALIAS word32;
+
+#define INLINE       static inline __attribute__((always_inline))
+#define PRAGMA(TEXT) _Pragma(#TEXT)
+
+/* clang-format off */
+#define LOOP(NAME, IN, OUT, PREPARE, BODY)                                                                             \
+    TARGET static int32_t kernel_##NAME(const dp_batch *batch, const void *in, void *out, size_t count) {              \
+        const IN *restrict from = in;                                                                                  \
+        OUT *restrict to = out;                                                                                        \
+        const struct dp_batch_numbers k = batch->numbers;                                                              \
+        int32_t least = INT32_MAX;                                                                                     \
+        (void)k;                                                                                                       \
+        PREPARE                                                                                                        \
+        PRAGMA(omp simd reduction(min : least))                                                                        \
+        for (size_t i = 0; i < count; i++) BODY                                                                        \
+        return least;                                                                                                  \
+    }
+/* clang-format on */
+
+INLINE uint64_t bits64(double x) {
+    uint64_t bits;
+    memcpy(&bits, &x, sizeof bits);
+    return bits;
+}
+
+INLINE double real_of64(uint64_t bits) {
+    double x;
+    memcpy(&x, &bits, sizeof x);
+    return x;
+}
+
+INLINE uint32_t bits32(float x) {
+    uint32_t bits;
+    memcpy(&bits, &x, sizeof bits);
+    return bits;
+}
+
+INLINE float real_of32(uint32_t bits) {
+    float x;
+    memcpy(&x, &bits, sizeof x);
+    return x;
+}
+
+/* ---- Depth to code: the code stands in the upper bits of a double, and below it how far the next boundary is ------
+ */
+
+/*
+ * UNORM: t + 2^32 has steps of 2^-20. FLOAT: a double has the same shape as the format, but for the subnormals, which
+ * take it when the least normal value is added.
+ */
+#define PLACE_UNORM(X) const uint64_t bits = bits64((X)*k.scale + k.magic);
+#define PLACE_FLOAT(X)                                                                                                 \
+    const double d = (X)*k.scale;                                                                                      \
+    const double v = d + (d < k.least_normal ? k.least_normal : 0.0);                                                  \
+    const uint64_t bits = bits64(v) + bits64(d < k.least_normal ? low_half : high_half);
+
+#define TAKE                                                                                                           \
+    const int32_t rest = (int32_t)((uint32_t)(bits >> k.cut) & 0xFFFFFU);                                              \
+    least = rest < least ? rest : least;                                                                               \
+    to[i] = (uint32_t)(bits >> k.shift) - k.rebias;
+
+#define CLAMPED                                                                                                        \
+    const double raised = from[i] > k.lo ? from[i] : k.lo;                                                             \
+    const double x = raised < k.hi ? raised : k.hi;
+
+/* Chosen as doubles, because every instruction set can. */
+#define HALVES                                                                                                         \
+    const double high_half = real_of64(k.half);                                                                        \
+    const double low_half = real_of64(k.half - ((uint64_t)1 << k.shift << k.mantissa));
+
+LOOP(CODE_PERSPECTIVE_UNORM, real64, word32, , {CLAMPED PLACE_UNORM((k.from + k.slope * x) / x) TAKE})
+LOOP(CODE_PERSPECTIVE_FLOAT, real64, word32, HALVES, {CLAMPED PLACE_FLOAT((k.from + k.slope * x) / x) TAKE})
+LOOP(CODE_LINEAR_UNORM, real64, word32, , {CLAMPED PLACE_UNORM(k.from + k.slope * x) TAKE})
+LOOP(CODE_LINEAR_FLOAT, real64, word32, HALVES, {CLAMPED PLACE_FLOAT(k.from + k.slope * x) TAKE})
+LOOP(ENCODE_UNORM, real64, word32, , {CLAMPED PLACE_UNORM(x) TAKE})
+LOOP(ENCODE_FLOAT, real64, word32, HALVES, {CLAMPED PLACE_FLOAT(x) TAKE})
+
+/* ---- Code to depth ----------------------------------------------------------------------------------------------- */
+
+INLINE double value_float(uint32_t code, int shift, uint64_t lift, double least_normal) {
+    const uint64_t bits = ((uint64_t)code << shift) + lift;
+    const double normal = real_of64(bits);
+    const double subnormal = real_of64(bits + ((uint64_t)1 << 52)) - least_normal;
+    return normal < least_normal ? subnormal : normal;
+}
+
+#define LIFT                                                                                                           \
+    const int up = 52 - k.mantissa;                                                                                    \
+    const uint64_t lift = (uint64_t)(1023 - k.bias) << 52;
+
+#define CODE       const uint32_t c = from[i] < k.code_max ? from[i] : k.code_max;
+#define VALUE(C)   value_float((C), up, lift, k.least_normal)
+#define AS_REAL(C) ((double)(int32_t)((C) ^ 0x80000000U) + 0x1p31) /* exact; signed conversions are in every set */
+
+LOOP(DECODE_UNORM, word32, real64, , { CODE to[i] = AS_REAL(c) * k.value + AS_REAL(c) * k.value_rest; })
+LOOP(DECODE_UNORM_WIDE, word32, real64, , { CODE to[i] = 2.0 * AS_REAL(c) / k.den; })
+LOOP(DECODE_FLOAT, word32, real64, LIFT, { CODE to[i] = VALUE(c); })
+
+/* The operations of dp_curve_eye(), one for one: to_near and to_far weigh num, the others comp. */
+#define SHARES(NUM)                                                                                                    \
+    const double num = (NUM);                                                                                          \
+    const double comp = k.den - num;                                                                                   \
+    const double near_share = reversed ? num : comp;                                                                   \
+    const double far_share = reversed ? comp : num;
+
+#define SENSE const int reversed = batch->setup.reversed;
+
+LOOP(EYE_PERSPECTIVE_UNORM, word32, real64, SENSE,
+     { CODE SHARES(2.0 * AS_REAL(c)) to[i] = k.top / (k.to_near * near_share + k.to_far * far_share); })
+LOOP(EYE_PERSPECTIVE_FLOAT, word32, real64, SENSE LIFT,
+     { CODE SHARES(VALUE(c)) to[i] = k.top / (k.to_near * near_share + k.to_far * far_share); })
+LOOP(EYE_LINEAR_UNORM, word32, real64, SENSE,
+     { CODE SHARES(2.0 * AS_REAL(c)) to[i] = (k.to_near * near_share + k.to_far * far_share) / k.den; })
+LOOP(EYE_LINEAR_FLOAT, word32, real64, SENSE LIFT,
+     { CODE SHARES(VALUE(c)) to[i] = (k.to_near * near_share + k.to_far * far_share) / k.den; })
+
+/*
+ * Widths: z2 - z1 = z1 z2 kappa step with one divide for both depths. The cells of the planes' codes are cut there and
+ * were computed beforehand; codes beyond them have none.
+ */
+#define ENDS(WIDTH)                                                                                                    \
+    const double inner = (WIDTH);                                                                                      \
+    const double upper = c < k.last ? inner : c == k.last ? k.last_width : 0.0;                                        \
+    to[i] = c > k.first ? upper : c == k.first ? k.first_width : 0.0;
+
+INLINE double divisor_at(const struct dp_batch_numbers *k, int reversed, double num) {
+    const double comp = k->den - num;
+    return reversed ? k->to_near * num + k->to_far * comp : k->to_near * comp + k->to_far * num;
+}
+
+#define DIVISORS(A, B) (divisor_at(&k, reversed, (A)) * divisor_at(&k, reversed, (B)))
+
+/* The boundaries of a FLOAT code: half way to the neighbours, or the code and the next when truncated. */
+#define BOUNDARIES                                                                                                     \
+    const double value = VALUE(c);                                                                                     \
+    const double above = VALUE(c + 1U);                                                                                \
+    const double a = truncated ? value : 0.5 * (VALUE(c - 1U) + value);                                                \
+    const double b = truncated ? above : 0.5 * (value + above);
+#define TRUNCATED const int truncated = batch->setup.spec.rounding == DP_ROUND_ZERO;
+
+LOOP(WIDTH_PERSPECTIVE_UNORM, word32, real64, SENSE, {
+    CODE const double num = 2.0 * AS_REAL(c);
+    ENDS(k.width / DIVISORS(num + k.below, num + k.above))
+})
+LOOP(WIDTH_PERSPECTIVE_FLOAT, word32, real64, SENSE LIFT TRUNCATED,
+     {CODE BOUNDARIES ENDS(k.width * (b - a) / DIVISORS(a, b))})
+LOOP(WIDTH_LINEAR_UNORM, word32, real64, , {CODE ENDS(k.width)})
+LOOP(WIDTH_LINEAR_FLOAT, word32, real64, LIFT TRUNCATED, {CODE BOUNDARIES ENDS(k.width * (b - a))})
+
+/* ---- Conversions ------------------------------------------------------------------------------------------------- */
+
+LOOP(WIDEN_REAL, real32, real64, , { to[i] = (double)from[i]; })
+LOOP(NARROW_REAL, real64, real32, , { to[i] = (float)from[i]; })
+LOOP(WIDEN_CODE, word16, word32, , { to[i] = from[i]; })
+LOOP(NARROW_CODE, word32, word16, , { to[i] = (uint16_t)from[i]; })
+
+/* ---- Direct: float depth to UNORM, perspective ------------------------------------------------------------------- */
+
+/*
+ * t = s - p/z, or p/z - s reversed, with the quotient as a sum of two floats: q = p/z rounded, whose remainder is exact
+ * when fused, and the remainder over z. q is cut into a whole number and a fraction, and the fractions meet in [8, 16),
+ * where a float has steps of 2^-20. batch_plan.c has the error bound.
+ */
+#define QUOTIENT                                                                                                       \
+    const float raised = from[i] > k.z_lo ? from[i] : k.z_lo;                                                          \
+    const float z = raised < k.z_hi ? raised : k.z_hi;                                                                 \
+    const float q = k.reach / z;                                                                                       \
+    const float rest = fmaf(-q, z, k.reach) + k.reach_rest;                                                            \
+    const float inverse = q * k.reach_inverse;                                                                         \
+    const int32_t whole = (int32_t)q;                                                                                  \
+    const float part = q - (float)whole;
+
+#define SETTLE(SUM, CODE)                                                                                              \
+    const uint32_t bits = bits32(SUM);                                                                                 \
+    const int32_t distance = (int32_t)(bits & 0xFFFFFU);                                                               \
+    least = distance < least ? distance : least;                                                                       \
+    const int32_t floor_sum = (int32_t)(bits >> 20) + k.whole;                                                         \
+    to[i] = (__typeof__(to[0]))(CODE);
+
+#define STANDARD QUOTIENT SETTLE(fmaf(-rest, inverse, k.offset) - part, floor_sum - whole)
+#define REVERSED QUOTIENT SETTLE(fmaf(rest, inverse, k.offset) + part, floor_sum + whole)
+
+#if FUSED
+LOOP(STANDARD_16, real32, word16, , {STANDARD})
+LOOP(STANDARD_32, real32, word32, , {STANDARD})
+LOOP(REVERSED_16, real32, word16, , {REVERSED})
+LOOP(REVERSED_32, real32, word32, , {REVERSED})
+#endif
+
+/* ---- Direct: float window depth to UNORM and back, N from 2 to 24, to nearest ------------------------------------ */
+
+/*
+ * From 2^23 on floats are whole numbers apart, so that one fused operation rounds the exact product to a whole number:
+ * with 2^23 added where the product is below 2^23, which is up to d = 1/2 for N = 24 and always for N < 24. Without
+ * fused operations the product of 48 bits is exact in double. The only tie is d = 1/2, whose even neighbour is the
+ * upper one.
+ */
+#define UNIT                                                                                                           \
+    const float raised = from[i] > 0.0F ? from[i] : 0.0F;                                                              \
+    const float d = raised < 1.0F ? raised : 1.0F;
+#if FUSED
+#define PRODUCT                                                                                                        \
+    const int32_t upper = (int32_t)(bits32(k.split) - bits32(d)) >> 31; /* all ones where d > split */                 \
+    const float product = fmaf(d, k.unit, real_of32(0x4B000000U & ~(uint32_t)upper));                                  \
+    const uint32_t code = bits32(product) - 0x4B000000U + (0x800000U & (uint32_t)upper);
+#else
+#define PRODUCT const uint32_t code = (uint32_t)bits64((double)d * (double)k.unit + 0x1.8p52);
+#endif
+LOOP(UNORM_OF_FLOAT_16, real32, word16, , { UNIT PRODUCT to[i] = (uint16_t)code; })
+LOOP(UNORM_OF_FLOAT_32, real32, word32, , { UNIT PRODUCT to[i] = (uint32_t)code; })
+
+#define WHOLE                                                                                                          \
+    const uint32_t clamped = from[i] < k.code_max ? from[i] : k.code_max;                                              \
+    const float c = (float)(int32_t)clamped;
+LOOP(FLOAT_OF_UNORM_16, word16, real32, , { WHOLE to[i] = c * k.unit + c * k.unit_rest; })
+LOOP(FLOAT_OF_UNORM_32, word32, real32, , { WHOLE to[i] = c * k.unit + c * k.unit_rest; })
+
+/* ---- Direct: UNORM code to eye depth in float ---------------------------------------------------------------------
+ */
+
+#define FAST_EYE                                                                                                       \
+    WHOLE const float other = k.unit - c;                                                                              \
+    const float near_share = reversed ? c : other;                                                                     \
+    const float far_share = reversed ? other : c;                                                                      \
+    to[i] = k.eye_top / (k.eye_near * near_share + k.eye_far * far_share);
+LOOP(FAST_EYE_16, word16, real32, SENSE, {FAST_EYE})
+LOOP(FAST_EYE_32, word32, real32, SENSE, {FAST_EYE})
+
+/* ---- Direct: binary32, whose codes are its bits, and binary16 -----------------------------------------------------
+ */
+
+LOOP(BITS_OF_FLOAT, real32, word32, , { UNIT to[i] = bits32(d); })
+LOOP(FLOAT_OF_BITS, word32, real32, , { CODE to[i] = real_of32(c); })
+
+#ifndef HALF_BY_HARDWARE
+LOOP(HALF_OF_FLOAT, real32, word16, const int32_t up = batch->setup.spec.rounding == DP_ROUND_ZERO ? 0 : 1;, {
+    UNIT const int32_t bits = (int32_t)bits32(d);
+    const int32_t normal = ((bits + up * (0xFFF + (bits >> 13 & 1))) >> 13) - (112 << 10);
+    const float small = d < 0x1p-14F ? d : 0x1p-14F;
+    const int32_t whole = (int32_t)(small * 0x1p24F);
+    const int32_t even = (int32_t)(bits32(small * 0x1p24F + 0x1p23F) & 0x7FFFFFU);
+    to[i] = (uint16_t)(d < 0x1p-14F ? (up ? even : whole) : normal);
+})
+LOOP(FLOAT_OF_HALF, word16, real32, , {
+    const int32_t c = from[i] < 0x3C00 ? from[i] : 0x3C00;
+    const float normal = real_of32((uint32_t)(c << 13) + (112U << 23));
+    to[i] = c < 0x400 ? (float)c * 0x1p-24F : normal;
+})
+#endif
+
+#define ROW(K) [DP_KERNEL_##K] = kernel_##K,
+dp_batch_kernel *const TABLE[DP_KERNEL_COUNT] = {
+    ROW(CODE_PERSPECTIVE_UNORM) ROW(CODE_PERSPECTIVE_FLOAT) ROW(CODE_LINEAR_UNORM) ROW(CODE_LINEAR_FLOAT)
+        ROW(ENCODE_UNORM) ROW(ENCODE_FLOAT) ROW(DECODE_UNORM) ROW(DECODE_UNORM_WIDE) ROW(DECODE_FLOAT)
+            ROW(EYE_PERSPECTIVE_UNORM) ROW(EYE_PERSPECTIVE_FLOAT) ROW(EYE_LINEAR_UNORM) ROW(EYE_LINEAR_FLOAT)
+                ROW(WIDTH_PERSPECTIVE_UNORM) ROW(WIDTH_PERSPECTIVE_FLOAT) ROW(WIDTH_LINEAR_UNORM)
+                    ROW(WIDTH_LINEAR_FLOAT) ROW(WIDEN_REAL) ROW(NARROW_REAL) ROW(WIDEN_CODE) ROW(NARROW_CODE)
+#if FUSED
+                        ROW(STANDARD_16) ROW(STANDARD_32) ROW(REVERSED_16) ROW(REVERSED_32)
+#endif
+                            ROW(UNORM_OF_FLOAT_16) ROW(UNORM_OF_FLOAT_32) ROW(FLOAT_OF_UNORM_16) ROW(FLOAT_OF_UNORM_32)
+                                ROW(HALF_OF_FLOAT) ROW(FLOAT_OF_HALF) ROW(BITS_OF_FLOAT) ROW(FLOAT_OF_BITS)
+                                    ROW(FAST_EYE_16) ROW(FAST_EYE_32)};

@@ -1,0 +1,288 @@
+/* SPDX-License-Identifier: MIT */
+/* Which kernel does a task, and with which numbers. batch_loops.h has the kernels. */
+#include "core/batch_plan.h"
+
+#include <math.h>
+
+#include "core/lattice.h"
+#include "depthprec/depth.h"
+
+/* ---- Numbers ----------------------------------------------------------------------------------------------------- */
+
+static int is_float(const dp_format *f, int mantissa, int bias) {
+    return f->kind == DP_FORMAT_FLOAT && f->mantissa_bits == mantissa && f->bias == bias;
+}
+
+static void plan_format(dp_batch *b) {
+    const dp_format *f = &b->setup.spec.format;
+    struct dp_batch_numbers *k = &b->numbers;
+    k->code_max = f->code_max;
+    k->den = dp_point_den(f);
+    if (f->kind == DP_FORMAT_FLOAT) {
+        k->mantissa = f->mantissa_bits;
+        k->bias = f->bias;
+        k->least_normal = dp_power2(1 - f->bias);
+        return;
+    }
+    /* 1/M as a sum whose first part times a code is exact: the codes' values then take one rounding. */
+    const double top = (double)f->code_max;
+    uint64_t bits;
+    k->value = 1.0 / top;
+    memcpy(&bits, &k->value, sizeof bits);
+    bits &= ~(((uint64_t)1 << f->bits) - 1U);
+    memcpy(&k->value, &bits, sizeof bits);
+    k->value_rest = fma(-k->value, top, 1.0) / top;
+}
+
+/*
+ * Depth to code through double: d = (from + slope z) [/ z] scale, 6 roundings.
+ *
+ * UNORM: t = d M stands in units of 2^-20 above 2^32, off by at most 1/2 + 6 M 2^-33 of them. FLOAT: d is off by less
+ * than 16 units in the last place of a double, which are less than one of the 2^-20 steps that are looked at. Adding
+ * `slack` to what is rounded down makes floor(t) wrong only where less than twice the slack is left above it.
+ */
+static void plan_code(dp_batch *b) {
+    const dp_setup *s = &b->setup;
+    const dp_format *f = &s->spec.format;
+    struct dp_batch_numbers *k = &b->numbers;
+    const int nearest = s->spec.rounding != DP_ROUND_ZERO;
+    const double n = s->spec.znear;
+    const double z_far = s->spec.zfar;
+    if (b->task == DP_TASK_ENCODE) {
+        k->hi = 1.0;
+        k->scale = 1.0;
+    } else {
+        k->lo = n;
+        k->hi = z_far < 1e300 ? z_far : 1e300;
+        k->slope = s->reversed ? -1.0 : 1.0;
+        k->from = s->curve == DP_CURVE_LINEAR ? -s->anchor : -n;
+        k->scale = s->curve == DP_CURVE_LINEAR ? 1.0 / s->kappa : s->scale;
+        if (s->reversed) {
+            k->from = isinf(z_far) ? n : z_far;
+            k->slope = isinf(z_far) ? 0.0 : -1.0;
+        }
+    }
+    if (f->kind == DP_FORMAT_UNORM) {
+        const int slack = 2 + (int)ceil((double)f->code_max * 0x1p-30);
+        k->scale *= (double)f->code_max;
+        k->magic = 0x1p32 + (nearest ? 0.5 : 0.0) + slack * 0x1p-20;
+        k->shift = 20;
+        b->doubt = 2 * slack;
+        return;
+    }
+    k->shift = 52 - f->mantissa_bits;
+    k->cut = k->shift - 20;
+    k->rebias = (uint32_t)(1023 - f->bias) << f->mantissa_bits;
+    k->half = ((uint64_t)2 << k->cut) + (nearest ? (uint64_t)1 << (k->shift - 1) : 0);
+    b->doubt = 4;
+}
+
+static void plan_depth(dp_batch *b) {
+    const dp_setup *s = &b->setup;
+    struct dp_batch_numbers *k = &b->numbers;
+    const double n = s->spec.znear;
+    const double f = s->spec.zfar;
+    if (s->curve == DP_CURVE_LINEAR) {
+        k->to_near = s->anchor;
+        k->to_far = f;
+    } else {
+        k->top = (isinf(f) ? n : n * f) * k->den;
+        k->to_near = isinf(f) ? 1.0 : f;
+        k->to_far = isinf(f) ? 0.0 : n;
+    }
+    if (b->task != DP_TASK_WIDTH)
+        return;
+    const int truncated = s->spec.rounding == DP_ROUND_ZERO;
+    k->below = truncated ? 0.0 : -1.0;
+    k->above = truncated ? 2.0 : 1.0;
+    k->first = s->code_near < s->code_far ? s->code_near : s->code_far;
+    k->last = s->code_near < s->code_far ? s->code_far : s->code_near;
+    k->first_width = dp_cell_of(s, k->first).width;
+    k->last_width = dp_cell_of(s, k->last).width;
+    const double step = s->spec.format.kind == DP_FORMAT_UNORM ? 2.0 / k->den * s->kappa : s->kappa;
+    k->width = s->curve == DP_CURVE_LINEAR ? step : k->top * (k->top * step);
+}
+
+/* ---- Conditions of the direct kernels, each filling in its numbers ----------------------------------------------- */
+
+static int nearest_unorm(dp_batch *b) {
+    const dp_format *f = &b->setup.spec.format;
+    if (f->bits < 2 || f->bits > 24 || b->setup.spec.rounding == DP_ROUND_ZERO)
+        return 0;
+    b->numbers.unit = (float)f->code_max;
+    b->numbers.split = f->bits == 24 ? 0.5F : 1.0F;
+    return 1;
+}
+
+static float float_within(double z, int up) {
+    const float r = (float)z;
+    return up ? (double)r < z ? nextafterf(r, HUGE_VALF) : r : (double)r > z ? nextafterf(r, 0.0F) : r;
+}
+
+/*
+ * t = s - p/z (or p/z - s) for N <= 24 and f >= 16 n, so that p/z < 1.07 2^24. With u = 2^-24: the quotient's remainder
+ * is exact, the rest of p adds one rounding, and the inverse is within 4 u of 1/z; so the small part, at most 2.2, is
+ * off by 1.2 2^-45 p/z < 0.7 steps of 2^-20. Three roundings into [8, 16) add 1/2 step each: 2.2 steps in all.
+ */
+static int quotient_unorm(dp_batch *b) {
+    enum { SLACK = 3 };
+    const dp_spec *spec = &b->setup.spec;
+    struct dp_batch_numbers *k = &b->numbers;
+    const double n = spec->znear;
+    const double f = spec->zfar;
+    if (spec->format.bits > 24 || !(f >= 16.0 * n))
+        return 0;
+    /* Beyond 1e24 nothing changes: p/z is below 2e-5 there. Codes of depths between the planes and the nearest floats
+       inside are those of the planes, or it is left to the general kernel. */
+    k->z_lo = float_within(n, 1);
+    k->z_hi = float_within(f < 1e24 ? f : 1e24, 0);
+    if (dp_code(&b->setup, (double)k->z_lo) != b->setup.code_near ||
+        dp_code(&b->setup, (double)k->z_hi) != b->setup.code_far)
+        return 0;
+    const double top = (double)spec->format.code_max;
+    const double far_scale = isinf(f) ? 1.0 : f / (f - n);
+    const double p = top * (n * far_scale);
+    const double s = b->setup.reversed ? isinf(f) ? 0.0 : -top * (n / (f - n)) : top * far_scale;
+    const double sum = s + (spec->rounding == DP_ROUND_ZERO ? 0.0 : 0.5) + SLACK * 0x1p-20;
+    const double whole = floor(sum) + (b->setup.reversed ? 1.0 : 0.0);
+    k->reach = (float)p;
+    k->reach_rest = (float)(p - (double)k->reach);
+    k->reach_inverse = (float)(1.0 / p);
+    k->offset = (float)(sum - whole + 12.0);
+    /* the bits of a float in [8, 16) shifted by 20 are 1040 at 8 */
+    k->whole = (int32_t)whole - 12 - (1040 - 8);
+    b->doubt = 2 * SLACK + 1;
+    return 1;
+}
+
+static int quotient_standard(dp_batch *b) {
+    return !b->setup.reversed && quotient_unorm(b);
+}
+
+static int quotient_reversed(dp_batch *b) {
+    return b->setup.reversed && quotient_unorm(b);
+}
+
+/* c/M = c 2^-N + c (1/M - 2^-N): right in binary32 for every code of these formats (tests/test_batch.c tries all). */
+static int value_unorm(dp_batch *b) {
+    const int bits = b->setup.spec.format.bits;
+    if (bits < 16 || bits > 24)
+        return 0;
+    const double unit = dp_power2(-bits);
+    b->numbers.unit = (float)unit;
+    b->numbers.unit_rest = (float)(unit / (double)b->setup.spec.format.code_max); /* 1/M - 2^-N = 2^-N / M */
+    return 1;
+}
+
+/*
+ * z = l/(A s + B t) with A = l/(n M), B = l/(f M): each product, the sum and the quotient are rounded, and l is chosen
+ * so that A and B are off by less than a sixteenth of u = 2^-24: 3.1 u in all.
+ */
+static int fast_eye(dp_batch *b) {
+    const dp_spec *spec = &b->setup.spec;
+    struct dp_batch_numbers *k = &b->numbers;
+    if (spec->format.bits > 24)
+        return 0;
+    const double top = (double)spec->format.code_max;
+    const double to_near = 1.0 / (spec->znear * top);
+    const double to_far = 1.0 / (spec->zfar * top);
+    for (int i = 0; i < 8192; i++) {
+        const double l = 1.0 + i * 0x1p-13;
+        const float a = (float)(l * to_near);
+        const float c = (float)(l * to_far);
+        if (fabs((double)a - l * to_near) <= 0x1p-28 * l * to_near &&
+            fabs((double)c - l * to_far) <= 0x1p-28 * l * to_far) {
+            k->unit = (float)top;
+            k->eye_top = (float)l;
+            k->eye_near = a;
+            k->eye_far = c;
+            return 1;
+        }
+    }
+    return 0;
+}
+
+static int half_float(dp_batch *b) {
+    return is_float(&b->setup.spec.format, 10, 15);
+}
+
+static int single_float(dp_batch *b) {
+    return is_float(&b->setup.spec.format, 23, 127);
+}
+
+/* ---- Rows -------------------------------------------------------------------------------------------------------- */
+
+enum { UNORM = DP_FORMAT_UNORM, FLOAT = DP_FORMAT_FLOAT, PERSPECTIVE = DP_CURVE_PERSPECTIVE, ANY = -1 };
+
+typedef struct direct_row {
+    int task, kind, curve, word, kernel; /* all of them between float and codes */
+    int (*fits)(dp_batch *batch);
+} direct_row;
+
+static const direct_row direct_rows[] = {
+    {DP_TASK_CODE, UNORM, PERSPECTIVE, DP_WORD_16, DP_KERNEL_STANDARD_16, quotient_standard},
+    {DP_TASK_CODE, UNORM, PERSPECTIVE, DP_WORD_32, DP_KERNEL_STANDARD_32, quotient_standard},
+    {DP_TASK_CODE, UNORM, PERSPECTIVE, DP_WORD_16, DP_KERNEL_REVERSED_16, quotient_reversed},
+    {DP_TASK_CODE, UNORM, PERSPECTIVE, DP_WORD_32, DP_KERNEL_REVERSED_32, quotient_reversed},
+    {DP_TASK_EYE, UNORM, PERSPECTIVE, DP_WORD_16, DP_KERNEL_FAST_EYE_16, fast_eye},
+    {DP_TASK_EYE, UNORM, PERSPECTIVE, DP_WORD_32, DP_KERNEL_FAST_EYE_32, fast_eye},
+    {DP_TASK_ENCODE, UNORM, ANY, DP_WORD_16, DP_KERNEL_UNORM_OF_FLOAT_16, nearest_unorm},
+    {DP_TASK_ENCODE, UNORM, ANY, DP_WORD_32, DP_KERNEL_UNORM_OF_FLOAT_32, nearest_unorm},
+    {DP_TASK_DECODE, UNORM, ANY, DP_WORD_16, DP_KERNEL_FLOAT_OF_UNORM_16, value_unorm},
+    {DP_TASK_DECODE, UNORM, ANY, DP_WORD_32, DP_KERNEL_FLOAT_OF_UNORM_32, value_unorm},
+    {DP_TASK_ENCODE, FLOAT, ANY, DP_WORD_16, DP_KERNEL_HALF_OF_FLOAT, half_float},
+    {DP_TASK_DECODE, FLOAT, ANY, DP_WORD_16, DP_KERNEL_FLOAT_OF_HALF, half_float},
+    {DP_TASK_ENCODE, FLOAT, ANY, DP_WORD_32, DP_KERNEL_BITS_OF_FLOAT, single_float},
+    {DP_TASK_DECODE, FLOAT, ANY, DP_WORD_32, DP_KERNEL_FLOAT_OF_BITS, single_float},
+};
+
+/* [task][curve][kind]; ENCODE and DECODE have no curve. */
+static const int general[DP_TASK_COUNT][2][2] = {
+    [DP_TASK_CODE] = {{DP_KERNEL_CODE_PERSPECTIVE_UNORM, DP_KERNEL_CODE_PERSPECTIVE_FLOAT},
+                      {DP_KERNEL_CODE_LINEAR_UNORM, DP_KERNEL_CODE_LINEAR_FLOAT}},
+    [DP_TASK_EYE] = {{DP_KERNEL_EYE_PERSPECTIVE_UNORM, DP_KERNEL_EYE_PERSPECTIVE_FLOAT},
+                     {DP_KERNEL_EYE_LINEAR_UNORM, DP_KERNEL_EYE_LINEAR_FLOAT}},
+    [DP_TASK_WIDTH] = {{DP_KERNEL_WIDTH_PERSPECTIVE_UNORM, DP_KERNEL_WIDTH_PERSPECTIVE_FLOAT},
+                       {DP_KERNEL_WIDTH_LINEAR_UNORM, DP_KERNEL_WIDTH_LINEAR_FLOAT}},
+    [DP_TASK_ENCODE] = {{DP_KERNEL_ENCODE_UNORM, DP_KERNEL_ENCODE_FLOAT},
+                        {DP_KERNEL_ENCODE_UNORM, DP_KERNEL_ENCODE_FLOAT}},
+    [DP_TASK_DECODE] = {{DP_KERNEL_DECODE_UNORM, DP_KERNEL_DECODE_FLOAT},
+                        {DP_KERNEL_DECODE_UNORM, DP_KERNEL_DECODE_FLOAT}},
+};
+
+static int general_kernel(const dp_batch *b) {
+    const dp_setup *s = &b->setup;
+    const int by_format = b->task == DP_TASK_ENCODE || b->task == DP_TASK_DECODE;
+    if (!by_format && s->curve == DP_CURVE_LOG)
+        return DP_KERNEL_NONE;
+    if ((b->task == DP_TASK_CODE || b->task == DP_TASK_WIDTH) && s->spec.model != DP_MODEL_EXACT)
+        return DP_KERNEL_NONE;
+    if (b->task == DP_TASK_DECODE && s->spec.format.kind == DP_FORMAT_UNORM && s->spec.format.bits > 24)
+        return DP_KERNEL_DECODE_UNORM_WIDE;
+    return general[b->task][by_format ? 0 : s->curve][s->spec.format.kind];
+}
+
+void dp_batch_plan(dp_batch *b) {
+    dp_batch_kernel *const *const table = dp_batch_table(b->path);
+    plan_format(b);
+    b->doubt = 0;
+    b->direct = 0;
+    b->kernel = general_kernel(b);
+    if (b->kernel == DP_KERNEL_NONE)
+        return;
+    if (b->task == DP_TASK_CODE || b->task == DP_TASK_ENCODE)
+        plan_code(b);
+    else if (b->task != DP_TASK_DECODE)
+        plan_depth(b);
+    for (size_t i = 0; i < sizeof direct_rows / sizeof direct_rows[0] && b->real == DP_REAL_FLOAT; i++) {
+        const direct_row *r = &direct_rows[i];
+        if (r->task == (int)b->task && r->kind == (int)b->setup.spec.format.kind && r->word == (int)b->word &&
+            (r->curve == ANY || r->curve == (int)b->setup.curve) && table[r->kernel] != NULL && r->fits(b)) {
+            b->kernel = r->kernel;
+            b->direct = 1;
+            if (b->task != DP_TASK_CODE)
+                b->doubt = 0;
+            return;
+        }
+    }
+}

@@ -1,0 +1,54 @@
+/* SPDX-License-Identifier: MIT */
+/*
+ * Batch kernels: how they are named, found and called.
+ *
+ * A kernel turns `count` elements into as many others. Where it yields codes that are only proven at a distance from
+ * rounding boundaries, it returns the least distance that it met, in its own units; the caller compares it with
+ * batch->doubt. Kernels that cannot be wrong return INT32_MAX.
+ *
+ * General kernels read and write double and uint32_t; conversions stand before and behind them. Direct ones read and
+ * write the caller's types.
+ */
+#ifndef CORE_BATCH_PLAN_H
+#define CORE_BATCH_PLAN_H
+
+#include "depthprec/batch.h"
+
+/* clang-format off */
+#define DP_BATCH_KERNELS(X)                                                                                            \
+    /* general: double to uint32_t */                                                                                  \
+    X(CODE_PERSPECTIVE_UNORM) X(CODE_PERSPECTIVE_FLOAT) X(CODE_LINEAR_UNORM) X(CODE_LINEAR_FLOAT)                       \
+    X(ENCODE_UNORM) X(ENCODE_FLOAT)                                                                                    \
+    /* general: uint32_t to double */                                                                                  \
+    X(DECODE_UNORM) X(DECODE_UNORM_WIDE) X(DECODE_FLOAT)                                                               \
+    X(EYE_PERSPECTIVE_UNORM) X(EYE_PERSPECTIVE_FLOAT) X(EYE_LINEAR_UNORM) X(EYE_LINEAR_FLOAT)                           \
+    X(WIDTH_PERSPECTIVE_UNORM) X(WIDTH_PERSPECTIVE_FLOAT) X(WIDTH_LINEAR_UNORM) X(WIDTH_LINEAR_FLOAT)                   \
+    /* conversions */                                                                                                  \
+    X(WIDEN_REAL) X(NARROW_REAL) X(WIDEN_CODE) X(NARROW_CODE)                                                          \
+    /* direct */                                                                                                       \
+    X(STANDARD_16) X(STANDARD_32) X(REVERSED_16) X(REVERSED_32)                                                        \
+    X(UNORM_OF_FLOAT_16) X(UNORM_OF_FLOAT_32) X(FLOAT_OF_UNORM_16) X(FLOAT_OF_UNORM_32)                                \
+    X(HALF_OF_FLOAT) X(FLOAT_OF_HALF) X(BITS_OF_FLOAT) X(FLOAT_OF_BITS) X(FAST_EYE_16) X(FAST_EYE_32)
+/* clang-format on */
+
+#define DP_BATCH_NAME(K) DP_KERNEL_##K,
+enum { DP_BATCH_KERNELS(DP_BATCH_NAME) DP_KERNEL_COUNT, DP_KERNEL_NONE = DP_KERNEL_COUNT };
+
+typedef int32_t dp_batch_kernel(const dp_batch *batch, const void *in, void *out, size_t count);
+
+/* The kernels of a path by name; null where a path has no direct one. Null tables: compiled for another processor. */
+extern dp_batch_kernel *const dp_batch_baseline[DP_KERNEL_COUNT];
+extern dp_batch_kernel *const dp_batch_avx2[DP_KERNEL_COUNT];
+extern dp_batch_kernel *const dp_batch_avx512[DP_KERNEL_COUNT];
+
+/* The table of a path; never null for one that is available. */
+dp_batch_kernel *const *dp_batch_table(dp_path path);
+
+/* Fills in everything behind `out_size`. */
+void dp_batch_plan(dp_batch *batch);
+
+static inline int dp_task_reads_code(dp_task task) {
+    return task == DP_TASK_EYE || task == DP_TASK_WIDTH || task == DP_TASK_DECODE;
+}
+
+#endif

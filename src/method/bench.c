@@ -1,0 +1,177 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "method/bench.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <time.h>
+
+/* What one timing should last: long enough for the clock, short enough that the machine stays in one mood. */
+static const double slice = 4e5; /* ns */
+enum { REPETITIONS_MAX = 99 };
+
+double measured_error(const method_family_row *family, const measured *m) {
+    return family->steps ? m->worst.ulp : m->worst.relative;
+}
+
+static void keep(double value, size_t i, double *worst, size_t *at) {
+    if (value > *worst || (isnan(value) && !isnan(*worst))) {
+        *worst = value;
+        *at = i;
+    }
+}
+
+static void judge_all(const method_family_row *family, const method_row *row, const dp_setup *setup,
+                      const method_inputs *in, const method_outputs *out, measured *m) {
+    *m = (measured){.worst = {-1, -1, -1}};
+    for (size_t i = 0; i < in->count; i++) {
+        method_error e;
+        if (!family->judge(row, setup, in, out, i, &e))
+            continue;
+        m->count++;
+        keep(e.absolute, i, &m->worst.absolute, &m->absolute_at);
+        keep(e.relative, i, &m->worst.relative, &m->relative_at);
+        keep(e.ulp, i, &m->worst.ulp, &m->ulp_at);
+    }
+    if (m->count == 0)
+        m->worst = (method_error){(double)NAN, (double)NAN, (double)NAN};
+}
+
+bool method_measure(const method_family_row *family, const method_row *row, const dp_setup *setup,
+                    const method_inputs *in, const method_outputs *out, measured *m) {
+    void *state = row->open != NULL ? row->open(setup) : NULL;
+    if (row->open != NULL && state == NULL)
+        return false;
+    row->run(setup, state, in, out);
+    if (row->open != NULL)
+        row->close(state);
+    judge_all(family, row, setup, in, out, m);
+    return true;
+}
+
+double method_claimed(const method_row *row, size_t which, const dp_setup *setup) {
+    const method_claim *c = &row->claims[which];
+    double ratio = setup->spec.zfar / setup->spec.znear;
+    bool covered = isinf(ratio) ? (row->domain & METHOD_INFINITE) != 0 && c->ratio_hi >= METHOD_RATIO_HI
+                                : ratio >= c->ratio_lo && ratio <= c->ratio_hi * (1 + 1e-12);
+    if (setup->spec.ortho)
+        covered = covered && (row->domain & METHOD_ORTHO) != 0;
+    return method_speaks(row, which) && covered ? c->worst : (double)NAN;
+}
+
+/* ---- Times ------------------------------------------------------------------------------------------------------- */
+
+static double now(void) {
+    struct timespec t;
+    clock_gettime(CLOCK_MONOTONIC, &t);
+    return 1e9 * (double)t.tv_sec + (double)t.tv_nsec;
+}
+
+static double once(const method_row *row, const dp_setup *setup, const void *state, const method_inputs *in,
+                   const method_outputs *out, size_t rounds) {
+    double start = now();
+    for (size_t i = 0; i < rounds; i++)
+        row->run(setup, state, in, out);
+    return (now() - start) / (double)rounds / (double)in->count;
+}
+
+static int ascending(const void *a, const void *b) {
+    const double x = *(const double *)a, y = *(const double *)b;
+    return (x > y) - (x < y);
+}
+
+typedef struct contestant {
+    void *state;
+    size_t rounds;
+    method_inputs in;
+    double times[REPETITIONS_MAX];
+} contestant;
+
+/* Takes turns, so that what disturbs the machine disturbs all alike. */
+static void time_all(const dp_setup *setup, const method_outputs *out, bench_result *results, contestant *all,
+                     size_t count, int repetitions) {
+    for (size_t i = 0; i < count; i++) { /* warm-up, and how long one round lasts */
+        double ns = once(results[i].row, setup, all[i].state, &all[i].in, out, 1) * (double)all[i].in.count;
+        if (ns > 10 * slice) /* a few inputs say as much */
+            all[i].in.count = (size_t)fmax(1, (double)all[i].in.count * 10 * slice / ns);
+        all[i].rounds = (size_t)fmax(1, slice / fmax(ns, 1));
+    }
+    for (int r = 0; r < repetitions; r++)
+        for (size_t i = 0; i < count; i++)
+            all[i].times[r] = once(results[i].row, setup, all[i].state, &all[i].in, out, all[i].rounds);
+    for (size_t i = 0; i < count; i++) {
+        qsort(all[i].times, (size_t)repetitions, sizeof all[i].times[0], ascending);
+        results[i].ns = all[i].times[repetitions / 2];
+        results[i].spread = (all[i].times[repetitions * 3 / 4] - all[i].times[repetitions / 4]) / 2 / results[i].ns;
+    }
+}
+
+static void mark_front(const method_family_row *family, bench_result *results, size_t count) {
+    for (size_t i = 0; i < count; i++) {
+        double error = measured_error(family, &results[i].measured);
+        results[i].front = !isnan(error);
+        for (size_t k = 0; k < count && results[i].front; k++) {
+            if ((results[k].row->domain & METHOD_PIPELINE) != (results[i].row->domain & METHOD_PIPELINE))
+                continue;
+            double other = measured_error(family, &results[k].measured);
+            bool better =
+                (other < error && results[k].ns <= results[i].ns) || (other <= error && results[k].ns < results[i].ns);
+            results[i].front = !better;
+        }
+    }
+}
+
+static double input_at(const method_family_row *family, const method_inputs *in, size_t i) {
+    bool window = family->methods->family == METHOD_LINEARIZE || family->methods->family == METHOD_ENCODE;
+    return window ? (double)in->d[i] : in->z[i];
+}
+
+static bool prepare(const method_family_row *family, size_t which, const dp_setup *setup, const method_inputs *in,
+                    const method_outputs *out, bench_result *result, contestant *c) {
+    const method_row *row = result->row;
+    c->in = *in;
+    if (row->limit > 0 && row->limit < in->count)
+        c->in.count = row->limit;
+    double start = now();
+    if (row->open != NULL && (c->state = row->open(setup)) == NULL)
+        return false;
+    result->setup = row->open != NULL ? now() - start : 0;
+    row->run(setup, c->state, &c->in, out);
+    judge_all(family, row, setup, &c->in, out, &result->measured);
+    result->inputs = c->in.count;
+    result->at_absolute = input_at(family, in, result->measured.absolute_at);
+    result->at_relative = input_at(family, in, result->measured.relative_at);
+    result->at_ulp = input_at(family, in, result->measured.ulp_at);
+    result->claim = method_claimed(row, which, setup);
+    result->ns = result->spread = (double)NAN;
+    return true;
+}
+
+size_t bench_run(const method_family_row *family, size_t which, const dp_setup *setup, int repetitions,
+                 bench_result results[BENCH_METHODS_MAX]) {
+    method_inputs in;
+    method_outputs out;
+    contestant *all = calloc(BENCH_METHODS_MAX, sizeof *all);
+    size_t count = 0;
+    bool good = all != NULL && method_arrays(family->inputs, &in, &out);
+    if (good) {
+        family->fill(setup, &in);
+        for (size_t i = 0; i < *family->method_count && good; i++) {
+            const method_row *row = &family->methods[i];
+            if (!method_available(row) || !method_speaks(row, which))
+                continue;
+            results[count] = (bench_result){.row = row};
+            good = prepare(family, which, setup, &in, &out, &results[count], &all[count]);
+            count++;
+        }
+        if (good && repetitions > 0) {
+            time_all(setup, &out, results, all, count, repetitions < REPETITIONS_MAX ? repetitions : REPETITIONS_MAX);
+            mark_front(family, results, count);
+        }
+        for (size_t i = 0; i < count; i++)
+            if (all[i].state != NULL)
+                results[i].row->close(all[i].state);
+        method_arrays_free(&in, &out);
+    }
+    free(all);
+    return good ? count : 0;
+}

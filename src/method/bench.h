@@ -1,0 +1,50 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/**
+ * @file bench.h  All methods of a family on the same inputs: how fast, and how wrong at worst.
+ *
+ * The errors depend on the set-up alone; only the times vary.
+ */
+#ifndef METHOD_BENCH_H
+#define METHOD_BENCH_H
+
+#include "method/method.h"
+
+enum { BENCH_METHODS_MAX = 32 };
+
+/** The worst of each kind over all inputs, and the index of an input that reaches it. */
+typedef struct measured {
+    size_t count; /**< inputs inside the method's domain */
+    method_error worst;
+    size_t absolute_at, relative_at, ulp_at;
+} measured;
+
+/** The error in the family's measure. */
+double measured_error(const method_family_row *family, const measured *m);
+
+/** Runs a method once over inputs and judges every answer. @return false when out of memory */
+bool method_measure(const method_family_row *family, const method_row *row, const dp_setup *setup,
+                    const method_inputs *in, const method_outputs *out, measured *m);
+
+typedef struct bench_result {
+    const method_row *row;
+    size_t inputs; /**< how many of the shared inputs it was given: the first of them */
+    double ns;     /**< median, an element; NaN when not timed */
+    double spread; /**< half the range of the middle half of the repetitions, as a share of the median */
+    double setup;  /**< ns to prepare a set-up, once; 0 where there is nothing to prepare */
+    measured measured;
+    double at_absolute, at_relative, at_ulp; /**< the inputs that reach the worst: eye or window depths */
+    double claim;                            /**< for this set-up; NaN where the row claims nothing of it */
+    bool front; /**< no other method with the same reference is both faster and more exact */
+} bench_result;
+
+/** The claim of a row for a set-up of a case; NaN where it makes none. */
+double method_claimed(const method_row *row, size_t which, const dp_setup *setup);
+
+/**
+ * @param repetitions  of the timing, interleaved; 0 leaves the times NaN and marks no front
+ * @return how many methods this processor has, or 0 when out of memory
+ */
+size_t bench_run(const method_family_row *family, size_t which, const dp_setup *setup, int repetitions,
+                 bench_result results[BENCH_METHODS_MAX]);
+
+#endif

@@ -1,0 +1,260 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Eye depth of a binary32 window depth. Constants are formed in double and rounded once, as an engine uploads them. */
+#include "method/linearize.h"
+
+#include <float.h>
+#include <math.h>
+#include <string.h>
+#if defined(__SSE__)
+#include <xmmintrin.h>
+#endif
+
+static bool is_reversed(const dp_setup *setup) {
+    return setup->reversed != 0;
+}
+
+/* ---- 1/(Z d + W), as Unity's _ZBufferParams ---------------------------------------------------------------------- */
+
+static void unity_params(const dp_setup *setup, float *z, float *w) {
+    double n = setup->spec.znear, f = setup->spec.zfar;
+    *z = (float)(is_reversed(setup) ? 1 / n - 1 / f : 1 / f - 1 / n);
+    *w = (float)(is_reversed(setup) ? 1 / f : 1 / n);
+}
+
+static void unity_run(const dp_setup *setup, const void *state, const method_inputs *in, const method_outputs *out) {
+    float z, w;
+    (void)state;
+    unity_params(setup, &z, &w);
+    for (size_t i = 0; i < in->count; i++)
+        out->eye[i] = 1.0f / (z * in->d[i] + w);
+}
+
+/* The reciprocal of x > 0 from its bits, within 12 %, then one Newton step. */
+static float magic_reciprocal(float x) {
+    uint32_t bits;
+    float y;
+    memcpy(&bits, &x, sizeof bits);
+    bits = 0x7ef311c7u - bits;
+    memcpy(&y, &bits, sizeof y);
+    return y * (2.0f - x * y);
+}
+
+static void magic_run(const dp_setup *setup, const void *state, const method_inputs *in, const method_outputs *out) {
+    float z, w;
+    (void)state;
+    unity_params(setup, &z, &w);
+    for (size_t i = 0; i < in->count; i++)
+        out->eye[i] = magic_reciprocal(z * in->d[i] + w);
+}
+
+/* ---- n f/(f - d (f - n)) ----------------------------------------------------------------------------------------- */
+
+/* product/(base + slope d) */
+typedef struct textbook {
+    double product, base, slope;
+} textbook;
+
+static textbook textbook_of(const dp_setup *setup) {
+    double n = setup->spec.znear, f = setup->spec.zfar;
+    return is_reversed(setup) ? (textbook){n * f, n, f - n} : (textbook){n * f, f, n - f};
+}
+
+static void textbook_run(const dp_setup *setup, const void *state, const method_inputs *in, const method_outputs *out) {
+    const textbook t = textbook_of(setup);
+    const float product = (float)t.product, base = (float)t.base, slope = (float)t.slope;
+    (void)state;
+    for (size_t i = 0; i < in->count; i++)
+        out->eye[i] = product / (base + slope * in->d[i]);
+}
+
+static void fused_run(const dp_setup *setup, const void *state, const method_inputs *in, const method_outputs *out) {
+    const textbook t = textbook_of(setup);
+    const float product = (float)t.product, base = (float)t.base, slope = (float)t.slope;
+    (void)state;
+    for (size_t i = 0; i < in->count; i++)
+        out->eye[i] = product / fmaf(slope, in->d[i], base);
+}
+
+static void double_run(const dp_setup *setup, const void *state, const method_inputs *in, const method_outputs *out) {
+    const textbook t = textbook_of(setup);
+    (void)state;
+    for (size_t i = 0; i < in->count; i++)
+        out->eye[i] = (float)(t.product / (t.base + t.slope * (double)in->d[i]));
+}
+
+/* ---- n f/(n + (1 - d)(f - n)): all terms positive ---------------------------------------------------------------- */
+
+/* The share of the way from the far plane: 1 - d, or d itself where near is stored as 1. */
+static float toward_near(bool reversed, float d) {
+    return reversed ? d : 1.0f - d;
+}
+
+static void complement_run(const dp_setup *setup, const void *state, const method_inputs *in,
+                           const method_outputs *out) {
+    const double n = setup->spec.znear, f = setup->spec.zfar;
+    const float product = (float)(n * f), base = (float)n, slope = (float)(f - n);
+    const bool reversed = is_reversed(setup);
+    (void)state;
+    for (size_t i = 0; i < in->count; i++)
+        out->eye[i] = product / (base + slope * toward_near(reversed, in->d[i]));
+}
+
+#if defined(__SSE__)
+static bool has_estimate(void) {
+    return true;
+}
+
+typedef struct newton {
+    __m128 product, base, slope, from, sign;
+} newton;
+
+static __m128 newton_four(const newton *c, __m128 d) {
+    const __m128 q = _mm_add_ps(c->from, _mm_mul_ps(c->sign, d)), x = _mm_add_ps(c->base, _mm_mul_ps(c->slope, q));
+    const __m128 y = _mm_rcp_ps(x);
+    return _mm_mul_ps(c->product, _mm_mul_ps(y, _mm_sub_ps(_mm_set1_ps(2.0f), _mm_mul_ps(x, y))));
+}
+
+static void newton_run(const dp_setup *setup, const void *state, const method_inputs *in, const method_outputs *out) {
+    const double n = setup->spec.znear, f = setup->spec.zfar;
+    const bool reversed = is_reversed(setup);
+    const newton c = {_mm_set1_ps((float)(n * f)), _mm_set1_ps((float)n), _mm_set1_ps((float)(f - n)),
+                      _mm_set1_ps(reversed ? 0.0f : 1.0f), _mm_set1_ps(reversed ? 1.0f : -1.0f)};
+    (void)state;
+    size_t i = 0;
+    for (; i + 4 <= in->count; i += 4)
+        _mm_storeu_ps(out->eye + i, newton_four(&c, _mm_loadu_ps(in->d + i)));
+    for (; i < in->count; i++)
+        out->eye[i] = _mm_cvtss_f32(newton_four(&c, _mm_set1_ps(in->d[i])));
+}
+#else
+static bool has_estimate(void) {
+    return false;
+}
+#define newton_run complement_run
+#endif
+
+/* The sum and the product of two as unevaluated pairs (Knuth, Dekker): double only carries the constants in. */
+typedef struct pair {
+    float hi, lo;
+} pair;
+
+static pair pair_of(double x) {
+    pair p = {(float)x, 0.0f};
+    p.lo = (float)(x - (double)p.hi);
+    return p;
+}
+
+static pair two_sum(float a, float b) {
+    float s = a + b, v = s - a;
+    return (pair){s, (a - (s - v)) + (b - v)};
+}
+
+/* Halves of 12 bits, so that four products are exact without a fused operation. */
+static pair two_product(float a, float b) {
+    float ca = 4097.0f * a, cb = 4097.0f * b;
+    float ah = ca - (ca - a), bh = cb - (cb - b), al = a - ah, bl = b - bh, p = a * b;
+    return (pair){p, ((ah * bh - p) + ah * bl + al * bh) + al * bl};
+}
+
+static void pair_run(const dp_setup *setup, const void *state, const method_inputs *in, const method_outputs *out) {
+    const double n = setup->spec.znear, f = setup->spec.zfar;
+    /* In units of near: then nothing leaves the range of binary32, whatever the scene's units are. */
+    const pair slope = pair_of(f / n - 1), product = pair_of(f);
+    const float from = is_reversed(setup) ? 0.0f : 1.0f, sign = is_reversed(setup) ? 1.0f : -1.0f;
+    (void)state;
+    for (size_t i = 0; i < in->count; i++) {
+        pair q = two_sum(from, sign * in->d[i]);
+        pair m = two_product(slope.hi, q.hi);
+        m.lo += slope.hi * q.lo + slope.lo * q.hi;
+        pair x = two_sum(1.0f, m.hi);
+        x.lo += m.lo;
+        float z = product.hi / x.hi;
+        pair back = two_product(z, x.hi);
+        out->eye[i] = z + (((product.hi - back.hi) - back.lo) + (product.lo - z * x.lo)) / x.hi;
+    }
+}
+
+/* As the engine has it: n/(phi d + q), which also has a limit for an infinite far plane. */
+static void phi_run(const dp_setup *setup, const void *state, const method_inputs *in, const method_outputs *out) {
+    const double n = setup->spec.znear, phi = n / setup->spec.zfar;
+    const bool reversed = is_reversed(setup);
+    (void)state;
+    for (size_t i = 0; i < in->count; i++) {
+        double d = (double)in->d[i], q = 1 - d;
+        out->eye[i] = (float)(n / (reversed ? phi * q + d : phi * d + q));
+    }
+}
+
+/* ---- Rows, cheapest first ---------------------------------------------------------------------------------------- */
+
+/* Claims of whole roundings are derived: one for each that a result passes through, relative, where no term cancels. */
+#define UNIT      0x1p-24
+#define HALF_UNIT 6e-8 /* one rounding to binary32 and a few of double or of pairs */
+static const char gsl[] = "GNU Scientific Library";
+
+/* clang-format off */
+const method_row linearize_methods[] = {
+    {METHOD_LINEARIZE, "magic", "1/(Z d + W), the reciprocal from the bits of x and one Newton step",
+     {UP_TO(1e-2, 1e5), FULL(2.7e-3)}, 0, 0.17, "1", 0,
+     "the reciprocal by subtraction of bit patterns is folklore", NULL, NULL, magic_run, NULL},
+    {METHOD_LINEARIZE, "unity", "1/(Z d + W) in binary32, LinearEyeDepth of Unity with _ZBufferParams",
+     {UP_TO(1e-3, 1e4), FULL(4 * UNIT)}, METHOD_INFINITE, 0.22, "1", 0,
+     "UnityCG.cginc", NULL, NULL, unity_run, NULL},
+    {METHOD_LINEARIZE, "textbook", "n f/(f - d (f - n)) in binary32",
+     {UP_TO(1e-3, 1e4), FULL(5 * UNIT)}, 0, 0.23, "1", 0,
+     "the inverse of the projection, in most tutorials", NULL, NULL, textbook_run, NULL},
+    {METHOD_LINEARIZE, "complement", "n f/(n + (1 - d)(f - n)) in binary32: the same number, and no cancellation",
+     {FULL(6 * UNIT), FULL(5 * UNIT)}, 0, 0.24, "1", 0,
+     "depthprec(7)", NULL, NULL, complement_run, NULL},
+    {METHOD_LINEARIZE, "complement-newton",
+     "n f/(n + (1 - d)(f - n)) in binary32, the reciprocal as estimated by the processor and one Newton step",
+     {FULL(6e-7), FULL(6e-7)}, 0, 0.26, "1", 0,
+     "RCPPS, 1.5 x 2^-12 relative", has_estimate, NULL, newton_run, NULL},
+    {METHOD_LINEARIZE, "table-nearest", "the nearest of 65536 depths in equal steps of d, binary32",
+     {UP_TO(1e-1, 1e4), UP_TO(1e-1, 1e4)}, 0, 0.6, "1", 0,
+     "", NULL, table_open, table_nearest, table_close},
+    {METHOD_LINEARIZE, "double", "n f/(f - d (f - n)) in double, rounded to binary32",
+     {UP_TO(1e-7, 1e9), FULL(HALF_UNIT)}, 0, 0.58, "1", 0,
+     "", NULL, NULL, double_run, NULL},
+    {METHOD_LINEARIZE, "phi-double", "n/(phi d + q) in double, rounded to binary32: what the engine does",
+     {FULL(HALF_UNIT), FULL(HALF_UNIT)}, METHOD_INFINITE, 0.59, "1", 0,
+     "depthprec(7)", NULL, NULL, phi_run, NULL},
+    {METHOD_LINEARIZE, "table-linear", "between two of 65536 depths in equal steps of d, binary32",
+     {UP_TO(1e-2, 1e4), UP_TO(1e-2, 1e4)}, 0, 1.1, "1", 0,
+     "", NULL, table_open, table_linear, table_close},
+    {METHOD_LINEARIZE, "pair", "the complement form with pairs of binary32 numbers, rounded once",
+     {FULL(HALF_UNIT), FULL(HALF_UNIT)}, 0, 1.4, "1", 0,
+     "Dekker 1971, A floating-point technique for extending the available precision", NULL, NULL, pair_run, NULL},
+    {METHOD_LINEARIZE, "fused", "n f/(f - d (f - n)) in binary32, product and difference in one operation",
+     {UP_TO(1e-3, 1e4), FULL(4 * UNIT)}, 0, 2.2, "1", 0,
+     "", NULL, NULL, fused_run, NULL},
+    {METHOD_LINEARIZE, "spline", "cubic spline through 4097 depths in equal steps of d",
+     {UP_TO(1e-2, 1e3), UP_TO(1e-2, 1e3)}, 0, 52, "1", 16384,
+     gsl, NULL, spline_open, spline_run, spline_close},
+    {METHOD_LINEARIZE, "chebyshev", "Chebyshev series of order 40 over d",
+     {UP_TO(1e-3, 1e2), UP_TO(1e-3, 1e2)}, 0, 50, "1", 16384,
+     gsl, NULL, chebyshev_open, chebyshev_run, chebyshev_close},
+};
+/* clang-format on */
+const size_t linearize_method_count = sizeof linearize_methods / sizeof linearize_methods[0];
+
+bool linearize_judge(const method_row *row, const dp_setup *setup, const method_inputs *in, const method_outputs *out,
+                     size_t i, method_error *error) {
+    double d = (double)in->d[i], want = dp_eye(setup, d, 1 - d), got = (double)out->eye[i];
+    (void)row;
+    if (want > (double)FLT_MAX && !isinf(want)) /* beyond binary32: next to an infinite far plane only */
+        return false;
+    double off = got == want ? 0 : fabs(got - want); /* both infinite: right */
+    if (!(off < (double)INFINITY))
+        off = (double)INFINITY;
+    float nearest = (float)want;
+    double unit = (double)nextafterf(nearest, INFINITY) - (double)nearest;
+    *error = (method_error){off,
+                            off == 0     ? 0
+                            : isinf(off) ? off
+                                         : off / want,
+                            off == 0     ? 0
+                            : isinf(off) ? off
+                                         : off / unit};
+    return true;
+}

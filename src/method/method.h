@@ -1,0 +1,169 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/**
+ * @file method.h  Ways to get one quantity, a row each: what a way costs, what it promises, and where.
+ *
+ * A family is a quantity and its exact reference; a method is one way to that quantity. A method's claim is a worst
+ * error for each of the family's cases (a format and a mapping) and the span of far/near in which it holds. Claims are
+ * data: choose.h, the commands and the tests read the same cell, and a test fails when the measured error exceeds the
+ * claim, when it stays far below it, and when the claim does not break beyond the span.
+ */
+#ifndef METHOD_METHOD_H
+#define METHOD_METHOD_H
+
+#include <stdbool.h>
+#include <stddef.h>
+#include <stdint.h>
+
+#include "depthprec/depthprec.h"
+
+typedef enum method_family {
+    METHOD_INTERVAL = 0, /**< eye depth -> z-fighting interval */
+    METHOD_LINEARIZE,    /**< window depth -> eye depth */
+    METHOD_ENCODE,       /**< window depth -> code */
+    METHOD_WORST,        /**< range of depths -> worst interval */
+    METHOD_FAMILY_COUNT
+} method_family;
+
+enum { METHOD_CASES = 3 };
+
+/** The far/near that claims and walks speak of. */
+#define METHOD_RATIO_LO 10.0
+#define METHOD_RATIO_HI 1e12
+
+/** A measured worst error below this share of its claim makes the claim too modest, unless the claim is already no more
+ *  than the rounding of the answer. */
+#define METHOD_MODEST   0.25
+#define METHOD_ROUNDING 1e-15
+
+/** The worst error for far/near in [ratio_lo, ratio_hi]. A worst of 0: the method does not speak of the case; NaN: it
+ *  does, and claims nothing. A claim up to METHOD_RATIO_HI covers an infinite far plane where METHOD_INFINITE is set.
+ */
+typedef struct method_claim {
+    double worst; /**< in the family's measure */
+    double ratio_lo, ratio_hi;
+} method_claim;
+
+/* clang-format off */
+#define FULL(worst)         {(worst), METHOD_RATIO_LO, METHOD_RATIO_HI}
+#define UP_TO(worst, ratio) {(worst), METHOD_RATIO_LO, (ratio)}
+#define NOWHERE             {0, 0, 0}
+#define UNCLAIMED           {(double)__builtin_nanf(""), METHOD_RATIO_LO, METHOD_RATIO_HI}
+/* clang-format on */
+
+/** Where else a claim holds, or does not. */
+enum {
+    METHOD_INFINITE = 1 << 0, /**< an infinite far plane too */
+    METHOD_ORTHO = 1 << 1,    /**< an orthographic projection too */
+    METHOD_WHOLE = 1 << 2,    /**< only for cells that no plane cuts */
+    METHOD_PIPELINE = 1 << 3, /**< judged by the binary32 pipeline, not by the lattice */
+};
+
+/** What a family's methods are given: the arrays that the family uses, `count` long. */
+typedef struct method_inputs {
+    size_t count;
+    double *z;  /**< interval: eye depths; worst: the near ends of the ranges */
+    double *hi; /**< worst: the far ends */
+    float *d;   /**< linearize, encode: window depths in [0, 1] */
+} method_inputs;
+
+/** What they give back. */
+typedef struct method_outputs {
+    double *value;  /**< interval, worst: scene units */
+    float *eye;     /**< linearize: scene units */
+    uint32_t *code; /**< encode */
+} method_outputs;
+
+typedef struct method_row {
+    method_family family;
+    const char *name;
+    const char *note;
+    method_claim claims[METHOD_CASES];
+    unsigned domain;        /**< METHOD_... bits */
+    double cost;            /**< ns an element, about, on one core of 2023; what choose.h goes by */
+    const char *cost_class; /**< what the cost grows with: "1", "depths", "codes" */
+    size_t limit;           /**< most inputs that are worth the time; 0 for no limit */
+    const char *source;
+    bool (*available)(void); /**< null: on every processor */
+    /** Prepares a set-up; null when there is nothing to prepare. @return null when out of memory */
+    void *(*open)(const dp_setup *setup);
+    void (*run)(const dp_setup *setup, const void *state, const method_inputs *in, const method_outputs *out);
+    void (*close)(void *state);
+} method_row;
+
+/** How far an answer is off. */
+typedef struct method_error {
+    double absolute; /**< scene units; window depth for encode */
+    double relative; /**< of the reference */
+    double ulp;      /**< units in the last place of the answer's type; steps of the format for encode */
+} method_error;
+
+typedef struct method_case {
+    const char *name; /**< "unorm24 d3d" */
+    const char *format;
+    dp_mapping mapping;
+} method_case;
+
+typedef struct method_family_row {
+    const char *name;    /**< "linearize" */
+    const char *summary; /**< what goes in and what comes out */
+    const char *measure; /**< what claims count: "relative error", "steps of the format" */
+    bool steps;          /**< that measure is the error's `ulp`, else its `relative` */
+    method_case cases[METHOD_CASES];
+    size_t case_count;
+    size_t inputs;  /**< how many bench takes */
+    size_t walked;  /**< how many stability takes, for each set-up */
+    int per_decade; /**< set-ups of stability in each decade of far/near */
+    const size_t *method_count;
+    const method_row *methods;
+    /** Writes inputs: those of the stress list first, then seeded ones. */
+    void (*fill)(const dp_setup *setup, method_inputs *in);
+    /** The error of answer i; false where the method's domain leaves that input out. */
+    bool (*judge)(const method_row *row, const dp_setup *setup, const method_inputs *in, const method_outputs *out,
+                  size_t i, method_error *error);
+} method_family_row;
+
+/** The families; null beyond the last. */
+const method_family_row *method_family_get(size_t index);
+const method_family_row *method_family_find(const char *name);
+
+/** All methods of all families in turn; null beyond the last. */
+const method_row *method_get(size_t index);
+
+/** Does the method speak of the family's case `which`? */
+static inline bool method_speaks(const method_row *row, size_t which) {
+    return row->claims[which].worst != 0;
+}
+
+/** Can this processor run it? */
+bool method_available(const method_row *row);
+
+/** A set-up of a family's case. @return what dp_setup_init() says */
+dp_status method_setup(const method_family_row *family, size_t which, double znear, double zfar, bool ortho,
+                       dp_setup *out);
+
+/** Once, before any method runs: GSL must report errors and not end the program. Null in the light program. */
+void method_start(void) __attribute__((weak));
+
+/** Room for inputs and outputs of a family. @return false when out of memory; nothing is then held */
+bool method_arrays(size_t count, method_inputs *in, method_outputs *out);
+void method_arrays_free(method_inputs *in, method_outputs *out);
+
+/** The stress inputs and then seeded ones, `count` in all. */
+void method_depths(const dp_setup *setup, double *z, size_t count);
+void method_windows(const dp_setup *setup, float *d, size_t count);
+
+/** Number i of a seeded sequence, in [0, 1): the same everywhere and always. */
+double method_unit(uint64_t seed, uint64_t i);
+
+extern const method_row interval_methods[], linearize_methods[], encode_methods[], worst_methods[];
+extern const size_t interval_method_count, linearize_method_count, encode_method_count, worst_method_count;
+bool interval_judge(const method_row *, const dp_setup *, const method_inputs *, const method_outputs *, size_t i,
+                    method_error *);
+bool linearize_judge(const method_row *, const dp_setup *, const method_inputs *, const method_outputs *, size_t i,
+                     method_error *);
+bool encode_judge(const method_row *, const dp_setup *, const method_inputs *, const method_outputs *, size_t i,
+                  method_error *);
+bool worst_judge(const method_row *, const dp_setup *, const method_inputs *, const method_outputs *, size_t i,
+                 method_error *);
+
+#endif

@@ -1,0 +1,48 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/**
+ * @file stability.h  Where methods lose what they claim: every method over far/near from 10 to 1e12, in tiny, common
+ * and huge units, at the stress inputs of its family, then with an infinite far plane and an orthographic projection.
+ */
+#ifndef METHOD_STABILITY_H
+#define METHOD_STABILITY_H
+
+#include "method/bench.h"
+
+enum { STABILITY_STEPS_MAX = 23, STABILITY_MAX = BENCH_METHODS_MAX * METHOD_CASES };
+
+/** How far beyond its claimed span a claim may still hold before the span is too modest. */
+#define STABILITY_SLACK 4.0
+
+typedef enum stability_verdict {
+    STABILITY_HOLDS = 0, /**< within the claim where claimed, and not far below; breaks where the row says so */
+    STABILITY_BROKEN,    /**< an error above the claim where it should hold */
+    STABILITY_MODEST,    /**< the claim is more than 4 times the worst error, or its span ends far too early */
+    STABILITY_UNCLAIMED, /**< nothing is claimed, and rightly: the error passes 1/2 somewhere */
+    STABILITY_VERDICTS
+} stability_verdict;
+
+typedef struct stability_result {
+    const method_row *row;
+    size_t which; /**< the family's case */
+    int steps;
+    double ratio[STABILITY_STEPS_MAX]; /**< far/near */
+    double error[STABILITY_STEPS_MAX]; /**< worst over units and inputs, in the family's measure; may be infinite */
+    double inside;                     /**< the worst within the claimed span */
+    double inside_near, inside_far;    /**< the planes where it is reached */
+    double inside_at;                  /**< and the input */
+    double breaks;                     /**< the far/near from which on the error exceeds the claim; INFINITY: never */
+    double infinite; /**< error with an infinite far plane; NaN where the family or mapping has none */
+    double ortho;    /**< error of an orthographic projection; likewise */
+    stability_verdict verdict;
+} stability_result;
+
+/** "holds", "broken", "too modest", "no claim". */
+const char *stability_verdict_name(stability_verdict verdict);
+
+/**
+ * Walks every method in every case that it speaks of. The result does not depend on the number of threads.
+ * @return how many results, in the order of rows, cases within a row; 0 when out of memory
+ */
+size_t stability_run(const method_family_row *family, stability_result results[STABILITY_MAX]);
+
+#endif

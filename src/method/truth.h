@@ -1,0 +1,30 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/**
+ * @file truth.h  What the methods are judged by where the engine itself is a method: the definition, in long double.
+ */
+#ifndef METHOD_TRUTH_H
+#define METHOD_TRUTH_H
+
+#include <stdbool.h>
+
+#include "depthprec/depthprec.h"
+
+/**
+ * The width of a code's cell for perspective and orthographic mappings, from the two rounding boundaries around its
+ * value; INFINITY for the last one of an infinite far plane. *cut tells whether a plane cuts the cell.
+ */
+double truth_width(const dp_setup *setup, uint32_t code, bool *cut);
+
+/**
+ * The depths next to z that its interval in the binary32 pipeline is looked for in: eight guaranteed separations to
+ * either side, from 2^12 to 2^15 binary32 depths each, within the planes.
+ */
+void truth_window(const dp_setup *setup, double z, double *lo, double *hi);
+
+/** The longest interval of the pipeline with both ends in [lo, hi], at least one binary32 step of lo: a plain scan. */
+double truth_longest(const dp_setup *setup, double lo, double hi);
+
+/** One step of binary32 at z. */
+double truth_step(double z);
+
+#endif

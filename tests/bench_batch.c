@@ -1,0 +1,212 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/*
+ * The array kernels, as ratios within one run: a loop that moves the same bytes, the task in plain C at -O2, and each
+ * path take turns on the same arrays in the second cache; medians. A missed aim is a word in a table, never a failure.
+ */
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <time.h>
+
+#include "depthprec/depthprec.h"
+
+enum { COUNT = 131072, RUNS = 61, REPEAT = 4 };
+
+#if defined(__GNUC__) && !defined(__clang__)
+#define PLAIN __attribute__((optimize("O2", "no-tree-vectorize"), noinline))
+#else
+#define PLAIN __attribute__((noinline))
+#endif
+#if defined(__x86_64__) && defined(__GNUC__) && !defined(__clang__)
+#define CLONES __attribute__((noinline, target_clones("arch=x86-64-v4", "arch=x86-64-v3", "default")))
+#else
+#define CLONES __attribute__((noinline))
+#endif
+
+static uint64_t in[COUNT] __attribute__((aligned(4096)));
+static uint64_t out[COUNT] __attribute__((aligned(4096)));
+static dp_setup setup;
+
+/* ---- The floor: 4 to 4, 4 to 2, 2 to 4, 8 to 4 and 4 to 8 bytes, each value hardly changed ------------------------
+ */
+
+#define MOVE(NAME, IN, OUT)                                                                                            \
+    CLONES static void NAME(void) {                                                                                    \
+        const IN *from = (const IN *)(const void *)in;                                                                 \
+        OUT *to = (OUT *)(void *)out;                                                                                  \
+        for (size_t i = 0; i < COUNT; i++)                                                                             \
+            to[i] = (OUT)(from[i] ^ 1U);                                                                               \
+    }
+MOVE(move_4_4, uint32_t, uint32_t)
+MOVE(move_4_2, uint32_t, uint16_t)
+MOVE(move_2_4, uint16_t, uint32_t)
+MOVE(move_8_4, uint64_t, uint32_t)
+MOVE(move_4_8, uint32_t, uint64_t)
+
+/* ---- Plain C: what one would write first --------------------------------------------------------------------------
+ */
+
+PLAIN static void plain_code(void) {
+    const float *z = (const float *)(const void *)in;
+    uint32_t *code = (uint32_t *)(void *)out;
+    const double n = setup.spec.znear;
+    const double f = setup.spec.zfar;
+    for (size_t i = 0; i < COUNT; i++)
+        code[i] = (uint32_t)floor(((double)z[i] - n) / (double)z[i] * (f / (f - n)) * 16777215.0 + 0.5);
+}
+
+PLAIN static void plain_eye(void) {
+    const uint32_t *code = (const uint32_t *)(const void *)in;
+    float *z = (float *)(void *)out;
+    const double n = setup.spec.znear;
+    const double f = setup.spec.zfar;
+    for (size_t i = 0; i < COUNT; i++) {
+        const double d = (double)code[i] / 16777215.0;
+        z[i] = (float)(n * f / (n * d + f * (1.0 - d)));
+    }
+}
+
+PLAIN static void plain_encode(void) {
+    const float *d = (const float *)(const void *)in;
+    uint32_t *code = (uint32_t *)(void *)out;
+    for (size_t i = 0; i < COUNT; i++)
+        code[i] = (uint32_t)floor((double)d[i] * 16777215.0 + 0.5);
+}
+
+PLAIN static void plain_decode(void) {
+    const uint32_t *code = (const uint32_t *)(const void *)in;
+    float *d = (float *)(void *)out;
+    for (size_t i = 0; i < COUNT; i++)
+        d[i] = (float)((double)code[i] / 16777215.0);
+}
+
+/* ---- Rows ------------------------------------------------------------------------------------------------------- */
+
+typedef struct row {
+    const char *what, *format;
+    dp_mapping mapping;
+    dp_task task;
+    dp_real real;
+    dp_word word;
+    void (*floor)(void);
+    void (*plain)(void);
+    double aim_ns, aim_floor; /* 0: none */
+} row;
+
+static const row rows[] = {
+    {"f32 -> fp16", "fp16", DP_MAPPING_D3D, DP_TASK_ENCODE, DP_REAL_FLOAT, DP_WORD_16, move_4_2, NULL, 0, 1.1},
+    {"fp16 -> f32", "fp16", DP_MAPPING_D3D, DP_TASK_DECODE, DP_REAL_FLOAT, DP_WORD_16, move_2_4, NULL, 0, 1.1},
+    {"d -> unorm24", "unorm24", DP_MAPPING_D3D, DP_TASK_ENCODE, DP_REAL_FLOAT, DP_WORD_32, move_4_4, plain_encode, 0,
+     1.25},
+    {"unorm24 -> d", "unorm24", DP_MAPPING_D3D, DP_TASK_DECODE, DP_REAL_FLOAT, DP_WORD_32, move_4_4, plain_decode, 0,
+     1.25},
+    {"eye depth -> unorm24", "unorm24", DP_MAPPING_D3D, DP_TASK_CODE, DP_REAL_FLOAT, DP_WORD_32, move_4_4, plain_code,
+     0.26, 0},
+    {"eye depth -> unorm24, reversed", "unorm24", DP_MAPPING_REVERSED, DP_TASK_CODE, DP_REAL_FLOAT, DP_WORD_32,
+     move_4_4, NULL, 0.26, 0},
+    {"eye depth -> unorm16", "unorm16", DP_MAPPING_D3D, DP_TASK_CODE, DP_REAL_FLOAT, DP_WORD_16, move_4_2, NULL, 0.26,
+     0},
+    {"eye depth -> fp32, reversed", "fp32", DP_MAPPING_REVERSED, DP_TASK_CODE, DP_REAL_FLOAT, DP_WORD_32, move_4_4,
+     NULL, 0, 0},
+    {"eye depth, double -> unorm24", "unorm24", DP_MAPPING_D3D, DP_TASK_CODE, DP_REAL_DOUBLE, DP_WORD_32, move_8_4,
+     NULL, 0, 0},
+    {"unorm24 -> eye depth", "unorm24", DP_MAPPING_D3D, DP_TASK_EYE, DP_REAL_FLOAT, DP_WORD_32, move_4_4, plain_eye, 0,
+     1.5},
+    {"unorm24 -> eye depth, double", "unorm24", DP_MAPPING_D3D, DP_TASK_EYE, DP_REAL_DOUBLE, DP_WORD_32, move_4_8, NULL,
+     0, 0},
+    {"fp32 -> eye depth, reversed", "fp32", DP_MAPPING_REVERSED, DP_TASK_EYE, DP_REAL_FLOAT, DP_WORD_32, move_4_4, NULL,
+     0, 0},
+    {"unorm24 -> width, double", "unorm24", DP_MAPPING_D3D, DP_TASK_WIDTH, DP_REAL_DOUBLE, DP_WORD_32, move_4_8, NULL,
+     0, 0},
+};
+
+static double now(void) {
+    struct timespec t;
+    clock_gettime(CLOCK_MONOTONIC, &t);
+    return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
+}
+
+static int ascending(const void *a, const void *b) {
+    const double x = *(const double *)a;
+    const double y = *(const double *)b;
+    return (x > y) - (x < y);
+}
+
+static void fill(const row *r, const dp_batch *b) {
+    uint64_t state = 1;
+    for (size_t i = 0; i < COUNT; i++) {
+        state = state * 6364136223846793005U + 1442695040888963407U;
+        const double unit = (double)(state >> 11) * 0x1p-53;
+        const double x = r->task == DP_TASK_ENCODE ? unit : 0.1 * pow(10000.0, unit);
+        const uint32_t code = (uint32_t)(unit * (double)setup.spec.format.code_max);
+        const float narrow = (float)x;
+        const uint16_t word = (uint16_t)code;
+        const void *const from = r->task == DP_TASK_CODE || r->task == DP_TASK_ENCODE
+                                     ? (r->real == DP_REAL_FLOAT ? (const void *)&narrow : (const void *)&x)
+                                     : (r->word == DP_WORD_16 ? (const void *)&word : (const void *)&code);
+        memcpy((char *)in + i * b->in_size, from, b->in_size);
+    }
+}
+
+static void once(const row *r, const dp_batch *b, int which) {
+    if (which == 0)
+        r->floor();
+    else if (which == 1)
+        r->plain();
+    else
+        dp_batch_run(&b[which - 2], in, out, COUNT);
+}
+
+static void measure(const row *r) {
+    enum { WAYS = 2 + DP_PATH_COUNT };
+    static double sample[WAYS][RUNS];
+    double ns[WAYS];
+    dp_batch b[DP_PATH_COUNT];
+    dp_format format[2];
+    dp_spec spec = dp_spec_default();
+    spec.mapping = r->mapping;
+    if (dp_format_parse(r->format, format) == 0)
+        exit(2);
+    spec.format = format[0];
+    int has[WAYS] = {1, r->plain != NULL};
+    if (dp_setup_init(&setup, &spec) != DP_OK)
+        exit(2);
+    for (int p = 0; p < DP_PATH_COUNT; p++)
+        has[2 + p] = dp_batch_init(&b[p], &setup, r->task, r->real, r->word, (dp_path)p) == DP_OK;
+    fill(r, &b[0]);
+    for (int run = -2; run < RUNS; run++)
+        for (int w = 0; w < WAYS; w++) {
+            if (!has[w])
+                continue;
+            const double start = now();
+            for (int k = 0; k < REPEAT; k++)
+                once(r, b, w);
+            if (run >= 0)
+                sample[w][run] = (now() - start) * 1e9 / REPEAT / COUNT;
+        }
+    printf("%-31s", r->what);
+    for (int w = 0; w < WAYS; w++) {
+        qsort(sample[w], RUNS, sizeof sample[w][0], ascending);
+        ns[w] = sample[w][RUNS / 2];
+        if (has[w])
+            printf(" %8.3f", ns[w]);
+        else
+            printf(" %8s", "-");
+    }
+    const double best = ns[2 + dp_path_best()];
+    printf(" %7.2f", best / ns[0]);
+    if (r->aim_ns > 0.0)
+        printf("   <= %.2f ns  %s", r->aim_ns, best <= r->aim_ns ? "met" : "missed");
+    if (r->aim_floor > 0.0)
+        printf("   <= %.2f L   %s", r->aim_floor, best <= r->aim_floor * ns[0] ? "met" : "missed");
+    printf("\n");
+}
+
+int main(void) {
+    printf("%-31s %8s %8s %8s %8s %8s %7s   %s\n", "arrays, ns per element", "L", "plain C", "baseline", "avx2",
+           "avx512", "best/L", "aim");
+    for (size_t i = 0; i < sizeof rows / sizeof rows[0]; i++)
+        measure(&rows[i]);
+    return 0;
+}

@@ -1,0 +1,160 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* The rows of every method family, what is measured at one camera, and the choice by claims. */
+#include <math.h>
+#include <string.h>
+
+#include "method/choose.h"
+#include "method/stability.h"
+#include "support.h"
+
+static void every_row_is_whole(void **state) {
+    (void)state;
+    size_t rows = 0;
+    for (; method_get(rows) != NULL; rows++) {
+        const method_row *row = method_get(rows);
+        const method_family_row *family = method_family_get(row->family);
+        bool speaks = false;
+        assert_true(row->name[0] != '\0' && row->note[0] != '\0' && row->cost_class[0] != '\0' && row->source != NULL);
+        assert_true(row->cost > 0 && row->run != NULL && (row->open == NULL) == (row->close == NULL));
+        for (size_t i = 0; i < METHOD_CASES; i++) {
+            const method_claim *c = &row->claims[i];
+            if (!method_speaks(row, i))
+                continue;
+            assert_true(i < family->case_count);
+            assert_true(isnan(c->worst) || c->worst > 0);
+            assert_true(c->ratio_lo >= METHOD_RATIO_LO && c->ratio_lo < c->ratio_hi && c->ratio_hi <= METHOD_RATIO_HI);
+            speaks = true;
+        }
+        assert_true(speaks);
+        for (size_t k = 0; k < rows; k++)
+            assert_true(method_get(k)->family != row->family || strcmp(method_get(k)->name, row->name) != 0);
+    }
+    assert_true(rows > 30);
+    for (size_t i = 0; method_family_get(i) != NULL; i++)
+        assert_ptr_equal(method_family_find(method_family_get(i)->name), method_family_get(i));
+    assert_null(method_family_find("areas"));
+}
+
+/* Errors, twice: the same numbers; within the claim where one is made; families as wide as promised. */
+static void errors_are_within_claims_and_repeat(void **state) {
+    (void)state;
+    static bench_result first[BENCH_METHODS_MAX], second[BENCH_METHODS_MAX];
+    tally t = {.name = "bench"};
+    for (size_t f = 0; f < METHOD_FAMILY_COUNT; f++) {
+        const method_family_row *family = method_family_get(f);
+        for (size_t which = 0; which < family->case_count; which++) {
+            dp_setup setup;
+            assert_int_equal(method_setup(family, which, 0.1, 1000, false, &setup), DP_OK);
+            size_t count = bench_run(family, which, &setup, 0, first);
+            assert_int_equal(bench_run(family, which, &setup, 0, second), count);
+            for (size_t i = 0; i < count; i++) {
+                double error = measured_error(family, &first[i].measured);
+                TALLY(&t, error == measured_error(family, &second[i].measured), "%s: not the same error twice",
+                      first[i].row->name);
+                TALLY(&t, isnan(first[i].claim) || error <= first[i].claim, "%s, %s: error %g above the claim %g",
+                      first[i].row->name, family->cases[which].name, error, first[i].claim);
+                TALLY(&t, isnan(first[i].ns) && first[i].measured.count > 0, "%s: timed or not measured",
+                      first[i].row->name);
+            }
+        }
+    }
+    tally_end(&t);
+}
+
+/* Relative errors of linearization at 0.1 to 1000, measured elsewhere against 128-bit arithmetic. */
+static void linearize_errors_are_the_published_ones(void **state) {
+    static const struct {
+        const char *name;
+        double lo, hi;
+    } known[] = {
+        {"unity", 4.0e-4, 7.7e-4},  {"textbook", 4.5e-4, 5.5e-4},      {"complement", 1.5e-7, 2.4e-7},
+        {"double", 5.9e-8, 6.0e-8}, {"table-nearest", 7.5e-2, 7.7e-2}, {"table-linear", 5.0e-3, 5.2e-3},
+        {"spline", 0.31, 0.33},     {"chebyshev", 0.73, 0.75},         {"pair", 5.9e-8, 6.0e-8},
+    };
+    const method_family_row *family = method_family_find("linearize");
+    bench_result results[BENCH_METHODS_MAX];
+    dp_setup setup;
+    tally t = {.name = "published"};
+    (void)state;
+    assert_int_equal(method_setup(family, 0, 0.1, 1000, false, &setup), DP_OK);
+    size_t count = bench_run(family, 0, &setup, 0, results);
+    for (size_t k = 0; k < sizeof known / sizeof known[0]; k++)
+        for (size_t i = 0; i < count; i++) {
+            double error = results[i].measured.worst.relative;
+            if (strcmp(results[i].row->name, known[k].name) == 0)
+                TALLY(&t, error >= known[k].lo && error <= known[k].hi, "%s: %g", known[k].name, error);
+        }
+    assert_int_equal(t.cases, sizeof known / sizeof known[0]);
+    tally_end(&t);
+}
+
+static void the_front_holds_no_beaten_method(void **state) {
+    (void)state;
+    const method_family_row *family = method_family_find("linearize");
+    bench_result r[BENCH_METHODS_MAX];
+    dp_setup setup;
+    size_t front = 0;
+    assert_int_equal(method_setup(family, 0, 0.1, 1000, false, &setup), DP_OK);
+    size_t count = bench_run(family, 0, &setup, 3, r);
+    double least = (double)INFINITY, most = 0;
+    for (size_t i = 0; i < count; i++) {
+        assert_true(r[i].ns > 0);
+        least = fmin(least, r[i].measured.worst.relative);
+        most = fmax(most, r[i].measured.worst.relative);
+        front += r[i].front;
+        for (size_t k = 0; k < count && r[i].front; k++)
+            assert_false(r[k].ns < r[i].ns && r[k].measured.worst.relative < r[i].measured.worst.relative);
+    }
+    assert_true(front >= 2 && count >= 8);
+    assert_true(most / least > 1e6);
+}
+
+static const char *chosen(const char *family, size_t which, method_wish wish) {
+    const method_row *row = method_choose(method_family_find(family), which, &wish);
+    return row != NULL ? row->name : "";
+}
+
+static void the_choice_is_the_cheapest_that_covers(void **state) {
+    (void)state;
+    method_wish w = {.tolerance = 1e-2, .ratio_lo = 10, .ratio_hi = 1e4};
+    assert_string_equal(chosen("linearize", 0, w), "magic");
+    w.tolerance = 1e-6;
+    w.ratio_hi = 1e12;
+    assert_true(strncmp(chosen("linearize", 0, w), "complement", 10) == 0);
+    w.ratio_hi = (double)INFINITY;
+    assert_string_equal(chosen("linearize", 0, w), "phi-double");
+    w.tolerance = 1e-9;
+    assert_string_equal(chosen("linearize", 0, w), "");
+    w = (method_wish){.tolerance = 0.2, .ratio_lo = 100, .ratio_hi = 1e5};
+    assert_string_equal(chosen("interval", 0, w), "rule-of-thumb");
+    w.cut_cells = true;
+    assert_string_equal(chosen("interval", 0, w), "cell");
+    w.pipeline = true;
+    assert_string_equal(chosen("interval", 0, w), "census");
+    /* Every choice covers: no cheaper row that covers is passed over. */
+    tally t = {.name = "choice"};
+    for (int k = 0; k < 60; k++) {
+        const method_family_row *family = method_family_get((size_t)k % METHOD_FAMILY_COUNT);
+        const method_wish any = {.tolerance = pow(10, -k / 4), .ratio_lo = 1e2, .ratio_hi = pow(10, 3 + k % 9)};
+        const method_row *row = method_choose(family, 0, &any);
+        for (size_t i = 0; i < *family->method_count; i++) {
+            const method_row *other = &family->methods[i];
+            bool covers = other->claims[0].worst > 0 && other->claims[0].worst <= any.tolerance &&
+                          other->claims[0].ratio_hi >= any.ratio_hi && (other->domain & METHOD_PIPELINE) == 0 &&
+                          method_available(other);
+            TALLY(&t, !covers || (row != NULL && row->cost <= other->cost), "%s passed over", other->name);
+        }
+    }
+    tally_end(&t);
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(every_row_is_whole),
+        cmocka_unit_test(errors_are_within_claims_and_repeat),
+        cmocka_unit_test(linearize_errors_are_the_published_ones),
+        cmocka_unit_test(the_front_holds_no_beaten_method),
+        cmocka_unit_test(the_choice_is_the_cheapest_that_covers),
+    };
+    return run_tap(tests);
+}

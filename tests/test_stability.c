@@ -1,0 +1,93 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Every claim holds in its whole span, is not modest, and breaks where the row says it does. */
+#include <math.h>
+#include <string.h>
+
+#include "method/stability.h"
+#include "support.h"
+
+static stability_result results[STABILITY_MAX];
+
+static void check_family(const char *name) {
+    const method_family_row *family = method_family_find(name);
+    size_t count = stability_run(family, results);
+    tally t = {.name = name};
+    assert_true(count > 0);
+    for (size_t i = 0; i < count; i++) {
+        const stability_result *r = &results[i];
+        const method_claim *c = &r->row->claims[r->which];
+        const char *where = family->cases[r->which].name;
+        for (int k = 0; k < r->steps && !isnan(c->worst); k++)
+            if (r->ratio[k] <= c->ratio_hi * (1 + 1e-9))
+                TALLY(&t, r->error[k] <= c->worst, "%s, %s: error %g above %g at far/near %g", r->row->name, where,
+                      r->error[k], c->worst, r->ratio[k]);
+        TALLY(&t, r->verdict == STABILITY_HOLDS || r->verdict == STABILITY_UNCLAIMED,
+              "%s, %s: %s: claim %g to %g, worst %g, breaks at %g, infinite %g, ortho %g", r->row->name, where,
+              stability_verdict_name(r->verdict), c->worst, c->ratio_hi, r->inside, r->breaks, r->infinite, r->ortho);
+        if (!isnan(c->worst) && c->ratio_hi < METHOD_RATIO_HI)
+            TALLY(&t, r->breaks >= c->ratio_hi && r->breaks <= STABILITY_SLACK * c->ratio_hi,
+                  "%s, %s: claimed to %g, breaks at %g", r->row->name, where, c->ratio_hi, r->breaks);
+    }
+    tally_end(&t);
+}
+
+static void interval_claims(void **state) {
+    (void)state;
+    check_family("interval");
+}
+
+static void linearize_claims(void **state) {
+    (void)state;
+    check_family("linearize");
+}
+
+static void encode_claims(void **state) {
+    (void)state;
+    check_family("encode");
+}
+
+static void worst_claims(void **state) {
+    (void)state;
+    if (test_effort() == EFFORT_QUICK)
+        skip(); /* visits every code some hundred times */
+    check_family("worst");
+}
+
+/* The walk can tell: a method with another's claim is called broken or modest. */
+static method_row forged;
+static method_family_row forgery;
+static const size_t one = 1;
+
+static stability_verdict verdict_of(const char *name, double worst, double ratio_hi) {
+    const method_family_row *family = method_family_find("linearize");
+    for (size_t i = 0; i < *family->method_count; i++)
+        if (strcmp(family->methods[i].name, name) == 0)
+            forged = family->methods[i];
+    forged.claims[0] = (method_claim){worst, METHOD_RATIO_LO, ratio_hi};
+    forged.claims[1] = (method_claim){0, 0, 0};
+    forgery = *family;
+    forgery.methods = &forged;
+    forgery.method_count = &one;
+    assert_int_equal(stability_run(&forgery, results), 1);
+    return results[0].verdict;
+}
+
+static void false_claims_are_found(void **state) {
+    (void)state;
+    assert_int_equal(verdict_of("textbook", 1e-3, 1e4), STABILITY_HOLDS);
+    assert_int_equal(verdict_of("textbook", 1e-3, 1e5), STABILITY_BROKEN);
+    assert_int_equal(verdict_of("textbook", 1e-4, 1e4), STABILITY_BROKEN);
+    assert_int_equal(verdict_of("textbook", 1e-2, 1e4), STABILITY_MODEST);
+    assert_int_equal(verdict_of("textbook", 1e-3, 1e3), STABILITY_MODEST);
+    assert_int_equal(verdict_of("phi-double", 6e-8, 1e6), STABILITY_MODEST);
+    assert_int_equal(verdict_of("complement", (double)NAN, 1e12), STABILITY_MODEST);
+    assert_int_equal(verdict_of("textbook", (double)NAN, 1e12), STABILITY_UNCLAIMED);
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(interval_claims), cmocka_unit_test(linearize_claims),       cmocka_unit_test(encode_claims),
+        cmocka_unit_test(worst_claims),    cmocka_unit_test(false_claims_are_found),
+    };
+    return run_tap(tests);
+}
