@@ -56,8 +56,12 @@ static void append_word(char *out, const char *word) {
                 quoted[used++] = *word;
         snprintf(quoted + used, sizeof quoted - used, "'");
     }
-    size_t length = strlen(out);
-    snprintf(out + length, COMMAND_SIZE - length, " %s", quoted);
+    const size_t length = strlen(out), size = strlen(quoted), room = COMMAND_SIZE - length;
+    if (room < 3)
+        return;
+    out[length] = ' ';
+    memcpy(out + length + 1, quoted, size < room - 2 ? size : room - 2);
+    out[length + 1 + (size < room - 2 ? size : room - 2)] = '\0';
 }
 
 /* The command line for the metadata, without where it was written to: a figure is the same under any name. */

@@ -56,9 +56,10 @@ double truth_longest(const dp_setup *setup, double lo, double hi) {
     const double least = truth_step(lo);
     if (count < 2 || dp_pipeline_init(&p, setup) != DP_OK)
         return least;
-    int64_t *key = malloc(2 * count * sizeof *key), *rest = key + count;
+    int64_t *key = malloc(2 * count * sizeof *key);
     if (key == NULL)
         return (double)NAN;
+    int64_t *rest = key + count;
     float first = (float)lo;
     if ((double)first < lo)
         first = nextafterf(first, INFINITY);
