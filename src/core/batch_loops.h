@@ -216,7 +216,7 @@ LOOP(REVERSED_32, real32, word32, , {REVERSED})
     const float d = raised < 1.0F ? raised : 1.0F;
 #if FUSED
 #define PRODUCT                                                                                                        \
-    const int32_t upper = -(int32_t)(bits32(k.split) < bits32(d)); /* all ones where d > split */                      \
+    const int32_t upper = -((int32_t)bits32(k.split) < (int32_t)bits32(d)); /* all ones where d > split */             \
     const float product = fmaf(d, k.unit, real_of32(0x4B000000U & ~(uint32_t)upper));                                  \
     const uint32_t code = bits32(product) - 0x4B000000U + (0x800000U & (uint32_t)upper);
 #else
