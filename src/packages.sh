@@ -22,6 +22,7 @@ check | command g++                                   | g++               | gcc-
 check | command xmllint                               | libxml2-utils     | libxml2            | libxml2
 check | command jq                                    | jq                | jq                 | jq
 lint  | command clang                                 | clang             | clang              | clang
+lint  | header omp.h                                  | libomp-dev        | libomp-devel       | openmp
 lint  | command clang-format                          | clang-format      | clang-tools-extra  | clang
 lint  | command cppcheck                              | cppcheck          | cppcheck           | cppcheck
 lint  | command codespell                             | codespell         | codespell          | codespell
@@ -44,6 +45,7 @@ present() { # present KIND NAME
     case $1 in
     command) command -v "$2" >/dev/null 2>&1 ;;
     library) command -v pkg-config >/dev/null 2>&1 && pkg-config --exists "$2" ;;
+    header) echo "#include <$2>" | clang -fopenmp -fsyntax-only -x c - >/dev/null 2>&1 ;;
     file) (cd /usr && ls $2 >/dev/null 2>&1) ;;
     esac
 }
