@@ -324,7 +324,8 @@ static void bench_map(char *program) {
         return;
     char file[64];
     snprintf(file, sizeof file, "%s/map.png", folder);
-    char *const map[] = {program, "plot", "map", "--width", "400", "--height", "300", "-o", file, NULL};
+    /* 400 x 300 set-ups, of the kind that costs most */
+    char *const map[] = {program, "plot", "map", "-F", "fp32", "-m", "reversed", "-o", file, NULL};
     timing t = {0};
     double seconds = run(map);
     for (int i = 0; i < RUNS && !isnan(seconds); i++) {
@@ -338,7 +339,7 @@ static void bench_map(char *program) {
         return;
     }
     seconds = timing_median(&t);
-    verdict("whole process, the figure map, 400 x 300 px", 1e3 * seconds, "ms", timing_spread(&t), "< 1000",
+    verdict("whole process, the figure map, 400 x 300 set-ups", 1e3 * seconds, "ms", timing_spread(&t), "< 1000",
             seconds < 1.0);
 }
 

@@ -87,14 +87,4 @@ check "auto chooses the model of each curve" sh -c '
 echo old >"$scratch/kept.svg"
 "$DEPTHPREC" plot distribution -F unorm2,unorm3,unorm4 -m d3d,gl,reversed -o "$scratch/kept.svg" 2>"$scratch/log"
 check "a failed run leaves the old file" grep -qx old "$scratch/kept.svg"
-
-# Processor time, both threads together: what other tests do beside this one does not count.
-"$DEPTHPREC" plot map -F fp32 -m reversed -o "$scratch/warm.svg"
-took=$(sh -c '"$1" plot map -F fp32 -m reversed -o "$2" && times' - "$DEPTHPREC" "$scratch/map.svg" |
-    awk 'NR == 2 { split($1, u, /[ms]/); split($2, k, /[ms]/); printf "%d", 1000 * (60 * (u[1] + k[1]) + u[2] + k[2]) }')
-if [ "${CONF:-release}" = release ]; then
-    check "a map of 400 x 300 set-ups takes less than a second: $took ms" [ "$took" -lt 1000 ]
-else
-    skip "a map in less than a second" "not an optimized build"
-fi
 finish
