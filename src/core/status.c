@@ -20,7 +20,6 @@ static const char *const sentences[DP_STATUS_COUNT] = {
     [DP_ERROR_ARITH] = "not an arithmetic: see the list of ariths",
     [DP_ERROR_DEPTH] = "a depth must lie in [near, far]",
     [DP_ERROR_RANGE] = "a range must go from a depth to one not nearer, both in [near, far]",
-    [DP_ERROR_CODE] = "a code must not exceed the one that stores 1",
     [DP_ERROR_BATCH] = "not a task, element type or path that this processor has",
 };
 

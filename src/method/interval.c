@@ -1,6 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The z-fighting interval at a depth. The last three rows speak of the binary32 pipeline and are judged by it. */
-#include <float.h>
 #include <math.h>
 
 #include "method/census.h"
@@ -149,15 +148,6 @@ bool interval_judge(const method_row *row, const dp_setup *setup, const method_i
     }
     if (cut && (row->domain & METHOD_WHOLE) != 0)
         return false;
-    double off = got == want ? 0 : fabs(got - want);
-    if (!(off < (double)INFINITY))
-        off = (double)INFINITY;
-    *error = (method_error){off,
-                            off == 0     ? 0
-                            : isinf(off) ? off
-                                         : off / want,
-                            off == 0     ? 0
-                            : isinf(off) ? off
-                                         : off / (nextafter(want, DBL_MAX) - want)};
+    *error = truth_error(got, want);
     return true;
 }

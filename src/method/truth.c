@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "method/truth.h"
 
+#include <float.h>
 #include <math.h>
 #include <stdlib.h>
 
@@ -79,4 +80,13 @@ double truth_longest(const dp_setup *setup, double lo, double hi) {
     }
     free(key);
     return longest;
+}
+
+method_error truth_error(double got, double want) {
+    if (got == want)
+        return (method_error){0, 0, 0};
+    const double off = fabs(got - want);
+    if (!(off < (double)INFINITY))
+        return (method_error){(double)INFINITY, (double)INFINITY, (double)INFINITY};
+    return (method_error){off, off / want, off / (nextafter(want, DBL_MAX) - want)};
 }

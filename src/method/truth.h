@@ -8,6 +8,7 @@
 #include <stdbool.h>
 
 #include "depthprec/depthprec.h"
+#include "method/method.h"
 
 /**
  * The width of a code's cell for perspective and orthographic mappings, from the two rounding boundaries around its
@@ -26,5 +27,8 @@ double truth_longest(const dp_setup *setup, double lo, double hi);
 
 /** One step of binary32 at z. */
 double truth_step(double z);
+
+/** How far a width is from the true one: absolute, relative and in units of the last place; all INFINITY if NaN. */
+method_error truth_error(double got, double want);
 
 #endif

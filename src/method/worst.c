@@ -1,6 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The worst z-fighting interval over a range of depths. */
-#include <float.h>
 #include <math.h>
 
 #include "method/method.h"
@@ -81,15 +80,6 @@ bool worst_judge(const method_row *row, const dp_setup *setup, const method_inpu
         bool cut;
         want = fmax(want, truth_width(setup, code, &cut));
     }
-    double off = got == want ? 0 : fabs(got - want);
-    if (!(off < (double)INFINITY))
-        off = (double)INFINITY;
-    *error = (method_error){off,
-                            off == 0     ? 0
-                            : isinf(off) ? off
-                                         : off / want,
-                            off == 0     ? 0
-                            : isinf(off) ? off
-                                         : off / (nextafter(want, DBL_MAX) - want)};
+    *error = truth_error(got, want);
     return true;
 }
