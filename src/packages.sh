@@ -11,6 +11,7 @@ build | command pkg-config                            | pkg-config        | pkgc
 build | library cairo                                 | libcairo2-dev     | cairo-devel        | cairo
 build | library gsl                                   | libgsl-dev        | gsl-devel          | gsl
 build | library libconfig                             | libconfig-dev     | libconfig-devel    | libconfig
+build | library libpng                                | libpng-dev        | libpng-devel       | libpng
 build | file share/fonts/*/*/DejaVuSans.ttf           | fonts-dejavu-core | dejavu-sans-fonts  | ttf-dejavu
 check | library cmocka                                | libcmocka-dev     | libcmocka-devel    | cmocka
 check | library gmp                                   | libgmp-dev        | gmp-devel          | gmp

@@ -1,0 +1,77 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "texture/camera.h"
+
+#include <math.h>
+#include <stddef.h>
+
+static const double DEGREE = 3.14159265358979323846 / 180;
+
+camera_spec camera_spec_default(void) {
+    return (camera_spec){.fov_y = 60, .half_height = 5};
+}
+
+static bool within(double x, double lo, double hi) {
+    return x >= lo && x <= hi; /* false for NaN */
+}
+
+/* clang-format off */
+static const char *wrong(const camera_spec *s, bool ortho) {
+    if (s->width < 1 || s->height < 1 || s->width > TEXTURE_SIDE_MAX || s->height > TEXTURE_SIDE_MAX)
+        return "width and height must be from 1 to 65536 pixels";
+    if ((uint64_t)s->width * s->height > TEXTURE_PIXELS_MAX)
+        return "an image must have at most 268435456 pixels";
+    if (!ortho && !within(s->fov_y, 0.01, 179))
+        return "the vertical field of view must be from 0.01 to 179 degrees";
+    if (ortho && !within(s->half_height, 1e-12, 1e12))
+        return "half the height of an orthographic view must be from 1e-12 to 1e12";
+    if (!within(s->yaw, -360, 360) || !within(s->pitch, -90, 90))
+        return "yaw must be from -360 to 360 degrees, pitch from -90 to 90";
+    for (int i = 0; i < 3; i++)
+        if (!within(s->origin[i], -1e12, 1e12))
+            return "the camera's coordinates must be from -1e12 to 1e12";
+    return NULL;
+}
+/* clang-format on */
+
+const char *camera_init(texture_camera *camera, const dp_setup *setup, const camera_spec *spec) {
+    const bool ortho = setup->spec.ortho != 0;
+    const char *error = wrong(spec, ortho);
+    if (error != NULL)
+        return error;
+    const double half_height = ortho ? spec->half_height : tan(spec->fov_y * DEGREE / 2);
+    const double sy = sin(spec->yaw * DEGREE), cy = cos(spec->yaw * DEGREE);
+    const double sp = sin(spec->pitch * DEGREE), cp = cos(spec->pitch * DEGREE);
+    *camera = (texture_camera){
+        .setup = *setup,
+        .width = spec->width,
+        .height = spec->height,
+        .ortho = ortho,
+        .half = {half_height * spec->width / spec->height, half_height},
+        .axis = {{cy, 0, -sy}, {-sp * sy, cp, -sp * cy}, {cp * sy, sp, cp * cy}},
+        .origin = {spec->origin[0], spec->origin[1], spec->origin[2]},
+    };
+    return NULL;
+}
+
+void camera_view(const texture_camera *camera, double column, double row, double z, double view[3]) {
+    const double scale = camera->ortho ? 1 : z;
+    view[0] = camera_slope_x(camera, column) * scale;
+    view[1] = camera_slope_y(camera, row) * scale;
+    view[2] = z;
+}
+
+void camera_turn(const texture_camera *camera, const double view[3], double world[3]) {
+    for (int i = 0; i < 3; i++)
+        world[i] = camera->axis[0][i] * view[0] + camera->axis[1][i] * view[1] + camera->axis[2][i] * view[2];
+}
+
+void camera_world(const texture_camera *camera, const double view[3], double world[3]) {
+    camera_turn(camera, view, world);
+    for (int i = 0; i < 3; i++)
+        world[i] += camera->origin[i];
+}
+
+double camera_radial(const texture_camera *camera, double column, double row) {
+    const double x = camera_slope_x(camera, column), y = camera_slope_y(camera, row);
+    return camera->ortho ? 1 : sqrt(x * x + y * y + 1);
+}

@@ -1,0 +1,72 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/**
+ * @file camera.h  The camera behind a depth image: what turns a pixel and its eye depth into a place.
+ *
+ * View space is left-handed, as Unity's world: x to the right, y up, z along the view axis, so z is the eye depth.
+ * Pixel (column i, row j) of a width x height image has its centre at u = (i + 1/2)/width from the left edge and
+ * v = 1 - (j + 1/2)/height from the bottom edge: row 0 is the top one. With the half extents (hx, hy), which are
+ * tangents of half the field of view (perspective) or scene units (orthographic):
+ *
+ *     perspective    (x, y, z) = (sx z, sy z, z)     sx = (2u - 1) hx,  sy = (2v - 1) hy
+ *     orthographic   (x, y, z) = (sx, sy, z)
+ *     world          origin + x right + y up + z forward
+ */
+#ifndef TEXTURE_CAMERA_H
+#define TEXTURE_CAMERA_H
+
+#include <stdbool.h>
+#include <stdint.h>
+
+#include "depthprec/depthprec.h"
+
+/** Pixels of an image: at most this many on a side, and 2^28 in all. */
+#define TEXTURE_SIDE_MAX   65536u
+#define TEXTURE_PIXELS_MAX (UINT64_C(1) << 28)
+
+/** Raw depths this close to the far plane's are sky: nothing was drawn there. Unity's shaders use it. */
+#define TEXTURE_SKY 1e-4
+
+/** What is asked for. Start from camera_spec_default(). */
+typedef struct camera_spec {
+    uint32_t width, height;
+    double fov_y;       /**< perspective: vertical field of view in degrees, in [0.01, 179] */
+    double half_height; /**< orthographic: half the height of the view, scene units, in [1e-12, 1e12] */
+    double yaw, pitch;  /**< degrees: to the right, then up; 0, 0 looks along the world's z axis */
+    double origin[3];   /**< where the camera stands, world coordinates, each at most 1e12 in magnitude */
+} camera_spec;
+
+/** 60 degrees, half height 5, looking along z from the origin; width and height 0: to be filled in. */
+camera_spec camera_spec_default(void);
+
+/** A checked camera. The fields are for reading. */
+typedef struct texture_camera {
+    dp_setup setup; /**< planes, projection, mapping, format */
+    uint32_t width, height;
+    bool ortho;
+    double half[2];    /**< hx, hy */
+    double axis[3][3]; /**< right, up, forward: world coordinates, orthonormal */
+    double origin[3];
+} texture_camera;
+
+/** @return null, or what is wrong: one sentence that names the field, what is allowed and what was given */
+const char *camera_init(texture_camera *camera, const dp_setup *setup, const camera_spec *spec);
+
+/** sx of column i and sy of row j: see above. The last bit may be off. */
+static inline double camera_slope_x(const texture_camera *c, double column) {
+    return ((2 * column + 1) / c->width - 1) * c->half[0];
+}
+static inline double camera_slope_y(const texture_camera *c, double row) {
+    return (1 - (2 * row + 1) / c->height) * c->half[1];
+}
+
+/** The view-space place of a pixel at eye depth z, in double: the reference of everything that is faster. */
+void camera_view(const texture_camera *camera, double column, double row, double z, double view[3]);
+
+/** View space to world, and a direction of view space to the world's axes. */
+void camera_world(const texture_camera *camera, const double view[3], double world[3]);
+void camera_turn(const texture_camera *camera, const double view[3], double world[3]);
+
+/** Distance from the camera (perspective: the ray's length) per unit of eye depth; orthographic: 1. */
+double camera_radial(const texture_camera *camera, double column, double row);
+
+#endif

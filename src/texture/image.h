@@ -1,0 +1,70 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/**
+ * @file image.h  Images of numbers: PNG of 8 or 16 bits, PFM, and .npy of f2, f4, f8, u1, u2, u4.
+ *
+ * Files are not trusted: sizes are checked before memory is asked for (TEXTURE_SIDE_MAX, TEXTURE_PIXELS_MAX), and what
+ * is damaged, cut short or not supported gives one sentence and nothing else.
+ */
+#ifndef TEXTURE_IMAGE_H
+#define TEXTURE_IMAGE_H
+
+#include <stdbool.h>
+#include <stddef.h>
+#include <stdint.h>
+#include <stdio.h>
+
+typedef enum image_type {
+    IMAGE_U8 = 0,
+    IMAGE_U16,
+    IMAGE_U32,
+    IMAGE_F16,
+    IMAGE_F32,
+    IMAGE_F64,
+    IMAGE_TYPE_COUNT
+} image_type;
+
+typedef enum image_file { IMAGE_PNG = 0, IMAGE_PFM, IMAGE_NPY, IMAGE_FILE_COUNT } image_file;
+
+enum { IMAGE_ERROR_SIZE = 256, IMAGE_CHANNELS_MAX = 4 };
+
+/** Rows from the top, channels interleaved, samples in the order of this machine's bytes, no padding. */
+typedef struct image {
+    uint32_t width, height, channels;
+    image_type type;
+    image_file file; /**< what it was read from */
+    void *data;      /**< malloc'ed */
+} image;
+
+/** "u2", ...: as .npy names them; bytes of a sample. */
+const char *image_type_name(image_type type);
+size_t image_type_size(image_type type);
+
+/** Which kind of file a name's ending means: ".png", ".pfm", ".npy", in any case. @return false when none of them */
+bool image_file_of(const char *path, image_file *out);
+
+/** Reads a file, "-" being stdin; the kind is told from its first bytes, not from its name.
+ *  @return false and one sentence, without the path, in `error` */
+bool image_read(const char *path, image *out, char error[IMAGE_ERROR_SIZE]);
+bool image_parse(const void *bytes, size_t size, image *out, char error[IMAGE_ERROR_SIZE]);
+void image_free(image *image);
+
+/** A writer of one image, row by row, so that a large one needs no memory. */
+typedef struct image_writer image_writer;
+
+/** Which sample types a kind of file holds: png u1 u2; pfm f4 with 1 or 3 channels; npy all. */
+bool image_holds(image_file file, image_type type, uint32_t channels);
+
+/** Writes the header. @return null when out of memory or the file cannot hold it; the stream stays the caller's */
+image_writer *image_writer_open(FILE *stream, image_file file, image_type type, uint32_t width, uint32_t height,
+                                uint32_t channels);
+
+/** PFM stores the bottom row first: rows must then be given from the bottom. */
+bool image_writer_bottom_up(const image_writer *writer);
+
+/** Writes `count` rows, interleaved, in this machine's byte order. @return false when the stream failed */
+bool image_writer_rows(image_writer *writer, const void *rows, uint32_t count);
+
+/** Ends the image and frees the writer. @return false when the stream failed or rows are missing */
+bool image_writer_close(image_writer *writer);
+
+#endif
