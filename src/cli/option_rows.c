@@ -1,11 +1,11 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "cli/option_rows.h"
 
-#include <math.h>
 #include <string.h>
 
-#include "cli/number.h"
 #include "cli/option_bias.h"
+#include "cli/option_number.h"
+#include "cli/option_texture.h"
 #include "cli/suggest.h"
 
 /* Steps through a comma-separated list: copies the next item, moves *text behind it. False when an item is too long. */
@@ -23,18 +23,6 @@ static bool next_item(const char **text, char *item, size_t size) {
 static bool well_separated(const char *text) {
     size_t length = strlen(text);
     return length > 0 && *text != ',' && text[length - 1] != ',' && strstr(text, ",,") == NULL;
-}
-
-static int parse_near(options *o, const char *value) {
-    if (!number_parse(value, NUMBER_FINITE, &o->znear))
-        return option_error(OPTION_NEAR, "must be a number from 1e-12 to 1e12, got '%s'", value);
-    return EXIT_FINE;
-}
-
-static int parse_far(options *o, const char *value) {
-    if (!number_parse(value, NUMBER_FAR, &o->zfar))
-        return option_error(OPTION_FAR, "must be a number greater than near and at most 1e18, or inf, got '%s'", value);
-    return EXIT_FINE;
 }
 
 static void add_format(options *o, const dp_format *format) {
@@ -197,12 +185,6 @@ static int parse_theme(options *o, const char *value) {
     return status;
 }
 
-static int parse_log_c(options *o, const char *value) {
-    if (!number_parse(value, NUMBER_FINITE, &o->log_c))
-        return option_error(OPTION_LOG_C, "must be a number from 1e-12 to 1e12, got '%s'", value);
-    return EXIT_FINE;
-}
-
 static int parse_at(options *o, const char *value) {
     return depths_parse(value, &o->at);
 }
@@ -223,100 +205,10 @@ static int parse_for(options *o, const char *value) {
     return status;
 }
 
-static int parse_length(option_id id, const char *value, double *out) {
-    if (!number_parse(value, NUMBER_FINITE, out) || !(*out > 0.0))
-        return option_error(id, "must be a positive number of scene units, got '%s'", value);
-    return EXIT_FINE;
-}
-
-static int parse_separation(options *o, const char *value) {
-    return parse_length(OPTION_SEPARATION, value, &o->wanted_separation);
-}
-
-static int parse_error(options *o, const char *value) {
-    return parse_length(OPTION_ERROR, value, &o->wanted_error);
-}
-
-/* A share, or a percentage with its sign. */
-static int parse_tolerance(options *o, const char *value) {
-    size_t length = strlen(value);
-    bool percent = length > 0 && value[length - 1] == '%';
-    double share;
-    if (!number_parse_part(value, length - percent, NUMBER_FINITE, &share) || !(share >= 0.0))
-        return option_error(OPTION_TOLERANCE, "must be a share such as 0.05, or 5%%, not negative, got '%s'", value);
-    o->tolerance = percent ? share / 100.0 : share;
-    return EXIT_FINE;
-}
-
-static int parse_interpolation(options *o, const char *value) {
-    double *units = &o->terms.interpolation;
-    if (!number_parse(value, NUMBER_FINITE, units) || !(*units >= 0.0 && *units <= 0x1p24))
-        return option_error(OPTION_INTERPOLATION, "must be from 0 to 16777216 units of 2^-24, got '%s'", value);
-    return EXIT_FINE;
-}
-
-static int parse_world(options *o, const char *value) {
-    double *radius = &o->terms.world;
-    if (!number_parse(value, NUMBER_FINITE, radius) || !(*radius >= 0.0 && *radius <= 1e18))
-        return option_error(OPTION_WORLD, "must be from 0 to 1e18 scene units, got '%s'", value);
-    return EXIT_FINE;
-}
-
 static int parse_linearize(options *o, const char *value) {
     (void)value;
     o->terms.linearize = 1;
     return EXIT_FINE;
-}
-
-static int parse_gap(options *o, const char *value) {
-    if (!number_parse(value, NUMBER_FINITE, &o->gap) || !(o->gap > 0.0))
-        return option_error(OPTION_GAP, "must be a positive number of scene units, got '%s'", value);
-    return EXIT_FINE;
-}
-
-/* A whole number from least to most. */
-static int parse_whole(option_id id, const char *value, unsigned long least, unsigned long most, unsigned long *out) {
-    if (!number_parse_count(value, most, out) || *out < least)
-        return option_error(id, "must be a whole number from %lu to %lu, got '%s'", least, most, value);
-    return EXIT_FINE;
-}
-
-static int parse_sample(options *o, const char *value) {
-    unsigned long count = 0;
-    int status = parse_whole(OPTION_SAMPLE, value, 1, 1000000000000ul, &count);
-    o->sample = count;
-    return status;
-}
-
-static int parse_seed(options *o, const char *value) {
-    unsigned long seed = 0;
-    int status = parse_whole(OPTION_SEED, value, 0, 1ul << 53, &seed); /* JSON holds it exactly */
-    o->seed = seed;
-    return status;
-}
-
-static int parse_threads(options *o, const char *value) {
-    unsigned long threads = 0;
-    int status = parse_whole(OPTION_THREADS, value, 1, 1024, &threads);
-    o->threads = (int)threads;
-    return status;
-}
-
-static int parse_pixels(option_id id, const char *value, int *out) {
-    unsigned long pixels;
-    if (!number_parse_count(value, OPTIONS_PIXELS_MAX, &pixels) || pixels < OPTIONS_PIXELS_MIN)
-        return option_error(id, "must be a whole number of pixels from %d to %d, got '%s'", OPTIONS_PIXELS_MIN,
-                            OPTIONS_PIXELS_MAX, value);
-    *out = (int)pixels;
-    return EXIT_FINE;
-}
-
-static int parse_width(options *o, const char *value) {
-    return parse_pixels(OPTION_WIDTH, value, &o->width);
-}
-
-static int parse_height(options *o, const char *value) {
-    return parse_pixels(OPTION_HEIGHT, value, &o->height);
 }
 
 static const char *report_name(unsigned index) {
@@ -381,29 +273,29 @@ enum {
     CAMERA = ASKED | VERB_ZFIGHT,
     PLACED = CAMERA | VERB_BENCH,
     COUNTED = VERB_ZFIGHT,
-    SPREAD = COUNTED | VERB_CHECK,
-    DRAWN = VERB_PLOT,
-    WRITTEN = PLACED | VERB_STABILITY | VERB_LIST | VERB_BIAS | VERB_CHECK | VERB_SOLVE,
+    SPREAD = COUNTED | VERB_CHECK | VERB_TEXTURE,
+    DRAWN = VERB_PLOT | VERB_TEXTURE,
+    WRITTEN = PLACED | VERB_TEXTURE | VERB_STABILITY | VERB_LIST | VERB_BIAS | VERB_CHECK | VERB_SOLVE,
     EVERY = ~0
 };
 
 /* clang-format off */
 const option_row option_rows[OPTION_COUNT] = {
-    [OPTION_NEAR] = {"near", 'n', "Z", PLACED | VERB_BIAS | VERB_SOLVE,
+    [OPTION_NEAR] = {"near", 'n', "Z", PLACED | VERB_TEXTURE | VERB_BIAS | VERB_SOLVE,
         "near plane, scene units, 1e-12 to 1e12 (default 0.1)", parse_near},
-    [OPTION_FAR] = {"far", 'f', "Z|inf", PLACED | VERB_BIAS | VERB_SOLVE,
+    [OPTION_FAR] = {"far", 'f', "Z|inf", PLACED | VERB_TEXTURE | VERB_BIAS | VERB_SOLVE,
         "far plane, scene units, up to 1e18, or inf (default 1000)", parse_far},
-    [OPTION_FORMAT] = {"format", 'F', "NAME[,NAME...]|all", PLACED | VERB_BIAS | VERB_SOLVE,
+    [OPTION_FORMAT] = {"format", 'F', "NAME[,NAME...]|all", PLACED | VERB_TEXTURE | VERB_BIAS | VERB_SOLVE,
         "depth formats: fp16, fp32, unorm16, unorm24, names as the APIs\n"
         "write them, unormN, floatE.M[bB] (default all: the first four)", parse_format},
-    [OPTION_MAPPING] = {"mapping", 'm', "NAME[,NAME...]|all", PLACED | VERB_BIAS | VERB_SOLVE,
+    [OPTION_MAPPING] = {"mapping", 'm', "NAME[,NAME...]|all", PLACED | VERB_TEXTURE | VERB_BIAS | VERB_SOLVE,
         "d3d, gl, reversed, gl-reversed, linear, log\n"
         "(default all: d3d and reversed)", parse_mapping},
-    [OPTION_ORTHO] = {"ortho", 0, NULL, CAMERA | VERB_BIAS | VERB_SOLVE,
+    [OPTION_ORTHO] = {"ortho", 0, NULL, CAMERA | VERB_TEXTURE | VERB_BIAS | VERB_SOLVE,
         "orthographic projection (default: perspective)", parse_ortho},
-    [OPTION_ROUNDING] = {"rounding", 0, "nearest|even|zero", CAMERA | VERB_BIAS | VERB_SOLVE,
+    [OPTION_ROUNDING] = {"rounding", 0, "nearest|even|zero", CAMERA | VERB_TEXTURE | VERB_BIAS | VERB_SOLVE,
         "how a depth between two codes is rounded (default nearest)", parse_rounding},
-    [OPTION_PRESET] = {"preset", 0, "NAME", CAMERA | VERB_BIAS | VERB_SOLVE,
+    [OPTION_PRESET] = {"preset", 0, "NAME", CAMERA | VERB_TEXTURE | VERB_BIAS | VERB_SOLVE,
         "fill in near, far, mapping and format as an engine sets them,\n"
         "where they are not given; 'depthprec list presets'", parse_preset},
     [OPTION_MODEL] = {"model", 0, "exact|staged|fp32|auto", MODELLED | VERB_SOLVE,
@@ -418,7 +310,7 @@ const option_row option_rows[OPTION_COUNT] = {
         "a model is enough when what it neglects adds no more to the\n"
         "separation, 0.05 or 5% (default 5%); in bench, the worst error\n"
         "that the cheapest method to be marked may claim", parse_tolerance},
-    [OPTION_LOG_C] = {"log-c", 0, "C", MODELLED | VERB_BIAS | VERB_SOLVE,
+    [OPTION_LOG_C] = {"log-c", 0, "C", MODELLED | VERB_TEXTURE | VERB_BIAS | VERB_SOLVE,
         "constant of the log mapping, 1e-12 to 1e12 (default 1)", parse_log_c},
     [OPTION_AT] = {"at", 0, "Z[,Z...]|LO:HI:log|lin:COUNT", ASKED | VERB_BIAS | VERB_SOLVE,
         "the depths asked about, at most 1000000, within [near, far]\n"
@@ -465,6 +357,42 @@ const option_row option_rows[OPTION_COUNT] = {
         "seed of --sample: the same pairs for the same seed (default 0)", parse_seed},
     [OPTION_THREADS] = {"threads", 0, "N", SPREAD,
         "at most N threads (default: all cores); results are the same", parse_threads},
+    [OPTION_FOV] = {"fov", 0, "DEG", VERB_TEXTURE,
+        "vertical field of view, 0.01 to 179 (default 60)", parse_fov},
+    [OPTION_HALF_HEIGHT] = {"half-height", 0, "H", VERB_TEXTURE,
+        "with --ortho: half the height of the view, scene units\n"
+        "(default 5)", parse_half_height},
+    [OPTION_YAW] = {"yaw", 0, "DEG", VERB_TEXTURE,
+        "the camera's turn to the right (default 0: along world z)", parse_yaw},
+    [OPTION_PITCH] = {"pitch", 0, "DEG", VERB_TEXTURE,
+        "the camera's turn upwards, -90 to 90 (default 0)", parse_pitch},
+    [OPTION_ORIGIN] = {"origin", 0, "X,Y,Z", VERB_TEXTURE,
+        "where the camera stands, world coordinates (default 0,0,0)", parse_origin},
+    [OPTION_SCENE] = {"scene", 0, "NAME", VERB_TEXTURE,
+        "a synthetic scene in place of FILE: plane, sphere, steps or\n"
+        "decals; 'depthprec list scenes' has their parameters", parse_scene},
+    [OPTION_SIZE] = {"size", 0, "WxH", VERB_TEXTURE,
+        "with --scene: its pixels (default 640x360)", parse_size},
+    [OPTION_PARAMETER] = {"parameter", 0, "NAME=VALUE", VERB_TEXTURE,
+        "of the scene or the effect; as often as needed", parse_parameter},
+    [OPTION_SKY] = {"sky", 0, "T", VERB_TEXTURE,
+        "window depths within T of the far plane's are sky\n"
+        "(default 0.0001; 0: the far plane's alone)", parse_sky},
+    [OPTION_EYE] = {"eye", 0, NULL, VERB_TEXTURE,
+        "product: eye depth", parse_eye},
+    [OPTION_RADIAL] = {"radial", 0, NULL, VERB_TEXTURE,
+        "with --eye: distance from the camera instead", parse_radial},
+    [OPTION_POSITION] = {"position", 0, "METHOD", VERB_TEXTURE,
+        "product: world positions by METHOD; exact for the truth", parse_position},
+    [OPTION_NORMAL] = {"normal", 0, "METHOD", VERB_TEXTURE,
+        "product: normals by METHOD", parse_normal},
+    [OPTION_EFFECT] = {"effect", 0, "NAME", VERB_TEXTURE,
+        "product: an effect that consumes depth; without an image,\n"
+        "the smallest parameter above the noise", parse_effect},
+    [OPTION_ERROR_MAP] = {"error-map", 0, NULL, VERB_TEXTURE,
+        "the error of the product in place of the product", parse_error_map},
+    [OPTION_FIGURE] = {"figure", 0, "FILE", VERB_TEXTURE,
+        "draw the product: SVG, PDF or PNG", parse_figure},
     [OPTION_THEME] = {"theme", 0, "light|dark|print", DRAWN,
         "colours of the figure (default light)", parse_theme},
     [OPTION_WIDTH] = {"width", 0, "PX", DRAWN,

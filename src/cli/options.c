@@ -45,7 +45,13 @@ int usage_error(const char *format, ...) {
 }
 
 static void set_defaults(options *o) {
-    *o = (options){.znear = 0.1, .zfar = 1000.0, .tolerance = 0.05, .log_c = 1.0, .mapping_count = 2};
+    *o = (options){.znear = 0.1,
+                   .zfar = 1000.0,
+                   .tolerance = 0.05,
+                   .log_c = 1.0,
+                   .mapping_count = 2,
+                   .camera = {.width = 640, .height = 360, .fov_y = 60, .half_height = 5},
+                   .sky = TEXTURE_SKY};
     o->mappings[0] = DP_MAPPING_D3D;
     o->mappings[1] = DP_MAPPING_REVERSED;
     for (size_t i = 0; i < dp_format_count(); i++)

@@ -19,6 +19,7 @@
 #include "depthprec/depthprec.h"
 #include "need/bias.h"
 #include "need/presets.h"
+#include "texture/camera.h"
 
 /** The options, in the order in which help lists them. The index of an option's row is its id. */
 typedef enum option_id {
@@ -50,6 +51,22 @@ typedef enum option_id {
     OPTION_SAMPLE,
     OPTION_SEED,
     OPTION_THREADS,
+    OPTION_FOV,
+    OPTION_HALF_HEIGHT,
+    OPTION_YAW,
+    OPTION_PITCH,
+    OPTION_ORIGIN,
+    OPTION_SCENE,
+    OPTION_SIZE,
+    OPTION_PARAMETER,
+    OPTION_SKY,
+    OPTION_EYE,
+    OPTION_RADIAL,
+    OPTION_POSITION,
+    OPTION_NORMAL,
+    OPTION_EFFECT,
+    OPTION_ERROR_MAP,
+    OPTION_FIGURE,
     OPTION_THEME,
     OPTION_WIDTH,
     OPTION_HEIGHT,
@@ -85,7 +102,13 @@ typedef enum solve_target {
 /** Values of --report. */
 typedef enum report_form { REPORT_TEXT = 0, REPORT_JSON, REPORT_JUNIT, REPORT_COUNT } report_form;
 
-enum { OPTIONS_FORMATS_MAX = 64, OPTIONS_PIXELS_MIN = 64, OPTIONS_PIXELS_MAX = 16384 };
+enum { OPTIONS_FORMATS_MAX = 64, OPTIONS_PIXELS_MIN = 64, OPTIONS_PIXELS_MAX = 16384, OPTIONS_PARAMETERS_MAX = 8 };
+
+/** One --parameter NAME=VALUE; whose it is, and whether there is such a one, is for the command to see. */
+typedef struct named_number {
+    char name[32];
+    double value;
+} named_number;
 
 typedef struct options {
     const verb *verb;
@@ -126,6 +149,15 @@ typedef struct options {
     uint64_t sample; /**< pairs to draw; 0 when not given */
     uint64_t seed;
     int threads; /**< 0 when not given: as many as there are cores */
+
+    camera_spec camera; /**< --size, --fov, --half-height, --yaw, --pitch, --origin */
+    const char *scene;  /**< --scene, as given; null when not given, as all names here */
+    named_number parameters[OPTIONS_PARAMETERS_MAX];
+    size_t parameter_count;
+    double sky; /**< window depth; default TEXTURE_SKY */
+    bool eye, radial, error_map;
+    const char *position, *normal, *effect; /**< methods and effect, as given */
+    const char *figure;                     /**< file */
 
     theme_id theme;    /**< default light */
     int width, height; /**< px; 0 when not given, so that each figure has its own default */

@@ -20,6 +20,7 @@ int cmd_bench(const struct options *o) __attribute__((weak));
 int cmd_stability(const struct options *o) __attribute__((weak));
 int cmd_check(const struct options *o) __attribute__((weak));
 int cmd_solve(const struct options *o) __attribute__((weak));
+int cmd_texture(const struct options *o) __attribute__((weak));
 
 /* clang-format off */
 const verb verb_rows[] = {
@@ -42,6 +43,11 @@ const verb verb_rows[] = {
      "which cause takes how much of the separation; which model is enough",
      "  depthprec budget -n 0.1 -f 1000 -F unorm24 -m d3d\n"
      "  depthprec budget -F fp32 -m reversed --world 5000 --linearize --at 10,100,1000\n"},
+    {"texture", VERB_TEXTURE, cmd_texture, "[FILE]", 0, 1, NULL,
+     "a depth image: statistics, eye depth, positions, normals, effects",
+     "  depthprec texture depth.png -n 0.3 -f 1000\n"
+     "  depthprec texture depth.png -n 0.3 -f 1000 --normal high -o normals.npy\n"
+     "  depthprec texture --scene decals --parameter gap=0.01 -F d24 -m reversed\n"},
     {"bench", VERB_BENCH, cmd_bench, "FAMILY", 1, 1, "interval, linearize, encode or worst",
      "methods of a family: ns an element against worst error",
      "  depthprec bench linearize -n 0.1 -f 1000\n"

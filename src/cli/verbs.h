@@ -33,7 +33,8 @@ enum {
     VERB_SOLVE = 1u << 7,
     VERB_BIAS = 1u << 8,
     VERB_BENCH = 1u << 9,
-    VERB_STABILITY = 1u << 10
+    VERB_STABILITY = 1u << 10,
+    VERB_TEXTURE = 1u << 11
 };
 
 typedef struct verb {
