@@ -2,8 +2,9 @@
 /**
  * @file image.h  Images of numbers: PNG of 8 or 16 bits, PFM, and .npy of f2, f4, f8, u1, u2, u4.
  *
- * Files are not trusted: sizes are checked before memory is asked for (TEXTURE_SIDE_MAX, TEXTURE_PIXELS_MAX), and what
- * is damaged, cut short or not supported gives one sentence and nothing else.
+ * Files are not trusted: sizes are checked before memory is asked for (TEXTURE_SIDE_MAX, TEXTURE_PIXELS_MAX in
+ * camera.h; what a file of known length cannot hold is refused), and what is damaged, cut short, followed by anything
+ * else or not supported gives one sentence and nothing else. NaN and infinities pass.
  */
 #ifndef TEXTURE_IMAGE_H
 #define TEXTURE_IMAGE_H
@@ -35,33 +36,44 @@ typedef struct image {
     void *data;      /**< malloc'ed */
 } image;
 
-/** "u2", ...: as .npy names them; bytes of a sample. */
+/** Why an image was refused. */
+typedef struct image_error {
+    bool unreadable;             /**< the system could not open or read the file; otherwise its content is at fault */
+    char text[IMAGE_ERROR_SIZE]; /**< one sentence without the path: "cut short: ..." */
+} image_error;
+
+/** "u1", "u2", ...: as .npy names them; bytes of a sample. Null and 0 when out of range. */
 const char *image_type_name(image_type type);
 size_t image_type_size(image_type type);
 
 /** Which kind of file a name's ending means: ".png", ".pfm", ".npy", in any case. @return false when none of them */
 bool image_file_of(const char *path, image_file *out);
 
-/** Reads a file, "-" being stdin; the kind is told from its first bytes, not from its name.
- *  @return false and one sentence, without the path, in `error` */
-bool image_read(const char *path, image *out, char error[IMAGE_ERROR_SIZE]);
-bool image_parse(const void *bytes, size_t size, image *out, char error[IMAGE_ERROR_SIZE]);
+/** "PNG", "PFM", "npy"; null when out of range. */
+const char *image_file_name(image_file file);
+
+/** Reads a file, "-" being stdin; the kind is told from its first bytes, not from its name. */
+bool image_read(const char *path, image *out, image_error *error);
+/** The same from memory. */
+bool image_parse(const void *bytes, size_t size, image *out, image_error *error);
 void image_free(image *image);
 
 /** A writer of one image, row by row, so that a large one needs no memory. */
 typedef struct image_writer image_writer;
 
-/** Which sample types a kind of file holds: png u1 u2; pfm f4 with 1 or 3 channels; npy all. */
+/** Which sample types and channels a kind of file holds: PNG u1 u2, 1 to 4; PFM f4, 1 or 3; npy all, 1 to 4. */
 bool image_holds(image_file file, image_type type, uint32_t channels);
 
-/** Writes the header. @return null when out of memory or the file cannot hold it; the stream stays the caller's */
+/** Writes the header. @return null when out of memory, when the stream failed, or the file cannot hold it; the stream
+ *  stays the caller's. PNG: 16 bits as a fast compression has them, see image_png.c */
 image_writer *image_writer_open(FILE *stream, image_file file, image_type type, uint32_t width, uint32_t height,
                                 uint32_t channels);
 
 /** PFM stores the bottom row first: rows must then be given from the bottom. */
 bool image_writer_bottom_up(const image_writer *writer);
 
-/** Writes `count` rows, interleaved, in this machine's byte order. @return false when the stream failed */
+/** Writes `count` rows, interleaved, in this machine's byte order. @return false when the stream failed, or more rows
+ *  are given than the image has */
 bool image_writer_rows(image_writer *writer, const void *rows, uint32_t count);
 
 /** Ends the image and frees the writer. @return false when the stream failed or rows are missing */

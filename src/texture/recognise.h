@@ -18,7 +18,7 @@ typedef struct recognised {
     size_t distinct;         /**< different values, counted up to some limit */
     size_t at_zero, at_one;
     double lo, hi; /**< of the valid samples, as window depth */
-    char why[160]; /**< one sentence for people: how it was told */
+    char why[256]; /**< one sentence for people: how it was told */
 } recognised;
 
 /** Looks at channel 0 of every pixel. Never fails: an image that cannot be window depth has depth == false. */
