@@ -1,6 +1,13 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /**
  * @file effect.h  Effects that consume depth, a row each: what an error of the depth does to them.
+ *
+ * An effect sees the stored depth in place of the true one, which may be anywhere in the same cell. Its error at z is
+ * the largest difference that makes to the output, over all depths of z's cell, in levels of 1/255.
+ *
+ * Some effects compare the depth with something of their own: the eye depth of a surface, the height of the water, the
+ * focus. Wherever that is, the error is no larger than when it lies in the cell as well, so there it is put: in the
+ * worst of three places, the stored depth and the two ends of the cell.
  */
 #ifndef TEXTURE_EFFECT_H
 #define TEXTURE_EFFECT_H
@@ -8,37 +15,78 @@
 #include <stdbool.h>
 #include <stddef.h>
 
-#include "texture/camera.h"
+#include "depthprec/depthprec.h"
 
-enum { EFFECT_PARAMETERS_MAX = 3 };
+enum { EFFECT_PARAMETERS_MAX = 4 };
 
 typedef struct effect_parameter {
     const char *name;     /**< "half-width"; null ends the list */
-    const char *unit;     /**< "scene units", "1", "1/eye01" */
+    const char *unit;     /**< "scene", "eye01", "1", ... */
+    const char *note;     /**< what it is */
     double lo, hi, value; /**< allowed range and default */
 } effect_parameter;
+
+/** How the wanted parameter p and the row's quantity v, with v' where it is compared, make the output. */
+typedef enum effect_kind {
+    EFFECT_FADE = 0, /**< a ramp of |v - v'| / p: the error falls as p grows */
+    EFFECT_GAIN,     /**< p (v - v') and a constant: the error grows with p */
+    EFFECT_CLAMPED,  /**< saturate(p v): the error grows with p until the output saturates */
+    EFFECT_STEP      /**< |v - v'| > p for two pixels */
+} effect_kind;
 
 typedef struct effect_row {
     const char *name; /**< "intersection", "force-field", "fog", "scan-line", "water-line", "height-fog", "edge",
                            "motion-blur", "depth-of-field" */
     const char *note; /**< the formula */
     effect_parameter parameters[EFFECT_PARAMETERS_MAX + 1];
-    int wanted; /**< the parameter whose smallest usable value is looked for */
+    int wanted;            /**< the parameter whose usable values are looked for */
+    bool smallest;         /**< it is usable from some value up; else from some value down */
+    bool eye01;            /**< uses z/far, so far must be finite */
+    const char *reference; /**< what the depth is compared with; null when with nothing */
     const char *source;
-    /** The effect's output (before it is stored in 8 bits) at eye depth z of a pixel whose world height grows by
-     *  `rise` per unit of eye depth. */
-    double (*output)(const dp_setup *setup, const double *parameters, double z, double rise);
+    effect_kind kind;
+    double (*quantity)(const dp_setup *setup, const double *parameters, double z);
+    /** The output, before it is stored in 8 bits, where the effect sees eye depth z; `reference` is the eye depth of
+     *  what it is compared with, if anything. */
+    double (*output)(const dp_setup *setup, const double *parameters, double z, double reference);
 } effect_row;
 
+/** The rows in order; null beyond the last. */
 const effect_row *effect_get(size_t index);
 const effect_row *effect_find(const char *name);
 
-/** The largest change of the output, in levels of 1/255, between depths stored as the code of z. */
-double effect_error(const effect_row *row, const dp_setup *setup, const double *parameters, double z, double rise);
+/** The index of a parameter of the row, "rise" for example; -1 when it has none of that name. */
+int effect_parameter_find(const effect_row *row, const char *name);
 
-/** The smallest value of the wanted parameter for which quantization at z stays below `levels` levels; NaN if none in
- *  its range. */
-double effect_smallest(const effect_row *row, const dp_setup *setup, const double *parameters, double z, double rise,
-                       double levels);
+/** Writes the row's defaults. */
+void effect_defaults(const effect_row *row, double parameters[EFFECT_PARAMETERS_MAX]);
+
+/** Can the effect be had? Not when it needs a finite far plane and there is none. */
+bool effect_applies(const effect_row *row, const dp_setup *setup);
+
+/**
+ * The error of the output at z, in levels of 1/255.
+ *
+ * Every output is monotone in the depth on either side of its reference, so the largest difference lies at an end of
+ * the cell. "edge" has the output 0 or 1: its error is 255 where the stored depths of two pixels of a plane, the one at
+ * a depth of z's cell and the other `slope` behind it, give another answer than the plane does, and 0 elsewhere.
+ *
+ * @param parameters  in the order of the row, within their ranges
+ * @param z           in [near, far]
+ * @return INFINITY where the cell is unbounded and the output is not; NaN where the effect cannot be had, and in the
+ *         model fp32, which has no cells
+ */
+double effect_error(const effect_row *row, const dp_setup *setup, const double *parameters, double z);
+
+/**
+ * The end of the usable values of the wanted parameter: the smallest (row->smallest) from which on, or the largest up
+ * to which, every value of the range keeps the error at z at most `levels`. Found in closed form, then settled to the
+ * last bit by effect_error().
+ *
+ * @param parameters  as above; the wanted one is not read
+ * @param levels      above 0 and below 255
+ * @return within the range of the parameter; NaN when no value of the range is usable, and where the error is NaN
+ */
+double effect_usable(const effect_row *row, const dp_setup *setup, const double *parameters, double z, double levels);
 
 #endif
