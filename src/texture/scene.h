@@ -1,6 +1,9 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /**
  * @file scene.h  Synthetic scenes with exact answers: a ray through a pixel's centre meets a surface at a known depth.
+ *
+ * Everything is a closed formula in double: eye depths and normals are good to a few units of 2^-53, but for pixels
+ * that graze a sphere's rim. What lies outside [near, far] is not drawn.
  */
 #ifndef TEXTURE_SCENE_H
 #define TEXTURE_SCENE_H
@@ -11,10 +14,12 @@
 
 #include "texture/camera.h"
 
+enum { SCENE_PARAMETERS = 4 };
+
 /** What a pixel sees. */
 typedef struct scene_hit {
     double z;         /**< eye depth; INFINITY for sky */
-    double normal[3]; /**< view space, unit, towards the camera */
+    double normal[3]; /**< view space, unit, towards the camera; zero for sky */
     int surface;      /**< 0 sky; pixels of different surfaces meet in a silhouette */
 } scene_hit;
 
@@ -23,14 +28,22 @@ typedef struct scene_row {
     const char *note;
     /** The nearest hit at a pixel's centre (or between: column and row need not be whole). */
     void (*hit)(const texture_camera *camera, const double *parameters, double column, double row, scene_hit *out);
+    /** Pair `index` of surfaces, one behind the other, that a depth buffer should tell apart: their eye depths. Null
+     *  where a scene has none. @return false behind the last */
+    bool (*pair)(const double *parameters, size_t index, double *front, double *back);
     struct {
         const char *name, *unit;
-        double lo, hi, value;
-    } parameters[4]; /**< a null name ends them */
+        double lo, hi, value; /**< allowed range, ends included, and default */
+        bool whole;           /**< a whole number */
+        const char *note;
+    } parameters[SCENE_PARAMETERS]; /**< a null name ends them */
 } scene_row;
 
-const scene_row *scene_get(size_t index);
+const scene_row *scene_get(size_t index); /**< null behind the last */
 const scene_row *scene_find(const char *name);
+
+/** The default values of a scene's parameters. */
+void scene_defaults(const scene_row *scene, double parameters[SCENE_PARAMETERS]);
 
 /** The codes that a row of pixels stores: dp_code() of each hit, the far plane's code for sky. */
 void scene_codes(const scene_row *scene, const texture_camera *camera, const double *parameters, uint32_t row,
