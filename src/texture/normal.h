@@ -1,6 +1,11 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /**
- * @file normal.h  Normals from depth: cross products of differences of neighbouring places, a row each.
+ * @file normal.h  Normals from depth, a row each: differences of a pixel and two neighbours, in binary32 as in a
+ * shader.
+ *
+ * The methods differ in which neighbour they take on each axis, how many pixels away, and how they form the normal.
+ * What is not there is NaN: sky, and whatever lies beyond the border of the image. A method that can choose takes the
+ * other side then; where it cannot, or neither side is there, the normal is NaN.
  */
 #ifndef TEXTURE_NORMAL_H
 #define TEXTURE_NORMAL_H
@@ -11,39 +16,83 @@
 
 #include "texture/camera.h"
 
-/** Rows that a method looks at above and below its own, at most. */
-enum { NORMAL_REACH = 2 };
+/** Pixels that a method looks at in each direction, at most. */
+enum { NORMAL_REACH = 4 };
 
-/** Eye depths around row `row`: rows[NORMAL_REACH + k] is row + k, clamped to the image; binary32, `width` each, with
- *  NORMAL_REACH more on either side that repeat the border. Sky is NaN. */
+/** `count` pixels of row `row` from column `column` on, and what lies around them. */
 typedef struct normal_rows {
     const texture_camera *camera;
-    const float *slope_x; /**< camera_slope_x() of each column, with the same margins (of columns beyond the border) */
-    uint32_t row;
+    uint32_t row, column, count;
+    const float *slope_x; /**< camera_slope_x() of `column`; readable NORMAL_REACH before it and after the last */
+    /** Eye depths of `column` in row `row` + k are rows[NORMAL_REACH + k], readable likewise; in [1e-30, 1e30] or NaN.
+     */
     const float *rows[2 * NORMAL_REACH + 1];
 } normal_rows;
 
+/** Which neighbours were taken: bits. Left or right is then the one, below or above the other. */
+enum { NORMAL_LEFT = 1, NORMAL_BELOW = 2 };
+
 typedef struct normal_row {
-    const char *name; /**< "low", "medium", "high", "projective" */
+    const char *name; /**< "low", "medium", "high", "medium-1", "high-1", "projective" */
     const char *note;
-    int reach; /**< 1 or 2 */
+    int step;  /**< pixels to the neighbours */
+    int reach; /**< pixels that are looked at in each direction */
     const char *source;
-    /** View-space unit normals that face the camera, three planes of `width`; NaN where a neighbour is sky. */
+    /** View-space unit normals that face the camera, `count` in each plane. The same bits on every processor. */
     void (*run)(const normal_rows *in, float *nx, float *ny, float *nz);
+    /** The neighbours that run() takes. */
+    void (*sides)(const normal_rows *in, uint8_t *sides);
 } normal_row;
 
-const normal_row *normal_get(size_t index);
+const normal_row *normal_get(size_t index); /**< null beyond the last */
 const normal_row *normal_find(const char *name);
 
-/** The normal of the plane (view space) in double from exact slopes: angle between two, radians, without cancellation.
- */
-double normal_angle(const double a[3], const double b[3]);
+/** Writes the eye depths of a row, camera->width of them; NaN for sky. */
+typedef void (*normal_source)(void *context, uint32_t row, float *eye);
+/** Takes the normals of a row, or rather of in->row, and may look at what they were made from. */
+typedef void (*normal_sink)(void *context, const normal_rows *in, const float *const normal[3]);
 
 /**
- * A bound on the angular error of the method "projective" on a plane whose stored eye depths are off by at most
- * `half` in 1/z: derived in depthprec(7).
+ * The normals of `count` rows from `first` on, in that order. The source is asked for each row once, and for those
+ * within reach of them.
+ * @return false when out of memory
  */
-double normal_plane_bound(const texture_camera *camera, uint32_t column, uint32_t row, const double plane[4],
-                          double half);
+bool normal_run(const normal_row *method, const texture_camera *camera, uint32_t first, uint32_t count,
+                normal_source source, normal_sink sink, void *context);
+
+/** The angle between two vectors, radians in [0, pi], of any length and without cancellation; NaN for a null vector. */
+double normal_angle(const double a[3], const double b[3]);
+
+/** A plane of view space: the points p with normal . p = offset. */
+typedef struct normal_plane {
+    double normal[3];
+    double offset;
+} normal_plane;
+
+/** The plane through what a pixel sees at eye depth z; the normal need not be of unit length. */
+normal_plane normal_plane_at(const texture_camera *camera, double column, double row, double z, const double normal[3]);
+
+/** The eye depth at which a pixel's ray meets a plane; negative, infinite or NaN where it does not. */
+double normal_plane_depth(const texture_camera *camera, const normal_plane *plane, double column, double row);
+
+/**
+ * How far the stored depths of a plane are off at most, in a pixel and the four next to it that the image has: of 1/z,
+ * or of z where the camera is orthographic. Half a cell each, and what reading the depth back into binary32 adds.
+ *
+ * @param reading  relative error of that, 2^-24 for one rounding
+ * @return INFINITY where the plane is not between near and far in one of them
+ */
+double normal_plane_error(const texture_camera *camera, uint32_t column, uint32_t row, const normal_plane *plane,
+                          double reading);
+
+/**
+ * The largest angular error, radians, that the method "projective" can make on a plane, whichever sides it takes, when
+ * the eye depths it is given are off by at most `error` in 1/z (z where the camera is orthographic). Derived in
+ * depthprec(7); some error within that limit reaches it, but for the rounding in binary32 that it includes.
+ *
+ * @return pi where the errors could turn the plane round
+ */
+double normal_plane_bound(const texture_camera *camera, uint32_t column, uint32_t row, const normal_plane *plane,
+                          double error);
 
 #endif

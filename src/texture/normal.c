@@ -1,0 +1,242 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/*
+ * Each loop runs over the columns of a row without a branch: both neighbours are read and one is selected, and what is
+ * missing is NaN, which carries itself through. On each axis there is a first side, left or below, and a second one.
+ */
+#include "texture/normal.h"
+
+#include <math.h>
+#include <string.h>
+
+#include "texture/clones.h"
+
+#define INLINE static inline __attribute__((always_inline))
+
+/* ---- Selection: compilers make jumps of conditions as it suits them, and then no vectors; masks stay what they are --
+ */
+
+typedef int32_t mask; /* all bits set or none */
+
+INLINE int32_t bits_of(float x) {
+    int32_t bits;
+    memcpy(&bits, &x, sizeof bits);
+    return bits;
+}
+
+INLINE float float_of(int32_t bits) {
+    float x;
+    memcpy(&x, &bits, sizeof x);
+    return x;
+}
+
+INLINE float select(mask m, float yes, float no) {
+    return float_of((bits_of(yes) & m) | (bits_of(no) & ~m));
+}
+
+INLINE float negate(mask m, float x) {
+    return float_of(bits_of(x) ^ (m & INT32_MIN));
+}
+
+INLINE mask missing(float x) {
+    return -(x != x);
+}
+
+/* ---- Which side: set for the first. a is the nearer neighbour of it and a2 the one behind; b and b2 of the second ---
+ */
+
+typedef mask (*side_rule)(mask within, float z, float a, float a2, float b, float b2);
+
+/* The other pixel of the 2 x 2 quad. */
+INLINE mask side_quad(mask within, float z, float a, float a2, float b, float b2) {
+    (void)z, (void)a, (void)a2, (void)b, (void)b2;
+    return within;
+}
+
+INLINE mask side_farther(mask within, float z, float a, float a2, float b, float b2) {
+    (void)within, (void)z, (void)a2, (void)b2;
+    return -(a > b) | missing(b);
+}
+
+/* A side without a neighbour behind it is the last choice but for one without any. */
+INLINE mask side_straight(mask within, float z, float a, float a2, float b, float b2) {
+    (void)within;
+    const float behind_a = select(missing(a2), INFINITY, a2), behind_b = select(missing(b2), INFINITY, b2);
+    return -(fabsf(2.0f * a - behind_a - z) < fabsf(2.0f * b - behind_b - z)) | missing(b);
+}
+
+/* The same in w = 1/z, which is straight along a plane: |2/a - 1/a2 - 1/z| without a division. Depths of the second
+ * side multiply the first's error and the other way round; 0 stands for a missing one, whose 1/z no line meets. */
+INLINE mask side_projective(mask within, float z, float a, float a2, float b, float b2) {
+    (void)within;
+    const float behind_a = select(missing(a2), 0.0f, a2), behind_b = select(missing(b2), 0.0f, b2);
+    const float off_a = fabsf(z * (behind_a - a) - behind_a * (a - z));
+    const float off_b = fabsf(z * (behind_b - b) - behind_b * (b - z));
+    return -(off_a * b * behind_b < off_b * a * behind_a) | missing(b);
+}
+
+/* ---- The normal ---------------------------------------------------------------------------------------------------
+ */
+
+typedef struct vector {
+    float x, y, z;
+} vector;
+
+/* A pixel and the two neighbours: their depths and places, and the signs of the differences. */
+typedef struct corner {
+    float z, h, v;
+    float sx, sy, sx_h, sy_v;
+    float per_x, per_y; /* 1 over the step of sx towards h and of sy towards v, with their signs */
+    mask opposed;       /* left and above, or right and below */
+} corner;
+
+typedef vector (*corner_rule)(const corner *c);
+
+/* 2^(lift - e) with 2^e the power of two in the largest: scales without rounding, so that no unit of length overflows.
+ */
+INLINE float unit_of(const corner *c, int lift) {
+    const int32_t z = bits_of(c->z), h = bits_of(c->h), v = bits_of(c->v); /* ordered as what they stand for */
+    const int32_t zh = z > h ? z : h, zhv = zh > v ? zh : v;
+    return float_of((int32_t)(((254u + (uint32_t)lift) << 23) - ((uint32_t)zhv & 0x7f800000u)));
+}
+
+/* The cross product of two differences of places. */
+INLINE vector corner_cross(const corner *c) {
+    const float unit = unit_of(c, 20), z = c->z * unit, h = c->h * unit, v = c->v * unit;
+    const float px = c->sx * z, py = c->sy * z;
+    const vector a = {c->sx_h * h - px, c->sy * h - py, h - z}, b = {c->sx * v - px, c->sy_v * v - py, v - z};
+    const vector n = {a.z * b.y - a.y * b.z, a.x * b.z - a.z * b.x, a.y * b.x - a.x * b.y};
+    return (vector){negate(c->opposed, n.x), negate(c->opposed, n.y), negate(c->opposed, n.z)};
+}
+
+/* On a plane 1/z = a sx + b sy + c, and (a, b, c) is its normal; here times z h v, so that nothing is divided, and z -
+ * h has no rounding error where the two are close. */
+INLINE vector corner_projective(const corner *c) {
+    const float unit = unit_of(c, 0), z = c->z * unit, h = c->h * unit, v = c->v * unit;
+    const float a = (z - h) * v * c->per_x, b = (z - v) * h * c->per_y;
+    return (vector){-a, -b, c->sx * a + c->sy * b - h * v};
+}
+
+INLINE float within_1e18(float x) { /* whose square is a binary32 number; NaN stays */
+    const float least = select(-(x > 1e18f), 1e18f, x);
+    return select(-(x < -1e18f), -1e18f, least);
+}
+
+/* Orthographic: the cross product, whose differences of places are multiples of the axes. */
+INLINE vector corner_ortho(const corner *c) {
+    return (vector){within_1e18((c->h - c->z) * c->per_x), within_1e18((c->v - c->z) * c->per_y), -1.0f};
+}
+
+/* ---- A row of pixels -----------------------------------------------------------------------------------------------
+ */
+
+/* The five pixels of a column or row through a pixel. */
+typedef struct line {
+    const float *first2, *first, *mid, *second, *second2;
+} line;
+
+INLINE line across(const normal_rows *in, int step) {
+    const float *mid = in->rows[NORMAL_REACH];
+    return (line){mid - 2 * step, mid - step, mid, mid + step, mid + 2 * step};
+}
+
+INLINE line upwards(const normal_rows *in, int step) {
+    const float *const *rows = in->rows + NORMAL_REACH;
+    return (line){rows[2 * step], rows[step], rows[0], rows[-step], rows[-2 * step]};
+}
+
+INLINE mask side_at(const line *l, uint32_t i, mask within, side_rule rule) {
+    return rule(within, l->mid[i], l->first[i], l->first2[i], l->second[i], l->second2[i]);
+}
+
+INLINE void normals(const normal_rows *in, float *restrict nx, float *restrict ny, float *restrict nz, int step,
+                    side_rule side, corner_rule rule) {
+    const texture_camera *camera = in->camera;
+    const line x = across(in, step), y = upwards(in, step);
+    const float *s = in->slope_x, *s_left = s - step, *s_right = s + step;
+    const float sy = (float)camera_slope_y(camera, in->row);
+    const float sy_below = (float)camera_slope_y(camera, (double)in->row + step);
+    const float sy_above = (float)camera_slope_y(camera, (double)in->row - step);
+    const float per_x = (float)(camera->width / (2 * step * camera->half[0]));
+    const float per_y = (float)(camera->height / (2 * step * camera->half[1]));
+    const uint32_t count = in->count, column = in->column;
+    const mask even_row = -(in->row % 2 == 0);
+#pragma omp simd
+    for (uint32_t i = 0; i < count; i++) {
+        const mask left = side_at(&x, i, -(int32_t)((column + i) & 1), side), below = side_at(&y, i, even_row, side);
+        const corner c = {.z = x.mid[i],
+                          .h = select(left, x.first[i], x.second[i]),
+                          .v = select(below, y.first[i], y.second[i]),
+                          .sx = s[i],
+                          .sy = sy,
+                          .sx_h = select(left, s_left[i], s_right[i]),
+                          .sy_v = select(below, sy_below, sy_above),
+                          .per_x = negate(left, per_x),
+                          .per_y = negate(below, per_y),
+                          .opposed = left ^ below};
+        const vector n = rule(&c);
+        const float unit = 1.0f / sqrtf(n.x * n.x + n.y * n.y + n.z * n.z);
+        nx[i] = n.x * unit;
+        ny[i] = n.y * unit;
+        nz[i] = n.z * unit;
+    }
+}
+
+INLINE void sides_of(const normal_rows *in, uint8_t *sides, int step, side_rule side) {
+    const line x = across(in, step), y = upwards(in, step);
+    for (uint32_t i = 0; i < in->count; i++) {
+        const mask left = side_at(&x, i, -(int32_t)((in->column + i) & 1), side);
+        const mask below = side_at(&y, i, -(in->row % 2 == 0), side);
+        sides[i] = (uint8_t)((left & NORMAL_LEFT) | (below & NORMAL_BELOW));
+    }
+}
+
+/* Along an orthographic camera's plane z itself is straight: the extrapolation of `high` is then exact. */
+#define METHOD(name, step, side, ortho_side, rule)                                                                     \
+    TEXTURE_CLONES static void name##_perspective(const normal_rows *in, float *nx, float *ny, float *nz) {            \
+        normals(in, nx, ny, nz, step, side, rule);                                                                     \
+    }                                                                                                                  \
+    TEXTURE_CLONES static void name##_ortho(const normal_rows *in, float *nx, float *ny, float *nz) {                  \
+        normals(in, nx, ny, nz, step, ortho_side, corner_ortho);                                                       \
+    }                                                                                                                  \
+    static void name##_run(const normal_rows *in, float *nx, float *ny, float *nz) {                                   \
+        (in->camera->ortho ? name##_ortho : name##_perspective)(in, nx, ny, nz);                                       \
+    }                                                                                                                  \
+    static void name##_sides(const normal_rows *in, uint8_t *sides) {                                                  \
+        if (in->camera->ortho)                                                                                         \
+            sides_of(in, sides, step, ortho_side);                                                                     \
+        else                                                                                                           \
+            sides_of(in, sides, step, side);                                                                           \
+    }
+
+METHOD(low, 1, side_quad, side_quad, corner_cross)
+METHOD(medium, 2, side_farther, side_farther, corner_cross)
+METHOD(medium_1, 1, side_farther, side_farther, corner_cross)
+METHOD(high, 2, side_straight, side_straight, corner_cross)
+METHOD(high_1, 1, side_straight, side_straight, corner_cross)
+METHOD(projective, 1, side_projective, side_straight, corner_projective)
+
+static const char urp[] = "Universal RP, SSAO.hlsl, ReconstructNormal";
+
+/* clang-format off */
+static const normal_row rows[] = {
+    {"low", "the 2 x 2 quad of the pixel, as ddx and ddy", 1, 1, urp, low_run, low_sides},
+    {"medium", "on each axis the farther of the pixels 2 away", 2, 2, urp, medium_run, medium_sides},
+    {"medium-1", "the same with the pixels next to it", 1, 1, "", medium_1_run, medium_1_sides},
+    {"high", "on each axis the side, 2 pixels away, whose line through two pixels meets the depth best",
+     2, 4, urp, high_run, high_sides},
+    {"high-1", "the same with the pixels next to it", 1, 2, "", high_1_run, high_1_sides},
+    {"projective", "the pixels next to it, lines in 1/z, and the normal from the differences of 1/z: exact on planes",
+     1, 2, "depthprec(7)", projective_run, projective_sides},
+};
+/* clang-format on */
+
+const normal_row *normal_get(size_t index) {
+    return index < sizeof rows / sizeof rows[0] ? &rows[index] : NULL;
+}
+
+const normal_row *normal_find(const char *name) {
+    for (size_t i = 0; normal_get(i) != NULL; i++)
+        if (strcmp(rows[i].name, name) == 0)
+            return &rows[i];
+    return NULL;
+}

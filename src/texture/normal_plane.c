@@ -1,0 +1,123 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Planes and the bound on the normals found on them: see "NORMALS FROM DEPTH" in depthprec(7). */
+#include <math.h>
+
+#include "texture/normal.h"
+
+static const double PI = 3.14159265358979323846;
+static const double UNIT = 0x1p-24; /* the largest relative error of an operation in binary32 */
+
+static double dot(const double a[3], const double b[3]) {
+    return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+}
+
+double normal_angle(const double a[3], const double b[3]) {
+    const double la = sqrt(dot(a, a)), lb = sqrt(dot(b, b));
+    double sum = 0, difference = 0; /* of the unit vectors: sides of a rhombus, whose angle is that of its diagonals */
+    for (int i = 0; i < 3; i++) {
+        const double ua = a[i] / la, ub = b[i] / lb;
+        sum += (ua + ub) * (ua + ub);
+        difference += (ua - ub) * (ua - ub);
+    }
+    return 2 * atan2(sqrt(difference), sqrt(sum));
+}
+
+/* What multiplies the eye depth and what does not: a pixel's place is direction z + place. */
+static void ray(const texture_camera *camera, double column, double row, double direction[3], double place[3]) {
+    const double x = camera_slope_x(camera, column), y = camera_slope_y(camera, row);
+    const bool ortho = camera->ortho;
+    direction[0] = ortho ? 0 : x;
+    direction[1] = ortho ? 0 : y;
+    direction[2] = 1;
+    place[0] = ortho ? x : 0;
+    place[1] = ortho ? y : 0;
+    place[2] = 0;
+}
+
+normal_plane normal_plane_at(const texture_camera *camera, double column, double row, double z,
+                             const double normal[3]) {
+    double view[3];
+    camera_view(camera, column, row, z, view);
+    return (normal_plane){{normal[0], normal[1], normal[2]}, dot(normal, view)};
+}
+
+double normal_plane_depth(const texture_camera *camera, const normal_plane *plane, double column, double row) {
+    double direction[3], place[3];
+    ray(camera, column, row, direction, place);
+    return (plane->offset - dot(plane->normal, place)) / dot(plane->normal, direction);
+}
+
+/* ---- The error of the stored depths ---------------------------------------------------------------------------------
+ */
+
+static double stored_error(const texture_camera *camera, double z, double reading) {
+    const dp_setup *setup = &camera->setup;
+    if (!(z >= setup->spec.znear && z <= setup->spec.zfar))
+        return INFINITY;
+    const dp_cell cell = dp_cell_of(setup, dp_code(setup, z));
+    if (camera->ortho)
+        return fmax(cell.stored - cell.lo, cell.hi - cell.stored) + reading * cell.stored;
+    const double w = 1 / cell.stored; /* 0 at an infinite far plane */
+    return fmax(1 / cell.lo - w, w - 1 / cell.hi) + reading * w;
+}
+
+double normal_plane_error(const texture_camera *camera, uint32_t column, uint32_t row, const normal_plane *plane,
+                          double reading) {
+    double worst = 0;
+    for (int i = 0; i < 5; i++) {
+        const int x = (i == 2) - (i == 1), y = (i == 4) - (i == 3);
+        const double c = (double)column + x, r = (double)row + y;
+        if (c >= 0 && c < camera->width && r >= 0 && r < camera->height)
+            worst = fmax(worst, stored_error(camera, normal_plane_depth(camera, plane, c, r), reading));
+    }
+    return worst;
+}
+
+/* ---- The bound ------------------------------------------------------------------------------------------------------
+ */
+
+/* The error of the vector (a, b, c) or (p, q, -1) that errors of the three depths make; sides are +1 or -1. */
+typedef struct mistake {
+    const texture_camera *camera;
+    double direction[3]; /* of the pixel */
+    double per_x, per_y; /* 1 over the step of sx and sy from pixel to pixel */
+} mistake;
+
+static void mistaken(const mistake *m, const double exact[3], double own, double beside, double over, double out[3]) {
+    const double a = (beside - own) * m->per_x, b = (over - own) * m->per_y;
+    out[0] = exact[0] + a;
+    out[1] = exact[1] + b;
+    out[2] = exact[2] + (m->camera->ortho ? 0 : own - m->direction[0] * a - m->direction[1] * b);
+}
+
+/* The vector that the method would find without errors: away from the camera; orthographic: towards it. */
+static void exact_vector(const texture_camera *camera, const normal_plane *plane, double out[3]) {
+    const double by = camera->ortho ? -plane->normal[2] : plane->offset;
+    for (int i = 0; i < 3; i++)
+        out[i] = plane->normal[i] / by;
+}
+
+static double rounding(const texture_camera *camera, const double direction[3]) {
+    const double aside = hypot(direction[0], direction[1]);
+    return camera->ortho ? 5 * UNIT : UNIT * (5 + 3 * hypot(1, aside) + 8 * aside);
+}
+
+double normal_plane_bound(const texture_camera *camera, uint32_t column, uint32_t row, const normal_plane *plane,
+                          double error) {
+    double exact[3], place[3], worst = 0;
+    mistake m = {.camera = camera};
+    if (!(error < (double)INFINITY))
+        return PI;
+    exact_vector(camera, plane, exact);
+    ray(camera, column, row, m.direction, place);
+    for (int i = 0; i < 32; i++) { /* the corners of the cube of errors, for each choice of sides */
+        const double own = i & 1 ? error : -error, beside = i & 2 ? error : -error, over = i & 4 ? error : -error;
+        double found[3];
+        m.per_x = camera->width / (2 * camera->half[0]) * (i & 8 ? 1 : -1);
+        m.per_y = camera->height / (2 * camera->half[1]) * (i & 16 ? 1 : -1);
+        mistaken(&m, exact, own, beside, over, found);
+        worst = fmax(worst, normal_angle(exact, found));
+    }
+    /* Vectors within an angle of at most a right one of another are convex: the corners speak for all between. */
+    return worst < PI / 2 ? fmin(worst + rounding(camera, m.direction) + 1e-14, PI) : PI;
+}
