@@ -71,12 +71,12 @@ typedef struct dp_batch {
         double lo, hi, from, slope, scale, magic;
         uint64_t half;
         int shift, cut, mantissa, bias;
-        uint32_t rebias, code_max, first, last;
-        double least_normal, top, to_near, to_far, den, below, above, width, first_width, last_width;
+        uint32_t rebias, code_max;
+        double least_normal, top, to_near, to_far, den, steps, rest, width, first, last, first_width, last_width, none;
         double value, value_rest;
         float z_lo, z_hi, reach, reach_rest, reach_inverse, offset;
         int32_t whole;
-        float unit, unit_rest, split, eye_top, eye_near, eye_far;
+        float unit, unit_rest, split, eye_top, eye_slope, eye_base;
     } numbers;
 } dp_batch;
 

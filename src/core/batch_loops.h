@@ -136,15 +136,18 @@ LOOP(EYE_LINEAR_FLOAT, word32, real64, SENSE LIFT,
  */
 #define ENDS(WIDTH)                                                                                                    \
     const double inner = (WIDTH);                                                                                      \
-    const double upper = c < k.last ? inner : c == k.last ? k.last_width : 0.0;                                        \
-    to[i] = c > k.first ? upper : c == k.first ? k.first_width : 0.0;
+    const double real = AS_REAL(c);                                                                                    \
+    const double after = real > k.first ? inner : k.first_width;                                                       \
+    const double within = real < k.last ? after : k.last_width;                                                        \
+    const double kept = real < k.first ? k.none : within;                                                              \
+    to[i] = real > k.last ? k.none : kept;
 
-INLINE double divisor_at(const struct dp_batch_numbers *k, int reversed, double num) {
-    const double comp = k->den - num;
-    return reversed ? k->to_near * num + k->to_far * comp : k->to_near * comp + k->to_far * num;
-}
-
-#define DIVISORS(A, B) (divisor_at(&k, reversed, (A)) * divisor_at(&k, reversed, (B)))
+/* The depths of a cell of UNORM are (v - 1/2) and (v + 1/2) over a number that k.width and k.rest took up. */
+LOOP(WIDTH_PERSPECTIVE_UNORM, word32, real64, SENSE, {
+    CODE const double comp = k.steps - AS_REAL(c);
+    const double v = (reversed ? AS_REAL(c) : comp) + k.rest;
+    ENDS(k.width / (v * v - 0.25))
+})
 
 /* The boundaries of a FLOAT code: half way to the neighbours, or the code and the next when truncated. */
 #define BOUNDARIES                                                                                                     \
@@ -154,12 +157,13 @@ INLINE double divisor_at(const struct dp_batch_numbers *k, int reversed, double 
     const double b = truncated ? above : 0.5 * (value + above);
 #define TRUNCATED const int truncated = batch->setup.spec.rounding == DP_ROUND_ZERO;
 
-LOOP(WIDTH_PERSPECTIVE_UNORM, word32, real64, SENSE, {
-    CODE const double num = 2.0 * AS_REAL(c);
-    ENDS(k.width / DIVISORS(num + k.below, num + k.above))
-})
+INLINE double divisor_at(const struct dp_batch_numbers *k, int reversed, double num) {
+    const double comp = k->den - num;
+    return reversed ? k->to_near * num + k->to_far * comp : k->to_near * comp + k->to_far * num;
+}
+
 LOOP(WIDTH_PERSPECTIVE_FLOAT, word32, real64, SENSE LIFT TRUNCATED,
-     {CODE BOUNDARIES ENDS(k.width * (b - a) / DIVISORS(a, b))})
+     {CODE BOUNDARIES ENDS(k.width * (b - a) / (divisor_at(&k, reversed, a) * divisor_at(&k, reversed, b)))})
 LOOP(WIDTH_LINEAR_UNORM, word32, real64, , {CODE ENDS(k.width)})
 LOOP(WIDTH_LINEAR_FLOAT, word32, real64, LIFT TRUNCATED, {CODE BOUNDARIES ENDS(k.width * (b - a))})
 
@@ -205,25 +209,33 @@ LOOP(REVERSED_32, real32, word32, , {REVERSED})
 
 /* ---- Direct: float window depth to UNORM and back, N from 2 to 24, to nearest ------------------------------------ */
 
-/*
- * From 2^23 on floats are whole numbers apart, so that one fused operation rounds the exact product to a whole number:
- * with 2^23 added where the product is below 2^23, which is up to d = 1/2 for N = 24 and always for N < 24. Without
- * fused operations the product of 48 bits is exact in double. The only tie is d = 1/2, whose even neighbour is the
- * upper one.
- */
+/* Not by constants, or the compiler sees that a clamped depth has a known code and makes two ways of it. */
 #define UNIT                                                                                                           \
-    const float raised = from[i] > 0.0F ? from[i] : 0.0F;                                                              \
-    const float d = raised < 1.0F ? raised : 1.0F;
+    const float raised = from[i] > k.z_lo ? from[i] : k.z_lo;                                                          \
+    const float d = raised < k.z_hi ? raised : k.z_hi;
+
+/*
+ * N < 24: from 2^23 on floats are whole numbers apart, so that one fused operation rounds the exact product. Without
+ * it: D = d 2^N, exact, is rounded so to r, and d M = D - d falls below r - 1/2 when D - r + 1/2 < d, whose left side
+ * is exact where that can be. The only tie is d = 1/2, whose even neighbour is the upper one.
+ */
 #if FUSED
-#define PRODUCT                                                                                                        \
-    const int32_t upper = -((int32_t)bits32(k.split) < (int32_t)bits32(d)); /* all ones where d > split */             \
-    const float product = fmaf(d, k.unit, real_of32(0x4B000000U & ~(uint32_t)upper));                                  \
-    const uint32_t code = bits32(product) - 0x4B000000U + (0x800000U & (uint32_t)upper);
+#define PRODUCT const uint32_t code = bits32(fmaf(d, k.unit, 0x1p23F)) - 0x4B000000U;
 #else
-#define PRODUCT const uint32_t code = (uint32_t)bits64((double)d * (double)k.unit + 0x1.8p52);
+#define PRODUCT                                                                                                        \
+    const float steps = d * k.split;                                                                                   \
+    const float r = steps + 0x1p23F;                                                                                   \
+    const float over = steps - (r - 0x1p23F);                                                                          \
+    const uint32_t code = bits32(r) - 0x4B000000U - (over + 0.5F < d ? 1U : 0U);
 #endif
 LOOP(UNORM_OF_FLOAT_16, real32, word16, , { UNIT PRODUCT to[i] = (uint16_t)code; })
-LOOP(UNORM_OF_FLOAT_32, real32, word32, , { UNIT PRODUCT to[i] = (uint32_t)code; })
+LOOP(UNORM_OF_FLOAT_32, real32, word32, , { UNIT PRODUCT to[i] = code; })
+
+/*
+ * N = 24: d (2^24 - 1) rounded is the float below D = d 2^24, and the code is D - 1/2 rounded up, D - 1 above d = 1/2:
+ * what is left when the float below 1/2 is added and the fraction cut off. tests/test_batch.c tries every float.
+ */
+LOOP(UNORM24_OF_FLOAT, real32, word32, , { UNIT to[i] = (uint32_t)(int32_t)(d * 16777215.0F + 0x1.fffffep-2F); })
 
 #define WHOLE                                                                                                          \
     const uint32_t clamped = from[i] < k.code_max ? from[i] : k.code_max;                                              \
@@ -235,10 +247,8 @@ LOOP(FLOAT_OF_UNORM_32, word32, real32, , { WHOLE to[i] = c * k.unit + c * k.uni
  */
 
 #define FAST_EYE                                                                                                       \
-    WHOLE const float other = k.unit - c;                                                                              \
-    const float near_share = reversed ? c : other;                                                                     \
-    const float far_share = reversed ? other : c;                                                                      \
-    to[i] = k.eye_top / (k.eye_near * near_share + k.eye_far * far_share);
+    WHOLE const float comp = k.unit - c;                                                                               \
+    to[i] = k.eye_top / (k.eye_slope * (reversed ? c : comp) + k.eye_base);
 LOOP(FAST_EYE_16, word16, real32, SENSE, {FAST_EYE})
 LOOP(FAST_EYE_32, word32, real32, SENSE, {FAST_EYE})
 
@@ -274,6 +284,6 @@ dp_batch_kernel *const TABLE[DP_KERNEL_COUNT] = {
 #if FUSED
                         ROW(STANDARD_16) ROW(STANDARD_32) ROW(REVERSED_16) ROW(REVERSED_32)
 #endif
-                            ROW(UNORM_OF_FLOAT_16) ROW(UNORM_OF_FLOAT_32) ROW(FLOAT_OF_UNORM_16) ROW(FLOAT_OF_UNORM_32)
-                                ROW(HALF_OF_FLOAT) ROW(FLOAT_OF_HALF) ROW(BITS_OF_FLOAT) ROW(FLOAT_OF_BITS)
-                                    ROW(FAST_EYE_16) ROW(FAST_EYE_32)};
+                            ROW(UNORM_OF_FLOAT_16) ROW(UNORM_OF_FLOAT_32) ROW(UNORM24_OF_FLOAT) ROW(FLOAT_OF_UNORM_16)
+                                ROW(FLOAT_OF_UNORM_32) ROW(HALF_OF_FLOAT) ROW(FLOAT_OF_HALF) ROW(BITS_OF_FLOAT)
+                                    ROW(FLOAT_OF_BITS) ROW(FAST_EYE_16) ROW(FAST_EYE_32)};

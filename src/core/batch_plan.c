@@ -50,6 +50,7 @@ static void plan_code(dp_batch *b) {
     const double z_far = s->spec.zfar;
     if (b->task == DP_TASK_ENCODE) {
         k->hi = 1.0;
+        k->z_hi = 1.0F;
         k->scale = 1.0;
     } else {
         k->lo = n;
@@ -77,6 +78,47 @@ static void plan_code(dp_batch *b) {
     b->doubt = 4;
 }
 
+/*
+ * A cell of UNORM between shares s - 1/2 and s + 1/2 of M towards the near plane is n f M/(f - n) / (v^2 - 1/4) wide,
+ * where v = s + n M/(f - n); truncated, the middle is half a step away. Both constants are sums of two doubles until
+ * their last rounding: 15 roundings in all, those of dp_cell_of() among them.
+ */
+static void plan_cells(dp_batch *b) {
+    const dp_setup *s = &b->setup;
+    struct dp_batch_numbers *k = &b->numbers;
+    const double n = s->spec.znear;
+    const double f = s->spec.zfar;
+    const double middle = s->spec.rounding != DP_ROUND_ZERO ? 0.0 : s->reversed ? 0.5 : -0.5;
+    const double range = f - n;
+    const double range_rest = f - range - n;
+    const double product = n * k->steps;
+    const double product_rest = fma(n, k->steps, -product);
+    const double q = isinf(f) ? 0.0 : product / range;
+    const double q_rest = isinf(f) ? 0.0 : (fma(-q, range, product) + product_rest - q * range_rest) / range;
+    const double sum = q + middle;
+    k->rest = sum + (fabs(q) < 0.5 ? middle - sum + q : q - sum + middle) + q_rest;
+    k->width = fma(n, q, product) + (product_rest + n * q_rest);
+}
+
+static void plan_width(dp_batch *b) {
+    const dp_setup *s = &b->setup;
+    struct dp_batch_numbers *k = &b->numbers;
+    const int unorm = s->spec.format.kind == DP_FORMAT_UNORM;
+    const uint32_t first = s->code_near < s->code_far ? s->code_near : s->code_far;
+    const uint32_t last = s->code_near < s->code_far ? s->code_far : s->code_near;
+    k->first = (double)first;
+    k->last = (double)last;
+    k->first_width = dp_cell_of(s, first).width;
+    k->last_width = first < last ? dp_cell_of(s, last).width : k->first_width;
+    k->steps = (double)s->spec.format.code_max;
+    if (s->curve == DP_CURVE_LINEAR)
+        k->width = unorm ? 2.0 / k->den * s->kappa : s->kappa;
+    else if (unorm)
+        plan_cells(b);
+    else
+        k->width = k->top * (k->top * s->kappa);
+}
+
 static void plan_depth(dp_batch *b) {
     const dp_setup *s = &b->setup;
     struct dp_batch_numbers *k = &b->numbers;
@@ -90,28 +132,21 @@ static void plan_depth(dp_batch *b) {
         k->to_near = isinf(f) ? 1.0 : f;
         k->to_far = isinf(f) ? 0.0 : n;
     }
-    if (b->task != DP_TASK_WIDTH)
-        return;
-    const int truncated = s->spec.rounding == DP_ROUND_ZERO;
-    k->below = truncated ? 0.0 : -1.0;
-    k->above = truncated ? 2.0 : 1.0;
-    k->first = s->code_near < s->code_far ? s->code_near : s->code_far;
-    k->last = s->code_near < s->code_far ? s->code_far : s->code_near;
-    k->first_width = dp_cell_of(s, k->first).width;
-    k->last_width = dp_cell_of(s, k->last).width;
-    const double step = s->spec.format.kind == DP_FORMAT_UNORM ? 2.0 / k->den * s->kappa : s->kappa;
-    k->width = s->curve == DP_CURVE_LINEAR ? step : k->top * (k->top * step);
+    if (b->task == DP_TASK_WIDTH)
+        plan_width(b);
 }
 
 /* ---- Conditions of the direct kernels, each filling in its numbers ----------------------------------------------- */
 
 static int nearest_unorm(dp_batch *b) {
     const dp_format *f = &b->setup.spec.format;
-    if (f->bits < 2 || f->bits > 24 || b->setup.spec.rounding == DP_ROUND_ZERO)
-        return 0;
     b->numbers.unit = (float)f->code_max;
-    b->numbers.split = f->bits == 24 ? 0.5F : 1.0F;
-    return 1;
+    b->numbers.split = (float)dp_power2(f->bits);
+    return f->bits >= 2 && f->bits < 24 && b->setup.spec.rounding != DP_ROUND_ZERO;
+}
+
+static int nearest_unorm24(dp_batch *b) {
+    return b->setup.spec.format.bits == 24 && b->setup.spec.rounding != DP_ROUND_ZERO;
 }
 
 static float float_within(double z, int up) {
@@ -175,8 +210,8 @@ static int value_unorm(dp_batch *b) {
 }
 
 /*
- * z = l/(A s + B t) with A = l/(n M), B = l/(f M): each product, the sum and the quotient are rounded, and l is chosen
- * so that A and B are off by less than a sixteenth of u = 2^-24: 3.1 u in all.
+ * z = l/(G s + H), with s steps towards the near plane, G = l (1/n - 1/f)/M and H = l/f: the product, the sum and the
+ * quotient are rounded, and l is chosen so that G and H are off by less than a sixteenth of u = 2^-24: 3.1 u in all.
  */
 static int fast_eye(dp_batch *b) {
     const dp_spec *spec = &b->setup.spec;
@@ -184,18 +219,18 @@ static int fast_eye(dp_batch *b) {
     if (spec->format.bits > 24)
         return 0;
     const double top = (double)spec->format.code_max;
-    const double to_near = 1.0 / (spec->znear * top);
-    const double to_far = 1.0 / (spec->zfar * top);
-    for (int i = 0; i < 8192; i++) {
-        const double l = 1.0 + i * 0x1p-13;
-        const float a = (float)(l * to_near);
-        const float c = (float)(l * to_far);
-        if (fabs((double)a - l * to_near) <= 0x1p-28 * l * to_near &&
-            fabs((double)c - l * to_far) <= 0x1p-28 * l * to_far) {
+    const double span = isinf(spec->zfar) ? 1.0 : (spec->zfar - spec->znear) / spec->zfar;
+    const double slope = span / (spec->znear * top);
+    const double base = 1.0 / spec->zfar;
+    for (int i = 0; i < DP_BATCH_TOPS; i++) {
+        const double l = dp_batch_top(i);
+        const float a = (float)(l * slope);
+        const float c = (float)(l * base);
+        if (fabs((double)a - l * slope) <= 0x1p-28 * l * slope && fabs((double)c - l * base) <= 0x1p-28 * l * base) {
             k->unit = (float)top;
             k->eye_top = (float)l;
-            k->eye_near = a;
-            k->eye_far = c;
+            k->eye_slope = a;
+            k->eye_base = c;
             return 1;
         }
     }
@@ -228,6 +263,7 @@ static const direct_row direct_rows[] = {
     {DP_TASK_EYE, UNORM, PERSPECTIVE, DP_WORD_32, DP_KERNEL_FAST_EYE_32, fast_eye},
     {DP_TASK_ENCODE, UNORM, ANY, DP_WORD_16, DP_KERNEL_UNORM_OF_FLOAT_16, nearest_unorm},
     {DP_TASK_ENCODE, UNORM, ANY, DP_WORD_32, DP_KERNEL_UNORM_OF_FLOAT_32, nearest_unorm},
+    {DP_TASK_ENCODE, UNORM, ANY, DP_WORD_32, DP_KERNEL_UNORM24_OF_FLOAT, nearest_unorm24},
     {DP_TASK_DECODE, UNORM, ANY, DP_WORD_16, DP_KERNEL_FLOAT_OF_UNORM_16, value_unorm},
     {DP_TASK_DECODE, UNORM, ANY, DP_WORD_32, DP_KERNEL_FLOAT_OF_UNORM_32, value_unorm},
     {DP_TASK_ENCODE, FLOAT, ANY, DP_WORD_16, DP_KERNEL_HALF_OF_FLOAT, half_float},

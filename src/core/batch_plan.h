@@ -27,7 +27,7 @@
     X(WIDEN_REAL) X(NARROW_REAL) X(WIDEN_CODE) X(NARROW_CODE)                                                          \
     /* direct */                                                                                                       \
     X(STANDARD_16) X(STANDARD_32) X(REVERSED_16) X(REVERSED_32)                                                        \
-    X(UNORM_OF_FLOAT_16) X(UNORM_OF_FLOAT_32) X(FLOAT_OF_UNORM_16) X(FLOAT_OF_UNORM_32)                                \
+    X(UNORM_OF_FLOAT_16) X(UNORM_OF_FLOAT_32) X(UNORM24_OF_FLOAT) X(FLOAT_OF_UNORM_16) X(FLOAT_OF_UNORM_32)                                \
     X(HALF_OF_FLOAT) X(FLOAT_OF_HALF) X(BITS_OF_FLOAT) X(FLOAT_OF_BITS) X(FAST_EYE_16) X(FAST_EYE_32)
 /* clang-format on */
 
@@ -46,6 +46,13 @@ dp_batch_kernel *const *dp_batch_table(dp_path path);
 
 /* Fills in everything behind `out_size`. */
 void dp_batch_plan(dp_batch *batch);
+
+/* The numerators of FAST_EYE, which batch_avx512.c counts on. */
+enum { DP_BATCH_TOPS = 8192 };
+
+static inline double dp_batch_top(int i) {
+    return 1.0 + i * 0x1p-14;
+}
 
 static inline int dp_task_reads_code(dp_task task) {
     return task == DP_TASK_EYE || task == DP_TASK_WIDTH || task == DP_TASK_DECODE;
