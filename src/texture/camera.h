@@ -51,12 +51,12 @@ typedef struct texture_camera {
 /** @return null, or what is wrong: one sentence that names the field, what is allowed and what was given */
 const char *camera_init(texture_camera *camera, const dp_setup *setup, const camera_spec *spec);
 
-/** sx of column i and sy of row j: see above. The last bit may be off. */
+/** sx of column i and sy of row j: see above. Within 2 units of 2^-53 relative at whole columns and rows. */
 static inline double camera_slope_x(const texture_camera *c, double column) {
-    return ((2 * column + 1) / c->width - 1) * c->half[0];
+    return (2 * column + 1 - c->width) / c->width * c->half[0];
 }
 static inline double camera_slope_y(const texture_camera *c, double row) {
-    return (1 - (2 * row + 1) / c->height) * c->half[1];
+    return (c->height - 2 * row - 1) / c->height * c->half[1];
 }
 
 /** The view-space place of a pixel at eye depth z, in double: the reference of everything that is faster. */

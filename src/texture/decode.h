@@ -1,6 +1,9 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /**
  * @file decode.h  What shaders make of a stored depth: eye depth and its shares, a row each.
+ *
+ * Every row is a few operations in binary32, none fused, on constants that are formed in double and rounded once, as
+ * an engine uploads them. Near and far are n and f.
  */
 #ifndef TEXTURE_DECODE_H
 #define TEXTURE_DECODE_H
@@ -13,25 +16,42 @@
 /** What a decoding gives. */
 typedef enum decode_quantity {
     DECODE_EYE = 0, /**< eye depth z, scene units */
-    DECODE_01,      /**< z/f */
-    DECODE_01_NEAR, /**< (z - n)/(f - n) */
+    DECODE_01,      /**< z/f; 0 where f is infinite */
+    DECODE_01_NEAR, /**< (z - n)/(f - n); 0 where f is infinite */
     DECODE_QUANTITIES
 } decode_quantity;
 
-/** _ZBufferParams as an engine uploads it: formed in double, rounded once to binary32. */
+/** _ZBufferParams as an engine uploads it: formed in double, rounded once to binary32. With an infinite far plane the
+ *  standard x and y are infinite, and z and w have their limits. */
 typedef struct zbuffer_params {
     float x, y, z, w;
 } zbuffer_params;
 zbuffer_params zbuffer_params_of(const dp_setup *setup);
 
+/** The shape of a row's formula, with q = from + sign d and x = scale q + base. */
+typedef enum decode_form {
+    DECODE_RECIPROCAL = 0, /**< 1/x */
+    DECODE_AFFINE,         /**< x */
+    DECODE_QUOTIENT,       /**< q/(scale d + base) */
+    DECODE_EXP2,           /**< (2^(scale q) - 1)/base */
+    DECODE_EXPM1           /**< (e^(scale q) - 1)/base, the difference formed at once */
+} decode_form;
+
+typedef struct decode_constants {
+    decode_form form;
+    float from, sign; /**< 0 and 1: q is d itself; 1 and -1: its complement */
+    float scale, base;
+} decode_constants;
+
 typedef struct decode_row {
-    const char *name; /**< "linear-eye", "linear-01", "linear-01-near", "ortho-eye", "complement" */
+    const char *name; /**< "linear-eye", "linear-01", "linear-01-near", "ortho-eye", "w-eye", "log-eye", "complement" */
     const char *note; /**< the formula */
     decode_quantity quantity;
-    bool perspective, ortho; /**< for which projections */
+    bool perspective, ortho, w, log; /**< for which curves: W-buffer, logarithmic */
     bool far_infinite;
     const char *source;
-    /** In binary32, as a shader does, `count` window depths. In place is allowed. */
+    decode_constants (*constants)(const dp_setup *setup);
+    /** decode_apply() with the row's constants. */
     void (*run)(const dp_setup *setup, const float *d, float *out, size_t count);
 } decode_row;
 
@@ -41,7 +61,40 @@ const decode_row *decode_find(const char *name);
 /** Does the row apply to the set-up's curve, projection and far plane? */
 bool decode_applies(const decode_row *row, const dp_setup *setup);
 
-/** The same quantity exactly, rounded to double: the reference. `d` is taken as it is. */
+/** The row that engines use for the eye depth of a set-up, and the one that cancels nothing ("complement"). Never null.
+ */
+const decode_row *decode_usual(const dp_setup *setup);
+const decode_row *decode_best(void);
+
+/** `count` window depths in binary32, as a shader would; in place is allowed. NaN stays NaN. Vectorized, but for the
+ *  exponentials. */
+void decode_apply(const decode_constants *c, const float *d, float *out, size_t count);
+
+/**
+ * The quantity exactly, rounded to double: the reference. `d`, in [0, 1], is taken as it is, and so are the planes.
+ *
+ * Bound: 2^-50 relative. 1 - d is carried as an unevaluated sum of two doubles, so nothing cancels at either end.
+ * Special cases: INFINITY for the eye depth at an infinite far plane.
+ */
 double decode_exact(const dp_setup *setup, decode_quantity quantity, double d);
+
+/**
+ * A bound on the relative error of the row at window depth d, a binary32 number: INFINITY where it has no digit left.
+ *
+ * Derivation: each rounding counts one unit of 2^-24 in the term that it rounds; the terms of a sum are taken with
+ * their magnitudes, so a sum that cancels shows. See depthprec(7). exp2f and expm1f are taken to be good to one unit in
+ * the last place.
+ */
+double decode_bound(const decode_row *row, const dp_setup *setup, double d);
+
+/** Replaces by NaN the depths within `threshold` (at most 1) of the far plane's, and counts them. NaN stays, not
+ *  counted. @return how many were replaced */
+size_t recon_mask_sky(const dp_setup *setup, double threshold, float *d, size_t count);
+
+/**
+ * The eye depth from which on such a threshold takes real geometry for sky: with TEXTURE_SKY, near 0.1 and far 1000
+ * already 500, half of the view; whichever way the depth runs.
+ */
+double recon_sky_from(const dp_setup *setup, double threshold);
 
 #endif

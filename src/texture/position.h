@@ -1,6 +1,9 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /**
  * @file position.h  Ways from a window depth to a place, a row each, in binary32 as shaders do it.
+ *
+ * What engines do is modelled operation by operation, none fused, on constants formed in double and rounded once.
+ * u and v run from the left and the top edge here: (i + 1/2) and (j + 1/2) times the rounded 1/width and 1/height.
  */
 #ifndef TEXTURE_POSITION_H
 #define TEXTURE_POSITION_H
@@ -10,38 +13,80 @@
 #include <stdint.h>
 
 #include "texture/camera.h"
+#include "texture/decode.h"
 
-/** Constants that an engine would upload, prepared once for a camera. Each row uses what it needs. */
+/** Constants that an engine would upload, prepared once for a camera. Each row uses what it needs. World axes; the
+ *  vectors start at the camera, only `inverse` knows where it stands. */
 typedef struct position_state {
-    const texture_camera *camera;
-    float inverse[16];  /**< inverse view-projection, row-major */
-    float corner[4][3]; /**< camera rays through the corners of the image: see position.c */
-    float top_left[3], x_extent[3], y_extent[3], z_extent[3];
+    const texture_camera *camera; /**< must live as long */
+    decode_constants usual, best; /**< eye depth as engines get it, and without cancellation: see decode.h */
+    float inverse[16];            /**< inverse view-projection, row-major; NaN when singular */
+    float ndc_scale, ndc_base;    /**< NDC depth = ndc_scale d + ndc_base */
+    float corner[4][3];           /**< rays to the near plane's corners: bottom left, bottom right, top left, right */
+    float top_left[3], x_extent[3], y_extent[3]; /**< near plane; orthographic: at eye depth 0 */
+    float z_extent[3];                           /**< orthographic: forward times far */
     float origin[3];
-    float ray[3][3];       /**< plain: world ray = ray[0] u + ray[1] v + ray[2], times z */
-    float z_scale, z_base; /**< eye depth, see decode.h */
+    float step[3], forward[3];                   /**< world ray (orthographic: offset) from a column to the next */
+    float inverse_width, inverse_height, middle; /**< middle: the column between the image's halves */
+    float znear, inverse_near, inverse_far;
 } position_state;
 
 typedef struct position_row {
     const char *name; /**< "matrix", "rays", "extents", "extents-half", "view" */
     const char *note;
-    bool ortho; /**< has an orthographic form */
+    bool perspective, ortho; /**< has such a form */
+    bool curved;             /**< needs no projection matrix: takes linear and logarithmic depth, too */
     const char *source;
-    /** Places of `count` pixels of a row from `column` on: three planes, world coordinates. */
+    /** Places of `count` pixels of a row from `column` on: three planes, world coordinates. The planes do not overlap
+     *  each other or d. NaN depths give NaN. */
     void (*run)(const position_state *s, uint32_t row, uint32_t column, const float *d, size_t count, float *x,
                 float *y, float *z);
+    /** See position_bound(); in units of 2^-24. */
+    double (*bound)(const texture_camera *camera, uint32_t row, uint32_t column, double d);
 } position_row;
 
-const position_row *position_get(size_t index);
+const position_row *position_get(size_t index); /**< null beyond the last */
 const position_row *position_find(const char *name);
 
-/** @return false when the far plane or mapping has no such form */
-bool position_prepare(position_state *s, const texture_camera *camera);
+/** Does the row have a form for the camera's projection and mapping? */
+bool position_applies(const position_row *row, const texture_camera *camera);
 
-/** The place exactly (double arithmetic on the exact eye depth), and relative to the camera. */
-void position_exact(const texture_camera *camera, uint32_t row, uint32_t column, double d, double world[3]);
+void position_prepare(position_state *s, const texture_camera *camera);
 
-/** Condition number (2-norm, by SVD) of the view-projection matrix; INFINITY when singular to double precision. */
+/** Distances from the camera, by "view"'s eye depth and the length of each pixel's ray; orthographic: eye depth.
+ *  Within 9 units of 2^-24 (and what a logarithm loses). In place is allowed. */
+void position_distance(const position_state *s, uint32_t row, uint32_t column, const float *d, size_t count,
+                       float *out);
+
+/**
+ * The place exactly: from the camera along the world's axes, and in the world. Either may be null.
+ *
+ * Bound: 1e-14 of the distance from the camera; in the world one rounding to double more.
+ */
+void position_exact(const texture_camera *camera, uint32_t row, uint32_t column, double d, double relative[3],
+                    double world[3]);
+
+/** How far from the exact place (position_exact()) a world place lies, scene units; no digits are lost however far the
+ *  camera is from the origin. */
+double position_off(const texture_camera *camera, const double relative[3], const float world[3]);
+
+/** How far a row is off at one pixel, scene units; INFINITY when it gives no number. `d` is what the texture holds. */
+double position_error(const position_row *row, const position_state *s, uint32_t i, uint32_t j, float d);
+
+/**
+ * A bound on position_error(), scene units; INFINITY where nothing can be promised. Derived in depthprec(7): each
+ * rounding counts one unit of 2^-24 of the term that it rounds.
+ */
+double position_bound(const position_row *row, const texture_camera *camera, uint32_t i, uint32_t j, float d);
+
+/** Condition number (2-norm, by SVD) of the view-projection matrix; INFINITY when singular to double precision, NaN
+ *  where the mapping has no matrix. */
 double position_condition(const texture_camera *camera);
+
+/** The view-projection matrix in double, row-major, before an engine rounds it; meaningless where there is none. */
+void position_matrix(const texture_camera *camera, double m[16]);
+
+/** Its inverse, term by term, not by elimination. */
+void position_inverse(const texture_camera *camera, double m[16]);
 
 #endif

@@ -1,0 +1,271 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "texture/decode.h"
+
+#include <math.h>
+#include <string.h>
+
+#include "core/logarithm.h"
+#include "texture/clones.h"
+
+static bool is_reversed(const dp_setup *setup) {
+    return setup->reversed != 0;
+}
+
+/* ---- Constants --------------------------------------------------------------------------------------------------- */
+
+/* f/n - 1 and (f/n - 1)/f, without the cancellation of 1/n - 1/f. */
+static double excess(const dp_setup *setup) {
+    return (setup->spec.zfar - setup->spec.znear) / setup->spec.znear;
+}
+static double excess_by_far(const dp_setup *setup) {
+    return isinf(setup->spec.zfar) ? 1 / setup->spec.znear : excess(setup) / setup->spec.zfar;
+}
+
+zbuffer_params zbuffer_params_of(const dp_setup *setup) {
+    const double n = setup->spec.znear, f = setup->spec.zfar;
+    if (is_reversed(setup))
+        return (zbuffer_params){(float)excess(setup), 1.0f, (float)excess_by_far(setup), (float)(1 / f)};
+    return (zbuffer_params){(float)-excess(setup), (float)(f / n), (float)-excess_by_far(setup), (float)(1 / n)};
+}
+
+static decode_constants linear_eye(const dp_setup *setup) {
+    const zbuffer_params p = zbuffer_params_of(setup);
+    return (decode_constants){DECODE_RECIPROCAL, 0, 1, p.z, p.w};
+}
+
+static decode_constants linear_01(const dp_setup *setup) {
+    const zbuffer_params p = zbuffer_params_of(setup);
+    return (decode_constants){DECODE_RECIPROCAL, 0, 1, p.x, p.y};
+}
+
+static decode_constants linear_01_near(const dp_setup *setup) {
+    const zbuffer_params p = zbuffer_params_of(setup);
+    const bool r = is_reversed(setup);
+    return (decode_constants){DECODE_QUOTIENT, r ? 1.0f : 0.0f, r ? -1.0f : 1.0f, p.x, p.y};
+}
+
+static decode_constants ortho_eye(const dp_setup *setup) {
+    const double n = setup->spec.znear, f = setup->spec.zfar;
+    const bool r = is_reversed(setup);
+    return (decode_constants){DECODE_AFFINE, 0, 1, (float)(r ? n - f : f - n), (float)(r ? f : n)};
+}
+
+static decode_constants w_eye(const dp_setup *setup) {
+    return (decode_constants){DECODE_AFFINE, 0, 1, (float)setup->spec.zfar, 0};
+}
+
+static decode_constants log_eye(const dp_setup *setup) {
+    const double c = setup->spec.log_c;
+    return (decode_constants){DECODE_EXP2, 0, 1, (float)(log1p(c * setup->spec.zfar) / M_LN2), (float)c};
+}
+
+/* All terms positive: q is the share of the way from the far plane, 1 - d or d itself. */
+static decode_constants complement(const dp_setup *setup) {
+    const double n = setup->spec.znear, f = setup->spec.zfar, c = setup->spec.log_c;
+    const bool r = is_reversed(setup);
+    if (setup->curve == DP_CURVE_LOG)
+        return (decode_constants){DECODE_EXPM1, 0, 1, (float)log1p(c * f), (float)c};
+    if (setup->curve == DP_CURVE_PERSPECTIVE)
+        return (decode_constants){DECODE_RECIPROCAL, r ? 0.0f : 1.0f, r ? 1.0f : -1.0f, (float)excess_by_far(setup),
+                                  (float)(1 / f)};
+    if (!setup->spec.ortho)
+        return w_eye(setup);
+    return (decode_constants){DECODE_AFFINE, r ? 1.0f : 0.0f, r ? -1.0f : 1.0f, (float)(f - n), (float)n};
+}
+
+/* ---- Rows -------------------------------------------------------------------------------------------------------- */
+
+/* clang-format off */
+#define RUN(name) \
+    static void name##_run(const dp_setup *setup, const float *d, float *out, size_t count) { \
+        const decode_constants c = name(setup); \
+        decode_apply(&c, d, out, count); \
+    }
+RUN(linear_eye) RUN(linear_01) RUN(linear_01_near) RUN(ortho_eye) RUN(w_eye) RUN(log_eye) RUN(complement)
+
+static const char unity[] = "UnityCG.cginc and the Core package's Common.hlsl, _ZBufferParams";
+/* The first eye depth that applies to a set-up is the usual one of engines. */
+static const decode_row rows[] = {
+    {.name = "linear-eye", .note = "LinearEyeDepth: 1/(Z d + W)", .quantity = DECODE_EYE,
+     .perspective = true, .far_infinite = true, .source = unity, .constants = linear_eye, .run = linear_eye_run},
+    {.name = "linear-01", .note = "Linear01Depth: 1/(X d + Y), eye depth over far", .quantity = DECODE_01,
+     .perspective = true, .source = unity, .constants = linear_01, .run = linear_01_run},
+    {.name = "linear-01-near",
+     .note = "Linear01DepthFromNear: d/(X d + Y), reversed (1 - d)/(X d + Y); 0 at near, 1 at far",
+     .quantity = DECODE_01_NEAR, .perspective = true, .source = unity,
+     .constants = linear_01_near, .run = linear_01_near_run},
+    {.name = "ortho-eye", .note = "orthographic LinearDepthToEyeDepth: n + (f - n) d, reversed f - (f - n) d",
+     .quantity = DECODE_EYE, .ortho = true, .source = "the Core package's Common.hlsl",
+     .constants = ortho_eye, .run = ortho_eye_run},
+    {.name = "w-eye", .note = "linear depth times far: f d", .quantity = DECODE_EYE, .w = true,
+     .source = "depthprec(7)", .constants = w_eye, .run = w_eye_run},
+    {.name = "log-eye", .note = "logarithmic: ((C f + 1)^d - 1)/C by exp2", .quantity = DECODE_EYE, .log = true,
+     .source = "Kemen, Logarithmic depth buffer, 2009 (Outerra)", .constants = log_eye, .run = log_eye_run},
+    {.name = "complement",
+     .note = "no cancellation: 1/((1/n - 1/f) q + 1/f), q = 1 - d, reversed d; orthographic n + (f - n)(1 - q); "
+             "f d; expm1(d log(C f + 1))/C",
+     .quantity = DECODE_EYE, .perspective = true, .ortho = true, .w = true, .log = true, .far_infinite = true,
+     .source = "depthprec(7)", .constants = complement, .run = complement_run},
+};
+/* clang-format on */
+
+enum { ROWS = sizeof rows / sizeof rows[0] };
+
+const decode_row *decode_get(size_t index) {
+    return index < ROWS ? &rows[index] : NULL;
+}
+
+const decode_row *decode_find(const char *name) {
+    for (size_t i = 0; i < ROWS; i++)
+        if (strcmp(rows[i].name, name) == 0)
+            return &rows[i];
+    return NULL;
+}
+
+bool decode_applies(const decode_row *row, const dp_setup *setup) {
+    const bool curve = setup->spec.ortho                      ? row->ortho
+                       : setup->curve == DP_CURVE_PERSPECTIVE ? row->perspective
+                       : setup->curve == DP_CURVE_LINEAR      ? row->w
+                                                              : row->log;
+    return curve && (row->far_infinite || !isinf(setup->spec.zfar));
+}
+
+const decode_row *decode_usual(const dp_setup *setup) {
+    const decode_row *row = rows;
+    while (row->quantity != DECODE_EYE || !decode_applies(row, setup)) /* the last applies to all */
+        row++;
+    return row;
+}
+
+const decode_row *decode_best(void) {
+    return &rows[ROWS - 1];
+}
+
+/* ---- Loops: "in place" means the same element, so no iteration waits for another --------------------------------- */
+
+TEXTURE_CLONES static void reciprocal_loop(const decode_constants c, const float *d, float *out, size_t count) {
+#pragma omp simd
+    for (size_t i = 0; i < count; i++)
+        out[i] = 1.0f / (c.scale * (c.from + c.sign * d[i]) + c.base);
+}
+
+TEXTURE_CLONES static void affine_loop(const decode_constants c, const float *d, float *out, size_t count) {
+#pragma omp simd
+    for (size_t i = 0; i < count; i++)
+        out[i] = c.scale * (c.from + c.sign * d[i]) + c.base;
+}
+
+TEXTURE_CLONES static void quotient_loop(const decode_constants c, const float *d, float *out, size_t count) {
+#pragma omp simd
+    for (size_t i = 0; i < count; i++)
+        out[i] = (c.from + c.sign * d[i]) / (c.scale * d[i] + c.base);
+}
+
+static void exp2_loop(const decode_constants c, const float *d, float *out, size_t count) {
+    for (size_t i = 0; i < count; i++)
+        out[i] = (exp2f(c.scale * (c.from + c.sign * d[i])) - 1.0f) / c.base;
+}
+
+static void expm1_loop(const decode_constants c, const float *d, float *out, size_t count) {
+    for (size_t i = 0; i < count; i++)
+        out[i] = expm1f(c.scale * (c.from + c.sign * d[i])) / c.base;
+}
+
+void decode_apply(const decode_constants *c, const float *d, float *out, size_t count) {
+    static void (*const loops[])(decode_constants, const float *, float *, size_t) = {
+        [DECODE_RECIPROCAL] = reciprocal_loop, [DECODE_AFFINE] = affine_loop,
+        [DECODE_QUOTIENT] = quotient_loop,     [DECODE_EXP2] = exp2_loop,
+        [DECODE_EXPM1] = expm1_loop,
+    };
+    loops[c->form](*c, d, out, count);
+}
+
+/* ---- Exactly ----------------------------------------------------------------------------------------------------- */
+
+/* (C f + 1)^d - 1: the exponent needs more digits than a double has, because its error is multiplied by itself. */
+static double exact_power(const dp_setup *setup, double d) {
+    const double hi = d * setup->log_hi, lo = fma(d, setup->log_hi, -hi) + d * setup->log_lo, power = expm1(hi);
+    return power + lo * (power + 1);
+}
+
+double decode_exact(const dp_setup *setup, decode_quantity quantity, double d) {
+    const double n = setup->spec.znear, f = setup->spec.zfar;
+    const double rest = 1 - d, lost = (1 - rest) - d; /* 1 - d = rest + lost, for d in [0, 1] */
+    const bool r = is_reversed(setup), infinite = isinf(f);
+    /* the shares of the near and of the far end: 1/z = near/n + far/f */
+    const double near_hi = r ? d : rest, near_lo = r ? 0 : lost, far_hi = r ? rest : d, far_lo = r ? lost : 0;
+    if (infinite && quantity != DECODE_EYE)
+        return 0;
+    if (setup->curve == DP_CURVE_LOG) {
+        const double c = setup->spec.log_c;
+        if (quantity != DECODE_01_NEAR)
+            return exact_power(setup, d) / c / (quantity == DECODE_01 ? f : 1);
+        const dp_pair top = {setup->log_hi, setup->log_lo};
+        return (n + 1 / c) * expm1(dp_scaled_difference(d, 1, top, dp_log1p_product(c, n))) / (f - n);
+    }
+    if (setup->curve == DP_CURVE_LINEAR && !setup->spec.ortho)
+        return quantity == DECODE_EYE ? f * d : quantity == DECODE_01 ? d : fma(f, d, -n) / (f - n);
+    if (setup->curve == DP_CURVE_LINEAR) {
+        const double z = n * near_hi + f * far_hi + (n * near_lo + f * far_lo);
+        return quantity == DECODE_EYE ? z : quantity == DECODE_01 ? z / f : far_hi + far_lo;
+    }
+    const double below = infinite ? near_hi + near_lo : f * near_hi + n * far_hi + (f * near_lo + n * far_lo);
+    const double above = quantity == DECODE_EYE ? (infinite ? n : n * f) : quantity == DECODE_01 ? n : n * far_hi;
+    return above / below;
+}
+
+/* ---- Bound ------------------------------------------------------------------------------------------------------- */
+
+static const double UNIT = 0x1p-24; /* one rounding to binary32, relative */
+
+double decode_bound(const decode_row *row, const dp_setup *setup, double d) {
+    const decode_constants c = row->constants(setup);
+    const double exact = decode_exact(setup, row->quantity, d);
+    const bool turned = c.from != 0;
+    const double q = turned ? 1 - d : d, q_off = turned && d < 0.5 ? 1 : 0; /* 1 - d is exact from 1/2 on */
+    /* scale and product are rounded once each, base once; then the sum */
+    const double big =
+        (2 + (c.form == DECODE_QUOTIENT ? 0 : q_off)) * (double)fabsf(c.scale) * (c.form == DECODE_QUOTIENT ? d : q) +
+        (double)fabsf(c.base);
+    double off;
+    if (exact == 0 || isinf(exact))
+        return 0; /* a product with 0, or a quotient by 0 */
+    if (c.form == DECODE_RECIPROCAL)
+        off = big * exact + 2;
+    else if (c.form == DECODE_AFFINE)
+        off = big / exact + 1;
+    else if (c.form == DECODE_QUOTIENT)
+        off = big * exact / q + 2 + q_off;
+    else {
+        const double away = setup->spec.log_c * exact, t = log1p(away), steep = (away + 1) / away;
+        off = c.form == DECODE_EXP2 ? (2 * t + 2) * steep + 3 : 2 * t * steep + 4;
+    }
+    off *= UNIT * (1 + 0x1p-20); /* the constants are rounded, too, and so is this */
+    return off < 0.5 ? off / (1 - off) : (double)INFINITY;
+}
+
+/* ---- Sky --------------------------------------------------------------------------------------------------------- */
+
+TEXTURE_CLONES size_t recon_mask_sky(const dp_setup *setup, double threshold, float *d, size_t count) {
+    const float far_value = setup->reversed ? 0.0f : 1.0f, within = (float)threshold, none = (float)NAN;
+    size_t masked = 0;
+    while (count > 0) { /* counts that fit the width of a depth */
+        const size_t block = count < 1u << 20 ? count : 1u << 20;
+        int found = 0;
+#pragma omp simd reduction(+ : found)
+        for (size_t i = 0; i < block; i++) {
+            const int sky = fabsf(far_value - d[i]) <= within;
+            d[i] = sky ? none : d[i];
+            found += sky;
+        }
+        masked += (size_t)found;
+        d += block;
+        count -= block;
+    }
+    return masked;
+}
+
+double recon_sky_from(const dp_setup *setup, double threshold) {
+    const double within = (double)(float)threshold;
+    return decode_exact(setup, DECODE_EYE, setup->reversed ? within : 1 - within);
+}
