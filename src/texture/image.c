@@ -1,0 +1,209 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "texture/image.h"
+
+#include <errno.h>
+#include <stdlib.h>
+#include <string.h>
+#include <strings.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include "texture/camera.h"
+#include "texture/image_kind.h"
+
+enum { HEAD_SIZE = 8 };
+
+static const struct {
+    const char *name;
+    size_t size;
+} types[IMAGE_TYPE_COUNT] = {
+    [IMAGE_U8] = {"u1", 1},  [IMAGE_U16] = {"u2", 2}, [IMAGE_U32] = {"u4", 4},
+    [IMAGE_F16] = {"f2", 2}, [IMAGE_F32] = {"f4", 4}, [IMAGE_F64] = {"f8", 8},
+};
+
+static const image_kind *const kinds[IMAGE_FILE_COUNT] = {
+    [IMAGE_PNG] = &image_kind_png, [IMAGE_PFM] = &image_kind_pfm, [IMAGE_NPY] = &image_kind_npy};
+
+/* Files that people have instead, so that they are told what to do and not only what is wrong. */
+static const struct {
+    const char *magic;
+    size_t size;
+    const char *what;
+} others[] = {
+    {"PK\3\4", 4, "a zip archive: of an .npz, unpack the .npy"},
+    {"\x76\x2f\x31\x01", 4, "OpenEXR: convert its depth channel to PFM"},
+    {"II*\0", 4, "TIFF: convert it to PFM, or to PNG of 16 bits"},
+    {"MM\0*", 4, "TIFF: convert it to PFM, or to PNG of 16 bits"},
+    {"\xff\xd8\xff", 3, "JPEG, which keeps no depths: save PNG of 16 bits, PFM or .npy"},
+    {"P5", 2, "PGM: convert it to PNG of 16 bits"},
+    {"P6", 2, "PPM: convert it to PNG of 16 bits"},
+    {"DDS ", 4, "DDS: save its pixels as .npy"},
+    {"\xabKTX", 4, "KTX: save its pixels as .npy"},
+    {"#?RADIANCE", 8, "Radiance HDR: convert it to PFM"},
+};
+
+const char *image_type_name(image_type type) {
+    return (unsigned)type < IMAGE_TYPE_COUNT ? types[type].name : NULL;
+}
+
+size_t image_type_size(image_type type) {
+    return (unsigned)type < IMAGE_TYPE_COUNT ? types[type].size : 0;
+}
+
+const char *image_file_name(image_file file) {
+    return (unsigned)file < IMAGE_FILE_COUNT ? kinds[file]->name : NULL;
+}
+
+bool image_file_of(const char *path, image_file *out) {
+    const size_t length = strlen(path);
+    for (int i = 0; i < IMAGE_FILE_COUNT; i++) {
+        const size_t size = strlen(kinds[i]->ending);
+        if (length > size && strcasecmp(path + length - size, kinds[i]->ending) == 0) {
+            *out = (image_file)i;
+            return true;
+        }
+    }
+    return false;
+}
+
+/* ---- Reading ----------------------------------------------------------------------------------------------------- */
+
+static bool begins(const unsigned char *head, size_t size, const char *magic, size_t magic_size) {
+    return magic != NULL && size >= magic_size && memcmp(head, magic, magic_size) == 0;
+}
+
+static bool unknown(image_source *source, const unsigned char *head, size_t size) {
+    for (size_t i = 0; i < sizeof others / sizeof others[0]; i++)
+        if (begins(head, size, others[i].magic, others[i].size))
+            return source_fail(source, "neither PNG, PFM nor .npy, but %s", others[i].what);
+    return source_fail(source, size == 0 ? "is empty" : "neither PNG, PFM nor .npy by its first bytes");
+}
+
+/* The first bytes are looked at and left to the reader of the kind. */
+static bool read_source(image_source *source, image *out) {
+    const unsigned char *head = source->ready;
+    const size_t size = source->ready_size < HEAD_SIZE ? source->ready_size : HEAD_SIZE;
+    for (int i = 0; i < IMAGE_FILE_COUNT; i++) {
+        const image_kind *kind = kinds[i];
+        if (!begins(head, size, kind->magic[0], kind->magic_size) &&
+            !begins(head, size, kind->magic[1], kind->magic_size))
+            continue;
+        image read = {.file = (image_file)i};
+        if (!kind->read(source, &read)) {
+            free(read.data);
+            return false;
+        }
+        *out = read;
+        return true;
+    }
+    return unknown(source, head, size);
+}
+
+bool image_parse(const void *bytes, size_t size, image *out, image_error *error) {
+    image_source source = {.ready = bytes, .ready_size = size, .sized = true, .left = size, .error = error};
+    return read_source(&source, out);
+}
+
+static bool unreadable(image_source *source, int number) {
+    source_fail(source, "cannot read: %s", strerror(number));
+    source->error->unreadable = true;
+    return false;
+}
+
+/* How much a regular file still holds; a pipe does not say. */
+static bool measure(image_source *source) {
+    struct stat status;
+    const int file = fileno(source->stream);
+    if (fstat(file, &status) != 0)
+        return unreadable(source, errno);
+    if (S_ISDIR(status.st_mode))
+        return unreadable(source, EISDIR);
+    const off_t at = lseek(file, 0, SEEK_CUR);
+    if (S_ISREG(status.st_mode) && at >= 0 && status.st_size >= at) {
+        source->sized = true;
+        source->left = (uint64_t)(status.st_size - at);
+    }
+    return true;
+}
+
+bool image_read(const char *path, image *out, image_error *error) {
+    const bool from_stdin = strcmp(path, "-") == 0;
+    FILE *stream = from_stdin ? stdin : fopen(path, "rb");
+    image_source source = {.stream = stream, .error = error};
+    if (stream == NULL)
+        return unreadable(&source, errno);
+    unsigned char head[HEAD_SIZE];
+    bool good = measure(&source);
+    if (good) {
+        errno = 0;
+        source.ready = head;
+        source.ready_size = fread(head, 1, sizeof head, stream);
+        good = ferror(stream) ? unreadable(&source, errno) : read_source(&source, out);
+    }
+    if (!from_stdin)
+        fclose(stream);
+    return good;
+}
+
+void image_free(image *img) {
+    free(img->data);
+    img->data = NULL;
+}
+
+/* ---- Writing ----------------------------------------------------------------------------------------------------- */
+
+bool image_holds(image_file file, image_type type, uint32_t channels) {
+    return (unsigned)file < IMAGE_FILE_COUNT && (unsigned)type < IMAGE_TYPE_COUNT && channels >= 1 &&
+           channels <= IMAGE_CHANNELS_MAX && (kinds[file]->types >> type & 1U) != 0 &&
+           (kinds[file]->channels >> channels & 1U) != 0;
+}
+
+image_writer *image_writer_open(FILE *stream, image_file file, image_type type, uint32_t width, uint32_t height,
+                                uint32_t channels) {
+    if (!image_holds(file, type, channels) || width < 1 || height < 1 || width > TEXTURE_SIDE_MAX ||
+        height > TEXTURE_SIDE_MAX || (uint64_t)width * height > TEXTURE_PIXELS_MAX)
+        return NULL;
+    image_writer *writer = malloc(sizeof *writer);
+    if (writer == NULL)
+        return NULL;
+    *writer = (image_writer){.stream = stream,
+                             .kind = kinds[file],
+                             .type = type,
+                             .width = width,
+                             .height = height,
+                             .channels = channels,
+                             .row_size = (size_t)width * channels * image_type_size(type),
+                             .rows_left = height};
+    if (writer->kind->begin(writer))
+        return writer;
+    writer->failed = true;
+    image_writer_close(writer);
+    return NULL;
+}
+
+bool image_writer_bottom_up(const image_writer *writer) {
+    return writer->kind->bottom_up;
+}
+
+bool image_rows_plain(image_writer *writer, const void *rows, uint32_t count) {
+    return fwrite(rows, writer->row_size, count, writer->stream) == count;
+}
+
+bool image_writer_rows(image_writer *writer, const void *rows, uint32_t count) {
+    if (writer->failed || count > writer->rows_left || !writer->kind->rows(writer, rows, count)) {
+        writer->failed = true;
+        return false;
+    }
+    writer->rows_left -= count;
+    return true;
+}
+
+bool image_writer_close(image_writer *writer) {
+    if (writer->rows_left > 0)
+        writer->failed = true;
+    if (writer->kind->end != NULL && !writer->kind->end(writer))
+        writer->failed = true;
+    const bool good = !writer->failed;
+    free(writer);
+    return good;
+}

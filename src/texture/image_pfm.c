@@ -1,0 +1,109 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/*
+ * PFM: "Pf" (one channel) or "PF" (three), width, height and scale as words, one blank, and binary32 samples, the
+ * bottom row first. The sign of the scale says which byte comes first. Its magnitude is 1 here and nothing else,
+ * because some programs multiply the samples by it and others do not.
+ * Source: Paul Debevec's description of the format, http://www.pauldebevec.com/Research/HDR/PFM/
+ */
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "texture/image_kind.h"
+
+enum { WORD_SIZE = 32 };
+
+static bool is_blank(char c) {
+    return c == ' ' || c == '\t' || c == '\n' || c == '\r';
+}
+
+/* A word and the one blank behind it; blanks before it are skipped. */
+static bool word(image_source *source, const char *what, char out[WORD_SIZE]) {
+    size_t length = 0;
+    char c;
+    do {
+        if (!source_header(source, &c, 1))
+            return false;
+    } while (is_blank(c));
+    while (!is_blank(c)) {
+        if (length + 1 >= WORD_SIZE || c < 0x21 || c > 0x7e)
+            return source_fail(source, "PFM: its %s must be a number", what);
+        out[length++] = c;
+        if (!source_header(source, &c, 1))
+            return false;
+    }
+    out[length] = '\0';
+    return true;
+}
+
+static bool side(image_source *source, const char *what, uint64_t *out) {
+    char text[WORD_SIZE];
+    if (!word(source, what, text))
+        return false;
+    const size_t length = strlen(text);
+    if (strspn(text, "0123456789") != length || length > 18)
+        return source_fail(source, "PFM: its %s must be a whole number, got '%s'", what, text);
+    *out = strtoull(text, NULL, 10);
+    return true;
+}
+
+static bool read_scale(image_source *source, bool *little) {
+    char text[WORD_SIZE], *end;
+    if (!word(source, "scale", text))
+        return false;
+    const double scale = strtod(text, &end);
+    *little = scale < 0;
+    if (*end == '\0' && fabs(scale) == 1)
+        return true;
+    return source_fail(source,
+                       "PFM: its scale must be 1 or -1, got '%s': programs disagree on whether it multiplies the "
+                       "samples; write 1 or -1 there once they are what they should be",
+                       text);
+}
+
+/* Rows come from the bottom. */
+static void flip(image *img) {
+    const size_t words = (size_t)img->width * img->channels;
+    uint32_t *low = img->data, *high = low + words * (img->height - 1);
+    for (; low < high; low += words, high -= words)
+        for (size_t i = 0; i < words; i++) {
+            const uint32_t other = low[i];
+            low[i] = high[i];
+            high[i] = other;
+        }
+}
+
+static bool read_pfm(image_source *source, image *out) {
+    char magic[2], blank;
+    uint64_t width = 0, height = 0;
+    bool little = true;
+    if (!source_header(source, magic, sizeof magic) || !source_header(source, &blank, 1))
+        return false;
+    if (!is_blank(blank))
+        return source_fail(source, "PFM: a blank must follow '%.2s'", magic);
+    if (!side(source, "width", &width) || !side(source, "height", &height) || !read_scale(source, &little) ||
+        !source_shape(source, out, width, height, magic[1] == 'F' ? 3 : 1, IMAGE_F32) || !source_samples(source, out))
+        return false;
+    if (little != image_little())
+        image_swap(out->data, sizeof(float), (size_t)out->width * out->height * out->channels);
+    flip(out);
+    return true;
+}
+
+static bool begin_pfm(image_writer *w) {
+    return fprintf(w->stream, "%s\n%u %u\n%s\n", w->channels == 3 ? "PF" : "Pf", w->width, w->height,
+                   image_little() ? "-1.0" : "1.0") > 0;
+}
+
+const image_kind image_kind_pfm = {
+    .name = "PFM",
+    .ending = ".pfm",
+    .magic = {"Pf", "PF"},
+    .magic_size = 2,
+    .types = 1U << IMAGE_F32,
+    .channels = 1U << 1 | 1U << 3,
+    .bottom_up = true,
+    .read = read_pfm,
+    .begin = begin_pfm,
+    .rows = image_rows_plain,
+};

@@ -1,0 +1,135 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Bytes that are not trusted: what a file claims is compared with what is there before memory is asked for. */
+#include <errno.h>
+#include <stdarg.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "texture/camera.h"
+#include "texture/image_kind.h"
+
+bool source_fail(image_source *source, const char *format, ...) {
+    va_list arguments;
+    va_start(arguments, format);
+    vsnprintf(source->error->text, sizeof source->error->text, format, arguments);
+    va_end(arguments);
+    source->error->unreadable = false;
+    for (char *c = source->error->text; *c != '\0'; c++)
+        if ((unsigned char)*c < 0x20 || (unsigned char)*c >= 0x7f)
+            *c = '?';
+    return false;
+}
+
+size_t source_read(image_source *source, void *to, size_t size) {
+    const size_t ready = size < source->ready_size ? size : source->ready_size;
+    if (ready > 0)
+        memcpy(to, source->ready, ready);
+    source->ready += ready;
+    source->ready_size -= ready;
+    size_t got = ready;
+    if (got < size && source->stream != NULL) {
+        errno = 0;
+        got += fread((unsigned char *)to + got, 1, size - got, source->stream);
+    }
+    if (source->sized)
+        source->left -= got < source->left ? got : source->left;
+    return got;
+}
+
+bool source_cut(image_source *source, const char *within) {
+    if (source->stream != NULL && ferror(source->stream)) {
+        source_fail(source, "cannot read: %s", strerror(errno));
+        source->error->unreadable = true;
+        return false;
+    }
+    return source_fail(source, "cut short within its %s", within);
+}
+
+bool source_header(image_source *source, void *to, size_t size) {
+    return source_read(source, to, size) == size || source_cut(source, "header");
+}
+
+bool source_shape(image_source *source, image *out, uint64_t width, uint64_t height, uint32_t channels,
+                  image_type type) {
+    if (width < 1 || height < 1 || width > TEXTURE_SIDE_MAX || height > TEXTURE_SIDE_MAX)
+        return source_fail(source, "width and height must be from 1 to %u pixels, got %llu x %llu", TEXTURE_SIDE_MAX,
+                           (unsigned long long)width, (unsigned long long)height);
+    if (width * height > TEXTURE_PIXELS_MAX)
+        return source_fail(source, "must have at most %llu pixels, got %llu x %llu",
+                           (unsigned long long)TEXTURE_PIXELS_MAX, (unsigned long long)width,
+                           (unsigned long long)height);
+    out->width = (uint32_t)width;
+    out->height = (uint32_t)height;
+    out->channels = channels;
+    out->type = type;
+    return true;
+}
+
+size_t image_bytes(const image *img) {
+    return (size_t)img->width * img->height * img->channels * image_type_size(img->type);
+}
+
+bool source_grow(image_source *source, image *out, size_t *have, size_t need) {
+    enum { FIRST = 1 << 20 };
+    if (need <= *have)
+        return true;
+    const size_t all = image_bytes(out);
+    size_t size = *have < FIRST ? FIRST : *have;
+    while (size < need)
+        size *= 2;
+    if (source->sized || size > all)
+        size = all;
+    void *grown = realloc(out->data, size);
+    if (grown == NULL)
+        return source_fail(source, "out of memory: %u x %u pixels need %zu bytes", out->width, out->height, all);
+    out->data = grown;
+    *have = size;
+    return true;
+}
+
+static bool misfit(image_source *source, const image *out, uint64_t there) {
+    const size_t all = image_bytes(out);
+    return source_fail(source, "%s: %u x %u pixels, %u channel%s of %s, take %zu bytes, and %llu follow%s the header",
+                       there < all ? "cut short" : "too long", out->width, out->height, out->channels,
+                       out->channels > 1 ? "s" : "", image_type_name(out->type), all, (unsigned long long)there,
+                       there == 1 ? "s" : "");
+}
+
+bool source_samples(image_source *source, image *out) {
+    const size_t all = image_bytes(out);
+    if (source->sized && source->left != all)
+        return misfit(source, out, source->left);
+    size_t have = 0;
+    for (size_t done = 0; done < all; done = have) {
+        if (!source_grow(source, out, &have, done + 1))
+            return false;
+        const size_t got = source_read(source, (unsigned char *)out->data + done, have - done);
+        if (done + got == have)
+            continue;
+        return source->stream != NULL && ferror(source->stream) ? source_cut(source, "samples")
+                                                                : misfit(source, out, done + got);
+    }
+    return source_ended(source);
+}
+
+bool source_ended(image_source *source) {
+    unsigned char more;
+    if (source_read(source, &more, 1) == 0)
+        return source->stream == NULL || !ferror(source->stream) || source_cut(source, "end");
+    return source_fail(source, "something follows the image: a file must hold one image and nothing else");
+}
+
+void image_swap(void *samples, size_t size, size_t count) {
+    uint16_t *half = samples;
+    uint32_t *single = samples;
+    uint64_t *wide = samples;
+    if (size == sizeof *half)
+        for (size_t i = 0; i < count; i++)
+            half[i] = __builtin_bswap16(half[i]);
+    if (size == sizeof *single)
+        for (size_t i = 0; i < count; i++)
+            single[i] = __builtin_bswap32(single[i]);
+    if (size == sizeof *wide)
+        for (size_t i = 0; i < count; i++)
+            wide[i] = __builtin_bswap64(wide[i]);
+}
