@@ -8,6 +8,8 @@
  * Some effects compare the depth with something of their own: the eye depth of a surface, the height of the water, the
  * focus. Wherever that is, the error is no larger than when it lies in the cell as well, so there it is put: in the
  * worst of three places, the stored depth and the two ends of the cell.
+ *
+ * Depths enter as doubles, each within 2^-50 of itself: errors are good to 2^-48 z, as the effect sees it.
  */
 #ifndef TEXTURE_EFFECT_H
 #define TEXTURE_EFFECT_H
@@ -28,7 +30,7 @@ typedef struct effect_parameter {
 
 /** How the wanted parameter p and the row's quantity v, with v' where it is compared, make the output. */
 typedef enum effect_kind {
-    EFFECT_FADE = 0, /**< a ramp of |v - v'| / p: the error falls as p grows */
+    EFFECT_FADE = 0, /**< a ramp of (v - v')/p from 0 to 1: the error falls as p grows */
     EFFECT_GAIN,     /**< p (v - v') and a constant: the error grows with p */
     EFFECT_CLAMPED,  /**< saturate(p v): the error grows with p until the output saturates */
     EFFECT_STEP      /**< |v - v'| > p for two pixels */
@@ -67,14 +69,14 @@ bool effect_applies(const effect_row *row, const dp_setup *setup);
 /**
  * The error of the output at z, in levels of 1/255.
  *
- * Every output is monotone in the depth on either side of its reference, so the largest difference lies at an end of
- * the cell. "edge" has the output 0 or 1: its error is 255 where the stored depths of two pixels of a plane, the one at
- * a depth of z's cell and the other `slope` behind it, give another answer than the plane does, and 0 elsewhere.
+ * Every quantity is monotone in the depth, so the largest difference lies at an end of the cell. An output of 8 bits
+ * cannot be more than 255 levels off. "edge" has the output 0 or 1: its error is 255 where the stored depths of two
+ * pixels of a plane, the one at a depth of z's cell and the other `slope` behind it, give another answer than the plane
+ * does, and 0 elsewhere.
  *
- * @param parameters  in the order of the row, within their ranges
+ * @param parameters  EFFECT_PARAMETERS_MAX numbers, in the order of the row, within their ranges
  * @param z           in [near, far]
- * @return INFINITY where the cell is unbounded and the output is not; NaN where the effect cannot be had, and in the
- *         model fp32, which has no cells
+ * @return from 0 to 255; NaN where the effect cannot be had, and in the model fp32, which has no cells
  */
 double effect_error(const effect_row *row, const dp_setup *setup, const double *parameters, double z);
 

@@ -15,6 +15,9 @@
 
 typedef enum pack_kind { PACK_DEPTH = 0, PACK_NORMAL, PACK_DEPTH_NORMAL, PACK_KINDS } pack_kind;
 
+/** How normals, or depths where there are none, are laid out. */
+typedef enum pack_layout { PACK_RG = 0, PACK_STEREO, PACK_OCT, PACK_XYZ, PACK_LAYOUTS } pack_layout;
+
 enum { PACK_CHANNELS_MAX = 4, PACK_INPUTS_MAX = 4 };
 
 /** A mean and a maximum: of |decoded - given|, or of the angle between the two. 0 where there is nothing to claim. */
@@ -26,6 +29,7 @@ typedef struct pack_row {
     const char *name; /**< "rg-depth", "stereo-8", "oct-8", "xyz-8", "depth-normal", ... */
     const char *note;
     pack_kind kind;
+    pack_layout layout;
     int channels, bits; /**< bits of each channel */
     bool sphere;        /**< normals: of the whole sphere, else of the hemisphere n.z >= 0 */
     bool binary32;      /**< computed in binary32 as a shader does, and measured on binary32 inputs; else in doubles */
@@ -38,9 +42,9 @@ typedef struct pack_row {
      * @param in  depth: a number in [0, 1); normal: a unit vector of the row's domain; both: the normal, then the depth
      * @param codes  `channels` codes; SNORM ones in two's complement of `bits` bits
      */
-    void (*encode)(const struct pack_row *row, const double *in, uint32_t codes[PACK_CHANNELS_MAX]);
+    void (*encode)(const struct pack_row *row, const double *in, uint32_t codes[]);
     /** The way back; a normal comes out with length 1. */
-    void (*decode)(const struct pack_row *row, const uint32_t codes[PACK_CHANNELS_MAX], double *out);
+    void (*decode)(const struct pack_row *row, const uint32_t codes[], double *out);
 } pack_row;
 
 /** The rows in order; null beyond the last. */

@@ -1,0 +1,239 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/*
+ * The error of normal packings.
+ *
+ * Largest angle: a code's vectors fill a region of the sphere, and the largest angle to the vector that the code gives
+ * back is reached at a corner of it. xyz: the region is cut out by the sides of a cube, so it is bounded by arcs of
+ * circles, along each of which the angle grows away from one point of it. oct: on each face of the octahedron the
+ * direction is linear in the plane of the codes, so vectors within an angle are a convex set there. stereo: circles
+ * are mapped to circles, so they are a disc. Where all corners of a convex polygon lie in a convex set, so does it all.
+ *
+ * Signs and the order of the axes change nothing, so one part of the sphere is enough.
+ */
+#include <math.h>
+
+#include "texture/pack_parts.h"
+
+static const double PI = 3.14159265358979323846;
+
+/* ---- The largest angle ------------------------------------------------------------------------------------------- */
+
+typedef struct search {
+    const pack_row *row;
+    double most;    /* the greatest code */
+    double back[3]; /* the vector that the code gives back, any length */
+    double sine2;   /* squared sine of the largest angle yet */
+    double at[3];   /* ... and where */
+    uint64_t codes;
+} search;
+
+static double dot(const double a[3], const double b[3]) {
+    return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+}
+
+static void offer(search *s, const double n[3]) {
+    const double *b = s->back;
+    const double cross[3] = {n[1] * b[2] - n[2] * b[1], n[2] * b[0] - n[0] * b[2], n[0] * b[1] - n[1] * b[0]};
+    const double sine2 = dot(cross, cross) / (dot(n, n) * dot(b, b));
+    if (!(sine2 > s->sine2))
+        return;
+    s->sine2 = sine2;
+    for (int i = 0; i < 3; i++)
+        s->at[i] = n[i];
+}
+
+static bool between(double x, double lo, double hi) {
+    return x >= lo && x <= hi;
+}
+
+/* The part of a code's interval that is not negative, in units of the greatest code. */
+static void interval(double code, double most, double out[2]) {
+    out[0] = fmax(code - 0.5, 0) / most;
+    out[1] = fmin(code + 0.5, most) / most;
+}
+
+/* Points of the sphere on the twelve edges of a cube. */
+static void xyz_corners(search *s, double side[3][2]) {
+    for (int axis = 0; axis < 3; axis++) {
+        const int i = (axis + 1) % 3, j = (axis + 2) % 3;
+        for (int k = 0; k < 4; k++) {
+            const double u = side[i][k & 1], v = side[j][k >> 1];
+            const double w2 = 1 - u * u - v * v;
+            if (!between(w2, side[axis][0] * side[axis][0], side[axis][1] * side[axis][1]))
+                continue;
+            double n[3];
+            n[axis] = sqrt(w2);
+            n[i] = u;
+            n[j] = v;
+            offer(s, n);
+        }
+    }
+}
+
+static uint64_t with_signs(uint64_t count, int code) {
+    return code > 0 ? 2 * count : count;
+}
+
+static void xyz_search(search *s) {
+    const int most = (int)s->most;
+    double side[3][2];
+    for (int a = 0; a <= most; a++)
+        for (int b = 0; b <= a; b++) {
+            interval(a, most, side[0]);
+            interval(b, most, side[1]);
+            const double near2 = side[0][0] * side[0][0] + side[1][0] * side[1][0];
+            const double far2 = side[0][1] * side[0][1] + side[1][1] * side[1][1];
+            if (near2 > 1)
+                break;
+            const int lo = far2 < 1 ? (int)floor(sqrt(1 - far2) * most + 0.5) : 0;
+            const int hi = (int)floor(sqrt(1 - near2) * most + 0.5);
+            for (int c = lo; c <= hi && c <= b; c++) {
+                interval(c, most, side[2]);
+                s->back[0] = a;
+                s->back[1] = b;
+                s->back[2] = c;
+                xyz_corners(s, side);
+                const uint64_t orders = a == b && b == c ? 1 : a == b || b == c ? 3 : 6;
+                s->codes += with_signs(with_signs(with_signs(orders, a), b), c);
+            }
+        }
+}
+
+static void oct_direction(double x, double y, double out[3]) {
+    const double z = 1 - x - y;
+    out[0] = z < 0 ? 1 - y : x;
+    out[1] = z < 0 ? 1 - x : y;
+    out[2] = z;
+}
+
+static void oct_offer(search *s, double x, double y) {
+    double n[3];
+    oct_direction(x, y, n);
+    offer(s, n);
+}
+
+/* Corners of a cell, and where its sides meet the fold. */
+static void oct_search(search *s) {
+    double x[2], y[2];
+    for (double a = 0; a <= s->most; a++)
+        for (double b = 0; b <= a; b++) {
+            interval(a, s->most, x);
+            interval(b, s->most, y);
+            oct_direction(a / s->most, b / s->most, s->back);
+            for (int i = 0; i < 2; i++) {
+                oct_offer(s, x[i], y[0]);
+                oct_offer(s, x[i], y[1]);
+                if (between(1 - x[i], y[0], y[1]))
+                    oct_offer(s, x[i], 1 - x[i]);
+                if (between(1 - y[i], x[0], x[1]))
+                    oct_offer(s, 1 - y[i], y[i]);
+            }
+        }
+    s->codes = (uint64_t)((2 * s->most + 1) * (2 * s->most + 1));
+}
+
+static void stereo_offer(search *s, double x, double y) {
+    const double r2 = x * x + y * y;
+    if (r2 <= 1 + 0x1p-50)
+        offer(s, (const double[]){2 * x, 2 * y, 1 - r2});
+}
+
+/* Corners of a cell in the disc of the hemisphere, and where its sides meet the rim. Codes have no middle one. */
+static void stereo_search(search *s) {
+    const double scale = 2 * 1.7777 / s->most;
+    for (double a = 0.5; a < s->most / 2; a++)
+        for (double b = 0.5; b <= a; b++) {
+            const double x[2] = {scale * (a - 0.5), scale * (a + 0.5)};
+            const double y[2] = {scale * (b - 0.5), scale * (b + 0.5)};
+            if (x[0] * x[0] + y[0] * y[0] >= 1)
+                break;
+            const double u = scale * a, v = scale * b;
+            s->back[0] = 2 * u;
+            s->back[1] = 2 * v;
+            s->back[2] = 1 - u * u - v * v;
+            for (int i = 0; i < 2; i++) {
+                stereo_offer(s, x[i], y[0]);
+                stereo_offer(s, x[i], y[1]);
+                const double rim_y = sqrt(fmax(1 - x[i] * x[i], 0)), rim_x = sqrt(fmax(1 - y[i] * y[i], 0));
+                if (between(rim_y, y[0], y[1]))
+                    stereo_offer(s, x[i], rim_y);
+                if (between(rim_x, x[0], x[1]))
+                    stereo_offer(s, rim_x, y[i]);
+            }
+            s->codes += a == b ? 4 : 8;
+        }
+}
+
+static double angle(const double a[3], const double b[3]) {
+    const double cross[3] = {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
+    return atan2(sqrt(dot(cross, cross)), dot(a, b)) * 180 / PI;
+}
+
+static double error_of(const pack_row *row, const double n[3]) {
+    const double in[PACK_INPUTS_MAX] = {n[0], n[1], n[2], 0};
+    uint32_t codes[PACK_CHANNELS_MAX];
+    double back[PACK_INPUTS_MAX];
+    row->encode(row, in, codes);
+    row->decode(row, codes, back);
+    return angle(n, back);
+}
+
+/* A corner belongs to several codes: of the vectors a hair beside it, the one whose code is that of the search. */
+static void settle(const search *s, double out[3]) {
+    double worst = -1;
+    for (int k = 0; k < 8; k++) {
+        double n[3], length = 0;
+        for (int i = 0; i < 3; i++)
+            n[i] = s->at[i] + ((k >> i & 1) != 0 ? 1e-9 : -1e-9);
+        n[2] = s->row->sphere ? n[2] : fmax(n[2], 0);
+        length = sqrt(dot(n, n));
+        for (int i = 0; i < 3; i++)
+            n[i] /= length;
+        if (error_of(s->row, n) <= worst)
+            continue;
+        worst = error_of(s->row, n);
+        for (int i = 0; i < 3; i++)
+            out[i] = n[i];
+    }
+}
+
+/* ---- The mean ---------------------------------------------------------------------------------------------------- */
+
+/* Vectors of the additive sequence of the plastic number (Roberts 2018), which fills a square evenly. */
+static void mean(const pack_row *row, pack_error *out) {
+    enum { COUNT = 1 << 20 };
+    double sum = 0, squares = 0, u = 0, v = 0;
+    for (int i = 0; i < COUNT; i++) {
+        u += 0.75487766624669276;
+        v += 0.56984029099805327;
+        u -= u >= 1;
+        v -= v >= 1;
+        const double z = row->sphere ? 2 * v - 1 : v, r = sqrt(1 - z * z);
+        const double error = error_of(row, (const double[]){r * cos(2 * PI * u), r * sin(2 * PI * u), z});
+        sum += error;
+        squares += error * error;
+    }
+    out->normal.mean = sum / COUNT;
+    out->normal_spread = sqrt((squares / COUNT - out->normal.mean * out->normal.mean) / COUNT);
+}
+
+void pack_measure_normal(const pack_row *row, pack_error *out) {
+    static void (*const searches[])(search *) = {
+        [PACK_STEREO] = stereo_search, [PACK_OCT] = oct_search, [PACK_XYZ] = xyz_search};
+    const uint32_t codes = 1U << (row->layout == PACK_STEREO ? row->bits : row->bits - 1);
+    search s = {.row = row, .most = codes - 1};
+    searches[row->layout](&s);
+    settle(&s, out->normal_at);
+    out->normal.max = asin(sqrt(s.sine2)) * 180 / PI;
+    out->codes = s.codes;
+    mean(row, out);
+}
+
+pack_error pack_measure(const pack_row *row) {
+    pack_error out = {.codes = 0};
+    if (row->kind != PACK_NORMAL)
+        pack_measure_depth(row->kind == PACK_DEPTH ? row : pack_find("rg-depth"), &out);
+    if (row->kind != PACK_DEPTH)
+        pack_measure_normal(row, &out);
+    return out;
+}
