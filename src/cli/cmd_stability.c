@@ -26,6 +26,11 @@ static double claimed_to(const stability_result *r) {
     return isnan(claim_of(r)->worst) ? (double)NAN : claim_of(r)->ratio_hi;
 }
 
+/* NaN beyond the claim's span. */
+static double claimed_at(const stability_result *r, int k) {
+    return r->ratio[k] <= claim_of(r)->ratio_hi * (1 + 1e-9) ? method_claim_at(claim_of(r), r->ratio[k]) : (double)NAN;
+}
+
 static void cell(output *out, int width, double value) {
     char text[NUMBER_SIZE] = "-";
     if (!isnan(value))
@@ -41,7 +46,7 @@ static void write_text(walking *w) {
     for (size_t i = 0; i < w->count; i++) {
         const stability_result *r = &w->results[i];
         output_format(w->out, "%-20s %-14s", r->row->name, w->family->cases[r->which].name);
-        cell(w->out, 8, claim_of(r)->worst);
+        cell(w->out, 8, r->claim);
         cell(w->out, 8, claimed_to(r));
         cell(w->out, 9, r->inside);
         cell(w->out, 9, isinf(r->breaks) ? (double)NAN : r->breaks);
@@ -61,7 +66,7 @@ static void write_json(walking *w) {
         json_object(&j, NULL);
         json_string(&j, "name", r->row->name);
         json_string(&j, "case", w->family->cases[r->which].name);
-        json_number(&j, "claim", claim_of(r)->worst);
+        json_number(&j, "claim", r->claim);
         json_number(&j, "claim_to", claimed_to(r));
         json_number(&j, "worst", r->inside);
         json_number(&j, "worst_near", r->inside_near);
@@ -76,6 +81,7 @@ static void write_json(walking *w) {
             json_object(&j, NULL);
             json_number(&j, "ratio", r->ratio[k]);
             json_number(&j, "error", r->error[k]);
+            json_number(&j, "claim", claimed_at(r, k));
             json_end(&j);
         }
         json_end(&j);
@@ -96,7 +102,7 @@ static void write_csv(walking *w) {
             csv_string(&c, w->family->name);
             csv_string(&c, r->row->name);
             csv_string(&c, w->family->cases[r->which].name);
-            csv_number(&c, claim_of(r)->worst);
+            csv_number(&c, claimed_at(r, k));
             csv_number(&c, claimed_to(r));
             csv_string(&c, stability_verdict_name(r->verdict));
             csv_number(&c, r->ratio[k]);

@@ -12,6 +12,8 @@
 #include "cli/setups.h"
 #include "cli/suggest.h"
 
+static const double formula_at = 1e4; /* where a claim that is a formula is shown */
+
 bool list_method(size_t index, list_item *item) {
     const method_row *row = method_get(index);
     if (row == NULL)
@@ -25,11 +27,13 @@ bool list_method(size_t index, list_item *item) {
         if (!method_speaks(row, i))
             continue;
         if (!isnan(c->worst))
-            number_digits(c->worst, 3, worst);
+            number_digits(method_claim_at(c, fmin(formula_at, c->ratio_hi)), 3, worst);
         number_digits(c->ratio_hi, 3, hi);
         const char *between = used > 0 ? "; " : "";
         used += (size_t)snprintf(item->bound + used, sizeof item->bound - used, "%s%s %s", between,
                                  family->cases[i].name, worst);
+        if (c->formula != NULL)
+            used += (size_t)snprintf(item->bound + used, sizeof item->bound - used, " at far/near 10000, by a formula");
         if (!isnan(c->worst) && c->ratio_hi < METHOD_RATIO_HI)
             used += (size_t)snprintf(item->bound + used, sizeof item->bound - used, " to far/near %s", hi);
     }

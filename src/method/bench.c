@@ -55,7 +55,7 @@ double method_claimed(const method_row *row, size_t which, const dp_setup *setup
                                 : ratio >= c->ratio_lo && ratio <= c->ratio_hi * (1 + 1e-12);
     if (setup->spec.ortho)
         covered = covered && (row->domain & METHOD_ORTHO) != 0;
-    return method_speaks(row, which) && covered ? c->worst : (double)NAN;
+    return method_speaks(row, which) && covered ? method_claim_at(c, ratio) : (double)NAN;
 }
 
 /* ---- Times ------------------------------------------------------------------------------------------------------- */

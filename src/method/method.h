@@ -31,23 +31,28 @@ enum { METHOD_CASES = 3 };
 #define METHOD_RATIO_HI 1e12
 
 /** A measured worst error below this share of its claim makes the claim too modest, unless the claim is already no more
- *  than the rounding of the answer. */
+ *  than the 20 roundings of double counted for a width. */
 #define METHOD_MODEST   0.25
-#define METHOD_ROUNDING 1e-15
+#define METHOD_ROUNDING (20 * 0x1p-53)
 
 /** The worst error for far/near in [ratio_lo, ratio_hi]. A worst of 0: the method does not speak of the case; NaN: it
  *  does, and claims nothing. A claim up to METHOD_RATIO_HI covers an infinite far plane where METHOD_INFINITE is set.
+ *  Each is derived in depthprec(7), "Methods". A formula falls, or rises, or falls and then rises, so that its worst
+ *  over a span is at an end of the span; it may be INFINITY.
  */
 typedef struct method_claim {
-    double worst; /**< in the family's measure */
+    double worst; /**< in the family's measure; times formula(far/near) where there is one */
     double ratio_lo, ratio_hi;
+    double (*formula)(double ratio); /**< null: the same throughout */
 } method_claim;
 
 /* clang-format off */
-#define FULL(worst)         {(worst), METHOD_RATIO_LO, METHOD_RATIO_HI}
-#define UP_TO(worst, ratio) {(worst), METHOD_RATIO_LO, (ratio)}
-#define NOWHERE             {0, 0, 0}
-#define UNCLAIMED           {(double)__builtin_nanf(""), METHOD_RATIO_LO, METHOD_RATIO_HI}
+#define FULL(worst)         {(worst), METHOD_RATIO_LO, METHOD_RATIO_HI, NULL}
+#define UP_TO(worst, ratio) {(worst), METHOD_RATIO_LO, (ratio), NULL}
+#define FORMULA(f)          {1, METHOD_RATIO_LO, METHOD_RATIO_HI, (f)}
+#define FORMULA_TO(f, ratio) {1, METHOD_RATIO_LO, (ratio), (f)}
+#define NOWHERE             {0, 0, 0, NULL}
+#define UNCLAIMED           {(double)__builtin_nanf(""), METHOD_RATIO_LO, METHOD_RATIO_HI, NULL}
 /* clang-format on */
 
 /** Where else a claim holds, or does not. */
@@ -56,6 +61,8 @@ enum {
     METHOD_ORTHO = 1 << 1,    /**< an orthographic projection too */
     METHOD_WHOLE = 1 << 2,    /**< only for cells that no plane cuts */
     METHOD_PIPELINE = 1 << 3, /**< judged by the binary32 pipeline, not by the lattice */
+    METHOD_ABOVE = 1 << 4,    /**< one-sided: never below the reference, or the error is INFINITY */
+    METHOD_BELOW = 1 << 5,    /**< one-sided: never above it */
 };
 
 /** What a family's methods are given: the arrays that the family uses, `count` long. */
@@ -132,6 +139,17 @@ const method_row *method_get(size_t index);
 /** Does the method speak of the family's case `which`? */
 static inline bool method_speaks(const method_row *row, size_t which) {
     return row->claims[which].worst != 0;
+}
+
+/** A claim at one far/near; NaN where nothing is claimed. */
+static inline double method_claim_at(const method_claim *claim, double ratio) {
+    return claim->formula != NULL ? claim->worst * claim->formula(ratio) : claim->worst;
+}
+
+/** Its worst for far/near from lo to hi. */
+static inline double method_claim_over(const method_claim *claim, double lo, double hi) {
+    const double a = method_claim_at(claim, lo), b = method_claim_at(claim, hi);
+    return a > b ? a : b;
 }
 
 /** Can this processor run it? */

@@ -5,6 +5,7 @@
 
 /* Near planes: tiny units, common ones, and the hugest for which 1e12 times as far is still a far plane. */
 static const double units[] = {1e-12, 0.1, 1e6};
+static const double ortho_ratio = 1e4;
 enum { UNITS = sizeof units / sizeof units[0], PIPELINE_WALKED = 24, BISECTIONS = 6 };
 
 const char *stability_verdict_name(stability_verdict verdict) {
@@ -57,12 +58,18 @@ static double error_at(walk *w, double ratio, int step, bool ortho, place *where
     return worst;
 }
 
+/* A claim; beyond its span the last of it, which is what breaks there. */
+static double claim_beyond(const method_claim *c, double ratio) {
+    return method_claim_at(c, fmin(ratio, c->ratio_hi));
+}
+
 /* Between a far/near where the claim holds and one where it does not: the geometric middle decides. */
-static double bisect(walk *w, double holds, double breaks, int step, double claim) {
+static double bisect(walk *w, double holds, double breaks, int step) {
+    const method_claim *c = &w->result->row->claims[w->result->which];
     for (int i = 0; i < BISECTIONS; i++) {
         place where;
         double middle = sqrt(holds) * sqrt(breaks);
-        if (error_at(w, middle, step, false, &where) <= claim)
+        if (error_at(w, middle, step, false, &where) <= claim_beyond(c, middle))
             holds = middle;
         else
             breaks = middle;
@@ -78,11 +85,12 @@ static void judge_claim(stability_result *r) {
         worst = fmax(worst, r->error[k]);
     if (isnan(c->worst))
         r->verdict = worst > 0.5 ? STABILITY_UNCLAIMED : STABILITY_MODEST;
-    else if (!(r->inside <= c->worst) ||
-             (infinite && c->ratio_hi >= METHOD_RATIO_HI && !isnan(r->infinite) && !(r->infinite <= c->worst)) ||
-             (ortho && !isnan(r->ortho) && !(r->ortho <= c->worst)))
+    else if (!(r->inside <= r->claim) ||
+             (infinite && c->ratio_hi >= METHOD_RATIO_HI && !isnan(r->infinite) &&
+              !(r->infinite <= method_claim_at(c, (double)INFINITY))) ||
+             (ortho && !isnan(r->ortho) && !(r->ortho <= method_claim_at(c, ortho_ratio))))
         r->verdict = STABILITY_BROKEN;
-    else if ((c->worst > METHOD_ROUNDING && r->inside < METHOD_MODEST * c->worst) ||
+    else if ((r->claim > METHOD_ROUNDING && r->inside < METHOD_MODEST * r->claim) ||
              (c->ratio_hi < METHOD_RATIO_HI && !(r->breaks <= STABILITY_SLACK * c->ratio_hi)))
         r->verdict = STABILITY_MODEST;
     else
@@ -95,21 +103,23 @@ static void walk_ratios(walk *w) {
     const int per_decade = w->family->per_decade;
     const double decades = log10(METHOD_RATIO_HI / METHOD_RATIO_LO);
     place where;
-    r->inside = -1;
+    double most = -1; /* of the share of a claim that an error takes */
     r->breaks = (double)INFINITY;
     r->steps = (int)(decades * per_decade + 0.5) + 1;
     for (int k = 0; k < r->steps; k++) {
         r->ratio[k] = fmin(METHOD_RATIO_LO * pow(10, (double)k / per_decade), METHOD_RATIO_HI);
         r->error[k] = error_at(w, r->ratio[k], k, false, &where);
-        if (r->ratio[k] >= c->ratio_lo * (1 - 1e-9) && r->ratio[k] <= c->ratio_hi * (1 + 1e-9) &&
-            !(r->error[k] <= r->inside)) {
+        const double claim = claim_beyond(c, r->ratio[k]), share = r->error[k] / (isnan(claim) ? 1 : claim);
+        if (r->ratio[k] >= c->ratio_lo * (1 - 1e-9) && r->ratio[k] <= c->ratio_hi * (1 + 1e-9) && !(share <= most)) {
+            most = share;
+            r->claim = claim;
             r->inside = r->error[k];
             r->inside_near = where.znear;
             r->inside_far = where.zfar;
             r->inside_at = where.at;
         }
-        if (isinf(r->breaks) && !isnan(c->worst) && !(r->error[k] <= c->worst))
-            r->breaks = k > 0 ? bisect(w, r->ratio[k - 1], r->ratio[k], k, c->worst) : r->ratio[0];
+        if (isinf(r->breaks) && !isnan(c->worst) && !(r->error[k] <= claim))
+            r->breaks = k > 0 ? bisect(w, r->ratio[k - 1], r->ratio[k], k) : r->ratio[0];
     }
 }
 
@@ -125,7 +135,7 @@ static void walk_one(const method_family_row *family, stability_result *r, bool 
     walk_ratios(&w);
     r->infinite = error_at(&w, (double)INFINITY, 1, false, &where);
     if (family->methods->family == METHOD_INTERVAL || family->methods->family == METHOD_WORST)
-        r->ortho = error_at(&w, 1e4, 1, true, &where);
+        r->ortho = error_at(&w, ortho_ratio, 1, true, &where);
     judge_claim(r);
     method_arrays_free(&w.in, &w.out);
     *failed = *failed || w.failed;
