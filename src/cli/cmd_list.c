@@ -10,6 +10,8 @@
 #include "cli/number.h"
 #include "cli/options.h"
 #include "cli/suggest.h"
+#include "texture/effect.h"
+#include "texture/pack.h"
 
 int cmd_list(const options *o);
 
@@ -108,6 +110,38 @@ static bool list_api(size_t index, list_item *item) {
     return true;
 }
 
+static bool list_packing(size_t index, list_item *item) {
+    const pack_row *row = pack_get(index);
+    if (row == NULL)
+        return false;
+    *item = (list_item){row->name, "", row->note, "", row->source};
+    size_t used = 0;
+    if (row->kind != PACK_DEPTH)
+        used = (size_t)snprintf(item->bound, sizeof item->bound, "angle: mean %g, at most %g degrees%s",
+                                row->normal.mean, row->normal.max, row->kind == PACK_DEPTH_NORMAL ? "; " : "");
+    if (row->kind != PACK_NORMAL)
+        snprintf(item->bound + used, sizeof item->bound - used, "depth: mean %g, at most %g of far", row->depth.mean,
+                 row->depth.max);
+    return true;
+}
+
+static bool list_effect(size_t index, list_item *item) {
+    const effect_row *row = effect_get(index);
+    if (row == NULL)
+        return false;
+    *item = (list_item){row->name, "", row->note, "", row->source};
+    for (int i = 0; row->parameters[i].name != NULL; i++) {
+        const effect_parameter *p = &row->parameters[i];
+        const size_t used = strlen(item->bound);
+        snprintf(item->bound + used, sizeof item->bound - used, "%s%s %g [%s]%s", i > 0 ? ", " : "", p->name, p->value,
+                 p->unit,
+                 i != row->wanted ? ""
+                 : row->smallest  ? " (smallest usable)"
+                                  : " (largest usable)");
+    }
+    return true;
+}
+
 /* What can be listed. A topic whose table lives in the full program has a null `get` in the light one. */
 static const struct topic {
     const char *name, *note;
@@ -120,6 +154,8 @@ static const struct topic {
     {"causes", "what takes a part of the separation", list_cause},
     {"presets", "cameras as engines set them, for --preset", list_preset},
     {"apis", "what one unit of depth bias is, for bias --api", list_api},
+    {"packings", "depth and normals in the channels of a texture, and what their errors are held to", list_packing},
+    {"effects", "what texture --effect knows: formulas and parameters", list_effect},
     {"figures", "what plot can draw", list_figure},
     {"methods", "ways to a quantity, by family: what each claims, for which set-up and far/near", list_method},
 };
@@ -158,7 +194,11 @@ static void put_wrapped(output *out, const char *label, const char *text) {
 
 /* What the topics write into `bound`. */
 static const char *bound_label(const char *what) {
-    return strcmp(what, "presets") == 0 ? "camera" : strcmp(what, "apis") == 0 ? "rule" : "bound";
+    static const char *const labels[][2] = {{"presets", "camera"}, {"apis", "rule"}, {"effects", "parameters"}};
+    for (size_t i = 0; i < sizeof labels / sizeof labels[0]; i++)
+        if (strcmp(what, labels[i][0]) == 0)
+            return labels[i][1];
+    return "bound";
 }
 
 static void write_text(output *out, const char *what, list_get get) {
@@ -237,7 +277,7 @@ static int unknown_topic(const char *name) {
     char text[SUGGEST_TEXT_SIZE];
     for (size_t i = 0; i < TOPIC_COUNT; i++)
         suggest_offer(&s, topics[i].name);
-    char allowed[128] = "";
+    char allowed[256] = "";
     for (size_t i = 0; i < TOPIC_COUNT; i++) {
         if (i > 0)
             strcat(allowed, i + 1 < TOPIC_COUNT ? ", " : " or ");

@@ -312,7 +312,7 @@ const option_row option_rows[OPTION_COUNT] = {
         "that the cheapest method to be marked may claim", parse_tolerance},
     [OPTION_LOG_C] = {"log-c", 0, "C", MODELLED | VERB_TEXTURE | VERB_BIAS | VERB_SOLVE,
         "constant of the log mapping, 1e-12 to 1e12 (default 1)", parse_log_c},
-    [OPTION_AT] = {"at", 0, "Z[,Z...]|LO:HI:log|lin:COUNT", ASKED | VERB_BIAS | VERB_SOLVE,
+    [OPTION_AT] = {"at", 0, "Z[,Z...]|LO:HI:log|lin:COUNT", ASKED | VERB_TEXTURE | VERB_BIAS | VERB_SOLVE,
         "the depths asked about, at most 1000000, within [near, far]\n"
         "(default: nine, log-spaced from near to far)", parse_at},
     [OPTION_RANGE] = {"range", 0, "LO:HI", MODELLED | VERB_ZFIGHT | VERB_BIAS | VERB_SOLVE,
