@@ -41,6 +41,11 @@ INLINE mask missing(float x) {
     return -(x != x);
 }
 
+/* 2^(lift - e) with 2^e the power of two in a number: scales without rounding, so that no unit of length overflows. */
+INLINE float unit_of(int32_t bits, int lift) {
+    return float_of((int32_t)(((254u + (uint32_t)lift) << 23) - ((uint32_t)bits & 0x7f800000u)));
+}
+
 /* ---- Which side: set for the first. a is the nearer neighbour of it and a2 the one behind; b and b2 of the second ---
  */
 
@@ -65,13 +70,15 @@ INLINE mask side_straight(mask within, float z, float a, float a2, float b, floa
 }
 
 /* The same in w = 1/z, which is straight along a plane: |2/a - 1/a2 - 1/z| without a division. Depths of the second
- * side multiply the first's error and the other way round; 0 stands for a missing one, whose 1/z no line meets. */
+ * side multiply the first's error and the other way round; 0 stands for a missing one, whose 1/z no line meets. In
+ * units of z, or nearly, four depths can be multiplied. */
 INLINE mask side_projective(mask within, float z, float a, float a2, float b, float b2) {
     (void)within;
-    const float behind_a = select(missing(a2), 0.0f, a2), behind_b = select(missing(b2), 0.0f, b2);
-    const float off_a = fabsf(z * (behind_a - a) - behind_a * (a - z));
-    const float off_b = fabsf(z * (behind_b - b) - behind_b * (b - z));
-    return -(off_a * b * behind_b < off_b * a * behind_a) | missing(b);
+    const float unit = unit_of(bits_of(z), 0), z1 = z * unit, a1 = a * unit, b1 = b * unit;
+    const float behind_a = select(missing(a2), 0.0f, a2 * unit), behind_b = select(missing(b2), 0.0f, b2 * unit);
+    const float off_a = fabsf(z1 * (behind_a - a1) - behind_a * (a1 - z1));
+    const float off_b = fabsf(z1 * (behind_b - b1) - behind_b * (b1 - z1));
+    return -(off_a * b1 * behind_b < off_b * a1 * behind_a) | missing(b);
 }
 
 /* ---- The normal ---------------------------------------------------------------------------------------------------
@@ -91,17 +98,15 @@ typedef struct corner {
 
 typedef vector (*corner_rule)(const corner *c);
 
-/* 2^(lift - e) with 2^e the power of two in the largest: scales without rounding, so that no unit of length overflows.
- */
-INLINE float unit_of(const corner *c, int lift) {
+INLINE float unit_at(const corner *c, int lift) {
     const int32_t z = bits_of(c->z), h = bits_of(c->h), v = bits_of(c->v); /* ordered as what they stand for */
-    const int32_t zh = z > h ? z : h, zhv = zh > v ? zh : v;
-    return float_of((int32_t)(((254u + (uint32_t)lift) << 23) - ((uint32_t)zhv & 0x7f800000u)));
+    const int32_t zh = z > h ? z : h;
+    return unit_of(zh > v ? zh : v, lift);
 }
 
 /* The cross product of two differences of places. */
 INLINE vector corner_cross(const corner *c) {
-    const float unit = unit_of(c, 20), z = c->z * unit, h = c->h * unit, v = c->v * unit;
+    const float unit = unit_at(c, 20), z = c->z * unit, h = c->h * unit, v = c->v * unit;
     const float px = c->sx * z, py = c->sy * z;
     const vector a = {c->sx_h * h - px, c->sy * h - py, h - z}, b = {c->sx * v - px, c->sy_v * v - py, v - z};
     const vector n = {a.z * b.y - a.y * b.z, a.x * b.z - a.z * b.x, a.y * b.x - a.x * b.y};
@@ -111,7 +116,7 @@ INLINE vector corner_cross(const corner *c) {
 /* On a plane 1/z = a sx + b sy + c, and (a, b, c) is its normal; here times z h v, so that nothing is divided, and z -
  * h has no rounding error where the two are close. */
 INLINE vector corner_projective(const corner *c) {
-    const float unit = unit_of(c, 0), z = c->z * unit, h = c->h * unit, v = c->v * unit;
+    const float unit = unit_at(c, 0), z = c->z * unit, h = c->h * unit, v = c->v * unit;
     const float a = (z - h) * v * c->per_x, b = (z - v) * h * c->per_y;
     return (vector){-a, -b, c->sx * a + c->sy * b - h * v};
 }

@@ -1,0 +1,37 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/** @file normal_measure.h  How far a method's normals of a scene, stored in a depth buffer, are from the scene's own.
+ */
+#ifndef TEXTURE_NORMAL_MEASURE_H
+#define TEXTURE_NORMAL_MEASURE_H
+
+#include "texture/normal.h"
+#include "texture/scene.h"
+
+/** Angular errors of some pixels, radians; NaN where there are none. */
+typedef struct normal_spread {
+    uint64_t count;
+    double mean;
+    double p99;           /**< 99 of 100 are no larger */
+    double max;           /**< reached at: */
+    uint32_t column, row; /**< the first such pixel */
+} normal_spread;
+
+typedef struct normal_measured {
+    uint64_t drawn, sky; /**< pixels that show a surface, and others */
+    uint64_t missing;    /**< drawn pixels without a normal: no neighbour, or a sum of differences of zero */
+    /** Drawn pixels with a normal for which a neighbour of another surface was taken although the one on the other side
+     *  is of their own. */
+    uint64_t wrong;
+    normal_spread inside; /**< pixels with nothing but their own surface at the distances that the method looks at */
+    normal_spread edges;  /**< pixels next to a silhouette, the sky or the border of the image */
+} normal_measured;
+
+/**
+ * Stores `count` rows of a scene from `first` on in the format of the camera's set-up, reads them back into binary32,
+ * rounded once, and compares. Surfaces that are flat give noise alone, curved ones what the method makes of them too.
+ * @return false when out of memory
+ */
+bool normal_measure(const normal_row *method, const texture_camera *camera, const scene_row *scene,
+                    const double *parameters, uint32_t first, uint32_t count, normal_measured *out);
+
+#endif
