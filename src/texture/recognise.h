@@ -1,12 +1,26 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /**
  * @file recognise.h  What is stored in a depth image: on which lattice its samples lie, and which way they run.
+ *
+ * Integers are codes of unorm16 (u2), of unorm24 or the bits of binary32 (u4), or shares of 255 (u1). Numbers of f2
+ * are codes of fp16. Numbers of f4 are compared one by one with the lattices of fp16, unorm16 and unorm24, those of f8
+ * too: a code c of unormN is recognised within 1 ulp of c/(2^N - 1), because drivers multiply by a rounded reciprocal
+ * instead of dividing. The coarsest lattice that holds every sample is the answer, fp32 when none does.
+ *
+ * Chance: of numbers without a lattice a share p(x) lies on a given one all the same: 3 ulp(x) (2^24 - 1), at most 1,
+ * for unorm24, 3/256 for unorm16 (whose denser neighbour is unorm24), 2^-10 for fp16. The answer is certain where at
+ * least RECOGNISE_LEAST different samples with p < 1 were seen and the product of their p is below 2^-RECOGNISE_BITS.
+ * In [1/4, 1] every binary32 number lies within 1 ulp of a code of unorm24, so that images of a standard mapping, whose
+ * samples are near 1, are often uncertain: fp32 cannot be told from unorm24 there, and nothing is lost by it but small
+ * depths. Numbers that somebody chose, such as k/256, are not random and look like fp16.
  */
 #ifndef TEXTURE_RECOGNISE_H
 #define TEXTURE_RECOGNISE_H
 
 #include "depthprec/depthprec.h"
 #include "texture/image.h"
+
+enum { RECOGNISE_LEAST = 16, RECOGNISE_BITS = 64, RECOGNISE_DISTINCT_MAX = 1 << 16 };
 
 /** What was found. */
 typedef struct recognised {
@@ -15,25 +29,34 @@ typedef struct recognised {
     bool certain;            /**< enough different samples to tell that lattice from the next finer one */
     int reversed;            /**< 1 reversed, 0 not, -1 cannot tell */
     size_t samples, invalid; /**< invalid: NaN, infinite or outside [0, 1] */
-    size_t distinct;         /**< different values, counted up to some limit */
+    size_t distinct;         /**< different valid values, counted up to RECOGNISE_DISTINCT_MAX */
     size_t at_zero, at_one;
-    double lo, hi; /**< of the valid samples, as window depth */
-    char why[256]; /**< one sentence for people: how it was told */
+    double lo, hi; /**< of the valid samples, as window depth; NaN when there is none */
+    char why[256]; /**< one sentence for people: how it was told, or why it is no window depth */
 } recognised;
 
 /** Looks at channel 0 of every pixel. Never fails: an image that cannot be window depth has depth == false. */
 void recognise(const image *image, recognised *out);
 
-/** Whether integers of an image are codes of the format (else they are fractions of the type's maximum). */
+/**
+ * Whether integers of an image are codes of the format, which is so where the type has at least as many bits as the
+ * codes; else they are shares of the type's maximum.
+ */
 bool recognise_codes(const image *image, const dp_format *format);
 
 /**
- * The window depth of `count` pixels of a row from `column` on, channel 0: codes by their format, fractions of the
- * type's maximum, or the numbers themselves. NaN where it is not finite or outside [0, 1].
+ * The window depth of `count` pixels of a row from `column` on, channel 0: codes by their format, shares of the type's
+ * maximum, or the numbers themselves, rounded to binary32. NaN where it is not finite or outside [0, 1], or above
+ * code_max; never -0.
  */
 void image_depths(const image *image, const dp_format *format, uint32_t row, uint32_t column, uint32_t count, float *d);
 
-/** The same as codes of the format, the nearest where a sample is not on the lattice; UINT32_MAX where invalid. */
+/** The same in double: codes are correctly rounded there. */
+void image_depths_double(const image *image, const dp_format *format, uint32_t row, uint32_t column, uint32_t count,
+                         double *d);
+
+/** The same as codes of the format, the nearest where a sample is not on the lattice; UINT32_MAX where invalid (and for
+ *  1 in unorm32). */
 void image_codes(const image *image, const dp_format *format, uint32_t row, uint32_t column, uint32_t count,
                  uint32_t *codes);
 

@@ -1,0 +1,314 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/*
+ * Three looks: at the bits, which choose the format; at the window depths in that format, which are counted; and, where
+ * there are numbers outside [0, 1], at what they may be instead.
+ */
+#include "texture/recognise.h"
+
+#include <math.h>
+#include <stdarg.h>
+#include <stdio.h>
+#include <string.h>
+
+#include "texture/recognise_lattice.h"
+
+enum { BLOCK = 2048, FP16_ONE = 0x3C00, WIDENED = 257, REASON_SIZE = 160 };
+#define FP32_ONE    UINT32_C(0x3F800000)
+#define FP32_LEAST  UINT32_C(0x2F800000) /* bits of 2^-32: images of fp32 have something nearer */
+#define UNORM24_MAX UINT32_C(0xFFFFFF)
+
+/* What the bits say. */
+typedef struct finding {
+    lattice which;
+    bool none;   /* of the formats */
+    bool single; /* all samples are binary32, or codes */
+    bool sure;   /* integers: whether the format is in no doubt */
+    bool chance; /* numbers: whether it is depends on how many there are */
+    char reason[REASON_SIZE];
+} finding;
+
+static void say(finding *f, const char *format, ...) __attribute__((format(printf, 2, 3)));
+static void say(finding *f, const char *format, ...) {
+    va_list arguments;
+    va_start(arguments, format);
+    vsnprintf(f->reason, sizeof f->reason, format, arguments);
+    va_end(arguments);
+}
+
+/* ---- Integers ---------------------------------------------------------------------------------------------------- */
+
+/* Of all samples: the largest, whether all are widened bytes, and which bits differ between any two. */
+typedef struct bits_seen {
+    uint32_t most, differ;
+    bool widened;
+} bits_seen;
+
+static bits_seen look_at_bits(const image *img) {
+    const uint32_t *wide = img->data;
+    const uint16_t *narrow = img->data;
+    const size_t step = img->channels, count = (size_t)img->width * img->height * step;
+    bits_seen s = {.widened = true};
+    for (size_t i = 0; i < count; i += step) {
+        const uint32_t x = img->type == IMAGE_U32 ? wide[i] : narrow[i];
+        s.most = x > s.most ? x : s.most;
+        s.differ |= x ^ (img->type == IMAGE_U32 ? wide[0] : narrow[0]);
+        s.widened = s.widened && x == WIDENED * (x & 0xFF);
+    }
+    return s;
+}
+
+static void judge_bytes(const image *img, finding *f) {
+    f->which = LATTICE_UNORM16;
+    say(f, "shares of 255, fewer than any depth format has%s",
+        img->channels > 1 ? " (depth packed into channels must be unpacked first)" : "");
+}
+
+static void judge_words(const image *img, finding *f) {
+    const bits_seen s = look_at_bits(img);
+    f->which = LATTICE_UNORM16;
+    f->sure = s.most > FP16_ONE && !s.widened;
+    if (s.widened)
+        say(f, "16 bits that repeat 8, fewer than any depth format has");
+    else if (s.most > FP16_ONE)
+        say(f, "codes of unorm16 up to %u, fp16 has none above %d", s.most, FP16_ONE);
+    else
+        say(f, "codes up to %u%s, of unorm16 or of fp16", s.most, s.most == FP16_ONE ? ", which is 1 in fp16" : "");
+}
+
+static void judge_longs(const image *img, finding *f) {
+    const bits_seen s = look_at_bits(img);
+    const bool fp32 = s.most <= FP32_ONE && s.most >= FP32_LEAST;
+    f->sure = true;
+    if (s.most <= 0xFFFF) {
+        f->which = LATTICE_UNORM16;
+        f->sure = s.most == 0xFFFF;
+        say(f, "codes up to %u, of unorm16%s", s.most, f->sure ? "" : " or of unorm24");
+    } else if (s.most <= UNORM24_MAX) {
+        f->which = LATTICE_UNORM24;
+        say(f, "codes of unorm24 up to %u", s.most);
+    } else if ((s.differ & 0xFF) == 0 && s.differ != 0 && !(fp32 && (s.differ & 0x1FFF) == 0)) {
+        f->none = true;
+        say(f, "all low bytes are equal: with stencil there and 24 bits of depth above it, shift them down by 8 first");
+    } else if (fp32) {
+        f->which = LATTICE_FP32;
+        say(f, "bits of fp32, none above those of 1");
+    } else if (s.differ <= UNORM24_MAX) {
+        f->none = true;
+        say(f, "all high bytes are equal: with stencil there and 24 bits of depth below it, take & 0xFFFFFF first");
+    } else {
+        f->none = true;
+        say(f, "whole numbers up to %u are codes of no named format: bits of fp32 end at %u", s.most, FP32_ONE);
+    }
+}
+
+/* ---- Numbers ----------------------------------------------------------------------------------------------------- */
+
+static void judge_halves(const image *img, finding *f) {
+    (void)img;
+    f->which = LATTICE_FP16;
+    f->sure = true;
+    say(f, "numbers of fp16");
+}
+
+static void count_off(const image *img, void (*count)(const double *, size_t, size_t[LATTICE_COUNT]),
+                      size_t off[LATTICE_COUNT]) {
+    const dp_format any = dp_format_get(0)->format;
+    double d[BLOCK];
+    for (int k = 0; k < LATTICE_COUNT; k++)
+        off[k] = 0;
+    for (uint32_t row = 0; row < img->height; row++)
+        for (uint32_t x = 0; x < img->width; x += BLOCK) {
+            const uint32_t some = img->width - x < BLOCK ? img->width - x : BLOCK;
+            image_depths_double(img, &any, row, x, some, d);
+            count(d, some, off);
+        }
+}
+
+static void judge_numbers(const image *img, finding *f) {
+    size_t off[LATTICE_COUNT];
+    count_off(img, lattice_single, off);
+    f->single = off[LATTICE_FP32] == 0;
+    if (!f->single)
+        count_off(img, lattice_double, off);
+    int k = 0;
+    while (k < LATTICE_FP32 && off[k] > 0)
+        k++;
+    f->which = (lattice)k;
+    f->chance = k < LATTICE_FP32;
+    f->sure = k == LATTICE_FP32 && f->single;
+    if (f->chance)
+        return;
+    size_t least = SIZE_MAX;
+    for (int i = 0; i < LATTICE_FP32; i++)
+        if (off[i] < least) {
+            least = off[i];
+            k = i;
+        }
+    say(f, "%s%zu of %zu samples are off the lattice of %s, which fits best of the coarser ones",
+        f->single ? "" : "finer than fp32: ", least, (size_t)img->width * img->height, lattice_name((lattice)k));
+}
+
+/* ---- Window depths ------------------------------------------------------------------------------------------------*/
+
+/* What is counted besides what recognised has. */
+typedef struct survey {
+    distinct_set seen;
+    size_t telling;          /* different numbers that say something about the lattice */
+    double expected, bits;   /* how many would lie on it by chance; -log2 of the product */
+    size_t low, high, inner; /* below 1/4, above 3/4, neither 0 nor 1 */
+} survey;
+
+static void count_new(survey *s, const finding *f, double d) {
+    if (!distinct_add(&s->seen, d))
+        return;
+    const double chance = lattice_chance(f->which, f->single, d);
+    s->expected += chance;
+    s->telling += chance < 1;
+    s->bits -= log2(chance);
+}
+
+static void count_row(const double *d, size_t count, const finding *f, survey *s, recognised *out) {
+    double last = -1;
+    for (size_t i = 0; i < count; i++) {
+        if (isnan(d[i])) {
+            out->invalid++;
+            continue;
+        }
+        out->at_zero += d[i] == 0;
+        out->at_one += d[i] == 1;
+        s->inner += d[i] > 0 && d[i] < 1;
+        s->low += d[i] > 0 && d[i] < 0.25;
+        s->high += d[i] > 0.75 && d[i] < 1;
+        out->lo = d[i] < out->lo ? d[i] : out->lo;
+        out->hi = d[i] > out->hi ? d[i] : out->hi;
+        if (d[i] != last)
+            count_new(s, f, d[i]);
+        last = d[i];
+    }
+}
+
+static bool coprime(uint32_t a, uint32_t b) {
+    while (b != 0) {
+        const uint32_t rest = a % b;
+        a = b;
+        b = rest;
+    }
+    return a == 1;
+}
+
+/* Rows are visited in strides, so that different numbers of all heights are counted before their count is full. */
+static uint32_t stride_of(uint32_t height) {
+    uint32_t stride = (uint32_t)(0.618 * height);
+    while (!coprime(stride, height))
+        stride++;
+    return stride;
+}
+
+static void count_all(const image *img, const finding *f, survey *s, recognised *out) {
+    const uint32_t stride = stride_of(img->height);
+    double d[BLOCK];
+    for (uint64_t i = 0; i < img->height; i++)
+        for (uint32_t x = 0; x < img->width; x += BLOCK) {
+            const uint32_t some = img->width - x < BLOCK ? img->width - x : BLOCK;
+            image_depths_double(img, &out->format, (uint32_t)(i * stride % img->height), x, some, d);
+            count_row(d, some, f, s, out);
+        }
+}
+
+/* ---- Direction ----------------------------------------------------------------------------------------------------*/
+
+/* The sky is the end that more samples have, where they are not a few; the mass is where nine of ten others are. */
+static const char *direct(const survey *s, recognised *out) {
+    const size_t sky = out->at_zero > out->at_one ? out->at_zero : out->at_one;
+    const int by_sky = sky < 1 + out->samples / 1000 || out->at_zero == out->at_one ? -1 : out->at_zero > out->at_one;
+    const int by_mass = s->inner == 0 ? -1 : 10 * s->low >= 9 * s->inner ? 1 : 10 * s->high >= 9 * s->inner ? 0 : -1;
+    out->reversed = -1;
+    if (s->inner == 0)
+        return "nothing is drawn that shows a direction";
+    if (by_sky >= 0 && by_mass >= 0 && by_sky != by_mass)
+        return by_mass ? "near 0 but sky at 1: no direction" : "near 1 but sky at 0: no direction";
+    out->reversed = by_mass >= 0 ? by_mass : by_sky;
+    if (out->reversed < 0)
+        return "neither sky nor mass shows a direction";
+    if (by_mass < 0)
+        return by_sky ? "sky at 0: reversed" : "sky at 1: not reversed";
+    if (by_sky < 0)
+        return by_mass ? "most are below 1/4: reversed" : "most are above 3/4: not reversed";
+    return by_mass ? "most are below 1/4, sky at 0: reversed" : "most are above 3/4, sky at 1: not reversed";
+}
+
+/* ---- Numbers that are no window depth -----------------------------------------------------------------------------*/
+
+static void explain_outside(const image *img, finding *f, const recognised *out) {
+    const size_t count = (size_t)img->width * img->height, step = img->channels;
+    double lo = (double)INFINITY, hi = -(double)INFINITY;
+    for (size_t i = 0; i < count; i++) {
+        const float *single = img->data;
+        const double *wide = img->data;
+        const double x = img->type == IMAGE_F64 ? wide[i * step] : (double)single[i * step];
+        lo = isfinite(x) && x < lo ? x : lo;
+        hi = isfinite(x) && x > hi ? x : hi;
+    }
+    const char *hint = lo >= 0 && hi > 1 ? ": eye depth?" : lo < 0 && lo >= -1 && hi <= 1 ? ": OpenGL's NDC?" : "";
+    if (lo > hi)
+        say(f, "no window depth: no sample is finite");
+    else
+        say(f, "no window depth: %zu of %zu samples are not in [0, 1], finite ones go from %g to %g%s", out->invalid,
+            count, lo, hi, hint);
+}
+
+static void explain(const image *img, finding *f, const recognised *out) {
+    if (img->type == IMAGE_F32 || img->type == IMAGE_F64)
+        explain_outside(img, f, out);
+    else
+        say(f, "no window depth: %zu of %zu samples are not in [0, 1]", out->invalid, out->samples);
+}
+
+/* ---- Together -----------------------------------------------------------------------------------------------------*/
+
+static void (*const judges[IMAGE_TYPE_COUNT])(const image *img, finding *f) = {
+    [IMAGE_U8] = judge_bytes,   [IMAGE_U16] = judge_words,   [IMAGE_U32] = judge_longs,
+    [IMAGE_F16] = judge_halves, [IMAGE_F32] = judge_numbers, [IMAGE_F64] = judge_numbers,
+};
+
+/* How many numbers agree, against how many would without that lattice. */
+static void weigh(finding *f, const survey *s, recognised *out) {
+    out->certain = f->chance ? s->telling >= RECOGNISE_LEAST && s->bits >= RECOGNISE_BITS : f->sure && s->inner > 0;
+    if (!f->chance)
+        return;
+    const char *more = s->seen.count >= RECOGNISE_DISTINCT_MAX ? "more than " : "";
+    say(f, "%s%zu different numbers lie on the lattice of %s, by chance %.3g would%s", more, s->seen.count,
+        lattice_name(f->which), s->expected, out->certain ? "" : ": cannot tell");
+}
+
+void recognise(const image *img, recognised *out) {
+    finding f = {.single = true};
+    survey s = {0};
+    dp_format formats[2];
+    judges[img->type](img, &f);
+    dp_format_parse(lattice_name(f.which), formats);
+    *out = (recognised){.format = formats[0],
+                        .reversed = -1,
+                        .samples = (size_t)img->width * img->height,
+                        .lo = (double)INFINITY,
+                        .hi = -(double)INFINITY};
+    distinct_init(&s.seen);
+    if (!f.none)
+        count_all(img, &f, &s, out);
+    else
+        out->invalid = out->samples;
+    out->distinct = s.seen.count;
+    out->depth = out->invalid == 0;
+    const char *direction = NULL;
+    if (out->depth) {
+        weigh(&f, &s, out);
+        direction = direct(&s, out);
+    } else if (!f.none) {
+        explain(img, &f, out);
+    }
+    distinct_free(&s.seen);
+    if (out->lo > out->hi)
+        out->lo = out->hi = (double)NAN;
+    snprintf(out->why, sizeof out->why, "%s%s%s", f.reason, direction != NULL ? "; " : "",
+             direction != NULL ? direction : "");
+}

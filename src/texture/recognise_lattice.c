@@ -1,0 +1,138 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "texture/recognise_lattice.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "texture/clones.h"
+#include "texture/recognise.h"
+
+enum { SLOTS = 2 * RECOGNISE_DISTINCT_MAX, BLOCK = 4096 };
+
+static const double unorm16_max = 65535, unorm24_max = 16777215;
+
+const char *lattice_name(lattice which) {
+    static const char *const names[LATTICE_COUNT] = {"fp16", "unorm16", "unorm24", "fp32"};
+    return names[which];
+}
+
+/* ---- Lattices ---------------------------------------------------------------------------------------------------- */
+
+static inline int32_t bits_of(float x) {
+    int32_t bits;
+    memcpy(&bits, &x, sizeof bits);
+    return bits;
+}
+
+static inline int64_t bits_of_double(double x) {
+    int64_t bits;
+    memcpy(&bits, &x, sizeof bits);
+    return bits;
+}
+
+/* 0 <= x < 2^31 to the nearest whole number. */
+static inline double whole(double x) {
+    return (x + 0x1p52) - 0x1p52;
+}
+
+/*
+ * Is x the binary32 number nearest to a code's quotient, or a neighbour of it? The product with the reciprocal is off
+ * by less than 2^-52 relatively, and no quotient lies nearer than 2^-49 to where binary32 rounds: so it is rounded as
+ * the quotient is.
+ */
+static inline int32_t off_unorm(float x, double code_max, double reciprocal) {
+    const float code = (float)(whole((double)x * code_max) * reciprocal);
+    const int32_t distance = bits_of(x) - bits_of(code);
+    return distance > 1 || distance < -1;
+}
+
+/* Subnormals are multiples of 2^-24; the others have 10 bits behind the first. */
+static inline int32_t off_half(float x) {
+    const double t = (double)x * 0x1p24;
+    const int32_t small = whole(t) != t, normal = (bits_of(x) & 0x1FFF) != 0;
+    return x < 0x1p-14F ? small : normal;
+}
+
+TEXTURE_CLONES static void single_block(const double *d, size_t count, int32_t sums[LATTICE_COUNT]) {
+    const double reciprocal16 = 1 / unorm16_max, reciprocal24 = 1 / unorm24_max;
+    int32_t half = 0, unorm16 = 0, unorm24 = 0, single = 0;
+    for (size_t i = 0; i < count; i++) {
+        const int32_t valid = d[i] == d[i];
+        const double number = valid ? d[i] : 0;
+        const float x = (float)number;
+        const int32_t wide = (double)x != number;
+        half += off_half(x) | wide;
+        unorm16 += off_unorm(x, unorm16_max, reciprocal16) | wide;
+        unorm24 += off_unorm(x, unorm24_max, reciprocal24) | wide;
+        single += wide;
+    }
+    sums[LATTICE_FP16] = half;
+    sums[LATTICE_UNORM16] = unorm16;
+    sums[LATTICE_UNORM24] = unorm24;
+    sums[LATTICE_FP32] = single;
+}
+
+void lattice_single(const double *d, size_t count, size_t off[LATTICE_COUNT]) {
+    for (size_t i = 0; i < count; i += BLOCK) {
+        int32_t sums[LATTICE_COUNT];
+        single_block(d + i, count - i < BLOCK ? count - i : BLOCK, sums);
+        for (int k = 0; k < LATTICE_COUNT; k++)
+            off[k] += (size_t)sums[k];
+    }
+}
+
+static bool off_unorm_double(double x, double code_max) {
+    const int64_t distance = bits_of_double(x) - bits_of_double(whole(x * code_max) / code_max);
+    return distance > 1 || distance < -1;
+}
+
+void lattice_double(const double *d, size_t count, size_t off[LATTICE_COUNT]) {
+    for (size_t i = 0; i < count; i++) {
+        if (isnan(d[i]))
+            continue;
+        const bool wide = (double)(float)d[i] != d[i];
+        off[LATTICE_FP16] += wide || off_half((float)d[i]);
+        off[LATTICE_UNORM16] += off_unorm_double(d[i], unorm16_max);
+        off[LATTICE_UNORM24] += off_unorm_double(d[i], unorm24_max);
+        off[LATTICE_FP32] += wide;
+    }
+}
+
+double lattice_chance(lattice which, bool single, double d) {
+    if (d == 0 || d == 1 || which == LATTICE_FP32)
+        return 1;
+    if (which == LATTICE_FP16)
+        return 0x1p-10;
+    if (which == LATTICE_UNORM16)
+        return 3.0 / 256;
+    int exponent;
+    frexp(d, &exponent);
+    return fmin(1, 3 * ldexp(unorm24_max, exponent - (single ? 24 : 53)));
+}
+
+/* ---- Different numbers --------------------------------------------------------------------------------------------*/
+
+void distinct_init(distinct_set *set) {
+    *set = (distinct_set){.slots = malloc(SLOTS * sizeof(uint64_t))};
+    if (set->slots != NULL)
+        memset(set->slots, 0xFF, SLOTS * sizeof(uint64_t)); /* a NaN */
+}
+
+void distinct_free(distinct_set *set) {
+    free(set->slots);
+    set->slots = NULL;
+}
+
+bool distinct_add(distinct_set *set, double d) {
+    if (set->slots == NULL || set->count >= RECOGNISE_DISTINCT_MAX)
+        return false;
+    const uint64_t bits = (uint64_t)bits_of_double(d);
+    uint64_t slot = (bits * UINT64_C(0x9E3779B97F4A7C15)) >> 40 & (SLOTS - 1);
+    for (; set->slots[slot] != UINT64_MAX; slot = (slot + 1) & (SLOTS - 1))
+        if (set->slots[slot] == bits)
+            return false;
+    set->slots[slot] = bits;
+    set->count++;
+    return true;
+}

@@ -1,0 +1,45 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/**
+ * @file recognise_lattice.h  For the recognition alone: which lattice numbers lie on, and what they say about it.
+ */
+#ifndef TEXTURE_RECOGNISE_LATTICE_H
+#define TEXTURE_RECOGNISE_LATTICE_H
+
+#include <stdbool.h>
+#include <stddef.h>
+#include <stdint.h>
+
+/** The named lattices from the fewest codes to the most. */
+typedef enum lattice {
+    LATTICE_FP16 = 0,
+    LATTICE_UNORM16,
+    LATTICE_UNORM24,
+    LATTICE_FP32, /**< every number of binary32 */
+    LATTICE_COUNT
+} lattice;
+
+/** "fp16", ... as dp_format_parse() has them. */
+const char *lattice_name(lattice which);
+
+/** Adds to off[] how many of `count` numbers of [0, 1] do not lie on each lattice; NaN are passed over. A number that
+ *  is not binary32 is off all of them here. */
+void lattice_single(const double *d, size_t count, size_t off[LATTICE_COUNT]);
+
+/** The same for numbers that are not all binary32: unorm within 1 ulp of binary64. */
+void lattice_double(const double *d, size_t count, size_t off[LATTICE_COUNT]);
+
+/** The largest share of numbers without a lattice that lie on one near d, see recognise.h. 0 <= d <= 1 */
+double lattice_chance(lattice which, bool single, double d);
+
+/** Different numbers. */
+typedef struct distinct_set {
+    uint64_t *slots; /**< null when there was no memory: nothing is counted */
+    size_t count;    /**< at most RECOGNISE_DISTINCT_MAX */
+} distinct_set;
+
+void distinct_init(distinct_set *set);
+void distinct_free(distinct_set *set);
+/** @return whether d, not a NaN, is new, and was counted */
+bool distinct_add(distinct_set *set, double d);
+
+#endif

@@ -1,0 +1,242 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Samples of a row as window depths or codes: blocks that stay in the first-level cache, through the batch kernels. */
+#include <math.h>
+#include <string.h>
+
+#include "texture/clones.h"
+#include "texture/recognise.h"
+
+enum { BLOCK = 1024 };
+
+/* A block of samples of any type, and of depths of either. */
+typedef union block {
+    uint8_t u8[BLOCK];
+    uint16_t u16[BLOCK];
+    uint32_t u32[BLOCK];
+    uint64_t u64[BLOCK];
+    float real32[BLOCK];
+    double real64[BLOCK];
+} block;
+
+/* ---- Loops ------------------------------------------------------------------------------------------------------- */
+
+/* Channel 0 alone, side by side. */
+#define EVERY(T)                                                                                                       \
+    static void every_##T(const T *from, size_t step, size_t count, T *to) {                                           \
+        for (size_t i = 0; i < count; i++)                                                                             \
+            to[i] = from[i * step];                                                                                    \
+    }
+EVERY(uint8_t)
+EVERY(uint16_t)
+EVERY(uint32_t)
+EVERY(uint64_t)
+
+/* Numbers of [0, 1], NaN in place of others; + 0 turns -0 into 0. */
+#define CLEAN(NAME, FROM, TO)                                                                                          \
+    TEXTURE_CLONES static void NAME(const FROM *from, size_t count, TO *to) {                                          \
+        for (size_t i = 0; i < count; i++)                                                                             \
+            to[i] = (TO)(from[i] >= 0 && from[i] <= 1 ? from[i] + 0 : (FROM)__builtin_nanf(""));                       \
+    }
+CLEAN(clean_float, float, float)
+CLEAN(clean_float_double, float, double)
+CLEAN(clean_double_float, double, float)
+CLEAN(clean_double, double, double)
+
+/* Depths whose code does not exist. */
+#define BAR(NAME, FROM, TO)                                                                                            \
+    TEXTURE_CLONES static void NAME(const FROM *codes, uint32_t code_max, size_t count, TO *d) {                       \
+        for (size_t i = 0; i < count; i++)                                                                             \
+            d[i] = codes[i] > code_max ? (TO)__builtin_nanf("") : d[i];                                                \
+    }
+BAR(bar_float_16, uint16_t, float)
+BAR(bar_float_32, uint32_t, float)
+BAR(bar_double_16, uint16_t, double)
+BAR(bar_double_32, uint32_t, double)
+
+#define BAR_CODES(NAME, FROM)                                                                                          \
+    TEXTURE_CLONES static void NAME(const FROM *d, size_t count, uint32_t *codes) {                                    \
+        for (size_t i = 0; i < count; i++)                                                                             \
+            codes[i] = d[i] == d[i] ? codes[i] : UINT32_MAX;                                                           \
+    }
+BAR_CODES(bar_codes_float, float)
+BAR_CODES(bar_codes_double, double)
+
+/* -0 of binary16 is 0. All other numbers with a sign, those above 1 and NaN have bits above those of 1. */
+TEXTURE_CLONES static void unsign(const uint16_t *from, size_t count, uint16_t *to) {
+    for (size_t i = 0; i < count; i++)
+        to[i] = from[i] == 0x8000 ? 0 : from[i];
+}
+
+TEXTURE_CLONES static void widen_8(const uint8_t *from, size_t count, uint16_t *to) {
+    for (size_t i = 0; i < count; i++)
+        to[i] = from[i];
+}
+
+TEXTURE_CLONES static void widen_16(const uint16_t *from, uint32_t code_max, size_t count, uint32_t *to) {
+    for (size_t i = 0; i < count; i++)
+        to[i] = from[i] > code_max ? UINT32_MAX : from[i];
+}
+
+TEXTURE_CLONES static void widen_32(const uint32_t *from, uint32_t code_max, size_t count, uint32_t *to) {
+    for (size_t i = 0; i < count; i++)
+        to[i] = from[i] > code_max ? UINT32_MAX : from[i];
+}
+
+/* ---- Blocks -------------------------------------------------------------------------------------------------------*/
+
+static const void *samples(const image *img, size_t first, size_t count, block *scratch) {
+    const size_t step = img->channels, size = image_type_size(img->type);
+    const void *at = (const unsigned char *)img->data + first * step * size;
+    if (step == 1)
+        return at;
+    if (size == sizeof(uint8_t))
+        every_uint8_t(at, step, count, scratch->u8);
+    else if (size == sizeof(uint16_t))
+        every_uint16_t(at, step, count, scratch->u16);
+    else if (size == sizeof(uint32_t))
+        every_uint32_t(at, step, count, scratch->u32);
+    else
+        every_uint64_t(at, step, count, scratch->u64);
+    return scratch;
+}
+
+/* A task on window depths and codes; it reads nothing of the set-up but the format. */
+static void prepare(dp_batch *batch, const dp_format *format, dp_task task, dp_real real, dp_word word) {
+    dp_spec spec = dp_spec_default();
+    dp_setup setup;
+    spec.format = *format;
+    dp_setup_init(&setup, &spec);
+    dp_batch_init(batch, &setup, task, real, word, dp_path_best());
+}
+
+/* How the samples of an image are read in a format, which for f2 is always its own. */
+typedef struct reading {
+    const image *img;
+    dp_format format;
+    bool codes;
+    dp_real real;
+    dp_batch decode; /**< codes alone */
+} reading;
+
+static reading begin(const image *img, const dp_format *format, dp_real real) {
+    reading r = {.img = img, .format = *format, .codes = recognise_codes(img, format), .real = real};
+    if (img->type == IMAGE_F16) {
+        dp_format half[2];
+        dp_format_parse("fp16", half);
+        r.format = half[0];
+        r.codes = true;
+    }
+    if (r.codes)
+        prepare(&r.decode, &r.format, DP_TASK_DECODE, real, img->type == IMAGE_U32 ? DP_WORD_32 : DP_WORD_16);
+    return r;
+}
+
+/* Shares of the type's maximum. Rounding twice does no harm: c/255 and c/65535 are far from all ties of binary32. */
+static void shares(const reading *r, const void *at, size_t count, void *d) {
+    const uint8_t *bytes = at;
+    const uint16_t *words = at;
+    const bool narrow = r->img->type == IMAGE_U8;
+    for (size_t i = 0; i < count; i++) {
+        const double share = narrow ? bytes[i] / 255.0 : words[i] / 65535.0;
+        if (r->real == DP_REAL_FLOAT)
+            ((float *)d)[i] = (float)share;
+        else
+            ((double *)d)[i] = share;
+    }
+}
+
+static void decoded(const reading *r, const void *at, size_t count, void *d) {
+    uint16_t narrow[BLOCK];
+    const void *codes = r->img->type == IMAGE_U8 || r->img->type == IMAGE_F16 ? narrow : at;
+    if (r->img->type == IMAGE_U8)
+        widen_8(at, count, narrow);
+    if (r->img->type == IMAGE_F16)
+        unsign(at, count, narrow);
+    dp_batch_run(&r->decode, codes, d, count);
+    const uint32_t code_max = r->format.code_max;
+    if (r->real == DP_REAL_FLOAT && r->img->type == IMAGE_U32)
+        bar_float_32(codes, code_max, count, d);
+    else if (r->real == DP_REAL_FLOAT)
+        bar_float_16(codes, code_max, count, d);
+    else if (r->img->type == IMAGE_U32)
+        bar_double_32(codes, code_max, count, d);
+    else
+        bar_double_16(codes, code_max, count, d);
+}
+
+static void block_depths(const reading *r, const void *at, size_t count, void *d) {
+    const bool narrow = r->real == DP_REAL_FLOAT;
+    if (r->codes)
+        decoded(r, at, count, d);
+    else if (r->img->type == IMAGE_F32)
+        narrow ? clean_float(at, count, d) : clean_float_double(at, count, d);
+    else if (r->img->type == IMAGE_F64)
+        narrow ? clean_double_float(at, count, d) : clean_double(at, count, d);
+    else
+        shares(r, at, count, d);
+}
+
+/* ---- Public ------------------------------------------------------------------------------------------------------ */
+
+bool recognise_codes(const image *img, const dp_format *format) {
+    return img->type <= IMAGE_U32 && 8 * image_type_size(img->type) >= (size_t)format->bits;
+}
+
+static void depths(const image *img, const dp_format *format, dp_real real, size_t first, size_t count, void *d) {
+    block scratch;
+    const reading r = begin(img, format, real);
+    const size_t size = real == DP_REAL_FLOAT ? sizeof(float) : sizeof(double);
+    for (size_t i = 0; i < count; i += BLOCK) {
+        const size_t some = count - i < BLOCK ? count - i : BLOCK;
+        block_depths(&r, samples(img, first + i, some, &scratch), some, (unsigned char *)d + i * size);
+    }
+}
+
+void image_depths(const image *img, const dp_format *format, uint32_t row, uint32_t column, uint32_t count, float *d) {
+    depths(img, format, DP_REAL_FLOAT, (size_t)row * img->width + column, count, d);
+}
+
+void image_depths_double(const image *img, const dp_format *format, uint32_t row, uint32_t column, uint32_t count,
+                         double *d) {
+    depths(img, format, DP_REAL_DOUBLE, (size_t)row * img->width + column, count, d);
+}
+
+static void widened(const image *img, const void *at, uint32_t code_max, size_t count, uint32_t *codes) {
+    uint16_t narrow[BLOCK];
+    if (img->type == IMAGE_U8)
+        widen_8(at, count, narrow);
+    if (img->type == IMAGE_U32)
+        widen_32(at, code_max, count, codes);
+    else
+        widen_16(img->type == IMAGE_U8 ? narrow : at, code_max, count, codes);
+}
+
+/* What is no code becomes the nearest one, from binary32 where the samples have no more bits. */
+static void encoded(const dp_batch *encode, const reading *r, const void *at, size_t count, uint32_t *codes) {
+    block d;
+    block_depths(r, at, count, &d);
+    dp_batch_run(encode, &d, codes, count);
+    if (r->real == DP_REAL_FLOAT)
+        bar_codes_float(d.real32, count, codes);
+    else
+        bar_codes_double(d.real64, count, codes);
+}
+
+void image_codes(const image *img, const dp_format *format, uint32_t row, uint32_t column, uint32_t count,
+                 uint32_t *codes) {
+    block scratch;
+    const bool single = img->type == IMAGE_F16 || img->type == IMAGE_F32;
+    const bool are_codes = recognise_codes(img, format);
+    const reading r = begin(img, format, single ? DP_REAL_FLOAT : DP_REAL_DOUBLE);
+    dp_batch encode;
+    if (!are_codes)
+        prepare(&encode, format, DP_TASK_ENCODE, r.real, DP_WORD_32);
+    for (size_t i = 0; i < count; i += BLOCK) {
+        const size_t some = count - i < BLOCK ? count - i : BLOCK;
+        const void *at = samples(img, (size_t)row * img->width + column + i, some, &scratch);
+        if (are_codes)
+            widened(img, at, format->code_max, some, codes + i);
+        else
+            encoded(&encode, &r, at, some, codes + i);
+    }
+}
