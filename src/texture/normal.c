@@ -12,8 +12,7 @@
 
 #define INLINE static inline __attribute__((always_inline))
 
-/* ---- Selection: compilers make jumps of conditions as it suits them, and then no vectors; masks stay what they are --
- */
+/* Selection: compilers make jumps of conditions as it suits them, and then no vectors; masks stay what they are */
 
 typedef int32_t mask; /* all bits set or none */
 
@@ -46,8 +45,7 @@ INLINE float unit_of(int32_t bits, int lift) {
     return float_of((int32_t)(((254u + (uint32_t)lift) << 23) - ((uint32_t)bits & 0x7f800000u)));
 }
 
-/* ---- Which side: set for the first. a is the nearer neighbour of it and a2 the one behind; b and b2 of the second ---
- */
+/* Which side: set for the first. a is the nearer neighbour of it and a2 the one behind; b and b2 of the second */
 
 typedef mask (*side_rule)(mask within, float z, float a, float a2, float b, float b2);
 
@@ -81,8 +79,7 @@ INLINE mask side_projective(mask within, float z, float a, float a2, float b, fl
     return -(off_a * b1 * behind_b < off_b * a1 * behind_a) | missing(b);
 }
 
-/* ---- The normal ---------------------------------------------------------------------------------------------------
- */
+/* ---- The normal ------------------------------------------------------------------------------------------------- */
 
 typedef struct vector {
     float x, y, z;
@@ -131,8 +128,7 @@ INLINE vector corner_ortho(const corner *c) {
     return (vector){within_1e18((c->h - c->z) * c->per_x), within_1e18((c->v - c->z) * c->per_y), -1.0f};
 }
 
-/* ---- A row of pixels -----------------------------------------------------------------------------------------------
- */
+/* ---- A row of pixels -------------------------------------------------------------------------------------------- */
 
 /* The five pixels of a column or row through a pixel. */
 typedef struct line {

@@ -47,8 +47,7 @@ double normal_plane_depth(const texture_camera *camera, const normal_plane *plan
     return (plane->offset - dot(plane->normal, place)) / dot(plane->normal, direction);
 }
 
-/* ---- The error of the stored depths ---------------------------------------------------------------------------------
- */
+/* ---- The error of the stored depths ----------------------------------------------------------------------------- */
 
 static double stored_error(const texture_camera *camera, double z, double reading) {
     const dp_setup *setup = &camera->setup;
@@ -73,8 +72,7 @@ double normal_plane_error(const texture_camera *camera, uint32_t column, uint32_
     return worst;
 }
 
-/* ---- The bound ------------------------------------------------------------------------------------------------------
- */
+/* ---- The bound -------------------------------------------------------------------------------------------------- */
 
 /* The error of the vector (a, b, c) or (p, q, -1) that errors of the three depths make; sides are +1 or -1. */
 typedef struct mistake {
