@@ -121,8 +121,7 @@ static void mark_front(const method_family_row *family, bench_result *results, s
 }
 
 static double input_at(const method_family_row *family, const method_inputs *in, size_t i) {
-    bool window = family->methods->family == METHOD_LINEARIZE || family->methods->family == METHOD_ENCODE;
-    return window ? (double)in->d[i] : in->z[i];
+    return family->windows ? (double)in->d[i] : in->z[i];
 }
 
 static bool prepare(const method_family_row *family, size_t which, const dp_setup *setup, const method_inputs *in,

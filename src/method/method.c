@@ -38,6 +38,7 @@ static const method_family_row families[METHOD_FAMILY_COUNT] = {
                          .inputs = 4096,
                          .walked = 256,
                          .per_decade = 2,
+                         .ortho = true,
                          .methods = interval_methods,
                          .method_count = &interval_method_count,
                          .fill = fill_depths,
@@ -51,6 +52,7 @@ static const method_family_row families[METHOD_FAMILY_COUNT] = {
                           .inputs = 65536,
                           .walked = 1024,
                           .per_decade = 2,
+                          .windows = true,
                           .methods = linearize_methods,
                           .method_count = &linearize_method_count,
                           .fill = fill_windows,
@@ -66,6 +68,7 @@ static const method_family_row families[METHOD_FAMILY_COUNT] = {
                        .inputs = 65536,
                        .walked = 1024,
                        .per_decade = 2,
+                       .windows = true,
                        .methods = encode_methods,
                        .method_count = &encode_method_count,
                        .fill = fill_windows,
@@ -79,10 +82,27 @@ static const method_family_row families[METHOD_FAMILY_COUNT] = {
                       .inputs = 16,
                       .walked = 8,
                       .per_decade = 1,
+                      .ortho = true,
                       .methods = worst_methods,
                       .method_count = &worst_method_count,
                       .fill = fill_ranges,
                       .judge = worst_judge},
+    [METHOD_POSITION] = {.name = "position",
+                         .summary = "place of a pixel from its binary32 window depth; 60 degrees, 16:9",
+                         .measure = "error relative to the distance from the camera",
+                         .cases = {{"fp32 d3d", "fp32", DP_MAPPING_D3D},
+                                   {"fp32 reversed", "fp32", DP_MAPPING_REVERSED},
+                                   {"fp32 gl", "fp32", DP_MAPPING_GL}},
+                         .case_count = 3,
+                         .inputs = 65536,
+                         .walked = 4096,
+                         .per_decade = 2,
+                         .windows = true,
+                         .ortho = true,
+                         .methods = position_methods,
+                         .method_count = &position_method_count,
+                         .fill = position_fill,
+                         .judge = position_judge},
 };
 
 const method_family_row *method_family_get(size_t index) {
@@ -125,22 +145,30 @@ dp_status method_setup(const method_family_row *family, size_t which, double zne
 
 bool method_arrays(size_t count, method_inputs *in, method_outputs *out) {
     *in = (method_inputs){count, calloc(count, sizeof *in->z), calloc(count, sizeof *in->hi),
-                          calloc(count, sizeof *in->d)};
-    *out = (method_outputs){calloc(count, sizeof *out->value), calloc(count, sizeof *out->eye),
-                            calloc(count, sizeof *out->code)};
-    if (in->z != NULL && in->hi != NULL && in->d != NULL && out->value != NULL && out->eye != NULL && out->code != NULL)
-        return true;
-    method_arrays_free(in, out);
-    return false;
+                          calloc(count, sizeof *in->d), calloc(3 * count, sizeof *in->place)};
+    *out = (method_outputs){calloc(count, sizeof *out->value),
+                            calloc(count, sizeof *out->eye),
+                            calloc(count, sizeof *out->code),
+                            {NULL, NULL, NULL}};
+    bool good = in->z != NULL && in->hi != NULL && in->d != NULL && in->place != NULL && out->value != NULL &&
+                out->eye != NULL && out->code != NULL;
+    for (int k = 0; k < 3; k++)
+        good = (out->place[k] = calloc(count, sizeof *out->place[k])) != NULL && good;
+    if (!good)
+        method_arrays_free(in, out);
+    return good;
 }
 
 void method_arrays_free(method_inputs *in, method_outputs *out) {
     free(in->z);
     free(in->hi);
     free(in->d);
+    free(in->place);
     free(out->value);
     free(out->eye);
     free(out->code);
+    for (int k = 0; k < 3; k++)
+        free(out->place[k]);
     *in = (method_inputs){0};
     *out = (method_outputs){0};
 }

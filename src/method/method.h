@@ -21,6 +21,7 @@ typedef enum method_family {
     METHOD_LINEARIZE,    /**< window depth -> eye depth */
     METHOD_ENCODE,       /**< window depth -> code */
     METHOD_WORST,        /**< range of depths -> worst interval */
+    METHOD_POSITION,     /**< window depth of a pixel -> place */
     METHOD_FAMILY_COUNT
 } method_family;
 
@@ -63,21 +64,24 @@ enum {
     METHOD_PIPELINE = 1 << 3, /**< judged by the binary32 pipeline, not by the lattice */
     METHOD_ABOVE = 1 << 4,    /**< one-sided: never below the reference, or the error is INFINITY */
     METHOD_BELOW = 1 << 5,    /**< one-sided: never above it */
+    METHOD_HALF = 1 << 6,     /**< only for what binary16 can hold: distances from 2^-13 to 65504 */
 };
 
 /** What a family's methods are given: the arrays that the family uses, `count` long. */
 typedef struct method_inputs {
     size_t count;
-    double *z;  /**< interval: eye depths; worst: the near ends of the ranges */
-    double *hi; /**< worst: the far ends */
-    float *d;   /**< linearize, encode: window depths in [0, 1] */
+    double *z;     /**< interval: eye depths; worst: the near ends of the ranges */
+    double *hi;    /**< worst: the far ends */
+    float *d;      /**< linearize, encode, position: window depths in [0, 1] */
+    double *place; /**< position: the exact places as seen from the camera, world axes, three numbers each */
 } method_inputs;
 
 /** What they give back. */
 typedef struct method_outputs {
-    double *value;  /**< interval, worst: scene units */
-    float *eye;     /**< linearize: scene units */
-    uint32_t *code; /**< encode */
+    double *value;   /**< interval, worst: scene units */
+    float *eye;      /**< linearize: scene units */
+    uint32_t *code;  /**< encode */
+    float *place[3]; /**< position: world coordinates */
 } method_outputs;
 
 typedef struct method_row {
@@ -115,6 +119,8 @@ typedef struct method_family_row {
     const char *summary; /**< what goes in and what comes out */
     const char *measure; /**< what claims count: "relative error", "steps of the format" */
     bool steps;          /**< that measure is the error's `ulp`, else its `relative` */
+    bool windows;        /**< what is shown of an input is its window depth, else its eye depth */
+    bool ortho;          /**< stability walks an orthographic projection, too */
     method_case cases[METHOD_CASES];
     size_t case_count;
     size_t inputs;  /**< how many bench takes */
@@ -173,8 +179,9 @@ void method_windows(const dp_setup *setup, float *d, size_t count);
 /** Number i of a seeded sequence, in [0, 1): the same everywhere and always. */
 double method_unit(uint64_t seed, uint64_t i);
 
-extern const method_row interval_methods[], linearize_methods[], encode_methods[], worst_methods[];
-extern const size_t interval_method_count, linearize_method_count, encode_method_count, worst_method_count;
+extern const method_row interval_methods[], linearize_methods[], encode_methods[], worst_methods[], position_methods[];
+extern const size_t interval_method_count, linearize_method_count, encode_method_count, worst_method_count,
+    position_method_count;
 bool interval_judge(const method_row *, const dp_setup *, const method_inputs *, const method_outputs *, size_t i,
                     method_error *);
 bool linearize_judge(const method_row *, const dp_setup *, const method_inputs *, const method_outputs *, size_t i,
@@ -183,5 +190,10 @@ bool encode_judge(const method_row *, const dp_setup *, const method_inputs *, c
                   method_error *);
 bool worst_judge(const method_row *, const dp_setup *, const method_inputs *, const method_outputs *, size_t i,
                  method_error *);
+bool position_judge(const method_row *, const dp_setup *, const method_inputs *, const method_outputs *, size_t i,
+                    method_error *);
+
+/** Window depths, one for each pixel of some lines of an image, and their exact places. */
+void position_fill(const dp_setup *setup, method_inputs *in);
 
 #endif

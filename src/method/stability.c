@@ -29,9 +29,8 @@ static double error_of(walk *w, const dp_setup *setup, double *at) {
         w->failed = true;
         return (double)NAN;
     }
-    method_family kind = w->family->methods->family;
     size_t i = w->family->steps ? m.ulp_at : m.relative_at;
-    *at = kind == METHOD_LINEARIZE || kind == METHOD_ENCODE ? (double)w->in.d[i] : w->in.z[i];
+    *at = w->family->windows ? (double)w->in.d[i] : w->in.z[i];
     return measured_error(w->family, &m);
 }
 
@@ -134,7 +133,7 @@ static void walk_one(const method_family_row *family, stability_result *r, bool 
     }
     walk_ratios(&w);
     r->infinite = error_at(&w, (double)INFINITY, 1, false, &where);
-    if (family->methods->family == METHOD_INTERVAL || family->methods->family == METHOD_WORST)
+    if (family->ortho)
         r->ortho = error_at(&w, ortho_ratio, 1, true, &where);
     judge_claim(r);
     method_arrays_free(&w.in, &w.out);

@@ -27,13 +27,13 @@ typedef struct stability_result {
     int steps;
     double ratio[STABILITY_STEPS_MAX]; /**< far/near */
     double error[STABILITY_STEPS_MAX]; /**< worst over units and inputs, in the family's measure; may be infinite */
-    double inside; /**< within the claimed span, the error that takes the largest share of its claim */
-    double claim;  /**< what is claimed there; NaN: nothing */
-    double inside_near, inside_far;    /**< the planes where it is reached */
-    double inside_at;                  /**< and the input */
-    double breaks;                     /**< the far/near from which on the error exceeds the claim; INFINITY: never */
-    double infinite; /**< error with an infinite far plane; NaN where the family or mapping has none */
-    double ortho;    /**< error of an orthographic projection; likewise */
+    double inside;                  /**< within the claimed span, the error that takes the largest share of its claim */
+    double claim;                   /**< what is claimed there; NaN: nothing */
+    double inside_near, inside_far; /**< the planes where it is reached */
+    double inside_at;               /**< and the input */
+    double breaks;                  /**< the far/near from which on the error exceeds the claim; INFINITY: never */
+    double infinite;                /**< error with an infinite far plane; NaN where the family or mapping has none */
+    double ortho;                   /**< error of an orthographic projection; likewise */
     stability_verdict verdict;
 } stability_result;
 
