@@ -99,7 +99,7 @@ static double linear_eye(double ratio) {
     return off_by(3 * ratio + 15.1);
 }
 static double linear_eye_half(double ratio) {
-    return linear_eye(ratio) + 5.3e-4;
+    return linear_eye(ratio) + 6e-4;
 }
 static double matrix_d3d(double ratio) {
     return off_by(6 * ratio + 17);
@@ -113,16 +113,16 @@ const method_row position_methods[] = {
      {FULL(9.3 * UNIT), FULL(8.3 * UNIT), FULL(9.3 * UNIT)}, METHOD_INFINITE | METHOD_ORTHO, 0.4, "1", 0,
      "depthprec(7)", NULL, view_open, run, free},
     {METHOD_POSITION, "extents", "(top left + x extent u + y extent v) eye/n with LinearEyeDepth",
-     {FORMULA_TO(linear_eye, 1e5), FULL(19 * UNIT), FORMULA_TO(linear_eye, 1e5)}, METHOD_INFINITE, 0.42, "1", 0,
+     {FORMULA(linear_eye), FULL(19 * UNIT), FORMULA(linear_eye)}, METHOD_INFINITE, 0.42, "1", 0,
      "URP, ReconstructViewPos in SSAO.hlsl", NULL, extents_open, run, free},
     {METHOD_POSITION, "rays", "camera + ray eye/n with LinearEyeDepth, the ray between those of the near plane's corners",
-     {FORMULA_TO(linear_eye, 1e5), FULL(20 * UNIT), FORMULA_TO(linear_eye, 1e5)}, METHOD_INFINITE, 0.45, "1", 0,
+     {FORMULA(linear_eye), FULL(20 * UNIT), FORMULA(linear_eye)}, METHOD_INFINITE, 0.45, "1", 0,
      "image effects with _FrustumCornersRay", NULL, rays_open, run, free},
     {METHOD_POSITION, "matrix", "inverse view-projection matrix times NDC, divided by w",
-     {FORMULA_TO(matrix_d3d, 1e5), FULL(17.1 * UNIT), FORMULA_TO(matrix_gl, 1e5)}, METHOD_INFINITE, 0.48, "1", 0,
+     {FORMULA(matrix_d3d), FULL(17.1 * UNIT), FORMULA(matrix_gl)}, METHOD_INFINITE, 0.48, "1", 0,
      "ComputeWorldSpacePosition, the Core package's Common.hlsl", NULL, matrix_open, run, free},
     {METHOD_POSITION, "extents-half", "extents in binary16, for distances from 2^-13 to 65504; infinite beyond",
-     {FORMULA_TO(linear_eye_half, 1e5), FULL(6e-4), FORMULA_TO(linear_eye_half, 1e5)}, METHOD_INFINITE | METHOD_HALF, 0.8, "1", 0,
+     {FORMULA(linear_eye_half), FULL(6e-4), FORMULA(linear_eye_half)}, METHOD_INFINITE | METHOD_HALF, 0.8, "1", 0,
      "URP, ReconstructViewPos in SSAO.hlsl", NULL, half_open, run, free},
 };
 /* clang-format on */

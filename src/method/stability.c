@@ -108,7 +108,8 @@ static void walk_ratios(walk *w) {
     for (int k = 0; k < r->steps; k++) {
         r->ratio[k] = fmin(METHOD_RATIO_LO * pow(10, (double)k / per_decade), METHOD_RATIO_HI);
         r->error[k] = error_at(w, r->ratio[k], k, false, &where);
-        const double claim = claim_beyond(c, r->ratio[k]), share = r->error[k] / (isnan(claim) ? 1 : claim);
+        const double claim = claim_beyond(c, r->ratio[k]);
+        const double share = isinf(claim) ? 0 : r->error[k] / (isnan(claim) ? 1 : claim);
         if (r->ratio[k] >= c->ratio_lo * (1 - 1e-9) && r->ratio[k] <= c->ratio_hi * (1 + 1e-9) && !(share <= most)) {
             most = share;
             r->claim = claim;
