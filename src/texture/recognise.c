@@ -10,6 +10,7 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "texture/clones.h"
 #include "texture/recognise_lattice.h"
 
 enum { BLOCK = 2048, FP16_ONE = 0x3C00, WIDENED = 257, REASON_SIZE = 160 };
@@ -167,24 +168,51 @@ static void count_new(survey *s, const finding *f, double d) {
     s->bits -= log2(chance);
 }
 
-static void count_row(const double *d, size_t count, const finding *f, survey *s, recognised *out) {
-    double last = -1;
+/* Of at most BLOCK depths, which are NaN or in [0, 1] and so are ordered as their bits are. */
+typedef struct counts {
+    int64_t lo, hi;
+    int32_t invalid, at_zero, at_one, low, high;
+} counts;
+
+TEXTURE_CLONES static void count_block(const double *d, size_t count, counts *out) {
+    counts c = {.lo = INT64_MAX};
     for (size_t i = 0; i < count; i++) {
-        if (isnan(d[i])) {
-            out->invalid++;
-            continue;
-        }
-        out->at_zero += d[i] == 0;
-        out->at_one += d[i] == 1;
-        s->inner += d[i] > 0 && d[i] < 1;
-        s->low += d[i] > 0 && d[i] < 0.25;
-        s->high += d[i] > 0.75 && d[i] < 1;
-        out->lo = d[i] < out->lo ? d[i] : out->lo;
-        out->hi = d[i] > out->hi ? d[i] : out->hi;
-        if (d[i] != last)
-            count_new(s, f, d[i]);
-        last = d[i];
+        int64_t bits;
+        memcpy(&bits, &d[i], sizeof bits);
+        const int64_t valid = d[i] == d[i] ? bits : 0;
+        c.lo = bits < c.lo ? bits : c.lo; /* that of a NaN is larger than all others */
+        c.hi = valid > c.hi ? valid : c.hi;
+        c.invalid += d[i] != d[i];
+        c.at_zero += d[i] == 0;
+        c.at_one += d[i] == 1;
+        c.low += d[i] < 0.25;
+        c.high += d[i] > 0.75;
     }
+    *out = c;
+}
+
+static double of_bits(int64_t bits) {
+    double d;
+    memcpy(&d, &bits, sizeof d);
+    return d;
+}
+
+static void count_row(const double *d, size_t count, const finding *f, survey *s, recognised *out) {
+    counts c;
+    count_block(d, count, &c);
+    out->invalid += (size_t)c.invalid;
+    out->at_zero += (size_t)c.at_zero;
+    out->at_one += (size_t)c.at_one;
+    s->low += (size_t)(c.low - c.at_zero);
+    s->high += (size_t)(c.high - c.at_one);
+    s->inner += count - (size_t)(c.invalid + c.at_zero + c.at_one);
+    if ((size_t)c.invalid == count)
+        return;
+    out->lo = fmin(out->lo, of_bits(c.lo));
+    out->hi = fmax(out->hi, of_bits(c.hi));
+    for (size_t i = 0; i < count && s->seen.count < RECOGNISE_DISTINCT_MAX; i++)
+        if (!isnan(d[i]) && (i == 0 || d[i] != d[i - 1]))
+            count_new(s, f, d[i]);
 }
 
 static bool coprime(uint32_t a, uint32_t b) {
@@ -217,10 +245,11 @@ static void count_all(const image *img, const finding *f, survey *s, recognised 
 
 /* ---- Direction ----------------------------------------------------------------------------------------------------*/
 
-/* The sky is the end that more samples have, where they are not a few; the mass is where nine of ten others are. */
+/* The sky is the end that far more samples have, where they are not a few; the mass is where nine of ten others are. */
 static const char *direct(const survey *s, recognised *out) {
     const size_t sky = out->at_zero > out->at_one ? out->at_zero : out->at_one;
-    const int by_sky = sky < 1 + out->samples / 1000 || out->at_zero == out->at_one ? -1 : out->at_zero > out->at_one;
+    const size_t other = out->at_zero + out->at_one - sky;
+    const int by_sky = sky < 1 + out->samples / 1000 || sky < 4 * other ? -1 : out->at_zero > out->at_one;
     const int by_mass = s->inner == 0 ? -1 : 10 * s->low >= 9 * s->inner ? 1 : 10 * s->high >= 9 * s->inner ? 0 : -1;
     out->reversed = -1;
     if (s->inner == 0)

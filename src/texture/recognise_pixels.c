@@ -100,7 +100,7 @@ static const void *samples(const image *img, size_t first, size_t count, block *
     return scratch;
 }
 
-/* A task on window depths and codes; it reads nothing of the set-up but the format. */
+/* A task on window depths and codes; it reads nothing of the set-up but format and rounding. */
 static void prepare(dp_batch *batch, const dp_format *format, dp_task task, dp_real real, dp_word word) {
     dp_spec spec = dp_spec_default();
     dp_setup setup;
