@@ -21,10 +21,15 @@ static void check_family(const char *name) {
             if (r->ratio[k] <= c->ratio_hi * (1 + 1e-9))
                 TALLY(&t, r->error[k] <= method_claim_at(c, r->ratio[k]), "%s, %s: error %g above %g at far/near %g",
                       r->row->name, where, r->error[k], method_claim_at(c, r->ratio[k]), r->ratio[k]);
+        /* A formula is near the error all the way, not at its best place alone. */
+        for (int k = 0; k < r->steps && c->formula != NULL && r->ratio[k] <= c->ratio_hi; k++)
+            if ((r->row->domain & (METHOD_PIPELINE | METHOD_BELOW)) == 0)
+                TALLY(&t, r->error[k] >= 0.1 * method_claim_at(c, r->ratio[k]), "%s, %s: error %g far below %g at %g",
+                      r->row->name, where, r->error[k], method_claim_at(c, r->ratio[k]), r->ratio[k]);
         TALLY(&t, r->verdict == STABILITY_HOLDS || r->verdict == STABILITY_UNCLAIMED,
               "%s, %s: %s: claim %g to %g, worst %g, breaks at %g, infinite %g, ortho %g", r->row->name, where,
               stability_verdict_name(r->verdict), r->claim, c->ratio_hi, r->inside, r->breaks, r->infinite, r->ortho);
-        if (!isnan(c->worst) && c->ratio_hi < METHOD_RATIO_HI)
+        if (!isnan(c->worst) && stability_must_break(c))
             TALLY(&t, r->breaks >= c->ratio_hi && r->breaks <= STABILITY_SLACK * c->ratio_hi,
                   "%s, %s: claimed to %g, breaks at %g", r->row->name, where, c->ratio_hi, r->breaks);
     }
@@ -48,8 +53,6 @@ static void encode_claims(void **state) {
 
 static void worst_claims(void **state) {
     (void)state;
-    if (test_effort() == EFFORT_QUICK)
-        skip(); /* visits every code some hundred times */
     check_family("worst");
 }
 
@@ -58,18 +61,33 @@ static method_row forged;
 static method_family_row forgery;
 static const size_t one = 1;
 
-static stability_verdict verdict_of(const char *name, double worst, double ratio_hi) {
+static stability_verdict verdict_by(const char *name, method_claim claim) {
     const method_family_row *family = method_family_find("linearize");
     for (size_t i = 0; i < *family->method_count; i++)
         if (strcmp(family->methods[i].name, name) == 0)
             forged = family->methods[i];
-    forged.claims[0] = (method_claim){worst, METHOD_RATIO_LO, ratio_hi, NULL};
+    forged.claims[0] = claim;
     forged.claims[1] = (method_claim){0, 0, 0, NULL};
     forgery = *family;
     forgery.methods = &forged;
     forgery.method_count = &one;
     assert_int_equal(stability_run(&forgery, results), 1);
     return results[0].verdict;
+}
+
+static stability_verdict verdict_of(const char *name, double worst, double ratio_hi) {
+    return verdict_by(name, (method_claim){worst, METHOD_RATIO_LO, ratio_hi, NULL});
+}
+
+/* Its own formula, times a factor. */
+static stability_verdict verdict_times(const char *name, double factor) {
+    const method_family_row *family = method_family_find("linearize");
+    method_claim claim = {0};
+    for (size_t i = 0; i < *family->method_count; i++)
+        if (strcmp(family->methods[i].name, name) == 0)
+            claim = family->methods[i].claims[0];
+    claim.worst *= factor;
+    return verdict_by(name, claim);
 }
 
 static void false_claims_are_found(void **state) {
@@ -82,6 +100,11 @@ static void false_claims_are_found(void **state) {
     assert_int_equal(verdict_of("phi-double", 6e-8, 1e6), STABILITY_MODEST);
     assert_int_equal(verdict_of("complement", (double)NAN, 1e12), STABILITY_MODEST);
     assert_int_equal(verdict_of("textbook", (double)NAN, 1e12), STABILITY_UNCLAIMED);
+    assert_int_equal(verdict_times("textbook", 1), STABILITY_HOLDS);
+    assert_int_equal(verdict_times("textbook", 0.5), STABILITY_BROKEN);
+    assert_int_equal(verdict_times("textbook", 4), STABILITY_MODEST);
+    assert_int_equal(verdict_times("chebyshev", 0.9), STABILITY_BROKEN);
+    assert_int_equal(verdict_times("table-nearest", 0.95), STABILITY_BROKEN);
 }
 
 int main(void) {

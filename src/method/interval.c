@@ -3,6 +3,7 @@
 #include <math.h>
 
 #include "method/census.h"
+#include "method/claim.h"
 #include "method/method.h"
 #include "method/truth.h"
 
@@ -69,7 +70,8 @@ static void bound_run(const dp_setup *setup, const void *state, const method_inp
     (void)state;
     for (size_t i = 0; i < in->count; i++) {
         dp_budget b;
-        out->value[i] = dp_budget_at(setup, in->z[i], NULL, &b) == DP_OK ? b.separation : (double)NAN;
+        out->value[i] =
+            dp_budget_at(setup, in->z[i], NULL, &b) == DP_OK ? fmax(b.separation, truth_step(in->z[i])) : (double)NAN;
     }
 }
 
@@ -85,8 +87,7 @@ static void simulation_run(const dp_setup *setup, const void *state, const metho
     for (size_t i = 0; i < in->count; i++) {
         census_result r;
         const census_sample_request q = {.common = request_of(setup, in->z[i]), .count = 256, .seed = i};
-        out->value[i] =
-            census_sample(&q, &r) == CENSUS_DONE ? fmax(r.all.longest, truth_step(q.common.lo)) : (double)NAN;
+        out->value[i] = census_sample(&q, &r) == CENSUS_DONE ? fmax(r.all.longest, truth_step(in->z[i])) : (double)NAN;
     }
 }
 
@@ -95,39 +96,40 @@ static void census_at(const dp_setup *setup, const void *state, const method_inp
     for (size_t i = 0; i < in->count; i++) {
         census_result r;
         const census_request q = request_of(setup, in->z[i]);
-        out->value[i] = census_run(&q, &r) == CENSUS_DONE ? fmax(r.all.longest, truth_step(q.lo)) : (double)NAN;
+        out->value[i] = census_run(&q, &r) == CENSUS_DONE ? fmax(r.all.longest, truth_step(in->z[i])) : (double)NAN;
     }
 }
 
 /* ---- Rows, cheapest first ---------------------------------------------------------------------------------------- */
 
 enum { PIPELINE_INPUTS = 48 };
+#define EXACT 0x1p-53 /* the difference of two binary32 depths is a double */
 
 /* clang-format off */
 const method_row interval_methods[] = {
     {METHOD_INTERVAL, "rule-of-thumb", "z^2/(n 2^b)",
-     {UP_TO(0.12, 1e6), NOWHERE}, METHOD_INFINITE | METHOD_WHOLE, 1, "1", 0,
+     {FORMULA(claim_rule), NOWHERE}, METHOD_INFINITE | METHOD_WHOLE, 1, "1", 0,
      "Baker, Learning to love your z-buffer", NULL, NULL, rule_run, NULL},
     {METHOD_INTERVAL, "derivative", "dz/dd times the step of the format at d",
-     {UP_TO(1e-3, 1e4), FULL(0.34)}, METHOD_INFINITE | METHOD_ORTHO | METHOD_WHOLE, 4, "1", 0,
+     {FORMULA(claim_first_order), FULL(1 / 3.0 + 0x1p-22)}, METHOD_INFINITE | METHOD_ORTHO | METHOD_WHOLE, 4, "1", 0,
      "first order of z(d + step) - z(d)", NULL, NULL, derivative_run, NULL},
     {METHOD_INTERVAL, "cell", "the exact cell of the exact code, no subtraction of depths",
-     {FULL(1e-15), FULL(1e-15)}, METHOD_INFINITE | METHOD_ORTHO, 50, "1", 0,
+     {FULL(20 * 0x1p-53), FULL(20 * 0x1p-53)}, METHOD_INFINITE | METHOD_ORTHO, 50, "1", 0,
      "depthprec(7)", NULL, NULL, cell_run, NULL},
     {METHOD_INTERVAL, "neighbours", "half the difference of the depths that the codes on either side give back, double",
-     {UP_TO(1e-6, 1e4), UNCLAIMED}, METHOD_INFINITE | METHOD_ORTHO | METHOD_WHOLE, 55, "1", 0,
+     {FORMULA(claim_neighbours), UNCLAIMED}, METHOD_ORTHO | METHOD_WHOLE, 55, "1", 0,
      "", NULL, NULL, neighbours_run, NULL},
     {METHOD_INTERVAL, "neighbours-binary32", "the same with the depths rounded to binary32, as in a shader",
-     {UP_TO(0.9, 3e7), UNCLAIMED}, METHOD_INFINITE | METHOD_ORTHO | METHOD_WHOLE, 56, "1", 0,
+     {FORMULA(claim_neighbours32), UNCLAIMED}, METHOD_ORTHO | METHOD_WHOLE, 56, "1", 0,
      "", NULL, NULL, neighbours32_run, NULL},
-    {METHOD_INTERVAL, "bound", "the separation that the binary32 pipeline guarantees",
-     {UP_TO(6, 2e5), FULL(0.6)}, METHOD_INFINITE | METHOD_PIPELINE, 100, "1", PIPELINE_INPUTS,
+    {METHOD_INTERVAL, "bound", "the separation that the binary32 pipeline guarantees, next to the longest interval that is there",
+     {FORMULA(claim_bound), FULL(0x1.01p-40)}, METHOD_INFINITE | METHOD_PIPELINE, 100, "1", PIPELINE_INPUTS,
      "depthprec(7)", NULL, NULL, bound_run, NULL},
-    {METHOD_INTERVAL, "simulation", "256 seeded depths of the binary32 pipeline near z and the longest interval from them",
-     {FULL(0.8), FULL(1e-15)}, METHOD_INFINITE | METHOD_PIPELINE, 50000, "samples", PIPELINE_INPUTS,
+    {METHOD_INTERVAL, "simulation", "the longest interval from 256 seeded depths of the binary32 pipeline near z: never more than there is",
+     {FULL(1), FULL(EXACT)}, METHOD_INFINITE | METHOD_PIPELINE | METHOD_BELOW, 50000, "samples", PIPELINE_INPUTS,
      "", NULL, NULL, simulation_run, NULL},
     {METHOD_INTERVAL, "census", "every depth of the binary32 pipeline near z",
-     {FULL(1e-15), FULL(1e-15)}, METHOD_INFINITE | METHOD_PIPELINE, 60000, "depths", PIPELINE_INPUTS,
+     {FULL(EXACT), FULL(EXACT)}, METHOD_INFINITE | METHOD_PIPELINE, 60000, "depths", PIPELINE_INPUTS,
      "depthprec(7)", NULL, NULL, census_at, NULL},
 };
 /* clang-format on */
@@ -141,13 +143,14 @@ bool interval_judge(const method_row *row, const dp_setup *setup, const method_i
         dp_budget b;
         if (dp_budget_at(setup, in->z[i], NULL, &b) != DP_OK || !(in->z[i] + b.separation <= setup->spec.zfar))
             return false; /* nothing in view lies behind it */
-        truth_window(setup, in->z[i], &lo, &hi);
-        want = truth_longest(setup, lo, hi);
+        if (!truth_window(setup, in->z[i], &lo, &hi))
+            return false; /* too long for a scan */
+        want = truth_longest(setup, lo, hi, truth_step(in->z[i]));
     } else {
         want = truth_width(setup, dp_code(setup, in->z[i]), &cut);
     }
     if (cut && (row->domain & METHOD_WHOLE) != 0)
         return false;
-    *error = truth_error(got, want);
+    *error = truth_error(row, got, want);
     return true;
 }

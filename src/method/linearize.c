@@ -9,6 +9,8 @@
 #include <xmmintrin.h>
 #endif
 
+#include "method/claim.h"
+
 static bool is_reversed(const dp_setup *setup) {
     return setup->reversed != 0;
 }
@@ -188,51 +190,50 @@ static void phi_run(const dp_setup *setup, const void *state, const method_input
 /* ---- Rows, cheapest first ---------------------------------------------------------------------------------------- */
 
 /* Claims of whole roundings are derived: one for each that a result passes through, relative, where no term cancels. */
-#define UNIT      0x1p-24
-#define HALF_UNIT 6e-8 /* one rounding to binary32 and a few of double or of pairs */
+#define UNIT CLAIM_UNIT
 static const char gsl[] = "GNU Scientific Library";
 
 /* clang-format off */
 const method_row linearize_methods[] = {
     {METHOD_LINEARIZE, "magic", "1/(Z d + W), the reciprocal from the bits of x and one Newton step",
-     {UP_TO(1e-2, 1e5), FULL(2.7e-3)}, 0, 0.17, "1", 0,
+     {FORMULA_TO(claim_magic, CLAIM_CANCELLED), FULL(CLAIM_MAGIC + 7 * UNIT)}, 0, 0.17, "1", 0,
      "the reciprocal by subtraction of bit patterns is folklore", NULL, NULL, magic_run, NULL},
     {METHOD_LINEARIZE, "unity", "1/(Z d + W) in binary32, LinearEyeDepth of Unity with _ZBufferParams",
-     {UP_TO(1e-3, 1e4), FULL(4 * UNIT)}, METHOD_INFINITE, 0.22, "1", 0,
+     {FORMULA_TO(claim_unity, CLAIM_CANCELLED), FULL(4 * UNIT)}, METHOD_INFINITE, 0.22, "1", 0,
      "UnityCG.cginc", NULL, NULL, unity_run, NULL},
     {METHOD_LINEARIZE, "textbook", "n f/(f - d (f - n)) in binary32",
-     {UP_TO(1e-3, 1e4), FULL(5 * UNIT)}, 0, 0.23, "1", 0,
+     {FORMULA_TO(claim_textbook, CLAIM_CANCELLED), FULL(5 * UNIT)}, 0, 0.23, "1", 0,
      "the inverse of the projection, in most tutorials", NULL, NULL, textbook_run, NULL},
     {METHOD_LINEARIZE, "complement", "n f/(n + (1 - d)(f - n)) in binary32: the same number, and no cancellation",
      {FULL(6 * UNIT), FULL(5 * UNIT)}, 0, 0.24, "1", 0,
      "depthprec(7)", NULL, NULL, complement_run, NULL},
     {METHOD_LINEARIZE, "complement-newton",
      "n f/(n + (1 - d)(f - n)) in binary32, the reciprocal as estimated by the processor and one Newton step",
-     {FULL(6e-7), FULL(6e-7)}, 0, 0.26, "1", 0,
+     {FULL(10.75 * UNIT), FULL(9.75 * UNIT)}, 0, 0.26, "1", 0,
      "RCPPS, 1.5 x 2^-12 relative", has_estimate, NULL, newton_run, NULL},
     {METHOD_LINEARIZE, "table-nearest", "the nearest of 65536 depths in equal steps of d, binary32",
-     {UP_TO(1e-1, 1e4), UP_TO(1e-1, 1e4)}, 0, 0.6, "1", 0,
+     {FORMULA(claim_table_nearest), FORMULA(claim_table_nearest)}, 0, 0.6, "1", 0,
      "", NULL, table_open, table_nearest, table_close},
     {METHOD_LINEARIZE, "double", "n f/(f - d (f - n)) in double, rounded to binary32",
-     {UP_TO(1e-7, 1e9), FULL(HALF_UNIT)}, 0, 0.58, "1", 0,
+     {FORMULA(claim_double), FULL(UNIT)}, 0, 0.58, "1", 0,
      "", NULL, NULL, double_run, NULL},
     {METHOD_LINEARIZE, "phi-double", "n/(phi d + q) in double, rounded to binary32: what the engine does",
-     {FULL(HALF_UNIT), FULL(HALF_UNIT)}, METHOD_INFINITE, 0.59, "1", 0,
+     {FULL(UNIT), FULL(UNIT)}, METHOD_INFINITE, 0.59, "1", 0,
      "depthprec(7)", NULL, NULL, phi_run, NULL},
     {METHOD_LINEARIZE, "table-linear", "between two of 65536 depths in equal steps of d, binary32",
-     {UP_TO(1e-2, 1e4), UP_TO(1e-2, 1e4)}, 0, 1.1, "1", 0,
+     {FORMULA(claim_table_linear), FORMULA(claim_table_linear)}, 0, 1.1, "1", 0,
      "", NULL, table_open, table_linear, table_close},
     {METHOD_LINEARIZE, "pair", "the complement form with pairs of binary32 numbers, rounded once",
-     {FULL(HALF_UNIT), FULL(HALF_UNIT)}, 0, 1.4, "1", 0,
+     {FULL(UNIT + 0x1p-41), FULL(UNIT + 0x1p-41)}, 0, 1.4, "1", 0,
      "Dekker 1971, A floating-point technique for extending the available precision", NULL, NULL, pair_run, NULL},
     {METHOD_LINEARIZE, "fused", "n f/(f - d (f - n)) in binary32, product and difference in one operation",
-     {UP_TO(1e-3, 1e4), FULL(4 * UNIT)}, 0, 2.2, "1", 0,
+     {FORMULA_TO(claim_fused, CLAIM_CANCELLED_FUSED), FULL(4 * UNIT)}, 0, 2.2, "1", 0,
      "", NULL, NULL, fused_run, NULL},
     {METHOD_LINEARIZE, "spline", "cubic spline through 4097 depths in equal steps of d",
-     {UP_TO(1e-2, 1e3), UP_TO(1e-2, 1e3)}, 0, 52, "1", 16384,
+     {FORMULA(claim_spline), FORMULA(claim_spline)}, 0, 52, "1", 16384,
      gsl, NULL, spline_open, spline_run, spline_close},
     {METHOD_LINEARIZE, "chebyshev", "Chebyshev series of order 40 over d",
-     {UP_TO(1e-3, 1e2), UP_TO(1e-3, 1e2)}, 0, 50, "1", 16384,
+     {FORMULA(claim_chebyshev), FORMULA(claim_chebyshev)}, 0, 50, "1", 16384,
      gsl, NULL, chebyshev_open, chebyshev_run, chebyshev_close},
 };
 /* clang-format on */

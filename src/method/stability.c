@@ -76,6 +76,10 @@ static double bisect(walk *w, double holds, double breaks, int step) {
     return sqrt(holds) * sqrt(breaks);
 }
 
+bool stability_must_break(const method_claim *c) {
+    return c->ratio_hi < METHOD_RATIO_HI && method_claim_at(c, c->ratio_hi) < 1;
+}
+
 static void judge_claim(stability_result *r) {
     const method_claim *c = &r->row->claims[r->which];
     bool infinite = (r->row->domain & METHOD_INFINITE) != 0, ortho = (r->row->domain & METHOD_ORTHO) != 0;
@@ -90,7 +94,7 @@ static void judge_claim(stability_result *r) {
              (ortho && !isnan(r->ortho) && !(r->ortho <= method_claim_at(c, ortho_ratio))))
         r->verdict = STABILITY_BROKEN;
     else if ((r->claim > METHOD_ROUNDING && r->inside < METHOD_MODEST * r->claim) ||
-             (c->ratio_hi < METHOD_RATIO_HI && !(r->breaks <= STABILITY_SLACK * c->ratio_hi)))
+             (stability_must_break(c) && !(r->breaks <= STABILITY_SLACK * c->ratio_hi)))
         r->verdict = STABILITY_MODEST;
     else
         r->verdict = STABILITY_HOLDS;

@@ -37,6 +37,9 @@ typedef struct stability_result {
     stability_verdict verdict;
 } stability_result;
 
+/** Is a claim expected to break soon behind its span? Not one that holds everywhere, nor one that has grown to 1. */
+bool stability_must_break(const method_claim *claim);
+
 /** "holds", "broken", "too modest", "no claim". */
 const char *stability_verdict_name(stability_verdict verdict);
 

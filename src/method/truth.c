@@ -17,7 +17,7 @@ static long double boundary(const dp_format *f, uint32_t code, bool above) {
 
 double truth_width(const dp_setup *setup, uint32_t code, bool *cut) {
     const dp_format *f = &setup->spec.format;
-    const long double n = setup->spec.znear, zfar = setup->spec.zfar;
+    const long double n = (long double)setup->spec.znear, zfar = (long double)setup->spec.zfar;
     const long double unit = f->kind == DP_FORMAT_UNORM ? 2.0L * f->code_max : 2.0L; /* of twice the value */
     *cut = code == 0 || code == f->code_max;
     long double d1 = code == 0 ? 0 : boundary(f, code, false),
@@ -39,7 +39,7 @@ double truth_step(double z) {
     return (double)nextafterf(x, INFINITY) - (double)x;
 }
 
-void truth_window(const dp_setup *setup, double z, double *lo, double *hi) {
+bool truth_window(const dp_setup *setup, double z, double *lo, double *hi) {
     enum { LEAST = 1 << 12, MOST = 1 << 15 };
     dp_budget b = {0};
     dp_budget_at(setup, z, NULL, &b);
@@ -47,14 +47,14 @@ void truth_window(const dp_setup *setup, double z, double *lo, double *hi) {
     double reach = fmin(fmax(8 * b.separation, LEAST * step), most);
     *lo = fmax(z - reach, setup->spec.znear);
     *hi = fmin(z + reach, setup->spec.zfar);
+    return 8 * b.separation <= most;
 }
 
 /* codes[i] of every depth, and the greatest code (in the order of depth) so far tells which later depth is no better.
  */
-double truth_longest(const dp_setup *setup, double lo, double hi) {
+double truth_longest(const dp_setup *setup, double lo, double hi, double least) {
     dp_pipeline p;
     const uint64_t count = census_count(lo, hi);
-    const double least = truth_step(lo);
     if (count < 2 || dp_pipeline_init(&p, setup) != DP_OK)
         return least;
     int64_t *key = malloc(2 * count * sizeof *key);
@@ -82,11 +82,14 @@ double truth_longest(const dp_setup *setup, double lo, double hi) {
     return longest;
 }
 
-method_error truth_error(double got, double want) {
+method_error truth_error(const method_row *row, double got, double want) {
     if (got == want)
         return (method_error){0, 0, 0};
     const double off = fabs(got - want);
-    if (!(off < (double)INFINITY))
+    const double least = want * (1 - METHOD_ROUNDING), most = want * (1 + METHOD_ROUNDING);
+    const bool wrong =
+        ((row->domain & METHOD_ABOVE) != 0 && got < least) || ((row->domain & METHOD_BELOW) != 0 && got > most);
+    if (wrong || !(off < (double)INFINITY))
         return (method_error){(double)INFINITY, (double)INFINITY, (double)INFINITY};
     return (method_error){off, off / want, off / (nextafter(want, DBL_MAX) - want)};
 }

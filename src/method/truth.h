@@ -19,16 +19,18 @@ double truth_width(const dp_setup *setup, uint32_t code, bool *cut);
 /**
  * The depths next to z that its interval in the binary32 pipeline is looked for in: eight guaranteed separations to
  * either side, from 2^12 to 2^15 binary32 depths each, within the planes.
+ * @return whether they are eight, and not fewer for the 2^15
  */
-void truth_window(const dp_setup *setup, double z, double *lo, double *hi);
+bool truth_window(const dp_setup *setup, double z, double *lo, double *hi);
 
-/** The longest interval of the pipeline with both ends in [lo, hi], at least one binary32 step of lo: a plain scan. */
-double truth_longest(const dp_setup *setup, double lo, double hi);
+/** The longest interval of the pipeline with both ends in [lo, hi], or `least` where none is as long: a plain scan. */
+double truth_longest(const dp_setup *setup, double lo, double hi, double least);
 
 /** One step of binary32 at z. */
 double truth_step(double z);
 
-/** How far a width is from the true one: absolute, relative and in units of the last place; all INFINITY if NaN. */
-method_error truth_error(double got, double want);
+/** How far a width is from the true one: absolute, relative and in units of the last place; all INFINITY if NaN, or on
+ *  the side of it where the row's domain says that it never is. */
+method_error truth_error(const method_row *row, double got, double want);
 
 #endif
