@@ -179,16 +179,16 @@ static bool picture(const options *o, const chart *c, output *out) {
     return true;
 }
 
-/* How much was computed for the picture: no more than one value a pixel column and curve, or one a field of a map. */
-static void say_values(const chart *c) {
-    size_t values = 0, curves = 0;
-    for (size_t p = 0; p < c->panel_count; p++) {
-        curves += c->panels[p].series_count;
-        values += (size_t)c->panels[p].map.columns * (size_t)c->panels[p].map.rows;
-        for (size_t s = 0; s < c->panels[p].series_count; s++)
-            values += c->panels[p].series[s].count;
-    }
-    fprintf(stderr, "depthprec: %zu values computed, %zu series in %zu panels\n", values, curves, c->panel_count);
+/* How much was computed for the picture, against a value for each pixel column and curve. */
+static void say_evaluations(const figure_row *row, const chart *c) {
+    size_t fields = 0;
+    for (size_t p = 0; p < c->panel_count; p++)
+        fields += (size_t)c->panels[p].map.columns * (size_t)c->panels[p].map.rows;
+    if (fields > 0)
+        fprintf(stderr, "depthprec: %s: %zu evaluations, one a field\n", row->name, fields);
+    else if (c->curves > 0)
+        fprintf(stderr, "depthprec: %s: %zu evaluations for %zu curve%s (one a pixel column would be %zu)\n", row->name,
+                c->evaluations, c->curves, c->curves == 1 ? "" : "s", c->places);
 }
 
 static int write_figure(const options *o, const figure_row *row, const figure_request *request, chart *c) {
@@ -211,7 +211,7 @@ static int write_figure(const options *o, const figure_row *row, const figure_re
     else if (good)
         good = picture(o, c, &out);
     if (good && o->verbose)
-        say_values(c);
+        say_evaluations(row, c);
     if (good)
         return output_close(&out);
     output_abandon(&out);
@@ -243,6 +243,7 @@ int cmd_plot(const options *o) {
     options in_binary32 = *o;
     in_binary32.model = (row->takes & FIGURE_BINARY32) != 0 ? DP_MODEL_FP32 : o->model;
     request.columns = o->width > 0 ? o->width : WIDTH;
+    request.rows = o->height > 0 ? o->height : HEIGHT;
     int status = check_size(o);
     if (status == EXIT_FINE)
         status = check_file_given(o, row);

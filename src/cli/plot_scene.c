@@ -10,7 +10,7 @@
 #include "cli/setups.h"
 #include "plot/notes.h"
 
-enum { WIDTH = 800, NAME_SIZE = SETUP_LABEL_SIZE + 80 };
+enum { WIDTH = 800, HEIGHT = 500, NAME_SIZE = SETUP_LABEL_SIZE + 80 };
 
 /* One set-up of a camera that has requirements to show. */
 typedef struct scene {
@@ -110,7 +110,8 @@ static int draw(const options *o, const figure_row *row, scene *s,
                               .at = NAN,
                               .needs = s->needs,
                               .need_count = s->need_count,
-                              .columns = o->width > 0 ? o->width : WIDTH};
+                              .columns = o->width > 0 ? o->width : WIDTH,
+                              .rows = o->height > 0 ? o->height : HEIGHT};
     if (option_given(o, OPTION_RANGE)) {
         request.lo = o->range_lo;
         request.hi = o->range_hi;

@@ -60,14 +60,15 @@ static heights common_span(const axes *a, const chart_series *s, size_t index, s
     return h;
 }
 
-/* The larger part that the lines between two x leave free. */
+/* The larger part that the lines between two x leave free; the ends of the parts that reach there count whole. */
 static heights clear_of_lines(const axes *right, const chart_panel *panel, heights h, double from, double to,
                               double gap) {
     for (size_t s = 0; s < panel->series_count; s++) {
         const chart_series *line = &panel->series[s];
         heights taken = {INFINITY, -INFINITY};
         for (size_t i = 0; i < line->count && line->kind == CHART_LINE; i++)
-            if (axes_x(right, line->x[i]) >= from && axes_x(right, line->x[i]) <= to && !isnan(line->y[i])) {
+            if ((i + 1 == line->count || axes_x(right, line->x[i + 1]) >= from) &&
+                (i == 0 || axes_x(right, line->x[i - 1]) <= to) && !isnan(line->y[i])) {
                 taken.upper = fmin(taken.upper, axes_y(right, line->y[i]) - gap);
                 taken.lower = fmax(taken.lower, axes_y(right, line->y[i]) + gap);
             }

@@ -28,19 +28,53 @@ static bool counts(const dp_budget_terms *terms, dp_cause cause) {
     }
 }
 
-static chart_series *add_band(chart *out, chart_panel *panel, int layer, size_t count) {
-    chart_series *s = chart_add_series(out, panel, CHART_AREA, count);
-    if (s == NULL)
-        return NULL;
-    s->style.colour = layer;
-    snprintf(s->name, sizeof s->name, "%s", dp_cause_name(stack[layer]));
-    return s;
+/* The bands that take part, from the axis upwards, and behind them the separation. */
+typedef struct stacked {
+    const dp_setup *setup;
+    const dp_budget_terms *terms;
+    int count;
+    int layer[DP_CAUSE_COUNT];
+} stacked;
+
+static void sample(const void *context, double from, double to, refine_sample *out) {
+    const stacked *s = context;
+    dp_budget b = {.separation = NAN};
+    (void)to;
+    *out = (refine_sample){.step = {0}};
+    dp_budget_at(s->setup, from, s->terms, &b);
+    double sum = 0; /* the line that is drawn is the upper rim of a band */
+    for (int k = 0; k < s->count; k++)
+        out->y[k] = sum += isfinite(b.separation) ? 100 * b.cause[stack[s->layer[k]]] / b.separation : (double)NAN;
+    out->y[s->count] = b.separation;
+    const double flicker = envelope_flicker(s->setup, from, b.separation);
+    for (int k = 0; k < s->count; k++)
+        out->flicker[k] = out->y[k] * flicker;
+    out->flicker[s->count] = flicker;
 }
 
-static void add_panel(const figure_request *request, chart *out, size_t i, int steps) {
-    const dp_setup *setup = &request->setups[i];
-    chart_series *bands[DP_CAUSE_COUNT] = {NULL};
-    double lo, hi;
+static void add_bands(chart *out, chart_panel *panel, const stacked *split, const refine *r) {
+    for (int k = 0; k < split->count; k++) {
+        chart_series *band = envelope_line(out, panel, CHART_AREA, r, k);
+        if (band == NULL)
+            return;
+        band->style.colour = split->layer[k];
+        snprintf(band->name, sizeof band->name, "%s", dp_cause_name(stack[split->layer[k]]));
+    }
+    for (int k = split->count - 1; k > 0; k--) /* from rims to thicknesses */
+        for (size_t i = 0; i < panel->series[k].count; i++)
+            panel->series[k].y[i] -= panel->series[k - 1].y[i];
+    chart_series *line = envelope_line(out, panel, CHART_LINE, r, split->count);
+    if (line == NULL)
+        return;
+    line->style.colour = -1;
+    line->second = true;
+    snprintf(line->name, sizeof line->name, "separation, right axis");
+}
+
+static void add_panel(const figure_request *request, chart *out, size_t i) {
+    stacked split = {.setup = &request->setups[i], .terms = &request->terms};
+    double lo, hi, knots[REFINE_KNOTS];
+    refine r;
     figure_range(request, &lo, &hi);
     chart_panel *panel = chart_add_panel(out);
     if (panel == NULL)
@@ -51,33 +85,26 @@ static void add_panel(const figure_request *request, chart *out, size_t i, int s
         (chart_axis){.scale = CHART_LOG, .label = "guaranteed separation", .key = "separation", .unit = "scene units"};
     if (request->count > 1)
         snprintf(panel->title, sizeof panel->title, "%s", request->names[i]);
+    refine_request q = envelope_request(request, split.setup, CHART_LOG, lo, hi, knots);
     for (int layer = 0; layer < DP_CAUSE_COUNT; layer++)
-        if (counts(&request->terms, stack[layer]))
-            bands[layer] = add_band(out, panel, layer, (size_t)steps + 1);
-    chart_series *line = chart_add_series(out, panel, CHART_LINE, (size_t)steps + 1);
-    if (line == NULL || chart_failed(out))
+        if (counts(&request->terms, stack[layer])) {
+            q.axis[split.count] = panel->y;
+            split.layer[split.count++] = layer;
+        }
+    q.axis[split.count] = panel->second;
+    q.values = split.count + 1;
+    q.sample = sample;
+    q.context = &split;
+    if (!refine_begin(&r, &q, out))
         return;
-    line->style.colour = -1;
-    line->second = true;
-    snprintf(line->name, sizeof line->name, "separation, right axis");
-    for (int k = 0; k <= steps; k++) {
-        dp_budget b = {.separation = NAN};
-        const double z = envelope_edge(CHART_LOG, lo, hi, k, steps);
-        dp_budget_at(setup, z, &request->terms, &b);
-        line->x[k] = z;
-        line->y[k] = b.separation;
-        for (int layer = 0; layer < DP_CAUSE_COUNT; layer++)
-            if (bands[layer] != NULL) {
-                bands[layer]->x[k] = z;
-                bands[layer]->y[k] = isfinite(b.separation) ? 100 * b.cause[stack[layer]] / b.separation : (double)NAN;
-            }
-    }
+    refine_finish(&r);
+    refine_account(&r, out);
+    add_bands(out, panel, &split, &r);
 }
 
 const char *budget_build(const figure_request *request, chart *out) {
-    const int steps = (int)fmax(40, request->columns / sqrt((double)request->count));
     for (size_t i = 0; i < request->count; i++)
-        add_panel(request, out, i, steps);
+        add_panel(request, out, i);
     chart_fit(out);
     return NULL;
 }

@@ -81,6 +81,9 @@ typedef struct chart {
     chart_panel panels[CHART_PANELS];
     chart_axis value; /**< the colour scale shared by the maps; label is null when there is none */
     bool contours;    /**< lines at the decades of the maps */
+    size_t curves;      /**< how many were refined, */
+    size_t evaluations; /**< how often something was computed for them, */
+    size_t places;      /**< and how often it would have been with one point a pixel column: see refine.h */
     void *memory;     /**< everything chart_numbers() gave out */
     bool failed;
 } chart;

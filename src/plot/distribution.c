@@ -49,15 +49,27 @@ static void add_codes(const figure_request *request, chart *out, chart_panel *pa
     }
 }
 
+static void window(const void *context, double from, double to, refine_sample *out) {
+    (void)to;
+    *out = (refine_sample){.y = {dp_window(context, from)}};
+}
+
 static void add_curve(const figure_request *request, chart *out, chart_panel *panel, size_t i) {
-    chart_series *s = chart_add_series(out, panel, CHART_LINE, (size_t)request->columns + 1);
-    if (s == NULL)
+    double knots[REFINE_KNOTS];
+    refine r;
+    refine_request q =
+        envelope_request(request, &request->setups[i], panel->x.scale, panel->x.lo, panel->x.hi, knots);
+    q.knot_count = 0; /* it is smooth */
+    q.axis[0] = panel->y;
+    q.sample = window;
+    q.context = &request->setups[i];
+    if (!refine_begin(&r, &q, out))
         return;
-    snprintf(s->name, sizeof s->name, "window depth d(z)");
-    for (int k = 0; k <= request->columns; k++) {
-        s->x[k] = envelope_edge(panel->x.scale, panel->x.lo, panel->x.hi, k, request->columns);
-        s->y[k] = dp_window(&request->setups[i], s->x[k]);
-    }
+    refine_finish(&r);
+    refine_account(&r, out);
+    chart_series *s = envelope_line(out, panel, CHART_LINE, &r, 0);
+    if (s != NULL)
+        snprintf(s->name, sizeof s->name, "window depth d(z)");
 }
 
 static void build_staircases(const figure_request *request, chart *out) {

@@ -6,15 +6,6 @@
 
 #include "plot/ticks.h"
 
-double envelope_edge(chart_scale scale, double lo, double hi, int i, int count) {
-    if (i <= 0)
-        return lo;
-    if (i >= count)
-        return hi;
-    chart_axis axis = {.scale = scale, .lo = lo, .hi = hi};
-    return fmin(fmax(chart_axis_at(&axis, (double)i / count), lo), hi);
-}
-
 /* The greatest error that any depth of z's cell has. */
 static double cell_error(const dp_setup *setup, double z) {
     dp_cell cell = dp_cell_of(setup, dp_code(setup, z));
@@ -23,33 +14,132 @@ static double cell_error(const dp_setup *setup, double z) {
     return fmax(fabs(dp_error(setup, cell.code, cell.lo)), fabs(dp_error(setup, cell.code, cell.hi)));
 }
 
-/* The cells at both ends of a slice count whole: the error of a depth depends on where in its cell it lies, and that
- * is chance. So the curve runs along the tops of the teeth, as the interval does, in place of a thicket of them. */
-static double slice(const dp_setup *setup, double from, double to, envelope_value value) {
-    dp_worst worst;
-    if (dp_worst_over(setup, from, to, &worst) != DP_OK)
-        return NAN;
-    worst.error = fmax(worst.error, fmax(cell_error(setup, from), cell_error(setup, to)));
-    return value(&worst);
+/* How much neighbouring cells differ, relatively: a width goes with the square of z at most. */
+static double step_of(const dp_worst *w) {
+    return 2 * (w->interval_hi - w->interval_lo) / w->interval_lo;
 }
 
-static void add_curve(const figure_request *request, chart *out, chart_panel *panel, size_t i, envelope_value value) {
+/* A cell of a staged UNORM holds a whole number of binary32 steps, now one more, now one less. */
+static double flicker_of(const dp_setup *setup, const dp_worst *w) {
+    if (setup->spec.model != DP_MODEL_STAGED || setup->spec.format.kind == DP_FORMAT_FLOAT || isinf(w->interval))
+        return 0;
+    const double a = dp_window(setup, w->interval_lo), b = dp_window(setup, w->interval_hi);
+    const double step = dp_mapping_get(setup->spec.mapping)->ndc_signed ? 0x1p-24 : ldexp(1.0, ilogb(fmax(a, b)) - 23);
+    return step / fabs(a - b);
+}
+
+/* The cells at both ends of a slice count whole: the error of a depth depends on where in its cell it lies, and that
+ * is chance. So the curve runs along the tops of the teeth, as the interval does, in place of a thicket of them. */
+void envelope_slice(const dp_setup *setup, double from, double to, envelope_value value, refine_sample *out) {
+    dp_worst worst;
+    if (dp_worst_over(setup, from, to, &worst) != DP_OK) {
+        *out = (refine_sample){.y = {(double)NAN}};
+        return;
+    }
+    worst.error = fmax(worst.error, fmax(cell_error(setup, from), cell_error(setup, to)));
+    *out = (refine_sample){.y = {value(&worst)}, .step = {step_of(&worst)}, .flicker = {flicker_of(setup, &worst)}};
+}
+
+/* The guarantee of binary32 arithmetic is a whole number of binary32 steps of z, now one more, now one less. */
+double envelope_flicker(const dp_setup *setup, double z, double separation) {
+    const double steps = setup->spec.model == DP_MODEL_EXACT ? 0 : 2;
+    return isinf(separation) ? 0 : steps * ldexp(1.0, ilogb(z) - 23) / separation;
+}
+
+void envelope_separation(const void *setup, double from, double to, refine_sample *out) {
+    const double s = dp_separation(setup, from);
+    (void)to;
+    *out = (refine_sample){.y = {s}, .flicker = {envelope_flicker(setup, from, s)}};
+}
+
+/* ---- Knots ------------------------------------------------------------------------------------------------------- */
+
+typedef struct knot_list {
+    double *at;
+    size_t count;
+} knot_list;
+
+static void add_knot(knot_list *k, double z) {
+    if (k->count < REFINE_KNOTS)
+        k->at[k->count++] = z;
+}
+
+/* The step of a float halves at every power of two of d. */
+static void add_binades(knot_list *k, const dp_setup *setup, int most) {
+    for (int i = 0; i <= most; i++)
+        add_knot(k, dp_eye(setup, ldexp(1.0, -i), 1 - ldexp(1.0, -i)));
+}
+
+/* Of NDC depths in [-1, 1] each half has its own powers of two. */
+static void add_signed_binades(knot_list *k, const dp_setup *setup) {
+    for (int i = 1; i <= 50; i++) {
+        add_knot(k, dp_eye(setup, 0.5 + ldexp(0.5, -i), 0.5 - ldexp(0.5, -i)));
+        add_knot(k, dp_eye(setup, 0.5 - ldexp(0.5, -i), 0.5 + ldexp(0.5, -i)));
+    }
+}
+
+/* Eye depths have powers of two of their own. */
+static void add_eye_binades(knot_list *k, double lo, double hi) {
+    for (double z = ldexp(1.0, ilogb(lo)); z <= hi && k->count < REFINE_KNOTS; z *= 2)
+        add_knot(k, z);
+}
+
+static size_t find_knots(const dp_setup *setup, double lo, double hi, double at[REFINE_KNOTS]) {
+    const dp_spec *spec = &setup->spec;
+    const bool rounded = spec->model != DP_MODEL_EXACT;
+    knot_list k = {at, 0};
+    if (spec->format.kind == DP_FORMAT_FLOAT || rounded)
+        add_binades(&k, setup, rounded ? 150 : spec->format.bias + 1);
+    if (rounded && dp_mapping_get(spec->mapping)->ndc_signed)
+        add_signed_binades(&k, setup);
+    if (spec->model == DP_MODEL_FP32)
+        add_eye_binades(&k, lo, hi);
+    return k.count;
+}
+
+refine_request envelope_request(const figure_request *request, const dp_setup *setup, chart_scale scale, double lo,
+                                double hi, double knots[REFINE_KNOTS]) {
+    return (refine_request){.scale = scale,
+                            .lo = lo,
+                            .hi = hi,
+                            .columns = request->columns,
+                            .rows = request->rows,
+                            .values = 1,
+                            .knots = knots,
+                            .knot_count = find_knots(setup, lo, hi, knots)};
+}
+
+/* ---- Curves ------------------------------------------------------------------------------------------------------ */
+
+typedef struct curve {
+    const dp_setup *setup;
+    envelope_value value;
+    double knots[REFINE_KNOTS];
+} curve;
+
+static void sample(const void *context, double from, double to, refine_sample *out) {
+    const curve *c = context;
+    envelope_slice(c->setup, from, to, c->value, out);
+}
+
+chart_series *envelope_line(chart *out, chart_panel *panel, chart_kind kind, const refine *r, int value) {
+    chart_series *s = chart_add_series(out, panel, kind, r->points);
+    if (s != NULL)
+        refine_take(r, value, s->x, s->y);
+    return s;
+}
+
+static void add_curve(const figure_request *request, chart *out, chart_panel *panel, size_t i, refine *r) {
     const dp_setup *setup = &request->setups[i];
-    double lo = panel->x.lo, hi = panel->x.hi;
-    chart_series *s = chart_add_series(out, panel, CHART_LINE, (size_t)request->columns);
+    refine_finish(r);
+    refine_account(r, out);
+    chart_series *s = envelope_line(out, panel, CHART_LINE, r, 0);
     if (s == NULL)
         return;
     s->style = figure_style(request, i);
     snprintf(s->name, sizeof s->name, "%s", request->names[i]);
     dp_worst worst;
-    double from = lo;
-    for (int k = 0; k < request->columns; k++) {
-        double to = envelope_edge(CHART_LOG, lo, hi, k + 1, request->columns);
-        s->x[k] = sqrt(from) * sqrt(to);
-        s->y[k] = slice(setup, from, to, value);
-        from = to;
-    }
-    if (dp_worst_over(setup, lo, hi, &worst) == DP_OK && !isnan(worst.blind_from)) {
+    if (dp_worst_over(setup, panel->x.lo, panel->x.hi, &worst) == DP_OK && !isnan(worst.blind_from)) {
         char text[TICKS_TEXT];
         ticks_label(worst.blind_from, worst.blind_from >= 1e6, text);
         snprintf(s->note, sizeof s->note, " (blind from %s)", text);
@@ -58,14 +148,27 @@ static void add_curve(const figure_request *request, chart *out, chart_panel *pa
 
 chart_panel *envelope_curves(const figure_request *request, chart *out, chart_axis y, envelope_value value) {
     chart_panel *panel = chart_add_panel(out);
-    if (panel == NULL)
+    curve *curves = chart_memory(out, request->count, sizeof *curves);
+    refine *refined = chart_memory(out, request->count, sizeof *refined);
+    if (panel == NULL || curves == NULL || refined == NULL)
         return NULL;
     double lo, hi;
     figure_range(request, &lo, &hi);
     panel->x = figure_depth_axis(CHART_LOG, lo, hi);
     panel->y = y;
+    for (size_t i = 0; i < request->count; i++) {
+        curves[i] = (curve){.setup = &request->setups[i], .value = value};
+        refine_request q = envelope_request(request, curves[i].setup, CHART_LOG, lo, hi, curves[i].knots);
+        q.slices = true;
+        q.axis[0] = y;
+        q.sample = sample;
+        q.context = &curves[i];
+        if (!refine_begin(&refined[i], &q, out))
+            return panel;
+    }
+    refine_share_axis(refined, request->count);
     for (size_t i = 0; i < request->count; i++)
-        add_curve(request, out, panel, i, value);
+        add_curve(request, out, panel, i, &refined[i]);
     return panel;
 }
 

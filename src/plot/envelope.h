@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /**
- * @file envelope.h  Curves that promise: the range of depths is cut into slices as fine as the picture, and each slice
- * shows the certified worst case over all cells that touch it. Nothing is sampled, so no tooth of a float falls
- * between.
+ * @file envelope.h  Curves that promise: each pixel column shows the certified worst case over all cells that touch
+ * it. Nothing is sampled, so no tooth of a float falls between; and refine.h leaves out the columns that a straight
+ * line covers.
  */
 #ifndef PLOT_ENVELOPE_H
 #define PLOT_ENVELOPE_H
@@ -10,17 +10,31 @@
 #include "depthprec/depthprec.h"
 #include "plot/chart.h"
 #include "plot/figure.h"
+#include "plot/refine.h"
 
 /** What a curve takes from the worst case of a slice. */
 typedef double (*envelope_value)(const dp_worst *worst);
-
-/** Edge i of `count` slices between lo and hi, evenly spaced on the scale; 0 is exactly lo and count exactly hi. */
-double envelope_edge(chart_scale scale, double lo, double hi, int i, int count);
 
 /** One panel with an axis of depth and the given one, and a curve for each set-up, in their order; to be fitted. */
 chart_panel *envelope_curves(const figure_request *request, chart *out, chart_axis y, envelope_value value);
 
 /** The same, fitted: a whole figure. */
 void envelope_build(const figure_request *request, chart *out, chart_axis y, envelope_value value);
+
+/** The same for one set-up and a slice of depths: the greatest value in it, over whole cells. NaN without cells. */
+void envelope_slice(const dp_setup *setup, double from, double to, envelope_value value, refine_sample *out);
+
+/** The `sample` of a request about the separation; its context is the set-up. */
+void envelope_separation(const void *setup, double from, double to, refine_sample *out);
+
+/** How much a separation at z may flicker, relatively. */
+double envelope_flicker(const dp_setup *setup, double z, double separation);
+
+/** Request of a curve along the depth axis of a panel, lo and hi its ends; the knots are those of the set-up. */
+refine_request envelope_request(const figure_request *request, const dp_setup *setup, chart_scale scale, double lo,
+                                double hi, double knots[REFINE_KNOTS]);
+
+/** A finished curve as the panel's next series, `value` of its values; null when out of memory. */
+chart_series *envelope_line(chart *out, chart_panel *panel, chart_kind kind, const refine *r, int value);
 
 #endif

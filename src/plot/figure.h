@@ -36,7 +36,7 @@ typedef struct figure_request {
     const figure_need *needs; /**< for the figures that take them */
     size_t need_count;
     const struct figure_methods *methods; /**< for the figures that show methods, else null */
-    int columns;                          /**< how finely to compute: pixel columns of the figure */
+    int columns, rows; /**< how finely to compute: pixels of the figure; see refine.h */
 } figure_request;
 
 /** Methods of one family, measured: what the figures pareto and stability show. */

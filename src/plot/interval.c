@@ -41,16 +41,22 @@ static void into_background(chart_series *s) {
 }
 
 static void add_separation(const figure_request *request, chart *out, chart_panel *panel, size_t i) {
-    const chart_series *behind = &panel->series[i];
-    chart_series *s = chart_add_series(out, panel, CHART_LINE, behind->count);
+    double knots[REFINE_KNOTS];
+    refine r;
+    refine_request q =
+        envelope_request(request, &request->setups[i], CHART_LOG, panel->x.lo, panel->x.hi, knots);
+    q.axis[0] = panel->y;
+    q.sample = envelope_separation;
+    q.context = &request->setups[i];
+    if (!refine_begin(&r, &q, out))
+        return;
+    refine_finish(&r);
+    refine_account(&r, out);
+    chart_series *s = envelope_line(out, panel, CHART_LINE, &r, 0);
     if (s == NULL)
         return;
     s->style = figure_style(request, i);
     snprintf(s->name, sizeof s->name, "%s", request->names[i]);
-    for (size_t k = 0; k < s->count; k++) {
-        s->x[k] = behind->x[k];
-        s->y[k] = dp_separation(&request->setups[i], s->x[k]);
-    }
 }
 
 const char *interval_build(const figure_request *request, chart *out) {

@@ -33,30 +33,35 @@ static void range_of(const figure_request *r, double *lo, double *hi) {
     *hi *= pow(margin, 5);
 }
 
-static double separation_of(const dp_setup *setup, double lo, double hi) {
-    (void)lo;
-    return dp_separation(setup, hi);
+static double worst_error(const dp_worst *worst) {
+    return worst->error;
 }
 
-static double error_of(const dp_setup *setup, double lo, double hi) {
-    dp_worst worst;
-    return dp_worst_over(setup, lo, hi, &worst) == DP_OK ? worst.error : (double)NAN;
+static void error_of(const void *context, double from, double to, refine_sample *out) {
+    envelope_slice(context, from, to, worst_error, out);
 }
 
 static void add_curve(const figure_request *r, chart *out, chart_panel *panel, const dp_setup *setup, bool is_error) {
-    double lo = fmax(panel->x.lo, setup->spec.znear), hi = fmin(panel->x.hi, setup->spec.zfar);
-    chart_series *s = lo < hi ? chart_add_series(out, panel, CHART_LINE, (size_t)r->columns) : NULL;
+    const double lo = fmax(panel->x.lo, setup->spec.znear), hi = fmin(panel->x.hi, setup->spec.zfar);
+    double knots[REFINE_KNOTS];
+    refine curve;
+    if (!(lo < hi))
+        return;
+    refine_request q = envelope_request(r, setup, CHART_LOG, lo, hi, knots);
+    q.slices = is_error;
+    q.axis[0] = panel->y;
+    q.sample = is_error ? error_of : envelope_separation;
+    q.context = setup;
+    if (!refine_begin(&curve, &q, out))
+        return;
+    refine_finish(&curve);
+    refine_account(&curve, out);
+    chart_series *s = envelope_line(out, panel, CHART_LINE, &curve, 0);
     if (s == NULL)
         return;
     s->style = (chart_style){is_error ? COLOUR_ERROR : COLOUR_SEPARATION, is_error ? 1 : 0, -1, false};
     snprintf(s->name, sizeof s->name, "%s",
              is_error ? "error that the set-up gives" : "separation that the set-up gives");
-    for (int k = 0; k < r->columns; k++) {
-        double from = fmax(envelope_edge(CHART_LOG, lo, hi, k, r->columns), lo);
-        double to = fmin(envelope_edge(CHART_LOG, lo, hi, k + 1, r->columns), hi);
-        s->x[k] = to;
-        s->y[k] = (is_error ? error_of : separation_of)(setup, from, to);
-    }
 }
 
 /* Level lines, a gap between each two; then the markers with the names. */

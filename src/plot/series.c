@@ -23,15 +23,16 @@ static void draw_marker(const pencil *p, const chart_series *s, double x, double
     theme_marker(p->c, p->theme, x, y, marker, s->style.colour, s->style.stroke % 2 == 1, size * p->scale);
 }
 
+/* At even distances along the line, which need not have a point there. */
 static void draw_markers(const pencil *p, const axes *a, const chart_series *s, size_t index, size_t count) {
     double spacing = fmin(MARKER_SPACING * p->scale, a->frame.w / 3);
     double next = a->frame.x + spacing * ((double)index + 0.5) / (double)count;
-    for (size_t i = 0; i < s->count; i++) {
-        double x = axes_x(a, s->x[i]), y = axes_y(a, s->y[i]);
-        if (x < next || !isfinite(s->y[i]))
-            continue;
-        draw_marker(p, s, x, y, 1);
-        next += spacing * (1 + floor((x - next) / spacing));
+    for (size_t i = 1; i < s->count; i++) {
+        double x0 = axes_x(a, s->x[i - 1]), y0 = axes_y(a, s->y[i - 1]);
+        double x1 = axes_x(a, s->x[i]), y1 = axes_y(a, s->y[i]);
+        for (; next <= x1; next += spacing)
+            if (next >= x0 && isfinite(s->y[i - 1]) && isfinite(s->y[i]))
+                draw_marker(p, s, next, x1 > x0 ? y0 + (y1 - y0) * (next - x0) / (x1 - x0) : y1, 1);
     }
 }
 

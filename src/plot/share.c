@@ -9,28 +9,46 @@ static double distance(uint32_t a, uint32_t b) {
     return fabs((double)a - (double)b);
 }
 
+typedef struct counted {
+    const dp_setup *setup;
+    uint32_t first;
+    double all; /* codes between the planes */
+} counted;
+
+static void sample(const void *context, double from, double to, refine_sample *out) {
+    const counted *c = context;
+    (void)to;
+    *out = (refine_sample){.y = {c->all > 0 ? 100 * distance(dp_code(c->setup, from), c->first) / c->all : 0},
+                           .step = {c->all > 0 ? 100 / c->all : 0}};
+}
+
 const char *share_build(const figure_request *request, chart *out) {
     chart_panel *panel = chart_add_panel(out);
     if (panel == NULL)
         return NULL;
-    double lo, hi;
+    double lo, hi, knots[REFINE_KNOTS];
     figure_range(request, &lo, &hi);
     panel->x = figure_depth_axis(CHART_LOG, lo, hi);
     panel->y =
         (chart_axis){CHART_LINEAR, 0, 100, "codes between near and z", "share", "% of all between the planes", NULL};
     for (size_t i = 0; i < request->count; i++) {
         const dp_setup *setup = &request->setups[i];
-        uint32_t near_code = dp_code(setup, setup->spec.znear);
-        double all = distance(dp_code(setup, setup->spec.zfar), near_code);
-        chart_series *s = chart_add_series(out, panel, CHART_LINE, (size_t)request->columns + 1);
+        const uint32_t first = dp_code(setup, setup->spec.znear);
+        const counted c = {setup, first, distance(dp_code(setup, setup->spec.zfar), first)};
+        refine_request q = envelope_request(request, setup, CHART_LOG, lo, hi, knots);
+        refine r;
+        q.axis[0] = panel->y;
+        q.sample = sample;
+        q.context = &c;
+        if (!refine_begin(&r, &q, out))
+            return NULL;
+        refine_finish(&r);
+        refine_account(&r, out);
+        chart_series *s = envelope_line(out, panel, CHART_LINE, &r, 0);
         if (s == NULL)
             return NULL;
         s->style = figure_style(request, i);
         snprintf(s->name, sizeof s->name, "%s", request->names[i]);
-        for (int k = 0; k <= request->columns; k++) {
-            s->x[k] = envelope_edge(CHART_LOG, lo, hi, k, request->columns);
-            s->y[k] = all > 0 ? 100 * distance(dp_code(setup, s->x[k]), near_code) / all : 0;
-        }
     }
     return NULL;
 }
