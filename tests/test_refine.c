@@ -112,14 +112,16 @@ static void envelopes(rng *r, tally *t, dp_model model, size_t *spent, size_t *f
     double lo, hi;
     figure_range(&a.request, &lo, &hi);
     for (int k = 0; k < COLUMNS; k++) {
-        const double from = refine_edge(CHART_LOG, lo, hi, k, COLUMNS), to = refine_edge(CHART_LOG, lo, hi, k + 1, COLUMNS);
+        const double from = refine_edge(CHART_LOG, lo, hi, k, COLUMNS),
+                     to = refine_edge(CHART_LOG, lo, hi, k + 1, COLUMNS);
         double want[2];
         column_truth(&a.setup, from, to, &want[0], &want[1]);
         for (int f = 0; f < 2; f++) {
             const chart_panel *panel = &c[f]->panels[0];
             const double drawn = line_at(&panel->x, &panel->y, &panel->series[0], sqrt(from) * sqrt(to));
             const double off = pixels_off(&panel->y, drawn, want[f]);
-            TALLY(t, off <= 0.5 + 1e-6, "%s, %s, column %d: %g px off", label(&a), f == 0 ? "interval" : "error", k, off);
+            TALLY(t, off <= 0.5 + 1e-6, "%s, %s, column %d: %g px off", label(&a), f == 0 ? "interval" : "error", k,
+                  off);
         }
     }
     for (int f = 0; f < 2; f++) {
@@ -212,12 +214,9 @@ static void smooth_curves_take_few_evaluations(void **state) {
         const char *format;
         dp_mapping mapping;
         size_t most;
-    } known[] = {{"unorm24", DP_MAPPING_D3D, 20},
-                 {"unorm24", DP_MAPPING_REVERSED, 20},
-                 {"unorm24", DP_MAPPING_LINEAR, 20},
-                 {"unorm24", DP_MAPPING_LOG, 60},
-                 {"fp32", DP_MAPPING_D3D, 60},
-                 {"fp32", DP_MAPPING_REVERSED, 160}};
+    } known[] = {{"unorm24", DP_MAPPING_D3D, 20},    {"unorm24", DP_MAPPING_REVERSED, 20},
+                 {"unorm24", DP_MAPPING_LINEAR, 20}, {"unorm24", DP_MAPPING_LOG, 60},
+                 {"fp32", DP_MAPPING_D3D, 60},       {"fp32", DP_MAPPING_REVERSED, 160}};
     for (size_t i = 0; i < sizeof known / sizeof known[0]; i++) {
         rng r = rng_make("smooth");
         asked a;
@@ -303,10 +302,8 @@ static void a_straight_line_takes_seven_points(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(envelopes_are_drawn_to_half_a_pixel),
-        cmocka_unit_test(points_are_drawn_to_half_a_pixel),
-        cmocka_unit_test(smooth_curves_take_few_evaluations),
-        cmocka_unit_test(jumps_are_found),
+        cmocka_unit_test(envelopes_are_drawn_to_half_a_pixel), cmocka_unit_test(points_are_drawn_to_half_a_pixel),
+        cmocka_unit_test(smooth_curves_take_few_evaluations),  cmocka_unit_test(jumps_are_found),
         cmocka_unit_test(a_straight_line_takes_seven_points),
     };
     return run_tap(tests);

@@ -57,8 +57,7 @@ static void window(const void *context, double from, double to, refine_sample *o
 static void add_curve(const figure_request *request, chart *out, chart_panel *panel, size_t i) {
     double knots[REFINE_KNOTS];
     refine r;
-    refine_request q =
-        envelope_request(request, &request->setups[i], panel->x.scale, panel->x.lo, panel->x.hi, knots);
+    refine_request q = envelope_request(request, &request->setups[i], panel->x.scale, panel->x.lo, panel->x.hi, knots);
     q.knot_count = 0; /* it is smooth */
     q.axis[0] = panel->y;
     q.sample = window;

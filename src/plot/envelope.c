@@ -19,9 +19,11 @@ static double step_of(const dp_worst *w) {
     return 2 * (w->interval_hi - w->interval_lo) / w->interval_lo;
 }
 
-/* A cell of a staged UNORM holds a whole number of binary32 steps, now one more, now one less. */
-static double flicker_of(const dp_setup *setup, const dp_worst *w) {
-    if (setup->spec.model != DP_MODEL_STAGED || setup->spec.format.kind == DP_FORMAT_FLOAT || isinf(w->interval))
+/* A staged cell holds a whole number of binary32 steps, now one more, now one less: of a float in turns, so that three
+ * cells show both. */
+static double flicker_of(const dp_setup *setup, const dp_worst *w, double length) {
+    const bool in_turns = setup->spec.format.kind == DP_FORMAT_FLOAT && 3 * (w->interval_hi - w->interval_lo) < length;
+    if (setup->spec.model != DP_MODEL_STAGED || in_turns || isinf(w->interval))
         return 0;
     const double a = dp_window(setup, w->interval_lo), b = dp_window(setup, w->interval_hi);
     const double step = dp_mapping_get(setup->spec.mapping)->ndc_signed ? 0x1p-24 : ldexp(1.0, ilogb(fmax(a, b)) - 23);
@@ -37,7 +39,8 @@ void envelope_slice(const dp_setup *setup, double from, double to, envelope_valu
         return;
     }
     worst.error = fmax(worst.error, fmax(cell_error(setup, from), cell_error(setup, to)));
-    *out = (refine_sample){.y = {value(&worst)}, .step = {step_of(&worst)}, .flicker = {flicker_of(setup, &worst)}};
+    *out = (refine_sample){
+        .y = {value(&worst)}, .step = {step_of(&worst)}, .flicker = {flicker_of(setup, &worst, to - from)}};
 }
 
 /* The guarantee of binary32 arithmetic is a whole number of binary32 steps of z, now one more, now one less. */
@@ -78,13 +81,25 @@ static void add_signed_binades(knot_list *k, const dp_setup *setup) {
     }
 }
 
-/* Eye depths have powers of two of their own. */
-static void add_eye_binades(knot_list *k, double lo, double hi) {
-    for (double z = ldexp(1.0, ilogb(lo)); z <= hi && k->count < REFINE_KNOTS; z *= 2)
-        add_knot(k, z);
+/* Eye depths have powers of two of their own, and so have A z and A z + B of the projection. */
+static void add_clip_binades(knot_list *k, const dp_setup *setup, double hi) {
+    const dp_spec *spec = &setup->spec;
+    const double phi = isinf(spec->zfar) ? 0 : spec->znear / spec->zfar;
+    const bool ndc_signed = dp_mapping_get(spec->mapping)->ndc_signed;
+    const double a = ndc_signed ? 1 + phi : setup->reversed ? -phi : 1; /* times 1/(1 - phi) or its negative, as b is */
+    const double b = ndc_signed ? -2 * spec->znear : setup->reversed ? spec->znear : -spec->znear;
+    for (int e = ilogb(spec->znear) - 24; e <= ilogb(hi); e++) {
+        const double power = ldexp(1.0, e), scaled = power * (1 - phi);
+        add_knot(k, power);
+        if (a == 0 || spec->ortho)
+            continue;
+        add_knot(k, scaled / fabs(a));
+        add_knot(k, (scaled - b) / a);
+        add_knot(k, (-scaled - b) / a);
+    }
 }
 
-static size_t find_knots(const dp_setup *setup, double lo, double hi, double at[REFINE_KNOTS]) {
+static size_t find_knots(const dp_setup *setup, double hi, double at[REFINE_KNOTS]) {
     const dp_spec *spec = &setup->spec;
     const bool rounded = spec->model != DP_MODEL_EXACT;
     knot_list k = {at, 0};
@@ -93,7 +108,7 @@ static size_t find_knots(const dp_setup *setup, double lo, double hi, double at[
     if (rounded && dp_mapping_get(spec->mapping)->ndc_signed)
         add_signed_binades(&k, setup);
     if (spec->model == DP_MODEL_FP32)
-        add_eye_binades(&k, lo, hi);
+        add_clip_binades(&k, setup, hi);
     return k.count;
 }
 
@@ -106,7 +121,7 @@ refine_request envelope_request(const figure_request *request, const dp_setup *s
                             .rows = request->rows,
                             .values = 1,
                             .knots = knots,
-                            .knot_count = find_knots(setup, lo, hi, knots)};
+                            .knot_count = find_knots(setup, hi, knots)};
 }
 
 /* ---- Curves ------------------------------------------------------------------------------------------------------ */

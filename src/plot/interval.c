@@ -43,8 +43,7 @@ static void into_background(chart_series *s) {
 static void add_separation(const figure_request *request, chart *out, chart_panel *panel, size_t i) {
     double knots[REFINE_KNOTS];
     refine r;
-    refine_request q =
-        envelope_request(request, &request->setups[i], CHART_LOG, panel->x.lo, panel->x.hi, knots);
+    refine_request q = envelope_request(request, &request->setups[i], CHART_LOG, panel->x.lo, panel->x.hi, knots);
     q.axis[0] = panel->y;
     q.sample = envelope_separation;
     q.context = &request->setups[i];

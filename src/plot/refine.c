@@ -130,8 +130,8 @@ static double off_line(const refine *r, int value, int from, int i, int to) {
 static bool is_straight(const refine *r, const int at[5]) {
     for (int v = 0; v < r->request.values; v++) {
         const double half = half_pixel(r, v);
-        if (!(off_line(r, v, at[0], at[2], at[4]) <= 2 * half && off_line(r, v, at[0], at[1], at[2]) <= half / 2 &&
-              off_line(r, v, at[2], at[3], at[4]) <= half / 2))
+        if (!(off_line(r, v, at[0], at[2], at[4]) <= half && off_line(r, v, at[0], at[1], at[2]) <= half / 4 &&
+              off_line(r, v, at[2], at[3], at[4]) <= half / 4))
             return false;
     }
     return true;
@@ -157,7 +157,7 @@ static bool is_contained(refine *r, const int at[5]) {
             flicker = fmax(flicker, r->flicker[at[k] * r->request.values + v]);
         }
         range_of(r, v, at, &lo, &hi);
-        if (isfinite(hi) && (flicker > half || (step > half && !(hi - lo <= half))))
+        if (isfinite(hi) && (flicker > half / 2 || (step > half && !(hi - lo <= half))))
             return false;
     }
     if (!r->request.slices)
