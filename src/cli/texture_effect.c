@@ -211,7 +211,7 @@ static void write_json(report *r) {
     }
     json_end(&j);
     json_string(&j, "wanted", r->wanted->name);
-    json_string(&j, "usable", direction(r));
+    json_string(&j, "direction", direction(r));
     json_array(&j, "setups");
     for (size_t i = 0; i < r->all.count; i++) {
         json_object(&j, NULL);

@@ -184,7 +184,7 @@ static void settle(const search *s, double out[3]) {
     for (int k = 0; k < 8; k++) {
         double n[3], length = 0;
         for (int i = 0; i < 3; i++)
-            n[i] = s->at[i] + ((k >> i & 1) != 0 ? 1e-9 : -1e-9);
+            n[i] = s->at[i] + ((k >> i & 1) != 0 ? 1e-12 : -1e-12);
         n[2] = s->row->sphere ? n[2] : fmax(n[2], 0);
         length = sqrt(dot(n, n));
         for (int i = 0; i < 3; i++)

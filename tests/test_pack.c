@@ -1,0 +1,511 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/*
+ * Packings: the codes of each row against integers and long double, the measured errors against sampling, quadrature,
+ * published figures and the claims.
+ */
+#include <ctype.h>
+#include <string.h>
+
+#include "support.h"
+#include "texture/pack.h"
+
+static const long double PIL = 3.14159265358979323846264338327950288L;
+
+static size_t count(void) {
+    size_t rows = 0;
+    while (pack_get(rows) != NULL)
+        rows++;
+    return rows;
+}
+
+/* Measured once: a test program asks often. */
+static const pack_error *measured(const char *name) {
+    static pack_error errors[64];
+    static bool done[64];
+    for (size_t i = 0; i < count() && i < 64; i++)
+        if (strcmp(pack_get(i)->name, name) == 0) {
+            if (!done[i])
+                errors[i] = pack_measure(pack_get(i));
+            done[i] = true;
+            return &errors[i];
+        }
+    fail_msg("no row %s", name);
+    return NULL;
+}
+
+static void test_rows(void **state) {
+    static const char *const names[] = {"rg-depth", "rg-depth-zero", "rg-depth-fp32", "rg-depth-fp32-zero",
+                                        "stereo-8", "oct-8",         "oct-10",        "oct-12",
+                                        "xyz-8",    "xyz-10",        "xyz-12",        "depth-normal"};
+    (void)state;
+    for (size_t i = 0; i < sizeof names / sizeof names[0]; i++)
+        assert_non_null(pack_find(names[i]));
+    for (size_t i = 0; i < count(); i++) {
+        const pack_row *row = pack_get(i);
+        assert_true(pack_find(row->name) == row); /* no name twice */
+        for (const char *c = row->name; *c != '\0'; c++)
+            assert_true(islower((unsigned char)*c) || isdigit((unsigned char)*c) || *c == '-');
+        assert_true(row->note[0] != '\0' && row->source[0] != '\0');
+        assert_true(row->channels >= 2 && row->channels <= PACK_CHANNELS_MAX);
+        assert_true((row->kind != PACK_NORMAL) == (row->depth.max > 0));
+        assert_true((row->kind != PACK_DEPTH) == (row->normal.max > 0));
+    }
+    assert_null(pack_find("rg"));
+    assert_null(pack_find(""));
+    assert_null(pack_get(count()));
+}
+
+/* A claim is a bound, and no more than 2 per mille above what is reached. */
+static void claim(tally *t, const char *name, const char *what, double got, double claimed) {
+    TALLY(t, got <= claimed && got >= claimed * 0.998, "%s: %s %.9g, claimed %.9g", name, what, got, claimed);
+}
+
+static void test_claims(void **state) {
+    tally t = {.name = "claims"};
+    (void)state;
+    for (size_t i = 0; i < count(); i++) {
+        const pack_row *row = pack_get(i);
+        const pack_error *e = measured(row->name);
+        if (row->kind != PACK_NORMAL) {
+            claim(&t, row->name, "mean of depth", e->depth.mean, row->depth.mean);
+            claim(&t, row->name, "maximum of depth", e->depth.max, row->depth.max);
+        }
+        if (row->kind != PACK_DEPTH) {
+            claim(&t, row->name, "mean of normal", e->normal.mean, row->normal.mean);
+            claim(&t, row->name, "maximum of normal", e->normal.max, row->normal.max);
+        }
+    }
+    tally_end(&t);
+}
+
+/* ---- Depth ------------------------------------------------------------------------------------------------------- */
+
+typedef struct texel {
+    uint32_t x, y;
+} texel;
+
+static texel encoded(const pack_row *row, double v) {
+    uint32_t codes[PACK_CHANNELS_MAX] = {0};
+    row->encode(row, &v, codes);
+    return (texel){codes[0], codes[1]};
+}
+
+static double decoded(const pack_row *row, texel t) {
+    const uint32_t codes[PACK_CHANNELS_MAX] = {t.x, t.y};
+    double out;
+    row->decode(row, codes, &out);
+    return out;
+}
+
+/* v = mantissa/2^shift, so floor(255 v) and 65025 v are integer arithmetic. v in [2^-60, 1). */
+static texel exact_texel(double v, bool truncates) {
+    int exponent;
+    const unsigned __int128 mantissa = (unsigned __int128)ldexp(frexp(v, &exponent), 53);
+    const int shift = 53 - exponent;
+    const unsigned __int128 coarse = mantissa * 255 >> shift;
+    const unsigned __int128 half = truncates ? 0 : (unsigned __int128)1 << (shift - 1);
+    const unsigned __int128 fine = (mantissa * 65025 + half) >> shift;
+    return (texel){(uint32_t)coarse, (uint32_t)(fine - 255 * coarse)};
+}
+
+/* Anywhere, at whole 255ths and at the middles of 65025ths, and next to both. */
+static double any_depth(rng *r) {
+    double v = rng_unit(r);
+    if (rng_below(r, 4) == 0)
+        v = (double)rng_below(r, 255) / 255;
+    else if (rng_below(r, 3) == 0)
+        v = ((double)rng_below(r, 65025) + 0.5) / 65025;
+    else if (rng_below(r, 4) == 0)
+        v = rng_log(r, 0x1p-60, 1);
+    for (uint64_t i = rng_below(r, 3); i > 0; i--)
+        v = nextafter(v, rng_below(r, 2) ? 0 : 1);
+    return fmin(fmax(v, 0x1p-60), 1 - 0x1p-53);
+}
+
+static void test_rg_exact(void **state) {
+    rng r = rng_make("rg exact");
+    tally t = {.name = "texels"};
+    (void)state;
+    for (uint64_t i = 0; i < test_cases(20000, 1000000, 20000000); i++) {
+        const double v = any_depth(&r);
+        for (int truncates = 0; truncates < 2; truncates++) {
+            const pack_row *row = pack_find(truncates ? "rg-depth-zero" : "rg-depth");
+            const texel want = exact_texel(v, truncates), got = encoded(row, v);
+            TALLY(&t, got.x == want.x && got.y == want.y, "%s %a: %u %u, %u %u", row->name, v, got.x, got.y, want.x,
+                  want.y);
+            const long double back = (long double)(255 * want.x + want.y) / 65025;
+            TALLY(&t, fabsl((long double)decoded(row, got) - back) <= 0x1p-53L, "%s %u %u", row->name, got.x, got.y);
+        }
+    }
+    tally_end(&t);
+}
+
+/* What the shader does, a line each; no product and sum may be fused. */
+static texel shader_texel(float v, bool truncates) {
+    volatile float product = 255.0F * v;
+    volatile float fine = product - floorf(product);
+    volatile float share = fine * (float)(1.0 / 255.0);
+    volatile float coarse = v - floorf(v) - share;
+    const double half = truncates ? 0 : 0.5;
+    const double x = floor((double)coarse * 255.0 + half), y = floor((double)fine * 255.0 + half);
+    return (texel){x < 0 ? 0 : (uint32_t)x, (uint32_t)y};
+}
+
+static double shader_depth(texel t) {
+    volatile float x = (float)t.x / 255.0F;
+    volatile float y = (float)t.y / 255.0F;
+    volatile float share = y * (float)(1.0 / 255.0);
+    return (double)(x + share);
+}
+
+static void shader_case(tally *t, const pack_row *row, const pack_error *e, float v, double *sum) {
+    const texel want = shader_texel(v, row->truncates), got = encoded(row, (double)v);
+    const double error = fabs(shader_depth(want) - (double)v);
+    TALLY(t, got.x == want.x && got.y == want.y && decoded(row, got) == shader_depth(want), "%s %a: %u %u, %u %u",
+          row->name, (double)v, got.x, got.y, want.x, want.y);
+    TALLY(t, error <= e->depth.max, "%s %a: %a off, %a measured", row->name, (double)v, error, e->depth.max);
+    *sum += error;
+}
+
+static float any_float(rng *r) {
+    const float v = (float)any_depth(r);
+    return v < 1 ? v : nextafterf(1, 0);
+}
+
+static void test_rg_binary32(void **state) {
+    static const char *const names[] = {"rg-depth-fp32", "rg-depth-fp32-zero"};
+    rng r = rng_make("rg binary32");
+    tally t = {.name = "shader"};
+    (void)state;
+    for (size_t k = 0; k < 2; k++) {
+        const pack_row *row = pack_find(names[k]);
+        const pack_error *e = measured(names[k]);
+        const uint64_t cases = test_cases(20000, 2000000, 2000000);
+        double sum = 0, unused = 0;
+        for (uint64_t i = 0; i < cases; i++) {
+            shader_case(&t, row, e, any_float(&r), &unused);
+            shader_case(&t, row, e, (float)(rng_below(&r, 1 << 24)) * 0x1p-24F, &sum);
+        }
+        const double spread = e->depth.max / sqrt((double)cases);
+        TALLY(&t, fabs(sum / (double)cases - e->depth.mean) < 4 * spread, "%s: mean %g, %g measured", row->name,
+              sum / (double)cases, e->depth.mean);
+        const float at = (float)e->depth_at;
+        TALLY(&t, fabs(shader_depth(shader_texel(at, row->truncates)) - (double)at) == e->depth.max, "%s at %a",
+              row->name, e->depth_at);
+    }
+    tally_end(&t);
+}
+
+/* All 1,065,353,216 of them: no error is above the maximum, and the mean is that of pack_measure(). */
+static void test_rg_binary32_all(void **state) {
+    static const char *const names[] = {"rg-depth-fp32", "rg-depth-fp32-zero"};
+    tally t = {.name = "all of binary32"};
+    (void)state;
+    if (test_effort() < EFFORT_FULL)
+        skip();
+    for (size_t k = 0; k < 2; k++) {
+        const pack_row *row = pack_find(names[k]);
+        const pack_error *e = measured(names[k]);
+        double mean = 0, max = 0;
+        for (uint32_t exponent = 0; exponent < 127; exponent++) {
+            const double weight = exponent == 0 ? 0x1p-126 : ldexp(1, (int)exponent - 127);
+            double sum = 0;
+            for (uint32_t m = 0; m < 1U << 23; m++) {
+                const uint32_t bits = exponent << 23 | m;
+                float v;
+                memcpy(&v, &bits, sizeof v);
+                const double error = fabs(shader_depth(shader_texel(v, row->truncates)) - (double)v);
+                max = fmax(max, error);
+                sum += error;
+            }
+            mean += sum * 0x1p-23 * weight;
+        }
+        TALLY(&t, max == e->depth.max, "%s: maximum %a, %a measured", row->name, max, e->depth.max);
+        TALLY(&t, fabs(mean - e->depth.mean) <= 1e-6 * mean, "%s: mean %.9g, %.9g measured", row->name, mean,
+              e->depth.mean);
+    }
+    tally_end(&t);
+}
+
+static void test_rg_known(void **state) {
+    const double step = 1 / 65025.0;
+    (void)state;
+    for (size_t i = 0; i < count(); i++)
+        if (pack_get(i)->kind == PACK_DEPTH) {
+            assert_true(decoded(pack_get(i), encoded(pack_get(i), 1)) == 0); /* 1 does not survive */
+            assert_true(decoded(pack_get(i), encoded(pack_get(i), 0)) == 0);
+        }
+    /* Quarter and half a step; truncated, half and a whole one, all of it towards 0. */
+    const pack_error *e = measured("rg-depth");
+    assert_relative(e->depth.mean, step / 4, 1e-9);
+    assert_relative(e->depth.max, step / 2, 1e-9);
+    assert_scene(e->depth_bias, 0, 1e-9 * step);
+    assert_int_equal(e->depth_codes, 255 * 256);
+    e = measured("rg-depth-zero");
+    assert_relative(e->depth.mean, step / 2, 1e-9);
+    assert_relative(e->depth.max, step, 1e-9);
+    assert_relative(e->depth_bias, -step / 2, 1e-9);
+    assert_int_equal(e->depth_codes, 255 * 255);
+    /* A coarse code too few: 1/255, and what truncation takes of the fine one. */
+    e = measured("rg-depth-fp32-zero");
+    assert_relative(e->depth.max, 1 / 255.0 + step, 1e-3);
+    assert_true(e->depth_bias < -60 * step);
+    assert_true(measured("rg-depth-fp32")->depth.max < 0.504 * step);
+}
+
+/* ---- Normals: encodings of our own in long double ---------------------------------------------------------------- */
+
+typedef struct vec {
+    long double x, y, z;
+} vec;
+
+static long double degrees_between(vec a, vec b) {
+    const vec c = {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
+    return atan2l(sqrtl(c.x * c.x + c.y * c.y + c.z * c.z), a.x * b.x + a.y * b.y + a.z * b.z) * 180 / PIL;
+}
+
+/* Stereographic by angles: the radius in the plane is tan(theta/2). */
+static long double stereo_error(vec n, int bits, uint32_t codes[3]) {
+    const long double most = (long double)((1 << bits) - 1), scale = 1.7777L;
+    const long double theta = atan2l(hypotl(n.x, n.y), n.z), phi = atan2l(n.y, n.x);
+    const long double radius = tanl(theta / 2);
+    codes[0] = (uint32_t)floorl((radius * cosl(phi) / scale / 2 + 0.5L) * most + 0.5L);
+    codes[1] = (uint32_t)floorl((radius * sinl(phi) / scale / 2 + 0.5L) * most + 0.5L);
+    const long double u = (2 * codes[0] / most - 1) * scale, v = (2 * codes[1] / most - 1) * scale;
+    const long double t = 2 * atanl(hypotl(u, v)), p = atan2l(v, u);
+    return degrees_between(n, (vec){sinl(t) * cosl(p), sinl(t) * sinl(p), cosl(t)});
+}
+
+static long double rounded(long double x) {
+    return x < 0 ? ceill(x - 0.5L) : floorl(x + 0.5L);
+}
+
+static uint32_t bits_of(long double code, int bits) {
+    return (uint32_t)(int64_t)code & ((1U << bits) - 1);
+}
+
+static long double sign_of(long double x) {
+    return x < 0 ? -1 : 1;
+}
+
+static long double oct_error(vec n, int bits, uint32_t codes[3]) {
+    const long double most = (long double)((1 << (bits - 1)) - 1);
+    const long double s = fabsl(n.x) + fabsl(n.y) + fabsl(n.z);
+    long double u = n.x / s, v = n.y / s;
+    if (n.z < 0) {
+        const long double old = u;
+        u = (1 - fabsl(v)) * sign_of(u);
+        v = (1 - fabsl(old)) * sign_of(v);
+    }
+    const long double a = rounded(u * most), b = rounded(v * most);
+    codes[0] = bits_of(a, bits);
+    codes[1] = bits_of(b, bits);
+    vec back = {a / most, b / most, 1 - fabsl(a / most) - fabsl(b / most)};
+    if (back.z < 0) {
+        const long double old = back.x;
+        back.x = (1 - fabsl(back.y)) * sign_of(back.x);
+        back.y = (1 - fabsl(old)) * sign_of(back.y);
+    }
+    return degrees_between(n, back);
+}
+
+static long double xyz_error(vec n, int bits, uint32_t codes[3]) {
+    const long double most = (long double)((1 << (bits - 1)) - 1);
+    const vec c = {rounded(n.x * most), rounded(n.y * most), rounded(n.z * most)};
+    codes[0] = bits_of(c.x, bits);
+    codes[1] = bits_of(c.y, bits);
+    codes[2] = bits_of(c.z, bits);
+    return degrees_between(n, c);
+}
+
+static long double own_error(const pack_row *row, vec n, uint32_t codes[3]) {
+    static long double (*const all[PACK_LAYOUTS])(vec, int, uint32_t *) = {
+        [PACK_STEREO] = stereo_error, [PACK_OCT] = oct_error, [PACK_XYZ] = xyz_error};
+    return all[row->layout](n, row->bits, codes);
+}
+
+static vec any_normal(rng *r, const pack_row *row) {
+    const long double z = row->sphere ? 2 * (long double)rng_unit(r) - 1 : (long double)rng_unit(r);
+    const long double phi = 2 * PIL * (long double)rng_unit(r), radius = sqrtl(1 - z * z);
+    return (vec){radius * cosl(phi), radius * sinl(phi), z};
+}
+
+/* Random vectors: nothing above the maximum, the mean where it is said to be, the same codes but for ties. */
+static void test_normals_sampled(void **state) {
+    rng r = rng_make("normals");
+    tally t = {.name = "normals"};
+    (void)state;
+    for (size_t i = 0; i < count(); i++) {
+        const pack_row *row = pack_get(i);
+        const uint64_t cases = test_cases(20000, 150000, 4000000);
+        long double sum = 0, squares = 0;
+        uint64_t differ = 0;
+        if (row->kind == PACK_DEPTH)
+            continue;
+        const pack_error *e = measured(row->name);
+        for (uint64_t k = 0; k < cases; k++) {
+            const vec n = any_normal(&r, row);
+            const double in[PACK_INPUTS_MAX] = {(double)n.x, (double)n.y, (double)n.z, 0};
+            uint32_t own[3], codes[PACK_CHANNELS_MAX];
+            double back[PACK_INPUTS_MAX];
+            const long double error = own_error(row, n, own);
+            row->encode(row, in, codes);
+            row->decode(row, codes, back);
+            if (memcmp(own, codes, sizeof own[0] * (row->layout == PACK_XYZ ? 3 : 2)) != 0)
+                differ++;
+            else
+                TALLY(&t, fabsl(degrees_between(n, (vec){back[0], back[1], back[2]}) - error) < 1e-12L,
+                      "%s %La %La %La", row->name, n.x, n.y, n.z);
+            TALLY(&t, error <= (long double)e->normal.max * (1 + 1e-12L), "%s: %.9Lg at %La %La %La", row->name, error,
+                  n.x, n.y, n.z);
+            sum += error;
+            squares += error * error;
+        }
+        const long double mean = sum / cases, spread = sqrtl((squares / cases - mean * mean) / cases);
+        TALLY(&t, differ <= 1, "%s: %llu codes differ", row->name, (unsigned long long)differ);
+        TALLY(&t, fabsl(mean - (long double)e->normal.mean) <= 5 * hypotl(spread, (long double)e->normal_spread),
+              "%s: mean %.9Lg +- %.2Lg, %.9g measured", row->name, mean, spread, e->normal.mean);
+    }
+    tally_end(&t);
+}
+
+/* The maximum is reached where it is said to be, and nothing about that place, or about any corner of codes, is worse.
+ */
+static void test_normals_worst(void **state) {
+    rng r = rng_make("normals worst");
+    tally t = {.name = "worst"};
+    (void)state;
+    for (size_t i = 0; i < count(); i++) {
+        const pack_row *row = pack_get(i);
+        uint32_t codes[3];
+        if (row->kind == PACK_DEPTH)
+            continue;
+        const pack_error *e = measured(row->name);
+        const vec at = {e->normal_at[0], e->normal_at[1], e->normal_at[2]};
+        TALLY(&t, fabsl(own_error(row, at, codes) - (long double)e->normal.max) <= 1e-6L * (long double)e->normal.max,
+              "%s: %.12Lg at the worst place, %.12g", row->name, own_error(row, at, codes), e->normal.max);
+        for (uint64_t k = 0; k < test_cases(5000, 50000, 2000000); k++) {
+            const long double reach = (long double)rng_log(&r, 1e-9, 1) * (long double)e->normal.max * PIL / 180;
+            vec n = {at.x + reach * (2 * (long double)rng_unit(&r) - 1),
+                     at.y + reach * (2 * (long double)rng_unit(&r) - 1),
+                     at.z + reach * (2 * (long double)rng_unit(&r) - 1)};
+            const long double length = sqrtl(n.x * n.x + n.y * n.y + n.z * n.z);
+            n = (vec){n.x / length, n.y / length, n.z / length};
+            if (!row->sphere && n.z < 0)
+                continue;
+            TALLY(&t, own_error(row, n, codes) <= (long double)e->normal.max * (1 + 1e-9L), "%s: %.12Lg at %La %La %La",
+                  row->name, own_error(row, n, codes), n.x, n.y, n.z);
+        }
+    }
+    tally_end(&t);
+}
+
+/* The mean by the areas of the plane of the codes: places x places in each code. */
+static long double mean_by_area(const pack_row *row, int side) {
+    long double sum = 0, area = 0;
+    uint32_t codes[3];
+    for (int a = 0; a < side; a++)
+        for (int b = 0; b <= a; b++) { /* the plane is alike on both sides of its diagonal */
+            const long double u = (2 * (long double)a + 1) / side - 1, v = (2 * (long double)b + 1) / side - 1;
+            const long double twice = a == b ? 1 : 2;
+            vec n;
+            long double weight;
+            if (row->layout == PACK_STEREO) {
+                const long double x = u * 1.7777L, y = v * 1.7777L, r2 = x * x + y * y;
+                if (r2 > 1)
+                    continue;
+                n = (vec){2 * x / (1 + r2), 2 * y / (1 + r2), (1 - r2) / (1 + r2)};
+                weight = twice / ((1 + r2) * (1 + r2));
+            } else {
+                n = (vec){u, v, 1 - fabsl(u) - fabsl(v)};
+                if (n.z < 0) {
+                    n.x = (1 - fabsl(v)) * sign_of(u);
+                    n.y = (1 - fabsl(u)) * sign_of(v);
+                }
+                const long double length = sqrtl(n.x * n.x + n.y * n.y + n.z * n.z);
+                n = (vec){n.x / length, n.y / length, n.z / length};
+                weight = twice / (length * length * length);
+            }
+            sum += weight * own_error(row, n, codes);
+            area += weight;
+        }
+    return sum / area;
+}
+
+/* The error of such a sum falls with the square of the distance of the places, so two of them give a better one. */
+static void test_means_by_area(void **state) {
+    static const struct {
+        const char *name;
+        int codes;
+    } rows[] = {{"stereo-8", 255}, {"oct-8", 254}};
+    (void)state;
+    for (size_t i = 0; i < 2; i++) {
+        const pack_row *row = pack_find(rows[i].name);
+        const int places = (int)test_cases(2, 4, 16) * rows[i].codes;
+        const double mean = (double)((4 * mean_by_area(row, 2 * places) - mean_by_area(row, places)) / 3);
+        print_message("# %s: mean %.7g by area, %.7g +- %.2g\n", row->name, mean, measured(row->name)->normal.mean,
+                      measured(row->name)->normal_spread);
+        assert_relative(measured(row->name)->normal.mean, mean, 1e-3);
+    }
+}
+
+static void test_published(void **state) {
+    static const struct {
+        const char *name;
+        double mean, max; /* of a sample: a maximum over all is a little above */
+    } rows[] = {{"oct-8", 0.337, 0.944}, {"oct-10", 0.0838, 0.235}, {"oct-12", 0.0209, 0.0587}};
+    (void)state;
+    for (size_t i = 0; i < 3; i++) {
+        const pack_error *e = measured(rows[i].name);
+        assert_relative(e->normal.mean, rows[i].mean, 2e-3);
+        assert_true(e->normal.max > rows[i].max && e->normal.max < 1.02 * rows[i].max);
+    }
+    const pack_error *e = measured("stereo-8");
+    assert_relative(e->normal.mean, 0.459, 2e-3);
+    assert_relative(e->normal.max, (double)(2 * atanl(sqrtl(2) * 1.7777L / 255) * 180 / PIL), 1e-12);
+    assert_true(fabs(e->normal.max - 1.130) < 5e-4);
+    assert_true(e->normal_at[2] > 1 - 1e-12);
+    /* A code is half a step off at most, three times at right angles: the limit of small steps, less its bending. */
+    assert_relative(measured("xyz-12")->normal.max, sqrt(3.0) / 2 / 2047 * 180 / (double)PIL, 1e-3);
+    assert_int_equal(measured("oct-8")->codes, 255 * 255);
+}
+
+/* Normal in xy, depth in zw. */
+static void test_both(void **state) {
+    rng r = rng_make("both");
+    const pack_row *both = pack_find("depth-normal"), *normal = pack_find("stereo-8"), *depth = pack_find("rg-depth");
+    (void)state;
+    for (int i = 0; i < 1000; i++) {
+        const vec n = any_normal(&r, both);
+        const double v = rng_unit(&r), in[4] = {(double)n.x, (double)n.y, (double)n.z, v};
+        uint32_t codes[4], first[4], last[4];
+        double out[4], want[4];
+        both->encode(both, in, codes);
+        normal->encode(normal, in, first);
+        depth->encode(depth, &v, last);
+        assert_true(codes[0] == first[0] && codes[1] == first[1] && codes[2] == last[0] && codes[3] == last[1]);
+        both->decode(both, codes, out);
+        normal->decode(normal, first, want);
+        depth->decode(depth, last, want + 3);
+        assert_memory_equal(out, want, sizeof out);
+    }
+    assert_true(measured("depth-normal")->normal.max == measured("stereo-8")->normal.max);
+    assert_true(measured("depth-normal")->depth.max == measured("rg-depth")->depth.max);
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(test_rows),
+        cmocka_unit_test(test_rg_exact),
+        cmocka_unit_test(test_rg_known),
+        cmocka_unit_test(test_rg_binary32),
+        cmocka_unit_test(test_rg_binary32_all),
+        cmocka_unit_test(test_normals_sampled),
+        cmocka_unit_test(test_normals_worst),
+        cmocka_unit_test(test_means_by_area),
+        cmocka_unit_test(test_published),
+        cmocka_unit_test(test_both),
+        cmocka_unit_test(test_claims),
+    };
+    return run_tap(tests);
+}
