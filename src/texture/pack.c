@@ -47,7 +47,7 @@ static void rg32_decode(const pack_row *row, const uint32_t codes[], double *out
 
 /* ---- Normals ----------------------------------------------------------------------------------------------------- */
 
-static const double STEREO = 1.7777;
+static const double STEREO = PACK_STEREO_SCALE;
 
 static void stereo_encode(const pack_row *row, const double *in, uint32_t codes[]) {
     const double most = (double)((1U << row->bits) - 1);

@@ -140,7 +140,7 @@ static void stereo_offer(search *s, double x, double y) {
 
 /* Corners of a cell in the disc of the hemisphere, and where its sides meet the rim. Codes have no middle one. */
 static void stereo_search(search *s) {
-    const double scale = 2 * 1.7777 / s->most;
+    const double scale = 2 * PACK_STEREO_SCALE / s->most;
     for (double a = 0.5; a < s->most / 2; a++)
         for (double b = 0.5; b <= a; b++) {
             const double x[2] = {scale * (a - 0.5), scale * (a + 0.5)};

@@ -7,6 +7,9 @@
 
 enum { PACK_BYTE = 255 };
 
+/** kScale of EncodeViewNormalStereo. */
+#define PACK_STEREO_SCALE 1.7777
+
 /** frac() of a number that is not negative and below 2^31. */
 static inline float pack_fraction(float x) {
     return x - (float)(int32_t)x;
