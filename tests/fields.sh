@@ -39,4 +39,6 @@ all_named solve -f 1000 -F unorm24 -m d3d --separation 0.01 --at 100
 all_named solve -f 1000 -F unorm24 -m d3d --error 0.01 --at 100
 all_named bias --at 10 --units 1
 all_named bias --range 1:10 --gap 0.01
+all_named bench worst --tolerance 0.1
+all_named stability encode
 finish

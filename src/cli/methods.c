@@ -21,7 +21,7 @@ bool list_method(size_t index, list_item *item) {
     const method_family_row *family = method_family_get(row->family);
     *item = (list_item){.name = row->name, .aliases = family->name, .note = row->note, .source = row->source};
     size_t used = 0;
-    for (size_t i = 0; i < family->case_count; i++) {
+    for (size_t i = 0; i < family->case_count && used < sizeof item->bound; i++) {
         const method_claim *c = &row->claims[i];
         char worst[NUMBER_SIZE] = "nothing", hi[NUMBER_SIZE];
         if (!method_speaks(row, i))
@@ -32,9 +32,9 @@ bool list_method(size_t index, list_item *item) {
         const char *between = used > 0 ? "; " : "";
         used += (size_t)snprintf(item->bound + used, sizeof item->bound - used, "%s%s %s", between,
                                  family->cases[i].name, worst);
-        if (c->formula != NULL)
-            used += (size_t)snprintf(item->bound + used, sizeof item->bound - used, " at far/near 10000, by a formula");
-        if (!isnan(c->worst) && c->ratio_hi < METHOD_RATIO_HI)
+        if (c->formula != NULL && used < sizeof item->bound)
+            used += (size_t)snprintf(item->bound + used, sizeof item->bound - used, " at far/near 10000");
+        if (!isnan(c->worst) && c->ratio_hi < METHOD_RATIO_HI && used < sizeof item->bound)
             used += (size_t)snprintf(item->bound + used, sizeof item->bound - used, " to far/near %s", hi);
     }
     return true;

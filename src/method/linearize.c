@@ -210,7 +210,7 @@ const method_row linearize_methods[] = {
     {METHOD_LINEARIZE, "complement-newton",
      "n f/(n + (1 - d)(f - n)) in binary32, the reciprocal as estimated by the processor and one Newton step",
      {FULL(10.75 * UNIT), FULL(9.75 * UNIT)}, 0, 0.26, "1", 0,
-     "RCPPS, 1.5 x 2^-12 relative", has_estimate, NULL, newton_run, NULL},
+     "RCPPS: at most 1.5 x 2^-12 relative, on every processor (Intel SDM, AMD APM)", has_estimate, NULL, newton_run, NULL},
     {METHOD_LINEARIZE, "table-nearest", "the nearest of 65536 depths in equal steps of d, binary32",
      {FORMULA(claim_table_nearest), FORMULA(claim_table_nearest)}, 0, 0.6, "1", 0,
      "", NULL, table_open, table_nearest, table_close},
