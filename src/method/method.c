@@ -5,6 +5,8 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "method/normal.h"
+
 static const double decades_infinite = 1e6; /* how far depths go where the far plane has no end, in units of near */
 
 static void fill_depths(const dp_setup *setup, method_inputs *in) {
@@ -87,6 +89,19 @@ static const method_family_row families[METHOD_FAMILY_COUNT] = {
                       .method_count = &worst_method_count,
                       .fill = fill_ranges,
                       .judge = worst_judge},
+    [METHOD_NORMAL] = {.name = "normal",
+                       .summary = "normal of a plane from the stored depths around a pixel",
+                       .measure = "radians",
+                       .cases = {{"unorm24 d3d", "unorm24", DP_MAPPING_D3D},
+                                 {"fp32 reversed", "fp32", DP_MAPPING_REVERSED}},
+                       .case_count = 2,
+                       .inputs = 16384,
+                       .walked = 2048,
+                       .per_decade = 2,
+                       .methods = normal_methods,
+                       .method_count = &normal_method_count,
+                       .fill = normal_fill,
+                       .judge = normal_judge},
     [METHOD_POSITION] = {.name = "position",
                          .summary = "place of a pixel from its binary32 window depth; 60 degrees, 16:9",
                          .measure = "error relative to the distance from the camera",
@@ -144,14 +159,18 @@ dp_status method_setup(const method_family_row *family, size_t which, double zne
 }
 
 bool method_arrays(size_t count, method_inputs *in, method_outputs *out) {
-    *in = (method_inputs){count, calloc(count, sizeof *in->z), calloc(count, sizeof *in->hi),
-                          calloc(count, sizeof *in->d), calloc(3 * count, sizeof *in->place)};
+    *in = (method_inputs){count,
+                          calloc(count, sizeof *in->z),
+                          calloc(count, sizeof *in->hi),
+                          calloc(count, sizeof *in->d),
+                          calloc(3 * count, sizeof *in->place),
+                          calloc(normal_eyes(count), sizeof *in->eye)};
     *out = (method_outputs){calloc(count, sizeof *out->value),
                             calloc(count, sizeof *out->eye),
                             calloc(count, sizeof *out->code),
                             {NULL, NULL, NULL}};
-    bool good = in->z != NULL && in->hi != NULL && in->d != NULL && in->place != NULL && out->value != NULL &&
-                out->eye != NULL && out->code != NULL;
+    bool good = in->z != NULL && in->hi != NULL && in->d != NULL && in->place != NULL && in->eye != NULL &&
+                out->value != NULL && out->eye != NULL && out->code != NULL;
     for (int k = 0; k < 3; k++)
         good = (out->place[k] = calloc(count, sizeof *out->place[k])) != NULL && good;
     if (!good)
@@ -164,6 +183,7 @@ void method_arrays_free(method_inputs *in, method_outputs *out) {
     free(in->hi);
     free(in->d);
     free(in->place);
+    free(in->eye);
     free(out->value);
     free(out->eye);
     free(out->code);

@@ -21,6 +21,7 @@ typedef enum method_family {
     METHOD_LINEARIZE,    /**< window depth -> eye depth */
     METHOD_ENCODE,       /**< window depth -> code */
     METHOD_WORST,        /**< range of depths -> worst interval */
+    METHOD_NORMAL,       /**< eye depths around a pixel -> normal */
     METHOD_POSITION,     /**< window depth of a pixel -> place */
     METHOD_FAMILY_COUNT
 } method_family;
@@ -74,6 +75,7 @@ typedef struct method_inputs {
     double *hi;    /**< worst: the far ends */
     float *d;      /**< linearize, encode, position: window depths in [0, 1] */
     double *place; /**< position: the exact places as seen from the camera, world axes, three numbers each */
+    float *eye;    /**< normal: see normal.h */
 } method_inputs;
 
 /** What they give back. */
@@ -81,7 +83,7 @@ typedef struct method_outputs {
     double *value;   /**< interval, worst: scene units */
     float *eye;      /**< linearize: scene units */
     uint32_t *code;  /**< encode */
-    float *place[3]; /**< position: world coordinates */
+    float *place[3]; /**< position: world coordinates; normal: unit vectors */
 } method_outputs;
 
 typedef struct method_row {
@@ -179,9 +181,10 @@ void method_windows(const dp_setup *setup, float *d, size_t count);
 /** Number i of a seeded sequence, in [0, 1): the same everywhere and always. */
 double method_unit(uint64_t seed, uint64_t i);
 
-extern const method_row interval_methods[], linearize_methods[], encode_methods[], worst_methods[], position_methods[];
+extern const method_row interval_methods[], linearize_methods[], encode_methods[], worst_methods[], position_methods[],
+    normal_methods[];
 extern const size_t interval_method_count, linearize_method_count, encode_method_count, worst_method_count,
-    position_method_count;
+    position_method_count, normal_method_count;
 bool interval_judge(const method_row *, const dp_setup *, const method_inputs *, const method_outputs *, size_t i,
                     method_error *);
 bool linearize_judge(const method_row *, const dp_setup *, const method_inputs *, const method_outputs *, size_t i,
@@ -190,6 +193,8 @@ bool encode_judge(const method_row *, const dp_setup *, const method_inputs *, c
                   method_error *);
 bool worst_judge(const method_row *, const dp_setup *, const method_inputs *, const method_outputs *, size_t i,
                  method_error *);
+bool normal_judge(const method_row *, const dp_setup *, const method_inputs *, const method_outputs *, size_t i,
+                  method_error *);
 bool position_judge(const method_row *, const dp_setup *, const method_inputs *, const method_outputs *, size_t i,
                     method_error *);
 

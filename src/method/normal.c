@@ -1,0 +1,223 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Normals from depth: the methods of texture/normal.h on planes in the format of a case. Errors are angles: relative is
+ * in radians, which is the relative error of the unit vector, absolute in degrees, ulp in units of 2^-24. */
+#include "method/normal.h"
+
+#include <math.h>
+#include <stdlib.h>
+
+#include "texture/normal.h"
+
+enum {
+    WIDTH = 1920,
+    HEIGHT = 1080,
+    LINE = METHOD_STRIP + 2 * NORMAL_REACH,
+    LINES = 2 * NORMAL_REACH + 1,
+    BLOCK = LINE * LINES
+};
+
+static const double PI = 3.14159265358979323846;
+static const double STEEPEST = 70;  /* degrees */
+static const double infinite = 1e6; /* where an infinite far plane is cut, in units of near */
+
+size_t normal_eyes(size_t count) {
+    return (count + METHOD_STRIP - 1) / METHOD_STRIP * BLOCK;
+}
+
+/* ---- Planes ------------------------------------------------------------------------------------------------------ */
+
+typedef struct strip {
+    uint32_t column, row;
+} strip;
+
+static void view_of(const dp_setup *setup, texture_camera *camera) {
+    camera_spec spec = camera_spec_default();
+    spec.width = WIDTH;
+    spec.height = HEIGHT;
+    camera_init(camera, setup, &spec);
+}
+
+/* Two corners of the image in turn with places by chance. */
+static strip strip_of(size_t index) {
+    const bool corner = index % 5 < 2;
+    const double x = corner ? (double)(index % 5) : method_unit(21, index), y = corner ? x : method_unit(22, index);
+    return (strip){.column = NORMAL_REACH + (uint32_t)((WIDTH - METHOD_STRIP - 2 * NORMAL_REACH) * x),
+                   .row = NORMAL_REACH + (uint32_t)((HEIGHT - 1 - 2 * NORMAL_REACH) * y)};
+}
+
+/* Planes that face the line of sight in turn with slanted ones. */
+static void normal_of(const texture_camera *camera, const strip *s, size_t index, double normal[3]) {
+    const double tilt = index % 3 == 0 ? 0 : STEEPEST * PI / 180 * method_unit(23, index);
+    const double turn = 2 * PI * method_unit(24, index);
+    const double x = camera_slope_x(camera, s->column + METHOD_STRIP / 2), y = camera_slope_y(camera, s->row);
+    /* The line of sight (x, y, 1) and two directions across it. */
+    const double length = sqrt(x * x + y * y + 1), aside = sqrt(x * x + 1);
+    const double sight[3] = {x / length, y / length, 1 / length}, right[3] = {1 / aside, 0, -x / aside};
+    const double up[3] = {-x * y / length / aside, aside / length, -y / length / aside};
+    for (int i = 0; i < 3; i++)
+        normal[i] = sin(tilt) * (cos(turn) * right[i] + sin(turn) * up[i]) - cos(tilt) * sight[i];
+}
+
+/* A depth for the middle of a strip with which all of it is between the planes: at far, at near, or by chance. */
+static double depth_of(const dp_setup *setup, const texture_camera *camera, const strip *s, const double normal[3],
+                       size_t index) {
+    const double n = setup->spec.znear, f = isinf(setup->spec.zfar) ? n * infinite : setup->spec.zfar;
+    const double column = s->column + METHOD_STRIP / 2;
+    const normal_plane plane = normal_plane_at(camera, column, s->row, 1, normal);
+    double nearest = 1, farthest = 1; /* at the corners, as 1/z is linear */
+    for (int i = 0; i < 4; i++) {
+        const double z = normal_plane_depth(
+            camera, &plane, (double)s->column + (i % 2 ? -NORMAL_REACH : METHOD_STRIP - 1 + NORMAL_REACH),
+            (double)s->row + (i / 2 ? -NORMAL_REACH : NORMAL_REACH));
+        nearest = fmin(nearest, z);
+        farthest = fmax(farthest, z);
+    }
+    const double lo = n / nearest, hi = f / farthest, share = method_unit(25, index);
+    return index % 4 == 0 ? hi : index % 4 == 1 ? lo : lo * pow(hi / lo, share);
+}
+
+void normal_fill(const dp_setup *setup, method_inputs *in) {
+    texture_camera camera;
+    view_of(setup, &camera);
+    for (size_t k = 0; k * METHOD_STRIP < in->count; k++) {
+        const strip s = strip_of(k);
+        double normal[3];
+        normal_of(&camera, &s, k, normal);
+        const double depth = depth_of(setup, &camera, &s, normal, k);
+        const normal_plane plane = normal_plane_at(&camera, s.column + METHOD_STRIP / 2, s.row, depth, normal);
+        for (int j = 0; j < LINES; j++)
+            for (int i = 0; i < LINE; i++) {
+                const double at = normal_plane_depth(&camera, &plane, (double)s.column + i - NORMAL_REACH,
+                                                     (double)s.row + j - NORMAL_REACH);
+                const double z = fmin(fmax(at, setup->spec.znear), setup->spec.zfar);
+                const size_t pixel = k * METHOD_STRIP + (size_t)(i - NORMAL_REACH);
+                in->eye[k * BLOCK + (size_t)(j * LINE + i)] = (float)dp_stored(setup, dp_code(setup, z));
+                if (j == NORMAL_REACH && i >= NORMAL_REACH && i < NORMAL_REACH + METHOD_STRIP && pixel < in->count)
+                    in->z[pixel] = z;
+            }
+    }
+}
+
+bool normal_judge(const method_row *row, const dp_setup *setup, const method_inputs *in, const method_outputs *out,
+                  size_t i, method_error *error) {
+    texture_camera camera;
+    (void)row, (void)in;
+    view_of(setup, &camera);
+    const strip s = strip_of(i / METHOD_STRIP);
+    double normal[3];
+    normal_of(&camera, &s, i / METHOD_STRIP, normal);
+    const double got[3] = {(double)out->place[0][i], (double)out->place[1][i], (double)out->place[2][i]};
+    const double angle = normal_angle(normal, got);
+    *error = (method_error){angle * 180 / PI, angle, angle * 0x1p24};
+    return true;
+}
+
+/* ---- The methods ------------------------------------------------------------------------------------------------- */
+
+typedef struct prepared {
+    texture_camera camera;
+    float slope[WIDTH];
+} prepared;
+
+static void *open_view(const dp_setup *setup) {
+    prepared *p = malloc(sizeof *p);
+    if (p == NULL)
+        return NULL;
+    view_of(setup, &p->camera);
+    for (int i = 0; i < WIDTH; i++)
+        p->slope[i] = (float)camera_slope_x(&p->camera, i);
+    return p;
+}
+
+static void run_strips(const normal_row *method, const prepared *p, const method_inputs *in,
+                       const method_outputs *out) {
+    for (size_t k = 0; k * METHOD_STRIP < in->count; k++) {
+        const strip s = strip_of(k);
+        const size_t first = k * METHOD_STRIP, left = in->count - first;
+        normal_rows rows = {.camera = &p->camera,
+                            .row = s.row,
+                            .column = s.column,
+                            .count = left < METHOD_STRIP ? (uint32_t)left : METHOD_STRIP,
+                            .slope_x = p->slope + s.column};
+        for (int j = 0; j < LINES; j++)
+            rows.rows[j] = in->eye + k * BLOCK + (size_t)(j * LINE + NORMAL_REACH);
+        method->run(&rows, out->place[0] + first, out->place[1] + first, out->place[2] + first);
+    }
+}
+
+#define RUN(index)                                                                                                     \
+    static void run_##index(const dp_setup *setup, const void *state, const method_inputs *in,                         \
+                            const method_outputs *out) {                                                               \
+        (void)setup;                                                                                                   \
+        run_strips(normal_get(index), state, in, out);                                                                 \
+    }
+RUN(0)
+RUN(1)
+RUN(2)
+RUN(3)
+RUN(4)
+RUN(5)
+
+/* ---- Claims: see "NORMALS FROM DEPTH" in depthprec(7)
+ * ----------------------------------------------------------------------- */
+
+/* The angle that errors of depth can make next to each other, `off` of the depth itself, pixels `step` apart. */
+static double angle_of(double step, double off) {
+    const double y = tan(PI / 6), x = y * WIDTH / HEIGHT, apart = 2 * step * y / HEIGHT;
+    const double most = 2 * (hypot(1, x) + hypot(1, y)) / apart * sqrt(1 + x * x + y * y) * off;
+    return most < 1 ? asin(most) + 1e-6 : PI;
+}
+
+/* What rounding places adds to methods that subtract them, as an error of depth. */
+#define PLACES (1.6 * 0x1p-24)
+
+/* Half a step of 24 bits, and reading; depths at far are the worst. */
+static double unorm_off(double ratio) {
+    return (ratio - 1) / 2 / 0xffffff + 0x1p-24;
+}
+
+static double unorm_exact(double ratio) {
+    return angle_of(1, unorm_off(ratio));
+}
+static double unorm_1(double ratio) {
+    return angle_of(1, unorm_off(ratio) + PLACES);
+}
+static double unorm_2(double ratio) {
+    return angle_of(2, unorm_off(ratio) + PLACES);
+}
+static double float_exact(double ratio) {
+    (void)ratio;
+    return angle_of(1, 2 * 0x1p-24);
+}
+static double float_1(double ratio) {
+    (void)ratio;
+    return angle_of(1, 2 * 0x1p-24 + PLACES);
+}
+static double float_2(double ratio) {
+    (void)ratio;
+    return angle_of(2, 2 * 0x1p-24 + PLACES);
+}
+
+/* clang-format off */
+const method_row normal_methods[] = {
+    {METHOD_NORMAL, "low", "the 2 x 2 quad of a pixel",
+     {FORMULA_TO(unorm_1, 1e3), FORMULA(float_1)}, METHOD_INFINITE, 1.0, "1", 0,
+     "Universal RP, SSAO.hlsl", NULL, open_view, run_0, free},
+    {METHOD_NORMAL, "medium-1", "the farther of the neighbours, next to it",
+     {FORMULA_TO(unorm_1, 1e3), FORMULA(float_1)}, METHOD_INFINITE, 1.05, "1", 0,
+     "", NULL, open_view, run_2, free},
+    {METHOD_NORMAL, "medium", "the farther of the neighbours, 2 pixels away",
+     {FORMULA_TO(unorm_2, 2e3), FORMULA(float_2)}, METHOD_INFINITE, 1.1, "1", 0,
+     "Universal RP, SSAO.hlsl", NULL, open_view, run_1, free},
+    {METHOD_NORMAL, "projective", "lines in 1/z, next to it; on a plane the differences of 1/z are its normal",
+     {FORMULA_TO(unorm_exact, 1e3), FORMULA(float_exact)}, METHOD_INFINITE, 1.3, "1", 0,
+     "depthprec(7)", NULL, open_view, run_5, free},
+    {METHOD_NORMAL, "high-1", "lines in z, next to it",
+     {FORMULA_TO(unorm_1, 1e3), FORMULA(float_1)}, METHOD_INFINITE, 1.35, "1", 0,
+     "", NULL, open_view, run_4, free},
+    {METHOD_NORMAL, "high", "lines in z, 2 pixels away",
+     {FORMULA_TO(unorm_2, 2e3), FORMULA(float_2)}, METHOD_INFINITE, 1.36, "1", 0,
+     "Universal RP, SSAO.hlsl", NULL, open_view, run_3, free},
+};
+/* clang-format on */
+const size_t normal_method_count = sizeof normal_methods / sizeof normal_methods[0];
