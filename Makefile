@@ -261,7 +261,7 @@ plots: all
 
 bench: all $(BENCH_PROGRAMS)
 	@for b in $(filter-out %/bench_empty,$(BENCH_PROGRAMS)); do $$b $(B)/depthprec || exit 1; done
-	@for f in interval linearize encode worst; do echo && $(B)/depthprec bench $$f || exit 1; done
+	@for f in interval linearize encode worst position normal; do echo && $(B)/depthprec bench $$f || exit 1; done
 	@sh plots/draw.sh $(B)/depthprec plots pareto-interval pareto-linearize
 
 clean distclean:

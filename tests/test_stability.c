@@ -56,6 +56,11 @@ static void worst_claims(void **state) {
     check_family("worst");
 }
 
+static void normal_claims(void **state) {
+    (void)state;
+    check_family("normal");
+}
+
 /* The walk can tell: a method with another's claim is called broken or modest. */
 static method_row forged;
 static method_family_row forgery;
@@ -109,8 +114,8 @@ static void false_claims_are_found(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(interval_claims), cmocka_unit_test(linearize_claims),       cmocka_unit_test(encode_claims),
-        cmocka_unit_test(worst_claims),    cmocka_unit_test(false_claims_are_found),
+        cmocka_unit_test(interval_claims), cmocka_unit_test(linearize_claims), cmocka_unit_test(encode_claims),
+        cmocka_unit_test(worst_claims),    cmocka_unit_test(normal_claims),    cmocka_unit_test(false_claims_are_found),
     };
     return run_tap(tests);
 }

@@ -48,12 +48,12 @@ const verb verb_rows[] = {
      "  depthprec texture depth.png -n 0.3 -f 1000\n"
      "  depthprec texture depth.png -n 0.3 -f 1000 --normal high -o normals.npy\n"
      "  depthprec texture --scene decals --parameter gap=0.01 -F d24 -m reversed\n"},
-    {"bench", VERB_BENCH, cmd_bench, "FAMILY", 1, 1, "interval, linearize, encode, worst or position",
+    {"bench", VERB_BENCH, cmd_bench, "FAMILY", 1, 1, "interval, linearize, encode, worst, position or normal",
      "methods of a family: ns an element against worst error",
      "  depthprec bench linearize -n 0.1 -f 1000\n"
      "  depthprec bench interval -F fp32 -m reversed --tolerance 1e-6\n"
      "  depthprec plot pareto linearize -o pareto.svg\n"},
-    {"stability", VERB_STABILITY, cmd_stability, "FAMILY", 1, 1, "interval, linearize, encode, worst or position",
+    {"stability", VERB_STABILITY, cmd_stability, "FAMILY", 1, 1, "interval, linearize, encode, worst, position or normal",
      "where the methods of a family lose what they claim",
      "  depthprec stability linearize\n"
      "  depthprec plot stability interval -o stability.svg\n"},

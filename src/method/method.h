@@ -21,8 +21,8 @@ typedef enum method_family {
     METHOD_LINEARIZE,    /**< window depth -> eye depth */
     METHOD_ENCODE,       /**< window depth -> code */
     METHOD_WORST,        /**< range of depths -> worst interval */
-    METHOD_NORMAL,       /**< eye depths around a pixel -> normal */
     METHOD_POSITION,     /**< window depth of a pixel -> place */
+    METHOD_NORMAL,       /**< eye depths around a pixel -> normal */
     METHOD_FAMILY_COUNT
 } method_family;
 
