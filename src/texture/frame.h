@@ -1,0 +1,96 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/**
+ * @file frame.h  A whole depth image, or a scene in its place, through decoding, positions, normals and effects.
+ *
+ * Work goes over strips of rows on all cores: besides the image no more than a few strips are in memory, whatever the
+ * size, and the bits do not depend on the number of threads.
+ */
+#ifndef TEXTURE_FRAME_H
+#define TEXTURE_FRAME_H
+
+#include <stdbool.h>
+#include <stdint.h>
+
+#include "texture/camera.h"
+#include "texture/effect.h"
+#include "texture/image.h"
+#include "texture/normal.h"
+#include "texture/position.h"
+#include "texture/scene.h"
+
+/** Where the depths come from. */
+typedef struct frame {
+    const texture_camera *camera; /**< its set-up in the model exact */
+    const image *image;           /**< null for a scene */
+    const scene_row *scene;
+    const double *parameters; /**< of the scene */
+    double sky;               /**< window depths this close to the far plane's are sky, [0, 0.5] */
+    int threads;              /**< 0: as many as there are cores */
+} frame;
+
+/**
+ * Codes ordered by distance: the rank of a code is the code, or code_max - code in a reversed set-up. Ranks from
+ * frame_sky_rank() on are sky: their values are within frame->sky of the far plane's.
+ */
+uint32_t frame_sky_rank(const frame *f);
+static inline uint32_t frame_rank(const dp_setup *setup, uint32_t code) {
+    return setup->reversed ? setup->spec.format.code_max - code : code;
+}
+static inline uint32_t frame_code(const dp_setup *setup, uint32_t rank) {
+    return frame_rank(setup, rank);
+}
+
+/** The codes of a row; UINT32_MAX where the image has no depth. */
+void frame_codes(const frame *f, uint32_t row, uint32_t *codes);
+
+typedef enum frame_kind { FRAME_EYE = 0, FRAME_POSITION, FRAME_NORMAL, FRAME_EFFECT, FRAME_KINDS } frame_kind;
+
+/** What is made of the depths. Sky and invalid pixels are NaN in all of them. */
+typedef struct frame_product {
+    frame_kind kind;
+    /**
+     * The error in place of the product, one number a pixel. For a scene what is off from the truth; for an image,
+     * whose truth is not known, what it can be off:
+     *
+     *     eye       |stored - z|; image: from the stored depth to the farther end of its cell
+     *     position  distance from the true place; image: |method - exact| and the cell's reach along the ray
+     *     normal    angle to the true normal, degrees; image: the bound of the method "projective" on a plane
+     *     effect    levels of 1/255
+     */
+    bool error;
+    bool radial;                   /**< FRAME_EYE: distance from the camera in place of eye depth */
+    const position_row *position;  /**< FRAME_POSITION; null: exact, rounded to binary32 */
+    const normal_row *normal;      /**< FRAME_NORMAL */
+    const effect_row *effect;      /**< FRAME_EFFECT */
+    const double *effect_settings; /**< its parameters; `rise`, if it has one, is that of each pixel's ray */
+    double reference;              /**< the eye depth it compares with, where it does; EFFECT_STEP takes neighbours */
+} frame_product;
+
+/** Numbers a pixel: 3 for places and normals, else 1. */
+int frame_channels(const frame_product *product);
+
+/** Null, or a sentence about why this cannot be made of this frame. */
+const char *frame_refuses(const frame *f, const frame_product *product);
+
+/** Takes `count` rows from `row` on, channels interleaved. Called from one thread, strip by strip in order. @return
+ *  false to stop */
+typedef bool frame_take(void *context, uint32_t row, uint32_t count, const float *values);
+
+/**
+ * Makes a product that frame_refuses() lets through.
+ * @param bottom_up  the last strip first; rows within a strip go down all the same
+ * @return false when out of memory or stopped
+ */
+bool frame_run(const frame *f, const frame_product *product, bool bottom_up, frame_take *take, void *context);
+
+/** All finite numbers of a product. The bits do not depend on the number of threads. */
+typedef struct frame_summary {
+    uint64_t count, infinite;
+    double lo, hi, mean;
+    double p99;                 /**< of the magnitudes: the least number that 99 % do not exceed, at most 2^-11 above */
+    uint32_t hi_column, hi_row; /**< the first that reaches hi */
+} frame_summary;
+
+bool frame_summarise(const frame *f, const frame_product *product, frame_summary *out);
+
+#endif

@@ -1,0 +1,233 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "texture/frame_rows.h"
+
+#include <math.h>
+#include <string.h>
+
+static const double TO_DEGREES = 180 / 3.14159265358979323846;
+
+static const texture_camera *camera_of(const frame_row *in) {
+    return in->frame->camera;
+}
+
+static const float *eyes_of(const frame_row *in) {
+    return in->eyes[NORMAL_REACH];
+}
+
+/* Length along the pixel's ray of one scene unit of eye depth. */
+static double stretch(const frame_row *in, uint32_t x) {
+    return camera_radial(camera_of(in), x, in->row);
+}
+
+/* What the pixel of a scene truly sees; NaN where it is sky, or counts as such. */
+static scene_hit truth(const frame_row *in, uint32_t x) {
+    scene_hit hit;
+    in->frame->scene->hit(camera_of(in), in->frame->parameters, x, in->row, &hit);
+    if (isinf(hit.z) || isnan(eyes_of(in)[x]))
+        hit.z = NAN;
+    return hit;
+}
+
+/* How far the depth that was stored as a code can be from what the code gives back. A cell narrower than the spacing of
+   doubles is all that is known of it. */
+static double reach(const dp_setup *setup, uint32_t code) {
+    const dp_cell cell = dp_cell_of(setup, code);
+    return fmin(cell.width, fmax(dp_error(setup, code, cell.lo), -dp_error(setup, code, cell.hi)));
+}
+
+/* Neighbours often share a code. */
+typedef struct reaches {
+    uint32_t code;
+    double value;
+} reaches;
+
+static double reach_of(const frame_row *in, reaches *last, uint32_t x) {
+    const uint32_t code = in->codes[x];
+    if (code != last->code)
+        *last = (reaches){code, reach(&camera_of(in)->setup, code)};
+    return last->value;
+}
+
+static reaches nothing_yet(void) {
+    return (reaches){UINT32_MAX, NAN};
+}
+
+static void interleave(const frame_row *in) {
+    for (uint32_t x = 0; x < camera_of(in)->width; x++)
+        for (int k = 0; k < 3; k++)
+            in->out[3 * (size_t)x + (size_t)k] = in->planes[k][x];
+}
+
+static void eye(const frame_row *in) {
+    const uint32_t width = camera_of(in)->width;
+    memcpy(in->out, eyes_of(in), width * sizeof *in->out);
+    for (uint32_t x = 0; x < width && in->product->radial; x++)
+        in->out[x] = (float)(in->out[x] * stretch(in, x));
+}
+
+static void eye_error(const frame_row *in) {
+    reaches last = nothing_yet();
+    for (uint32_t x = 0; x < camera_of(in)->width; x++) {
+        double error = NAN;
+        if (in->frame->scene != NULL)
+            error = fabs(dp_error(&camera_of(in)->setup, in->codes[x], truth(in, x).z));
+        else if (!isnan(eyes_of(in)[x]))
+            error = reach_of(in, &last, x);
+        in->out[x] = (float)(in->product->radial ? error * stretch(in, x) : error);
+    }
+}
+
+static void exact_place(const frame_row *in, uint32_t x, double z, double world[3]) {
+    double view[3];
+    camera_view(camera_of(in), x, in->row, z, view);
+    camera_world(camera_of(in), view, world);
+}
+
+static void places(const frame_row *in) {
+    const texture_camera *c = camera_of(in);
+    if (in->product->position != NULL) {
+        in->product->position->run(in->position, in->row, 0, in->depth, c->width, in->planes[0], in->planes[1],
+                                   in->planes[2]);
+        for (uint32_t x = 0; x < c->width; x++)
+            for (int k = 0; k < 3 && isnan(eyes_of(in)[x]); k++)
+                in->planes[k][x] = NAN;
+        return;
+    }
+    for (uint32_t x = 0; x < c->width; x++) {
+        double world[3] = {NAN, NAN, NAN};
+        if (!isnan(eyes_of(in)[x]))
+            exact_place(in, x, dp_stored(&c->setup, in->codes[x]), world);
+        for (int k = 0; k < 3; k++)
+            in->planes[k][x] = (float)world[k];
+    }
+}
+
+static void position(const frame_row *in) {
+    places(in);
+    interleave(in);
+}
+
+static void position_error(const frame_row *in) {
+    reaches last = nothing_yet();
+    places(in);
+    for (uint32_t x = 0; x < camera_of(in)->width; x++) {
+        const bool known = in->frame->scene != NULL;
+        const double z = isnan(eyes_of(in)[x]) ? (double)NAN
+                         : known               ? truth(in, x).z
+                                               : dp_stored(&camera_of(in)->setup, in->codes[x]);
+        double world[3], squares = 0;
+        exact_place(in, x, z, world);
+        for (int k = 0; k < 3; k++)
+            squares += (in->planes[k][x] - world[k]) * (in->planes[k][x] - world[k]);
+        in->out[x] = (float)(sqrt(squares) + (known || isnan(z) ? 0 : reach_of(in, &last, x) * stretch(in, x)));
+    }
+}
+
+static void normals(const frame_row *in) {
+    normal_rows rows = {.camera = camera_of(in), .slope_x = in->slope_x, .row = in->row};
+    memcpy(rows.rows, in->eyes, sizeof rows.rows);
+    in->product->normal->run(&rows, in->planes[0], in->planes[1], in->planes[2]);
+}
+
+static void normal(const frame_row *in) {
+    normals(in);
+    interleave(in);
+}
+
+/* The bound for a plane through the pixel's place with the normal that was found. */
+static double plane_bound(const frame_row *in, reaches *last, uint32_t x, const double n[3]) {
+    const texture_camera *c = camera_of(in);
+    const double z = dp_stored(&c->setup, in->codes[x]);
+    double view[3];
+    camera_view(c, x, in->row, z, view);
+    const double plane[4] = {n[0], n[1], n[2], n[0] * view[0] + n[1] * view[1] + n[2] * view[2]};
+    const double step = reach_of(in, last, x), half = c->ortho ? step : step / (z * (z - fmin(step, z / 2)));
+    return normal_plane_bound(c, x, in->row, plane, half);
+}
+
+static void normal_error(const frame_row *in) {
+    reaches last = nothing_yet();
+    normals(in);
+    for (uint32_t x = 0; x < camera_of(in)->width; x++) {
+        const double found[3] = {in->planes[0][x], in->planes[1][x], in->planes[2][x]};
+        double angle = NAN;
+        if (!isnan(found[0]) && in->frame->scene != NULL) {
+            const scene_hit hit = truth(in, x);
+            angle = isnan(hit.z) ? (double)NAN : normal_angle(found, hit.normal);
+        } else if (!isnan(found[0])) {
+            angle = plane_bound(in, &last, x, found);
+        }
+        in->out[x] = (float)(angle * TO_DEGREES);
+    }
+}
+
+/* The settings of a pixel: world height per unit of eye depth is that of its ray. */
+typedef struct settings {
+    double at[EFFECT_PARAMETERS_MAX];
+    int rise;
+} settings;
+
+static settings settings_of(const frame_row *in) {
+    settings s = {.rise = effect_parameter_find(in->product->effect, "rise")};
+    memcpy(s.at, in->product->effect_settings, sizeof s.at);
+    return s;
+}
+
+static const double *settings_at(const frame_row *in, settings *s, uint32_t x) {
+    const texture_camera *c = camera_of(in);
+    const double ray[3] = {c->ortho ? 0 : camera_slope_x(c, x), c->ortho ? 0 : camera_slope_y(c, in->row), 1};
+    double world[3];
+    if (s->rise >= 0) {
+        camera_turn(c, ray, world);
+        s->at[s->rise] = world[1];
+    }
+    return s->at;
+}
+
+/* Two pixels that are compared, as Roberts' edge detector does along both diagonals of a quad. */
+static double step(const frame_row *in, const double *at, uint32_t x) {
+    const float *here = eyes_of(in), *below = in->eyes[NORMAL_REACH + 1];
+    const effect_row *row = in->product->effect;
+    const dp_setup *setup = &camera_of(in)->setup;
+    const double a = row->output(setup, at, here[x], below[x + 1]);
+    const double b = row->output(setup, at, here[x + 1], below[x]);
+    return isnan(a) || isnan(b) ? (double)NAN : fmax(a, b);
+}
+
+static void effect(const frame_row *in) {
+    const effect_row *row = in->product->effect;
+    settings s = settings_of(in);
+    for (uint32_t x = 0; x < camera_of(in)->width; x++) {
+        const double z = eyes_of(in)[x], *at = settings_at(in, &s, x);
+        double value = NAN;
+        if (!isnan(z) && row->kind == EFFECT_STEP)
+            value = step(in, at, x);
+        else if (!isnan(z))
+            value = row->output(&camera_of(in)->setup, at, z, in->product->reference);
+        in->out[x] = (float)value;
+    }
+}
+
+static void effect_error_row(const frame_row *in) {
+    const dp_setup *setup = &camera_of(in)->setup;
+    settings s = settings_of(in);
+    double last = NAN;
+    for (uint32_t x = 0; x < camera_of(in)->width; x++) {
+        const double *at = settings_at(in, &s, x);
+        const double z = fmin(fmax(dp_stored(setup, in->codes[x]), setup->spec.znear), setup->spec.zfar);
+        if (isnan(eyes_of(in)[x]))
+            in->out[x] = NAN;
+        else if (x > 0 && z == last && s.rise < 0)
+            in->out[x] = in->out[x - 1];
+        else
+            in->out[x] = (float)effect_error(in->product->effect, setup, at, z);
+        last = isnan(in->out[x]) ? (double)NAN : z;
+    }
+}
+
+frame_make *const frame_makers[FRAME_KINDS][2] = {
+    [FRAME_EYE] = {eye, eye_error},
+    [FRAME_POSITION] = {position, position_error},
+    [FRAME_NORMAL] = {normal, normal_error},
+    [FRAME_EFFECT] = {effect, effect_error_row},
+};
