@@ -70,7 +70,7 @@ typedef struct run {
     float *eyes, *out, *slope_x, *scratch; /* scratch: four rows a thread */
 } run;
 
-static int threads_of(const frame *f) {
+int frame_threads(const frame *f) {
 #ifdef _OPENMP
     return f->threads > 0 ? f->threads : omp_get_max_threads();
 #else
@@ -99,7 +99,7 @@ static bool run_start(run *r, const frame *f, const frame_product *product) {
     const texture_camera *c = f->camera;
     *r = (run){.f = f,
                .product = product,
-               .threads = threads_of(f),
+               .threads = frame_threads(f),
                .width = c->width,
                .height = c->height,
                .stride = c->width + AROUND,
@@ -125,24 +125,24 @@ static bool run_start(run *r, const frame *f, const frame_product *product) {
            dp_batch_init(&r->depth, &c->setup, DP_TASK_DECODE, DP_REAL_FLOAT, DP_WORD_32, path) == DP_OK;
 }
 
-/* Row i of the strip that begins at row `first`, margins counted: its codes and eye depths. */
+/* Row i of the strip that begins at row `first`, margins counted: its codes and eye depths. Beyond the image is NaN. */
 static void decode_row_of(const run *r, uint32_t first, uint32_t i) {
-    const int64_t wanted = (int64_t)first + i - NORMAL_REACH;
-    const int64_t row = wanted < 0 ? 0 : wanted < r->height ? wanted : (int64_t)r->height - 1;
+    const int64_t row = (int64_t)first + i - NORMAL_REACH;
     uint32_t *codes = r->codes + (size_t)i * r->width;
     float *eyes = r->eyes + (size_t)i * r->stride + NORMAL_REACH;
     const dp_setup *setup = &r->f->camera->setup;
     const uint32_t flip = setup->reversed ? setup->spec.format.code_max : 0, sky = r->sky;
-    frame_codes(r->f, (uint32_t)row, codes);
-    dp_batch_run(&r->eye, codes, eyes, r->width);
+    const bool inside = row >= 0 && row < r->height;
+    if (inside) {
+        frame_codes(r->f, (uint32_t)row, codes);
+        dp_batch_run(&r->eye, codes, eyes, r->width);
+    }
     for (uint32_t x = 0; x < r->width; x++) {
         const uint32_t rank = flip != 0 ? flip - codes[x] : codes[x];
-        eyes[x] = codes[x] == UINT32_MAX || rank >= sky ? NAN : eyes[x];
+        eyes[x] = !inside || codes[x] == UINT32_MAX || rank >= sky ? NAN : eyes[x];
     }
-    for (int k = 1; k <= NORMAL_REACH; k++) {
-        eyes[-k] = eyes[0];
-        eyes[(int64_t)r->width - 1 + k] = eyes[r->width - 1];
-    }
+    for (int k = 0; k < NORMAL_REACH; k++)
+        eyes[-1 - k] = eyes[(int64_t)r->width + k] = NAN;
 }
 
 static void make_row(const run *r, uint32_t first, uint32_t i) {
@@ -151,7 +151,7 @@ static void make_row(const run *r, uint32_t first, uint32_t i) {
     frame_row in = {.frame = r->f,
                     .product = r->product,
                     .position = &r->position,
-                    .slope_x = r->slope_x,
+                    .slope_x = r->slope_x + NORMAL_REACH,
                     .row = first + i,
                     .codes = r->codes + middle * r->width,
                     .planes = {scratch + r->width, scratch + 2 * (size_t)r->width, scratch + 3 * (size_t)r->width},
@@ -169,7 +169,8 @@ bool frame_run(const frame *f, const frame_product *product, bool bottom_up, fra
     run r;
     bool good = run_start(&r, f, product);
     const uint32_t strips = (r.height + r.strip - 1) / (r.strip > 0 ? r.strip : 1);
-    const uint32_t margin = product->kind == FRAME_NORMAL ? 0 : NORMAL_REACH;
+    const bool neighbours = product->kind == FRAME_NORMAL || product->kind == FRAME_EFFECT;
+    const uint32_t margin = neighbours ? 0 : NORMAL_REACH;
     for (uint32_t s = 0; s < strips && good; s++) {
         const uint32_t first = (bottom_up ? strips - 1 - s : s) * r.strip;
         const uint32_t count = r.height - first < r.strip ? r.height - first : r.strip;

@@ -40,6 +40,9 @@ static inline uint32_t frame_code(const dp_setup *setup, uint32_t rank) {
     return frame_rank(setup, rank);
 }
 
+/** How many threads it runs on. */
+int frame_threads(const frame *f);
+
 /** The codes of a row; UINT32_MAX where the image has no depth. */
 void frame_codes(const frame *f, uint32_t row, uint32_t *codes);
 

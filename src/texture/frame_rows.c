@@ -62,7 +62,7 @@ static void eye(const frame_row *in) {
     const uint32_t width = camera_of(in)->width;
     memcpy(in->out, eyes_of(in), width * sizeof *in->out);
     for (uint32_t x = 0; x < width && in->product->radial; x++)
-        in->out[x] = (float)(in->out[x] * stretch(in, x));
+        in->out[x] = (float)((double)in->out[x] * stretch(in, x));
 }
 
 static void eye_error(const frame_row *in) {
@@ -118,13 +118,14 @@ static void position_error(const frame_row *in) {
         double world[3], squares = 0;
         exact_place(in, x, z, world);
         for (int k = 0; k < 3; k++)
-            squares += (in->planes[k][x] - world[k]) * (in->planes[k][x] - world[k]);
+            squares += ((double)in->planes[k][x] - world[k]) * ((double)in->planes[k][x] - world[k]);
         in->out[x] = (float)(sqrt(squares) + (known || isnan(z) ? 0 : reach_of(in, &last, x) * stretch(in, x)));
     }
 }
 
 static void normals(const frame_row *in) {
-    normal_rows rows = {.camera = camera_of(in), .slope_x = in->slope_x, .row = in->row};
+    normal_rows rows = {
+        .camera = camera_of(in), .row = in->row, .count = camera_of(in)->width, .slope_x = in->slope_x};
     memcpy(rows.rows, in->eyes, sizeof rows.rows);
     in->product->normal->run(&rows, in->planes[0], in->planes[1], in->planes[2]);
 }
@@ -135,18 +136,14 @@ static void normal(const frame_row *in) {
 }
 
 /* The bound for a plane through the pixel's place with the normal that was found. */
-static double plane_bound(const frame_row *in, reaches *last, uint32_t x, const double n[3]) {
+static double plane_bound(const frame_row *in, uint32_t x, const double found[3]) {
     const texture_camera *c = camera_of(in);
-    const double z = dp_stored(&c->setup, in->codes[x]);
-    double view[3];
-    camera_view(c, x, in->row, z, view);
-    const double plane[4] = {n[0], n[1], n[2], n[0] * view[0] + n[1] * view[1] + n[2] * view[2]};
-    const double step = reach_of(in, last, x), half = c->ortho ? step : step / (z * (z - fmin(step, z / 2)));
-    return normal_plane_bound(c, x, in->row, plane, half);
+    const normal_plane plane = normal_plane_at(c, x, in->row, dp_stored(&c->setup, in->codes[x]), found);
+    const double error = normal_plane_error(c, x, in->row, &plane, DP_BATCH_EYE_ERROR);
+    return isinf(error) ? (double)NAN : normal_plane_bound(c, x, in->row, &plane, error);
 }
 
 static void normal_error(const frame_row *in) {
-    reaches last = nothing_yet();
     normals(in);
     for (uint32_t x = 0; x < camera_of(in)->width; x++) {
         const double found[3] = {in->planes[0][x], in->planes[1][x], in->planes[2][x]};
@@ -155,7 +152,7 @@ static void normal_error(const frame_row *in) {
             const scene_hit hit = truth(in, x);
             angle = isnan(hit.z) ? (double)NAN : normal_angle(found, hit.normal);
         } else if (!isnan(found[0])) {
-            angle = plane_bound(in, &last, x, found);
+            angle = plane_bound(in, x, found);
         }
         in->out[x] = (float)(angle * TO_DEGREES);
     }

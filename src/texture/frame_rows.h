@@ -10,11 +10,11 @@ typedef struct frame_row {
     const frame *frame;
     const frame_product *product;
     const position_state *position;
-    const float *slope_x; /**< of columns -NORMAL_REACH to width + NORMAL_REACH - 1 */
+    const float *slope_x; /**< of column 0, with the same margins as the eye depths */
     uint32_t row;
     const uint32_t *codes;
     const float *depth;                      /**< window depth, FRAME_POSITION only */
-    const float *eyes[2 * NORMAL_REACH + 1]; /**< eye depths of this row and its neighbours, see normal_rows */
+    const float *eyes[2 * NORMAL_REACH + 1]; /**< eye depths of this row and its neighbours, as in normal_rows */
     float *planes[3];                        /**< room for three times the width */
     float *out;
 } frame_row;

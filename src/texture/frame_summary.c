@@ -30,7 +30,7 @@ static bool take(void *context, uint32_t row, uint32_t count, const float *value
     for (uint32_t i = 0; i < count; i++) {
         double sum = 0;
         for (size_t x = 0; x < s->row_values; x++) {
-            const float value = values[i * s->row_values + x];
+            const double value = (double)values[i * s->row_values + x];
             if (isnan(value))
                 continue;
             if (isinf(value)) {
@@ -44,7 +44,7 @@ static bool take(void *context, uint32_t row, uint32_t count, const float *value
             }
             out->lo = fmin(out->lo, value);
             sum += value;
-            s->bins[bits_of(value) >> BIN_SHIFT]++;
+            s->bins[bits_of((float)value) >> BIN_SHIFT]++;
         }
         s->sum += sum;
     }
@@ -60,7 +60,7 @@ static double quantile(const summing *s, double share) {
             const uint32_t bits = ((bin + 1) << BIN_SHIFT) - 1;
             float top;
             memcpy(&top, &bits, sizeof top);
-            return fmin(top, fmax(fabs(s->out->lo), fabs(s->out->hi)));
+            return fmin((double)top, fmax(fabs(s->out->lo), fabs(s->out->hi)));
         }
     }
     return NAN;

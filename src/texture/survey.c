@@ -1,0 +1,250 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "texture/survey.h"
+
+#include <math.h>
+#include <stdlib.h>
+
+#include "core/curve.h"
+#include "core/lattice.h"
+
+/* Bands by rank: band i holds the ranks from start[i] up to start[i + 1]. */
+typedef struct bands {
+    size_t count;
+    double edge[SURVEY_BANDS + 1];
+    uint32_t start[SURVEY_BANDS + 1];
+} bands;
+
+typedef struct surveying {
+    const frame *f;
+    const dp_setup *setup;
+    uint64_t *used; /* a bit a rank */
+    uint32_t sky;
+    bands bands;
+    uint64_t pixels[SURVEY_BANDS];
+    uint64_t sky_pixels, true_sky, invalid;
+} surveying;
+
+static double stored(const dp_setup *setup, uint32_t rank) {
+    return dp_stored(setup, frame_code(setup, rank));
+}
+
+/* The first rank whose depth is z or more, at most `most`. */
+static uint32_t rank_from(const dp_setup *setup, double z, uint32_t most) {
+    uint32_t rank = frame_rank(setup, dp_code(setup, z));
+    while (rank < most && stored(setup, rank) < z)
+        rank++;
+    while (rank > 0 && stored(setup, rank - 1) >= z)
+        rank--;
+    return rank < most ? rank : most;
+}
+
+static size_t edges_between(double lo, double hi, const int *factors, size_t factor_count, double *edge) {
+    size_t count = 0;
+    for (int power = (int)floor(log10(lo)); power <= (int)ceil(log10(hi)); power++)
+        for (size_t i = 0; i < factor_count; i++) {
+            const double at = power < 0 ? factors[i] / pow(10, -power) : factors[i] * pow(10, power);
+            if (at > lo && at < hi) {
+                if (edge != NULL)
+                    edge[count] = at;
+                count++;
+            }
+        }
+    return count;
+}
+
+static void make_bands(surveying *s, double hi) {
+    static const int factors[] = {1, 2, 5};
+    const double lo = s->setup->spec.znear;
+    bands *b = &s->bands;
+    size_t fine = 3;
+    while (fine > 1 && edges_between(lo, hi, factors, fine, NULL) > SURVEY_BANDS - 1)
+        fine = 1;
+    b->edge[0] = lo;
+    b->count = 1 + edges_between(lo, hi, factors, fine, b->edge + 1);
+    b->edge[b->count] = hi;
+    for (size_t i = 1; i < b->count; i++)
+        b->start[i] = rank_from(s->setup, b->edge[i], s->sky);
+    b->start[0] = 0;
+    b->start[b->count] = s->sky;
+}
+
+static void mark(uint64_t *used, uint32_t rank) {
+    uint64_t *word = &used[rank >> 6];
+    const uint64_t bit = UINT64_C(1) << (rank & 63);
+    if ((__atomic_load_n(word, __ATOMIC_RELAXED) & bit) == 0)
+        __atomic_fetch_or(word, bit, __ATOMIC_RELAXED);
+}
+
+/* What one row adds. Neighbours often share a code, and nearly always a band. */
+static void visit_row(surveying *s, uint32_t row, uint32_t *codes, surveying *mine) {
+    const uint32_t width = s->f->camera->width;
+    uint32_t last = UINT32_MAX;
+    size_t band = 0;
+    frame_codes(s->f, row, codes);
+    for (uint32_t x = 0; x < width; x++) {
+        if (codes[x] == UINT32_MAX) {
+            mine->invalid++;
+            continue;
+        }
+        const uint32_t rank = frame_rank(s->setup, codes[x]);
+        if (rank >= s->sky) {
+            mine->sky_pixels++;
+            continue;
+        }
+        if (rank != last) {
+            while (rank < s->bands.start[band])
+                band--;
+            while (rank >= s->bands.start[band + 1])
+                band++;
+            mark(s->used, rank);
+            last = rank;
+        }
+        mine->pixels[band]++;
+    }
+    for (uint32_t x = 0; x < width && s->f->scene != NULL; x++) {
+        scene_hit hit;
+        s->f->scene->hit(s->f->camera, s->f->parameters, x, row, &hit);
+        mine->true_sky += hit.surface == 0;
+    }
+}
+
+static bool visit(surveying *s) {
+    bool good = true;
+#pragma omp parallel num_threads(frame_threads(s->f))
+    {
+        surveying mine = {0};
+        uint32_t *codes = malloc((size_t)s->f->camera->width * sizeof *codes);
+#pragma omp for schedule(dynamic, 8)
+        for (uint32_t row = 0; row < s->f->camera->height; row++)
+            if (codes != NULL)
+                visit_row(s, row, codes, &mine);
+#pragma omp critical
+        {
+            good = good && codes != NULL;
+            for (size_t i = 0; i < s->bands.count; i++)
+                s->pixels[i] += mine.pixels[i];
+            s->sky_pixels += mine.sky_pixels;
+            s->true_sky += mine.true_sky;
+            s->invalid += mine.invalid;
+        }
+        free(codes);
+    }
+    return good;
+}
+
+/* The first used rank from `rank` on and below `end`; `end` when there is none. */
+static uint32_t next_used(const surveying *s, uint32_t rank, uint32_t end) {
+    while (rank < end) {
+        const uint64_t word = s->used[rank >> 6] >> (rank & 63);
+        if (word != 0) {
+            rank += (uint32_t)__builtin_ctzll(word);
+            return rank < end ? rank : end;
+        }
+        rank = (rank | 63) + 1;
+    }
+    return end;
+}
+
+static double span(const dp_setup *setup, uint32_t from, uint32_t to) {
+    return dp_curve_span(setup, dp_point_of_code(&setup->spec.format, frame_code(setup, from)),
+                         dp_point_of_code(&setup->spec.format, frame_code(setup, to)));
+}
+
+static void finish_band(const surveying *s, size_t index, survey_band *out) {
+    const uint32_t start = s->bands.start[index], end = s->bands.start[index + 1];
+    uint32_t before = next_used(s, start, end), nearest = 0;
+    *out = (survey_band){.lo = s->bands.edge[index],
+                         .hi = s->bands.edge[index + 1],
+                         .pixels = s->pixels[index],
+                         .codes = before < end,
+                         .available = end - start,
+                         .gap = NAN,
+                         .gap_z = NAN,
+                         .interval = NAN};
+    for (uint32_t rank = next_used(s, before + 1, end); before < end && rank < end;
+         before = rank, rank = next_used(s, rank + 1, end)) {
+        const double gap = span(s->setup, before, rank);
+        out->codes++;
+        if (isnan(out->gap) || gap < out->gap) {
+            out->gap = gap;
+            out->steps = rank - before;
+            nearest = before;
+        }
+    }
+    if (!isnan(out->gap)) {
+        out->gap_z = stored(s->setup, nearest);
+        out->interval = dp_cell_of(s->setup, frame_code(s->setup, nearest)).width;
+    }
+}
+
+static void finish(const surveying *s, survey *out) {
+    size_t first = s->bands.count, last = 0;
+    out->lo = out->hi = NAN;
+    for (size_t i = 0; i < s->bands.count; i++)
+        if (s->pixels[i] > 0) {
+            first = first < i ? first : i;
+            last = i;
+        }
+    if (first == s->bands.count)
+        return;
+    out->band_count = last + 1 - first;
+#pragma omp parallel for schedule(dynamic, 1) num_threads(frame_threads(s->f))
+    for (size_t i = first; i <= last; i++)
+        finish_band(s, i, &out->bands[i - first]);
+    for (size_t i = 0; i < out->band_count; i++)
+        out->codes += out->bands[i].codes;
+    const uint32_t nearest = next_used(s, 0, s->sky);
+    uint32_t farthest = s->bands.start[last + 1] - 1;
+    while ((s->used[farthest >> 6] >> (farthest & 63) & 1) == 0)
+        farthest--;
+    out->lo = stored(s->setup, nearest);
+    out->hi = stored(s->setup, farthest);
+}
+
+bool survey_make(const frame *f, survey *out) {
+    const dp_setup *setup = &f->camera->setup;
+    surveying s = {.f = f, .setup = setup, .sky = frame_sky_rank(f)};
+    const double sky_from = dp_cell_of(setup, frame_code(setup, s.sky)).lo;
+    s.used = calloc((size_t)(setup->spec.format.code_max >> 6) + 1, sizeof *s.used);
+    if (s.used == NULL)
+        return false;
+    make_bands(&s, sky_from);
+    const bool good = visit(&s);
+    *out = (survey){.pixels = (uint64_t)f->camera->width * f->camera->height,
+                    .sky = s.sky_pixels,
+                    .true_sky = s.true_sky,
+                    .invalid = s.invalid,
+                    .sky_from = sky_from};
+    if (good)
+        finish(&s, out);
+    free(s.used);
+    return good;
+}
+
+bool survey_pairs_make(const frame *f, survey_pairs *out) {
+    const dp_setup *setup = &f->camera->setup;
+    double front, back;
+    *out = (survey_pairs){.first_tie = NAN, .certain_to = NAN};
+    double first_possible = INFINITY, certain = NAN;
+    if (f->scene == NULL || f->scene->pair == NULL)
+        return false;
+    for (size_t i = 0; f->scene->pair(f->parameters, i, &front, &back); i++) {
+        if (!(front >= setup->spec.znear && back <= setup->spec.zfar))
+            continue;
+        const bool tie = dp_code(setup, front) == dp_code(setup, back);
+        /* Doubles near each other: their difference is exact, and so is the comparison. */
+        const bool possible = back - front < dp_separation(setup, front);
+        out->pairs++;
+        out->ties += tie;
+        out->possible += possible;
+        if (tie && !(front >= out->first_tie))
+            out->first_tie = front;
+        if (possible)
+            first_possible = fmin(first_possible, front);
+    }
+    for (size_t i = 0; f->scene->pair(f->parameters, i, &front, &back); i++)
+        if (front >= setup->spec.znear && back <= setup->spec.zfar && front < first_possible && !(front < certain))
+            certain = front;
+    out->certain_to = certain;
+    return true;
+}
