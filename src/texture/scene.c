@@ -119,12 +119,12 @@ static const scene_row rows[] = {
         {"wall", "scene units", 0, 1e15, 0, false, "eye depth of the wall; 0: sky"}}},
     {"steps", "upright stairs that face the camera, in equal ratios of depth", steps_hit, steps_pair, {
         {"from", LENGTH, 1, false, "eye depth of the leftmost"},
-        {"to", LENGTH, 500, false, "eye depth of the rightmost"},
+        {"to", LENGTH, 300, false, "eye depth of the rightmost"},
         {"count", "steps", 2, 65536, 16, true, "how many"}}},
     {"decals", "a decal before each tile of a wall, the tiles in equal ratios of depth", decals_hit, decals_pair, {
         {"gap", LENGTH, 0.01, false, "from a decal to the wall behind it"},
         {"from", LENGTH, 1, false, "eye depth of the first tile, top left"},
-        {"to", LENGTH, 500, false, "eye depth of the last tile, bottom right"},
+        {"to", LENGTH, 300, false, "eye depth of the last tile, bottom right"},
         {"count", "decals", 2, 1024, 8, true, "in a row, and rows"}}},
 };
 /* clang-format on */

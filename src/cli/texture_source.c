@@ -1,0 +1,187 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "cli/texture_source.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+#include "cli/list.h"
+#include "cli/number.h"
+#include "cli/setups.h"
+#include "cli/suggest.h"
+
+/* UINT32_MAX stands for "no depth" among codes. */
+enum { BITS_MAX = 31 };
+
+const char *texture_origin_name(texture_origin origin) {
+    static const char *const names[] = {"given", "found", "assumed"};
+    return names[origin];
+}
+
+/* The place of a parameter in a scene; SCENE_PARAMETERS when it has none of that name. */
+static size_t parameter_index(const scene_row *scene, const char *name) {
+    size_t i = 0;
+    while (i < SCENE_PARAMETERS && (scene->parameters[i].name == NULL || strcmp(scene->parameters[i].name, name) != 0))
+        i++;
+    return i;
+}
+
+bool texture_scene_takes(const options *o, const char *name) {
+    const scene_row *scene = o->scene != NULL ? scene_find(o->scene) : NULL;
+    return scene != NULL && parameter_index(scene, name) < SCENE_PARAMETERS;
+}
+
+bool list_scene(size_t index, list_item *item) {
+    const scene_row *row = scene_get(index);
+    if (row == NULL)
+        return false;
+    *item = (list_item){.name = row->name, .note = row->note};
+    for (size_t i = 0, used = 0; i < SCENE_PARAMETERS && row->parameters[i].name != NULL; i++)
+        used += (size_t)snprintf(item->bound + used, sizeof item->bound - used, "%s%s=%g", i > 0 ? ", " : "",
+                                 row->parameters[i].name, row->parameters[i].value);
+    return true;
+}
+
+static int unknown_scene(const char *name) {
+    suggestion s = suggest_start(name);
+    char text[SUGGEST_TEXT_SIZE], all[128] = "";
+    for (size_t i = 0; scene_get(i) != NULL; i++) {
+        suggest_offer(&s, scene_get(i)->name);
+        snprintf(all + strlen(all), sizeof all - strlen(all), "%s%s", i > 0 ? ", " : "", scene_get(i)->name);
+    }
+    return option_error(OPTION_SCENE, "must be one of %s, got '%s'%s", all, name, suggest_text(&s, "", text));
+}
+
+static int unknown_parameter(const scene_row *scene, const char *name) {
+    suggestion s = suggest_start(name);
+    char text[SUGGEST_TEXT_SIZE], all[128] = "";
+    for (size_t i = 0; i < SCENE_PARAMETERS && scene->parameters[i].name != NULL; i++) {
+        suggest_offer(&s, scene->parameters[i].name);
+        snprintf(all + strlen(all), sizeof all - strlen(all), "%s%s", i > 0 ? ", " : "", scene->parameters[i].name);
+    }
+    return option_error(OPTION_PARAMETER, "the scene %s has %s, got '%s'%s", scene->name, all, name,
+                        suggest_text(&s, "", text));
+}
+
+static int scene_parameters(const options *o, const scene_row *scene, double *out) {
+    scene_defaults(scene, out);
+    for (size_t k = 0; k < o->parameter_count; k++) {
+        const named_number *given = &o->parameters[k];
+        const size_t i = parameter_index(scene, given->name);
+        if (i == SCENE_PARAMETERS && o->effect != NULL)
+            continue;
+        if (i == SCENE_PARAMETERS)
+            return unknown_parameter(scene, given->name);
+        const double lo = scene->parameters[i].lo, hi = scene->parameters[i].hi;
+        const bool whole = scene->parameters[i].whole;
+        if (!(given->value >= lo && given->value <= hi) || (whole && given->value != floor(given->value)))
+            return option_error(OPTION_PARAMETER, "%s must be %sfrom %g to %g %s, got %g", given->name,
+                                whole ? "a whole number " : "", lo, hi, scene->parameters[i].unit, given->value);
+        out[i] = given->value;
+    }
+    return EXIT_FINE;
+}
+
+/* Options that need another one, or have no meaning beside it. */
+static int check_together(const options *o) {
+    const bool file = o->operand_count > 0;
+    if (file && o->scene != NULL)
+        return option_error(OPTION_SCENE, "stands in place of FILE, got '%s' too", o->operands[0]);
+    if (!file && o->scene == NULL)
+        return usage_error("texture: needs FILE, a PNG, PFM or npy image, or --scene NAME");
+    if (file && option_given(o, OPTION_SIZE))
+        return option_error(OPTION_SIZE, "is for --scene: the image has its own");
+    if (file && o->effect == NULL && o->parameter_count > 0)
+        return option_error(OPTION_PARAMETER, "needs --scene or --effect");
+    if (o->ortho && option_given(o, OPTION_FOV))
+        return option_error(OPTION_FOV, "has no meaning with --ortho; --half-height has");
+    if (!o->ortho && option_given(o, OPTION_HALF_HEIGHT))
+        return option_error(OPTION_HALF_HEIGHT, "needs --ortho");
+    return EXIT_FINE;
+}
+
+static int read_image(const options *o, texture_source *s) {
+    image_error error;
+    s->path = o->operands[0];
+    if (!image_read(s->path, &s->picture, &error)) {
+        usage_error("%s: %s", s->path, error.text);
+        return error.unreadable ? EXIT_IO : EXIT_USAGE;
+    }
+    recognise(&s->picture, &s->found);
+    return EXIT_FINE;
+}
+
+/* What the user gave, which may leave a choice; else what was found, else what is usual. */
+static int choose_format(const options *o, texture_source *s, dp_format *out) {
+    const bool given = option_given(o, OPTION_FORMAT) || o->preset != NULL;
+    s->format_from = given ? ORIGIN_GIVEN : s->path != NULL ? ORIGIN_FOUND : ORIGIN_ASSUMED;
+    if (!given && s->path != NULL && !s->found.depth)
+        return usage_error("%s: cannot be window depth: %s; --format NAME reads it all the same", s->path,
+                           s->found.why);
+    if (given && o->format_count > 1 && option_given(o, OPTION_FORMAT))
+        return option_error(OPTION_FORMAT, "must be one format, got %zu", o->format_count);
+    dp_format usual[2];
+    dp_format_parse("unorm24", usual);
+    *out = given ? o->formats[0] : s->path != NULL ? s->found.format : usual[0];
+    for (size_t i = 1; given && s->path != NULL && i < o->format_count; i++) /* a preset with two */
+        if (strcmp(o->formats[i].name, s->found.format.name) == 0)
+            *out = o->formats[i];
+    if (out->bits > BITS_MAX)
+        return option_error(OPTION_FORMAT, "must have at most %d bits in an image, got %s", BITS_MAX, out->name);
+    return EXIT_FINE;
+}
+
+static int choose_mapping(const options *o, texture_source *s, dp_mapping *out) {
+    const bool given = option_given(o, OPTION_MAPPING) || o->preset != NULL;
+    if (given && o->mapping_count > 1)
+        return option_error(OPTION_MAPPING, "must be one mapping, got %zu", o->mapping_count);
+    const bool told = s->path != NULL && s->found.reversed >= 0;
+    s->mapping_from = given ? ORIGIN_GIVEN : told ? ORIGIN_FOUND : ORIGIN_ASSUMED;
+    *out = given ? o->mappings[0] : told && s->found.reversed == 1 ? DP_MAPPING_REVERSED : DP_MAPPING_D3D;
+    return EXIT_FINE;
+}
+
+static int make_camera(const options *o, texture_source *s) {
+    options one = *o;
+    setups all = {0};
+    int status = choose_format(o, s, &one.formats[0]);
+    if (status == EXIT_FINE)
+        status = choose_mapping(o, s, &one.mappings[0]);
+    one.format_count = one.mapping_count = 1;
+    if (status == EXIT_FINE)
+        status = setups_make(&one, &all);
+    if (status != EXIT_FINE)
+        return status;
+    s->setup = all.items[0];
+    setups_release(&all);
+    camera_spec spec = o->camera;
+    if (s->path != NULL) {
+        spec.width = s->picture.width;
+        spec.height = s->picture.height;
+    }
+    const char *wrong = camera_init(&s->camera, &s->setup, &spec);
+    return wrong == NULL ? EXIT_FINE : usage_error("texture: %s", wrong);
+}
+
+int texture_source_open(const options *o, texture_source *s) {
+    *s = (texture_source){0};
+    int status = check_together(o);
+    const scene_row *scene = o->scene != NULL ? scene_find(o->scene) : NULL;
+    if (status == EXIT_FINE && o->scene != NULL)
+        status = scene == NULL ? unknown_scene(o->scene) : scene_parameters(o, scene, s->parameters);
+    else if (status == EXIT_FINE)
+        status = read_image(o, s);
+    if (status == EXIT_FINE)
+        status = make_camera(o, s);
+    s->frame = (frame){.camera = &s->camera,
+                       .image = s->path != NULL ? &s->picture : NULL,
+                       .scene = scene,
+                       .parameters = s->parameters,
+                       .sky = o->sky,
+                       .threads = o->threads};
+    return status;
+}
+
+void texture_source_close(texture_source *s) {
+    image_free(&s->picture);
+}
