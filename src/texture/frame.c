@@ -47,11 +47,11 @@ int frame_channels(const frame_product *product) {
 }
 
 const char *frame_refuses(const frame *f, const frame_product *product) {
-    position_state state;
-    const texture_camera *c = f->camera;
-    if (product->kind == FRAME_POSITION && product->position != NULL &&
-        (!position_prepare(&state, c) || (c->ortho && !product->position->ortho)))
-        return "this method has no form for the mapping, the projection or the far plane";
+    const dp_setup *setup = &f->camera->setup;
+    if (product->kind == FRAME_POSITION && product->position != NULL && !position_applies(product->position, f->camera))
+        return "this method has no form for the projection and mapping";
+    if (product->kind == FRAME_EFFECT && !effect_applies(product->effect, setup))
+        return "this effect needs a finite far plane";
     if (product->kind == FRAME_NORMAL && product->error && f->scene == NULL &&
         strcmp(product->normal->name, "projective") != 0)
         return "the error of this method is not known without the truth of a scene; that of 'projective' has a bound";

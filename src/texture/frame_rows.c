@@ -58,14 +58,14 @@ static void interleave(const frame_row *in) {
             in->out[3 * (size_t)x + (size_t)k] = in->planes[k][x];
 }
 
-static void eye(const frame_row *in) {
+static void make_eye(const frame_row *in) {
     const uint32_t width = camera_of(in)->width;
     memcpy(in->out, eyes_of(in), width * sizeof *in->out);
     for (uint32_t x = 0; x < width && in->product->radial; x++)
         in->out[x] = (float)((double)in->out[x] * stretch(in, x));
 }
 
-static void eye_error(const frame_row *in) {
+static void make_eye_error(const frame_row *in) {
     reaches last = nothing_yet();
     for (uint32_t x = 0; x < camera_of(in)->width; x++) {
         double error = NAN;
@@ -77,10 +77,11 @@ static void eye_error(const frame_row *in) {
     }
 }
 
-static void exact_place(const frame_row *in, uint32_t x, double z, double world[3]) {
+/* From the camera, along the world's axes. */
+static void exact_place(const frame_row *in, uint32_t x, double z, double relative[3]) {
     double view[3];
     camera_view(camera_of(in), x, in->row, z, view);
-    camera_world(camera_of(in), view, world);
+    camera_turn(camera_of(in), view, relative);
 }
 
 static void places(const frame_row *in) {
@@ -94,20 +95,20 @@ static void places(const frame_row *in) {
         return;
     }
     for (uint32_t x = 0; x < c->width; x++) {
-        double world[3] = {NAN, NAN, NAN};
+        double relative[3] = {NAN, NAN, NAN};
         if (!isnan(eyes_of(in)[x]))
-            exact_place(in, x, dp_stored(&c->setup, in->codes[x]), world);
+            exact_place(in, x, dp_stored(&c->setup, in->codes[x]), relative);
         for (int k = 0; k < 3; k++)
-            in->planes[k][x] = (float)world[k];
+            in->planes[k][x] = (float)(c->origin[k] + relative[k]);
     }
 }
 
-static void position(const frame_row *in) {
+static void make_position(const frame_row *in) {
     places(in);
     interleave(in);
 }
 
-static void position_error(const frame_row *in) {
+static void make_position_error(const frame_row *in) {
     reaches last = nothing_yet();
     places(in);
     for (uint32_t x = 0; x < camera_of(in)->width; x++) {
@@ -115,22 +116,21 @@ static void position_error(const frame_row *in) {
         const double z = isnan(eyes_of(in)[x]) ? (double)NAN
                          : known               ? truth(in, x).z
                                                : dp_stored(&camera_of(in)->setup, in->codes[x]);
-        double world[3], squares = 0;
-        exact_place(in, x, z, world);
-        for (int k = 0; k < 3; k++)
-            squares += ((double)in->planes[k][x] - world[k]) * ((double)in->planes[k][x] - world[k]);
-        in->out[x] = (float)(sqrt(squares) + (known || isnan(z) ? 0 : reach_of(in, &last, x) * stretch(in, x)));
+        const float world[3] = {in->planes[0][x], in->planes[1][x], in->planes[2][x]};
+        double relative[3];
+        exact_place(in, x, z, relative);
+        in->out[x] = (float)(position_off(camera_of(in), relative, world) +
+                             (known || isnan(z) ? 0 : reach_of(in, &last, x) * stretch(in, x)));
     }
 }
 
 static void normals(const frame_row *in) {
-    normal_rows rows = {
-        .camera = camera_of(in), .row = in->row, .count = camera_of(in)->width, .slope_x = in->slope_x};
+    normal_rows rows = {.camera = camera_of(in), .row = in->row, .count = camera_of(in)->width, .slope_x = in->slope_x};
     memcpy(rows.rows, in->eyes, sizeof rows.rows);
     in->product->normal->run(&rows, in->planes[0], in->planes[1], in->planes[2]);
 }
 
-static void normal(const frame_row *in) {
+static void make_normal(const frame_row *in) {
     normals(in);
     interleave(in);
 }
@@ -143,7 +143,7 @@ static double plane_bound(const frame_row *in, uint32_t x, const double found[3]
     return isinf(error) ? (double)NAN : normal_plane_bound(c, x, in->row, &plane, error);
 }
 
-static void normal_error(const frame_row *in) {
+static void make_normal_error(const frame_row *in) {
     normals(in);
     for (uint32_t x = 0; x < camera_of(in)->width; x++) {
         const double found[3] = {in->planes[0][x], in->planes[1][x], in->planes[2][x]};
@@ -191,7 +191,7 @@ static double step(const frame_row *in, const double *at, uint32_t x) {
     return isnan(a) || isnan(b) ? (double)NAN : fmax(a, b);
 }
 
-static void effect(const frame_row *in) {
+static void make_effect(const frame_row *in) {
     const effect_row *row = in->product->effect;
     settings s = settings_of(in);
     for (uint32_t x = 0; x < camera_of(in)->width; x++) {
@@ -205,7 +205,7 @@ static void effect(const frame_row *in) {
     }
 }
 
-static void effect_error_row(const frame_row *in) {
+static void make_effect_error(const frame_row *in) {
     const dp_setup *setup = &camera_of(in)->setup;
     settings s = settings_of(in);
     double last = NAN;
@@ -223,8 +223,8 @@ static void effect_error_row(const frame_row *in) {
 }
 
 frame_make *const frame_makers[FRAME_KINDS][2] = {
-    [FRAME_EYE] = {eye, eye_error},
-    [FRAME_POSITION] = {position, position_error},
-    [FRAME_NORMAL] = {normal, normal_error},
-    [FRAME_EFFECT] = {effect, effect_error_row},
+    [FRAME_EYE] = {make_eye, make_eye_error},
+    [FRAME_POSITION] = {make_position, make_position_error},
+    [FRAME_NORMAL] = {make_normal, make_normal_error},
+    [FRAME_EFFECT] = {make_effect, make_effect_error},
 };
