@@ -157,6 +157,9 @@ static const struct topic {
     {"packings", "depth and normals in the channels of a texture, and what their errors are held to", list_packing},
     {"effects", "what texture --effect knows: formulas and parameters", list_effect},
     {"figures", "what plot can draw", list_figure},
+    {"scenes", "synthetic depth images, for texture --scene", list_scene},
+    {"positions", "ways from window depth to a place, for texture --position", list_position},
+    {"normals", "normals from depth, for texture --normal", list_normal},
     {"methods", "ways to a quantity, by family: what each claims, for which set-up and far/near", list_method},
 };
 enum { TOPIC_COUNT = sizeof topics / sizeof topics[0] };

@@ -6,6 +6,7 @@
 #include <string.h>
 
 #include "cli/choice.h"
+#include "cli/command_line.h"
 #include "cli/list.h"
 #include "cli/methods.h"
 #include "cli/number.h"
@@ -20,7 +21,7 @@
 
 int cmd_plot(const options *o);
 
-enum { WIDTH = 800, HEIGHT = 500, COMMAND_SIZE = 4096 };
+enum { WIDTH = 800, HEIGHT = 500 };
 
 bool list_figure(size_t index, list_item *item) {
     const figure_row *row = figure_get(index);
@@ -38,41 +39,6 @@ static int unknown_figure(const char *name) {
         snprintf(all + strlen(all), sizeof all - strlen(all), "%s%s", i > 0 ? ", " : "", figure_get(i)->name);
     }
     return usage_error("plot: FIGURE must be one of %s, got '%s'%s", all, name, suggest_text(&s, "", text));
-}
-
-/* In quotes where a shell would see more in it than a word. */
-static void append_word(char *out, const char *word) {
-    static const char plain[] = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789-_=+,.:/%@";
-    char quoted[COMMAND_SIZE];
-    size_t used = 0;
-    if (*word != '\0' && word[strspn(word, plain)] == '\0') {
-        snprintf(quoted, sizeof quoted, "%s", word);
-    } else {
-        quoted[used++] = '\'';
-        for (; *word != '\0' && used < sizeof quoted - 8; word++)
-            if (*word == '\'')
-                used += (size_t)snprintf(quoted + used, sizeof quoted - used, "'\\''");
-            else
-                quoted[used++] = *word;
-        snprintf(quoted + used, sizeof quoted - used, "'");
-    }
-    const size_t length = strlen(out), size = strlen(quoted), room = COMMAND_SIZE - length;
-    if (room < 3)
-        return;
-    out[length] = ' ';
-    memcpy(out + length + 1, quoted, size < room - 2 ? size : room - 2);
-    out[length + 1 + (size < room - 2 ? size : room - 2)] = '\0';
-}
-
-/* The command line for the metadata, without where it was written to: a figure is the same under any name. */
-static void command_of(const options *o, char out[COMMAND_SIZE]) {
-    snprintf(out, COMMAND_SIZE, "depthprec plot %s", o->operands[0]);
-    for (char **word = o->argv + 2; *word != NULL; word++) {
-        bool next_is_output = word[1] != NULL && word[1] == o->output;
-        bool holds_output = o->output != NULL && o->output >= *word && o->output <= *word + strlen(*word);
-        if (*word != o->operands[0] && strcmp(*word, "--") != 0 && !next_is_output && !holds_output)
-            append_word(out, *word);
-    }
 }
 
 /* The depth and range of the request; what this figure has no use for is refused rather than ignored. */
@@ -168,9 +134,9 @@ static void subtitle_of(const options *o, const figure_request *request, char *o
 }
 
 static bool picture(const options *o, const chart *c, output *out) {
-    char command[COMMAND_SIZE];
+    char command[COMMAND_LINE_SIZE];
     canvas_bytes bytes;
-    command_of(o, command);
+    command_line(o, o->output, command);
     if (!draw_chart(c, theme_get(o->theme), canvas_format_of(o->output), o->width > 0 ? o->width : WIDTH,
                     o->height > 0 ? o->height : HEIGHT, command, &bytes))
         return false;

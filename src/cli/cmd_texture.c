@@ -2,19 +2,54 @@
 /* texture: a depth image, or a synthetic scene in its place. */
 #include <stdlib.h>
 
+#include "cli/texture_effect.h"
+#include "cli/texture_product.h"
 #include "cli/texture_report.h"
 #include "cli/texture_source.h"
 
 int cmd_texture(const options *o);
 
+/* Options that need a product, or a figure of one. */
+static int check_alone(const options *o) {
+    static const option_id drawn[] = {OPTION_THEME, OPTION_WIDTH, OPTION_HEIGHT, OPTION_TITLE};
+    if (o->error_map && !texture_product_wanted(o))
+        return option_error(OPTION_ERROR_MAP, "needs --eye, --position, --normal or --effect");
+    if (o->radial && !texture_product_wanted(o))
+        return option_error(OPTION_RADIAL, "needs --eye");
+    for (size_t i = 0; i < sizeof drawn / sizeof drawn[0]; i++)
+        if (option_given(o, drawn[i]) && o->figure == NULL)
+            return option_error(drawn[i], "needs --figure");
+    return EXIT_FINE;
+}
+
+static int make_product(const options *o, const texture_source *source, texture_product *product) {
+    int status = texture_product_check(source, product);
+    if (status == EXIT_FINE && o->output != NULL)
+        status = texture_product_write(o, source, product);
+    if (status == EXIT_FINE && o->figure != NULL)
+        status = texture_figure_draw(o, source, product);
+    return status;
+}
+
 int cmd_texture(const options *o) {
+    texture_product product;
+    const bool made = texture_product_wanted(o);
+    if (o->effect != NULL && o->operand_count == 0 && o->scene == NULL)
+        return texture_effect_table(o);
     texture_source *source = calloc(1, sizeof *source);
-    if (source == NULL)
-        return usage_error("texture: no memory");
-    int status = texture_source_open(o, source);
+    int status = source != NULL ? check_alone(o) : usage_error("texture: no memory");
+    if (status == EXIT_FINE && made)
+        status = texture_product_resolve(o, &product);
     if (status == EXIT_FINE)
+        status = texture_source_open(o, source);
+    if (status == EXIT_FINE && made)
+        status = make_product(o, source, &product);
+    else if (status == EXIT_FINE && o->scene != NULL && o->output != NULL && o->form == FORM_TEXT)
+        status = texture_depth_write(o, source);
+    else if (status == EXIT_FINE)
         status = texture_report_write(o, source);
-    texture_source_close(source);
+    if (source != NULL)
+        texture_source_close(source);
     free(source);
     return status;
 }

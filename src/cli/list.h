@@ -25,6 +25,11 @@ typedef bool (*list_get)(size_t index, list_item *item);
 /** The figures, by the plot command; weak, as the light program has none. */
 bool list_figure(size_t index, list_item *item) __attribute__((weak));
 
+/** What texture knows, likewise. */
+bool list_scene(size_t index, list_item *item) __attribute__((weak));
+bool list_position(size_t index, list_item *item) __attribute__((weak));
+bool list_normal(size_t index, list_item *item) __attribute__((weak));
+
 /** The methods, by the room that runs them; weak likewise. */
 bool list_method(size_t index, list_item *item) __attribute__((weak));
 

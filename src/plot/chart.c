@@ -76,6 +76,8 @@ bool chart_add_map(chart *c, chart_panel *panel, int columns, int rows) {
 }
 
 double chart_axis_at(const chart_axis *axis, double t) {
+    if (axis->scale == CHART_DOWN)
+        return axis->hi + t * (axis->lo - axis->hi);
     if (axis->scale == CHART_LOG)
         return exp(log(axis->lo) + t * (log(axis->hi) - log(axis->lo)));
     return axis->lo + t * (axis->hi - axis->lo);
@@ -84,7 +86,8 @@ double chart_axis_at(const chart_axis *axis, double t) {
 double chart_axis_share(const chart_axis *axis, double value) {
     if (axis->scale == CHART_LOG)
         return value > 0 ? (log(value) - log(axis->lo)) / (log(axis->hi) - log(axis->lo)) : (double)-INFINITY;
-    return (value - axis->lo) / (axis->hi - axis->lo);
+    const double share = (value - axis->lo) / (axis->hi - axis->lo);
+    return axis->scale == CHART_DOWN ? 1 - share : share;
 }
 
 typedef struct extent {

@@ -15,7 +15,11 @@
 
 enum { CHART_TEXT = 192, CHART_SERIES = 32, CHART_PANELS = 8, CHART_LEVELS = 64 };
 
-typedef enum chart_scale { CHART_LINEAR = 0, CHART_LOG } chart_scale;
+typedef enum chart_scale {
+    CHART_LINEAR = 0,
+    CHART_LOG,
+    CHART_DOWN /**< linear, growing downwards: rows of an image; lo and hi are never fitted */
+} chart_scale;
 
 /** One direction of a panel. */
 typedef struct chart_axis {
@@ -84,6 +88,8 @@ typedef struct chart {
     size_t curves;      /**< how many were refined, */
     size_t evaluations; /**< how often something was computed for them, */
     size_t places;      /**< and how often it would have been with one point a pixel column: see refine.h */
+    double shape;     /**< width over height that the panels keep; 0 when they fill the page */
+    bool colours;     /**< the values of the maps are 0xRRGGBB; directions, see heat.h */
     void *memory;     /**< everything chart_numbers() gave out */
     bool failed;
 } chart;

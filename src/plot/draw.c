@@ -22,6 +22,7 @@
 #define TICK_ROOM   11.0 /* from the frame to the tick labels */
 #define PANEL_GAP   20.0
 #define BAR_WIDTH   16.0
+#define BALL_WIDTH  72.0
 #define PANEL_SHAPE 1.5 /* the width of a panel over its height that looks best */
 
 /* The panels in rows and columns. */
@@ -70,6 +71,15 @@ static double draw_head(const pencil *p, const chart *c, double width) {
     return y;
 }
 
+/* Panels of a given shape: as large as the area lets them be, in its middle. */
+static void keep_shape(grid *g, double shape, double left) {
+    const canvas_rect cell = panel_frame(g, 0);
+    const double w = fmin(cell.w, cell.h * shape), h = w / shape, width = g->area.w;
+    g->area.w = w * g->columns + g->gap_x * (g->columns - 1);
+    g->area.h = (h + g->heading) * g->rows + g->gap_y * (g->rows - 1);
+    g->area.x += fmax(0, (width - g->area.w) / 2 - left / 4);
+}
+
 static void draw_caption(const pencil *p, const chart_axis *axis, canvas_align align, double x, double y, double room) {
     char text[CHART_TEXT];
     words w = words_break(p, axes_caption(axis, text), &p->text, room, 1);
@@ -88,7 +98,7 @@ static bool draw_panel(const pencil *p, const chart *c, const grid *g, int index
     }
     if (panel->map.columns > 0) {
         canvas_clip(p->c, a.frame);
-        bool good = heat_draw(p, &a, panel, &c->value, c->contours);
+        bool good = heat_draw(p, &a, panel, c);
         canvas_unclip(p->c);
         if (!good)
             return false;
@@ -140,22 +150,34 @@ static bool draw_page(const pencil *p, const chart *c, double width, double heig
     g.gap_y = PANEL_GAP * s;
     double bar = c->value.label != NULL
                      ? SPACE * 2 * s + BAR_WIDTH * s + TICK_ROOM * s + axes_label_width(p, &c->value, panel_height)
-                     : 0;
+                 : c->colours ? SPACE * 2 * s + BALL_WIDTH * s
+                              : 0;
     double scale = second->label != NULL ? TICK_ROOM * s + axes_label_width(p, second, panel_height) : 0;
     g.area.x += left;
     g.area.w -= left + fmax(fmax(bar, scale), right - 0.75 * MARGIN * s);
 
+    const double end = g.area.x + g.area.w;
+    if (c->shape > 0)
+        keep_shape(&g, c->shape, left);
+    const double shift = end - g.area.x - g.area.w, side = c->shape > 0 ? g.area.x - left : MARGIN * s;
+    const double foot =
+        c->shape > 0 ? g.area.y + g.area.h + label + TICK_ROOM * s + caption : height - 0.75 * MARGIN * s;
+
     double above = g.area.y - clear, room = width - 2 * MARGIN * s;
-    draw_caption(p, y, CANVAS_LEFT, MARGIN * s, above, bar + scale > 0 ? room * 0.46 : room);
+    draw_caption(p, y, CANVAS_LEFT, side, above, bar + scale > 0 ? room * 0.46 : room);
     if (scale > 0)
         draw_caption(p, second, CANVAS_RIGHT, width - MARGIN * s, above, room * 0.5);
-    draw_caption(p, x, CANVAS_MIDDLE, g.area.x + g.area.w / 2, height - 0.75 * MARGIN * s - 0.25 * caption,
+    draw_caption(p, x, CANVAS_MIDDLE, g.area.x + g.area.w / 2, foot - 0.25 * caption,
                  fmin(g.area.w + left, 2 * (width - MARGIN * s - g.area.x - g.area.w / 2)));
     if (bar > 0) {
-        canvas_rect strip = {width - MARGIN * s - bar + 2 * SPACE * s, g.area.y + g.heading, BAR_WIDTH * s,
-                             g.area.h - g.heading};
-        draw_caption(p, &c->value, CANVAS_RIGHT, width - MARGIN * s, above, room * 0.5);
-        heat_draw_bar(p, strip, &c->value);
+        canvas_rect strip = {width - MARGIN * s - bar + 2 * SPACE * s - shift, g.area.y + g.heading,
+                             (c->colours ? BALL_WIDTH : BAR_WIDTH) * s, g.area.h - g.heading};
+        if (c->colours) {
+            heat_draw_ball(p, strip);
+        } else {
+            draw_caption(p, &c->value, CANVAS_RIGHT, width - MARGIN * s - shift, above, room * 0.5);
+            heat_draw_bar(p, strip, &c->value);
+        }
     }
     for (int i = 0; i < (int)c->panel_count; i++)
         if (!draw_panel(p, c, &g, i))

@@ -26,23 +26,30 @@ static void draw_hatch(const pencil *p, canvas_rect f) {
     canvas_path_end(p->c, &pen);
 }
 
+/* The colour of a value that is there. */
+static canvas_colour colour_of(const chart *c, double v) {
+    const uint32_t rgb = c->colours ? (uint32_t)v : 0;
+    return c->colours ? (canvas_colour){(rgb >> 16 & 255) / 255.0, (rgb >> 8 & 255) / 255.0, (rgb & 255) / 255.0, 1}
+                      : theme_viridis(chart_axis_share(&c->value, v));
+}
+
 /* Few fields: each a rectangle, for an image as small as that is blurred by those who show it. */
-static void draw_fields(const pencil *p, canvas_rect f, const chart_map *m, const chart_axis *value) {
+static void draw_fields(const pencil *p, canvas_rect f, const chart_map *m, const chart *c) {
     const double w = f.w / m->columns, h = f.h / m->rows, seam = 0.5;
     for (int row = m->rows - 1; row >= 0; row--)
         for (int column = 0; column < m->columns; column++) {
             double v = m->value[(size_t)row * (size_t)m->columns + (size_t)column];
             if (!isnan(v))
                 canvas_fill(p->c, (canvas_rect){f.x + column * w, f.y + f.h - (row + 1) * h, w + seam, h + seam},
-                            theme_viridis(chart_axis_share(value, v)));
+                            colour_of(c, v));
         }
 }
 
-static bool draw_pixels(const pencil *p, canvas_rect f, const chart_map *m, const chart_axis *value) {
+static bool draw_pixels(const pencil *p, canvas_rect f, const chart_map *m, const chart *c) {
     enum { FEW = 4096 };
     size_t count = (size_t)m->columns * (size_t)m->rows;
     if (count < FEW) {
-        draw_fields(p, f, m, value);
+        draw_fields(p, f, m, c);
         return true;
     }
     uint32_t *pixels = calloc(count, sizeof *pixels);
@@ -53,7 +60,7 @@ static bool draw_pixels(const pencil *p, canvas_rect f, const chart_map *m, cons
             double v = m->value[(size_t)row * (size_t)m->columns + (size_t)column];
             if (!isnan(v))
                 pixels[(size_t)(m->rows - 1 - row) * (size_t)m->columns + (size_t)column] =
-                    theme_pixel(theme_viridis(chart_axis_share(value, v)));
+                    theme_pixel(colour_of(c, v));
         }
     canvas_image(p->c, f, m->columns, m->rows, pixels);
     free(pixels);
@@ -165,15 +172,16 @@ static void draw_labels(const pencil *p, canvas_rect f, const chart_map *m, cons
     }
 }
 
-bool heat_draw(const pencil *p, const axes *a, const chart_panel *panel, const chart_axis *value, bool contours) {
+bool heat_draw(const pencil *p, const axes *a, const chart_panel *panel, const chart *c) {
+    const chart_axis *value = &c->value;
     ticks levels;
     boxes taken = {0};
     const chart_map *m = &panel->map;
     if (has_holes(m))
         draw_hatch(p, a->frame);
-    if (!draw_pixels(p, a->frame, m, value))
+    if (!draw_pixels(p, a->frame, m, c))
         return false;
-    if (!contours)
+    if (!c->contours)
         return true;
     ticks_make(value, axes_room_y(p, a->frame.h), &levels);
     for (size_t i = 0; i < levels.count; i++) {
@@ -189,6 +197,25 @@ bool heat_draw(const pencil *p, const axes *a, const chart_panel *panel, const c
                 taken.at[taken.count++] = series_point_box(p, a, &panel->series[s], i);
     draw_labels(p, a->frame, m, &levels, value->scale, &taken);
     return true;
+}
+
+uint32_t heat_direction(double x, double y, double z) {
+    return (uint32_t)lrint(127.5 * (x + 1)) << 16 | (uint32_t)lrint(127.5 * (y + 1)) << 8 |
+           (uint32_t)lrint(127.5 * (1 - z));
+}
+
+void heat_draw_ball(const pencil *p, canvas_rect area) {
+    enum { SIDE = 128 };
+    static const char *const meanings[] = {"red: right", "green: up", "blue: to us"};
+    uint32_t pixels[SIDE * SIDE];
+    for (int i = 0; i < SIDE * SIDE; i++) {
+        const double x = (i % SIDE + 0.5) * 2 / SIDE - 1, y = 1 - (i / SIDE + 0.5) * 2 / SIDE, rest = 1 - x * x - y * y;
+        pixels[i] = rest < 0 ? 0 : 0xFF000000u | heat_direction(x, y, -sqrt(rest));
+    }
+    canvas_image(p->c, (canvas_rect){area.x, area.y, area.w, area.w}, SIDE, SIDE, pixels);
+    for (size_t i = 0; i < sizeof meanings / sizeof meanings[0]; i++)
+        canvas_text(p->c, area.x, area.y + area.w + (1.4 + 1.35 * (double)i) * p->small.size, meanings[i], &p->small,
+                    CANVAS_LEFT, 0);
 }
 
 void heat_draw_bar(const pencil *p, canvas_rect strip, const chart_axis *value) {

@@ -1,0 +1,42 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "cli/command_line.h"
+
+#include <stdio.h>
+#include <string.h>
+
+/* In quotes where a shell would see more in it than a word. */
+static void append_word(char *out, const char *word) {
+    static const char plain[] = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789-_=+,.:/%@";
+    char quoted[COMMAND_LINE_SIZE];
+    size_t used = 0;
+    if (*word != '\0' && word[strspn(word, plain)] == '\0') {
+        snprintf(quoted, sizeof quoted, "%s", word);
+    } else {
+        quoted[used++] = '\'';
+        for (; *word != '\0' && used < sizeof quoted - 8; word++)
+            if (*word == '\'')
+                used += (size_t)snprintf(quoted + used, sizeof quoted - used, "'\\''");
+            else
+                quoted[used++] = *word;
+        snprintf(quoted + used, sizeof quoted - used, "'");
+    }
+    const size_t length = strlen(out), size = strlen(quoted), room = COMMAND_LINE_SIZE - length;
+    if (room < 3)
+        return;
+    out[length] = ' ';
+    memcpy(out + length + 1, quoted, size < room - 2 ? size : room - 2);
+    out[length + 1 + (size < room - 2 ? size : room - 2)] = '\0';
+}
+
+void command_line(const options *o, const char *written, char out[COMMAND_LINE_SIZE]) {
+    const char *first = o->operand_count > 0 ? o->operands[0] : NULL;
+    snprintf(out, COMMAND_LINE_SIZE, "depthprec %s", o->verb->name);
+    if (first != NULL)
+        append_word(out, first);
+    for (char **word = o->argv + 2; *word != NULL; word++) {
+        bool next_is_written = word[1] != NULL && word[1] == written;
+        bool holds_written = written != NULL && written >= *word && written <= *word + strlen(*word);
+        if (*word != first && strcmp(*word, "--") != 0 && !next_is_written && !holds_written)
+            append_word(out, *word);
+    }
+}

@@ -1,0 +1,150 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "cli/texture_product.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+#include "cli/list.h"
+#include "cli/suggest.h"
+#include "cli/texture_effect.h"
+#include "plot/canvas.h"
+
+bool list_position(size_t index, list_item *item) {
+    const position_row *row = position_get(index);
+    if (row != NULL)
+        *item = (list_item){.name = row->name, .note = row->note, .source = row->source};
+    return row != NULL;
+}
+
+bool list_normal(size_t index, list_item *item) {
+    const normal_row *row = normal_get(index);
+    if (row != NULL)
+        *item = (list_item){.name = row->name, .note = row->note, .source = row->source};
+    return row != NULL;
+}
+
+bool texture_product_wanted(const options *o) {
+    return o->eye || o->position != NULL || o->normal != NULL || o->effect != NULL || o->figure != NULL;
+}
+
+static int unknown_method(option_id id, bool (*get)(size_t, list_item *), const char *first, const char *name) {
+    suggestion s = suggest_start(name);
+    char text[SUGGEST_TEXT_SIZE], all[160];
+    list_item item;
+    snprintf(all, sizeof all, "%s", first);
+    suggest_offer(&s, first);
+    for (size_t i = 0; get(i, &item); i++) {
+        suggest_offer(&s, item.name);
+        snprintf(all + strlen(all), sizeof all - strlen(all), "%s%s", *all != '\0' ? ", " : "", item.name);
+    }
+    return option_error(id, "must be one of %s, got '%s'%s", all, name, suggest_text(&s, "", text));
+}
+
+static int resolve_eye(const options *o, texture_product *p) {
+    snprintf(p->name, sizeof p->name, "%s", o->radial ? "distance from the camera" : "eye depth");
+    return EXIT_FINE;
+}
+
+static int resolve_position(const options *o, texture_product *p) {
+    p->made.position = position_find(o->position);
+    snprintf(p->name, sizeof p->name, "positions by %s", o->position);
+    return p->made.position != NULL || strcmp(o->position, "exact") == 0
+               ? EXIT_FINE
+               : unknown_method(OPTION_POSITION, list_position, "exact", o->position);
+}
+
+static int resolve_normal(const options *o, texture_product *p) {
+    p->made.normal = normal_find(o->normal);
+    snprintf(p->name, sizeof p->name, "normals by %s", o->normal);
+    p->unit = o->error_map ? "degrees" : "";
+    return p->made.normal != NULL ? EXIT_FINE : unknown_method(OPTION_NORMAL, list_normal, "", o->normal);
+}
+
+/* The parameters that are not the scene's are the effect's, but for the depth that it compares with. */
+static int resolve_effect(const options *o, texture_product *p) {
+    options rest = *o;
+    bool compared = false;
+    rest.parameter_count = 0;
+    for (size_t i = 0; i < o->parameter_count; i++) {
+        if (strcmp(o->parameters[i].name, "reference") == 0) {
+            p->made.reference = o->parameters[i].value;
+            compared = true;
+        } else if (!texture_scene_takes(o, o->parameters[i].name)) {
+            rest.parameters[rest.parameter_count++] = o->parameters[i];
+        }
+    }
+    int status = texture_effect_resolve(&rest, &p->made.effect, p->settings);
+    if (status != EXIT_FINE)
+        return status;
+    const effect_row *row = p->made.effect;
+    const bool needs = row->reference != NULL && row->kind != EFFECT_STEP && !o->error_map;
+    if (compared && !needs)
+        return option_error(OPTION_PARAMETER, "reference has no meaning here, %s",
+                            o->error_map ? "the worst one is taken for the error" : "nothing is compared with it");
+    if (needs && !(p->made.reference > 0))
+        return option_error(OPTION_PARAMETER, "%s needs reference=Z, %s, a positive eye depth%s", row->name,
+                            row->reference, compared ? "" : "; it was not given");
+    snprintf(p->name, sizeof p->name, "%s", row->name);
+    p->unit = o->error_map ? "levels of 1/255" : "";
+    return EXIT_FINE;
+}
+
+static const struct {
+    frame_kind kind;
+    option_id option;
+    int (*resolve)(const options *o, texture_product *p);
+} kinds[] = {{FRAME_EYE, OPTION_EYE, resolve_eye},
+             {FRAME_POSITION, OPTION_POSITION, resolve_position},
+             {FRAME_NORMAL, OPTION_NORMAL, resolve_normal},
+             {FRAME_EFFECT, OPTION_EFFECT, resolve_effect}};
+
+static int check_files(const options *o) {
+    image_file file;
+    if (o->output == NULL && o->figure == NULL)
+        return usage_error("texture: a product needs -o FILE that ends in .png, .pfm or .npy, or --figure FILE");
+    if (o->output != NULL && !image_file_of(o->output, &file))
+        return option_error(OPTION_OUTPUT, "must end in .png, .pfm or .npy for a product, got '%s'", o->output);
+    if (o->figure != NULL && canvas_format_of(o->figure) == CANVAS_FORMAT_COUNT)
+        return option_error(OPTION_FIGURE, "must end in .svg, .pdf or .png, got '%s'", o->figure);
+    if (o->form != FORM_TEXT)
+        return option_error(o->form == FORM_JSON ? OPTION_JSON : OPTION_CSV,
+                            "is for statistics, which are not made beside a product");
+    return EXIT_FINE;
+}
+
+int texture_product_resolve(const options *o, texture_product *p) {
+    size_t chosen = 0; /* eye depth, where --figure is all that was said */
+    *p = (texture_product){.unit = "scene units", .made = {.error = o->error_map, .radial = o->radial}};
+    int status = check_files(o);
+    for (size_t i = 0, found = 0; i < sizeof kinds / sizeof kinds[0] && status == EXIT_FINE; i++)
+        if (option_given(o, kinds[i].option)) {
+            if (found++ > 0)
+                status = option_error(kinds[i].option, "must not be given together with --%s",
+                                      option_name(kinds[chosen].option));
+            chosen = i;
+        }
+    if (status == EXIT_FINE && o->radial && kinds[chosen].kind != FRAME_EYE)
+        status = option_error(OPTION_RADIAL, "has no meaning with --%s", option_name(kinds[chosen].option));
+    if (status == EXIT_FINE)
+        status = kinds[chosen].resolve(o, p);
+    p->made.kind = kinds[chosen].kind;
+    p->made.effect_settings = p->settings;
+    return status;
+}
+
+int texture_product_check(const texture_source *s, texture_product *p) {
+    static const char *const truths[][2] = {
+        [FRAME_EYE] = {"half of each cell", "error"},
+        [FRAME_POSITION] = {"largest possible error", "error"},
+        [FRAME_NORMAL] = {"bound of the error on planes", "error"},
+        [FRAME_EFFECT] = {"largest possible error", "largest possible error"},
+    };
+    const char *wrong = frame_refuses(&s->frame, &p->made);
+    if (wrong != NULL)
+        return usage_error("texture: %s: %s", p->name, wrong);
+    const size_t length = strlen(p->name);
+    if (p->made.error)
+        snprintf(p->name + length, sizeof p->name - length, ", %s", truths[p->made.kind][s->path == NULL]);
+    return EXIT_FINE;
+}

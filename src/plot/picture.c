@@ -1,0 +1,79 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "plot/picture.h"
+
+#include <math.h>
+#include <stdio.h>
+
+#include "plot/heat.h"
+
+/* A scale over more than this is a logarithmic one; that of errors goes no further down than `deepest` of the largest.
+ */
+static const double wide = 50, deepest = 1e-4;
+
+static double field(const picture *in, int row, int column, int channel) {
+    const float *at = in->values + ((size_t)row * (size_t)in->columns + (size_t)column) * (size_t)in->channels;
+    if (!in->directions)
+        return (double)at[channel];
+    return isnan(at[0]) ? (double)NAN : heat_direction((double)at[0], (double)at[1], (double)at[2]);
+}
+
+static void add_panel(const picture *in, chart *out, int channel) {
+    chart_panel *panel = chart_add_panel(out);
+    if (panel == NULL)
+        return;
+    panel->x = (chart_axis){.hi = in->width, .label = "column", .key = "column", .unit = "px"};
+    panel->y = (chart_axis){.scale = CHART_DOWN, .hi = in->height, .label = "row", .key = "row", .unit = "px"};
+    if (in->names != NULL)
+        snprintf(panel->title, sizeof panel->title, "%s", in->names[channel]);
+    if (!chart_add_map(out, panel, in->columns, in->rows))
+        return;
+    for (int row = 0; row < in->rows; row++)
+        for (int column = 0; column < in->columns; column++)
+            panel->map.value[(size_t)(in->rows - 1 - row) * (size_t)in->columns + (size_t)column] =
+                field(in, row, column, channel);
+}
+
+/* The least and greatest finite number; of magnitudes the least above 0. */
+static void extent(const picture *in, double *lo, double *hi) {
+    *lo = INFINITY;
+    *hi = -INFINITY;
+    const size_t count = (size_t)in->rows * (size_t)in->columns * (size_t)in->channels;
+    for (size_t i = 0; i < count; i++) {
+        const double value = (double)in->values[i];
+        if (!isfinite(value) || (in->magnitudes && value == 0))
+            continue;
+        *lo = fmin(*lo, value);
+        *hi = fmax(*hi, value);
+    }
+}
+
+static chart_axis scale_of(const picture *in) {
+    double lo, hi;
+    chart_axis axis = {.label = in->label, .key = "value", .unit = in->unit};
+    extent(in, &lo, &hi);
+    if (!(lo <= hi)) /* nothing, or errors that are all 0 */
+        lo = 0, hi = 1;
+    if (in->magnitudes)
+        lo = fmax(lo, deepest * hi);
+    if (lo > 0 && hi > wide * lo)
+        axis.scale = CHART_LOG;
+    else if (in->magnitudes)
+        lo = 0;
+    if (lo == hi) {
+        lo -= fmax(fabs(lo), 1e-30) / 2;
+        hi += fmax(fabs(hi), 1e-30) / 2;
+    }
+    axis.lo = lo;
+    axis.hi = hi;
+    return axis;
+}
+
+void picture_build(const picture *in, chart *out) {
+    out->shape = (double)in->width / in->height;
+    out->colours = in->directions;
+    if (!in->directions)
+        out->value = scale_of(in);
+    const int panels = in->directions ? 1 : in->channels;
+    for (int i = 0; i < panels; i++)
+        add_panel(in, out, i);
+}
