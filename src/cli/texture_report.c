@@ -40,8 +40,11 @@ static void write_head(const texture_report *r, output *out) {
     output_format(out, "%s\n", setup_label(&s->setup, true, label));
     if (s->path != NULL)
         output_format(out, "  recognised    %s\n", s->found.why);
-    output_format(out, "  format        %s %s%s\n", s->setup.spec.format.name, texture_origin_name(s->format_from),
+    output_format(out, "  format        %s %s%s", s->setup.spec.format.name, texture_origin_name(s->format_from),
                   s->format_from == ORIGIN_FOUND && !s->found.certain ? ", not certain" : "");
+    if (s->path != NULL && s->found.depth && strcmp(s->found.format.name, s->setup.spec.format.name) != 0)
+        output_format(out, ": the nearest codes are taken of what looks like %s", s->found.format.name);
+    output_char(out, '\n');
     output_format(out, "  mapping       %s %s%s\n", dp_mapping_get(s->setup.spec.mapping)->name,
                   texture_origin_name(s->mapping_from),
                   s->mapping_from == ORIGIN_ASSUMED && s->path != NULL ? ": --mapping tells" : "");
