@@ -50,9 +50,9 @@ double envelope_flicker(const dp_setup *setup, double z, double separation) {
 }
 
 void envelope_separation(const void *setup, double from, double to, refine_sample *out) {
-    const double s = dp_separation(setup, from);
-    (void)to;
-    *out = (refine_sample){.y = {s}, .flicker = {envelope_flicker(setup, from, s)}};
+    dp_separation_worst w = {.bound = (double)NAN};
+    dp_separation_over(setup, from, to, 0, &w);
+    *out = (refine_sample){.y = {w.bound}, .flicker = {envelope_flicker(setup, from, w.bound)}};
 }
 
 /* ---- Knots ------------------------------------------------------------------------------------------------------- */

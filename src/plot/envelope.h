@@ -24,7 +24,7 @@ void envelope_build(const figure_request *request, chart *out, chart_axis y, env
 /** The same for one set-up and a slice of depths: the greatest value in it, over whole cells. NaN without cells. */
 void envelope_slice(const dp_setup *setup, double from, double to, envelope_value value, refine_sample *out);
 
-/** The `sample` of a request about the separation; its context is the set-up. */
+/** The `sample` of a request about slices: the largest separation in each, certified. Its context is the set-up. */
 void envelope_separation(const void *setup, double from, double to, refine_sample *out);
 
 /** How much a separation at z may flicker, relatively. */

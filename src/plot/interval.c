@@ -44,6 +44,7 @@ static void add_separation(const figure_request *request, chart *out, chart_pane
     double knots[REFINE_KNOTS];
     refine r;
     refine_request q = envelope_request(request, &request->setups[i], CHART_LOG, panel->x.lo, panel->x.hi, knots);
+    q.slices = true;
     q.axis[0] = panel->y;
     q.sample = envelope_separation;
     q.context = &request->setups[i];

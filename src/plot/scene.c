@@ -48,7 +48,7 @@ static void add_curve(const figure_request *r, chart *out, chart_panel *panel, c
     if (!(lo < hi))
         return;
     refine_request q = envelope_request(r, setup, CHART_LOG, lo, hi, knots);
-    q.slices = is_error;
+    q.slices = true;
     q.axis[0] = panel->y;
     q.sample = is_error ? error_of : envelope_separation;
     q.context = setup;
