@@ -54,6 +54,15 @@ double claim_unity(double ratio) {
     return inverse((3 * ratio + 2) * CLAIM_UNIT);
 }
 
+/* X and Y are rounded alike, unless far/near has just passed a power of two: then they are off by 1.5 together. */
+double claim_linear_01(double ratio) {
+    return inverse((2.5 * ratio + 2) * CLAIM_UNIT);
+}
+
+double claim_linear_01_near(double ratio) {
+    return inverse((2.5 * ratio + 4) * CLAIM_UNIT);
+}
+
 double claim_textbook(double ratio) {
     return inverse((3 * ratio + 3) * CLAIM_UNIT);
 }
@@ -89,6 +98,26 @@ double claim_chebyshev(double ratio) {
     const double root = sqrt(ratio);
     const double error = 1 / cosh((LINEARIZE_ORDER + 1) * log1p(2 / (root - 1)));
     return error + CLAIM_UNIT * (1 + error) + 0x1p-36;
+}
+
+/* ---- position ---------------------------------------------------------------------------------------------------- */
+
+/* LinearEyeDepth, and what the ray and its products lose at the worst pixel; see position_bound(). */
+double claim_extents(double ratio) {
+    return inverse((3 * ratio + 15.1) * CLAIM_UNIT);
+}
+
+/* Half a step of binary16, and of its subnormals in two components. */
+double claim_extents_half(double ratio) {
+    return claim_extents(ratio) + 6e-4;
+}
+
+double claim_matrix_d3d(double ratio) {
+    return inverse((6 * ratio + 12) * CLAIM_UNIT);
+}
+
+double claim_matrix_gl(double ratio) {
+    return inverse((3.5 * ratio + 12) * CLAIM_UNIT);
 }
 
 /* ---- worst ------------------------------------------------------------------------------------------------------- */

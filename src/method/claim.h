@@ -23,6 +23,8 @@ double claim_bound(double ratio); /**< in the binary32 pipeline */
 
 /* linearize, a standard mapping: what the cancellation of f against d (f - n) leaves; INFINITY where nothing is left */
 double claim_unity(double ratio);
+double claim_linear_01(double ratio);
+double claim_linear_01_near(double ratio);
 double claim_textbook(double ratio);
 double claim_fused(double ratio);
 double claim_double(double ratio);
@@ -36,6 +38,13 @@ double claim_table_nearest(double ratio);
 double claim_table_linear(double ratio);
 double claim_spline(double ratio);
 double claim_chebyshev(double ratio);
+
+/* position, a standard mapping, 60 degrees and 16:9; those of the matrix are measured: twice the worst of 3000 cameras
+ */
+double claim_extents(double ratio);
+double claim_extents_half(double ratio);
+double claim_matrix_d3d(double ratio);
+double claim_matrix_gl(double ratio);
 
 /* worst: one range in a hundred may exceed it */
 double claim_sampled_64(double ratio);

@@ -10,25 +10,45 @@
 #endif
 
 #include "method/claim.h"
+#include "texture/decode.h"
 
 static bool is_reversed(const dp_setup *setup) {
     return setup->reversed != 0;
 }
 
-/* ---- 1/(Z d + W), as Unity's _ZBufferParams ---------------------------------------------------------------------- */
+/* ---- The rows of texture/decode.h -------------------------------------------------------------------------------- */
 
-static void unity_params(const dp_setup *setup, float *z, float *w) {
-    double n = setup->spec.znear, f = setup->spec.zfar;
-    *z = (float)(is_reversed(setup) ? 1 / n - 1 / f : 1 / f - 1 / n);
-    *w = (float)(is_reversed(setup) ? 1 / f : 1 / n);
+static void decode(const char *name, const dp_setup *setup, const method_inputs *in, const method_outputs *out) {
+    decode_find(name)->run(setup, in->d, out->eye, in->count);
 }
 
 static void unity_run(const dp_setup *setup, const void *state, const method_inputs *in, const method_outputs *out) {
-    float z, w;
     (void)state;
-    unity_params(setup, &z, &w);
+    decode("linear-eye", setup, in, out);
+}
+
+static void complement_unity_run(const dp_setup *setup, const void *state, const method_inputs *in,
+                                 const method_outputs *out) {
+    (void)state;
+    decode("complement", setup, in, out);
+}
+
+static void linear_01_run(const dp_setup *setup, const void *state, const method_inputs *in,
+                          const method_outputs *out) {
+    const float f = (float)setup->spec.zfar;
+    (void)state;
+    decode("linear-01", setup, in, out);
     for (size_t i = 0; i < in->count; i++)
-        out->eye[i] = 1.0f / (z * in->d[i] + w);
+        out->eye[i] = f * out->eye[i];
+}
+
+static void linear_01_near_run(const dp_setup *setup, const void *state, const method_inputs *in,
+                               const method_outputs *out) {
+    const float n = (float)setup->spec.znear, depth = (float)(setup->spec.zfar - setup->spec.znear);
+    (void)state;
+    decode("linear-01-near", setup, in, out);
+    for (size_t i = 0; i < in->count; i++)
+        out->eye[i] = n + depth * out->eye[i];
 }
 
 /* The reciprocal of x > 0 from its bits, within 12 %, then one Newton step. */
@@ -42,11 +62,10 @@ static float magic_reciprocal(float x) {
 }
 
 static void magic_run(const dp_setup *setup, const void *state, const method_inputs *in, const method_outputs *out) {
-    float z, w;
+    const zbuffer_params p = zbuffer_params_of(setup);
     (void)state;
-    unity_params(setup, &z, &w);
     for (size_t i = 0; i < in->count; i++)
-        out->eye[i] = magic_reciprocal(z * in->d[i] + w);
+        out->eye[i] = magic_reciprocal(p.z * in->d[i] + p.w);
 }
 
 /* ---- n f/(f - d (f - n)) ----------------------------------------------------------------------------------------- */
@@ -201,6 +220,17 @@ const method_row linearize_methods[] = {
     {METHOD_LINEARIZE, "unity", "1/(Z d + W) in binary32, LinearEyeDepth of Unity with _ZBufferParams",
      {FORMULA_TO(claim_unity, CLAIM_CANCELLED), FULL(4 * UNIT)}, METHOD_INFINITE, 0.22, "1", 0,
      "UnityCG.cginc", NULL, NULL, unity_run, NULL},
+    {METHOD_LINEARIZE, "complement-unity",
+     "1/(Z (1 - d) + 1/f), as Unity but of the complement; reversed it is LinearEyeDepth itself",
+     {FULL(5 * UNIT), NOWHERE}, METHOD_INFINITE, 0.23, "1", 0,
+     "depthprec(7)", NULL, NULL, complement_unity_run, NULL},
+    {METHOD_LINEARIZE, "linear-01", "f times Linear01Depth, 1/(X d + Y), in binary32",
+     {FORMULA_TO(claim_linear_01, CLAIM_CANCELLED), FULL(6 * UNIT)}, 0, 0.29, "1", 0,
+     "UnityCG.cginc", NULL, NULL, linear_01_run, NULL},
+    {METHOD_LINEARIZE, "linear-01-near",
+     "n + (f - n) times Linear01DepthFromNear, d/(X d + Y) or (1 - d)/(X d + Y), in binary32",
+     {FORMULA_TO(claim_linear_01_near, CLAIM_CANCELLED), FULL(8 * UNIT)}, 0, 0.29, "1", 0,
+     "the Core package's Common.hlsl", NULL, NULL, linear_01_near_run, NULL},
     {METHOD_LINEARIZE, "textbook", "n f/(f - d (f - n)) in binary32",
      {FORMULA_TO(claim_textbook, CLAIM_CANCELLED), FULL(5 * UNIT)}, 0, 0.23, "1", 0,
      "the inverse of the projection, in most tutorials", NULL, NULL, textbook_run, NULL},

@@ -5,6 +5,7 @@
 #include <math.h>
 #include <stdlib.h>
 
+#include "method/claim.h"
 #include "method/method.h"
 
 /* Places are judged out to the farthest finite far plane that there can be, seen along the longest ray. */
@@ -88,41 +89,23 @@ OPEN(matrix_open, "matrix") OPEN(rays_open, "rays") OPEN(extents_open, "extents"
 OPEN(view_open, "view")
 
 /* Claims in units are those of position_bound() at its worst over the image; near, far and the scene's units do not
- * matter then. The standard directions lose what LinearEyeDepth does, 3 units far/near. Only the matrix's claims there
- * are measured: its bound, 9 units far/near, holds for any axes of the camera. */
-#define UNIT 0x1p-24
-static double off_by(double units) {
-    const double off = units * UNIT;
-    return off < 0.5 ? off / (1 - off) : (double)INFINITY;
-}
-static double linear_eye(double ratio) {
-    return off_by(3 * ratio + 15.1);
-}
-static double linear_eye_half(double ratio) {
-    return linear_eye(ratio) + 6e-4;
-}
-static double matrix_d3d(double ratio) {
-    return off_by(6 * ratio + 17);
-}
-static double matrix_gl(double ratio) {
-    return off_by(3.5 * ratio + 17);
-}
-
+ * matter then. */
+#define UNIT CLAIM_UNIT
 const method_row position_methods[] = {
     {METHOD_POSITION, "view", "camera + ray z: the ray counted from the image's middle, z without cancellation",
      {FULL(9.3 * UNIT), FULL(8.3 * UNIT), FULL(9.3 * UNIT)}, METHOD_INFINITE | METHOD_ORTHO, 0.4, "1", 0,
      "depthprec(7)", NULL, view_open, run, free},
     {METHOD_POSITION, "extents", "(top left + x extent u + y extent v) eye/n with LinearEyeDepth",
-     {FORMULA(linear_eye), FULL(19 * UNIT), FORMULA(linear_eye)}, METHOD_INFINITE, 0.42, "1", 0,
+     {FORMULA_TO(claim_extents, CLAIM_CANCELLED), FULL(19 * UNIT), FORMULA_TO(claim_extents, CLAIM_CANCELLED)}, METHOD_INFINITE, 0.42, "1", 0,
      "URP, ReconstructViewPos in SSAO.hlsl", NULL, extents_open, run, free},
     {METHOD_POSITION, "rays", "camera + ray eye/n with LinearEyeDepth, the ray between those of the near plane's corners",
-     {FORMULA(linear_eye), FULL(20 * UNIT), FORMULA(linear_eye)}, METHOD_INFINITE, 0.45, "1", 0,
+     {FORMULA_TO(claim_extents, CLAIM_CANCELLED), FULL(20 * UNIT), FORMULA_TO(claim_extents, CLAIM_CANCELLED)}, METHOD_INFINITE, 0.45, "1", 0,
      "image effects with _FrustumCornersRay", NULL, rays_open, run, free},
     {METHOD_POSITION, "matrix", "inverse view-projection matrix times NDC, divided by w",
-     {FORMULA(matrix_d3d), FULL(17.1 * UNIT), FORMULA(matrix_gl)}, METHOD_INFINITE, 0.48, "1", 0,
+     {FORMULA_TO(claim_matrix_d3d, CLAIM_CANCELLED), FULL(17.1 * UNIT), FORMULA_TO(claim_matrix_gl, CLAIM_CANCELLED)}, METHOD_INFINITE, 0.48, "1", 0,
      "ComputeWorldSpacePosition, the Core package's Common.hlsl", NULL, matrix_open, run, free},
     {METHOD_POSITION, "extents-half", "extents in binary16, for distances from 2^-13 to 65504; infinite beyond",
-     {FORMULA(linear_eye_half), FULL(6e-4), FORMULA(linear_eye_half)}, METHOD_INFINITE | METHOD_HALF, 0.8, "1", 0,
+     {FORMULA_TO(claim_extents_half, CLAIM_CANCELLED), FULL(6e-4), FORMULA_TO(claim_extents_half, CLAIM_CANCELLED)}, METHOD_INFINITE | METHOD_HALF, 0.8, "1", 0,
      "URP, ReconstructViewPos in SSAO.hlsl", NULL, half_open, run, free},
 };
 /* clang-format on */
