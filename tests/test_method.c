@@ -134,6 +134,8 @@ static void the_choice_is_the_cheapest_that_covers(void **state) {
     w.ratio_hi = 1e12;
     assert_true(strncmp(chosen("linearize", 0, w), "complement", 10) == 0);
     w.ratio_hi = (double)INFINITY;
+    assert_string_equal(chosen("linearize", 0, w), "complement-unity");
+    w.tolerance = 1e-7;
     assert_string_equal(chosen("linearize", 0, w), "phi-double");
     w.tolerance = 1e-9;
     assert_string_equal(chosen("linearize", 0, w), "");

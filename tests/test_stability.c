@@ -56,6 +56,11 @@ static void worst_claims(void **state) {
     check_family("worst");
 }
 
+static void position_claims(void **state) {
+    (void)state;
+    check_family("position");
+}
+
 static void normal_claims(void **state) {
     (void)state;
     check_family("normal");
@@ -114,8 +119,9 @@ static void false_claims_are_found(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(interval_claims), cmocka_unit_test(linearize_claims), cmocka_unit_test(encode_claims),
-        cmocka_unit_test(worst_claims),    cmocka_unit_test(normal_claims),    cmocka_unit_test(false_claims_are_found),
+        cmocka_unit_test(interval_claims),        cmocka_unit_test(linearize_claims), cmocka_unit_test(encode_claims),
+        cmocka_unit_test(worst_claims),           cmocka_unit_test(position_claims),  cmocka_unit_test(normal_claims),
+        cmocka_unit_test(false_claims_are_found),
     };
     return run_tap(tests);
 }

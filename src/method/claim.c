@@ -54,13 +54,14 @@ double claim_unity(double ratio) {
     return inverse((3 * ratio + 2) * CLAIM_UNIT);
 }
 
-/* X and Y are rounded alike, unless far/near has just passed a power of two: then they are off by 1.5 together. */
+/* X and Y are rounded alike and the product by a unit, unless far/near has just passed a power of two: then X and Y are
+ * off by 1.5 together and the product by half a unit. */
 double claim_linear_01(double ratio) {
-    return inverse((2.5 * ratio + 2) * CLAIM_UNIT);
+    return inverse((2 * ratio + 2) * CLAIM_UNIT);
 }
 
 double claim_linear_01_near(double ratio) {
-    return inverse((2.5 * ratio + 4) * CLAIM_UNIT);
+    return inverse((2 * ratio + 4) * CLAIM_UNIT);
 }
 
 double claim_textbook(double ratio) {
