@@ -104,7 +104,7 @@ static const method_family_row families[METHOD_FAMILY_COUNT] = {
                        .judge = normal_judge},
     [METHOD_POSITION] = {.name = "position",
                          .summary = "place of a pixel from its binary32 window depth; 60 degrees, 16:9",
-                         .measure = "error relative to the distance from the camera",
+                         .measure = "error over distance",
                          .cases = {{"fp32 d3d", "fp32", DP_MAPPING_D3D},
                                    {"fp32 reversed", "fp32", DP_MAPPING_REVERSED},
                                    {"fp32 gl", "fp32", DP_MAPPING_GL}},
