@@ -9,7 +9,7 @@
  * focus. Wherever that is, the error is no larger than when it lies in the cell as well, so there it is put: in the
  * worst of three places, the stored depth and the two ends of the cell.
  *
- * Depths enter as doubles, each within 2^-50 of itself: errors are good to 2^-48 z, as the effect sees it.
+ * Depths enter as doubles, each within 2^-50 of itself, which errors inherit.
  */
 #ifndef TEXTURE_EFFECT_H
 #define TEXTURE_EFFECT_H
