@@ -72,7 +72,7 @@ const verb verb_rows[] = {
      "  depthprec bias --api webgpu -F depth24plus -m d3d --gap 0.01 --range 1:100\n"
      "  depthprec bias --preset bevy --api vulkan --units 4 --factor 1 --slope 0.02\n"},
     {"list", VERB_LIST, cmd_list, "WHAT", 0, 1, NULL,
-     "formats, mappings, models, ariths, causes, presets, apis, packings, effects, figures, methods",
+     "formats, mappings, presets, effects, methods, ...: 'depthprec list' has them all",
      "  depthprec list\n"
      "  depthprec list formats\n"
      "  depthprec list mappings --json\n"},
