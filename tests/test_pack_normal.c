@@ -218,7 +218,7 @@ static void test_means_by_area(void **state) {
     (void)state;
     for (size_t i = 0; i < 2; i++) {
         const pack_row *row = pack_find(rows[i].name);
-        const int places = (int)test_cases(2, 4, 16) * rows[i].codes;
+        const int places = (int)test_cases(4, 4, 16) * rows[i].codes;
         const double mean = (double)((4 * mean_by_area(row, 2 * places) - mean_by_area(row, places)) / 3);
         print_message("# %s: mean %.7g by area, %.7g +- %.2g\n", row->name, mean, measured(row->name)->normal.mean,
                       measured(row->name)->normal_spread);
