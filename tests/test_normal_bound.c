@@ -178,7 +178,8 @@ static void measures_count_what_they_say(void **state) {
                     const int x = (int)(i % 60) + (s == 0 ? k : s == 1 ? -k : 0);
                     const int y = (int)(i / 60) + (s == 2 ? k : s == 3 ? -k : 0);
                     stepped(&c, parameters, x, y, &beside);
-                    edge = edge || x < 0 || y < 0 || x >= 60 || y >= 40 || beside.surface != hit.surface;
+                    const bool there = x >= 0 && y >= 0 && x < 60 && y < 40;
+                    edge = edge || (there && beside.surface != hit.surface);
                 }
             const double angle = normal_angle(hit.normal, found);
             if (isnan(angle)) {

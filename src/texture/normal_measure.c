@@ -29,19 +29,23 @@ static void store(void *context, uint32_t row, float *eye) {
     }
 }
 
-/* The surface of a pixel; 0 beyond the border, as for the sky. */
+enum { BEYOND = -1 }; /* the border */
+
 static int surface(const measuring *m, int64_t column, int64_t row) {
     if (column < 0 || row < 0 || column >= (int64_t)m->width || row >= m->camera->height)
-        return 0;
+        return BEYOND;
     return m->hits[(size_t)(row % RING) * m->width + (size_t)column].surface;
 }
 
 static bool alone(const measuring *m, int64_t column, int64_t row, int own) {
-    bool same = true;
-    for (int k = m->method->step; k <= m->method->reach; k += m->method->step)
-        same = same && surface(m, column - k, row) == own && surface(m, column + k, row) == own &&
-               surface(m, column, row - k) == own && surface(m, column, row + k) == own;
-    return same;
+    for (int k = m->method->step; k <= m->method->reach; k += m->method->step) {
+        const int around[4] = {surface(m, column - k, row), surface(m, column + k, row), surface(m, column, row - k),
+                               surface(m, column, row + k)};
+        for (int i = 0; i < 4; i++)
+            if (around[i] != own && around[i] != BEYOND)
+                return false;
+    }
+    return true;
 }
 
 static bool wrong_side(const measuring *m, int64_t column, int64_t row, int own, uint8_t sides) {

@@ -22,8 +22,8 @@ typedef struct normal_measured {
     /** Drawn pixels with a normal for which a neighbour of another surface was taken although the one on the other side
      *  is of their own. */
     uint64_t wrong;
-    normal_spread inside; /**< pixels with nothing but their own surface at the distances that the method looks at */
-    normal_spread edges;  /**< pixels next to a silhouette, the sky or the border of the image */
+    normal_spread inside; /**< pixels with nothing but their own surface, or the border, where the method looks */
+    normal_spread edges;  /**< pixels next to another surface or the sky */
 } normal_measured;
 
 /**
