@@ -38,7 +38,7 @@ done
 digest() { sed -n 's/^data: //p' "$1"; }
 check "a changed number changes the digest" [ "$(digest "$scratch/a.svg")" != "$(digest "$scratch/b.svg")" ]
 
-for figure in distribution share error interval budget map; do
+for figure in distribution share error interval budget map normals; do
     for ending in svg pdf png; do
         "$DEPTHPREC" plot $figure -F unorm24,fp32 -m reversed -o "$scratch/1.$ending"
         "$DEPTHPREC" plot $figure -F unorm24,fp32 -m reversed -o "$scratch/2.$ending"
@@ -75,6 +75,14 @@ check "budget of log" refuses 2 "--mapping: binary32 arithmetic needs one of" bu
 check "--world where it has no meaning" refuses 2 "--world: has no meaning in the figure share" share --world 3 -o "$scratch/x.svg"
 check "--tolerance without auto" refuses 2 "--tolerance: needs --model auto" interval --tolerance 1% -o "$scratch/x.svg"
 check "too many budgets" refuses 2 "at most 8 set-ups" budget -m d3d,gl,reversed -o "$scratch/x.svg"
+check "too many normals" refuses 2 "at most 4 set-ups, got 6" normals -F unorm16,unorm24,fp32 -m d3d,reversed -o "$scratch/x.svg"
+within_bound() { # every point of projective on a plane has its bound above it
+    "$DEPTHPREC" plot normals -F unorm16,unorm24,fp32 -m d3d --csv | tr -d '\r' | awk -F, '
+        $2 == "projective" { found[$1 $3] = $4 }
+        $2 == "bound of projective" { points++; if (!(found[$1 $3] > 0 && found[$1 $3] <= $4)) { print; passed++ } }
+        END { exit !(points == 150 && !passed) }'
+}
+check "normals on a plane stay below their bound" within_bound
 check "too many staircases" refuses 2 "at most 8 set-ups" distribution -F unorm2,unorm3,unorm4 -m d3d,gl,reversed -o "$scratch/x.svg"
 check "nothing was left behind by the refused ones" [ ! -e "$scratch/x.svg" ]
 

@@ -12,6 +12,7 @@
 #include "cli/number.h"
 #include "cli/options.h"
 #include "cli/plot_data.h"
+#include "cli/plot_normals.h"
 #include "cli/plot_scene.h"
 #include "cli/setups.h"
 #include "cli/suggest.h"
@@ -238,12 +239,16 @@ int cmd_plot(const options *o) {
         status =
             methods_figure_make(o, (row->takes & FIGURE_PARETO) != 0, family, &walked, of_methods, sizeof of_methods);
     request.methods = &walked.shown;
+    request.normals = &plot_normals;
     chart *c = status == EXIT_FINE ? chart_new() : NULL;
     if (c != NULL) {
         for (size_t i = 0; i < all.count; i++)
             names[i] = name_of(o, &all.items[i], text[i]);
         notes_clean(c->title, sizeof c->title, o->title != NULL ? o->title : "");
         subtitle_of(o, &request, c->subtitle, sizeof c->subtitle);
+        if ((row->takes & FIGURE_NORMALS) != 0)
+            snprintf(c->subtitle + strlen(c->subtitle), sizeof c->subtitle - strlen(c->subtitle), "; %s",
+                     plot_normals_view(o->ortho));
         if (methodical)
             notes_clean(c->subtitle, sizeof c->subtitle, of_methods);
         status = write_figure(o, row, &request, c);

@@ -36,7 +36,8 @@ typedef struct figure_request {
     const figure_need *needs; /**< for the figures that take them */
     size_t need_count;
     const struct figure_methods *methods; /**< for the figures that show methods, else null */
-    int columns, rows; /**< how finely to compute: pixels of the figure; see refine.h */
+    const struct figure_normals *normals; /**< for the figure that shows them, else null */
+    int columns, rows;                    /**< how finely to compute: pixels of the figure; see refine.h */
 } figure_request;
 
 /** Methods of one family, measured: what the figures pareto and stability show. */
@@ -54,14 +55,25 @@ typedef struct figure_methods {
     const double *breaks;  /**< stability: the far/near from which on it does not hold; INFINITY for none */
 } figure_methods;
 
+/** How far normals from depth are off, measured when asked: what the figure normals shows. */
+typedef struct figure_normals {
+    size_t surface_count, method_count;
+    const char *const *surfaces; /**< "plane at 60 degrees", ... */
+    const char *const *methods;
+    const char *bound; /**< the name of what bounds a method on surface 0 */
+    /** Degrees, for a surface at depth z; method_count stands for the bound. NaN where nothing was measured. */
+    double (*error)(const dp_setup *setup, size_t surface, size_t method, double z);
+} figure_normals;
+
 /** What a figure can make something of. */
 enum {
-    FIGURE_AT = 1 << 0,     /**< one depth, given with --at */
-    FIGURE_TERMS = 1 << 1,  /**< --interpolation, --world, --linearize */
-    FIGURE_FP32 = 1 << 2,   /**< set-ups of the model fp32, which have no cells */
-    FIGURE_NEEDS = 1 << 4,  /**< a requirement file, which brings its own set-ups, with planes of their own */
-    FIGURE_PARETO = 1 << 5, /**< methods and their times */
-    FIGURE_WALK = 1 << 6,   /**< methods walked over far/near */
+    FIGURE_AT = 1 << 0,      /**< one depth, given with --at */
+    FIGURE_TERMS = 1 << 1,   /**< --interpolation, --world, --linearize */
+    FIGURE_FP32 = 1 << 2,    /**< set-ups of the model fp32, which have no cells */
+    FIGURE_NEEDS = 1 << 4,   /**< a requirement file, which brings its own set-ups, with planes of their own */
+    FIGURE_PARETO = 1 << 5,  /**< methods and their times */
+    FIGURE_WALK = 1 << 6,    /**< methods walked over far/near */
+    FIGURE_NORMALS = 1 << 7, /**< normals from depth */
     FIGURE_METHODS = FIGURE_PARETO | FIGURE_WALK,
     FIGURE_BINARY32 = 1 << 3, /**< nothing but set-ups of the model fp32, whatever --model says */
 };
@@ -104,5 +116,6 @@ const char *scene_build(const figure_request *request, chart *out);
 const char *map_build(const figure_request *request, chart *out);
 const char *pareto_build(const figure_request *request, chart *out);
 const char *stability_build(const figure_request *request, chart *out);
+const char *normals_build(const figure_request *request, chart *out);
 
 #endif
