@@ -159,30 +159,41 @@ static void codes_of(tally *t, const dp_setup *setup, uint32_t first, uint32_t s
         }
 }
 
-/* All codes of the 16-bit formats, and all of unorm24 when asked for; else a walk through them, the ends included. */
+/* The codes around the planes' and around the least and the greatest, some beyond it. */
+static void codes_at_ends(tally *t, const dp_setup *s) {
+    const uint32_t max = s->spec.format.code_max;
+    codes_of(t, s, max < 40 ? 0 : max - 40, 1, 45);
+    codes_of(t, s, 0, 1, 45);
+    codes_of(t, s, s->code_near < 20 ? 0 : s->code_near - 20, 1, 40);
+    codes_of(t, s, s->code_far < 20 ? 0 : s->code_far - 20, 1, 40);
+}
+
+/* All codes of the 16-bit formats, and all of unorm24 when asked for; else a walk through them. */
+static void walk_codes(tally *t, const dp_setup *s, int all) {
+    const uint32_t max = s->spec.format.code_max;
+    const uint32_t chunks = (uint32_t)test_cases(2, 4, 64);
+    const int full = test_effort() == EFFORT_FULL;
+    if (max < 65536 ? all || full : max < 1U << 24 && all && full) {
+        for (uint32_t first = 0; first <= max; first += CHUNK)
+            codes_of(t, s, first, 1, max - first < CHUNK ? max - first + 1 : CHUNK);
+        return;
+    }
+    const uint32_t step = max / (CHUNK * chunks) + 1;
+    for (uint32_t k = 0; k < chunks; k++)
+        codes_of(t, s, k * CHUNK * step, step, CHUNK);
+}
+
 static void test_codes(void **state) {
     (void)state;
     for (int f = 0; f < FORMATS; f++) {
         tally t = {.name = formats[f]};
-        for (int c = 0; c < CAMERAS; c++) {
-            const dp_setup s = make(&cameras[c], formats[f], (dp_rounding)(c % DP_ROUNDING_COUNT), DP_MODEL_EXACT);
-            const uint32_t max = s.spec.format.code_max;
-            const int every = max < 65536 ? c < 2 || test_effort() == EFFORT_FULL
-                                          : max < 1U << 24 && c < 2 && test_effort() == EFFORT_FULL;
-            const uint32_t chunks = (uint32_t)test_cases(2, 4, 64);
-            if (every) {
-                for (uint32_t first = 0; first <= max; first += CHUNK)
-                    codes_of(&t, &s, first, 1, max - first < CHUNK ? max - first + 1 : CHUNK);
-                continue;
+        for (int c = 0; c < CAMERAS; c++)
+            for (int rounding = 0; rounding < DP_ROUNDING_COUNT; rounding++) {
+                const dp_setup s = make(&cameras[c], formats[f], (dp_rounding)rounding, DP_MODEL_EXACT);
+                codes_at_ends(&t, &s);
+                if (rounding == c % DP_ROUNDING_COUNT)
+                    walk_codes(&t, &s, c < 2);
             }
-            const uint32_t step = max / (CHUNK * chunks) + 1;
-            for (uint32_t k = 0; k < chunks; k++)
-                codes_of(&t, &s, k * CHUNK * step, step, CHUNK);
-            codes_of(&t, &s, max < 40 ? 0 : max - 40, 1, 45); /* beyond the last code too */
-            codes_of(&t, &s, 0, 1, 45);
-            codes_of(&t, &s, s.code_near < 20 ? 0 : s.code_near - 20, 1, 40);
-            codes_of(&t, &s, s.code_far < 20 ? 0 : s.code_far - 20, 1, 40);
-        }
         tally_end(&t);
     }
 }

@@ -72,7 +72,8 @@ typedef struct dp_batch {
         uint64_t half;
         int shift, cut, mantissa, bias;
         uint32_t rebias, code_max;
-        double least_normal, top, to_near, to_far, den, steps, rest, width, first, last, first_width, last_width, none;
+        double least_normal, top, to_near, to_far, den, steps, rest, width, first, last, before_width, first_width,
+            last_width, after_width;
         double value, value_rest;
         float z_lo, z_hi, reach, reach_rest, reach_inverse, offset;
         int32_t whole;

@@ -1,8 +1,9 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * The kernels, once. A path defines TARGET, FUSED and TABLE and includes this file; HALF_BY_HARDWARE says that it
- * brings its own conversions of binary16. Every operation is one IEEE operation, so that each path gives the same
- * bits; fused operations stand where they make a result exact, in kernels whose codes are proven whatever they do.
+ * The kernels, once. A path defines TARGET, FUSED and TABLE and includes this file; HALF_BY_HARDWARE and
+ * QUOTIENTS_BY_HAND say that it brings its own conversions of binary16, and its own kernels that divide constants.
+ * Every operation is one IEEE operation, so that each path gives the same bits; fused operations stand where they make
+ * a result exact, in kernels whose codes are proven whatever they do.
  */
 #include <string.h>
 
@@ -15,6 +16,7 @@ typedef double ALIAS real64;
 typedef uint16_t ALIAS word16;
 typedef uint32_t ALIAS word32;
 
+#undef INLINE
 #define INLINE       static inline __attribute__((always_inline))
 #define PRAGMA(TEXT) _Pragma(#TEXT)
 
@@ -121,8 +123,11 @@ LOOP(DECODE_FLOAT, word32, real64, LIFT, { CODE to[i] = VALUE(c); })
 
 #define SENSE const int reversed = batch->setup.reversed;
 
+#ifndef QUOTIENTS_BY_HAND
 LOOP(EYE_PERSPECTIVE_UNORM, word32, real64, SENSE,
      { CODE SHARES(2.0 * AS_REAL(c)) to[i] = k.top / (k.to_near * near_share + k.to_far * far_share); })
+#endif
+
 LOOP(EYE_PERSPECTIVE_FLOAT, word32, real64, SENSE LIFT,
      { CODE SHARES(VALUE(c)) to[i] = k.top / (k.to_near * near_share + k.to_far * far_share); })
 LOOP(EYE_LINEAR_UNORM, word32, real64, SENSE,
@@ -139,15 +144,17 @@ LOOP(EYE_LINEAR_FLOAT, word32, real64, SENSE LIFT,
     const double real = AS_REAL(c);                                                                                    \
     const double after = real > k.first ? inner : k.first_width;                                                       \
     const double within = real < k.last ? after : k.last_width;                                                        \
-    const double kept = real < k.first ? k.none : within;                                                              \
-    to[i] = real > k.last ? k.none : kept;
+    const double kept = real < k.first ? k.before_width : within;                                                      \
+    to[i] = real > k.last ? k.after_width : kept;
 
+#ifndef QUOTIENTS_BY_HAND
 /* The depths of a cell of UNORM are (v - 1/2) and (v + 1/2) over a number that k.width and k.rest took up. */
 LOOP(WIDTH_PERSPECTIVE_UNORM, word32, real64, SENSE, {
     CODE const double comp = k.steps - AS_REAL(c);
     const double v = (reversed ? AS_REAL(c) : comp) + k.rest;
     ENDS(k.width / (v * v - 0.25))
 })
+#endif
 
 /* The boundaries of a FLOAT code: half way to the neighbours, or the code and the next when truncated. */
 #define BOUNDARIES                                                                                                     \
@@ -246,11 +253,13 @@ LOOP(FLOAT_OF_UNORM_32, word32, real32, , { WHOLE to[i] = c * k.unit + c * k.uni
 /* ---- Direct: UNORM code to eye depth in float ---------------------------------------------------------------------
  */
 
+#ifndef QUOTIENTS_BY_HAND
 #define FAST_EYE                                                                                                       \
     WHOLE const float comp = k.unit - c;                                                                               \
     to[i] = k.eye_top / (k.eye_slope * (reversed ? c : comp) + k.eye_base);
 LOOP(FAST_EYE_16, word16, real32, SENSE, {FAST_EYE})
 LOOP(FAST_EYE_32, word32, real32, SENSE, {FAST_EYE})
+#endif
 
 /* ---- Direct: binary32, whose codes are its bits, and binary16 -----------------------------------------------------
  */

@@ -105,11 +105,15 @@ static void plan_width(dp_batch *b) {
     struct dp_batch_numbers *k = &b->numbers;
     const int unorm = s->spec.format.kind == DP_FORMAT_UNORM;
     const uint32_t first = s->code_near < s->code_far ? s->code_near : s->code_far;
-    const uint32_t last = s->code_near < s->code_far ? s->code_far : s->code_near;
+    uint32_t last = s->code_near < s->code_far ? s->code_far : s->code_near;
+    if (last > first && unorm && s->spec.rounding == DP_ROUND_ZERO)
+        last--; /* a plane alone has the last code, and the other side of the cell before it is that plane */
     k->first = (double)first;
     k->last = (double)last;
+    k->before_width = dp_cell_of(s, 0).width;
     k->first_width = dp_cell_of(s, first).width;
-    k->last_width = first < last ? dp_cell_of(s, last).width : k->first_width;
+    k->last_width = dp_cell_of(s, last).width;
+    k->after_width = dp_cell_of(s, s->spec.format.code_max).width;
     k->steps = (double)s->spec.format.code_max;
     if (s->curve == DP_CURVE_LINEAR)
         k->width = unorm ? 2.0 / k->den * s->kappa : s->kappa;
