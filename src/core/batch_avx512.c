@@ -54,9 +54,9 @@ TARGET static int32_t kernel_FLOAT_OF_HALF(const dp_batch *batch, const void *in
  * reciprocal estimate, Newton's steps, and a last step by the exact remainder, which rounds as the divide does.
  * tests/test_quotient.c has the proofs.
  *
- * float: the estimate is within 2^-14, y within half a step and 2^-28. That rounds q rightly but where the divisor's
- * mantissa is in the last 32nd and divides l 2^k +- 1, and no numerator of dp_batch_top() has such a divisor that
- * matters.
+ * float: the estimate is within 2^-14, so y within half a step and 2^-28 of 1/b. That rounds q rightly, but where the
+ * mantissa of b is in the last 32nd of its range and divides the one of a, shifted, but for 1. No numerator of
+ * dp_batch_top() has such a divisor that matters.
  */
 TARGET INLINE __m512 quotient(__m512 a, __m512 b) {
     const __m512 estimate = _mm512_rcp14_ps(b);
