@@ -93,63 +93,116 @@ double rays_bound(const texture_camera *camera, uint32_t row, uint32_t column, d
 
 /* ---- Matrix ------------------------------------------------------------------------------------------------------ */
 
-/*
- * With x the homogeneous place and G = |inverse| |matrix|: rounding the matrix by one unit moves x by at most
- * G|x| + units G^2|x| + ...; then the inverse is rounded and the sums are.
- */
-static bool rounded_matrix(const texture_camera *camera, const double inverse[16], const double x[4], double off[4]) {
-    double matrix[16], term[4];
-    position_matrix(camera, matrix);
-    for (int i = 0; i < 4; i++) {
-        term[i] = fabs(x[i]);
-        off[i] = 0;
+enum { CLIP_X, CLIP_Y, CLIP_Z, CLIP_W };
+
+typedef struct matrix {
+    double forth[16], back[16];
+    double ndc[4];     /* of the pixel and its depth */
+    double world[3];   /* the place */
+    double from[3][3]; /* from the camera: how the place moves with each of the three NDC coordinates */
+} matrix;
+
+static bool matrix_of(matrix *m, const texture_camera *camera, const pixel *p, uint32_t row, uint32_t column,
+                      double d) {
+    const bool is_signed = dp_mapping_get(camera->setup.spec.mapping)->ndc_signed != 0;
+    double relative[3], along = 0;
+    position_matrix(camera, m->forth);
+    position_inverse(camera, m->back);
+    position_exact(camera, row, column, d, relative, m->world);
+    m->ndc[CLIP_X] = 2 * p->u - 1;
+    m->ndc[CLIP_Y] = 1 - 2 * p->v;
+    m->ndc[CLIP_Z] = is_signed ? 2 * d - 1 : d;
+    m->ndc[CLIP_W] = 1;
+    for (int k = 0; k < 3; k++)
+        along += camera->axis[2][k] * m->back[4 * k + 2];
+    for (int k = 0; k < 3; k++) { /* 1/z = back[14] D + back[15] */
+        m->from[k][CLIP_X] = camera->half[0] * fabs(camera->axis[0][k]) * (camera->ortho ? 1 : p->z);
+        m->from[k][CLIP_Y] = camera->half[1] * fabs(camera->axis[1][k]) * (camera->ortho ? 1 : p->z);
+        m->from[k][CLIP_Z] = camera->ortho ? fabs(camera->axis[2][k] * along) : fabs(m->back[14] * relative[k]) * p->z;
     }
-    for (int times = 0; times < 100; times++) {
-        double next[4] = {0}, product[4] = {0};
-        for (int i = 0; i < 4; i++)
-            for (int k = 0; k < 4; k++)
-                product[i] += fabs(matrix[4 * i + k]) * term[k];
-        for (int i = 0; i < 4; i++)
-            for (int k = 0; k < 4; k++)
-                next[i] += fabs(inverse[4 * i + k]) * product[k];
+    return p->z < (double)INFINITY;
+}
+
+/*
+ * Of the rounding of the matrix, which the engine then inverts. The place solves three equations,
+ * (M_i - ndc_i M_w) (place, 1) = 0, whose rounding moves it by `from` times what each is off by: by the camera's own
+ * place where the place is that of another camera, and not by the product of large numbers in M and its inverse.
+ * @return false where the errors could grow without end
+ */
+static bool rounded_matrix(const matrix *m, double clip_w, double off[3]) {
+    double term[3] = {0}, wrong[3];
+    for (int i = 0; i < 3; i++) {
+        wrong[i] = fabs(m->forth[4 * i + 3]) + fabs(m->ndc[i] * m->forth[15]);
+        for (int k = 0; k < 3; k++)
+            wrong[i] += (fabs(m->forth[4 * i + k]) + fabs(m->ndc[i] * m->forth[12 + k])) * fabs(m->world[k]);
+    }
+    for (int times = 0; times < 60; times++) {
         bool small = true;
-        for (int i = 0; i < 4; i++) {
-            off[i] += next[i];
-            small = small && next[i] <= 1e-6 * off[i];
-            term[i] = next[i] * 0x1p-24;
+        for (int k = 0; k < 3; k++) {
+            term[k] = 0;
+            for (int i = 0; i < 3; i++)
+                term[k] += m->from[k][i] * wrong[i] / clip_w;
+            off[k] = times == 0 ? term[k] : off[k] + term[k];
+            small = small && term[k] <= 1e-6 * off[k];
         }
         if (small)
             return true;
+        for (int i = 0; i < 3; i++) {
+            wrong[i] = 0;
+            for (int k = 0; k < 3; k++)
+                wrong[i] += (fabs(m->forth[4 * i + k]) + fabs(m->ndc[i] * m->forth[12 + k])) * term[k] * 0x1p-24;
+        }
     }
     return false;
+}
+
+/* The inverse's entry, the product and the sums that a term passes through are rounded in each row by itself, so what
+ * the rows have in common, the camera's place, does not cancel: this is where a matrix loses. */
+static double summed(const matrix *m, int row) {
+    static const double roundings[4] = {5, 5, 4, 2};
+    double sum = 0;
+    for (int k = 0; k < 4; k++)
+        sum += roundings[k] * fabs(m->back[4 * row + k] * m->ndc[k]);
+    return sum;
+}
+
+/* What the inversion in double adds, twelve roundings and pivots of up to four times the entries: 2^-23 units. */
+static double inverted(const matrix *m, int row) {
+    double sum = 0;
+    for (int i = 0; i < 4; i++) {
+        double product = fabs(m->forth[4 * i + 3]);
+        for (int k = 0; k < 3; k++)
+            product += fabs(m->forth[4 * i + k] * m->world[k]);
+        sum += fabs(m->back[4 * row + i]) * product;
+    }
+    return 0x1p-23 * sum;
 }
 
 double matrix_bound(const texture_camera *camera, uint32_t row, uint32_t column, double d) {
     const pixel p = pixel_of(camera, row, column, d);
     const bool is_signed = dp_mapping_get(camera->setup.spec.mapping)->ndc_signed != 0;
-    const double ndc = is_signed ? 2 * d - 1 : d;
-    const double v[4] = {2 * p.u - 1, 1 - 2 * p.v, ndc, 1};
-    const double v_off[4] = {4 * p.u + fabs(v[0]), 4 * p.v + fabs(v[1]), is_signed ? fabs(ndc) : 0, 0};
-    double inverse[16], x[4], off[4], sum = 0;
-    position_inverse(camera, inverse);
-    for (int i = 0; i < 4; i++) {
-        x[i] = 0;
-        for (int k = 0; k < 4; k++)
-            x[i] += inverse[4 * i + k] * v[k];
-    }
-    if (!camera->ortho)
-        x[3] = 1 / p.z; /* without cancellation */
-    if (!rounded_matrix(camera, inverse, x, off))
+    matrix m;
+    double off[3], sum = 0;
+    if (!matrix_of(&m, camera, &p, row, column, d))
         return (double)INFINITY;
-    static const double roundings[4] = {5, 5, 4, 2}; /* entry, product, the sums that the term passes through */
-    for (int i = 0; i < 4; i++)
-        for (int k = 0; k < 4; k++)
-            off[i] += fabs(inverse[4 * i + k]) * (v_off[k] + roundings[k] * fabs(v[k]));
-    const double w = x[3], left = 1 - off[3] / w * 0x1p-24;
-    if (!(left > 0.5))
+    const double clip_w = camera->ortho ? 1 : p.z;
+    if (!rounded_matrix(&m, clip_w, off))
         return (double)INFINITY;
-    for (int i = 0; i < 3; i++) {
-        const double place = fabs(x[i] / w), part = (off[i] + place * off[3]) / w / left + place;
+    const double ndc_off[3] = {4 * p.u + fabs(m.ndc[CLIP_X]), 4 * p.v + fabs(m.ndc[CLIP_Y]),
+                               is_signed ? fabs(m.ndc[CLIP_Z]) : 0};
+    /* w of the rounded matrix; of the sum */
+    double w_off = fabs(m.forth[15]) / clip_w;
+    for (int k = 0; k < 3; k++)
+        w_off += fabs(m.forth[12 + k]) * (fabs(m.world[k]) + off[k]) / clip_w;
+    const double w_sum = summed(&m, CLIP_W) * clip_w + inverted(&m, CLIP_W);
+    const double rounded = 1 - w_off * 0x1p-24, left = rounded * rounded * (1 - w_sum * 0x1p-24);
+    if (!(rounded > 0.5 && left > 0.125))
+        return (double)INFINITY;
+    for (int k = 0; k < 3; k++) {
+        const double place = fabs(m.world[k]);
+        double part = off[k] + place + (summed(&m, k) * clip_w + inverted(&m, k) + place * w_sum) / left;
+        for (int i = 0; i < 3; i++)
+            part += m.from[k][i] * ndc_off[i];
         sum += part * part;
     }
     return sqrt(sum);
