@@ -68,11 +68,11 @@ static void make_eye(const frame_row *in) {
 static void make_eye_error(const frame_row *in) {
     reaches last = nothing_yet();
     for (uint32_t x = 0; x < camera_of(in)->width; x++) {
+        const double z = in->frame->scene != NULL ? truth(in, x).z : (double)eyes_of(in)[x];
         double error = NAN;
-        if (in->frame->scene != NULL)
-            error = fabs(dp_error(&camera_of(in)->setup, in->codes[x], truth(in, x).z));
-        else if (!isnan(eyes_of(in)[x]))
-            error = reach_of(in, &last, x);
+        if (!isnan(z))
+            error = in->frame->scene != NULL ? fabs(dp_error(&camera_of(in)->setup, in->codes[x], z))
+                                             : reach_of(in, &last, x);
         in->out[x] = (float)(in->product->radial ? error * stretch(in, x) : error);
     }
 }

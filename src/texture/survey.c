@@ -38,13 +38,14 @@ static uint32_t rank_from(const dp_setup *setup, double z, uint32_t most) {
     return rank < most ? rank : most;
 }
 
+/* Where even powers of ten are too many (a float stores depths up to 1e44), the last band takes what is left. */
 static size_t edges_between(double lo, double hi, const int *factors, size_t factor_count, double *edge) {
     size_t count = 0;
     for (int power = (int)floor(log10(lo)); power <= (int)ceil(log10(hi)); power++)
         for (size_t i = 0; i < factor_count; i++) {
             const double at = power < 0 ? factors[i] / pow(10, -power) : factors[i] * pow(10, power);
             if (at > lo && at < hi) {
-                if (edge != NULL)
+                if (edge != NULL && count < SURVEY_BANDS - 1)
                     edge[count] = at;
                 count++;
             }
@@ -61,6 +62,8 @@ static void make_bands(surveying *s, double hi) {
         fine = 1;
     b->edge[0] = lo;
     b->count = 1 + edges_between(lo, hi, factors, fine, b->edge + 1);
+    if (b->count > SURVEY_BANDS)
+        b->count = SURVEY_BANDS;
     b->edge[b->count] = hi;
     for (size_t i = 1; i < b->count; i++)
         b->start[i] = rank_from(s->setup, b->edge[i], s->sky);

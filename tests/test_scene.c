@@ -1,0 +1,245 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/*
+ * Synthetic scenes: what a pixel sees satisfies the surfaces' equations, written here in long double, and what is
+ * stored of it is what the rational oracle stores.
+ */
+#include <string.h>
+
+#include "oracle.h"
+#include "support.h"
+#include "texture/scene.h"
+
+static texture_camera camera_of(const char *format, const char *mapping, bool ortho, uint32_t width, uint32_t height) {
+    dp_format formats[2];
+    dp_spec spec = dp_spec_default();
+    dp_setup setup;
+    texture_camera camera;
+    camera_spec view = camera_spec_default();
+    assert_true(dp_format_parse(format, formats) >= 1);
+    spec.format = formats[0];
+    spec.ortho = ortho;
+    assert_int_equal(dp_mapping_parse(mapping, &spec.mapping), DP_OK);
+    assert_int_equal(dp_setup_init(&setup, &spec), DP_OK);
+    view.width = width;
+    view.height = height;
+    view.fov_y = 75;
+    assert_null(camera_init(&camera, &setup, &view));
+    return camera;
+}
+
+static void every_row_is_whole(void **state) {
+    (void)state;
+    size_t count = 0;
+    for (; scene_get(count) != NULL; count++) {
+        const scene_row *row = scene_get(count);
+        double p[SCENE_PARAMETERS];
+        assert_ptr_equal(scene_find(row->name), row);
+        scene_defaults(row, p);
+        for (size_t i = 0; i < SCENE_PARAMETERS && row->parameters[i].name != NULL; i++) {
+            assert_true(p[i] == row->parameters[i].value);
+            assert_true(p[i] >= row->parameters[i].lo && p[i] <= row->parameters[i].hi);
+            assert_true(row->parameters[i].note != NULL && row->parameters[i].unit != NULL);
+        }
+    }
+    assert_int_equal(count, 4);
+    assert_null(scene_find("teapot"));
+}
+
+/* The place of a hit in long double. */
+static void place(const texture_camera *c, double column, double row, double z, long double p[3]) {
+    const long double scale = c->ortho ? 1 : z;
+    p[0] = ((2 * (long double)column + 1) / c->width - 1) * (long double)c->half[0] * scale;
+    p[1] = (1 - (2 * (long double)row + 1) / c->height) * (long double)c->half[1] * scale;
+    p[2] = z;
+}
+
+/* Unit, and on the camera's side of the surface. */
+static bool faces(const texture_camera *c, const scene_hit *h, const long double p[3]) {
+    const long double n[3] = {h->normal[0], h->normal[1], h->normal[2]};
+    const long double length = n[0] * n[0] + n[1] * n[1] + n[2] * n[2];
+    const long double towards = c->ortho ? n[2] : n[0] * p[0] + n[1] * p[1] + n[2] * p[2];
+    return fabsl(length - 1) < 1e-12L && towards < 0;
+}
+
+static void planes_lie_in_their_plane(void **state) {
+    (void)state;
+    rng r = rng_make("scene plane");
+    tally t = {.name = "plane"};
+    uint64_t seen = 0;
+    for (uint64_t i = test_cases(2000, 40000, 400000); i > 0; i--) {
+        const texture_camera c = camera_of("fp32", "reversed", rng_below(&r, 2), 640, 360);
+        const double p[SCENE_PARAMETERS] = {rng_log(&r, 0.2, 500), rng_uniform(&r, -89, 89), rng_uniform(&r, -89, 89)};
+        const double column = rng_uniform(&r, 0, 639), row = rng_uniform(&r, 0, 359);
+        scene_hit h;
+        scene_find("plane")->hit(&c, p, column, row, &h);
+        if (isinf(h.z)) {
+            TALLY(&t, h.surface == 0, "sky with a surface");
+            continue;
+        }
+        long double at[3];
+        place(&c, column, row, h.z, at);
+        const long double a = acosl(-1) / 180, tilt = p[0 + 1] * a, turn = p[2] * a;
+        const long double n[3] = {cosl(tilt) * sinl(turn), sinl(tilt), -cosl(tilt) * cosl(turn)};
+        const long double off = n[0] * at[0] + n[1] * at[1] + n[2] * (at[2] - p[0]);
+        const long double size = fabsl(at[0]) + fabsl(at[1]) + fabsl(at[2]) + p[0];
+        seen++;
+        TALLY(&t, fabsl(off) < 1e-15L * size && faces(&c, &h, at) && h.z >= 0.1 && h.z <= 1000,
+              "distance %g tilt %g turn %g at %g, %g: z %.17g is %Lg off", p[0], p[1], p[2], column, row, h.z, off);
+        TALLY(&t, fabsl(n[0] - h.normal[0]) + fabsl(n[1] - h.normal[1]) + fabsl(n[2] - h.normal[2]) < 1e-15L, "normal");
+    }
+    assert_true(seen > t.cases / 10);
+    tally_end(&t);
+}
+
+static void spheres_are_round_and_before_their_wall(void **state) {
+    (void)state;
+    rng r = rng_make("scene sphere");
+    tally t = {.name = "sphere"};
+    uint64_t round = 0, walls = 0, sky = 0;
+    for (uint64_t i = test_cases(2000, 40000, 400000); i > 0; i--) {
+        const texture_camera c = camera_of("fp32", "reversed", rng_below(&r, 2), 360, 360);
+        const double radius = rng_log(&r, 0.5, 3), wall = rng_below(&r, 2) ? rng_uniform(&r, 5, 12) : 0;
+        const double p[SCENE_PARAMETERS] = {radius + rng_uniform(&r, 0.2, 8), radius, wall};
+        const double column = rng_uniform(&r, 0, 359), row = rng_uniform(&r, 0, 359);
+        scene_hit h;
+        long double at[3], ray[3];
+        scene_find("sphere")->hit(&c, p, column, row, &h);
+        place(&c, column, row, 1, ray);
+        /* Is the sphere on the pixel's ray at all? */
+        const long double across = ray[0] * ray[0] + ray[1] * ray[1], d = p[0];
+        const long double miss = c.ortho ? sqrtl(across) : d * sqrtl(across / (1 + across));
+        place(&c, column, row, h.z, at);
+        if (h.surface == 1) {
+            const long double off = sqrtl(at[0] * at[0] + at[1] * at[1] + (at[2] - d) * (at[2] - d)) - radius;
+            round++;
+
+            TALLY(&t, fabsl(off) < 1e-14L * d && faces(&c, &h, at) && (wall == 0 || h.z <= wall),
+                  "%g %g %g at %g, %g: z %.17g is %Lg off", p[0], p[1], p[2], column, row, h.z, off);
+        } else if (h.surface == 2) {
+            walls++;
+            TALLY(&t, h.z == wall && h.normal[2] == -1 && (miss > radius * (1 - 1e-12L) || wall < d), "wall");
+        } else {
+            sky++;
+            TALLY(&t, isinf(h.z) && wall == 0 && miss > radius * (1 - 1e-12L), "sky");
+        }
+    }
+    assert_true(round > 100 && walls > 100 && sky > 100);
+    tally_end(&t);
+}
+
+/* Element i of n from lo to hi in equal ratios. */
+static long double ratio(double lo, double hi, int i, int n) {
+    return lo * powl((long double)hi / lo, (long double)i / (n - 1));
+}
+
+static void stairs_have_their_depths(void **state) {
+    (void)state;
+    const texture_camera c = camera_of("fp32", "reversed", false, 700, 20);
+    const double p[SCENE_PARAMETERS] = {0.7, 400, 7};
+    const scene_row *steps = scene_find("steps");
+    scene_hit h;
+    for (uint32_t x = 0; x < 700; x++) {
+        steps->hit(&c, p, x, 3, &h);
+        assert_int_equal(h.surface, 1 + x / 100);
+        assert_relative(h.z, (double)ratio(0.7, 400, (int)(x / 100), 7), 1e-15);
+        assert_true(h.normal[2] == -1);
+    }
+    steps->hit(&c, p, 0, 0, &h);
+    assert_true(h.z == 0.7);
+    steps->hit(&c, p, 699, 19, &h);
+    assert_true(h.z == 400);
+    double front, back;
+    for (size_t i = 0; i < 6; i++) {
+        assert_true(steps->pair(p, i, &front, &back));
+        assert_relative(front, (double)ratio(0.7, 400, (int)i, 7), 1e-15);
+        assert_relative(back, (double)ratio(0.7, 400, (int)i + 1, 7), 1e-15);
+    }
+    assert_false(steps->pair(p, 6, &front, &back));
+}
+
+static void decals_stand_before_their_tiles(void **state) {
+    (void)state;
+    const texture_camera c = camera_of("fp32", "reversed", false, 300, 240);
+    const double p[SCENE_PARAMETERS] = {0.125, 1, 300, 3};
+    const scene_row *decals = scene_find("decals");
+    uint64_t before = 0;
+    for (uint32_t y = 0; y < 240; y++)
+        for (uint32_t x = 0; x < 300; x++) {
+            scene_hit h;
+            const int tile = (int)(y / 80 * 3 + x / 100);
+            const bool decal = x % 100 >= 25 && x % 100 < 75 && y % 80 >= 20 && y % 80 < 60;
+            double front, back;
+            decals->hit(&c, p, x, y, &h);
+            assert_true(decals->pair(p, (size_t)tile, &front, &back));
+            assert_relative(back, (double)ratio(1, 300, tile, 9), 1e-15);
+            assert_true(front == back - 0.125);
+            assert_true(h.z == (decal ? front : back));
+            assert_int_equal(h.surface, 1 + 2 * tile + decal);
+            before += decal;
+        }
+    assert_int_equal(before, 9 * 50 * 40);
+    assert_false(decals->pair(p, 9, &(double){0}, &(double){0}));
+}
+
+static void nothing_is_drawn_outside_the_planes(void **state) {
+    (void)state;
+    const texture_camera c = camera_of("fp32", "reversed", false, 64, 64);
+    const scene_row *steps = scene_find("steps");
+    scene_hit h;
+    steps->hit(&c, (double[]){0.09, 1001, 2}, 0, 0, &h);
+    assert_true(isinf(h.z) && h.surface == 0);
+    steps->hit(&c, (double[]){0.09, 1001, 2}, 63, 0, &h);
+    assert_true(isinf(h.z));
+    /* A decal before the near plane leaves the wall. */
+    scene_find("decals")->hit(&c, (double[]){1, 1.05, 10, 2}, 16, 16, &h);
+    assert_true(h.z == 1.05 && h.surface == 1);
+    /* A sphere whose front is cut by the near plane is not drawn at all; the wall is. */
+    scene_find("sphere")->hit(&c, (double[]){3.05, 3, 20}, 31.5, 31.5, &h);
+    assert_true(h.z == 20);
+}
+
+static void what_is_stored_is_what_the_oracle_stores(void **state) {
+    (void)state;
+    static const char *const formats[] = {"unorm16", "unorm24", "fp16", "fp32"};
+    static const char *const mappings[] = {"d3d", "gl", "reversed", "linear", "log"};
+    tally t = {.name = "codes"};
+    rng r = rng_make("scene codes");
+    for (size_t f = 0; f < 4; f++)
+        for (size_t m = 0; m < 5; m++)
+            for (size_t s = 0; scene_get(s) != NULL; s++) {
+                const texture_camera c = camera_of(formats[f], mappings[m], false, 1100, 40);
+                double p[SCENE_PARAMETERS];
+                uint32_t codes[1100];
+                oracle o;
+                oracle_init(&o, &c.setup.spec);
+                scene_defaults(scene_get(s), p);
+                if (s == 0)
+                    p[1] = 70;
+                for (int k = 0; k < 3; k++) {
+                    const uint32_t row = (uint32_t)rng_below(&r, 40);
+                    scene_codes(scene_get(s), &c, p, row, codes);
+                    for (uint32_t x = 0; x < 1100; x += 1 + (uint32_t)rng_below(&r, m == 4 ? 200 : 20)) {
+                        scene_hit h;
+                        scene_get(s)->hit(&c, p, x, row, &h);
+                        const uint32_t want = oracle_code(&o, isinf(h.z) ? 1000 : h.z);
+                        TALLY(&t, codes[x] == want, "%s %s %s at %u, %u: z %.17g is %u, not %u", scene_get(s)->name,
+                              formats[f], mappings[m], x, row, h.z, codes[x], want);
+                    }
+                }
+                oracle_clear(&o);
+            }
+    tally_end(&t);
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(every_row_is_whole),
+        cmocka_unit_test(planes_lie_in_their_plane),
+        cmocka_unit_test(spheres_are_round_and_before_their_wall),
+        cmocka_unit_test(stairs_have_their_depths),
+        cmocka_unit_test(decals_stand_before_their_tiles),
+        cmocka_unit_test(nothing_is_drawn_outside_the_planes),
+        cmocka_unit_test(what_is_stored_is_what_the_oracle_stores),
+    };
+    return run_tap(tests);
+}
