@@ -164,7 +164,7 @@ RUN(5)
 /* The angle that errors of depth can make next to each other, `off` of the depth itself, pixels `step` apart. */
 static double angle_of(double step, double off) {
     const double y = tan(PI / 6), x = y * WIDTH / HEIGHT, apart = 2 * step * y / HEIGHT;
-    const double most = 2 * (hypot(1, x) + hypot(1, y)) / apart * sqrt(1 + x * x + y * y) * off;
+    const double most = 1.01 * (2 * (hypot(1, x) + hypot(1, y)) / apart + 1) * sqrt(1 + x * x + y * y) * off;
     return most < 1 ? asin(most) + 1e-6 : PI;
 }
 
