@@ -197,9 +197,11 @@ double decode_exact(const dp_setup *setup, decode_quantity quantity, double d) {
     if (infinite && quantity != DECODE_EYE)
         return 0;
     if (setup->curve == DP_CURVE_LOG) {
-        const double c = setup->spec.log_c;
+        const double c = setup->spec.log_c, z = exact_power(setup, d) / c;
         if (quantity != DECODE_01_NEAR)
-            return exact_power(setup, d) / c / (quantity == DECODE_01 ? f : 1);
+            return quantity == DECODE_EYE ? z : z / f;
+        if (z > 4 * n) /* far enough for a plain difference */
+            return (z - n) / (f - n);
         const dp_pair top = {setup->log_hi, setup->log_lo};
         return (n + 1 / c) * expm1(dp_scaled_difference(d, 1, top, dp_log1p_product(c, n))) / (f - n);
     }

@@ -1,0 +1,336 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Decoding rows: the exact values against rationals and MPFR, the binary32 rows against their bounds, and the sky. */
+#include <float.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "oracle.h"
+#include "support.h"
+#include "texture/decode.h"
+
+/* Every curve and direction, both projections, finite and infinite far planes. */
+static dp_spec random_spec(rng *r) {
+    dp_spec spec = dp_spec_default();
+    spec.mapping = (dp_mapping)rng_below(r, DP_MAPPING_COUNT);
+    const dp_mapping_row *row = dp_mapping_get(spec.mapping);
+    spec.ortho = row->ortho && rng_below(r, 3) == 0;
+    spec.znear = rng_log(r, 1e-12, 1e5);
+    spec.zfar = spec.znear * (1 + rng_log(r, 1e-4, 1e12));
+    if (row->far_infinite && !spec.ortho && rng_below(r, 6) == 0)
+        spec.zfar = INFINITY;
+    spec.log_c = rng_log(r, 1e-3, 1e3) / spec.znear;
+    if (spec.log_c > 1e12)
+        spec.log_c = 1e12;
+    return spec;
+}
+
+static double random_window(rng *r) {
+    const double away = rng_log(r, 1e-12, 1);
+    switch (rng_below(r, 6)) {
+    case 0:
+        return rng_unit(r);
+    case 1:
+        return 0;
+    case 2:
+        return 1;
+    case 3:
+        return away;
+    default:
+        return 1 - away;
+    }
+}
+
+/* z(d) of the mappings that are rational, from 1/z = q/n + d/f and its like, and the two shares. */
+static void rational(const dp_spec *s, double d, decode_quantity quantity, mpq_t out) {
+    mpq_t n, f, t, q, x;
+    mpq_inits(n, f, t, q, x, NULL);
+    mpq_set_d(n, s->znear);
+    mpq_set_d(t, d);
+    if (dp_mapping_get(s->mapping)->reversed) { /* t: share of the way to the far plane */
+        mpq_set_ui(x, 1, 1);
+        mpq_sub(t, x, t);
+    }
+    mpq_set_ui(x, 1, 1);
+    mpq_sub(q, x, t);
+    if (isinf(s->zfar)) {
+        mpq_div(out, n, q);
+    } else {
+        mpq_set_d(f, s->zfar);
+        if (s->mapping == DP_MAPPING_LINEAR) {
+            mpq_mul(out, f, t);
+        } else if (s->ortho) {
+            mpq_mul(out, n, q);
+            mpq_mul(x, f, t);
+            mpq_add(out, out, x);
+        } else {
+            mpq_mul(out, f, q);
+            mpq_mul(x, n, t);
+            mpq_add(out, out, x);
+            mpq_mul(x, n, f);
+            mpq_div(out, x, out);
+        }
+        if (quantity == DECODE_01) {
+            mpq_div(out, out, f);
+        } else if (quantity == DECODE_01_NEAR) {
+            mpq_sub(out, out, n);
+            mpq_sub(x, f, n);
+            mpq_div(out, out, x);
+        }
+    }
+    mpq_clears(n, f, t, q, x, NULL);
+}
+
+/* The logarithmic one: ((C f + 1)^d - 1)/C with 300 bits. */
+static void logarithmic(const dp_spec *s, double d, decode_quantity quantity, mpq_t out) {
+    mpfr_t a, b;
+    mpfr_inits2(300, a, b, (mpfr_ptr)NULL);
+    mpfr_set_d(a, s->log_c, MPFR_RNDN);
+    mpfr_mul_d(a, a, s->zfar, MPFR_RNDN);
+    mpfr_log1p(a, a, MPFR_RNDN);
+    mpfr_mul_d(a, a, d, MPFR_RNDN);
+    mpfr_expm1(a, a, MPFR_RNDN);
+    mpfr_div_d(a, a, s->log_c, MPFR_RNDN);
+    if (quantity == DECODE_01)
+        mpfr_div_d(a, a, s->zfar, MPFR_RNDN);
+    if (quantity == DECODE_01_NEAR) {
+        mpfr_sub_d(a, a, s->znear, MPFR_RNDN);
+        mpfr_set_d(b, s->zfar, MPFR_RNDN);
+        mpfr_sub_d(b, b, s->znear, MPFR_RNDN);
+        mpfr_div(a, a, b, MPFR_RNDN);
+    }
+    mpfr_get_q(out, a);
+    mpfr_clears(a, b, (mpfr_ptr)NULL);
+}
+
+static void exact_is_exact(void **state) {
+    (void)state;
+    rng r = rng_make("exact");
+    tally t = {.name = "exact"};
+    mpq_t want;
+    mpq_init(want);
+    double worst = 0;
+    for (uint64_t k = test_cases(2000, 20000, 300000); k > 0; k--) {
+        const dp_spec spec = random_spec(&r);
+        const double d = random_window(&r);
+        const decode_quantity quantity = (decode_quantity)rng_below(&r, DECODE_QUANTITIES);
+        char text[512];
+        dp_setup setup;
+        assert_int_equal(dp_setup_init(&setup, &spec), DP_OK);
+        const double got = decode_exact(&setup, quantity, d);
+        if (isinf(spec.zfar)) {
+            const double q = setup.reversed ? d : 1 - d;
+            if (quantity != DECODE_EYE || q == 0) {
+                TALLY(&t, got == (quantity != DECODE_EYE ? 0 : INFINITY), "an infinite far plane");
+                continue;
+            }
+        }
+        if (setup.curve == DP_CURVE_LOG)
+            logarithmic(&spec, d, quantity, want);
+        else
+            rational(&spec, d, quantity, want);
+        const double off = oracle_relative(got, want);
+        worst = fmax(worst, off);
+        TALLY(&t, off <= 0x1p-50, "%s, d %.17g, quantity %d: %.17g is off by %.3g",
+              oracle_describe(&spec, text, sizeof text), d, (int)quantity, got, off);
+    }
+    mpq_clear(want);
+    print_message("# worst relative error %.3g\n", worst);
+    tally_end(&t);
+}
+
+/* No row's error is above its bound; each row comes within a quarter of it somewhere in each direction. */
+static void rows_keep_their_bounds(void **state) {
+    (void)state;
+    enum { ROWS = 16, PIXELS = 64 };
+    rng r = rng_make("rows");
+    tally t = {.name = "bounds"};
+    double most[ROWS][2] = {{0}};
+    size_t rows = 0;
+    for (uint64_t k = test_cases(2000, 20000, 200000); k > 0; k--) {
+        const dp_spec spec = random_spec(&r);
+        dp_setup setup;
+        float d[PIXELS], out[PIXELS];
+        char text[512];
+        assert_int_equal(dp_setup_init(&setup, &spec), DP_OK);
+        for (int i = 0; i < PIXELS; i++)
+            d[i] = (float)random_window(&r);
+        for (rows = 0; decode_get(rows) != NULL; rows++) {
+            const decode_row *row = decode_get(rows);
+            if (!decode_applies(row, &setup))
+                continue;
+            row->run(&setup, d, out, PIXELS);
+            for (int i = 0; i < PIXELS; i++) {
+                const double want = decode_exact(&setup, row->quantity, (double)d[i]), got = (double)out[i];
+                if (fabs(want) > (double)FLT_MAX * 0.99 || fabs(want) < 1e-30) {
+                    TALLY(&t, want != 0 || got == 0, "%s: nothing becomes %g", row->name, got);
+                    TALLY(&t, !isinf(want) || isinf(got), "%s: infinity becomes %g", row->name, got);
+                    continue;
+                }
+                const double bound = decode_bound(row, &setup, (double)d[i]), off = fabs(got - want) / want;
+                TALLY(&t, off <= bound, "%s, %s, d %.9g: %g above the bound %g", row->name,
+                      oracle_describe(&spec, text, sizeof text), (double)d[i], off, bound);
+                if (bound > 0 && bound < 0.1)
+                    most[rows][setup.reversed] = fmax(most[rows][setup.reversed], off / bound);
+            }
+        }
+    }
+    assert_true(rows <= ROWS);
+    for (size_t i = 0; i < rows; i++)
+        for (int k = 0; k < 2; k++)
+            if (k == 0 || decode_get(i)->perspective || decode_get(i)->ortho)
+                TALLY(&t, most[i][k] > 0.25, "%s, direction %d: the bound is %g times the error", decode_get(i)->name,
+                      k, 1 / most[i][k]);
+    tally_end(&t);
+}
+
+/* A cancelling sum has no digit left: the bound says so, and the complement keeps its own. */
+static void the_complement_cancels_nothing(void **state) {
+    (void)state;
+    dp_spec spec = dp_spec_default();
+    dp_setup setup;
+    spec.zfar = 1e8;
+    assert_int_equal(dp_setup_init(&setup, &spec), DP_OK);
+    assert_true(isinf(decode_bound(decode_find("linear-eye"), &setup, 1)));
+    assert_true(decode_bound(decode_find("complement"), &setup, 1) < 6 * 0x1p-24);
+    spec.zfar = 1000;
+    assert_int_equal(dp_setup_init(&setup, &spec), DP_OK);
+    const double lost = decode_bound(decode_find("linear-eye"), &setup, 1);
+    assert_true(lost > 1.7e-3 && lost < 1.9e-3); /* 3 units far/near */
+}
+
+/* _ZBufferParams of near 0.1 and far 1000, by hand. */
+static void parameters_are_those_of_engines(void **state) {
+    (void)state;
+    dp_spec spec = dp_spec_default();
+    dp_setup setup;
+    spec.znear = 0.5;
+    spec.zfar = 64;
+    assert_int_equal(dp_setup_init(&setup, &spec), DP_OK);
+    zbuffer_params p = zbuffer_params_of(&setup);
+    assert_true(p.x == -127 && p.y == 128 && p.z == -127.0f / 64 && p.w == 2);
+    spec.mapping = DP_MAPPING_REVERSED;
+    assert_int_equal(dp_setup_init(&setup, &spec), DP_OK);
+    p = zbuffer_params_of(&setup);
+    assert_true(p.x == 127 && p.y == 1 && p.z == 127.0f / 64 && p.w == 1.0f / 64);
+    spec.zfar = INFINITY;
+    assert_int_equal(dp_setup_init(&setup, &spec), DP_OK);
+    p = zbuffer_params_of(&setup);
+    assert_true(isinf(p.x) && p.z == 2 && p.w == 0);
+}
+
+/* Which row applies where is data: for each set-up exactly one usual row, and the best one always. */
+static void rows_apply_where_they_say(void **state) {
+    (void)state;
+    rng r = rng_make("applies");
+    for (size_t i = 0; decode_get(i) != NULL; i++)
+        assert_ptr_equal(decode_find(decode_get(i)->name), decode_get(i));
+    assert_null(decode_find("linear"));
+    for (int k = 0; k < 1000; k++) {
+        const dp_spec spec = random_spec(&r);
+        dp_setup setup;
+        assert_int_equal(dp_setup_init(&setup, &spec), DP_OK);
+        const char *want = spec.ortho                          ? "ortho-eye"
+                           : setup.curve == DP_CURVE_LOG       ? "log-eye"
+                           : spec.mapping == DP_MAPPING_LINEAR ? "w-eye"
+                                                               : "linear-eye";
+        assert_string_equal(decode_usual(&setup)->name, want);
+        assert_true(decode_applies(decode_best(), &setup));
+        assert_int_equal(decode_applies(decode_find("linear-01"), &setup),
+                         strcmp(want, "linear-eye") == 0 && !isinf(spec.zfar));
+    }
+}
+
+/* Any length and place, and in place: the same bits as one by one. */
+static void loops_have_no_edges(void **state) {
+    (void)state;
+    enum { MOST = 100 };
+    float d[MOST], one[MOST], all[MOST];
+    dp_spec spec = dp_spec_default();
+    for (int i = 0; i < MOST; i++)
+        d[i] = i == 7 ? (float)NAN : (float)i / (MOST - 1);
+    for (int mapping = 0; mapping < DP_MAPPING_COUNT; mapping++)
+        for (int ortho = 0; ortho < 2; ortho++) {
+            dp_setup setup;
+            spec.mapping = (dp_mapping)mapping;
+            spec.ortho = ortho;
+            if (dp_setup_init(&setup, &spec) != DP_OK)
+                continue;
+            for (size_t k = 0; decode_get(k) != NULL; k++) {
+                if (!decode_applies(decode_get(k), &setup))
+                    continue;
+                for (int i = 0; i < MOST; i++)
+                    decode_get(k)->run(&setup, &d[i], &one[i], 1);
+                assert_true(isnan(one[7]));
+                for (size_t count = 0; count <= MOST; count++) {
+                    memcpy(all, d, sizeof d);
+                    decode_get(k)->run(&setup, all, all, count);
+                    assert_memory_equal(all, one, count * sizeof *all);
+                    assert_memory_equal(all + count, d + count, (MOST - count) * sizeof *all);
+                }
+            }
+        }
+}
+
+static void sky_is_masked_and_counted(void **state) {
+    (void)state;
+    enum { COUNT = 3000001 };
+    float *d = malloc(COUNT * sizeof *d);
+    assert_non_null(d);
+    for (int mapping = 0; mapping < DP_MAPPING_COUNT; mapping++) {
+        dp_spec spec = dp_spec_default();
+        dp_setup setup;
+        spec.mapping = (dp_mapping)mapping;
+        assert_int_equal(dp_setup_init(&setup, &spec), DP_OK);
+        size_t want = 0;
+        for (size_t i = 0; i < COUNT; i++) {
+            d[i] = (float)((double)i / (COUNT - 1));
+            const double away = setup.reversed ? (double)d[i] : 1 - (double)d[i];
+            if (i % 1000 == 3)
+                d[i] = (float)NAN;
+            else
+                want += away <= (double)1e-4f;
+        }
+        assert_int_equal(recon_mask_sky(&setup, 1e-4, d, COUNT), want);
+        size_t gone = 0;
+        for (size_t i = 0; i < COUNT; i++)
+            gone += isnan(d[i]) && i % 1000 != 3;
+        assert_int_equal(gone, want);
+        assert_int_equal(recon_mask_sky(&setup, 1e-4, d, COUNT), 0);
+        d[0] = setup.reversed ? 0 : 1;
+        assert_int_equal(recon_mask_sky(&setup, 0, d, COUNT), 1);
+    }
+    free(d);
+}
+
+/* The threshold hides half of the view from 0.1 to 1000, whichever way depth runs; little of an orthographic one. */
+static void the_sky_begins_too_near(void **state) {
+    (void)state;
+    dp_spec spec = dp_spec_default();
+    dp_setup setup;
+    assert_int_equal(dp_setup_init(&setup, &spec), DP_OK);
+    assert_relative(recon_sky_from(&setup, 1e-4), 500.0250, 1e-6);
+    spec.mapping = DP_MAPPING_REVERSED;
+    assert_int_equal(dp_setup_init(&setup, &spec), DP_OK);
+    assert_relative(recon_sky_from(&setup, 1e-4), 500.0250, 1e-6);
+    spec.ortho = 1;
+    assert_int_equal(dp_setup_init(&setup, &spec), DP_OK);
+    assert_relative(recon_sky_from(&setup, 1e-4), 999.90001, 1e-8);
+    spec.ortho = 0;
+    spec.zfar = INFINITY;
+    assert_int_equal(dp_setup_init(&setup, &spec), DP_OK);
+    assert_relative(recon_sky_from(&setup, 1e-4), 1000, 1e-7);
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(exact_is_exact),
+        cmocka_unit_test(rows_keep_their_bounds),
+        cmocka_unit_test(the_complement_cancels_nothing),
+        cmocka_unit_test(parameters_are_those_of_engines),
+        cmocka_unit_test(rows_apply_where_they_say),
+        cmocka_unit_test(loops_have_no_edges),
+        cmocka_unit_test(sky_is_masked_and_counted),
+        cmocka_unit_test(the_sky_begins_too_near),
+    };
+    return run_tap(tests);
+}
