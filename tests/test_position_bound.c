@@ -1,0 +1,129 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/*
+ * Places from depth, over random cameras, pixels and depths: no row is farther off than its bound, from a camera at the
+ * world's origin or 10^8 near distances away, and bounds are not idle. The exact place is formed here, in long double.
+ */
+#include <string.h>
+
+#include "support.h"
+#include "texture/position.h"
+
+static const dp_mapping mappings[] = {DP_MAPPING_D3D,         DP_MAPPING_GL,     DP_MAPPING_REVERSED,
+                                      DP_MAPPING_GL_REVERSED, DP_MAPPING_LINEAR, DP_MAPPING_LOG};
+
+typedef struct view {
+    texture_camera camera;
+    camera_spec spec;
+} view;
+
+static bool make(rng *r, view *out) {
+    dp_spec spec = dp_spec_default();
+    dp_setup setup;
+    spec.mapping = mappings[rng_below(r, 6)];
+    spec.znear = rng_log(r, 1e-3, 100);
+    spec.zfar = rng_below(r, 7) == 0 ? INFINITY : spec.znear * rng_log(r, 3, 1e7);
+    spec.ortho = rng_below(r, 5) == 0;
+    if (dp_setup_init(&setup, &spec) != DP_OK)
+        return false;
+    out->spec = camera_spec_default();
+    out->spec.width = 1 + (uint32_t)rng_below(r, 4000);
+    out->spec.height = 1 + (uint32_t)rng_below(r, 3000);
+    out->spec.fov_y = rng_uniform(r, 1, 150);
+    out->spec.half_height = rng_log(r, 0.1, 1e4) * spec.znear;
+    out->spec.yaw = rng_below(r, 8) == 0 ? 0 : rng_uniform(r, -180, 180);
+    out->spec.pitch = rng_below(r, 8) == 0 ? 0 : rng_uniform(r, -90, 90);
+    const bool moved = rng_below(r, 3) > 0;
+    for (int k = 0; k < 3 && moved; k++)
+        out->spec.origin[k] = spec.znear * rng_log(r, 0.1, 1e8) * (rng_below(r, 2) == 0 ? 1 : -1);
+    assert_null(camera_init(&out->camera, &setup, &out->spec));
+    return true;
+}
+
+static long double eye_of(const dp_spec *s, float d) {
+    const long double n = (long double)s->znear, f = (long double)s->zfar, t = (long double)d;
+    const bool reversed = s->mapping == DP_MAPPING_REVERSED || s->mapping == DP_MAPPING_GL_REVERSED;
+    const long double toward_far = reversed ? 1 - t : t;
+    if (s->mapping == DP_MAPPING_LINEAR && !s->ortho)
+        return f * t;
+    if (s->mapping == DP_MAPPING_LOG)
+        return expm1l(t * log1pl((long double)s->log_c * f)) / (long double)s->log_c;
+    if (s->ortho)
+        return n + (f - n) * toward_far;
+    return 1 / ((1 - toward_far) / n + (isinf(s->zfar) ? 0 : toward_far / f));
+}
+
+/* The distance of a place from where it should be. */
+static double off_by(const view *v, uint32_t column, uint32_t row, float d, const float place[3]) {
+    const long double degree = 3.14159265358979323846264L / 180, yaw = (long double)v->spec.yaw * degree,
+                      pitch = (long double)v->spec.pitch * degree;
+    const dp_spec *s = &v->camera.setup.spec;
+    const long double hy = s->ortho ? (long double)v->spec.half_height : tanl((long double)v->spec.fov_y * degree / 2);
+    const long double hx = hy * v->spec.width / v->spec.height, z = eye_of(s, d), scale = s->ortho ? 1 : z;
+    const long double x = (2 * (column + 0.5L) / v->spec.width - 1) * hx * scale;
+    const long double y = (1 - 2 * (row + 0.5L) / v->spec.height) * hy * scale;
+    const long double right[3] = {cosl(yaw), 0, -sinl(yaw)};
+    const long double up[3] = {-sinl(yaw) * sinl(pitch), cosl(pitch), -cosl(yaw) * sinl(pitch)};
+    const long double ahead[3] = {sinl(yaw) * cosl(pitch), sinl(pitch), cosl(yaw) * cosl(pitch)};
+    long double sum = 0;
+    for (int k = 0; k < 3; k++) {
+        const long double off =
+            ((long double)place[k] - (long double)v->spec.origin[k]) - (x * right[k] + y * up[k] + z * ahead[k]);
+        sum += off * off;
+    }
+    return isnan((double)sum) ? INFINITY : (double)sqrtl(sum);
+}
+
+static float depth_of(rng *r, const dp_setup *setup, uint64_t kind) {
+    const double n = setup->spec.znear, f = isinf(setup->spec.zfar) ? n * 1e6 : setup->spec.zfar;
+    if (kind < 2 && !isinf(setup->spec.zfar))
+        return (float)kind;
+    return kind % 4 == 0 ? (float)rng_unit(r) : (float)dp_window(setup, rng_log(r, n, f));
+}
+
+static void bounds_hold_and_are_not_idle(void **state) {
+    (void)state;
+    rng r = rng_make("position bound");
+    for (size_t i = 0; position_get(i) != NULL; i++) {
+        const position_row *row = position_get(i);
+        tally t = {.name = row->name};
+        double most = 0;
+        uint64_t near_bound = 0, promised = 0;
+        for (uint64_t k = test_cases(400, 8000, 400000); k > 0; k--) {
+            view v;
+            position_state s;
+            if (!make(&r, &v) || !position_applies(row, &v.camera))
+                continue;
+            position_prepare(&s, &v.camera);
+            for (uint64_t q = 0; q < 8; q++) {
+                const uint32_t column = (uint32_t)rng_below(&r, v.spec.width),
+                               line = (uint32_t)rng_below(&r, v.spec.height);
+                const float d = depth_of(&r, &v.camera.setup, q);
+                float place[3];
+                row->run(&s, line, column, &d, 1, &place[0], &place[1], &place[2]);
+                const double off = off_by(&v, column, line, d, place);
+                const double bound = position_bound(row, &v.camera, column, line, d);
+                const dp_spec *c = &v.camera.setup.spec;
+                TALLY(&t, off <= bound, "mapping %d, ortho %d, near %g, far %g, pixel %u %u, d %.9g: %g above %g",
+                      (int)c->mapping, (int)c->ortho, c->znear, c->zfar, column, line, (double)d, off, bound);
+                if (isinf(bound))
+                    continue;
+                promised++;
+                near_bound += off >= bound / 32;
+                most = fmax(most, off / bound);
+            }
+        }
+        TALLY(&t, most >= 0.25, "the worst takes %g of its bound", most);
+        TALLY(&t, near_bound >= promised / 2, "%llu of %llu within a factor of 32 of the bound",
+              (unsigned long long)near_bound, (unsigned long long)promised);
+        tally_end(&t);
+        print_message("# %s: %llu places, at most %.2g of the bound, %.3g %% within a factor of 32\n", row->name,
+                      (unsigned long long)promised, most, 100.0 * (double)near_bound / (double)promised);
+    }
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(bounds_hold_and_are_not_idle),
+    };
+    return run_tap(tests);
+}
