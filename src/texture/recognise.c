@@ -321,7 +321,7 @@ void recognise(const image *img, recognised *out) {
                         .samples = (size_t)img->width * img->height,
                         .lo = (double)INFINITY,
                         .hi = -(double)INFINITY};
-    distinct_init(&s.seen);
+    distinct_init(&s.seen, out->samples);
     if (!f.none)
         count_all(img, &f, &s, out);
     else

@@ -25,7 +25,8 @@ enum { RECOGNISE_LEAST = 16, RECOGNISE_BITS = 64, RECOGNISE_DISTINCT_MAX = 1 << 
 /** What was found. */
 typedef struct recognised {
     bool depth;              /**< finite samples, all in [0, 1] or codes of a format: it can be window depth */
-    dp_format format;        /**< the coarsest of the named formats whose lattice holds every sample */
+    dp_format format;        /**< the coarsest of the named formats whose lattice holds every sample; without depth
+                                  it says nothing */
     bool certain;            /**< enough different samples to tell that lattice from the next finer one */
     int reversed;            /**< 1 reversed, 0 not, -1 cannot tell */
     size_t samples, invalid; /**< invalid: NaN, infinite or outside [0, 1] */

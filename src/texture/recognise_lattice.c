@@ -8,7 +8,7 @@
 #include "texture/clones.h"
 #include "texture/recognise.h"
 
-enum { SLOTS = 2 * RECOGNISE_DISTINCT_MAX, BLOCK = 4096 };
+enum { BLOCK = 4096 };
 
 static const double unorm16_max = 65535, unorm24_max = 16777215;
 
@@ -113,10 +113,13 @@ double lattice_chance(lattice which, bool single, double d) {
 
 /* ---- Different numbers --------------------------------------------------------------------------------------------*/
 
-void distinct_init(distinct_set *set) {
-    *set = (distinct_set){.slots = malloc(SLOTS * sizeof(uint64_t))};
+void distinct_init(distinct_set *set, size_t most) {
+    size_t size = 64;
+    while (size < 2 * most && size < 2 * RECOGNISE_DISTINCT_MAX)
+        size *= 2;
+    *set = (distinct_set){.slots = malloc(size * sizeof(uint64_t)), .size = size};
     if (set->slots != NULL)
-        memset(set->slots, 0xFF, SLOTS * sizeof(uint64_t)); /* a NaN */
+        memset(set->slots, 0xFF, size * sizeof(uint64_t)); /* a NaN */
 }
 
 void distinct_free(distinct_set *set) {
@@ -128,8 +131,8 @@ bool distinct_add(distinct_set *set, double d) {
     if (set->slots == NULL || set->count >= RECOGNISE_DISTINCT_MAX)
         return false;
     const uint64_t bits = (uint64_t)bits_of_double(d);
-    uint64_t slot = (bits * UINT64_C(0x9E3779B97F4A7C15)) >> 40 & (SLOTS - 1);
-    for (; set->slots[slot] != UINT64_MAX; slot = (slot + 1) & (SLOTS - 1))
+    uint64_t slot = (bits * UINT64_C(0x9E3779B97F4A7C15)) >> 40 & (set->size - 1);
+    for (; set->slots[slot] != UINT64_MAX; slot = (slot + 1) & (set->size - 1))
         if (set->slots[slot] == bits)
             return false;
     set->slots[slot] = bits;

@@ -34,10 +34,12 @@ double lattice_chance(lattice which, bool single, double d);
 /** Different numbers. */
 typedef struct distinct_set {
     uint64_t *slots; /**< null when there was no memory: nothing is counted */
+    size_t size;     /**< how many slots: a power of two */
     size_t count;    /**< at most RECOGNISE_DISTINCT_MAX */
 } distinct_set;
 
-void distinct_init(distinct_set *set);
+/** For at most `most` numbers. */
+void distinct_init(distinct_set *set, size_t most);
 void distinct_free(distinct_set *set);
 /** @return whether d, not a NaN, is new, and was counted */
 bool distinct_add(distinct_set *set, double d);

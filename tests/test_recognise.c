@@ -1,0 +1,465 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Depth images: which lattice their samples are on, and what window depths and codes they hold. */
+#include <stdbool.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include <gmp.h>
+
+#include "oracle.h"
+#include "support.h"
+#include "texture/recognise.h"
+
+enum { SIDE = 64, SAMPLES = SIDE * SIDE };
+
+/* A square image, in one channel. */
+typedef struct square {
+    image img;
+    union {
+        uint8_t u8[SAMPLES];
+        uint16_t u16[SAMPLES];
+        uint32_t u32[SAMPLES];
+        float f32[SAMPLES];
+        double f64[SAMPLES];
+    } data;
+} square;
+
+static square *square_of(image_type type) {
+    square *s = calloc(1, sizeof *s);
+    assert_non_null(s);
+    s->img = (image){SIDE, SIDE, 1, type, IMAGE_NPY, &s->data};
+    return s;
+}
+
+static dp_format format_of(const char *name) {
+    dp_format f[2];
+    assert_int_equal(dp_format_parse(name, f), 1);
+    return f[0];
+}
+
+/* What a code stands for, by the definition alone. */
+static double value_of(const dp_format *format, uint32_t code) {
+    mpq_t q;
+    mpq_init(q);
+    oracle_value(q, format, code);
+    const double value = oracle_double(q);
+    mpq_clear(q);
+    return value;
+}
+
+static float next_float(float x, int steps) {
+    uint32_t bits;
+    memcpy(&bits, &x, sizeof bits);
+    bits += (uint32_t)steps;
+    memcpy(&x, &bits, sizeof bits);
+    return x;
+}
+
+/* ---- Lattices -----------------------------------------------------------------------------------------------------*/
+
+static void expect(const square *s, const char *format, bool certain, int reversed) {
+    recognised r;
+    recognise(&s->img, &r);
+    if (!r.depth || strcmp(r.format.name, format) != 0 || r.certain != certain || r.reversed != reversed)
+        fail_msg("wanted %s, certain %d, reversed %d; got depth %d %s, certain %d, reversed %d: %s", format, certain,
+                 reversed, r.depth, r.format.name, r.certain, r.reversed, r.why);
+    assert_int_equal(r.samples, SAMPLES);
+    assert_int_equal(r.invalid, 0);
+}
+
+static const char *const names[] = {"fp16", "unorm16", "unorm24", "fp32"};
+
+/* Codes of the format at the bottom of the range (reversed) or at the top, with the sky's code at the end. */
+static uint32_t code_at(rng *r, const dp_format *f, bool reversed, bool sky) {
+    if (sky)
+        return reversed ? 0 : f->code_max;
+    const double d = rng_uniform(r, 0.001, 0.2);
+    return dp_format_encode(f, DP_ROUND_NEAREST, reversed ? d : 1 - d);
+}
+
+static void float_lattices(void **state) {
+    (void)state;
+    rng r = rng_make("float lattices");
+    for (int wide = 0; wide < 2; wide++)
+        for (size_t k = 0; k < 4; k++)
+            for (int reversed = 0; reversed < 2; reversed++)
+                for (int off = -1; off <= 1; off++) {
+                    const dp_format f = format_of(names[k]);
+                    square *s = square_of(wide ? IMAGE_F64 : IMAGE_F32);
+                    for (int i = 0; i < SAMPLES; i++) {
+                        const double value = value_of(&f, code_at(&r, &f, reversed != 0, i % 4 == 0));
+                        const bool neighbour = k != 0 && i % 4 == 1; /* a driver's product with the reciprocal */
+                        const float narrow = next_float((float)value, neighbour ? off : 0);
+                        if (wide && (k == 1 || k == 2)) /* of quotients rounded to double */
+                            s->data.f64[i] = value;
+                        else if (wide)
+                            s->data.f64[i] = (double)narrow;
+                        else
+                            s->data.f32[i] = narrow;
+                    }
+                    /* All of [1/4, 1] is within 1 ulp of unorm24 in binary32. */
+                    const bool blurred = !wide && !reversed && k >= 2;
+                    const char *name = blurred || (wide && !reversed && k == 3) ? "unorm24" : names[k];
+                    expect(s, name, !blurred && strcmp(name, names[k]) == 0, reversed);
+                    free(s);
+                }
+}
+
+/* One sample off, and the next finer lattice that holds it is named. */
+static void one_off(void **state) {
+    (void)state;
+    rng r = rng_make("one off");
+    static const struct {
+        const char *from;
+        float sample;
+        const char *to;
+    } rows[] = {
+        {"fp16", 0x1.002p-3F, "unorm24"}, /* all multiples of 2^-24 are within 1 ulp of a code of unorm24 */
+        {"fp16", 0x1.00001p-7F, "fp32"},   {"fp16", 0x1.8p-24F, "fp32"}, /* between subnormals */
+        {"unorm16", 0.1F, "fp32"},          {"unorm16", 0x1.000002p-10F, "fp32"},
+        {"unorm24", 0x1.00001p-6F, "fp32"}, /* a quarter of a code off */
+    };
+    for (size_t k = 0; k < sizeof rows / sizeof rows[0]; k++) {
+        const dp_format f = format_of(rows[k].from);
+        square *s = square_of(IMAGE_F32);
+        for (int i = 0; i < SAMPLES; i++)
+            s->data.f32[i] = (float)value_of(&f, code_at(&r, &f, true, i % 4 == 0));
+        expect(s, rows[k].from, true, 1);
+        const int at = (int)rng_below(&r, SAMPLES);
+        s->data.f32[at] = rows[k].sample;
+        expect(s, rows[k].to, true, 1);
+        recognised found;
+        recognise(&s->img, &found);
+        if (strcmp(rows[k].to, "fp32") == 0 &&
+            (strstr(found.why, "1 of 4096 samples are off the lattice of ") == NULL ||
+             strstr(found.why, rows[k].from) == NULL))
+            fail_msg("row %zu: %s", k, found.why);
+        /* A code of unorm24 beside those of unorm16. */
+        if (strcmp(rows[k].from, "unorm16") == 0) {
+            const dp_format finer = format_of("unorm24");
+            s->data.f32[at] = (float)value_of(&finer, 100 * 257 + 128);
+            recognise(&s->img, &found);
+            assert_string_equal(found.format.name, "fp32"); /* unorm16's are not unorm24's */
+        }
+        free(s);
+    }
+}
+
+/* Two ulp beside a code is beside the lattice. */
+static void two_ulp(void **state) {
+    (void)state;
+    const dp_format f = format_of("unorm24");
+    for (int steps = -2; steps <= 2; steps++) {
+        square *s = square_of(IMAGE_F32);
+        for (uint32_t i = 0; i < SAMPLES; i++)
+            s->data.f32[i] = next_float((float)value_of(&f, 1000 + 7 * i), steps);
+        expect(s, steps == 2 || steps == -2 ? "fp32" : "unorm24", true, 1);
+        free(s);
+    }
+}
+
+/* Every code of every named lattice is recognised as one, whether divided or multiplied with the reciprocal. */
+static void all_codes(void **state) {
+    (void)state;
+    tally t = {.name = "all codes"};
+    square *s = square_of(IMAGE_F32);
+    for (size_t k = 0; k < 3; k++) {
+        const dp_format f = format_of(names[k]);
+        const uint32_t stride = k < 2 ? 1 : (uint32_t)test_cases(997, 61, 1);
+        const float reciprocal = 1.0F / (float)f.code_max;
+        for (int multiplied = 0; multiplied < (k == 0 ? 1 : 2); multiplied++)
+            for (uint32_t code = 0; code <= f.code_max;) {
+                for (int i = 0; i < SAMPLES; i++) {
+                    const uint32_t c = code <= f.code_max ? code : f.code_max;
+                    const float product = (float)c * reciprocal;
+                    s->data.f32[i] = !multiplied ? (float)((double)c / (double)f.code_max) : product < 1 ? product : 1;
+                    if (k == 0)
+                        s->data.f32[i] = (float)dp_format_value(&f, c);
+                    code += stride;
+                }
+                recognised found;
+                recognise(&s->img, &found);
+                size_t at = 0;
+                while (strcmp(names[at], found.format.name) != 0)
+                    at++;
+                TALLY(&t, found.depth && at <= k, "%s near %u%s: %s", names[k], code, multiplied ? " multiplied" : "",
+                      found.why);
+            }
+    }
+    free(s);
+    tally_end(&t);
+}
+
+/* The shares that the header gives for numbers of finer lattices, counted. */
+static void chances(void **state) {
+    (void)state;
+    const dp_format finer = format_of("unorm24");
+    square *s = square_of(IMAGE_F32);
+    rng r = rng_make("chances");
+    for (size_t k = 0; k < 3; k++)
+        for (int source = 0; source < 2; source++) {
+            uint64_t on = 0;
+            const uint64_t trials = test_cases(20, 100, 400);
+            if (k == 2 && source == 1)
+                continue;
+            for (uint64_t t = 0; t < trials; t++) {
+                for (int i = 0; i < SAMPLES; i++) {
+                    const float d = (float)rng_uniform(&r, 0.03125, 0.0625);
+                    s->data.f32[i] = source == 0 ? d : (float)value_of(&finer, (uint32_t)((double)d * 16777215.0));
+                }
+                /* One by one, as images of a single pixel. */
+                for (int i = 0; i < SAMPLES; i++) {
+                    image one = {1, 1, 1, IMAGE_F32, IMAGE_NPY, &s->data.f32[i]};
+                    recognised found;
+                    recognise(&one, &found);
+                    bool is = strcmp(found.format.name, names[k]) == 0;
+                    on += is;
+                }
+            }
+            const double n = (double)trials * SAMPLES, share = (double)on / n;
+            /* unorm24 at 1/32 to 1/16: ulp is 2^-28, a code every 16 ulp, and 3 of them are on it. */
+            const double claims[3] = {0x1p-10, 3.0 / 256, 3.0 / 16};
+            const double noise = 6 * sqrt(claims[k] / n);
+            if (share > claims[k] + noise)
+                fail_msg("%s: %g of the numbers, claimed %g", names[k], share, claims[k]);
+            if (k == 2 && share < claims[k] * 0.9)
+                fail_msg("%s: %g of the numbers, far below the claim of %g", names[k], share, claims[k]);
+        }
+    free(s);
+}
+
+static void too_few(void **state) {
+    (void)state;
+    const dp_format f = format_of("unorm24");
+    square *s = square_of(IMAGE_F32);
+    for (int different = 1; different <= 2 * RECOGNISE_LEAST; different++) {
+        for (int i = 0; i < SAMPLES; i++)
+            s->data.f32[i] = (float)value_of(&f, 4001 + (uint32_t)(i % different) * 13);
+        expect(s, "unorm24", different >= RECOGNISE_LEAST, 1);
+    }
+    for (int i = 0; i < SAMPLES; i++)
+        s->data.f32[i] = i % 2 ? 0 : 1;
+    expect(s, "fp16", false, -1);
+    free(s);
+}
+
+/* ---- Integers -----------------------------------------------------------------------------------------------------*/
+
+static void fill(square *s, uint32_t lo, uint32_t hi, uint32_t first) {
+    for (uint32_t i = 0; i < SAMPLES; i++) {
+        const uint32_t x = i == 0 ? first : lo + (uint32_t)((uint64_t)(hi - lo) * i / (SAMPLES - 1));
+        if (s->img.type == IMAGE_U8)
+            s->data.u8[i] = (uint8_t)x;
+        else if (s->img.type == IMAGE_U16 || s->img.type == IMAGE_F16)
+            s->data.u16[i] = (uint16_t)x;
+        else
+            s->data.u32[i] = x;
+    }
+}
+
+static void integers(void **state) {
+    (void)state;
+    static const struct {
+        image_type type;
+        uint32_t lo, hi, first;
+        const char *format; /* null: no depth */
+        bool certain;
+        int reversed;
+        const char *why; /* a part */
+    } rows[] = {
+        {IMAGE_U8, 200, 255, 255, "unorm16", false, 0, "shares of 255"},
+        {IMAGE_U16, 60000, 65535, 65535, "unorm16", true, 0, "codes of unorm16 up to 65535, fp16 has none above 15360"},
+        {IMAGE_U16, 0, 15361, 0, "unorm16", true, 1, "codes of unorm16 up to 15361"},
+        {IMAGE_U16, 0, 15360, 0, "unorm16", false, 1, "codes up to 15360, which is 1 in fp16, of unorm16 or of fp16"},
+        {IMAGE_U16, 0, 9000, 0, "unorm16", false, 1, "codes up to 9000, of unorm16 or of fp16"},
+        {IMAGE_U16, 0, 0, 65535, "unorm16", false, -1, "16 bits that repeat 8"},
+        {IMAGE_U32, 0, 9000, 0, "unorm16", false, 1, "codes up to 9000, of unorm16 or of unorm24"},
+        {IMAGE_U32, 60000, 65535, 65535, "unorm16", true, 0, "codes up to 65535, of unorm16;"},
+        {IMAGE_U32, 0, 65536, 0, "unorm24", true, 1, "codes of unorm24 up to 65536"},
+        {IMAGE_U32, 16000000, 0xFFFFFF, 0xFFFFFF, "unorm24", true, 0, "codes of unorm24 up to 16777215"},
+        {IMAGE_U32, 0x3A000000, 0x3E800000, 0, "fp32", true, 1, "bits of fp32"},
+        {IMAGE_U32, 0x3F400001, 0x3F800000, 0x3F800000, "fp32", true, 0, "bits of fp32"},
+        {IMAGE_U32, 0, 0x1000000, 0, NULL, false, -1, "whole numbers up to 16777216 are codes of no named format"},
+        {IMAGE_U32, 0x80000000, 0xFFFFFFFF, 0, NULL, false, -1, "bits of fp32 end at 1065353216"},
+        {IMAGE_U32, 0x01000001, 0x01FFFFFF, 0x01000000, NULL, false, -1, "take & 0xFFFFFF first"},
+        {IMAGE_U32, 0xFF000001, 0xFFFFFFFF, 0xFF000000, NULL, false, -1, "take & 0xFFFFFF first"},
+        {IMAGE_F16, 0x3B01, 0x3C00, 0x3C00, "fp16", true, 0, "numbers of fp16"},
+        {IMAGE_F16, 0, 0x3300, 0x8000, "fp16", true, 1, "sky at 0"},
+        {IMAGE_F16, 0, 0x3C01, 0, NULL, false, -1, "no window depth: 1 of 4096 samples are not in [0, 1]"},
+    };
+    for (size_t k = 0; k < sizeof rows / sizeof rows[0]; k++) {
+        square *s = square_of(rows[k].type);
+        recognised r;
+        fill(s, rows[k].lo, rows[k].hi, rows[k].first);
+        if (rows[k].format != NULL && strstr(rows[k].why, "sky") != NULL)
+            fill(s, rows[k].lo, rows[k].lo + 1, rows[k].first);
+        recognise(&s->img, &r);
+        const bool right = rows[k].format == NULL ? !r.depth
+                                                  : r.depth && strcmp(r.format.name, rows[k].format) == 0 &&
+                                                        r.certain == rows[k].certain && r.reversed == rows[k].reversed;
+        if (!right || strstr(r.why, rows[k].why) == NULL)
+            fail_msg("row %zu: depth %d, %s, certain %d, reversed %d: %s", k, r.depth, r.format.name, r.certain,
+                     r.reversed, r.why);
+        free(s);
+    }
+}
+
+/* Widened bytes, and the packing of OpenGL with the stencil in the low byte. */
+static void packings(void **state) {
+    (void)state;
+    square *s = square_of(IMAGE_U16);
+    recognised r;
+    for (uint32_t i = 0; i < SAMPLES; i++)
+        s->data.u16[i] = (uint16_t)(i % 256 * 257);
+    recognise(&s->img, &r);
+    assert_true(r.depth && !r.certain && strstr(r.why, "16 bits that repeat 8") != NULL);
+    s->img.type = IMAGE_U32;
+    for (uint32_t stencil = 0; stencil < 256; stencil += 255)
+        for (uint32_t most = 0x3F; most < 0x100; most += 0x40) {
+            for (uint32_t i = 0; i < SAMPLES; i++)
+                s->data.u32[i] = ((most << 24) - 0x101 * i) / 256 * 256 + stencil;
+            recognise(&s->img, &r);
+            assert_true(!r.depth && r.invalid == SAMPLES && strstr(r.why, "shift them down by 8 first") != NULL);
+        }
+    for (uint32_t i = 0; i < SAMPLES; i++) /* fp16 in the bits of fp32: its low bytes are equal too */
+        s->data.u32[i] = 0x3E000000 + i % 0xC00 * 0x2000;
+    recognise(&s->img, &r);
+    assert_string_equal(r.format.name, "fp32");
+    assert_true(r.depth);
+    free(s);
+}
+
+/* ---- What is no window depth, and which way it runs ---------------------------------------------------------------*/
+
+static void no_depth(void **state) {
+    (void)state;
+    static const struct {
+        float a, b;
+        size_t invalid;
+        const char *why;
+    } rows[] = {
+        {2.5F, 100, SAMPLES,
+         "no window depth: 4096 of 4096 samples are not in [0, 1], finite ones go from 2.5 to 100: eye depth?"},
+        {-1, 0.5F, SAMPLES / 2, "finite ones go from -1 to 0.5: OpenGL's NDC?"},
+        {-7, 0.5F, SAMPLES / 2, "finite ones go from -7 to 0.5"},
+        {(float)NAN, (float)INFINITY, SAMPLES, "no window depth: no sample is finite"},
+        {(float)NAN, 0.5F, SAMPLES / 2, "2048 of 4096 samples are not in [0, 1], finite ones go from 0.5 to 0.5"},
+        {1.0000001F, 0.5F, SAMPLES / 2, "2048 of 4096"},
+        {-1e-45F, 0.5F, SAMPLES / 2, "2048 of 4096"},
+    };
+    for (size_t k = 0; k < sizeof rows / sizeof rows[0]; k++)
+        for (int wide = 0; wide < 2; wide++) {
+            square *s = square_of(wide ? IMAGE_F64 : IMAGE_F32);
+            for (int i = 0; i < SAMPLES; i++) {
+                const float x = i % 2 ? rows[k].a : rows[k].b;
+                if (wide)
+                    s->data.f64[i] = (double)x;
+                else
+                    s->data.f32[i] = x;
+            }
+            recognised r;
+            recognise(&s->img, &r);
+            assert_false(r.depth);
+            assert_false(r.certain);
+            assert_int_equal(r.reversed, -1);
+            assert_int_equal(r.invalid, rows[k].invalid);
+            if (strstr(r.why, rows[k].why) == NULL)
+                fail_msg("'%s' is not in '%s'", rows[k].why, r.why);
+            if (r.invalid == SAMPLES)
+                assert_true(isnan(r.lo) && isnan(r.hi));
+            else
+                assert_true(r.lo == 0.5 && r.hi == 0.5);
+            free(s);
+        }
+}
+
+static void directions(void **state) {
+    (void)state;
+    static const struct {
+        double lo, hi; /* of the mass */
+        int zeros, ones;
+        int reversed;
+        const char *why;
+    } rows[] = {
+        {0.8, 0.99, 0, 0, 0, "most are above 3/4: not reversed"},
+        {0.01, 0.2, 0, 0, 1, "most are below 1/4: reversed"},
+        {0.8, 0.99, 0, 900, 0, "most are above 3/4, sky at 1: not reversed"},
+        {0.01, 0.2, 900, 0, 1, "most are below 1/4, sky at 0: reversed"},
+        {0.8, 0.99, 900, 0, -1, "near 1 but sky at 0: no direction"},
+        {0.01, 0.2, 0, 900, -1, "near 0 but sky at 1: no direction"},
+        {0.01, 0.2, 900, 100, 1, "sky at 0: reversed"},
+        {0.01, 0.2, 300, 100, 1, "most are below 1/4: reversed"},
+        {0.01, 0.2, 0, 4, 1, "most are below 1/4: reversed"},
+        {0.01, 0.99, 0, 0, -1, "neither sky nor mass shows a direction"},
+        {0.01, 0.99, 900, 0, 1, "sky at 0: reversed"},
+        {0.01, 0.99, 0, 900, 0, "sky at 1: not reversed"},
+        {0.01, 0.99, 900, 900, -1, "neither sky nor mass shows a direction"},
+        {0.5, 0.5, SAMPLES, 0, -1, "nothing is drawn that shows a direction"},
+        {0.5, 0.5, 0, SAMPLES, -1, "nothing is drawn that shows a direction"},
+    };
+    square *s = square_of(IMAGE_F32);
+    for (size_t k = 0; k < sizeof rows / sizeof rows[0]; k++) {
+        for (int i = 0; i < SAMPLES; i++)
+            s->data.f32[i] = i < rows[k].zeros ? 0
+                             : i < rows[k].zeros + rows[k].ones
+                                 ? 1
+                                 : (float)(rows[k].lo + (rows[k].hi - rows[k].lo) * i / SAMPLES);
+        recognised r;
+        recognise(&s->img, &r);
+        assert_int_equal(r.at_zero, rows[k].zeros);
+        assert_int_equal(r.at_one, rows[k].ones);
+        if (r.reversed != rows[k].reversed || strstr(r.why, rows[k].why) == NULL)
+            fail_msg("row %zu: %d, %s", k, r.reversed, r.why);
+    }
+    free(s);
+}
+
+/* Counting against a plain count, on an odd shape whose rows are longer than a block. */
+static void counted(void **state) {
+    (void)state;
+    enum { WIDTH = 5003, HEIGHT = 6, COUNT = WIDTH * HEIGHT };
+    rng r = rng_make("counted");
+    double *d = malloc(COUNT * sizeof *d);
+    assert_non_null(d);
+    for (uint32_t channels = 1; channels <= 3; channels++) {
+        const image img = {WIDTH / channels, HEIGHT, channels, IMAGE_F64, IMAGE_NPY, d};
+        const size_t pixels = (size_t)img.width * HEIGHT;
+        size_t zero = 0, one = 0, invalid = 0;
+        double lo = 2, hi = -1;
+        for (size_t i = 0; i < pixels; i++) {
+            const double x = (double)rng_below(&r, 120) / 100 - 0.05;
+            for (uint32_t c = 0; c < channels; c++)
+                d[i * channels + c] = c == 0 ? x : (double)NAN;
+            zero += x == 0;
+            one += x == 1;
+            invalid += !(x >= 0 && x <= 1);
+            lo = x >= 0 && x < lo ? x : lo;
+            hi = x <= 1 && x > hi ? x : hi;
+        }
+        recognised found;
+        recognise(&img, &found);
+        assert_int_equal(found.samples, pixels);
+        assert_int_equal(found.at_zero, zero);
+        assert_int_equal(found.at_one, one);
+        assert_int_equal(found.invalid, invalid);
+        assert_true(found.lo == lo && found.hi == hi);
+    }
+    for (int i = 0; i < COUNT; i++)
+        d[i] = (i % 777) / 1000.0;
+    const image img = {WIDTH, HEIGHT, 1, IMAGE_F64, IMAGE_NPY, d};
+    recognised found;
+    recognise(&img, &found);
+    assert_int_equal(found.distinct, 777);
+    free(d);
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(float_lattices), cmocka_unit_test(one_off),  cmocka_unit_test(two_ulp),
+        cmocka_unit_test(all_codes),      cmocka_unit_test(chances),  cmocka_unit_test(too_few),
+        cmocka_unit_test(integers),       cmocka_unit_test(packings), cmocka_unit_test(no_depth),
+        cmocka_unit_test(directions),     cmocka_unit_test(counted),
+    };
+    return run_tap(tests);
+}
