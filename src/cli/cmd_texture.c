@@ -16,9 +16,23 @@ static int check_alone(const options *o) {
         return option_error(OPTION_ERROR_MAP, "needs --eye, --position, --normal or --effect");
     if (o->radial && !texture_product_wanted(o))
         return option_error(OPTION_RADIAL, "needs --eye");
+    if (option_given(o, OPTION_AT))
+        return option_error(OPTION_AT, "is for the table of --effect without an image");
     for (size_t i = 0; i < sizeof drawn / sizeof drawn[0]; i++)
         if (option_given(o, drawn[i]) && o->figure == NULL)
             return option_error(drawn[i], "needs --figure");
+    return EXIT_FINE;
+}
+
+/* The table of an effect sees depths, not pixels. */
+static int check_table(const options *o) {
+    static const option_id pixels[] = {OPTION_FOV,    OPTION_HALF_HEIGHT, OPTION_YAW,    OPTION_PITCH,  OPTION_ORIGIN,
+                                       OPTION_SIZE,   OPTION_SKY,         OPTION_EYE,    OPTION_RADIAL, OPTION_POSITION,
+                                       OPTION_NORMAL, OPTION_ERROR_MAP,   OPTION_FIGURE, OPTION_THEME,  OPTION_WIDTH,
+                                       OPTION_HEIGHT, OPTION_TITLE,       OPTION_THREADS};
+    for (size_t i = 0; i < sizeof pixels / sizeof pixels[0]; i++)
+        if (option_given(o, pixels[i]))
+            return option_error(pixels[i], "has no meaning with --effect alone, but with FILE or --scene");
     return EXIT_FINE;
 }
 
@@ -34,8 +48,10 @@ static int make_product(const options *o, const texture_source *source, texture_
 int cmd_texture(const options *o) {
     texture_product product;
     const bool made = texture_product_wanted(o);
-    if (o->effect != NULL && o->operand_count == 0 && o->scene == NULL)
-        return texture_effect_table(o);
+    if (o->effect != NULL && o->operand_count == 0 && o->scene == NULL) {
+        const int status = check_table(o);
+        return status == EXIT_FINE ? texture_effect_table(o) : status;
+    }
     texture_source *source = calloc(1, sizeof *source);
     int status = source != NULL ? check_alone(o) : usage_error("texture: no memory");
     if (status == EXIT_FINE && made)

@@ -51,10 +51,13 @@ static chart_axis scale_of(const picture *in) {
     double lo, hi;
     chart_axis axis = {.label = in->label, .key = "value", .unit = in->unit};
     extent(in, &lo, &hi);
-    if (!(lo <= hi)) /* nothing, or errors that are all 0 */
-        lo = 0, hi = 1;
-    if (in->magnitudes)
+    const bool nothing = !(lo <= hi); /* or errors that are all 0 */
+    if (nothing) {
+        lo = 0;
+        hi = 1;
+    } else if (in->magnitudes) {
         lo = fmax(lo, deepest * hi);
+    }
     if (lo > 0 && hi > wide * lo)
         axis.scale = CHART_LOG;
     else if (in->magnitudes)

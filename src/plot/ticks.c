@@ -61,8 +61,8 @@ static void linear(const chart_axis *axis, int room, ticks *out) {
         char text[TICKS_TEXT];
         if (fabs(at) < step * 1e-6)
             at = 0;
-        /* Plain numbers from 10000 to 999999 too: 20000 reads better than 2e+04. */
-        snprintf(text, sizeof text, "%.*g", largest >= 1e4 && largest < 1e6 && step >= 1 ? 6 : digits, at);
+        /* Plain numbers from 1000 to 999999 too: 20000 reads better than 2e+04. */
+        snprintf(text, sizeof text, "%.*g", largest >= 1e3 && largest < 1e6 && step >= 1 ? 6 : digits, at);
         add(out, axis, at, text);
     }
 }
