@@ -44,12 +44,13 @@ static void write_text(benching *b) {
     number_shortest(b->o->zfar, zfar);
     output_format(b->out, "%s: %s\n%s, near %s, far %s; %s\n", f->name, f->summary, f->cases[b->asked.which].name,
                   znear, zfar, b->machine);
-    output_format(b->out, "  %-20s %9s %7s %9s %10s %10s %10s %13s %9s\n", "method", "ns", "+- %", "set-up ns",
-                  "relative", "absolute", f->steps ? "steps" : "ulp", "worst at", "claim");
+    output_format(b->out, "  %-20s %9s %7s %7s %9s %10s %10s %10s %13s %9s\n", "method", "ns", "limits", "+- %",
+                  "set-up ns", "relative", "absolute", f->steps ? "steps" : "ulp", "worst at", "claim");
     for (size_t i = 0; i < b->count; i++) {
         const bench_result *r = &b->results[i];
         output_format(b->out, "%c%c%-20s", r->front ? '*' : ' ', is_choice(b, i) ? '>' : ' ', r->row->name);
         cell(b->out, 9, r->ns, 3);
+        cell(b->out, 7, r->ns / r->limit, 3);
         cell(b->out, 7, 100 * r->spread, 2);
         cell(b->out, 9, r->setup > 0 ? r->setup : (double)NAN, 3);
         cell(b->out, 10, r->measured.worst.relative, 3);
@@ -59,6 +60,7 @@ static void write_text(benching *b) {
         cell(b->out, 9, r->claim, 3);
         output_char(b->out, '\n');
     }
+    output_format(b->out, "  a limit is %.3g ns: a loop that moves the same bytes\n", b->results[0].limit);
     output_text(b->out, "  * no other is both faster and more exact\n");
     if (b->choice != NULL)
         output_format(b->out, "  > %s is the cheapest whose claim is within the tolerance\n", b->choice->name);
@@ -75,12 +77,14 @@ static void write_json(benching *b) {
     setup_json(&j, &b->asked.setup);
     json_number(&j, "tolerance", option_given(b->o, OPTION_TOLERANCE) ? b->o->tolerance : (double)NAN);
     json_string(&j, "choice", b->choice != NULL ? b->choice->name : NULL);
+    json_number(&j, "limit_ns", b->results[0].limit);
     json_array(&j, "methods");
     for (size_t i = 0; i < b->count; i++) {
         const bench_result *r = &b->results[i];
         json_object(&j, NULL);
         json_string(&j, "name", r->row->name);
         json_number(&j, "ns", r->ns);
+        json_number(&j, "limits", r->ns / r->limit);
         json_number(&j, "spread", r->spread);
         json_number(&j, "setup_ns", r->setup);
         json_integer(&j, "inputs", r->inputs);
@@ -101,7 +105,7 @@ static void write_json(benching *b) {
 static void write_csv(benching *b) {
     static const char *const heads[] = {"family", "method",   "ns",          "spread",   "setup [ns]",  "inputs",
                                         "error",  "relative", "relative_at", "absolute", "absolute_at", "ulp",
-                                        "ulp_at", "claim",    "pareto",      "chosen"};
+                                        "ulp_at", "claim",    "pareto",      "chosen",   "limit [ns]"};
     csv c = csv_start(b->out);
     for (size_t i = 0; i < sizeof heads / sizeof heads[0]; i++)
         csv_string(&c, heads[i]);
@@ -124,6 +128,7 @@ static void write_csv(benching *b) {
         csv_number(&c, r->claim);
         csv_integer(&c, r->front);
         csv_integer(&c, is_choice(b, i));
+        csv_number(&c, r->limit);
         csv_end(&c);
     }
 }

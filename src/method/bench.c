@@ -80,6 +80,7 @@ static int ascending(const void *a, const void *b) {
 }
 
 typedef struct contestant {
+    const method_row *row;
     void *state;
     size_t rounds;
     method_inputs in;
@@ -87,21 +88,32 @@ typedef struct contestant {
 } contestant;
 
 /* Takes turns, so that what disturbs the machine disturbs all alike. */
-static void time_all(const dp_setup *setup, const method_outputs *out, bench_result *results, contestant *all,
-                     size_t count, int repetitions) {
+static void time_all(const dp_setup *setup, const method_outputs *out, contestant *all, size_t count, int repetitions) {
     for (size_t i = 0; i < count; i++) { /* warm-up, and how long one round lasts */
-        double ns = once(results[i].row, setup, all[i].state, &all[i].in, out, 1) * (double)all[i].in.count;
+        double ns = once(all[i].row, setup, all[i].state, &all[i].in, out, 1) * (double)all[i].in.count;
         if (ns > 10 * slice) /* a few inputs say as much */
             all[i].in.count = (size_t)fmax(1, (double)all[i].in.count * 10 * slice / ns);
         all[i].rounds = (size_t)fmax(1, slice / fmax(ns, 1));
     }
     for (int r = 0; r < repetitions; r++)
         for (size_t i = 0; i < count; i++)
-            all[i].times[r] = once(results[i].row, setup, all[i].state, &all[i].in, out, all[i].rounds);
-    for (size_t i = 0; i < count; i++) {
+            all[i].times[r] = once(all[i].row, setup, all[i].state, &all[i].in, out, all[i].rounds);
+    for (size_t i = 0; i < count; i++)
         qsort(all[i].times, (size_t)repetitions, sizeof all[i].times[0], ascending);
-        results[i].ns = all[i].times[repetitions / 2];
-        results[i].spread = (all[i].times[repetitions * 3 / 4] - all[i].times[repetitions / 4]) / 2 / results[i].ns;
+}
+
+/* The limit takes its turn behind the methods. */
+static void time_methods(const method_family_row *family, const dp_setup *setup, const method_inputs *in,
+                         const method_outputs *out, contestant *all, bench_result *results, size_t count,
+                         int repetitions) {
+    const method_row limit = {.run = family->limit};
+    all[count] = (contestant){.row = &limit, .in = *in};
+    time_all(setup, out, all, count + 1, repetitions);
+    for (size_t i = 0; i < count; i++) {
+        const double *times = all[i].times;
+        results[i].ns = times[repetitions / 2];
+        results[i].spread = (times[repetitions * 3 / 4] - times[repetitions / 4]) / 2 / results[i].ns;
+        results[i].limit = all[count].times[repetitions / 2];
     }
 }
 
@@ -127,6 +139,7 @@ static double input_at(const method_family_row *family, const method_inputs *in,
 static bool prepare(const method_family_row *family, size_t which, const dp_setup *setup, const method_inputs *in,
                     const method_outputs *out, bench_result *result, contestant *c) {
     const method_row *row = result->row;
+    c->row = row;
     c->in = *in;
     if (row->limit > 0 && row->limit < in->count)
         c->in.count = row->limit;
@@ -141,7 +154,7 @@ static bool prepare(const method_family_row *family, size_t which, const dp_setu
     result->at_relative = input_at(family, in, result->measured.relative_at);
     result->at_ulp = input_at(family, in, result->measured.ulp_at);
     result->claim = method_claimed(row, which, setup);
-    result->ns = result->spread = (double)NAN;
+    result->ns = result->spread = result->limit = (double)NAN;
     return true;
 }
 
@@ -149,7 +162,7 @@ size_t bench_run(const method_family_row *family, size_t which, const dp_setup *
                  bench_result results[BENCH_METHODS_MAX]) {
     method_inputs in;
     method_outputs out;
-    contestant *all = calloc(BENCH_METHODS_MAX, sizeof *all);
+    contestant *all = calloc(BENCH_METHODS_MAX + 1, sizeof *all);
     size_t count = 0;
     bool good = all != NULL && method_arrays(family->inputs, &in, &out);
     if (good) {
@@ -163,7 +176,8 @@ size_t bench_run(const method_family_row *family, size_t which, const dp_setup *
             count++;
         }
         if (good && repetitions > 0) {
-            time_all(setup, &out, results, all, count, repetitions < REPETITIONS_MAX ? repetitions : REPETITIONS_MAX);
+            time_methods(family, setup, &in, &out, all, results, count,
+                         repetitions < REPETITIONS_MAX ? repetitions : REPETITIONS_MAX);
             mark_front(family, results, count);
         }
         for (size_t i = 0; i < count; i++)

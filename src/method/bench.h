@@ -30,6 +30,7 @@ typedef struct bench_result {
     size_t inputs; /**< how many of the shared inputs it was given: the first of them */
     double ns;     /**< median, an element; NaN when not timed */
     double spread; /**< half the range of the middle half of the repetitions, as a share of the median */
+    double limit;  /**< ns of a loop that moves the same bytes, in turns with the methods: what none can beat */
     double setup;  /**< ns to prepare a set-up, once; 0 where there is nothing to prepare */
     measured measured;
     double at_absolute, at_relative, at_ulp; /**< the inputs that reach the worst: eye or window depths */

@@ -5,6 +5,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "method/limit.h"
 #include "method/normal.h"
 
 static const double decades_infinite = 1e6; /* how far depths go where the far plane has no end, in units of near */
@@ -44,7 +45,8 @@ static const method_family_row families[METHOD_FAMILY_COUNT] = {
                          .methods = interval_methods,
                          .method_count = &interval_method_count,
                          .fill = fill_depths,
-                         .judge = interval_judge},
+                         .judge = interval_judge,
+                         .limit = limit_depths},
     [METHOD_LINEARIZE] = {.name = "linearize",
                           .summary = "eye depth of a binary32 window depth",
                           .measure = "relative error",
@@ -58,7 +60,8 @@ static const method_family_row families[METHOD_FAMILY_COUNT] = {
                           .methods = linearize_methods,
                           .method_count = &linearize_method_count,
                           .fill = fill_windows,
-                          .judge = linearize_judge},
+                          .judge = linearize_judge,
+                          .limit = limit_windows},
     [METHOD_ENCODE] = {.name = "encode",
                        .summary = "code of a binary32 window depth",
                        .measure = "steps of the format",
@@ -74,7 +77,8 @@ static const method_family_row families[METHOD_FAMILY_COUNT] = {
                        .methods = encode_methods,
                        .method_count = &encode_method_count,
                        .fill = fill_windows,
-                       .judge = encode_judge},
+                       .judge = encode_judge,
+                       .limit = limit_codes},
     [METHOD_WORST] = {.name = "worst",
                       .summary = "worst z-fighting interval over a range of depths",
                       .measure = "relative error",
@@ -88,7 +92,8 @@ static const method_family_row families[METHOD_FAMILY_COUNT] = {
                       .methods = worst_methods,
                       .method_count = &worst_method_count,
                       .fill = fill_ranges,
-                      .judge = worst_judge},
+                      .judge = worst_judge,
+                      .limit = limit_ranges},
     [METHOD_NORMAL] = {.name = "normal",
                        .summary = "normal of a plane from the stored depths around a pixel",
                        .measure = "radians",
@@ -101,7 +106,8 @@ static const method_family_row families[METHOD_FAMILY_COUNT] = {
                        .methods = normal_methods,
                        .method_count = &normal_method_count,
                        .fill = normal_fill,
-                       .judge = normal_judge},
+                       .judge = normal_judge,
+                       .limit = limit_eyes},
     [METHOD_POSITION] = {.name = "position",
                          .summary = "place of a pixel from its binary32 window depth; 60 degrees, 16:9",
                          .measure = "error over distance",
@@ -117,7 +123,8 @@ static const method_family_row families[METHOD_FAMILY_COUNT] = {
                          .methods = position_methods,
                          .method_count = &position_method_count,
                          .fill = position_fill,
-                         .judge = position_judge},
+                         .judge = position_judge,
+                         .limit = limit_places},
 };
 
 const method_family_row *method_family_get(size_t index) {

@@ -135,6 +135,8 @@ typedef struct method_family_row {
     /** The error of answer i; false where the method's domain leaves that input out. */
     bool (*judge)(const method_row *row, const dp_setup *setup, const method_inputs *in, const method_outputs *out,
                   size_t i, method_error *error);
+    /** What no method can beat: run() of one that does nothing but move the same bytes. See limit.h. */
+    void (*limit)(const dp_setup *setup, const void *state, const method_inputs *in, const method_outputs *out);
 } method_family_row;
 
 /** The families; null beyond the last. */
