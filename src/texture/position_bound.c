@@ -18,7 +18,7 @@ static double length(double x, double y, double z) {
 typedef struct pixel {
     double u, v;   /* from the left, from the top */
     double sx, sy; /* slopes or offsets */
-    double z, far_off;
+    double z;
     double ray;      /* the ray's length; orthographic: the offset's */
     double distance; /* from the camera */
     double origin;
