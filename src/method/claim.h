@@ -39,7 +39,7 @@ double claim_table_linear(double ratio);
 double claim_spline(double ratio);
 double claim_chebyshev(double ratio);
 
-/* position, a standard mapping, 60 degrees and 16:9; those of the matrix are measured: twice the worst of 3000 cameras
+/* position, a standard mapping, 60 degrees and 16:9; those of the matrix are measured: 1.6 times the worst of 3000
  */
 double claim_extents(double ratio);
 double claim_extents_half(double ratio);

@@ -65,7 +65,7 @@ enum {
     METHOD_PIPELINE = 1 << 3, /**< judged by the binary32 pipeline, not by the lattice */
     METHOD_ABOVE = 1 << 4,    /**< one-sided: never below the reference, or the error is INFINITY */
     METHOD_BELOW = 1 << 5,    /**< one-sided: never above it */
-    METHOD_HALF = 1 << 6,     /**< only for what binary16 can hold: distances from 2^-13 to 65504 */
+    METHOD_HALF = 1 << 6,     /**< only for what binary16 can hold: distances from 2^-13 to 32752 */
 };
 
 /** What a family's methods are given: the arrays that the family uses, `count` long. */

@@ -68,7 +68,7 @@ bool position_judge(const method_row *row, const dp_setup *setup, const method_i
     double sum = 0;
     if (!(distance <= farthest)) /* next to an infinite far plane */
         return false;
-    if ((row->domain & METHOD_HALF) != 0 && !(distance >= 0x1p-13 && distance <= 65504))
+    if ((row->domain & METHOD_HALF) != 0 && !(distance >= 0x1p-13 && distance <= 32752))
         return false;
     if (setup->spec.ortho && !position_find(row->name)->ortho)
         return false;
@@ -104,7 +104,7 @@ const method_row position_methods[] = {
     {METHOD_POSITION, "matrix", "inverse view-projection matrix times NDC, divided by w",
      {FORMULA_TO(claim_matrix_d3d, CLAIM_CANCELLED), FULL(17.1 * UNIT), FORMULA_TO(claim_matrix_gl, CLAIM_CANCELLED)}, METHOD_INFINITE, 0.48, "1", 0,
      "ComputeWorldSpacePosition, the Core package's Common.hlsl", NULL, matrix_open, run, free},
-    {METHOD_POSITION, "extents-half", "extents in binary16, for distances from 2^-13 to 65504; infinite beyond",
+    {METHOD_POSITION, "extents-half", "extents in binary16, for distances from 2^-13 to 32752; infinite from 65520 on",
      {FORMULA_TO(claim_extents_half, CLAIM_CANCELLED), FULL(6e-4), FORMULA_TO(claim_extents_half, CLAIM_CANCELLED)}, METHOD_INFINITE | METHOD_HALF, 0.8, "1", 0,
      "URP, ReconstructViewPos in SSAO.hlsl", NULL, half_open, run, free},
 };
