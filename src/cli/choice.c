@@ -6,36 +6,47 @@
 #include <string.h>
 
 #include "cli/number.h"
+#include "method/choose.h"
 
 /* The fullest model that the set-up has: what the others are measured by. */
 static int fullest(const dp_choice *choice) {
     return isnan(choice->share[DP_MODEL_FP32]) ? DP_MODEL_STAGED : DP_MODEL_FP32;
 }
 
+/*
+ * The models as methods of getting the separation, with what they were measured to neglect for a claim. A model that
+ * the set-up does not have has NaN, which covers nothing; the fullest neglects nothing, and so covers everything.
+ */
+static dp_model cheapest(const double share[DP_MODEL_COUNT], double tolerance) {
+    static const double cost[DP_MODEL_COUNT] = {150, 175, 250}; /* ns of dp_separation(), about */
+    method_row rows[DP_MODEL_COUNT];
+    const size_t count = DP_MODEL_COUNT;
+    const method_family_row models = {.name = "model", .methods = rows, .method_count = &count};
+    const method_wish wish = {.tolerance = tolerance, .ratio_lo = METHOD_RATIO_LO, .ratio_hi = METHOD_RATIO_LO};
+    for (int m = 0; m < DP_MODEL_COUNT; m++)
+        rows[m] = (method_row){.name = dp_model_name((dp_model)m), .claims = {FULL(share[m])}, .cost = cost[m]};
+    return (dp_model)(method_choose(&models, 0, &wish) - rows);
+}
+
 choosing choosing_start(const dp_setup *setup, double tolerance) {
     return (choosing){.setup = setup, .tolerance = tolerance};
 }
 
-/* The worst of two blocks, and the simplest model that is good enough for both. */
+/* The worst of what the blocks say. */
 static void take_block(choosing *c) {
     dp_choice block;
     if (c->waiting == 0 || dp_model_choose(c->setup, c->z, c->waiting, c->tolerance, &block) != DP_OK)
         return;
     c->waiting = 0;
-    if (!c->begun) {
+    if (!c->begun)
         c->choice = block;
-        c->begun = true;
-        return;
-    }
+    c->begun = true;
     for (int m = 0; m < DP_MODEL_COUNT; m++)
         if (block.share[m] > c->choice.share[m]) {
             c->choice.share[m] = block.share[m];
             c->choice.share_z[m] = block.share_z[m];
         }
-    int model = DP_MODEL_EXACT;
-    while (model < fullest(&c->choice) && c->choice.share[model] > c->tolerance)
-        model++;
-    c->choice.model = (dp_model)model;
+    c->choice.model = cheapest(c->choice.share, c->tolerance);
 }
 
 void choosing_add(choosing *c, double z) {

@@ -171,6 +171,23 @@ static bool list_topic(size_t index, list_item *item) {
     return true;
 }
 
+static const struct topic all_topics = {"topics", "", list_topic};
+
+/* What is listed, and whether with the choices that --tolerance asks for. */
+typedef struct listing {
+    const options *o;
+    const struct topic *topic;
+    bool choices;
+} listing;
+
+/* For what thing `index` is chosen: "" where nothing is asked. */
+static const char *chosen(const listing *l, size_t index, char text[LIST_TEXT_SIZE]) {
+    text[0] = '\0';
+    if (l->choices)
+        list_method_choice(l->o, index, text);
+    return text;
+}
+
 static const char *text_of(const char *text) {
     return text != NULL ? text : "";
 }
@@ -204,12 +221,14 @@ static const char *bound_label(const char *what) {
     return "bound";
 }
 
-static void write_text(output *out, const char *what, list_get get) {
+static void write_text(output *out, const listing *l) {
+    const char *what = l->topic->name;
     list_item item;
-    bool brief = get == list_topic;
+    char text[LIST_TEXT_SIZE];
+    bool brief = l->topic == &all_topics;
     if (brief)
         output_text(out, "depthprec list WHAT, where WHAT is one of\n");
-    for (size_t i = 0; get(i, &item); i++) {
+    for (size_t i = 0; l->topic->get(i, &item); i++) {
         if (brief) {
             output_format(out, "  %-12s%s\n", item.name, item.note);
             continue;
@@ -217,6 +236,7 @@ static void write_text(output *out, const char *what, list_get get) {
         output_format(out, "%s%s\n", i > 0 ? "\n" : "", item.name);
         put_wrapped(out, "", text_of(item.note));
         put_wrapped(out, bound_label(what), item.bound);
+        put_wrapped(out, "chosen", chosen(l, i, text));
         put_wrapped(out, "source", text_of(item.source));
         put_wrapped(out, "also", text_of(item.aliases));
     }
@@ -241,36 +261,45 @@ static void json_aliases(json *j, const char *aliases) {
     json_end(j);
 }
 
-static void write_json(output *out, const char *what, list_get get) {
+static void write_json(output *out, const listing *l) {
+    const char *what = l->topic->name;
     list_item item;
+    char text[LIST_TEXT_SIZE];
     json j = json_start(out, "list");
     json_string(&j, "what", what);
     json_array(&j, "items");
-    for (size_t i = 0; get(i, &item); i++) {
+    for (size_t i = 0; l->topic->get(i, &item); i++) {
         json_object(&j, NULL);
         json_string(&j, "name", item.name);
         json_aliases(&j, text_of(item.aliases));
         json_string(&j, "note", text_of(item.note));
         json_string(&j, bound_label(what), *item.bound != '\0' ? item.bound : NULL);
+        if (l->choices)
+            json_string(&j, "chosen", *chosen(l, i, text) != '\0' ? text : NULL);
         json_string(&j, "source", *text_of(item.source) != '\0' ? item.source : NULL);
         json_end(&j);
     }
     json_finish(&j);
 }
 
-static void write_csv(output *out, const char *what, list_get get) {
+static void write_csv(output *out, const listing *l) {
     static const char *const heads[] = {"name", "aliases", "note", NULL, "source"};
     list_item item;
+    char text[LIST_TEXT_SIZE];
     csv c = csv_start(out);
     for (size_t i = 0; i < sizeof heads / sizeof heads[0]; i++)
-        csv_string(&c, heads[i] == NULL ? bound_label(what) : heads[i]);
+        csv_string(&c, heads[i] == NULL ? bound_label(l->topic->name) : heads[i]);
+    if (l->choices)
+        csv_string(&c, "chosen");
     csv_end(&c);
-    for (size_t i = 0; get(i, &item); i++) {
+    for (size_t i = 0; l->topic->get(i, &item); i++) {
         csv_string(&c, item.name);
         csv_string(&c, text_of(item.aliases));
         csv_string(&c, text_of(item.note));
         csv_string(&c, item.bound);
         csv_string(&c, text_of(item.source));
+        if (l->choices)
+            csv_string(&c, chosen(l, i, text));
         csv_end(&c);
     }
 }
@@ -290,22 +319,22 @@ static int unknown_topic(const char *name) {
 }
 
 int cmd_list(const options *o) {
-    static void (*const writers[])(output *, const char *, list_get) = {
+    static void (*const writers[])(output *, const listing *) = {
         [FORM_TEXT] = write_text, [FORM_JSON] = write_json, [FORM_CSV] = write_csv};
-    const char *what = o->operand_count > 0 ? o->operands[0] : "topics";
-    list_get get = o->operand_count > 0 ? NULL : list_topic;
+    listing l = {o, o->operand_count > 0 ? NULL : &all_topics, option_given(o, OPTION_TOLERANCE)};
     for (size_t i = 0; i < TOPIC_COUNT && o->operand_count > 0; i++)
-        if (strcmp(topics[i].name, what) == 0) {
-            if (topics[i].get == NULL)
-                return verb_run_full(o->argv);
-            get = topics[i].get;
-        }
-    if (get == NULL)
-        return unknown_topic(what);
+        if (strcmp(topics[i].name, o->operands[0]) == 0)
+            l.topic = &topics[i];
+    if (l.topic == NULL)
+        return unknown_topic(o->operands[0]);
+    if (l.topic->get == NULL)
+        return verb_run_full(o->argv);
+    if (l.choices && l.topic->get != list_method)
+        return option_error(OPTION_TOLERANCE, "has no meaning but in list methods");
     output out;
     int status = output_open(&out, o->output);
     if (status != EXIT_FINE)
         return status;
-    writers[o->form](&out, what, get);
+    writers[o->form](&out, &l);
     return output_close(&out);
 }

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /*
  * table: what each depth becomes in each set-up, the certified worst case over the range, and which model is enough.
+ * The interval is that of the exact cell; with --tolerance, by the cheapest method that is claimed to be good enough.
  * Rows are computed and written one by one, so a million of them need no more memory than nine.
  */
 #include <math.h>
@@ -14,8 +15,13 @@
 #include "cli/progress.h"
 #include "cli/setups.h"
 #include "cli/table_text.h"
+#include "cli/ways.h"
 
 int cmd_table(const options *o);
+
+/* The methods are in the full program alone. */
+way way_choose(const dp_setup *setup, double tolerance, bool cut_cells) __attribute__((weak));
+double way_interval(const way *w, const dp_setup *setup, double z) __attribute__((weak));
 
 enum { DEFAULT_ROWS = 9 };
 
@@ -25,6 +31,7 @@ typedef struct table {
     output *out;
     setups all;
     depths at;
+    way interval; /* of the set-up at hand; without a row, the exact cell */
     double lo, hi;
     progress progress;
     uint64_t done;
@@ -43,6 +50,22 @@ static double separation_in_binary32(const dp_setup *setup, const dp_sample *sam
     return dp_budget_at(setup, sample->z, NULL, &budget) == DP_OK ? budget.separation : (double)NAN;
 }
 
+/* Are there depths among those asked about whose cell a plane cuts? */
+static bool has_cut_cells(const table *t, const dp_setup *setup) {
+    const uint32_t first = dp_code(setup, setup->spec.znear), last = dp_code(setup, setup->spec.zfar);
+    for (size_t i = 0; i < t->at.count; i++) {
+        const uint32_t code = dp_code(setup, depths_get(&t->at, i));
+        if (code == first || code == last)
+            return true;
+    }
+    return false;
+}
+
+static void choose_way(table *t, const dp_setup *setup) {
+    if (option_given(t->o, OPTION_TOLERANCE))
+        t->interval = way_choose(setup, t->o->tolerance, has_cut_cells(t, setup));
+}
+
 /* Writes the rows; gathers for the choice of a model on the way, where one is asked for. */
 static void each_row(table *t, const dp_setup *setup, void (*emit)(void *, const dp_setup *, const row *), void *to,
                      choosing *choice) {
@@ -51,6 +74,8 @@ static void each_row(table *t, const dp_setup *setup, void (*emit)(void *, const
         double z = depths_get(&t->at, i);
         if (dp_sample_at(setup, z, &r.sample) == DP_OK) { /* depths_resolve() has seen to it */
             r.binary32 = separation_in_binary32(setup, &r.sample);
+            if (t->interval.row != NULL)
+                r.sample.interval = way_interval(&t->interval, setup, z);
             emit(to, setup, &r);
             if (choice != NULL)
                 choosing_add(choice, z);
@@ -87,6 +112,7 @@ static void write_text(table *t) {
         dp_worst worst = worst_of(t, setup);
         clipping planes = clipping_of(setup);
         choosing choice = choosing_start(setup, t->o->tolerance);
+        choose_way(t, setup);
         char sentence[CHOICE_SENTENCE_SIZE];
         if (i > 0)
             output_char(t->out, '\n');
@@ -95,6 +121,8 @@ static void write_text(table *t) {
         table_text_worst(t->out, &target.style, &worst);
         table_text_clipping(t->out, &target.style, &planes);
         output_format(t->out, "  %s\n", choice_sentence(&choice, sentence));
+        if (option_given(t->o, OPTION_TOLERANCE))
+            table_text_way(t->out, t->interval.name, t->interval.claim, t->o->tolerance);
     }
 }
 
@@ -145,8 +173,13 @@ static void write_json(table *t) {
         dp_worst worst = worst_of(t, setup);
         clipping planes = clipping_of(setup);
         choosing choice = choosing_start(setup, t->o->tolerance);
+        choose_way(t, setup);
         json_object(&j, NULL);
         setup_json(&j, setup);
+        if (option_given(t->o, OPTION_TOLERANCE)) {
+            json_string(&j, "method", t->interval.name);
+            json_number(&j, "claim", t->interval.claim);
+        }
         json_array(&j, "rows");
         each_row(t, setup, json_row, &j, &choice);
         json_end(&j);
@@ -165,7 +198,9 @@ static void write_json(table *t) {
 
 typedef struct csv_target {
     csv lines;
-    bool with_arith; /* a column that only fp32 fills, so there only when some set-up has that model */
+    bool with_arith;  /* a column that only fp32 fills, so there only when some set-up has that model */
+    bool with_method; /* and one that is asked for */
+    const char *method;
 } csv_target;
 
 static void csv_row(void *to, const dp_setup *setup, const row *r) {
@@ -185,6 +220,8 @@ static void csv_row(void *to, const dp_setup *setup, const row *r) {
     csv_number(c, s->interval);
     csv_number(c, s->separation);
     csv_number(c, r->binary32);
+    if (target->with_method)
+        csv_string(c, target->method);
     csv_end(c);
 }
 
@@ -207,14 +244,22 @@ static void write_csv(table *t) {
         csv_string(&c.lines, "arith");
     for (size_t i = 0; i < sizeof heads / sizeof heads[0]; i++)
         csv_string(&c.lines, heads[i]);
+    c.with_method = option_given(t->o, OPTION_TOLERANCE);
+    if (c.with_method)
+        csv_string(&c.lines, "method");
     csv_end(&c.lines);
-    for (size_t i = 0; i < t->all.count; i++)
+    for (size_t i = 0; i < t->all.count; i++) {
+        choose_way(t, &t->all.items[i]);
+        c.method = t->interval.name != NULL ? t->interval.name : "";
         each_row(t, &t->all.items[i], csv_row, &c, NULL);
+    }
 }
 
 int cmd_table(const options *o) {
     static void (*const writers[])(table *) = {
         [FORM_TEXT] = write_text, [FORM_JSON] = write_json, [FORM_CSV] = write_csv};
+    if (option_given(o, OPTION_TOLERANCE) && way_choose == NULL)
+        return verb_run_full(o->argv);
     output out;
     table t = {.o = o, .out = &out};
     int status = setups_make(o, &t.all);

@@ -33,4 +33,8 @@ bool list_normal(size_t index, list_item *item) __attribute__((weak));
 /** The methods, by the room that runs them; weak likewise. */
 bool list_method(size_t index, list_item *item) __attribute__((weak));
 
+/** The cases for which method `index` is the cheapest within --tolerance, at the default camera's far/near. */
+struct options;
+void list_method_choice(const struct options *o, size_t index, char chosen[LIST_TEXT_SIZE]) __attribute__((weak));
+
 #endif

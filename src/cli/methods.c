@@ -11,6 +11,7 @@
 #include "cli/number.h"
 #include "cli/setups.h"
 #include "cli/suggest.h"
+#include "method/choose.h"
 
 static const double formula_at = 1e4; /* where a claim that is a formula is shown */
 
@@ -38,6 +39,23 @@ bool list_method(size_t index, list_item *item) {
             used += (size_t)snprintf(item->bound + used, sizeof item->bound - used, " to far/near %s", hi);
     }
     return true;
+}
+
+/* The lattice and the pipeline are two questions, each with its choice. */
+void list_method_choice(const options *o, size_t index, char chosen[LIST_TEXT_SIZE]) {
+    const method_row *row = method_get(index);
+    const method_family_row *family = method_family_get(row->family);
+    const double ratio = o->zfar / o->znear;
+    const method_wish wish = {.tolerance = o->tolerance,
+                              .ratio_lo = ratio,
+                              .ratio_hi = ratio,
+                              .pipeline = (row->domain & METHOD_PIPELINE) != 0};
+    size_t used = 0;
+    chosen[0] = '\0';
+    for (size_t i = 0; i < family->case_count; i++)
+        if (method_choose(family, i, &wish) == row)
+            used += (size_t)snprintf(chosen + used, LIST_TEXT_SIZE - used, "%s%s", used > 0 ? ", " : "",
+                                     family->cases[i].name);
 }
 
 int methods_family(const options *o, const char *name, const method_family_row **out) {

@@ -306,10 +306,10 @@ const option_row option_rows[OPTION_COUNT] = {
         "the binary32 arithmetic: ieee, fused, reciprocal,\n"
         "fused-reciprocal, product, mesa, softpipe, ieee-remap,\n"
         "mesa-remap (default ieee)", parse_arith},
-    [OPTION_TOLERANCE] = {"tolerance", 0, "SHARE", ASKED | VERB_BENCH,
-        "a model is enough when what it neglects adds no more to the\n"
-        "separation, 0.05 or 5% (default 5%); in bench, the worst error\n"
-        "that the cheapest method to be marked may claim", parse_tolerance},
+    [OPTION_TOLERANCE] = {"tolerance", 0, "SHARE", ASKED | VERB_BENCH | VERB_LIST,
+        "what may be neglected, 0.05 or 5%: a model is enough when it\n"
+        "adds no more to the separation (default 5%); and the cheapest\n"
+        "method that claims no more is taken, or marked in a list", parse_tolerance},
     [OPTION_LOG_C] = {"log-c", 0, "C", MODELLED | VERB_TEXTURE | VERB_BIAS | VERB_SOLVE,
         "constant of the log mapping, 1e-12 to 1e12 (default 1)", parse_log_c},
     [OPTION_AT] = {"at", 0, "Z[,Z...]|LO:HI:log|lin:COUNT", ASKED | VERB_TEXTURE | VERB_BIAS | VERB_SOLVE,

@@ -152,3 +152,15 @@ void table_text_clipping(output *out, const table_style *style, const clipping *
     else
         output_format(out, "from %s to %s%s\n", znear, zfar, c->loses ? ": clipping loses the rest" : "");
 }
+
+void table_text_way(output *out, const char *name, double claim, double tolerance) {
+    char claimed[NUMBER_SIZE], allowed[NUMBER_SIZE];
+    number_digits(claim, 3, claimed);
+    number_digits(tolerance, 3, allowed);
+    if (name == NULL)
+        output_format(out, "  interval: no method claims to be within %s of it in this set-up\n", allowed);
+    else if (claim == 0)
+        output_format(out, "  interval by %s, exact\n", name);
+    else
+        output_format(out, "  interval by %s, the cheapest within %s of it: claims %s\n", name, allowed, claimed);
+}

@@ -25,4 +25,7 @@ void table_text_worst(output *out, const table_style *style, const dp_worst *wor
 /** The planes that binary32 clipping leaves; nothing when they are NaN and none is lost. */
 void table_text_clipping(output *out, const table_style *style, const clipping *c);
 
+/** By which method the intervals were computed, what it claims and what was allowed; a null name: none is known. */
+void table_text_way(output *out, const char *name, double claim, double tolerance);
+
 #endif

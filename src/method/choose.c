@@ -6,7 +6,7 @@
 static bool covers(const method_row *row, size_t which, const method_wish *w) {
     const method_claim *c = &row->claims[which];
     const double hi = isinf(w->ratio_hi) ? METHOD_RATIO_HI : w->ratio_hi;
-    return c->worst > 0 && method_claim_over(c, w->ratio_lo, w->ratio_hi) <= w->tolerance &&
+    return method_speaks(row, which) && method_claim_over(c, w->ratio_lo, w->ratio_hi) <= w->tolerance &&
            c->ratio_lo <= w->ratio_lo && hi <= c->ratio_hi &&
            (!isinf(w->ratio_hi) || (row->domain & METHOD_INFINITE) != 0) &&
            (!w->ortho || (row->domain & METHOD_ORTHO) != 0) && (!w->cut_cells || (row->domain & METHOD_WHOLE) == 0) &&

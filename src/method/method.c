@@ -148,10 +148,6 @@ const method_row *method_get(size_t index) {
     return NULL;
 }
 
-bool method_available(const method_row *row) {
-    return row->available == NULL || row->available();
-}
-
 dp_status method_setup(const method_family_row *family, size_t which, double znear, double zfar, bool ortho,
                        dp_setup *out) {
     dp_spec spec = dp_spec_default();

@@ -37,8 +37,8 @@ enum { METHOD_CASES = 3 };
 #define METHOD_MODEST   0.25
 #define METHOD_ROUNDING (20 * 0x1p-53)
 
-/** The worst error for far/near in [ratio_lo, ratio_hi]. A worst of 0: the method does not speak of the case; NaN: it
- *  does, and claims nothing. A claim up to METHOD_RATIO_HI covers an infinite far plane where METHOD_INFINITE is set.
+/** The worst error for far/near in [ratio_lo, ratio_hi]. No span, ratio_hi 0: the method does not speak of the case;
+ *  a worst of NaN: it does, and claims nothing. A claim up to METHOD_RATIO_HI covers an infinite far plane where METHOD_INFINITE is set.
  *  Each is derived in depthprec(7), "Methods". A formula falls, or rises, or falls and then rises, so that its worst
  *  over a span is at an end of the span; it may be INFINITY.
  */
@@ -148,7 +148,7 @@ const method_row *method_get(size_t index);
 
 /** Does the method speak of the family's case `which`? */
 static inline bool method_speaks(const method_row *row, size_t which) {
-    return row->claims[which].worst != 0;
+    return row->claims[which].ratio_hi > 0;
 }
 
 /** A claim at one far/near; NaN where nothing is claimed. */
@@ -163,7 +163,9 @@ static inline double method_claim_over(const method_claim *claim, double lo, dou
 }
 
 /** Can this processor run it? */
-bool method_available(const method_row *row);
+static inline bool method_available(const method_row *row) {
+    return row->available == NULL || row->available();
+}
 
 /** A set-up of a family's case. @return what dp_setup_init() says */
 dp_status method_setup(const method_family_row *family, size_t which, double znear, double zfar, bool ortho,

@@ -56,7 +56,8 @@ typedef struct chart_series {
     char name[CHART_TEXT]; /**< for the data, and for the legend unless `unlisted` */
     char note[64];         /**< follows the name in the legend only */
     bool unlisted;
-    bool second; /**< CHART_LINE: y is measured on the panel's second axis */
+    const char *method; /**< what it was computed by where that is not the exact engine; else null */
+    bool second;        /**< CHART_LINE: y is measured on the panel's second axis */
     size_t count;
     double *x, *y;
     char (*labels)[CHART_TEXT]; /**< CHART_POINTS, CHART_LABELS: a label each, or null */
@@ -67,6 +68,7 @@ typedef struct chart_map {
     int columns, rows;
     double *x, *y; /**< centres, evenly spaced on the panel's axes */
     double *value;
+    size_t by_way; /**< how many were computed by another way than the exact engine */
 } chart_map;
 
 typedef struct chart_panel {
@@ -83,14 +85,14 @@ typedef struct chart {
     char subtitle[2 * CHART_TEXT]; /**< what holds for all of it: planes, projection, model */
     size_t panel_count;
     chart_panel panels[CHART_PANELS];
-    chart_axis value; /**< the colour scale shared by the maps; label is null when there is none */
-    bool contours;    /**< lines at the decades of the maps */
+    chart_axis value;   /**< the colour scale shared by the maps; label is null when there is none */
+    bool contours;      /**< lines at the decades of the maps */
     size_t curves;      /**< how many were refined, */
     size_t evaluations; /**< how often something was computed for them, */
     size_t places;      /**< and how often it would have been with one point a pixel column: see refine.h */
-    double shape;     /**< width over height that the panels keep; 0 when they fill the page */
-    bool colours;     /**< the values of the maps are 0xRRGGBB; directions, see heat.h */
-    void *memory;     /**< everything chart_numbers() gave out */
+    double shape;       /**< width over height that the panels keep; 0 when they fill the page */
+    bool colours;       /**< the values of the maps are 0xRRGGBB; directions, see heat.h */
+    void *memory;       /**< everything chart_numbers() gave out */
     bool failed;
 } chart;
 

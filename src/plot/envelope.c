@@ -129,11 +129,26 @@ refine_request envelope_request(const figure_request *request, const dp_setup *s
 typedef struct curve {
     const dp_setup *setup;
     envelope_value value;
+    figure_way way; /* its function is null for the exact cells */
     double knots[REFINE_KNOTS];
 } curve;
 
+bool envelope_is_cut(const dp_setup *setup, double z) {
+    const uint32_t code = dp_code(setup, z);
+    return code == dp_code(setup, setup->spec.znear) || code == dp_code(setup, setup->spec.zfar);
+}
+
+/* A column is too narrow for the interval to change by more than its ends do. */
+static double by_way(const curve *c, double from, double to) {
+    return fmax(c->way.interval(c->way.context, c->setup, from), c->way.interval(c->way.context, c->setup, to));
+}
+
 static void sample(const void *context, double from, double to, refine_sample *out) {
     const curve *c = context;
+    if (c->way.interval != NULL && !envelope_is_cut(c->setup, from) && !envelope_is_cut(c->setup, to)) {
+        *out = (refine_sample){.y = {by_way(c, from, to)}};
+        return;
+    }
     envelope_slice(c->setup, from, to, c->value, out);
 }
 
@@ -144,7 +159,15 @@ chart_series *envelope_line(chart *out, chart_panel *panel, chart_kind kind, con
     return s;
 }
 
-static void add_curve(const figure_request *request, chart *out, chart_panel *panel, size_t i, refine *r) {
+/* What the axis cannot show in any case need not be computed exactly: half of it is left to the line. */
+static void find_way(const figure_request *request, curve *c, const refine *r) {
+    const double tolerance = isnan(request->tolerance) ? expm1(refine_half_pixel(r, 0) / 2) : request->tolerance;
+    if (request->find_way == NULL || !(tolerance > 0) || !request->find_way(c->setup, tolerance, &c->way))
+        c->way.interval = NULL;
+}
+
+static void add_curve(const figure_request *request, chart *out, chart_panel *panel, size_t i, refine *r,
+                      const curve *c) {
     const dp_setup *setup = &request->setups[i];
     refine_finish(r);
     refine_account(r, out);
@@ -152,6 +175,7 @@ static void add_curve(const figure_request *request, chart *out, chart_panel *pa
     if (s == NULL)
         return;
     s->style = figure_style(request, i);
+    s->method = c->way.interval != NULL ? c->way.name : NULL;
     snprintf(s->name, sizeof s->name, "%s", request->names[i]);
     dp_worst worst;
     if (dp_worst_over(setup, panel->x.lo, panel->x.hi, &worst) == DP_OK && !isnan(worst.blind_from)) {
@@ -161,7 +185,8 @@ static void add_curve(const figure_request *request, chart *out, chart_panel *pa
     }
 }
 
-chart_panel *envelope_curves(const figure_request *request, chart *out, chart_axis y, envelope_value value) {
+chart_panel *envelope_curves(const figure_request *request, chart *out, chart_axis y, envelope_value value,
+                             bool interval) {
     chart_panel *panel = chart_add_panel(out);
     curve *curves = chart_memory(out, request->count, sizeof *curves);
     refine *refined = chart_memory(out, request->count, sizeof *refined);
@@ -182,12 +207,15 @@ chart_panel *envelope_curves(const figure_request *request, chart *out, chart_ax
             return panel;
     }
     refine_share_axis(refined, request->count);
-    for (size_t i = 0; i < request->count; i++)
-        add_curve(request, out, panel, i, &refined[i]);
+    for (size_t i = 0; i < request->count; i++) {
+        if (interval)
+            find_way(request, &curves[i], &refined[i]);
+        add_curve(request, out, panel, i, &refined[i], &curves[i]);
+    }
     return panel;
 }
 
 void envelope_build(const figure_request *request, chart *out, chart_axis y, envelope_value value) {
-    envelope_curves(request, out, y, value);
+    envelope_curves(request, out, y, value, false);
     chart_fit(out);
 }

@@ -15,8 +15,13 @@
 /** What a curve takes from the worst case of a slice. */
 typedef double (*envelope_value)(const dp_worst *worst);
 
-/** One panel with an axis of depth and the given one, and a curve for each set-up, in their order; to be fitted. */
-chart_panel *envelope_curves(const figure_request *request, chart *out, chart_axis y, envelope_value value);
+/**
+ * One panel with an axis of depth and the given one, and a curve for each set-up, in their order; to be fitted.
+ * @param interval  the value is the interval itself, for which the request's ways may stand in: within a quarter of a
+ *                  pixel where it leaves the tolerance to the picture. Columns that touch a cut cell stay exact.
+ */
+chart_panel *envelope_curves(const figure_request *request, chart *out, chart_axis y, envelope_value value,
+                             bool interval);
 
 /** The same, fitted: a whole figure. */
 void envelope_build(const figure_request *request, chart *out, chart_axis y, envelope_value value);
@@ -29,6 +34,9 @@ void envelope_separation(const void *setup, double from, double to, refine_sampl
 
 /** How much a separation at z may flicker, relatively. */
 double envelope_flicker(const dp_setup *setup, double z, double separation);
+
+/** Does a plane cut the cell of z? */
+bool envelope_is_cut(const dp_setup *setup, double z);
 
 /** Request of a curve along the depth axis of a panel, lo and hi its ends; the knots are those of the set-up. */
 refine_request envelope_request(const figure_request *request, const dp_setup *setup, chart_scale scale, double lo,

@@ -25,6 +25,20 @@ typedef struct figure_need {
     double z; /**< where it is worst */
 } figure_need;
 
+/** A cheaper way to the z-fighting interval than the exact cell, handed in: a figure does not know the methods. */
+typedef struct figure_way {
+    const char *name;
+    /** Of a cell that no plane cuts, scene units. */
+    double (*interval)(const void *context, const dp_setup *setup, double z);
+    const void *context;
+} figure_way;
+
+/** What a census found of one set-up: the longest interval of each band, at its nearer depth. */
+typedef struct figure_census {
+    size_t count;
+    const double *z, *longest; /**< scene units */
+} figure_census;
+
 /** What is asked for. */
 typedef struct figure_request {
     const dp_setup *setups; /**< at least one; all with the same planes and projection */
@@ -37,7 +51,11 @@ typedef struct figure_request {
     size_t need_count;
     const struct figure_methods *methods; /**< for the figures that show methods, else null */
     const struct figure_normals *normals; /**< for the figure that shows them, else null */
-    int columns, rows;                    /**< how finely to compute: pixels of the figure; see refine.h */
+    /** Finds a way whose relative error is within the tolerance; false where there is none. May be null: none. */
+    bool (*find_way)(const dp_setup *setup, double tolerance, figure_way *out);
+    double tolerance;            /**< for the ways; 0 for none; NaN for what the picture cannot show */
+    const figure_census *census; /**< one for each set-up, or null */
+    int columns, rows;           /**< how finely to compute: pixels of the figure; see refine.h */
 } figure_request;
 
 /** Methods of one family, measured: what the figures pareto and stability show. */
@@ -74,6 +92,8 @@ enum {
     FIGURE_PARETO = 1 << 5,  /**< methods and their times */
     FIGURE_WALK = 1 << 6,    /**< methods walked over far/near */
     FIGURE_NORMALS = 1 << 7, /**< normals from depth */
+    FIGURE_WAYS = 1 << 8,    /**< other ways to the interval than the exact cell */
+    FIGURE_CENSUS = 1 << 9,  /**< a census of each set-up of the model fp32 */
     FIGURE_METHODS = FIGURE_PARETO | FIGURE_WALK,
     FIGURE_BINARY32 = 1 << 3, /**< nothing but set-ups of the model fp32, whatever --model says */
 };

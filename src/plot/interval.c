@@ -59,6 +59,19 @@ static void add_separation(const figure_request *request, chart *out, chart_pane
     snprintf(s->name, sizeof s->name, "%s", request->names[i]);
 }
 
+/* The longest intervals that there are, each where it begins: none of them lies above the guarantee. */
+static void add_census(const figure_request *request, chart *out, chart_panel *panel, size_t i) {
+    const figure_census *c = &request->census[i];
+    chart_series *s = c->count > 0 ? chart_add_series(out, panel, CHART_POINTS, c->count) : NULL;
+    if (s == NULL)
+        return;
+    s->style = figure_style(request, i);
+    s->unlisted = true;
+    snprintf(s->name, sizeof s->name, "%s, census", request->names[i]);
+    memcpy(s->x, c->z, c->count * sizeof *s->x);
+    memcpy(s->y, c->longest, c->count * sizeof *s->y);
+}
+
 const char *interval_build(const figure_request *request, chart *out) {
     dp_setup lattice[CHART_SERIES];
     figure_request cells = *request;
@@ -67,12 +80,14 @@ const char *interval_build(const figure_request *request, chart *out) {
     const size_t changed = with_cells(request, lattice);
     if (changed > 0)
         y.label = "separation, interval";
-    chart_panel *panel = envelope_curves(&cells, out, y, widest_cell);
+    chart_panel *panel = envelope_curves(&cells, out, y, widest_cell, true);
     for (size_t i = 0; i < request->count && panel != NULL && !chart_failed(out); i++)
         if (is_fp32(request, i)) {
             into_background(&panel->series[i]);
             add_separation(request, out, panel, i);
         }
+    for (size_t i = 0; i < request->count && panel != NULL && request->census != NULL; i++)
+        add_census(request, out, panel, i);
     chart_fit(out);
     if (changed == 0)
         return NULL;
@@ -81,6 +96,7 @@ const char *interval_build(const figure_request *request, chart *out) {
                  changed == request->count ? "Guaranteed separation in binary32 arithmetic"
                                            : "Z-fighting interval; in the model fp32, guaranteed separation");
     snprintf(out->subtitle + strlen(out->subtitle), sizeof out->subtitle - strlen(out->subtitle),
-             ". Thin: the interval of the lattice alone");
+             ". Thin: the interval of the lattice alone%s",
+             request->census != NULL ? ". Large markers: the longest interval of each power of two, by census" : "");
     return NULL;
 }

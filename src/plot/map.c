@@ -2,7 +2,7 @@
 #include <math.h>
 #include <stdio.h>
 
-#include "plot/figure.h"
+#include "plot/envelope.h"
 
 /* Set-ups computed for the whole figure, shared between its panels. */
 enum { GRID_COLUMNS = 400, GRID_ROWS = 300 };
@@ -10,28 +10,46 @@ enum { GRID_COLUMNS = 400, GRID_ROWS = 300 };
 /* How far the axes reach round the camera, as a factor. */
 static const double around = 100, infinite_from = 10, infinite_to = 1e7;
 
+/* The interval at the depth asked about, by a cheaper way where its claim is good enough for this camera. */
+static double interval_at(const figure_request *request, const dp_setup *setup, bool *by_way) {
+    dp_sample sample;
+    figure_way way;
+    *by_way = request->find_way != NULL && request->tolerance > 0 && request->at >= setup->spec.znear &&
+              request->at <= setup->spec.zfar && !envelope_is_cut(setup, request->at) &&
+              request->find_way(setup, request->tolerance, &way);
+    if (*by_way)
+        return way.interval(way.context, setup, request->at);
+    return dp_sample_at(setup, request->at, &sample) == DP_OK ? sample.interval : (double)NAN;
+}
+
 /* What the colour shows for one camera; NaN when there is no such camera, or it does not see what was asked. */
-static double cell_value(const dp_setup *like, const figure_request *request, double znear, double zfar) {
+static double cell_value(const dp_setup *like, const figure_request *request, double znear, double zfar, bool *by_way) {
     dp_setup setup;
     dp_spec spec = like->spec;
-    dp_sample sample;
     dp_worst worst;
+    *by_way = false;
     spec.znear = znear;
     spec.zfar = zfar;
     if (dp_setup_init(&setup, &spec) != DP_OK)
         return NAN;
     if (!isnan(request->at))
-        return dp_sample_at(&setup, request->at, &sample) == DP_OK ? sample.interval : (double)NAN;
+        return interval_at(request, &setup, by_way);
     double lo = isnan(request->lo) ? znear : request->lo, hi = isnan(request->hi) ? zfar : request->hi;
     return dp_worst_over(&setup, lo, hi, &worst) == DP_OK ? worst.interval : (double)NAN;
 }
 
-static void fill(chart_map *m, const dp_setup *like, const figure_request *request) {
-#pragma omp parallel for schedule(dynamic, 4)
+/* Returns how many fields were computed by another way than the exact cell. */
+static size_t fill(chart_map *m, const dp_setup *like, const figure_request *request) {
+    size_t by_way = 0;
+#pragma omp parallel for schedule(dynamic, 4) reduction(+ : by_way)
     for (int row = 0; row < m->rows; row++)
-        for (int column = 0; column < m->columns; column++)
+        for (int column = 0; column < m->columns; column++) {
+            bool other;
             m->value[(size_t)row * (size_t)m->columns + (size_t)column] =
-                cell_value(like, request, m->x[column], m->y[row]);
+                cell_value(like, request, m->x[column], m->y[row], &other);
+            by_way += other;
+        }
+    return by_way;
 }
 
 static void add_camera(chart *out, chart_panel *panel, const dp_spec *spec, bool labelled) {
@@ -76,7 +94,7 @@ static void add_panel(const figure_request *request, chart *out, size_t i, doubl
         snprintf(panel->title, sizeof panel->title, "%s", request->names[i]);
     if (!chart_add_map(out, panel, (int)(GRID_COLUMNS * shrink), (int)(GRID_ROWS * shrink)))
         return;
-    fill(&panel->map, like, request);
+    panel->map.by_way = fill(&panel->map, like, request);
     add_camera(out, panel, spec, request->count == 1);
 }
 

@@ -105,7 +105,7 @@ void refine_share_axis(refine *curves, size_t count) {
 }
 
 /* Half a pixel along the axis. What is seen later can only make it longer. */
-static double half_pixel(const refine *r, int value) {
+double refine_half_pixel(const refine *r, int value) {
     const chart_axis *axis = &r->request.axis[value];
     const bool fitted = axis->lo < axis->hi;
     const double lo = fitted ? axis->lo : r->extent[value].lo, hi = fitted ? axis->hi : r->extent[value].hi;
@@ -129,7 +129,7 @@ static double off_line(const refine *r, int value, int from, int i, int to) {
 /* Half a pixel in all: here for each of the tests' shares of it. */
 static bool is_straight(const refine *r, const int at[5]) {
     for (int v = 0; v < r->request.values; v++) {
-        const double half = half_pixel(r, v);
+        const double half = refine_half_pixel(r, v);
         if (!(off_line(r, v, at[0], at[2], at[4]) <= half && off_line(r, v, at[0], at[1], at[2]) <= half / 4 &&
               off_line(r, v, at[2], at[3], at[4]) <= half / 4))
             return false;
@@ -151,7 +151,7 @@ static void range_of(const refine *r, int value, const int at[5], double *lo, do
 static bool is_contained(refine *r, const int at[5]) {
     refine_sample whole = {.step = {0}};
     for (int v = 0; v < r->request.values; v++) {
-        double lo, hi, step = 0, flicker = 0, half = half_pixel(r, v);
+        double lo, hi, step = 0, flicker = 0, half = refine_half_pixel(r, v);
         for (int k = 0; k < 5; k++) {
             step = fmax(step, r->step[at[k] * r->request.values + v]);
             flicker = fmax(flicker, r->flicker[at[k] * r->request.values + v]);
@@ -164,7 +164,7 @@ static bool is_contained(refine *r, const int at[5]) {
         return true;
     measure(r, at[0], at[4], &whole);
     for (int v = 0; v < r->request.values; v++) {
-        double lo, hi, half = half_pixel(r, v), y = along(r, v, whole.y[v]);
+        double lo, hi, half = refine_half_pixel(r, v), y = along(r, v, whole.y[v]);
         range_of(r, v, at, &lo, &hi);
         if (isfinite(hi) && !(y >= lo - half && y <= hi + half))
             return false;

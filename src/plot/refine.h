@@ -67,6 +67,9 @@ bool refine_begin(refine *r, const refine_request *request, chart *memory);
 /** Half a pixel is as much for all of them. */
 void refine_share_axis(refine *curves, size_t count);
 
+/** Half a pixel as it is seen so far: a distance on a linear axis, a difference of logarithms on a log one. */
+double refine_half_pixel(const refine *r, int value);
+
 void refine_finish(refine *r);
 
 /** Writes r->points points, left to right. */
