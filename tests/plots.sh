@@ -73,7 +73,7 @@ check "map where auto chooses fp32" refuses 2 "--model: fp32 has no cells for th
 check "budget in another model" refuses 2 "--model: must be fp32 in the figure budget, got 'staged'" budget --model staged -o "$scratch/x.svg"
 check "budget of log" refuses 2 "--mapping: binary32 arithmetic needs one of" budget -m log -o "$scratch/x.svg"
 check "--world where it has no meaning" refuses 2 "--world: has no meaning in the figure share" share --world 3 -o "$scratch/x.svg"
-check "--tolerance without auto" refuses 2 "--tolerance: needs --model auto" interval --tolerance 1% -o "$scratch/x.svg"
+check "--tolerance without auto" refuses 2 "--tolerance: needs --model auto in the figure share" share --tolerance 1% -o "$scratch/x.svg"
 check "too many budgets" refuses 2 "at most 8 set-ups" budget -m d3d,gl,reversed -o "$scratch/x.svg"
 check "too many normals" refuses 2 "at most 4 set-ups, got 6" normals -F unorm16,unorm24,fp32 -m d3d,reversed -o "$scratch/x.svg"
 within_bound() { # every point of projective on a plane has its bound above it
@@ -86,9 +86,34 @@ check "normals on a plane stay below their bound" within_bound
 check "too many staircases" refuses 2 "at most 8 set-ups" distribution -F unorm2,unorm3,unorm4 -m d3d,gl,reversed -o "$scratch/x.svg"
 check "nothing was left behind by the refused ones" [ ! -e "$scratch/x.svg" ]
 
+counted() { # counted FIGURE ARGUMENT...: fewer evaluations than a third of the pixel columns
+    "$DEPTHPREC" plot "$@" -v -o "$scratch/counted.svg" 2>&1 >"$scratch/log" | sed -n 's/.*: \([0-9]*\) evaluations.*would be \([0-9]*\)).*/\1 \2/p' >"$scratch/counts"
+    read -r spent full <"$scratch/counts" && [ "$spent" -gt 0 ] && [ $((3 * spent)) -lt "$full" ]
+}
+for figure in distribution share error interval; do
+    check "$figure: far fewer evaluations than pixel columns" counted $figure
+done
+method_of() { "$DEPTHPREC" plot interval --json "$@" | grep -o '"method":"[^"]*"' || echo none; }
+check "an interval that a pixel cannot show need not be exact" [ "$(method_of -F unorm24 -m d3d)" = '"method":"rule-of-thumb"' ]
+check "--tolerance 0 keeps to the cells" [ "$(method_of -F unorm24 -m d3d --tolerance 0)" = none ]
+check "no method is claimed for other formats" [ "$(method_of -F unorm16,fp16 --tolerance 50%)" = none ]
+below_the_guarantee() { # every point of the census lies at or below the line that the guarantee is drawn as
+    "$DEPTHPREC" plot interval --model fp32 -n 1 -f 100 -F unorm24 -m d3d --csv | tr -d '\r"' | awk -F , '
+        NF == 4 { x[++m] = $3; s[m] = $4 }
+        $3 == " census" { z[++n] = $4; y[n] = $5 }
+        END {
+            for (i = 1; i <= n; i++)
+                for (k = 1; k < m; k++)
+                    if (x[k] <= z[i] && z[i] <= x[k + 1])
+                        good += y[i] <= (s[k] > s[k + 1] ? s[k] : s[k + 1])
+            exit !(n >= 6 && good >= n)
+        }'
+}
+check "a census in the model fp32, no point of it above the guarantee" below_the_guarantee
+
 check "auto chooses the model of each curve" sh -c '
     "$1" plot interval --model auto -F unorm16,unorm24 -m d3d,log --csv | cut -d \" -f 2 | sed 1d | sort -u | tr "\n" ";" |
-        grep -qx "unorm16 d3d, exact;unorm16 log, exact;unorm24 d3d, fp32;unorm24 d3d, fp32, lattice;unorm24 log, staged;"
+        grep -qx "unorm16 d3d, exact;unorm16 log, exact;unorm24 d3d, fp32;unorm24 d3d, fp32, census;unorm24 d3d, fp32, lattice;unorm24 log, staged;"
     ' - "$DEPTHPREC"
 
 # A failed run leaves the old figure as it was.

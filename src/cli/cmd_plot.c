@@ -11,11 +11,13 @@
 #include "cli/methods.h"
 #include "cli/number.h"
 #include "cli/options.h"
+#include "cli/plot_census.h"
 #include "cli/plot_data.h"
 #include "cli/plot_normals.h"
 #include "cli/plot_scene.h"
 #include "cli/setups.h"
 #include "cli/suggest.h"
+#include "cli/ways.h"
 #include "plot/draw.h"
 #include "plot/figure.h"
 #include "plot/notes.h"
@@ -83,8 +85,8 @@ static int check_options(const options *o, const figure_row *row) {
     if (option_given(o, OPTION_MODEL) && (row->takes & FIGURE_BINARY32) != 0 && o->model != DP_MODEL_FP32)
         return option_error(OPTION_MODEL, "must be fp32 in the figure %s, got '%s'", row->name,
                             o->model_auto ? "auto" : dp_model_name(o->model));
-    if (option_given(o, OPTION_TOLERANCE) && !o->model_auto)
-        return option_error(OPTION_TOLERANCE, "needs --model auto in a figure");
+    if (option_given(o, OPTION_TOLERANCE) && !o->model_auto && (row->takes & FIGURE_WAYS) == 0)
+        return option_error(OPTION_TOLERANCE, "needs --model auto in the figure %s", row->name);
     return EXIT_FINE;
 }
 
@@ -146,9 +148,23 @@ static bool picture(const options *o, const chart *c, output *out) {
     return true;
 }
 
+/* Which curves, or how many fields of a map, were computed by other methods than the exact engine. */
+static void say_methods(const chart_panel *panel) {
+    const chart_map *m = &panel->map;
+    if (m->by_way > 0)
+        fprintf(stderr, "depthprec: %zu of %d fields by a method that is cheaper than the exact cell\n", m->by_way,
+                m->columns * m->rows);
+    for (size_t s = 0; s < panel->series_count; s++)
+        if (panel->series[s].method != NULL)
+            fprintf(stderr, "depthprec: %s: by %s between the cells that the planes cut\n", panel->series[s].name,
+                    panel->series[s].method);
+}
+
 /* How much was computed for the picture, against a value for each pixel column and curve. */
 static void say_evaluations(const figure_row *row, const chart *c) {
     size_t fields = 0;
+    for (size_t p = 0; p < c->panel_count; p++)
+        say_methods(&c->panels[p]);
     for (size_t p = 0; p < c->panel_count; p++)
         fields += (size_t)c->panels[p].map.columns * (size_t)c->panels[p].map.rows;
     if (fields > 0)
@@ -211,6 +227,8 @@ int cmd_plot(const options *o) {
     in_binary32.model = (row->takes & FIGURE_BINARY32) != 0 ? DP_MODEL_FP32 : o->model;
     request.columns = o->width > 0 ? o->width : WIDTH;
     request.rows = o->height > 0 ? o->height : HEIGHT;
+    request.find_way = (row->takes & FIGURE_WAYS) != 0 ? way_for_figure : NULL;
+    request.tolerance = option_given(o, OPTION_TOLERANCE) ? o->tolerance : (double)NAN;
     int status = check_size(o);
     if (status == EXIT_FINE)
         status = check_file_given(o, row);
@@ -231,6 +249,10 @@ int cmd_plot(const options *o) {
         choose_models(o, &request, &all);
         status = check_cells(row, &all);
     }
+    plot_census census = {0};
+    if (status == EXIT_FINE && (row->takes & FIGURE_CENSUS) != 0)
+        status = plot_census_make(&all, &request, &census);
+    request.census = census.shown;
     methods_figure walked = {0};
     char of_methods[2 * CHART_TEXT];
     const char *family = o->operand_count > 1 ? o->operands[1] : NULL;
@@ -256,6 +278,7 @@ int cmd_plot(const options *o) {
         status = usage_error("plot: no memory");
     }
     chart_free(c);
+    plot_census_free(&census);
     methods_figure_free(&walked);
     setups_release(&all);
     return status;

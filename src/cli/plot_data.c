@@ -21,6 +21,8 @@ static void json_axis(json *j, const char *name, const chart_axis *axis) {
 static void json_series(json *j, const chart_panel *panel, const chart_series *s) {
     json_object(j, NULL);
     json_string(j, "name", s->name);
+    if (s->method != NULL)
+        json_string(j, "method", s->method);
     json_array(j, "points");
     for (size_t i = 0; i < s->count; i++) {
         json_object(j, NULL);

@@ -40,6 +40,10 @@ static void into_background(chart_series *s) {
     snprintf(s->name + strlen(s->name), sizeof s->name - strlen(s->name), ", lattice");
 }
 
+static bool has_census(const figure_request *request, size_t i) {
+    return request->census != NULL && request->census[i].count > 0;
+}
+
 static void add_separation(const figure_request *request, chart *out, chart_panel *panel, size_t i) {
     double knots[REFINE_KNOTS];
     refine r;
@@ -56,17 +60,20 @@ static void add_separation(const figure_request *request, chart *out, chart_pane
     if (s == NULL)
         return;
     s->style = figure_style(request, i);
+    if (has_census(request, i))
+        s->style.marker = -1; /* its points have it */
     snprintf(s->name, sizeof s->name, "%s", request->names[i]);
 }
 
 /* The longest intervals that there are, each where it begins: none of them lies above the guarantee. */
 static void add_census(const figure_request *request, chart *out, chart_panel *panel, size_t i) {
+    if (!has_census(request, i))
+        return;
     const figure_census *c = &request->census[i];
-    chart_series *s = c->count > 0 ? chart_add_series(out, panel, CHART_POINTS, c->count) : NULL;
+    chart_series *s = chart_add_series(out, panel, CHART_POINTS, c->count);
     if (s == NULL)
         return;
     s->style = figure_style(request, i);
-    s->unlisted = true;
     snprintf(s->name, sizeof s->name, "%s, census", request->names[i]);
     memcpy(s->x, c->z, c->count * sizeof *s->x);
     memcpy(s->y, c->longest, c->count * sizeof *s->y);
@@ -86,7 +93,7 @@ const char *interval_build(const figure_request *request, chart *out) {
             into_background(&panel->series[i]);
             add_separation(request, out, panel, i);
         }
-    for (size_t i = 0; i < request->count && panel != NULL && request->census != NULL; i++)
+    for (size_t i = 0; i < request->count && panel != NULL; i++)
         add_census(request, out, panel, i);
     chart_fit(out);
     if (changed == 0)
@@ -97,6 +104,6 @@ const char *interval_build(const figure_request *request, chart *out) {
                                            : "Z-fighting interval; in the model fp32, guaranteed separation");
     snprintf(out->subtitle + strlen(out->subtitle), sizeof out->subtitle - strlen(out->subtitle),
              ". Thin: the interval of the lattice alone%s",
-             request->census != NULL ? ". Large markers: the longest interval of each power of two, by census" : "");
+             request->census != NULL ? ". Points: the longest interval that there is in each power of two" : "");
     return NULL;
 }
