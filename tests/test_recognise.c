@@ -10,6 +10,7 @@
 #include "oracle.h"
 #include "support.h"
 #include "texture/recognise.h"
+#include "texture/recognise_lattice.h"
 
 enum { SIDE = 64, SAMPLES = SIDE * SIDE };
 
@@ -116,7 +117,7 @@ static void one_off(void **state) {
         const char *to;
     } rows[] = {
         {"fp16", 0x1.002p-3F, "unorm24"}, /* all multiples of 2^-24 are within 1 ulp of a code of unorm24 */
-        {"fp16", 0x1.00001p-7F, "fp32"},   {"fp16", 0x1.8p-24F, "fp32"}, /* between subnormals */
+        {"fp16", 0x1.00001p-7F, "fp32"},    {"fp16", 0x1.8p-24F, "fp32"}, /* between subnormals */
         {"unorm16", 0.1F, "fp32"},          {"unorm16", 0x1.000002p-10F, "fp32"},
         {"unorm24", 0x1.00001p-6F, "fp32"}, /* a quarter of a code off */
     };
@@ -191,42 +192,34 @@ static void all_codes(void **state) {
     tally_end(&t);
 }
 
-/* The shares that the header gives for numbers of finer lattices, counted. */
+/* The shares that the header gives, of numbers without a lattice and of codes of unorm24, counted. */
 static void chances(void **state) {
     (void)state;
-    const dp_format finer = format_of("unorm24");
-    square *s = square_of(IMAGE_F32);
+    enum { BLOCK = 4096 };
+    const uint64_t blocks = test_cases(64, 512, 2048);
     rng r = rng_make("chances");
-    for (size_t k = 0; k < 3; k++)
+    for (int e = -1; e >= -9; e -= 2)
         for (int source = 0; source < 2; source++) {
-            uint64_t on = 0;
-            const uint64_t trials = test_cases(20, 100, 400);
-            if (k == 2 && source == 1)
-                continue;
-            for (uint64_t t = 0; t < trials; t++) {
-                for (int i = 0; i < SAMPLES; i++) {
-                    const float d = (float)rng_uniform(&r, 0.03125, 0.0625);
-                    s->data.f32[i] = source == 0 ? d : (float)value_of(&finer, (uint32_t)((double)d * 16777215.0));
+            size_t off[LATTICE_COUNT] = {0};
+            for (uint64_t k = 0; k < blocks; k++) {
+                double d[BLOCK];
+                for (int i = 0; i < BLOCK; i++) {
+                    const double x = ldexp(rng_uniform(&r, 1, 2), e);
+                    d[i] = (double)(float)(source == 0 ? x : floor(x * 16777215) / 16777215);
                 }
-                /* One by one, as images of a single pixel. */
-                for (int i = 0; i < SAMPLES; i++) {
-                    image one = {1, 1, 1, IMAGE_F32, IMAGE_NPY, &s->data.f32[i]};
-                    recognised found;
-                    recognise(&one, &found);
-                    bool is = strcmp(found.format.name, names[k]) == 0;
-                    on += is;
-                }
+                lattice_single(d, BLOCK, off);
             }
-            const double n = (double)trials * SAMPLES, share = (double)on / n;
-            /* unorm24 at 1/32 to 1/16: ulp is 2^-28, a code every 16 ulp, and 3 of them are on it. */
-            const double claims[3] = {0x1p-10, 3.0 / 256, 3.0 / 16};
-            const double noise = 6 * sqrt(claims[k] / n);
-            if (share > claims[k] + noise)
-                fail_msg("%s: %g of the numbers, claimed %g", names[k], share, claims[k]);
-            if (k == 2 && share < claims[k] * 0.9)
-                fail_msg("%s: %g of the numbers, far below the claim of %g", names[k], share, claims[k]);
+            const double n = (double)(blocks * BLOCK);
+            for (int k = 0; k < (source == 0 ? LATTICE_FP32 : LATTICE_UNORM24); k++) {
+                const double claim = lattice_chance((lattice)k, true, ldexp(1.5, e));
+                const double share = (n - (double)off[k]) / n, noise = 6 * sqrt(claim / n);
+                if (share > claim + noise || (source == 0 && share < claim - noise - claim / 1000))
+                    fail_msg("%s at 2^%d: %g of the numbers, claimed %g", lattice_name((lattice)k), e, share, claim);
+            }
         }
-    free(s);
+    assert_true(lattice_chance(LATTICE_UNORM24, true, 0) == 1 && lattice_chance(LATTICE_FP16, true, 1) == 1);
+    assert_true(lattice_chance(LATTICE_FP32, true, 0.01) == 1);
+    assert_relative(lattice_chance(LATTICE_UNORM24, false, 0.6), 3 * 0x1p-53 * 16777215, 1e-15);
 }
 
 static void too_few(void **state) {
@@ -275,6 +268,7 @@ static void integers(void **state) {
         {IMAGE_U16, 0, 9000, 0, "unorm16", false, 1, "codes up to 9000, of unorm16 or of fp16"},
         {IMAGE_U16, 0, 0, 65535, "unorm16", false, -1, "16 bits that repeat 8"},
         {IMAGE_U32, 0, 9000, 0, "unorm16", false, 1, "codes up to 9000, of unorm16 or of unorm24"},
+        {IMAGE_U32, 60000, 65534, 65534, "unorm16", false, 0, "of unorm16 or of unorm24"},
         {IMAGE_U32, 60000, 65535, 65535, "unorm16", true, 0, "codes up to 65535, of unorm16;"},
         {IMAGE_U32, 0, 65536, 0, "unorm24", true, 1, "codes of unorm24 up to 65536"},
         {IMAGE_U32, 16000000, 0xFFFFFF, 0xFFFFFF, "unorm24", true, 0, "codes of unorm24 up to 16777215"},
@@ -322,6 +316,10 @@ static void packings(void **state) {
             recognise(&s->img, &r);
             assert_true(!r.depth && r.invalid == SAMPLES && strstr(r.why, "shift them down by 8 first") != NULL);
         }
+    for (uint32_t i = 0; i < SAMPLES; i++) /* low bytes that differ in a bit */
+        s->data.u32[i] = 0x3A000000 + i * 0x180;
+    recognise(&s->img, &r);
+    assert_true(r.depth && strcmp(r.format.name, "fp32") == 0);
     for (uint32_t i = 0; i < SAMPLES; i++) /* fp16 in the bits of fp32: its low bytes are equal too */
         s->data.u32[i] = 0x3E000000 + i % 0xC00 * 0x2000;
     recognise(&s->img, &r);

@@ -7,9 +7,9 @@
  * too: a code c of unormN is recognised within 1 ulp of c/(2^N - 1), because drivers multiply by a rounded reciprocal
  * instead of dividing. The coarsest lattice that holds every sample is the answer, fp32 when none does.
  *
- * Chance: of numbers without a lattice a share p(x) lies on a given one all the same: 3 ulp(x) (2^24 - 1), at most 1,
- * for unorm24, 3/256 for unorm16 (whose denser neighbour is unorm24), 2^-10 for fp16. The answer is certain where at
- * least RECOGNISE_LEAST different samples with p < 1 were seen and the product of their p is below 2^-RECOGNISE_BITS.
+ * Chance: of numbers without a lattice, and of codes of a finer unorm, a share p(x) lies on a given one all the same:
+ * 3 ulp(x) (2^N - 1), at most 1, on that of unormN, 2^-13 on that of fp16. The answer is certain where at least
+ * RECOGNISE_LEAST different samples with p < 1 were seen and the product of their p is below 2^-RECOGNISE_BITS.
  * In [1/4, 1] every binary32 number lies within 1 ulp of a code of unorm24, so that images of a standard mapping, whose
  * samples are near 1, are often uncertain: fp32 cannot be told from unorm24 there, and nothing is lost by it but small
  * depths. Numbers that somebody chose, such as k/256, are not random and look like fp16.

@@ -103,12 +103,11 @@ double lattice_chance(lattice which, bool single, double d) {
     if (d == 0 || d == 1 || which == LATTICE_FP32)
         return 1;
     if (which == LATTICE_FP16)
-        return 0x1p-10;
-    if (which == LATTICE_UNORM16)
-        return 3.0 / 256;
+        return 0x1p-13;
     int exponent;
     frexp(d, &exponent);
-    return fmin(1, 3 * ldexp(unorm24_max, exponent - (single ? 24 : 53)));
+    const double ulp = ldexp(1, exponent - (single ? 24 : 53));
+    return fmin(1, 3 * ulp * (which == LATTICE_UNORM16 ? unorm16_max : unorm24_max));
 }
 
 /* ---- Different numbers --------------------------------------------------------------------------------------------*/

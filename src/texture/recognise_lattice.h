@@ -28,7 +28,7 @@ void lattice_single(const double *d, size_t count, size_t off[LATTICE_COUNT]);
 /** The same for numbers that are not all binary32: unorm within 1 ulp of binary64. */
 void lattice_double(const double *d, size_t count, size_t off[LATTICE_COUNT]);
 
-/** The largest share of numbers without a lattice that lie on one near d, see recognise.h. 0 <= d <= 1 */
+/** The share of numbers near d that lie on a lattice by chance, see recognise.h. 0 <= d <= 1 */
 double lattice_chance(lattice which, bool single, double d);
 
 /** Different numbers. */
