@@ -10,5 +10,8 @@ grep -v '^#' "$(dirname "$0")/recipes" | while read -r name arguments; do
     echo "  PLOT    $folder/$name.svg"
     # A recipe is words without quotes or patterns.
     # shellcheck disable=SC2086
-    "$program" plot $arguments -o "$folder/$name.svg"
+    case $arguments in
+    'texture '*) "$program" $arguments --figure "$folder/$name.svg" ;;
+    *) "$program" plot $arguments -o "$folder/$name.svg" ;;
+    esac
 done

@@ -86,7 +86,7 @@ names_in() { # names_in SECTION: prints the names on stdin that the page does no
 }
 
 options() { # long options, as mdoc writes them: -near for --near
-    for verb in table plot zfight budget bias list help; do
+    for verb in table plot zfight budget bias texture list help; do
         "$DEPTHPREC" help $verb | sed -n 's/^  \(-[a-zA-Z],\)* *-\(-[a-z][-a-z]*\).*/\2/p'
     done | sort -u
 }

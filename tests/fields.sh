@@ -32,7 +32,7 @@ all_named plot interval
 all_named plot map -F unorm24
 all_named plot budget -F unorm24
 all_named plot scene tests/needs/village.need
-for what in formats mappings presets apis packings effects figures; do all_named list $what; done
+for what in formats mappings presets apis packings effects scenes positions normals figures; do all_named list $what; done
 all_named zfight -n 1 -f 1.5 -F unorm16
 all_named zfight -n 1 -f 1.5 -F unorm16 --sample 100 --gap 0.01
 all_named budget --at 10
@@ -43,4 +43,8 @@ all_named bias --at 10 --units 1
 all_named bias --range 1:10 --gap 0.01
 all_named bench worst --tolerance 0.1
 all_named stability encode
+all_named texture --scene decals --size 64x36
+all_named texture --effect intersection --at 10
+"$DEPTHPREC" texture --scene plane --size 64x36 -F unorm16 -m d3d -o "$scratch/depth.npy"
+all_named texture "$scratch/depth.npy"
 finish
