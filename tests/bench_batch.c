@@ -105,8 +105,7 @@ static const row rows[] = {
      0.26, 0},
     {"eye depth -> unorm24, reversed", "unorm24", DP_MAPPING_REVERSED, DP_TASK_CODE, DP_REAL_FLOAT, DP_WORD_32,
      move_4_4, NULL, 0.26, 0},
-    {"eye depth -> unorm16", "unorm16", DP_MAPPING_D3D, DP_TASK_CODE, DP_REAL_FLOAT, DP_WORD_16, move_4_2, NULL, 0.26,
-     0},
+    {"eye depth -> unorm16", "unorm16", DP_MAPPING_D3D, DP_TASK_CODE, DP_REAL_FLOAT, DP_WORD_16, move_4_2, NULL, 0, 0},
     {"eye depth -> fp32, reversed", "fp32", DP_MAPPING_REVERSED, DP_TASK_CODE, DP_REAL_FLOAT, DP_WORD_32, move_4_4,
      NULL, 0, 0},
     {"eye depth, double -> unorm24", "unorm24", DP_MAPPING_D3D, DP_TASK_CODE, DP_REAL_DOUBLE, DP_WORD_32, move_8_4,
@@ -118,7 +117,7 @@ static const row rows[] = {
     {"fp32 -> eye depth, reversed", "fp32", DP_MAPPING_REVERSED, DP_TASK_EYE, DP_REAL_FLOAT, DP_WORD_32, move_4_4, NULL,
      0, 0},
     {"unorm24 -> width, double", "unorm24", DP_MAPPING_D3D, DP_TASK_WIDTH, DP_REAL_DOUBLE, DP_WORD_32, move_4_8, NULL,
-     0, 0},
+     0.42, 0},
 };
 
 static double now(void) {

@@ -10,7 +10,7 @@
 #include "core/batch_plan.h"
 #include "depthprec/depth.h"
 
-enum { BLOCK = 1024, PATCH = 16 };
+enum { BLOCK = 1024, PATCH = 16, LINE = 64 };
 
 /* ---- Paths ------------------------------------------------------------------------------------------------------- */
 
@@ -200,12 +200,23 @@ static void run_patches(const dp_batch *b, const unsigned char *from, unsigned c
     }
 }
 
+/* The first elements, up to where what is written starts a cache line: then no store of a vector straddles two. */
+static size_t lead(const dp_batch *b, const void *out, size_t count) {
+    const size_t bytes = (LINE - (uintptr_t)out % LINE) % LINE;
+    const size_t some = bytes % b->out_size == 0 ? bytes / b->out_size : 0;
+    return some < count ? some : 0;
+}
+
 void dp_batch_run(const dp_batch *batch, const void *in, void *out, size_t count) {
     const unsigned char *from = in;
     unsigned char *to = out;
     double saved[BLOCK]; /* in place, what is read must outlive what is written */
-    for (size_t i = 0; i < count; i += BLOCK, from += BLOCK * batch->in_size, to += BLOCK * batch->out_size) {
-        const size_t some = count - i < BLOCK ? count - i : BLOCK;
+    size_t some = lead(batch, out, count);
+    if (some == 0)
+        some = BLOCK;
+    for (size_t left = count; left > 0; some = BLOCK) {
+        if (some > left)
+            some = left;
         const unsigned char *source = from;
         if (in == out) {
             memcpy(saved, from, some * batch->in_size);
@@ -215,5 +226,8 @@ void dp_batch_run(const dp_batch *batch, const void *in, void *out, size_t count
             run_plain(batch, source, to, some);
         else if (run_kernel(batch, source, to, some) < batch->doubt)
             run_patches(batch, source, to, some);
+        left -= some;
+        from += some * batch->in_size;
+        to += some * batch->out_size;
     }
 }
