@@ -9,6 +9,7 @@
 #include "cli/csv.h"
 #include "cli/json.h"
 #include "cli/number.h"
+#include "cli/progress.h"
 #include "cli/setups.h"
 
 static const char *number(double value, int digits, char out[NUMBER_SIZE]) {
@@ -251,18 +252,35 @@ static bool add_error(texture_report *r, const char *what, const char *method, c
     return frame_summarise(&r->source->frame, product, &e->sum);
 }
 
+/* How often the pixels are visited: once for the survey, and once for each product that is measured. */
+static uint64_t passes(const texture_report *r) {
+    uint64_t count = 2;
+    for (size_t i = 0; r->source->path == NULL && position_get(i) != NULL; i++)
+        count++;
+    for (size_t i = 0; r->source->path == NULL && normal_get(i) != NULL; i++)
+        count++;
+    return count;
+}
+
 /* Of an image what is certain without looking any further; a scene tells the truth about everything. */
-static bool measure(texture_report *r) {
+static bool measure(texture_report *r, progress *bar) {
     frame_product p = {.kind = FRAME_EYE, .error = true};
+    uint64_t done = 1;
+    progress_step(bar, done);
     bool good = add_error(r, "eye depth", "", "scene units", &p);
+    progress_step(bar, ++done);
     if (r->source->path != NULL)
         return good;
     p.kind = FRAME_POSITION;
-    for (size_t i = 0; good && (p.position = position_get(i)) != NULL; i++)
+    for (size_t i = 0; good && (p.position = position_get(i)) != NULL; i++) {
         good = add_error(r, "position", p.position->name, "scene units", &p);
+        progress_step(bar, ++done);
+    }
     p.kind = FRAME_NORMAL;
-    for (size_t i = 0; good && (p.normal = normal_get(i)) != NULL; i++)
+    for (size_t i = 0; good && (p.normal = normal_get(i)) != NULL; i++) {
         good = add_error(r, "normal", p.normal->name, "degrees", &p);
+        progress_step(bar, ++done);
+    }
     return good;
 }
 
@@ -275,7 +293,10 @@ int texture_report_write(const options *o, const texture_source *source) {
     if (status == EXIT_FINE) {
         r->o = o;
         r->source = source;
-        if (survey_make(&source->frame, &r->survey) && measure(r)) {
+        progress bar = progress_start("passes", passes(r), o->quiet);
+        const bool good = survey_make(&source->frame, &r->survey) && measure(r, &bar);
+        progress_end(&bar);
+        if (good) {
             r->has_pairs = survey_pairs_make(&source->frame, &r->pairs);
             writers[o->form](r, &out);
             status = output_close(&out);
