@@ -38,6 +38,18 @@ static const figure_methods methods = {.measure = "relative error",
                                        .claimed = method_ends,
                                        .breaks = method_ends};
 
+/* Two normals from depth, one without error, and the bound of the other. */
+static double normal_error(const dp_setup *setup, size_t surface, size_t method, double z) {
+    (void)surface;
+    return method == 1 ? 0 : z / setup->spec.znear * (method == 2 ? 2 : 1);
+}
+static const figure_normals normals = {.surface_count = 2,
+                                       .method_count = 2,
+                                       .surfaces = (const char *const[]){"plane", "sphere"},
+                                       .methods = (const char *const[]){"rough", "exact"},
+                                       .bound = "bound of rough",
+                                       .error = normal_error};
+
 /* A request about some set-ups, with the room it points to. */
 typedef struct asked {
     dp_setup setups[CHART_SERIES];
@@ -46,7 +58,9 @@ typedef struct asked {
 } asked;
 
 static void ask(asked *a, double znear, double zfar) {
-    *a = (asked){.request = {.lo = NAN, .hi = NAN, .at = NAN, .methods = &methods, .columns = 300, .rows = 200}};
+    *a = (asked){
+        .request = {
+            .lo = NAN, .hi = NAN, .at = NAN, .methods = &methods, .normals = &normals, .columns = 300, .rows = 200}};
     a->request.setups = a->setups;
     a->request.names = a->names;
     a->setups[0].spec = dp_spec_default();

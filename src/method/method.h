@@ -38,9 +38,9 @@ enum { METHOD_CASES = 3 };
 #define METHOD_ROUNDING (20 * 0x1p-53)
 
 /** The worst error for far/near in [ratio_lo, ratio_hi]. No span, ratio_hi 0: the method does not speak of the case;
- *  a worst of NaN: it does, and claims nothing. A claim up to METHOD_RATIO_HI covers an infinite far plane where METHOD_INFINITE is set.
- *  Each is derived in depthprec(7), "Methods". A formula falls, or rises, or falls and then rises, so that its worst
- *  over a span is at an end of the span; it may be INFINITY.
+ *  a worst of NaN: it does, and claims nothing. A claim up to METHOD_RATIO_HI covers an infinite far plane where
+ *  METHOD_INFINITE is set. Each is derived in depthprec(7), "Methods". A formula falls, or rises, or falls and then
+ *  rises, so that its worst over a span is at an end of the span; it may be INFINITY.
  */
 typedef struct method_claim {
     double worst; /**< in the family's measure; times formula(far/near) where there is one */
