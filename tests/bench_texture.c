@@ -1,0 +1,263 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/*
+ * A depth image of 3840 x 2160 in memory: eye depths, places and normals, each beside loops that move the same bytes,
+ * with plain stores and with stores past the caches; then whole frames as the command makes them. All take turns, on
+ * one thread and on all; medians. A missed aim is a word in a table, never a failure.
+ */
+#include <math.h>
+#include <omp.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/mman.h>
+#include <time.h>
+#ifdef __SSE2__
+#include <emmintrin.h>
+#endif
+
+#include "texture/clones.h"
+#include "texture/frame.h"
+
+enum { WIDTH = 3840, HEIGHT = 2160, STRIDE = WIDTH + 16, RUNS = 9, WAYS_MAX = 24 };
+
+static const size_t pixels = (size_t)WIDTH * HEIGHT;
+
+static texture_camera camera;
+static position_state position;
+static dp_batch decoder;
+static float *window, *eyes, *plane[3], *slope;
+static uint32_t *codes;
+static int threads = 1;
+
+static double now(void) {
+    struct timespec t;
+    clock_gettime(CLOCK_MONOTONIC, &t);
+    return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
+}
+
+static int ascending(const void *a, const void *b) {
+    const double x = *(const double *)a;
+    const double y = *(const double *)b;
+    return (x > y) - (x < y);
+}
+
+static const float *eye_row(int64_t row) {
+    const int64_t inside = row < 0 ? 0 : row >= HEIGHT ? HEIGHT - 1 : row;
+    return eyes + (size_t)inside * STRIDE + 8;
+}
+
+/* ---- Floors ------------------------------------------------------------------------------------------------------ */
+
+TEXTURE_CLONES static void copy_row(const float *restrict from, float *restrict to) {
+    for (size_t i = 0; i < WIDTH; i++)
+        to[i] = -from[i];
+}
+
+static void stream_row(const float *restrict from, float *restrict to) {
+#ifdef __SSE2__
+    for (size_t i = 0; i < WIDTH; i += 4)
+        _mm_stream_ps(to + i, _mm_sub_ps(_mm_setzero_ps(), _mm_loadu_ps(from + i)));
+#else
+    copy_row(from, to);
+#endif
+}
+
+typedef struct way way;
+struct way {
+    const char *name;
+    void (*run)(const way *w, uint32_t row);
+    int planes;    /* that are written: 1 or 3 */
+    int streaming; /* 1: the floor of the others with as many planes */
+    double aim;    /* of the floor, 0: none */
+    const void *method;
+};
+
+static void run_copy(const way *w, uint32_t row) {
+    for (int k = 0; k < w->planes; k++)
+        copy_row(window + (size_t)row * WIDTH, plane[k] + (size_t)row * WIDTH);
+}
+
+static void run_stream(const way *w, uint32_t row) {
+    for (int k = 0; k < w->planes; k++)
+        stream_row(window + (size_t)row * WIDTH, plane[k] + (size_t)row * WIDTH);
+}
+
+/* ---- What is measured -------------------------------------------------------------------------------------------- */
+
+static void run_decode(const way *w, uint32_t row) {
+    const decode_row *r = w->method;
+    r->run(&camera.setup, window + (size_t)row * WIDTH, plane[0] + (size_t)row * WIDTH, WIDTH);
+}
+
+static void run_batch(const way *w, uint32_t row) {
+    (void)w;
+    dp_batch_run(&decoder, codes + (size_t)row * WIDTH, plane[0] + (size_t)row * WIDTH, WIDTH);
+}
+
+static void run_position(const way *w, uint32_t row) {
+    const position_row *r = w->method;
+    const size_t at = (size_t)row * WIDTH;
+    r->run(&position, row, 0, window + at, WIDTH, plane[0] + at, plane[1] + at, plane[2] + at);
+}
+
+static void run_normal(const way *w, uint32_t row) {
+    const normal_row *r = w->method;
+    const size_t at = (size_t)row * WIDTH;
+    normal_rows in = {.camera = &camera, .row = row, .count = WIDTH, .slope_x = slope + 8};
+    for (int k = -NORMAL_REACH; k <= NORMAL_REACH; k++)
+        in.rows[NORMAL_REACH + k] = eye_row((int64_t)row + k);
+    r->run(&in, plane[0] + at, plane[1] + at, plane[2] + at);
+}
+
+static void whole(const way *w, int on) {
+#pragma omp parallel for num_threads(on) schedule(static)
+    for (uint32_t row = 0; row < HEIGHT; row++)
+        w->run(w, row);
+}
+
+static void table(const char *title, const way *ways, size_t count) {
+    static double sample[2][WAYS_MAX][RUNS];
+    double ns[2][WAYS_MAX], floor_ns[2][4] = {{0}};
+    for (int run = -1; run < RUNS; run++)
+        for (size_t i = 0; i < count; i++)
+            for (int t = 0; t < 2; t++) {
+                const double start = now();
+                whole(&ways[i], t == 0 ? 1 : threads);
+                if (run >= 0)
+                    sample[t][i][run] = (now() - start) * 1e9 / (double)pixels;
+            }
+    for (size_t i = 0; i < count; i++)
+        for (int t = 0; t < 2; t++) {
+            qsort(sample[t][i], RUNS, sizeof sample[t][i][0], ascending);
+            ns[t][i] = sample[t][i][RUNS / 2];
+            if (ways[i].streaming)
+                floor_ns[t][ways[i].planes] = ns[t][i];
+        }
+    printf("\n%-24s %9s %9s %7s %9s %9s   aim\n", title, "1 thread", "/floor", "threads", "ns", "/floor");
+    for (size_t i = 0; i < count; i++) {
+        const double ratio = ns[0][i] / floor_ns[0][ways[i].planes];
+        printf("%-24s %9.3f %9.2f %7d %9.3f %9.2f", ways[i].name, ns[0][i], ratio, threads, ns[1][i],
+               ns[1][i] / floor_ns[1][ways[i].planes]);
+        if (ways[i].aim > 0.0)
+            printf("   <= %.2f floor  %s", ways[i].aim, ratio <= ways[i].aim ? "met" : "missed");
+        printf("\n");
+    }
+}
+
+/* ---- Whole frames ------------------------------------------------------------------------------------------------ */
+
+static bool drop(void *context, uint32_t row, uint32_t count, const float *values) {
+    (void)context;
+    (void)row;
+    (void)count;
+    (void)values;
+    return true;
+}
+
+static void frames(void) {
+    image picture = {.width = WIDTH, .height = HEIGHT, .channels = 1, .type = IMAGE_F32, .data = window};
+    const frame_product products[] = {
+        {.kind = FRAME_EYE},
+        {.kind = FRAME_POSITION, .position = position_find("view")},
+        {.kind = FRAME_NORMAL, .normal = normal_find("high")},
+        {.kind = FRAME_NORMAL, .normal = normal_find("projective")},
+    };
+    static const char *const names[] = {"eye depths", "places, view", "normals, high", "normals, projective"};
+    printf("\n%-24s %9s %9s %9s\n", "whole frames, ns a pixel", "1 thread", "all", "speed-up");
+    for (size_t i = 0; i < sizeof products / sizeof products[0]; i++) {
+        double sample[2][RUNS];
+        for (int run = -1; run < RUNS; run++)
+            for (int t = 0; t < 2; t++) {
+                const frame f = {
+                    .camera = &camera, .image = &picture, .sky = TEXTURE_SKY, .threads = t == 0 ? 1 : threads};
+                const double start = now();
+                if (!frame_run(&f, &products[i], false, drop, NULL))
+                    exit(2);
+                if (run >= 0)
+                    sample[t][run] = (now() - start) * 1e9 / (double)pixels;
+            }
+        qsort(sample[0], RUNS, sizeof sample[0][0], ascending);
+        qsort(sample[1], RUNS, sizeof sample[1][0], ascending);
+        printf("%-24s %9.3f %9.3f %9.2f\n", names[i], sample[0][RUNS / 2], sample[1][RUNS / 2],
+               sample[0][RUNS / 2] / sample[1][RUNS / 2]);
+    }
+}
+
+/* ---- Set-up ------------------------------------------------------------------------------------------------------ */
+
+static void *room(size_t bytes) {
+    void *p = aligned_alloc((size_t)1 << 21, (bytes / ((size_t)1 << 21) + 1) << 21);
+    if (p == NULL)
+        exit(2);
+    madvise(p, bytes, MADV_HUGEPAGE);
+    memset(p, 0, bytes);
+    return p;
+}
+
+/* Hills with steps between them. */
+static double depth_at(uint32_t x, uint32_t y) {
+    const double hill = 20.0 + 5.0 * sin(0.004 * x) + 4.0 * cos(0.006 * y);
+    return (x / 97 + y / 61) % 5 == 0 ? 0.5 * hill : hill;
+}
+
+static void fill(void) {
+    dp_format format[2];
+    dp_spec spec = dp_spec_default();
+    dp_setup setup, integer;
+    camera_spec view = camera_spec_default();
+    view.width = WIDTH;
+    view.height = HEIGHT;
+    spec.mapping = DP_MAPPING_D3D;
+    if (dp_setup_init(&setup, &spec) != DP_OK || camera_init(&camera, &setup, &view) != NULL ||
+        dp_format_parse("unorm24", format) == 0)
+        exit(2);
+    spec.format = format[0];
+    if (dp_setup_init(&integer, &spec) != DP_OK ||
+        dp_batch_init(&decoder, &integer, DP_TASK_EYE, DP_REAL_FLOAT, DP_WORD_32, dp_path_best()) != DP_OK)
+        exit(2);
+    position_prepare(&position, &camera);
+    window = room(pixels * sizeof *window);
+    codes = room(pixels * sizeof *codes);
+    eyes = room((size_t)STRIDE * HEIGHT * sizeof *eyes);
+    slope = room(STRIDE * sizeof *slope);
+    for (int k = 0; k < 3; k++)
+        plane[k] = room(pixels * sizeof *plane[k] + 4096);
+    for (uint32_t y = 0; y < HEIGHT; y++)
+        for (uint32_t x = 0; x < WIDTH; x++) {
+            const double z = depth_at(x, y);
+            const double d = dp_window(&setup, z);
+            window[(size_t)y * WIDTH + x] = (float)d;
+            codes[(size_t)y * WIDTH + x] = (uint32_t)(d * 16777215.0 + 0.5);
+            eyes[(size_t)y * STRIDE + 8 + x] = (float)z;
+        }
+    for (int i = 0; i < STRIDE; i++)
+        slope[i] = (float)camera_slope_x(&camera, i - 8);
+}
+
+int main(void) {
+    way ways[WAYS_MAX];
+    size_t count = 0;
+    threads = omp_get_max_threads();
+    fill();
+    printf("\n%d x %d pixels in memory, ns a pixel; the floor streams the same bytes\n", WIDTH, HEIGHT);
+    ways[count++] = (way){"plain copy", run_copy, 1, 0, 0, NULL};
+    ways[count++] = (way){"streaming copy", run_stream, 1, 1, 0, NULL};
+    ways[count++] = (way){"batch, unorm24", run_batch, 1, 0, 0, NULL};
+    for (size_t i = 0; decode_get(i) != NULL; i++)
+        if (decode_get(i)->quantity == DECODE_EYE && decode_applies(decode_get(i), &camera.setup))
+            ways[count++] = (way){decode_get(i)->name, run_decode, 1, 0, 0, decode_get(i)};
+    table("eye depths", ways, count);
+    count = 0;
+    ways[count++] = (way){"plain copy to 3 planes", run_copy, 3, 0, 0, NULL};
+    ways[count++] = (way){"streaming copy", run_stream, 3, 1, 0, NULL};
+    for (size_t i = 0; position_get(i) != NULL; i++)
+        if (position_applies(position_get(i), &camera))
+            ways[count++] = (way){position_get(i)->name, run_position, 3, 0, 1.2, position_get(i)};
+    table("places", ways, count);
+    count = 2;
+    for (size_t i = 0; normal_get(i) != NULL; i++)
+        ways[count++] = (way){normal_get(i)->name, run_normal, 3, 0, 2.0, normal_get(i)};
+    table("normals", ways, count);
+    frames();
+    return 0;
+}
