@@ -4,6 +4,8 @@
 #include <math.h>
 #include <string.h>
 
+#include "texture/clones.h"
+
 static const double TO_DEGREES = 180 / 3.14159265358979323846;
 
 static const texture_camera *camera_of(const frame_row *in) {
@@ -52,10 +54,23 @@ static reaches nothing_yet(void) {
     return (reaches){UINT32_MAX, NAN};
 }
 
+TEXTURE_CLONES static void interleave_planes(const float *restrict x, const float *restrict y, const float *restrict z,
+                                             float *restrict out, size_t count) {
+    for (size_t i = 0; i < count; i++) {
+        out[3 * i] = x[i];
+        out[3 * i + 1] = y[i];
+        out[3 * i + 2] = z[i];
+    }
+}
+
 static void interleave(const frame_row *in) {
-    for (uint32_t x = 0; x < camera_of(in)->width; x++)
-        for (int k = 0; k < 3; k++)
-            in->out[3 * (size_t)x + (size_t)k] = in->planes[k][x];
+    interleave_planes(in->planes[0], in->planes[1], in->planes[2], in->out, camera_of(in)->width);
+}
+
+/* NaN where there is no eye depth. */
+TEXTURE_CLONES static void hide(const float *restrict eyes, float *restrict plane, size_t count) {
+    for (size_t i = 0; i < count; i++)
+        plane[i] = eyes[i] == eyes[i] ? plane[i] : (float)NAN;
 }
 
 static void make_eye(const frame_row *in) {
@@ -89,9 +104,8 @@ static void places(const frame_row *in) {
     if (in->product->position != NULL) {
         in->product->position->run(in->position, in->row, 0, in->depth, c->width, in->planes[0], in->planes[1],
                                    in->planes[2]);
-        for (uint32_t x = 0; x < c->width; x++)
-            for (int k = 0; k < 3 && isnan(eyes_of(in)[x]); k++)
-                in->planes[k][x] = NAN;
+        for (int k = 0; k < 3; k++)
+            hide(eyes_of(in), in->planes[k], c->width);
         return;
     }
     for (uint32_t x = 0; x < c->width; x++) {
