@@ -35,7 +35,7 @@ typedef enum dp_task {
 /** Relative error of an eye depth in float against dp_stored(): 3.1 units of 2^-24. */
 #define DP_BATCH_EYE_ERROR 1.85e-7
 
-/** Relative difference of a width in double from that of dp_cell_of(): 2^-49, six roundings in either. */
+/** Relative difference of a width in double from that of dp_cell_of(): 2^-49: fifteen roundings in the two. */
 #define DP_BATCH_WIDTH_ERROR 1.78e-15
 
 /** The type of depths and widths. */

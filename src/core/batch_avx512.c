@@ -134,9 +134,19 @@ TARGET INLINE void store_quotients(double *to, __mmask16 mask, __m512d top, cons
                           divide ? _mm512_div_pd(top, divisor[1]) : quotient64(top, divisor[1]));
 }
 
-TARGET static int32_t kernel_EYE_PERSPECTIVE_UNORM(const dp_batch *batch, const void *in, void *out, size_t count) {
+/* The value of FLOAT codes, as value_float() of batch_loops.h. */
+TARGET INLINE __m512d float_values(const struct dp_batch_numbers *k, __m512i codes, int upper) {
+    const __m256i half = upper ? _mm512_extracti32x8_epi32(codes, 1) : _mm512_castsi512_si256(codes);
+    const __m512d least = _mm512_set1_pd(k->least_normal);
+    const __m512i shifted = _mm512_sll_epi64(_mm512_cvtepu32_epi64(half), _mm_cvtsi32_si128(52 - k->mantissa));
+    const __m512i bits = _mm512_add_epi64(shifted, _mm512_set1_epi64((int64_t)(1023 - k->bias) << 52));
+    const __m512d normal = _mm512_castsi512_pd(bits);
+    const __m512d raised = _mm512_castsi512_pd(_mm512_add_epi64(bits, _mm512_set1_epi64((int64_t)1 << 52)));
+    return _mm512_mask_sub_pd(normal, _mm512_cmp_pd_mask(normal, least, _CMP_LT_OQ), raised, least);
+}
+
+TARGET INLINE int32_t eye_depths(const dp_batch *batch, const void *in, double *to, size_t count, int is_float) {
     const struct dp_batch_numbers *k = &batch->numbers;
-    double *to = out;
     const int divide = k->to_far == 0.0 || power_of_two(k->top);
     const __m512i code_max = _mm512_set1_epi32((int32_t)k->code_max);
     const __m512d den = _mm512_set1_pd(k->den);
@@ -147,14 +157,22 @@ TARGET static int32_t kernel_EYE_PERSPECTIVE_UNORM(const dp_batch *batch, const 
         const __m512i codes = _mm512_min_epu32(codes_at(in, i, mask, DP_WORD_32), code_max);
         __m512d divisor[2];
         for (int h = 0; h < 2; h++) {
-            const __m512d c = half_of_codes(codes, h);
-            const __m512d num = _mm512_add_pd(c, c);
+            const __m512d value = is_float ? float_values(k, codes, h) : half_of_codes(codes, h);
+            const __m512d num = is_float ? value : _mm512_add_pd(value, value);
             const __m512d comp = _mm512_sub_pd(den, num);
             divisor[h] = _mm512_add_pd(_mm512_mul_pd(to_num, num), _mm512_mul_pd(to_comp, comp));
         }
         store_quotients(to + i, mask, _mm512_set1_pd(k->top), divisor, divide);
     }
     return INT32_MAX;
+}
+
+TARGET static int32_t kernel_EYE_PERSPECTIVE_UNORM(const dp_batch *batch, const void *in, void *out, size_t count) {
+    return eye_depths(batch, in, out, count, 0);
+}
+
+TARGET static int32_t kernel_EYE_PERSPECTIVE_FLOAT(const dp_batch *batch, const void *in, void *out, size_t count) {
+    return eye_depths(batch, in, out, count, 1);
 }
 
 /* The cells at the planes are rare. */

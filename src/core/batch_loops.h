@@ -126,10 +126,10 @@ LOOP(DECODE_FLOAT, word32, real64, LIFT, { CODE to[i] = VALUE(c); })
 #ifndef QUOTIENTS_BY_HAND
 LOOP(EYE_PERSPECTIVE_UNORM, word32, real64, SENSE,
      { CODE SHARES(2.0 * AS_REAL(c)) to[i] = k.top / (k.to_near * near_share + k.to_far * far_share); })
-#endif
-
 LOOP(EYE_PERSPECTIVE_FLOAT, word32, real64, SENSE LIFT,
      { CODE SHARES(VALUE(c)) to[i] = k.top / (k.to_near * near_share + k.to_far * far_share); })
+#endif
+
 LOOP(EYE_LINEAR_UNORM, word32, real64, SENSE,
      { CODE SHARES(2.0 * AS_REAL(c)) to[i] = (k.to_near * near_share + k.to_far * far_share) / k.den; })
 LOOP(EYE_LINEAR_FLOAT, word32, real64, SENSE LIFT,
