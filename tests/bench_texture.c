@@ -2,7 +2,8 @@
 /*
  * A depth image of 3840 x 2160 in memory: eye depths, places and normals, each beside loops that move the same bytes,
  * with plain stores and with stores past the caches; then whole frames as the command makes them. All take turns, on
- * one thread and on all; medians. A missed aim is a word in a table, never a failure.
+ * one thread and on all; medians. A missed aim is a word in a table, never a failure: the place by "matrix" divides
+ * three times a pixel, because engines do, and that alone is two thirds of the floor.
  */
 #include <math.h>
 #include <omp.h>
