@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* texture: a depth image, or a synthetic scene in its place. */
+#include <stdio.h>
 #include <stdlib.h>
 
 #include "cli/texture_effect.h"
@@ -38,6 +39,9 @@ static int check_table(const options *o) {
 
 static int make_product(const options *o, const texture_source *source, texture_product *product) {
     int status = texture_product_check(source, product);
+    if (status == EXIT_FINE && source->path != NULL && source->found.invalid > 0 && !o->quiet)
+        fprintf(stderr, "depthprec: %s: %zu pixels hold no window depth and are NaN in what is made\n", source->path,
+                source->found.invalid);
     if (status == EXIT_FINE && o->output != NULL)
         status = texture_product_write(o, source, product);
     if (status == EXIT_FINE && o->figure != NULL)

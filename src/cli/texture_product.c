@@ -116,7 +116,7 @@ static int check_files(const options *o) {
 int texture_product_resolve(const options *o, texture_product *p) {
     size_t chosen = 0; /* eye depth, where --figure is all that was said */
     *p = (texture_product){.unit = "scene units", .made = {.error = o->error_map, .radial = o->radial}};
-    int status = check_files(o);
+    int status = EXIT_FINE;
     for (size_t i = 0, found = 0; i < sizeof kinds / sizeof kinds[0] && status == EXIT_FINE; i++)
         if (option_given(o, kinds[i].option)) {
             if (found++ > 0)
@@ -128,6 +128,8 @@ int texture_product_resolve(const options *o, texture_product *p) {
         status = option_error(OPTION_RADIAL, "has no meaning with --%s", option_name(kinds[chosen].option));
     if (status == EXIT_FINE)
         status = kinds[chosen].resolve(o, p);
+    if (status == EXIT_FINE)
+        status = check_files(o);
     p->made.kind = kinds[chosen].kind;
     p->made.effect_settings = p->settings;
     return status;

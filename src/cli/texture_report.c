@@ -72,14 +72,14 @@ static void write_bands(const survey *v, output *out) {
     }
     output_format(out, "  depths        %s to %s, %llu different codes\n", number(v->lo, 8, lo), number(v->hi, 8, hi),
                   (unsigned long long)v->codes);
-    output_format(out, "%12s%12s%11s%10s%11s%13s%10s%7s%13s\n", "from", "to", "pixels", "codes", "available",
+    output_format(out, "%12s%12s%11s%10s%11s%13s%10s%12s%13s\n", "from", "to", "pixels", "codes", "available",
                   "nearest gap", "at z", "steps", "interval");
     for (size_t i = 0; i < v->band_count; i++) {
         const survey_band *b = &v->bands[i];
         char steps[24] = "-";
         if (b->steps > 0)
             snprintf(steps, sizeof steps, "%llu", (unsigned long long)b->steps);
-        output_format(out, "%12s%12s%11llu%10llu%11llu%13s%10s%7s%13s\n", number(b->lo, 6, lo), number(b->hi, 6, hi),
+        output_format(out, "%12s%12s%11llu%10llu%11llu%13s%10s%12s%13s\n", number(b->lo, 6, lo), number(b->hi, 6, hi),
                       (unsigned long long)b->pixels, (unsigned long long)b->codes, (unsigned long long)b->available,
                       number(b->gap, 6, gap), number(b->gap_z, 6, z), steps, number(b->interval, 6, interval));
     }
@@ -95,6 +95,12 @@ static void write_pairs(const survey_pairs *p, output *out) {
     if (!isnan(p->certain_to))
         output_format(out, "; certain of two codes up to z = %s", number(p->certain_to, 6, certain));
     output_char(out, '\n');
+}
+
+static void write_condition(const texture_report *r, output *out) {
+    char value[NUMBER_SIZE];
+    if (!isnan(r->condition))
+        output_format(out, "  condition     %s, of the view-projection matrix\n", number(r->condition, 4, value));
 }
 
 static void write_errors(const texture_report *r, output *out) {
@@ -115,6 +121,7 @@ static void write_text(const texture_report *r, output *out) {
     write_bands(&r->survey, out);
     if (r->has_pairs)
         write_pairs(&r->pairs, out);
+    write_condition(r, out);
     write_errors(r, out);
 }
 
@@ -199,6 +206,7 @@ static void write_json(const texture_report *r, output *out) {
     } else {
         json_null(&j, "pairs");
     }
+    json_number(&j, "condition", r->condition);
     json_string(&j, "truth", r->source->path == NULL ? "scene" : NULL);
     json_array(&j, "errors");
     for (size_t i = 0; i < r->error_count; i++) {
@@ -252,6 +260,52 @@ static bool add_error(texture_report *r, const char *what, const char *method, c
     return frame_summarise(&r->source->frame, product, &e->sum);
 }
 
+/* What a decoding in binary32 adds to what is stored: relative, over the pixels that are not sky. */
+static bool add_decoding(texture_report *r, const decode_row *row) {
+    const frame *f = &r->source->frame;
+    const dp_setup *setup = &r->source->setup;
+    const uint32_t width = f->camera->width, sky = frame_sky_rank(f);
+    if (r->error_count == REPORT_ERRORS_MAX || !decode_applies(row, setup))
+        return true;
+    uint32_t *codes = calloc(width, sizeof *codes);
+    float *d = calloc(width, sizeof *d), *got = calloc(width, sizeof *got);
+    const bool good = codes != NULL && d != NULL && got != NULL;
+    texture_errors *e = &r->errors[r->error_count++];
+    snprintf(e->name, sizeof e->name, "decode %s", row->name);
+    e->unit = "relative";
+    e->sum = (frame_summary){.lo = INFINITY, .p99 = NAN};
+    for (uint32_t y = 0; good && y < f->camera->height; y++) {
+        frame_codes(f, y, codes);
+        for (uint32_t x = 0; x < width; x++)
+            d[x] = codes[x] == UINT32_MAX ? NAN : (float)dp_format_value(&setup->spec.format, codes[x]);
+        row->run(setup, d, got, width);
+        for (uint32_t x = 0; x < width; x++) {
+            if (codes[x] == UINT32_MAX || frame_rank(setup, codes[x]) >= sky)
+                continue;
+            const double want = decode_exact(setup, row->quantity, (double)d[x]);
+            const double off = want == (double)got[x] ? 0 : fabs((double)got[x] - want) / fabs(want);
+            if (!isfinite(off)) {
+                e->sum.infinite++;
+                continue;
+            }
+            e->sum.count++;
+            e->sum.mean += off;
+            e->sum.lo = fmin(e->sum.lo, off);
+            if (off > e->sum.hi || e->sum.count == 1) {
+                e->sum.hi = off;
+                e->sum.hi_column = x;
+                e->sum.hi_row = y;
+            }
+        }
+    }
+    e->sum.mean = e->sum.count > 0 ? e->sum.mean / (double)e->sum.count : (double)NAN;
+    e->sum.hi = e->sum.count > 0 ? e->sum.hi : (double)NAN;
+    free(codes);
+    free(d);
+    free(got);
+    return good;
+}
+
 /* How often the pixels are visited: once for the survey, and once for each product that is measured. */
 static uint64_t passes(const texture_report *r) {
     uint64_t count = 2;
@@ -269,6 +323,8 @@ static bool measure(texture_report *r, progress *bar) {
     progress_step(bar, done);
     bool good = add_error(r, "eye depth", "", "scene units", &p);
     progress_step(bar, ++done);
+    for (size_t i = 0; good && decode_get(i) != NULL; i++)
+        good = add_decoding(r, decode_get(i));
     if (r->source->path != NULL)
         return good;
     p.kind = FRAME_POSITION;
@@ -293,6 +349,7 @@ int texture_report_write(const options *o, const texture_source *source) {
     if (status == EXIT_FINE) {
         r->o = o;
         r->source = source;
+        r->condition = position_condition(&source->camera);
         progress bar = progress_start("passes", passes(r), o->quiet);
         const bool good = survey_make(&source->frame, &r->survey) && measure(r, &bar);
         progress_end(&bar);

@@ -4,6 +4,8 @@
 #define CLI_TEXTURE_REPORT_H
 
 #include "cli/texture_source.h"
+#include "texture/decode.h"
+#include "texture/position.h"
 #include "texture/survey.h"
 
 enum { REPORT_ERRORS_MAX = 32, REPORT_NAME_SIZE = 48 };
@@ -21,6 +23,7 @@ typedef struct texture_report {
     survey survey;
     bool has_pairs;
     survey_pairs pairs;
+    double condition; /**< of the view-projection matrix, 2-norm; NaN where the mapping has none */
     size_t error_count;
     texture_errors errors[REPORT_ERRORS_MAX];
 } texture_report;
