@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Planes and the bound on the normals found on them: see "NORMALS FROM DEPTH" in depthprec(7). */
 #include <math.h>
+#include <string.h>
 
 #include "texture/normal.h"
 
@@ -102,7 +103,7 @@ static double rounding(const texture_camera *camera, const double direction[3]) 
 
 double normal_plane_bound(const texture_camera *camera, uint32_t column, uint32_t row, const normal_plane *plane,
                           double error) {
-    double exact[3], place[3], worst = 0;
+    double exact[3], place[3], farthest[3] = {0}, worst = -1; /* tan^2 of the angle, for comparing */
     mistake m = {.camera = camera};
     if (!(error < (double)INFINITY))
         return PI;
@@ -114,8 +115,17 @@ double normal_plane_bound(const texture_camera *camera, uint32_t column, uint32_
         m.per_x = camera->width / (2 * camera->half[0]) * (i & 8 ? 1 : -1);
         m.per_y = camera->height / (2 * camera->half[1]) * (i & 16 ? 1 : -1);
         mistaken(&m, exact, own, beside, over, found);
-        worst = fmax(worst, normal_angle(exact, found));
+        const double cross[3] = {exact[1] * found[2] - exact[2] * found[1], exact[2] * found[0] - exact[0] * found[2],
+                                 exact[0] * found[1] - exact[1] * found[0]};
+        const double along = dot(exact, found), tangent = dot(cross, cross) / (along * along);
+        if (!(along > 0))
+            return PI;
+        if (tangent > worst) {
+            worst = tangent;
+            memcpy(farthest, found, sizeof farthest);
+        }
     }
+    worst = normal_angle(exact, farthest);
     /* Vectors within an angle of at most a right one of another are convex: the corners speak for all between. */
     return worst < PI / 2 ? fmin(worst + rounding(camera, m.direction) + 1e-14, PI) : PI;
 }
