@@ -49,7 +49,8 @@ static void what_is_chosen_keeps_its_claim(void **state) {
     rng r = rng_make("ways");
     tally t = {.name = "ways"};
     uint64_t cheap = 0;
-    for (uint64_t n = test_cases(500, 5000, 100000); n > 0; n--) {
+    const uint64_t cases = test_cases(500, 5000, 100000);
+    for (uint64_t n = cases; n > 0; n--) {
         const int kind = (int)rng_below(&r, KINDS);
         const dp_setup setup = random_setup(&r, kind);
         const bool cut_cells = rng_below(&r, 4) == 0;
@@ -75,7 +76,7 @@ static void what_is_chosen_keeps_its_claim(void **state) {
                   w.name, z, got, want);
         }
     }
-    assert_true(cheap > 50);
+    assert_true(cheap > cases / 50); /* else nothing but the cell was tried */
     tally_end(&t);
 }
 
