@@ -22,7 +22,8 @@ DP_BEGIN
 
 /** The causes, in the order in which they arise. */
 typedef enum dp_cause {
-    DP_CAUSE_COMPOSITION = 0, /**< view and projection multiplied into one binary32 matrix */
+    DP_CAUSE_EYE = 0,         /**< eye depth rounded to binary32: surfaces are real, what enters is not */
+    DP_CAUSE_COMPOSITION,     /**< view and projection multiplied into one binary32 matrix */
     DP_CAUSE_PROJECTION,      /**< A z + B in binary32 (and the remap, if any) */
     DP_CAUSE_NDC,             /**< the divide and the viewport */
     DP_CAUSE_INTERPOLATION,   /**< across a triangle, as given */

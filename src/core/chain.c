@@ -1,0 +1,291 @@
+/* SPDX-License-Identifier: MIT */
+#include "core/chain.h"
+
+#include <float.h>
+
+#include "core/extremes.h"
+#include "core/rounding.h"
+
+double dp_chain_clip(const dp_chain *c, double z) {
+    return c->a * z + c->b;
+}
+
+/* The clip w of a depth. */
+static double w_of(const dp_chain *c, double z) {
+    return c->pipeline.ortho ? 1.0 : z;
+}
+
+double dp_chain_window(const dp_chain *c, double z) {
+    const double ndc = dp_chain_clip(c, z) / w_of(c, z);
+    return c->pipeline.ndc_signed ? 0.5 * ndc + 0.5 : ndc;
+}
+
+/* What is divided by w: the clip depth, or what the shader's remap makes of it. A sum of the same shape, a z + b. */
+static double dividend(const dp_chain *c, double z) {
+    return c->remap ? 0.5 * (dp_chain_clip(c, z) + w_of(c, z)) : dp_chain_clip(c, z);
+}
+
+/*
+ * How far g leaves [0, 1] at a plane. Below 0 that is the clip depth over w; above 1 it is the difference of the two
+ * over w. The clip depth is computed with a relative error of 2^-53, which next to 1 has to be added.
+ */
+static double excess_below(const dp_chain *c, double z) {
+    const double w = w_of(c, z);
+    const double clip = dp_chain_clip(c, z) + (c->pipeline.ndc_signed ? w : 0.0);
+    const double rounding = c->pipeline.ndc_signed ? 0x1p-51 * w : 0.0;
+    return clip - rounding < 0.0 ? c->half * (rounding - clip) / w * (1.0 + 0x1p-50) : 0.0;
+}
+
+static double excess_above(const dp_chain *c, double z) {
+    const double w = w_of(c, z);
+    const double past = dp_chain_clip(c, z) - w + 0x1p-51 * w;
+    return past > 0.0 ? c->half * past / w * (1.0 + 0x1p-50) : 0.0;
+}
+
+dp_chain dp_chain_make(const dp_setup *setup, const dp_pipeline *p) {
+    dp_chain c = {.pipeline = *p, .a = (double)p->a, .b = (double)p->b};
+    c.b_granule = dp_granule(c.b);
+    c.half = p->ndc_signed ? 0.5 : 1.0;
+    c.remap = p->ndc_signed && p->arith->remap;
+    c.two_stage = p->ndc_signed && !c.remap;
+    c.per_clip = c.remap ? 0.5 : 1.0;
+    c.per_ndc = c.two_stage ? 0.5 : 1.0;
+    c.a_exact = c.a == 0.0 || dp_granule(c.a) == dp_power2(dp_exponent(fabs(c.a)));
+    c.reach.lo = (double)(float)setup->spec.znear;
+    c.reach.hi = isinf(setup->spec.zfar) ? (double)FLT_MAX : (double)(float)setup->spec.zfar;
+    c.below = larger(excess_below(&c, c.reach.lo), excess_below(&c, c.reach.hi));
+    c.above = larger(excess_above(&c, c.reach.lo), excess_above(&c, c.reach.hi));
+    return c;
+}
+
+/* ---- A z + B ----------------------------------------------------------------------------------------------------- */
+
+/* Room for the rounding of this file's own sums of two products. */
+static const double raised = 1.0 + 0x1p-50;
+static const double lowered = 1.0 - 0x1p-50;
+
+/* Magnitudes of a sum before it is rounded; `least` is 0 where its sign changes. */
+typedef struct magnitude {
+    double most, least;
+} magnitude;
+
+static magnitude magnitude_of(double v1, double v2, double error) {
+    const double small = smaller(fabs(v1), fabs(v2)) * lowered - error;
+    return (magnitude){.most = larger(fabs(v1), fabs(v2)) * raised + error,
+                       .least = (v1 < 0.0) != (v2 < 0.0) ? 0.0 : larger(small, 0.0)};
+}
+
+/* The step of a rounding whose results have such magnitudes. */
+static dp_step step_of(magnitude m) {
+    return (dp_step){.error = dp_half_ulp(m.most), .grid = 2.0 * dp_half_ulp(m.least)};
+}
+
+static dp_step scaled(dp_step s, double factor) {
+    return (dp_step){s.error * factor, s.grid * factor};
+}
+
+/* fl(A z), in clip depth. */
+static dp_step product_of(const dp_chain *c, dp_span r) {
+    if (c->a_exact || c->pipeline.arith->fused)
+        return (dp_step){0.0, 0.0};
+    return step_of((magnitude){fabs(c->a) * r.hi, fabs(c->a) * r.lo});
+}
+
+/* What all computed products of a span, and with B all sums, are multiples of. */
+static double product_granule(const dp_chain *c, dp_span r) {
+    return c->a_exact ? dp_granule(c->a) * 2.0 * dp_half_ulp(r.lo) : 2.0 * dp_half_ulp(fabs(c->a) * r.lo);
+}
+
+/*
+ * Adding B. Where all sums have fewer than 25 bits above the granule of their terms it is exact. Where the products are
+ * multiples of the sums' last place, every sum is rounded alike: the product stays, and B is rounded to a multiple (if
+ * it does not lie in the middle of two). Next to a power of two there are two such cases, each with its own last place.
+ */
+static dp_step add_b(const dp_chain *c, dp_span r, magnitude m, double *lo, double *hi) {
+    *lo = *hi = 0.0;
+    if (c->a == 0.0)
+        return (dp_step){0.0, 0.0};
+    if (c->pipeline.arith->fused) {
+        *hi = dp_result_error(m.least, m.most);
+        *lo = -*hi;
+        return (dp_step){*hi, step_of(m).grid};
+    }
+    const double granule = product_granule(c, r);
+    if (m.most < 0x1p24 * smaller(granule, c->b_granule))
+        return (dp_step){0.0, 0.0};
+    const double ulp[2] = {2.0 * dp_half_ulp(m.least), 2.0 * dp_half_ulp(m.most)};
+    int alike = m.least > 0.0 && ulp[1] <= granule && ulp[1] <= 2.0 * ulp[0];
+    *lo = HUGE_VAL;
+    *hi = -HUGE_VAL;
+    for (int i = 0; i < 2 && alike; i++) {
+        alike = fmod(fabs(c->b), ulp[i]) != 0.5 * ulp[i];
+        const double kept = rint(c->b / ulp[i]) * ulp[i] - c->b;
+        *lo = smaller(*lo, c->pipeline.reversed ? kept : -kept);
+        *hi = larger(*hi, c->pipeline.reversed ? kept : -kept);
+    }
+    if (!alike) {
+        *hi = dp_half_ulp(m.most);
+        *lo = -*hi;
+        return step_of(m);
+    }
+    return (dp_step){0.0, 0.0};
+}
+
+/* What all computed clip depths of a span are multiples of; 0 when unknown. */
+static double clip_granule(const dp_chain *c, dp_span r, magnitude clip) {
+    const double common = smaller(product_granule(c, r), c->b_granule);
+    const double exact = c->a == 0.0                                                       ? c->b_granule
+                         : clip.most < 0x1p24 * common && !c->pipeline.arith->fused ? common
+                                                                                           : 0.0;
+    const double least = clip.least - dp_half_ulp(clip.most);
+    return larger(exact, least > 0.0 ? 2.0 * dp_half_ulp(least) : 0.0);
+}
+
+static double w_granule(const dp_chain *c, dp_span r) {
+    return c->pipeline.ortho ? 1.0 : 2.0 * dp_half_ulp(r.lo);
+}
+
+/* The shader's clip + w: exact where both are multiples of a granule and the sum has fewer than 25 bits above it. */
+static dp_step add_w(const dp_chain *c, dp_span r, magnitude clip, double error) {
+    const magnitude m = magnitude_of(dp_chain_clip(c, r.lo) + w_of(c, r.lo), dp_chain_clip(c, r.hi) + w_of(c, r.hi),
+                                     error + dp_half_ulp(clip.most));
+    const double granule = smaller(clip_granule(c, r, clip), w_granule(c, r));
+    return m.most < 0x1p24 * granule ? (dp_step){0.0, 0.0} : step_of(m);
+}
+
+/* ---- All operations ---------------------------------------------------------------------------------------------- */
+
+/* 0.5 ndc + 0.5: exact where all terms are multiples of the sum's last place. `error` is that of ndc. */
+static dp_step viewport_of(double ndc1, double ndc2, double error) {
+    const double top = smaller(0.5 + 0.5 * (larger(ndc1, ndc2) + error), 1.0 - DP_UNIT_BELOW_ONE);
+    const double bottom = 0.5 + 0.5 * (smaller(ndc1, ndc2) - error);
+    const double nearest = (ndc1 < 0.0) != (ndc2 < 0.0) ? 0.0 : smaller(fabs(ndc1), fabs(ndc2)) - error;
+    if (nearest > 0.0 && top < 0x1p24 * dp_half_ulp(nearest))
+        return (dp_step){0.0, 0.0};
+    return step_of((magnitude){larger(top, 0.0), larger(bottom, 0.0)});
+}
+
+/* The divide, or the product with the reciprocal. `error` is that of the quotient's numerator over w. */
+static void divide(const dp_chain *c, dp_span r, double q1, double q2, double error, dp_steps *s) {
+    const magnitude q = magnitude_of(q1, q2, error);
+    if (c->pipeline.arith->reciprocal) {
+        s->inverse = step_of((magnitude){1.0 / r.lo * raised, 1.0 / r.hi * lowered});
+        const double worse = dp_result_error(1.0 / r.hi * lowered, 1.0 / r.lo * raised);
+        s->inverse.error = q.most * (r.hi < 0x1p125 ? smaller(r.hi * worse, DP_UNIT) : r.hi * worse);
+    }
+    /* What comes out above 1 is clamped, and demand.c counts that; the rest has the last place of 1 at most. */
+    const magnitude result = {smaller(q.most + s->inverse.error, 1.0 - DP_UNIT_BELOW_ONE),
+                              larger(q.least - s->inverse.error, 0.0)};
+    s->quotient = step_of(result);
+    s->quotient.error = dp_result_error(result.least, result.most);
+}
+
+dp_steps dp_chain_steps(const dp_chain *c, dp_span r) {
+    const double w = w_of(c, r.lo);
+    dp_steps s = {.product = product_of(c, r)};
+    const magnitude clip = magnitude_of(dp_chain_clip(c, r.lo), dp_chain_clip(c, r.hi), s.product.error);
+    s.sum = add_b(c, r, clip, &s.kept_lo, &s.kept_hi);
+    double error = s.product.error + larger(s.kept_hi, -s.kept_lo);
+    if (c->remap)
+        s.remap = add_w(c, r, clip, s.product.error);
+    error += s.remap.error;
+    const double off = c->per_clip * error / w; /* of NDC */
+    const double q1 = dividend(c, r.lo) / w;
+    const double q2 = dividend(c, r.hi) / w_of(c, r.hi);
+    if (!c->pipeline.ortho)
+        divide(c, r, q1, q2, off, &s);
+    if (c->two_stage)
+        s.viewport = viewport_of(q1, q2, off + s.inverse.error + s.quotient.error);
+    const double per = c->per_ndc * c->per_clip / w;
+    s.product = scaled(s.product, per);
+    s.sum = scaled(s.sum, per);
+    s.remap = scaled(s.remap, per);
+    s.inverse.error *= c->per_ndc;
+    s.quotient = scaled(s.quotient, c->per_ndc);
+    s.full = c->per_ndc * off + s.inverse.error + s.quotient.error + s.viewport.error;
+    return s;
+}
+
+/* Errors relative to values over w: those run evenly to the far plane, so they are greatest at one of the two ends. */
+dp_steps dp_chain_steps_beyond(const dp_chain *c, double z) {
+    const double zfar = c->reach.hi;
+    const double w1 = w_of(c, z);
+    const double w2 = w_of(c, zfar);
+    const double up = 1.0 + 0x1p-20;
+    const double g = up * larger(fabs(dp_chain_clip(c, z)) / w1, fabs(dp_chain_clip(c, zfar)) / w2);
+    const double q = up * larger(fabs(dividend(c, z)) / w1, fabs(dividend(c, zfar)) / w2);
+    const int rounded = !c->a_exact && !c->pipeline.arith->fused;
+    double clip = rounded ? DP_UNIT * fabs(c->a) * (c->pipeline.ortho ? zfar : 1.0) : 0.0;
+    clip += c->a == 0.0 ? 0.0 : DP_UNIT * (g + clip);
+    if (c->remap)
+        clip = 0.5 * clip + DP_UNIT * (q + clip);
+    double ndc = 0.0;
+    if (!c->pipeline.ortho) {
+        const double subnormal = zfar > 0x1p126 ? fabs(dividend(c, zfar)) * 0x1p-150 : 0.0;
+        const double inverse = c->pipeline.arith->reciprocal ? DP_UNIT * (q + clip) + subnormal : 0.0;
+        ndc = inverse + dp_half_ulp(smaller(q + clip + inverse, 1.0 - DP_UNIT_BELOW_ONE));
+    }
+    dp_steps s = {.product = {c->per_ndc * clip, 0.0},
+                  .quotient = {c->per_ndc * ndc + (c->two_stage ? DP_UNIT_BELOW_ONE : 0.0), 0.0}};
+    s.full = s.product.error + s.quotient.error;
+    return s;
+}
+
+/* ---- The numerator ----------------------------------------------------------------------------------------------- */
+
+/*
+ * How much less than z the product may grow, all in one binade of z. |A| >= 1, so each step u of z moves the real
+ * product by u or more. If the products' last place is no more than that, they move by u at least. Otherwise, where the
+ * product is in a binade above z's, it is so for every ulp/u-th step, and between those it does not fall.
+ */
+static double product_lag(const dp_chain *c, double hi) {
+    if (c->a_exact || c->pipeline.arith->fused)
+        return 0.0;
+    const double u = 2.0 * dp_half_ulp(hi);
+    const double ulp = 2.0 * dp_half_ulp(fabs(c->a) * hi);
+    return ulp <= fabs(c->a) * u ? 0.0 : ulp - u;
+}
+
+/* What adding B may take from the growth of the clip depth: the sums round alike, or, fused, there is no product. */
+static double sum_lag(const dp_chain *c, dp_span r, magnitude clip, double kept) {
+    const double most = dp_half_ulp(clip.most);
+    const double least = dp_half_ulp(clip.least);
+    if (!c->pipeline.arith->fused || clip.least <= 0.0 || most > 2.0 * least)
+        return kept;
+    return most == least && most <= dp_half_ulp(r.lo) ? 0.0 : most + least;
+}
+
+/* A value that all multiples of a granule reach which are not below `least`. */
+static double on_lattice(double least, double granule) {
+    if (least <= 0.0)
+        return 0.0;
+    return granule > 0.0 && least < 0x1p50 * granule ? ceil(least / granule) * granule : least;
+}
+
+dp_numerator dp_chain_numerator(const dp_chain *c, dp_span r) {
+    const int plain = c->pipeline.reversed && !c->pipeline.ndc_signed; /* t is the clip depth itself: A <= 0 */
+    const dp_step product = product_of(c, r);
+    const magnitude clip = magnitude_of(dp_chain_clip(c, r.lo), dp_chain_clip(c, r.hi), product.error);
+    double lo, hi;
+    add_b(c, r, clip, &lo, &hi);
+    const double end = dp_chain_clip(c, r.hi);
+    const double t = plain ? end : c->pipeline.reversed ? r.hi + end : r.hi - end;
+    const double error = product.error + larger(hi, -lo) + (fabs(end) + r.hi) * 0x1p-52;
+    const double granule = clip_granule(c, r, clip);
+    if (plain)
+        return (dp_numerator){.least = on_lattice(t - error, granule), .rise = 0.0};
+
+    dp_numerator n = {.least = on_lattice(t - error, smaller(granule, w_granule(c, r)))};
+    const int binades = dp_exponent(r.hi) - dp_exponent(r.lo);
+    n.rise = binades > 1 ? HUGE_VAL : product_lag(c, r.hi) + sum_lag(c, r, clip, hi - lo);
+    if (binades == 1)
+        n.rise += product_lag(c, dp_power2(dp_exponent(r.hi)) * (1.0 - DP_UNIT));
+    if (c->remap) {
+        const dp_step sum = add_w(c, r, clip, product.error);
+        const int fine =
+            c->pipeline.reversed || (sum.grid == 2.0 * sum.error && sum.grid <= 4.0 * dp_half_ulp(r.lo));
+        n.rise += n.rise == 0.0 && fine ? 0.0 : 2.0 * sum.error;
+        n.least = larger(n.least - sum.error, 0.0);
+    }
+    return n;
+}

@@ -1,0 +1,73 @@
+/* SPDX-License-Identifier: MIT */
+/*
+ * The binary32 pipeline as a real function, and what each of its operations rounds away.
+ *
+ * Everything here is about a span of binary32 depths and bounds what happens at each of them; demand.c puts two
+ * together. depthprec(7) derives it.
+ */
+#ifndef CORE_CHAIN_H
+#define CORE_CHAIN_H
+
+#include "depthprec/pipeline.h"
+
+/* Binary32 eye depths, as doubles, lo <= hi. */
+typedef struct dp_span {
+    double lo, hi;
+} dp_span;
+
+/* The pipeline's real function g(z), with the rounded A and B that both surfaces share. */
+typedef struct dp_chain {
+    dp_pipeline pipeline;
+    double a, b;
+    double b_granule;    /* B is a multiple of it */
+    double half;         /* window depth per NDC depth, 1/2 where NDC is signed */
+    double per_clip;     /* what the shader's remap leaves of the clip depth, 1/2 or 1 */
+    double per_ndc;      /* what the viewport leaves of the NDC depth */
+    int a_exact;         /* A z is exact: A is 0 or a power of two */
+    int two_stage;       /* the viewport halves and moves */
+    int remap;           /* the vertex shader halves and moves */
+    dp_span reach;       /* the depths that enter: near and far in binary32, at most its largest number */
+    double below, above; /* how far g leaves [0, 1] inside the planes: it is clamped there */
+} dp_chain;
+
+dp_chain dp_chain_make(const dp_setup *setup, const dp_pipeline *pipeline);
+
+/* A z + B */
+double dp_chain_clip(const dp_chain *c, double z);
+/* g(z), not clamped */
+double dp_chain_window(const dp_chain *c, double z);
+
+/*
+ * One operation: the most that it changes a result by, and the lattice on which all its results lie. An exact operation
+ * has an error of 0, and its lattice does not matter.
+ */
+typedef struct dp_step {
+    double error, grid;
+} dp_step;
+
+/* The operations at every depth of a span, each as window depth, but for `inverse`. */
+typedef struct dp_steps {
+    dp_step product, sum, remap, quotient, viewport;
+    dp_step inverse;       /* 1/w: its lattice in units of 1/w, its error as window depth */
+    double kept_lo;        /* what adding B changes, in clip depth and towards near: where all sums of the span are */
+    double kept_hi;        /* rounded alike the two are one */
+    double full;           /* all errors of one window depth */
+} dp_steps;
+
+dp_steps dp_chain_steps(const dp_chain *c, dp_span span);
+
+/* The errors at every depth from z on, however far: product and sum together as `product`, the rest as `quotient`. */
+dp_steps dp_chain_steps_beyond(const dp_chain *c, double z);
+
+/*
+ * The numerator t: the window depth's distance from the far end is half t/w, with t = clip where a reversed mapping
+ * stores clip/w itself, else t = w - clip or w + clip. As computed it hardly ever rises with z.
+ */
+typedef struct dp_numerator {
+    double least; /* it is at least this in the span, as computed; 0 when that may be negative */
+    double rise;  /* a farther depth may have a greater one by this; INFINITY: nothing is known */
+} dp_numerator;
+
+dp_numerator dp_chain_numerator(const dp_chain *c, dp_span span);
+
+#endif

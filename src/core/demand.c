@@ -1,0 +1,221 @@
+/* SPDX-License-Identifier: MIT */
+#include "core/demand.h"
+
+#include "core/extremes.h"
+#include "core/rounding.h"
+
+/* Outward by more than the rounding of this file's own arithmetic. */
+static const double outward = 1.0 + 0x1p-40;
+
+/* ---- The format -------------------------------------------------------------------------------------------------- */
+
+/*
+ * Whether every binary32 window depth of [low, high] has a code of its own in a UNORM. So it is where a step of the
+ * window depth is more than one code. Where it is at most one, codes rise by 0 or 1 a step: then they all rise if they
+ * do in total.
+ */
+static int codes_are_distinct(const dp_pipeline *p, double low, double high) {
+    if (low <= 0.0)
+        return 0;
+    const float first = nextafterf((float)low, 0.0F);
+    const float last = high < 1.0 ? nextafterf((float)high, 2.0F) : 1.0F;
+    const double step = 2.0 * dp_half_ulp((double)first);
+    const double levels = (double)p->format.code_max;
+    const int product_exact = p->arith->conversion == DP_CONVERT_EXACT || p->format.bits > 24;
+    if (step * levels > 1.0)
+        return product_exact;
+    if (dp_half_ulp((double)first) != dp_half_ulp((double)nextafterf(last, 0.0F)))
+        return 0;
+    if (p->arith->conversion != DP_CONVERT_EXACT && dp_half_ulp((double)first * levels) < 0.5)
+        return 0;
+    const double codes = (double)dp_pipeline_convert(p, last) - (double)dp_pipeline_convert(p, first);
+    return codes == ((double)last - (double)first) / step;
+}
+
+/* The longest distance of two binary32 window depths of [low, high] that are stored as one code; clamped, none is 1. */
+static double format_loss(const dp_pipeline *p, double low, double high) {
+    const dp_format *format = &p->format;
+    const double top = smaller(high, 1.0 - DP_UNIT_BELOW_ONE);
+    const double bottom = smaller(larger(low, 0.0), top);
+    if (format->kind == DP_FORMAT_FLOAT) {
+        if (format->mantissa_bits < 23)
+            return dp_step_num(format, dp_binade(format, top));
+        /* As fine as binary32, but for subnormals that begin above those of binary32. */
+        const double step = dp_step_num(format, 1 - format->bias);
+        return bottom >= dp_power2(1 - format->bias) || step <= 2.0 * dp_half_ulp(bottom) ? 0.0 : step;
+    }
+    if (codes_are_distinct(p, low, high))
+        return 0.0;
+    const double levels = (double)format->code_max;
+    if (p->arith->conversion == DP_CONVERT_EXACT || format->bits > 24)
+        return 1.0 / levels;
+    /* The product is rounded to binary32, then to a whole number, which changes nothing where it is one. */
+    const double ulp = 2.0 * dp_half_ulp(top * levels);
+    return (ulp < 1.0 ? 1.0 + ulp : ulp) / levels;
+}
+
+/* ---- A pair ------------------------------------------------------------------------------------------------------ */
+
+/* The more demanding of two: window depth over slope decides. */
+static void take_larger(dp_demand *d, double window, double slope) {
+    if (window * d->slope > d->window * slope) {
+        d->window = window;
+        d->slope = slope;
+    }
+}
+
+/*
+ * Where the window depth of one of the two leaves [0, 1] it is clamped, and its own errors count no more: the other
+ * one's do, all of them, and how far g itself goes beyond.
+ */
+static void clamp_either(const dp_chain *c, dp_demand *d, double full1, double full2, double g1, double g2) {
+    const double slope = fabs(c->pipeline.ortho ? c->a : c->b);
+    const int reversed = c->pipeline.reversed;
+    if (reversed ? g2 - full2 <= 0.0 : g2 + full2 >= 1.0)
+        take_larger(d, (reversed ? c->below : c->above) + full1 + d->rest, slope);
+    if (reversed ? g1 + full1 >= 1.0 : g1 - full1 <= 0.0)
+        take_larger(d, (reversed ? c->above : c->below) + full2 + d->rest, slope);
+}
+
+/*
+ * What two numbers must differ by for their roundings to differ by more than `rest`. All roundings lie on the finer of
+ * two lattices, so they differ by more than `rest` once they differ by more than the whole steps in it.
+ */
+static double before_rounding(dp_step s1, dp_step s2, double rest) {
+    const double errors = s1.error + s2.error;
+    const double grid = smaller(s1.grid, s2.grid);
+    return errors == 0.0 || grid == 0.0 ? rest + errors : smaller(rest, floor(rest / grid * outward) * grid) + errors;
+}
+
+/* A demand where numerator or product is followed: what the other operations take, and the slope. */
+static dp_demand demand_free(const dp_chain *c, const dp_steps *s1, const dp_steps *s2, double w, double need) {
+    const double loss = larger(s2->kept_hi - s1->kept_lo, 0.0) * c->per_ndc * c->per_clip / w;
+    if (c->pipeline.ortho) {
+        const int alike = s1->sum.error == 0.0 && s2->sum.error == 0.0;
+        const double clip = before_rounding(s1->remap, s2->remap, need);
+        const double sum = alike ? clip + loss : before_rounding(s1->sum, s2->sum, clip);
+        const double window = before_rounding(s1->product, s2->product, sum);
+        return (dp_demand){.projection = window - need, .window = window, .slope = fabs(c->a)};
+    }
+    const double projection = s1->product.error + s2->product.error + s1->remap.error + s2->remap.error + loss;
+    return (dp_demand){.projection = projection,
+                       .window = need + projection,
+                       .slope = larger(fabs(c->b) + smaller(s2->kept_lo, 0.0), 0.0)};
+}
+
+/*
+ * The numerator hardly rises: the distance of two quotients is at least t (1/z1 - 1/z2) with the farther, least t. Where
+ * t itself is multiplied with fl(1/w), the lattice of the reciprocals counts, t times as wide; else their errors do.
+ */
+static dp_demand demand_falling(const dp_chain *c, dp_span range, const dp_steps *s1, const dp_steps *s2,
+                                double quotient) {
+    const dp_numerator t = dp_chain_numerator(c, range);
+    if (!(t.least > 0.0) || isinf(t.rise))
+        return (dp_demand){.window = 1.0, .slope = 0.0};
+    const int multiplied = c->pipeline.reversed && !c->two_stage;
+    const double factor = multiplied ? c->half * t.least : 0.0;
+    const double need = before_rounding((dp_step){s1->inverse.error, factor * s1->inverse.grid},
+                                        (dp_step){s2->inverse.error, factor * s2->inverse.grid}, quotient);
+    const double projection = c->half * t.rise / range.lo;
+    return (dp_demand){.projection = projection, .window = need + projection, .slope = t.least};
+}
+
+/* The demand of a depth of `first` and one of `second`, not nearer. */
+static dp_demand demand_of(const dp_chain *c, dp_span first, dp_span second, double extra) {
+    const dp_steps s1 = dp_chain_steps(c, first);
+    const dp_steps s2 = dp_chain_steps(c, second);
+    const double g1 = dp_chain_window(c, first.lo);
+    const double g2 = dp_chain_window(c, second.hi);
+    const double error = larger(s1.full, s2.full);
+    const double format = format_loss(&c->pipeline, smaller(g1, g2) - error, larger(g1, g2) + error);
+    const double rest = format + extra;
+    const double window = before_rounding(s1.viewport, s2.viewport, rest);
+    const double quotient = before_rounding(s1.quotient, s2.quotient, window);
+    const double need = quotient + s1.inverse.error + s2.inverse.error;
+    const double w = c->pipeline.ortho ? 1.0 : first.lo;
+    dp_demand d = demand_free(c, &s1, &s2, w, need);
+    if (!c->pipeline.ortho) {
+        const dp_demand falling = demand_falling(c, (dp_span){first.lo, second.hi}, &s1, &s2, quotient);
+        if (falling.window * d.slope < d.window * falling.slope)
+            d = falling;
+    }
+    d.format = format;
+    d.rest = rest;
+    clamp_either(c, &d, s1.full, s2.full, g1, g2);
+    return d;
+}
+
+/* The demand of a depth of `first` and any depth behind it. */
+static dp_demand demand_beyond(const dp_chain *c, dp_span first, double extra) {
+    const dp_steps s1 = dp_chain_steps(c, first);
+    const dp_steps s2 = dp_chain_steps_beyond(c, first.lo);
+    const double g1 = dp_chain_window(c, first.lo);
+    const double g2 = dp_chain_window(c, c->reach.hi);
+    const double error = larger(s1.full, s2.full);
+    const double format = format_loss(&c->pipeline, smaller(g1, g2) - error, larger(g1, g2) + error);
+    dp_demand d = {.projection = s1.full - s1.inverse.error - s1.quotient.error - s1.viewport.error + s2.product.error,
+                   .format = format,
+                   .rest = format + extra,
+                   .window = s1.full + s2.full + format + extra,
+                   .slope = fabs(c->pipeline.ortho ? c->a : c->b)};
+    clamp_either(c, &d, s1.full, s2.full, g1, g2);
+    return d;
+}
+
+/* ---- The distance ------------------------------------------------------------------------------------------------ */
+
+/* The distance behind z at which the window depth has moved by what is demanded. */
+static double distance(const dp_chain *c, double z, const dp_demand *d) {
+    if (c->pipeline.ortho)
+        return d->window / (c->half * d->slope) * outward;
+    const double x = d->window * z / (c->half * d->slope) * outward;
+    return x < 1.0 ? z * x / (1.0 - x) * outward : HUGE_VAL;
+}
+
+/*
+ * How far a depth of `second` may be from one of `first` and out of order. What lies beyond that is in order, so only
+ * the depths up to there need a demand of their own, which is smaller; and so on while it helps.
+ */
+static double longest_within(const dp_chain *c, dp_span first, dp_span second, double extra, dp_demand *out) {
+    double best = HUGE_VAL;
+    for (int i = 0; i < 8; i++) {
+        const dp_demand d = demand_of(c, first, second, extra);
+        const double s = distance(c, first.hi, &d);
+        if (!(s < best))
+            break;
+        const double gain = best - s;
+        best = s;
+        *out = d;
+        if (first.hi + s >= second.hi || first.hi + s < second.lo || gain <= 0x1p-8 * s)
+            break;
+        second.hi = first.hi + s;
+    }
+    return best;
+}
+
+/*
+ * First a distance that holds against every depth behind. Then, from there back to `first`, binade by binade of z: the
+ * farthest binade that may hold a depth out of order has the answer.
+ */
+double dp_demand_longest(const dp_chain *c, dp_span first, double extra, dp_demand *out) {
+    *out = demand_beyond(c, first, extra);
+    const double any = distance(c, first.hi, out);
+    double hi = smaller(first.hi + any, c->reach.hi);
+    if (hi <= first.lo)
+        hi = first.hi;
+    for (double end = HUGE_VAL;; end = hi) {
+        double lo = dp_power2(dp_exponent(hi));
+        lo = lo < hi ? lo : 0.5 * lo;
+        if (lo < first.hi)
+            lo = first.lo;
+        dp_demand d;
+        const double s = longest_within(c, first, (dp_span){lo, larger(hi, first.hi)}, extra, &d);
+        if (first.hi + s >= lo) {
+            const double longest = smaller(s, end - first.lo);
+            if (longest < any)
+                *out = d;
+            return smaller(longest, any);
+        }
+        hi = lo;
+    }
+}

@@ -1,0 +1,37 @@
+/* SPDX-License-Identifier: MIT */
+/* What rounding a number to binary32 may do to it. */
+#ifndef CORE_ROUNDING_H
+#define CORE_ROUNDING_H
+
+#include <math.h>
+
+#include "core/lattice.h"
+
+/* Half a unit in the last place of binary32 at 1 and just below 1. */
+#define DP_UNIT           0x1p-24
+#define DP_UNIT_BELOW_ONE 0x1p-25
+
+/* Half a unit in the last place of binary32 at x >= 0: the most that rounding a number up to x changes it by. */
+static inline double dp_half_ulp(double x) {
+    return x < 0x1p-126 ? 0x1p-150 : dp_power2(dp_exponent(x) - 24);
+}
+
+/*
+ * The most that rounding a result of `least` to `most` changes it by. A result below the normal numbers may be flushed
+ * to zero or not, as the hardware likes: the worse of the two.
+ */
+static inline double dp_result_error(double least, double most) {
+    const double error = dp_half_ulp(most);
+    const double flushed = most < 0x1p-126 ? most : 0x1p-126;
+    return least < 0x1p-126 && flushed > error ? flushed : error;
+}
+
+/* The lowest set bit of a binary32 number, as a value: the number is a whole multiple of it. */
+static inline double dp_granule(double x) {
+    double g = 2.0 * dp_half_ulp(fabs(x));
+    while (x != 0.0 && fmod(x, 2.0 * g) == 0.0)
+        g *= 2.0;
+    return g;
+}
+
+#endif
