@@ -117,8 +117,7 @@ static inline float flushed(float x, bool flush) {
     return flush && fabsf(x) < FLT_MIN ? 0.0F : x;
 }
 
-CLONES static void clip_of(const promise_pipe *p, uint32_t first, int n, float *restrict z,
-                           float *restrict clip) {
+CLONES static void clip_of(const promise_pipe *p, uint32_t first, int n, float *restrict z, float *restrict clip) {
     const float a = p->a;
     const float b = p->b;
     for (int i = 0; i < n; i++)
@@ -174,7 +173,7 @@ static inline uint32_t whole(double x) {
 static inline double rounded(double p, double e, dp_rounding rounding) {
     const double even = (p + 0x1p52) - 0x1p52;
     const double floor_p = even - (double)(even > p);
-    const double above = ((p - floor_p) - 0.5) + e;          /* its sign is exact */
+    const double above = ((p - floor_p) - 0.5) + e;         /* its sign is exact */
     const double below = (double)((p - floor_p) + e < 0.0); /* p was rounded up to a whole number */
     return rounding == DP_ROUND_ZERO      ? floor_p - below
            : rounding == DP_ROUND_NEAREST ? floor_p + (double)(above >= 0.0)
@@ -189,7 +188,7 @@ CLONES static void unorm_exact(const promise_pipe *p, const float *restrict w, i
     const double scale = (double)(1ULL << p->format.bits);
     const dp_rounding rounding = p->rounding;
 #define LOOP(r)                                                                                                        \
-    for (int i = 0; i < n; i++) {                                                                          \
+    for (int i = 0; i < n; i++) {                                                                                      \
         const double d = (double)CLAMPED(w[i]);                                                                        \
         const double large = d * scale;                                                                                \
         const double product = large - d;                                                                              \
