@@ -103,8 +103,13 @@ static void add(report *t, const outcome *o) {
         t->present[c] |= o->all.present[c];
         t->noticed[c] |= o->all.noticed[c];
     }
-    if (o->all.worst.broken)
+    if (o->all.worst.broken) {
+        if ((t->count & (t->count - 1)) == 0) { /* full: twice as many */
+            t->broken = realloc(t->broken, (t->count > 0 ? 2 * t->count : 1) * sizeof *t->broken);
+            assert_non_null(t->broken);
+        }
         t->broken[t->count++] = o->all.worst;
+    }
     if (!o->range_holds && t->ranges++ == 0)
         promise_line(&o->all.worst, t->range, sizeof t->range);
     if (!o->lattice_holds && t->lattices++ == 0) {
@@ -114,27 +119,31 @@ static void add(report *t, const outcome *o) {
     }
 }
 
+enum { CLASSES_MAX = 32 };
+
 static void print_classes(const report *t) {
-    bool told[4096] = {false};
-    for (size_t i = 0; i < t->count && i < 4096; i++) {
-        const char *class = promise_class(&t->broken[i]);
-        size_t count = 0;
+    const char *names[CLASSES_MAX] = {NULL};
+    size_t counts[CLASSES_MAX] = {0};
+    size_t worst[CLASSES_MAX] = {0};
+    for (size_t i = 0; i < t->count; i++) { /* worst first */
+        const char *name = promise_class(&t->broken[i]);
+        int c = 0;
+        while (c < CLASSES_MAX - 1 && names[c] && strcmp(names[c], name) != 0)
+            c++;
+        names[c] = name;
+        if (counts[c]++ == 0)
+            worst[c] = i;
+    }
+    for (int c = 0; c < CLASSES_MAX && counts[c] > 0; c++) {
         char line[512];
-        if (told[i])
-            continue;
-        for (size_t k = i; k < t->count; k++)
-            if (promise_class(&t->broken[k]) == class) {
-                count++;
-                if (k < 4096)
-                    told[k] = true;
-            }
-        promise_line(&t->broken[i], line, sizeof line);
-        printf("# %zu set-ups: %s; the worst: %s\n", count, class, line);
+        promise_line(&t->broken[worst[c]], line, sizeof line);
+        printf("# %zu set-ups: %s; the worst: %s\n", counts[c], names[c], line);
     }
 }
 
 static void print_report(report *t) {
-    qsort(t->broken, t->count, sizeof *t->broken, by_ratio);
+    if (t->count > 0)
+        qsort(t->broken, t->count, sizeof *t->broken, by_ratio);
     printf("# %llu set-ups, %llu depths: the promise is broken in %zu set-ups, over a range in %llu, below the lattice "
            "in %llu\n",
            (unsigned long long)t->setups, (unsigned long long)t->depths, t->count, (unsigned long long)t->ranges,
@@ -162,8 +171,7 @@ static void random_set_ups(void **state) {
     const int windows = test_effort() == EFFORT_FULL ? 2 : 4;
     const uint32_t depths = (uint32_t)number("PROMISE_DEPTHS", test_cases(2000, 14000, 6000));
     const rng base = rng_make("promise");
-    report t = {.broken = calloc(setups, sizeof *t.broken)};
-    assert_non_null(t.broken);
+    report t = {.broken = NULL};
 #pragma omp parallel for schedule(dynamic, 8)
     for (uint64_t i = 0; i < setups; i++) {
         rng r = numbers_of(&base, i);
