@@ -30,7 +30,6 @@ static double last_depth(const dp_setup *setup) {
     double lo = 0x1p126;
     double hi = nextafter(beyond_all, 0.0);
     dp_budget budget;
-    assert_int_equal(dp_budget_at(setup, lo, NULL, &budget), DP_OK);
     if (dp_budget_at(setup, hi, NULL, &budget) == DP_OK)
         return hi;
     while (nextafter(lo, hi) < hi) {
