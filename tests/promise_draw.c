@@ -135,6 +135,31 @@ static uint32_t where_window(const promise_pipe *p, const promise_range *range, 
     return lo;
 }
 
+/* A power of two of the window depth, of its complement, or of NDC in [-1, 1]: the steps change there. */
+static double draw_window(rng *r) {
+    const double power = exp2(-(double)rng_below(r, 25));
+    switch (rng_below(r, 4)) {
+    case 0:
+        return 1.0 - 0.5 * power;
+    case 1:
+        return 0.5 - 0.5 * power;
+    case 2:
+        return 0.5 + 0.5 * power;
+    default:
+        return rng_below(r, 4) ? power : power * power * power;
+    }
+}
+
+/* Next to z, where z itself, its product with A or the clip depth is a power of two; or z, where it is nowhere. */
+static double draw_power(rng *r, const promise_pipe *p, double z) {
+    const double a = (double)p->a;
+    const double offset = rng_below(r, 2) ? 0.0 : (double)p->b;
+    const double value = rng_below(r, 3) ? a * z + offset : z;
+    const double power = copysign(exp2(floor(log2(fabs(value)))), value);
+    const double place = value == z || a == 0.0 ? power : (power - offset) / a;
+    return place > 0.0 ? place : z;
+}
+
 double promise_place(rng *r, const promise_pipe *p, const promise_range *range) {
     const double end = range->zfar;
     const double usual_end = range->znear * 0x1p40 < end && rng_below(r, 4) ? range->znear * 0x1p40 : end;
@@ -144,12 +169,11 @@ double promise_place(rng *r, const promise_pipe *p, const promise_range *range) 
         return range->znear;
     case 1:
         return end;
-    case 2: /* a power of two */
-        z = exp2(floor(log2(z)));
+    case 2:
+        z = draw_power(r, p, z);
         break;
-    case 3: /* of the window depth, or of its complement */
-        z = promise_depth(where_window(
-            p, range, rng_below(r, 4) ? exp2(-(double)rng_below(r, 40)) : 1.0 - exp2(-1.0 - (double)rng_below(r, 24))));
+    case 3:
+        z = promise_depth(where_window(p, range, draw_window(r)));
         break;
     case 4: /* next to a plane */
         z = range->znear * (1.0 + rng_log(r, 1e-7, 1.0));
