@@ -86,6 +86,12 @@ double promise_bound(const dp_setup *setup, double z);
 /** Whether z1 + s <= z2, in exact arithmetic. */
 bool promise_beyond(double z1, double s, double z2);
 
+/**
+ * Judges two depths whose codes are not in order, with the bound at both ends of the nearer one's cell and at the
+ * depth itself. *worst becomes the pair if its ratio is greater.
+ */
+void promise_judge_pair(const dp_setup *setup, const promise_pipe *p, uint32_t x1, uint32_t x2, promise_pair *worst);
+
 /** Judges every pair of a window, and adds to *result. */
 void promise_judge(const dp_setup *setup, const promise_pipe *p, const promise_window_plan *plan,
                    promise_result *result);
@@ -106,11 +112,14 @@ typedef struct promise_band {
     double bound_z;
     double longest; /**< between binary32 depths, the nearer one in the band */
     double longest_z;
-    double slack;      /**< bound / (longest + one step of z); NaN if not measured */
-    double slack_held; /**< the same with no s longer than what is left up to far */
+    double slack;       /**< bound / (longest + one step of z); NaN if not measured */
+    promise_pair worst; /**< of the pairs that were judged */
+    double slack_held;  /**< the same with no s longer than what is left up to far */
 } promise_band;
 
-/** Sweeps the whole band that z lies in. */
+/**
+ * Sweeps the whole band that z lies in. Of each 4096 depths the longest pair is judged.
+ */
 promise_band promise_measure_band(const dp_setup *setup, double z);
 
 #endif

@@ -6,40 +6,61 @@
 
 #include "promise.h"
 
-enum { PROBES = 256, SWEEP_MAX = 3 << 23 };
+enum { PROBES = 256, PART = 4096, SWEEP_MAX = 3 << 23 };
 
-/* The longest interval that begins in the first `nearer` depths; only depths with a key above all before can begin
- * it, as the others begin later and reach no farther. */
-static double longest_of(uint32_t first, const uint32_t *keys, const uint32_t *least, size_t nearer, size_t count,
-                         double *at) {
-    double most = 0.0;
-    size_t other = 0;
-    for (size_t i = 0, best = 0; i < nearer; i++) {
-        if (i > 0 && keys[i] <= keys[best])
-            continue;
-        best = i;
-        while (other + 1 < count && least[other + 1] <= keys[i])
-            other++;
-        const double z = promise_depth(first + (uint32_t)i);
-        const double interval = promise_depth(first + (uint32_t)other) - z;
-        if (interval > most)
-            most = interval, *at = z;
-    }
-    return most;
+typedef struct sweep {
+    promise_pipe pipe;
+    uint32_t first;
+    const uint32_t *keys;
+    const uint32_t *least; /* the smallest key from here on */
+    size_t nearer, count;
+} sweep;
+
+static uint32_t farthest(const sweep *s, size_t i, size_t *other) {
+    while (*other + 1 < s->count && s->least[*other + 1] <= s->keys[i])
+        ++*other;
+    return s->first + (uint32_t)*other;
 }
 
-static bool sweep(promise_band *b, uint32_t first, uint32_t last, uint32_t end) {
-    const promise_pipe p = promise_pipe_make(&b->setup, false);
+/*
+ * The longest interval that begins in the band. Only a depth with a key above all before it can begin it: the others
+ * begin later and reach no farther. The longest of each 4096 depths is held against the bound.
+ */
+static void longest_of(const sweep *s, promise_band *b) {
+    size_t best = 0;
+    size_t other = 0;
+    for (size_t from = 0; from < s->nearer; from += PART) {
+        double most = -1.0;
+        uint32_t x1 = 0;
+        uint32_t x2 = 0;
+        for (size_t i = from; i < s->nearer && i < from + PART; i++) {
+            if (i > 0 && s->keys[i] <= s->keys[best])
+                continue;
+            best = i;
+            const uint32_t end = farthest(s, i, &other);
+            const double interval = promise_depth(end) - promise_depth(s->first + (uint32_t)i);
+            if (interval > most)
+                most = interval, x1 = s->first + (uint32_t)i, x2 = end;
+        }
+        if (most > b->longest)
+            b->longest = most, b->longest_z = promise_depth(x1);
+        if (most >= 0.0)
+            promise_judge_pair(&b->setup, &s->pipe, x1, x2, &b->worst);
+    }
+}
+
+static bool sweep_band(promise_band *b, uint32_t first, uint32_t last, uint32_t end) {
     const size_t count = (size_t)end - first + 1;
     uint32_t *keys = malloc(2 * count * sizeof *keys);
     if (!keys)
         return false;
     uint32_t *least = keys + count;
-    promise_keys(&p, first, count, keys);
+    const sweep s = {promise_pipe_make(&b->setup, false), first, keys, least, (size_t)last - first + 1, count};
+    promise_keys(&s.pipe, first, count, keys);
     uint32_t smallest = UINT32_MAX;
     for (size_t i = count; i-- > 0;)
         least[i] = smallest = keys[i] < smallest ? keys[i] : smallest;
-    b->longest = longest_of(first, keys, least, (size_t)last - first + 1, count, &b->longest_z);
+    longest_of(&s, b);
     free(keys);
     return true;
 }
@@ -62,7 +83,7 @@ promise_band promise_measure_band(const dp_setup *setup, double z) {
         held = fmax(held, fmin(s, range.zfar - at));
     }
     const uint32_t end = promise_bits(fmin(range.zfar, b.hi + b.bound));
-    if (end - first >= SWEEP_MAX || isinf(b.bound) || !sweep(&b, first, last, end))
+    if (end - first >= SWEEP_MAX || isinf(b.bound) || !sweep_band(&b, first, last, end))
         return b;
     const double step = promise_depth(binade + 1) - promise_depth(binade);
     b.slack = b.bound / (b.longest + step);

@@ -62,36 +62,40 @@ static void notice(judge *j, double z1, double z2) {
         }
 }
 
-/* One pair with the bound at its own z1: both ends of the cell and the depth itself. */
-static void judge_pair(judge *j, size_t i1, size_t i2) {
-    const double z2 = promise_cell_hi(&j->range, j->bits[i2]);
-    const double lo = promise_cell_lo(&j->range, j->bits[i1]);
-    const double hi = promise_cell_hi(&j->range, j->bits[i1]);
-    const double depths[] = {lo, fmin(hi, fmax(lo, promise_depth(j->bits[i1]))), hi};
-    bool broken = false;
+void promise_judge_pair(const dp_setup *setup, const promise_pipe *p, uint32_t x1, uint32_t x2, promise_pair *worst) {
+    const promise_range range = promise_range_of(setup);
+    const double z2 = promise_cell_hi(&range, x2);
+    const double lo = promise_cell_lo(&range, x1);
+    const double hi = promise_cell_hi(&range, x1);
+    const double depths[] = {lo, fmin(hi, fmax(lo, promise_depth(x1))), hi};
     for (int k = 0; k < 3; k++) {
         const double z1 = depths[k];
-        const double s = fmin(promise_bound(j->setup, z1), dp_separation(j->setup, z1));
+        const double s = fmin(promise_bound(setup, z1), dp_separation(setup, z1));
         const bool beyond = z1 < z2 && promise_beyond(z1, s, z2);
         const double ratio = s > 0.0 ? (z2 - z1) / s : z2 > z1 ? (double)INFINITY : 0.0;
-        broken |= beyond;
-        if (ratio > j->result->worst.ratio || (beyond && !j->result->worst.broken)) {
-            j->result->worst = (promise_pair){*j->setup,
-                                              j->pipe->flush,
-                                              j->bits[i1],
-                                              j->bits[i2],
-                                              promise_code(j->pipe, j->keys[i1]),
-                                              promise_code(j->pipe, j->keys[i2]),
-                                              z1,
-                                              z2,
-                                              s,
-                                              ratio,
-                                              beyond};
-        }
+        if (ratio > worst->ratio || (beyond && !worst->broken))
+            *worst = (promise_pair){.setup = *setup,
+                                    .flush = p->flush,
+                                    .x1 = x1,
+                                    .x2 = x2,
+                                    .code1 = promise_code(p, promise_key(p, x1)),
+                                    .code2 = promise_code(p, promise_key(p, x2)),
+                                    .z1 = z1,
+                                    .z2 = z2,
+                                    .bound = s,
+                                    .ratio = ratio,
+                                    .broken = beyond};
         if (k == 0 && z2 - lo < 0.9 * s)
             break;
     }
-    j->broken += broken;
+}
+
+static void judge_pair(judge *j, size_t i1, size_t i2) {
+    promise_pair pair = {.ratio = 0.0};
+    promise_judge_pair(j->setup, j->pipe, j->bits[i1], j->bits[i2], &pair);
+    j->broken += pair.broken;
+    if (pair.ratio > j->result->worst.ratio || (pair.broken && !j->result->worst.broken))
+        j->result->worst = pair;
 }
 
 /* Every depth of a block as the nearer one. All that may be above the bound are judged with their own, and the longest

@@ -318,6 +318,20 @@ typedef struct shares {
     size_t raw_2, raw_4; /* s as it is, although it may reach beyond far */
 } shares;
 
+/* The pairs of the bands that break the promise; the first few lines. */
+static size_t print_broken(const promise_band *bands, size_t count) {
+    size_t broken = 0;
+    for (size_t i = 0; i < count; i++) {
+        char line[512];
+        if (!bands[i].worst.broken)
+            continue;
+        promise_line(&bands[i].worst, line, sizeof line);
+        if (broken++ < 5 || number("PROMISE_VERBOSE", 0) > 0)
+            printf("# in a band: %s\n", line);
+    }
+    return broken;
+}
+
 static shares print_bands(promise_band *bands, size_t count) {
     shares n = {.measured = 0};
     double sum = 0.0;
@@ -364,8 +378,10 @@ static void tight(void **state) {
     }
     printf("# %zu bands not measured: no bound, or one that spans more than three binades\n", unmeasured);
     const shares n = measured > 0 ? print_bands(bands, measured) : (shares){.measured = 0};
+    const size_t broken = print_broken(bands, measured);
     free(bands);
     assert_true(n.measured > 0);
+    assert_int_equal(broken, 0);
     assert_int_equal(n.above_4, 0);
     const double expected = 0.02 * (double)n.measured; /* three standard deviations are left to chance */
     assert_true((double)n.above_2 <= expected + 3.0 * sqrt(expected));
