@@ -112,9 +112,10 @@ typedef struct promise_band {
     double bound_z;
     double longest; /**< between binary32 depths, the nearer one in the band */
     double longest_z;
-    double slack;       /**< bound / (longest + one step of z); NaN if not measured */
-    promise_pair worst; /**< of the pairs that were judged */
-    double slack_held;  /**< the same with no s longer than what is left up to far */
+    double slack;         /**< bound / (longest + one step of z); NaN if not measured */
+    double slack_held;    /**< the same with no s longer than what is left up to far */
+    double slack_lattice; /**< the same against the lattice's own separation, where that is longer than `longest` */
+    promise_pair worst;   /**< of the pairs that were judged */
 } promise_band;
 
 /**

@@ -71,16 +71,21 @@ promise_band promise_measure_band(const dp_setup *setup, double z) {
     const uint32_t first = binade > range.first ? binade : range.first;
     const uint32_t behind = binade + 0x7fffffU;
     const uint32_t last = behind < range.last ? behind : range.last;
-    promise_band b = {.setup = *setup, .slack = NAN, .slack_held = NAN, .cut = range.last < behind};
+    promise_band b = {
+        .setup = *setup, .slack = NAN, .slack_held = NAN, .slack_lattice = NAN, .cut = range.last < behind};
     b.lo = fmax(range.znear, promise_depth(first));
     b.hi = b.cut ? range.zfar : promise_depth(last);
+    dp_setup exact = *setup;
+    exact.spec.model = DP_MODEL_EXACT;
     double held = 0.0; /* no two depths of the range are farther apart than far lets them be */
+    double lattice = 0.0;
     for (int i = 0; i <= PROBES; i++) {
         const double at = fmin(b.hi, b.lo + (b.hi - b.lo) * i / PROBES);
         const double s = promise_bound(setup, at);
         if (s > b.bound)
             b.bound = s, b.bound_z = at;
         held = fmax(held, fmin(s, range.zfar - at));
+        lattice = fmax(lattice, fmin(dp_separation(&exact, at), range.zfar - at));
     }
     const uint32_t end = promise_bits(fmin(range.zfar, b.hi + b.bound));
     if (end - first >= SWEEP_MAX || isinf(b.bound) || !sweep_band(&b, first, last, end))
@@ -88,5 +93,6 @@ promise_band promise_measure_band(const dp_setup *setup, double z) {
     const double step = promise_depth(binade + 1) - promise_depth(binade);
     b.slack = b.bound / (b.longest + step);
     b.slack_held = held / (b.longest + step);
+    b.slack_lattice = held / (fmax(b.longest, lattice) + step);
     return b;
 }
