@@ -3,7 +3,7 @@
  * @file support.h  What every test program shares: comparisons with units, seeded numbers, effort, text vectors.
  *
  * Environment:
- *     DEPTHPREC_SEED   seed of the random tests, decimal or 0x..., or "time"; a fixed one if not set
+ *     DEPTHPREC_SEED   seed of the random tests, decimal or 0x..., or "time"; else SEED; a fixed one if neither is set
  *     DEPTHPREC_QUICK  nonempty: far fewer cases (for sanitizers)
  *     DEPTHPREC_FULL   nonempty: all cases, minutes
  *     DEPTHPREC_VECTORS  folder of the vector files, tests/vectors if not set
