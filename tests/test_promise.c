@@ -36,6 +36,22 @@ static bool matters(const promise_pipe *p, const promise_window_plan *plan) {
     return false;
 }
 
+/*
+ * Flushed, 1/w is 0 beyond 2^126, and what a reciprocal makes of it is stored as if it were near: the promise to nearer
+ * depths ends there. So a window across is judged up to there alone.
+ */
+static promise_window_plan up_to_normal_reciprocals(promise_window_plan plan) {
+    const uint32_t last = promise_bits(0x1p126);
+    if (plan.run[0].first > last)
+        return plan;
+    while (plan.run[plan.count - 1].first > last)
+        plan.count--;
+    const uint32_t left = last - plan.run[plan.count - 1].first + 1;
+    if (plan.run[plan.count - 1].count > left)
+        plan.run[plan.count - 1].count = left;
+    return plan;
+}
+
 /* With subnormal numbers and, where there are any, with hardware that makes zeros of them. */
 static void judge_place(const dp_setup *setup, double place, uint32_t depths, promise_result *result) {
     const promise_pipe p = promise_pipe_make(setup, false);
@@ -43,7 +59,8 @@ static void judge_place(const dp_setup *setup, double place, uint32_t depths, pr
     promise_judge(setup, &p, &plan, result);
     if (matters(&p, &plan)) {
         const promise_pipe flushing = promise_pipe_make(setup, true);
-        promise_judge(setup, &flushing, &plan, result);
+        const promise_window_plan cut = up_to_normal_reciprocals(plan);
+        promise_judge(setup, &flushing, dp_arith_get(setup->spec.arith)->reciprocal ? &cut : &plan, result);
     }
 }
 

@@ -51,6 +51,7 @@ dp_chain dp_chain_make(const dp_setup *setup, const dp_pipeline *p) {
     c.per_clip = c.remap ? 0.5 : 1.0;
     c.per_ndc = c.two_stage ? 0.5 : 1.0;
     c.a_exact = c.a == 0.0 || dp_granule(c.a) == dp_power2(dp_exponent(fabs(c.a)));
+    c.fused = p->arith->fused && !c.a_exact;
     c.reach.lo = (double)(float)setup->spec.znear;
     c.reach.hi = isinf(setup->spec.zfar) ? (double)FLT_MAX : (double)(float)setup->spec.zfar;
     c.below = larger(excess_below(&c, c.reach.lo), excess_below(&c, c.reach.hi));
@@ -86,7 +87,7 @@ static dp_step scaled(dp_step s, double factor) {
 
 /* fl(A z), in clip depth. */
 static dp_step product_of(const dp_chain *c, dp_span r) {
-    if (c->a_exact || c->pipeline.arith->fused)
+    if (c->a_exact || c->fused)
         return (dp_step){0.0, 0.0};
     return step_of((magnitude){fabs(c->a) * r.hi, fabs(c->a) * r.lo});
 }
@@ -105,7 +106,7 @@ static dp_step add_b(const dp_chain *c, dp_span r, magnitude m, double *lo, doub
     *lo = *hi = 0.0;
     if (c->a == 0.0)
         return (dp_step){0.0, 0.0};
-    if (c->pipeline.arith->fused) {
+    if (c->fused) {
         *hi = dp_result_error(m.least, m.most);
         *lo = -*hi;
         return (dp_step){*hi, step_of(m).grid};
@@ -134,9 +135,7 @@ static dp_step add_b(const dp_chain *c, dp_span r, magnitude m, double *lo, doub
 /* What all computed clip depths of a span are multiples of; 0 when unknown. */
 static double clip_granule(const dp_chain *c, dp_span r, magnitude clip) {
     const double common = smaller(product_granule(c, r), c->b_granule);
-    const double exact = c->a == 0.0                                                       ? c->b_granule
-                         : clip.most < 0x1p24 * common && !c->pipeline.arith->fused ? common
-                                                                                           : 0.0;
+    const double exact = c->a == 0.0 ? c->b_granule : clip.most < 0x1p24 * common && !c->fused ? common : 0.0;
     const double least = clip.least - dp_half_ulp(clip.most);
     return larger(exact, least > 0.0 ? 2.0 * dp_half_ulp(least) : 0.0);
 }
@@ -170,8 +169,8 @@ static void divide(const dp_chain *c, dp_span r, double q1, double q2, double er
     const magnitude q = magnitude_of(q1, q2, error);
     if (c->pipeline.arith->reciprocal) {
         s->inverse = step_of((magnitude){1.0 / r.lo * raised, 1.0 / r.hi * lowered});
-        const double worse = dp_result_error(1.0 / r.hi * lowered, 1.0 / r.lo * raised);
-        s->inverse.error = q.most * (r.hi < 0x1p125 ? smaller(r.hi * worse, DP_UNIT) : r.hi * worse);
+        const double by_w = r.hi * s->inverse.error; /* of w as large as it may be; or relative, of 1/w */
+        s->inverse.error = q.most * (r.hi < 0x1p125 ? smaller(by_w, DP_UNIT) : by_w);
     }
     /* What comes out above 1 is clamped, and demand.c counts that; the rest has the last place of 1 at most. */
     const magnitude result = {smaller(q.most + s->inverse.error, 1.0 - DP_UNIT_BELOW_ONE),
@@ -214,7 +213,7 @@ dp_steps dp_chain_steps_beyond(const dp_chain *c, double z) {
     const double up = 1.0 + 0x1p-20;
     const double g = up * larger(fabs(dp_chain_clip(c, z)) / w1, fabs(dp_chain_clip(c, zfar)) / w2);
     const double q = up * larger(fabs(dividend(c, z)) / w1, fabs(dividend(c, zfar)) / w2);
-    const int rounded = !c->a_exact && !c->pipeline.arith->fused;
+    const int rounded = !c->a_exact && !c->fused;
     double clip = rounded ? DP_UNIT * fabs(c->a) * (c->pipeline.ortho ? zfar : 1.0) : 0.0;
     clip += c->a == 0.0 ? 0.0 : DP_UNIT * (g + clip);
     if (c->remap)
@@ -239,7 +238,7 @@ dp_steps dp_chain_steps_beyond(const dp_chain *c, double z) {
  * product is in a binade above z's, it is so for every ulp/u-th step, and between those it does not fall.
  */
 static double product_lag(const dp_chain *c, double hi) {
-    if (c->a_exact || c->pipeline.arith->fused)
+    if (c->a_exact || c->fused)
         return 0.0;
     const double u = 2.0 * dp_half_ulp(hi);
     const double ulp = 2.0 * dp_half_ulp(fabs(c->a) * hi);
@@ -250,7 +249,7 @@ static double product_lag(const dp_chain *c, double hi) {
 static double sum_lag(const dp_chain *c, dp_span r, magnitude clip, double kept) {
     const double most = dp_half_ulp(clip.most);
     const double least = dp_half_ulp(clip.least);
-    if (!c->pipeline.arith->fused || clip.least <= 0.0 || most > 2.0 * least)
+    if (!c->fused || clip.least <= 0.0 || most > 2.0 * least)
         return kept;
     return most == least && most <= dp_half_ulp(r.lo) ? 0.0 : most + least;
 }
@@ -282,9 +281,7 @@ dp_numerator dp_chain_numerator(const dp_chain *c, dp_span r) {
         n.rise += product_lag(c, dp_power2(dp_exponent(r.hi)) * (1.0 - DP_UNIT));
     if (c->remap) {
         const dp_step sum = add_w(c, r, clip, product.error);
-        const int fine =
-            c->pipeline.reversed || (sum.grid == 2.0 * sum.error && sum.grid <= 4.0 * dp_half_ulp(r.lo));
-        n.rise += n.rise == 0.0 && fine ? 0.0 : 2.0 * sum.error;
+        n.rise += n.rise == 0.0 && c->pipeline.reversed ? 0.0 : 2.0 * sum.error; /* t itself keeps falling */
         n.least = larger(n.least - sum.error, 0.0);
     }
     return n;

@@ -24,6 +24,7 @@ typedef struct dp_chain {
     double per_clip;     /* what the shader's remap leaves of the clip depth, 1/2 or 1 */
     double per_ndc;      /* what the viewport leaves of the NDC depth */
     int a_exact;         /* A z is exact: A is 0 or a power of two */
+    int fused;           /* A z + B is rounded once, and A z is not exact: else that makes no difference */
     int two_stage;       /* the viewport halves and moves */
     int remap;           /* the vertex shader halves and moves */
     dp_span reach;       /* the depths that enter: near and far in binary32, at most its largest number */
@@ -48,10 +49,10 @@ typedef struct dp_step {
 /* The operations at every depth of a span, each as window depth, but for `inverse`. */
 typedef struct dp_steps {
     dp_step product, sum, remap, quotient, viewport;
-    dp_step inverse;       /* 1/w: its lattice in units of 1/w, its error as window depth */
-    double kept_lo;        /* what adding B changes, in clip depth and towards near: where all sums of the span are */
-    double kept_hi;        /* rounded alike the two are one */
-    double full;           /* all errors of one window depth */
+    dp_step inverse; /* 1/w: its lattice in units of 1/w, its error as window depth */
+    double kept_lo;  /* what adding B changes, in clip depth and towards near: where all sums of the span are */
+    double kept_hi;  /* rounded alike the two are one */
+    double full;     /* all errors of one window depth */
 } dp_steps;
 
 dp_steps dp_chain_steps(const dp_chain *c, dp_span span);

@@ -104,8 +104,9 @@ static dp_demand demand_free(const dp_chain *c, const dp_steps *s1, const dp_ste
 }
 
 /*
- * The numerator hardly rises: the distance of two quotients is at least t (1/z1 - 1/z2) with the farther, least t. Where
- * t itself is multiplied with fl(1/w), the lattice of the reciprocals counts, t times as wide; else their errors do.
+ * The numerator hardly rises: the distance of two quotients is at least t (1/z1 - 1/z2) with the farther, least t.
+ * Where t itself is multiplied with fl(1/w), the lattice of the reciprocals counts, t times as wide; else their errors
+ * do.
  */
 static dp_demand demand_falling(const dp_chain *c, dp_span range, const dp_steps *s1, const dp_steps *s2,
                                 double quotient) {
@@ -114,10 +115,11 @@ static dp_demand demand_falling(const dp_chain *c, dp_span range, const dp_steps
         return (dp_demand){.window = 1.0, .slope = 0.0};
     const int multiplied = c->pipeline.reversed && !c->two_stage;
     const double factor = multiplied ? c->half * t.least : 0.0;
-    const double need = before_rounding((dp_step){s1->inverse.error, factor * s1->inverse.grid},
-                                        (dp_step){s2->inverse.error, factor * s2->inverse.grid}, quotient);
-    const double projection = c->half * t.rise / range.lo;
-    return (dp_demand){.projection = projection, .window = need + projection, .slope = t.least};
+    const double projection = c->half * t.rise / range.lo * (1.0 + DP_UNIT);
+    const double window =
+        before_rounding((dp_step){s1->inverse.error, factor * s1->inverse.grid},
+                        (dp_step){s2->inverse.error, factor * s2->inverse.grid}, quotient + projection);
+    return (dp_demand){.projection = projection, .window = window, .slope = t.least};
 }
 
 /* The demand of a depth of `first` and one of `second`, not nearer. */
@@ -194,11 +196,15 @@ static double longest_within(const dp_chain *c, dp_span first, dp_span second, d
 }
 
 /*
+ * Beyond 2^126 the reciprocal of w is subnormal: hardware that makes 0 of it tells nothing apart there.
+ *
  * First a distance that holds against every depth behind. Then, from there back to `first`, binade by binade of z: the
  * farthest binade that may hold a depth out of order has the answer.
  */
 double dp_demand_longest(const dp_chain *c, dp_span first, double extra, dp_demand *out) {
     *out = demand_beyond(c, first, extra);
+    if (c->pipeline.arith->reciprocal && !c->pipeline.ortho && first.hi > 0x1p126)
+        return HUGE_VAL;
     const double any = distance(c, first.hi, out);
     double hi = smaller(first.hi + any, c->reach.hi);
     if (hi <= first.lo)
