@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 #include "depthprec/budget.h"
 
+#include "core/composition.h"
 #include "core/curve.h"
 #include "core/engine.h"
 #include "core/extremes.h"
@@ -277,20 +278,6 @@ static double distance(const chain *c, double z, double window, double slope) {
 }
 
 /*
- * World positions through one binary32 matrix, whose rows of clip z and clip w are A and 1 times the view axis. Each
- * entry is rounded, each product, and three sums in any order: so the products count five times and the constant four.
- * The axis has length 1, so neither |axis . position| nor |axis . camera| exceeds sqrt(3) world.
- */
-static double composition_error(const chain *c, double z, double world) {
-    if (world <= 0.0)
-        return 0.0;
-    const double along = 1.7321 * world;
-    const double clip = unit * (5.0 * fabs(c->a) * along + 4.0 * (fabs(c->a) * along + fabs(c->b)));
-    const double w = c->pipeline.ortho ? 0.0 : unit * 9.0 * along; /* times |ndc|, at most 1 */
-    return c->half * (clip + w) / (c->pipeline.ortho ? 1.0 : z) * (1.0 + 0x1p-16);
-}
-
-/*
  * Reading back in binary32, as window depth: z = 1/(zb d + wb), or n + (f - n) d when orthographic. Each constant is
  * rounded once, d is converted once, then product, sum and reciprocal; errors are relative to the terms of the sum.
  */
@@ -326,11 +313,82 @@ static double whole_steps(double separation, double step) {
     return steps >= 1.0 && steps < 0x1p20 ? steps * step * outward : separation;
 }
 
+/*
+ * The same for a run of depths at once: every rounding at the largest value that it meets anywhere in it. All that the
+ * demands are made of rises with the range that they are taken over, so this is a separation of each depth of the run.
+ */
+static double run_bound(const dp_setup *setup, const chain *c, double z1, double z2, double extra) {
+    demand d = demand_beyond(setup, c, z1);
+    const demand end = demand_beyond(setup, c, z2);
+    d.projection = larger(d.projection, end.projection);
+    d.ndc = larger(d.ndc, end.ndc);
+    d.format = larger(d.format, end.format);
+    d.error = larger(d.error, end.error);
+    double window = larger(total_of(c, &d, z1, extra), total_of(c, &d, z2, extra));
+    double separation = distance(c, z2, window, d.slope) * outward;
+    for (double before = HUGE_VAL; separation < z1 && separation < 0.97 * before;) {
+        before = separation;
+        const demand close = demand_over(setup, c, z1, z2 + separation);
+        window = larger(total_of(c, &close, z1, extra), total_of(c, &close, z2, extra));
+        const double s = close.slope > 0.0 ? distance(c, z2, window, close.slope) * outward : HUGE_VAL;
+        if (s >= separation)
+            break;
+        separation = s;
+    }
+    return separation;
+}
+
+/* The separation of depths that a composition moves: that of any depth which a surface at z may be moved to. */
+static double composed_separation(const dp_setup *setup, const chain *c, const dp_composed *m, double z, double extra) {
+    if (!(m->reach < z))
+        return HUGE_VAL;
+    const double n = setup->spec.znear;
+    const double first = larger(z - m->reach, smaller(n, z) * (1.0 - 0x1p-20));
+    const double plain = run_bound(setup, c, first, z + m->reach, extra);
+    const double s = dp_composition_separation(m, z, plain, 0);
+    const int clamped = z - m->reach <= n * (1.0 + 0x1p-20) || z + m->reach + s >= setup->spec.zfar * (1.0 - 0x1p-20);
+    return clamped ? dp_composition_separation(m, z, plain, 1) : s;
+}
+
+/* World positions: the separation then, and what it is more is the composition's part. */
+static void add_composition(const dp_setup *setup, const chain *c, double z, const dp_budget_terms *terms, double extra,
+                            dp_budget *out) {
+    const dp_pipeline *p = &c->pipeline;
+    const dp_composing in = {.composition = terms->composition,
+                             .world = terms->world,
+                             .a = c->a,
+                             .b = c->b,
+                             .znear = setup->spec.znear,
+                             .zfar = setup->spec.zfar,
+                             .ortho = p->ortho,
+                             .fused = p->arith->fused,
+                             .remap = p->ndc_signed && p->arith->remap};
+    /* As below: first a separation from all that is behind, then from what is nearer than that. */
+    double separation = HUGE_VAL;
+    double until = HUGE_VAL;
+    for (double before = HUGE_VAL; isinf(before) || separation < 0.97 * before;) {
+        before = separation;
+        const dp_composed m = dp_composition_at(&in, z, until);
+        separation = smaller(separation, composed_separation(setup, c, &m, z, extra));
+        if (isinf(separation))
+            break;
+        until = smaller(z + separation, setup->spec.zfar);
+    }
+    separation = larger(separation, out->separation);
+    const double part = separation - out->separation;
+    out->cause[DP_CAUSE_COMPOSITION] = part > 0.0 ? part : 0.0; /* infinity less infinity too */
+    out->separation = separation;
+    const double slope = c->half * (p->ortho ? fabs(c->a) * separation : fabs(c->b));
+    out->window = p->ortho ? slope : slope / z * (isinf(separation) ? 1.0 : separation / (z + separation));
+}
+
 dp_status dp_budget_at(const dp_setup *setup, double z, const dp_budget_terms *terms, dp_budget *out) {
     if (setup == NULL || out == NULL)
         return DP_ERROR_NULL;
     if (!(z >= setup->spec.znear && z <= setup->spec.zfar))
         return DP_ERROR_DEPTH;
+    if (terms != NULL && dp_composition_get(terms->composition) == NULL)
+        return DP_ERROR_MODEL;
     dp_pipeline pipeline;
     const dp_status status = dp_pipeline_init(&pipeline, setup);
     if (status != DP_OK)
@@ -342,11 +400,10 @@ dp_status dp_budget_at(const dp_setup *setup, double z, const dp_budget_terms *t
     const double z1 = (double)(float)z;
     double part[DP_CAUSE_COUNT] = {0};
     if (terms != NULL) {
-        part[DP_CAUSE_COMPOSITION] = 2.0 * composition_error(&c, z1, terms->world);
         part[DP_CAUSE_INTERPOLATION] = 2.0 * terms->interpolation * unit;
         part[DP_CAUSE_LINEARIZATION] = terms->linearize ? 2.0 * linearization_error(setup, &c, z1) : 0.0;
     }
-    const double extra = part[DP_CAUSE_COMPOSITION] + part[DP_CAUSE_INTERPOLATION] + part[DP_CAUSE_LINEARIZATION];
+    const double extra = part[DP_CAUSE_INTERPOLATION] + part[DP_CAUSE_LINEARIZATION];
 
     /*
      * First a separation that holds against every depth behind. Then, as long as it helps: all depths farther than the
@@ -374,38 +431,18 @@ dp_status dp_budget_at(const dp_setup *setup, double z, const dp_budget_terms *t
     out->window = window;
     for (int i = 0; i < DP_CAUSE_COUNT; i++)
         out->cause[i] = part[i] > 0.0 ? separation * (part[i] / window) : 0.0;
+    if (terms != NULL && terms->world > 0.0)
+        add_composition(setup, &c, z1, terms, extra, out);
     return DP_OK;
 }
 
-/*
- * The same for a run of depths at once: every rounding at the largest value that it meets anywhere in it. All that the
- * demands are made of rises with the range that they are taken over, so this is a separation of each depth of the run.
- */
 double dp_budget_bound(const dp_setup *setup, float nearest, float farthest) {
     dp_pipeline pipeline;
     if (dp_pipeline_init(&pipeline, setup) != DP_OK || isinf(farthest))
         return HUGE_VAL;
     const chain c = make_chain(&pipeline);
-    const double z1 = (double)nearest;
-    const double z2 = (double)farthest;
-    demand d = demand_beyond(setup, &c, z1);
-    const demand end = demand_beyond(setup, &c, z2);
-    d.projection = larger(d.projection, end.projection);
-    d.ndc = larger(d.ndc, end.ndc);
-    d.format = larger(d.format, end.format);
-    d.error = larger(d.error, end.error);
-    double window = larger(total_of(&c, &d, z1, 0.0), total_of(&c, &d, z2, 0.0));
-    double separation = distance(&c, z2, window, d.slope) * outward;
-    for (double before = HUGE_VAL; separation < z1 && separation < 0.97 * before;) {
-        before = separation;
-        const demand close = demand_over(setup, &c, z1, z2 + separation);
-        window = larger(total_of(&c, &close, z1, 0.0), total_of(&c, &close, z2, 0.0));
-        const double s = close.slope > 0.0 ? distance(&c, z2, window, close.slope) * outward : HUGE_VAL;
-        if (s >= separation)
-            break;
-        separation = s;
-    }
-    return whole_steps(separation, 2.0 * half_ulp(z2));
+    const double bound = run_bound(setup, &c, (double)nearest, (double)farthest, 0.0);
+    return whole_steps(bound, 2.0 * half_ulp((double)farthest));
 }
 
 dp_status dp_code_range(const dp_setup *setup, double z, uint32_t *lowest, uint32_t *highest) {
