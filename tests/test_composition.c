@@ -294,7 +294,7 @@ static void search_ray(rng *r, const set_up *s, const camera *c, double z, doubl
  */
 static found search(rng *r, const set_up *s, double z, double wanted, uint64_t times) {
     const uint64_t rays = 60;
-    const uint64_t most = 400 * times;
+    const uint64_t most = 1000 * times;
     found best = {0};
     const double bound = separation_at(s, z);
     const double width = isinf(bound) ? 20.0 * z : 1.05 * bound;
@@ -344,8 +344,9 @@ static void within_four_times(void **state) {
             const double bound = separation_at(&s, z);
             const found most = search(&r, &s, z, isinf(bound) ? 0.0 : 0.26, test_cases(1, 4, 100));
             char text[160];
-            snprintf(text, sizeof text, "%s: %s %s, near %g, far %g, world %g", dp_composition_get((dp_composition)k)->name,
-                     dp_mapping_get(mapping)->name, formats[i / 18 % 2], n, f, world);
+            snprintf(text, sizeof text, "%s: %s %s, near %g, far %g, world %g",
+                     dp_composition_get((dp_composition)k)->name, dp_mapping_get(mapping)->name, formats[i / 18 % 2], n,
+                     f, world);
             if (isinf(bound)) {
                 TALLY(&none, most.gap > fmin(10.0 * z, 0.5 * (f - z)), "%s: z = %g: %g found", text, z, most.gap);
                 continue;
@@ -379,16 +380,18 @@ static void random_set_ups(void **state) {
                                        .composition = (dp_composition)rng_below(&r, DP_COMPOSITION_COUNT)};
         const double end = fmin(f, 0.7 * terms.world);
         set_up s;
-        if (!make(&s, n, f, (dp_mapping)rng_below(&r, 4), (const char *[]){"fp32", "unorm24", "unorm16"}[rng_below(&r, 3)],
-                  rng_below(&r, dp_arith_count()), ortho, terms))
+        if (!make(&s, n, f, (dp_mapping)rng_below(&r, 4),
+                  (const char *[]){"fp32", "unorm24", "unorm16"}[rng_below(&r, 3)], rng_below(&r, dp_arith_count()),
+                  ortho, terms))
             continue;
         const double z = rng_below(&r, 8) ? rng_log(&r, n, end) : rng_below(&r, 2) ? n : end * (1.0 - 1e-6);
         const double bound = separation_at(&s, z);
         const found most = search(&r, &s, z, 0.0, 1);
         TALLY(&never, isinf(bound) || most.ratio < 1.0,
-              "%s %s %s %s%s, near %.17g, far %.17g, world %.17g: z = %a: %g of %g", dp_composition_get(terms.composition)->name,
-              dp_mapping_get(s.setup.spec.mapping)->name, s.setup.spec.format.name, s.arith->name, ortho ? " ortho" : "", n, f,
-              terms.world, most.z, most.gap, most.bound);
+              "%s %s %s %s%s, near %.17g, far %.17g, world %.17g: z = %a: %g of %g",
+              dp_composition_get(terms.composition)->name, dp_mapping_get(s.setup.spec.mapping)->name,
+              s.setup.spec.format.name, s.arith->name, ortho ? " ortho" : "", n, f, terms.world, most.z, most.gap,
+              most.bound);
         if (isfinite(bound) && most.ratio > worst.ratio)
             worst = most;
     }

@@ -59,7 +59,8 @@ typedef struct dp_budget_terms {
 typedef struct dp_budget {
     double separation;            /**< scene units; INFINITY where nothing behind z is certain */
     double window;                /**< the same as a distance in window depth */
-    double cause[DP_CAUSE_COUNT]; /**< the parts of `separation`, which they add up to */
+    double cause[DP_CAUSE_COUNT]; /**< the parts of `separation`, which they add up to; that of the composition is what
+                                       it adds, the others are what they are without it */
 } dp_budget;
 
 /** A word for a cause, "projection"; null when out of range. */

@@ -432,7 +432,7 @@ dp_status dp_budget_at(const dp_setup *setup, double z, const dp_budget_terms *t
     for (int i = 0; i < DP_CAUSE_COUNT; i++)
         out->cause[i] = part[i] > 0.0 ? separation * (part[i] / window) : 0.0;
     if (terms != NULL && terms->world > 0.0)
-        add_composition(setup, &c, z1, terms, extra, out);
+        add_composition(setup, &c, z, terms, extra, out);
     return DP_OK;
 }
 

@@ -23,9 +23,11 @@ static const double outward = 1.0 + 0x1p-16;
 static const double slant = 2.0;
 
 static const dp_composition_row rows[DP_COMPOSITION_COUNT] = {
-    [DP_COMPOSITION_ONCE] = {"once", "view and projection in one matrix, formed in double and rounded once to binary32"},
+    [DP_COMPOSITION_ONCE] = {"once",
+                             "view and projection in one matrix, formed in double and rounded once to binary32"},
     [DP_COMPOSITION_PRODUCTS] = {"products", "binary32 view and projection matrices, multiplied in binary32 into one"},
-    [DP_COMPOSITION_RELATIVE] = {"relative", "positions less the camera's, in double, rounded to binary32: no translation"},
+    [DP_COMPOSITION_RELATIVE] = {"relative",
+                                 "positions less the camera's, in double, rounded to binary32: no translation"},
 };
 
 const dp_composition_row *dp_composition_get(dp_composition composition) {

@@ -39,7 +39,7 @@ typedef struct dp_composed {
     double own_tilt, shared_tilt; /* t and T, shares of the eye depth */
     double loss;                  /* by which e and E part two points a unit of eye depth apart */
     double loss_tilt;             /* the same for t and T, a unit of eye depth */
-    double reach;                 /* the depth that reaches the divide lies within this of z; INFINITY: behind the eye */
+    double reach; /* the depth that reaches the divide lies within this of z; INFINITY: behind the eye */
 } dp_composed;
 
 /*
