@@ -376,8 +376,9 @@ static void random_set_ups(void **state) {
         const double n = rng_log(&r, 0.01, 10.0);
         const bool ortho = rng_below(&r, 4) == 0;
         const double f = !ortho && rng_below(&r, 4) == 0 ? HUGE_VAL : n * rng_log(&r, 1.5, 1e5);
-        const dp_budget_terms terms = {.world = n * rng_log(&r, 4.0, 1e7),
-                                       .composition = (dp_composition)rng_below(&r, DP_COMPOSITION_COUNT)};
+        const dp_composition composition = (dp_composition)rng_below(&r, DP_COMPOSITION_COUNT);
+        const double largest = composition == DP_COMPOSITION_RELATIVE ? 1e16 : 1e7;
+        const dp_budget_terms terms = {.world = n * rng_log(&r, 4.0, largest), .composition = composition};
         const double end = fmin(f, 0.7 * terms.world);
         set_up s;
         if (!make(&s, n, f, (dp_mapping)rng_below(&r, 4),
@@ -435,7 +436,30 @@ static void row_off(const set_up *s, const camera *c, const float row[4], double
     const long double result = (long double)dot(c, row, p, false);
     const long double each[CAUSES] = {position, rounded - exact, result - rounded - (long double)row[3], matrix, turn};
     for (int k = 0; k < CAUSES; k++)
-        out[k] = (double)fabsl(each[k]);
+        out[k] = (double)each[k];
+}
+
+enum { OWN, SHARED, OWN_TILT, SHARED_TILT, TOTALS };
+static const char *const totals[TOTALS] = {"own", "shared", "own tilt", "shared tilt"};
+
+/* What the eye depth of the point was off by, from the rows of w and clip z. */
+static void eye_off(const dp_composing *in, const double w[CAUSES], const double clip[CAUSES], double out[TOTALS]) {
+    /* in `products` clip z is off its product with w's rounded entries, whose own errors cancel */
+    const double shared = in->composition == DP_COMPOSITION_PRODUCTS ? 0.0 : in->a * w[MATRIX];
+    out[OWN] = w[POSITION] + w[PRODUCTS] + w[SUMS];
+    out[SHARED] = w[MATRIX];
+    out[OWN_TILT] = (clip[PRODUCTS] + clip[SUMS] - in->a * (w[PRODUCTS] + w[SUMS])) / in->b;
+    out[SHARED_TILT] = (clip[MATRIX] - shared) / in->b;
+}
+
+static void judge(tally *within, const char *what, double off, double claim, double *most) {
+    TALLY(within, fabs(off) <= claim * (1.0 + 0x1p-20), "%s: %g of %g", what, off, claim);
+    *most = fmax(*most, fabs(off) / claim);
+}
+
+static void report(const char *composition, const char *row, const char *what, double most) {
+    printf("# %s, %s %s: at most %.3f\n", composition, row, what, most);
+    assert_true(most > 0.5);
 }
 
 /* No cause is more than its claim, and each somewhere more than half of it: with one halved this fails. */
@@ -444,39 +468,40 @@ static void each_cause(void **state) {
     rng r = rng_make("composition causes");
     tally within = {.name = "causes"};
     for (int k = 0; k < DP_COMPOSITION_COUNT; k++) {
-        double most[2][CAUSES] = {{0}};
+        double most[2][CAUSES] = {{0}}, most_eye[TOTALS] = {0};
+        const double world = 1e4, n = 0.1, z = 7.0;
+        set_up s;
+        make(&s, n, 1000.0, DP_MAPPING_D3D, "fp32", 0, false,
+             (dp_budget_terms){.world = world, .composition = (dp_composition)k});
+        const dp_composing in = {.composition = (dp_composition)k,
+                                 .world = world,
+                                 .a = (double)(float)s.a,
+                                 .b = (double)(float)s.b,
+                                 .znear = n,
+                                 .zfar = 1000.0};
+        const dp_composed m = dp_composition_at(&in, z, z);
+        const double eye_claim[TOTALS] = {m.own, m.shared, m.own_tilt, m.shared_tilt};
         for (uint64_t i = test_cases(30000, 300000, 10000000); i > 0; i--) {
-            const double world = 1e4, n = 0.1, z = 7.0;
-            set_up s;
-            make(&s, n, 1000.0, DP_MAPPING_D3D, "fp32", 0, false,
-                 (dp_budget_terms){.world = world, .composition = (dp_composition)k});
-            const dp_composing in = {.composition = (dp_composition)k,
-                                     .world = world,
-                                     .a = (double)(float)s.a,
-                                     .b = (double)(float)s.b,
-                                     .znear = n,
-                                     .zfar = 1000.0};
-            const dp_composed composed = dp_composition_at(&in, z, z);
             const pose p = random_pose(&r);
+            double claim[2][CAUSES], off[2][CAUSES], eye[TOTALS];
             camera c;
             aim(&s, z, &p, &c);
-            for (int row = 0; row < 2; row++) {
-                double claim[CAUSES], off[CAUSES];
-                claims(row == 0 ? &composed.w : &composed.clip, claim);
-                row_off(&s, &c, row == 0 ? c.w : c.clip, row == 0 ? 1.0 : in.a, row == 0 ? 0.0 : in.b, z, off);
-                for (int cause = 0; cause < CAUSES; cause++) {
-                    TALLY(&within, off[cause] <= claim[cause] * (1.0 + 0x1p-20), "%d %s: %g of %g", row, causes[cause],
-                          off[cause], claim[cause]);
-                    most[row][cause] = fmax(most[row][cause], off[cause] / claim[cause]);
-                }
-            }
+            claims(&m.w, claim[0]);
+            claims(&m.clip, claim[1]);
+            row_off(&s, &c, c.w, 1.0, 0.0, z, off[0]);
+            row_off(&s, &c, c.clip, in.a, in.b, z, off[1]);
+            eye_off(&in, off[0], off[1], eye);
+            for (int cause = 0; cause < 2 * CAUSES; cause++)
+                judge(&within, causes[cause / 2], off[cause % 2][cause / 2], claim[cause % 2][cause / 2],
+                      &most[cause % 2][cause / 2]);
+            for (int total = 0; total < TOTALS; total++)
+                judge(&within, totals[total], eye[total], eye_claim[total], &most_eye[total]);
         }
-        for (int row = 0; row < 2; row++)
-            for (int cause = 0; cause < CAUSES; cause++) {
-                printf("# %s, clip %s, %s: at most %.3f\n", dp_composition_get((dp_composition)k)->name,
-                       row == 0 ? "w" : "z", causes[cause], most[row][cause]);
-                assert_true(most[row][cause] > 0.5);
-            }
+        const char *name = dp_composition_get((dp_composition)k)->name;
+        for (int cause = 0; cause < 2 * CAUSES; cause++)
+            report(name, cause % 2 == 0 ? "w" : "z", causes[cause / 2], most[cause % 2][cause / 2]);
+        for (int total = 0; total < TOTALS; total++)
+            report(name, "eye depth,", totals[total], most_eye[total]);
     }
     tally_end(&within);
 }
