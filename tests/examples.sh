@@ -119,6 +119,7 @@ check "depthprec.1: every preset" documented 1 aliases presets
 check "depthprec.1: every API of depth bias" documented 1 aliases apis
 check "depthprec.1: every model" documented 1 aliases models
 check "depthprec.1: every arithmetic" documented 1 aliases ariths
+check "depthprec.1: every composition" documented 1 aliases transforms
 check "depthprec.1: every cause" documented 1 aliases causes
 verbs() { "$DEPTHPREC" help | sed -n '/^Commands/,/^$/s/^  \([a-z]*\) .*/\1/p'; }
 check "depthprec.1: every command" documented 1 verbs

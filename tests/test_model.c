@@ -206,7 +206,8 @@ static void blocks_come_to_the_same(void **state) {
 static dp_budget_terms random_terms(rng *r) {
     return (dp_budget_terms){.interpolation = rng_below(r, 2) != 0 ? rng_log(r, 0.1, 100.0) : 0.0,
                              .world = rng_below(r, 2) != 0 ? rng_log(r, 0.1, 1e4) : 0.0,
-                             .linearize = (int)rng_below(r, 2)};
+                             .linearize = (int)rng_below(r, 2),
+                             .composition = (dp_composition)rng_below(r, DP_COMPOSITION_COUNT)};
 }
 
 /* A part that was not asked for is none; the others are shares of the window depth, and nothing is left over. */
@@ -235,8 +236,15 @@ static void parts_add_up(void **state) {
         sound = sound && (b.cause[DP_CAUSE_INTERPOLATION] > 0.0) == (terms.interpolation > 0.0);
         sound = sound && (b.cause[DP_CAUSE_LINEARIZATION] > 0.0) == (terms.linearize != 0);
         /* Both surfaces of a pair may be off by E units of 2^-24. */
-        const double window = b.cause[DP_CAUSE_INTERPOLATION] / b.separation * b.window;
-        sound = sound && fabs(window - terms.interpolation * 0x1p-23) <= 1e-12 * b.window;
+        dp_budget_terms here = terms;
+        dp_budget plain;
+        here.world = 0.0;
+        assert_int_equal(dp_budget_at(&setup, z, &here, &plain), DP_OK);
+        const double window = plain.cause[DP_CAUSE_INTERPOLATION] / plain.separation * plain.window;
+        sound = sound && fabs(window - terms.interpolation * 0x1p-23) <= 1e-12 * plain.window;
+        /* What a composition adds is its part, and leaves the others as they are. */
+        for (int i = DP_CAUSE_COMPOSITION + 1; i < DP_CAUSE_COUNT; i++)
+            sound = sound && b.cause[i] == plain.cause[i];
         TALLY(&t, sound, "%s %s %s near %a far %a at %a, terms %g %g %d: separation %g, parts %g %g %g %g %g %g",
               setup.spec.format.name, dp_mapping_get(setup.spec.mapping)->name, dp_arith_get(setup.spec.arith)->name,
               setup.spec.znear, setup.spec.zfar, z, terms.interpolation, terms.world, terms.linearize, b.separation,

@@ -23,7 +23,7 @@ DP_BEGIN
 /** The causes, in the order in which they arise. */
 typedef enum dp_cause {
     DP_CAUSE_EYE = 0,         /**< eye depth rounded to binary32: surfaces are real, what enters is not */
-    DP_CAUSE_COMPOSITION,     /**< view and projection multiplied into one binary32 matrix */
+    DP_CAUSE_COMPOSITION,     /**< world positions through view and projection */
     DP_CAUSE_PROJECTION,      /**< A z + B in binary32 (and the remap, if any) */
     DP_CAUSE_NDC,             /**< the divide and the viewport */
     DP_CAUSE_INTERPOLATION,   /**< across a triangle, as given */
@@ -32,19 +32,36 @@ typedef enum dp_cause {
     DP_CAUSE_COUNT
 } dp_cause;
 
+/** How world positions become clip coordinates. Entries and positions are binary32 unless said otherwise. */
+typedef enum dp_composition {
+    DP_COMPOSITION_ONCE = 0, /**< P V formed in double, each entry rounded once; one matrix-vector product */
+    DP_COMPOSITION_PRODUCTS, /**< P and V each rounded to binary32, multiplied in binary32; then as above */
+    DP_COMPOSITION_RELATIVE, /**< position - camera in double, rounded once; then a matrix without translation */
+    DP_COMPOSITION_COUNT
+} dp_composition;
+
+typedef struct dp_composition_row {
+    const char *name; /**< "once" */
+    const char *note;
+} dp_composition_row;
+
+/** The row of a composition; null when out of range. */
+DP_API const dp_composition_row *dp_composition_get(dp_composition composition);
+
 /** What may be added to the pipeline. All zero: what the separation of DP_MODEL_FP32 counts. */
 typedef struct dp_budget_terms {
     double interpolation; /**< error of an interpolated window depth, in units of 2^-24 of d; at least 0 */
-    double world;         /**< largest |coordinate| of world positions and camera, scene units, if one precomposed
-                               view-projection matrix transforms them; 0: eye depth is given */
+    double world;         /**< largest |coordinate| of world positions and camera, scene units; 0: eye depth is given */
     int linearize;        /**< nonzero: the depth is read back by 1/(z d + w) in binary32 */
+    dp_composition composition; /**< of view and projection; read where `world` is positive */
 } dp_budget_terms;
 
 /** A separation and its parts. */
 typedef struct dp_budget {
     double separation;            /**< scene units; INFINITY where nothing behind z is certain */
     double window;                /**< the same as a distance in window depth */
-    double cause[DP_CAUSE_COUNT]; /**< the parts of `separation`, which they add up to */
+    double cause[DP_CAUSE_COUNT]; /**< the parts of `separation`, which they add up to; that of the composition is what
+                                       it adds, the others are what they are without it */
 } dp_budget;
 
 /** A word for a cause, "projection"; null when out of range. */
@@ -55,7 +72,12 @@ DP_API const char *dp_cause_name(dp_cause cause);
  *
  * @param z      eye depth in [near, far]; rounded to binary32 as a shader has it
  * @param terms  null for none
- * @return DP_OK, DP_ERROR_NULL, DP_ERROR_DEPTH, or DP_ERROR_MODEL for linear and log, which have no pipeline
+ * @return DP_OK, DP_ERROR_NULL, DP_ERROR_DEPTH, or DP_ERROR_MODEL for linear and log, which have no pipeline, and for a
+ *         composition out of range
+ *
+ * With terms->world, of two surfaces that the same matrix transforms and that one pixel sees, at real places in the
+ * world box: on one ray from the camera within 60 degrees of its axis, or parallel to the axis if orthographic (with
+ * the camera-relative composition, no farther beside it than zfar).
  *
  * Bound: never violated by the pipeline of pipeline.h with depth clamp. Cost: some 100 operations.
  */

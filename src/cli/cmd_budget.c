@@ -84,6 +84,11 @@ static double share_of(const budget_row *row, int cause) {
     return row->parts.cause[cause] / row->parts.separation;
 }
 
+/* How positions are composed; null where eye depth is given. */
+static const char *composition_of(const options *o) {
+    return o->terms.world > 0.0 ? dp_composition_get(o->terms.composition)->name : NULL;
+}
+
 /* ---- Text: the causes that there can be -------------------------------------------------------------------------- */
 
 static bool is_asked(const options *o, int cause) {
@@ -152,7 +157,13 @@ static void write_text(report *r) {
         char sentence[CHOICE_SENTENCE_SIZE];
         if (i > 0)
             output_char(r->out, '\n');
-        output_format(r->out, "%s\n%12s %12s", setup_label(setup, true, label), "z", "separation");
+        output_text(r->out, setup_label(setup, true, label));
+        if (composition_of(r->o) != NULL) {
+            char world[NUMBER_SIZE];
+            number_shortest(r->o->terms.world, world);
+            output_format(r->out, ", world %s, composition %s", world, composition_of(r->o));
+        }
+        output_format(r->out, "\n%12s %12s", "z", "separation");
         for (int c = 0; c < DP_CAUSE_COUNT; c++)
             if (is_asked(r->o, c))
                 output_format(r->out, " %18s", dp_cause_name((dp_cause)c));
@@ -199,6 +210,7 @@ static void write_json(report *r) {
     json_object(&j, "terms");
     json_number(&j, "interpolation", r->o->terms.interpolation);
     json_number(&j, "world", r->o->terms.world);
+    json_string(&j, "composition", composition_of(r->o));
     json_bool(&j, "linearize", r->o->terms.linearize != 0);
     json_end(&j);
     json_array(&j, "setups");
@@ -218,7 +230,6 @@ static void write_json(report *r) {
 /* ---- CSV --------------------------------------------------------------------------------------------------------- */
 
 static void csv_row(void *to, const report *r, const dp_setup *setup, const budget_row *row) {
-    (void)r;
     csv *c = to;
     setup_csv(c, setup);
     csv_string(c, dp_arith_get(setup->spec.arith)->name);
@@ -227,6 +238,7 @@ static void csv_row(void *to, const report *r, const dp_setup *setup, const budg
     csv_number(c, row->parts.window);
     for (int i = 0; i < DP_CAUSE_COUNT; i++)
         csv_number(c, row->parts.cause[i]);
+    csv_string(c, composition_of(r->o) != NULL ? composition_of(r->o) : "");
     csv_end(c);
 }
 
@@ -241,6 +253,7 @@ static void write_csv(report *r) {
         snprintf(head, sizeof head, "%s [scene]", dp_cause_name((dp_cause)i));
         csv_string(&c, head);
     }
+    csv_string(&c, "composition");
     csv_end(&c);
     for (size_t i = 0; i < r->all.count; i++)
         each_row(r, &r->all.items[i], csv_row, &c);
@@ -253,6 +266,8 @@ int cmd_budget(const options *o) {
     report r = {.o = o, .out = &out};
     options in_binary32 = *o;
     in_binary32.model = DP_MODEL_FP32;
+    if (option_given(o, OPTION_COMPOSITION) && composition_of(o) == NULL)
+        return option_error(OPTION_COMPOSITION, "needs --world: eye depth is given");
     int status = setups_make(&in_binary32, &r.all);
     if (status == EXIT_FINE)
         status = depths_resolve(o, DEFAULT_ROWS, &r.at);

@@ -61,9 +61,17 @@ static bool list_arith(size_t index, list_item *item) {
     return true;
 }
 
+static bool list_composition(size_t index, list_item *item) {
+    const dp_composition_row *row = dp_composition_get((dp_composition)index);
+    if (row == NULL)
+        return false;
+    *item = (list_item){row->name, "", row->note, "", ""};
+    return true;
+}
+
 static bool list_cause(size_t index, list_item *item) {
     static const char *const notes[DP_CAUSE_COUNT] = {
-        [DP_CAUSE_COMPOSITION] = "view and projection multiplied into one binary32 matrix, with --world",
+        [DP_CAUSE_COMPOSITION] = "world positions through view and projection, with --world and --composition",
         [DP_CAUSE_PROJECTION] = "A z + B in binary32, and the remap if there is one",
         [DP_CAUSE_NDC] = "the divide and the viewport",
         [DP_CAUSE_INTERPOLATION] = "across a triangle, as given with --interpolation",
@@ -151,6 +159,7 @@ static const struct topic {
     {"mappings", "how an eye depth becomes a window depth", list_mapping},
     {"models", "what is modelled of the arithmetic before the buffer", list_model},
     {"ariths", "the variants of binary32 arithmetic", list_arith},
+    {"transforms", "how world positions become clip coordinates", list_composition},
     {"causes", "what takes a part of the separation", list_cause},
     {"presets", "cameras as engines set them, for --preset", list_preset},
     {"apis", "what one unit of depth bias is, for bias --api", list_api},

@@ -78,10 +78,12 @@ static int check_file_given(const options *o, const figure_row *row) {
 
 /* Options that this figure has no use for. */
 static int check_options(const options *o, const figure_row *row) {
-    static const option_id terms[] = {OPTION_INTERPOLATION, OPTION_WORLD, OPTION_LINEARIZE};
+    static const option_id terms[] = {OPTION_INTERPOLATION, OPTION_WORLD, OPTION_COMPOSITION, OPTION_LINEARIZE};
     for (size_t i = 0; i < sizeof terms / sizeof terms[0]; i++)
         if (option_given(o, terms[i]) && (row->takes & FIGURE_TERMS) == 0)
             return option_error(terms[i], "has no meaning in the figure %s, but in budget", row->name);
+    if (option_given(o, OPTION_COMPOSITION) && !(o->terms.world > 0.0))
+        return option_error(OPTION_COMPOSITION, "needs --world: eye depth is given");
     if (option_given(o, OPTION_MODEL) && (row->takes & FIGURE_BINARY32) != 0 && o->model != DP_MODEL_FP32)
         return option_error(OPTION_MODEL, "must be fp32 in the figure %s, got '%s'", row->name,
                             o->model_auto ? "auto" : dp_model_name(o->model));

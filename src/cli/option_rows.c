@@ -178,6 +178,18 @@ static int parse_arith(options *o, const char *value) {
     return status;
 }
 
+static const char *composition_name(unsigned index) {
+    const dp_composition_row *row = dp_composition_get((dp_composition)index);
+    return row != NULL ? row->name : NULL;
+}
+
+static int parse_composition(options *o, const char *value) {
+    unsigned index = (unsigned)o->terms.composition;
+    int status = parse_word(OPTION_COMPOSITION, composition_name, value, &index);
+    o->terms.composition = (dp_composition)index;
+    return status;
+}
+
 static int parse_theme(options *o, const char *value) {
     unsigned index = (unsigned)o->theme;
     int status = parse_word(OPTION_THEME, theme_name, value, &index);
@@ -329,8 +341,12 @@ const option_row option_rows[OPTION_COUNT] = {
         "error of a window depth interpolated across a triangle, in\n"
         "units of 2^-24, at most 16777216 (default 0)", parse_interpolation},
     [OPTION_WORLD] = {"world", 0, "R", BUDGETED,
-        "world positions and camera, none farther out than R, go through\n"
-        "one precomposed matrix (default 0: eye depth is given)", parse_world},
+        "world positions, no coordinate of them or of the camera beyond R\n"
+        "(default 0: eye depth is given)", parse_world},
+    [OPTION_COMPOSITION] = {"composition", 0, "once|products|relative", BUDGETED,
+        "how they become clip coordinates: one binary32 matrix of view and\n"
+        "projection formed in double, or multiplied in binary32; or less\n"
+        "the camera's position, in double, first (default once)", parse_composition},
     [OPTION_LINEARIZE] = {"linearize", 0, NULL, BUDGETED,
         "count reading the eye depth back in a binary32 shader", parse_linearize},
     [OPTION_API] = {"api", 0, "NAME", VERB_BIAS,

@@ -41,6 +41,7 @@ typedef enum option_id {
     OPTION_ERROR,
     OPTION_INTERPOLATION,
     OPTION_WORLD,
+    OPTION_COMPOSITION,
     OPTION_LINEARIZE,
     OPTION_API,
     OPTION_UNITS,
@@ -137,7 +138,7 @@ typedef struct options {
     solve_target target;                    /**< --for */
     double wanted_separation, wanted_error; /**< positive, scene units; 0 when not given */
 
-    dp_budget_terms terms; /**< --interpolation, --world, --linearize; zero when not given */
+    dp_budget_terms terms; /**< --interpolation, --world, --composition, --linearize; zero when not given */
 
     const preset *preset; /**< --preset; null when not given. What the user did not give is already filled in */
     const bias_api *api;  /**< --api; null when not given */

@@ -60,8 +60,9 @@ static bool use_infinite_reversed(plan *p) {
 }
 
 static bool use_relative(plan *p) {
-    p->terms.world = 0.0;
-    return true;
+    const bool absolute = p->terms.composition != DP_COMPOSITION_RELATIVE;
+    p->terms.composition = DP_COMPOSITION_RELATIVE;
+    return absolute;
 }
 
 static bool use_complement(plan *p) {

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 #include "depthprec/budget.h"
 
+#include "core/composition.h"
 #include "core/curve.h"
 #include "core/demand.h"
 #include "core/engine.h"
@@ -23,20 +24,6 @@ static const char *const names[DP_CAUSE_COUNT] = {
 
 const char *dp_cause_name(dp_cause cause) {
     return (unsigned)cause < DP_CAUSE_COUNT ? names[cause] : NULL;
-}
-
-/*
- * World positions through one binary32 matrix, whose rows of clip z and clip w are A and 1 times the view axis. Each
- * entry is rounded, each product, and three sums in any order: so the products count five times and the constant four.
- * The axis has length 1, so neither |axis . position| nor |axis . camera| exceeds sqrt(3) world.
- */
-static double composition_error(const dp_chain *c, double z, double world) {
-    if (world <= 0.0)
-        return 0.0;
-    const double along = 1.7321 * world;
-    const double clip = DP_UNIT * (5.0 * fabs(c->a) * along + 4.0 * (fabs(c->a) * along + fabs(c->b)));
-    const double w = c->pipeline.ortho ? 0.0 : DP_UNIT * 9.0 * along; /* times |ndc|, at most 1 */
-    return c->half * (clip + w) / (c->pipeline.ortho ? 1.0 : z) * (1.0 + 0x1p-16);
 }
 
 /*
@@ -74,11 +61,59 @@ static double lattice_separation(const dp_setup *setup, double z) {
     return dp_separation(&exact, z);
 }
 
+/* The separation of depths that a composition moves: that of any depth which a surface at z may be moved to. */
+static double composed_separation(const dp_setup *setup, const dp_chain *c, const dp_composed *m, double z,
+                                  double extra) {
+    if (!(m->reach < z))
+        return HUGE_VAL;
+    const double n = setup->spec.znear;
+    const double first = larger(z - m->reach, smaller(n, z) * (1.0 - 0x1p-20));
+    dp_demand d;
+    const double plain = dp_demand_longest(c, (dp_span){first, z + m->reach}, extra, &d) * outward;
+    const double s = dp_composition_separation(m, z, plain, 0);
+    const int clamped = z - m->reach <= n * (1.0 + 0x1p-20) || z + m->reach + s >= setup->spec.zfar * (1.0 - 0x1p-20);
+    return clamped ? dp_composition_separation(m, z, plain, 1) : s;
+}
+
+/* World positions: the separation then, and what it is more is the composition's part. */
+static void add_composition(const dp_setup *setup, const dp_chain *c, double z, const dp_budget_terms *terms,
+                            double extra, dp_budget *out) {
+    const dp_pipeline *p = &c->pipeline;
+    const dp_composing in = {.composition = terms->composition,
+                             .world = terms->world,
+                             .a = c->a,
+                             .b = c->b,
+                             .znear = setup->spec.znear,
+                             .zfar = setup->spec.zfar,
+                             .ortho = p->ortho,
+                             .fused = p->arith->fused,
+                             .remap = p->ndc_signed && p->arith->remap};
+    /* As below: first a separation from all that is behind, then from what is nearer than that. */
+    double separation = HUGE_VAL;
+    double until = HUGE_VAL;
+    for (double before = HUGE_VAL; isinf(before) || separation < 0.97 * before;) {
+        before = separation;
+        const dp_composed m = dp_composition_at(&in, z, until);
+        separation = smaller(separation, composed_separation(setup, c, &m, z, extra));
+        if (isinf(separation))
+            break;
+        until = smaller(z + separation, setup->spec.zfar);
+    }
+    separation = larger(separation, out->separation);
+    const double part = separation - out->separation;
+    out->cause[DP_CAUSE_COMPOSITION] = part > 0.0 ? part : 0.0; /* infinity less infinity too */
+    out->separation = separation;
+    const double slope = c->half * (p->ortho ? fabs(c->a) * separation : fabs(c->b));
+    out->window = p->ortho ? slope : slope / z * (isinf(separation) ? 1.0 : separation / (z + separation));
+}
+
 dp_status dp_budget_at(const dp_setup *setup, double z, const dp_budget_terms *terms, dp_budget *out) {
     if (setup == NULL || out == NULL)
         return DP_ERROR_NULL;
     if (!(z >= setup->spec.znear && z <= setup->spec.zfar))
         return DP_ERROR_DEPTH;
+    if (terms != NULL && dp_composition_get(terms->composition) == NULL)
+        return DP_ERROR_MODEL;
     dp_pipeline pipeline;
     const dp_status status = dp_pipeline_init(&pipeline, setup);
     if (status != DP_OK)
@@ -90,11 +125,10 @@ dp_status dp_budget_at(const dp_setup *setup, double z, const dp_budget_terms *t
     const dp_chain c = dp_chain_make(setup, &pipeline);
     double part[DP_CAUSE_COUNT] = {0};
     if (terms != NULL) {
-        part[DP_CAUSE_COMPOSITION] = 2.0 * composition_error(&c, z1, terms->world);
         part[DP_CAUSE_INTERPOLATION] = 2.0 * terms->interpolation * DP_UNIT;
         part[DP_CAUSE_LINEARIZATION] = terms->linearize ? 2.0 * linearization_error(setup, &c, z1) : 0.0;
     }
-    const double extra = part[DP_CAUSE_COMPOSITION] + part[DP_CAUSE_INTERPOLATION] + part[DP_CAUSE_LINEARIZATION];
+    const double extra = part[DP_CAUSE_INTERPOLATION] + part[DP_CAUSE_LINEARIZATION];
     dp_demand d;
     const double longest = whole_steps(dp_demand_longest(&c, (dp_span){z1, z1}, extra, &d), z1);
     const double eye = eye_rounding(z1, longest);
@@ -107,7 +141,9 @@ dp_status dp_budget_at(const dp_setup *setup, double z, const dp_budget_terms *t
     for (int i = 0; i < DP_CAUSE_COUNT; i++)
         out->cause[i] = part[i] > 0.0 ? longest * outward * (part[i] / d.window) : 0.0;
     out->cause[DP_CAUSE_EYE] = eye * outward;
-    out->cause[DP_CAUSE_FORMAT] += out->separation - pipeline_needs;
+    out->cause[DP_CAUSE_FORMAT] += out->separation > pipeline_needs ? out->separation - pipeline_needs : 0.0;
+    if (terms != NULL && terms->world > 0.0)
+        add_composition(setup, &c, z, terms, extra, out);
     return DP_OK;
 }
 

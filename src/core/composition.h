@@ -1,0 +1,60 @@
+/* SPDX-License-Identifier: MIT */
+/*
+ * World positions through a view and a projection in binary32: what that adds to the separation of two surfaces.
+ *
+ * Whatever the composition, a point reaches the divide as a pair (clip z, clip w) that lies beside the line
+ * (A z + B, z) of the projection. Divided, it is the pair of another depth: w off by e, clip z by c is, exactly, the
+ * point at (z + e)/(1 + (c - A e)/B). So the composition is an error of the eye depth and of nothing else. It has two
+ * parts, because entries of the matrix are alike for all points, and products and sums are not.
+ */
+#ifndef CORE_COMPOSITION_H
+#define CORE_COMPOSITION_H
+
+#include "depthprec/budget.h"
+
+/* What is composed. */
+typedef struct dp_composing {
+    dp_composition composition;
+    double world;       /* largest |coordinate| of positions and camera; positive */
+    double a, b;        /* the projection's entries in binary32: clip z = a z + b */
+    double znear, zfar; /* zfar may be INFINITY */
+    int ortho;          /* clip w is 1 */
+    int fused;          /* products but the first are fused into the sums */
+    int remap;          /* (clip z + w)/2 in the shader */
+} dp_composing;
+
+/* What one row of the matrix is off by at most at an eye depth, in units of its value. */
+typedef struct dp_row_off {
+    double position, products, sums; /* one point's own: its coordinates rounded, four products, three sums */
+    double entries, constant;        /* of the matrix: alike for all points, but for `turn` */
+    double grow;                     /* by which a point's own rise a unit of eye depth farther */
+    double turn;                     /* by which the entries' may differ for points a unit of eye depth apart */
+    double late;                     /* the share of `sums` that the constant takes part in */
+} dp_row_off;
+
+/* What the eye depth of a point at z is off by at most: e + E moves it, t + T stretches it. */
+typedef struct dp_composed {
+    dp_row_off clip, w;
+    double own, shared;           /* e and E, scene units */
+    double own_tilt, shared_tilt; /* t and T, shares of the eye depth */
+    double loss;                  /* by which e and E part two points a unit of eye depth apart */
+    double loss_tilt;             /* the same for t and T, a unit of eye depth */
+    double reach; /* the depth that reaches the divide lies within this of z; INFINITY: behind the eye */
+} dp_composed;
+
+/*
+ * The errors of a point at z and of those behind it up to the depth `until`; INFINITY: of all in the box. They rise
+ * with `until`.
+ */
+dp_composed dp_composition_at(const dp_composing *in, double z, double until);
+
+/*
+ * The separation that is left: surfaces of z and beyond z + this are at least `plain` apart when they reach the divide.
+ *
+ * @param plain    separation without a composition, never below that of any depth within m->reach of z
+ * @param clamped  nonzero: one of the two may lie beyond a plane by what the composition moves it
+ * @return scene units, at least `plain`; INFINITY where there is none
+ */
+double dp_composition_separation(const dp_composed *m, double z, double plain, int clamped);
+
+#endif
