@@ -36,6 +36,7 @@ typedef enum dp_status {
     DP_ERROR_ARITH,    /**< not an arithmetic */
     DP_ERROR_DEPTH,    /**< an eye depth outside [near, far], or not a number */
     DP_ERROR_RANGE,    /**< a range that is empty, reversed, or leaves [near, far] */
+    DP_ERROR_BINARY32, /**< an eye depth that binary32 rounds to infinity, in the model fp32 */
     DP_ERROR_BATCH,    /**< not a task, element type or path, or a path that is not available */
     DP_STATUS_COUNT
 } dp_status;

@@ -42,16 +42,12 @@ static double linearization_error(const dp_setup *setup, const dp_chain *c, doub
     return relative * c->half * fabs(c->b) / z;
 }
 
-/* The longest interval of binary32 depths, in whole steps of the nearer one: they lie on no other distances. */
-static double whole_steps(double longest, double z) {
-    const double step = 2.0 * dp_half_ulp(z);
-    const double steps = floor(longest / step);
-    return steps < 0x1p20 ? steps * step : longest;
-}
-
-/* Surfaces are real: each is up to half a step of binary32 away from the depth that enters the pipeline. */
-static double eye_rounding(double z, double longest) {
-    return isinf(longest) ? 0.0 : dp_half_ulp(z) + dp_half_ulp(z + longest);
+/* The farthest binary32 depth within `longest` behind one. */
+static double last_within(double z, double longest) {
+    if (!(z + longest < 0x1.fffffep127))
+        return z + longest;
+    const float last = (float)(z + longest);
+    return (double)((double)last > z + longest ? nextafterf(last, 0.0F) : last);
 }
 
 /* What the lattice alone asks for: no arithmetic before it makes two surfaces easier to tell apart. */
@@ -118,8 +114,10 @@ dp_status dp_budget_at(const dp_setup *setup, double z, const dp_budget_terms *t
     const dp_status status = dp_pipeline_init(&pipeline, setup);
     if (status != DP_OK)
         return status;
-    *out = (dp_budget){.separation = HUGE_VAL, .window = 1.0};
     const double z1 = (double)(float)z;
+    if (isinf(z1) && !isinf(z))
+        return DP_ERROR_BINARY32;
+    *out = (dp_budget){.separation = HUGE_VAL, .window = 1.0};
     if (isinf(z1))
         return DP_OK;
     const dp_chain c = dp_chain_make(setup, &pipeline);
@@ -130,8 +128,9 @@ dp_status dp_budget_at(const dp_setup *setup, double z, const dp_budget_terms *t
     }
     const double extra = part[DP_CAUSE_INTERPOLATION] + part[DP_CAUSE_LINEARIZATION];
     dp_demand d;
-    const double longest = whole_steps(dp_demand_longest(&c, (dp_span){z1, z1}, extra, &d), z1);
-    const double eye = eye_rounding(z1, longest);
+    const double z2 = last_within(z1, dp_demand_longest(&c, (dp_span){z1, z1}, extra, &d));
+    const double longest = z2 - z1;
+    const double eye = dp_eye_rounding(z1, z2);
     const double pipeline_needs = (longest + eye) * outward;
     out->separation = larger(pipeline_needs, lattice_separation(setup, z));
     out->window = d.window;
@@ -158,8 +157,10 @@ double dp_budget_bound(const dp_setup *setup, float nearest, float farthest) {
     const dp_chain c = dp_chain_make(setup, &pipeline);
     const dp_span run = {(double)nearest, (double)farthest};
     dp_demand d;
-    const double longest = whole_steps(dp_demand_longest(&c, run, 0.0, &d), run.hi);
-    return (longest + eye_rounding(run.hi, longest)) * outward;
+    const double longest = dp_demand_longest(&c, run, 0.0, &d);
+    const double step = 2.0 * dp_half_ulp(run.hi); /* of all depths of the run: what is apart is apart by whole ones */
+    const double whole = longest < 0x1p20 * step ? floor(longest / step) * step : longest;
+    return (whole + dp_eye_rounding(run.hi, run.hi + whole)) * outward;
 }
 
 dp_status dp_code_range(const dp_setup *setup, double z, uint32_t *lowest, uint32_t *highest) {
@@ -167,6 +168,8 @@ dp_status dp_code_range(const dp_setup *setup, double z, uint32_t *lowest, uint3
         return DP_ERROR_NULL;
     if (!(z >= setup->spec.znear && z <= setup->spec.zfar) || isinf(z))
         return DP_ERROR_DEPTH;
+    if (isinf((float)z))
+        return DP_ERROR_BINARY32;
     dp_pipeline pipeline;
     const dp_status status = dp_pipeline_init(&pipeline, setup);
     if (status != DP_OK)

@@ -147,6 +147,8 @@ dp_status dp_sample_at(const dp_setup *setup, double z, dp_sample *out) {
         return DP_ERROR_NULL;
     if (!(z >= setup->spec.znear && z <= setup->spec.zfar))
         return DP_ERROR_DEPTH;
+    if (setup->spec.model == DP_MODEL_FP32 && isinf((float)z) && !isinf(z))
+        return DP_ERROR_BINARY32;
     const uint32_t code = dp_code(setup, z);
     const dp_cell cell = dp_cell_of(setup, code);
     *out = (dp_sample){

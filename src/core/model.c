@@ -13,15 +13,9 @@ static int with_model(const dp_setup *setup, dp_model model, dp_setup *out) {
     return dp_setup_init(out, &spec) == DP_OK;
 }
 
-/* One binary32 step of z: no shader has two depths closer together. */
-static double depth_step(double z) {
-    return z < 0x1p127 ? dp_power2(dp_exponent(z) - 23) : HUGE_VAL;
-}
-
-/* What is missing from `part`, in units of it; separations below a step of z count as one. */
-static double missing_share(double part, double whole, double step) {
-    const double base = part > step ? part : step;
-    return isinf(base) || whole <= base ? 0.0 : whole / base - 1.0;
+/* What is missing from `part`, in units of it. */
+static double missing_share(double part, double whole) {
+    return isinf(part) || whole <= part ? 0.0 : whole / part - 1.0;
 }
 
 dp_status dp_model_choose(const dp_setup *setup, const double *z, size_t count, double tolerance, dp_choice *out) {
@@ -44,7 +38,7 @@ dp_status dp_model_choose(const dp_setup *setup, const double *z, size_t count, 
     for (size_t i = 0; i < count; i++) {
         const double whole = dp_separation(&model[fullest], z[i]);
         for (int m = 0; m < fullest; m++) {
-            const double share = missing_share(dp_separation(&model[m], z[i]), whole, depth_step(z[i]));
+            const double share = missing_share(dp_separation(&model[m], z[i]), whole);
             if (share > choice.share[m]) {
                 choice.share[m] = share;
                 choice.share_z[m] = z[i];

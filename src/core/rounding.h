@@ -16,6 +16,11 @@ static inline double dp_half_ulp(double x) {
     return x < 0x1p-126 ? 0x1p-150 : dp_power2(dp_exponent(x) - 24);
 }
 
+/* Surfaces are real: each is up to half a step of binary32 away from the depth that enters the pipeline. */
+static inline double dp_eye_rounding(double z1, double z2) {
+    return isinf(z2) ? 0.0 : dp_half_ulp(z1) + dp_half_ulp(z2);
+}
+
 /*
  * The most that rounding a result of `least` to `most` changes it by. A result below the normal numbers may be flushed
  * to zero or not, as the hardware likes: the worse of the two.

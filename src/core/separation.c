@@ -4,6 +4,7 @@
 #include "core/curve.h"
 #include "core/engine.h"
 #include "core/extremes.h"
+#include "core/rounding.h"
 #include "depthprec/budget.h"
 #include "depthprec/depth.h"
 
@@ -93,8 +94,9 @@ double dp_separation(const dp_setup *setup, double z) {
         dp_budget budget;
         return dp_budget_at(setup, z, NULL, &budget) == DP_OK ? budget.separation : HUGE_VAL;
     }
-    const double s = setup->spec.model == DP_MODEL_EXACT || dp_staged_is_exact(setup)
-                         ? dp_curve_ahead(setup, exact_step(setup, z), setup->den, z)
-                         : dp_curve_ahead(setup, staged_step(setup, z), 1.0, z);
-    return s * dp_curve_outward(setup);
+    if (setup->spec.model == DP_MODEL_EXACT)
+        return dp_curve_ahead(setup, exact_step(setup, z), setup->den, z) * dp_curve_outward(setup);
+    const double s = dp_staged_is_exact(setup) ? dp_curve_ahead(setup, exact_step(setup, z), setup->den, z)
+                                               : dp_curve_ahead(setup, staged_step(setup, z), 1.0, z);
+    return (s + dp_eye_rounding(z, z + s)) * dp_curve_outward(setup);
 }

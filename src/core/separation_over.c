@@ -3,6 +3,8 @@
 #include "core/boundary.h"
 #include "core/curve.h"
 #include "core/engine.h"
+#include "core/extremes.h"
+#include "core/rounding.h"
 #include "depthprec/bounds.h"
 #include "depthprec/depth.h"
 
@@ -10,14 +12,6 @@ enum { PARTS_MAX = 512, EVALUATIONS_MAX = 1 << 16 };
 
 /* The search stops refining what is no more than this above what was found. */
 static const double slack = 1.0 + 0x1p-10;
-
-static double larger(double a, double b) {
-    return a > b ? a : b;
-}
-
-static double smaller(double a, double b) {
-    return a < b ? a : b;
-}
 
 /* A part of the range. fp32: its ends are binary32 depths, and it holds these only. */
 typedef struct part {
@@ -44,12 +38,23 @@ static void look(dp_separation_worst *worst, const dp_setup *setup, double depth
     }
 }
 
-/* An upper bound of the separation at every depth of the part. */
+/* A separation in window depths, with what rounding the eye depths adds. */
+static double with_eye(const dp_setup *setup, double z, double s) {
+    return setup->spec.model == DP_MODEL_EXACT ? s : (s + dp_eye_rounding(z, z + s)) * (1.0 + 0x1p-50);
+}
+
+/*
+ * An upper bound of the separation at every depth of the part. In fp32 that of the lattice is a floor: its bound is
+ * that of the same part in the model exact.
+ */
 static double bound_of(const dp_setup *setup, double lo, double hi) {
-    if (setup->spec.model == DP_MODEL_FP32)
-        return dp_budget_bound(setup, (float)lo, (float)hi);
+    if (setup->spec.model == DP_MODEL_FP32) {
+        dp_setup exact = *setup;
+        exact.spec.model = DP_MODEL_EXACT;
+        return larger(dp_budget_bound(setup, (float)lo, (float)hi), bound_of(&exact, lo, hi));
+    }
     const double step = dp_separation_step(setup, lo, hi) * (1.0 + 0x1p-50);
-    return dp_curve_ahead(setup, step, 1.0, hi) * dp_curve_outward(setup);
+    return with_eye(setup, hi, dp_curve_ahead(setup, step, 1.0, hi) * dp_curve_outward(setup));
 }
 
 /* Nothing lies between the ends of the part. */
@@ -145,7 +150,8 @@ static void over_binades(const dp_setup *setup, dp_separation_worst *out) {
         if (end * (1.0 + 0x1p-46) < out->lo)
             continue;
         const double z = smaller(end * (1.0 + 0x1p-46), out->hi);
-        settle(out, dp_curve_ahead(setup, dp_step_num(format, e), 1.0, z) * dp_curve_outward(setup));
+        settle(out,
+               with_eye(setup, z, dp_curve_ahead(setup, dp_step_num(format, e), 1.0, z) * dp_curve_outward(setup)));
         look(out, setup, smaller(larger(end * (1.0 - 0x1p-46), out->lo), out->hi));
         if (end * (1.0 - 0x1p-46) > out->hi)
             break;

@@ -20,6 +20,7 @@ static const char *const sentences[DP_STATUS_COUNT] = {
     [DP_ERROR_ARITH] = "not an arithmetic: see the list of ariths",
     [DP_ERROR_DEPTH] = "a depth must lie in [near, far]",
     [DP_ERROR_RANGE] = "a range must go from a depth to one not nearer, both in [near, far]",
+    [DP_ERROR_BINARY32] = "a depth in the model fp32 must be at most 3.4028235e+38, the largest binary32 number",
     [DP_ERROR_BATCH] = "not a task, element type or path that this processor has",
 };
 

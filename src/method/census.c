@@ -67,10 +67,10 @@ static void run_keys(const sweep *w, uint32_t run, int32_t key[CENSUS_RUN]) {
     w->c->level->keys(&w->c->plan, z, CENSUS_RUN, key);
 }
 
-/* Only intervals of more than this many steps tell anything new. */
+/* Only intervals of more than this many steps tell anything new. The surfaces themselves may be 1 1/2 more apart. */
 static uint32_t known_steps(const sweep *w) {
     double steps = fmax(w->s->found.longest / w->step, w->steps_known);
-    const double by_slack = w->s->found.slack * w->bound / w->step;
+    const double by_slack = fmax(w->s->found.slack * w->bound / w->step - 2.0, 0.0);
     if (by_slack < steps)
         steps = floor(by_slack);
     return steps < SEGMENT ? (uint32_t)steps : SEGMENT;
@@ -300,9 +300,10 @@ static int worth_a_look(const census *c, size_t block, size_t from, const census
     const double most = (double)census_depth(block_last(c, last_block(c, from, c->greatest[block]))) - z1;
     if (most >= band->longest)
         return 1;
+    const double halves = census_step(census_bits((float)(z1 + most)));
     return r->bound != NULL &&
-           most >= band->slack *
-                       fmin(r->bound(r->setup, z1), r->bound(r->setup, (double)census_depth(block_last(c, block))));
+           most + halves >= band->slack * fmin(r->bound(r->setup, z1),
+                                               r->bound(r->setup, (double)census_depth(block_last(c, block))));
 }
 
 /* Intervals from one segment into a later one. Needs `least` to run on to the end. */

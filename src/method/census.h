@@ -30,8 +30,11 @@ typedef struct census_band {
     uint64_t clipped;     /**< depths of the band that clipping would lose */
     double longest;       /**< scene units; 0 when every pair is in order */
     double longest_z;     /**< its nearer depth, the nearest where several intervals are as long; NaN when none */
-    double bound;         /**< the greatest guaranteed separation at 1025 depths of the band; NaN without a bound */
-    double slack;         /**< greatest (z2 - z1)/bound(z1) over all intervals: above 1 the guarantee is broken */
+    double bound;         /**< the greatest guaranteed separation at 1025 depths of the band, none longer than what is
+                               left up to far; NaN without a bound */
+    double slack;         /**< used: greatest share of bound(z1) that two surfaces may be apart which are stored as the
+                               ends of an interval: z2 - z1 and half a step of either; above 1 it is broken; 0 where
+                               every pair is in order */
     double slack_z;       /**< a depth where it is reached */
 } census_band;
 

@@ -31,13 +31,18 @@ uint64_t census_count(double lo, double hi) {
     return ends_of(lo, hi, &first, &last) ? (uint64_t)last - first + 1 : 0;
 }
 
+/* A guarantee that reaches beyond far promises nothing there: no two surfaces are farther apart than that. */
+static double bound_at(const census_request *request, double z) {
+    return fmin(request->bound(request->setup, z), request->setup->spec.zfar - z);
+}
+
 /* The guarantee is neither monotone nor smooth: look at it all over the band, and at its last depth. */
 static double greatest_bound(const census_request *request, const census_band *band, int last) {
     enum { LOOKS = 1024 };
     const double end = last ? band->hi : (double)nextafterf((float)band->hi, 0.0f);
-    double greatest = request->bound(request->setup, end);
+    double greatest = bound_at(request, end);
     for (int i = 0; i < LOOKS; i++)
-        greatest = fmax(greatest, request->bound(request->setup, band->lo + (end - band->lo) * i / LOOKS));
+        greatest = fmax(greatest, bound_at(request, band->lo + (end - band->lo) * i / LOOKS));
     return greatest;
 }
 
@@ -62,6 +67,19 @@ census_status census_open(const census_request *request, census_plan *plan, cens
     return CENSUS_DONE;
 }
 
+/* Of the guarantee: surfaces are real, and each may be half a step away from the depth that stands for it. */
+static void note_used(const census_request *request, census_band *band, float z1, float z2) {
+    const double half1 = 0.5 * census_step(census_bits(z1));
+    const double half2 = 0.5 * census_step(census_bits(z2));
+    const double bound = request->bound(request->setup, (double)z1);
+    const double apart = (double)z2 - (double)z1 + half1 + half2;
+    const double slack = bound > 0.0 ? apart / bound : HUGE_VAL; /* no bound at all is a broken one */
+    if (slack > band->slack || (slack == band->slack && !((double)z1 >= band->slack_z))) {
+        band->slack = slack;
+        band->slack_z = (double)z1;
+    }
+}
+
 void census_note(const census_request *request, census_band *band, float z1, float z2) {
     const double length = (double)z2 - (double)z1;
     /* A place is NaN while it is not known: anything is nearer. */
@@ -71,12 +89,7 @@ void census_note(const census_request *request, census_band *band, float z1, flo
     }
     if (request->bound == NULL)
         return;
-    const double bound = request->bound(request->setup, (double)z1);
-    const double slack = bound > 0.0 ? length / bound : HUGE_VAL; /* no bound at all is a broken one */
-    if (slack > band->slack || (slack == band->slack && !((double)z1 >= band->slack_z))) {
-        band->slack = slack;
-        band->slack_z = (double)z1;
-    }
+    note_used(request, band, z1, z2);
 }
 
 /* How many depths lie in first..last and outside [lo, hi]; all, when these are NaN. */
@@ -93,7 +106,7 @@ void census_close(const census_request *request, const census_plan *plan, uint32
     for (int i = 0; i < result->band_count; i++) {
         census_band *band = &result->bands[i];
         if (request->bound != NULL && band->longest > 0.0)
-            band->bound = fmax(band->bound, request->bound(request->setup, band->longest_z));
+            band->bound = fmax(band->bound, bound_at(request, band->longest_z));
         all->pairs += band->pairs;
         all->ties += band->ties;
         all->swaps += band->swaps;
