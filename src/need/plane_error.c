@@ -1,0 +1,149 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "need/plane_error.h"
+
+#include <math.h>
+#include <stdint.h>
+#include <string.h>
+
+/* Codes that are walked through at most. A few are enough in the lattice, where the alignment-free bound is sharp. */
+static const int codes_most[] = {[PLANE_FIND] = 64, [PLANE_PROVE] = 1024};
+
+static uint64_t to_bits(double x) {
+    uint64_t bits;
+    memcpy(&bits, &x, sizeof bits);
+    return bits;
+}
+
+static double from_bits(uint64_t bits) {
+    double x;
+    memcpy(&x, &bits, sizeof x);
+    return x;
+}
+
+/* Positive doubles as integers in their order: `here` passes, and so does all on its safe side; `end` is the last. */
+typedef struct walk {
+    const solve_problem *problem;
+    uint64_t here, end;
+    uint64_t stride; /* of the code before, about that of the next */
+    double z;        /* whose codes are walked through */
+} walk;
+
+static uint32_t code_at(const walk *w, uint64_t x) {
+    dp_setup setup;
+    return plane_setup(w->problem, from_bits(x), &setup) == DP_OK ? dp_code(&setup, w->z) : 0;
+}
+
+static uint64_t towards(uint64_t from, uint64_t to, uint64_t by) {
+    const uint64_t room = to < from ? from - to : to - from;
+    by = by < room ? by : room;
+    return to < from ? from - by : from + by;
+}
+
+static uint64_t distance(uint64_t a, uint64_t b) {
+    return a < b ? b - a : a - b;
+}
+
+/* The last value, towards the end, at which z has the code that it has here. */
+static uint64_t last_of_code(walk *w) {
+    const uint32_t code = code_at(w, w->here);
+    uint64_t in = w->here;
+    uint64_t out = in;
+    for (uint64_t by = w->stride / 2 + 1; out == in; by *= 2) {
+        out = towards(in, w->end, by);
+        if (code_at(w, out) != code)
+            break;
+        in = out;
+        if (in == w->end)
+            return in;
+    }
+    while (distance(in, out) > 1) {
+        const uint64_t middle = towards(in, out, distance(in, out) / 2);
+        *(code_at(w, middle) == code ? &in : &out) = middle;
+    }
+    w->stride = distance(w->here, in);
+    return in;
+}
+
+/* Between a value that passes and one that does not, of one code: the last that passes. */
+static uint64_t last_that_passes(const walk *w, uint64_t passes, uint64_t fails) {
+    while (distance(passes, fails) > 1) {
+        const uint64_t middle = towards(passes, fails, distance(passes, fails) / 2);
+        *(plane_passes(w->problem, from_bits(middle)) ? &passes : &fails) = middle;
+    }
+    return passes;
+}
+
+/*
+ * While z keeps its code the error at z is monotone in the plane, and what the cells before z err changes the other
+ * way: so where both ends of a code pass all of it does. True when the next double beyond fails, or there is none.
+ */
+static bool go(walk *w, int most) {
+    for (int i = 0; i < most; i++) {
+        const uint64_t last = last_of_code(w);
+        if (!plane_passes(w->problem, from_bits(last))) {
+            w->here = last_that_passes(w, w->here, last);
+            return true;
+        }
+        w->here = last;
+        const uint64_t next = towards(last, w->end, 1);
+        if (next == last || !plane_passes(w->problem, from_bits(next)))
+            return true;
+        w->here = next;
+    }
+    return false;
+}
+
+/* staged: what the lattice needs may not do; then farther in, where the bound of a staged error will. */
+static bool aligned_anyhow(const solve_problem *p, double x) {
+    dp_setup setup;
+    return plane_setup(p, x, &setup) == DP_OK && measure_over(p->kind, &setup, p->lo, p->hi).value <= p->limit &&
+           plane_passes(p, x);
+}
+
+static double start_of(const solve_problem *p, double outer, double inner) {
+    if (aligned_anyhow(p, outer))
+        return outer;
+    if (!aligned_anyhow(p, inner))
+        return (double)NAN;
+    for (int i = 0; i < 64 && fabs(inner / outer - 1.0) > 0x1p-40; i++) {
+        const double middle = isinf(outer) ? inner * 2.0 : sqrt(outer) * sqrt(inner);
+        *(aligned_anyhow(p, middle) ? &inner : &outer) = middle;
+    }
+    return inner;
+}
+
+/* A range whose worst depth lies inside it is not decided by the codes of one depth. */
+static bool is_decided_at(const solve_problem *p, double x, double *z) {
+    dp_setup setup;
+    if (plane_setup(p, x, &setup) != DP_OK)
+        return false;
+    *z = measure_decisive(&setup, p->lo, p->hi);
+    return p->lo == p->hi ||
+           !(setup.reversed && setup.curve == DP_CURVE_PERSPECTIVE && p->spec.format.kind == DP_FORMAT_FLOAT);
+}
+
+void plane_error_solve(const solve_problem *p, plane_effort effort, const solve_result *lattice, plane_answer *out) {
+    const bool znear = p->unknown == SOLVE_NEAR;
+    const double most = isinf(lattice->most) ? 1e18 : lattice->most;
+    double start = (double)NAN;
+    out->until = znear ? lattice->most : lattice->least;
+    if (lattice->possible) {
+        out->until = lattice->until;
+        start = start_of(p, lattice->value, lattice->until);
+    }
+    /* Where no alignment is safe this one may be: near or far at the depth itself stores it as it is. */
+    if (isnan(start) && plane_passes(p, znear ? lattice->most : lattice->least))
+        start = out->until = znear ? lattice->most : lattice->least;
+    out->possible = !isnan(start);
+    out->value = out->steady = out->possible ? start : lattice->value;
+    if (!out->possible || isinf(out->value)) {
+        out->until = out->possible ? out->until : out->value;
+        out->certain = true;
+        return;
+    }
+    walk w = {.problem = p, .here = to_bits(start), .end = to_bits(znear ? lattice->least : most)};
+    out->certain = is_decided_at(p, start, &w.z) && go(&w, codes_most[effort]);
+    out->value = out->steady = from_bits(w.here);
+    if (!znear && out->value == most && isinf(lattice->most) && plane_passes(p, (double)HUGE_VAL))
+        out->value = out->steady = (double)HUGE_VAL;
+}
