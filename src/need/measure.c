@@ -41,6 +41,10 @@ static uint32_t truncated(const dp_setup *setup, double z, dp_setup *floor) {
     *floor = *setup;
     floor->spec.rounding = DP_ROUND_ZERO;
     floor->spec.model = DP_MODEL_EXACT;
+    if (!(z > setup->spec.znear && z < setup->spec.zfar)) { /* the codes of the planes are others, too */
+        const dp_spec spec = floor->spec;
+        dp_setup_init(floor, &spec);
+    }
     return dp_code(floor, z);
 }
 

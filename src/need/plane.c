@@ -13,8 +13,9 @@
 enum {
     RUN = 32,
     PLACES = 64,
-    PLACES_OF_RANGE = 12,
+    PLACES_FEW = 12,
     RUN_OF_PLACE = 8,
+    RUN_FEW = 4,
     PER_OCTAVE = 16,
     LOOKS = 60000,
     LOOKS_OF_RANGE = 256
@@ -28,6 +29,7 @@ typedef struct hunt {
     plane_answer *out;
     double outer, inner; /* the ends of the island looked at: the answer is as near to `outer` as can be */
     bool inward_is_up;
+    plane_effort effort;
 } hunt;
 
 dp_status plane_setup(const solve_problem *p, double value, dp_setup *out) {
@@ -177,16 +179,18 @@ static void try_run(const hunt *h, double x, int count, bool *any) {
 /* Places from the answer to the inner end: where the passing values end, and from where on none fails. */
 static void survey(hunt *h) {
     plane_answer *a = h->out;
-    const int places = h->problem->lo < h->problem->hi ? PLACES_OF_RANGE : PLACES;
+    const bool range = h->problem->lo < h->problem->hi;
+    const int places = h->effort == PLANE_FIND || range ? PLACES_FEW : PLACES;
+    const int run = h->effort == PLANE_FIND || range ? RUN_FEW : RUN_OF_PLACE;
     const double from = isinf(a->value) ? farthest : a->value;
     bool any;
     a->steady = a->value;
-    try_run(h, from, h->problem->lo < h->problem->hi ? RUN_OF_PLACE : PLACES, &any);
+    try_run(h, from, places, &any);
     double before = from;
     for (int i = 1; i < places; i++) {
         const plane_answer kept = *a;
         const double x = (double)(float)(from * pow(h->inner / from, (double)i / places));
-        try_run(h, x, RUN_OF_PLACE, &any);
+        try_run(h, x, run, &any);
         if (!any) {
             *a = kept;
             a->until = other_end(h, before, x);
@@ -205,7 +209,7 @@ static void survey(hunt *h) {
 
 /* ---- The model's answer, inside the lattice's -------------------------------------------------------------------- */
 
-static bool hunt_island(hunt *h, const solve_island *island, plane_effort effort) {
+static bool hunt_island(hunt *h, const solve_island *island) {
     plane_answer *a = h->out;
     h->outer = h->inward_is_up ? island->lo : island->hi;
     h->inner = h->inward_is_up ? island->hi : island->lo;
@@ -223,13 +227,12 @@ static bool hunt_island(hunt *h, const solve_island *island, plane_effort effort
         if (isnan(passes))
             return false;
         a->value = narrow(h, fails, passes, RUN);
-        if (effort == PLANE_PROVE)
+        if (h->effort == PLANE_PROVE)
             look_beyond(h);
     }
     a->possible = true;
     a->until = h->inner;
-    if (effort == PLANE_PROVE)
-        survey(h);
+    survey(h);
     return true;
 }
 
@@ -240,8 +243,14 @@ static void take_lattice(const solve_problem *p, const solve_result *lattice, pl
     a->until = lattice->until;
     a->certain = lattice->possible;
     const double sign = a->until >= a->value ? 1.0 : -1.0;
-    for (double share = 0x1p-52; a->possible && share < 0x1p-36 && !plane_passes(p, a->value); share *= 2.0)
-        a->value = lattice->value * (1.0 + sign * share); /* over a range the bound has an outward factor */
+    for (double share = 0x1p-52; a->possible && share < 0x1p-36; share *= 2.0) {
+        const bool passes = plane_passes(p, a->value);
+        if (passes && plane_passes(p, a->until))
+            break;
+        *(passes ? &a->until : &a->value) *=
+            1.0 + (passes ? -sign : sign) * share; /* the bound over a range is outward */
+    }
+    a->steady = a->value;
 }
 
 /* Nothing was found although the lattice has an answer: the inner end of its answer comes nearest. */
@@ -265,14 +274,14 @@ dp_status plane_solve(const solve_problem *problem, plane_effort effort, solve_r
     if (status != DP_OK)
         return status;
     *out = (plane_answer){.fails_to = (double)NAN};
-    hunt h = {.problem = problem, .out = out, .inward_is_up = problem->unknown == SOLVE_NEAR};
+    hunt h = {.problem = problem, .out = out, .inward_is_up = problem->unknown == SOLVE_NEAR, .effort = effort};
     if (problem->kind == MEASURE_ERROR) {
         plane_error_solve(problem, effort, lattice, out);
     } else if (problem->spec.model == DP_MODEL_EXACT) {
         take_lattice(problem, lattice, out);
     } else {
         for (int i = lattice->island_count; i-- > 0 && !out->possible;)
-            hunt_island(&h, &lattice->islands[i], effort);
+            hunt_island(&h, &lattice->islands[i]);
         if (!out->possible)
             take_nothing(lattice, out);
     }

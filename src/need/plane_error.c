@@ -112,6 +112,26 @@ static double start_of(const solve_problem *p, double outer, double inner) {
     return inner;
 }
 
+/* staged has jumps of its own: places from the start inwards are tried, and the end is where one fails first. */
+static void try_places(const solve_problem *p, plane_answer *a) {
+    enum { PLACES = 64 };
+    const double from = isinf(a->value) ? 1e18 : a->value;
+    double good = from;
+    for (int i = 1; i <= PLACES; i++) {
+        double x = i == PLACES ? a->until : from * pow(a->until / from, (double)i / PLACES);
+        if (!aligned_anyhow(p, x)) {
+            for (int k = 0; k < 64 && fabs(x / good - 1.0) > 0x1p-40; k++) {
+                const double middle = sqrt(good) * sqrt(x);
+                *(aligned_anyhow(p, middle) ? &good : &x) = middle;
+            }
+            a->until = good;
+            break;
+        }
+        good = x;
+        a->tried = a->passed = (uint64_t)i;
+    }
+}
+
 /* A range whose worst depth lies inside it is not decided by the codes of one depth. */
 static bool is_decided_at(const solve_problem *p, double x, double *z) {
     dp_setup setup;
@@ -136,9 +156,11 @@ void plane_error_solve(const solve_problem *p, plane_effort effort, const solve_
         start = out->until = znear ? lattice->most : lattice->least;
     out->possible = !isnan(start);
     out->value = out->steady = out->possible ? start : lattice->value;
+    if (out->possible && p->spec.model == DP_MODEL_STAGED && start != out->until)
+        try_places(p, out);
     if (!out->possible || isinf(out->value)) {
         out->until = out->possible ? out->until : out->value;
-        out->certain = true;
+        out->certain = out->possible; /* an alignment that happens to do may be anywhere */
         return;
     }
     walk w = {.problem = p, .here = to_bits(start), .end = to_bits(znear ? lattice->least : most)};
