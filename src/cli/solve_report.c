@@ -68,12 +68,8 @@ static const char *digits(double value, char out[NUMBER_SIZE]) {
     return out;
 }
 
-/* Up, or down, at the last digit shown. */
 static const char *bound_digits(double value, bool upward, char out[NUMBER_SIZE]) {
-    number_digits(value, DIGITS, out);
-    const double shown = strtod(out, NULL);
-    if (isfinite(value) && value > 0.0 && (upward ? shown < value : shown > value))
-        number_digits(shown + (upward ? 1.0 : -1.0) * pow(10.0, floor(log10(value)) - (DIGITS - 1)), DIGITS, out);
+    number_bound(value, DIGITS, upward, out);
     return out;
 }
 
@@ -133,23 +129,25 @@ static bool is_cheapest(const solve_report *r) {
 /* ---- The sentence ------------------------------------------------------------------------------------------------ */
 
 static void sentence_of_distance(const solve_report *r, const solve_candidate *c, output *out) {
+    static const char *const manners[DP_MODEL_COUNT][2] = {
+        [DP_MODEL_EXACT] = {"does not hold in the lattice", "holds in the lattice"},
+        [DP_MODEL_STAGED] = {"does not hold in the model staged", "holds in the model staged"},
+        [DP_MODEL_FP32] = {"is not guaranteed", "is guaranteed"},
+    };
     char given[PHRASE_SIZE], limit[NUMBER_SIZE], lo[NUMBER_SIZE], reach[NUMBER_SIZE], ideal[NUMBER_SIZE];
-    static const char *const manners[DP_MODEL_COUNT] = {
-        [DP_MODEL_EXACT] = "in the lattice", [DP_MODEL_STAGED] = "in model staged", [DP_MODEL_FP32] = "guaranteed"};
     given_phrase(r, c, given);
     number_shortest(r->limit, limit);
     number_shortest(r->lo, lo);
-    if (c->distance.throughout)
-        number_shortest(c->distance.value, reach);
-    else
+    number_shortest(c->distance.value, reach);
+    if (!c->distance.throughout)
         bound_digits(c->distance.value, false, reach);
-    const char *manner = manners[c->spec.model];
+    output_format(out, "%s%s: %s %s %s", c->possible ? "" : "Impossible: ", given,
+                  r->kind == MEASURE_ERROR ? "an error within" : "a separation of", limit,
+                  manners[c->spec.model][c->possible]);
     if (c->possible)
-        output_format(out, "%s: %s %s is %s from z = %s up to z = %s", given,
-                      r->kind == MEASURE_ERROR ? "an error within" : "a separation of", limit, manner, lo, reach);
+        output_format(out, " from z = %s up to z = %s", lo, reach);
     else
-        output_format(out, "Impossible: %s: %s %s is not %s even at z = %s", given,
-                      r->kind == MEASURE_ERROR ? "an error within" : "a separation of", limit, manner, lo);
+        output_format(out, " even at z = %s", lo);
     if (c->spec.model == DP_MODEL_EXACT)
         output_text(out, ".\n");
     else if (!c->lattice.possible)

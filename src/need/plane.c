@@ -254,9 +254,11 @@ static void take_lattice(const solve_problem *p, const solve_result *lattice, pl
 }
 
 /* Nothing was found although the lattice has an answer: the inner end of its answer comes nearest. */
-static void take_nothing(const solve_result *lattice, plane_answer *a) {
+static void take_nothing(const solve_problem *p, const solve_result *lattice, plane_answer *a) {
+    const bool inert =
+        p->unknown == SOLVE_NEAR && !p->spec.ortho && dp_mapping_get(p->spec.mapping)->curve != DP_CURVE_PERSPECTIVE;
     a->value = a->until = a->steady = lattice->possible ? lattice->until : lattice->value;
-    a->certain = !lattice->possible;
+    a->certain = !lattice->possible || inert;
 }
 
 dp_status plane_solve(const solve_problem *problem, plane_effort effort, solve_result *lattice, plane_answer *out) {
@@ -283,7 +285,7 @@ dp_status plane_solve(const solve_problem *problem, plane_effort effort, solve_r
         for (int i = lattice->island_count; i-- > 0 && !out->possible;)
             hunt_island(&h, &lattice->islands[i]);
         if (!out->possible)
-            take_nothing(lattice, out);
+            take_nothing(problem, lattice, out);
     }
     out->reached = reached_at(problem, out->value);
     return DP_OK;

@@ -6,7 +6,7 @@
 #include <string.h>
 
 /* Codes that are walked through at most. A few are enough in the lattice, where the alignment-free bound is sharp. */
-static const int codes_most[] = {[PLANE_FIND] = 64, [PLANE_PROVE] = 1024};
+static const int codes_most[] = {[PLANE_FIND] = 64, [PLANE_PROVE] = 4096};
 
 static uint64_t to_bits(double x) {
     uint64_t bits;
@@ -24,8 +24,8 @@ static double from_bits(uint64_t bits) {
 typedef struct walk {
     const solve_problem *problem;
     uint64_t here, end;
-    uint64_t stride; /* of the code before, about that of the next */
-    double z;        /* whose codes are walked through */
+    uint64_t stride, before; /* of the last code and the one before it: they tell about that of the next */
+    double z;                /* whose codes are walked through */
 } walk;
 
 static uint32_t code_at(const walk *w, uint64_t x) {
@@ -43,23 +43,43 @@ static uint64_t distance(uint64_t a, uint64_t b) {
     return a < b ? b - a : a - b;
 }
 
+/* The next stride, and how far off that may be: strides change little and evenly. */
+static uint64_t expect(const walk *w, uint64_t *off) {
+    const uint64_t change = distance(w->stride, w->before);
+    *off = w->before == 0 ? w->stride / 4 + 1 : change / 64 + 1;
+    if (w->before == 0 || change > w->stride / 4)
+        return w->stride + 1;
+    return w->stride > w->before ? w->stride + change : w->stride - change + 1;
+}
+
 /* The last value, towards the end, at which z has the code that it has here. */
 static uint64_t last_of_code(walk *w) {
     const uint32_t code = code_at(w, w->here);
+    uint64_t off;
     uint64_t in = w->here;
-    uint64_t out = in;
-    for (uint64_t by = w->stride / 2 + 1; out == in; by *= 2) {
-        out = towards(in, w->end, by);
-        if (code_at(w, out) != code)
-            break;
-        in = out;
+    uint64_t out = towards(in, w->end, expect(w, &off));
+    if (code_at(w, out) == code) {
+        for (in = out; in != w->end; in = out, off *= 4) {
+            out = towards(in, w->end, off);
+            if (code_at(w, out) != code)
+                break;
+        }
         if (in == w->end)
             return in;
+    } else {
+        for (uint64_t back = towards(out, in, off); back != in; back = towards(out, in, off *= 4)) {
+            if (code_at(w, back) == code) {
+                in = back;
+                break;
+            }
+            out = back;
+        }
     }
     while (distance(in, out) > 1) {
         const uint64_t middle = towards(in, out, distance(in, out) / 2);
         *(code_at(w, middle) == code ? &in : &out) = middle;
     }
+    w->before = w->stride;
     w->stride = distance(w->here, in);
     return in;
 }
