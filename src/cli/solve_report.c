@@ -182,7 +182,11 @@ static void sentence_of_plane(const solve_report *r, const solve_candidate *c, o
     const bool scattered = c->plane.passed < c->plane.tried;
     given_phrase(r, c, given);
     goal_phrase(r, r->limit, "", goal);
-    if (scattered || !c->plane.certain)
+    if (scattered && !isnan(c->plane.steady))
+        output_format(out, "%s %s is enough for %s to %s; %s %s on every one tried is.\n", is_near(c) ? "Near" : "Far",
+                      safe_digits(r, c, value, until, a), given, goal, is_near(c) ? "from" : "down from",
+                      safe_digits(r, c, c->plane.steady, until, b));
+    else if (scattered || !c->plane.certain)
         output_format(out, "%s %s is enough for %s to %s.\n", is_near(c) ? "Near" : "Far",
                       safe_digits(r, c, value, until, a), given, goal);
     else if (value == (is_near(c) ? c->least : c->most))
@@ -252,9 +256,6 @@ static void text_plane(const solve_report *r, output *out) {
     else
         output_format(out, "  %-14s %llu of %llu tried from %s to %s: it hangs on how the matrix is rounded\n",
                       "passes", (unsigned long long)p->passed, (unsigned long long)p->tried, a, b);
-    if (p->passed < p->tried && !isnan(p->steady))
-        output_format(out, "  %-14s %s %s on all that were tried pass\n", "steady", is_near(c) ? "from" : "down from",
-                      safe_digits(r, c, p->steady, p->until, a));
     if (!isnan(p->fails_to))
         output_format(out, "  %-14s every binary32 %s from there %s to %s\n", "fails", what, is_near(c) ? "down" : "up",
                       bound_digits(p->fails_to, is_near(c), a));

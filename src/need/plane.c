@@ -30,6 +30,7 @@ typedef struct hunt {
     double outer, inner; /* the ends of the island looked at: the answer is as near to `outer` as can be */
     bool inward_is_up;
     plane_effort effort;
+    double failed; /* the innermost value tried that failed; NaN while there is none */
 } hunt;
 
 dp_status plane_setup(const solve_problem *p, double value, dp_setup *out) {
@@ -161,7 +162,7 @@ static double other_end(const hunt *h, double passes, double fails) {
     return narrow(&outwards, fails, passes, RUN_OF_PLACE);
 }
 
-static void try_run(const hunt *h, double x, int count, bool *any) {
+static void try_run(hunt *h, double x, int count, bool *any) {
     plane_answer *a = h->out;
     *any = false;
     for (int i = 0; i < count && is_inside(h, x); i++, x = step(h, x, true)) {
@@ -170,9 +171,27 @@ static void try_run(const hunt *h, double x, int count, bool *any) {
         a->passed += good;
         *any = *any || good;
         if (!good)
+            h->failed = x;
+        if (!good)
             a->steady = (double)NAN;
         else if (isnan(a->steady))
             a->steady = x;
+    }
+}
+
+/* Between the innermost value that failed and the next one tried that passes, with all beyond it. */
+static void refine_steady(const hunt *h, double failed) {
+    plane_answer *a = h->out;
+    while (fabs(a->steady / failed - 1.0) > 0.001) {
+        double x = (double)(float)(sqrt(a->steady) * sqrt(failed));
+        const double middle = x;
+        int i = 0;
+        for (; i < RUN && plane_passes(h->problem, x); i++)
+            x = step(h, x, true);
+        if (i == RUN)
+            a->steady = middle;
+        else
+            failed = x;
     }
 }
 
@@ -180,31 +199,33 @@ static void try_run(const hunt *h, double x, int count, bool *any) {
 static void survey(hunt *h) {
     plane_answer *a = h->out;
     const bool range = h->problem->lo < h->problem->hi;
-    const int places = h->effort == PLANE_FIND || range ? PLACES_FEW : PLACES;
-    const int run = h->effort == PLANE_FIND || range ? RUN_FEW : RUN_OF_PLACE;
+    const bool find = h->effort == PLANE_FIND;
+    const int places = (find || range ? PLACES_FEW : PLACES) / (find && range ? 2 : 1);
+    const int run = find && range ? 1 : find || range ? RUN_FEW : RUN_OF_PLACE;
     const double from = isinf(a->value) ? farthest : a->value;
     bool any;
     a->steady = a->value;
     try_run(h, from, places, &any);
-    double before = from;
-    for (int i = 1; i < places; i++) {
-        const plane_answer kept = *a;
-        const double x = (double)(float)(from * pow(h->inner / from, (double)i / places));
-        try_run(h, x, run, &any);
-        if (!any) {
-            *a = kept;
-            a->until = other_end(h, before, x);
-            return;
+    plane_answer kept = *a;
+    double failed = h->failed;
+    double good = from;
+    double bad = (double)NAN; /* the first place behind `good` where none passes */
+    for (int i = 1; i <= places; i++) {
+        const double x = i == places ? h->inner : (double)(float)(from * pow(h->inner / from, (double)i / places));
+        try_run(h, x, i == places ? 1 : run, &any);
+        if (any) {
+            kept = *a;
+            failed = h->failed;
+            good = x;
+            bad = (double)NAN;
+        } else if (isnan(bad)) {
+            bad = x;
         }
-        before = x;
     }
-    const plane_answer kept = *a;
-    try_run(h, h->inner, 1, &any);
-    a->until = h->inner;
-    if (!any) {
-        *a = kept;
-        a->until = other_end(h, before, h->inner);
-    }
+    *a = kept;
+    if (!find && !isnan(failed) && !isnan(a->steady) && isfinite(a->steady))
+        refine_steady(h, failed);
+    a->until = isnan(bad) ? h->inner : other_end(h, good, bad);
 }
 
 /* ---- The model's answer, inside the lattice's -------------------------------------------------------------------- */
@@ -276,7 +297,11 @@ dp_status plane_solve(const solve_problem *problem, plane_effort effort, solve_r
     if (status != DP_OK)
         return status;
     *out = (plane_answer){.fails_to = (double)NAN};
-    hunt h = {.problem = problem, .out = out, .inward_is_up = problem->unknown == SOLVE_NEAR, .effort = effort};
+    hunt h = {.problem = problem,
+              .out = out,
+              .inward_is_up = problem->unknown == SOLVE_NEAR,
+              .effort = effort,
+              .failed = (double)NAN};
     if (problem->kind == MEASURE_ERROR) {
         plane_error_solve(problem, effort, lattice, out);
     } else if (problem->spec.model == DP_MODEL_EXACT) {

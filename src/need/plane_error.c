@@ -52,36 +52,63 @@ static uint64_t expect(const walk *w, uint64_t *off) {
     return w->stride > w->before ? w->stride + change : w->stride - change + 1;
 }
 
-/* The last value, towards the end, at which z has the code that it has here. */
-static uint64_t last_of_code(walk *w) {
-    const uint32_t code = code_at(w, w->here);
+/*
+ * From *in, where z has its code, towards the end: *in keeps the code and *out does not, `gap` apart at most. False
+ * where z keeps it up to the end, which *in then is.
+ */
+static bool bracket(const walk *w, uint64_t gap, uint64_t *in, uint64_t *out) {
+    const uint32_t code = code_at(w, *in);
     uint64_t off;
-    uint64_t in = w->here;
-    uint64_t out = towards(in, w->end, expect(w, &off));
-    if (code_at(w, out) == code) {
-        for (in = out; in != w->end; in = out, off *= 4) {
-            out = towards(in, w->end, off);
-            if (code_at(w, out) != code)
+    *out = towards(*in, w->end, expect(w, &off));
+    if (code_at(w, *out) == code) {
+        for (*in = *out; *in != w->end; *in = *out, off *= 4) {
+            *out = towards(*in, w->end, off);
+            if (code_at(w, *out) != code)
                 break;
         }
-        if (in == w->end)
-            return in;
+        if (*in == w->end)
+            return false;
     } else {
-        for (uint64_t back = towards(out, in, off); back != in; back = towards(out, in, off *= 4)) {
-            if (code_at(w, back) == code) {
-                in = back;
-                break;
-            }
-            out = back;
+        for (uint64_t back = towards(*out, *in, off); back != *in; back = towards(*out, *in, off *= 4)) {
+            if (code_at(w, back) == code)
+                *in = back;
+            else
+                *out = back;
         }
     }
-    while (distance(in, out) > 1) {
-        const uint64_t middle = towards(in, out, distance(in, out) / 2);
-        *(code_at(w, middle) == code ? &in : &out) = middle;
+    while (distance(*in, *out) > gap) {
+        const uint64_t middle = towards(*in, *out, distance(*in, *out) / 2);
+        *(code_at(w, middle) == code ? in : out) = middle;
     }
+    return true;
+}
+
+static void pass_by(walk *w, uint64_t to) {
     w->before = w->stride;
-    w->stride = distance(w->here, in);
-    return in;
+    w->stride = distance(w->here, to);
+    w->here = to;
+}
+
+static double error_at(const walk *w, uint64_t x) {
+    dp_setup setup;
+    return plane_setup(w->problem, from_bits(x), &setup) == DP_OK ? fabs(dp_error(&setup, dp_code(&setup, w->z), w->z))
+                                                                  : (double)HUGE_VAL;
+}
+
+/*
+ * Past a code without finding its end to the double: a plane that moves by a part in 2^30 moves no stored depth by more
+ * than that part of itself, so where both sides keep that much away from the limit all between them pass.
+ */
+static bool leap(walk *w) {
+    const solve_problem *p = w->problem;
+    uint64_t in = w->here;
+    uint64_t out;
+    const double limit = p->limit - (w->z + p->limit) * 0x1p-28;
+    if (p->lo < p->hi || !bracket(w, (uint64_t)1 << 22, &in, &out) || error_at(w, in) > limit ||
+        error_at(w, out) > limit)
+        return false;
+    pass_by(w, out);
+    return true;
 }
 
 /* Between a value that passes and one that does not, of one code: the last that passes. */
@@ -99,16 +126,21 @@ static uint64_t last_that_passes(const walk *w, uint64_t passes, uint64_t fails)
  */
 static bool go(walk *w, int most) {
     for (int i = 0; i < most; i++) {
-        const uint64_t last = last_of_code(w);
+        uint64_t last = w->here;
+        uint64_t beyond;
+        if (leap(w))
+            continue;
+        bracket(w, 1, &last, &beyond);
         if (!plane_passes(w->problem, from_bits(last))) {
             w->here = last_that_passes(w, w->here, last);
             return true;
         }
-        w->here = last;
         const uint64_t next = towards(last, w->end, 1);
-        if (next == last || !plane_passes(w->problem, from_bits(next)))
+        if (next == last || !plane_passes(w->problem, from_bits(next))) {
+            w->here = last;
             return true;
-        w->here = next;
+        }
+        pass_by(w, next);
     }
     return false;
 }
@@ -152,14 +184,18 @@ static void try_places(const solve_problem *p, plane_answer *a) {
     }
 }
 
-/* A range whose worst depth lies inside it is not decided by the codes of one depth. */
+/*
+ * A range is decided by the codes of its worst end where that outweighs the rest: UNORM, and several cells in it. The
+ * binades of a FLOAT have their own worst depths inside.
+ */
 static bool is_decided_at(const solve_problem *p, double x, double *z) {
+    enum { CELLS = 16 };
     dp_setup setup;
     if (plane_setup(p, x, &setup) != DP_OK)
         return false;
     *z = measure_decisive(&setup, p->lo, p->hi);
-    return p->lo == p->hi ||
-           !(setup.reversed && setup.curve == DP_CURVE_PERSPECTIVE && p->spec.format.kind == DP_FORMAT_FLOAT);
+    const double cells = fabs((double)dp_code(&setup, p->lo) - (double)dp_code(&setup, p->hi));
+    return p->lo == p->hi || (p->spec.format.kind == DP_FORMAT_UNORM && cells >= CELLS);
 }
 
 void plane_error_solve(const solve_problem *p, plane_effort effort, const solve_result *lattice, plane_answer *out) {
