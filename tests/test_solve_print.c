@@ -106,11 +106,24 @@ static double printed(const char *line) {
     return NAN;
 }
 
+static int digits_of(const char *line) {
+    const char *at = strpbrk(strstr(line, "at most ") != NULL    ? strstr(line, "at most ")
+                             : strstr(line, "at least ") != NULL ? strstr(line, "at least ")
+                                                                 : line,
+                             "123456789");
+    int count = 0;
+    for (; at != NULL && (*at == '.' || (*at >= '0' && *at <= '9')); at++)
+        count += *at != '.';
+    return count;
+}
+
 static void test_printed(void **state) {
     (void)state;
     rng r = rng_make("solve printed");
     tally passes = {.name = "what is printed passes, typed in again"};
     tally tight = {.name = "and is not rounded by more than its digits"};
+    tally few = {.name = "six digits are mostly enough"};
+    uint64_t longer = 0;
     char path[] = "/tmp/depthprec-printed-XXXXXX";
     const int file = mkstemp(path);
     assert_true(file >= 0);
@@ -131,6 +144,7 @@ static void test_printed(void **state) {
             dp_separation_over(&setup, a.znear, value, a.separation, &worst);
         TALLY(&passes, status == EXIT_FINE && worst.bound <= a.separation, "%s %s %s near %.17g far %.17g: %s",
               a.format, a.mapping, a.model, a.znear, a.zfar, line);
+        longer += (uint64_t)(digits_of(line) > 6);
         if (a.target == 2 && value < a.zfar * 0.9999) {
             dp_separation_over(&setup, a.znear, value * 1.00002 + 1e-6 * value, a.separation, &worst);
             TALLY(&tight, worst.bound > a.separation, "%s %s %s near %.17g far %.17g: %s", a.format, a.mapping, a.model,
@@ -138,8 +152,11 @@ static void test_printed(void **state) {
         }
     }
     unlink(path);
+    TALLY(&few, longer * 5 < passes.cases, "%llu of %llu have more", (unsigned long long)longer,
+          (unsigned long long)passes.cases);
     tally_end(&passes);
     tally_end(&tight);
+    tally_end(&few);
 }
 
 int main(void) {
