@@ -1,5 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* solve: the missing one of near, far, format, mapping and separation; and what is possible where that is not. */
+/*
+ * solve: the missing one of near, far, format, mapping and separation, or how far that holds; and what is possible
+ * where that is not.
+ */
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
