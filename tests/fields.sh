@@ -39,6 +39,8 @@ all_named budget --at 10
 all_named check tests/needs/village.need
 all_named solve -f 1000 -F unorm24 -m d3d --separation 0.01 --at 100
 all_named solve -f 1000 -F unorm24 -m d3d --error 0.01 --at 100
+all_named solve --for distance -n 0.1 -f 1000 -F unorm24 -m d3d --separation 0.01
+all_named table --at 10 --range 5:50
 all_named bias --at 10 --units 1
 all_named bias --range 1:10 --gap 0.01
 all_named bench worst --tolerance 0.1

@@ -83,7 +83,9 @@ static void known_answers(void **state) {
          2.14576780e-05, 100},
     };
     for (size_t i = 0; i < sizeof cases / sizeof cases[0]; i++) {
-        judged j = judge_one(cases[i].camera, cases[i].what);
+        char camera[256];
+        snprintf(camera, sizeof camera, "%s model = \"exact\";", cases[i].camera);
+        judged j = judge_one(camera, cases[i].what);
         assert_int_equal(j.count, 1);
         const check_verdict *v = &j.verdicts[0];
         if (v->passed != cases[i].passed || j.failed != !cases[i].passed)
@@ -96,6 +98,30 @@ static void known_answers(void **state) {
             assert_relative(v->z, cases[i].z, 1e-4);
         done(&j);
     }
+}
+
+/* Without a word about the model the guarantee decides: 15 m at 5 km pass in the lattice alone. */
+static void the_default_is_a_guarantee(void **state) {
+    (void)state;
+    static const char camera[] = "near = 0.1; far = \"10 km\"; mapping = \"d3d\"; format = \"unorm24\";";
+    static const char what[] = "at = \"5 km\"; separation = 15;";
+    static const char *const words[] = {"", " model = \"auto\";", " model = \"fp32\";", " model = \"exact\";"};
+    for (int i = 0; i < 4; i++) {
+        char with[256];
+        snprintf(with, sizeof with, "%s%s", camera, words[i]);
+        judged j = judge_one(with, what);
+        dp_setup setup;
+        dp_spec spec = j.verdicts[0].setup.spec;
+        assert_int_equal(j.verdicts[0].passed, i == 3);
+        assert_int_equal(spec.model, i == 3 ? DP_MODEL_EXACT : DP_MODEL_FP32);
+        assert_int_equal(dp_setup_init(&setup, &spec), DP_OK);
+        assert_true(j.verdicts[0].value == dp_separation(&setup, 5000.0));
+        done(&j);
+    }
+    judged j =
+        judge_one("near = 0.1; far = 1000; mapping = \"log\"; format = \"unorm24\";", "at = 100; separation = 1;");
+    assert_true(j.verdicts[0].passed && j.verdicts[0].setup.spec.model == DP_MODEL_STAGED);
+    done(&j);
 }
 
 static const char *const mappings[] = {"d3d", "gl", "reversed", "gl-reversed", "linear", "log"};
@@ -223,6 +249,7 @@ static void thousands(void **state) {
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(known_answers),
+        cmocka_unit_test(the_default_is_a_guarantee),
         cmocka_unit_test(ranges_against_single_depths),
         cmocka_unit_test(the_quick_model_first),
         cmocka_unit_test(ties_are_counted_when_needed),

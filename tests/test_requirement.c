@@ -151,7 +151,10 @@ static const struct {
     {"unit = \"m\";\n" CAMERA NEEDS("at = 1; separation = \"0x1p3 m\";"), 3, "must be a length"},
     {"unit = \"m\";\n" CAMERA NEEDS("at = 1; separation = \"nan m\";"), 3, "must be a length"},
     {"unit = \"parsec\";", 1, "unit: must be mm, cm, m or km"},
-    {CAMERA NEEDS("at = 1; ties = 0.1;"), 2, "ties: needs the model fp32 or auto"},
+    {CAMERA NEEDS("at = 1; ties = 0.1;"), 2, "ties: needs a range"},
+    {"cameras = { a = { near = 1; far = 9; mapping = \"d3d\"; format = \"fp32\"; model = \"exact\"; }; };\n" NEEDS(
+         "at = 1; ties = 0.1;"),
+     2, "ties: needs the model fp32 or auto"},
     {"cameras = { a = { near = 1; far = 9; mapping = \"d3d\"; format = \"fp32\"; model = \"fp32\"; }; };\n" NEEDS(
          "at = 1; error = 0.1;"),
      2, "error: needs the model exact, staged or auto"},

@@ -52,9 +52,9 @@ static void write_text(const options *o, output *out, const check_file *files, s
             const check_verdict *v = &f->verdicts[k];
             if (o->quiet && v->passed)
                 continue;
-            output_format(out, "%s  %s:%d: %s: camera %s, %s: %s\n", v->passed ? "pass" : "FAIL", f->file.path,
+            output_format(out, "%s  %s:%d: %s: camera %s, %s (%s): %s\n", v->passed ? "pass" : "FAIL", f->file.path,
                           v->asked->line, v->asked->name, v->camera->name, setup_label(&v->setup, false, label),
-                          sentence(f, v, text));
+                          dp_model_name(v->setup.spec.model), sentence(f, v, text));
             if (o->verbose)
                 output_format(out, "      decided by %s: %s\n", check_method_name(v->method),
                               setup_label(&v->setup, true, label));

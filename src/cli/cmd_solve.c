@@ -1,5 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* solve: the missing one of near, far, format, mapping and separation; and what is possible where that is not. */
+/*
+ * solve: the missing one of near, far, format, mapping and separation, or how far that holds; and what is possible
+ * where that is not.
+ */
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -11,8 +14,6 @@
 #include "cli/solve_report.h"
 
 int cmd_solve(const options *o);
-
-static const char *const target_names[SOLVE_FOR_COUNT] = {"", "near", "far", "format", "mapping", "separation"};
 
 /* ---- What is asked ----------------------------------------------------------------------------------------------- */
 
@@ -39,16 +40,16 @@ static int check_target(const options *o, solve_report *r) {
     if (r->target == SOLVE_FOR_SEPARATION && limited)
         return option_error(OPTION_FOR, "separation is what is solved for, got --%s too",
                             option_name(r->kind == MEASURE_ERROR ? OPTION_ERROR : OPTION_SEPARATION));
+    if (r->target == SOLVE_FOR_DISTANCE && option_given(o, OPTION_AT))
+        return option_error(OPTION_AT, "has no meaning when a distance is asked: --range LO:HI says from where");
     if (r->target != SOLVE_FOR_SEPARATION && !limited)
-        return option_error(OPTION_SEPARATION, "must be given (or --error), to solve for %s", target_names[r->target]);
+        return option_error(OPTION_SEPARATION, "must be given (or --error), to solve for %s",
+                            solve_target_name(r->target));
     if (r->target <= SOLVE_FOR_FAR && option_given(o, givens[r->target - SOLVE_FOR_NEAR]))
-        return option_error(OPTION_FOR, "%s is what is solved for, got --%s too", target_names[r->target],
-                            target_names[r->target]);
-    if (o->model_auto || o->model != DP_MODEL_EXACT)
-        return option_error(OPTION_MODEL,
-                            "must be exact: in the others nothing is monotone that a root could be found of, got "
-                            "'%s'; 'depthprec budget' judges the answer",
-                            o->model_auto ? "auto" : dp_model_name(o->model));
+        return option_error(OPTION_FOR, "%s is what is solved for, got --%s too", solve_target_name(r->target),
+                            solve_target_name(r->target));
+    if (r->kind == MEASURE_ERROR && option_given(o, OPTION_MODEL) && o->model == DP_MODEL_FP32)
+        return option_error(OPTION_MODEL, "must be exact or staged for an error, which fp32 has none of, got 'fp32'");
     return EXIT_FINE;
 }
 
@@ -56,6 +57,11 @@ static int check_depths(const options *o, solve_report *r) {
     const bool range = option_given(o, OPTION_RANGE);
     if (range && o->at.count > 0)
         return option_error(OPTION_RANGE, "must not be given together with --at");
+    if (!range && r->target == SOLVE_FOR_DISTANCE) {
+        r->lo = o->znear;
+        r->hi = is_known(o, OPTION_FAR) ? o->zfar : (double)HUGE_VAL;
+        return EXIT_FINE;
+    }
     if (!range && o->at.count == 0)
         return option_error(OPTION_AT, "must be given, or --range LO:HI");
     if (o->at.count > 1)
@@ -85,47 +91,96 @@ static bool asks_for_choice(solve_target target) {
     return target == SOLVE_FOR_FORMAT || target == SOLVE_FOR_MAPPING;
 }
 
-static dp_status solve_plane(const solve_report *r, solve_candidate *c, solve_unknown unknown, solve_result *result) {
+static bool has_pipeline(dp_mapping mapping) {
+    return dp_mapping_get(mapping)->curve == DP_CURVE_PERSPECTIVE;
+}
+
+/* The model asked for, or the fullest that there is: what a user can trust. */
+static dp_model model_of(const solve_report *r, dp_mapping mapping, bool asked) {
+    const options *o = r->o;
+    const bool given = option_given(o, OPTION_MODEL) && !o->model_auto;
+    const bool has_fp32 = r->kind == MEASURE_SEPARATION && has_pipeline(mapping);
+    if (given && (asked || o->model != DP_MODEL_FP32))
+        return o->model;
+    return has_fp32 ? DP_MODEL_FP32 : DP_MODEL_STAGED;
+}
+
+static dp_status solve_plane(const solve_report *r, solve_candidate *c, solve_unknown unknown, plane_effort effort,
+                             solve_result *result) {
     const solve_problem p = {
         .spec = c->spec, .unknown = unknown, .kind = r->kind, .limit = r->limit, .lo = r->lo, .hi = r->hi};
-    const dp_status status = solve(&p, result);
+    const dp_status status = plane_solve(&p, effort, result, &c->plane);
     if (status != DP_OK)
         return status;
-    *(unknown == SOLVE_NEAR ? &c->spec.znear : &c->spec.zfar) = result->value;
+    *(unknown == SOLVE_NEAR ? &c->spec.znear : &c->spec.zfar) = c->plane.value;
     c->solved = true;
     c->unknown = unknown;
-    c->possible = result->possible;
-    c->worst = result->worst;
-    c->until = result->until;
+    c->possible = c->plane.possible;
+    c->reached = c->plane.reached;
     c->least = result->least;
     c->most = result->most;
     c->island_count = result->island_count;
+    c->lattice = (solve_lattice){.possible = result->possible,
+                                 .value = result->value,
+                                 .reached = {.value = result->worst.value, .z = result->worst.z}};
+    if (r->kind == MEASURE_ERROR) { /* the depths as they are aligned */
+        solve_problem exact = p;
+        plane_answer ideal;
+        exact.spec.model = DP_MODEL_EXACT;
+        if (plane_solve(&exact, effort, result, &ideal) == DP_OK)
+            c->lattice = (solve_lattice){ideal.possible, ideal.value, ideal.reached};
+    }
     return DP_OK;
 }
 
 static dp_status evaluate(const solve_report *r, solve_candidate *c) {
-    dp_setup setup;
+    dp_setup setup, exact;
+    dp_spec spec = c->spec;
+    spec.model = DP_MODEL_EXACT;
     const dp_status status = dp_setup_init(&setup, &c->spec);
+    if (status != DP_OK || dp_setup_init(&exact, &spec) != DP_OK)
+        return status;
+    c->reached = judge(r->kind, &setup, r->lo, r->hi, r->limit);
+    c->possible = isnan(r->limit) || c->reached.passed;
+    c->lattice = (solve_lattice){.value = (double)NAN, .reached = judge(r->kind, &exact, r->lo, r->hi, r->limit)};
+    c->lattice.possible = isnan(r->limit) || c->lattice.reached.passed;
+    return DP_OK;
+}
+
+static dp_status measure_out(const solve_report *r, solve_candidate *c) {
+    dp_setup setup, exact;
+    distance_answer ideal;
+    dp_spec spec = c->spec;
+    spec.model = DP_MODEL_EXACT;
+    dp_status status = dp_setup_init(&setup, &c->spec);
+    if (status == DP_OK)
+        status = dp_setup_init(&exact, &spec);
+    if (status == DP_OK)
+        status = distance_solve(r->kind, &setup, r->lo, r->hi, r->limit, &c->distance);
+    if (status == DP_OK)
+        status = distance_solve(r->kind, &exact, r->lo, r->hi, r->limit, &ideal);
     if (status != DP_OK)
         return status;
-    c->worst = measure_over(r->kind, &setup, r->lo, r->hi);
-    c->possible = isnan(r->limit) || c->worst.value <= r->limit;
+    c->reached = c->distance.reached;
+    c->possible = c->distance.possible;
+    c->lattice = (solve_lattice){ideal.possible, ideal.value, ideal.reached};
     return DP_OK;
 }
 
 /* Fills in what is missing. */
 static dp_status try_candidate(const solve_report *r, solve_candidate *c, solve_result *result) {
     if (r->target == SOLVE_FOR_NEAR)
-        return solve_plane(r, c, SOLVE_NEAR, result);
+        return solve_plane(r, c, SOLVE_NEAR, PLANE_FIND, result);
     if (r->target == SOLVE_FOR_FAR)
-        return solve_plane(r, c, SOLVE_FAR, result);
-    return evaluate(r, c);
+        return solve_plane(r, c, SOLVE_FAR, PLANE_FIND, result);
+    return r->target == SOLVE_FOR_DISTANCE ? measure_out(r, c) : evaluate(r, c);
 }
 
 /* Where the planes are given and do not do, the near plane that this format and mapping would need. */
 static void try_other_near(const solve_report *r, solve_candidate *c, solve_result *result) {
     solve_candidate other = *c;
-    if (c->possible || isnan(r->limit) || solve_plane(r, &other, SOLVE_NEAR, result) != DP_OK || !other.possible)
+    if (c->possible || isnan(r->limit) || solve_plane(r, &other, SOLVE_NEAR, PLANE_FIND, result) != DP_OK ||
+        !other.possible)
         return;
     *c = other;
 }
@@ -142,7 +197,7 @@ static dp_spec spec_of(const options *o) {
                      .zfar = is_known(o, OPTION_FAR) ? o->zfar : (double)HUGE_VAL,
                      .ortho = o->ortho,
                      .rounding = o->rounding,
-                     .model = DP_MODEL_EXACT,
+                     .arith = o->arith,
                      .log_c = o->log_c};
 }
 
@@ -151,6 +206,9 @@ static int refused(const solve_report *r, const solve_candidate *c, dp_status st
     if (status == DP_ERROR_INFINITE && !is_known(r->o, OPTION_FAR))
         return option_error(OPTION_FAR, "must be given: %s has no infinite far",
                             c->spec.ortho ? "an orthographic projection" : mapping);
+    if (status == DP_ERROR_MODEL)
+        return option_error(OPTION_MODEL, "fp32 needs one of the mappings d3d, gl, reversed, gl-reversed, got %s",
+                            mapping);
     const option_id id = status == DP_ERROR_ORTHO   ? OPTION_ORTHO
                          : status == DP_ERROR_NEAR  ? OPTION_NEAR
                          : status == DP_ERROR_LOG_C ? OPTION_LOG_C
@@ -170,6 +228,7 @@ static int add_asked(solve_report *r, solve_result *result) {
         for (size_t m = 0; m < o->mapping_count; m++) {
             spec.format = o->formats[f];
             spec.mapping = o->mappings[m];
+            spec.model = model_of(r, spec.mapping, is_known(o, OPTION_MAPPING));
             add(r, &spec, true);
             solve_candidate *c = &r->items[r->count - 1];
             const dp_status status = try_candidate(r, c, result);
@@ -190,6 +249,7 @@ static void add_others(solve_report *r, solve_result *result) {
             dp_format_parse(formats[f], found);
             spec.format = found[0];
             spec.mapping = mappings[m];
+            spec.model = model_of(r, spec.mapping, false);
             if (listed(r, &spec) || (spec.mapping == DP_MAPPING_D3D && r->o->mappings[0] == DP_MAPPING_GL))
                 continue;
             add(r, &spec, false);
@@ -215,24 +275,30 @@ static int compare_alternatives(const void *a, const void *b) {
     const int price = cost_compare(&x->price, &y->price);
     if (x->possible && price != 0)
         return price;
-    const int value = compare_numbers(x->worst.value, y->worst.value);
+    const int value = compare_numbers(x->reached.value, y->reached.value);
     return value != 0 ? value : price;
+}
+
+/* More room for the plane that was solved for, a larger distance, or a smaller separation. */
+static int compare_room(const solve_report *r, const solve_candidate *x, const solve_candidate *y) {
+    if (r->target == SOLVE_FOR_SEPARATION)
+        return compare_numbers(x->reached.value, y->reached.value);
+    if (!x->possible || !y->possible)
+        return 0;
+    if (r->target == SOLVE_FOR_DISTANCE)
+        return compare_numbers(y->distance.value, x->distance.value);
+    if (asks_for_choice(r->target))
+        return 0;
+    return x->unknown == SOLVE_NEAR ? compare_numbers(x->spec.znear, y->spec.znear)
+                                    : compare_numbers(y->spec.zfar, x->spec.zfar);
 }
 
 /* The answer among what was asked: with a plane left open, the one that leaves it the most room. */
 static int compare_answers(const solve_report *r, const solve_candidate *x, const solve_candidate *y) {
     if (x->asked != y->asked)
         return x->asked ? -1 : 1;
-    const bool choice = asks_for_choice(r->target) || r->target == SOLVE_FOR_SEPARATION;
-    if (x->possible == y->possible && x->possible && !choice) {
-        const int room = x->unknown == SOLVE_NEAR ? compare_numbers(x->spec.znear, y->spec.znear)
-                                                  : compare_numbers(y->spec.zfar, x->spec.zfar);
-        if (room != 0)
-            return room;
-    }
-    if (r->target == SOLVE_FOR_SEPARATION && x->worst.value != y->worst.value)
-        return compare_numbers(x->worst.value, y->worst.value);
-    return compare_alternatives(x, y);
+    const int room = compare_room(r, x, y);
+    return room != 0 ? room : compare_alternatives(x, y);
 }
 
 /* Puts the answer first, the rest behind it in order, and its islands where the report finds them. */
@@ -251,8 +317,7 @@ static void arrange(solve_report *r, solve_result *result) {
         qsort(r->items + 1, r->count - 1, sizeof r->items[0], compare_alternatives);
     if (!answer.solved)
         return;
-    solve_candidate again = answer;
-    solve_plane(r, &again, answer.unknown, result);
+    solve_plane(r, &r->items[0], answer.unknown, PLANE_PROVE, result);
     r->islands = result->islands;
 }
 

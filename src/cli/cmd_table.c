@@ -92,6 +92,15 @@ static dp_worst worst_of(const table *t, const dp_setup *setup) {
     return worst;
 }
 
+/* With --range: the separation that can be relied on all over it, in the fullest model that the set-up has. */
+static bool separation_over(const table *t, const dp_setup *setup, dp_model *model, dp_separation_worst *out) {
+    dp_setup full;
+    dp_spec spec = setup->spec;
+    spec.model = *model = dp_mapping_get(spec.mapping)->curve == DP_CURVE_PERSPECTIVE ? DP_MODEL_FP32 : DP_MODEL_STAGED;
+    return option_given(t->o, OPTION_RANGE) && dp_setup_init(&full, &spec) == DP_OK &&
+           dp_separation_over(&full, t->lo, t->hi, 0.0, out) == DP_OK;
+}
+
 /* ---- text ---- */
 
 typedef struct text_target {
@@ -118,7 +127,11 @@ static void write_text(table *t) {
             output_char(t->out, '\n');
         table_text_head(t->out, &target.style, setup);
         each_row(t, setup, text_row, &target, &choice);
+        dp_model model;
+        dp_separation_worst separation;
         table_text_worst(t->out, &target.style, &worst);
+        if (separation_over(t, setup, &model, &separation))
+            table_text_separation(t->out, &target.style, model, &separation);
         table_text_clipping(t->out, &target.style, &planes);
         output_format(t->out, "  %s\n", choice_sentence(&choice, sentence));
         if (option_given(t->o, OPTION_TOLERANCE))
@@ -165,6 +178,17 @@ static void json_worst(json *j, const dp_worst *w) {
     json_end(j);
 }
 
+static void json_separation(json *j, dp_model model, const dp_separation_worst *w) {
+    json_object(j, "worst_separation");
+    json_string(j, "model", dp_model_name(model));
+    json_number(j, "lo", w->lo);
+    json_number(j, "hi", w->hi);
+    json_number(j, "bound", w->bound);
+    json_number(j, "separation", w->separation);
+    json_number(j, "z", w->z);
+    json_end(j);
+}
+
 static void write_json(table *t) {
     json j = json_start(t->out, "table");
     json_array(&j, "setups");
@@ -184,6 +208,10 @@ static void write_json(table *t) {
         each_row(t, setup, json_row, &j, &choice);
         json_end(&j);
         json_worst(&j, &worst);
+        dp_model model;
+        dp_separation_worst separation;
+        if (separation_over(t, setup, &model, &separation))
+            json_separation(&j, model, &separation);
         if (setup->spec.model == DP_MODEL_FP32) {
             json_number(&j, "near_effective", planes.znear);
             json_number(&j, "far_effective", planes.zfar);

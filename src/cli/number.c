@@ -101,3 +101,12 @@ size_t number_digits(double value, int digits, char out[NUMBER_SIZE]) {
         return text_copy(value < 0.0 ? "-inf" : "inf", out);
     return (size_t)snprintf(out, NUMBER_SIZE, "%.*g", digits, value + 0.0); /* -0 becomes 0 */
 }
+
+size_t number_bound(double value, int digits, bool upward, char out[NUMBER_SIZE]) {
+    const size_t length = number_digits(value, digits, out);
+    const double shown = strtod(out, NULL);
+    if (!isfinite(value) || value <= 0.0 || !(upward ? shown < value : shown > value))
+        return length;
+    const double unit = pow(10.0, floor(log10(shown)) - (digits - 1));
+    return number_digits(shown + (upward ? unit : -unit), digits, out);
+}

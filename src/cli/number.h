@@ -33,4 +33,7 @@ size_t number_shortest(double value, char out[NUMBER_SIZE]);
 /** %.*g with "inf" for INFINITY. @return length */
 size_t number_digits(double value, int digits, char out[NUMBER_SIZE]);
 
+/** The same rounded up, or down: what is read back is never below, or above, a positive value. @return length */
+size_t number_bound(double value, int digits, bool upward, char out[NUMBER_SIZE]);
+
 #endif

@@ -206,7 +206,7 @@ static int parse_range(options *o, const char *value) {
 }
 
 static const char *target_name(unsigned index) {
-    static const char *const names[] = {"near", "far", "format", "mapping", "separation"};
+    static const char *const names[] = {"near", "far", "format", "mapping", "separation", "distance"};
     return index < sizeof names / sizeof names[0] ? names[index] : NULL;
 }
 
@@ -313,8 +313,9 @@ const option_row option_rows[OPTION_COUNT] = {
     [OPTION_MODEL] = {"model", 0, "exact|staged|fp32|auto", MODELLED | VERB_SOLVE,
         "the arithmetic before the buffer: none, the lattice alone;\n"
         "NDC and window depth each rounded to binary32; every operation\n"
-        "in binary32; or the simplest that is enough (default exact)", parse_model},
-    [OPTION_ARITH] = {"arith", 0, "NAME", CAMERA,
+        "in binary32; or the simplest that is enough (default exact;\n"
+        "solve: fp32, the guarantee)", parse_model},
+    [OPTION_ARITH] = {"arith", 0, "NAME", CAMERA | VERB_SOLVE,
         "the binary32 arithmetic: ieee, fused, reciprocal,\n"
         "fused-reciprocal, product, mesa, softpipe, ieee-remap,\n"
         "mesa-remap (default ieee)", parse_arith},
@@ -331,7 +332,8 @@ const option_row option_rows[OPTION_COUNT] = {
         "the depths that worst cases are taken over\n"
         "(default: near to far)", parse_range},
     [OPTION_FOR] = {"for", 0, "WHAT", VERB_SOLVE,
-        "what to solve for: near, far, format, mapping or separation\n"
+        "what to solve for: near, far, format, mapping, separation, or\n"
+        "distance, the depth up to which --separation holds\n"
         "(default: the first of them that is not given)", parse_for},
     [OPTION_SEPARATION] = {"separation", 0, "S", VERB_SOLVE,
         "surfaces S apart, scene units, must be told apart", parse_separation},

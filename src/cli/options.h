@@ -97,6 +97,7 @@ typedef enum solve_target {
     SOLVE_FOR_FORMAT,
     SOLVE_FOR_MAPPING,
     SOLVE_FOR_SEPARATION,
+    SOLVE_FOR_DISTANCE,
     SOLVE_FOR_COUNT
 } solve_target;
 

@@ -5,20 +5,30 @@
 
 #include "cli/options.h"
 #include "need/cost.h"
-#include "need/solve.h"
+#include "need/distance.h"
+#include "need/plane.h"
+
+/** What real arithmetic would need: the same question in the model exact. */
+typedef struct solve_lattice {
+    bool possible;
+    double value;      /**< the plane or distance; NaN where neither is asked */
+    judgement reached; /**< there, or with the set-up as it is */
+} solve_lattice;
 
 /** A format with a mapping, and what it can do. */
 typedef struct solve_candidate {
-    dp_spec spec; /**< with the answer filled in, or what comes nearest to it */
+    dp_spec spec; /**< with the answer filled in, or what comes nearest to it; its model is what the answer holds in */
     bool asked;   /**< the user named it, or left the choice open */
     bool possible;
-    measure_worst worst; /**< what is reached with `spec` */
+    judgement reached; /**< with `spec` */
     cost price;
-    int islands_from;          /**< of near or far: index of its islands in solve_report.islands */
-    int island_count;          /**< 0 where neither plane was solved for */
-    solve_unknown unknown;     /**< the plane that was solved for, where one was */
-    bool solved;               /**< one was */
-    double least, most, until; /**< see solve_result */
+    solve_unknown unknown; /**< the plane that was solved for, where one was */
+    bool solved;           /**< one was */
+    double least, most;    /**< see solve_result */
+    plane_answer plane;    /**< where one was solved for */
+    int island_count;      /**< of the lattice; 0 where neither plane was solved for */
+    distance_answer distance;
+    solve_lattice lattice;
 } solve_candidate;
 
 enum { SOLVE_CANDIDATES_MAX = OPTIONS_FORMATS_MAX * DP_MAPPING_COUNT + 16 };
@@ -31,10 +41,24 @@ typedef struct solve_report {
     double lo, hi;
     size_t count;           /**< at least 1 */
     solve_candidate *items; /**< the answer first, then the alternatives, best first */
-    solve_island *islands;  /**< of the answer */
+    solve_island *islands;  /**< of the answer, in the lattice */
 } solve_report;
 
 /** Writes it in the form that the options ask for. */
 void solve_report_write(const solve_report *r, output *out);
+
+/** The forms for programs. */
+void solve_report_json(const solve_report *r, output *out);
+void solve_report_csv(const solve_report *r, output *out);
+
+/** The word of a target, "near". */
+const char *solve_target_name(solve_target target);
+
+static inline double solve_plane_of(const solve_candidate *c) {
+    return c->unknown == SOLVE_NEAR ? c->spec.znear : c->spec.zfar;
+}
+
+/** The guarantee of binary32 arithmetic at the depth that is worst; NaN where it has no pipeline, or is not asked. */
+double solve_in_binary32(const solve_report *r, const solve_candidate *c);
 
 #endif

@@ -139,6 +139,15 @@ void table_text_worst(output *out, const table_style *style, const dp_worst *w) 
                   style->plain, value);
 }
 
+void table_text_separation(output *out, const table_style *style, dp_model model, const dp_separation_worst *w) {
+    char value[NUMBER_SIZE];
+    char z[NUMBER_SIZE];
+    number_bound(w->bound, DIGITS_FEW, true, value);
+    number_digits(w->z, DIGITS_USUAL, z);
+    output_format(out, "  %sworst separation%s %s at z = %s, %s\n", style->strong, style->plain, value, z,
+                  model == DP_MODEL_FP32 ? "guaranteed in binary32 (model fp32)" : "in the model staged");
+}
+
 void table_text_clipping(output *out, const table_style *style, const clipping *c) {
     char znear[NUMBER_SIZE];
     char zfar[NUMBER_SIZE];

@@ -22,6 +22,9 @@ void table_text_row(output *out, const table_style *style, const dp_sample *samp
 /** The worst case; nothing in a model without cells. */
 void table_text_worst(output *out, const table_style *style, const dp_worst *worst);
 
+/** The largest separation over the range, rounded up, and the model that it holds in. */
+void table_text_separation(output *out, const table_style *style, dp_model model, const dp_separation_worst *worst);
+
 /** The planes that binary32 clipping leaves; nothing when they are NaN and none is lost. */
 void table_text_clipping(output *out, const table_style *style, const clipping *c);
 

@@ -63,6 +63,7 @@ const verb verb_rows[] = {
      "  depthprec check --report junit -o depth.xml engine.need\n"},
     {"solve", VERB_SOLVE, cmd_solve, "", 0, 0, NULL,
      "the near, far, format or mapping that a separation needs",
+     "  depthprec solve --for distance -n 0.1 -f 1000 -F unorm24 -m d3d --separation 0.01\n"
      "  depthprec solve -F unorm24 -m d3d -f 10000 --separation 0.01 --at 5000\n"
      "  depthprec solve -n 0.1 -f 4000 --separation 0.001 --range 0.1:100\n"
      "  depthprec solve --for far -n 0.1 -F d24 -m d3d --error 0.05 --at 500\n"},

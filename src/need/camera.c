@@ -118,7 +118,8 @@ static bool take_ortho(reader *r, const config_setting_t *s, draft *d) {
 
 static bool take_words(reader *r, config_setting_t *const *found, draft *d) {
     const int rounding = found[KEY_ROUNDING] != NULL ? word_among(r, found[KEY_ROUNDING], rounding_name) : 0;
-    const int model = rounding >= 0 && found[KEY_MODEL] != NULL ? word_among(r, found[KEY_MODEL], model_name) : 0;
+    const int model =
+        rounding >= 0 && found[KEY_MODEL] != NULL ? word_among(r, found[KEY_MODEL], model_name) : DP_MODEL_COUNT;
     const int arith =
         rounding >= 0 && model >= 0 && found[KEY_ARITH] != NULL ? word_among(r, found[KEY_ARITH], arith_name) : 0;
     if (rounding < 0 || model < 0 || arith < 0)

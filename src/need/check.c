@@ -3,6 +3,8 @@
 
 #include <math.h>
 
+#include "need/judge.h"
+
 /* What the exact lattice refuses by this factor, no arithmetic in front of it can save: see check.h. */
 static const double hopeless = 4.0;
 
@@ -20,58 +22,39 @@ static bool with_model(const dp_setup *setup, dp_model model, dp_setup *out) {
     return dp_setup_init(out, &spec) == DP_OK;
 }
 
-/* The verdict that a set-up in its own model gives on a separation. */
-static void separation_in(const need *n, const dp_setup *setup, check_verdict *v) {
-    dp_separation_worst worst = {.bound = HUGE_VAL, .separation = HUGE_VAL, .z = n->hi};
+/* The verdict that a set-up gives in its own model. */
+static void judge_in(const need *n, const dp_setup *setup, check_verdict *v) {
+    static const check_method methods[DP_MODEL_COUNT] = {
+        [DP_MODEL_EXACT] = CHECK_LATTICE, [DP_MODEL_STAGED] = CHECK_STAGED, [DP_MODEL_FP32] = CHECK_GUARANTEE};
+    const measure_kind kind = n->kind == NEED_ERROR ? MEASURE_ERROR : MEASURE_SEPARATION;
+    const judgement j = judge(kind, setup, n->lo, n->hi, n->limit);
     v->setup = *setup;
-    v->method = setup->spec.model == DP_MODEL_EXACT    ? CHECK_LATTICE
-                : setup->spec.model == DP_MODEL_STAGED ? CHECK_STAGED
-                                                       : CHECK_GUARANTEE;
-    if (n->lo == n->hi)
-        worst.bound = worst.separation = dp_separation(setup, n->lo);
-    else
-        dp_separation_over(setup, n->lo, n->hi, n->limit, &worst); /* need_read() has checked the range */
-    v->passed = worst.bound <= n->limit;
-    v->value = v->passed || worst.separation > n->limit ? worst.separation : worst.bound;
-    v->z = worst.z;
+    v->method = methods[setup->spec.model];
+    v->passed = j.passed;
+    v->value = j.value;
+    v->z = j.z;
+    v->code = j.code;
 }
 
 static void judge_separation(const need *n, const need_camera *camera, const dp_setup *asked, check_verdict *v) {
     dp_setup setup;
     const bool heavy = camera->automatic || asked->spec.model == DP_MODEL_FP32;
     if (!heavy || !with_model(asked, DP_MODEL_EXACT, &setup)) {
-        separation_in(n, asked, v);
+        judge_in(n, asked, v);
         return;
     }
-    separation_in(n, &setup, v);
+    judge_in(n, &setup, v);
     if (v->value > (camera->automatic ? 1.0 : hopeless) * n->limit)
         return;
     if (with_model(asked, DP_MODEL_FP32, &setup) || with_model(asked, DP_MODEL_STAGED, &setup))
-        separation_in(n, &setup, v);
-}
-
-static void error_in(const need *n, const dp_setup *setup, check_verdict *v) {
-    dp_worst worst = {.error = HUGE_VAL, .error_z = n->hi};
-    v->setup = *setup;
-    v->method = setup->spec.model == DP_MODEL_EXACT ? CHECK_LATTICE : CHECK_STAGED;
-    if (n->lo == n->hi) {
-        worst.error = fabs(dp_error(setup, dp_code(setup, n->lo), n->lo));
-        worst.error_z = n->lo;
-        worst.error_code = dp_code(setup, n->lo);
-    } else {
-        dp_worst_over(setup, n->lo, n->hi, &worst);
-    }
-    v->value = worst.error;
-    v->z = worst.error_z;
-    v->code = worst.error_code;
-    v->passed = v->value <= n->limit;
+        judge_in(n, &setup, v);
 }
 
 static void judge_error(const need *n, const need_camera *camera, const dp_setup *asked, check_verdict *v) {
     dp_setup setup;
-    error_in(n, asked, v);
+    judge_in(n, asked, v);
     if (camera->automatic && v->passed && with_model(asked, DP_MODEL_STAGED, &setup))
-        error_in(n, &setup, v);
+        judge_in(n, &setup, v);
 }
 
 /* Whether the guarantee holds between any two neighbours: then nothing ties. Binade by binade, as the step of z. */

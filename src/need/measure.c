@@ -2,23 +2,38 @@
 #include "need/measure.h"
 
 #include <math.h>
+#include <stdbool.h>
+
+#include "core/curve.h"
+
+/* Half a step in closed form from the whole one: what dp_separation() adds up in the model staged. */
+static double half_of(const dp_setup *setup, double z, double s) {
+    return setup->curve == DP_CURVE_PERSPECTIVE ? s * z / (2.0 * z + s)
+           : setup->curve == DP_CURVE_LINEAR    ? 0.5 * s
+                                                : s / (1.0 + sqrt(1.0 + s / (z + 1.0 / setup->spec.log_c)));
+}
 
 /*
- * Half a step in closed form from the whole one. With h the step times kappa (and times z under a perspective):
- * perspective s = z h / (1 - h), linear s = h, logarithmic s = (z + 1/C) expm1(h).
+ * What the error at z can be, however z is aligned to the codes: half a step behind z, where the midpoint before the
+ * code that lies there may be. Truncated codes are those of lower d: a step before z, or behind it when reversed.
  */
-static double half_step(const dp_setup *setup, double z, double s) {
-    const double half = setup->curve == DP_CURVE_PERSPECTIVE ? s * z / (2.0 * z + s)
-                        : setup->curve == DP_CURVE_LINEAR    ? 0.5 * s
-                                                          : s / (1.0 + sqrt(1.0 + s / (z + 1.0 / setup->spec.log_c)));
-    return half * (1.0 + 0x1p-50);
+static double error_at(const dp_setup *setup, double z) {
+    const dp_format *format = &setup->spec.format;
+    const bool truncates = setup->spec.rounding == DP_ROUND_ZERO;
+    if (setup->spec.model == DP_MODEL_STAGED) {
+        const double s = dp_separation(setup, z);
+        return truncates || isinf(s) ? s : half_of(setup, z, s) * (1.0 + 0x1p-50);
+    }
+    const bool is_float = format->kind == DP_FORMAT_FLOAT;
+    const double step =
+        is_float ? ldexp(1.0, (int)measure_field(setup, z) - format->bias - format->mantissa_bits) : 1.0;
+    const double den = (is_float ? 1.0 : (double)format->code_max) * (truncates ? 1.0 : 2.0);
+    const bool before = truncates && !setup->reversed;
+    return fabs(dp_curve_ahead(setup, before ? -step : step, den, z)) * dp_curve_outward(setup);
 }
 
 double measure_at(measure_kind kind, const dp_setup *setup, double z) {
-    const double s = dp_separation(setup, z);
-    if (kind == MEASURE_SEPARATION || setup->spec.rounding == DP_ROUND_ZERO || isinf(s))
-        return s;
-    return half_step(setup, z, s);
+    return kind == MEASURE_SEPARATION ? dp_separation(setup, z) : error_at(setup, z);
 }
 
 /* The code of z truncated: exact, so its exponent field tells on which side of a power of two d(z) lies. */
@@ -26,6 +41,10 @@ static uint32_t truncated(const dp_setup *setup, double z, dp_setup *floor) {
     *floor = *setup;
     floor->spec.rounding = DP_ROUND_ZERO;
     floor->spec.model = DP_MODEL_EXACT;
+    if (!(z > setup->spec.znear && z < setup->spec.zfar)) { /* the codes of the planes are others, too */
+        const dp_spec spec = floor->spec;
+        dp_setup_init(floor, &spec);
+    }
     return dp_code(floor, z);
 }
 

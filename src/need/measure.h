@@ -3,7 +3,7 @@
  * @file measure.h  What a requirement is judged by: the separation, or the error, whatever the alignment to the codes.
  *
  * Neither saw-tooths from code to code, so both can be solved for. Only the steps of a FLOAT make them jump, where
- * d(z) crosses a power of two. Model exact.
+ * d(z) crosses a power of two. Models exact and staged.
  */
 #ifndef NEED_MEASURE_H
 #define NEED_MEASURE_H
@@ -12,11 +12,12 @@
 
 typedef enum measure_kind {
     MEASURE_SEPARATION = 0, /**< dp_separation(): how far behind z a surface must lie to be told apart */
-    MEASURE_ERROR /**< no code that z may be stored as lies farther from z: half a step, or one when truncated */
+    MEASURE_ERROR /**< no code that z may be stored as lies farther from z, however z is aligned: half a step behind
+                       it; truncated, a step before it, or behind it when reversed */
 } measure_kind;
 
 /**
- * The measure at a depth in [near, far], scene units. INFINITY where no depth lies one step behind z.
+ * The measure at a depth in [near, far], scene units. INFINITY where no depth lies that far behind z.
  * Bound: never below the true value, within 1e-12 relative of it.
  */
 double measure_at(measure_kind kind, const dp_setup *setup, double z);

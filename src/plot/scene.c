@@ -41,7 +41,12 @@ static void error_of(const void *context, double from, double to, refine_sample 
     envelope_slice(context, from, to, worst_error, out);
 }
 
-static void add_curve(const figure_request *r, chart *out, chart_panel *panel, const dp_setup *setup, bool is_error) {
+static void add_curve(const figure_request *r, chart *out, chart_panel *panel, const dp_setup *given, bool is_error) {
+    dp_setup staged;
+    dp_spec spec = given->spec;
+    spec.model = DP_MODEL_STAGED; /* an error is judged in this one where fp32, which has none, is the fullest */
+    const bool other = is_error && given->spec.model == DP_MODEL_FP32 && dp_setup_init(&staged, &spec) == DP_OK;
+    const dp_setup *setup = other ? &staged : given;
     const double lo = fmax(panel->x.lo, setup->spec.znear), hi = fmin(panel->x.hi, setup->spec.zfar);
     double knots[REFINE_KNOTS];
     refine curve;

@@ -1,0 +1,32 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "need/judge.h"
+
+#include <math.h>
+
+static judgement of_separation(const dp_setup *setup, double lo, double hi, double limit) {
+    dp_separation_worst worst = {.bound = HUGE_VAL, .separation = HUGE_VAL, .z = hi};
+    if (lo == hi)
+        worst.bound = worst.separation = dp_separation(setup, lo);
+    else
+        dp_separation_over(setup, lo, hi, isnan(limit) ? 0.0 : limit, &worst); /* the caller has checked the range */
+    const bool passed = worst.bound <= limit;
+    return (judgement){
+        .value = passed || worst.separation > limit ? worst.separation : worst.bound, .z = worst.z, .passed = passed};
+}
+
+static judgement of_error(const dp_setup *setup, double lo, double hi, double limit) {
+    dp_worst worst = {.error = HUGE_VAL, .error_z = hi};
+    if (lo == hi) {
+        worst.error_code = dp_code(setup, lo);
+        worst.error = fabs(dp_error(setup, worst.error_code, lo));
+        worst.error_z = lo;
+    } else {
+        dp_worst_over(setup, lo, hi, &worst);
+    }
+    return (judgement){
+        .value = worst.error, .z = worst.error_z, .code = worst.error_code, .passed = worst.error <= limit};
+}
+
+judgement judge(measure_kind kind, const dp_setup *setup, double lo, double hi, double limit) {
+    return kind == MEASURE_ERROR ? of_error(setup, lo, hi, limit) : of_separation(setup, lo, hi, limit);
+}

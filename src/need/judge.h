@@ -1,0 +1,30 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/**
+ * @file judge.h  One requirement in one model: what `check` decides by and what `solve` looks for, so that they agree.
+ */
+#ifndef NEED_JUDGE_H
+#define NEED_JUDGE_H
+
+#include <stdbool.h>
+#include <stdint.h>
+
+#include "need/measure.h"
+
+typedef struct judgement {
+    double value;  /**< scene units: the separation or error at z; the bound where only that is above the limit */
+    double z;      /**< the depth that is worst */
+    uint32_t code; /**< an error: stored there */
+    bool passed;   /**< certified: the requirement holds at every depth asked about */
+} judgement;
+
+/**
+ * Judges a set-up in its own model over [lo, hi], near <= lo <= hi <= far, or at lo = hi.
+ *
+ *     separation  dp_separation() at one depth, the bound of dp_separation_over() over more
+ *     error       |stored - z| at one depth, the bound of dp_worst_over() over more; models exact and staged
+ *
+ * @param limit  scene units, positive; NaN to ask what is reached: then value is the certified bound
+ */
+judgement judge(measure_kind kind, const dp_setup *setup, double lo, double hi, double limit);
+
+#endif

@@ -1,0 +1,317 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "need/plane.h"
+
+#include <math.h>
+#include <string.h>
+
+#include "need/plane_error.h"
+
+/*
+ * RUN binary32 values in a row stand for a place: one of them passes where about every RUNth does. REGION of them are
+ * a part in a thousand; LOOKS bounds how often it is begun again because a value in it passes.
+ */
+enum {
+    RUN = 32,
+    PLACES = 64,
+    PLACES_FEW = 12,
+    RUN_OF_PLACE = 8,
+    RUN_FEW = 4,
+    PER_OCTAVE = 16,
+    LOOKS = 60000,
+    LOOKS_OF_RANGE = 256
+};
+
+static const double region = 0x1p-10 + 0x1p-20;
+static const double farthest = 1e18; /* of the finite fars */
+
+typedef struct hunt {
+    const solve_problem *problem;
+    plane_answer *out;
+    double outer, inner; /* the ends of the island looked at: the answer is as near to `outer` as can be */
+    bool inward_is_up;
+    plane_effort effort;
+    double failed; /* the innermost value tried that failed; NaN while there is none */
+} hunt;
+
+dp_status plane_setup(const solve_problem *p, double value, dp_setup *out) {
+    dp_spec spec = p->spec;
+    *(p->unknown == SOLVE_NEAR ? &spec.znear : &spec.zfar) = value;
+    return dp_setup_init(out, &spec);
+}
+
+/* Over a range the ends are judged first: they are looked at anyhow, and where one fails so does the range. */
+static bool fails_at_ends(const solve_problem *p, const dp_setup *setup) {
+    return p->lo < p->hi && p->kind == MEASURE_SEPARATION &&
+           (dp_separation(setup, p->hi) > p->limit || dp_separation(setup, p->lo) > p->limit);
+}
+
+bool plane_passes(const solve_problem *p, double value) {
+    dp_setup setup;
+    return plane_setup(p, value, &setup) == DP_OK && !fails_at_ends(p, &setup) &&
+           judge(p->kind, &setup, p->lo, p->hi, p->limit).passed;
+}
+
+static judgement reached_at(const solve_problem *p, double value) {
+    dp_setup setup;
+    if (plane_setup(p, value, &setup) != DP_OK)
+        return (judgement){.value = HUGE_VAL, .z = p->hi};
+    return judge(p->kind, &setup, p->lo, p->hi, p->limit);
+}
+
+/* ---- Binary32 values between the ends ---------------------------------------------------------------------------- */
+
+static bool is_inside(const hunt *h, double x) {
+    return x >= fmin(h->outer, h->inner) && x <= fmax(h->outer, h->inner);
+}
+
+static double step(const hunt *h, double x, bool inward) {
+    const bool up = inward == h->inward_is_up;
+    const float next = (float)x;
+    if (up ? (double)next > x : (double)next < x)
+        return (double)next;
+    return (double)nextafterf(next, up ? HUGE_VALF : 0.0F);
+}
+
+/* The first of `count` values from x inwards that passes, x itself among them; NaN when none does. */
+static double first_of_run(const hunt *h, double x, int count) {
+    for (int i = 0; i < count && is_inside(h, x); i++, x = step(h, x, true))
+        if (plane_passes(h->problem, x))
+            return x;
+    return (double)NAN;
+}
+
+/* ---- A bracket: a place where none passes, and a value farther in that does -------------------------------------- */
+
+/* From the outer end inwards, at distances that grow: 1 %, 2 %, 4 %, ... */
+static double gallop(const hunt *h, double *fails) {
+    double ratio = 1.01;
+    for (double x = h->outer;;) {
+        *fails = x;
+        x = h->inward_is_up ? fmin(x * ratio, h->inner) : fmax(x / ratio, h->inner);
+        const double found = first_of_run(h, x, RUN);
+        if (!isnan(found) || x == h->inner)
+            return isnan(found) && plane_passes(h->problem, h->inner) ? h->inner : found;
+        ratio = fmin(ratio * ratio, 0x1p64);
+    }
+}
+
+/* What that leapt over: from the inner end outwards, in small steps. */
+static double comb(const hunt *h, double *fails) {
+    const double ratio = exp2(h->inward_is_up ? -1.0 / PER_OCTAVE : 1.0 / PER_OCTAVE);
+    double found = (double)NAN;
+    for (double x = h->inner; is_inside(h, x); x *= ratio) {
+        const double here = first_of_run(h, x, RUN_OF_PLACE);
+        *fails = x;
+        if (isnan(here) && !isnan(found))
+            return found;
+        if (!isnan(here))
+            found = here;
+    }
+    *fails = h->outer;
+    return found;
+}
+
+/* Between a place where none passes and a value that does: where the passing begin. */
+static double narrow(const hunt *h, double fails, double passes, int run) {
+    const double least = RUN * 0x1p-23;
+    while (fabs(passes / fails - 1.0) > least) {
+        const double middle = sqrt(passes) * sqrt(fails);
+        const double found = first_of_run(h, (double)(float)middle, run);
+        if (isnan(found))
+            fails = middle;
+        else if (fabs(found - fails) < fabs(passes - fails))
+            passes = found;
+        else
+            break;
+    }
+    return passes;
+}
+
+/* ---- The values beyond the answer, and on its safe side ---------------------------------------------------------- */
+
+/* Every binary32 value for a part in a thousand outwards. One that passes is the better answer: then again from it. */
+static void look_beyond(hunt *h) {
+    plane_answer *a = h->out;
+    double x = a->value;
+    double last = x;
+    dp_setup setup;
+    for (int looks = 0, ranges = 0; looks < LOOKS && ranges < LOOKS_OF_RANGE; looks++) {
+        x = step(h, x, false);
+        if (h->problem->lo < h->problem->hi && plane_setup(h->problem, x, &setup) == DP_OK)
+            ranges += !fails_at_ends(h->problem, &setup); /* decided inside: thousands of these are too many */
+        if (!is_inside(h, x)) {                           /* the lattice fails from there on */
+            a->certain = true;
+            a->fails_to = last < a->value || last > a->value ? last : (double)NAN;
+            return;
+        }
+        if (plane_passes(h->problem, x)) {
+            a->value = x;
+        } else if (fabs(x - a->value) >= region * a->value) {
+            a->certain = true;
+            a->fails_to = x;
+            return;
+        }
+        last = x;
+    }
+}
+
+/* The passing end of the values around the inner end: where places begin to have none that passes. */
+static double other_end(const hunt *h, double passes, double fails) {
+    hunt outwards = *h;
+    outwards.inward_is_up = !h->inward_is_up;
+    return narrow(&outwards, fails, passes, RUN_OF_PLACE);
+}
+
+static void try_run(hunt *h, double x, int count, bool *any) {
+    plane_answer *a = h->out;
+    *any = false;
+    for (int i = 0; i < count && is_inside(h, x); i++, x = step(h, x, true)) {
+        const bool good = plane_passes(h->problem, x);
+        a->tried++;
+        a->passed += good;
+        *any = *any || good;
+        if (!good)
+            h->failed = x;
+        if (!good)
+            a->steady = (double)NAN;
+        else if (isnan(a->steady))
+            a->steady = x;
+    }
+}
+
+/* Between the innermost value that failed and the next one tried that passes, with all beyond it. */
+static void refine_steady(const hunt *h, double failed) {
+    plane_answer *a = h->out;
+    while (fabs(a->steady / failed - 1.0) > 0.001) {
+        double x = (double)(float)(sqrt(a->steady) * sqrt(failed));
+        const double middle = x;
+        int i = 0;
+        for (; i < RUN && plane_passes(h->problem, x); i++)
+            x = step(h, x, true);
+        if (i == RUN)
+            a->steady = middle;
+        else
+            failed = x;
+    }
+}
+
+/* Places from the answer to the inner end: where the passing values end, and from where on none fails. */
+static void survey(hunt *h) {
+    plane_answer *a = h->out;
+    const bool range = h->problem->lo < h->problem->hi;
+    const bool find = h->effort == PLANE_FIND;
+    const int places = (find || range ? PLACES_FEW : PLACES) / (find && range ? 2 : 1);
+    const int run = find && range ? 1 : find || range ? RUN_FEW : RUN_OF_PLACE;
+    const double from = isinf(a->value) ? farthest : a->value;
+    bool any;
+    a->steady = a->value;
+    try_run(h, from, places, &any);
+    plane_answer kept = *a;
+    double failed = h->failed;
+    double good = from;
+    double bad = (double)NAN; /* the first place behind `good` where none passes */
+    for (int i = 1; i <= places; i++) {
+        const double x = i == places ? h->inner : (double)(float)(from * pow(h->inner / from, (double)i / places));
+        try_run(h, x, i == places ? 1 : run, &any);
+        if (any) {
+            kept = *a;
+            failed = h->failed;
+            good = x;
+            bad = (double)NAN;
+        } else if (isnan(bad)) {
+            bad = x;
+        }
+    }
+    *a = kept;
+    if (!find && !isnan(failed) && !isnan(a->steady) && isfinite(a->steady))
+        refine_steady(h, failed);
+    a->until = isnan(bad) ? h->inner : other_end(h, good, bad);
+}
+
+/* ---- The model's answer, inside the lattice's -------------------------------------------------------------------- */
+
+static bool hunt_island(hunt *h, const solve_island *island) {
+    plane_answer *a = h->out;
+    h->outer = h->inward_is_up ? island->lo : island->hi;
+    h->inner = h->inward_is_up ? island->hi : island->lo;
+    if (plane_passes(h->problem, h->outer)) { /* nothing beyond it passes even in the lattice */
+        a->value = h->outer;
+        a->certain = true;
+    }
+    if (isinf(h->outer))
+        h->outer = farthest;
+    if (!a->certain) {
+        double fails;
+        double passes = gallop(h, &fails);
+        if (isnan(passes))
+            passes = comb(h, &fails);
+        if (isnan(passes))
+            return false;
+        a->value = narrow(h, fails, passes, RUN);
+        if (h->effort == PLANE_PROVE)
+            look_beyond(h);
+    }
+    a->possible = true;
+    a->until = h->inner;
+    survey(h);
+    return true;
+}
+
+/* The lattice's answer in the model exact: all from `value` to `until` pass, and the next double fails. */
+static void take_lattice(const solve_problem *p, const solve_result *lattice, plane_answer *a) {
+    a->possible = lattice->possible;
+    a->value = a->steady = lattice->value;
+    a->until = lattice->until;
+    a->certain = lattice->possible;
+    const double sign = a->until >= a->value ? 1.0 : -1.0;
+    for (double share = 0x1p-52; a->possible && share < 0x1p-36; share *= 2.0) {
+        const bool passes = plane_passes(p, a->value);
+        if (passes && plane_passes(p, a->until))
+            break;
+        *(passes ? &a->until : &a->value) *=
+            1.0 + (passes ? -sign : sign) * share; /* the bound over a range is outward */
+    }
+    a->steady = a->value;
+}
+
+/* Nothing was found although the lattice has an answer: the inner end of its answer comes nearest. */
+static void take_nothing(const solve_problem *p, const solve_result *lattice, plane_answer *a) {
+    const bool inert =
+        p->unknown == SOLVE_NEAR && !p->spec.ortho && dp_mapping_get(p->spec.mapping)->curve != DP_CURVE_PERSPECTIVE;
+    a->value = a->until = a->steady = lattice->possible ? lattice->until : lattice->value;
+    a->certain = !lattice->possible || inert;
+}
+
+dp_status plane_solve(const solve_problem *problem, plane_effort effort, solve_result *lattice, plane_answer *out) {
+    if (problem == NULL || lattice == NULL || out == NULL)
+        return DP_ERROR_NULL;
+    if (problem->kind == MEASURE_ERROR && problem->spec.model == DP_MODEL_FP32)
+        return DP_ERROR_MODEL;
+    solve_problem exact = *problem;
+    exact.spec.model = DP_MODEL_EXACT;
+    dp_status status = solve(&exact, lattice);
+    if (status != DP_OK)
+        return status;
+    dp_setup setup;
+    status = plane_setup(problem, lattice->value, &setup);
+    if (status != DP_OK)
+        return status;
+    *out = (plane_answer){.fails_to = (double)NAN};
+    hunt h = {.problem = problem,
+              .out = out,
+              .inward_is_up = problem->unknown == SOLVE_NEAR,
+              .effort = effort,
+              .failed = (double)NAN};
+    if (problem->kind == MEASURE_ERROR) {
+        plane_error_solve(problem, effort, lattice, out);
+    } else if (problem->spec.model == DP_MODEL_EXACT) {
+        take_lattice(problem, lattice, out);
+    } else {
+        for (int i = lattice->island_count; i-- > 0 && !out->possible;)
+            hunt_island(&h, &lattice->islands[i]);
+        if (!out->possible)
+            take_nothing(problem, lattice, out);
+    }
+    out->reached = reached_at(problem, out->value);
+    return DP_OK;
+}

@@ -1,0 +1,48 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/**
+ * @file plane.h  The near or far plane that meets a requirement in any model, judged as `check` judges.
+ *
+ * No model has a separation below that of the lattice, so the lattice's answer (solve.h) bounds all others. In fp32 the
+ * measure is not monotone: whether a plane will do hangs on how its matrix entries are rounded to binary32. So the
+ * answer is a plane that passes, beyond which every binary32 value fails for 2^-10 of itself at least; and those on its
+ * safe side are tried, because some may fail.
+ */
+#ifndef NEED_PLANE_H
+#define NEED_PLANE_H
+
+#include "need/judge.h"
+#include "need/solve.h"
+
+/** How much work: alternatives are only found, the answer is also surrounded. */
+typedef enum plane_effort { PLANE_FIND = 0, PLANE_PROVE } plane_effort;
+
+typedef struct plane_answer {
+    bool possible;
+    double value;      /**< the least near, or the largest far; impossible: the value that comes nearest */
+    double until;      /**< the other end of the values that pass; between the two some may fail */
+    double steady;     /**< from here to `until` all that were tried pass; NaN where the last that was tried fails */
+    uint64_t tried;    /**< values tried from `value` to `until`; 0 where all of them pass for certain */
+    uint64_t passed;   /**< of these */
+    bool certain;      /**< nothing passes next beyond `value`: see `fails_to` */
+    double fails_to;   /**< every binary32 value from here to `value` fails; NaN: the very next double does, or none is
+                            left to look at */
+    judgement reached; /**< at `value`, in the model asked about */
+} plane_answer;
+
+/**
+ * Solves a problem in the model of its set-up.
+ *
+ * @param lattice  receives the answer of the lattice, model exact, whatever the model asked about; its islands hold in
+ *                 that model, and for an error however the depths are aligned
+ * @return DP_OK (also when impossible), or what solve() and dp_setup_init() have against it; DP_ERROR_MODEL for an
+ *         error in fp32, which has no stored depth
+ */
+dp_status plane_solve(const solve_problem *problem, plane_effort effort, solve_result *lattice, plane_answer *out);
+
+/** Whether a value of the unknown passes, as `check` judges it. */
+bool plane_passes(const solve_problem *problem, double value);
+
+/** The set-up of a problem with its unknown filled in. */
+dp_status plane_setup(const solve_problem *problem, double value, dp_setup *out);
+
+#endif

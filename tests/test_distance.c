@@ -1,0 +1,203 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/*
+ * How far a requirement holds: at every depth up to the answer, by dense scans with dp_separation() and by
+ * dp_separation_over(); not at the depth that is said to fail; and where there is a closed form it is that.
+ */
+#include <stdio.h>
+#include <string.h>
+
+#include "need/distance.h"
+#include "support.h"
+
+typedef struct question {
+    dp_setup setup;
+    measure_kind kind;
+    double lo, hi, limit;
+} question;
+
+static const char *describe(const question *q, char text[320]) {
+    const dp_spec *s = &q->setup.spec;
+    snprintf(text, 320, "%s %s%s near %.17g far %.17g %s %s, %s %.17g from %.17g to %.17g", s->format.name,
+             dp_mapping_get(s->mapping)->name, s->ortho ? " ortho" : "", s->znear, s->zfar, dp_model_name(s->model),
+             dp_arith_get(s->arith)->name, q->kind == MEASURE_ERROR ? "error" : "separation", q->limit, q->lo, q->hi);
+    return text;
+}
+
+static int draw(rng *r, dp_model model, measure_kind kind, question *q) {
+    static const char *const formats[] = {"fp16", "fp32", "unorm16", "unorm24", "unorm24", "unorm8", "float4.6"};
+    dp_format found[2];
+    dp_spec spec = dp_spec_default();
+    dp_format_parse(formats[rng_below(r, sizeof formats / sizeof formats[0])], found);
+    spec.format = found[0];
+    spec.model = model;
+    spec.mapping = (dp_mapping)rng_below(r, model == DP_MODEL_FP32 ? 4 : DP_MAPPING_COUNT);
+    spec.ortho = dp_mapping_get(spec.mapping)->ortho && rng_below(r, 5) == 0;
+    spec.rounding = (dp_rounding)rng_below(r, DP_ROUNDING_COUNT);
+    spec.arith = (dp_arith)rng_below(r, dp_arith_count());
+    spec.znear = rng_log(r, 1e-2, 1e2);
+    spec.zfar = spec.znear * rng_log(r, 1.5, 1e5);
+    if (dp_mapping_get(spec.mapping)->far_infinite && !spec.ortho && rng_below(r, 3) == 0)
+        spec.zfar = INFINITY;
+    if (dp_setup_init(&q->setup, &spec) != DP_OK)
+        return 0;
+    q->kind = kind;
+    q->hi = spec.zfar;
+    q->lo = rng_below(r, 2) == 0 ? spec.znear : spec.znear * rng_log(r, 1.0, 1.4);
+    const double end = fmin(q->hi, 1e5 * q->lo);
+    const double z = fmin(fmax(rng_log(r, q->lo, end), q->lo), end);
+    q->limit = judge(kind, &q->setup, z, z, NAN).value * rng_log(r, 0.7, 1.5);
+    return q->limit > 0.0 && q->limit < INFINITY;
+}
+
+/*
+ * In fp32 dp_separation() at a depth inside stops refining at 3 %, where dp_separation_over() does not (bounds.h); an
+ * error at a depth is never above the bound over a range.
+ */
+static double at(const question *q, double z) {
+    return q->kind == MEASURE_ERROR ? fabs(dp_error(&q->setup, dp_code(&q->setup, z), z)) : dp_separation(&q->setup, z);
+}
+
+static double slack_of(const question *q) {
+    return q->setup.spec.model == DP_MODEL_FP32 ? 1.03 : 1.0;
+}
+
+static void in_model(dp_model model, measure_kind kind, uint64_t cases) {
+    rng r = rng_make(kind == MEASURE_ERROR ? "distance error" : dp_model_name(model));
+    tally whole = {.name = "the range up to the answer passes as check judges"};
+    tally dense = {.name = "no depth up to the answer fails"};
+    tally beyond = {.name = "beyond the answer it fails, next to it"};
+    tally none = {.name = "impossible: it fails at the first depth"};
+    uint64_t throughout = 0;
+    for (uint64_t i = 0; i < cases;) {
+        question q;
+        distance_answer a;
+        char text[320];
+        if (!draw(&r, model, kind, &q))
+            continue;
+        i++;
+        describe(&q, text);
+        if (distance_solve(kind, &q.setup, q.lo, q.hi, q.limit, &a) != DP_OK) {
+            tally_fail(&whole, "%s: refused", text);
+            continue;
+        }
+        if (!a.possible) {
+            TALLY(&none, at(&q, q.lo) > q.limit, "%s: %.17g there", text, at(&q, q.lo));
+            continue;
+        }
+        dp_separation_worst worst = {.bound = 0.0};
+        dp_worst error = {.error = 0.0};
+        if (kind == MEASURE_ERROR && q.lo < a.value)
+            dp_worst_over(&q.setup, q.lo, a.value, &error);
+        else if (q.lo < a.value)
+            dp_separation_over(&q.setup, q.lo, a.value, q.limit, &worst);
+        TALLY(&whole, worst.bound <= q.limit && error.error <= q.limit && a.reached.passed, "%s: up to %.17g", text,
+              a.value);
+        for (int k = 0; k <= 256; k++) {
+            const double z = k == 256 ? a.value : fmin(fmax(q.lo * pow(a.value / q.lo, k / 256.0), q.lo), a.value);
+            const double slack = k == 0 || k == 256 ? 1.0 : slack_of(&q);
+            TALLY(&dense, at(&q, z) <= q.limit * slack, "%s: %.17g at %.17g, up to %.17g", text, at(&q, z), z, a.value);
+        }
+        throughout += (uint64_t)a.throughout;
+        if (a.throughout) {
+            TALLY(&beyond, a.value == fmin(q.hi, 1e18) && isnan(a.fails), "%s: up to %.17g", text, a.value);
+            continue;
+        }
+        /* Next to it: the next binary32 depth, or a part in 2^40. */
+        const double next = model == DP_MODEL_FP32 ? (double)nextafterf((float)a.value, INFINITY) : a.value;
+        dp_separation_over(&q.setup, a.value, a.fails, q.limit, &worst);
+        dp_worst_over(&q.setup, q.lo, a.fails, &error);
+        TALLY(&beyond,
+              a.fails > a.value && a.fails <= fmax(next, (double)nextafterf((float)next, INFINITY)) &&
+                  (kind == MEASURE_ERROR ? error.error > q.limit : worst.bound > q.limit),
+              "%s: %.17g passes, said to fail after %.17g", text, a.fails, a.value);
+    }
+    printf("# %s: %llu questions, %llu hold throughout, %llu not at all\n", dp_model_name(model),
+           (unsigned long long)cases, (unsigned long long)throughout, (unsigned long long)none.cases);
+    tally_end(&whole);
+    tally_end(&dense);
+    tally_end(&beyond);
+    if (none.cases > 0)
+        tally_end(&none);
+}
+
+static void test_fp32(void **state) {
+    (void)state;
+    in_model(DP_MODEL_FP32, MEASURE_SEPARATION, test_cases(50, 500, 10000));
+}
+
+static void test_staged(void **state) {
+    (void)state;
+    in_model(DP_MODEL_STAGED, MEASURE_SEPARATION, test_cases(50, 500, 10000));
+}
+
+static void test_exact(void **state) {
+    (void)state;
+    in_model(DP_MODEL_EXACT, MEASURE_SEPARATION, test_cases(100, 1000, 20000));
+}
+
+static void test_error(void **state) {
+    (void)state;
+    in_model(DP_MODEL_EXACT, MEASURE_ERROR, test_cases(20, 200, 2000));
+    in_model(DP_MODEL_STAGED, MEASURE_ERROR, test_cases(10, 100, 1000));
+}
+
+/* UNORM under a perspective: s = z g/(1 - g) with g = z kappa h, so z^2 kappa h + z S kappa h - S = 0. */
+static void test_closed_form(void **state) {
+    (void)state;
+    rng r = rng_make("distance closed form");
+    tally close = {.name = "UNORM in the lattice: the root of a quadratic"};
+    const uint64_t cases = test_cases(100, 2000, 20000);
+    for (uint64_t i = 0; i < cases; i++) {
+        static const char *const names[] = {"unorm8", "unorm16", "unorm24", "unorm32"};
+        dp_format found[2];
+        question q = {.kind = MEASURE_SEPARATION};
+        distance_answer a;
+        char text[320];
+        dp_spec spec = dp_spec_default();
+        dp_format_parse(names[rng_below(&r, 4)], found);
+        spec.format = found[0];
+        spec.mapping = (dp_mapping)rng_below(&r, 4);
+        spec.znear = q.lo = rng_log(&r, 1e-3, 10.0);
+        spec.zfar = q.hi = rng_below(&r, 3) == 0 ? INFINITY : spec.znear * rng_log(&r, 2.0, 1e6);
+        const long double kappa = 1.0L / spec.znear - (isinf(spec.zfar) ? 0.0L : 1.0L / spec.zfar);
+        const long double kh = kappa / (long double)spec.format.code_max;
+        const double z = rng_log(&r, spec.znear, fmin(spec.zfar, 1e6 * spec.znear));
+        const long double g = (long double)z * kh;
+        if (g > 0.9L || dp_setup_init(&q.setup, &spec) != DP_OK)
+            continue;
+        q.limit = (double)((long double)z * g / (1.0L - g));
+        const long double s = (long double)q.limit;
+        const long double root = 2.0L * s / (s * kh + sqrtl(s * kh * s * kh + 4.0L * kh * s));
+        const long double want = root < (long double)q.lo ? (long double)q.lo : root;
+        const int solved = distance_solve(q.kind, &q.setup, q.lo, q.hi, q.limit, &a) == DP_OK;
+        TALLY(&close,
+              solved && (!a.possible ? root < (long double)q.lo * (1.0L + 1e-12L)
+                                     : fabsl((long double)fmin(a.value, spec.zfar) / want - 1.0L) < 1e-12L),
+              "%s: %.17g, not %.17Lg", describe(&q, text), a.value, want);
+    }
+    tally_end(&close);
+}
+
+static void test_door(void **state) {
+    (void)state;
+    distance_answer a;
+    dp_setup setup;
+    dp_spec spec = dp_spec_default();
+    spec.model = DP_MODEL_FP32;
+    assert_int_equal(dp_setup_init(&setup, &spec), DP_OK);
+    assert_int_equal(distance_solve(MEASURE_SEPARATION, NULL, 1.0, 2.0, 0.1, &a), DP_ERROR_NULL);
+    assert_int_equal(distance_solve(MEASURE_SEPARATION, &setup, 1.0, 2.0, 0.1, NULL), DP_ERROR_NULL);
+    assert_int_equal(distance_solve(MEASURE_ERROR, &setup, 1.0, 2.0, 0.1, &a), DP_ERROR_MODEL);
+    assert_int_equal(distance_solve(MEASURE_SEPARATION, &setup, 0.01, 2.0, 0.1, &a), DP_ERROR_RANGE);
+    assert_int_equal(distance_solve(MEASURE_SEPARATION, &setup, 1.0, 2000.0, 0.1, &a), DP_ERROR_RANGE);
+    assert_int_equal(distance_solve(MEASURE_SEPARATION, &setup, 1.0, 2.0, 0.0, &a), DP_ERROR_RANGE);
+    assert_int_equal(distance_solve(MEASURE_SEPARATION, &setup, 1.0, 1.0, 10.0, &a), DP_OK);
+    assert_true(a.possible && a.throughout && a.value == 1.0);
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {cmocka_unit_test(test_fp32),        cmocka_unit_test(test_staged),
+                                       cmocka_unit_test(test_exact),       cmocka_unit_test(test_error),
+                                       cmocka_unit_test(test_closed_form), cmocka_unit_test(test_door)};
+    return run_tap(tests);
+}

@@ -1,0 +1,320 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/*
+ * The near or far plane in every model: the answer passes as `check` judges it, what is said to fail fails, what is
+ * said to pass passes, and nothing that the lattice refuses is found. Recomputed from the library, not recorded.
+ */
+#include <stdio.h>
+
+#include <gsl/gsl_errno.h>
+
+#include "need/plane.h"
+#include "support.h"
+
+static const char *describe(const solve_problem *p, char text[320]) {
+    snprintf(text, 320, "%s of %s %s%s near %.17g far %.17g %s %s, %s %.17g over %.17g..%.17g",
+             p->unknown == SOLVE_NEAR ? "near" : "far", p->spec.format.name, dp_mapping_get(p->spec.mapping)->name,
+             p->spec.ortho ? " ortho" : "", p->spec.znear, p->spec.zfar, dp_model_name(p->spec.model),
+             dp_arith_get(p->spec.arith)->name, p->kind == MEASURE_ERROR ? "error" : "separation", p->limit, p->lo,
+             p->hi);
+    return text;
+}
+
+/* As check.h says it of one depth and of a range, written once more. */
+static int meets(const solve_problem *p, double value) {
+    dp_spec spec = p->spec;
+    dp_setup setup;
+    dp_separation_worst worst;
+    dp_worst error;
+    *(p->unknown == SOLVE_NEAR ? &spec.znear : &spec.zfar) = value;
+    if (dp_setup_init(&setup, &spec) != DP_OK)
+        return 0;
+    if (p->kind == MEASURE_SEPARATION)
+        return p->lo == p->hi
+                   ? dp_separation(&setup, p->lo) <= p->limit
+                   : dp_separation_over(&setup, p->lo, p->hi, p->limit, &worst) == DP_OK && worst.bound <= p->limit;
+    return p->lo == p->hi ? fabs(dp_error(&setup, dp_code(&setup, p->lo), p->lo)) <= p->limit
+                          : dp_worst_over(&setup, p->lo, p->hi, &error) == DP_OK && error.error <= p->limit;
+}
+
+/* A problem made from a camera that can be: its own value, times something near 1, is what is wanted. */
+static int draw(rng *r, dp_model model, measure_kind kind, solve_problem *p) {
+    static const char *const formats[] = {"fp16", "fp32", "unorm16", "unorm24", "unorm24", "unorm8", "float4.6"};
+    dp_format found[2];
+    dp_setup setup;
+    *p = (solve_problem){.spec = dp_spec_default(), .kind = kind, .unknown = (solve_unknown)rng_below(r, 2)};
+    dp_format_parse(formats[rng_below(r, sizeof formats / sizeof formats[0])], found);
+    p->spec.format = found[0];
+    p->spec.model = model;
+    p->spec.mapping = (dp_mapping)rng_below(r, model == DP_MODEL_FP32 ? 4 : DP_MAPPING_COUNT);
+    p->spec.ortho = dp_mapping_get(p->spec.mapping)->ortho && rng_below(r, 5) == 0;
+    p->spec.rounding = (dp_rounding)rng_below(r, DP_ROUNDING_COUNT);
+    p->spec.arith = (dp_arith)rng_below(r, dp_arith_count());
+    p->spec.znear = rng_log(r, 1e-2, 1e2);
+    p->spec.zfar = p->spec.znear * rng_log(r, 1.5, 1e5);
+    if (dp_mapping_get(p->spec.mapping)->far_infinite && !p->spec.ortho && rng_below(r, 4) == 0)
+        p->spec.zfar = INFINITY;
+    const double far_end = fmin(p->spec.zfar, 1e5 * p->spec.znear);
+    p->hi = fmin(rng_log(r, p->spec.znear, far_end), far_end);
+    p->lo = rng_below(r, 4) == 0 ? fmin(fmax(rng_log(r, p->spec.znear, p->hi), p->spec.znear), p->hi) : p->hi;
+    if (dp_setup_init(&setup, &p->spec) != DP_OK)
+        return 0;
+    const judgement j = judge(kind, &setup, p->lo, p->hi, NAN);
+    p->limit = j.value * rng_log(r, 0.5, 2.0);
+    return p->limit > 0.0 && p->limit < INFINITY;
+}
+
+typedef struct sides {
+    tally answer, steady, beyond, until, lattice, nothing;
+    uint64_t certain, possible;
+} sides;
+
+/* A value between the answer and where it is said to fail. */
+static void judge_beyond(const solve_problem *p, const plane_answer *a, const solve_result *lattice, rng *r, sides *s) {
+    char text[320];
+    if (isnan(a->fails_to)) {
+        const double next = nextafter(a->value, p->unknown == SOLVE_NEAR ? 0.0 : INFINITY);
+        if (a->certain && isfinite(a->value) && next >= lattice->least && next <= lattice->most && p->lo == p->hi &&
+            (p->kind == MEASURE_ERROR || p->spec.model == DP_MODEL_EXACT))
+            TALLY(&s->beyond, !meets(p, next) || fabs(a->value - lattice->value) <= 0x1p-44 * a->value,
+                  "%s: %.17g next to %.17g passes", describe(p, text), next, a->value);
+        return;
+    }
+    for (int i = 0; i < 64; i++) {
+        const double x = (double)(float)rng_uniform(r, fmin(a->value, a->fails_to), fmax(a->value, a->fails_to));
+        if (x == a->value || (x < a->value) != (a->fails_to < a->value))
+            continue;
+        TALLY(&s->beyond, !meets(p, x), "%s: %.17g beyond %.17g passes", describe(p, text), x, a->value);
+    }
+    const double share = fabs(a->fails_to / a->value - 1.0);
+    const double end = p->unknown == SOLVE_NEAR ? lattice->value : lattice->value;
+    TALLY(&s->beyond, share >= 0.0009 || fabs(a->fails_to / end - 1.0) < 1e-6 || lattice->island_count > 1,
+          "%s: %.17g is said to fail, %.3g from %.17g", describe(p, text), a->fails_to, share, a->value);
+}
+
+/* What the lattice refuses no model has: its separation is the least that there can be. */
+static void judge_lattice(const solve_problem *p, const plane_answer *a, const solve_result *lattice, rng *r,
+                          sides *s) {
+    char text[320];
+    const int znear = p->unknown == SOLVE_NEAR;
+    TALLY(&s->lattice,
+          znear ? a->value >= lattice->islands[0].lo : a->value <= lattice->islands[lattice->island_count - 1].hi,
+          "%s: %.17g is outside the lattice's %.17g", describe(p, text), a->value, lattice->value);
+    if (p->spec.model == DP_MODEL_EXACT || isinf(a->value))
+        return;
+    for (int i = 0; i < 8; i++) { /* not yet what fp32 promises everywhere, but what its answers rest on */
+        const double x = rng_uniform(r, fmin(a->value, a->until), fmax(a->value, fmin(a->until, 1e4 * a->value)));
+        dp_spec spec = p->spec;
+        dp_setup full, exact;
+        *(znear ? &spec.znear : &spec.zfar) = x;
+        if (dp_setup_init(&full, &spec) != DP_OK)
+            continue;
+        spec.model = DP_MODEL_EXACT;
+        dp_setup_init(&exact, &spec);
+        if (p->spec.model == DP_MODEL_STAGED)
+            TALLY(&s->lattice, dp_separation(&full, p->hi) >= dp_separation(&exact, p->hi) * (1.0 - 1e-12),
+                  "%s: %.17g has less than the lattice", describe(p, text), x);
+    }
+}
+
+static void judge_answer(const solve_problem *p, const plane_answer *a, const solve_result *lattice, rng *r, sides *s) {
+    char text[320];
+    s->possible += a->possible;
+    s->certain += a->possible && a->certain;
+    if (!a->possible) {
+        for (int i = 0; i < 24 && a->certain; i++) {
+            const double most = p->unknown == SOLVE_FAR ? 1e4 * lattice->least : lattice->most;
+            const double x = fmin(fmax(rng_log(r, lattice->least, most), lattice->least), most);
+            solve_problem exact = *p;
+            exact.spec.model = DP_MODEL_EXACT;
+            if (meets(p, x) && !meets(&exact, x)) /* that no model is below the lattice is tested elsewhere */
+                s->nothing.skipped++;
+            else
+                TALLY(&s->nothing, !meets(p, x), "%s: nothing found, but %.17g passes", describe(p, text), x);
+        }
+        return;
+    }
+    TALLY(&s->answer, meets(p, a->value) && a->reached.passed && a->reached.value <= p->limit, "%s: %.17g fails",
+          describe(p, text), a->value);
+    TALLY(&s->until, p->spec.model == DP_MODEL_EXACT || meets(p, a->until), "%s: the other end %.17g of %.17g fails",
+          describe(p, text), a->until, a->value);
+    if (a->tried == 0 && isfinite(a->value))
+        for (int i = 0; i < 16; i++) {
+            const double lo = fmin(a->value, a->until);
+            const double x = fmin(fmax(rng_log(r, lo, fmax(a->value, a->until)), lo), fmax(a->value, a->until));
+            TALLY(&s->steady, meets(p, x), "%s: %.17g fails between %.17g and %.17g", describe(p, text), x, a->value,
+                  a->until);
+        }
+    if (!isnan(a->steady))
+        TALLY(&s->steady, a->passed <= a->tried && meets(p, a->steady), "%s: steady from %.17g", describe(p, text),
+              a->steady);
+    judge_beyond(p, a, lattice, r, s);
+    if (p->kind == MEASURE_SEPARATION)
+        judge_lattice(p, a, lattice, r, s);
+}
+
+static void in_model(dp_model model, measure_kind kind, uint64_t cases) {
+    static solve_result lattice;
+    rng r = rng_make(kind == MEASURE_ERROR ? "plane error" : dp_model_name(model));
+    sides s = {.answer = {.name = "the answer passes as check judges"},
+               .steady = {.name = "what is said to pass passes"},
+               .beyond = {.name = "what is said to fail beyond the answer fails"},
+               .until = {.name = "the other end passes"},
+               .lattice = {.name = "no answer but where the lattice has one"},
+               .nothing = {.name = "where nothing is found no sampled value passes"}};
+    for (uint64_t i = 0; i < cases;) {
+        solve_problem p;
+        plane_answer a;
+        char text[320];
+        if (!draw(&r, model, kind, &p))
+            continue;
+        i++;
+        if (plane_solve(&p, i % 8 == 0 ? PLANE_PROVE : PLANE_FIND, &lattice, &a) != DP_OK)
+            tally_fail(&s.answer, "%s: refused", describe(&p, text));
+        else
+            judge_answer(&p, &a, &lattice, &r, &s);
+    }
+    printf("# %s: %llu problems, %llu with an answer, %llu of these certain\n", dp_model_name(model),
+           (unsigned long long)cases, (unsigned long long)s.possible, (unsigned long long)s.certain);
+    tally_end(&s.answer);
+    tally_end(&s.until);
+    tally_end(&s.steady);
+    tally_end(&s.beyond);
+    if (kind == MEASURE_SEPARATION)
+        tally_end(&s.lattice);
+    if (s.nothing.cases > 0)
+        tally_end(&s.nothing);
+}
+
+static void test_fp32(void **state) {
+    (void)state;
+    in_model(DP_MODEL_FP32, MEASURE_SEPARATION, test_cases(100, 2000, 20000));
+}
+
+static void test_staged(void **state) {
+    (void)state;
+    in_model(DP_MODEL_STAGED, MEASURE_SEPARATION, test_cases(100, 1000, 10000));
+}
+
+static void test_exact(void **state) {
+    (void)state;
+    in_model(DP_MODEL_EXACT, MEASURE_SEPARATION, test_cases(100, 1000, 10000));
+}
+
+static void test_error(void **state) {
+    (void)state;
+    in_model(DP_MODEL_EXACT, MEASURE_ERROR, test_cases(100, 1000, 10000));
+    in_model(DP_MODEL_STAGED, MEASURE_ERROR, test_cases(50, 300, 3000));
+}
+
+/* |stored - z| of UNORM under an infinite or finite perspective, in long double, without the library. */
+static long double plain_error(int bits, int reversed, double n, double f, double z) {
+    const long double levels = ldexpl(1.0L, bits) - 1.0L;
+    const long double kappa = 1.0L / n - (isinf(f) ? 0.0L : 1.0L / f);
+    const long double t = (1.0L / n - 1.0L / z) / kappa; /* share of the far end */
+    const long double code = floorl((reversed ? 1.0L - t : t) * levels + 0.5L);
+    const long double share = reversed ? 1.0L - code / levels : code / levels;
+    const long double inverse = 1.0L / n - share * kappa;
+    return inverse <= 0.0L ? HUGE_VALL : fabsl(1.0L / inverse - z);
+}
+
+/*
+ * The least near against a sweep of its own: every near from the answer on keeps the error, and the next one below
+ * does not, with 1e-9 for the long double's own rounding next to a boundary.
+ */
+static void test_error_by_hand(void **state) {
+    (void)state;
+    static solve_result lattice;
+    rng r = rng_make("plane error by hand");
+    tally least = {.name = "least near of an error: just below it fails"};
+    tally all = {.name = "least near of an error: all from it on pass"};
+    const uint64_t cases = test_cases(20, 200, 2000);
+    for (uint64_t i = 0; i < cases; i++) {
+        static const char *const names[] = {"unorm8", "unorm12", "unorm16"};
+        static const int widths[] = {8, 12, 16};
+        const int k = (int)rng_below(&r, 3);
+        dp_format found[2];
+        plane_answer a;
+        solve_problem p = {.spec = dp_spec_default(), .kind = MEASURE_ERROR, .unknown = SOLVE_NEAR};
+        dp_format_parse(names[k], found);
+        p.spec.format = found[0];
+        p.spec.mapping = rng_below(&r, 2) == 0 ? DP_MAPPING_D3D : DP_MAPPING_REVERSED;
+        p.lo = p.hi = rng_log(&r, 1.0, 1e4);
+        p.spec.zfar = rng_below(&r, 2) == 0 ? INFINITY : p.hi * rng_log(&r, 1.1, 100.0);
+        p.limit = p.hi * rng_log(&r, 1e-2, 10.0);
+        assert_int_equal(plane_solve(&p, PLANE_PROVE, &lattice, &a), DP_OK);
+        const int reversed = p.spec.mapping == DP_MAPPING_REVERSED;
+        char text[320];
+        describe(&p, text);
+        TALLY(&least,
+              a.possible && (a.value == lattice.least || plain_error(widths[k], reversed, a.value * (1.0 - 1e-9),
+                                                                     p.spec.zfar, p.hi) > (long double)p.limit),
+              "%s: below %.17g passes", text, a.value);
+        for (int s = 0; s < 400; s++) {
+            const double share = s < 200 ? 1e-9 + s * 1e-3 : 0.2 + (s - 200) * 0.05;
+            const double x = fmin(a.value * (1.0 + share), p.hi);
+            TALLY(&all, plain_error(widths[k], reversed, x, p.spec.zfar, p.hi) <= (long double)p.limit * (1.0L + 1e-9L),
+                  "%s: %.17g above %.17g fails", text, x, a.value);
+        }
+    }
+    tally_end(&least);
+    tally_end(&all);
+}
+
+/* Half a code: the depth 1000 keeps an error of 4000 as long as its code is not that of the infinite far plane. */
+static void test_half_code(void **state) {
+    (void)state;
+    static solve_result lattice;
+    plane_answer a;
+    dp_format found[2];
+    solve_problem p = {.spec = dp_spec_default(), .kind = MEASURE_ERROR, .limit = 4000.0, .lo = 1000.0, .hi = 1000.0};
+    dp_format_parse("unorm16", found);
+    p.spec.format = found[0];
+    p.spec.zfar = INFINITY;
+    assert_int_equal(plane_solve(&p, PLANE_PROVE, &lattice, &a), DP_OK);
+    assert_true(a.possible && a.certain);
+    assert_relative(a.value, 1000.0 * 0.5 / 65535.0, 1e-12);                      /* n/z = half a step */
+    assert_relative(lattice.value, 0.5 / 65535.0 / (1e-3 - 1.0 / 5000.0), 1e-12); /* however it is aligned */
+    p.spec.model = DP_MODEL_FP32;
+    assert_int_equal(plane_solve(&p, PLANE_PROVE, &lattice, &a), DP_ERROR_MODEL);
+    assert_int_equal(plane_solve(NULL, PLANE_PROVE, &lattice, &a), DP_ERROR_NULL);
+    p.kind = MEASURE_SEPARATION;
+    p.spec.mapping = DP_MAPPING_LOG;
+    p.spec.zfar = 1e4;
+    assert_int_equal(plane_solve(&p, PLANE_PROVE, &lattice, &a), DP_ERROR_MODEL);
+}
+
+/* A binary32 sweep of a whole part in a thousand below the answer, and of what lies between it and the lattice's. */
+static void test_sweep(void **state) {
+    (void)state;
+    static solve_result lattice;
+    plane_answer a;
+    dp_format found[2];
+    static const dp_mapping mappings[] = {DP_MAPPING_D3D, DP_MAPPING_REVERSED, DP_MAPPING_GL};
+    for (int k = 0; k < 3; k++) {
+        solve_problem p = {.spec = dp_spec_default(), .limit = 0.01, .lo = 5000.0, .hi = 5000.0};
+        dp_format_parse("unorm24", found);
+        p.spec.format = found[0];
+        p.spec.mapping = mappings[k];
+        p.spec.zfar = 1e4;
+        p.spec.model = DP_MODEL_FP32;
+        assert_int_equal(plane_solve(&p, PLANE_PROVE, &lattice, &a), DP_OK);
+        assert_true(a.possible && a.certain && meets(&p, a.value) && a.value >= lattice.value);
+        uint64_t passing = 0;
+        for (float x = (float)(a.value * 0.999025); (double)x < a.value; x = nextafterf(x, 1e9F))
+            passing += (uint64_t)meets(&p, (double)x);
+        assert_true(passing == 0);
+        passing = 0;
+        for (double x = lattice.value; x < a.value * 0.999; x *= 1.0001)
+            passing += (uint64_t)meets(&p, (double)(float)x);
+        assert_true(passing == 0);
+    }
+}
+
+int main(void) {
+    gsl_set_error_handler_off();
+    const struct CMUnitTest tests[] = {cmocka_unit_test(test_fp32),          cmocka_unit_test(test_staged),
+                                       cmocka_unit_test(test_exact),         cmocka_unit_test(test_error),
+                                       cmocka_unit_test(test_error_by_hand), cmocka_unit_test(test_half_code),
+                                       cmocka_unit_test(test_sweep)};
+    return run_tap(tests);
+}
