@@ -272,6 +272,8 @@ int cmd_budget(const options *o) {
     if (status == EXIT_FINE)
         status = depths_resolve(o, DEFAULT_ROWS, &r.at);
     if (status == EXIT_FINE)
+        status = depths_in_binary32(&r.at);
+    if (status == EXIT_FINE)
         status = output_open(&out, o->output);
     if (status == EXIT_FINE) {
         bool silent = o->quiet || isatty(out.fd);

@@ -295,6 +295,8 @@ int cmd_table(const options *o) {
         status = range_resolve(o, &t.lo, &t.hi);
     if (status == EXIT_FINE)
         status = depths_resolve(o, DEFAULT_ROWS, &t.at);
+    if (status == EXIT_FINE && (o->model == DP_MODEL_FP32 || o->model_auto))
+        status = depths_in_binary32(&t.at);
     if (status == EXIT_FINE)
         status = output_open(&out, o->output);
     if (status == EXIT_FINE) {

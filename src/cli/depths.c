@@ -118,6 +118,15 @@ int depths_resolve(const options *o, size_t count, depths *out) {
     return EXIT_FINE;
 }
 
+int depths_in_binary32(const depths *d) {
+    char text[NUMBER_SIZE];
+    if (!isinf((float)d->hi))
+        return EXIT_FINE;
+    number_shortest(d->hi, text);
+    return option_error(OPTION_AT, "depths in binary32 must be at most 3.4028235e+38, its largest number, got %s",
+                        text);
+}
+
 int range_parse(const char *text, double *lo, double *hi) {
     const char *colon = strchr(text, ':');
     if (colon == NULL)

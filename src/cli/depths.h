@@ -39,6 +39,9 @@ int depths_parse(const char *text, depths *out);
  */
 int depths_resolve(const struct options *o, size_t count, depths *out);
 
+/** @return EXIT_USAGE after one line where binary32 cannot hold a depth of --at, else EXIT_FINE */
+int depths_in_binary32(const depths *d);
+
 /** The range of a command: that of --range, or [near, far]; *hi may then be INFINITY. Return as depths_resolve(). */
 int range_resolve(const struct options *o, double *lo, double *hi);
 

@@ -44,6 +44,8 @@ double dp_curve_gap(const dp_setup *setup, dp_point p, double z) {
     const double below = divisor(setup, p);
     if (below == 0.0)
         return HUGE_VAL;
+    if (z > 0x1p600) /* products would overflow; no point of a format is anywhere near */
+        return dp_curve_eye(setup, p) - z;
     if (isinf(f))
         return (setup->reversed ? dp_exact_residual(n, p.den, 1.0, 0.0, -z, p.num, 1.0, 0.0)
                                 : dp_exact_residual(1.0, p.den, n, z, z, p.num, 1.0, 0.0)) /
