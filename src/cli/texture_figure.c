@@ -68,7 +68,7 @@ static bool take(void *context, uint32_t row, uint32_t count, const float *value
     for (uint32_t i = 0; i < count; i++)
         take_row(s, row + i, values + i * row_values);
     for (size_t i = 0; i < count * row_values; i += (size_t)s->shown.channels)
-        s->missing += isnan(values[i]);
+        s->missing += isnan(values[i]) ? 1 : 0;
     progress_step(&s->bar, s->done += count);
     return true;
 }
@@ -87,11 +87,14 @@ static void words_of(const options *o, const texture_source *s, const texture_pr
                  (double)s->camera.width / f->shown.columns * s->camera.height / f->shown.rows);
     if (f->missing > 0)
         snprintf(missing, sizeof missing, "; hatched: no value, %llu pixels", (unsigned long long)f->missing);
+    setup_label(&s->setup, true, label);
+    if (o->metric > 0)
+        snprintf(label, sizeof label, "metric depth, %g scene units a unit", o->metric);
     snprintf(subtitle, sizeof subtitle, "%s%.100s, %u x %u; %s%s%s", s->path != NULL ? "" : "scene ",
              s->path == NULL ? s->frame.scene->name
              : slash != NULL ? slash + 1
                              : s->path,
-             s->camera.width, s->camera.height, setup_label(&s->setup, true, label), reduced, missing);
+             s->camera.width, s->camera.height, label, reduced, missing);
     notes_clean(c->title, sizeof c->title, o->title != NULL ? o->title : title);
     notes_clean(c->subtitle, sizeof c->subtitle, subtitle);
 }

@@ -12,6 +12,13 @@
 /* Beyond the numbers of a finer buffer lie half of its cells: of 24 bits, or of binary32 below 1. */
 static const double FINER = 0x1p-24;
 
+/* Steps of 1/65535 and 1/65536 are as fine as 16 bits. */
+static const double COARSER = 0.75;
+
+static int number_bits(const texture_source *s) {
+    return s->picture.type == IMAGE_F16 ? 11 : s->picture.type == IMAGE_F32 ? 24 : 53;
+}
+
 static grain_rounding rounding_of(const options *o) {
     return !option_given(o, OPTION_ROUNDING) ? GRAIN_ANY : o->rounding == DP_ROUND_ZERO ? GRAIN_ZERO : GRAIN_NEAREST;
 }
@@ -27,26 +34,47 @@ static double type_steps(const texture_source *s) {
     return 0;
 }
 
+/* Integers of the file, or what all samples are multiples of besides; the format behind that may be only assumed. */
+static grain steps_grain(const texture_source *s, double own) {
+    const dp_format *format = &s->setup.spec.format;
+    const double steps = s->found.steps > 0 ? s->found.steps : own;
+    const bool coarse = steps < COARSER * format->code_max || format->kind == DP_FORMAT_FLOAT;
+    const bool buffer = coarse && s->format_from != ORIGIN_ASSUMED;
+    const bool numbers = s->picture.type >= IMAGE_F16;
+    return (grain){.kind = GRAIN_STEPS,
+                   .steps = steps,
+                   .own = steps != own ? own : 0,
+                   .buffer = buffer,
+                   .margin = buffer   ? 0
+                             : coarse ? FINER + 0.5 / 65535
+                                      : FINER,
+                   .bits = numbers ? number_bits(s) : 0,
+                   .least = s->picture.type == IMAGE_F16 ? 0x1p-24 : 0x1p-149};
+}
+
 void texture_grain(const options *o, texture_source *s) {
     const dp_format *format = &s->setup.spec.format;
     const image_type type = s->picture.type;
-    const double steps = s->found.steps > 0 ? s->found.steps : type_steps(s);
+    const double own = type_steps(s);
+    const bool half = strcmp(format->name, "fp16") == 0, assumed = s->format_from != ORIGIN_GIVEN;
     s->grain = (grain){.kind = GRAIN_CODES};
-    if (o->metric > 0) {
+    if (o->metric > 0)
         s->grain = s->metric.grain;
-    } else if (steps > 0) {
-        const bool buffer = steps < 0.75 * format->code_max || format->kind == DP_FORMAT_FLOAT;
-        s->grain = (grain){.kind = GRAIN_STEPS, .steps = steps, .buffer = buffer, .margin = buffer ? 0 : FINER};
-    } else if (type == IMAGE_F16 && (s->format_from != ORIGIN_GIVEN || strcmp(format->name, "fp16") != 0)) {
-        const bool buffer = strcmp(format->name, "fp16") != 0;
+    else if (s->found.steps > 0 || own > 0)
+        s->grain = steps_grain(s, own);
+    else if (type == IMAGE_F16 && (assumed || !half))
         s->grain =
-            (grain){.kind = GRAIN_FLOATS, .buffer = buffer, .margin = buffer ? 0 : FINER, .bits = 11, .least = 0x1p-24};
-    } else if (type >= IMAGE_F32 && format->kind == DP_FORMAT_UNORM) {
-        s->grain =
-            (grain){.kind = GRAIN_FLOATS, .buffer = true, .bits = type == IMAGE_F32 ? 24 : 53, .least = 0x1p-149};
-    }
+            (grain){.kind = GRAIN_FLOATS, .buffer = !half, .margin = half ? FINER : 0, .bits = 11, .least = 0x1p-24};
+    else if (type >= IMAGE_F32 && format->kind == DP_FORMAT_UNORM)
+        s->grain = (grain){.kind = GRAIN_FLOATS, .buffer = true, .bits = number_bits(s), .least = 0x1p-149};
     if (option_given(o, OPTION_ROUNDING))
         s->grain.rounding = rounding_of(o);
+}
+
+bool texture_coarser(const texture_source *s) {
+    const grain *g = &s->grain;
+    return (g->kind == GRAIN_STEPS && g->steps < COARSER * s->setup.spec.format.code_max) ||
+           (g->kind == GRAIN_FLOATS && g->bits == 11);
 }
 
 /* ---- How else a pixel may be read -------------------------------------------------------------------------------- */

@@ -34,11 +34,11 @@ static void write_grain(const texture_report *r, output *out) {
     if (g->kind == GRAIN_STEPS)
         output_format(out, "  samples       steps of 1/%s%s, %s: counted in what depths can be off by\n",
                       number(g->steps, 9, steps),
-                      g->buffer                                ? ", coarser than the format"
+                      texture_coarser(r->source)               ? ", coarser than the format"
                       : r->source->format_from == ORIGIN_GIVEN ? ""
                                                                : ", of a buffer that may be finer",
                       by);
-    else if (g->kind == GRAIN_FLOATS)
+    else if (g->kind == GRAIN_FLOATS && g->bits == 11)
         output_format(out, "  samples       of %d significant bits, %s: counted in what depths can be off by\n",
                       g->bits, by);
 }
@@ -199,7 +199,7 @@ static void json_grain(const texture_report *r, json *j) {
         json_integer(j, "bits", (uint64_t)s->grain.bits);
     else
         json_null(j, "bits");
-    json_bool(j, "coarser", s->grain.kind != GRAIN_CODES && s->grain.buffer);
+    json_bool(j, "coarser", !eyes && texture_coarser(s));
     json_string(j, "rounded", s->grain.kind == GRAIN_CODES ? NULL : grain_rounding_name(s->grain.rounding));
     json_end(j);
 }

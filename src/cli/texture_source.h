@@ -49,6 +49,9 @@ void texture_source_close(texture_source *s);
 /** Fills in grain: how the samples were rounded, which is said in `why` of what was found. */
 void texture_grain(const options *o, texture_source *s);
 
+/** Whether the samples are coarser than the format, and not by its own steps. */
+bool texture_coarser(const texture_source *s);
+
 /** Fills in the readings of a pixel. */
 void texture_readings(const options *o, texture_source *s);
 

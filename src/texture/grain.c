@@ -20,19 +20,30 @@ typedef struct span {
     double lo, hi, den;
 } span;
 
-static span steps_span(const grain *g, double v) {
-    const double k = rint(v * g->steps), cut = k * (g->steps / (g->steps + 1)) * (1 - 0x1p-50);
-    const double below[] = {[GRAIN_ANY] = fmin(k - 0.5, cut), [GRAIN_NEAREST] = k - 0.5, [GRAIN_ZERO] = k};
-    const double above[] = {[GRAIN_ANY] = k + 1, [GRAIN_NEAREST] = k + 0.5, [GRAIN_ZERO] = k + 1};
-    const double margin = g->margin * g->steps;
-    return (span){below[g->rounding] - margin, above[g->rounding] + margin, g->steps};
-}
-
 /* The unit in the last place of a number of so many bits. */
 static double unit_of(const grain *g, double v) {
     int exponent;
     frexp(v, &exponent);
     return fmax(ldexp(1, exponent - g->bits), g->least);
+}
+
+/* Steps that were rounded to numbers may have been the next ones. */
+static span steps_span_of(const grain *g, double steps, double v) {
+    const double blur = g->bits > 0 ? floor(0.5 + 1.5 * unit_of(g, v) * steps) : 0;
+    const double first = rint(v * steps) - blur, last = rint(v * steps) + blur;
+    const double cut = first * (steps / (steps + 1)) * (1 - 0x1p-50);
+    const double below[] = {[GRAIN_ANY] = fmin(first - 0.5, cut), [GRAIN_NEAREST] = first - 0.5, [GRAIN_ZERO] = first};
+    const double above[] = {[GRAIN_ANY] = last + 1, [GRAIN_NEAREST] = last + 0.5, [GRAIN_ZERO] = last + 1};
+    const double margin = g->margin * steps;
+    return (span){below[g->rounding] - margin, above[g->rounding] + margin, steps};
+}
+
+static span steps_span(const grain *g, double v) {
+    const span s = steps_span_of(g, g->steps, v);
+    if (g->own == 0)
+        return s;
+    const span own = steps_span_of(g, g->own, v);
+    return (span){fmin(s.lo / s.den, own.lo / own.den), fmax(s.hi / s.den, own.hi / own.den), 1};
 }
 
 static span floats_span(const grain *g, double v) {

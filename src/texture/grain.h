@@ -30,11 +30,12 @@ typedef enum grain_rounding { GRAIN_ANY = 0, GRAIN_NEAREST, GRAIN_ZERO } grain_r
 typedef struct grain {
     grain_kind kind;
     grain_rounding rounding;
-    double steps;  /**< GRAIN_STEPS: M, at least 1; need not be whole where bits were shifted out */
-    bool buffer;   /**< behind the image lies a buffer of the set-up's format; else the depth itself, or */
+    double steps; /**< GRAIN_STEPS: M, at least 1; need not be whole where bits were shifted out */
+    double own;  /**< GRAIN_STEPS: what they are multiples of in any case, where steps may be chance; 0: nothing more */
+    bool buffer; /**< behind the image lies a buffer of the set-up's format; else the depth itself, or */
     double margin; /**< ... a finer buffer, whose cells reach so far beyond its numbers, window depth */
-    int bits;      /**< GRAIN_FLOATS: significant bits, 11, 24 or 53 */
-    double least;  /**< GRAIN_FLOATS: the least subnormal */
+    int bits; /**< GRAIN_FLOATS: significant bits, 11, 24 or 53; GRAIN_STEPS: 0, or those that steps were rounded to */
+    double least; /**< the least subnormal */
 } grain;
 
 /** "unknown", "nearest", "zero". */

@@ -361,7 +361,8 @@ static void find_steps(const image *img, finding *f, const survey *s, recognised
         return;
     out->certain = false;
     const size_t used = strlen(f->reason);
-    snprintf(f->reason + used, sizeof f->reason - used, "; coarser: all are multiples of 1/%.9g", found.steps);
+    snprintf(f->reason + used, sizeof f->reason - used, "; all are multiples of 1/%.9g%s", found.steps,
+             out->steps_certain ? "" : ", perhaps by chance");
 }
 
 /* How many numbers agree, against how many would without that lattice. */

@@ -35,7 +35,8 @@ typedef struct recognised {
     bool certain;       /**< proved: enough different samples to tell that lattice from the next finer one, or
                              off all coarser ones. Never where the type of the file holds nothing finer */
     double steps;       /**< all samples are multiples of 1/steps, up to their own rounding, which is coarser than
-                             the format; 0: they are not. Counted from a chance of 2^-8 on */
+                             the format; 0: some are not. It
+                                  may be by chance where there are few values */
     bool steps_certain; /**< by a chance below 2^-RECOGNISE_BITS, or by the type of the file */
     int reversed;       /**< 1 likely reversed, 0 likely not, -1 cannot tell */
     bool direction;     /**< `reversed` is found and not only likely: an end of [0, 1] that a cleared buffer has, in a

@@ -48,7 +48,7 @@ static bool better(grid *best, const distinct_set *set, const grid_source *s, do
     if (!(steps < s->finest))
         return false;
     const double bits = agreement(set, s, steps, shifted);
-    if (bits < GRID_FEW_BITS)
+    if (!(bits > 0))
         return false;
     *best = (grid){steps, bits};
     return true;
@@ -58,6 +58,8 @@ grid grid_find(const distinct_set *set, const grid_source *s) {
     grid best = {0};
     if (set->slots == NULL || set->count == 0 || set->count >= RECOGNISE_DISTINCT_MAX)
         return best;
+    if (agreement(set, s, 1, false) >= 0) /* nothing but 0 and 1: any number of bits */
+        return (grid){ldexp(1, BITS_LEAST) - 1, 0};
     for (int n = BITS_LEAST; n <= BITS_MOST; n++) {
         const double power = ldexp(1, n);
         if (better(&best, set, s, power - 1, false))

@@ -58,15 +58,13 @@ typedef struct grid {
     double bits;  /**< -log2 of the chance that the samples lie on it all the same */
 } grid;
 
-/** From this chance on, 2^-8, a grid is counted. */
-enum { GRID_FEW_BITS = 8 };
-
 /** -log2 of the chance that all of the set lie on a grid and no grid is there; negative when one is off. */
 double grid_agreement(const distinct_set *set, const grid_source *source, double steps);
 
 /**
- * The coarsest of k/(2^N - 1), k/2^N and bits that were shifted up, for N = 8 to 16, that all of the set lie on. 0 and
- * 1 lie on all and say nothing. A set that is full lies on none.
+ * The coarsest of k/(2^N - 1), k/2^N and bits that were shifted up, for N = 8 to 16, that all of the set lie on,
+ * whether by chance or not: a few values cannot exclude it. 0 and 1 lie on all and say nothing. A set that is full lies
+ * on none.
  */
 grid grid_find(const distinct_set *set, const grid_source *source);
 
