@@ -4,20 +4,13 @@
  * pixel is off by. The depths become codes by the definitions of depthprec(7) in long double, written here once more,
  * and files of all kinds as tools write them: rounded, cut off, shifted, repeated, multiplied by a reciprocal.
  */
-#include <jansson.h>
 #include <stdbool.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <unistd.h>
 
-#include "cli/options.h"
 #include "support.h"
-#include "texture/image.h"
-
-int cmd_texture(const options *o);
-
-enum { WIDTH = 24, HEIGHT = 10, PIXELS = WIDTH * HEIGHT, ARGUMENTS = 24 };
+#include "truth.h"
 
 typedef long double real;
 
@@ -66,8 +59,7 @@ static real stored(const camera *c, real z) {
     return most > 0 ? rounded(d * most, 0) / most : to_float(d, 24, -149, 0);
 }
 
-/* ---- Files
- * ---------------------------------------------------------------------------------------------------------*/
+/* ---- Files ---- */
 
 typedef struct file_kind {
     const char *name;
@@ -143,152 +135,7 @@ static const file_kind kinds[] = {
 };
 enum { KINDS = sizeof kinds / sizeof kinds[0] };
 
-static uint16_t half_bits(double x) {
-    int e;
-    if (x < 0x1p-14)
-        return (uint16_t)(x * 0x1p24);
-    const double m = frexp(x, &e);
-    return (uint16_t)((e + 14) << 10 | (int)(m * 2048 - 1024));
-}
-
-static void store(void *data, image_type type, size_t i, double x) {
-    if (type == IMAGE_U8)
-        ((uint8_t *)data)[i] = (uint8_t)x;
-    else if (type == IMAGE_U16)
-        ((uint16_t *)data)[i] = (uint16_t)x;
-    else if (type == IMAGE_U32)
-        ((uint32_t *)data)[i] = (uint32_t)x;
-    else if (type == IMAGE_F16)
-        ((uint16_t *)data)[i] = half_bits(x);
-    else if (type == IMAGE_F32)
-        ((float *)data)[i] = (float)x;
-    else
-        ((double *)data)[i] = x;
-}
-
-static void write_file(const char *path, image_file file, image_type type, const void *data) {
-    FILE *stream = fopen(path, "wb");
-    assert_non_null(stream);
-    image_writer *w = image_writer_open(stream, file, type, WIDTH, HEIGHT, 1);
-    assert_non_null(w);
-    assert_true(image_writer_rows(w, data, HEIGHT));
-    assert_true(image_writer_close(w));
-    assert_int_equal(fclose(stream), 0);
-}
-
-/* ---- The program
- * ---------------------------------------------------------------------------------------------------*/
-
-static char folder[] = "/tmp/depthprec-truth-XXXXXX";
-
-/* A path for each name, which stays. */
-static const char *in_folder(const char *name) {
-    static struct {
-        const char *name;
-        char path[64];
-    } known[16];
-    size_t i = 0;
-    while (known[i].name != NULL && strcmp(known[i].name, name) != 0)
-        assert_true(++i < sizeof known / sizeof known[0]);
-    known[i].name = name;
-    snprintf(known[i].path, sizeof known[i].path, "%s/%s", folder, name);
-    return known[i].path;
-}
-
-/* Runs `depthprec texture ...`; what it says on stderr is in the file "said". */
-static int texture(const char *const *arguments, size_t count) {
-    char *argv[ARGUMENTS + 3] = {(char *)(uintptr_t) "depthprec", (char *)(uintptr_t) "texture"};
-    options o;
-    assert_true(count <= ARGUMENTS);
-    for (size_t i = 0; i < count; i++)
-        argv[i + 2] = (char *)(uintptr_t)arguments[i];
-    fflush(stderr);
-    const int kept = dup(STDERR_FILENO);
-    assert_non_null(freopen(in_folder("said"), "w", stderr));
-    int status = options_parse(&o, (int)count + 2, argv);
-    if (status < 0)
-        status = cmd_texture(&o);
-    options_release(&o);
-    fflush(stderr);
-    assert_true(dup2(kept, STDERR_FILENO) >= 0);
-    close(kept);
-    if (status != 0) {
-        char line[256] = "";
-        FILE *said = fopen(in_folder("said"), "r");
-        if (said != NULL && fgets(line, sizeof line, said) != NULL)
-            print_message("# %s", line);
-        fclose(said);
-    }
-    return status;
-}
-
-typedef struct command {
-    char text[8][40];
-    const char *arguments[ARGUMENTS];
-    size_t count;
-} command;
-
-static void add(command *c, const char *argument) {
-    assert_true(c->count < ARGUMENTS);
-    c->arguments[c->count++] = argument;
-}
-
-static void add_number(command *c, int slot, const char *name, double value) {
-    snprintf(c->text[slot], sizeof c->text[slot], "%.17g", value);
-    add(c, name);
-    add(c, isinf(value) ? "inf" : c->text[slot]);
-}
-
-static void read_floats(const char *name, float out[PIXELS]) {
-    image img;
-    image_error error;
-    if (!image_read(in_folder(name), &img, &error))
-        fail_msg("%s: %s", name, error.text);
-    assert_int_equal(img.type, IMAGE_F32);
-    memcpy(out, img.data, PIXELS * sizeof *out);
-    image_free(&img);
-}
-
-/* A PNG of 16 bits, by what was said of it; NaN where there is no value. */
-static void read_greys(const char *name, double out[PIXELS]) {
-    image img;
-    image_error error;
-    char line[256], *at = NULL;
-    double lo = NAN, hi = NAN;
-    FILE *said = fopen(in_folder("said"), "r");
-    assert_non_null(said);
-    while (fgets(line, sizeof line, said) != NULL)
-        if ((at = strstr(line, ": 1 is ")) != NULL)
-            assert_int_equal(sscanf(at, ": 1 is %lf, 65535 is %lf", &lo, &hi), 2);
-    fclose(said);
-    assert_true(lo <= hi);
-    assert_true(image_read(in_folder(name), &img, &error));
-    for (size_t i = 0; i < PIXELS; i++) {
-        const int grey = ((const uint16_t *)img.data)[i];
-        out[i] = grey == 0 ? NAN : lo + (grey - 1) * (hi - lo) / 65534;
-    }
-    image_free(&img);
-}
-
-static double said_maximum(const command *base) {
-    command c = *base;
-    add(&c, "--json");
-    add(&c, "-o");
-    add(&c, in_folder("said.json"));
-    assert_int_equal(texture(c.arguments, c.count), 0);
-    json_t *root = json_load_file(in_folder("said.json"), JSON_REJECT_DUPLICATES, NULL);
-    assert_non_null(root);
-    const json_t *eye = json_array_get(json_object_get(root, "errors"), 0);
-    assert_string_equal(json_string_value(json_object_get(eye, "name")), "eye depth");
-    const json_t *most = json_object_get(eye, "max");
-    const bool endless = json_integer_value(json_object_get(eye, "unbounded")) > 0;
-    const double value = endless ? INFINITY : json_is_number(most) ? json_number_value(most) : NAN;
-    json_decref(root);
-    return value;
-}
-
-/* ---- Depths
- * --------------------------------------------------------------------------------------------------------*/
+/* ---- Depths ---- */
 
 static const char *const pictures[] = {"near", "far", "single", "ramp", "all"};
 enum { PICTURES = sizeof pictures / sizeof pictures[0] };
@@ -324,35 +171,23 @@ static camera draw_camera(rng *r, const char *format) {
     return c;
 }
 
-/* Arguments point into it, so it must stay where it is; copies may be added to. */
 static void base_command(command *b, const camera *c, const char *path, bool given, bool says_near) {
     b->count = 0;
-    add(b, path);
-    add_number(b, 0, "-f", (double)c->f);
+    truth_add(b, path);
+    truth_add_number(b, 0, "-f", (double)c->f);
     /* Of linear and logarithmic depth near is no more than what somebody says. */
-    add_number(b, 1, "-n", (double)(says_near ? c->n : c->n * 1.2L));
-    add(b, "-m");
-    add(b, c->mapping);
+    truth_add_number(b, 1, "-n", (double)(says_near ? c->n : c->n * 1.2L));
+    truth_add(b, "-m");
+    truth_add(b, c->mapping);
     if (c->ortho)
-        add(b, "--ortho");
+        truth_add(b, "--ortho");
     if (given) {
-        add(b, "-F");
-        add(b, c->format);
+        truth_add(b, "-F");
+        truth_add(b, c->format);
     }
 }
 
-static void product(const command *base, const char *file, const char *what, bool error) {
-    command c = *base;
-    add(&c, what);
-    add(&c, "-o");
-    add(&c, in_folder(file));
-    if (error)
-        add(&c, "--error-map");
-    assert_int_equal(texture(c.arguments, c.count), 0);
-}
-
-/* ---- Eye depth is never farther off than is said
- * --------------------------------------------------------------------*/
+/* ---- Eye depth is never farther off than is said ---- */
 
 typedef struct used {
     double most;
@@ -395,28 +230,28 @@ static void one_image(tally *t, rng *r, const file_kind *k, used *u) {
     static double data[PIXELS];
     draw(r, &c, picture, z);
     for (int i = 0; i < PIXELS; i++)
-        store(data, k->type, (size_t)i, k->sample(stored(&c, (real)z[i]), window(&c, (real)z[i]), mode));
-    const char *path = in_folder(k->file == IMAGE_PNG ? "in.png" : "in.npy");
-    write_file(path, k->file, k->type, data);
+        truth_store(data, k->type, (size_t)i, k->sample(stored(&c, (real)z[i]), window(&c, (real)z[i]), mode));
+    const char *path = truth_path(k->file == IMAGE_PNG ? "in.png" : "in.npy");
+    truth_write(path, k->file, k->type, data);
     command base;
     base_command(&base, &c, path, given, !curved);
-    product(&base, "eye.npy", "--eye", false);
-    product(&base, "map.npy", "--eye", true);
-    read_floats("eye.npy", eye);
-    read_floats("map.npy", map);
+    truth_product(&base, "eye.npy", "--eye", NULL, false);
+    truth_product(&base, "map.npy", "--eye", NULL, true);
+    truth_floats("eye.npy", 1, eye);
+    truth_floats("map.npy", 1, map);
     widen(eye, got);
     widen(map, bound);
     judge(t, k, &c, pictures[picture], z, got, bound, u);
     /* The statistics of fp32 touch a bit for each of its codes. */
-    const double most = rng_below(r, strcmp(c.format, "fp32") == 0 ? 64 : 8) == 0 ? said_maximum(&base) : NAN;
+    const double most = rng_below(r, strcmp(c.format, "fp32") == 0 ? 64 : 8) == 0 ? truth_maximum(&base) : NAN;
     for (int i = 0; i < PIXELS; i++)
         TALLY(t, isnan(most) || isnan(got[i]) || fabs(got[i] - z[i]) <= most, "%s: the statistics say %g", k->name,
               most);
     if (rng_below(r, 4) == 0) {
-        product(&base, "eye.png", "--eye", false);
-        read_greys("eye.png", got);
-        product(&base, "map.png", "--eye", true);
-        read_greys("map.png", bound);
+        truth_product(&base, "eye.png", "--eye", NULL, false);
+        truth_greys("eye.png", got);
+        truth_product(&base, "map.png", "--eye", NULL, true);
+        truth_greys("map.png", bound);
         used other = {0};
         for (int i = 0; i < PIXELS; i++)
             got[i] = isnan(bound[i]) ? NAN : got[i];
@@ -426,7 +261,7 @@ static void one_image(tally *t, rng *r, const file_kind *k, used *u) {
 
 static void eye_depth_is_within_what_is_said(void **state) {
     (void)state;
-    const uint64_t rounds = test_cases(10, 60, 2000);
+    const uint64_t rounds = test_cases(6, 16, 2000);
     tally t = {.name = "eye depth"};
     rng r = rng_make("image truth");
     used all[KINDS] = {{0}};
@@ -436,29 +271,158 @@ static void eye_depth_is_within_what_is_said(void **state) {
     for (size_t k = 0; k < KINDS; k++) {
         print_message("# %s: %.3f of the bound is used, %llu pixels, %llu masked\n", kinds[k].name, all[k].most,
                       (unsigned long long)all[k].pixels, (unsigned long long)all[k].masked);
-        if (rounds >= 60 && !(all[k].most > 0.4))
+        if (rounds >= 16 && !(all[k].most > 0.4))
             fail_msg("%s: the bound is loose", kinds[k].name);
     }
     tally_end(&t);
 }
 
-static int make_folder(void **state) {
-    (void)state;
-    return mkdtemp(folder) == NULL;
+/* ---- Places and effects ---- */
+
+static const double HALF_HEIGHT = 5, PI = 3.14159265358979323846;
+
+/* The place that pixel i sees at depth z: the camera is at the origin and looks along z. */
+static void place(const camera *c, int i, double z, double out[3]) {
+    const double half = c->ortho ? HALF_HEIGHT : tan(60 * PI / 360), along = c->ortho ? 1 : z;
+    out[0] = (2.0 * (i % WIDTH) + 1 - WIDTH) / WIDTH * half * WIDTH / HEIGHT * along;
+    out[1] = (HEIGHT - 2.0 * (i / WIDTH) - 1) / HEIGHT * half * along;
+    out[2] = z;
 }
 
-static int remove_folder(void **state) {
-    static const char *const names[] = {"in.png",  "in.npy", "eye.npy",   "map.npy", "eye.png",
-                                        "map.png", "said",   "said.json", "b.npy"};
+static double clamp01(double x) {
+    return fmin(fmax(x, 0), 1);
+}
+
+/* The default parameters' formulas. */
+static double fog(const camera *c, double z, double reference) {
+    (void)reference;
+    return clamp01(z / (double)c->f);
+}
+static double intersection(const camera *c, double z, double reference) {
+    (void)c;
+    return clamp01(fabs(reference - z) / 0.1);
+}
+static double scan_line(const camera *c, double z, double reference) {
+    return clamp01(fabs(reference - z) / (double)c->f / 0.01);
+}
+static double motion_blur(const camera *c, double z, double reference) {
+    (void)reference;
+    return 0.1 * 1.7320508075688772 / 2 / (c->ortho ? 1 : z);
+}
+static double depth_of_field(const camera *c, double z, double reference) {
+    return clamp01(fabs(z - reference) / (double)c->f * 10);
+}
+
+static const struct {
+    const char *name;
+    bool compares, finite;
+    double (*of)(const camera *c, double z, double reference);
+} effects[] = {{"fog", false, true, fog},
+               {"intersection", true, false, intersection},
+               {"scan-line", true, true, scan_line},
+               {"motion-blur", false, false, motion_blur},
+               {"depth-of-field", true, true, depth_of_field}};
+enum { EFFECTS = sizeof effects / sizeof effects[0] };
+
+/* A picture of a file of some kind. */
+static void random_image(rng *r, const file_kind *k, camera *c, command *base, double z[PIXELS]) {
+    static double data[PIXELS];
+    *c = draw_camera(r, k->buffer);
+    const int mode = (int)rng_below(r, 2);
+    const bool curved = strcmp(c->mapping, "linear") == 0 || strcmp(c->mapping, "log") == 0;
+    draw(r, c, (int)rng_below(r, PICTURES), z);
+    for (int i = 0; i < PIXELS; i++)
+        truth_store(data, k->type, (size_t)i, k->sample(stored(c, (real)z[i]), window(c, (real)z[i]), mode));
+    const char *path = truth_path(k->file == IMAGE_PNG ? "in.png" : "in.npy");
+    truth_write(path, k->file, k->type, data);
+    base_command(base, c, path, true, !curved);
+}
+
+static double one_place(tally *t, rng *r, const file_kind *k) {
+    camera c;
+    command base;
+    double z[PIXELS], most = 0;
+    float got[3 * PIXELS], bound[PIXELS];
+    random_image(r, k, &c, &base, z);
+    const char *method = rng_below(r, 2) == 0 ? "exact" : "view";
+    truth_product(&base, "place.npy", "--position", method, false);
+    truth_product(&base, "map.npy", "--position", method, true);
+    truth_floats("place.npy", 3, got);
+    truth_floats("map.npy", 1, bound);
+    for (int i = 0; i < PIXELS; i++) {
+        double want[3], off = 0;
+        place(&c, i, z[i], want);
+        for (int a = 0; a < 3; a++)
+            off += ((double)got[3 * i + a] - want[a]) * ((double)got[3 * i + a] - want[a]);
+        off = sqrt(off);
+        if (isnan(got[3 * i])) {
+            TALLY(t, isnan(bound[i]), "a bound %g of no place by %s in %s %s z %g", (double)bound[i], method, k->name, c.mapping, z[i]);
+            continue;
+        }
+        TALLY(t, off <= (double)bound[i], "%s of %s %s by %s: z %.17g is %.9g off, not %.9g", k->name, c.format,
+              c.mapping, method, z[i], off, (double)bound[i]);
+        if (bound[i] > 0 && !isinf(bound[i]))
+            most = fmax(most, off / (double)bound[i]);
+    }
+    return most;
+}
+
+static double one_effect(tally *t, rng *r, const file_kind *k) {
+    camera c;
+    command base, compared;
+    double z[PIXELS], most = 0;
+    float got[PIXELS], bound[PIXELS];
+    char reference[40];
+    random_image(r, k, &c, &base, z);
+    const size_t e = rng_below(r, EFFECTS);
+    if (effects[e].finite && isinf((double)c.f))
+        return 0;
+    const double at = z[rng_below(r, PIXELS)];
+    compared = base;
+    if (effects[e].compares) {
+        snprintf(reference, sizeof reference, "reference=%.17g", at);
+        truth_add(&compared, "--parameter");
+        truth_add(&compared, reference);
+    }
+    truth_product(&compared, "effect.npy", "--effect", effects[e].name, false);
+    truth_product(&base, "map.npy", "--effect", effects[e].name, true);
+    truth_floats("effect.npy", 1, got);
+    truth_floats("map.npy", 1, bound);
+    for (int i = 0; i < PIXELS; i++) {
+        if (isnan(got[i])) {
+            TALLY(t, isnan(bound[i]), "a bound of no effect");
+            continue;
+        }
+        const double off = fmin(255 * fabs((double)got[i] - effects[e].of(&c, z[i], at)), 255);
+        TALLY(t, off <= (double)bound[i], "%s of %s %s: %s at z %.17g is %.9g levels off, not %.9g", k->name, c.format,
+              c.mapping, effects[e].name, z[i], off, (double)bound[i]);
+        if (bound[i] > 0)
+            most = fmax(most, off / (double)bound[i]);
+    }
+    return most;
+}
+
+static void products_are_within_what_is_said(void **state) {
     (void)state;
-    for (size_t i = 0; i < sizeof names / sizeof names[0]; i++)
-        unlink(in_folder(names[i]));
-    return rmdir(folder);
+    const uint64_t rounds = test_cases(2, 6, 1000);
+    tally t = {.name = "products"};
+    rng r = rng_make("image products");
+    double places = 0, levels = 0;
+    for (uint64_t i = 0; i < rounds; i++)
+        for (size_t k = 0; k < KINDS; k++) {
+            places = fmax(places, one_place(&t, &r, &kinds[k]));
+            levels = fmax(levels, one_effect(&t, &r, &kinds[k]));
+        }
+    print_message("# of the bounds of places %.3f is used, of effects %.3f\n", places, levels);
+    assert_true(places > 0.9 && levels > 0.9);
+    tally_end(&t);
 }
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test_setup_teardown(eye_depth_is_within_what_is_said, make_folder, remove_folder),
+        cmocka_unit_test(eye_depth_is_within_what_is_said),
+        cmocka_unit_test(products_are_within_what_is_said),
     };
-    return run_tap(tests);
+    cmocka_set_message_output(CM_OUTPUT_TAP);
+    return cmocka_run_group_tests(tests, truth_folder, truth_folder_end);
 }

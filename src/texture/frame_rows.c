@@ -132,18 +132,21 @@ static void make_position(const frame_row *in) {
 }
 
 static void make_position_error(const frame_row *in) {
+    const bool known = in->frame->scene != NULL;
     ranges last = nothing_yet();
     places(in);
     for (uint32_t x = 0; x < camera_of(in)->width; x++) {
-        const bool known = in->frame->scene != NULL;
-        const double z = isnan(eyes_of(in)[x]) ? (double)NAN
-                         : known               ? truth(in, x).z
-                                               : dp_stored(&camera_of(in)->setup, in->codes[x]);
         const float world[3] = {in->planes[0][x], in->planes[1][x], in->planes[2][x]};
-        double relative[3];
+        double z = NAN, relative[3];
+        if (!isnan(eyes_of(in)[x]))
+            z = known ? truth(in, x).z : dp_stored(&camera_of(in)->setup, in->codes[x]);
+        if (isnan(z)) { /* a hole, not an error without bound */
+            in->out[x] = NAN;
+            continue;
+        }
         exact_place(in, x, z, relative);
         in->out[x] = upwards(position_off(camera_of(in), relative, world) +
-                             (known || isnan(z) ? 0 : range_of(in, &last, x)->reach * stretch(in, x)));
+                             (known ? 0 : range_of(in, &last, x)->reach * stretch(in, x)));
     }
 }
 
