@@ -311,7 +311,7 @@ static void explain(const image *img, finding *f, const extent *e, recognised *o
         return;
     }
     const bool found = e->lo <= e->hi;
-    out->metric = found && e->lo >= 0 && e->hi > 1;
+    out->metric = found && e->hi > 1;
     const char *hint = out->metric                                       ? ": metric depth? --metric 1 reads it"
                        : found && e->lo < 0 && e->lo >= -1 && e->hi <= 1 ? ": OpenGL's NDC?"
                                                                          : "";
