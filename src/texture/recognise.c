@@ -318,7 +318,7 @@ static void explain(const image *img, finding *f, const extent *e, recognised *o
     if (!found)
         say(f, "no window depth: no sample is finite");
     else
-        say(f, "no window depth: %zu of %zu samples are not in [0, 1], finite ones go from %.9g to %.9g%s",
+        say(f, "no window depth: %zu of %zu samples are not in [0, 1], finite ones go from %.6g to %.6g%s",
             out->invalid, out->samples, e->lo, e->hi, hint);
 }
 
