@@ -36,11 +36,11 @@ static void what_the_sky_hides_is_counted(void **state) {
     char words[256];
     long long hidden = 0;
     for (int i = 0; i < PIXELS; i++)
-        hidden += meets(i % WIDTH, i / WIDTH, 900, 150);
+        hidden += meets(i % WIDTH, i / WIDTH, 900, 300);
     assert_true(hidden > 4 && hidden < PIXELS / 2);
     snprintf(
         words, sizeof words,
-        "--scene sphere --parameter distance=900 --parameter radius=150 --size %dx%d -F unorm24 -m d3d --json -o %s",
+        "--scene sphere --parameter distance=900 --parameter radius=300 --size %dx%d -F unorm24 -m d3d --json -o %s",
         WIDTH, HEIGHT, truth_path("said.json"));
     run(words);
     json_t *root = json_load_file(truth_path("said.json"), JSON_REJECT_DUPLICATES, NULL);
