@@ -356,7 +356,8 @@ static double one_place(tally *t, rng *r, const file_kind *k) {
             off += ((double)got[3 * i + a] - want[a]) * ((double)got[3 * i + a] - want[a]);
         off = sqrt(off);
         if (isnan(got[3 * i])) {
-            TALLY(t, isnan(bound[i]), "a bound %g of no place by %s in %s %s z %g", (double)bound[i], method, k->name, c.mapping, z[i]);
+            TALLY(t, isnan(bound[i]), "a bound %g of no place by %s in %s %s z %g", (double)bound[i], method, k->name,
+                  c.mapping, z[i]);
             continue;
         }
         TALLY(t, off <= (double)bound[i], "%s of %s %s by %s: z %.17g is %.9g off, not %.9g", k->name, c.format,
