@@ -7,7 +7,7 @@
 #include "texture/clones.h"
 
 static const double TO_DEGREES = 180 / 3.14159265358979323846;
-static const double LEVELS = 255, ROUNDED = 255 * 0x1p-24; /* an output of at most 1 in binary32 */
+static const double LEVELS = 255, ROUNDED = 255 * 0x1p-24; /* an output of 1 in binary32 */
 
 static const texture_camera *camera_of(const frame_row *in) {
     return in->frame->camera;
@@ -248,7 +248,8 @@ static double effect_error_at(const frame_row *in, ranges *last, const double *a
         for (int i = 0; i < 2; i++)
             depths.beside = fmax(depths.beside, grain_range_of(setup, in->frame->grain, dp_code(setup, ends[i])).reach);
     }
-    return effect_error_within(row, frame_planes(in->frame), at, &depths) + ROUNDED;
+    const double output = row->output(frame_planes(in->frame), at, depths.seen, depths.seen);
+    return effect_error_within(row, frame_planes(in->frame), at, &depths) + ROUNDED * fmax(1, fabs(output));
 }
 
 static void make_effect_error(const frame_row *in) {
