@@ -49,4 +49,6 @@ all_named texture --scene decals --size 64x36
 all_named texture --effect intersection --at 10
 "$DEPTHPREC" texture --scene plane --size 64x36 -F unorm16 -m d3d -o "$scratch/depth.npy"
 all_named texture "$scratch/depth.npy"
+"$DEPTHPREC" texture --scene plane --size 64x36 -F fp32 -m reversed --eye -o "$scratch/metres.npy"
+all_named texture "$scratch/metres.npy" --metric 1
 finish

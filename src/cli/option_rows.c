@@ -396,6 +396,9 @@ const option_row option_rows[OPTION_COUNT] = {
     [OPTION_SKY] = {"sky", 0, "T", VERB_TEXTURE,
         "window depths within T of the far plane's are sky\n"
         "(default 0.0001; 0: the far plane's alone)", parse_sky},
+    [OPTION_METRIC] = {"metric", 0, "SCALE", VERB_TEXTURE,
+        "the samples are eye depths in units of SCALE scene units, and 0,\n"
+        "NaN and infinity are holes: 0.001 for millimetres", parse_metric},
     [OPTION_EYE] = {"eye", 0, NULL, VERB_TEXTURE,
         "product: eye depth", parse_eye},
     [OPTION_RADIAL] = {"radial", 0, NULL, VERB_TEXTURE,

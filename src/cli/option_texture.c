@@ -4,6 +4,7 @@
 #include <string.h>
 
 #include "cli/number.h"
+#include "texture/metric.h"
 
 static int parse_within(option_id id, const char *value, double lo, double hi, const char *allowed, double *out) {
     double number;
@@ -32,6 +33,11 @@ int parse_pitch(options *o, const char *value) {
 
 int parse_sky(options *o, const char *value) {
     return parse_within(OPTION_SKY, value, 0, 0.5, "a window depth from 0 to 0.5", &o->sky);
+}
+
+int parse_metric(options *o, const char *value) {
+    return parse_within(OPTION_METRIC, value, METRIC_SCALE_MIN, METRIC_SCALE_MAX, "from 1e-9 to 1e6 scene units",
+                        &o->metric);
 }
 
 int parse_origin(options *o, const char *value) {

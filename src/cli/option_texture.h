@@ -15,6 +15,7 @@ int parse_scene(options *o, const char *value);
 int parse_size(options *o, const char *value);
 int parse_parameter(options *o, const char *value);
 int parse_sky(options *o, const char *value);
+int parse_metric(options *o, const char *value);
 int parse_eye(options *o, const char *value);
 int parse_radial(options *o, const char *value);
 int parse_position(options *o, const char *value);

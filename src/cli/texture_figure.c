@@ -19,6 +19,7 @@ typedef struct shrinking {
     picture shown;
     bool largest;
     float *fields;
+    uint64_t missing; /* pixels without a value: holes, sky, and what has too few neighbours */
     progress bar;
     uint64_t done;
 } shrinking;
@@ -66,20 +67,16 @@ static bool take(void *context, uint32_t row, uint32_t count, const float *value
     const size_t row_values = (size_t)s->shown.width * (size_t)s->shown.channels;
     for (uint32_t i = 0; i < count; i++)
         take_row(s, row + i, values + i * row_values);
+    for (size_t i = 0; i < count * row_values; i += (size_t)s->shown.channels)
+        s->missing += isnan(values[i]) ? 1 : 0;
     progress_step(&s->bar, s->done += count);
     return true;
 }
 
-static bool has_holes(const shrinking *f) {
-    for (size_t i = 0; i < (size_t)f->shown.columns * (size_t)f->shown.rows * (size_t)f->shown.channels; i++)
-        if (isnan(f->fields[i]))
-            return true;
-    return false;
-}
-
 static void words_of(const options *o, const texture_source *s, const texture_product *p, const shrinking *f,
                      chart *c) {
-    char label[SETUP_LABEL_SIZE], title[sizeof c->title], reduced[96] = "", subtitle[sizeof c->subtitle];
+    char label[SETUP_LABEL_SIZE], title[sizeof c->title], reduced[96] = "", missing[64] = "",
+                                                          subtitle[sizeof c->subtitle];
     const char *slash = s->path != NULL ? strrchr(s->path, '/') : NULL;
     snprintf(title, sizeof title, "%s", p->name);
     if (title[0] >= 'a' && title[0] <= 'z')
@@ -88,12 +85,16 @@ static void words_of(const options *o, const texture_source *s, const texture_pr
         snprintf(reduced, sizeof reduced,
                  f->largest ? "; a point is the largest of %.3g pixels" : "; one of %.3g pixels",
                  (double)s->camera.width / f->shown.columns * s->camera.height / f->shown.rows);
+    if (f->missing > 0)
+        snprintf(missing, sizeof missing, "; hatched: no value, %llu pixels", (unsigned long long)f->missing);
+    setup_label(&s->setup, true, label);
+    if (o->metric > 0)
+        snprintf(label, sizeof label, "metric depth, %g scene units a unit", o->metric);
     snprintf(subtitle, sizeof subtitle, "%s%.100s, %u x %u; %s%s%s", s->path != NULL ? "" : "scene ",
              s->path == NULL ? s->frame.scene->name
              : slash != NULL ? slash + 1
                              : s->path,
-             s->camera.width, s->camera.height, setup_label(&s->setup, true, label), reduced,
-             has_holes(f) ? "; hatched: no value" : "");
+             s->camera.width, s->camera.height, label, reduced, missing);
     notes_clean(c->title, sizeof c->title, o->title != NULL ? o->title : title);
     notes_clean(c->subtitle, sizeof c->subtitle, subtitle);
 }

@@ -24,13 +24,77 @@ static double share(uint64_t part, uint64_t all) {
     return all > 0 ? 100.0 * (double)part / (double)all : 0;
 }
 
+/* How the samples were rounded, where they are coarser than the buffer's codes. */
+static void write_grain(const texture_report *r, output *out) {
+    const grain *g = &r->source->grain;
+    char steps[NUMBER_SIZE];
+    const char *by = g->rounding == GRAIN_ANY       ? "rounded or cut off"
+                     : g->rounding == GRAIN_NEAREST ? "rounded to nearest"
+                                                    : "cut off";
+    if (g->kind == GRAIN_STEPS)
+        output_format(out, "  samples       steps of 1/%s%s, %s: counted in what depths can be off by\n",
+                      number(g->steps, 9, steps),
+                      texture_coarser(r->source)               ? ", coarser than the format"
+                      : r->source->format_from == ORIGIN_GIVEN ? ""
+                                                               : ", of a buffer that may be finer",
+                      by);
+    else if (g->kind == GRAIN_FLOATS && g->bits == 11)
+        output_format(out, "  samples       of %d significant bits, %s: counted in what depths can be off by\n",
+                      g->bits, by);
+}
+
+static void write_readings(const texture_source *s, output *out) {
+    char z[NUMBER_SIZE];
+    for (size_t i = 0; i < s->reading_count; i++) {
+        const texture_reading *reading = &s->readings[i];
+        if (i > 0 && strcmp(s->readings[i - 1].what, reading->what) == 0)
+            output_format(out, ", %s as %s", number(reading->z, 6, z), reading->name);
+        else
+            output_format(out, "%s  pixel         %u,%u is at z = %s as %s", i > 0 ? "\n" : "", s->column, s->row,
+                          number(reading->z, 6, z), reading->name);
+    }
+    if (s->reading_count > 0)
+        output_char(out, '\n');
+}
+
+static void write_origins(const texture_report *r, output *out) {
+    const texture_source *s = r->source;
+    const char *tells = s->path != NULL ? ": --mapping tells" : "";
+    if (s->path != NULL)
+        output_format(out, "  recognised    %s\n", s->found.why);
+    output_format(out, "  format        %s %s", s->setup.spec.format.name, texture_origin_name(s->format_from));
+    if (s->path != NULL && s->found.depth && strcmp(s->found.format.name, s->setup.spec.format.name) != 0)
+        output_format(out, ": the nearest codes are taken of what looks like %s", s->found.format.name);
+    output_char(out, '\n');
+    if (s->path != NULL)
+        write_grain(r, out);
+    output_format(out, "  mapping       %s %s%s\n", dp_mapping_get(s->setup.spec.mapping)->name,
+                  texture_origin_name(s->mapping_from), s->mapping_from == ORIGIN_ASSUMED ? tells : "");
+    if (s->path != NULL && s->direction_from != ORIGIN_GIVEN)
+        output_format(out, "  direction     %s %s\n", s->setup.reversed ? "reversed" : "not reversed",
+                      texture_origin_name(s->direction_from));
+    write_readings(s, out);
+}
+
+static void write_metric(const texture_report *r, output *out) {
+    const texture_source *s = r->source;
+    char scale[NUMBER_SIZE], step[NUMBER_SIZE], far[NUMBER_SIZE];
+    output_format(out, "metric depth, %s scene units a unit, up to %s\n", number(r->o->metric, 6, scale),
+                  number(s->metric.zfar, 6, far));
+    if (s->metric.step > 0)
+        output_format(out, "  samples       steps of %s scene units, rounded or cut off\n",
+                      number(s->metric.step, 6, step));
+    else
+        output_format(out, "  samples       numbers of %d significant bits, rounded or cut off\n", s->grain.bits);
+}
+
 static void write_head(const texture_report *r, output *out) {
     const texture_source *s = r->source;
     char label[SETUP_LABEL_SIZE], value[NUMBER_SIZE];
     if (s->path != NULL) {
         output_format(out, "%s: %u x %u pixels, %s of %s, %u channel%s\n", s->path, s->camera.width, s->camera.height,
-                      image_file_name(s->picture.file), image_type_name(s->picture.type), s->picture.channels,
-                      s->picture.channels == 1 ? "" : "s, the first is read");
+                      image_file_name(s->picture.file), image_type_name(s->type), s->channels,
+                      s->channels == 1 ? "" : "s, the first is read");
     } else {
         output_format(out, "scene %s: %u x %u pixels", s->frame.scene->name, s->camera.width, s->camera.height);
         for (size_t i = 0; i < SCENE_PARAMETERS && s->frame.scene->parameters[i].name != NULL; i++)
@@ -38,30 +102,28 @@ static void write_head(const texture_report *r, output *out) {
                           number(s->parameters[i], 6, value));
         output_char(out, '\n');
     }
-    output_format(out, "%s\n", setup_label(&s->setup, true, label));
-    if (s->path != NULL)
-        output_format(out, "  recognised    %s\n", s->found.why);
-    output_format(out, "  format        %s %s%s", s->setup.spec.format.name, texture_origin_name(s->format_from),
-                  s->format_from == ORIGIN_FOUND && !s->found.certain ? ", not certain" : "");
-    if (s->path != NULL && s->found.depth && strcmp(s->found.format.name, s->setup.spec.format.name) != 0)
-        output_format(out, ": the nearest codes are taken of what looks like %s", s->found.format.name);
-    output_char(out, '\n');
-    output_format(out, "  mapping       %s %s%s\n", dp_mapping_get(s->setup.spec.mapping)->name,
-                  texture_origin_name(s->mapping_from),
-                  s->mapping_from == ORIGIN_ASSUMED && s->path != NULL ? ": --mapping tells" : "");
+    if (r->o->metric > 0) {
+        write_metric(r, out);
+    } else {
+        output_format(out, "%s\n", setup_label(&s->setup, true, label));
+        write_origins(r, out);
+    }
 }
 
 static void write_sky(const texture_report *r, output *out) {
     const survey *v = &r->survey;
     const uint64_t hidden = v->sky - v->true_sky;
     char from[NUMBER_SIZE], limit[NUMBER_SIZE], percent[NUMBER_SIZE];
-    output_format(out, "  sky           %llu pixels, %s %%; depths from %s on are within %s of far and count as sky\n",
-                  (unsigned long long)v->sky, number(share(v->sky, v->pixels), 3, percent),
-                  number(v->sky_from, 6, from), number(r->o->sky, 3, limit));
+    if (r->o->metric == 0)
+        output_format(out,
+                      "  sky           %llu pixels, %s %%; depths from %s on are within %s of far and count as sky\n",
+                      (unsigned long long)v->sky, number(share(v->sky, v->pixels), 3, percent),
+                      number(v->sky_from, 6, from), number(r->o->sky, 3, limit));
     if (r->source->path == NULL && hidden > 0)
         output_format(out, "  hidden        %llu pixels of the scene count as sky\n", (unsigned long long)hidden);
     if (v->invalid > 0)
-        output_format(out, "  invalid       %llu pixels hold no window depth\n", (unsigned long long)v->invalid);
+        output_format(out, "  holes         %llu pixels, %s %%, hold no depth\n", (unsigned long long)v->invalid,
+                      number(share(v->invalid, v->pixels), 3, percent));
 }
 
 static void write_bands(const survey *v, output *out) {
@@ -125,6 +187,23 @@ static void write_text(const texture_report *r, output *out) {
     write_errors(r, out);
 }
 
+/* The window depth between two samples, in steps to 1, or their significant bits. */
+static void json_grain(const texture_report *r, json *j) {
+    const texture_source *s = r->source;
+    const bool eyes = r->o->metric > 0;
+    json_number(j, "metric", eyes ? r->o->metric : (double)NAN);
+    json_object(j, "samples");
+    json_number(j, "step", eyes && s->metric.step > 0 ? s->metric.step : (double)NAN);
+    json_number(j, "steps", !eyes && s->grain.kind == GRAIN_STEPS ? s->grain.steps : (double)NAN);
+    if (s->grain.kind == GRAIN_FLOATS)
+        json_integer(j, "bits", (uint64_t)s->grain.bits);
+    else
+        json_null(j, "bits");
+    json_bool(j, "coarser", !eyes && texture_coarser(s));
+    json_string(j, "rounded", s->grain.kind == GRAIN_CODES ? NULL : grain_rounding_name(s->grain.rounding));
+    json_end(j);
+}
+
 static void json_source(const texture_report *r, json *j) {
     const texture_source *s = r->source;
     json_string(j, "file", s->path);
@@ -140,12 +219,15 @@ static void json_source(const texture_report *r, json *j) {
     json_integer(j, "width", s->camera.width);
     json_integer(j, "height", s->camera.height);
     if (s->path != NULL) {
-        json_string(j, "type", image_type_name(s->picture.type));
-        json_integer(j, "channels", s->picture.channels);
+        json_string(j, "type", image_type_name(s->type));
+        json_integer(j, "channels", s->channels);
+        json_grain(r, j);
+    }
+    if (s->path != NULL && r->o->metric == 0) {
         json_object(j, "recognised");
         json_string(j, "format", s->found.depth ? s->found.format.name : NULL);
         json_bool(j, "certain", s->found.certain);
-        if (s->found.reversed >= 0)
+        if (s->found.direction)
             json_bool(j, "reversed", s->found.reversed == 1);
         else
             json_null(j, "reversed");
@@ -155,6 +237,18 @@ static void json_source(const texture_report *r, json *j) {
     setup_json(j, &s->setup);
     json_string(j, "format_from", texture_origin_name(s->format_from));
     json_string(j, "mapping_from", texture_origin_name(s->mapping_from));
+    json_string(j, "direction_from", texture_origin_name(s->direction_from));
+    json_array(j, "readings");
+    for (size_t i = 0; i < s->reading_count; i++) {
+        json_object(j, NULL);
+        json_string(j, "what", s->readings[i].what);
+        json_string(j, "name", s->readings[i].name);
+        json_integer(j, "column", s->column);
+        json_integer(j, "row", s->row);
+        json_number(j, "z", s->readings[i].z);
+        json_end(j);
+    }
+    json_end(j);
     json_number(j, "fov", s->camera.ortho ? (double)NAN : r->o->camera.fov_y);
     json_number(j, "half_height", s->camera.ortho ? r->o->camera.half_height : (double)NAN);
 }
@@ -216,9 +310,10 @@ static void write_json(const texture_report *r, output *out) {
         json_string(&j, "unit", e->unit);
         json_integer(&j, "pixels", e->sum.count);
         json_integer(&j, "unbounded", e->sum.infinite);
+        json_integer(&j, "masked", r->survey.pixels - e->sum.count - e->sum.infinite);
         json_number(&j, "mean", e->sum.mean);
         json_number(&j, "p99", e->sum.p99);
-        json_number(&j, "max", e->sum.hi);
+        json_number(&j, "max", e->sum.count > 0 ? e->sum.hi : (double)NAN);
         json_integer(&j, "column", e->sum.hi_column);
         json_integer(&j, "row", e->sum.hi_row);
         json_end(&j);
@@ -265,7 +360,7 @@ static bool add_decoding(texture_report *r, const decode_row *row) {
     const frame *f = &r->source->frame;
     const dp_setup *setup = &r->source->setup;
     const uint32_t width = f->camera->width, sky = frame_sky_rank(f);
-    if (r->error_count == REPORT_ERRORS_MAX || !decode_applies(row, setup))
+    if (r->error_count == REPORT_ERRORS_MAX || f->metric || !decode_applies(row, setup))
         return true;
     uint32_t *codes = calloc(width, sizeof *codes);
     float *d = calloc(width, sizeof *d), *got = calloc(width, sizeof *got);

@@ -97,6 +97,12 @@ static int check_together(const options *o) {
         return option_error(OPTION_FOV, "has no meaning with --ortho; --half-height has");
     if (!o->ortho && option_given(o, OPTION_HALF_HEIGHT))
         return option_error(OPTION_HALF_HEIGHT, "needs --ortho");
+    if (o->metric > 0 && !file)
+        return option_error(OPTION_METRIC, "needs FILE");
+    static const option_id window[] = {OPTION_FORMAT, OPTION_MAPPING, OPTION_LOG_C, OPTION_SKY};
+    for (size_t i = 0; o->metric > 0 && i < sizeof window / sizeof window[0]; i++)
+        if (option_given(o, window[i]))
+            return option_error(window[i], "has no meaning with --metric, which is no window depth");
     return EXIT_FINE;
 }
 
@@ -107,14 +113,20 @@ static int read_image(const options *o, texture_source *s) {
         usage_error("%s: %s", s->path, error.text);
         return error.unreadable ? EXIT_IO : EXIT_USAGE;
     }
-    recognise(&s->picture, &s->found);
-    return EXIT_FINE;
+    s->type = s->picture.type;
+    s->channels = s->picture.channels;
+    if (o->metric == 0) {
+        recognise(&s->picture, &s->found);
+        return EXIT_FINE;
+    }
+    const char *wrong = metric_convert(&s->picture, o->metric, &s->metric);
+    return wrong == NULL ? EXIT_FINE : usage_error("%s: no metric depth: %s", s->path, wrong);
 }
 
 /* What the user gave, which may leave a choice; else what was found, else what is usual. */
 static int choose_format(const options *o, texture_source *s, dp_format *out) {
     const bool given = option_given(o, OPTION_FORMAT) || o->preset != NULL;
-    s->format_from = given ? ORIGIN_GIVEN : s->path != NULL ? ORIGIN_FOUND : ORIGIN_ASSUMED;
+    s->format_from = given ? ORIGIN_GIVEN : s->path != NULL && s->found.certain ? ORIGIN_FOUND : ORIGIN_ASSUMED;
     if (!given && s->path != NULL && !s->found.depth)
         return usage_error("%s: cannot be window depth: %s; --format NAME reads it all the same", s->path,
                            s->found.why);
@@ -135,32 +147,55 @@ static int choose_mapping(const options *o, texture_source *s, dp_mapping *out) 
     const bool given = option_given(o, OPTION_MAPPING) || o->preset != NULL;
     if (given && o->mapping_count > 1)
         return option_error(OPTION_MAPPING, "must be one mapping, got %zu", o->mapping_count);
-    const bool told = s->path != NULL && s->found.reversed >= 0;
-    s->mapping_from = given ? ORIGIN_GIVEN : told ? ORIGIN_FOUND : ORIGIN_ASSUMED;
+    /* Nothing in an image tells the curve; what is usual in perspective pictures tells nothing of orthographic ones. */
+    const bool told = s->path != NULL && s->found.reversed >= 0 && !o->ortho;
+    s->mapping_from = given ? ORIGIN_GIVEN : ORIGIN_ASSUMED;
+    s->direction_from = given ? ORIGIN_GIVEN : told && s->found.direction ? ORIGIN_FOUND : ORIGIN_ASSUMED;
     *out = given ? o->mappings[0] : told && s->found.reversed == 1 ? DP_MAPPING_REVERSED : DP_MAPPING_D3D;
     return EXIT_FINE;
 }
 
-static int make_camera(const options *o, texture_source *s) {
+static int make_setup(const options *o, texture_source *s, dp_setup *out) {
     options one = *o;
     setups all = {0};
-    int status = choose_format(o, s, &one.formats[0]);
-    if (status == EXIT_FINE)
+    int status = o->metric > 0 ? EXIT_FINE : choose_format(o, s, &one.formats[0]);
+    if (status == EXIT_FINE && o->metric == 0)
         status = choose_mapping(o, s, &one.mappings[0]);
     one.format_count = one.mapping_count = 1;
     if (status == EXIT_FINE)
         status = setups_make(&one, &all);
     if (status != EXIT_FINE)
         return status;
-    s->setup = all.items[0];
+    *out = all.items[0];
     setups_release(&all);
+    return EXIT_FINE;
+}
+
+/* Metric depth lies on a lattice of its own; the planes that were given are for effects alone. */
+static int make_camera(const options *o, texture_source *s) {
+    const bool is_metric = o->metric > 0;
+    int status = make_setup(o, s, is_metric ? &s->planes : &s->setup);
     camera_spec spec = o->camera;
     if (s->path != NULL) {
         spec.width = s->picture.width;
         spec.height = s->picture.height;
     }
-    const char *wrong = camera_init(&s->camera, &s->setup, &spec);
-    return wrong == NULL ? EXIT_FINE : usage_error("texture: %s", wrong);
+    if (status != EXIT_FINE)
+        return status;
+    const char *wrong = camera_init(&s->camera, is_metric ? &s->planes : &s->setup, &spec);
+    if (wrong != NULL)
+        return usage_error("texture: %s", wrong);
+    if (is_metric) {
+        dp_spec lattice = dp_spec_default();
+        lattice.znear = s->metric.znear;
+        lattice.zfar = s->metric.zfar;
+        lattice.mapping = DP_MAPPING_LINEAR;
+        lattice.format = s->metric.format;
+        if (dp_setup_init(&s->setup, &lattice) != DP_OK)
+            return usage_error("%s: no metric depth: its depths are too small or too large for --metric", s->path);
+        s->camera.setup = s->setup;
+    }
+    return EXIT_FINE;
 }
 
 int texture_source_open(const options *o, texture_source *s) {
@@ -173,10 +208,18 @@ int texture_source_open(const options *o, texture_source *s) {
         status = read_image(o, s);
     if (status == EXIT_FINE)
         status = make_camera(o, s);
+    if (status == EXIT_FINE && s->path != NULL) {
+        texture_grain(o, s);
+        texture_readings(o, s);
+        texture_warn(o, s);
+    }
     s->frame = (frame){.camera = &s->camera,
                        .image = s->path != NULL ? &s->picture : NULL,
                        .scene = scene,
                        .parameters = s->parameters,
+                       .grain = s->path != NULL ? &s->grain : NULL,
+                       .metric = o->metric > 0,
+                       .planes = o->metric > 0 ? &s->planes : NULL,
                        .sky = o->sky,
                        .threads = o->threads};
     return status;

@@ -5,16 +5,34 @@
 
 #include "cli/options.h"
 #include "texture/frame.h"
+#include "texture/metric.h"
 #include "texture/recognise.h"
 
 /** How a name came about. */
 typedef enum texture_origin { ORIGIN_GIVEN = 0, ORIGIN_FOUND, ORIGIN_ASSUMED } texture_origin;
 
+/** How the pixel that is named would be read otherwise. */
+typedef struct texture_reading {
+    const char *what; /**< "mapping" or "format" */
+    const char *name;
+    double z; /**< eye depth; NaN where it has none */
+} texture_reading;
+
+enum { READINGS_MAX = 8 };
+
 typedef struct texture_source {
     const char *path; /**< null for a scene */
     image picture;
     recognised found;
-    texture_origin format_from, mapping_from;
+    texture_origin format_from, mapping_from, direction_from;
+    image_type type; /**< of the file, where --metric has changed the picture's */
+    uint32_t channels;
+    metric metric;        /**< with --metric */
+    grain grain;          /**< of an image */
+    size_t reading_count; /**< 0 where nothing is assumed that would be read otherwise */
+    texture_reading readings[READINGS_MAX];
+    uint32_t column, row; /**< the pixel of the readings */
+    dp_setup planes;      /**< with --metric: what --near and --far say */
     double parameters[SCENE_PARAMETERS];
     dp_setup setup;
     texture_camera camera;
@@ -27,6 +45,18 @@ const char *texture_origin_name(texture_origin origin);
 /** Reads the image or prepares the scene. @return an exit status, after one line on stderr */
 int texture_source_open(const options *o, texture_source *out);
 void texture_source_close(texture_source *s);
+
+/** Fills in grain: how the samples were rounded, which is said in `why` of what was found. */
+void texture_grain(const options *o, texture_source *s);
+
+/** Whether the samples are coarser than the format, and not by its own steps. */
+bool texture_coarser(const texture_source *s);
+
+/** Fills in the readings of a pixel. */
+void texture_readings(const options *o, texture_source *s);
+
+/** One line on stderr about what is assumed, if anything is. */
+void texture_warn(const options *o, const texture_source *s);
 
 /** Does the scene of --scene have a parameter of this name? Then parameters not taken are the effect's. */
 bool texture_scene_takes(const options *o, const char *name);

@@ -22,6 +22,8 @@ typedef struct writing {
     const texture_source *source;
     void *row;        /* room for a row of the file's samples */
     double lo, scale; /* of the 16 bits of a PNG */
+    bool upwards;     /* an error must not come back smaller, */
+    double more;      /* and has to hold for the product in 16 bits, which is rounded, too */
     image_type type;  /* depth images: */
     uint32_t *codes;
     progress bar;
@@ -71,12 +73,13 @@ static bool bottom_up(const writing *w) {
     return w->writer != NULL && image_writer_bottom_up(w->writer);
 }
 
-/* 0 is kept for pixels that have no value. */
+/* 0 is kept for pixels that have no value, and for errors without a bound. */
 static void to_greys(const writing *w, const float *values) {
     uint16_t *out = w->row;
     for (size_t i = 0; i < w->row_values; i++) {
-        const double share = fmin(fmax(((double)values[i] - w->lo) * w->scale, 0), 1);
-        out[i] = isnan(values[i]) ? 0 : (uint16_t)(1 + lrint(share * (GREYS - 1)));
+        const double share = fmin(fmax(((double)values[i] + w->more - w->lo) * w->scale, 0), 1) * (GREYS - 1);
+        const double grey = w->upwards ? fmin(ceil(share * (1 + 0x1p-48)), GREYS - 1) : rint(share);
+        out[i] = !isfinite(values[i]) ? 0 : (uint16_t)(1 + grey);
     }
 }
 
@@ -94,13 +97,40 @@ static bool take(void *context, uint32_t row, uint32_t count, const float *value
     return true;
 }
 
+/*
+ * The product in 16 bits is off by half a grey more; a place in all three coordinates, and a normal by the angle that
+ * three such differences of a unit vector can make.
+ */
+static bool rounding_of_product(const texture_source *s, const texture_product *p, double *more) {
+    static const double factors[FRAME_KINDS] = {[FRAME_EYE] = 1,
+                                                [FRAME_POSITION] = 1.7320508075688774,
+                                                [FRAME_NORMAL] = 1.74 * 57.29577951308233,
+                                                [FRAME_EFFECT] = 255};
+    frame_product plain = p->made;
+    frame_summary sum = {.lo = -1, .hi = 1, .count = 1};
+    plain.error = false;
+    /* Without what it compares with an effect has no product yet; it will be from 0 to 1. */
+    const bool open = p->made.kind == FRAME_EFFECT && p->made.effect->reference != NULL;
+    *more = 0;
+    if (open)
+        sum.lo = 0;
+    else if (p->made.kind != FRAME_NORMAL && !frame_summarise(&s->frame, &plain, &sum))
+        return false;
+    if (sum.count > 0)
+        *more = factors[p->made.kind] * (sum.hi - sum.lo) / (2.0 * (GREYS - 1)) * (1 + 0x1p-20);
+    return true;
+}
+
 /* What the samples of a PNG mean; normals have their range by nature, all else that of what was found. */
 static bool scale_of(const texture_source *s, const texture_product *p, writing *w, double *hi) {
     frame_summary sum = {.lo = -1, .hi = 1, .count = 1};
     if ((p->made.kind != FRAME_NORMAL || p->made.error) && !frame_summarise(&s->frame, &p->made, &sum))
         return false;
+    w->upwards = p->made.error;
+    if (p->made.error && !rounding_of_product(s, p, &w->more))
+        return false;
     w->lo = sum.count == 0 ? 0 : p->made.error ? 0 : sum.lo;
-    *hi = sum.count == 0 ? 1 : sum.hi;
+    *hi = (sum.count == 0 ? 1 : sum.hi) + w->more;
     w->scale = *hi > w->lo ? 1 / (*hi - w->lo) : 0;
     return true;
 }
@@ -122,8 +152,8 @@ int texture_product_write(const options *o, const texture_source *s, const textu
         number_shortest(lo, from);
         number_shortest(hi, to);
         if (status == EXIT_FINE && png && !o->quiet)
-            fprintf(stderr, "depthprec: %s: 1 is %s, 65535 is %s%s%s, 0 where there is no value\n", o->output, from, to,
-                    *p->unit != '\0' ? " " : "", p->unit);
+            fprintf(stderr, "depthprec: %s: 1 is %s, 65535 is %s%s%s, 0 where there is no %s\n", o->output, from, to,
+                    *p->unit != '\0' ? " " : "", p->unit, p->made.error ? "bound" : "value");
     }
     free(w);
     return status;

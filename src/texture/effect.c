@@ -318,6 +318,22 @@ double effect_error(const effect_row *row, const dp_setup *setup, const double *
     return has_error(&at) ? error_in(&at, parameters) : (double)NAN;
 }
 
+double effect_error_within(const effect_row *row, const dp_setup *setup, const double *parameters,
+                           const effect_depths *depths) {
+    const place at = {.row = row,
+                      .setup = setup,
+                      .cell = {.stored = depths->seen, .lo = depths->lo, .hi = depths->hi},
+                      .first = depths->lo,
+                      .last = depths->hi};
+    if (!has_error(&at))
+        return NAN;
+    if (row->kind != EFFECT_STEP)
+        return error_in(&at, parameters);
+    const double off = depths->beside + fmax(depths->seen - depths->lo, depths->hi - depths->seen);
+    return fabs(parameters[EDGE_SLOPE] - parameters[EDGE_THRESHOLD] * setup->spec.zfar) <= off * (1 + 0x1p-40) ? LEVELS
+                                                                                                               : 0;
+}
+
 /* The closed form is off by its rounding: goes to the last value that is usable, as effect_error() sees it. */
 static void settle(const place *at, double *p, double levels) {
     enum { STEPS = 64 };

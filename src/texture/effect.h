@@ -80,6 +80,21 @@ bool effect_applies(const effect_row *row, const dp_setup *setup);
  */
 double effect_error(const effect_row *row, const dp_setup *setup, const double *parameters, double z);
 
+/** What is known of the depth behind a pixel, in place of a cell. */
+typedef struct effect_depths {
+    double seen;   /**< what the effect gets */
+    double lo, hi; /**< between which it truly lies */
+    double beside; /**< EFFECT_STEP: how far the other pixel's depth can be off, that of a plane `slope` behind */
+} effect_depths;
+
+/**
+ * As effect_error(), over these depths. EFFECT_STEP: 255 wherever the two pixels could give another answer than the
+ * plane does.
+ * @param setup  for its planes alone
+ */
+double effect_error_within(const effect_row *row, const dp_setup *setup, const double *parameters,
+                           const effect_depths *depths);
+
 /**
  * The end of the usable values of the wanted parameter: the smallest (row->smallest) from which on, or the largest up
  * to which, every value of the range keeps the error at z at most `levels`. Found in closed form, then settled to the

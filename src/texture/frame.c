@@ -17,6 +17,8 @@ enum { STRIP_PIXELS = 1 << 18, STRIP_ROWS_MIN = 8, AROUND = 2 * NORMAL_REACH };
 uint32_t frame_sky_rank(const frame *f) {
     const dp_setup *setup = &f->camera->setup;
     const dp_format *format = &setup->spec.format;
+    if (f->metric)
+        return format->code_max + 1;
     const double edge = setup->reversed ? f->sky : 1 - f->sky;
     uint32_t rank = frame_rank(setup, dp_format_encode(format, DP_ROUND_NEAREST, edge));
     const uint32_t far = frame_rank(setup, setup->code_far);
@@ -46,11 +48,14 @@ int frame_channels(const frame_product *product) {
     return vector && !product->error ? 3 : 1;
 }
 
+const dp_setup *frame_planes(const frame *f) {
+    return f->planes != NULL ? f->planes : &f->camera->setup;
+}
+
 const char *frame_refuses(const frame *f, const frame_product *product) {
-    const dp_setup *setup = &f->camera->setup;
     if (product->kind == FRAME_POSITION && product->position != NULL && !position_applies(product->position, f->camera))
         return "this method has no form for the projection and mapping";
-    if (product->kind == FRAME_EFFECT && !effect_applies(product->effect, setup))
+    if (product->kind == FRAME_EFFECT && !effect_applies(product->effect, frame_planes(f)))
         return "this effect needs a finite far plane";
     if (product->kind == FRAME_NORMAL && product->error && f->scene == NULL &&
         strcmp(product->normal->name, "projective") != 0)

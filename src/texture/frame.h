@@ -13,6 +13,7 @@
 
 #include "texture/camera.h"
 #include "texture/effect.h"
+#include "texture/grain.h"
 #include "texture/image.h"
 #include "texture/normal.h"
 #include "texture/position.h"
@@ -24,13 +25,16 @@ typedef struct frame {
     const image *image;           /**< null for a scene */
     const scene_row *scene;
     const double *parameters; /**< of the scene */
+    const grain *grain;       /**< of an image: how it was rounded; null: its samples are codes */
+    bool metric;              /**< the samples are eye depths, none of them sky; the camera's set-up is their lattice */
+    const dp_setup *planes;   /**< metric: the planes that effects use; else null: the camera's */
     double sky;               /**< window depths this close to the far plane's are sky, [0, 0.5] */
     int threads;              /**< 0: as many as there are cores */
 } frame;
 
 /**
  * Codes ordered by distance: the rank of a code is the code, or code_max - code in a reversed set-up. Ranks from
- * frame_sky_rank() on are sky: their values are within frame->sky of the far plane's.
+ * frame_sky_rank() on are sky: their values are within frame->sky of the far plane's. Metric: code_max + 1.
  */
 uint32_t frame_sky_rank(const frame *f);
 static inline uint32_t frame_rank(const dp_setup *setup, uint32_t code) {
@@ -39,6 +43,9 @@ static inline uint32_t frame_rank(const dp_setup *setup, uint32_t code) {
 static inline uint32_t frame_code(const dp_setup *setup, uint32_t rank) {
     return frame_rank(setup, rank);
 }
+
+/** The set-up whose planes effects use. */
+const dp_setup *frame_planes(const frame *f);
 
 /** How many threads it runs on. */
 int frame_threads(const frame *f);
@@ -55,10 +62,12 @@ typedef struct frame_product {
      * The error in place of the product, one number a pixel. For a scene what is off from the truth; for an image,
      * whose truth is not known, what it can be off:
      *
-     *     eye       |stored - z|; image: from the stored depth to the farther end of its cell
-     *     position  distance from the true place; image: |method - exact| and the cell's reach along the ray
+     *     eye       |product - z|; image: |product - stored|, and from there to the farther end of its range
+     *     position  distance from the true place; image: |method - exact| and the range's reach along the ray
      *     normal    angle to the true normal, degrees; image: the bound of the method "projective" on a plane
      *     effect    levels of 1/255
+     *
+     * Ranges are those of grain_range_of(). Errors are rounded up to binary32.
      */
     bool error;
     bool radial;                   /**< FRAME_EYE: distance from the camera in place of eye depth */

@@ -7,6 +7,7 @@
 #include "texture/clones.h"
 
 static const double TO_DEGREES = 180 / 3.14159265358979323846;
+static const double LEVELS = 255, ROUNDED = 255 * 0x1p-24; /* an output of 1 in binary32 */
 
 static const texture_camera *camera_of(const frame_row *in) {
     return in->frame->camera;
@@ -30,28 +31,29 @@ static scene_hit truth(const frame_row *in, uint32_t x) {
     return hit;
 }
 
-/* How far the depth that was stored as a code can be from what the code gives back. A cell narrower than the spacing of
-   doubles is all that is known of it. */
-static double reach(const dp_setup *setup, uint32_t code) {
-    const dp_cell cell = dp_cell_of(setup, code);
-    return fmin(cell.width, fmax(dp_error(setup, code, cell.lo), -dp_error(setup, code, cell.hi)));
-}
-
-/* Neighbours often share a code. */
-typedef struct reaches {
+/* What a code says of the depth. Neighbours often share one. */
+typedef struct ranges {
     uint32_t code;
-    double value;
-} reaches;
+    grain_range range;
+} ranges;
 
-static double reach_of(const frame_row *in, reaches *last, uint32_t x) {
+static const grain_range *range_of(const frame_row *in, ranges *last, uint32_t x) {
     const uint32_t code = in->codes[x];
     if (code != last->code)
-        *last = (reaches){code, reach(&camera_of(in)->setup, code)};
-    return last->value;
+        *last = (ranges){code, grain_range_of(&camera_of(in)->setup, in->frame->grain, code)};
+    return &last->range;
 }
 
-static reaches nothing_yet(void) {
-    return (reaches){UINT32_MAX, NAN};
+static ranges nothing_yet(void) {
+    return (ranges){.code = UINT32_MAX};
+}
+
+/* An error map must not be below the error: the nearest binary32 number that is not. A few roundings to double came
+   before. */
+static float upwards(double error) {
+    const double most = error * (1 + 0x1p-48);
+    const float nearest = (float)most;
+    return (double)nearest < most ? nextafterf(nearest, (float)INFINITY) : nearest;
 }
 
 TEXTURE_CLONES static void interleave_planes(const float *restrict x, const float *restrict y, const float *restrict z,
@@ -80,15 +82,22 @@ static void make_eye(const frame_row *in) {
         in->out[x] = (float)((double)in->out[x] * stretch(in, x));
 }
 
+/* What the product has lost in binary32, and how far what is stored is off: of a scene the latter alone, exactly. */
 static void make_eye_error(const frame_row *in) {
-    reaches last = nothing_yet();
+    const dp_setup *setup = &camera_of(in)->setup;
+    ranges last = nothing_yet();
     for (uint32_t x = 0; x < camera_of(in)->width; x++) {
-        const double z = in->frame->scene != NULL ? truth(in, x).z : (double)eyes_of(in)[x];
+        const double along = in->product->radial ? stretch(in, x) : 1;
         double error = NAN;
-        if (!isnan(z))
-            error = in->frame->scene != NULL ? fabs(dp_error(&camera_of(in)->setup, in->codes[x], z))
-                                             : reach_of(in, &last, x);
-        in->out[x] = (float)(in->product->radial ? error * stretch(in, x) : error);
+        if (in->frame->scene != NULL) {
+            const double z = truth(in, x).z;
+            error = isnan(z) ? (double)NAN : fabs(dp_error(setup, in->codes[x], z)) * along;
+        } else if (!isnan(eyes_of(in)[x])) {
+            const float eye = eyes_of(in)[x], product = in->product->radial ? (float)((double)eye * along) : eye;
+            error =
+                fabs((double)product - dp_stored(setup, in->codes[x]) * along) + range_of(in, &last, x)->reach * along;
+        }
+        in->out[x] = upwards(error);
     }
 }
 
@@ -123,18 +132,21 @@ static void make_position(const frame_row *in) {
 }
 
 static void make_position_error(const frame_row *in) {
-    reaches last = nothing_yet();
+    const bool known = in->frame->scene != NULL;
+    ranges last = nothing_yet();
     places(in);
     for (uint32_t x = 0; x < camera_of(in)->width; x++) {
-        const bool known = in->frame->scene != NULL;
-        const double z = isnan(eyes_of(in)[x]) ? (double)NAN
-                         : known               ? truth(in, x).z
-                                               : dp_stored(&camera_of(in)->setup, in->codes[x]);
         const float world[3] = {in->planes[0][x], in->planes[1][x], in->planes[2][x]};
-        double relative[3];
+        double z = NAN, relative[3];
+        if (!isnan(eyes_of(in)[x]))
+            z = known ? truth(in, x).z : dp_stored(&camera_of(in)->setup, in->codes[x]);
+        if (isnan(z)) { /* a hole, not an error without bound */
+            in->out[x] = NAN;
+            continue;
+        }
         exact_place(in, x, z, relative);
-        in->out[x] = (float)(position_off(camera_of(in), relative, world) +
-                             (known || isnan(z) ? 0 : reach_of(in, &last, x) * stretch(in, x)));
+        in->out[x] = upwards(position_off(camera_of(in), relative, world) +
+                             (known ? 0 : range_of(in, &last, x)->reach * stretch(in, x)));
     }
 }
 
@@ -153,7 +165,9 @@ static void make_normal(const frame_row *in) {
 static double plane_bound(const frame_row *in, uint32_t x, const double found[3]) {
     const texture_camera *c = camera_of(in);
     const normal_plane plane = normal_plane_at(c, x, in->row, dp_stored(&c->setup, in->codes[x]), found);
-    const double error = normal_plane_error(c, x, in->row, &plane, DP_BATCH_EYE_ERROR);
+    const double error = in->frame->scene != NULL
+                             ? normal_plane_error(c, x, in->row, &plane, DP_BATCH_EYE_ERROR)
+                             : normal_plane_error_of(c, in->frame->grain, x, in->row, &plane, DP_BATCH_EYE_ERROR);
     return isinf(error) ? (double)NAN : normal_plane_bound(c, x, in->row, &plane, error);
 }
 
@@ -168,7 +182,7 @@ static void make_normal_error(const frame_row *in) {
         } else if (!isnan(found[0])) {
             angle = plane_bound(in, x, found);
         }
-        in->out[x] = (float)(angle * TO_DEGREES);
+        in->out[x] = upwards(angle * TO_DEGREES);
     }
 }
 
@@ -199,7 +213,7 @@ static const double *settings_at(const frame_row *in, settings *s, uint32_t x) {
 static double step(const frame_row *in, const double *at, uint32_t x) {
     const float *here = eyes_of(in), *below = in->eyes[NORMAL_REACH + 1];
     const effect_row *row = in->product->effect;
-    const dp_setup *setup = &camera_of(in)->setup;
+    const dp_setup *setup = frame_planes(in->frame);
     const double a = row->output(setup, at, here[x], below[x + 1]);
     const double b = row->output(setup, at, here[x + 1], below[x]);
     return isnan(a) || isnan(b) ? (double)NAN : fmax(a, b);
@@ -214,25 +228,41 @@ static void make_effect(const frame_row *in) {
         if (!isnan(z) && row->kind == EFFECT_STEP)
             value = step(in, at, x);
         else if (!isnan(z))
-            value = row->output(&camera_of(in)->setup, at, z, in->product->reference);
+            value = row->output(frame_planes(in->frame), at, z, in->product->reference);
         in->out[x] = (float)value;
     }
 }
 
-static void make_effect_error(const frame_row *in) {
+/* Of an image the depths that it leaves open; of a scene those of the cell. */
+static double effect_error_at(const frame_row *in, ranges *last, const double *at, uint32_t x) {
     const dp_setup *setup = &camera_of(in)->setup;
+    const effect_row *row = in->product->effect;
+    if (in->frame->scene != NULL)
+        return effect_error(row, setup, at,
+                            fmin(fmax(dp_stored(setup, in->codes[x]), setup->spec.znear), setup->spec.zfar));
+    const grain_range *range = range_of(in, last, x);
+    effect_depths depths = {.seen = (double)eyes_of(in)[x], .lo = range->lo, .hi = range->hi};
+    if (row->kind == EFFECT_STEP) {
+        const double slope = at[effect_parameter_find(row, "slope")];
+        const double ends[2] = {range->lo + slope, fmin(range->hi + slope, setup->spec.zfar)};
+        for (int i = 0; i < 2; i++)
+            depths.beside = fmax(depths.beside, grain_range_of(setup, in->frame->grain, dp_code(setup, ends[i])).reach);
+    }
+    const double output = row->output(frame_planes(in->frame), at, depths.seen, depths.seen);
+    return effect_error_within(row, frame_planes(in->frame), at, &depths) + ROUNDED * fmax(1, fabs(output));
+}
+
+static void make_effect_error(const frame_row *in) {
     settings s = settings_of(in);
-    double last = NAN;
+    ranges last = nothing_yet();
     for (uint32_t x = 0; x < camera_of(in)->width; x++) {
         const double *at = settings_at(in, &s, x);
-        const double z = fmin(fmax(dp_stored(setup, in->codes[x]), setup->spec.znear), setup->spec.zfar);
         if (isnan(eyes_of(in)[x]))
             in->out[x] = NAN;
-        else if (x > 0 && z == last && s.rise < 0)
+        else if (x > 0 && in->codes[x] == in->codes[x - 1] && s.rise < 0)
             in->out[x] = in->out[x - 1];
         else
-            in->out[x] = (float)effect_error(in->product->effect, setup, at, z);
-        last = isnan(in->out[x]) ? (double)NAN : z;
+            in->out[x] = upwards(fmin(effect_error_at(in, &last, at, x), LEVELS));
     }
 }
 

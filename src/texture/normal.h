@@ -15,6 +15,7 @@
 #include <stdint.h>
 
 #include "texture/camera.h"
+#include "texture/grain.h"
 
 /** Pixels that a method looks at in each direction, at most. */
 enum { NORMAL_REACH = 4 };
@@ -84,6 +85,10 @@ double normal_plane_depth(const texture_camera *camera, const normal_plane *plan
  */
 double normal_plane_error(const texture_camera *camera, uint32_t column, uint32_t row, const normal_plane *plane,
                           double reading);
+
+/** The same for samples of an image, which say less of the depth: see grain.h. Null: they are codes. */
+double normal_plane_error_of(const texture_camera *camera, const grain *g, uint32_t column, uint32_t row,
+                             const normal_plane *plane, double reading);
 
 /**
  * The largest angular error, radians, that the method "projective" can make on a plane, whichever sides it takes, when

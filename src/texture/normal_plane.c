@@ -50,27 +50,58 @@ double normal_plane_depth(const texture_camera *camera, const normal_plane *plan
 
 /* ---- The error of the stored depths ----------------------------------------------------------------------------- */
 
-static double stored_error(const texture_camera *camera, double z, double reading) {
-    const dp_setup *setup = &camera->setup;
-    if (!(z >= setup->spec.znear && z <= setup->spec.zfar))
-        return INFINITY;
-    const dp_cell cell = dp_cell_of(setup, dp_code(setup, z));
+static double range_error(const texture_camera *camera, double stored, double lo, double hi, double reading) {
     if (camera->ortho)
-        return fmax(cell.stored - cell.lo, cell.hi - cell.stored) + reading * cell.stored;
-    const double w = 1 / cell.stored; /* 0 at an infinite far plane */
-    return fmax(1 / cell.lo - w, w - 1 / cell.hi) + reading * w;
+        return fmax(stored - lo, hi - stored) + reading * stored;
+    const double w = 1 / stored; /* 0 at an infinite far plane */
+    return fmax(1 / lo - w, w - 1 / hi) + reading * w;
 }
 
-double normal_plane_error(const texture_camera *camera, uint32_t column, uint32_t row, const normal_plane *plane,
-                          double reading) {
+static double cell_error(const texture_camera *camera, const grain *g, double z, double reading) {
+    const dp_cell cell = dp_cell_of(&camera->setup, dp_code(&camera->setup, z));
+    (void)g;
+    return range_error(camera, cell.stored, cell.lo, cell.hi, reading);
+}
+
+/* What the image holds of a depth at z may be any sample whose range has z: that of z's code, or one at its ends. */
+static double grain_error(const texture_camera *camera, const grain *g, double z, double reading) {
+    const dp_setup *setup = &camera->setup;
+    const grain_range own = grain_range_of(setup, g, dp_code(setup, z));
+    const double at[3] = {z, own.lo, own.hi};
+    double worst = 0;
+    for (int i = 0; i < 3; i++) {
+        const uint32_t code = dp_code(setup, at[i]);
+        const grain_range range = grain_range_of(setup, g, code);
+        worst = fmax(worst, range_error(camera, dp_stored(setup, code), range.lo, range.hi, reading));
+    }
+    return worst;
+}
+
+typedef double error_at(const texture_camera *camera, const grain *g, double z, double reading);
+
+static double worst_error(const texture_camera *camera, error_at *error, const grain *g, uint32_t column, uint32_t row,
+                          const normal_plane *plane, double reading) {
+    const dp_spec *spec = &camera->setup.spec;
     double worst = 0;
     for (int i = 0; i < 5; i++) {
         const int x = (i == 2) - (i == 1), y = (i == 4) - (i == 3);
         const double c = (double)column + x, r = (double)row + y;
-        if (c >= 0 && c < camera->width && r >= 0 && r < camera->height)
-            worst = fmax(worst, stored_error(camera, normal_plane_depth(camera, plane, c, r), reading));
+        if (!(c >= 0 && c < camera->width && r >= 0 && r < camera->height))
+            continue;
+        const double z = normal_plane_depth(camera, plane, c, r);
+        worst = z >= spec->znear && z <= spec->zfar ? fmax(worst, error(camera, g, z, reading)) : (double)INFINITY;
     }
     return worst;
+}
+
+double normal_plane_error(const texture_camera *camera, uint32_t column, uint32_t row, const normal_plane *plane,
+                          double reading) {
+    return worst_error(camera, cell_error, NULL, column, row, plane, reading);
+}
+
+double normal_plane_error_of(const texture_camera *camera, const grain *g, uint32_t column, uint32_t row,
+                             const normal_plane *plane, double reading) {
+    return worst_error(camera, grain_error, g, column, row, plane, reading);
 }
 
 /* ---- The bound -------------------------------------------------------------------------------------------------- */

@@ -13,7 +13,7 @@
 #include "texture/clones.h"
 #include "texture/recognise_lattice.h"
 
-enum { BLOCK = 2048, FP16_ONE = 0x3C00, WIDENED = 257, REASON_SIZE = 160 };
+enum { BLOCK = 2048, FP16_ONE = 0x3C00, WIDENED = 257, REASON_SIZE = 192 };
 #define FP32_ONE    UINT32_C(0x3F800000)
 #define FP32_LEAST  UINT32_C(0x2F800000) /* bits of 2^-32: images of fp32 have something nearer */
 #define UNORM24_MAX UINT32_C(0xFFFFFF)
@@ -34,6 +34,38 @@ static void say(finding *f, const char *format, ...) {
     va_start(arguments, format);
     vsnprintf(f->reason, sizeof f->reason, format, arguments);
     va_end(arguments);
+}
+
+/* ---- Holes ------------------------------------------------------------------------------------------------------- */
+
+/* Of finite numbers. */
+typedef struct extent {
+    double lo, hi;
+    size_t outside; /* of [0, 1] */
+} extent;
+
+double recognise_half(uint16_t bits) {
+    const int exponent = bits >> 10 & 31, fraction = bits & 1023;
+    const double size = exponent == 31  ? (double)NAN
+                        : exponent == 0 ? ldexp(fraction, -24)
+                                        : ldexp(1024 + fraction, exponent - 25);
+    return bits >> 15 ? -size : size;
+}
+
+static extent extent_of(const image *img) {
+    const size_t count = (size_t)img->width * img->height, step = img->channels;
+    extent e = {(double)INFINITY, -(double)INFINITY, 0};
+    for (size_t i = 0; i < count; i++) {
+        const double x = img->type == IMAGE_F64   ? ((const double *)img->data)[i * step]
+                         : img->type == IMAGE_F32 ? (double)((const float *)img->data)[i * step]
+                                                  : recognise_half(((const uint16_t *)img->data)[i * step]);
+        if (!isfinite(x))
+            continue;
+        e.lo = fmin(x, e.lo);
+        e.hi = fmax(x, e.hi);
+        e.outside += x < 0 || x > 1;
+    }
+    return e;
 }
 
 /* ---- Integers ---------------------------------------------------------------------------------------------------- */
@@ -67,11 +99,11 @@ static void judge_bytes(const image *img, finding *f) {
 static void judge_words(const image *img, finding *f) {
     const bits_seen s = look_at_bits(img);
     f->which = LATTICE_UNORM16;
-    f->sure = s.most > FP16_ONE && !s.widened;
     if (s.widened)
         say(f, "16 bits that repeat 8, fewer than any depth format has");
     else if (s.most > FP16_ONE)
-        say(f, "codes of unorm16 up to %u, fp16 has none above %d", s.most, FP16_ONE);
+        say(f, "codes of unorm16 up to %u, fp16 has none above %d; of a finer buffer 16 bits are left", s.most,
+            FP16_ONE);
     else
         say(f, "codes up to %u%s, of unorm16 or of fp16", s.most, s.most == FP16_ONE ? ", which is 1 in fp16" : "");
 }
@@ -107,8 +139,7 @@ static void judge_longs(const image *img, finding *f) {
 static void judge_halves(const image *img, finding *f) {
     (void)img;
     f->which = LATTICE_FP16;
-    f->sure = true;
-    say(f, "numbers of fp16");
+    say(f, "numbers of fp16, or rounded to it");
 }
 
 static void count_off(const image *img, void (*count)(const double *, size_t, size_t[LATTICE_COUNT]),
@@ -257,40 +288,53 @@ static const char *direct(const survey *s, recognised *out) {
     if (by_sky >= 0 && by_mass >= 0 && by_sky != by_mass)
         return by_mass ? "near 0 but sky at 1: no direction" : "near 1 but sky at 0: no direction";
     out->reversed = by_mass >= 0 ? by_mass : by_sky;
+    const size_t inner_values = out->distinct - (out->at_zero > 0) - (out->at_one > 0);
+    out->direction = by_sky >= 0 && by_sky == by_mass && other == 0 && 16 * sky >= out->samples &&
+                     sky * inner_values >= 16 * s->inner;
     if (out->reversed < 0)
         return "neither sky nor mass shows a direction";
     if (by_mass < 0)
-        return by_sky ? "sky at 0: reversed" : "sky at 1: not reversed";
+        return by_sky ? "sky at 0: likely reversed" : "sky at 1: likely not reversed";
     if (by_sky < 0)
-        return by_mass ? "most are below 1/4: reversed" : "most are above 3/4: not reversed";
-    return by_mass ? "most are below 1/4, sky at 0: reversed" : "most are above 3/4, sky at 1: not reversed";
+        return by_mass ? "most are below 1/4: likely reversed" : "most are above 3/4: likely not reversed";
+    static const char *const both[2][2] = {
+        {"most are above 3/4, sky at 1: likely not reversed", "most are below 1/4, sky at 0: likely reversed"},
+        {"most are above 3/4, sky at 1: not reversed", "most are below 1/4, sky at 0: reversed"}};
+    return both[out->direction][by_mass];
 }
 
 /* ---- Numbers that are no window depth -----------------------------------------------------------------------------*/
 
-static void explain_outside(const image *img, finding *f, const recognised *out) {
-    const size_t count = (size_t)img->width * img->height, step = img->channels;
-    double lo = (double)INFINITY, hi = -(double)INFINITY;
-    for (size_t i = 0; i < count; i++) {
-        const float *single = img->data;
-        const double *wide = img->data;
-        const double x = img->type == IMAGE_F64 ? wide[i * step] : (double)single[i * step];
-        lo = isfinite(x) && x < lo ? x : lo;
-        hi = isfinite(x) && x > hi ? x : hi;
+static void explain(const image *img, finding *f, const extent *e, recognised *out) {
+    if (img->type < IMAGE_F16) {
+        say(f, "no window depth: %zu of %zu samples are not in [0, 1]", out->invalid, out->samples);
+        return;
     }
-    const char *hint = lo >= 0 && hi > 1 ? ": eye depth?" : lo < 0 && lo >= -1 && hi <= 1 ? ": OpenGL's NDC?" : "";
-    if (lo > hi)
+    const bool found = e->lo <= e->hi;
+    out->metric = found && e->hi > 1;
+    const char *hint = out->metric                                       ? ": metric depth? --metric 1 reads it"
+                       : found && e->lo < 0 && e->lo >= -1 && e->hi <= 1 ? ": OpenGL's NDC?"
+                                                                         : "";
+    if (!found)
         say(f, "no window depth: no sample is finite");
     else
-        say(f, "no window depth: %zu of %zu samples are not in [0, 1], finite ones go from %g to %g%s", out->invalid,
-            count, lo, hi, hint);
+        say(f, "no window depth: %zu of %zu samples are not in [0, 1], finite ones go from %.6g to %.6g%s",
+            out->invalid, out->samples, e->lo, e->hi, hint);
 }
 
-static void explain(const image *img, finding *f, const recognised *out) {
-    if (img->type == IMAGE_F32 || img->type == IMAGE_F64)
-        explain_outside(img, f, out);
-    else
-        say(f, "no window depth: %zu of %zu samples are not in [0, 1]", out->invalid, out->samples);
+/* Millimetres of a sensor are whole numbers of 16 bits, with 0 where it saw nothing and nothing else below 100. */
+static void suspect(const image *img, const survey *s, recognised *out) {
+    enum { LEAST = 100, MOST = 30000 };
+    double least = 1, most = 0;
+    if (img->type != IMAGE_U16 || out->at_zero < 1 + out->samples / 1000)
+        return;
+    for (size_t i = 0; i < s->seen.size && s->seen.slots != NULL; i++) {
+        double d;
+        memcpy(&d, &s->seen.slots[i], sizeof d);
+        least = d > 0 ? fmin(least, d) : least;
+        most = d > 0 ? fmax(most, d) : most;
+    }
+    out->metric = least * 65535 >= LEAST && most * 65535 <= MOST;
 }
 
 /* ---- Together -----------------------------------------------------------------------------------------------------*/
@@ -299,6 +343,27 @@ static void (*const judges[IMAGE_TYPE_COUNT])(const image *img, finding *f) = {
     [IMAGE_U8] = judge_bytes,   [IMAGE_U16] = judge_words,   [IMAGE_U32] = judge_longs,
     [IMAGE_F16] = judge_halves, [IMAGE_F32] = judge_numbers, [IMAGE_F64] = judge_numbers,
 };
+
+/* What is coarser than the lattice. Bytes are, whatever is in them. */
+static void find_steps(const image *img, finding *f, const survey *s, recognised *out) {
+    const bool codes = img->type < IMAGE_F16 && f->which != LATTICE_FP32;
+    const double tops[] = {[LATTICE_FP16] = (double)INFINITY, 65535, 16777215, (double)INFINITY};
+    const grid_source source = {.bits = img->type == IMAGE_F16 ? 11
+                                        : f->single            ? 24
+                                                               : 53,
+                                .finest = tops[f->which],
+                                .top = codes ? tops[f->which] : 0,
+                                .dyadic = f->which == LATTICE_FP16};
+    grid found = img->type == IMAGE_U8 ? (grid){255, (double)INFINITY} : grid_find(&s->seen, &source);
+    out->steps = found.steps;
+    out->steps_certain = found.bits >= RECOGNISE_BITS;
+    if (found.steps == 0 || img->type == IMAGE_U8)
+        return;
+    out->certain = false;
+    const size_t used = strlen(f->reason);
+    snprintf(f->reason + used, sizeof f->reason - used, "; all are multiples of 1/%.9g%s", found.steps,
+             out->steps_certain ? "" : ", perhaps by chance");
+}
 
 /* How many numbers agree, against how many would without that lattice. */
 static void weigh(finding *f, const survey *s, recognised *out) {
@@ -314,6 +379,7 @@ void recognise(const image *img, recognised *out) {
     finding f = {.single = true};
     survey s = {0};
     dp_format formats[2];
+    extent numbers = {0};
     judges[img->type](img, &f);
     dp_format_parse(lattice_name(f.which), formats);
     *out = (recognised){.format = formats[0],
@@ -326,14 +392,20 @@ void recognise(const image *img, recognised *out) {
         count_all(img, &f, &s, out);
     else
         out->invalid = out->samples;
+    if (out->invalid > 0 && img->type >= IMAGE_F16) {
+        numbers = extent_of(img);
+        out->holes = out->invalid - numbers.outside;
+    }
     out->distinct = s.seen.count;
-    out->depth = out->invalid == 0;
+    out->depth = out->invalid == out->holes && out->holes < out->samples;
     const char *direction = NULL;
     if (out->depth) {
         weigh(&f, &s, out);
+        find_steps(img, &f, &s, out);
+        suspect(img, &s, out);
         direction = direct(&s, out);
     } else if (!f.none) {
-        explain(img, &f, out);
+        explain(img, &f, &numbers, out);
     }
     distinct_free(&s.seen);
     if (out->lo > out->hi)

@@ -44,4 +44,28 @@ void distinct_free(distinct_set *set);
 /** @return whether d, not a NaN, is new, and was counted */
 bool distinct_add(distinct_set *set, double d);
 
+/** What grids are looked for among. */
+typedef struct grid_source {
+    int bits;      /**< numbers: significant bits */
+    double finest; /**< steps of the lattice itself, INFINITY for none: a grid has fewer */
+    double top;    /**< integers: that of 1; 0: numbers */
+    bool dyadic;   /**< numbers on a lattice that k/2^N lies on by itself, as fp16: not a grid, but for N = 8 */
+} grid_source;
+
+/** Steps of 1/steps that an image was rounded to before it was stored. */
+typedef struct grid {
+    double steps; /**< 0: none */
+    double bits;  /**< -log2 of the chance that the samples lie on it all the same */
+} grid;
+
+/** -log2 of the chance that all of the set lie on a grid and no grid is there; negative when one is off. */
+double grid_agreement(const distinct_set *set, const grid_source *source, double steps);
+
+/**
+ * The coarsest of k/(2^N - 1), k/2^N and bits that were shifted up, for N = 8 to 16, that all of the set lie on,
+ * whether by chance or not: a few values cannot exclude it. 0 and 1 lie on all and say nothing. A set that is full lies
+ * on none.
+ */
+grid grid_find(const distinct_set *set, const grid_source *source);
+
 #endif

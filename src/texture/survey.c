@@ -207,8 +207,8 @@ static void finish(const surveying *s, survey *out) {
 bool survey_make(const frame *f, survey *out) {
     const dp_setup *setup = &f->camera->setup;
     surveying s = {.f = f, .setup = setup, .sky = frame_sky_rank(f)};
-    const double sky_from = dp_cell_of(setup, frame_code(setup, s.sky)).lo;
-    s.used = calloc((size_t)(setup->spec.format.code_max >> 6) + 1, sizeof *s.used);
+    const double sky_from = f->metric ? setup->spec.zfar : dp_cell_of(setup, frame_code(setup, s.sky)).lo;
+    s.used = calloc((size_t)(setup->spec.format.code_max >> 6) + 2, sizeof *s.used);
     if (s.used == NULL)
         return false;
     make_bands(&s, sky_from);

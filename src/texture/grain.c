@@ -1,0 +1,121 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "texture/grain.h"
+
+#include <math.h>
+
+#include "core/curve.h"
+#include "core/lattice.h"
+
+/* Outweighs what is lost in window depths that were computed in double, a few units of 2^-53 of cells that are at least
+ * 2^-25 of their depth, and all roundings here. */
+static const double OUTWARD = 1 + 0x1p-20;
+
+const char *grain_rounding_name(grain_rounding rounding) {
+    static const char *const names[] = {"unknown", "nearest", "zero"};
+    return names[rounding];
+}
+
+/* Numbers that the buffer may have held, in units of 1/den. */
+typedef struct span {
+    double lo, hi, den;
+} span;
+
+/* The unit in the last place of a number of so many bits. */
+static double unit_of(const grain *g, double v) {
+    int exponent;
+    frexp(v, &exponent);
+    return fmax(ldexp(1, exponent - g->bits), g->least);
+}
+
+/* Steps that were rounded to numbers may have been the next ones. */
+static span steps_span_of(const grain *g, double steps, double v) {
+    const double blur = g->bits > 0 ? floor(0.5 + 1.5 * unit_of(g, v) * steps) : 0;
+    const double first = rint(v * steps) - blur, last = rint(v * steps) + blur;
+    const double cut = first * (steps / (steps + 1)) * (1 - 0x1p-50);
+    const double below[] = {[GRAIN_ANY] = fmin(first - 0.5, cut), [GRAIN_NEAREST] = first - 0.5, [GRAIN_ZERO] = first};
+    const double above[] = {[GRAIN_ANY] = last + 1, [GRAIN_NEAREST] = last + 0.5, [GRAIN_ZERO] = last + 1};
+    const double margin = g->margin * steps;
+    return (span){below[g->rounding] - margin, above[g->rounding] + margin, steps};
+}
+
+static span steps_span(const grain *g, double v) {
+    const span s = steps_span_of(g, g->steps, v);
+    if (g->own == 0)
+        return s;
+    const span own = steps_span_of(g, g->own, v);
+    return (span){fmin(s.lo / s.den, own.lo / own.den), fmax(s.hi / s.den, own.hi / own.den), 1};
+}
+
+static span floats_span(const grain *g, double v) {
+    const double unit = unit_of(g, v);
+    const double below[] = {[GRAIN_ANY] = 0.5, [GRAIN_NEAREST] = 0.5, [GRAIN_ZERO] = 0};
+    const double above[] = {[GRAIN_ANY] = 1, [GRAIN_NEAREST] = 0.5, [GRAIN_ZERO] = 1};
+    return (span){v - below[g->rounding] * unit - g->margin, v + above[g->rounding] * unit + g->margin, 1};
+}
+
+/*
+ * Codes of UNORM came back as a quotient, or as a product with the rounded reciprocal, which may be a neighbour of
+ * that: within 1.5 units, and the code was taken that is nearest to it. Binary16 was made of something finer, perhaps
+ * cut off.
+ */
+static double quotient_codes(const grain *g, const dp_format *format, double v) {
+    return floor(0.5 + (g->bits > 11 ? 1.5 : 1) * unit_of(g, v) * format->code_max);
+}
+
+/* The outermost codes whose numbers are in the span. */
+static void codes_within(const dp_format *format, span s, uint32_t code, uint32_t *first, uint32_t *last) {
+    const double lo = s.lo / s.den * (1 - 0x1p-50), hi = s.hi / s.den * (1 + 0x1p-50);
+    *first = dp_format_encode(format, DP_ROUND_ZERO, lo);
+    *last = dp_format_encode(format, DP_ROUND_ZERO, hi);
+    if (dp_format_value(format, *first) < lo)
+        ++*first;
+    if (*first > code)
+        *first = code;
+    if (*last < code)
+        *last = code;
+}
+
+static void codes_of(const dp_setup *setup, const grain *g, uint32_t code, uint32_t *first, uint32_t *last) {
+    const dp_format *format = &setup->spec.format;
+    const double v = dp_format_value(format, code);
+    *first = *last = code;
+    if (g == NULL || g->kind == GRAIN_CODES)
+        return;
+    if (g->kind == GRAIN_FLOATS && format->kind == DP_FORMAT_UNORM) {
+        const double around = quotient_codes(g, format, v);
+        *first = code > around ? code - (uint32_t)around : 0;
+        *last = code + around < format->code_max ? code + (uint32_t)around : format->code_max;
+    } else {
+        codes_within(format, g->kind == GRAIN_STEPS ? steps_span(g, v) : floats_span(g, v), code, first, last);
+    }
+}
+
+/* From the boundary below the first code to that above the last one; window depth ends at 0 and 1. */
+static void boundaries(const dp_setup *setup, const grain *g, uint32_t code, dp_point *below, dp_point *above) {
+    const dp_format *format = &setup->spec.format;
+    const dp_rounding rounding = setup->spec.rounding;
+    uint32_t first, last;
+    codes_of(setup, g, code, &first, &last);
+    *below = first > 0 ? dp_point_below(format, rounding, first) : dp_point_of_code(format, 0);
+    *above = last < format->code_max ? dp_point_below(format, rounding, last + 1)
+                                     : dp_point_of_code(format, format->code_max);
+}
+
+grain_range grain_range_of(const dp_setup *setup, const grain *g, uint32_t code) {
+    const dp_point own = dp_point_of_code(&setup->spec.format, code);
+    dp_point below, above;
+    if (g == NULL || g->kind == GRAIN_CODES || g->buffer) {
+        boundaries(setup, g, code, &below, &above);
+    } else {
+        const double v = dp_format_value(&setup->spec.format, code);
+        const span s = g->kind == GRAIN_STEPS ? steps_span(g, v) : floats_span(g, v);
+        below = dp_point_make(fmax(s.lo, 0), s.den);
+        above = dp_point_make(fmin(s.hi, s.den), s.den);
+    }
+    const dp_point to_near = setup->reversed ? above : below, to_far = setup->reversed ? below : above;
+    return (grain_range){
+        .lo = dp_curve_eye(setup, to_near),
+        .hi = dp_curve_eye(setup, to_far),
+        .reach = fmax(dp_curve_span(setup, to_near, own), dp_curve_span(setup, own, to_far)) * OUTWARD,
+    };
+}

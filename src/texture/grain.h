@@ -1,0 +1,57 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/**
+ * @file grain.h  What a sample of an image says about the depth behind it: from which to which eye depth.
+ *
+ * A buffer rounds the depth to a code; the image may have rounded that again, to fewer values. So a sample stands for
+ * a range of codes and each of these for its cell. How an image was rounded is not known unless it is said: to nearest,
+ * cut off, or shifted out of more bits. All three leave the buffer's number v within
+ *
+ *     min(k - 1/2, k M/(M + 1))/M <= v < (k + 1)/M        sample k of steps of 1/M
+ *
+ * Ranges end where window depth does, at 0 and 1, and not at the camera's near plane: that of a linear or logarithmic
+ * mapping is no more than what somebody said about the image.
+ */
+#ifndef TEXTURE_GRAIN_H
+#define TEXTURE_GRAIN_H
+
+#include <stdbool.h>
+
+#include "depthprec/depthprec.h"
+
+typedef enum grain_kind {
+    GRAIN_CODES = 0, /**< samples are the buffer's codes */
+    GRAIN_STEPS,     /**< samples are multiples of 1/steps */
+    GRAIN_FLOATS     /**< samples are binary floating-point numbers of `bits` bits */
+} grain_kind;
+
+/** How an image was rounded. */
+typedef enum grain_rounding { GRAIN_ANY = 0, GRAIN_NEAREST, GRAIN_ZERO } grain_rounding;
+
+typedef struct grain {
+    grain_kind kind;
+    grain_rounding rounding;
+    double steps; /**< GRAIN_STEPS: M, at least 1; need not be whole where bits were shifted out */
+    double own;  /**< GRAIN_STEPS: what they are multiples of in any case, where steps may be chance; 0: nothing more */
+    bool buffer; /**< behind the image lies a buffer of the set-up's format; else the depth itself, or */
+    double margin; /**< ... a finer buffer, whose cells reach so far beyond its numbers, window depth */
+    int bits; /**< GRAIN_FLOATS: significant bits, 11, 24 or 53; GRAIN_STEPS: 0, or those that steps were rounded to */
+    double least; /**< the least subnormal */
+} grain;
+
+/** "unknown", "nearest", "zero". */
+const char *grain_rounding_name(grain_rounding rounding);
+
+/** Eye depths, scene units. */
+typedef struct grain_range {
+    double lo, hi; /**< within 2^-44 relative; hi may be INFINITY */
+    double reach;  /**< from the depth that the code gives back to the farther end; never below that */
+} grain_range;
+
+/**
+ * The eye depths that a pixel may have whose sample became `code`, the nearest one. Null: GRAIN_CODES.
+ * @param setup  of the model exact
+ * @param code   at most code_max
+ */
+grain_range grain_range_of(const dp_setup *setup, const grain *g, uint32_t code);
+
+#endif
