@@ -217,8 +217,8 @@ static void check_words(const drawn *d, const map_case *q, const cameras *c) {
                                                : "Z-fighting interval at depth 100 for each near and far plane");
     assert_string_equal(d->x_caption->text, "near plane (scene units)");
     assert_string_equal(d->y_caption->text, "far plane (scene units)");
-    assert_string_equal(d->right_caption->text, isnan(q->at) ? "worst z-fighting interval (scene units)"
-                                                             : "z-fighting interval (scene units)");
+    assert_string_equal(d->right_caption->text,
+                        isnan(q->at) ? "worst z-fighting interval (scene units)" : "z-fighting interval (scene units)");
     for (size_t i = 0; i < c->count; i++)
         snprintf(shown + strlen(shown), sizeof shown - strlen(shown), "%s%s%s Shown: camera.", c->count > 1 ? " " : "",
                  c->count > 1 ? c->names[i] : "", c->count > 1 ? "." : "");
@@ -228,8 +228,8 @@ static void check_words(const drawn *d, const map_case *q, const cameras *c) {
 
 static void check_figure(const map_case *q) {
     cameras c = cameras_of(drawn_camera(0.1, q->zfar), q->formats, q->mappings);
-    drawn *d = drawn_run(q->look, "plot map -n 0.1 -f %g -F %s -m %s %s", q->zfar, q->formats, q->mappings,
-                         q->arguments);
+    drawn *d =
+        drawn_run(q->look, "plot map -n 0.1 -f %g -F %s -m %s %s", q->zfar, q->formats, q->mappings, q->arguments);
     check_words(d, q, &c);
     assert_int_equal(d->panel_count, c.count);
     drawn_bar_is_viridis(d);
