@@ -207,7 +207,7 @@ static void read_words(drawn *d) {
         svg_mark *m = &d->svg->marks[i];
         if (!is_text(d, m) || fabs(m->at.y - caption) > 0.1)
             continue;
-        const svg_mark **place = m->box.x1 > d->svg->width / 2 ? &d->right_caption : &d->y_caption;
+        const svg_mark **place = m->at.x > d->panels[0].frame.x0 + 2 ? &d->right_caption : &d->y_caption;
         assert_null(*place);
         *place = m;
         m->used = DRAWN_PAGE;
@@ -264,7 +264,7 @@ static void read_legend(drawn *d) {
             continue;
         assert_true(d->entry_count < DRAWN_ENTRIES);
         drawn_entry *e = &d->entries[d->entry_count++];
-        *e = (drawn_entry){.text = m->text, .y = m->at.y - 0.36 * m->size, .x = m->at.x};
+        *e = (drawn_entry){.words = m, .text = m->text, .y = m->at.y - 0.36 * m->size, .x = m->at.x};
         m->used = DRAWN_LEGEND;
         read_swatch(d, e);
     }
@@ -293,6 +293,28 @@ void drawn_legend_is(const drawn *d, size_t count, const char *const *texts) {
 
 /* ---- All of it --------------------------------------------------------------------------------------------------- */
 
+/* The title for screen readers is that of the page, which may be cut. */
+static void check_title(const drawn *d) {
+    const char *cut = strstr(d->title, "\u2026");
+    if (cut == NULL)
+        assert_string_equal(d->svg->title, d->title);
+    else
+        assert_memory_equal(d->svg->title, d->title, (size_t)(cut - d->title));
+}
+
+/* Lines of the legend stand on the page, beside each other. */
+static void check_legend(const drawn *d) {
+    for (size_t i = 0; i < d->entry_count; i++) {
+        const svg_box *a = &d->entries[i].words->box;
+        assert_true(a->x1 <= d->svg->width && a->y1 < top_of_panels(d));
+        for (size_t k = 0; k < i; k++) {
+            const svg_box *b = &d->entries[k].words->box;
+            assert_true(a->x0 - 40 * d->scale > b->x1 || b->x0 - 40 * d->scale > a->x1 || a->y0 > b->y1 - 2 ||
+                        b->y0 > a->y1 - 2);
+        }
+    }
+}
+
 static drawn *read_page(const drawn_theme *look, const void *bytes, size_t size, double width, double height) {
     drawn *d = calloc(1, sizeof *d);
     assert_non_null(d);
@@ -309,7 +331,8 @@ static drawn *read_page(const drawn_theme *look, const void *bytes, size_t size,
     read_words(d);
     check_captions(d);
     read_legend(d);
-    assert_string_equal(d->svg->title, d->title);
+    check_legend(d);
+    check_title(d);
     return d;
 }
 

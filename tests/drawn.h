@@ -62,7 +62,8 @@ typedef struct drawn_marker {
 
 /** A line of the legend. */
 typedef struct drawn_entry {
-    const char *text;
+    const svg_mark *words;
+    const char *text;     /**< what they say */
     const svg_mark *line; /**< the stroke of the swatch, or null */
     const svg_mark *area; /**< a filled rectangle, or null */
     int lines;            /**< how many strokes */

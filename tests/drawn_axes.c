@@ -228,7 +228,7 @@ static bool is_ordered(const drawn_scale *s, double direction) {
     return true;
 }
 
-/* Labels stand apart from each other, and both axes name the same ticks with a line across the panel. */
+/* A line across the panel at each named tick of both axes. */
 static void check_grid(const drawn *d, const drawn_panel *p) {
     const svg_mark *grid = NULL;
     size_t lines = 0;
@@ -241,6 +241,10 @@ static void check_grid(const drawn *d, const drawn_panel *p) {
             m->used = DRAWN_AXIS;
         }
     }
+    bool is_map = false; /* whose colours are the ground */
+    for (size_t i = 0; i < d->svg->count; i++)
+        is_map = is_map || d->svg->marks[i].kind == SVG_IMAGE;
+    assert_int_equal(grid == NULL, is_map);
     if (grid == NULL)
         return;
     for (size_t i = 0; i + 1 < grid->count; i += 2) {

@@ -163,29 +163,37 @@ static int check_panel(const drawn *d, const drawn_panel *p, const dp_setup *set
     return names;
 }
 
-/* Every cause that is asked for has its place and a colour of its own. */
-static void check_legend(const drawn *d, size_t causes) {
+/* Every cause that is asked for, and no other, has its place and a colour of its own. */
+static void check_legend(const drawn *d, const dp_budget_terms *terms) {
     static const char *const upwards[] = {"format",      "ndc",           "projection",
                                           "composition", "interpolation", "linearization"};
-    size_t at = 0;
+    const bool wanted[] = {true, true, true, terms->world > 0, terms->interpolation > 0, terms->linearize != 0};
+    double last_at = -1;
     unsigned colours = 0;
     for (size_t i = 0; i + 1 < d->entry_count; i++) {
         assert_non_null(d->entries[i].area);
         const int tint = tint_of(d, d->entries[i].area->fill);
         assert_int_equal(colours >> tint & 1, 0);
         colours |= 1u << tint;
-        for (size_t k = at; k < causes; k++)
-            if (strcmp(d->entries[i].text, upwards[k]) == 0)
-                at = k + 1;
     }
-    assert_int_equal(at, causes);
+    for (size_t k = 0; k < sizeof upwards / sizeof upwards[0]; k++) {
+        double at = -1;
+        for (size_t i = 0; i + 1 < d->entry_count; i++)
+            if (strcmp(d->entries[i].text, upwards[k]) == 0)
+                at = (double)i;
+        assert_int_equal(at >= 0, wanted[k]);
+        if (wanted[k]) {
+            assert_true(at > last_at);
+            last_at = at;
+        }
+    }
     const drawn_entry *last = &d->entries[d->entry_count - 1];
     assert_string_equal(last->text, "separation, right axis");
     drawn_style_is(d, last, -1, 0, DRAWN_NONE, false);
 }
 
 static void check_figure(const drawn_theme *look, const char *formats, const char *mappings, const char *arguments,
-                         const dp_budget_terms *terms, size_t causes) {
+                         const dp_budget_terms *terms) {
     dp_spec spec = drawn_camera(0.1, 1000);
     spec.model = DP_MODEL_FP32;
     cameras c = cameras_of(spec, formats, mappings);
@@ -198,7 +206,7 @@ static void check_figure(const drawn_theme *look, const char *formats, const cha
     assert_string_equal(d->y_caption->text, "share of the separation (%)");
     assert_string_equal(d->right_caption->text, "guaranteed separation (scene units)");
     assert_int_equal(d->panel_count, c.count);
-    check_legend(d, causes);
+    check_legend(d, terms);
     for (size_t i = 0; i < c.count; i++) {
         const size_t before = strlen(shown);
         assert_string_equal(d->panels[i].heading, c.count > 1 ? c.names[i] : "");
@@ -218,12 +226,51 @@ static void check_figure(const drawn_theme *look, const char *formats, const cha
 static void bands_are_the_causes(void **state) {
     (void)state;
     const dp_budget_terms none = {0}, all = {.world = 10, .interpolation = 2, .linearize = 1};
-    check_figure(&drawn_light, "unorm24,fp32", "d3d,reversed", "", &none, 3);
-    check_figure(&drawn_dark, "unorm16", "gl", "--theme dark", &none, 3);
-    check_figure(&drawn_light, "unorm24", "gl", "--world 10 --interpolation 2 --linearize", &all, 6);
+    const dp_budget_terms world = {.world = 10}, interpolation = {.interpolation = 2}, linearize = {.linearize = 1};
+    check_figure(&drawn_light, "unorm24,fp32", "d3d,reversed", "", &none);
+    check_figure(&drawn_dark, "unorm16", "gl", "--theme dark", &none);
+    check_figure(&drawn_light, "unorm24", "gl", "--world 10 --interpolation 2 --linearize", &all);
+    check_figure(&drawn_light, "unorm16", "gl", "--world 10", &world);
+    check_figure(&drawn_light, "unorm16", "gl", "--interpolation 2", &interpolation);
+    check_figure(&drawn_light, "unorm16", "gl", "--linearize", &linearize);
+}
+
+/* A line through the middle of a band: the name goes to the wider side of it. */
+static void names_keep_clear_of_lines(void **state) {
+    (void)state;
+    enum { POINTS = 200 };
+    for (int above = 0; above < 2; above++) {
+        chart *c = chart_new();
+        assert_non_null(c);
+        snprintf(c->title, sizeof c->title, "t");
+        snprintf(c->subtitle, sizeof c->subtitle, "s");
+        chart_panel *p = chart_add_panel(c);
+        p->x = (chart_axis){CHART_LINEAR, 0, 1, "x", "x", "", NULL};
+        p->y = (chart_axis){CHART_LINEAR, 0, 100, "y", "y", "", NULL};
+        p->second = (chart_axis){CHART_LINEAR, 0, 100, "z", "z", "", NULL};
+        for (int s = 0; s < 3; s++) {
+            chart_series *series = chart_add_series(c, p, s < 2 ? CHART_AREA : CHART_LINE, POINTS);
+            assert_non_null(series);
+            series->style.colour = s < 2 ? s : -1;
+            series->second = s == 2;
+            snprintf(series->name, sizeof series->name, "%s", s == 0 ? "lower" : s == 1 ? "upper" : "line");
+            for (int i = 0; i < POINTS; i++) {
+                series->x[i] = i / (POINTS - 1.0);
+                series->y[i] = s == 0 ? 60 : s == 1 ? 40 : above ? 33 : 27;
+            }
+        }
+        drawn *d = drawn_chart(&drawn_light, c, 800, 500);
+        const drawn_panel *q = &d->panels[0];
+        const svg_mark *lower = drawn_words(d, q->frame, "lower"), *upper = drawn_words(d, q->frame, "upper");
+        assert_true(lower != NULL && upper != NULL);
+        assert_px(svg_middle_y(lower->box), drawn_px(&q->y, above ? 16 : 44), 8);
+        assert_px(svg_middle_y(upper->box), drawn_px(&q->y, 80), 4);
+        drawn_close(d);
+    }
 }
 
 int main(void) {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(bands_are_the_causes)};
+    const struct CMUnitTest tests[] = {cmocka_unit_test(bands_are_the_causes),
+                                       cmocka_unit_test(names_keep_clear_of_lines)};
     return run_tap(tests);
 }

@@ -86,7 +86,7 @@ static void check_fields(const drawn *d, const drawn_panel *p, const svg_mark *i
  * every corner lies at a hole. */
 static int level_of(const drawn *d, const drawn_panel *p, const svg_mark *m, const dp_setup *like, double at) {
     bool fits[DRAWN_LABELS];
-    int level = -1, judged = 0;
+    int level = -1, judged = 0, sharp = 0;
     for (int k = 0; k < d->value.labels; k++)
         fits[k] = true;
     for (size_t i = 0; i < m->count; i += 1 + m->count / 40) {
@@ -98,7 +98,15 @@ static int level_of(const drawn *d, const drawn_panel *p, const svg_mark *m, con
             const double value = drawn_number(d->value.at[k]->text);
             fits[k] = fits[k] && lo <= value && value <= hi;
         }
+        around(p, like, at, m->points[i], 1.2, &lo, &hi);
+        for (int k = 0; k < d->value.labels; k++) {
+            const double value = drawn_number(d->value.at[k]->text);
+            sharp += lo <= value && value <= hi;
+        }
     }
+    /* Values of fixed-point formats change evenly, and the line is where they are. */
+    if (like->spec.format.kind == DP_FORMAT_UNORM && sharp < 0.9 * judged)
+        fail_msg("only %d of %d corners of a line have its value", sharp, judged);
     for (int k = 0; k < d->value.labels && judged > 0; k++)
         if (fits[k]) {
             assert_int_equal(level, -1);
