@@ -53,7 +53,7 @@ static int check_points(const drawn *d, const drawn_panel *p, const json_t *root
     for (size_t k = 0; k < d->entry_count; k++)
         if (strcmp(d->entries[k].text, text_of(series, "name")) == 0)
             e = &d->entries[k];
-    if (e == NULL || e->line == NULL)
+    if (e == NULL || e->lines != 1)
         return 0;
     if (strstr(e->text, "right axis") != NULL) {
         y_key = text_of(json_object_get(root, "second"), "key");
