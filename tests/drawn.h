@@ -22,8 +22,10 @@ enum { DRAWN_NEW = 0, DRAWN_PAGE, DRAWN_AXIS, DRAWN_LEGEND, DRAWN_DATA };
 typedef struct drawn_theme {
     uint32_t background, text, faint, frame, grid, empty;
     uint32_t palette[8];
+    double line; /**< width of a curve, px */
+    const char *name;
 } drawn_theme;
-extern const drawn_theme drawn_light, drawn_dark;
+extern const drawn_theme drawn_light, drawn_dark, drawn_print;
 
 /** px = a + b v, or a + b log10(v). */
 typedef struct drawn_scale {

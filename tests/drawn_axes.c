@@ -114,7 +114,8 @@ static void find_scale(drawn_scale *s, const char *what) {
 /* Pieces of two points in the colour of frames: ticks, each beginning at its axis. */
 static bool is_ticks(const drawn *d, const svg_mark *m) {
     if (m->kind != SVG_PATH || m->used != DRAWN_NEW || m->fill.a > 0 || m->stroke.a != 1 || m->count < 2 ||
-        m->dash_count > 0 || m->count % 2 != 0 || svg_rgb(m->stroke) != d->theme->frame)
+        m->dash_count > 0 || m->count % 2 != 0 || fabs(m->width - d->scale) > 1e-6 ||
+        svg_rgb(m->stroke) != d->theme->frame)
         return false;
     for (size_t i = 0; i < m->count; i++)
         if (m->points[i].starts != (i % 2 == 0))

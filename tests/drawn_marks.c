@@ -208,7 +208,7 @@ void drawn_style_is(const drawn *d, const drawn_entry *e, int colour, int stroke
     assert_non_null(m);
     assert_int_equal(e->lines, 1);
     assert_int_equal(svg_rgb(m->stroke), own);
-    assert_px(m->width, d->scale * (thin ? 1 : 2), 1e-6);
+    assert_px(m->width, d->scale * d->theme->line * (thin ? 0.5 : 1), 1e-6);
     assert_int_equal(m->dash_count, strokes[stroke].count);
     for (int i = 0; i < m->dash_count; i++)
         assert_px(m->dash[i], strokes[stroke].dash[i] * m->width, 1e-4);

@@ -94,8 +94,8 @@ static void one_panel(const curves_case *q, const drawn_theme *look, double znea
                       const char *mappings) {
     cameras c = cameras_of(drawn_camera(znear, zfar), formats, mappings);
     char subtitle[128];
-    drawn *d = drawn_run(look, "plot %s %s -n %g -f %g -F %s -m %s%s", q->figure, q->arguments, znear, zfar, formats,
-                         mappings, look == &drawn_dark ? " --theme dark" : "");
+    drawn *d = drawn_run(look, "plot %s %s -n %g -f %g -F %s -m %s --theme %s", q->figure, q->arguments, znear, zfar,
+                         formats, mappings, look->name);
     snprintf(subtitle, sizeof subtitle, "near %g, far %g, perspective, nearest, exact", znear, zfar);
     assert_int_equal(d->panel_count, 1);
     captions(d, q->title, subtitle, q->y);
@@ -116,7 +116,7 @@ static void curves_show_the_library(void **state) {
     (void)state;
     for (size_t i = 0; i < sizeof curve_cases / sizeof curve_cases[0]; i++) {
         one_panel(&curve_cases[i], &drawn_light, 0.1, 1000, "unorm24,fp16", "d3d,reversed");
-        one_panel(&curve_cases[i], i % 2 == 0 ? &drawn_dark : &drawn_light, 0.5, 3000, "unorm16,unorm24,fp16", "log");
+        one_panel(&curve_cases[i], i % 2 == 0 ? &drawn_dark : &drawn_print, 0.5, 3000, "unorm16,unorm24,fp16", "log");
     }
 }
 

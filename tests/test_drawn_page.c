@@ -149,6 +149,38 @@ static void axes_of_every_length(void **state) {
     }
 }
 
+/* An axis without ends of its own is as long as its data, a vertical one a little longer. */
+static void fitted(void **state) {
+    (void)state;
+    chart *c = chart_new();
+    assert_non_null(c);
+    snprintf(c->title, sizeof c->title, "t");
+    snprintf(c->subtitle, sizeof c->subtitle, "s");
+    chart_panel *p = chart_add_panel(c);
+    p->x = (chart_axis){.label = "x", .key = "x", .unit = ""};
+    p->y = (chart_axis){.label = "y", .key = "y", .unit = "m"};
+    chart_series *line = chart_add_series(c, p, CHART_LINE, 3);
+    snprintf(line->name, sizeof line->name, "line");
+    for (int i = 0; i < 3; i++) {
+        line->x[i] = 3.5 * i;
+        line->y[i] = i == 0 ? 5 : i == 1 ? -3 : 13;
+    }
+    chart_fit(c);
+    drawn *d = drawn_chart(&drawn_dark, c, 800, 500);
+    const drawn_panel *q = &d->panels[0];
+    assert_px(drawn_px(&q->x, 0), q->frame.x0, 1.5);
+    assert_px(drawn_px(&q->x, 7), q->frame.x1, 1.5);
+    assert_px(drawn_px(&q->y, 13 + 0.04 * 16), q->frame.y0, 1.5);
+    assert_px(drawn_px(&q->y, -3 - 0.04 * 16), q->frame.y1, 1.5);
+    const svg_mark *curve = drawn_curve(d, q, &d->entries[0]);
+    assert_int_equal(curve->count, 3);
+    assert_px(curve->points[1].x, drawn_px(&q->x, 3.5), 1);
+    assert_px(curve->points[1].y, drawn_px(&q->y, -3), 1);
+    assert_string_equal(d->x_caption->text, "x");
+    assert_string_equal(d->y_caption->text, "y (m)");
+    drawn_close(d);
+}
+
 /* ---- Other surfaces ---------------------------------------------------------------------------------------------- */
 
 static uint32_t pixel_of(cairo_surface_t *image, double x, double y) {
@@ -197,13 +229,10 @@ static void the_same_in_png_and_pdf(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(titles),
-        cmocka_unit_test(metadata),
-        cmocka_unit_test(sizes),
-        cmocka_unit_test(many),
-        cmocka_unit_test(models),
-        cmocka_unit_test(axes_of_every_length),
-        cmocka_unit_test(the_same_in_png_and_pdf),
+        cmocka_unit_test(titles), cmocka_unit_test(metadata),
+        cmocka_unit_test(sizes),  cmocka_unit_test(many),
+        cmocka_unit_test(models), cmocka_unit_test(axes_of_every_length),
+        cmocka_unit_test(fitted), cmocka_unit_test(the_same_in_png_and_pdf),
     };
     return run_tap(tests);
 }
