@@ -15,6 +15,12 @@ static const char *const others[] = {"\u2070", "\u00b9", "\u00b2", "\u00b3", "\u
                                      "\u2212", "\u2026", "\u00b0", "\u00d7", "\u00fc", "\u03b1"};
 enum { OTHERS = sizeof others / sizeof others[0], ASCII = '~' - '!' + 1, EACH = ASCII + OTHERS };
 
+/* For the leak sanitizer: what fontconfig read stays in memory until the program ends. */
+const char *__lsan_default_suppressions(void);
+const char *__lsan_default_suppressions(void) {
+    return "leak:libfontconfig\n";
+}
+
 typedef struct bytes {
     char *at;
     size_t size, read;

@@ -212,10 +212,10 @@ static void check_census(const drawn *d, const drawn_entry *e, const char *forma
 
 static void guarantee_over_lattice(void **state) {
     (void)state;
-    static const char *const texts[] = {"unorm24 d3d", "fp32 reversed"};
+    static const char *const texts[] = {"unorm24 gl", "fp32 reversed"};
     for (int k = 0; k < 2; k++) {
         dp_spec spec = drawn_camera(0.1, 1000);
-        const char *format = k == 0 ? "unorm24" : "fp32", *mapping = k == 0 ? "d3d" : "reversed";
+        const char *format = k == 0 ? "unorm24" : "fp32", *mapping = k == 0 ? "gl" : "reversed";
         char census[48], shown[160];
         cameras exact = cameras_of(spec, format, mapping);
         spec.model = DP_MODEL_FP32;
