@@ -199,6 +199,7 @@ static void read_words(drawn *d) {
         svg_mark *m = &d->svg->marks[i];
         if (is_words(m, 17 * d->scale, true, d->theme->text)) {
             join(d->title, sizeof d->title, m->text);
+            d->title_y = fmax(d->title_y, m->at.y);
             m->used = DRAWN_PAGE;
             assert_px(m->at.x, margin, 0.1);
         } else if (is_words(m, 13 * d->scale, true, d->theme->text)) {
@@ -206,6 +207,8 @@ static void read_words(drawn *d) {
         } else if (drawn_is_small(d, m, d->theme->faint) && fabs(m->at.x - margin) < 0.1 &&
                    m->at.y < top - 12 * d->scale) {
             join(d->subtitle, sizeof d->subtitle, m->text);
+            assert_true(m->at.y > d->title_y + m->size);
+            d->subtitle_y = m->at.y;
             m->used = DRAWN_PAGE;
         } else if (is_text(d, m) && m->at.y > bottom) {
             assert_null(d->x_caption);
@@ -229,13 +232,13 @@ static void read_words(drawn *d) {
 }
 
 static void check_captions(const drawn *d) {
-    const drawn_panel *first = &d->panels[0], *last = &d->panels[d->panel_count - 1];
+    const drawn_panel *first = &d->panels[0];
     double right = 0;
     for (size_t i = 0; i < d->panel_count; i++)
         right = fmax(right, d->panels[i].frame.x1);
-    (void)last;
     assert_true(d->y_caption->box.x1 <= d->svg->width && d->y_caption->box.x0 < first->frame.x0 + 2);
     assert_px(svg_middle_x(d->x_caption->box), (first->frame.x0 + right) / 2, 2);
+    assert_true(d->y_caption->box.y0 > d->subtitle_y);
     if (d->right_caption != NULL)
         assert_true(d->right_caption->box.x0 > d->y_caption->box.x1 && d->right_caption->box.x1 >= right - 1);
 }
@@ -318,7 +321,7 @@ static void check_title(const drawn *d) {
 static void check_legend(const drawn *d) {
     for (size_t i = 0; i < d->entry_count; i++) {
         const svg_box *a = &d->entries[i].words->box;
-        assert_true(a->x1 <= d->svg->width && a->y1 < top_of_panels(d));
+        assert_true(a->x1 <= d->svg->width && a->y0 > d->subtitle_y && a->y1 < d->y_caption->box.y0);
         for (size_t k = 0; k < i; k++) {
             const svg_box *b = &d->entries[k].words->box;
             assert_true(a->x0 - 40 * d->scale > b->x1 || b->x0 - 40 * d->scale > a->x1 || a->y0 > b->y1 - 2 ||

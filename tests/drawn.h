@@ -79,6 +79,7 @@ typedef struct drawn {
     double scale;
     const drawn_theme *theme;
     char title[SVG_TEXT], subtitle[2 * SVG_TEXT];
+    double title_y, subtitle_y;                            /**< of their last baselines */
     const svg_mark *x_caption, *y_caption, *right_caption; /**< the last is that of a second axis or a colour bar */
     size_t panel_count, entry_count;
     drawn_panel panels[DRAWN_PANELS]; /**< as they are read: line by line */

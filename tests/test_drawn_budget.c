@@ -269,8 +269,42 @@ static void names_keep_clear_of_lines(void **state) {
     }
 }
 
+/* Where there is no number there is no band. */
+static void gaps_stay_open(void **state) {
+    (void)state;
+    chart *c = chart_new();
+    assert_non_null(c);
+    snprintf(c->title, sizeof c->title, "t");
+    snprintf(c->subtitle, sizeof c->subtitle, "s");
+    chart_panel *p = chart_add_panel(c);
+    p->x = (chart_axis){CHART_LINEAR, 0, 10, "x", "x", "", NULL};
+    p->y = (chart_axis){CHART_LINEAR, 0, 100, "y", "y", "", NULL};
+    chart_series *s = chart_add_series(c, p, CHART_AREA, 11);
+    assert_non_null(s);
+    snprintf(s->name, sizeof s->name, "band");
+    for (int i = 0; i < 11; i++) {
+        s->x[i] = i;
+        s->y[i] = i == 5 ? NAN : 50;
+    }
+    drawn *d = drawn_chart(&drawn_light, c, 800, 500);
+    const drawn_panel *q = &d->panels[0];
+    size_t bands = 0;
+    for (size_t i = 0; i < d->svg->count; i++) {
+        const svg_mark *m = &d->svg->marks[i];
+        if (m->kind != SVG_PATH || m->used != DRAWN_NEW || m->fill.a < 1 || !svg_inside(m->box, q->frame, 1))
+            continue;
+        bands++;
+        assert_true(m->box.x1 < drawn_px(&q->x, 4) + 1 || m->box.x0 > drawn_px(&q->x, 6) - 1);
+        assert_px(m->box.y0, drawn_px(&q->y, 50), 1);
+        assert_px(m->box.y1, q->frame.y1, 1);
+    }
+    assert_int_equal(bands, 2);
+    drawn_words(d, q->frame, "band");
+    drawn_close(d);
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {cmocka_unit_test(bands_are_the_causes),
-                                       cmocka_unit_test(names_keep_clear_of_lines)};
+                                       cmocka_unit_test(names_keep_clear_of_lines), cmocka_unit_test(gaps_stay_open)};
     return run_tap(tests);
 }

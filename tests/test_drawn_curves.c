@@ -239,6 +239,7 @@ static void guarantee_over_lattice(void **state) {
         const svg_mark pen = thinned(e->line), *thin[2];
         assert_int_equal(drawn_strokes(d, p, &pen, thin, 2), 1);
         drawn_follows(p, &p->y, thin[0], true_interval, &exact.setups[0], 100, 1.5);
+        assert_int_equal(drawn_legend(d, census)->marker.inside, svg_rgb(e->line->stroke));
         check_census(d, drawn_legend(d, census), format, mapping);
         drawn_close(d);
     }
@@ -335,12 +336,27 @@ static void staircases(void **state) {
     drawn_close(d);
 }
 
+/* With an infinite far plane the picture ends a little behind the depth from which nothing is told apart. */
+static void staircase_without_end(void **state) {
+    (void)state;
+    static const char *const formats[] = {"unorm4", "unorm6"};
+    for (int i = 0; i < 2; i++) {
+        cameras c = cameras_of(drawn_camera(2, INFINITY), formats[i], "d3d");
+        dp_worst w;
+        drawn *d = drawn_run(&drawn_light, "plot distribution -n 2 -f inf -F %s -m d3d", formats[i]);
+        assert_int_equal(dp_worst_over(&c.setups[0], 2, INFINITY, &w), DP_OK);
+        const bool linear = 1.15 * w.blind_from <= 200;
+        spans(&d->panels[0], !linear, 2, w.blind_from * (linear ? 1.15 : 2));
+        assert_int_equal(linear, i == 0);
+        drawn_close(d);
+    }
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(curves_show_the_library),
-        cmocka_unit_test(blind_ends_in_an_arrow),
-        cmocka_unit_test(guarantee_over_lattice),
-        cmocka_unit_test(staircases),
+        cmocka_unit_test(curves_show_the_library), cmocka_unit_test(blind_ends_in_an_arrow),
+        cmocka_unit_test(guarantee_over_lattice),  cmocka_unit_test(staircases),
+        cmocka_unit_test(staircase_without_end),
     };
     return run_tap(tests);
 }

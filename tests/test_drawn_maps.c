@@ -12,12 +12,13 @@
 
 typedef struct map_case {
     const char *formats, *mappings, *arguments;
-    double zfar, at; /* at: a depth, or NaN for the worst of all */
+    double zfar;
+    double lo, hi; /* the depths asked about: one where equal, all between the planes where NaN */
     const drawn_theme *look;
 } map_case;
 
 /* What the map says of one camera; NaN where it does not see what is asked about, or is none. */
-static double true_value(const dp_setup *like, double at, double znear, double zfar) {
+static double true_value(const dp_setup *like, const map_case *q, double znear, double zfar) {
     dp_spec spec = like->spec;
     dp_setup setup;
     dp_worst worst;
@@ -26,19 +27,20 @@ static double true_value(const dp_setup *like, double at, double znear, double z
     spec.zfar = zfar;
     if (dp_setup_init(&setup, &spec) != DP_OK)
         return NAN;
-    if (isnan(at))
-        return dp_worst_over(&setup, znear, zfar, &worst) == DP_OK ? worst.interval : NAN;
-    return dp_sample_at(&setup, at, &sample) == DP_OK ? sample.interval : NAN;
+    if (q->lo == q->hi)
+        return dp_sample_at(&setup, q->lo, &sample) == DP_OK ? sample.interval : NAN;
+    const double lo = isnan(q->lo) ? znear : q->lo, hi = isnan(q->hi) ? zfar : q->hi;
+    return dp_worst_over(&setup, lo, hi, &worst) == DP_OK ? worst.interval : NAN;
 }
 
 /* The least and the greatest value within some px of a place; false beside a hole. */
-static bool around(const drawn_panel *p, const dp_setup *like, double at, svg_point place, double px, double *lo,
-                   double *hi) {
+static bool around(const drawn_panel *p, const dp_setup *like, const map_case *q, svg_point place, double px,
+                   double *lo, double *hi) {
     *lo = INFINITY;
     *hi = -INFINITY;
     for (int i = 0; i < 25; i++) {
         const double x = place.x + px * (i % 5 - 2) / 2, y = place.y + px * (i / 5 - 2) / 2;
-        const double v = true_value(like, at, drawn_at(&p->x, x), drawn_at(&p->y, y));
+        const double v = true_value(like, q, drawn_at(&p->x, x), drawn_at(&p->y, y));
         if (isnan(v))
             return false;
         *lo = fmin(*lo, v);
@@ -48,8 +50,8 @@ static bool around(const drawn_panel *p, const dp_setup *like, double at, svg_po
 }
 
 /* Each field has the colour that the bar gives its value. */
-static void check_fields(const drawn *d, const drawn_panel *p, const svg_mark *image, const dp_setup *like, double at,
-                         bool *holes) {
+static void check_fields(const drawn *d, const drawn_panel *p, const svg_mark *image, const dp_setup *like,
+                         const map_case *q, bool *holes) {
     rng r = rng_make("fields");
     int seen = 0;
     for (int n = 0; n < 400; n++) {
@@ -57,15 +59,15 @@ static void check_fields(const drawn *d, const drawn_panel *p, const svg_mark *i
                                                 (int)rng_below(&r, (uint64_t)image->rows));
         const uint32_t pixel = drawn_map_pixel(image, place);
         double lo, hi;
-        const bool whole = around(p, like, at, place, 1.5, &lo, &hi);
-        if (isnan(true_value(like, at, drawn_at(&p->x, place.x), drawn_at(&p->y, place.y)))) {
+        const bool whole = around(p, like, q, place, 1.5, &lo, &hi);
+        if (isnan(true_value(like, q, drawn_at(&p->x, place.x), drawn_at(&p->y, place.y)))) {
             double edge;
             *holes = true;
-            if (!around(p, like, at, place, 1, &edge, &edge) && pixel >> 24 != 0) /* at the rim of a hole */
-                assert_true(around(p, like, at, (svg_point){place.x - 2, place.y - 2, false}, 0, &edge, &edge) ||
-                            around(p, like, at, (svg_point){place.x + 2, place.y + 2, false}, 0, &edge, &edge) ||
-                            around(p, like, at, (svg_point){place.x - 2, place.y + 2, false}, 0, &edge, &edge) ||
-                            around(p, like, at, (svg_point){place.x + 2, place.y - 2, false}, 0, &edge, &edge));
+            if (!around(p, like, q, place, 1, &edge, &edge) && pixel >> 24 != 0) /* at the rim of a hole */
+                assert_true(around(p, like, q, (svg_point){place.x - 2, place.y - 2, false}, 0, &edge, &edge) ||
+                            around(p, like, q, (svg_point){place.x + 2, place.y + 2, false}, 0, &edge, &edge) ||
+                            around(p, like, q, (svg_point){place.x - 2, place.y + 2, false}, 0, &edge, &edge) ||
+                            around(p, like, q, (svg_point){place.x + 2, place.y - 2, false}, 0, &edge, &edge));
             continue;
         }
         if (!whole)
@@ -84,21 +86,21 @@ static void check_fields(const drawn *d, const drawn_panel *p, const svg_mark *i
 
 /* Which label of the bar a line of the map stands for: the only one whose value all its corners may have; -1 where
  * every corner lies at a hole. */
-static int level_of(const drawn *d, const drawn_panel *p, const svg_mark *m, const dp_setup *like, double at) {
+static int level_of(const drawn *d, const drawn_panel *p, const svg_mark *m, const dp_setup *like, const map_case *q) {
     bool fits[DRAWN_LABELS];
     int level = -1, judged = 0, sharp = 0;
     for (int k = 0; k < d->value.labels; k++)
         fits[k] = true;
     for (size_t i = 0; i < m->count; i += 1 + m->count / 40) {
         double lo, hi;
-        if (!around(p, like, at, m->points[i], 6, &lo, &hi))
+        if (!around(p, like, q, m->points[i], 6, &lo, &hi))
             continue;
         judged++;
         for (int k = 0; k < d->value.labels; k++) {
             const double value = drawn_number(d->value.at[k]->text);
             fits[k] = fits[k] && lo <= value && value <= hi;
         }
-        around(p, like, at, m->points[i], 1.2, &lo, &hi);
+        around(p, like, q, m->points[i], 1.2, &lo, &hi);
         for (int k = 0; k < d->value.labels; k++) {
             const double value = drawn_number(d->value.at[k]->text);
             sharp += lo <= value && value <= hi;
@@ -132,7 +134,7 @@ static bool is_crossed(const drawn *d, const svg_mark *image, double level_px) {
 
 /* Lines at the labelled values, white on the dark half and black on the light; each is named once, on the line. */
 static void check_contours(const drawn *d, const drawn_panel *p, const svg_mark *image, const dp_setup *like,
-                           double at) {
+                           const map_case *q) {
     bool drawn_level[DRAWN_LABELS] = {false};
     int names = 0, lines = 0, missing = 0, skipped = 0;
     for (size_t i = 0; i < d->svg->count; i++) {
@@ -141,7 +143,7 @@ static void check_contours(const drawn *d, const drawn_panel *p, const svg_mark 
         if (m->kind != SVG_PATH || m->used != DRAWN_NEW || m->curved || m->fill.a > 0 || m->stroke.a >= 1 ||
             (rgb != 0 && rgb != 0xFFFFFF) || m->count < 2 || !svg_inside(m->box, p->frame, 6))
             continue;
-        const int level = level_of(d, p, m, like, at);
+        const int level = level_of(d, p, m, like, q);
         if (level < 0) {
             skipped++;
             continue;
@@ -165,7 +167,7 @@ static void check_contours(const drawn *d, const drawn_panel *p, const svg_mark 
             continue;
         const svg_point middle = {svg_middle_x(words->box), words->at.y - 0.36 * words->size, false};
         assert_int_equal(svg_rgb(words->fill), 0);
-        if (around(p, like, at, middle, 5, &lo, &hi))
+        if (around(p, like, q, middle, 5, &lo, &hi))
             assert_true(lo <= drawn_number(words->text) && drawn_number(words->text) <= hi);
         else
             assert_true(skipped > 0);
@@ -219,14 +221,16 @@ static void check_words(const drawn *d, const map_case *q, const cameras *c) {
     char subtitle[160], shown[512] = "";
     snprintf(subtitle, sizeof subtitle, "%s%snear 0.1, far %g, perspective, nearest, exact%s",
              c->count == 1 ? c->names[0] : "", c->count == 1 ? ", " : "", q->zfar,
-             isnan(q->at) ? "" : ", at depth 100");
+             isnan(q->lo)     ? ""
+             : q->lo == q->hi ? ", at depth 100"
+                              : ", depths 1 to 100");
     assert_string_equal(d->subtitle, subtitle);
-    assert_string_equal(d->title, isnan(q->at) ? "Worst z-fighting interval for each near and far plane"
-                                               : "Z-fighting interval at depth 100 for each near and far plane");
+    assert_string_equal(d->title, q->lo != q->hi ? "Worst z-fighting interval for each near and far plane"
+                                                 : "Z-fighting interval at depth 100 for each near and far plane");
     assert_string_equal(d->x_caption->text, "near plane (scene units)");
     assert_string_equal(d->y_caption->text, "far plane (scene units)");
-    assert_string_equal(d->right_caption->text,
-                        isnan(q->at) ? "worst z-fighting interval (scene units)" : "z-fighting interval (scene units)");
+    assert_string_equal(d->right_caption->text, q->lo != q->hi ? "worst z-fighting interval (scene units)"
+                                                               : "z-fighting interval (scene units)");
     for (size_t i = 0; i < c->count; i++)
         snprintf(shown + strlen(shown), sizeof shown - strlen(shown), "%s%s%s Shown: camera.", c->count > 1 ? " " : "",
                  c->count > 1 ? c->names[i] : "", c->count > 1 ? "." : "");
@@ -252,11 +256,11 @@ static void check_figure(const map_case *q) {
         assert_px(drawn_px(&p->x, 10), p->frame.x1, 1.5);
         assert_px(drawn_px(&p->y, isinf(q->zfar) ? 1 : 10), p->frame.y1, 1.5);
         assert_px(drawn_px(&p->y, isinf(q->zfar) ? 1e6 : 1e5), p->frame.y0, 1.5);
-        check_fields(d, p, image, &c.setups[i], q->at, &holes);
-        check_contours(d, p, image, &c.setups[i], q->at);
+        check_fields(d, p, image, &c.setups[i], q, &holes);
+        check_contours(d, p, image, &c.setups[i], q);
         check_camera(d, p, &c.setups[i], c.count == 1);
         assert_int_equal(is_hatched(d, p, image), holes);
-        assert_int_equal(holes, !isnan(q->at) || isinf(q->zfar));
+        assert_int_equal(holes, !isnan(q->lo) || isinf(q->zfar));
     }
     drawn_bar_is_used(d);
     drawn_close(d);
@@ -265,9 +269,11 @@ static void check_figure(const map_case *q) {
 static void colours_are_values(void **state) {
     (void)state;
     static const map_case cases[] = {
-        {"unorm24,fp32", "d3d,reversed", "", 1000, NAN, &drawn_light},
-        {"unorm24", "d3d", "--at 100", 1000, 100, &drawn_light},
-        {"fp32", "reversed", "--theme dark", INFINITY, NAN, &drawn_dark},
+        {"unorm24,fp32", "d3d,reversed", "", 1000, NAN, NAN, &drawn_light},
+        {"unorm24", "d3d", "--at 100", 1000, 100, 100, &drawn_light},
+        {"unorm24", "d3d", "--at 100 --tolerance 1%", 1000, 100, 100, &drawn_light},
+        {"unorm24", "reversed", "--range 1:100", 1000, 1, 100, &drawn_light},
+        {"fp32", "reversed", "--theme dark", INFINITY, NAN, NAN, &drawn_dark},
     };
     for (size_t i = 0; i < sizeof cases / sizeof cases[0]; i++)
         check_figure(&cases[i]);

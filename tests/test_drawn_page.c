@@ -94,6 +94,11 @@ static void many(void **state) {
                       1.5);
     }
     drawn_close(d);
+    d = drawn_run(&drawn_light, "plot share -F unorm16,fp16 -m d3d,gl,reversed"); /* 2 lines would do */
+    assert_int_equal(d->entry_count, 6);
+    for (size_t i = 1; i < 6; i++)
+        assert_int_equal(fabs(d->entries[i].x - d->entries[i - 1].x) < 1, i != 3);
+    drawn_close(d);
     c = cameras_of(drawn_camera(0.1, 1000), "unorm16,unorm20,unorm24,fp16,fp32,unorm12", "reversed");
     d = drawn_run(&drawn_light, "plot error -F unorm16,unorm20,unorm24,fp16,fp32,unorm12 -m reversed");
     for (size_t i = 0; i < c.count; i++)

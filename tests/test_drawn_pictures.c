@@ -291,7 +291,19 @@ static void pictures_show_the_product(void **state) {
         check_figure(&cases[i]);
 }
 
+/* One value alone has the middle of a bar that goes to both sides of it; no error at all is dark. */
+static void a_single_value(void **state) {
+    (void)state;
+    drawn *d = drawn_run(&drawn_light, "texture --scene plane --parameter distance=16 -F fp32 -m reversed --eye");
+    const svg_mark *image = drawn_map_image(d, &d->panels[0]);
+    const double middle = svg_middle_y(d->bar->box);
+    for (int i = 0; i < image->columns * image->rows; i += 997)
+        assert_px(drawn_bar_px(d, image->pixels[i]), middle, 3);
+    assert_true(fabs(drawn_at(&d->value, middle) - 16) < 0.2);
+    drawn_close(d);
+}
+
 int main(void) {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(pictures_show_the_product)};
+    const struct CMUnitTest tests[] = {cmocka_unit_test(pictures_show_the_product), cmocka_unit_test(a_single_value)};
     return run_tap(tests);
 }
