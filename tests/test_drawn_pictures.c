@@ -303,7 +303,26 @@ static void a_single_value(void **state) {
     drawn_close(d);
 }
 
+/* Of a file the subtitle says the name, without its folder; the eye depth is what the image was made of. */
+static void a_file(void **state) {
+    (void)state;
+    char path[96];
+    snprintf(path, sizeof path, "%s/depth.png", drawn_folder());
+    free(drawn_output("texture --scene steps --size 160x90 -F unorm16 -m d3d -q -o %s", path));
+    drawn *d = drawn_run(&drawn_light, "texture %s -F unorm16 -m d3d --eye --title 'Of a file'", path);
+    assert_string_equal(d->title, "Of a file");
+    assert_string_equal(d->subtitle,
+                        "depth.png, 160 x 90; unorm16 d3d, near 0.1, far 1000, perspective, nearest, exact");
+    const svg_mark *image = drawn_map_image(d, &d->panels[0]);
+    for (int step = 0; step < 16; step++) { /* from 1 to 300, in equal ratios */
+        const uint32_t pixel = image->pixels[45 * image->columns + step * 10 + 5];
+        assert_px(drawn_bar_px(d, pixel), drawn_px(&d->value, pow(300, step / 15.0)), 5);
+    }
+    drawn_close(d);
+}
+
 int main(void) {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(pictures_show_the_product), cmocka_unit_test(a_single_value)};
+    const struct CMUnitTest tests[] = {cmocka_unit_test(pictures_show_the_product), cmocka_unit_test(a_single_value),
+                                       cmocka_unit_test(a_file)};
     return run_tap(tests);
 }
