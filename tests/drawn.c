@@ -49,10 +49,10 @@ void drawn_px_at(double got, double want, double slack, const char *what, const 
 
 /* ---- The program ------------------------------------------------------------------------------------------------- */
 
-static char folder[64];
+static char folder[256];
 
 static void remove_folder(void) {
-    char command[128];
+    char command[320];
     snprintf(command, sizeof command, "rm -rf '%s'", folder);
     if (folder[0] != '\0' && system(command) != 0)
         fprintf(stderr, "%s is left behind\n", folder);
@@ -61,7 +61,7 @@ static void remove_folder(void) {
 const char *drawn_folder(void) {
     if (folder[0] == '\0') {
         const char *temporary = getenv("TMPDIR");
-        snprintf(folder, sizeof folder, "%.40s/depthprec.XXXXXX", temporary != NULL ? temporary : "/tmp");
+        snprintf(folder, sizeof folder, "%.200s/depthprec.XXXXXX", temporary != NULL ? temporary : "/tmp");
         assert_non_null(mkdtemp(folder));
         atexit(remove_folder);
     }
@@ -352,7 +352,7 @@ static drawn *read_page(const drawn_theme *look, const void *bytes, size_t size,
 }
 
 drawn *drawn_run(const drawn_theme *look, const char *format, ...) {
-    char arguments[1024], path[96];
+    char arguments[1024], path[320];
     size_t size;
     double width, height;
     va_list list;

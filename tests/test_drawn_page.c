@@ -198,7 +198,7 @@ static uint32_t pixel_of(cairo_surface_t *image, double x, double y) {
 /* The PNG shows what the SVG shows, where it shows it; a PDF is as large, in points. */
 static void the_same_in_png_and_pdf(void **state) {
     (void)state;
-    char path[2][96], command[256], head[64];
+    char path[2][320], command[400], head[64];
     drawn_marker all[256];
     drawn *d = drawn_run(&drawn_light, "plot share -F unorm24,fp16 -m d3d,reversed");
     for (int i = 0; i < 2; i++) {

@@ -252,7 +252,7 @@ static bool is_hatched(const drawn *d) {
 }
 
 static void check_figure(const picture_case *q) {
-    char path[96], shown[128] = "";
+    char path[320], shown[128] = "";
     snprintf(path, sizeof path, "%s/product.npy", drawn_folder());
     const drawn_theme *look = strstr(q->arguments, "dark") != NULL ? &drawn_dark : &drawn_light;
     drawn *d = drawn_run(look, "texture %s -o %s", q->arguments, path);
@@ -306,7 +306,7 @@ static void a_single_value(void **state) {
 /* Of a file the subtitle says the name, without its folder; the eye depth is what the image was made of. */
 static void a_file(void **state) {
     (void)state;
-    char path[96];
+    char path[320];
     snprintf(path, sizeof path, "%s/depth.png", drawn_folder());
     free(drawn_output("texture --scene steps --size 160x90 -F unorm16 -m d3d -q -o %s", path));
     drawn *d = drawn_run(&drawn_light, "texture %s -F unorm16 -m d3d --eye --title 'Of a file'", path);

@@ -117,7 +117,7 @@ static void check_scene_legend(const drawn *d) {
 
 static void scene_of_requirements(void **state) {
     (void)state;
-    char path[96], subtitle[128];
+    char path[320], subtitle[128];
     size_t met = 0, marks[2] = {0, 0};
     snprintf(path, sizeof path, "%s/street.need", drawn_folder());
     write_needs(path);
@@ -244,7 +244,7 @@ static int by_size(const void *a, const void *b) {
 static double mapped(const char *method, double z) {
     enum { SIDE = 48 };
     static float values[SIDE * SIDE];
-    char path[96], head[10];
+    char path[320], head[10];
     const double fov = 2 * atan(tan(30 * 3.14159265358979323846 / 180) * SIDE / 1080) * 180 / 3.14159265358979323846;
     size_t count = 0;
     snprintf(path, sizeof path, "%s/normals.npy", drawn_folder());
