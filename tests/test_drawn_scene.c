@@ -135,6 +135,9 @@ static void scene_of_requirements(void **state) {
         drawn_marker all[32];
         assert_string_equal(p->heading, headings[i]);
         assert_true(p->x.log && p->y.log);
+        const double from = drawn_at(&p->x, p->frame.x0), to = drawn_at(&p->x, p->frame.x1);
+        assert_true(from > 0.02 && from < 0.09); /* a margin before the first depth asked about, 0.1, */
+        assert_true(to > 5e3 && to < 1e6);       /* and one that a name fits into behind the last, 1500 */
         const svg_mark *curve = drawn_curve(d, p, &d->entries[0]);
         drawn_follows(p, &p->y, curve, true_separation, &c[i].setups[0], 80, 1.7);
         const svg_mark *error[1];
