@@ -78,13 +78,22 @@ bool true_density(const void *setup, double from, double to, double *lo, double 
     return good;
 }
 
+/* A picture may have columns finer than its pixels: the least of four parts is the least that a curve may show. */
 bool true_separation(const void *setup, double from, double to, double *lo, double *hi) {
-    dp_separation_worst w;
-    *lo = *hi = NAN;
-    if (!in_range(setup, &from, &to) || dp_separation_over(setup, from, to, 0, &w) != DP_OK)
+    enum { PARTS = 4 };
+    *lo = INFINITY;
+    *hi = -INFINITY;
+    if (!in_range(setup, &from, &to))
         return false;
-    *lo = *hi = w.bound;
-    return isfinite(w.bound);
+    for (int i = 0; i < PARTS; i++) {
+        dp_separation_worst w;
+        const double a = from + (to - from) * i / PARTS, b = i + 1 < PARTS ? from + (to - from) * (i + 1) / PARTS : to;
+        if (dp_separation_over(setup, a, b, 0, &w) != DP_OK)
+            return false;
+        *lo = fmin(*lo, w.bound);
+        *hi = fmax(*hi, w.bound);
+    }
+    return isfinite(*hi);
 }
 
 /* Codes behind the near plane's, of those between both planes. */

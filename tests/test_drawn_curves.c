@@ -90,6 +90,15 @@ static void check_curves(const drawn *d, const cameras *c, size_t mappings, cons
     }
 }
 
+/* Curves that lie on each other still show: no marker hides that of another. */
+static void staggered(const drawn *d, const drawn_panel *p) {
+    drawn_marker all[256];
+    const size_t count = drawn_markers(d, p, all, 256);
+    for (size_t i = 0; i < count; i++)
+        for (size_t k = 0; k < i; k++)
+            assert_true(fabs(all[i].x - all[k].x) > 5);
+}
+
 static void one_panel(const curves_case *q, const drawn_theme *look, double znear, double zfar, const char *formats,
                       const char *mappings) {
     cameras c = cameras_of(drawn_camera(znear, zfar), formats, mappings);
@@ -103,6 +112,7 @@ static void one_panel(const curves_case *q, const drawn_theme *look, double znea
     described(d, &c);
     spans(&d->panels[0], true, znear, zfar);
     assert_int_equal(d->panels[0].y.log, q->log);
+    staggered(d, &d->panels[0]);
     check_curves(d, &c, strchr(mappings, ',') != NULL ? 2 : 1, q);
     if (q->fitted)
         fits(d, &d->panels[0]);

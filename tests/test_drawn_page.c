@@ -186,6 +186,40 @@ static void fitted(void **state) {
     drawn_close(d);
 }
 
+/* A label stands to the right of its point, to the left where it would leave the frame, and never above the frame. */
+static void labels_of_points(void **state) {
+    (void)state;
+    static const char *const texts[] = {"first", "second", "third", "fourth"};
+    static const double at[][2] = {{0.02, 0.5}, {0.5, 0.2}, {0.99, 0.7}, {0.3, 1}};
+    chart *c = chart_new();
+    assert_non_null(c);
+    snprintf(c->title, sizeof c->title, "t");
+    snprintf(c->subtitle, sizeof c->subtitle, "s");
+    chart_panel *p = chart_add_panel(c);
+    p->x = (chart_axis){CHART_LINEAR, 0, 1, "x", "x", "", NULL};
+    p->y = (chart_axis){CHART_LINEAR, 0, 1, "y", "y", "", NULL};
+    chart_series *s = chart_add_series(c, p, CHART_POINTS, 4);
+    snprintf(s->name, sizeof s->name, "points");
+    s->labels = chart_memory(c, 4, sizeof *s->labels);
+    for (int i = 0; i < 4; i++) {
+        s->x[i] = at[i][0];
+        s->y[i] = at[i][1];
+        snprintf(s->labels[i], sizeof s->labels[i], "%s", texts[i]);
+    }
+    drawn *d = drawn_chart(&drawn_light, c, 800, 500);
+    const drawn_panel *q = &d->panels[0];
+    for (int i = 0; i < 4; i++) {
+        const double x = drawn_px(&q->x, at[i][0]), y = drawn_px(&q->y, at[i][1]);
+        const svg_mark *words = drawn_words(d, q->frame, texts[i]);
+        assert_non_null(words);
+        assert_px(i == 2 ? x - words->box.x1 : words->at.x - x, 9, 2);
+        if (i < 3)
+            assert_px(words->at.y - 0.36 * words->size, y, 1);
+        assert_true(words[-1].curved && svg_rgb(words[-1].stroke) == d->theme->background); /* it stands out */
+    }
+    drawn_close(d);
+}
+
 /* ---- Other surfaces ---------------------------------------------------------------------------------------------- */
 
 static uint32_t pixel_of(cairo_surface_t *image, double x, double y) {
@@ -234,10 +268,9 @@ static void the_same_in_png_and_pdf(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(titles), cmocka_unit_test(metadata),
-        cmocka_unit_test(sizes),  cmocka_unit_test(many),
-        cmocka_unit_test(models), cmocka_unit_test(axes_of_every_length),
-        cmocka_unit_test(fitted), cmocka_unit_test(the_same_in_png_and_pdf),
+        cmocka_unit_test(titles), cmocka_unit_test(metadata),         cmocka_unit_test(sizes),
+        cmocka_unit_test(many),   cmocka_unit_test(models),           cmocka_unit_test(axes_of_every_length),
+        cmocka_unit_test(fitted), cmocka_unit_test(labels_of_points), cmocka_unit_test(the_same_in_png_and_pdf),
     };
     return run_tap(tests);
 }

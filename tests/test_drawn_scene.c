@@ -20,23 +20,26 @@ typedef struct need {
     double lo, hi, limit;
 } need;
 
-static const char *const camera_names[] = {"street", "cockpit"};
-static const char *const headings[] = {"street: unorm24 d3d, exact", "cockpit: fp32 reversed, fp32"};
+static const char *const camera_names[] = {"street", "cockpit", "scope"};
+static const char *const headings[] = {"street: unorm24 d3d, exact", "cockpit: fp32 reversed, fp32",
+                                       "scope: fp32 reversed, exact"};
 static const need needs[] = {
-    {"kerb", 0, false, 0.5, 20, 1e-3},  {"paint", 0, false, 5, 500, 2e-2},  {"haze", 0, true, 1, 900, 0.4},
-    {"fence", 0, true, 3, 300, 1e-3},   {"tower", 0, false, 1500, 1500, 5}, {"levers", 1, false, 0.1, 2, 1e-5},
-    {"knobs", 1, false, 0.3, 20, 1e-6},
+    {"kerb", 0, false, 0.5, 20, 1e-3},  {"paint", 0, false, 5, 500, 2e-2},     {"haze", 0, true, 1, 900, 0.4},
+    {"fence", 0, true, 3, 300, 1e-3},   {"tower", 0, false, 1500, 1500, 5},    {"levers", 1, false, 0.1, 2, 1e-5},
+    {"knobs", 1, false, 0.3, 20, 1e-6}, {"reticle", 2, false, 0.2, 2.2, 1e-6}, /* worst where a binade ends */
 };
 enum { NEEDS = sizeof needs / sizeof needs[0] };
 
 static void write_needs(const char *path) {
     FILE *out = fopen(path, "w");
     assert_non_null(out);
-    fprintf(out,
-            "unit = \"m\";\ncameras = {\n"
-            "  street = { near = 0.1; far = 2000.0; mapping = \"d3d\"; format = \"unorm24\"; model = \"exact\"; };\n"
-            "  cockpit = { near = 0.05; far = \"inf\"; mapping = \"reversed\"; format = \"fp32\"; model = \"fp32\"; "
-            "};\n};\nrequirements = {\n");
+    fprintf(
+        out,
+        "unit = \"m\";\ncameras = {\n"
+        "  street = { near = 0.1; far = 2000.0; mapping = \"d3d\"; format = \"unorm24\"; model = \"exact\"; };\n"
+        "  cockpit = { near = 0.05; far = \"inf\"; mapping = \"reversed\"; format = \"fp32\"; model = \"fp32\"; "
+        "};\n  scope = { near = 0.05; far = \"inf\"; mapping = \"reversed\"; format = \"fp32\"; model = \"exact\"; };\n"
+        "};\nrequirements = {\n");
     for (size_t i = 0; i < NEEDS; i++) {
         const need *n = &needs[i];
         fprintf(out, "  %s = { camera = \"%s\"; ", n->name, camera_names[n->camera]);
@@ -65,7 +68,8 @@ static double given(const dp_setup *s, const need *n, double *z) {
 }
 
 /* The range as a level line at the limit, in the colour of the verdict; its worst place marked and named. */
-static void check_need(const drawn *d, const drawn_panel *p, const dp_setup *setup, const need *n, size_t *met) {
+static void check_need(const drawn *d, const drawn_panel *p, const dp_setup *setup, const need *n, size_t *met,
+                       size_t *inner) {
     double z;
     const bool passed = given(setup, n, &z) <= n->limit;
     const drawn_entry *e =
@@ -80,6 +84,7 @@ static void check_need(const drawn *d, const drawn_panel *p, const dp_setup *set
     const double y = drawn_px(&p->y, n->limit);
     bool marked = false, level = n->lo == n->hi; /* nothing is to be seen of a range that is a point */
     *met += passed;
+    *inner += drawn_px(&p->x, z) < drawn_px(&p->x, n->hi) - 3;
     assert_int_equal(drawn_strokes(d, p, &pen, lines, 2), 1);
     for (size_t i = 0; i + 1 < lines[0]->count; i++) {
         const svg_point a = lines[0]->points[i], b = lines[0]->points[i + 1];
@@ -118,19 +123,22 @@ static void check_scene_legend(const drawn *d) {
 static void scene_of_requirements(void **state) {
     (void)state;
     char path[320], subtitle[128];
-    size_t met = 0, marks[2] = {0, 0};
+    size_t met = 0, marks[3] = {0, 0, 0}, inner = 0;
     snprintf(path, sizeof path, "%s/street.need", drawn_folder());
     write_needs(path);
     dp_spec street = drawn_camera(0.1, 2000), cockpit = drawn_camera(0.05, INFINITY);
     cockpit.model = DP_MODEL_FP32;
-    const cameras c[2] = {cameras_of(street, "unorm24", "d3d"), cameras_of(cockpit, "fp32", "reversed")};
+    dp_spec scope = cockpit;
+    scope.model = DP_MODEL_EXACT;
+    const cameras c[3] = {cameras_of(street, "unorm24", "d3d"), cameras_of(cockpit, "fp32", "reversed"),
+                          cameras_of(scope, "fp32", "reversed")};
     drawn *d = drawn_run(&drawn_light, "plot scene %s", path);
     assert_string_equal(d->title, "What the scene needs and what the cameras give");
     assert_string_equal(d->x_caption->text, "eye depth z (scene units)");
     assert_string_equal(d->y_caption->text, "allowed and given (scene units)");
     check_scene_legend(d);
-    assert_int_equal(d->panel_count, 2);
-    for (size_t i = 0; i < 2; i++) {
+    assert_int_equal(d->panel_count, 3);
+    for (size_t i = 0; i < 3; i++) {
         const drawn_panel *p = &d->panels[i];
         drawn_marker all[32];
         assert_string_equal(p->heading, headings[i]);
@@ -146,12 +154,12 @@ static void scene_of_requirements(void **state) {
             drawn_follows(p, &p->y, error[0], true_error, &c[i].setups[0], 80, 1.5);
         for (size_t k = 0; k < NEEDS; k++)
             if (needs[k].camera == (int)i) {
-                check_need(d, p, &c[i].setups[0], &needs[k], &met);
+                check_need(d, p, &c[i].setups[0], &needs[k], &met, &inner);
                 marks[i]++;
             }
         assert_int_equal(drawn_markers(d, p, all, 32), marks[i]);
     }
-    assert_true(met > 0 && met < NEEDS);
+    assert_true(met > 0 && met < NEEDS && inner > 0);
     snprintf(subtitle, sizeof subtitle, "street.need: %zu met, %zu missed; a scene unit is 1 m; not shown: 1 of ties",
              met, NEEDS - met);
     assert_string_equal(d->subtitle, subtitle);
@@ -159,7 +167,9 @@ static void scene_of_requirements(void **state) {
                             "set-up gives; range of what is met; requirement met, where it is worst; range of what is "
                             "missed; requirement missed, where it is worst. cockpit: fp32 reversed, fp32. Shown: "
                             "separation that the set-up gives; range of what is met; requirement met, where it is "
-                            "worst; range of what is missed; requirement missed, where it is worst.");
+                            "worst; range of what is missed; requirement missed, where it is worst. scope: fp32 "
+                            "reversed, exact. Shown: separation that the set-up gives; range of what is met; "
+                            "requirement met, where it is worst.");
     drawn_close(d);
 }
 
