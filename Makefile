@@ -19,7 +19,7 @@ INSTALL_DATA ?= $(INSTALL) -m 644
 
 # What pkg-config is asked for: by the full program, and by the tests. src/packages.sh knows who has them.
 PKGS_build := cairo gsl libconfig libpng
-PKGS_check := cmocka mpfr gmp jansson
+PKGS_check := cmocka mpfr gmp jansson libxml-2.0 cairo
 
 # ---- Rooms: a new file in a layer's folder is picked up ----------------------------------------------------------
 

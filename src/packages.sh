@@ -17,6 +17,7 @@ check | library cmocka                                | libcmocka-dev     | libc
 check | library gmp                                   | libgmp-dev        | gmp-devel          | gmp
 check | library mpfr                                  | libmpfr-dev       | mpfr-devel         | mpfr
 check | library jansson                               | libjansson-dev    | jansson-devel      | jansson
+check | library libxml-2.0                            | libxml2-dev       | libxml2-devel      | libxml2
 check | command mandoc                                | mandoc            | mandoc             | mandoc
 check | command rsvg-convert                          | librsvg2-bin      | librsvg2-tools     | librsvg
 check | command g++                                   | g++               | gcc-c++            | gcc

@@ -1,0 +1,216 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* The numbers that `plot --json` and `--csv` write are those that the figure shows: axes, names and every point. */
+#include <jansson.h>
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "drawn.h"
+#include "drawn_truth.h"
+#include "support.h"
+
+static const char *text_of(const json_t *object, const char *key) {
+    const char *text = json_string_value(json_object_get(object, key));
+    if (text == NULL)
+        fail_msg("no text '%s'", key);
+    return text;
+}
+
+/* A number, or infinity as it is written; NaN for null. */
+static double number_of(const json_t *object, const char *key) {
+    const json_t *v = json_object_get(object, key);
+    if (v == NULL)
+        fail_msg("no number '%s'", key);
+    if (json_is_string(v))
+        return strtod(json_string_value(v), NULL);
+    return json_is_number(v) ? json_number_value(v) : NAN;
+}
+
+/* The words of a caption and the kind of its scale. */
+static void check_axis(const json_t *axis, const svg_mark *caption, const drawn_scale *scale) {
+    char words[256];
+    const char *unit = text_of(axis, "unit");
+    snprintf(words, sizeof words, unit[0] != '\0' ? "%s (%s)" : "%s", text_of(axis, "label"), unit);
+    assert_string_equal(caption->text, words);
+    if (scale->b != 0)
+        assert_string_equal(text_of(axis, "scale"), scale->log ? "log" : "linear");
+}
+
+static bool on_line(const svg_mark *line, double x, double y) {
+    double top, bottom;
+    return drawn_reach(line, x - 1, x + 1, &top, &bottom) && y > top - 1.5 && y < bottom + 1.5;
+}
+
+/* Each point of a listed curve lies on it. */
+static int check_points(const drawn *d, const drawn_panel *p, const json_t *root, const json_t *series) {
+    const char *x_key = text_of(json_object_get(root, "x"), "key"), *y_key = text_of(json_object_get(root, "y"), "key");
+    const drawn_entry *e = NULL;
+    const drawn_scale *y = &p->y;
+    int seen = 0;
+    size_t i;
+    const json_t *point;
+    for (size_t k = 0; k < d->entry_count; k++)
+        if (strcmp(d->entries[k].text, text_of(series, "name")) == 0)
+            e = &d->entries[k];
+    if (e == NULL || e->lines != 1)
+        return 0;
+    if (strstr(e->text, "right axis") != NULL) {
+        y_key = text_of(json_object_get(root, "second"), "key");
+        y = &p->second;
+    }
+    const svg_mark *curve = drawn_curve(d, p, e);
+    json_array_foreach(json_object_get(series, "points"), i, point) {
+        const double at = number_of(point, x_key), value = number_of(point, y_key);
+        if (!isfinite(value))
+            continue;
+        if (!on_line(curve, drawn_px(&p->x, at), drawn_px(y, value)))
+            fail_msg("%s: the point %g, %g is not on the curve", e->text, at, value);
+        seen++;
+    }
+    return seen;
+}
+
+/* The next field of a line of CSV, without its quotes. */
+static char *field(char **at) {
+    char *start = *at, *end;
+    if (*start == '"') {
+        start++;
+        end = strchr(start, '"');
+        assert_non_null(end);
+        *end++ = '\0';
+    } else {
+        end = start + strcspn(start, ",\r\n");
+    }
+    *at = end + (*end != '\0');
+    *end = '\0';
+    return start;
+}
+
+static void check_cell(const char *text, double want) {
+    if (isnan(want))
+        assert_true(text[0] == '\0' || strcmp(text, "nan") == 0);
+    else
+        assert_ulp(strtod(text, NULL), want, 0);
+}
+
+/* Lines of CSV are the points of JSON, a column for each axis. */
+static void check_csv(const json_t *root, char *csv) {
+    static const char *const axes[] = {"x", "y", "second", "value"};
+    size_t p, s, i, columns = 0;
+    const json_t *panel, *series, *point, *own[4];
+    char *rest = NULL, *line = strtok_r(csv, "\n", &rest);
+    assert_string_equal(field(&line), "panel");
+    assert_string_equal(field(&line), "series");
+    for (size_t k = 0; k < 4; k++) {
+        const json_t *axis = json_object_get(root, axes[k]);
+        char head[128];
+        if (axis == NULL)
+            continue;
+        const char *unit = text_of(axis, "unit");
+        snprintf(head, sizeof head, unit[0] != '\0' ? "%s [%s]" : "%s", text_of(axis, "key"), unit);
+        assert_string_equal(field(&line), head);
+        own[columns++] = axis;
+    }
+    json_array_foreach(json_object_get(root, "panels"), p, panel) {
+        json_array_foreach(json_object_get(panel, "series"), s, series) {
+            json_array_foreach(json_object_get(series, "points"), i, point) {
+                line = strtok_r(NULL, "\n", &rest);
+                assert_non_null(line);
+                if (i % 16 != 0 && json_array_size(json_object_get(series, "points")) > 1000)
+                    continue;
+                assert_string_equal(field(&line), text_of(panel, "title"));
+                assert_string_equal(field(&line), text_of(series, "name"));
+                for (size_t k = 0; k < columns; k++) {
+                    const char *key = text_of(own[k], "key"), *text = field(&line);
+                    check_cell(text, json_object_get(point, key) != NULL ? number_of(point, key) : NAN);
+                }
+            }
+        }
+    }
+    assert_null(strtok_r(NULL, "\n", &rest));
+}
+
+/* A map's points against the library: near, far, and the worst interval. */
+static int check_map(const json_t *series, const dp_setup *like) {
+    size_t i;
+    const json_t *point;
+    int seen = 0;
+    json_array_foreach(json_object_get(series, "points"), i, point) {
+        dp_spec spec = like->spec;
+        dp_setup setup;
+        dp_worst worst;
+        if (i % 97 != 0)
+            continue;
+        spec.znear = number_of(point, "near");
+        spec.zfar = number_of(point, "far");
+        if (dp_setup_init(&setup, &spec) != DP_OK)
+            continue;
+        assert_int_equal(dp_worst_over(&setup, spec.znear, spec.zfar, &worst), DP_OK);
+        assert_ulp(number_of(point, "interval"), worst.interval, 0);
+        seen++;
+    }
+    return seen;
+}
+
+typedef struct data_case {
+    const char *arguments;
+    bool curves, map, second;
+} data_case;
+
+static void numbers_are_those_shown(void **state) {
+    (void)state;
+    static const data_case cases[] = {
+        {"error -F unorm24,fp16 -m d3d,reversed", true, false, false},
+        {"share -F unorm16 -m d3d,reversed", true, false, false},
+        {"distribution -F unorm4 -m d3d,reversed -n 1 -f 20", true, false, false},
+        {"budget -F unorm24,fp32 -m d3d", true, false, true},
+        {"map -F unorm24 -m d3d,reversed", false, true, false},
+        {"stability linearize", false, false, false},
+    };
+    for (size_t c = 0; c < sizeof cases / sizeof cases[0]; c++) {
+        const data_case *q = &cases[c];
+        cameras like = cameras_of(drawn_camera(0.1, 1000), "unorm24", "d3d,reversed");
+        char *text = drawn_output("plot %s --json", q->arguments), *csv = drawn_output("plot %s --csv", q->arguments);
+        drawn *d = drawn_run(&drawn_light, "plot %s", q->arguments);
+        json_t *root = json_loads(text, JSON_REJECT_DUPLICATES, NULL);
+        const json_t *panel, *series;
+        size_t p, s;
+        assert_non_null(root);
+        assert_string_equal(text_of(root, "title"), d->title);
+        assert_string_equal(text_of(root, "subtitle"), d->subtitle);
+        assert_non_null(strstr(d->svg->metadata, text_of(root, "data")));
+        assert_int_equal(strncmp(q->arguments, text_of(root, "figure"), strlen(text_of(root, "figure"))), 0);
+        check_axis(json_object_get(root, "x"), d->x_caption, &d->panels[d->panel_count - 1].x);
+        check_axis(json_object_get(root, "y"), d->y_caption, &d->panels[0].y);
+        if (json_object_get(root, "second") != NULL)
+            check_axis(json_object_get(root, "second"), d->right_caption, &d->panels[0].second);
+        if (json_object_get(root, "value") != NULL)
+            check_axis(json_object_get(root, "value"), d->right_caption, &d->value);
+        assert_int_equal(json_object_get(root, "second") != NULL, q->second);
+        assert_int_equal(json_object_get(root, "value") != NULL, d->bar != NULL);
+        assert_int_equal(json_array_size(json_object_get(root, "panels")), d->panel_count);
+        json_array_foreach(json_object_get(root, "panels"), p, panel) {
+            int points = 0, fields = 0;
+            assert_string_equal(text_of(panel, "title"), d->panels[p].heading);
+            json_array_foreach(json_object_get(panel, "series"), s, series) {
+                points += check_points(d, &d->panels[p], root, series);
+                if (q->map && strcmp(text_of(series, "name"), "map") == 0)
+                    fields += check_map(series, &like.setups[p]);
+            }
+            assert_int_equal(points > 0, q->curves);
+            assert_int_equal(fields > 100, q->map);
+        }
+        check_csv(root, csv);
+        json_decref(root);
+        free(text);
+        free(csv);
+        svg_free(d->svg); /* its words are looked at elsewhere */
+        free(d);
+    }
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {cmocka_unit_test(numbers_are_those_shown)};
+    return run_tap(tests);
+}

@@ -1,0 +1,361 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Figures of methods, as drawn: Pareto and stability, with methods of the test's own and with those of the program. */
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "drawn.h"
+#include "drawn_map.h"
+#include "plot/figure.h"
+#include "support.h"
+
+enum { METHODS = 9, STEPS = 4 };
+
+/* Two groups; one method without error, one without a time, one that is wrong everywhere; the last three crowd. */
+static const char *const names[METHODS] = {"alpha", "beta",    "gamma", "delta",  "no-time",
+                                           "wrong", "crowded", "close", "closest"};
+static const double ns[METHODS] = {2, 300, 40, 5000, NAN, 70, 900, 930, 960};
+static const double errors[METHODS] = {1e-2, 1e-9, 0.3, 0, 1e-5, INFINITY, 1e-6, 1.1e-6, 1.05e-6};
+static const bool front[METHODS] = {true, true, false, true, false, false, true, false, true};
+static const int group[METHODS] = {0, 0, 0, 0, 0, 0, 1, 1, 1};
+static const double ratios[STEPS] = {10, 100, 1000, 10000};
+static const double walked[METHODS * STEPS] = {
+    1e-7,  1e-6, 1e-5, 1e-4, /**/ 1e-3, 1e-2,     0.1,  1,    /**/ 0,    0,    0,    1e-15,
+    1e-1,  1e-2, 1e-3, 1e-4, /**/ 3,    INFINITY, 1e-8, 1e-9, /**/ 1e-5, 1e-5, 1e-2, 1e-2,
+    1e-12, 1e-2, 1e-9, 1e-1, /**/ 1e-4, 1e-3,     1e-2, 1e-1, /**/ 1e-6, 1e-5, 1e-4, 1e-3};
+static const double claimed[METHODS] = {10000, 10, NAN, 1000, 100, 100, 10, NAN, 1000};
+static const double breaks[METHODS] = {INFINITY, 100, INFINITY, 10000, NAN, 1000, INFINITY, INFINITY, 100};
+static const double exact = 1e-17; /* where what has no error is drawn */
+
+static const figure_methods own = {.measure = "relative error",
+                                   .count = METHODS,
+                                   .names = names,
+                                   .ns = ns,
+                                   .errors = errors,
+                                   .group = group,
+                                   .front = front};
+
+static drawn *draw_own(const char *figure, const figure_methods *m, const drawn_theme *look) {
+    dp_setup setup;
+    const dp_spec spec = dp_spec_default();
+    const char *one = "one";
+    assert_int_equal(dp_setup_init(&setup, &spec), DP_OK);
+    const figure_request request = {.setups = &setup,
+                                    .count = 1,
+                                    .names = &one,
+                                    .lo = NAN,
+                                    .hi = NAN,
+                                    .at = NAN,
+                                    .methods = m,
+                                    .columns = 800,
+                                    .rows = 500};
+    chart *c = chart_new();
+    assert_non_null(c);
+    snprintf(c->title, sizeof c->title, "%s", figure_find(figure)->title);
+    snprintf(c->subtitle, sizeof c->subtitle, "of the test");
+    assert_null(figure_find(figure)->build(&request, c));
+    return drawn_chart(look, c, 800, 500);
+}
+
+/* ---- Pareto ------------------------------------------------------------------------------------------------------ */
+
+static bool is_shown(size_t i) {
+    return isfinite(ns[i]) && isfinite(errors[i]);
+}
+
+static svg_point place_of(const drawn_panel *p, double time, double error) {
+    return (svg_point){drawn_px(&p->x, time), drawn_px(&p->y, fmax(error, exact)), false};
+}
+
+/* A thin line from the point to the end of its words. */
+static bool is_led(const drawn *d, svg_point from, double x, double y) {
+    for (size_t i = 0; i < d->svg->count; i++) {
+        const svg_mark *m = &d->svg->marks[i];
+        if (m->kind == SVG_PATH && m->count == 2 && svg_rgb(m->stroke) == d->theme->faint && m->width < d->scale &&
+            hypot(m->points[0].x - from.x, m->points[0].y - from.y) < 1.5 &&
+            hypot(m->points[1].x - x, m->points[1].y - y) < 3)
+            return true;
+    }
+    return false;
+}
+
+/* The name stands beside its point, or is led to it. */
+static const svg_mark *check_name(const drawn *d, const drawn_panel *p, svg_point at, const char *name) {
+    const svg_box near = {p->frame.x0 - 2, p->frame.y0 - 20, d->svg->width, p->frame.y1 + 20};
+    const svg_mark *words = drawn_words(d, near, name);
+    if (words == NULL)
+        fail_msg("no point is named '%s'", name);
+    const double middle = words->at.y - 0.36 * words->size;
+    const bool right = words->box.x0 > at.x;
+    const double gap = right ? words->at.x - at.x : at.x - words->box.x1;
+    assert_int_equal(svg_rgb(words->fill), d->theme->text);
+    if (fabs(gap - 8 * d->scale) > 1.8 || fabs(middle - at.y) > 4 * 0.75 * 1.25 * words->size + 1)
+        fail_msg("'%s' stands %.1f, %.1f px from its point", name, gap, middle - at.y);
+    if (fabs(middle - at.y) > 0.625 * words->size + 1)
+        assert_true(is_led(d, at, right ? words->at.x : words->box.x1, middle));
+    return words;
+}
+
+static bool overlap(svg_box a, svg_box b) {
+    return a.x0 < b.x1 && b.x0 < a.x1 && a.y0 < b.y1 && b.y0 < a.y1;
+}
+
+static bool marked(const drawn_marker *all, size_t count, const drawn_marker *as, svg_point at) {
+    for (size_t i = 0; i < count; i++)
+        if (drawn_alike(&all[i], as) && fabs(all[i].width - as->width) < 0.02 &&
+            hypot(all[i].x - at.x, all[i].y - at.y) < 1.3)
+            return true;
+    return false;
+}
+
+/* Each group's front is one thin line through its methods, the fastest first. */
+static void check_fronts(const drawn *d, const drawn_panel *p) {
+    static const size_t ways[2][3] = {{0, 1, 3}, {6, 8, 0}};
+    static const size_t corners[2] = {3, 2};
+    svg_mark pen = {.stroke = {0, 0x72 / 255.0, 0xB2 / 255.0, 1}, .width = d->scale};
+    const svg_mark *lines[4];
+    assert_int_equal(drawn_strokes(d, p, &pen, lines, 4), 2);
+    for (int g = 0; g < 2; g++) {
+        assert_int_equal(lines[g]->count, corners[g]);
+        for (size_t i = 0; i < corners[g]; i++) {
+            const svg_point at = place_of(p, ns[ways[g][i]], errors[ways[g][i]]);
+            assert_px(lines[g]->points[i].x, at.x, 1.2);
+            assert_px(lines[g]->points[i].y, at.y, 1.2);
+        }
+    }
+}
+
+static void check_pareto_words(const drawn *d) {
+    static const char *const texts[] = {"behind it", "on the Pareto front (without error: at 10\u207b\u00b9\u2077)"};
+    assert_string_equal(d->title, "Speed against accuracy");
+    assert_string_equal(d->x_caption->text, "time an element (ns)");
+    assert_string_equal(d->y_caption->text, "worst error (relative error)");
+    assert_null(d->right_caption);
+    drawn_legend_is(d, 2, texts);
+    const drawn_marker *behind = &d->entries[0].marker, *on = &d->entries[1].marker;
+    assert_true(behind->shape == DRAWN_SQUARE && on->shape == DRAWN_DISC);
+    assert_int_equal(on->inside, d->theme->palette[0]); /* filled */
+    assert_int_equal(behind->inside, d->theme->background);
+    assert_int_equal(behind->rim, d->theme->palette[1]);
+}
+
+static void pareto_of_the_test(void **state) {
+    (void)state;
+    drawn *d = draw_own("pareto", &own, &drawn_light);
+    const drawn_panel *p = &d->panels[0];
+    drawn_marker all[32];
+    const size_t count = drawn_markers(d, p, all, 32);
+    const svg_mark *words[METHODS] = {NULL};
+    size_t shown = 0;
+    check_pareto_words(d);
+    assert_true(p->x.log && p->y.log);
+    assert_px(drawn_px(&p->x, 1), p->frame.x0, 1.5); /* whole decades round the data */
+    assert_px(drawn_px(&p->x, 1e4), p->frame.x1, 1.5);
+    assert_px(drawn_px(&p->y, 1e-18), p->frame.y1, 1.5);
+    assert_px(drawn_px(&p->y, 1), p->frame.y0, 1.5);
+    for (size_t i = 0; i < METHODS; i++) {
+        if (!is_shown(i))
+            continue;
+        const svg_point at = place_of(p, ns[i], errors[i]);
+        if (!marked(all, count, &d->entries[front[i]].marker, at))
+            fail_msg("'%s' is not marked as it should be", names[i]);
+        words[i] = check_name(d, p, at, names[i]);
+        for (size_t k = 0; k < i; k++)
+            assert_false(words[k] != NULL && overlap(words[k]->box, words[i]->box));
+        shown++;
+    }
+    assert_int_equal(count, shown);
+    check_fronts(d, p);
+    drawn_description_is(d, " Shown: front; front; behind it; on the Pareto front; methods.");
+    drawn_close(d);
+}
+
+/* One row of `bench --csv`: name and error; group 1 runs the whole pipeline. Returns where the next row begins. */
+static char *bench_row(char *row, char name[64], double *error) {
+    char *end = strchr(row, '\n'), *at = row;
+    if (end == NULL)
+        return NULL;
+    *end = '\0';
+    assert_int_equal(sscanf(row, "interval,%63[^,]", name), 1);
+    for (int comma = 0; comma < 6; comma++)
+        at = strchr(at, ',') + 1;
+    *error = strtod(at, NULL);
+    return end + 1;
+}
+
+/* Times change from run to run, errors do not: each name has its point at its error, marked as its place deserves. */
+static void pareto_of_the_program(void **state) {
+    (void)state;
+    drawn *d = drawn_run(&drawn_light, "plot pareto interval");
+    const drawn_panel *p = &d->panels[0];
+    drawn_marker all[32];
+    const size_t count = drawn_markers(d, p, all, 32);
+    char *text = drawn_output("bench interval --csv"), *row = strchr(text, '\n') + 1;
+    assert_string_equal(d->title, "Speed against accuracy");
+    assert_non_null(
+        strstr(d->subtitle, "interval: z-fighting interval at an eye depth; unorm24 d3d, near 0.1, far 1000; "));
+    assert_string_equal(d->y_caption->text, "worst error (relative error)");
+    size_t methods = 0;
+    while (row != NULL && *row != '\0') {
+        char name[64];
+        double error;
+        row = bench_row(row, name, &error);
+        if (row == NULL)
+            break;
+        const svg_mark *words = NULL;
+        const svg_box page = {0, 0, d->svg->width, d->svg->height};
+        const char *kinds[2] = {"", " (pipeline)"};
+        char full[80];
+        for (int k = 0; k < 2 && words == NULL; k++) {
+            snprintf(full, sizeof full, "%s%s", name, kinds[k]);
+            words = drawn_words(d, page, full);
+        }
+        if (words == NULL)
+            fail_msg("no point is named '%s'", name);
+        bool found = false;
+        for (size_t i = 0; i < count; i++) {
+            const double gap = words->at.x > all[i].x ? words->at.x - all[i].x : all[i].x - words->box.x1;
+            found = found || (fabs(gap - 8) < 1.8 && fabs(all[i].y - drawn_px(&p->y, fmax(error, exact))) < 1.5);
+        }
+        if (!found)
+            fail_msg("'%s' stands at no point with the error %g", name, error);
+        methods++;
+    }
+    free(text);
+    assert_int_equal(methods, count);
+    drawn_close(d);
+}
+
+/* ---- Stability --------------------------------------------------------------------------------------------------- */
+
+static double digits(double error) {
+    return error == 0 ? 16 : isfinite(error) ? fmin(fmax(-log10(error), 0), 16) : 0;
+}
+
+/* The field painted last over a place. */
+static uint32_t field_at(const drawn *d, const drawn_panel *p, double x, double y) {
+    uint32_t found = 0;
+    for (size_t i = 1; i < d->svg->count; i++) {
+        const svg_mark *m = &d->svg->marks[i];
+        if (m->kind == SVG_PATH && m->fill.a == 1 && m->count == 4 && m->stroke.a == 0 &&
+            svg_rgb(m->fill) != d->theme->background && x > m->box.x0 && x < m->box.x1 && y > m->box.y0 &&
+            y < m->box.y1 && svg_inside(m->box, p->frame, 2))
+            found = 0xFF000000u | svg_rgb(m->fill);
+    }
+    return found;
+}
+
+/* The first method on top, as in a table, and its name at its row. */
+static double row_of(const drawn_panel *p, size_t i, size_t count) {
+    return p->frame.y0 + (p->frame.y1 - p->frame.y0) * ((double)i + 0.5) / (double)count;
+}
+
+static void check_ends(const drawn *d, const drawn_panel *p, const double *ends, const char *text, size_t others) {
+    drawn_marker all[64];
+    const size_t count = drawn_markers(d, p, all, 64);
+    size_t wanted = 0;
+    for (size_t i = 0; i < METHODS; i++) {
+        if (!isfinite(ends[i]))
+            continue;
+        wanted++;
+        if (!marked(all, count, &drawn_legend(d, text)->marker,
+                    (svg_point){drawn_px(&p->x, ends[i]), row_of(p, i, METHODS), false}))
+            fail_msg("'%s' is not marked at %g of %s", text, ends[i], names[i]);
+    }
+    assert_int_equal(count, wanted + others);
+}
+
+static void stability_of_the_test(void **state) {
+    (void)state;
+    static const char *const texts[] = {"claimed up to here", "the claim breaks here"};
+    const figure_methods m = {.count = METHODS,
+                              .names = names,
+                              .errors = walked,
+                              .steps = STEPS,
+                              .ratios = ratios,
+                              .claimed = claimed,
+                              .breaks = breaks};
+    for (int dark = 0; dark < 2; dark++) {
+        drawn *d = draw_own("stability", &m, dark ? &drawn_dark : &drawn_light);
+        const drawn_panel *p = &d->panels[0];
+        assert_string_equal(d->title, "Where methods lose their digits");
+        assert_string_equal(d->x_caption->text, "far/near");
+        assert_string_equal(d->y_caption->text, "method");
+        assert_string_equal(d->right_caption->text, "digits left");
+        drawn_legend_is(d, 2, texts);
+        assert_int_equal(d->entries[0].marker.inside, d->theme->text);
+        assert_int_equal(d->entries[0].marker.shape, DRAWN_DISC);
+        assert_int_equal(d->entries[1].marker.inside, d->theme->background);
+        assert_int_equal(d->entries[1].marker.rim, d->theme->palette[0]);
+        drawn_bar_is_viridis(d);
+        assert_true(p->x.log && !d->value.log);
+        assert_px(drawn_px(&d->value, 0), d->bar->box.y1, 1.5);
+        assert_px(drawn_px(&d->value, 16), d->bar->box.y0, 1.5);
+        assert_px(drawn_px(&p->x, sqrt(10)), p->frame.x0, 1.5);
+        assert_px(drawn_px(&p->x, sqrt(1e9)), p->frame.x1, 1.5);
+        assert_int_equal(p->y.labels, METHODS);
+        for (size_t i = 0; i < METHODS; i++) {
+            assert_string_equal(p->y.at[METHODS - 1 - i]->text, names[i]);
+            assert_px(p->y.px[METHODS - 1 - i], row_of(p, i, METHODS), 1);
+            for (size_t k = 0; k < STEPS; k++) { /* below the marks */
+                const uint32_t colour = field_at(d, p, drawn_px(&p->x, ratios[k] * 1.5), row_of(p, i, METHODS) + 12);
+                assert_px(drawn_bar_px(d, colour), drawn_px(&d->value, digits(walked[i * STEPS + k])), 2);
+            }
+        }
+        check_ends(d, p, claimed, texts[0], 4);
+        check_ends(d, p, breaks, texts[1], 7);
+        drawn_description_is(d, " Shown: claimed up to here; the claim breaks here.");
+        drawn_close(d);
+    }
+}
+
+/* Names, colours and ends of the program's methods against what `stability --csv` prints. */
+static void stability_of_the_program(void **state) {
+    (void)state;
+    drawn *d = drawn_run(&drawn_light, "plot stability linearize");
+    const drawn_panel *p = &d->panels[0];
+    drawn_marker all[128];
+    const size_t count = drawn_markers(d, p, all, 128);
+    char *text = drawn_output("stability linearize --csv"), *row = strchr(text, '\n') + 1;
+    int rows = 0;
+    assert_string_equal(d->subtitle, "linearize: eye depth of a binary32 window depth; worst relative error over near "
+                                     "1e-12, 0.1 and 1e6");
+    for (char *end; (end = strchr(row, '\n')) != NULL; row = end + 1) {
+        char method[64], which[64], name[160];
+        double ratio, error, to;
+        *end = '\0';
+        assert_int_equal(sscanf(row, "linearize,%63[^,],%63[^,]", method, which), 2);
+        char *at = row;
+        for (int comma = 0; comma < 4; comma++)
+            at = strchr(at, ',') + 1;
+        to = strtod(at, NULL);
+        assert_int_equal(sscanf(strchr(strchr(at, ',') + 1, ',') + 1, "%lf,%lf", &ratio, &error), 2);
+        snprintf(name, sizeof name, "%s, %s", method, which);
+        int label = 0;
+        while (label < p->y.labels && strcmp(p->y.at[label]->text, name) != 0)
+            label++;
+        if (label == p->y.labels)
+            fail_msg("no row is named '%s'", name);
+        const double y = p->y.px[label];
+        const uint32_t colour = field_at(d, p, drawn_px(&p->x, ratio) - 2, y + 2);
+        assert_px(drawn_bar_px(d, colour), drawn_px(&d->value, digits(error)), 2);
+        if (to > 0 && isfinite(to))
+            assert_true(marked(all, count, &drawn_legend(d, "claimed up to here")->marker,
+                               (svg_point){drawn_px(&p->x, to), y, false}));
+        rows++;
+    }
+    assert_true(rows > 100);
+    free(text);
+    drawn_close(d);
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(pareto_of_the_test),
+        cmocka_unit_test(pareto_of_the_program),
+        cmocka_unit_test(stability_of_the_test),
+        cmocka_unit_test(stability_of_the_program),
+    };
+    return run_tap(tests);
+}

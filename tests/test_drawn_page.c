@@ -1,0 +1,276 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* What all figures share: words that may be too long, sizes, themes, legends of many set-ups, axes of every length. */
+#include <cairo.h>
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "drawn.h"
+#include "drawn_truth.h"
+#include "support.h"
+
+/* ---- Words ------------------------------------------------------------------------------------------------------- */
+
+static void titles(void **state) {
+    (void)state;
+    drawn *d = drawn_run(&drawn_light, "plot share -F fp16 -m d3d --title 'a < b & \"c\" > d'");
+    assert_string_equal(d->title, "a < b & \"c\" > d");
+    drawn_description_is(d, " Shown: fp16 d3d.");
+    drawn_close(d);
+    d = drawn_run(&drawn_light, "plot share -F fp16 -m d3d --title 'One long title after all %s'",
+                  "that needs more than a single line of the page, as it goes on and on, for a while");
+    assert_string_equal(d->title, "One long title after all that needs more than a single line of the page, as it goes "
+                                  "on and on, for a while");
+    drawn_close(d);
+    d = drawn_run(&drawn_light, "plot share -F fp16 -m d3d --width 320 --height 240 --title 'One long title %s'",
+                  "that needs more than two lines of the page, as it goes on and on, until it cannot be shown at all");
+    const char *cut = strstr(d->title, "\u2026");
+    assert_true(cut != NULL && cut[strlen("\u2026")] == '\0' && cut > d->title + 40 && cut[-1] != ' ');
+    drawn_close(d);
+}
+
+static void metadata(void **state) {
+    (void)state;
+    char first[SVG_NOTE], before[SVG_NOTE];
+    static const char *const drawn_as[] = {"-n 0.2 --theme dark", "-n 0.2 --theme dark", "-n 0.3 --theme dark"};
+    for (int i = 0; i < 3; i++) {
+        drawn *d = drawn_run(&drawn_dark, "plot share -F fp16 -m d3d %s", drawn_as[i]);
+        const char *data = strstr(d->svg->metadata, "\ndata: ");
+        char want[128];
+        snprintf(want, sizeof want, "\ncommand: depthprec plot share -F fp16 -m d3d -n %s --theme dark",
+                 i < 2 ? "0.2" : "0.3");
+        assert_non_null(strstr(d->svg->metadata, want));
+        assert_non_null(data);
+        assert_int_equal(strspn(data + 7, "0123456789abcdef"), 16);
+        snprintf(first, sizeof first, "%.16s", data + 7);
+        if (i > 0)
+            assert_int_equal(strcmp(first, before) == 0, i == 1);
+        snprintf(before, sizeof before, "%s", first);
+        drawn_close(d);
+    }
+}
+
+/* ---- Sizes ------------------------------------------------------------------------------------------------------- */
+
+static void sizes(void **state) {
+    (void)state;
+    static const int all[][2] = {{1600, 1000}, {400, 300}, {320, 200}, {2000, 500}, {500, 900}};
+    cameras c = cameras_of(drawn_camera(0.1, 1000), "unorm24,fp16", "d3d,reversed");
+    for (size_t i = 0; i < sizeof all / sizeof all[0]; i++) {
+        drawn *d = drawn_run(&drawn_light, "plot interval -F unorm24,fp16 -m d3d,reversed --width %d --height %d",
+                             all[i][0], all[i][1]);
+        for (size_t k = 0; k < c.count; k++) {
+            const drawn_entry *e = drawn_legend(d, c.names[k]);
+            drawn_style_is(d, e, (int)k / 2, (int)k % 2, k < 2 ? DRAWN_DISC : DRAWN_SQUARE, false);
+            assert_px(e->marker.width,
+                      k < 2 ? 2 * d->scale * (k % 2 == 0 ? 3.6 : 3.2) : 1.8 * d->scale * (k % 2 == 0 ? 3.6 : 3.2),
+                      0.02);
+            drawn_follows(&d->panels[0], &d->panels[0].y, drawn_curve(d, &d->panels[0], e), true_interval, &c.setups[k],
+                          60, 1.5);
+        }
+        drawn_close(d);
+    }
+}
+
+/* ---- Many set-ups ------------------------------------------------------------------------------------------------ */
+
+static void many(void **state) {
+    (void)state;
+    static const char *const mappings = "d3d,gl,reversed,log";
+    static const drawn_shape shapes[] = {DRAWN_DISC,     DRAWN_SQUARE,        DRAWN_DIAMOND,
+                                         DRAWN_TRIANGLE, DRAWN_TRIANGLE_DOWN, DRAWN_HEXAGON};
+    cameras c = cameras_of(drawn_camera(0.1, 1000), "unorm16,unorm20,unorm24,fp16", mappings);
+    drawn *d = drawn_run(&drawn_light, "plot share -F unorm16,unorm20,unorm24,fp16 -m %s --height 700", mappings);
+    for (size_t i = 0; i < c.count; i++)
+        c.texts[i] = c.names[i];
+    drawn_legend_is(d, c.count, c.texts);
+    for (size_t i = 0; i < c.count; i++) {
+        const drawn_entry *e = &d->entries[i];
+        drawn_style_is(d, e, (int)i / 4, (int)i % 4, shapes[i / 4], false);
+        if (i % 4 > 0) /* those of a format stand together */
+            assert_px(e->x, d->entries[i - 1].x, 0.1);
+        drawn_follows(&d->panels[0], &d->panels[0].y, drawn_curve(d, &d->panels[0], e), true_share, &c.setups[i], 60,
+                      1.5);
+    }
+    drawn_close(d);
+    d = drawn_run(&drawn_light, "plot share -F unorm16,fp16 -m d3d,gl,reversed"); /* 2 lines would do */
+    assert_int_equal(d->entry_count, 6);
+    for (size_t i = 1; i < 6; i++)
+        assert_int_equal(fabs(d->entries[i].x - d->entries[i - 1].x) < 1, i != 3);
+    drawn_close(d);
+    c = cameras_of(drawn_camera(0.1, 1000), "unorm16,unorm20,unorm24,fp16,fp32,unorm12", "reversed");
+    d = drawn_run(&drawn_light, "plot error -F unorm16,unorm20,unorm24,fp16,fp32,unorm12 -m reversed");
+    for (size_t i = 0; i < c.count; i++)
+        drawn_style_is(d, drawn_legend(d, c.names[i]), (int)i, (int)i, shapes[i], false);
+    drawn_close(d);
+}
+
+/* Guarantee and interval in one figure, each with its own name. */
+static void models(void **state) {
+    (void)state;
+    drawn *d = drawn_run(&drawn_light, "plot interval --model auto -F unorm16,unorm24 -m d3d,log --range 1:2");
+    assert_string_equal(d->title, "Z-fighting interval; in the model fp32, guaranteed separation");
+    assert_string_equal(d->y_caption->text, "separation, interval (scene units)");
+    assert_non_null(strstr(d->subtitle, "near 0.1, far 1000, perspective, nearest, depths 1 to 2. Thin: "));
+    drawn_legend_is(d, 5,
+                    (const char *const[]){"unorm16 d3d, exact", "unorm16 log, exact", "unorm24 log, staged",
+                                          "unorm24 d3d, fp32", "unorm24 d3d, fp32, census"});
+    drawn_close(d);
+}
+
+/* ---- Axes -------------------------------------------------------------------------------------------------------- */
+
+typedef struct axis_case {
+    const char *arguments, *first, *last; /* labels of the depth axis */
+    bool log;
+    int labels;
+} axis_case;
+
+/* Decades by their name, a few decades in between, small ranges in even steps, large numbers in full. */
+static void axes_of_every_length(void **state) {
+    (void)state;
+    static const axis_case cases[] = {
+        {"error -F unorm16 -m d3d", "0.1", "1000", true, 5},
+        {"error -F unorm16 -m d3d -f 1e6", "10\u207b\u00b9", "10\u2076", true, 8},
+        {"error -F fp32 -m reversed -n 1e-6 -f 1e12", "10\u207b\u2076", "10\u00b9\u00b2", true, 10},
+        {"error -F unorm16 -m d3d --range 1:30", "1", "20", true, 5},
+        {"error -F unorm16 -m d3d --range 100:150", "100", "150", true, 11},
+        {"error -F unorm16 -m d3d --range 0.11:0.14", "0.11", "0.14", true, 7},
+        {"error -F unorm16 -m d3d --range 0.1100001:0.1100002", "0.1100001", "0.1100002", false, 6},
+        {"distribution -F unorm4 -m d3d -n 1000 -f 90000", "10000", "90000", false, 9},
+        {"distribution -F unorm4 -m d3d -n 1 -f 20", "2", "20", false, 10},
+        {"distribution -F unorm4 -m d3d -n 0.01 -f 0.5", "0.05", "0.5", false, 10},
+    };
+    for (size_t i = 0; i < sizeof cases / sizeof cases[0]; i++) {
+        drawn *d = drawn_run(&drawn_light, "plot %s", cases[i].arguments);
+        const drawn_scale *x = &d->panels[0].x;
+        assert_int_equal(x->log, cases[i].log);
+        assert_true(x->labels >= 2);
+        assert_string_equal(x->at[0]->text, cases[i].first);
+        assert_string_equal(x->at[x->labels - 1]->text, cases[i].last);
+        assert_int_equal(x->labels, cases[i].labels);
+        drawn_close(d);
+    }
+}
+
+/* An axis without ends of its own is as long as its data, a vertical one a little longer. */
+static void fitted(void **state) {
+    (void)state;
+    chart *c = chart_new();
+    assert_non_null(c);
+    snprintf(c->title, sizeof c->title, "t");
+    snprintf(c->subtitle, sizeof c->subtitle, "s");
+    chart_panel *p = chart_add_panel(c);
+    p->x = (chart_axis){.label = "x", .key = "x", .unit = ""};
+    p->y = (chart_axis){.label = "y", .key = "y", .unit = "m"};
+    chart_series *line = chart_add_series(c, p, CHART_LINE, 3);
+    snprintf(line->name, sizeof line->name, "line");
+    for (int i = 0; i < 3; i++) {
+        line->x[i] = 3.5 * i;
+        line->y[i] = i == 0 ? 5 : i == 1 ? -3 : 13;
+    }
+    chart_fit(c);
+    drawn *d = drawn_chart(&drawn_dark, c, 800, 500);
+    const drawn_panel *q = &d->panels[0];
+    assert_px(drawn_px(&q->x, 0), q->frame.x0, 1.5);
+    assert_px(drawn_px(&q->x, 7), q->frame.x1, 1.5);
+    assert_px(drawn_px(&q->y, 13 + 0.04 * 16), q->frame.y0, 1.5);
+    assert_px(drawn_px(&q->y, -3 - 0.04 * 16), q->frame.y1, 1.5);
+    const svg_mark *curve = drawn_curve(d, q, &d->entries[0]);
+    assert_int_equal(curve->count, 3);
+    assert_px(curve->points[1].x, drawn_px(&q->x, 3.5), 1);
+    assert_px(curve->points[1].y, drawn_px(&q->y, -3), 1);
+    assert_string_equal(d->x_caption->text, "x");
+    assert_string_equal(d->y_caption->text, "y (m)");
+    drawn_close(d);
+}
+
+/* A label stands to the right of its point, to the left where it would leave the frame, and never above the frame. */
+static void labels_of_points(void **state) {
+    (void)state;
+    static const char *const texts[] = {"first", "second", "third", "fourth"};
+    static const double at[][2] = {{0.02, 0.5}, {0.5, 0.2}, {0.99, 0.7}, {0.3, 1}};
+    chart *c = chart_new();
+    assert_non_null(c);
+    snprintf(c->title, sizeof c->title, "t");
+    snprintf(c->subtitle, sizeof c->subtitle, "s");
+    chart_panel *p = chart_add_panel(c);
+    p->x = (chart_axis){CHART_LINEAR, 0, 1, "x", "x", "", NULL};
+    p->y = (chart_axis){CHART_LINEAR, 0, 1, "y", "y", "", NULL};
+    chart_series *s = chart_add_series(c, p, CHART_POINTS, 4);
+    snprintf(s->name, sizeof s->name, "points");
+    s->labels = chart_memory(c, 4, sizeof *s->labels);
+    for (int i = 0; i < 4; i++) {
+        s->x[i] = at[i][0];
+        s->y[i] = at[i][1];
+        snprintf(s->labels[i], sizeof s->labels[i], "%s", texts[i]);
+    }
+    drawn *d = drawn_chart(&drawn_light, c, 800, 500);
+    const drawn_panel *q = &d->panels[0];
+    for (int i = 0; i < 4; i++) {
+        const double x = drawn_px(&q->x, at[i][0]), y = drawn_px(&q->y, at[i][1]);
+        const svg_mark *words = drawn_words(d, q->frame, texts[i]);
+        assert_non_null(words);
+        assert_px(i == 2 ? x - words->box.x1 : words->at.x - x, 9, 2);
+        if (i < 3)
+            assert_px(words->at.y - 0.36 * words->size, y, 1);
+        assert_true(words[-1].curved && svg_rgb(words[-1].stroke) == d->theme->background); /* it stands out */
+    }
+    drawn_close(d);
+}
+
+/* ---- Other surfaces ---------------------------------------------------------------------------------------------- */
+
+static uint32_t pixel_of(cairo_surface_t *image, double x, double y) {
+    uint32_t pixel;
+    const unsigned char *data = cairo_image_surface_get_data(image);
+    memcpy(&pixel, data + (ptrdiff_t)floor(y) * cairo_image_surface_get_stride(image) + 4 * (ptrdiff_t)floor(x), 4);
+    return pixel & 0xFFFFFF;
+}
+
+/* The PNG shows what the SVG shows, where it shows it; a PDF is as large, in points. */
+static void the_same_in_png_and_pdf(void **state) {
+    (void)state;
+    char path[2][320], command[400], head[64];
+    drawn_marker all[256];
+    drawn *d = drawn_run(&drawn_light, "plot share -F unorm24,fp16 -m d3d,reversed");
+    for (int i = 0; i < 2; i++) {
+        snprintf(path[i], sizeof path[i], "%s/drawn.%s", drawn_folder(), i == 0 ? "png" : "pdf");
+        free(drawn_output("plot share -F unorm24,fp16 -m d3d,reversed -o %s", path[i]));
+    }
+    cairo_surface_t *image = cairo_image_surface_create_from_png(path[0]);
+    assert_int_equal(cairo_surface_status(image), CAIRO_STATUS_SUCCESS);
+    assert_int_equal(cairo_image_surface_get_width(image), 800);
+    assert_int_equal(cairo_image_surface_get_height(image), 500);
+    assert_int_equal(pixel_of(image, 1, 1), d->theme->background);
+    const size_t count = drawn_markers(d, &d->panels[0], all, 256);
+    for (size_t i = 0; i < count; i++) {
+        bool hidden = all[i].y < d->panels[0].frame.y0 + 5 || all[i].y > d->panels[0].frame.y1 - 5;
+        for (size_t k = i + 1; k < count; k++)
+            hidden = hidden || hypot(all[i].x - all[k].x, all[i].y - all[k].y) < 8;
+        if (!hidden)
+            assert_int_equal(pixel_of(image, all[i].x, all[i].y), all[i].inside);
+    }
+    bool framed = false; /* letters are a little wider or narrower there */
+    for (int x = -2; x <= 2; x++)
+        framed = framed || pixel_of(image, d->panels[0].frame.x0 + x, d->panels[0].frame.y0 + 3) == d->theme->frame;
+    assert_true(framed);
+    cairo_surface_destroy(image);
+    snprintf(command, sizeof command, "grep -a -o '/MediaBox \\[ [0-9 ]*\\]' %s", path[1]);
+    FILE *pipe = popen(command, "r");
+    assert_non_null(pipe);
+    assert_non_null(fgets(head, sizeof head, pipe));
+    assert_int_equal(pclose(pipe), 0);
+    assert_string_equal(head, "/MediaBox [ 0 0 600 375 ]\n");
+    drawn_close(d);
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(titles), cmocka_unit_test(metadata),         cmocka_unit_test(sizes),
+        cmocka_unit_test(many),   cmocka_unit_test(models),           cmocka_unit_test(axes_of_every_length),
+        cmocka_unit_test(fitted), cmocka_unit_test(labels_of_points), cmocka_unit_test(the_same_in_png_and_pdf),
+    };
+    return run_tap(tests);
+}

@@ -1,0 +1,313 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Requirements and normals, as drawn: a requirement file of the test's own against the library, normals against error
+ * maps of the same plane. */
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "drawn.h"
+#include "drawn_truth.h"
+#include "plot/figure.h"
+#include "support.h"
+
+/* ---- Requirements ------------------------------------------------------------------------------------------------ */
+
+typedef struct need {
+    const char *name;
+    int camera;
+    bool is_error;
+    double lo, hi, limit;
+} need;
+
+static const char *const camera_names[] = {"street", "cockpit", "scope"};
+static const char *const headings[] = {"street: unorm24 d3d, exact", "cockpit: fp32 reversed, fp32",
+                                       "scope: fp32 reversed, exact"};
+static const need needs[] = {
+    {"kerb", 0, false, 0.5, 20, 1e-3},  {"paint", 0, false, 5, 500, 2e-2},     {"haze", 0, true, 1, 900, 0.4},
+    {"fence", 0, true, 3, 300, 1e-3},   {"tower", 0, false, 1500, 1500, 5},    {"levers", 1, false, 0.1, 2, 1e-5},
+    {"knobs", 1, false, 0.3, 20, 1e-6}, {"reticle", 2, false, 0.2, 2.2, 1e-6}, /* worst where a binade ends */
+};
+enum { NEEDS = sizeof needs / sizeof needs[0] };
+
+static void write_needs(const char *path) {
+    FILE *out = fopen(path, "w");
+    assert_non_null(out);
+    fprintf(
+        out,
+        "unit = \"m\";\ncameras = {\n"
+        "  street = { near = 0.1; far = 2000.0; mapping = \"d3d\"; format = \"unorm24\"; model = \"exact\"; };\n"
+        "  cockpit = { near = 0.05; far = \"inf\"; mapping = \"reversed\"; format = \"fp32\"; model = \"fp32\"; "
+        "};\n  scope = { near = 0.05; far = \"inf\"; mapping = \"reversed\"; format = \"fp32\"; model = \"exact\"; };\n"
+        "};\nrequirements = {\n");
+    for (size_t i = 0; i < NEEDS; i++) {
+        const need *n = &needs[i];
+        fprintf(out, "  %s = { camera = \"%s\"; ", n->name, camera_names[n->camera]);
+        if (n->lo == n->hi)
+            fprintf(out, "at = %#.15g; ", n->lo);
+        else
+            fprintf(out, "range = [%#.15g, %#.15g]; ", n->lo, n->hi);
+        fprintf(out, "%s = %#.15g; };\n", n->is_error ? "error" : "separation", n->limit);
+    }
+    fprintf(out, "  shimmer = { camera = \"cockpit\"; range = [1.0, 2.0]; ties = 0.5; };\n};\n");
+    fclose(out);
+}
+
+/* What a set-up gives over a range, and where that is worst. */
+static double given(const dp_setup *s, const need *n, double *z) {
+    dp_worst w;
+    dp_separation_worst far;
+    if (n->is_error) {
+        assert_int_equal(dp_worst_over(s, n->lo, n->hi, &w), DP_OK);
+        *z = w.error_z;
+        return w.error;
+    }
+    assert_int_equal(dp_separation_over(s, n->lo, n->hi, n->limit, &far), DP_OK);
+    *z = far.z;
+    return far.bound;
+}
+
+/* The range as a level line at the limit, in the colour of the verdict; its worst place marked and named. */
+static void check_need(const drawn *d, const drawn_panel *p, const dp_setup *setup, const need *n, size_t *met,
+                       size_t *inner) {
+    double z;
+    const bool passed = given(setup, n, &z) <= n->limit;
+    const drawn_entry *e =
+        drawn_legend(d, passed ? "requirement met, where it is worst" : "requirement missed, where it is worst");
+    const svg_mark pen = {
+        .stroke = {passed ? 0 : 0xD5 / 255.0, passed ? 0x9E / 255.0 : 0x5E / 255.0, passed ? 0x73 / 255.0 : 0, 1},
+        .width = 2 * d->scale};
+    const svg_mark *lines[2];
+    drawn_marker all[32];
+    char text[64];
+    const size_t count = drawn_markers(d, p, all, 32);
+    const double y = drawn_px(&p->y, n->limit);
+    bool marked = false, level = n->lo == n->hi; /* nothing is to be seen of a range that is a point */
+    *met += passed;
+    *inner += drawn_px(&p->x, z) < drawn_px(&p->x, n->hi) - 3;
+    assert_int_equal(drawn_strokes(d, p, &pen, lines, 2), 1);
+    for (size_t i = 0; i + 1 < lines[0]->count; i++) {
+        const svg_point a = lines[0]->points[i], b = lines[0]->points[i + 1];
+        level = level || (!b.starts && fabs(a.y - y) < 1 && fabs(b.y - y) < 1 &&
+                          fabs(a.x - drawn_px(&p->x, n->lo)) < 1.5 && fabs(b.x - drawn_px(&p->x, n->hi)) < 1.5);
+    }
+    assert_true(level);
+    const svg_mark *words = NULL;
+    snprintf(text, sizeof text, "%s%s", n->name, n->is_error ? " (error)" : "");
+    words = drawn_words(d, (svg_box){p->frame.x0, p->frame.y0 - 10, p->frame.x1, p->frame.y1}, text);
+    assert_non_null(words);
+    for (size_t i = 0; i < count; i++)
+        if (drawn_alike(&all[i], &e->marker) && fabs(all[i].y - y) < 1.2 && fabs(all[i].x - drawn_px(&p->x, z)) < 2) {
+            marked = true;
+            assert_px(words->box.x0 > all[i].x ? words->at.x - all[i].x : all[i].x - words->box.x1, 9 * d->scale, 1.5);
+            assert_px(words->at.y - 0.36 * words->size, all[i].y, 1);
+        }
+    if (!marked)
+        fail_msg("'%s' has no mark at %g", text, z);
+}
+
+static void check_scene_legend(const drawn *d) {
+    static const char *const texts[] = {"separation that the set-up gives", "error that the set-up gives",
+                                        "requirement met, where it is worst", "requirement missed, where it is worst"};
+    drawn_legend_is(d, 4, texts);
+    drawn_style_is(d, &d->entries[0], 0, 0, DRAWN_NONE, false);
+    drawn_style_is(d, &d->entries[1], 3, 1, DRAWN_NONE, false);
+    const drawn_marker *met = &d->entries[2].marker, *missed = &d->entries[3].marker;
+    assert_int_equal(met->shape, DRAWN_DISC);
+    assert_int_equal(met->inside, 0x009E73); /* green, and full */
+    assert_int_equal(missed->shape, DRAWN_TRIANGLE_DOWN);
+    assert_int_equal(missed->rim, 0xD55E00);
+    assert_int_equal(missed->inside, d->theme->background);
+}
+
+static void scene_of_requirements(void **state) {
+    (void)state;
+    char path[320], subtitle[128];
+    size_t met = 0, marks[3] = {0, 0, 0}, inner = 0;
+    snprintf(path, sizeof path, "%s/street.need", drawn_folder());
+    write_needs(path);
+    dp_spec street = drawn_camera(0.1, 2000), cockpit = drawn_camera(0.05, INFINITY);
+    cockpit.model = DP_MODEL_FP32;
+    dp_spec scope = cockpit;
+    scope.model = DP_MODEL_EXACT;
+    const cameras c[3] = {cameras_of(street, "unorm24", "d3d"), cameras_of(cockpit, "fp32", "reversed"),
+                          cameras_of(scope, "fp32", "reversed")};
+    drawn *d = drawn_run(&drawn_light, "plot scene %s", path);
+    assert_string_equal(d->title, "What the scene needs and what the cameras give");
+    assert_string_equal(d->x_caption->text, "eye depth z (scene units)");
+    assert_string_equal(d->y_caption->text, "allowed and given (scene units)");
+    check_scene_legend(d);
+    assert_int_equal(d->panel_count, 3);
+    for (size_t i = 0; i < 3; i++) {
+        const drawn_panel *p = &d->panels[i];
+        drawn_marker all[32];
+        assert_string_equal(p->heading, headings[i]);
+        assert_true(p->x.log && p->y.log);
+        const double from = drawn_at(&p->x, p->frame.x0), to = drawn_at(&p->x, p->frame.x1);
+        assert_true(from > 0.02 && from < 0.09); /* a margin before the first depth asked about, 0.1, */
+        assert_true(to > 5e3 && to < 1e6);       /* and one that a name fits into behind the last, 1500 */
+        const svg_mark *curve = drawn_curve(d, p, &d->entries[0]);
+        drawn_follows(p, &p->y, curve, true_separation, &c[i].setups[0], 80, 1.7);
+        const svg_mark *error[1];
+        assert_int_equal(drawn_strokes(d, p, d->entries[1].line, error, 1), i == 0);
+        if (i == 0)
+            drawn_follows(p, &p->y, error[0], true_error, &c[i].setups[0], 80, 1.5);
+        for (size_t k = 0; k < NEEDS; k++)
+            if (needs[k].camera == (int)i) {
+                check_need(d, p, &c[i].setups[0], &needs[k], &met, &inner);
+                marks[i]++;
+            }
+        assert_int_equal(drawn_markers(d, p, all, 32), marks[i]);
+    }
+    assert_true(met > 0 && met < NEEDS && inner > 0);
+    snprintf(subtitle, sizeof subtitle, "street.need: %zu met, %zu missed; a scene unit is 1 m; not shown: 1 of ties",
+             met, NEEDS - met);
+    assert_string_equal(d->subtitle, subtitle);
+    drawn_description_is(d, " street: unorm24 d3d, exact. Shown: separation that the set-up gives; error that the "
+                            "set-up gives; range of what is met; requirement met, where it is worst; range of what is "
+                            "missed; requirement missed, where it is worst. cockpit: fp32 reversed, fp32. Shown: "
+                            "separation that the set-up gives; range of what is met; requirement met, where it is "
+                            "worst; range of what is missed; requirement missed, where it is worst. scope: fp32 "
+                            "reversed, exact. Shown: separation that the set-up gives; range of what is met; "
+                            "requirement met, where it is worst.");
+    drawn_close(d);
+}
+
+/* ---- Normals ----------------------------------------------------------------------------------------------------- */
+
+/* Told apart by more than their curves are thick: each surface, method and set-up has its own height and slope. */
+static double made_up(const dp_setup *setup, size_t surface, size_t method, double z) {
+    if (surface == 1 && method == 2)
+        return NAN; /* the bound holds on surface 0 alone */
+    return pow(10, (double)method * 1.5 + (double)surface * 0.7 + (setup->reversed ? 0.35 : 0)) * pow(z, 0.3) * 1e-3;
+}
+
+typedef struct of_normals {
+    const dp_setup *setup;
+    size_t surface, method;
+} of_normals;
+
+static bool true_normal(const void *context, double from, double to, double *lo, double *hi) {
+    const of_normals *n = context;
+    *lo = made_up(n->setup, n->surface, n->method, from);
+    *hi = made_up(n->setup, n->surface, n->method, to);
+    return from > n->setup->spec.znear * 1.2 && to < n->setup->spec.zfar / 1.2; /* curves end within a slice of both */
+}
+
+static void normals_of_the_test(void **state) {
+    (void)state;
+    static const char *const texts[] = {"rough", "fine", "bound of rough"};
+    const figure_normals own = {.surface_count = 2,
+                                .method_count = 2,
+                                .surfaces = (const char *const[]){"floor", "ball"},
+                                .methods = texts,
+                                .bound = texts[2],
+                                .error = made_up};
+    cameras c = cameras_of(drawn_camera(0.1, 1000), "unorm16", "d3d,reversed");
+    const char *names[] = {c.names[0], c.names[1]};
+    const figure_request request = {.setups = c.setups,
+                                    .count = 2,
+                                    .names = names,
+                                    .lo = NAN,
+                                    .hi = NAN,
+                                    .at = NAN,
+                                    .normals = &own,
+                                    .columns = 800,
+                                    .rows = 500};
+    chart *drawing = chart_new();
+    assert_non_null(drawing);
+    snprintf(drawing->title, sizeof drawing->title, "Of the test");
+    snprintf(drawing->subtitle, sizeof drawing->subtitle, "sub");
+    assert_null(figure_find("normals")->build(&request, drawing));
+    drawn *d = drawn_chart(&drawn_light, drawing, 800, 500);
+    assert_string_equal(d->x_caption->text, "eye depth z (scene units)");
+    assert_string_equal(d->y_caption->text, "angular error (degrees)");
+    drawn_legend_is(d, 3, texts);
+    drawn_style_is(d, &d->entries[0], 0, 0, DRAWN_DISC, false);
+    drawn_style_is(d, &d->entries[1], 1, 1, DRAWN_SQUARE, false);
+    drawn_style_is(d, &d->entries[2], -1, 1, DRAWN_NONE, true);
+    assert_int_equal(d->panel_count, 4);
+    for (size_t i = 0; i < 4; i++) {
+        char heading[80];
+        const drawn_panel *p = &d->panels[i];
+        snprintf(heading, sizeof heading, "%s: %s", c.names[i / 2], own.surfaces[i % 2]);
+        assert_string_equal(p->heading, heading);
+        assert_true(p->x.log && p->y.log);
+        for (size_t m = 0; m < (i % 2 == 0 ? 3 : 2); m++) {
+            const of_normals n = {&c.setups[i / 2], i % 2, m};
+            const svg_mark *curve = drawn_curve(d, p, &d->entries[m]);
+            drawn_follows(p, &p->y, curve, true_normal, &n, 60, 3);
+            if (m < 2)
+                drawn_markers_on(d, p, &d->entries[m], curve);
+        }
+        if (i % 2 == 1) {
+            const svg_mark *none[1];
+            assert_int_equal(drawn_strokes(d, p, d->entries[2].line, none, 1), 0);
+        }
+    }
+    drawn_close(d);
+}
+
+static int by_size(const void *a, const void *b) {
+    const float x = *(const float *)a, y = *(const float *)b;
+    return (x > y) - (x < y);
+}
+
+/* 99 % of the pixels of an error map of a plane slanted by 60 degrees, in the middle of a large view. */
+static double mapped(const char *method, double z) {
+    enum { SIDE = 48 };
+    static float values[SIDE * SIDE];
+    char path[320], head[10];
+    const double fov = 2 * atan(tan(30 * 3.14159265358979323846 / 180) * SIDE / 1080) * 180 / 3.14159265358979323846;
+    size_t count = 0;
+    snprintf(path, sizeof path, "%s/normals.npy", drawn_folder());
+    free(drawn_output("texture --scene plane --parameter distance=%.17g --parameter tilt=33 --parameter turn=53.4 "
+                      "--size 48x48 --sky 0 --fov %.17g -F unorm16 -m d3d --normal %s --error-map -q -o %s",
+                      z, fov, method, path));
+    FILE *in = fopen(path, "rb");
+    assert_non_null(in);
+    assert_int_equal(fread(head, 1, sizeof head, in), sizeof head);
+    assert_int_equal(fseek(in, (unsigned char)head[8] + 256 * (unsigned char)head[9], SEEK_CUR), 0);
+    assert_int_equal(fread(values, sizeof values[0], SIDE * SIDE, in), SIDE * SIDE);
+    fclose(in);
+    for (size_t i = 0; i < SIDE * SIDE; i++)
+        if (!isnan(values[i]))
+            values[count++] = values[i];
+    assert_true(count > SIDE);
+    qsort(values, count, sizeof values[0], by_size);
+    return (double)values[(size_t)(0.99 * (double)(count - 1))];
+}
+
+static void normals_of_the_program(void **state) {
+    (void)state;
+    static const char *const texts[] = {"low", "medium", "high", "projective", "bound of projective"};
+    drawn *d = drawn_run(&drawn_light, "plot normals -F unorm16 -m d3d");
+    assert_string_equal(d->title, "Normals from depth");
+    assert_string_equal(d->subtitle,
+                        "unorm16 d3d, near 0.1, far 1000, perspective, nearest, exact; 1080 lines, field of "
+                        "view 60\u00b0; plane: 99 % of the pixels, outline: mean");
+    drawn_legend_is(d, 5, texts);
+    assert_int_equal(d->panel_count, 2);
+    assert_string_equal(d->panels[0].heading, "plane at 60\u00b0");
+    assert_string_equal(d->panels[1].heading, "outline of a sphere");
+    const drawn_panel *p = &d->panels[0];
+    for (int m = 0; m < 4; m++)
+        for (int slice = 8; slice < 50; slice += 20) { /* each point is the worst of four depths */
+            double worst = 0, top, bottom;
+            for (int i = 0; i < 4; i++)
+                worst = fmax(worst, mapped(texts[m], 0.1 * pow(1e4, (slice * 4 + i) / 199.0)));
+            const double x = p->frame.x0 + (p->frame.x1 - p->frame.x0) * (slice + 0.5) / 50;
+            assert_true(drawn_reach(drawn_curve(d, p, &d->entries[m]), x - 0.5, x + 0.5, &top, &bottom));
+            assert_px((top + bottom) / 2, drawn_px(&p->y, worst), 3);
+        }
+    drawn_close(d);
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(scene_of_requirements),
+        cmocka_unit_test(normals_of_the_test),
+        cmocka_unit_test(normals_of_the_program),
+    };
+    return run_tap(tests);
+}
