@@ -238,7 +238,8 @@ static void check_text(const values *v, const solve_case *c, const char *argumen
         snprintf(at[1], PATH_SIZE, "%.60svalue", under);
         snprintf(at[2], PATH_SIZE, "%.60sbytes", under);
         const bool none = isnan(value_at(v, at[0])->number); /* "none" is no number */
-        check_text_numbers(v, p.out, label, 6, isnan(c->limit) ? of_other + 1 : none ? of_other + 1 : of_other);
+        of_other[2] = isnan(c->limit) ? NULL : at[2];
+        check_text_numbers(v, p.out, label, 6, none || isnan(c->limit) ? of_other + 1 : of_other);
     }
     printed_free(&p);
 }
