@@ -453,7 +453,8 @@ void check_text_numbers(const values *v, const char *text, const char *label, in
     at += strspn(at, " ") + strlen(label);
     for (; *paths != NULL; paths++) {
         char *rest = word;
-        while (next_word(&at, end, word) && (strtod(word, &rest), rest == word || *rest != '\0'))
+        while (next_word(&at, end, word) && strcmp(word, "-") != 0 &&
+               (strtod(word, &rest), rest == word || *rest != '\0'))
             continue;
         if (!shows(word, value_at(v, *paths), digits))
             fail_msg("%s: '%s': %s: printed '%s', computed %.17g", v->command, label, *paths, word,
