@@ -341,7 +341,7 @@ static bool cell_is(const char *cell, const wanted *want) {
     return *cell != '\0' && *end == '\0' && got == want->number;
 }
 
-void check_csv_text(const values *v, const char *text, const column *columns, size_t count, const line_places *lines) {
+void check_csv_text(const values *v, const char *text, const csv_column *columns, size_t count, const line_places *lines) {
     tally t = {.name = v->command};
     char cell[WORD_SIZE];
     const char *at = text;
@@ -364,7 +364,7 @@ void check_csv_text(const values *v, const char *text, const column *columns, si
     tally_end(&t);
 }
 
-void check_csv(const values *v, int status, const char *arguments, const column *columns, size_t count,
+void check_csv(const values *v, int status, const char *arguments, const csv_column *columns, size_t count,
                const line_places *lines) {
     char *text = output_of(status, arguments, "--csv");
     check_csv_text(v, text, columns, count, lines);
@@ -392,13 +392,20 @@ static bool shows(const char *word, const wanted *want, int digits) {
     return isfinite(value) && fabs(got - value) <= unit * (1 + 1e-9);
 }
 
-static bool begins_with_number(const char *line, size_t length) {
-    char *end;
-    const char *at = line + strspn(line, " *>");
-    if (at >= line + length || !isdigit((unsigned char)*at))
-        return false;
-    strtod(at, &end);
-    return *end == ' ';
+/* A line of a table: at least two words, and the first two are numbers, or none. */
+static bool is_table_line(const char *line, size_t length) {
+    const char *at = line, *end = line + length;
+    for (int i = 0; i < 2; i++) {
+        char *rest;
+        at += strspn(at, " ");
+        strtod(at, &rest);
+        if (i == 1 && rest == at)
+            rest += *at == '-';
+        if (at >= end || rest == at || (*rest != ' ' && *rest != '\n'))
+            return false;
+        at = rest;
+    }
+    return true;
 }
 
 /* The next word of a line, without what punctuates it. */
@@ -423,7 +430,7 @@ void check_text_table(const values *v, const char *text, const text_column *colu
     size_t line = 0;
     for (const char *at = text; *at != '\0';) {
         const char *end = line_end(at);
-        if (begins_with_number(at, (size_t)(end - at))) {
+        if (is_table_line(at, (size_t)(end - at))) {
             if (line == lines->count)
                 fail_msg("%s: more lines than %zu: %.*s", v->command, lines->count, (int)(end - at), at);
             for (size_t i = 0; i < count; i++) {
@@ -464,7 +471,7 @@ void check_text_numbers(const values *v, const char *text, const char *label, in
 
 /* ---- Cameras ----------------------------------------------------------------------------------------------------- */
 
-size_t camera_setups(const camera *c, dp_setup out[CAMERA_SETUPS]) {
+size_t camera_setups(const camera_case *c, dp_setup out[CAMERA_SETUPS]) {
     size_t count = 0;
     dp_spec spec = dp_spec_default();
     spec.znear = c->znear;
@@ -492,7 +499,7 @@ static void list(char *out, size_t size, const char *before, const char *const *
         snprintf(out + strlen(out), size - strlen(out), "%s%s", i == 0 ? before : ",", names[i]);
 }
 
-const char *camera_options(const camera *c, char out[512]) {
+const char *camera_options(const camera_case *c, char out[512]) {
     snprintf(out, 512, "-n %.17g -f %.17g", c->znear, c->zfar);
     list(out, 512, " -F ", c->formats);
     list(out, 512, " -m ", c->mappings);

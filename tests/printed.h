@@ -122,9 +122,9 @@ void places_free(line_places *l);
  * A column: its head in CSV, and the path of its values: "z" in the line, "^near" in the set-up, "/family" at the top,
  * "=text" a constant, "?z" as in the line, empty where no such value is wanted.
  */
-typedef struct column {
+typedef struct csv_column {
     const char *head, *path;
-} column;
+} csv_column;
 
 /** The columns of a set-up. */
 #define SETUP_COLUMNS                                                                                                  \
@@ -133,10 +133,10 @@ typedef struct column {
         "model", "^model"                                                                                              \
     }
 
-void check_csv_text(const values *v, const char *text, const column *columns, size_t count, const line_places *lines);
+void check_csv_text(const values *v, const char *text, const csv_column *columns, size_t count, const line_places *lines);
 
 /** Runs `depthprec ARGUMENTS --csv`; RFC 4180, one line for each place, in order. */
-void check_csv(const values *v, int status, const char *arguments, const column *columns, size_t count,
+void check_csv(const values *v, int status, const char *arguments, const csv_column *columns, size_t count,
                const line_places *lines);
 
 /** A column of a text table: a path as above, and how precisely it is shown. */
@@ -145,7 +145,7 @@ typedef struct text_column {
     int digits; /**< significant ones; from 0 down: minus the decimals */
 } text_column;
 
-/** The lines of a text that begin with a number, one for each place, in order. A value may be rounded up or down. */
+/** The lines of a text that begin with two numbers, one for each place, in order. A value may be rounded up or down. */
 void check_text_table(const values *v, const char *text, const text_column *columns, size_t count,
                       const line_places *lines);
 
@@ -157,7 +157,7 @@ void check_text_numbers(const values *v, const char *text, const char *label, in
 enum { CAMERA_SETUPS = 16 };
 
 /** Planes, formats and mappings, as a command line and as the set-ups that it stands for. */
-typedef struct camera {
+typedef struct camera_case {
     double znear, zfar;
     const char *formats[5];
     const char *mappings[4];
@@ -167,11 +167,11 @@ typedef struct camera {
     bool implied;
     const char *arith; /**< null: ieee, and then not written */
     double log_c;      /**< 0: 1, and then not written */
-} camera;
+} camera_case;
 
-size_t camera_setups(const camera *c, dp_setup out[CAMERA_SETUPS]);
+size_t camera_setups(const camera_case *c, dp_setup out[CAMERA_SETUPS]);
 
 /** Its options. @return out */
-const char *camera_options(const camera *c, char out[512]);
+const char *camera_options(const camera_case *c, char out[512]);
 
 #endif

@@ -10,7 +10,7 @@
 enum { DEPTHS = 6 };
 
 typedef struct bias_case {
-    camera camera;
+    camera_case camera;
     double z[DEPTHS];
     const char *api;
     bool inverse;
@@ -144,14 +144,14 @@ static void want_bias(values *v, const bias_case *c, const dp_setup *setup, size
     SETUP_COLUMNS, {"api", "/api"}, {"z [scene]", "z"}, {"r", "r"}, {"r_most", "r_most"}, {                            \
         "slope [per pixel]", "slope"                                                                                   \
     }
-static const column forward[] = {BOTH,
+static const csv_column forward[] = {BOTH,
                                  {"bias", "bias"},
                                  {"depth", "depth"},
                                  {"code", "code"},
                                  {"code_moved", "code_moved"},
                                  {"z_moved [scene]", "z_moved"},
                                  {"shift [scene]", "shift"}};
-static const column inverse[] = {
+static const csv_column inverse[] = {
     BOTH, {"one_unit [scene]", "one_unit"}, {"units_apart", "units_apart"}, {"units_gap", "units_gap"}};
 
 /* The columns of the text; the slope and the gap only where they are asked about. */

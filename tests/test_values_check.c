@@ -204,7 +204,7 @@ static void check_junit(const char *path, const char *text, const need_file *fil
 }
 
 static void test_check(void **state) {
-    static const column columns[] = {{"file", "file"},
+    static const csv_column columns[] = {{"file", "file"},
                                      {"line", "line"},
                                      {"name", "name"},
                                      {"camera", "camera"},

@@ -203,7 +203,7 @@ static void check_bench_text(const values *v, const method_family_row *family, c
 }
 
 static void check_bench(const char *name, const char *line, size_t which, double tolerance) {
-    static const column columns[] = {{"family", "/family"},
+    static const csv_column columns[] = {{"family", "/family"},
                                      {"method", "name"},
                                      {"ns", "ns"},
                                      {"spread", "spread"},
@@ -280,7 +280,7 @@ static void want_walk(values *v, const method_family_row *family, size_t i, line
 }
 
 static void check_stability(const char *name, int status) {
-    static const column columns[] = {{"family", "/family"},     {"method", "^name"},     {"case", "^case"},
+    static const csv_column columns[] = {{"family", "/family"},     {"method", "^name"},     {"case", "^case"},
                                      {"claim", "claim"},        {"claim_to", "^claim_to"}, {"verdict", "^verdict"},
                                      {"ratio", "ratio"},        {"error", "error"}};
     static const char *const forms[] = {"--json", "--csv", ""};

@@ -175,7 +175,7 @@ static void want_solve(values *v, const solve_case *c, const json_t *root, line_
 
 /* An island's line is the answer's with the island's ends. */
 static void check_lines(values *v, const char *arguments, line_places *lines, size_t islands) {
-    static const column columns[] = {{"role", "role"},
+    static const csv_column columns[] = {{"role", "role"},
                                      SETUP_COLUMNS,
                                      {"for", "/for"},
                                      {"possible", "^possible"},

@@ -33,7 +33,7 @@ static void want_choice(values *v, const char *under, const dp_setup *setup, con
 /* ---- table ------------------------------------------------------------------------------------------------------- */
 
 typedef struct table_case {
-    camera camera;
+    camera_case camera;
     double lo, hi; /* --range */
     double z[DEPTHS];
     bool automatic; /* --model auto */
@@ -201,7 +201,7 @@ static void check_table_text(const values *v, const char *arguments, const line_
 }
 
 static void test_table(void **state) {
-    static const column columns[] = {SETUP_COLUMNS,
+    static const csv_column columns[] = {SETUP_COLUMNS,
                                      {"arith", "?^arith"},
                                      {"z [scene]", "z"},
                                      {"code", "code"},
@@ -220,7 +220,7 @@ static void test_table(void **state) {
         values v = values_of("table");
         line_places lines = {0};
         dp_setup setups[CAMERA_SETUPS];
-        column used[sizeof columns / sizeof columns[0]];
+        csv_column used[sizeof columns / sizeof columns[0]];
         char arguments[1024];
         bool with_arith = false;
         size_t count = 0, n = camera_setups(&c->camera, setups);
@@ -246,7 +246,7 @@ static void test_table_worst_lines(void **state) {
     static const char *const interval[] = {"worst.interval", "worst.interval_lo", "worst.interval_hi",
                                            "worst.interval_code", NULL};
     static const char *const drawn[] = {"near_effective", "far_effective", NULL};
-    const camera exact = {0.3, 1000, {"unorm16"}, {"d3d"}, .ortho = 0}, fp32 = {0.7, 5000, {"unorm24"}, {"gl"}, .model = DP_MODEL_FP32};
+    const camera_case exact = {0.3, 1000, {"unorm16"}, {"d3d"}, .ortho = 0}, fp32 = {0.7, 5000, {"unorm24"}, {"gl"}, .model = DP_MODEL_FP32};
     dp_setup setup[CAMERA_SETUPS];
     (void)state;
     camera_setups(&exact, setup);
@@ -274,7 +274,7 @@ static void test_table_worst_lines(void **state) {
 /* ---- budget ------------------------------------------------------------------------------------------------------ */
 
 typedef struct budget_case {
-    camera camera;
+    camera_case camera;
     double z[DEPTHS];
     dp_budget_terms terms;
     const char *options;
@@ -373,15 +373,15 @@ static size_t budget_text_columns(const budget_case *c, char text[2 * DP_CAUSE_C
     return count;
 }
 
-static size_t budget_columns(char text[2 * DP_CAUSE_COUNT][64], column *out) {
-    static const column before[] = {SETUP_COLUMNS, {"arith", "^arith"}, {"z [scene]", "z"},
+static size_t budget_columns(char text[2 * DP_CAUSE_COUNT][64], csv_column *out) {
+    static const csv_column before[] = {SETUP_COLUMNS, {"arith", "^arith"}, {"z [scene]", "z"},
                                     {"separation [scene]", "separation"}, {"window", "window"}};
     const size_t first = sizeof before / sizeof before[0];
     memcpy(out, before, sizeof before);
     for (int i = 0; i < DP_CAUSE_COUNT; i++) {
         snprintf(text[2 * i], 64, "%s [scene]", dp_cause_name((dp_cause)i));
         snprintf(text[2 * i + 1], 64, "%s", cause_path(i));
-        out[first + (size_t)i] = (column){text[2 * i], text[2 * i + 1]};
+        out[first + (size_t)i] = (csv_column){text[2 * i], text[2 * i + 1]};
     }
     return first + DP_CAUSE_COUNT;
 }
@@ -394,7 +394,7 @@ static void test_budget(void **state) {
         line_places lines = {0};
         dp_setup setups[CAMERA_SETUPS];
         char options[512], arguments[1024], heads[2 * DP_CAUSE_COUNT][64], texts[2 * DP_CAUSE_COUNT][64];
-        column columns[16 + DP_CAUSE_COUNT];
+        csv_column columns[16 + DP_CAUSE_COUNT];
         text_column shown[2 + 2 * DP_CAUSE_COUNT];
         size_t used = (size_t)snprintf(arguments, 1024, "budget %s%s --at ", camera_options(&c->camera, options), c->options);
         for (int k = 0; k < DEPTHS; k++)

@@ -8,7 +8,7 @@
 #include "printed.h"
 
 typedef struct zfight_case {
-    camera camera;
+    camera_case camera;
     double lo, hi;
     double gap;
     uint64_t sample, seed;
@@ -86,7 +86,7 @@ static void want_census(values *v, const zfight_case *c, const dp_setup *setup, 
 }
 
 static void test_zfight(void **state) {
-    static const column columns[] = {SETUP_COLUMNS,
+    static const csv_column columns[] = {SETUP_COLUMNS,
                                      {"arith", "^arith"},
                                      {"method", "^method"},
                                      {"seed", "^seed"},
