@@ -182,10 +182,16 @@ void want_setup(values *v, const dp_setup *setup) {
         want_number(v, "log_c", spec->log_c);
 }
 
+/* Values are mostly looked for in the order in which they were wanted: begins behind the last that was found. */
 static wanted *find(const values *v, const char *path) {
-    for (size_t i = 0; i < v->count; i++)
-        if (strcmp(v->items[i].path, path) == 0)
-            return &v->items[i];
+    static size_t next;
+    for (size_t i = 0; i < v->count; i++) {
+        wanted *item = &v->items[(next + i) % v->count];
+        if (strcmp(item->path, path) == 0) {
+            next = (next + i + 1) % v->count;
+            return item;
+        }
+    }
     return NULL;
 }
 
