@@ -27,13 +27,16 @@
 
 /** What a run left behind; printed_free() when done. */
 typedef struct printed {
-    int status;        /**< exit status; 128 and more: killed by a signal */
+    int status;         /**< exit status; 128 and more: killed by a signal */
     char *out, *errors; /**< stdout, stderr */
 } printed;
 
 /** Runs `depthprec ARGUMENTS` under a shell. */
 printed print_of(const char *format, ...) __attribute__((format(printf, 1, 2)));
 void printed_free(printed *p);
+
+/** The stdout, to be freed, of `depthprec ARGUMENTS FORM`; fails the test when it ends with another exit status. */
+char *output_of(int status, const char *arguments, const char *form);
 
 /** A file in a folder of this run that is removed when the test program ends. @return a static string */
 const char *scratch_file(const char *name);
@@ -51,9 +54,9 @@ typedef enum value_kind { VALUE_NUMBER = 0, VALUE_TEXT, VALUE_BOOL } value_kind;
 typedef struct wanted {
     char path[PATH_SIZE]; /**< "setups[0].rows[2].z" */
     value_kind kind;
-    double number;   /**< also 0 or 1 of a BOOL */
-    bool is_null;    /**< TEXT: none */
-    bool derived;    /**< shown in text or CSV alone */
+    double number; /**< also 0 or 1 of a BOOL */
+    bool is_null;  /**< TEXT: none */
+    bool derived;  /**< shown in text or CSV alone */
     char text[WORD_SIZE];
     bool met;
 } wanted;
@@ -83,7 +86,13 @@ void want_derived(values *v, const char *field, double number);
 /** The fields of a set-up, as commands begin it. */
 void want_setup(values *v, const dp_setup *setup);
 
-/** The value of a path; fails the test when there is none. */
+/** What --model auto says under `under`: the choice, and what share of the separation each simpler model leaves out. */
+void want_choice(values *v, const char *under, const dp_setup *setup, const double *z, size_t count, double tolerance);
+
+/** The value of a path; null where there is none. */
+wanted *value_find(const values *v, const char *path);
+
+/** The same; fails the test where there is none. */
 const wanted *value_at(const values *v, const char *path);
 
 /* ---- Looking for it ---------------------------------------------------------------------------------------------- */
@@ -128,12 +137,13 @@ typedef struct csv_column {
 
 /** The columns of a set-up. */
 #define SETUP_COLUMNS                                                                                                  \
-    {"near [scene]", "^near"}, {"far [scene]", "^far"}, {"projection", "^projection"}, {"mapping", "^mapping"},         \
+    {"near [scene]", "^near"}, {"far [scene]", "^far"}, {"projection", "^projection"}, {"mapping", "^mapping"},        \
         {"format", "^format"}, {"rounding", "^rounding"}, {                                                            \
         "model", "^model"                                                                                              \
     }
 
-void check_csv_text(const values *v, const char *text, const csv_column *columns, size_t count, const line_places *lines);
+void check_csv_text(const values *v, const char *text, const csv_column *columns, size_t count,
+                    const line_places *lines);
 
 /** Runs `depthprec ARGUMENTS --csv`; RFC 4180, one line for each place, in order. */
 void check_csv(const values *v, int status, const char *arguments, const csv_column *columns, size_t count,
@@ -163,7 +173,7 @@ typedef struct camera_case {
     const char *mappings[4];
     int ortho;
     dp_rounding rounding;
-    dp_model model;    /**< written as --model where it is not exact, unless `implied` */
+    dp_model model; /**< written as --model where it is not exact, unless `implied` */
     bool implied;
     const char *arith; /**< null: ieee, and then not written */
     double log_c;      /**< 0: 1, and then not written */

@@ -11,7 +11,7 @@ enum { APART_MAX = 4096, NAME_SIZE = 96 };
 
 typedef struct pair {
     char object[NAME_SIZE], a[40], b[40]; /* "table setups[].rows[]", "z", "depth" */
-    bool equal, apart; /* in some run */
+    bool equal, apart;                    /* in some run */
 } pair;
 
 static pair *pairs;
@@ -52,15 +52,14 @@ void apart_note(const char *command, const char *path, json_t *object) {
     const char *a, *b;
     json_t *x, *y;
     kind_of(command, path, kind);
-    json_object_foreach(object, a, x)
-        json_object_foreach(object, b, y) {
-            const bool nested = json_is_object(x) || json_is_array(x) || json_is_object(y) || json_is_array(y);
-            if (strcmp(a, b) >= 0 || nested)
-                continue;
-            pair *p = pair_of(kind, a, b);
-            p->equal = p->equal || (same(x, y) && !json_is_null(x));
-            p->apart = p->apart || !same(x, y);
-        }
+    json_object_foreach(object, a, x) json_object_foreach(object, b, y) {
+        const bool nested = json_is_object(x) || json_is_array(x) || json_is_object(y) || json_is_array(y);
+        if (strcmp(a, b) >= 0 || nested)
+            continue;
+        pair *p = pair_of(kind, a, b);
+        p->equal = p->equal || (same(x, y) && !json_is_null(x));
+        p->apart = p->apart || !same(x, y);
+    }
 }
 
 void check_apart(void **state) {

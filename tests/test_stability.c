@@ -172,8 +172,9 @@ static void claims_beyond_the_walk(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(interval_claims),        cmocka_unit_test(linearize_claims), cmocka_unit_test(encode_claims),
-        cmocka_unit_test(worst_claims),           cmocka_unit_test(position_claims),  cmocka_unit_test(normal_claims),
+        cmocka_unit_test(interval_claims),        cmocka_unit_test(linearize_claims),
+        cmocka_unit_test(encode_claims),          cmocka_unit_test(worst_claims),
+        cmocka_unit_test(position_claims),        cmocka_unit_test(normal_claims),
         cmocka_unit_test(false_claims_are_found), cmocka_unit_test(claims_beyond_the_walk),
     };
     return run_tap(tests);

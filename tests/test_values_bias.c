@@ -19,19 +19,73 @@ typedef struct bias_case {
 } bias_case;
 
 static const bias_case cases[] = {
-    {{0.3, 1000, {"unorm24", "fp32"}, {"d3d", "reversed"}, .ortho = 0}, {0.3, 1.7, 55, 321.5, 900, 1000}, "vulkan",
-     false, -7, 0.75, -1e-6, 0.02, 0, 0, 0},
-    {{0.1, INFINITY, {"unorm16", "fp32"}, {"reversed"}, .rounding = DP_ROUND_ZERO}, {0.1, 3, 40, 555, 7e3, 9e4}, "gl",
-     false, 3.25, 0, 2e-5, 0, 0, 0, 0},
-    {{1, 200, {"unorm24"}, {"log", "linear"}, .log_c = 3}, {1, 2, 30, 90, 150, 199}, "d3d9", false, -2.5e-6, -1.5, 0,
-     0.5, 0, 0, 0},
+    {{0.3, 1000, {"unorm24", "fp32"}, {"d3d", "reversed"}, .ortho = 0},
+     {0.3, 1.7, 55, 321.5, 900, 1000},
+     "vulkan",
+     false,
+     -7,
+     0.75,
+     -1e-6,
+     0.02,
+     0,
+     0,
+     0},
+    {{0.1, INFINITY, {"unorm16", "fp32"}, {"reversed"}, .rounding = DP_ROUND_ZERO},
+     {0.1, 3, 40, 555, 7e3, 9e4},
+     "gl",
+     false,
+     3.25,
+     0,
+     2e-5,
+     0,
+     0,
+     0,
+     0},
+    {{1, 200, {"unorm24"}, {"log", "linear"}, .log_c = 3},
+     {1, 2, 30, 90, 150, 199},
+     "d3d9",
+     false,
+     -2.5e-6,
+     -1.5,
+     0,
+     0.5,
+     0,
+     0,
+     0},
     {{2, 60, {"fp32"}, {"d3d"}, .ortho = 1}, {2, 3, 7, 20, 45, 60}, "d3d11", false, 4000, 0, 0, 0, 0, 0, 0},
-    {{0.3, 1000, {"unorm24", "fp32"}, {"d3d", "reversed"}, .ortho = 0}, {0.3, 1.7, 55, 321.5, 900, 1000}, "d3d11", true,
-     0, -0.25, 0, 0.02, 0.01, 0.4, 700},
-    {{0.3, 1000, {"unorm16"}, {"gl", "reversed"}, .ortho = 0}, {0.3, 1.7, 55, 321.5, 900, 1000}, "gl", true, 0, 0, 0, 0,
-     0.125, 0.3, 800},
-    {{0.1, INFINITY, {"unorm24", "fp32"}, {"reversed"}, .ortho = 0}, {0.1, 3, 40, 555, 7e3, 9e4}, "vulkan-unorm", true,
-     0, 0, 0, 0.001, 0, 0.2, 5000},
+    {{0.3, 1000, {"unorm24", "fp32"}, {"d3d", "reversed"}, .ortho = 0},
+     {0.3, 1.7, 55, 321.5, 900, 1000},
+     "d3d11",
+     true,
+     0,
+     -0.25,
+     0,
+     0.02,
+     0.01,
+     0.4,
+     700},
+    {{0.3, 1000, {"unorm16"}, {"gl", "reversed"}, .ortho = 0},
+     {0.3, 1.7, 55, 321.5, 900, 1000},
+     "gl",
+     true,
+     0,
+     0,
+     0,
+     0,
+     0.125,
+     0.3,
+     800},
+    {{0.1, INFINITY, {"unorm24", "fp32"}, {"reversed"}, .ortho = 0},
+     {0.1, 3, 40, 555, 7e3, 9e4},
+     "vulkan-unorm",
+     true,
+     0,
+     0,
+     0,
+     0.001,
+     0,
+     0.2,
+     5000},
     {{1, 200, {"unorm24"}, {"log"}, .log_c = 3}, {1, 2, 30, 90, 150, 199}, "vulkan-float", true, 0, 0, 0, 0, 3, 2, 150},
     /* The worth of a unit falls with z, so the far end decides. */
     {{2, 60, {"fp32"}, {"reversed"}, .ortho = 1}, {2, 3, 7, 20, 45, 60}, "d3d11", true, 0, 0, 0, 1e-5, 0.001, 3, 58},
@@ -76,10 +130,10 @@ static void want_forward(values *v, const bias_case *c, const dp_setup *setup, d
     want_number(v, "bias", o);
     want_number(v, "depth", fmin(fmax(d, 0), 1));
     want_count(v, "code", dp_code(setup, z));
-    want_count(v, "code_moved", o == 0 ? dp_code(setup, z)
-                                       : dp_format_encode(&setup->spec.format, setup->spec.rounding, d));
-    want_number(v, "z_moved", limited ? ((d > 0.5) != (setup->reversed != 0) ? setup->spec.zfar : setup->spec.znear)
-                                      : e.to);
+    want_count(v, "code_moved",
+               o == 0 ? dp_code(setup, z) : dp_format_encode(&setup->spec.format, setup->spec.rounding, d));
+    want_number(v, "z_moved",
+                limited ? ((d > 0.5) != (setup->reversed != 0) ? setup->spec.zfar : setup->spec.znear) : e.to);
     want_number(v, "shift", e.shift);
     want_bool(v, "limited", limited);
 }
@@ -145,12 +199,12 @@ static void want_bias(values *v, const bias_case *c, const dp_setup *setup, size
         "slope [per pixel]", "slope"                                                                                   \
     }
 static const csv_column forward[] = {BOTH,
-                                 {"bias", "bias"},
-                                 {"depth", "depth"},
-                                 {"code", "code"},
-                                 {"code_moved", "code_moved"},
-                                 {"z_moved [scene]", "z_moved"},
-                                 {"shift [scene]", "shift"}};
+                                     {"bias", "bias"},
+                                     {"depth", "depth"},
+                                     {"code", "code"},
+                                     {"code_moved", "code_moved"},
+                                     {"z_moved [scene]", "z_moved"},
+                                     {"shift [scene]", "shift"}};
 static const csv_column inverse[] = {
     BOTH, {"one_unit [scene]", "one_unit"}, {"units_apart", "units_apart"}, {"units_gap", "units_gap"}};
 

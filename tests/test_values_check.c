@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Every value that check prints, in all its forms: the verdicts against the analysis of the same file, the share of ties
- * against a count of the depths. */
+/* Every value that check prints, in all its forms: the verdicts against the analysis of the same file, the share of
+ * ties against a count of the depths. */
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -31,8 +31,9 @@ static const char *const needs =
     "  { name = \"none\"; camera = \"both\"; range = (3, 4); ties = 0.5; }\n"
     ");\n";
 
-static const char *const passing = "cameras = { a = { near = 0.1; far = 100; mapping = \"reversed\"; format = \"fp32\"; "
-                                   "}; };\nrequirements = { b = { camera = \"a\"; at = 9.5; separation = 0.1; }; };\n";
+static const char *const passing =
+    "cameras = { a = { near = 0.1; far = 100; mapping = \"reversed\"; format = \"fp32\"; "
+    "}; };\nrequirements = { b = { camera = \"a\"; at = 9.5; separation = 0.1; }; };\n";
 
 static const char *write_file(const char *file, const char *format, const char *argument) {
     const char *path = scratch_file(file);
@@ -189,9 +190,9 @@ static void check_junit(const char *path, const char *text, const need_file *fil
         const char *sentence = strstr(text, line);
         assert_non_null(sentence);
         snprintf(line, sizeof line, "%.*s", (int)strcspn(sentence + strlen(line), "\n"), sentence + strlen(line));
-        size_t used = (size_t)snprintf(expected, sizeof expected,
-                                       "    <testcase classname=\"%s\" name=\"%s (%s)\" file=\"%s\" line=\"%d\"",
-                                       d->camera->name, escaped(d->asked->name, name_there), setup, path, d->asked->line);
+        size_t used = (size_t)snprintf(
+            expected, sizeof expected, "    <testcase classname=\"%s\" name=\"%s (%s)\" file=\"%s\" line=\"%d\"",
+            d->camera->name, escaped(d->asked->name, name_there), setup, path, d->asked->line);
         if (d->passed)
             snprintf(expected + used, sizeof expected - used, "/>\n");
         else
@@ -204,21 +205,10 @@ static void check_junit(const char *path, const char *text, const need_file *fil
 }
 
 static void test_check(void **state) {
-    static const csv_column columns[] = {{"file", "file"},
-                                     {"line", "line"},
-                                     {"name", "name"},
-                                     {"camera", "camera"},
-                                     SETUP_COLUMNS,
-                                     {"kind", "kind"},
-                                     {"unit", "unit"},
-                                     {"lo [scene]", "lo"},
-                                     {"hi [scene]", "hi"},
-                                     {"limit", "limit"},
-                                     {"value", "value"},
-                                     {"z [scene]", "z"},
-                                     {"code", "code"},
-                                     {"method", "method"},
-                                     {"passed", "passed"}};
+    static const csv_column columns[] = {
+        {"file", "file"},   {"line", "line"},   {"name", "name"},     {"camera", "camera"}, SETUP_COLUMNS,
+        {"kind", "kind"},   {"unit", "unit"},   {"lo [scene]", "lo"}, {"hi [scene]", "hi"}, {"limit", "limit"},
+        {"value", "value"}, {"z [scene]", "z"}, {"code", "code"},     {"method", "method"}, {"passed", "passed"}};
     char path[512], arguments[640], text[4096];
     need_file file;
     check_verdict *verdicts;

@@ -161,11 +161,11 @@ static bool method(size_t i, listed *l) {
 static const struct {
     const char *what, *bound;
     bool (*get)(size_t, listed *);
-} topics[] = {{"formats", "bound", format},   {"mappings", "bound", mapping},    {"models", "bound", model},
-              {"ariths", "bound", arith},     {"causes", "bound", cause},        {"presets", "camera", preset_row},
-              {"apis", "rule", api},          {"packings", "bound", packing},    {"effects", "parameters", effect},
-              {"figures", "bound", figure},   {"scenes", "bound", scene},        {"positions", "bound", position},
-              {"normals", "bound", normal},   {"methods", "bound", method}};
+} topics[] = {{"formats", "bound", format}, {"mappings", "bound", mapping}, {"models", "bound", model},
+              {"ariths", "bound", arith},   {"causes", "bound", cause},     {"presets", "camera", preset_row},
+              {"apis", "rule", api},        {"packings", "bound", packing}, {"effects", "parameters", effect},
+              {"figures", "bound", figure}, {"scenes", "bound", scene},     {"positions", "bound", position},
+              {"normals", "bound", normal}, {"methods", "bound", method}};
 enum { TOPICS = sizeof topics / sizeof topics[0] };
 
 /* ---- Against what is printed ------------------------------------------------------------------------------------- */
@@ -181,8 +181,8 @@ static void check_numbers(const char *bound, const listed *l) {
         char *end;
         at += strspn(at, " ");
         const double number = strtod(at, &end);
-        const bool alone = end > at && (at == bound || strchr(" =", at[-1]) != NULL) &&
-                           (*end == '\0' || strchr(" ,;", *end) != NULL);
+        const bool alone =
+            end > at && (at == bound || strchr(" =", at[-1]) != NULL) && (*end == '\0' || strchr(" ,;", *end) != NULL);
         if (alone && isdigit((unsigned char)(*at == '-' ? at[1] : *at))) {
             if (fabs(number - l->numbers[n]) > 0.006 * fabs(l->numbers[n]))
                 fail_msg("%s: '%s': number %zu is %g, not %g", l->name, bound, n, number, l->numbers[n]);
@@ -222,8 +222,8 @@ static void check_item(const json_t *o, const listed *l, const char *bound) {
 
 /* CSV has the same cells; the text has the same words, whatever its lines. */
 static void check_forms(const json_t *items, const char *what, const char *bound) {
-    const csv_column columns[] = {{"name", "name"}, {"aliases", "aliases"}, {"note", "note"}, {bound, "bound"},
-                                  {"source", "source"}};
+    const csv_column columns[] = {
+        {"name", "name"}, {"aliases", "aliases"}, {"note", "note"}, {bound, "bound"}, {"source", "source"}};
     values v = values_of("list");
     line_places lines = {0};
     char arguments[64], words[16384] = "", text[16384] = "";
@@ -242,7 +242,8 @@ static void check_forms(const json_t *items, const char *what, const char *bound
         json_array_foreach(json_object_get(o, "aliases"), k, name)
             snprintf(aliases + strlen(aliases), sizeof aliases - strlen(aliases), "%s%s", k > 0 ? " " : "",
                      json_string_value(name));
-        const char *fields[] = {text_in(o, "name"), text_in(o, "note"), text_in(o, bound), text_in(o, "source"), aliases};
+        const char *fields[] = {text_in(o, "name"), text_in(o, "note"), text_in(o, bound), text_in(o, "source"),
+                                aliases};
         const char *labels[] = {"", "", bound, "source", "also"};
         const char *const keys[] = {"name", "note", "bound", "source", "aliases"};
         values_under(&v, "%zu.", i);

@@ -53,7 +53,8 @@ static json_t *plot(const char *arguments) {
 
 static void head_of(const json_t *root, const char *axis, char out[160]) {
     const json_t *o = json_object_get(root, axis);
-    snprintf(out, 160, *text_in(o, "unit") != '\0' ? "%.70s [%.70s]" : "%.70s%.0s", text_in(o, "key"), text_in(o, "unit"));
+    snprintf(out, 160, *text_in(o, "unit") != '\0' ? "%.70s [%.70s]" : "%.70s%.0s", text_in(o, "key"),
+             text_in(o, "unit"));
 }
 
 /* The values of one point, under the names of the columns. */
@@ -64,17 +65,17 @@ static void want_points(values *v, const json_t *root, double end, line_places *
     json_array_foreach(json_object_get(root, "panels"), p, panel)
         json_array_foreach(json_object_get(panel, "series"), s, series)
             json_array_foreach(json_object_get(series, "points"), i, point) {
-                values_under(v, "%zu.", lines->count);
-                want_text(v, "panel", text_in(panel, "title"));
-                want_text(v, "series", text_in(series, "name"));
-                for (int k = 0; k < 4; k++) {
-                    const json_t *axis = json_object_get(root, axes[k]);
-                    const json_t *j = axis != NULL ? json_object_get(point, text_in(axis, "key")) : NULL;
-                    if (j != NULL)
-                        want_number(v, axes[k], json_is_number(j) ? json_number_value(j) : k == 3 ? NAN : end);
-                }
-                place_add(lines, "", "%zu.", lines->count);
-            }
+        values_under(v, "%zu.", lines->count);
+        want_text(v, "panel", text_in(panel, "title"));
+        want_text(v, "series", text_in(series, "name"));
+        for (int k = 0; k < 4; k++) {
+            const json_t *axis = json_object_get(root, axes[k]);
+            const json_t *j = axis != NULL ? json_object_get(point, text_in(axis, "key")) : NULL;
+            if (j != NULL)
+                want_number(v, axes[k], json_is_number(j) ? json_number_value(j) : k == 3 ? NAN : end);
+        }
+        place_add(lines, "", "%zu.", lines->count);
+    }
 }
 
 /* JSON says null where a curve ends and CSV says inf, or nothing; a field of a map is empty in both. */
@@ -102,10 +103,12 @@ static void check_both(const char *arguments, double end) {
 }
 
 static void test_both_forms(void **state) {
-    static const char *const figures[] = {"distribution -F unorm4 -n 1 -f 10 -m d3d,log", "share -F unorm16,fp32",
+    static const char *const figures[] = {"distribution -F unorm4 -n 1 -f 10 -m d3d,log",
+                                          "share -F unorm16,fp32",
                                           "error -F unorm16 -m d3d,reversed -f inf",
                                           "interval -F unorm24,fp32 -m reversed --tolerance 1%",
-                                          "interval -F fp32 -n 1 -f 1.25 --model fp32", "budget -F unorm16,fp32 -m d3d",
+                                          "interval -F fp32 -n 1 -f 1.25 --model fp32",
+                                          "budget -F unorm16,fp32 -m d3d",
                                           "map -F unorm16 -m d3d --at 7"};
     (void)state;
     for (size_t i = 0; i < sizeof figures / sizeof figures[0]; i++)
@@ -142,6 +145,7 @@ static void test_map(void **state) {
     check_axis(root, "value", "interval", "worst z-fighting interval", "scene units", "log");
     assert_string_equal(text_in(root, "figure"), "map");
     assert_string_equal(text_in(root, "title"), "a \"quoted\" ti\\tle");
+    assert_string_equal(text_in(root, "subtitle"), "unorm16 d3d, near 0.5, far 300, perspective, nearest, exact");
     assert_string_equal(text_in(map, "name"), "map");
     assert_string_equal(text_in(camera, "name"), "camera");
     assert_true(number_in(at(camera, "points", 0), "near") == 0.5 && number_in(at(camera, "points", 0), "far") == 300);
@@ -180,7 +184,8 @@ static void test_budget(void **state) {
     tally t = {.name = "budget"};
     const dp_setup setup = setup_of(0.5, 300, "fp32", DP_MAPPING_D3D, DP_MODEL_FP32);
     const dp_budget_terms terms = {2, 50, 1};
-    json_t *root = plot("budget -F fp32 -m d3d -n 0.5 -f 300 --interpolation 2 --world 50 --linearize"), *series, *point;
+    json_t *root = plot("budget -F fp32 -m d3d -n 0.5 -f 300 --interpolation 2 --world 50 --linearize"), *series,
+           *point;
     size_t s, i, seen = 0;
     (void)state;
     check_axis(root, "x", "z", "eye depth z", "scene units", "log");
@@ -212,8 +217,10 @@ static void check_envelope(const char *figure, bool is_error) {
     static const struct {
         const char *name, *format;
         dp_mapping mapping;
-    } setups[] = {{"unorm16 d3d", "unorm16", DP_MAPPING_D3D}, {"unorm16 reversed", "unorm16", DP_MAPPING_REVERSED},
-                  {"fp32 d3d", "fp32", DP_MAPPING_D3D},       {"fp32 reversed", "fp32", DP_MAPPING_REVERSED}};
+    } setups[] = {{"unorm16 d3d", "unorm16", DP_MAPPING_D3D},
+                  {"unorm16 reversed", "unorm16", DP_MAPPING_REVERSED},
+                  {"fp32 d3d", "fp32", DP_MAPPING_D3D},
+                  {"fp32 reversed", "fp32", DP_MAPPING_REVERSED}};
     char arguments[256];
     tally t = {.name = figure};
     snprintf(arguments, sizeof arguments, "%s -F unorm16,fp32 -m d3d,reversed -n 0.5 -f 300", figure);
@@ -233,10 +240,10 @@ static void check_envelope(const char *figure, bool is_error) {
             assert_int_equal(dp_worst_over(&setup, number_in(json_array_get(points, i - 1), "z"),
                                            number_in(json_array_get(points, i + 1), "z"), &worst),
                              DP_OK);
-            TALLY(&t, got >= (is_error ? fabs(here.error) : here.interval) * (1 - 1e-6), "%s at %g: %g below", setups[s].name,
-                  z, got);
-            TALLY(&t, got <= (is_error ? worst.error : worst.interval) * (1 + 1e-6), "%s at %g: %g above", setups[s].name, z,
-                  got);
+            TALLY(&t, got >= (is_error ? fabs(here.error) : here.interval) * (1 - 1e-6), "%s at %g: %g below",
+                  setups[s].name, z, got);
+            TALLY(&t, got <= (is_error ? worst.error : worst.interval) * (1 + 1e-6), "%s at %g: %g above",
+                  setups[s].name, z, got);
         }
     }
     json_decref(root);

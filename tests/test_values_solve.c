@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /*
- * Every value that solve prints. The planes that it found are taken from its JSON and put to the test: there the measure
- * is what is printed beside them, they pass, and beyond them nothing does. Text and CSV say the same.
+ * Every value that solve prints. The planes that it found are taken from its JSON and put to the test: there the
+ * measure is what is printed beside them, they pass, and beyond them nothing does. Text and CSV say the same.
  */
 #include <stdio.h>
 #include <stdlib.h>
@@ -21,19 +21,21 @@ typedef struct solve_case {
 } solve_case;
 
 static const solve_case cases[] = {
-    {"-F unorm24,fp32 -m d3d,reversed -f 10000 --separation 0.01 --at 5000", "near", MEASURE_SEPARATION, 0.01, 5000, 5000,
-     true, NAN, 10000},
-    {"-n 0.1 -F unorm16 -m d3d --for far --error 0.024 --at 17.77", "far", MEASURE_ERROR, 0.024, 17.77, 17.77, true, 0.1, NAN},
+    {"-F unorm24,fp32 -m d3d,reversed -f 10000 --separation 0.01 --at 5000", "near", MEASURE_SEPARATION, 0.01, 5000,
+     5000, true, NAN, 10000},
+    {"-n 0.1 -F unorm16 -m d3d --for far --error 0.024 --at 17.77", "far", MEASURE_ERROR, 0.024, 17.77, 17.77, true,
+     0.1, NAN},
     {"--for far -n 0.1 -F fp16 -m log --log-c 2.5 --error 0.0036 --range 2:5", "far", MEASURE_ERROR, 0.0036, 2, 5, true,
      0.1, NAN},
     {"-F fp16 -m reversed -f 1000 --error 0.01 --range 1:100", "near", MEASURE_ERROR, 0.01, 1, 100, false, NAN, 1000},
-    {"-F fp16 -m reversed -f 4000 --rounding even --separation 0.5 --range 10:700", "near", MEASURE_SEPARATION, 0.5, 10, 700,
-     true, NAN, 4000},
-    {"-n 0.1 -f 4000 -F unorm16 --separation 0.001 --at 100", "mapping", MEASURE_SEPARATION, 0.001, 100, 100, false, 0.1,
+    {"-F fp16 -m reversed -f 4000 --rounding even --separation 0.5 --range 10:700", "near", MEASURE_SEPARATION, 0.5, 10,
+     700, true, NAN, 4000},
+    {"-n 0.1 -f 4000 -F unorm16 --separation 0.001 --at 100", "mapping", MEASURE_SEPARATION, 0.001, 100, 100, false,
+     0.1, 4000},
+    {"-n 0.1 -f 4000 --separation 0.001 --range 0.1:100", "format", MEASURE_SEPARATION, 0.001, 0.1, 100, true, 0.1,
      4000},
-    {"-n 0.1 -f 4000 --separation 0.001 --range 0.1:100", "format", MEASURE_SEPARATION, 0.001, 0.1, 100, true, 0.1, 4000},
-    {"-n 0.1 -f 1000 -F unorm24,fp32 -m d3d,reversed --rounding zero --range 3:50", "separation", MEASURE_SEPARATION, NAN,
-     3, 50, true, 0.1, 1000},
+    {"-n 0.1 -f 1000 -F unorm24,fp32 -m d3d,reversed --rounding zero --range 3:50", "separation", MEASURE_SEPARATION,
+     NAN, 3, 50, true, 0.1, 1000},
 };
 
 /* ---- What is said of a candidate --------------------------------------------------------------------------------- */
@@ -162,6 +164,9 @@ static void want_solve(values *v, const solve_case *c, const json_t *root, line_
         check_island(c, &setup, strcmp(c->target, "far") != 0, lo, isnan(hi) ? INFINITY : hi);
         if (i + 1 < json_array_size(islands))
             place_add(lines, "", "islands[%zu].", i);
+        else if (c->possible) /* the last is the answer's own */
+            assert_true(value_at(v, "answer.from")->number == lo &&
+                        value_at(v, "answer.to")->number == (isnan(hi) ? INFINITY : hi));
     }
     for (size_t i = 0; i < json_array_size(others); i++) {
         snprintf(under, sizeof under, "alternatives[%zu].", i);
@@ -176,17 +181,17 @@ static void want_solve(values *v, const solve_case *c, const json_t *root, line_
 /* An island's line is the answer's with the island's ends. */
 static void check_lines(values *v, const char *arguments, line_places *lines, size_t islands) {
     static const csv_column columns[] = {{"role", "role"},
-                                     SETUP_COLUMNS,
-                                     {"for", "/for"},
-                                     {"possible", "^possible"},
-                                     {"measure", "/measure"},
-                                     {"limit [scene]", "/limit"},
-                                     {"value [scene]", "^value"},
-                                     {"z [scene]", "^z"},
-                                     {"from [scene]", "from"},
-                                     {"to [scene]", "to"},
-                                     {"bytes", "^bytes"},
-                                     {"available", "^available"}};
+                                         SETUP_COLUMNS,
+                                         {"for", "/for"},
+                                         {"possible", "^possible"},
+                                         {"measure", "/measure"},
+                                         {"limit [scene]", "/limit"},
+                                         {"value [scene]", "^value"},
+                                         {"z [scene]", "^z"},
+                                         {"from [scene]", "from"},
+                                         {"to [scene]", "to"},
+                                         {"bytes", "^bytes"},
+                                         {"available", "^available"}};
     for (size_t i = 0; i < lines->count; i++) {
         line_place *p = &lines->items[i];
         const bool island = i > 0 && i <= islands;
@@ -198,7 +203,8 @@ static void check_lines(values *v, const char *arguments, line_places *lines, si
         snprintf(role.text, sizeof role.text, "%s", i == 0 ? "answer" : island ? "island" : "alternative");
         v->items[v->count - 1] = role;
         if (island) {
-            want_derived(v, "from", value_at(v, (snprintf(p->outer, PATH_SIZE, "%.60slo", p->inner), p->outer))->number);
+            want_derived(v, "from",
+                         value_at(v, (snprintf(p->outer, PATH_SIZE, "%.60slo", p->inner), p->outer))->number);
             want_derived(v, "to", value_at(v, (snprintf(p->outer, PATH_SIZE, "%.60shi", p->inner), p->outer))->number);
             snprintf(p->outer, PATH_SIZE, "answer.");
         }

@@ -16,24 +16,40 @@ typedef struct zfight_case {
 
 static const zfight_case cases[] = {
     /* A fraction of the depths is clipped before far, none between the planes that are left. */
-    {{0.1, 16.1, {"unorm24", "fp16"}, {"d3d", "gl-reversed"}, .implied = true, .model = DP_MODEL_FP32,
+    {{0.1,
+      16.1,
+      {"unorm24", "fp16"},
+      {"d3d", "gl-reversed"},
+      .implied = true,
+      .model = DP_MODEL_FP32,
       .arith = "mesa-remap"},
-     15.99, 16.1, 0, 0, 0},
+     15.99,
+     16.1,
+     0,
+     0,
+     0},
     /* Far is drawn, the depth before it is not: a hole. */
     {{1, 10, {"fp32"}, {"d3d"}, .implied = true, .model = DP_MODEL_FP32}, 9.99, 10, 0, 0, 0},
     {{0.3, 900, {"unorm16"}, {"gl", "reversed"}, .implied = true, .model = DP_MODEL_FP32, .rounding = DP_ROUND_ZERO},
-     7.98, 8.03, 2.5e-3, 0, 0},
+     7.98,
+     8.03,
+     2.5e-3,
+     0,
+     0},
     {{0.3, 900, {"fp32"}, {"reversed"}, .implied = true, .model = DP_MODEL_FP32, .rounding = DP_ROUND_EVEN},
-     5, 300, 0, 5000, UINT64_C(8589934597)},
+     5,
+     300,
+     0,
+     5000,
+     UINT64_C(8589934597)},
     {{2, 60, {"unorm24"}, {"d3d"}, .implied = true, .model = DP_MODEL_FP32, .ortho = 1}, 3, 50, 4e-6, 3000, 7},
 };
 
 static void census_of(const zfight_case *c, const dp_setup *setup, census_result *out) {
-    const census_sample_request q = {
-        .common = {.setup = setup, .lo = c->lo, .hi = c->hi, .bound = dp_separation},
-        .count = c->sample,
-        .seed = c->seed,
-        .gap = c->gap};
+    const census_sample_request q = {.common = {.setup = setup, .lo = c->lo, .hi = c->hi, .bound = dp_separation},
+                                     .count = c->sample,
+                                     .seed = c->seed,
+                                     .gap = c->gap};
     assert_int_equal(c->sample > 0 || c->gap > 0 ? census_sample(&q, out) : census_run(&q.common, out), CENSUS_DONE);
 }
 
@@ -87,25 +103,25 @@ static void want_census(values *v, const zfight_case *c, const dp_setup *setup, 
 
 static void test_zfight(void **state) {
     static const csv_column columns[] = {SETUP_COLUMNS,
-                                     {"arith", "^arith"},
-                                     {"method", "^method"},
-                                     {"seed", "^seed"},
-                                     {"gap [scene]", "^gap"},
-                                     {"lo [scene]", "lo"},
-                                     {"hi [scene]", "hi"},
-                                     {"pairs", "pairs"},
-                                     {"ties", "ties"},
-                                     {"swaps", "swaps"},
-                                     {"longest [scene]", "longest"},
-                                     {"longest_z [scene]", "longest_z"},
-                                     {"bound [scene]", "bound"},
-                                     {"used", "used"},
-                                     {"clipped", "clipped"},
-                                     {"near_effective [scene]", "^near_effective"},
-                                     {"far_effective [scene]", "^far_effective"}};
-    static const text_column of_intervals[] = {{"lo", 6},      {"hi", 6},        {"pairs", 10},
+                                         {"arith", "^arith"},
+                                         {"method", "^method"},
+                                         {"seed", "^seed"},
+                                         {"gap [scene]", "^gap"},
+                                         {"lo [scene]", "lo"},
+                                         {"hi [scene]", "hi"},
+                                         {"pairs", "pairs"},
+                                         {"ties", "ties"},
+                                         {"swaps", "swaps"},
+                                         {"longest [scene]", "longest"},
+                                         {"longest_z [scene]", "longest_z"},
+                                         {"bound [scene]", "bound"},
+                                         {"used", "used"},
+                                         {"clipped", "clipped"},
+                                         {"near_effective [scene]", "^near_effective"},
+                                         {"far_effective [scene]", "^far_effective"}};
+    static const text_column of_intervals[] = {{"lo", 6},          {"hi", 6},           {"pairs", 10},
                                                {"ties_share", -4}, {"swaps_share", -4}, {"longest", 6},
-                                               {"longest_z", 6},  {"bound", 6},        {"used", -3}};
+                                               {"longest_z", 6},   {"bound", 6},        {"used", -3}};
     static const text_column of_gaps[] = {{"lo", 6},          {"hi", 6},           {"pairs", 10},
                                           {"ties_share", -4}, {"swaps_share", -4}, {"bound", 6}};
     static const char *const drawn[] = {"setups[0].near_effective", "setups[0].far_effective", NULL};
