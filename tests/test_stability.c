@@ -117,6 +117,36 @@ static void false_claims_are_found(void **state) {
     assert_int_equal(verdict_times("table-nearest", 0.95), STABILITY_BROKEN);
 }
 
+/* The worst error is found again at the planes and the input that are named. */
+static void worst_is_where_it_is_said(void **state) {
+    static const char *const names[] = {"interval", "linearize", "encode"};
+    tally t = {.name = "places"};
+    (void)state;
+    for (size_t f = 0; f < 3; f++) {
+        const method_family_row *family = method_family_find(names[f]);
+        const size_t count = stability_run(family, results);
+        for (size_t i = 0; i < count; i++) {
+            const stability_result *r = &results[i];
+            method_inputs in;
+            method_outputs out;
+            dp_setup setup;
+            measured m;
+            assert_int_equal(method_setup(family, r->which, r->inside_near, r->inside_far, false, &setup), DP_OK);
+            assert_true(method_arrays(1, &in, &out));
+            if (family->windows)
+                in.d[0] = (float)r->inside_at;
+            else
+                in.z[0] = r->inside_at;
+            assert_true(method_measure(family, r->row, &setup, &in, &out, &m));
+            const double error = measured_error(family, &m);
+            TALLY(&t, error == r->inside || (isnan(error) && isnan(r->inside)), "%s, %s: %g, not %g", r->row->name,
+                  family->cases[r->which].name, r->inside, error);
+            method_arrays_free(&in, &out);
+        }
+    }
+    tally_end(&t);
+}
+
 /* A method that is exact but where `wrong` says otherwise: there it is off by half. */
 static bool (*wrong)(const dp_spec *spec);
 
@@ -172,10 +202,15 @@ static void claims_beyond_the_walk(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(interval_claims),        cmocka_unit_test(linearize_claims),
-        cmocka_unit_test(encode_claims),          cmocka_unit_test(worst_claims),
-        cmocka_unit_test(position_claims),        cmocka_unit_test(normal_claims),
-        cmocka_unit_test(false_claims_are_found), cmocka_unit_test(claims_beyond_the_walk),
+        cmocka_unit_test(interval_claims),
+        cmocka_unit_test(linearize_claims),
+        cmocka_unit_test(encode_claims),
+        cmocka_unit_test(worst_claims),
+        cmocka_unit_test(position_claims),
+        cmocka_unit_test(normal_claims),
+        cmocka_unit_test(false_claims_are_found),
+        cmocka_unit_test(claims_beyond_the_walk),
+        cmocka_unit_test(worst_is_where_it_is_said),
     };
     return run_tap(tests);
 }

@@ -7,6 +7,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "method/choose.h"
 #include "printed.h"
 
 /* ---- What a run printed ------------------------------------------------------------------------------------------ */
@@ -256,12 +257,23 @@ static void test_envelopes(void **state) {
     check_envelope("interval", false);
 }
 
+/* A curve by a method names the one that --tolerance takes; the exact one names none. */
+static void test_method(void **state) {
+    const method_family_row *family = method_family_find("interval");
+    const method_wish wish = {.tolerance = 0.01, .ratio_lo = 600, .ratio_hi = 600};
+    json_t *root = plot("interval -F unorm24,fp16 -m d3d -n 0.5 -f 300 --tolerance 1%");
+    (void)state;
+    assert_string_equal(family->cases[0].name, "unorm24 d3d");
+    assert_string_equal(text_in(at(at(root, "panels", 0), "series", 0), "method"),
+                        method_choose(family, 0, &wish)->name);
+    assert_null(json_object_get(at(at(root, "panels", 0), "series", 1), "method"));
+    json_decref(root);
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_both_forms),
-        cmocka_unit_test(test_map),
-        cmocka_unit_test(test_budget),
-        cmocka_unit_test(test_envelopes),
+        cmocka_unit_test(test_both_forms), cmocka_unit_test(test_map),    cmocka_unit_test(test_budget),
+        cmocka_unit_test(test_envelopes),  cmocka_unit_test(test_method),
     };
     return run_tap(tests);
 }
