@@ -33,8 +33,8 @@ static const budget_case budgets[] = {
       .model = DP_MODEL_FP32,
       .rounding = DP_ROUND_ZERO},
      {2, 3, 5, 7, 60, 90},
-     {0.25, 0, 0},
-     " --interpolation 0.25 --tolerance 3%"},
+     {0.25, 0, 1},
+     " --interpolation 0.25 --linearize --tolerance 3%"},
 };
 
 static const char *cause_path(int cause) {

@@ -245,7 +245,7 @@ static void test_table_worst_lines(void **state) {
     static const char *const interval[] = {"worst.interval", "worst.interval_lo", "worst.interval_hi",
                                            "worst.interval_code", NULL};
     static const char *const drawn[] = {"near_effective", "far_effective", NULL};
-    const camera_case exact = {2, 90, {"unorm24"}, {"reversed"}, .ortho = 1},
+    const camera_case exact = {2, 90, {"unorm16"}, {"reversed"}, .ortho = 1},
                       /* error and interval at other depths */ fp32 = {
                           0.7, 5000, {"unorm24"}, {"gl"}, .model = DP_MODEL_FP32};
     dp_setup setup[CAMERA_SETUPS];
@@ -253,7 +253,7 @@ static void test_table_worst_lines(void **state) {
     camera_setups(&exact, setup);
     values v = values_of("table");
     want_worst(&v, setup, 3, 80);
-    printed p = print_of("table -n 2 -f 90 -F unorm24 -m reversed --ortho --range 3:80");
+    printed p = print_of("table -n 2 -f 90 -F unorm16 -m reversed --ortho --range 3:80");
     check_text_numbers(&v, p.out, "worst error", 6, error);
     check_text_numbers(&v, p.out, "worst interval", 6, interval);
     values_free(&v);
