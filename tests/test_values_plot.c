@@ -7,6 +7,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "method/census.h"
 #include "method/choose.h"
 #include "printed.h"
 
@@ -270,10 +271,30 @@ static void test_method(void **state) {
     json_decref(root);
 }
 
+/* The points of a census: the longest interval of each band, at its nearer depth. */
+static void test_census(void **state) {
+    static census_result r;
+    const dp_setup setup = setup_of(1.5, 2.5, "unorm16", DP_MAPPING_D3D, DP_MODEL_FP32);
+    const census_request q = {.setup = &setup, .lo = 1.5, .hi = 2.5};
+    json_t *root = plot("interval -F unorm16 -m d3d -n 1.5 -f 2.5 --model fp32");
+    const json_t *series = at(at(root, "panels", 0), "series", 2);
+    (void)state;
+    assert_string_equal(text_in(series, "name"), "unorm16 d3d, census");
+    assert_int_equal(census_run(&q, &r), CENSUS_DONE);
+    assert_int_equal(r.band_count, 2);
+    assert_int_equal(json_array_size(json_object_get(series, "points")), 2);
+    for (size_t i = 0; i < 2; i++) {
+        assert_true(r.bands[i].longest_z > r.bands[i].lo);
+        assert_true(number_in(at(series, "points", i), "z") == r.bands[i].longest_z);
+        assert_true(number_in(at(series, "points", i), "interval") == r.bands[i].longest);
+    }
+    json_decref(root);
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_both_forms), cmocka_unit_test(test_map),    cmocka_unit_test(test_budget),
-        cmocka_unit_test(test_envelopes),  cmocka_unit_test(test_method),
+        cmocka_unit_test(test_envelopes),  cmocka_unit_test(test_method), cmocka_unit_test(test_census),
     };
     return run_tap(tests);
 }
