@@ -240,6 +240,15 @@ static void test_limited(void **state) {
 
 /* ---- How much is enough ------------------------------------------------------------------------------------------ */
 
+/* d(z) = z - 1, or 2 - z. */
+static dp_setup flat_setup(dp_mapping mapping, const char *format) {
+    dp_setup setup = setup_of(1.0, 2.0, mapping, format);
+    dp_spec spec = setup.spec;
+    spec.ortho = 1;
+    assert_int_equal(dp_setup_init(&setup, &spec), DP_OK);
+    return setup;
+}
+
 static uint32_t stored(const dp_setup *setup, double d) {
     return dp_format_encode(&setup->spec.format, setup->spec.rounding, d);
 }
@@ -365,6 +374,78 @@ static void test_gap(void **state) {
     tally_end(&t);
 }
 
+/* The fewest units that store a layer sampled at `front` before one sampled at `back`, both real window depths. */
+static double fewest(const dp_setup *setup, const bias_goal *goal, double back, double front, double m) {
+    const double sign = bias_sign(setup), r = bias_unit_at(goal->api, &setup->spec.format, fmax(back, front)).least;
+    for (double units = 0;; units++) {
+        const bias_state s = {goal->api, sign * units, sign * goal->factor, 0.0};
+        const uint32_t moved = stored(setup, biased(held(front), bias_offset(&s, r, m)));
+        if (setup->reversed ? moved > stored(setup, held(back)) : moved < stored(setup, held(back)))
+            return units;
+    }
+}
+
+/*
+ * Layers that are sampled a pixel apart, at every alignment of both samples to binary32 within a quarter of its step:
+ * what is said to be needed is enough, and one unit fewer is not always, where a unit is about a step of the format.
+ */
+static void test_sampled_apart(void **state) {
+    static const char *const formats[] = {"unorm24", "fp32"}, *const apis[] = {"d3d11", "vulkan-exact"};
+    tally t = {.name = "sampled apart"};
+    uint64_t tight = 0;
+    (void)state;
+    for (int i = 0; i < 8; i++) {
+        const dp_setup setup = flat_setup(i & 1 ? DP_MAPPING_REVERSED : DP_MAPPING_D3D, formats[i >> 1 & 1]);
+        for (int eighths = 1; eighths <= 40; eighths++) { /* of a step of binary32 below 1 */
+            const double m = eighths * 0x1p-27;
+            const bias_goal goal = {.api = bias_api_find(apis[i >> 2]), .slope = m};
+            double most = 0.0, needed = 0.0;
+            for (int k = -64; k <= 64; k++) {
+                const double d = 0.5 + k * 0x1p-27, front = d - bias_sign(&setup) * m;
+                const double z = setup.reversed ? 2.0 - d : 1.0 + d;
+                const double units = bias_needed(&setup, &goal, z), least = fewest(&setup, &goal, d, front, m);
+                TALLY(&t, least <= units, "%s %s m %a d %a: %g units, %g needed", goal.api->name, formats[i >> 1 & 1],
+                      m, d, units, least);
+                most = fmax(most, least);
+                needed = fmax(needed, units);
+            }
+            tight += most == needed;
+        }
+    }
+    TALLY(&t, tight >= 20, "only %llu of 320 are tight", (unsigned long long)tight);
+    tally_end(&t);
+}
+
+/*
+ * Where every rounding goes the wrong way. A cell of unorm16 holds 256 binary32 numbers, or 257 where it lies just so;
+ * the layer behind is rounded to the end of such a cell, the other one away from it, and so is the sum.
+ */
+static void test_longest_cells(void **state) {
+    tally t = {.name = "longest cells"};
+    (void)state;
+    for (int i = 0; i < 4; i++) {
+        const int reversed = i & 1;
+        const dp_setup setup = flat_setup(reversed ? DP_MAPPING_REVERSED : DP_MAPPING_D3D, "unorm16");
+        const double u = 0x1p-24, m = (i & 2 ? 3.0 : 1.0) * u, sign = bias_sign(&setup);
+        const bias_goal goal = {.api = bias_api_find("d3d9"), .slope = m};
+        for (uint32_t code = 33000; code < 65000; code++) {
+            const double middle = floor(dp_format_value(&setup.spec.format, code) / u) * u;
+            double end = middle - sign * 127.0 * u; /* the last number of the cell away from the camera's side */
+            while (stored(&setup, end - sign * u) == code)
+                end -= sign * u;
+            const double back = end - sign * u / 2.0, front = back - sign * m; /* halfway to the next cell's */
+            if (held(back) != end || held(front) != end - sign * (m + u))
+                continue; /* a tie to the other side */
+            const double z = reversed ? 2.0 - back : 1.0 + back;
+            const bias_state s = {goal.api, sign * bias_needed(&setup, &goal, z), 0.0, 0.0};
+            const uint32_t moved = stored(&setup, biased(held(front), bias_offset(&s, 1.0, m)));
+            TALLY(&t, reversed ? moved > code : moved < code, "%d code %u m %a: %a", reversed, code, m, s.units);
+        }
+    }
+    assert_true(t.cases > 10000);
+    tally_end(&t);
+}
+
 static void test_impossible(void **state) {
     const dp_setup setup = setup_of(1.0, 1000.0, DP_MAPPING_D3D, "unorm24");
     const bias_goal past = {.api = bias_api_find("d3d11"), .gap = 2.0};
@@ -389,6 +470,8 @@ int main(void) {
         cmocka_unit_test(test_one_unit_can_fail),
         cmocka_unit_test(test_enough),
         cmocka_unit_test(test_gap),
+        cmocka_unit_test(test_sampled_apart),
+        cmocka_unit_test(test_longest_cells),
         cmocka_unit_test(test_impossible),
     };
     return run_tap(tests);

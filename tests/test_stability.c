@@ -117,11 +117,100 @@ static void false_claims_are_found(void **state) {
     assert_int_equal(verdict_times("table-nearest", 0.95), STABILITY_BROKEN);
 }
 
+/* The worst error is found again at the planes and the input that are named. */
+static void worst_is_where_it_is_said(void **state) {
+    static const char *const names[] = {"interval", "linearize", "encode"};
+    tally t = {.name = "places"};
+    (void)state;
+    for (size_t f = 0; f < 3; f++) {
+        const method_family_row *family = method_family_find(names[f]);
+        const size_t count = stability_run(family, results);
+        for (size_t i = 0; i < count; i++) {
+            const stability_result *r = &results[i];
+            method_inputs in;
+            method_outputs out;
+            dp_setup setup;
+            measured m;
+            assert_int_equal(method_setup(family, r->which, r->inside_near, r->inside_far, false, &setup), DP_OK);
+            assert_true(method_arrays(1, &in, &out));
+            if (family->windows)
+                in.d[0] = (float)r->inside_at;
+            else
+                in.z[0] = r->inside_at;
+            assert_true(method_measure(family, r->row, &setup, &in, &out, &m));
+            const double error = measured_error(family, &m);
+            TALLY(&t, error == r->inside || (isnan(error) && isnan(r->inside)), "%s, %s: %g, not %g", r->row->name,
+                  family->cases[r->which].name, r->inside, error);
+            method_arrays_free(&in, &out);
+        }
+    }
+    tally_end(&t);
+}
+
+/* A method that is exact but where `wrong` says otherwise: there it is off by half. */
+static bool (*wrong)(const dp_spec *spec);
+
+static void sometimes(const dp_setup *setup, const void *state, const method_inputs *in, const method_outputs *out) {
+    (void)state;
+    for (size_t i = 0; i < in->count; i++)
+        out->value[i] = dp_cell_of(setup, dp_code(setup, in->z[i])).width * (wrong(&setup->spec) ? 1.5 : 1);
+}
+
+static bool in_ortho(const dp_spec *spec) {
+    return spec->ortho != 0;
+}
+
+static bool beyond_all(const dp_spec *spec) {
+    return !spec->ortho && isinf(spec->zfar);
+}
+
+static bool nowhere(const dp_spec *spec) {
+    (void)spec;
+    return false;
+}
+
+static stability_verdict verdict_where(bool (*is_wrong)(const dp_spec *), unsigned domain) {
+    const method_family_row *family = method_family_find("interval");
+    forged = family->methods[0];
+    forged.run = sometimes;
+    forged.open = NULL;
+    forged.close = NULL;
+    forged.domain = domain;
+    wrong = is_wrong;
+    forged.claims[0] = (method_claim)FULL(METHOD_ROUNDING);
+    for (size_t i = 1; i < METHOD_CASES; i++)
+        forged.claims[i] = (method_claim)NOWHERE;
+    forgery = *family;
+    forgery.methods = &forged;
+    forgery.method_count = &one;
+    assert_int_equal(stability_run(&forgery, results), 1);
+    return results[0].verdict;
+}
+
+/* A claim that reaches an orthographic projection, or an infinite far plane, is broken there; one that does not is not.
+ */
+static void claims_beyond_the_walk(void **state) {
+    (void)state;
+    assert_int_equal(verdict_where(nowhere, METHOD_INFINITE | METHOD_ORTHO), STABILITY_HOLDS);
+    assert_int_equal(verdict_where(in_ortho, METHOD_INFINITE | METHOD_ORTHO), STABILITY_BROKEN);
+    assert_true(results[0].ortho > 0.4 && results[0].inside <= METHOD_ROUNDING);
+    assert_int_equal(verdict_where(in_ortho, METHOD_INFINITE), STABILITY_HOLDS);
+    assert_int_equal(verdict_where(beyond_all, METHOD_INFINITE | METHOD_ORTHO), STABILITY_BROKEN);
+    assert_true(results[0].infinite > 0.4 && results[0].ortho <= METHOD_ROUNDING);
+    assert_int_equal(verdict_where(beyond_all, METHOD_ORTHO), STABILITY_HOLDS);
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(interval_claims),        cmocka_unit_test(linearize_claims), cmocka_unit_test(encode_claims),
-        cmocka_unit_test(worst_claims),           cmocka_unit_test(position_claims),  cmocka_unit_test(normal_claims),
+        cmocka_unit_test(interval_claims),
+        cmocka_unit_test(linearize_claims),
+        cmocka_unit_test(encode_claims),
+        cmocka_unit_test(worst_claims),
+        cmocka_unit_test(position_claims),
+        cmocka_unit_test(normal_claims),
         cmocka_unit_test(false_claims_are_found),
+        cmocka_unit_test(claims_beyond_the_walk),
+        cmocka_unit_test(worst_is_where_it_is_said),
     };
     return run_tap(tests);
 }

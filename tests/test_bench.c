@@ -1,0 +1,184 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* The statistics of the bench, by known samples: a clock of its own, which goes on only where this program says so. */
+#include <math.h>
+#include <stdbool.h>
+#include <stdlib.h>
+#include <string.h>
+#include <time.h>
+
+#include "method/bench.h"
+#include "support.h"
+
+enum { INPUTS = 10, REPETITIONS = 25, CONTESTANTS = 4, LIMIT = 3 };
+
+/* ---- The clock --------------------------------------------------------------------------------------------------- */
+
+static double clock_ns;
+
+int clock_gettime(clockid_t which, struct timespec *out) {
+    (void)which;
+    out->tv_sec = (time_t)(clock_ns / 1e9);
+    out->tv_nsec = (long)(clock_ns - 1e9 * (double)out->tv_sec);
+    return 0;
+}
+
+/* ---- A family of three, and the limit ---------------------------------------------------------------------------- */
+
+static double samples[CONTESTANTS][REPETITIONS]; /* ns of each run, in the order of the repetitions */
+static int runs[CONTESTANTS];                    /* so far; the first judges, the second warms up */
+static int repetitions;
+
+/* A run lasts as long as its sample, and longer than the bench wants a timing to last: one run is one timing. */
+static void run_as(int contestant) {
+    const int run = runs[contestant]++ - (contestant == LIMIT ? 1 : 2);
+    clock_ns += run < 0 ? 5e5 : samples[contestant][run];
+}
+
+static void run_0(const dp_setup *setup, const void *state, const method_inputs *in, const method_outputs *out) {
+    (void)setup, (void)state, (void)in, (void)out;
+    run_as(0);
+}
+
+static void run_1(const dp_setup *setup, const void *state, const method_inputs *in, const method_outputs *out) {
+    (void)setup, (void)state, (void)in, (void)out;
+    run_as(1);
+}
+
+static void run_2(const dp_setup *setup, const void *state, const method_inputs *in, const method_outputs *out) {
+    (void)setup, (void)state, (void)in, (void)out;
+    run_as(2);
+}
+
+static void run_limit(const dp_setup *setup, const void *state, const method_inputs *in, const method_outputs *out) {
+    (void)setup, (void)state, (void)in, (void)out;
+    run_as(LIMIT);
+}
+
+static void *open_1(const dp_setup *setup) {
+    (void)setup;
+    clock_ns += 77777;
+    return &clock_ns;
+}
+
+static void close_1(void *state) {
+    assert_ptr_equal(state, &clock_ns);
+}
+
+static void fill(const dp_setup *setup, method_inputs *in) {
+    (void)setup;
+    for (size_t i = 0; i < in->count; i++)
+        in->z[i] = 100 + (double)i;
+}
+
+/* The worst of each kind at an input of its own; what lies outside of the domain is worse and does not count. */
+static bool judge(const method_row *row, const dp_setup *setup, const method_inputs *in, const method_outputs *out,
+                  size_t i, method_error *e) {
+    const double scale = strcmp(row->name, "exact") == 0 ? 1e-3 : 1;
+    (void)setup, (void)in, (void)out;
+    *e = (method_error){i == 3 ? 9 : 1, scale * (i == 5 ? 8 : 2), i == 7 ? 7 : 3};
+    if (i == 4)
+        *e = (method_error){1e9, 1e9, 1e9};
+    return i != 4;
+}
+
+static const method_row rows[] = {
+    {.name = "fast", .claims = {FULL(10)}, .run = run_0},
+    {.name = "exact", .claims = {UP_TO(4, 100)}, .run = run_1, .open = open_1, .close = close_1},
+    {.name = "neither", .claims = {FULL(12)}, .run = run_2, .limit = 6},
+};
+static const size_t row_count = sizeof rows / sizeof rows[0];
+static const method_family_row family = {.name = "known",
+                                         .cases = {{"unorm24 d3d", "unorm24", DP_MAPPING_D3D}},
+                                         .case_count = 1,
+                                         .inputs = INPUTS,
+                                         .method_count = &row_count,
+                                         .methods = rows,
+                                         .fill = fill,
+                                         .judge = judge,
+                                         .limit = run_limit};
+
+/* ---- Statistics -------------------------------------------------------------------------------------------------- */
+
+static int ascending(const void *a, const void *b) {
+    const double x = *(const double *)a, y = *(const double *)b;
+    return (x > y) - (x < y);
+}
+
+/* Sample number `share` of the way up, counted from 0 and rounded down. */
+static double sorted_at(int contestant, int quarters) {
+    double sorted[REPETITIONS];
+    memcpy(sorted, samples[contestant], sizeof sorted);
+    qsort(sorted, (size_t)repetitions, sizeof sorted[0], ascending);
+    return sorted[repetitions * quarters / 4];
+}
+
+static size_t run_bench(int count, bench_result results[BENCH_METHODS_MAX]) {
+    dp_setup setup;
+    rng r = rng_make("bench");
+    repetitions = count;
+    memset(runs, 0, sizeof runs);
+    clock_ns = 1e9;
+    for (int c = 0; c < CONTESTANTS; c++)
+        for (int i = 0; i < count; i++)
+            samples[c][i] = floor(rng_log(&r, 5e5, 3e6) * (c == 1 ? 3 : c == 2 ? 2 : 1));
+    assert_int_equal(method_setup(&family, 0, 0.1, 1000, false, &setup), DP_OK);
+    return bench_run(&family, 0, &setup, count, results);
+}
+
+static void medians_and_quartiles(void **state) {
+    static const int counts[] = {25, 8, 1};
+    static bench_result results[BENCH_METHODS_MAX];
+    (void)state;
+    for (size_t k = 0; k < sizeof counts / sizeof counts[0]; k++) {
+        assert_int_equal(run_bench(counts[k], results), 3);
+        for (int i = 0; i < 3; i++) {
+            const double inputs = i == 2 ? 6 : INPUTS, median = sorted_at(i, 2);
+            assert_int_equal(results[i].inputs, (size_t)inputs);
+            assert_relative(results[i].ns, median / inputs, 1e-12);
+            assert_scene(results[i].spread, (sorted_at(i, 3) - sorted_at(i, 1)) / 2 / median, 1e-12);
+            assert_relative(results[i].limit, sorted_at(LIMIT, 2) / INPUTS, 1e-12);
+            assert_scene(results[i].setup, i == 1 ? 77777 : 0, 1e-6);
+            assert_true(runs[i] == counts[k] + 2);
+        }
+    }
+}
+
+static void worst_errors_and_places(void **state) {
+    static bench_result results[BENCH_METHODS_MAX];
+    (void)state;
+    assert_int_equal(run_bench(REPETITIONS, results), 3);
+    for (int i = 0; i < 3; i++) {
+        const bench_result *r = &results[i];
+        assert_true(r->measured.count == (i == 2 ? 5 : 9));
+        assert_true(r->measured.worst.absolute == 9 && r->at_absolute == 103);
+        assert_relative(r->measured.worst.relative, i == 1 ? 8e-3 : 8, 1e-15);
+        assert_true(r->at_relative == 105);
+        assert_true(r->measured.worst.ulp == (i == 2 ? 3 : 7) && r->at_ulp == (i == 2 ? 100 : 107));
+    }
+    /* far/near is 10000: beyond what the second claims. */
+    assert_true(results[0].claim == 10 && isnan(results[1].claim) && results[2].claim == 12);
+}
+
+/* On the front are the fastest and the most exact; the third is slower an element than the first, and no better. */
+static void front(void **state) {
+    static bench_result results[BENCH_METHODS_MAX];
+    (void)state;
+    assert_int_equal(run_bench(REPETITIONS, results), 3);
+    assert_true(results[0].ns < results[1].ns && results[0].ns < results[2].ns);
+    assert_true(results[0].front && results[1].front && !results[2].front);
+}
+
+static void untimed(void **state) {
+    static bench_result results[BENCH_METHODS_MAX];
+    (void)state;
+    assert_int_equal(run_bench(0, results), 3);
+    for (int i = 0; i < 3; i++)
+        assert_true(isnan(results[i].ns) && isnan(results[i].spread) && isnan(results[i].limit) && !results[i].front);
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {cmocka_unit_test(medians_and_quartiles),
+                                       cmocka_unit_test(worst_errors_and_places), cmocka_unit_test(front),
+                                       cmocka_unit_test(untimed)};
+    return run_tap(tests);
+}

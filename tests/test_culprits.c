@@ -1,0 +1,194 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* What a refusal says and how it ends: the option at fault is named first, nothing is written, and the exit status is 2
+ * (1 for a check that failed, 3 for a file that cannot be read or written). */
+#include <stdio.h>
+#include <string.h>
+
+#include "printed.h"
+
+typedef struct refusal {
+    const char *arguments, *option; /* without its dashes; "" where no option is at fault */
+    int status;
+} refusal;
+
+/* Commands that take planes, each with what else it needs. */
+static const char *const commands[] = {"table",
+                                       "budget",
+                                       "zfight",
+                                       "bias",
+                                       "bench interval",
+                                       "plot interval -o x.svg",
+                                       "plot map --csv",
+                                       "plot pareto interval -o x.svg",
+                                       "texture --scene plane --size 8x6",
+                                       "texture --effect fog",
+                                       "solve --separation 0.1 --at 5 --for format"};
+
+/* What is wrong with the planes themselves: near is named for near, far for far. */
+static const struct {
+    const char *planes, *option;
+} planes[] = {{"-n 0 -f 10", "near"},  {"-n x -f 10", "near"},       {"-n 1e13 -f 1e14", "near"},
+              {"-n=-1 -f 10", "near"}, {"-n 5 -f 2", "far"},         {"-n 1 -f x", "far"},
+              {"-n 1 -f 1e19", "far"}, {"-n 1 -f 1.0000001", "far"}, {"-n 1e-13 -f 10", "near"}};
+
+static const refusal refusals[] = {
+    {"table --at 0.01", "at", 2},
+    {"table --at 2000", "at", 2},
+    {"table --range 0.01:5", "range", 2},
+    {"table --range 1:5000", "range", 2},
+    {"table --range 5:1", "range", 2},
+    {"table --at 1:2:sqrt:5", "at", 2},
+    {"table --log-c 0 -m log", "log-c", 2},
+    {"table --ortho -m log", "ortho", 2},
+    {"table -f inf -m linear", "far", 2},
+    {"table --model fp32 -m linear", "model", 2},
+    {"table --model exakt", "model", 2},
+    {"table --arith mess", "arith", 2},
+    {"table --rounding up", "rounding", 2},
+    {"table -F unorm33", "format", 2},
+    {"table -m upside", "mapping", 2},
+    {"table --tolerance -1", "tolerance", 2},
+    {"table --gap 1", "gap", 2},
+    {"table --json --csv", "csv", 2},
+    {"table --csv --json", "json", 2},
+    {"table -o ''", "output", 2},
+    {"table -o /nonexistent/x", "output", 3},
+    {"table --preset nothing", "preset", 2},
+    {"budget -m linear", "mapping", 2},
+    {"budget --at 5000", "at", 2},
+    {"budget --world -1", "world", 2},
+    {"budget --interpolation x", "interpolation", 2},
+    {"zfight -m log", "mapping", 2},
+    {"zfight --seed 1", "seed", 2},
+    {"zfight -f inf -m d3d", "range", 2},
+    {"zfight --range 1.00000001:1.00000002", "range", 2},
+    {"zfight --range 1:2 --gap 1", "gap", 2},
+    {"zfight --range 1:2000", "range", 2},
+    {"zfight --sample 0", "sample", 2},
+    {"zfight --threads 0", "threads", 2},
+    {"bias --api d3d13", "api", 2},
+    {"bias --units 1.5", "units", 2},
+    {"bias --units 1 --gap 1", "units", 2},
+    {"bias --clamp 1", "clamp", 2},
+    {"bias --api d3d9 --units 1 --clamp 1", "clamp", 2},
+    {"bias --slope -1", "slope", 2},
+    {"bias --factor x", "factor", 2},
+    {"bias --range 0.01:10", "range", 2},
+    {"bias --at 5000", "at", 2},
+    {"bench interval -F unorm9", "format", 2},
+    {"bench interval -m log", "mapping", 2},
+    {"bench nothing", "", 2},
+    {"stability nothing", "", 2},
+    {"check /nonexistent", "", 3},
+    {"check --report json --csv tests/needs/village.need", "report", 2},
+    {"check tests/needs/village.need", NULL, 1},
+    {"solve --separation 0.1 --error 0.1 --at 5", "error", 2},
+    {"solve --separation 0.1 --at 5,6", "at", 2},
+    {"solve --separation 0.1 --at 5 --range 1:2", "range", 2},
+    {"solve --separation 0.1", "at", 2},
+    {"solve --for near --at 5", "separation", 2},
+    {"solve --for near -n 1 --separation 0.1 --at 5", "for", 2},
+    {"solve --for far -f 10 --separation 0.1 --at 5", "for", 2},
+    {"solve --for separation --separation 0.1 --at 5", "for", 2},
+    {"solve --separation 0 --at 5", "separation", 2},
+    {"solve --error 0 --at 5", "error", 2},
+    {"solve --separation 0.1 --range 1:5000 -f 1000", "range", 2},
+    {"solve --separation 0.1 --at 5000 -f 1000", "at", 2},
+    {"solve -n 0.1 -f 1000 -F unorm16 -m d3d --for near --separation 1e-9 --at 500", "for", 2},
+    {"solve --model exact -f 1000 -F unorm16 -m d3d --separation 1e-9 --at 500", NULL, 1},
+    {"solve --model exact -n 1 -m log --ortho --separation 0.1 --at 5 -f 10", "ortho", 2},
+    {"solve --model exact --for near -m linear -F fp32 --separation 0.1 --at 5", "far", 2},
+    {"plot nothing", "", 2},
+    {"plot error -o x.txt", "output", 2},
+    {"plot error -o x.svg --width 9999999", "width", 2},
+    {"plot error -o x.svg --height 70", "height", 2},
+    {"plot error -o x.svg --at 5", "at", 2},
+    {"plot map -o x.svg --at 5 --range 1:2", "at", 2},
+    {"plot error -o x.svg --world 5", "world", 2},
+    {"plot error -o x.svg --model fp32", "model", 2},
+    {"plot budget -o x.svg --model exact", "model", 2},
+    {"plot error -o x.svg --tolerance 1%", "tolerance", 2},
+    {"plot scene tests/needs/village.need -o x.svg -n 1", "near", 2},
+    {"plot scene tests/needs/village.need -o x.svg -f 1", "far", 2},
+    {"plot error -o x.svg --theme pink", "theme", 2},
+    {"list nothing", "", 2},
+    {"list formats --tolerance 1%", "tolerance", 2},
+    {"texture", "", 2},
+    {"texture /nonexistent.png", "", 3},
+    {"texture --scene nothing", "scene", 2},
+    {"texture --scene plane x.png", "scene", 2},
+    {"texture --scene plane --fov 0", "fov", 2},
+    {"texture --scene plane --ortho --fov 50", "fov", 2},
+    {"texture --scene plane --half-height 5", "half-height", 2},
+    {"texture --scene plane --yaw 999", "yaw", 2},
+    {"texture --scene plane --pitch 99", "pitch", 2},
+    {"texture --scene plane --sky 1", "sky", 2},
+    {"texture --scene plane --size 0x5", "size", 2},
+    {"texture --scene plane --origin 1,2", "origin", 2},
+    {"texture --scene plane --parameter radius=1", "parameter", 2},
+    {"texture --scene plane -F unorm16,fp32", "format", 2},
+    {"texture --scene plane -m d3d,gl", "mapping", 2},
+    {"texture --scene plane --error-map", "error-map", 2},
+    {"texture --scene plane --radial", "radial", 2},
+    {"texture --scene plane --at 5", "at", 2},
+    {"texture --scene plane --width 300", "width", 2},
+    {"texture --scene plane --title x", "title", 2},
+    {"texture --scene plane --position nothing -o x.npy", "position", 2},
+    {"texture --scene plane --normal nothing -o x.npy", "normal", 2},
+    {"texture --scene plane --effect nothing -o x.npy", "effect", 2},
+    {"texture --scene plane --eye --normal high -o x.npy", "normal", 2},
+    {"texture --scene plane --eye -o x.txt", "output", 2},
+    {"texture --scene plane --eye --figure x.txt", "figure", 2},
+    {"texture --scene plane --eye --json -o x.npy", "json", 2},
+    {"texture --scene plane --eye --csv -o x.npy", "csv", 2},
+    {"texture --effect fog -f inf", "far", 2},
+    {"texture --effect fog --fov 30", "fov", 2},
+    {"texture --effect fog --parameter level=1", "parameter", 2},
+    {"texture --effect fog --at 5000", "at", 2},
+};
+
+static void check_refusal(tally *t, const char *arguments, const char *option, int status) {
+    char begin[96];
+    printed p = print_of("%s", arguments);
+    TALLY(t, p.status == status, "%s: exit status %d, not %d: %s", arguments, p.status, status, p.errors);
+    snprintf(begin, sizeof begin, option != NULL && *option != '\0' ? "depthprec: --%s: " : "depthprec: ", option);
+    if (option != NULL) {
+        TALLY(t, strncmp(p.errors, begin, strlen(begin)) == 0, "%s: does not begin with '%s': %s", arguments, begin,
+              p.errors);
+        TALLY(t, (strncmp(p.errors, "depthprec: --", 13) == 0) == (*option != '\0'), "%s: %s", arguments, p.errors);
+        TALLY(t, p.errors[0] != '\0' && strchr(p.errors, '\n') == p.errors + strlen(p.errors) - 1, "%s: not one line",
+              arguments);
+        TALLY(t, p.out[0] == '\0', "%s: printed something", arguments);
+    } else {
+        TALLY(t, p.out[0] != '\0', "%s: printed nothing", arguments);
+    }
+    printed_free(&p);
+}
+
+static void test_planes(void **state) {
+    tally t = {.name = "planes"};
+    (void)state;
+    for (size_t i = 0; i < sizeof commands / sizeof commands[0]; i++)
+        for (size_t k = 0; k < sizeof planes / sizeof planes[0]; k++) {
+            char line[256];
+            const bool solve = strncmp(commands[i], "solve", 5) == 0;
+            if (solve && (k == 2 || k >= 4) && strcmp(planes[k].planes, "-n 1 -f x") != 0)
+                continue; /* the depths asked about lie outside as well */
+            snprintf(line, sizeof line, "%s %s", commands[i], planes[k].planes);
+            check_refusal(&t, line, planes[k].option, 2);
+        }
+    tally_end(&t);
+}
+
+static void test_refusals(void **state) {
+    tally t = {.name = "refusals"};
+    (void)state;
+    for (size_t i = 0; i < sizeof refusals / sizeof refusals[0]; i++)
+        check_refusal(&t, refusals[i].arguments, refusals[i].option, refusals[i].status);
+    tally_end(&t);
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {cmocka_unit_test(test_planes), cmocka_unit_test(test_refusals)};
+    return run_tap(tests);
+}

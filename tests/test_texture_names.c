@@ -1,0 +1,61 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* What the figure of a texture's product is called: by its kind, by its method, and by what is known of the truth. */
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "printed.h"
+
+static const struct {
+    const char *options, *of_scene, *of_image; /* titles; null: refused */
+    const char *panels;
+} products[] = {
+    {"--eye", "Eye depth", "Eye depth", ""},
+    {"--eye --radial", "Distance from the camera", "Distance from the camera", ""},
+    {"--eye --error-map", "Eye depth, error", "Eye depth, half of each cell", ""},
+    {"--position rays", "Positions by rays", "Positions by rays", " x (world). y (world). z (world)."},
+    {"--position exact", "Positions by exact", "Positions by exact", " x (world). y (world). z (world)."},
+    {"--position rays --error-map", "Positions by rays, error", "Positions by rays, largest possible error", ""},
+    {"--normal high", "Normals by high", "Normals by high", ""},
+    {"--normal high --error-map", "Normals by high, error", NULL, ""},
+    {"--normal projective --error-map", "Normals by projective, error",
+     "Normals by projective, bound of the error on planes", ""},
+    {"--effect fog", "Fog", "Fog", ""},
+    {"--effect fog --error-map", "Fog, largest possible error", "Fog, largest possible error", ""},
+};
+
+static void check_title(tally *t, const char *source, const char *options, const char *title, const char *panels) {
+    char path[512], expected[512];
+    snprintf(path, sizeof path, "%s", scratch_file("figure.svg"));
+    printed p = print_of("texture %s %s --figure %s", source, options, path);
+    TALLY(t, (p.status == 0) == (title != NULL), "%s %s: exit status %d: %s", source, options, p.status, p.errors);
+    if (title != NULL && p.status == 0) {
+        char *text = text_of_file(path);
+        snprintf(expected, sizeof expected, "<title id=\"title\">%s</title>", title);
+        TALLY(t, strstr(text, expected) != NULL, "%s %s: not '%s'", source, options, expected);
+        snprintf(expected, sizeof expected, "%s</desc>", panels);
+        TALLY(t, *panels == '\0' || strstr(text, expected) != NULL, "%s %s: not '%s'", source, options, expected);
+        free(text);
+    }
+    printed_free(&p);
+}
+
+static void test_names(void **state) {
+    char image[512];
+    tally t = {.name = "names"};
+    (void)state;
+    snprintf(image, sizeof image, "%s", scratch_file("image.npy"));
+    printed p = print_of("texture --scene sphere --size 24x16 -F unorm16 -m d3d -o %s", image);
+    assert_int_equal(p.status, 0);
+    printed_free(&p);
+    for (size_t i = 0; i < sizeof products / sizeof products[0]; i++) {
+        check_title(&t, "--scene sphere --size 24x16", products[i].options, products[i].of_scene, products[i].panels);
+        check_title(&t, image, products[i].options, products[i].of_image, products[i].panels);
+    }
+    tally_end(&t);
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {cmocka_unit_test(test_names)};
+    return run_tap(tests);
+}

@@ -1,0 +1,271 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Every value that bias prints, in both forms: what a bias does, and how much of one is needed. */
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "need/bias.h"
+#include "printed.h"
+
+enum { DEPTHS = 6 };
+
+typedef struct bias_case {
+    camera_case camera;
+    double z[DEPTHS];
+    const char *api;
+    bool inverse;
+    double units, factor, clamp, slope, gap;
+    double lo, hi; /* inverse: --range */
+} bias_case;
+
+static const bias_case cases[] = {
+    {{0.3, 1000, {"unorm24", "fp32"}, {"d3d", "reversed"}, .ortho = 0},
+     {0.3, 1.7, 55, 321.5, 900, 1000},
+     "vulkan",
+     false,
+     -7,
+     0.75,
+     -1e-6,
+     0.02,
+     0,
+     0,
+     0},
+    {{0.1, INFINITY, {"unorm16", "fp32"}, {"reversed"}, .rounding = DP_ROUND_ZERO},
+     {0.1, 3, 40, 555, 7e3, 9e4},
+     "gl",
+     false,
+     3.25,
+     0,
+     2e-5,
+     0,
+     0,
+     0,
+     0},
+    {{1, 200, {"unorm24"}, {"log", "linear"}, .log_c = 3},
+     {1, 2, 30, 90, 150, 199},
+     "d3d9",
+     false,
+     -2.5e-6,
+     -1.5,
+     0,
+     0.5,
+     0,
+     0,
+     0},
+    {{2, 60, {"fp32"}, {"d3d"}, .ortho = 1}, {2, 3, 7, 20, 45, 60}, "d3d11", false, 4000, 0, 0, 0, 0, 0, 0},
+    {{0.3, 1000, {"unorm24", "fp32"}, {"d3d", "reversed"}, .ortho = 0},
+     {0.3, 1.7, 55, 321.5, 900, 1000},
+     "d3d11",
+     true,
+     0,
+     -0.25,
+     0,
+     0.02,
+     0.01,
+     0.4,
+     700},
+    {{0.3, 1000, {"unorm16"}, {"gl", "reversed"}, .ortho = 0},
+     {0.3, 1.7, 55, 321.5, 900, 1000},
+     "gl",
+     true,
+     0,
+     0,
+     0,
+     0,
+     0.125,
+     0.3,
+     800},
+    {{0.1, INFINITY, {"unorm24", "fp32"}, {"reversed"}, .ortho = 0},
+     {0.1, 3, 40, 555, 7e3, 9e4},
+     "vulkan-unorm",
+     true,
+     0,
+     0,
+     0,
+     0.001,
+     0,
+     0.2,
+     5000},
+    {{1, 200, {"unorm24"}, {"log"}, .log_c = 3}, {1, 2, 30, 90, 150, 199}, "vulkan-float", true, 0, 0, 0, 0, 3, 2, 150},
+    /* The worth of a unit falls with z, so the far end decides. */
+    {{2, 60, {"fp32"}, {"reversed"}, .ortho = 1}, {2, 3, 7, 20, 45, 60}, "d3d11", true, 0, 0, 0, 1e-5, 0.001, 3, 58},
+};
+
+static void arguments_of(const bias_case *c, char out[1024]) {
+    char options[512];
+    size_t used = (size_t)snprintf(out, 1024, "bias --api %s %s --at ", c->api, camera_options(&c->camera, options));
+    for (int k = 0; k < DEPTHS; k++)
+        used += (size_t)snprintf(out + used, 1024 - used, "%s%.17g", k > 0 ? "," : "", c->z[k]);
+    const struct {
+        const char *name;
+        double number;
+        bool given;
+    } rest[] = {{"units", c->units, !c->inverse},
+                {"factor", c->factor, c->factor != 0},
+                {"clamp", c->clamp, c->clamp != 0},
+                {"slope", c->slope, c->slope != 0},
+                {"gap", c->gap, c->gap != 0}};
+    for (size_t i = 0; i < sizeof rest / sizeof rest[0]; i++)
+        if (rest[i].given)
+            used += (size_t)snprintf(out + used, 1024 - used, " --%s=%.17g", rest[i].name, rest[i].number);
+    if (c->inverse)
+        snprintf(out + used, 1024 - used, " --range %.17g:%.17g", c->lo, c->hi);
+}
+
+/* The sign that brings a layer nearer; no bias where none is enough, and no -0. */
+static double signed_units(const dp_setup *setup, double units) {
+    return isinf(units) ? NAN : units > 0 && !setup->reversed ? -units : units;
+}
+
+static bias_goal goal_of(const bias_case *c, const dp_setup *setup, double gap) {
+    return (bias_goal){bias_api_find(c->api), setup->reversed ? c->factor : -c->factor, c->slope, gap};
+}
+
+static void want_forward(values *v, const bias_case *c, const dp_setup *setup, double z) {
+    const bias_state s = {bias_api_find(c->api), c->units, c->factor, c->clamp};
+    const bias_unit r = bias_unit_at(s.api, &setup->spec.format, dp_window(setup, z));
+    const double o = bias_offset(&s, r.least, bias_window_slope(setup, z, c->slope)), d = dp_window(setup, z) + o;
+    const bias_effect e = bias_at(setup, &s, c->slope, z);
+    const bool limited = d < 0 || d > 1;
+    want_number(v, "bias", o);
+    want_number(v, "depth", fmin(fmax(d, 0), 1));
+    want_count(v, "code", dp_code(setup, z));
+    want_count(v, "code_moved",
+               o == 0 ? dp_code(setup, z) : dp_format_encode(&setup->spec.format, setup->spec.rounding, d));
+    want_number(v, "z_moved",
+                limited ? ((d > 0.5) != (setup->reversed != 0) ? setup->spec.zfar : setup->spec.znear) : e.to);
+    want_number(v, "shift", e.shift);
+    want_bool(v, "limited", limited);
+}
+
+static void want_inverse(values *v, const bias_case *c, const dp_setup *setup, double z) {
+    const bias_state one = {bias_api_find(c->api), setup->reversed ? 1 : -1, 0, 0};
+    const bias_effect e = bias_at(setup, &one, c->slope, z);
+    const bias_goal apart = goal_of(c, setup, 0), gap = goal_of(c, setup, c->gap);
+    const double units = signed_units(setup, bias_needed(setup, &gap, z));
+    want_number(v, "one_unit", e.limited ? NAN : fabs(e.shift));
+    want_number(v, "units_apart", signed_units(setup, bias_needed(setup, &apart, z)));
+    (c->gap > 0 ? want_number : want_derived)(v, "units_gap", units);
+}
+
+static double shift_with(const bias_case *c, const dp_setup *setup, double units, double z) {
+    const bias_state s = {bias_api_find(c->api), units, c->factor, 0};
+    return isnan(units) ? NAN : bias_at(setup, &s, c->slope, z).shift;
+}
+
+static void want_range(values *v, const bias_case *c, const dp_setup *setup) {
+    const bias_goal apart = goal_of(c, setup, 0), gap = goal_of(c, setup, c->gap);
+    const double gap_lo = fmax(c->lo, setup->spec.znear + c->gap);
+    double apart_z, gap_z;
+    const double alone = signed_units(setup, bias_needed_over(setup, &apart, c->lo, c->hi, &apart_z));
+    const double with_gap = signed_units(setup, bias_needed_over(setup, &gap, gap_lo, c->hi, &gap_z));
+    want_number(v, "lo", c->lo);
+    want_number(v, "hi", c->hi);
+    want_number(v, "units_apart", alone);
+    want_number(v, "units_apart_z", apart_z);
+    if (c->gap > 0) {
+        want_number(v, "gap_lo", gap_lo);
+        want_number(v, "units_gap", with_gap);
+        want_number(v, "units_gap_z", gap_z);
+    }
+    const double shift_hi = shift_with(c, setup, c->gap > 0 ? with_gap : alone, c->hi);
+    want_number(v, "shift_lo", shift_with(c, setup, c->gap > 0 ? with_gap : alone, c->gap > 0 ? gap_lo : c->lo));
+    want_number(v, "shift_hi", shift_hi);
+    want_derived(v, "nearer", fabs(shift_hi));
+}
+
+static void want_bias(values *v, const bias_case *c, const dp_setup *setup, size_t i, line_places *lines) {
+    values_under(v, "setups[%zu].", i);
+    want_setup(v, setup);
+    for (int k = 0; k < DEPTHS; k++) {
+        const bias_unit r = bias_unit_at(bias_api_find(c->api), &setup->spec.format, dp_window(setup, c->z[k]));
+        char inner[32];
+        values_under(v, "setups[%zu].rows[%d].", i, k);
+        want_number(v, "z", c->z[k]);
+        want_number(v, "r", r.least);
+        want_number(v, "r_most", r.most);
+        want_number(v, "slope", bias_window_slope(setup, c->z[k], c->slope));
+        (c->inverse ? want_inverse : want_forward)(v, c, setup, c->z[k]);
+        snprintf(inner, sizeof inner, "rows[%d].", k);
+        place_add(lines, inner, "setups[%zu].", i);
+    }
+    values_under(v, "setups[%zu].range.", i);
+    if (c->inverse)
+        want_range(v, c, setup);
+}
+
+#define BOTH                                                                                                           \
+    SETUP_COLUMNS, {"api", "/api"}, {"z [scene]", "z"}, {"r", "r"}, {"r_most", "r_most"}, {                            \
+        "slope [per pixel]", "slope"                                                                                   \
+    }
+static const csv_column forward[] = {BOTH,
+                                     {"bias", "bias"},
+                                     {"depth", "depth"},
+                                     {"code", "code"},
+                                     {"code_moved", "code_moved"},
+                                     {"z_moved [scene]", "z_moved"},
+                                     {"shift [scene]", "shift"}};
+static const csv_column inverse[] = {
+    BOTH, {"one_unit [scene]", "one_unit"}, {"units_apart", "units_apart"}, {"units_gap", "units_gap"}};
+
+/* The columns of the text; the slope and the gap only where they are asked about. */
+static void check_text(const values *v, const bias_case *c, const char *arguments, const line_places *lines) {
+    static const text_column forwards[] = {{"z", 9},     {"r", 6},           {"slope", 6},    {"bias", 6},
+                                           {"code", 10}, {"code_moved", 10}, {"z_moved", 10}, {"shift", 6}};
+    static const text_column inverses[] = {{"z", 9},        {"r", 6},           {"slope", 6},
+                                           {"one_unit", 6}, {"units_apart", 9}, {"units_gap", 9}};
+    static const char *const apart[] = {"setups[0].range.units_apart", "setups[0].range.lo", "setups[0].range.hi",
+                                        "setups[0].range.units_apart_z", NULL};
+    static const char *const gap[] = {"setups[0].range.units_gap", "setups[0].range.gap_lo", "setups[0].range.hi",
+                                      "setups[0].range.units_gap_z", NULL};
+    static const char *const nearer[] = {"setups[0].range.nearer", "setups[0].range.hi", NULL};
+    text_column shown[8];
+    size_t count = 0, all = c->inverse ? 6 : 8;
+    for (size_t i = 0; i < all; i++) {
+        shown[count] = c->inverse ? inverses[i] : forwards[i];
+        if ((strcmp(shown[count].path, "slope") != 0 || c->slope > 0) &&
+            (strcmp(shown[count].path, "units_gap") != 0 || c->gap > 0))
+            count++;
+    }
+    printed p = print_of("%s", arguments);
+    check_text_table(v, p.out, shown, count, lines);
+    if (c->inverse)
+        check_text_numbers(v, p.out, "told apart  ", 9, apart);
+    if (c->inverse && c->gap > 0) {
+        check_text_numbers(v, p.out, "the gap  ", 9, gap);
+        check_text_numbers(v, p.out, "the same units bring", 6, nearer);
+    }
+    printed_free(&p);
+}
+
+static void test_bias(void **state) {
+    (void)state;
+    for (size_t i = 0; i < sizeof cases / sizeof cases[0]; i++) {
+        const bias_case *c = &cases[i];
+        values v = values_of("bias");
+        line_places lines = {0};
+        dp_setup setups[CAMERA_SETUPS];
+        char arguments[1024];
+        arguments_of(c, arguments);
+        want_text(&v, "api", c->api);
+        want_number(&v, "units", c->inverse ? NAN : c->units);
+        want_number(&v, "factor", c->factor);
+        want_number(&v, "clamp", c->clamp);
+        want_number(&v, "slope", c->slope);
+        want_number(&v, "gap", c->inverse ? c->gap : NAN);
+        const size_t n = camera_setups(&c->camera, setups);
+        for (size_t k = 0; k < n; k++)
+            want_bias(&v, c, &setups[k], k, &lines);
+        check_json(&v, 0, arguments);
+        check_csv(&v, 0, arguments, c->inverse ? inverse : forward,
+                  c->inverse ? sizeof inverse / sizeof inverse[0] : sizeof forward / sizeof forward[0], &lines);
+        check_text(&v, c, arguments, &lines);
+        values_free(&v);
+        places_free(&lines);
+    }
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {cmocka_unit_test(test_bias), cmocka_unit_test(check_apart)};
+    return run_tap(tests);
+}

@@ -1,0 +1,174 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Every value that budget prints, against the library. */
+#include <stdio.h>
+#include <string.h>
+
+#include "cli/remedy.h"
+#include "printed.h"
+
+enum { DEPTHS = 6 };
+
+typedef struct budget_case {
+    camera_case camera;
+    double z[DEPTHS];
+    dp_budget_terms terms;
+    const char *options;
+} budget_case;
+
+static const budget_case budgets[] = {
+    {{0.3, 1000, {"unorm24", "fp16"}, {"d3d", "gl-reversed"}, .implied = true, .model = DP_MODEL_FP32},
+     {0.3, 1.7, 55, 321.5, 900, 990},
+     {0, 0, 0},
+     ""},
+    {{0.1, INFINITY, {"fp32", "unorm16"}, {"reversed", "gl"}, .implied = true, .model = DP_MODEL_FP32, .arith = "mesa"},
+     {0.1, 3, 4e2, 1e4, 1e6, 3e9},
+     {1.5, 700, 1},
+     " --interpolation 1.5 --world 700 --linearize"},
+    {{2,
+      90,
+      {"unorm24"},
+      {"reversed", "gl"},
+      .implied = true,
+      .ortho = 1,
+      .model = DP_MODEL_FP32,
+      .rounding = DP_ROUND_ZERO},
+     {2, 3, 5, 7, 60, 90},
+     {0.25, 0, 1},
+     " --interpolation 0.25 --linearize --tolerance 3%"},
+};
+
+static const char *cause_path(int cause) {
+    static char path[64];
+    snprintf(path, sizeof path, "causes.%s", dp_cause_name((dp_cause)cause));
+    return path;
+}
+
+static void want_budget_row(values *v, const dp_budget *b, double z) {
+    const bool some = isfinite(b->separation);
+    want_number(v, "z", z);
+    want_number(v, "separation", b->separation);
+    want_number(v, "window", b->window);
+    for (int i = 0; i < DP_CAUSE_COUNT; i++) {
+        char derived[96];
+        want_number(v, cause_path(i), b->cause[i]);
+        snprintf(derived, sizeof derived, "part.%s", dp_cause_name((dp_cause)i));
+        want_derived(v, derived, some ? b->cause[i] : NAN);
+        snprintf(derived, sizeof derived, "share.%s", dp_cause_name((dp_cause)i));
+        want_derived(v, derived, some ? 100 * b->cause[i] / b->separation : NAN);
+    }
+}
+
+static void want_budget_worst(values *v, const dp_setup *setup, const budget_case *c) {
+    dp_budget worst = {.separation = -1}, b;
+    double z = NAN;
+    int largest = 0;
+    for (int k = 0; k < DEPTHS; k++) {
+        assert_int_equal(dp_budget_at(setup, c->z[k], &c->terms, &b), DP_OK);
+        if (isfinite(b.separation) && b.separation > worst.separation) {
+            worst = b;
+            z = c->z[k];
+        }
+    }
+    if (isnan(z)) {
+        want_text(v, "worst", NULL);
+        return;
+    }
+    for (int i = 1; i < DP_CAUSE_COUNT; i++)
+        largest = worst.cause[i] > worst.cause[largest] ? i : largest;
+    const remedy_result remedy = remedy_find(setup, &c->terms, z, (dp_cause)largest);
+    values_under(v, "%sworst.", v->prefix);
+    want_number(v, "z", z);
+    want_number(v, "separation", worst.separation);
+    want_text(v, "cause", dp_cause_name((dp_cause)largest));
+    want_number(v, "share", worst.cause[largest] / worst.separation);
+    want_text(v, "remedy", remedy.text);
+    want_number(v, "remedy_separation", remedy.text != NULL ? remedy.separation : NAN);
+}
+
+static void want_budget(values *v, const budget_case *c, const dp_setup *setup, size_t i, line_places *lines) {
+    char inner[32], under[PATH_SIZE];
+    values_under(v, "setups[%zu].", i);
+    want_setup(v, setup);
+    for (int k = 0; k < DEPTHS; k++) {
+        dp_budget b;
+        assert_int_equal(dp_budget_at(setup, c->z[k], &c->terms, &b), DP_OK);
+        values_under(v, "setups[%zu].rows[%d].", i, k);
+        want_budget_row(v, &b, c->z[k]);
+        snprintf(inner, sizeof inner, "rows[%d].", k);
+        place_add(lines, inner, "setups[%zu].", i);
+    }
+    values_under(v, "setups[%zu].", i);
+    want_budget_worst(v, setup, c);
+    snprintf(under, sizeof under, "setups[%zu].auto.", i);
+    want_choice(v, under, setup, c->z, DEPTHS, strstr(c->options, "3%") != NULL ? 0.03 : 0.05);
+}
+
+/* The causes that the text leaves out are those of terms that were not given. */
+static size_t budget_text_columns(const budget_case *c, char text[2 * DP_CAUSE_COUNT][64], text_column *out) {
+    size_t count = 0;
+    out[count++] = (text_column){"z", 9};
+    out[count++] = (text_column){"separation", 6};
+    for (int i = 0; i < DP_CAUSE_COUNT; i++) {
+        if ((i == DP_CAUSE_COMPOSITION && c->terms.world == 0) ||
+            (i == DP_CAUSE_LINEARIZATION && !c->terms.linearize) ||
+            (i == DP_CAUSE_INTERPOLATION && c->terms.interpolation == 0))
+            continue;
+        snprintf(text[2 * i], 64, "part.%s", dp_cause_name((dp_cause)i));
+        snprintf(text[2 * i + 1], 64, "share.%s", dp_cause_name((dp_cause)i));
+        out[count++] = (text_column){text[2 * i], 4};
+        out[count++] = (text_column){text[2 * i + 1], 0};
+    }
+    return count;
+}
+
+static size_t budget_columns(char text[2 * DP_CAUSE_COUNT][64], csv_column *out) {
+    static const csv_column before[] = {SETUP_COLUMNS,
+                                        {"arith", "^arith"},
+                                        {"z [scene]", "z"},
+                                        {"separation [scene]", "separation"},
+                                        {"window", "window"}};
+    const size_t first = sizeof before / sizeof before[0];
+    memcpy(out, before, sizeof before);
+    for (int i = 0; i < DP_CAUSE_COUNT; i++) {
+        snprintf(text[2 * i], 64, "%s [scene]", dp_cause_name((dp_cause)i));
+        snprintf(text[2 * i + 1], 64, "%s", cause_path(i));
+        out[first + (size_t)i] = (csv_column){text[2 * i], text[2 * i + 1]};
+    }
+    return first + DP_CAUSE_COUNT;
+}
+
+static void test_budget(void **state) {
+    (void)state;
+    for (size_t i = 0; i < sizeof budgets / sizeof budgets[0]; i++) {
+        const budget_case *c = &budgets[i];
+        values v = values_of("budget");
+        line_places lines = {0};
+        dp_setup setups[CAMERA_SETUPS];
+        char options[512], arguments[1024], heads[2 * DP_CAUSE_COUNT][64], texts[2 * DP_CAUSE_COUNT][64];
+        csv_column columns[16 + DP_CAUSE_COUNT];
+        text_column shown[2 + 2 * DP_CAUSE_COUNT];
+        size_t used =
+            (size_t)snprintf(arguments, 1024, "budget %s%s --at ", camera_options(&c->camera, options), c->options);
+        for (int k = 0; k < DEPTHS; k++)
+            used += (size_t)snprintf(arguments + used, 1024 - used, "%s%.17g", k > 0 ? "," : "", c->z[k]);
+        values_under(&v, "terms.");
+        want_number(&v, "interpolation", c->terms.interpolation);
+        want_number(&v, "world", c->terms.world);
+        want_bool(&v, "linearize", c->terms.linearize);
+        const size_t n = camera_setups(&c->camera, setups);
+        for (size_t k = 0; k < n; k++)
+            want_budget(&v, c, &setups[k], k, &lines);
+        check_json(&v, 0, arguments);
+        check_csv(&v, 0, arguments, columns, budget_columns(heads, columns), &lines);
+        printed p = print_of("%s", arguments);
+        check_text_table(&v, p.out, shown, budget_text_columns(c, texts, shown), &lines);
+        printed_free(&p);
+        values_free(&v);
+        places_free(&lines);
+    }
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {cmocka_unit_test(test_budget), cmocka_unit_test(check_apart)};
+    return run_tap(tests);
+}

@@ -1,0 +1,119 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Every value in the table of an effect, texture --effect without an image. */
+#include <stdio.h>
+#include <string.h>
+
+#include "printed.h"
+#include "texture/effect.h"
+
+enum { DEPTHS = 5 };
+
+static const struct {
+    camera_case camera;
+    const char *effect;
+    double z[DEPTHS];
+} effects[] = {
+    {{0.3, 900, {"unorm16", "fp32"}, {"d3d", "reversed"}, .ortho = 0}, "intersection", {0.4, 30, 2, 500, 7}},
+    {{0.3, 900, {"unorm16"}, {"d3d"}, .ortho = 0}, "depth-of-field", {0.4, 30, 2, 500, 7}},
+    {{0.3, 900, {"unorm24", "fp16"}, {"d3d"}, .ortho = 0}, "fog", {0.4, 30, 2, 500, 7}},
+    {{0.3, 900, {"unorm16"}, {"gl"}, .ortho = 0}, "scan-line", {0.4, 30, 2, 500, 7}},
+};
+
+static void want_effect_rows(values *v, const effect_row *row, const double *parameters, const dp_setup *setup,
+                             const double *z, size_t i, line_places *lines) {
+    double decides = NAN, at = NAN;
+    values_under(v, "setups[%zu].", i);
+    want_setup(v, setup);
+    for (int k = 0; k < DEPTHS; k++) {
+        char inner[32];
+        const uint32_t code = dp_code(setup, z[k]);
+        const double usable = effect_usable(row, setup, parameters, z[k], 1);
+        values_under(v, "setups[%zu].rows[%d].", i, k);
+        want_number(v, "z", z[k]);
+        want_count(v, "code", code);
+        want_number(v, "z_stored", dp_stored(setup, code));
+        want_number(v, "interval", dp_cell_of(setup, code).width);
+        want_number(v, "levels", effect_error(row, setup, parameters, z[k]));
+        want_number(v, "usable", usable);
+        const bool first = isnan(usable) ? !isnan(decides) : row->smallest ? usable > decides : usable < decides;
+        if (k == 0 || (first && !isnan(decides))) {
+            decides = usable;
+            at = z[k];
+        }
+        snprintf(inner, sizeof inner, "rows[%d].", k);
+        place_add(lines, inner, "setups[%zu].", i);
+    }
+    values_under(v, "setups[%zu].all.", i);
+    want_number(v, "usable", decides);
+    want_number(v, "z", at);
+}
+
+static void check_effect(values *v, const char *arguments, const effect_row *row, const line_places *lines) {
+    const effect_parameter *wanted_one = &row->parameters[row->wanted];
+    const char *direction = row->smallest ? "from" : "up to";
+    char head[128], label[128];
+    static const text_column shown[] = {{"z", 9},        {"code", 10},  {"z_stored", 9},
+                                        {"interval", 6}, {"levels", 6}, {"usable", 6}};
+    static const char *const decides[] = {"setups[0].all.usable", "setups[0].all.z", NULL};
+    snprintf(head, sizeof head, "%s %s [%s]", wanted_one->name, direction, wanted_one->unit);
+    const csv_column columns[] = {SETUP_COLUMNS,
+                                  {"effect", "/effect"},
+                                  {"z [scene]", "z"},
+                                  {"code", "code"},
+                                  {"z_stored [scene]", "z_stored"},
+                                  {"interval [scene]", "interval"},
+                                  {"levels [1/255]", "levels"},
+                                  {head, "usable"}};
+    check_json(v, 0, arguments);
+    check_csv(v, 0, arguments, columns, sizeof columns / sizeof columns[0], lines);
+    printed p = print_of("%s", arguments);
+    check_text_table(v, p.out, shown, sizeof shown / sizeof shown[0], lines);
+    const bool none = isnan(value_at(v, decides[0])->number);
+    snprintf(label, sizeof label, none ? "no %s is usable" : "%s %s ", wanted_one->name, direction);
+    check_text_numbers(v, p.out, label, 6, decides + none);
+    printed_free(&p);
+}
+
+static void test_effects(void **state) {
+    (void)state;
+    for (size_t i = 0; i < sizeof effects / sizeof effects[0]; i++) {
+        const effect_row *row = effect_find(effects[i].effect);
+        double parameters[EFFECT_PARAMETERS_MAX];
+        char options[512], arguments[1024];
+        dp_setup setups[CAMERA_SETUPS];
+        line_places lines = {0};
+        values v = values_of("texture");
+        assert_non_null(row);
+        effect_defaults(row, parameters);
+        size_t used = (size_t)snprintf(arguments, sizeof arguments, "texture --effect %s %s --at ", row->name,
+                                       camera_options(&effects[i].camera, options));
+        for (int k = 0; k < DEPTHS; k++)
+            used += (size_t)snprintf(arguments + used, sizeof arguments - used, "%s%.17g", k > 0 ? "," : "",
+                                     effects[i].z[k]);
+        for (int k = 0; row->parameters[k].name != NULL; k++) {
+            const effect_parameter *q = &row->parameters[k];
+            parameters[k] = fmin(q->hi, q->value * 1.25); /* not the default */
+            snprintf(arguments + strlen(arguments), sizeof arguments - strlen(arguments), " --parameter %s=%.17g",
+                     q->name, parameters[k]);
+            values_under(&v, "parameters[%d].", k);
+            want_text(&v, "name", q->name);
+            want_text(&v, "unit", q->unit);
+            want_number(&v, "value", parameters[k]);
+        }
+        values_under(&v, "%s", "");
+        want_text(&v, "effect", row->name);
+        want_text(&v, "wanted", row->parameters[row->wanted].name);
+        want_text(&v, "direction", row->smallest ? "from" : "up to");
+        const size_t n = camera_setups(&effects[i].camera, setups);
+        for (size_t k = 0; k < n; k++)
+            want_effect_rows(&v, row, parameters, &setups[k], effects[i].z, k, &lines);
+        check_effect(&v, arguments, row, &lines);
+        values_free(&v);
+        places_free(&lines);
+    }
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {cmocka_unit_test(test_effects), cmocka_unit_test(check_apart)};
+    return run_tap(tests);
+}

@@ -1,0 +1,282 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Every value that table prints, against the library. */
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "method/choose.h"
+#include "printed.h"
+
+enum { DEPTHS = 6 };
+
+typedef struct table_case {
+    camera_case camera;
+    double lo, hi; /* --range */
+    double z[DEPTHS];
+    bool automatic; /* --model auto */
+    const char *tolerance;
+    double allowed;
+    const char *method; /* that --tolerance takes; null: none */
+} table_case;
+
+static const table_case tables[] = {
+    {{0.3, 1000, {"unorm16", "fp32"}, {"d3d", "log"}, .rounding = DP_ROUND_ZERO, .log_c = 2},
+     0.5,
+     700,
+     {0.3, 1.7, 55, 321.5, 900, 1000},
+     .allowed = 0.05},
+    {{0.1, INFINITY, {"unorm24", "fp16"}, {"reversed", "d3d"}, .rounding = DP_ROUND_EVEN},
+     0.1,
+     INFINITY,
+     {0.1, 3, 4e4, 1e6, 1e7, 3e9},
+     .allowed = 0.05},
+    {{0.7, 5000.1, {"unorm24", "fp32"}, {"gl", "reversed"}, .model = DP_MODEL_FP32, .arith = "fused-reciprocal"},
+     1,
+     4000,
+     {0.7, 2, 20, 333, 2500, 5000},
+     .allowed = 0.05},
+    {{0.1, INFINITY, {"fp32"}, {"reversed"}, .model = DP_MODEL_FP32},
+     0.1,
+     INFINITY,
+     {0.1, 2, 20, 333, 2500, 5e6},
+     .allowed = 0.05},
+    {{1, 50, {"unorm16"}, {"d3d", "linear"}, .model = DP_MODEL_STAGED}, 1, 50, {1, 2, 3, 4, 5, 50}, .allowed = 0.05},
+    {{2, 90, {"unorm24"}, {"reversed", "gl"}, .ortho = 1}, 3, 80, {2, 3, 5, 7, 60, 90}, .allowed = 0.05},
+    {{0.1, 1000, {"unorm16", "unorm24", "fp32"}, {"d3d", "reversed", "log"}, .ortho = 0},
+     0.2,
+     900,
+     {0.1, 0.5, 3, 20, 100, 900},
+     .automatic = true,
+     .tolerance = "20%",
+     .allowed = 0.2,
+     .method = ""},
+    {{0.1, 1000, {"unorm24"}, {"d3d"}, .ortho = 0},
+     0.2,
+     900,
+     {0.5, 1, 2, 5, 10, 900},
+     .tolerance = "1e-6",
+     .allowed = 1e-6,
+     .method = ""},
+};
+
+static void arguments_of(const table_case *c, char out[1024]) {
+    char options[512];
+    size_t used = (size_t)snprintf(out, 1024, "table %s --at ", camera_options(&c->camera, options));
+    for (int i = 0; i < DEPTHS; i++)
+        used += (size_t)snprintf(out + used, 1024 - used, "%s%.17g", i > 0 ? "," : "", c->z[i]);
+    if (isfinite(c->hi))
+        used += (size_t)snprintf(out + used, 1024 - used, " --range %.17g:%.17g", c->lo, c->hi);
+    if (c->automatic)
+        used += (size_t)snprintf(out + used, 1024 - used, " --model auto");
+    if (c->tolerance != NULL)
+        snprintf(out + used, 1024 - used, " --tolerance %s", c->tolerance);
+}
+
+static void want_worst(values *v, const dp_setup *setup, double lo, double hi) {
+    dp_worst w;
+    assert_int_equal(dp_worst_over(setup, lo, hi, &w), DP_OK);
+    if (isnan(w.error)) {
+        want_text(v, "worst", NULL);
+        return;
+    }
+    values_under(v, "%.60sworst.", v->prefix);
+    want_number(v, "lo", lo);
+    want_number(v, "hi", hi);
+    want_number(v, "error", w.error);
+    want_number(v, "error_z", w.error_z);
+    want_count(v, "error_code", w.error_code);
+    want_number(v, "interval", w.interval);
+    want_number(v, "interval_lo", w.interval_lo);
+    want_number(v, "interval_hi", w.interval_hi);
+    want_count(v, "interval_code", w.interval_code);
+    want_number(v, "blind_from", w.blind_from);
+}
+
+static double in_binary32(const dp_setup *setup, double z) {
+    dp_budget b;
+    return dp_budget_at(setup, z, NULL, &b) == DP_OK ? b.separation : NAN;
+}
+
+/* The interval by the method that --tolerance takes, or of the exact cell; none where it would end beyond far. */
+static double interval_of(const method_row *row, const dp_setup *setup, double z) {
+    const dp_cell cell = dp_cell_of(setup, dp_code(setup, z));
+    const method_inputs in = {.count = 1, .z = &z};
+    double width = cell.width;
+    if (row != NULL && (row->domain & METHOD_PIPELINE) != 0 && z + dp_separation(setup, z) > setup->spec.zfar)
+        return NAN;
+    if (row != NULL)
+        row->run(setup, NULL, &in, &(method_outputs){.value = &width});
+    return width;
+}
+
+static void want_row(values *v, const dp_setup *setup, const method_row *method, double z) {
+    const uint32_t code = dp_code(setup, z);
+    const dp_cell cell = dp_cell_of(setup, code);
+    want_number(v, "z", z);
+    want_count(v, "code", code);
+    want_number(v, "depth", dp_window(setup, z));
+    want_number(v, "z_stored", dp_stored(setup, code));
+    want_number(v, "error", dp_error(setup, code, z));
+    want_number(v, "cell_lo", cell.lo);
+    want_number(v, "cell_hi", cell.hi);
+    want_number(v, "interval", interval_of(method, setup, z));
+    want_number(v, "separation", dp_separation(setup, z));
+    want_number(v, "separation_fp32", in_binary32(setup, z));
+}
+
+/* What --tolerance takes for a set-up: the cheapest claim for these planes, in the pipeline or on its lattice. */
+static const method_row *method_of(const table_case *c, const dp_setup *setup, double *claim, const char **name) {
+    const method_family_row *family = method_family_find("interval");
+    const double ratio = setup->spec.zfar / setup->spec.znear;
+    const bool pipeline = setup->spec.model == DP_MODEL_FP32;
+    const method_wish wish = {.tolerance = c->allowed,
+                              .ratio_lo = ratio,
+                              .ratio_hi = ratio,
+                              .cut_cells = !pipeline && c->z[0] == setup->spec.znear,
+                              .pipeline = pipeline};
+    const method_row *row = NULL;
+    for (size_t i = 0; i < family->case_count && setup->spec.model != DP_MODEL_STAGED; i++)
+        if (strcmp(family->cases[i].format, setup->spec.format.name) == 0 &&
+            family->cases[i].mapping == setup->spec.mapping) {
+            row = method_choose(family, i, &wish);
+            *claim = row != NULL ? method_claim_over(&row->claims[i], ratio, ratio) : *claim;
+        }
+    *name = row != NULL ? row->name : pipeline ? NULL : "cell";
+    if (row == NULL)
+        *claim = pipeline ? NAN : 0;
+    return row;
+}
+
+static void want_table(values *v, const table_case *c, dp_setup *setup, size_t i, line_places *lines) {
+    const method_row *method = NULL;
+    double claim = NAN;
+    const char *name;
+    if (c->automatic) {
+        dp_choice choice;
+        assert_int_equal(dp_model_choose(setup, c->z, DEPTHS, c->allowed, &choice), DP_OK);
+        dp_spec spec = setup->spec;
+        spec.model = choice.model;
+        assert_int_equal(dp_setup_init(setup, &spec), DP_OK);
+    }
+    values_under(v, "setups[%zu].", i);
+    want_setup(v, setup);
+    if (c->method != NULL) {
+        method = method_of(c, setup, &claim, &name);
+        want_text(v, "method", name);
+        want_number(v, "claim", claim);
+    }
+    for (int k = 0; k < DEPTHS; k++) {
+        values_under(v, "setups[%zu].rows[%d].", i, k);
+        want_row(v, setup, method, c->z[k]);
+        char inner[32];
+        snprintf(inner, sizeof inner, "rows[%d].", k);
+        place_add(lines, inner, "setups[%zu].", i);
+    }
+    values_under(v, "setups[%zu].", i);
+    want_worst(v, setup, c->lo, c->hi);
+    dp_pipeline p;
+    if (setup->spec.model == DP_MODEL_FP32 && dp_pipeline_init(&p, setup) == DP_OK) {
+        float znear, zfar;
+        dp_pipeline_planes(&p, &znear, &zfar);
+        values_under(v, "setups[%zu].", i);
+        want_number(v, "near_effective", (double)znear);
+        want_number(v, "far_effective", (double)zfar);
+    }
+    char under[PATH_SIZE];
+    snprintf(under, sizeof under, "setups[%zu].auto.", i);
+    want_choice(v, under, setup, c->z, DEPTHS, c->allowed);
+}
+
+static void check_table_text(const values *v, const char *arguments, const line_places *lines) {
+    static const text_column columns[] = {{"z", 9},       {"code", 10},    {"depth", 7},      {"z_stored", 9},
+                                          {"error", 6},   {"interval", 6}, {"separation", 6}, {"separation_fp32", 6},
+                                          {"cell_lo", 9}, {"cell_hi", 9}};
+    for (int verbose = 0; verbose < 2; verbose++) {
+        printed p = print_of("%s%s", arguments, verbose ? " -v" : "");
+        assert_int_equal(p.status, 0);
+        check_text_table(v, p.out, columns, verbose ? 10 : 8, lines);
+        printed_free(&p);
+    }
+}
+
+static void test_table(void **state) {
+    static const csv_column columns[] = {SETUP_COLUMNS,
+                                         {"arith", "?^arith"},
+                                         {"z [scene]", "z"},
+                                         {"code", "code"},
+                                         {"depth", "depth"},
+                                         {"z_stored [scene]", "z_stored"},
+                                         {"error [scene]", "error"},
+                                         {"cell_lo [scene]", "cell_lo"},
+                                         {"cell_hi [scene]", "cell_hi"},
+                                         {"interval [scene]", "interval"},
+                                         {"separation [scene]", "separation"},
+                                         {"separation_fp32 [scene]", "separation_fp32"},
+                                         {"method", "?^method"}};
+    (void)state;
+    for (size_t i = 0; i < sizeof tables / sizeof tables[0]; i++) {
+        const table_case *c = &tables[i];
+        values v = values_of("table");
+        line_places lines = {0};
+        dp_setup setups[CAMERA_SETUPS];
+        csv_column used[sizeof columns / sizeof columns[0]];
+        char arguments[1024];
+        bool with_arith = false;
+        size_t count = 0, n = camera_setups(&c->camera, setups);
+        arguments_of(c, arguments);
+        for (size_t k = 0; k < n; k++) {
+            want_table(&v, c, &setups[k], k, &lines);
+            with_arith = with_arith || setups[k].spec.model == DP_MODEL_FP32;
+        }
+        for (size_t k = 0; k < sizeof columns / sizeof columns[0]; k++)
+            if ((k != 7 || with_arith) && (k + 1 < sizeof columns / sizeof columns[0] || c->method != NULL))
+                used[count++] = columns[k];
+        check_json(&v, 0, arguments);
+        check_csv(&v, 0, arguments, used, count, &lines);
+        check_table_text(&v, arguments, &lines);
+        values_free(&v);
+        places_free(&lines);
+    }
+}
+
+/* The lines below a table, where they are spelt out. */
+static void test_table_worst_lines(void **state) {
+    static const char *const error[] = {"worst.error", "worst.error_z", "worst.error_code", NULL};
+    static const char *const interval[] = {"worst.interval", "worst.interval_lo", "worst.interval_hi",
+                                           "worst.interval_code", NULL};
+    static const char *const drawn[] = {"near_effective", "far_effective", NULL};
+    const camera_case exact = {2, 90, {"unorm16"}, {"reversed"}, .ortho = 1},
+                      /* error and interval at other depths */ fp32 = {
+                          0.7, 5000, {"unorm24"}, {"gl"}, .model = DP_MODEL_FP32};
+    dp_setup setup[CAMERA_SETUPS];
+    (void)state;
+    camera_setups(&exact, setup);
+    values v = values_of("table");
+    want_worst(&v, setup, 3, 80);
+    printed p = print_of("table -n 2 -f 90 -F unorm16 -m reversed --ortho --range 3:80");
+    check_text_numbers(&v, p.out, "worst error", 6, error);
+    check_text_numbers(&v, p.out, "worst interval", 6, interval);
+    values_free(&v);
+    printed_free(&p);
+    dp_pipeline pipeline;
+    float znear, zfar;
+    camera_setups(&fp32, setup);
+    assert_int_equal(dp_pipeline_init(&pipeline, setup), DP_OK);
+    dp_pipeline_planes(&pipeline, &znear, &zfar);
+    v = values_of("table");
+    want_number(&v, "near_effective", (double)znear);
+    want_number(&v, "far_effective", (double)zfar);
+    p = print_of("table -n 0.7 -f 5000 -F unorm24 -m gl --model fp32 -q");
+    check_text_numbers(&v, p.out, "drawn", 9, drawn);
+    values_free(&v);
+    printed_free(&p);
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(test_table),
+        cmocka_unit_test(test_table_worst_lines),
+        cmocka_unit_test(check_apart),
+    };
+    return run_tap(tests);
+}

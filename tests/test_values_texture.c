@@ -1,0 +1,467 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Every value that texture prints of a scene and of an image. */
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "printed.h"
+#include "texture/decode.h"
+#include "texture/frame.h"
+#include "texture/recognise.h"
+#include "texture/survey.h"
+
+enum { WIDTH = 40, HEIGHT = 24 };
+
+typedef struct texture_case {
+    camera_case camera;
+    const char *scene, *options, *format_from, *mapping_from;
+    double fov, half_height, yaw, pitch, origin[3], sky;
+    struct {
+        const char *name;
+        double number;
+    } parameters[3];
+} texture_case;
+
+static const texture_case scenes[] = {
+    {{0.3, 1000, {"unorm16"}, {"d3d"}, .ortho = 0},
+     "decals",
+     "--fov 40 --yaw 10 --pitch=-5 --origin 1,-2,3 --sky 0.001",
+     "given",
+     "given",
+     40,
+     NAN,
+     10,
+     -5,
+     {1, -2, 3},
+     0.001,
+     {{"gap", 0.02}, {"count", 7}}},
+    {{0.2, 500, {"unorm24"}, {"reversed"}, .rounding = DP_ROUND_ZERO},
+     "plane",
+     "",
+     "given",
+     "given",
+     60,
+     NAN,
+     0,
+     0,
+     {0, 0, 0},
+     1e-4,
+     {{"distance", 9}, {"tilt", 82}}},
+    {{1, 60, {"fp16"}, {"gl"}, .ortho = 1},
+     "sphere",
+     "--half-height 3",
+     "given",
+     "given",
+     NAN,
+     3,
+     0,
+     0,
+     {0, 0, 0},
+     1e-4,
+     {{"radius", 4}}},
+};
+
+/* ---- Statistics -------------------------------------------------------------------------------------------------- */
+
+static void want_errors(values *v, size_t i, const char *name, const char *unit, const frame_summary *s) {
+    values_under(v, "errors[%zu].", i);
+    want_text(v, "name", name);
+    want_text(v, "unit", unit);
+    want_count(v, "pixels", s->count);
+    want_count(v, "unbounded", s->infinite);
+    want_number(v, "mean", s->mean);
+    want_number(v, "p99", s->p99);
+    want_number(v, "max", s->hi);
+    want_count(v, "column", s->hi_column);
+    want_count(v, "row", s->hi_row);
+}
+
+static size_t want_product(values *v, const frame *f, size_t i, const char *name, const char *unit,
+                           const frame_product *p) {
+    frame_summary s;
+    if (frame_refuses(f, p) != NULL)
+        return i;
+    assert_true(frame_summarise(f, p, &s));
+    want_errors(v, i, name, unit, &s);
+    return i + 1;
+}
+
+/* What a decoding in binary32 adds to what is stored, over the pixels that are not sky. */
+static size_t want_decoding(values *v, const frame *f, size_t i, const decode_row *row) {
+    const dp_setup *setup = &f->camera->setup;
+    uint32_t codes[WIDTH];
+    char name[64];
+    frame_summary s = {.p99 = NAN, .hi = -1};
+    if (!decode_applies(row, setup))
+        return i;
+    for (uint32_t y = 0; y < f->camera->height; y++) {
+        frame_codes(f, y, codes);
+        for (uint32_t x = 0; x < f->camera->width; x++) {
+            if (codes[x] == UINT32_MAX || frame_rank(setup, codes[x]) >= frame_sky_rank(f))
+                continue;
+            const float d = (float)dp_format_value(&setup->spec.format, codes[x]);
+            const double want = decode_exact(setup, row->quantity, (double)d);
+            float got;
+            row->run(setup, &d, &got, 1);
+            const double off = want == (double)got ? 0 : fabs(((double)got - want) / want);
+            if (!isfinite(off)) {
+                s.infinite++;
+                continue;
+            }
+            s.count++;
+            s.mean += off;
+            if (off > s.hi) {
+                s.hi = off;
+                s.hi_column = x;
+                s.hi_row = y;
+            }
+        }
+    }
+    s.mean /= (double)s.count;
+    snprintf(name, sizeof name, "decode %s", row->name);
+    want_errors(v, i, name, "relative", &s);
+    return i + 1;
+}
+
+static size_t want_all_errors(values *v, const frame *f) {
+    frame_product p = {.kind = FRAME_EYE, .error = true};
+    char name[64];
+    size_t n = want_product(v, f, 0, "eye depth", "scene units", &p);
+    for (size_t i = 0; decode_get(i) != NULL; i++)
+        n = want_decoding(v, f, n, decode_get(i));
+    p.kind = FRAME_POSITION;
+    for (size_t i = 0; f->scene != NULL && (p.position = position_get(i)) != NULL; i++) {
+        snprintf(name, sizeof name, "position %s", p.position->name);
+        n = want_product(v, f, n, name, "scene units", &p);
+    }
+    p.kind = FRAME_NORMAL;
+    for (size_t i = 0; f->scene != NULL && (p.normal = normal_get(i)) != NULL; i++) {
+        snprintf(name, sizeof name, "normal %s", p.normal->name);
+        n = want_product(v, f, n, name, "degrees", &p);
+    }
+    return n;
+}
+
+/* Pixels that show something and count as sky. */
+static uint64_t hidden_by_sky(const frame *f) {
+    uint64_t count = 0;
+    uint32_t codes[WIDTH];
+    for (uint32_t y = 0; y < f->camera->height; y++) {
+        frame_codes(f, y, codes);
+        for (uint32_t x = 0; x < f->camera->width; x++) {
+            scene_hit hit;
+            f->scene->hit(f->camera, f->parameters, x, y, &hit);
+            count += hit.surface != 0 && frame_rank(&f->camera->setup, codes[x]) >= frame_sky_rank(f);
+        }
+    }
+    return count;
+}
+
+static void want_survey(values *v, const frame *f, uint64_t invalid, line_places *lines) {
+    static survey s;
+    assert_true(survey_make(f, &s));
+    values_under(v, "%s", "");
+    want_count(v, "pixels", (uint64_t)f->camera->width * f->camera->height);
+    want_count(v, "invalid", invalid);
+    want_number(v, "lo", s.lo);
+    want_number(v, "hi", s.hi);
+    want_count(v, "codes", s.codes);
+    want_derived(v, "sky_share", 100 * (double)s.sky / (double)s.pixels);
+    values_under(v, "sky.");
+    want_count(v, "pixels", s.sky);
+    want_number(v, "limit", f->sky);
+    want_number(v, "from", s.sky_from);
+    if (f->scene != NULL)
+        want_count(v, "hidden", hidden_by_sky(f));
+    for (size_t i = 0; i < s.band_count; i++) {
+        const survey_band *b = &s.bands[i];
+        values_under(v, "bands[%zu].", i);
+        want_number(v, "lo", b->lo);
+        want_number(v, "hi", b->hi);
+        want_count(v, "pixels", b->pixels);
+        want_count(v, "codes", b->codes);
+        want_count(v, "available", b->available);
+        want_number(v, "gap", b->gap);
+        want_number(v, "gap_z", b->gap_z);
+        want_count(v, "steps", b->steps);
+        want_number(v, "interval", b->interval);
+        want_derived(v, "steps_shown", b->steps > 0 ? (double)b->steps : NAN);
+        place_add(lines, "", "bands[%zu].", i);
+    }
+}
+
+static void want_pairs(values *v, const frame *f) {
+    survey_pairs p;
+    values_under(v, "%s", "");
+    if (f->scene == NULL || !survey_pairs_make(f, &p)) {
+        want_text(v, "pairs", NULL);
+        return;
+    }
+    values_under(v, "pairs.");
+    want_count(v, "count", p.pairs);
+    want_count(v, "ties", p.ties);
+    want_count(v, "possible", p.possible);
+    want_number(v, "first_tie", p.first_tie);
+    want_number(v, "certain_to", p.certain_to);
+}
+
+static void want_camera(values *v, const texture_case *c, const frame *f) {
+    values_under(v, "%s", "");
+    want_setup(v, &f->camera->setup);
+    want_count(v, "width", f->camera->width);
+    want_count(v, "height", f->camera->height);
+    want_text(v, "format_from", c->format_from);
+    want_text(v, "mapping_from", c->mapping_from);
+    want_number(v, "fov", c->fov);
+    want_number(v, "half_height", c->half_height);
+    want_number(v, "condition", position_condition(f->camera));
+    want_text(v, "truth", f->scene != NULL ? "scene" : NULL);
+}
+
+static const csv_column band_columns[] = {
+    SETUP_COLUMNS,      {"from [scene]", "lo"},          {"to [scene]", "hi"},   {"pixels", "pixels"},
+    {"codes", "codes"}, {"available", "available"},      {"gap [scene]", "gap"}, {"gap_z [scene]", "gap_z"},
+    {"steps", "steps"}, {"interval [scene]", "interval"}};
+
+static void check_text(const values *v, const char *arguments, size_t errors, const line_places *lines) {
+    static const text_column bands[] = {{"lo", 6},     {"hi", 6},           {"pixels", 10},
+                                        {"codes", 10}, {"available", 10},   {"gap", 6},
+                                        {"gap_z", 6},  {"steps_shown", 10}, {"interval", 6}};
+    static const char *const sky[] = {"sky.pixels", "sky_share", "sky.from", "sky.limit", NULL};
+    static const char *const depths[] = {"lo", "hi", "codes", NULL}, *const condition[] = {"condition", NULL};
+    static const char *const pairs[] = {"pairs.count", "pairs.ties", "pairs.first_tie", NULL};
+    static const char *const certain[] = {"pairs.possible", "pairs.certain_to", NULL};
+    static const char *const fields[] = {"mean", "p99", "max", "column", "row"};
+    printed p = print_of("%s", arguments);
+    check_text_numbers(v, p.out, "sky  ", 3, sky);
+    check_text_numbers(v, p.out, "depths  ", 8, depths);
+    check_text_table(v, p.out, bands, sizeof bands / sizeof bands[0], lines);
+    check_text_numbers(v, p.out, "condition  ", 4, condition);
+    if (strstr(p.out, "  pairs  ") != NULL) {
+        const char *rest = strstr(strstr(p.out, "  pairs  "), "\n");
+        check_text_numbers(v, p.out, "pairs  ", 6, pairs);
+        check_text_numbers(v, rest + 1, "", 6, certain);
+    }
+    for (size_t i = 0; i < errors; i++) {
+        char at[5][PATH_SIZE], label[64];
+        const char *paths[6] = {at[0], at[1], at[2], at[3], at[4], NULL};
+        snprintf(at[0], PATH_SIZE, "errors[%zu].name", i);
+        snprintf(label, sizeof label, "%-24.60s", value_at(v, at[0])->text);
+        for (size_t k = 0; k < 5; k++)
+            snprintf(at[k], PATH_SIZE, "errors[%zu].%s", i, fields[k]);
+        check_text_numbers(v, p.out, label, 4, paths);
+    }
+    printed_free(&p);
+}
+
+static void check_forms(values *v, const char *arguments, size_t errors, line_places *lines) {
+    check_json(v, 0, arguments);
+    for (size_t i = 0; i < lines->count; i++)
+        lines->items[i].outer[0] = '\0'; /* the set-up stands at the top */
+    check_csv(v, 0, arguments, band_columns, sizeof band_columns / sizeof band_columns[0], lines);
+    check_text(v, arguments, errors, lines);
+}
+
+static void camera_of(const texture_case *c, texture_camera *out, uint32_t width, uint32_t height) {
+    dp_setup setup[CAMERA_SETUPS];
+    camera_spec spec = camera_spec_default();
+    assert_int_equal(camera_setups(&c->camera, setup), 1);
+    spec.width = width;
+    spec.height = height;
+    spec.fov_y = isnan(c->fov) ? spec.fov_y : c->fov;
+    spec.half_height = isnan(c->half_height) ? spec.half_height : c->half_height;
+    spec.yaw = c->yaw;
+    spec.pitch = c->pitch;
+    memcpy(spec.origin, c->origin, sizeof spec.origin);
+    assert_null(camera_init(out, setup, &spec));
+}
+
+/* The scene's own, but for those of the case; their options behind the others. */
+static void want_parameters(values *v, const texture_case *c, const scene_row *scene, double *parameters,
+                            char options[256]) {
+    scene_defaults(scene, parameters);
+    options[0] = '\0';
+    for (size_t i = 0; i < SCENE_PARAMETERS && scene->parameters[i].name != NULL; i++) {
+        const char *name = scene->parameters[i].name;
+        for (size_t k = 0; k < 3 && c->parameters[k].name != NULL; k++)
+            if (strcmp(c->parameters[k].name, name) == 0) {
+                parameters[i] = c->parameters[k].number;
+                snprintf(options + strlen(options), 256 - strlen(options), " --parameter %s=%.17g", name,
+                         parameters[i]);
+            }
+        values_under(v, "parameters[%zu].", i);
+        want_text(v, "name", name);
+        want_number(v, "value", parameters[i]);
+    }
+}
+
+static void test_scenes(void **state) {
+    (void)state;
+    for (size_t i = 0; i < sizeof scenes / sizeof scenes[0]; i++) {
+        const texture_case *c = &scenes[i];
+        texture_camera camera;
+        double parameters[SCENE_PARAMETERS];
+        char options[512], more[256], arguments[1024];
+        line_places lines = {0};
+        values v = values_of("texture");
+        camera_of(c, &camera, WIDTH, HEIGHT);
+        want_parameters(&v, c, scene_find(c->scene), parameters, more);
+        const frame f = {.camera = &camera, .scene = scene_find(c->scene), .parameters = parameters, .sky = c->sky};
+        values_under(&v, "%s", "");
+        want_text(&v, "file", NULL);
+        want_text(&v, "scene", c->scene);
+        want_camera(&v, c, &f);
+        want_survey(&v, &f, 0, &lines);
+        want_pairs(&v, &f);
+        snprintf(arguments, sizeof arguments, "texture --scene %s --size %dx%d %s %s%s", c->scene, WIDTH, HEIGHT,
+                 camera_options(&c->camera, options), c->options, more);
+        check_forms(&v, arguments, want_all_errors(&v, &f), &lines);
+        values_free(&v);
+        places_free(&lines);
+    }
+}
+
+/* ---- Images ------------------------------------------------------------------------------------------------------ */
+
+enum { COLUMNS = 20, ROWS = 12 };
+
+/* An npy file of binary32 or 16-bit samples of unorm16 codes, near and far, with sky and holes. @return the holes */
+static uint64_t write_image(const char *path, bool floats, bool damaged, uint32_t sky) {
+    char header[128];
+    uint64_t holes = 0;
+    const uint32_t length = 118;
+    FILE *out = fopen(path, "wb");
+    assert_non_null(out);
+    snprintf(header, sizeof header, "{'descr': '<%s', 'fortran_order': False, 'shape': (%d, %d), }",
+             floats ? "f4" : "u2", ROWS, COLUMNS);
+    fwrite("\x93NUMPY\x01\x00", 1, 8, out);
+    fputc((int)length, out);
+    fputc(0, out);
+    fprintf(out, "%-117s\n", header);
+    for (uint32_t i = 0; i < ROWS * COLUMNS; i++) {
+        const uint32_t code = i % 9 == 4 ? sky : sky == 0 ? 7 + 31 * i * i % 30000 : 65528 - 31 * i * i % 30000;
+        const uint16_t small = (uint16_t)code;
+        float d = (float)((double)code / 65535);
+        if (damaged && i % 25 == 3) {
+            d = i % 2 == 0 ? (float)NAN : i % 3 == 0 ? 1.5f : -1e-3f;
+            holes++;
+        }
+        if (floats)
+            fwrite(&d, sizeof d, 1, out);
+        else
+            fwrite(&small, sizeof small, 1, out);
+    }
+    assert_int_equal(fclose(out), 0);
+    return floats ? holes : 0;
+}
+
+static void want_image(values *v, const char *path, const image *shot, const recognised *found) {
+    values_under(v, "%s", "");
+    want_text(v, "file", path);
+    want_text(v, "scene", NULL);
+    want_text(v, "type", image_type_name(shot->type));
+    want_count(v, "channels", 1);
+    values_under(v, "recognised.");
+    want_text(v, "format", found->depth ? found->format.name : NULL);
+    want_bool(v, "certain", found->certain);
+    if (found->reversed >= 0)
+        want_bool(v, "reversed", found->reversed);
+    else
+        want_text(v, "reversed", NULL);
+    want_text(v, "why", found->why);
+}
+
+static const struct {
+    texture_case asked;
+    bool floats, damaged;
+    uint32_t sky;
+    const char *given; /* on the command line, in place of what is found */
+} images[] = {
+    {{{0.3, 700, {"unorm16"}, {"reversed"}, .ortho = 0},
+      NULL,
+      "-n 0.3 -f 700 --sky 0.0002",
+      "found",
+      "found",
+      60,
+      NAN,
+      0,
+      0,
+      {0, 0, 0},
+      2e-4,
+      {{NULL, 0}}},
+     true,
+     false,
+     0,
+     ""},
+    {{{0.5, 90, {"unorm24"}, {"gl"}, .ortho = 0},
+      NULL,
+      "-n 0.5 -f 90 --fov 35",
+      "given",
+      "given",
+      35,
+      NAN,
+      0,
+      0,
+      {0, 0, 0},
+      1e-4,
+      {{NULL, 0}}},
+     true,
+     true,
+     65535,
+     "-F unorm24 -m gl"},
+    {{{0.5, 90, {"unorm16"}, {"reversed"}, .ortho = 0},
+      NULL,
+      "-n 0.5 -f 90",
+      "found",
+      "given",
+      60,
+      NAN,
+      0,
+      0,
+      {0, 0, 0},
+      1e-4,
+      {{NULL, 0}}},
+     false,
+     false,
+     65535,
+     "-m reversed"},
+};
+
+/* The name of the file has a quote and a backslash. */
+static void test_images(void **state) {
+    (void)state;
+    for (size_t i = 0; i < sizeof images / sizeof images[0]; i++) {
+        const texture_case *c = &images[i].asked;
+        texture_camera camera;
+        char path[512], arguments[1024];
+        image shot;
+        image_error error;
+        recognised found;
+        line_places lines = {0};
+        values v = values_of("texture");
+        snprintf(path, sizeof path, "%s", scratch_file("a\"b\\c.npy"));
+        const uint64_t holes = write_image(path, images[i].floats, images[i].damaged, images[i].sky);
+        assert_true(image_read(path, &shot, &error));
+        recognise(&shot, &found);
+        camera_of(c, &camera, COLUMNS, ROWS);
+        const frame f = {.camera = &camera, .image = &shot, .sky = c->sky};
+        want_image(&v, path, &shot, &found);
+        want_camera(&v, c, &f);
+        want_survey(&v, &f, holes, &lines);
+        want_pairs(&v, &f);
+        snprintf(arguments, sizeof arguments, "texture '%s' %s %s", path, c->options, images[i].given);
+        check_forms(&v, arguments, want_all_errors(&v, &f), &lines);
+        image_free(&shot);
+        values_free(&v);
+        places_free(&lines);
+    }
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(test_scenes),
+        cmocka_unit_test(test_images),
+        cmocka_unit_test(check_apart),
+    };
+    return run_tap(tests);
+}

@@ -1,0 +1,138 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* The numbers of the figures pareto and stability, where the measuring is replaced: see measured.h. */
+#include "measured.h"
+
+static void want_axis(values *v, const char *axis, const char *key, const char *label, const char *unit,
+                      const char *scale) {
+    values_under(v, "%s.", axis);
+    want_text(v, "key", key);
+    want_text(v, "label", label);
+    want_text(v, "unit", unit);
+    want_text(v, "scale", scale);
+}
+
+/* The digest and the subtitle are what they are; the first is tested with the drawing, the second is read here. */
+static void want_head(values *v, const json_t *root, const char *figure, const char *title) {
+    values_under(v, "%s", "");
+    want_text(v, "figure", figure);
+    want_text(v, "title", title);
+    want_text(v, "data", json_string_value(json_object_get(root, "data")));
+    want_text(v, "subtitle", json_string_value(json_object_get(root, "subtitle")));
+    values_under(v, "panels[0].");
+    want_text(v, "title", "");
+}
+
+static void want_point(values *v, size_t series, size_t point, const char *x, double at, const char *y, double is) {
+    values_under(v, "panels[0].series[%zu].points[%zu].", series, point);
+    want_number(v, x, at);
+    want_number(v, y, is);
+}
+
+static size_t want_times(values *v, size_t series, const char *name, int front, const size_t *order, size_t count) {
+    size_t n = 0;
+    for (size_t i = 0; i < count; i++) {
+        const bench_result *r = &timed[order != NULL ? order[i] : i];
+        if (front >= 0 && r->front != (front == 1))
+            continue;
+        want_point(v, series, n++, "time", r->ns, "error", fmax(r->measured.worst.relative, 1e-17));
+    }
+    values_under(v, "panels[0].series[%zu].", series);
+    want_text(v, "name", name);
+    return series + 1;
+}
+
+static int by_time(const void *a, const void *b) {
+    const double x = timed[*(const size_t *)a].ns, y = timed[*(const size_t *)b].ns;
+    return (x > y) - (x < y);
+}
+
+static void test_pareto(void **state) {
+    (void)state;
+    const method_family_row *family = method_family_find("worst"); /* relative errors, no pipeline */
+    values v = values_of("plot");
+    char *text = command_output(cmd_plot, 0, "plot pareto worst --json -n 0.2 -f 800 --title a\\\\b\"c\"d");
+    json_t *root = json_of(text);
+    size_t order[BENCH_METHODS_MAX], count = 0, fronts = 0;
+    for (size_t i = 0; i < *family->method_count; i++)
+        count += method_speaks(&family->methods[i], asked_which);
+    for (size_t i = 0; i < count; i++)
+        if (timed[i].front)
+            order[fronts++] = i;
+    qsort(order, fronts, sizeof order[0], by_time);
+    want_head(&v, root, "pareto", "a\\\\b\"c\"d");
+    assert_non_null(strstr(json_string_value(json_object_get(root, "subtitle")), "near 0.2, far 800"));
+    want_axis(&v, "x", "time", "time an element", "ns", "log");
+    want_axis(&v, "y", "error", "worst error", family->measure, "log");
+    size_t series = want_times(&v, 0, "front", -1, order, fronts);
+    series = want_times(&v, series, "behind it", 0, NULL, count);
+    series = want_times(&v, series, "on the Pareto front", 1, NULL, count);
+    want_times(&v, series, "methods", -1, NULL, count);
+    check_json_text(&v, text);
+    json_decref(root);
+    free(text);
+    values_free(&v);
+}
+
+/* Decimal digits that an error leaves. */
+static double digits(double error) {
+    return isinf(error) ? 0 : fmin(fmax(-log10(error), 0), 16);
+}
+
+/* Where a column of the map is drawn: at its far/near, but for the rounding of the logarithms. */
+static double column_of(const json_t *root, size_t point, size_t k) {
+    double ratio;
+    const json_t *map =
+        json_array_get(json_object_get(json_array_get(json_object_get(root, "panels"), 0), "series"), 2);
+    assert_int_equal(json_unpack(json_array_get(json_object_get(map, "points"), point), "{s:F}", "ratio", &ratio), 0);
+    assert_relative(ratio, 10 * pow(1000, (double)k), 1e-12);
+    return ratio;
+}
+
+/* The rows of the figure from the bottom: the cases from the last, the methods of each from the last. */
+static void test_walk(void **state) {
+    (void)state;
+    const method_family_row *family = method_family_find("worst");
+    values v = values_of("plot");
+    memset(verdicts, 0, sizeof verdicts);
+    char *text = command_output(cmd_plot, 0, "plot stability worst --json");
+    json_t *root = json_of(text);
+    const stability_result *rows[STABILITY_MAX];
+    size_t count = 0, claims = 0, breaks = 0;
+    for (size_t which = 0; which < family->case_count; which++)
+        for (size_t i = 0; i < walked_count; i++)
+            if (walked[i].which == which)
+                rows[count++] = &walked[i];
+    want_head(&v, root, "stability", figure_find("stability")->title);
+    want_axis(&v, "x", "ratio", "far/near", "", "log");
+    want_axis(&v, "y", "method", "method", "", "linear");
+    want_axis(&v, "value", "digits", "digits left", "", "linear");
+    for (size_t i = 0; i < count; i++) {
+        const method_claim *c = &rows[i]->row->claims[rows[i]->which];
+        const double height = (double)(count - 1 - i) + 0.5;
+        if (!isnan(c->worst))
+            want_point(&v, 0, claims++, "ratio", c->ratio_hi, "method", height);
+        if (isfinite(rows[i]->breaks))
+            want_point(&v, 1, breaks++, "ratio", rows[i]->breaks, "method", height);
+        for (size_t k = 0; k < 4; k++) {
+            const size_t point = (count - 1 - i) * 4 + k;
+            want_point(&v, 2, point, "ratio", column_of(root, point, k), "method", height);
+            want_number(&v, "digits", digits(rows[i]->error[k]));
+        }
+    }
+    values_under(&v, "panels[0].series[%d].", 0);
+    want_text(&v, "name", "claimed up to here");
+    values_under(&v, "panels[0].series[%d].", 1);
+    want_text(&v, "name", "the claim breaks here");
+    values_under(&v, "panels[0].series[%d].", 2);
+    want_text(&v, "name", "map");
+    check_json_text(&v, text);
+    json_decref(root);
+    free(text);
+    values_free(&v);
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {cmocka_unit_test(test_pareto), cmocka_unit_test(test_walk)};
+    setenv("SOURCE_DATE_EPOCH", "1577923200", 1);
+    return run_tap(tests);
+}
