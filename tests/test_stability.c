@@ -117,11 +117,40 @@ static void false_claims_are_found(void **state) {
     assert_int_equal(verdict_times("table-nearest", 0.95), STABILITY_BROKEN);
 }
 
+/* A claim that fails in an orthographic projection alone, or at an infinite far plane alone, is broken just where it is
+ * claimed there. */
+static stability_verdict verdict_in(const char *family_name, const char *name, size_t which, unsigned domain) {
+    const method_family_row *family = method_family_find(family_name);
+    for (size_t i = 0; i < *family->method_count; i++)
+        if (strcmp(family->methods[i].name, name) == 0)
+            forged = family->methods[i];
+    for (size_t k = 0; k < METHOD_CASES; k++)
+        if (k != which)
+            forged.claims[k] = (method_claim){0, 0, 0, NULL};
+    forged.domain = domain;
+    forgery = *family;
+    forgery.methods = &forged;
+    forgery.method_count = &one;
+    assert_int_equal(stability_run(&forgery, results), 1);
+    return results[0].verdict;
+}
+
+static void claims_hold_where_they_say(void **state) {
+    (void)state;
+    assert_int_equal(verdict_in("position", "extents", 1, METHOD_INFINITE), STABILITY_HOLDS);
+    assert_true(results[0].ortho > 100 * results[0].claim);
+    assert_int_equal(verdict_in("position", "extents", 1, METHOD_INFINITE | METHOD_ORTHO), STABILITY_BROKEN);
+    assert_int_equal(verdict_in("linearize", "complement", 1, 0), STABILITY_HOLDS);
+    assert_true(isinf(results[0].infinite));
+    assert_int_equal(verdict_in("linearize", "complement", 1, METHOD_INFINITE), STABILITY_BROKEN);
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(interval_claims),        cmocka_unit_test(linearize_claims), cmocka_unit_test(encode_claims),
         cmocka_unit_test(worst_claims),           cmocka_unit_test(position_claims),  cmocka_unit_test(normal_claims),
         cmocka_unit_test(false_claims_are_found),
+        cmocka_unit_test(claims_hold_where_they_say),
     };
     return run_tap(tests);
 }
