@@ -32,7 +32,7 @@ static void statistics_by_hand(void **state) {
     tally_end(&t);
 }
 
-/* Two methods, one of which waits: 2 us an input, in one turn of five 40 us. The waits are long against the clock. */
+/* Two methods, one of which waits: 40 us an input, in one turn of five 2 us. The waits are long against the clock. */
 static size_t turns;
 
 static void wait_ns(double ns) {
@@ -45,7 +45,7 @@ static void wait_ns(double ns) {
 
 static void slow(const dp_setup *setup, const void *memory, const method_inputs *in, const method_outputs *out) {
     (void)setup, (void)memory;
-    wait_ns((double)in->count * (turns++ % 5 == 4 ? 40e3 : 2e3));
+    wait_ns((double)in->count * (turns++ % 5 == 4 ? 2e3 : 40e3));
     for (size_t i = 0; i < in->count; i++)
         out->eye[i] = 1;
 }
@@ -75,16 +75,15 @@ static void times_are_medians_of_turns(void **state) {
     dp_setup setup;
     family.methods = rows;
     family.method_count = &row_count;
-    family.inputs = 200; /* 200 x 2 us: as long as a turn is meant to last, so a turn is one run */
+    family.inputs = 200; /* 200 x 40 us: longer than a turn is meant to last, so a turn is one run */
     family.judge = judge;
     family.limit = quick;
     assert_int_equal(method_setup(&family, 0, 0.1, 1000, false, &setup), DP_OK);
     turns = 0;
     assert_int_equal(bench_run(&family, 0, &setup, 25, r), 2);
     assert_true(turns >= 27);
-    /* The least is 2 us, the mean 9.6 us, the most 40 us; a busy machine adds to all. */
-    assert_true(r[0].ns >= 2e3 && r[1].ns < 1e3 && r[1].ns > 0);
-    assert_true(r[0].ns < 9e3);
+    /* The least is 2 us, the mean 32.4 us, the median 40 us; a busy machine only adds. */
+    assert_true(r[0].ns >= 40e3 && r[1].ns < 1e3 && r[1].ns > 0);
     assert_true(r[0].limit == r[1].limit && r[0].limit > 0 && r[0].limit < 1e3);
     assert_true(r[0].front && r[1].front); /* slower, but more exact; quicker, but worse */
     assert_true(r[0].measured.worst.absolute == 1 && r[1].measured.worst.absolute == 2);

@@ -46,7 +46,8 @@ static term towards_near(const view *v) {
 }
 static term unity(const view *v) {
     const long double z = 1 / v->n - 1 / v->f;
-    return over(exact(1), plus(times(once(v->reversed ? z : -z), exact(v->d)), once(v->reversed ? 1 / v->f : 1 / v->n)));
+    return over(exact(1),
+                plus(times(once(v->reversed ? z : -z), exact(v->d)), once(v->reversed ? 1 / v->f : 1 / v->n)));
 }
 static term complement_unity(const view *v) {
     return over(exact(1), plus(times(once(1 / v->n - 1 / v->f), towards_near(v)), once(1 / v->f)));

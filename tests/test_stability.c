@@ -147,10 +147,10 @@ static void claims_hold_where_they_say(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(interval_claims),        cmocka_unit_test(linearize_claims), cmocka_unit_test(encode_claims),
-        cmocka_unit_test(worst_claims),           cmocka_unit_test(position_claims),  cmocka_unit_test(normal_claims),
-        cmocka_unit_test(false_claims_are_found),
-        cmocka_unit_test(claims_hold_where_they_say),
+        cmocka_unit_test(interval_claims),        cmocka_unit_test(linearize_claims),
+        cmocka_unit_test(encode_claims),          cmocka_unit_test(worst_claims),
+        cmocka_unit_test(position_claims),        cmocka_unit_test(normal_claims),
+        cmocka_unit_test(false_claims_are_found), cmocka_unit_test(claims_hold_where_they_say),
     };
     return run_tap(tests);
 }

@@ -210,7 +210,7 @@ static void worst_is_certified(void **state) {
  */
 typedef struct near_worst {
     uint64_t cases;
-    double error, interval;           /* the largest share found of what is stated */
+    double error, interval;             /* the largest share found of what is stated */
     double error_least, interval_least; /* the least */
 } near_worst;
 
@@ -280,9 +280,10 @@ static void worst_is_near_in_each_class(void **state) {
     }
     for (int k = 0; k < 16; k++) {
         const near_worst *n = &seen[k >> 3][k >> 2 & 1][k >> 1 & 1][k & 1];
-        print_message("# %s, NDC %s, %s, %s: %llu, error %.3f to %.3f, width %.3f to %.3f of the stated\n", kinds[k >> 3],
-                      k >> 2 & 1 ? "signed" : "plain", k >> 1 & 1 ? "truncated" : "nearest", k & 1 ? "fine" : "coarse",
-                      (unsigned long long)n->cases, n->error_least, n->error, n->interval_least, n->interval);
+        print_message("# %s, NDC %s, %s, %s: %llu, error %.3f to %.3f, width %.3f to %.3f of the stated\n",
+                      kinds[k >> 3], k >> 2 & 1 ? "signed" : "plain", k >> 1 & 1 ? "truncated" : "nearest",
+                      k & 1 ? "fine" : "coarse", (unsigned long long)n->cases, n->error_least, n->error,
+                      n->interval_least, n->interval);
         /* A window of few cells may miss the worst place in the pattern of steps: a third of a truncated error. */
         TALLY(&t, n->cases == 0 || (n->error >= 0.99 && n->error_least >= 0.3 && n->interval_least >= 0.85),
               "class %d: far above what is found", k);
@@ -315,10 +316,8 @@ static void gl_reversed_is_spoilt(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(codes_match_mpfr),
-        cmocka_unit_test(separation_is_safe),
-        cmocka_unit_test(worst_is_certified),
-        cmocka_unit_test(worst_is_near_in_each_class),
+        cmocka_unit_test(codes_match_mpfr),      cmocka_unit_test(separation_is_safe),
+        cmocka_unit_test(worst_is_certified),    cmocka_unit_test(worst_is_near_in_each_class),
         cmocka_unit_test(gl_reversed_is_spoilt),
     };
     return run_tap(tests);
