@@ -36,7 +36,7 @@ build_static() {
         sed 's/-ldepthprec/-l:libdepthprec.a/')
 }
 needs() { readelf -d "$1" | grep -q "NEEDED.*$2"; }
-needs_not() { [ -x "$1" ] && ! needs "$@"; }
+needs_not() { [ -x "$1" ] && needs "$1" 'libc\.so' && ! needs "$@"; }
 
 header_version() { sed -n 's/^#define DP_VERSION *"\(.*\)"/\1/p' include/depthprec/depthprec.h; }
 same_version() { [ -n "$(header_version)" ] && [ "$(pkg-config --modversion depthprec)" = "$(header_version)" ]; }
@@ -65,7 +65,10 @@ pages() {
         [ ! -e "$page" ] || cmp "$page" "$stage/usr/share/man/man${page##*.}/${page##*/}" || return 1
     done
 }
-table() { "$stage/usr/bin/depthprec" table -n 0.1 -f 1000 -F unorm24 -m d3d --at 10 --csv | grep -q ',16611104,'; }
+table() {
+    "$stage/usr/bin/depthprec" table -n 0.1 -f 1000 -F unorm24 -m d3d --at 10 --csv >"$scratch/table" &&
+        grep -q ',16611104,' "$scratch/table"
+}
 figure() { "$stage/usr/bin/depthprec" plot error -o "$scratch/error.svg" && grep -q '</svg>' "$scratch/error.svg"; }
 needed() { readelf -d "$1" | sed -n 's/.*(NEEDED).*\[\(lib[a-z]*\)\.so.*/\1/p' | sort | tr '\n' ' '; }
 only_libc() { case $(needed "$stage/usr/bin/depthprec") in 'libc ' | 'libc libm ') ;; *) return 1 ;; esac; }

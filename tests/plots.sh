@@ -7,6 +7,11 @@ export LSAN_OPTIONS="suppressions=$PWD/tests/lsan.supp:print_suppressions=0"
 facts() { sed -n '/^<metadata>/,/^<.metadata>/p' "$1"; } # the command and the digest of the numbers of an SVG
 recipes() { sed -n 's/^\([a-z][^ ]*\) .*/\1/p' plots/recipes; }
 same_numbers() { facts "$1" >"$scratch/a" && grep -q '^data: ' "$scratch/a" && facts "$2" | diff "$scratch/a" -; }
+processor() { sed -n 's/^model name[^:]*: //p' /proc/cpuinfo | sed q; } # nothing where the kernel does not say
+names_where() { # names_where FIGURE WORDS: in the description's sentence of the camera
+    sed -n '/^<desc id="desc">.*near 0.1, far 1000; [^.]*, 20[0-9][0-9]-[01][0-9]-[0-3][0-9]\./p' "$1" >"$scratch/desc"
+    grep -F -e "$2" "$scratch/desc"
+}
 refuses() { # refuses STATUS WORDS ARGUMENT...: the exit status, and words of the one line on stderr
     status=$1 words=$2
     shift 2
@@ -20,9 +25,9 @@ mkdir "$scratch/drawn"
 check "every recipe draws" sh plots/draw.sh "$DEPTHPREC" "$scratch/drawn"
 for drawn in $(recipes); do
     case $drawn in
-    pareto-*) # times are of one machine and day, which the figure must name
-        check "plots/$drawn.svg names its machine and day, and its methods" sh -c '
-            grep -q "^<desc id=\"desc\">.*near 0.1, far 1000; [^.]*, 20[0-9][0-9]-[01][0-9]-[0-3][0-9]\." "$1"' - "plots/$drawn.svg" ;;
+    pareto-*) # times are of one machine and day, which the figure must name: the one drawn now, this machine and today
+        check "$drawn names this machine and today" names_where "$scratch/drawn/$drawn.svg" "$(processor), $(date -u +%F)."
+        check "plots/$drawn.svg names its machine and day" names_where "plots/$drawn.svg" "" ;;
     *)
         check "plots/$drawn.svg shows the numbers of today" same_numbers "plots/$drawn.svg" "$scratch/drawn/$drawn.svg" ;;
     esac
@@ -49,8 +54,11 @@ for figure in distribution share error interval budget map normals; do
         grep -qx "command: depthprec plot '$figure' -F unorm24,fp32 -m reversed" "$1"' - "$scratch/1.svg"
     check "$figure.pdf is a PDF without a date" sh -c 'head -c 5 "$1" | grep -q "%PDF-" && ! grep -aq CreationDate "$1"' - "$scratch/1.pdf"
     check "$figure.png: the command" sh -c 'head -c 4096 "$1" | grep -aq "depthprec plot '$figure' -F"' - "$scratch/1.png"
-    check "$figure: as CSV" sh -c '"$1" plot '$figure' --csv -F unorm16 | head -n 1 | grep -q "^panel,series,"' - "$DEPTHPREC"
-    check "$figure: as JSON" sh -c '"$1" plot '$figure' --json -F unorm16 | head -c 200 | grep -q "\"figure\":\"'$figure'\""' - "$DEPTHPREC"
+    check "$figure: as CSV" sh -c '
+        "$1" plot '$figure' --csv -F unorm16 >"$2" && head -n 1 "$2" | grep -q "^panel,series,"' - "$DEPTHPREC" "$scratch/csv"
+    check "$figure: as JSON" sh -c '
+        "$1" plot '$figure' --json -F unorm16 >"$2" && [ -s "$2" ] && jq -e ".figure == \"'$figure'\" and (.panels | length) > 0" "$2"
+        ' - "$DEPTHPREC" "$scratch/json"
 done
 check "SOURCE_DATE_EPOCH dates a PDF" sh -c '
     SOURCE_DATE_EPOCH=86400 "$1" plot share -o "$2" && grep -aq "CreationDate (.*19700102000000" "$2"' - "$DEPTHPREC" "$scratch/dated.pdf"
@@ -77,7 +85,8 @@ check "--tolerance without auto" refuses 2 "--tolerance: needs --model auto in t
 check "too many budgets" refuses 2 "at most 8 set-ups" budget -m d3d,gl,reversed -o "$scratch/x.svg"
 check "too many normals" refuses 2 "at most 4 set-ups, got 6" normals -F unorm16,unorm24,fp32 -m d3d,reversed -o "$scratch/x.svg"
 within_bound() { # every point of projective on a plane has its bound above it
-    "$DEPTHPREC" plot normals -F unorm16,unorm24,fp32 -m d3d --csv | tr -d '\r' | awk -F, '
+    "$DEPTHPREC" plot normals -F unorm16,unorm24,fp32 -m d3d --csv >"$scratch/csv" || return
+    tr -d '\r' <"$scratch/csv" | awk -F, '
         $2 == "projective" { found[$1 $3] = $4 }
         $2 == "bound of projective" { points++; if (!(found[$1 $3] > 0 && found[$1 $3] <= $4)) { print; passed++ } }
         END { exit !(points == 150 && !passed) }'
@@ -93,12 +102,16 @@ counted() { # counted FIGURE ARGUMENT...: fewer evaluations than a third of the 
 for figure in distribution share error interval; do
     check "$figure: far fewer evaluations than pixel columns" counted $figure
 done
-method_of() { "$DEPTHPREC" plot interval --json "$@" | grep -o '"method":"[^"]*"' || echo none; }
-check "an interval that a pixel cannot show need not be exact" [ "$(method_of -F unorm24 -m d3d)" = '"method":"rule-of-thumb"' ]
+method_of() { # of all series, or none
+    "$DEPTHPREC" plot interval --json "$@" >"$scratch/json" &&
+        jq -r '[.panels[].series[].method // empty] | unique | if . == [] then "none" else .[] end' "$scratch/json"
+}
+check "an interval that a pixel cannot show need not be exact" [ "$(method_of -F unorm24 -m d3d)" = rule-of-thumb ]
 check "--tolerance 0 keeps to the cells" [ "$(method_of -F unorm24 -m d3d --tolerance 0)" = none ]
 check "no method is claimed for other formats" [ "$(method_of -F unorm16,fp16 --tolerance 50%)" = none ]
 below_the_guarantee() { # every point of the census lies at or below the line that the guarantee is drawn as
-    "$DEPTHPREC" plot interval --model fp32 -n 1 -f 100 -F unorm24 -m d3d --csv | tr -d '\r"' | awk -F , '
+    "$DEPTHPREC" plot interval --model fp32 -n 1 -f 100 -F unorm24 -m d3d --csv >"$scratch/csv" || return
+    tr -d '\r"' <"$scratch/csv" | awk -F , '
         NF == 4 { x[++m] = $3; s[m] = $4 }
         $3 == " census" { z[++n] = $4; y[n] = $5 }
         END {
@@ -112,12 +125,13 @@ below_the_guarantee() { # every point of the census lies at or below the line th
 check "a census in the model fp32, no point of it above the guarantee" below_the_guarantee
 
 check "auto chooses the model of each curve" sh -c '
-    "$1" plot interval --model auto -F unorm16,unorm24 -m d3d,log --csv | cut -d \" -f 2 | sed 1d | sort -u | tr "\n" ";" |
-        grep -qx "unorm16 d3d, exact;unorm16 log, exact;unorm24 d3d, fp32;unorm24 d3d, fp32, census;unorm24 d3d, fp32, lattice;unorm24 log, staged;"
-    ' - "$DEPTHPREC"
+    "$1" plot interval --model auto -F unorm16,unorm24 -m d3d,log --csv >"$2" &&
+        cut -d \" -f 2 "$2" | sed 1d | sort -u | tr "\n" ";" | grep -qx "unorm16 d3d, exact;unorm16 log, exact;unorm24 d3d, fp32;unorm24 d3d, fp32, census;unorm24 d3d, fp32, lattice;unorm24 log, staged;"
+    ' - "$DEPTHPREC" "$scratch/csv"
 
 # A failed run leaves the old figure as it was.
 echo old >"$scratch/kept.svg"
 "$DEPTHPREC" plot distribution -F unorm2,unorm3,unorm4 -m d3d,gl,reversed -o "$scratch/kept.svg" 2>"$scratch/log"
+check "a failed run fails" [ $? -eq 2 ]
 check "a failed run leaves the old file" grep -qx old "$scratch/kept.svg"
 finish

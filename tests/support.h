@@ -79,7 +79,7 @@ void assert_scene_at(double got, double want, double bound, const char *what, co
  * finite. */
 double ulp_distance(double a, double b);
 
-enum { VECTOR_FIELDS = 16 };
+enum { VECTOR_FIELDS = 20 };
 
 /** One row of a vector file: fields separated by blanks. */
 typedef struct vector_row {

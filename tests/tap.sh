@@ -8,15 +8,29 @@ scratch=$(mktemp -d) || exit 1
 trap 'rm -rf "$scratch"' EXIT
 tests=0 failures=0
 
+# A pipe hides the exit status of all its programs but the last. So these stand behind a wrapper that notes a status that
+# is neither 0 nor that of a reader who had enough; a test in whose time something was noted has failed.
+broken=$scratch/broken
+: >"$broken"
+mkdir "$scratch/tools"
+for tool in awk comm cut jq nm objdump readelf sed sort tr; do
+    real=$(command -v $tool) || continue
+    printf '#!/bin/sh\n%s "$@"\ns=$?\n[ $s -eq 0 ] || [ $s -eq 141 ] || echo "%s: exit status $s" >>"%s"\nexit $s\n' \
+        "$real" $tool "$broken" >"$scratch/tools/$tool"
+done
+chmod +x "$scratch/tools"/*
+PATH=$scratch/tools:$PATH
+
 check() { # check NAME COMMAND...: one test, passed when the command exits 0; what it printed is shown when it fails
     name=$1
     shift
     tests=$((tests + 1))
-    if "$@" >"$scratch/log" 2>&1; then
+    if "$@" >"$scratch/log" 2>&1 && [ ! -s "$broken" ]; then
         echo "ok $tests - $name"
     else
         echo "not ok $tests - $name"
-        sed 's/^/# /' "$scratch/log"
+        cat "$scratch/log" "$broken" | while IFS= read -r line; do printf '# %s\n' "$line"; done
+        : >"$broken"
         failures=$((failures + 1))
     fi
 }
@@ -26,12 +40,17 @@ skip() { # skip NAME REASON
     echo "ok $tests - $1 # SKIP $2"
 }
 
-empty() { # empty COMMAND...: succeeds when the command prints nothing
-    "$@" >"$scratch/empty"
+empty() { # empty COMMAND...: succeeds when the command does and prints nothing
+    "$@" >"$scratch/empty" || { echo "exit status $? of $1" && return 1; }
     ! grep . "$scratch/empty"
 }
 
+lines() { # lines GREP_ARGUMENTS...: grep for which it is fine to find nothing, but not to go wrong
+    grep "$@" || [ $? -eq 1 ]
+}
+
 finish() {
+    [ ! -s "$broken" ] || check "the tools work to the end" true
     echo "1..$tests"
     [ $failures -eq 0 ]
 }

@@ -176,8 +176,35 @@ static void untimed(void **state) {
         assert_true(isnan(results[i].ns) && isnan(results[i].spread) && isnan(results[i].limit) && !results[i].front);
 }
 
+static void statistics_by_hand(void **state) {
+    (void)state;
+    static const struct {
+        size_t count;
+        double times[9], median, spread;
+    } known[] = {
+        {1, {7}, 7, 0},
+        {2, {30, 10}, 20, 0.25},                         /* quartiles 15 and 25 */
+        {3, {9, 1, 4}, 4, 0.5},                          /* 2.5 and 6.5 */
+        {4, {8, 2, 16, 4}, 6, 6.5 / 2 / 6},              /* between 4 and 8; 3.5 and 10 */
+        {5, {50, 10, 40, 20, 100}, 40, 0.375},           /* 20 and 50; the mean is 44 */
+        {9, {1, 2, 3, 4, 5, 6, 7, 8, 1000}, 5, 0.4},     /* 3 and 7: an outlier changes nothing */
+        {9, {1000, 9, 8, 7, 6, 5, 4, 3, 2}, 6, 1.0 / 3}, /* 4 and 8 */
+        {6, {3, 3, 3, 3, 3, 3}, 3, 0},
+    };
+    tally t = {.name = "statistics"};
+    for (size_t i = 0; i < sizeof known / sizeof known[0]; i++) {
+        double times[9];
+        for (size_t k = 0; k < known[i].count; k++)
+            times[k] = known[i].times[k];
+        const bench_times got = bench_statistics(times, known[i].count);
+        TALLY(&t, fabs(got.median - known[i].median) <= 1e-12 && fabs(got.spread - known[i].spread) <= 1e-12,
+              "row %zu: median %g, spread %g", i, got.median, got.spread);
+    }
+    tally_end(&t);
+}
+
 int main(void) {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(medians_and_quartiles),
+    const struct CMUnitTest tests[] = {cmocka_unit_test(statistics_by_hand), cmocka_unit_test(medians_and_quartiles),
                                        cmocka_unit_test(worst_errors_and_places), cmocka_unit_test(front),
                                        cmocka_unit_test(untimed)};
     return run_tap(tests);

@@ -183,6 +183,53 @@ static void rows_keep_their_bounds(void **state) {
     tally_end(&t);
 }
 
+/* The hardest depths known: no term of a bound is too small by half, nor too large. The exact value is a rational. */
+static void check_hard(const vector_row *row, void *context) {
+    tally *t = context;
+    const decode_row *decoding = decode_find(vector_text(row, 0));
+    dp_spec spec = dp_spec_default();
+    dp_setup setup;
+    mpq_t want;
+    spec.mapping = (dp_mapping)vector_number(row, 1);
+    spec.ortho = vector_number(row, 2) != 0;
+    spec.znear = vector_number(row, 3);
+    spec.zfar = vector_number(row, 4);
+    spec.log_c = vector_number(row, 5);
+    const float d = (float)vector_number(row, 6);
+    float got;
+    assert_non_null(decoding);
+    assert_int_equal(dp_setup_init(&setup, &spec), DP_OK);
+    mpq_init(want);
+    (setup.curve == DP_CURVE_LOG ? logarithmic : rational)(&spec, (double)d, decoding->quantity, want);
+    decoding->run(&setup, &d, &got, 1);
+    const double off = oracle_relative((double)got, want), bound = decode_bound(decoding, &setup, (double)d);
+    TALLY(t, off <= bound, "%s, line %d: %g above %g", decoding->name, row->line, off, bound);
+    TALLY(t, off >= 0.97 * vector_number(row, 7) * bound, "%s, line %d: %g is %g of %g", decoding->name, row->line, off,
+          off / bound, bound);
+    mpq_clear(want);
+}
+
+static void the_hardest_depths_need_each_term(void **state) {
+    (void)state;
+    tally t = {.name = "hardest"};
+    vectors_read("decode.txt", check_hard, &t);
+    tally_end(&t);
+}
+
+/* What the bound of log-eye takes for granted of the C library: exp2f within 0.55 ulp, expm1f within 1. */
+static void the_library_is_as_exact_as_assumed(void **state) {
+    (void)state;
+    rng r = rng_make("library");
+    tally t = {.name = "exp2f, expm1f"};
+    for (uint64_t k = test_cases(20000, 500000, 20000000); k > 0; k--) {
+        const float x = (float)rng_log(&r, 1e-6, 60);
+        const double two = exp2((double)x), e = expm1((double)x);
+        TALLY(&t, fabs((double)exp2f(x) - two) <= 1.1 * 0x1p-24 * two, "exp2f(%.9g)", (double)x);
+        TALLY(&t, fabs((double)expm1f(x) - e) <= 2 * 0x1p-24 * e, "expm1f(%.9g)", (double)x);
+    }
+    tally_end(&t);
+}
+
 /* A cancelling sum has no digit left: the bound says so, and the complement keeps its own. */
 static void the_complement_cancels_nothing(void **state) {
     (void)state;
@@ -325,6 +372,8 @@ int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(exact_is_exact),
         cmocka_unit_test(rows_keep_their_bounds),
+        cmocka_unit_test(the_hardest_depths_need_each_term),
+        cmocka_unit_test(the_library_is_as_exact_as_assumed),
         cmocka_unit_test(the_complement_cancels_nothing),
         cmocka_unit_test(parameters_are_those_of_engines),
         cmocka_unit_test(rows_apply_where_they_say),

@@ -121,9 +121,51 @@ static void bounds_hold_and_are_not_idle(void **state) {
     }
 }
 
+/* The hardest places known: no term of a bound is too small by half, nor too large. */
+static void check_hard(const vector_row *row, void *context) {
+    tally *t = context;
+    const position_row *way = position_find(vector_text(row, 0));
+    dp_spec spec = dp_spec_default();
+    dp_setup setup;
+    view v = {.spec = camera_spec_default()};
+    position_state s;
+    float place[3];
+    spec.mapping = (dp_mapping)vector_number(row, 1);
+    spec.ortho = vector_number(row, 2) != 0;
+    spec.znear = vector_number(row, 3);
+    spec.zfar = vector_number(row, 4);
+    v.spec.width = (uint32_t)vector_number(row, 5);
+    v.spec.height = (uint32_t)vector_number(row, 6);
+    v.spec.fov_y = vector_number(row, 7);
+    v.spec.half_height = vector_number(row, 8);
+    v.spec.yaw = vector_number(row, 9);
+    v.spec.pitch = vector_number(row, 10);
+    for (int k = 0; k < 3; k++)
+        v.spec.origin[k] = vector_number(row, 11 + k);
+    const uint32_t column = (uint32_t)vector_number(row, 14), line = (uint32_t)vector_number(row, 15);
+    const float d = (float)vector_number(row, 16);
+    assert_non_null(way);
+    assert_int_equal(dp_setup_init(&setup, &spec), DP_OK);
+    assert_null(camera_init(&v.camera, &setup, &v.spec));
+    position_prepare(&s, &v.camera);
+    way->run(&s, line, column, &d, 1, &place[0], &place[1], &place[2]);
+    const double off = off_by(&v, column, line, d, place), bound = position_bound(way, &v.camera, column, line, d);
+    TALLY(t, off <= bound, "%s, line %d: %g above %g", way->name, row->line, off, bound);
+    TALLY(t, off >= 0.97 * vector_number(row, 17) * bound, "%s, line %d: %g is %g of %g", way->name, row->line, off,
+          off / bound, bound);
+}
+
+static void the_hardest_places_need_each_term(void **state) {
+    (void)state;
+    tally t = {.name = "hardest"};
+    vectors_read("position.txt", check_hard, &t);
+    tally_end(&t);
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(bounds_hold_and_are_not_idle),
+        cmocka_unit_test(the_hardest_places_need_each_term),
     };
     return run_tap(tests);
 }

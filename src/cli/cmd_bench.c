@@ -9,6 +9,7 @@
 #include "cli/number.h"
 #include "cli/setups.h"
 #include "method/choose.h"
+#include "method/estimate.h"
 
 int cmd_bench(const options *o);
 
@@ -62,6 +63,12 @@ static void write_text(benching *b) {
     }
     output_format(b->out, "  a limit is %.3g ns: a loop that moves the same bytes\n", b->results[0].limit);
     output_text(b->out, "  * no other is both faster and more exact\n");
+    for (size_t i = 0; i < b->count; i++)
+        if (method_timed(b->results[i].row) != NULL)
+            output_format(b->out,
+                          "  %s: the time is of this processor's estimate, the errors of a model of it; any\n"
+                          "    processor's is within its guarantee, %.3g, and the method within its claim\n",
+                          b->results[i].row->name, ESTIMATE_WORST);
     if (b->choice != NULL)
         output_format(b->out, "  > %s is the cheapest whose claim is within the tolerance\n", b->choice->name);
     else if (option_given(b->o, OPTION_TOLERANCE))

@@ -66,11 +66,11 @@ static double now(void) {
     return 1e9 * (double)t.tv_sec + (double)t.tv_nsec;
 }
 
-static double once(const method_row *row, const dp_setup *setup, const void *state, const method_inputs *in,
+static double once(method_run *run, const dp_setup *setup, const void *state, const method_inputs *in,
                    const method_outputs *out, size_t rounds) {
     double start = now();
     for (size_t i = 0; i < rounds; i++)
-        row->run(setup, state, in, out);
+        run(setup, state, in, out);
     return (now() - start) / (double)rounds / (double)in->count;
 }
 
@@ -79,8 +79,21 @@ static int ascending(const void *a, const void *b) {
     return (x > y) - (x < y);
 }
 
+/* Of values in ascending order. */
+static double quantile(const double *sorted, size_t count, double share) {
+    const double at = share * (double)(count - 1);
+    const size_t below = (size_t)at, above = below + 1 < count ? below + 1 : below;
+    return sorted[below] + (at - (double)below) * (sorted[above] - sorted[below]);
+}
+
+bench_times bench_statistics(double *times, size_t count) {
+    qsort(times, count, sizeof *times, ascending);
+    const double median = quantile(times, count, 0.5);
+    return (bench_times){median, (quantile(times, count, 0.75) - quantile(times, count, 0.25)) / 2 / median};
+}
+
 typedef struct contestant {
-    const method_row *row;
+    method_run *run;
     void *state;
     size_t rounds;
     method_inputs in;
@@ -90,30 +103,28 @@ typedef struct contestant {
 /* Takes turns, so that what disturbs the machine disturbs all alike. */
 static void time_all(const dp_setup *setup, const method_outputs *out, contestant *all, size_t count, int repetitions) {
     for (size_t i = 0; i < count; i++) { /* warm-up, and how long one round lasts */
-        double ns = once(all[i].row, setup, all[i].state, &all[i].in, out, 1) * (double)all[i].in.count;
+        double ns = once(all[i].run, setup, all[i].state, &all[i].in, out, 1) * (double)all[i].in.count;
         if (ns > 10 * slice) /* a few inputs say as much */
             all[i].in.count = (size_t)fmax(1, (double)all[i].in.count * 10 * slice / ns);
         all[i].rounds = (size_t)fmax(1, slice / fmax(ns, 1));
     }
     for (int r = 0; r < repetitions; r++)
         for (size_t i = 0; i < count; i++)
-            all[i].times[r] = once(all[i].row, setup, all[i].state, &all[i].in, out, all[i].rounds);
-    for (size_t i = 0; i < count; i++)
-        qsort(all[i].times, (size_t)repetitions, sizeof all[i].times[0], ascending);
+            all[i].times[r] = once(all[i].run, setup, all[i].state, &all[i].in, out, all[i].rounds);
 }
 
 /* The limit takes its turn behind the methods. */
 static void time_methods(const method_family_row *family, const dp_setup *setup, const method_inputs *in,
                          const method_outputs *out, contestant *all, bench_result *results, size_t count,
                          int repetitions) {
-    const method_row limit = {.run = family->limit};
-    all[count] = (contestant){.row = &limit, .in = *in};
+    all[count] = (contestant){.run = family->limit, .in = *in};
     time_all(setup, out, all, count + 1, repetitions);
+    const bench_times limit = bench_statistics(all[count].times, (size_t)repetitions);
     for (size_t i = 0; i < count; i++) {
-        const double *times = all[i].times;
-        results[i].ns = times[repetitions / 2];
-        results[i].spread = (times[repetitions * 3 / 4] - times[repetitions / 4]) / 2 / results[i].ns;
-        results[i].limit = all[count].times[repetitions / 2];
+        const bench_times times = bench_statistics(all[i].times, (size_t)repetitions);
+        results[i].ns = times.median;
+        results[i].spread = times.spread;
+        results[i].limit = limit.median;
     }
 }
 
@@ -139,7 +150,7 @@ static double input_at(const method_family_row *family, const method_inputs *in,
 static bool prepare(const method_family_row *family, size_t which, const dp_setup *setup, const method_inputs *in,
                     const method_outputs *out, bench_result *result, contestant *c) {
     const method_row *row = result->row;
-    c->row = row;
+    c->run = method_timed(row) != NULL ? method_timed(row) : row->run;
     c->in = *in;
     if (row->limit > 0 && row->limit < in->count)
         c->in.count = row->limit;

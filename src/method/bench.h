@@ -2,7 +2,7 @@
 /**
  * @file bench.h  All methods of a family on the same inputs: how fast, and how wrong at worst.
  *
- * The errors depend on the set-up alone; only the times vary.
+ * The errors depend on the set-up alone, also those of a model of an instruction (method_timed()); only the times vary.
  */
 #ifndef METHOD_BENCH_H
 #define METHOD_BENCH_H
@@ -29,7 +29,7 @@ typedef struct bench_result {
     const method_row *row;
     size_t inputs; /**< how many of the shared inputs it was given: the first of them */
     double ns;     /**< median, an element; NaN when not timed */
-    double spread; /**< half the range of the middle half of the repetitions, as a share of the median */
+    double spread; /**< of the repetitions: bench_times */
     double limit;  /**< ns of a loop that moves the same bytes, in turns with the methods: what none can beat */
     double setup;  /**< ns to prepare a set-up, once; 0 where there is nothing to prepare */
     measured measured;
@@ -37,6 +37,15 @@ typedef struct bench_result {
     double claim;                            /**< for this set-up; NaN where the row claims nothing of it */
     bool front; /**< no other method with the same reference is both faster and more exact */
 } bench_result;
+
+/** What is said of timings. */
+typedef struct bench_times {
+    double median; /**< of an even count the mean of the middle two; the timings' unit */
+    double spread; /**< half of upper minus lower quartile, as a share of the median */
+} bench_times;
+
+/** Of `count` >= 1 finite timings, which are sorted; a quartile lies between two by its share of the distance. */
+bench_times bench_statistics(double *times, size_t count);
 
 /** The claim of a row for a set-up of a case; NaN where it makes none. */
 double method_claimed(const method_row *row, size_t which, const dp_setup *setup);

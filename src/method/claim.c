@@ -45,13 +45,14 @@ double claim_bound(double ratio) {
 
 /* ---- linearize --------------------------------------------------------------------------------------------------- */
 
-/* 1/x where x has the relative error e. */
+/* 1/x where x has the relative error e, and what products of roundings add to it. */
 static double inverse(double e) {
+    e *= 1 + 0x1p-20;
     return e < 1 ? e / (1 - e) : (double)INFINITY;
 }
 
 double claim_unity(double ratio) {
-    return inverse((3 * ratio + 2) * CLAIM_UNIT);
+    return inverse(3 * ratio * CLAIM_UNIT);
 }
 
 /* X and Y are rounded alike and the product by a unit, unless far/near has just passed a power of two: then X and Y are
@@ -65,15 +66,15 @@ double claim_linear_01_near(double ratio) {
 }
 
 double claim_textbook(double ratio) {
-    return inverse((3 * ratio + 3) * CLAIM_UNIT);
+    return inverse((3 * ratio + 1) * CLAIM_UNIT);
 }
 
 double claim_fused(double ratio) {
-    return inverse((2 * ratio + 4) * CLAIM_UNIT);
+    return inverse((2 * ratio + 2) * CLAIM_UNIT);
 }
 
 double claim_double(double ratio) {
-    return inverse((2 * ratio + 3) * unit64) + CLAIM_UNIT;
+    return inverse((2 * ratio + 1) * unit64) + CLAIM_UNIT;
 }
 
 double claim_magic(double ratio) {
@@ -106,6 +107,10 @@ double claim_chebyshev(double ratio) {
 /* LinearEyeDepth, and what the ray and its products lose at the worst pixel; see position_bound(). */
 double claim_extents(double ratio) {
     return inverse((3 * ratio + 15.1) * CLAIM_UNIT);
+}
+
+double claim_rays(double ratio) {
+    return inverse((3 * ratio + 15.6) * CLAIM_UNIT);
 }
 
 /* Half a step of binary16, and of its subnormals in two components. */

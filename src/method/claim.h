@@ -42,6 +42,7 @@ double claim_chebyshev(double ratio);
 /* position, a standard mapping, 60 degrees and 16:9; those of the matrix are measured: 1.6 times the worst of 3000
  */
 double claim_extents(double ratio);
+double claim_rays(double ratio);
 double claim_extents_half(double ratio);
 double claim_matrix_d3d(double ratio);
 double claim_matrix_gl(double ratio);

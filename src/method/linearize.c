@@ -10,6 +10,7 @@
 #endif
 
 #include "method/claim.h"
+#include "method/estimate.h"
 #include "texture/decode.h"
 
 static bool is_reversed(const dp_setup *setup) {
@@ -120,11 +121,18 @@ static void complement_run(const dp_setup *setup, const void *state, const metho
         out->eye[i] = product / (base + slope * toward_near(reversed, in->d[i]));
 }
 
-#if defined(__SSE__)
-static bool has_estimate(void) {
-    return true;
+static void newton_run(const dp_setup *setup, const void *state, const method_inputs *in, const method_outputs *out) {
+    const double n = setup->spec.znear, f = setup->spec.zfar;
+    const float product = (float)(n * f), base = (float)n, slope = (float)(f - n);
+    const bool reversed = is_reversed(setup);
+    (void)state;
+    for (size_t i = 0; i < in->count; i++) {
+        const float x = base + slope * toward_near(reversed, in->d[i]), y = estimate_reciprocal(x);
+        out->eye[i] = product * (y * (2.0f - x * y));
+    }
 }
 
+#if defined(__SSE__)
 typedef struct newton {
     __m128 product, base, slope, from, sign;
 } newton;
@@ -135,7 +143,7 @@ static __m128 newton_four(const newton *c, __m128 d) {
     return _mm_mul_ps(c->product, _mm_mul_ps(y, _mm_sub_ps(_mm_set1_ps(2.0f), _mm_mul_ps(x, y))));
 }
 
-static void newton_run(const dp_setup *setup, const void *state, const method_inputs *in, const method_outputs *out) {
+static void rcpps_run(const dp_setup *setup, const void *state, const method_inputs *in, const method_outputs *out) {
     const double n = setup->spec.znear, f = setup->spec.zfar;
     const bool reversed = is_reversed(setup);
     const newton c = {_mm_set1_ps((float)(n * f)), _mm_set1_ps((float)n), _mm_set1_ps((float)(f - n)),
@@ -148,10 +156,7 @@ static void newton_run(const dp_setup *setup, const void *state, const method_in
         out->eye[i] = _mm_cvtss_f32(newton_four(&c, _mm_set1_ps(in->d[i])));
 }
 #else
-static bool has_estimate(void) {
-    return false;
-}
-#define newton_run complement_run
+#define rcpps_run NULL
 #endif
 
 /* The sum and the product of two as unevaluated pairs (Knuth, Dekker): double only carries the constants in. */
@@ -240,7 +245,7 @@ const method_row linearize_methods[] = {
     {METHOD_LINEARIZE, "complement-newton",
      "n f/(n + (1 - d)(f - n)) in binary32, the reciprocal as estimated by the processor and one Newton step",
      {FULL(10.75 * UNIT), FULL(9.75 * UNIT)}, 0, 0.26, "1", 0,
-     "RCPPS: at most 1.5 x 2^-12 relative, on every processor (Intel SDM, AMD APM)", has_estimate, NULL, newton_run, NULL},
+     "RCPPS: at most 1.5 x 2^-12 relative, on every processor (Intel SDM, AMD APM)", NULL, NULL, newton_run, NULL},
     {METHOD_LINEARIZE, "table-nearest", "the nearest of 65536 depths in equal steps of d, binary32",
      {FORMULA(claim_table_nearest), FORMULA(claim_table_nearest)}, 0, 0.6, "1", 0,
      "", NULL, table_open, table_nearest, table_close},
@@ -268,6 +273,10 @@ const method_row linearize_methods[] = {
 };
 /* clang-format on */
 const size_t linearize_method_count = sizeof linearize_methods / sizeof linearize_methods[0];
+
+method_run *linearize_timed(const method_row *row) {
+    return row->run == newton_run ? rcpps_run : NULL;
+}
 
 bool linearize_judge(const method_row *row, const dp_setup *setup, const method_inputs *in, const method_outputs *out,
                      size_t i, method_error *error) {

@@ -61,7 +61,8 @@ static const method_family_row families[METHOD_FAMILY_COUNT] = {
                           .method_count = &linearize_method_count,
                           .fill = fill_windows,
                           .judge = linearize_judge,
-                          .limit = limit_windows},
+                          .limit = limit_windows,
+                          .timed = linearize_timed},
     [METHOD_ENCODE] = {.name = "encode",
                        .summary = "code of a binary32 window depth",
                        .measure = "steps of the format",
@@ -146,6 +147,11 @@ const method_row *method_get(size_t index) {
         index -= *family->method_count;
     }
     return NULL;
+}
+
+method_run *method_timed(const method_row *row) {
+    const method_family_row *family = method_family_get(row->family);
+    return family->timed != NULL ? family->timed(row) : NULL;
 }
 
 dp_status method_setup(const method_family_row *family, size_t which, double znear, double zfar, bool ortho,

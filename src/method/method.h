@@ -86,6 +86,8 @@ typedef struct method_outputs {
     float *place[3]; /**< position: world coordinates; normal: unit vectors */
 } method_outputs;
 
+typedef void method_run(const dp_setup *setup, const void *state, const method_inputs *in, const method_outputs *out);
+
 typedef struct method_row {
     method_family family;
     const char *name;
@@ -99,7 +101,7 @@ typedef struct method_row {
     bool (*available)(void); /**< null: on every processor */
     /** Prepares a set-up; null when there is nothing to prepare. @return null when out of memory */
     void *(*open)(const dp_setup *setup);
-    void (*run)(const dp_setup *setup, const void *state, const method_inputs *in, const method_outputs *out);
+    method_run *run;
     void (*close)(void *state);
 } method_row;
 
@@ -136,8 +138,17 @@ typedef struct method_family_row {
     bool (*judge)(const method_row *row, const dp_setup *setup, const method_inputs *in, const method_outputs *out,
                   size_t i, method_error *error);
     /** What no method can beat: run() of one that does nothing but move the same bytes. See limit.h. */
-    void (*limit)(const dp_setup *setup, const void *state, const method_inputs *in, const method_outputs *out);
+    method_run *limit;
+    /**
+     * What bench times in place of a row's run: the processor's instruction where run is a model of it, because of an
+     * instruction that promises an error, not bits, each maker has another. It keeps the row's claims. Null, or
+     * returns null: run itself.
+     */
+    method_run *(*timed)(const method_row *row);
 } method_family_row;
+
+/** The row's instruction, or null where its run is what is timed. */
+method_run *method_timed(const method_row *row);
 
 /** The families; null beyond the last. */
 const method_family_row *method_family_get(size_t index);
@@ -191,6 +202,7 @@ extern const size_t interval_method_count, linearize_method_count, encode_method
     position_method_count, normal_method_count;
 bool interval_judge(const method_row *, const dp_setup *, const method_inputs *, const method_outputs *, size_t i,
                     method_error *);
+method_run *linearize_timed(const method_row *);
 bool linearize_judge(const method_row *, const dp_setup *, const method_inputs *, const method_outputs *, size_t i,
                      method_error *);
 bool encode_judge(const method_row *, const dp_setup *, const method_inputs *, const method_outputs *, size_t i,

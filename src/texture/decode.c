@@ -224,7 +224,8 @@ double decode_bound(const decode_row *row, const dp_setup *setup, double d) {
     const decode_constants c = row->constants(setup);
     const double exact = decode_exact(setup, row->quantity, d);
     const bool turned = c.from != 0;
-    const double q = turned ? 1 - d : d, q_off = turned && d < 0.5 ? 1 : 0; /* 1 - d is exact from 1/2 on */
+    /* 1 - d is exact from d = 1/2 on; below, it lies in [1/2, 1] and is rounded by half a unit of 1 */
+    const double q = turned ? 1 - d : d, q_off = turned && d < 0.5 ? 0.5 / q : 0;
     /* scale and product are rounded once each, base once; then the sum */
     const double big =
         (2 + (c.form == DECODE_QUOTIENT ? 0 : q_off)) * (double)fabsf(c.scale) * (c.form == DECODE_QUOTIENT ? d : q) +
@@ -240,7 +241,9 @@ double decode_bound(const decode_row *row, const dp_setup *setup, double d) {
         off = big * exact / q + 2 + q_off;
     else {
         const double away = setup->spec.log_c * exact, t = log1p(away), steep = (away + 1) / away;
-        off = c.form == DECODE_EXP2 ? (2 * t + 2) * steep + 3 : 2 * t * steep + 4;
+        /* exponent and its product; exp2f within 0.55 ulp, as today's C libraries have it (0.51; tests/test_decode.c
+         * looks), expm1f within 1 ulp; then difference, quotient and C */
+        off = c.form == DECODE_EXP2 ? (2 * t + 1.1) * steep + 3 : 2 * t * steep + 4;
     }
     off *= UNIT * (1 + 0x1p-20); /* the constants are rounded, too, and so is this */
     return off < 0.5 ? off / (1 - off) : (double)INFINITY;

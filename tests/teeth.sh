@@ -1,0 +1,74 @@
+#!/bin/sh
+# SPDX-License-Identifier: GPL-3.0-or-later
+# The shell tests can fail: each is run with a tool, or with the program itself, that does nothing and says so (exit 1) or
+# pretends to be fine (exit 0), and must report at least so many failures; `all` but the skipped ones is as many as it has.
+. tests/tap.sh
+
+# test | what does nothing | its exit status | failures at least
+cases='
+fields.sh                    | jq        | 1 | all
+fields.sh                    | jq        | 0 | all
+fields.sh                    | comm      | 1 | all
+fields.sh                    | depthprec | 1 | all
+fields.sh                    | depthprec | 0 | all
+layers.sh                    | nm        | 1 | 2
+layers.sh                    | nm        | 0 | 2
+layers.sh                    | objdump   | 1 | 1
+layers.sh                    | objdump   | 0 | 1
+needs.sh                     | jq        | 1 | 1
+needs.sh                     | xmllint   | 1 | 1
+needs.sh                     | depthprec | 1 | all
+needs.sh                     | depthprec | 0 | 2
+install.sh                   | readelf   | 1 | 4
+install.sh                   | readelf   | 0 | 4
+install.sh                   | nm        | 1 | 1
+install.sh                   | nm        | 0 | 1
+headers.sh                   | cc        | 1 | 10
+examples.sh                  | depthprec | 1 | 33
+examples.sh                  | depthprec | 0 | 31
+plots.sh                     | depthprec | 1 | 110
+plots.sh                     | depthprec | 0 | 110
+same.sh                      | depthprec | 1 | 1
+same.sh                      | depthprec | 0 | 1
+cli.sh tests/cli/help.txt    | depthprec | 1 | all
+cli.sh tests/cli/help.txt    | depthprec | 0 | all
+cli.sh tests/cli/solve.txt   | jq        | 1 | 1
+cli.sh tests/cli/bench.txt   | awk       | 1 | 2
+'
+
+idle() { # idle NAME STATUS: a folder with a program of that name that does nothing
+    mkdir -p "$scratch/idle/$1$2"
+    printf '#!/bin/sh\nexit %s\n' "$2" >"$scratch/idle/$1$2/$1"
+    chmod +x "$scratch/idle/$1$2/$1"
+    folder=$scratch/idle/$1$2
+}
+
+bites() { # bites FAILURES TEST ARGUMENT...: exits non-zero, and so many tests fail
+    least=$1
+    shift
+    ! sh "tests/$@" >"$scratch/out" 2>&1 || { echo "it passes" && return 1; }
+    failed=$(grep -c '^not ok' "$scratch/out")
+    passed=$(lines '^ok' "$scratch/out" | lines -vc '# SKIP')
+    echo "$failed failed, $passed passed"
+    case $least in
+    all) [ "$failed" -gt 0 ] && [ "$passed" -eq 0 ] ;;
+    *) [ "$failed" -ge "$least" ] ;;
+    esac
+}
+
+untouched=$DEPTHPREC
+path=${PATH#"$scratch/tools:"} compiler=$CC # the tests bring wrappers of their own
+echo "$cases" >"$scratch/cases"
+while IFS='|' read -r test name status least; do
+    [ -n "$name" ] || continue
+    name=${name# } name=${name%% *}
+    idle "$name" ${status# }
+    PATH=$folder:$path
+    export DEPTHPREC="$untouched" CC="$compiler"
+    [ "$name" != depthprec ] || DEPTHPREC=$folder/depthprec
+    [ "$name" != cc ] || CC=$folder/cc
+    # shellcheck disable=SC2086
+    check "$(echo $test) with a $name that does nothing, exit status ${status# }" bites ${least# } $test
+    PATH=$path
+done <"$scratch/cases"
+finish
