@@ -109,7 +109,9 @@ static double sorted_at(int contestant, int quarters) {
     double sorted[REPETITIONS];
     memcpy(sorted, samples[contestant], sizeof sorted);
     qsort(sorted, (size_t)repetitions, sizeof sorted[0], ascending);
-    return sorted[repetitions * quarters / 4];
+    const double at = 0.25 * quarters * (repetitions - 1);
+    const int below = (int)at;
+    return below + 1 < repetitions ? sorted[below] + (at - below) * (sorted[below + 1] - sorted[below]) : sorted[below];
 }
 
 static size_t run_bench(int count, bench_result results[BENCH_METHODS_MAX]) {

@@ -68,7 +68,11 @@ static void plain_census(const census_request *r, census_result *result) {
             b->longest = length;
             b->longest_z = (double)z;
         }
-        b->slack = fmax(b->slack, length / toy_bound(r->setup, (double)z));
+        /* The surfaces that are stored as the two ends may be half a step farther apart at either. */
+        const float other = census_depth(start + (uint32_t)j);
+        const double halves = 0.5 * ((double)nextafterf(z, HUGE_VALF) - (double)z) +
+                              0.5 * ((double)nextafterf(other, HUGE_VALF) - (double)other);
+        b->slack = fmax(b->slack, (length + halves) / toy_bound(r->setup, (double)z));
     }
     result->near_effective = drawn_lo;
     result->far_effective = drawn_hi;

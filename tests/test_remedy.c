@@ -107,7 +107,9 @@ static void words_and_numbers_agree(void **state) {
     (void)state;
     for (uint64_t i = 0; i < test_cases(2000, 20000, 200000); i++) {
         const dp_setup setup = any_setup(&r);
-        const dp_budget_terms terms = {rng_below(&r, 2) ? 2 : 0, rng_below(&r, 2) ? 1e4 : 0, (int)rng_below(&r, 2)};
+        const dp_budget_terms terms = {.interpolation = rng_below(&r, 2) ? 2 : 0,
+                                       .world = rng_below(&r, 2) ? 1e4 : 0,
+                                       .linearize = (int)rng_below(&r, 2)};
         const dp_cause cause = (dp_cause)rng_below(&r, DP_CAUSE_COUNT);
         const double z = rng_log(&r, setup.spec.znear, fmin(setup.spec.zfar, 1e6 * setup.spec.znear));
         const remedy_result got = remedy_find(&setup, &terms, z, cause);

@@ -18,11 +18,11 @@ typedef struct budget_case {
 static const budget_case budgets[] = {
     {{0.3, 1000, {"unorm24", "fp16"}, {"d3d", "gl-reversed"}, .implied = true, .model = DP_MODEL_FP32},
      {0.3, 1.7, 55, 321.5, 900, 990},
-     {0, 0, 0},
+     {0},
      ""},
     {{0.1, INFINITY, {"fp32", "unorm16"}, {"reversed", "gl"}, .implied = true, .model = DP_MODEL_FP32, .arith = "mesa"},
      {0.1, 3, 4e2, 1e4, 1e6, 3e9},
-     {1.5, 700, 1},
+     {.interpolation = 1.5, .world = 700, .linearize = 1},
      " --interpolation 1.5 --world 700 --linearize"},
     {{2,
       90,
@@ -33,7 +33,7 @@ static const budget_case budgets[] = {
       .model = DP_MODEL_FP32,
       .rounding = DP_ROUND_ZERO},
      {2, 3, 5, 7, 60, 90},
-     {0.25, 0, 1},
+     {.interpolation = 0.25, .linearize = 1},
      " --interpolation 0.25 --linearize --tolerance 3%"},
 };
 

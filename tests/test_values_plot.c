@@ -185,7 +185,7 @@ static const char *cause_of(const json_t *series, int *cause) {
 static void test_budget(void **state) {
     tally t = {.name = "budget"};
     const dp_setup setup = setup_of(0.5, 300, "fp32", DP_MAPPING_D3D, DP_MODEL_FP32);
-    const dp_budget_terms terms = {2, 50, 1};
+    const dp_budget_terms terms = {.interpolation = 2, .world = 50, .linearize = 1};
     json_t *root = plot("budget -F fp32 -m d3d -n 0.5 -f 300 --interpolation 2 --world 50 --linearize"), *series,
            *point;
     size_t s, i, seen = 0;

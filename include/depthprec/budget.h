@@ -2,9 +2,9 @@
 /**
  * @file budget.h  The guaranteed separation of the binary32 pipeline, and which cause takes how much of it.
  *
- * Two surfaces at binary32 depths z1 = z and z2 >= z + separation are always stored in the right order, whatever
- * their depths are: their real window depths differ by more than all rounding errors of both and one step of the
- * format together. Forward error analysis of the operations in pipeline.h; depthprec(7) derives each term.
+ * For all real depths z1 < z2 in [near, far] with z2 - z1 >= separation(z1) the codes are strictly in order, where what
+ * enters the pipeline is each depth rounded to binary32. Forward error analysis of the operations in pipeline.h;
+ * depthprec(7) derives each term. Never below the separation of DP_MODEL_EXACT.
  *
  * This speaks of depths computed at a point. Across a slanted triangle a rasterizer interpolates, and nothing is
  * promised unless its error is given as `interpolation`.
@@ -72,14 +72,14 @@ DP_API const char *dp_cause_name(dp_cause cause);
  *
  * @param z      eye depth in [near, far]; rounded to binary32 as a shader has it
  * @param terms  null for none
- * @return DP_OK, DP_ERROR_NULL, DP_ERROR_DEPTH, or DP_ERROR_MODEL for linear and log, which have no pipeline, and for a
- *         composition out of range
+ * @return DP_OK, DP_ERROR_NULL, DP_ERROR_DEPTH, DP_ERROR_BINARY32 where z rounds to infinity, or DP_ERROR_MODEL for
+ *         linear and log, which have no pipeline, and for a composition out of range
  *
  * With terms->world, of two surfaces that the same matrix transforms and that one pixel sees, at real places in the
  * world box: on one ray from the camera within 60 degrees of its axis, or parallel to the axis if orthographic (with
  * the camera-relative composition, no farther beside it than zfar).
  *
- * Bound: never violated by the pipeline of pipeline.h with depth clamp. Cost: some 100 operations.
+ * Bound: never violated by the pipeline of pipeline.h with depth clamp. Cost: some 300 operations.
  */
 DP_API dp_status dp_budget_at(const dp_setup *setup, double z, const dp_budget_terms *terms, dp_budget *out);
 
@@ -101,8 +101,8 @@ typedef struct dp_choice {
 
 /**
  * Chooses the simplest model that is good enough: at every depth, what it neglects adds at most `tolerance` to the
- * separation that it finds. Separations below one binary32 step of z, which no shader's depths can have, count as one
- * step. The measure is the fullest model that the set-up has: fp32, or staged for linear and log.
+ * separation that it finds. The measure is the fullest model that the set-up has: fp32, or staged for linear and log;
+ * both count the rounding of the eye depth.
  *
  * @param z, count   eye depths in [near, far]; count >= 1
  * @param tolerance  share, 0.05 for 5 %; at least 0

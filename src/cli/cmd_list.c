@@ -71,6 +71,7 @@ static bool list_composition(size_t index, list_item *item) {
 
 static bool list_cause(size_t index, list_item *item) {
     static const char *const notes[DP_CAUSE_COUNT] = {
+        [DP_CAUSE_EYE] = "rounding the eye depth itself to binary32: surfaces lie anywhere",
         [DP_CAUSE_COMPOSITION] = "world positions through view and projection, with --world and --composition",
         [DP_CAUSE_PROJECTION] = "A z + B in binary32, and the remap if there is one",
         [DP_CAUSE_NDC] = "the divide and the viewport",

@@ -44,13 +44,14 @@ static double excess_above(const dp_chain *c, double z) {
 
 dp_chain dp_chain_make(const dp_setup *setup, const dp_pipeline *p) {
     dp_chain c = {.pipeline = *p, .a = (double)p->a, .b = (double)p->b};
-    c.b_granule = dp_granule(c.b);
+    c.a_granule = dp_granule(p->a);
+    c.b_granule = dp_granule(p->b);
     c.half = p->ndc_signed ? 0.5 : 1.0;
     c.remap = p->ndc_signed && p->arith->remap;
     c.two_stage = p->ndc_signed && !c.remap;
     c.per_clip = c.remap ? 0.5 : 1.0;
     c.per_ndc = c.two_stage ? 0.5 : 1.0;
-    c.a_exact = c.a == 0.0 || dp_granule(c.a) == dp_power2(dp_exponent(fabs(c.a)));
+    c.a_exact = c.a == 0.0 || c.a_granule == fabs(c.a);
     c.fused = p->arith->fused && !c.a_exact;
     c.reach.lo = (double)(float)setup->spec.znear;
     c.reach.hi = isinf(setup->spec.zfar) ? (double)FLT_MAX : (double)(float)setup->spec.zfar;
@@ -94,7 +95,7 @@ static dp_step product_of(const dp_chain *c, dp_span r) {
 
 /* What all computed products of a span, and with B all sums, are multiples of. */
 static double product_granule(const dp_chain *c, dp_span r) {
-    return c->a_exact ? dp_granule(c->a) * 2.0 * dp_half_ulp(r.lo) : 2.0 * dp_half_ulp(fabs(c->a) * r.lo);
+    return c->a_exact ? c->a_granule * 2.0 * dp_half_ulp(r.lo) : 2.0 * dp_half_ulp(fabs(c->a) * r.lo);
 }
 
 /*
@@ -119,8 +120,8 @@ static dp_step add_b(const dp_chain *c, dp_span r, magnitude m, double *lo, doub
     *lo = HUGE_VAL;
     *hi = -HUGE_VAL;
     for (int i = 0; i < 2 && alike; i++) {
-        alike = fmod(fabs(c->b), ulp[i]) != 0.5 * ulp[i];
         const double kept = rint(c->b / ulp[i]) * ulp[i] - c->b;
+        alike = fabs(kept) != 0.5 * ulp[i];
         *lo = smaller(*lo, c->pipeline.reversed ? kept : -kept);
         *hi = larger(*hi, c->pipeline.reversed ? kept : -kept);
     }

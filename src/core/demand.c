@@ -123,44 +123,43 @@ static dp_demand demand_falling(const dp_chain *c, dp_span range, const dp_steps
 }
 
 /* The demand of a depth of `first` and one of `second`, not nearer. */
-static dp_demand demand_of(const dp_chain *c, dp_span first, dp_span second, double extra) {
-    const dp_steps s1 = dp_chain_steps(c, first);
+static dp_demand demand_of(const dp_chain *c, const dp_steps *s1, dp_span first, dp_span second, double extra) {
     const dp_steps s2 = dp_chain_steps(c, second);
     const double g1 = dp_chain_window(c, first.lo);
     const double g2 = dp_chain_window(c, second.hi);
-    const double error = larger(s1.full, s2.full);
+    const double error = larger(s1->full, s2.full);
     const double format = format_loss(&c->pipeline, smaller(g1, g2) - error, larger(g1, g2) + error);
     const double rest = format + extra;
-    const double window = before_rounding(s1.viewport, s2.viewport, rest);
-    const double quotient = before_rounding(s1.quotient, s2.quotient, window);
-    const double need = quotient + s1.inverse.error + s2.inverse.error;
+    const double window = before_rounding(s1->viewport, s2.viewport, rest);
+    const double quotient = before_rounding(s1->quotient, s2.quotient, window);
+    const double need = quotient + s1->inverse.error + s2.inverse.error;
     const double w = c->pipeline.ortho ? 1.0 : first.lo;
-    dp_demand d = demand_free(c, &s1, &s2, w, need);
+    dp_demand d = demand_free(c, s1, &s2, w, need);
     if (!c->pipeline.ortho) {
-        const dp_demand falling = demand_falling(c, (dp_span){first.lo, second.hi}, &s1, &s2, quotient);
+        const dp_demand falling = demand_falling(c, (dp_span){first.lo, second.hi}, s1, &s2, quotient);
         if (falling.window * d.slope < d.window * falling.slope)
             d = falling;
     }
     d.format = format;
     d.rest = rest;
-    clamp_either(c, &d, s1.full, s2.full, g1, g2);
+    clamp_either(c, &d, s1->full, s2.full, g1, g2);
     return d;
 }
 
 /* The demand of a depth of `first` and any depth behind it. */
-static dp_demand demand_beyond(const dp_chain *c, dp_span first, double extra) {
-    const dp_steps s1 = dp_chain_steps(c, first);
+static dp_demand demand_beyond(const dp_chain *c, const dp_steps *s1, dp_span first, double extra) {
     const dp_steps s2 = dp_chain_steps_beyond(c, first.lo);
     const double g1 = dp_chain_window(c, first.lo);
     const double g2 = dp_chain_window(c, c->reach.hi);
-    const double error = larger(s1.full, s2.full);
+    const double error = larger(s1->full, s2.full);
     const double format = format_loss(&c->pipeline, smaller(g1, g2) - error, larger(g1, g2) + error);
-    dp_demand d = {.projection = s1.full - s1.inverse.error - s1.quotient.error - s1.viewport.error + s2.product.error,
+    dp_demand d = {.projection =
+                       s1->full - s1->inverse.error - s1->quotient.error - s1->viewport.error + s2.product.error,
                    .format = format,
                    .rest = format + extra,
-                   .window = s1.full + s2.full + format + extra,
+                   .window = s1->full + s2.full + format + extra,
                    .slope = fabs(c->pipeline.ortho ? c->a : c->b)};
-    clamp_either(c, &d, s1.full, s2.full, g1, g2);
+    clamp_either(c, &d, s1->full, s2.full, g1, g2);
     return d;
 }
 
@@ -178,17 +177,18 @@ static double distance(const dp_chain *c, double z, const dp_demand *d) {
  * How far a depth of `second` may be from one of `first` and out of order. What lies beyond that is in order, so only
  * the depths up to there need a demand of their own, which is smaller; and so on while it helps.
  */
-static double longest_within(const dp_chain *c, dp_span first, dp_span second, double extra, dp_demand *out) {
+static double longest_within(const dp_chain *c, const dp_steps *s1, dp_span first, dp_span second, double extra,
+                             dp_demand *out) {
     double best = HUGE_VAL;
     for (int i = 0; i < 8; i++) {
-        const dp_demand d = demand_of(c, first, second, extra);
+        const dp_demand d = demand_of(c, s1, first, second, extra);
         const double s = distance(c, first.hi, &d);
         if (!(s < best))
             break;
         const double gain = best - s;
         best = s;
         *out = d;
-        if (first.hi + s >= second.hi || first.hi + s < second.lo || gain <= 0x1p-8 * s)
+        if (first.hi + s >= second.hi || first.hi + s < second.lo || gain <= 0x1p-6 * s)
             break;
         second.hi = first.hi + s;
     }
@@ -202,7 +202,8 @@ static double longest_within(const dp_chain *c, dp_span first, dp_span second, d
  * farthest binade that may hold a depth out of order has the answer.
  */
 double dp_demand_longest(const dp_chain *c, dp_span first, double extra, dp_demand *out) {
-    *out = demand_beyond(c, first, extra);
+    const dp_steps s1 = dp_chain_steps(c, first);
+    *out = demand_beyond(c, &s1, first, extra);
     if (c->pipeline.arith->reciprocal && !c->pipeline.ortho && first.hi > 0x1p126)
         return HUGE_VAL;
     const double any = distance(c, first.hi, out);
@@ -215,7 +216,7 @@ double dp_demand_longest(const dp_chain *c, dp_span first, double extra, dp_dema
         if (lo < first.hi)
             lo = first.lo;
         dp_demand d;
-        const double s = longest_within(c, first, (dp_span){lo, larger(hi, first.hi)}, extra, &d);
+        const double s = longest_within(c, &s1, first, (dp_span){lo, larger(hi, first.hi)}, extra, &d);
         if (first.hi + s >= lo) {
             const double longest = smaller(s, end - first.lo);
             if (longest < any)

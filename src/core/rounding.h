@@ -31,12 +31,13 @@ static inline double dp_result_error(double least, double most) {
     return least < 0x1p-126 && flushed > error ? flushed : error;
 }
 
-/* The lowest set bit of a binary32 number, as a value: the number is a whole multiple of it. */
-static inline double dp_granule(double x) {
-    double g = 2.0 * dp_half_ulp(fabs(x));
-    while (x != 0.0 && fmod(x, 2.0 * g) == 0.0)
-        g *= 2.0;
-    return g;
+/* The lowest set bit of a normal binary32 number, as a value: the number is a whole multiple of it. 0 has none. */
+static inline double dp_granule(float x) {
+    uint32_t bits;
+    memcpy(&bits, &x, sizeof bits);
+    const uint32_t mantissa = (bits & 0x7FFFFFU) | 0x800000U;
+    const double lowest = (double)(mantissa & -mantissa);
+    return x == 0.0F ? HUGE_VAL : lowest * 2.0 * dp_half_ulp(fabs((double)x));
 }
 
 #endif

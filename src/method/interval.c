@@ -66,12 +66,14 @@ static void cell_run(const dp_setup *setup, const void *state, const method_inpu
 
 /* ---- The pipeline ------------------------------------------------------------------------------------------------ */
 
+/* Of binary32 depths, like what it is held against: without what the surfaces' own depths add. */
 static void bound_run(const dp_setup *setup, const void *state, const method_inputs *in, const method_outputs *out) {
     (void)state;
     for (size_t i = 0; i < in->count; i++) {
         dp_budget b;
-        out->value[i] =
-            dp_budget_at(setup, in->z[i], NULL, &b) == DP_OK ? fmax(b.separation, truth_step(in->z[i])) : (double)NAN;
+        out->value[i] = dp_budget_at(setup, in->z[i], NULL, &b) == DP_OK
+                            ? fmax(b.separation - b.cause[DP_CAUSE_EYE], truth_step(in->z[i]))
+                            : (double)NAN;
     }
 }
 

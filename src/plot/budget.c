@@ -10,7 +10,7 @@
 
 /* From the axis upwards: first what no arithmetic could do without. */
 static const dp_cause stack[DP_CAUSE_COUNT] = {
-    DP_CAUSE_FORMAT,      DP_CAUSE_NDC,           DP_CAUSE_PROJECTION,
+    DP_CAUSE_FORMAT,      DP_CAUSE_EYE,           DP_CAUSE_NDC,           DP_CAUSE_PROJECTION,
     DP_CAUSE_COMPOSITION, DP_CAUSE_INTERPOLATION, DP_CAUSE_LINEARIZATION,
 };
 
