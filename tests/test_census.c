@@ -69,6 +69,8 @@ static void plain_census(const census_request *r, census_result *result) {
             b->longest_z = (double)z;
         }
         /* The surfaces that are stored as the two ends may be half a step farther apart at either. */
+        if (length == 0.0)
+            continue;
         const float other = census_depth(start + (uint32_t)j);
         const double halves = 0.5 * ((double)nextafterf(z, HUGE_VALF) - (double)z) +
                               0.5 * ((double)nextafterf(other, HUGE_VALF) - (double)other);

@@ -135,68 +135,6 @@ static void every_arithmetic(void **state) {
     }
 }
 
-/*
- * Parts alone. Half of the projection's and of the NDC's part is what one depth may be off by: the pipeline is followed
- * in double (whose own errors are 2^-29 of the binary32 ones), with one step of it in binary32.
- */
-typedef struct part_case {
-    dp_cause cause;
-    double (*off)(const dp_pipeline *p, double z);
-} part_case;
-
-static double real_clip(const dp_pipeline *p, double z) {
-    return (double)p->a * z + (double)p->b;
-}
-
-static double window_of_clip(const dp_pipeline *p, double clip, double z) {
-    const double ndc = clip / (p->ortho ? 1.0 : z);
-    return p->ndc_signed ? 0.5 * ndc + 0.5 : ndc;
-}
-
-static double projection_off(const dp_pipeline *p, double z) {
-    const double clip = (double)dp_pipeline_clip(p, (float)z);
-    return fabs(window_of_clip(p, clip, z) - window_of_clip(p, real_clip(p, z), z));
-}
-
-static double ndc_off(const dp_pipeline *p, double z) {
-    const double clip = (double)dp_pipeline_clip(p, (float)z);
-    return fabs((double)dp_pipeline_window(p, (float)z) - window_of_clip(p, clip, z));
-}
-
-static void parts_alone(void **state) {
-    (void)state;
-    static const part_case parts[] = {{DP_CAUSE_PROJECTION, projection_off}, {DP_CAUSE_NDC, ndc_off}};
-    rng r = rng_make("parts");
-    for (int k = 0; k < 2; k++) {
-        tally within = {.name = dp_cause_name(parts[k].cause)};
-        double most = 0.0;
-        for (uint64_t i = test_cases(20000, 400000, 20000000); i > 0; i--) {
-            dp_setup setup;
-            /* `ieee` and `reciprocal`, where each part counts every rounding of its own independently */
-            if (!make(&setup, (int)rng_below(&r, CAMERAS), (int)rng_below(&r, 2), 3, rng_below(&r, 2) ? 0 : 2, 0))
-                continue;
-            const double z = (double)(float)rng_log(&r, setup.spec.znear * 1.001, range_end(&setup) * 0.999);
-            dp_pipeline p;
-            dp_budget budget;
-            dp_pipeline_init(&p, &setup);
-            assert_int_equal(dp_budget_at(&setup, z, NULL, &budget), DP_OK);
-            const double part = 0.5 * budget.window * budget.cause[parts[k].cause] / budget.separation;
-            /* Where adding B rounds all alike, that common error is no part of a pair's: a unit of 2^-24 at most. */
-            const double alike = parts[k].cause == DP_CAUSE_PROJECTION ? 0x1p-24 : 0.0;
-            const float window = dp_pipeline_window(&p, (float)z);
-            if (!(window > 0.0F && window < 1.0F))
-                continue; /* clamped: beyond the planes that the rounded matrix has */
-            const double off = parts[k].off(&p, z);
-            TALLY(&within, off <= part * (1.0 + 1e-6) + alike, "z = %a: off %.6g, part %.6g", z, off, part);
-            if (part > 0.0 && off / part > most)
-                most = off / part;
-        }
-        printf("# %s: off by at most %.3f of its part\n", dp_cause_name(parts[k].cause), most);
-        tally_end(&within);
-        assert_true(most > 0.5);
-    }
-}
-
 /* Reading back: 1/(zb d + wb) in binary32, constants rounded once, against the exact inverse. */
 static void linearization_alone(void **state) {
     (void)state;
@@ -257,8 +195,10 @@ static void parts_add_up(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(never_violated_and_tight), cmocka_unit_test(every_arithmetic), cmocka_unit_test(parts_alone),
-        cmocka_unit_test(linearization_alone),      cmocka_unit_test(parts_add_up),
+        cmocka_unit_test(never_violated_and_tight),
+        cmocka_unit_test(every_arithmetic),
+        cmocka_unit_test(linearization_alone),
+        cmocka_unit_test(parts_add_up),
     };
     return run_tap(tests);
 }

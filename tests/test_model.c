@@ -42,8 +42,8 @@ static const struct {
     {"unorm16", DP_MAPPING_REVERSED, 0.1, 1000, DP_MODEL_EXACT},
     {"fp16", DP_MAPPING_REVERSED, 0.1, 1000, DP_MODEL_EXACT},
     {"unorm16", DP_MAPPING_LOG, 0.1, 1000, DP_MODEL_EXACT},
-    /* reversed and infinite, z_clip is a constant: one rounding, that of the format */
-    {"fp32", DP_MAPPING_REVERSED, 0.1, INFINITY, DP_MODEL_EXACT},
+    /* reversed and infinite, z_clip is a constant: one rounding, that of the format, and that of the eye depth */
+    {"fp32", DP_MAPPING_REVERSED, 0.1, INFINITY, DP_MODEL_STAGED},
     /* 24 bits lie on the binary32 lattice of the window depth, which is twice as coarse near 1 */
     {"unorm24", DP_MAPPING_LINEAR, 0.1, 1000, DP_MODEL_STAGED},
     {"unorm24", DP_MAPPING_LOG, 0.1, 1000, DP_MODEL_STAGED},
@@ -102,8 +102,7 @@ static double share_at(const dp_setup *setup, int model, double z) {
     spec.model = (dp_model)model;
     if (dp_setup_init(&part, &spec) != DP_OK)
         return (double)NAN;
-    /* Below one binary32 step of z a separation is as good as one step. */
-    const double some = fmax(dp_separation(&part, z), isinf(z) ? HUGE_VAL : ldexp(1.0, ilogb(z) - 23));
+    const double some = dp_separation(&part, z);
     const double all = dp_separation(&whole, z);
     return isinf(some) || all <= some ? 0.0 : all / some - 1.0;
 }
@@ -232,23 +231,31 @@ static void parts_add_up(void **state) {
             sound = sound && b.cause[i] >= 0.0;
         }
         sound = sound && fabs(sum - b.separation) <= 1e-12 * b.separation;
-        sound = sound && (b.cause[DP_CAUSE_COMPOSITION] > 0.0) == (terms.world > 0.0);
-        sound = sound && (b.cause[DP_CAUSE_INTERPOLATION] > 0.0) == (terms.interpolation > 0.0);
-        sound = sound && (b.cause[DP_CAUSE_LINEARIZATION] > 0.0) == (terms.linearize != 0);
+        sound =
+            sound && (terms.world > 0.0 || b.cause[DP_CAUSE_COMPOSITION] == 0.0); /* it may be less than the eye's */
         /* Both surfaces of a pair may be off by E units of 2^-24. */
         dp_budget_terms here = terms;
         dp_budget plain;
         here.world = 0.0;
         assert_int_equal(dp_budget_at(&setup, z, &here, &plain), DP_OK);
-        const double window = plain.cause[DP_CAUSE_INTERPOLATION] / plain.separation * plain.window;
-        sound = sound && fabs(window - terms.interpolation * 0x1p-23) <= 1e-12 * plain.window;
+        /* Of the causes in window depth, that is; the lattice's floor is none, nor is the eye depth. What comes to less
+         * than one step of binary32 takes nothing. */
+        const double counted = plain.separation - plain.cause[DP_CAUSE_EYE];
+        const int less = counted <= 1e-9 * plain.separation;
+        sound = sound && (b.cause[DP_CAUSE_INTERPOLATION] > 0.0) == (terms.interpolation > 0.0 && !less);
+        sound = sound && (b.cause[DP_CAUSE_LINEARIZATION] > 0.0) == (terms.linearize != 0 && !less);
+        const double window = plain.cause[DP_CAUSE_INTERPOLATION] / counted * plain.window;
+        dp_setup lattice = setup;
+        lattice.spec.model = DP_MODEL_EXACT;
+        if (!less && plain.separation > dp_separation(&lattice, z))
+            sound = sound && fabs(window - terms.interpolation * 0x1p-23) <= 1e-12 * plain.window;
         /* What a composition adds is its part, and leaves the others as they are. */
         for (int i = DP_CAUSE_COMPOSITION + 1; i < DP_CAUSE_COUNT; i++)
             sound = sound && b.cause[i] == plain.cause[i];
-        TALLY(&t, sound, "%s %s %s near %a far %a at %a, terms %g %g %d: separation %g, parts %g %g %g %g %g %g",
+        TALLY(&t, sound, "%s %s %s near %a far %a at %a, terms %g %g %d: separation %g, parts %g %g %g %g %g %g %g",
               setup.spec.format.name, dp_mapping_get(setup.spec.mapping)->name, dp_arith_get(setup.spec.arith)->name,
               setup.spec.znear, setup.spec.zfar, z, terms.interpolation, terms.world, terms.linearize, b.separation,
-              b.cause[0], b.cause[1], b.cause[2], b.cause[3], b.cause[4], b.cause[5]);
+              b.cause[0], b.cause[1], b.cause[2], b.cause[3], b.cause[4], b.cause[5], b.cause[6]);
     }
     tally_end(&t);
 }

@@ -159,7 +159,7 @@ double dp_budget_bound(const dp_setup *setup, float nearest, float farthest) {
     dp_demand d;
     const double longest = dp_demand_longest(&c, run, 0.0, &d);
     const double step = 2.0 * dp_half_ulp(run.hi); /* of all depths of the run: what is apart is apart by whole ones */
-    const double whole = longest < 0x1p20 * step ? floor(longest / step) * step : longest;
+    const double whole = longest < 0x1p45 * step ? floor(longest / step) * step : longest;
     return (whole + dp_eye_rounding(run.hi, run.hi + whole)) * outward;
 }
 

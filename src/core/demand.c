@@ -18,7 +18,7 @@ static int codes_are_distinct(const dp_pipeline *p, double low, double high) {
     if (low <= 0.0)
         return 0;
     const float first = nextafterf((float)low, 0.0F);
-    const float last = high < 1.0 ? nextafterf((float)high, 2.0F) : 1.0F;
+    const float last = (float)high < 1.0F ? nextafterf((float)high, 2.0F) : 1.0F;
     const double step = 2.0 * dp_half_ulp((double)first);
     const double levels = (double)p->format.code_max;
     const int product_exact = p->arith->conversion == DP_CONVERT_EXACT || p->format.bits > 24;

@@ -67,10 +67,10 @@ static void run_keys(const sweep *w, uint32_t run, int32_t key[CENSUS_RUN]) {
     w->c->level->keys(&w->c->plan, z, CENSUS_RUN, key);
 }
 
-/* Only intervals of more than this many steps tell anything new. The surfaces themselves may be 1 1/2 more apart. */
+/* Only intervals of more than this many steps tell anything new. The surfaces themselves are a step more apart. */
 static uint32_t known_steps(const sweep *w) {
     double steps = fmax(w->s->found.longest / w->step, w->steps_known);
-    const double by_slack = fmax(w->s->found.slack * w->bound / w->step - 2.0, 0.0);
+    const double by_slack = fmax(w->s->found.slack * w->bound / w->step - 1.0 + 1e-6, 0.0);
     if (by_slack < steps)
         steps = floor(by_slack);
     return steps < SEGMENT ? (uint32_t)steps : SEGMENT;
