@@ -13,11 +13,11 @@
 
 enum { DIGITS = 6, SENTENCE_SIZE = 512 };
 
-/* A number with the unit of the file behind it, "0.001 m"; a share as it is. */
 typedef char quantity[NUMBER_SIZE + 8];
 
-static const char *put(quantity out, const check_file *f, double value, bool is_length) {
-    const size_t used = number_digits(value, DIGITS, out);
+/* A number with the unit of the file behind it, "0.001 m"; a share as it is. What is promised is rounded up. */
+static const char *put(quantity out, const check_file *f, double value, bool is_length, bool upward) {
+    const size_t used = upward ? number_bound(value, DIGITS, true, out) : number_digits(value, DIGITS, out);
     if (is_length && f->file.unit[0] != '\0' && isfinite(value))
         snprintf(out + used, sizeof(quantity) - used, " %s", f->file.unit);
     return out;
@@ -33,13 +33,13 @@ static bool has_code(const check_verdict *v) {
 static const char *sentence(const check_file *f, const check_verdict *v, char out[SENTENCE_SIZE]) {
     const need_kind_row *kind = need_kind_get(v->asked->kind);
     quantity value, limit, z;
-    int used = snprintf(out, SENTENCE_SIZE, "%s %s", kind->phrase, put(value, f, v->value, kind->is_length));
+    int used = snprintf(out, SENTENCE_SIZE, "%s %s", kind->phrase, put(value, f, v->value, kind->is_length, true));
     if (!isnan(v->z))
-        used += snprintf(out + used, (size_t)(SENTENCE_SIZE - used), " at %s", put(z, f, v->z, true));
+        used += snprintf(out + used, (size_t)(SENTENCE_SIZE - used), " at %s", put(z, f, v->z, true, false));
     if (has_code(v))
         used += snprintf(out + used, (size_t)(SENTENCE_SIZE - used), " (code %u)", (unsigned)v->code);
     snprintf(out + used, (size_t)(SENTENCE_SIZE - used), ", allowed %s",
-             put(limit, f, v->asked->limit, kind->is_length));
+             put(limit, f, v->asked->limit, kind->is_length, false));
     return out;
 }
 

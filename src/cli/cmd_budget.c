@@ -109,7 +109,7 @@ static void text_row(void *to, const report *r, const dp_setup *setup, const bud
     char text[NUMBER_SIZE];
     number_digits(row->z, DIGITS_Z, text);
     output_format(r->out, "%12s", text);
-    number_digits(row->parts.separation, DIGITS_MORE, text);
+    number_bound(row->parts.separation, DIGITS_MORE, true, text);
     output_format(r->out, " %12s", text);
     for (int i = 0; i < DP_CAUSE_COUNT; i++) {
         const double share = share_of(row, i);
@@ -137,8 +137,8 @@ static void text_advice(const report *r, const summary *s) {
     if (isnan(s->worst.z))
         return;
     number_digits(s->worst.z, DIGITS_MORE, z);
-    number_digits(s->worst.parts.separation, DIGITS, now);
-    number_digits(s->remedy.separation, DIGITS, then);
+    number_bound(s->worst.parts.separation, DIGITS, true, now);
+    number_bound(s->remedy.separation, DIGITS, true, then);
     number_digits(remedy_step(s->worst.z), DIGITS, step);
     output_format(r->out, "  at z = %s %s takes %.0f %%: ", z, dp_cause_name(s->cause),
                   100.0 * share_of(&s->worst, (int)s->cause));

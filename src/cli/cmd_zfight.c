@@ -108,7 +108,10 @@ static void text_band(const zfight *z, const census_band *b) {
         cell(z->out, 12, b->longest, DIGITS);
         cell(z->out, 10, b->longest_z, DIGITS);
     }
-    cell(z->out, 12, b->bound, DIGITS);
+    char bound[NUMBER_SIZE] = "-";
+    if (!isnan(b->bound)) /* it holds as it is printed */
+        number_bound(b->bound, DIGITS, true, bound);
+    output_format(z->out, " %12s", bound);
     if (with_intervals(z->o))
         output_format(z->out, " %7.3f", b->slack);
     output_char(z->out, '\n');

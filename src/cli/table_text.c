@@ -62,6 +62,12 @@ static void put_number(output *out, int column, double value, int digits) {
     put(out, column, text, isnan(value) ? 1 : number_digits(value, digits, text));
 }
 
+/* A guarantee holds as it is printed: rounded up. */
+static void put_guarantee(output *out, int column, double value, int digits) {
+    char text[NUMBER_SIZE] = "-";
+    put(out, column, text, isnan(value) ? 1 : number_bound(value, digits, true, text));
+}
+
 /* The digits that it takes to see that a value near `at` is off by `step`, with two digits of the step. */
 static int digits_within(double at, double step, int least, int most) {
     if (!isfinite(at) || !isfinite(step) || at == 0.0 || step == 0.0)
@@ -101,8 +107,8 @@ void table_text_row(output *out, const table_style *style, const dp_sample *s, d
     put_number(out, COLUMN_STORED, s->stored, digits_to_see(s->z, s->error));
     put_number(out, COLUMN_ERROR, s->error, DIGITS_FEW);
     put_number(out, COLUMN_INTERVAL, s->interval, DIGITS_FEW);
-    put_number(out, COLUMN_SEPARATION, s->separation, DIGITS_FEW);
-    put_number(out, COLUMN_BINARY32, binary32, DIGITS_FEW);
+    put_guarantee(out, COLUMN_SEPARATION, s->separation, DIGITS_FEW);
+    put_guarantee(out, COLUMN_BINARY32, binary32, DIGITS_FEW);
     if (style->cells) {
         put_number(out, COLUMN_LO, s->lo, digits_to_see(s->lo, s->interval));
         put_number(out, COLUMN_HI, s->hi, digits_to_see(s->lo, s->interval));
