@@ -19,7 +19,7 @@ typedef struct dp_span {
 typedef struct dp_chain {
     dp_pipeline pipeline;
     double a, b;
-    double a_granule;    /* A is a multiple of it, and B of its own; infinity where they are 0 */
+    double a_granule; /* A is a multiple of it, and B of its own; infinity where they are 0 */
     double b_granule;
     double half;         /* window depth per NDC depth, 1/2 where NDC is signed */
     double per_clip;     /* what the shader's remap leaves of the clip depth, 1/2 or 1 */
