@@ -88,14 +88,19 @@ DP_API dp_cell dp_cell_of(const dp_setup *setup, uint32_t code);
  * aligned to the lattice. In the model `exact` it is one step of the format taken from z, z(d + step) - z, with the
  * larger of the two steps where d to d + step reaches across a binade end; so it has no sawtooth inside a binade.
  *
- * In `staged` a step of each binary32 rounding is added; in `fp32` it is the guaranteed separation of dp_budget_at().
+ * In `staged` a step of each binary32 rounding is added, that of the eye depths too, since surfaces stand anywhere; in
+ * `fp32` it is the guaranteed separation of dp_budget_at(), INFINITY for depths that binary32 cannot hold.
  *
  * Bound: never below the true value, in `exact` at most 1e-12 relative above. The far plane does not end it: where one
  * step passes far but has a depth, that depth is used; INFINITY where no depth lies one step behind z.
  */
 DP_API double dp_separation(const dp_setup *setup, double z);
 
-/** Everything above for one depth. @return DP_OK or DP_ERROR_DEPTH (outside [near, far] or NaN), DP_ERROR_NULL. */
+/**
+ * Everything above for one depth.
+ * @return DP_OK or DP_ERROR_DEPTH (outside [near, far] or NaN), DP_ERROR_NULL, DP_ERROR_BINARY32 (in `fp32`, above
+ *         3.4028235e+38)
+ */
 DP_API dp_status dp_sample_at(const dp_setup *setup, double z, dp_sample *out);
 
 DP_END
