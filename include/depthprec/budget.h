@@ -22,13 +22,13 @@ DP_BEGIN
 
 /** The causes, in the order in which they arise. */
 typedef enum dp_cause {
-    DP_CAUSE_EYE = 0,         /**< eye depth rounded to binary32: surfaces are real, what enters is not */
-    DP_CAUSE_COMPOSITION,     /**< world positions through view and projection */
-    DP_CAUSE_PROJECTION,      /**< A z + B in binary32 (and the remap, if any) */
-    DP_CAUSE_NDC,             /**< the divide and the viewport */
-    DP_CAUSE_INTERPOLATION,   /**< across a triangle, as given */
-    DP_CAUSE_FORMAT,          /**< the step of the format and its conversion */
-    DP_CAUSE_LINEARIZATION,   /**< reading back: eye depth from the stored value in a binary32 shader */
+    DP_CAUSE_EYE = 0,       /**< eye depth rounded to binary32: surfaces are real, what enters is not */
+    DP_CAUSE_COMPOSITION,   /**< world positions through view and projection */
+    DP_CAUSE_PROJECTION,    /**< A z + B in binary32 (and the remap, if any) */
+    DP_CAUSE_NDC,           /**< the divide and the viewport */
+    DP_CAUSE_INTERPOLATION, /**< across a triangle, as given */
+    DP_CAUSE_FORMAT,        /**< the step of the format and its conversion */
+    DP_CAUSE_LINEARIZATION, /**< reading back: eye depth from the stored value in a binary32 shader */
     DP_CAUSE_COUNT
 } dp_cause;
 
