@@ -542,8 +542,8 @@ static double eye_of(const dp_setup *setup, dp_mapping mapping, double d) {
     return dp_eye(&other, d, 1 - d);
 }
 
-/* What is only assumed of an image, and where a pixel would be else; integers could be the bits of fp16, too. */
-static size_t want_readings(values *v, size_t at, const dp_setup *setup) {
+/* Where a pixel would be with another mapping, where that is only assumed. All integers here go beyond fp16. */
+static void want_readings(values *v, size_t at, const dp_setup *setup) {
     static const struct {
         const char *name;
         dp_mapping mapping;
@@ -554,15 +554,8 @@ static size_t want_readings(values *v, size_t at, const dp_setup *setup) {
     const texture_case *c = &images[at].asked;
     const uint32_t pixel = pixel_of_readings(at), code = sample_at(pixel, images[at].sky, images[at].spread);
     const double share = (double)code / 65535, d = images[at].floats ? (double)(float)share : share;
-    size_t n = 0;
     for (size_t i = 0; i < 4 && strcmp(c->mapping_from, "assumed") == 0; i++)
-        want_reading(v, n++, pixel, "mapping", curves[i].name, eye_of(setup, curves[i].mapping, d));
-    const double half = recognise_half((uint16_t)code);
-    if (strcmp(c->format_from, "assumed") == 0 && !images[at].floats && half >= 0 && half <= 1) {
-        want_reading(v, n++, pixel, "format", "unorm16", eye_of(setup, setup->spec.mapping, d));
-        want_reading(v, n++, pixel, "format", "fp16", eye_of(setup, setup->spec.mapping, half));
-    }
-    return n;
+        want_reading(v, i, pixel, "mapping", curves[i].name, eye_of(setup, curves[i].mapping, d));
 }
 
 /* The name of the file has a quote and a backslash. */
