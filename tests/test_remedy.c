@@ -22,7 +22,7 @@ static bool do_it(const char *words, dp_spec *spec, dp_budget_terms *terms) {
     if (reversed && (strcmp(words, "reversed depth") == 0 || strstr(words, "reversed depth and") != NULL))
         return false; /* it is; to leave [-1, 1] is a change of its own */
     if (strcmp(words, "positions relative to the camera") == 0)
-        terms->world = 0;
+        terms->composition = DP_COMPOSITION_RELATIVE;
     else if (strcmp(words, "reading back by the complement form") == 0)
         terms->linearize = 0;
     else if (strcmp(words, "a fused A z + B") == 0)
@@ -109,6 +109,7 @@ static void words_and_numbers_agree(void **state) {
         const dp_setup setup = any_setup(&r);
         const dp_budget_terms terms = {.interpolation = rng_below(&r, 2) ? 2 : 0,
                                        .world = rng_below(&r, 2) ? 1e4 : 0,
+                                       .composition = (dp_composition)rng_below(&r, DP_COMPOSITION_COUNT),
                                        .linearize = (int)rng_below(&r, 2)};
         const dp_cause cause = (dp_cause)rng_below(&r, DP_CAUSE_COUNT);
         const double z = rng_log(&r, setup.spec.znear, fmin(setup.spec.zfar, 1e6 * setup.spec.znear));

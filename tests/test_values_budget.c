@@ -18,12 +18,20 @@ typedef struct budget_case {
 static const budget_case budgets[] = {
     {{0.3, 1000, {"unorm24", "fp16"}, {"d3d", "gl-reversed"}, .implied = true, .model = DP_MODEL_FP32},
      {0.3, 1.7, 55, 321.5, 900, 990},
-     {0},
+     {.world = 0},
      ""},
     {{0.1, INFINITY, {"fp32", "unorm16"}, {"reversed", "gl"}, .implied = true, .model = DP_MODEL_FP32, .arith = "mesa"},
      {0.1, 3, 4e2, 1e4, 1e6, 3e9},
      {.interpolation = 1.5, .world = 700, .linearize = 1},
      " --interpolation 1.5 --world 700 --linearize"},
+    {{0.5, 400, {"fp32", "unorm24"}, {"reversed"}, .implied = true, .model = DP_MODEL_FP32},
+     {0.5, 2, 9, 33, 150, 390},
+     {.interpolation = 2, .world = 30, .composition = DP_COMPOSITION_RELATIVE},
+     " --interpolation 2 --world 30 --composition relative"},
+    {{0.5, 400, {"unorm24"}, {"gl-reversed", "d3d"}, .implied = true, .model = DP_MODEL_FP32},
+     {0.6, 2, 9, 33, 150, 390},
+     {.world = 5000, .composition = DP_COMPOSITION_PRODUCTS},
+     " --world 5000 --composition products"},
     {{2,
       90,
       {"unorm24"},
@@ -36,6 +44,13 @@ static const budget_case budgets[] = {
      {.interpolation = 0.25, .linearize = 1},
      " --interpolation 0.25 --linearize --tolerance 3%"},
 };
+
+/* As the options spell it; none where eye depth is given. */
+static const char *composition_of(const budget_case *c) {
+    static const char *const names[] = {
+        [DP_COMPOSITION_ONCE] = "once", [DP_COMPOSITION_PRODUCTS] = "products", [DP_COMPOSITION_RELATIVE] = "relative"};
+    return c->terms.world > 0 ? names[c->terms.composition] : NULL;
+}
 
 static const char *cause_path(int cause) {
     static char path[64];
@@ -134,7 +149,8 @@ static size_t budget_columns(char text[2 * DP_CAUSE_COUNT][64], csv_column *out)
         snprintf(text[2 * i + 1], 64, "%s", cause_path(i));
         out[first + (size_t)i] = (csv_column){text[2 * i], text[2 * i + 1]};
     }
-    return first + DP_CAUSE_COUNT;
+    out[first + DP_CAUSE_COUNT] = (csv_column){"composition", "/terms.composition"};
+    return first + DP_CAUSE_COUNT + 1;
 }
 
 static void test_budget(void **state) {
@@ -155,6 +171,7 @@ static void test_budget(void **state) {
         want_number(&v, "interpolation", c->terms.interpolation);
         want_number(&v, "world", c->terms.world);
         want_bool(&v, "linearize", c->terms.linearize);
+        want_text(&v, "composition", composition_of(c));
         const size_t n = camera_setups(&c->camera, setups);
         for (size_t k = 0; k < n; k++)
             want_budget(&v, c, &setups[k], k, &lines);

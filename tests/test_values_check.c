@@ -137,7 +137,7 @@ static void label_of(const dp_setup *setup, char out[64]) {
     snprintf(out, 64, "%s %s", setup->spec.format.name, dp_mapping_get(setup->spec.mapping)->name);
 }
 
-/* "FAIL  FILE:LINE: NAME: camera CAMERA, SET-UP: separation 0.1 m at 5 m (code 1), allowed 0.05 m" */
+/* "FAIL  FILE:LINE: NAME: camera CAMERA, SET-UP (MODEL): separation 0.1 m at 5 m (code 1), allowed 0.05 m" */
 static void check_text(const values *v, const char *text, const need_file *file, const check_verdict *verdicts,
                        long failed) {
     char label[1024], setup[64];
@@ -146,8 +146,9 @@ static void check_text(const values *v, const char *text, const need_file *file,
         char at[4][PATH_SIZE];
         const char *paths[5] = {at[0], at[1], at[2], at[3], NULL};
         label_of(&d->setup, setup);
-        snprintf(label, sizeof label, "%s  %s:%d: %s: camera %s, %s: %s ", d->passed ? "pass" : "FAIL", file->path,
-                 d->asked->line, d->asked->name, d->camera->name, setup, need_kind_get(d->asked->kind)->phrase);
+        snprintf(label, sizeof label, "%s  %s:%d: %s: camera %s, %s (%s): %s ", d->passed ? "pass" : "FAIL", file->path,
+                 d->asked->line, d->asked->name, d->camera->name, setup, dp_model_name(d->setup.spec.model),
+                 need_kind_get(d->asked->kind)->phrase);
         const char *const fields[] = {"value", "z", "code", "limit"};
         for (int k = 0, n = 0; k < 4; k++)
             if (k == 0 || k == 3 || !isnan(d->z))
@@ -185,8 +186,8 @@ static void check_junit(const char *path, const char *text, const need_file *fil
     for (size_t i = 0; i < check_count(file); i++) {
         const check_verdict *d = &verdicts[i];
         label_of(&d->setup, setup);
-        snprintf(line, sizeof line, "%s:%d: %s: camera %s, %s: ", path, d->asked->line, d->asked->name, d->camera->name,
-                 setup);
+        snprintf(line, sizeof line, "%s:%d: %s: camera %s, %s (%s): ", path, d->asked->line, d->asked->name,
+                 d->camera->name, setup, dp_model_name(d->setup.spec.model));
         const char *sentence = strstr(text, line);
         assert_non_null(sentence);
         snprintf(line, sizeof line, "%.*s", (int)strcspn(sentence + strlen(line), "\n"), sentence + strlen(line));

@@ -92,6 +92,26 @@ static void want_worst(values *v, const dp_setup *setup, double lo, double hi) {
     want_number(v, "blind_from", w.blind_from);
 }
 
+/* In the fullest model that the set-up has, whatever the rows are in. */
+static void want_separation(values *v, const dp_setup *setup, double lo, double hi) {
+    dp_separation_worst w;
+    dp_setup full;
+    dp_spec spec = setup->spec;
+    const bool lattice = spec.mapping == DP_MAPPING_LOG || spec.mapping == DP_MAPPING_LINEAR; /* no pipeline */
+    spec.model = lattice ? DP_MODEL_STAGED : DP_MODEL_FP32;
+    assert_int_equal(dp_setup_init(&full, &spec), DP_OK);
+    assert_int_equal(dp_separation_over(&full, lo, hi, 0, &w), DP_OK);
+    assert_true(w.lo == lo && w.hi == hi && w.z >= lo && w.z <= hi);
+    assert_true(w.separation == dp_separation(&full, w.z) && w.separation <= w.bound);
+    values_under(v, "%.60sworst_separation.", v->prefix);
+    want_text(v, "model", lattice ? "staged" : "fp32");
+    want_number(v, "lo", lo);
+    want_number(v, "hi", hi);
+    want_number(v, "bound", w.bound);
+    want_number(v, "separation", w.separation);
+    want_number(v, "z", w.z);
+}
+
 static double in_binary32(const dp_setup *setup, double z) {
     dp_budget b;
     return dp_budget_at(setup, z, NULL, &b) == DP_OK ? b.separation : NAN;
@@ -174,6 +194,10 @@ static void want_table(values *v, const table_case *c, dp_setup *setup, size_t i
     }
     values_under(v, "setups[%zu].", i);
     want_worst(v, setup, c->lo, c->hi);
+    if (isfinite(c->hi)) {
+        values_under(v, "setups[%zu].", i);
+        want_separation(v, setup, c->lo, c->hi);
+    }
     dp_pipeline p;
     if (setup->spec.model == DP_MODEL_FP32 && dp_pipeline_init(&p, setup) == DP_OK) {
         float znear, zfar;

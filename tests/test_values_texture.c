@@ -14,7 +14,7 @@ enum { WIDTH = 40, HEIGHT = 24 };
 
 typedef struct texture_case {
     camera_case camera;
-    const char *scene, *options, *format_from, *mapping_from;
+    const char *scene, *options, *format_from, *mapping_from, *direction_from;
     double fov, half_height, yaw, pitch, origin[3], sky;
     struct {
         const char *name;
@@ -26,6 +26,7 @@ static const texture_case scenes[] = {
     {{0.3, 1000, {"unorm16"}, {"d3d"}, .ortho = 0},
      "decals",
      "--fov 40 --yaw 10 --pitch=-5 --origin 1,-2,3 --sky 0.001",
+     "given",
      "given",
      "given",
      40,
@@ -40,6 +41,7 @@ static const texture_case scenes[] = {
      "",
      "given",
      "given",
+     "given",
      60,
      NAN,
      0,
@@ -50,6 +52,7 @@ static const texture_case scenes[] = {
     {{1, 60, {"fp16"}, {"gl"}, .ortho = 1},
      "sphere",
      "--half-height 3",
+     "given",
      "given",
      "given",
      NAN,
@@ -63,8 +66,10 @@ static const texture_case scenes[] = {
 
 /* ---- Statistics -------------------------------------------------------------------------------------------------- */
 
-static void want_errors(values *v, size_t i, const char *name, const char *unit, const frame_summary *s) {
+static void want_errors(values *v, size_t i, const char *name, const char *unit, uint64_t pixels,
+                        const frame_summary *s) {
     values_under(v, "errors[%zu].", i);
+    want_count(v, "masked", pixels - s->count - s->infinite);
     want_text(v, "name", name);
     want_text(v, "unit", unit);
     want_count(v, "pixels", s->count);
@@ -76,13 +81,17 @@ static void want_errors(values *v, size_t i, const char *name, const char *unit,
     want_count(v, "row", s->hi_row);
 }
 
+static uint64_t pixels_of(const frame *f) {
+    return (uint64_t)f->camera->width * f->camera->height;
+}
+
 static size_t want_product(values *v, const frame *f, size_t i, const char *name, const char *unit,
                            const frame_product *p) {
     frame_summary s;
     if (frame_refuses(f, p) != NULL)
         return i;
     assert_true(frame_summarise(f, p, &s));
-    want_errors(v, i, name, unit, &s);
+    want_errors(v, i, name, unit, pixels_of(f), &s);
     return i + 1;
 }
 
@@ -119,7 +128,7 @@ static size_t want_decoding(values *v, const frame *f, size_t i, const decode_ro
     }
     s.mean /= (double)s.count;
     snprintf(name, sizeof name, "decode %s", row->name);
-    want_errors(v, i, name, "relative", &s);
+    want_errors(v, i, name, "relative", pixels_of(f), &s);
     return i + 1;
 }
 
@@ -161,7 +170,7 @@ static void want_survey(values *v, const frame *f, uint64_t invalid, line_places
     static survey s;
     assert_true(survey_make(f, &s));
     values_under(v, "%s", "");
-    want_count(v, "pixels", (uint64_t)f->camera->width * f->camera->height);
+    want_count(v, "pixels", pixels_of(f));
     want_count(v, "invalid", invalid);
     want_number(v, "lo", s.lo);
     want_number(v, "hi", s.hi);
@@ -212,6 +221,7 @@ static void want_camera(values *v, const texture_case *c, const frame *f) {
     want_count(v, "height", f->camera->height);
     want_text(v, "format_from", c->format_from);
     want_text(v, "mapping_from", c->mapping_from);
+    want_text(v, "direction_from", c->direction_from);
     want_number(v, "fov", c->fov);
     want_number(v, "half_height", c->half_height);
     want_number(v, "condition", position_condition(f->camera));
@@ -325,8 +335,13 @@ static void test_scenes(void **state) {
 
 enum { COLUMNS = 20, ROWS = 12 };
 
+/* Where the sky is 0 in the quarter of the codes beside it, or in nearly half of them. */
+static uint32_t sample_at(uint32_t i, uint32_t sky, uint32_t spread) {
+    return i % 9 == 4 ? sky : sky == 0 ? 7 + 31 * i * i % spread : 65528 - 31 * i * i % spread;
+}
+
 /* An npy file of binary32 or 16-bit samples of unorm16 codes, near and far, with sky and holes. @return the holes */
-static uint64_t write_image(const char *path, bool floats, bool damaged, uint32_t sky) {
+static uint64_t write_image(const char *path, bool floats, bool damaged, uint32_t sky, uint32_t spread) {
     char header[128];
     uint64_t holes = 0;
     const uint32_t length = 118;
@@ -339,7 +354,7 @@ static uint64_t write_image(const char *path, bool floats, bool damaged, uint32_
     fputc(0, out);
     fprintf(out, "%-117s\n", header);
     for (uint32_t i = 0; i < ROWS * COLUMNS; i++) {
-        const uint32_t code = i % 9 == 4 ? sky : sky == 0 ? 7 + 31 * i * i % 30000 : 65528 - 31 * i * i % 30000;
+        const uint32_t code = sample_at(i, sky, spread);
         const uint16_t small = (uint16_t)code;
         float d = (float)((double)code / 65535);
         if (damaged && i % 25 == 3) {
@@ -364,24 +379,43 @@ static void want_image(values *v, const char *path, const image *shot, const rec
     values_under(v, "recognised.");
     want_text(v, "format", found->depth ? found->format.name : NULL);
     want_bool(v, "certain", found->certain);
-    if (found->reversed >= 0)
+    if (found->direction)
         want_bool(v, "reversed", found->reversed);
     else
         want_text(v, "reversed", NULL);
     want_text(v, "why", found->why);
 }
 
+/* The step in scene units is that of metric depth, which these are not. */
+static void want_samples(values *v, const grain *g, bool coarser) {
+    values_under(v, "%s", "");
+    want_number(v, "metric", NAN);
+    values_under(v, "samples.");
+    want_number(v, "step", NAN);
+    want_number(v, "steps", g->kind == GRAIN_STEPS ? g->steps : NAN);
+    want_number(v, "bits", g->kind == GRAIN_FLOATS ? g->bits : NAN);
+    want_bool(v, "coarser", coarser);
+    want_text(v, "rounded",
+              g->kind == GRAIN_CODES         ? NULL
+              : g->rounding == GRAIN_ANY     ? "unknown"
+              : g->rounding == GRAIN_NEAREST ? "nearest"
+                                             : "zero");
+}
+
 static const struct {
     texture_case asked;
     bool floats, damaged;
-    uint32_t sky;
+    uint32_t sky, spread;
     const char *given; /* on the command line, in place of what is found */
+    grain samples;
+    bool coarser;
 } images[] = {
     {{{0.3, 700, {"unorm16"}, {"reversed"}, .ortho = 0},
       NULL,
       "-n 0.3 -f 700 --sky 0.0002",
       "found",
-      "found",
+      "assumed",
+      "assumed",
       60,
       NAN,
       0,
@@ -392,10 +426,14 @@ static const struct {
      true,
      false,
      0,
-     ""},
+     30000,
+     "",
+     {.kind = GRAIN_FLOATS, .buffer = true, .bits = 24, .least = 0x1p-149},
+     false},
     {{{0.5, 90, {"unorm24"}, {"gl"}, .ortho = 0},
       NULL,
       "-n 0.5 -f 90 --fov 35",
+      "given",
       "given",
       "given",
       35,
@@ -408,11 +446,35 @@ static const struct {
      true,
      true,
      65535,
-     "-F unorm24 -m gl"},
-    {{{0.5, 90, {"unorm16"}, {"reversed"}, .ortho = 0},
+     30000,
+     "-F unorm24 -m gl --rounding nearest",
+     {.kind = GRAIN_FLOATS, .rounding = GRAIN_NEAREST, .buffer = true, .bits = 24, .least = 0x1p-149},
+     false},
+    {{{0.5, 90, {"unorm24"}, {"reversed"}, .ortho = 0},
+      NULL,
+      "-n 0.5 -f 90 --fov 50",
+      "given",
+      "given",
+      "given",
+      50,
+      NAN,
+      0,
+      0,
+      {0, 0, 0},
+      1e-4,
+      {{NULL, 0}}},
+     true,
+     false,
+     0,
+     30000,
+     "-F unorm24 -m reversed",
+     {.kind = GRAIN_STEPS, .steps = 65535, .buffer = true, .bits = 24, .least = 0x1p-149},
+     true},
+    {{{0.5, 90, {"unorm16"}, {"reversed"}, .rounding = DP_ROUND_ZERO},
       NULL,
       "-n 0.5 -f 90",
-      "found",
+      "assumed",
+      "given",
       "given",
       60,
       NAN,
@@ -424,8 +486,77 @@ static const struct {
      false,
      false,
      65535,
-     "-m reversed"},
+     30000,
+     "-m reversed --rounding zero",
+     {.kind = GRAIN_STEPS, .rounding = GRAIN_ZERO, .steps = 65535, .margin = 0x1p-24, .least = 0x1p-149},
+     false},
+    {{{0.2, 400, {"unorm16"}, {"reversed"}, .ortho = 0},
+      NULL,
+      "-n 0.2 -f 400",
+      "assumed",
+      "assumed",
+      "found",
+      60,
+      NAN,
+      0,
+      0,
+      {0, 0, 0},
+      1e-4,
+      {{NULL, 0}}},
+     false,
+     false,
+     0,
+     16000,
+     "",
+     {.kind = GRAIN_STEPS, .steps = 65535, .margin = 0x1p-24, .least = 0x1p-149},
+     false},
 };
+
+/* The pixel nearest to the middle that is neither hole nor sky; at the same distance the one before it. */
+static uint32_t pixel_of_readings(size_t at) {
+    const uint32_t middle = ROWS / 2 * COLUMNS + COLUMNS / 2;
+    uint32_t best = UINT32_MAX;
+    for (uint32_t i = 0; i < ROWS * COLUMNS; i++) {
+        const bool hole = images[at].damaged && i % 25 == 3;
+        const uint32_t off = i > middle ? i - middle : middle - i;
+        const uint32_t least = best == UINT32_MAX ? UINT32_MAX : best > middle ? best - middle : middle - best;
+        best = !hole && i % 9 != 4 && off < least ? i : best;
+    }
+    return best;
+}
+
+static void want_reading(values *v, size_t i, uint32_t pixel, const char *what, const char *name, double z) {
+    values_under(v, "readings[%zu].", i);
+    want_text(v, "what", what);
+    want_text(v, "name", name);
+    want_count(v, "column", pixel % COLUMNS);
+    want_count(v, "row", pixel / COLUMNS);
+    want_number(v, "z", z);
+}
+
+static double eye_of(const dp_setup *setup, dp_mapping mapping, double d) {
+    dp_setup other;
+    dp_spec spec = setup->spec;
+    spec.mapping = mapping;
+    assert_int_equal(dp_setup_init(&other, &spec), DP_OK);
+    return dp_eye(&other, d, 1 - d);
+}
+
+/* Where a pixel would be with another mapping, where that is only assumed. All integers here go beyond fp16. */
+static void want_readings(values *v, size_t at, const dp_setup *setup) {
+    static const struct {
+        const char *name;
+        dp_mapping mapping;
+    } curves[] = {{"d3d", DP_MAPPING_D3D},
+                  {"reversed", DP_MAPPING_REVERSED},
+                  {"linear", DP_MAPPING_LINEAR},
+                  {"log", DP_MAPPING_LOG}};
+    const texture_case *c = &images[at].asked;
+    const uint32_t pixel = pixel_of_readings(at), code = sample_at(pixel, images[at].sky, images[at].spread);
+    const double share = (double)code / 65535, d = images[at].floats ? (double)(float)share : share;
+    for (size_t i = 0; i < 4 && strcmp(c->mapping_from, "assumed") == 0; i++)
+        want_reading(v, i, pixel, "mapping", curves[i].name, eye_of(setup, curves[i].mapping, d));
+}
 
 /* The name of the file has a quote and a backslash. */
 static void test_images(void **state) {
@@ -440,12 +571,14 @@ static void test_images(void **state) {
         line_places lines = {0};
         values v = values_of("texture");
         snprintf(path, sizeof path, "%s", scratch_file("a\"b\\c.npy"));
-        const uint64_t holes = write_image(path, images[i].floats, images[i].damaged, images[i].sky);
+        const uint64_t holes = write_image(path, images[i].floats, images[i].damaged, images[i].sky, images[i].spread);
         assert_true(image_read(path, &shot, &error));
         recognise(&shot, &found);
         camera_of(c, &camera, COLUMNS, ROWS);
-        const frame f = {.camera = &camera, .image = &shot, .sky = c->sky};
+        const frame f = {.camera = &camera, .image = &shot, .grain = &images[i].samples, .sky = c->sky};
         want_image(&v, path, &shot, &found);
+        want_samples(&v, &images[i].samples, images[i].coarser);
+        want_readings(&v, i, &camera.setup);
         want_camera(&v, c, &f);
         want_survey(&v, &f, holes, &lines);
         want_pairs(&v, &f);

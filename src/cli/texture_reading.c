@@ -34,10 +34,20 @@ static double type_steps(const texture_source *s) {
     return 0;
 }
 
+/* What all samples are multiples of: steps that were found, or the codes of a coarser format than the set-up's. */
+static double found_steps(const texture_source *s) {
+    const dp_format *looks_like = &s->found.format;
+    if (s->found.steps > 0)
+        return s->found.steps;
+    const bool codes = s->picture.type >= IMAGE_F16 && s->found.depth && s->found.certain;
+    const bool coarser = looks_like->code_max < COARSER * s->setup.spec.format.code_max;
+    return codes && coarser && looks_like->kind == DP_FORMAT_UNORM ? looks_like->code_max : 0;
+}
+
 /* Integers of the file, or what all samples are multiples of besides; the format behind that may be only assumed. */
-static grain steps_grain(const texture_source *s, double own) {
+static grain steps_grain(const texture_source *s, double found, double own) {
     const dp_format *format = &s->setup.spec.format;
-    const double steps = s->found.steps > 0 ? s->found.steps : own;
+    const double steps = found > 0 ? found : own;
     const bool coarse = steps < COARSER * format->code_max || format->kind == DP_FORMAT_FLOAT;
     const bool buffer = coarse && s->format_from != ORIGIN_ASSUMED;
     const bool numbers = s->picture.type >= IMAGE_F16;
@@ -55,13 +65,13 @@ static grain steps_grain(const texture_source *s, double own) {
 void texture_grain(const options *o, texture_source *s) {
     const dp_format *format = &s->setup.spec.format;
     const image_type type = s->picture.type;
-    const double own = type_steps(s);
+    const double own = type_steps(s), found = o->metric > 0 ? 0 : found_steps(s);
     const bool half = strcmp(format->name, "fp16") == 0, assumed = s->format_from != ORIGIN_GIVEN;
     s->grain = (grain){.kind = GRAIN_CODES};
     if (o->metric > 0)
         s->grain = s->metric.grain;
-    else if (s->found.steps > 0 || own > 0)
-        s->grain = steps_grain(s, own);
+    else if (found > 0 || own > 0)
+        s->grain = steps_grain(s, found, own);
     else if (type == IMAGE_F16 && (assumed || !half))
         s->grain =
             (grain){.kind = GRAIN_FLOATS, .buffer = !half, .margin = half ? FINER : 0, .bits = 11, .least = 0x1p-24};
