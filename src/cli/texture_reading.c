@@ -131,8 +131,9 @@ static void formats_of(texture_source *s) {
         dp_format formats[2];
         double d;
         dp_format_parse(others[i], formats);
-        if (!recognise_codes(&s->picture, &formats[0]) ||
-            (formats[0].bits == 16) != (s->picture.type == IMAGE_U16 || i == 0))
+        const bool wide = s->picture.type == IMAGE_U32;
+        const bool fits = wide ? formats[0].kind == DP_FORMAT_UNORM : formats[0].bits <= 16;
+        if (!fits || !recognise_codes(&s->picture, &formats[0]))
             continue;
         image_depths_double(&s->picture, &formats[0], s->row, s->column, 1, &d);
         if (!(d >= 0 && d <= 1))
