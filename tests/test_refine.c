@@ -60,7 +60,11 @@ static chart *build(const asked *a, const char *figure) {
 /* What a line shows at x, on its axes; INFINITY where it has left through the top, NaN in a gap. */
 static double line_at(const chart_axis *x_axis, const chart_axis *y_axis, const chart_series *s, double x) {
     const double at = chart_axis_share(x_axis, x);
-    for (size_t i = 0; i + 1 < s->count; i++) {
+    size_t before = 0; /* a point that is not right of x */
+    for (size_t step = s->count; step > 0; step /= 2)
+        while (before + step < s->count && s->x[before + step] <= x)
+            before += step;
+    for (size_t i = before > 0 ? before - 1 : 0; i + 1 < s->count; i++) {
         const double a = chart_axis_share(x_axis, s->x[i]), b = chart_axis_share(x_axis, s->x[i + 1]);
         if (!(at <= b + 1e-12))
             continue;
