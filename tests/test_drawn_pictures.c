@@ -261,7 +261,7 @@ static void check_figure(const picture_case *q) {
     size_t panels = 0;
     assert_string_equal(d->title, q->title);
     for (size_t i = 0; i < (size_t)n.width * (size_t)n.height; i++)
-        missing += isnan(n.values[i * (size_t)n.channels]);
+        missing += isnan(n.values[i * (size_t)n.channels]) ? 1 : 0;
     if (missing > 0)
         snprintf(hatched, sizeof hatched, "; hatched: no value, %zu pixels", missing);
     snprintf(subtitle, sizeof subtitle, "%s%s", q->subtitle, hatched);
