@@ -93,10 +93,12 @@ static svg_mark band_of(const drawn *d, const drawn_panel *p, const drawn_entry 
     }
     if (rim.count == 0)
         return rim;
-    const size_t all = rim.count; /* two corners, or one where the rim begins on the axis */
-    while (rim.count + 2 > all && fabs(rim.points[rim.count - 1].y - p->frame.y1) < 1)
-        rim.count--;
-    assert_true(rim.count < all && rim.count >= 2);
+    for (int k = 0; k < 2 && rim.count > 1; k++) { /* the corners below both ends; an end on the axis has none */
+        const svg_point corner = rim.points[rim.count - 1];
+        const double end = rim.points[k == 0 ? 0 : rim.count - 2].x;
+        rim.count -= fabs(corner.y - p->frame.y1) < 1 && fabs(corner.x - end) < 0.01;
+    }
+    assert_true(rim.count >= 2);
     return rim;
 }
 
@@ -165,9 +167,9 @@ static int check_panel(const drawn *d, const drawn_panel *p, const dp_setup *set
 
 /* Every cause that is asked for, and no other, has its place and a colour of its own. */
 static void check_legend(const drawn *d, const dp_budget_terms *terms) {
-    static const char *const upwards[] = {"format",      "ndc",           "projection",
+    static const char *const upwards[] = {"format",      "eye",           "ndc",          "projection",
                                           "composition", "interpolation", "linearization"};
-    const bool wanted[] = {true, true, true, terms->world > 0, terms->interpolation > 0, terms->linearize != 0};
+    const bool wanted[] = {true, true, true, true, terms->world > 0, terms->interpolation > 0, terms->linearize != 0};
     double last_at = -1;
     unsigned colours = 0;
     for (size_t i = 0; i + 1 < d->entry_count; i++) {

@@ -7,6 +7,7 @@
 
 #include "depthprec/depthprec.h"
 #include "drawn.h"
+#include "drawn_parts.h"
 #include "drawn_truth.h"
 #include "support.h"
 
@@ -190,6 +191,16 @@ static svg_mark thinned(const svg_mark *pen) {
     return out;
 }
 
+/* What of the guarantee rises to a point is drawn over it. */
+static void check_points_behind(const drawn *d, const drawn_entry *e, const svg_mark *line) {
+    size_t behind = 0;
+    for (const svg_mark *m = d->svg->marks; m < line; m++) {
+        const drawn_marker marker = drawn_marker_of(d, (size_t)(m - d->svg->marks));
+        behind += m->used == DRAWN_NEW && drawn_alike(&marker, &e->marker) && drawn_px(&d->panels[0].x, 1) <= marker.x;
+    }
+    assert_true(behind >= 6);
+}
+
 /* What `zfight` prints of each power of two, as points. */
 static void check_census(const drawn *d, const drawn_entry *e, const char *format, const char *mapping) {
     drawn_marker all[256];
@@ -250,6 +261,7 @@ static void guarantee_over_lattice(void **state) {
         assert_int_equal(drawn_strokes(d, p, &pen, thin, 2), 1);
         drawn_follows(p, &p->y, thin[0], true_interval, &exact.setups[0], 100, 1.5);
         assert_int_equal(drawn_legend(d, census)->marker.inside, svg_rgb(e->line->stroke));
+        check_points_behind(d, drawn_legend(d, census), drawn_curve(d, p, e));
         check_census(d, drawn_legend(d, census), format, mapping);
         drawn_close(d);
     }

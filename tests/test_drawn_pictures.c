@@ -92,7 +92,7 @@ static const picture_case cases[] = {
      3},
     {"--scene sphere --position matrix --yaw 20 --origin 3,1,-2",
      "Positions by matrix",
-     "scene sphere, 640 x 360; unorm24 d3d, near 0.1, far 1000, perspective, nearest, exact; hatched: no value",
+     "scene sphere, 640 x 360; unorm24 d3d, near 0.1, far 1000, perspective, nearest, exact",
      "coordinate (scene units)",
      {"x (world)", "y (world)", "z (world)"},
      false,
@@ -252,14 +252,21 @@ static bool is_hatched(const drawn *d) {
 }
 
 static void check_figure(const picture_case *q) {
-    char path[320], shown[128] = "";
+    char path[320], shown[128] = "", subtitle[256], hatched[64] = "";
+    size_t missing = 0;
     snprintf(path, sizeof path, "%s/product.npy", drawn_folder());
     const drawn_theme *look = strstr(q->arguments, "dark") != NULL ? &drawn_dark : &drawn_light;
     drawn *d = drawn_run(look, "texture %s -o %s", q->arguments, path);
     const numbers n = read_npy(path);
     size_t panels = 0;
     assert_string_equal(d->title, q->title);
-    assert_string_equal(d->subtitle, q->subtitle);
+    for (size_t i = 0; i < (size_t)n.width * (size_t)n.height; i++)
+        missing += isnan(n.values[i * (size_t)n.channels]) ? 1 : 0;
+    if (missing > 0)
+        snprintf(hatched, sizeof hatched, "; hatched: no value, %zu pixels", missing);
+    snprintf(subtitle, sizeof subtitle, "%s%s", q->subtitle, hatched);
+    assert_string_equal(d->subtitle, subtitle);
+    assert_int_equal(missing > 0, q->holes);
     assert_string_equal(d->x_caption->text, "column (px)");
     assert_string_equal(d->y_caption->text, "row (px)");
     for (; panels < 3 && q->headings[panels] != NULL; panels++)

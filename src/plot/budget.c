@@ -46,10 +46,8 @@ static void sample(const void *context, double from, double to, refine_sample *o
     for (int k = 0; k < s->count; k++)
         out->y[k] = sum += isfinite(b.separation) ? 100 * b.cause[stack[s->layer[k]]] / b.separation : (double)NAN;
     out->y[s->count] = b.separation;
-    const double flicker = envelope_flicker(s->setup, from, b.separation);
-    for (int k = 0; k < s->count; k++)
-        out->flicker[k] = out->y[k] * flicker;
-    out->flicker[s->count] = flicker;
+    /* It jumps where the depth that is a separation away passes a power of two, and back soon: each column counts. */
+    out->flicker[s->count] = INFINITY;
 }
 
 static void add_bands(chart *out, chart_panel *panel, const stacked *split, const refine *r) {

@@ -56,6 +56,7 @@ typedef struct chart_series {
     char name[CHART_TEXT]; /**< for the data, and for the legend unless `unlisted` */
     char note[64];         /**< follows the name in the legend only */
     bool unlisted;
+    bool behind;        /**< of points: under the lines, which stay visible where they run through one */
     const char *method; /**< what it was computed by where that is not the exact engine; else null */
     bool second;        /**< CHART_LINE: y is measured on the panel's second axis */
     size_t count;

@@ -87,6 +87,15 @@ static void draw_caption(const pencil *p, const chart_axis *axis, canvas_align a
         canvas_text(p->c, x, y, w.lines[0], &p->text, align, 0);
 }
 
+/* Points may stand on the frame; they are not cut by it. */
+static void draw_points(const pencil *p, const axes *a, const chart_panel *panel, bool behind) {
+    for (size_t s = 0; s < panel->series_count; s++) {
+        const chart_series *series = &panel->series[s];
+        if ((series->kind == CHART_POINTS || series->kind == CHART_LABELS) && series->behind == behind)
+            series_draw(p, a, series, s, panel->series_count);
+    }
+}
+
 static bool draw_panel(const pencil *p, const chart *c, const grid *g, int index) {
     const chart_panel *panel = &c->panels[index];
     axes a = {&panel->x, &panel->y, panel_frame(g, index)}, right = {&panel->x, &panel->second, a.frame};
@@ -105,6 +114,7 @@ static bool draw_panel(const pencil *p, const chart *c, const grid *g, int index
     } else {
         axes_draw_grid(p, &a);
     }
+    draw_points(p, &a, panel, true);
     canvas_clip(p->c, (canvas_rect){a.frame.x, a.frame.y, a.frame.w + 1, a.frame.h + 1});
     for (size_t s = panel->series_count; s-- > 0;)
         if (panel->series[s].kind == CHART_AREA)
@@ -120,10 +130,7 @@ static bool draw_panel(const pencil *p, const chart *c, const grid *g, int index
     axes_draw_frame(p, &a, lowest, leftmost);
     if (panel->second.label != NULL)
         axes_draw_right(p, &right, rightmost);
-    /* Points may stand on the frame; they are not cut by it. */
-    for (size_t s = 0; s < panel->series_count; s++)
-        if (panel->series[s].kind == CHART_POINTS || panel->series[s].kind == CHART_LABELS)
-            series_draw(p, &a, &panel->series[s], s, panel->series_count);
+    draw_points(p, &a, panel, false);
     return true;
 }
 

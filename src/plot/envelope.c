@@ -44,7 +44,7 @@ void envelope_slice(const dp_setup *setup, double from, double to, envelope_valu
 }
 
 /* The guarantee of binary32 arithmetic is a whole number of binary32 steps of z, now one more, now one less. */
-double envelope_flicker(const dp_setup *setup, double z, double separation) {
+static double flicker_of_separation(const dp_setup *setup, double z, double separation) {
     const double steps = setup->spec.model == DP_MODEL_EXACT ? 0 : 2;
     return isinf(separation) ? 0 : steps * ldexp(1.0, ilogb(z) - 23) / separation;
 }
@@ -52,7 +52,7 @@ double envelope_flicker(const dp_setup *setup, double z, double separation) {
 void envelope_separation(const void *setup, double from, double to, refine_sample *out) {
     dp_separation_worst w = {.bound = (double)NAN};
     dp_separation_over(setup, from, to, 0, &w);
-    *out = (refine_sample){.y = {w.bound}, .flicker = {envelope_flicker(setup, from, w.bound)}};
+    *out = (refine_sample){.y = {w.bound}, .flicker = {flicker_of_separation(setup, from, w.bound)}};
 }
 
 /* ---- Knots ------------------------------------------------------------------------------------------------------- */

@@ -32,9 +32,6 @@ void envelope_slice(const dp_setup *setup, double from, double to, envelope_valu
 /** The `sample` of a request about slices: the largest separation in each, certified. Its context is the set-up. */
 void envelope_separation(const void *setup, double from, double to, refine_sample *out);
 
-/** How much a separation at z may flicker, relatively. */
-double envelope_flicker(const dp_setup *setup, double z, double separation);
-
 /** Does a plane cut the cell of z? */
 bool envelope_is_cut(const dp_setup *setup, double z);
 

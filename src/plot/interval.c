@@ -74,6 +74,7 @@ static void add_census(const figure_request *request, chart *out, chart_panel *p
     if (s == NULL)
         return;
     s->style = figure_style(request, i);
+    s->behind = true; /* the guarantee may rise to a point in one column, and the point must not hide that */
     snprintf(s->name, sizeof s->name, "%s, census", request->names[i]);
     memcpy(s->x, c->z, c->count * sizeof *s->x);
     memcpy(s->y, c->longest, c->count * sizeof *s->y);
