@@ -4,6 +4,8 @@
 # carriage returns of CSV). An example is a block with lines that begin with "$ ": a command, "> " lines that go on with
 # it, then its output. A C block behind a comment "file: NAME" is written to NAME first. Then the pages themselves: each
 # option, format, mapping and public function must be in them.
+# RECORD=1 sh tests/examples.sh writes what came out into the pages instead: judge that, and the words beside it, with git
+# diff.
 . tests/tap.sh
 
 root=$PWD
@@ -59,7 +61,30 @@ same() { # same NUMBER: runs an example and compares
     status=$?
     [ -s "$scratch/run/$1.want" ] || [ $status -eq 0 ] || return # what prints nothing must at least be fine
     tr -d '\r' <"$scratch/raw" >"$scratch/got"
-    diff "$scratch/run/$1.want" "$scratch/got"
+    diff "$scratch/run/$1.want" "$scratch/got" && return
+    cp "$scratch/got" "$scratch/run/$1.new" && return 1
+}
+
+record() { # record PAGE: with what its examples printed where that differs
+    awk -v from="$scratch/run" -v man="${1##*.}" '
+        function roff(s) {
+            if (man != "md") {
+                gsub(/\\/, "\\e", s); sub(/^\./, "\\\&.", s)
+            }
+            return s
+        }
+        function output(file) {
+            file = from "/" number ".new"
+            while ((getline new <file) > 0) {
+                print roff(new)
+                instead = 1
+            }
+            close(file)
+        }
+        man == "md" ? /^```/ : /^\.(Bd|Ed)/ { if (pending) output(); pending = instead = 0; shell = 0 }
+        /^\$ / { if (pending) output(); number++; pending = shell = 1; instead = 0; print; next }
+        shell && pending && !/^> / { output(); pending = 0 }
+        !instead { print }' "$1" >"$scratch/page" && cp "$scratch/page" "$1"
 }
 
 for page in README.md man/*.[0-9]; do
@@ -70,6 +95,7 @@ for page in README.md man/*.[0-9]; do
         check "$page: $(cut -c 1-90 "$scratch/run/$number.name")" same $number
         number=$((number + 1))
     done
+    [ -z "${RECORD-}" ] || record "$page"
     case $page in
     README.md | *.[13]) check "$page: has examples" [ $number -gt 1 ] ;;
     esac

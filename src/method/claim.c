@@ -40,7 +40,7 @@ double claim_neighbours32(double ratio) {
 }
 
 double claim_bound(double ratio) {
-    return 2.25 * (4 + 2 / (1 - 1 / ratio)) - 1;
+    return 2 * (2 + 2 / (1 - 1 / ratio)) + 2 / 3.0 - 1;
 }
 
 /* ---- linearize --------------------------------------------------------------------------------------------------- */
