@@ -123,6 +123,19 @@ static void mappings_of(texture_source *s, double d) {
     }
 }
 
+/* Whether no integer of the image is beyond the last code. */
+static bool codes_fit(const image *picture, uint32_t code_max) {
+    const size_t count = (size_t)picture->width * picture->height;
+    for (size_t i = 0; i < count; i++) {
+        const size_t at = i * picture->channels;
+        const uint32_t code =
+            picture->type == IMAGE_U16 ? ((const uint16_t *)picture->data)[at] : ((const uint32_t *)picture->data)[at];
+        if (code > code_max)
+            return false;
+    }
+    return true;
+}
+
 /* Integers are codes of one format or the bits of another; numbers are what they are in all. */
 static void formats_of(texture_source *s) {
     static const char *const others[] = {"unorm16", "unorm24", "fp16"};
@@ -133,7 +146,7 @@ static void formats_of(texture_source *s) {
         dp_format_parse(others[i], formats);
         const bool wide = s->picture.type == IMAGE_U32;
         const bool fits = wide ? formats[0].kind == DP_FORMAT_UNORM : formats[0].bits <= 16;
-        if (!fits || !recognise_codes(&s->picture, &formats[0]))
+        if (!fits || !recognise_codes(&s->picture, &formats[0]) || !codes_fit(&s->picture, formats[0].code_max))
             continue;
         image_depths_double(&s->picture, &formats[0], s->row, s->column, 1, &d);
         if (!(d >= 0 && d <= 1))

@@ -303,7 +303,7 @@ dp_status plane_solve(const solve_problem *problem, plane_effort effort, solve_r
               .effort = effort,
               .failed = (double)NAN};
     if (problem->kind == MEASURE_ERROR) {
-        plane_error_solve(problem, effort, lattice, out);
+        plane_error_solve(problem, lattice, out);
     } else if (problem->spec.model == DP_MODEL_EXACT) {
         take_lattice(problem, lattice, out);
     } else {

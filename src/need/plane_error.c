@@ -5,8 +5,8 @@
 #include <stdint.h>
 #include <string.h>
 
-/* Codes that are walked through at most. A few are enough in the lattice, where the alignment-free bound is sharp. */
-static const int codes_most[] = {[PLANE_FIND] = 64, [PLANE_PROVE] = 4096};
+/* Codes that are walked through at most. */
+enum { CODES_MOST = 4096 };
 
 static uint64_t to_bits(double x) {
     uint64_t bits;
@@ -198,7 +198,7 @@ static bool is_decided_at(const solve_problem *p, double x, double *z) {
     return p->lo == p->hi || (p->spec.format.kind == DP_FORMAT_UNORM && cells >= CELLS);
 }
 
-void plane_error_solve(const solve_problem *p, plane_effort effort, const solve_result *lattice, plane_answer *out) {
+void plane_error_solve(const solve_problem *p, const solve_result *lattice, plane_answer *out) {
     const bool znear = p->unknown == SOLVE_NEAR;
     const double most = isinf(lattice->most) ? 1e18 : lattice->most;
     double start = (double)NAN;
@@ -220,7 +220,7 @@ void plane_error_solve(const solve_problem *p, plane_effort effort, const solve_
         return;
     }
     walk w = {.problem = p, .here = to_bits(start), .end = to_bits(znear ? lattice->least : most)};
-    out->certain = is_decided_at(p, start, &w.z) && go(&w, codes_most[effort]);
+    out->certain = is_decided_at(p, start, &w.z) && go(&w, CODES_MOST);
     out->value = out->steady = from_bits(w.here);
     if (!znear && out->value == most && isinf(lattice->most) && plane_passes(p, (double)HUGE_VAL))
         out->value = out->steady = (double)HUGE_VAL;

@@ -11,7 +11,6 @@
  *
  * @param lattice  what solve() found in the model exact
  */
-void plane_error_solve(const solve_problem *problem, plane_effort effort, const solve_result *lattice,
-                       plane_answer *out);
+void plane_error_solve(const solve_problem *problem, const solve_result *lattice, plane_answer *out);
 
 #endif
