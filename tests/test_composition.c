@@ -153,7 +153,7 @@ static void judge(tally *within, const char *what, double off, double claim, dou
 
 static void report(const char *composition, const char *row, const char *what, double most) {
     printf("# %s, %s %s: at most %.3f\n", composition, row, what, most);
-    assert_true(most > 0.5);
+    assert_true(most > 0.5 || test_effort() == EFFORT_QUICK); /* few cases come near */
 }
 
 /* No cause is more than its claim, and each somewhere more than half of it: with one halved this fails. */
