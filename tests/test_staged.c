@@ -285,7 +285,7 @@ static void worst_is_near_in_each_class(void **state) {
                       k & 1 ? "fine" : "coarse", (unsigned long long)n->cases, n->error_least, n->error,
                       n->interval_least, n->interval);
         /* A window of few cells may miss the worst place in the pattern of steps: a third of a truncated error. */
-        const bool few = n->cases == 0 || test_effort() == EFFORT_QUICK;
+        const int few = n->cases == 0 || test_effort() == EFFORT_QUICK;
         TALLY(&t, few || (n->error >= 0.99 && n->error_least >= 0.3 && n->interval_least >= 0.85),
               "class %d: far above what is found", k);
     }
