@@ -274,9 +274,9 @@ static void test_method(void **state) {
 /* The points of a census: the longest interval of each band, at its nearer depth. */
 static void test_census(void **state) {
     static census_result r;
-    const dp_setup setup = setup_of(1.5, 2.5, "unorm16", DP_MAPPING_D3D, DP_MODEL_FP32);
-    const census_request q = {.setup = &setup, .lo = 1.5, .hi = 2.5};
-    json_t *root = plot("interval -F unorm16 -m d3d -n 1.5 -f 2.5 --model fp32");
+    const dp_setup setup = setup_of(1.95, 2.05, "unorm16", DP_MAPPING_D3D, DP_MODEL_FP32);
+    const census_request q = {.setup = &setup, .lo = 1.95, .hi = 2.05};
+    json_t *root = plot("interval -F unorm16 -m d3d -n 1.95 -f 2.05 --model fp32");
     const json_t *series = at(at(root, "panels", 0), "series", 2);
     (void)state;
     assert_string_equal(text_in(series, "name"), "unorm16 d3d, census");
