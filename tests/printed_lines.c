@@ -11,7 +11,8 @@
 
 void place_add(line_places *l, const char *inner, const char *outer_format, ...) {
     va_list list;
-    l->items = realloc(l->items, (l->count + 1) * sizeof *l->items);
+    if ((l->count & (l->count - 1)) == 0) /* room doubles at the powers of two */
+        l->items = realloc(l->items, (l->count == 0 ? 1 : 2 * l->count) * sizeof *l->items);
     assert_non_null(l->items);
     line_place *p = &l->items[l->count++];
     va_start(list, outer_format);
