@@ -10,8 +10,8 @@
 
 #include "core/curve.h"
 #include "core/extremes.h"
+#include "core/rounding.h"
 
-static const double unit = 0x1p-24;
 static const double root2 = 1.41421357;
 static const double root3 = 1.73205081;
 static const double root6 = 2.44948975;
@@ -34,10 +34,9 @@ const dp_composition_row *dp_composition_get(dp_composition composition) {
     return (unsigned)composition < DP_COMPOSITION_COUNT ? &rows[composition] : NULL;
 }
 
-/* The largest error of rounding a number of magnitude up to about x to binary32. */
+/* The largest error of rounding a number of magnitude up to about x. */
 static double half_ulp(double x) {
-    const double most = x * outward;
-    return most < 0x1p-126 ? 0x1p-150 : dp_power2(dp_exponent(most) - 24);
+    return dp_half_ulp(x * outward);
 }
 
 static int is_power2(double x) {
@@ -47,10 +46,10 @@ static int is_power2(double x) {
 /* The last sum, a z + b with a and b of opposite signs: no larger than either. */
 static void last_sum(dp_row_off *r, double scale, double b, double z, double until) {
     const double constant = b > 0.0 ? half_ulp(b) : 0.0;
-    const double sum = larger(constant, isinf(until) ? unit * scale * z : half_ulp(scale * until));
+    const double sum = larger(constant, isinf(until) ? DP_UNIT * scale * z : half_ulp(scale * until));
     r->sums += sum;
     r->late += sum;
-    r->grow += isinf(until) ? unit * scale : 0.0;
+    r->grow += isinf(until) ? DP_UNIT * scale : 0.0;
 }
 
 /*
@@ -71,13 +70,13 @@ static dp_row_off world_row(const dp_composing *in, double scale, double b, doub
     const double w = in->world;
     const double most = scale * w;
     dp_row_off r = {.position = root3 * scale * half_ulp(w)};
-    r.products = in->fused ? smaller(root2 * unit * most, 2.0 * half_ulp(most))
-                           : smaller(root3 * unit * most, 3.0 * half_ulp(most));
+    r.products = in->fused ? smaller(root2 * DP_UNIT * most, 2.0 * half_ulp(most))
+                           : smaller(root3 * DP_UNIT * most, 3.0 * half_ulp(most));
     world_sums(&r, most, b, scale * until);
     last_sum(&r, scale, b, z, until);
-    r.entries = smaller(root3 * unit * scale, 3.0 * half_ulp(scale)) * w;
+    r.entries = smaller(root3 * DP_UNIT * scale, 3.0 * half_ulp(scale)) * w;
     r.constant = half_ulp(root3 * most + b);
-    r.turn = unit * scale * slant;
+    r.turn = DP_UNIT * scale * slant;
     return r;
 }
 
@@ -92,12 +91,12 @@ static dp_row_off relative_row(const dp_composing *in, double scale, double b, d
     const double in_double = 0x1p-53 * (root3 * in->world + length);
     const int sums = b > 0.0 ? 2 : 1;
     const double part = 0.5 * scale * (length + at) + b;
-    dp_row_off r = {.position = scale * (unit * length + in_double), .products = unit * scale * length};
-    r.late = r.sums = sums * (isinf(until) ? unit * part : half_ulp(part));
-    r.grow = isinf(until) ? unit * scale * (2.0 * per_z + sums * 0.5 * (per_z + 1.0)) : 0.0;
+    dp_row_off r = {.position = scale * (DP_UNIT * length + in_double), .products = DP_UNIT * scale * length};
+    r.late = r.sums = sums * (isinf(until) ? DP_UNIT * part : half_ulp(part));
+    r.grow = isinf(until) ? DP_UNIT * scale * (2.0 * per_z + sums * 0.5 * (per_z + 1.0)) : 0.0;
     last_sum(&r, scale, b, z, until);
-    r.entries = unit * scale * length;
-    r.turn = unit * scale * slant;
+    r.entries = DP_UNIT * scale * length;
+    r.turn = DP_UNIT * scale * slant;
     return r;
 }
 
@@ -129,17 +128,17 @@ static dp_row_off w_row(const dp_composing *in, double z, double until) {
         return (dp_row_off){0};
     const int relative = in->composition == DP_COMPOSITION_RELATIVE;
     dp_row_off r = relative ? relative_row(in, 1.0, 0.0, z, until) : world_row(in, 1.0, 0.0, z, until);
-    r.entries = relative ? 0.5 * root3 * unit * slant * z : 1.5 * unit * in->world;
-    r.turn = 0.5 * root3 * unit * slant;
+    r.entries = relative ? 0.5 * root3 * DP_UNIT * slant * z : 1.5 * DP_UNIT * in->world;
+    r.turn = 0.5 * root3 * DP_UNIT * slant;
     return r;
 }
 
 static dp_composed orthographic(dp_composed m, const dp_composing *in, double z, double until) {
     const double scale = fabs(in->a);
-    const double remap = in->remap ? unit * (scale * (isinf(until) ? z : until) + fabs(in->b) + 1.0) : 0.0;
+    const double remap = in->remap ? DP_UNIT * (scale * (isinf(until) ? z : until) + fabs(in->b) + 1.0) : 0.0;
     m.own = (m.clip.position + m.clip.products + m.clip.sums + remap) / scale;
     m.shared = (m.clip.entries + m.clip.constant) / scale;
-    m.loss = (m.clip.grow + m.clip.turn) / scale + (in->remap && isinf(until) ? unit : 0.0);
+    m.loss = (m.clip.grow + m.clip.turn) / scale + (in->remap && isinf(until) ? DP_UNIT : 0.0);
     return m;
 }
 
@@ -152,7 +151,7 @@ static dp_composed perspective(dp_composed m, const dp_composing *in, double z, 
     const double slope = fabs(in->b);
     double remap = 0.0; /* the sum of clip z and w in the shader, before it is halved */
     if (in->remap)
-        remap = unit * ((scale + 1.0) * (isinf(until) ? z : until) + slope) / slope;
+        remap = DP_UNIT * ((scale + 1.0) * (isinf(until) ? z : until) + slope) / slope;
     const int rounded = in->composition != DP_COMPOSITION_PRODUCTS; /* w's entries too, apart from clip z's */
     const int alike = is_power2(scale) && (!rounded || isinf(in->zfar));
     const dp_row_off *c = &m.clip;
@@ -167,7 +166,7 @@ static dp_composed perspective(dp_composed m, const dp_composing *in, double z, 
         m.shared_tilt += c->entries + (rounded ? scale * w->entries : 0.0);
     m.shared_tilt /= slope;
     m.loss_tilt = c->grow + scale * w->grow + (alike ? 0.0 : c->turn + (rounded ? scale * w->turn : 0.0));
-    m.loss_tilt += in->remap && isinf(until) ? unit * (scale + 1.0) : 0.0;
+    m.loss_tilt += in->remap && isinf(until) ? DP_UNIT * (scale + 1.0) : 0.0;
     m.loss_tilt /= slope;
     return m;
 }
