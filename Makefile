@@ -9,7 +9,6 @@ prefix ?= $(or $(PREFIX),/usr/local)
 exec_prefix ?= $(prefix)
 bindir ?= $(exec_prefix)/bin
 libdir ?= $(exec_prefix)/lib
-libexecdir ?= $(exec_prefix)/libexec
 includedir ?= $(prefix)/include
 datarootdir ?= $(prefix)/share
 mandir ?= $(datarootdir)/man
@@ -25,9 +24,7 @@ PKGS_check := cmocka mpfr gmp jansson libxml-2.0 cairo
 
 HEADERS := $(wildcard include/depthprec/*.h)
 CORE := $(wildcard src/core/*.c)
-CLI := $(wildcard src/cli/*.c)
-LIGHT := src/need/presets.c src/need/bias.c src/texture/pack.c src/texture/effect.c src/method/choose.c# needs of the light program: no big library
-ROOMS := $(filter-out $(LIGHT),$(wildcard src/plot/*.c src/method/*.c src/need/*.c src/texture/*.c))
+ROOMS := $(filter-out $(CORE),$(wildcard src/*/*.c))
 TESTS := $(wildcard tests/test_*.c)
 BENCHES := $(wildcard tests/bench_*.c)
 SUPPORT := $(filter-out $(TESTS) $(BENCHES),$(wildcard tests/*.c))
@@ -35,12 +32,11 @@ FUZZ := $(wildcard tests/fuzz/fuzz_*.c)
 MAN := $(wildcard man/*.[1-9])
 TOOLS := tests/run.sh tests/tap.sh tests/coverage.sh
 SCRIPTS := $(wildcard src/*.sh tests/*.sh plots/*.sh)
-ALL_C := $(CORE) $(CLI) $(LIGHT) $(ROOMS) $(TESTS) $(BENCHES) $(SUPPORT) $(FUZZ)
+ALL_C := $(CORE) $(ROOMS) $(TESTS) $(BENCHES) $(SUPPORT) $(FUZZ)
 ALL_H := $(HEADERS) $(wildcard src/*/*.h tests/*.h tests/*/*.h)
 
 objects = $(patsubst %.c,$(B)/obj/%.o,$(1))
 CORE_O := $(call objects,$(CORE))
-CLI_O := $(call objects,$(CLI) $(LIGHT))
 ROOMS_O := $(call objects,$(ROOMS))
 TESTS_O := $(call objects,$(TESTS) $(BENCHES))
 SUPPORT_O := $(call objects,$(SUPPORT))
@@ -81,7 +77,7 @@ PARALLEL = --no-print-directory --output-sync=target $(if $(findstring -j,$(MAKE
 .PHONY: all lib programs demo packages
 all: lib programs
 lib: $(B)/libdepthprec.a $(B)/libdepthprec.so.0
-programs: $(if $(CLI),$(B)/depthprec $(B)/depthprec-full)
+programs: $(B)/depthprec
 
 DEMO_CAMERA := --near 0.1 --far 1000 --format all --mapping d3d,reversed
 DEMO_FIGURES := $(foreach f,distribution share error interval map,$f.svg $f.png)
@@ -101,7 +97,7 @@ $(B)/obj/%.o: %.c Makefile
 	$(call say,CC)
 	$(Q)$(COMPILE) $(EXTRA) -c -o $@ $<
 
-# The rooms above the core may use the big libraries and threads; the core and the light program may not.
+# The rooms above the core may use the big libraries and threads; the core may not.
 $(ROOMS_O): EXTRA = @$(B)/build.cflags
 $(ROOMS_O): | $(B)/build.cflags
 $(TESTS_O) $(SUPPORT_O): EXTRA = @$(B)/check.cflags
@@ -117,8 +113,7 @@ $(B)/build.libs $(B)/check.libs: $(B)/%.libs: $(B)/%.cflags
 	@pkg-config --libs $(PKGS_$*) >$@ && sed -n '/^-fopenmp/p' $< >>$@
 
 $(B)/libdepthprec.a: $(CORE_O)
-$(B)/libcli.a: $(CLI_O)
-$(B)/librooms.a: $(ROOMS_O) $(filter-out %/main.o,$(CLI_O))
+$(B)/librooms.a: $(filter-out %/main.o,$(ROOMS_O))
 $(B)/libsupport.a: $(SUPPORT_O)
 $(B)/%.a:
 	@mkdir -p $(@D)
@@ -129,13 +124,7 @@ $(B)/libdepthprec.so.0: $(CORE_O)
 	$(call say,LD)
 	$(Q)$(LINK) -shared -Wl,-soname,$(@F) -o $@ $^ -lm
 
-# The light program takes main and what main refers to strongly from libcli.a; a command that the verb table declares
-# weak stays out, and main hands it to the full program. So the verb table alone says which commands are light.
-$(B)/depthprec: $(B)/obj/src/cli/main.o $(B)/libcli.a $(B)/libdepthprec.a
-	$(call say,LD)
-	$(Q)$(LINK) -o $@ $^ -lm
-
-$(B)/depthprec-full: $(CLI_O) $(ROOMS_O) $(B)/libdepthprec.a | $(B)/build.libs
+$(B)/depthprec: $(ROOMS_O) $(B)/libdepthprec.a | $(B)/build.libs
 	$(call say,LD)
 	$(Q)$(LINK) -o $@ $^ @$(B)/build.libs -lm
 
@@ -233,9 +222,8 @@ VERSION = $(shell sed -n 's/^.define DP_VERSION *"\(.*\)"/\1/p' include/depthpre
 D = $(DESTDIR)
 
 install: all
-	$(Q)$(INSTALL) -d $(D)$(bindir) $(D)$(libexecdir)/depthprec $(D)$(libdir)/pkgconfig $(D)$(includedir)/depthprec
+	$(Q)$(INSTALL) -d $(D)$(bindir) $(D)$(libdir)/pkgconfig $(D)$(includedir)/depthprec
 	$(Q)$(INSTALL_PROGRAM) $(B)/depthprec $(D)$(bindir)/depthprec
-	$(Q)$(INSTALL_PROGRAM) $(B)/depthprec-full $(D)$(libexecdir)/depthprec/depthprec-full
 	$(Q)$(INSTALL_PROGRAM) $(B)/libdepthprec.so.0 $(D)$(libdir)/libdepthprec.so.0
 	$(Q)ln -sf libdepthprec.so.0 $(D)$(libdir)/libdepthprec.so
 	$(Q)$(INSTALL_DATA) $(B)/libdepthprec.a $(D)$(libdir)/libdepthprec.a
@@ -248,7 +236,7 @@ uninstall:
 	$(Q)rm -f $(D)$(bindir)/depthprec $(D)$(libdir)/libdepthprec.so.0 $(D)$(libdir)/libdepthprec.so \
 	    $(D)$(libdir)/libdepthprec.a $(D)$(libdir)/pkgconfig/depthprec.pc
 	$(Q)for m in $(notdir $(MAN)); do rm -f $(D)$(mandir)/man$${m##*.}/$$m; done
-	$(Q)rm -rf $(D)$(libexecdir)/depthprec $(D)$(includedir)/depthprec
+	$(Q)rm -rf $(D)$(includedir)/depthprec
 
 installcheck:
 	$(Q)$(D)$(bindir)/depthprec --version
@@ -276,7 +264,7 @@ help:
 	@sed -n 's/^## \{0,1\}//p' Makefile
 
 ## make demo        install what is missing, build, print the table of one camera and draw its figures
-## make             build the libraries and the programs into build/
+## make             build the library and the program into build/
 ## make check       install what is missing, build, run the quick tests
 ## make check-full  the exhaustive tests too
 ## make asan        the tests under the address and undefined-behaviour sanitizers
@@ -291,4 +279,4 @@ help:
 ##
 ## CONF=release|asan|coverage|fuzz  V=1 shows the commands  CC, CFLAGS, CPPFLAGS, LDFLAGS as usual
 
--include $(patsubst %.o,%.d,$(CORE_O) $(CLI_O) $(ROOMS_O) $(TESTS_O) $(SUPPORT_O) $(FUZZ_O))
+-include $(patsubst %.o,%.d,$(CORE_O) $(ROOMS_O) $(TESTS_O) $(SUPPORT_O) $(FUZZ_O))

@@ -11,7 +11,7 @@
 #include <stdlib.h>
 #include <time.h>
 
-#include "method/census.h"
+#include "census/census.h"
 
 enum { RUNS = 5 };
 

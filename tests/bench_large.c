@@ -13,7 +13,7 @@
 #include <unistd.h>
 
 #include "depthprec/depthprec.h"
-#include "method/parallel.h"
+#include "parallel.h"
 #include "texture/clones.h"
 
 enum { RUNS = 7, WAYS = 4 };

@@ -7,11 +7,14 @@
 layers='
 include/depthprec | depthprec
 src/core          | depthprec core
+src/api           | depthprec core api
+src/census        | depthprec core census
 src/texture       | depthprec core texture
-src/method        | depthprec core texture method
-src/need          | depthprec core need
+src/method        | depthprec core texture census method
+src/need          | depthprec core api need
+src/report        | depthprec report
 src/plot          | depthprec core plot
-src/cli           | depthprec core texture method need plot cli
+src/cli           | depthprec core api census texture method need report plot cli
 '
 
 strangers() { # strangers FOLDER LAYER...: prints the quoted includes that name another layer, or none

@@ -6,7 +6,7 @@
 #include <string.h>
 
 #include "depthprec/depthprec.h"
-#include "method/parallel.h"
+#include "parallel.h"
 #include "support.h"
 
 enum { CHUNK = 4096, GUARD = 64 };

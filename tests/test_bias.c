@@ -6,7 +6,7 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "need/bias.h"
+#include "api/bias.h"
 #include "support.h"
 
 static dp_format format_of(const char *name) {

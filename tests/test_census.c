@@ -5,7 +5,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "method/census.h"
+#include "census/census.h"
 #include "support.h"
 
 /* ---- A plain census ---------------------------------------------------------------------------------------------- */

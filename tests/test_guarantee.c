@@ -7,8 +7,8 @@
 #include <math.h>
 #include <stdio.h>
 
+#include "census/census.h"
 #include "depthprec/depthprec.h"
-#include "method/census.h"
 #include "support.h"
 
 static const double cameras[][2] = {{0.1, 100}, {0.1, 1000},  {0.3, 1000}, {0.01, 10000}, {1, 10},  {0.1, HUGE_VAL},

@@ -12,8 +12,8 @@
 
 #include <cmocka.h>
 
-#include "cli/number.h"
-#include "cli/shortest.h"
+#include "report/number.h"
+#include "report/shortest.h"
 
 static const char *reference(double value, char out[64]) {
     for (int digits = 15; digits <= 17; digits++) {

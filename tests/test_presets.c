@@ -3,7 +3,7 @@
 #include <ctype.h>
 #include <string.h>
 
-#include "need/presets.h"
+#include "api/presets.h"
 #include "support.h"
 
 static size_t count(void) {

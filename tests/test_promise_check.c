@@ -8,7 +8,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "method/census.h"
+#include "census/census.h"
 #include "need/check.h"
 #include "promise.h"
 

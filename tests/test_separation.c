@@ -2,8 +2,8 @@
 /* The largest separation over a range: never below that of any depth in it, and no more above than is promised. */
 #include <stdio.h>
 
+#include "census/census.h"
 #include "depthprec/depthprec.h"
-#include "method/census.h"
 #include "support.h"
 
 static const char *const format_names[] = {"fp32", "unorm24", "unorm16", "fp16", "float3.3b5", "unorm5"};

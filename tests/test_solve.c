@@ -9,8 +9,8 @@
 
 #include <gsl/gsl_errno.h>
 
+#include "api/cost.h"
 #include "depthprec/depthprec.h"
-#include "need/cost.h"
 #include "need/solve.h"
 #include "support.h"
 

@@ -4,7 +4,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "need/bias.h"
+#include "api/bias.h"
 #include "printed.h"
 
 enum { DEPTHS = 6 };

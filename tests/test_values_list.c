@@ -5,9 +5,9 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "api/bias.h"
+#include "api/presets.h"
 #include "method/choose.h"
-#include "need/bias.h"
-#include "need/presets.h"
 #include "plot/figure.h"
 #include "printed.h"
 #include "texture/effect.h"

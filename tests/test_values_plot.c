@@ -7,7 +7,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "method/census.h"
+#include "census/census.h"
 #include "method/choose.h"
 #include "printed.h"
 

@@ -9,7 +9,7 @@
 
 #include <gsl/gsl_errno.h>
 
-#include "need/cost.h"
+#include "api/cost.h"
 #include "need/distance.h"
 #include "need/plane.h"
 #include "printed.h"

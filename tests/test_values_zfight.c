@@ -4,7 +4,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "method/census.h"
+#include "census/census.h"
 #include "printed.h"
 
 typedef struct zfight_case {

@@ -5,11 +5,11 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "cli/csv.h"
-#include "cli/json.h"
-#include "cli/number.h"
 #include "cli/setups.h"
 #include "plot/notes.h"
+#include "report/csv.h"
+#include "report/json.h"
+#include "report/number.h"
 
 enum { DIGITS = 6, SENTENCE_SIZE = 512 };
 

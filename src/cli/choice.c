@@ -5,8 +5,8 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "cli/number.h"
 #include "method/choose.h"
+#include "report/number.h"
 
 /* The fullest model that the set-up has: what the others are measured by. */
 static int fullest(const dp_choice *choice) {

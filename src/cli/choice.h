@@ -13,9 +13,9 @@
 #include <stddef.h>
 
 #include "cli/depths.h"
-#include "cli/json.h"
 #include "cli/setups.h"
 #include "depthprec/depthprec.h"
+#include "report/json.h"
 
 enum { CHOICE_BLOCK = 64, CHOICE_SENTENCE_SIZE = 256 };
 

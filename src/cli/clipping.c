@@ -4,7 +4,7 @@
 #include <math.h>
 #include <stdio.h>
 
-#include "cli/number.h"
+#include "report/number.h"
 
 clipping clipping_of(const dp_setup *setup) {
     dp_pipeline p;

@@ -3,13 +3,13 @@
 #include <math.h>
 #include <stdio.h>
 
-#include "cli/csv.h"
-#include "cli/json.h"
 #include "cli/methods.h"
-#include "cli/number.h"
 #include "cli/setups.h"
 #include "method/choose.h"
 #include "method/estimate.h"
+#include "report/csv.h"
+#include "report/json.h"
+#include "report/number.h"
 
 int cmd_bench(const options *o);
 

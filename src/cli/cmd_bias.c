@@ -8,13 +8,13 @@
 #include <string.h>
 #include <unistd.h>
 
-#include "cli/csv.h"
-#include "cli/json.h"
-#include "cli/number.h"
+#include "api/bias.h"
 #include "cli/options.h"
 #include "cli/progress.h"
 #include "cli/setups.h"
-#include "need/bias.h"
+#include "report/csv.h"
+#include "report/json.h"
+#include "report/number.h"
 
 int cmd_bias(const struct options *o);
 

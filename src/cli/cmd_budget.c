@@ -10,13 +10,13 @@
 
 #include "cli/choice.h"
 #include "cli/clipping.h"
-#include "cli/csv.h"
-#include "cli/json.h"
-#include "cli/number.h"
 #include "cli/options.h"
 #include "cli/progress.h"
 #include "cli/remedy.h"
 #include "cli/setups.h"
+#include "report/csv.h"
+#include "report/json.h"
+#include "report/number.h"
 
 int cmd_budget(const options *o);
 

@@ -5,10 +5,10 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "census/census.h"
 #include "cli/check_report.h"
 #include "cli/progress.h"
 #include "cli/suggest.h"
-#include "method/census.h"
 
 int cmd_check(const options *o);
 

@@ -4,12 +4,12 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "cli/csv.h"
-#include "cli/json.h"
 #include "cli/list.h"
-#include "cli/number.h"
 #include "cli/options.h"
 #include "cli/suggest.h"
+#include "report/csv.h"
+#include "report/json.h"
+#include "report/number.h"
 #include "texture/effect.h"
 #include "texture/pack.h"
 
@@ -151,7 +151,7 @@ static bool list_effect(size_t index, list_item *item) {
     return true;
 }
 
-/* What can be listed. A topic whose table lives in the full program has a null `get` in the light one. */
+/* What can be listed. */
 static const struct topic {
     const char *name, *note;
     list_get get;
@@ -337,8 +337,6 @@ int cmd_list(const options *o) {
             l.topic = &topics[i];
     if (l.topic == NULL)
         return unknown_topic(o->operands[0]);
-    if (l.topic->get == NULL)
-        return verb_run_full(o->argv);
     if (l.choices && l.topic->get != list_method)
         return option_error(OPTION_TOLERANCE, "has no meaning but in list methods");
     output out;

@@ -9,7 +9,6 @@
 #include "cli/command_line.h"
 #include "cli/list.h"
 #include "cli/methods.h"
-#include "cli/number.h"
 #include "cli/options.h"
 #include "cli/plot_census.h"
 #include "cli/plot_data.h"
@@ -21,6 +20,7 @@
 #include "plot/draw.h"
 #include "plot/figure.h"
 #include "plot/notes.h"
+#include "report/number.h"
 
 int cmd_plot(const options *o);
 

@@ -9,9 +9,9 @@
 
 #include <gsl/gsl_errno.h>
 
-#include "cli/number.h"
 #include "cli/setups.h"
 #include "cli/solve_report.h"
+#include "report/number.h"
 
 int cmd_solve(const options *o);
 

@@ -4,10 +4,10 @@
 #include <stdio.h>
 #include <stdlib.h>
 
-#include "cli/csv.h"
-#include "cli/json.h"
 #include "cli/methods.h"
-#include "cli/number.h"
+#include "report/csv.h"
+#include "report/json.h"
+#include "report/number.h"
 
 int cmd_stability(const options *o);
 

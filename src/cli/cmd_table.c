@@ -9,19 +9,15 @@
 
 #include "cli/choice.h"
 #include "cli/clipping.h"
-#include "cli/csv.h"
-#include "cli/json.h"
 #include "cli/options.h"
 #include "cli/progress.h"
 #include "cli/setups.h"
 #include "cli/table_text.h"
 #include "cli/ways.h"
+#include "report/csv.h"
+#include "report/json.h"
 
 int cmd_table(const options *o);
-
-/* The methods are in the full program alone. */
-way way_choose(const dp_setup *setup, double tolerance, bool cut_cells) __attribute__((weak));
-double way_interval(const way *w, const dp_setup *setup, double z) __attribute__((weak));
 
 enum { DEFAULT_ROWS = 9 };
 
@@ -286,8 +282,6 @@ static void write_csv(table *t) {
 int cmd_table(const options *o) {
     static void (*const writers[])(table *) = {
         [FORM_TEXT] = write_text, [FORM_JSON] = write_json, [FORM_CSV] = write_csv};
-    if (option_given(o, OPTION_TOLERANCE) && way_choose == NULL)
-        return verb_run_full(o->argv);
     output out;
     table t = {.o = o, .out = &out};
     int status = setups_make(o, &t.all);

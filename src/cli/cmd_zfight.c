@@ -5,13 +5,13 @@
 #include <stdio.h>
 #include <stdlib.h>
 
-#include "cli/csv.h"
-#include "cli/json.h"
-#include "cli/number.h"
+#include "census/census.h"
 #include "cli/options.h"
 #include "cli/progress.h"
 #include "cli/setups.h"
-#include "method/census.h"
+#include "report/csv.h"
+#include "report/json.h"
+#include "report/number.h"
 
 int cmd_zfight(const options *o);
 

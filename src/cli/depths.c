@@ -6,8 +6,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "cli/number.h"
 #include "cli/options.h"
+#include "report/number.h"
 
 static const double infinite_far_ratio = 1e6; /* the default depths end at this many nears when far is infinite */
 

@@ -22,19 +22,19 @@ typedef struct list_item {
 /** Fills in thing `index`; false when there is none. */
 typedef bool (*list_get)(size_t index, list_item *item);
 
-/** The figures, by the plot command; weak, as the light program has none. */
-bool list_figure(size_t index, list_item *item) __attribute__((weak));
+/** The figures, by the plot command. */
+bool list_figure(size_t index, list_item *item);
 
-/** What texture knows, likewise. */
-bool list_scene(size_t index, list_item *item) __attribute__((weak));
-bool list_position(size_t index, list_item *item) __attribute__((weak));
-bool list_normal(size_t index, list_item *item) __attribute__((weak));
+/** What texture knows. */
+bool list_scene(size_t index, list_item *item);
+bool list_position(size_t index, list_item *item);
+bool list_normal(size_t index, list_item *item);
 
-/** The methods, by the room that runs them; weak likewise. */
-bool list_method(size_t index, list_item *item) __attribute__((weak));
+/** The methods, by the room that runs them. */
+bool list_method(size_t index, list_item *item);
 
 /** The cases for which method `index` is the cheapest within --tolerance, at the default camera's far/near. */
 struct options;
-void list_method_choice(const struct options *o, size_t index, char chosen[LIST_TEXT_SIZE]) __attribute__((weak));
+void list_method_choice(const struct options *o, size_t index, char chosen[LIST_TEXT_SIZE]);
 
 #endif

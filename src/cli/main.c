@@ -5,11 +5,10 @@
 
 int main(int argc, char **argv) {
     options o;
-    if (method_start != NULL) /* the light program has no methods */
-        method_start();
+    method_start();
     int status = options_parse(&o, argc, argv);
     if (status < 0)
-        status = o.verb->run != NULL ? o.verb->run(&o) : verb_run_full(argv);
+        status = o.verb->run(&o);
     options_release(&o);
     return status;
 }

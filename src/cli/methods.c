@@ -8,10 +8,10 @@
 #include <time.h>
 
 #include "cli/list.h"
-#include "cli/number.h"
 #include "cli/setups.h"
 #include "cli/suggest.h"
 #include "method/choose.h"
+#include "report/number.h"
 
 static const double formula_at = 1e4; /* where a claim that is a formula is shown */
 

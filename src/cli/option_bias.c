@@ -3,8 +3,8 @@
 
 #include <math.h>
 
-#include "cli/number.h"
 #include "cli/suggest.h"
+#include "report/number.h"
 
 static int unknown_preset(const char *name) {
     suggestion s = suggest_start(name);

@@ -3,7 +3,7 @@
 
 #include <string.h>
 
-#include "cli/number.h"
+#include "report/number.h"
 
 int parse_near(options *o, const char *value) {
     if (!number_parse(value, NUMBER_FINITE, &o->znear))

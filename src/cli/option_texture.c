@@ -3,7 +3,7 @@
 
 #include <string.h>
 
-#include "cli/number.h"
+#include "report/number.h"
 #include "texture/metric.h"
 
 static int parse_within(option_id id, const char *value, double lo, double hi, const char *allowed, double *out) {

@@ -13,12 +13,12 @@
 #include <stddef.h>
 #include <stdint.h>
 
+#include "api/bias.h"
+#include "api/presets.h"
 #include "cli/depths.h"
-#include "cli/output.h"
 #include "cli/verbs.h"
 #include "depthprec/depthprec.h"
-#include "need/bias.h"
-#include "need/presets.h"
+#include "report/output.h"
 #include "texture/camera.h"
 
 /** The options, in the order in which help lists them. The index of an option's row is its id. */
@@ -115,7 +115,7 @@ typedef struct named_number {
 
 typedef struct options {
     const verb *verb;
-    char **argv;     /**< the whole command line, for metadata and for verb_run_full() */
+    char **argv;     /**< the whole command line, for metadata */
     char **operands; /**< what is neither option nor command; operand_count is within the verb's bounds */
     int operand_count;
     uint64_t given; /**< bit OPTION_X is set when the user gave that option; see option_given() */

@@ -4,7 +4,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 
-#include "method/census.h"
+#include "census/census.h"
 
 /* One block for everything. */
 typedef struct found {

@@ -3,9 +3,9 @@
 
 #include <stdio.h>
 
-#include "cli/csv.h"
-#include "cli/json.h"
 #include "plot/draw.h"
+#include "report/csv.h"
+#include "report/json.h"
 
 static const char map_name[] = "map";
 

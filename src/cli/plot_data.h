@@ -3,8 +3,8 @@
 #ifndef CLI_PLOT_DATA_H
 #define CLI_PLOT_DATA_H
 
-#include "cli/output.h"
 #include "plot/chart.h"
+#include "report/output.h"
 
 /** {"schema":"depthprec/1","command":"plot","figure":NAME, ...,"panels":[{"series":[{"name","points":[...]}]}]} */
 void plot_data_json(output *out, const char *figure, const chart *c);

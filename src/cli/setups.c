@@ -5,7 +5,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "cli/number.h"
+#include "report/number.h"
 
 /* Which option is at fault. */
 static const option_id culprits[DP_STATUS_COUNT] = {

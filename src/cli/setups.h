@@ -5,9 +5,9 @@
 
 #include <stddef.h>
 
-#include "cli/csv.h"
-#include "cli/json.h"
 #include "cli/options.h"
+#include "report/csv.h"
+#include "report/json.h"
 
 enum { SETUPS_MAX = OPTIONS_FORMATS_MAX * DP_MAPPING_COUNT };
 

@@ -2,10 +2,10 @@
 /* What solve found, for programs: JSON and CSV. */
 #include <math.h>
 
-#include "cli/csv.h"
-#include "cli/json.h"
 #include "cli/setups.h"
 #include "cli/solve_report.h"
+#include "report/csv.h"
+#include "report/json.h"
 
 static const char *measure_name(const solve_report *r) {
     return r->kind == MEASURE_ERROR ? "error" : "separation";

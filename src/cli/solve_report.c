@@ -6,8 +6,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "cli/number.h"
 #include "cli/setups.h"
+#include "report/number.h"
 
 enum { DIGITS = 6, DIGITS_MOST = 17, UNITS = 8, ISLANDS_SHOWN = 6, PHRASE_SIZE = 256 };
 

@@ -3,8 +3,8 @@
 #ifndef CLI_SOLVE_REPORT_H
 #define CLI_SOLVE_REPORT_H
 
+#include "api/cost.h"
 #include "cli/options.h"
-#include "need/cost.h"
 #include "need/distance.h"
 #include "need/plane.h"
 

@@ -6,8 +6,8 @@
 #include <string.h>
 #include <unistd.h>
 
-#include "cli/number.h"
 #include "cli/setups.h"
+#include "report/number.h"
 
 /* Beyond fifteen digits a decimal shows its own rounding (0.10000000000000001). */
 enum { DIGITS_FEW = 6, DIGITS_USUAL = 9, DIGITS_DEPTH = 7, DIGITS_DEPTH_MOST = 10, DIGITS_MOST = 15 };

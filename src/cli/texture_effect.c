@@ -10,13 +10,13 @@
 #include <string.h>
 #include <unistd.h>
 
-#include "cli/csv.h"
-#include "cli/json.h"
-#include "cli/number.h"
 #include "cli/options.h"
 #include "cli/progress.h"
 #include "cli/setups.h"
 #include "cli/suggest.h"
+#include "report/csv.h"
+#include "report/json.h"
+#include "report/number.h"
 
 enum { DEFAULT_ROWS = 9, DIGITS = 6, DIGITS_Z = 9 };
 

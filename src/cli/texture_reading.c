@@ -4,8 +4,8 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "cli/number.h"
 #include "cli/texture_source.h"
+#include "report/number.h"
 
 /* ---- How the samples were rounded -------------------------------------------------------------------------------- */
 

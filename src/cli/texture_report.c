@@ -6,11 +6,11 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "cli/csv.h"
-#include "cli/json.h"
-#include "cli/number.h"
 #include "cli/progress.h"
 #include "cli/setups.h"
+#include "report/csv.h"
+#include "report/json.h"
+#include "report/number.h"
 
 static const char *number(double value, int digits, char out[NUMBER_SIZE]) {
     if (isnan(value))

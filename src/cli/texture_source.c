@@ -6,9 +6,9 @@
 #include <string.h>
 
 #include "cli/list.h"
-#include "cli/number.h"
 #include "cli/setups.h"
 #include "cli/suggest.h"
+#include "report/number.h"
 
 /* UINT32_MAX stands for "no depth" among codes. */
 enum { BITS_MAX = 31 };

@@ -6,9 +6,9 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "cli/number.h"
 #include "cli/progress.h"
 #include "cli/texture_product.h"
+#include "report/number.h"
 
 enum { GREYS = 65535, STREAM_BUFFER = 1 << 16 };
 

@@ -1,11 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "cli/verbs.h"
 
-#include <errno.h>
-#include <stdbool.h>
-#include <stdio.h>
 #include <string.h>
-#include <unistd.h>
 
 #include "cli/help.h"
 
@@ -13,14 +9,13 @@ int cmd_table(const struct options *o);
 int cmd_budget(const struct options *o);
 int cmd_bias(const struct options *o);
 int cmd_list(const struct options *o);
-/* Commands that need a heavy library: null in the light program. */
-int cmd_plot(const struct options *o) __attribute__((weak));
-int cmd_zfight(const struct options *o) __attribute__((weak));
-int cmd_bench(const struct options *o) __attribute__((weak));
-int cmd_stability(const struct options *o) __attribute__((weak));
-int cmd_check(const struct options *o) __attribute__((weak));
-int cmd_solve(const struct options *o) __attribute__((weak));
-int cmd_texture(const struct options *o) __attribute__((weak));
+int cmd_plot(const struct options *o);
+int cmd_zfight(const struct options *o);
+int cmd_bench(const struct options *o);
+int cmd_stability(const struct options *o);
+int cmd_check(const struct options *o);
+int cmd_solve(const struct options *o);
+int cmd_texture(const struct options *o);
 
 /* clang-format off */
 const verb verb_rows[] = {
@@ -89,26 +84,4 @@ const verb *verb_find(const char *name) {
         if (strcmp(verb_rows[i].name, name) == 0)
             return &verb_rows[i];
     return NULL;
-}
-
-int verb_run_full(char **argv) {
-    static const char *const places[] = {"depthprec-full", "../libexec/depthprec/depthprec-full"};
-    char path[4096 + 64];
-    ssize_t length = readlink("/proc/self/exe", path, 4096);
-    path[length > 0 ? length : 0] = '\0';
-    char *slash = strrchr(path, '/');
-    if (slash == NULL) {
-        fprintf(stderr, "depthprec: cannot tell where depthprec-full is: %s\n", strerror(errno));
-        return EXIT_IO;
-    }
-    char *name = slash + 1;
-    /* The full program has every command; if it lands here, to run itself again would never end. */
-    bool is_full = strcmp(name, places[0]) == 0;
-    for (size_t i = 0; i < sizeof places / sizeof places[0] && !is_full; i++) {
-        strcpy(name, places[i]);
-        execv(path, argv);
-    }
-    fprintf(stderr, "depthprec: '%s' needs depthprec-full, which is not beside this program: %s\n", argv[1],
-            is_full ? "it was built without it" : strerror(errno));
-    return EXIT_IO;
 }

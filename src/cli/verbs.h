@@ -1,10 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /**
  * @file verbs.h  The commands, one row each. Adding a command is adding a row to verbs.c.
- *
- * Two programs are made of the same objects. The light one holds only what needs libc and libm, and starts as fast as
- * an empty program. A command that needs a heavy library is declared weak in verbs.c: in the light program its `run`
- * is null, and main() hands the whole command line to depthprec-full with verb_run_full().
  */
 #ifndef CLI_VERBS_H
 #define CLI_VERBS_H
@@ -12,14 +8,6 @@
 #include <stddef.h>
 
 struct options;
-
-/** Exit statuses; every command returns one of these. */
-enum {
-    EXIT_FINE = 0,   /**< done */
-    EXIT_FAILED = 1, /**< a check or requirement failed */
-    EXIT_USAGE = 2,  /**< bad usage or bad input */
-    EXIT_IO = 3      /**< could not read or write */
-};
 
 /** One bit per command, for the `commands` column of the option table. */
 enum {
@@ -40,7 +28,7 @@ enum {
 typedef struct verb {
     const char *name;
     unsigned bit;                       /**< VERB_... */
-    int (*run)(const struct options *); /**< null in a program that was linked without it */
+    int (*run)(const struct options *); /**< returns an exit status of report/output.h */
     const char *operand;                /**< how help writes the operand, "FIGURE"; "" when there is none */
     int operand_min, operand_max;       /**< how many operands the command takes */
     const char *operand_hint;           /**< added to the message when one is missing, or null */
@@ -53,11 +41,5 @@ extern const size_t verb_count;
 
 /** The row of a command name; null when there is none. */
 const verb *verb_find(const char *name);
-
-/**
- * Runs depthprec-full (beside this program, else in ../libexec/depthprec) with the same arguments.
- * Returns only when that fails: EXIT_IO, after one line on stderr.
- */
-int verb_run_full(char **argv);
 
 #endif

@@ -2,8 +2,6 @@
 /**
  * @file ways.h  The cheapest way to the z-fighting interval that is good enough for a set-up: method_choose() among the
  * methods of the family interval, in the words of set-ups.
- *
- * Only the full program has the methods: the light one declares these functions weak where it calls them.
  */
 #ifndef CLI_WAYS_H
 #define CLI_WAYS_H

@@ -2,7 +2,7 @@
 /* The z-fighting interval at a depth. The last three rows speak of the binary32 pipeline and are judged by it. */
 #include <math.h>
 
-#include "method/census.h"
+#include "census/census.h"
 #include "method/claim.h"
 #include "method/method.h"
 #include "method/truth.h"

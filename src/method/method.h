@@ -182,8 +182,8 @@ static inline bool method_available(const method_row *row) {
 dp_status method_setup(const method_family_row *family, size_t which, double znear, double zfar, bool ortho,
                        dp_setup *out);
 
-/** Once, before any method runs: GSL must report errors and not end the program. Null in the light program. */
-void method_start(void) __attribute__((weak));
+/** Once, before any method runs: GSL must report errors and not end the program. */
+void method_start(void);
 
 /** Room for inputs and outputs of a family. @return false when out of memory; nothing is then held */
 bool method_arrays(size_t count, method_inputs *in, method_outputs *out);

@@ -4,7 +4,7 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "need/presets.h"
+#include "api/presets.h"
 #include "need/reader.h"
 
 enum {

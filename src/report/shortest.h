@@ -3,8 +3,8 @@
  * @file shortest.h  The quick way to the shortest digits of a double. A million table rows hold ten million numbers,
  * and printf with strtod takes most of a microsecond for each.
  */
-#ifndef CLI_SHORTEST_H
-#define CLI_SHORTEST_H
+#ifndef REPORT_SHORTEST_H
+#define REPORT_SHORTEST_H
 
 #include <stddef.h>
 

@@ -1,9 +1,9 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* What the census and the sample share: the depths of a range, its bands, and how findings are put together. */
-#ifndef METHOD_CENSUS_RANGE_H
-#define METHOD_CENSUS_RANGE_H
+#ifndef CENSUS_RANGE_H
+#define CENSUS_RANGE_H
 
-#include "method/census.h"
+#include "census/census.h"
 
 /* Checks a request and sets the bands up. *first and *last are the bit patterns of the range's ends. */
 census_status census_open(const census_request *request, census_plan *plan, census_result *result, uint32_t *first,

@@ -3,7 +3,7 @@
 #include <math.h>
 #include <string.h>
 
-#include "method/census_range.h"
+#include "census/range.h"
 
 enum { BATCH = CENSUS_BLOCK, LADDER = 31 };
 

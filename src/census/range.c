@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-#include "method/census_range.h"
+#include "census/range.h"
 
 #include <float.h>
 #include <math.h>

@@ -13,11 +13,19 @@
  * failed run leaves an old file as it was. A target that exists and is no regular file (a device, a fifo) is written
  * straight to. One output may be open at a time. Output is collected in a buffer: a short one is a single write(2).
  */
-#ifndef CLI_OUTPUT_H
-#define CLI_OUTPUT_H
+#ifndef REPORT_OUTPUT_H
+#define REPORT_OUTPUT_H
 
 #include <stdbool.h>
 #include <stddef.h>
+
+/** Exit statuses; every command returns one of these. */
+enum {
+    EXIT_FINE = 0,   /**< done */
+    EXIT_FAILED = 1, /**< a check or requirement failed */
+    EXIT_USAGE = 2,  /**< bad usage or bad input */
+    EXIT_IO = 3      /**< could not read or write */
+};
 
 enum { OUTPUT_BUFFER_SIZE = 1 << 16 };
 

@@ -12,8 +12,8 @@
  * counted from the far end, of all 16 runs, the farthest run first. So neighbours in depth are 16 apart in memory, a
  * vector holds one depth of each run, and a scan along the depths needs no shuffles.
  */
-#ifndef METHOD_CENSUS_KERNEL_H
-#define METHOD_CENSUS_KERNEL_H
+#ifndef CENSUS_KERNEL_H
+#define CENSUS_KERNEL_H
 
 #include <stddef.h>
 #include <stdint.h>

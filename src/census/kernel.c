@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-#include "method/census_kernel.h"
+#include "census/kernel.h"
 
 #include <math.h>
 

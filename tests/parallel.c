@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-#include "method/parallel.h"
+#include "parallel.h"
 
 #ifdef _OPENMP
 #include <omp.h>

@@ -1,10 +1,10 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-#include "cli/json.h"
+#include "report/json.h"
 
 #include <math.h>
 
-#include "cli/number.h"
 #include "depthprec/depthprec.h"
+#include "report/number.h"
 
 static void quoted(output *out, const char *text) {
     output_char(out, '"');

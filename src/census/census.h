@@ -12,13 +12,13 @@
  * Cost: about a nanosecond a depth and core; 12 bytes per 1024 depths. The result does not depend on the number of
  * threads or on the processor.
  */
-#ifndef METHOD_CENSUS_H
-#define METHOD_CENSUS_H
+#ifndef CENSUS_CENSUS_H
+#define CENSUS_CENSUS_H
 
 #include <stdint.h>
 
+#include "census/kernel.h"
 #include "depthprec/setup.h"
-#include "method/census_kernel.h"
 
 enum { CENSUS_BANDS_MAX = 256 };
 

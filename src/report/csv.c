@@ -1,10 +1,10 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-#include "cli/csv.h"
+#include "report/csv.h"
 
 #include <math.h>
 #include <string.h>
 
-#include "cli/number.h"
+#include "report/number.h"
 
 csv csv_start(output *out) {
     return (csv){.out = out};

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-#include "cli/number.h"
+#include "report/number.h"
 
 #include <errno.h>
 #include <math.h>
@@ -7,7 +7,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "cli/shortest.h"
+#include "report/shortest.h"
 
 /*
  * strtod and printf follow LC_NUMERIC, which stays "C" in a program that never calls setlocale. strtod alone is too

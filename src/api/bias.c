@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-#include "need/bias.h"
+#include "api/bias.h"
 
 #include <math.h>
 #include <string.h>

@@ -5,8 +5,8 @@
  * A value that no public source of first hand confirms is named in `unconfirmed`; the others have been compared with
  * the row's source on the date of `checked`.
  */
-#ifndef NEED_PRESETS_H
-#define NEED_PRESETS_H
+#ifndef API_PRESETS_H
+#define API_PRESETS_H
 
 #include <stddef.h>
 

@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /** @file cost.h  What a format and a mapping cost: bytes per pixel, where they can be had, what they ask of a renderer.
  */
-#ifndef NEED_COST_H
-#define NEED_COST_H
+#ifndef API_COST_H
+#define API_COST_H
 
 #include "depthprec/depthprec.h"
 

@@ -10,13 +10,13 @@
  * Intervals that leave a segment are found afterwards from the least and greatest key of each block. Both parts
  * compute again the few keys that they need: no code is stored.
  */
-#include "method/census.h"
+#include "census/census.h"
 
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
-#include "method/census_range.h"
+#include "census/range.h"
 
 enum { SEGMENT = 1 << 18, SEGMENT_RUNS = SEGMENT / CENSUS_RUN };
 

@@ -4,7 +4,7 @@
  * 17 digits and a little more. The error of x is bounded (SLACK), so a decision is either certain or left to printf.
  * All errors are truncations: x lies in [scaled, scaled + SLACK].
  */
-#include "cli/shortest.h"
+#include "report/shortest.h"
 
 #include <math.h>
 #include <stdbool.h>

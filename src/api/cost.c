@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-#include "need/cost.h"
+#include "api/cost.h"
 
 #include <string.h>
 

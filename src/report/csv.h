@@ -6,13 +6,13 @@
  *     csv_string(&c, "z [scene]");
  *     csv_end(&c);
  */
-#ifndef CLI_CSV_H
-#define CLI_CSV_H
+#ifndef REPORT_CSV_H
+#define REPORT_CSV_H
 
 #include <stdbool.h>
 #include <stdint.h>
 
-#include "cli/output.h"
+#include "report/output.h"
 
 typedef struct csv {
     output *out;

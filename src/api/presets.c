@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-#include "need/presets.h"
+#include "api/presets.h"
 
 #include <math.h>
 #include <strings.h>

@@ -19,8 +19,8 @@
  *
  * Bias is applied to the depth that the hardware holds, a binary32 number, and the result is clamped to [0, 1].
  */
-#ifndef NEED_BIAS_H
-#define NEED_BIAS_H
+#ifndef API_BIAS_H
+#define API_BIAS_H
 
 #include <stdbool.h>
 #include <stddef.h>

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /** @file parallel.h  Large arrays on several threads. The bits do not depend on their number. */
-#ifndef METHOD_PARALLEL_H
-#define METHOD_PARALLEL_H
+#ifndef TESTS_PARALLEL_H
+#define TESTS_PARALLEL_H
 
 #include "depthprec/batch.h"
 

@@ -10,13 +10,13 @@
  *     json_end(&j);
  *     json_finish(&j);                            // closes what is open and adds a newline
  */
-#ifndef CLI_JSON_H
-#define CLI_JSON_H
+#ifndef REPORT_JSON_H
+#define REPORT_JSON_H
 
 #include <stdbool.h>
 #include <stdint.h>
 
-#include "cli/output.h"
+#include "report/output.h"
 
 enum { JSON_DEPTH_MAX = 16 };
 

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /** @file number.h  Numbers in and out, in the C locale whatever the environment says (setlocale is never called). */
-#ifndef CLI_NUMBER_H
-#define CLI_NUMBER_H
+#ifndef REPORT_NUMBER_H
+#define REPORT_NUMBER_H
 
 #include <stdbool.h>
 #include <stddef.h>
