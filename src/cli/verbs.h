@@ -34,6 +34,7 @@ typedef struct verb {
     const char *operand_hint;           /**< added to the message when one is missing, or null */
     const char *summary;                /**< one line for `depthprec --help` */
     const char *example;                /**< command lines for the command's own help, one a line */
+    int files_from; /**< operands from this one on are files that it reads, counted from 1; 0: none */
 } verb;
 
 extern const verb verb_rows[];
