@@ -55,6 +55,19 @@ typedef struct decode_row {
     void (*run)(const dp_setup *setup, const float *d, float *out, size_t count);
 } decode_row;
 
+/** The rows in their order; the last applies to all. */
+enum {
+    DECODE_LINEAR_EYE = 0,
+    DECODE_LINEAR_01,
+    DECODE_LINEAR_01_NEAR,
+    DECODE_ORTHO_EYE,
+    DECODE_W_EYE,
+    DECODE_LOG_EYE,
+    DECODE_COMPLEMENT,
+    DECODE_ROWS
+};
+extern const decode_row decode_rows[DECODE_ROWS];
+
 const decode_row *decode_get(size_t index); /**< null beyond the last */
 const decode_row *decode_find(const char *name);
 

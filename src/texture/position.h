@@ -45,6 +45,9 @@ typedef struct position_row {
     double (*bound)(const texture_camera *camera, uint32_t row, uint32_t column, double d);
 } position_row;
 
+enum { POSITION_MATRIX = 0, POSITION_RAYS, POSITION_EXTENTS, POSITION_EXTENTS_HALF, POSITION_VIEW, POSITION_ROWS };
+extern const position_row position_rows[POSITION_ROWS];
+
 const position_row *position_get(size_t index); /**< null beyond the last */
 const position_row *position_find(const char *name);
 
