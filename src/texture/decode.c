@@ -246,29 +246,3 @@ double decode_bound(const decode_row *row, const dp_setup *setup, double d) {
     off *= UNIT * (1 + 0x1p-20); /* the constants are rounded, too, and so is this */
     return off < 0.5 ? off / (1 - off) : (double)INFINITY;
 }
-
-/* ---- Sky --------------------------------------------------------------------------------------------------------- */
-
-TEXTURE_CLONES size_t recon_mask_sky(const dp_setup *setup, double threshold, float *d, size_t count) {
-    const float far_value = setup->reversed ? 0.0f : 1.0f, within = (float)threshold, none = (float)NAN;
-    size_t masked = 0;
-    while (count > 0) { /* counts that fit the width of a depth */
-        const size_t block = count < 1u << 20 ? count : 1u << 20;
-        int found = 0;
-#pragma omp simd reduction(+ : found)
-        for (size_t i = 0; i < block; i++) {
-            const int sky = fabsf(far_value - d[i]) <= within;
-            d[i] = sky ? none : d[i];
-            found += sky;
-        }
-        masked += (size_t)found;
-        d += block;
-        count -= block;
-    }
-    return masked;
-}
-
-double recon_sky_from(const dp_setup *setup, double threshold) {
-    const double within = (double)(float)threshold;
-    return decode_exact(setup, DECODE_EYE, setup->reversed ? within : 1 - within);
-}

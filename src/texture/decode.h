@@ -100,14 +100,4 @@ double decode_exact(const dp_setup *setup, decode_quantity quantity, double d);
  */
 double decode_bound(const decode_row *row, const dp_setup *setup, double d);
 
-/** Replaces by NaN the depths within `threshold` (at most 1) of the far plane's, and counts them. NaN stays, not
- *  counted. @return how many were replaced */
-size_t recon_mask_sky(const dp_setup *setup, double threshold, float *d, size_t count);
-
-/**
- * The eye depth from which on such a threshold takes real geometry for sky: with TEXTURE_SKY, near 0.1 and far 1000
- * already 500, half of the view; whichever way the depth runs.
- */
-double recon_sky_from(const dp_setup *setup, double threshold);
-
 #endif

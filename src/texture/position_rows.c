@@ -198,26 +198,6 @@ static void view_run(const position_state *s, uint32_t row, uint32_t column, con
     in_pieces(&l, &s->best, s->camera->ortho ? view_ortho_loop : view_loop, column, d, count, x, y, z);
 }
 
-TEXTURE_CLONES static void distance_loop(const position_state *s, float step, float square, int first, int count,
-                                         float *eye) {
-    const float middle = s->middle;
-#pragma omp simd
-    for (int i = 0; i < count; i++) {
-        const float u = step * ((float)(first + i) - middle);
-        eye[i] = eye[i] * sqrtf(u * u + square);
-    }
-}
-
-void position_distance(const position_state *s, uint32_t row, uint32_t column, const float *d, size_t count,
-                       float *out) {
-    const texture_camera *camera = s->camera;
-    const double up = camera_slope_y(camera, row);
-    decode_apply(&s->best, d, out, count);
-    if (!camera->ortho)
-        distance_loop(s, (float)(2 * camera->half[0] / camera->width), (float)(up * up + 1), (int)column, (int)count,
-                      out);
-}
-
 /* ---- Table ------------------------------------------------------------------------------------------------------- */
 
 /* clang-format off */
