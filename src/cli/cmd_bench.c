@@ -64,7 +64,7 @@ static void write_text(benching *b) {
     output_format(b->out, "  a limit is %.3g ns: a loop that moves the same bytes\n", b->results[0].limit);
     output_text(b->out, "  * no other is both faster and more exact\n");
     for (size_t i = 0; i < b->count; i++)
-        if (method_timed(b->results[i].row) != NULL)
+        if (b->results[i].row->timed != NULL)
             output_format(b->out,
                           "  %s: the time is of this processor's estimate, the errors of a model of it; any\n"
                           "    processor's is within its guarantee, %.3g, and the method within its claim\n",

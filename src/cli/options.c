@@ -10,6 +10,7 @@
 #include "cli/help.h"
 #include "cli/option_rows.h"
 #include "cli/suggest.h"
+#include "texture/frame.h"
 
 const char *option_name(option_id id) {
     return option_rows[id].name;
@@ -51,7 +52,7 @@ static void set_defaults(options *o) {
                    .log_c = 1.0,
                    .mapping_count = 2,
                    .camera = {.width = 640, .height = 360, .fov_y = 60, .half_height = 5},
-                   .sky = TEXTURE_SKY};
+                   .sky = FRAME_SKY};
     o->mappings[0] = DP_MAPPING_D3D;
     o->mappings[1] = DP_MAPPING_REVERSED;
     for (size_t i = 0; i < dp_format_count(); i++)

@@ -157,7 +157,7 @@ typedef struct options {
     const char *scene;  /**< --scene, as given; null when not given, as all names here */
     named_number parameters[OPTIONS_PARAMETERS_MAX];
     size_t parameter_count;
-    double sky;    /**< window depth; default TEXTURE_SKY */
+    double sky;    /**< window depth; default FRAME_SKY */
     double metric; /**< scene units of 1 in a sample of metric depth; 0 when not given */
     bool eye, radial, error_map;
     const char *position, *normal, *effect; /**< methods and effect, as given */
