@@ -7,7 +7,7 @@ int main(int argc, char **argv) {
     options o;
     method_start();
     int status = options_parse(&o, argc, argv);
-    if (status < 0)
+    if (status == EXIT_FINE)
         status = o.verb->run(&o);
     options_release(&o);
     return status;
