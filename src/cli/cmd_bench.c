@@ -145,7 +145,7 @@ int cmd_bench(const options *o) {
         [FORM_TEXT] = write_text, [FORM_JSON] = write_json, [FORM_CSV] = write_csv};
     output out;
     benching b = {.o = o, .out = &out};
-    int status = methods_resolve(o, o->operands[0], &b.asked);
+    int status = methods_resolve(o, o->operand_row, &b.asked);
     if (status == EXIT_FINE)
         status = output_open(&out, o->output);
     if (status != EXIT_FINE)
