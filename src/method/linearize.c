@@ -3,7 +3,6 @@
 #include <float.h>
 #include <math.h>
 #include <stdlib.h>
-#include <string.h>
 #if defined(__SSE__)
 #include <xmmintrin.h>
 #endif
@@ -11,6 +10,7 @@
 #include <gsl/gsl_chebyshev.h>
 #include <gsl/gsl_spline.h>
 
+#include "core/bits.h"
 #include "method/estimate.h"
 #include "method/limit.h"
 #include "method/truth.h"
@@ -35,11 +35,7 @@ static void decode_run(const method_call *c) {
 
 /* The reciprocal of x > 0 from its bits, within 12 %, then one Newton step. */
 static float magic_reciprocal(float x) {
-    uint32_t bits;
-    float y;
-    memcpy(&bits, &x, sizeof bits);
-    bits = 0x7ef311c7u - bits;
-    memcpy(&y, &bits, sizeof y);
+    const float y = dp_float32(0x7ef311c7u - dp_bits32(x));
     return y * (2.0f - x * y);
 }
 
