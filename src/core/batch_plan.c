@@ -294,8 +294,7 @@ static int general_kernel(const dp_batch *b) {
     return general[b->task][by_format ? 0 : s->curve][s->spec.format.kind];
 }
 
-void dp_batch_plan(dp_batch *b) {
-    dp_batch_kernel *const *const table = dp_batch_table(b->path);
+void dp_batch_plan(dp_batch *b, dp_batch_kernel *const *table) {
     plan_format(b);
     b->doubt = 0;
     b->direct = 0;

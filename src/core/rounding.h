@@ -7,8 +7,7 @@
 
 #include "core/lattice.h"
 
-/* Half a unit in the last place of binary32 at 1 and just below 1. */
-#define DP_UNIT           0x1p-24
+/* DP_UNIT just below 1. */
 #define DP_UNIT_BELOW_ONE 0x1p-25
 
 /* Half a unit in the last place of binary32 at x >= 0: the most that rounding a number up to x changes it by. */

@@ -18,7 +18,7 @@ typedef struct walk {
 
 static uint32_t code_at(const walk *w, uint64_t x) {
     dp_setup setup;
-    return plane_setup(w->problem, dp_float64(x), &setup) == DP_OK ? dp_code(&setup, w->z) : 0;
+    return solve_setup(w->problem, dp_float64(x), &setup) == DP_OK ? dp_code(&setup, w->z) : 0;
 }
 
 static uint64_t towards(uint64_t from, uint64_t to, uint64_t by) {
@@ -79,7 +79,7 @@ static void pass_by(walk *w, uint64_t to) {
 
 static double error_at(const walk *w, uint64_t x) {
     dp_setup setup;
-    return plane_setup(w->problem, dp_float64(x), &setup) == DP_OK ? fabs(dp_error(&setup, dp_code(&setup, w->z), w->z))
+    return solve_setup(w->problem, dp_float64(x), &setup) == DP_OK ? fabs(dp_error(&setup, dp_code(&setup, w->z), w->z))
                                                                    : (double)HUGE_VAL;
 }
 
@@ -136,7 +136,7 @@ static bool go(walk *w, int most) {
 /* staged: what the lattice needs may not do; then farther in, where the bound of a staged error will. */
 static bool aligned_anyhow(const solve_problem *p, double x) {
     dp_setup setup;
-    return plane_setup(p, x, &setup) == DP_OK && measure_over(p->kind, &setup, p->lo, p->hi).value <= p->limit &&
+    return solve_setup(p, x, &setup) == DP_OK && measure_over(p->kind, &setup, p->lo, p->hi).value <= p->limit &&
            plane_passes(p, x);
 }
 
@@ -179,7 +179,7 @@ static void try_places(const solve_problem *p, plane_answer *a) {
 static bool is_decided_at(const solve_problem *p, double x, double *z) {
     enum { CELLS = 16 };
     dp_setup setup;
-    if (plane_setup(p, x, &setup) != DP_OK)
+    if (solve_setup(p, x, &setup) != DP_OK)
         return false;
     *z = measure_decisive(&setup, p->lo, p->hi);
     const double cells = fabs((double)dp_code(&setup, p->lo) - (double)dp_code(&setup, p->hi));

@@ -32,7 +32,7 @@ typedef struct search {
 
 /* ---- The measure as a function of the unknown -------------------------------------------------------------------- */
 
-static dp_status make(const solve_problem *p, double x, dp_setup *setup) {
+dp_status solve_setup(const solve_problem *p, double x, dp_setup *setup) {
     dp_spec spec = p->spec;
     *(p->unknown == SOLVE_NEAR ? &spec.znear : &spec.zfar) = x;
     return dp_setup_init(setup, &spec);
@@ -40,7 +40,7 @@ static dp_status make(const solve_problem *p, double x, dp_setup *setup) {
 
 static measure_worst whole(const search *s, double x) {
     dp_setup setup;
-    if (make(s->problem, x, &setup) != DP_OK)
+    if (solve_setup(s->problem, x, &setup) != DP_OK)
         return (measure_worst){HUGE_VAL, s->problem->hi};
     return measure_over(s->problem->kind, &setup, s->problem->lo, s->problem->hi);
 }
@@ -53,7 +53,7 @@ static double measure(const search *s, part which, double x) {
     dp_setup setup;
     measure_worst falling;
     measure_worst rising;
-    if (make(p, x, &setup) != DP_OK)
+    if (solve_setup(p, x, &setup) != DP_OK)
         return HUGE_VAL;
     measure_parts(p->kind, &setup, p->lo, p->hi, &falling, &rising);
     return which == PART_FALLING ? falling.value : rising.value;
@@ -72,7 +72,7 @@ static bool passes_surely(const search *s, part which, double x) {
 
 static uint32_t field_at(const search *s, double z, double x) {
     dp_setup setup;
-    return make(s->problem, x, &setup) == DP_OK ? measure_field(&setup, z) : 0;
+    return solve_setup(s->problem, x, &setup) == DP_OK ? measure_field(&setup, z) : 0;
 }
 
 /* The unknown for which d(z) = v: the mappings of depthprec/mapping.h solved for near or far. */
@@ -120,7 +120,7 @@ static uint64_t place(const search *s, double z, uint32_t bound, bool upward, do
 static void add_breaks(search *s, double z) {
     const solve_problem *p = s->problem;
     dp_setup setup;
-    if (make(p, s->most, &setup) != DP_OK)
+    if (solve_setup(p, s->most, &setup) != DP_OK)
         return;
     const uint32_t first = field_at(s, z, s->least);
     const uint32_t last = field_at(s, z, s->most);
@@ -144,7 +144,7 @@ static void find_breaks(search *s) {
     const solve_problem *p = s->problem;
     dp_setup setup;
     s->breaks[s->break_count++] = dp_bits64(s->least);
-    if (p->spec.format.kind == DP_FORMAT_FLOAT && !s->inert && make(p, s->most, &setup) == DP_OK) {
+    if (p->spec.format.kind == DP_FORMAT_FLOAT && !s->inert && solve_setup(p, s->most, &setup) == DP_OK) {
         const double decisive = measure_decisive(&setup, p->lo, p->hi);
         const double summit = measure_summit(p->kind, &setup, p->lo, p->hi);
         add_breaks(s, decisive);
@@ -301,7 +301,7 @@ static void solve_pieces(search *s) {
 static void add_infinity(search *s) {
     solve_result *r = s->result;
     dp_setup setup;
-    if (s->problem->unknown != SOLVE_FAR || make(s->problem, HUGE_VAL, &setup) != DP_OK)
+    if (s->problem->unknown != SOLVE_FAR || solve_setup(s->problem, HUGE_VAL, &setup) != DP_OK)
         return;
     r->most = HUGE_VAL;
     if (!(whole(s, HUGE_VAL).value <= s->problem->limit)) {
@@ -326,17 +326,17 @@ static dp_status limits(search *s) {
         s->most = fmin(fmin(p->lo, near_most), p->spec.zfar / (1.0 + planes_apart));
         if (p->hi > p->spec.zfar || !(s->least <= s->most))
             return DP_ERROR_RANGE;
-        for (int i = 0; i < 8 && make(p, s->most, &setup) == DP_ERROR_PLANES; i++)
+        for (int i = 0; i < 8 && solve_setup(p, s->most, &setup) == DP_ERROR_PLANES; i++)
             s->most = nextafter(s->most, 0.0);
-        return make(p, s->most, &setup);
+        return solve_setup(p, s->most, &setup);
     }
     s->least = fmax(p->hi, p->spec.znear * (1.0 + planes_apart));
     s->most = far_most;
     if (p->lo < p->spec.znear || !(s->least <= s->most))
         return DP_ERROR_RANGE;
-    for (int i = 0; i < 8 && make(p, s->least, &setup) == DP_ERROR_PLANES; i++)
+    for (int i = 0; i < 8 && solve_setup(p, s->least, &setup) == DP_ERROR_PLANES; i++)
         s->least = nextafter(s->least, HUGE_VAL);
-    return make(p, s->least, &setup);
+    return solve_setup(p, s->least, &setup);
 }
 
 static void conclude(search *s) {
