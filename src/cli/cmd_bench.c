@@ -64,7 +64,7 @@ static void write_text(benching *b) {
     output_format(b->out, "  a limit is %.3g ns: a loop that moves the same bytes\n", b->results[0].limit);
     output_text(b->out, "  * no other is both faster and more exact\n");
     for (size_t i = 0; i < b->count; i++)
-        if (method_timed(b->results[i].row) != NULL)
+        if (b->results[i].row->timed != NULL)
             output_format(b->out,
                           "  %s: the time is of this processor's estimate, the errors of a model of it; any\n"
                           "    processor's is within its guarantee, %.3g, and the method within its claim\n",
@@ -145,12 +145,12 @@ int cmd_bench(const options *o) {
         [FORM_TEXT] = write_text, [FORM_JSON] = write_json, [FORM_CSV] = write_csv};
     output out;
     benching b = {.o = o, .out = &out};
-    int status = methods_resolve(o, o->operands[0], &b.asked);
+    int status = methods_resolve(o, o->operand_row, &b.asked);
     if (status == EXIT_FINE)
         status = output_open(&out, o->output);
     if (status != EXIT_FINE)
         return status;
-    b.count = bench_run(b.asked.family, b.asked.which, &b.asked.setup, METHODS_REPETITIONS, b.results);
+    b.count = bench_run(b.asked.family, b.asked.which, &b.asked.setup, BENCH_REPETITIONS, b.results);
     if (b.count == 0) {
         output_abandon(&out);
         return usage_error("no memory for the methods");

@@ -13,7 +13,7 @@
 #include "cli/progress.h"
 #include "cli/setups.h"
 #include "cli/table_text.h"
-#include "cli/ways.h"
+#include "method/ways.h"
 #include "report/csv.h"
 #include "report/json.h"
 

@@ -31,11 +31,10 @@ int main(int argc, char **argv) {
     output_reserve_streams();
     method_start();
     int status = options_parse(&o, argc, argv);
-    if (status < 0) {
+    if (status == EXIT_FINE)
         status = refuse_overwriting(&o);
-        if (status == EXIT_FINE)
-            status = o.verb->run(&o);
-    }
+    if (status == EXIT_FINE)
+        status = o.verb->run(&o);
     options_release(&o);
     return status;
 }

@@ -9,8 +9,6 @@
 #include "report/csv.h"
 #include "report/json.h"
 
-enum { SETUPS_MAX = OPTIONS_FORMATS_MAX * DP_MAPPING_COUNT };
-
 typedef struct setups {
     dp_setup *items;
     size_t count;

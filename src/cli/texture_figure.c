@@ -4,11 +4,10 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "cli/command_line.h"
+#include "cli/figure_file.h"
 #include "cli/progress.h"
 #include "cli/setups.h"
 #include "cli/texture_product.h"
-#include "plot/draw.h"
 #include "plot/notes.h"
 #include "plot/picture.h"
 
@@ -110,8 +109,7 @@ static int height_of(const options *o, const texture_source *s, int width, bool 
 
 static int draw(const options *o, const texture_source *s, const texture_product *p, shrinking *f, chart *c) {
     static const char *const axes[] = {"x (world)", "y (world)", "z (world)"};
-    char command[COMMAND_LINE_SIZE], label[PRODUCT_NAME_SIZE];
-    canvas_bytes bytes;
+    char label[PRODUCT_NAME_SIZE];
     output out;
     int status = output_open(&out, o->figure);
     if (status != EXIT_FINE)
@@ -129,34 +127,17 @@ static int draw(const options *o, const texture_source *s, const texture_product
     progress_end(&f->bar);
     words_of(o, s, p, f, c);
     picture_build(&f->shown, c);
-    command_line(o, o->figure, command);
-    const int width = o->width > 0 ? o->width : WIDTH;
-    good = good && !chart_failed(c) &&
-           draw_chart(c, theme_get(o->theme), canvas_format_of(o->figure), width,
-                      height_of(o, s, width, f->shown.names != NULL), command, &bytes);
+    const int width = o->width > 0 ? o->width : WIDTH, height = height_of(o, s, width, f->shown.names != NULL);
+    good = good && !chart_failed(c) && figure_file_write(o, o->figure, c, width, height, &out);
     if (!good) {
         output_abandon(&out);
         return usage_error("texture: no memory for the figure");
     }
-    output_bytes(&out, bytes.at, bytes.size);
-    free(bytes.at);
     return output_close(&out);
-}
-
-static int check_size(const options *o) {
-    if (o->width > 0 && (o->width < DRAW_WIDTH_MIN || o->width > DRAW_SIZE_MAX))
-        return option_error(OPTION_WIDTH, "must be from %d to %d px, got %d", DRAW_WIDTH_MIN, DRAW_SIZE_MAX, o->width);
-    if (o->height > 0 && (o->height < DRAW_HEIGHT_MIN || o->height > DRAW_SIZE_MAX))
-        return option_error(OPTION_HEIGHT, "must be from %d to %d px, got %d", DRAW_HEIGHT_MIN, DRAW_SIZE_MAX,
-                            o->height);
-    return EXIT_FINE;
 }
 
 int texture_figure_draw(const options *o, const texture_source *s, const texture_product *p) {
     const int most = o->width > WIDTH ? o->width : WIDTH;
-    int status = check_size(o);
-    if (status != EXIT_FINE)
-        return status;
     shrinking f = {
         .largest = p->made.error,
         .shown = {.width = s->camera.width,
@@ -172,7 +153,8 @@ int texture_figure_draw(const options *o, const texture_source *s, const texture
     chart *c = chart_new();
     for (size_t i = 0; i < count && f.fields != NULL; i++)
         f.fields[i] = NAN;
-    status = f.fields != NULL && c != NULL ? draw(o, s, p, &f, c) : usage_error("texture: no memory for the figure");
+    const int status =
+        f.fields != NULL && c != NULL ? draw(o, s, p, &f, c) : usage_error("texture: no memory for the figure");
     free(f.fields);
     chart_free(c);
     return status;

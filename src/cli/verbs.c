@@ -3,8 +3,6 @@
 
 #include <string.h>
 
-#include "cli/help.h"
-
 int cmd_table(const struct options *o);
 int cmd_budget(const struct options *o);
 int cmd_bias(const struct options *o);
@@ -16,6 +14,14 @@ int cmd_stability(const struct options *o);
 int cmd_check(const struct options *o);
 int cmd_solve(const struct options *o);
 int cmd_texture(const struct options *o);
+int cmd_help(const struct options *o);
+int cmd_completions(const struct options *o);
+
+static const name_list figures = {.get = list_figure};
+static const name_list families = {.get = list_family};
+static const name_list topics = {.get = list_topic};
+static const name_list commands = {.get = list_verb};
+static const name_list shells = {.words = (const char *const[]){"bash", "zsh", "fish", NULL}};
 
 /* clang-format off */
 const verb verb_rows[] = {
@@ -24,7 +30,7 @@ const verb verb_rows[] = {
      "  depthprec table -n 0.1 -f 1000 -F unorm24 -m d3d,reversed\n"
      "  depthprec table -n 0.1 -f inf -F fp32 -m reversed --at 1,10,100,1000\n"
      "  depthprec table -F d32f --at 1:1000:log:10000 --csv -o depths.csv\n", 0},
-    {"plot", VERB_PLOT, cmd_plot, "FIGURE [FILE|FAMILY]", 1, 2, "'depthprec list figures' names them",
+    {"plot", VERB_PLOT, cmd_plot, "FIGURE [FILE|FAMILY]", 1, 2, &figures,
      "draws a figure: SVG, PDF or PNG by the ending of -o",
      "  depthprec plot error -F all -m d3d,reversed -o error.svg\n"
      "  depthprec plot distribution -F unorm4 -n 1 -f 10 -o staircase.png --theme dark\n"
@@ -43,16 +49,16 @@ const verb verb_rows[] = {
      "  depthprec texture depth.png -n 0.3 -f 1000\n"
      "  depthprec texture depth.png -n 0.3 -f 1000 --normal high -o normals.npy\n"
      "  depthprec texture --scene decals --parameter gap=0.01 -F d24 -m reversed\n", 1},
-    {"bench", VERB_BENCH, cmd_bench, "FAMILY", 1, 1, "interval, linearize, encode, worst, position or normal",
+    {"bench", VERB_BENCH, cmd_bench, "FAMILY", 1, 1, &families,
      "methods of a family: ns an element against worst error",
      "  depthprec bench linearize -n 0.1 -f 1000\n"
      "  depthprec bench interval -F fp32 -m reversed --tolerance 1e-6\n"
      "  depthprec plot pareto linearize -o pareto.svg\n", 0},
-    {"stability", VERB_STABILITY, cmd_stability, "FAMILY", 1, 1, "interval, linearize, encode, worst, position or normal",
+    {"stability", VERB_STABILITY, cmd_stability, "FAMILY", 1, 1, &families,
      "where the methods of a family lose what they claim",
      "  depthprec stability linearize\n"
      "  depthprec plot stability interval -o stability.svg\n", 0},
-    {"check", VERB_CHECK, cmd_check, "FILE...", 1, 1000, "requirement files, see depthprec(5)",
+    {"check", VERB_CHECK, cmd_check, "FILE...", 1, 1000, NULL,
      "whether cameras meet the requirements of files; exit 1 when not",
      "  depthprec check engine.need\n"
      "  depthprec check --report junit -o depth.xml engine.need\n", 1},
@@ -67,17 +73,26 @@ const verb verb_rows[] = {
      "  depthprec bias --api gl -F d24 -m gl --units -1 --at 1,10,100\n"
      "  depthprec bias --api webgpu -F depth24plus -m d3d --gap 0.01 --range 1:100\n"
      "  depthprec bias --preset bevy --api vulkan --units 4 --factor 1 --slope 0.02\n", 0},
-    {"list", VERB_LIST, cmd_list, "WHAT", 0, 1, NULL,
+    {"list", VERB_LIST, cmd_list, "WHAT", 0, 1, &topics,
      "formats, mappings, presets, effects, methods, ...: 'depthprec list' has them all",
      "  depthprec list\n"
      "  depthprec list formats\n"
      "  depthprec list mappings --json\n", 0},
-    {"help", VERB_HELP, cmd_help, "COMMAND", 0, 1, NULL,
+    {"help", VERB_HELP, cmd_help, "COMMAND", 0, 1, &commands,
      "the options of a command",
      "  depthprec help table\n", 0},
+    {"completions", VERB_COMPLETIONS, cmd_completions, "SHELL", 1, 1, &shells,
+     "what a shell completes: commands, options and their words",
+     "  . <(depthprec completions bash)\n", 0},
 };
 /* clang-format on */
 const size_t verb_count = sizeof verb_rows / sizeof verb_rows[0];
+
+bool list_verb(size_t index, list_item *item) {
+    if (index < verb_count)
+        *item = (list_item){.name = verb_rows[index].name, .note = verb_rows[index].summary, .row = &verb_rows[index]};
+    return index < verb_count;
+}
 
 const verb *verb_find(const char *name) {
     for (size_t i = 0; i < verb_count; i++)

@@ -2,14 +2,14 @@
 /**
  * @file bench.h  All methods of a family on the same inputs: how fast, and how wrong at worst.
  *
- * The errors depend on the set-up alone, also those of a model of an instruction (method_timed()); only the times vary.
+ * The errors depend on the set-up alone, also those of a model of an instruction (`timed`); only the times vary.
  */
 #ifndef METHOD_BENCH_H
 #define METHOD_BENCH_H
 
 #include "method/method.h"
 
-enum { BENCH_METHODS_MAX = 32 };
+enum { BENCH_METHODS_MAX = 32, BENCH_REPETITIONS = 25 };
 
 /** The worst of each kind over all inputs, and the index of an input that reaches it. */
 typedef struct measured {
