@@ -84,9 +84,6 @@ typedef enum option_id {
     OPTION_COUNT
 } option_id;
 
-/** How data are written. */
-typedef enum output_form { FORM_TEXT = 0, FORM_JSON, FORM_CSV } output_form;
-
 /** Values of --theme. */
 typedef enum theme_id { THEME_LIGHT = 0, THEME_DARK, THEME_PRINT, THEME_COUNT } theme_id;
 

@@ -110,3 +110,32 @@ size_t number_bound(double value, int digits, bool upward, char out[NUMBER_SIZE]
     const double unit = pow(10.0, floor(log10(shown)) - (digits - 1));
     return number_digits(shown + (upward ? unit : -unit), digits, out);
 }
+
+static const number_text no_number = {"-"};
+
+number_text number_of(double value, int digits) {
+    number_text out = no_number;
+    if (!isnan(value))
+        number_digits(value, digits, out.text);
+    return out;
+}
+
+number_text number_up(double value, int digits) {
+    number_text out = no_number;
+    if (!isnan(value))
+        number_bound(value, digits, true, out.text);
+    return out;
+}
+
+number_text number_down(double value, int digits) {
+    number_text out = no_number;
+    if (!isnan(value))
+        number_bound(value, digits, false, out.text);
+    return out;
+}
+
+number_text number_full(double value) {
+    number_text out;
+    number_shortest(value, out.text);
+    return out;
+}

@@ -36,4 +36,14 @@ size_t number_digits(double value, int digits, char out[NUMBER_SIZE]);
 /** The same rounded up, or down: what is read back is never below, or above, a positive value. @return length */
 size_t number_bound(double value, int digits, bool upward, char out[NUMBER_SIZE]);
 
+/** A number on its way into a sentence: printf("%s", number_of(z, 6).text). Lives until the statement ends. */
+typedef struct number_text {
+    char text[NUMBER_SIZE];
+} number_text;
+
+number_text number_of(double value, int digits);   /**< number_digits(), "-" for NaN */
+number_text number_up(double value, int digits);   /**< number_bound() upward, "-" for NaN */
+number_text number_down(double value, int digits); /**< number_bound() downward, "-" for NaN */
+number_text number_full(double value);             /**< number_shortest() */
+
 #endif
