@@ -5,20 +5,15 @@
  */
 #include <math.h>
 #include <stdio.h>
-#include <unistd.h>
 
 #include "cli/choice.h"
-#include "cli/clipping.h"
-#include "cli/options.h"
-#include "cli/progress.h"
 #include "cli/remedy.h"
-#include "cli/setups.h"
+#include "cli/walk.h"
 #include "report/number.h"
-#include "report/report.h"
 
 int cmd_budget(const options *o);
 
-enum { DEFAULT_ROWS = 9, DIGITS = 4, DIGITS_MORE = 6, DIGITS_Z = 9 };
+enum { DIGITS = 4, DIGITS_MORE = 6, DIGITS_Z = 9 };
 
 typedef struct row {
     double z;
@@ -36,19 +31,12 @@ typedef struct worst {
     double remedy_separation; /* NaN where nothing helps */
 } worst;
 
-/* What a budget is made of; below `at`, what belongs to the set-up at hand. */
+/* What a budget is made of; below `linearize`, what belongs to the set-up at hand. */
 typedef struct budget {
-    const options *o;
-    output *out;
-    setups all;
+    walk walk;
     dp_budget_terms terms;
     const char *composition; /* how positions are composed; null where eye depth is given */
     bool linearize;
-    progress progress;
-    uint64_t done;
-    depths at;
-    const dp_setup *setup;
-    setup_fields fields;
     row row, largest;
     double hopeless; /* the nearest depth where no separation is certain; NaN when there is none such */
     worst found;
@@ -79,7 +67,7 @@ static const worst *find_worst(budget *b) {
             cause = i;
     if (isnan(r->z))
         return NULL;
-    const remedy_result remedy = remedy_find(b->setup, &b->terms, r->z, (dp_cause)cause);
+    const remedy_result remedy = remedy_find(b->walk.setup, &b->terms, r->z, (dp_cause)cause);
     b->found = (worst){.z = r->z,
                        .separation = r->parts.separation,
                        .cause = dp_cause_name((dp_cause)cause),
@@ -102,18 +90,14 @@ static void write_cause(row *r, int i) {
 static void *next_row(void *of, size_t index) {
     budget *b = of;
     row *r = &b->row;
-    if (index > 0)
-        progress_step(&b->progress, ++b->done);
-    if (index == b->at.count || output_failed(b->out)) {
+    if (!walk_depth(&b->walk, index, &r->z)) {
         choosing_finish(&b->choice);
         choice_fields_of(&b->choice, &b->chosen);
         b->worst = find_worst(b);
         return NULL;
     }
-    r->z = depths_get(&b->at, index);
-    if (dp_budget_at(b->setup, r->z, &b->terms, &r->parts) != DP_OK)
-        return NULL; /* depths_resolve() has seen to it */
-    for (int i = 0; i < DP_CAUSE_COUNT && b->o->form == FORM_TEXT; i++)
+    dp_budget_at(b->walk.setup, r->z, &b->terms, &r->parts); /* cannot fail: depths_resolve() has seen to it */
+    for (int i = 0; i < DP_CAUSE_COUNT && b->walk.o->form == FORM_TEXT; i++)
         write_cause(r, i);
     note(b, r);
     return r;
@@ -121,11 +105,9 @@ static void *next_row(void *of, size_t index) {
 
 static void *next_setup(void *of, size_t i) {
     budget *b = of;
-    if (i == b->all.count)
+    if (!walk_setup(&b->walk, i))
         return NULL;
-    b->setup = &b->all.items[i];
-    b->fields = setup_fields_of(b->setup);
-    b->choice = choosing_start(b->setup, b->o->tolerance);
+    b->choice = choosing_start(b->walk.setup, b->walk.o->tolerance);
     b->hopeless = b->largest.z = b->largest.parts.separation = (double)NAN;
     return b;
 }
@@ -135,7 +117,7 @@ static void *next_setup(void *of, size_t i) {
 static void say_setup(page *p, void *item) {
     const budget *b = item;
     char label[SETUP_LABEL_SIZE];
-    setup_label(b->setup, true, label);
+    setup_label(b->walk.setup, true, label);
     if (b->composition != NULL)
         page_title(p, "%s, world %s, composition %s", label, number_full(b->terms.world).text, b->composition);
     else
@@ -201,8 +183,8 @@ static const column worst_columns[] = {{FIELD(worst, z, "z", "scene")},
                                        {FIELD(worst, remedy_separation, "remedy_separation", "scene")},
                                        {.kind = COLUMN_END}};
 
-static const column setup_report[] = {{PART(budget, fields, NULL, setup_columns)},
-                                      {FIELD(budget, fields.arith, "arith", ""), .only = AS_CSV},
+static const column setup_report[] = {{PART(budget, walk.fields, NULL, setup_columns)},
+                                      {FIELD(budget, walk.fields.arith, "arith", ""), .only = AS_CSV},
                                       {LIST("rows", row_columns, next_row)},
                                       {FIELD(budget, composition, "composition", ""), .only = AS_CSV},
                                       {PART(budget, worst, "worst", worst_columns), .only = AS_JSON, .pointed = true},
@@ -226,30 +208,16 @@ static unsigned conditions(const budget *b) {
 }
 
 int cmd_budget(const options *o) {
-    output out;
-    budget b = {.o = o, .out = &out, .terms = o->terms, .linearize = o->terms.linearize != 0};
+    budget b = {.walk.warns = true, .terms = o->terms, .linearize = o->terms.linearize != 0};
     options in_binary32 = *o;
     in_binary32.model = DP_MODEL_FP32;
     if (o->terms.world > 0.0)
         b.composition = dp_composition_get(o->terms.composition)->name;
     else if (option_given(o, OPTION_COMPOSITION))
         return option_error(OPTION_COMPOSITION, "needs --world: eye depth is given");
-    int status = setups_make(&in_binary32, &b.all);
+    int status = walk_start(&b.walk, &in_binary32);
     if (status == EXIT_FINE)
-        status = depths_resolve(o, DEFAULT_ROWS, &b.at);
-    if (status == EXIT_FINE)
-        status = depths_in_binary32(&b.at);
-    if (status == EXIT_FINE)
-        status = output_open(&out, o->output);
-    if (status == EXIT_FINE) {
-        bool silent = o->quiet || isatty(out.fd);
-        b.progress = progress_start("rows", (uint64_t)b.all.count * b.at.count, silent);
-        report_write(&(report_spec){"budget", columns, &b, .when = conditions(&b)}, &out, o->form);
-        progress_end(&b.progress);
-        status = output_close(&out);
-        if (status == EXIT_FINE && !o->quiet)
-            clipping_warn(&b.all);
-    }
-    setups_release(&b.all);
-    return status;
+        status = depths_in_binary32(&b.walk.at);
+    const report_spec spec = {"budget", columns, &b, .when = conditions(&b)};
+    return walk_write(&b.walk, &spec, status);
 }

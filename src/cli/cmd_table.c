@@ -5,20 +5,14 @@
  * Rows are computed and written one by one, so a million of them need no more memory than nine.
  */
 #include <math.h>
-#include <unistd.h>
 
 #include "cli/choice.h"
 #include "cli/clipping.h"
-#include "cli/options.h"
-#include "cli/progress.h"
-#include "cli/setups.h"
+#include "cli/walk.h"
 #include "cli/ways.h"
 #include "report/number.h"
-#include "report/report.h"
 
 int cmd_table(const options *o);
-
-enum { DEFAULT_ROWS = 9 };
 
 /* Beyond fifteen digits a decimal shows its own rounding (0.10000000000000001). */
 enum { DIGITS_FEW = 6, DIGITS_USUAL = 9, DIGITS_DEPTH = 7, DIGITS_DEPTH_MOST = 10, DIGITS_MOST = 15 };
@@ -37,17 +31,10 @@ typedef struct guarantee {
     dp_separation_worst worst;
 } guarantee;
 
-/* What a table is made of; below `at`, what belongs to the set-up at hand. */
+/* What a table is made of; below the range, what belongs to the set-up at hand. */
 typedef struct table {
-    const options *o;
-    output *out;
-    setups all;
+    walk walk;
     double lo, hi;
-    progress progress;
-    uint64_t done;
-    depths at;
-    const dp_setup *setup;
-    setup_fields fields;
     way interval; /* without a row, the exact cell */
     row row;
     dp_worst worst_case;
@@ -70,8 +57,8 @@ static double separation_in_binary32(const dp_setup *setup, const dp_sample *sam
 /* Are there depths among those asked about whose cell a plane cuts? */
 static bool has_cut_cells(const table *t, const dp_setup *setup) {
     const uint32_t first = dp_code(setup, setup->spec.znear), last = dp_code(setup, setup->spec.zfar);
-    for (size_t i = 0; i < t->at.count; i++) {
-        const uint32_t code = dp_code(setup, depths_get(&t->at, i));
+    for (size_t i = 0; i < t->walk.at.count; i++) {
+        const uint32_t code = dp_code(setup, depths_get(&t->walk.at, i));
         if (code == first || code == last)
             return true;
     }
@@ -103,35 +90,31 @@ static void set_digits(row *r) {
 static void *next_row(void *of, size_t i) {
     table *t = of;
     row *r = &t->row;
-    const bool last = i == t->at.count || output_failed(t->out);
-    if (i > 0)
-        progress_step(&t->progress, ++t->done);
-    if (last) {
+    double z;
+    if (!walk_depth(&t->walk, i, &z)) {
         choosing_finish(&t->choice);
         choice_fields_of(&t->choice, &t->chosen);
         return NULL;
     }
-    const double z = depths_get(&t->at, i);
-    if (dp_sample_at(t->setup, z, &r->sample) != DP_OK)
-        return NULL; /* depths_resolve() has seen to it */
-    r->binary32 = separation_in_binary32(t->setup, &r->sample);
+    dp_sample_at(t->walk.setup, z, &r->sample); /* cannot fail: depths_resolve() has seen to it */
+    r->binary32 = separation_in_binary32(t->walk.setup, &r->sample);
     if (t->interval.row != NULL)
-        r->sample.interval = way_interval(&t->interval, t->setup, z);
-    if (t->o->form == FORM_TEXT)
+        r->sample.interval = way_interval(&t->interval, t->walk.setup, z);
+    if (t->walk.o->form == FORM_TEXT)
         set_digits(r);
-    if (t->o->form != FORM_CSV)
+    if (t->walk.o->form != FORM_CSV)
         choosing_add(&t->choice, z);
     return r;
 }
 
 static const guarantee *guarantee_over(table *t) {
     dp_setup full;
-    dp_spec spec = t->setup->spec;
+    dp_spec spec = t->walk.setup->spec;
     guarantee *g = &t->over_range;
     spec.model = g->model =
         dp_mapping_get(spec.mapping)->curve == DP_CURVE_PERSPECTIVE ? DP_MODEL_FP32 : DP_MODEL_STAGED;
     g->model_name = dp_model_name(g->model);
-    return option_given(t->o, OPTION_RANGE) && dp_setup_init(&full, &spec) == DP_OK &&
+    return option_given(t->walk.o, OPTION_RANGE) && dp_setup_init(&full, &spec) == DP_OK &&
                    dp_separation_over(&full, t->lo, t->hi, 0.0, &g->worst) == DP_OK
                ? g
                : NULL;
@@ -139,31 +122,25 @@ static const guarantee *guarantee_over(table *t) {
 
 static void *next_setup(void *of, size_t i) {
     table *t = of;
-    if (i == t->all.count)
+    if (!walk_setup(&t->walk, i))
         return NULL;
-    t->setup = &t->all.items[i];
-    t->fields = setup_fields_of(t->setup);
-    t->choice = choosing_start(t->setup, t->o->tolerance);
-    if (option_given(t->o, OPTION_TOLERANCE))
-        t->interval = way_choose(t->setup, t->o->tolerance, has_cut_cells(t, t->setup));
-    if (t->o->form == FORM_CSV)
+    const dp_setup *setup = t->walk.setup;
+    const options *o = t->walk.o;
+    t->choice = choosing_start(setup, o->tolerance);
+    if (option_given(o, OPTION_TOLERANCE))
+        t->interval = way_choose(setup, o->tolerance, has_cut_cells(t, setup));
+    if (o->form == FORM_CSV)
         return t;
     t->worst_case = (dp_worst){0};
-    dp_worst_over(t->setup, t->lo, t->hi, &t->worst_case);
+    dp_worst_over(setup, t->lo, t->hi, &t->worst_case);
     t->worst = isnan(t->worst_case.error) ? NULL : &t->worst_case;
     t->guarantee = guarantee_over(t);
-    t->planes = clipping_of(t->setup);
-    t->drawn = t->setup->spec.model == DP_MODEL_FP32 ? &t->planes : NULL;
+    t->planes = clipping_of(setup);
+    t->drawn = setup->spec.model == DP_MODEL_FP32 ? &t->planes : NULL;
     return t;
 }
 
 /* ---- Text -------------------------------------------------------------------------------------------------------- */
-
-static void say_setup(page *p, void *item) {
-    const table *t = item;
-    char label[SETUP_LABEL_SIZE];
-    page_title(p, "%s", setup_label(t->setup, true, label));
-}
 
 static void say_worst(page *p, const dp_worst *w) {
     if (w == NULL)
@@ -215,8 +192,8 @@ static void say_notes(page *p, void *item) {
                   g->model == DP_MODEL_FP32 ? "guaranteed in binary32 (model fp32)" : "in the model staged");
     say_drawn(p, &t->planes);
     page_line(p, "%s", choice_sentence(&t->choice, sentence));
-    if (option_given(t->o, OPTION_TOLERANCE))
-        say_way(p, &t->interval, t->o->tolerance);
+    if (option_given(t->walk.o, OPTION_TOLERANCE))
+        say_way(p, &t->interval, t->walk.o->tolerance);
 }
 
 /* ---- Columns ----------------------------------------------------------------------------------------------------- */
@@ -263,8 +240,8 @@ static const column drawn_columns[] = {{FIELD(clipping, znear, "near_effective",
                                        {.kind = COLUMN_END}};
 
 static const column setup_report[] = {
-    {PART(table, fields, NULL, setup_columns)},
-    {FIELD(table, fields.arith, "arith", ""), .only = AS_CSV, .when = WITH_ARITH},
+    {PART(table, walk.fields, NULL, setup_columns)},
+    {FIELD(table, walk.fields.arith, "arith", ""), .only = AS_CSV, .when = WITH_ARITH},
     {FIELD(table, interval.name, "method", ""), .only = AS_JSON, .when = WITH_TOLERANCE},
     {FIELD(table, interval.claim, "claim", ""), .only = AS_JSON, .when = WITH_TOLERANCE},
     {LIST("rows", row_columns, next_row)},
@@ -275,41 +252,28 @@ static const column setup_report[] = {
     {PART(table, chosen, "auto", choice_columns), .only = AS_JSON},
     {.kind = COLUMN_END}};
 
-static const column columns[] = {{LIST("setups", setup_report, next_setup), .head = say_setup, .notes = say_notes},
+static const column columns[] = {{LIST("setups", setup_report, next_setup), .head = walk_title, .notes = say_notes},
                                  {.kind = COLUMN_END}};
 
 /* What a table of these set-ups has: the variant of arithmetic only where some set-up has that model. */
 static unsigned conditions(const table *t) {
-    unsigned when = (option_given(t->o, OPTION_TOLERANCE) ? WITH_TOLERANCE : 0) | (t->o->verbose ? VERBOSE : 0);
-    for (size_t i = 0; i < t->all.count; i++)
-        if (t->all.items[i].spec.model == DP_MODEL_FP32)
+    unsigned when =
+        (option_given(t->walk.o, OPTION_TOLERANCE) ? WITH_TOLERANCE : 0) | (t->walk.o->verbose ? VERBOSE : 0);
+    for (size_t i = 0; i < t->walk.all.count; i++)
+        if (t->walk.all.items[i].spec.model == DP_MODEL_FP32)
             when |= WITH_ARITH;
     return when;
 }
 
 int cmd_table(const options *o) {
-    output out;
-    table t = {.o = o, .out = &out};
-    int status = setups_make(o, &t.all);
+    table t = {.walk.warns = true};
+    int status = walk_start(&t.walk, o);
     if (status == EXIT_FINE)
         status = range_resolve(o, &t.lo, &t.hi);
-    if (status == EXIT_FINE)
-        status = depths_resolve(o, DEFAULT_ROWS, &t.at);
     if (status == EXIT_FINE && (o->model == DP_MODEL_FP32 || o->model_auto))
-        status = depths_in_binary32(&t.at);
+        status = depths_in_binary32(&t.walk.at);
     if (status == EXIT_FINE)
-        status = output_open(&out, o->output);
-    if (status == EXIT_FINE) {
-        setups_choose(o, &t.at, &t.all);
-        /* Rows on the same terminal are progress enough. */
-        bool silent = o->quiet || isatty(out.fd);
-        t.progress = progress_start("rows", (uint64_t)t.all.count * t.at.count, silent);
-        report_write(&(report_spec){"table", columns, &t, .when = conditions(&t), .label = 16}, &out, o->form);
-        progress_end(&t.progress);
-        status = output_close(&out);
-        if (status == EXIT_FINE && !o->quiet)
-            clipping_warn(&t.all);
-    }
-    setups_release(&t.all);
-    return status;
+        setups_choose(o, &t.walk.at, &t.walk.all);
+    const report_spec spec = {"table", columns, &t, .when = conditions(&t), .label = 16};
+    return walk_write(&t.walk, &spec, status);
 }

@@ -26,13 +26,20 @@ static void blanks(output *out, int count) {
 
 /* What is wider than its column pushes the rest, but is never cut or glued to its neighbour. */
 static void put(text_line *line, const column *c, const char *text) {
-    const int length = (int)strlen(text);
+    const int length = (int)strlen(text), rest = abs(c->width) - length;
     const bool left = c->width < 0;
-    const int gap = !line->begun ? 0 : !left ? 1 : line->left ? 1 : 2;
-    const int pad = left ? 0 : c->width - length;
-    blanks(line->out, line->waiting + (left ? gap : pad > 1 ? pad : 1));
-    output_text(line->out, text);
-    *line = (text_line){line->out, left && length < -c->width ? -c->width - length : 0, true, left};
+    if (left)
+        line->waiting += !line->begun ? 0 : line->left ? 1 : 2;
+    else
+        line->waiting += rest > 1 ? rest : 1;
+    if (length > 0) {
+        blanks(line->out, line->waiting);
+        output_text(line->out, text);
+        line->waiting = 0;
+    }
+    line->waiting += left && rest > 0 ? rest : 0;
+    line->begun = true;
+    line->left = left;
 }
 
 /* The columns that text has, those of parts as if they stood here. */
