@@ -68,7 +68,7 @@ static void say_marks(page *p, void *item) {
     page_line(p, "a limit is %.3g ns: a loop that moves the same bytes", b->limit);
     page_line(p, "* no other is both faster and more exact");
     for (size_t i = 0; i < b->count; i++)
-        if (method_timed(b->results[i].row) != NULL)
+        if (b->results[i].row->timed != NULL)
             page_line(p,
                       "%s: the time is of this processor's estimate, the errors of a model of it; any\n"
                       "    processor's is within its guarantee, %.3g, and the method within its claim",
@@ -125,7 +125,7 @@ static const column columns[] = {{FIELD(benching, family, "family", "")},
 int cmd_bench(const options *o) {
     output out;
     benching b = {.o = o, .tolerance = option_given(o, OPTION_TOLERANCE) ? o->tolerance : (double)NAN};
-    int status = methods_resolve(o, o->operands[0], &b.asked);
+    int status = methods_resolve(o, o->operand_row, &b.asked);
     if (status == EXIT_FINE)
         status = output_open(&out, o->output);
     if (status != EXIT_FINE)

@@ -6,7 +6,7 @@
 
 #include "cli/list.h"
 #include "cli/options.h"
-#include "cli/suggest.h"
+#include "report/append.h"
 #include "report/csv.h"
 #include "report/json.h"
 #include "report/number.h"
@@ -15,11 +15,11 @@
 
 int cmd_list(const options *o);
 
-static bool list_format(size_t index, list_item *item) {
+bool list_format(size_t index, list_item *item) {
     const dp_format_row *row = dp_format_get(index);
     if (row == NULL)
         return false;
-    *item = (list_item){row->format.name, row->aliases, row->note, "", row->source};
+    *item = (list_item){.name = row->format.name, .aliases = row->aliases, .note = row->note, .source = row->source};
     char absolute[NUMBER_SIZE];
     char relative[NUMBER_SIZE];
     number_shortest(row->claim_absolute, absolute);
@@ -31,15 +31,15 @@ static bool list_format(size_t index, list_item *item) {
     return true;
 }
 
-static bool list_mapping(size_t index, list_item *item) {
+bool list_mapping(size_t index, list_item *item) {
     const dp_mapping_row *row = index < DP_MAPPING_COUNT ? dp_mapping_get((dp_mapping)index) : NULL;
     if (row == NULL)
         return false;
-    *item = (list_item){row->name, row->aliases, row->note, "", row->source};
+    *item = (list_item){.name = row->name, .aliases = row->aliases, .note = row->note, .source = row->source};
     return true;
 }
 
-static bool list_model(size_t index, list_item *item) {
+bool list_model(size_t index, list_item *item) {
     static const char *const notes[] = {
         [DP_MODEL_EXACT] = "real arithmetic and one rounding into the format: the lattice of codes",
         [DP_MODEL_STAGED] = "NDC depth, then window depth, each rounded once to binary32, then the format",
@@ -49,23 +49,28 @@ static bool list_model(size_t index, list_item *item) {
     if (index >= sizeof notes / sizeof notes[0])
         return false;
     const char *name = dp_model_name((dp_model)index);
-    *item = (list_item){name != NULL ? name : "auto", "", notes[index], "", ""};
+    *item = (list_item){.name = name != NULL ? name : "auto", .note = notes[index]};
     return true;
 }
 
-static bool list_arith(size_t index, list_item *item) {
+bool list_rounding(size_t index, list_item *item) {
+    *item = (list_item){.name = dp_rounding_name((dp_rounding)index)};
+    return item->name != NULL;
+}
+
+bool list_arith(size_t index, list_item *item) {
     const dp_arith_row *row = dp_arith_get(index);
     if (row == NULL)
         return false;
-    *item = (list_item){row->name, "", row->note, "", row->source};
+    *item = (list_item){.name = row->name, .note = row->note, .source = row->source};
     return true;
 }
 
-static bool list_composition(size_t index, list_item *item) {
+bool list_composition(size_t index, list_item *item) {
     const dp_composition_row *row = dp_composition_get((dp_composition)index);
     if (row == NULL)
         return false;
-    *item = (list_item){row->name, "", row->note, "", ""};
+    *item = (list_item){.name = row->name, .note = row->note};
     return true;
 }
 
@@ -81,17 +86,17 @@ static bool list_cause(size_t index, list_item *item) {
     };
     if (index >= DP_CAUSE_COUNT)
         return false;
-    *item = (list_item){dp_cause_name((dp_cause)index), "", notes[index], "", ""};
+    *item = (list_item){.name = dp_cause_name((dp_cause)index), .note = notes[index]};
     return true;
 }
 
-static bool list_preset(size_t index, list_item *item) {
+bool list_preset(size_t index, list_item *item) {
     const preset *row = preset_get(index);
     char znear[NUMBER_SIZE];
     char zfar[NUMBER_SIZE];
     if (row == NULL)
         return false;
-    *item = (list_item){row->name, "", row->note, "", row->source};
+    *item = (list_item){.name = row->name, .note = row->note, .source = row->source, .row = row};
     number_shortest(row->znear, znear);
     number_shortest(row->zfar, zfar);
     const bool confirmed = row->unconfirmed[0] == '\0';
@@ -101,7 +106,7 @@ static bool list_preset(size_t index, list_item *item) {
     return true;
 }
 
-static bool list_api(size_t index, list_item *item) {
+bool list_api(size_t index, list_item *item) {
     static const char *const rules[] = {
         [BIAS_ONE] = "1",
         [BIAS_CODE] = "1/(2^N - 1) as binary32",
@@ -114,7 +119,8 @@ static bool list_api(size_t index, list_item *item) {
     const bias_api *row = bias_api_get(index);
     if (row == NULL)
         return false;
-    *item = (list_item){row->name, row->aliases, row->note, "", row->source};
+    *item =
+        (list_item){.name = row->name, .aliases = row->aliases, .note = row->note, .source = row->source, .row = row};
     snprintf(item->bound, sizeof item->bound, "unorm: r = %s; fp32: r = %s", rules[row->unorm], rules[row->real]);
     return true;
 }
@@ -123,30 +129,25 @@ static bool list_packing(size_t index, list_item *item) {
     const pack_row *row = pack_get(index);
     if (row == NULL)
         return false;
-    *item = (list_item){row->name, "", row->note, "", row->source};
-    size_t used = 0;
+    *item = (list_item){.name = row->name, .note = row->note, .source = row->source};
     if (row->kind != PACK_DEPTH)
-        used = (size_t)snprintf(item->bound, sizeof item->bound, "angle: mean %g, at most %g degrees%s",
-                                row->normal.mean, row->normal.max, row->kind == PACK_DEPTH_NORMAL ? "; " : "");
+        append(item->bound, sizeof item->bound, "angle: mean %g, at most %g degrees%s", row->normal.mean,
+               row->normal.max, row->kind == PACK_DEPTH_NORMAL ? "; " : "");
     if (row->kind != PACK_NORMAL)
-        snprintf(item->bound + used, sizeof item->bound - used, "depth: mean %g, at most %g of far", row->depth.mean,
-                 row->depth.max);
+        append(item->bound, sizeof item->bound, "depth: mean %g, at most %g of far", row->depth.mean, row->depth.max);
     return true;
 }
 
-static bool list_effect(size_t index, list_item *item) {
+bool list_effect(size_t index, list_item *item) {
     const effect_row *row = effect_get(index);
     if (row == NULL)
         return false;
-    *item = (list_item){row->name, "", row->note, "", row->source};
+    *item = (list_item){.name = row->name, .note = row->note, .source = row->source, .row = row};
     for (int i = 0; row->parameters[i].name != NULL; i++) {
         const effect_parameter *p = &row->parameters[i];
-        const size_t used = strlen(item->bound);
-        snprintf(item->bound + used, sizeof item->bound - used, "%s%s %g [%s]%s", i > 0 ? ", " : "", p->name, p->value,
-                 p->unit,
-                 i != row->wanted ? ""
-                 : row->smallest  ? " (smallest usable)"
-                                  : " (largest usable)");
+        append(item->bound, sizeof item->bound, "%s%s %g [%s]", i > 0 ? ", " : "", p->name, p->value, p->unit);
+        if (i == row->wanted)
+            append(item->bound, sizeof item->bound, " (%s usable)", row->smallest ? "smallest" : "largest");
     }
     return true;
 }
@@ -174,10 +175,10 @@ static const struct topic {
 };
 enum { TOPIC_COUNT = sizeof topics / sizeof topics[0] };
 
-static bool list_topic(size_t index, list_item *item) {
+bool list_topic(size_t index, list_item *item) {
     if (index >= TOPIC_COUNT)
         return false;
-    *item = (list_item){topics[index].name, "", topics[index].note, "", ""};
+    *item = (list_item){.name = topics[index].name, .note = topics[index].note, .row = &topics[index]};
     return true;
 }
 
@@ -314,29 +315,11 @@ static void write_csv(output *out, const listing *l) {
     }
 }
 
-static int unknown_topic(const char *name) {
-    suggestion s = suggest_start(name);
-    char text[SUGGEST_TEXT_SIZE];
-    for (size_t i = 0; i < TOPIC_COUNT; i++)
-        suggest_offer(&s, topics[i].name);
-    char allowed[256] = "";
-    for (size_t i = 0; i < TOPIC_COUNT; i++) {
-        if (i > 0)
-            strcat(allowed, i + 1 < TOPIC_COUNT ? ", " : " or ");
-        strcat(allowed, topics[i].name);
-    }
-    return usage_error("list: WHAT must be %s, got '%s'%s", allowed, name, suggest_text(&s, "", text));
-}
-
 int cmd_list(const options *o) {
     static void (*const writers[])(output *, const listing *) = {
         [FORM_TEXT] = write_text, [FORM_JSON] = write_json, [FORM_CSV] = write_csv};
-    listing l = {o, o->operand_count > 0 ? NULL : &all_topics, option_given(o, OPTION_TOLERANCE)};
-    for (size_t i = 0; i < TOPIC_COUNT && o->operand_count > 0; i++)
-        if (strcmp(topics[i].name, o->operands[0]) == 0)
-            l.topic = &topics[i];
-    if (l.topic == NULL)
-        return unknown_topic(o->operands[0]);
+    const struct topic *asked = o->operand_row;
+    const listing l = {o, asked != NULL ? asked : &all_topics, option_given(o, OPTION_TOLERANCE)};
     if (l.choices && l.topic->get != list_method)
         return option_error(OPTION_TOLERANCE, "has no meaning but in list methods");
     output out;

@@ -99,9 +99,8 @@ int cmd_stability(const options *o) {
     walking *w = calloc(1, sizeof *w);
     if (w == NULL)
         return usage_error("no memory for the methods");
-    int status = methods_family(o, o->operands[0], &w->family);
-    if (status == EXIT_FINE)
-        status = output_open(&out, o->output);
+    w->family = o->operand_row;
+    int status = output_open(&out, o->output);
     if (status == EXIT_FINE) {
         w->count = stability_run(w->family, w->results);
         if (w->count > 0) {
