@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "cli/setups.h"
 
+#include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -61,6 +62,30 @@ void setups_release(setups *s) {
 
 const char *setup_projection(const dp_setup *setup) {
     return setup->spec.ortho ? "orthographic" : "perspective";
+}
+
+const column setup_columns[] = {{FIELD(setup_fields, znear, "near", "scene")},
+                                {FIELD(setup_fields, zfar, "far", "scene")},
+                                {FIELD(setup_fields, projection, "projection", "")},
+                                {FIELD(setup_fields, mapping, "mapping", "")},
+                                {FIELD(setup_fields, format, "format", "")},
+                                {FIELD(setup_fields, rounding, "rounding", "")},
+                                {FIELD(setup_fields, model, "model", "")},
+                                {FIELD(setup_fields, arith, "arith", ""), .only = AS_JSON, .optional = true},
+                                {FIELD(setup_fields, log_c, "log_c", ""), .only = AS_JSON, .optional = true},
+                                {.kind = COLUMN_END}};
+
+setup_fields setup_fields_of(const dp_setup *setup) {
+    const dp_spec *spec = &setup->spec;
+    return (setup_fields){.znear = spec->znear,
+                          .zfar = spec->zfar,
+                          .log_c = spec->mapping == DP_MAPPING_LOG ? spec->log_c : (double)NAN,
+                          .projection = setup_projection(setup),
+                          .mapping = dp_mapping_get(spec->mapping)->name,
+                          .format = spec->format.name,
+                          .rounding = dp_rounding_name(spec->rounding),
+                          .model = dp_model_name(spec->model),
+                          .arith = spec->model == DP_MODEL_FP32 ? dp_arith_get(spec->arith)->name : NULL};
 }
 
 void setup_json(json *j, const dp_setup *setup) {
