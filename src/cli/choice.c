@@ -103,23 +103,31 @@ const char *choice_sentence(const choosing *c, char out[CHOICE_SENTENCE_SIZE]) {
     return out;
 }
 
-static void json_share(json *j, const dp_choice *choice, int model) {
+static const column share_columns[] = {
+    {FIELD(choice_share, share, "share", "")}, {FIELD(choice_share, z, "z", "scene")}, {.kind = COLUMN_END}};
+
+/* The models that are simpler than the fullest. */
+static const column neglected_columns[] = {
+    {PART(choice_fields, exact, "exact", share_columns)},
+    {PART(choice_fields, staged, "staged", share_columns), .pointed = true, .optional = true},
+    {.kind = COLUMN_END}};
+
+const column choice_columns[] = {{FIELD(choice_fields, model, "model", "")},
+                                 {PART(choice_fields, of_model, NULL, share_columns)},
+                                 {FIELD(choice_fields, tolerance, "tolerance", "")},
+                                 {GROUP("neglected", neglected_columns)},
+                                 {.kind = COLUMN_END}};
+
+static choice_share share_of(const dp_choice *choice, int model) {
     const double share = choice->share[model];
-    json_number(j, "share", share);
-    json_number(j, "z", share > 0.0 ? choice->share_z[model] : (double)NAN);
+    return (choice_share){share, share > 0.0 ? choice->share_z[model] : (double)NAN};
 }
 
-void choice_json(json *j, const choosing *c) {
-    json_object(j, "auto");
-    json_string(j, "model", dp_model_name(c->choice.model));
-    json_share(j, &c->choice, (int)c->choice.model);
-    json_number(j, "tolerance", c->tolerance);
-    json_object(j, "neglected");
-    for (int m = 0; m < fullest(&c->choice); m++) {
-        json_object(j, dp_model_name((dp_model)m));
-        json_share(j, &c->choice, m);
-        json_end(j);
-    }
-    json_end(j);
-    json_end(j);
+void choice_fields_of(const choosing *c, choice_fields *out) {
+    *out = (choice_fields){.model = dp_model_name(c->choice.model),
+                           .of_model = share_of(&c->choice, (int)c->choice.model),
+                           .tolerance = c->tolerance,
+                           .exact = share_of(&c->choice, DP_MODEL_EXACT),
+                           .staged_share = share_of(&c->choice, DP_MODEL_STAGED)};
+    out->staged = fullest(&c->choice) > DP_MODEL_STAGED ? &out->staged_share : NULL;
 }

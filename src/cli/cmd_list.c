@@ -7,9 +7,8 @@
 #include "cli/list.h"
 #include "cli/options.h"
 #include "report/append.h"
-#include "report/csv.h"
-#include "report/json.h"
 #include "report/number.h"
+#include "report/report.h"
 #include "texture/effect.h"
 #include "texture/pack.h"
 
@@ -156,22 +155,24 @@ bool list_effect(size_t index, list_item *item) {
 static const struct topic {
     const char *name, *note;
     list_get get;
+    const char *bound; /* what a thing's bound is called */
 } topics[] = {
-    {"formats", "depth formats, and what their rounding is held to", list_format},
-    {"mappings", "how an eye depth becomes a window depth", list_mapping},
-    {"models", "what is modelled of the arithmetic before the buffer", list_model},
-    {"ariths", "the variants of binary32 arithmetic", list_arith},
-    {"transforms", "how world positions become clip coordinates", list_composition},
-    {"causes", "what takes a part of the separation", list_cause},
-    {"presets", "cameras as engines set them, for --preset", list_preset},
-    {"apis", "what one unit of depth bias is, for bias --api", list_api},
-    {"packings", "depth and normals in the channels of a texture, and what their errors are held to", list_packing},
-    {"effects", "what texture --effect knows: formulas and parameters", list_effect},
-    {"figures", "what plot can draw", list_figure},
-    {"scenes", "synthetic depth images, for texture --scene", list_scene},
-    {"positions", "ways from window depth to a place, for texture --position", list_position},
-    {"normals", "normals from depth, for texture --normal", list_normal},
-    {"methods", "ways to a quantity, by family: what each claims, for which set-up and far/near", list_method},
+    {"formats", "depth formats, and what their rounding is held to", list_format, "bound"},
+    {"mappings", "how an eye depth becomes a window depth", list_mapping, "bound"},
+    {"models", "what is modelled of the arithmetic before the buffer", list_model, "bound"},
+    {"ariths", "the variants of binary32 arithmetic", list_arith, "bound"},
+    {"transforms", "how world positions become clip coordinates", list_composition, "bound"},
+    {"causes", "what takes a part of the separation", list_cause, "bound"},
+    {"presets", "cameras as engines set them, for --preset", list_preset, "camera"},
+    {"apis", "what one unit of depth bias is, for bias --api", list_api, "rule"},
+    {"packings", "depth and normals in the channels of a texture, and what their errors are held to", list_packing,
+     "bound"},
+    {"effects", "what texture --effect knows: formulas and parameters", list_effect, "parameters"},
+    {"figures", "what plot can draw", list_figure, "bound"},
+    {"scenes", "synthetic depth images, for texture --scene", list_scene, "bound"},
+    {"positions", "ways from window depth to a place, for texture --position", list_position, "bound"},
+    {"normals", "normals from depth, for texture --normal", list_normal, "bound"},
+    {"methods", "ways to a quantity, by family: what each claims, for which set-up and far/near", list_method, "bound"},
 };
 enum { TOPIC_COUNT = sizeof topics / sizeof topics[0] };
 
@@ -182,150 +183,89 @@ bool list_topic(size_t index, list_item *item) {
     return true;
 }
 
-static const struct topic all_topics = {"topics", "", list_topic};
+static const struct topic all_topics = {"topics", "", list_topic, "bound"};
 
-/* What is listed, and whether with the choices that --tolerance asks for. */
+/* What is listed, and the thing at hand. */
 typedef struct listing {
     const options *o;
     const struct topic *topic;
-    bool choices;
+    const char *what;
+    list_item item;
+    char chosen[LIST_TEXT_SIZE]; /* with --tolerance: for what the thing is chosen, "" for nothing */
 } listing;
 
-/* For what thing `index` is chosen: "" where nothing is asked. */
-static const char *chosen(const listing *l, size_t index, char text[LIST_TEXT_SIZE]) {
-    text[0] = '\0';
-    if (l->choices)
-        list_method_choice(l->o, index, text);
-    return text;
+static void *next_item(void *of, size_t i) {
+    listing *l = of;
+    list_item *item = &l->item;
+    if (!l->topic->get(i, item))
+        return NULL;
+    if (item->source != NULL && *item->source == '\0')
+        item->source = NULL;
+    if (option_given(l->o, OPTION_TOLERANCE))
+        list_method_choice(l->o, i, l->chosen);
+    return l;
 }
 
-static const char *text_of(const char *text) {
-    return text != NULL ? text : "";
+static void say_topics(page *p, void *of) {
+    (void)of;
+    output_text(p->out, "depthprec list WHAT, where WHAT is one of\n");
+    for (size_t i = 0; i < TOPIC_COUNT; i++)
+        page_note(p, topics[i].name, "%s", topics[i].note);
 }
 
-/* A line of its own, broken between words before column 96. */
-static void put_wrapped(output *out, const char *label, const char *text) {
-    enum { LEFT = 14, RIGHT = 96 };
-    if (*text == '\0')
-        return;
-    output_format(out, "  %-*s", LEFT - 2, label);
-    int column = LEFT;
-    while (*text != '\0') {
-        int word = (int)strcspn(text, " ");
-        if (column > LEFT && column + 1 + word > RIGHT) {
-            output_format(out, "\n%*s", LEFT, "");
-            column = LEFT;
-        }
-        output_format(out, "%s%.*s", column > LEFT ? " " : "", word, text);
-        column += word + (column > LEFT);
-        text += word + (text[word] == ' ');
-    }
-    output_char(out, '\n');
+static void say_item(page *p, void *of) {
+    const listing *l = of;
+    const list_item *item = &l->item;
+    page_title(p, "%s", item->name);
+    page_wrapped(p, "", item->note);
+    page_wrapped(p, l->topic->bound, item->bound);
+    page_wrapped(p, "chosen", l->chosen);
+    page_wrapped(p, "source", item->source);
+    page_wrapped(p, "also", item->aliases);
 }
 
-/* What the topics write into `bound`. */
-static const char *bound_label(const char *what) {
-    static const char *const labels[][2] = {{"presets", "camera"}, {"apis", "rule"}, {"effects", "parameters"}};
-    for (size_t i = 0; i < sizeof labels / sizeof labels[0]; i++)
-        if (strcmp(what, labels[i][0]) == 0)
-            return labels[i][1];
-    return "bound";
+static void say_other_formats(page *p, void *of) {
+    (void)of;
+    output_text(p->out,
+                "\nunormN, floatE.M, floatE.MbB\n"
+                "              formats for teaching: N = 1..32 bits; E = 2..8 exponent bits, M = 1..23 mantissa\n"
+                "              bits, bias B = 1..2^E-1\n"
+                "\ndepth24plus, depth24plus-stencil8\n"
+                "              unorm24 or fp32, as the implementation likes: stands for both\n");
 }
 
-static void write_text(output *out, const listing *l) {
-    const char *what = l->topic->name;
-    list_item item;
-    char text[LIST_TEXT_SIZE];
-    bool brief = l->topic == &all_topics;
-    if (brief)
-        output_text(out, "depthprec list WHAT, where WHAT is one of\n");
-    for (size_t i = 0; l->topic->get(i, &item); i++) {
-        if (brief) {
-            output_format(out, "  %-12s%s\n", item.name, item.note);
-            continue;
-        }
-        output_format(out, "%s%s\n", i > 0 ? "\n" : "", item.name);
-        put_wrapped(out, "", text_of(item.note));
-        put_wrapped(out, bound_label(what), item.bound);
-        put_wrapped(out, "chosen", chosen(l, i, text));
-        put_wrapped(out, "source", text_of(item.source));
-        put_wrapped(out, "also", text_of(item.aliases));
-    }
-    if (strcmp(what, "formats") == 0)
-        output_text(out,
-                    "\nunormN, floatE.M, floatE.MbB\n"
-                    "              formats for teaching: N = 1..32 bits; E = 2..8 exponent bits, M = 1..23 mantissa\n"
-                    "              bits, bias B = 1..2^E-1\n"
-                    "\ndepth24plus, depth24plus-stencil8\n"
-                    "              unorm24 or fp32, as the implementation likes: stands for both\n");
-}
+enum { WITH_CHOICES = 1 };
 
-static void json_aliases(json *j, const char *aliases) {
-    json_array(j, "aliases");
-    while (*aliases != '\0') {
-        char name[64];
-        size_t length = strcspn(aliases, " ");
-        snprintf(name, sizeof name, "%.*s", (int)length, aliases);
-        json_string(j, NULL, name);
-        aliases += length + (aliases[length] == ' ');
-    }
-    json_end(j);
-}
-
-static void write_json(output *out, const listing *l) {
-    const char *what = l->topic->name;
-    list_item item;
-    char text[LIST_TEXT_SIZE];
-    json j = json_start(out, "list");
-    json_string(&j, "what", what);
-    json_array(&j, "items");
-    for (size_t i = 0; l->topic->get(i, &item); i++) {
-        json_object(&j, NULL);
-        json_string(&j, "name", item.name);
-        json_aliases(&j, text_of(item.aliases));
-        json_string(&j, "note", text_of(item.note));
-        json_string(&j, bound_label(what), *item.bound != '\0' ? item.bound : NULL);
-        if (l->choices)
-            json_string(&j, "chosen", *chosen(l, i, text) != '\0' ? text : NULL);
-        json_string(&j, "source", *text_of(item.source) != '\0' ? item.source : NULL);
-        json_end(&j);
-    }
-    json_finish(&j);
-}
-
-static void write_csv(output *out, const listing *l) {
-    static const char *const heads[] = {"name", "aliases", "note", NULL, "source"};
-    list_item item;
-    char text[LIST_TEXT_SIZE];
-    csv c = csv_start(out);
-    for (size_t i = 0; i < sizeof heads / sizeof heads[0]; i++)
-        csv_string(&c, heads[i] == NULL ? bound_label(l->topic->name) : heads[i]);
-    if (l->choices)
-        csv_string(&c, "chosen");
-    csv_end(&c);
-    for (size_t i = 0; l->topic->get(i, &item); i++) {
-        csv_string(&c, item.name);
-        csv_string(&c, text_of(item.aliases));
-        csv_string(&c, text_of(item.note));
-        csv_string(&c, item.bound);
-        csv_string(&c, text_of(item.source));
-        if (l->choices)
-            csv_string(&c, chosen(l, i, text));
-        csv_end(&c);
-    }
+static void write_list(listing *l, output *out) {
+    const column items[] = {{FIELD(listing, item.name, "name", "")},
+                            {FIELD(listing, item.aliases, "aliases", ""), .names = true},
+                            {FIELD(listing, item.note, "note", "")},
+                            {FIELD(listing, item.bound, l->topic->bound, "")},
+                            {FIELD(listing, chosen, "chosen", ""), .only = AS_JSON, .when = WITH_CHOICES},
+                            {FIELD(listing, item.source, "source", "")},
+                            {FIELD(listing, chosen, "chosen", ""), .only = AS_CSV, .when = WITH_CHOICES},
+                            {.kind = COLUMN_END}};
+    const column columns[] = {{FIELD(listing, what, "what", ""), .only = AS_JSON},
+                              {LIST("items", items, next_item), .head = say_item},
+                              {.kind = COLUMN_END}};
+    const bool topics_alone = l->topic == &all_topics && l->o->form == FORM_TEXT;
+    report_write(&(report_spec){"list", topics_alone ? columns + 2 : columns, l,
+                                .when = option_given(l->o, OPTION_TOLERANCE) ? WITH_CHOICES : 0, .label = 12,
+                                .head = topics_alone ? say_topics : NULL,
+                                .notes = l->topic->get == list_format ? say_other_formats : NULL},
+                 out, l->o->form);
 }
 
 int cmd_list(const options *o) {
-    static void (*const writers[])(output *, const listing *) = {
-        [FORM_TEXT] = write_text, [FORM_JSON] = write_json, [FORM_CSV] = write_csv};
     const struct topic *asked = o->operand_row;
-    const listing l = {o, asked != NULL ? asked : &all_topics, option_given(o, OPTION_TOLERANCE)};
-    if (l.choices && l.topic->get != list_method)
+    listing l = {.o = o, .topic = asked != NULL ? asked : &all_topics};
+    if (option_given(o, OPTION_TOLERANCE) && l.topic->get != list_method)
         return option_error(OPTION_TOLERANCE, "has no meaning but in list methods");
     output out;
     int status = output_open(&out, o->output);
     if (status != EXIT_FINE)
         return status;
-    writers[o->form](&out, &l);
+    l.what = l.topic->name;
+    write_list(&l, &out);
     return output_close(&out);
 }

@@ -88,9 +88,6 @@ typedef enum option_id {
     OPTION_COUNT
 } option_id;
 
-/** How data are written. */
-typedef enum output_form { FORM_TEXT = 0, FORM_JSON, FORM_CSV } output_form;
-
 /** Values of --for, and SOLVE_FOR_ANY when it was not given. The planes come first. */
 typedef enum solve_target {
     SOLVE_FOR_NEAR = 0,

@@ -27,6 +27,9 @@ enum {
     EXIT_IO = 3      /**< could not read or write */
 };
 
+/** How data are written. */
+typedef enum output_form { FORM_TEXT = 0, FORM_JSON, FORM_CSV } output_form;
+
 enum { OUTPUT_BUFFER_SIZE = 1 << 16 };
 
 typedef struct output {
