@@ -92,9 +92,9 @@ folder=$(mktemp -d "$PWD/build/mutants/XXXXXX") || exit 1
 trap 'rm -rf "$folder"' EXIT
 trap 'trap "" INT TERM; kill 0; wait; exit 130' INT TERM
 
-rows | ROOM=${ROOM-} ONLY=${ONLY-} awk -F "$mark" '
-    (ENVIRON["ROOM"] == "" || $2 == ENVIRON["ROOM"]) &&
-    (ENVIRON["ONLY"] == "" || $3 " | " $4 "\n- " $5 "\n+ " $6 "\n= " $7 ~ ENVIRON["ONLY"])' >"$folder/rows"
+rows | ROOM=${ROOM-} ONLY=${ONLY-} awk -F "$mark" -v table="$table" '
+    { text = table ":" $8 ": " $3 " | " $4 "\n- " $5 "\n+ " $6 "\n= " $7 }
+    (ENVIRON["ROOM"] == "" || $2 == ENVIRON["ROOM"]) && (ENVIRON["ONLY"] == "" || text ~ ENVIRON["ONLY"])' >"$folder/rows"
 count=$(wc -l <"$folder/rows")
 [ "$count" -gt 0 ] || { echo "no such row in $table" >&2 && exit 1; }
 
