@@ -5,7 +5,6 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "method/choose.h"
 #include "report/number.h"
 
 /* The fullest model that the set-up has: what the others are measured by. */
@@ -13,19 +12,12 @@ static int fullest(const dp_choice *choice) {
     return isnan(choice->share[DP_MODEL_FP32]) ? DP_MODEL_STAGED : DP_MODEL_FP32;
 }
 
-/*
- * The models as methods of getting the separation, with what they were measured to neglect for a claim. A model that
- * the set-up does not have has NaN, which covers nothing; the fullest neglects nothing, and so covers everything.
- */
-static dp_model cheapest(const double share[DP_MODEL_COUNT], double tolerance) {
-    static const double cost[DP_MODEL_COUNT] = {150, 175, 250}; /* ns of dp_separation(), about */
-    method_row rows[DP_MODEL_COUNT];
-    const size_t count = DP_MODEL_COUNT;
-    const method_family_row models = {.name = "model", .methods = rows, .method_count = &count};
-    const method_wish wish = {.tolerance = tolerance, .ratio_lo = METHOD_RATIO_LO, .ratio_hi = METHOD_RATIO_LO};
-    for (int m = 0; m < DP_MODEL_COUNT; m++)
-        rows[m] = (method_row){.name = dp_model_name((dp_model)m), .claims = {FULL(share[m])}, .cost = cost[m]};
-    return (dp_model)(method_choose(&models, 0, &wish) - rows);
+/* The first that neglects no more than is allowed. */
+static dp_model simplest(const dp_choice *choice, double tolerance) {
+    int m = DP_MODEL_EXACT;
+    while (m < fullest(choice) && choice->share[m] > tolerance)
+        m++;
+    return (dp_model)m;
 }
 
 choosing choosing_start(const dp_setup *setup, double tolerance) {
@@ -46,7 +38,7 @@ static void take_block(choosing *c) {
             c->choice.share[m] = block.share[m];
             c->choice.share_z[m] = block.share_z[m];
         }
-    c->choice.model = cheapest(c->choice.share, c->tolerance);
+    c->choice.model = simplest(&c->choice, c->tolerance);
 }
 
 void choosing_add(choosing *c, double z) {
@@ -111,23 +103,31 @@ const char *choice_sentence(const choosing *c, char out[CHOICE_SENTENCE_SIZE]) {
     return out;
 }
 
-static void json_share(json *j, const dp_choice *choice, int model) {
+static const column share_columns[] = {
+    {FIELD(choice_share, share, "share", "")}, {FIELD(choice_share, z, "z", "scene")}, {.kind = COLUMN_END}};
+
+/* The models that are simpler than the fullest. */
+static const column neglected_columns[] = {
+    {PART(choice_fields, exact, "exact", share_columns)},
+    {PART(choice_fields, staged, "staged", share_columns), .pointed = true, .optional = true},
+    {.kind = COLUMN_END}};
+
+const column choice_columns[] = {{FIELD(choice_fields, model, "model", "")},
+                                 {PART(choice_fields, of_model, NULL, share_columns)},
+                                 {FIELD(choice_fields, tolerance, "tolerance", "")},
+                                 {GROUP("neglected", neglected_columns)},
+                                 {.kind = COLUMN_END}};
+
+static choice_share share_of(const dp_choice *choice, int model) {
     const double share = choice->share[model];
-    json_number(j, "share", share);
-    json_number(j, "z", share > 0.0 ? choice->share_z[model] : (double)NAN);
+    return (choice_share){share, share > 0.0 ? choice->share_z[model] : (double)NAN};
 }
 
-void choice_json(json *j, const choosing *c) {
-    json_object(j, "auto");
-    json_string(j, "model", dp_model_name(c->choice.model));
-    json_share(j, &c->choice, (int)c->choice.model);
-    json_number(j, "tolerance", c->tolerance);
-    json_object(j, "neglected");
-    for (int m = 0; m < fullest(&c->choice); m++) {
-        json_object(j, dp_model_name((dp_model)m));
-        json_share(j, &c->choice, m);
-        json_end(j);
-    }
-    json_end(j);
-    json_end(j);
+void choice_fields_of(const choosing *c, choice_fields *out) {
+    *out = (choice_fields){.model = dp_model_name(c->choice.model),
+                           .of_model = share_of(&c->choice, (int)c->choice.model),
+                           .tolerance = c->tolerance,
+                           .exact = share_of(&c->choice, DP_MODEL_EXACT),
+                           .staged_share = share_of(&c->choice, DP_MODEL_STAGED)};
+    out->staged = fullest(&c->choice) > DP_MODEL_STAGED ? &out->staged_share : NULL;
 }

@@ -15,7 +15,7 @@
 #include "cli/depths.h"
 #include "cli/setups.h"
 #include "depthprec/depthprec.h"
-#include "report/json.h"
+#include "report/report.h"
 
 enum { CHOICE_BLOCK = 64, CHOICE_SENTENCE_SIZE = 256 };
 
@@ -44,10 +44,22 @@ void setups_choose(const options *o, const depths *at, setups *s);
  */
 const char *choice_sentence(const choosing *c, char out[CHOICE_SENTENCE_SIZE]);
 
-/**
- * "auto": the model chosen, the share that it neglects and the depth where it does (null where it neglects nothing),
- * the tolerance, and under "neglected" the same of each model simpler than the fullest.
- */
-void choice_json(json *j, const choosing *c);
+/** What a model neglects of the separation, as a share, and the depth where it does; NaN where it neglects nothing. */
+typedef struct choice_share {
+    double share, z;
+} choice_share;
+
+/** The choice as an item of a report. */
+typedef struct choice_fields {
+    const char *model;
+    choice_share of_model;
+    double tolerance;
+    choice_share exact, staged_share;
+    const choice_share *staged; /**< null where it is the fullest model that there is */
+} choice_fields;
+
+extern const column choice_columns[];
+
+void choice_fields_of(const choosing *c, choice_fields *out);
 
 #endif

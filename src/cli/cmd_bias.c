@@ -6,46 +6,45 @@
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
-#include <unistd.h>
 
 #include "api/bias.h"
-#include "cli/options.h"
-#include "cli/progress.h"
-#include "cli/setups.h"
-#include "report/csv.h"
-#include "report/json.h"
+#include "cli/walk.h"
 #include "report/number.h"
 
 int cmd_bias(const struct options *o);
 
-enum { DEFAULT_ROWS = 9, DIGITS = 6, DIGITS_Z = 9 };
+enum { DIGITS = 6, DIGITS_Z = 9 };
 
-typedef struct report {
-    const options *o;
-    output *out;
-    setups all;
-    depths at;
-    bias_state state;
-    bias_goal goal;
-    bool inverse; /* no bias was given: one is asked for */
-    progress progress;
-    uint64_t done;
-} report;
-
-/* One line: what the bias does, or what one unit does and how many are enough. */
-typedef struct bias_row {
+/* What the bias does, or what one unit does and how many are enough. */
+typedef struct row {
     bias_effect effect; /* of the bias given, or of one unit that brings a layer nearer */
+    double one_unit;    /* what one unit moves; NaN where it is held at a plane */
     double apart;       /* inverse: the units that tell layers apart, with their sign; NaN when none do */
     double gap;         /* inverse: the units that bring a layer nearer by the gap */
-} bias_row;
+    const char *held;   /* text: where the biased depth is held at a plane */
+} row;
 
 /* Inverse: the same over the range. */
-typedef struct bias_range {
+typedef struct needs {
     double lo, hi, gap_lo;
     double apart, apart_z;
     double gap, gap_z;
     double shift_lo, shift_hi; /* what the units of the gap do at the ends, or those that tell apart without a gap */
-} bias_range;
+} needs;
+
+/* What is asked; below `range_lo`, what belongs to the set-up at hand. */
+typedef struct biasing {
+    walk walk;
+    const char *api;
+    bias_state state;
+    bias_goal goal;
+    bool inverse;      /* no bias was given: one is asked for */
+    double units, gap; /* as asked; NaN where the other one is */
+    double range_lo, range_hi;
+    row row;
+    needs needs;
+    bool limited; /* some depth is held at a plane */
+} biasing;
 
 /* ---- What is asked ----------------------------------------------------------------------------------------------- */
 
@@ -54,297 +53,176 @@ static double with_sign(const dp_setup *setup, double units) {
 }
 
 /* What is asked of this set-up: the factor is written with the sign that the API takes, the goal counts nearer as +. */
-static bias_goal goal_of(const report *r, const dp_setup *setup, double gap) {
-    bias_goal goal = r->goal;
-    goal.factor = r->state.factor * bias_sign(setup);
+static bias_goal goal_of(const biasing *b, const dp_setup *setup, double gap) {
+    bias_goal goal = b->goal;
+    goal.factor = b->state.factor * bias_sign(setup);
     goal.gap = gap;
     return goal;
 }
 
-static bias_row row_at(const report *r, const dp_setup *setup, double z) {
-    bias_state state = r->state;
-    if (!r->inverse)
-        return (bias_row){.effect = bias_at(setup, &state, r->goal.slope, z)};
-    state.units = bias_sign(setup);
-    state.factor = 0.0;
-    const bias_goal apart = goal_of(r, setup, 0.0);
-    const bias_goal gap = goal_of(r, setup, r->goal.gap);
-    return (bias_row){.effect = bias_at(setup, &state, r->goal.slope, z),
-                      .apart = with_sign(setup, bias_needed(setup, &apart, z)),
-                      .gap = with_sign(setup, bias_needed(setup, &gap, z))};
-}
-
-static double shift_with(const report *r, const dp_setup *setup, double units, double z) {
-    bias_state state = r->state;
-    state.units = units;
-    return isnan(units) || isinf(z) ? (double)NAN : bias_at(setup, &state, r->goal.slope, z).shift;
-}
-
-static bias_range over_range(const report *r, const dp_setup *setup, double lo, double hi) {
-    bias_range range = {.lo = lo, .hi = hi, .gap_lo = fmax(lo, setup->spec.znear + r->goal.gap)};
-    const bias_goal apart = goal_of(r, setup, 0.0);
-    const bias_goal gap = goal_of(r, setup, r->goal.gap);
-    range.apart = with_sign(setup, bias_needed_over(setup, &apart, lo, hi, &range.apart_z));
-    range.gap = range.gap_z = (double)NAN;
-    if (r->goal.gap > 0.0 && range.gap_lo < hi)
-        range.gap = with_sign(setup, bias_needed_over(setup, &gap, range.gap_lo, hi, &range.gap_z));
-    const double units = r->goal.gap > 0.0 ? range.gap : range.apart;
-    range.shift_lo = shift_with(r, setup, units, range.gap_lo);
-    range.shift_hi = shift_with(r, setup, units, hi);
-    return range;
-}
-
-static void each_row(report *r, const dp_setup *setup,
-                     void (*emit)(void *, const report *, const dp_setup *, const bias_row *), void *to) {
-    for (size_t i = 0; i < r->at.count && !output_failed(r->out); i++) {
-        const bias_row row = row_at(r, setup, depths_get(&r->at, i));
-        emit(to, r, setup, &row);
-        progress_step(&r->progress, ++r->done);
+static void *next_row(void *of, size_t i) {
+    biasing *b = of;
+    row *r = &b->row;
+    bias_state state = b->state;
+    double z;
+    if (!walk_depth(&b->walk, i, &z))
+        return NULL;
+    const dp_setup *setup = b->walk.setup;
+    if (b->inverse) {
+        const bias_goal apart = goal_of(b, setup, 0.0);
+        const bias_goal gap = goal_of(b, setup, b->goal.gap);
+        state.units = bias_sign(setup);
+        state.factor = 0.0;
+        r->apart = with_sign(setup, bias_needed(setup, &apart, z));
+        r->gap = with_sign(setup, bias_needed(setup, &gap, z));
     }
+    r->effect = bias_at(setup, &state, b->goal.slope, z);
+    r->one_unit = r->effect.limited ? (double)NAN : fabs(r->effect.shift);
+    r->held = r->effect.limited ? "held at a plane" : "";
+    b->limited = b->limited || r->effect.limited;
+    return r;
+}
+
+static double shift_with(const biasing *b, const dp_setup *setup, double units, double z) {
+    bias_state state = b->state;
+    state.units = units;
+    return isnan(units) || isinf(z) ? (double)NAN : bias_at(setup, &state, b->goal.slope, z).shift;
+}
+
+static needs over_range(const biasing *b, const dp_setup *setup, double lo, double hi) {
+    needs n = {.lo = lo, .hi = hi, .gap_lo = fmax(lo, setup->spec.znear + b->goal.gap)};
+    const bias_goal apart = goal_of(b, setup, 0.0);
+    const bias_goal gap = goal_of(b, setup, b->goal.gap);
+    n.apart = with_sign(setup, bias_needed_over(setup, &apart, lo, hi, &n.apart_z));
+    n.gap = n.gap_z = (double)NAN;
+    if (b->goal.gap > 0.0 && n.gap_lo < hi)
+        n.gap = with_sign(setup, bias_needed_over(setup, &gap, n.gap_lo, hi, &n.gap_z));
+    const double units = b->goal.gap > 0.0 ? n.gap : n.apart;
+    n.shift_lo = shift_with(b, setup, units, n.gap_lo);
+    n.shift_hi = shift_with(b, setup, units, hi);
+    return n;
+}
+
+static void *next_setup(void *of, size_t i) {
+    biasing *b = of;
+    if (!walk_setup(&b->walk, i))
+        return NULL;
+    b->limited = false;
+    if (b->inverse && b->walk.o->form != FORM_CSV)
+        b->needs = over_range(b, b->walk.setup, b->range_lo, b->range_hi);
+    return b;
 }
 
 /* ---- Text -------------------------------------------------------------------------------------------------------- */
 
-static void put_number(output *out, int width, int digits, double value) {
-    char text[NUMBER_SIZE];
-    number_digits(value, digits, text);
-    output_format(out, "%*s", width, isnan(value) ? "-" : text);
-}
-
-static void text_row(void *to, const report *r, const dp_setup *setup, const bias_row *row) {
-    const bias_effect *e = &row->effect;
-    bool *limited = to;
-    (void)setup;
-    put_number(r->out, 12, DIGITS_Z, e->z);
-    put_number(r->out, 13, DIGITS, e->r.least);
-    if (r->goal.slope > 0.0)
-        put_number(r->out, 13, DIGITS, e->m);
-    if (r->inverse) {
-        put_number(r->out, 13, DIGITS, e->limited ? (double)NAN : fabs(e->shift));
-        put_number(r->out, 17, DIGITS_Z, row->apart);
-        if (r->goal.gap > 0.0)
-            put_number(r->out, 17, DIGITS_Z, row->gap);
-    } else {
-        *limited = *limited || e->limited;
-        put_number(r->out, 13, DIGITS, e->offset);
-        output_format(r->out, " %10u %10u", e->code, e->moved);
-        put_number(r->out, 18, DIGITS_Z + 1, e->to);
-        put_number(r->out, 13, DIGITS, e->shift);
-    }
-    output_text(r->out, r->o->verbose && e->limited ? "  held at a plane\n" : "\n");
-}
-
-static void text_head(const report *r) {
-    output_format(r->out, "%12s %12s", "z", "r");
-    if (r->goal.slope > 0.0)
-        output_format(r->out, " %12s", "slope");
-    if (r->inverse)
-        output_format(r->out, " %12s %16s", "one unit", "told apart");
-    else
-        output_format(r->out, " %12s %10s %10s %17s %12s", "bias", "code", "moved to", "stands for", "shift");
-    if (r->inverse && r->goal.gap > 0.0)
-        output_format(r->out, " %16s", "the gap");
-    output_char(r->out, '\n');
+static void say_states(page *p, void *item) {
+    const biasing *b = item;
+    const bias_state *s = &b->state;
+    walk_title(p, item);
+    output_text(p->out, s->api->name);
+    if (!b->inverse)
+        output_format(p->out, ", units %s", number_full(s->units).text);
+    if (s->factor != 0.0)
+        output_format(p->out, ", factor %s", number_full(s->factor).text);
+    if (!b->inverse && s->clamp != 0.0)
+        output_format(p->out, ", clamp %s", number_full(s->clamp).text);
+    if (b->goal.slope > 0.0)
+        output_format(p->out, ", slope %s a pixel", number_full(b->goal.slope).text);
+    output_char(p->out, '\n');
 }
 
 /* "  told apart  -2 units from 0.1 to 1000 (needed at z = 0.1)" */
-static void text_needed(output *out, const char *what, double units, double lo, double hi, double z) {
-    output_format(out, "  %-12s", what);
+static void say_needed(page *p, const char *what, double units, double lo, double hi, double z) {
+    const number_text from = number_of(lo, DIGITS_Z), to = number_of(hi, DIGITS_Z);
     if (isnan(units))
-        output_text(out, "no bias is enough");
+        page_note(p, what, "no bias is enough from %s to %s", from.text, to.text);
     else
-        put_number(out, 0, DIGITS_Z, units);
-    output_text(out, isnan(units) ? " from " : fabs(units) == 1.0 ? " unit from " : " units from ");
-    put_number(out, 0, DIGITS_Z, lo);
-    output_text(out, " to ");
-    put_number(out, 0, DIGITS_Z, hi);
-    if (!isnan(units)) {
-        output_text(out, " (needed at z = ");
-        put_number(out, 0, DIGITS_Z, z);
-        output_text(out, ")");
-    }
-    output_char(out, '\n');
+        page_note(p, what, "%s unit%s from %s to %s (needed at z = %s)", number_of(units, DIGITS_Z).text,
+                  fabs(units) == 1.0 ? "" : "s", from.text, to.text, number_of(z, DIGITS_Z).text);
 }
 
-static void text_range(const report *r, const bias_range *range) {
-    text_needed(r->out, "told apart", range->apart, range->lo, range->hi, range->apart_z);
-    if (r->goal.gap == 0.0)
+static void say_range(page *p, const biasing *b) {
+    const needs *r = &b->needs;
+    say_needed(p, "told apart", r->apart, r->lo, r->hi, r->apart_z);
+    if (b->goal.gap == 0.0)
         return;
-    text_needed(r->out, "the gap", range->gap, range->gap_lo, range->hi, range->gap_z);
-    if (isnan(range->shift_hi))
-        return;
-    output_text(r->out, "              the same units bring a layer nearer by ");
-    put_number(r->out, 0, DIGITS, fabs(range->shift_hi));
-    output_text(r->out, " at z = ");
-    put_number(r->out, 0, DIGITS_Z, range->hi);
-    output_char(r->out, '\n');
+    say_needed(p, "the gap", r->gap, r->gap_lo, r->hi, r->gap_z);
+    if (!isnan(r->shift_hi))
+        page_note(p, "", "the same units bring a layer nearer by %s at z = %s",
+                  number_of(fabs(r->shift_hi), DIGITS).text, number_of(r->hi, DIGITS_Z).text);
 }
 
-static void text_notes(const report *r, const dp_setup *setup, bool limited) {
-    const bias_api *api = r->state.api;
-    const bias_unit unit = bias_unit_at(api, &setup->spec.format, 1.0);
-    const double nearer = bias_sign(setup);
-    if (!r->inverse)
-        output_format(r->out, "  %s bias brings a layer nearer\n", nearer < 0.0 ? "a negative" : "a positive");
-    if (limited)
-        output_text(r->out, "  a biased depth that leaves [0, 1] is held at the plane\n");
+static void say_notes(page *p, void *item) {
+    const biasing *b = item;
+    const bias_unit unit = bias_unit_at(b->state.api, &b->walk.setup->spec.format, 1.0);
+    if (b->inverse)
+        say_range(p, b);
+    else
+        page_line(p, "a %s bias brings a layer nearer", bias_sign(b->walk.setup) < 0 ? "negative" : "positive");
+    if (b->limited && !b->inverse)
+        page_line(p, "a biased depth that leaves [0, 1] is held at the plane");
     if (isinf(unit.most))
-        output_text(r->out, "  r is the implementation's choice: the one shown is an assumption\n");
+        page_line(p, "r is the implementation's choice: the one shown is an assumption");
     else if (unit.most > unit.least)
-        output_text(r->out, "  r is the implementation's choice: it may be up to twice the one shown\n");
+        page_line(p, "r is the implementation's choice: it may be up to twice the one shown");
 }
 
-static void text_states(const report *r) {
-    static const char *const names[] = {"units", "factor", "clamp"};
-    const double values[] = {r->state.units, r->state.factor, r->state.clamp};
-    char text[NUMBER_SIZE];
-    output_text(r->out, r->state.api->name);
-    for (int i = 0; i < 3; i++) {
-        if (r->inverse ? i != 1 || values[i] == 0.0 : i > 0 && values[i] == 0.0)
-            continue;
-        number_shortest(values[i], text);
-        output_format(r->out, ", %s %s", names[i], text);
-    }
-    if (r->goal.slope > 0.0) {
-        number_shortest(r->goal.slope, text);
-        output_format(r->out, ", slope %s a pixel", text);
-    }
-    output_char(r->out, '\n');
+/* ---- Columns ----------------------------------------------------------------------------------------------------- */
+
+/* Either the effect of a bias is asked, or the bias that is needed. */
+enum { EFFECT = 1, INVERSE = 2, WITH_GAP = 4, WITH_SLOPE = 8, VERBOSE = 16 };
+
+static unsigned conditions(const biasing *b) {
+    return (b->inverse ? INVERSE : EFFECT) | (b->goal.gap > 0.0 ? WITH_GAP : 0) |
+           (b->goal.slope > 0.0 ? WITH_SLOPE : 0) | (b->walk.o->verbose ? VERBOSE : 0);
 }
 
-static int write_text(report *r) {
-    double lo, hi;
-    int status = range_resolve(r->o, &lo, &hi);
-    for (size_t i = 0; i < r->all.count && status == EXIT_FINE; i++) {
-        const dp_setup *setup = &r->all.items[i];
-        char label[SETUP_LABEL_SIZE];
-        bool limited = false;
-        output_format(r->out, "%s%s\n", i > 0 ? "\n" : "", setup_label(setup, true, label));
-        text_states(r);
-        text_head(r);
-        each_row(r, setup, text_row, &limited);
-        if (r->inverse) {
-            const bias_range range = over_range(r, setup, lo, hi);
-            text_range(r, &range);
-        }
-        text_notes(r, setup, limited);
-    }
-    return status;
-}
+static const column row_columns[] = {
+    {FIELD(row, effect.z, "z", "scene"), SHOWN("z", 12, DIGITS_Z)},
+    {FIELD(row, effect.r.least, "r", ""), SHOWN("r", 13, DIGITS)},
+    {FIELD(row, effect.r.most, "r_most", "")},
+    {FIELD(row, effect.m, "slope", "per pixel")},
+    {TEXT_FIELD(row, effect.m, "slope", 13, DIGITS), .when = WITH_SLOPE},
+    {FIELD(row, one_unit, "one_unit", "scene"), SHOWN("one unit", 13, DIGITS), .when = INVERSE},
+    {FIELD(row, apart, "units_apart", ""), SHOWN("told apart", 17, DIGITS_Z), .when = INVERSE},
+    {FIELD(row, gap, "units_gap", ""), .only = AS_CSV, .when = INVERSE},
+    {FIELD(row, gap, "units_gap", ""), SHOWN("the gap", 17, DIGITS_Z), .only = AS_JSON | AS_TEXT,
+     .when = INVERSE | WITH_GAP},
+    {FIELD(row, effect.offset, "bias", ""), SHOWN("bias", 13, DIGITS), .when = EFFECT},
+    {FIELD(row, effect.depth, "depth", ""), .when = EFFECT},
+    {FIELD(row, effect.code, "code", ""), SHOWN("code", 11, 0), .when = EFFECT},
+    {FIELD(row, effect.moved, "code_moved", ""), SHOWN("moved to", 11, 0), .when = EFFECT},
+    {FIELD(row, effect.to, "z_moved", "scene"), SHOWN("stands for", 18, DIGITS_Z + 1), .when = EFFECT},
+    {FIELD(row, effect.shift, "shift", "scene"), SHOWN("shift", 13, DIGITS), .when = EFFECT},
+    {FIELD(row, effect.limited, "limited", ""), .only = AS_JSON, .when = EFFECT},
+    {TEXT_FIELD(row, held, "", -1, 0), .when = VERBOSE},
+    {.kind = COLUMN_END}};
 
-/* ---- JSON -------------------------------------------------------------------------------------------------------- */
+static const column needs_columns[] = {{FIELD(needs, lo, "lo", "scene")},
+                                       {FIELD(needs, hi, "hi", "scene")},
+                                       {FIELD(needs, apart, "units_apart", "")},
+                                       {FIELD(needs, apart_z, "units_apart_z", "scene")},
+                                       {FIELD(needs, gap_lo, "gap_lo", "scene"), .when = WITH_GAP},
+                                       {FIELD(needs, gap, "units_gap", ""), .when = WITH_GAP},
+                                       {FIELD(needs, gap_z, "units_gap_z", "scene"), .when = WITH_GAP},
+                                       {FIELD(needs, shift_lo, "shift_lo", "scene")},
+                                       {FIELD(needs, shift_hi, "shift_hi", "scene")},
+                                       {.kind = COLUMN_END}};
 
-static void json_row(void *to, const report *r, const dp_setup *setup, const bias_row *row) {
-    const bias_effect *e = &row->effect;
-    json *j = to;
-    (void)setup;
-    json_object(j, NULL);
-    json_number(j, "z", e->z);
-    json_number(j, "r", e->r.least);
-    json_number(j, "r_most", e->r.most);
-    json_number(j, "slope", e->m);
-    if (r->inverse) {
-        json_number(j, "one_unit", e->limited ? (double)NAN : fabs(e->shift));
-        json_number(j, "units_apart", row->apart);
-        if (r->goal.gap > 0.0)
-            json_number(j, "units_gap", row->gap);
-    } else {
-        json_number(j, "bias", e->offset);
-        json_number(j, "depth", e->depth);
-        json_integer(j, "code", e->code);
-        json_integer(j, "code_moved", e->moved);
-        json_number(j, "z_moved", e->to);
-        json_number(j, "shift", e->shift);
-        json_bool(j, "limited", e->limited);
-    }
-    json_end(j);
-}
+static const column setup_report[] = {{PART(biasing, walk.fields, NULL, setup_columns)},
+                                      {FIELD(biasing, api, "api", ""), .only = AS_CSV},
+                                      {LIST("rows", row_columns, next_row)},
+                                      {PART(biasing, needs, "range", needs_columns), .only = AS_JSON, .when = INVERSE},
+                                      {.kind = COLUMN_END}};
 
-static void json_range(json *j, const report *r, const bias_range *range) {
-    json_object(j, "range");
-    json_number(j, "lo", range->lo);
-    json_number(j, "hi", range->hi);
-    json_number(j, "units_apart", range->apart);
-    json_number(j, "units_apart_z", range->apart_z);
-    if (r->goal.gap > 0.0) {
-        json_number(j, "gap_lo", range->gap_lo);
-        json_number(j, "units_gap", range->gap);
-        json_number(j, "units_gap_z", range->gap_z);
-    }
-    json_number(j, "shift_lo", range->shift_lo);
-    json_number(j, "shift_hi", range->shift_hi);
-    json_end(j);
-}
-
-static int write_json(report *r) {
-    double lo, hi;
-    const int status = range_resolve(r->o, &lo, &hi);
-    json j = json_start(r->out, "bias");
-    json_string(&j, "api", r->state.api->name);
-    json_number(&j, "units", r->inverse ? (double)NAN : r->state.units);
-    json_number(&j, "factor", r->state.factor);
-    json_number(&j, "clamp", r->state.clamp);
-    json_number(&j, "slope", r->goal.slope);
-    json_number(&j, "gap", r->inverse ? r->goal.gap : (double)NAN);
-    json_array(&j, "setups");
-    for (size_t i = 0; i < r->all.count; i++) {
-        const dp_setup *setup = &r->all.items[i];
-        json_object(&j, NULL);
-        setup_json(&j, setup);
-        json_array(&j, "rows");
-        each_row(r, setup, json_row, &j);
-        json_end(&j);
-        if (r->inverse) {
-            const bias_range range = over_range(r, setup, lo, hi);
-            json_range(&j, r, &range);
-        }
-        json_end(&j);
-    }
-    json_finish(&j);
-    return status;
-}
-
-/* ---- CSV --------------------------------------------------------------------------------------------------------- */
-
-static void csv_row(void *to, const report *r, const dp_setup *setup, const bias_row *row) {
-    const bias_effect *e = &row->effect;
-    csv *c = to;
-    setup_csv(c, setup);
-    csv_string(c, r->state.api->name);
-    csv_number(c, e->z);
-    csv_number(c, e->r.least);
-    csv_number(c, e->r.most);
-    csv_number(c, e->m);
-    if (r->inverse) {
-        csv_number(c, e->limited ? (double)NAN : fabs(e->shift));
-        csv_number(c, row->apart);
-        csv_number(c, row->gap);
-    } else {
-        csv_number(c, e->offset);
-        csv_number(c, e->depth);
-        csv_integer(c, e->code);
-        csv_integer(c, e->moved);
-        csv_number(c, e->to);
-        csv_number(c, e->shift);
-    }
-    csv_end(c);
-}
-
-static int write_csv(report *r) {
-    static const char *const both[] = {"api", "z [scene]", "r", "r_most", "slope [per pixel]", NULL};
-    static const char *const needs[] = {"one_unit [scene]", "units_apart", "units_gap", NULL};
-    static const char *const does[] = {"bias", "depth", "code", "code_moved", "z_moved [scene]", "shift [scene]", NULL};
-    csv c = csv_start(r->out);
-    setup_csv_head(&c);
-    for (int i = 0; both[i] != NULL; i++)
-        csv_string(&c, both[i]);
-    for (const char *const *head = r->inverse ? needs : does; *head != NULL; head++)
-        csv_string(&c, *head);
-    csv_end(&c);
-    for (size_t i = 0; i < r->all.count; i++)
-        each_row(r, &r->all.items[i], csv_row, &c);
-    return EXIT_FINE;
-}
+static const column columns[] = {{FIELD(biasing, api, "api", ""), .only = AS_JSON},
+                                 {FIELD(biasing, units, "units", ""), .only = AS_JSON},
+                                 {FIELD(biasing, state.factor, "factor", ""), .only = AS_JSON},
+                                 {FIELD(biasing, state.clamp, "clamp", ""), .only = AS_JSON},
+                                 {FIELD(biasing, goal.slope, "slope", ""), .only = AS_JSON},
+                                 {FIELD(biasing, gap, "gap", "scene"), .only = AS_JSON},
+                                 {LIST("setups", setup_report, next_setup), .head = say_states, .notes = say_notes},
+                                 {.kind = COLUMN_END}};
 
 /* ---- The command ------------------------------------------------------------------------------------------------- */
 
@@ -375,34 +253,21 @@ static void drop_fp16(options *o) {
 }
 
 int cmd_bias(const options *given) {
-    static int (*const writers[])(report *) = {
-        [FORM_TEXT] = write_text, [FORM_JSON] = write_json, [FORM_CSV] = write_csv};
     options o = *given;
-    output out;
     const bias_api *api = o.api != NULL ? o.api : bias_api_get(0);
-    report r = {.o = &o,
-                .out = &out,
-                .state = {api, o.units, o.factor, o.clamp},
-                .goal = {.api = api, .slope = o.slope, .gap = o.gap},
-                .inverse = !option_given(&o, OPTION_UNITS)};
-    double lo, hi;
+    biasing b = {.state = {api, o.units, o.factor, o.clamp},
+                 .goal = {.api = api, .slope = o.slope, .gap = o.gap},
+                 .inverse = !option_given(&o, OPTION_UNITS),
+                 .api = api->name};
+    b.units = b.inverse ? (double)NAN : o.units;
+    b.gap = b.inverse ? o.gap : (double)NAN;
     if (!option_given(&o, OPTION_FORMAT) && o.preset == NULL)
         drop_fp16(&o);
     int status = check_states(&o, api);
     if (status == EXIT_FINE)
-        status = setups_make(&o, &r.all);
+        status = walk_start(&b.walk, &o);
     if (status == EXIT_FINE)
-        status = depths_resolve(&o, DEFAULT_ROWS, &r.at);
-    if (status == EXIT_FINE)
-        status = range_resolve(&o, &lo, &hi);
-    if (status == EXIT_FINE)
-        status = output_open(&out, o.output);
-    if (status == EXIT_FINE) {
-        r.progress = progress_start("rows", (uint64_t)r.all.count * r.at.count, o.quiet || isatty(out.fd));
-        writers[o.form](&r);
-        progress_end(&r.progress);
-        status = output_close(&out);
-    }
-    setups_release(&r.all);
-    return status;
+        status = range_resolve(&o, &b.range_lo, &b.range_hi);
+    const report_spec spec = {"bias", columns, &b, .when = conditions(&b), .label = 12};
+    return walk_write(&b.walk, &spec, status);
 }

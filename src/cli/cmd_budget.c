@@ -5,285 +5,219 @@
  */
 #include <math.h>
 #include <stdio.h>
-#include <string.h>
-#include <unistd.h>
 
 #include "cli/choice.h"
-#include "cli/clipping.h"
-#include "cli/options.h"
-#include "cli/progress.h"
 #include "cli/remedy.h"
-#include "cli/setups.h"
-#include "report/csv.h"
-#include "report/json.h"
+#include "cli/walk.h"
 #include "report/number.h"
 
 int cmd_budget(const options *o);
 
-enum { DEFAULT_ROWS = 9, DIGITS = 4, DIGITS_MORE = 6, DIGITS_Z = 9 };
+enum { DIGITS = 4, DIGITS_MORE = 6, DIGITS_Z = 9 };
 
-typedef struct budget_row {
+typedef struct row {
     double z;
     dp_budget parts;
-} budget_row;
+    char cause[DP_CAUSE_COUNT][NUMBER_SIZE + 8]; /* "0.00149  50 %" */
+} row;
 
-typedef struct report {
-    const options *o;
-    output *out;
-    setups all;
-    depths at;
-    progress progress;
-    uint64_t done;
-} report;
-
-/* What is gathered of a set-up while its rows go by. */
-typedef struct summary {
-    choosing choice;
-    budget_row worst; /* the largest separation that is finite; z is NaN while there is none */
-    double hopeless;  /* the nearest depth where none is; NaN when there is none such */
-    dp_cause cause;   /* the largest part of the worst */
+/* The largest separation that is finite, what takes most of it and what would help. */
+typedef struct worst {
+    double z; /* NaN while there is none */
+    double separation;
+    const char *cause;
+    double share;
     remedy_result remedy;
-} summary;
+    double remedy_separation; /* NaN where nothing helps */
+} worst;
 
-static dp_cause largest_part(const dp_budget *b) {
-    int largest = 0;
+/* What a budget is made of; below `linearize`, what belongs to the set-up at hand. */
+typedef struct budget {
+    walk walk;
+    dp_budget_terms terms;
+    const char *composition; /* how positions are composed; null where eye depth is given */
+    bool linearize;
+    row row, largest;
+    double hopeless; /* the nearest depth where no separation is certain; NaN when there is none such */
+    worst found;
+    const worst *worst; /* null where there is none */
+    choosing choice;
+    choice_fields chosen;
+} budget;
+
+/* ---- What is reported -------------------------------------------------------------------------------------------- */
+
+static double share_of(const row *r, int cause) {
+    return r->parts.cause[cause] / r->parts.separation;
+}
+
+static void note(budget *b, const row *r) {
+    if (isinf(r->parts.separation))
+        b->hopeless = fmin(b->hopeless, r->z); /* the other one where one is NaN */
+    else if (!(r->parts.separation <= b->largest.parts.separation))
+        b->largest = *r;
+    choosing_add(&b->choice, r->z);
+}
+
+static const worst *find_worst(budget *b) {
+    const row *r = &b->largest;
+    int cause = 0;
     for (int i = 1; i < DP_CAUSE_COUNT; i++)
-        if (b->cause[i] > b->cause[largest])
-            largest = i;
-    return (dp_cause)largest;
+        if (r->parts.cause[i] > r->parts.cause[cause])
+            cause = i;
+    if (isnan(r->z))
+        return NULL;
+    const remedy_result remedy = remedy_find(b->walk.setup, &b->terms, r->z, (dp_cause)cause);
+    b->found = (worst){.z = r->z,
+                       .separation = r->parts.separation,
+                       .cause = dp_cause_name((dp_cause)cause),
+                       .share = share_of(r, cause),
+                       .remedy = remedy,
+                       .remedy_separation = remedy.text != NULL ? remedy.separation : (double)NAN};
+    return &b->found;
 }
 
-static void note(summary *s, const budget_row *row) {
-    if (isinf(row->parts.separation))
-        s->hopeless = fmin(s->hopeless, row->z); /* the other one where one is NaN */
-    else if (!(row->parts.separation <= s->worst.parts.separation))
-        s->worst = *row;
-    choosing_add(&s->choice, row->z);
-}
-
-static summary each_row(report *r, const dp_setup *setup,
-                        void (*emit)(void *, const report *, const dp_setup *, const budget_row *), void *to) {
-    summary s = {.choice = choosing_start(setup, r->o->tolerance), .hopeless = (double)NAN};
-    s.worst.z = s.worst.parts.separation = (double)NAN;
-    for (size_t i = 0; i < r->at.count && !output_failed(r->out); i++) {
-        budget_row row = {.z = depths_get(&r->at, i)};
-        if (dp_budget_at(setup, row.z, &r->o->terms, &row.parts) == DP_OK) { /* depths_resolve() has seen to it */
-            emit(to, r, setup, &row);
-            note(&s, &row);
-        }
-        progress_step(&r->progress, ++r->done);
-    }
-    choosing_finish(&s.choice);
-    s.cause = largest_part(&s.worst.parts);
-    if (!isnan(s.worst.z))
-        s.remedy = remedy_find(setup, &r->o->terms, s.worst.z, s.cause);
-    return s;
-}
-
-static double share_of(const budget_row *row, int cause) {
-    return row->parts.cause[cause] / row->parts.separation;
-}
-
-/* How positions are composed; null where eye depth is given. */
-static const char *composition_of(const options *o) {
-    return o->terms.world > 0.0 ? dp_composition_get(o->terms.composition)->name : NULL;
-}
-
-/* ---- Text: the causes that there can be -------------------------------------------------------------------------- */
-
-static bool is_asked(const options *o, int cause) {
-    switch (cause) {
-    case DP_CAUSE_COMPOSITION:
-        return o->terms.world > 0.0;
-    case DP_CAUSE_INTERPOLATION:
-        return o->terms.interpolation > 0.0;
-    case DP_CAUSE_LINEARIZATION:
-        return o->terms.linearize != 0;
-    default:
-        return true;
-    }
-}
-
-static void text_row(void *to, const report *r, const dp_setup *setup, const budget_row *row) {
-    (void)to, (void)setup;
-    char text[NUMBER_SIZE];
-    number_digits(row->z, DIGITS_Z, text);
-    output_format(r->out, "%12s", text);
-    number_bound(row->parts.separation, DIGITS_MORE, true, text);
-    output_format(r->out, " %12s", text);
-    for (int i = 0; i < DP_CAUSE_COUNT; i++) {
-        const double share = share_of(row, i);
-        if (!is_asked(r->o, i))
-            continue;
-        if (isinf(row->parts.separation)) { /* no parts of what does not exist */
-            output_format(r->out, " %12s %5s", "-", "-");
-            continue;
-        }
-        number_digits(row->parts.cause[i], DIGITS, text);
-        output_format(r->out, share > 0.0 && share < 0.005 ? " %12s  <1 %%" : " %12s %3.0f %%", text, 100.0 * share);
-    }
-    output_char(r->out, '\n');
-}
-
-static void text_advice(const report *r, const summary *s) {
-    char z[NUMBER_SIZE];
-    char now[NUMBER_SIZE];
-    char then[NUMBER_SIZE];
-    char step[NUMBER_SIZE];
-    if (!isnan(s->hopeless)) {
-        number_digits(s->hopeless, DIGITS_MORE, z);
-        output_format(r->out, "  at z = %s no separation is certain: what lies behind may share its code\n", z);
-    }
-    if (isnan(s->worst.z))
-        return;
-    number_digits(s->worst.z, DIGITS_MORE, z);
-    number_bound(s->worst.parts.separation, DIGITS, true, now);
-    number_bound(s->remedy.separation, DIGITS, true, then);
-    number_digits(remedy_step(s->worst.z), DIGITS, step);
-    output_format(r->out, "  at z = %s %s takes %.0f %%: ", z, dp_cause_name(s->cause),
-                  100.0 * share_of(&s->worst, (int)s->cause));
-    if (s->remedy.text != NULL)
-        output_format(r->out, "%s would need %s in place of %s\n", s->remedy.text, then, now);
-    else if (s->worst.parts.separation < 2.0 * remedy_step(s->worst.z))
-        output_format(r->out, "nothing to gain, binary32 depths themselves are %s apart there\n", step);
+static void write_cause(row *r, int i) {
+    const double share = share_of(r, i);
+    const number_text part = number_of(r->parts.cause[i], DIGITS);
+    if (isinf(r->parts.separation)) /* no parts of what does not exist */
+        snprintf(r->cause[i], sizeof r->cause[i], "- %5s", "-");
     else
-        output_text(r->out, "nothing that could be chosen otherwise helps against it\n");
+        snprintf(r->cause[i], sizeof r->cause[i], share > 0.0 && share < 0.005 ? "%s  <1 %%" : "%s %3.0f %%", part.text,
+                 100.0 * share);
 }
 
-static void write_text(report *r) {
-    for (size_t i = 0; i < r->all.count; i++) {
-        const dp_setup *setup = &r->all.items[i];
-        char label[SETUP_LABEL_SIZE];
-        char sentence[CHOICE_SENTENCE_SIZE];
-        if (i > 0)
-            output_char(r->out, '\n');
-        output_text(r->out, setup_label(setup, true, label));
-        if (composition_of(r->o) != NULL) {
-            char world[NUMBER_SIZE];
-            number_shortest(r->o->terms.world, world);
-            output_format(r->out, ", world %s, composition %s", world, composition_of(r->o));
-        }
-        output_format(r->out, "\n%12s %12s", "z", "separation");
-        for (int c = 0; c < DP_CAUSE_COUNT; c++)
-            if (is_asked(r->o, c))
-                output_format(r->out, " %18s", dp_cause_name((dp_cause)c));
-        output_char(r->out, '\n');
-        const summary s = each_row(r, setup, text_row, NULL);
-        text_advice(r, &s);
-        output_format(r->out, "  %s\n", choice_sentence(&s.choice, sentence));
+static void *next_row(void *of, size_t index) {
+    budget *b = of;
+    row *r = &b->row;
+    if (!walk_depth(&b->walk, index, &r->z)) {
+        choosing_finish(&b->choice);
+        choice_fields_of(&b->choice, &b->chosen);
+        b->worst = find_worst(b);
+        return NULL;
     }
+    dp_budget_at(b->walk.setup, r->z, &b->terms, &r->parts); /* cannot fail: depths_resolve() has seen to it */
+    for (int i = 0; i < DP_CAUSE_COUNT && b->walk.o->form == FORM_TEXT; i++)
+        write_cause(r, i);
+    note(b, r);
+    return r;
 }
 
-/* ---- JSON -------------------------------------------------------------------------------------------------------- */
-
-static void json_row(void *to, const report *r, const dp_setup *setup, const budget_row *row) {
-    (void)r, (void)setup;
-    json *j = to;
-    json_object(j, NULL);
-    json_number(j, "z", row->z);
-    json_number(j, "separation", row->parts.separation);
-    json_number(j, "window", row->parts.window);
-    json_object(j, "causes");
-    for (int i = 0; i < DP_CAUSE_COUNT; i++)
-        json_number(j, dp_cause_name((dp_cause)i), row->parts.cause[i]);
-    json_end(j);
-    json_end(j);
+static void *next_setup(void *of, size_t i) {
+    budget *b = of;
+    if (!walk_setup(&b->walk, i))
+        return NULL;
+    b->choice = choosing_start(b->walk.setup, b->walk.o->tolerance);
+    b->hopeless = b->largest.z = b->largest.parts.separation = (double)NAN;
+    return b;
 }
 
-static void json_worst(json *j, const summary *s) {
-    if (isnan(s->worst.z)) {
-        json_null(j, "worst");
-        return;
+/* ---- Text -------------------------------------------------------------------------------------------------------- */
+
+static void say_setup(page *p, void *item) {
+    const budget *b = item;
+    char label[SETUP_LABEL_SIZE];
+    setup_label(b->walk.setup, true, label);
+    if (b->composition != NULL)
+        page_title(p, "%s, world %s, composition %s", label, number_full(b->terms.world).text, b->composition);
+    else
+        page_title(p, "%s", label);
+}
+
+static void say_worst(page *p, const worst *w) {
+    const double step = remedy_step(w->z);
+    char taken[128];
+    snprintf(taken, sizeof taken, "at z = %s %s takes %.0f %%: ", number_of(w->z, DIGITS_MORE).text, w->cause,
+             100.0 * w->share);
+    if (w->remedy.text != NULL)
+        page_line(p, "%s%s would need %s in place of %s", taken, w->remedy.text,
+                  number_up(w->remedy.separation, DIGITS).text, number_up(w->separation, DIGITS).text);
+    else if (w->separation < 2.0 * step)
+        page_line(p, "%snothing to gain, binary32 depths themselves are %s apart there", taken,
+                  number_of(step, DIGITS).text);
+    else
+        page_line(p, "%snothing that could be chosen otherwise helps against it", taken);
+}
+
+static void say_notes(page *p, void *item) {
+    const budget *b = item;
+    char sentence[CHOICE_SENTENCE_SIZE];
+    if (!isnan(b->hopeless))
+        page_line(p, "at z = %s no separation is certain: what lies behind may share its code",
+                  number_of(b->hopeless, DIGITS_MORE).text);
+    if (b->worst != NULL)
+        say_worst(p, b->worst);
+    page_line(p, "%s", choice_sentence(&b->choice, sentence));
+}
+
+/* ---- Columns ----------------------------------------------------------------------------------------------------- */
+
+enum { WITH_WORLD = 1, WITH_INTERPOLATION = 2, WITH_LINEARIZE = 4 };
+
+/* Text has the causes that there can be. */
+#define CAUSE(id, name, needed)                                                                                        \
+    {FIELD(row, parts.cause[id], name, "scene")}, {                                                                    \
+        TEXT_FIELD(row, cause[id], name, 19, 0), .when = (needed)                                                      \
     }
-    json_object(j, "worst");
-    json_number(j, "z", s->worst.z);
-    json_number(j, "separation", s->worst.parts.separation);
-    json_string(j, "cause", dp_cause_name(s->cause));
-    json_number(j, "share", share_of(&s->worst, (int)s->cause));
-    json_string(j, "remedy", s->remedy.text);
-    json_number(j, "remedy_separation", s->remedy.text != NULL ? s->remedy.separation : (double)NAN);
-    json_end(j);
-}
+static const column cause_columns[] = {CAUSE(DP_CAUSE_EYE, "eye", 0),
+                                       CAUSE(DP_CAUSE_COMPOSITION, "composition", WITH_WORLD),
+                                       CAUSE(DP_CAUSE_PROJECTION, "projection", 0),
+                                       CAUSE(DP_CAUSE_NDC, "ndc", 0),
+                                       CAUSE(DP_CAUSE_INTERPOLATION, "interpolation", WITH_INTERPOLATION),
+                                       CAUSE(DP_CAUSE_FORMAT, "format", 0),
+                                       CAUSE(DP_CAUSE_LINEARIZATION, "linearization", WITH_LINEARIZE),
+                                       {.kind = COLUMN_END}};
 
-static void write_json(report *r) {
-    json j = json_start(r->out, "budget");
-    json_object(&j, "terms");
-    json_number(&j, "interpolation", r->o->terms.interpolation);
-    json_number(&j, "world", r->o->terms.world);
-    json_string(&j, "composition", composition_of(r->o));
-    json_bool(&j, "linearize", r->o->terms.linearize != 0);
-    json_end(&j);
-    json_array(&j, "setups");
-    for (size_t i = 0; i < r->all.count; i++) {
-        json_object(&j, NULL);
-        setup_json(&j, &r->all.items[i]);
-        json_array(&j, "rows");
-        const summary s = each_row(r, &r->all.items[i], json_row, &j);
-        json_end(&j);
-        json_worst(&j, &s);
-        choice_json(&j, &s.choice);
-        json_end(&j);
-    }
-    json_finish(&j);
-}
+static const column row_columns[] = {
+    {FIELD(row, z, "z", "scene"), SHOWN("z", 12, DIGITS_Z)},
+    {FIELD(row, parts.separation, "separation", "scene"), SHOWN("separation", 13, DIGITS_MORE), .upward = true},
+    {FIELD(row, parts.window, "window", "")},
+    {GROUP("causes", cause_columns)},
+    {.kind = COLUMN_END}};
 
-/* ---- CSV --------------------------------------------------------------------------------------------------------- */
+static const column worst_columns[] = {{FIELD(worst, z, "z", "scene")},
+                                       {FIELD(worst, separation, "separation", "scene")},
+                                       {FIELD(worst, cause, "cause", "")},
+                                       {FIELD(worst, share, "share", "")},
+                                       {FIELD(worst, remedy.text, "remedy", "")},
+                                       {FIELD(worst, remedy_separation, "remedy_separation", "scene")},
+                                       {.kind = COLUMN_END}};
 
-static void csv_row(void *to, const report *r, const dp_setup *setup, const budget_row *row) {
-    csv *c = to;
-    setup_csv(c, setup);
-    csv_string(c, dp_arith_get(setup->spec.arith)->name);
-    csv_number(c, row->z);
-    csv_number(c, row->parts.separation);
-    csv_number(c, row->parts.window);
-    for (int i = 0; i < DP_CAUSE_COUNT; i++)
-        csv_number(c, row->parts.cause[i]);
-    csv_string(c, composition_of(r->o) != NULL ? composition_of(r->o) : "");
-    csv_end(c);
-}
+static const column setup_report[] = {{PART(budget, walk.fields, NULL, setup_columns)},
+                                      {FIELD(budget, walk.fields.arith, "arith", ""), .only = AS_CSV},
+                                      {LIST("rows", row_columns, next_row)},
+                                      {FIELD(budget, composition, "composition", ""), .only = AS_CSV},
+                                      {PART(budget, worst, "worst", worst_columns), .only = AS_JSON, .pointed = true},
+                                      {PART(budget, chosen, "auto", choice_columns), .only = AS_JSON},
+                                      {.kind = COLUMN_END}};
 
-static void write_csv(report *r) {
-    static const char *const heads[] = {"arith", "z [scene]", "separation [scene]", "window"};
-    csv c = csv_start(r->out);
-    setup_csv_head(&c);
-    for (size_t i = 0; i < sizeof heads / sizeof heads[0]; i++)
-        csv_string(&c, heads[i]);
-    for (int i = 0; i < DP_CAUSE_COUNT; i++) {
-        char head[64];
-        snprintf(head, sizeof head, "%s [scene]", dp_cause_name((dp_cause)i));
-        csv_string(&c, head);
-    }
-    csv_string(&c, "composition");
-    csv_end(&c);
-    for (size_t i = 0; i < r->all.count; i++)
-        each_row(r, &r->all.items[i], csv_row, &c);
+static const column term_columns[] = {{FIELD(budget, terms.interpolation, "interpolation", "")},
+                                      {FIELD(budget, terms.world, "world", "scene")},
+                                      {FIELD(budget, composition, "composition", "")},
+                                      {FIELD(budget, linearize, "linearize", "")},
+                                      {.kind = COLUMN_END}};
+
+static const column columns[] = {{GROUP("terms", term_columns), .only = AS_JSON},
+                                 {LIST("setups", setup_report, next_setup), .head = say_setup, .notes = say_notes},
+                                 {.kind = COLUMN_END}};
+
+/* The terms that are asked for. */
+static unsigned conditions(const budget *b) {
+    return (b->terms.world > 0.0 ? WITH_WORLD : 0) | (b->terms.interpolation > 0.0 ? WITH_INTERPOLATION : 0) |
+           (b->linearize ? WITH_LINEARIZE : 0);
 }
 
 int cmd_budget(const options *o) {
-    static void (*const writers[])(report *) = {
-        [FORM_TEXT] = write_text, [FORM_JSON] = write_json, [FORM_CSV] = write_csv};
-    output out;
-    report r = {.o = o, .out = &out};
+    budget b = {.walk.warns = true, .terms = o->terms, .linearize = o->terms.linearize != 0};
     options in_binary32 = *o;
     in_binary32.model = DP_MODEL_FP32;
-    if (option_given(o, OPTION_COMPOSITION) && composition_of(o) == NULL)
+    if (o->terms.world > 0.0)
+        b.composition = dp_composition_get(o->terms.composition)->name;
+    else if (option_given(o, OPTION_COMPOSITION))
         return option_error(OPTION_COMPOSITION, "needs --world: eye depth is given");
-    int status = setups_make(&in_binary32, &r.all);
+    int status = walk_start(&b.walk, &in_binary32);
     if (status == EXIT_FINE)
-        status = depths_resolve(o, DEFAULT_ROWS, &r.at);
-    if (status == EXIT_FINE)
-        status = depths_in_binary32(&r.at);
-    if (status == EXIT_FINE)
-        status = output_open(&out, o->output);
-    if (status == EXIT_FINE) {
-        bool silent = o->quiet || isatty(out.fd);
-        r.progress = progress_start("rows", (uint64_t)r.all.count * r.at.count, silent);
-        writers[o->form](&r);
-        progress_end(&r.progress);
-        status = output_close(&out);
-        if (status == EXIT_FINE && !o->quiet)
-            clipping_warn(&r.all);
-    }
-    setups_release(&r.all);
-    return status;
+        status = depths_in_binary32(&b.walk.at);
+    const report_spec spec = {"budget", columns, &b, .when = conditions(&b)};
+    return walk_write(&b.walk, &spec, status);
 }

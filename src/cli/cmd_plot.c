@@ -11,9 +11,9 @@
 #include "cli/list.h"
 #include "cli/methods.h"
 #include "cli/plot_data.h"
-#include "cli/suggest.h"
 #include "plot/figure.h"
 #include "plot/notes.h"
+#include "report/append.h"
 #include "report/number.h"
 
 int cmd_plot(const options *o);
@@ -40,18 +40,8 @@ bool list_figure(size_t index, list_item *item) {
     const figure_row *row = figure_get(index);
     if (row == NULL)
         return false;
-    *item = (list_item){.name = row->name, .note = row->summary};
+    *item = (list_item){.name = row->name, .note = row->summary, .row = row};
     return true;
-}
-
-static int unknown_figure(const char *name) {
-    suggestion s = suggest_start(name);
-    char text[SUGGEST_TEXT_SIZE], all[256] = "";
-    for (size_t i = 0; figure_get(i) != NULL; i++) {
-        suggest_offer(&s, figure_get(i)->name);
-        snprintf(all + strlen(all), sizeof all - strlen(all), "%s%s", i > 0 ? ", " : "", figure_get(i)->name);
-    }
-    return usage_error("plot: FIGURE must be one of %s, got '%s'%s", all, name, suggest_text(&s, "", text));
 }
 
 /* The depth and range of the request; what this figure has no use for is refused rather than ignored. */
@@ -127,8 +117,7 @@ static void name_setups(plotting *p) {
         char *name = p->text[i];
         p->names[i] = setup_label(&p->all.items[i], false, name);
         if (p->o->model_auto)
-            snprintf(name + strlen(name), SETUP_LABEL_SIZE - strlen(name), ", %s",
-                     dp_model_name(p->all.items[i].spec.model));
+            append(name, SETUP_LABEL_SIZE, ", %s", dp_model_name(p->all.items[i].spec.model));
     }
 }
 
@@ -155,10 +144,15 @@ static void subtitle_of(const options *o, const figure_request *request, char *o
 static int resolve_methods(plotting *p) {
     const options *o = p->o;
     char machine[192], znear[NUMBER_SIZE], zfar[NUMBER_SIZE];
+    const char *family = o->operand_count > 1 ? o->operands[1] : p->row->family;
+    const name_list families = {.get = list_family};
+    list_item item;
+    int status = check_operand(o->verb, "FAMILY", &families, family, &item);
+    if (status == EXIT_FINE)
+        status = methods_resolve(o, item.row, &p->asked);
     number_shortest(o->znear, znear);
     number_shortest(o->zfar, zfar);
     snprintf(p->where, sizeof p->where, "near %s, far %s; %s", znear, zfar, methods_machine(machine, sizeof machine));
-    const int status = methods_resolve(o, o->operand_count > 1 ? o->operands[1] : p->row->family, &p->asked);
     p->request.setups = &p->asked.setup;
     p->request.count = 1;
     p->request.family = p->asked.family;
@@ -251,10 +245,16 @@ static int write_figure(const plotting *p) {
     return EXIT_IO;
 }
 
+static int check_output(const options *o) {
+    if (o->form == FORM_TEXT && o->output == NULL)
+        return usage_error("plot: needs -o FILE that ends in .svg, .pdf or .png, or --csv or --json for the numbers");
+    if (o->form == FORM_TEXT && canvas_format_of(o->output) == CANVAS_FORMAT_COUNT)
+        return option_error(OPTION_OUTPUT, "must end in .svg, .pdf or .png, got '%s'", o->output);
+    return EXIT_FINE;
+}
+
 int cmd_plot(const options *o) {
-    plotting p = {.o = o, .row = figure_find(o->operands[0])};
-    if (p.row == NULL)
-        return unknown_figure(o->operands[0]);
+    plotting p = {.o = o, .row = o->operand_row};
     p.request = (figure_request){.names = p.names,
                                  .lo = NAN,
                                  .hi = NAN,
@@ -264,11 +264,7 @@ int cmd_plot(const options *o) {
                                  .census = census_depths,
                                  .columns = o->width > 0 ? o->width : WIDTH,
                                  .rows = o->height > 0 ? o->height : HEIGHT};
-    int status = figure_size_check(o);
-    if (status == EXIT_FINE && o->form == FORM_TEXT && o->output == NULL)
-        status = usage_error("plot: needs -o FILE that ends in .svg, .pdf or .png, or --csv or --json for the numbers");
-    else if (status == EXIT_FINE && o->form == FORM_TEXT && canvas_format_of(o->output) == CANVAS_FORMAT_COUNT)
-        status = option_error(OPTION_OUTPUT, "must end in .svg, .pdf or .png, got '%s'", o->output);
+    int status = check_output(o);
     if (status == EXIT_FINE)
         status = check_file_given(o, p.row);
     if (status != EXIT_FINE)

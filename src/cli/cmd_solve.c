@@ -44,10 +44,10 @@ static int check_target(const options *o, solve_report *r) {
         return option_error(OPTION_AT, "has no meaning when a distance is asked: --range LO:HI says from where");
     if (r->target != SOLVE_FOR_SEPARATION && !limited)
         return option_error(OPTION_SEPARATION, "must be given (or --error), to solve for %s",
-                            solve_target_name(r->target));
+                            option_word(OPTION_FOR, r->target));
     if (r->target <= SOLVE_FOR_FAR && option_given(o, givens[r->target - SOLVE_FOR_NEAR]))
-        return option_error(OPTION_FOR, "%s is what is solved for, got --%s too", solve_target_name(r->target),
-                            solve_target_name(r->target));
+        return option_error(OPTION_FOR, "%s is what is solved for, got --%s too", option_word(OPTION_FOR, r->target),
+                            option_word(OPTION_FOR, r->target));
     if (r->kind == MEASURE_ERROR && option_given(o, OPTION_MODEL) && o->model == DP_MODEL_FP32)
         return option_error(OPTION_MODEL, "must be exact or staged for an error, which fp32 has none of, got 'fp32'");
     return EXIT_FINE;
@@ -202,18 +202,10 @@ static dp_spec spec_of(const options *o) {
 }
 
 static int refused(const solve_report *r, const solve_candidate *c, dp_status status) {
-    const char *mapping = dp_mapping_get(c->spec.mapping)->name;
     if (status == DP_ERROR_INFINITE && !is_known(r->o, OPTION_FAR))
         return option_error(OPTION_FAR, "must be given: %s has no infinite far",
-                            c->spec.ortho ? "an orthographic projection" : mapping);
-    if (status == DP_ERROR_MODEL)
-        return option_error(OPTION_MODEL, "fp32 needs one of the mappings d3d, gl, reversed, gl-reversed, got %s",
-                            mapping);
-    const option_id id = status == DP_ERROR_ORTHO   ? OPTION_ORTHO
-                         : status == DP_ERROR_NEAR  ? OPTION_NEAR
-                         : status == DP_ERROR_LOG_C ? OPTION_LOG_C
-                                                    : OPTION_FAR;
-    return option_error(id, "%s, got %s %s", dp_status_text(status), c->spec.format.name, mapping);
+                            c->spec.ortho ? "an orthographic projection" : dp_mapping_get(c->spec.mapping)->name);
+    return setup_refused(r->o, &c->spec, status);
 }
 
 static void add(solve_report *r, const dp_spec *spec, bool asked) {

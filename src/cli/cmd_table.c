@@ -5,39 +5,47 @@
  * Rows are computed and written one by one, so a million of them need no more memory than nine.
  */
 #include <math.h>
-#include <unistd.h>
 
 #include "cli/choice.h"
 #include "cli/clipping.h"
-#include "cli/options.h"
-#include "cli/progress.h"
-#include "cli/setups.h"
-#include "cli/table_text.h"
+#include "cli/walk.h"
 #include "method/ways.h"
-#include "report/csv.h"
-#include "report/json.h"
+#include "report/number.h"
 
 int cmd_table(const options *o);
 
-enum { DEFAULT_ROWS = 9 };
+/* Beyond fifteen digits a decimal shows its own rounding (0.10000000000000001). */
+enum { DIGITS_FEW = 6, DIGITS_USUAL = 9, DIGITS_DEPTH = 7, DIGITS_DEPTH_MOST = 10, DIGITS_MOST = 15 };
 
-/* What a table is made of, and where it goes. */
-typedef struct table {
-    const options *o;
-    output *out;
-    setups all;
-    depths at;
-    way interval; /* of the set-up at hand; without a row, the exact cell */
-    double lo, hi;
-    progress progress;
-    uint64_t done;
-} table;
-
-/* One row: a sample, and beside it the separation in binary32 arithmetic, NaN where that is not modelled. */
+/* A depth, and in text as many digits of it as tell it from its neighbours. */
 typedef struct row {
     dp_sample sample;
-    double binary32;
+    double binary32; /* the guaranteed separation; NaN where there is no such pipeline */
+    int depth_digits, stored_digits, cell_digits;
 } row;
+
+/* With --range: the separation that can be relied on all over it, in the fullest model that the set-up has. */
+typedef struct guarantee {
+    dp_model model;
+    const char *model_name;
+    dp_separation_worst worst;
+} guarantee;
+
+/* What a table is made of; below the range, what belongs to the set-up at hand. */
+typedef struct table {
+    walk walk;
+    double lo, hi;
+    way interval; /* without a row, the exact cell */
+    row row;
+    dp_worst worst_case;
+    const dp_worst *worst; /* null in a model without cells */
+    guarantee over_range;
+    const guarantee *guarantee; /* null where there is none, or none is asked for */
+    clipping planes;
+    const clipping *drawn; /* null where there is no pipeline */
+    choosing choice;
+    choice_fields chosen;
+} table;
 
 static double separation_in_binary32(const dp_setup *setup, const dp_sample *sample) {
     dp_budget budget;
@@ -49,261 +57,223 @@ static double separation_in_binary32(const dp_setup *setup, const dp_sample *sam
 /* Are there depths among those asked about whose cell a plane cuts? */
 static bool has_cut_cells(const table *t, const dp_setup *setup) {
     const uint32_t first = dp_code(setup, setup->spec.znear), last = dp_code(setup, setup->spec.zfar);
-    for (size_t i = 0; i < t->at.count; i++) {
-        const uint32_t code = dp_code(setup, depths_get(&t->at, i));
+    for (size_t i = 0; i < t->walk.at.count; i++) {
+        const uint32_t code = dp_code(setup, depths_get(&t->walk.at, i));
         if (code == first || code == last)
             return true;
     }
     return false;
 }
 
-static void choose_way(table *t, const dp_setup *setup) {
-    if (option_given(t->o, OPTION_TOLERANCE))
-        t->interval = way_choose(setup, t->o->tolerance, has_cut_cells(t, setup));
+/* The digits that it takes to see that a value near `at` is off by `step`, with two digits of the step. */
+static int digits_within(double at, double step, int least, int most) {
+    if (!isfinite(at) || !isfinite(step) || at == 0.0 || step == 0.0)
+        return least;
+    double digits = floor(log10(fabs(at))) - floor(log10(fabs(step))) + 2.0;
+    return (int)fmin(fmax(digits, least), most);
 }
 
-/* Writes the rows; gathers for the choice of a model on the way, where one is asked for. */
-static void each_row(table *t, const dp_setup *setup, void (*emit)(void *, const dp_setup *, const row *), void *to,
-                     choosing *choice) {
-    for (size_t i = 0; i < t->at.count && !output_failed(t->out); i++) {
-        row r;
-        double z = depths_get(&t->at, i);
-        if (dp_sample_at(setup, z, &r.sample) == DP_OK) { /* depths_resolve() has seen to it */
-            r.binary32 = separation_in_binary32(setup, &r.sample);
-            if (t->interval.row != NULL)
-                r.sample.interval = way_interval(&t->interval, setup, z);
-            emit(to, setup, &r);
-            if (choice != NULL)
-                choosing_add(choice, z);
-        }
-        progress_step(&t->progress, ++t->done);
+static int digits_to_see(double at, double step) {
+    return digits_within(at, step, DIGITS_USUAL, DIGITS_MOST);
+}
+
+/* ---- What is reported -------------------------------------------------------------------------------------------- */
+
+static void set_digits(row *r) {
+    const dp_sample *s = &r->sample;
+    /* A depth just short of 1 should not look like the far plane's. */
+    r->depth_digits = digits_within(s->depth, 1.0 - s->depth, DIGITS_DEPTH, DIGITS_DEPTH_MOST);
+    r->stored_digits = digits_to_see(s->z, s->error);
+    r->cell_digits = digits_to_see(s->lo, s->interval);
+}
+
+static void *next_row(void *of, size_t i) {
+    table *t = of;
+    row *r = &t->row;
+    double z;
+    if (!walk_depth(&t->walk, i, &z)) {
+        choosing_finish(&t->choice);
+        choice_fields_of(&t->choice, &t->chosen);
+        return NULL;
     }
-    if (choice != NULL)
-        choosing_finish(choice);
+    dp_sample_at(t->walk.setup, z, &r->sample); /* cannot fail: depths_resolve() has seen to it */
+    r->binary32 = separation_in_binary32(t->walk.setup, &r->sample);
+    if (t->interval.row != NULL)
+        r->sample.interval = way_interval(&t->interval, t->walk.setup, z);
+    if (t->walk.o->form == FORM_TEXT)
+        set_digits(r);
+    if (t->walk.o->form != FORM_CSV)
+        choosing_add(&t->choice, z);
+    return r;
 }
 
-static dp_worst worst_of(const table *t, const dp_setup *setup) {
-    dp_worst worst = {0};
-    dp_worst_over(setup, t->lo, t->hi, &worst);
-    return worst;
-}
-
-/* With --range: the separation that can be relied on all over it, in the fullest model that the set-up has. */
-static bool separation_over(const table *t, const dp_setup *setup, dp_model *model, dp_separation_worst *out) {
+static const guarantee *guarantee_over(table *t) {
     dp_setup full;
-    dp_spec spec = setup->spec;
-    spec.model = *model = dp_mapping_get(spec.mapping)->curve == DP_CURVE_PERSPECTIVE ? DP_MODEL_FP32 : DP_MODEL_STAGED;
-    return option_given(t->o, OPTION_RANGE) && dp_setup_init(&full, &spec) == DP_OK &&
-           dp_separation_over(&full, t->lo, t->hi, 0.0, out) == DP_OK;
+    dp_spec spec = t->walk.setup->spec;
+    guarantee *g = &t->over_range;
+    spec.model = g->model =
+        dp_mapping_get(spec.mapping)->curve == DP_CURVE_PERSPECTIVE ? DP_MODEL_FP32 : DP_MODEL_STAGED;
+    g->model_name = dp_model_name(g->model);
+    return option_given(t->walk.o, OPTION_RANGE) && dp_setup_init(&full, &spec) == DP_OK &&
+                   dp_separation_over(&full, t->lo, t->hi, 0.0, &g->worst) == DP_OK
+               ? g
+               : NULL;
 }
 
-/* ---- text ---- */
-
-typedef struct text_target {
-    output *out;
-    table_style style;
-} text_target;
-
-static void text_row(void *to, const dp_setup *setup, const row *r) {
-    text_target *target = to;
-    (void)setup;
-    table_text_row(target->out, &target->style, &r->sample, r->binary32);
+static void *next_setup(void *of, size_t i) {
+    table *t = of;
+    if (!walk_setup(&t->walk, i))
+        return NULL;
+    const dp_setup *setup = t->walk.setup;
+    const options *o = t->walk.o;
+    t->choice = choosing_start(setup, o->tolerance);
+    if (option_given(o, OPTION_TOLERANCE))
+        t->interval = way_choose(setup, o->tolerance, has_cut_cells(t, setup));
+    if (o->form == FORM_CSV)
+        return t;
+    t->worst_case = (dp_worst){0};
+    dp_worst_over(setup, t->lo, t->hi, &t->worst_case);
+    t->worst = isnan(t->worst_case.error) ? NULL : &t->worst_case;
+    t->guarantee = guarantee_over(t);
+    t->planes = clipping_of(setup);
+    t->drawn = setup->spec.model == DP_MODEL_FP32 ? &t->planes : NULL;
+    return t;
 }
 
-static void write_text(table *t) {
-    text_target target = {t->out, table_style_of(t->o, t->out)};
-    for (size_t i = 0; i < t->all.count; i++) {
-        const dp_setup *setup = &t->all.items[i];
-        dp_worst worst = worst_of(t, setup);
-        clipping planes = clipping_of(setup);
-        choosing choice = choosing_start(setup, t->o->tolerance);
-        choose_way(t, setup);
-        char sentence[CHOICE_SENTENCE_SIZE];
-        if (i > 0)
-            output_char(t->out, '\n');
-        table_text_head(t->out, &target.style, setup);
-        each_row(t, setup, text_row, &target, &choice);
-        dp_model model;
-        dp_separation_worst separation;
-        table_text_worst(t->out, &target.style, &worst);
-        if (separation_over(t, setup, &model, &separation))
-            table_text_separation(t->out, &target.style, model, &separation);
-        table_text_clipping(t->out, &target.style, &planes);
-        output_format(t->out, "  %s\n", choice_sentence(&choice, sentence));
-        if (option_given(t->o, OPTION_TOLERANCE))
-            table_text_way(t->out, t->interval.name, t->interval.claim, t->o->tolerance);
-    }
-}
+/* ---- Text -------------------------------------------------------------------------------------------------------- */
 
-/* ---- JSON ---- */
-
-static void json_row(void *to, const dp_setup *setup, const row *r) {
-    const dp_sample *s = &r->sample;
-    json *j = to;
-    (void)setup;
-    json_object(j, NULL);
-    json_number(j, "z", s->z);
-    json_integer(j, "code", s->code);
-    json_number(j, "depth", s->depth);
-    json_number(j, "z_stored", s->stored);
-    json_number(j, "error", s->error);
-    json_number(j, "cell_lo", s->lo);
-    json_number(j, "cell_hi", s->hi);
-    json_number(j, "interval", s->interval);
-    json_number(j, "separation", s->separation);
-    json_number(j, "separation_fp32", r->binary32);
-    json_end(j);
-}
-
-static void json_worst(json *j, const dp_worst *w) {
-    if (isnan(w->error)) { /* a model without cells */
-        json_null(j, "worst");
+static void say_worst(page *p, const dp_worst *w) {
+    if (w == NULL)
         return;
-    }
-    json_object(j, "worst");
-    json_number(j, "lo", w->lo);
-    json_number(j, "hi", w->hi);
-    json_number(j, "error", w->error);
-    json_number(j, "error_z", w->error_z);
-    json_integer(j, "error_code", w->error_code);
-    json_number(j, "interval", w->interval);
-    json_number(j, "interval_lo", w->interval_lo);
-    json_number(j, "interval_hi", w->interval_hi);
-    json_integer(j, "interval_code", w->interval_code);
-    json_number(j, "blind_from", w->blind_from);
-    json_end(j);
+    if (isinf(w->error))
+        page_note(p, "worst error", "unbounded, code %u", w->error_code);
+    else
+        page_note(p, "worst error", "%s at z = %s, code %u", number_of(w->error, DIGITS_FEW).text,
+                  number_of(w->error_z, DIGITS_USUAL).text, w->error_code);
+    const int digits = digits_to_see(w->interval_lo, w->interval);
+    const number_text lo = number_of(w->interval_lo, digits);
+    if (isinf(w->interval))
+        page_note(p, "worst interval", "unbounded, from %s on, code %u", lo.text, w->interval_code);
+    else
+        page_note(p, "worst interval", "%s from %s to %s, code %u", number_of(w->interval, DIGITS_FEW).text, lo.text,
+                  number_of(w->interval_hi, digits).text, w->interval_code);
+    if (!isnan(w->blind_from))
+        page_note(p, "blind", "from z = %s: behind it nothing is told apart",
+                  number_of(w->blind_from, DIGITS_USUAL).text);
 }
 
-static void json_separation(json *j, dp_model model, const dp_separation_worst *w) {
-    json_object(j, "worst_separation");
-    json_string(j, "model", dp_model_name(model));
-    json_number(j, "lo", w->lo);
-    json_number(j, "hi", w->hi);
-    json_number(j, "bound", w->bound);
-    json_number(j, "separation", w->separation);
-    json_number(j, "z", w->z);
-    json_end(j);
+static void say_drawn(page *p, const clipping *c) {
+    if (isnan(c->znear) && c->loses)
+        page_note(p, "drawn", "nothing: clipping loses all depths");
+    else if (!isnan(c->znear))
+        page_note(p, "drawn", "from %s to %s%s", number_of(c->znear, DIGITS_USUAL).text,
+                  number_of(c->zfar, DIGITS_USUAL).text, c->loses ? ": clipping loses the rest" : "");
 }
 
-static void write_json(table *t) {
-    json j = json_start(t->out, "table");
-    json_array(&j, "setups");
-    for (size_t i = 0; i < t->all.count; i++) {
-        const dp_setup *setup = &t->all.items[i];
-        dp_worst worst = worst_of(t, setup);
-        clipping planes = clipping_of(setup);
-        choosing choice = choosing_start(setup, t->o->tolerance);
-        choose_way(t, setup);
-        json_object(&j, NULL);
-        setup_json(&j, setup);
-        if (option_given(t->o, OPTION_TOLERANCE)) {
-            json_string(&j, "method", t->interval.name);
-            json_number(&j, "claim", t->interval.claim);
-        }
-        json_array(&j, "rows");
-        each_row(t, setup, json_row, &j, &choice);
-        json_end(&j);
-        json_worst(&j, &worst);
-        dp_model model;
-        dp_separation_worst separation;
-        if (separation_over(t, setup, &model, &separation))
-            json_separation(&j, model, &separation);
-        if (setup->spec.model == DP_MODEL_FP32) {
-            json_number(&j, "near_effective", planes.znear);
-            json_number(&j, "far_effective", planes.zfar);
-        }
-        choice_json(&j, &choice);
-        json_end(&j);
-    }
-    json_finish(&j);
+static void say_way(page *p, const way *w, double tolerance) {
+    const number_text allowed = number_of(tolerance, 3);
+    if (w->name == NULL)
+        page_line(p, "interval: no method claims to be within %s of it in this set-up", allowed.text);
+    else if (w->claim == 0)
+        page_line(p, "interval by %s, exact", w->name);
+    else
+        page_line(p, "interval by %s, the cheapest within %s of it: claims %s", w->name, allowed.text,
+                  number_of(w->claim, 3).text);
 }
 
-/* ---- CSV ---- */
-
-typedef struct csv_target {
-    csv lines;
-    bool with_arith;  /* a column that only fp32 fills, so there only when some set-up has that model */
-    bool with_method; /* and one that is asked for */
-    const char *method;
-} csv_target;
-
-static void csv_row(void *to, const dp_setup *setup, const row *r) {
-    const dp_sample *s = &r->sample;
-    csv_target *target = to;
-    csv *c = &target->lines;
-    setup_csv(c, setup);
-    if (target->with_arith)
-        csv_string(c, setup->spec.model == DP_MODEL_FP32 ? dp_arith_get(setup->spec.arith)->name : "");
-    csv_number(c, s->z);
-    csv_integer(c, s->code);
-    csv_number(c, s->depth);
-    csv_number(c, s->stored);
-    csv_number(c, s->error);
-    csv_number(c, s->lo);
-    csv_number(c, s->hi);
-    csv_number(c, s->interval);
-    csv_number(c, s->separation);
-    csv_number(c, r->binary32);
-    if (target->with_method)
-        csv_string(c, target->method);
-    csv_end(c);
+static void say_notes(page *p, void *item) {
+    const table *t = item;
+    const guarantee *g = t->guarantee;
+    char sentence[CHOICE_SENTENCE_SIZE];
+    say_worst(p, t->worst);
+    if (g != NULL)
+        page_note(p, "worst separation", "%s at z = %s, %s", number_up(g->worst.bound, DIGITS_FEW).text,
+                  number_of(g->worst.z, DIGITS_USUAL).text,
+                  g->model == DP_MODEL_FP32 ? "guaranteed in binary32 (model fp32)" : "in the model staged");
+    say_drawn(p, &t->planes);
+    page_line(p, "%s", choice_sentence(&t->choice, sentence));
+    if (option_given(t->walk.o, OPTION_TOLERANCE))
+        say_way(p, &t->interval, t->walk.o->tolerance);
 }
 
-static void write_csv(table *t) {
-    static const char *const heads[] = {"z [scene]",
-                                        "code",
-                                        "depth",
-                                        "z_stored [scene]",
-                                        "error [scene]",
-                                        "cell_lo [scene]",
-                                        "cell_hi [scene]",
-                                        "interval [scene]",
-                                        "separation [scene]",
-                                        "separation_fp32 [scene]"};
-    csv_target c = {.lines = csv_start(t->out)};
-    for (size_t i = 0; i < t->all.count; i++)
-        c.with_arith = c.with_arith || t->all.items[i].spec.model == DP_MODEL_FP32;
-    setup_csv_head(&c.lines);
-    if (c.with_arith)
-        csv_string(&c.lines, "arith");
-    for (size_t i = 0; i < sizeof heads / sizeof heads[0]; i++)
-        csv_string(&c.lines, heads[i]);
-    c.with_method = option_given(t->o, OPTION_TOLERANCE);
-    if (c.with_method)
-        csv_string(&c.lines, "method");
-    csv_end(&c.lines);
-    for (size_t i = 0; i < t->all.count; i++) {
-        choose_way(t, &t->all.items[i]);
-        c.method = t->interval.name != NULL ? t->interval.name : "";
-        each_row(t, &t->all.items[i], csv_row, &c, NULL);
-    }
+/* ---- Columns ----------------------------------------------------------------------------------------------------- */
+
+enum { WITH_TOLERANCE = 1, WITH_ARITH = 2, VERBOSE = 4 };
+
+static const column row_columns[] = {
+    {FIELD(row, sample.z, "z", "scene"), SHOWN("z", 12, DIGITS_USUAL)},
+    {FIELD(row, sample.code, "code", ""), SHOWN("code", 11, 0)},
+    {FIELD(row, sample.depth, "depth", ""), SHOWN("depth", 13, 0), .digits_at = offsetof(row, depth_digits)},
+    {FIELD(row, sample.stored, "z_stored", "scene"), SHOWN("stored", 15, 0), .digits_at = offsetof(row, stored_digits)},
+    {FIELD(row, sample.error, "error", "scene"), SHOWN("error", 13, DIGITS_FEW)},
+    {FIELD(row, sample.lo, "cell_lo", "scene")},
+    {FIELD(row, sample.hi, "cell_hi", "scene")},
+    {FIELD(row, sample.interval, "interval", "scene"), SHOWN("interval", 12, DIGITS_FEW)},
+    {FIELD(row, sample.separation, "separation", "scene"), SHOWN("separation", 12, DIGITS_FEW), .upward = true},
+    {FIELD(row, binary32, "separation_fp32", "scene"), SHOWN("in binary32", 12, DIGITS_FEW), .upward = true},
+    {TEXT_FIELD(row, sample.lo, "cell from", 19, 0), .digits_at = offsetof(row, cell_digits), .when = VERBOSE},
+    {TEXT_FIELD(row, sample.hi, "to", 19, 0), .digits_at = offsetof(row, cell_digits), .when = VERBOSE},
+    {.kind = COLUMN_END}};
+
+static const column worst_columns[] = {{FIELD(dp_worst, lo, "lo", "scene")},
+                                       {FIELD(dp_worst, hi, "hi", "scene")},
+                                       {FIELD(dp_worst, error, "error", "scene")},
+                                       {FIELD(dp_worst, error_z, "error_z", "scene")},
+                                       {FIELD(dp_worst, error_code, "error_code", "")},
+                                       {FIELD(dp_worst, interval, "interval", "scene")},
+                                       {FIELD(dp_worst, interval_lo, "interval_lo", "scene")},
+                                       {FIELD(dp_worst, interval_hi, "interval_hi", "scene")},
+                                       {FIELD(dp_worst, interval_code, "interval_code", "")},
+                                       {FIELD(dp_worst, blind_from, "blind_from", "scene")},
+                                       {.kind = COLUMN_END}};
+
+static const column guarantee_columns[] = {{FIELD(guarantee, model_name, "model", "")},
+                                           {FIELD(guarantee, worst.lo, "lo", "scene")},
+                                           {FIELD(guarantee, worst.hi, "hi", "scene")},
+                                           {FIELD(guarantee, worst.bound, "bound", "scene")},
+                                           {FIELD(guarantee, worst.separation, "separation", "scene")},
+                                           {FIELD(guarantee, worst.z, "z", "scene")},
+                                           {.kind = COLUMN_END}};
+
+static const column drawn_columns[] = {{FIELD(clipping, znear, "near_effective", "scene")},
+                                       {FIELD(clipping, zfar, "far_effective", "scene")},
+                                       {.kind = COLUMN_END}};
+
+static const column setup_report[] = {
+    {PART(table, walk.fields, NULL, setup_columns)},
+    {FIELD(table, walk.fields.arith, "arith", ""), .only = AS_CSV, .when = WITH_ARITH},
+    {FIELD(table, interval.name, "method", ""), .only = AS_JSON, .when = WITH_TOLERANCE},
+    {FIELD(table, interval.claim, "claim", ""), .only = AS_JSON, .when = WITH_TOLERANCE},
+    {LIST("rows", row_columns, next_row)},
+    {FIELD(table, interval.name, "method", ""), .only = AS_CSV, .when = WITH_TOLERANCE},
+    {PART(table, worst, "worst", worst_columns), .only = AS_JSON, .pointed = true},
+    {PART(table, guarantee, "worst_separation", guarantee_columns), .only = AS_JSON, .pointed = true, .optional = true},
+    {PART(table, drawn, NULL, drawn_columns), .only = AS_JSON, .pointed = true},
+    {PART(table, chosen, "auto", choice_columns), .only = AS_JSON},
+    {.kind = COLUMN_END}};
+
+static const column columns[] = {{LIST("setups", setup_report, next_setup), .head = walk_title, .notes = say_notes},
+                                 {.kind = COLUMN_END}};
+
+/* What a table of these set-ups has: the variant of arithmetic only where some set-up has that model. */
+static unsigned conditions(const table *t) {
+    unsigned when =
+        (option_given(t->walk.o, OPTION_TOLERANCE) ? WITH_TOLERANCE : 0) | (t->walk.o->verbose ? VERBOSE : 0);
+    for (size_t i = 0; i < t->walk.all.count; i++)
+        if (t->walk.all.items[i].spec.model == DP_MODEL_FP32)
+            when |= WITH_ARITH;
+    return when;
 }
 
 int cmd_table(const options *o) {
-    static void (*const writers[])(table *) = {
-        [FORM_TEXT] = write_text, [FORM_JSON] = write_json, [FORM_CSV] = write_csv};
-    output out;
-    table t = {.o = o, .out = &out};
-    int status = setups_make(o, &t.all);
+    table t = {.walk.warns = true};
+    int status = walk_start(&t.walk, o);
     if (status == EXIT_FINE)
         status = range_resolve(o, &t.lo, &t.hi);
-    if (status == EXIT_FINE)
-        status = depths_resolve(o, DEFAULT_ROWS, &t.at);
     if (status == EXIT_FINE && (o->model == DP_MODEL_FP32 || o->model_auto))
-        status = depths_in_binary32(&t.at);
+        status = depths_in_binary32(&t.walk.at);
     if (status == EXIT_FINE)
-        status = output_open(&out, o->output);
-    if (status == EXIT_FINE) {
-        setups_choose(o, &t.at, &t.all);
-        /* Rows on the same terminal are progress enough. */
-        bool silent = o->quiet || isatty(out.fd);
-        t.progress = progress_start("rows", (uint64_t)t.all.count * t.at.count, silent);
-        writers[o->form](&t);
-        progress_end(&t.progress);
-        status = output_close(&out);
-        if (status == EXIT_FINE && !o->quiet)
-            clipping_warn(&t.all);
-    }
-    setups_release(&t.all);
-    return status;
+        setups_choose(o, &t.walk.at, &t.walk.all);
+    const report_spec spec = {"table", columns, &t, .when = conditions(&t), .label = 16};
+    return walk_write(&t.walk, &spec, status);
 }

@@ -9,20 +9,34 @@
 #include "cli/options.h"
 #include "cli/progress.h"
 #include "cli/setups.h"
-#include "report/csv.h"
-#include "report/json.h"
 #include "report/number.h"
+#include "report/report.h"
 
 int cmd_zfight(const options *o);
 
+/* A band, or all of them together, and what of it does not exist as NaN. */
+typedef struct band {
+    census_band counts;
+    double ties, swaps; /* percent of the pairs */
+    double longest, used, clipped;
+} band;
+
+/* A census; below `progress`, what belongs to the set-up at hand. */
 typedef struct zfight {
     const options *o;
     output *out;
     setups all;
     census_result *results; /* one a set-up */
-    double lo, hi;
+    const char *method;
+    uint64_t seed;
+    double gap, lo, hi;
     uint64_t before; /* depths of the set-ups that are finished */
     progress progress;
+    const dp_setup *setup;
+    setup_fields fields;
+    const census_result *result;
+    band whole, band;
+    int band_index;
 } zfight;
 
 /* ---- Work, and how it is interrupted ----------------------------------------------------------------------------- */
@@ -74,7 +88,7 @@ static int work_all(zfight *z) {
     return EXIT_FINE;
 }
 
-/* ---- Text -------------------------------------------------------------------------------------------------------- */
+/* ---- What is reported -------------------------------------------------------------------------------------------- */
 
 enum { DIGITS = 6, PLANE_DIGITS = 9 };
 
@@ -82,179 +96,121 @@ static double percent(uint64_t part, uint64_t whole) {
     return whole > 0 ? 100.0 * (double)part / (double)whole : 0.0;
 }
 
-/* Right-aligned; a dash for what does not exist. */
-static void cell(output *out, int width, double value, int digits) {
-    char text[NUMBER_SIZE] = "-";
-    if (!isnan(value))
-        number_digits(value, digits, text);
-    output_format(out, " %*s", width, text);
-}
-
 /* A range that ends on a power of two leaves its last depth alone in a band, and a sample may miss a band. */
-static int is_empty(const census_band *b) {
+static bool is_empty(const census_band *b) {
     return b->pairs == 0;
 }
 
-static int with_intervals(const options *o) {
-    return o->gap <= 0.0;
-}
-
-static void text_band(const zfight *z, const census_band *b) {
-    cell(z->out, 9, b->lo, DIGITS);
-    cell(z->out, 9, b->hi, DIGITS);
-    output_format(z->out, " %11llu", (unsigned long long)b->pairs);
-    output_format(z->out, " %8.4f %8.4f", percent(b->ties, b->pairs), percent(b->swaps, b->pairs));
-    if (with_intervals(z->o)) {
-        cell(z->out, 12, b->longest, DIGITS);
-        cell(z->out, 10, b->longest_z, DIGITS);
-    }
-    char bound[NUMBER_SIZE] = "-";
-    if (!isnan(b->bound)) /* it holds as it is printed */
-        number_bound(b->bound, DIGITS, true, bound);
-    output_format(z->out, " %12s", bound);
-    if (with_intervals(z->o))
-        output_format(z->out, " %7.3f", b->slack);
-    output_char(z->out, '\n');
-}
-
-static void text_setup(const zfight *z, const dp_setup *setup, const census_result *r) {
-    char label[SETUP_LABEL_SIZE];
-    char znear[NUMBER_SIZE];
-    char zfar[NUMBER_SIZE];
-    output_format(z->out, "%s\n", setup_label(setup, true, label));
-    output_format(z->out, "%10s%10s%12s%9s%9s", "from", "to", "pairs", "ties %", "swaps %");
-    output_format(z->out, with_intervals(z->o) ? "%13s%11s%13s%8s\n" : "%13s\n",
-                  with_intervals(z->o) ? "longest" : "bound", "at", "bound", "used");
-    for (int i = 0; i < r->band_count; i++)
-        if (!is_empty(&r->bands[i]))
-            text_band(z, &r->bands[i]);
-    text_band(z, &r->all);
-    number_digits(r->near_effective, PLANE_DIGITS, znear);
-    number_digits(r->far_effective, PLANE_DIGITS, zfar);
-    if (isnan(r->near_effective))
-        output_text(z->out, "  clipping loses everything\n");
-    else
-        output_format(z->out, "  drawn from %s to %s\n", znear, zfar);
-}
-
-static void write_text(zfight *z) {
-    for (size_t i = 0; i < z->all.count; i++) {
-        if (i > 0)
-            output_char(z->out, '\n');
-        text_setup(z, &z->all.items[i], &z->results[i]);
-    }
-}
-
-/* ---- JSON -------------------------------------------------------------------------------------------------------- */
-
-static const char *method_name(const options *o) {
-    return o->sample > 0 ? "sample" : "census";
-}
-
-static void json_counts(json *j, const zfight *z, const census_band *b) {
-    json_integer(j, "pairs", b->pairs);
-    json_integer(j, "ties", b->ties);
-    json_integer(j, "swaps", b->swaps);
-    json_number(j, "longest", with_intervals(z->o) ? b->longest : (double)NAN);
-    json_number(j, "longest_z", b->longest_z);
-    json_number(j, "bound", b->bound);
-    json_number(j, "used", with_intervals(z->o) ? b->slack : (double)NAN);
-}
-
-/* A sample does not count clipped depths: it would only count those that it drew. */
-static int counts_clipped(const zfight *z) {
-    return z->o->sample == 0 && with_intervals(z->o);
-}
-
-static void json_setup(json *j, const zfight *z, const dp_setup *setup, const census_result *r) {
-    json_object(j, NULL);
-    setup_json(j, setup);
-    json_string(j, "method", method_name(z->o));
-    if (z->o->sample > 0)
-        json_integer(j, "seed", z->o->seed);
+static band band_of(const zfight *z, const census_band *b) {
+    band out = {.counts = *b,
+                .ties = percent(b->ties, b->pairs),
+                .swaps = percent(b->swaps, b->pairs),
+                .longest = b->longest,
+                .used = b->slack,
+                .clipped = (double)b->clipped};
     if (z->o->gap > 0.0)
-        json_number(j, "gap", z->o->gap);
-    json_number(j, "lo", z->lo);
-    json_number(j, "hi", z->hi);
-    json_counts(j, z, &r->all);
-    if (counts_clipped(z)) {
-        json_integer(j, "clipped", r->all.clipped);
-        json_integer(j, "holes", r->holes);
-    }
-    json_number(j, "near_effective", r->near_effective);
-    json_number(j, "far_effective", r->far_effective);
-    json_array(j, "bands");
-    for (int i = 0; i < r->band_count; i++) {
-        if (is_empty(&r->bands[i]))
-            continue;
-        json_object(j, NULL);
-        json_number(j, "lo", r->bands[i].lo);
-        json_number(j, "hi", r->bands[i].hi);
-        json_counts(j, z, &r->bands[i]);
-        json_end(j);
-    }
-    json_end(j);
-    json_end(j);
+        out.longest = out.used = (double)NAN;
+    if (z->o->gap > 0.0 || z->o->sample > 0) /* a sample would only count those that it drew */
+        out.clipped = (double)NAN;
+    return out;
 }
 
-static void write_json(zfight *z) {
-    json j = json_start(z->out, "zfight");
-    json_array(&j, "setups");
-    for (size_t i = 0; i < z->all.count; i++)
-        json_setup(&j, z, &z->all.items[i], &z->results[i]);
-    json_finish(&j);
+/* The bands that hold a pair, and in text all of them together below. */
+static void *next_band(void *of, size_t index) {
+    zfight *z = of;
+    if (index == 0)
+        z->band_index = 0;
+    while (z->band_index < z->result->band_count && is_empty(&z->result->bands[z->band_index]))
+        z->band_index++;
+    const int at = z->band_index++;
+    if (at > z->result->band_count || (at == z->result->band_count && z->o->form != FORM_TEXT))
+        return NULL;
+    z->band = band_of(z, at < z->result->band_count ? &z->result->bands[at] : &z->result->all);
+    return &z->band;
 }
 
-/* ---- CSV: a line a band ------------------------------------------------------------------------------------------ */
-
-static void csv_band(csv *c, const zfight *z, const dp_setup *setup, const census_result *r, const census_band *b) {
-    setup_csv(c, setup);
-    csv_string(c, dp_arith_get(setup->spec.arith)->name);
-    csv_string(c, method_name(z->o));
-    csv_integer(c, z->o->seed);
-    csv_number(c, z->o->gap);
-    csv_number(c, b->lo);
-    csv_number(c, b->hi);
-    csv_integer(c, b->pairs);
-    csv_integer(c, b->ties);
-    csv_integer(c, b->swaps);
-    csv_number(c, with_intervals(z->o) ? b->longest : (double)NAN);
-    csv_number(c, b->longest_z);
-    csv_number(c, b->bound);
-    csv_number(c, with_intervals(z->o) ? b->slack : (double)NAN);
-    csv_number(c, counts_clipped(z) ? (double)b->clipped : (double)NAN);
-    csv_number(c, r->near_effective);
-    csv_number(c, r->far_effective);
-    csv_end(c);
+static void *next_setup(void *of, size_t i) {
+    zfight *z = of;
+    if (i == z->all.count)
+        return NULL;
+    z->result = &z->results[i];
+    z->setup = &z->all.items[i];
+    z->fields = setup_fields_of(z->setup);
+    z->whole = band_of(z, &z->result->all);
+    return z;
 }
 
-static void write_csv(zfight *z) {
-    static const char *const heads[] = {"arith",
-                                        "method",
-                                        "seed",
-                                        "gap [scene]",
-                                        "lo [scene]",
-                                        "hi [scene]",
-                                        "pairs",
-                                        "ties",
-                                        "swaps",
-                                        "longest [scene]",
-                                        "longest_z [scene]",
-                                        "bound [scene]",
-                                        "used",
-                                        "clipped",
-                                        "near_effective [scene]",
-                                        "far_effective [scene]"};
-    csv c = csv_start(z->out);
-    setup_csv_head(&c);
-    for (size_t i = 0; i < sizeof heads / sizeof heads[0]; i++)
-        csv_string(&c, heads[i]);
-    csv_end(&c);
-    for (size_t i = 0; i < z->all.count; i++)
-        for (int b = 0; b < z->results[i].band_count; b++)
-            if (!is_empty(&z->results[i].bands[b]))
-                csv_band(&c, z, &z->all.items[i], &z->results[i], &z->results[i].bands[b]);
+static void say_setup(page *p, void *item) {
+    const zfight *z = item;
+    char label[SETUP_LABEL_SIZE];
+    page_title(p, "%s", setup_label(z->setup, true, label));
 }
+
+static void say_planes(page *p, void *item) {
+    const census_result *r = ((const zfight *)item)->result;
+    if (isnan(r->near_effective))
+        page_line(p, "clipping loses everything");
+    else
+        page_line(p, "drawn from %s to %s", number_of(r->near_effective, PLANE_DIGITS).text,
+                  number_of(r->far_effective, PLANE_DIGITS).text);
+}
+
+enum { WITH_INTERVALS = 1, WITH_CLIPPED = 2, WITH_SAMPLE = 4, WITH_GAP = 8 };
+
+static unsigned conditions(const options *o) {
+    return (o->gap > 0.0 ? WITH_GAP : WITH_INTERVALS) | (o->sample > 0 ? WITH_SAMPLE : 0) |
+           (o->sample == 0 && o->gap <= 0.0 ? WITH_CLIPPED : 0);
+}
+
+static const column count_columns[] = {
+    {FIELD(band, counts.pairs, "pairs", ""), SHOWN("pairs", 12, 0)},
+    {FIELD(band, counts.ties, "ties", "")},
+    {FIELD(band, counts.swaps, "swaps", "")},
+    {TEXT_FIELD(band, ties, "ties %", 9, 4), .fixed = true},
+    {TEXT_FIELD(band, swaps, "swaps %", 9, 4), .fixed = true},
+    {FIELD(band, longest, "longest", "scene")},
+    {FIELD(band, counts.longest_z, "longest_z", "scene")},
+    {TEXT_FIELD(band, longest, "longest", 13, DIGITS), .when = WITH_INTERVALS},
+    {TEXT_FIELD(band, counts.longest_z, "at", 11, DIGITS), .when = WITH_INTERVALS},
+    {FIELD(band, counts.bound, "bound", "scene"), SHOWN("bound", 13, DIGITS), .upward = true},
+    {FIELD(band, used, "used", "")},
+    {TEXT_FIELD(band, used, "used", 8, 3), .fixed = true, .when = WITH_INTERVALS},
+    {.kind = COLUMN_END}};
+
+static const column band_columns[] = {{FIELD(band, counts.lo, "lo", "scene"), SHOWN("from", 10, DIGITS)},
+                                      {FIELD(band, counts.hi, "hi", "scene"), SHOWN("to", 10, DIGITS)},
+                                      {GROUP(NULL, count_columns)},
+                                      {FIELD(band, clipped, "clipped", ""), .only = AS_CSV},
+                                      {.kind = COLUMN_END}};
+
+static const column plane_columns[] = {{FIELD(census_result, near_effective, "near_effective", "scene")},
+                                       {FIELD(census_result, far_effective, "far_effective", "scene")},
+                                       {.kind = COLUMN_END}};
+
+static const column clipped_columns[] = {{FIELD(census_result, all.clipped, "clipped", "")},
+                                         {FIELD(census_result, holes, "holes", "")},
+                                         {.kind = COLUMN_END}};
+
+/* CSV has a line a band. */
+static const column setup_report[] = {
+    {PART(zfight, fields, NULL, setup_columns)},
+    {FIELD(zfight, fields.arith, "arith", ""), .only = AS_CSV},
+    {FIELD(zfight, method, "method", "")},
+    {FIELD(zfight, seed, "seed", ""), .only = AS_CSV},
+    {FIELD(zfight, gap, "gap", "scene"), .only = AS_CSV},
+    {FIELD(zfight, seed, "seed", ""), .only = AS_JSON, .when = WITH_SAMPLE},
+    {FIELD(zfight, gap, "gap", "scene"), .only = AS_JSON, .when = WITH_GAP},
+    {FIELD(zfight, lo, "lo", "scene"), .only = AS_JSON},
+    {FIELD(zfight, hi, "hi", "scene"), .only = AS_JSON},
+    {PART(zfight, whole, NULL, count_columns), .only = AS_JSON},
+    {PART(zfight, result, NULL, clipped_columns), .only = AS_JSON, .pointed = true, .when = WITH_CLIPPED},
+    {PART(zfight, result, NULL, plane_columns), .only = AS_JSON, .pointed = true},
+    {LIST("bands", band_columns, next_band)},
+    {PART(zfight, result, NULL, plane_columns), .only = AS_CSV, .pointed = true},
+    {.kind = COLUMN_END}};
+
+static const column columns[] = {{LIST("setups", setup_report, next_setup), .head = say_setup, .notes = say_planes},
+                                 {.kind = COLUMN_END}};
 
 /* ---- The command ------------------------------------------------------------------------------------------------- */
 
@@ -263,22 +219,20 @@ static void warn(const zfight *z) {
     for (size_t i = 0; i < z->all.count && !z->o->quiet; i++) {
         const census_result *r = &z->results[i];
         char label[SETUP_LABEL_SIZE];
-        char from[NUMBER_SIZE];
-        char to[NUMBER_SIZE];
+        const number_text from = number_of(r->near_effective, PLANE_DIGITS);
+        const number_text to = number_of(r->far_effective, PLANE_DIGITS);
         uint64_t kept = isnan(r->near_effective) ? 0 : census_count(r->near_effective, r->far_effective);
         if (kept == census_count(z->lo, z->hi) && r->holes == 0)
             continue;
         setup_label(&z->all.items[i], false, label);
-        number_digits(r->near_effective, PLANE_DIGITS, from);
-        number_digits(r->far_effective, PLANE_DIGITS, to);
         if (kept == census_count(z->lo, z->hi))
             fprintf(stderr, "depthprec: warning: %s: clipping in binary32 loses %llu depths between %s and %s\n", label,
-                    (unsigned long long)r->holes, from, to);
+                    (unsigned long long)r->holes, from.text, to.text);
         else if (kept == 0)
             fprintf(stderr, "depthprec: warning: %s: clipping in binary32 loses everything\n", label);
         else
-            fprintf(stderr, "depthprec: warning: %s: clipping in binary32 keeps only %s to %s%s\n", label, from, to,
-                    r->holes > 0 ? ", with holes" : "");
+            fprintf(stderr, "depthprec: warning: %s: clipping in binary32 keeps only %s to %s%s\n", label, from.text,
+                    to.text, r->holes > 0 ? ", with holes" : "");
     }
 }
 
@@ -305,8 +259,6 @@ static int check(zfight *z) {
 }
 
 static int run(zfight *z) {
-    static void (*const writers[])(zfight *) = {
-        [FORM_TEXT] = write_text, [FORM_JSON] = write_json, [FORM_CSV] = write_csv};
     struct sigaction action = {.sa_handler = interrupt};
     struct sigaction before;
     sigemptyset(&action.sa_mask);
@@ -325,14 +277,14 @@ static int run(zfight *z) {
         output_abandon(z->out);
         return status;
     }
-    writers[z->o->form](z);
+    report_write(&(report_spec){"zfight", columns, z, .when = conditions(z->o)}, z->out, z->o->form);
     warn(z);
     return output_close(z->out);
 }
 
 int cmd_zfight(const options *o) {
     output out;
-    zfight z = {.o = o, .out = &out};
+    zfight z = {.o = o, .out = &out, .method = o->sample > 0 ? "sample" : "census", .seed = o->seed, .gap = o->gap};
     int status = check(&z);
     if (status == EXIT_FINE) {
         z.results = calloc(z.all.count, sizeof *z.results);

@@ -6,9 +6,6 @@
 #include "cli/options.h"
 #include "plot/draw.h"
 
-/** Whether --width and --height are sizes that a figure can have. @return EXIT_FINE, or EXIT_USAGE after one line */
-int figure_size_check(const options *o);
-
 /** Draws in the format that the name of the file, the argument of an option, ends in. @return false without memory */
 bool figure_file_write(const options *o, const char *path, const chart *c, int width, int height, output *out);
 

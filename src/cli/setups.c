@@ -1,59 +1,32 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "cli/setups.h"
 
+#include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
 #include "report/number.h"
 
-/* Which option is at fault. */
-static const option_id culprits[DP_STATUS_COUNT] = {
-    [DP_ERROR_NEAR] = OPTION_NEAR,         [DP_ERROR_FAR] = OPTION_FAR,         [DP_ERROR_PLANES] = OPTION_FAR,
-    [DP_ERROR_INFINITE] = OPTION_FAR,      [DP_ERROR_ORTHO] = OPTION_ORTHO,     [DP_ERROR_LOG_C] = OPTION_LOG_C,
-    [DP_ERROR_FORMAT] = OPTION_FORMAT,     [DP_ERROR_MAPPING] = OPTION_MAPPING, [DP_ERROR_MODEL] = OPTION_MODEL,
-    [DP_ERROR_ROUNDING] = OPTION_ROUNDING,
-};
-
-static int refused(const options *o, const dp_spec *spec, dp_status status) {
-    char znear[NUMBER_SIZE];
-    char zfar[NUMBER_SIZE];
-    char log_c[NUMBER_SIZE];
-    char got[4 * NUMBER_SIZE];
+int setup_refused(const options *o, const dp_spec *spec, dp_status status) {
+    char znear[NUMBER_SIZE], zfar[NUMBER_SIZE];
+    const char *mapping = dp_mapping_get(spec->mapping)->name;
+    if (status == DP_ERROR_MODEL) { /* of the models that have a name, fp32 alone is not for all */
+        const bool given = option_given(o, OPTION_MODEL);
+        return option_error(given ? OPTION_MODEL : OPTION_MAPPING,
+                            "%s needs one of the mappings " DP_MAPPING_NAMES_PERSPECTIVE ", got %s",
+                            given ? "fp32" : "binary32 arithmetic", mapping);
+    }
+    /* "--far: must be ..." rather than "--far: far must be ...". */
+    const char *text = dp_status_text(status);
+    if (strncmp(text, "far ", 4) == 0)
+        text += 4;
+    if (status == DP_ERROR_INFINITE || status == DP_ERROR_ORTHO)
+        return option_error(status == DP_ERROR_ORTHO ? OPTION_ORTHO : OPTION_FAR, "%s, got %s, %s", text,
+                            spec->ortho ? "orthographic" : "perspective", mapping);
     number_shortest(spec->znear, znear);
     number_shortest(spec->zfar, zfar);
-    number_shortest(spec->log_c, log_c);
-    const char *mapping = dp_mapping_get(spec->mapping)->name;
-    const char *projection = spec->ortho ? "orthographic" : "perspective";
-    option_id id = culprits[status];
-    switch (status) {
-    case DP_ERROR_NEAR:
-        snprintf(got, sizeof got, "%s", znear);
-        break;
-    case DP_ERROR_FAR:
-    case DP_ERROR_PLANES:
-        snprintf(got, sizeof got, "near %s, far %s", znear, zfar);
-        break;
-    case DP_ERROR_LOG_C:
-        snprintf(got, sizeof got, "%s", log_c);
-        break;
-    case DP_ERROR_INFINITE:
-    case DP_ERROR_ORTHO:
-        snprintf(got, sizeof got, "%s, %s", projection, mapping);
-        break;
-    case DP_ERROR_MODEL: /* of the models that have a name, fp32 alone is not for all */
-        id = option_given(o, OPTION_MODEL) ? OPTION_MODEL : OPTION_MAPPING;
-        return option_error(id, "%s needs one of the mappings d3d, gl, reversed, gl-reversed, got %s",
-                            id == OPTION_MODEL ? "fp32" : "binary32 arithmetic", mapping);
-    default:
-        snprintf(got, sizeof got, "%s %s", spec->format.name, mapping);
-    }
-    /* "--near: must be ..." rather than "--near: near must be ...". */
-    const char *text = dp_status_text(status);
-    size_t length = strlen(option_name(id));
-    if (strncmp(text, option_name(id), length) == 0 && text[length] == ' ')
-        text += length + 1;
-    return option_error(id, "%s, got %s", text, got);
+    return option_error(OPTION_FAR, "%s, got near %s, far %s", text, znear, zfar);
 }
 
 int setups_make(const options *o, setups *out) {
@@ -75,7 +48,7 @@ int setups_make(const options *o, setups *out) {
             dp_status status = dp_setup_init(&out->items[out->count++], &spec);
             if (status != DP_OK) {
                 setups_release(out);
-                return refused(o, &spec, status);
+                return setup_refused(o, &spec, status);
             }
         }
     return EXIT_FINE;
@@ -89,6 +62,30 @@ void setups_release(setups *s) {
 
 const char *setup_projection(const dp_setup *setup) {
     return setup->spec.ortho ? "orthographic" : "perspective";
+}
+
+const column setup_columns[] = {{FIELD(setup_fields, znear, "near", "scene")},
+                                {FIELD(setup_fields, zfar, "far", "scene")},
+                                {FIELD(setup_fields, projection, "projection", "")},
+                                {FIELD(setup_fields, mapping, "mapping", "")},
+                                {FIELD(setup_fields, format, "format", "")},
+                                {FIELD(setup_fields, rounding, "rounding", "")},
+                                {FIELD(setup_fields, model, "model", "")},
+                                {FIELD(setup_fields, arith, "arith", ""), .only = AS_JSON, .optional = true},
+                                {FIELD(setup_fields, log_c, "log_c", ""), .only = AS_JSON, .optional = true},
+                                {.kind = COLUMN_END}};
+
+setup_fields setup_fields_of(const dp_setup *setup) {
+    const dp_spec *spec = &setup->spec;
+    return (setup_fields){.znear = spec->znear,
+                          .zfar = spec->zfar,
+                          .log_c = spec->mapping == DP_MAPPING_LOG ? spec->log_c : (double)NAN,
+                          .projection = setup_projection(setup),
+                          .mapping = dp_mapping_get(spec->mapping)->name,
+                          .format = spec->format.name,
+                          .rounding = dp_rounding_name(spec->rounding),
+                          .model = dp_model_name(spec->model),
+                          .arith = spec->model == DP_MODEL_FP32 ? dp_arith_get(spec->arith)->name : NULL};
 }
 
 void setup_json(json *j, const dp_setup *setup) {

@@ -8,8 +8,7 @@
 #include "cli/options.h"
 #include "report/csv.h"
 #include "report/json.h"
-
-enum { SETUPS_MAX = OPTIONS_FORMATS_MAX * DP_MAPPING_COUNT };
+#include "report/report.h"
 
 typedef struct setups {
     dp_setup *items;
@@ -25,6 +24,10 @@ typedef struct setups {
 int setups_make(const options *o, setups *out);
 
 void setups_release(setups *s);
+
+/** Says why a set-up cannot be made, by the option at fault; near and the like are in their ranges. @return EXIT_USAGE
+ */
+int setup_refused(const options *o, const dp_spec *spec, dp_status status);
 
 /** The room that setup_label() needs, with the terminating null. */
 enum { SETUP_LABEL_SIZE = 160 };
@@ -42,6 +45,18 @@ const char *setup_label(const dp_setup *setup, bool full, char out[SETUP_LABEL_S
 void setup_json(json *j, const dp_setup *setup);
 void setup_csv_head(csv *c);
 void setup_csv(csv *c, const dp_setup *setup);
+
+/** The same as an item of a report. In JSON `arith` and `log_c` are left out where they do not exist. */
+typedef struct setup_fields {
+    double znear, zfar, log_c; /**< log_c is NaN unless the mapping is log */
+    const char *projection, *mapping, *format, *rounding, *model;
+    const char *arith; /**< null unless the model is fp32 */
+} setup_fields;
+
+extern const column setup_columns[];
+
+/** Points into the set-up, which must stay where it is. */
+setup_fields setup_fields_of(const dp_setup *setup);
 
 /** "perspective" or "orthographic". */
 const char *setup_projection(const dp_setup *setup);

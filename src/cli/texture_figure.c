@@ -76,9 +76,7 @@ int texture_figure_draw(const options *o, const texture_source *s, const texture
                            .unit = p->unit,
                            .names = stacked ? axes : NULL}};
     output out;
-    int status = figure_size_check(o);
-    if (status == EXIT_FINE)
-        status = output_open(&out, o->figure);
+    const int status = output_open(&out, o->figure);
     if (status != EXIT_FINE)
         return status;
     chart *c = chart_new();

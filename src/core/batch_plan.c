@@ -9,10 +9,6 @@
 
 /* ---- Numbers ----------------------------------------------------------------------------------------------------- */
 
-static int is_float(const dp_format *f, int mantissa, int bias) {
-    return f->kind == DP_FORMAT_FLOAT && f->mantissa_bits == mantissa && f->bias == bias;
-}
-
 static void plan_format(dp_batch *b) {
     const dp_format *f = &b->setup.spec.format;
     struct dp_batch_numbers *k = &b->numbers;
@@ -26,11 +22,7 @@ static void plan_format(dp_batch *b) {
     }
     /* 1/M as a sum whose first part times a code is exact: the codes' values then take one rounding. */
     const double top = (double)f->code_max;
-    uint64_t bits;
-    k->value = 1.0 / top;
-    memcpy(&bits, &k->value, sizeof bits);
-    bits &= ~(((uint64_t)1 << f->bits) - 1U);
-    memcpy(&k->value, &bits, sizeof bits);
+    k->value = dp_float64(dp_bits64(1.0 / top) & ~(((uint64_t)1 << f->bits) - 1U));
     k->value_rest = fma(-k->value, top, 1.0) / top;
 }
 
@@ -242,11 +234,11 @@ static int fast_eye(dp_batch *b) {
 }
 
 static int half_float(dp_batch *b) {
-    return is_float(&b->setup.spec.format, 10, 15);
+    return dp_format_is_ieee(&b->setup.spec.format, 10, 15);
 }
 
 static int single_float(dp_batch *b) {
-    return is_float(&b->setup.spec.format, 23, 127);
+    return dp_format_is_ieee(&b->setup.spec.format, 23, 127);
 }
 
 /* ---- Rows -------------------------------------------------------------------------------------------------------- */
@@ -302,8 +294,7 @@ static int general_kernel(const dp_batch *b) {
     return general[b->task][by_format ? 0 : s->curve][s->spec.format.kind];
 }
 
-void dp_batch_plan(dp_batch *b) {
-    dp_batch_kernel *const *const table = dp_batch_table(b->path);
+void dp_batch_plan(dp_batch *b, dp_batch_kernel *const *table) {
     plan_format(b);
     b->doubt = 0;
     b->direct = 0;

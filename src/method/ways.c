@@ -41,6 +41,6 @@ double way_interval(const way *w, const dp_setup *setup, double z) {
     const method_inputs in = {.count = 1, .z = &z};
     const method_outputs out = {.value = &value};
     if ((w->row->domain & METHOD_PIPELINE) == 0 || z + dp_separation(setup, z) <= setup->spec.zfar)
-        w->row->run(setup, NULL, &in, &out); /* no method of the family prepares anything */
+        w->row->run(&(method_call){w->row, setup, NULL, &in, &out}); /* no method of the family prepares anything */
     return value;
 }

@@ -5,6 +5,7 @@
 
 #include <stdbool.h>
 #include <stddef.h>
+#include <stdint.h>
 
 /** The room that number_shortest() and number_digits() need, with the terminating null. */
 enum { NUMBER_SIZE = 32 };
@@ -27,6 +28,9 @@ bool number_parse_part(const char *text, size_t length, number_kind kind, double
 /** Reads a whole number of decimal digits, nothing else, at most `max`. */
 bool number_parse_count(const char *text, unsigned long max, unsigned long *out);
 
+/** A whole number. @return length */
+size_t number_count(uint64_t value, char out[NUMBER_SIZE]);
+
 /** The shortest text that reads back to the same double, by %.15g, %.16g, %.17g; "inf" for INFINITY. @return length */
 size_t number_shortest(double value, char out[NUMBER_SIZE]);
 
@@ -35,5 +39,15 @@ size_t number_digits(double value, int digits, char out[NUMBER_SIZE]);
 
 /** The same rounded up, or down: what is read back is never below, or above, a positive value. @return length */
 size_t number_bound(double value, int digits, bool upward, char out[NUMBER_SIZE]);
+
+/** A number on its way into a sentence: printf("%s", number_of(z, 6).text). Lives until the statement ends. */
+typedef struct number_text {
+    char text[NUMBER_SIZE];
+} number_text;
+
+number_text number_of(double value, int digits);   /**< number_digits(), "-" for NaN */
+number_text number_up(double value, int digits);   /**< number_bound() upward, "-" for NaN */
+number_text number_down(double value, int digits); /**< number_bound() downward, "-" for NaN */
+number_text number_full(double value);             /**< number_shortest() */
 
 #endif

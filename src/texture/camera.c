@@ -4,7 +4,7 @@
 #include <math.h>
 #include <stddef.h>
 
-static const double DEGREE = 3.14159265358979323846 / 180;
+static const double DEGREE = M_PI / 180;
 
 camera_spec camera_spec_default(void) {
     return (camera_spec){.fov_y = 60, .half_height = 5};
@@ -63,12 +63,6 @@ void camera_view(const texture_camera *camera, double column, double row, double
 void camera_turn(const texture_camera *camera, const double view[3], double world[3]) {
     for (int i = 0; i < 3; i++)
         world[i] = camera->axis[0][i] * view[0] + camera->axis[1][i] * view[1] + camera->axis[2][i] * view[2];
-}
-
-void camera_world(const texture_camera *camera, const double view[3], double world[3]) {
-    camera_turn(camera, view, world);
-    for (int i = 0; i < 3; i++)
-        world[i] += camera->origin[i];
 }
 
 double camera_radial(const texture_camera *camera, double column, double row) {

@@ -10,7 +10,7 @@
 #endif
 
 #include "texture/frame_rows.h"
-#include "texture/recognise.h"
+#include "texture/image_depths.h"
 
 enum { STRIP_PIXELS = 1 << 18, STRIP_ROWS_MIN = 8, AROUND = 2 * NORMAL_REACH };
 
@@ -46,10 +46,6 @@ void frame_codes(const frame *f, uint32_t row, uint32_t *codes) {
 int frame_channels(const frame_product *product) {
     const bool vector = product->kind == FRAME_POSITION || product->kind == FRAME_NORMAL;
     return vector && !product->error ? 3 : 1;
-}
-
-const dp_setup *frame_planes(const frame *f) {
-    return f->planes != NULL ? f->planes : &f->camera->setup;
 }
 
 const char *frame_refuses(const frame *f, const frame_product *product) {

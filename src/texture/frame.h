@@ -19,6 +19,9 @@
 #include "texture/position.h"
 #include "texture/scene.h"
 
+/** Window depths this close to the far plane's are sky: nothing was drawn there. Unity's shaders use it. */
+#define FRAME_SKY 1e-4
+
 /** Where the depths come from. */
 typedef struct frame {
     const texture_camera *camera; /**< its set-up in the model exact */
@@ -45,7 +48,9 @@ static inline uint32_t frame_code(const dp_setup *setup, uint32_t rank) {
 }
 
 /** The set-up whose planes effects use. */
-const dp_setup *frame_planes(const frame *f);
+static inline const dp_setup *frame_planes(const frame *f) {
+    return f->planes != NULL ? f->planes : &f->camera->setup;
+}
 
 /** How many threads it runs on. */
 int frame_threads(const frame *f);

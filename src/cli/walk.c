@@ -1,0 +1,52 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "cli/walk.h"
+
+#include <unistd.h>
+
+#include "cli/clipping.h"
+
+enum { DEFAULT_ROWS = 9 };
+
+int walk_start(walk *w, const options *o) {
+    w->o = o;
+    const int status = setups_make(o, &w->all);
+    return status == EXIT_FINE ? depths_resolve(o, DEFAULT_ROWS, &w->at) : status;
+}
+
+int walk_write(walk *w, const report_spec *spec, int status) {
+    if (status == EXIT_FINE)
+        status = output_open(&w->out, w->o->output);
+    if (status == EXIT_FINE) {
+        const bool silent = w->o->quiet || isatty(w->out.fd); /* rows on the same terminal are progress enough */
+        w->progress = progress_start("rows", (uint64_t)w->all.count * w->at.count, silent);
+        report_write(spec, &w->out, w->o->form);
+        progress_end(&w->progress);
+        status = output_close(&w->out);
+        if (status == EXIT_FINE && w->warns && !w->o->quiet)
+            clipping_warn(&w->all);
+    }
+    setups_release(&w->all);
+    return status;
+}
+
+bool walk_setup(walk *w, size_t i) {
+    if (i == w->all.count)
+        return false;
+    w->setup = &w->all.items[i];
+    w->fields = setup_fields_of(w->setup);
+    return true;
+}
+
+bool walk_depth(walk *w, size_t i, double *z) {
+    if (i > 0)
+        progress_step(&w->progress, ++w->done);
+    if (i == w->at.count || output_failed(&w->out))
+        return false;
+    *z = depths_get(&w->at, i);
+    return true;
+}
+
+void walk_title(page *p, void *item) {
+    char label[SETUP_LABEL_SIZE];
+    page_title(p, "%s", setup_label(((const walk *)item)->setup, true, label));
+}

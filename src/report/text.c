@@ -1,0 +1,127 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* The text of a report: tables of the lists whose columns have titles, sections of the others. */
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "report/column.h"
+#include "report/number.h"
+
+typedef struct text_walk {
+    page page;
+    unsigned when;
+} text_walk;
+
+/* A line of a table: whether something stands in it, and whether that was aligned to the left. */
+typedef struct text_line {
+    output *out;
+    int waiting; /* blanks that are owed before the next cell: none end a line */
+    bool begun, left;
+} text_line;
+
+static void blanks(output *out, int count) {
+    for (; count > 0; count--)
+        output_char(out, ' ');
+}
+
+/* What is wider than its column pushes the rest, but is never cut or glued to its neighbour. */
+static void put(text_line *line, const column *c, const char *text) {
+    const int length = (int)strlen(text), rest = abs(c->width) - length;
+    const bool left = c->width < 0;
+    if (left)
+        line->waiting += !line->begun ? 0 : line->left ? 1 : 2;
+    else
+        line->waiting += rest > 1 ? rest : 1;
+    if (length > 0) {
+        blanks(line->out, line->waiting);
+        output_text(line->out, text);
+        line->waiting = 0;
+    }
+    line->waiting += left && rest > 0 ? rest : 0;
+    line->begun = true;
+    line->left = left;
+}
+
+/* The columns that text has, those of parts as if they stood here. */
+static bool has_title(const text_walk *w, const column *c) {
+    return c->title != NULL && column_shows(c, AS_TEXT, w->when);
+}
+
+static void put_value(text_line *line, const column *c, const void *item) {
+    const column_value v = column_of(c, item);
+    const int digits = c->digits_at > 0 ? *(const int *)((const char *)item + c->digits_at) : c->digits;
+    char text[NUMBER_SIZE] = "-";
+    if (v.is_count)
+        number_count(v.count, text);
+    else if (v.is_number && !isnan(v.number) && c->fixed)
+        snprintf(text, sizeof text, "%.*f", digits, v.number);
+    else if (v.is_number && !isnan(v.number) && c->upward)
+        number_bound(v.number, digits, true, text);
+    else if (v.is_number && !isnan(v.number))
+        number_digits(v.number, digits, text);
+    put(line, c, v.word != NULL ? v.word : text);
+}
+
+/* A line of the titles where there is no item. */
+static void put_cells(const text_walk *w, text_line *line, const column *c, void *item) {
+    for (; c->kind != COLUMN_END; c++) {
+        if (c->kind == COLUMN_PART && column_shows(c, AS_TEXT, w->when))
+            put_cells(w, line, c->columns, column_part(c, item));
+        else if (has_title(w, c) && item == NULL)
+            put(line, c, c->title);
+        else if (has_title(w, c))
+            put_value(line, c, item);
+    }
+}
+
+static void put_line(const text_walk *w, const column *columns, void *item) {
+    text_line line = {.out = w->page.out};
+    output_text(line.out, item == NULL ? w->page.soft : "");
+    put_cells(w, &line, columns, item);
+    output_text(line.out, item == NULL ? w->page.plain : "");
+    output_char(line.out, '\n');
+}
+
+static bool is_table(const text_walk *w, const column *c) {
+    for (; c->kind != COLUMN_END; c++)
+        if (has_title(w, c) || (c->kind == COLUMN_PART && column_shows(c, AS_TEXT, w->when) && is_table(w, c->columns)))
+            return true;
+    return false;
+}
+
+static void put_lists(text_walk *w, const column *c, void *item);
+
+static void put_list(text_walk *w, const column *list, void *item) {
+    const bool table = is_table(w, list->columns);
+    void *inner;
+    if (table)
+        put_line(w, list->columns, NULL);
+    for (size_t i = 0; (inner = list->get(item, i)) != NULL; i++) {
+        if (table) {
+            put_line(w, list->columns, inner);
+            continue;
+        }
+        if (i > 0)
+            output_char(w->page.out, '\n');
+        if (list->head != NULL)
+            list->head(&w->page, inner);
+        put_lists(w, list->columns, inner);
+        if (list->notes != NULL)
+            list->notes(&w->page, inner);
+    }
+}
+
+static void put_lists(text_walk *w, const column *c, void *item) {
+    for (; c->kind != COLUMN_END; c++)
+        if (c->kind == COLUMN_LIST && column_shows(c, AS_TEXT, w->when))
+            put_list(w, c, item);
+}
+
+void report_text(const report_spec *spec, output *out) {
+    text_walk w = {.page = page_start(out, spec->label), .when = spec->when};
+    if (spec->head != NULL)
+        spec->head(&w.page, spec->item);
+    put_lists(&w, spec->columns, spec->item);
+    if (spec->notes != NULL)
+        spec->notes(&w.page, spec->item);
+}
