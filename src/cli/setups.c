@@ -17,26 +17,20 @@ static const option_id culprits[DP_STATUS_COUNT] = {
 };
 
 static int refused(const options *o, const dp_spec *spec, dp_status status) {
-    char znear[NUMBER_SIZE];
-    char zfar[NUMBER_SIZE];
-    char log_c[NUMBER_SIZE];
     char got[4 * NUMBER_SIZE];
-    number_shortest(spec->znear, znear);
-    number_shortest(spec->zfar, zfar);
-    number_shortest(spec->log_c, log_c);
     const char *mapping = dp_mapping_get(spec->mapping)->name;
     const char *projection = spec->ortho ? "orthographic" : "perspective";
     option_id id = culprits[status];
     switch (status) {
     case DP_ERROR_NEAR:
-        snprintf(got, sizeof got, "%s", znear);
+        number_shortest(spec->znear, got);
         break;
     case DP_ERROR_FAR:
     case DP_ERROR_PLANES:
-        snprintf(got, sizeof got, "near %s, far %s", znear, zfar);
+        snprintf(got, sizeof got, "near %s, far %s", number_full(spec->znear).text, number_full(spec->zfar).text);
         break;
     case DP_ERROR_LOG_C:
-        snprintf(got, sizeof got, "%s", log_c);
+        number_shortest(spec->log_c, got);
         break;
     case DP_ERROR_INFINITE:
     case DP_ERROR_ORTHO:
@@ -150,21 +144,13 @@ void setup_csv(csv *c, const dp_setup *setup) {
 }
 
 const char *setup_label(const dp_setup *setup, bool full, char out[SETUP_LABEL_SIZE]) {
-    const dp_spec *spec = &setup->spec;
-    const char *mapping = dp_mapping_get(spec->mapping)->name;
-    int length = snprintf(out, SETUP_LABEL_SIZE, "%s %s", spec->format.name, mapping);
-    if (!full)
-        return out;
-    char znear[NUMBER_SIZE];
-    char zfar[NUMBER_SIZE];
-    char log_c[NUMBER_SIZE + 4] = "";
-    number_shortest(spec->znear, znear);
-    number_shortest(spec->zfar, zfar);
-    if (spec->mapping == DP_MAPPING_LOG)
-        number_shortest(spec->log_c, log_c + sprintf(log_c, " C "));
-    const bool arith = spec->model == DP_MODEL_FP32;
-    snprintf(out + length, SETUP_LABEL_SIZE - (size_t)length, "%s, near %s, far %s, %s, %s, %s%s%s", log_c, znear, zfar,
-             setup_projection(setup), dp_rounding_name(spec->rounding), dp_model_name(spec->model), arith ? " " : "",
-             arith ? dp_arith_get(spec->arith)->name : "");
+    const setup_fields f = setup_fields_of(setup);
+    const int length = snprintf(out, SETUP_LABEL_SIZE, "%s %s", f.format, f.mapping);
+    const bool has_log_c = !isnan(f.log_c), has_arith = f.arith != NULL;
+    if (full)
+        snprintf(out + length, SETUP_LABEL_SIZE - (size_t)length, "%s%s, near %s, far %s, %s, %s, %s%s%s",
+                 has_log_c ? " C " : "", has_log_c ? number_full(f.log_c).text : "", number_full(f.znear).text,
+                 number_full(f.zfar).text, f.projection, f.rounding, f.model, has_arith ? " " : "",
+                 has_arith ? f.arith : "");
     return out;
 }
