@@ -42,14 +42,14 @@ static bool make(rng *r, view *out) {
 static long double eye_of(const dp_spec *s, float d) {
     const long double n = (long double)s->znear, f = (long double)s->zfar, t = (long double)d;
     const bool reversed = s->mapping == DP_MAPPING_REVERSED || s->mapping == DP_MAPPING_GL_REVERSED;
-    const long double toward_far = reversed ? 1 - t : t;
+    const long double toward_near = reversed ? t : 1 - t, toward_far = reversed ? 1 - t : t;
     if (s->mapping == DP_MAPPING_LINEAR && !s->ortho)
         return f * t;
     if (s->mapping == DP_MAPPING_LOG)
         return expm1l(t * log1pl((long double)s->log_c * f)) / (long double)s->log_c;
     if (s->ortho)
-        return n + (f - n) * toward_far;
-    return 1 / ((1 - toward_far) / n + (isinf(s->zfar) ? 0 : toward_far / f));
+        return n * toward_near + f * toward_far;
+    return 1 / (toward_near / n + (isinf(s->zfar) ? 0 : toward_far / f));
 }
 
 /* The distance of a place from where it should be. */
