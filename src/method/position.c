@@ -88,21 +88,21 @@ bool position_judge(const method_row *row, const dp_setup *setup, const method_i
 OPEN(matrix_open, "matrix") OPEN(rays_open, "rays") OPEN(extents_open, "extents") OPEN(half_open, "extents-half")
 OPEN(view_open, "view")
 
-/* Claims in units are those of position_bound() at its worst over the image; near, far and the scene's units do not
+/* Claims in units are those of position_bound() at its worst over the image and all directions; near, far and the scene's units do not
  * matter then. */
 #define UNIT CLAIM_UNIT
 const method_row position_methods[] = {
     {METHOD_POSITION, "view", "camera + ray z: the ray counted from the image's middle, z without cancellation",
-     {FULL(9.3 * UNIT), FULL(8.3 * UNIT), FULL(9.3 * UNIT)}, METHOD_INFINITE | METHOD_ORTHO, 0.4, "1", 0,
+     {FULL(8.9 * UNIT), FULL(8 * UNIT), FULL(8.9 * UNIT)}, METHOD_INFINITE | METHOD_ORTHO, 0.4, "1", 0,
      "depthprec(7)", NULL, view_open, run, free},
     {METHOD_POSITION, "extents", "(top left + x extent u + y extent v) eye/n with LinearEyeDepth",
-     {FORMULA_TO(claim_extents, CLAIM_CANCELLED), FULL(19 * UNIT), FORMULA_TO(claim_extents, CLAIM_CANCELLED)}, METHOD_INFINITE, 0.42, "1", 0,
+     {FORMULA_TO(claim_extents, CLAIM_CANCELLED), FULL(17.8 * UNIT), FORMULA_TO(claim_extents, CLAIM_CANCELLED)}, METHOD_INFINITE, 0.42, "1", 0,
      "URP, ReconstructViewPos in SSAO.hlsl", NULL, extents_open, run, free},
     {METHOD_POSITION, "rays", "camera + ray eye/n with LinearEyeDepth, the ray between those of the near plane's corners",
-     {FORMULA_TO(claim_rays, CLAIM_CANCELLED), FULL(20 * UNIT), FORMULA_TO(claim_rays, CLAIM_CANCELLED)}, METHOD_INFINITE, 0.45, "1", 0,
+     {FORMULA_TO(claim_rays, CLAIM_CANCELLED), FULL(17.2 * UNIT), FORMULA_TO(claim_rays, CLAIM_CANCELLED)}, METHOD_INFINITE, 0.45, "1", 0,
      "image effects with _FrustumCornersRay", NULL, rays_open, run, free},
     {METHOD_POSITION, "matrix", "inverse view-projection matrix times NDC, divided by w",
-     {FORMULA_TO(claim_matrix_d3d, CLAIM_CANCELLED), FULL(18.3 * UNIT), FORMULA_TO(claim_matrix_gl, CLAIM_CANCELLED)}, METHOD_INFINITE, 0.48, "1", 0,
+     {FORMULA_TO(claim_matrix_d3d, CLAIM_CANCELLED), FULL(16.7 * UNIT), FORMULA_TO(claim_matrix_gl, CLAIM_CANCELLED)}, METHOD_INFINITE, 0.48, "1", 0,
      "ComputeWorldSpacePosition, the Core package's Common.hlsl", NULL, matrix_open, run, free},
     {METHOD_POSITION, "extents-half", "extents in binary16, for distances from 2^-13 to 32752; infinite from 65520 on",
      {FORMULA_TO(claim_extents_half, CLAIM_CANCELLED), FULL(6e-4), FORMULA_TO(claim_extents_half, CLAIM_CANCELLED)}, METHOD_INFINITE | METHOD_HALF, 0.8, "1", 0,
