@@ -5,6 +5,8 @@
  */
 #include <string.h>
 
+#include <gmp.h>
+
 #include "support.h"
 #include "texture/position.h"
 
@@ -162,10 +164,95 @@ static void the_hardest_places_need_each_term(void **state) {
     tally_end(&t);
 }
 
+/* ---- The inverse matrix ------------------------------------------------------------------------------------------ */
+
+/* Elimination in rationals: the right half, 1, becomes the inverse of the left. */
+static void eliminate(mpq_t m[4][8]) {
+    mpq_t factor;
+    mpq_init(factor);
+    for (int c = 0; c < 4; c++) {
+        int pivot = c;
+        while (mpq_sgn(m[pivot][c]) == 0)
+            assert_in_range(++pivot, 0, 3);
+        for (int k = 0; k < 8; k++)
+            mpq_swap(m[c][k], m[pivot][k]);
+        mpq_inv(factor, m[c][c]);
+        for (int k = 0; k < 8; k++)
+            mpq_mul(m[c][k], m[c][k], factor);
+        for (int r = 0; r < 4; r++)
+            for (int k = 7; k >= c && r != c; k--) {
+                mpq_mul(factor, m[r][c], m[c][k]);
+                mpq_sub(m[r][k], m[r][k], factor);
+            }
+    }
+    mpq_clear(factor);
+}
+
+/* What elimination makes a column of the inverse of `m` of, in a row: |m| |inverse| of the column, times the row's
+ * largest entry. */
+static double terms_of(const double m[16], const double inverse[16], int row, int column) {
+    double largest = 0, sum = 0;
+    for (int i = 0; i < 4; i++) {
+        largest = fmax(largest, fabs(inverse[4 * row + i]));
+        for (int k = 0; k < 4; k++)
+            sum += fabs(m[4 * i + k] * inverse[4 * k + column]);
+    }
+    return largest * sum;
+}
+
+/* How far an inverse is off in its worst entry, in units of 2^-24 of the entry and 2^-74 of its terms. */
+static double inverse_off(const texture_camera *camera, const float inverse[16]) {
+    double forth[16], exact[16], worst = 0;
+    mpq_t m[4][8], got;
+    mpq_init(got);
+    position_matrix(camera, forth);
+    for (int r = 0; r < 4; r++)
+        for (int k = 0; k < 8; k++) {
+            mpq_init(m[r][k]);
+            mpq_set_d(m[r][k], k < 4 ? (double)(float)forth[4 * r + k] : k - 4 == r);
+        }
+    eliminate(m);
+    for (int i = 0; i < 16; i++)
+        exact[i] = mpq_get_d(m[i / 4][4 + i % 4]);
+    for (int i = 0; i < 16; i++) {
+        mpq_set_d(got, (double)inverse[i]);
+        mpq_sub(got, got, m[i / 4][4 + i % 4]);
+        const double off = fabs(mpq_get_d(got));
+        if (off > 0x1p-150) /* half a step of the smallest numbers */
+            worst = fmax(worst, off / (fabs(exact[i]) * 0x1p-24 + terms_of(forth, exact, i / 4, i % 4) * 0x1p-74));
+    }
+    for (int i = 0; i < 32; i++)
+        mpq_clear(m[i / 8][i % 8]);
+    mpq_clear(got);
+    return worst;
+}
+
+/* The bound counts one rounding of an entry, and nothing of the elimination before it. */
+static void inverses_are_rounded_once(void **state) {
+    (void)state;
+    rng r = rng_make("inverse");
+    tally t = {.name = "inverse"};
+    for (uint64_t k = test_cases(1000, 4000, 40000); k > 0; k--) {
+        view v;
+        position_state s;
+        if (!make(&r, &v) || !position_applies(position_find("matrix"), &v.camera))
+            continue;
+        const float d = depth_of(&r, &v.camera.setup, 2);
+        if (isinf(position_bound(position_find("matrix"), &v.camera, 0, 0, d)))
+            continue;
+        position_prepare(&s, &v.camera);
+        const double off = inverse_off(&v.camera, s.inverse);
+        TALLY(&t, off <= 1 + 1e-3, "near %g, far %g, origin %g: an entry is off by %g units", v.camera.setup.spec.znear,
+              v.camera.setup.spec.zfar, v.spec.origin[0], off);
+    }
+    tally_end(&t);
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(bounds_hold_and_are_not_idle),
         cmocka_unit_test(the_hardest_places_need_each_term),
+        cmocka_unit_test(inverses_are_rounded_once),
     };
     return run_tap(tests);
 }
