@@ -111,12 +111,12 @@ static double staged_width(const dp_setup *setup, const stage *g, uint32_t low, 
     const double tie = g->ndc < g->window ? g->ndc : 0.0;
     /* Boundaries at equal distances, rounded up to a lattice: cells hold the average, rounded down or up. */
     const float first = dp_staged_window(setup, low);
-    const float last = dp_staged_window(setup, high);
+    const float last = dp_staged_window(setup, high + 1U); /* where the cell of high ends */
     const double span = g->window >= g->ndc
                             ? (double)last - (double)first
                             : 0.5 * ((double)dp_staged_ndc(setup, last) - (double)dp_staged_ndc(setup, first));
     const double total = span / coarse;
-    const double cells = (double)(high - low);
+    const double cells = (double)(high - low) + 1.0;
     const double steps = ceil(total / cells);
     /* Cells of one even number of steps all begin alike, and their ties cancel. */
     const int alike = steps * cells == total && fmod(steps, 2.0) == 0.0;
