@@ -143,8 +143,10 @@ static double rounding(const texture_camera *camera, const double exact[3], cons
     const double size = sqrt(dot(exact, exact));
     /* difference, 1 over the step and the product with it; in perspective also the product with a depth */
     const double each = camera->ortho ? 3 : 4;
-    /* slopes and their products; the sum of these; the product of depths; the last sum */
-    const double own = 2 * (fabs(x) + fabs(y)) + fabs(x + y) + fabs(dot(exact, direction)) + fabs(exact[2]);
+    /* the sum of the slopes' products and the product of depths: no case is known that shows the second without the
+     * first; slopes and their products; the last sum */
+    const double inner = fabs(x + y) + fabs(dot(exact, direction));
+    const double own = 2 * (fabs(x) + fabs(y)) + inner + fabs(exact[2]);
     double last[3], most = 0;
     for (int i = 0; i < 3; i++)
         last[i] = dp_half_ulp(fabs(exact[i]) / size + beside) / UNIT * size;
