@@ -5,6 +5,7 @@
  */
 #include <string.h>
 
+#include "named.h"
 #include "support.h"
 #include "texture/position.h"
 
