@@ -8,9 +8,7 @@
 
 #include "report/number.h"
 
-<<<<<<< HEAD
 int setup_refused(const options *o, const dp_spec *spec, dp_status status) {
-    char znear[NUMBER_SIZE], zfar[NUMBER_SIZE];
     const char *mapping = dp_mapping_get(spec->mapping)->name;
     if (status == DP_ERROR_MODEL) { /* of the models that have a name, fp32 alone is not for all */
         const bool given = option_given(o, OPTION_MODEL);
@@ -25,52 +23,8 @@ int setup_refused(const options *o, const dp_spec *spec, dp_status status) {
     if (status == DP_ERROR_INFINITE || status == DP_ERROR_ORTHO)
         return option_error(status == DP_ERROR_ORTHO ? OPTION_ORTHO : OPTION_FAR, "%s, got %s, %s", text,
                             spec->ortho ? "orthographic" : "perspective", mapping);
-    number_shortest(spec->znear, znear);
-    number_shortest(spec->zfar, zfar);
-    return option_error(OPTION_FAR, "%s, got near %s, far %s", text, znear, zfar);
-=======
-/* Which option is at fault. */
-static const option_id culprits[DP_STATUS_COUNT] = {
-    [DP_ERROR_NEAR] = OPTION_NEAR,         [DP_ERROR_FAR] = OPTION_FAR,         [DP_ERROR_PLANES] = OPTION_FAR,
-    [DP_ERROR_INFINITE] = OPTION_FAR,      [DP_ERROR_ORTHO] = OPTION_ORTHO,     [DP_ERROR_LOG_C] = OPTION_LOG_C,
-    [DP_ERROR_FORMAT] = OPTION_FORMAT,     [DP_ERROR_MAPPING] = OPTION_MAPPING, [DP_ERROR_MODEL] = OPTION_MODEL,
-    [DP_ERROR_ROUNDING] = OPTION_ROUNDING,
-};
-
-static int refused(const options *o, const dp_spec *spec, dp_status status) {
-    char got[4 * NUMBER_SIZE];
-    const char *mapping = dp_mapping_get(spec->mapping)->name;
-    const char *projection = spec->ortho ? "orthographic" : "perspective";
-    option_id id = culprits[status];
-    switch (status) {
-    case DP_ERROR_NEAR:
-        number_shortest(spec->znear, got);
-        break;
-    case DP_ERROR_FAR:
-    case DP_ERROR_PLANES:
-        snprintf(got, sizeof got, "near %s, far %s", number_full(spec->znear).text, number_full(spec->zfar).text);
-        break;
-    case DP_ERROR_LOG_C:
-        number_shortest(spec->log_c, got);
-        break;
-    case DP_ERROR_INFINITE:
-    case DP_ERROR_ORTHO:
-        snprintf(got, sizeof got, "%s, %s", projection, mapping);
-        break;
-    case DP_ERROR_MODEL: /* of the models that have a name, fp32 alone is not for all */
-        id = option_given(o, OPTION_MODEL) ? OPTION_MODEL : OPTION_MAPPING;
-        return option_error(id, "%s needs one of the mappings " DP_MAPPING_NAMES_PERSPECTIVE ", got %s",
-                            id == OPTION_MODEL ? "fp32" : "binary32 arithmetic", mapping);
-    default:
-        snprintf(got, sizeof got, "%s %s", spec->format.name, mapping);
-    }
-    /* "--near: must be ..." rather than "--near: near must be ...". */
-    const char *text = dp_status_text(status);
-    size_t length = strlen(option_name(id));
-    if (strncmp(text, option_name(id), length) == 0 && text[length] == ' ')
-        text += length + 1;
-    return option_error(id, "%s, got %s", text, got);
->>>>>>> report
+    return option_error(OPTION_FAR, "%s, got near %s, far %s", text, number_full(spec->znear).text,
+                        number_full(spec->zfar).text);
 }
 
 int setups_make(const options *o, setups *out) {
