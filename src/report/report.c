@@ -20,6 +20,7 @@ void *column_part(const column *c, void *item) {
 
 column_value column_of(const column *c, const void *item) {
     const char *at = (const char *)item + c->offset;
+    const bool *flag = NULL;
     switch (c->kind) {
     case COLUMN_NUMBER:
         return (column_value){VALUE_NUMBER, .number = *(const double *)at};
@@ -31,6 +32,9 @@ column_value column_of(const column *c, const void *item) {
         return (column_value){VALUE_COUNT, .count = (uint64_t) * (const int *)at};
     case COLUMN_FLAG:
         return (column_value){VALUE_WORD, .word = *(const bool *)at ? "true" : "false"};
+    case COLUMN_ANSWER:
+        flag = *(const bool *const *)at;
+        return (column_value){VALUE_WORD, .word = flag == NULL ? NULL : *flag ? "true" : "false"};
     case COLUMN_LETTERS:
         return (column_value){VALUE_WORD, .word = at};
     default:
@@ -58,7 +62,7 @@ static void json_value(json *j, const column *c, const void *item) {
         return;
     if (c->kind == COLUMN_NAMES)
         json_names(j, c->key, v.word);
-    else if (c->kind == COLUMN_FLAG)
+    else if ((c->kind == COLUMN_FLAG || c->kind == COLUMN_ANSWER) && v.word != NULL)
         json_bool(j, c->key, *v.word == 't');
     else if (v.kind == VALUE_NUMBER)
         json_number(j, c->key, v.number);

@@ -40,6 +40,7 @@ typedef enum column_kind {
     COLUMN_CODE,    /**< uint32_t */
     COLUMN_INT,     /**< int, not negative */
     COLUMN_FLAG,    /**< bool: true or false */
+    COLUMN_ANSWER,  /**< const bool *: the same; null: does not exist */
     COLUMN_WORD,    /**< const char *; null: does not exist */
     COLUMN_LETTERS, /**< char[]: the word itself */
     COLUMN_NAMES,   /**< const char *, words parted by one space: an array of strings in JSON. Null: none */
@@ -66,8 +67,11 @@ typedef struct column {
     /** COLUMN_LIST: the item of that index, asked for once and in order; null behind the last. It may live in the outer
      *  item, or lie anywhere until the next is asked for. */
     void *(*get)(void *of, size_t index);
-    void (*head)(page *p, void *item);  /**< COLUMN_LIST: what text says above an item's section */
-    void (*notes)(page *p, void *item); /**< and below it; null: nothing */
+    /** COLUMN_LIST: what text says above an item's section and below it; null: nothing. Of a table it is said once, of
+     *  the outer item, even where the table is left out because it has no lines. */
+    void (*head)(page *p, void *item);
+    void (*notes)(page *p, void *item);
+    int indent; /**< COLUMN_LIST: blanks before each line of a table */
 } column;
 
 /* The kind follows from the member's type, so the two cannot disagree. */
@@ -78,6 +82,7 @@ typedef struct column {
         uint32_t: COLUMN_CODE,                                                                                         \
         int: COLUMN_INT,                                                                                               \
         bool: COLUMN_FLAG,                                                                                             \
+        const bool *: COLUMN_ANSWER,                                                                                   \
         const char *: COLUMN_WORD,                                                                                     \
         char *: COLUMN_LETTERS)
 #define FIELD(type, member, its_key, its_unit)                                                                         \
