@@ -170,7 +170,7 @@ static void frames(void) {
         for (int run = -1; run < RUNS; run++)
             for (int t = 0; t < 2; t++) {
                 const frame f = {
-                    .camera = &camera, .image = &picture, .sky = TEXTURE_SKY, .threads = t == 0 ? 1 : threads};
+                    .camera = &camera, .image = &picture, .sky = FRAME_SKY, .threads = t == 0 ? 1 : threads};
                 const double start = now();
                 if (!frame_run(&f, &products[i], false, drop, NULL))
                     exit(2);

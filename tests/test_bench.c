@@ -34,23 +34,23 @@ static void run_as(int contestant) {
     clock_ns += run < 0 ? 5e5 : samples[contestant][run];
 }
 
-static void run_0(const dp_setup *setup, const void *state, const method_inputs *in, const method_outputs *out) {
-    (void)setup, (void)state, (void)in, (void)out;
+static void run_0(const method_call *call) {
+    (void)call;
     run_as(0);
 }
 
-static void run_1(const dp_setup *setup, const void *state, const method_inputs *in, const method_outputs *out) {
-    (void)setup, (void)state, (void)in, (void)out;
+static void run_1(const method_call *call) {
+    (void)call;
     run_as(1);
 }
 
-static void run_2(const dp_setup *setup, const void *state, const method_inputs *in, const method_outputs *out) {
-    (void)setup, (void)state, (void)in, (void)out;
+static void run_2(const method_call *call) {
+    (void)call;
     run_as(2);
 }
 
-static void run_limit(const dp_setup *setup, const void *state, const method_inputs *in, const method_outputs *out) {
-    (void)setup, (void)state, (void)in, (void)out;
+static void run_limit(const method_call *call) {
+    (void)call;
     run_as(LIMIT);
 }
 
@@ -71,10 +71,8 @@ static void fill(const dp_setup *setup, method_inputs *in) {
 }
 
 /* The worst of each kind at an input of its own; what lies outside of the domain is worse and does not count. */
-static bool judge(const method_row *row, const dp_setup *setup, const method_inputs *in, const method_outputs *out,
-                  size_t i, method_error *e) {
-    const double scale = strcmp(row->name, "exact") == 0 ? 1e-3 : 1;
-    (void)setup, (void)in, (void)out;
+static bool judge(const method_call *call, size_t i, method_error *e) {
+    const double scale = strcmp(call->row->name, "exact") == 0 ? 1e-3 : 1;
     *e = (method_error){i == 3 ? 9 : 1, scale * (i == 5 ? 8 : 2), i == 7 ? 7 : 3};
     if (i == 4)
         *e = (method_error){1e9, 1e9, 1e9};

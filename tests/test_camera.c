@@ -80,9 +80,9 @@ static void pixels_look_where_they_should(void **state) {
     spec.yaw = 90;
     spec.origin[1] = 7;
     camera = camera_of(0, spec);
-    camera_world(&camera, (double[]){0, 0, 4}, world); /* forward is the world's x axis, to the right of z */
+    camera_turn(&camera, (double[]){0, 0, 4}, world); /* forward is the world's x axis, to the right of z */
     assert_scene(world[0], 4, 1e-15);
-    assert_scene(world[1], 7, 1e-15);
+    assert_scene(camera.origin[1] + world[1], 7, 1e-15);
     assert_scene(world[2], 0, 1e-15);
     spec.yaw = 0;
     spec.pitch = 90;

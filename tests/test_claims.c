@@ -6,7 +6,6 @@
 #include <string.h>
 
 #include "method/bench.h"
-#include "method/claim.h"
 #include "support.h"
 #include "texture/position.h"
 

@@ -318,56 +318,6 @@ static void loops_have_no_edges(void **state) {
         }
 }
 
-static void sky_is_masked_and_counted(void **state) {
-    (void)state;
-    enum { COUNT = 3000001 };
-    float *d = malloc(COUNT * sizeof *d);
-    assert_non_null(d);
-    for (int mapping = 0; mapping < DP_MAPPING_COUNT; mapping++) {
-        dp_spec spec = dp_spec_default();
-        dp_setup setup;
-        spec.mapping = (dp_mapping)mapping;
-        assert_int_equal(dp_setup_init(&setup, &spec), DP_OK);
-        size_t want = 0;
-        for (size_t i = 0; i < COUNT; i++) {
-            d[i] = (float)((double)i / (COUNT - 1));
-            const double away = setup.reversed ? (double)d[i] : 1 - (double)d[i];
-            if (i % 1000 == 3)
-                d[i] = (float)NAN;
-            else
-                want += away <= (double)1e-4f;
-        }
-        assert_int_equal(recon_mask_sky(&setup, 1e-4, d, COUNT), want);
-        size_t gone = 0;
-        for (size_t i = 0; i < COUNT; i++)
-            gone += isnan(d[i]) && i % 1000 != 3;
-        assert_int_equal(gone, want);
-        assert_int_equal(recon_mask_sky(&setup, 1e-4, d, COUNT), 0);
-        d[0] = setup.reversed ? 0 : 1;
-        assert_int_equal(recon_mask_sky(&setup, 0, d, COUNT), 1);
-    }
-    free(d);
-}
-
-/* The threshold hides half of the view from 0.1 to 1000, whichever way depth runs; little of an orthographic one. */
-static void the_sky_begins_too_near(void **state) {
-    (void)state;
-    dp_spec spec = dp_spec_default();
-    dp_setup setup;
-    assert_int_equal(dp_setup_init(&setup, &spec), DP_OK);
-    assert_relative(recon_sky_from(&setup, 1e-4), 500.0250, 1e-6);
-    spec.mapping = DP_MAPPING_REVERSED;
-    assert_int_equal(dp_setup_init(&setup, &spec), DP_OK);
-    assert_relative(recon_sky_from(&setup, 1e-4), 500.0250, 1e-6);
-    spec.ortho = 1;
-    assert_int_equal(dp_setup_init(&setup, &spec), DP_OK);
-    assert_relative(recon_sky_from(&setup, 1e-4), 999.90001, 1e-8);
-    spec.ortho = 0;
-    spec.zfar = INFINITY;
-    assert_int_equal(dp_setup_init(&setup, &spec), DP_OK);
-    assert_relative(recon_sky_from(&setup, 1e-4), 1000, 1e-7);
-}
-
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(exact_is_exact),
@@ -378,8 +328,6 @@ int main(void) {
         cmocka_unit_test(parameters_are_those_of_engines),
         cmocka_unit_test(rows_apply_where_they_say),
         cmocka_unit_test(loops_have_no_edges),
-        cmocka_unit_test(sky_is_masked_and_counted),
-        cmocka_unit_test(the_sky_begins_too_near),
     };
     return run_tap(tests);
 }

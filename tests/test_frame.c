@@ -40,11 +40,8 @@ static void stage_set(stage *s, const char *scene, const char *format, const cha
     view.origin[2] = -7;
     assert_null(camera_init(&s->camera, &setup, &view));
     scene_defaults(scene_find(scene), s->parameters);
-    s->frame = (frame){.camera = &s->camera,
-                       .scene = scene_find(scene),
-                       .parameters = s->parameters,
-                       .sky = TEXTURE_SKY,
-                       .threads = 1};
+    s->frame = (frame){
+        .camera = &s->camera, .scene = scene_find(scene), .parameters = s->parameters, .sky = FRAME_SKY, .threads = 1};
 }
 
 /* A product as a whole image, rows from the top, and the order in which the strips came. */
@@ -125,7 +122,7 @@ static void bits_do_not_depend_on_threads_or_direction(void **state) {
 /* What a pixel of the frame is, one by one, from the scalar functions alone. */
 static bool is_sky(const dp_setup *setup, uint32_t code) {
     const double d = dp_format_value(&setup->spec.format, code);
-    return (setup->reversed ? d : 1 - d) <= TEXTURE_SKY;
+    return (setup->reversed ? d : 1 - d) <= FRAME_SKY;
 }
 
 static bool same_bits(float a, float b) {
@@ -175,7 +172,9 @@ static void frames_equal_plain_pixels(void **state) {
                 const double z = dp_stored(&c->setup, code);
                 double world[3], v[3];
                 camera_view(c, x, y, z, v);
-                camera_world(c, v, world);
+                camera_turn(c, v, world);
+                for (int axis = 0; axis < 3; axis++)
+                    world[axis] += c->origin[axis];
                 TALLY(&t, fabs((double)eye[i] - z) <= DP_BATCH_EYE_ERROR * z, "%zu: eye %g, not %g", k, (double)eye[i],
                       z);
                 TALLY(&t, same_bits(radial[i], (float)((double)eye[i] * camera_radial(c, x, y))), "%zu: radial", k);

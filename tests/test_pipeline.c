@@ -7,8 +7,8 @@
 #include <string.h>
 
 #include "depthprec/depthprec.h"
-#include "depthprec/view.h"
 #include "support.h"
+#include "transform.h"
 
 static float depth_of(uint32_t bits) {
     float z;
@@ -216,21 +216,21 @@ static void reed(void **state) {
 /* ---- A view in front --------------------------------------------------------------------------------------------- */
 
 /* Of 10000 neighbours behind a view: equal and swapped, for one order of the dot products. */
-static void count_view(const dp_setup *setup, const dp_view_row *view, int precomposed, unsigned order, int *equal,
+static void count_view(const dp_setup *setup, const view_row *view, int precomposed, unsigned order, int *equal,
                        int *swapped) {
-    dp_transform t;
+    transform t;
     rng r = rng_make(view->name);
     uint32_t before = 0;
     double depth_before = 0.0;
-    assert_int_equal(dp_transform_init(&t, setup, view, precomposed, order), DP_OK);
+    assert_int_equal(transform_init(&t, setup, view, precomposed, order), DP_OK);
     *equal = *swapped = 0;
     for (int k = 0; k <= 10000; k++) {
         const double z = 0.1 + (1e4 - 0.1) * k / 1e4;
         float world[3];
         double depth;
-        dp_view_point(view, z * rng_uniform(&r, -1.0, 1.0), z * rng_uniform(&r, -1.0, 1.0), z, world, &depth);
+        view_point(view, z * rng_uniform(&r, -1.0, 1.0), z * rng_uniform(&r, -1.0, 1.0), z, world, &depth);
         assert_true(depth > depth_before); /* rounding the point does not change the order */
-        const uint32_t code = dp_transform_code(&t, world);
+        const uint32_t code = transform_code(&t, world);
         const uint32_t key = setup->reversed ? ~code : code;
         *equal += k > 0 && key == before;
         *swapped += k > 0 && key < before;
@@ -244,11 +244,11 @@ static void views(void **state) {
     const dp_setup standard = setup_of(0.1, 1e4, DP_MAPPING_D3D, "fp32");
     const dp_setup reversed = setup_of(0.1, 1e4, DP_MAPPING_REVERSED, "fp32");
     const dp_setup infinite = setup_of(0.1, (double)INFINITY, DP_MAPPING_REVERSED, "fp32");
-    for (size_t v = 0; v < dp_view_count(); v++)
+    for (size_t v = 0; v < view_count(); v++)
         for (int precomposed = 0; precomposed < 2; precomposed++) {
-            const dp_view_row *view = dp_view_get(v);
+            const view_row *view = view_get(v);
             int least[2] = {10000, 10000}, most[2] = {0, 0};
-            for (unsigned order = 0; order < DP_ORDER_COUNT; order++) {
+            for (unsigned order = 0; order < ORDER_COUNT; order++) {
                 int count[2];
                 count_view(&reversed, view, precomposed, order, &count[0], &count[1]);
                 assert_true(count[0] == 0 && count[1] == 0);
@@ -262,7 +262,7 @@ static void views(void **state) {
             }
             printf("# %s, %s: standard %.1f-%.1f %% equal, %.1f-%.1f %% swapped; reversed 0 / 0 in %d orders\n",
                    view->name, precomposed ? "precomposed" : "separate", least[0] / 100.0, most[0] / 100.0,
-                   least[1] / 100.0, most[1] / 100.0, DP_ORDER_COUNT);
+                   least[1] / 100.0, most[1] / 100.0, ORDER_COUNT);
             const int alone = !precomposed || v == 0; /* as the projection alone */
             assert_in_range(least[0], alone ? 7700 : 3000, 10000);
             assert_in_range(most[0], 0, alone ? 7740 : 6000);
@@ -278,24 +278,23 @@ static void identity_view(void **state) {
     rng r = rng_make("identity");
     for (int n = 0; n < 2000; n++) {
         const dp_setup setup = random_setup(&r);
-        dp_transform transform;
+        transform plain;
         if (setup.spec.ortho) {
-            assert_int_equal(dp_transform_init(&transform, &setup, dp_view_get(0), 0, 0), DP_ERROR_MODEL);
+            assert_int_equal(transform_init(&plain, &setup, view_get(0), 0, 0), DP_ERROR_MODEL);
             continue;
         }
-        assert_int_equal(dp_transform_init(&transform, &setup, dp_view_get(0), n % 2, (unsigned)n % DP_ORDER_COUNT),
-                         DP_OK);
-        const float world[3] = {3.0f, -2.0f, random_depth(&r, &transform.pipeline)};
+        assert_int_equal(transform_init(&plain, &setup, view_get(0), n % 2, (unsigned)n % ORDER_COUNT), DP_OK);
+        const float world[3] = {3.0f, -2.0f, random_depth(&r, &plain.pipeline)};
         if (n % 2 == 0)
-            TALLY(&t, dp_transform_code(&transform, world) == dp_pipeline_code(&transform.pipeline, world[2]), "z %a",
+            TALLY(&t, transform_code(&plain, world) == dp_pipeline_code(&plain.pipeline, world[2]), "z %a",
                   (double)world[2]);
     }
     tally_end(&t);
-    dp_transform transform;
+    transform plain;
     const dp_setup setup = setup_of(0.1, 100.0, DP_MAPPING_D3D, "fp32");
-    assert_int_equal(dp_transform_init(&transform, &setup, dp_view_get(1), 0, DP_ORDER_COUNT), DP_ERROR_MODEL);
-    assert_int_equal(dp_transform_init(&transform, NULL, dp_view_get(1), 0, 0), DP_ERROR_NULL);
-    assert_null(dp_view_get(dp_view_count()));
+    assert_int_equal(transform_init(&plain, &setup, view_get(1), 0, ORDER_COUNT), DP_ERROR_MODEL);
+    assert_int_equal(transform_init(&plain, NULL, view_get(1), 0, 0), DP_ERROR_NULL);
+    assert_null(view_get(view_count()));
 }
 
 /* ---- Planes ------------------------------------------------------------------------------------------------------ */

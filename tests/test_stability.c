@@ -77,7 +77,7 @@ static stability_verdict verdict_by(const char *name, method_claim claim) {
         if (strcmp(family->methods[i].name, name) == 0)
             forged = family->methods[i];
     forged.claims[0] = claim;
-    forged.claims[1] = (method_claim){0, 0, 0, NULL};
+    forged.claims[1] = (method_claim)NOWHERE;
     forgery = *family;
     forgery.methods = &forged;
     forgery.method_count = &one;
@@ -86,7 +86,7 @@ static stability_verdict verdict_by(const char *name, method_claim claim) {
 }
 
 static stability_verdict verdict_of(const char *name, double worst, double ratio_hi) {
-    return verdict_by(name, (method_claim){worst, METHOD_RATIO_LO, ratio_hi, NULL});
+    return verdict_by(name, (method_claim)UP_TO(worst, ratio_hi));
 }
 
 /* Its own formula, times a factor. */
@@ -150,10 +150,10 @@ static void worst_is_where_it_is_said(void **state) {
 /* A method that is exact but where `wrong` says otherwise: there it is off by half. */
 static bool (*wrong)(const dp_spec *spec);
 
-static void sometimes(const dp_setup *setup, const void *state, const method_inputs *in, const method_outputs *out) {
-    (void)state;
-    for (size_t i = 0; i < in->count; i++)
-        out->value[i] = dp_cell_of(setup, dp_code(setup, in->z[i])).width * (wrong(&setup->spec) ? 1.5 : 1);
+static void sometimes(const method_call *call) {
+    const dp_setup *setup = call->setup;
+    for (size_t i = 0; i < call->in->count; i++)
+        call->out->value[i] = dp_cell_of(setup, dp_code(setup, call->in->z[i])).width * (wrong(&setup->spec) ? 1.5 : 1);
 }
 
 static bool in_ortho(const dp_spec *spec) {

@@ -35,7 +35,7 @@ static void stage_set(stage *s, const char *scene, const char *format, const cha
     s->frame = (frame){.camera = &s->camera,
                        .scene = scene_find(scene),
                        .parameters = s->parameters,
-                       .sky = TEXTURE_SKY,
+                       .sky = FRAME_SKY,
                        .threads = 2};
 }
 

@@ -125,7 +125,7 @@ static double interval_of(const method_row *row, const dp_setup *setup, double z
     if (row != NULL && (row->domain & METHOD_PIPELINE) != 0 && z + dp_separation(setup, z) > setup->spec.zfar)
         return NAN;
     if (row != NULL)
-        row->run(setup, NULL, &in, &(method_outputs){.value = &width});
+        row->run(&(method_call){row, setup, NULL, &in, &(method_outputs){.value = &width}});
     return width;
 }
 

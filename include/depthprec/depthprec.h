@@ -27,7 +27,6 @@
 #include "depthprec/pipeline.h"
 #include "depthprec/setup.h"
 #include "depthprec/status.h"
-#include "depthprec/view.h"
 
 #define DP_VERSION_MAJOR 0
 #define DP_VERSION_MINOR 1

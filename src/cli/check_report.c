@@ -7,6 +7,7 @@
 
 #include "cli/setups.h"
 #include "plot/notes.h"
+#include "report/append.h"
 #include "report/csv.h"
 #include "report/json.h"
 #include "report/number.h"
@@ -33,13 +34,13 @@ static bool has_code(const check_verdict *v) {
 static const char *sentence(const check_file *f, const check_verdict *v, char out[SENTENCE_SIZE]) {
     const need_kind_row *kind = need_kind_get(v->asked->kind);
     quantity value, limit, z;
-    int used = snprintf(out, SENTENCE_SIZE, "%s %s", kind->phrase, put(value, f, v->value, kind->is_length, true));
+    out[0] = '\0';
+    append(out, SENTENCE_SIZE, "%s %s", kind->phrase, put(value, f, v->value, kind->is_length, true));
     if (!isnan(v->z))
-        used += snprintf(out + used, (size_t)(SENTENCE_SIZE - used), " at %s", put(z, f, v->z, true, false));
+        append(out, SENTENCE_SIZE, " at %s", put(z, f, v->z, true, false));
     if (has_code(v))
-        used += snprintf(out + used, (size_t)(SENTENCE_SIZE - used), " (code %u)", (unsigned)v->code);
-    snprintf(out + used, (size_t)(SENTENCE_SIZE - used), ", allowed %s",
-             put(limit, f, v->asked->limit, kind->is_length, false));
+        append(out, SENTENCE_SIZE, " (code %u)", (unsigned)v->code);
+    append(out, SENTENCE_SIZE, ", allowed %s", put(limit, f, v->asked->limit, kind->is_length, false));
     return out;
 }
 
@@ -203,7 +204,7 @@ static void write_csv(const options *o, output *out, const check_file *files, si
 void check_report(const options *o, output *out, const check_file *files, size_t count) {
     void (*const forms[])(const options *, output *, const check_file *,
                           size_t) = {[FORM_TEXT] = write_text, [FORM_JSON] = write_json, [FORM_CSV] = write_csv};
-    void (*const reports[REPORT_COUNT])(const options *, output *, const check_file *, size_t) = {
+    void (*const reports[])(const options *, output *, const check_file *, size_t) = {
         [REPORT_TEXT] = forms[o->form], [REPORT_JSON] = write_json, [REPORT_JUNIT] = write_junit};
     reports[o->report](o, out, files, count);
 }

@@ -5,7 +5,6 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "method/choose.h"
 #include "report/number.h"
 
 /* The fullest model that the set-up has: what the others are measured by. */
@@ -13,19 +12,12 @@ static int fullest(const dp_choice *choice) {
     return isnan(choice->share[DP_MODEL_FP32]) ? DP_MODEL_STAGED : DP_MODEL_FP32;
 }
 
-/*
- * The models as methods of getting the separation, with what they were measured to neglect for a claim. A model that
- * the set-up does not have has NaN, which covers nothing; the fullest neglects nothing, and so covers everything.
- */
-static dp_model cheapest(const double share[DP_MODEL_COUNT], double tolerance) {
-    static const double cost[DP_MODEL_COUNT] = {150, 175, 250}; /* ns of dp_separation(), about */
-    method_row rows[DP_MODEL_COUNT];
-    const size_t count = DP_MODEL_COUNT;
-    const method_family_row models = {.name = "model", .methods = rows, .method_count = &count};
-    const method_wish wish = {.tolerance = tolerance, .ratio_lo = METHOD_RATIO_LO, .ratio_hi = METHOD_RATIO_LO};
-    for (int m = 0; m < DP_MODEL_COUNT; m++)
-        rows[m] = (method_row){.name = dp_model_name((dp_model)m), .claims = {FULL(share[m])}, .cost = cost[m]};
-    return (dp_model)(method_choose(&models, 0, &wish) - rows);
+/* The first that neglects no more than is allowed. */
+static dp_model simplest(const dp_choice *choice, double tolerance) {
+    int m = DP_MODEL_EXACT;
+    while (m < fullest(choice) && choice->share[m] > tolerance)
+        m++;
+    return (dp_model)m;
 }
 
 choosing choosing_start(const dp_setup *setup, double tolerance) {
@@ -46,7 +38,7 @@ static void take_block(choosing *c) {
             c->choice.share[m] = block.share[m];
             c->choice.share_z[m] = block.share_z[m];
         }
-    c->choice.model = cheapest(c->choice.share, c->tolerance);
+    c->choice.model = simplest(&c->choice, c->tolerance);
 }
 
 void choosing_add(choosing *c, double z) {

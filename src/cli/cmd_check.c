@@ -7,22 +7,18 @@
 
 #include "census/census.h"
 #include "cli/check_report.h"
+#include "cli/names.h"
 #include "cli/progress.h"
-#include "cli/suggest.h"
 
 int cmd_check(const options *o);
 
 static int refuse(const char *path, const need_error *e) {
     char where[32] = "";
-    char text[SUGGEST_TEXT_SIZE] = "";
+    char text[NAMES_SIZE];
+    const name_list known = {.words = (const char *const[]){e->known, NULL}};
     if (e->line > 0)
         snprintf(where, sizeof where, ":%d", e->line);
-    if (e->given[0] != '\0') {
-        suggestion s = suggest_start(e->given);
-        suggest_offer(&s, e->known);
-        suggest_text(&s, "", text);
-    }
-    const int status = usage_error("%s%s: %s%s", path, where, e->text, text);
+    const int status = usage_error("%s%s: %s%s", path, where, e->text, names_nearest(&known, "", e->given, text));
     return e->unreadable ? EXIT_IO : status;
 }
 

@@ -15,7 +15,6 @@
 #include "cli/plot_normals.h"
 #include "cli/plot_scene.h"
 #include "cli/setups.h"
-#include "cli/suggest.h"
 #include "cli/ways.h"
 #include "plot/draw.h"
 #include "plot/figure.h"
@@ -30,18 +29,8 @@ bool list_figure(size_t index, list_item *item) {
     const figure_row *row = figure_get(index);
     if (row == NULL)
         return false;
-    *item = (list_item){.name = row->name, .note = row->summary};
+    *item = (list_item){.name = row->name, .note = row->summary, .row = row};
     return true;
-}
-
-static int unknown_figure(const char *name) {
-    suggestion s = suggest_start(name);
-    char text[SUGGEST_TEXT_SIZE], all[256] = "";
-    for (size_t i = 0; figure_get(i) != NULL; i++) {
-        suggest_offer(&s, figure_get(i)->name);
-        snprintf(all + strlen(all), sizeof all - strlen(all), "%s%s", i > 0 ? ", " : "", figure_get(i)->name);
-    }
-    return usage_error("plot: FIGURE must be one of %s, got '%s'%s", all, name, suggest_text(&s, "", text));
 }
 
 /* The depth and range of the request; what this figure has no use for is refused rather than ignored. */
@@ -204,12 +193,7 @@ static int write_figure(const options *o, const figure_row *row, const figure_re
     return EXIT_IO;
 }
 
-static int check_size(const options *o) {
-    if (o->width > 0 && (o->width < DRAW_WIDTH_MIN || o->width > DRAW_SIZE_MAX))
-        return option_error(OPTION_WIDTH, "must be from %d to %d px, got %d", DRAW_WIDTH_MIN, DRAW_SIZE_MAX, o->width);
-    if (o->height > 0 && (o->height < DRAW_HEIGHT_MIN || o->height > DRAW_SIZE_MAX))
-        return option_error(OPTION_HEIGHT, "must be from %d to %d px, got %d", DRAW_HEIGHT_MIN, DRAW_SIZE_MAX,
-                            o->height);
+static int check_output(const options *o) {
     if (o->form == FORM_TEXT && o->output == NULL)
         return usage_error("plot: needs -o FILE that ends in .svg, .pdf or .png, or --csv or --json for the numbers");
     if (o->form == FORM_TEXT && canvas_format_of(o->output) == CANVAS_FORMAT_COUNT)
@@ -218,9 +202,7 @@ static int check_size(const options *o) {
 }
 
 int cmd_plot(const options *o) {
-    const figure_row *row = figure_find(o->operands[0]);
-    if (row == NULL)
-        return unknown_figure(o->operands[0]);
+    const figure_row *row = o->operand_row;
     setups all = {0};
     char text[CHART_SERIES][SETUP_LABEL_SIZE];
     const char *names[CHART_SERIES];
@@ -231,7 +213,7 @@ int cmd_plot(const options *o) {
     request.rows = o->height > 0 ? o->height : HEIGHT;
     request.find_way = (row->takes & FIGURE_WAYS) != 0 ? way_for_figure : NULL;
     request.tolerance = option_given(o, OPTION_TOLERANCE) ? o->tolerance : (double)NAN;
-    int status = check_size(o);
+    int status = check_output(o);
     if (status == EXIT_FINE)
         status = check_file_given(o, row);
     if (status == EXIT_FINE && (row->takes & FIGURE_NEEDS) != 0)

@@ -44,10 +44,10 @@ static int check_target(const options *o, solve_report *r) {
         return option_error(OPTION_AT, "has no meaning when a distance is asked: --range LO:HI says from where");
     if (r->target != SOLVE_FOR_SEPARATION && !limited)
         return option_error(OPTION_SEPARATION, "must be given (or --error), to solve for %s",
-                            solve_target_name(r->target));
+                            option_word(OPTION_FOR, r->target));
     if (r->target <= SOLVE_FOR_FAR && option_given(o, givens[r->target - SOLVE_FOR_NEAR]))
-        return option_error(OPTION_FOR, "%s is what is solved for, got --%s too", solve_target_name(r->target),
-                            solve_target_name(r->target));
+        return option_error(OPTION_FOR, "%s is what is solved for, got --%s too", option_word(OPTION_FOR, r->target),
+                            option_word(OPTION_FOR, r->target));
     if (r->kind == MEASURE_ERROR && option_given(o, OPTION_MODEL) && o->model == DP_MODEL_FP32)
         return option_error(OPTION_MODEL, "must be exact or staged for an error, which fp32 has none of, got 'fp32'");
     return EXIT_FINE;

@@ -1,116 +1,90 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* stability: where the methods of a family lose what they claim. */
 #include <math.h>
-#include <stdio.h>
 #include <stdlib.h>
 
 #include "cli/methods.h"
-#include "report/csv.h"
-#include "report/json.h"
-#include "report/number.h"
+#include "report/report.h"
 
 int cmd_stability(const options *o);
 
+/* A method in a case, and a step of its walk. */
+typedef struct line {
+    stability_result of;
+    const char *name, *of_case, *verdict;
+    double claim_to;              /* NaN where nothing is claimed */
+    double breaks;                /* NaN: never */
+    double ratio, error, claimed; /* NaN beyond the claim's span */
+} line;
+
 typedef struct walking {
-    output *out;
     const method_family_row *family;
+    const char *name, *measure;
     stability_result results[STABILITY_MAX];
     size_t count;
+    line line;
 } walking;
 
-static const method_claim *claim_of(const stability_result *r) {
-    return &r->row->claims[r->which];
+static void *next_step(void *of, size_t k) {
+    line *l = of;
+    const stability_result *r = &l->of;
+    const method_claim *claim = &r->row->claims[r->which];
+    if ((int)k == r->steps)
+        return NULL;
+    l->ratio = r->ratio[k];
+    l->error = r->error[k];
+    l->claimed = l->ratio <= claim->ratio_hi * (1 + 1e-9) ? method_claim_at(claim, l->ratio) : (double)NAN;
+    return l;
 }
 
-static double claimed_to(const stability_result *r) {
-    return isnan(claim_of(r)->worst) ? (double)NAN : claim_of(r)->ratio_hi;
+static void *next_method(void *of, size_t i) {
+    walking *w = of;
+    if (i == w->count)
+        return NULL;
+    const stability_result *r = &w->results[i];
+    const method_claim *claim = &r->row->claims[r->which];
+    w->line = (line){.of = *r,
+                     .name = r->row->name,
+                     .of_case = w->family->cases[r->which].name,
+                     .verdict = stability_verdict_name(r->verdict),
+                     .claim_to = isnan(claim->worst) ? (double)NAN : claim->ratio_hi,
+                     .breaks = isinf(r->breaks) ? (double)NAN : r->breaks};
+    return &w->line;
 }
 
-/* NaN beyond the claim's span. */
-static double claimed_at(const stability_result *r, int k) {
-    return r->ratio[k] <= claim_of(r)->ratio_hi * (1 + 1e-9) ? method_claim_at(claim_of(r), r->ratio[k]) : (double)NAN;
+static void say_family(page *p, void *item) {
+    const method_family_row *f = ((const walking *)item)->family;
+    page_title(p, "%s: %s; worst %s for far/near from 10 to 1e12", f->name, f->summary, f->measure);
 }
 
-static void cell(output *out, int width, double value) {
-    char text[NUMBER_SIZE] = "-";
-    if (!isnan(value))
-        number_digits(value, 3, text);
-    output_format(out, " %*s", width, text);
-}
+static const column step_columns[] = {{FIELD(line, ratio, "ratio", "")},
+                                      {FIELD(line, error, "error", "")},
+                                      {FIELD(line, claimed, "claim", ""), .only = AS_JSON},
+                                      {.kind = COLUMN_END}};
 
-static void write_text(walking *w) {
-    output_format(w->out, "%s: %s; worst %s for far/near from 10 to 1e12\n", w->family->name, w->family->summary,
-                  w->family->measure);
-    output_format(w->out, "%-20s %-14s %8s %8s %9s %9s %9s %9s  %s\n", "method", "case", "claim", "up to", "worst",
-                  "breaks at", "far inf", "ortho", "verdict");
-    for (size_t i = 0; i < w->count; i++) {
-        const stability_result *r = &w->results[i];
-        output_format(w->out, "%-20s %-14s", r->row->name, w->family->cases[r->which].name);
-        cell(w->out, 8, r->claim);
-        cell(w->out, 8, claimed_to(r));
-        cell(w->out, 9, r->inside);
-        cell(w->out, 9, isinf(r->breaks) ? (double)NAN : r->breaks);
-        cell(w->out, 9, r->infinite);
-        cell(w->out, 9, r->ortho);
-        output_format(w->out, "  %s\n", stability_verdict_name(r->verdict));
-    }
-}
+/* In CSV a line is a step. */
+static const column line_columns[] = {
+    {FIELD(line, name, "name", ""), SHOWN("method", -20, 0), .only = AS_JSON | AS_TEXT},
+    {FIELD(line, name, "method", ""), .only = AS_CSV},
+    {FIELD(line, of_case, "case", ""), SHOWN("case", -14, 0)},
+    {FIELD(line, of.claim, "claim", ""), SHOWN("claim", 9, 3), .only = AS_JSON | AS_TEXT},
+    {FIELD(line, claimed, "claim", ""), .only = AS_CSV},
+    {FIELD(line, claim_to, "claim_to", ""), SHOWN("up to", 9, 3)},
+    {FIELD(line, of.inside, "worst", ""), SHOWN("worst", 10, 3), .only = AS_JSON | AS_TEXT},
+    {FIELD(line, of.inside_near, "worst_near", ""), .only = AS_JSON},
+    {FIELD(line, of.inside_far, "worst_far", ""), .only = AS_JSON},
+    {FIELD(line, of.inside_at, "worst_at", ""), .only = AS_JSON},
+    {FIELD(line, breaks, "breaks", ""), SHOWN("breaks at", 10, 3), .only = AS_JSON | AS_TEXT},
+    {FIELD(line, of.infinite, "infinite", ""), SHOWN("far inf", 10, 3), .only = AS_JSON | AS_TEXT},
+    {FIELD(line, of.ortho, "ortho", ""), SHOWN("ortho", 10, 3), .only = AS_JSON | AS_TEXT},
+    {FIELD(line, verdict, "verdict", ""), SHOWN("verdict", -1, 0)},
+    {LIST("walk", step_columns, next_step)},
+    {.kind = COLUMN_END}};
 
-static void write_json(walking *w) {
-    json j = json_start(w->out, "stability");
-    json_string(&j, "family", w->family->name);
-    json_string(&j, "measure", w->family->measure);
-    json_array(&j, "methods");
-    for (size_t i = 0; i < w->count; i++) {
-        const stability_result *r = &w->results[i];
-        json_object(&j, NULL);
-        json_string(&j, "name", r->row->name);
-        json_string(&j, "case", w->family->cases[r->which].name);
-        json_number(&j, "claim", r->claim);
-        json_number(&j, "claim_to", claimed_to(r));
-        json_number(&j, "worst", r->inside);
-        json_number(&j, "worst_near", r->inside_near);
-        json_number(&j, "worst_far", r->inside_far);
-        json_number(&j, "worst_at", r->inside_at);
-        json_number(&j, "breaks", r->breaks);
-        json_number(&j, "infinite", r->infinite);
-        json_number(&j, "ortho", r->ortho);
-        json_string(&j, "verdict", stability_verdict_name(r->verdict));
-        json_array(&j, "walk");
-        for (int k = 0; k < r->steps; k++) {
-            json_object(&j, NULL);
-            json_number(&j, "ratio", r->ratio[k]);
-            json_number(&j, "error", r->error[k]);
-            json_number(&j, "claim", claimed_at(r, k));
-            json_end(&j);
-        }
-        json_end(&j);
-        json_end(&j);
-    }
-    json_finish(&j);
-}
-
-static void write_csv(walking *w) {
-    static const char *const heads[] = {"family", "method", "case", "claim", "claim_to", "verdict", "ratio", "error"};
-    csv c = csv_start(w->out);
-    for (size_t i = 0; i < sizeof heads / sizeof heads[0]; i++)
-        csv_string(&c, heads[i]);
-    csv_end(&c);
-    for (size_t i = 0; i < w->count; i++) {
-        const stability_result *r = &w->results[i];
-        for (int k = 0; k < r->steps; k++) {
-            csv_string(&c, w->family->name);
-            csv_string(&c, r->row->name);
-            csv_string(&c, w->family->cases[r->which].name);
-            csv_number(&c, claimed_at(r, k));
-            csv_number(&c, claimed_to(r));
-            csv_string(&c, stability_verdict_name(r->verdict));
-            csv_number(&c, r->ratio[k]);
-            csv_number(&c, r->error[k]);
-            csv_end(&c);
-        }
-    }
-}
+static const column columns[] = {{FIELD(walking, name, "family", "")},
+                                 {FIELD(walking, measure, "measure", ""), .only = AS_JSON},
+                                 {LIST("methods", line_columns, next_method)},
+                                 {.kind = COLUMN_END}};
 
 /* A claim that does not hold, or holds far too easily, is a check that failed. */
 static bool all_hold(const walking *w) {
@@ -121,20 +95,18 @@ static bool all_hold(const walking *w) {
 }
 
 int cmd_stability(const options *o) {
-    static void (*const writers[])(walking *) = {
-        [FORM_TEXT] = write_text, [FORM_JSON] = write_json, [FORM_CSV] = write_csv};
     output out;
     walking *w = calloc(1, sizeof *w);
     if (w == NULL)
         return usage_error("no memory for the methods");
-    w->out = &out;
-    int status = methods_family(o, o->operands[0], &w->family);
-    if (status == EXIT_FINE)
-        status = output_open(&out, o->output);
+    w->family = o->operand_row;
+    int status = output_open(&out, o->output);
     if (status == EXIT_FINE) {
         w->count = stability_run(w->family, w->results);
         if (w->count > 0) {
-            writers[o->form](w);
+            w->name = w->family->name;
+            w->measure = w->family->measure;
+            report_write(&(report_spec){"stability", columns, w, .head = say_family}, &out, o->form);
             status = output_close(&out);
         } else {
             output_abandon(&out);

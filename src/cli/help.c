@@ -1,21 +1,20 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-#include "cli/help.h"
-
+/* help: made from the verb table and the option table; and the version. */
 #include <stdio.h>
 #include <string.h>
 
 #include "cli/option_rows.h"
-#include "cli/suggest.h"
+#include "report/append.h"
 
-int options_version(void) {
-    output out;
-    output_open(&out, NULL);
-    output_format(&out, "depthprec %s\n", dp_version());
-    output_text(&out, "License GPLv3+: GNU GPL version 3 or later <https://gnu.org/licenses/gpl.html>\n"
-                      "The library libdepthprec alone: MIT licence\n"
-                      "This is free software: you are free to change and redistribute it.\n"
-                      "There is NO WARRANTY, to the extent permitted by law.\n");
-    return output_close(&out);
+int cmd_help(const options *o);
+
+/* In GNU layout. */
+static void version(output *out) {
+    output_format(out, "depthprec %s\n", dp_version());
+    output_text(out, "License GPLv3+: GNU GPL version 3 or later <https://gnu.org/licenses/gpl.html>\n"
+                     "The library libdepthprec alone: MIT licence\n"
+                     "This is free software: you are free to change and redistribute it.\n"
+                     "There is NO WARRANTY, to the extent permitted by law.\n");
 }
 
 static void list_commands(output *out) {
@@ -25,34 +24,54 @@ static void list_commands(output *out) {
                      "  depthprec -n 0.1 -f inf -F fp32 -m reversed     an infinite far plane\n\n"
                      "Usage: depthprec [COMMAND] [options]\n\nCommands\n");
     for (size_t i = 0; i < verb_count; i++) {
-        char left[64];
-        snprintf(left, sizeof left, "%s%s%s", verb_rows[i].name, *verb_rows[i].operand != '\0' ? " " : "",
-                 verb_rows[i].operand);
+        char left[64] = "";
+        append(left, sizeof left, "%s %s", verb_rows[i].name, verb_rows[i].operand);
         output_format(out, "  %-16s %s%s\n", left, verb_rows[i].summary, i == 0 ? " (default)" : "");
     }
     output_text(out, "\n'depthprec help COMMAND' lists the options of a command. Depths are in scene units.\n"
                      "Exit status: 0 fine, 1 a check failed, 2 bad usage or input, 3 could not read or write.\n");
 }
 
-static void list_option(output *out, const option_row *row) {
-    enum { LEFT = 30 };
-    char left[96];
-    char letter[5] = "    ";
+enum { LEFT = 30, RIGHT = 96, DESCRIPTION_SIZE = 1024 };
+
+/* "what it does (LEAST to MOST UNIT; default D: what that means)". */
+static const char *describe(const verb *v, const option_row *row, char out[DESCRIPTION_SIZE]) {
+    char text[OPTION_TEXT_SIZE];
+    const int before = (int)strcspn(row->help, "@");
+    const bool named = row->help[before] != '\0', limited = row->least < row->most;
+    const bool other = (row->except.commands & v->bit) != 0;
+    const char *standard = other ? NULL : row->standard, *meaning = other ? row->except.text : row->without;
+    out[0] = '\0';
+    append(out, DESCRIPTION_SIZE, "%.*s", before, row->help);
+    if (named)
+        append(out, DESCRIPTION_SIZE, "%s%s", names_join(row->names, ", ", ", ", text), row->help + before + 1);
+    if (limited)
+        append(out, DESCRIPTION_SIZE, " (%s", option_limits(row, text));
+    if (standard != NULL || meaning != NULL)
+        append(out, DESCRIPTION_SIZE, "%sdefault%s%s%s%s", limited ? "; " : " (", standard != NULL ? " " : "",
+               standard != NULL ? standard : "", meaning != NULL ? ": " : "", meaning != NULL ? meaning : "");
+    if (limited || standard != NULL || meaning != NULL)
+        append(out, DESCRIPTION_SIZE, ")");
+    return out;
+}
+
+static void list_option(output *out, const verb *v, const option_row *row) {
+    char left[128] = "      ", text[DESCRIPTION_SIZE], argument[OPTION_TEXT_SIZE];
     if (row->letter != 0)
-        snprintf(letter, sizeof letter, "-%c, ", row->letter);
-    int length = snprintf(left, sizeof left, "  %s--%s%s%s", letter, row->name, row->argument != NULL ? " " : "",
-                          row->argument != NULL ? row->argument : "");
-    if (length > LEFT - 2)
-        output_format(out, "%s\n%*s", left, LEFT, "");
-    else
-        output_format(out, "%-*s", LEFT, left);
-    for (const char *rest = row->help; *rest != '\0';) {
-        int part = (int)strcspn(rest, "\n");
-        output_format(out, "%.*s\n", part, rest);
-        rest += part + (rest[part] == '\n');
-        if (*rest != '\0')
-            output_format(out, "%*s", LEFT, "");
+        snprintf(left, sizeof left, "  -%c, ", row->letter);
+    append(left, sizeof left, "--%s %s", row->name, option_argument(row, argument));
+    output_format(out, "%-*s", LEFT, left);
+    int column = strlen(left) >= LEFT ? RIGHT : LEFT;
+    for (const char *word = describe(v, row, text); *word != '\0';) {
+        const int length = (int)strcspn(word, " ");
+        const bool fits = column == LEFT || column + 1 + length <= RIGHT;
+        if (!fits)
+            output_format(out, "\n%*s", LEFT, "");
+        output_format(out, "%s%.*s", fits && column > LEFT ? " " : "", length, word);
+        column = fits ? column + (column > LEFT) + length : LEFT + length;
+        word += length + (word[length] == ' ');
     }
+    output_char(out, '\n');
 }
 
 static void list_options(output *out, const verb *v) {
@@ -60,30 +79,17 @@ static void list_options(output *out, const verb *v) {
                   v->example, v->name, *v->operand != '\0' ? " " : "", v->operand);
     for (int id = 0; id < OPTION_COUNT; id++)
         if ((option_rows[id].commands & v->bit) != 0)
-            list_option(out, &option_rows[id]);
-}
-
-int options_help(const verb *v) {
-    output out;
-    output_open(&out, NULL);
-    if (v == NULL)
-        list_commands(&out);
-    else
-        list_options(&out, v);
-    return output_close(&out);
+            list_option(out, v, &option_rows[id]);
 }
 
 int cmd_help(const options *o) {
-    if (o->operand_count == 0)
-        return options_help(NULL);
-    const char *name = o->operands[0];
-    const verb *v = verb_find(name);
-    if (v != NULL)
-        return options_help(v);
-    suggestion s = suggest_start(name);
-    char text[SUGGEST_TEXT_SIZE];
-    for (size_t i = 0; i < verb_count; i++)
-        suggest_offer(&s, verb_rows[i].name);
-    suggest_text(&s, "", text);
-    return usage_error("unknown command '%s'%s", name, text[0] != '\0' ? text : "; 'depthprec --help' lists them");
+    output out;
+    output_open(&out, NULL);
+    if (o->version)
+        version(&out);
+    else if (o->operand_row != NULL)
+        list_options(&out, o->operand_row);
+    else
+        list_commands(&out);
+    return output_close(&out);
 }

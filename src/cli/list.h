@@ -17,20 +17,29 @@ typedef struct list_item {
     const char *note;           /**< what it is, one line */
     char bound[LIST_TEXT_SIZE]; /**< the claim, "" when nothing is claimed */
     const char *source;         /**< null or "" when there is none */
+    const void *row;            /**< the row itself; null where it has no pointer */
 } list_item;
 
 /** Fills in thing `index`; false when there is none. */
 typedef bool (*list_get)(size_t index, list_item *item);
 
-/** The figures, by the plot command. */
+/** The tables, and what options and operands may be called. */
+bool list_format(size_t index, list_item *item);
+bool list_mapping(size_t index, list_item *item);
+bool list_rounding(size_t index, list_item *item); /**< of name alone, as the next two */
+bool list_verb(size_t index, list_item *item);
+bool list_family(size_t index, list_item *item);
+bool list_model(size_t index, list_item *item);
+bool list_arith(size_t index, list_item *item);
+bool list_composition(size_t index, list_item *item);
+bool list_preset(size_t index, list_item *item);
+bool list_api(size_t index, list_item *item);
+bool list_effect(size_t index, list_item *item);
+bool list_topic(size_t index, list_item *item);
 bool list_figure(size_t index, list_item *item);
-
-/** What texture knows. */
 bool list_scene(size_t index, list_item *item);
 bool list_position(size_t index, list_item *item);
 bool list_normal(size_t index, list_item *item);
-
-/** The methods, by the room that runs them. */
 bool list_method(size_t index, list_item *item);
 
 /** The cases for which method `index` is the cheapest within --tolerance, at the default camera's far/near. */

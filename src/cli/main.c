@@ -1,13 +1,39 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* No setlocale here or anywhere: numbers are read and written in the C locale whatever LC_ALL says. */
+#include <string.h>
+
 #include "cli/options.h"
 #include "method/method.h"
 
+/* An option's file is written: it may be no other option's and none that the command reads. "-" is no file. */
+static int refuse_overwriting(const options *o) {
+    const struct {
+        option_id id;
+        const char *path;
+    } written[] = {{OPTION_OUTPUT, o->output}, {OPTION_FIGURE, o->figure}};
+    for (size_t i = 0; i < sizeof written / sizeof written[0]; i++) {
+        const char *path = written[i].path;
+        if (path == NULL || strcmp(path, "-") == 0)
+            continue;
+        for (int k = o->verb->files_from; k > 0 && k <= o->operand_count; k++)
+            if (output_same_file(path, o->operands[k - 1]))
+                return option_error(written[i].id, "must not be a file that is read, got '%s'", path);
+        for (size_t other = 0; other < i; other++)
+            if (written[other].path != NULL && output_same_file(path, written[other].path))
+                return option_error(written[i].id, "must not be the file of --%s, got '%s'",
+                                    option_name(written[other].id), path);
+    }
+    return EXIT_FINE;
+}
+
 int main(int argc, char **argv) {
     options o;
+    output_reserve_streams();
     method_start();
     int status = options_parse(&o, argc, argv);
-    if (status < 0)
+    if (status == EXIT_FINE)
+        status = refuse_overwriting(&o);
+    if (status == EXIT_FINE)
         status = o.verb->run(&o);
     options_release(&o);
     return status;

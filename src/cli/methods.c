@@ -9,8 +9,8 @@
 
 #include "cli/list.h"
 #include "cli/setups.h"
-#include "cli/suggest.h"
 #include "method/choose.h"
+#include "report/append.h"
 #include "report/number.h"
 
 static const double formula_at = 1e4; /* where a claim that is a formula is shown */
@@ -21,8 +21,7 @@ bool list_method(size_t index, list_item *item) {
         return false;
     const method_family_row *family = method_family_get(row->family);
     *item = (list_item){.name = row->name, .aliases = family->name, .note = row->note, .source = row->source};
-    size_t used = 0;
-    for (size_t i = 0; i < family->case_count && used < sizeof item->bound; i++) {
+    for (size_t i = 0; i < family->case_count; i++) {
         const method_claim *c = &row->claims[i];
         char worst[NUMBER_SIZE] = "nothing", hi[NUMBER_SIZE];
         if (!method_speaks(row, i))
@@ -30,13 +29,12 @@ bool list_method(size_t index, list_item *item) {
         if (!isnan(c->worst))
             number_digits(method_claim_at(c, fmin(formula_at, c->ratio_hi)), 3, worst);
         number_digits(c->ratio_hi, 3, hi);
-        const char *between = used > 0 ? "; " : "";
-        used += (size_t)snprintf(item->bound + used, sizeof item->bound - used, "%s%s %s", between,
-                                 family->cases[i].name, worst);
-        if (c->formula != NULL && used < sizeof item->bound)
-            used += (size_t)snprintf(item->bound + used, sizeof item->bound - used, " at far/near 10000");
-        if (!isnan(c->worst) && c->ratio_hi < METHOD_RATIO_HI && used < sizeof item->bound)
-            used += (size_t)snprintf(item->bound + used, sizeof item->bound - used, " to far/near %s", hi);
+        append(item->bound, sizeof item->bound, "%s%s %s", *item->bound != '\0' ? "; " : "", family->cases[i].name,
+               worst);
+        if (c->formula != NULL)
+            append(item->bound, sizeof item->bound, " at far/near 10000");
+        if (!isnan(c->worst) && c->ratio_hi < METHOD_RATIO_HI)
+            append(item->bound, sizeof item->bound, " to far/near %s", hi);
     }
     return true;
 }
@@ -50,26 +48,17 @@ void list_method_choice(const options *o, size_t index, char chosen[LIST_TEXT_SI
                               .ratio_lo = ratio,
                               .ratio_hi = ratio,
                               .pipeline = (row->domain & METHOD_PIPELINE) != 0};
-    size_t used = 0;
     chosen[0] = '\0';
     for (size_t i = 0; i < family->case_count; i++)
         if (method_choose(family, i, &wish) == row)
-            used += (size_t)snprintf(chosen + used, LIST_TEXT_SIZE - used, "%s%s", used > 0 ? ", " : "",
-                                     family->cases[i].name);
+            append(chosen, LIST_TEXT_SIZE, "%s%s", *chosen != '\0' ? ", " : "", family->cases[i].name);
 }
 
-int methods_family(const options *o, const char *name, const method_family_row **out) {
-    suggestion s = suggest_start(name);
-    char text[SUGGEST_TEXT_SIZE], all[128] = "";
-    *out = method_family_find(name);
-    for (size_t i = 0; method_family_get(i) != NULL && *out == NULL; i++) {
-        suggest_offer(&s, method_family_get(i)->name);
-        snprintf(all + strlen(all), sizeof all - strlen(all), "%s%s", i > 0 ? ", " : "", method_family_get(i)->name);
-    }
-    if (*out == NULL)
-        return usage_error("%s: FAMILY must be one of %s, got '%s'%s", o->verb->name, all, name,
-                           suggest_text(&s, "", text));
-    return EXIT_FINE;
+bool list_family(size_t index, list_item *item) {
+    const method_family_row *row = method_family_get(index);
+    if (row != NULL)
+        *item = (list_item){.name = row->name, .note = row->summary, .row = row};
+    return row != NULL;
 }
 
 static bool wanted(const options *o, const method_case *c) {
@@ -83,11 +72,9 @@ static bool wanted(const options *o, const method_case *c) {
     return formatted && mapped;
 }
 
-int methods_resolve(const options *o, const char *name, methods_asked *out) {
-    int status = methods_family(o, name, &out->family);
-    if (status != EXIT_FINE)
-        return status;
-    char all[128] = "";
+int methods_resolve(const options *o, const method_family_row *family, methods_asked *out) {
+    out->family = family;
+    char all[NAMES_SIZE] = "";
     for (size_t i = 0; i < out->family->case_count; i++) {
         if (wanted(o, &out->family->cases[i])) {
             out->which = i;
@@ -96,7 +83,7 @@ int methods_resolve(const options *o, const char *name, methods_asked *out) {
                 return option_error(wrong == DP_ERROR_NEAR ? OPTION_NEAR : OPTION_FAR, "%s", dp_status_text(wrong));
             return EXIT_FINE;
         }
-        snprintf(all + strlen(all), sizeof all - strlen(all), "%s%s", i > 0 ? ", " : "", out->family->cases[i].name);
+        append(all, sizeof all, "%s%s", i > 0 ? ", " : "", out->family->cases[i].name);
     }
     return option_error(option_given(o, OPTION_FORMAT) ? OPTION_FORMAT : OPTION_MAPPING,
                         "the family %s has %s, and not what was given", out->family->name, all);
@@ -176,13 +163,22 @@ static size_t fill_walk(const method_family_row *family, arrays *a, size_t *step
 int methods_figure_make(const options *o, bool times, const char *family, methods_figure *out, char *subtitle,
                         size_t size) {
     methods_asked asked;
+    list_item item;
+    const name_list families = {.get = list_family};
+    int status = check_operand(o->verb, "FAMILY", &families,
+                               family != NULL ? family
+                               : times        ? "interval"
+                                              : "linearize",
+                               &item);
+    *out = (methods_figure){0};
+    if (status == EXIT_FINE)
+        status = methods_resolve(o, item.row, &asked);
+    if (status != EXIT_FINE)
+        return status;
     arrays *a = calloc(1, sizeof *a);
     *out = (methods_figure){.memory = a};
     if (a == NULL)
         return usage_error("no memory for the methods");
-    int status = methods_resolve(o, family != NULL ? family : times ? "interval" : "linearize", &asked);
-    if (status != EXIT_FINE)
-        return status;
     size_t steps = 0, count = times ? fill_bench(&asked, a) : fill_walk(asked.family, a, &steps);
     if (count == 0)
         return usage_error("no memory for the methods");

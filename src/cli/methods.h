@@ -18,8 +18,7 @@ typedef struct methods_asked {
 } methods_asked;
 
 /** @return EXIT_FINE, or EXIT_USAGE after one line on stderr */
-int methods_family(const options *o, const char *name, const method_family_row **out);
-int methods_resolve(const options *o, const char *name, methods_asked *out);
+int methods_resolve(const options *o, const method_family_row *family, methods_asked *out);
 
 /** Processor and, unless SOURCE_DATE_EPOCH names another, today's date. @return out */
 const char *methods_machine(char *out, size_t size);

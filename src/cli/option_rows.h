@@ -1,22 +1,63 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /**
- * @file option_rows.h  The option table. getopt's arrays, the help of every command and the completion come from it.
+ * @file option_rows.h  The option table, from which reading, help and completion are made, and how options are read.
+ *
+ * An option is an enumerator and a field of options.h and a row here: its kind is the function that reads its argument
+ * into the field. Only what is a language of its own (lists, depths, sizes) has a function of its own.
  */
 #ifndef CLI_OPTION_ROWS_H
 #define CLI_OPTION_ROWS_H
 
+#include "cli/names.h"
 #include "cli/options.h"
 
+/** Reads an argument. @return EXIT_FINE, or EXIT_USAGE after one line on stderr */
+typedef int option_parser(options *o, option_id id, const char *value);
+
 typedef struct option_row {
-    const char *name;     /**< long name without dashes; null in a seat kept free */
-    char letter;          /**< short name, 0 when there is none */
-    const char *argument; /**< how help writes the argument, "Z"; null when the option takes none */
-    unsigned commands;    /**< the VERB_... bits of the commands that take it */
-    const char *help;     /**< what it does and its default; a line feed continues below */
-    int (*parse)(options *o, const char *value); /**< EXIT_FINE, or EXIT_USAGE after one line on stderr */
+    const char *name;       /**< long name without dashes */
+    char letter;            /**< short name, 0 when there is none */
+    const char *argument;   /**< how help writes the argument, "Z"; null when there is none, or one of `names` */
+    unsigned commands;      /**< the VERB_... bits of the commands that take it */
+    const char *help;       /**< what it does; @ stands for the names, limits and default follow */
+    option_parser *parse;   /**< null for --help and --version */
+    size_t place, size;     /**< of the field in `options` */
+    double least, most;     /**< of a number */
+    const char *unit;       /**< of a number; null when it has none */
+    const name_list *names; /**< what it may be; null when it is no name */
+    const char *standard;   /**< the default, as a user would write it; null when there is none */
+    const char *without;    /**< what the default means, or holds without the option; or null */
+    struct {
+        unsigned commands;
+        const char *text;
+    } except; /**< commands that have another default */
 } option_row;
 
 /** Index: option_id. */
 extern const option_row option_rows[OPTION_COUNT];
+
+enum { OPTION_TEXT_SIZE = NAMES_SIZE };
+
+/** How help writes the argument, with the names where there is no other; "" when there is none. @return out */
+const char *option_argument(const option_row *row, char out[OPTION_TEXT_SIZE]);
+
+/** "LEAST to MOST UNIT". @return out */
+const char *option_limits(const option_row *row, char out[OPTION_TEXT_SIZE]);
+
+/* ---- Kinds ------------------------------------------------------------------------------------------------------- */
+
+option_parser parse_flag;   /**< bool, no argument */
+option_parser parse_text;   /**< const char * */
+option_parser parse_file;   /**< the same, not empty */
+option_parser parse_number; /**< double, finite, from least to most */
+option_parser parse_length; /**< double, positive: scene units */
+option_parser parse_whole;  /**< unsigned or 64 bits wide, from least to most */
+option_parser parse_word;   /**< the same: the index of one of `names` */
+option_parser parse_row;    /**< a pointer to the row of one of `names` */
+
+/* ---- Languages of their own -------------------------------------------------------------------------------------- */
+
+option_parser parse_far, parse_formats, parse_mappings, parse_tolerance, parse_at, parse_range, parse_origin;
+option_parser parse_size, parse_parameter, parse_form;
 
 #endif

@@ -7,12 +7,17 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "cli/help.h"
 #include "cli/option_rows.h"
-#include "cli/suggest.h"
+#include "report/append.h"
 
 const char *option_name(option_id id) {
     return option_rows[id].name;
+}
+
+const char *option_word(option_id id, size_t index) {
+    list_item item = {0};
+    names_get(option_rows[id].names, index, &item);
+    return item.name;
 }
 
 /* One line whatever the arguments hold: control characters would break it, and a long argument would bury it. */
@@ -45,17 +50,10 @@ int usage_error(const char *format, ...) {
 }
 
 static void set_defaults(options *o) {
-    *o = (options){.znear = 0.1,
-                   .zfar = 1000.0,
-                   .tolerance = 0.05,
-                   .log_c = 1.0,
-                   .mapping_count = 2,
-                   .camera = {.width = 640, .height = 360, .fov_y = 60, .half_height = 5},
-                   .sky = TEXTURE_SKY};
-    o->mappings[0] = DP_MAPPING_D3D;
-    o->mappings[1] = DP_MAPPING_REVERSED;
-    for (size_t i = 0; i < dp_format_count(); i++)
-        o->formats[o->format_count++] = dp_format_get(i)->format;
+    *o = (options){.target = SOLVE_FOR_ANY};
+    for (int id = 0; id < OPTION_COUNT; id++)
+        if (option_rows[id].standard != NULL)
+            option_rows[id].parse(o, (option_id)id, option_rows[id].standard);
 }
 
 void options_release(options *o) {
@@ -77,15 +75,19 @@ static int id_of_value(int value) {
     return OPTION_COUNT;
 }
 
+static bool takes_argument(const option_row *row) {
+    return row->argument != NULL || row->names != NULL;
+}
+
 static void make_getopt_arrays(char *letters, struct option *longs) {
     *letters++ = ':'; /* a missing argument is told apart from an unknown option */
     for (int id = 0; id < OPTION_COUNT; id++) {
         const option_row *row = &option_rows[id];
         *longs++ =
-            (struct option){row->name, row->argument != NULL ? required_argument : no_argument, NULL, getopt_value(id)};
+            (struct option){row->name, takes_argument(row) ? required_argument : no_argument, NULL, getopt_value(id)};
         if (row->letter != 0) {
             *letters++ = row->letter;
-            if (row->argument != NULL)
+            if (takes_argument(row))
                 *letters++ = ':';
         }
     }
@@ -99,99 +101,107 @@ static int unknown_option(const options *o, int refused, const char *argument) {
         return option_error((option_id)id_of_value(refused), "takes no argument, got '%s'", argument);
     if (refused != 0)
         return usage_error("unknown option '-%c'; 'depthprec help %s' lists what there is", refused, o->verb->name);
-    size_t length = strcspn(argument, "=");
-    const char *first = NULL;
-    char given[SUGGEST_NAME_MAX + 1];
-    snprintf(given, sizeof given, "%.*s", length > 2 ? (int)length - 2 : 0, argument + (length > 2 ? 2 : 0));
-    suggestion s = suggest_start(given);
+    const int length = (int)strcspn(argument, "=");
+    const char *taken[OPTION_COUNT + 1], *begun[OPTION_COUNT + 1];
+    size_t taken_count = 0, begun_count = 0;
     for (int id = 0; id < OPTION_COUNT; id++) {
-        const option_row *row = &option_rows[id];
-        if (length > 2 && strncmp(row->name, given, strlen(given)) == 0 && strlen(given) == length - 2) {
-            if (first != NULL)
-                return usage_error("option '%.*s' could be --%s or --%s", (int)length, argument, first, row->name);
-            first = row->name;
-        }
-        if ((row->commands & o->verb->bit) != 0)
-            suggest_offer(&s, row->name);
+        const char *name = option_rows[id].name;
+        if (length > 2 && strncmp(name, argument + 2, (size_t)length - 2) == 0)
+            begun[begun_count++] = name;
+        if ((option_rows[id].commands & o->verb->bit) != 0)
+            taken[taken_count++] = name;
     }
-    char text[SUGGEST_TEXT_SIZE];
-    if (*suggest_text(&s, "--", text) != '\0')
-        return usage_error("unknown option '%.*s'%s", (int)length, argument, text);
-    return usage_error("unknown option '%.*s'; 'depthprec help %s' lists what there is", (int)length, argument,
+    begun[begun_count] = taken[taken_count] = NULL;
+    char text[NAMES_SIZE], given[64] = "";
+    const name_list all = {.words = begun_count > 1 ? begun : taken};
+    if (begun_count > 1)
+        return usage_error("option '%.*s' could be --%s", length, argument, names_join(&all, ", --", " or --", text));
+    append(given, sizeof given, "%.*s", length > 2 ? length - 2 : 0, argument + (length > 2 ? 2 : 0));
+    if (*names_nearest(&all, "--", given, text) != '\0')
+        return usage_error("unknown option '%.*s'%s", length, argument, text);
+    return usage_error("unknown option '%.*s'; 'depthprec help %s' lists what there is", length, argument,
                        o->verb->name);
 }
 
 static int wrong_command(const options *o, option_id id) {
-    char takers[128] = "";
+    char takers[NAMES_SIZE] = "";
     for (size_t i = 0; i < verb_count; i++)
-        if ((option_rows[id].commands & verb_rows[i].bit) != 0) {
-            strcat(takers, takers[0] != '\0' ? ", " : "");
-            strcat(takers, verb_rows[i].name);
-        }
+        if ((option_rows[id].commands & verb_rows[i].bit) != 0)
+            append(takers, sizeof takers, "%s%s", takers[0] != '\0' ? ", " : "", verb_rows[i].name);
     return option_error(id, "is not an option of %s, but of %s", o->verb->name, takers);
 }
 
-static int check_operands(const options *o) {
-    const verb *v = o->verb;
-    if (o->operand_count > v->operand_max) {
-        const char *extra = o->operands[v->operand_max];
-        return usage_error("unexpected argument '%s'%s", extra,
-                           verb_find(extra) != NULL ? ": the command comes before its options" : "");
-    }
-    if (o->operand_count < v->operand_min)
-        return usage_error("%s: needs %s%s%s", v->name, v->operand, v->operand_hint != NULL ? ": " : "",
-                           v->operand_hint != NULL ? v->operand_hint : "");
-    return -1;
+int check_operand(const verb *v, const char *what, const name_list *n, const char *given, list_item *found) {
+    char text[NAMES_SIZE];
+    if (names_find(n, given, NULL, found))
+        return EXIT_FINE;
+    return usage_error("%s: %.*s %s", v->name, (int)strcspn(what, " "), what, names_refuse(n, given, text));
 }
 
-/* A preset gives what the user did not. */
-static void fill_from_preset(options *o) {
+static int check_operands(options *o) {
+    const verb *v = o->verb;
+    list_item item = {0};
+    char text[NAMES_SIZE] = "";
+    if (o->operand_count > v->operand_max)
+        return usage_error("unexpected argument '%s'%s", o->operands[v->operand_max],
+                           verb_find(o->operands[v->operand_max]) != NULL ? ": the command comes before its options"
+                                                                          : "");
+    if (o->operand_count < v->operand_min)
+        return usage_error("%s: needs %s%s%s", v->name, v->operand, v->names != NULL ? ": " : "",
+                           v->names != NULL ? names_join(v->names, ", ", " or ", text) : "");
+    const int status = v->names != NULL && o->operand_count > 0
+                           ? check_operand(v, v->operand, v->names, o->operands[0], &item)
+                           : EXIT_FINE;
+    o->operand_row = item.row;
+    return status;
+}
+
+/* What follows from other options: a preset gives what the user did not. */
+static void complete(options *o) {
     const preset *p = o->preset;
+    o->model_auto = o->model == DP_MODEL_COUNT;
+    if (o->model_auto)
+        o->model = DP_MODEL_EXACT;
     if (p == NULL)
         return;
     if (!option_given(o, OPTION_NEAR))
         o->znear = p->znear;
     if (!option_given(o, OPTION_FAR))
         o->zfar = p->zfar;
-    if (!option_given(o, OPTION_FORMAT)) {
-        dp_format formats[2];
-        o->format_count = preset_formats(p, formats);
-        memcpy(o->formats, formats, o->format_count * sizeof formats[0]);
-    }
-    if (!option_given(o, OPTION_MAPPING)) {
-        o->mapping_count = 1;
-        o->mappings[0] = p->mapping;
-    }
+    if (!option_given(o, OPTION_FORMAT))
+        parse_formats(o, OPTION_FORMAT, p->format);
+    if (!option_given(o, OPTION_MAPPING))
+        parse_mappings(o, OPTION_MAPPING, dp_mapping_get(p->mapping)->name);
 }
 
 /* argv[0] of what is left is the program, or the command in its place. */
 static int read_options(options *o, int argc, char **argv, const verb *asked) {
     char letters[2 * OPTION_COUNT + 2];
     struct option longs[OPTION_COUNT + 1];
+    char text[OPTION_TEXT_SIZE];
     make_getopt_arrays(letters, longs);
     opterr = 0;
     optind = 0; /* start anew, also when an earlier call stopped half-way */
-    for (;;) {
-        int value = getopt_long(argc, argv, letters, longs, NULL);
-        if (value == -1)
-            break;
+    for (int value; (value = getopt_long(argc, argv, letters, longs, NULL)) != -1;) {
         if (value == '?')
             return unknown_option(o, optopt, argv[optind > 1 ? optind - 1 : 1]);
         int id = id_of_value(value == ':' ? optopt : value);
         if (value == ':')
-            return option_error((option_id)id, "needs an argument, %s", option_rows[id].argument);
-        if (id == OPTION_HELP)
-            return options_help(asked);
-        if (id == OPTION_VERSION)
-            return options_version();
+            return option_error((option_id)id, "needs an argument, %s", option_argument(&option_rows[id], text));
+        if (id == OPTION_HELP || id == OPTION_VERSION) {
+            o->operand_row = asked;
+            o->version = id == OPTION_VERSION;
+            o->verb = verb_find("help");
+            return EXIT_FINE;
+        }
         if ((option_rows[id].commands & o->verb->bit) == 0)
             return wrong_command(o, (option_id)id);
-        int status = option_rows[id].parse(o, optarg);
+        int status = option_rows[id].parse(o, (option_id)id, optarg);
         if (status != EXIT_FINE)
             return status;
-        o->given |= (uint64_t)1 << id;
+        o->given[id] = true;
     }
-    fill_from_preset(o);
+    complete(o);
     o->operands = argv + optind;
     o->operand_count = argc - optind;
     return check_operands(o);
@@ -208,10 +218,7 @@ int options_parse(options *o, int argc, char **argv) {
     o->verb = verb_find(argv[1]);
     if (o->verb != NULL)
         return read_options(o, argc - 1, argv + 1, o->verb);
-    suggestion s = suggest_start(argv[1]);
-    char text[SUGGEST_TEXT_SIZE];
-    for (size_t i = 0; i < verb_count; i++)
-        suggest_offer(&s, verb_rows[i].name);
-    suggest_text(&s, "", text);
+    char text[NAMES_SIZE];
+    names_nearest(&(name_list){.get = list_verb}, "", argv[1], text);
     return usage_error("unknown command '%s'%s", argv[1], text[0] != '\0' ? text : "; 'depthprec --help' lists them");
 }

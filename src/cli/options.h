@@ -20,6 +20,10 @@
 #include "depthprec/depthprec.h"
 #include "report/output.h"
 #include "texture/camera.h"
+#include "texture/effect.h"
+#include "texture/normal.h"
+#include "texture/position.h"
+#include "texture/scene.h"
 
 /** The options, in the order in which help lists them. The index of an option's row is its id. */
 typedef enum option_id {
@@ -84,25 +88,21 @@ typedef enum option_id {
     OPTION_COUNT
 } option_id;
 
-/** Values of --theme. */
-typedef enum theme_id { THEME_LIGHT = 0, THEME_DARK, THEME_PRINT, THEME_COUNT } theme_id;
-
 /** Values of --for, and SOLVE_FOR_ANY when it was not given. The planes come first. */
 typedef enum solve_target {
-    SOLVE_FOR_ANY = 0,
-    SOLVE_FOR_NEAR,
+    SOLVE_FOR_NEAR = 0,
     SOLVE_FOR_FAR,
     SOLVE_FOR_FORMAT,
     SOLVE_FOR_MAPPING,
     SOLVE_FOR_SEPARATION,
     SOLVE_FOR_DISTANCE,
-    SOLVE_FOR_COUNT
+    SOLVE_FOR_ANY
 } solve_target;
 
 /** Values of --report. */
-typedef enum report_form { REPORT_TEXT = 0, REPORT_JSON, REPORT_JUNIT, REPORT_COUNT } report_form;
+typedef enum report_form { REPORT_TEXT = 0, REPORT_JSON, REPORT_JUNIT } report_form;
 
-enum { OPTIONS_FORMATS_MAX = 64, OPTIONS_PIXELS_MIN = 64, OPTIONS_PIXELS_MAX = 16384, OPTIONS_PARAMETERS_MAX = 8 };
+enum { OPTIONS_FORMATS_MAX = 64, OPTIONS_PARAMETERS_MAX = 8 };
 
 /** One --parameter NAME=VALUE; whose it is, and whether there is such a one, is for the command to see. */
 typedef struct named_number {
@@ -115,10 +115,11 @@ typedef struct options {
     char **argv;     /**< the whole command line, for metadata */
     char **operands; /**< what is neither option nor command; operand_count is within the verb's bounds */
     int operand_count;
-    uint64_t given; /**< bit OPTION_X is set when the user gave that option; see option_given() */
+    const void *operand_row;  /**< the row that the first operand names where the verb has a table of them, else null */
+    bool given[OPTION_COUNT]; /**< by the user: see option_given() */
 
-    double znear; /**< scene units; default 0.1 */
-    double zfar;  /**< scene units or INFINITY; default 1000 */
+    double znear; /**< scene units */
+    double zfar;  /**< scene units or INFINITY */
     bool ortho;
     dp_format formats[OPTIONS_FORMATS_MAX]; /**< in the order given, each once */
     size_t format_count;
@@ -128,7 +129,7 @@ typedef struct options {
     dp_model model;
     bool model_auto; /**< --model auto: see choice.h; `model` is then exact */
     dp_arith arith;
-    double tolerance; /**< of the choice, a share; default 0.05 */
+    double tolerance; /**< of the choice, a share */
     double log_c;
 
     depths at;                 /**< what --at said; count is 0 when it was not given. See depths_resolve() */
@@ -140,41 +141,43 @@ typedef struct options {
     dp_budget_terms terms; /**< --interpolation, --world, --composition, --linearize; zero when not given */
 
     const preset *preset; /**< --preset; null when not given. What the user did not give is already filled in */
-    const bias_api *api;  /**< --api; null when not given */
-    double units, factor; /**< of a bias; 0 when not given */
+    const bias_api *api;  /**< --api */
+    double units, factor; /**< of a bias */
     double clamp;         /**< of a bias, window depth; 0 is none */
-    double slope;         /**< scene units per pixel, not negative; 0 when not given */
+    double slope;         /**< scene units per pixel, not negative */
 
     double gap;      /**< scene units; 0 when not given */
     uint64_t sample; /**< pairs to draw; 0 when not given */
     uint64_t seed;
     int threads; /**< 0 when not given: as many as there are cores */
 
-    camera_spec camera; /**< --size, --fov, --half-height, --yaw, --pitch, --origin */
-    const char *scene;  /**< --scene, as given; null when not given, as all names here */
+    camera_spec camera;     /**< --size, --fov, --half-height, --yaw, --pitch, --origin */
+    const scene_row *scene; /**< null when not given, as all rows and names here */
     named_number parameters[OPTIONS_PARAMETERS_MAX];
     size_t parameter_count;
-    double sky;    /**< window depth; default TEXTURE_SKY */
+    double sky;    /**< window depth */
     double metric; /**< scene units of 1 in a sample of metric depth; 0 when not given */
     bool eye, radial, error_map;
-    const char *position, *normal, *effect; /**< methods and effect, as given */
-    const char *figure;                     /**< file */
+    const position_row *position; /**< null for exact as well */
+    const normal_row *normal;
+    const effect_row *effect;
+    const char *figure; /**< file */
 
-    theme_id theme;    /**< default light */
+    unsigned theme;    /**< index of theme_get() */
     int width, height; /**< px; 0 when not given, so that each figure has its own default */
     const char *title; /**< null when not given */
 
-    report_form report; /**< default text */
+    report_form report;
     output_form form;
     const char *output; /**< the argument of -o; null when not given. "-" is stdout: hand it to output_open() */
-    bool quiet, verbose;
+    bool quiet, verbose, version;
 } options;
 
 /**
  * Reads a command line. argv[0] is the program; the command is argv[1] unless that is missing or an option, and then
- * `table` is meant. Prints help and version itself.
+ * `table` is meant. --help and --version anywhere make the command `help`.
  *
- * @return -1 to go on, or the exit status: EXIT_FINE after help or version, EXIT_USAGE after one line on stderr
+ * @return EXIT_FINE, or EXIT_USAGE after one line on stderr
  */
 int options_parse(options *o, int argc, char **argv);
 
@@ -183,7 +186,7 @@ void options_release(options *o);
 
 /** Did the user give this option? */
 static inline bool option_given(const options *o, option_id id) {
-    return (o->given >> id & 1) != 0;
+    return o->given[id];
 }
 
 /**
@@ -199,7 +202,11 @@ int usage_error(const char *format, ...) __attribute__((format(printf, 1, 2)));
 /** The long name of an option without its dashes. */
 const char *option_name(option_id id);
 
-/** Help on stdout: of one command, or the list of commands when v is null. @return EXIT_FINE or EXIT_IO */
-int options_help(const verb *v);
+/** Word `index` of an option that takes one of a few. */
+const char *option_word(option_id id, size_t index);
+
+/** Looks up an operand, which help calls `what`. @return EXIT_FINE and *found, or EXIT_USAGE after one line on stderr
+ */
+int check_operand(const verb *v, const char *what, const name_list *n, const char *given, list_item *found);
 
 #endif

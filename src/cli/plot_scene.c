@@ -9,6 +9,7 @@
 #include "cli/check_report.h"
 #include "cli/setups.h"
 #include "plot/notes.h"
+#include "report/append.h"
 
 enum { WIDTH = 800, HEIGHT = 500, NAME_SIZE = SETUP_LABEL_SIZE + 80 };
 
@@ -121,12 +122,12 @@ static int draw(const options *o, const figure_row *row, scene *s,
         return usage_error("plot: no memory");
     const char *slash = strrchr(s->f.file.path, '/');
     char subtitle[sizeof c->subtitle];
-    int used = snprintf(subtitle, sizeof subtitle, "%.100s: %zu met, %zu missed",
-                        slash != NULL ? slash + 1 : s->f.file.path, s->need_count - s->failed, s->failed);
+    snprintf(subtitle, sizeof subtitle, "%.100s: %zu met, %zu missed", slash != NULL ? slash + 1 : s->f.file.path,
+             s->need_count - s->failed, s->failed);
     if (s->f.file.unit[0] != '\0')
-        used += snprintf(subtitle + used, sizeof subtitle - (size_t)used, "; a scene unit is 1 %s", s->f.file.unit);
+        append(subtitle, sizeof subtitle, "; a scene unit is 1 %s", s->f.file.unit);
     if (s->ties > 0)
-        snprintf(subtitle + used, sizeof subtitle - (size_t)used, "; not shown: %zu of ties", s->ties);
+        append(subtitle, sizeof subtitle, "; not shown: %zu of ties", s->ties);
     notes_clean(c->title, sizeof c->title, o->title != NULL ? o->title : "");
     notes_clean(c->subtitle, sizeof c->subtitle, subtitle);
     const int status = write(o, row, &request, c);

@@ -10,8 +10,6 @@
 #include "report/json.h"
 #include "report/report.h"
 
-enum { SETUPS_MAX = OPTIONS_FORMATS_MAX * DP_MAPPING_COUNT };
-
 typedef struct setups {
     dp_setup *items;
     size_t count;

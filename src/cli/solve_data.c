@@ -64,7 +64,7 @@ static void json_candidate(json *j, const solve_report *r, const solve_candidate
 void solve_report_json(const solve_report *r, output *out) {
     const solve_candidate *answer = &r->items[0];
     json j = json_start(out, "solve");
-    json_string(&j, "for", solve_target_name(r->target));
+    json_string(&j, "for", option_word(OPTION_FOR, r->target));
     json_string(&j, "measure", measure_name(r));
     json_number(&j, "limit", r->limit);
     json_number(&j, "lo", r->lo);
@@ -104,7 +104,7 @@ static void csv_candidate(csv *c, const solve_report *r, const solve_candidate *
         return;
     csv_string(c, role);
     setup_csv(c, &setup);
-    csv_string(c, solve_target_name(r->target));
+    csv_string(c, option_word(OPTION_FOR, r->target));
     csv_string(c, item->possible ? "true" : "false");
     csv_string(c, measure_name(r));
     csv_number(c, r->limit);

@@ -11,13 +11,6 @@
 
 enum { DIGITS = 6, DIGITS_MOST = 17, UNITS = 8, ISLANDS_SHOWN = 6, PHRASE_SIZE = 256 };
 
-static const char *const target_names[SOLVE_FOR_COUNT] = {"",        "near",       "far",     "format",
-                                                          "mapping", "separation", "distance"};
-
-const char *solve_target_name(solve_target target) {
-    return target_names[target];
-}
-
 static bool is_near(const solve_candidate *c) {
     return c->unknown == SOLVE_NEAR;
 }
@@ -160,7 +153,7 @@ static void sentence_of_nothing(const solve_report *r, const solve_candidate *c,
     char goal[PHRASE_SIZE], given[PHRASE_SIZE], text[NUMBER_SIZE], best[NUMBER_SIZE];
     given_phrase(r, c, given);
     goal_phrase(r, r->limit, "s", goal);
-    const char *what = target_names[r->target];
+    const char *what = option_word(OPTION_FOR, r->target);
     if (isinf(c->reached.value))
         output_format(out, "Impossible: %s has no %s that %s: nothing behind is certain to be told apart.\n", given,
                       what, goal);
@@ -190,7 +183,7 @@ static void sentence_of_plane(const solve_report *r, const solve_candidate *c, o
         output_format(out, "%s %s is enough for %s to %s.\n", is_near(c) ? "Near" : "Far",
                       safe_digits(r, c, value, until, a), given, goal);
     else if (value == (is_near(c) ? c->least : c->most))
-        output_format(out, "Any %s from %s to %s will do for %s to %s.\n", target_names[r->target],
+        output_format(out, "Any %s from %s to %s will do for %s to %s.\n", option_word(OPTION_FOR, r->target),
                       safe_digits(r, c, fmin(value, until), fmax(value, until), a),
                       safe_digits(r, c, fmax(value, until), fmin(value, until), b), given, goal);
     else
@@ -235,7 +228,7 @@ static void text_islands(const solve_report *r, output *out) {
 /* Which values pass, beside the answer: all of them, or those that were tried. */
 static void text_plane(const solve_report *r, output *out) {
     const solve_candidate *c = &r->items[0];
-    const char *what = target_names[r->target];
+    const char *what = option_word(OPTION_FOR, r->target);
     const plane_answer *p = &c->plane;
     char a[NUMBER_SIZE];
     char b[NUMBER_SIZE];
@@ -285,9 +278,10 @@ static void text_beside(const solve_report *r, const solve_candidate *c, output 
     const double binary32 = solve_in_binary32(r, c);
     if (c->spec.model != DP_MODEL_EXACT && r->target != SOLVE_FOR_DISTANCE) {
         if (c->solved && !c->lattice.possible)
-            output_format(out, "  %-14s no %s would do in it either\n", "in the lattice", target_names[r->target]);
+            output_format(out, "  %-14s no %s would do in it either\n", "in the lattice",
+                          option_word(OPTION_FOR, r->target));
         else if (c->solved)
-            output_format(out, "  %-14s %s %s would do\n", "in the lattice", target_names[r->target],
+            output_format(out, "  %-14s %s %s would do\n", "in the lattice", option_word(OPTION_FOR, r->target),
                           bound_digits(c->lattice.value, is_near(c), a));
         else
             output_format(out, "  %-14s %s at z = %s\n", "in the lattice",
@@ -352,7 +346,7 @@ static void text_alternative(const solve_report *r, const solve_candidate *c, ou
 }
 
 static void text_alternatives(const solve_report *r, output *out) {
-    static const char *const heads[SOLVE_FOR_COUNT] = {"", "least near", "largest far", "near", "near", "", "distance"};
+    static const char *const heads[] = {"least near", "largest far", "near", "near", "", "distance"};
     if (r->count < 2)
         return;
     if (r->target == SOLVE_FOR_SEPARATION)

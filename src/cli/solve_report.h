@@ -51,9 +51,6 @@ void solve_report_write(const solve_report *r, output *out);
 void solve_report_json(const solve_report *r, output *out);
 void solve_report_csv(const solve_report *r, output *out);
 
-/** The word of a target, "near". */
-const char *solve_target_name(solve_target target);
-
 static inline double solve_plane_of(const solve_candidate *c) {
     return c->unknown == SOLVE_NEAR ? c->spec.znear : c->spec.zfar;
 }

@@ -10,10 +10,10 @@
 #include <string.h>
 #include <unistd.h>
 
+#include "cli/names.h"
 #include "cli/options.h"
 #include "cli/progress.h"
 #include "cli/setups.h"
-#include "cli/suggest.h"
 #include "report/csv.h"
 #include "report/json.h"
 #include "report/number.h"
@@ -24,30 +24,13 @@ static const double ONE_LEVEL = 1;
 
 /* ---- Which effect ------------------------------------------------------------------------------------------------ */
 
-static int find_effect(const char *name, const effect_row **out) {
-    suggestion s = suggest_start(name);
-    char text[SUGGEST_TEXT_SIZE];
-    *out = effect_find(name);
-    if (*out != NULL)
-        return EXIT_FINE;
-    for (size_t i = 0; effect_get(i) != NULL; i++)
-        suggest_offer(&s, effect_get(i)->name);
-    return option_error(OPTION_EFFECT, "must be a name from 'depthprec list effects', got '%s'%s", name,
-                        suggest_text(&s, "", text));
-}
-
 static int unknown_parameter(const effect_row *row, const char *name) {
-    suggestion s = suggest_start(name);
-    char text[SUGGEST_TEXT_SIZE];
-    char allowed[128] = "";
-    for (int i = 0; row->parameters[i].name != NULL; i++) {
-        const char *before = i == 0 ? "" : row->parameters[i + 1].name != NULL ? ", " : " or ";
-        const size_t used = strlen(allowed);
-        snprintf(allowed + used, sizeof allowed - used, "%s%s", before, row->parameters[i].name);
-        suggest_offer(&s, row->parameters[i].name);
-    }
-    return option_error(OPTION_PARAMETER, "must be %s=NUMBER for %s, got '%s'%s", allowed, row->name, name,
-                        suggest_text(&s, "", text));
+    const char *words[EFFECT_PARAMETERS_MAX + 1] = {NULL};
+    const name_list known = {.words = words};
+    char text[NAMES_SIZE];
+    for (int i = 0; i < EFFECT_PARAMETERS_MAX; i++)
+        words[i] = row->parameters[i].name;
+    return option_error(OPTION_PARAMETER, "of %s %s", row->name, names_refuse(&known, name, text));
 }
 
 static int set_parameter(const effect_row *row, const named_number *given, double *parameters) {
@@ -67,9 +50,9 @@ static int set_parameter(const effect_row *row, const named_number *given, doubl
 }
 
 int texture_effect_resolve(const options *o, const effect_row **row, double parameters[EFFECT_PARAMETERS_MAX]) {
-    int status = find_effect(o->effect, row);
-    if (status == EXIT_FINE)
-        effect_defaults(*row, parameters);
+    int status = EXIT_FINE;
+    *row = o->effect;
+    effect_defaults(*row, parameters);
     for (size_t i = 0; i < o->parameter_count && status == EXIT_FINE; i++)
         status = set_parameter(*row, &o->parameters[i], parameters);
     return status;

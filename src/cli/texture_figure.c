@@ -143,20 +143,8 @@ static int draw(const options *o, const texture_source *s, const texture_product
     return output_close(&out);
 }
 
-static int check_size(const options *o) {
-    if (o->width > 0 && (o->width < DRAW_WIDTH_MIN || o->width > DRAW_SIZE_MAX))
-        return option_error(OPTION_WIDTH, "must be from %d to %d px, got %d", DRAW_WIDTH_MIN, DRAW_SIZE_MAX, o->width);
-    if (o->height > 0 && (o->height < DRAW_HEIGHT_MIN || o->height > DRAW_SIZE_MAX))
-        return option_error(OPTION_HEIGHT, "must be from %d to %d px, got %d", DRAW_HEIGHT_MIN, DRAW_SIZE_MAX,
-                            o->height);
-    return EXIT_FINE;
-}
-
 int texture_figure_draw(const options *o, const texture_source *s, const texture_product *p) {
     const int most = o->width > WIDTH ? o->width : WIDTH;
-    int status = check_size(o);
-    if (status != EXIT_FINE)
-        return status;
     shrinking f = {
         .largest = p->made.error,
         .shown = {.width = s->camera.width,
@@ -172,7 +160,8 @@ int texture_figure_draw(const options *o, const texture_source *s, const texture
     chart *c = chart_new();
     for (size_t i = 0; i < count && f.fields != NULL; i++)
         f.fields[i] = NAN;
-    status = f.fields != NULL && c != NULL ? draw(o, s, p, &f, c) : usage_error("texture: no memory for the figure");
+    const int status =
+        f.fields != NULL && c != NULL ? draw(o, s, p, &f, c) : usage_error("texture: no memory for the figure");
     free(f.fields);
     chart_free(c);
     return status;

@@ -5,40 +5,25 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "cli/list.h"
-#include "cli/suggest.h"
 #include "cli/texture_effect.h"
 #include "plot/canvas.h"
 
 bool list_position(size_t index, list_item *item) {
     const position_row *row = position_get(index);
     if (row != NULL)
-        *item = (list_item){.name = row->name, .note = row->note, .source = row->source};
+        *item = (list_item){.name = row->name, .note = row->note, .source = row->source, .row = row};
     return row != NULL;
 }
 
 bool list_normal(size_t index, list_item *item) {
     const normal_row *row = normal_get(index);
     if (row != NULL)
-        *item = (list_item){.name = row->name, .note = row->note, .source = row->source};
+        *item = (list_item){.name = row->name, .note = row->note, .source = row->source, .row = row};
     return row != NULL;
 }
 
 bool texture_product_wanted(const options *o) {
-    return o->eye || o->position != NULL || o->normal != NULL || o->effect != NULL || o->figure != NULL;
-}
-
-static int unknown_method(option_id id, bool (*get)(size_t, list_item *), const char *first, const char *name) {
-    suggestion s = suggest_start(name);
-    char text[SUGGEST_TEXT_SIZE], all[160];
-    list_item item;
-    snprintf(all, sizeof all, "%s", first);
-    suggest_offer(&s, first);
-    for (size_t i = 0; get(i, &item); i++) {
-        suggest_offer(&s, item.name);
-        snprintf(all + strlen(all), sizeof all - strlen(all), "%s%s", *all != '\0' ? ", " : "", item.name);
-    }
-    return option_error(id, "must be one of %s, got '%s'%s", all, name, suggest_text(&s, "", text));
+    return o->eye || option_given(o, OPTION_POSITION) || o->normal != NULL || o->effect != NULL || o->figure != NULL;
 }
 
 static int resolve_eye(const options *o, texture_product *p) {
@@ -47,18 +32,16 @@ static int resolve_eye(const options *o, texture_product *p) {
 }
 
 static int resolve_position(const options *o, texture_product *p) {
-    p->made.position = position_find(o->position);
-    snprintf(p->name, sizeof p->name, "positions by %s", o->position);
-    return p->made.position != NULL || strcmp(o->position, "exact") == 0
-               ? EXIT_FINE
-               : unknown_method(OPTION_POSITION, list_position, "exact", o->position);
+    p->made.position = o->position;
+    snprintf(p->name, sizeof p->name, "positions by %s", o->position != NULL ? o->position->name : "exact");
+    return EXIT_FINE;
 }
 
 static int resolve_normal(const options *o, texture_product *p) {
-    p->made.normal = normal_find(o->normal);
-    snprintf(p->name, sizeof p->name, "normals by %s", o->normal);
+    p->made.normal = o->normal;
+    snprintf(p->name, sizeof p->name, "normals by %s", o->normal->name);
     p->unit = o->error_map ? "degrees" : "";
-    return p->made.normal != NULL ? EXIT_FINE : unknown_method(OPTION_NORMAL, list_normal, "", o->normal);
+    return EXIT_FINE;
 }
 
 /* The parameters that are not the scene's are the effect's, but for the depth that it compares with. */

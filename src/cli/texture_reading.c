@@ -6,6 +6,7 @@
 
 #include "cli/texture_source.h"
 #include "report/number.h"
+#include "texture/image_depths.h"
 
 /* ---- How the samples were rounded -------------------------------------------------------------------------------- */
 
@@ -26,7 +27,7 @@ static grain_rounding rounding_of(const options *o) {
 /* Steps that every file of this type has, as shares of 1; 0 where its samples are codes. */
 static double type_steps(const texture_source *s) {
     const image_type type = s->picture.type;
-    const bool codes = recognise_codes(&s->picture, &s->setup.spec.format);
+    const bool codes = image_are_codes(&s->picture, &s->setup.spec.format);
     if (type == IMAGE_U8)
         return codes ? 0 : 255;
     if (type == IMAGE_U16)
@@ -101,7 +102,7 @@ static bool find_pixel(texture_source *s, double *d) {
         const uint64_t at = i % 2 == 1 ? middle - off : middle + off;
         s->column = (uint32_t)(at % width);
         s->row = (uint32_t)(at / width);
-        image_depths_double(&s->picture, format, s->row, s->column, 1, d);
+        image_depths(&s->picture, format, s->row, s->column, 1, d);
         if (*d > 0 && *d < 1)
             return true;
     }
@@ -146,9 +147,9 @@ static void formats_of(texture_source *s) {
         dp_format_parse(others[i], formats);
         const bool wide = s->picture.type == IMAGE_U32;
         const bool fits = wide ? formats[0].kind == DP_FORMAT_UNORM : formats[0].bits <= 16;
-        if (!fits || !recognise_codes(&s->picture, &formats[0]) || !codes_fit(&s->picture, formats[0].code_max))
+        if (!fits || !image_are_codes(&s->picture, &formats[0]) || !codes_fit(&s->picture, formats[0].code_max))
             continue;
-        image_depths_double(&s->picture, &formats[0], s->row, s->column, 1, &d);
+        image_depths(&s->picture, &formats[0], s->row, s->column, 1, &d);
         if (!(d >= 0 && d <= 1))
             continue;
         spec.format = formats[0];

@@ -5,9 +5,9 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "cli/list.h"
+#include "cli/names.h"
 #include "cli/setups.h"
-#include "cli/suggest.h"
+#include "report/append.h"
 #include "report/number.h"
 
 /* UINT32_MAX stands for "no depth" among codes. */
@@ -27,40 +27,27 @@ static size_t parameter_index(const scene_row *scene, const char *name) {
 }
 
 bool texture_scene_takes(const options *o, const char *name) {
-    const scene_row *scene = o->scene != NULL ? scene_find(o->scene) : NULL;
-    return scene != NULL && parameter_index(scene, name) < SCENE_PARAMETERS;
+    return o->scene != NULL && parameter_index(o->scene, name) < SCENE_PARAMETERS;
 }
 
 bool list_scene(size_t index, list_item *item) {
     const scene_row *row = scene_get(index);
     if (row == NULL)
         return false;
-    *item = (list_item){.name = row->name, .note = row->note};
-    for (size_t i = 0, used = 0; i < SCENE_PARAMETERS && row->parameters[i].name != NULL; i++)
-        used += (size_t)snprintf(item->bound + used, sizeof item->bound - used, "%s%s=%g", i > 0 ? ", " : "",
-                                 row->parameters[i].name, row->parameters[i].value);
+    *item = (list_item){.name = row->name, .note = row->note, .row = row};
+    for (size_t i = 0; i < SCENE_PARAMETERS && row->parameters[i].name != NULL; i++)
+        append(item->bound, sizeof item->bound, "%s%s=%g", i > 0 ? ", " : "", row->parameters[i].name,
+               row->parameters[i].value);
     return true;
 }
 
-static int unknown_scene(const char *name) {
-    suggestion s = suggest_start(name);
-    char text[SUGGEST_TEXT_SIZE], all[128] = "";
-    for (size_t i = 0; scene_get(i) != NULL; i++) {
-        suggest_offer(&s, scene_get(i)->name);
-        snprintf(all + strlen(all), sizeof all - strlen(all), "%s%s", i > 0 ? ", " : "", scene_get(i)->name);
-    }
-    return option_error(OPTION_SCENE, "must be one of %s, got '%s'%s", all, name, suggest_text(&s, "", text));
-}
-
 static int unknown_parameter(const scene_row *scene, const char *name) {
-    suggestion s = suggest_start(name);
-    char text[SUGGEST_TEXT_SIZE], all[128] = "";
-    for (size_t i = 0; i < SCENE_PARAMETERS && scene->parameters[i].name != NULL; i++) {
-        suggest_offer(&s, scene->parameters[i].name);
-        snprintf(all + strlen(all), sizeof all - strlen(all), "%s%s", i > 0 ? ", " : "", scene->parameters[i].name);
-    }
-    return option_error(OPTION_PARAMETER, "the scene %s has %s, got '%s'%s", scene->name, all, name,
-                        suggest_text(&s, "", text));
+    const char *words[SCENE_PARAMETERS + 1] = {NULL};
+    const name_list known = {.words = words};
+    char text[NAMES_SIZE];
+    for (size_t i = 0; i < SCENE_PARAMETERS; i++)
+        words[i] = scene->parameters[i].name;
+    return option_error(OPTION_PARAMETER, "of the scene %s %s", scene->name, names_refuse(&known, name, text));
 }
 
 static int scene_parameters(const options *o, const scene_row *scene, double *out) {
@@ -201,9 +188,8 @@ static int make_camera(const options *o, texture_source *s) {
 int texture_source_open(const options *o, texture_source *s) {
     *s = (texture_source){0};
     int status = check_together(o);
-    const scene_row *scene = o->scene != NULL ? scene_find(o->scene) : NULL;
     if (status == EXIT_FINE && o->scene != NULL)
-        status = scene == NULL ? unknown_scene(o->scene) : scene_parameters(o, scene, s->parameters);
+        status = scene_parameters(o, o->scene, s->parameters);
     else if (status == EXIT_FINE)
         status = read_image(o, s);
     if (status == EXIT_FINE)
@@ -215,7 +201,7 @@ int texture_source_open(const options *o, texture_source *s) {
     }
     s->frame = (frame){.camera = &s->camera,
                        .image = s->path != NULL ? &s->picture : NULL,
-                       .scene = scene,
+                       .scene = o->scene,
                        .parameters = s->parameters,
                        .grain = s->path != NULL ? &s->grain : NULL,
                        .metric = o->metric > 0,

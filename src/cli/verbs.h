@@ -7,6 +7,8 @@
 
 #include <stddef.h>
 
+#include "cli/names.h"
+
 struct options;
 
 /** One bit per command, for the `commands` column of the option table. */
@@ -22,7 +24,8 @@ enum {
     VERB_BIAS = 1u << 8,
     VERB_BENCH = 1u << 9,
     VERB_STABILITY = 1u << 10,
-    VERB_TEXTURE = 1u << 11
+    VERB_TEXTURE = 1u << 11,
+    VERB_COMPLETIONS = 1u << 12
 };
 
 typedef struct verb {
@@ -31,9 +34,10 @@ typedef struct verb {
     int (*run)(const struct options *); /**< returns an exit status of report/output.h */
     const char *operand;                /**< how help writes the operand, "FIGURE"; "" when there is none */
     int operand_min, operand_max;       /**< how many operands the command takes */
-    const char *operand_hint;           /**< added to the message when one is missing, or null */
+    const name_list *names;             /**< what the first operand may be; null when it is no name */
     const char *summary;                /**< one line for `depthprec --help` */
     const char *example;                /**< command lines for the command's own help, one a line */
+    int files_from; /**< operands from this one on are files that it reads, counted from 1; 0: none */
 } verb;
 
 extern const verb verb_rows[];

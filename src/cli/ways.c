@@ -40,7 +40,7 @@ static double interval_by(const method_row *row, const dp_setup *setup, double z
     double value = NAN;
     const method_inputs in = {.count = 1, .z = &z};
     const method_outputs out = {.value = &value};
-    row->run(setup, NULL, &in, &out); /* no method of the family prepares anything */
+    row->run(&(method_call){row, setup, NULL, &in, &out}); /* no method of the family prepares anything */
     return value;
 }
 

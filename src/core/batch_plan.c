@@ -9,10 +9,6 @@
 
 /* ---- Numbers ----------------------------------------------------------------------------------------------------- */
 
-static int is_float(const dp_format *f, int mantissa, int bias) {
-    return f->kind == DP_FORMAT_FLOAT && f->mantissa_bits == mantissa && f->bias == bias;
-}
-
 static void plan_format(dp_batch *b) {
     const dp_format *f = &b->setup.spec.format;
     struct dp_batch_numbers *k = &b->numbers;
@@ -242,11 +238,11 @@ static int fast_eye(dp_batch *b) {
 }
 
 static int half_float(dp_batch *b) {
-    return is_float(&b->setup.spec.format, 10, 15);
+    return dp_format_is_ieee(&b->setup.spec.format, 10, 15);
 }
 
 static int single_float(dp_batch *b) {
-    return is_float(&b->setup.spec.format, 23, 127);
+    return dp_format_is_ieee(&b->setup.spec.format, 23, 127);
 }
 
 /* ---- Rows -------------------------------------------------------------------------------------------------------- */

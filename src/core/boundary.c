@@ -81,8 +81,7 @@ static dp_boundary staged_below(const dp_setup *setup, uint32_t code) {
 }
 
 int dp_staged_is_exact(const dp_setup *setup) {
-    const dp_format *f = &setup->spec.format;
-    return f->kind == DP_FORMAT_FLOAT && f->mantissa_bits == 23 && f->bias == 127 && !ndc_signed(setup) &&
+    return dp_format_is_ieee(&setup->spec.format, 23, 127) && !ndc_signed(setup) &&
            setup->spec.rounding != DP_ROUND_ZERO;
 }
 

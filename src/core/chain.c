@@ -6,7 +6,8 @@
 #include "core/extremes.h"
 #include "core/rounding.h"
 
-double dp_chain_clip(const dp_chain *c, double z) {
+/* A z + B */
+static double clip_of(const dp_chain *c, double z) {
     return c->a * z + c->b;
 }
 
@@ -16,13 +17,13 @@ static double w_of(const dp_chain *c, double z) {
 }
 
 double dp_chain_window(const dp_chain *c, double z) {
-    const double ndc = dp_chain_clip(c, z) / w_of(c, z);
+    const double ndc = clip_of(c, z) / w_of(c, z);
     return c->pipeline.ndc_signed ? 0.5 * ndc + 0.5 : ndc;
 }
 
 /* What is divided by w: the clip depth, or what the shader's remap makes of it. A sum of the same shape, a z + b. */
 static double dividend(const dp_chain *c, double z) {
-    return c->remap ? 0.5 * (dp_chain_clip(c, z) + w_of(c, z)) : dp_chain_clip(c, z);
+    return c->remap ? 0.5 * (clip_of(c, z) + w_of(c, z)) : clip_of(c, z);
 }
 
 /*
@@ -31,14 +32,14 @@ static double dividend(const dp_chain *c, double z) {
  */
 static double excess_below(const dp_chain *c, double z) {
     const double w = w_of(c, z);
-    const double clip = dp_chain_clip(c, z) + (c->pipeline.ndc_signed ? w : 0.0);
+    const double clip = clip_of(c, z) + (c->pipeline.ndc_signed ? w : 0.0);
     const double rounding = c->pipeline.ndc_signed ? 0x1p-51 * w : 0.0;
     return clip - rounding < 0.0 ? c->half * (rounding - clip) / w * (1.0 + 0x1p-50) : 0.0;
 }
 
 static double excess_above(const dp_chain *c, double z) {
     const double w = w_of(c, z);
-    const double past = dp_chain_clip(c, z) - w + 0x1p-51 * w;
+    const double past = clip_of(c, z) - w + 0x1p-51 * w;
     return past > 0.0 ? c->half * past / w * (1.0 + 0x1p-50) : 0.0;
 }
 
@@ -147,7 +148,7 @@ static double w_granule(const dp_chain *c, dp_span r) {
 
 /* The shader's clip + w: exact where both are multiples of a granule and the sum has fewer than 25 bits above it. */
 static dp_step add_w(const dp_chain *c, dp_span r, magnitude clip, double error) {
-    const magnitude m = magnitude_of(dp_chain_clip(c, r.lo) + w_of(c, r.lo), dp_chain_clip(c, r.hi) + w_of(c, r.hi),
+    const magnitude m = magnitude_of(clip_of(c, r.lo) + w_of(c, r.lo), clip_of(c, r.hi) + w_of(c, r.hi),
                                      error + dp_half_ulp(clip.most));
     const double granule = smaller(clip_granule(c, r, clip), w_granule(c, r));
     return m.most < 0x1p24 * granule ? (dp_step){0.0, 0.0} : step_of(m);
@@ -183,7 +184,7 @@ static void divide(const dp_chain *c, dp_span r, double q1, double q2, double er
 dp_steps dp_chain_steps(const dp_chain *c, dp_span r) {
     const double w = w_of(c, r.lo);
     dp_steps s = {.product = product_of(c, r)};
-    const magnitude clip = magnitude_of(dp_chain_clip(c, r.lo), dp_chain_clip(c, r.hi), s.product.error);
+    const magnitude clip = magnitude_of(clip_of(c, r.lo), clip_of(c, r.hi), s.product.error);
     s.sum = add_b(c, r, clip, &s.kept_lo, &s.kept_hi);
     double error = s.product.error + larger(s.kept_hi, -s.kept_lo);
     if (c->remap)
@@ -212,7 +213,7 @@ dp_steps dp_chain_steps_beyond(const dp_chain *c, double z) {
     const double w1 = w_of(c, z);
     const double w2 = w_of(c, zfar);
     const double up = 1.0 + 0x1p-20;
-    const double g = up * larger(fabs(dp_chain_clip(c, z)) / w1, fabs(dp_chain_clip(c, zfar)) / w2);
+    const double g = up * larger(fabs(clip_of(c, z)) / w1, fabs(clip_of(c, zfar)) / w2);
     const double q = up * larger(fabs(dividend(c, z)) / w1, fabs(dividend(c, zfar)) / w2);
     const int rounded = !c->a_exact && !c->fused;
     double clip = rounded ? DP_UNIT * fabs(c->a) * (c->pipeline.ortho ? zfar : 1.0) : 0.0;
@@ -265,10 +266,10 @@ static double on_lattice(double least, double granule) {
 dp_numerator dp_chain_numerator(const dp_chain *c, dp_span r) {
     const int plain = c->pipeline.reversed && !c->pipeline.ndc_signed; /* t is the clip depth itself: A <= 0 */
     const dp_step product = product_of(c, r);
-    const magnitude clip = magnitude_of(dp_chain_clip(c, r.lo), dp_chain_clip(c, r.hi), product.error);
+    const magnitude clip = magnitude_of(clip_of(c, r.lo), clip_of(c, r.hi), product.error);
     double lo, hi;
     add_b(c, r, clip, &lo, &hi);
-    const double end = dp_chain_clip(c, r.hi);
+    const double end = clip_of(c, r.hi);
     const double t = plain ? end : c->pipeline.reversed ? r.hi + end : r.hi - end;
     const double error = product.error + larger(hi, -lo) + (fabs(end) + r.hi) * 0x1p-52;
     const double granule = clip_granule(c, r, clip);

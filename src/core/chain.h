@@ -34,8 +34,6 @@ typedef struct dp_chain {
 
 dp_chain dp_chain_make(const dp_setup *setup, const dp_pipeline *pipeline);
 
-/* A z + B */
-double dp_chain_clip(const dp_chain *c, double z);
 /* g(z), not clamped */
 double dp_chain_window(const dp_chain *c, double z);
 

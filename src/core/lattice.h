@@ -28,6 +28,11 @@ typedef struct dp_scaled {
     uint32_t base;
 } dp_scaled;
 
+/* Whether the codes of a format are the bits of binary16 (10, 15) or of binary32 (23, 127). */
+static inline int dp_format_is_ieee(const dp_format *format, int mantissa_bits, int bias) {
+    return format->kind == DP_FORMAT_FLOAT && format->mantissa_bits == mantissa_bits && format->bias == bias;
+}
+
 /* 2^e for -1022 <= e <= 1023 */
 static inline double dp_power2(int e) {
     uint64_t bits = (uint64_t)(e + 1023) << 52;

@@ -17,9 +17,9 @@ const char *dp_model_name(dp_model model) {
 
 dp_spec dp_spec_default(void) {
     dp_spec spec = {.znear = 0.1, .zfar = 1000.0, .mapping = DP_MAPPING_D3D, .log_c = 1.0};
-    for (size_t i = 0; i < dp_format_count(); i++)
-        if (dp_format_get(i)->format.bits == 31)
-            spec.format = dp_format_get(i)->format;
+    dp_format formats[2];
+    dp_format_parse("fp32", formats);
+    spec.format = formats[0];
     return spec;
 }
 

@@ -20,12 +20,11 @@ static void keep(double value, size_t i, double *worst, size_t *at) {
     }
 }
 
-static void judge_all(const method_family_row *family, const method_row *row, const dp_setup *setup,
-                      const method_inputs *in, const method_outputs *out, measured *m) {
+static void judge_all(const method_family_row *family, const method_call *call, measured *m) {
     *m = (measured){.worst = {-1, -1, -1}};
-    for (size_t i = 0; i < in->count; i++) {
+    for (size_t i = 0; i < call->in->count; i++) {
         method_error e;
-        if (!family->judge(row, setup, in, out, i, &e))
+        if (!family->judge(call, i, &e))
             continue;
         m->count++;
         keep(e.absolute, i, &m->worst.absolute, &m->absolute_at);
@@ -41,10 +40,11 @@ bool method_measure(const method_family_row *family, const method_row *row, cons
     void *state = row->open != NULL ? row->open(setup) : NULL;
     if (row->open != NULL && state == NULL)
         return false;
-    row->run(setup, state, in, out);
+    const method_call call = {row, setup, state, in, out};
+    row->run(&call);
     if (row->open != NULL)
         row->close(state);
-    judge_all(family, row, setup, in, out, m);
+    judge_all(family, &call, m);
     return true;
 }
 
@@ -66,12 +66,11 @@ static double now(void) {
     return 1e9 * (double)t.tv_sec + (double)t.tv_nsec;
 }
 
-static double once(method_run *run, const dp_setup *setup, const void *state, const method_inputs *in,
-                   const method_outputs *out, size_t rounds) {
+static double once(method_run *run, const method_call *call, size_t rounds) {
     double start = now();
     for (size_t i = 0; i < rounds; i++)
-        run(setup, state, in, out);
-    return (now() - start) / (double)rounds / (double)in->count;
+        run(call);
+    return (now() - start) / (double)rounds / (double)call->in->count;
 }
 
 static int ascending(const void *a, const void *b) {
@@ -97,28 +96,26 @@ typedef struct contestant {
     void *state;
     size_t rounds;
     method_inputs in;
+    method_call call; /* of state and in */
     double times[REPETITIONS_MAX];
 } contestant;
 
 /* Takes turns, so that what disturbs the machine disturbs all alike. */
-static void time_all(const dp_setup *setup, const method_outputs *out, contestant *all, size_t count, int repetitions) {
+static void time_all(contestant *all, size_t count, int repetitions) {
     for (size_t i = 0; i < count; i++) { /* warm-up, and how long one round lasts */
-        double ns = once(all[i].run, setup, all[i].state, &all[i].in, out, 1) * (double)all[i].in.count;
+        double ns = once(all[i].run, &all[i].call, 1) * (double)all[i].in.count;
         if (ns > 10 * slice) /* a few inputs say as much */
             all[i].in.count = (size_t)fmax(1, (double)all[i].in.count * 10 * slice / ns);
         all[i].rounds = (size_t)fmax(1, slice / fmax(ns, 1));
     }
     for (int r = 0; r < repetitions; r++)
         for (size_t i = 0; i < count; i++)
-            all[i].times[r] = once(all[i].run, setup, all[i].state, &all[i].in, out, all[i].rounds);
+            all[i].times[r] = once(all[i].run, &all[i].call, all[i].rounds);
 }
 
 /* The limit takes its turn behind the methods. */
-static void time_methods(const method_family_row *family, const dp_setup *setup, const method_inputs *in,
-                         const method_outputs *out, contestant *all, bench_result *results, size_t count,
-                         int repetitions) {
-    all[count] = (contestant){.run = family->limit, .in = *in};
-    time_all(setup, out, all, count + 1, repetitions);
+static void time_methods(contestant *all, bench_result *results, size_t count, int repetitions) {
+    time_all(all, count + 1, repetitions);
     const bench_times limit = bench_statistics(all[count].times, (size_t)repetitions);
     for (size_t i = 0; i < count; i++) {
         const bench_times times = bench_statistics(all[i].times, (size_t)repetitions);
@@ -150,16 +147,16 @@ static double input_at(const method_family_row *family, const method_inputs *in,
 static bool prepare(const method_family_row *family, size_t which, const dp_setup *setup, const method_inputs *in,
                     const method_outputs *out, bench_result *result, contestant *c) {
     const method_row *row = result->row;
-    c->run = method_timed(row) != NULL ? method_timed(row) : row->run;
-    c->in = *in;
+    *c = (contestant){.run = row->timed != NULL ? row->timed : row->run, .in = *in};
     if (row->limit > 0 && row->limit < in->count)
         c->in.count = row->limit;
     double start = now();
     if (row->open != NULL && (c->state = row->open(setup)) == NULL)
         return false;
     result->setup = row->open != NULL ? now() - start : 0;
-    row->run(setup, c->state, &c->in, out);
-    judge_all(family, row, setup, &c->in, out, &result->measured);
+    c->call = (method_call){row, setup, c->state, &c->in, out};
+    row->run(&c->call);
+    judge_all(family, &c->call, &result->measured);
     result->inputs = c->in.count;
     result->at_absolute = input_at(family, in, result->measured.absolute_at);
     result->at_relative = input_at(family, in, result->measured.relative_at);
@@ -187,8 +184,9 @@ size_t bench_run(const method_family_row *family, size_t which, const dp_setup *
             count++;
         }
         if (good && repetitions > 0) {
-            time_methods(family, setup, &in, &out, all, results, count,
-                         repetitions < REPETITIONS_MAX ? repetitions : REPETITIONS_MAX);
+            all[count] =
+                (contestant){.run = family->limit, .in = in, .call = {NULL, setup, NULL, &all[count].in, &out}};
+            time_methods(all, results, count, repetitions < REPETITIONS_MAX ? repetitions : REPETITIONS_MAX);
             mark_front(family, results, count);
         }
         for (size_t i = 0; i < count; i++)

@@ -2,7 +2,7 @@
 /**
  * @file bench.h  All methods of a family on the same inputs: how fast, and how wrong at worst.
  *
- * The errors depend on the set-up alone, also those of a model of an instruction (method_timed()); only the times vary.
+ * The errors depend on the set-up alone, also those of a model of an instruction (`timed`); only the times vary.
  */
 #ifndef METHOD_BENCH_H
 #define METHOD_BENCH_H

@@ -1,9 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /**
- * @file choose.h  The cheapest method that is good enough, from the claims alone.
- *
- * All choices of the program are made here: the method of a family for bench, table and figures, by the claims of its
- * row, and the arithmetic model of --model auto, by what each was measured to neglect.
+ * @file choose.h  The cheapest method that is good enough, from the claims alone: for bench, table and figures.
  */
 #ifndef METHOD_CHOOSE_H
 #define METHOD_CHOOSE_H

@@ -4,7 +4,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "method/method.h"
+#include "method/limit.h"
 #if defined(__x86_64__)
 #include <immintrin.h>
 #endif
@@ -19,14 +19,12 @@ static uint32_t bits_of(float x) {
 
 /* Ties to even: below 2^-14 the addition of 1/2 rounds to the step of the subnormals, which are the low bits of the
  * sum; above, half a step less the lowest kept bit is added to the bits. Both are computed and one is chosen. */
-static void bits_run(const dp_setup *setup, const void *state, const method_inputs *in, const method_outputs *out) {
-    (void)setup;
-    (void)state;
-    for (size_t i = 0; i < in->count; i++) {
-        uint32_t x = bits_of(in->d[i]);
-        uint32_t small = bits_of(in->d[i] + 0.5f) - bits_of(0.5f);
+static void bits_run(const method_call *c) {
+    for (size_t i = 0; i < c->in->count; i++) {
+        uint32_t x = bits_of(c->in->d[i]);
+        uint32_t small = bits_of(c->in->d[i] + 0.5f) - bits_of(0.5f);
         uint32_t normal = (x - (112u << 23) + 0xfffu + (x >> 13 & 1u)) >> 13;
-        out->code[i] = (int32_t)x < 113 << 23 ? small : normal;
+        c->out->code[i] = (int32_t)x < 113 << 23 ? small : normal;
     }
 }
 
@@ -46,12 +44,11 @@ static void *half_open(const dp_setup *setup) {
     return t;
 }
 
-static void half_run(const dp_setup *setup, const void *state, const method_inputs *in, const method_outputs *out) {
-    const half_table *t = state;
-    (void)setup;
-    for (size_t i = 0; i < in->count; i++) {
-        uint32_t x = bits_of(in->d[i]), e = x >> 23;
-        out->code[i] = t->base[e] + ((x & 0x7fffffu) >> t->shift[e]);
+static void half_run(const method_call *c) {
+    const half_table *t = c->state;
+    for (size_t i = 0; i < c->in->count; i++) {
+        uint32_t x = bits_of(c->in->d[i]), e = x >> 23;
+        c->out->code[i] = t->base[e] + ((x & 0x7fffffu) >> t->shift[e]);
     }
 }
 
@@ -60,18 +57,18 @@ static bool has_f16c(void) {
     return __builtin_cpu_supports("avx2"); /* has F16C too; clang has no name for it here */
 }
 
-__attribute__((target("avx,f16c"))) static void f16c_run(const dp_setup *setup, const void *state,
-                                                         const method_inputs *in, const method_outputs *out) {
-    (void)setup;
-    (void)state;
+__attribute__((target("avx,f16c"))) static void f16c_run(const method_call *c) {
+    const float *d = c->in->d;
+    const size_t count = c->in->count;
+    uint32_t *code = c->out->code;
     size_t i = 0;
-    for (; i + 8 <= in->count; i += 8) {
-        __m128i half = _mm256_cvtps_ph(_mm256_loadu_ps(in->d + i), _MM_FROUND_TO_NEAREST_INT);
-        _mm_storeu_si128((__m128i *)(void *)(out->code + i), _mm_cvtepu16_epi32(half));
-        _mm_storeu_si128((__m128i *)(void *)(out->code + i + 4), _mm_cvtepu16_epi32(_mm_srli_si128(half, 8)));
+    for (; i + 8 <= count; i += 8) {
+        __m128i half = _mm256_cvtps_ph(_mm256_loadu_ps(d + i), _MM_FROUND_TO_NEAREST_INT);
+        _mm_storeu_si128((__m128i *)(void *)(code + i), _mm_cvtepu16_epi32(half));
+        _mm_storeu_si128((__m128i *)(void *)(code + i + 4), _mm_cvtepu16_epi32(_mm_srli_si128(half, 8)));
     }
-    for (; i < in->count; i++)
-        out->code[i] = (uint32_t)_mm_extract_epi16(_mm_cvtps_ph(_mm_set_ss(in->d[i]), _MM_FROUND_TO_NEAREST_INT), 0);
+    for (; i < count; i++)
+        code[i] = (uint32_t)_mm_extract_epi16(_mm_cvtps_ph(_mm_set_ss(d[i]), _MM_FROUND_TO_NEAREST_INT), 0);
 }
 #else
 static bool has_f16c(void) {
@@ -82,75 +79,69 @@ static bool has_f16c(void) {
 
 /* ---- UNORM ------------------------------------------------------------------------------------------------------- */
 
-static void floor_run(const dp_setup *setup, const void *state, const method_inputs *in, const method_outputs *out) {
-    const float most = (float)setup->spec.format.code_max;
-    (void)state;
-    for (size_t i = 0; i < in->count; i++)
-        out->code[i] = (uint32_t)(int32_t)(in->d[i] * most + 0.5f);
+static void floor_run(const method_call *c) {
+    const float most = (float)c->setup->spec.format.code_max;
+    for (size_t i = 0; i < c->in->count; i++)
+        c->out->code[i] = (uint32_t)(int32_t)(c->in->d[i] * most + 0.5f);
 }
 
-static void rint_run(const dp_setup *setup, const void *state, const method_inputs *in, const method_outputs *out) {
-    const float most = (float)setup->spec.format.code_max;
-    (void)state;
-    for (size_t i = 0; i < in->count; i++)
-        out->code[i] = (uint32_t)(int32_t)rintf(in->d[i] * most);
+static void rint_run(const method_call *c) {
+    const float most = (float)c->setup->spec.format.code_max;
+    for (size_t i = 0; i < c->in->count; i++)
+        c->out->code[i] = (uint32_t)(int32_t)rintf(c->in->d[i] * most);
 }
 
 /* The addition of 2^23 leaves whole numbers only, in the low bits of the sum. */
-static void magic_run(const dp_setup *setup, const void *state, const method_inputs *in, const method_outputs *out) {
-    const float most = (float)setup->spec.format.code_max;
-    (void)state;
-    for (size_t i = 0; i < in->count; i++)
-        out->code[i] = bits_of(in->d[i] * most + 0x1p23f) - bits_of(0x1p23f);
+static void magic_run(const method_call *c) {
+    const float most = (float)c->setup->spec.format.code_max;
+    for (size_t i = 0; i < c->in->count; i++)
+        c->out->code[i] = bits_of(c->in->d[i] * most + 0x1p23f) - bits_of(0x1p23f);
 }
 
-static void double_run(const dp_setup *setup, const void *state, const method_inputs *in, const method_outputs *out) {
-    const double most = setup->spec.format.code_max;
-    (void)state;
-    for (size_t i = 0; i < in->count; i++)
-        out->code[i] = (uint32_t)(int32_t)((double)in->d[i] * most + 0.5);
+static void double_run(const method_call *c) {
+    const double most = c->setup->spec.format.code_max;
+    for (size_t i = 0; i < c->in->count; i++)
+        c->out->code[i] = (uint32_t)(int32_t)((double)c->in->d[i] * most + 0.5);
 }
 
-static void engine_run(const dp_setup *setup, const void *state, const method_inputs *in, const method_outputs *out) {
-    (void)state;
-    for (size_t i = 0; i < in->count; i++)
-        out->code[i] = dp_format_encode(&setup->spec.format, setup->spec.rounding, (double)in->d[i]);
+static void engine_run(const method_call *c) {
+    for (size_t i = 0; i < c->in->count; i++)
+        c->out->code[i] = dp_format_encode(&c->setup->spec.format, c->setup->spec.rounding, (double)c->in->d[i]);
 }
 
 #define ANY (METHOD_INFINITE | METHOD_ORTHO)
 static const char clause[] = "D3D 11.3 functional specification 3.2.3.6";
 
 /* clang-format off */
-const method_row encode_methods[] = {
+static const method_row methods[] = {
     {METHOD_ENCODE, "f16c", "fp16 by the processor's own conversion",
-     {FULL(0.5)}, ANY, 0.1, "1", 0, "VCVTPS2PH", has_f16c, NULL, f16c_run, NULL},
+     {FULL(0.5)}, ANY, 0.1, "1", 0, "VCVTPS2PH", .run = f16c_run, .available = has_f16c},
     {METHOD_ENCODE, "magic", "UNORM: the low bits of fl(fl(d M) + 2^23)",
-     {NOWHERE, FULL(0.5 + 0x1p-9), UNCLAIMED}, ANY, 0.2, "1", 0, "", NULL, NULL, magic_run, NULL},
-    {METHOD_ENCODE, "floor", "UNORM: floor(fl(fl(d M) + 0.5)) in binary32; with 24 bits d = 1 becomes 2^24, which is no code",
-     {NOWHERE, FULL(0.5 + 0x1p-9), UNCLAIMED}, ANY, 0.25, "1", 0, clause, NULL, NULL, floor_run, NULL},
+     {NOWHERE, FULL(0.5 + 0x1p-9), UNCLAIMED}, ANY, 0.2, "1", 0, "", .run = magic_run},
+    {METHOD_ENCODE, "floor",
+     "UNORM: floor(fl(fl(d M) + 0.5)) in binary32; with 24 bits d = 1 becomes 2^24, which is no code",
+     {NOWHERE, FULL(0.5 + 0x1p-9), UNCLAIMED}, ANY, 0.25, "1", 0, clause, .run = floor_run},
     {METHOD_ENCODE, "rint", "UNORM: fl(d M) in binary32, ties to even",
-     {NOWHERE, FULL(0.5 + 0x1p-9), FULL(0.75)}, ANY, 0.4, "1", 0, "", NULL, NULL, rint_run, NULL},
+     {NOWHERE, FULL(0.5 + 0x1p-9), FULL(0.75)}, ANY, 0.4, "1", 0, "", .run = rint_run},
     {METHOD_ENCODE, "floor-double", "UNORM: floor(d M + 0.5) in double: d M is exact, ties go up",
-     {NOWHERE, FULL(0.5), FULL(0.5)}, ANY, 0.6, "1", 0, clause, NULL, NULL, double_run, NULL},
+     {NOWHERE, FULL(0.5), FULL(0.5)}, ANY, 0.6, "1", 0, clause, .run = double_run},
     {METHOD_ENCODE, "bits", "fp16 by integer arithmetic on the bits, ties to even",
-     {FULL(0.5)}, ANY, 0.7, "1", 0, "", NULL, NULL, bits_run, NULL},
+     {FULL(0.5)}, ANY, 0.7, "1", 0, "", .run = bits_run},
     {METHOD_ENCODE, "table", "fp16 by a table of bases and shifts, truncated",
-     {FULL(1.0)}, ANY, 0.9, "1", 0, "van der Zijp 2008, Fast half float conversions", NULL, half_open, half_run, free},
+     {FULL(1.0)}, ANY, 0.9, "1", 0,
+     "van der Zijp 2008, Fast half float conversions", .run = half_run, .open = half_open, .close = free},
     {METHOD_ENCODE, "engine", "the engine, for each format and rounding",
-     {FULL(0.5), FULL(0.5), FULL(0.5)}, ANY, 8, "1", 16384, "depthprec(3)", NULL, NULL, engine_run,
-     NULL},
+     {FULL(0.5), FULL(0.5), FULL(0.5)}, ANY, 8, "1", 16384, "depthprec(3)", .run = engine_run},
 };
 /* clang-format on */
-const size_t encode_method_count = sizeof encode_methods / sizeof encode_methods[0];
+static const size_t method_count = sizeof methods / sizeof methods[0];
 
 /* Exact: |d - value of the code| in steps of the format around d. d has 24 bits and M at most 24, so d M is a double.
  */
-bool encode_judge(const method_row *row, const dp_setup *setup, const method_inputs *in, const method_outputs *out,
-                  size_t i, method_error *error) {
-    const dp_format *f = &setup->spec.format;
-    double d = (double)in->d[i];
-    uint32_t code = out->code[i];
-    (void)row;
+static bool judge(const method_call *c, size_t i, method_error *error) {
+    const dp_format *f = &c->setup->spec.format;
+    const double d = (double)c->in->d[i];
+    const uint32_t code = c->out->code[i];
     if (code > f->code_max) {
         *error = (method_error){(double)INFINITY, (double)INFINITY, (double)INFINITY};
         return true;
@@ -168,3 +159,23 @@ bool encode_judge(const method_row *row, const dp_setup *setup, const method_inp
     *error = (method_error){off, d > 0 ? off / d : off > 0 ? (double)INFINITY : 0, steps};
     return true;
 }
+
+const method_family_row encode_family = {
+    .name = "encode",
+    .summary = "code of a binary32 window depth",
+    .measure = "steps of the format",
+    .steps = true,
+    .cases = {{"fp16 d3d", "fp16", DP_MAPPING_D3D},
+              {"unorm16 d3d", "unorm16", DP_MAPPING_D3D},
+              {"unorm24 d3d", "unorm24", DP_MAPPING_D3D}},
+    .case_count = 3,
+    .inputs = 65536,
+    .walked = 1024,
+    .per_decade = 2,
+    .windows = true,
+    .methods = methods,
+    .method_count = &method_count,
+    .fill = method_windows,
+    .judge = judge,
+    .limit = limit_codes,
+};

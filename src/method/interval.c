@@ -3,17 +3,15 @@
 #include <math.h>
 
 #include "census/census.h"
-#include "method/claim.h"
-#include "method/method.h"
+#include "method/limit.h"
 #include "method/truth.h"
 
 /* ---- The lattice ------------------------------------------------------------------------------------------------- */
 
-static void rule_run(const dp_setup *setup, const void *state, const method_inputs *in, const method_outputs *out) {
-    const double factor = 1 / (setup->spec.znear * ldexp(1.0, setup->spec.format.bits));
-    (void)state;
-    for (size_t i = 0; i < in->count; i++)
-        out->value[i] = in->z[i] * in->z[i] * factor;
+static void rule_run(const method_call *c) {
+    const double factor = 1 / (c->setup->spec.znear * ldexp(1.0, c->setup->spec.format.bits));
+    for (size_t i = 0; i < c->in->count; i++)
+        c->out->value[i] = c->in->z[i] * c->in->z[i] * factor;
 }
 
 /* dz/dd. */
@@ -22,58 +20,50 @@ static double slope_at(const dp_setup *setup, double z) {
     return setup->spec.ortho ? f - n : z * z * (1 / n - 1 / f);
 }
 
-static void derivative_run(const dp_setup *setup, const void *state, const method_inputs *in,
-                           const method_outputs *out) {
-    const dp_format *f = &setup->spec.format;
+static void derivative_run(const method_call *c) {
+    const dp_format *f = &c->setup->spec.format;
     const double unorm = 1.0 / f->code_max, least = ldexp(1.0, 1 - f->bias - f->mantissa_bits);
-    (void)state;
-    for (size_t i = 0; i < in->count; i++) {
+    for (size_t i = 0; i < c->in->count; i++) {
         double step = unorm;
         if (f->kind == DP_FORMAT_FLOAT) {
-            double d = dp_window(setup, in->z[i]);
+            double d = dp_window(c->setup, c->in->z[i]);
             step = d > 0 ? fmax(least, ldexp(1.0, ilogb(d) - f->mantissa_bits)) : least;
         }
-        out->value[i] = slope_at(setup, in->z[i]) * step;
+        c->out->value[i] = slope_at(c->setup, c->in->z[i]) * step;
     }
 }
 
 /* Half the way from the code before to the code after, subtracting what a reader of the buffer would see. */
-static void neighbours_run(const dp_setup *setup, const void *state, const method_inputs *in,
-                           const method_outputs *out) {
-    const uint32_t most = setup->spec.format.code_max;
-    (void)state;
-    for (size_t i = 0; i < in->count; i++) {
-        uint32_t code = dp_code(setup, in->z[i]), a = code - (code > 0), b = code + (code < most);
-        out->value[i] = fabs(dp_stored(setup, b) - dp_stored(setup, a)) / 2;
+static void neighbours_run(const method_call *c) {
+    const uint32_t most = c->setup->spec.format.code_max;
+    for (size_t i = 0; i < c->in->count; i++) {
+        uint32_t code = dp_code(c->setup, c->in->z[i]), a = code - (code > 0), b = code + (code < most);
+        c->out->value[i] = fabs(dp_stored(c->setup, b) - dp_stored(c->setup, a)) / 2;
     }
 }
 
-static void neighbours32_run(const dp_setup *setup, const void *state, const method_inputs *in,
-                             const method_outputs *out) {
-    const uint32_t most = setup->spec.format.code_max;
-    (void)state;
-    for (size_t i = 0; i < in->count; i++) {
-        uint32_t code = dp_code(setup, in->z[i]), a = code - (code > 0), b = code + (code < most);
-        out->value[i] = (double)fabsf((float)dp_stored(setup, b) - (float)dp_stored(setup, a)) / 2;
+static void neighbours32_run(const method_call *c) {
+    const uint32_t most = c->setup->spec.format.code_max;
+    for (size_t i = 0; i < c->in->count; i++) {
+        uint32_t code = dp_code(c->setup, c->in->z[i]), a = code - (code > 0), b = code + (code < most);
+        c->out->value[i] = (double)fabsf((float)dp_stored(c->setup, b) - (float)dp_stored(c->setup, a)) / 2;
     }
 }
 
-static void cell_run(const dp_setup *setup, const void *state, const method_inputs *in, const method_outputs *out) {
-    (void)state;
-    for (size_t i = 0; i < in->count; i++)
-        out->value[i] = dp_cell_of(setup, dp_code(setup, in->z[i])).width;
+static void cell_run(const method_call *c) {
+    for (size_t i = 0; i < c->in->count; i++)
+        c->out->value[i] = dp_cell_of(c->setup, dp_code(c->setup, c->in->z[i])).width;
 }
 
 /* ---- The pipeline ------------------------------------------------------------------------------------------------ */
 
 /* Of binary32 depths, like what it is held against: without what the surfaces' own depths add. */
-static void bound_run(const dp_setup *setup, const void *state, const method_inputs *in, const method_outputs *out) {
-    (void)state;
-    for (size_t i = 0; i < in->count; i++) {
+static void bound_run(const method_call *c) {
+    for (size_t i = 0; i < c->in->count; i++) {
         dp_budget b;
-        out->value[i] = dp_budget_at(setup, in->z[i], NULL, &b) == DP_OK
-                            ? fmax(b.separation - b.cause[DP_CAUSE_EYE], truth_step(in->z[i]))
-                            : (double)NAN;
+        c->out->value[i] = dp_budget_at(c->setup, c->in->z[i], NULL, &b) == DP_OK
+                               ? fmax(b.separation - b.cause[DP_CAUSE_EYE], truth_step(c->in->z[i]))
+                               : (double)NAN;
     }
 }
 
@@ -83,76 +73,125 @@ static census_request request_of(const dp_setup *setup, double z) {
     return r;
 }
 
-static void simulation_run(const dp_setup *setup, const void *state, const method_inputs *in,
-                           const method_outputs *out) {
-    (void)state;
-    for (size_t i = 0; i < in->count; i++) {
+static void simulation_run(const method_call *c) {
+    for (size_t i = 0; i < c->in->count; i++) {
         census_result r;
-        const census_sample_request q = {.common = request_of(setup, in->z[i]), .count = 256, .seed = i};
-        out->value[i] = census_sample(&q, &r) == CENSUS_DONE ? fmax(r.all.longest, truth_step(in->z[i])) : (double)NAN;
+        const census_sample_request q = {.common = request_of(c->setup, c->in->z[i]), .count = 256, .seed = i};
+        c->out->value[i] =
+            census_sample(&q, &r) == CENSUS_DONE ? fmax(r.all.longest, truth_step(c->in->z[i])) : (double)NAN;
     }
 }
 
-static void census_at(const dp_setup *setup, const void *state, const method_inputs *in, const method_outputs *out) {
-    (void)state;
-    for (size_t i = 0; i < in->count; i++) {
+static void census_at(const method_call *c) {
+    for (size_t i = 0; i < c->in->count; i++) {
         census_result r;
-        const census_request q = request_of(setup, in->z[i]);
-        out->value[i] = census_run(&q, &r) == CENSUS_DONE ? fmax(r.all.longest, truth_step(in->z[i])) : (double)NAN;
+        const census_request q = request_of(c->setup, c->in->z[i]);
+        c->out->value[i] =
+            census_run(&q, &r) == CENSUS_DONE ? fmax(r.all.longest, truth_step(c->in->z[i])) : (double)NAN;
     }
+}
+
+/* ---- Claims for unorm24 with a standard mapping; no formula here has a parameter but neighbours() ---------------- */
+
+static const double steps24 = 0x1p24 - 1;
+
+/* The farthest whole cell reaches from z1 to z1 (1 + this); 2 where the far plane is infinite. */
+static double far_cell(double ratio, double a, double b) {
+    const double g = (ratio - 1) / steps24;
+    (void)a, (void)b;
+    return 1 / (1 / g + 0.5);
+}
+
+static double rule_claim(double ratio, double a, double b) {
+    return (1 + far_cell(ratio, a, b)) / (1 - 1 / ratio) - 1;
+}
+
+/* Of the curve, and of `roundings` of depths next to near, where a cell is the smallest part of its depth. */
+static double neighbours(double ratio, double roundings, double b) {
+    const double g = (ratio - 1) / steps24;
+    (void)b;
+    return 0.75 / (1 / (g * g) + 2 / g) + roundings * steps24 / (1 - 1 / ratio);
+}
+
+/* In the binary32 pipeline. */
+static double bound_claim(double ratio, double a, double b) {
+    (void)a, (void)b;
+    return 2 * (2 + 2 / (1 - 1 / ratio)) + 2 / 3.0 - 1;
 }
 
 /* ---- Rows, cheapest first ---------------------------------------------------------------------------------------- */
 
 enum { PIPELINE_INPUTS = 48 };
-#define EXACT 0x1p-53 /* the difference of two binary32 depths is a double */
+#define EXACT    0x1p-53 /* the difference of two binary32 depths is a double */
+#define SIX      (6 * 0x1p-53)
+#define PIPELINE (METHOD_INFINITE | METHOD_PIPELINE)
 
 /* clang-format off */
-const method_row interval_methods[] = {
+static const method_row methods[] = {
     {METHOD_INTERVAL, "rule-of-thumb", "z^2/(n 2^b)",
-     {FORMULA(claim_rule), NOWHERE}, METHOD_INFINITE | METHOD_WHOLE, 1, "1", 0,
-     "Baker, Learning to love your z-buffer", NULL, NULL, rule_run, NULL},
+     {FORMULA(rule_claim, 0, 0), NOWHERE}, METHOD_INFINITE | METHOD_WHOLE, 1, "1", 0,
+     "Baker, Learning to love your z-buffer", .run = rule_run},
     {METHOD_INTERVAL, "derivative", "dz/dd times the step of the format at d",
-     {FORMULA(claim_first_order), FULL(1 / 3.0 + 0x1p-22)}, METHOD_INFINITE | METHOD_ORTHO | METHOD_WHOLE, 4, "1", 0,
-     "first order of z(d + step) - z(d)", NULL, NULL, derivative_run, NULL},
+     {FORMULA(far_cell, 0, 0), FULL(1 / 3.0 + 0x1p-22)}, METHOD_INFINITE | METHOD_ORTHO | METHOD_WHOLE, 4, "1", 0,
+     "first order of z(d + step) - z(d)", .run = derivative_run},
     {METHOD_INTERVAL, "cell", "the exact cell of the exact code, no subtraction of depths",
      {FULL(20 * 0x1p-53), FULL(20 * 0x1p-53)}, METHOD_INFINITE | METHOD_ORTHO, 50, "1", 0,
-     "depthprec(7)", NULL, NULL, cell_run, NULL},
+     "depthprec(7)", .run = cell_run},
     {METHOD_INTERVAL, "neighbours", "half the difference of the depths that the codes on either side give back, double",
-     {FORMULA(claim_neighbours), UNCLAIMED}, METHOD_ORTHO | METHOD_WHOLE, 55, "1", 0,
-     "", NULL, NULL, neighbours_run, NULL},
+     {FORMULA(neighbours, SIX, 0), UNCLAIMED}, METHOD_ORTHO | METHOD_WHOLE, 55, "1", 0,
+     "", .run = neighbours_run},
     {METHOD_INTERVAL, "neighbours-binary32", "the same with the depths rounded to binary32, as in a shader",
-     {FORMULA(claim_neighbours32), UNCLAIMED}, METHOD_ORTHO | METHOD_WHOLE, 56, "1", 0,
-     "", NULL, NULL, neighbours32_run, NULL},
-    {METHOD_INTERVAL, "bound", "the separation that the binary32 pipeline guarantees, next to the longest interval that is there",
-     {FORMULA(claim_bound), FULL(0x1.01p-40)}, METHOD_INFINITE | METHOD_PIPELINE, 100, "1", PIPELINE_INPUTS,
-     "depthprec(7)", NULL, NULL, bound_run, NULL},
-    {METHOD_INTERVAL, "simulation", "the longest interval from 256 seeded depths of the binary32 pipeline near z: never more than there is",
-     {FULL(1), FULL(EXACT)}, METHOD_INFINITE | METHOD_PIPELINE | METHOD_BELOW, 50000, "samples", PIPELINE_INPUTS,
-     "", NULL, NULL, simulation_run, NULL},
+     {FORMULA(neighbours, METHOD_UNIT + SIX, 0), UNCLAIMED}, METHOD_ORTHO | METHOD_WHOLE, 56, "1", 0,
+     "", .run = neighbours32_run},
+    {METHOD_INTERVAL, "bound",
+     "the separation that the binary32 pipeline guarantees, next to the longest interval that is there",
+     {FORMULA(bound_claim, 0, 0), FULL(0x1.01p-40)}, PIPELINE, 100, "1", PIPELINE_INPUTS,
+     "depthprec(7)", .run = bound_run},
+    {METHOD_INTERVAL, "simulation",
+     "the longest interval from 256 seeded depths of the binary32 pipeline near z: never more than there is",
+     {FULL(1), FULL(EXACT)}, PIPELINE | METHOD_BELOW, 50000, "samples", PIPELINE_INPUTS,
+     "", .run = simulation_run},
     {METHOD_INTERVAL, "census", "every depth of the binary32 pipeline near z",
-     {FULL(EXACT), FULL(EXACT)}, METHOD_INFINITE | METHOD_PIPELINE, 60000, "depths", PIPELINE_INPUTS,
-     "depthprec(7)", NULL, NULL, census_at, NULL},
+     {FULL(EXACT), FULL(EXACT)}, PIPELINE, 60000, "depths", PIPELINE_INPUTS,
+     "depthprec(7)", .run = census_at},
 };
 /* clang-format on */
-const size_t interval_method_count = sizeof interval_methods / sizeof interval_methods[0];
+static const size_t method_count = sizeof methods / sizeof methods[0];
 
-bool interval_judge(const method_row *row, const dp_setup *setup, const method_inputs *in, const method_outputs *out,
-                    size_t i, method_error *error) {
-    double got = out->value[i], want, lo, hi;
+static bool judge(const method_call *c, size_t i, method_error *error) {
+    const dp_setup *setup = c->setup;
+    const double z = c->in->z[i];
+    double want, lo, hi;
     bool cut = false;
-    if ((row->domain & METHOD_PIPELINE) != 0) {
+    if ((c->row->domain & METHOD_PIPELINE) != 0) {
         dp_budget b;
-        if (dp_budget_at(setup, in->z[i], NULL, &b) != DP_OK || !(in->z[i] + b.separation <= setup->spec.zfar))
+        if (dp_budget_at(setup, z, NULL, &b) != DP_OK || !(z + b.separation <= setup->spec.zfar))
             return false; /* nothing in view lies behind it */
-        if (!truth_window(setup, in->z[i], &lo, &hi))
+        if (!truth_window(setup, z, &lo, &hi))
             return false; /* too long for a scan */
-        want = truth_longest(setup, lo, hi, truth_step(in->z[i]));
+        want = truth_longest(setup, lo, hi, truth_step(z));
     } else {
-        want = truth_width(setup, dp_code(setup, in->z[i]), &cut);
+        want = truth_width(setup, dp_code(setup, z), &cut);
     }
-    if (cut && (row->domain & METHOD_WHOLE) != 0)
+    if (cut && (c->row->domain & METHOD_WHOLE) != 0)
         return false;
-    *error = truth_error(row, got, want);
+    *error = truth_error(c->row, c->out->value[i], want);
     return true;
 }
+
+const method_family_row interval_family = {
+    .name = "interval",
+    .summary = "z-fighting interval at an eye depth",
+    .measure = "relative error",
+    .cases = {{"unorm24 d3d", "unorm24", DP_MAPPING_D3D}, {"fp32 reversed", "fp32", DP_MAPPING_REVERSED}},
+    .case_count = 2,
+    .inputs = 4096,
+    .walked = 256,
+    .per_decade = 2,
+    .ortho = true,
+    .methods = methods,
+    .method_count = &method_count,
+    .fill = method_depths,
+    .judge = judge,
+    .limit = limit_depths,
+};

@@ -6,55 +6,52 @@
 
 enum { BLOCK = 1024 };
 
-#define LIMIT(NAME, BODY)                                                                                              \
-    TEXTURE_CLONES void limit_##NAME(const dp_setup *setup, const void *state, const method_inputs *in,                \
-                                     const method_outputs *out) {                                                      \
-        const size_t count = in->count;                                                                                \
-        (void)setup;                                                                                                   \
-        (void)state;                                                                                                   \
-        BODY                                                                                                           \
-    }
-
-LIMIT(depths, {
-    const double *restrict z = in->z;
-    double *restrict value = out->value;
+TEXTURE_CLONES void limit_depths(const method_call *c) {
+    const size_t count = c->in->count;
+    const double *restrict z = c->in->z;
+    double *restrict value = c->out->value;
     for (size_t i = 0; i < count; i++)
         value[i] = -z[i];
-})
+}
 
-LIMIT(ranges, {
-    const double *restrict z = in->z;
-    const double *restrict hi = in->hi;
-    double *restrict value = out->value;
+TEXTURE_CLONES void limit_ranges(const method_call *c) {
+    const size_t count = c->in->count;
+    const double *restrict z = c->in->z, *restrict hi = c->in->hi;
+    double *restrict value = c->out->value;
     for (size_t i = 0; i < count; i++)
         value[i] = hi[i] - z[i];
-})
+}
 
-LIMIT(windows, {
-    const float *restrict d = in->d;
-    float *restrict eye = out->eye;
+TEXTURE_CLONES static void negate(const float *restrict from, float *restrict to, size_t count) {
     for (size_t i = 0; i < count; i++)
-        eye[i] = -d[i];
-})
+        to[i] = -from[i];
+}
 
-LIMIT(codes, {
-    const float *restrict d = in->d;
-    uint32_t *restrict code = out->code;
+void limit_windows(const method_call *c) {
+    negate(c->in->d, c->out->eye, c->in->count);
+}
+
+TEXTURE_CLONES void limit_codes(const method_call *c) {
+    const size_t count = c->in->count;
+    const float *restrict d = c->in->d;
+    uint32_t *restrict code = c->out->code;
     for (size_t i = 0; i < count; i++)
         code[i] = (uint32_t)(int32_t)d[i];
-})
+}
 
 /* One plane in, three out: by blocks, because three streams at the same distance from a page get in each other's way.
  */
-#define PLANES(FROM)                                                                                                   \
-    for (size_t block = 0; block < count; block += BLOCK)                                                              \
-        for (int k = 0; k < 3; k++) {                                                                                  \
-            const float *restrict from = (FROM) + block;                                                               \
-            float *restrict to = out->place[k] + block;                                                                \
-            const size_t some = count - block < BLOCK ? count - block : BLOCK;                                         \
-            for (size_t i = 0; i < some; i++)                                                                          \
-                to[i] = -from[i];                                                                                      \
-        }
+static void planes(const float *from, const method_call *c) {
+    const size_t count = c->in->count;
+    for (size_t at = 0; at < count; at += BLOCK)
+        for (int k = 0; k < 3; k++)
+            negate(from + at, c->out->place[k] + at, count - at < BLOCK ? count - at : BLOCK);
+}
 
-LIMIT(places, {PLANES(in->d)})
-LIMIT(eyes, {PLANES(in->eye)})
+void limit_places(const method_call *c) {
+    planes(c->in->d, c);
+}
+
+void limit_eyes(const method_call *c) {
+    planes(c->in->eye, c);
+}

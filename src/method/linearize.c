@@ -1,17 +1,19 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Eye depth of a binary32 window depth. Constants are formed in double and rounded once, as an engine uploads them. */
-#include "method/linearize.h"
-
 #include <float.h>
 #include <math.h>
+#include <stdlib.h>
 #include <string.h>
 #if defined(__SSE__)
 #include <xmmintrin.h>
 #endif
 
-#include "method/claim.h"
+#include <gsl/gsl_chebyshev.h>
+#include <gsl/gsl_spline.h>
+
 #include "method/estimate.h"
-#include "texture/decode.h"
+#include "method/limit.h"
+#include "method/truth.h"
 
 static bool is_reversed(const dp_setup *setup) {
     return setup->reversed != 0;
@@ -19,37 +21,16 @@ static bool is_reversed(const dp_setup *setup) {
 
 /* ---- The rows of texture/decode.h -------------------------------------------------------------------------------- */
 
-static void decode(const char *name, const dp_setup *setup, const method_inputs *in, const method_outputs *out) {
-    decode_find(name)->run(setup, in->d, out->eye, in->count);
-}
-
-static void unity_run(const dp_setup *setup, const void *state, const method_inputs *in, const method_outputs *out) {
-    (void)state;
-    decode("linear-eye", setup, in, out);
-}
-
-static void complement_unity_run(const dp_setup *setup, const void *state, const method_inputs *in,
-                                 const method_outputs *out) {
-    (void)state;
-    decode("complement", setup, in, out);
-}
-
-static void linear_01_run(const dp_setup *setup, const void *state, const method_inputs *in,
-                          const method_outputs *out) {
-    const float f = (float)setup->spec.zfar;
-    (void)state;
-    decode("linear-01", setup, in, out);
-    for (size_t i = 0; i < in->count; i++)
-        out->eye[i] = f * out->eye[i];
-}
-
-static void linear_01_near_run(const dp_setup *setup, const void *state, const method_inputs *in,
-                               const method_outputs *out) {
-    const float n = (float)setup->spec.znear, depth = (float)(setup->spec.zfar - setup->spec.znear);
-    (void)state;
-    decode("linear-01-near", setup, in, out);
-    for (size_t i = 0; i < in->count; i++)
-        out->eye[i] = n + depth * out->eye[i];
+/* Shares of far, or of the way from near to far, become depths. */
+static void decode_run(const method_call *c) {
+    const decode_row *row = c->row->decode;
+    const dp_spec *spec = &c->setup->spec;
+    const bool of_far = row->quantity == DECODE_01;
+    const float scale = (float)(of_far ? spec->zfar : spec->zfar - spec->znear), base = of_far ? 0 : (float)spec->znear;
+    row->run(c->setup, c->in->d, c->out->eye, c->in->count);
+    if (row->quantity != DECODE_EYE)
+        for (size_t i = 0; i < c->in->count; i++)
+            c->out->eye[i] = base + scale * c->out->eye[i];
 }
 
 /* The reciprocal of x > 0 from its bits, within 12 %, then one Newton step. */
@@ -62,11 +43,10 @@ static float magic_reciprocal(float x) {
     return y * (2.0f - x * y);
 }
 
-static void magic_run(const dp_setup *setup, const void *state, const method_inputs *in, const method_outputs *out) {
-    const zbuffer_params p = zbuffer_params_of(setup);
-    (void)state;
-    for (size_t i = 0; i < in->count; i++)
-        out->eye[i] = magic_reciprocal(p.z * in->d[i] + p.w);
+static void magic_run(const method_call *c) {
+    const zbuffer_params p = zbuffer_params_of(c->setup);
+    for (size_t i = 0; i < c->in->count; i++)
+        c->out->eye[i] = magic_reciprocal(p.z * c->in->d[i] + p.w);
 }
 
 /* ---- n f/(f - d (f - n)) ----------------------------------------------------------------------------------------- */
@@ -81,27 +61,24 @@ static textbook textbook_of(const dp_setup *setup) {
     return is_reversed(setup) ? (textbook){n * f, n, f - n} : (textbook){n * f, f, n - f};
 }
 
-static void textbook_run(const dp_setup *setup, const void *state, const method_inputs *in, const method_outputs *out) {
-    const textbook t = textbook_of(setup);
+static void textbook_run(const method_call *c) {
+    const textbook t = textbook_of(c->setup);
     const float product = (float)t.product, base = (float)t.base, slope = (float)t.slope;
-    (void)state;
-    for (size_t i = 0; i < in->count; i++)
-        out->eye[i] = product / (base + slope * in->d[i]);
+    for (size_t i = 0; i < c->in->count; i++)
+        c->out->eye[i] = product / (base + slope * c->in->d[i]);
 }
 
-static void fused_run(const dp_setup *setup, const void *state, const method_inputs *in, const method_outputs *out) {
-    const textbook t = textbook_of(setup);
+static void fused_run(const method_call *c) {
+    const textbook t = textbook_of(c->setup);
     const float product = (float)t.product, base = (float)t.base, slope = (float)t.slope;
-    (void)state;
-    for (size_t i = 0; i < in->count; i++)
-        out->eye[i] = product / fmaf(slope, in->d[i], base);
+    for (size_t i = 0; i < c->in->count; i++)
+        c->out->eye[i] = product / fmaf(slope, c->in->d[i], base);
 }
 
-static void double_run(const dp_setup *setup, const void *state, const method_inputs *in, const method_outputs *out) {
-    const textbook t = textbook_of(setup);
-    (void)state;
-    for (size_t i = 0; i < in->count; i++)
-        out->eye[i] = (float)(t.product / (t.base + t.slope * (double)in->d[i]));
+static void double_run(const method_call *c) {
+    const textbook t = textbook_of(c->setup);
+    for (size_t i = 0; i < c->in->count; i++)
+        c->out->eye[i] = (float)(t.product / (t.base + t.slope * (double)c->in->d[i]));
 }
 
 /* ---- n f/(n + (1 - d)(f - n)): all terms positive ---------------------------------------------------------------- */
@@ -111,24 +88,21 @@ static float toward_near(bool reversed, float d) {
     return reversed ? d : 1.0f - d;
 }
 
-static void complement_run(const dp_setup *setup, const void *state, const method_inputs *in,
-                           const method_outputs *out) {
-    const double n = setup->spec.znear, f = setup->spec.zfar;
+static void complement_run(const method_call *c) {
+    const double n = c->setup->spec.znear, f = c->setup->spec.zfar;
     const float product = (float)(n * f), base = (float)n, slope = (float)(f - n);
-    const bool reversed = is_reversed(setup);
-    (void)state;
-    for (size_t i = 0; i < in->count; i++)
-        out->eye[i] = product / (base + slope * toward_near(reversed, in->d[i]));
+    const bool reversed = is_reversed(c->setup);
+    for (size_t i = 0; i < c->in->count; i++)
+        c->out->eye[i] = product / (base + slope * toward_near(reversed, c->in->d[i]));
 }
 
-static void newton_run(const dp_setup *setup, const void *state, const method_inputs *in, const method_outputs *out) {
-    const double n = setup->spec.znear, f = setup->spec.zfar;
+static void newton_run(const method_call *c) {
+    const double n = c->setup->spec.znear, f = c->setup->spec.zfar;
     const float product = (float)(n * f), base = (float)n, slope = (float)(f - n);
-    const bool reversed = is_reversed(setup);
-    (void)state;
-    for (size_t i = 0; i < in->count; i++) {
-        const float x = base + slope * toward_near(reversed, in->d[i]), y = estimate_reciprocal(x);
-        out->eye[i] = product * (y * (2.0f - x * y));
+    const bool reversed = is_reversed(c->setup);
+    for (size_t i = 0; i < c->in->count; i++) {
+        const float x = base + slope * toward_near(reversed, c->in->d[i]), y = estimate_reciprocal(x);
+        c->out->eye[i] = product * (y * (2.0f - x * y));
     }
 }
 
@@ -143,17 +117,16 @@ static __m128 newton_four(const newton *c, __m128 d) {
     return _mm_mul_ps(c->product, _mm_mul_ps(y, _mm_sub_ps(_mm_set1_ps(2.0f), _mm_mul_ps(x, y))));
 }
 
-static void rcpps_run(const dp_setup *setup, const void *state, const method_inputs *in, const method_outputs *out) {
-    const double n = setup->spec.znear, f = setup->spec.zfar;
-    const bool reversed = is_reversed(setup);
-    const newton c = {_mm_set1_ps((float)(n * f)), _mm_set1_ps((float)n), _mm_set1_ps((float)(f - n)),
+static void rcpps_run(const method_call *c) {
+    const double n = c->setup->spec.znear, f = c->setup->spec.zfar;
+    const bool reversed = is_reversed(c->setup);
+    const newton k = {_mm_set1_ps((float)(n * f)), _mm_set1_ps((float)n), _mm_set1_ps((float)(f - n)),
                       _mm_set1_ps(reversed ? 0.0f : 1.0f), _mm_set1_ps(reversed ? 1.0f : -1.0f)};
-    (void)state;
     size_t i = 0;
-    for (; i + 4 <= in->count; i += 4)
-        _mm_storeu_ps(out->eye + i, newton_four(&c, _mm_loadu_ps(in->d + i)));
-    for (; i < in->count; i++)
-        out->eye[i] = _mm_cvtss_f32(newton_four(&c, _mm_set1_ps(in->d[i])));
+    for (; i + 4 <= c->in->count; i += 4)
+        _mm_storeu_ps(c->out->eye + i, newton_four(&k, _mm_loadu_ps(c->in->d + i)));
+    for (; i < c->in->count; i++)
+        c->out->eye[i] = _mm_cvtss_f32(newton_four(&k, _mm_set1_ps(c->in->d[i])));
 }
 #else
 #define rcpps_run NULL
@@ -182,119 +155,260 @@ static pair two_product(float a, float b) {
     return (pair){p, ((ah * bh - p) + ah * bl + al * bh) + al * bl};
 }
 
-static void pair_run(const dp_setup *setup, const void *state, const method_inputs *in, const method_outputs *out) {
-    const double n = setup->spec.znear, f = setup->spec.zfar;
+static void pair_run(const method_call *c) {
+    const double n = c->setup->spec.znear, f = c->setup->spec.zfar;
     /* In units of near: then nothing leaves the range of binary32, whatever the scene's units are. */
     const pair slope = pair_of(f / n - 1), product = pair_of(f);
-    const float from = is_reversed(setup) ? 0.0f : 1.0f, sign = is_reversed(setup) ? 1.0f : -1.0f;
-    (void)state;
-    for (size_t i = 0; i < in->count; i++) {
-        pair q = two_sum(from, sign * in->d[i]);
+    const float from = is_reversed(c->setup) ? 0.0f : 1.0f, sign = is_reversed(c->setup) ? 1.0f : -1.0f;
+    for (size_t i = 0; i < c->in->count; i++) {
+        pair q = two_sum(from, sign * c->in->d[i]);
         pair m = two_product(slope.hi, q.hi);
         m.lo += slope.hi * q.lo + slope.lo * q.hi;
         pair x = two_sum(1.0f, m.hi);
         x.lo += m.lo;
         float z = product.hi / x.hi;
         pair back = two_product(z, x.hi);
-        out->eye[i] = z + (((product.hi - back.hi) - back.lo) + (product.lo - z * x.lo)) / x.hi;
+        c->out->eye[i] = z + (((product.hi - back.hi) - back.lo) + (product.lo - z * x.lo)) / x.hi;
     }
 }
 
 /* As the engine has it: n/(phi d + q), which also has a limit for an infinite far plane. */
-static void phi_run(const dp_setup *setup, const void *state, const method_inputs *in, const method_outputs *out) {
-    const double n = setup->spec.znear, phi = n / setup->spec.zfar;
-    const bool reversed = is_reversed(setup);
-    (void)state;
-    for (size_t i = 0; i < in->count; i++) {
-        double d = (double)in->d[i], q = 1 - d;
-        out->eye[i] = (float)(n / (reversed ? phi * q + d : phi * d + q));
+static void phi_run(const method_call *c) {
+    const double n = c->setup->spec.znear, phi = n / c->setup->spec.zfar;
+    const bool reversed = is_reversed(c->setup);
+    for (size_t i = 0; i < c->in->count; i++) {
+        double d = (double)c->in->d[i], q = 1 - d;
+        c->out->eye[i] = (float)(n / (reversed ? phi * q + d : phi * d + q));
     }
+}
+
+/* ---- What is worked out before: over [0, 1] in equal steps of d; z(d) has a pole just beyond its far end --------- */
+
+enum { TABLE = 65536, KNOTS = 4097, ORDER = 40 };
+
+typedef struct table {
+    float z[TABLE + 1]; /* the last once more, so that the end needs no test */
+} table;
+
+static void *table_open(const dp_setup *setup) {
+    table *t = malloc(sizeof *t);
+    for (int i = 0; t != NULL && i < TABLE; i++) {
+        double last = TABLE - 1;
+        t->z[i] = (float)dp_eye(setup, i / last, (last - i) / last);
+    }
+    if (t != NULL)
+        t->z[TABLE] = t->z[TABLE - 1];
+    return t;
+}
+
+static void table_nearest(const method_call *c) {
+    const table *t = c->state;
+    for (size_t i = 0; i < c->in->count; i++)
+        c->out->eye[i] = t->z[(int)(c->in->d[i] * (TABLE - 1) + 0.5f)];
+}
+
+static void table_linear(const method_call *c) {
+    const table *t = c->state;
+    for (size_t i = 0; i < c->in->count; i++) {
+        float at = c->in->d[i] * (TABLE - 1);
+        int k = (int)at;
+        float part = at - (float)k;
+        c->out->eye[i] = t->z[k] + part * (t->z[k + 1] - t->z[k]);
+    }
+}
+
+typedef struct spline {
+    gsl_spline *curve;
+    gsl_interp_accel *memory;
+} spline;
+
+static void spline_close(void *state) {
+    spline *s = state;
+    gsl_spline_free(s->curve);
+    gsl_interp_accel_free(s->memory);
+    free(s);
+}
+
+static void *spline_open(const dp_setup *setup) {
+    spline *s = calloc(1, sizeof *s);
+    double *x = malloc(2 * KNOTS * sizeof *x), *y = x + KNOTS;
+    bool good = s != NULL && x != NULL;
+    method_start();
+    for (int i = 0; good && i < KNOTS; i++) {
+        double last = KNOTS - 1;
+        x[i] = i / last;
+        y[i] = dp_eye(setup, x[i], (last - i) / last);
+    }
+    if (good) {
+        s->curve = gsl_spline_alloc(gsl_interp_cspline, KNOTS);
+        s->memory = gsl_interp_accel_alloc();
+        good = s->curve != NULL && s->memory != NULL && gsl_spline_init(s->curve, x, y, KNOTS) == 0;
+    }
+    if (!good && s != NULL) {
+        spline_close(s);
+        s = NULL;
+    }
+    free(x);
+    return s;
+}
+
+static void spline_run(const method_call *c) {
+    const spline *s = c->state;
+    for (size_t i = 0; i < c->in->count; i++)
+        c->out->eye[i] = (float)gsl_spline_eval(s->curve, (double)c->in->d[i], s->memory);
+}
+
+static double eye_of(double d, void *setup) {
+    return dp_eye(setup, d, 1 - d);
+}
+
+static void *chebyshev_open(const dp_setup *setup) {
+    method_start();
+    gsl_cheb_series *c = gsl_cheb_alloc(ORDER);
+    const gsl_function f = {eye_of, (void *)setup};
+    if (c != NULL)
+        gsl_cheb_init(c, &f, 0, 1);
+    return c;
+}
+
+static void chebyshev_close(void *state) {
+    gsl_cheb_free(state);
+}
+
+static void chebyshev_run(const method_call *c) {
+    for (size_t i = 0; i < c->in->count; i++)
+        c->out->eye[i] = (float)gsl_cheb_eval(c->state, (double)c->in->d[i]);
+}
+
+/* ---- Claims ------------------------------------------------------------------------------------------------------ */
+
+/* The square of the error, at most 0.05051, of a reciprocal from the bits of x. */
+#define MAGIC 2.552e-3
+
+static double magic_claim(double ratio, double a, double b) {
+    const double unity = method_cancelled(ratio, 3, 0);
+    (void)a, (void)b;
+    return unity + MAGIC * (1 + unity);
+}
+
+static double double_claim(double ratio, double a, double b) {
+    const double e = (2 * ratio + 1) * 0x1p-53 * (1 + 0x1p-20);
+    (void)a, (void)b;
+    return (e < 1 ? e / (1 - e) : (double)INFINITY) + METHOD_UNIT;
+}
+
+/* The others interpolate a curve with a pole. Here the roundings of d times 65535 and of the sum with 1/2 move the
+ * place by up to 2^-9 of a step. */
+static double nearest_claim(double ratio, double a, double b) {
+    (void)a, (void)b;
+    return (0.5 + 0x1p-9) * (ratio - 1) / (TABLE - 1) + METHOD_UNIT;
+}
+
+static double linear_claim(double ratio, double a, double b) {
+    const double g = (ratio - 1) / (TABLE - 1);
+    (void)a, (void)b;
+    return g / (4 * (1 / g + 1)) + 0x1p-9 * g + 2 * METHOD_UNIT * (1 + g);
+}
+
+static double spline_claim(double ratio, double a, double b) {
+    const double g = (ratio - 1) / (KNOTS - 1);
+    (void)a, (void)b;
+    return 1.25 * g / (10 / g + 4.9) + METHOD_UNIT * (1 + g / 4);
+}
+
+static double chebyshev_claim(double ratio, double a, double b) {
+    const double root = sqrt(ratio);
+    const double error = 1 / cosh((ORDER + 1) * log1p(2 / (root - 1)));
+    (void)a, (void)b;
+    return error + METHOD_UNIT * (1 + error) + 0x1p-36;
 }
 
 /* ---- Rows, cheapest first ---------------------------------------------------------------------------------------- */
 
 /* Claims of whole roundings are derived: one for each that a result passes through, relative, where no term cancels. */
-#define UNIT CLAIM_UNIT
+#define UNIT METHOD_UNIT
 static const char gsl[] = "GNU Scientific Library";
 
 /* clang-format off */
-const method_row linearize_methods[] = {
+#define CANCELLED(a, b)       FORMULA_TO(METHOD_CANCELLED, method_cancelled, a, b)
+#define CANCELLED_FUSED(a, b) FORMULA_TO(METHOD_CANCELLED_FUSED, method_cancelled, a, b)
+static const method_row methods[] = {
     {METHOD_LINEARIZE, "magic", "1/(Z d + W), the reciprocal from the bits of x and one Newton step",
-     {FORMULA_TO(claim_magic, CLAIM_CANCELLED), FULL(CLAIM_MAGIC + 7 * UNIT)}, 0, 0.17, "1", 0,
-     "the reciprocal by subtraction of bit patterns is folklore", NULL, NULL, magic_run, NULL},
+     {FORMULA_TO(METHOD_CANCELLED, magic_claim, 0, 0), FULL(MAGIC + 7 * UNIT)}, 0, 0.17, "1", 0,
+     "the reciprocal by subtraction of bit patterns is folklore", .run = magic_run},
     {METHOD_LINEARIZE, "unity", "1/(Z d + W) in binary32, LinearEyeDepth of Unity with _ZBufferParams",
-     {FORMULA_TO(claim_unity, CLAIM_CANCELLED), FULL(4 * UNIT)}, METHOD_INFINITE, 0.22, "1", 0,
-     "UnityCG.cginc", NULL, NULL, unity_run, NULL},
+     {CANCELLED(3, 0), FULL(4 * UNIT)}, METHOD_INFINITE, 0.22, "1", 0,
+     "UnityCG.cginc", .run = decode_run, .decode = &decode_rows[DECODE_LINEAR_EYE]},
     {METHOD_LINEARIZE, "complement-unity",
      "1/(Z (1 - d) + 1/f), as Unity but of the complement; reversed it is LinearEyeDepth itself",
      {FULL(5 * UNIT), NOWHERE}, METHOD_INFINITE, 0.23, "1", 0,
-     "depthprec(7)", NULL, NULL, complement_unity_run, NULL},
+     "depthprec(7)", .run = decode_run, .decode = &decode_rows[DECODE_COMPLEMENT]},
     {METHOD_LINEARIZE, "linear-01", "f times Linear01Depth, 1/(X d + Y), in binary32",
-     {FORMULA_TO(claim_linear_01, CLAIM_CANCELLED_FUSED), FULL(6 * UNIT)}, 0, 0.29, "1", 0,
-     "UnityCG.cginc", NULL, NULL, linear_01_run, NULL},
+     {CANCELLED_FUSED(2, 2), FULL(6 * UNIT)}, 0, 0.29, "1", 0,
+     "UnityCG.cginc", .run = decode_run, .decode = &decode_rows[DECODE_LINEAR_01]},
     {METHOD_LINEARIZE, "linear-01-near",
      "n + (f - n) times Linear01DepthFromNear, d/(X d + Y) or (1 - d)/(X d + Y), in binary32",
-     {FORMULA_TO(claim_linear_01_near, CLAIM_CANCELLED_FUSED), FULL(8 * UNIT)}, 0, 0.29, "1", 0,
-     "the Core package's Common.hlsl", NULL, NULL, linear_01_near_run, NULL},
+     {CANCELLED_FUSED(2, 4), FULL(8 * UNIT)}, 0, 0.29, "1", 0,
+     "the Core package's Common.hlsl", .run = decode_run, .decode = &decode_rows[DECODE_LINEAR_01_NEAR]},
     {METHOD_LINEARIZE, "textbook", "n f/(f - d (f - n)) in binary32",
-     {FORMULA_TO(claim_textbook, CLAIM_CANCELLED), FULL(5 * UNIT)}, 0, 0.23, "1", 0,
-     "the inverse of the projection, in most tutorials", NULL, NULL, textbook_run, NULL},
+     {CANCELLED(3, 1), FULL(5 * UNIT)}, 0, 0.23, "1", 0,
+     "the inverse of the projection, in most tutorials", .run = textbook_run},
     {METHOD_LINEARIZE, "complement", "n f/(n + (1 - d)(f - n)) in binary32: the same number, and no cancellation",
      {FULL(6 * UNIT), FULL(5 * UNIT)}, 0, 0.24, "1", 0,
-     "depthprec(7)", NULL, NULL, complement_run, NULL},
+     "depthprec(7)", .run = complement_run},
     {METHOD_LINEARIZE, "complement-newton",
      "n f/(n + (1 - d)(f - n)) in binary32, the reciprocal as estimated by the processor and one Newton step",
      {FULL(10.75 * UNIT), FULL(9.75 * UNIT)}, 0, 0.26, "1", 0,
-     "RCPPS: at most 1.5 x 2^-12 relative, on every processor (Intel SDM, AMD APM)", NULL, NULL, newton_run, NULL},
+     "RCPPS: at most 1.5 x 2^-12 relative, on every processor (Intel SDM, AMD APM)", .run = newton_run,
+     .timed = rcpps_run},
     {METHOD_LINEARIZE, "table-nearest", "the nearest of 65536 depths in equal steps of d, binary32",
-     {FORMULA(claim_table_nearest), FORMULA(claim_table_nearest)}, 0, 0.6, "1", 0,
-     "", NULL, table_open, table_nearest, table_close},
+     {FORMULA(nearest_claim, 0, 0), FORMULA(nearest_claim, 0, 0)}, 0, 0.6, "1", 0,
+     "", .run = table_nearest, .open = table_open, .close = free},
     {METHOD_LINEARIZE, "double", "n f/(f - d (f - n)) in double, rounded to binary32",
-     {FORMULA(claim_double), FULL(UNIT)}, 0, 0.58, "1", 0,
-     "", NULL, NULL, double_run, NULL},
+     {FORMULA(double_claim, 0, 0), FULL(UNIT)}, 0, 0.58, "1", 0,
+     "", .run = double_run},
     {METHOD_LINEARIZE, "phi-double", "n/(phi d + q) in double, rounded to binary32: what the engine does",
      {FULL(UNIT), FULL(UNIT)}, METHOD_INFINITE, 0.59, "1", 0,
-     "depthprec(7)", NULL, NULL, phi_run, NULL},
+     "depthprec(7)", .run = phi_run},
     {METHOD_LINEARIZE, "table-linear", "between two of 65536 depths in equal steps of d, binary32",
-     {FORMULA(claim_table_linear), FORMULA(claim_table_linear)}, 0, 1.1, "1", 0,
-     "", NULL, table_open, table_linear, table_close},
+     {FORMULA(linear_claim, 0, 0), FORMULA(linear_claim, 0, 0)}, 0, 1.1, "1", 0,
+     "", .run = table_linear, .open = table_open, .close = free},
     {METHOD_LINEARIZE, "pair", "the complement form with pairs of binary32 numbers, rounded once",
      {FULL(UNIT + 0x1p-41), FULL(UNIT + 0x1p-41)}, 0, 1.4, "1", 0,
-     "Dekker 1971, A floating-point technique for extending the available precision", NULL, NULL, pair_run, NULL},
+     "Dekker 1971, A floating-point technique for extending the available precision", .run = pair_run},
     {METHOD_LINEARIZE, "fused", "n f/(f - d (f - n)) in binary32, product and difference in one operation",
-     {FORMULA_TO(claim_fused, CLAIM_CANCELLED_FUSED), FULL(4 * UNIT)}, 0, 2.2, "1", 0,
-     "", NULL, NULL, fused_run, NULL},
+     {CANCELLED_FUSED(2, 2), FULL(4 * UNIT)}, 0, 2.2, "1", 0,
+     "", .run = fused_run},
     {METHOD_LINEARIZE, "spline", "cubic spline through 4097 depths in equal steps of d",
-     {FORMULA(claim_spline), FORMULA(claim_spline)}, 0, 52, "1", 16384,
-     gsl, NULL, spline_open, spline_run, spline_close},
+     {FORMULA(spline_claim, 0, 0), FORMULA(spline_claim, 0, 0)}, 0, 52, "1", 16384,
+     gsl, .run = spline_run, .open = spline_open, .close = spline_close},
     {METHOD_LINEARIZE, "chebyshev", "Chebyshev series of order 40 over d",
-     {FORMULA(claim_chebyshev), FORMULA(claim_chebyshev)}, 0, 50, "1", 16384,
-     gsl, NULL, chebyshev_open, chebyshev_run, chebyshev_close},
+     {FORMULA(chebyshev_claim, 0, 0), FORMULA(chebyshev_claim, 0, 0)}, 0, 50, "1", 16384,
+     gsl, .run = chebyshev_run, .open = chebyshev_open, .close = chebyshev_close},
 };
 /* clang-format on */
-const size_t linearize_method_count = sizeof linearize_methods / sizeof linearize_methods[0];
+static const size_t method_count = sizeof methods / sizeof methods[0];
 
-method_run *linearize_timed(const method_row *row) {
-    return row->run == newton_run ? rcpps_run : NULL;
+/* Beyond binary32 an exact depth lies next to an infinite far plane only. */
+static bool judge(const method_call *c, size_t i, method_error *error) {
+    const double d = (double)c->in->d[i], want = dp_eye(c->setup, d, 1 - d);
+    *error = truth_off((double)c->out->eye[i], want, truth_step(want));
+    return !(want > (double)FLT_MAX) || isinf(want);
 }
 
-bool linearize_judge(const method_row *row, const dp_setup *setup, const method_inputs *in, const method_outputs *out,
-                     size_t i, method_error *error) {
-    double d = (double)in->d[i], want = dp_eye(setup, d, 1 - d), got = (double)out->eye[i];
-    (void)row;
-    if (want > (double)FLT_MAX && !isinf(want)) /* beyond binary32: next to an infinite far plane only */
-        return false;
-    double off = got == want ? 0 : fabs(got - want); /* both infinite: right */
-    if (!(off < (double)INFINITY))
-        off = (double)INFINITY;
-    float nearest = (float)want;
-    double unit = (double)nextafterf(nearest, INFINITY) - (double)nearest;
-    *error = (method_error){off,
-                            off == 0     ? 0
-                            : isinf(off) ? off
-                                         : off / want,
-                            off == 0     ? 0
-                            : isinf(off) ? off
-                                         : off / unit};
-    return true;
-}
+const method_family_row linearize_family = {
+    .name = "linearize",
+    .summary = "eye depth of a binary32 window depth",
+    .measure = "relative error",
+    .cases = {{"fp32 d3d", "fp32", DP_MAPPING_D3D}, {"fp32 reversed", "fp32", DP_MAPPING_REVERSED}},
+    .case_count = 2,
+    .inputs = 65536,
+    .walked = 1024,
+    .per_decade = 2,
+    .windows = true,
+    .methods = methods,
+    .method_count = &method_count,
+    .fill = method_windows,
+    .judge = judge,
+    .limit = limit_windows,
+};

@@ -15,6 +15,9 @@
 #include <stdint.h>
 
 #include "depthprec/depthprec.h"
+#include "texture/decode.h"
+#include "texture/normal.h"
+#include "texture/position.h"
 
 typedef enum method_family {
     METHOD_INTERVAL = 0, /**< eye depth -> z-fighting interval */
@@ -26,7 +29,15 @@ typedef enum method_family {
     METHOD_FAMILY_COUNT
 } method_family;
 
-enum { METHOD_CASES = 3 };
+enum {
+    METHOD_CASES = 3,
+    METHOD_STRIP = 64, /**< normal: pixels of a strip, and the eye depths of it with all that is looked at around it */
+    METHOD_STRIP_LINE = METHOD_STRIP + 2 * NORMAL_REACH,
+    METHOD_STRIP_EYES = METHOD_STRIP_LINE * (2 * NORMAL_REACH + 1)
+};
+
+/** Half the distance of binary32 numbers around 1: the largest relative error of one rounding. */
+#define METHOD_UNIT 0x1p-24
 
 /** The far/near that claims and walks speak of. */
 #define METHOD_RATIO_LO 10.0
@@ -43,18 +54,19 @@ enum { METHOD_CASES = 3 };
  *  rises, so that its worst over a span is at an end of the span; it may be INFINITY.
  */
 typedef struct method_claim {
-    double worst; /**< in the family's measure; times formula(far/near) where there is one */
+    double worst; /**< in the family's measure; times formula(far/near, a, b) where there is one */
     double ratio_lo, ratio_hi;
-    double (*formula)(double ratio); /**< null: the same throughout */
+    double (*formula)(double ratio, double a, double b); /**< null: the same throughout */
+    double a, b;                                         /**< what the formula says they are */
 } method_claim;
 
 /* clang-format off */
-#define FULL(worst)         {(worst), METHOD_RATIO_LO, METHOD_RATIO_HI, NULL}
-#define UP_TO(worst, ratio) {(worst), METHOD_RATIO_LO, (ratio), NULL}
-#define FORMULA(f)          {1, METHOD_RATIO_LO, METHOD_RATIO_HI, (f)}
-#define FORMULA_TO(f, ratio) {1, METHOD_RATIO_LO, (ratio), (f)}
-#define NOWHERE             {0, 0, 0, NULL}
-#define UNCLAIMED           {(double)__builtin_nanf(""), METHOD_RATIO_LO, METHOD_RATIO_HI, NULL}
+#define FULL(worst)          {(worst), METHOD_RATIO_LO, METHOD_RATIO_HI, NULL, 0, 0}
+#define UP_TO(worst, ratio)  {(worst), METHOD_RATIO_LO, (ratio), NULL, 0, 0}
+#define FORMULA(f, a, b)     {1, METHOD_RATIO_LO, METHOD_RATIO_HI, (f), (a), (b)}
+#define FORMULA_TO(ratio, f, a, b) {1, METHOD_RATIO_LO, (ratio), (f), (a), (b)}
+#define NOWHERE              {0, 0, 0, NULL, 0, 0}
+#define UNCLAIMED            {(double)__builtin_nanf(""), METHOD_RATIO_LO, METHOD_RATIO_HI, NULL, 0, 0}
 /* clang-format on */
 
 /** Where else a claim holds, or does not. */
@@ -75,7 +87,7 @@ typedef struct method_inputs {
     double *hi;    /**< worst: the far ends */
     float *d;      /**< linearize, encode, position: window depths in [0, 1] */
     double *place; /**< position: the exact places as seen from the camera, world axes, three numbers each */
-    float *eye;    /**< normal: see normal.h */
+    float *eye;    /**< normal: METHOD_STRIP_EYES for each strip, line by line */
 } method_inputs;
 
 /** What they give back. */
@@ -86,9 +98,20 @@ typedef struct method_outputs {
     float *place[3]; /**< position: world coordinates; normal: unit vectors */
 } method_outputs;
 
-typedef void method_run(const dp_setup *setup, const void *state, const method_inputs *in, const method_outputs *out);
+typedef struct method_row method_row;
 
-typedef struct method_row {
+/** A method at work on a set-up. */
+typedef struct method_call {
+    const method_row *row;
+    const dp_setup *setup;
+    const void *state; /**< what the row's open() gave */
+    const method_inputs *in;
+    const method_outputs *out;
+} method_call;
+
+typedef void method_run(const method_call *call);
+
+struct method_row {
     method_family family;
     const char *name;
     const char *note;
@@ -98,12 +121,21 @@ typedef struct method_row {
     const char *cost_class; /**< what the cost grows with: "1", "depths", "codes" */
     size_t limit;           /**< most inputs that are worth the time; 0 for no limit */
     const char *source;
-    bool (*available)(void); /**< null: on every processor */
+    method_run *run;
     /** Prepares a set-up; null when there is nothing to prepare. @return null when out of memory */
     void *(*open)(const dp_setup *setup);
-    method_run *run;
     void (*close)(void *state);
-} method_row;
+    /**
+     * What bench times in place of run: the processor's instruction where run is a model of it, because of an
+     * instruction that promises an error, not bits, each maker has another. It keeps the row's claims. Null: run.
+     */
+    method_run *timed;
+    bool (*available)(void); /**< null: on every processor */
+    /** What is measured, where it is a row of the room texture. */
+    const decode_row *decode;
+    const position_row *position;
+    const normal_row *normal;
+};
 
 /** How far an answer is off. */
 typedef struct method_error {
@@ -134,21 +166,11 @@ typedef struct method_family_row {
     const method_row *methods;
     /** Writes inputs: those of the stress list first, then seeded ones. */
     void (*fill)(const dp_setup *setup, method_inputs *in);
-    /** The error of answer i; false where the method's domain leaves that input out. */
-    bool (*judge)(const method_row *row, const dp_setup *setup, const method_inputs *in, const method_outputs *out,
-                  size_t i, method_error *error);
+    /** The error of answer i of a call; false where the method's domain leaves that input out. */
+    bool (*judge)(const method_call *call, size_t i, method_error *error);
     /** What no method can beat: run() of one that does nothing but move the same bytes. See limit.h. */
     method_run *limit;
-    /**
-     * What bench times in place of a row's run: the processor's instruction where run is a model of it, because of an
-     * instruction that promises an error, not bits, each maker has another. It keeps the row's claims. Null, or
-     * returns null: run itself.
-     */
-    method_run *(*timed)(const method_row *row);
 } method_family_row;
-
-/** The row's instruction, or null where its run is what is timed. */
-method_run *method_timed(const method_row *row);
 
 /** The families; null beyond the last. */
 const method_family_row *method_family_get(size_t index);
@@ -164,7 +186,7 @@ static inline bool method_speaks(const method_row *row, size_t which) {
 
 /** A claim at one far/near; NaN where nothing is claimed. */
 static inline double method_claim_at(const method_claim *claim, double ratio) {
-    return claim->formula != NULL ? claim->worst * claim->formula(ratio) : claim->worst;
+    return claim->formula != NULL ? claim->worst * claim->formula(ratio, claim->a, claim->b) : claim->worst;
 }
 
 /** Its worst for far/near from lo to hi. */
@@ -189,32 +211,24 @@ void method_start(void);
 bool method_arrays(size_t count, method_inputs *in, method_outputs *out);
 void method_arrays_free(method_inputs *in, method_outputs *out);
 
-/** The stress inputs and then seeded ones, `count` in all. */
-void method_depths(const dp_setup *setup, double *z, size_t count);
-void method_windows(const dp_setup *setup, float *d, size_t count);
+/** The stress inputs and then seeded ones: eye depths, and window depths. */
+void method_depths(const dp_setup *setup, method_inputs *in);
+void method_windows(const dp_setup *setup, method_inputs *in);
+
+/** How far depths go in which an infinite far plane is left out: that many times near. */
+#define METHOD_INFINITE_FAR 1e6
 
 /** Number i of a seeded sequence, in [0, 1): the same everywhere and always. */
 double method_unit(uint64_t seed, uint64_t i);
 
-extern const method_row interval_methods[], linearize_methods[], encode_methods[], worst_methods[], position_methods[],
-    normal_methods[];
-extern const size_t interval_method_count, linearize_method_count, encode_method_count, worst_method_count,
-    position_method_count, normal_method_count;
-bool interval_judge(const method_row *, const dp_setup *, const method_inputs *, const method_outputs *, size_t i,
-                    method_error *);
-method_run *linearize_timed(const method_row *);
-bool linearize_judge(const method_row *, const dp_setup *, const method_inputs *, const method_outputs *, size_t i,
-                     method_error *);
-bool encode_judge(const method_row *, const dp_setup *, const method_inputs *, const method_outputs *, size_t i,
-                  method_error *);
-bool worst_judge(const method_row *, const dp_setup *, const method_inputs *, const method_outputs *, size_t i,
-                 method_error *);
-bool normal_judge(const method_row *, const dp_setup *, const method_inputs *, const method_outputs *, size_t i,
-                  method_error *);
-bool position_judge(const method_row *, const dp_setup *, const method_inputs *, const method_outputs *, size_t i,
-                    method_error *);
+/** 1/x where x has the relative error (a far/near + b) METHOD_UNIT, and what products of roundings add to it: what is
+ *  left where f cancels against d (f - n). INFINITY where nothing is left. */
+double method_cancelled(double ratio, double a, double b);
+/** Where half of the divisor may be error, and the claims on binary32 arithmetic have grown to 1. */
+#define METHOD_CANCELLED       (0x1p24 / 6)
+#define METHOD_CANCELLED_FUSED (0x1p24 / 4)
 
-/** Window depths, one for each pixel of some lines of an image, and their exact places. */
-void position_fill(const dp_setup *setup, method_inputs *in);
+extern const method_family_row interval_family, linearize_family, encode_family, worst_family, position_family,
+    normal_family;
 
 #endif

@@ -1,28 +1,19 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Normals from depth: the methods of texture/normal.h on planes in the format of a case. Errors are angles: relative is
- * in radians, which is the relative error of the unit vector, absolute in degrees, ulp in units of 2^-24. */
-#include "method/normal.h"
-
+/*
+ * The methods of texture/normal.h on slanted planes, stored in the format of a case and read back. Inputs come in
+ * strips of METHOD_STRIP pixels of a 1920 x 1080 image with a vertical field of view of 60 degrees, each strip with a
+ * plane and a place in the image of its own, and with the pixels around it. Planes are slanted by up to 70 degrees from
+ * the line of sight and lie between near and far as far as the methods look. Errors are angles: relative is in radians,
+ * which is the relative error of the unit vector, absolute in degrees, ulp in units of 2^-24.
+ */
 #include <math.h>
 #include <stdlib.h>
 
-#include "texture/normal.h"
+#include "method/limit.h"
 
-enum {
-    WIDTH = 1920,
-    HEIGHT = 1080,
-    LINE = METHOD_STRIP + 2 * NORMAL_REACH,
-    LINES = 2 * NORMAL_REACH + 1,
-    BLOCK = LINE * LINES
-};
+enum { WIDTH = 1920, HEIGHT = 1080, LINE = METHOD_STRIP_LINE, LINES = METHOD_STRIP_EYES / LINE };
 
-static const double PI = 3.14159265358979323846;
-static const double STEEPEST = 70;  /* degrees */
-static const double infinite = 1e6; /* where an infinite far plane is cut, in units of near */
-
-size_t normal_eyes(size_t count) {
-    return (count + METHOD_STRIP - 1) / METHOD_STRIP * BLOCK;
-}
+static const double STEEPEST = 70; /* degrees */
 
 /* ---- Planes ------------------------------------------------------------------------------------------------------ */
 
@@ -47,8 +38,8 @@ static strip strip_of(size_t index) {
 
 /* Planes that face the line of sight in turn with slanted ones. */
 static void normal_of(const texture_camera *camera, const strip *s, size_t index, double normal[3]) {
-    const double tilt = index % 3 == 0 ? 0 : STEEPEST * PI / 180 * method_unit(23, index);
-    const double turn = 2 * PI * method_unit(24, index);
+    const double tilt = index % 3 == 0 ? 0 : STEEPEST * M_PI / 180 * method_unit(23, index);
+    const double turn = 2 * M_PI * method_unit(24, index);
     const double x = camera_slope_x(camera, s->column + METHOD_STRIP / 2), y = camera_slope_y(camera, s->row);
     /* The line of sight (x, y, 1) and two directions across it. */
     const double length = sqrt(x * x + y * y + 1), aside = sqrt(x * x + 1);
@@ -61,7 +52,7 @@ static void normal_of(const texture_camera *camera, const strip *s, size_t index
 /* A depth for the middle of a strip with which all of it is between the planes: at far, at near, or by chance. */
 static double depth_of(const dp_setup *setup, const texture_camera *camera, const strip *s, const double normal[3],
                        size_t index) {
-    const double n = setup->spec.znear, f = isinf(setup->spec.zfar) ? n * infinite : setup->spec.zfar;
+    const double n = setup->spec.znear, f = isinf(setup->spec.zfar) ? n * METHOD_INFINITE_FAR : setup->spec.zfar;
     const double column = s->column + METHOD_STRIP / 2;
     const normal_plane plane = normal_plane_at(camera, column, s->row, 1, normal);
     double nearest = 1, farthest = 1; /* at the corners, as 1/z is linear */
@@ -76,7 +67,7 @@ static double depth_of(const dp_setup *setup, const texture_camera *camera, cons
     return index % 4 == 0 ? hi : index % 4 == 1 ? lo : lo * pow(hi / lo, share);
 }
 
-void normal_fill(const dp_setup *setup, method_inputs *in) {
+static void fill(const dp_setup *setup, method_inputs *in) {
     texture_camera camera;
     view_of(setup, &camera);
     for (size_t k = 0; k * METHOD_STRIP < in->count; k++) {
@@ -91,24 +82,23 @@ void normal_fill(const dp_setup *setup, method_inputs *in) {
                                                      (double)s.row + j - NORMAL_REACH);
                 const double z = fmin(fmax(at, setup->spec.znear), setup->spec.zfar);
                 const size_t pixel = k * METHOD_STRIP + (size_t)(i - NORMAL_REACH);
-                in->eye[k * BLOCK + (size_t)(j * LINE + i)] = (float)dp_stored(setup, dp_code(setup, z));
+                in->eye[k * METHOD_STRIP_EYES + (size_t)(j * LINE + i)] = (float)dp_stored(setup, dp_code(setup, z));
                 if (j == NORMAL_REACH && i >= NORMAL_REACH && i < NORMAL_REACH + METHOD_STRIP && pixel < in->count)
                     in->z[pixel] = z;
             }
     }
 }
 
-bool normal_judge(const method_row *row, const dp_setup *setup, const method_inputs *in, const method_outputs *out,
-                  size_t i, method_error *error) {
+static bool judge(const method_call *c, size_t i, method_error *error) {
     texture_camera camera;
-    (void)row, (void)in;
-    view_of(setup, &camera);
+    view_of(c->setup, &camera);
     const strip s = strip_of(i / METHOD_STRIP);
     double normal[3];
     normal_of(&camera, &s, i / METHOD_STRIP, normal);
-    const double got[3] = {(double)out->place[0][i], (double)out->place[1][i], (double)out->place[2][i]};
+    float *const *place = c->out->place;
+    const double got[3] = {(double)place[0][i], (double)place[1][i], (double)place[2][i]};
     const double angle = normal_angle(normal, got);
-    *error = (method_error){angle * 180 / PI, angle, angle * 0x1p24};
+    *error = (method_error){angle * 180 / M_PI, angle, angle * 0x1p24};
     return true;
 }
 
@@ -129,95 +119,79 @@ static void *open_view(const dp_setup *setup) {
     return p;
 }
 
-static void run_strips(const normal_row *method, const prepared *p, const method_inputs *in,
-                       const method_outputs *out) {
-    for (size_t k = 0; k * METHOD_STRIP < in->count; k++) {
+static void run(const method_call *c) {
+    const prepared *p = c->state;
+    for (size_t k = 0; k * METHOD_STRIP < c->in->count; k++) {
         const strip s = strip_of(k);
-        const size_t first = k * METHOD_STRIP, left = in->count - first;
+        const size_t first = k * METHOD_STRIP, left = c->in->count - first;
         normal_rows rows = {.camera = &p->camera,
                             .row = s.row,
                             .column = s.column,
                             .count = left < METHOD_STRIP ? (uint32_t)left : METHOD_STRIP,
                             .slope_x = p->slope + s.column};
         for (int j = 0; j < LINES; j++)
-            rows.rows[j] = in->eye + k * BLOCK + (size_t)(j * LINE + NORMAL_REACH);
-        method->run(&rows, out->place[0] + first, out->place[1] + first, out->place[2] + first);
+            rows.rows[j] = c->in->eye + k * METHOD_STRIP_EYES + (size_t)(j * LINE + NORMAL_REACH);
+        c->row->normal->run(&rows, c->out->place[0] + first, c->out->place[1] + first, c->out->place[2] + first);
     }
 }
 
-#define RUN(index)                                                                                                     \
-    static void run_##index(const dp_setup *setup, const void *state, const method_inputs *in,                         \
-                            const method_outputs *out) {                                                               \
-        (void)setup;                                                                                                   \
-        run_strips(normal_get(index), state, in, out);                                                                 \
-    }
-RUN(0)
-RUN(1)
-RUN(2)
-RUN(3)
-RUN(4)
-RUN(5)
-
-/* ---- Claims: see "NORMALS FROM DEPTH" in depthprec(7)
- * ----------------------------------------------------------------------- */
+/* ---- Claims: see "NORMALS FROM DEPTH" in depthprec(7) ------------------------------------------------------------ */
 
 /* The angle that errors of depth can make next to each other, `off` of the depth itself, pixels `step` apart. */
 static double angle_of(double step, double off) {
-    const double y = tan(PI / 6), x = y * WIDTH / HEIGHT, apart = 2 * step * y / HEIGHT;
+    const double y = tan(M_PI / 6), x = y * WIDTH / HEIGHT, apart = 2 * step * y / HEIGHT;
     const double most = 1.01 * (2 * (hypot(1, x) + hypot(1, y)) / apart + 1) * sqrt(1 + x * x + y * y) * off;
-    return most < 1 ? asin(most) + 1e-6 : PI;
+    return most < 1 ? asin(most) + 1e-6 : M_PI;
+}
+
+/* Half a step of 24 bits, and reading; depths at far are the worst. */
+static double unorm_claim(double ratio, double step, double places) {
+    return angle_of(step, (ratio - 1) / 2 / 0xffffff + 0x1p-24 + places);
+}
+
+static double float_claim(double ratio, double step, double places) {
+    (void)ratio;
+    return angle_of(step, 2 * 0x1p-24 + places);
 }
 
 /* What rounding places adds to methods that subtract them, as an error of depth. */
 #define PLACES (1.6 * 0x1p-24)
-
-/* Half a step of 24 bits, and reading; depths at far are the worst. */
-static double unorm_off(double ratio) {
-    return (ratio - 1) / 2 / 0xffffff + 0x1p-24;
-}
-
-static double unorm_exact(double ratio) {
-    return angle_of(1, unorm_off(ratio));
-}
-static double unorm_1(double ratio) {
-    return angle_of(1, unorm_off(ratio) + PLACES);
-}
-static double unorm_2(double ratio) {
-    return angle_of(2, unorm_off(ratio) + PLACES);
-}
-static double float_exact(double ratio) {
-    (void)ratio;
-    return angle_of(1, 2 * 0x1p-24);
-}
-static double float_1(double ratio) {
-    (void)ratio;
-    return angle_of(1, 2 * 0x1p-24 + PLACES);
-}
-static double float_2(double ratio) {
-    (void)ratio;
-    return angle_of(2, 2 * 0x1p-24 + PLACES);
-}
+#define CLAIMS(to, step, places)                                                                                       \
+    { FORMULA_TO(to, unorm_claim, step, places), FORMULA(float_claim, step, places) }
 
 /* clang-format off */
-const method_row normal_methods[] = {
-    {METHOD_NORMAL, "low", "the 2 x 2 quad of a pixel",
-     {FORMULA_TO(unorm_1, 1e3), FORMULA(float_1)}, METHOD_INFINITE, 1.0, "1", 0,
-     "Universal RP, SSAO.hlsl", NULL, open_view, run_0, free},
+static const method_row methods[] = {
+    {METHOD_NORMAL, "low", "the 2 x 2 quad of a pixel", CLAIMS(1e3, 1, PLACES), METHOD_INFINITE, 1.0, "1", 0,
+     "Universal RP, SSAO.hlsl", run, open_view, free, .normal = &normal_methods[NORMAL_LOW]},
     {METHOD_NORMAL, "medium-1", "the farther of the neighbours, next to it",
-     {FORMULA_TO(unorm_1, 1e3), FORMULA(float_1)}, METHOD_INFINITE, 1.05, "1", 0,
-     "", NULL, open_view, run_2, free},
+     CLAIMS(1e3, 1, PLACES), METHOD_INFINITE, 1.05, "1", 0,
+     "", run, open_view, free, .normal = &normal_methods[NORMAL_MEDIUM_1]},
     {METHOD_NORMAL, "medium", "the farther of the neighbours, 2 pixels away",
-     {FORMULA_TO(unorm_2, 2e3), FORMULA(float_2)}, METHOD_INFINITE, 1.1, "1", 0,
-     "Universal RP, SSAO.hlsl", NULL, open_view, run_1, free},
+     CLAIMS(2e3, 2, PLACES), METHOD_INFINITE, 1.1, "1", 0,
+     "Universal RP, SSAO.hlsl", run, open_view, free, .normal = &normal_methods[NORMAL_MEDIUM]},
     {METHOD_NORMAL, "projective", "lines in 1/z, next to it; on a plane the differences of 1/z are its normal",
-     {FORMULA_TO(unorm_exact, 1e3), FORMULA(float_exact)}, METHOD_INFINITE, 1.3, "1", 0,
-     "depthprec(7)", NULL, open_view, run_5, free},
-    {METHOD_NORMAL, "high-1", "lines in z, next to it",
-     {FORMULA_TO(unorm_1, 1e3), FORMULA(float_1)}, METHOD_INFINITE, 1.35, "1", 0,
-     "", NULL, open_view, run_4, free},
-    {METHOD_NORMAL, "high", "lines in z, 2 pixels away",
-     {FORMULA_TO(unorm_2, 2e3), FORMULA(float_2)}, METHOD_INFINITE, 1.36, "1", 0,
-     "Universal RP, SSAO.hlsl", NULL, open_view, run_3, free},
+     CLAIMS(1e3, 1, 0), METHOD_INFINITE, 1.3, "1", 0,
+     "depthprec(7)", run, open_view, free, .normal = &normal_methods[NORMAL_PROJECTIVE]},
+    {METHOD_NORMAL, "high-1", "lines in z, next to it", CLAIMS(1e3, 1, PLACES), METHOD_INFINITE, 1.35, "1", 0,
+     "", run, open_view, free, .normal = &normal_methods[NORMAL_HIGH_1]},
+    {METHOD_NORMAL, "high", "lines in z, 2 pixels away", CLAIMS(2e3, 2, PLACES), METHOD_INFINITE, 1.36, "1", 0,
+     "Universal RP, SSAO.hlsl", run, open_view, free, .normal = &normal_methods[NORMAL_HIGH]},
 };
 /* clang-format on */
-const size_t normal_method_count = sizeof normal_methods / sizeof normal_methods[0];
+static const size_t method_count = sizeof methods / sizeof methods[0];
+
+const method_family_row normal_family = {
+    .name = "normal",
+    .summary = "normal of a plane from the stored depths around a pixel",
+    .measure = "radians",
+    .cases = {{"unorm24 d3d", "unorm24", DP_MAPPING_D3D}, {"fp32 reversed", "fp32", DP_MAPPING_REVERSED}},
+    .case_count = 2,
+    .inputs = 16384,
+    .walked = 2048,
+    .per_decade = 2,
+    .methods = methods,
+    .method_count = &method_count,
+    .fill = fill,
+    .judge = judge,
+    .limit = limit_eyes,
+};

@@ -1,12 +1,10 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Places of pixels: the rows of texture/position.h, each with a claim for one camera that stands at the origin. */
-#include "texture/position.h"
-
 #include <math.h>
 #include <stdlib.h>
 
-#include "method/claim.h"
-#include "method/method.h"
+#include "method/limit.h"
+#include "method/truth.h"
 
 /* Places are judged out to the farthest finite far plane that there can be, seen along the longest ray. */
 static const double farthest = 2e18;
@@ -29,84 +27,109 @@ static void synthetic(texture_camera *camera, const dp_setup *setup) {
     camera_init(camera, setup, &spec); /* cannot fail: all of it is in range */
 }
 
-void position_fill(const dp_setup *setup, method_inputs *in) {
+static void fill(const dp_setup *setup, method_inputs *in) {
     texture_camera camera;
     synthetic(&camera, setup);
-    method_windows(setup, in->d, in->count);
+    method_windows(setup, in);
     for (size_t i = 0; i < in->count; i++)
         position_exact(&camera, line_of(i), i % WIDTH, (double)in->d[i], &in->place[3 * i], NULL);
 }
 
 typedef struct positioning {
-    const position_row *row;
     texture_camera camera;
     position_state state;
 } positioning;
 
-static void *start(const dp_setup *setup, const char *name) {
+static void *prepare(const dp_setup *setup) {
     positioning *p = malloc(sizeof *p);
     if (p == NULL)
         return NULL;
-    p->row = position_find(name);
     synthetic(&p->camera, setup);
     position_prepare(&p->state, &p->camera);
     return p;
 }
 
-static void run(const dp_setup *setup, const void *state, const method_inputs *in, const method_outputs *out) {
-    const positioning *p = state;
-    (void)setup;
-    for (size_t i = 0; i < in->count; i += WIDTH)
-        p->row->run(&p->state, line_of(i), 0, in->d + i, in->count - i < WIDTH ? in->count - i : WIDTH,
-                    out->place[0] + i, out->place[1] + i, out->place[2] + i);
+static void run(const method_call *c) {
+    const positioning *p = c->state;
+    const size_t count = c->in->count;
+    for (size_t i = 0; i < count; i += WIDTH)
+        c->row->position->run(&p->state, line_of(i), 0, c->in->d + i, count - i < WIDTH ? count - i : WIDTH,
+                              c->out->place[0] + i, c->out->place[1] + i, c->out->place[2] + i);
 }
 
-bool position_judge(const method_row *row, const dp_setup *setup, const method_inputs *in, const method_outputs *out,
-                    size_t i, method_error *error) {
-    const double *exact = &in->place[3 * i];
+static bool judge(const method_call *c, size_t i, method_error *error) {
+    const double *exact = &c->in->place[3 * i];
     const double distance = sqrt(exact[0] * exact[0] + exact[1] * exact[1] + exact[2] * exact[2]);
     double sum = 0;
     if (!(distance <= farthest)) /* next to an infinite far plane */
         return false;
-    if ((row->domain & METHOD_HALF) != 0 && !(distance >= 0x1p-13 && distance <= 32752))
+    if ((c->row->domain & METHOD_HALF) != 0 && !(distance >= 0x1p-13 && distance <= 32752))
         return false;
-    if (setup->spec.ortho && !position_find(row->name)->ortho)
+    if (c->setup->spec.ortho && !c->row->position->ortho)
         return false;
     for (int k = 0; k < 3; k++)
-        sum += ((double)out->place[k][i] - exact[k]) * ((double)out->place[k][i] - exact[k]);
-    const float nearest = (float)distance;
-    const double off = isnan(sum) ? (double)INFINITY : sqrt(sum),
-                 unit = (double)nextafterf(nearest, INFINITY) - (double)nearest;
-    *error = (method_error){off, off / distance, off / unit};
+        sum += ((double)c->out->place[k][i] - exact[k]) * ((double)c->out->place[k][i] - exact[k]);
+    const double off = isnan(sum) ? (double)INFINITY : sqrt(sum);
+    *error = (method_error){off, off / distance, off / truth_step(distance)};
     return true;
+}
+
+/* ---- Claims: a standard mapping, 60 degrees and 16:9 ------------------------------------------------------------- */
+
+/* Half a step of binary16, and of its subnormals in two components. */
+static double half_claim(double ratio, double a, double b) {
+    return method_cancelled(ratio, a, b) + 6e-4;
 }
 
 /* ---- Rows, cheapest first ---------------------------------------------------------------------------------------- */
 
-/* clang-format off */
-#define OPEN(name, text) static void *name(const dp_setup *setup) { return start(setup, text); }
-OPEN(matrix_open, "matrix") OPEN(rays_open, "rays") OPEN(extents_open, "extents") OPEN(half_open, "extents-half")
-OPEN(view_open, "view")
+/* LinearEyeDepth, and what the ray and its products lose at the worst pixel, in units: those of position_bound() at its
+ * worst over the image; near, far and the scene's units do not matter then. Those of the matrix are measured: 1.6 times
+ * the worst of 3000. */
+#define UNIT            METHOD_UNIT
+#define CANCELLED(a, b) FORMULA_TO(METHOD_CANCELLED, method_cancelled, a, b)
+#define HALF            FORMULA_TO(METHOD_CANCELLED, half_claim, 3, 15.1)
 
-/* Claims in units are those of position_bound() at its worst over the image; near, far and the scene's units do not
- * matter then. */
-#define UNIT CLAIM_UNIT
-const method_row position_methods[] = {
+/* clang-format off */
+static const method_row methods[] = {
     {METHOD_POSITION, "view", "camera + ray z: the ray counted from the image's middle, z without cancellation",
      {FULL(9.3 * UNIT), FULL(8.3 * UNIT), FULL(9.3 * UNIT)}, METHOD_INFINITE | METHOD_ORTHO, 0.4, "1", 0,
-     "depthprec(7)", NULL, view_open, run, free},
+     "depthprec(7)", run, prepare, free, .position = &position_rows[POSITION_VIEW]},
     {METHOD_POSITION, "extents", "(top left + x extent u + y extent v) eye/n with LinearEyeDepth",
-     {FORMULA_TO(claim_extents, CLAIM_CANCELLED), FULL(19 * UNIT), FORMULA_TO(claim_extents, CLAIM_CANCELLED)}, METHOD_INFINITE, 0.42, "1", 0,
-     "URP, ReconstructViewPos in SSAO.hlsl", NULL, extents_open, run, free},
-    {METHOD_POSITION, "rays", "camera + ray eye/n with LinearEyeDepth, the ray between those of the near plane's corners",
-     {FORMULA_TO(claim_rays, CLAIM_CANCELLED), FULL(20 * UNIT), FORMULA_TO(claim_rays, CLAIM_CANCELLED)}, METHOD_INFINITE, 0.45, "1", 0,
-     "image effects with _FrustumCornersRay", NULL, rays_open, run, free},
+     {CANCELLED(3, 15.1), FULL(19 * UNIT), CANCELLED(3, 15.1)}, METHOD_INFINITE, 0.42, "1", 0,
+     "URP, ReconstructViewPos in SSAO.hlsl", run, prepare, free, .position = &position_rows[POSITION_EXTENTS]},
+    {METHOD_POSITION, "rays",
+     "camera + ray eye/n with LinearEyeDepth, the ray between those of the near plane's corners",
+     {CANCELLED(3, 15.6), FULL(20 * UNIT), CANCELLED(3, 15.6)}, METHOD_INFINITE, 0.45, "1", 0,
+     "image effects with _FrustumCornersRay", run, prepare, free, .position = &position_rows[POSITION_RAYS]},
     {METHOD_POSITION, "matrix", "inverse view-projection matrix times NDC, divided by w",
-     {FORMULA_TO(claim_matrix_d3d, CLAIM_CANCELLED), FULL(18.3 * UNIT), FORMULA_TO(claim_matrix_gl, CLAIM_CANCELLED)}, METHOD_INFINITE, 0.48, "1", 0,
-     "ComputeWorldSpacePosition, the Core package's Common.hlsl", NULL, matrix_open, run, free},
-    {METHOD_POSITION, "extents-half", "extents in binary16, for distances from 2^-13 to 32752; infinite from 65520 on",
-     {FORMULA_TO(claim_extents_half, CLAIM_CANCELLED), FULL(6e-4), FORMULA_TO(claim_extents_half, CLAIM_CANCELLED)}, METHOD_INFINITE | METHOD_HALF, 0.8, "1", 0,
-     "URP, ReconstructViewPos in SSAO.hlsl", NULL, half_open, run, free},
+     {CANCELLED(6, 12), FULL(18.3 * UNIT), CANCELLED(3.5, 12)}, METHOD_INFINITE, 0.48, "1", 0,
+     "ComputeWorldSpacePosition, the Core package's Common.hlsl", run, prepare, free,
+     .position = &position_rows[POSITION_MATRIX]},
+    {METHOD_POSITION, "extents-half",
+     "extents in binary16, for distances from 2^-13 to 32752; infinite from 65520 on",
+     {HALF, FULL(6e-4), HALF}, METHOD_INFINITE | METHOD_HALF, 0.8, "1", 0,
+     "URP, ReconstructViewPos in SSAO.hlsl", run, prepare, free, .position = &position_rows[POSITION_EXTENTS_HALF]},
 };
 /* clang-format on */
-const size_t position_method_count = sizeof position_methods / sizeof position_methods[0];
+static const size_t method_count = sizeof methods / sizeof methods[0];
+
+const method_family_row position_family = {
+    .name = "position",
+    .summary = "place of a pixel from its binary32 window depth; 60 degrees, 16:9",
+    .measure = "error over distance",
+    .cases = {{"fp32 d3d", "fp32", DP_MAPPING_D3D},
+              {"fp32 reversed", "fp32", DP_MAPPING_REVERSED},
+              {"fp32 gl", "fp32", DP_MAPPING_GL}},
+    .case_count = 3,
+    .inputs = 65536,
+    .walked = 4096,
+    .per_decade = 2,
+    .windows = true,
+    .ortho = true,
+    .methods = methods,
+    .method_count = &method_count,
+    .fill = fill,
+    .judge = judge,
+    .limit = limit_places,
+};

@@ -82,14 +82,18 @@ double truth_longest(const dp_setup *setup, double lo, double hi, double least) 
     return longest;
 }
 
-method_error truth_error(const method_row *row, double got, double want) {
+method_error truth_off(double got, double want, double step) {
+    const double off = fabs(got - want);
     if (got == want)
         return (method_error){0, 0, 0};
-    const double off = fabs(got - want);
+    if (!(off < (double)INFINITY))
+        return (method_error){(double)INFINITY, (double)INFINITY, (double)INFINITY};
+    return (method_error){off, off / want, off / step};
+}
+
+method_error truth_error(const method_row *row, double got, double want) {
     const double least = want * (1 - METHOD_ROUNDING), most = want * (1 + METHOD_ROUNDING);
     const bool wrong =
         ((row->domain & METHOD_ABOVE) != 0 && got < least) || ((row->domain & METHOD_BELOW) != 0 && got > most);
-    if (wrong || !(off < (double)INFINITY))
-        return (method_error){(double)INFINITY, (double)INFINITY, (double)INFINITY};
-    return (method_error){off, off / want, off / (nextafter(want, DBL_MAX) - want)};
+    return truth_off(wrong ? (double)NAN : got, want, nextafter(want, DBL_MAX) - want);
 }

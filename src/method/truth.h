@@ -29,8 +29,10 @@ double truth_longest(const dp_setup *setup, double lo, double hi, double least);
 /** One step of binary32 at z. */
 double truth_step(double z);
 
-/** How far a width is from the true one: absolute, relative and in units of the last place; all INFINITY if NaN, or on
- *  the side of it where the row's domain says that it never is. */
+/** How far an answer is off: absolute, relative and in steps of its type; all INFINITY if it is NaN. */
+method_error truth_off(double got, double want, double step);
+
+/** The same of a width in double; INFINITY on the side of it where the row's domain says that it never is. */
 method_error truth_error(const method_row *row, double got, double want);
 
 #endif

@@ -2,8 +2,7 @@
 /* The worst z-fighting interval over a range of depths. */
 #include <math.h>
 
-#include "method/claim.h"
-#include "method/method.h"
+#include "method/limit.h"
 #include "method/truth.h"
 
 /* Log-spaced by chance: a sample never finds more than there is. */
@@ -16,16 +15,14 @@ static double sampled(const dp_setup *setup, double lo, double hi, size_t count,
     return worst;
 }
 
-static void few_run(const dp_setup *setup, const void *state, const method_inputs *in, const method_outputs *out) {
-    (void)state;
-    for (size_t i = 0; i < in->count; i++)
-        out->value[i] = sampled(setup, in->z[i], in->hi[i], 64, i);
+static void few_run(const method_call *c) {
+    for (size_t i = 0; i < c->in->count; i++)
+        c->out->value[i] = sampled(c->setup, c->in->z[i], c->in->hi[i], 64, i);
 }
 
-static void many_run(const dp_setup *setup, const void *state, const method_inputs *in, const method_outputs *out) {
-    (void)state;
-    for (size_t i = 0; i < in->count; i++)
-        out->value[i] = sampled(setup, in->z[i], in->hi[i], 4096, i);
+static void many_run(const method_call *c) {
+    for (size_t i = 0; i < c->in->count; i++)
+        c->out->value[i] = sampled(c->setup, c->in->z[i], c->in->hi[i], 4096, i);
 }
 
 static void codes_of(const dp_setup *setup, double lo, double hi, uint32_t *first, uint32_t *last) {
@@ -34,52 +31,88 @@ static void codes_of(const dp_setup *setup, double lo, double hi, uint32_t *firs
     *last = a < b ? b : a;
 }
 
-static void exhaustive_run(const dp_setup *setup, const void *state, const method_inputs *in,
-                           const method_outputs *out) {
-    (void)state;
-    for (size_t i = 0; i < in->count; i++) {
+static void exhaustive_run(const method_call *c) {
+    for (size_t i = 0; i < c->in->count; i++) {
         uint32_t first, last;
-        codes_of(setup, in->z[i], in->hi[i], &first, &last);
-        out->value[i] = 0;
+        codes_of(c->setup, c->in->z[i], c->in->hi[i], &first, &last);
+        c->out->value[i] = 0;
         for (uint32_t code = first; code <= last; code++)
-            out->value[i] = fmax(out->value[i], dp_cell_of(setup, code).width);
+            c->out->value[i] = fmax(c->out->value[i], dp_cell_of(c->setup, code).width);
     }
 }
 
-static void certified_run(const dp_setup *setup, const void *state, const method_inputs *in,
-                          const method_outputs *out) {
-    (void)state;
-    for (size_t i = 0; i < in->count; i++) {
+static void certified_run(const method_call *c) {
+    for (size_t i = 0; i < c->in->count; i++) {
         dp_worst w;
-        out->value[i] = dp_worst_over(setup, in->z[i], in->hi[i], &w) == DP_OK ? w.interval : (double)NAN;
+        c->out->value[i] = dp_worst_over(c->setup, c->in->z[i], c->in->hi[i], &w) == DP_OK ? w.interval : (double)NAN;
     }
+}
+
+/* Of `count` depths: one range in a hundred may exceed it. */
+static double sampled_claim(double ratio, double count, double b) {
+    (void)b;
+    return 1 - pow(ratio, -2 * log(100) / count);
 }
 
 #define ANY (METHOD_INFINITE | METHOD_ORTHO)
 
 /* clang-format off */
-const method_row worst_methods[] = {
+static const method_row methods[] = {
     {METHOD_WORST, "certified", "the ends of the uniform pieces of the format alone, rounded outward",
-     {FULL(52 * 0x1p-53), FULL(52 * 0x1p-53)}, ANY | METHOD_ABOVE, 500, "pieces", 0, "depthprec(7)", NULL, NULL, certified_run, NULL},
-    {METHOD_WORST, "sampled-64", "the widest cell of 64 seeded depths: never more than there is; one range in a hundred may miss its claim",
-     {FORMULA(claim_sampled_64), FORMULA(claim_sampled_64)}, ANY | METHOD_BELOW, 5e3, "samples", 0, "", NULL, NULL, few_run, NULL},
+     {FULL(52 * 0x1p-53), FULL(52 * 0x1p-53)}, ANY | METHOD_ABOVE, 500, "pieces", 0,
+     "depthprec(7)", .run = certified_run},
+    {METHOD_WORST, "sampled-64",
+     "the widest cell of 64 seeded depths: never more than there is; one range in a hundred may miss its claim",
+     {FORMULA(sampled_claim, 64, 0), FORMULA(sampled_claim, 64, 0)}, ANY | METHOD_BELOW, 5e3, "samples", 0,
+     "", .run = few_run},
     {METHOD_WORST, "sampled-4096", "the widest cell of 4096 seeded depths; likewise",
-     {FORMULA(claim_sampled_4096), FORMULA(claim_sampled_4096)}, ANY | METHOD_BELOW, 3e5, "samples", 0, "", NULL, NULL, many_run, NULL},
+     {FORMULA(sampled_claim, 4096, 0), FORMULA(sampled_claim, 4096, 0)}, ANY | METHOD_BELOW, 3e5, "samples", 0,
+     "", .run = many_run},
     {METHOD_WORST, "exhaustive", "the cell of every code",
-     {FULL(20 * 0x1p-53), FULL(20 * 0x1p-53)}, ANY, 1e6, "codes", 0, "depthprec(3)", NULL, NULL, exhaustive_run, NULL},
+     {FULL(20 * 0x1p-53), FULL(20 * 0x1p-53)}, ANY, 1e6, "codes", 0,
+     "depthprec(3)", .run = exhaustive_run},
 };
 /* clang-format on */
-const size_t worst_method_count = sizeof worst_methods / sizeof worst_methods[0];
+static const size_t method_count = sizeof methods / sizeof methods[0];
 
-bool worst_judge(const method_row *row, const dp_setup *setup, const method_inputs *in, const method_outputs *out,
-                 size_t i, method_error *error) {
+/* The whole of the view, its halves and its ends, then ranges between two depths. */
+static void fill(const dp_setup *setup, method_inputs *in) {
+    const double n = setup->spec.znear;
+    const double f = isinf(setup->spec.zfar) ? n * METHOD_INFINITE_FAR : setup->spec.zfar;
+    method_depths(setup, in);
+    for (size_t i = 0; i < in->count; i++) {
+        double other = n * pow(f / n, method_unit(11, i));
+        double lo = i % 4 == 0 ? n : fmin(in->z[i], other), hi = i % 4 <= 1 ? f : fmax(in->z[i], other);
+        in->z[i] = fmin(fmax(lo, n), f);
+        in->hi[i] = fmin(fmax(hi, in->z[i]), f);
+    }
+}
+
+static bool judge(const method_call *c, size_t i, method_error *error) {
     uint32_t first, last;
-    double got = out->value[i], want = 0;
-    codes_of(setup, in->z[i], in->hi[i], &first, &last);
+    double want = 0;
+    codes_of(c->setup, c->in->z[i], c->in->hi[i], &first, &last);
     for (uint32_t code = first; code <= last; code++) {
         bool cut;
-        want = fmax(want, truth_width(setup, code, &cut));
+        want = fmax(want, truth_width(c->setup, code, &cut));
     }
-    *error = truth_error(row, got, want);
+    *error = truth_error(c->row, c->out->value[i], want);
     return true;
 }
+
+const method_family_row worst_family = {
+    .name = "worst",
+    .summary = "worst z-fighting interval over a range of depths",
+    .measure = "relative error",
+    .cases = {{"unorm16 d3d", "unorm16", DP_MAPPING_D3D}, {"fp16 reversed", "fp16", DP_MAPPING_REVERSED}},
+    .case_count = 2,
+    .inputs = 16,
+    .walked = 8,
+    .per_decade = 1,
+    .ortho = true,
+    .methods = methods,
+    .method_count = &method_count,
+    .fill = fill,
+    .judge = judge,
+    .limit = limit_ranges,
+};

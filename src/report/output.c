@@ -97,6 +97,33 @@ int output_open(output *out, const char *path) {
     return cannot_write(path, error);
 }
 
+/* What a path would name, though the file may not be there: its folder's identity and the name in it. */
+static bool name_in_folder(const char *path, struct stat *folder, const char **name) {
+    const char *slash = strrchr(path, '/');
+    char *copy = slash == NULL ? strdup(".") : strndup(path, (size_t)(slash - path) + 1);
+    const bool known = copy != NULL && stat(copy, folder) == 0;
+    free(copy);
+    *name = slash == NULL ? path : slash + 1;
+    return known;
+}
+
+bool output_same_file(const char *a, const char *b) {
+    struct stat x, y;
+    const char *name_x, *name_y;
+    const bool is_x = stat(a, &x) == 0, is_y = stat(b, &y) == 0;
+    if (is_x && is_y)
+        return S_ISREG(x.st_mode) && x.st_dev == y.st_dev && x.st_ino == y.st_ino;
+    return !is_x && !is_y && name_in_folder(a, &x, &name_x) && name_in_folder(b, &y, &name_y) && x.st_dev == y.st_dev &&
+           x.st_ino == y.st_ino && strcmp(name_x, name_y) == 0;
+}
+
+void output_reserve_streams(void) {
+    static const int wrong_way[] = {[STDIN_FILENO] = O_WRONLY, [STDOUT_FILENO] = O_RDONLY, [STDERR_FILENO] = O_RDONLY};
+    for (int fd = STDIN_FILENO; fd <= STDERR_FILENO; fd++)
+        if (fcntl(fd, F_GETFD) < 0 && errno == EBADF)
+            (void)!open("/dev/null", wrong_way[fd]);
+}
+
 static void write_all(output *out, const char *bytes, size_t size) {
     while (size > 0 && out->error == 0) {
         ssize_t written = write(out->fd, bytes, size);

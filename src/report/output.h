@@ -69,6 +69,15 @@ static inline bool output_failed(const output *out) {
  */
 int output_close(output *out);
 
+/** Do two paths name one regular file, or one that would be made? */
+bool output_same_file(const char *a, const char *b);
+
+/**
+ * Closed standard streams are opened on the null device, so that no file takes their number and a message ends in data.
+ * Each the wrong way round: who reads or writes there is still told that it is closed. Call it first of all.
+ */
+void output_reserve_streams(void);
+
 /** Gives up: removes the temporary file, says nothing. For a command that fails half-way. */
 void output_abandon(output *out);
 

@@ -36,7 +36,7 @@ column_value column_of(const column *c, const void *item) {
         flag = *(const bool *const *)at;
         return (column_value){VALUE_WORD, .word = flag == NULL ? NULL : *flag ? "true" : "false"};
     case COLUMN_LETTERS:
-        return (column_value){VALUE_WORD, .word = at};
+        return (column_value){VALUE_WORD, .word = *at != '\0' ? at : NULL};
     default:
         return (column_value){VALUE_WORD, .word = *(const char *const *)at};
     }
@@ -60,7 +60,7 @@ static void json_value(json *j, const column *c, const void *item) {
     const column_value v = column_of(c, item);
     if (c->optional && !column_exists(&v))
         return;
-    if (c->kind == COLUMN_NAMES)
+    if (c->names)
         json_names(j, c->key, v.word);
     else if ((c->kind == COLUMN_FLAG || c->kind == COLUMN_ANSWER) && v.word != NULL)
         json_bool(j, c->key, *v.word == 't');

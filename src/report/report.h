@@ -42,8 +42,7 @@ typedef enum column_kind {
     COLUMN_FLAG,    /**< bool: true or false */
     COLUMN_ANSWER,  /**< const bool *: the same; null: does not exist */
     COLUMN_WORD,    /**< const char *; null: does not exist */
-    COLUMN_LETTERS, /**< char[]: the word itself */
-    COLUMN_NAMES,   /**< const char *, words parted by one space: an array of strings in JSON. Null: none */
+    COLUMN_LETTERS, /**< char[]: the word itself; "": does not exist */
     COLUMN_PART,    /**< a struct with columns of its own, a JSON object; without a key, as if they stood here */
     COLUMN_LIST     /**< items that `get` hands out, one after the other */
 } column_kind;
@@ -60,6 +59,7 @@ typedef struct column {
     bool fixed;                   /**< ... or, after the point */
     bool upward;                  /**< what holds as it is printed: text rounds a number up */
     bool optional;                /**< JSON leaves it out where it does not exist */
+    bool names;                   /**< a word of words parted by one space: an array of strings in JSON */
     bool pointed;                 /**< COLUMN_PART: the item holds a pointer to it, null where it does not exist */
     unsigned only;                /**< the forms that have it; 0: all */
     unsigned when;                /**< conditions of the report, bits that must all be set */

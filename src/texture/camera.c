@@ -65,12 +65,6 @@ void camera_turn(const texture_camera *camera, const double view[3], double worl
         world[i] = camera->axis[0][i] * view[0] + camera->axis[1][i] * view[1] + camera->axis[2][i] * view[2];
 }
 
-void camera_world(const texture_camera *camera, const double view[3], double world[3]) {
-    camera_turn(camera, view, world);
-    for (int i = 0; i < 3; i++)
-        world[i] += camera->origin[i];
-}
-
 double camera_radial(const texture_camera *camera, double column, double row) {
     const double x = camera_slope_x(camera, column), y = camera_slope_y(camera, row);
     return camera->ortho ? 1 : sqrt(x * x + y * y + 1);

@@ -23,9 +23,6 @@
 #define TEXTURE_SIDE_MAX   65536u
 #define TEXTURE_PIXELS_MAX (UINT64_C(1) << 28)
 
-/** Raw depths this close to the far plane's are sky: nothing was drawn there. Unity's shaders use it. */
-#define TEXTURE_SKY 1e-4
-
 /** What is asked for. Start from camera_spec_default(). */
 typedef struct camera_spec {
     uint32_t width, height;
@@ -62,8 +59,7 @@ static inline double camera_slope_y(const texture_camera *c, double row) {
 /** The view-space place of a pixel at eye depth z, in double: the reference of everything that is faster. */
 void camera_view(const texture_camera *camera, double column, double row, double z, double view[3]);
 
-/** View space to world, and a direction of view space to the world's axes. */
-void camera_world(const texture_camera *camera, const double view[3], double world[3]);
+/** From the camera, along the world's axes; the world's place is `origin` more. */
 void camera_turn(const texture_camera *camera, const double view[3], double world[3]);
 
 /** Distance from the camera (perspective: the ray's length) per unit of eye depth; orthographic: 1. */

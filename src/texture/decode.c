@@ -85,23 +85,23 @@ RUN(linear_eye) RUN(linear_01) RUN(linear_01_near) RUN(ortho_eye) RUN(w_eye) RUN
 
 static const char unity[] = "UnityCG.cginc and the Core package's Common.hlsl, _ZBufferParams";
 /* The first eye depth that applies to a set-up is the usual one of engines. */
-static const decode_row rows[] = {
-    {.name = "linear-eye", .note = "LinearEyeDepth: 1/(Z d + W)", .quantity = DECODE_EYE,
+const decode_row decode_rows[] = {
+    [DECODE_LINEAR_EYE] = {.name = "linear-eye", .note = "LinearEyeDepth: 1/(Z d + W)", .quantity = DECODE_EYE,
      .perspective = true, .far_infinite = true, .source = unity, .constants = linear_eye, .run = linear_eye_run},
-    {.name = "linear-01", .note = "Linear01Depth: 1/(X d + Y), eye depth over far", .quantity = DECODE_01,
+    [DECODE_LINEAR_01] = {.name = "linear-01", .note = "Linear01Depth: 1/(X d + Y), eye depth over far", .quantity = DECODE_01,
      .perspective = true, .source = unity, .constants = linear_01, .run = linear_01_run},
-    {.name = "linear-01-near",
+    [DECODE_LINEAR_01_NEAR] = {.name = "linear-01-near",
      .note = "Linear01DepthFromNear: d/(X d + Y), reversed (1 - d)/(X d + Y); 0 at near, 1 at far",
      .quantity = DECODE_01_NEAR, .perspective = true, .source = unity,
      .constants = linear_01_near, .run = linear_01_near_run},
-    {.name = "ortho-eye", .note = "orthographic LinearDepthToEyeDepth: n + (f - n) d, reversed f - (f - n) d",
+    [DECODE_ORTHO_EYE] = {.name = "ortho-eye", .note = "orthographic LinearDepthToEyeDepth: n + (f - n) d, reversed f - (f - n) d",
      .quantity = DECODE_EYE, .ortho = true, .source = "the Core package's Common.hlsl",
      .constants = ortho_eye, .run = ortho_eye_run},
-    {.name = "w-eye", .note = "linear depth times far: f d", .quantity = DECODE_EYE, .w = true,
+    [DECODE_W_EYE] = {.name = "w-eye", .note = "linear depth times far: f d", .quantity = DECODE_EYE, .w = true,
      .source = "depthprec(7)", .constants = w_eye, .run = w_eye_run},
-    {.name = "log-eye", .note = "logarithmic: ((C f + 1)^d - 1)/C by exp2", .quantity = DECODE_EYE, .log = true,
+    [DECODE_LOG_EYE] = {.name = "log-eye", .note = "logarithmic: ((C f + 1)^d - 1)/C by exp2", .quantity = DECODE_EYE, .log = true,
      .source = "Kemen, Logarithmic depth buffer, 2009 (Outerra)", .constants = log_eye, .run = log_eye_run},
-    {.name = "complement",
+    [DECODE_COMPLEMENT] = {.name = "complement",
      .note = "no cancellation: 1/((1/n - 1/f) q + 1/f), q = 1 - d, reversed d; orthographic n + (f - n)(1 - q); "
              "f d; expm1(d log(C f + 1))/C",
      .quantity = DECODE_EYE, .perspective = true, .ortho = true, .w = true, .log = true, .far_infinite = true,
@@ -109,16 +109,14 @@ static const decode_row rows[] = {
 };
 /* clang-format on */
 
-enum { ROWS = sizeof rows / sizeof rows[0] };
-
 const decode_row *decode_get(size_t index) {
-    return index < ROWS ? &rows[index] : NULL;
+    return index < DECODE_ROWS ? &decode_rows[index] : NULL;
 }
 
 const decode_row *decode_find(const char *name) {
-    for (size_t i = 0; i < ROWS; i++)
-        if (strcmp(rows[i].name, name) == 0)
-            return &rows[i];
+    for (size_t i = 0; i < DECODE_ROWS; i++)
+        if (strcmp(decode_rows[i].name, name) == 0)
+            return &decode_rows[i];
     return NULL;
 }
 
@@ -131,14 +129,14 @@ bool decode_applies(const decode_row *row, const dp_setup *setup) {
 }
 
 const decode_row *decode_usual(const dp_setup *setup) {
-    const decode_row *row = rows;
+    const decode_row *row = decode_rows;
     while (row->quantity != DECODE_EYE || !decode_applies(row, setup)) /* the last applies to all */
         row++;
     return row;
 }
 
 const decode_row *decode_best(void) {
-    return &rows[ROWS - 1];
+    return &decode_rows[DECODE_COMPLEMENT];
 }
 
 /* ---- Loops: "in place" means the same element, so no iteration waits for another --------------------------------- */
@@ -247,30 +245,4 @@ double decode_bound(const decode_row *row, const dp_setup *setup, double d) {
     }
     off *= UNIT * (1 + 0x1p-20); /* the constants are rounded, too, and so is this */
     return off < 0.5 ? off / (1 - off) : (double)INFINITY;
-}
-
-/* ---- Sky --------------------------------------------------------------------------------------------------------- */
-
-TEXTURE_CLONES size_t recon_mask_sky(const dp_setup *setup, double threshold, float *d, size_t count) {
-    const float far_value = setup->reversed ? 0.0f : 1.0f, within = (float)threshold, none = (float)NAN;
-    size_t masked = 0;
-    while (count > 0) { /* counts that fit the width of a depth */
-        const size_t block = count < 1u << 20 ? count : 1u << 20;
-        int found = 0;
-#pragma omp simd reduction(+ : found)
-        for (size_t i = 0; i < block; i++) {
-            const int sky = fabsf(far_value - d[i]) <= within;
-            d[i] = sky ? none : d[i];
-            found += sky;
-        }
-        masked += (size_t)found;
-        d += block;
-        count -= block;
-    }
-    return masked;
-}
-
-double recon_sky_from(const dp_setup *setup, double threshold) {
-    const double within = (double)(float)threshold;
-    return decode_exact(setup, DECODE_EYE, setup->reversed ? within : 1 - within);
 }

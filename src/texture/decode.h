@@ -55,6 +55,19 @@ typedef struct decode_row {
     void (*run)(const dp_setup *setup, const float *d, float *out, size_t count);
 } decode_row;
 
+/** The rows in their order; the last applies to all. */
+enum {
+    DECODE_LINEAR_EYE = 0,
+    DECODE_LINEAR_01,
+    DECODE_LINEAR_01_NEAR,
+    DECODE_ORTHO_EYE,
+    DECODE_W_EYE,
+    DECODE_LOG_EYE,
+    DECODE_COMPLEMENT,
+    DECODE_ROWS
+};
+extern const decode_row decode_rows[DECODE_ROWS];
+
 const decode_row *decode_get(size_t index); /**< null beyond the last */
 const decode_row *decode_find(const char *name);
 
@@ -86,15 +99,5 @@ double decode_exact(const dp_setup *setup, decode_quantity quantity, double d);
  * the last place.
  */
 double decode_bound(const decode_row *row, const dp_setup *setup, double d);
-
-/** Replaces by NaN the depths within `threshold` (at most 1) of the far plane's, and counts them. NaN stays, not
- *  counted. @return how many were replaced */
-size_t recon_mask_sky(const dp_setup *setup, double threshold, float *d, size_t count);
-
-/**
- * The eye depth from which on such a threshold takes real geometry for sky: with TEXTURE_SKY, near 0.1 and far 1000
- * already 500, half of the view; whichever way the depth runs.
- */
-double recon_sky_from(const dp_setup *setup, double threshold);
 
 #endif

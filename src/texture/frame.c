@@ -10,7 +10,7 @@
 #endif
 
 #include "texture/frame_rows.h"
-#include "texture/recognise.h"
+#include "texture/image_depths.h"
 
 enum { STRIP_PIXELS = 1 << 18, STRIP_ROWS_MIN = 8, AROUND = 2 * NORMAL_REACH };
 

@@ -19,6 +19,9 @@
 #include "texture/position.h"
 #include "texture/scene.h"
 
+/** Window depths this close to the far plane's are sky: nothing was drawn there. Unity's shaders use it. */
+#define FRAME_SKY 1e-4
+
 /** Where the depths come from. */
 typedef struct frame {
     const texture_camera *camera; /**< its set-up in the model exact */

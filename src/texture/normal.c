@@ -219,25 +219,25 @@ METHOD(projective, 1, side_projective, side_straight, corner_projective)
 static const char urp[] = "Universal RP, SSAO.hlsl, ReconstructNormal";
 
 /* clang-format off */
-static const normal_row rows[] = {
-    {"low", "the 2 x 2 quad of the pixel, as ddx and ddy", 1, 1, urp, low_run, low_sides},
-    {"medium", "on each axis the farther of the pixels 2 away", 2, 2, urp, medium_run, medium_sides},
-    {"medium-1", "the same with the pixels next to it", 1, 1, "", medium_1_run, medium_1_sides},
-    {"high", "on each axis the side, 2 pixels away, whose line through two pixels meets the depth best",
+const normal_row normal_methods[] = {
+    [NORMAL_LOW] = {"low", "the 2 x 2 quad of the pixel, as ddx and ddy", 1, 1, urp, low_run, low_sides},
+    [NORMAL_MEDIUM] = {"medium", "on each axis the farther of the pixels 2 away", 2, 2, urp, medium_run, medium_sides},
+    [NORMAL_MEDIUM_1] = {"medium-1", "the same with the pixels next to it", 1, 1, "", medium_1_run, medium_1_sides},
+    [NORMAL_HIGH] = {"high", "on each axis the side, 2 pixels away, whose line through two pixels meets the depth best",
      2, 4, urp, high_run, high_sides},
-    {"high-1", "the same with the pixels next to it", 1, 2, "", high_1_run, high_1_sides},
-    {"projective", "the pixels next to it, lines in 1/z, and the normal from the differences of 1/z: exact on planes",
+    [NORMAL_HIGH_1] = {"high-1", "the same with the pixels next to it", 1, 2, "", high_1_run, high_1_sides},
+    [NORMAL_PROJECTIVE] = {"projective", "the pixels next to it, lines in 1/z, and the normal from the differences of 1/z: exact on planes",
      1, 2, "depthprec(7)", projective_run, projective_sides},
 };
 /* clang-format on */
 
 const normal_row *normal_get(size_t index) {
-    return index < sizeof rows / sizeof rows[0] ? &rows[index] : NULL;
+    return index < NORMAL_METHODS ? &normal_methods[index] : NULL;
 }
 
 const normal_row *normal_find(const char *name) {
-    for (size_t i = 0; normal_get(i) != NULL; i++)
-        if (strcmp(rows[i].name, name) == 0)
-            return &rows[i];
+    for (size_t i = 0; i < NORMAL_METHODS; i++)
+        if (strcmp(normal_methods[i].name, name) == 0)
+            return &normal_methods[i];
     return NULL;
 }

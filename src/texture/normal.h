@@ -45,6 +45,9 @@ typedef struct normal_row {
     void (*sides)(const normal_rows *in, uint8_t *sides);
 } normal_row;
 
+enum { NORMAL_LOW = 0, NORMAL_MEDIUM, NORMAL_MEDIUM_1, NORMAL_HIGH, NORMAL_HIGH_1, NORMAL_PROJECTIVE, NORMAL_METHODS };
+extern const normal_row normal_methods[NORMAL_METHODS];
+
 const normal_row *normal_get(size_t index); /**< null beyond the last */
 const normal_row *normal_find(const char *name);
 

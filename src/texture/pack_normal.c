@@ -217,7 +217,7 @@ static void mean(const pack_row *row, pack_error *out) {
     out->normal_spread = sqrt((squares / COUNT - out->normal.mean * out->normal.mean) / COUNT);
 }
 
-void pack_measure_normal(const pack_row *row, pack_error *out) {
+static void measure_normal(const pack_row *row, pack_error *out) {
     static void (*const searches[])(search *) = {
         [PACK_STEREO] = stereo_search, [PACK_OCT] = oct_search, [PACK_XYZ] = xyz_search};
     const uint32_t codes = 1U << (row->layout == PACK_STEREO ? row->bits : row->bits - 1);
@@ -234,6 +234,6 @@ pack_error pack_measure(const pack_row *row) {
     if (row->kind != PACK_NORMAL)
         pack_measure_depth(row->kind == PACK_DEPTH ? row : pack_find("rg-depth"), &out);
     if (row->kind != PACK_DEPTH)
-        pack_measure_normal(row, &out);
+        measure_normal(row, &out);
     return out;
 }

@@ -37,7 +37,4 @@ static inline float pack_rg32_decode(uint32_t code) {
 /** Fills in the fields of the depth. For rows of the kind PACK_DEPTH. */
 void pack_measure_depth(const pack_row *row, pack_error *out);
 
-/** Fills in the fields of the normal. */
-void pack_measure_normal(const pack_row *row, pack_error *out);
-
 #endif

@@ -176,14 +176,6 @@ double position_off(const texture_camera *camera, const double relative[3], cons
     return isnan(length) ? (double)INFINITY : length;
 }
 
-double position_error(const position_row *row, const position_state *s, uint32_t i, uint32_t j, float d) {
-    double relative[3];
-    float place[3];
-    row->run(s, j, i, &d, 1, &place[0], &place[1], &place[2]);
-    position_exact(s->camera, j, i, (double)d, relative, NULL);
-    return position_off(s->camera, relative, place);
-}
-
 double position_bound(const position_row *row, const texture_camera *camera, uint32_t i, uint32_t j, float d) {
     const double units = row->bound(camera, j, i, (double)d);
     return isnan(units) ? (double)INFINITY : units * 0x1p-24 * (1 + 0x1p-18); /* products of small errors */

@@ -45,6 +45,9 @@ typedef struct position_row {
     double (*bound)(const texture_camera *camera, uint32_t row, uint32_t column, double d);
 } position_row;
 
+enum { POSITION_MATRIX = 0, POSITION_RAYS, POSITION_EXTENTS, POSITION_EXTENTS_HALF, POSITION_VIEW, POSITION_ROWS };
+extern const position_row position_rows[POSITION_ROWS];
+
 const position_row *position_get(size_t index); /**< null beyond the last */
 const position_row *position_find(const char *name);
 
@@ -52,11 +55,6 @@ const position_row *position_find(const char *name);
 bool position_applies(const position_row *row, const texture_camera *camera);
 
 void position_prepare(position_state *s, const texture_camera *camera);
-
-/** Distances from the camera, by "view"'s eye depth and the length of each pixel's ray; orthographic: eye depth.
- *  Within 9 units of 2^-24 (and what a logarithm loses). In place is allowed. */
-void position_distance(const position_state *s, uint32_t row, uint32_t column, const float *d, size_t count,
-                       float *out);
 
 /**
  * The place exactly: from the camera along the world's axes, and in the world. Either may be null.
@@ -70,12 +68,9 @@ void position_exact(const texture_camera *camera, uint32_t row, uint32_t column,
  *  camera is from the origin. */
 double position_off(const texture_camera *camera, const double relative[3], const float world[3]);
 
-/** How far a row is off at one pixel, scene units; INFINITY when it gives no number. `d` is what the texture holds. */
-double position_error(const position_row *row, const position_state *s, uint32_t i, uint32_t j, float d);
-
 /**
- * A bound on position_error(), scene units; INFINITY where nothing can be promised. Derived in depthprec(7): each
- * rounding counts one unit of 2^-24 of the term that it rounds.
+ * A bound on how far a row is off at one pixel (position_off()), scene units; INFINITY where nothing can be promised.
+ * Derived in depthprec(7): each rounding counts one unit of 2^-24 of the term that it rounds.
  */
 double position_bound(const position_row *row, const texture_camera *camera, uint32_t i, uint32_t j, float d);
 

@@ -198,56 +198,36 @@ static void view_run(const position_state *s, uint32_t row, uint32_t column, con
     in_pieces(&l, &s->best, s->camera->ortho ? view_ortho_loop : view_loop, column, d, count, x, y, z);
 }
 
-TEXTURE_CLONES static void distance_loop(const position_state *s, float step, float square, int first, int count,
-                                         float *eye) {
-    const float middle = s->middle;
-#pragma omp simd
-    for (int i = 0; i < count; i++) {
-        const float u = step * ((float)(first + i) - middle);
-        eye[i] = eye[i] * sqrtf(u * u + square);
-    }
-}
-
-void position_distance(const position_state *s, uint32_t row, uint32_t column, const float *d, size_t count,
-                       float *out) {
-    const texture_camera *camera = s->camera;
-    const double up = camera_slope_y(camera, row);
-    decode_apply(&s->best, d, out, count);
-    if (!camera->ortho)
-        distance_loop(s, (float)(2 * camera->half[0] / camera->width), (float)(up * up + 1), (int)column, (int)count,
-                      out);
-}
-
 /* ---- Table ------------------------------------------------------------------------------------------------------- */
 
 /* clang-format off */
-static const position_row rows[] = {
-    {.name = "matrix", .note = "inverse view-projection matrix times NDC, divided by w",
+const position_row position_rows[] = {
+    [POSITION_MATRIX] = {.name = "matrix", .note = "inverse view-projection matrix times NDC, divided by w",
      .perspective = true, .ortho = true, .source = "ComputeWorldSpacePosition, the Core package's Common.hlsl",
      .run = matrix_run, .bound = matrix_bound},
-    {.name = "rays", .note = "camera + ray eye/n, the ray between the rays through the near plane's four corners",
+    [POSITION_RAYS] = {.name = "rays", .note = "camera + ray eye/n, the ray between the rays through the near plane's four corners",
      .perspective = true, .curved = true, .source = "image effects with _FrustumCornersRay",
      .run = rays_run, .bound = rays_bound},
-    {.name = "extents",
+    [POSITION_EXTENTS] = {.name = "extents",
      .note = "(top left + x extent u + y extent v) eye/n; orthographic: + z extent eye/f instead of the factor",
      .perspective = true, .ortho = true, .curved = true, .source = "URP, ReconstructViewPos in SSAO.hlsl",
      .run = extents_run, .bound = extents_bound},
-    {.name = "extents-half", .note = "the same, returned in binary16 before the camera's place is added",
+    [POSITION_EXTENTS_HALF] = {.name = "extents-half", .note = "the same, returned in binary16 before the camera's place is added",
      .perspective = true, .ortho = true, .curved = true, .source = "URP, ReconstructViewPos in SSAO.hlsl",
      .run = half_run, .bound = half_bound},
-    {.name = "view", .note = "camera + ray z, the ray counted from the image's middle, z without cancellation",
+    [POSITION_VIEW] = {.name = "view", .note = "camera + ray z, the ray counted from the image's middle, z without cancellation",
      .perspective = true, .ortho = true, .curved = true, .source = "depthprec(7)",
      .run = view_run, .bound = view_bound},
 };
 /* clang-format on */
 
 const position_row *position_get(size_t index) {
-    return index < sizeof rows / sizeof rows[0] ? &rows[index] : NULL;
+    return index < POSITION_ROWS ? &position_rows[index] : NULL;
 }
 
 const position_row *position_find(const char *name) {
-    for (size_t i = 0; i < sizeof rows / sizeof rows[0]; i++)
-        if (strcmp(rows[i].name, name) == 0)
-            return &rows[i];
+    for (size_t i = 0; i < POSITION_ROWS; i++)
+        if (strcmp(position_rows[i].name, name) == 0)
+            return &position_rows[i];
     return NULL;
 }

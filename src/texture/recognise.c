@@ -11,6 +11,7 @@
 #include <string.h>
 
 #include "texture/clones.h"
+#include "texture/image_depths.h"
 #include "texture/recognise_lattice.h"
 
 enum { BLOCK = 2048, FP16_ONE = 0x3C00, WIDENED = 257, REASON_SIZE = 192 };
@@ -151,7 +152,7 @@ static void count_off(const image *img, void (*count)(const double *, size_t, si
     for (uint32_t row = 0; row < img->height; row++)
         for (uint32_t x = 0; x < img->width; x += BLOCK) {
             const uint32_t some = img->width - x < BLOCK ? img->width - x : BLOCK;
-            image_depths_double(img, &any, row, x, some, d);
+            image_depths(img, &any, row, x, some, d);
             count(d, some, off);
         }
 }
@@ -183,14 +184,14 @@ static void judge_numbers(const image *img, finding *f) {
 /* ---- Window depths ------------------------------------------------------------------------------------------------*/
 
 /* What is counted besides what recognised has. */
-typedef struct survey {
+typedef struct tally {
     distinct_set seen;
     size_t telling;          /* different numbers that say something about the lattice */
     double expected, bits;   /* how many would lie on it by chance; -log2 of the product */
     size_t low, high, inner; /* below 1/4, above 3/4, neither 0 nor 1 */
-} survey;
+} tally;
 
-static void count_new(survey *s, const finding *f, double d) {
+static void count_new(tally *s, const finding *f, double d) {
     if (!distinct_add(&s->seen, d))
         return;
     const double chance = lattice_chance(f->which, f->single, d);
@@ -228,7 +229,7 @@ static double of_bits(int64_t bits) {
     return d;
 }
 
-static void count_row(const double *d, size_t count, const finding *f, survey *s, recognised *out) {
+static void count_row(const double *d, size_t count, const finding *f, tally *s, recognised *out) {
     counts c;
     count_block(d, count, &c);
     out->invalid += (size_t)c.invalid;
@@ -263,13 +264,13 @@ static uint32_t stride_of(uint32_t height) {
     return stride;
 }
 
-static void count_all(const image *img, const finding *f, survey *s, recognised *out) {
+static void count_all(const image *img, const finding *f, tally *s, recognised *out) {
     const uint32_t stride = stride_of(img->height);
     double d[BLOCK];
     for (uint64_t i = 0; i < img->height; i++)
         for (uint32_t x = 0; x < img->width; x += BLOCK) {
             const uint32_t some = img->width - x < BLOCK ? img->width - x : BLOCK;
-            image_depths_double(img, &out->format, (uint32_t)(i * stride % img->height), x, some, d);
+            image_depths(img, &out->format, (uint32_t)(i * stride % img->height), x, some, d);
             count_row(d, some, f, s, out);
         }
 }
@@ -277,7 +278,7 @@ static void count_all(const image *img, const finding *f, survey *s, recognised 
 /* ---- Direction ----------------------------------------------------------------------------------------------------*/
 
 /* The sky is the end that far more samples have, where they are not a few; the mass is where nine of ten others are. */
-static const char *direct(const survey *s, recognised *out) {
+static const char *direct(const tally *s, recognised *out) {
     const size_t sky = out->at_zero > out->at_one ? out->at_zero : out->at_one;
     const size_t other = out->at_zero + out->at_one - sky;
     const int by_sky = sky < 1 + out->samples / 1000 || sky < 4 * other ? -1 : out->at_zero > out->at_one;
@@ -323,7 +324,7 @@ static void explain(const image *img, finding *f, const extent *e, recognised *o
 }
 
 /* Millimetres of a sensor are whole numbers of 16 bits, with 0 where it saw nothing and nothing else below 100. */
-static void suspect(const image *img, const survey *s, recognised *out) {
+static void suspect(const image *img, const tally *s, recognised *out) {
     enum { LEAST = 100, MOST = 30000 };
     double least = 1, most = 0;
     if (img->type != IMAGE_U16 || out->at_zero < 1 + out->samples / 1000)
@@ -345,7 +346,7 @@ static void (*const judges[IMAGE_TYPE_COUNT])(const image *img, finding *f) = {
 };
 
 /* What is coarser than the lattice. Bytes are, whatever is in them. */
-static void find_steps(const image *img, finding *f, const survey *s, recognised *out) {
+static void find_steps(const image *img, finding *f, const tally *s, recognised *out) {
     const bool codes = img->type < IMAGE_F16 && f->which != LATTICE_FP32;
     const double tops[] = {[LATTICE_FP16] = (double)INFINITY, 65535, 16777215, (double)INFINITY};
     const grid_source source = {.bits = img->type == IMAGE_F16 ? 11
@@ -366,7 +367,7 @@ static void find_steps(const image *img, finding *f, const survey *s, recognised
 }
 
 /* How many numbers agree, against how many would without that lattice. */
-static void weigh(finding *f, const survey *s, recognised *out) {
+static void weigh(finding *f, const tally *s, recognised *out) {
     out->certain = f->chance ? s->telling >= RECOGNISE_LEAST && s->bits >= RECOGNISE_BITS : f->sure && s->inner > 0;
     if (!f->chance)
         return;
@@ -377,7 +378,7 @@ static void weigh(finding *f, const survey *s, recognised *out) {
 
 void recognise(const image *img, recognised *out) {
     finding f = {.single = true};
-    survey s = {0};
+    tally s = {0};
     dp_format formats[2];
     extent numbers = {0};
     judges[img->type](img, &f);

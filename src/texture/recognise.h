@@ -57,26 +57,4 @@ void recognise(const image *image, recognised *out);
 /** The number that the bits of a binary16 stand for; NaN for infinities, too. */
 double recognise_half(uint16_t bits);
 
-/**
- * Whether integers of an image are codes of the format, which is so where the type has at least as many bits as the
- * codes; else they are shares of the type's maximum.
- */
-bool recognise_codes(const image *image, const dp_format *format);
-
-/**
- * The window depth of `count` pixels of a row from `column` on, channel 0: codes by their format, shares of the type's
- * maximum, or the numbers themselves, rounded to binary32. NaN where it is not finite or outside [0, 1], or above
- * code_max; never -0.
- */
-void image_depths(const image *image, const dp_format *format, uint32_t row, uint32_t column, uint32_t count, float *d);
-
-/** The same in double: codes are correctly rounded there. */
-void image_depths_double(const image *image, const dp_format *format, uint32_t row, uint32_t column, uint32_t count,
-                         double *d);
-
-/** The same as codes of the format, the nearest where a sample is not on the lattice; UINT32_MAX where invalid (and for
- *  1 in unorm32). */
-void image_codes(const image *image, const dp_format *format, uint32_t row, uint32_t column, uint32_t count,
-                 uint32_t *codes);
-
 #endif

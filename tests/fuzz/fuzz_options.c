@@ -28,13 +28,6 @@ static void demand(int truth) {
         abort();
 }
 
-static int asks_for_help(char **argv) {
-    for (; *argv != NULL; argv++)
-        if (strncmp(*argv, "--h", 3) == 0 || strncmp(*argv, "--vers", 6) == 0 || (**argv == '-' && strchr(*argv, 'h')))
-            return 1;
-    return 0;
-}
-
 static void use(const options *o) {
     setups all;
     depths at;
@@ -75,12 +68,10 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size) {
         line = end;
     }
     argv[argc] = NULL;
-    if (!asks_for_help(argv)) { /* that would print to stdout and close it */
-        options o;
-        if (options_parse(&o, argc, argv) < 0)
-            use(&o);
-        options_release(&o);
-    }
+    options o;
+    if (options_parse(&o, argc, argv) == EXIT_FINE)
+        use(&o);
+    options_release(&o);
     free(text);
     return 0;
 }

@@ -8,6 +8,7 @@
 #include <string.h>
 
 #include "texture/camera.h"
+#include "texture/image_depths.h"
 #include "texture/recognise.h"
 
 int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size);
@@ -18,13 +19,13 @@ static inline void demand(int truth) {
 }
 
 static inline void use_row(const image *img, const dp_format *format, uint32_t row) {
-    float d[64];
+    double d[64];
     uint32_t codes[64];
     const uint32_t count = img->width < 64 ? img->width : 64;
     image_depths(img, format, row, img->width - count, count, d);
     image_codes(img, format, row, img->width - count, count, codes);
     for (uint32_t i = 0; i < count; i++) {
-        demand(d[i] != d[i] || (d[i] >= 0.0F && d[i] <= 1.0F));
+        demand(d[i] != d[i] || (d[i] >= 0.0 && d[i] <= 1.0));
         demand((d[i] != d[i]) == (codes[i] == UINT32_MAX) && (codes[i] <= format->code_max || d[i] != d[i]));
     }
 }

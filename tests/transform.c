@@ -1,19 +1,19 @@
-/* SPDX-License-Identifier: MIT */
-#include "depthprec/view.h"
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "transform.h"
 
 #include <math.h>
 
 #include "core/clip.h"
 
 /* clang-format off */
-static const dp_view_row rows[] = {
+static const view_row rows[] = {
     {"origin", {0.0, 0.0, 0.0}, {0.0, 0.0, 1.0}, "the identity: nothing is lost before the projection"},
     {"street", {12.5, 1.75, -40.25}, {0.6, -0.1, 0.79}, "a person in a town, tens of units from the origin"},
     {"aerial", {310.7, 120.3, -95.4}, {-0.37, -0.41, 0.83}, "an aircraft, hundreds of units from the origin"},
 };
 
 /* Which products are added first: ((a + b) + c) + d, then (a + b) + (c + d). */
-static const unsigned char orders[DP_ORDER_COUNT][4] = {
+static const unsigned char orders[ORDER_COUNT][4] = {
     {0, 1, 2, 3}, {0, 1, 3, 2}, {0, 2, 1, 3}, {0, 2, 3, 1}, {0, 3, 1, 2}, {0, 3, 2, 1},
     {1, 2, 0, 3}, {1, 2, 3, 0}, {1, 3, 0, 2}, {1, 3, 2, 0}, {2, 3, 0, 1}, {2, 3, 1, 0},
     {0, 1, 2, 3}, {0, 2, 1, 3}, {0, 3, 1, 2},
@@ -22,11 +22,11 @@ static const unsigned char orders[DP_ORDER_COUNT][4] = {
 
 enum { ROW_COUNT = sizeof rows / sizeof rows[0], FIRST_PAIRED = 12 };
 
-size_t dp_view_count(void) {
+size_t view_count(void) {
     return ROW_COUNT;
 }
 
-const dp_view_row *dp_view_get(size_t index) {
+const view_row *view_get(size_t index) {
     return index < ROW_COUNT ? &rows[index] : NULL;
 }
 
@@ -36,22 +36,21 @@ static void normalize(double v[3]) {
         v[i] /= length;
 }
 
-static void unit_forward(const dp_view_row *view, double forward[3]) {
+static void unit_forward(const view_row *view, double forward[3]) {
     for (int i = 0; i < 3; i++)
         forward[i] = view->forward[i];
     normalize(forward);
 }
 
-dp_status dp_transform_init(dp_transform *t, const dp_setup *setup, const dp_view_row *view, int precomposed,
-                            unsigned order) {
+dp_status transform_init(transform *t, const dp_setup *setup, const view_row *view, int precomposed, unsigned order) {
     if (t == NULL || setup == NULL || view == NULL)
         return DP_ERROR_NULL;
     dp_pipeline pipeline;
-    if (order >= DP_ORDER_COUNT || setup->spec.ortho || dp_pipeline_init(&pipeline, setup) != DP_OK)
+    if (order >= ORDER_COUNT || setup->spec.ortho || dp_pipeline_init(&pipeline, setup) != DP_OK)
         return DP_ERROR_MODEL;
     double forward[3];
     unit_forward(view, forward);
-    *t = (dp_transform){.pipeline = pipeline, .precomposed = precomposed != 0, .order = order};
+    *t = (transform){.pipeline = pipeline, .precomposed = precomposed != 0, .order = order};
     for (int i = 0; i < 3; i++)
         t->view[i] = (float)forward[i];
     t->view[3] = (float)-(forward[0] * view->eye[0] + forward[1] * view->eye[1] + forward[2] * view->eye[2]);
@@ -62,14 +61,14 @@ dp_status dp_transform_init(dp_transform *t, const dp_setup *setup, const dp_vie
 }
 
 /* value + x y, fused or not */
-static float add_product(const dp_transform *t, float value, float x, float y) {
+static float add_product(const transform *t, float value, float x, float y) {
     if (t->pipeline.arith->fused)
         return fmaf(x, y, value);
     const float product = x * y;
     return value + product;
 }
 
-static float dot(const dp_transform *t, const float row[4], const float point[4]) {
+static float dot(const transform *t, const float row[4], const float point[4]) {
     const unsigned char *o = orders[t->order];
     const float first = add_product(t, row[o[0]] * point[o[0]], row[o[1]], point[o[1]]);
     if (t->order >= FIRST_PAIRED) {
@@ -80,20 +79,20 @@ static float dot(const dp_transform *t, const float row[4], const float point[4]
     return add_product(t, sum, row[o[3]], point[o[3]]);
 }
 
-void dp_transform_vertex(const dp_transform *t, const float world[3], float *clip, float *w) {
+void transform_vertex(const transform *t, const float world[3], float *clip, float *w) {
     const float point[4] = {world[0], world[1], world[2], 1.0f};
     *w = dot(t, t->view, point);
     const float value = t->precomposed ? dot(t, t->clip, point) : dp_clip_project(&t->pipeline, *w);
     *clip = dp_clip_remap(&t->pipeline, value, *w);
 }
 
-uint32_t dp_transform_code(const dp_transform *t, const float world[3]) {
+uint32_t transform_code(const transform *t, const float world[3]) {
     float clip, w;
-    dp_transform_vertex(t, world, &clip, &w);
+    transform_vertex(t, world, &clip, &w);
     return dp_pipeline_convert(&t->pipeline, dp_clip_window(&t->pipeline, clip, w));
 }
 
-void dp_view_point(const dp_view_row *view, double right, double up, double z, float world[3], double *depth) {
+void view_point(const view_row *view, double right, double up, double z, float world[3], double *depth) {
     double f[3];
     unit_forward(view, f);
     /* Any frame about the axis will do: start from the world axis that lies least along it. */

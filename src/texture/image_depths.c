@@ -1,10 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Samples of a row as window depths or codes: blocks that stay in the first-level cache, through the batch kernels. */
-#include <math.h>
-#include <string.h>
+#include "texture/image_depths.h"
 
 #include "texture/clones.h"
-#include "texture/recognise.h"
 
 enum { BLOCK = 1024 };
 
@@ -39,7 +37,6 @@ EVERY(uint64_t)
     }
 CLEAN(clean_float, float, float)
 CLEAN(clean_float_double, float, double)
-CLEAN(clean_double_float, double, float)
 CLEAN(clean_double, double, double)
 
 /* Depths whose code does not exist. */
@@ -49,7 +46,6 @@ CLEAN(clean_double, double, double)
             d[i] = codes[i] > code_max ? (TO)__builtin_nanf("") : d[i];                                                \
     }
 BAR(bar_float_16, uint16_t, float)
-BAR(bar_float_32, uint32_t, float)
 BAR(bar_double_16, uint16_t, double)
 BAR(bar_double_32, uint32_t, double)
 
@@ -109,7 +105,7 @@ static void prepare(dp_batch *batch, const dp_format *format, dp_task task, dp_r
     dp_batch_init(batch, &setup, task, real, word, dp_path_best());
 }
 
-/* How the samples of an image are read in a format, which for f2 is always its own. */
+/* How the samples of an image are read in a format, which for f2 is always its own; in binary32 f2 and f4 alone. */
 typedef struct reading {
     const image *img;
     dp_format format;
@@ -119,7 +115,7 @@ typedef struct reading {
 } reading;
 
 static reading begin(const image *img, const dp_format *format, dp_real real) {
-    reading r = {.img = img, .format = *format, .codes = recognise_codes(img, format), .real = real};
+    reading r = {.img = img, .format = *format, .codes = image_are_codes(img, format), .real = real};
     if (img->type == IMAGE_F16) {
         dp_format half[2];
         dp_format_parse("fp16", half);
@@ -131,18 +127,12 @@ static reading begin(const image *img, const dp_format *format, dp_real real) {
     return r;
 }
 
-/* Shares of the type's maximum. Rounding twice does no harm: c/255 and c/65535 are far from all ties of binary32. */
-static void shares(const reading *r, const void *at, size_t count, void *d) {
+/* Shares of the type's maximum. */
+static void shares(const reading *r, const void *at, size_t count, double *d) {
     const uint8_t *bytes = at;
     const uint16_t *words = at;
-    const bool narrow = r->img->type == IMAGE_U8;
-    for (size_t i = 0; i < count; i++) {
-        const double share = narrow ? bytes[i] / 255.0 : words[i] / 65535.0;
-        if (r->real == DP_REAL_FLOAT)
-            ((float *)d)[i] = (float)share;
-        else
-            ((double *)d)[i] = share;
-    }
+    for (size_t i = 0; i < count; i++)
+        d[i] = r->img->type == IMAGE_U8 ? bytes[i] / 255.0 : words[i] / 65535.0;
 }
 
 static void decoded(const reading *r, const void *at, size_t count, void *d) {
@@ -154,9 +144,7 @@ static void decoded(const reading *r, const void *at, size_t count, void *d) {
         unsign(at, count, narrow);
     dp_batch_run(&r->decode, codes, d, count);
     const uint32_t code_max = r->format.code_max;
-    if (r->real == DP_REAL_FLOAT && r->img->type == IMAGE_U32)
-        bar_float_32(codes, code_max, count, d);
-    else if (r->real == DP_REAL_FLOAT)
+    if (r->real == DP_REAL_FLOAT)
         bar_float_16(codes, code_max, count, d);
     else if (r->img->type == IMAGE_U32)
         bar_double_32(codes, code_max, count, d);
@@ -165,40 +153,31 @@ static void decoded(const reading *r, const void *at, size_t count, void *d) {
 }
 
 static void block_depths(const reading *r, const void *at, size_t count, void *d) {
-    const bool narrow = r->real == DP_REAL_FLOAT;
     if (r->codes)
         decoded(r, at, count, d);
+    else if (r->img->type == IMAGE_F32 && r->real == DP_REAL_FLOAT)
+        clean_float(at, count, d);
     else if (r->img->type == IMAGE_F32)
-        narrow ? clean_float(at, count, d) : clean_float_double(at, count, d);
+        clean_float_double(at, count, d);
     else if (r->img->type == IMAGE_F64)
-        narrow ? clean_double_float(at, count, d) : clean_double(at, count, d);
+        clean_double(at, count, d);
     else
         shares(r, at, count, d);
 }
 
 /* ---- Public ------------------------------------------------------------------------------------------------------ */
 
-bool recognise_codes(const image *img, const dp_format *format) {
+bool image_are_codes(const image *img, const dp_format *format) {
     return img->type <= IMAGE_U32 && 8 * image_type_size(img->type) >= (size_t)format->bits;
 }
 
-static void depths(const image *img, const dp_format *format, dp_real real, size_t first, size_t count, void *d) {
+void image_depths(const image *img, const dp_format *format, uint32_t row, uint32_t column, uint32_t count, double *d) {
     block scratch;
-    const reading r = begin(img, format, real);
-    const size_t size = real == DP_REAL_FLOAT ? sizeof(float) : sizeof(double);
+    const reading r = begin(img, format, DP_REAL_DOUBLE);
     for (size_t i = 0; i < count; i += BLOCK) {
         const size_t some = count - i < BLOCK ? count - i : BLOCK;
-        block_depths(&r, samples(img, first + i, some, &scratch), some, (unsigned char *)d + i * size);
+        block_depths(&r, samples(img, (size_t)row * img->width + column + i, some, &scratch), some, d + i);
     }
-}
-
-void image_depths(const image *img, const dp_format *format, uint32_t row, uint32_t column, uint32_t count, float *d) {
-    depths(img, format, DP_REAL_FLOAT, (size_t)row * img->width + column, count, d);
-}
-
-void image_depths_double(const image *img, const dp_format *format, uint32_t row, uint32_t column, uint32_t count,
-                         double *d) {
-    depths(img, format, DP_REAL_DOUBLE, (size_t)row * img->width + column, count, d);
 }
 
 static void widened(const image *img, const void *at, uint32_t code_max, size_t count, uint32_t *codes) {
@@ -226,7 +205,7 @@ void image_codes(const image *img, const dp_format *format, uint32_t row, uint32
                  uint32_t *codes) {
     block scratch;
     const bool single = img->type == IMAGE_F16 || img->type == IMAGE_F32;
-    const bool are_codes = recognise_codes(img, format);
+    const bool are_codes = image_are_codes(img, format);
     const reading r = begin(img, format, single ? DP_REAL_FLOAT : DP_REAL_DOUBLE);
     dp_batch encode;
     if (!are_codes)

@@ -1,0 +1,91 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* completions: a script for a shell, by which it completes a command line, from the same rows as help. */
+#include <string.h>
+
+#include "cli/option_rows.h"
+
+int cmd_completions(const options *o);
+
+static bool takes(const verb *v, const option_row *row) {
+    return (row->commands & v->bit) != 0;
+}
+
+static const char *words_of(const name_list *n, char out[NAMES_SIZE]) {
+    out[0] = '\0';
+    return n != NULL ? names_join(n, " ", " ", out) : out;
+}
+
+/* The words of an option behind it, else those of the operand and the options of the command; files where none fits. */
+static void write_cases(output *out, const char *previous, const char *command) {
+    char text[NAMES_SIZE];
+    output_format(out, "    case %s in\n", previous);
+    for (int id = 0; id < OPTION_COUNT; id++) {
+        const option_row *row = &option_rows[id];
+        const char letter[] = {'|', '-', row->letter, '\0'};
+        if (*option_argument(row, text) != '\0')
+            output_format(out, "    --%s%s) offered='%s' ;;\n", row->name, row->letter != 0 ? letter : "",
+                          words_of(row->names, text));
+    }
+    output_format(out, "    *)\n        case %s in\n", command);
+    for (size_t i = 0; i < verb_count; i++) {
+        const verb *v = &verb_rows[i];
+        output_format(out, "        %s) offered='%s", v->name, words_of(v->names, text));
+        for (int id = 0; id < OPTION_COUNT; id++)
+            if (takes(v, &option_rows[id]))
+                output_format(out, " --%s", option_rows[id].name);
+        output_text(out, "' ;;\n");
+    }
+    output_format(out, "        *) offered='%s' ;;\n        esac ;;\n    esac\n",
+                  words_of(&(name_list){.get = list_verb}, text));
+}
+
+static void write_bash(output *out) {
+    output_text(out, "_depthprec() {\n    local offered=\n");
+    write_cases(out, "${COMP_WORDS[COMP_CWORD-1]}", "${COMP_WORDS[1]}");
+    output_text(out, "    COMPREPLY=($(compgen -W \"$offered\" -- \"${COMP_WORDS[COMP_CWORD]}\"))\n}\n"
+                     "complete -o default -F _depthprec depthprec\n");
+}
+
+static void write_zsh(output *out) {
+    output_text(out, "#compdef depthprec\n_depthprec() {\n    local offered=\n");
+    write_cases(out, "$words[CURRENT-1]", "$words[2]");
+    output_text(out, "    compadd -- ${=offered} || _files\n}\n"
+                     "if [[ $funcstack[1] = _depthprec ]]; then _depthprec; else compdef _depthprec depthprec; fi\n");
+}
+
+static void write_fish(output *out) {
+    char text[NAMES_SIZE];
+    for (size_t i = 0; i < verb_count; i++) {
+        const verb *v = &verb_rows[i];
+        output_format(out, "complete -c depthprec -n __fish_use_subcommand -a %s\n", v->name);
+        if (v->names != NULL)
+            output_format(out, "complete -c depthprec -n '__fish_seen_subcommand_from %s' -a '%s'\n", v->name,
+                          words_of(v->names, text));
+    }
+    for (int id = 0; id < OPTION_COUNT; id++) {
+        const option_row *row = &option_rows[id];
+        const bool argument = *option_argument(row, text) != '\0';
+        output_text(out, "complete -c depthprec -n '__fish_seen_subcommand_from");
+        for (size_t i = 0; i < verb_count; i++)
+            if (takes(&verb_rows[i], row))
+                output_format(out, " %s", verb_rows[i].name);
+        output_format(out, "' -l %s", row->name);
+        if (row->letter != 0)
+            output_format(out, " -s %c", row->letter);
+        output_format(out, "%s%s%s%s\n", argument ? " -r" : "", row->names != NULL ? " -fa '" : "",
+                      words_of(row->names, text), row->names != NULL ? "'" : "");
+    }
+}
+
+int cmd_completions(const options *o) {
+    output out;
+    output_open(&out, NULL);
+    const char *shell = o->operands[0];
+    if (strcmp(shell, "bash") == 0)
+        write_bash(&out);
+    else if (strcmp(shell, "zsh") == 0)
+        write_zsh(&out);
+    else
+        write_fish(&out);
+    return output_close(&out);
+}

@@ -1,0 +1,262 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "cli/option_rows.h"
+
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "report/append.h"
+#include "report/number.h"
+
+const char *option_argument(const option_row *row, char out[OPTION_TEXT_SIZE]) {
+    out[0] = '\0';
+    if (row->argument == NULL && row->names != NULL)
+        return names_join(row->names, "|", "|", out);
+    append(out, OPTION_TEXT_SIZE, "%s", row->argument != NULL ? row->argument : "");
+    return out;
+}
+
+/* ---- Kinds ------------------------------------------------------------------------------------------------------- */
+
+static void *field(options *o, option_id id) {
+    return (char *)o + option_rows[id].place;
+}
+
+/* Flags, counts and enumerations are as wide as their fields. */
+static void set_whole(options *o, option_id id, uint64_t whole) {
+    const bool flag = whole != 0;
+    const unsigned narrow = (unsigned)whole;
+    const size_t size = option_rows[id].size;
+    const void *const from = size == sizeof flag     ? (const void *)&flag
+                             : size == sizeof narrow ? &narrow
+                                                     : (void *)&whole;
+    memcpy(field(o, id), from, size);
+}
+
+int parse_flag(options *o, option_id id, const char *value) {
+    (void)value;
+    set_whole(o, id, 1);
+    return EXIT_FINE;
+}
+
+int parse_text(options *o, option_id id, const char *value) {
+    *(const char **)field(o, id) = value;
+    return EXIT_FINE;
+}
+
+int parse_file(options *o, option_id id, const char *value) {
+    return *value != '\0' ? parse_text(o, id, value) : option_error(id, "must be a file name, got ''");
+}
+
+/* 1e12 and 1e-9, where printf writes 1e+12 and 1e-09; no power of ten in whole numbers, which are read without. */
+static const char *limit_text(double limit, bool whole, char out[NUMBER_SIZE]) {
+    number_digits(limit, 6, out);
+    if (whole || strtod(out, NULL) != limit)
+        snprintf(out, NUMBER_SIZE, "%.0f", limit);
+    char *exponent = strchr(out, 'e');
+    if (exponent != NULL)
+        snprintf(exponent, 8, "e%ld", strtol(exponent + 1, NULL, 10));
+    return out;
+}
+
+const char *option_limits(const option_row *row, char out[OPTION_TEXT_SIZE]) {
+    char least[NUMBER_SIZE], most[NUMBER_SIZE];
+    const bool whole = row->parse == parse_whole;
+    snprintf(out, OPTION_TEXT_SIZE, "%s to %s%s%s", limit_text(row->least, whole, least),
+             limit_text(row->most, whole, most), row->unit != NULL ? " " : "", row->unit != NULL ? row->unit : "");
+    return out;
+}
+
+int parse_number(options *o, option_id id, const char *value) {
+    const option_row *row = &option_rows[id];
+    char limits[OPTION_TEXT_SIZE];
+    double number;
+    if (!number_parse(value, NUMBER_FINITE, &number) || !(number >= row->least && number <= row->most))
+        return option_error(id, "must be a number from %s, got '%s'", option_limits(row, limits), value);
+    *(double *)field(o, id) = number;
+    return EXIT_FINE;
+}
+
+int parse_length(options *o, option_id id, const char *value) {
+    double length;
+    if (!number_parse(value, NUMBER_FINITE, &length) || !(length > 0.0))
+        return option_error(id, "must be a positive number of scene units, got '%s'", value);
+    *(double *)field(o, id) = length;
+    return EXIT_FINE;
+}
+
+int parse_whole(options *o, option_id id, const char *value) {
+    const option_row *row = &option_rows[id];
+    char limits[OPTION_TEXT_SIZE];
+    unsigned long whole;
+    if (!number_parse_count(value, (unsigned long)row->most, &whole) || (double)whole < row->least)
+        return option_error(id, "must be a whole number from %s, got '%s'", option_limits(row, limits), value);
+    set_whole(o, id, whole);
+    return EXIT_FINE;
+}
+
+static int unknown_name(option_id id, const char *name) {
+    char text[NAMES_SIZE];
+    return option_error(id, "%s", names_refuse(option_rows[id].names, name, text));
+}
+
+int parse_word(options *o, option_id id, const char *value) {
+    size_t index;
+    if (!names_find(option_rows[id].names, value, &index, NULL))
+        return unknown_name(id, value);
+    set_whole(o, id, index);
+    return EXIT_FINE;
+}
+
+int parse_row(options *o, option_id id, const char *value) {
+    list_item item;
+    if (!names_find(option_rows[id].names, value, NULL, &item))
+        return unknown_name(id, value);
+    memcpy(field(o, id), &item.row, sizeof item.row); /* whatever it points to */
+    return EXIT_FINE;
+}
+
+/* ---- Languages of their own -------------------------------------------------------------------------------------- */
+
+int parse_far(options *o, option_id id, const char *value) {
+    if (!number_parse(value, NUMBER_FAR, &o->zfar))
+        return option_error(id, "must be a number greater than near and at most 1e18, or inf, got '%s'", value);
+    return EXIT_FINE;
+}
+
+/* NAME[,NAME...]: one after the other to `add`. */
+static int parse_list(options *o, option_id id, const char *value, int (*add)(options *, const char *)) {
+    char name[64];
+    const size_t length = strlen(value);
+    if (length == 0 || *value == ',' || value[length - 1] == ',' || strstr(value, ",,") != NULL)
+        return option_error(id, "must be NAME[,NAME...] or all, got '%s'", value);
+    for (const char *at = value; *at != '\0'; at += *at == ',') {
+        const size_t part = strcspn(at, ",");
+        snprintf(name, sizeof name, "%.*s", (int)part, at);
+        const int status = part < sizeof name ? add(o, name) : unknown_name(id, at);
+        if (status != EXIT_FINE)
+            return status;
+        at += part;
+    }
+    return EXIT_FINE;
+}
+
+static int add_one_format(options *o, const dp_format *format) {
+    for (size_t i = 0; i < o->format_count; i++)
+        if (strcmp(o->formats[i].name, format->name) == 0)
+            return EXIT_FINE;
+    if (o->format_count == OPTIONS_FORMATS_MAX)
+        return option_error(OPTION_FORMAT, "must be at most %d formats, got '%s' too", OPTIONS_FORMATS_MAX,
+                            format->name);
+    o->formats[o->format_count++] = *format;
+    return EXIT_FINE;
+}
+
+static int add_format(options *o, const char *name) {
+    dp_format found[2];
+    const size_t count = dp_format_parse(name, found);
+    const bool all = strcmp(name, "all") == 0;
+    int status = count > 0 || all ? EXIT_FINE : unknown_name(OPTION_FORMAT, name);
+    for (size_t i = 0; i < (all ? dp_format_count() : count) && status == EXIT_FINE; i++)
+        status = add_one_format(o, all ? &dp_format_get(i)->format : &found[i]);
+    return status;
+}
+
+int parse_formats(options *o, option_id id, const char *value) {
+    o->format_count = 0;
+    return parse_list(o, id, value, add_format);
+}
+
+static int add_mapping(options *o, const char *name) {
+    dp_mapping mapping;
+    if (strcmp(name, "all") == 0)
+        return add_mapping(o, "d3d") != EXIT_FINE ? EXIT_USAGE : add_mapping(o, "reversed");
+    if (dp_mapping_parse(name, &mapping) != DP_OK)
+        return unknown_name(OPTION_MAPPING, name);
+    for (size_t i = 0; i < o->mapping_count; i++)
+        if (o->mappings[i] == mapping)
+            return EXIT_FINE;
+    o->mappings[o->mapping_count++] = mapping;
+    return EXIT_FINE;
+}
+
+int parse_mappings(options *o, option_id id, const char *value) {
+    o->mapping_count = 0;
+    return parse_list(o, id, value, add_mapping);
+}
+
+/* A share, or a percentage with its sign. */
+int parse_tolerance(options *o, option_id id, const char *value) {
+    const size_t length = strlen(value);
+    const bool percent = length > 0 && value[length - 1] == '%';
+    double share;
+    if (!number_parse_part(value, length - percent, NUMBER_FINITE, &share) || !(share >= 0.0))
+        return option_error(id, "must be a share such as 0.05, or 5%%, not negative, got '%s'", value);
+    o->tolerance = percent ? share / 100.0 : share;
+    return EXIT_FINE;
+}
+
+int parse_at(options *o, option_id id, const char *value) {
+    (void)id;
+    return depths_parse(value, &o->at);
+}
+
+int parse_range(options *o, option_id id, const char *value) {
+    (void)id;
+    return range_parse(value, &o->range_lo, &o->range_hi);
+}
+
+int parse_origin(options *o, option_id id, const char *value) {
+    const char *at = value;
+    for (int i = 0; i < 3; i++) {
+        const size_t length = strcspn(at, ",");
+        double *x = &o->camera.origin[i];
+        if (!number_parse_part(at, length, NUMBER_FINITE, x) || !(*x >= -1e12 && *x <= 1e12) ||
+            (at[length] == '\0') != (i == 2))
+            return option_error(id, "must be X,Y,Z, each from -1e12 to 1e12, got '%s'", value);
+        at += length + 1;
+    }
+    return EXIT_FINE;
+}
+
+int parse_size(options *o, option_id id, const char *value) {
+    char width[16];
+    unsigned long w, h;
+    const size_t length = strcspn(value, "x");
+    snprintf(width, sizeof width, "%.*s", (int)length, value);
+    if (length >= sizeof width || value[length] == '\0' || !number_parse_count(width, TEXTURE_SIDE_MAX, &w) ||
+        !number_parse_count(value + length + 1, TEXTURE_SIDE_MAX, &h) || w < 1 || h < 1)
+        return option_error(id, "must be WIDTHxHEIGHT, each from 1 to %u pixels, got '%s'", TEXTURE_SIDE_MAX, value);
+    if ((uint64_t)w * h > TEXTURE_PIXELS_MAX)
+        return option_error(id, "must be at most %u pixels in all, got '%s'", (unsigned)TEXTURE_PIXELS_MAX, value);
+    o->camera.width = (uint32_t)w;
+    o->camera.height = (uint32_t)h;
+    return EXIT_FINE;
+}
+
+/* The last of a name counts, as with every option. */
+int parse_parameter(options *o, option_id id, const char *value) {
+    const size_t length = strcspn(value, "=");
+    named_number given = {{0}, 0};
+    if (value[length] == '\0' || length == 0 || length >= sizeof given.name ||
+        !number_parse(value + length + 1, NUMBER_FINITE, &given.value))
+        return option_error(id, "must be NAME=NUMBER, got '%s'", value);
+    memcpy(given.name, value, length);
+    size_t i = 0;
+    while (i < o->parameter_count && strcmp(o->parameters[i].name, given.name) != 0)
+        i++;
+    if (i == OPTIONS_PARAMETERS_MAX)
+        return option_error(id, "must not be more than %d, got '%s' too", OPTIONS_PARAMETERS_MAX, value);
+    o->parameters[i] = given;
+    o->parameter_count += i == o->parameter_count;
+    return EXIT_FINE;
+}
+
+int parse_form(options *o, option_id id, const char *value) {
+    const output_form form = id == OPTION_JSON ? FORM_JSON : FORM_CSV;
+    (void)value;
+    if (o->form != FORM_TEXT && o->form != form)
+        return option_error(id, "must not be given together with --%s", form == FORM_JSON ? "csv" : "json");
+    o->form = form;
+    return EXIT_FINE;
+}
