@@ -178,12 +178,10 @@ static int write_figure(const options *o, const figure_row *row, const figure_re
     if (c->title[0] == '\0')
         snprintf(c->title, sizeof c->title, "%s", row->title);
     bool good = !chart_failed(c);
-    if (good && o->form == FORM_JSON)
-        plot_data_json(&out, row->name, c);
-    else if (good && o->form == FORM_CSV)
-        plot_data_csv(&out, c);
-    else if (good)
+    if (good && o->form == FORM_TEXT)
         good = picture(o, c, &out);
+    else if (good)
+        plot_data_write(&out, o->form, row->name, c);
     if (good && o->verbose)
         say_evaluations(row, c);
     if (good)
