@@ -13,7 +13,7 @@ src/texture       | depthprec core texture
 src/method        | depthprec core texture census method
 src/need          | depthprec core api need
 src/report        | depthprec report
-src/plot          | depthprec core plot
+src/plot          | depthprec core api census texture method need plot
 src/cli           | depthprec core api census texture method need report plot cli
 '
 

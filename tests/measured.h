@@ -53,7 +53,7 @@ size_t bench_run(const method_family_row *family, size_t which, const dp_setup *
                  bench_result results[BENCH_METHODS_MAX]) {
     size_t count = 0;
     const double limit = next_number();
-    assert_int_equal(repetitions, METHODS_REPETITIONS);
+    assert_int_equal(repetitions, BENCH_REPETITIONS);
     asked = *setup;
     asked_which = which;
     for (size_t i = 0; i < *family->method_count; i++) {

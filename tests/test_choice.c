@@ -5,8 +5,9 @@
 #include <string.h>
 
 #include "cli/choice.h"
-#include "cli/ways.h"
 #include "method/truth.h"
+#include "method/ways.h"
+#include "plot/figure.h"
 #include "plot/refine.h"
 #include "support.h"
 
@@ -162,7 +163,6 @@ static void figures_look_the_same(void **state) {
                             .at = NAN,
                             .columns = 600,
                             .rows = ROWS,
-                            .find_way = way_for_figure,
                             .tolerance = NAN};
         chart *drawn = chart_new();
         assert_null(figure_find("interval")->build(&q, drawn));

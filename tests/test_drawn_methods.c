@@ -28,33 +28,41 @@ static const double claimed[METHODS] = {10000, 10, NAN, 1000, 100, 100, 10, NAN,
 static const double breaks[METHODS] = {INFINITY, 100, INFINITY, 10000, NAN, 1000, INFINITY, INFINITY, 100};
 static const double exact = 1e-17; /* where what has no error is drawn */
 
-static const figure_methods own = {.measure = "relative error",
-                                   .count = METHODS,
-                                   .names = names,
-                                   .ns = ns,
-                                   .errors = errors,
-                                   .group = group,
-                                   .front = front};
+/* The methods as rows of a family with one case; those of group 1 are judged by the pipeline. */
+static method_row own[METHODS];
+static method_family_row family = {
+    .name = "own", .measure = "relative error", .cases = {{.name = "case"}}, .case_count = 1};
 
-static drawn *draw_own(const char *figure, const figure_methods *m, const drawn_theme *look) {
-    dp_setup setup;
-    const dp_spec spec = dp_spec_default();
-    const char *one = "one";
-    assert_int_equal(dp_setup_init(&setup, &spec), DP_OK);
-    const figure_request request = {.setups = &setup,
-                                    .count = 1,
-                                    .names = &one,
-                                    .lo = NAN,
-                                    .hi = NAN,
-                                    .at = NAN,
-                                    .methods = m,
-                                    .columns = 800,
-                                    .rows = 500};
+static void name_rows(void) {
+    for (size_t i = 0; i < METHODS; i++) {
+        own[i].name = names[i];
+        own[i].domain = group[i] == 1 ? METHOD_PIPELINE : 0;
+        own[i].claims[0].ratio_hi = isnan(claimed[i]) ? 1e5 : claimed[i];
+        own[i].claims[0].worst = isnan(claimed[i]) ? (double)NAN : 1;
+    }
+}
+
+static drawn *draw_own(const char *figure, const drawn_theme *look) {
     chart *c = chart_new();
     assert_non_null(c);
     snprintf(c->title, sizeof c->title, "%s", figure_find(figure)->title);
     snprintf(c->subtitle, sizeof c->subtitle, "of the test");
-    assert_null(figure_find(figure)->build(&request, c));
+    name_rows();
+    if (strcmp(figure, "pareto") == 0) {
+        bench_result results[METHODS] = {0};
+        for (size_t i = 0; i < METHODS; i++)
+            results[i] = (bench_result){
+                .row = &own[i], .ns = ns[i], .measured = {.worst = {.relative = errors[i]}}, .front = front[i]};
+        assert_null(pareto_draw(&family, results, METHODS, c));
+    } else {
+        static stability_result results[METHODS];
+        for (size_t i = 0; i < METHODS; i++) {
+            results[i] = (stability_result){.row = &own[i], .steps = STEPS, .breaks = breaks[i]};
+            memcpy(results[i].ratio, ratios, sizeof ratios);
+            memcpy(results[i].error, &walked[i * STEPS], STEPS * sizeof walked[0]);
+        }
+        assert_null(stability_draw(&family, results, METHODS, c));
+    }
     return drawn_chart(look, c, 800, 500);
 }
 
@@ -142,7 +150,7 @@ static void check_pareto_words(const drawn *d) {
 
 static void pareto_of_the_test(void **state) {
     (void)state;
-    drawn *d = draw_own("pareto", &own, &drawn_light);
+    drawn *d = draw_own("pareto", &drawn_light);
     const drawn_panel *p = &d->panels[0];
     drawn_marker all[32];
     const size_t count = drawn_markers(d, p, all, 32);
@@ -160,7 +168,9 @@ static void pareto_of_the_test(void **state) {
         const svg_point at = place_of(p, ns[i], errors[i]);
         if (!marked(all, count, &d->entries[front[i]].marker, at))
             fail_msg("'%s' is not marked as it should be", names[i]);
-        words[i] = check_name(d, p, at, names[i]);
+        char name[64];
+        snprintf(name, sizeof name, "%s%s", names[i], group[i] == 1 ? " (pipeline)" : "");
+        words[i] = check_name(d, p, at, name);
         for (size_t k = 0; k < i; k++)
             assert_false(words[k] != NULL && overlap(words[k]->box, words[i]->box));
         shown++;
@@ -269,15 +279,8 @@ static void check_ends(const drawn *d, const drawn_panel *p, const double *ends,
 static void stability_of_the_test(void **state) {
     (void)state;
     static const char *const texts[] = {"claimed up to here", "the claim breaks here"};
-    const figure_methods m = {.count = METHODS,
-                              .names = names,
-                              .errors = walked,
-                              .steps = STEPS,
-                              .ratios = ratios,
-                              .claimed = claimed,
-                              .breaks = breaks};
     for (int dark = 0; dark < 2; dark++) {
-        drawn *d = draw_own("stability", &m, dark ? &drawn_dark : &drawn_light);
+        drawn *d = draw_own("stability", dark ? &drawn_dark : &drawn_light);
         const drawn_panel *p = &d->panels[0];
         assert_string_equal(d->title, "Where methods lose their digits");
         assert_string_equal(d->x_caption->text, "far/near");
@@ -296,7 +299,9 @@ static void stability_of_the_test(void **state) {
         assert_px(drawn_px(&p->x, sqrt(1e9)), p->frame.x1, 1.5);
         assert_int_equal(p->y.labels, METHODS);
         for (size_t i = 0; i < METHODS; i++) {
-            assert_string_equal(p->y.at[METHODS - 1 - i]->text, names[i]);
+            char name[64];
+            snprintf(name, sizeof name, "%s, case", names[i]);
+            assert_string_equal(p->y.at[METHODS - 1 - i]->text, name);
             assert_px(p->y.px[METHODS - 1 - i], row_of(p, i, METHODS), 1);
             for (size_t k = 0; k < STEPS; k++) { /* below the marks */
                 const uint32_t colour = field_at(d, p, drawn_px(&p->x, ratios[k] * 1.5), row_of(p, i, METHODS) + 12);

@@ -177,8 +177,7 @@ static void scene_of_requirements(void **state) {
 
 /* Told apart by more than their curves are thick: each surface, method and set-up has its own height and slope. */
 static double made_up(const dp_setup *setup, size_t surface, size_t method, double z) {
-    if (surface == 1 && method == 2)
-        return NAN; /* the bound holds on surface 0 alone */
+    assert_true(surface == 0 || method < 4); /* the bound holds on surface 0 alone */
     return pow(10, (double)method * 1.5 + (double)surface * 0.7 + (setup->reversed ? 0.35 : 0)) * pow(z, 0.3) * 1e-3;
 }
 
@@ -196,53 +195,43 @@ static bool true_normal(const void *context, double from, double to, double *lo,
 
 static void normals_of_the_test(void **state) {
     (void)state;
-    static const char *const texts[] = {"rough", "fine", "bound of rough"};
-    const figure_normals own = {.surface_count = 2,
-                                .method_count = 2,
-                                .surfaces = (const char *const[]){"floor", "ball"},
-                                .methods = texts,
-                                .bound = texts[2],
-                                .error = made_up};
+    static const char *const texts[] = {"low", "medium", "high", "projective", "bound of projective"};
+    static const char *const surfaces[] = {"plane at 60\u00b0", "outline of a sphere"};
     cameras c = cameras_of(drawn_camera(0.1, 1000), "unorm16", "d3d,reversed");
     const char *names[] = {c.names[0], c.names[1]};
-    const figure_request request = {.setups = c.setups,
-                                    .count = 2,
-                                    .names = names,
-                                    .lo = NAN,
-                                    .hi = NAN,
-                                    .at = NAN,
-                                    .normals = &own,
-                                    .columns = 800,
-                                    .rows = 500};
+    const figure_request request = {
+        .setups = c.setups, .count = 2, .names = names, .lo = NAN, .hi = NAN, .at = NAN, .columns = 800, .rows = 500};
     chart *drawing = chart_new();
     assert_non_null(drawing);
     snprintf(drawing->title, sizeof drawing->title, "Of the test");
     snprintf(drawing->subtitle, sizeof drawing->subtitle, "sub");
-    assert_null(figure_find("normals")->build(&request, drawing));
+    assert_null(normals_draw(&request, made_up, drawing));
     drawn *d = drawn_chart(&drawn_light, drawing, 800, 500);
     assert_string_equal(d->x_caption->text, "eye depth z (scene units)");
     assert_string_equal(d->y_caption->text, "angular error (degrees)");
-    drawn_legend_is(d, 3, texts);
+    drawn_legend_is(d, 5, texts);
     drawn_style_is(d, &d->entries[0], 0, 0, DRAWN_DISC, false);
     drawn_style_is(d, &d->entries[1], 1, 1, DRAWN_SQUARE, false);
-    drawn_style_is(d, &d->entries[2], -1, 1, DRAWN_NONE, true);
+    drawn_style_is(d, &d->entries[2], 2, 2, DRAWN_DIAMOND, false);
+    drawn_style_is(d, &d->entries[3], 3, 3, DRAWN_TRIANGLE, false);
+    drawn_style_is(d, &d->entries[4], -1, 1, DRAWN_NONE, true);
     assert_int_equal(d->panel_count, 4);
     for (size_t i = 0; i < 4; i++) {
         char heading[80];
         const drawn_panel *p = &d->panels[i];
-        snprintf(heading, sizeof heading, "%s: %s", c.names[i / 2], own.surfaces[i % 2]);
+        snprintf(heading, sizeof heading, "%s: %s", c.names[i / 2], surfaces[i % 2]);
         assert_string_equal(p->heading, heading);
         assert_true(p->x.log && p->y.log);
-        for (size_t m = 0; m < (i % 2 == 0 ? 3 : 2); m++) {
+        for (size_t m = 0; m < (i % 2 == 0 ? 5 : 4); m++) {
             const of_normals n = {&c.setups[i / 2], i % 2, m};
             const svg_mark *curve = drawn_curve(d, p, &d->entries[m]);
             drawn_follows(p, &p->y, curve, true_normal, &n, 60, 3);
-            if (m < 2)
+            if (m < 4)
                 drawn_markers_on(d, p, &d->entries[m], curve);
         }
         if (i % 2 == 1) {
             const svg_mark *none[1];
-            assert_int_equal(drawn_strokes(d, p, d->entries[2].line, none, 1), 0);
+            assert_int_equal(drawn_strokes(d, p, d->entries[4].line, none, 1), 0);
         }
     }
     drawn_close(d);

@@ -188,9 +188,25 @@ static void ends(void **state) {
     }
 }
 
+/* What messages list are the rows. */
+static void lists_of_names_are_the_rows(void **state) {
+    (void)state;
+    char all[256] = "", perspective[256] = "";
+    for (int i = 0; i < DP_MAPPING_COUNT; i++) {
+        char *const lists[] = {all, rows[i].curve == DP_CURVE_PERSPECTIVE ? perspective : NULL};
+        for (int k = 0; k < 2; k++)
+            if (lists[k] != NULL)
+                snprintf(lists[k] + strlen(lists[k]), sizeof all - strlen(lists[k]), "%s%s",
+                         lists[k][0] != '\0' ? ", " : "", dp_mapping_get((dp_mapping)i)->name);
+    }
+    assert_string_equal(DP_MAPPING_NAMES, all);
+    assert_string_equal(DP_MAPPING_NAMES_PERSPECTIVE, perspective);
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(names),
+        cmocka_unit_test(lists_of_names_are_the_rows),
         cmocka_unit_test(ends),
         cmocka_unit_test(window_and_back),
     };

@@ -6,6 +6,7 @@
 #include <string.h>
 
 #include "depthprec/depthprec.h"
+#include "need/requirement.h"
 #include "plot/draw.h"
 #include "plot/figure.h"
 #include "plot/notes.h"
@@ -20,36 +21,6 @@ const char *__lsan_default_suppressions(void) {
     return "leak:libfontconfig\n";
 }
 
-/* Three methods, one without error and one beaten, for the figures that show methods. */
-static const char *const method_names[] = {"rough", "beaten", "exact"};
-static const double method_ns[] = {1, 5, 100}, method_ratios[] = {10, 100}, method_ends[] = {100, NAN, INFINITY};
-static const double method_errors[] = {0.1, 0.5, 0, 1e-3, INFINITY, 0};
-static const bool method_front[] = {true, false, true};
-static const int method_groups[] = {0, 0, 0};
-static const figure_methods methods = {.measure = "relative error",
-                                       .count = 3,
-                                       .names = method_names,
-                                       .ns = method_ns,
-                                       .errors = method_errors,
-                                       .group = method_groups,
-                                       .front = method_front,
-                                       .steps = 2,
-                                       .ratios = method_ratios,
-                                       .claimed = method_ends,
-                                       .breaks = method_ends};
-
-/* Two normals from depth, one without error, and the bound of the other. */
-static double normal_error(const dp_setup *setup, size_t surface, size_t method, double z) {
-    (void)surface;
-    return method == 1 ? 0 : z / setup->spec.znear * (method == 2 ? 2 : 1);
-}
-static const figure_normals normals = {.surface_count = 2,
-                                       .method_count = 2,
-                                       .surfaces = (const char *const[]){"plane", "sphere"},
-                                       .methods = (const char *const[]){"rough", "exact"},
-                                       .bound = "bound of rough",
-                                       .error = normal_error};
-
 /* A request about some set-ups, with the room it points to. */
 typedef struct asked {
     dp_setup setups[CHART_SERIES];
@@ -58,9 +29,7 @@ typedef struct asked {
 } asked;
 
 static void ask(asked *a, double znear, double zfar) {
-    *a = (asked){
-        .request = {
-            .lo = NAN, .hi = NAN, .at = NAN, .methods = &methods, .normals = &normals, .columns = 300, .rows = 200}};
+    *a = (asked){.request = {.lo = NAN, .hi = NAN, .at = NAN, .where = "here", .columns = 300, .rows = 200}};
     a->request.setups = a->setups;
     a->request.names = a->names;
     a->setups[0].spec = dp_spec_default();
@@ -246,14 +215,29 @@ static void test_map(void **state) {
 
 /* ---- every row of the table, in every theme and format, large and small: the same bytes twice ---- */
 
+/* Of two cameras, one requirement is met, one missed and one about the error. */
+static const char needs[] =
+    "cameras = { a = { near = 0.1; far = 1000.0; mapping = \"d3d\"; format = \"unorm24\"; };"
+    "            b = { near = 1.0; far = 100.0; mapping = \"reversed\"; format = \"fp32\"; model = \"fp32\"; }; };"
+    "requirements = { x = { camera = \"a\"; range = [1.0, 500.0]; separation = 0.01; };"
+    "                 y = { camera = \"a\"; at = 5.0; error = 0.01; };"
+    "                 z = { camera = \"b\"; range = [2.0, 50.0]; separation = 0.01; }; };";
+
 static void test_every_figure_draws(void **state) {
     (void)state;
     static const int sizes[][2] = {{800, 500}, {DRAW_WIDTH_MIN, DRAW_HEIGHT_MIN}, {1700, 300}};
+    need_file file;
+    need_error error;
+    method_start();
+    assert_true(need_parse("needs", needs, sizeof needs - 1, &file, &error));
     for (size_t i = 0; figure_get(i) != NULL; i++) {
+        const char *family = figure_get(i)->family;
         asked a;
         ask(&a, 0.1, i % 2 == 0 ? 1000 : (double)INFINITY);
         ask_add(&a, "unorm24", DP_MAPPING_D3D);
         ask_add(&a, "unorm24", DP_MAPPING_REVERSED);
+        a.request.file = &file;
+        a.request.family = family != NULL ? method_family_find(family) : NULL;
         chart *c = build(&a, figure_get(i)->name);
         for (size_t t = 0; theme_get(t) != NULL; t++)
             for (int format = 0; format < CANVAS_FORMAT_COUNT; format++) {
@@ -270,6 +254,7 @@ static void test_every_figure_draws(void **state) {
             }
         chart_free(c);
     }
+    need_release(&file);
 }
 
 static void test_digest(void **state) {

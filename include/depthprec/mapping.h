@@ -47,6 +47,10 @@ typedef struct dp_mapping_row {
     const char *source;
 } dp_mapping_row;
 
+/** The names of all rows, and of those with a projection matrix (PERSPECTIVE), as messages list them. */
+#define DP_MAPPING_NAMES             DP_MAPPING_NAMES_PERSPECTIVE ", linear, log"
+#define DP_MAPPING_NAMES_PERSPECTIVE "d3d, gl, reversed, gl-reversed"
+
 /** The row of a mapping; null when out of range. */
 DP_API const dp_mapping_row *dp_mapping_get(dp_mapping mapping);
 

@@ -10,10 +10,7 @@
 
 /* Adding 1.5 2^52 rounds a double to a whole number, to nearest even, and leaves it in the low bits. */
 KERNEL uint32_t whole_even(double x) {
-    const double shifted = x + 0x1.8p52;
-    uint64_t bits;
-    memcpy(&bits, &shifted, sizeof bits);
-    return (uint32_t)bits;
+    return (uint32_t)dp_bits64(x + 0x1.8p52);
 }
 
 KERNEL uint32_t whole_zero(double x) {

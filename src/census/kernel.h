@@ -19,6 +19,7 @@
 #include <stdint.h>
 #include <string.h>
 
+#include "core/bits.h"
 #include "depthprec/pipeline.h"
 
 enum { CENSUS_RUNS = 16, CENSUS_RUN = 64, CENSUS_BLOCK = CENSUS_RUNS * CENSUS_RUN };
@@ -46,15 +47,11 @@ census_plan census_plan_make(const dp_pipeline *pipeline);
 
 /* Positive binary32 depths are counted by their bit patterns, which are ordered as they are. */
 static inline uint32_t census_bits(float z) {
-    uint32_t bits;
-    memcpy(&bits, &z, sizeof bits);
-    return bits;
+    return dp_bits32(z);
 }
 
 static inline float census_depth(uint32_t bits) {
-    float z;
-    memcpy(&z, &bits, sizeof z);
-    return z;
+    return dp_float32(bits);
 }
 
 /** The key of one depth, the slow way. */

@@ -130,7 +130,7 @@ int cmd_bench(const options *o) {
         status = output_open(&out, o->output);
     if (status != EXIT_FINE)
         return status;
-    b.count = bench_run(b.asked.family, b.asked.which, &b.asked.setup, METHODS_REPETITIONS, b.results);
+    b.count = bench_run(b.asked.family, b.asked.which, &b.asked.setup, BENCH_REPETITIONS, b.results);
     if (b.count == 0) {
         output_abandon(&out);
         return usage_error("no memory for the methods");

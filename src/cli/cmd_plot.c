@@ -5,25 +5,36 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "cli/check_report.h"
 #include "cli/choice.h"
-#include "cli/command_line.h"
+#include "cli/figure_file.h"
 #include "cli/list.h"
 #include "cli/methods.h"
-#include "cli/options.h"
-#include "cli/plot_census.h"
 #include "cli/plot_data.h"
-#include "cli/plot_normals.h"
-#include "cli/plot_scene.h"
-#include "cli/setups.h"
-#include "cli/ways.h"
-#include "plot/draw.h"
 #include "plot/figure.h"
 #include "plot/notes.h"
+#include "report/append.h"
 #include "report/number.h"
 
 int cmd_plot(const options *o);
 
 enum { WIDTH = 800, HEIGHT = 500 };
+
+/* Depths that a figure waits for, about a quarter of a second a set-up. */
+static const uint64_t census_depths = UINT64_C(1) << 28;
+
+typedef struct plotting {
+    const options *o;
+    const figure_row *row;
+    figure_request request;
+    setups all;
+    const char *names[CHART_SERIES];
+    char text[CHART_SERIES][SETUP_LABEL_SIZE];
+    methods_asked asked;
+    char where[256]; /* of what is timed */
+    need_file file;
+    chart *chart;
+} plotting;
 
 bool list_figure(size_t index, list_item *item) {
     const figure_row *row = figure_get(index);
@@ -34,27 +45,30 @@ bool list_figure(size_t index, list_item *item) {
 }
 
 /* The depth and range of the request; what this figure has no use for is refused rather than ignored. */
-static int resolve_depths(const options *o, const figure_row *row, figure_request *request) {
+static int resolve_depths(plotting *p) {
+    const options *o = p->o;
     if (option_given(o, OPTION_AT)) {
-        if ((row->takes & FIGURE_AT) == 0)
-            return option_error(OPTION_AT, "has no meaning in the figure %s; --range cuts its axis", row->name);
+        if ((p->row->takes & FIGURE_AT) == 0)
+            return option_error(OPTION_AT, "has no meaning in the figure %s; --range cuts its axis", p->row->name);
         if (o->at.count != 1)
-            return option_error(OPTION_AT, "must be one depth in the figure %s, got %zu", row->name, o->at.count);
+            return option_error(OPTION_AT, "must be one depth in the figure %s, got %zu", p->row->name, o->at.count);
         if (option_given(o, OPTION_RANGE))
             return option_error(OPTION_AT, "must not be given together with --range");
-        request->at = o->at.lo;
+        p->request.at = o->at.lo;
     }
-    if (option_given(o, OPTION_RANGE))
-        return range_resolve(o, &request->lo, &request->hi);
-    return EXIT_FINE;
+    if (!option_given(o, OPTION_RANGE))
+        return EXIT_FINE;
+    p->request.lo = o->range_lo;
+    p->request.hi = o->range_hi;
+    return p->all.count > 0 ? range_resolve(o, &p->request.lo, &p->request.hi) : EXIT_FINE;
 }
 
 /* A file is for the figure that shows requirements, and brings all that makes a set-up. */
 static int check_file_given(const options *o, const figure_row *row) {
     static const option_id camera[] = {OPTION_NEAR,  OPTION_FAR,   OPTION_FORMAT, OPTION_MAPPING,  OPTION_ORTHO,
                                        OPTION_MODEL, OPTION_ARITH, OPTION_LOG_C,  OPTION_ROUNDING, OPTION_PRESET};
-    if ((row->takes & FIGURE_NEEDS) == 0)
-        return o->operand_count == 1 || (row->takes & FIGURE_METHODS) != 0
+    if ((row->takes & FIGURE_FILE) == 0)
+        return o->operand_count == 1 || row->family != NULL
                    ? EXIT_FINE
                    : usage_error("plot %s: takes no file, got '%s'", row->name, o->operands[1]);
     if (o->operand_count < 2)
@@ -76,36 +90,35 @@ static int check_options(const options *o, const figure_row *row) {
     if (option_given(o, OPTION_MODEL) && (row->takes & FIGURE_BINARY32) != 0 && o->model != DP_MODEL_FP32)
         return option_error(OPTION_MODEL, "must be fp32 in the figure %s, got '%s'", row->name,
                             o->model_auto ? "auto" : dp_model_name(o->model));
-    if (option_given(o, OPTION_TOLERANCE) && !o->model_auto && (row->takes & FIGURE_WAYS) == 0)
+    if (option_given(o, OPTION_TOLERANCE) && !o->model_auto && (row->takes & FIGURE_TOLERANCE) == 0)
         return option_error(OPTION_TOLERANCE, "needs --model auto in the figure %s", row->name);
     return EXIT_FINE;
 }
 
-/* --model auto: what is enough over the whole range that the figure shows. */
-static void choose_models(const options *o, const figure_request *request, setups *all) {
+/* --model auto: what is enough over the whole range that the figure shows. Then curves of a quantity that only cells
+ * have are refused where there are none. */
+static int choose_models(plotting *p) {
     enum { CHOICE_DEPTHS = 257 };
     double lo, hi;
-    figure_range(request, &lo, &hi);
-    depths at = depths_spaced(DEPTHS_LOG, lo, hi, CHOICE_DEPTHS);
-    setups_choose(o, &at, all);
-}
-
-/* Curves of a quantity that only cells have. */
-static int check_cells(const figure_row *row, const setups *all) {
-    for (size_t i = 0; i < all->count && (row->takes & FIGURE_FP32) == 0; i++)
-        if (all->items[i].spec.model == DP_MODEL_FP32)
+    figure_range(&p->request, &lo, &hi);
+    const depths at = depths_spaced(DEPTHS_LOG, lo, hi, CHOICE_DEPTHS);
+    setups_choose(p->o, &at, &p->all);
+    for (size_t i = 0; i < p->all.count && (p->row->takes & FIGURE_FP32) == 0; i++)
+        if (p->all.items[i].spec.model == DP_MODEL_FP32)
             return option_error(OPTION_MODEL,
                                 "fp32 has no cells for the figure %s to show; interval and budget draw its separation",
-                                row->name);
+                                p->row->name);
     return EXIT_FINE;
 }
 
 /* Set-ups differ by format and mapping and, where they were chosen one by one, by model. */
-static const char *name_of(const options *o, const dp_setup *setup, char out[SETUP_LABEL_SIZE]) {
-    setup_label(setup, false, out);
-    if (o->model_auto)
-        snprintf(out + strlen(out), SETUP_LABEL_SIZE - strlen(out), ", %s", dp_model_name(setup->spec.model));
-    return out;
+static void name_setups(plotting *p) {
+    for (size_t i = 0; i < p->all.count; i++) {
+        char *name = p->text[i];
+        p->names[i] = setup_label(&p->all.items[i], false, name);
+        if (p->o->model_auto)
+            append(name, SETUP_LABEL_SIZE, ", %s", dp_model_name(p->all.items[i].spec.model));
+    }
 }
 
 /* What holds for all set-ups: the full label without the name in front. */
@@ -127,16 +140,53 @@ static void subtitle_of(const options *o, const figure_request *request, char *o
         snprintf(out, size, "%s", one);
 }
 
-static bool picture(const options *o, const chart *c, output *out) {
-    char command[COMMAND_LINE_SIZE];
-    canvas_bytes bytes;
-    command_line(o, o->output, command);
-    if (!draw_chart(c, theme_get(o->theme), canvas_format_of(o->output), o->width > 0 ? o->width : WIDTH,
-                    o->height > 0 ? o->height : HEIGHT, command, &bytes))
-        return false;
-    output_bytes(out, bytes.at, bytes.size);
-    free(bytes.at);
-    return true;
+/* Which family and, where it is timed, in which case; the figure measures that and not the set-ups. */
+static int resolve_methods(plotting *p) {
+    const options *o = p->o;
+    char machine[192], znear[NUMBER_SIZE], zfar[NUMBER_SIZE];
+    const char *family = o->operand_count > 1 ? o->operands[1] : p->row->family;
+    const name_list families = {.get = list_family};
+    list_item item;
+    int status = check_operand(o->verb, "FAMILY", &families, family, &item);
+    if (status == EXIT_FINE)
+        status = methods_resolve(o, item.row, &p->asked);
+    number_shortest(o->znear, znear);
+    number_shortest(o->zfar, zfar);
+    snprintf(p->where, sizeof p->where, "near %s, far %s; %s", znear, zfar, methods_machine(machine, sizeof machine));
+    p->request.setups = &p->asked.setup;
+    p->request.count = 1;
+    p->request.family = p->asked.family;
+    p->request.which = p->asked.which;
+    p->request.where = p->where;
+    return status;
+}
+
+static int resolve_setups(plotting *p) {
+    options in_model = *p->o;
+    if ((p->row->takes & FIGURE_BINARY32) != 0)
+        in_model.model = DP_MODEL_FP32;
+    int status = check_options(p->o, p->row);
+    if (status == EXIT_FINE)
+        status = setups_make(&in_model, &p->all);
+    if (status == EXIT_FINE)
+        status = resolve_depths(p);
+    if (status == EXIT_FINE && p->all.count > p->row->setups_max)
+        status = usage_error("plot %s: shows at most %zu set-ups, got %zu: name fewer with --format or --mapping",
+                             p->row->name, p->row->setups_max, p->all.count);
+    if (status != EXIT_FINE)
+        return status;
+    p->request.setups = p->all.items;
+    p->request.count = p->all.count;
+    status = choose_models(p);
+    name_setups(p);
+    subtitle_of(p->o, &p->request, p->chart->subtitle, sizeof p->chart->subtitle);
+    return status == EXIT_FINE && p->row->family != NULL ? resolve_methods(p) : status;
+}
+
+static int resolve_file(plotting *p) {
+    const int status = resolve_depths(p);
+    p->request.file = &p->file;
+    return status == EXIT_FINE ? check_read(p->o->operands[1], &p->file) : status;
 }
 
 /* Which curves, or how many fields of a map, were computed by other methods than the exact engine. */
@@ -154,10 +204,10 @@ static void say_methods(const chart_panel *panel) {
 /* How much was computed for the picture, against a value for each pixel column and curve. */
 static void say_evaluations(const figure_row *row, const chart *c) {
     size_t fields = 0;
-    for (size_t p = 0; p < c->panel_count; p++)
+    for (size_t p = 0; p < c->panel_count; p++) {
         say_methods(&c->panels[p]);
-    for (size_t p = 0; p < c->panel_count; p++)
         fields += (size_t)c->panels[p].map.columns * (size_t)c->panels[p].map.rows;
+    }
     if (fields > 0)
         fprintf(stderr, "depthprec: %s: %zu evaluations, one a field\n", row->name, fields);
     else if (c->curves > 0)
@@ -165,25 +215,27 @@ static void say_evaluations(const figure_row *row, const chart *c) {
                 c->evaluations, c->curves, c->curves == 1 ? "" : "s", c->places);
 }
 
-static int write_figure(const options *o, const figure_row *row, const figure_request *request, chart *c) {
+static int write_figure(const plotting *p) {
+    const options *o = p->o;
+    chart *c = p->chart;
     output out;
     int status = output_open(&out, o->output);
     if (status != EXIT_FINE)
         return status;
-    const char *wrong = row->build(request, c);
+    const char *wrong = p->row->build(&p->request, c);
     if (wrong != NULL) {
         output_abandon(&out);
         return usage_error("%s", wrong);
     }
     if (c->title[0] == '\0')
-        snprintf(c->title, sizeof c->title, "%s", row->title);
+        snprintf(c->title, sizeof c->title, "%s", p->row->title);
     bool good = !chart_failed(c);
     if (good && o->form == FORM_TEXT)
-        good = picture(o, c, &out);
+        good = figure_file_write(o, o->output, c, p->request.columns, p->request.rows, &out);
     else if (good)
-        plot_data_write(&out, o->form, row->name, c);
+        plot_data_write(&out, o->form, p->row->name, c);
     if (good && o->verbose)
-        say_evaluations(row, c);
+        say_evaluations(p->row, c);
     if (good)
         return output_close(&out);
     output_abandon(&out);
@@ -200,68 +252,30 @@ static int check_output(const options *o) {
 }
 
 int cmd_plot(const options *o) {
-    const figure_row *row = o->operand_row;
-    setups all = {0};
-    char text[CHART_SERIES][SETUP_LABEL_SIZE];
-    const char *names[CHART_SERIES];
-    figure_request request = {.names = names, .lo = NAN, .hi = NAN, .at = NAN, .terms = o->terms};
-    options in_binary32 = *o;
-    in_binary32.model = (row->takes & FIGURE_BINARY32) != 0 ? DP_MODEL_FP32 : o->model;
-    request.columns = o->width > 0 ? o->width : WIDTH;
-    request.rows = o->height > 0 ? o->height : HEIGHT;
-    request.find_way = (row->takes & FIGURE_WAYS) != 0 ? way_for_figure : NULL;
-    request.tolerance = option_given(o, OPTION_TOLERANCE) ? o->tolerance : (double)NAN;
+    plotting p = {.o = o, .row = o->operand_row};
+    p.request = (figure_request){.names = p.names,
+                                 .lo = NAN,
+                                 .hi = NAN,
+                                 .at = NAN,
+                                 .terms = o->terms,
+                                 .tolerance = option_given(o, OPTION_TOLERANCE) ? o->tolerance : (double)NAN,
+                                 .census = census_depths,
+                                 .columns = o->width > 0 ? o->width : WIDTH,
+                                 .rows = o->height > 0 ? o->height : HEIGHT};
     int status = check_output(o);
     if (status == EXIT_FINE)
-        status = check_file_given(o, row);
-    if (status == EXIT_FINE && (row->takes & FIGURE_NEEDS) != 0)
-        return plot_scene(o, row, write_figure);
+        status = check_file_given(o, p.row);
+    if (status != EXIT_FINE)
+        return status;
+    p.chart = chart_new();
+    if (p.chart == NULL)
+        return usage_error("plot: no memory");
+    notes_clean(p.chart->title, sizeof p.chart->title, o->title != NULL ? o->title : "");
+    status = (p.row->takes & FIGURE_FILE) != 0 ? resolve_file(&p) : resolve_setups(&p);
     if (status == EXIT_FINE)
-        status = check_options(o, row);
-    if (status == EXIT_FINE)
-        status = setups_make(&in_binary32, &all);
-    if (status == EXIT_FINE)
-        status = resolve_depths(o, row, &request);
-    if (status == EXIT_FINE && all.count > row->setups_max)
-        status = usage_error("plot %s: shows at most %zu set-ups, got %zu: name fewer with --format or --mapping",
-                             row->name, row->setups_max, all.count);
-    request.setups = all.items;
-    request.count = all.count;
-    if (status == EXIT_FINE) {
-        choose_models(o, &request, &all);
-        status = check_cells(row, &all);
-    }
-    plot_census census = {0};
-    if (status == EXIT_FINE && (row->takes & FIGURE_CENSUS) != 0)
-        status = plot_census_make(&all, &request, &census);
-    request.census = census.shown;
-    methods_figure walked = {0};
-    char of_methods[2 * CHART_TEXT];
-    const char *family = o->operand_count > 1 ? o->operands[1] : NULL;
-    bool methodical = (row->takes & FIGURE_METHODS) != 0;
-    if (status == EXIT_FINE && methodical)
-        status =
-            methods_figure_make(o, (row->takes & FIGURE_PARETO) != 0, family, &walked, of_methods, sizeof of_methods);
-    request.methods = &walked.shown;
-    request.normals = &plot_normals;
-    chart *c = status == EXIT_FINE ? chart_new() : NULL;
-    if (c != NULL) {
-        for (size_t i = 0; i < all.count; i++)
-            names[i] = name_of(o, &all.items[i], text[i]);
-        notes_clean(c->title, sizeof c->title, o->title != NULL ? o->title : "");
-        subtitle_of(o, &request, c->subtitle, sizeof c->subtitle);
-        if ((row->takes & FIGURE_NORMALS) != 0)
-            snprintf(c->subtitle + strlen(c->subtitle), sizeof c->subtitle - strlen(c->subtitle), "; %s",
-                     plot_normals_view(o->ortho));
-        if (methodical)
-            notes_clean(c->subtitle, sizeof c->subtitle, of_methods);
-        status = write_figure(o, row, &request, c);
-    } else if (status == EXIT_FINE) {
-        status = usage_error("plot: no memory");
-    }
-    chart_free(c);
-    plot_census_free(&census);
-    methods_figure_free(&walked);
-    setups_release(&all);
+        status = write_figure(&p);
+    chart_free(p.chart);
+    setups_release(&p.all);
+    need_release(&p.file);
     return status;
 }

@@ -207,7 +207,7 @@ static int refused(const solve_report *r, const solve_candidate *c, dp_status st
         return option_error(OPTION_FAR, "must be given: %s has no infinite far",
                             c->spec.ortho ? "an orthographic projection" : mapping);
     if (status == DP_ERROR_MODEL)
-        return option_error(OPTION_MODEL, "fp32 needs one of the mappings d3d, gl, reversed, gl-reversed, got %s",
+        return option_error(OPTION_MODEL, "fp32 needs one of the mappings " DP_MAPPING_NAMES_PERSPECTIVE ", got %s",
                             mapping);
     const option_id id = status == DP_ERROR_ORTHO   ? OPTION_ORTHO
                          : status == DP_ERROR_NEAR  ? OPTION_NEAR

@@ -9,7 +9,7 @@
 #include "cli/choice.h"
 #include "cli/clipping.h"
 #include "cli/walk.h"
-#include "cli/ways.h"
+#include "method/ways.h"
 #include "report/number.h"
 
 int cmd_table(const options *o);

@@ -71,15 +71,6 @@ static const column axis_columns[] = {{FIELD(axis, key, "key", "")},
 
 enum { WITH_SECOND = 1, WITH_VALUE = 2 };
 
-/* A number whose key and unit are those of its axis. */
-#define ON_AXIS(axis)                                                                                                  \
-    {                                                                                                                  \
-        {.key = (axis).key, .unit = (axis).unit, .kind = COLUMN_NUMBER}, {                                             \
-            .kind = COLUMN_END                                                                                         \
-        }                                                                                                              \
-    }
-#define PLACE(member, its_columns) PART(point, member, NULL, its_columns), .pointed = true
-
 void plot_data_write(output *out, output_form form, const char *figure, const chart *c) {
     const chart_panel *first = &c->panels[0];
     plotted p = {.chart = c,
@@ -92,12 +83,10 @@ void plot_data_write(output *out, output_form form, const char *figure, const ch
                  .value = axis_of(&c->value)};
     const unsigned when = (first->second.label != NULL ? WITH_SECOND : 0) | (c->value.label != NULL ? WITH_VALUE : 0);
     draw_digest(c, p.digest);
-    const column on_x[] = ON_AXIS(p.x), on_y[] = ON_AXIS(p.y), on_second[] = ON_AXIS(p.second),
-                 on_value[] = ON_AXIS(p.value);
-    const column points[] = {{PLACE(x, on_x)},
-                             {PLACE(y, on_y)},
-                             {PLACE(second, on_second), .when = WITH_SECOND},
-                             {PLACE(value, on_value), .when = WITH_VALUE},
+    const column points[] = {{FIELD(point, x, p.x.key, p.x.unit), .optional = true},
+                             {FIELD(point, y, p.y.key, p.y.unit), .optional = true},
+                             {FIELD(point, second, p.second.key, p.second.unit), .optional = true, .when = WITH_SECOND},
+                             {FIELD(point, value, p.value.key, p.value.unit), .optional = true, .when = WITH_VALUE},
                              {.kind = COLUMN_END}};
     const column series[] = {{FIELD(plotted, name, "name", ""), .only = AS_JSON},
                              {FIELD(plotted, name, "series", ""), .only = AS_CSV},

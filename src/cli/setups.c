@@ -44,7 +44,7 @@ static int refused(const options *o, const dp_spec *spec, dp_status status) {
         break;
     case DP_ERROR_MODEL: /* of the models that have a name, fp32 alone is not for all */
         id = option_given(o, OPTION_MODEL) ? OPTION_MODEL : OPTION_MAPPING;
-        return option_error(id, "%s needs one of the mappings d3d, gl, reversed, gl-reversed, got %s",
+        return option_error(id, "%s needs one of the mappings " DP_MAPPING_NAMES_PERSPECTIVE ", got %s",
                             id == OPTION_MODEL ? "fp32" : "binary32 arithmetic", mapping);
     default:
         snprintf(got, sizeof got, "%s %s", spec->format.name, mapping);

@@ -153,9 +153,6 @@ static void *next_line(void *of, size_t i) {
 
 enum { OF_SEPARATION = 1, OF_OTHERS = 2, OF_DISTANCE = 4 };
 
-static const column near_columns[] = {{.key = "near", .kind = COLUMN_NUMBER}, {.kind = COLUMN_END}};
-static const column far_columns[] = {{.key = "far", .kind = COLUMN_NUMBER}, {.kind = COLUMN_END}};
-
 static const column plane_columns[] = {{FIELD(plane_answer, until, "until", "scene")},
                                        {FIELD(plane_answer, steady, "steady", "scene")},
                                        {FIELD(plane_answer, tried, "tried", "")},
@@ -200,8 +197,8 @@ void solve_report_write(const solve_report *r, output *out) {
                  .hi = r->hi,
                  .possible = r->items[0].possible};
     const column lattice[] = {{FIELD(candidate, found.lattice.possible, "possible", "")},
-                              {PART(candidate, lattice_near, NULL, near_columns), .pointed = true},
-                              {PART(candidate, lattice_far, NULL, far_columns), .pointed = true},
+                              {FIELD(candidate, lattice_near, "near", "scene"), .optional = true},
+                              {FIELD(candidate, lattice_far, "far", "scene"), .optional = true},
                               {FIELD(candidate, lattice_distance, "distance", "scene"), .when = OF_DISTANCE},
                               {FIELD(candidate, found.lattice.reached.value, s.measure, "scene")},
                               {FIELD(candidate, found.lattice.reached.z, "z", "scene")},

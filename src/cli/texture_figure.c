@@ -4,11 +4,10 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "cli/command_line.h"
+#include "cli/figure_file.h"
 #include "cli/progress.h"
 #include "cli/setups.h"
 #include "cli/texture_product.h"
-#include "plot/draw.h"
 #include "plot/notes.h"
 #include "plot/picture.h"
 
@@ -110,8 +109,7 @@ static int height_of(const options *o, const texture_source *s, int width, bool 
 
 static int draw(const options *o, const texture_source *s, const texture_product *p, shrinking *f, chart *c) {
     static const char *const axes[] = {"x (world)", "y (world)", "z (world)"};
-    char command[COMMAND_LINE_SIZE], label[PRODUCT_NAME_SIZE];
-    canvas_bytes bytes;
+    char label[PRODUCT_NAME_SIZE];
     output out;
     int status = output_open(&out, o->figure);
     if (status != EXIT_FINE)
@@ -129,17 +127,12 @@ static int draw(const options *o, const texture_source *s, const texture_product
     progress_end(&f->bar);
     words_of(o, s, p, f, c);
     picture_build(&f->shown, c);
-    command_line(o, o->figure, command);
-    const int width = o->width > 0 ? o->width : WIDTH;
-    good = good && !chart_failed(c) &&
-           draw_chart(c, theme_get(o->theme), canvas_format_of(o->figure), width,
-                      height_of(o, s, width, f->shown.names != NULL), command, &bytes);
+    const int width = o->width > 0 ? o->width : WIDTH, height = height_of(o, s, width, f->shown.names != NULL);
+    good = good && !chart_failed(c) && figure_file_write(o, o->figure, c, width, height, &out);
     if (!good) {
         output_abandon(&out);
         return usage_error("texture: no memory for the figure");
     }
-    output_bytes(&out, bytes.at, bytes.size);
-    free(bytes.at);
     return output_close(&out);
 }
 

@@ -73,10 +73,6 @@ dp_path dp_path_best(void) {
     return (dp_path)best;
 }
 
-dp_batch_kernel *const *dp_batch_table(dp_path path) {
-    return paths[path].table;
-}
-
 /* ---- Making -------------------------------------------------------------------------------------------------------*/
 
 dp_status dp_batch_init(dp_batch *batch, const dp_setup *setup, dp_task task, dp_real real, dp_word word,
@@ -98,7 +94,7 @@ dp_status dp_batch_init(dp_batch *batch, const dp_setup *setup, dp_task task, dp
                         .path = path,
                         .in_size = reads_code ? word_size : real_size,
                         .out_size = reads_code ? real_size : word_size};
-    dp_batch_plan(batch);
+    dp_batch_plan(batch, paths[path].table);
     return DP_OK;
 }
 

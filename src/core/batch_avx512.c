@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /* The kernels for AVX-512. */
 #include "core/batch_plan.h"
+#include "core/bits.h"
 
 #if defined(__x86_64__) && defined(__GNUC__)
 #include <immintrin.h>
@@ -8,7 +9,6 @@
 #include <string.h>
 
 #define TARGET            __attribute__((target("avx512f,avx512bw,avx512dq,avx512vl,avx2,fma,f16c")))
-#define INLINE            static inline __attribute__((always_inline))
 #define FUSED             1
 #define TABLE             dp_batch_avx512
 #define HALF_BY_HARDWARE  1
@@ -58,7 +58,7 @@ TARGET static int32_t kernel_FLOAT_OF_HALF(const dp_batch *batch, const void *in
  * mantissa of b is in the last 32nd of its range and divides the one of a, shifted, but for 1. No numerator of
  * dp_batch_top() has such a divisor that matters.
  */
-TARGET INLINE __m512 quotient(__m512 a, __m512 b) {
+TARGET DP_INLINE __m512 quotient(__m512 a, __m512 b) {
     const __m512 estimate = _mm512_rcp14_ps(b);
     const __m512 y = _mm512_fmadd_ps(_mm512_fnmadd_ps(b, estimate, _mm512_set1_ps(1.0F)), estimate, estimate);
     const __m512 q = _mm512_mul_ps(a, y);
@@ -69,7 +69,7 @@ TARGET INLINE __m512 quotient(__m512 a, __m512 b) {
  * double: the third step makes y the rounded reciprocal, and then q is the rounded quotient (Markstein 1990). A
  * mantissa of ones alone is excepted, and matters only where a is a power of two.
  */
-TARGET INLINE __m512d quotient64(__m512d a, __m512d b) {
+TARGET DP_INLINE __m512d quotient64(__m512d a, __m512d b) {
     const __m512d one = _mm512_set1_pd(1.0);
     __m512d y = _mm512_rcp14_pd(b);
     y = _mm512_fmadd_pd(_mm512_fnmadd_pd(b, y, one), y, y);
@@ -80,19 +80,17 @@ TARGET INLINE __m512d quotient64(__m512d a, __m512d b) {
 }
 
 static int power_of_two(double x) {
-    uint64_t bits;
-    memcpy(&bits, &x, sizeof bits);
-    return bits << 12 == 0;
+    return dp_bits64(x) << 12 == 0;
 }
 
-TARGET INLINE __m512i codes_at(const void *in, size_t i, __mmask16 mask, int word) {
+TARGET DP_INLINE __m512i codes_at(const void *in, size_t i, __mmask16 mask, int word) {
     if (word == DP_WORD_16)
         return _mm512_cvtepu16_epi32(_mm256_maskz_loadu_epi16(mask, (const uint16_t *)in + i));
     return _mm512_maskz_loadu_epi32(mask, (const uint32_t *)in + i);
 }
 
-TARGET INLINE void fast_eye_vector(const struct dp_batch_numbers *k, const void *in, float *to, size_t i,
-                                   __mmask16 mask, int word, int reversed, int divide) {
+TARGET DP_INLINE void fast_eye_vector(const struct dp_batch_numbers *k, const void *in, float *to, size_t i,
+                                      __mmask16 mask, int word, int reversed, int divide) {
     const __m512i code = _mm512_min_epu32(codes_at(in, i, mask, word), _mm512_set1_epi32((int32_t)k->code_max));
     const __m512 c = _mm512_cvtepi32_ps(code);
     const __m512 steps = reversed ? c : _mm512_sub_ps(_mm512_set1_ps(k->unit), c);
@@ -103,7 +101,8 @@ TARGET INLINE void fast_eye_vector(const struct dp_batch_numbers *k, const void 
 }
 
 /* The quotient at infinity is 1/0, which the divider alone can do. */
-TARGET INLINE int32_t fast_eye(const dp_batch *batch, const void *in, float *to, size_t count, int word, int reversed) {
+TARGET DP_INLINE int32_t fast_eye(const dp_batch *batch, const void *in, float *to, size_t count, int word,
+                                  int reversed) {
     const struct dp_batch_numbers k = batch->numbers;
     size_t i = 0;
     for (; i + 32 <= count && k.eye_base > 0.0F; i += 32) {
@@ -123,19 +122,19 @@ TARGET INLINE int32_t fast_eye(const dp_batch *batch, const void *in, float *to,
 FAST_EYE(FAST_EYE_16, DP_WORD_16)
 FAST_EYE(FAST_EYE_32, DP_WORD_32)
 
-TARGET INLINE __m512d half_of_codes(__m512i codes, int upper) {
+TARGET DP_INLINE __m512d half_of_codes(__m512i codes, int upper) {
     return _mm512_cvtepu32_pd(upper ? _mm512_extracti32x8_epi32(codes, 1) : _mm512_castsi512_si256(codes));
 }
 
 /* The two halves of 16 quotients: by the divider, and without it unless `divide`. */
-TARGET INLINE void store_quotients(double *to, __mmask16 mask, __m512d top, const __m512d *divisor, int divide) {
+TARGET DP_INLINE void store_quotients(double *to, __mmask16 mask, __m512d top, const __m512d *divisor, int divide) {
     _mm512_mask_storeu_pd(to, (__mmask8)mask, _mm512_div_pd(top, divisor[0]));
     _mm512_mask_storeu_pd(to + 8, (__mmask8)(mask >> 8),
                           divide ? _mm512_div_pd(top, divisor[1]) : quotient64(top, divisor[1]));
 }
 
 /* The value of FLOAT codes, as value_float() of batch_loops.h. */
-TARGET INLINE __m512d float_values(const struct dp_batch_numbers *k, __m512i codes, int upper) {
+TARGET DP_INLINE __m512d float_values(const struct dp_batch_numbers *k, __m512i codes, int upper) {
     const __m256i half = upper ? _mm512_extracti32x8_epi32(codes, 1) : _mm512_castsi512_si256(codes);
     const __m512d least = _mm512_set1_pd(k->least_normal);
     const __m512i shifted = _mm512_sll_epi64(_mm512_cvtepu32_epi64(half), _mm_cvtsi32_si128(52 - k->mantissa));
@@ -145,7 +144,7 @@ TARGET INLINE __m512d float_values(const struct dp_batch_numbers *k, __m512i cod
     return _mm512_mask_sub_pd(normal, _mm512_cmp_pd_mask(normal, least, _CMP_LT_OQ), raised, least);
 }
 
-TARGET INLINE int32_t eye_depths(const dp_batch *batch, const void *in, double *to, size_t count, int is_float) {
+TARGET DP_INLINE int32_t eye_depths(const dp_batch *batch, const void *in, double *to, size_t count, int is_float) {
     const struct dp_batch_numbers *k = &batch->numbers;
     const int divide = k->to_far == 0.0 || power_of_two(k->top);
     const __m512i code_max = _mm512_set1_epi32((int32_t)k->code_max);

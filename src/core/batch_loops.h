@@ -5,9 +5,8 @@
  * Every operation is one IEEE operation, so that each path gives the same bits; fused operations stand where they make
  * a result exact, in kernels whose codes are proven whatever they do.
  */
-#include <string.h>
-
 #include "core/batch_plan.h"
+#include "core/bits.h"
 
 /* Arrays may be looked at as another type than the caller's, in place. */
 #define ALIAS __attribute__((may_alias))
@@ -16,8 +15,6 @@ typedef double ALIAS real64;
 typedef uint16_t ALIAS word16;
 typedef uint32_t ALIAS word32;
 
-#undef INLINE
-#define INLINE       static inline __attribute__((always_inline))
 #define PRAGMA(TEXT) _Pragma(#TEXT)
 
 /* clang-format off */
@@ -35,30 +32,6 @@ typedef uint32_t ALIAS word32;
     }
 /* clang-format on */
 
-INLINE uint64_t bits64(double x) {
-    uint64_t bits;
-    memcpy(&bits, &x, sizeof bits);
-    return bits;
-}
-
-INLINE double real_of64(uint64_t bits) {
-    double x;
-    memcpy(&x, &bits, sizeof x);
-    return x;
-}
-
-INLINE uint32_t bits32(float x) {
-    uint32_t bits;
-    memcpy(&bits, &x, sizeof bits);
-    return bits;
-}
-
-INLINE float real_of32(uint32_t bits) {
-    float x;
-    memcpy(&x, &bits, sizeof x);
-    return x;
-}
-
 /* ---- Depth to code: the code stands in the upper bits of a double, and below it how far the next boundary is ------
  */
 
@@ -66,11 +39,11 @@ INLINE float real_of32(uint32_t bits) {
  * UNORM: t + 2^32 has steps of 2^-20. FLOAT: a double has the same shape as the format, but for the subnormals, which
  * take it when the least normal value is added.
  */
-#define PLACE_UNORM(X) const uint64_t bits = bits64((X)*k.scale + k.magic);
+#define PLACE_UNORM(X) const uint64_t bits = dp_bits64((X)*k.scale + k.magic);
 #define PLACE_FLOAT(X)                                                                                                 \
     const double d = (X)*k.scale;                                                                                      \
     const double v = d + (d < k.least_normal ? k.least_normal : 0.0);                                                  \
-    const uint64_t bits = bits64(v) + bits64(d < k.least_normal ? low_half : high_half);
+    const uint64_t bits = dp_bits64(v) + dp_bits64(d < k.least_normal ? low_half : high_half);
 
 #define TAKE                                                                                                           \
     const int32_t rest = (int32_t)((uint32_t)(bits >> k.cut) & 0xFFFFFU);                                              \
@@ -83,8 +56,8 @@ INLINE float real_of32(uint32_t bits) {
 
 /* Chosen as doubles, because every instruction set can. */
 #define HALVES                                                                                                         \
-    const double high_half = real_of64(k.half);                                                                        \
-    const double low_half = real_of64(k.half - ((uint64_t)1 << k.shift << k.mantissa));
+    const double high_half = dp_float64(k.half);                                                                       \
+    const double low_half = dp_float64(k.half - ((uint64_t)1 << k.shift << k.mantissa));
 
 LOOP(CODE_PERSPECTIVE_UNORM, real64, word32, , {CLAMPED PLACE_UNORM((k.from + k.slope * x) / x) TAKE})
 LOOP(CODE_PERSPECTIVE_FLOAT, real64, word32, HALVES, {CLAMPED PLACE_FLOAT((k.from + k.slope * x) / x) TAKE})
@@ -95,10 +68,10 @@ LOOP(ENCODE_FLOAT, real64, word32, HALVES, {CLAMPED PLACE_FLOAT(x) TAKE})
 
 /* ---- Code to depth ----------------------------------------------------------------------------------------------- */
 
-INLINE double value_float(uint32_t code, int shift, uint64_t lift, double least_normal) {
+DP_INLINE double value_float(uint32_t code, int shift, uint64_t lift, double least_normal) {
     const uint64_t bits = ((uint64_t)code << shift) + lift;
-    const double normal = real_of64(bits);
-    const double subnormal = real_of64(bits + ((uint64_t)1 << 52)) - least_normal;
+    const double normal = dp_float64(bits);
+    const double subnormal = dp_float64(bits + ((uint64_t)1 << 52)) - least_normal;
     return normal < least_normal ? subnormal : normal;
 }
 
@@ -164,7 +137,7 @@ LOOP(WIDTH_PERSPECTIVE_UNORM, word32, real64, SENSE, {
     const double b = truncated ? above : 0.5 * (value + above);
 #define TRUNCATED const int truncated = batch->setup.spec.rounding == DP_ROUND_ZERO;
 
-INLINE double divisor_at(const struct dp_batch_numbers *k, int reversed, double num) {
+DP_INLINE double divisor_at(const struct dp_batch_numbers *k, int reversed, double num) {
     const double comp = k->den - num;
     return reversed ? k->to_near * num + k->to_far * comp : k->to_near * comp + k->to_far * num;
 }
@@ -198,7 +171,7 @@ LOOP(NARROW_CODE, word32, word16, , { to[i] = (uint16_t)from[i]; })
     const float part = q - (float)whole;
 
 #define SETTLE(SUM, CODE)                                                                                              \
-    const uint32_t bits = bits32(SUM);                                                                                 \
+    const uint32_t bits = dp_bits32(SUM);                                                                              \
     const int32_t distance = (int32_t)(bits & 0xFFFFFU);                                                               \
     least = distance < least ? distance : least;                                                                       \
     const int32_t floor_sum = (int32_t)(bits >> 20) + k.whole;                                                         \
@@ -227,13 +200,13 @@ LOOP(REVERSED_32, real32, word32, , {REVERSED})
  * is exact where that can be. The only tie is d = 1/2, whose even neighbour is the upper one.
  */
 #if FUSED
-#define PRODUCT const uint32_t code = bits32(fmaf(d, k.unit, 0x1p23F)) - 0x4B000000U;
+#define PRODUCT const uint32_t code = dp_bits32(fmaf(d, k.unit, 0x1p23F)) - 0x4B000000U;
 #else
 #define PRODUCT                                                                                                        \
     const float steps = d * k.split;                                                                                   \
     const float r = steps + 0x1p23F;                                                                                   \
     const float over = steps - (r - 0x1p23F);                                                                          \
-    const uint32_t code = bits32(r) - 0x4B000000U - (over + 0.5F < d ? 1U : 0U);
+    const uint32_t code = dp_bits32(r) - 0x4B000000U - (over + 0.5F < d ? 1U : 0U);
 #endif
 LOOP(UNORM_OF_FLOAT_16, real32, word16, , { UNIT PRODUCT to[i] = (uint16_t)code; })
 LOOP(UNORM_OF_FLOAT_32, real32, word32, , { UNIT PRODUCT to[i] = code; })
@@ -264,21 +237,21 @@ LOOP(FAST_EYE_32, word32, real32, SENSE, {FAST_EYE})
 /* ---- Direct: binary32, whose codes are its bits, and binary16 -----------------------------------------------------
  */
 
-LOOP(BITS_OF_FLOAT, real32, word32, , { UNIT to[i] = bits32(d); })
-LOOP(FLOAT_OF_BITS, word32, real32, , { CODE to[i] = real_of32(c); })
+LOOP(BITS_OF_FLOAT, real32, word32, , { UNIT to[i] = dp_bits32(d); })
+LOOP(FLOAT_OF_BITS, word32, real32, , { CODE to[i] = dp_float32(c); })
 
 #ifndef HALF_BY_HARDWARE
 LOOP(HALF_OF_FLOAT, real32, word16, const int32_t up = batch->setup.spec.rounding == DP_ROUND_ZERO ? 0 : 1;, {
-    UNIT const int32_t bits = (int32_t)bits32(d);
+    UNIT const int32_t bits = (int32_t)dp_bits32(d);
     const int32_t normal = ((bits + up * (0xFFF + (bits >> 13 & 1))) >> 13) - (112 << 10);
     const float small = d < 0x1p-14F ? d : 0x1p-14F;
     const int32_t whole = (int32_t)(small * 0x1p24F);
-    const int32_t even = (int32_t)(bits32(small * 0x1p24F + 0x1p23F) & 0x7FFFFFU);
+    const int32_t even = (int32_t)(dp_bits32(small * 0x1p24F + 0x1p23F) & 0x7FFFFFU);
     to[i] = (uint16_t)(d < 0x1p-14F ? (up ? even : whole) : normal);
 })
 LOOP(FLOAT_OF_HALF, word16, real32, , {
     const int32_t c = from[i] < 0x3C00 ? from[i] : 0x3C00;
-    const float normal = real_of32((uint32_t)(c << 13) + (112U << 23));
+    const float normal = dp_float32((uint32_t)(c << 13) + (112U << 23));
     to[i] = c < 0x400 ? (float)c * 0x1p-24F : normal;
 })
 #endif

@@ -22,11 +22,7 @@ static void plan_format(dp_batch *b) {
     }
     /* 1/M as a sum whose first part times a code is exact: the codes' values then take one rounding. */
     const double top = (double)f->code_max;
-    uint64_t bits;
-    k->value = 1.0 / top;
-    memcpy(&bits, &k->value, sizeof bits);
-    bits &= ~(((uint64_t)1 << f->bits) - 1U);
-    memcpy(&k->value, &bits, sizeof bits);
+    k->value = dp_float64(dp_bits64(1.0 / top) & ~(((uint64_t)1 << f->bits) - 1U));
     k->value_rest = fma(-k->value, top, 1.0) / top;
 }
 
@@ -298,8 +294,7 @@ static int general_kernel(const dp_batch *b) {
     return general[b->task][by_format ? 0 : s->curve][s->spec.format.kind];
 }
 
-void dp_batch_plan(dp_batch *b) {
-    dp_batch_kernel *const *const table = dp_batch_table(b->path);
+void dp_batch_plan(dp_batch *b, dp_batch_kernel *const *table) {
     plan_format(b);
     b->doubt = 0;
     b->direct = 0;

@@ -41,11 +41,8 @@ extern dp_batch_kernel *const dp_batch_baseline[DP_KERNEL_COUNT];
 extern dp_batch_kernel *const dp_batch_avx2[DP_KERNEL_COUNT];
 extern dp_batch_kernel *const dp_batch_avx512[DP_KERNEL_COUNT];
 
-/* The table of a path; never null for one that is available. */
-dp_batch_kernel *const *dp_batch_table(dp_path path);
-
-/* Fills in everything behind `out_size`. */
-void dp_batch_plan(dp_batch *batch);
+/* Fills in everything behind `out_size`, by the kernels that there are. */
+void dp_batch_plan(dp_batch *batch, dp_batch_kernel *const *table);
 
 /* The numerators of FAST_EYE: none has a divisor by which batch_avx512.c could round wrongly (tests/test_quotient.c).
  */

@@ -3,19 +3,11 @@
 
 /* The next binary32 number, by its bits: nextafterf() is a call, and these are the steps of every search below. */
 static float step_away(float x) {
-    uint32_t bits;
-    memcpy(&bits, &x, sizeof bits);
-    bits++;
-    memcpy(&x, &bits, sizeof x);
-    return x;
+    return dp_float32(dp_bits32(x) + 1);
 }
 
 static float step_to_zero(float x) {
-    uint32_t bits;
-    memcpy(&bits, &x, sizeof bits);
-    bits--;
-    memcpy(&x, &bits, sizeof x);
-    return x;
+    return dp_float32(dp_bits32(x) - 1);
 }
 
 static float next_up(float x) {
@@ -70,12 +62,10 @@ static dp_boundary staged_below(const dp_setup *setup, uint32_t code) {
     const float x = dp_staged_ndc(setup, dp_staged_window(setup, code));
     const float before = next_down(x);
     const double middle = 0.5 * ((double)before + (double)x);
-    uint32_t bits;
-    memcpy(&bits, &x, sizeof bits);
     /* With signed NDC d = (1 + middle)/2. The sum is exact: |middle| is at least 2^-26 and has 25 significant bits. */
     dp_point point = ndc_signed(setup) ? (dp_point){1.0 + middle, 1.0 - middle, 2.0} : dp_point_make(middle, 1.0);
     return (dp_boundary){.point = point,
-                         .ties_up = (bits & 1U) == 0,
+                         .ties_up = (dp_bits32(x) & 1U) == 0,
                          .below = code_of_window(setup, window_of_ndc(setup, before)),
                          .above = code_of_window(setup, window_of_ndc(setup, x))};
 }

@@ -54,7 +54,7 @@ static double last_within(double z, double longest) {
 static double lattice_separation(const dp_setup *setup, double z) {
     dp_setup exact = *setup;
     exact.spec.model = DP_MODEL_EXACT;
-    return dp_separation(&exact, z);
+    return isinf(z) ? HUGE_VAL : dp_lattice_separation(&exact, z);
 }
 
 /* The separation of depths that a composition moves: that of any depth which a surface at z may be moved to. */

@@ -141,26 +141,3 @@ dp_cell dp_cell_of(const dp_setup *setup, uint32_t code) {
                                 : dp_curve_span(setup, to_near, to_far);
     return cell;
 }
-
-dp_status dp_sample_at(const dp_setup *setup, double z, dp_sample *out) {
-    if (setup == NULL || out == NULL)
-        return DP_ERROR_NULL;
-    if (!(z >= setup->spec.znear && z <= setup->spec.zfar))
-        return DP_ERROR_DEPTH;
-    if (setup->spec.model == DP_MODEL_FP32 && isinf((float)z) && !isinf(z))
-        return DP_ERROR_BINARY32;
-    const uint32_t code = dp_code(setup, z);
-    const dp_cell cell = dp_cell_of(setup, code);
-    *out = (dp_sample){
-        .z = z,
-        .code = code,
-        .depth = dp_window(setup, z),
-        .stored = cell.stored,
-        .error = dp_error(setup, code, z),
-        .lo = cell.lo,
-        .hi = cell.hi,
-        .interval = cell.width,
-        .separation = dp_separation(setup, z),
-    };
-    return DP_OK;
-}

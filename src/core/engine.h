@@ -1,9 +1,14 @@
 /* SPDX-License-Identifier: MIT */
-/* The engine's inner steps, for the bounds, the tests and the benchmarks. */
+/*
+ * The engine's inner steps, for the bounds, the tests and the benchmarks; and all that rooms above the core may use of
+ * it beside the public headers: bits, points of the lattice, curves and logarithms.
+ */
 #ifndef CORE_ENGINE_H
 #define CORE_ENGINE_H
 
+#include "core/curve.h"
 #include "core/lattice.h"
+#include "core/logarithm.h"
 #include "depthprec/depth.h"
 
 /*
@@ -23,6 +28,9 @@ uint32_t dp_code_exact(const dp_setup *setup, double z, uint32_t start);
  * binade: as good as the worst of them when the run is short. INFINITY where there is none.
  */
 double dp_budget_bound(const dp_setup *setup, float nearest, float farthest);
+
+/* dp_separation() of the models exact and staged, at a finite depth. */
+double dp_lattice_separation(const dp_setup *setup, double z);
 
 /* The models exact and staged: the steps of d that dp_separation() takes at the depths of [nearest, farthest], at most.
  */

@@ -11,8 +11,8 @@
 
 #include <math.h>
 #include <stdint.h>
-#include <string.h>
 
+#include "core/bits.h"
 #include "depthprec/format.h"
 
 typedef struct dp_point {
@@ -35,17 +35,12 @@ static inline int dp_format_is_ieee(const dp_format *format, int mantissa_bits, 
 
 /* 2^e for -1022 <= e <= 1023 */
 static inline double dp_power2(int e) {
-    uint64_t bits = (uint64_t)(e + 1023) << 52;
-    double value;
-    memcpy(&value, &bits, sizeof value);
-    return value;
+    return dp_float64((uint64_t)(e + 1023) << 52);
 }
 
 /* floor(log2(d)) of a normal positive double */
 static inline int dp_exponent(double d) {
-    uint64_t bits;
-    memcpy(&bits, &d, sizeof bits);
-    return (int)(bits >> 52) - 1023;
+    return (int)(dp_bits64(d) >> 52) - 1023;
 }
 
 /* The binade whose step holds at d: the lowest normal one serves the subnormals too. */

@@ -9,6 +9,7 @@
 #include <float.h>
 #include <math.h>
 
+#include "core/bits.h"
 #include "core/clip.h"
 
 _Static_assert(FLT_EVAL_METHOD == 0, "binary32 operations must be rounded to binary32");
@@ -118,33 +119,17 @@ int dp_pipeline_drawn(const dp_pipeline *p, float z) {
 }
 
 /* Positive binary32 values are ordered as their bit patterns, which are walked as integers. */
-static uint32_t bits_of(float value) {
-    union {
-        float f;
-        uint32_t u;
-    } pun = {.f = value};
-    return pun.u;
-}
-
-static float of_bits(uint32_t bits) {
-    union {
-        uint32_t u;
-        float f;
-    } pun = {.u = bits};
-    return pun.f;
-}
-
 static int near_keeps(const dp_pipeline *p, uint32_t bits) {
-    return p->reversed ? below_upper(p, of_bits(bits)) : above_lower(p, of_bits(bits));
+    return p->reversed ? below_upper(p, dp_float32(bits)) : above_lower(p, dp_float32(bits));
 }
 
 static int far_keeps(const dp_pipeline *p, uint32_t bits) {
-    return p->reversed ? above_lower(p, of_bits(bits)) : below_upper(p, of_bits(bits));
+    return p->reversed ? above_lower(p, dp_float32(bits)) : below_upper(p, dp_float32(bits));
 }
 
 /* z, fl(A z) and z_clip stay in one binade each, so that all three have one step throughout lo..hi. */
 static int same_steps(const dp_pipeline *p, uint32_t lo, uint32_t hi) {
-    const float z[2] = {of_bits(lo), of_bits(hi)};
+    const float z[2] = {dp_float32(lo), dp_float32(hi)};
     return ilogbf(z[0]) == ilogbf(z[1]) && ilogbf(p->a * z[0]) == ilogbf(p->a * z[1]) &&
            ilogbf(dp_pipeline_clip(p, z[0])) == ilogbf(dp_pipeline_clip(p, z[1]));
 }
@@ -189,16 +174,16 @@ static uint32_t nearest_kept(const dp_pipeline *p, uint32_t lo, uint32_t hi) {
 }
 
 void dp_pipeline_planes(const dp_pipeline *p, float *znear, float *zfar) {
-    const uint32_t lo = bits_of(p->znear);
-    const uint32_t hi = bits_of(isinf(p->zfar) ? FLT_MAX : p->zfar);
+    const uint32_t lo = dp_bits32(p->znear);
+    const uint32_t hi = dp_bits32(isinf(p->zfar) ? FLT_MAX : p->zfar);
     uint32_t first = nearest_kept(p, lo, hi);
     uint32_t last = farthest_kept(p, first, hi);
     /* Planes that nearly touch leave a few thousand depths, where the two conditions may interfere: look at each. */
-    while (first <= last && !dp_pipeline_drawn(p, of_bits(first)))
+    while (first <= last && !dp_pipeline_drawn(p, dp_float32(first)))
         first++;
-    while (first <= last && !dp_pipeline_drawn(p, of_bits(last)))
+    while (first <= last && !dp_pipeline_drawn(p, dp_float32(last)))
         last--;
     const int drawn = first <= last;
-    *znear = drawn ? of_bits(first) : NAN;
-    *zfar = drawn ? (last == hi ? p->zfar : of_bits(last)) : NAN;
+    *znear = drawn ? dp_float32(first) : NAN;
+    *zfar = drawn ? (last == hi ? p->zfar : dp_float32(last)) : NAN;
 }

@@ -7,8 +7,7 @@
 
 #include "core/lattice.h"
 
-/* Half a unit in the last place of binary32 at 1 and just below 1. */
-#define DP_UNIT           0x1p-24
+/* DP_UNIT just below 1. */
 #define DP_UNIT_BELOW_ONE 0x1p-25
 
 /* Half a unit in the last place of binary32 at x >= 0: the most that rounding a number up to x changes it by. */
@@ -33,9 +32,7 @@ static inline double dp_result_error(double least, double most) {
 
 /* The lowest set bit of a normal binary32 number, as a value: the number is a whole multiple of it. 0 has none. */
 static inline double dp_granule(float x) {
-    uint32_t bits;
-    memcpy(&bits, &x, sizeof bits);
-    const uint32_t mantissa = (bits & 0x7FFFFFU) | 0x800000U;
+    const uint32_t mantissa = (dp_bits32(x) & 0x7FFFFFU) | 0x800000U;
     const double lowest = (double)(mantissa & -mantissa);
     return x == 0.0F ? HUGE_VAL : lowest * 2.0 * dp_half_ulp(fabs((double)x));
 }

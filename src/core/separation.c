@@ -1,11 +1,10 @@
 /* SPDX-License-Identifier: MIT */
-/* The separation: what must lie between two surfaces for their codes to differ, however they meet the lattice. */
+/* What must lie between two surfaces for their codes to differ, however they meet the lattice: exact and staged. */
 #include "core/boundary.h"
 #include "core/curve.h"
 #include "core/engine.h"
 #include "core/extremes.h"
 #include "core/rounding.h"
-#include "depthprec/budget.h"
 #include "depthprec/depth.h"
 
 /* The sign of d(z) - v, decided exactly where the computed d is too near to v. */
@@ -87,13 +86,7 @@ double dp_separation_step(const dp_setup *setup, double nearest, double farthest
     return wide + ndc + (dp_mapping_get(setup->spec.mapping)->ndc_signed ? window : 0.0);
 }
 
-double dp_separation(const dp_setup *setup, double z) {
-    if (isinf(z))
-        return HUGE_VAL;
-    if (setup->spec.model == DP_MODEL_FP32) {
-        dp_budget budget;
-        return dp_budget_at(setup, z, NULL, &budget) == DP_OK ? budget.separation : HUGE_VAL;
-    }
+double dp_lattice_separation(const dp_setup *setup, double z) {
     if (setup->spec.model == DP_MODEL_EXACT)
         return dp_curve_ahead(setup, exact_step(setup, z), setup->den, z) * dp_curve_outward(setup);
     const double s = dp_staged_is_exact(setup) ? dp_curve_ahead(setup, exact_step(setup, z), setup->den, z)

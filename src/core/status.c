@@ -8,13 +8,13 @@ static const char *const sentences[DP_STATUS_COUNT] = {
     [DP_ERROR_NEAR] = "near must be from 1e-12 to 1e12",
     [DP_ERROR_FAR] = "far must be greater than near and at most 1e18, or inf",
     [DP_ERROR_PLANES] = "far must be beyond near by at least 1e-6 of near",
-    [DP_ERROR_INFINITE] = "an infinite far needs a perspective projection and one of the mappings d3d, gl, reversed, "
-                          "gl-reversed",
-    [DP_ERROR_ORTHO] = "an orthographic projection needs one of the mappings d3d, gl, reversed, gl-reversed",
+    [DP_ERROR_INFINITE] =
+        "an infinite far needs a perspective projection and one of the mappings " DP_MAPPING_NAMES_PERSPECTIVE,
+    [DP_ERROR_ORTHO] = "an orthographic projection needs one of the mappings " DP_MAPPING_NAMES_PERSPECTIVE,
     [DP_ERROR_LOG_C] = "the constant C of the log mapping must be from 1e-12 to 1e12",
     [DP_ERROR_FORMAT] = "not a format: see the list of formats, or unormN with N = 1..32, or floatE.M[bB] with "
                         "E = 2..8, M = 1..23, B = 1..2^E-1",
-    [DP_ERROR_MAPPING] = "a mapping must be one of d3d, gl, reversed, gl-reversed, linear, log",
+    [DP_ERROR_MAPPING] = "a mapping must be one of " DP_MAPPING_NAMES,
     [DP_ERROR_ROUNDING] = "rounding must be one of nearest, even, zero",
     [DP_ERROR_MODEL] = "not a model that this set-up has",
     [DP_ERROR_ARITH] = "not an arithmetic: see the list of ariths",

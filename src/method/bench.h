@@ -9,7 +9,7 @@
 
 #include "method/method.h"
 
-enum { BENCH_METHODS_MAX = 32 };
+enum { BENCH_METHODS_MAX = 32, BENCH_REPETITIONS = 25 };
 
 /** The worst of each kind over all inputs, and the index of an input that reaches it. */
 typedef struct measured {

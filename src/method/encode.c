@@ -2,18 +2,12 @@
 /* The code of a binary32 window depth in [0, 1]. */
 #include <math.h>
 #include <stdlib.h>
-#include <string.h>
 
+#include "core/bits.h"
 #include "method/limit.h"
 #if defined(__x86_64__)
 #include <immintrin.h>
 #endif
-
-static uint32_t bits_of(float x) {
-    uint32_t bits;
-    memcpy(&bits, &x, sizeof bits);
-    return bits;
-}
 
 /* ---- fp16 -------------------------------------------------------------------------------------------------------- */
 
@@ -21,8 +15,8 @@ static uint32_t bits_of(float x) {
  * sum; above, half a step less the lowest kept bit is added to the bits. Both are computed and one is chosen. */
 static void bits_run(const method_call *c) {
     for (size_t i = 0; i < c->in->count; i++) {
-        uint32_t x = bits_of(c->in->d[i]);
-        uint32_t small = bits_of(c->in->d[i] + 0.5f) - bits_of(0.5f);
+        uint32_t x = dp_bits32(c->in->d[i]);
+        uint32_t small = dp_bits32(c->in->d[i] + 0.5f) - dp_bits32(0.5f);
         uint32_t normal = (x - (112u << 23) + 0xfffu + (x >> 13 & 1u)) >> 13;
         c->out->code[i] = (int32_t)x < 113 << 23 ? small : normal;
     }
@@ -47,7 +41,7 @@ static void *half_open(const dp_setup *setup) {
 static void half_run(const method_call *c) {
     const half_table *t = c->state;
     for (size_t i = 0; i < c->in->count; i++) {
-        uint32_t x = bits_of(c->in->d[i]), e = x >> 23;
+        uint32_t x = dp_bits32(c->in->d[i]), e = x >> 23;
         c->out->code[i] = t->base[e] + ((x & 0x7fffffu) >> t->shift[e]);
     }
 }
@@ -95,7 +89,7 @@ static void rint_run(const method_call *c) {
 static void magic_run(const method_call *c) {
     const float most = (float)c->setup->spec.format.code_max;
     for (size_t i = 0; i < c->in->count; i++)
-        c->out->code[i] = bits_of(c->in->d[i] * most + 0x1p23f) - bits_of(0x1p23f);
+        c->out->code[i] = dp_bits32(c->in->d[i] * most + 0x1p23f) - dp_bits32(0x1p23f);
 }
 
 static void double_run(const method_call *c) {

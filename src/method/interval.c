@@ -141,7 +141,7 @@ static const method_row methods[] = {
      {FORMULA(neighbours, SIX, 0), UNCLAIMED}, METHOD_ORTHO | METHOD_WHOLE, 55, "1", 0,
      "", .run = neighbours_run},
     {METHOD_INTERVAL, "neighbours-binary32", "the same with the depths rounded to binary32, as in a shader",
-     {FORMULA(neighbours, METHOD_UNIT + SIX, 0), UNCLAIMED}, METHOD_ORTHO | METHOD_WHOLE, 56, "1", 0,
+     {FORMULA(neighbours, DP_UNIT + SIX, 0), UNCLAIMED}, METHOD_ORTHO | METHOD_WHOLE, 56, "1", 0,
      "", .run = neighbours32_run},
     {METHOD_INTERVAL, "bound",
      "the separation that the binary32 pipeline guarantees, next to the longest interval that is there",

@@ -3,7 +3,6 @@
 #include <float.h>
 #include <math.h>
 #include <stdlib.h>
-#include <string.h>
 #if defined(__SSE__)
 #include <xmmintrin.h>
 #endif
@@ -11,6 +10,7 @@
 #include <gsl/gsl_chebyshev.h>
 #include <gsl/gsl_spline.h>
 
+#include "core/bits.h"
 #include "method/estimate.h"
 #include "method/limit.h"
 #include "method/truth.h"
@@ -35,11 +35,7 @@ static void decode_run(const method_call *c) {
 
 /* The reciprocal of x > 0 from its bits, within 12 %, then one Newton step. */
 static float magic_reciprocal(float x) {
-    uint32_t bits;
-    float y;
-    memcpy(&bits, &x, sizeof bits);
-    bits = 0x7ef311c7u - bits;
-    memcpy(&y, &bits, sizeof y);
+    const float y = dp_float32(0x7ef311c7u - dp_bits32(x));
     return y * (2.0f - x * y);
 }
 
@@ -294,39 +290,39 @@ static double magic_claim(double ratio, double a, double b) {
 static double double_claim(double ratio, double a, double b) {
     const double e = (2 * ratio + 1) * 0x1p-53 * (1 + 0x1p-20);
     (void)a, (void)b;
-    return (e < 1 ? e / (1 - e) : (double)INFINITY) + METHOD_UNIT;
+    return (e < 1 ? e / (1 - e) : (double)INFINITY) + DP_UNIT;
 }
 
 /* The others interpolate a curve with a pole. Here the roundings of d times 65535 and of the sum with 1/2 move the
  * place by up to 2^-9 of a step. */
 static double nearest_claim(double ratio, double a, double b) {
     (void)a, (void)b;
-    return (0.5 + 0x1p-9) * (ratio - 1) / (TABLE - 1) + METHOD_UNIT;
+    return (0.5 + 0x1p-9) * (ratio - 1) / (TABLE - 1) + DP_UNIT;
 }
 
 static double linear_claim(double ratio, double a, double b) {
     const double g = (ratio - 1) / (TABLE - 1);
     (void)a, (void)b;
-    return g / (4 * (1 / g + 1)) + 0x1p-9 * g + 2 * METHOD_UNIT * (1 + g);
+    return g / (4 * (1 / g + 1)) + 0x1p-9 * g + 2 * DP_UNIT * (1 + g);
 }
 
 static double spline_claim(double ratio, double a, double b) {
     const double g = (ratio - 1) / (KNOTS - 1);
     (void)a, (void)b;
-    return 1.25 * g / (10 / g + 4.9) + METHOD_UNIT * (1 + g / 4);
+    return 1.25 * g / (10 / g + 4.9) + DP_UNIT * (1 + g / 4);
 }
 
 static double chebyshev_claim(double ratio, double a, double b) {
     const double root = sqrt(ratio);
     const double error = 1 / cosh((ORDER + 1) * log1p(2 / (root - 1)));
     (void)a, (void)b;
-    return error + METHOD_UNIT * (1 + error) + 0x1p-36;
+    return error + DP_UNIT * (1 + error) + 0x1p-36;
 }
 
 /* ---- Rows, cheapest first ---------------------------------------------------------------------------------------- */
 
 /* Claims of whole roundings are derived: one for each that a result passes through, relative, where no term cancels. */
-#define UNIT METHOD_UNIT
+#define UNIT DP_UNIT
 static const char gsl[] = "GNU Scientific Library";
 
 /* clang-format off */

@@ -14,6 +14,7 @@
 #include <stddef.h>
 #include <stdint.h>
 
+#include "core/bits.h"
 #include "depthprec/depthprec.h"
 #include "texture/decode.h"
 #include "texture/normal.h"
@@ -35,9 +36,6 @@ enum {
     METHOD_STRIP_LINE = METHOD_STRIP + 2 * NORMAL_REACH,
     METHOD_STRIP_EYES = METHOD_STRIP_LINE * (2 * NORMAL_REACH + 1)
 };
-
-/** Half the distance of binary32 numbers around 1: the largest relative error of one rounding. */
-#define METHOD_UNIT 0x1p-24
 
 /** The far/near that claims and walks speak of. */
 #define METHOD_RATIO_LO 10.0
@@ -221,7 +219,7 @@ void method_windows(const dp_setup *setup, method_inputs *in);
 /** Number i of a seeded sequence, in [0, 1): the same everywhere and always. */
 double method_unit(uint64_t seed, uint64_t i);
 
-/** 1/x where x has the relative error (a far/near + b) METHOD_UNIT, and what products of roundings add to it: what is
+/** 1/x where x has the relative error (a far/near + b) DP_UNIT, and what products of roundings add to it: what is
  *  left where f cancels against d (f - n). INFINITY where nothing is left. */
 double method_cancelled(double ratio, double a, double b);
 /** Where half of the divisor may be error, and the claims on binary32 arithmetic have grown to 1. */

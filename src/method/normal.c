@@ -98,7 +98,7 @@ static bool judge(const method_call *c, size_t i, method_error *error) {
     float *const *place = c->out->place;
     const double got[3] = {(double)place[0][i], (double)place[1][i], (double)place[2][i]};
     const double angle = normal_angle(normal, got);
-    *error = (method_error){angle * 180 / M_PI, angle, angle * 0x1p24};
+    *error = (method_error){angle * 180 / M_PI, angle, angle / DP_UNIT};
     return true;
 }
 
@@ -146,16 +146,16 @@ static double angle_of(double step, double off) {
 
 /* Half a step of 24 bits, and reading; depths at far are the worst. */
 static double unorm_claim(double ratio, double step, double places) {
-    return angle_of(step, (ratio - 1) / 2 / 0xffffff + 0x1p-24 + places);
+    return angle_of(step, (ratio - 1) / 2 / 0xffffff + DP_UNIT + places);
 }
 
 static double float_claim(double ratio, double step, double places) {
     (void)ratio;
-    return angle_of(step, 2 * 0x1p-24 + places);
+    return angle_of(step, 2 * DP_UNIT + places);
 }
 
 /* What rounding places adds to methods that subtract them, as an error of depth. */
-#define PLACES (1.6 * 0x1p-24)
+#define PLACES (1.6 * DP_UNIT)
 #define CLAIMS(to, step, places)                                                                                       \
     { FORMULA_TO(to, unorm_claim, step, places), FORMULA(float_claim, step, places) }
 

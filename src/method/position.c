@@ -86,7 +86,7 @@ static double half_claim(double ratio, double a, double b) {
 /* LinearEyeDepth, and what the ray and its products lose at the worst pixel, in units: those of position_bound() at its
  * worst over the image; near, far and the scene's units do not matter then. Those of the matrix are measured: 1.6 times
  * the worst of 3000. */
-#define UNIT            METHOD_UNIT
+#define UNIT            DP_UNIT
 #define CANCELLED(a, b) FORMULA_TO(METHOD_CANCELLED, method_cancelled, a, b)
 #define HALF            FORMULA_TO(METHOD_CANCELLED, half_claim, 3, 15.1)
 

@@ -91,7 +91,7 @@ static bool take_mapping(reader *r, const config_setting_t *s, draft *d) {
         reader_known(r, text, dp_mapping_get((dp_mapping)i)->name);
         reader_known(r, text, dp_mapping_get((dp_mapping)i)->aliases);
     }
-    return reader_fail(r, s, "mapping: must be one of d3d, gl, reversed, gl-reversed, linear, log, got '%.40s'", text);
+    return reader_fail(r, s, "mapping: must be one of " DP_MAPPING_NAMES ", got '%.40s'", text);
 }
 
 static bool take_format(reader *r, const config_setting_t *s, draft *d) {
@@ -140,8 +140,8 @@ static bool make_setups(reader *r, const config_setting_t *group, const draft *d
         const dp_status status = dp_setup_init(&out->setups[i], &spec);
         if (status == DP_ERROR_MODEL)
             return reader_fail(r, group,
-                               "camera '%s': the model fp32 needs one of the mappings d3d, gl, reversed, "
-                               "gl-reversed, got %s",
+                               "camera '%s': the model fp32 needs one of the mappings " DP_MAPPING_NAMES_PERSPECTIVE
+                               ", got %s",
                                out->name, dp_mapping_get(spec.mapping)->name);
         if (status != DP_OK)
             return reader_fail(r, group, "camera '%s': %s, got near %.15g, far %.15g, %s, %s", out->name,

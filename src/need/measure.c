@@ -4,7 +4,7 @@
 #include <math.h>
 #include <stdbool.h>
 
-#include "core/curve.h"
+#include "core/engine.h"
 
 /* Half a step in closed form from the whole one: what dp_separation() adds up in the model staged. */
 static double half_of(const dp_setup *setup, double z, double s) {

@@ -33,27 +33,9 @@ typedef struct hunt {
     double failed; /* the innermost value tried that failed; NaN while there is none */
 } hunt;
 
-dp_status plane_setup(const solve_problem *p, double value, dp_setup *out) {
-    dp_spec spec = p->spec;
-    *(p->unknown == SOLVE_NEAR ? &spec.znear : &spec.zfar) = value;
-    return dp_setup_init(out, &spec);
-}
-
-/* Over a range the ends are judged first: they are looked at anyhow, and where one fails so does the range. */
-static bool fails_at_ends(const solve_problem *p, const dp_setup *setup) {
-    return p->lo < p->hi && p->kind == MEASURE_SEPARATION &&
-           (dp_separation(setup, p->hi) > p->limit || dp_separation(setup, p->lo) > p->limit);
-}
-
-bool plane_passes(const solve_problem *p, double value) {
-    dp_setup setup;
-    return plane_setup(p, value, &setup) == DP_OK && !fails_at_ends(p, &setup) &&
-           judge(p->kind, &setup, p->lo, p->hi, p->limit).passed;
-}
-
 static judgement reached_at(const solve_problem *p, double value) {
     dp_setup setup;
-    if (plane_setup(p, value, &setup) != DP_OK)
+    if (solve_setup(p, value, &setup) != DP_OK)
         return (judgement){.value = HUGE_VAL, .z = p->hi};
     return judge(p->kind, &setup, p->lo, p->hi, p->limit);
 }
@@ -137,9 +119,9 @@ static void look_beyond(hunt *h) {
     dp_setup setup;
     for (int looks = 0, ranges = 0; looks < LOOKS && ranges < LOOKS_OF_RANGE; looks++) {
         x = step(h, x, false);
-        if (h->problem->lo < h->problem->hi && plane_setup(h->problem, x, &setup) == DP_OK)
-            ranges += !fails_at_ends(h->problem, &setup); /* decided inside: thousands of these are too many */
-        if (!is_inside(h, x)) {                           /* the lattice fails from there on */
+        if (h->problem->lo < h->problem->hi && solve_setup(h->problem, x, &setup) == DP_OK)
+            ranges += !plane_fails_at_ends(h->problem, &setup); /* decided inside: thousands of these are too many */
+        if (!is_inside(h, x)) {                                 /* the lattice fails from there on */
             a->certain = true;
             a->fails_to = last < a->value || last > a->value ? last : (double)NAN;
             return;
@@ -293,7 +275,7 @@ dp_status plane_solve(const solve_problem *problem, plane_effort effort, solve_r
     if (status != DP_OK)
         return status;
     dp_setup setup;
-    status = plane_setup(problem, lattice->value, &setup);
+    status = solve_setup(problem, lattice->value, &setup);
     if (status != DP_OK)
         return status;
     *out = (plane_answer){.fails_to = (double)NAN};

@@ -42,7 +42,7 @@ dp_status plane_solve(const solve_problem *problem, plane_effort effort, solve_r
 /** Whether a value of the unknown passes, as `check` judges it. */
 bool plane_passes(const solve_problem *problem, double value);
 
-/** The set-up of a problem with its unknown filled in. */
-dp_status plane_setup(const solve_problem *problem, double value, dp_setup *out);
+/** Over a range the ends are judged first: they are looked at anyhow, and where one fails so does the range. */
+bool plane_fails_at_ends(const solve_problem *problem, const dp_setup *setup);
 
 #endif

@@ -2,23 +2,11 @@
 #include "need/plane_error.h"
 
 #include <math.h>
-#include <stdint.h>
-#include <string.h>
+
+#include "core/bits.h"
 
 /* Codes that are walked through at most. */
 enum { CODES_MOST = 4096 };
-
-static uint64_t to_bits(double x) {
-    uint64_t bits;
-    memcpy(&bits, &x, sizeof bits);
-    return bits;
-}
-
-static double from_bits(uint64_t bits) {
-    double x;
-    memcpy(&x, &bits, sizeof x);
-    return x;
-}
 
 /* Positive doubles as integers in their order: `here` passes, and so does all on its safe side; `end` is the last. */
 typedef struct walk {
@@ -30,7 +18,7 @@ typedef struct walk {
 
 static uint32_t code_at(const walk *w, uint64_t x) {
     dp_setup setup;
-    return plane_setup(w->problem, from_bits(x), &setup) == DP_OK ? dp_code(&setup, w->z) : 0;
+    return solve_setup(w->problem, dp_float64(x), &setup) == DP_OK ? dp_code(&setup, w->z) : 0;
 }
 
 static uint64_t towards(uint64_t from, uint64_t to, uint64_t by) {
@@ -91,8 +79,8 @@ static void pass_by(walk *w, uint64_t to) {
 
 static double error_at(const walk *w, uint64_t x) {
     dp_setup setup;
-    return plane_setup(w->problem, from_bits(x), &setup) == DP_OK ? fabs(dp_error(&setup, dp_code(&setup, w->z), w->z))
-                                                                  : (double)HUGE_VAL;
+    return solve_setup(w->problem, dp_float64(x), &setup) == DP_OK ? fabs(dp_error(&setup, dp_code(&setup, w->z), w->z))
+                                                                   : (double)HUGE_VAL;
 }
 
 /*
@@ -115,7 +103,7 @@ static bool leap(walk *w) {
 static uint64_t last_that_passes(const walk *w, uint64_t passes, uint64_t fails) {
     while (distance(passes, fails) > 1) {
         const uint64_t middle = towards(passes, fails, distance(passes, fails) / 2);
-        *(plane_passes(w->problem, from_bits(middle)) ? &passes : &fails) = middle;
+        *(plane_passes(w->problem, dp_float64(middle)) ? &passes : &fails) = middle;
     }
     return passes;
 }
@@ -131,12 +119,12 @@ static bool go(walk *w, int most) {
         if (leap(w))
             continue;
         bracket(w, 1, &last, &beyond);
-        if (!plane_passes(w->problem, from_bits(last))) {
+        if (!plane_passes(w->problem, dp_float64(last))) {
             w->here = last_that_passes(w, w->here, last);
             return true;
         }
         const uint64_t next = towards(last, w->end, 1);
-        if (next == last || !plane_passes(w->problem, from_bits(next))) {
+        if (next == last || !plane_passes(w->problem, dp_float64(next))) {
             w->here = last;
             return true;
         }
@@ -148,7 +136,7 @@ static bool go(walk *w, int most) {
 /* staged: what the lattice needs may not do; then farther in, where the bound of a staged error will. */
 static bool aligned_anyhow(const solve_problem *p, double x) {
     dp_setup setup;
-    return plane_setup(p, x, &setup) == DP_OK && measure_over(p->kind, &setup, p->lo, p->hi).value <= p->limit &&
+    return solve_setup(p, x, &setup) == DP_OK && measure_over(p->kind, &setup, p->lo, p->hi).value <= p->limit &&
            plane_passes(p, x);
 }
 
@@ -191,7 +179,7 @@ static void try_places(const solve_problem *p, plane_answer *a) {
 static bool is_decided_at(const solve_problem *p, double x, double *z) {
     enum { CELLS = 16 };
     dp_setup setup;
-    if (plane_setup(p, x, &setup) != DP_OK)
+    if (solve_setup(p, x, &setup) != DP_OK)
         return false;
     *z = measure_decisive(&setup, p->lo, p->hi);
     const double cells = fabs((double)dp_code(&setup, p->lo) - (double)dp_code(&setup, p->hi));
@@ -219,9 +207,9 @@ void plane_error_solve(const solve_problem *p, const solve_result *lattice, plan
         out->certain = out->possible; /* an alignment that happens to do may be anywhere */
         return;
     }
-    walk w = {.problem = p, .here = to_bits(start), .end = to_bits(znear ? lattice->least : most)};
+    walk w = {.problem = p, .here = dp_bits64(start), .end = dp_bits64(znear ? lattice->least : most)};
     out->certain = is_decided_at(p, start, &w.z) && go(&w, CODES_MOST);
-    out->value = out->steady = from_bits(w.here);
+    out->value = out->steady = dp_float64(w.here);
     if (!znear && out->value == most && isinf(lattice->most) && plane_passes(p, (double)HUGE_VAL))
         out->value = out->steady = (double)HUGE_VAL;
 }

@@ -73,10 +73,9 @@ static bool suits(reader *r, const config_setting_t *s, const need *n) {
         return reader_fail(r, s, "ties: needs the model fp32 or auto, and the camera '%s' has %s", camera->name,
                            dp_model_name(spec->model));
     if (dp_mapping_get(spec->mapping)->curve != DP_CURVE_PERSPECTIVE)
-        return reader_fail(r, s,
-                           "ties: needs one of the mappings d3d, gl, reversed, gl-reversed, and the camera '%s' "
-                           "has %s",
-                           camera->name, dp_mapping_get(spec->mapping)->name);
+        return reader_fail(
+            r, s, "ties: needs one of the mappings " DP_MAPPING_NAMES_PERSPECTIVE ", and the camera '%s' has %s",
+            camera->name, dp_mapping_get(spec->mapping)->name);
     if (!(n->lo < n->hi) || isinf(n->hi))
         return reader_fail(r, s, "ties: needs a range with a finite far end");
     return true;

@@ -4,10 +4,11 @@
 #include <math.h>
 #include <stdint.h>
 #include <stdlib.h>
-#include <string.h>
 
 #include <gsl/gsl_errno.h>
 #include <gsl/gsl_roots.h>
+
+#include "core/bits.h"
 
 enum { BREAKS_MAX = 3 * 260, ITERATIONS = 200, WALK = 4096 };
 
@@ -29,23 +30,9 @@ typedef struct search {
     double best;
 } search;
 
-/* ---- Doubles in their order, as integers: all positive ----------------------------------------------------------- */
-
-static uint64_t to_bits(double x) {
-    uint64_t bits;
-    memcpy(&bits, &x, sizeof bits);
-    return bits;
-}
-
-static double from_bits(uint64_t bits) {
-    double x;
-    memcpy(&x, &bits, sizeof x);
-    return x;
-}
-
 /* ---- The measure as a function of the unknown -------------------------------------------------------------------- */
 
-static dp_status make(const solve_problem *p, double x, dp_setup *setup) {
+dp_status solve_setup(const solve_problem *p, double x, dp_setup *setup) {
     dp_spec spec = p->spec;
     *(p->unknown == SOLVE_NEAR ? &spec.znear : &spec.zfar) = x;
     return dp_setup_init(setup, &spec);
@@ -53,7 +40,7 @@ static dp_status make(const solve_problem *p, double x, dp_setup *setup) {
 
 static measure_worst whole(const search *s, double x) {
     dp_setup setup;
-    if (make(s->problem, x, &setup) != DP_OK)
+    if (solve_setup(s->problem, x, &setup) != DP_OK)
         return (measure_worst){HUGE_VAL, s->problem->hi};
     return measure_over(s->problem->kind, &setup, s->problem->lo, s->problem->hi);
 }
@@ -66,7 +53,7 @@ static double measure(const search *s, part which, double x) {
     dp_setup setup;
     measure_worst falling;
     measure_worst rising;
-    if (make(p, x, &setup) != DP_OK)
+    if (solve_setup(p, x, &setup) != DP_OK)
         return HUGE_VAL;
     measure_parts(p->kind, &setup, p->lo, p->hi, &falling, &rising);
     return which == PART_FALLING ? falling.value : rising.value;
@@ -85,7 +72,7 @@ static bool passes_surely(const search *s, part which, double x) {
 
 static uint32_t field_at(const search *s, double z, double x) {
     dp_setup setup;
-    return make(s->problem, x, &setup) == DP_OK ? measure_field(&setup, z) : 0;
+    return solve_setup(s->problem, x, &setup) == DP_OK ? measure_field(&setup, z) : 0;
 }
 
 /* The unknown for which d(z) = v: the mappings of depthprec/mapping.h solved for near or far. */
@@ -111,10 +98,10 @@ static double unknown_of(const dp_setup *setup, solve_unknown unknown, double z,
 
 /* The first double of (lo, hi] at which the field of z has gone beyond `bound`; it has at hi and has not at lo. */
 static uint64_t place(const search *s, double z, uint32_t bound, bool upward, double guess, uint64_t lo, uint64_t hi) {
-    const uint64_t start = guess > from_bits(lo) && guess < from_bits(hi) ? to_bits(guess) : lo + (hi - lo) / 2;
+    const uint64_t start = guess > dp_float64(lo) && guess < dp_float64(hi) ? dp_bits64(guess) : lo + (hi - lo) / 2;
     uint64_t at = start;
     for (uint64_t step = 1; hi - lo > 1; step *= 4) {
-        const uint32_t field = field_at(s, z, from_bits(at));
+        const uint32_t field = field_at(s, z, dp_float64(at));
         const bool beyond = upward ? field > bound : field < bound;
         *(beyond ? &hi : &lo) = at;
         const uint64_t room = beyond ? at - lo : hi - at;
@@ -124,7 +111,7 @@ static uint64_t place(const search *s, double z, uint32_t bound, bool upward, do
     }
     while (hi - lo > 1) {
         const uint64_t middle = lo + (hi - lo) / 2;
-        const uint32_t field = field_at(s, z, from_bits(middle));
+        const uint32_t field = field_at(s, z, dp_float64(middle));
         *((upward ? field > bound : field < bound) ? &hi : &lo) = middle;
     }
     return hi;
@@ -133,17 +120,17 @@ static uint64_t place(const search *s, double z, uint32_t bound, bool upward, do
 static void add_breaks(search *s, double z) {
     const solve_problem *p = s->problem;
     dp_setup setup;
-    if (make(p, s->most, &setup) != DP_OK)
+    if (solve_setup(p, s->most, &setup) != DP_OK)
         return;
     const uint32_t first = field_at(s, z, s->least);
     const uint32_t last = field_at(s, z, s->most);
     const bool upward = last > first;
-    uint64_t from = to_bits(s->least);
+    uint64_t from = dp_bits64(s->least);
     for (uint32_t field = first; field != last && s->break_count < BREAKS_MAX;) {
         const double v = measure_threshold(&setup, upward ? field + 1 : field);
-        from = place(s, z, field, upward, unknown_of(&setup, p->unknown, z, v), from, to_bits(s->most));
+        from = place(s, z, field, upward, unknown_of(&setup, p->unknown, z, v), from, dp_bits64(s->most));
         s->breaks[s->break_count++] = from;
-        field = field_at(s, z, from_bits(from));
+        field = field_at(s, z, dp_float64(from));
     }
 }
 
@@ -156,8 +143,8 @@ static int compare_bits(const void *a, const void *b) {
 static void find_breaks(search *s) {
     const solve_problem *p = s->problem;
     dp_setup setup;
-    s->breaks[s->break_count++] = to_bits(s->least);
-    if (p->spec.format.kind == DP_FORMAT_FLOAT && !s->inert && make(p, s->most, &setup) == DP_OK) {
+    s->breaks[s->break_count++] = dp_bits64(s->least);
+    if (p->spec.format.kind == DP_FORMAT_FLOAT && !s->inert && solve_setup(p, s->most, &setup) == DP_OK) {
         const double decisive = measure_decisive(&setup, p->lo, p->hi);
         const double summit = measure_summit(p->kind, &setup, p->lo, p->hi);
         add_breaks(s, decisive);
@@ -212,12 +199,12 @@ static double find_root(equation *e, double a, double b) {
 static uint64_t edge(const search *s, part which, uint64_t inside, uint64_t outside) {
     const bool down = outside < inside;
     equation e = {.s = s, .which = which};
-    const double root = find_root(&e, from_bits(down ? outside : inside), from_bits(down ? inside : outside));
+    const double root = find_root(&e, dp_float64(down ? outside : inside), dp_float64(down ? inside : outside));
     const uint64_t lo = down ? outside : inside;
     const uint64_t hi = down ? inside : outside;
-    uint64_t at = root > from_bits(lo) && root < from_bits(hi) ? to_bits(root) : lo + (hi - lo) / 2;
+    uint64_t at = root > dp_float64(lo) && root < dp_float64(hi) ? dp_bits64(root) : lo + (hi - lo) / 2;
     for (uint64_t step = 1; inside != outside; step *= 4) {
-        const bool good = passes_surely(s, which, from_bits(at));
+        const bool good = passes_surely(s, which, dp_float64(at));
         *(good ? &inside : &outside) = at;
         const uint64_t room = good == down ? at - (down ? outside : inside) : (down ? inside : outside) - at;
         if (room <= 1 || step >= room)
@@ -229,7 +216,7 @@ static uint64_t edge(const search *s, part which, uint64_t inside, uint64_t outs
         if (room <= 1)
             break;
         const uint64_t middle = down ? inside - room / 2 : inside + room / 2;
-        *(passes_surely(s, which, from_bits(middle)) ? &inside : &outside) = middle;
+        *(passes_surely(s, which, dp_float64(middle)) ? &inside : &outside) = middle;
     }
     return inside;
 }
@@ -238,7 +225,7 @@ static uint64_t edge(const search *s, part which, uint64_t inside, uint64_t outs
 static uint64_t walk(const search *s, part which, uint64_t at, uint64_t end) {
     for (int i = 0; i < WALK && at != end; i++) {
         const uint64_t next = end < at ? at - 1 : at + 1;
-        if (!passes(s, which, from_bits(next)))
+        if (!passes(s, which, dp_float64(next)))
             break;
         at = next;
     }
@@ -247,11 +234,11 @@ static uint64_t walk(const search *s, part which, uint64_t at, uint64_t end) {
 
 /* Cuts off [*a, *b] what fails in one part, from the end `bad` where it is largest. False when nothing is left. */
 static bool trim(const search *s, part which, uint64_t good, uint64_t *bad) {
-    if (passes_surely(s, which, from_bits(*bad)))
+    if (passes_surely(s, which, dp_float64(*bad)))
         return true;
-    if (!passes(s, which, from_bits(good)))
+    if (!passes(s, which, dp_float64(good)))
         return false;
-    const uint64_t inside = passes_surely(s, which, from_bits(good)) ? edge(s, which, good, *bad) : good;
+    const uint64_t inside = passes_surely(s, which, dp_float64(good)) ? edge(s, which, good, *bad) : good;
     *bad = walk(s, which, inside, *bad);
     return true;
 }
@@ -261,7 +248,7 @@ static bool trim(const search *s, part which, uint64_t good, uint64_t *bad) {
 static void add_island(search *s, double lo, double hi) {
     solve_result *r = s->result;
     solve_island *last = r->island_count > 0 ? &r->islands[r->island_count - 1] : NULL;
-    if (last != NULL && to_bits(last->hi) + 1 >= to_bits(lo))
+    if (last != NULL && dp_bits64(last->hi) + 1 >= dp_bits64(lo))
         last->hi = hi;
     else if (r->island_count < SOLVE_ISLANDS_MAX)
         r->islands[r->island_count++] = (solve_island){lo, hi};
@@ -290,9 +277,9 @@ static void solve_piece(search *s, uint64_t a, uint64_t b) {
     uint64_t lo = a;
     uint64_t hi = b;
     if (trim(s, PART_FALLING, b, &lo) && trim(s, PART_RISING, a, &hi) && lo <= hi)
-        add_island(s, from_bits(lo), from_bits(hi));
+        add_island(s, dp_float64(lo), dp_float64(hi));
     else if (s->result->island_count == 0)
-        offer_piece(s, from_bits(a), from_bits(b));
+        offer_piece(s, dp_float64(a), dp_float64(b));
 }
 
 static void solve_pieces(search *s) {
@@ -306,7 +293,7 @@ static void solve_pieces(search *s) {
     for (int i = 0; i < s->break_count; i++) {
         const bool last = i + 1 == s->break_count;
         if (last || s->breaks[i + 1] > s->breaks[i])
-            solve_piece(s, s->breaks[i], last ? to_bits(s->most) : s->breaks[i + 1] - 1);
+            solve_piece(s, s->breaks[i], last ? dp_bits64(s->most) : s->breaks[i + 1] - 1);
     }
 }
 
@@ -314,7 +301,7 @@ static void solve_pieces(search *s) {
 static void add_infinity(search *s) {
     solve_result *r = s->result;
     dp_setup setup;
-    if (s->problem->unknown != SOLVE_FAR || make(s->problem, HUGE_VAL, &setup) != DP_OK)
+    if (s->problem->unknown != SOLVE_FAR || solve_setup(s->problem, HUGE_VAL, &setup) != DP_OK)
         return;
     r->most = HUGE_VAL;
     if (!(whole(s, HUGE_VAL).value <= s->problem->limit)) {
@@ -339,17 +326,17 @@ static dp_status limits(search *s) {
         s->most = fmin(fmin(p->lo, near_most), p->spec.zfar / (1.0 + planes_apart));
         if (p->hi > p->spec.zfar || !(s->least <= s->most))
             return DP_ERROR_RANGE;
-        for (int i = 0; i < 8 && make(p, s->most, &setup) == DP_ERROR_PLANES; i++)
+        for (int i = 0; i < 8 && solve_setup(p, s->most, &setup) == DP_ERROR_PLANES; i++)
             s->most = nextafter(s->most, 0.0);
-        return make(p, s->most, &setup);
+        return solve_setup(p, s->most, &setup);
     }
     s->least = fmax(p->hi, p->spec.znear * (1.0 + planes_apart));
     s->most = far_most;
     if (p->lo < p->spec.znear || !(s->least <= s->most))
         return DP_ERROR_RANGE;
-    for (int i = 0; i < 8 && make(p, s->least, &setup) == DP_ERROR_PLANES; i++)
+    for (int i = 0; i < 8 && solve_setup(p, s->least, &setup) == DP_ERROR_PLANES; i++)
         s->least = nextafter(s->least, HUGE_VAL);
-    return make(p, s->least, &setup);
+    return solve_setup(p, s->least, &setup);
 }
 
 static void conclude(search *s) {

@@ -44,6 +44,9 @@ typedef struct solve_result {
     solve_island islands[SOLVE_ISLANDS_MAX]; /**< ascending */
 } solve_result;
 
+/** The set-up of a problem with its unknown filled in. */
+dp_status solve_setup(const solve_problem *problem, double value, dp_setup *out);
+
 /**
  * Solves a problem.
  *

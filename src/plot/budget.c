@@ -70,20 +70,17 @@ static void add_bands(chart *out, chart_panel *panel, const stacked *split, cons
 }
 
 static void add_panel(const figure_request *request, chart *out, size_t i) {
+    const chart_axis y = {CHART_LINEAR, 0, 100, "share of the separation", "share", "%", NULL};
     stacked split = {.setup = &request->setups[i], .terms = &request->terms};
-    double lo, hi, knots[REFINE_KNOTS];
     refine r;
-    figure_range(request, &lo, &hi);
-    chart_panel *panel = chart_add_panel(out);
+    chart_panel *panel = figure_panel(request, out, y);
     if (panel == NULL)
         return;
-    panel->x = figure_depth_axis(CHART_LOG, lo, hi);
-    panel->y = (chart_axis){CHART_LINEAR, 0, 100, "share of the separation", "share", "%", NULL};
     panel->second =
         (chart_axis){.scale = CHART_LOG, .label = "guaranteed separation", .key = "separation", .unit = "scene units"};
     if (request->count > 1)
         snprintf(panel->title, sizeof panel->title, "%s", request->names[i]);
-    refine_request q = envelope_request(request, split.setup, CHART_LOG, lo, hi, knots);
+    refine_request q = envelope_request(request, split.setup, out, panel, sample, &split);
     for (int layer = 0; layer < DP_CAUSE_COUNT; layer++)
         if (counts(&request->terms, stack[layer])) {
             q.axis[split.count] = panel->y;
@@ -91,12 +88,9 @@ static void add_panel(const figure_request *request, chart *out, size_t i) {
         }
     q.axis[split.count] = panel->second;
     q.values = split.count + 1;
-    q.sample = sample;
-    q.context = &split;
     if (!refine_begin(&r, &q, out))
         return;
     refine_finish(&r);
-    refine_account(&r, out);
     add_bands(out, panel, &split, &r);
 }
 

@@ -11,14 +11,19 @@ typedef union block {
     max_align_t align;
 } block;
 
+/* What its users do not see follows the chart. */
+typedef struct whole {
+    chart shown;
+    block *memory;
+    bool failed;
+} whole;
+
 chart *chart_new(void) {
-    return calloc(1, sizeof(chart));
+    return calloc(1, sizeof(whole));
 }
 
 void chart_free(chart *c) {
-    if (c == NULL)
-        return;
-    for (block *b = c->memory; b != NULL;) {
+    for (block *b = c != NULL ? ((whole *)c)->memory : NULL; b != NULL;) {
         block *next = b->next;
         free(b);
         b = next;
@@ -26,20 +31,29 @@ void chart_free(chart *c) {
     free(c);
 }
 
+void chart_fail(chart *c) {
+    ((whole *)c)->failed = true;
+}
+
+bool chart_failed(const chart *c) {
+    return c == NULL || ((const whole *)c)->failed;
+}
+
 void *chart_memory(chart *c, size_t count, size_t size) {
+    whole *w = (whole *)c;
     block *b = count < SIZE_MAX / 2 / size ? calloc(1, sizeof *b + count * size) : NULL;
     if (b == NULL) {
-        c->failed = true;
+        chart_fail(c);
         return NULL;
     }
-    b->next = c->memory;
-    c->memory = b;
+    b->next = w->memory;
+    w->memory = b;
     return b + 1;
 }
 
 chart_panel *chart_add_panel(chart *c) {
     if (c->panel_count == CHART_PANELS) {
-        c->failed = true;
+        chart_fail(c);
         return NULL;
     }
     return &c->panels[c->panel_count++];
@@ -47,7 +61,7 @@ chart_panel *chart_add_panel(chart *c) {
 
 chart_series *chart_add_series(chart *c, chart_panel *panel, chart_kind kind, size_t count) {
     if (panel == NULL || panel->series_count == CHART_SERIES) {
-        c->failed = true;
+        chart_fail(c);
         return NULL;
     }
     chart_series *s = &panel->series[panel->series_count];

@@ -93,16 +93,15 @@ typedef struct chart {
     size_t places;      /**< and how often it would have been with one point a pixel column: see refine.h */
     double shape;       /**< width over height that the panels keep; 0 when they fill the page */
     bool colours;       /**< the values of the maps are 0xRRGGBB; directions, see heat.h */
-    void *memory;       /**< everything chart_numbers() gave out */
-    bool failed;
 } chart;
 
 /** An empty chart; null when out of memory. */
 chart *chart_new(void);
 void chart_free(chart *c);
-static inline bool chart_failed(const chart *c) {
-    return c == NULL || c->failed;
-}
+
+/** Marks a chart that cannot be what it should be: memory or room ran out. Null counts as failed. */
+void chart_fail(chart *c);
+bool chart_failed(const chart *c);
 
 /** A block that lives as long as the chart, zeroed; null when out of memory. */
 void *chart_memory(chart *c, size_t count, size_t size);

@@ -55,31 +55,25 @@ static void window(const void *context, double from, double to, refine_sample *o
 }
 
 static void add_curve(const figure_request *request, chart *out, chart_panel *panel, size_t i) {
-    double knots[REFINE_KNOTS];
-    refine r;
-    refine_request q = envelope_request(request, &request->setups[i], panel->x.scale, panel->x.lo, panel->x.hi, knots);
+    const dp_setup *setup = &request->setups[i];
+    refine_request q = envelope_request(request, setup, out, panel, window, setup);
     q.knot_count = 0; /* it is smooth */
-    q.axis[0] = panel->y;
-    q.sample = window;
-    q.context = &request->setups[i];
-    if (!refine_begin(&r, &q, out))
-        return;
-    refine_finish(&r);
-    refine_account(&r, out);
-    chart_series *s = envelope_line(out, panel, CHART_LINE, &r, 0);
+    chart_series *s = envelope_curve(out, panel, &q);
     if (s != NULL)
         snprintf(s->name, sizeof s->name, "window depth d(z)");
 }
 
 static void build_staircases(const figure_request *request, chart *out) {
+    const chart_axis y = {CHART_LINEAR, 0, 1, "window depth d", "depth", "", NULL};
     double lo, hi;
     staircase_range(request, &lo, &hi);
     for (size_t i = 0; i < request->count; i++) {
-        chart_panel *panel = chart_add_panel(out);
+        chart_panel *panel = figure_panel(request, out, y);
         if (panel == NULL)
             return;
-        panel->x = figure_depth_axis(scale_of(lo, hi), lo, hi);
-        panel->y = (chart_axis){CHART_LINEAR, 0, 1, "window depth d", "depth", "", NULL};
+        panel->x.scale = scale_of(lo, hi);
+        panel->x.lo = lo;
+        panel->x.hi = hi;
         snprintf(panel->title, sizeof panel->title, "%s, %u codes", request->names[i],
                  request->setups[i].spec.format.code_max + 1);
         add_codes(request, out, panel, i);
@@ -98,6 +92,7 @@ const char *distribution_build(const figure_request *request, chart *out) {
         return NULL;
     }
     chart_axis y = {.scale = CHART_LOG, .label = "codes, fewest", .key = "density", .unit = "per scene unit of depth"};
-    envelope_build(request, out, y, density);
+    envelope_curves(request, out, y, density, false);
+    chart_fit(out);
     return NULL;
 }

@@ -3,6 +3,7 @@
 
 #include <math.h>
 #include <stdio.h>
+#include <string.h>
 
 #include "plot/ticks.h"
 
@@ -112,44 +113,54 @@ static size_t find_knots(const dp_setup *setup, double hi, double at[REFINE_KNOT
     return k.count;
 }
 
-refine_request envelope_request(const figure_request *request, const dp_setup *setup, chart_scale scale, double lo,
-                                double hi, double knots[REFINE_KNOTS]) {
-    return (refine_request){.scale = scale,
-                            .lo = lo,
-                            .hi = hi,
+refine_request envelope_request(const figure_request *request, const dp_setup *setup, chart *out,
+                                const chart_panel *panel, refine_function *sample, const void *context) {
+    double *knots = chart_memory(out, REFINE_KNOTS, sizeof *knots);
+    return (refine_request){.scale = panel->x.scale,
+                            .lo = panel->x.lo,
+                            .hi = panel->x.hi,
                             .columns = request->columns,
                             .rows = request->rows,
                             .values = 1,
+                            .axis = {panel->y},
                             .knots = knots,
-                            .knot_count = find_knots(setup, hi, knots)};
+                            .knot_count = knots != NULL ? find_knots(setup, panel->x.hi, knots) : 0,
+                            .sample = sample,
+                            .context = context};
 }
 
 /* ---- Curves ------------------------------------------------------------------------------------------------------ */
 
-typedef struct curve {
-    const dp_setup *setup;
-    envelope_value value;
-    figure_way way; /* its function is null for the exact cells */
-    double knots[REFINE_KNOTS];
-} curve;
+double envelope_error(const dp_worst *worst) {
+    return worst->error;
+}
+
+bool envelope_way(const dp_setup *setup, double tolerance, way *out) {
+    if (!(tolerance > 0) || setup->spec.model == DP_MODEL_FP32)
+        return false;
+    *out = way_choose(setup, tolerance, false);
+    return out->row != NULL && strcmp(out->name, "cell") != 0;
+}
 
 bool envelope_is_cut(const dp_setup *setup, double z) {
     const uint32_t code = dp_code(setup, z);
     return code == dp_code(setup, setup->spec.znear) || code == dp_code(setup, setup->spec.zfar);
 }
 
-/* A column is too narrow for the interval to change by more than its ends do. */
-static double by_way(const curve *c, double from, double to) {
-    return fmax(c->way.interval(c->way.context, c->setup, from), c->way.interval(c->way.context, c->setup, to));
-}
+typedef struct curve {
+    const dp_setup *setup;
+    envelope_value value;
+    bool by_way;
+    way way;
+} curve;
 
+/* By a way: a column is too narrow for the interval to change by more than its ends do. */
 static void sample(const void *context, double from, double to, refine_sample *out) {
     const curve *c = context;
-    if (c->way.interval != NULL && !envelope_is_cut(c->setup, from) && !envelope_is_cut(c->setup, to)) {
-        *out = (refine_sample){.y = {by_way(c, from, to)}};
-        return;
-    }
-    envelope_slice(c->setup, from, to, c->value, out);
+    if (!c->by_way || envelope_is_cut(c->setup, from) || envelope_is_cut(c->setup, to))
+        envelope_slice(c->setup, from, to, c->value, out);
+    else
+        *out = (refine_sample){.y = {fmax(way_interval(&c->way, c->setup, from), way_interval(&c->way, c->setup, to))}};
 }
 
 chart_series *envelope_line(chart *out, chart_panel *panel, chart_kind kind, const refine *r, int value) {
@@ -159,26 +170,25 @@ chart_series *envelope_line(chart *out, chart_panel *panel, chart_kind kind, con
     return s;
 }
 
-/* What the axis cannot show in any case need not be computed exactly: half of it is left to the line. */
-static void find_way(const figure_request *request, curve *c, const refine *r) {
-    const double tolerance = isnan(request->tolerance) ? expm1(refine_half_pixel(r, 0) / 2) : request->tolerance;
-    if (request->find_way == NULL || !(tolerance > 0) || !request->find_way(c->setup, tolerance, &c->way))
-        c->way.interval = NULL;
+chart_series *envelope_curve(chart *out, chart_panel *panel, const refine_request *request) {
+    refine r;
+    if (!refine_begin(&r, request, out))
+        return NULL;
+    refine_finish(&r);
+    return envelope_line(out, panel, CHART_LINE, &r, 0);
 }
 
-static void add_curve(const figure_request *request, chart *out, chart_panel *panel, size_t i, refine *r,
-                      const curve *c) {
-    const dp_setup *setup = &request->setups[i];
+static void add_curve(const figure_request *request, chart *out, chart_panel *panel, size_t i, const curve *c,
+                      refine *r) {
+    dp_worst worst;
     refine_finish(r);
-    refine_account(r, out);
     chart_series *s = envelope_line(out, panel, CHART_LINE, r, 0);
     if (s == NULL)
         return;
     s->style = figure_style(request, i);
-    s->method = c->way.interval != NULL ? c->way.name : NULL;
+    s->method = c->by_way ? c->way.name : NULL;
     snprintf(s->name, sizeof s->name, "%s", request->names[i]);
-    dp_worst worst;
-    if (dp_worst_over(setup, panel->x.lo, panel->x.hi, &worst) == DP_OK && !isnan(worst.blind_from)) {
+    if (dp_worst_over(c->setup, panel->x.lo, panel->x.hi, &worst) == DP_OK && !isnan(worst.blind_from)) {
         char text[TICKS_TEXT];
         ticks_label(worst.blind_from, worst.blind_from >= 1e6, text);
         snprintf(s->note, sizeof s->note, " (blind from %s)", text);
@@ -187,35 +197,25 @@ static void add_curve(const figure_request *request, chart *out, chart_panel *pa
 
 chart_panel *envelope_curves(const figure_request *request, chart *out, chart_axis y, envelope_value value,
                              bool interval) {
-    chart_panel *panel = chart_add_panel(out);
+    chart_panel *panel = figure_panel(request, out, y);
     curve *curves = chart_memory(out, request->count, sizeof *curves);
     refine *refined = chart_memory(out, request->count, sizeof *refined);
     if (panel == NULL || curves == NULL || refined == NULL)
         return NULL;
-    double lo, hi;
-    figure_range(request, &lo, &hi);
-    panel->x = figure_depth_axis(CHART_LOG, lo, hi);
-    panel->y = y;
     for (size_t i = 0; i < request->count; i++) {
         curves[i] = (curve){.setup = &request->setups[i], .value = value};
-        refine_request q = envelope_request(request, curves[i].setup, CHART_LOG, lo, hi, curves[i].knots);
+        refine_request q = envelope_request(request, curves[i].setup, out, panel, sample, &curves[i]);
         q.slices = true;
-        q.axis[0] = y;
-        q.sample = sample;
-        q.context = &curves[i];
         if (!refine_begin(&refined[i], &q, out))
             return panel;
     }
     refine_share_axis(refined, request->count);
     for (size_t i = 0; i < request->count; i++) {
-        if (interval)
-            find_way(request, &curves[i], &refined[i]);
-        add_curve(request, out, panel, i, &refined[i], &curves[i]);
+        /* What the axis cannot show in any case need not be computed exactly: half of it is left to the line. */
+        const bool unsaid = isnan(request->tolerance);
+        const double tolerance = unsaid ? expm1(refine_half_pixel(&refined[i], 0) / 2) : request->tolerance;
+        curves[i].by_way = interval && envelope_way(curves[i].setup, tolerance, &curves[i].way);
+        add_curve(request, out, panel, i, &curves[i], &refined[i]);
     }
     return panel;
-}
-
-void envelope_build(const figure_request *request, chart *out, chart_axis y, envelope_value value) {
-    envelope_curves(request, out, y, value, false);
-    chart_fit(out);
 }

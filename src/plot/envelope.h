@@ -7,37 +7,40 @@
 #ifndef PLOT_ENVELOPE_H
 #define PLOT_ENVELOPE_H
 
-#include "depthprec/depthprec.h"
-#include "plot/chart.h"
+#include "method/ways.h"
 #include "plot/figure.h"
 #include "plot/refine.h"
 
 /** What a curve takes from the worst case of a slice. */
 typedef double (*envelope_value)(const dp_worst *worst);
+double envelope_error(const dp_worst *worst);
 
 /**
  * One panel with an axis of depth and the given one, and a curve for each set-up, in their order; to be fitted.
- * @param interval  the value is the interval itself, for which the request's ways may stand in: within a quarter of a
- *                  pixel where it leaves the tolerance to the picture. Columns that touch a cut cell stay exact.
+ * @param interval  the value is the interval itself, for which cheaper ways may stand in: within a quarter of a pixel
+ *                  where the request leaves the tolerance to the picture. Columns that touch a cut cell stay exact.
  */
 chart_panel *envelope_curves(const figure_request *request, chart *out, chart_axis y, envelope_value value,
                              bool interval);
 
-/** The same, fitted: a whole figure. */
-void envelope_build(const figure_request *request, chart *out, chart_axis y, envelope_value value);
-
 /** The same for one set-up and a slice of depths: the greatest value in it, over whole cells. NaN without cells. */
 void envelope_slice(const dp_setup *setup, double from, double to, envelope_value value, refine_sample *out);
 
-/** The `sample` of a request about slices: the largest separation in each, certified. Its context is the set-up. */
+/** A refine_function of slices: the largest separation in each, certified. Its context is the set-up. */
 void envelope_separation(const void *setup, double from, double to, refine_sample *out);
+
+/** The cheaper way within the tolerance, where there is one for cells that no plane cuts. */
+bool envelope_way(const dp_setup *setup, double tolerance, way *out);
 
 /** Does a plane cut the cell of z? */
 bool envelope_is_cut(const dp_setup *setup, double z);
 
-/** Request of a curve along the depth axis of a panel, lo and hi its ends; the knots are those of the set-up. */
-refine_request envelope_request(const figure_request *request, const dp_setup *setup, chart_scale scale, double lo,
-                                double hi, double knots[REFINE_KNOTS]);
+/** Request of a curve of one value along the axes of a panel, at edges; the knots are those of the set-up. */
+refine_request envelope_request(const figure_request *request, const dp_setup *setup, chart *out,
+                                const chart_panel *panel, refine_function *sample, const void *context);
+
+/** Refines a curve of one value and adds it as the panel's next series; null when out of memory. */
+chart_series *envelope_curve(chart *out, chart_panel *panel, const refine_request *request);
 
 /** A finished curve as the panel's next series, `value` of its values; null when out of memory. */
 chart_series *envelope_line(chart *out, chart_panel *panel, chart_kind kind, const refine *r, int value);

@@ -7,33 +7,33 @@
 static const figure_row rows[] = {
     {"distribution", "Where the codes are",
      "the curve d(z) with every code carried over to z (up to 128 codes); codes per unit of depth for real formats",
-     CHART_SERIES, 0, distribution_build},
+     CHART_SERIES, 0, NULL, distribution_build},
     {"share", "Share of the codes spent between near and z", "cumulative share of the codes between near and z",
-     CHART_SERIES, FIGURE_FP32, share_build},
+     CHART_SERIES, FIGURE_FP32, NULL, share_build},
     {"error", "Worst error of the stored depth", "certified envelope of |stored - z| against z, log-log", CHART_SERIES,
-     0, error_build},
+     0, NULL, error_build},
     {"interval", "Z-fighting interval",
      "certified envelope of the z-fighting interval against z, log-log; in the model fp32 the guaranteed separation "
      "beside it, and what a census finds as points",
-     CHART_SERIES, FIGURE_FP32 | FIGURE_WAYS | FIGURE_CENSUS, interval_build},
+     CHART_SERIES, FIGURE_FP32 | FIGURE_TOLERANCE, NULL, interval_build},
     {"budget", "Causes of the guaranteed separation",
      "shares of the separation that binary32 arithmetic guarantees, cause by cause, against z", CHART_PANELS,
-     FIGURE_TERMS | FIGURE_FP32 | FIGURE_BINARY32, budget_build},
+     FIGURE_TERMS | FIGURE_FP32 | FIGURE_BINARY32, NULL, budget_build},
     {"map", "Worst z-fighting interval for each near and far plane",
      "near against far, colour = worst z-fighting interval over the range, or the interval at --at Z", CHART_PANELS,
-     FIGURE_AT | FIGURE_WAYS, map_build},
+     FIGURE_AT | FIGURE_TOLERANCE, NULL, map_build},
     {"pareto", "Speed against accuracy",
      "methods of a family, interval by default: ns an element against worst error, log-log, the Pareto front marked",
-     CHART_SERIES, FIGURE_PARETO | FIGURE_FP32, pareto_build},
+     CHART_SERIES, FIGURE_FP32, "interval", pareto_build},
     {"stability", "Where methods lose their digits",
      "methods of a family, linearize by default, against far/near: colour = digits left, with the claims' ends",
-     CHART_SERIES, FIGURE_WALK | FIGURE_FP32, stability_build},
+     CHART_SERIES, FIGURE_FP32, "linearize", stability_build},
     {"normals", "Normals from depth",
      "angular error of normals made from stored depths against z, on a plane and at the outline of a sphere",
-     CHART_PANELS / 2, FIGURE_NORMALS, normals_build},
+     CHART_PANELS / 2, 0, NULL, normals_build},
     {"scene", "What the scene needs and what the cameras give",
      "a requirement file: the separation (or error) that each requirement allows against what its set-up gives",
-     CHART_PANELS, FIGURE_FP32 | FIGURE_NEEDS, scene_build},
+     CHART_PANELS, FIGURE_FILE, NULL, scene_build},
 };
 
 const figure_row *figure_get(size_t index) {
@@ -83,6 +83,12 @@ void figure_range(const figure_request *request, double *lo, double *hi) {
         *hi = fmax(spec->znear * 1e6, *lo * 1e3);
 }
 
-chart_axis figure_depth_axis(chart_scale scale, double lo, double hi) {
-    return (chart_axis){scale, lo, hi, "eye depth z", "z", "scene units", NULL};
+chart_panel *figure_panel(const figure_request *request, chart *out, chart_axis y) {
+    chart_panel *panel = chart_add_panel(out);
+    if (panel == NULL)
+        return NULL;
+    panel->x = (chart_axis){.scale = CHART_LOG, .label = "eye depth z", .key = "z", .unit = "scene units"};
+    figure_range(request, &panel->x.lo, &panel->x.hi);
+    panel->y = y;
+    return panel;
 }

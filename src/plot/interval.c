@@ -7,6 +7,7 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "census/census.h"
 #include "plot/envelope.h"
 
 static double widest_cell(const dp_worst *worst) {
@@ -40,44 +41,62 @@ static void into_background(chart_series *s) {
     snprintf(s->name + strlen(s->name), sizeof s->name - strlen(s->name), ", lattice");
 }
 
-static bool has_census(const figure_request *request, size_t i) {
-    return request->census != NULL && request->census[i].count > 0;
+/* What a census found of one set-up: the longest interval of each band, at its nearer depth. */
+typedef struct found {
+    size_t count;
+    double z[CENSUS_BANDS_MAX], longest[CENSUS_BANDS_MAX];
+} found;
+
+/* Bands without an interval have no point. */
+static bool count_one(const dp_setup *setup, const chart_axis *x, census_result *result, found *f) {
+    const census_request q = {.setup = setup, .lo = x->lo, .hi = x->hi};
+    if (census_run(&q, result) != CENSUS_DONE)
+        return false;
+    for (int b = 0; b < result->band_count; b++)
+        if (result->bands[b].longest > 0) {
+            f->z[f->count] = result->bands[b].longest_z;
+            f->longest[f->count++] = result->bands[b].longest;
+        }
+    return true;
 }
 
-static void add_separation(const figure_request *request, chart *out, chart_panel *panel, size_t i) {
-    double knots[REFINE_KNOTS];
-    refine r;
-    refine_request q = envelope_request(request, &request->setups[i], CHART_LOG, panel->x.lo, panel->x.hi, knots);
+/* A census of every set-up of the model fp32, when its depths are few enough; null: none of them has one. */
+static found *count_all(const figure_request *request, const chart_axis *x, chart *out) {
+    enum { SETUPS_MAX = CHART_SERIES / 3 }; /* three series each */
+    const uint64_t visited = census_count(x->lo, x->hi);
+    if (request->count > SETUPS_MAX || visited < 2 || visited > request->census)
+        return NULL;
+    census_result *result = chart_memory(out, 1, sizeof *result);
+    found *all = chart_memory(out, request->count, sizeof *all);
+    for (size_t i = 0; i < request->count && !chart_failed(out); i++)
+        if (is_fp32(request, i) && !count_one(&request->setups[i], x, result, &all[i]))
+            chart_fail(out);
+    return all;
+}
+
+static void add_separation(const figure_request *request, chart *out, chart_panel *panel, size_t i, const found *f) {
+    const dp_setup *setup = &request->setups[i];
+    refine_request q = envelope_request(request, setup, out, panel, envelope_separation, setup);
     q.slices = true;
-    q.axis[0] = panel->y;
-    q.sample = envelope_separation;
-    q.context = &request->setups[i];
-    if (!refine_begin(&r, &q, out))
-        return;
-    refine_finish(&r);
-    refine_account(&r, out);
-    chart_series *s = envelope_line(out, panel, CHART_LINE, &r, 0);
+    chart_series *s = envelope_curve(out, panel, &q);
     if (s == NULL)
         return;
     s->style = figure_style(request, i);
-    if (has_census(request, i))
+    if (f != NULL && f->count > 0)
         s->style.marker = -1; /* its points have it */
     snprintf(s->name, sizeof s->name, "%s", request->names[i]);
 }
 
 /* The longest intervals that there are, each where it begins: none of them lies above the guarantee. */
-static void add_census(const figure_request *request, chart *out, chart_panel *panel, size_t i) {
-    if (!has_census(request, i))
-        return;
-    const figure_census *c = &request->census[i];
-    chart_series *s = chart_add_series(out, panel, CHART_POINTS, c->count);
+static void add_census(const figure_request *request, chart *out, chart_panel *panel, size_t i, const found *f) {
+    chart_series *s = f->count > 0 ? chart_add_series(out, panel, CHART_POINTS, f->count) : NULL;
     if (s == NULL)
         return;
     s->style = figure_style(request, i);
     s->behind = true; /* the guarantee may rise to a point in one column, and the point must not hide that */
     snprintf(s->name, sizeof s->name, "%s, census", request->names[i]);
-    memcpy(s->x, c->z, c->count * sizeof *s->x);
-    memcpy(s->y, c->longest, c->count * sizeof *s->y);
+    memcpy(s->x, f->z, f->count * sizeof *s->x);
+    memcpy(s->y, f->longest, f->count * sizeof *s->y);
 }
 
 const char *interval_build(const figure_request *request, chart *out) {
@@ -89,13 +108,16 @@ const char *interval_build(const figure_request *request, chart *out) {
     if (changed > 0)
         y.label = "separation, interval";
     chart_panel *panel = envelope_curves(&cells, out, y, widest_cell, true);
-    for (size_t i = 0; i < request->count && panel != NULL && !chart_failed(out); i++)
+    if (panel == NULL)
+        return NULL;
+    const found *counted = changed > 0 ? count_all(request, &panel->x, out) : NULL;
+    for (size_t i = 0; i < request->count && !chart_failed(out); i++)
         if (is_fp32(request, i)) {
             into_background(&panel->series[i]);
-            add_separation(request, out, panel, i);
+            add_separation(request, out, panel, i, counted != NULL ? &counted[i] : NULL);
         }
-    for (size_t i = 0; i < request->count && panel != NULL; i++)
-        add_census(request, out, panel, i);
+    for (size_t i = 0; i < request->count && counted != NULL; i++)
+        add_census(request, out, panel, i, &counted[i]);
     chart_fit(out);
     if (changed == 0)
         return NULL;
@@ -105,6 +127,6 @@ const char *interval_build(const figure_request *request, chart *out) {
                                            : "Z-fighting interval; in the model fp32, guaranteed separation");
     snprintf(out->subtitle + strlen(out->subtitle), sizeof out->subtitle - strlen(out->subtitle),
              ". Thin: the interval of the lattice alone%s",
-             request->census != NULL ? ". Points: the longest interval that there is in each power of two" : "");
+             counted != NULL ? ". Points: the longest interval that there is in each power of two" : "");
     return NULL;
 }

@@ -13,12 +13,11 @@ static const double around = 100, infinite_from = 10, infinite_to = 1e7;
 /* The interval at the depth asked about, by a cheaper way where its claim is good enough for this camera. */
 static double interval_at(const figure_request *request, const dp_setup *setup, bool *by_way) {
     dp_sample sample;
-    figure_way way;
-    *by_way = request->find_way != NULL && request->tolerance > 0 && request->at >= setup->spec.znear &&
-              request->at <= setup->spec.zfar && !envelope_is_cut(setup, request->at) &&
-              request->find_way(setup, request->tolerance, &way);
+    way cheaper;
+    *by_way = request->at >= setup->spec.znear && request->at <= setup->spec.zfar &&
+              !envelope_is_cut(setup, request->at) && envelope_way(setup, request->tolerance, &cheaper);
     if (*by_way)
-        return way.interval(way.context, setup, request->at);
+        return way_interval(&cheaper, setup, request->at);
     return dp_sample_at(setup, request->at, &sample) == DP_OK ? sample.interval : (double)NAN;
 }
 

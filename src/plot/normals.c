@@ -1,63 +1,112 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
+/* How far normals from depth are off: methods measured on a plane and at the outline of a sphere, at each depth. */
 #include <math.h>
 #include <stdio.h>
+#include <string.h>
 
 #include "plot/figure.h"
 #include "plot/refine.h"
+#include "texture/normal_measure.h"
 
 /* Each point of a curve stands for so many pixel columns, and each depth in it is an image of its own: how its pixels
  * meet the codes is chance, so the worst of some is shown. */
 enum { COLUMNS_EACH = 16, DEPTHS_EACH = 4 };
 
-static double worst_of(const figure_request *request, const chart_axis *x, size_t setup, size_t surface, size_t method,
-                       int slice, int slices) {
-    double worst = NAN;
-    for (int i = 0; i < DEPTHS_EACH; i++) {
-        const double z = refine_edge(x->scale, x->lo, x->hi, slice * DEPTHS_EACH + i, slices * DEPTHS_EACH - 1);
-        worst = fmax(worst, request->normals->error(&request->setups[setup], surface, method, z)); /* fmax drops NaN */
-    }
-    return worst;
+/* The middle of an image of 1080 lines with a field of view of 60 degrees (orthographic: 10 units high). */
+enum { SIDE = 48, LINES = 1080, RADIUS = 16, PLANE = 0, SPHERE };
+
+static const double PI = 3.14159265358979323846;
+static const double READING = 0x1p-24; /* one rounding to binary32 */
+
+static const char *const surfaces[] = {"plane at 60\u00b0", "outline of a sphere"};
+static const char *const methods[] = {"low", "medium", "high", "projective", "bound of projective"};
+enum { SURFACES = sizeof surfaces / sizeof surfaces[0], BOUND = sizeof methods / sizeof methods[0] - 1 };
+
+static bool middle(const dp_setup *setup, texture_camera *camera) {
+    camera_spec spec = camera_spec_default();
+    const double share = (double)SIDE / LINES;
+    spec.width = spec.height = SIDE;
+    spec.fov_y = 2 * atan(tan(spec.fov_y / 2 * PI / 180) * share) * 180 / PI;
+    spec.half_height *= share;
+    return camera_init(camera, setup, &spec) == NULL;
 }
 
-static void add_curve(const figure_request *request, chart *out, chart_panel *panel, size_t setup, size_t surface,
-                      size_t method) {
-    const figure_normals *n = request->normals;
-    const bool bound = method == n->method_count;
-    const int slices = request->columns / COLUMNS_EACH;
+/* The largest over the image; it changes slowly, so some pixels stand for all. */
+static double bound_of(const texture_camera *camera, const double *parameters) {
+    enum { APART = 8 };
+    const scene_row *scene = scene_find("plane");
+    scene_hit hit;
+    double worst = 0;
+    scene->hit(camera, parameters, SIDE / 2, SIDE / 2, &hit);
+    if (hit.surface == 0)
+        return NAN;
+    const normal_plane plane = normal_plane_at(camera, SIDE / 2, SIDE / 2, hit.z, hit.normal);
+    for (uint32_t i = 0; i < SIDE; i += APART)
+        for (uint32_t j = 0; j < SIDE; j += APART) {
+            const double error = normal_plane_error(camera, i, j, &plane, READING);
+            if (isfinite(error))
+                worst = fmax(worst, normal_plane_bound(camera, i, j, &plane, error));
+        }
+    return worst * 180 / PI;
+}
+
+/* A plane slanted askew: cos 33 cos 53.4 = 1/2. A sphere as large in the image at every depth, and a wall behind it as
+ * far as it is large. */
+static double measure(const dp_setup *setup, size_t surface, size_t method, double z) {
+    texture_camera camera;
+    normal_measured m;
+    if (!middle(setup, &camera))
+        return NAN;
+    const double radius = RADIUS * 2 * camera.half[1] / SIDE * (camera.ortho ? 1 : z);
+    const double plane[] = {z, 33, 53.4, 0}, sphere[] = {z, radius, z + 2 * radius, 0};
+    if (method == BOUND)
+        return bound_of(&camera, plane);
+    if (!normal_measure(normal_find(methods[method]), &camera, scene_find(surface == PLANE ? "plane" : "sphere"),
+                        surface == PLANE ? plane : sphere, 0, SIDE, &m))
+        return NAN;
+    const bool whole = z - radius >= setup->spec.znear && m.sky == 0; /* neither sphere nor wall leaves the view */
+    return (surface == PLANE ? m.inside.p99 : whole ? m.edges.mean : (double)NAN) * 180 / PI;
+}
+
+static void add_curve(const figure_request *request, const dp_setup *setup, normals_error *error, chart *out,
+                      chart_panel *panel, size_t surface, size_t method) {
+    const chart_axis *x = &panel->x;
+    const int slices = request->columns / COLUMNS_EACH, last = slices * DEPTHS_EACH - 1;
     chart_series *s = chart_add_series(out, panel, CHART_LINE, (size_t)slices);
     if (s == NULL)
         return;
-    s->style = bound ? (chart_style){.colour = -1, .stroke = 1, .marker = -1, .thin = true}
-                     : (chart_style){.colour = (int)method, .stroke = (int)method, .marker = (int)method};
-    snprintf(s->name, sizeof s->name, "%s", bound ? n->bound : n->methods[method]);
+    s->style = method == BOUND ? (chart_style){.colour = -1, .stroke = 1, .marker = -1, .thin = true}
+                               : (chart_style){.colour = (int)method, .stroke = (int)method, .marker = (int)method};
+    snprintf(s->name, sizeof s->name, "%s", methods[method]);
     for (int k = 0; k < slices; k++) {
-        const double error = worst_of(request, &panel->x, setup, surface, method, k, slices);
-        s->x[k] = refine_edge(CHART_LOG, panel->x.lo, panel->x.hi, 2 * k + 1, 2 * slices);
-        s->y[k] = error > 0 ? error : (double)NAN; /* a log axis has no 0 */
+        double worst = NAN;
+        for (int i = k * DEPTHS_EACH; i < (k + 1) * DEPTHS_EACH; i++) /* fmax drops NaN */
+            worst = fmax(worst, error(setup, surface, method, refine_edge(x->scale, x->lo, x->hi, i, last)));
+        s->x[k] = refine_edge(x->scale, x->lo, x->hi, 2 * k + 1, 2 * slices);
+        s->y[k] = worst > 0 ? worst : (double)NAN; /* a log axis has no 0 */
     }
 }
 
-const char *normals_build(const figure_request *request, chart *out) {
-    const figure_normals *n = request->normals;
-    double lo, hi;
-    if (n == NULL)
-        return "no normals to show";
-    figure_range(request, &lo, &hi);
-    for (size_t i = 0; i < request->count; i++)
-        for (size_t surface = 0; surface < n->surface_count; surface++) {
-            chart_panel *panel = chart_add_panel(out);
-            if (panel == NULL)
-                return NULL;
-            panel->x = figure_depth_axis(CHART_LOG, lo, hi);
-            panel->y = (chart_axis){.scale = CHART_LOG, .label = "angular error", .key = "error", .unit = "degrees"};
-            const bool alone = request->count == 1; /* then the subtitle names it */
-            snprintf(panel->title, sizeof panel->title, "%s%s%s", alone ? "" : request->names[i], alone ? "" : ": ",
-                     n->surfaces[surface]);
-            for (size_t method = 0; method < n->method_count; method++)
-                add_curve(request, out, panel, i, surface, method);
-            if (surface == 0)
-                add_curve(request, out, panel, i, surface, n->method_count);
-        }
+const char *normals_draw(const figure_request *request, normals_error *error, chart *out) {
+    const chart_axis y = {.scale = CHART_LOG, .label = "angular error", .key = "error", .unit = "degrees"};
+    for (size_t i = 0; i < request->count * SURFACES; i++) {
+        const size_t setup = i / SURFACES, surface = i % SURFACES;
+        const bool alone = request->count == 1; /* then the subtitle names it */
+        chart_panel *panel = figure_panel(request, out, y);
+        if (panel == NULL)
+            return NULL;
+        snprintf(panel->title, sizeof panel->title, "%s%s%s", alone ? "" : request->names[setup], alone ? "" : ": ",
+                 surfaces[surface]);
+        for (size_t method = 0; method < BOUND + (surface == PLANE); method++)
+            add_curve(request, &request->setups[setup], error, out, panel, surface, method);
+    }
     chart_fit(out);
     return NULL;
+}
+
+const char *normals_build(const figure_request *request, chart *out) {
+    snprintf(out->subtitle + strlen(out->subtitle), sizeof out->subtitle - strlen(out->subtitle),
+             "; 1080 lines, %s; plane: 99 %% of the pixels, outline: mean",
+             request->setups[0].spec.ortho ? "10 units high" : "field of view 60\u00b0");
+    return normals_draw(request, measure, out);
 }

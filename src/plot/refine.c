@@ -9,7 +9,26 @@
 
 #include <math.h>
 
-enum { UNKNOWN = 0, KNOWN };
+typedef struct extent {
+    double lo, hi;
+} extent;
+
+/* What one value is at one place; as many of them a place as the request has values. */
+typedef struct known {
+    double y, step, flicker;
+} known;
+
+struct refine_places {
+    chart *account;
+    int count;
+    bool *visited;
+    known *at;
+    extent seen[REFINE_VALUES]; /* what has been seen of each value */
+};
+
+static known *known_at(const refine *r, int place, int value) {
+    return &r->places->at[place * r->request.values + value];
+}
 
 /* A log axis is fitted with this much air at least: see chart_fit(). */
 static const double least_air = 1.05;
@@ -39,25 +58,28 @@ static double along(const refine *r, int value, double y) {
     return r->request.axis[value].scale == CHART_LOG ? log(y) : y;
 }
 
+static double along_at(const refine *r, int value, int place) {
+    return along(r, value, known_at(r, place, value)->y);
+}
+
 static void measure(refine *r, int first, int last, refine_sample *out) {
     r->evaluations++;
     r->request.sample(r->request.context, edge(r, first), r->request.slices ? edge(r, last + 1) : edge(r, last), out);
 }
 
 static void visit(refine *r, int i) {
+    struct refine_places *p = r->places;
     refine_sample s = {.step = {0}};
-    if (i < 0 || i >= r->places || r->state[i] != UNKNOWN)
+    if (i < 0 || i >= p->count || p->visited[i])
         return;
     measure(r, i, i, &s);
-    r->state[i] = KNOWN;
+    p->visited[i] = true;
     r->points++;
     for (int v = 0; v < r->request.values; v++) {
-        r->y[i * r->request.values + v] = s.y[v];
-        r->step[i * r->request.values + v] = s.step[v];
-        r->flicker[i * r->request.values + v] = s.flicker[v];
+        *known_at(r, i, v) = (known){s.y[v], s.step[v], s.flicker[v]};
         if (isfinite(s.y[v]) && (r->request.axis[v].scale == CHART_LINEAR || s.y[v] > 0)) {
-            r->extent[v].lo = fmin(r->extent[v].lo, s.y[v]);
-            r->extent[v].hi = fmax(r->extent[v].hi, s.y[v]);
+            p->seen[v].lo = fmin(p->seen[v].lo, s.y[v]);
+            p->seen[v].hi = fmax(p->seen[v].hi, s.y[v]);
         }
     }
 }
@@ -72,22 +94,22 @@ static void visit_around(refine *r, double x) {
         visit(r, k);
 }
 
-bool refine_begin(refine *r, const refine_request *request, chart *memory) {
-    *r = (refine){.request = *request, .places = request->columns + !request->slices};
-    const size_t values = (size_t)r->places * (size_t)request->values;
-    r->y = chart_memory(memory, 3 * values, sizeof *r->y);
-    r->state = chart_memory(memory, (size_t)r->places, 1);
-    if (r->y == NULL || r->state == NULL) {
-        r->places = 0;
+bool refine_begin(refine *r, const refine_request *request, chart *account) {
+    const int places = request->columns + !request->slices;
+    *r = (refine){.request = *request, .places = chart_memory(account, 1, sizeof *r->places)};
+    struct refine_places *p = r->places;
+    if (p == NULL)
         return false;
-    }
-    r->step = r->y + values;
-    r->flicker = r->step + values;
+    *p = (struct refine_places){.account = account, .count = places};
+    p->visited = chart_memory(account, (size_t)places, sizeof *p->visited);
+    p->at = chart_memory(account, (size_t)places * (size_t)request->values, sizeof *p->at);
+    if (p->visited == NULL || p->at == NULL)
+        return false;
     for (int v = 0; v < request->values; v++)
-        r->extent[v] = (struct refine_extent){INFINITY, -INFINITY};
+        p->seen[v] = (extent){INFINITY, -INFINITY};
     for (int k = 0; k < 2; k++) { /* the planes cut the cells at the ends */
         visit(r, k);
-        visit(r, r->places - 1 - k);
+        visit(r, places - 1 - k);
     }
     for (size_t k = 0; k < request->knot_count; k++)
         visit_around(r, request->knots[k]);
@@ -95,20 +117,21 @@ bool refine_begin(refine *r, const refine_request *request, chart *memory) {
 }
 
 void refine_share_axis(refine *curves, size_t count) {
-    struct refine_extent all = {INFINITY, -INFINITY};
+    extent all = {INFINITY, -INFINITY};
     for (size_t i = 0; i < count; i++) {
-        all.lo = fmin(all.lo, curves[i].extent[0].lo);
-        all.hi = fmax(all.hi, curves[i].extent[0].hi);
+        all.lo = fmin(all.lo, curves[i].places->seen[0].lo);
+        all.hi = fmax(all.hi, curves[i].places->seen[0].hi);
     }
     for (size_t i = 0; i < count; i++)
-        curves[i].extent[0] = all;
+        curves[i].places->seen[0] = all;
 }
 
 /* Half a pixel along the axis. What is seen later can only make it longer. */
 double refine_half_pixel(const refine *r, int value) {
     const chart_axis *axis = &r->request.axis[value];
     const bool fitted = axis->lo < axis->hi;
-    const double lo = fitted ? axis->lo : r->extent[value].lo, hi = fitted ? axis->hi : r->extent[value].hi;
+    const extent *seen = &r->places->seen[value];
+    const double lo = fitted ? axis->lo : seen->lo, hi = fitted ? axis->hi : seen->hi;
     if (!(lo <= hi))
         return 0;
     const double length = axis->scale == CHART_LOG ? fmax(log(hi / lo), 2 * log(least_air)) : hi - lo;
@@ -117,9 +140,7 @@ double refine_half_pixel(const refine *r, int value) {
 
 /* The distance of place i from the line between two others; infinite and missing values are near their like alone. */
 static double off_line(const refine *r, int value, int from, int i, int to) {
-    const int n = r->request.values;
-    const double a = along(r, value, r->y[from * n + value]), b = along(r, value, r->y[to * n + value]);
-    const double y = along(r, value, r->y[i * n + value]);
+    const double a = along_at(r, value, from), b = along_at(r, value, to), y = along_at(r, value, i);
     if (isfinite(a) && isfinite(b) && isfinite(y))
         return fabs(y - a - (b - a) * (i - from) / (to - from));
     const bool alike = isnan(a) ? isnan(b) && isnan(y) : a == b && a == y;
@@ -137,36 +158,31 @@ static bool is_straight(const refine *r, const int at[5]) {
     return true;
 }
 
-static void range_of(const refine *r, int value, const int at[5], double *lo, double *hi) {
-    *lo = INFINITY;
-    *hi = -INFINITY;
+static extent range_of(const refine *r, int value, const int at[5]) {
+    extent e = {INFINITY, -INFINITY};
     for (int k = 0; k < 5; k++) {
-        const double y = along(r, value, r->y[at[k] * r->request.values + value]);
-        *lo = fmin(*lo, y);
-        *hi = fmax(*hi, y);
+        e.lo = fmin(e.lo, along_at(r, value, at[k]));
+        e.hi = fmax(e.hi, along_at(r, value, at[k]));
     }
+    return e;
 }
 
 /* No value of the columns between stands out from the five, and where steps would be seen the five are one level. */
 static bool is_contained(refine *r, const int at[5]) {
     refine_sample whole = {.step = {0}};
     for (int v = 0; v < r->request.values; v++) {
-        double lo, hi, step = 0, flicker = 0, half = refine_half_pixel(r, v);
+        const extent e = range_of(r, v, at);
+        double step = 0, flicker = 0, half = refine_half_pixel(r, v);
         for (int k = 0; k < 5; k++) {
-            step = fmax(step, r->step[at[k] * r->request.values + v]);
-            flicker = fmax(flicker, r->flicker[at[k] * r->request.values + v]);
+            step = fmax(step, known_at(r, at[k], v)->step);
+            flicker = fmax(flicker, known_at(r, at[k], v)->flicker);
         }
-        range_of(r, v, at, &lo, &hi);
-        if (isfinite(hi) && (flicker > half / 2 || (step > half && !(hi - lo <= half))))
+        if (isfinite(e.hi) && (flicker > half / 2 || (step > half && !(e.hi - e.lo <= half))))
             return false;
-    }
-    if (!r->request.slices)
-        return true;
-    measure(r, at[0], at[4], &whole);
-    for (int v = 0; v < r->request.values; v++) {
-        double lo, hi, half = refine_half_pixel(r, v), y = along(r, v, whole.y[v]);
-        range_of(r, v, at, &lo, &hi);
-        if (isfinite(hi) && !(y >= lo - half && y <= hi + half))
+        if (r->request.slices && v == 0)
+            measure(r, at[0], at[4], &whole);
+        const double y = along(r, v, whole.y[v]);
+        if (r->request.slices && isfinite(e.hi) && !(y >= e.lo - half && y <= e.hi + half))
             return false;
     }
     return true;
@@ -185,24 +201,22 @@ static void split(refine *r, int i, int j) {
 }
 
 void refine_finish(refine *r) {
-    for (int i = 0, j; i + 1 < r->places; i = j) {
-        for (j = i + 1; r->state[j] == UNKNOWN; j++) { /* the last place is known */
+    const struct refine_places *p = r->places;
+    for (int i = 0, j; i + 1 < p->count; i = j) {
+        for (j = i + 1; !p->visited[j]; j++) { /* the last place is known */
         }
         split(r, i, j);
     }
+    p->account->evaluations += r->evaluations;
+    p->account->places += (size_t)p->count;
+    p->account->curves++;
 }
 
 void refine_take(const refine *r, int value, double *x, double *y) {
     size_t k = 0;
-    for (int i = 0; i < r->places; i++)
-        if (r->state[i] != UNKNOWN) {
+    for (int i = 0; i < r->places->count; i++)
+        if (r->places->visited[i]) {
             x[k] = place_x(r, i);
-            y[k++] = r->y[i * r->request.values + value];
+            y[k++] = known_at(r, i, value)->y;
         }
-}
-
-void refine_account(const refine *r, chart *c) {
-    c->evaluations += r->evaluations;
-    c->places += (size_t)r->places;
-    c->curves++;
 }

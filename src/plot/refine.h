@@ -30,6 +30,9 @@ typedef struct refine_sample {
     double step[REFINE_VALUES], flicker[REFINE_VALUES];
 } refine_sample;
 
+/** The values at one place: of a slice, or at an edge, where from == to. */
+typedef void refine_function(const void *context, double from, double to, refine_sample *out);
+
 typedef struct refine_request {
     chart_scale scale; /**< of the horizontal axis */
     double lo, hi;     /**< its ends */
@@ -41,28 +44,22 @@ typedef struct refine_request {
     chart_axis axis[REFINE_VALUES]; /**< vertical; lo == hi where it will be fitted to the data */
     const double *knots;            /**< where the curve may jump or bend; those outside [lo, hi] are passed over */
     size_t knot_count;
-    void (*sample)(const void *context, double from, double to, refine_sample *out); /**< from == to at an edge */
+    refine_function *sample;
     const void *context;
 } refine_request;
 
 typedef struct refine {
     refine_request request;
-    int places;
-    size_t points;      /**< places evaluated */
-    size_t evaluations; /**< of them and of slices between them */
-    double *y;          /**< values of each place; memory of the chart, null when it ran out */
-    double *step, *flicker;
-    unsigned char *state;
-    struct refine_extent {
-        double lo, hi;
-    } extent[REFINE_VALUES]; /**< of what has been seen */
+    size_t points;                /**< places evaluated */
+    size_t evaluations;           /**< of them and of slices between them */
+    struct refine_places *places; /**< private; memory of the chart, null when it ran out */
 } refine;
 
 /** Edge i of `count` slices between lo and hi, evenly spaced on the scale; 0 is exactly lo and count exactly hi. */
 double refine_edge(chart_scale scale, double lo, double hi, int i, int count);
 
-/** Evaluates the ends and the knots. @return false when out of memory; the rest then does nothing */
-bool refine_begin(refine *r, const refine_request *request, chart *memory);
+/** Evaluates the ends and the knots. The chart gives the memory and keeps account. @return false when out of memory */
+bool refine_begin(refine *r, const refine_request *request, chart *account);
 
 /** Half a pixel is as much for all of them. */
 void refine_share_axis(refine *curves, size_t count);
@@ -74,8 +71,5 @@ void refine_finish(refine *r);
 
 /** Writes r->points points, left to right. */
 void refine_take(const refine *r, int value, double *x, double *y);
-
-/** Adds what was evaluated to the chart's account. */
-void refine_account(const refine *r, chart *c);
 
 #endif

@@ -5,40 +5,79 @@
  */
 #include <math.h>
 #include <stdio.h>
+#include <string.h>
 
+#include "need/check.h"
 #include "plot/envelope.h"
+#include "plot/notes.h"
 
 enum { COLOUR_SEPARATION = 0, COLOUR_MISSED = 1, COLOUR_MET = 2, COLOUR_ERROR = 3 };
 enum { MARKER_MET = 0, MARKER_MISSED = 4 };
 
-/* The depths to show: those that are asked about, with a margin, behind them one that a name fits into. */
-static void range_of(const figure_request *r, double *lo, double *hi) {
-    *lo = r->lo;
-    *hi = r->hi;
-    if (!isnan(r->lo))
-        return;
-    *lo = INFINITY;
-    *hi = 0;
-    for (size_t i = 0; i < r->need_count; i++) {
-        const figure_need *n = &r->needs[i];
-        *lo = fmin(*lo, n->lo);
-        *hi = fmax(*hi, isinf(n->hi) ? 100 * n->lo : n->hi);
-    }
-    if (r->need_count == 0) { /* cameras without requirements: what there is to see of the first */
-        *lo = r->setups[0].spec.znear;
-        *hi = fmin(r->setups[0].spec.zfar, 1e6 * *lo);
-    }
-    const double margin = pow(*hi / *lo, 0.05) * 1.2;
-    *lo /= margin;
-    *hi *= pow(margin, 5);
+/* The verdicts to show. */
+typedef struct scene {
+    figure_request request; /* its range is what is shown, its set-up that of a panel */
+    size_t count, passed, ties;
+    check_verdict *verdicts;
+} scene;
+
+/* Shares of ties have no place on an axis of lengths: they are not judged, and the subtitle says so. */
+static bool no_ties(void *context, const dp_setup *setup, double lo, double hi, bool sample, double *share, double *z) {
+    (void)context, (void)setup, (void)hi, (void)sample;
+    *share = 0.0;
+    *z = lo;
+    return true;
 }
 
-static double worst_error(const dp_worst *worst) {
-    return worst->error;
+static void judge(scene *s, chart *out) {
+    const need_file *file = s->request.file;
+    const size_t all = check_count(file);
+    s->verdicts = chart_memory(out, all, sizeof *s->verdicts);
+    if (s->verdicts == NULL)
+        return;
+    check_all(&(check_request){.file = file, .count = no_ties}, s->verdicts);
+    for (size_t i = 0; i < all; i++)
+        if (s->verdicts[i].asked->kind == NEED_TIES) {
+            s->ties++;
+        } else {
+            s->passed += s->verdicts[i].passed;
+            s->verdicts[s->count++] = s->verdicts[i];
+        }
+}
+
+static bool same_setup(const check_verdict *a, const check_verdict *b) {
+    return a->camera == b->camera && strcmp(a->setup.spec.format.name, b->setup.spec.format.name) == 0;
+}
+
+/* The set-up that the curves are drawn of: the fullest model that the camera asks for. */
+static dp_setup curve_setup(const check_verdict *v) {
+    const need_camera *camera = v->camera;
+    const bool second = strcmp(camera->setups[0].spec.format.name, v->setup.spec.format.name) != 0;
+    dp_setup setup = camera->setups[second];
+    dp_spec spec = setup.spec;
+    spec.model = DP_MODEL_FP32;
+    if (camera->automatic && dp_setup_init(&setup, &spec) != DP_OK)
+        setup = camera->setups[second];
+    return setup;
+}
+
+/* The depths to show: those that are asked about, with a margin, behind them one that a name fits into. */
+static void find_range(scene *s) {
+    double lo = INFINITY, hi = 0;
+    if (!isnan(s->request.lo))
+        return;
+    for (size_t i = 0; i < s->count; i++) {
+        const need *n = s->verdicts[i].asked;
+        lo = fmin(lo, n->lo);
+        hi = fmax(hi, isinf(n->hi) ? 100 * n->lo : n->hi);
+    }
+    const double margin = pow(hi / lo, 0.05) * 1.2;
+    s->request.lo = lo / margin;
+    s->request.hi = hi * pow(margin, 5);
 }
 
 static void error_of(const void *context, double from, double to, refine_sample *out) {
-    envelope_slice(context, from, to, worst_error, out);
+    envelope_slice(context, from, to, envelope_error, out);
 }
 
 static void add_curve(const figure_request *r, chart *out, chart_panel *panel, const dp_setup *given, bool is_error) {
@@ -47,21 +86,11 @@ static void add_curve(const figure_request *r, chart *out, chart_panel *panel, c
     spec.model = DP_MODEL_STAGED; /* an error is judged in this one where fp32, which has none, is the fullest */
     const bool other = is_error && given->spec.model == DP_MODEL_FP32 && dp_setup_init(&staged, &spec) == DP_OK;
     const dp_setup *setup = other ? &staged : given;
-    const double lo = fmax(panel->x.lo, setup->spec.znear), hi = fmin(panel->x.hi, setup->spec.zfar);
-    double knots[REFINE_KNOTS];
-    refine curve;
-    if (!(lo < hi))
-        return;
-    refine_request q = envelope_request(r, setup, CHART_LOG, lo, hi, knots);
+    refine_request q = envelope_request(r, setup, out, panel, is_error ? error_of : envelope_separation, setup);
+    q.lo = fmax(q.lo, setup->spec.znear);
+    q.hi = fmin(q.hi, setup->spec.zfar);
     q.slices = true;
-    q.axis[0] = panel->y;
-    q.sample = is_error ? error_of : envelope_separation;
-    q.context = setup;
-    if (!refine_begin(&curve, &q, out))
-        return;
-    refine_finish(&curve);
-    refine_account(&curve, out);
-    chart_series *s = envelope_line(out, panel, CHART_LINE, &curve, 0);
+    chart_series *s = q.lo < q.hi ? envelope_curve(out, panel, &q) : NULL;
     if (s == NULL)
         return;
     s->style = (chart_style){is_error ? COLOUR_ERROR : COLOUR_SEPARATION, is_error ? 1 : 0, -1, false};
@@ -70,10 +99,10 @@ static void add_curve(const figure_request *r, chart *out, chart_panel *panel, c
 }
 
 /* Level lines, a gap between each two; then the markers with the names. */
-static void add_needs(const figure_request *r, chart *out, chart_panel *panel, size_t setup, bool passed) {
-    size_t count = 0, line = 0, point = 0;
-    for (size_t i = 0; i < r->need_count; i++)
-        count += r->needs[i].setup == setup && r->needs[i].passed == passed;
+static void add_needs(const scene *s, chart *out, chart_panel *panel, const check_verdict *first, bool passed) {
+    size_t count = 0, k = 0;
+    for (size_t i = 0; i < s->count; i++)
+        count += same_setup(first, &s->verdicts[i]) && s->verdicts[i].passed == passed;
     if (count == 0)
         return;
     chart_series *lines = chart_add_series(out, panel, CHART_LINE, 3 * count);
@@ -89,41 +118,71 @@ static void add_needs(const figure_request *r, chart *out, chart_panel *panel, s
         (chart_style){passed ? COLOUR_MET : COLOUR_MISSED, passed ? 0 : 1, passed ? MARKER_MET : MARKER_MISSED, false};
     snprintf(lines->name, sizeof lines->name, "range of what is %s", passed ? "met" : "missed");
     snprintf(points->name, sizeof points->name, "requirement %s, where it is worst", passed ? "met" : "missed");
-    for (size_t i = 0; i < r->need_count; i++) {
-        const figure_need *n = &r->needs[i];
-        if (n->setup != setup || n->passed != passed)
+    for (size_t i = 0; i < s->count; i++) {
+        const check_verdict *v = &s->verdicts[i];
+        const need *n = v->asked;
+        if (!same_setup(first, v) || v->passed != passed)
             continue;
-        double hi = fmin(n->hi, panel->x.hi);
-        lines->x[line] = n->lo;
-        lines->x[line + 1] = lines->x[line + 2] = hi;
-        lines->y[line] = lines->y[line + 1] = n->limit;
-        lines->y[line + 2] = NAN;
-        line += 3;
-        points->x[point] = fmin(isfinite(n->z) ? n->z : hi, hi);
-        points->y[point] = n->limit;
-        snprintf(points->labels[point++], sizeof *points->labels, "%s%s", n->name, n->is_error ? " (error)" : "");
+        const double hi = fmin(n->hi, panel->x.hi);
+        memcpy(&lines->x[3 * k], (double[]){n->lo, hi, hi}, 3 * sizeof hi);
+        memcpy(&lines->y[3 * k], (double[]){n->limit, n->limit, NAN}, 3 * sizeof hi);
+        points->x[k] = fmin(isfinite(v->z) ? v->z : hi, hi);
+        points->y[k] = n->limit;
+        snprintf(points->labels[k++], sizeof *points->labels, "%s%s", n->name, n->kind == NEED_ERROR ? " (error)" : "");
     }
 }
 
+static void add_panel(scene *s, chart *out, const check_verdict *first) {
+    const chart_axis y = {.scale = CHART_LOG, .label = "allowed and given", .key = "length", .unit = "scene units"};
+    const dp_setup setup = curve_setup(first);
+    const dp_spec *spec = &setup.spec;
+    bool wanted[NEED_KIND_COUNT] = {false};
+    s->request.setups = &setup;
+    chart_panel *panel = figure_panel(&s->request, out, y);
+    if (panel == NULL)
+        return;
+    snprintf(panel->title, sizeof panel->title, "%s: %s %s, %s", first->camera->name, spec->format.name,
+             dp_mapping_get(spec->mapping)->name, dp_model_name(spec->model));
+    for (size_t i = 0; i < s->count; i++)
+        wanted[s->verdicts[i].asked->kind] |= same_setup(first, &s->verdicts[i]);
+    for (int is_error = 0; is_error < 2; is_error++)
+        if (wanted[is_error ? NEED_ERROR : NEED_SEPARATION])
+            add_curve(&s->request, out, panel, &setup, is_error);
+    add_needs(s, out, panel, first, true);
+    add_needs(s, out, panel, first, false);
+}
+
+static void write_subtitle(const scene *s, chart *out) {
+    const need_file *file = s->request.file;
+    const char *slash = strrchr(file->path, '/');
+    char text[sizeof out->subtitle];
+    int used = snprintf(text, sizeof text, "%.100s: %zu met, %zu missed", slash != NULL ? slash + 1 : file->path,
+                        s->passed, s->count - s->passed);
+    if (file->unit[0] != '\0')
+        used += snprintf(text + used, sizeof text - (size_t)used, "; a scene unit is 1 %s", file->unit);
+    if (s->ties > 0)
+        snprintf(text + used, sizeof text - (size_t)used, "; not shown: %zu of ties", s->ties);
+    notes_clean(out->subtitle, sizeof out->subtitle, text);
+}
+
 const char *scene_build(const figure_request *request, chart *out) {
-    double lo, hi;
-    range_of(request, &lo, &hi);
-    for (size_t i = 0; i < request->count; i++) {
-        bool wanted[2] = {false, false};
-        chart_panel *panel = chart_add_panel(out);
-        if (panel == NULL)
-            return NULL;
-        panel->x = figure_depth_axis(CHART_LOG, lo, hi);
-        panel->y =
-            (chart_axis){.scale = CHART_LOG, .label = "allowed and given", .key = "length", .unit = "scene units"};
-        snprintf(panel->title, sizeof panel->title, "%s", request->names[i]);
-        for (size_t n = 0; n < request->need_count; n++)
-            wanted[request->needs[n].is_error] |= request->needs[n].setup == i;
-        for (int is_error = 0; is_error < 2; is_error++)
-            if (wanted[is_error])
-                add_curve(request, out, panel, &request->setups[i], is_error);
-        add_needs(request, out, panel, i, true);
-        add_needs(request, out, panel, i, false);
+    scene s = {.request = *request};
+    judge(&s, out);
+    if (s.count == 0 && !chart_failed(out)) {
+        snprintf(out->subtitle, sizeof out->subtitle, "plot scene: %s limits no separation and no error",
+                 request->file->path);
+        return out->subtitle;
+    }
+    write_subtitle(&s, out);
+    find_range(&s);
+    for (size_t i = 0; i < s.count; i++) {
+        size_t before = 0;
+        while (!same_setup(&s.verdicts[before], &s.verdicts[i]))
+            before++;
+        if (before == i && out->panel_count == CHART_PANELS)
+            return "plot scene: shows at most 8 cameras with requirements";
+        if (before == i)
+            add_panel(&s, out, &s.verdicts[i]);
     }
     chart_fit(out);
     return NULL;

@@ -23,28 +23,15 @@ static void sample(const void *context, double from, double to, refine_sample *o
 }
 
 const char *share_build(const figure_request *request, chart *out) {
-    chart_panel *panel = chart_add_panel(out);
-    if (panel == NULL)
-        return NULL;
-    double lo, hi, knots[REFINE_KNOTS];
-    figure_range(request, &lo, &hi);
-    panel->x = figure_depth_axis(CHART_LOG, lo, hi);
-    panel->y =
-        (chart_axis){CHART_LINEAR, 0, 100, "codes between near and z", "share", "% of all between the planes", NULL};
-    for (size_t i = 0; i < request->count; i++) {
+    const chart_axis y = {CHART_LINEAR, 0, 100, "codes between near and z", "share", "% of all between the planes",
+                          NULL};
+    chart_panel *panel = figure_panel(request, out, y);
+    for (size_t i = 0; i < request->count && panel != NULL; i++) {
         const dp_setup *setup = &request->setups[i];
         const uint32_t first = dp_code(setup, setup->spec.znear);
         const counted c = {setup, first, distance(dp_code(setup, setup->spec.zfar), first)};
-        refine_request q = envelope_request(request, setup, CHART_LOG, lo, hi, knots);
-        refine r;
-        q.axis[0] = panel->y;
-        q.sample = sample;
-        q.context = &c;
-        if (!refine_begin(&r, &q, out))
-            return NULL;
-        refine_finish(&r);
-        refine_account(&r, out);
-        chart_series *s = envelope_line(out, panel, CHART_LINE, &r, 0);
+        const refine_request q = envelope_request(request, setup, out, panel, sample, &c);
+        chart_series *s = envelope_curve(out, panel, &q);
         if (s == NULL)
             return NULL;
         s->style = figure_style(request, i);

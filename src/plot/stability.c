@@ -11,57 +11,84 @@ static double digits(double error) {
     return error > 0 ? fmin(fmax(-log10(error), 0), most_digits) : error == 0 ? most_digits : 0;
 }
 
+static double claimed(const stability_result *r) {
+    const method_claim *c = &r->row->claims[r->which];
+    return isnan(c->worst) ? (double)NAN : c->ratio_hi;
+}
+
+static double broken(const stability_result *r) {
+    return r->breaks;
+}
+
 /* One mark a method, at half its row, where far/near is finite. */
-static void add_marks(const figure_methods *m, chart *out, chart_panel *panel, const double *at, const char *name,
-                      chart_style style) {
-    size_t count = 0;
-    for (size_t i = 0; i < m->count; i++)
-        count += isfinite(at[i]) != 0;
-    chart_series *s = count > 0 ? chart_add_series(out, panel, CHART_POINTS, count) : NULL;
+static void add_marks(const stability_result *const *results, size_t count, chart *out, chart_panel *panel,
+                      double (*at)(const stability_result *), const char *name, chart_style style) {
+    size_t marks = 0;
+    for (size_t i = 0; i < count; i++)
+        marks += isfinite(at(results[i])) != 0;
+    chart_series *s = marks > 0 ? chart_add_series(out, panel, CHART_POINTS, marks) : NULL;
     if (s == NULL)
         return;
     s->style = style;
     snprintf(s->name, sizeof s->name, "%s", name);
-    count = 0;
-    for (size_t i = 0; i < m->count; i++) {
-        if (!isfinite(at[i]))
-            continue;
-        s->x[count] = at[i];
-        s->y[count++] = (double)(m->count - 1 - i) + 0.5; /* the first on top, as in a table */
-    }
+    for (size_t i = 0, k = 0; i < count; i++)
+        if (isfinite(at(results[i]))) {
+            s->x[k] = at(results[i]);
+            s->y[k++] = (double)(count - 1 - i) + 0.5; /* the first on top, as in a table */
+        }
 }
 
-const char *stability_build(const figure_request *request, chart *out) {
-    const figure_methods *m = request->methods;
-    chart_panel *panel = chart_add_panel(out);
-    if (m == NULL || m->steps < 2)
-        return "no methods to show";
-    if (panel == NULL)
-        return NULL;
-    const char **names = chart_memory(out, m->count, sizeof *names);
-    if (names == NULL)
-        return NULL;
-    for (size_t i = 0; i < m->count; i++)
-        names[m->count - 1 - i] = m->names[i];
-    double half = sqrt(m->ratios[1] / m->ratios[0]); /* each column is centred on its far/near */
+/* Rows from the bottom; the names of the axis are those of the rows. */
+static bool add_rows(const method_family_row *family, const stability_result *const *results, size_t count, chart *out,
+                     chart_panel *panel) {
+    const stability_result *first = results[0];
+    const double half = sqrt(first->ratio[1] / first->ratio[0]); /* each column is centred on its far/near */
+    const char **names = chart_memory(out, count, sizeof *names);
+    char(*text)[CHART_TEXT] = chart_memory(out, count, sizeof *text);
     panel->x = (chart_axis){.scale = CHART_LOG,
-                            .lo = m->ratios[0] / half,
-                            .hi = m->ratios[m->steps - 1] * half,
+                            .lo = first->ratio[0] / half,
+                            .hi = first->ratio[first->steps - 1] * half,
                             .label = "far/near",
                             .key = "ratio",
                             .unit = ""};
     panel->y =
-        (chart_axis){.lo = 0, .hi = (double)m->count, .label = "method", .key = "method", .unit = "", .names = names};
+        (chart_axis){.lo = 0, .hi = (double)count, .label = "method", .key = "method", .unit = "", .names = names};
+    if (names == NULL || text == NULL || !chart_add_map(out, panel, first->steps, (int)count))
+        return false;
     double most = 1;
-    for (size_t i = 0; i < m->count * m->steps; i++)
-        most = fmax(most, digits(m->errors[i]));
+    for (size_t row = 0; row < count; row++) {
+        const stability_result *r = results[count - 1 - row];
+        snprintf(text[row], sizeof text[row], "%s, %s", r->row->name, family->cases[r->which].name);
+        names[row] = text[row];
+        for (int k = 0; k < r->steps; k++) {
+            panel->map.value[row * (size_t)first->steps + (size_t)k] = digits(r->error[k]);
+            most = fmax(most, digits(r->error[k]));
+        }
+    }
     out->value = (chart_axis){.lo = 0, .hi = ceil(most), .label = "digits left", .key = "digits", .unit = ""};
-    if (!chart_add_map(out, panel, (int)m->steps, (int)m->count))
+    return true;
+}
+
+const char *stability_draw(const method_family_row *family, const stability_result *results, size_t count, chart *out) {
+    const stability_result *ordered[STABILITY_MAX];
+    size_t used = 0;
+    chart_panel *panel = chart_add_panel(out);
+    for (size_t which = 0; which < family->case_count; which++) /* what can be compared stands together */
+        for (size_t i = 0; i < count; i++)
+            if (results[i].which == which)
+                ordered[used++] = &results[i];
+    if (panel == NULL || !add_rows(family, ordered, used, out, panel))
         return NULL;
-    for (size_t i = 0; i < m->count; i++)
-        for (size_t k = 0; k < m->steps; k++)
-            panel->map.value[(m->count - 1 - i) * m->steps + k] = digits(m->errors[i * m->steps + k]);
-    add_marks(m, out, panel, m->claimed, "claimed up to here", (chart_style){-1, 0, 0, false});
-    add_marks(m, out, panel, m->breaks, "the claim breaks here", (chart_style){0, 1, 1, false});
+    add_marks(ordered, used, out, panel, claimed, "claimed up to here", (chart_style){-1, 0, 0, false});
+    add_marks(ordered, used, out, panel, broken, "the claim breaks here", (chart_style){0, 1, 1, false});
     return NULL;
+}
+
+const char *stability_build(const figure_request *request, chart *out) {
+    const method_family_row *family = request->family;
+    stability_result *results = chart_memory(out, STABILITY_MAX, sizeof *results);
+    const size_t count = results != NULL ? stability_run(family, results) : 0;
+    snprintf(out->subtitle, sizeof out->subtitle, "%s: %s; worst %s over near 1e-12, 0.1 and 1e6", family->name,
+             family->summary, family->measure);
+    return count > 0 ? stability_draw(family, results, count, out) : "no memory for the methods";
 }

@@ -5,12 +5,12 @@
 
 #include <math.h>
 
+#include "report/number.h"
 #include "report/report.h"
 
-typedef enum column_value_kind { VALUE_NUMBER, VALUE_COUNT, VALUE_WORD } column_value_kind;
-
+/** A number, a count, or else a word. */
 typedef struct column_value {
-    column_value_kind kind;
+    bool is_number, is_count;
     double number;
     uint64_t count;
     const char *word; /**< "true" and "false" of a flag; null where there is none */
@@ -20,10 +20,10 @@ typedef struct column_value {
 column_value column_of(const column *c, const void *item);
 
 static inline bool column_exists(const column_value *v) {
-    return v->kind == VALUE_NUMBER ? !isnan(v->number) : v->kind == VALUE_COUNT || v->word != NULL;
+    return v->is_number ? !isnan(v->number) : v->is_count || v->word != NULL;
 }
 
-/** The item of a part; null where it does not exist. */
+/** The item of a part; null where it does not exist, or the outer item does not. */
 void *column_part(const column *c, void *item);
 
 /** Does a form, one of AS_TEXT, ..., have the column under these conditions? */

@@ -62,17 +62,13 @@ static size_t text_copy(const char *text, char out[NUMBER_SIZE]) {
     return length;
 }
 
-/* Small whole numbers are common (near, far, codes given as depths) and need no search. */
-static size_t whole_number(double value, char out[NUMBER_SIZE]) {
-    char reversed[16];
+size_t number_count(uint64_t value, char out[NUMBER_SIZE]) {
+    char reversed[20];
     size_t digits = 0;
     size_t length = 0;
-    unsigned long rest = (unsigned long)fabs(value);
     do
-        reversed[digits++] = (char)('0' + rest % 10);
-    while ((rest /= 10) > 0);
-    if (value < 0.0)
-        out[length++] = '-';
+        reversed[digits++] = (char)('0' + value % 10);
+    while ((value /= 10) > 0);
     while (digits > 0)
         out[length++] = reversed[--digits];
     out[length] = '\0';
@@ -82,8 +78,12 @@ static size_t whole_number(double value, char out[NUMBER_SIZE]) {
 size_t number_shortest(double value, char out[NUMBER_SIZE]) {
     if (!isfinite(value))
         return number_digits(value, 1, out);
-    if (fabs(value) < 1e9 && value == trunc(value))
-        return whole_number(value, out);
+    /* Small whole numbers are common (near, far, codes given as depths) and need no search. */
+    if (fabs(value) < 1e9 && value == trunc(value)) {
+        const size_t sign = value < 0.0;
+        out[0] = '-';
+        return sign + number_count((uint64_t)fabs(value), out + sign);
+    }
     size_t quick = shortest_quick(value, out);
     if (quick > 0)
         return quick;
@@ -111,27 +111,26 @@ size_t number_bound(double value, int digits, bool upward, char out[NUMBER_SIZE]
     return number_digits(shown + (upward ? unit : -unit), digits, out);
 }
 
-static const number_text no_number = {"-"};
-
 number_text number_of(double value, int digits) {
-    number_text out = no_number;
+    number_text out = {"-"};
     if (!isnan(value))
         number_digits(value, digits, out.text);
     return out;
 }
 
-number_text number_up(double value, int digits) {
-    number_text out = no_number;
+static number_text bound_of(double value, int digits, bool upward) {
+    number_text out = {"-"};
     if (!isnan(value))
-        number_bound(value, digits, true, out.text);
+        number_bound(value, digits, upward, out.text);
     return out;
 }
 
+number_text number_up(double value, int digits) {
+    return bound_of(value, digits, true);
+}
+
 number_text number_down(double value, int digits) {
-    number_text out = no_number;
-    if (!isnan(value))
-        number_bound(value, digits, false, out.text);
-    return out;
+    return bound_of(value, digits, false);
 }
 
 number_text number_full(double value) {

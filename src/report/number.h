@@ -5,6 +5,7 @@
 
 #include <stdbool.h>
 #include <stddef.h>
+#include <stdint.h>
 
 /** The room that number_shortest() and number_digits() need, with the terminating null. */
 enum { NUMBER_SIZE = 32 };
@@ -26,6 +27,9 @@ bool number_parse_part(const char *text, size_t length, number_kind kind, double
 
 /** Reads a whole number of decimal digits, nothing else, at most `max`. */
 bool number_parse_count(const char *text, unsigned long max, unsigned long *out);
+
+/** A whole number. @return length */
+size_t number_count(uint64_t value, char out[NUMBER_SIZE]);
 
 /** The shortest text that reads back to the same double, by %.15g, %.16g, %.17g; "inf" for INFINITY. @return length */
 size_t number_shortest(double value, char out[NUMBER_SIZE]);

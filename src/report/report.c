@@ -5,9 +5,8 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "depthprec/depthprec.h"
 #include "report/column.h"
-#include "report/csv.h"
-#include "report/json.h"
 
 bool column_shows(const column *c, unsigned form, unsigned when) {
     return (c->only == 0 || (c->only & form) != 0) && (c->when & ~when) == 0;
@@ -15,110 +14,172 @@ bool column_shows(const column *c, unsigned form, unsigned when) {
 
 void *column_part(const column *c, void *item) {
     char *at = (char *)item + c->offset;
-    return c->pointed ? *(void **)at : at;
+    return item != NULL && c->pointed ? *(void **)at : item != NULL ? at : NULL;
 }
 
 column_value column_of(const column *c, const void *item) {
     const char *at = (const char *)item + c->offset;
-    const bool *flag = NULL;
+    if (c->pointed)
+        at = *(const char *const *)at;
+    if (at == NULL)
+        return (column_value){.word = NULL};
     switch (c->kind) {
     case COLUMN_NUMBER:
-        return (column_value){VALUE_NUMBER, .number = *(const double *)at};
+        return (column_value){.is_number = true, .number = *(const double *)at};
     case COLUMN_COUNT:
-        return (column_value){VALUE_COUNT, .count = *(const uint64_t *)at};
+        return (column_value){.is_count = true, .count = *(const uint64_t *)at};
     case COLUMN_CODE:
-        return (column_value){VALUE_COUNT, .count = *(const uint32_t *)at};
+        return (column_value){.is_count = true, .count = *(const uint32_t *)at};
     case COLUMN_INT:
-        return (column_value){VALUE_COUNT, .count = (uint64_t) * (const int *)at};
+        return (column_value){.is_count = true, .count = (uint64_t) * (const int *)at};
     case COLUMN_FLAG:
-        return (column_value){VALUE_WORD, .word = *(const bool *)at ? "true" : "false"};
-    case COLUMN_ANSWER:
-        flag = *(const bool *const *)at;
-        return (column_value){VALUE_WORD, .word = flag == NULL ? NULL : *flag ? "true" : "false"};
+        return (column_value){.word = *(const bool *)at ? "true" : "false"};
     case COLUMN_LETTERS:
-        return (column_value){VALUE_WORD, .word = *at != '\0' ? at : NULL};
+        return (column_value){.word = *at != '\0' ? at : NULL};
     default:
-        return (column_value){VALUE_WORD, .word = *(const char *const *)at};
+        return (column_value){.word = *(const char *const *)at};
     }
+}
+
+/* A number with all its digits. */
+static void put_digits(output *out, const column_value *v) {
+    char text[NUMBER_SIZE];
+    output_bytes(out, text, v->is_count ? number_count(v->count, text) : number_shortest(v->number, text));
 }
 
 /* ---- JSON -------------------------------------------------------------------------------------------------------- */
 
-static void json_names(json *j, const char *key, const char *names) {
-    json_array(j, key);
+typedef struct json_walk {
+    output *out;
+    unsigned when;
+    bool filled; /* the object or array that is open has a member */
+} json_walk;
+
+static void quoted(output *out, const char *text, size_t length) {
+    output_char(out, '"');
+    for (size_t i = 0; i < length; i++) {
+        if ((unsigned char)text[i] < 0x20) {
+            output_format(out, "\\u%04x", text[i]);
+            continue;
+        }
+        if (text[i] == '"' || text[i] == '\\')
+            output_char(out, '\\');
+        output_char(out, text[i]);
+    }
+    output_char(out, '"');
+}
+
+/* What stands before a value: a comma, and its key inside an object. */
+static void json_member(json_walk *w, const char *key) {
+    if (w->filled)
+        output_char(w->out, ',');
+    w->filled = true;
+    if (key != NULL) {
+        quoted(w->out, key, strlen(key));
+        output_char(w->out, ':');
+    }
+}
+
+static void json_open(json_walk *w, const char *key, const char *bracket) {
+    json_member(w, key);
+    output_text(w->out, bracket);
+    w->filled = false;
+}
+
+static void json_close(json_walk *w, char bracket) {
+    output_char(w->out, bracket);
+    w->filled = true;
+}
+
+static void json_word(json_walk *w, const char *key, const char *word) {
+    json_member(w, key);
+    quoted(w->out, word, strlen(word));
+}
+
+static void json_names(json_walk *w, const char *key, const char *names) {
+    json_open(w, key, "[");
     while (names != NULL && *names != '\0') {
-        char name[64];
         const size_t length = strcspn(names, " ");
-        snprintf(name, sizeof name, "%.*s", (int)length, names);
-        json_string(j, NULL, name);
+        json_member(w, NULL);
+        quoted(w->out, names, length);
         names += length + (names[length] == ' ');
     }
-    json_end(j);
+    json_close(w, ']');
 }
 
-static void json_value(json *j, const column *c, const void *item) {
+static void json_value(json_walk *w, const column *c, const void *item) {
     const column_value v = column_of(c, item);
-    if (c->optional && !column_exists(&v))
+    if (c->names) {
+        json_names(w, c->key, v.word);
         return;
-    if (c->names)
-        json_names(j, c->key, v.word);
-    else if ((c->kind == COLUMN_FLAG || c->kind == COLUMN_ANSWER) && v.word != NULL)
-        json_bool(j, c->key, *v.word == 't');
-    else if (v.kind == VALUE_NUMBER)
-        json_number(j, c->key, v.number);
-    else if (v.kind == VALUE_COUNT)
-        json_integer(j, c->key, v.count);
+    }
+    if (c->optional && !column_exists(&v) && !(c->pointed && v.is_number))
+        return;
+    if (v.word != NULL && c->kind != COLUMN_FLAG) {
+        json_word(w, c->key, v.word);
+        return;
+    }
+    json_member(w, c->key);
+    if (v.word != NULL)
+        output_text(w->out, v.word);
+    else if (column_exists(&v) && !(v.is_number && isinf(v.number)))
+        put_digits(w->out, &v);
     else
-        json_string(j, c->key, v.word);
+        output_text(w->out, "null");
 }
 
-static void json_columns(json *j, unsigned when, const column *c, void *item);
+static void json_columns(json_walk *w, const column *c, void *item);
 
-static void json_part(json *j, unsigned when, const column *c, void *item) {
+static void json_part(json_walk *w, const column *c, void *item) {
     void *part = column_part(c, item);
-    if (part == NULL) {
-        if (c->key != NULL && !c->optional)
-            json_null(j, c->key);
-        return;
+    if (part != NULL && c->key == NULL) {
+        json_columns(w, c->columns, part);
+    } else if (part != NULL) {
+        json_open(w, c->key, "{");
+        json_columns(w, c->columns, part);
+        json_close(w, '}');
+    } else if (c->key != NULL && !c->optional) {
+        json_member(w, c->key);
+        output_text(w->out, "null");
     }
-    if (c->key != NULL)
-        json_object(j, c->key);
-    json_columns(j, when, c->columns, part);
-    if (c->key != NULL)
-        json_end(j);
 }
 
-static void json_list(json *j, unsigned when, const column *c, void *item) {
+/* Each item begins a line: so a diff of two outputs shows rows. */
+static void json_list(json_walk *w, const column *c, void *item) {
     void *inner;
-    json_array(j, c->key);
+    json_open(w, c->key, "[");
     for (size_t i = 0; (inner = c->get(item, i)) != NULL; i++) {
-        json_object(j, NULL);
-        json_columns(j, when, c->columns, inner);
-        json_end(j);
+        json_open(w, NULL, "\n{");
+        json_columns(w, c->columns, inner);
+        json_close(w, '}');
     }
-    json_end(j);
+    json_close(w, ']');
 }
 
-static void json_columns(json *j, unsigned when, const column *c, void *item) {
+static void json_columns(json_walk *w, const column *c, void *item) {
     for (; c->kind != COLUMN_END; c++) {
-        if (!column_shows(c, AS_JSON, when))
+        if (!column_shows(c, AS_JSON, w->when))
             continue;
         if (c->kind == COLUMN_PART)
-            json_part(j, when, c, item);
+            json_part(w, c, item);
         else if (c->kind == COLUMN_LIST)
-            json_list(j, when, c, item);
+            json_list(w, c, item);
         else if (c->key != NULL)
-            json_value(j, c, item);
+            json_value(w, c, item);
     }
 }
 
-static void write_json(const report_spec *spec, output *out) {
-    json j = json_start(out, spec->command);
-    json_columns(&j, spec->when, spec->columns, spec->item);
-    json_finish(&j);
+static void report_json(const report_spec *spec, output *out) {
+    json_walk w = {.out = out, .when = spec->when};
+    json_open(&w, NULL, "{");
+    json_word(&w, "schema", "depthprec/1");
+    json_word(&w, "command", spec->command);
+    json_word(&w, "version", dp_version());
+    json_columns(&w, spec->columns, spec->item);
+    output_text(out, "}\n");
 }
 
-/* ---- CSV --------------------------------------------------------------------------------------------------------- */
+/* ---- CSV, after RFC 4180: CRLF line ends, quotes where needed ---------------------------------------------------- */
 
 /* The way to a line: the columns of the items that are open, each within the list of the one before. */
 typedef struct csv_level {
@@ -129,27 +190,48 @@ typedef struct csv_level {
 enum { CSV_LEVELS_MAX = 8 };
 
 typedef struct csv_walk {
-    csv lines;
+    output *out;
     unsigned when;
     csv_level levels[CSV_LEVELS_MAX];
     bool heads; /* the line of the keys is being written, and no item is looked at */
+    bool filled;
 } csv_walk;
 
-static void csv_head(csv *c, const column *of) {
-    char text[128];
-    const bool has_unit = of->unit != NULL && of->unit[0] != '\0';
-    snprintf(text, sizeof text, has_unit ? "%s [%s]" : "%s", of->key, of->unit);
-    csv_string(c, text);
+static void csv_word(output *out, const char *word) {
+    const bool plain = strpbrk(word, ",\"\r\n") == NULL;
+    if (plain) {
+        output_text(out, word);
+        return;
+    }
+    output_char(out, '"');
+    for (; *word != '\0'; word++) {
+        if (*word == '"')
+            output_char(out, '"');
+        output_char(out, *word);
+    }
+    output_char(out, '"');
 }
 
-static void csv_value(csv *c, const column *of, const void *item) {
-    const column_value v = column_of(of, item);
-    if (v.kind == VALUE_NUMBER)
-        csv_number(c, v.number);
-    else if (v.kind == VALUE_COUNT)
-        csv_integer(c, v.count);
-    else
-        csv_string(c, v.word != NULL ? v.word : "");
+static void csv_head(output *out, const column *c) {
+    char text[128];
+    const bool has_unit = c->unit != NULL && c->unit[0] != '\0';
+    snprintf(text, sizeof text, has_unit ? "%s [%s]" : "%s", c->key, c->unit);
+    csv_word(out, text);
+}
+
+static void csv_cell(csv_walk *w, const column *c, const void *item) {
+    if (w->filled)
+        output_char(w->out, ',');
+    w->filled = true;
+    if (w->heads) {
+        csv_head(w->out, c);
+        return;
+    }
+    const column_value v = item != NULL ? column_of(c, item) : (column_value){.word = NULL};
+    if (v.word != NULL)
+        csv_word(w->out, v.word);
+    else if (column_exists(&v))
+        put_digits(w->out, &v);
 }
 
 static void csv_cells(csv_walk *w, const csv_level *level, const column *c, void *item) {
@@ -157,45 +239,35 @@ static void csv_cells(csv_walk *w, const csv_level *level, const column *c, void
         if (!column_shows(c, AS_CSV, w->when))
             continue;
         if (c->kind == COLUMN_PART)
-            csv_cells(w, level, c->columns, w->heads ? NULL : column_part(c, item));
+            csv_cells(w, level, c->columns, column_part(c, item));
         else if (c->kind == COLUMN_LIST)
             csv_cells(w, level + 1, level[1].columns, level[1].item);
-        else if (c->key != NULL && w->heads)
-            csv_head(&w->lines, c);
-        else if (c->key != NULL && item == NULL)
-            csv_string(&w->lines, "");
         else if (c->key != NULL)
-            csv_value(&w->lines, c, item);
+            csv_cell(w, c, item);
     }
-}
-
-static void csv_line(csv_walk *w) {
-    csv_cells(w, w->levels, w->levels[0].columns, w->levels[0].item);
-    csv_end(&w->lines);
-}
-
-static const column *csv_list(const csv_walk *w, const column *c) {
-    while (c->kind != COLUMN_END && !(c->kind == COLUMN_LIST && column_shows(c, AS_CSV, w->when)))
-        c++;
-    return c->kind == COLUMN_LIST ? c : NULL;
 }
 
 /* Writes the lines of an item; those of the heads alone go down all lists without asking for items. */
 static void csv_item(csv_walk *w, csv_level *level, const column *columns, void *item) {
-    const column *list = csv_list(w, columns);
+    const column *list = columns;
     void *inner;
     *level = (csv_level){columns, item};
-    if (list == NULL)
-        csv_line(w);
-    else if (w->heads)
+    while (list->kind != COLUMN_END && !(list->kind == COLUMN_LIST && column_shows(list, AS_CSV, w->when)))
+        list++;
+    if (list->kind == COLUMN_END) {
+        csv_cells(w, w->levels, w->levels[0].columns, w->levels[0].item);
+        output_text(w->out, "\r\n");
+        w->filled = false;
+    } else if (w->heads) {
         csv_item(w, level + 1, list->columns, NULL);
-    else
+    } else {
         for (size_t i = 0; (inner = list->get(item, i)) != NULL; i++)
             csv_item(w, level + 1, list->columns, inner);
+    }
 }
 
-static void write_csv(const report_spec *spec, output *out) {
-    csv_walk w = {.lines = csv_start(out), .when = spec->when, .heads = true};
+static void report_csv(const report_spec *spec, output *out) {
+    csv_walk w = {.out = out, .when = spec->when, .heads = true};
     csv_item(&w, w.levels, spec->columns, NULL);
     w.heads = false;
     csv_item(&w, w.levels, spec->columns, spec->item);
@@ -203,6 +275,6 @@ static void write_csv(const report_spec *spec, output *out) {
 
 void report_write(const report_spec *spec, output *out, output_form form) {
     static void (*const writers[])(const report_spec *, output *) = {
-        [FORM_TEXT] = report_text, [FORM_JSON] = write_json, [FORM_CSV] = write_csv};
+        [FORM_TEXT] = report_text, [FORM_JSON] = report_json, [FORM_CSV] = report_csv};
     writers[form](spec, out);
 }

@@ -51,15 +51,13 @@ static void put_value(text_line *line, const column *c, const void *item) {
     const column_value v = column_of(c, item);
     const int digits = c->digits_at > 0 ? *(const int *)((const char *)item + c->digits_at) : c->digits;
     char text[NUMBER_SIZE] = "-";
-    if (v.kind == VALUE_COUNT)
-        snprintf(text, sizeof text, "%llu", (unsigned long long)v.count);
-    else if (v.kind == VALUE_WORD || !column_exists(&v))
-        ;
-    else if (c->fixed)
+    if (v.is_count)
+        number_count(v.count, text);
+    else if (v.is_number && !isnan(v.number) && c->fixed)
         snprintf(text, sizeof text, "%.*f", digits, v.number);
-    else if (c->upward)
+    else if (v.is_number && !isnan(v.number) && c->upward)
         number_bound(v.number, digits, true, text);
-    else
+    else if (v.is_number && !isnan(v.number))
         number_digits(v.number, digits, text);
     put(line, c, v.word != NULL ? v.word : text);
 }
@@ -68,7 +66,7 @@ static void put_value(text_line *line, const column *c, const void *item) {
 static void put_cells(const text_walk *w, text_line *line, const column *c, void *item) {
     for (; c->kind != COLUMN_END; c++) {
         if (c->kind == COLUMN_PART && column_shows(c, AS_TEXT, w->when))
-            put_cells(w, line, c->columns, item != NULL ? column_part(c, item) : NULL);
+            put_cells(w, line, c->columns, column_part(c, item));
         else if (has_title(w, c) && item == NULL)
             put(line, c, c->title);
         else if (has_title(w, c))

@@ -4,7 +4,7 @@
 #include <math.h>
 #include <stddef.h>
 
-static const double DEGREE = 3.14159265358979323846 / 180;
+static const double DEGREE = M_PI / 180;
 
 camera_spec camera_spec_default(void) {
     return (camera_spec){.fov_y = 60, .half_height = 5};

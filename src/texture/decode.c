@@ -4,7 +4,7 @@
 #include <math.h>
 #include <string.h>
 
-#include "core/logarithm.h"
+#include "core/engine.h"
 #include "texture/clones.h"
 
 static bool is_reversed(const dp_setup *setup) {

@@ -48,10 +48,6 @@ int frame_channels(const frame_product *product) {
     return vector && !product->error ? 3 : 1;
 }
 
-const dp_setup *frame_planes(const frame *f) {
-    return f->planes != NULL ? f->planes : &f->camera->setup;
-}
-
 const char *frame_refuses(const frame *f, const frame_product *product) {
     if (product->kind == FRAME_POSITION && product->position != NULL && !position_applies(product->position, f->camera))
         return "this method has no form for the projection and mapping";

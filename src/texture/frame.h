@@ -48,7 +48,9 @@ static inline uint32_t frame_code(const dp_setup *setup, uint32_t rank) {
 }
 
 /** The set-up whose planes effects use. */
-const dp_setup *frame_planes(const frame *f);
+static inline const dp_setup *frame_planes(const frame *f) {
+    return f->planes != NULL ? f->planes : &f->camera->setup;
+}
 
 /** How many threads it runs on. */
 int frame_threads(const frame *f);

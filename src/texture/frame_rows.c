@@ -4,10 +4,11 @@
 #include <math.h>
 #include <string.h>
 
+#include "core/bits.h"
 #include "texture/clones.h"
 
-static const double TO_DEGREES = 180 / 3.14159265358979323846;
-static const double LEVELS = 255, ROUNDED = 255 * 0x1p-24; /* an output of 1 in binary32 */
+static const double TO_DEGREES = 180 / M_PI;
+static const double LEVELS = 255, ROUNDED = 255 * DP_UNIT; /* an output of 1 in binary32 */
 
 static const texture_camera *camera_of(const frame_row *in) {
     return in->frame->camera;

@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include <math.h>
 #include <stdlib.h>
-#include <string.h>
 
+#include "core/bits.h"
 #include "texture/frame.h"
 
 /* Magnitudes by their leading 20 bits below the sign: 8 of the exponent, 12 of the significand, so an upper end of a
@@ -16,12 +16,6 @@ typedef struct summing {
     double sum;
     uint64_t *bins;
 } summing;
-
-static uint32_t bits_of(float value) {
-    uint32_t bits;
-    memcpy(&bits, &value, sizeof bits);
-    return bits & UINT32_C(0x7FFFFFFF);
-}
 
 /* Sums go row by row, from the top: so they are the same in every run. */
 static bool take(void *context, uint32_t row, uint32_t count, const float *values) {
@@ -44,7 +38,7 @@ static bool take(void *context, uint32_t row, uint32_t count, const float *value
             }
             out->lo = fmin(out->lo, value);
             sum += value;
-            s->bins[bits_of((float)value) >> BIN_SHIFT]++;
+            s->bins[dp_bits32(fabsf((float)value)) >> BIN_SHIFT]++;
         }
         s->sum += sum;
     }
@@ -57,9 +51,7 @@ static double quantile(const summing *s, double share) {
     for (uint32_t bin = 0; bin < BINS; bin++) {
         below += s->bins[bin];
         if (below >= wanted) {
-            const uint32_t bits = ((bin + 1) << BIN_SHIFT) - 1;
-            float top;
-            memcpy(&top, &bits, sizeof top);
+            const float top = dp_float32(((bin + 1) << BIN_SHIFT) - 1);
             return fmin((double)top, fmax(fabs(s->out->lo), fabs(s->out->hi)));
         }
     }

@@ -3,8 +3,7 @@
 
 #include <math.h>
 
-#include "core/curve.h"
-#include "core/lattice.h"
+#include "core/engine.h"
 
 /* Outweighs what is lost in window depths that were computed in double, a few units of 2^-53 of cells that are at least
  * 2^-25 of their depth, and all roundings here. */

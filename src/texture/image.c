@@ -13,14 +13,6 @@
 
 enum { HEAD_SIZE = 8 };
 
-static const struct {
-    const char *name;
-    size_t size;
-} types[IMAGE_TYPE_COUNT] = {
-    [IMAGE_U8] = {"u1", 1},  [IMAGE_U16] = {"u2", 2}, [IMAGE_U32] = {"u4", 4},
-    [IMAGE_F16] = {"f2", 2}, [IMAGE_F32] = {"f4", 4}, [IMAGE_F64] = {"f8", 8},
-};
-
 static const image_kind *const kinds[IMAGE_FILE_COUNT] = {
     [IMAGE_PNG] = &image_kind_png, [IMAGE_PFM] = &image_kind_pfm, [IMAGE_NPY] = &image_kind_npy};
 
@@ -41,14 +33,6 @@ static const struct {
     {"\xabKTX", 4, "KTX: save its pixels as .npy"},
     {"#?RADIANCE", 8, "Radiance HDR: convert it to PFM"},
 };
-
-const char *image_type_name(image_type type) {
-    return (unsigned)type < IMAGE_TYPE_COUNT ? types[type].name : NULL;
-}
-
-size_t image_type_size(image_type type) {
-    return (unsigned)type < IMAGE_TYPE_COUNT ? types[type].size : 0;
-}
 
 const char *image_file_name(image_file file) {
     return (unsigned)file < IMAGE_FILE_COUNT ? kinds[file]->name : NULL;
@@ -183,10 +167,6 @@ image_writer *image_writer_open(FILE *stream, image_file file, image_type type, 
 
 bool image_writer_bottom_up(const image_writer *writer) {
     return writer->kind->bottom_up;
-}
-
-bool image_rows_plain(image_writer *writer, const void *rows, uint32_t count) {
-    return fwrite(rows, writer->row_size, count, writer->stream) == count;
 }
 
 bool image_writer_rows(image_writer *writer, const void *rows, uint32_t count) {

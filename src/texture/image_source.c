@@ -8,6 +8,22 @@
 #include "texture/camera.h"
 #include "texture/image_kind.h"
 
+static const struct {
+    const char *name;
+    size_t size;
+} types[IMAGE_TYPE_COUNT] = {
+    [IMAGE_U8] = {"u1", 1},  [IMAGE_U16] = {"u2", 2}, [IMAGE_U32] = {"u4", 4},
+    [IMAGE_F16] = {"f2", 2}, [IMAGE_F32] = {"f4", 4}, [IMAGE_F64] = {"f8", 8},
+};
+
+const char *image_type_name(image_type type) {
+    return (unsigned)type < IMAGE_TYPE_COUNT ? types[type].name : NULL;
+}
+
+size_t image_type_size(image_type type) {
+    return (unsigned)type < IMAGE_TYPE_COUNT ? types[type].size : 0;
+}
+
 bool source_fail(image_source *source, const char *format, ...) {
     va_list arguments;
     va_start(arguments, format);
@@ -132,4 +148,8 @@ void image_swap(void *samples, size_t size, size_t count) {
     if (size == sizeof *wide)
         for (size_t i = 0; i < count; i++)
             wide[i] = __builtin_bswap64(wide[i]);
+}
+
+bool image_rows_plain(image_writer *writer, const void *rows, uint32_t count) {
+    return fwrite(rows, writer->row_size, count, writer->stream) == count;
 }

@@ -8,40 +8,35 @@
 #include <math.h>
 #include <string.h>
 
+#include "core/bits.h"
 #include "texture/clones.h"
-
-#define INLINE static inline __attribute__((always_inline))
 
 /* Selection: compilers make jumps of conditions as it suits them, and then no vectors; masks stay what they are */
 
 typedef int32_t mask; /* all bits set or none */
 
-INLINE int32_t bits_of(float x) {
-    int32_t bits;
-    memcpy(&bits, &x, sizeof bits);
-    return bits;
+DP_INLINE int32_t bits_of(float x) {
+    return (int32_t)dp_bits32(x);
 }
 
-INLINE float float_of(int32_t bits) {
-    float x;
-    memcpy(&x, &bits, sizeof x);
-    return x;
+DP_INLINE float float_of(int32_t bits) {
+    return dp_float32((uint32_t)bits);
 }
 
-INLINE float select(mask m, float yes, float no) {
+DP_INLINE float select(mask m, float yes, float no) {
     return float_of((bits_of(yes) & m) | (bits_of(no) & ~m));
 }
 
-INLINE float negate(mask m, float x) {
+DP_INLINE float negate(mask m, float x) {
     return float_of(bits_of(x) ^ (m & INT32_MIN));
 }
 
-INLINE mask missing(float x) {
+DP_INLINE mask missing(float x) {
     return -(x != x);
 }
 
 /* 2^(lift - e) with 2^e the power of two in a number: scales without rounding, so that no unit of length overflows. */
-INLINE float unit_of(int32_t bits, int lift) {
+DP_INLINE float unit_of(int32_t bits, int lift) {
     return float_of((int32_t)(((254u + (uint32_t)lift) << 23) - ((uint32_t)bits & 0x7f800000u)));
 }
 
@@ -50,18 +45,18 @@ INLINE float unit_of(int32_t bits, int lift) {
 typedef mask (*side_rule)(mask within, float z, float a, float a2, float b, float b2);
 
 /* The other pixel of the 2 x 2 quad. */
-INLINE mask side_quad(mask within, float z, float a, float a2, float b, float b2) {
+DP_INLINE mask side_quad(mask within, float z, float a, float a2, float b, float b2) {
     (void)z, (void)a, (void)a2, (void)b, (void)b2;
     return within;
 }
 
-INLINE mask side_farther(mask within, float z, float a, float a2, float b, float b2) {
+DP_INLINE mask side_farther(mask within, float z, float a, float a2, float b, float b2) {
     (void)within, (void)z, (void)a2, (void)b2;
     return -(a > b) | missing(b);
 }
 
 /* A side without a neighbour behind it is the last choice but for one without any. */
-INLINE mask side_straight(mask within, float z, float a, float a2, float b, float b2) {
+DP_INLINE mask side_straight(mask within, float z, float a, float a2, float b, float b2) {
     (void)within;
     const float behind_a = select(missing(a2), INFINITY, a2), behind_b = select(missing(b2), INFINITY, b2);
     return -(fabsf(2.0f * a - behind_a - z) < fabsf(2.0f * b - behind_b - z)) | missing(b);
@@ -70,7 +65,7 @@ INLINE mask side_straight(mask within, float z, float a, float a2, float b, floa
 /* The same in w = 1/z, which is straight along a plane: |2/a - 1/a2 - 1/z| without a division. Depths of the second
  * side multiply the first's error and the other way round; 0 stands for a missing one, whose 1/z no line meets. In
  * units of z, or nearly, four depths can be multiplied. */
-INLINE mask side_projective(mask within, float z, float a, float a2, float b, float b2) {
+DP_INLINE mask side_projective(mask within, float z, float a, float a2, float b, float b2) {
     (void)within;
     const float unit = unit_of(bits_of(z), 0), z1 = z * unit, a1 = a * unit, b1 = b * unit;
     const float behind_a = select(missing(a2), 0.0f, a2 * unit), behind_b = select(missing(b2), 0.0f, b2 * unit);
@@ -95,14 +90,14 @@ typedef struct corner {
 
 typedef vector (*corner_rule)(const corner *c);
 
-INLINE float unit_at(const corner *c, int lift) {
+DP_INLINE float unit_at(const corner *c, int lift) {
     const int32_t z = bits_of(c->z), h = bits_of(c->h), v = bits_of(c->v); /* ordered as what they stand for */
     const int32_t zh = z > h ? z : h;
     return unit_of(zh > v ? zh : v, lift);
 }
 
 /* The cross product of two differences of places. */
-INLINE vector corner_cross(const corner *c) {
+DP_INLINE vector corner_cross(const corner *c) {
     const float unit = unit_at(c, 20), z = c->z * unit, h = c->h * unit, v = c->v * unit;
     const float px = c->sx * z, py = c->sy * z;
     const vector a = {c->sx_h * h - px, c->sy * h - py, h - z}, b = {c->sx * v - px, c->sy_v * v - py, v - z};
@@ -112,19 +107,19 @@ INLINE vector corner_cross(const corner *c) {
 
 /* On a plane 1/z = a sx + b sy + c, and (a, b, c) is its normal; here times z h v, so that nothing is divided, and z -
  * h has no rounding error where the two are close. */
-INLINE vector corner_projective(const corner *c) {
+DP_INLINE vector corner_projective(const corner *c) {
     const float unit = unit_at(c, 0), z = c->z * unit, h = c->h * unit, v = c->v * unit;
     const float a = (z - h) * v * c->per_x, b = (z - v) * h * c->per_y;
     return (vector){-a, -b, c->sx * a + c->sy * b - h * v};
 }
 
-INLINE float within_1e18(float x) { /* whose square is a binary32 number; NaN stays */
+DP_INLINE float within_1e18(float x) { /* whose square is a binary32 number; NaN stays */
     const float least = select(-(x > 1e18f), 1e18f, x);
     return select(-(x < -1e18f), -1e18f, least);
 }
 
 /* Orthographic: the cross product, whose differences of places are multiples of the axes. */
-INLINE vector corner_ortho(const corner *c) {
+DP_INLINE vector corner_ortho(const corner *c) {
     return (vector){within_1e18((c->h - c->z) * c->per_x), within_1e18((c->v - c->z) * c->per_y), -1.0f};
 }
 
@@ -135,22 +130,22 @@ typedef struct line {
     const float *first2, *first, *mid, *second, *second2;
 } line;
 
-INLINE line across(const normal_rows *in, int step) {
+DP_INLINE line across(const normal_rows *in, int step) {
     const float *mid = in->rows[NORMAL_REACH];
     return (line){mid - 2 * step, mid - step, mid, mid + step, mid + 2 * step};
 }
 
-INLINE line upwards(const normal_rows *in, int step) {
+DP_INLINE line upwards(const normal_rows *in, int step) {
     const float *const *rows = in->rows + NORMAL_REACH;
     return (line){rows[2 * step], rows[step], rows[0], rows[-step], rows[-2 * step]};
 }
 
-INLINE mask side_at(const line *l, uint32_t i, mask within, side_rule rule) {
+DP_INLINE mask side_at(const line *l, uint32_t i, mask within, side_rule rule) {
     return rule(within, l->mid[i], l->first[i], l->first2[i], l->second[i], l->second2[i]);
 }
 
-INLINE void normals(const normal_rows *in, float *restrict nx, float *restrict ny, float *restrict nz, int step,
-                    side_rule side, corner_rule rule) {
+DP_INLINE void normals(const normal_rows *in, float *restrict nx, float *restrict ny, float *restrict nz, int step,
+                       side_rule side, corner_rule rule) {
     const texture_camera *camera = in->camera;
     const line x = across(in, step), y = upwards(in, step);
     const float *s = in->slope_x, *s_left = s - step, *s_right = s + step;
@@ -182,7 +177,7 @@ INLINE void normals(const normal_rows *in, float *restrict nx, float *restrict n
     }
 }
 
-INLINE void sides_of(const normal_rows *in, uint8_t *sides, int step, side_rule side) {
+DP_INLINE void sides_of(const normal_rows *in, uint8_t *sides, int step, side_rule side) {
     const line x = across(in, step), y = upwards(in, step);
     for (uint32_t i = 0; i < in->count; i++) {
         const mask left = side_at(&x, i, -(int32_t)((in->column + i) & 1), side);

@@ -3,6 +3,7 @@
 #include <math.h>
 #include <string.h>
 
+#include "core/bits.h"
 #include "texture/pack_parts.h"
 
 typedef struct tally {
@@ -85,9 +86,7 @@ static void add_block(const pack_row *row, uint32_t first, uint32_t stride, uint
     uint32_t code[BLOCK];
     float error[BLOCK];
     for (uint32_t i = 0; i < BLOCK; i++) {
-        const uint32_t bits = first + i * stride;
-        float v;
-        memcpy(&v, &bits, sizeof v);
+        const float v = dp_float32(first + i * stride);
         code[i] = pack_rg32_encode(v, half);
         error[i] = pack_rg32_decode(code[i]) - v;
     }
@@ -106,8 +105,7 @@ static void add_block(const pack_row *row, uint32_t first, uint32_t stride, uint
 static double find(const pack_row *row, uint32_t first, uint32_t stride, float max) {
     const double half = row->truncates ? 0 : 0.5;
     for (;; first += stride) {
-        float v;
-        memcpy(&v, &first, sizeof v);
+        const float v = dp_float32(first);
         if (fabsf(pack_rg32_decode(pack_rg32_encode(v, half)) - v) == max)
             return (double)v;
     }

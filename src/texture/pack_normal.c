@@ -14,8 +14,6 @@
 
 #include "texture/pack_parts.h"
 
-static const double PI = 3.14159265358979323846;
-
 /* ---- The largest angle ------------------------------------------------------------------------------------------- */
 
 typedef struct search {
@@ -166,7 +164,7 @@ static void stereo_search(search *s) {
 
 static double angle(const double a[3], const double b[3]) {
     const double cross[3] = {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
-    return atan2(sqrt(dot(cross, cross)), dot(a, b)) * 180 / PI;
+    return atan2(sqrt(dot(cross, cross)), dot(a, b)) * 180 / M_PI;
 }
 
 static double error_of(const pack_row *row, const double n[3]) {
@@ -209,7 +207,7 @@ static void mean(const pack_row *row, pack_error *out) {
         u -= u >= 1;
         v -= v >= 1;
         const double z = row->sphere ? 2 * v - 1 : v, r = sqrt(1 - z * z);
-        const double error = error_of(row, (const double[]){r * cos(2 * PI * u), r * sin(2 * PI * u), z});
+        const double error = error_of(row, (const double[]){r * cos(2 * M_PI * u), r * sin(2 * M_PI * u), z});
         sum += error;
         squares += error * error;
     }
@@ -224,7 +222,7 @@ static void measure_normal(const pack_row *row, pack_error *out) {
     search s = {.row = row, .most = codes - 1};
     searches[row->layout](&s);
     settle(&s, out->normal_at);
-    out->normal.max = asin(sqrt(s.sine2)) * 180 / PI;
+    out->normal.max = asin(sqrt(s.sine2)) * 180 / M_PI;
     out->codes = s.codes;
     mean(row, out);
 }

@@ -10,6 +10,7 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "core/bits.h"
 #include "texture/clones.h"
 #include "texture/image_depths.h"
 #include "texture/recognise_lattice.h"
@@ -209,8 +210,7 @@ typedef struct counts {
 TEXTURE_CLONES static void count_block(const double *d, size_t count, counts *out) {
     counts c = {.lo = INT64_MAX};
     for (size_t i = 0; i < count; i++) {
-        int64_t bits;
-        memcpy(&bits, &d[i], sizeof bits);
+        const int64_t bits = (int64_t)dp_bits64(d[i]);
         const int64_t valid = d[i] == d[i] ? bits : 0;
         c.lo = bits < c.lo ? bits : c.lo; /* that of a NaN is larger than all others */
         c.hi = valid > c.hi ? valid : c.hi;
@@ -221,12 +221,6 @@ TEXTURE_CLONES static void count_block(const double *d, size_t count, counts *ou
         c.high += d[i] > 0.75;
     }
     *out = c;
-}
-
-static double of_bits(int64_t bits) {
-    double d;
-    memcpy(&d, &bits, sizeof d);
-    return d;
 }
 
 static void count_row(const double *d, size_t count, const finding *f, tally *s, recognised *out) {
@@ -240,8 +234,8 @@ static void count_row(const double *d, size_t count, const finding *f, tally *s,
     s->inner += count - (size_t)(c.invalid + c.at_zero + c.at_one);
     if ((size_t)c.invalid == count)
         return;
-    out->lo = fmin(out->lo, of_bits(c.lo));
-    out->hi = fmax(out->hi, of_bits(c.hi));
+    out->lo = fmin(out->lo, dp_float64((uint64_t)c.lo));
+    out->hi = fmax(out->hi, dp_float64((uint64_t)c.hi));
     for (size_t i = 0; i < count && s->seen.count < RECOGNISE_DISTINCT_MAX; i++)
         if (!isnan(d[i]) && (i == 0 || d[i] != d[i - 1]))
             count_new(s, f, d[i]);
@@ -330,8 +324,7 @@ static void suspect(const image *img, const tally *s, recognised *out) {
     if (img->type != IMAGE_U16 || out->at_zero < 1 + out->samples / 1000)
         return;
     for (size_t i = 0; i < s->seen.size && s->seen.slots != NULL; i++) {
-        double d;
-        memcpy(&d, &s->seen.slots[i], sizeof d);
+        const double d = dp_float64(s->seen.slots[i]);
         least = d > 0 ? fmin(least, d) : least;
         most = d > 0 ? fmax(most, d) : most;
     }

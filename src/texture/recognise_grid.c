@@ -5,6 +5,7 @@
  */
 #include <math.h>
 
+#include "core/bits.h"
 #include "texture/recognise.h"
 #include "texture/recognise_lattice.h"
 
@@ -19,17 +20,11 @@ static double tolerance(const grid_source *s, double d, double steps) {
     return 1.5 * ldexp(1, exponent - s->bits) * steps;
 }
 
-static double number_of(const distinct_set *set, size_t slot) {
-    double d;
-    __builtin_memcpy(&d, &set->slots[slot], sizeof d);
-    return d;
-}
-
 /* -log2 of the chance; negative when one is off. */
 static double agreement(const distinct_set *set, const grid_source *s, double steps, bool shifted) {
     double bits = 0;
     for (size_t i = 0; i < set->size; i++) {
-        const double d = number_of(set, i); /* empty slots are NaN */
+        const double d = dp_float64(set->slots[i]); /* empty slots are NaN */
         if (!(d > 0 && d < 1))
             continue;
         const double k = d * steps, most = shifted ? 0x1p-20 : tolerance(s, d, steps);

@@ -5,6 +5,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "core/bits.h"
 #include "texture/clones.h"
 #include "texture/recognise.h"
 
@@ -19,18 +20,6 @@ const char *lattice_name(lattice which) {
 
 /* ---- Lattices ---------------------------------------------------------------------------------------------------- */
 
-static inline int32_t bits_of(float x) {
-    int32_t bits;
-    memcpy(&bits, &x, sizeof bits);
-    return bits;
-}
-
-static inline int64_t bits_of_double(double x) {
-    int64_t bits;
-    memcpy(&bits, &x, sizeof bits);
-    return bits;
-}
-
 /* 0 <= x < 2^31 to the nearest whole number. */
 static inline double whole(double x) {
     return (x + 0x1p52) - 0x1p52;
@@ -43,14 +32,14 @@ static inline double whole(double x) {
  */
 static inline int32_t off_unorm(float x, double code_max, double reciprocal) {
     const float code = (float)(whole((double)x * code_max) * reciprocal);
-    const int32_t distance = bits_of(x) - bits_of(code);
+    const int32_t distance = (int32_t)(dp_bits32(x) - dp_bits32(code));
     return distance > 1 || distance < -1;
 }
 
 /* Subnormals are multiples of 2^-24; the others have 10 bits behind the first. */
 static inline int32_t off_half(float x) {
     const double t = (double)x * 0x1p24;
-    const int32_t small = whole(t) != t, normal = (bits_of(x) & 0x1FFF) != 0;
+    const int32_t small = whole(t) != t, normal = (dp_bits32(x) & 0x1FFF) != 0;
     return x < 0x1p-14F ? small : normal;
 }
 
@@ -83,7 +72,7 @@ void lattice_single(const double *d, size_t count, size_t off[LATTICE_COUNT]) {
 }
 
 static bool off_unorm_double(double x, double code_max) {
-    const int64_t distance = bits_of_double(x) - bits_of_double(whole(x * code_max) / code_max);
+    const int64_t distance = (int64_t)(dp_bits64(x) - dp_bits64(whole(x * code_max) / code_max));
     return distance > 1 || distance < -1;
 }
 
@@ -129,7 +118,7 @@ void distinct_free(distinct_set *set) {
 bool distinct_add(distinct_set *set, double d) {
     if (set->slots == NULL || set->count >= RECOGNISE_DISTINCT_MAX)
         return false;
-    const uint64_t bits = (uint64_t)bits_of_double(d);
+    const uint64_t bits = dp_bits64(d);
     uint64_t slot = (bits * UINT64_C(0x9E3779B97F4A7C15)) >> 40 & (set->size - 1);
     for (; set->slots[slot] != UINT64_MAX; slot = (slot + 1) & (set->size - 1))
         if (set->slots[slot] == bits)

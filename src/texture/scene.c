@@ -6,7 +6,7 @@
 
 #define LENGTH "scene units", 1e-9, 1e15
 
-static const double DEGREE = 3.14159265358979323846 / 180;
+static const double DEGREE = M_PI / 180;
 static const scene_hit SKY = {.z = INFINITY};
 
 static bool drawn(const texture_camera *c, double z) {

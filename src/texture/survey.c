@@ -4,8 +4,7 @@
 #include <math.h>
 #include <stdlib.h>
 
-#include "core/curve.h"
-#include "core/lattice.h"
+#include "core/engine.h"
 
 /* Bands by rank: band i holds the ranks from start[i] up to start[i + 1]. */
 typedef struct bands {

@@ -3,14 +3,13 @@
  * @file ways.h  The cheapest way to the z-fighting interval that is good enough for a set-up: method_choose() among the
  * methods of the family interval, in the words of set-ups.
  */
-#ifndef CLI_WAYS_H
-#define CLI_WAYS_H
+#ifndef METHOD_WAYS_H
+#define METHOD_WAYS_H
 
 #include <stdbool.h>
 
 #include "depthprec/depthprec.h"
 #include "method/method.h"
-#include "plot/figure.h"
 
 typedef struct way {
     const method_row *row; /**< null: no method is claimed to be good enough, and the engine's own answer stands: the
@@ -28,9 +27,5 @@ way way_choose(const dp_setup *setup, double tolerance, bool cut_cells);
 /** The interval at z in [near, far] by a way with a row, scene units; NaN where its claim does not reach: in the model
  *  fp32 within a separation of the far plane, behind which nothing is in view. */
 double way_interval(const way *w, const dp_setup *setup, double z);
-
-/** The same for figures; false where the exact cell is to be taken. In the model fp32 figures have cells of their own.
- */
-bool way_for_figure(const dp_setup *setup, double tolerance, figure_way *out);
 
 #endif

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-#include "cli/ways.h"
+#include "method/ways.h"
 
 #include <math.h>
 #include <string.h>
@@ -36,28 +36,11 @@ way way_choose(const dp_setup *setup, double tolerance, bool cut_cells) {
     return (way){row, row->name, method_claim_over(&row->claims[which], wish.ratio_lo, wish.ratio_hi)};
 }
 
-static double interval_by(const method_row *row, const dp_setup *setup, double z) {
+double way_interval(const way *w, const dp_setup *setup, double z) {
     double value = NAN;
     const method_inputs in = {.count = 1, .z = &z};
     const method_outputs out = {.value = &value};
-    row->run(&(method_call){row, setup, NULL, &in, &out}); /* no method of the family prepares anything */
+    if ((w->row->domain & METHOD_PIPELINE) == 0 || z + dp_separation(setup, z) <= setup->spec.zfar)
+        w->row->run(&(method_call){w->row, setup, NULL, &in, &out}); /* no method of the family prepares anything */
     return value;
-}
-
-double way_interval(const way *w, const dp_setup *setup, double z) {
-    if ((w->row->domain & METHOD_PIPELINE) != 0 && !(z + dp_separation(setup, z) <= setup->spec.zfar))
-        return (double)NAN;
-    return interval_by(w->row, setup, z);
-}
-
-static double for_figure(const void *row, const dp_setup *setup, double z) {
-    return interval_by(row, setup, z);
-}
-
-bool way_for_figure(const dp_setup *setup, double tolerance, figure_way *out) {
-    const way w = way_choose(setup, tolerance, false);
-    if (w.row == NULL || setup->spec.model == DP_MODEL_FP32 || strcmp(w.name, "cell") == 0)
-        return false;
-    *out = (figure_way){w.name, for_figure, w.row};
-    return true;
 }

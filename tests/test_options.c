@@ -1,0 +1,451 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/*
+ * Every row of the option table: what it takes and where that goes, by values written down here; what it refuses; its
+ * default. The languages of lists, depths and sizes are tried in cli/errors.txt.
+ */
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "cli/option_rows.h"
+#include "support.h"
+
+static bool tried[OPTION_COUNT];
+
+/* One option behind a command, and its operand; `line` is what was said on stderr, without its line feed. */
+static int parse(options *o, const char *command, option_id id, const char *value, char line[1024]) {
+    char words[32], name[64], given[128];
+    snprintf(words, sizeof words, "%s", command);
+    snprintf(name, sizeof name, "--%s", option_name(id));
+    snprintf(given, sizeof given, "%s", value != NULL ? value : "");
+    char *const operand = strchr(words, ' ');
+    char *argv[6] = {(char[]){"depthprec"}, words, name};
+    int argc = 3;
+    if (value != NULL)
+        argv[argc++] = given;
+    if (operand != NULL) {
+        argv[argc++] = operand + 1;
+        *operand = '\0';
+    }
+    FILE *const terminal = stderr;
+    stderr = fmemopen(line, 1024, "w");
+    const int status = options_parse(o, argc, argv);
+    fclose(stderr);
+    stderr = terminal;
+    line[strcspn(line, "\n")] = '\0';
+    tried[id] = true;
+    return status;
+}
+
+static void refused(tally *t, const char *command, option_id id, const char *value, const char *said) {
+    char line[1024] = "", expected[1024];
+    options o;
+    const int status = parse(&o, command, id, value, line);
+    options_release(&o);
+    snprintf(expected, sizeof expected, "depthprec: --%s: must be %s, got '%s'", option_name(id), said, value);
+    TALLY(t, status == EXIT_USAGE, "--%s %s: status %d", option_name(id), value, status);
+    TALLY(t, strncmp(line, expected, strlen(expected)) == 0, "'%s', not '%s'", line, expected);
+}
+
+/* ---- Numbers ----------------------------------------------------------------------------------------------------- */
+
+#define AT(member) offsetof(options, member)
+
+static const struct {
+    const char *command;
+    option_id id;
+    size_t field;
+    double standard, least, most;
+    const char *least_text, *most_text, *below, *above, *said;
+} numbers[] = {
+    {"table", OPTION_NEAR, AT(znear), 0.1, 1e-12, 1e12, "1e-12", "1e12", "9.9e-13", "1.0001e12",
+     "a number from 1e-12 to 1e12 scene units"},
+    {"table", OPTION_LOG_C, AT(log_c), 1, 1e-12, 1e12, "1e-12", "1e12", "0", "2e12", "a number from 1e-12 to 1e12"},
+    {"budget", OPTION_INTERPOLATION, AT(terms.interpolation), 0, 0, 16777216, "0", "16777216", "-1", "16777217",
+     "a number from 0 to 16777216 units of 2^-24"},
+    {"budget", OPTION_WORLD, AT(terms.world), 0, 0, 1e18, "0", "1e18", "-1e-9", "1.1e18",
+     "a number from 0 to 1e18 scene units"},
+    {"bias", OPTION_UNITS, AT(units), 0, -1e12, 1e12, "-1e12", "1e12", "-2e12", "2e12", "a number from -1e12 to 1e12"},
+    {"bias", OPTION_FACTOR, AT(factor), 0, -1e12, 1e12, "-1e12", "1e12", "-2e12", "2e12",
+     "a number from -1e12 to 1e12"},
+    {"bias", OPTION_CLAMP, AT(clamp), 0, -1e12, 1e12, "-1e12", "1e12", "-2e12", "2e12", "a number from -1e12 to 1e12"},
+    {"bias", OPTION_SLOPE, AT(slope), 0, 0, 1e12, "0", "1e12", "-1", "2e12",
+     "a number from 0 to 1e12 scene units per pixel"},
+    {"texture", OPTION_FOV, AT(camera.fov_y), 60, 0.01, 179, "0.01", "179", "0", "180",
+     "a number from 0.01 to 179 degrees"},
+    {"texture", OPTION_HALF_HEIGHT, AT(camera.half_height), 5, 1e-12, 1e12, "1e-12", "1e12", "0", "1e13",
+     "a number from 1e-12 to 1e12 scene units"},
+    {"texture", OPTION_YAW, AT(camera.yaw), 0, -360, 360, "-360", "360", "-361", "360.5",
+     "a number from -360 to 360 degrees"},
+    {"texture", OPTION_PITCH, AT(camera.pitch), 0, -90, 90, "-90", "90", "-91", "90.5",
+     "a number from -90 to 90 degrees"},
+    {"texture", OPTION_SKY, AT(sky), 1e-4, 0, 0.5, "0", "0.5", "-0.1", "0.6", "a number from 0 to 0.5"},
+    {"texture", OPTION_METRIC, AT(metric), 0, 1e-9, 1e6, "1e-9", "1e6", "0", "1e7",
+     "a number from 1e-9 to 1e6 scene units"},
+};
+
+static double number_at(const options *o, size_t field) {
+    double number;
+    memcpy(&number, (const char *)o + field, sizeof number);
+    return number;
+}
+
+static void taken(tally *t, const char *command, option_id id, const char *value, size_t field, double expected) {
+    char line[1024] = "";
+    options o;
+    const int status = parse(&o, command, id, value, line);
+    TALLY(t, status == EXIT_FINE && option_given(&o, id), "--%s %s: status %d, %s", option_name(id), value, status,
+          line);
+    TALLY(t, number_at(&o, field) == expected, "--%s %s: %.17g", option_name(id), value, number_at(&o, field));
+    options_release(&o);
+}
+
+static void test_numbers(void **state) {
+    tally t = {.name = "numbers"};
+    options o;
+    char line[1024] = "";
+    (void)state;
+    assert_int_equal(parse(&o, "table", OPTION_QUIET, NULL, line), EXIT_FINE);
+    for (size_t i = 0; i < sizeof numbers / sizeof numbers[0]; i++) {
+        taken(&t, numbers[i].command, numbers[i].id, numbers[i].least_text, numbers[i].field, numbers[i].least);
+        taken(&t, numbers[i].command, numbers[i].id, numbers[i].most_text, numbers[i].field, numbers[i].most);
+        const char *const wrong[] = {numbers[i].below, numbers[i].above, "x", "", "nan", "1e999", "inf", "5 "};
+        for (size_t k = 0; k < sizeof wrong / sizeof wrong[0]; k++)
+            refused(&t, numbers[i].command, numbers[i].id, wrong[k], numbers[i].said);
+        TALLY(&t, number_at(&o, numbers[i].field) == numbers[i].standard, "--%s: default %g",
+              option_name(numbers[i].id), number_at(&o, numbers[i].field));
+    }
+    tally_end(&t);
+}
+
+/* Lengths: positive, and nothing when not given. */
+static void test_lengths(void **state) {
+    static const struct {
+        const char *command;
+        option_id id;
+        size_t field;
+    } lengths[] = {{"solve", OPTION_SEPARATION, AT(wanted_separation)},
+                   {"solve", OPTION_ERROR, AT(wanted_error)},
+                   {"bias", OPTION_GAP, AT(gap)}};
+    tally t = {.name = "lengths"};
+    (void)state;
+    for (size_t i = 0; i < sizeof lengths / sizeof lengths[0]; i++) {
+        taken(&t, lengths[i].command, lengths[i].id, "5e-324", lengths[i].field, 5e-324);
+        taken(&t, lengths[i].command, lengths[i].id, "1e300", lengths[i].field, 1e300);
+        refused(&t, lengths[i].command, lengths[i].id, "0", "a positive number of scene units");
+        refused(&t, lengths[i].command, lengths[i].id, "-1", "a positive number of scene units");
+        refused(&t, lengths[i].command, lengths[i].id, "inf", "a positive number of scene units");
+    }
+    tally_end(&t);
+}
+
+/* ---- Whole numbers ----------------------------------------------------------------------------------------------- */
+
+static void test_whole(void **state) {
+    static const struct {
+        const char *command;
+        option_id id;
+        uint64_t least, most;
+        const char *least_text, *most_text, *below, *above, *said;
+    } wholes[] = {
+        {"zfight", OPTION_SAMPLE, 1, 1000000000000, "1", "1000000000000", "0", "1000000000001",
+         "a whole number from 1 to 1000000000000"},
+        {"zfight", OPTION_SEED, 0, 9007199254740992, "0", "9007199254740992", "-1", "9007199254740993",
+         "a whole number from 0 to 9007199254740992"},
+        {"check", OPTION_THREADS, 1, 1024, "1", "1024", "0", "1025", "a whole number from 1 to 1024"},
+        {"texture", OPTION_WIDTH, 320, 8192, "320", "8192", "319", "8193", "a whole number from 320 to 8192 pixels"},
+        {"texture", OPTION_HEIGHT, 200, 8192, "200", "8192", "199", "8193", "a whole number from 200 to 8192 pixels"},
+    };
+    tally t = {.name = "whole"};
+    (void)state;
+    for (size_t i = 0; i < sizeof wholes / sizeof wholes[0]; i++) {
+        const char *const wrong[] = {wholes[i].below, wholes[i].above, "", "1e3", "+5", " 5", "5.0", "0x10"};
+        for (size_t k = 0; k < sizeof wrong / sizeof wrong[0]; k++)
+            refused(&t, wholes[i].command, wholes[i].id, wrong[k], wholes[i].said);
+        for (int k = 0; k < 2; k++) {
+            char line[1024] = "";
+            options o;
+            parse(&o, wholes[i].command, wholes[i].id, k == 0 ? wholes[i].least_text : wholes[i].most_text, line);
+            const uint64_t fields[] = {
+                [0] = o.sample, o.seed, (uint64_t)o.threads, (uint64_t)o.width, (uint64_t)o.height};
+            TALLY(&t, fields[i] == (k == 0 ? wholes[i].least : wholes[i].most), "--%s: %llu, %s",
+                  option_name(wholes[i].id), (unsigned long long)fields[i], line);
+            options_release(&o);
+        }
+    }
+    tally_end(&t);
+}
+
+/* ---- Names ------------------------------------------------------------------------------------------------------- */
+
+#define WORD_AT(member) offsetof(options, member), sizeof(((options *)NULL)->member)
+
+static uint64_t word_at(const options *o, size_t field, size_t size) {
+    unsigned narrow;
+    uint64_t wide;
+    memcpy(size == sizeof narrow ? (void *)&narrow : &wide, (const char *)o + field, size);
+    return size == sizeof narrow ? narrow : wide;
+}
+
+static void test_words(void **state) {
+    static const struct {
+        const char *command;
+        option_id id;
+        size_t field, size;
+        const char *said;
+        struct {
+            const char *word;
+            unsigned value;
+        } words[9];
+    } rows[] = {
+        {"table",
+         OPTION_ROUNDING,
+         WORD_AT(rounding),
+         "nearest, even or zero",
+         {{"nearest", DP_ROUND_NEAREST}, {"even", DP_ROUND_EVEN}, {"zero", DP_ROUND_ZERO}}},
+        {"table",
+         OPTION_MODEL,
+         WORD_AT(model),
+         "exact, staged, fp32 or auto",
+         {{"exact", DP_MODEL_EXACT}, {"staged", DP_MODEL_STAGED}, {"fp32", DP_MODEL_FP32}, {"auto", DP_MODEL_EXACT}}},
+        {"budget",
+         OPTION_COMPOSITION,
+         WORD_AT(terms.composition),
+         "once, products or relative",
+         {{"once", DP_COMPOSITION_ONCE}, {"products", DP_COMPOSITION_PRODUCTS}, {"relative", DP_COMPOSITION_RELATIVE}}},
+        {"table",
+         OPTION_ARITH,
+         WORD_AT(arith),
+         "ieee, fused, reciprocal, fused-reciprocal, product, mesa, softpipe, ieee-remap or mesa-remap",
+         {{"ieee", 0},
+          {"fused", 1},
+          {"reciprocal", 2},
+          {"fused-reciprocal", 3},
+          {"product", 4},
+          {"mesa", 5},
+          {"softpipe", 6},
+          {"ieee-remap", 7},
+          {"mesa-remap", 8}}},
+        {"solve",
+         OPTION_FOR,
+         WORD_AT(target),
+         "near, far, format, mapping, separation or distance",
+         {{"near", SOLVE_FOR_NEAR},
+          {"far", SOLVE_FOR_FAR},
+          {"format", SOLVE_FOR_FORMAT},
+          {"mapping", SOLVE_FOR_MAPPING},
+          {"separation", SOLVE_FOR_SEPARATION},
+          {"distance", SOLVE_FOR_DISTANCE}}},
+        {"texture", OPTION_THEME, WORD_AT(theme), "light, dark or print", {{"light", 0}, {"dark", 1}, {"print", 2}}},
+        {"check x",
+         OPTION_REPORT,
+         WORD_AT(report),
+         "text, json or junit",
+         {{"text", REPORT_TEXT}, {"json", REPORT_JSON}, {"junit", REPORT_JUNIT}}},
+    };
+    tally t = {.name = "words"};
+    (void)state;
+    for (size_t i = 0; i < sizeof rows / sizeof rows[0]; i++) {
+        char line[1024] = "";
+        options o;
+        for (size_t k = 0; k < 9 && rows[i].words[k].word != NULL; k++) {
+            const char *word = rows[i].words[k].word;
+            const int status = parse(&o, rows[i].command, rows[i].id, word, line);
+            TALLY(&t, status == EXIT_FINE && word_at(&o, rows[i].field, rows[i].size) == rows[i].words[k].value,
+                  "--%s %s: %llu, %s", option_name(rows[i].id), word,
+                  (unsigned long long)word_at(&o, rows[i].field, rows[i].size), line);
+            TALLY(&t, o.model_auto == (strcmp(word, "auto") == 0), "--%s %s: auto", option_name(rows[i].id), word);
+        }
+        refused(&t, rows[i].command, rows[i].id, "", rows[i].said);
+        refused(&t, rows[i].command, rows[i].id, "nosuchword", rows[i].said);
+        /* The first is the default, but for what is solved for. */
+        parse(&o, rows[i].command, OPTION_QUIET, NULL, line);
+        const unsigned standard = rows[i].id == OPTION_FOR ? SOLVE_FOR_ANY : rows[i].words[0].value;
+        TALLY(&t, word_at(&o, rows[i].field, rows[i].size) == standard, "--%s: default", option_name(rows[i].id));
+    }
+    tally_end(&t);
+}
+
+/* Rows of tables, by their names in the table of this test; other spellings where there are any. */
+static void test_rows(void **state) {
+    static const struct {
+        const char *command;
+        option_id id;
+        size_t field;
+        const char *given, *name; /* of the row; null: no row */
+        size_t name_at;
+        const char *near, *meant;
+    } rows[] = {
+        {"table", OPTION_PRESET, AT(preset), "unreal", "unreal", offsetof(preset, name), "unrael", "unreal"},
+        {"bias", OPTION_API, AT(api), "Vulkan", "vulkan", offsetof(bias_api, name), "wegbpu", "webgpu"},
+        {"bias", OPTION_API, AT(api), "d3d12", "d3d11", offsetof(bias_api, name), "d3d14", "d3d11"},
+        {"texture", OPTION_SCENE, AT(scene), "steps", "steps", offsetof(scene_row, name), "decal", "decals"},
+        {"texture", OPTION_POSITION, AT(position), "rays", "rays", offsetof(position_row, name), "matirx", "matrix"},
+        {"texture", OPTION_POSITION, AT(position), "exact", NULL, 0, "exakt", "exact"},
+        {"texture", OPTION_NORMAL, AT(normal), "high-1", "high-1", offsetof(normal_row, name), "meduim", "medium"},
+        {"texture", OPTION_EFFECT, AT(effect), "fog", "fog", offsetof(effect_row, name), "edeg", "edge"},
+    };
+    tally t = {.name = "rows"};
+    (void)state;
+    for (size_t i = 0; i < sizeof rows / sizeof rows[0]; i++) {
+        char line[1024] = "", meant[64];
+        const char *row, *name = NULL;
+        options o;
+        TALLY(&t, parse(&o, rows[i].command, rows[i].id, rows[i].given, line) == EXIT_FINE, "%s", line);
+        memcpy(&row, (const char *)&o + rows[i].field, sizeof row);
+        if (row != NULL)
+            memcpy(&name, row + rows[i].name_at, sizeof name);
+        TALLY(&t, rows[i].name == NULL ? row == NULL : name != NULL && strcmp(name, rows[i].name) == 0, "--%s %s: %s",
+              option_name(rows[i].id), rows[i].given, name != NULL ? name : "no row");
+        TALLY(&t, parse(&o, rows[i].command, rows[i].id, rows[i].near, line) == EXIT_USAGE, "%s", rows[i].near);
+        snprintf(meant, sizeof meant, "; did you mean '%s'?", rows[i].meant);
+        TALLY(&t, strstr(line, meant) != NULL, "%s: %s", meant, line);
+        parse(&o, rows[i].command, OPTION_QUIET, NULL, line);
+        memcpy(&row, (const char *)&o + rows[i].field, sizeof row);
+        TALLY(&t, (row != NULL) == (rows[i].id == OPTION_API), "--%s: default", option_name(rows[i].id));
+    }
+    tally_end(&t);
+}
+
+/* ---- Flags and texts --------------------------------------------------------------------------------------------- */
+
+static void test_flags(void **state) {
+    static const struct {
+        const char *command;
+        option_id id;
+        size_t field, size;
+    } flags[] = {{"table", OPTION_ORTHO, WORD_AT(ortho)},
+                 {"budget", OPTION_LINEARIZE, WORD_AT(terms.linearize)},
+                 {"texture", OPTION_EYE, WORD_AT(eye)},
+                 {"texture", OPTION_RADIAL, WORD_AT(radial)},
+                 {"texture", OPTION_ERROR_MAP, WORD_AT(error_map)},
+                 {"list", OPTION_QUIET, WORD_AT(quiet)},
+                 {"list", OPTION_VERBOSE, WORD_AT(verbose)},
+                 {"list", OPTION_VERSION, WORD_AT(version)}};
+    static const char zeros[8];
+    tally t = {.name = "flags"};
+    (void)state;
+    for (size_t i = 0; i < sizeof flags / sizeof flags[0]; i++) {
+        char line[1024] = "";
+        options o;
+        parse(&o, "list", OPTION_JSON, NULL, line);
+        TALLY(&t, o.form == FORM_JSON && memcmp((const char *)&o + flags[i].field, zeros, flags[i].size) == 0,
+              "--%s: default", option_name(flags[i].id));
+        TALLY(&t, parse(&o, flags[i].command, flags[i].id, NULL, line) == EXIT_FINE, "%s", line);
+        const uint64_t value = flags[i].size == 1 ? *((const unsigned char *)&o + flags[i].field)
+                                                  : word_at(&o, flags[i].field, flags[i].size);
+        TALLY(&t, value == 1, "--%s: %llu", option_name(flags[i].id), (unsigned long long)value);
+    }
+    tally_end(&t);
+}
+
+static void test_texts(void **state) {
+    static const struct {
+        const char *command;
+        option_id id;
+        size_t field;
+        bool file;
+    } texts[] = {{"texture", OPTION_TITLE, AT(title), false},
+                 {"table", OPTION_OUTPUT, AT(output), true},
+                 {"texture", OPTION_FIGURE, AT(figure), true}};
+    tally t = {.name = "texts"};
+    (void)state;
+    for (size_t i = 0; i < sizeof texts / sizeof texts[0]; i++) {
+        char line[1024] = "";
+        const char *text;
+        options o;
+        TALLY(&t, (parse(&o, texts[i].command, texts[i].id, "", line) == EXIT_FINE) != texts[i].file, "%s", line);
+        TALLY(&t, parse(&o, texts[i].command, texts[i].id, "-n 5, %s", line) == EXIT_FINE, "%s", line);
+        memcpy(&text, (const char *)&o + texts[i].field, sizeof text);
+        TALLY(&t, text != NULL && text[0] == '-', "--%s", option_name(texts[i].id));
+        parse(&o, texts[i].command, OPTION_QUIET, NULL, line);
+        memcpy(&text, (const char *)&o + texts[i].field, sizeof text);
+        TALLY(&t, text == NULL, "--%s: default", option_name(texts[i].id));
+    }
+    tally_end(&t);
+}
+
+/* ---- Languages of their own, and all rows ------------------------------------------------------------------------ */
+
+static bool near_to(double a, double b) {
+    return fabs(a - b) <= 1e-15 * fabs(b);
+}
+
+static void test_own(void **state) {
+    char line[1024] = "";
+    options o;
+    (void)state;
+    assert_int_equal(parse(&o, "table", OPTION_FAR, "inf", line), EXIT_FINE);
+    assert_true(isinf(o.zfar) && o.format_count == 4 && o.mapping_count == 2 && near_to(o.tolerance, 0.05));
+    assert_int_equal(parse(&o, "table", OPTION_FORMAT, "fp16,D24,depth24plus,unorm7", line), EXIT_FINE);
+    assert_true(o.zfar == 1000 && o.format_count == 4); /* the unorm24 of depth24plus is there already */
+    assert_string_equal(o.formats[2].name, "fp32");
+    assert_int_equal(parse(&o, "table", OPTION_MAPPING, "log,all,gl", line), EXIT_FINE);
+    assert_true(o.mapping_count == 4 && o.mappings[0] == DP_MAPPING_LOG && o.mappings[3] == DP_MAPPING_GL);
+    assert_int_equal(parse(&o, "table", OPTION_TOLERANCE, "3%", line), EXIT_FINE);
+    assert_true(near_to(o.tolerance, 0.03));
+    assert_int_equal(parse(&o, "table", OPTION_AT, "3,1,2", line), EXIT_FINE);
+    assert_true(o.at.count == 3 && o.at.lo == 1 && o.at.hi == 3);
+    options_release(&o);
+    assert_int_equal(parse(&o, "table", OPTION_RANGE, "2:5", line), EXIT_FINE);
+    assert_true(o.range_lo == 2 && o.range_hi == 5);
+    assert_int_equal(parse(&o, "texture", OPTION_ORIGIN, "1,-2,3e4", line), EXIT_FINE);
+    assert_true(o.camera.origin[0] == 1 && o.camera.origin[1] == -2 && o.camera.origin[2] == 3e4);
+    assert_true(o.camera.width == 640 && o.camera.height == 360);
+    assert_int_equal(parse(&o, "texture", OPTION_SIZE, "65536x1", line), EXIT_FINE);
+    assert_true(o.camera.width == 65536 && o.camera.height == 1 && o.camera.origin[0] == 0);
+    assert_int_equal(parse(&o, "texture", OPTION_PARAMETER, "gap=0.5", line), EXIT_FINE);
+    assert_true(o.parameter_count == 1 && o.parameters[0].value == 0.5);
+    assert_int_equal(parse(&o, "table", OPTION_CSV, NULL, line), EXIT_FINE);
+    assert_true(o.form == FORM_CSV);
+    assert_int_equal(parse(&o, "plot", OPTION_HELP, NULL, line), EXIT_FINE);
+    assert_true(strcmp(o.verb->name, "help") == 0 && strcmp(((const verb *)o.operand_row)->name, "plot") == 0);
+}
+
+/* 65 formats are refused: nothing that was asked for is left out. */
+static void test_formats(void **state) {
+    char all[2048] = "unorm1", line[1024] = "";
+    (void)state;
+    for (int bits = 2; bits <= 32; bits++)
+        snprintf(all + strlen(all), sizeof all - strlen(all), ",unorm%d", bits);
+    for (int bits = 1; bits <= 33; bits++)
+        snprintf(all + strlen(all), sizeof all - strlen(all), ",float%d.%d", bits <= 22 ? 5 : 6, (bits - 1) % 22 + 1);
+    for (int k = 0; k < 2; k++) {
+        char *argv[] = {(char[]){"depthprec"}, (char[]){"table"}, (char[]){"-F"}, all, NULL};
+        options o;
+        FILE *const terminal = stderr;
+        stderr = fmemopen(line, sizeof line, "w");
+        const int status = options_parse(&o, 4, argv);
+        fclose(stderr);
+        stderr = terminal;
+        assert_int_equal(status, k == 0 ? EXIT_USAGE : EXIT_FINE);
+        assert_true(k == 0 || o.format_count == OPTIONS_FORMATS_MAX);
+        *strrchr(all, ',') = '\0';
+    }
+    assert_non_null(strstr(line, "--format: must be at most 64 formats, got 'float6.11' too"));
+}
+
+static void test_all(void **state) {
+    tally t = {.name = "all"};
+    (void)state;
+    for (int id = 0; id < OPTION_COUNT; id++) {
+        const option_row *row = &option_rows[id];
+        TALLY(&t, tried[id], "--%s is not in a table of this test", row->name);
+        TALLY(&t, row->commands != 0 && row->help[0] != '\0', "--%s", row->name);
+        for (int other = 0; other < id; other++)
+            TALLY(&t,
+                  strcmp(row->name, option_rows[other].name) != 0 &&
+                      (row->letter == 0 || row->letter != option_rows[other].letter),
+                  "--%s twice", row->name);
+    }
+    tally_end(&t);
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {cmocka_unit_test(test_numbers), cmocka_unit_test(test_lengths),
+                                       cmocka_unit_test(test_whole),   cmocka_unit_test(test_words),
+                                       cmocka_unit_test(test_rows),    cmocka_unit_test(test_flags),
+                                       cmocka_unit_test(test_texts),   cmocka_unit_test(test_own),
+                                       cmocka_unit_test(test_formats), cmocka_unit_test(test_all)};
+    return run_tap(tests);
+}

@@ -1,0 +1,266 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Columns as data: every kind in every form. JSON is read by jansson; CSV and text are written out by hand. */
+#include <math.h>
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include <cmocka.h>
+#include <jansson.h>
+
+#include "report/report.h"
+
+enum { DEAR = 1, CHEAP = 2 };
+
+typedef struct price {
+    double value;
+} price;
+
+typedef struct fruit {
+    double mass, guarantee, share;
+    uint64_t count;
+    uint32_t code;
+    int bytes, digits;
+    bool ripe;
+    const char *word, *names;
+    char letters[16];
+    const price *price; /* null where there is none */
+} fruit;
+
+typedef struct basket {
+    const char *owner, *seal;
+    fruit *items;
+    size_t count;
+    fruit at_hand;
+} basket;
+
+static void *next_fruit(void *of, size_t i) {
+    basket *b = of;
+    if (i == b->count)
+        return NULL;
+    b->at_hand = b->items[i];
+    return &b->at_hand;
+}
+
+static void *only_basket(void *of, size_t i) {
+    return i == 0 ? of : NULL;
+}
+
+static const column price_columns[] = {{FIELD(price, value, "value", "cent")}, {.kind = COLUMN_END}};
+static const column share_columns[] = {{FIELD(fruit, share, "share", "")}, {.kind = COLUMN_END}};
+
+static const column fruit_columns[] = {
+    {FIELD(fruit, word, "word", ""), SHOWN("word", -6, 0)},
+    {FIELD(fruit, mass, "mass", "kg"), SHOWN("mass", 9, 3)},
+    {FIELD(fruit, guarantee, "guarantee", ""), SHOWN("bound", 9, 3), .upward = true},
+    {TEXT_FIELD(fruit, share, "share", 7, 2), .fixed = true},
+    {TEXT_FIELD(fruit, mass, "more", 12, 0), .digits_at = offsetof(fruit, digits)},
+    {GROUP("group", share_columns)},
+    {FIELD(fruit, count, "count", ""), SHOWN("count", 22, 0)},
+    {FIELD(fruit, code, "code", ""), .only = AS_CSV},
+    {FIELD(fruit, bytes, "bytes", ""), .only = AS_JSON},
+    {FIELD(fruit, ripe, "ripe", "")},
+    {FIELD(fruit, names, "names", ""), .names = true},
+    {FIELD(fruit, letters, "letters", ""), .optional = true},
+    {FIELD(fruit, bytes, "dear", ""), .when = DEAR},
+    {FIELD(fruit, bytes, "both", ""), .when = DEAR | CHEAP},
+    {PART(fruit, price, "price", price_columns), .pointed = true},
+    {PART(fruit, price, "known", price_columns), .only = AS_JSON, .pointed = true, .optional = true},
+    {PART(fruit, price, NULL, price_columns), .only = AS_JSON, .pointed = true},
+    {.kind = COLUMN_END}};
+
+static void say_owner(page *p, void *item) {
+    page_title(p, "of %s", ((basket *)item)->owner);
+}
+
+static void say_count(page *p, void *item) {
+    page_note(p, "fruits", "%d", (int)((basket *)item)->count);
+    page_note(p, "a label too long", "still apart");
+    page_wrapped(p, "", "");
+    page_line(p, "done");
+}
+
+static const column basket_columns[] = {{FIELD(basket, owner, "owner", "")},
+                                        {LIST("fruits", fruit_columns, next_fruit)},
+                                        {FIELD(basket, seal, "seal", ""), .only = AS_CSV},
+                                        {.kind = COLUMN_END}};
+
+static const column root[] = {{FIELD(basket, owner, "root", ""), .only = AS_JSON},
+                              {LIST("baskets", basket_columns, only_basket), .head = say_owner, .notes = say_count},
+                              {.kind = COLUMN_END}};
+
+static fruit apple = {.mass = 0.1,
+                      .guarantee = 1.2301,
+                      .share = 0.126,
+                      .count = 9007199254740993, /* no double */
+                      .code = UINT32_MAX,
+                      .bytes = 7,
+                      .digits = 17,
+                      .ripe = true,
+                      .word = "ap\"ple",
+                      .names = "red round",
+                      .letters = "a,b\n\x01",
+                      .price = &(price){-12.5}};
+static fruit nothing = {.mass = NAN, .guarantee = NAN, .share = NAN, .digits = 3};
+static fruit endless = {
+    .mass = INFINITY, .guarantee = INFINITY, .share = -INFINITY, .digits = 3, .word = "", .names = ""};
+
+/* What a report of these fruits writes; freed by the next call. */
+static const char *written(output_form form, unsigned when, size_t count) {
+    static char text[4096];
+    fruit items[3] = {apple, nothing, endless};
+    basket b = {.owner = "Eve", .seal = "wax", .items = items, .count = count};
+    const report_spec spec = {"test", root, &b, .when = when, .label = 8};
+    char path[] = "/tmp/depthprec-report-XXXXXX";
+    static output out;
+    const int fd = mkstemp(path);
+    assert_true(fd >= 0);
+    fclose(fdopen(fd, "w"));
+    assert_int_equal(output_open(&out, path), EXIT_FINE);
+    report_write(&spec, &out, form);
+    assert_int_equal(output_close(&out), EXIT_FINE);
+    FILE *file = fopen(path, "r");
+    text[fread(text, 1, sizeof text - 1, file)] = '\0';
+    fclose(file);
+    remove(path);
+    return text;
+}
+
+static json_t *fruit_of(json_t *all, size_t i) {
+    json_t *baskets = json_object_get(all, "baskets");
+    assert_int_equal(json_array_size(baskets), 1);
+    return json_array_get(json_object_get(json_array_get(baskets, 0), "fruits"), i);
+}
+
+static json_t *json_of(unsigned when, size_t count) {
+    json_error_t error;
+    json_t *all = json_loads(written(FORM_JSON, when, count), JSON_REJECT_DUPLICATES, &error);
+    if (all == NULL)
+        fail_msg("%s at %d", error.text, error.position);
+    return all;
+}
+
+static void kinds_in_json(void **unused) {
+    (void)unused;
+    const char *word, *first, *second, *letters, *command;
+    double mass, guarantee, share, price_value, known, value;
+    json_int_t count;
+    int bytes, ripe;
+    json_t *all = json_of(0, 1);
+    assert_int_equal(json_unpack(all, "{s:s}", "command", &command), 0);
+    assert_string_equal(command, "test");
+    assert_int_equal(json_unpack(fruit_of(all, 0),
+                                 "{s:s, s:F, s:F, s:{s:F!}, s:I, s:i, s:b, s:[ss!], s:s, s:{s:F!}, s:{s:F!}, s:F}",
+                                 "word", &word, "mass", &mass, "guarantee", &guarantee, "group", "share", &share,
+                                 "count", &count, "bytes", &bytes, "ripe", &ripe, "names", &first, &second, "letters",
+                                 &letters, "price", "value", &price_value, "known", "value", &known, "value", &value),
+                     0);
+    assert_string_equal(word, "ap\"ple");
+    assert_true(mass == 0.1 && guarantee == 1.2301 && share == 0.126 && count == 9007199254740993 && bytes == 7 &&
+                ripe == 1);
+    assert_string_equal(first, "red");
+    assert_string_equal(second, "round");
+    assert_string_equal(letters, "a,b\n\x01");
+    assert_true(price_value == -12.5 && known == -12.5 && value == -12.5);
+    assert_null(json_object_get(fruit_of(all, 0), "code"));
+    json_decref(all);
+}
+
+static void nothing_in_json(void **unused) {
+    (void)unused;
+    json_t *all = json_of(0, 3);
+    for (size_t i = 1; i < 3; i++) {
+        json_t *f = fruit_of(all, i);
+        assert_true(json_is_null(json_object_get(f, "mass")));
+        assert_true(json_is_null(json_object_get(f, "guarantee")));
+        assert_true(json_is_null(json_object_get(json_object_get(f, "group"), "share")));
+        assert_true(json_is_null(json_object_get(f, "price")));
+        assert_true(json_is_false(json_object_get(f, "ripe")));
+        assert_int_equal(json_array_size(json_object_get(f, "names")), 0);
+        assert_null(json_object_get(f, "letters"));
+        assert_null(json_object_get(f, "known"));
+        assert_null(json_object_get(f, "value"));
+    }
+    assert_true(json_is_null(json_object_get(fruit_of(all, 1), "word")));
+    assert_string_equal(json_string_value(json_object_get(fruit_of(all, 2), "word")), "");
+    json_decref(all);
+    all = json_of(0, 0);
+    assert_null(fruit_of(all, 0));
+    json_decref(all);
+}
+
+static void conditions(void **unused) {
+    (void)unused;
+    static const struct {
+        unsigned when;
+        bool dear, both;
+    } cases[] = {{0, false, false}, {DEAR, true, false}, {CHEAP, false, false}, {DEAR | CHEAP, true, true}};
+    for (size_t i = 0; i < sizeof cases / sizeof cases[0]; i++) {
+        json_t *all = json_of(cases[i].when, 1);
+        assert_int_equal(json_object_get(fruit_of(all, 0), "dear") != NULL, cases[i].dear);
+        assert_int_equal(json_object_get(fruit_of(all, 0), "both") != NULL, cases[i].both);
+        json_decref(all);
+        const char *csv = written(FORM_CSV, cases[i].when, 1);
+        assert_int_equal(strstr(csv, ",dear") != NULL, cases[i].dear);
+        assert_int_equal(strstr(csv, ",both") != NULL, cases[i].both);
+    }
+}
+
+#define HEAD "owner,word,mass [kg],guarantee,share,count,code,ripe,names,letters,value [cent],seal\r\n"
+
+static void kinds_in_csv(void **unused) {
+    (void)unused;
+    assert_string_equal(written(FORM_CSV, 0, 0), HEAD);
+    assert_string_equal(written(FORM_CSV, 0, 3),
+                        HEAD "Eve,\"ap\"\"ple\",0.1,1.2301,0.126,9007199254740993,4294967295,true,red round,"
+                             "\"a,b\n\x01\",-12.5,wax\r\n"
+                             "Eve,,,,,0,0,false,,,,wax\r\n"
+                             "Eve,,inf,inf,-inf,0,0,false,,,,wax\r\n");
+}
+
+static void kinds_in_text(void **unused) {
+    (void)unused;
+    assert_string_equal(written(FORM_TEXT, 0, 3),
+                        "of Eve\n"
+                        "word       mass    bound  share        more                 count\n"
+                        "ap\"ple      0.1     1.24   0.13 0.10000000000000001      9007199254740993\n"
+                        "-             -        -      -           -                     0\n"
+                        "            inf      inf   -inf         inf                     0\n"
+                        "  fruits  3\n"
+                        "  a label too long still apart\n"
+                        "  done\n");
+}
+
+/* Notes break between words before column 96. */
+static void wrapped(void **unused) {
+    (void)unused;
+    static output out;
+    char text[256] = "",
+         words[] = "abcdefghij abcdefghij abcdefghij abcdefghij abcdefghij abcdefghij abcdefghij abcdefghij abcdefghij";
+    char path[] = "/tmp/depthprec-report-XXXXXX";
+    fclose(fdopen(mkstemp(path), "w"));
+    assert_int_equal(output_open(&out, path), EXIT_FINE);
+    page p = page_start(&out, 6);
+    page_wrapped(&p, "label", words);
+    assert_int_equal(output_close(&out), EXIT_FINE);
+    FILE *file = fopen(path, "r");
+    assert_true(fread(text, 1, sizeof text - 1, file) > 0);
+    fclose(file);
+    remove(path);
+    words[8 * 11 - 1] = '\0';
+    char want[256];
+    snprintf(want, sizeof want, "  label %s\n        abcdefghij\n", words);
+    assert_string_equal(text, want);
+}
+
+int main(void) {
+    setenv("NO_COLOR", "1", 1);
+    const struct CMUnitTest tests[] = {cmocka_unit_test(kinds_in_json), cmocka_unit_test(nothing_in_json),
+                                       cmocka_unit_test(conditions),    cmocka_unit_test(kinds_in_csv),
+                                       cmocka_unit_test(kinds_in_text), cmocka_unit_test(wrapped)};
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
