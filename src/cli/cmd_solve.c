@@ -202,18 +202,10 @@ static dp_spec spec_of(const options *o) {
 }
 
 static int refused(const solve_report *r, const solve_candidate *c, dp_status status) {
-    const char *mapping = dp_mapping_get(c->spec.mapping)->name;
     if (status == DP_ERROR_INFINITE && !is_known(r->o, OPTION_FAR))
         return option_error(OPTION_FAR, "must be given: %s has no infinite far",
-                            c->spec.ortho ? "an orthographic projection" : mapping);
-    if (status == DP_ERROR_MODEL)
-        return option_error(OPTION_MODEL, "fp32 needs one of the mappings " DP_MAPPING_NAMES_PERSPECTIVE ", got %s",
-                            mapping);
-    const option_id id = status == DP_ERROR_ORTHO   ? OPTION_ORTHO
-                         : status == DP_ERROR_NEAR  ? OPTION_NEAR
-                         : status == DP_ERROR_LOG_C ? OPTION_LOG_C
-                                                    : OPTION_FAR;
-    return option_error(id, "%s, got %s %s", dp_status_text(status), c->spec.format.name, mapping);
+                            c->spec.ortho ? "an orthographic projection" : dp_mapping_get(c->spec.mapping)->name);
+    return setup_refused(r->o, &c->spec, status);
 }
 
 static void add(solve_report *r, const dp_spec *spec, bool asked) {

@@ -4,28 +4,16 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "report/append.h"
+
 /* In quotes where a shell would see more in it than a word. */
 static void append_word(char *out, const char *word) {
     static const char plain[] = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789-_=+,.:/%@";
-    char quoted[COMMAND_LINE_SIZE];
-    size_t used = 0;
-    if (*word != '\0' && word[strspn(word, plain)] == '\0') {
-        snprintf(quoted, sizeof quoted, "%s", word);
-    } else {
-        quoted[used++] = '\'';
-        for (; *word != '\0' && used < sizeof quoted - 8; word++)
-            if (*word == '\'')
-                used += (size_t)snprintf(quoted + used, sizeof quoted - used, "'\\''");
-            else
-                quoted[used++] = *word;
-        snprintf(quoted + used, sizeof quoted - used, "'");
-    }
-    const size_t length = strlen(out), size = strlen(quoted), room = COMMAND_LINE_SIZE - length;
-    if (room < 3)
-        return;
-    out[length] = ' ';
-    memcpy(out + length + 1, quoted, size < room - 2 ? size : room - 2);
-    out[length + 1 + (size < room - 2 ? size : room - 2)] = '\0';
+    const bool quoted = *word == '\0' || word[strspn(word, plain)] != '\0';
+    append(out, COMMAND_LINE_SIZE, quoted ? " '" : " ");
+    for (; *word != '\0'; word++)
+        append(out, COMMAND_LINE_SIZE, *word == '\'' ? "'\\''" : "%c", *word);
+    append(out, COMMAND_LINE_SIZE, quoted ? "'" : "");
 }
 
 void command_line(const options *o, const char *written, char out[COMMAND_LINE_SIZE]) {

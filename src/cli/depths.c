@@ -6,7 +6,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "cli/options.h"
+#include "cli/option_rows.h"
 #include "report/number.h"
 
 static const double infinite_far_ratio = 1e6; /* the default depths end at this many nears when far is infinite */
@@ -31,29 +31,30 @@ static int wrong_form(const char *text) {
     return option_error(OPTION_AT, "must be Z[,Z...] or LO:HI:log|lin:COUNT, got '%s'", text);
 }
 
+/* LO:HI:log|lin:COUNT. */
 static int parse_spaced(const char *text, depths *out) {
-    const char *hi = strchr(text, ':') + 1;
-    const char *kind = strchr(hi, ':');
-    const char *count = kind != NULL ? strchr(kind + 1, ':') : NULL;
-    if (count == NULL)
+    static const char *const ends[] = {"LO", "HI"};
+    const char *part = text;
+    size_t length = strcspn(part, ":");
+    unsigned long count;
+    double z[2];
+    for (int i = 0; i < 2; i++, part += length + 1, length = strcspn(part, ":")) {
+        if (part[length] == '\0')
+            return wrong_form(text);
+        if (!number_parse_part(part, length, NUMBER_FINITE, &z[i]))
+            return option_error(OPTION_AT, "%s must be a number, got '%.*s' in '%s'", ends[i], (int)length, part, text);
+    }
+    const bool log = length == 3 && memcmp(part, "log", 3) == 0;
+    if (part[length] == '\0')
         return wrong_form(text);
-    depths d = {.kind = DEPTHS_LOG};
-    size_t kind_length = (size_t)(count++ - ++kind);
-    if (!number_parse_part(text, (size_t)(hi - 1 - text), NUMBER_FINITE, &d.lo))
-        return option_error(OPTION_AT, "LO must be a number, got '%.*s' in '%s'", (int)(hi - 1 - text), text, text);
-    if (!number_parse_part(hi, (size_t)(kind - 1 - hi), NUMBER_FINITE, &d.hi))
-        return option_error(OPTION_AT, "HI must be a number, got '%.*s' in '%s'", (int)(kind - 1 - hi), hi, text);
-    if (kind_length != 3 || (memcmp(kind, "log", 3) != 0 && memcmp(kind, "lin", 3) != 0))
-        return option_error(OPTION_AT, "spacing must be log or lin, got '%.*s' in '%s'", (int)kind_length, kind, text);
-    if (memcmp(kind, "lin", 3) == 0)
-        d.kind = DEPTHS_LIN;
-    unsigned long rows;
-    if (!number_parse_count(count, DEPTHS_MAX, &rows) || rows < 2)
-        return option_error(OPTION_AT, "COUNT must be a whole number from 2 to %d, got '%s'", DEPTHS_MAX, count);
-    if (!(d.lo < d.hi))
+    if (!log && (length != 3 || memcmp(part, "lin", 3) != 0))
+        return option_error(OPTION_AT, "spacing must be log or lin, got '%.*s' in '%s'", (int)length, part, text);
+    part += length + 1;
+    if (!number_parse_count(part, DEPTHS_MAX, &count) || count < 2)
+        return option_error(OPTION_AT, "COUNT must be a whole number from 2 to %d, got '%s'", DEPTHS_MAX, part);
+    if (!(z[0] < z[1]))
         return option_error(OPTION_AT, "LO must be less than HI, got '%s'", text);
-    d.count = rows;
-    *out = d;
+    *out = depths_spaced(log ? DEPTHS_LOG : DEPTHS_LIN, z[0], z[1], count);
     return EXIT_FINE;
 }
 
@@ -84,10 +85,11 @@ static int parse_list(const char *text, depths *out) {
     return EXIT_FINE;
 }
 
-int depths_parse(const char *text, depths *out) {
-    free(out->list); /* of an earlier --at: the last one counts */
-    *out = (depths){.kind = DEPTHS_LIST};
-    return strchr(text, ':') != NULL ? parse_spaced(text, out) : parse_list(text, out);
+int parse_at(options *o, option_id id, const char *value) {
+    (void)id;
+    free(o->at.list); /* of an earlier --at: the last one counts */
+    o->at = (depths){.kind = DEPTHS_LIST};
+    return strchr(value, ':') != NULL ? parse_spaced(value, &o->at) : parse_list(value, &o->at);
 }
 
 /* "[0.1, 1000]", or "[0.1, inf)". */
@@ -127,17 +129,15 @@ int depths_in_binary32(const depths *d) {
                         text);
 }
 
-int range_parse(const char *text, double *lo, double *hi) {
-    const char *colon = strchr(text, ':');
-    if (colon == NULL)
-        return option_error(OPTION_RANGE, "must be LO:HI, got '%s'", text);
-    if (!number_parse_part(text, (size_t)(colon - text), NUMBER_FINITE, lo))
-        return option_error(OPTION_RANGE, "LO must be a number, got '%.*s' in '%s'", (int)(colon - text), text, text);
-    if (!number_parse(colon + 1, NUMBER_FINITE, hi))
-        return option_error(OPTION_RANGE, "HI must be a number, got '%s' in '%s'", colon + 1, text);
-    if (!(*lo < *hi))
-        return option_error(OPTION_RANGE, "LO must be less than HI, got '%s'", text);
-    return EXIT_FINE;
+int parse_range(options *o, option_id id, const char *value) {
+    const int split = (int)strcspn(value, ":");
+    if (value[split] == '\0')
+        return option_error(id, "must be LO:HI, got '%s'", value);
+    if (!number_parse_part(value, (size_t)split, NUMBER_FINITE, &o->range_lo))
+        return option_error(id, "LO must be a number, got '%.*s' in '%s'", split, value, value);
+    if (!number_parse(value + split + 1, NUMBER_FINITE, &o->range_hi))
+        return option_error(id, "HI must be a number, got '%s' in '%s'", value + split + 1, value);
+    return o->range_lo < o->range_hi ? EXIT_FINE : option_error(id, "LO must be less than HI, got '%s'", value);
 }
 
 int range_resolve(const options *o, double *lo, double *hi) {

@@ -28,9 +28,6 @@ double depths_get(const depths *d, size_t i);
 /** Log-spaced (or linear) depths from lo to hi; count >= 2, or 1 for lo alone. */
 depths depths_spaced(depths_kind kind, double lo, double hi, size_t count);
 
-/** Reads the argument of --at. @return EXIT_FINE, or EXIT_USAGE after one line on stderr */
-int depths_parse(const char *text, depths *out);
-
 /**
  * The depths of a command: those of --at, or `count` log-spaced ones from near to far (to 1e6 near when far is
  * infinite). Call it after setups_make(), which checks near and far.
@@ -44,8 +41,5 @@ int depths_in_binary32(const depths *d);
 
 /** The range of a command: that of --range, or [near, far]; *hi may then be INFINITY. Return as depths_resolve(). */
 int range_resolve(const struct options *o, double *lo, double *hi);
-
-/** Reads the argument of --range, LO:HI with LO < HI. @return EXIT_FINE, or EXIT_USAGE after one line on stderr */
-int range_parse(const char *text, double *lo, double *hi);
 
 #endif

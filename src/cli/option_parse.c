@@ -196,16 +196,6 @@ int parse_tolerance(options *o, option_id id, const char *value) {
     return EXIT_FINE;
 }
 
-int parse_at(options *o, option_id id, const char *value) {
-    (void)id;
-    return depths_parse(value, &o->at);
-}
-
-int parse_range(options *o, option_id id, const char *value) {
-    (void)id;
-    return range_parse(value, &o->range_lo, &o->range_hi);
-}
-
 int parse_origin(options *o, option_id id, const char *value) {
     const char *at = value;
     for (int i = 0; i < 3; i++) {

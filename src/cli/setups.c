@@ -8,53 +8,23 @@
 
 #include "report/number.h"
 
-/* Which option is at fault. */
-static const option_id culprits[DP_STATUS_COUNT] = {
-    [DP_ERROR_NEAR] = OPTION_NEAR,         [DP_ERROR_FAR] = OPTION_FAR,         [DP_ERROR_PLANES] = OPTION_FAR,
-    [DP_ERROR_INFINITE] = OPTION_FAR,      [DP_ERROR_ORTHO] = OPTION_ORTHO,     [DP_ERROR_LOG_C] = OPTION_LOG_C,
-    [DP_ERROR_FORMAT] = OPTION_FORMAT,     [DP_ERROR_MAPPING] = OPTION_MAPPING, [DP_ERROR_MODEL] = OPTION_MODEL,
-    [DP_ERROR_ROUNDING] = OPTION_ROUNDING,
-};
-
-static int refused(const options *o, const dp_spec *spec, dp_status status) {
-    char znear[NUMBER_SIZE];
-    char zfar[NUMBER_SIZE];
-    char log_c[NUMBER_SIZE];
-    char got[4 * NUMBER_SIZE];
-    number_shortest(spec->znear, znear);
-    number_shortest(spec->zfar, zfar);
-    number_shortest(spec->log_c, log_c);
+int setup_refused(const options *o, const dp_spec *spec, dp_status status) {
     const char *mapping = dp_mapping_get(spec->mapping)->name;
-    const char *projection = spec->ortho ? "orthographic" : "perspective";
-    option_id id = culprits[status];
-    switch (status) {
-    case DP_ERROR_NEAR:
-        snprintf(got, sizeof got, "%s", znear);
-        break;
-    case DP_ERROR_FAR:
-    case DP_ERROR_PLANES:
-        snprintf(got, sizeof got, "near %s, far %s", znear, zfar);
-        break;
-    case DP_ERROR_LOG_C:
-        snprintf(got, sizeof got, "%s", log_c);
-        break;
-    case DP_ERROR_INFINITE:
-    case DP_ERROR_ORTHO:
-        snprintf(got, sizeof got, "%s, %s", projection, mapping);
-        break;
-    case DP_ERROR_MODEL: /* of the models that have a name, fp32 alone is not for all */
-        id = option_given(o, OPTION_MODEL) ? OPTION_MODEL : OPTION_MAPPING;
-        return option_error(id, "%s needs one of the mappings " DP_MAPPING_NAMES_PERSPECTIVE ", got %s",
-                            id == OPTION_MODEL ? "fp32" : "binary32 arithmetic", mapping);
-    default:
-        snprintf(got, sizeof got, "%s %s", spec->format.name, mapping);
+    if (status == DP_ERROR_MODEL) { /* of the models that have a name, fp32 alone is not for all */
+        const bool given = option_given(o, OPTION_MODEL);
+        return option_error(given ? OPTION_MODEL : OPTION_MAPPING,
+                            "%s needs one of the mappings " DP_MAPPING_NAMES_PERSPECTIVE ", got %s",
+                            given ? "fp32" : "binary32 arithmetic", mapping);
     }
-    /* "--near: must be ..." rather than "--near: near must be ...". */
+    /* "--far: must be ..." rather than "--far: far must be ...". */
     const char *text = dp_status_text(status);
-    size_t length = strlen(option_name(id));
-    if (strncmp(text, option_name(id), length) == 0 && text[length] == ' ')
-        text += length + 1;
-    return option_error(id, "%s, got %s", text, got);
+    if (strncmp(text, "far ", 4) == 0)
+        text += 4;
+    if (status == DP_ERROR_INFINITE || status == DP_ERROR_ORTHO)
+        return option_error(status == DP_ERROR_ORTHO ? OPTION_ORTHO : OPTION_FAR, "%s, got %s, %s", text,
+                            spec->ortho ? "orthographic" : "perspective", mapping);
+    return option_error(OPTION_FAR, "%s, got near %s, far %s", text, number_full(spec->znear).text,
+                        number_full(spec->zfar).text);
 }
 
 int setups_make(const options *o, setups *out) {
@@ -76,7 +46,7 @@ int setups_make(const options *o, setups *out) {
             dp_status status = dp_setup_init(&out->items[out->count++], &spec);
             if (status != DP_OK) {
                 setups_release(out);
-                return refused(o, &spec, status);
+                return setup_refused(o, &spec, status);
             }
         }
     return EXIT_FINE;
@@ -150,21 +120,13 @@ void setup_csv(csv *c, const dp_setup *setup) {
 }
 
 const char *setup_label(const dp_setup *setup, bool full, char out[SETUP_LABEL_SIZE]) {
-    const dp_spec *spec = &setup->spec;
-    const char *mapping = dp_mapping_get(spec->mapping)->name;
-    int length = snprintf(out, SETUP_LABEL_SIZE, "%s %s", spec->format.name, mapping);
-    if (!full)
-        return out;
-    char znear[NUMBER_SIZE];
-    char zfar[NUMBER_SIZE];
-    char log_c[NUMBER_SIZE + 4] = "";
-    number_shortest(spec->znear, znear);
-    number_shortest(spec->zfar, zfar);
-    if (spec->mapping == DP_MAPPING_LOG)
-        number_shortest(spec->log_c, log_c + sprintf(log_c, " C "));
-    const bool arith = spec->model == DP_MODEL_FP32;
-    snprintf(out + length, SETUP_LABEL_SIZE - (size_t)length, "%s, near %s, far %s, %s, %s, %s%s%s", log_c, znear, zfar,
-             setup_projection(setup), dp_rounding_name(spec->rounding), dp_model_name(spec->model), arith ? " " : "",
-             arith ? dp_arith_get(spec->arith)->name : "");
+    const setup_fields f = setup_fields_of(setup);
+    const int length = snprintf(out, SETUP_LABEL_SIZE, "%s %s", f.format, f.mapping);
+    const bool has_log_c = !isnan(f.log_c), has_arith = f.arith != NULL;
+    if (full)
+        snprintf(out + length, SETUP_LABEL_SIZE - (size_t)length, "%s%s, near %s, far %s, %s, %s, %s%s%s",
+                 has_log_c ? " C " : "", has_log_c ? number_full(f.log_c).text : "", number_full(f.znear).text,
+                 number_full(f.zfar).text, f.projection, f.rounding, f.model, has_arith ? " " : "",
+                 has_arith ? f.arith : "");
     return out;
 }

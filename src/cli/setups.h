@@ -25,6 +25,10 @@ int setups_make(const options *o, setups *out);
 
 void setups_release(setups *s);
 
+/** Says why a set-up cannot be made, by the option at fault; near and the like are in their ranges. @return EXIT_USAGE
+ */
+int setup_refused(const options *o, const dp_spec *spec, dp_status status);
+
 /** The room that setup_label() needs, with the terminating null. */
 enum { SETUP_LABEL_SIZE = 160 };
 
