@@ -40,13 +40,6 @@ const figure_row *figure_get(size_t index) {
     return index < sizeof rows / sizeof *rows ? &rows[index] : NULL;
 }
 
-const figure_row *figure_find(const char *name) {
-    for (size_t i = 0; i < sizeof rows / sizeof *rows; i++)
-        if (strcmp(rows[i].name, name) == 0)
-            return &rows[i];
-    return NULL;
-}
-
 /* Which of the different formats (or mappings) set-up i has, counted in the order in which they appear. */
 static int rank(const figure_request *r, size_t i, bool mapping, int *kinds) {
     size_t first[CHART_SERIES];
