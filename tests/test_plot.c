@@ -328,10 +328,10 @@ static void test_trace(void **state) {
     (void)state;
     enum { POINTS = 20000, CORNERS = 5000 };
     static double points[POINTS][2], corners[CORNERS][2];
-    canvas_notes notes = {"", "", "", ""};
+    const notes none = {"", "", "", ""};
     rng r = rng_make("trace");
     for (int shape = 0; shape < 3; shape++) {
-        canvas *c = canvas_new(CANVAS_SVG, 500, 500, &notes);
+        canvas *c = canvas_new(CANVAS_SVG, 500, 500, &none);
         trace t = trace_start(c);
         for (int i = 0; i < POINTS; i++) {
             points[i][0] = 500.0 * i / POINTS;
@@ -369,8 +369,8 @@ static void test_trace(void **state) {
 
 static void test_words(void **state) {
     (void)state;
-    canvas_notes notes = {"", "", "", ""};
-    canvas *c = canvas_new(CANVAS_PNG, 100, 100, &notes);
+    const notes none = {"", "", "", ""};
+    canvas *c = canvas_new(CANVAS_PNG, 100, 100, &none);
     pencil p = pencil_make(c, theme_get(0), 1);
     rng r = rng_make("words");
     for (int n = 0; n < 300; n++) {

@@ -168,8 +168,6 @@ static void kinds_in_json(void **unused) {
     assert_true(price_value == -12.5 && known == -12.5 && value == -12.5);
     assert_null(json_object_get(fruit_of(all, 0), "code"));
     json_decref(all);
-    assert_non_null(
-        strstr(written(FORM_JSON, 0, 1), "\"count\":18446744073709551615,")); /* jansson has no such number */
 }
 
 static void nothing_in_json(void **unused) {

@@ -2,6 +2,7 @@
 /* The numbers of the figures pareto and stability, where the measuring is replaced: see measured.h. */
 #include "measured.h"
 #include "named.h"
+#include "plot/figure.h"
 
 static void want_axis(values *v, const char *axis, const char *key, const char *label, const char *unit,
                       const char *scale) {

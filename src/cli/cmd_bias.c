@@ -264,8 +264,9 @@ int cmd_bias(const options *given) {
     if (!option_given(&o, OPTION_FORMAT) && o.preset == NULL)
         drop_fp16(&o);
     int status = check_states(&o, api);
-    if (status == EXIT_FINE)
-        status = walk_start(&b.walk, &o);
+    if (status != EXIT_FINE)
+        return status;
+    status = walk_start(&b.walk, &o);
     if (status == EXIT_FINE)
         status = range_resolve(&o, &b.range_lo, &b.range_hi);
     const report_spec spec = {"bias", columns, &b, .when = conditions(&b), .label = 12};

@@ -141,13 +141,12 @@ static void say_worst(page *p, const worst *w) {
 
 static void say_notes(page *p, void *item) {
     const budget *b = item;
-    char sentence[CHOICE_SENTENCE_SIZE];
     if (!isnan(b->hopeless))
         page_line(p, "at z = %s no separation is certain: what lies behind may share its code",
                   number_of(b->hopeless, DIGITS_MORE).text);
     if (b->worst != NULL)
         say_worst(p, b->worst);
-    page_line(p, "%s", choice_sentence(&b->choice, sentence));
+    page_line(p, "%s", choice_sentence(&b->choice).text);
 }
 
 /* ---- Columns ----------------------------------------------------------------------------------------------------- */

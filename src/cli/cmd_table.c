@@ -184,14 +184,13 @@ static void say_way(page *p, const way *w, double tolerance) {
 static void say_notes(page *p, void *item) {
     const table *t = item;
     const guarantee *g = t->guarantee;
-    char sentence[CHOICE_SENTENCE_SIZE];
     say_worst(p, t->worst);
     if (g != NULL)
         page_note(p, "worst separation", "%s at z = %s, %s", number_up(g->worst.bound, DIGITS_FEW).text,
                   number_of(g->worst.z, DIGITS_USUAL).text,
                   g->model == DP_MODEL_FP32 ? "guaranteed in binary32 (model fp32)" : "in the model staged");
     say_drawn(p, &t->planes);
-    page_line(p, "%s", choice_sentence(&t->choice, sentence));
+    page_line(p, "%s", choice_sentence(&t->choice).text);
     if (option_given(t->walk.o, OPTION_TOLERANCE))
         say_way(p, &t->interval, t->walk.o->tolerance);
 }

@@ -6,6 +6,7 @@
 #include <stdlib.h>
 
 #include "census/census.h"
+#include "cli/clipping.h"
 #include "cli/options.h"
 #include "cli/progress.h"
 #include "cli/setups.h"
@@ -218,21 +219,14 @@ static const column columns[] = {{LIST("setups", setup_report, next_setup), .hea
 static void warn(const zfight *z) {
     for (size_t i = 0; i < z->all.count && !z->o->quiet; i++) {
         const census_result *r = &z->results[i];
+        const double from = r->near_effective, to = r->far_effective;
         char label[SETUP_LABEL_SIZE];
-        const number_text from = number_of(r->near_effective, PLANE_DIGITS);
-        const number_text to = number_of(r->far_effective, PLANE_DIGITS);
-        uint64_t kept = isnan(r->near_effective) ? 0 : census_count(r->near_effective, r->far_effective);
-        if (kept == census_count(z->lo, z->hi) && r->holes == 0)
-            continue;
-        setup_label(&z->all.items[i], false, label);
-        if (kept == census_count(z->lo, z->hi))
-            fprintf(stderr, "depthprec: warning: %s: clipping in binary32 loses %llu depths between %s and %s\n", label,
-                    (unsigned long long)r->holes, from.text, to.text);
-        else if (kept == 0)
-            fprintf(stderr, "depthprec: warning: %s: clipping in binary32 loses everything\n", label);
-        else
-            fprintf(stderr, "depthprec: warning: %s: clipping in binary32 keeps only %s to %s%s\n", label, from.text,
-                    to.text, r->holes > 0 ? ", with holes" : "");
+        if (isnan(from) || census_count(from, to) < census_count(z->lo, z->hi))
+            clipping_say(&z->all.items[i], from, to, r->holes > 0 ? ", with holes" : "");
+        else if (r->holes > 0)
+            fprintf(stderr, "depthprec: warning: %s: clipping in binary32 loses %llu depths between %s and %s\n",
+                    setup_label(&z->all.items[i], false, label), (unsigned long long)r->holes,
+                    number_of(from, PLANE_DIGITS).text, number_of(to, PLANE_DIGITS).text);
     }
 }
 

@@ -122,21 +122,13 @@ void setup_csv(csv *c, const dp_setup *setup) {
 }
 
 const char *setup_label(const dp_setup *setup, bool full, char out[SETUP_LABEL_SIZE]) {
-    const dp_spec *spec = &setup->spec;
-    const char *mapping = dp_mapping_get(spec->mapping)->name;
-    int length = snprintf(out, SETUP_LABEL_SIZE, "%s %s", spec->format.name, mapping);
-    if (!full)
-        return out;
-    char znear[NUMBER_SIZE];
-    char zfar[NUMBER_SIZE];
-    char log_c[NUMBER_SIZE + 4] = "";
-    number_shortest(spec->znear, znear);
-    number_shortest(spec->zfar, zfar);
-    if (spec->mapping == DP_MAPPING_LOG)
-        number_shortest(spec->log_c, log_c + sprintf(log_c, " C "));
-    const bool arith = spec->model == DP_MODEL_FP32;
-    snprintf(out + length, SETUP_LABEL_SIZE - (size_t)length, "%s, near %s, far %s, %s, %s, %s%s%s", log_c, znear, zfar,
-             setup_projection(setup), dp_rounding_name(spec->rounding), dp_model_name(spec->model), arith ? " " : "",
-             arith ? dp_arith_get(spec->arith)->name : "");
+    const setup_fields f = setup_fields_of(setup);
+    const int length = snprintf(out, SETUP_LABEL_SIZE, "%s %s", f.format, f.mapping);
+    const bool has_log_c = !isnan(f.log_c), has_arith = f.arith != NULL;
+    if (full)
+        snprintf(out + length, SETUP_LABEL_SIZE - (size_t)length, "%s%s, near %s, far %s, %s, %s, %s%s%s",
+                 has_log_c ? " C " : "", has_log_c ? number_full(f.log_c).text : "", number_full(f.znear).text,
+                 number_full(f.zfar).text, f.projection, f.rounding, f.model, has_arith ? " " : "",
+                 has_arith ? f.arith : "");
     return out;
 }

@@ -61,7 +61,7 @@ static bool add_rows(const method_family_row *family, const stability_result *co
         snprintf(text[row], sizeof text[row], "%s, %s", r->row->name, family->cases[r->which].name);
         names[row] = text[row];
         for (int k = 0; k < r->steps; k++) {
-            panel->map.value[row * (size_t)first->steps + (size_t)k] = digits(r->error[k]);
+            *chart_field(&panel->map, (int)row, k) = digits(r->error[k]);
             most = fmax(most, digits(r->error[k]));
         }
     }
