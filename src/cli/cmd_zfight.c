@@ -13,8 +13,6 @@
 #include "report/number.h"
 #include "report/report.h"
 
-int cmd_zfight(const options *o);
-
 /* A band, or all of them together, and what of it does not exist as NaN. */
 typedef struct band {
     census_band counts;
