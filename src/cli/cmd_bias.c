@@ -225,15 +225,12 @@ static const column columns[] = {{FIELD(biasing, api, "api", ""), .only = AS_JSO
 /* ---- The command ------------------------------------------------------------------------------------------------- */
 
 static int check_states(const options *o, const bias_api *api) {
-    char text[NUMBER_SIZE];
     const bool given = option_given(o, OPTION_UNITS);
     if (given && option_given(o, OPTION_GAP))
         return option_error(OPTION_UNITS, "must not be given together with --gap, which asks for them");
-    if (given && api->whole && !(o->units == nearbyint(o->units) && fabs(o->units) <= 0x1.fffffffcp30)) {
-        number_shortest(o->units, text);
+    if (given && api->whole && !(o->units == nearbyint(o->units) && fabs(o->units) <= 0x1.fffffffcp30))
         return option_error(OPTION_UNITS, "must be a whole number from -2147483647 to 2147483647 for %s, got %s",
-                            api->name, text);
-    }
+                            api->name, number_full(o->units).text);
     if (option_given(o, OPTION_CLAMP) && !api->clamps)
         return option_error(OPTION_CLAMP, "must not be given for %s, which has no clamp", api->name);
     if (option_given(o, OPTION_CLAMP) && !given)

@@ -17,14 +17,9 @@ bool list_format(size_t index, list_item *item) {
     if (row == NULL)
         return false;
     *item = (list_item){.name = row->format.name, .aliases = row->aliases, .note = row->note, .source = row->source};
-    char absolute[NUMBER_SIZE];
-    char relative[NUMBER_SIZE];
-    number_shortest(row->claim_absolute, absolute);
-    number_shortest(row->claim_relative, relative);
-    if (row->claim_relative == 0.0)
-        snprintf(item->bound, sizeof item->bound, "|value - d| <= %s", absolute);
-    else
-        snprintf(item->bound, sizeof item->bound, "|value - d| <= %s + %s d", absolute, relative);
+    append(item->bound, sizeof item->bound, "|value - d| <= %s", number_full(row->claim_absolute).text);
+    if (row->claim_relative > 0.0)
+        append(item->bound, sizeof item->bound, " + %s d", number_full(row->claim_relative).text);
     return true;
 }
 
@@ -89,17 +84,13 @@ static bool list_cause(size_t index, list_item *item) {
 
 bool list_preset(size_t index, list_item *item) {
     const preset *row = preset_get(index);
-    char znear[NUMBER_SIZE];
-    char zfar[NUMBER_SIZE];
     if (row == NULL)
         return false;
     *item = (list_item){.name = row->name, .note = row->note, .source = row->source, .row = row};
-    number_shortest(row->znear, znear);
-    number_shortest(row->zfar, zfar);
     const bool confirmed = row->unconfirmed[0] == '\0';
-    snprintf(item->bound, sizeof item->bound, "near %s, far %s, %s, %s, scene in %s; checked %s, %s%s", znear, zfar,
-             dp_mapping_get(row->mapping)->name, row->format, row->unit, row->checked,
-             confirmed ? "confirmed" : "not confirmed: ", row->unconfirmed);
+    snprintf(item->bound, sizeof item->bound, "near %s, far %s, %s, %s, scene in %s; checked %s, %s%s",
+             number_full(row->znear).text, number_full(row->zfar).text, dp_mapping_get(row->mapping)->name, row->format,
+             row->unit, row->checked, confirmed ? "confirmed" : "not confirmed: ", row->unconfirmed);
     return true;
 }
 

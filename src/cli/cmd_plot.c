@@ -228,12 +228,10 @@ static int write_figure(const plotting *p) {
     if (c->title[0] == '\0')
         snprintf(c->title, sizeof c->title, "%s", p->row->title);
     bool good = !chart_failed(c);
-    if (good && o->form == FORM_JSON)
-        plot_data_json(&out, p->row->name, c);
-    else if (good && o->form == FORM_CSV)
-        plot_data_csv(&out, c);
-    else if (good)
+    if (good && o->form == FORM_TEXT)
         good = figure_file_write(o, o->output, c, p->request.columns, p->request.rows, &out);
+    else if (good)
+        plot_data_write(&out, o->form, p->row->name, c);
     if (good && o->verbose)
         say_evaluations(p->row, c);
     if (good)

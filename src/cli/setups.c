@@ -9,7 +9,6 @@
 #include "report/number.h"
 
 int setup_refused(const options *o, const dp_spec *spec, dp_status status) {
-    char znear[NUMBER_SIZE], zfar[NUMBER_SIZE];
     const char *mapping = dp_mapping_get(spec->mapping)->name;
     if (status == DP_ERROR_MODEL) { /* of the models that have a name, fp32 alone is not for all */
         const bool given = option_given(o, OPTION_MODEL);
@@ -24,9 +23,8 @@ int setup_refused(const options *o, const dp_spec *spec, dp_status status) {
     if (status == DP_ERROR_INFINITE || status == DP_ERROR_ORTHO)
         return option_error(status == DP_ERROR_ORTHO ? OPTION_ORTHO : OPTION_FAR, "%s, got %s, %s", text,
                             spec->ortho ? "orthographic" : "perspective", mapping);
-    number_shortest(spec->znear, znear);
-    number_shortest(spec->zfar, zfar);
-    return option_error(OPTION_FAR, "%s, got near %s, far %s", text, znear, zfar);
+    return option_error(OPTION_FAR, "%s, got near %s, far %s", text, number_full(spec->znear).text,
+                        number_full(spec->zfar).text);
 }
 
 int setups_make(const options *o, setups *out) {
@@ -60,7 +58,7 @@ void setups_release(setups *s) {
     s->count = 0;
 }
 
-const char *setup_projection(const dp_setup *setup) {
+static const char *setup_projection(const dp_setup *setup) {
     return setup->spec.ortho ? "orthographic" : "perspective";
 }
 
@@ -86,39 +84,6 @@ setup_fields setup_fields_of(const dp_setup *setup) {
                           .rounding = dp_rounding_name(spec->rounding),
                           .model = dp_model_name(spec->model),
                           .arith = spec->model == DP_MODEL_FP32 ? dp_arith_get(spec->arith)->name : NULL};
-}
-
-void setup_json(json *j, const dp_setup *setup) {
-    const dp_spec *spec = &setup->spec;
-    json_number(j, "near", spec->znear);
-    json_number(j, "far", spec->zfar);
-    json_string(j, "projection", setup_projection(setup));
-    json_string(j, "mapping", dp_mapping_get(spec->mapping)->name);
-    json_string(j, "format", spec->format.name);
-    json_string(j, "rounding", dp_rounding_name(spec->rounding));
-    json_string(j, "model", dp_model_name(spec->model));
-    if (spec->model == DP_MODEL_FP32)
-        json_string(j, "arith", dp_arith_get(spec->arith)->name);
-    if (spec->mapping == DP_MAPPING_LOG)
-        json_number(j, "log_c", spec->log_c);
-}
-
-void setup_csv_head(csv *c) {
-    static const char *const heads[] = {"near [scene]", "far [scene]", "projection", "mapping",
-                                        "format",       "rounding",    "model"};
-    for (size_t i = 0; i < sizeof heads / sizeof heads[0]; i++)
-        csv_string(c, heads[i]);
-}
-
-void setup_csv(csv *c, const dp_setup *setup) {
-    const dp_spec *spec = &setup->spec;
-    csv_number(c, spec->znear);
-    csv_number(c, spec->zfar);
-    csv_string(c, setup_projection(setup));
-    csv_string(c, dp_mapping_get(spec->mapping)->name);
-    csv_string(c, spec->format.name);
-    csv_string(c, dp_rounding_name(spec->rounding));
-    csv_string(c, dp_model_name(spec->model));
 }
 
 const char *setup_label(const dp_setup *setup, bool full, char out[SETUP_LABEL_SIZE]) {
