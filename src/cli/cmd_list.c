@@ -12,8 +12,6 @@
 #include "texture/effect.h"
 #include "texture/pack.h"
 
-int cmd_list(const options *o);
-
 bool list_format(size_t index, list_item *item) {
     const dp_format_row *row = dp_format_get(index);
     if (row == NULL)
@@ -27,10 +25,9 @@ bool list_format(size_t index, list_item *item) {
 
 bool list_mapping(size_t index, list_item *item) {
     const dp_mapping_row *row = index < DP_MAPPING_COUNT ? dp_mapping_get((dp_mapping)index) : NULL;
-    if (row == NULL)
-        return false;
-    *item = (list_item){.name = row->name, .aliases = row->aliases, .note = row->note, .source = row->source};
-    return true;
+    return row != NULL &&
+           list_fill(item,
+                     (list_item){.name = row->name, .aliases = row->aliases, .note = row->note, .source = row->source});
 }
 
 bool list_model(size_t index, list_item *item) {
@@ -40,11 +37,9 @@ bool list_model(size_t index, list_item *item) {
         [DP_MODEL_FP32] = "every operation in binary32, see 'depthprec list ariths'; not for linear and log",
         "the simplest of the three that is enough at the depths asked about, see --tolerance",
     };
-    if (index >= sizeof notes / sizeof notes[0])
-        return false;
     const char *name = dp_model_name((dp_model)index);
-    *item = (list_item){.name = name != NULL ? name : "auto", .note = notes[index]};
-    return true;
+    return index < sizeof notes / sizeof notes[0] &&
+           list_fill(item, (list_item){.name = name != NULL ? name : "auto", .note = notes[index]});
 }
 
 bool list_rounding(size_t index, list_item *item) {
@@ -54,18 +49,12 @@ bool list_rounding(size_t index, list_item *item) {
 
 bool list_arith(size_t index, list_item *item) {
     const dp_arith_row *row = dp_arith_get(index);
-    if (row == NULL)
-        return false;
-    *item = (list_item){.name = row->name, .note = row->note, .source = row->source};
-    return true;
+    return row != NULL && list_fill(item, (list_item){.name = row->name, .note = row->note, .source = row->source});
 }
 
 bool list_composition(size_t index, list_item *item) {
     const dp_composition_row *row = dp_composition_get((dp_composition)index);
-    if (row == NULL)
-        return false;
-    *item = (list_item){.name = row->name, .note = row->note};
-    return true;
+    return row != NULL && list_fill(item, (list_item){.name = row->name, .note = row->note});
 }
 
 static bool list_cause(size_t index, list_item *item) {
@@ -78,10 +67,8 @@ static bool list_cause(size_t index, list_item *item) {
         [DP_CAUSE_FORMAT] = "the step of the format and the conversion into it",
         [DP_CAUSE_LINEARIZATION] = "reading eye depth back in a binary32 shader, with --linearize",
     };
-    if (index >= DP_CAUSE_COUNT)
-        return false;
-    *item = (list_item){.name = dp_cause_name((dp_cause)index), .note = notes[index]};
-    return true;
+    return index < DP_CAUSE_COUNT &&
+           list_fill(item, (list_item){.name = dp_cause_name((dp_cause)index), .note = notes[index]});
 }
 
 bool list_preset(size_t index, list_item *item) {
@@ -168,10 +155,8 @@ static const struct topic {
 enum { TOPIC_COUNT = sizeof topics / sizeof topics[0] };
 
 bool list_topic(size_t index, list_item *item) {
-    if (index >= TOPIC_COUNT)
-        return false;
-    *item = (list_item){.name = topics[index].name, .note = topics[index].note, .row = &topics[index]};
-    return true;
+    const struct topic *row = &topics[index];
+    return index < TOPIC_COUNT && list_fill(item, (list_item){.name = row->name, .note = row->note, .row = row});
 }
 
 static const struct topic all_topics = {"topics", "", list_topic, "bound"};

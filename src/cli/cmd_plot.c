@@ -15,8 +15,6 @@
 #include "report/append.h"
 #include "report/number.h"
 
-int cmd_plot(const options *o);
-
 enum { WIDTH = 800, HEIGHT = 500 };
 
 /* Depths that a figure waits for, about a quarter of a second a set-up. */

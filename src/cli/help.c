@@ -7,8 +7,6 @@
 #include "report/append.h"
 #include "report/page.h"
 
-int cmd_help(const options *o);
-
 /* In GNU layout. */
 static void version(output *out) {
     output_format(out, "depthprec %s\n", dp_version());

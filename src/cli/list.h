@@ -20,6 +20,12 @@ typedef struct list_item {
     const void *row;            /**< the row itself; null where it has no pointer */
 } list_item;
 
+/** Writes what there is. @return true */
+static inline bool list_fill(list_item *item, list_item what) {
+    *item = what;
+    return true;
+}
+
 /** Fills in thing `index`; false when there is none. */
 typedef bool (*list_get)(size_t index, list_item *item);
 
