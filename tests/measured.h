@@ -128,7 +128,7 @@ static char *command_output(int (*command)(const options *), int status, const c
     argv[argc++] = file;
     argv[argc] = NULL;
     remove(file);
-    assert_int_equal(options_parse(&o, argc, argv), -1);
+    assert_int_equal(options_parse(&o, argc, argv), EXIT_FINE);
     assert_int_equal(command(&o), status);
     options_release(&o);
     return text_of_file(file);

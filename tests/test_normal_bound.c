@@ -135,6 +135,104 @@ static void the_bound_is_that_of_the_worst_errors(void **state) {
     assert_true(used > 0.999);
 }
 
+/* ---- The hardest known ------------------------------------------------------------------------------------------ */
+
+/* Runs "projective" on the five depths of a row and the five of a column that meet in their middle. */
+static void normal_of(const texture_camera *c, uint32_t column, uint32_t row, const float across[5],
+                      const float downwards[5], double out[3]) {
+    enum { SIDE = 2 * NORMAL_REACH + 1 };
+    float slope[SIDE], lines[SIDE][SIDE], normal[3];
+    normal_rows in = {.camera = c, .row = row, .column = column, .count = 1, .slope_x = slope + NORMAL_REACH};
+    for (int j = 0; j < SIDE; j++) {
+        slope[j] = (float)camera_slope_x(c, (double)column + j - NORMAL_REACH);
+        in.rows[j] = lines[j] + NORMAL_REACH;
+        for (int i = 0; i < SIDE; i++)
+            lines[j][i] = (float)NAN;
+    }
+    for (int k = 0; k < 5; k++) {
+        lines[NORMAL_REACH + k - 2][NORMAL_REACH] = downwards[k];
+        lines[NORMAL_REACH][NORMAL_REACH + k - 2] = across[k];
+    }
+    normal_find("projective")->run(&in, &normal[0], &normal[1], &normal[2]);
+    for (int k = 0; k < 3; k++)
+        out[k] = (double)normal[k];
+}
+
+static void judge_hard(const vector_row *row, tally *t, double angle, double bound, double share) {
+    TALLY(t, angle <= bound, "line %d: %g above %g", row->line, angle, bound);
+    TALLY(t, angle >= 0.97 * share * bound, "line %d: %g is %g of %g", row->line, angle, angle / bound, bound);
+}
+
+/* Three depths that are binary32 numbers have a plane through them, so that all error is the method's rounding. */
+static void check_rounding(const vector_row *row, tally *t) {
+    const bool ortho = vector_number(row, 1) != 0;
+    const uint32_t column = (uint32_t)vector_number(row, 5), line = (uint32_t)vector_number(row, 6);
+    const int x = vector_number(row, 7) != 0 ? -1 : 1, y = vector_number(row, 8) != 0 ? 1 : -1;
+    const texture_camera c = view_camera("fp32", DP_MAPPING_REVERSED, 0.1, 1000, ortho, (uint32_t)vector_number(row, 2),
+                                         (uint32_t)vector_number(row, 3), vector_number(row, 4));
+    float across[5], downwards[5];
+    long double place[3][3], a[3], b[3];
+    double n[3], got[3];
+    for (int k = 0; k < 5; k++)
+        across[k] = downwards[k] = (float)NAN;
+    across[2] = downwards[2] = (float)vector_number(row, 9);
+    across[2 + x] = (float)vector_number(row, 10);
+    downwards[2 + y] = (float)vector_number(row, 11);
+    for (int i = 0; i < 3; i++) {
+        const long double z = (long double)(i == 0 ? across[2] : i == 1 ? across[2 + x] : downwards[2 + y]);
+        const long double at_column = (long double)column + (i == 1 ? x : 0) + 0.5L;
+        const long double at_row = (long double)line + (i == 2 ? y : 0) + 0.5L;
+        place[i][0] = (2 * at_column / c.width - 1) * (long double)c.half[0] * (ortho ? 1 : z);
+        place[i][1] = (1 - 2 * at_row / c.height) * (long double)c.half[1] * (ortho ? 1 : z);
+        place[i][2] = z;
+    }
+    for (int i = 0; i < 3; i++) {
+        a[i] = place[1][i] - place[0][i];
+        b[i] = place[2][i] - place[0][i];
+    }
+    for (int i = 0; i < 3; i++) /* rows run downwards, and the normal towards the camera */
+        n[i] = (double)((x * y > 0 ? 1 : -1) * (a[(i + 1) % 3] * b[(i + 2) % 3] - a[(i + 2) % 3] * b[(i + 1) % 3]));
+    const double offset = (double)(n[0] * place[0][0] + n[1] * place[0][1] + n[2] * place[0][2]);
+    const normal_plane plane = {{n[0], n[1], n[2]}, offset};
+    normal_of(&c, column, line, across, downwards, got);
+    judge_hard(row, t, normal_angle(n, got), normal_plane_bound(&c, column, line, &plane, 0), vector_number(row, 12));
+}
+
+/* Stored depths of a plane: half a cell, or reading it back, is most of what they are off by. */
+static void check_stored(const vector_row *row, tally *t) {
+    const uint32_t column = (uint32_t)vector_number(row, 7), line = (uint32_t)vector_number(row, 8);
+    const double n[3] = {vector_number(row, 11), vector_number(row, 12), vector_number(row, 13)};
+    const texture_camera c =
+        view_camera(vector_text(row, 1), (dp_mapping)vector_number(row, 2), vector_number(row, 9),
+                    vector_number(row, 10), vector_number(row, 3) != 0, (uint32_t)vector_number(row, 4),
+                    (uint32_t)vector_number(row, 5), vector_number(row, 6));
+    const normal_plane plane = normal_plane_at(&c, column, line, vector_number(row, 14), n);
+    float eye[2][5];
+    double got[3];
+    for (int k = 0; k < 10; k++) {
+        const int away = k % 5 - 2;
+        const double z =
+            view_plane(&c, n, plane.offset, (double)column + (k < 5 ? away : 0), (double)line + (k < 5 ? 0 : away));
+        const bool in_view = z >= c.setup.spec.znear && z <= c.setup.spec.zfar;
+        eye[k / 5][k % 5] = in_view ? (float)dp_stored(&c.setup, dp_code(&c.setup, z)) : (float)NAN;
+    }
+    normal_of(&c, column, line, eye[0], eye[1], got);
+    const double angle = normal_angle(n, got), error = normal_plane_error(&c, column, line, &plane, 0x1p-24);
+    judge_hard(row, t, fmin(angle, PI - angle), normal_plane_bound(&c, column, line, &plane, error),
+               vector_number(row, 15));
+}
+
+static void check_hard(const vector_row *row, void *context) {
+    (strcmp(vector_text(row, 0), "rounding") == 0 ? check_rounding : check_stored)(row, context);
+}
+
+static void the_hardest_planes_need_each_term(void **state) {
+    (void)state;
+    tally t = {.name = "hardest"};
+    vectors_read("normal.txt", check_hard, &t);
+    tally_end(&t);
+}
+
 /* ---- What is stated about scenes -------------------------------------------------------------------------------- */
 
 /* A slanted wall, its lower half nearer by a step: edges that a method can pass on either side. */
@@ -241,9 +339,8 @@ static void spheres_and_their_outline(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(planes_are_within_the_bound),
-        cmocka_unit_test(the_bound_is_that_of_the_worst_errors),
-        cmocka_unit_test(measures_count_what_they_say),
+        cmocka_unit_test(planes_are_within_the_bound),       cmocka_unit_test(the_bound_is_that_of_the_worst_errors),
+        cmocka_unit_test(the_hardest_planes_need_each_term), cmocka_unit_test(measures_count_what_they_say),
         cmocka_unit_test(spheres_and_their_outline),
     };
     return run_tap(tests);

@@ -6,6 +6,7 @@
 #include <string.h>
 
 #include "depthprec/depthprec.h"
+#include "named.h"
 #include "need/requirement.h"
 #include "plot/draw.h"
 #include "plot/figure.h"
@@ -257,6 +258,38 @@ static void test_every_figure_draws(void **state) {
     need_release(&file);
 }
 
+/* Where the format may be either of two, each has its panel, drawn in the fullest model that the camera asks for. */
+static void test_scene_of_two_formats(void **state) {
+    (void)state;
+    static const char text[] = "cameras = { a = { near = 1.0; far = 100.0; mapping = \"d3d\"; format = "
+                               "\"depth24plus\"; model = \"auto\"; }; };"
+                               "requirements = { x = { camera = \"a\"; range = [1.0, 50.0]; separation = 0.01; }; };";
+    static const char *const either[] = {"unorm24", "fp32"};
+    need_file file;
+    need_error error;
+    asked a;
+    ask(&a, 1, 100);
+    a.setups[0].spec.model = DP_MODEL_FP32;
+    ask_add(&a, either[0], DP_MAPPING_D3D);
+    ask_add(&a, either[1], DP_MAPPING_D3D);
+    a.request.file = &file;
+    assert_true(need_parse("needs", text, sizeof text - 1, &file, &error));
+    chart *c = build(&a, "scene");
+    assert_int_equal(c->panel_count, 2);
+    for (size_t i = 0; i < 2; i++) {
+        char title[80];
+        const chart_series *s = &c->panels[i].series[0];
+        snprintf(title, sizeof title, "a: %s d3d, fp32", either[i]);
+        assert_string_equal(c->panels[i].title, title);
+        assert_true(s->count > 2);
+        for (size_t k = 0; k < s->count; k++) /* the worst of a column; a power of two may double it */
+            assert_true(s->y[k] >= dp_separation(&a.setups[i], s->x[k]) / 1.03 &&
+                        s->y[k] <= dp_separation(&a.setups[i], s->x[k]) * 2.5);
+    }
+    chart_free(c);
+    need_release(&file);
+}
+
 static void test_digest(void **state) {
     (void)state;
     asked a;
@@ -327,10 +360,10 @@ static void test_trace(void **state) {
     (void)state;
     enum { POINTS = 20000, CORNERS = 5000 };
     static double points[POINTS][2], corners[CORNERS][2];
-    canvas_notes notes = {"", "", "", ""};
+    const notes none = {"", "", "", ""};
     rng r = rng_make("trace");
     for (int shape = 0; shape < 3; shape++) {
-        canvas *c = canvas_new(CANVAS_SVG, 500, 500, &notes);
+        canvas *c = canvas_new(CANVAS_SVG, 500, 500, &none);
         trace t = trace_start(c);
         for (int i = 0; i < POINTS; i++) {
             points[i][0] = 500.0 * i / POINTS;
@@ -368,8 +401,8 @@ static void test_trace(void **state) {
 
 static void test_words(void **state) {
     (void)state;
-    canvas_notes notes = {"", "", "", ""};
-    canvas *c = canvas_new(CANVAS_PNG, 100, 100, &notes);
+    const notes none = {"", "", "", ""};
+    canvas *c = canvas_new(CANVAS_PNG, 100, 100, &none);
     pencil p = pencil_make(c, theme_get(0), 1);
     rng r = rng_make("words");
     for (int n = 0; n < 300; n++) {
@@ -433,6 +466,7 @@ int main(void) {
         cmocka_unit_test(test_share),
         cmocka_unit_test(test_map),
         cmocka_unit_test(test_every_figure_draws),
+        cmocka_unit_test(test_scene_of_two_formats),
         cmocka_unit_test(test_digest),
         cmocka_unit_test(test_ticks),
         cmocka_unit_test(test_tick_words),

@@ -6,6 +6,7 @@
 
 #include <gmp.h>
 
+#include "named.h"
 #include "support.h"
 #include "texture/position.h"
 
@@ -201,7 +202,7 @@ static void bounds_far_from_the_origin(void **state) {
     hold("far away", 1e4, 1e6, 0.25);
 }
 
-/* What the man page says: "view" within 9.3 units of the distance, and two units of the way to the origin more. */
+/* In any camera "view" is within 9.3 units of the distance, and two units of the way to the origin more. */
 static void view_keeps_its_promise(void **state) {
     (void)state;
     rng r = rng_make("promise");

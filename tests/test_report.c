@@ -35,6 +35,7 @@ typedef struct basket {
     const char *owner, *seal;
     fruit *items;
     size_t count;
+    size_t baskets; /* as many times the same */
     fruit at_hand;
 } basket;
 
@@ -46,8 +47,8 @@ static void *next_fruit(void *of, size_t i) {
     return &b->at_hand;
 }
 
-static void *only_basket(void *of, size_t i) {
-    return i == 0 ? of : NULL;
+static void *next_basket(void *of, size_t i) {
+    return i < ((basket *)of)->baskets ? of : NULL;
 }
 
 static const column price_columns[] = {{FIELD(price, value, "value", "cent")}, {.kind = COLUMN_END}};
@@ -63,9 +64,10 @@ static const column fruit_columns[] = {
     {FIELD(fruit, count, "count", ""), SHOWN("count", 22, 0)},
     {FIELD(fruit, code, "code", ""), .only = AS_CSV},
     {FIELD(fruit, bytes, "bytes", ""), .only = AS_JSON},
-    {FIELD(fruit, ripe, "ripe", "")},
+    {FIELD(fruit, ripe, "ripe", ""), SHOWN("ripe", -6, 0)},
     {FIELD(fruit, names, "names", ""), .names = true},
     {FIELD(fruit, letters, "letters", ""), .optional = true},
+    {TEXT_FIELD(fruit, bytes, "left", -1, 0)},
     {FIELD(fruit, bytes, "dear", ""), .when = DEAR},
     {FIELD(fruit, bytes, "both", ""), .when = DEAR | CHEAP},
     {PART(fruit, price, "price", price_columns), .pointed = true},
@@ -90,12 +92,12 @@ static const column basket_columns[] = {{FIELD(basket, owner, "owner", "")},
                                         {.kind = COLUMN_END}};
 
 static const column root[] = {{FIELD(basket, owner, "root", ""), .only = AS_JSON},
-                              {LIST("baskets", basket_columns, only_basket), .head = say_owner, .notes = say_count},
+                              {LIST("baskets", basket_columns, next_basket), .head = say_owner, .notes = say_count},
                               {.kind = COLUMN_END}};
 
 static fruit apple = {.mass = 0.1,
                       .guarantee = 1.2301,
-                      .share = 0.126,
+                      .share = 0.1,
                       .count = 9007199254740993, /* no double */
                       .code = UINT32_MAX,
                       .bytes = 7,
@@ -113,7 +115,7 @@ static fruit endless = {
 static const char *written(output_form form, unsigned when, size_t count) {
     static char text[4096];
     fruit items[3] = {apple, nothing, endless};
-    basket b = {.owner = "Eve", .seal = "wax", .items = items, .count = count};
+    basket b = {.owner = "Eve, A", .seal = "wax", .items = items, .count = count, .baskets = form == FORM_TEXT ? 2 : 1};
     const report_spec spec = {"test", root, &b, .when = when, .label = 8};
     char path[] = "/tmp/depthprec-report-XXXXXX";
     static output out;
@@ -160,7 +162,7 @@ static void kinds_in_json(void **unused) {
                                  &letters, "price", "value", &price_value, "known", "value", &known, "value", &value),
                      0);
     assert_string_equal(word, "ap\"ple");
-    assert_true(mass == 0.1 && guarantee == 1.2301 && share == 0.126 && count == 9007199254740993 && bytes == 7 &&
+    assert_true(mass == 0.1 && guarantee == 1.2301 && share == 0.1 && count == 9007199254740993 && bytes == 7 &&
                 ripe == 1);
     assert_string_equal(first, "red");
     assert_string_equal(second, "round");
@@ -168,8 +170,6 @@ static void kinds_in_json(void **unused) {
     assert_true(price_value == -12.5 && known == -12.5 && value == -12.5);
     assert_null(json_object_get(fruit_of(all, 0), "code"));
     json_decref(all);
-    assert_non_null(
-        strstr(written(FORM_JSON, 0, 1), "\"count\":18446744073709551615,")); /* jansson has no such number */
 }
 
 static void nothing_in_json(void **unused) {
@@ -218,32 +218,37 @@ static void kinds_in_csv(void **unused) {
     (void)unused;
     assert_string_equal(written(FORM_CSV, 0, 0), HEAD);
     assert_string_equal(written(FORM_CSV, 0, 3),
-                        HEAD "Eve,\"ap\"\"ple\",0.1,1.2301,0.126,9007199254740993,4294967295,true,red round,"
+                        HEAD "\"Eve, A\",\"ap\"\"ple\",0.1,1.2301,0.1,9007199254740993,4294967295,true,red round,"
                              "\"a,b\n\x01\",-12.5,wax\r\n"
-                             "Eve,,,,,0,0,false,,,,wax\r\n"
-                             "Eve,,inf,inf,-inf,0,0,false,,,,wax\r\n");
+                             "\"Eve, A\",,,,,0,0,false,,,,wax\r\n"
+                             "\"Eve, A\",,inf,inf,-inf,0,0,false,,,,wax\r\n");
 }
 
 static void kinds_in_text(void **unused) {
     (void)unused;
-    assert_string_equal(written(FORM_TEXT, 0, 3),
-                        "of Eve\n"
-                        "word       mass    bound  share        more                 count\n"
-                        "ap\"ple      0.1     1.24   0.13 0.10000000000000001      9007199254740993\n"
-                        "-             -        -      -           -                     0\n"
-                        "            inf      inf   -inf         inf                     0\n"
-                        "  fruits  3\n"
-                        "  a label too long still apart\n"
-                        "  done\n");
+    static const char section[] =
+        "of Eve, A\n"
+        "word       mass    bound  share        more                 count  ripe   left\n"
+        "ap\"ple      0.1     1.24   0.10 0.10000000000000001      9007199254740993  true   7\n"
+        "-             -        -      -           -                     0  false  0\n"
+        "            inf      inf   -inf         inf                     0  false  0\n"
+        "  fruits  3\n"
+        "  a label too long still apart\n"
+        "  done\n";
+    char want[2 * sizeof section];
+    snprintf(want, sizeof want, "%s\n%s", section, section);
+    assert_string_equal(written(FORM_TEXT, 0, 3), want);
 }
 
-/* Notes break between words before column 96. */
+/* Notes break between words: the last that fits ends in column 96. */
 static void wrapped(void **unused) {
     (void)unused;
     static output out;
-    char text[256] = "",
-         words[] = "abcdefghij abcdefghij abcdefghij abcdefghij abcdefghij abcdefghij abcdefghij abcdefghij abcdefghij";
-    char path[] = "/tmp/depthprec-report-XXXXXX";
+    char text[256] = "", path[] = "/tmp/depthprec-report-XXXXXX";
+    static const char ten[] = "abcdefghi abcdefghi abcdefghi abcdefghi abcdefghi abcdefghi abcdefghi abcdefghi";
+    char words[128], want[256];
+    snprintf(words, sizeof words, "%s %s x", ten, "abcdefgh");
+    snprintf(want, sizeof want, "  label %s %s\n        x\n", ten, "abcdefgh");
     fclose(fdopen(mkstemp(path), "w"));
     assert_int_equal(output_open(&out, path), EXIT_FINE);
     page p = page_start(&out, 6);
@@ -253,9 +258,6 @@ static void wrapped(void **unused) {
     assert_true(fread(text, 1, sizeof text - 1, file) > 0);
     fclose(file);
     remove(path);
-    words[8 * 11 - 1] = '\0';
-    char want[256];
-    snprintf(want, sizeof want, "  label %s\n        abcdefghij\n", words);
     assert_string_equal(text, want);
 }
 

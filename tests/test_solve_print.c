@@ -84,7 +84,7 @@ static int ask(const asked *a, const char *path, char line[512]) {
     }
     static options o;
     int status = options_parse(&o, argc, argv);
-    if (status < 0)
+    if (status == EXIT_FINE)
         status = cmd_solve(&o);
     options_release(&o);
     FILE *in = fopen(path, "r");

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Every value that budget prints, against the library. */
 #include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
 
 #include "cli/remedy.h"
@@ -153,6 +154,105 @@ static size_t budget_columns(char text[2 * DP_CAUSE_COUNT][64], csv_column *out)
     return first + DP_CAUSE_COUNT + 1;
 }
 
+/* ---- Sentences --------------------------------------------------------------------------------------------------- */
+
+/* A number at the place of a text, with so many digits; `upward`: it is promised, so never below. Behind it. */
+static const char *number_in(const char *at, double want, int digits, bool upward) {
+    char *end;
+    const double got = strtod(at, &end), unit = pow(10, floor(log10(fabs(want))) - digits + 1);
+    if (end == at || !(fabs(got - want) <= (upward ? 1 : 0.5) * unit * (1 + 1e-9)) || (upward && got < want))
+        fail_msg("%.60s: should be %.17g", at, want);
+    return end;
+}
+
+static const char *words_in(const char *at, const char *words) {
+    if (strncmp(at, words, strlen(words)) != 0)
+        fail_msg("'%.60s' should begin with '%s'", at, words);
+    return at + strlen(words);
+}
+
+/* "  at z = 990 format takes 52 %: reversed depth would need 0.1 in place of 0.3": 6 and 4 digits. */
+static const char *advice_in(const char *at, const dp_setup *setup, const budget_case *c) {
+    dp_budget worst = {.separation = -1}, b;
+    double z = NAN, hopeless = NAN;
+    int largest = 0;
+    for (int k = 0; k < DEPTHS; k++) {
+        assert_int_equal(dp_budget_at(setup, c->z[k], &c->terms, &b), DP_OK);
+        if (isinf(b.separation) && isnan(hopeless))
+            hopeless = c->z[k];
+        if (isfinite(b.separation) && b.separation > worst.separation) {
+            worst = b;
+            z = c->z[k];
+        }
+    }
+    if (!isnan(hopeless)) {
+        at = number_in(words_in(at, "  at z = "), hopeless, 6, false);
+        at = words_in(at, " no separation is certain: what lies behind may share its code\n");
+    }
+    if (isnan(z))
+        return at;
+    for (int i = 1; i < DP_CAUSE_COUNT; i++)
+        largest = worst.cause[i] > worst.cause[largest] ? i : largest;
+    const remedy_result remedy = remedy_find(setup, &c->terms, z, (dp_cause)largest);
+    const double step = (double)nextafterf((float)z, HUGE_VALF) - (double)(float)z;
+    at = words_in(number_in(words_in(at, "  at z = "), z, 6, false), " ");
+    at = words_in(words_in(at, dp_cause_name((dp_cause)largest)), " takes ");
+    const double share = strtod(at, (char **)&at);
+    assert_true(fabs(share - 100 * worst.cause[largest] / worst.separation) <= 0.5 + 1e-9);
+    at = words_in(at, " %: ");
+    if (remedy.text != NULL) {
+        at = number_in(words_in(words_in(at, remedy.text), " would need "), remedy.separation, 4, true);
+        at = number_in(words_in(at, " in place of "), worst.separation, 4, true);
+    } else if (worst.separation < 2 * step) {
+        at = number_in(words_in(at, "nothing to gain, binary32 depths themselves are "), step, 4, false);
+        at = words_in(at, " apart there");
+    } else {
+        at = words_in(at, "nothing that could be chosen otherwise helps against it");
+    }
+    return words_in(at, "\n");
+}
+
+/* "  arithmetic (mesa) adds 171 % to the separation at z = 316.228: see --model fp32": 3 digits and 6. */
+static void choice_in(const char *at, const dp_setup *setup, const budget_case *c) {
+    dp_choice choice;
+    char arith[64] = "";
+    const double tolerance = strstr(c->options, "3%") != NULL ? 0.03 : 0.05;
+    assert_int_equal(dp_model_choose(setup, c->z, DEPTHS, tolerance, &choice), DP_OK);
+    const double share = choice.share[DP_MODEL_EXACT], z = choice.share_z[DP_MODEL_EXACT];
+    const bool enough = choice.model == DP_MODEL_EXACT;
+    if (setup->spec.arith != 0)
+        snprintf(arith, sizeof arith, " (%s)", dp_arith_get(setup->spec.arith)->name);
+    at = words_in(words_in(at, enough ? "  model exact is enough: arithmetic" : "  arithmetic"), arith);
+    if (share == 0) {
+        words_in(at, " adds nothing to the separation\n");
+        return;
+    }
+    if (isinf(share))
+        at = words_in(at, " leaves no separation certain at z = ");
+    else if (share >= 10)
+        at =
+            words_in(number_in(words_in(at, " makes the separation "), share + 1, 3, false), " times as large at z = ");
+    else
+        at = words_in(number_in(words_in(at, enough ? " adds at most " : " adds "), 100 * share, 3, false),
+                      " % to the separation at z = ");
+    at = number_in(at, z, 6, false);
+    words_in(at, enough                              ? "\n"
+                 : choice.model == DP_MODEL_STAGED   ? ": model staged is enough\n"
+                 : setup->spec.model == choice.model ? ": model fp32 is needed\n"
+                                                     : ": see --model fp32\n");
+}
+
+/* They stand below each table, the only lines that begin with two blanks and a word. */
+static void check_sentences(const char *text, const budget_case *c, const dp_setup *setups, size_t count) {
+    for (size_t i = 0; i < count; i++) {
+        while (*text != '\0' && !(strncmp(text, "  ", 2) == 0 && text[2] >= 'a' && text[2] <= 'z'))
+            text += strcspn(text, "\n") + 1;
+        text = advice_in(text, &setups[i], c);
+        choice_in(text, &setups[i], c);
+        text += strcspn(text, "\n") + 1;
+    }
+}
+
 static void test_budget(void **state) {
     (void)state;
     for (size_t i = 0; i < sizeof budgets / sizeof budgets[0]; i++) {
@@ -179,6 +279,7 @@ static void test_budget(void **state) {
         check_csv(&v, 0, arguments, columns, budget_columns(heads, columns), &lines);
         printed p = print_of("%s", arguments);
         check_text_table(&v, p.out, shown, budget_text_columns(c, texts, shown), &lines);
+        check_sentences(p.out, c, setups, n);
         printed_free(&p);
         values_free(&v);
         places_free(&lines);

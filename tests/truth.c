@@ -72,7 +72,7 @@ int truth_run(const char *const *arguments, size_t count) {
     const int kept = dup(STDERR_FILENO);
     assert_non_null(freopen(truth_path("said"), "w", stderr));
     int status = options_parse(&o, (int)count + 2, argv);
-    if (status < 0)
+    if (status == EXIT_FINE)
         status = cmd_texture(&o);
     options_release(&o);
     fflush(stderr);

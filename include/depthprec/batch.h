@@ -70,7 +70,7 @@ typedef struct dp_batch {
     struct dp_batch_numbers {
         double lo, hi, from, slope, scale, magic;
         uint64_t half;
-        int shift, cut, mantissa, bias;
+        int shift, cut, mantissa, bias, reversed, truncates;
         uint32_t rebias, code_max;
         double least_normal, top, to_near, to_far, den, steps, rest, width, first, last, before_width, first_width,
             last_width, after_width;

@@ -69,37 +69,37 @@ void setups_choose(const options *o, const depths *at, setups *s) {
 
 /* "adds 171 % to the separation at z = 316.228"; beyond tenfold a percentage says less than a factor. */
 static void effect(double share, double z, bool at_most, char *out, size_t size) {
-    char value[NUMBER_SIZE];
-    char depth[NUMBER_SIZE];
-    number_digits(share < 10.0 ? 100.0 * share : share + 1.0, 3, value);
-    number_digits(z, 6, depth);
+    const number_text depth = number_of(z, 6);
     if (isinf(share))
-        snprintf(out, size, "leaves no separation certain at z = %s", depth);
+        snprintf(out, size, "leaves no separation certain at z = %s", depth.text);
     else if (share >= 10.0)
-        snprintf(out, size, "makes the separation %s times as large at z = %s", value, depth);
+        snprintf(out, size, "makes the separation %s times as large at z = %s", number_of(share + 1.0, 3).text,
+                 depth.text);
     else
-        snprintf(out, size, "adds %s%s %% to the separation at z = %s", at_most ? "at most " : "", value, depth);
+        snprintf(out, size, "adds %s%s %% to the separation at z = %s", at_most ? "at most " : "",
+                 number_of(100.0 * share, 3).text, depth.text);
 }
 
-const char *choice_sentence(const choosing *c, char out[CHOICE_SENTENCE_SIZE]) {
+choice_words choice_sentence(const choosing *c) {
     const dp_choice *choice = &c->choice;
-    const char *subject = fullest(choice) == DP_MODEL_FP32 ? "arithmetic" : "rounding to binary32";
-    char name[NUMBER_SIZE] = "";
-    if (c->setup->spec.arith != 0 && fullest(choice) == DP_MODEL_FP32)
-        snprintf(name, sizeof name, " (%s)", dp_arith_get(c->setup->spec.arith)->name);
-    char what[CHOICE_SENTENCE_SIZE / 2];
-    const double share = choice->share[DP_MODEL_EXACT];
-    effect(share, choice->share_z[DP_MODEL_EXACT], choice->model == DP_MODEL_EXACT, what, sizeof what);
-    if (choice->model == DP_MODEL_EXACT) {
-        snprintf(out, CHOICE_SENTENCE_SIZE, "model exact is enough: %s%s %s", subject, name,
-                 share > 0.0 ? what : "adds nothing to the separation");
-        return out;
-    }
+    const bool arithmetic = fullest(choice) == DP_MODEL_FP32;
     const bool shown = c->setup->spec.model == choice->model;
-    snprintf(out, CHOICE_SENTENCE_SIZE, "%s%s %s: %s", subject, name, what,
-             choice->model == DP_MODEL_STAGED ? "model staged is enough"
-             : shown                          ? "model fp32 is needed"
-                                              : "see --model fp32");
+    const double share = choice->share[DP_MODEL_EXACT];
+    char subject[64] = "rounding to binary32";
+    char what[sizeof(choice_words) / 2];
+    choice_words out;
+    if (arithmetic)
+        snprintf(subject, sizeof subject, c->setup->spec.arith != 0 ? "arithmetic (%s)" : "arithmetic",
+                 dp_arith_get(c->setup->spec.arith)->name);
+    effect(share, choice->share_z[DP_MODEL_EXACT], choice->model == DP_MODEL_EXACT, what, sizeof what);
+    if (choice->model == DP_MODEL_EXACT)
+        snprintf(out.text, sizeof out.text, "model exact is enough: %s %s", subject,
+                 share > 0.0 ? what : "adds nothing to the separation");
+    else
+        snprintf(out.text, sizeof out.text, "%s %s: %s", subject, what,
+                 choice->model == DP_MODEL_STAGED ? "model staged is enough"
+                 : shown                          ? "model fp32 is needed"
+                                                  : "see --model fp32");
     return out;
 }
 

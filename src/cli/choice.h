@@ -17,7 +17,7 @@
 #include "depthprec/depthprec.h"
 #include "report/report.h"
 
-enum { CHOICE_BLOCK = 64, CHOICE_SENTENCE_SIZE = 256 };
+enum { CHOICE_BLOCK = 64 };
 
 typedef struct choosing {
     const dp_setup *setup;
@@ -38,11 +38,15 @@ choosing choose_at(const dp_setup *setup, double tolerance, const depths *at);
 /** Under --model auto, gives each set-up the model that is enough at these depths; else leaves all as they are. */
 void setups_choose(const options *o, const depths *at, setups *s);
 
+/** One sentence without a line end. */
+typedef struct choice_words {
+    char text[256];
+} choice_words;
+
 /**
- * One sentence without a line end: which model is enough and what decides it. The set-up's own model is taken into
- * account: it is not recommended again. @return out
+ * Which model is enough and what decides it. The set-up's own model is taken into account: it is not recommended again.
  */
-const char *choice_sentence(const choosing *c, char out[CHOICE_SENTENCE_SIZE]);
+choice_words choice_sentence(const choosing *c);
 
 /** What a model neglects of the separation, as a share, and the depth where it does; NaN where it neglects nothing. */
 typedef struct choice_share {

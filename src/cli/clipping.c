@@ -16,24 +16,20 @@ clipping clipping_of(const dp_setup *setup) {
     return (clipping){(double)znear, (double)zfar, !(znear == p.znear && zfar == p.zfar)};
 }
 
-static void warn(const dp_setup *setup, const clipping *c) {
+void clipping_say(const dp_setup *setup, double znear, double zfar, const char *rest) {
     char label[SETUP_LABEL_SIZE];
-    char from[NUMBER_SIZE];
-    char to[NUMBER_SIZE];
-    if (!c->loses)
-        return;
     setup_label(setup, false, label);
-    number_digits(c->znear, 9, from);
-    number_digits(c->zfar, 9, to);
-    if (isnan(c->znear))
+    if (isnan(znear))
         fprintf(stderr, "depthprec: warning: %s: clipping in binary32 loses everything\n", label);
     else
-        fprintf(stderr, "depthprec: warning: %s: clipping in binary32 keeps only %s to %s\n", label, from, to);
+        fprintf(stderr, "depthprec: warning: %s: clipping in binary32 keeps only %s to %s%s\n", label,
+                number_of(znear, 9).text, number_of(zfar, 9).text, rest);
 }
 
 void clipping_warn(const setups *all) {
     for (size_t i = 0; i < all->count; i++) {
-        clipping c = clipping_of(&all->items[i]);
-        warn(&all->items[i], &c);
+        const clipping c = clipping_of(&all->items[i]);
+        if (c.loses)
+            clipping_say(&all->items[i], c.znear, c.zfar, "");
     }
 }

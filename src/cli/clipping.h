@@ -16,7 +16,10 @@ typedef struct clipping {
 /** Of a set-up of the model fp32; NaN and false for the others. */
 clipping clipping_of(const dp_setup *setup);
 
-/** A line on stderr for each set-up that loses geometry. */
+/** A line on stderr: what clipping keeps, these planes and `rest` behind them, or nothing where znear is NaN. */
+void clipping_say(const dp_setup *setup, double znear, double zfar, const char *rest);
+
+/** The same for each set-up that loses geometry. */
 void clipping_warn(const setups *all);
 
 #endif

@@ -11,8 +11,6 @@
 #include "cli/walk.h"
 #include "report/number.h"
 
-int cmd_bias(const struct options *o);
-
 enum { DIGITS = 6, DIGITS_Z = 9 };
 
 /* What the bias does, or what one unit does and how many are enough. */
@@ -227,15 +225,12 @@ static const column columns[] = {{FIELD(biasing, api, "api", ""), .only = AS_JSO
 /* ---- The command ------------------------------------------------------------------------------------------------- */
 
 static int check_states(const options *o, const bias_api *api) {
-    char text[NUMBER_SIZE];
     const bool given = option_given(o, OPTION_UNITS);
     if (given && option_given(o, OPTION_GAP))
         return option_error(OPTION_UNITS, "must not be given together with --gap, which asks for them");
-    if (given && api->whole && !(o->units == nearbyint(o->units) && fabs(o->units) <= 0x1.fffffffcp30)) {
-        number_shortest(o->units, text);
+    if (given && api->whole && !(o->units == nearbyint(o->units) && fabs(o->units) <= 0x1.fffffffcp30))
         return option_error(OPTION_UNITS, "must be a whole number from -2147483647 to 2147483647 for %s, got %s",
-                            api->name, text);
-    }
+                            api->name, number_full(o->units).text);
     if (option_given(o, OPTION_CLAMP) && !api->clamps)
         return option_error(OPTION_CLAMP, "must not be given for %s, which has no clamp", api->name);
     if (option_given(o, OPTION_CLAMP) && !given)
@@ -254,7 +249,7 @@ static void drop_fp16(options *o) {
 
 int cmd_bias(const options *given) {
     options o = *given;
-    const bias_api *api = o.api != NULL ? o.api : bias_api_get(0);
+    const bias_api *api = o.api;
     biasing b = {.state = {api, o.units, o.factor, o.clamp},
                  .goal = {.api = api, .slope = o.slope, .gap = o.gap},
                  .inverse = !option_given(&o, OPTION_UNITS),
@@ -264,8 +259,9 @@ int cmd_bias(const options *given) {
     if (!option_given(&o, OPTION_FORMAT) && o.preset == NULL)
         drop_fp16(&o);
     int status = check_states(&o, api);
-    if (status == EXIT_FINE)
-        status = walk_start(&b.walk, &o);
+    if (status != EXIT_FINE)
+        return status;
+    status = walk_start(&b.walk, &o);
     if (status == EXIT_FINE)
         status = range_resolve(&o, &b.range_lo, &b.range_hi);
     const report_spec spec = {"bias", columns, &b, .when = conditions(&b), .label = 12};

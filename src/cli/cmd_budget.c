@@ -11,8 +11,6 @@
 #include "cli/walk.h"
 #include "report/number.h"
 
-int cmd_budget(const options *o);
-
 enum { DIGITS = 4, DIGITS_MORE = 6, DIGITS_Z = 9 };
 
 typedef struct row {
@@ -141,13 +139,12 @@ static void say_worst(page *p, const worst *w) {
 
 static void say_notes(page *p, void *item) {
     const budget *b = item;
-    char sentence[CHOICE_SENTENCE_SIZE];
     if (!isnan(b->hopeless))
         page_line(p, "at z = %s no separation is certain: what lies behind may share its code",
                   number_of(b->hopeless, DIGITS_MORE).text);
     if (b->worst != NULL)
         say_worst(p, b->worst);
-    page_line(p, "%s", choice_sentence(&b->choice, sentence));
+    page_line(p, "%s", choice_sentence(&b->choice).text);
 }
 
 /* ---- Columns ----------------------------------------------------------------------------------------------------- */

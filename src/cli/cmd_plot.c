@@ -2,7 +2,6 @@
 /* plot: a figure, drawn (SVG, PDF, PNG by the ending of -o) or as its numbers (--csv, --json). */
 #include <math.h>
 #include <stdio.h>
-#include <stdlib.h>
 #include <string.h>
 
 #include "cli/check_report.h"
@@ -15,8 +14,6 @@
 #include "plot/notes.h"
 #include "report/append.h"
 #include "report/number.h"
-
-int cmd_plot(const options *o);
 
 enum { WIDTH = 800, HEIGHT = 500 };
 
@@ -35,14 +32,6 @@ typedef struct plotting {
     need_file file;
     chart *chart;
 } plotting;
-
-bool list_figure(size_t index, list_item *item) {
-    const figure_row *row = figure_get(index);
-    if (row == NULL)
-        return false;
-    *item = (list_item){.name = row->name, .note = row->summary, .row = row};
-    return true;
-}
 
 /* The depth and range of the request; what this figure has no use for is refused rather than ignored. */
 static int resolve_depths(plotting *p) {
@@ -230,12 +219,10 @@ static int write_figure(const plotting *p) {
     if (c->title[0] == '\0')
         snprintf(c->title, sizeof c->title, "%s", p->row->title);
     bool good = !chart_failed(c);
-    if (good && o->form == FORM_JSON)
-        plot_data_json(&out, p->row->name, c);
-    else if (good && o->form == FORM_CSV)
-        plot_data_csv(&out, c);
-    else if (good)
+    if (good && o->form == FORM_TEXT)
         good = figure_file_write(o, o->output, c, p->request.columns, p->request.rows, &out);
+    else if (good)
+        plot_data_write(&out, o->form, p->row->name, c);
     if (good && o->verbose)
         say_evaluations(p->row, c);
     if (good)

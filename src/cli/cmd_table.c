@@ -12,8 +12,6 @@
 #include "method/ways.h"
 #include "report/number.h"
 
-int cmd_table(const options *o);
-
 /* Beyond fifteen digits a decimal shows its own rounding (0.10000000000000001). */
 enum { DIGITS_FEW = 6, DIGITS_USUAL = 9, DIGITS_DEPTH = 7, DIGITS_DEPTH_MOST = 10, DIGITS_MOST = 15 };
 
@@ -184,14 +182,13 @@ static void say_way(page *p, const way *w, double tolerance) {
 static void say_notes(page *p, void *item) {
     const table *t = item;
     const guarantee *g = t->guarantee;
-    char sentence[CHOICE_SENTENCE_SIZE];
     say_worst(p, t->worst);
     if (g != NULL)
         page_note(p, "worst separation", "%s at z = %s, %s", number_up(g->worst.bound, DIGITS_FEW).text,
                   number_of(g->worst.z, DIGITS_USUAL).text,
                   g->model == DP_MODEL_FP32 ? "guaranteed in binary32 (model fp32)" : "in the model staged");
     say_drawn(p, &t->planes);
-    page_line(p, "%s", choice_sentence(&t->choice, sentence));
+    page_line(p, "%s", choice_sentence(&t->choice).text);
     if (option_given(t->walk.o, OPTION_TOLERANCE))
         say_way(p, &t->interval, t->walk.o->tolerance);
 }

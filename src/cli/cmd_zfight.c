@@ -6,13 +6,9 @@
 #include <stdlib.h>
 
 #include "census/census.h"
-#include "cli/options.h"
-#include "cli/progress.h"
-#include "cli/setups.h"
+#include "cli/clipping.h"
+#include "cli/walk.h"
 #include "report/number.h"
-#include "report/report.h"
-
-int cmd_zfight(const options *o);
 
 /* A band, or all of them together, and what of it does not exist as NaN. */
 typedef struct band {
@@ -21,19 +17,14 @@ typedef struct band {
     double longest, used, clipped;
 } band;
 
-/* A census; below `progress`, what belongs to the set-up at hand. */
+/* A census, which walks over set-ups alone; below `before`, what belongs to the one at hand. */
 typedef struct zfight {
-    const options *o;
-    output *out;
-    setups all;
+    walk walk;
     census_result *results; /* one a set-up */
     const char *method;
     uint64_t seed;
     double gap, lo, hi;
     uint64_t before; /* depths of the set-ups that are finished */
-    progress progress;
-    const dp_setup *setup;
-    setup_fields fields;
     const census_result *result;
     band whole, band;
     int band_index;
@@ -49,33 +40,33 @@ static void interrupt(int number) {
 
 static int tick(void *context, uint64_t done) {
     zfight *z = context;
-    progress_step(&z->progress, z->before + done);
+    progress_step(&z->walk.progress, z->before + done);
     return interrupted != 0;
 }
 
 static uint64_t visits(const zfight *z) {
-    return z->o->sample > 0 ? z->o->sample : census_count(z->lo, z->hi);
+    return z->walk.o->sample > 0 ? z->walk.o->sample : census_count(z->lo, z->hi);
 }
 
 static census_status work(zfight *z, const dp_setup *setup, census_result *result) {
     const census_sample_request q = {.common = {.setup = setup,
                                                 .lo = z->lo,
                                                 .hi = z->hi,
-                                                .threads = z->o->threads,
+                                                .threads = z->walk.o->threads,
                                                 .bound = dp_separation,
                                                 .progress = tick,
                                                 .context = z},
-                                     .count = z->o->sample,
-                                     .seed = z->o->seed,
-                                     .gap = z->o->gap};
-    if (z->o->sample > 0 || z->o->gap > 0.0)
+                                     .count = z->walk.o->sample,
+                                     .seed = z->walk.o->seed,
+                                     .gap = z->walk.o->gap};
+    if (z->walk.o->sample > 0 || z->walk.o->gap > 0.0)
         return census_sample(&q, result);
     return census_run(&q.common, result);
 }
 
 static int work_all(zfight *z) {
-    for (size_t i = 0; i < z->all.count; i++) {
-        switch (work(z, &z->all.items[i], &z->results[i])) {
+    for (size_t i = 0; i < z->walk.all.count; i++) {
+        switch (work(z, &z->walk.all.items[i], &z->results[i])) {
         case CENSUS_DONE:
             break;
         case CENSUS_NO_MEMORY:
@@ -108,9 +99,9 @@ static band band_of(const zfight *z, const census_band *b) {
                 .longest = b->longest,
                 .used = b->slack,
                 .clipped = (double)b->clipped};
-    if (z->o->gap > 0.0)
+    if (z->walk.o->gap > 0.0)
         out.longest = out.used = (double)NAN;
-    if (z->o->gap > 0.0 || z->o->sample > 0) /* a sample would only count those that it drew */
+    if (z->walk.o->gap > 0.0 || z->walk.o->sample > 0) /* a sample would only count those that it drew */
         out.clipped = (double)NAN;
     return out;
 }
@@ -123,7 +114,7 @@ static void *next_band(void *of, size_t index) {
     while (z->band_index < z->result->band_count && is_empty(&z->result->bands[z->band_index]))
         z->band_index++;
     const int at = z->band_index++;
-    if (at > z->result->band_count || (at == z->result->band_count && z->o->form != FORM_TEXT))
+    if (at > z->result->band_count || (at == z->result->band_count && z->walk.o->form != FORM_TEXT))
         return NULL;
     z->band = band_of(z, at < z->result->band_count ? &z->result->bands[at] : &z->result->all);
     return &z->band;
@@ -131,19 +122,11 @@ static void *next_band(void *of, size_t index) {
 
 static void *next_setup(void *of, size_t i) {
     zfight *z = of;
-    if (i == z->all.count)
+    if (!walk_setup(&z->walk, i))
         return NULL;
     z->result = &z->results[i];
-    z->setup = &z->all.items[i];
-    z->fields = setup_fields_of(z->setup);
     z->whole = band_of(z, &z->result->all);
     return z;
-}
-
-static void say_setup(page *p, void *item) {
-    const zfight *z = item;
-    char label[SETUP_LABEL_SIZE];
-    page_title(p, "%s", setup_label(z->setup, true, label));
 }
 
 static void say_planes(page *p, void *item) {
@@ -193,8 +176,8 @@ static const column clipped_columns[] = {{FIELD(census_result, all.clipped, "cli
 
 /* CSV has a line a band. */
 static const column setup_report[] = {
-    {PART(zfight, fields, NULL, setup_columns)},
-    {FIELD(zfight, fields.arith, "arith", ""), .only = AS_CSV},
+    {PART(zfight, walk.fields, NULL, setup_columns)},
+    {FIELD(zfight, walk.fields.arith, "arith", ""), .only = AS_CSV},
     {FIELD(zfight, method, "method", "")},
     {FIELD(zfight, seed, "seed", ""), .only = AS_CSV},
     {FIELD(zfight, gap, "gap", "scene"), .only = AS_CSV},
@@ -209,35 +192,28 @@ static const column setup_report[] = {
     {PART(zfight, result, NULL, plane_columns), .only = AS_CSV, .pointed = true},
     {.kind = COLUMN_END}};
 
-static const column columns[] = {{LIST("setups", setup_report, next_setup), .head = say_setup, .notes = say_planes},
+static const column columns[] = {{LIST("setups", setup_report, next_setup), .head = walk_title, .notes = say_planes},
                                  {.kind = COLUMN_END}};
 
 /* ---- The command ------------------------------------------------------------------------------------------------- */
 
 /* Geometry that the user asked about and the hardware would not draw: worth a line, whatever the form of the data. */
 static void warn(const zfight *z) {
-    for (size_t i = 0; i < z->all.count && !z->o->quiet; i++) {
+    for (size_t i = 0; i < z->walk.all.count && !z->walk.o->quiet; i++) {
         const census_result *r = &z->results[i];
+        const double from = r->near_effective, to = r->far_effective;
         char label[SETUP_LABEL_SIZE];
-        const number_text from = number_of(r->near_effective, PLANE_DIGITS);
-        const number_text to = number_of(r->far_effective, PLANE_DIGITS);
-        uint64_t kept = isnan(r->near_effective) ? 0 : census_count(r->near_effective, r->far_effective);
-        if (kept == census_count(z->lo, z->hi) && r->holes == 0)
-            continue;
-        setup_label(&z->all.items[i], false, label);
-        if (kept == census_count(z->lo, z->hi))
-            fprintf(stderr, "depthprec: warning: %s: clipping in binary32 loses %llu depths between %s and %s\n", label,
-                    (unsigned long long)r->holes, from.text, to.text);
-        else if (kept == 0)
-            fprintf(stderr, "depthprec: warning: %s: clipping in binary32 loses everything\n", label);
-        else
-            fprintf(stderr, "depthprec: warning: %s: clipping in binary32 keeps only %s to %s%s\n", label, from.text,
-                    to.text, r->holes > 0 ? ", with holes" : "");
+        if (isnan(from) || census_count(from, to) < census_count(z->lo, z->hi))
+            clipping_say(&z->walk.all.items[i], from, to, r->holes > 0 ? ", with holes" : "");
+        else if (r->holes > 0)
+            fprintf(stderr, "depthprec: warning: %s: clipping in binary32 loses %llu depths between %s and %s\n",
+                    setup_label(&z->walk.all.items[i], false, label), (unsigned long long)r->holes,
+                    number_of(from, PLANE_DIGITS).text, number_of(to, PLANE_DIGITS).text);
     }
 }
 
 static int check(zfight *z) {
-    const options *o = z->o;
+    const options *o = z->walk.o;
     for (size_t i = 0; i < o->mapping_count; i++)
         if (dp_mapping_get(o->mappings[i])->curve != DP_CURVE_PERSPECTIVE)
             return option_error(OPTION_MAPPING, "zfight needs d3d, gl, reversed or gl-reversed, got '%s'",
@@ -246,7 +222,7 @@ static int check(zfight *z) {
         return option_error(OPTION_SEED, "needs --sample");
     options fp32 = *o;
     fp32.model = DP_MODEL_FP32;
-    int status = setups_make(&fp32, &z->all);
+    int status = setups_make(&fp32, &z->walk.all);
     if (status == EXIT_FINE)
         status = range_resolve(o, &z->lo, &z->hi);
     if (status == EXIT_FINE && isinf(z->hi))
@@ -264,38 +240,37 @@ static int run(zfight *z) {
     sigemptyset(&action.sa_mask);
     if (sigaction(SIGINT, NULL, &before) == 0 && before.sa_handler != SIG_IGN)
         sigaction(SIGINT, &action, NULL);
-    z->progress = progress_start("depths", z->all.count * visits(z), z->o->quiet);
+    z->walk.progress = progress_start("depths", z->walk.all.count * visits(z), z->walk.o->quiet);
     int status = work_all(z);
-    progress_end(&z->progress);
+    progress_end(&z->walk.progress);
     if (interrupted) {
-        output_abandon(z->out);
+        output_abandon(&z->walk.out);
         fprintf(stderr, "depthprec: interrupted: nothing was written\n");
         signal(SIGINT, SIG_DFL); /* the shell should see what ended us */
         raise(SIGINT);
     }
     if (status != EXIT_FINE) {
-        output_abandon(z->out);
+        output_abandon(&z->walk.out);
         return status;
     }
-    report_write(&(report_spec){"zfight", columns, z, .when = conditions(z->o)}, z->out, z->o->form);
+    report_write(&(report_spec){"zfight", columns, z, .when = conditions(z->walk.o)}, &z->walk.out, z->walk.o->form);
     warn(z);
-    return output_close(z->out);
+    return output_close(&z->walk.out);
 }
 
 int cmd_zfight(const options *o) {
-    output out;
-    zfight z = {.o = o, .out = &out, .method = o->sample > 0 ? "sample" : "census", .seed = o->seed, .gap = o->gap};
+    zfight z = {.walk.o = o, .method = o->sample > 0 ? "sample" : "census", .seed = o->seed, .gap = o->gap};
     int status = check(&z);
     if (status == EXIT_FINE) {
-        z.results = calloc(z.all.count, sizeof *z.results);
+        z.results = calloc(z.walk.all.count, sizeof *z.results);
         if (z.results == NULL)
-            status = usage_error("no memory for %zu set-ups", z.all.count);
+            status = usage_error("no memory for %zu set-ups", z.walk.all.count);
     }
     if (status == EXIT_FINE)
-        status = output_open(&out, o->output);
+        status = output_open(&z.walk.out, o->output);
     if (status == EXIT_FINE)
         status = run(&z);
     free(z.results);
-    setups_release(&z.all);
+    setups_release(&z.walk.all);
     return status;
 }

@@ -1,131 +1,111 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "cli/plot_data.h"
 
-#include <stdio.h>
-
 #include "plot/draw.h"
-#include "report/csv.h"
-#include "report/json.h"
+#include "report/report.h"
 
-static const char map_name[] = "map";
+typedef struct axis {
+    const char *key, *label, *unit, *scale;
+} axis;
 
-static void json_axis(json *j, const char *name, const chart_axis *axis) {
-    json_object(j, name);
-    json_string(j, "key", axis->key);
-    json_string(j, "label", axis->label);
-    json_string(j, "unit", axis->unit);
-    json_string(j, "scale", axis->scale == CHART_LOG ? "log" : "linear");
-    json_end(j);
-}
+/* A point of a series or a map; null where it lies on no such axis. */
+typedef struct point {
+    const double *x, *y, *second, *value;
+} point;
 
-static void json_series(json *j, const chart_panel *panel, const chart_series *s) {
-    json_object(j, NULL);
-    json_string(j, "name", s->name);
-    if (s->method != NULL)
-        json_string(j, "method", s->method);
-    json_array(j, "points");
-    for (size_t i = 0; i < s->count; i++) {
-        json_object(j, NULL);
-        json_number(j, panel->x.key, s->x[i]);
-        json_number(j, s->second ? panel->second.key : panel->y.key, s->y[i]);
-        json_end(j);
-    }
-    json_end(j);
-    json_end(j);
-}
-
-static void json_map(json *j, const chart *c, const chart_panel *panel) {
-    const chart_map *m = &panel->map;
-    json_object(j, NULL);
-    json_string(j, "name", map_name);
-    json_array(j, "points");
-    for (int row = 0; row < m->rows; row++)
-        for (int column = 0; column < m->columns; column++) {
-            json_object(j, NULL);
-            json_number(j, panel->x.key, m->x[column]);
-            json_number(j, panel->y.key, m->y[row]);
-            json_number(j, c->value.key, m->value[(size_t)row * (size_t)m->columns + (size_t)column]);
-            json_end(j);
-        }
-    json_end(j);
-    json_end(j);
-}
-
-void plot_data_json(output *out, const char *figure, const chart *c) {
+/* A chart; below `digest`, the panel, series and point at hand. */
+typedef struct plotted {
+    const chart *chart;
+    const char *figure, *title, *subtitle;
+    axis x, y, second, value;
     char digest[17];
-    json j = json_start(out, "plot");
-    draw_digest(c, digest);
-    json_string(&j, "figure", figure);
-    json_string(&j, "title", c->title);
-    json_string(&j, "subtitle", c->subtitle);
-    json_string(&j, "data", digest);
-    json_axis(&j, "x", &c->panels[0].x);
-    json_axis(&j, "y", &c->panels[0].y);
-    if (c->panels[0].second.label != NULL)
-        json_axis(&j, "second", &c->panels[0].second);
-    if (c->value.label != NULL)
-        json_axis(&j, "value", &c->value);
-    json_array(&j, "panels");
-    for (size_t p = 0; p < c->panel_count; p++) {
-        const chart_panel *panel = &c->panels[p];
-        json_object(&j, NULL);
-        json_string(&j, "title", panel->title);
-        json_array(&j, "series");
-        for (size_t s = 0; s < panel->series_count; s++)
-            json_series(&j, panel, &panel->series[s]);
-        if (panel->map.columns > 0)
-            json_map(&j, c, panel);
-        json_end(&j);
-        json_end(&j);
-    }
-    json_finish(&j);
+    const chart_panel *panel;
+    const char *panel_title, *name, *method;
+    const chart_series *series; /* null: the map */
+    point point;
+} plotted;
+
+static axis axis_of(const chart_axis *a) {
+    return (axis){a->key, a->label, a->unit, a->scale == CHART_LOG ? "log" : "linear"};
 }
 
-static void csv_head(csv *c, const chart_axis *axis) {
-    char text[CHART_TEXT];
-    if (axis->unit[0] == '\0')
-        snprintf(text, sizeof text, "%s", axis->key);
+static void *next_panel(void *of, size_t i) {
+    plotted *p = of;
+    if (i == p->chart->panel_count)
+        return NULL;
+    p->panel = &p->chart->panels[i];
+    p->panel_title = p->panel->title;
+    return p;
+}
+
+/* The map comes last. */
+static void *next_series(void *of, size_t i) {
+    plotted *p = of;
+    if (i == p->panel->series_count + (p->panel->map.columns > 0))
+        return NULL;
+    p->series = i < p->panel->series_count ? &p->panel->series[i] : NULL;
+    p->name = p->series != NULL ? p->series->name : "map";
+    p->method = p->series != NULL ? p->series->method : NULL;
+    return p;
+}
+
+static void *next_point(void *of, size_t i) {
+    plotted *p = of;
+    const chart_series *s = p->series;
+    const chart_map *m = &p->panel->map;
+    const size_t columns = (size_t)m->columns;
+    if (i == (s != NULL ? s->count : columns * (size_t)m->rows))
+        return NULL;
+    if (s == NULL)
+        p->point = (point){&m->x[i % columns], &m->y[i / columns], NULL, &m->value[i]};
     else
-        snprintf(text, sizeof text, "%s [%s]", axis->key, axis->unit);
-    csv_string(c, text);
+        p->point = (point){&s->x[i], s->second ? NULL : &s->y[i], s->second ? &s->y[i] : NULL, NULL};
+    return &p->point;
 }
 
-void plot_data_csv(output *out, const chart *c) {
-    csv lines = csv_start(out);
-    csv_string(&lines, "panel");
-    csv_string(&lines, "series");
-    csv_head(&lines, &c->panels[0].x);
-    csv_head(&lines, &c->panels[0].y);
-    const bool two = c->panels[0].second.label != NULL;
-    if (two)
-        csv_head(&lines, &c->panels[0].second);
-    if (c->value.label != NULL)
-        csv_head(&lines, &c->value);
-    csv_end(&lines);
-    for (size_t p = 0; p < c->panel_count; p++) {
-        const chart_panel *panel = &c->panels[p];
-        for (size_t s = 0; s < panel->series_count; s++)
-            for (size_t i = 0; i < panel->series[s].count; i++) {
-                csv_string(&lines, panel->title);
-                csv_string(&lines, panel->series[s].name);
-                csv_number(&lines, panel->series[s].x[i]);
-                if (panel->series[s].second)
-                    csv_string(&lines, "");
-                csv_number(&lines, panel->series[s].y[i]);
-                if (two && !panel->series[s].second)
-                    csv_string(&lines, "");
-                if (c->value.label != NULL)
-                    csv_string(&lines, "");
-                csv_end(&lines);
-            }
-        const chart_map *m = &panel->map;
-        for (int i = 0; i < m->columns * m->rows; i++) {
-            csv_string(&lines, panel->title);
-            csv_string(&lines, map_name);
-            csv_number(&lines, m->x[i % m->columns]);
-            csv_number(&lines, m->y[i / m->columns]);
-            csv_number(&lines, m->value[i]);
-            csv_end(&lines);
-        }
-    }
+static const column axis_columns[] = {{FIELD(axis, key, "key", "")},
+                                      {FIELD(axis, label, "label", "")},
+                                      {FIELD(axis, unit, "unit", "")},
+                                      {FIELD(axis, scale, "scale", "")},
+                                      {.kind = COLUMN_END}};
+
+enum { WITH_SECOND = 1, WITH_VALUE = 2 };
+
+void plot_data_write(output *out, output_form form, const char *figure, const chart *c) {
+    const chart_panel *first = &c->panels[0];
+    plotted p = {.chart = c,
+                 .figure = figure,
+                 .title = c->title,
+                 .subtitle = c->subtitle,
+                 .x = axis_of(&first->x),
+                 .y = axis_of(&first->y),
+                 .second = axis_of(&first->second),
+                 .value = axis_of(&c->value)};
+    const unsigned when = (first->second.label != NULL ? WITH_SECOND : 0) | (c->value.label != NULL ? WITH_VALUE : 0);
+    draw_digest(c, p.digest);
+    const column points[] = {{FIELD(point, x, p.x.key, p.x.unit), .optional = true},
+                             {FIELD(point, y, p.y.key, p.y.unit), .optional = true},
+                             {FIELD(point, second, p.second.key, p.second.unit), .optional = true, .when = WITH_SECOND},
+                             {FIELD(point, value, p.value.key, p.value.unit), .optional = true, .when = WITH_VALUE},
+                             {.kind = COLUMN_END}};
+    const column series[] = {{FIELD(plotted, name, "name", ""), .only = AS_JSON},
+                             {FIELD(plotted, name, "series", ""), .only = AS_CSV},
+                             {FIELD(plotted, method, "method", ""), .only = AS_JSON, .optional = true},
+                             {LIST("points", points, next_point)},
+                             {.kind = COLUMN_END}};
+    const column panels[] = {{FIELD(plotted, panel_title, "title", ""), .only = AS_JSON},
+                             {FIELD(plotted, panel_title, "panel", ""), .only = AS_CSV},
+                             {LIST("series", series, next_series)},
+                             {.kind = COLUMN_END}};
+    const column columns[] = {{FIELD(plotted, figure, "figure", ""), .only = AS_JSON},
+                              {FIELD(plotted, title, "title", ""), .only = AS_JSON},
+                              {FIELD(plotted, subtitle, "subtitle", ""), .only = AS_JSON},
+                              {FIELD(plotted, digest, "data", ""), .only = AS_JSON},
+                              {PART(plotted, x, "x", axis_columns), .only = AS_JSON},
+                              {PART(plotted, y, "y", axis_columns), .only = AS_JSON},
+                              {PART(plotted, second, "second", axis_columns), .only = AS_JSON, .when = WITH_SECOND},
+                              {PART(plotted, value, "value", axis_columns), .only = AS_JSON, .when = WITH_VALUE},
+                              {LIST("panels", panels, next_panel)},
+                              {.kind = COLUMN_END}};
+    report_write(&(report_spec){"plot", columns, &p, .when = when}, out, form);
 }

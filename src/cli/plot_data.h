@@ -6,10 +6,10 @@
 #include "plot/chart.h"
 #include "report/output.h"
 
-/** {"schema":"depthprec/1","command":"plot","figure":NAME, ...,"panels":[{"series":[{"name","points":[...]}]}]} */
-void plot_data_json(output *out, const char *figure, const chart *c);
-
-/** One line a point: panel, series, then a column per axis with its unit. */
-void plot_data_csv(output *out, const chart *c);
+/**
+ * JSON: {"schema":"depthprec/1","command":"plot","figure":NAME, ...,"panels":[{"series":[{"name","points":[...]}]}]}.
+ * CSV: one line a point: panel, series, then a column per axis with its unit.
+ */
+void plot_data_write(output *out, output_form form, const char *figure, const chart *c);
 
 #endif

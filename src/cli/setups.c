@@ -9,7 +9,6 @@
 #include "report/number.h"
 
 int setup_refused(const options *o, const dp_spec *spec, dp_status status) {
-    char znear[NUMBER_SIZE], zfar[NUMBER_SIZE];
     const char *mapping = dp_mapping_get(spec->mapping)->name;
     if (status == DP_ERROR_MODEL) { /* of the models that have a name, fp32 alone is not for all */
         const bool given = option_given(o, OPTION_MODEL);
@@ -24,9 +23,8 @@ int setup_refused(const options *o, const dp_spec *spec, dp_status status) {
     if (status == DP_ERROR_INFINITE || status == DP_ERROR_ORTHO)
         return option_error(status == DP_ERROR_ORTHO ? OPTION_ORTHO : OPTION_FAR, "%s, got %s, %s", text,
                             spec->ortho ? "orthographic" : "perspective", mapping);
-    number_shortest(spec->znear, znear);
-    number_shortest(spec->zfar, zfar);
-    return option_error(OPTION_FAR, "%s, got near %s, far %s", text, znear, zfar);
+    return option_error(OPTION_FAR, "%s, got near %s, far %s", text, number_full(spec->znear).text,
+                        number_full(spec->zfar).text);
 }
 
 int setups_make(const options *o, setups *out) {
@@ -60,7 +58,7 @@ void setups_release(setups *s) {
     s->count = 0;
 }
 
-const char *setup_projection(const dp_setup *setup) {
+static const char *setup_projection(const dp_setup *setup) {
     return setup->spec.ortho ? "orthographic" : "perspective";
 }
 
@@ -88,55 +86,14 @@ setup_fields setup_fields_of(const dp_setup *setup) {
                           .arith = spec->model == DP_MODEL_FP32 ? dp_arith_get(spec->arith)->name : NULL};
 }
 
-void setup_json(json *j, const dp_setup *setup) {
-    const dp_spec *spec = &setup->spec;
-    json_number(j, "near", spec->znear);
-    json_number(j, "far", spec->zfar);
-    json_string(j, "projection", setup_projection(setup));
-    json_string(j, "mapping", dp_mapping_get(spec->mapping)->name);
-    json_string(j, "format", spec->format.name);
-    json_string(j, "rounding", dp_rounding_name(spec->rounding));
-    json_string(j, "model", dp_model_name(spec->model));
-    if (spec->model == DP_MODEL_FP32)
-        json_string(j, "arith", dp_arith_get(spec->arith)->name);
-    if (spec->mapping == DP_MAPPING_LOG)
-        json_number(j, "log_c", spec->log_c);
-}
-
-void setup_csv_head(csv *c) {
-    static const char *const heads[] = {"near [scene]", "far [scene]", "projection", "mapping",
-                                        "format",       "rounding",    "model"};
-    for (size_t i = 0; i < sizeof heads / sizeof heads[0]; i++)
-        csv_string(c, heads[i]);
-}
-
-void setup_csv(csv *c, const dp_setup *setup) {
-    const dp_spec *spec = &setup->spec;
-    csv_number(c, spec->znear);
-    csv_number(c, spec->zfar);
-    csv_string(c, setup_projection(setup));
-    csv_string(c, dp_mapping_get(spec->mapping)->name);
-    csv_string(c, spec->format.name);
-    csv_string(c, dp_rounding_name(spec->rounding));
-    csv_string(c, dp_model_name(spec->model));
-}
-
 const char *setup_label(const dp_setup *setup, bool full, char out[SETUP_LABEL_SIZE]) {
-    const dp_spec *spec = &setup->spec;
-    const char *mapping = dp_mapping_get(spec->mapping)->name;
-    int length = snprintf(out, SETUP_LABEL_SIZE, "%s %s", spec->format.name, mapping);
-    if (!full)
-        return out;
-    char znear[NUMBER_SIZE];
-    char zfar[NUMBER_SIZE];
-    char log_c[NUMBER_SIZE + 4] = "";
-    number_shortest(spec->znear, znear);
-    number_shortest(spec->zfar, zfar);
-    if (spec->mapping == DP_MAPPING_LOG)
-        number_shortest(spec->log_c, log_c + sprintf(log_c, " C "));
-    const bool arith = spec->model == DP_MODEL_FP32;
-    snprintf(out + length, SETUP_LABEL_SIZE - (size_t)length, "%s, near %s, far %s, %s, %s, %s%s%s", log_c, znear, zfar,
-             setup_projection(setup), dp_rounding_name(spec->rounding), dp_model_name(spec->model), arith ? " " : "",
-             arith ? dp_arith_get(spec->arith)->name : "");
+    const setup_fields f = setup_fields_of(setup);
+    const int length = snprintf(out, SETUP_LABEL_SIZE, "%s %s", f.format, f.mapping);
+    const bool has_log_c = !isnan(f.log_c), has_arith = f.arith != NULL;
+    if (full)
+        snprintf(out + length, SETUP_LABEL_SIZE - (size_t)length, "%s%s, near %s, far %s, %s, %s, %s%s%s",
+                 has_log_c ? " C " : "", has_log_c ? number_full(f.log_c).text : "", number_full(f.znear).text,
+                 number_full(f.zfar).text, f.projection, f.rounding, f.model, has_arith ? " " : "",
+                 has_arith ? f.arith : "");
     return out;
 }

@@ -6,8 +6,6 @@
 #include <stddef.h>
 
 #include "cli/options.h"
-#include "report/csv.h"
-#include "report/json.h"
 #include "report/report.h"
 
 typedef struct setups {
@@ -39,14 +37,9 @@ enum { SETUP_LABEL_SIZE = 160 };
 const char *setup_label(const dp_setup *setup, bool full, char out[SETUP_LABEL_SIZE]);
 
 /**
- * What names a set-up in JSON and CSV: near, far, projection, mapping, format, rounding, model. In JSON, into the
- * object that is open; `arith` follows where the model is fp32, `log_c` where the mapping is log.
+ * What names a set-up in JSON and CSV: near, far, projection, mapping, format, rounding, model. In JSON `arith` follows
+ * where the model is fp32, `log_c` where the mapping is log.
  */
-void setup_json(json *j, const dp_setup *setup);
-void setup_csv_head(csv *c);
-void setup_csv(csv *c, const dp_setup *setup);
-
-/** The same as an item of a report. In JSON `arith` and `log_c` are left out where they do not exist. */
 typedef struct setup_fields {
     double znear, zfar, log_c; /**< log_c is NaN unless the mapping is log */
     const char *projection, *mapping, *format, *rounding, *model;
@@ -57,8 +50,5 @@ extern const column setup_columns[];
 
 /** Points into the set-up, which must stay where it is. */
 setup_fields setup_fields_of(const dp_setup *setup);
-
-/** "perspective" or "orthographic". */
-const char *setup_projection(const dp_setup *setup);
 
 #endif

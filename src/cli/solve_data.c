@@ -1,153 +1,247 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* What solve found, for programs: JSON and CSV. */
+/* What solve found, in columns: JSON, CSV and the table of alternatives. */
 #include <math.h>
+#include <stdio.h>
+#include <string.h>
 
 #include "cli/setups.h"
 #include "cli/solve_report.h"
-#include "report/csv.h"
-#include "report/json.h"
 
-static const char *measure_name(const solve_report *r) {
+/* A line of CSV is the answer, an earlier island of it in the lattice or an alternative. */
+static const char ANSWER[] = "answer", ISLAND[] = "island", ALTERNATIVE[] = "alternative";
+
+/* What was found about a candidate; parts that are not asked for or do not exist are null. */
+typedef struct candidate {
+    solve_candidate found;
+    setup_fields setup;
+    double separation_fp32;
+    const plane_answer *plane;                /* where one was found */
+    const double *lattice_near, *lattice_far; /* where it was solved for */
+    double distance, lattice_distance;        /* NaN where it does not hold at all */
+    char plane_text[NUMBER_SIZE], ideal_text[NUMBER_SIZE];
+    const char *role;
+    double from, to, steady;
+} candidate;
+
+typedef struct solving {
+    const solve_report *report;
+    const char *target, *measure;
+    double limit, lo, hi;
+    bool possible;
+    dp_setup setup; /* of the candidate */
+    candidate candidate;
+} solving;
+
+const char *solve_measure_name(const solve_report *r) {
     return r->kind == MEASURE_ERROR ? "error" : "separation";
 }
 
-static double not_a_number(void) {
-    return (double)NAN;
-}
-
-/* ---- JSON -------------------------------------------------------------------------------------------------------- */
-
-/* What was found about a plane: where it ends, what was tried, and what is known of the values beyond it. */
-static void json_plane(json *j, const solve_candidate *c) {
-    json_number(j, "until", c->plane.until);
-    json_number(j, "steady", c->plane.steady);
-    json_integer(j, "tried", c->plane.tried);
-    json_integer(j, "passed", c->plane.passed);
-    json_bool(j, "certain", c->plane.certain);
-    json_number(j, "fails_to", c->plane.fails_to);
-}
-
-static void json_lattice(json *j, const solve_report *r, const solve_candidate *c) {
-    json_object(j, "lattice");
-    json_bool(j, "possible", c->lattice.possible);
-    if (c->solved)
-        json_number(j, c->unknown == SOLVE_NEAR ? "near" : "far", c->lattice.value);
-    if (r->target == SOLVE_FOR_DISTANCE)
-        json_number(j, "distance", c->lattice.possible ? c->lattice.value : not_a_number());
-    json_number(j, measure_name(r), c->lattice.reached.value);
-    json_number(j, "z", c->lattice.reached.z);
-    json_end(j);
-}
-
-static void json_candidate(json *j, const solve_report *r, const solve_candidate *c) {
+double solve_in_binary32(const solve_report *r, const solve_candidate *c) {
     dp_setup setup;
-    if (dp_setup_init(&setup, &c->spec) == DP_OK)
-        setup_json(j, &setup);
-    json_bool(j, "possible", c->possible);
-    json_number(j, measure_name(r), c->reached.value);
-    json_number(j, "z", c->reached.z);
-    json_number(j, "separation_fp32", solve_in_binary32(r, c));
-    if (c->solved && c->possible)
-        json_plane(j, c);
-    if (r->target == SOLVE_FOR_DISTANCE) {
-        json_number(j, "distance", c->possible ? c->distance.value : not_a_number());
-        json_bool(j, "throughout", c->distance.throughout);
-        json_number(j, "fails_from", c->distance.fails);
-    }
-    json_lattice(j, r, c);
-    json_integer(j, "bytes", (uint64_t)c->price.bytes);
-    json_string(j, "available", c->price.available);
-    json_string(j, "caution", c->price.caution);
-    json_string(j, "effort", c->price.effort);
+    dp_budget budget;
+    return r->kind == MEASURE_SEPARATION && dp_setup_init(&setup, &c->spec) == DP_OK &&
+                   dp_budget_at(&setup, c->reached.z, NULL, &budget) == DP_OK
+               ? budget.separation
+               : (double)NAN;
 }
 
-void solve_report_json(const solve_report *r, output *out) {
-    const solve_candidate *answer = &r->items[0];
-    json j = json_start(out, "solve");
-    json_string(&j, "for", option_word(OPTION_FOR, r->target));
-    json_string(&j, "measure", measure_name(r));
-    json_number(&j, "limit", r->limit);
-    json_number(&j, "lo", r->lo);
-    json_number(&j, "hi", r->hi);
-    json_bool(&j, "possible", answer->possible);
-    json_object(&j, "answer");
-    json_candidate(&j, r, answer);
-    json_end(&j);
-    json_array(&j, "islands");
-    for (int i = 0; i < answer->island_count; i++) {
-        json_object(&j, NULL);
-        json_number(&j, "lo", r->islands[i].lo);
-        json_number(&j, "hi", r->islands[i].hi);
-        json_end(&j);
-    }
-    json_end(&j);
-    json_array(&j, "alternatives");
-    for (size_t i = 1; i < r->count; i++) {
-        json_object(&j, NULL);
-        json_candidate(&j, r, &r->items[i]);
-        json_end(&j);
-    }
-    json_end(&j);
-    json_finish(&j);
+static void take_candidate(solving *s, const solve_candidate *c) {
+    candidate *x = &s->candidate;
+    const bool solved = c->solved && c->possible;
+    *x = (candidate){.found = *c,
+                     .separation_fp32 = solve_in_binary32(s->report, c),
+                     .distance = c->possible ? c->distance.value : (double)NAN,
+                     .lattice_distance = c->lattice.possible ? c->lattice.value : (double)NAN,
+                     .steady = solved ? c->plane.steady : (double)NAN};
+    x->plane = solved ? &x->found.plane : NULL;
+    *(c->unknown == SOLVE_NEAR ? &x->lattice_near : &x->lattice_far) = c->solved ? &x->found.lattice.value : NULL;
+    s->setup = (dp_setup){.spec = c->spec};
+    x->setup = setup_fields_of(&s->setup);
 }
 
-/* ---- CSV: the answer, its earlier islands in the lattice, the alternatives --------------------------------------- */
+/* ---- The table of alternatives ----------------------------------------------------------------------------------- */
 
-static void csv_candidate(csv *c, const solve_report *r, const solve_candidate *item, const char *role, double from,
-                          double to) {
-    dp_setup setup;
-    dp_spec spec = item->spec;
-    const bool island = role[0] == 'i';
-    if (island) /* of the lattice */
-        spec.model = DP_MODEL_EXACT;
-    if (dp_setup_init(&setup, &spec) != DP_OK)
-        return;
-    csv_string(c, role);
-    setup_csv(c, &setup);
-    csv_string(c, option_word(OPTION_FOR, r->target));
-    csv_string(c, item->possible ? "true" : "false");
-    csv_string(c, measure_name(r));
-    csv_number(c, r->limit);
-    csv_number(c, item->reached.value);
-    csv_number(c, item->reached.z);
-    csv_number(c, from);
-    csv_number(c, to);
-    csv_integer(c, (uint64_t)item->price.bytes);
-    csv_string(c, item->price.available);
-    csv_number(c, item->solved && item->possible && !island ? item->plane.steady : not_a_number());
-    csv_number(c, item->lattice.value);
-    csv_number(c, item->lattice.reached.value);
-    csv_end(c);
+/* Its plane or distance, or what it reaches; and the same in the lattice. */
+static void write_cells(const solve_report *r, candidate *x) {
+    const solve_candidate *c = &x->found;
+    const bool by_plane = r->target == SOLVE_FOR_NEAR || r->target == SOLVE_FOR_FAR || r->target == SOLVE_FOR_DISTANCE;
+    const double ideal = by_plane ? c->lattice.value : c->lattice.reached.value;
+    const bool upward = !by_plane || r->target == SOLVE_FOR_NEAR;
+    number_text plane = {"none"}, lattice = {"none"};
+    if (c->possible && r->target == SOLVE_FOR_DISTANCE)
+        plane = number_down(c->distance.value, SOLVE_DIGITS);
+    else if (c->possible && c->solved)
+        plane = solve_safe_digits(r, c, solve_plane_of(c), c->plane.until);
+    else if (c->possible)
+        plane = number_of(r->target == SOLVE_FOR_FAR ? c->spec.zfar : c->spec.znear, SOLVE_DIGITS);
+    if (c->lattice.possible || !by_plane)
+        lattice = upward ? number_up(ideal, SOLVE_DIGITS) : number_down(ideal, SOLVE_DIGITS);
+    strcpy(x->plane_text, plane.text);
+    strcpy(x->ideal_text, lattice.text);
 }
 
-void solve_report_csv(const solve_report *r, output *out) {
-    static const char *const heads[] = {"for",
-                                        "possible",
-                                        "measure",
-                                        "limit [scene]",
-                                        "value [scene]",
-                                        "z [scene]",
-                                        "from [scene]",
-                                        "to [scene]",
-                                        "bytes",
-                                        "available",
-                                        "steady [scene]",
-                                        "lattice [scene]",
-                                        "lattice value [scene]"};
-    const bool distance = r->target == SOLVE_FOR_DISTANCE;
-    csv c = csv_start(out);
-    csv_string(&c, "role");
-    setup_csv_head(&c);
-    for (size_t i = 0; i < sizeof heads / sizeof heads[0]; i++)
-        csv_string(&c, heads[i]);
-    csv_end(&c);
-    for (size_t i = 0; i < r->count; i++) {
-        const solve_candidate *item = &r->items[i];
-        const bool solved = item->solved && item->possible;
-        const double a = solved ? solve_plane_of(item) : distance && item->possible ? r->lo : not_a_number();
-        const double b = solved ? item->plane.until : distance && item->possible ? item->distance.value : a;
-        csv_candidate(&c, r, item, i == 0 ? "answer" : "alternative", fmin(a, b), fmax(a, b));
-        for (int k = 0; i == 0 && k + 1 < item->island_count; k++)
-            csv_candidate(&c, r, item, "island", r->islands[k].lo, r->islands[k].hi);
+static void *next_alternative(void *of, size_t i) {
+    solving *s = of;
+    if (i + 1 >= s->report->count)
+        return NULL;
+    take_candidate(s, &s->report->items[i + 1]);
+    if (s->report->o->form == FORM_TEXT)
+        write_cells(s->report, &s->candidate);
+    return &s->candidate;
+}
+
+static void say_answer(page *p, void *item) {
+    solve_report_answer(p, ((const solving *)item)->report);
+}
+
+static void say_others(page *p, void *item) {
+    const solve_report *r = ((const solving *)item)->report;
+    if (r->count > 1)
+        output_text(p->out, r->target == SOLVE_FOR_SEPARATION ? "\nOthers\n" : "\nAlternatives, cheapest first\n");
+}
+
+/* The first possible alternative with its format, so that a caution is said once. */
+static bool is_first_of_format(const solve_report *r, size_t index) {
+    for (size_t i = 1; i < index; i++)
+        if (r->items[i].possible && strcmp(r->items[i].spec.format.name, r->items[index].spec.format.name) == 0)
+            return false;
+    return true;
+}
+
+static void say_cautions(page *p, void *item) {
+    const solve_report *r = ((const solving *)item)->report;
+    for (size_t i = 1; i < r->count && r->target != SOLVE_FOR_SEPARATION; i++)
+        if (is_first_of_format(r, i) && r->items[i].possible && r->items[i].price.caution[0] != '\0')
+            page_line(p, "%s", r->items[i].price.caution);
+}
+
+/* ---- CSV --------------------------------------------------------------------------------------------------------- */
+
+static void *next_island(void *of, size_t i) {
+    solving *s = of;
+    return i < (size_t)s->report->items[0].island_count ? &s->report->islands[i] : NULL;
+}
+
+/* The last island is that of the answer itself. */
+static void *next_line(void *of, size_t i) {
+    solving *s = of;
+    const solve_report *r = s->report;
+    candidate *x = &s->candidate;
+    const size_t islands = r->items[0].island_count > 0 ? (size_t)r->items[0].island_count - 1 : 0;
+    const bool is_island = i > 0 && i <= islands;
+    if (i == r->count + islands)
+        return NULL;
+    take_candidate(s, &r->items[i > islands ? i - islands : 0]);
+    x->role = i == 0 ? ANSWER : is_island ? ISLAND : ALTERNATIVE;
+    if (is_island) { /* of the lattice */
+        s->setup.spec.model = DP_MODEL_EXACT;
+        x->setup = setup_fields_of(&s->setup);
+        x->from = r->islands[i - 1].lo;
+        x->to = r->islands[i - 1].hi;
+        x->steady = (double)NAN;
+        return s;
     }
+    const bool holds = r->target == SOLVE_FOR_DISTANCE && x->found.possible;
+    const double a = x->plane != NULL ? solve_plane_of(&x->found) : holds ? r->lo : (double)NAN;
+    const double b = x->plane != NULL ? x->plane->until : holds ? x->distance : a;
+    x->from = fmin(a, b);
+    x->to = fmax(a, b);
+    return s;
+}
+
+/* ---- Columns ----------------------------------------------------------------------------------------------------- */
+
+enum { OF_SEPARATION = 1, OF_OTHERS = 2, OF_DISTANCE = 4 };
+
+static const column plane_columns[] = {{FIELD(plane_answer, until, "until", "scene")},
+                                       {FIELD(plane_answer, steady, "steady", "scene")},
+                                       {FIELD(plane_answer, tried, "tried", "")},
+                                       {FIELD(plane_answer, passed, "passed", "")},
+                                       {FIELD(plane_answer, certain, "certain", "")},
+                                       {FIELD(plane_answer, fails_to, "fails_to", "scene")},
+                                       {.kind = COLUMN_END}};
+
+static const column island_columns[] = {
+    {FIELD(solve_island, lo, "lo", "scene")}, {FIELD(solve_island, hi, "hi", "scene")}, {.kind = COLUMN_END}};
+
+static const column line_columns[] = {{FIELD(solving, candidate.role, "role", "")},
+                                      {PART(solving, candidate.setup, NULL, setup_columns)},
+                                      {FIELD(solving, target, "for", "")},
+                                      {FIELD(solving, candidate.found.possible, "possible", "")},
+                                      {FIELD(solving, measure, "measure", "")},
+                                      {FIELD(solving, limit, "limit", "scene")},
+                                      {FIELD(solving, candidate.found.reached.value, "value", "scene")},
+                                      {FIELD(solving, candidate.found.reached.z, "z", "scene")},
+                                      {FIELD(solving, candidate.from, "from", "scene")},
+                                      {FIELD(solving, candidate.to, "to", "scene")},
+                                      {FIELD(solving, candidate.found.price.bytes, "bytes", "")},
+                                      {FIELD(solving, candidate.found.price.available, "available", "")},
+                                      {FIELD(solving, candidate.steady, "steady", "scene")},
+                                      {FIELD(solving, candidate.found.lattice.value, "lattice", "scene")},
+                                      {FIELD(solving, candidate.found.lattice.reached.value, "lattice value", "scene")},
+                                      {.kind = COLUMN_END}};
+
+static unsigned conditions(const solve_report *r) {
+    return (r->target == SOLVE_FOR_SEPARATION ? OF_SEPARATION : OF_OTHERS) |
+           (r->target == SOLVE_FOR_DISTANCE ? OF_DISTANCE : 0);
+}
+
+/* What is measured names a column, and what is solved for another. */
+void solve_report_write(const solve_report *r, output *out) {
+    static const char *const heads[] = {"least near", "largest far", "near", "near", "", "distance"};
+    solving s = {.report = r,
+                 .target = option_word(OPTION_FOR, r->target),
+                 .measure = solve_measure_name(r),
+                 .limit = r->limit,
+                 .lo = r->lo,
+                 .hi = r->hi,
+                 .possible = r->items[0].possible};
+    const column lattice[] = {{FIELD(candidate, found.lattice.possible, "possible", "")},
+                              {FIELD(candidate, lattice_near, "near", "scene"), .optional = true},
+                              {FIELD(candidate, lattice_far, "far", "scene"), .optional = true},
+                              {FIELD(candidate, lattice_distance, "distance", "scene"), .when = OF_DISTANCE},
+                              {FIELD(candidate, found.lattice.reached.value, s.measure, "scene")},
+                              {FIELD(candidate, found.lattice.reached.z, "z", "scene")},
+                              {.kind = COLUMN_END}};
+    const column about[] = {{PART(candidate, setup, NULL, setup_columns)},
+                            {FIELD(candidate, found.possible, "possible", "")},
+                            {FIELD(candidate, found.reached.value, s.measure, "scene")},
+                            {FIELD(candidate, found.reached.z, "z", "scene")},
+                            {FIELD(candidate, separation_fp32, "separation_fp32", "scene")},
+                            {PART(candidate, plane, NULL, plane_columns), .pointed = true},
+                            {FIELD(candidate, distance, "distance", "scene"), .when = OF_DISTANCE},
+                            {FIELD(candidate, found.distance.throughout, "throughout", ""), .when = OF_DISTANCE},
+                            {FIELD(candidate, found.distance.fails, "fails_from", "scene"), .when = OF_DISTANCE},
+                            {GROUP("lattice", lattice)},
+                            {FIELD(candidate, found.price.bytes, "bytes", "")},
+                            {FIELD(candidate, found.price.available, "available", "")},
+                            {FIELD(candidate, found.price.caution, "caution", "")},
+                            {FIELD(candidate, found.price.effort, "effort", "")},
+                            {.kind = COLUMN_END}};
+    const column beside[] = {{TEXT_FIELD(candidate, setup.format, "format", -10, 0)},
+                             {TEXT_FIELD(candidate, setup.mapping, "mapping", -11, 0)},
+                             {TEXT_FIELD(candidate, setup.model, "model", -6, 0)},
+                             {TEXT_FIELD(candidate, plane_text, heads[r->target], 13, 0), .when = OF_OTHERS},
+                             {TEXT_FIELD(candidate, ideal_text, "lattice", 13, 0), .when = OF_OTHERS},
+                             {TEXT_FIELD(candidate, found.reached.value, s.measure, 13, SOLVE_DIGITS), .upward = true},
+                             {TEXT_FIELD(candidate, ideal_text, "lattice", 13, 0), .when = OF_SEPARATION},
+                             {TEXT_FIELD(candidate, found.price.bytes, "bytes", 7, 0), .when = OF_OTHERS},
+                             {TEXT_FIELD(candidate, found.price.available, "to be had", -1, 0), .when = OF_OTHERS},
+                             {.kind = COLUMN_END}};
+    const column columns[] = {
+        {FIELD(solving, target, "for", ""), .only = AS_JSON},
+        {FIELD(solving, measure, "measure", ""), .only = AS_JSON},
+        {FIELD(solving, limit, "limit", ""), .only = AS_JSON},
+        {FIELD(solving, lo, "lo", "scene"), .only = AS_JSON},
+        {FIELD(solving, hi, "hi", "scene"), .only = AS_JSON},
+        {FIELD(solving, possible, "possible", ""), .only = AS_JSON},
+        {PART(solving, candidate, "answer", about), .only = AS_JSON},
+        {LIST("islands", island_columns, next_island), .only = AS_JSON},
+        {LIST("alternatives", about, next_alternative), .only = AS_JSON},
+        {LIST(NULL, beside, next_alternative), .only = AS_TEXT, .indent = 2, .head = say_others, .notes = say_cautions},
+        {LIST(NULL, line_columns, next_line), .only = AS_CSV},
+        {.kind = COLUMN_END}};
+    const report_spec spec = {"solve", columns, &s, .when = conditions(r), .label = 15, .head = say_answer};
+    take_candidate(&s, &r->items[0]);
+    report_write(&spec, out, r->o->form);
 }

@@ -7,6 +7,8 @@
 #include "cli/options.h"
 #include "need/distance.h"
 #include "need/plane.h"
+#include "report/number.h"
+#include "report/report.h"
 
 /** What real arithmetic would need: the same question in the model exact. */
 typedef struct solve_lattice {
@@ -47,9 +49,21 @@ typedef struct solve_report {
 /** Writes it in the form that the options ask for. */
 void solve_report_write(const solve_report *r, output *out);
 
-/** The forms for programs. */
-void solve_report_json(const solve_report *r, output *out);
-void solve_report_csv(const solve_report *r, output *out);
+/* ---- What the files of the report share -------------------------------------------------------------------------- */
+
+enum { SOLVE_DIGITS = 6 };
+
+/** The answer in sentences, and what stands behind it. */
+void solve_report_answer(page *p, const solve_report *r);
+
+/** "separation" or "error". */
+const char *solve_measure_name(const solve_report *r);
+
+/**
+ * The fewest digits, six or more, of a plane between `value` and `until`, which lies on its safe side: typed in again
+ * they pass, which is tried and not concluded.
+ */
+number_text solve_safe_digits(const solve_report *r, const solve_candidate *c, double value, double until);
 
 static inline double solve_plane_of(const solve_candidate *c) {
     return c->unknown == SOLVE_NEAR ? c->spec.znear : c->spec.zfar;

@@ -7,18 +7,13 @@
 
 #include <math.h>
 #include <stdio.h>
-#include <string.h>
-#include <unistd.h>
 
 #include "cli/names.h"
 #include "cli/options.h"
-#include "cli/progress.h"
-#include "cli/setups.h"
-#include "report/csv.h"
-#include "report/json.h"
+#include "cli/walk.h"
 #include "report/number.h"
 
-enum { DEFAULT_ROWS = 9, DIGITS = 6, DIGITS_Z = 9 };
+enum { DIGITS = 6, DIGITS_Z = 9 };
 
 static const double ONE_LEVEL = 1;
 
@@ -38,13 +33,10 @@ static int set_parameter(const effect_row *row, const named_number *given, doubl
     if (index < 0)
         return unknown_parameter(row, given->name);
     const effect_parameter *p = &row->parameters[index];
-    if (!(given->value >= p->lo && given->value <= p->hi)) {
-        char value[NUMBER_SIZE], lo[NUMBER_SIZE], hi[NUMBER_SIZE];
-        number_shortest(given->value, value);
-        number_digits(p->lo, DIGITS, lo);
-        number_digits(p->hi, DIGITS, hi);
-        return option_error(OPTION_PARAMETER, "%s must be from %s to %s, got %s", p->name, lo, hi, value);
-    }
+    if (!(given->value >= p->lo && given->value <= p->hi))
+        return option_error(OPTION_PARAMETER, "%s must be from %s to %s, got %s", p->name,
+                            number_of(p->lo, DIGITS).text, number_of(p->hi, DIGITS).text,
+                            number_full(given->value).text);
     parameters[index] = given->value;
     return EXIT_FINE;
 }
@@ -60,208 +52,125 @@ int texture_effect_resolve(const options *o, const effect_row **row, double para
 
 /* ---- The table --------------------------------------------------------------------------------------------------- */
 
-typedef struct report {
-    const options *o;
-    output *out;
-    setups all;
-    depths at;
-    const effect_row *effect;
-    const effect_parameter *wanted;
-    double parameters[EFFECT_PARAMETERS_MAX];
-    progress progress;
-    uint64_t done;
-} report;
-
 typedef struct row {
     dp_sample sample;
     double levels, usable;
 } row;
 
-/* What is usable at all depths shown, and the depth that decides; NaN when at one of them nothing is. */
-typedef struct summary {
-    double usable, z;
+/* Below `row`, what is usable at all depths shown, and the depth that decides; NaN when at one of them nothing is. */
+typedef struct table {
+    walk walk;
+    const effect_row *effect;
+    const effect_parameter *wanted;
+    const char *name, *wanted_name, *direction;
+    double parameters[EFFECT_PARAMETERS_MAX];
+    struct parameter {
+        const char *name, *unit;
+        double value;
+    } parameter;
+    row row;
     bool begun;
-} summary;
+    double usable, z;
+} table;
 
-static void summary_add(summary *s, const report *r, const row *x) {
-    const bool decides = isnan(x->usable) || (r->effect->smallest ? x->usable > s->usable : x->usable < s->usable);
-    if (s->begun && (isnan(s->usable) || !decides))
-        return;
-    *s = (summary){x->usable, x->sample.z, true};
+static void *next_setup(void *of, size_t i) {
+    table *t = of;
+    t->begun = false;
+    return walk_setup(&t->walk, i) ? t : NULL;
 }
 
-static summary each_row(report *r, const dp_setup *setup,
-                        void (*emit)(void *, const report *, const dp_setup *, const row *), void *to) {
-    summary s = {.begun = false};
-    for (size_t i = 0; i < r->at.count && !output_failed(r->out); i++) {
-        const double z = depths_get(&r->at, i);
-        row x = {.levels = effect_error(r->effect, setup, r->parameters, z),
-                 .usable = effect_usable(r->effect, setup, r->parameters, z, ONE_LEVEL)};
-        dp_sample_at(setup, z, &x.sample); /* depths_resolve() has seen to it */
-        emit(to, r, setup, &x);
-        summary_add(&s, r, &x);
-        progress_step(&r->progress, ++r->done);
+static void *next_row(void *of, size_t i) {
+    table *t = of;
+    row *x = &t->row;
+    double z;
+    if (!walk_depth(&t->walk, i, &z))
+        return NULL;
+    x->levels = effect_error(t->effect, t->walk.setup, t->parameters, z);
+    x->usable = effect_usable(t->effect, t->walk.setup, t->parameters, z, ONE_LEVEL);
+    dp_sample_at(t->walk.setup, z, &x->sample); /* depths_resolve() has seen to it */
+    const bool decides = isnan(x->usable) || (t->effect->smallest ? x->usable > t->usable : x->usable < t->usable);
+    if (!t->begun || (decides && !isnan(t->usable))) {
+        t->usable = x->usable;
+        t->z = x->sample.z;
     }
-    return s;
+    t->begun = true;
+    return x;
 }
 
-static const char *direction(const report *r) {
-    return r->effect->smallest ? "from" : "up to";
+static void *next_parameter(void *of, size_t i) {
+    table *t = of;
+    const effect_parameter *p = &t->effect->parameters[i];
+    t->parameter = (struct parameter){p->name, p->unit, t->parameters[i]};
+    return p->name != NULL ? &t->parameter : NULL;
 }
 
-/* ---- Text -------------------------------------------------------------------------------------------------------- */
-
-static void put_number(output *out, int width, int digits, double value) {
-    char text[NUMBER_SIZE];
-    number_digits(value, digits, text);
-    output_format(out, "%*s", width, isnan(value) ? "-" : text);
+static void say_effect(page *p, void *item) {
+    table *t = item;
+    walk_title(p, item);
+    output_text(p->out, t->name);
+    for (size_t i = 0; next_parameter(t, i) != NULL; i++)
+        output_format(p->out, ", %s %s", t->parameter.name, number_of(t->parameter.value, DIGITS_Z).text);
+    if (t->effect->reference != NULL)
+        output_format(p->out, "; %s is where it is worst", t->effect->reference);
+    output_char(p->out, '\n');
 }
 
-static void text_row(void *to, const report *r, const dp_setup *setup, const row *x) {
-    (void)to, (void)setup;
-    put_number(r->out, 12, DIGITS_Z, x->sample.z);
-    output_format(r->out, " %10u", x->sample.code);
-    put_number(r->out, 16, DIGITS_Z, x->sample.stored);
-    put_number(r->out, 14, DIGITS, x->sample.interval);
-    put_number(r->out, 13, DIGITS, x->levels);
-    put_number(r->out, 21, DIGITS, x->usable);
-    output_char(r->out, '\n');
+static void say_usable(page *p, void *item) {
+    const table *t = item;
+    const number_text z = number_of(t->z, DIGITS_Z);
+    if (isnan(t->usable))
+        page_line(p, "no %s is usable at z = %s", t->wanted_name, z.text);
+    else
+        page_line(p, "%s %s %s%s keeps the error at most one level at every depth shown; what decides is z = %s",
+                  t->wanted_name, t->direction, number_of(t->usable, DIGITS).text, t->effect->smallest ? " up" : "",
+                  z.text);
 }
 
-static void text_head(const report *r) {
+static const column parameter_columns[] = {{FIELD(struct parameter, name, "name", "")},
+                                           {FIELD(struct parameter, unit, "unit", "")},
+                                           {FIELD(struct parameter, value, "value", "")},
+                                           {.kind = COLUMN_END}};
+
+static const column all_columns[] = {
+    {FIELD(table, usable, "usable", "")}, {FIELD(table, z, "z", "scene")}, {.kind = COLUMN_END}};
+
+/* The last column is named by the parameter that is wanted. */
+static int write_table(table *t, int status) {
     char usable[64];
-    output_text(r->out, r->effect->name);
-    for (int i = 0; r->effect->parameters[i].name != NULL; i++) {
-        char value[NUMBER_SIZE];
-        number_digits(r->parameters[i], DIGITS_Z, value);
-        output_format(r->out, ", %s %s", r->effect->parameters[i].name, value);
-    }
-    if (r->effect->reference != NULL)
-        output_format(r->out, "; %s is where it is worst", r->effect->reference);
-    snprintf(usable, sizeof usable, "%s %s", r->wanted->name, direction(r));
-    output_format(r->out, "\n%12s %10s %15s %13s %12s %20s\n", "z", "code", "stored", "interval", "levels", usable);
-}
-
-static void text_summary(const report *r, const summary *s) {
-    if (isnan(s->usable)) {
-        output_format(r->out, "  no %s is usable at z = ", r->wanted->name);
-    } else {
-        output_format(r->out, "  %s %s ", r->wanted->name, direction(r));
-        put_number(r->out, 0, DIGITS, s->usable);
-        output_format(r->out, "%s keeps the error at most one level at every depth shown; what decides is z = ",
-                      r->effect->smallest ? " up" : "");
-    }
-    put_number(r->out, 0, DIGITS_Z, s->z);
-    output_char(r->out, '\n');
-}
-
-static void write_text(report *r) {
-    for (size_t i = 0; i < r->all.count; i++) {
-        const dp_setup *setup = &r->all.items[i];
-        char label[SETUP_LABEL_SIZE];
-        output_format(r->out, "%s%s\n", i > 0 ? "\n" : "", setup_label(setup, true, label));
-        text_head(r);
-        const summary s = each_row(r, setup, text_row, NULL);
-        text_summary(r, &s);
-    }
-}
-
-/* ---- JSON -------------------------------------------------------------------------------------------------------- */
-
-static void json_row(void *to, const report *r, const dp_setup *setup, const row *x) {
-    json *j = to;
-    (void)r, (void)setup;
-    json_object(j, NULL);
-    json_number(j, "z", x->sample.z);
-    json_integer(j, "code", x->sample.code);
-    json_number(j, "z_stored", x->sample.stored);
-    json_number(j, "interval", x->sample.interval);
-    json_number(j, "levels", x->levels);
-    json_number(j, "usable", x->usable);
-    json_end(j);
-}
-
-static void write_json(report *r) {
-    json j = json_start(r->out, "texture");
-    json_string(&j, "effect", r->effect->name);
-    json_array(&j, "parameters");
-    for (int i = 0; r->effect->parameters[i].name != NULL; i++) {
-        json_object(&j, NULL);
-        json_string(&j, "name", r->effect->parameters[i].name);
-        json_string(&j, "unit", r->effect->parameters[i].unit);
-        json_number(&j, "value", r->parameters[i]);
-        json_end(&j);
-    }
-    json_end(&j);
-    json_string(&j, "wanted", r->wanted->name);
-    json_string(&j, "direction", direction(r));
-    json_array(&j, "setups");
-    for (size_t i = 0; i < r->all.count; i++) {
-        json_object(&j, NULL);
-        setup_json(&j, &r->all.items[i]);
-        json_array(&j, "rows");
-        const summary s = each_row(r, &r->all.items[i], json_row, &j);
-        json_end(&j);
-        json_object(&j, "all");
-        json_number(&j, "usable", s.usable);
-        json_number(&j, "z", s.z);
-        json_end(&j);
-        json_end(&j);
-    }
-    json_finish(&j);
-}
-
-/* ---- CSV --------------------------------------------------------------------------------------------------------- */
-
-static void csv_row(void *to, const report *r, const dp_setup *setup, const row *x) {
-    csv *c = to;
-    setup_csv(c, setup);
-    csv_string(c, r->effect->name);
-    csv_number(c, x->sample.z);
-    csv_integer(c, x->sample.code);
-    csv_number(c, x->sample.stored);
-    csv_number(c, x->sample.interval);
-    csv_number(c, x->levels);
-    csv_number(c, x->usable);
-    csv_end(c);
-}
-
-static void write_csv(report *r) {
-    static const char *const heads[] = {"effect",           "z [scene]",        "code",
-                                        "z_stored [scene]", "interval [scene]", "levels [1/255]"};
-    char usable[64];
-    csv c = csv_start(r->out);
-    setup_csv_head(&c);
-    for (size_t i = 0; i < sizeof heads / sizeof heads[0]; i++)
-        csv_string(&c, heads[i]);
-    snprintf(usable, sizeof usable, "%s %s [%s]", r->wanted->name, direction(r), r->wanted->unit);
-    csv_string(&c, usable);
-    csv_end(&c);
-    for (size_t i = 0; i < r->all.count; i++)
-        each_row(r, &r->all.items[i], csv_row, &c);
+    snprintf(usable, sizeof usable, "%s %s", t->wanted_name, t->direction);
+    const column rows[] = {{FIELD(row, sample.z, "z", "scene"), SHOWN("z", 12, DIGITS_Z)},
+                           {FIELD(row, sample.code, "code", ""), SHOWN("code", 11, 0)},
+                           {FIELD(row, sample.stored, "z_stored", "scene"), SHOWN("stored", 16, DIGITS_Z)},
+                           {FIELD(row, sample.interval, "interval", "scene"), SHOWN("interval", 14, DIGITS)},
+                           {FIELD(row, levels, "levels", "1/255"), SHOWN("levels", 13, DIGITS)},
+                           {FIELD(row, usable, "usable", ""), SHOWN(usable, 21, DIGITS), .only = AS_JSON | AS_TEXT},
+                           {FIELD(row, usable, usable, t->wanted->unit), .only = AS_CSV},
+                           {.kind = COLUMN_END}};
+    const column setup_report[] = {{PART(table, walk.fields, NULL, setup_columns)},
+                                   {FIELD(table, name, "effect", ""), .only = AS_CSV},
+                                   {LIST("rows", rows, next_row)},
+                                   {GROUP("all", all_columns), .only = AS_JSON},
+                                   {.kind = COLUMN_END}};
+    const column columns[] = {{FIELD(table, name, "effect", ""), .only = AS_JSON},
+                              {LIST("parameters", parameter_columns, next_parameter), .only = AS_JSON},
+                              {FIELD(table, wanted_name, "wanted", ""), .only = AS_JSON},
+                              {FIELD(table, direction, "direction", ""), .only = AS_JSON},
+                              {LIST("setups", setup_report, next_setup), .head = say_effect, .notes = say_usable},
+                              {.kind = COLUMN_END}};
+    const report_spec spec = {.command = "texture", .columns = columns, .item = t};
+    return walk_write(&t->walk, &spec, status);
 }
 
 int texture_effect_table(const options *o) {
-    static void (*const writers[])(report *) = {
-        [FORM_TEXT] = write_text, [FORM_JSON] = write_json, [FORM_CSV] = write_csv};
-    output out;
-    report r = {.o = o, .out = &out};
-    int status = texture_effect_resolve(o, &r.effect, r.parameters);
-    if (status == EXIT_FINE && r.effect->eye01 && isinf(o->zfar))
-        status = option_error(OPTION_FAR, "must be finite for %s, which uses z/far, got inf", r.effect->name);
+    table t = {.walk = {.o = o}};
+    int status = texture_effect_resolve(o, &t.effect, t.parameters);
+    if (status == EXIT_FINE && t.effect->eye01 && isinf(o->zfar))
+        status = option_error(OPTION_FAR, "must be finite for %s, which uses z/far, got inf", t.effect->name);
     if (status == EXIT_FINE)
-        status = setups_make(o, &r.all);
-    if (status == EXIT_FINE)
-        status = depths_resolve(o, DEFAULT_ROWS, &r.at);
-    if (status == EXIT_FINE)
-        status = output_open(&out, o->output);
-    if (status == EXIT_FINE) {
-        r.wanted = &r.effect->parameters[r.effect->wanted];
-        r.progress = progress_start("rows", (uint64_t)r.all.count * r.at.count, o->quiet || isatty(out.fd));
-        writers[o->form](&r);
-        progress_end(&r.progress);
-        status = output_close(&out);
-    }
-    setups_release(&r.all);
-    return status;
+        status = walk_start(&t.walk, o);
+    t.name = t.effect->name;
+    t.wanted = &t.effect->parameters[t.effect->wanted];
+    t.wanted_name = t.wanted->name;
+    t.direction = t.effect->smallest ? "from" : "up to";
+    return write_table(&t, status);
 }

@@ -8,364 +8,360 @@
 
 #include "cli/progress.h"
 #include "cli/setups.h"
-#include "report/csv.h"
-#include "report/json.h"
 #include "report/number.h"
+#include "report/report.h"
+#include "texture/decode.h"
+#include "texture/position.h"
+#include "texture/survey.h"
 
-static const char *number(double value, int digits, char out[NUMBER_SIZE]) {
-    if (isnan(value))
-        strcpy(out, "-");
-    else
-        number_digits(value, digits, out);
-    return out;
+enum { ERRORS_MAX = 32 };
+
+/* How far a product is off over all pixels; see frame_product. */
+typedef struct error_line {
+    char name[48]; /* "eye depth", "normal high" */
+    const char *unit;
+    frame_summary sum;
+    uint64_t masked;
+    char at[64]; /* the pixel, and the unit */
+} error_line;
+
+/* The statistics; what does not exist is null or NaN. Below `named`, the items of lists at hand. */
+typedef struct statistics {
+    const options *o;
+    texture_source source;
+    survey survey;
+    survey_pairs pairs;
+    double condition; /* of the view-projection matrix, 2-norm; NaN where the mapping has none */
+    size_t error_count;
+    error_line errors[ERRORS_MAX];
+    setup_fields setup;
+    struct {
+        const char *scene, *truth, *type, *rounded, *format, *format_from, *mapping_from, *direction_from;
+        double metric, step, steps, bits, fov, half_height;
+        bool coarser;
+        const bool *reversed;
+        const survey_pairs *pairs;
+        uint64_t hidden;
+    } named;
+    const char *parameter;
+    double parameter_value;
+    texture_reading reading;
+    survey_band band;
+    double band_steps;
+} statistics;
+
+static bool is_image(const statistics *r) {
+    return r->source.path != NULL;
 }
 
-static double share(uint64_t part, uint64_t all) {
-    return all > 0 ? 100.0 * (double)part / (double)all : 0;
+/* ---- Text -------------------------------------------------------------------------------------------------------- */
+
+static void *next_parameter(void *of, size_t i) {
+    statistics *r = of;
+    const scene_row *scene = r->source.frame.scene;
+    if (is_image(r) || i == SCENE_PARAMETERS || scene->parameters[i].name == NULL)
+        return NULL;
+    r->parameter = scene->parameters[i].name;
+    r->parameter_value = r->source.parameters[i];
+    return r;
 }
 
 /* How the samples were rounded, where they are coarser than the buffer's codes. */
-static void write_grain(const texture_report *r, output *out) {
-    const grain *g = &r->source->grain;
-    char steps[NUMBER_SIZE];
+static void say_grain(const statistics *r, page *p) {
+    const grain *g = &r->source.grain;
     const char *by = g->rounding == GRAIN_ANY       ? "rounded or cut off"
                      : g->rounding == GRAIN_NEAREST ? "rounded to nearest"
                                                     : "cut off";
     if (g->kind == GRAIN_STEPS)
-        output_format(out, "  samples       steps of 1/%s%s, %s: counted in what depths can be off by\n",
-                      number(g->steps, 9, steps),
-                      texture_coarser(r->source)               ? ", coarser than the format"
-                      : r->source->format_from == ORIGIN_GIVEN ? ""
-                                                               : ", of a buffer that may be finer",
-                      by);
+        page_note(p, "samples", "steps of 1/%s%s, %s: counted in what depths can be off by",
+                  number_of(g->steps, 9).text,
+                  r->named.coarser                        ? ", coarser than the format"
+                  : r->source.format_from == ORIGIN_GIVEN ? ""
+                                                          : ", of a buffer that may be finer",
+                  by);
     else if (g->kind == GRAIN_FLOATS && g->bits == 11)
-        output_format(out, "  samples       of %d significant bits, %s: counted in what depths can be off by\n",
-                      g->bits, by);
+        page_note(p, "samples", "of %d significant bits, %s: counted in what depths can be off by", g->bits, by);
 }
 
-static void write_readings(const texture_source *s, output *out) {
-    char z[NUMBER_SIZE];
-    for (size_t i = 0; i < s->reading_count; i++) {
-        const texture_reading *reading = &s->readings[i];
-        if (i > 0 && strcmp(s->readings[i - 1].what, reading->what) == 0)
-            output_format(out, ", %s as %s", number(reading->z, 6, z), reading->name);
-        else
-            output_format(out, "%s  pixel         %u,%u is at z = %s as %s", i > 0 ? "\n" : "", s->column, s->row,
-                          number(reading->z, 6, z), reading->name);
-    }
-    if (s->reading_count > 0)
-        output_char(out, '\n');
+static void say_origins(const statistics *r, page *p) {
+    const texture_source *s = &r->source;
+    const char *name = s->setup.spec.format.name;
+    char readings[READINGS_SIZE];
+    const bool other = is_image(r) && s->found.depth && strcmp(s->found.format.name, name) != 0;
+    if (is_image(r))
+        page_note(p, "recognised", "%s", s->found.why);
+    page_note(p, "format", "%s %s%s%s", name, r->named.format_from,
+              other ? ": the nearest codes are taken of what looks like " : "", other ? s->found.format.name : "");
+    if (is_image(r))
+        say_grain(r, p);
+    page_note(p, "mapping", "%s %s%s", r->setup.mapping, r->named.mapping_from,
+              is_image(r) && s->mapping_from == ORIGIN_ASSUMED ? ": --mapping tells" : "");
+    if (is_image(r) && s->direction_from != ORIGIN_GIVEN)
+        page_note(p, "direction", "%s %s", s->setup.reversed ? "reversed" : "not reversed", r->named.direction_from);
+    for (const char *const *what = (const char *const[]){"mapping", "format", NULL}; *what != NULL; what++)
+        if (*texture_readings_of(s, *what, readings) != '\0')
+            page_note(p, "pixel", "%s", readings);
 }
 
-static void write_origins(const texture_report *r, output *out) {
-    const texture_source *s = r->source;
-    const char *tells = s->path != NULL ? ": --mapping tells" : "";
-    if (s->path != NULL)
-        output_format(out, "  recognised    %s\n", s->found.why);
-    output_format(out, "  format        %s %s", s->setup.spec.format.name, texture_origin_name(s->format_from));
-    if (s->path != NULL && s->found.depth && strcmp(s->found.format.name, s->setup.spec.format.name) != 0)
-        output_format(out, ": the nearest codes are taken of what looks like %s", s->found.format.name);
-    output_char(out, '\n');
-    if (s->path != NULL)
-        write_grain(r, out);
-    output_format(out, "  mapping       %s %s%s\n", dp_mapping_get(s->setup.spec.mapping)->name,
-                  texture_origin_name(s->mapping_from), s->mapping_from == ORIGIN_ASSUMED ? tells : "");
-    if (s->path != NULL && s->direction_from != ORIGIN_GIVEN)
-        output_format(out, "  direction     %s %s\n", s->setup.reversed ? "reversed" : "not reversed",
-                      texture_origin_name(s->direction_from));
-    write_readings(s, out);
-}
-
-static void write_metric(const texture_report *r, output *out) {
-    const texture_source *s = r->source;
-    char scale[NUMBER_SIZE], step[NUMBER_SIZE], far[NUMBER_SIZE];
-    output_format(out, "metric depth, %s scene units a unit, up to %s\n", number(r->o->metric, 6, scale),
-                  number(s->metric.zfar, 6, far));
-    if (s->metric.step > 0)
-        output_format(out, "  samples       steps of %s scene units, rounded or cut off\n",
-                      number(s->metric.step, 6, step));
+static void say_metric(const statistics *r, page *p) {
+    const metric *m = &r->source.metric;
+    output_format(p->out, "metric depth, %s scene units a unit, up to %s\n", number_of(r->o->metric, 6).text,
+                  number_of(m->zfar, 6).text);
+    if (m->step > 0)
+        page_note(p, "samples", "steps of %s scene units, rounded or cut off", number_of(m->step, 6).text);
     else
-        output_format(out, "  samples       numbers of %d significant bits, rounded or cut off\n", s->grain.bits);
+        page_note(p, "samples", "numbers of %d significant bits, rounded or cut off", r->source.grain.bits);
 }
 
-static void write_head(const texture_report *r, output *out) {
-    const texture_source *s = r->source;
-    char label[SETUP_LABEL_SIZE], value[NUMBER_SIZE];
-    if (s->path != NULL) {
-        output_format(out, "%s: %u x %u pixels, %s of %s, %u channel%s\n", s->path, s->camera.width, s->camera.height,
-                      image_file_name(s->picture.file), image_type_name(s->type), s->channels,
+static void say_source(statistics *r, page *p) {
+    const texture_source *s = &r->source;
+    char label[SETUP_LABEL_SIZE];
+    if (is_image(r))
+        output_format(p->out, "%s: %u x %u pixels, %s of %s, %u channel%s\n", s->path, s->camera.width,
+                      s->camera.height, image_file_name(s->picture.file), r->named.type, s->channels,
                       s->channels == 1 ? "" : "s, the first is read");
-    } else {
-        output_format(out, "scene %s: %u x %u pixels", s->frame.scene->name, s->camera.width, s->camera.height);
-        for (size_t i = 0; i < SCENE_PARAMETERS && s->frame.scene->parameters[i].name != NULL; i++)
-            output_format(out, "%s%s %s", i > 0 ? ", " : "; ", s->frame.scene->parameters[i].name,
-                          number(s->parameters[i], 6, value));
-        output_char(out, '\n');
-    }
-    if (r->o->metric > 0) {
-        write_metric(r, out);
-    } else {
-        output_format(out, "%s\n", setup_label(&s->setup, true, label));
-        write_origins(r, out);
-    }
-}
-
-static void write_sky(const texture_report *r, output *out) {
-    const survey *v = &r->survey;
-    const uint64_t hidden = v->sky - v->true_sky;
-    char from[NUMBER_SIZE], limit[NUMBER_SIZE], percent[NUMBER_SIZE];
-    if (r->o->metric == 0)
-        output_format(out,
-                      "  sky           %llu pixels, %s %%; depths from %s on are within %s of far and count as sky\n",
-                      (unsigned long long)v->sky, number(share(v->sky, v->pixels), 3, percent),
-                      number(v->sky_from, 6, from), number(r->o->sky, 3, limit));
-    if (r->source->path == NULL && hidden > 0)
-        output_format(out, "  hidden        %llu pixels of the scene count as sky\n", (unsigned long long)hidden);
-    if (v->invalid > 0)
-        output_format(out, "  holes         %llu pixels, %s %%, hold no depth\n", (unsigned long long)v->invalid,
-                      number(share(v->invalid, v->pixels), 3, percent));
-}
-
-static void write_bands(const survey *v, output *out) {
-    char lo[NUMBER_SIZE], hi[NUMBER_SIZE], gap[NUMBER_SIZE], z[NUMBER_SIZE], interval[NUMBER_SIZE];
-    if (v->band_count == 0) {
-        output_text(out, "  depths        none\n");
-        return;
-    }
-    output_format(out, "  depths        %s to %s, %llu different codes\n", number(v->lo, 8, lo), number(v->hi, 8, hi),
-                  (unsigned long long)v->codes);
-    output_format(out, "%12s%12s%11s%10s%11s%13s%10s%12s%13s\n", "from", "to", "pixels", "codes", "available",
-                  "nearest gap", "at z", "steps", "interval");
-    for (size_t i = 0; i < v->band_count; i++) {
-        const survey_band *b = &v->bands[i];
-        char steps[24] = "-";
-        if (b->steps > 0)
-            snprintf(steps, sizeof steps, "%llu", (unsigned long long)b->steps);
-        output_format(out, "%12s%12s%11llu%10llu%11llu%13s%10s%12s%13s\n", number(b->lo, 6, lo), number(b->hi, 6, hi),
-                      (unsigned long long)b->pixels, (unsigned long long)b->codes, (unsigned long long)b->available,
-                      number(b->gap, 6, gap), number(b->gap_z, 6, z), steps, number(b->interval, 6, interval));
-    }
-}
-
-static void write_pairs(const survey_pairs *p, output *out) {
-    char first[NUMBER_SIZE], certain[NUMBER_SIZE];
-    output_format(out, "  pairs         %llu of surfaces that ought to be told apart: %llu fight, stored as one code",
-                  (unsigned long long)p->pairs, (unsigned long long)p->ties);
-    if (p->ties > 0)
-        output_format(out, ", the first at z = %s", number(p->first_tie, 6, first));
-    output_format(out, "\n                %llu are nearer than the separation", (unsigned long long)p->possible);
-    if (!isnan(p->certain_to))
-        output_format(out, "; certain of two codes up to z = %s", number(p->certain_to, 6, certain));
-    output_char(out, '\n');
-}
-
-static void write_condition(const texture_report *r, output *out) {
-    char value[NUMBER_SIZE];
-    if (!isnan(r->condition))
-        output_format(out, "  condition     %s, of the view-projection matrix\n", number(r->condition, 4, value));
-}
-
-static void write_errors(const texture_report *r, output *out) {
-    char mean[NUMBER_SIZE], p99[NUMBER_SIZE], most[NUMBER_SIZE];
-    if (r->error_count > 0)
-        output_format(out, "  %-24s%12s%12s%12s  %s\n", r->source->path != NULL ? "can be off by" : "is off by", "mean",
-                      "99 %", "at most", "at pixel");
-    for (size_t i = 0; i < r->error_count; i++) {
-        const texture_errors *e = &r->errors[i];
-        output_format(out, "  %-24s%12s%12s%12s  %u,%u (%s)\n", e->name, number(e->sum.mean, 4, mean),
-                      number(e->sum.p99, 4, p99), number(e->sum.hi, 4, most), e->sum.hi_column, e->sum.hi_row, e->unit);
-    }
-}
-
-static void write_text(const texture_report *r, output *out) {
-    write_head(r, out);
-    write_sky(r, out);
-    write_bands(&r->survey, out);
-    if (r->has_pairs)
-        write_pairs(&r->pairs, out);
-    write_condition(r, out);
-    write_errors(r, out);
-}
-
-/* The window depth between two samples, in steps to 1, or their significant bits. */
-static void json_grain(const texture_report *r, json *j) {
-    const texture_source *s = r->source;
-    const bool eyes = r->o->metric > 0;
-    json_number(j, "metric", eyes ? r->o->metric : (double)NAN);
-    json_object(j, "samples");
-    json_number(j, "step", eyes && s->metric.step > 0 ? s->metric.step : (double)NAN);
-    json_number(j, "steps", !eyes && s->grain.kind == GRAIN_STEPS ? s->grain.steps : (double)NAN);
-    if (s->grain.kind == GRAIN_FLOATS)
-        json_integer(j, "bits", (uint64_t)s->grain.bits);
     else
-        json_null(j, "bits");
-    json_bool(j, "coarser", !eyes && texture_coarser(s));
-    json_string(j, "rounded", s->grain.kind == GRAIN_CODES ? NULL : grain_rounding_name(s->grain.rounding));
-    json_end(j);
-}
-
-static void json_source(const texture_report *r, json *j) {
-    const texture_source *s = r->source;
-    json_string(j, "file", s->path);
-    json_string(j, "scene", s->path == NULL ? s->frame.scene->name : NULL);
-    json_array(j, "parameters");
-    for (size_t i = 0; i < SCENE_PARAMETERS && s->path == NULL && s->frame.scene->parameters[i].name != NULL; i++) {
-        json_object(j, NULL);
-        json_string(j, "name", s->frame.scene->parameters[i].name);
-        json_number(j, "value", s->parameters[i]);
-        json_end(j);
-    }
-    json_end(j);
-    json_integer(j, "width", s->camera.width);
-    json_integer(j, "height", s->camera.height);
-    if (s->path != NULL) {
-        json_string(j, "type", image_type_name(s->type));
-        json_integer(j, "channels", s->channels);
-        json_grain(r, j);
-    }
-    if (s->path != NULL && r->o->metric == 0) {
-        json_object(j, "recognised");
-        json_string(j, "format", s->found.depth ? s->found.format.name : NULL);
-        json_bool(j, "certain", s->found.certain);
-        if (s->found.direction)
-            json_bool(j, "reversed", s->found.reversed == 1);
-        else
-            json_null(j, "reversed");
-        json_string(j, "why", s->found.why);
-        json_end(j);
-    }
-    setup_json(j, &s->setup);
-    json_string(j, "format_from", texture_origin_name(s->format_from));
-    json_string(j, "mapping_from", texture_origin_name(s->mapping_from));
-    json_string(j, "direction_from", texture_origin_name(s->direction_from));
-    json_array(j, "readings");
-    for (size_t i = 0; i < s->reading_count; i++) {
-        json_object(j, NULL);
-        json_string(j, "what", s->readings[i].what);
-        json_string(j, "name", s->readings[i].name);
-        json_integer(j, "column", s->column);
-        json_integer(j, "row", s->row);
-        json_number(j, "z", s->readings[i].z);
-        json_end(j);
-    }
-    json_end(j);
-    json_number(j, "fov", s->camera.ortho ? (double)NAN : r->o->camera.fov_y);
-    json_number(j, "half_height", s->camera.ortho ? r->o->camera.half_height : (double)NAN);
-}
-
-static void json_survey(const texture_report *r, json *j) {
-    const survey *v = &r->survey;
-    json_integer(j, "pixels", v->pixels);
-    json_integer(j, "invalid", v->invalid);
-    json_object(j, "sky");
-    json_integer(j, "pixels", v->sky);
-    json_number(j, "limit", r->o->sky);
-    json_number(j, "from", v->sky_from);
-    if (r->source->path == NULL)
-        json_integer(j, "hidden", v->sky - v->true_sky);
-    json_end(j);
-    json_number(j, "lo", v->lo);
-    json_number(j, "hi", v->hi);
-    json_integer(j, "codes", v->codes);
-    json_array(j, "bands");
-    for (size_t i = 0; i < v->band_count; i++) {
-        const survey_band *b = &v->bands[i];
-        json_object(j, NULL);
-        json_number(j, "lo", b->lo);
-        json_number(j, "hi", b->hi);
-        json_integer(j, "pixels", b->pixels);
-        json_integer(j, "codes", b->codes);
-        json_integer(j, "available", b->available);
-        json_number(j, "gap", b->gap);
-        json_number(j, "gap_z", b->gap_z);
-        json_integer(j, "steps", b->steps);
-        json_number(j, "interval", b->interval);
-        json_end(j);
-    }
-    json_end(j);
-}
-
-static void write_json(const texture_report *r, output *out) {
-    json j = json_start(out, "texture");
-    json_source(r, &j);
-    json_survey(r, &j);
-    if (r->has_pairs) {
-        json_object(&j, "pairs");
-        json_integer(&j, "count", r->pairs.pairs);
-        json_integer(&j, "ties", r->pairs.ties);
-        json_integer(&j, "possible", r->pairs.possible);
-        json_number(&j, "first_tie", r->pairs.first_tie);
-        json_number(&j, "certain_to", r->pairs.certain_to);
-        json_end(&j);
+        output_format(p->out, "scene %s: %u x %u pixels", r->named.scene, s->camera.width, s->camera.height);
+    for (size_t i = 0; next_parameter(r, i) != NULL; i++)
+        output_format(p->out, "%s %s %s", i > 0 ? "," : ";", r->parameter, number_of(r->parameter_value, 6).text);
+    if (!is_image(r))
+        output_char(p->out, '\n');
+    if (r->o->metric > 0) {
+        say_metric(r, p);
     } else {
-        json_null(&j, "pairs");
-    }
-    json_number(&j, "condition", r->condition);
-    json_string(&j, "truth", r->source->path == NULL ? "scene" : NULL);
-    json_array(&j, "errors");
-    for (size_t i = 0; i < r->error_count; i++) {
-        const texture_errors *e = &r->errors[i];
-        json_object(&j, NULL);
-        json_string(&j, "name", e->name);
-        json_string(&j, "unit", e->unit);
-        json_integer(&j, "pixels", e->sum.count);
-        json_integer(&j, "unbounded", e->sum.infinite);
-        json_integer(&j, "masked", r->survey.pixels - e->sum.count - e->sum.infinite);
-        json_number(&j, "mean", e->sum.mean);
-        json_number(&j, "p99", e->sum.p99);
-        json_number(&j, "max", e->sum.count > 0 ? e->sum.hi : (double)NAN);
-        json_integer(&j, "column", e->sum.hi_column);
-        json_integer(&j, "row", e->sum.hi_row);
-        json_end(&j);
-    }
-    json_finish(&j);
-}
-
-static void write_csv(const texture_report *r, output *out) {
-    static const char *const heads[] = {"from [scene]", "to [scene]",    "pixels", "codes",           "available",
-                                        "gap [scene]",  "gap_z [scene]", "steps",  "interval [scene]"};
-    csv c = csv_start(out);
-    setup_csv_head(&c);
-    for (size_t i = 0; i < sizeof heads / sizeof heads[0]; i++)
-        csv_string(&c, heads[i]);
-    csv_end(&c);
-    for (size_t i = 0; i < r->survey.band_count; i++) {
-        const survey_band *b = &r->survey.bands[i];
-        setup_csv(&c, &r->source->setup);
-        csv_number(&c, b->lo);
-        csv_number(&c, b->hi);
-        csv_integer(&c, b->pixels);
-        csv_integer(&c, b->codes);
-        csv_integer(&c, b->available);
-        csv_number(&c, b->gap);
-        csv_number(&c, b->gap_z);
-        csv_integer(&c, b->steps);
-        csv_number(&c, b->interval);
-        csv_end(&c);
+        output_format(p->out, "%s\n", setup_label(&s->setup, true, label));
+        say_origins(r, p);
     }
 }
 
-static bool add_error(texture_report *r, const char *what, const char *method, const char *unit,
+static number_text share(uint64_t part, uint64_t all) {
+    return number_of(all > 0 ? 100.0 * (double)part / (double)all : 0, 3);
+}
+
+static void say_head(page *p, void *item) {
+    statistics *r = item;
+    const survey *v = &r->survey;
+    say_source(r, p);
+    if (r->o->metric == 0)
+        page_note(p, "sky", "%llu pixels, %s %%; depths from %s on are within %s of far and count as sky",
+                  (unsigned long long)v->sky, share(v->sky, v->pixels).text, number_of(v->sky_from, 6).text,
+                  number_of(r->o->sky, 3).text);
+    if (!is_image(r) && r->named.hidden > 0)
+        page_note(p, "hidden", "%llu pixels of the scene count as sky", (unsigned long long)r->named.hidden);
+    if (v->invalid > 0)
+        page_note(p, "holes", "%llu pixels, %s %%, hold no depth", (unsigned long long)v->invalid,
+                  share(v->invalid, v->pixels).text);
+    if (v->band_count == 0)
+        page_note(p, "depths", "none");
+    else
+        page_note(p, "depths", "%s to %s, %llu different codes", number_of(v->lo, 8).text, number_of(v->hi, 8).text,
+                  (unsigned long long)v->codes);
+}
+
+static void say_pairs(const survey_pairs *s, page *p) {
+    char first[NUMBER_SIZE + 32] = "", certain[NUMBER_SIZE + 48] = "";
+    if (s->ties > 0)
+        snprintf(first, sizeof first, ", the first at z = %s", number_of(s->first_tie, 6).text);
+    if (!isnan(s->certain_to))
+        snprintf(certain, sizeof certain, "; certain of two codes up to z = %s", number_of(s->certain_to, 6).text);
+    page_note(p, "pairs", "%llu of surfaces that ought to be told apart: %llu fight, stored as one code%s",
+              (unsigned long long)s->pairs, (unsigned long long)s->ties, first);
+    page_note(p, "", "%llu are nearer than the separation%s", (unsigned long long)s->possible, certain);
+}
+
+static void say_geometry(page *p, void *item) {
+    const statistics *r = item;
+    if (r->named.pairs != NULL)
+        say_pairs(&r->pairs, p);
+    if (!isnan(r->condition))
+        page_note(p, "condition", "%s, of the view-projection matrix", number_of(r->condition, 4).text);
+}
+
+/* ---- Columns ----------------------------------------------------------------------------------------------------- */
+
+static void *next_reading(void *of, size_t i) {
+    statistics *r = of;
+    r->reading = r->source.readings[i < READINGS_MAX ? i : 0];
+    return i < r->source.reading_count ? r : NULL;
+}
+
+static void *next_band(void *of, size_t i) {
+    statistics *r = of;
+    if (i == r->survey.band_count)
+        return NULL;
+    r->band = r->survey.bands[i];
+    r->band_steps = r->band.steps > 0 ? (double)r->band.steps : (double)NAN;
+    return r;
+}
+
+static void *next_error(void *of, size_t i) {
+    statistics *r = of;
+    error_line *e = &r->errors[i];
+    if (i == r->error_count)
+        return NULL;
+    e->masked = r->survey.pixels - e->sum.count - e->sum.infinite;
+    snprintf(e->at, sizeof e->at, "%u,%u (%s)", e->sum.hi_column, e->sum.hi_row, e->unit);
+    return e;
+}
+
+/* Window depth is what an image holds without --metric. */
+enum { OF_SCENE = 1, OF_IMAGE = 2, OF_WINDOW = 4 };
+
+static unsigned conditions(const statistics *r) {
+    return !is_image(r) ? OF_SCENE : r->o->metric == 0 ? OF_IMAGE | OF_WINDOW : OF_IMAGE;
+}
+
+static const column parameter_columns[] = {{FIELD(statistics, parameter, "name", "")},
+                                           {FIELD(statistics, parameter_value, "value", "")},
+                                           {.kind = COLUMN_END}};
+
+static const column sample_columns[] = {
+    {FIELD(statistics, named.step, "step", "scene")},  {FIELD(statistics, named.steps, "steps", "")},
+    {FIELD(statistics, named.bits, "bits", "")},       {FIELD(statistics, named.coarser, "coarser", "")},
+    {FIELD(statistics, named.rounded, "rounded", "")}, {.kind = COLUMN_END}};
+
+static const column recognised_columns[] = {{FIELD(statistics, named.format, "format", "")},
+                                            {FIELD(statistics, source.found.certain, "certain", "")},
+                                            {FIELD(statistics, named.reversed, "reversed", "")},
+                                            {FIELD(statistics, source.found.why, "why", "")},
+                                            {.kind = COLUMN_END}};
+
+static const column source_columns[] = {{FIELD(statistics, source.path, "file", "")},
+                                        {FIELD(statistics, named.scene, "scene", "")},
+                                        {LIST("parameters", parameter_columns, next_parameter)},
+                                        {FIELD(statistics, source.camera.width, "width", "")},
+                                        {FIELD(statistics, source.camera.height, "height", "")},
+                                        {FIELD(statistics, named.type, "type", ""), .when = OF_IMAGE},
+                                        {FIELD(statistics, source.channels, "channels", ""), .when = OF_IMAGE},
+                                        {FIELD(statistics, named.metric, "metric", "scene"), .when = OF_IMAGE},
+                                        {GROUP("samples", sample_columns), .when = OF_IMAGE},
+                                        {GROUP("recognised", recognised_columns), .when = OF_WINDOW},
+                                        {.kind = COLUMN_END}};
+
+static const column reading_columns[] = {
+    {FIELD(statistics, reading.what, "what", "")},    {FIELD(statistics, reading.name, "name", "")},
+    {FIELD(statistics, source.column, "column", "")}, {FIELD(statistics, source.row, "row", "")},
+    {FIELD(statistics, reading.z, "z", "scene")},     {.kind = COLUMN_END}};
+
+static const column sky_columns[] = {{FIELD(statistics, survey.sky, "pixels", "")},
+                                     {FIELD(statistics, source.frame.sky, "limit", "")},
+                                     {FIELD(statistics, survey.sky_from, "from", "scene")},
+                                     {FIELD(statistics, named.hidden, "hidden", ""), .when = OF_SCENE},
+                                     {.kind = COLUMN_END}};
+
+static const column found_columns[] = {{FIELD(statistics, named.format_from, "format_from", "")},
+                                       {FIELD(statistics, named.mapping_from, "mapping_from", "")},
+                                       {FIELD(statistics, named.direction_from, "direction_from", "")},
+                                       {LIST("readings", reading_columns, next_reading)},
+                                       {FIELD(statistics, named.fov, "fov", "degrees")},
+                                       {FIELD(statistics, named.half_height, "half_height", "scene")},
+                                       {FIELD(statistics, survey.pixels, "pixels", "")},
+                                       {FIELD(statistics, survey.invalid, "invalid", "")},
+                                       {GROUP("sky", sky_columns)},
+                                       {FIELD(statistics, survey.lo, "lo", "scene")},
+                                       {FIELD(statistics, survey.hi, "hi", "scene")},
+                                       {FIELD(statistics, survey.codes, "codes", "")},
+                                       {.kind = COLUMN_END}};
+
+/* CSV calls the ends of a band otherwise. */
+static const column band_columns[] = {
+    {FIELD(statistics, band.lo, "lo", "scene"), SHOWN("from", 12, 6), .only = AS_JSON | AS_TEXT},
+    {FIELD(statistics, band.hi, "hi", "scene"), SHOWN("to", 12, 6), .only = AS_JSON | AS_TEXT},
+    {FIELD(statistics, band.lo, "from", "scene"), .only = AS_CSV},
+    {FIELD(statistics, band.hi, "to", "scene"), .only = AS_CSV},
+    {FIELD(statistics, band.pixels, "pixels", ""), SHOWN("pixels", 11, 0)},
+    {FIELD(statistics, band.codes, "codes", ""), SHOWN("codes", 10, 0)},
+    {FIELD(statistics, band.available, "available", ""), SHOWN("available", 11, 0)},
+    {FIELD(statistics, band.gap, "gap", "scene"), SHOWN("nearest gap", 13, 6)},
+    {FIELD(statistics, band.gap_z, "gap_z", "scene"), SHOWN("at z", 10, 6)},
+    {FIELD(statistics, band.steps, "steps", "")},
+    {TEXT_FIELD(statistics, band_steps, "steps", 12, 17)},
+    {FIELD(statistics, band.interval, "interval", "scene"), SHOWN("interval", 13, 6)},
+    {.kind = COLUMN_END}};
+
+static const column pair_columns[] = {{FIELD(survey_pairs, pairs, "count", "")},
+                                      {FIELD(survey_pairs, ties, "ties", "")},
+                                      {FIELD(survey_pairs, possible, "possible", "")},
+                                      {FIELD(survey_pairs, first_tie, "first_tie", "scene")},
+                                      {FIELD(survey_pairs, certain_to, "certain_to", "scene")},
+                                      {.kind = COLUMN_END}};
+
+static const column error_columns[] = {{FIELD(error_line, name, "name", "")},
+                                       {TEXT_FIELD(error_line, name, "can be off by", -24, 0), .when = OF_IMAGE},
+                                       {TEXT_FIELD(error_line, name, "is off by", -24, 0), .when = OF_SCENE},
+                                       {FIELD(error_line, unit, "unit", "")},
+                                       {FIELD(error_line, sum.count, "pixels", "")},
+                                       {FIELD(error_line, sum.infinite, "unbounded", "")},
+                                       {FIELD(error_line, masked, "masked", "")},
+                                       {FIELD(error_line, sum.mean, "mean", ""), SHOWN("mean", 12, 4)},
+                                       {FIELD(error_line, sum.p99, "p99", ""), SHOWN("99 %", 12, 4)},
+                                       {FIELD(error_line, sum.hi, "max", ""), SHOWN("at most", 12, 4)},
+                                       {FIELD(error_line, sum.hi_column, "column", "")},
+                                       {FIELD(error_line, sum.hi_row, "row", "")},
+                                       {TEXT_FIELD(error_line, at, "at pixel", -1, 0)},
+                                       {.kind = COLUMN_END}};
+
+static const column columns[] = {
+    {GROUP(NULL, source_columns), .only = AS_JSON},
+    {PART(statistics, setup, NULL, setup_columns)},
+    {GROUP(NULL, found_columns), .only = AS_JSON},
+    {LIST("bands", band_columns, next_band), .notes = say_geometry},
+    {PART(statistics, named.pairs, "pairs", pair_columns), .only = AS_JSON, .pointed = true},
+    {FIELD(statistics, condition, "condition", ""), .only = AS_JSON},
+    {FIELD(statistics, named.truth, "truth", ""), .only = AS_JSON},
+    {LIST("errors", error_columns, next_error), .only = AS_JSON | AS_TEXT, .indent = 2},
+    {.kind = COLUMN_END}};
+
+/* What is said of the source by names, and of its options. */
+static void name_all(statistics *r) {
+    static const bool answers[] = {false, true};
+    const texture_source *s = &r->source;
+    const grain *g = &s->grain;
+    const bool is_metric = r->o->metric > 0, has_steps = g->kind == GRAIN_STEPS;
+    const double none = (double)NAN;
+    r->setup = setup_fields_of(&s->setup);
+    r->named.scene = is_image(r) ? NULL : s->frame.scene->name;
+    r->named.truth = is_image(r) ? NULL : "scene";
+    r->named.type = image_type_name(s->type);
+    r->named.rounded = g->kind == GRAIN_CODES ? NULL : grain_rounding_name(g->rounding);
+    r->named.format = s->found.depth ? s->found.format.name : NULL;
+    r->named.format_from = texture_origin_name(s->format_from);
+    r->named.mapping_from = texture_origin_name(s->mapping_from);
+    r->named.direction_from = texture_origin_name(s->direction_from);
+    r->named.metric = is_metric ? r->o->metric : none;
+    r->named.step = is_metric && s->metric.step > 0 ? s->metric.step : none;
+    r->named.steps = !is_metric && has_steps ? g->steps : none;
+    r->named.bits = g->kind == GRAIN_FLOATS ? g->bits : none;
+    r->named.fov = s->camera.ortho ? none : r->o->camera.fov_y;
+    r->named.half_height = s->camera.ortho ? r->o->camera.half_height : none;
+    r->named.coarser = !is_metric && texture_coarser(s);
+    r->named.reversed = s->found.direction ? &answers[s->found.reversed == 1] : NULL;
+    r->named.hidden = r->survey.sky - r->survey.true_sky;
+}
+
+/* ---- What is measured -------------------------------------------------------------------------------------------- */
+
+static bool add_error(statistics *r, const char *what, const char *method, const char *unit,
                       const frame_product *product) {
-    if (r->error_count == REPORT_ERRORS_MAX || frame_refuses(&r->source->frame, product) != NULL)
+    if (r->error_count == ERRORS_MAX || frame_refuses(&r->source.frame, product) != NULL)
         return true;
-    texture_errors *e = &r->errors[r->error_count++];
+    error_line *e = &r->errors[r->error_count++];
     snprintf(e->name, sizeof e->name, "%s%s%s", what, *method != '\0' ? " " : "", method);
     e->unit = unit;
-    return frame_summarise(&r->source->frame, product, &e->sum);
+    return frame_summarise(&r->source.frame, product, &e->sum);
 }
 
 /* What a decoding in binary32 adds to what is stored: relative, over the pixels that are not sky. */
-static bool add_decoding(texture_report *r, const decode_row *row) {
-    const frame *f = &r->source->frame;
-    const dp_setup *setup = &r->source->setup;
+static bool add_decoding(statistics *r, const decode_row *row) {
+    const frame *f = &r->source.frame;
+    const dp_setup *setup = &r->source.setup;
     const uint32_t width = f->camera->width, sky = frame_sky_rank(f);
-    if (r->error_count == REPORT_ERRORS_MAX || f->metric || !decode_applies(row, setup))
+    if (r->error_count == ERRORS_MAX || f->metric || !decode_applies(row, setup))
         return true;
     uint32_t *codes = calloc(width, sizeof *codes);
     float *d = calloc(width, sizeof *d), *got = calloc(width, sizeof *got);
     const bool good = codes != NULL && d != NULL && got != NULL;
-    texture_errors *e = &r->errors[r->error_count++];
+    error_line *e = &r->errors[r->error_count++];
     snprintf(e->name, sizeof e->name, "decode %s", row->name);
     e->unit = "relative";
     e->sum = (frame_summary){.lo = INFINITY, .p99 = NAN};
@@ -402,17 +398,17 @@ static bool add_decoding(texture_report *r, const decode_row *row) {
 }
 
 /* How often the pixels are visited: once for the survey, and once for each product that is measured. */
-static uint64_t passes(const texture_report *r) {
+static uint64_t passes(const statistics *r) {
     uint64_t count = 2;
-    for (size_t i = 0; r->source->path == NULL && position_get(i) != NULL; i++)
+    for (size_t i = 0; r->source.path == NULL && position_get(i) != NULL; i++)
         count++;
-    for (size_t i = 0; r->source->path == NULL && normal_get(i) != NULL; i++)
+    for (size_t i = 0; r->source.path == NULL && normal_get(i) != NULL; i++)
         count++;
     return count;
 }
 
 /* Of an image what is certain without looking any further; a scene tells the truth about everything. */
-static bool measure(texture_report *r, progress *bar) {
+static bool measure(statistics *r, progress *bar) {
     frame_product p = {.kind = FRAME_EYE, .error = true};
     uint64_t done = 1;
     progress_step(bar, done);
@@ -420,7 +416,7 @@ static bool measure(texture_report *r, progress *bar) {
     progress_step(bar, ++done);
     for (size_t i = 0; good && decode_get(i) != NULL; i++)
         good = add_decoding(r, decode_get(i));
-    if (r->source->path != NULL)
+    if (r->source.path != NULL)
         return good;
     p.kind = FRAME_POSITION;
     for (size_t i = 0; good && (p.position = position_get(i)) != NULL; i++) {
@@ -436,21 +432,21 @@ static bool measure(texture_report *r, progress *bar) {
 }
 
 int texture_report_write(const options *o, const texture_source *source) {
-    static void (*const writers[])(const texture_report *, output *) = {
-        [FORM_TEXT] = write_text, [FORM_JSON] = write_json, [FORM_CSV] = write_csv};
     output out;
-    texture_report *r = calloc(1, sizeof *r);
+    statistics *r = calloc(1, sizeof *r);
     int status = r == NULL ? usage_error("texture: no memory") : output_open(&out, o->output);
     if (status == EXIT_FINE) {
         r->o = o;
-        r->source = source;
+        r->source = *source;
         r->condition = position_condition(&source->camera);
         progress bar = progress_start("passes", passes(r), o->quiet);
         const bool good = survey_make(&source->frame, &r->survey) && measure(r, &bar);
         progress_end(&bar);
         if (good) {
-            r->has_pairs = survey_pairs_make(&source->frame, &r->pairs);
-            writers[o->form](r, &out);
+            r->named.pairs = survey_pairs_make(&source->frame, &r->pairs) ? &r->pairs : NULL;
+            name_all(r);
+            const report_spec spec = {"texture", columns, r, .when = conditions(r), .label = 14, .head = say_head};
+            report_write(&spec, &out, o->form);
             status = output_close(&out);
         } else {
             output_abandon(&out);

@@ -17,243 +17,361 @@ typedef uint32_t ALIAS word32;
 
 #define PRAGMA(TEXT) _Pragma(#TEXT)
 
-/* clang-format off */
-#define LOOP(NAME, IN, OUT, PREPARE, BODY)                                                                             \
+typedef struct dp_batch_numbers numbers;
+
+/*
+ * A kernel out of what it does to an element; what is the same for all of them the compiler does before the loop. The
+ * reduction stands here too, though nothing is reduced: without it GCC 12 adds vector loops for the rest of the
+ * elements, and the kernels get slower.
+ */
+#define LOOP(NAME, IN, OUT, ELEMENT)                                                                                   \
     TARGET static int32_t kernel_##NAME(const dp_batch *batch, const void *in, void *out, size_t count) {              \
         const IN *restrict from = in;                                                                                  \
         OUT *restrict to = out;                                                                                        \
-        const struct dp_batch_numbers k = batch->numbers;                                                              \
+        const numbers k = batch->numbers;                                                                              \
         int32_t least = INT32_MAX;                                                                                     \
-        (void)k;                                                                                                       \
-        PREPARE                                                                                                        \
         PRAGMA(omp simd reduction(min : least))                                                                        \
-        for (size_t i = 0; i < count; i++) BODY                                                                        \
+        for (size_t i = 0; i < count; i++)                                                                             \
+            to[i] = (OUT)ELEMENT(&k, from[i]);                                                                         \
         return least;                                                                                                  \
     }
-/* clang-format on */
 
-/* ---- Depth to code: the code stands in the upper bits of a double, and below it how far the next boundary is ------
- */
+/* The same for codes, whose distances from the next boundary count; of a number that is made of the element first. */
+#define LOOP_CODES(NAME, IN, OUT, NUMBER, PLACED)                                                                      \
+    TARGET static int32_t kernel_##NAME(const dp_batch *batch, const void *in, void *out, size_t count) {              \
+        const IN *restrict from = in;                                                                                  \
+        OUT *restrict to = out;                                                                                        \
+        const numbers k = batch->numbers;                                                                              \
+        int32_t least = INT32_MAX;                                                                                     \
+        PRAGMA(omp simd reduction(min : least))                                                                        \
+        for (size_t i = 0; i < count; i++) {                                                                           \
+            const placed p = PLACED(&k, NUMBER(&k, from[i]));                                                          \
+            least = p.rest < least ? p.rest : least;                                                                   \
+            to[i] = (OUT)p.code;                                                                                       \
+        }                                                                                                              \
+        return least;                                                                                                  \
+    }
+
+/* ---- Depth to code: the code stands in the upper bits of a number, and below it how far the next boundary is ----- */
+
+typedef struct placed {
+    uint32_t code;
+    int32_t rest;
+} placed;
+
+DP_INLINE placed place(const numbers *k, uint64_t bits) {
+    return (placed){(uint32_t)(bits >> k->shift) - k->rebias, (int32_t)((uint32_t)(bits >> k->cut) & 0xFFFFFU)};
+}
+
+/* t + 2^32 has steps of 2^-20. */
+DP_INLINE placed place_unorm(const numbers *k, double x) {
+    return place(k, dp_bits64(x * k->scale + k->magic));
+}
 
 /*
- * UNORM: t + 2^32 has steps of 2^-20. FLOAT: a double has the same shape as the format, but for the subnormals, which
- * take it when the least normal value is added.
+ * A double has the same shape as the format, but for the subnormals, which take it when the least normal value is
+ * added. Halves are chosen as doubles, because every instruction set can.
  */
-#define PLACE_UNORM(X) const uint64_t bits = dp_bits64((X)*k.scale + k.magic);
-#define PLACE_FLOAT(X)                                                                                                 \
-    const double d = (X)*k.scale;                                                                                      \
-    const double v = d + (d < k.least_normal ? k.least_normal : 0.0);                                                  \
-    const uint64_t bits = dp_bits64(v) + dp_bits64(d < k.least_normal ? low_half : high_half);
+DP_INLINE placed place_float(const numbers *k, double x) {
+    const double high_half = dp_float64(k->half);
+    const double low_half = dp_float64(k->half - ((uint64_t)1 << k->shift << k->mantissa));
+    const double d = x * k->scale;
+    const double v = d + (d < k->least_normal ? k->least_normal : 0.0);
+    return place(k, dp_bits64(v) + dp_bits64(d < k->least_normal ? low_half : high_half));
+}
 
-#define TAKE                                                                                                           \
-    const int32_t rest = (int32_t)((uint32_t)(bits >> k.cut) & 0xFFFFFU);                                              \
-    least = rest < least ? rest : least;                                                                               \
-    to[i] = (uint32_t)(bits >> k.shift) - k.rebias;
+DP_INLINE double clamped(const numbers *k, double x) {
+    const double raised = x > k->lo ? x : k->lo;
+    return raised < k->hi ? raised : k->hi;
+}
 
-#define CLAMPED                                                                                                        \
-    const double raised = from[i] > k.lo ? from[i] : k.lo;                                                             \
-    const double x = raised < k.hi ? raised : k.hi;
+DP_INLINE double linear(const numbers *k, double z) {
+    return k->from + k->slope * clamped(k, z);
+}
 
-/* Chosen as doubles, because every instruction set can. */
-#define HALVES                                                                                                         \
-    const double high_half = dp_float64(k.half);                                                                       \
-    const double low_half = dp_float64(k.half - ((uint64_t)1 << k.shift << k.mantissa));
+DP_INLINE double perspective(const numbers *k, double z) {
+    return linear(k, z) / clamped(k, z);
+}
 
-LOOP(CODE_PERSPECTIVE_UNORM, real64, word32, , {CLAMPED PLACE_UNORM((k.from + k.slope * x) / x) TAKE})
-LOOP(CODE_PERSPECTIVE_FLOAT, real64, word32, HALVES, {CLAMPED PLACE_FLOAT((k.from + k.slope * x) / x) TAKE})
-LOOP(CODE_LINEAR_UNORM, real64, word32, , {CLAMPED PLACE_UNORM(k.from + k.slope * x) TAKE})
-LOOP(CODE_LINEAR_FLOAT, real64, word32, HALVES, {CLAMPED PLACE_FLOAT(k.from + k.slope * x) TAKE})
-LOOP(ENCODE_UNORM, real64, word32, , {CLAMPED PLACE_UNORM(x) TAKE})
-LOOP(ENCODE_FLOAT, real64, word32, HALVES, {CLAMPED PLACE_FLOAT(x) TAKE})
+LOOP_CODES(CODE_PERSPECTIVE_UNORM, real64, word32, perspective, place_unorm)
+LOOP_CODES(CODE_PERSPECTIVE_FLOAT, real64, word32, perspective, place_float)
+LOOP_CODES(CODE_LINEAR_UNORM, real64, word32, linear, place_unorm)
+LOOP_CODES(CODE_LINEAR_FLOAT, real64, word32, linear, place_float)
+LOOP_CODES(ENCODE_UNORM, real64, word32, clamped, place_unorm)
+LOOP_CODES(ENCODE_FLOAT, real64, word32, clamped, place_float)
 
 /* ---- Code to depth ----------------------------------------------------------------------------------------------- */
 
-DP_INLINE double value_float(uint32_t code, int shift, uint64_t lift, double least_normal) {
-    const uint64_t bits = ((uint64_t)code << shift) + lift;
-    const double normal = dp_float64(bits);
-    const double subnormal = dp_float64(bits + ((uint64_t)1 << 52)) - least_normal;
-    return normal < least_normal ? subnormal : normal;
+DP_INLINE uint32_t kept_code(const numbers *k, uint32_t code) {
+    return code < k->code_max ? code : k->code_max;
 }
 
-#define LIFT                                                                                                           \
-    const int up = 52 - k.mantissa;                                                                                    \
-    const uint64_t lift = (uint64_t)(1023 - k.bias) << 52;
+/* Exact; signed conversions are in every set. */
+DP_INLINE double as_real(uint32_t code) {
+    return (double)(int32_t)(code ^ 0x80000000U) + 0x1p31;
+}
 
-#define CODE       const uint32_t c = from[i] < k.code_max ? from[i] : k.code_max;
-#define VALUE(C)   value_float((C), up, lift, k.least_normal)
-#define AS_REAL(C) ((double)(int32_t)((C) ^ 0x80000000U) + 0x1p31) /* exact; signed conversions are in every set */
+/* The numerators of codes, as dp_point_of_code() has them. */
+DP_INLINE double unorm_num(const numbers *k, uint32_t code) {
+    return 2.0 * as_real(kept_code(k, code));
+}
 
-LOOP(DECODE_UNORM, word32, real64, , { CODE to[i] = AS_REAL(c) * k.value + AS_REAL(c) * k.value_rest; })
-LOOP(DECODE_UNORM_WIDE, word32, real64, , { CODE to[i] = 2.0 * AS_REAL(c) / k.den; })
-LOOP(DECODE_FLOAT, word32, real64, LIFT, { CODE to[i] = VALUE(c); })
+DP_INLINE double float_value(const numbers *k, uint32_t code) {
+    const uint64_t bits = ((uint64_t)code << (52 - k->mantissa)) + ((uint64_t)(1023 - k->bias) << 52);
+    const double normal = dp_float64(bits);
+    const double subnormal = dp_float64(bits + ((uint64_t)1 << 52)) - k->least_normal;
+    return normal < k->least_normal ? subnormal : normal;
+}
 
-/* The operations of dp_curve_eye(), one for one: to_near and to_far weigh num, the others comp. */
-#define SHARES(NUM)                                                                                                    \
-    const double num = (NUM);                                                                                          \
-    const double comp = k.den - num;                                                                                   \
-    const double near_share = reversed ? num : comp;                                                                   \
-    const double far_share = reversed ? comp : num;
+DP_INLINE double float_num(const numbers *k, uint32_t code) {
+    return float_value(k, kept_code(k, code));
+}
 
-#define SENSE const int reversed = batch->setup.reversed;
+DP_INLINE double unorm_value(const numbers *k, uint32_t code) {
+    const double c = as_real(kept_code(k, code));
+    return c * k->value + c * k->value_rest;
+}
+
+DP_INLINE double unorm_value_wide(const numbers *k, uint32_t code) {
+    return unorm_num(k, code) / k->den;
+}
+
+LOOP(DECODE_UNORM, word32, real64, unorm_value)
+LOOP(DECODE_UNORM_WIDE, word32, real64, unorm_value_wide)
+LOOP(DECODE_FLOAT, word32, real64, float_num)
+
+/* The operations of dp_curve_eye(), one for one. */
+DP_INLINE double shares(const numbers *k, double num) {
+    const double comp = k->den - num;
+    const double near_share = k->reversed ? num : comp;
+    const double far_share = k->reversed ? comp : num;
+    return k->to_near * near_share + k->to_far * far_share;
+}
+
+DP_INLINE double eye_linear_unorm(const numbers *k, uint32_t code) {
+    return shares(k, unorm_num(k, code)) / k->den;
+}
+
+DP_INLINE double eye_linear_float(const numbers *k, uint32_t code) {
+    return shares(k, float_num(k, code)) / k->den;
+}
+
+LOOP(EYE_LINEAR_UNORM, word32, real64, eye_linear_unorm)
+LOOP(EYE_LINEAR_FLOAT, word32, real64, eye_linear_float)
 
 #ifndef QUOTIENTS_BY_HAND
-LOOP(EYE_PERSPECTIVE_UNORM, word32, real64, SENSE,
-     { CODE SHARES(2.0 * AS_REAL(c)) to[i] = k.top / (k.to_near * near_share + k.to_far * far_share); })
-LOOP(EYE_PERSPECTIVE_FLOAT, word32, real64, SENSE LIFT,
-     { CODE SHARES(VALUE(c)) to[i] = k.top / (k.to_near * near_share + k.to_far * far_share); })
-#endif
+DP_INLINE double eye_perspective_unorm(const numbers *k, uint32_t code) {
+    return k->top / shares(k, unorm_num(k, code));
+}
 
-LOOP(EYE_LINEAR_UNORM, word32, real64, SENSE,
-     { CODE SHARES(2.0 * AS_REAL(c)) to[i] = (k.to_near * near_share + k.to_far * far_share) / k.den; })
-LOOP(EYE_LINEAR_FLOAT, word32, real64, SENSE LIFT,
-     { CODE SHARES(VALUE(c)) to[i] = (k.to_near * near_share + k.to_far * far_share) / k.den; })
+DP_INLINE double eye_perspective_float(const numbers *k, uint32_t code) {
+    return k->top / shares(k, float_num(k, code));
+}
+
+LOOP(EYE_PERSPECTIVE_UNORM, word32, real64, eye_perspective_unorm)
+LOOP(EYE_PERSPECTIVE_FLOAT, word32, real64, eye_perspective_float)
+#endif
 
 /*
  * Widths: z2 - z1 = z1 z2 kappa step with one divide for both depths. The cells of the planes' codes are cut there and
  * were computed beforehand; codes beyond them have none.
  */
-#define ENDS(WIDTH)                                                                                                    \
-    const double inner = (WIDTH);                                                                                      \
-    const double real = AS_REAL(c);                                                                                    \
-    const double after = real > k.first ? inner : k.first_width;                                                       \
-    const double within = real < k.last ? after : k.last_width;                                                        \
-    const double kept = real < k.first ? k.before_width : within;                                                      \
-    to[i] = real > k.last ? k.after_width : kept;
-
-#ifndef QUOTIENTS_BY_HAND
-/* The depths of a cell of UNORM are (v - 1/2) and (v + 1/2) over a number that k.width and k.rest took up. */
-LOOP(WIDTH_PERSPECTIVE_UNORM, word32, real64, SENSE, {
-    CODE const double comp = k.steps - AS_REAL(c);
-    const double v = (reversed ? AS_REAL(c) : comp) + k.rest;
-    ENDS(k.width / (v * v - 0.25))
-})
-#endif
-
-/* The boundaries of a FLOAT code: half way to the neighbours, or the code and the next when truncated. */
-#define BOUNDARIES                                                                                                     \
-    const double value = VALUE(c);                                                                                     \
-    const double above = VALUE(c + 1U);                                                                                \
-    const double a = truncated ? value : 0.5 * (VALUE(c - 1U) + value);                                                \
-    const double b = truncated ? above : 0.5 * (value + above);
-#define TRUNCATED const int truncated = batch->setup.spec.rounding == DP_ROUND_ZERO;
-
-DP_INLINE double divisor_at(const struct dp_batch_numbers *k, int reversed, double num) {
-    const double comp = k->den - num;
-    return reversed ? k->to_near * num + k->to_far * comp : k->to_near * comp + k->to_far * num;
+DP_INLINE double with_ends(const numbers *k, uint32_t code, double inner) {
+    const double real = as_real(code);
+    const double after = real > k->first ? inner : k->first_width;
+    const double within = real < k->last ? after : k->last_width;
+    const double kept = real < k->first ? k->before_width : within;
+    return real > k->last ? k->after_width : kept;
 }
 
-LOOP(WIDTH_PERSPECTIVE_FLOAT, word32, real64, SENSE LIFT TRUNCATED,
-     {CODE BOUNDARIES ENDS(k.width * (b - a) / (divisor_at(&k, reversed, a) * divisor_at(&k, reversed, b)))})
-LOOP(WIDTH_LINEAR_UNORM, word32, real64, , {CODE ENDS(k.width)})
-LOOP(WIDTH_LINEAR_FLOAT, word32, real64, LIFT TRUNCATED, {CODE BOUNDARIES ENDS(k.width * (b - a))})
+#ifndef QUOTIENTS_BY_HAND
+/* The depths of a cell of UNORM are (v - 1/2) and (v + 1/2) over a number that k->width and k->rest took up. */
+DP_INLINE double width_perspective_unorm(const numbers *k, uint32_t code) {
+    const uint32_t c = kept_code(k, code);
+    const double comp = k->steps - as_real(c);
+    const double v = (k->reversed ? as_real(c) : comp) + k->rest;
+    return with_ends(k, c, k->width / (v * v - 0.25));
+}
+
+LOOP(WIDTH_PERSPECTIVE_UNORM, word32, real64, width_perspective_unorm)
+#endif
+
+/* The boundary below a FLOAT code: half way from the one before it, or the code itself when truncated. */
+DP_INLINE double float_boundary(const numbers *k, uint32_t code) {
+    const double value = float_value(k, code);
+    return k->truncates ? value : 0.5 * (float_value(k, code - 1U) + value);
+}
+
+DP_INLINE double width_perspective_float(const numbers *k, uint32_t code) {
+    const uint32_t c = kept_code(k, code);
+    const double a = float_boundary(k, c), b = float_boundary(k, c + 1U);
+    return with_ends(k, c, k->width * (b - a) / (shares(k, a) * shares(k, b)));
+}
+
+DP_INLINE double width_linear_unorm(const numbers *k, uint32_t code) {
+    return with_ends(k, kept_code(k, code), k->width);
+}
+
+DP_INLINE double width_linear_float(const numbers *k, uint32_t code) {
+    const uint32_t c = kept_code(k, code);
+    return with_ends(k, c, k->width * (float_boundary(k, c + 1U) - float_boundary(k, c)));
+}
+
+LOOP(WIDTH_PERSPECTIVE_FLOAT, word32, real64, width_perspective_float)
+LOOP(WIDTH_LINEAR_UNORM, word32, real64, width_linear_unorm)
+LOOP(WIDTH_LINEAR_FLOAT, word32, real64, width_linear_float)
 
 /* ---- Conversions ------------------------------------------------------------------------------------------------- */
 
-LOOP(WIDEN_REAL, real32, real64, , { to[i] = (double)from[i]; })
-LOOP(NARROW_REAL, real64, real32, , { to[i] = (float)from[i]; })
-LOOP(WIDEN_CODE, word16, word32, , { to[i] = from[i]; })
-LOOP(NARROW_CODE, word32, word16, , { to[i] = (uint16_t)from[i]; })
+DP_INLINE double widened(const numbers *k, float x) {
+    (void)k;
+    return (double)x;
+}
+
+DP_INLINE double same_real(const numbers *k, double x) {
+    (void)k;
+    return x;
+}
+
+DP_INLINE uint32_t same_code(const numbers *k, uint32_t code) {
+    (void)k;
+    return code;
+}
+
+LOOP(WIDEN_REAL, real32, real64, widened)
+LOOP(NARROW_REAL, real64, real32, same_real)
+LOOP(WIDEN_CODE, word16, word32, same_code)
+LOOP(NARROW_CODE, word32, word16, same_code)
 
 /* ---- Direct: float depth to UNORM, perspective ------------------------------------------------------------------- */
 
+/* Not by constants, or the compiler sees that a clamped depth has a known code and makes two ways of it. */
+DP_INLINE float clamped32(const numbers *k, float x) {
+    const float raised = x > k->z_lo ? x : k->z_lo;
+    return raised < k->z_hi ? raised : k->z_hi;
+}
+
+#if FUSED
 /*
  * t = s - p/z, or p/z - s reversed, with the quotient as a sum of two floats: q = p/z rounded, whose remainder is exact
  * when fused, and the remainder over z. q is cut into a whole number and a fraction, and the fractions meet in [8, 16),
  * where a float has steps of 2^-20. batch_plan.c has the error bound.
  */
-#define QUOTIENT                                                                                                       \
-    const float raised = from[i] > k.z_lo ? from[i] : k.z_lo;                                                          \
-    const float z = raised < k.z_hi ? raised : k.z_hi;                                                                 \
-    const float q = k.reach / z;                                                                                       \
-    const float rest = fmaf(-q, z, k.reach) + k.reach_rest;                                                            \
-    const float inverse = q * k.reach_inverse;                                                                         \
-    const int32_t whole = (int32_t)q;                                                                                  \
+DP_INLINE placed place_quotient(const numbers *k, float z, int reversed) {
+    const float q = k->reach / z;
+    const float rest = fmaf(-q, z, k->reach) + k->reach_rest;
+    const float inverse = q * k->reach_inverse;
+    const int32_t whole = (int32_t)q;
     const float part = q - (float)whole;
+    const float sum = reversed ? fmaf(rest, inverse, k->offset) + part : fmaf(-rest, inverse, k->offset) - part;
+    const uint32_t bits = dp_bits32(sum);
+    const int32_t floor_sum = (int32_t)(bits >> 20) + k->whole;
+    return (placed){(uint32_t)(reversed ? floor_sum + whole : floor_sum - whole), (int32_t)(bits & 0xFFFFFU)};
+}
 
-#define SETTLE(SUM, CODE)                                                                                              \
-    const uint32_t bits = dp_bits32(SUM);                                                                              \
-    const int32_t distance = (int32_t)(bits & 0xFFFFFU);                                                               \
-    least = distance < least ? distance : least;                                                                       \
-    const int32_t floor_sum = (int32_t)(bits >> 20) + k.whole;                                                         \
-    to[i] = (__typeof__(to[0]))(CODE);
+DP_INLINE placed place_standard(const numbers *k, float z) {
+    return place_quotient(k, z, 0);
+}
 
-#define STANDARD QUOTIENT SETTLE(fmaf(-rest, inverse, k.offset) - part, floor_sum - whole)
-#define REVERSED QUOTIENT SETTLE(fmaf(rest, inverse, k.offset) + part, floor_sum + whole)
+DP_INLINE placed place_reversed(const numbers *k, float z) {
+    return place_quotient(k, z, 1);
+}
 
-#if FUSED
-LOOP(STANDARD_16, real32, word16, , {STANDARD})
-LOOP(STANDARD_32, real32, word32, , {STANDARD})
-LOOP(REVERSED_16, real32, word16, , {REVERSED})
-LOOP(REVERSED_32, real32, word32, , {REVERSED})
+LOOP_CODES(STANDARD_16, real32, word16, clamped32, place_standard)
+LOOP_CODES(STANDARD_32, real32, word32, clamped32, place_standard)
+LOOP_CODES(REVERSED_16, real32, word16, clamped32, place_reversed)
+LOOP_CODES(REVERSED_32, real32, word32, clamped32, place_reversed)
 #endif
 
 /* ---- Direct: float window depth to UNORM and back, N from 2 to 24, to nearest ------------------------------------ */
-
-/* Not by constants, or the compiler sees that a clamped depth has a known code and makes two ways of it. */
-#define UNIT                                                                                                           \
-    const float raised = from[i] > k.z_lo ? from[i] : k.z_lo;                                                          \
-    const float d = raised < k.z_hi ? raised : k.z_hi;
 
 /*
  * N < 24: from 2^23 on floats are whole numbers apart, so that one fused operation rounds the exact product. Without
  * it: D = d 2^N, exact, is rounded so to r, and d M = D - d falls below r - 1/2 when D - r + 1/2 < d, whose left side
  * is exact where that can be. The only tie is d = 1/2, whose even neighbour is the upper one.
  */
+DP_INLINE uint32_t unorm_code(const numbers *k, float x) {
+    const float d = clamped32(k, x);
 #if FUSED
-#define PRODUCT const uint32_t code = dp_bits32(fmaf(d, k.unit, 0x1p23F)) - 0x4B000000U;
+    return dp_bits32(fmaf(d, k->unit, 0x1p23F)) - 0x4B000000U;
 #else
-#define PRODUCT                                                                                                        \
-    const float steps = d * k.split;                                                                                   \
-    const float r = steps + 0x1p23F;                                                                                   \
-    const float over = steps - (r - 0x1p23F);                                                                          \
-    const uint32_t code = dp_bits32(r) - 0x4B000000U - (over + 0.5F < d ? 1U : 0U);
+    const float steps = d * k->split;
+    const float r = steps + 0x1p23F;
+    const float over = steps - (r - 0x1p23F);
+    return dp_bits32(r) - 0x4B000000U - (over + 0.5F < d ? 1U : 0U);
 #endif
-LOOP(UNORM_OF_FLOAT_16, real32, word16, , { UNIT PRODUCT to[i] = (uint16_t)code; })
-LOOP(UNORM_OF_FLOAT_32, real32, word32, , { UNIT PRODUCT to[i] = code; })
+}
+
+LOOP(UNORM_OF_FLOAT_16, real32, word16, unorm_code)
+LOOP(UNORM_OF_FLOAT_32, real32, word32, unorm_code)
 
 /*
  * N = 24: d (2^24 - 1) rounded is the float below D = d 2^24, and the code is D - 1/2 rounded up, D - 1 above d = 1/2:
  * what is left when the float below 1/2 is added and the fraction cut off. tests/test_batch.c tries every float.
  */
-LOOP(UNORM24_OF_FLOAT, real32, word32, , { UNIT to[i] = (uint32_t)(int32_t)(d * 16777215.0F + 0x1.fffffep-2F); })
+DP_INLINE uint32_t unorm24_code(const numbers *k, float x) {
+    return (uint32_t)(int32_t)(clamped32(k, x) * 16777215.0F + 0x1.fffffep-2F);
+}
 
-#define WHOLE                                                                                                          \
-    const uint32_t clamped = from[i] < k.code_max ? from[i] : k.code_max;                                              \
-    const float c = (float)(int32_t)clamped;
-LOOP(FLOAT_OF_UNORM_16, word16, real32, , { WHOLE to[i] = c * k.unit + c * k.unit_rest; })
-LOOP(FLOAT_OF_UNORM_32, word32, real32, , { WHOLE to[i] = c * k.unit + c * k.unit_rest; })
+LOOP(UNORM24_OF_FLOAT, real32, word32, unorm24_code)
 
-/* ---- Direct: UNORM code to eye depth in float ---------------------------------------------------------------------
- */
+DP_INLINE float whole32(const numbers *k, uint32_t code) {
+    return (float)(int32_t)kept_code(k, code);
+}
+
+DP_INLINE float unorm_value32(const numbers *k, uint32_t code) {
+    const float c = whole32(k, code);
+    return c * k->unit + c * k->unit_rest;
+}
+
+LOOP(FLOAT_OF_UNORM_16, word16, real32, unorm_value32)
+LOOP(FLOAT_OF_UNORM_32, word32, real32, unorm_value32)
+
+/* ---- Direct: UNORM code to eye depth in float -------------------------------------------------------------------- */
 
 #ifndef QUOTIENTS_BY_HAND
-#define FAST_EYE                                                                                                       \
-    WHOLE const float comp = k.unit - c;                                                                               \
-    to[i] = k.eye_top / (k.eye_slope * (reversed ? c : comp) + k.eye_base);
-LOOP(FAST_EYE_16, word16, real32, SENSE, {FAST_EYE})
-LOOP(FAST_EYE_32, word32, real32, SENSE, {FAST_EYE})
+DP_INLINE float eye32(const numbers *k, uint32_t code) {
+    const float c = whole32(k, code), comp = k->unit - c;
+    return k->eye_top / (k->eye_slope * (k->reversed ? c : comp) + k->eye_base);
+}
+
+LOOP(FAST_EYE_16, word16, real32, eye32)
+LOOP(FAST_EYE_32, word32, real32, eye32)
 #endif
 
-/* ---- Direct: binary32, whose codes are its bits, and binary16 -----------------------------------------------------
- */
+/* ---- Direct: binary32, whose codes are its bits, and binary16 ---------------------------------------------------- */
 
-LOOP(BITS_OF_FLOAT, real32, word32, , { UNIT to[i] = dp_bits32(d); })
-LOOP(FLOAT_OF_BITS, word32, real32, , { CODE to[i] = dp_float32(c); })
+DP_INLINE uint32_t bits_of_float(const numbers *k, float x) {
+    return dp_bits32(clamped32(k, x));
+}
+
+DP_INLINE float float_of_bits(const numbers *k, uint32_t code) {
+    return dp_float32(kept_code(k, code));
+}
+
+LOOP(BITS_OF_FLOAT, real32, word32, bits_of_float)
+LOOP(FLOAT_OF_BITS, word32, real32, float_of_bits)
 
 #ifndef HALF_BY_HARDWARE
-LOOP(HALF_OF_FLOAT, real32, word16, const int32_t up = batch->setup.spec.rounding == DP_ROUND_ZERO ? 0 : 1;, {
-    UNIT const int32_t bits = (int32_t)dp_bits32(d);
+DP_INLINE int32_t half_of_float(const numbers *k, float x) {
+    const float d = clamped32(k, x);
+    const int32_t up = k->truncates ? 0 : 1, bits = (int32_t)dp_bits32(d);
     const int32_t normal = ((bits + up * (0xFFF + (bits >> 13 & 1))) >> 13) - (112 << 10);
     const float small = d < 0x1p-14F ? d : 0x1p-14F;
     const int32_t whole = (int32_t)(small * 0x1p24F);
     const int32_t even = (int32_t)(dp_bits32(small * 0x1p24F + 0x1p23F) & 0x7FFFFFU);
-    to[i] = (uint16_t)(d < 0x1p-14F ? (up ? even : whole) : normal);
-})
-LOOP(FLOAT_OF_HALF, word16, real32, , {
-    const int32_t c = from[i] < 0x3C00 ? from[i] : 0x3C00;
+    return d < 0x1p-14F ? (up ? even : whole) : normal;
+}
+
+DP_INLINE float float_of_half(const numbers *k, int32_t code) {
+    const int32_t c = code < 0x3C00 ? code : 0x3C00;
     const float normal = dp_float32((uint32_t)(c << 13) + (112U << 23));
-    to[i] = c < 0x400 ? (float)c * 0x1p-24F : normal;
-})
+    (void)k;
+    return c < 0x400 ? (float)c * 0x1p-24F : normal;
+}
+
+LOOP(HALF_OF_FLOAT, real32, word16, half_of_float)
+LOOP(FLOAT_OF_HALF, word16, real32, float_of_half)
 #endif
 
 #define ROW(K) [DP_KERNEL_##K] = kernel_##K,

@@ -13,6 +13,8 @@ static void plan_format(dp_batch *b) {
     const dp_format *f = &b->setup.spec.format;
     struct dp_batch_numbers *k = &b->numbers;
     k->code_max = f->code_max;
+    k->reversed = b->setup.reversed;
+    k->truncates = b->setup.spec.rounding == DP_ROUND_ZERO;
     k->den = dp_point_den(f);
     if (f->kind == DP_FORMAT_FLOAT) {
         k->mantissa = f->mantissa_bits;

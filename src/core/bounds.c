@@ -90,9 +90,10 @@ static void visit_piece(const search *s, uint32_t first, uint32_t last, double s
 }
 
 /*
- * staged: a piece has one step of the format, one of the window depth and one of the NDC depth. The cells differ by
- * whole binary32 steps, in a pattern with two classes at most, so the codes at the ends of the piece are visited and
- * the rest is bounded by the widest class, as if it stood at the far end.
+ * staged: a piece has one step of the format, one of the window depth and one of the NDC depth, and the codes at its
+ * ends are visited. A float's steps are powers of two, so what binary32 does to its cells repeats with every second
+ * code: the last two inner codes stand for all. Those of a unorm format differ by whole binary32 steps, and the rest is
+ * bounded by the widest, as if it stood at the far end.
  */
 typedef struct stage {
     double code;   /* step of the format, in d */
@@ -102,25 +103,20 @@ typedef struct stage {
 } stage;
 
 /*
- * The width of the widest cell of codes low..high in d. Cells hold a whole number of steps of the coarser binary32
- * lattice; where x is the finer one, its ties to even give or take one of its steps.
+ * unorm: the width of the widest cell of codes low..high in d. Cells hold a whole number of steps of the coarser
+ * binary32 lattice; where x is the finer one, its ties to even give or take one of its steps.
  */
 static double staged_width(const dp_setup *setup, const stage *g, uint32_t low, uint32_t high) {
     const double coarse = larger(g->window, g->ndc);
     const double tie = g->ndc < g->window ? g->ndc : 0.0;
-    if (setup->spec.format.kind == DP_FORMAT_FLOAT) {
-        /* The steps are powers of two: every cell holds the same number, or ties to even add one to every second. */
-        const double ratio = g->code / coarse;
-        return (ratio < 2.0 ? 1.0 : ratio + (setup->spec.rounding != DP_ROUND_ZERO)) * coarse + tie;
-    }
     /* Boundaries at equal distances, rounded up to a lattice: cells hold the average, rounded down or up. */
     const float first = dp_staged_window(setup, low);
-    const float last = dp_staged_window(setup, high);
+    const float last = dp_staged_window(setup, high + 1U); /* where the cell of high ends */
     const double span = g->window >= g->ndc
                             ? (double)last - (double)first
                             : 0.5 * ((double)dp_staged_ndc(setup, last) - (double)dp_staged_ndc(setup, first));
     const double total = span / coarse;
-    const double cells = (double)(high - low);
+    const double cells = (double)(high - low) + 1.0;
     const double steps = ceil(total / cells);
     /* Cells of one even number of steps all begin alike, and their ties cancel. */
     const int alike = steps * cells == total && fmod(steps, 2.0) == 0.0;
@@ -154,7 +150,7 @@ static void visit_staged(const search *s, const stage *g, uint32_t low, uint32_t
     }
     if (low == high)
         visit(s, rank_of_code(s, low));
-    if (low >= high)
+    if (low >= high || setup->spec.format.kind == DP_FORMAT_FLOAT)
         return;
     const double z = dp_cell_of(setup, setup->reversed ? low : high).hi;
     s->worst->interval = larger(s->worst->interval, dp_curve_reach(setup, z, staged_width(setup, g, low, high)));

@@ -84,26 +84,26 @@ static double half_claim(double ratio, double a, double b) {
 /* ---- Rows, cheapest first ---------------------------------------------------------------------------------------- */
 
 /* LinearEyeDepth, and what the ray and its products lose at the worst pixel, in units: those of position_bound() at its
- * worst over the image; near, far and the scene's units do not matter then. Those of the matrix are measured: 1.6 times
- * the worst of 3000. */
+ * worst over the image and all directions; near, far and the scene's units do not matter then. Those of the matrix are
+ * measured: 1.6 times the worst of 3000. */
 #define UNIT            DP_UNIT
 #define CANCELLED(a, b) FORMULA_TO(METHOD_CANCELLED, method_cancelled, a, b)
-#define HALF            FORMULA_TO(METHOD_CANCELLED, half_claim, 3, 15.1)
+#define HALF            FORMULA_TO(METHOD_CANCELLED, half_claim, 3, 13.8)
 
 /* clang-format off */
 static const method_row methods[] = {
     {METHOD_POSITION, "view", "camera + ray z: the ray counted from the image's middle, z without cancellation",
-     {FULL(9.3 * UNIT), FULL(8.3 * UNIT), FULL(9.3 * UNIT)}, METHOD_INFINITE | METHOD_ORTHO, 0.4, "1", 0,
+     {FULL(8.9 * UNIT), FULL(8 * UNIT), FULL(8.9 * UNIT)}, METHOD_INFINITE | METHOD_ORTHO, 0.4, "1", 0,
      "depthprec(7)", run, prepare, free, .position = &position_rows[POSITION_VIEW]},
     {METHOD_POSITION, "extents", "(top left + x extent u + y extent v) eye/n with LinearEyeDepth",
-     {CANCELLED(3, 15.1), FULL(19 * UNIT), CANCELLED(3, 15.1)}, METHOD_INFINITE, 0.42, "1", 0,
+     {CANCELLED(3, 13.8), FULL(17.8 * UNIT), CANCELLED(3, 13.8)}, METHOD_INFINITE, 0.42, "1", 0,
      "URP, ReconstructViewPos in SSAO.hlsl", run, prepare, free, .position = &position_rows[POSITION_EXTENTS]},
     {METHOD_POSITION, "rays",
      "camera + ray eye/n with LinearEyeDepth, the ray between those of the near plane's corners",
-     {CANCELLED(3, 15.6), FULL(20 * UNIT), CANCELLED(3, 15.6)}, METHOD_INFINITE, 0.45, "1", 0,
+     {CANCELLED(3, 13.2), FULL(17.2 * UNIT), CANCELLED(3, 13.2)}, METHOD_INFINITE, 0.45, "1", 0,
      "image effects with _FrustumCornersRay", run, prepare, free, .position = &position_rows[POSITION_RAYS]},
     {METHOD_POSITION, "matrix", "inverse view-projection matrix times NDC, divided by w",
-     {CANCELLED(6, 12), FULL(18.3 * UNIT), CANCELLED(3.5, 12)}, METHOD_INFINITE, 0.48, "1", 0,
+     {CANCELLED(6, 12), FULL(16.7 * UNIT), CANCELLED(3.5, 12)}, METHOD_INFINITE, 0.48, "1", 0,
      "ComputeWorldSpacePosition, the Core package's Common.hlsl", run, prepare, free,
      .position = &position_rows[POSITION_MATRIX]},
     {METHOD_POSITION, "extents-half",

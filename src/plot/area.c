@@ -11,22 +11,22 @@ canvas_colour area_tint(const theme *t, int colour) {
     return (canvas_colour){b.r + strength * (c.r - b.r), b.g + strength * (c.g - b.g), b.b + strength * (c.b - b.b), 1};
 }
 
-/* The height to which the bands up to this one reach at point i, `count` of them; NaN in a gap. */
-static double reached(const chart_series *first, size_t count, size_t i) {
+/* The height to which the first `count` series reach at point i, as far as they are bands; NaN in a gap. */
+static double reached(const chart_panel *panel, size_t count, size_t i) {
     double sum = 0;
     for (size_t k = 0; k < count; k++)
-        if (first[k].kind == CHART_AREA)
-            sum += first[k].y[i];
+        if (panel->series[k].kind == CHART_AREA)
+            sum += panel->series[k].y[i];
     return sum;
 }
 
-void area_draw(const pencil *p, const axes *a, const chart_series *s, size_t index) {
-    const chart_series *first = s - index;
+void area_draw(const pencil *p, const axes *a, const chart_panel *panel, size_t index) {
+    const chart_series *s = &panel->series[index];
     const canvas_colour tint = area_tint(p->theme, s->style.colour);
     trace t = trace_start(p->c);
     bool open = false;
     for (size_t i = 0; i <= s->count; i++) {
-        double top = i < s->count ? reached(first, index + 1, i) : (double)NAN;
+        double top = i < s->count ? reached(panel, index + 1, i) : (double)NAN;
         if (isnan(top) && open) {
             trace_fill(&t, a->frame.y + a->frame.h, tint);
             t = trace_start(p->c);
@@ -47,11 +47,10 @@ static double height(heights h) {
 }
 
 /* What the band has everywhere from point i to point j. */
-static heights common_span(const axes *a, const chart_series *s, size_t index, size_t i, size_t j) {
-    const chart_series *first = s - index;
+static heights common_span(const axes *a, const chart_panel *panel, size_t index, size_t i, size_t j) {
     heights h = {a->frame.y, a->frame.y + a->frame.h};
     for (; i <= j; i++) {
-        double top = reached(first, index + 1, i), base = reached(first, index, i);
+        double top = reached(panel, index + 1, i), base = reached(panel, index, i);
         if (isnan(top))
             return (heights){0, 0};
         h.upper = fmax(h.upper, axes_y(a, top));
@@ -95,7 +94,7 @@ void area_label(const pencil *p, const axes *a, const axes *right, const chart_p
             j++;
         if (left < a->frame.x || axes_x(a, s->x[j]) < left + width)
             continue;
-        heights h = clear_of_lines(right, panel, common_span(a, s, index, i, j), left, left + width, 3 * p->scale);
+        heights h = clear_of_lines(right, panel, common_span(a, panel, index, i, j), left, left + width, 3 * p->scale);
         if (height(h) > best) {
             best = height(h);
             x = left + width / 2;

@@ -10,9 +10,9 @@ canvas_colour area_tint(const theme *t, int colour);
 
 /**
  * Fills from the top edge of band `index` down to the axis. The bands below it are painted over that, so draw the
- * topmost first. s - index is the first series of the panel; a point that is NaN leaves a gap.
+ * topmost first. A point that is NaN leaves a gap.
  */
-void area_draw(const pencil *p, const axes *a, const chart_series *s, size_t index);
+void area_draw(const pencil *p, const axes *a, const chart_panel *panel, size_t index);
 
 /**
  * Writes the name of band `index` where it is thickest, clear of the lines; nothing where it is too thin everywhere.

@@ -16,16 +16,10 @@ static const dp_cause stack[DP_CAUSE_COUNT] = {
 
 /* A cause that nobody asked to count takes no part anywhere. */
 static bool counts(const dp_budget_terms *terms, dp_cause cause) {
-    switch (cause) {
-    case DP_CAUSE_COMPOSITION:
-        return terms->world > 0;
-    case DP_CAUSE_INTERPOLATION:
-        return terms->interpolation > 0;
-    case DP_CAUSE_LINEARIZATION:
-        return terms->linearize != 0;
-    default:
-        return true;
-    }
+    return cause == DP_CAUSE_COMPOSITION     ? terms->world > 0
+           : cause == DP_CAUSE_INTERPOLATION ? terms->interpolation > 0
+           : cause == DP_CAUSE_LINEARIZATION ? terms->linearize != 0
+                                             : true;
 }
 
 /* The bands that take part, from the axis upwards, and behind them the separation. */

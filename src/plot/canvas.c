@@ -10,8 +10,6 @@
 #include <strings.h>
 #include <time.h>
 
-#include "plot/notes.h"
-
 /* Points per px in a PDF: CSS has 96 px to the inch, PDF 72 points. */
 #define POINTS_PER_PX 0.75
 #define FONT_FAMILY   "DejaVu Sans"
@@ -21,7 +19,7 @@ struct canvas {
     cairo_t *cr;
     canvas_format format;
     notes_buffer bytes;
-    canvas_notes notes;
+    notes words;
 };
 
 static cairo_status_t append(void *closure, const unsigned char *data, unsigned int size) {
@@ -38,7 +36,7 @@ canvas_format canvas_format_of(const char *path) {
 }
 
 /* cairo would stamp the hour of the run. The empty date leaves the entry out; SOURCE_DATE_EPOCH puts its own in. */
-static void pdf_metadata(cairo_surface_t *surface, const canvas_notes *notes) {
+static void pdf_metadata(cairo_surface_t *surface, const notes *words) {
     char date[32] = "";
     const char *epoch = getenv("SOURCE_DATE_EPOCH");
     if (epoch != NULL && *epoch != '\0') {
@@ -49,25 +47,25 @@ static void pdf_metadata(cairo_surface_t *surface, const canvas_notes *notes) {
             strftime(date, sizeof date, "%Y-%m-%dT%H:%M:%SZ", &utc);
     }
     cairo_pdf_surface_set_metadata(surface, CAIRO_PDF_METADATA_CREATE_DATE, date);
-    cairo_pdf_surface_set_metadata(surface, CAIRO_PDF_METADATA_TITLE, notes->title);
-    cairo_pdf_surface_set_metadata(surface, CAIRO_PDF_METADATA_SUBJECT, notes->description);
-    cairo_pdf_surface_set_metadata(surface, CAIRO_PDF_METADATA_CREATOR, notes->command);
-    cairo_pdf_surface_set_metadata(surface, CAIRO_PDF_METADATA_KEYWORDS, notes->data);
+    cairo_pdf_surface_set_metadata(surface, CAIRO_PDF_METADATA_TITLE, words->title);
+    cairo_pdf_surface_set_metadata(surface, CAIRO_PDF_METADATA_SUBJECT, words->description);
+    cairo_pdf_surface_set_metadata(surface, CAIRO_PDF_METADATA_CREATOR, words->command);
+    cairo_pdf_surface_set_metadata(surface, CAIRO_PDF_METADATA_KEYWORDS, words->data);
 }
 
-canvas *canvas_new(canvas_format format, int width, int height, const canvas_notes *notes) {
+canvas *canvas_new(canvas_format format, int width, int height, const notes *words) {
     canvas *c = calloc(1, sizeof *c);
     if (c == NULL)
         return NULL;
     c->format = format;
-    c->notes = *notes;
+    c->words = *words;
     if (format == CANVAS_SVG) {
         c->surface = cairo_svg_surface_create_for_stream(append, &c->bytes, width, height);
         cairo_svg_surface_set_document_unit(c->surface, CAIRO_SVG_UNIT_PX);
     } else if (format == CANVAS_PDF) {
         c->surface =
             cairo_pdf_surface_create_for_stream(append, &c->bytes, width * POINTS_PER_PX, height * POINTS_PER_PX);
-        pdf_metadata(c->surface, notes);
+        pdf_metadata(c->surface, words);
     } else {
         c->surface = cairo_image_surface_create(CAIRO_FORMAT_RGB24, width, height);
     }
@@ -89,9 +87,9 @@ bool canvas_finish(canvas *c, canvas_bytes *out) {
     cairo_surface_destroy(c->surface);
     bool good = drawn == CAIRO_STATUS_SUCCESS && !c->bytes.failed;
     if (good && c->format == CANVAS_SVG)
-        good = notes_into_svg(&c->bytes, &c->notes);
+        good = notes_into_svg(&c->bytes, &c->words);
     if (good && c->format == CANVAS_PNG)
-        good = notes_into_png(&c->bytes, &c->notes);
+        good = notes_into_png(&c->bytes, &c->words);
     if (!good) {
         free(c->bytes.at);
         c->bytes = (notes_buffer){0};
@@ -107,13 +105,6 @@ static double reach(double v) {
 
 static void use_colour(canvas *c, canvas_colour colour) {
     cairo_set_source_rgba(c->cr, colour.r, colour.g, colour.b, colour.a);
-}
-
-static void stroke(canvas *c, const canvas_pen *pen) {
-    use_colour(c, pen->colour);
-    cairo_set_line_width(c->cr, pen->width);
-    cairo_set_dash(c->cr, pen->dash, pen->dash_count, 0);
-    cairo_stroke(c->cr);
 }
 
 void canvas_path_begin(canvas *c) {
@@ -135,7 +126,10 @@ void canvas_path_segment(canvas *c, double x0, double y0, double x1, double y1) 
 }
 
 void canvas_path_end(canvas *c, const canvas_pen *pen) {
-    stroke(c, pen);
+    use_colour(c, pen->colour);
+    cairo_set_line_width(c->cr, pen->width);
+    cairo_set_dash(c->cr, pen->dash, pen->dash_count, 0);
+    cairo_stroke(c->cr);
 }
 
 void canvas_path_fill(canvas *c, canvas_colour colour) {
@@ -144,8 +138,8 @@ void canvas_path_fill(canvas *c, canvas_colour colour) {
     cairo_fill(c->cr);
 }
 
-static void trace(canvas *c, const canvas_point *points, size_t count) {
-    cairo_new_path(c->cr);
+static void outline(canvas *c, const canvas_point *points, size_t count) {
+    canvas_path_begin(c);
     for (size_t i = 0; i < count; i++)
         canvas_path_to(c, points[i].x, points[i].y);
 }
@@ -157,13 +151,13 @@ void canvas_fill(canvas *c, canvas_rect area, canvas_colour colour) {
 }
 
 void canvas_polygon(canvas *c, const canvas_point *points, size_t count, canvas_colour colour) {
-    trace(c, points, count);
+    outline(c, points, count);
     canvas_path_fill(c, colour);
 }
 
 void canvas_line(canvas *c, const canvas_point *points, size_t count, const canvas_pen *pen) {
-    trace(c, points, count);
-    stroke(c, pen);
+    outline(c, points, count);
+    canvas_path_end(c, pen);
 }
 
 void canvas_segment(canvas *c, double x0, double y0, double x1, double y1, const canvas_pen *pen) {
@@ -178,7 +172,7 @@ void canvas_disc(canvas *c, double x, double y, double radius, canvas_colour fil
         cairo_fill(c->cr);
     } else {
         cairo_fill_preserve(c->cr);
-        stroke(c, pen);
+        canvas_path_end(c, pen);
     }
 }
 
@@ -206,7 +200,7 @@ void canvas_text(canvas *c, double x, double y, const char *text, const canvas_f
     if (font->halo.a > 0) {
         cairo_move_to(c->cr, -back, 0);
         cairo_text_path(c->cr, text);
-        stroke(c, &(canvas_pen){.colour = font->halo, .width = font->size / 4});
+        canvas_path_end(c, &(canvas_pen){.colour = font->halo, .width = font->size / 4});
     }
     use_colour(c, font->colour);
     cairo_move_to(c->cr, -back, 0);

@@ -13,6 +13,8 @@
 #include <stddef.h>
 #include <stdint.h>
 
+#include "plot/notes.h"
+
 typedef struct canvas canvas;
 
 typedef enum canvas_format { CANVAS_SVG = 0, CANVAS_PDF, CANVAS_PNG, CANVAS_FORMAT_COUNT } canvas_format;
@@ -52,14 +54,6 @@ typedef struct canvas_font {
 /** What of a text lies at the given point. The baseline is the lower edge, the height of a capital the upper. */
 typedef enum canvas_align { CANVAS_LEFT = 0, CANVAS_MIDDLE, CANVAS_RIGHT } canvas_align;
 
-/** The words that a file carries beside the picture: all UTF-8, none null. */
-typedef struct canvas_notes {
-    const char *title;
-    const char *description; /**< what is shown, one paragraph: for screen readers and search */
-    const char *command;     /**< the command line that draws it */
-    const char *data;        /**< the digest of the numbers that were drawn */
-} canvas_notes;
-
 typedef struct canvas_bytes {
     unsigned char *at; /**< free() it */
     size_t size;
@@ -69,7 +63,7 @@ typedef struct canvas_bytes {
 canvas_format canvas_format_of(const char *path);
 
 /** A surface of whole px in each direction, 1 to 16384. @return null when out of memory */
-canvas *canvas_new(canvas_format format, int width, int height, const canvas_notes *notes);
+canvas *canvas_new(canvas_format format, int width, int height, const notes *words);
 
 /** Frees everything but the bytes. @return false when cairo failed or memory ran out; *out is then empty */
 bool canvas_finish(canvas *c, canvas_bytes *out);

@@ -116,6 +116,11 @@ void chart_fit(chart *c);
 /** A map of columns x rows, centred on the panel's axes (which must be set); false when out of memory. */
 bool chart_add_map(chart *c, chart_panel *panel, int columns, int rows);
 
+/** The field of a map in row i, column k. */
+static inline double *chart_field(const chart_map *m, int i, int k) {
+    return &m->value[(size_t)i * (size_t)m->columns + (size_t)k];
+}
+
 /** The value at share t (0..1) of an axis. */
 double chart_axis_at(const chart_axis *axis, double t);
 

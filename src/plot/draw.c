@@ -87,13 +87,31 @@ static void draw_caption(const pencil *p, const chart_axis *axis, canvas_align a
         canvas_text(p->c, x, y, w.lines[0], &p->text, align, 0);
 }
 
+static bool is_points(const chart_series *s) {
+    return s->kind == CHART_POINTS || s->kind == CHART_LABELS;
+}
+
 /* Points may stand on the frame; they are not cut by it. */
 static void draw_points(const pencil *p, const axes *a, const chart_panel *panel, bool behind) {
-    for (size_t s = 0; s < panel->series_count; s++) {
-        const chart_series *series = &panel->series[s];
-        if ((series->kind == CHART_POINTS || series->kind == CHART_LABELS) && series->behind == behind)
-            series_draw(p, a, series, s, panel->series_count);
-    }
+    for (size_t s = 0; s < panel->series_count; s++)
+        if (is_points(&panel->series[s]) && panel->series[s].behind == behind)
+            series_draw(p, a, panel, s);
+}
+
+/* Bands, the topmost first; lines and drops on them, and the names of the bands where these leave room. */
+static void draw_curves(const pencil *p, const axes *a, const axes *right, const chart_panel *panel) {
+    const chart_series *all = panel->series;
+    canvas_clip(p->c, (canvas_rect){a->frame.x, a->frame.y, a->frame.w + 1, a->frame.h + 1});
+    for (size_t s = panel->series_count; s-- > 0;)
+        if (all[s].kind == CHART_AREA)
+            series_draw(p, a, panel, s);
+    for (size_t s = 0; s < panel->series_count; s++)
+        if (!is_points(&all[s]) && all[s].kind != CHART_AREA)
+            series_draw(p, all[s].second ? right : a, panel, s);
+    for (size_t s = 0; s < panel->series_count; s++)
+        if (all[s].kind == CHART_AREA)
+            area_label(p, a, right, panel, s);
+    canvas_unclip(p->c);
 }
 
 static bool draw_panel(const pencil *p, const chart *c, const grid *g, int index) {
@@ -115,18 +133,7 @@ static bool draw_panel(const pencil *p, const chart *c, const grid *g, int index
         axes_draw_grid(p, &a);
     }
     draw_points(p, &a, panel, true);
-    canvas_clip(p->c, (canvas_rect){a.frame.x, a.frame.y, a.frame.w + 1, a.frame.h + 1});
-    for (size_t s = panel->series_count; s-- > 0;)
-        if (panel->series[s].kind == CHART_AREA)
-            series_draw(p, &a, &panel->series[s], s, panel->series_count);
-    for (size_t s = 0; s < panel->series_count; s++)
-        if (panel->series[s].kind != CHART_POINTS && panel->series[s].kind != CHART_LABELS &&
-            panel->series[s].kind != CHART_AREA)
-            series_draw(p, panel->series[s].second ? &right : &a, &panel->series[s], s, panel->series_count);
-    for (size_t s = 0; s < panel->series_count; s++)
-        if (panel->series[s].kind == CHART_AREA)
-            area_label(p, &a, &right, panel, s);
-    canvas_unclip(p->c);
+    draw_curves(p, &a, &right, panel);
     axes_draw_frame(p, &a, lowest, leftmost);
     if (panel->second.label != NULL)
         axes_draw_right(p, &right, rightmost);
@@ -150,16 +157,16 @@ static bool draw_page(const pencil *p, const chart *c, double width, double heig
     g.area.h -= clear;
 
     /* Tick labels stand to the left of the panels, and half of the last one to their right. */
-    double panel_height = g.area.h / g.rows - g.heading;
-    double left = axes_label_width(p, y, panel_height) + TICK_ROOM * s;
-    double x_label = axes_x_label_width(p, x, g.area.w / g.columns), right = x_label / 2;
+    const int labels = axes_room_y(p, g.area.h / g.rows - g.heading);
+    double left = axes_widest_label(p, y, labels) + TICK_ROOM * s;
+    double x_label = axes_widest_label(p, x, axes_room_x(p, g.area.w / g.columns)), right = x_label / 2;
     g.gap_x = fmax(PANEL_GAP * s, x_label + SPACE * s); /* two neighbours' end labels meet there */
     g.gap_y = PANEL_GAP * s;
     double bar = c->value.label != NULL
-                     ? SPACE * 2 * s + BAR_WIDTH * s + TICK_ROOM * s + axes_label_width(p, &c->value, panel_height)
+                     ? SPACE * 2 * s + BAR_WIDTH * s + TICK_ROOM * s + axes_widest_label(p, &c->value, labels)
                  : c->colours ? SPACE * 2 * s + BALL_WIDTH * s
                               : 0;
-    double scale = second->label != NULL ? TICK_ROOM * s + axes_label_width(p, second, panel_height) : 0;
+    double scale = second->label != NULL ? TICK_ROOM * s + axes_widest_label(p, second, labels) : 0;
     g.area.x += left;
     g.area.w -= left + fmax(fmax(bar, scale), right - 0.75 * MARGIN * s);
 
@@ -215,11 +222,11 @@ bool draw_chart(const chart *c, const theme *t, canvas_format format, int width,
     char clean_description[sizeof description];
     describe(c, description, sizeof description);
     draw_digest(c, digest);
-    canvas_notes notes = {notes_clean(clean_title, sizeof clean_title, c->title),
-                          notes_clean(clean_description, sizeof clean_description, description),
-                          notes_clean(clean_command, sizeof clean_command, command), digest};
+    const notes noted = {notes_clean(clean_title, sizeof clean_title, c->title),
+                         notes_clean(clean_description, sizeof clean_description, description),
+                         notes_clean(clean_command, sizeof clean_command, command), digest};
     *out = (canvas_bytes){NULL, 0};
-    canvas *surface = canvas_new(format, width, height, &notes);
+    canvas *surface = canvas_new(format, width, height, &noted);
     if (surface == NULL)
         return false;
     double scale = fmax(fmin(width / PAGE_WIDTH, height / PAGE_HEIGHT), 0.75);

@@ -42,6 +42,13 @@ enum {
     FIGURE_FILE = 1 << 5,      /**< a requirement file, which brings its own set-ups, with planes of their own */
 };
 
+/**
+ * Fills in an empty chart whose subtitle is set; an empty title is replaced by the row's when left empty.
+ * @return null, or a sentence about what of the request cannot be drawn, which lasts as long as the chart;
+ *         chart_failed() tells of memory
+ */
+typedef const char *figure_build(const figure_request *request, chart *out);
+
 typedef struct figure_row {
     const char *name;
     const char *title;
@@ -49,19 +56,11 @@ typedef struct figure_row {
     size_t setups_max;   /**< most set-ups that stay legible */
     unsigned takes;      /**< FIGURE_... bits */
     const char *family;  /**< of methods, shown when none is named; null: the figure shows no methods */
-    /**
-     * Fills in an empty chart whose subtitle is set; an empty title is replaced by the row's when left empty.
-     * @return null, or a sentence about what of the request cannot be drawn, which lasts as long as the chart;
-     *         chart_failed() tells of memory
-     */
-    const char *(*build)(const figure_request *request, chart *out);
+    figure_build *build;
 } figure_row;
 
 /** Figures by index; null beyond the last. */
 const figure_row *figure_get(size_t index);
-
-/** The figure of a name; null when there is none. */
-const figure_row *figure_find(const char *name);
 
 /** Colour, stroke and marker of set-up i: the format decides the colour and the marker, the mapping the stroke;
  *  where all share the one or the other, each set-up has its own of all three. */
@@ -74,22 +73,14 @@ void figure_range(const figure_request *request, double *lo, double *hi);
  */
 chart_panel *figure_panel(const figure_request *request, chart *out, chart_axis y);
 
-const char *distribution_build(const figure_request *request, chart *out);
-const char *share_build(const figure_request *request, chart *out);
-const char *error_build(const figure_request *request, chart *out);
-const char *interval_build(const figure_request *request, chart *out);
-const char *budget_build(const figure_request *request, chart *out);
-const char *scene_build(const figure_request *request, chart *out);
-const char *map_build(const figure_request *request, chart *out);
-const char *pareto_build(const figure_request *request, chart *out);
-const char *stability_build(const figure_request *request, chart *out);
-const char *normals_build(const figure_request *request, chart *out);
+figure_build distribution_build, share_build, error_build, interval_build, budget_build, scene_build, map_build,
+    pareto_build, stability_build, normals_build;
 
-/** The figures whose measuring takes long or differs from run to run, drawn of what was measured. */
+/** Figures whose measuring takes long or differs from run to run, drawn of what was measured. */
 const char *pareto_draw(const method_family_row *family, const bench_result *results, size_t count, chart *out);
 const char *stability_draw(const method_family_row *family, const stability_result *results, size_t count, chart *out);
 
-/** Degrees that a normal is off, of a surface at depth z; in the order in which the figure names them. */
+/** Degrees that the normals of a method are off on a surface at depth z: both counted as the figure names them. */
 typedef double normals_error(const dp_setup *setup, size_t surface, size_t method, double z);
 const char *normals_draw(const figure_request *request, normals_error *error, chart *out);
 

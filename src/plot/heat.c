@@ -38,7 +38,7 @@ static void draw_fields(const pencil *p, canvas_rect f, const chart_map *m, cons
     const double w = f.w / m->columns, h = f.h / m->rows, seam = 0.5;
     for (int row = m->rows - 1; row >= 0; row--)
         for (int column = 0; column < m->columns; column++) {
-            double v = m->value[(size_t)row * (size_t)m->columns + (size_t)column];
+            double v = *chart_field(m, row, column);
             if (!isnan(v))
                 canvas_fill(p->c, (canvas_rect){f.x + column * w, f.y + f.h - (row + 1) * h, w + seam, h + seam},
                             colour_of(c, v));
@@ -57,7 +57,7 @@ static bool draw_pixels(const pencil *p, canvas_rect f, const chart_map *m, cons
         return false;
     for (int row = 0; row < m->rows; row++)
         for (int column = 0; column < m->columns; column++) {
-            double v = m->value[(size_t)row * (size_t)m->columns + (size_t)column];
+            double v = *chart_field(m, row, column);
             if (!isnan(v))
                 pixels[(size_t)(m->rows - 1 - row) * (size_t)m->columns + (size_t)column] =
                     theme_pixel(colour_of(c, v));
@@ -90,7 +90,7 @@ static void square_contour(const pencil *p, canvas_rect f, const chart_map *m, i
     for (int i = 0; i < 4; i++) {
         at[i][0] = (int)fmin(column + CONTOUR_STRIDE * (i & 1), m->columns - 1);
         at[i][1] = (int)fmin(row + CONTOUR_STRIDE * (i >> 1), m->rows - 1);
-        corner[i] = m->value[(size_t)at[i][1] * (size_t)m->columns + (size_t)at[i][0]];
+        corner[i] = *chart_field(m, at[i][1], at[i][0]);
         if (isnan(corner[i]))
             return;
     }
@@ -117,7 +117,7 @@ static void draw_contour(const pencil *p, canvas_rect f, const chart_map *m, dou
 
 static double map_at(const chart_map *m, double x, double y) {
     int column = (int)fmin(x * m->columns, m->columns - 1), row = (int)fmin(y * m->rows, m->rows - 1);
-    return m->value[(size_t)row * (size_t)m->columns + (size_t)column];
+    return *chart_field(m, row, column);
 }
 
 /* Where labels may not go: what is there already. */

@@ -41,12 +41,11 @@ static place best_place(const pencil *p, const axes *a, double x, double y, doub
     return best;
 }
 
-void labels_draw(const pencil *p, const axes *a, const chart_series *s, size_t index, size_t count) {
+void labels_draw(const pencil *p, const axes *a, const chart_panel *panel, size_t index) {
+    const chart_series *s = &panel->series[index];
     canvas_rect taken[2 * LABELS_MAX];
     size_t used = 0, shown = s->count < LABELS_MAX && s->labels != NULL ? s->count : 0;
     const double half = 6 * p->scale;
-    (void)index;
-    (void)count;
     for (size_t i = 0; i < shown; i++)
         taken[used++] = (canvas_rect){axes_x(a, s->x[i]) - half, axes_y(a, s->y[i]) - half, 2 * half, 2 * half};
     for (size_t i = 0; i < shown; i++) {

@@ -44,8 +44,7 @@ static size_t fill(chart_map *m, const dp_setup *like, const figure_request *req
     for (int row = 0; row < m->rows; row++)
         for (int column = 0; column < m->columns; column++) {
             bool other;
-            m->value[(size_t)row * (size_t)m->columns + (size_t)column] =
-                cell_value(like, request, m->x[column], m->y[row], &other);
+            *chart_field(m, row, column) = cell_value(like, request, m->x[column], m->y[row], &other);
             by_way += other;
         }
     return by_way;

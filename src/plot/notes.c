@@ -57,7 +57,7 @@ static bool replace(notes_buffer *b, notes_buffer *whole) {
     return true;
 }
 
-bool notes_into_svg(notes_buffer *b, const canvas_notes *notes) {
+bool notes_into_svg(notes_buffer *b, const notes *words) {
     size_t head = 0;
     while (head + 4 < b->size && memcmp(b->at + head, "<svg", 4) != 0)
         head++;
@@ -68,10 +68,10 @@ bool notes_into_svg(notes_buffer *b, const canvas_notes *notes) {
     notes_buffer whole = {0};
     notes_append(&whole, b->at, tag);
     text(&whole, " role=\"img\" aria-labelledby=\"title desc\">\n");
-    element(&whole, "<title id=\"title\">", notes->title, "</title>\n");
-    element(&whole, "<desc id=\"desc\">", notes->description, "</desc>\n");
-    element(&whole, "<metadata>\ncommand: ", notes->command, "\n");
-    element(&whole, "data: ", notes->data, "\n</metadata>");
+    element(&whole, "<title id=\"title\">", words->title, "</title>\n");
+    element(&whole, "<desc id=\"desc\">", words->description, "</desc>\n");
+    element(&whole, "<metadata>\ncommand: ", words->command, "\n");
+    element(&whole, "data: ", words->data, "\n</metadata>");
     notes_append(&whole, close + 1, b->size - tag - 1);
     return replace(b, &whole);
 }
@@ -106,16 +106,16 @@ static void chunk(notes_buffer *b, const char *keyword, const char *content) {
         big_endian(b, crc(b->at + start, b->size - start));
 }
 
-bool notes_into_png(notes_buffer *b, const canvas_notes *notes) {
+bool notes_into_png(notes_buffer *b, const notes *words) {
     enum { HEAD = 8 + 25 }; /* the signature and the IHDR chunk, always of these sizes */
     if (b->size < HEAD)
         return false;
     notes_buffer whole = {0};
     notes_append(&whole, b->at, HEAD);
-    chunk(&whole, "Title", notes->title);
-    chunk(&whole, "Description", notes->description);
-    chunk(&whole, "Source", notes->command);
-    chunk(&whole, "Comment", notes->data);
+    chunk(&whole, "Title", words->title);
+    chunk(&whole, "Description", words->description);
+    chunk(&whole, "Source", words->command);
+    chunk(&whole, "Comment", words->data);
     notes_append(&whole, b->at + HEAD, b->size - HEAD);
     return replace(b, &whole);
 }

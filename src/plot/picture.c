@@ -10,6 +10,59 @@
  */
 static const double wide = 50, deepest = 1e-4;
 
+/* Pixels `first` to `end`. */
+typedef struct span {
+    uint32_t first, end;
+} span;
+
+static uint32_t start_of(uint32_t pixels, int fields, int i) {
+    return (uint32_t)((uint64_t)pixels * (uint64_t)i / (uint64_t)fields);
+}
+
+/* What a field looks at along one direction: all its pixels where they are errors, else the one in its middle. */
+static span looks_at(const picture *p, uint32_t pixels, int fields, int i) {
+    const span all = {start_of(pixels, fields, i), start_of(pixels, fields, i + 1)};
+    const uint32_t middle = (all.first + all.end - 1) / 2;
+    return p->magnitudes ? all : (span){middle, middle + 1};
+}
+
+/* Never wider than a pixel where the image is small. */
+static int fields_of(uint32_t pixels, double factor) {
+    return (int)fmax(1, floor(pixels * factor));
+}
+
+bool picture_open(picture *p, int most, chart *memory) {
+    const double factor = fmin(1, (double)most / fmax(p->width, p->height));
+    p->columns = fields_of(p->width, factor);
+    p->rows = fields_of(p->height, factor);
+    const size_t count = (size_t)p->columns * (size_t)p->rows * (size_t)p->channels;
+    p->values = chart_memory(memory, count, sizeof *p->values);
+    for (size_t i = 0; i < count && p->values != NULL; i++)
+        p->values[i] = NAN;
+    return p->values != NULL;
+}
+
+static void take_row(picture *p, uint32_t row, const float *values) {
+    const size_t channels = (size_t)p->channels;
+    int j = (int)((uint64_t)row * (uint64_t)p->rows / p->height);
+    while (start_of(p->height, p->rows, j + 1) <= row)
+        j++;
+    const span rows = looks_at(p, p->height, p->rows, j);
+    float *field = p->values + (size_t)j * (size_t)p->columns * channels;
+    for (size_t x = 0; x < p->width; x++)
+        p->missing += isnan(values[x * channels]) ? 1 : 0;
+    for (int i = 0; i < p->columns && row >= rows.first && row < rows.end; i++, field += channels) {
+        const span columns = looks_at(p, p->width, p->columns, i);
+        for (size_t k = columns.first * channels; k < columns.end * channels; k++)
+            field[k % channels] = fmaxf(field[k % channels], values[k]); /* a number rather than NaN */
+    }
+}
+
+void picture_take(picture *p, uint32_t row, uint32_t count, const float *values) {
+    for (uint32_t i = 0; i < count; i++)
+        take_row(p, row + i, values + (size_t)i * p->width * (size_t)p->channels);
+}
+
 static double field(const picture *in, int row, int column, int channel) {
     const float *at = in->values + ((size_t)row * (size_t)in->columns + (size_t)column) * (size_t)in->channels;
     if (!in->directions)
@@ -29,8 +82,7 @@ static void add_panel(const picture *in, chart *out, int channel) {
         return;
     for (int row = 0; row < in->rows; row++)
         for (int column = 0; column < in->columns; column++)
-            panel->map.value[(size_t)(in->rows - 1 - row) * (size_t)in->columns + (size_t)column] =
-                field(in, row, column, channel);
+            *chart_field(&panel->map, in->rows - 1 - row, column) = field(in, row, column, channel);
 }
 
 /* The least and greatest finite number; of magnitudes the least above 0. */

@@ -10,18 +10,27 @@
 
 enum { PICTURE_CHANNELS = 3 };
 
-/** What is shown: `columns` x `rows` fields, row 0 at the top, that stand for width x height pixels. */
+/** An image of width x height pixels, and the smaller one that stands for it: row 0 at the top. */
 typedef struct picture {
     uint32_t width, height;
-    int columns, rows;
-    int channels;        /**< 1, or 3: directions (unit vectors of view space), or three panels */
-    const float *values; /**< channels interleaved; NaN is left empty */
-    bool directions;     /**< channels are a direction: one panel in colours */
-    bool magnitudes;     /**< errors: a logarithmic colour scale reaches four decades down, and what is less is dark */
-    const char *label;   /**< "eye depth", for the colour bar */
+    int channels;      /**< 1, or 3: directions (unit vectors of view space), or three panels */
+    bool directions;   /**< channels are a direction: one panel in colours */
+    bool magnitudes;   /**< errors: a field is the largest of its pixels and not the one in its middle; a
+                            logarithmic colour scale reaches four decades down, and what is less is dark */
+    const char *label; /**< "eye depth", for the colour bar */
     const char *unit;
     const char *const *names; /**< three panels: what each is */
+
+    int columns, rows; /**< of fields; set by picture_open(), as the rest */
+    float *values;     /**< channels interleaved; NaN is left empty */
+    uint64_t missing;  /**< pixels without a value that were taken: holes, sky, and what has too few neighbours */
 } picture;
+
+/** Fields for at most `most` in either direction; memory of the chart. @return false when that ran out */
+bool picture_open(picture *p, int most, chart *memory);
+
+/** Takes `count` rows of pixels from `row` on, each row once. */
+void picture_take(picture *p, uint32_t row, uint32_t count, const float *values);
 
 /** Fills in an empty chart whose title and subtitle are set. chart_failed() tells of memory. */
 void picture_build(const picture *in, chart *out);

@@ -24,9 +24,10 @@ static void draw_marker(const pencil *p, const chart_series *s, double x, double
 }
 
 /* At even distances along the line, which need not have a point there. */
-static void draw_markers(const pencil *p, const axes *a, const chart_series *s, size_t index, size_t count) {
+static void draw_markers(const pencil *p, const axes *a, const chart_panel *panel, size_t index) {
+    const chart_series *s = &panel->series[index];
     double spacing = fmin(MARKER_SPACING * p->scale, a->frame.w / 3);
-    double next = a->frame.x + spacing * ((double)index + 0.5) / (double)count;
+    double next = a->frame.x + spacing * ((double)index + 0.5) / (double)panel->series_count;
     for (size_t i = 1; i < s->count; i++) {
         double x0 = axes_x(a, s->x[i - 1]), y0 = axes_y(a, s->y[i - 1]);
         double x1 = axes_x(a, s->x[i]), y1 = axes_y(a, s->y[i]);
@@ -55,7 +56,8 @@ static double stroke_line(const pencil *p, const axes *a, const chart_series *s,
     return end;
 }
 
-static void draw_line(const pencil *p, const axes *a, const chart_series *s, size_t index, size_t count) {
+static void draw_line(const pencil *p, const axes *a, const chart_panel *panel, size_t index) {
+    const chart_series *s = &panel->series[index];
     canvas_pen pen = pen_of(p, s);
     if (s->second) { /* it runs over the bands of the first axis */
         canvas_pen rim = {.colour = p->theme->background, .width = 2.5 * pen.width};
@@ -65,18 +67,12 @@ static void draw_line(const pencil *p, const axes *a, const chart_series *s, siz
     if (!isnan(end))
         series_arrow(p, end, a->frame.y, pen.colour);
     if (s->style.marker >= 0)
-        draw_markers(p, a, s, index, count);
-}
-
-static void draw_area(const pencil *p, const axes *a, const chart_series *s, size_t index, size_t count) {
-    (void)count;
-    area_draw(p, a, s, index);
+        draw_markers(p, a, panel, index);
 }
 
 /* From the height of a code on the left axis to the curve, and down to the bottom axis: the staircase. */
-static void draw_drops(const pencil *p, const axes *a, const chart_series *s, size_t index, size_t count) {
-    (void)index;
-    (void)count;
+static void draw_drops(const pencil *p, const axes *a, const chart_panel *panel, size_t index) {
+    const chart_series *s = &panel->series[index];
     double bottom = a->frame.y + a->frame.h, rug = 7 * p->scale;
     double crowd = fmax(1, (double)s->count / (a->frame.h / (7 * p->scale)));
     canvas_pen thin = {.colour = p->theme->curves[s->style.colour % THEME_COLOURS]};
@@ -128,9 +124,8 @@ canvas_rect series_point_box(const pencil *p, const axes *a, const chart_series 
     return (canvas_rect){lo, l.baseline - 1.2 * l.font.size, hi - lo, 1.7 * l.font.size};
 }
 
-static void draw_points(const pencil *p, const axes *a, const chart_series *s, size_t index, size_t count) {
-    (void)index;
-    (void)count;
+static void draw_points(const pencil *p, const axes *a, const chart_panel *panel, size_t index) {
+    const chart_series *s = &panel->series[index];
     for (size_t i = 0; i < s->count; i++) {
         draw_marker(p, s, axes_x(a, s->x[i]), axes_y(a, s->y[i]), 1.5);
         if (s->labels == NULL)
@@ -164,16 +159,16 @@ static void swatch_area(const pencil *p, const chart_series *s, double x, double
 }
 
 static const struct {
-    void (*draw)(const pencil *, const axes *, const chart_series *, size_t index, size_t count);
+    void (*draw)(const pencil *, const axes *, const chart_panel *, size_t index);
     void (*swatch)(const pencil *, const chart_series *, double x, double y, double width);
 } kinds[CHART_KIND_COUNT] = {
     [CHART_LINE] = {draw_line, swatch_line},       [CHART_DROPS] = {draw_drops, swatch_drops},
     [CHART_POINTS] = {draw_points, swatch_points}, [CHART_LABELS] = {labels_draw, swatch_points},
-    [CHART_AREA] = {draw_area, swatch_area},
+    [CHART_AREA] = {area_draw, swatch_area},
 };
 
-void series_draw(const pencil *p, const axes *a, const chart_series *s, size_t index, size_t count) {
-    kinds[s->kind].draw(p, a, s, index, count);
+void series_draw(const pencil *p, const axes *a, const chart_panel *panel, size_t index) {
+    kinds[panel->series[index].kind].draw(p, a, panel, index);
 }
 
 void series_swatch(const pencil *p, const chart_series *s, double x, double y, double width) {

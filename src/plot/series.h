@@ -5,8 +5,8 @@
 
 #include "plot/axes.h"
 
-/** @param index, count  this is series `index` of `count`: their markers are staggered, so that equal curves show */
-void series_draw(const pencil *p, const axes *a, const chart_series *s, size_t index, size_t count);
+/** Draws series `index` of a panel: their markers are staggered, so that equal curves show. */
+void series_draw(const pencil *p, const axes *a, const chart_panel *panel, size_t index);
 
 /** A sample `width` px wide, centred at height y. */
 void series_swatch(const pencil *p, const chart_series *s, double x, double y, double width);
@@ -15,7 +15,7 @@ void series_swatch(const pencil *p, const chart_series *s, double x, double y, d
 canvas_rect series_point_box(const pencil *p, const axes *a, const chart_series *s, size_t i);
 
 /** Draws the labels of CHART_LABELS: beside their points, or a little away with a line to the point. labels.c */
-void labels_draw(const pencil *p, const axes *a, const chart_series *s, size_t index, size_t count);
+void labels_draw(const pencil *p, const axes *a, const chart_panel *panel, size_t index);
 
 /** The arrow that ends a curve where its value grows without bound; its tip is at (x, y). */
 void series_arrow(const pencil *p, double x, double y, canvas_colour colour);

@@ -19,6 +19,10 @@ void *column_part(const column *c, void *item) {
 
 column_value column_of(const column *c, const void *item) {
     const char *at = (const char *)item + c->offset;
+    if (c->pointed)
+        at = *(const char *const *)at;
+    if (at == NULL)
+        return (column_value){.word = NULL};
     switch (c->kind) {
     case COLUMN_NUMBER:
         return (column_value){.is_number = true, .number = *(const double *)at};
@@ -109,7 +113,7 @@ static void json_value(json_walk *w, const column *c, const void *item) {
         json_names(w, c->key, v.word);
         return;
     }
-    if (c->optional && !column_exists(&v))
+    if (c->optional && !column_exists(&v) && !(c->pointed && v.is_number))
         return;
     if (v.word != NULL && c->kind != COLUMN_FLAG) {
         json_word(w, c->key, v.word);

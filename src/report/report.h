@@ -32,7 +32,8 @@
 /** The forms, for column.only. */
 enum { AS_TEXT = 1 << FORM_TEXT, AS_JSON = 1 << FORM_JSON, AS_CSV = 1 << FORM_CSV };
 
-/** What lies at a column's offset. A value that does not exist is "-" in text, null in JSON, empty in CSV. */
+/** What lies at a column's offset, or is pointed to from there. A value that does not exist is "-" in text, null in
+ * JSON, empty in CSV. */
 typedef enum column_kind {
     COLUMN_END = 0,
     COLUMN_NUMBER,  /**< double; NaN: does not exist. Infinity is null in JSON */
@@ -57,17 +58,20 @@ typedef struct column {
     int digits;                   /**< significant ones of a number */
     bool fixed;                   /**< ... or, after the point */
     bool upward;                  /**< what holds as it is printed: text rounds a number up */
-    bool optional;                /**< JSON leaves it out where it does not exist */
+    bool optional;                /**< JSON leaves it out where it does not exist; of a pointer, where that is null */
     bool names;                   /**< a word of words parted by one space: an array of strings in JSON */
-    bool pointed;                 /**< COLUMN_PART: the item holds a pointer to it, null where it does not exist */
+    bool pointed;                 /**< the item holds a pointer to the value or part, null where it does not exist */
     unsigned only;                /**< the forms that have it; 0: all */
     unsigned when;                /**< conditions of the report, bits that must all be set */
     const struct column *columns; /**< of a part, or of a list's items */
     /** COLUMN_LIST: the item of that index, asked for once and in order; null behind the last. It may live in the outer
      *  item, or lie anywhere until the next is asked for. */
     void *(*get)(void *of, size_t index);
-    void (*head)(page *p, void *item);  /**< COLUMN_LIST: what text says above an item's section */
-    void (*notes)(page *p, void *item); /**< and below it; null: nothing */
+    /** COLUMN_LIST: what text says above an item's section and below it; null: nothing. Of a table it is said once, of
+     *  the outer item, even where the table is left out because it has no lines. */
+    void (*head)(page *p, void *item);
+    void (*notes)(page *p, void *item);
+    int indent; /**< COLUMN_LIST: blanks before each line of a table */
 } column;
 
 /* The kind follows from the member's type, so the two cannot disagree. */
@@ -77,14 +81,19 @@ typedef struct column {
         uint64_t: COLUMN_COUNT,                                                                                        \
         uint32_t: COLUMN_CODE,                                                                                         \
         int: COLUMN_INT,                                                                                               \
+        const double *: COLUMN_NUMBER,                                                                                 \
         bool: COLUMN_FLAG,                                                                                             \
+        const bool *: COLUMN_FLAG,                                                                                     \
         const char *: COLUMN_WORD,                                                                                     \
         char *: COLUMN_LETTERS)
-#define FIELD(type, member, its_key, its_unit)                                                                         \
-    .key = (its_key), .unit = (its_unit), .kind = FIELD_KIND(type, member), .offset = offsetof(type, member)
+#define FIELD_POINTED(type, member)                                                                                    \
+    _Generic(((type *)0)->member, const double * : true, const bool * : true, default : false)
+#define FIELD_AT(type, member)                                                                                         \
+    .kind = FIELD_KIND(type, member), .pointed = FIELD_POINTED(type, member), .offset = offsetof(type, member)
+#define FIELD(type, member, its_key, its_unit)  .key = (its_key), .unit = (its_unit), FIELD_AT(type, member)
 #define SHOWN(its_title, its_width, its_digits) .title = (its_title), .width = (its_width), .digits = (its_digits)
 #define TEXT_FIELD(type, member, its_title, its_width, its_digits)                                                     \
-    .kind = FIELD_KIND(type, member), .offset = offsetof(type, member), SHOWN(its_title, its_width, its_digits)
+    FIELD_AT(type, member), SHOWN(its_title, its_width, its_digits)
 #define PART(type, member, its_key, its_columns)                                                                       \
     .key = (its_key), .kind = COLUMN_PART, .offset = offsetof(type, member), .columns = (its_columns)
 /* Columns of the same item, in an object of their own. */

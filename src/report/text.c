@@ -74,10 +74,10 @@ static void put_cells(const text_walk *w, text_line *line, const column *c, void
     }
 }
 
-static void put_line(const text_walk *w, const column *columns, void *item) {
-    text_line line = {.out = w->page.out};
+static void put_line(const text_walk *w, const column *list, void *item) {
+    text_line line = {.out = w->page.out, .waiting = list->indent};
     output_text(line.out, item == NULL ? w->page.soft : "");
-    put_cells(w, &line, columns, item);
+    put_cells(w, &line, list->columns, item);
     output_text(line.out, item == NULL ? w->page.plain : "");
     output_char(line.out, '\n');
 }
@@ -91,16 +91,23 @@ static bool is_table(const text_walk *w, const column *c) {
 
 static void put_lists(text_walk *w, const column *c, void *item);
 
-static void put_list(text_walk *w, const column *list, void *item) {
-    const bool table = is_table(w, list->columns);
+/* A table without lines has no titles. */
+static void put_table(text_walk *w, const column *list, void *item) {
     void *inner;
-    if (table)
-        put_line(w, list->columns, NULL);
+    if (list->head != NULL)
+        list->head(&w->page, item);
     for (size_t i = 0; (inner = list->get(item, i)) != NULL; i++) {
-        if (table) {
-            put_line(w, list->columns, inner);
-            continue;
-        }
+        if (i == 0)
+            put_line(w, list, NULL);
+        put_line(w, list, inner);
+    }
+    if (list->notes != NULL)
+        list->notes(&w->page, item);
+}
+
+static void put_sections(text_walk *w, const column *list, void *item) {
+    void *inner;
+    for (size_t i = 0; (inner = list->get(item, i)) != NULL; i++) {
         if (i > 0)
             output_char(w->page.out, '\n');
         if (list->head != NULL)
@@ -114,7 +121,7 @@ static void put_list(text_walk *w, const column *list, void *item) {
 static void put_lists(text_walk *w, const column *c, void *item) {
     for (; c->kind != COLUMN_END; c++)
         if (c->kind == COLUMN_LIST && column_shows(c, AS_TEXT, w->when))
-            put_list(w, c, item);
+            (is_table(w, c->columns) ? put_table : put_sections)(w, c, item);
 }
 
 void report_text(const report_spec *spec, output *out) {

@@ -113,13 +113,6 @@ const decode_row *decode_get(size_t index) {
     return index < DECODE_ROWS ? &decode_rows[index] : NULL;
 }
 
-const decode_row *decode_find(const char *name) {
-    for (size_t i = 0; i < DECODE_ROWS; i++)
-        if (strcmp(decode_rows[i].name, name) == 0)
-            return &decode_rows[i];
-    return NULL;
-}
-
 bool decode_applies(const decode_row *row, const dp_setup *setup) {
     const bool curve = setup->spec.ortho                      ? row->ortho
                        : setup->curve == DP_CURVE_PERSPECTIVE ? row->perspective
@@ -224,10 +217,11 @@ double decode_bound(const decode_row *row, const dp_setup *setup, double d) {
     const bool turned = c.from != 0;
     /* 1 - d is exact from d = 1/2 on; below, it lies in [1/2, 1] and is rounded by half a unit of 1 */
     const double q = turned ? 1 - d : d, q_off = turned && d < 0.5 ? 0.5 / q : 0;
-    /* scale and product are rounded once each, base once; then the sum */
+    /* scale and product are rounded once each, base once, but not the 1 of a reversed share; then the sum */
+    const bool base_is_one = row->quantity != DECODE_EYE && is_reversed(setup);
     const double big =
         (2 + (c.form == DECODE_QUOTIENT ? 0 : q_off)) * (double)fabsf(c.scale) * (c.form == DECODE_QUOTIENT ? d : q) +
-        (double)fabsf(c.base);
+        (base_is_one ? 0 : (double)fabsf(c.base));
     double off;
     if (exact == 0 || isinf(exact))
         return 0; /* a product with 0, or a quotient by 0 */
@@ -238,10 +232,13 @@ double decode_bound(const decode_row *row, const dp_setup *setup, double d) {
     else if (c.form == DECODE_QUOTIENT)
         off = big * exact / q + 2 + q_off;
     else {
-        const double away = setup->spec.log_c * exact, t = log1p(away), steep = (away + 1) / away;
-        /* exponent and its product; exp2f within 0.55 ulp, as today's C libraries have it (0.51; tests/test_decode.c
-         * looks), expm1f within 1 ulp; then difference, quotient and C */
-        off = c.form == DECODE_EXP2 ? (2 * t + 1.1) * steep + 3 : 2 * t * steep + 4;
+        /* the exponent is rounded relative to itself, its product by half a unit in the last place */
+        const double away = setup->spec.log_c * exact, steep = (away + 1) / away;
+        const double per = c.form == DECODE_EXP2 ? M_LN2 : 1, product = dp_half_ulp((double)c.scale * d) / UNIT;
+        const double power = log1p(away) + per * product;
+        /* exp2f within 0.55 ulp, as today's C libraries have it (0.51; tests/test_decode.c looks), expm1f within 1 ulp;
+         * the difference with 1, exact below 2^24; then quotient and C */
+        off = c.form == DECODE_EXP2 ? (power + 1.1) * steep + (away < 0x1.fffp23 ? 0 : 1) + 2 : power * steep + 4;
     }
     off *= UNIT * (1 + 0x1p-20); /* the constants are rounded, too, and so is this */
     return off < 0.5 ? off / (1 - off) : (double)INFINITY;

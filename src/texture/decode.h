@@ -69,7 +69,6 @@ enum {
 extern const decode_row decode_rows[DECODE_ROWS];
 
 const decode_row *decode_get(size_t index); /**< null beyond the last */
-const decode_row *decode_find(const char *name);
 
 /** Does the row apply to the set-up's curve, projection and far plane? */
 bool decode_applies(const decode_row *row, const dp_setup *setup);
@@ -95,8 +94,8 @@ double decode_exact(const dp_setup *setup, decode_quantity quantity, double d);
  * A bound on the relative error of the row at window depth d, a binary32 number: INFINITY where it has no digit left.
  *
  * Derivation: each rounding counts one unit of 2^-24 in the term that it rounds; the terms of a sum are taken with
- * their magnitudes, so a sum that cancels shows. See depthprec(7). exp2f and expm1f are taken to be good to one unit in
- * the last place.
+ * their magnitudes, so a sum that cancels shows. See depthprec(7). exp2f is taken to be good to 0.55 units in the last
+ * place, expm1f to one.
  */
 double decode_bound(const decode_row *row, const dp_setup *setup, double d);
 

@@ -3,6 +3,7 @@
 #include <math.h>
 #include <string.h>
 
+#include "core/engine.h"
 #include "texture/normal.h"
 
 static const double PI = 3.14159265358979323846;
@@ -10,6 +11,11 @@ static const double UNIT = 0x1p-24; /* the largest relative error of an operatio
 
 static double dot(const double a[3], const double b[3]) {
     return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+}
+
+static void cross_product(const double a[3], const double b[3], double out[3]) {
+    for (int i = 0; i < 3; i++)
+        out[i] = a[(i + 1) % 3] * b[(i + 2) % 3] - a[(i + 2) % 3] * b[(i + 1) % 3];
 }
 
 double normal_angle(const double a[3], const double b[3]) {
@@ -127,9 +133,32 @@ static void exact_vector(const texture_camera *camera, const normal_plane *plane
         out[i] = plane->normal[i] / by;
 }
 
-static double rounding(const texture_camera *camera, const double direction[3]) {
-    const double aside = hypot(direction[0], direction[1]);
-    return camera->ortho ? 5 * UNIT : UNIT * (5 + 3 * hypot(1, aside) + 8 * aside);
+/*
+ * What the method rounds, in units: each rounding is a vector of either sign that is added to the exact one, and they
+ * turn it most where all are whole. Those of a and b pass into c; those of c have one direction and count together.
+ * A component of the unit vector, at most `beside` from the exact one, is rounded by half a unit in its last place.
+ */
+static double rounding(const texture_camera *camera, const double exact[3], const double direction[3], double beside) {
+    const double a = exact[0], b = exact[1], x = direction[0] * a, y = direction[1] * b;
+    const double size = sqrt(dot(exact, exact));
+    /* difference, 1 over the step and the product with it; in perspective also the product with a depth */
+    const double each = camera->ortho ? 3 : 4;
+    /* the sum of the slopes' products and the product of depths: no case is known that shows the second without the
+     * first; slopes and their products; the last sum */
+    const double inner = fabs(x + y) + fabs(dot(exact, direction));
+    const double own = 2 * (fabs(x) + fabs(y)) + inner + fabs(exact[2]);
+    double last[3], most = 0;
+    for (int i = 0; i < 3; i++)
+        last[i] = dp_half_ulp(fabs(exact[i]) / size + beside) / UNIT * size;
+    for (int i = 0; i < 16; i++) {
+        const double to_a = i & 1 ? each : -each, to_b = i & 2 ? each : -each;
+        const double added[3] = {to_a * a + (i & 4 ? last[0] : -last[0]), to_b * b + (i & 8 ? last[1] : -last[1]),
+                                 camera->ortho ? 0 : own + last[2] - to_a * x - to_b * y};
+        double cross[3];
+        cross_product(exact, added, cross);
+        most = fmax(most, dot(cross, cross));
+    }
+    return sqrt(most) / (size * size);
 }
 
 double normal_plane_bound(const texture_camera *camera, uint32_t column, uint32_t row, const normal_plane *plane,
@@ -146,8 +175,8 @@ double normal_plane_bound(const texture_camera *camera, uint32_t column, uint32_
         m.per_x = camera->width / (2 * camera->half[0]) * (i & 8 ? 1 : -1);
         m.per_y = camera->height / (2 * camera->half[1]) * (i & 16 ? 1 : -1);
         mistaken(&m, exact, own, beside, over, found);
-        const double cross[3] = {exact[1] * found[2] - exact[2] * found[1], exact[2] * found[0] - exact[0] * found[2],
-                                 exact[0] * found[1] - exact[1] * found[0]};
+        double cross[3];
+        cross_product(exact, found, cross);
         const double along = dot(exact, found), tangent = dot(cross, cross) / (along * along);
         if (!(along > 0))
             return PI;
@@ -157,6 +186,11 @@ double normal_plane_bound(const texture_camera *camera, uint32_t column, uint32_
         }
     }
     worst = normal_angle(exact, farthest);
-    /* Vectors within an angle of at most a right one of another are convex: the corners speak for all between. */
-    return worst < PI / 2 ? fmin(worst + rounding(camera, m.direction) + 1e-14, PI) : PI;
+    /* Vectors within an angle of at most a right one of another are convex: the corners speak for all between. The
+     * roundings are those of a vector between, which differ by less than this, as their products do. */
+    const double more = 24 * UNIT * (1 + hypot(m.direction[0], m.direction[1]));
+    if (!(worst < PI / 2 && more < 0.5))
+        return PI;
+    return fmin((worst + UNIT * rounding(camera, exact, m.direction, worst + more)) / (1 - more) + 1e-14,
+                PI); /* in double */
 }

@@ -7,6 +7,8 @@
 
 #include <gsl/gsl_linalg.h>
 
+#include "core/engine.h"
+
 static bool has_matrix(const dp_setup *setup) {
     return dp_mapping_get(setup->spec.mapping)->curve == DP_CURVE_PERSPECTIVE;
 }
@@ -85,20 +87,47 @@ void position_inverse(const texture_camera *camera, double m[16]) {
     m[15] = camera->ortho ? 1 : b;
 }
 
+/*
+ * One step of Newton's, X + X (1 - M X), the difference formed with twice the digits: what the elimination lost is
+ * squared, so that the rounding to binary32 is the one that shows.
+ */
+static void refine(const double m[16], double inverse[16]) {
+    double rest[16], more[16];
+    for (int i = 0; i < 16; i++) {
+        double sum = i % 5 == 0 ? 1 : 0, lost = 0;
+        for (int k = 0; k < 4; k++) {
+            const dp_pair product = dp_two_product(-m[i - i % 4 + k], inverse[4 * k + i % 4]);
+            const dp_pair added = dp_two_sum(sum, product.hi);
+            sum = added.hi;
+            lost += added.lo + product.lo;
+        }
+        rest[i] = sum + lost;
+    }
+    for (int i = 0; i < 16; i++) {
+        more[i] = 0;
+        for (int k = 0; k < 4; k++)
+            more[i] += inverse[i - i % 4 + k] * rest[4 * k + i % 4];
+    }
+    for (int i = 0; i < 16; i++)
+        inverse[i] += more[i];
+}
+
 /* As an engine does: the matrix in binary32, inverted with care, the inverse in binary32 again. */
 static void invert(const texture_camera *camera, float out[16]) {
-    double m[16], inverse[16];
+    double m[16], inverse[16], lu[16];
     size_t order[4];
     int sign;
     position_matrix(camera, m);
     for (int i = 0; i < 16; i++)
-        m[i] = (double)(float)m[i];
-    gsl_matrix_view a = gsl_matrix_view_array(m, 4, 4), b = gsl_matrix_view_array(inverse, 4, 4);
+        lu[i] = m[i] = (double)(float)m[i];
+    gsl_matrix_view a = gsl_matrix_view_array(lu, 4, 4), b = gsl_matrix_view_array(inverse, 4, 4);
     gsl_permutation p = {4, order};
     gsl_linalg_LU_decomp(&a.matrix, &p, &sign);
-    const bool regular = m[0] * m[5] * m[10] * m[15] != 0;
-    if (regular)
+    const bool regular = lu[0] * lu[5] * lu[10] * lu[15] != 0;
+    if (regular) {
         gsl_linalg_LU_invert(&a.matrix, &p, &b.matrix);
+        refine(m, inverse);
+    }
     for (int i = 0; i < 16; i++)
         out[i] = regular ? (float)inverse[i] : (float)NAN;
 }

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /*
- * Each rounding counts one unit of 2^-24 in the term that it rounds, in the term's magnitude; a vector whose components
- * are each off by a unit is off by a unit of its length. Lengths of rays are per unit of eye depth.
+ * Each rounding counts one unit of 2^-24 in the term that it rounds, in each of the world's three coordinates by
+ * itself. A sum with 0 and a difference of numbers within a factor of two are exact.
  */
 #include "texture/position_bound.h"
 
@@ -10,85 +10,113 @@
 #include "texture/decode.h"
 #include "texture/position.h"
 
-static double length(double x, double y, double z) {
-    return sqrt(x * x + y * y + z * z);
+static double length(const double x[3]) {
+    return sqrt(x[0] * x[0] + x[1] * x[1] + x[2] * x[2]);
 }
 
-/* A pixel and its depth: what the bounds are made of. */
+/* A pixel and its depth: what the bounds are made of. World axes, from the camera but for `world`. */
 typedef struct pixel {
-    double u, v;   /* from the left, from the top */
-    double sx, sy; /* slopes or offsets */
-    double z;
-    double ray;      /* the ray's length; orthographic: the offset's */
-    double distance; /* from the camera */
-    double origin;
+    double u, v;                       /* from the left, from the top */
+    double right[3], top[3];           /* half extents; per unit of eye depth, as the next, unless orthographic */
+    double across[3], up[3], ahead[3]; /* the pixel's ray is their sum; orthographic: the offset is without `ahead` */
+    double ray[3];
+    double depth[3]; /* what an error of the eye depth moves: the place; orthographic: its part along the view axis */
+    double place[3], world[3];
+    double scale; /* the ray's factor: eye depth; orthographic: 1 */
 } pixel;
 
 static pixel pixel_of(const texture_camera *camera, uint32_t row, uint32_t column, double d) {
-    pixel p = {.u = (column + 0.5) / camera->width,
-               .v = (row + 0.5) / camera->height,
-               .sx = camera_slope_x(camera, column),
-               .sy = camera_slope_y(camera, row),
-               .z = decode_exact(&camera->setup, DECODE_EYE, d),
-               .origin = length(camera->origin[0], camera->origin[1], camera->origin[2])};
-    p.ray = length(p.sx, p.sy, camera->ortho ? 0 : 1);
-    p.distance = camera->ortho ? length(p.ray, p.z, 0) : p.ray * p.z;
+    const double sx = camera_slope_x(camera, column), sy = camera_slope_y(camera, row);
+    const double z = decode_exact(&camera->setup, DECODE_EYE, d);
+    pixel p = {.u = (column + 0.5) / camera->width, .v = (row + 0.5) / camera->height, .scale = camera->ortho ? 1 : z};
+    position_exact(camera, row, column, d, p.place, p.world);
+    for (int k = 0; k < 3; k++) {
+        p.right[k] = camera->axis[0][k] * camera->half[0];
+        p.top[k] = camera->axis[1][k] * camera->half[1];
+        p.across[k] = camera->axis[0][k] * sx;
+        p.up[k] = camera->axis[1][k] * sy;
+        p.ahead[k] = camera->ortho ? 0 : camera->axis[2][k];
+        p.ray[k] = p.across[k] + p.up[k] + p.ahead[k];
+        p.depth[k] = camera->ortho ? camera->axis[2][k] * z : p.place[k];
+    }
     return p;
 }
 
-/* The units that an eye depth is off by. */
-static double decoded(const decode_row *row, const texture_camera *camera, double d) {
-    return decode_bound(row, &camera->setup, d) * 0x1p24;
+/*
+ * From the camera, by the eye depth that `row` gives: the ray's roundings but for its last sum, and `more` that its
+ * product with the eye depth has. In perspective the ray's last sum is one of these; orthographic it stands by itself.
+ */
+static void from_camera(const texture_camera *camera, const pixel *p, double d, const decode_row *row, double more,
+                        const double ray[3], double off[3]) {
+    const double z_off = decode_bound(row, &camera->setup, d) * 0x1p24;
+    for (int k = 0; k < 3; k++) {
+        off[k] = ray[k] * p->scale + (z_off + more) * fabs(p->depth[k]);
+        if (camera->ortho)
+            off[k] += fabs(p->ray[k]) + fabs(p->place[k]);
+    }
 }
 
-/* The camera's place is rounded, and the sum with it; nothing is where it is the origin. */
-static double moved(const pixel *p) {
-    return p->origin > 0 ? 2 * p->origin + p->distance : 0;
+/* The camera's place is rounded, and the sum with it; nothing is where it is 0. */
+static double to_world(const texture_camera *camera, const pixel *p, double off[3]) {
+    for (int k = 0; k < 3; k++)
+        if (camera->origin[k] != 0)
+            off[k] += fabs(camera->origin[k]) + fabs(p->world[k]);
+    return length(off);
 }
 
 double view_bound(const texture_camera *camera, uint32_t row, uint32_t column, double d) {
     const pixel p = pixel_of(camera, row, column, d);
-    const double z_off = decoded(decode_best(), camera, d);
-    /* step and product, base, sum */
-    const double ray_off = 2 * fabs(p.sx) + length(p.sy, camera->ortho ? 0 : 1, 0) + p.ray;
-    if (camera->ortho)
-        return ray_off + (z_off + 2) * p.z + p.distance + moved(&p);
-    return ray_off * p.z + (z_off + 1) * p.distance + moved(&p);
+    double ray[3], off[3];
+    for (int k = 0; k < 3; k++) /* step and product; base */
+        ray[k] = 2 * fabs(p.across[k]) + fabs(p.up[k] + p.ahead[k]);
+    from_camera(camera, &p, d, decode_best(), 2, ray, off);
+    return to_world(camera, &p, off);
+}
+
+static void extents_off(const texture_camera *camera, const pixel *p, double d, double off[3]) {
+    double ray[3];
+    for (int k = 0; k < 3; k++) { /* top left; extent, product and the two of u; likewise v; the first sum */
+        ray[k] =
+            fabs(p->ahead[k] - p->right[k] + p->top[k]) + 8 * p->u * fabs(p->right[k]) + 8 * p->v * fabs(p->top[k]);
+        ray[k] += fabs(p->across[k] + p->top[k] + p->ahead[k]);
+    }
+    from_camera(camera, p, d, decode_usual(&camera->setup), 4, ray, off);
 }
 
 double extents_bound(const texture_camera *camera, uint32_t row, uint32_t column, double d) {
     const pixel p = pixel_of(camera, row, column, d);
-    const double z_off = decoded(decode_usual(&camera->setup), camera, d);
-    const double hx = camera->half[0], hy = camera->half[1], ahead = camera->ortho ? 0 : 1;
-    /* top left; extent, product and the two of u; likewise v; the two sums */
-    const double ray_off = length(hx, hy, ahead) + 8 * hx * p.u + 8 * hy * p.v + length(p.sx, hy, ahead) + p.ray;
-    if (camera->ortho)
-        return ray_off + (z_off + 4) * p.z + p.distance + moved(&p);
-    return ray_off * p.z + (z_off + 3) * p.distance + moved(&p);
+    double off[3];
+    extents_off(camera, &p, d, off);
+    return to_world(camera, &p, off);
 }
 
 double half_bound(const texture_camera *camera, uint32_t row, uint32_t column, double d) {
     const pixel p = pixel_of(camera, row, column, d);
-    const double before = extents_bound(camera, row, column, d) - moved(&p);
-    double relative[3], half = 0;
-    position_exact(camera, row, column, d, relative, NULL);
+    double off[3];
+    extents_off(camera, &p, d, off);
     for (int k = 0; k < 3; k++) {
-        const double most = fabs(relative[k]) + before * 0x1p-24, part = fmax(most * 0x1p13, 0x1p-1);
+        const double most = fabs(p.place[k]) + off[k] * 0x1p-24;
         if (most >= 65504)
             return (double)INFINITY;
-        half += part * part; /* half a step of binary16, or of its subnormals, 2^-25 */
+        off[k] += fmax(most * 0x1p13, 0x1p-1); /* half a step of binary16, or of its subnormals, 2^-25 */
     }
-    half = sqrt(half);
-    return before + half + (p.origin > 0 ? 2 * p.origin + p.distance + half * 0x1p-24 : 0);
+    return to_world(camera, &p, off);
 }
 
 double rays_bound(const texture_camera *camera, uint32_t row, uint32_t column, double d) {
     const pixel p = pixel_of(camera, row, column, d);
-    const double z_off = decoded(decode_usual(&camera->setup), camera, d);
-    const double hx = camera->half[0], hy = camera->half[1];
-    /* corners; difference and product over the height, v; sum; difference and product over the width, u; sum */
-    const double ray_off = length(hx, hy, 1) + 4 * hy * (1 - p.v) + 4 * hy + length(hx, p.sy, 1) + 8 * hx * p.u + p.ray;
-    return ray_off * p.z + (z_off + 3) * p.distance + moved(&p);
+    double ray[3], off[3];
+    for (int k = 0; k < 3; k++) {
+        /* difference and product over the height, those of v; difference and product over the width, two of u */
+        ray[k] = (p.v <= 0.5 ? 5 : 4) * fabs(p.top[k]) + 8 * p.u * fabs(p.right[k]);
+        for (int side = -1; side <= 1; side += 2) { /* of the left and right edge: corners, sum */
+            const double edge = p.ahead[k] + side * p.right[k], share = side < 0 ? 1 - p.u : p.u;
+            ray[k] +=
+                share * ((p.v * fabs(edge - p.top[k]) + (1 - p.v) * fabs(edge + p.top[k])) + fabs(edge + p.up[k]));
+        }
+    }
+    from_camera(camera, &p, d, decode_usual(&camera->setup), 4, ray, off);
+    return to_world(camera, &p, off);
 }
 
 /* ---- Matrix ------------------------------------------------------------------------------------------------------ */
@@ -98,115 +126,115 @@ enum { CLIP_X, CLIP_Y, CLIP_Z, CLIP_W };
 typedef struct matrix {
     double forth[16], back[16];
     double ndc[4];     /* of the pixel and its depth */
-    double world[3];   /* the place */
-    double from[3][3]; /* from the camera: how the place moves with each of the three NDC coordinates */
+    double from[3][4]; /* how the place moves with what each row of `forth` gives there, in clip w */
+    double clip_w;
 } matrix;
 
-static bool matrix_of(matrix *m, const texture_camera *camera, const pixel *p, uint32_t row, uint32_t column,
-                      double d) {
+static bool matrix_of(matrix *m, const texture_camera *camera, const pixel *p, double d) {
     const bool is_signed = dp_mapping_get(camera->setup.spec.mapping)->ndc_signed != 0;
-    double relative[3], along = 0;
+    const double ndc[4] = {2 * p->u - 1, 1 - 2 * p->v, is_signed ? 2 * d - 1 : d, 1};
     position_matrix(camera, m->forth);
     position_inverse(camera, m->back);
-    position_exact(camera, row, column, d, relative, m->world);
-    m->ndc[CLIP_X] = 2 * p->u - 1;
-    m->ndc[CLIP_Y] = 1 - 2 * p->v;
-    m->ndc[CLIP_Z] = is_signed ? 2 * d - 1 : d;
-    m->ndc[CLIP_W] = 1;
-    for (int k = 0; k < 3; k++)
-        along += camera->axis[2][k] * m->back[4 * k + 2];
+    m->clip_w = p->scale;
     for (int k = 0; k < 3; k++) { /* 1/z = back[14] D + back[15] */
-        m->from[k][CLIP_X] = camera->half[0] * fabs(camera->axis[0][k]) * (camera->ortho ? 1 : p->z);
-        m->from[k][CLIP_Y] = camera->half[1] * fabs(camera->axis[1][k]) * (camera->ortho ? 1 : p->z);
-        m->from[k][CLIP_Z] = camera->ortho ? fabs(camera->axis[2][k] * along) : fabs(m->back[14] * relative[k]) * p->z;
+        m->ndc[k] = ndc[k];
+        m->from[k][CLIP_X] = p->right[k];
+        m->from[k][CLIP_Y] = p->top[k];
+        m->from[k][CLIP_Z] = camera->ortho ? m->back[4 * k + 2] : -m->back[14] * p->place[k];
+        m->from[k][CLIP_W] = 0; /* orthographic: 0, 0, 0, 1 is not rounded */
+        for (int i = 0; i < 3 && !camera->ortho; i++)
+            m->from[k][CLIP_W] += m->from[k][i] * ndc[i];
     }
-    return p->z < (double)INFINITY;
+    m->ndc[CLIP_W] = 1;
+    return p->scale < (double)INFINITY;
+}
+
+/* What a unit of each entry of a row of `forth` makes of (place, one). */
+static double row_off(const matrix *m, int row, const double place[3], double one) {
+    double sum = fabs(m->forth[4 * row + 3]) * one;
+    for (int k = 0; k < 3; k++)
+        sum += fabs(m->forth[4 * row + k] * place[k]);
+    return sum;
 }
 
 /*
  * Of the rounding of the matrix, which the engine then inverts. The place solves three equations,
  * (M_i - ndc_i M_w) (place, 1) = 0, whose rounding moves it by `from` times what each is off by: by the camera's own
- * place where the place is that of another camera, and not by the product of large numbers in M and its inverse.
+ * place where the place is that of another camera, and not by the product of large numbers in M and its inverse. M_w
+ * is in all three, so what it does to them is added with its sign. Orders beyond the first matter where the camera is
+ * millions of eye depths away.
  * @return false where the errors could grow without end
  */
-static bool rounded_matrix(const matrix *m, double clip_w, double off[3]) {
-    double term[3] = {0}, wrong[3];
-    for (int i = 0; i < 3; i++) {
-        wrong[i] = fabs(m->forth[4 * i + 3]) + fabs(m->ndc[i] * m->forth[15]);
-        for (int k = 0; k < 3; k++)
-            wrong[i] += (fabs(m->forth[4 * i + k]) + fabs(m->ndc[i] * m->forth[12 + k])) * fabs(m->world[k]);
-    }
+static bool rounded_matrix(const matrix *m, const double world[3], double off[3]) {
+    double moved[3] = {world[0], world[1], world[2]}, one = 1;
+    for (int k = 0; k < 3; k++)
+        off[k] = 0;
     for (int times = 0; times < 60; times++) {
         bool small = true;
+        double wrong[4];
+        for (int i = 0; i < 4; i++)
+            wrong[i] = row_off(m, i, moved, one);
         for (int k = 0; k < 3; k++) {
-            term[k] = 0;
-            for (int i = 0; i < 3; i++)
-                term[k] += m->from[k][i] * wrong[i] / clip_w;
-            off[k] = times == 0 ? term[k] : off[k] + term[k];
-            small = small && term[k] <= 1e-6 * off[k];
+            double term = 0;
+            for (int i = 0; i < 4; i++)
+                term += fabs(m->from[k][i]) * wrong[i];
+            off[k] += term;
+            small = small && term <= 1e-6 * off[k];
+            moved[k] = term * 0x1p-24;
         }
         if (small)
             return true;
-        for (int i = 0; i < 3; i++) {
-            wrong[i] = 0;
-            for (int k = 0; k < 3; k++)
-                wrong[i] += (fabs(m->forth[4 * i + k]) + fabs(m->ndc[i] * m->forth[12 + k])) * term[k] * 0x1p-24;
-        }
+        one = 0;
     }
     return false;
 }
 
-/* The inverse's entry, the product and the sums that a term passes through are rounded in each row by itself, so what
- * the rows have in common, the camera's place, does not cancel: this is where a matrix loses. */
+/* The inverse's entry and product, and the sums of two and of three terms. Each row is rounded by itself, so what the
+ * rows have in common, the camera's place, does not cancel: this is where a matrix loses. */
 static double summed(const matrix *m, int row) {
-    static const double roundings[4] = {5, 5, 4, 2};
-    double sum = 0;
-    for (int k = 0; k < 4; k++)
-        sum += roundings[k] * fabs(m->back[4 * row + k] * m->ndc[k]);
+    static const double roundings[4] = {2, 2, 2, 1};
+    double sum = 0, partial = 0;
+    for (int k = 0; k < 4; k++) {
+        const double term = m->back[4 * row + k] * m->ndc[k];
+        partial += term;
+        sum += roundings[k] * fabs(term) + (k == 1 || k == 2 ? fabs(partial) : 0);
+    }
     return sum;
 }
 
-/*
- * What the inversion in double adds, twelve roundings and pivots of up to four times the entries: 2^-23 units. Cameras
- * do not come near, so no test would notice half of it; it is kept because it is proven, and too small to be seen.
- */
-static double inverted(const matrix *m, int row) {
-    double sum = 0;
-    for (int i = 0; i < 4; i++) {
-        double product = fabs(m->forth[4 * i + 3]);
-        for (int k = 0; k < 3; k++)
-            product += fabs(m->forth[4 * i + k] * m->world[k]);
-        sum += fabs(m->back[4 * row + i]) * product;
-    }
-    return 0x1p-23 * sum;
+/* Of an NDC coordinate, twice a share less 1: what the share is off by, and the difference. */
+static double ndc_off(double share, double share_off) {
+    return 2 * share_off + (share <= 0.25 ? 0.5 : 0);
 }
 
+/*
+ * The inversion adds nothing that shows: position_prepare() squares the 2^-53 that elimination loses. `left` is what
+ * may be left of the divisor w. It is of second order, as are the later terms of rounded_matrix(): each is h times the
+ * bound where a place may be off by h of its distance. To need half of it an error must come within h/2 of the bound,
+ * but bounds on bounds are used to form it: the places found take at most 0.43 of the bound where h/2 is 0.08. So the
+ * tests hold the share.
+ */
 double matrix_bound(const texture_camera *camera, uint32_t row, uint32_t column, double d) {
     const pixel p = pixel_of(camera, row, column, d);
     const bool is_signed = dp_mapping_get(camera->setup.spec.mapping)->ndc_signed != 0;
+    const double ndc[3] = {ndc_off(p.u, 2 * p.u), ndc_off(p.v, 2 * p.v), is_signed ? ndc_off(d, 0) : 0};
     matrix m;
-    double off[3], sum = 0;
-    if (!matrix_of(&m, camera, &p, row, column, d))
+    double off[3], most[3], w_off = 0, w_sum = 1; /* the sum */
+    if (!matrix_of(&m, camera, &p, d) || !rounded_matrix(&m, p.world, off))
         return (double)INFINITY;
-    const double clip_w = camera->ortho ? 1 : p.z;
-    if (!rounded_matrix(&m, clip_w, off))
-        return (double)INFINITY;
-    const double ndc_off[3] = {4 * p.u + fabs(m.ndc[CLIP_X]), 4 * p.v + fabs(m.ndc[CLIP_Y]),
-                               is_signed ? fabs(m.ndc[CLIP_Z]) : 0};
-    /* w of the rounded matrix; of the sum */
-    double w_off = fabs(m.forth[15]) / clip_w;
     for (int k = 0; k < 3; k++)
-        w_off += fabs(m.forth[12 + k]) * (fabs(m.world[k]) + off[k]) / clip_w;
-    const double w_sum = summed(&m, CLIP_W) * clip_w + inverted(&m, CLIP_W);
+        most[k] = fabs(p.world[k]) + off[k];
+    if (!camera->ortho) { /* its last sum, the place's and the quotient */
+        w_off = row_off(&m, CLIP_W, most, 1) / m.clip_w;
+        w_sum = summed(&m, CLIP_W) * m.clip_w + 3;
+    }
     const double rounded = 1 - w_off * 0x1p-24, left = rounded * rounded * (1 - w_sum * 0x1p-24);
     if (!(rounded > 0.5 && left > 0.125))
         return (double)INFINITY;
     for (int k = 0; k < 3; k++) {
-        const double place = fabs(m.world[k]);
-        double part = off[k] + place + (summed(&m, k) * clip_w + inverted(&m, k) + place * w_sum) / left;
+        off[k] += (summed(&m, k) * m.clip_w + fabs(p.world[k]) * w_sum) / left;
         for (int i = 0; i < 3; i++)
-            part += m.from[k][i] * ndc_off[i];
-        sum += part * part;
+            off[k] += fabs(m.from[k][i]) * m.clip_w * ndc[i];
     }
-    return sqrt(sum);
+    return length(off);
 }
