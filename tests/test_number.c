@@ -134,12 +134,32 @@ static void reading(void **unused) {
     assert_true(number_parse_count("007", 10, &count) && count == 7);
 }
 
+/* What is printed of a bound lies on its safe side, by less than a unit of its last digit, below a power of ten by one
+ * of the digits above it; and it is the number itself where so many digits hold it. */
+static void bounds_outward(void **unused) {
+    (void)unused;
+    static const double values[] = {0.1,      1.0 / 3, 2.0 / 3,    9.99999949, 9.9999995,
+                                    123456.5, 1e-7,    0.99999951, 4.5e300,    1e22};
+    for (size_t i = 0; i < 10 * sizeof values / sizeof values[0]; i++) {
+        const double value = values[i / 10] * (1 + 0.013 * (double)(i % 10));
+        const double unit = pow(10, floor(log10(value)) - 5);
+        const double up = strtod(number_up(value, 6).text, NULL), down = strtod(number_down(value, 6).text, NULL);
+        assert_true(up >= value && up <= value + 1.01 * unit);
+        assert_true(down <= value && down >= value - 10.01 * unit);
+        assert_true(up > down || up == value);
+    }
+    assert_string_equal(number_up(0.25, 6).text, "0.25");
+    assert_string_equal(number_up(1.0 / 3, 3).text, "0.334");
+    assert_string_equal(number_down(2.0 / 3, 3).text, "0.666");
+    assert_string_equal(number_up(9.999999, 3).text, "10");
+    assert_string_equal(number_up(INFINITY, 3).text, "inf");
+    assert_string_equal(number_up(NAN, 3).text, "-");
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(reading),
-        cmocka_unit_test(random_bits),
-        cmocka_unit_test(short_decimals),
-        cmocka_unit_test(edges),
+        cmocka_unit_test(bounds_outward), cmocka_unit_test(reading), cmocka_unit_test(random_bits),
+        cmocka_unit_test(short_decimals), cmocka_unit_test(edges),
     };
     return cmocka_run_group_tests_name("number", tests, NULL, NULL);
 }
