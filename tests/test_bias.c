@@ -7,6 +7,7 @@
 #include <string.h>
 
 #include "api/bias.h"
+#include "find.h"
 #include "support.h"
 
 static dp_format format_of(const char *name) {

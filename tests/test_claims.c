@@ -5,6 +5,7 @@
  */
 #include <string.h>
 
+#include "find.h"
 #include "method/bench.h"
 #include "support.h"
 #include "texture/position.h"

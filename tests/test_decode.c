@@ -4,6 +4,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "find.h"
 #include "oracle.h"
 #include "support.h"
 #include "texture/decode.h"

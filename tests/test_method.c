@@ -3,6 +3,7 @@
 #include <math.h>
 #include <string.h>
 
+#include "find.h"
 #include "method/choose.h"
 #include "method/stability.h"
 #include "support.h"

@@ -6,6 +6,7 @@
 #include <ctype.h>
 #include <string.h>
 
+#include "find.h"
 #include "support.h"
 #include "texture/pack.h"
 

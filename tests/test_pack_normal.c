@@ -5,6 +5,7 @@
  */
 #include <string.h>
 
+#include "find.h"
 #include "support.h"
 #include "texture/pack.h"
 

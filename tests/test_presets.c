@@ -4,6 +4,7 @@
 #include <string.h>
 
 #include "api/presets.h"
+#include "find.h"
 #include "support.h"
 
 static size_t count(void) {

@@ -5,6 +5,7 @@
  */
 #include <string.h>
 
+#include "find.h"
 #include "oracle.h"
 #include "support.h"
 #include "texture/scene.h"

@@ -9,6 +9,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "find.h"
 #include "measured.h"
 
 /* ---- bench ------------------------------------------------------------------------------------------------------- */

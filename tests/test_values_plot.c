@@ -8,6 +8,7 @@
 #include <string.h>
 
 #include "census/census.h"
+#include "find.h"
 #include "method/choose.h"
 #include "printed.h"
 

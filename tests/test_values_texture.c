@@ -4,6 +4,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "find.h"
 #include "printed.h"
 #include "texture/decode.h"
 #include "texture/frame.h"

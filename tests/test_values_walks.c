@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The numbers of the figures pareto and stability, where the measuring is replaced: see measured.h. */
+#include "find.h"
 #include "measured.h"
 #include "plot/figure.h"
 

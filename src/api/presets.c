@@ -58,13 +58,6 @@ const preset *preset_get(size_t index) {
     return index < sizeof rows / sizeof rows[0] ? &rows[index] : NULL;
 }
 
-const preset *preset_find(const char *name) {
-    for (size_t i = 0; i < sizeof rows / sizeof rows[0]; i++)
-        if (strcasecmp(rows[i].name, name) == 0)
-            return &rows[i];
-    return NULL;
-}
-
 size_t preset_formats(const preset *row, dp_format out[2]) {
     return dp_format_parse(row->format, out);
 }

@@ -229,10 +229,3 @@ const normal_row normal_methods[] = {
 const normal_row *normal_get(size_t index) {
     return index < NORMAL_METHODS ? &normal_methods[index] : NULL;
 }
-
-const normal_row *normal_find(const char *name) {
-    for (size_t i = 0; i < NORMAL_METHODS; i++)
-        if (strcmp(normal_methods[i].name, name) == 0)
-            return &normal_methods[i];
-    return NULL;
-}

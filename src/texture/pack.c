@@ -140,7 +140,7 @@ static void both_decode(const pack_row *row, const uint32_t codes[], double *out
 
 /* clang-format off */
 static const pack_row rows[] = {
-    {.name = "rg-depth", .kind = PACK_DEPTH, .channels = 2, .bits = 8,
+    [PACK_RG_DEPTH] = {.name = "rg-depth", .kind = PACK_DEPTH, .channels = 2, .bits = 8,
      .note = "linear depth in two channels: frac(v (1, 255)), x -= y/255; back by x + y/255. Steps of 1/65025; v = 1 "
              "decodes to 0. Exact arithmetic, channels to the nearest",
      .depth = {3.845e-6, 7.690e-6}, .source = UNITY "EncodeFloatRG, DecodeFloatRG",
@@ -188,11 +188,4 @@ static const pack_row rows[] = {
 
 const pack_row *pack_get(size_t index) {
     return index < sizeof rows / sizeof rows[0] ? &rows[index] : NULL;
-}
-
-const pack_row *pack_find(const char *name) {
-    for (size_t i = 0; i < sizeof rows / sizeof rows[0]; i++)
-        if (strcmp(rows[i].name, name) == 0)
-            return &rows[i];
-    return NULL;
 }
