@@ -121,7 +121,8 @@ const scene_row scene_rows[] = {
         {"from", LENGTH, 1, false, "eye depth of the leftmost"},
         {"to", LENGTH, 300, false, "eye depth of the rightmost"},
         {"count", "steps", 2, 65536, 16, true, "how many"}}},
-    [SCENE_DECALS] = {"decals", "a decal before each tile of a wall, the tiles in equal ratios of depth", decals_hit, decals_pair, {
+    [SCENE_DECALS] = {"decals", "a decal before each tile of a wall, the tiles in equal ratios of depth",
+        decals_hit, decals_pair, {
         {"gap", LENGTH, 0.01, false, "from a decal to the wall behind it"},
         {"from", LENGTH, 1, false, "eye depth of the first tile, top left"},
         {"to", LENGTH, 300, false, "eye depth of the last tile, bottom right"},
