@@ -16,6 +16,7 @@
 #include <emmintrin.h>
 #endif
 
+#include "named.h"
 #include "texture/clones.h"
 #include "texture/frame.h"
 

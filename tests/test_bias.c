@@ -7,7 +7,15 @@
 #include <string.h>
 
 #include "api/bias.h"
+#include "cli/names.h"
 #include "support.h"
+
+/* The row that --api takes for a name or another spelling. */
+static const bias_api *called(const char *name) {
+    const name_list apis = {.get = list_api};
+    list_item item;
+    return names_find(&apis, name, NULL, &item) ? item.row : NULL;
+}
 
 static dp_format format_of(const char *name) {
     dp_format found[2];
@@ -52,7 +60,7 @@ static void test_webgpu_rows(void **state) {
     (void)state;
     for (size_t a = 0; a < sizeof apis / sizeof apis[0]; a++)
         for (size_t i = 0; i < sizeof rows / sizeof rows[0]; i++) {
-            const bias_state s = {bias_api_find(apis[a]), rows[i].units, rows[i].factor, rows[i].clamp};
+            const bias_state s = {called(apis[a]), rows[i].units, rows[i].factor, rows[i].clamp};
             const double o = bias_offset(&s, bias_unit_at(s.api, &fp32, rows[i].most).least, rows[i].m);
             assert_codes(dp_format_encode(&fp32, DP_ROUND_NEAREST, biased(rows[i].d, o)),
                          dp_format_encode(&fp32, DP_ROUND_NEAREST, rows[i].want));
@@ -70,7 +78,7 @@ static void test_webgpu_depth24plus(void **state) {
     assert_int_equal(dp_format_parse("depth24plus", both), 2);
     for (size_t f = 0; f < 2; f++)
         for (size_t i = 0; i < 3; i++) {
-            const bias_state s = {bias_api_find("webgpu"), 0.25 * (1 << 25), rows[i].factor, rows[i].clamp};
+            const bias_state s = {called("webgpu"), 0.25 * (1 << 25), rows[i].factor, rows[i].clamp};
             const double o = bias_offset(&s, bias_unit_at(s.api, &both[f], rows[i].most).least, rows[i].m);
             assert_int_equal(biased(0.25, o) > 0.4, rows[i].drawn);
         }
@@ -101,7 +109,7 @@ static void test_units(void **state) {
     (void)state;
     for (size_t i = 0; i < sizeof rows / sizeof rows[0]; i++) {
         const dp_format format = format_of(rows[i].format);
-        const bias_unit unit = bias_unit_at(bias_api_find(rows[i].api), &format, rows[i].d);
+        const bias_unit unit = bias_unit_at(called(rows[i].api), &format, rows[i].d);
         assert_ulp(unit.least, rows[i].least, 0.0);
         assert_true(unit.most == rows[i].most);
     }
@@ -111,21 +119,21 @@ static void test_names(void **state) {
     (void)state;
     for (size_t i = 0; bias_api_get(i) != NULL; i++) {
         const bias_api *row = bias_api_get(i);
-        assert_true(bias_api_find(row->name) == row);
+        assert_true(called(row->name) == row);
         assert_true(row->note[0] != '\0' && row->source[0] != '\0');
         char names[128];
         strcpy(names, row->aliases);
         for (char *name = strtok(names, " "); name != NULL; name = strtok(NULL, " "))
-            assert_true(bias_api_find(name) == row);
+            assert_true(called(name) == row);
     }
-    assert_true(bias_api_find("D3D12") == bias_api_find("d3d11"));
-    assert_null(bias_api_find("metal2"));
-    assert_null(bias_api_find(""));
-    assert_null(bias_api_find("d3d1"));
+    assert_true(called("D3D12") == called("d3d11"));
+    assert_null(called("metal2"));
+    assert_null(called(""));
+    assert_null(called("d3d1"));
 }
 
 static void test_clamp(void **state) {
-    const bias_api *d3d11 = bias_api_find("d3d11");
+    const bias_api *d3d11 = called("d3d11");
     (void)state;
     const bias_state up = {d3d11, 100.0, 2.0, 0x1p-20};
     const bias_state down = {d3d11, -100.0, -2.0, -0x1p-20};
@@ -135,7 +143,7 @@ static void test_clamp(void **state) {
     assert_true(bias_offset(&other, 0x1p-24, 0.5) < -1.0);
     /* All in binary32: the small term is lost beside the large one. */
     const bias_state lost = {d3d11, 1.0, 1.0, 0.0};
-    const bias_state kept = {bias_api_find("webgpu"), 1.0, 1.0, 0.0};
+    const bias_state kept = {called("webgpu"), 1.0, 1.0, 0.0};
     assert_true(bias_offset(&lost, 0x1p-24, 4.0) == 4.0);
     assert_true(bias_offset(&kept, 0x1p-24, 4.0) > 4.0);
 }
@@ -180,7 +188,7 @@ static void test_shift(void **state) {
     for (uint64_t i = 0; i < test_cases(2000, 100000, 1000000); i++) {
         double lo, hi;
         const dp_setup setup = any_setup(&r, rng_below(&r, 2) ? "unorm24" : "fp32", &lo, &hi);
-        const bias_state s = {bias_api_find("vulkan-float"), 0.0, 0.0, 0.0};
+        const bias_state s = {called("vulkan-float"), 0.0, 0.0, 0.0};
         bias_state one = s;
         const double z = rng_log(&r, lo, hi);
         const double d = dp_window(&setup, z);
@@ -211,7 +219,7 @@ static void test_slope(void **state) {
         const double z = rng_log(&r, lo, hi);
         const double m = bias_window_slope(&setup, z, 3.0);
         const double o = 1e-7 * m; /* three tenths of a millionth of a scene unit */
-        const bias_state s = {bias_api_find("d3d9"), o, 0.0, 0.0};
+        const bias_state s = {called("d3d9"), o, 0.0, 0.0};
         const double shift = bias_at(&setup, &s, 0.0, z).shift;
         if (bias_at(&setup, &s, 0.0, z).limited) {
             t.skipped++;
@@ -225,8 +233,8 @@ static void test_slope(void **state) {
 static void test_limited(void **state) {
     const dp_setup d3d = setup_of(0.1, INFINITY, DP_MAPPING_D3D, "fp32");
     const dp_setup reversed = setup_of(0.1, 1000.0, DP_MAPPING_REVERSED, "unorm24");
-    const bias_state plus = {bias_api_find("d3d9"), 0.5, 0.0, 0.0};
-    const bias_state minus = {bias_api_find("d3d9"), -0.5, 0.0, 0.0};
+    const bias_state plus = {called("d3d9"), 0.5, 0.0, 0.0};
+    const bias_state minus = {called("d3d9"), -0.5, 0.0, 0.0};
     (void)state;
     bias_effect e = bias_at(&d3d, &plus, 0.0, 100.0);
     assert_true(e.limited && isinf(e.to) && isinf(e.shift) && e.moved == d3d.spec.format.code_max);
@@ -256,7 +264,7 @@ static uint32_t stored(const dp_setup *setup, double d) {
 /* One unit of r = code 1 is not always enough for an integer buffer: 0.5 and the next number store the same code. */
 static void test_one_unit_can_fail(void **state) {
     static const char *const formats[] = {"unorm16", "unorm24"};
-    const bias_api *api = bias_api_find("d3d11");
+    const bias_api *api = called("d3d11");
     (void)state;
     for (size_t i = 0; i < 2; i++) {
         const dp_setup setup = setup_of(0.1, 1000.0, DP_MAPPING_REVERSED, formats[i]);
@@ -398,7 +406,7 @@ static void test_sampled_apart(void **state) {
         const dp_setup setup = flat_setup(i & 1 ? DP_MAPPING_REVERSED : DP_MAPPING_D3D, formats[i >> 1 & 1]);
         for (int eighths = 1; eighths <= 40; eighths++) { /* of a step of binary32 below 1 */
             const double m = eighths * 0x1p-27;
-            const bias_goal goal = {.api = bias_api_find(apis[i >> 2]), .slope = m};
+            const bias_goal goal = {.api = called(apis[i >> 2]), .slope = m};
             double most = 0.0, needed = 0.0;
             for (int k = -64; k <= 64; k++) {
                 const double d = 0.5 + k * 0x1p-27, front = d - bias_sign(&setup) * m;
@@ -427,7 +435,7 @@ static void test_longest_cells(void **state) {
         const int reversed = i & 1;
         const dp_setup setup = flat_setup(reversed ? DP_MAPPING_REVERSED : DP_MAPPING_D3D, "unorm16");
         const double u = 0x1p-24, m = (i & 2 ? 3.0 : 1.0) * u, sign = bias_sign(&setup);
-        const bias_goal goal = {.api = bias_api_find("d3d9"), .slope = m};
+        const bias_goal goal = {.api = called("d3d9"), .slope = m};
         for (uint32_t code = 33000; code < 65000; code++) {
             const double middle = floor(dp_format_value(&setup.spec.format, code) / u) * u;
             double end = middle - sign * 127.0 * u; /* the last number of the cell away from the camera's side */
@@ -448,7 +456,7 @@ static void test_longest_cells(void **state) {
 
 static void test_impossible(void **state) {
     const dp_setup setup = setup_of(1.0, 1000.0, DP_MAPPING_D3D, "unorm24");
-    const bias_goal past = {.api = bias_api_find("d3d11"), .gap = 2.0};
+    const bias_goal past = {.api = called("d3d11"), .gap = 2.0};
     double worst;
     (void)state;
     assert_true(isinf(bias_needed(&setup, &past, 2.5)));

@@ -7,6 +7,7 @@
 #include "cli/choice.h"
 #include "method/truth.h"
 #include "method/ways.h"
+#include "named.h"
 #include "plot/figure.h"
 #include "plot/refine.h"
 #include "support.h"

@@ -6,6 +6,7 @@
 #include <string.h>
 
 #include "method/bench.h"
+#include "named.h"
 #include "support.h"
 #include "texture/position.h"
 

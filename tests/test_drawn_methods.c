@@ -7,6 +7,7 @@
 
 #include "drawn.h"
 #include "drawn_map.h"
+#include "named.h"
 #include "plot/figure.h"
 #include "support.h"
 

@@ -6,6 +6,7 @@
 #include <ctype.h>
 #include <string.h>
 
+#include "named.h"
 #include "support.h"
 #include "texture/effect.h"
 

@@ -5,6 +5,7 @@
 
 #include "method/choose.h"
 #include "method/stability.h"
+#include "named.h"
 #include "support.h"
 
 static void every_row_is_whole(void **state) {

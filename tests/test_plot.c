@@ -6,6 +6,7 @@
 #include <string.h>
 
 #include "depthprec/depthprec.h"
+#include "named.h"
 #include "need/requirement.h"
 #include "plot/draw.h"
 #include "plot/figure.h"

@@ -6,6 +6,7 @@
 
 #include <gmp.h>
 
+#include "named.h"
 #include "support.h"
 #include "texture/position.h"
 

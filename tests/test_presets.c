@@ -4,6 +4,8 @@
 #include <string.h>
 
 #include "api/presets.h"
+#include "cli/names.h"
+#include "named.h"
 #include "support.h"
 
 static size_t count(void) {
@@ -19,7 +21,9 @@ static void test_required(void **state) {
     (void)state;
     for (size_t i = 0; i < sizeof names / sizeof names[0]; i++)
         assert_non_null(preset_find(names[i]));
-    assert_true(preset_find("BEVY") == preset_find("bevy"));
+    const name_list presets = {.get = list_preset};
+    list_item item;
+    assert_true(names_find(&presets, "BEVY", NULL, &item) && item.row == preset_find("bevy"));
     assert_null(preset_find("quake"));
     assert_null(preset_find(""));
     assert_null(preset_get(count()));

@@ -5,6 +5,7 @@
 #include <string.h>
 
 #include "depthprec/depthprec.h"
+#include "named.h"
 #include "plot/envelope.h"
 #include "plot/figure.h"
 #include "support.h"

@@ -4,6 +4,7 @@
 #include <string.h>
 
 #include "method/stability.h"
+#include "named.h"
 #include "support.h"
 
 static stability_result results[STABILITY_MAX];

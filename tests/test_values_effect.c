@@ -3,6 +3,7 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "named.h"
 #include "printed.h"
 #include "texture/effect.h"
 

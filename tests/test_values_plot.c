@@ -9,6 +9,7 @@
 
 #include "census/census.h"
 #include "method/choose.h"
+#include "named.h"
 #include "printed.h"
 
 /* ---- What a run printed ------------------------------------------------------------------------------------------ */

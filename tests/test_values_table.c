@@ -5,6 +5,7 @@
 #include <string.h>
 
 #include "method/choose.h"
+#include "named.h"
 #include "printed.h"
 
 enum { DEPTHS = 6 };

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The numbers of the figures pareto and stability, where the measuring is replaced: see measured.h. */
 #include "measured.h"
+#include "named.h"
 #include "plot/figure.h"
 
 static void want_axis(values *v, const char *axis, const char *key, const char *label, const char *unit,

@@ -3,7 +3,6 @@
 
 #include <math.h>
 #include <string.h>
-#include <strings.h>
 
 /* clang-format off */
 static const bias_api rows[] = {
@@ -41,24 +40,6 @@ static const double units_most = 0x1p31; /* beyond what an integer bias can hold
 
 const bias_api *bias_api_get(size_t index) {
     return index < ROW_COUNT ? &rows[index] : NULL;
-}
-
-static bool among(const char *names, const char *name) {
-    const size_t size = strlen(name);
-    for (; *names != '\0'; names += names[0] == ' ') {
-        const size_t length = strcspn(names, " ");
-        if (length == size && strncasecmp(names, name, length) == 0)
-            return true;
-        names += length;
-    }
-    return false;
-}
-
-const bias_api *bias_api_find(const char *name) {
-    for (size_t i = 0; i < ROW_COUNT; i++)
-        if (strcasecmp(rows[i].name, name) == 0 || among(rows[i].aliases, name))
-            return &rows[i];
-    return NULL;
 }
 
 /* ---- What the APIs add ------------------------------------------------------------------------------------------- */

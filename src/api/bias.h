@@ -54,9 +54,6 @@ typedef struct bias_api {
 /** The rows in order; null for an index that is not below their number. */
 const bias_api *bias_api_get(size_t index);
 
-/** The row of a name or alias, letter case ignored; null when there is none. */
-const bias_api *bias_api_find(const char *name);
-
 /** The worth of one unit, in window depth. */
 typedef struct bias_unit {
     double least; /**< the smallest r that is allowed or, for FREE, likely */

@@ -2,7 +2,6 @@
 #include "api/presets.h"
 
 #include <math.h>
-#include <strings.h>
 
 #define CHECKED "2026-11-21"
 
@@ -56,13 +55,6 @@ static const preset rows[] = {
 
 const preset *preset_get(size_t index) {
     return index < sizeof rows / sizeof rows[0] ? &rows[index] : NULL;
-}
-
-const preset *preset_find(const char *name) {
-    for (size_t i = 0; i < sizeof rows / sizeof rows[0]; i++)
-        if (strcasecmp(rows[i].name, name) == 0)
-            return &rows[i];
-    return NULL;
 }
 
 size_t preset_formats(const preset *row, dp_format out[2]) {

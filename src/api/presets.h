@@ -28,9 +28,6 @@ typedef struct preset {
 /** The rows in order; null for an index that is not below their number. */
 const preset *preset_get(size_t index);
 
-/** The row of a name, letter case ignored; null when there is none. */
-const preset *preset_find(const char *name);
-
 /**
  * The formats of a preset, one or two. @return their number
  */

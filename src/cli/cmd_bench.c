@@ -10,8 +10,6 @@
 #include "report/number.h"
 #include "report/report.h"
 
-int cmd_bench(const options *o);
-
 /* A method, as it is shown. */
 typedef struct line {
     bench_result of;

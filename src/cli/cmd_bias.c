@@ -11,8 +11,6 @@
 #include "cli/walk.h"
 #include "report/number.h"
 
-int cmd_bias(const struct options *o);
-
 enum { DIGITS = 6, DIGITS_Z = 9 };
 
 /* What the bias does, or what one unit does and how many are enough. */
@@ -251,7 +249,7 @@ static void drop_fp16(options *o) {
 
 int cmd_bias(const options *given) {
     options o = *given;
-    const bias_api *api = o.api != NULL ? o.api : bias_api_get(0);
+    const bias_api *api = o.api;
     biasing b = {.state = {api, o.units, o.factor, o.clamp},
                  .goal = {.api = api, .slope = o.slope, .gap = o.gap},
                  .inverse = !option_given(&o, OPTION_UNITS),

@@ -11,8 +11,6 @@
 #include "cli/walk.h"
 #include "report/number.h"
 
-int cmd_budget(const options *o);
-
 enum { DIGITS = 4, DIGITS_MORE = 6, DIGITS_Z = 9 };
 
 typedef struct row {

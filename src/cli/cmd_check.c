@@ -10,8 +10,6 @@
 #include "cli/names.h"
 #include "cli/progress.h"
 
-int cmd_check(const options *o);
-
 static int refuse(const char *path, const need_error *e) {
     char where[32] = "";
     char text[NAMES_SIZE];

@@ -12,8 +12,6 @@
 #include "texture/effect.h"
 #include "texture/pack.h"
 
-int cmd_list(const options *o);
-
 bool list_format(size_t index, list_item *item) {
     const dp_format_row *row = dp_format_get(index);
     if (row == NULL)

@@ -2,7 +2,6 @@
 /* plot: a figure, drawn (SVG, PDF, PNG by the ending of -o) or as its numbers (--csv, --json). */
 #include <math.h>
 #include <stdio.h>
-#include <stdlib.h>
 #include <string.h>
 
 #include "cli/check_report.h"
@@ -15,8 +14,6 @@
 #include "plot/notes.h"
 #include "report/append.h"
 #include "report/number.h"
-
-int cmd_plot(const options *o);
 
 enum { WIDTH = 800, HEIGHT = 500 };
 

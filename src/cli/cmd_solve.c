@@ -13,8 +13,6 @@
 #include "cli/solve_report.h"
 #include "report/number.h"
 
-int cmd_solve(const options *o);
-
 /* ---- What is asked ----------------------------------------------------------------------------------------------- */
 
 static bool is_known(const options *o, option_id id) {

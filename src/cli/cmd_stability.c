@@ -6,8 +6,6 @@
 #include "cli/methods.h"
 #include "report/report.h"
 
-int cmd_stability(const options *o);
-
 /* A method in a case, and a step of its walk. */
 typedef struct line {
     stability_result of;

@@ -12,8 +12,6 @@
 #include "method/ways.h"
 #include "report/number.h"
 
-int cmd_table(const options *o);
-
 /* Beyond fifteen digits a decimal shows its own rounding (0.10000000000000001). */
 enum { DIGITS_FEW = 6, DIGITS_USUAL = 9, DIGITS_DEPTH = 7, DIGITS_DEPTH_MOST = 10, DIGITS_MOST = 15 };
 

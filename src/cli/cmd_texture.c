@@ -8,8 +8,6 @@
 #include "cli/texture_report.h"
 #include "cli/texture_source.h"
 
-int cmd_texture(const options *o);
-
 /* Options that need a product, or a figure of one. */
 static int check_alone(const options *o) {
     static const option_id drawn[] = {OPTION_THEME, OPTION_WIDTH, OPTION_HEIGHT, OPTION_TITLE};

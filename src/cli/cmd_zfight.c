@@ -10,8 +10,6 @@
 #include "cli/walk.h"
 #include "report/number.h"
 
-int cmd_zfight(const options *o);
-
 /* A band, or all of them together, and what of it does not exist as NaN. */
 typedef struct band {
     census_band counts;

@@ -4,8 +4,6 @@
 
 #include "cli/option_rows.h"
 
-int cmd_completions(const options *o);
-
 static bool takes(const verb *v, const option_row *row) {
     return (row->commands & v->bit) != 0;
 }

@@ -5,8 +5,7 @@
 
 #include "cli/option_rows.h"
 #include "report/append.h"
-
-int cmd_help(const options *o);
+#include "report/page.h"
 
 /* In GNU layout. */
 static void version(output *out) {
@@ -18,21 +17,23 @@ static void version(output *out) {
 }
 
 static void list_commands(output *out) {
+    page p = page_start(out, 17);
     output_text(out, "What a depth buffer can tell apart: exact precision and certified worst cases.\n\n"
                      "  depthprec                                       the table of a common camera\n"
                      "  depthprec -n 0.05 -f 4000 -F depth24plus        both formats that a browser may choose\n"
                      "  depthprec -n 0.1 -f inf -F fp32 -m reversed     an infinite far plane\n\n"
                      "Usage: depthprec [COMMAND] [options]\n\nCommands\n");
     for (size_t i = 0; i < verb_count; i++) {
-        char left[64] = "";
-        append(left, sizeof left, "%s %s", verb_rows[i].name, verb_rows[i].operand);
-        output_format(out, "  %-16s %s%s\n", left, verb_rows[i].summary, i == 0 ? " (default)" : "");
+        char label[64] = "";
+        append(label, sizeof label, "%s%s%s", verb_rows[i].name, *verb_rows[i].operand != '\0' ? " " : "",
+               verb_rows[i].operand);
+        page_note(&p, label, "%s%s", verb_rows[i].summary, i == 0 ? " (default)" : "");
     }
     output_text(out, "\n'depthprec help COMMAND' lists the options of a command. Depths are in scene units.\n"
                      "Exit status: 0 fine, 1 a check failed, 2 bad usage or input, 3 could not read or write.\n");
 }
 
-enum { LEFT = 30, RIGHT = 96, DESCRIPTION_SIZE = 1024 };
+enum { DESCRIPTION_SIZE = 1024 };
 
 /* "what it does (LEAST to MOST UNIT; default D: what that means)". */
 static const char *describe(const verb *v, const option_row *row, char out[DESCRIPTION_SIZE]) {
@@ -55,31 +56,20 @@ static const char *describe(const verb *v, const option_row *row, char out[DESCR
     return out;
 }
 
-static void list_option(output *out, const verb *v, const option_row *row) {
-    char left[128] = "      ", text[DESCRIPTION_SIZE], argument[OPTION_TEXT_SIZE];
-    if (row->letter != 0)
-        snprintf(left, sizeof left, "  -%c, ", row->letter);
-    append(left, sizeof left, "--%s %s", row->name, option_argument(row, argument));
-    output_format(out, "%-*s", LEFT, left);
-    int column = strlen(left) >= LEFT ? RIGHT : LEFT;
-    for (const char *word = describe(v, row, text); *word != '\0';) {
-        const int length = (int)strcspn(word, " ");
-        const bool fits = column == LEFT || column + 1 + length <= RIGHT;
-        if (!fits)
-            output_format(out, "\n%*s", LEFT, "");
-        output_format(out, "%s%.*s", fits && column > LEFT ? " " : "", length, word);
-        column = fits ? column + (column > LEFT) + length : LEFT + length;
-        word += length + (word[length] == ' ');
-    }
-    output_char(out, '\n');
-}
-
 static void list_options(output *out, const verb *v) {
+    page p = page_start(out, 28);
     output_format(out, "depthprec %s: %s\n\n%s\nUsage: depthprec %s%s%s [options]\n\nOptions\n", v->name, v->summary,
                   v->example, v->name, *v->operand != '\0' ? " " : "", v->operand);
-    for (int id = 0; id < OPTION_COUNT; id++)
-        if ((option_rows[id].commands & v->bit) != 0)
-            list_option(out, v, &option_rows[id]);
+    for (int id = 0; id < OPTION_COUNT; id++) {
+        const option_row *row = &option_rows[id];
+        char label[128] = "    ", text[DESCRIPTION_SIZE], argument[OPTION_TEXT_SIZE];
+        if (row->letter != 0)
+            snprintf(label, sizeof label, "-%c, ", row->letter);
+        option_argument(row, argument);
+        append(label, sizeof label, "--%s%s%s", row->name, *argument != '\0' ? " " : "", argument);
+        if ((row->commands & v->bit) != 0)
+            page_wrapped(&p, label, describe(v, row, text));
+    }
 }
 
 int cmd_help(const options *o) {

@@ -26,24 +26,6 @@ bool texture_product_wanted(const options *o) {
     return o->eye || option_given(o, OPTION_POSITION) || o->normal != NULL || o->effect != NULL || o->figure != NULL;
 }
 
-static int resolve_eye(const options *o, texture_product *p) {
-    snprintf(p->name, sizeof p->name, "%s", o->radial ? "distance from the camera" : "eye depth");
-    return EXIT_FINE;
-}
-
-static int resolve_position(const options *o, texture_product *p) {
-    p->made.position = o->position;
-    snprintf(p->name, sizeof p->name, "positions by %s", o->position != NULL ? o->position->name : "exact");
-    return EXIT_FINE;
-}
-
-static int resolve_normal(const options *o, texture_product *p) {
-    p->made.normal = o->normal;
-    snprintf(p->name, sizeof p->name, "normals by %s", o->normal->name);
-    p->unit = o->error_map ? "degrees" : "";
-    return EXIT_FINE;
-}
-
 /* The parameters that are not the scene's are the effect's, but for the depth that it compares with. */
 static int resolve_effect(const options *o, texture_product *p) {
     options rest = *o;
@@ -68,19 +50,17 @@ static int resolve_effect(const options *o, texture_product *p) {
     if (needs && !(p->made.reference > 0))
         return option_error(OPTION_PARAMETER, "%s needs reference=Z, %s, a positive eye depth%s", row->name,
                             row->reference, compared ? "" : "; it was not given");
-    snprintf(p->name, sizeof p->name, "%s", row->name);
-    p->unit = o->error_map ? "levels of 1/255" : "";
     return EXIT_FINE;
 }
 
 static const struct {
     frame_kind kind;
     option_id option;
-    int (*resolve)(const options *o, texture_product *p);
-} kinds[] = {{FRAME_EYE, OPTION_EYE, resolve_eye},
-             {FRAME_POSITION, OPTION_POSITION, resolve_position},
-             {FRAME_NORMAL, OPTION_NORMAL, resolve_normal},
-             {FRAME_EFFECT, OPTION_EFFECT, resolve_effect}};
+    const char *by, *unit, *unit_of_error;
+} kinds[] = {{FRAME_EYE, OPTION_EYE, "", "scene units", "scene units"},
+             {FRAME_POSITION, OPTION_POSITION, "positions by ", "scene units", "scene units"},
+             {FRAME_NORMAL, OPTION_NORMAL, "normals by ", "", "degrees"},
+             {FRAME_EFFECT, OPTION_EFFECT, "", "", "levels of 1/255"}};
 
 static int check_files(const options *o) {
     image_file file;
@@ -98,7 +78,11 @@ static int check_files(const options *o) {
 
 int texture_product_resolve(const options *o, texture_product *p) {
     size_t chosen = 0; /* eye depth, where --figure is all that was said */
-    *p = (texture_product){.unit = "scene units", .made = {.error = o->error_map, .radial = o->radial}};
+    const char *const names[] = {[FRAME_EYE] = o->radial ? "distance from the camera" : "eye depth",
+                                 [FRAME_POSITION] = o->position != NULL ? o->position->name : "exact",
+                                 [FRAME_NORMAL] = o->normal != NULL ? o->normal->name : "",
+                                 [FRAME_EFFECT] = o->effect != NULL ? o->effect->name : ""};
+    *p = (texture_product){.made = {.error = o->error_map, .radial = o->radial}};
     int status = EXIT_FINE;
     for (size_t i = 0, found = 0; i < sizeof kinds / sizeof kinds[0] && status == EXIT_FINE; i++)
         if (option_given(o, kinds[i].option)) {
@@ -109,12 +93,16 @@ int texture_product_resolve(const options *o, texture_product *p) {
         }
     if (status == EXIT_FINE && o->radial && kinds[chosen].kind != FRAME_EYE)
         status = option_error(OPTION_RADIAL, "has no meaning with --%s", option_name(kinds[chosen].option));
-    if (status == EXIT_FINE)
-        status = kinds[chosen].resolve(o, p);
+    p->made.kind = kinds[chosen].kind;
+    p->made.position = o->position;
+    p->made.normal = o->normal;
+    p->made.effect_settings = p->settings;
+    p->unit = o->error_map ? kinds[chosen].unit_of_error : kinds[chosen].unit;
+    snprintf(p->name, sizeof p->name, "%s%s", kinds[chosen].by, names[p->made.kind]);
+    if (status == EXIT_FINE && p->made.kind == FRAME_EFFECT)
+        status = resolve_effect(o, p);
     if (status == EXIT_FINE)
         status = check_files(o);
-    p->made.kind = kinds[chosen].kind;
-    p->made.effect_settings = p->settings;
     return status;
 }
 

@@ -3,20 +3,6 @@
 
 #include <string.h>
 
-int cmd_table(const struct options *o);
-int cmd_budget(const struct options *o);
-int cmd_bias(const struct options *o);
-int cmd_list(const struct options *o);
-int cmd_plot(const struct options *o);
-int cmd_zfight(const struct options *o);
-int cmd_bench(const struct options *o);
-int cmd_stability(const struct options *o);
-int cmd_check(const struct options *o);
-int cmd_solve(const struct options *o);
-int cmd_texture(const struct options *o);
-int cmd_help(const struct options *o);
-int cmd_completions(const struct options *o);
-
 static const name_list figures = {.get = list_figure};
 static const name_list families = {.get = list_family};
 static const name_list topics = {.get = list_topic};

@@ -43,6 +43,21 @@ typedef struct verb {
 extern const verb verb_rows[];
 extern const size_t verb_count;
 
+/* What the rows name: one cmd_....c each, but for help.c and completions.c. */
+int cmd_table(const struct options *o);
+int cmd_budget(const struct options *o);
+int cmd_bias(const struct options *o);
+int cmd_list(const struct options *o);
+int cmd_plot(const struct options *o);
+int cmd_zfight(const struct options *o);
+int cmd_bench(const struct options *o);
+int cmd_stability(const struct options *o);
+int cmd_check(const struct options *o);
+int cmd_solve(const struct options *o);
+int cmd_texture(const struct options *o);
+int cmd_help(const struct options *o);
+int cmd_completions(const struct options *o);
+
 /** The row of a command name; null when there is none. */
 const verb *verb_find(const char *name);
 

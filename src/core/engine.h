@@ -1,12 +1,13 @@
 /* SPDX-License-Identifier: MIT */
 /*
  * The engine's inner steps, for the bounds, the tests and the benchmarks; and all that rooms above the core may use of
- * it beside the public headers: bits, roundings, points of the lattice, curves and logarithms.
+ * it beside the public headers: bits, roundings, exact sums, points of the lattice, curves and logarithms.
  */
 #ifndef CORE_ENGINE_H
 #define CORE_ENGINE_H
 
 #include "core/curve.h"
+#include "core/expansion.h"
 #include "core/lattice.h"
 #include "core/logarithm.h"
 #include "core/rounding.h"

@@ -12,13 +12,6 @@ const method_family_row *method_family_get(size_t index) {
     return index < METHOD_FAMILY_COUNT ? families[index] : NULL;
 }
 
-const method_family_row *method_family_find(const char *name) {
-    for (size_t i = 0; i < METHOD_FAMILY_COUNT; i++)
-        if (strcmp(method_family_get(i)->name, name) == 0)
-            return method_family_get(i);
-    return NULL;
-}
-
 const method_row *method_get(size_t index) {
     for (size_t i = 0; i < METHOD_FAMILY_COUNT; i++) {
         const method_family_row *family = method_family_get(i);

@@ -172,7 +172,6 @@ typedef struct method_family_row {
 
 /** The families; null beyond the last. */
 const method_family_row *method_family_get(size_t index);
-const method_family_row *method_family_find(const char *name);
 
 /** All methods of all families in turn; null beyond the last. */
 const method_row *method_get(size_t index);

@@ -62,9 +62,6 @@ typedef struct figure_row {
 /** Figures by index; null beyond the last. */
 const figure_row *figure_get(size_t index);
 
-/** The figure of a name; null when there is none. */
-const figure_row *figure_find(const char *name);
-
 /** Colour, stroke and marker of set-up i: the format decides the colour and the marker, the mapping the stroke;
  *  where all share the one or the other, each set-up has its own of all three. */
 chart_style figure_style(const figure_request *request, size_t i);

@@ -64,6 +64,10 @@ void page_wrapped(page *p, const char *label, const char *text) {
     int column = left;
     if (text == NULL || *text == '\0')
         return;
+    if ((int)strlen(label) >= p->label) { /* alone on a line */
+        output_format(p->out, "%*s%s%s%s\n", INDENT, "", p->strong, label, p->plain);
+        label = "";
+    }
     put_label(p, label);
     while (*text != '\0') {
         const int word = (int)strcspn(text, " ");

@@ -23,7 +23,8 @@ void page_title(page *p, const char *format, ...) __attribute__((format(printf, 
 void page_note(page *p, const char *label, const char *format, ...) __attribute__((format(printf, 3, 4)));
 void page_line(page *p, const char *format, ...) __attribute__((format(printf, 2, 3)));
 
-/** A note broken between words where the page ends, its lines below each other; nothing where the text is empty. */
+/** A note broken between words where the page ends, its lines below each other, and below a label that is too long;
+ *  nothing where the text is empty. */
 void page_wrapped(page *p, const char *label, const char *text);
 
 #endif

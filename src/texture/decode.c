@@ -113,13 +113,6 @@ const decode_row *decode_get(size_t index) {
     return index < DECODE_ROWS ? &decode_rows[index] : NULL;
 }
 
-const decode_row *decode_find(const char *name) {
-    for (size_t i = 0; i < DECODE_ROWS; i++)
-        if (strcmp(decode_rows[i].name, name) == 0)
-            return &decode_rows[i];
-    return NULL;
-}
-
 bool decode_applies(const decode_row *row, const dp_setup *setup) {
     const bool curve = setup->spec.ortho                      ? row->ortho
                        : setup->curve == DP_CURVE_PERSPECTIVE ? row->perspective

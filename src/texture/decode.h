@@ -69,7 +69,6 @@ enum {
 extern const decode_row decode_rows[DECODE_ROWS];
 
 const decode_row *decode_get(size_t index); /**< null beyond the last */
-const decode_row *decode_find(const char *name);
 
 /** Does the row apply to the set-up's curve, projection and far plane? */
 bool decode_applies(const decode_row *row, const dp_setup *setup);

@@ -145,13 +145,6 @@ const effect_row *effect_get(size_t index) {
     return index < sizeof rows / sizeof rows[0] ? &rows[index] : NULL;
 }
 
-const effect_row *effect_find(const char *name) {
-    for (size_t i = 0; i < sizeof rows / sizeof rows[0]; i++)
-        if (strcmp(rows[i].name, name) == 0)
-            return &rows[i];
-    return NULL;
-}
-
 int effect_parameter_find(const effect_row *row, const char *name) {
     for (int i = 0; row->parameters[i].name != NULL; i++)
         if (strcmp(row->parameters[i].name, name) == 0)

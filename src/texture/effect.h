@@ -55,7 +55,6 @@ typedef struct effect_row {
 
 /** The rows in order; null beyond the last. */
 const effect_row *effect_get(size_t index);
-const effect_row *effect_find(const char *name);
 
 /** The index of a parameter of the row, "rise" for example; -1 when it has none of that name. */
 int effect_parameter_find(const effect_row *row, const char *name);

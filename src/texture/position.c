@@ -7,7 +7,7 @@
 
 #include <gsl/gsl_linalg.h>
 
-#include "core/expansion.h"
+#include "core/engine.h"
 
 static bool has_matrix(const dp_setup *setup) {
     return dp_mapping_get(setup->spec.mapping)->curve == DP_CURVE_PERSPECTIVE;

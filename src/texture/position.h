@@ -49,7 +49,6 @@ enum { POSITION_MATRIX = 0, POSITION_RAYS, POSITION_EXTENTS, POSITION_EXTENTS_HA
 extern const position_row position_rows[POSITION_ROWS];
 
 const position_row *position_get(size_t index); /**< null beyond the last */
-const position_row *position_find(const char *name);
 
 /** Does the row have a form for the camera's projection and mapping? */
 bool position_applies(const position_row *row, const texture_camera *camera);

@@ -224,10 +224,3 @@ const position_row position_rows[] = {
 const position_row *position_get(size_t index) {
     return index < POSITION_ROWS ? &position_rows[index] : NULL;
 }
-
-const position_row *position_find(const char *name) {
-    for (size_t i = 0; i < POSITION_ROWS; i++)
-        if (strcmp(position_rows[i].name, name) == 0)
-            return &position_rows[i];
-    return NULL;
-}
