@@ -92,21 +92,9 @@ int parse_at(options *o, option_id id, const char *value) {
     return strchr(value, ':') != NULL ? parse_spaced(value, &o->at) : parse_list(value, &o->at);
 }
 
-/* "[0.1, 1000]", or "[0.1, inf)". */
-static const char *planes_text(const options *o, char *out, size_t size) {
-    char lo[NUMBER_SIZE];
-    char hi[NUMBER_SIZE];
-    number_shortest(o->znear, lo);
-    number_shortest(o->zfar, hi);
-    snprintf(out, size, "[%s, %s%c", lo, hi, isinf(o->zfar) ? ')' : ']');
-    return out;
-}
-
 static int outside(const options *o, option_id id, double z) {
-    char planes[2 * NUMBER_SIZE + 8];
-    char text[NUMBER_SIZE];
-    number_shortest(z, text);
-    return option_error(id, "depths must lie in [near, far] = %s, got %s", planes_text(o, planes, sizeof planes), text);
+    return option_error(id, "depths must lie in [near, far] = [%s, %s%c, got %s", number_full(o->znear).text,
+                        number_full(o->zfar).text, isinf(o->zfar) ? ')' : ']', number_full(z).text);
 }
 
 int depths_resolve(const options *o, size_t count, depths *out) {
@@ -121,12 +109,10 @@ int depths_resolve(const options *o, size_t count, depths *out) {
 }
 
 int depths_in_binary32(const depths *d) {
-    char text[NUMBER_SIZE];
     if (!isinf((float)d->hi))
         return EXIT_FINE;
-    number_shortest(d->hi, text);
     return option_error(OPTION_AT, "depths in binary32 must be at most 3.4028235e+38, its largest number, got %s",
-                        text);
+                        number_full(d->hi).text);
 }
 
 int parse_range(options *o, option_id id, const char *value) {
