@@ -73,14 +73,9 @@ static int check_depths(const options *o, solve_report *r) {
     const double most = free_far ? 1e18 : o->zfar;
     if (r->lo >= least && r->hi <= most)
         return EXIT_FINE;
-    char lo[NUMBER_SIZE];
-    char hi[NUMBER_SIZE];
-    char got[NUMBER_SIZE];
-    number_shortest(least, lo);
-    number_shortest(most, hi);
-    number_shortest(r->lo >= least ? r->hi : r->lo, got);
     return option_error(id, "depths must lie in [%s, %s] = [%s, %s], got %s", free_near ? "1e-12" : "near",
-                        free_far ? "1e18" : "far", lo, hi, got);
+                        free_far ? "1e18" : "far", number_full(least).text, number_full(most).text,
+                        number_full(r->lo >= least ? r->hi : r->lo).text);
 }
 
 /* ---- Candidates -------------------------------------------------------------------------------------------------- */

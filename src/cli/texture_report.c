@@ -341,13 +341,18 @@ static void name_all(statistics *r) {
 
 /* ---- What is measured -------------------------------------------------------------------------------------------- */
 
-static bool add_error(statistics *r, const char *what, const char *method, const char *unit,
-                      const frame_product *product) {
+static bool add_error(statistics *r, const frame_product *product) {
+    static const char *const words[FRAME_KINDS][2] = {[FRAME_EYE] = {"eye depth", "scene units"},
+                                                      [FRAME_POSITION] = {"position ", "scene units"},
+                                                      [FRAME_NORMAL] = {"normal ", "degrees"}};
     if (r->error_count == ERRORS_MAX || frame_refuses(&r->source.frame, product) != NULL)
         return true;
     error_line *e = &r->errors[r->error_count++];
-    snprintf(e->name, sizeof e->name, "%s%s%s", what, *method != '\0' ? " " : "", method);
-    e->unit = unit;
+    snprintf(e->name, sizeof e->name, "%s%s", words[product->kind][0],
+             product->position != NULL ? product->position->name
+             : product->normal != NULL ? product->normal->name
+                                       : "");
+    e->unit = words[product->kind][1];
     return frame_summarise(&r->source.frame, product, &e->sum);
 }
 
@@ -397,37 +402,29 @@ static bool add_decoding(statistics *r, const decode_row *row) {
     return good;
 }
 
-/* How often the pixels are visited: once for the survey, and once for each product that is measured. */
-static uint64_t passes(const statistics *r) {
-    uint64_t count = 2;
-    for (size_t i = 0; r->source.path == NULL && position_get(i) != NULL; i++)
-        count++;
-    for (size_t i = 0; r->source.path == NULL && normal_get(i) != NULL; i++)
-        count++;
+/* Of an image what is certain without looking any further; a scene tells the truth about everything. */
+static size_t products_of(const statistics *r, frame_product out[ERRORS_MAX]) {
+    size_t count = 0;
+    out[count++] = (frame_product){.kind = FRAME_EYE, .error = true};
+    for (size_t i = 0; !is_image(r) && position_get(i) != NULL; i++)
+        out[count++] = (frame_product){.kind = FRAME_POSITION, .error = true, .position = position_get(i)};
+    for (size_t i = 0; !is_image(r) && normal_get(i) != NULL; i++)
+        out[count++] = (frame_product){.kind = FRAME_NORMAL, .error = true, .normal = normal_get(i)};
     return count;
 }
 
-/* Of an image what is certain without looking any further; a scene tells the truth about everything. */
-static bool measure(statistics *r, progress *bar) {
-    frame_product p = {.kind = FRAME_EYE, .error = true};
-    uint64_t done = 1;
-    progress_step(bar, done);
-    bool good = add_error(r, "eye depth", "", "scene units", &p);
-    progress_step(bar, ++done);
-    for (size_t i = 0; good && decode_get(i) != NULL; i++)
-        good = add_decoding(r, decode_get(i));
-    if (r->source.path != NULL)
-        return good;
-    p.kind = FRAME_POSITION;
-    for (size_t i = 0; good && (p.position = position_get(i)) != NULL; i++) {
-        good = add_error(r, "position", p.position->name, "scene units", &p);
-        progress_step(bar, ++done);
+static bool measure(statistics *r) {
+    frame_product products[ERRORS_MAX];
+    const size_t count = products_of(r, products);
+    progress bar = progress_start("passes", count + 1, r->o->quiet);
+    bool good = survey_make(&r->source.frame, &r->survey);
+    for (size_t k = 0; good && k < count; k++) {
+        progress_step(&bar, k + 1);
+        good = add_error(r, &products[k]);
+        for (size_t i = 0; good && k == 0 && decode_get(i) != NULL; i++)
+            good = add_decoding(r, decode_get(i));
     }
-    p.kind = FRAME_NORMAL;
-    for (size_t i = 0; good && (p.normal = normal_get(i)) != NULL; i++) {
-        good = add_error(r, "normal", p.normal->name, "degrees", &p);
-        progress_step(bar, ++done);
-    }
+    progress_end(&bar);
     return good;
 }
 
@@ -439,10 +436,7 @@ int texture_report_write(const options *o, const texture_source *source) {
         r->o = o;
         r->source = *source;
         r->condition = position_condition(&source->camera);
-        progress bar = progress_start("passes", passes(r), o->quiet);
-        const bool good = survey_make(&source->frame, &r->survey) && measure(r, &bar);
-        progress_end(&bar);
-        if (good) {
+        if (measure(r)) {
             r->named.pairs = survey_pairs_make(&source->frame, &r->pairs) ? &r->pairs : NULL;
             name_all(r);
             const report_spec spec = {"texture", columns, r, .when = conditions(r), .label = 14, .head = say_head};
