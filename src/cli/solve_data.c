@@ -1,7 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* What solve found, in columns: JSON, CSV and the table of alternatives. */
 #include <math.h>
-#include <stdio.h>
 #include <string.h>
 
 #include "cli/setups.h"

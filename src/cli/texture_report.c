@@ -10,8 +10,6 @@
 #include "cli/setups.h"
 #include "report/number.h"
 #include "report/report.h"
-#include "texture/decode.h"
-#include "texture/position.h"
 #include "texture/survey.h"
 
 enum { ERRORS_MAX = 32 };
@@ -356,50 +354,13 @@ static bool add_error(statistics *r, const frame_product *product) {
     return frame_summarise(&r->source.frame, product, &e->sum);
 }
 
-/* What a decoding in binary32 adds to what is stored: relative, over the pixels that are not sky. */
 static bool add_decoding(statistics *r, const decode_row *row) {
-    const frame *f = &r->source.frame;
-    const dp_setup *setup = &r->source.setup;
-    const uint32_t width = f->camera->width, sky = frame_sky_rank(f);
-    if (r->error_count == ERRORS_MAX || f->metric || !decode_applies(row, setup))
+    if (r->error_count == ERRORS_MAX || r->source.frame.metric || !decode_applies(row, &r->source.setup))
         return true;
-    uint32_t *codes = calloc(width, sizeof *codes);
-    float *d = calloc(width, sizeof *d), *got = calloc(width, sizeof *got);
-    const bool good = codes != NULL && d != NULL && got != NULL;
     error_line *e = &r->errors[r->error_count++];
     snprintf(e->name, sizeof e->name, "decode %s", row->name);
     e->unit = "relative";
-    e->sum = (frame_summary){.lo = INFINITY, .p99 = NAN};
-    for (uint32_t y = 0; good && y < f->camera->height; y++) {
-        frame_codes(f, y, codes);
-        for (uint32_t x = 0; x < width; x++)
-            d[x] = codes[x] == UINT32_MAX ? NAN : (float)dp_format_value(&setup->spec.format, codes[x]);
-        decode_run(row, setup, d, got, width);
-        for (uint32_t x = 0; x < width; x++) {
-            if (codes[x] == UINT32_MAX || frame_rank(setup, codes[x]) >= sky)
-                continue;
-            const double want = decode_exact(setup, row->quantity, (double)d[x]);
-            const double off = want == (double)got[x] ? 0 : fabs((double)got[x] - want) / fabs(want);
-            if (!isfinite(off)) {
-                e->sum.infinite++;
-                continue;
-            }
-            e->sum.count++;
-            e->sum.mean += off;
-            e->sum.lo = fmin(e->sum.lo, off);
-            if (off > e->sum.hi || e->sum.count == 1) {
-                e->sum.hi = off;
-                e->sum.hi_column = x;
-                e->sum.hi_row = y;
-            }
-        }
-    }
-    e->sum.mean = e->sum.count > 0 ? e->sum.mean / (double)e->sum.count : (double)NAN;
-    e->sum.hi = e->sum.count > 0 ? e->sum.hi : (double)NAN;
-    free(codes);
-    free(d);
-    free(got);
-    return good;
+    return frame_summarise_decoding(&r->source.frame, row, &e->sum);
 }
 
 /* Of an image what is certain without looking any further; a scene tells the truth about everything. */
