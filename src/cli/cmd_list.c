@@ -121,7 +121,7 @@ bool list_effect(size_t index, list_item *item) {
         return false;
     *item = (list_item){.name = row->name, .note = row->note, .source = row->source, .row = row};
     for (int i = 0; row->parameters[i].name != NULL; i++) {
-        const effect_parameter *p = &row->parameters[i];
+        const texture_parameter *p = &row->parameters[i];
         append(item->bound, sizeof item->bound, "%s%s %g [%s]", i > 0 ? ", " : "", p->name, p->value, p->unit);
         if (i == row->wanted)
             append(item->bound, sizeof item->bound, " (%s usable)", row->smallest ? "smallest" : "largest");
