@@ -6,6 +6,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "named.h"
 #include "oracle.h"
 #include "support.h"
 #include "texture/survey.h"

@@ -2,7 +2,6 @@
 /* plot: a figure, drawn (SVG, PDF, PNG by the ending of -o) or as its numbers (--csv, --json). */
 #include <math.h>
 #include <stdio.h>
-#include <stdlib.h>
 #include <string.h>
 
 #include "cli/check_report.h"
@@ -11,9 +10,9 @@
 #include "cli/list.h"
 #include "cli/methods.h"
 #include "cli/plot_data.h"
+#include "core/append.h"
 #include "plot/figure.h"
 #include "plot/notes.h"
-#include "report/append.h"
 #include "report/number.h"
 
 enum { WIDTH = 800, HEIGHT = 500 };
@@ -33,14 +32,6 @@ typedef struct plotting {
     need_file file;
     chart *chart;
 } plotting;
-
-bool list_figure(size_t index, list_item *item) {
-    const figure_row *row = figure_get(index);
-    if (row == NULL)
-        return false;
-    *item = (list_item){.name = row->name, .note = row->summary, .row = row};
-    return true;
-}
 
 /* The depth and range of the request; what this figure has no use for is refused rather than ignored. */
 static int resolve_depths(plotting *p) {

@@ -6,21 +6,8 @@
 #include <string.h>
 
 #include "cli/texture_effect.h"
+#include "core/append.h"
 #include "plot/canvas.h"
-
-bool list_position(size_t index, list_item *item) {
-    const position_row *row = position_get(index);
-    if (row != NULL)
-        *item = (list_item){.name = row->name, .note = row->note, .source = row->source, .row = row};
-    return row != NULL;
-}
-
-bool list_normal(size_t index, list_item *item) {
-    const normal_row *row = normal_get(index);
-    if (row != NULL)
-        *item = (list_item){.name = row->name, .note = row->note, .source = row->source, .row = row};
-    return row != NULL;
-}
 
 bool texture_product_wanted(const options *o) {
     return o->eye || option_given(o, OPTION_POSITION) || o->normal != NULL || o->effect != NULL || o->figure != NULL;
@@ -116,8 +103,7 @@ int texture_product_check(const texture_source *s, texture_product *p) {
     const char *wrong = frame_refuses(&s->frame, &p->made);
     if (wrong != NULL)
         return usage_error("texture: %s: %s", p->name, wrong);
-    const size_t length = strlen(p->name);
     if (p->made.error)
-        snprintf(p->name + length, sizeof p->name - length, ", %s", truths[p->made.kind][s->path == NULL]);
+        append(p->name, sizeof p->name, ", %s", truths[p->made.kind][s->path == NULL]);
     return EXIT_FINE;
 }

@@ -5,6 +5,7 @@
 #include <string.h>
 
 #include "cli/texture_source.h"
+#include "core/append.h"
 #include "report/number.h"
 #include "texture/image_depths.h"
 
@@ -171,23 +172,24 @@ void texture_readings(const options *o, texture_source *s) {
         formats_of(s);
 }
 
-static void warn_of(const texture_source *s, const char *what) {
-    char z[NUMBER_SIZE];
-    bool begun = false;
-    for (size_t i = 0; i < s->reading_count; i++) {
-        const texture_reading *r = &s->readings[i];
+const char *texture_readings_of(const texture_source *s, const char *what, char out[READINGS_SIZE]) {
+    out[0] = '\0';
+    for (const texture_reading *r = s->readings; r < s->readings + s->reading_count; r++) {
         if (strcmp(r->what, what) != 0)
             continue;
-        number_digits(r->z, 6, z);
-        if (begun)
-            fprintf(stderr, ", %s as %s", z, r->name);
+        if (out[0] == '\0')
+            append(out, READINGS_SIZE, "%u,%u is at z = ", s->column, s->row);
         else
-            fprintf(stderr, "depthprec: %s: the %s is assumed: pixel %u,%u is at z = %s as %s", s->path, what,
-                    s->column, s->row, z, r->name);
-        begun = true;
+            append(out, READINGS_SIZE, ", ");
+        append(out, READINGS_SIZE, "%s as %s", number_of(r->z, 6).text, r->name);
     }
-    if (begun)
-        fprintf(stderr, "; --%s tells\n", what);
+    return out;
+}
+
+static void warn_of(const texture_source *s, const char *what) {
+    char text[READINGS_SIZE];
+    if (*texture_readings_of(s, what, text) != '\0')
+        fprintf(stderr, "depthprec: %s: the %s is assumed: pixel %s; --%s tells\n", s->path, what, text, what);
 }
 
 void texture_warn(const options *o, const texture_source *s) {

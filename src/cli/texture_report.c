@@ -8,7 +8,6 @@
 
 #include "cli/progress.h"
 #include "cli/setups.h"
-#include "report/append.h"
 #include "report/number.h"
 #include "report/report.h"
 #include "texture/decode.h"
@@ -23,7 +22,6 @@ typedef struct error_line {
     const char *unit;
     frame_summary sum;
     uint64_t masked;
-    double most; /* NaN where there is no pixel */
     char at[64]; /* the pixel, and the unit */
 } error_line;
 
@@ -39,9 +37,9 @@ typedef struct statistics {
     setup_fields setup;
     struct {
         const char *scene, *truth, *type, *rounded, *format, *format_from, *mapping_from, *direction_from;
-        double metric, step, steps, bits, fov, half_height, sky;
-        bool coarser, reversed;
-        const bool *is_reversed;
+        double metric, step, steps, bits, fov, half_height;
+        bool coarser;
+        const bool *reversed;
         const survey_pairs *pairs;
         uint64_t hidden;
     } named;
@@ -85,21 +83,10 @@ static void say_grain(const statistics *r, page *p) {
         page_note(p, "samples", "of %d significant bits, %s: counted in what depths can be off by", g->bits, by);
 }
 
-/* A line for the mappings, one for the formats. */
-static void say_readings(const texture_source *s, page *p) {
-    for (size_t i = 0; i < s->reading_count;) {
-        const char *what = s->readings[i].what;
-        char text[512] = "";
-        for (; i < s->reading_count && strcmp(s->readings[i].what, what) == 0; i++)
-            append(text, sizeof text, "%s%s as %s", text[0] != '\0' ? ", " : "", number_of(s->readings[i].z, 6).text,
-                   s->readings[i].name);
-        page_note(p, "pixel", "%u,%u is at z = %s", s->column, s->row, text);
-    }
-}
-
 static void say_origins(const statistics *r, page *p) {
     const texture_source *s = &r->source;
     const char *name = s->setup.spec.format.name;
+    char readings[READINGS_SIZE];
     const bool other = is_image(r) && s->found.depth && strcmp(s->found.format.name, name) != 0;
     if (is_image(r))
         page_note(p, "recognised", "%s", s->found.why);
@@ -111,7 +98,9 @@ static void say_origins(const statistics *r, page *p) {
               is_image(r) && s->mapping_from == ORIGIN_ASSUMED ? ": --mapping tells" : "");
     if (is_image(r) && s->direction_from != ORIGIN_GIVEN)
         page_note(p, "direction", "%s %s", s->setup.reversed ? "reversed" : "not reversed", r->named.direction_from);
-    say_readings(s, p);
+    for (const char *const *what = (const char *const[]){"mapping", "format", NULL}; *what != NULL; what++)
+        if (*texture_readings_of(s, *what, readings) != '\0')
+            page_note(p, "pixel", "%s", readings);
 }
 
 static void say_metric(const statistics *r, page *p) {
@@ -211,7 +200,6 @@ static void *next_error(void *of, size_t i) {
     if (i == r->error_count)
         return NULL;
     e->masked = r->survey.pixels - e->sum.count - e->sum.infinite;
-    e->most = e->sum.count > 0 ? e->sum.hi : (double)NAN;
     snprintf(e->at, sizeof e->at, "%u,%u (%s)", e->sum.hi_column, e->sum.hi_row, e->unit);
     return e;
 }
@@ -234,7 +222,7 @@ static const column sample_columns[] = {
 
 static const column recognised_columns[] = {{FIELD(statistics, named.format, "format", "")},
                                             {FIELD(statistics, source.found.certain, "certain", "")},
-                                            {FIELD(statistics, named.is_reversed, "reversed", "")},
+                                            {FIELD(statistics, named.reversed, "reversed", "")},
                                             {FIELD(statistics, source.found.why, "why", "")},
                                             {.kind = COLUMN_END}};
 
@@ -256,7 +244,7 @@ static const column reading_columns[] = {
     {FIELD(statistics, reading.z, "z", "scene")},     {.kind = COLUMN_END}};
 
 static const column sky_columns[] = {{FIELD(statistics, survey.sky, "pixels", "")},
-                                     {FIELD(statistics, named.sky, "limit", "")},
+                                     {FIELD(statistics, source.frame.sky, "limit", "")},
                                      {FIELD(statistics, survey.sky_from, "from", "scene")},
                                      {FIELD(statistics, named.hidden, "hidden", ""), .when = OF_SCENE},
                                      {.kind = COLUMN_END}};
@@ -307,8 +295,7 @@ static const column error_columns[] = {{FIELD(error_line, name, "name", "")},
                                        {FIELD(error_line, masked, "masked", "")},
                                        {FIELD(error_line, sum.mean, "mean", ""), SHOWN("mean", 12, 4)},
                                        {FIELD(error_line, sum.p99, "p99", ""), SHOWN("99 %", 12, 4)},
-                                       {FIELD(error_line, most, "max", "")},
-                                       {TEXT_FIELD(error_line, sum.hi, "at most", 12, 4)},
+                                       {FIELD(error_line, sum.hi, "max", ""), SHOWN("at most", 12, 4)},
                                        {FIELD(error_line, sum.hi_column, "column", "")},
                                        {FIELD(error_line, sum.hi_row, "row", "")},
                                        {TEXT_FIELD(error_line, at, "at pixel", -1, 0)},
@@ -327,6 +314,7 @@ static const column columns[] = {
 
 /* What is said of the source by names, and of its options. */
 static void name_all(statistics *r) {
+    static const bool answers[] = {false, true};
     const texture_source *s = &r->source;
     const grain *g = &s->grain;
     const bool is_metric = r->o->metric > 0, has_steps = g->kind == GRAIN_STEPS;
@@ -346,10 +334,8 @@ static void name_all(statistics *r) {
     r->named.bits = g->kind == GRAIN_FLOATS ? g->bits : none;
     r->named.fov = s->camera.ortho ? none : r->o->camera.fov_y;
     r->named.half_height = s->camera.ortho ? r->o->camera.half_height : none;
-    r->named.sky = r->o->sky;
     r->named.coarser = !is_metric && texture_coarser(s);
-    r->named.reversed = s->found.reversed == 1;
-    r->named.is_reversed = s->found.direction ? &r->named.reversed : NULL;
+    r->named.reversed = s->found.direction ? &answers[s->found.reversed == 1] : NULL;
     r->named.hidden = r->survey.sky - r->survey.true_sky;
 }
 
@@ -383,7 +369,7 @@ static bool add_decoding(statistics *r, const decode_row *row) {
         frame_codes(f, y, codes);
         for (uint32_t x = 0; x < width; x++)
             d[x] = codes[x] == UINT32_MAX ? NAN : (float)dp_format_value(&setup->spec.format, codes[x]);
-        row->run(setup, d, got, width);
+        decode_run(row, setup, d, got, width);
         for (uint32_t x = 0; x < width; x++) {
             if (codes[x] == UINT32_MAX || frame_rank(setup, codes[x]) >= sky)
                 continue;

@@ -7,7 +7,6 @@
 
 #include "cli/names.h"
 #include "cli/setups.h"
-#include "report/append.h"
 #include "report/number.h"
 
 /* UINT32_MAX stands for "no depth" among codes. */
@@ -20,17 +19,6 @@ const char *texture_origin_name(texture_origin origin) {
 
 bool texture_scene_takes(const options *o, const char *name) {
     return o->scene != NULL && parameter_find(o->scene->parameters, name) >= 0;
-}
-
-bool list_scene(size_t index, list_item *item) {
-    const scene_row *row = scene_get(index);
-    if (row == NULL)
-        return false;
-    *item = (list_item){.name = row->name, .note = row->note, .row = row};
-    for (size_t i = 0; row->parameters[i].name != NULL; i++)
-        append(item->bound, sizeof item->bound, "%s%s=%g", i > 0 ? ", " : "", row->parameters[i].name,
-               row->parameters[i].value);
-    return true;
 }
 
 int texture_parameter_set(const char *whose, const texture_parameter *list, const named_number *given, double *out) {

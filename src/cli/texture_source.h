@@ -18,7 +18,7 @@ typedef struct texture_reading {
     double z; /**< eye depth; NaN where it has none */
 } texture_reading;
 
-enum { READINGS_MAX = 8 };
+enum { READINGS_MAX = 8, READINGS_SIZE = 512 };
 
 typedef struct texture_source {
     const char *path; /**< null for a scene */
@@ -54,6 +54,9 @@ bool texture_coarser(const texture_source *s);
 
 /** Fills in the readings of a pixel. */
 void texture_readings(const options *o, texture_source *s);
+
+/** "320,180 is at z = 4.2 as d3d, 0.4 as reversed", of "mapping" or "format"; "" where it has none. @return out */
+const char *texture_readings_of(const texture_source *s, const char *what, char out[READINGS_SIZE]);
 
 /** One line on stderr about what is assumed, if anything is. */
 void texture_warn(const options *o, const texture_source *s);

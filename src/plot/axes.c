@@ -41,21 +41,13 @@ int axes_room_y(const pencil *p, double height) {
     return (int)fmax(2, height / (25 * p->scale));
 }
 
-static double widest(const pencil *p, const chart_axis *axis, int room) {
+double axes_widest_label(const pencil *p, const chart_axis *axis, int room) {
     ticks t;
     ticks_make(axis, room, &t);
     double width = 0;
     for (size_t i = 0; i < t.count; i++)
         width = fmax(width, canvas_text_width(p->c, t.items[i].text, &p->small));
     return width;
-}
-
-double axes_label_width(const pencil *p, const chart_axis *axis, double height) {
-    return widest(p, axis, axes_room_y(p, height));
-}
-
-double axes_x_label_width(const pencil *p, const chart_axis *axis, double width) {
-    return widest(p, axis, axes_room_x(p, width));
 }
 
 /* Lines of one px lie on pixel centres: sharp at the natural size. */
@@ -158,15 +150,15 @@ void axes_draw_frame(const pencil *p, const axes *a, bool x_labels, bool y_label
     draw_y_ticks(p, a, snap(a->frame.x), -1, &pen, y_labels);
 }
 
-void axes_draw_scale(const pencil *p, const axes *a) {
-    canvas_pen pen = {.colour = p->theme->frame, .width = p->scale};
-    draw_box(p, a->frame, &pen);
-    draw_y_ticks(p, a, snap(a->frame.x + a->frame.w), 1, &pen, true);
-}
-
 void axes_draw_right(const pencil *p, const axes *a, bool labels) {
     canvas_pen pen = {.colour = p->theme->frame, .width = p->scale};
     draw_y_ticks(p, a, snap(a->frame.x + a->frame.w), 1, &pen, labels);
+}
+
+void axes_draw_scale(const pencil *p, const axes *a) {
+    canvas_pen pen = {.colour = p->theme->frame, .width = p->scale};
+    draw_box(p, a->frame, &pen);
+    axes_draw_right(p, a, true);
 }
 
 char *axes_caption(const chart_axis *axis, char out[CHART_TEXT]) {

@@ -32,11 +32,8 @@ double axes_y(const axes *a, double value);
 int axes_room_x(const pencil *p, double width);
 int axes_room_y(const pencil *p, double height);
 
-/** The widest label that a vertical axis of this height has, px. */
-double axes_label_width(const pencil *p, const chart_axis *axis, double height);
-
-/** The widest label of a horizontal axis, px. */
-double axes_x_label_width(const pencil *p, const chart_axis *axis, double width);
+/** The widest label of an axis with room for so many, px. */
+double axes_widest_label(const pencil *p, const chart_axis *axis, int room);
 
 /** Grid lines: drawn below the data. */
 void axes_draw_grid(const pencil *p, const axes *a);

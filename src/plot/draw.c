@@ -157,16 +157,16 @@ static bool draw_page(const pencil *p, const chart *c, double width, double heig
     g.area.h -= clear;
 
     /* Tick labels stand to the left of the panels, and half of the last one to their right. */
-    double panel_height = g.area.h / g.rows - g.heading;
-    double left = axes_label_width(p, y, panel_height) + TICK_ROOM * s;
-    double x_label = axes_x_label_width(p, x, g.area.w / g.columns), right = x_label / 2;
+    const int labels = axes_room_y(p, g.area.h / g.rows - g.heading);
+    double left = axes_widest_label(p, y, labels) + TICK_ROOM * s;
+    double x_label = axes_widest_label(p, x, axes_room_x(p, g.area.w / g.columns)), right = x_label / 2;
     g.gap_x = fmax(PANEL_GAP * s, x_label + SPACE * s); /* two neighbours' end labels meet there */
     g.gap_y = PANEL_GAP * s;
     double bar = c->value.label != NULL
-                     ? SPACE * 2 * s + BAR_WIDTH * s + TICK_ROOM * s + axes_label_width(p, &c->value, panel_height)
+                     ? SPACE * 2 * s + BAR_WIDTH * s + TICK_ROOM * s + axes_widest_label(p, &c->value, labels)
                  : c->colours ? SPACE * 2 * s + BALL_WIDTH * s
                               : 0;
-    double scale = second->label != NULL ? TICK_ROOM * s + axes_label_width(p, second, panel_height) : 0;
+    double scale = second->label != NULL ? TICK_ROOM * s + axes_widest_label(p, second, labels) : 0;
     g.area.x += left;
     g.area.w -= left + fmax(fmax(bar, scale), right - 0.75 * MARGIN * s);
 

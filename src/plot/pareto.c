@@ -95,8 +95,8 @@ static const chart_series *add_labels(const field *f, chart *out, chart_panel *p
 
 /* Whole decades round the data, with room for the names. */
 static void fit(chart_axis *axis, const double *values, size_t count) {
-    double lo = INFINITY, hi = 0;
-    for (size_t i = 0; i < count; i++) {
+    double lo = values[0], hi = values[0];
+    for (size_t i = 1; i < count; i++) {
         lo = fmin(lo, values[i]);
         hi = fmax(hi, values[i]);
     }

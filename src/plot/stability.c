@@ -77,7 +77,7 @@ const char *stability_draw(const method_family_row *family, const stability_resu
         for (size_t i = 0; i < count; i++)
             if (results[i].which == which)
                 ordered[used++] = &results[i];
-    if (panel == NULL || !add_rows(family, ordered, used, out, panel))
+    if (panel == NULL || used == 0 || !add_rows(family, ordered, used, out, panel))
         return NULL;
     add_marks(ordered, used, out, panel, claimed, "claimed up to here", (chart_style){-1, 0, 0, false});
     add_marks(ordered, used, out, panel, broken, "the claim breaks here", (chart_style){0, 1, 1, false});

@@ -13,6 +13,7 @@
 
 #define TRACE_TOLERANCE 0.1 /* px */
 
+/** Private to trace.c. */
 typedef struct trace {
     canvas *c;
     bool column_open; /* the pixel column being gathered */

@@ -33,8 +33,10 @@ typedef struct scene_row {
     texture_parameter parameters[TEXTURE_PARAMETERS + 1];
 } scene_row;
 
-const scene_row *scene_get(size_t index); /**< null behind the last */
-const scene_row *scene_find(const char *name);
+enum { SCENE_PLANE = 0, SCENE_SPHERE, SCENE_STEPS, SCENE_DECALS, SCENE_ROWS };
+extern const scene_row scene_rows[SCENE_ROWS];
+
+const scene_row *scene_get(size_t index); /**< null beyond the last */
 
 /** The codes that a row of pixels stores: dp_code() of each hit, the far plane's code for sky. */
 void scene_codes(const scene_row *scene, const texture_camera *camera, const double *parameters, uint32_t row,
