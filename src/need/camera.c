@@ -5,6 +5,7 @@
 #include <string.h>
 
 #include "api/presets.h"
+#include "core/append.h"
 #include "need/reader.h"
 
 enum {
@@ -41,9 +42,8 @@ static int word_among(reader *r, const config_setting_t *s, const char *(*name)(
             return (int)i;
     char all[NEED_TEXT_SIZE / 2] = "";
     for (size_t i = 0; name(i) != NULL; i++) {
-        const size_t used = strlen(all);
         reader_known(r, text, name(i));
-        snprintf(all + used, sizeof all - used, "%s%s", i > 0 ? ", " : "", name(i));
+        append(all, sizeof all, "%s%s", i > 0 ? ", " : "", name(i));
     }
     reader_fail(r, s, "%s: must be one of %s, got '%.40s'", config_setting_name(s), all, text);
     return -1;

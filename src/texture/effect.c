@@ -100,63 +100,55 @@ static double depth_of_field(const dp_setup *setup, const double *p, double z, d
 /* ---- Rows -------------------------------------------------------------------------------------------------------- */
 
 #define RISE                                                                                                           \
-    { "rise", "scene per scene", "how much higher the pixel's ray comes with each unit of eye depth", -1e6, 1e6, -0.25 }
+    {                                                                                                                  \
+        "rise", "how much higher the pixel's ray comes with each unit of eye depth", "scene per scene", -1e6, 1e6,     \
+            -0.25, false                                                                                               \
+    }
 #define DEPTH_TEXTURE "shaders on Unity's _CameraDepthTexture"
 
 /* clang-format off */
 static const effect_row rows[] = {
     {"intersection", "saturate(|eye - scene|/half-width)",
-     {{"half-width", "scene", "distance from the surface over which the highlight fades", 1e-12, 1e12, 0.1}},
+     {{"half-width", "distance from the surface over which the highlight fades", "scene", 1e-12, 1e12, 0.1, false}},
      0, true, false, "the eye depth of the surface",
      DEPTH_TEXTURE "; Lorach 2007, Soft particles", EFFECT_FADE, eye, intersection},
     {"force-field", "(1 - (scene - eye)) power",
-     {{"power", "1/scene", "how fast the glow falls behind the surface", 1e-12, 1e12, 1}},
+     {{"power", "how fast the glow falls behind the surface", "1/scene", 1e-12, 1e12, 1, false}},
      0, false, false, "the eye depth of the surface", DEPTH_TEXTURE, EFFECT_GAIN, eye, force_field},
     {"fog", "saturate(eye01 density)",
-     {{"density", "1", "how thick the fog is at the far plane", 1e-12, 1e12, 1}},
+     {{"density", "how thick the fog is at the far plane", "1", 1e-12, 1e12, 1, false}},
      0, false, true, NULL, DEPTH_TEXTURE, EFFECT_CLAMPED, eye01, fog},
     {"scan-line", "saturate(|cur - eye01|/half-width)",
-     {{"half-width", "eye01", "depth over which the line fades, of far", 1e-15, 1, 0.01}},
+     {{"half-width", "depth over which the line fades, of far", "eye01", 1e-15, 1, 0.01, false}},
      0, true, true, "the depth cur of the line", DEPTH_TEXTURE, EFFECT_FADE, eye01, scan_line},
     {"water-line", "world y < level; with a band, saturate((level - y)/band)",
-     {{"band", "scene", "height over which the edge is softened, 0 for a hard one", 0, 1e12, 0}, RISE},
+     {{"band", "height over which the edge is softened, 0 for a hard one", "scene", 0, 1e12, 0, false}, RISE},
      WATER_BAND, true, false, "the level of the water", DEPTH_TEXTURE, EFFECT_FADE, water_height, water_line},
     {"height-fog", "saturate((y - start)/(end - start) density)",
-     {{"density", "1", "how thick the fog is at the height end", 1e-12, 1e12, 1},
-      {"start", "scene", "height over the camera where fog begins", -1e12, 1e12, 0},
-      {"end", "scene", "height over the camera where density is reached", -1e12, 1e12, -100}, RISE},
+     {{"density", "how thick the fog is at the height end", "1", 1e-12, 1e12, 1, false},
+      {"start", "height over the camera where fog begins", "scene", -1e12, 1e12, 0, false},
+      {"end", "height over the camera where density is reached", "scene", -1e12, 1e12, -100, false}, RISE},
      HEIGHT_DENSITY, false, false, NULL, DEPTH_TEXTURE, EFFECT_CLAMPED, height_share, height_fog},
     {"edge", "|s1 - s4| > threshold, |s2 - s3| > threshold: Roberts' diagonals of eye01",
-     {{"threshold", "eye01", "difference of two pixels that makes an edge, of far", 0, 1, 0.001},
-      {"slope", "scene", "a plane's change of eye depth from one pixel of a diagonal to the other", 0, 1e12, 0.1}},
-     EDGE_THRESHOLD, true, true, "the first pixel's place in its cell", DEPTH_TEXTURE "; Roberts 1963",
-     EFFECT_STEP, eye01, edge},
+     {{"threshold", "difference of two pixels that makes an edge, of far", "eye01", 0, 1, 0.001, false},
+      {"slope", "a plane's change of eye depth from one pixel of a diagonal to the other", "scene", 0, 1e12, 0.1,
+       false}},
+     EDGE_THRESHOLD, true, true, "the first pixel's place in its cell", DEPTH_TEXTURE "; Roberts 1963", EFFECT_STEP,
+     eye01, edge},
     {"motion-blur", "(current - last NDC)/2 = move focal/(2 z), the world position taken from the depth",
-     {{"move", "scene", "sideways way of the camera from the last frame to this", 1e-12, 1e12, 0.1},
-      {"focal", "1", "NDC per unit of slope: 1/tan(fov/2), orthographic 1/half height", 1e-12, 1e12,
-       1.7320508075688772}},
+     {{"move", "sideways way of the camera from the last frame to this", "scene", 1e-12, 1e12, 0.1, false},
+      {"focal", "NDC per unit of slope: 1/tan(fov/2), orthographic 1/half height", "1", 1e-12, 1e12,
+       1.7320508075688772, false}},
      BLUR_MOVE, false, false, NULL, DEPTH_TEXTURE "; Rosado 2007, GPU Gems 3, chapter 27", EFFECT_GAIN, velocity,
      motion_blur},
     {"depth-of-field", "saturate(|eye01 - focus| level)",
-     {{"level", "1", "how fast the picture blurs away from the focus", 1e-12, 1e15, 10}},
+     {{"level", "how fast the picture blurs away from the focus", "1", 1e-12, 1e15, 10, false}},
      0, false, true, "the focus", DEPTH_TEXTURE, EFFECT_GAIN, eye01, depth_of_field},
 };
 /* clang-format on */
 
 const effect_row *effect_get(size_t index) {
     return index < sizeof rows / sizeof rows[0] ? &rows[index] : NULL;
-}
-
-int effect_parameter_find(const effect_row *row, const char *name) {
-    for (int i = 0; row->parameters[i].name != NULL; i++)
-        if (strcmp(row->parameters[i].name, name) == 0)
-            return i;
-    return -1;
-}
-
-void effect_defaults(const effect_row *row, double parameters[EFFECT_PARAMETERS_MAX]) {
-    for (int i = 0; i < EFFECT_PARAMETERS_MAX; i++)
-        parameters[i] = row->parameters[i].value;
 }
 
 bool effect_applies(const effect_row *row, const dp_setup *setup) {
@@ -348,8 +340,8 @@ static void to_last_usable(const cell_case *at, double *p, double levels) {
 
 double effect_usable(const effect_row *row, const dp_setup *setup, const double *parameters, double z, double levels) {
     const cell_case at = case_at(row, setup, z);
-    const effect_parameter *range = &row->parameters[row->wanted];
-    double p[EFFECT_PARAMETERS_MAX];
+    const texture_parameter *range = &row->parameters[row->wanted];
+    double p[TEXTURE_PARAMETERS];
     if (!has_error(&at))
         return (double)NAN;
     memcpy(p, parameters, sizeof p);
