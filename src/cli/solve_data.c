@@ -26,19 +26,6 @@ typedef struct solving {
     candidate candidate;
 } solving;
 
-const char *solve_measure_name(const solve_report *r) {
-    return r->kind == MEASURE_ERROR ? "error" : "separation";
-}
-
-double solve_in_binary32(const solve_report *r, const solve_candidate *c) {
-    dp_setup setup;
-    dp_budget budget;
-    return r->kind == MEASURE_SEPARATION && dp_setup_init(&setup, &c->spec) == DP_OK &&
-                   dp_budget_at(&setup, c->reached.z, NULL, &budget) == DP_OK
-               ? budget.separation
-               : (double)NAN;
-}
-
 static void take_candidate(solving *s, const solve_candidate *c) {
     candidate *x = &s->candidate;
     const bool solved = c->solved && c->possible;

@@ -8,6 +8,19 @@
 #include "cli/solve_report.h"
 #include "core/append.h"
 
+const char *solve_measure_name(const solve_report *r) {
+    return r->kind == MEASURE_ERROR ? "error" : "separation";
+}
+
+double solve_in_binary32(const solve_report *r, const solve_candidate *c) {
+    dp_setup setup;
+    dp_budget budget;
+    return r->kind == MEASURE_SEPARATION && dp_setup_init(&setup, &c->spec) == DP_OK &&
+                   dp_budget_at(&setup, c->reached.z, NULL, &budget) == DP_OK
+               ? budget.separation
+               : (double)NAN;
+}
+
 enum { DIGITS_MOST = 17, UNITS = 8, ISLANDS_SHOWN = 6, PHRASE_SIZE = 256 };
 
 /* A part of a sentence; lives until the statement ends. */
