@@ -130,7 +130,7 @@ $(B)/depthprec: $(ROOMS_O) $(B)/libdepthprec.a | $(B)/build.libs
 
 # ---- Tests -------------------------------------------------------------------------------------------------------
 
-.PHONY: check check-full check-programs asan fuzz coverage
+.PHONY: check check-full check-programs asan fuzz coverage mutants
 SHELL_TESTS := $(filter-out $(TOOLS),$(wildcard tests/*.sh))
 ONCE := tests/layers.sh tests/headers.sh tests/install.sh
 RUN_TESTS = $(TEST_PROGRAMS) $(if $(filter release,$(CONF)),$(SHELL_TESTS),$(filter-out $(ONCE),$(SHELL_TESTS)))
@@ -153,6 +153,10 @@ $(B)/tests/%: $(B)/obj/tests/%.o $(B)/libsupport.a $(B)/librooms.a $(B)/libdepth
 	@mkdir -p $(@D)
 	$(call say,LD)
 	$(Q)$(LINK) -o $@ $^ @$(B)/check.libs @$(B)/build.libs -lm
+
+mutants:
+	@sh src/packages.sh check
+	@CC='$(CC)' sh tests/mutants.sh --run
 
 FUZZ_SECONDS ?= 20
 ifeq ($(CONF),fuzz)
@@ -269,6 +273,7 @@ help:
 ## make check-full  the exhaustive tests too
 ## make asan        the tests under the address and undefined-behaviour sanitizers
 ## make fuzz        each fuzz target for FUZZ_SECONDS=20 (needs clang)
+## make mutants     whether the tests notice changes of the source, those of tests/mutants.txt: over an hour (ROOM=, ONLY=)
 ## make coverage    the lines that the tests reach, per file
 ## make lint        format, warnings of gcc and clang, cppcheck, manual pages, spelling, scripts, licences
 ## make plots       draw the gallery in plots/ again

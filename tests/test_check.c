@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Verdicts: against depths visited one by one, against published figures, and fast enough for thousands. */
+#include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -167,6 +168,34 @@ static void ranges_against_single_depths(void **state) {
     tally_end(&fails);
 }
 
+/* The error at one depth is what is stored less what is, without its sign: half of them point towards the camera. */
+static void errors_at_single_depths(void **state) {
+    (void)state;
+    tally t = {.name = "an error has no sign"};
+    rng r = rng_make("check errors");
+    int nearer = 0;
+    for (uint64_t i = 0; i < test_cases(100, 1000, 10000); i++) {
+        char camera[256], what[256];
+        const double znear = rng_log(&r, 0.01, 10.0), zfar = znear * rng_log(&r, 2.0, 1e4);
+        const double z = fmin(fmax(rng_log(&r, znear, zfar), znear), zfar);
+        snprintf(camera, sizeof camera,
+                 "near = %.17e; far = %.17e; mapping = \"%s\"; format = \"%s\"; model = \"exact\";", znear, zfar,
+                 mappings[rng_below(&r, 6)], formats[rng_below(&r, 4)]);
+        snprintf(what, sizeof what, "at = %.17e; error = 1e-9;", z);
+        judged j = judge_one(camera, what);
+        const check_verdict *v = &j.verdicts[0];
+        const long double off = (long double)dp_stored(&v->setup, dp_code(&v->setup, z)) - (long double)z;
+        nearer += off < -1e-9L;
+        TALLY(&t, fabsl((long double)v->value - fabsl(off)) <= 0x1p-48L * (long double)z, "%s %s: %g, not %Lg", camera,
+              what, v->value, fabsl(off));
+        if (fabsl(off) > 1e-9L + 0x1p-48L * (long double)z)
+            TALLY(&t, !v->passed, "%s %s: passes with %Lg", camera, what, off);
+        done(&j);
+    }
+    assert_true(nearer > 20);
+    tally_end(&t);
+}
+
 /* What the models say of one camera, and which of them is asked. */
 static void the_quick_model_first(void **state) {
     (void)state;
@@ -213,6 +242,10 @@ static void ties_are_counted_when_needed(void **state) {
     j = judge_one(reversed, "range = (0.1, 1e30); ties = 0.5;"); /* more depths than a census is for */
     assert_true(j.counted == 1 && j.verdicts[0].method == CHECK_SAMPLED);
     done(&j);
+    share_to_find = 0.0; /* none found, and none allowed */
+    j = judge_one(d3d, "range = [1, 2]; ties = 0;");
+    assert_true(j.counted == 1 && j.failed == 0 && j.verdicts[0].passed);
+    done(&j);
     share_to_find = -1.0; /* the caller gives up */
     j = judge_one(d3d, "range = [1, 2]; ties = 0.3;");
     assert_int_equal(j.failed, -1);
@@ -251,6 +284,7 @@ int main(void) {
         cmocka_unit_test(known_answers),
         cmocka_unit_test(the_default_is_a_guarantee),
         cmocka_unit_test(ranges_against_single_depths),
+        cmocka_unit_test(errors_at_single_depths),
         cmocka_unit_test(the_quick_model_first),
         cmocka_unit_test(ties_are_counted_when_needed),
         cmocka_unit_test(thousands),

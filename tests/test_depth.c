@@ -270,6 +270,14 @@ static void check_sample(scene *s, double z, tally *t) {
     mpq_clears(d, width, NULL);
 }
 
+/* What is stored less infinity: the far plane's own code is not off, any other is too near without end. */
+static void check_infinity(const scene *s, uint32_t code, tally *t) {
+    const dp_format *f = &s->spec.format;
+    const uint32_t far = dp_mapping_get(s->spec.mapping)->reversed ? 0 : f->code_max;
+    const double got = dp_error(&s->setup, code, INFINITY), want = code == far ? 0 : -INFINITY;
+    TALLY(t, got == want, "%s: error of code %u at infinity is %g, should be %g", s->text, code, got, want);
+}
+
 static void samples(void **state) {
     (void)state;
     rng r = rng_make("samples");
@@ -282,6 +290,10 @@ static void samples(void **state) {
         check_sample(&s, s.spec.znear, &t);
         if (!s.o.infinite)
             check_sample(&s, s.spec.zfar, &t);
+        for (int k = 0; k < 3 && s.o.infinite; k++) {
+            const uint32_t most = s.spec.format.code_max;
+            check_infinity(&s, k == 0 ? 0 : k == 1 ? most : (uint32_t)rng_below(&r, most), &t);
+        }
         for (int k = 0; k < 12; k++)
             check_sample(&s, random_depth(&r, &s.spec), &t);
         close_scene(&s);

@@ -23,6 +23,19 @@ static const known rows[DP_MAPPING_COUNT] = {
     [DP_MAPPING_LOG] = {"log", DP_CURVE_LOG, 0, 0, 0, 0},
 };
 
+/* The names that depthprec(1) and the pages of APIs and libraries give them. */
+static const struct {
+    dp_mapping mapping;
+    const char *names[12];
+} others[] = {
+    {DP_MAPPING_D3D, {"zo", "vulkan", "vk", "metal", "webgpu", "standard", "directx", "rh_zo", "lh_zo"}},
+    {DP_MAPPING_GL, {"no", "opengl", "webgl", "rh_no", "lh_no"}},
+    {DP_MAPPING_REVERSED, {"rev", "reverse", "reversed-z", "reverse-z", "reversed_zo", "reversed-d3d", "d3d-reversed"}},
+    {DP_MAPPING_GL_REVERSED, {"reversed-gl", "glrev", "gl_reversed", "reversed_no"}},
+    {DP_MAPPING_LINEAR, {"w", "w-buffer", "wbuffer", "linear01"}},
+    {DP_MAPPING_LOG, {"logarithmic", "logdepth"}},
+};
+
 static void check_parse(const char *name, dp_mapping want) {
     dp_mapping got = DP_MAPPING_COUNT;
     dp_status status = dp_mapping_parse(name, &got);
@@ -55,6 +68,9 @@ static void names(void **state) {
                 check_parse(name, (dp_mapping)i);
         }
     }
+    for (size_t i = 0; i < sizeof others / sizeof others[0]; i++)
+        for (size_t k = 0; others[i].names[k] != NULL; k++)
+            check_parse(others[i].names[k], others[i].mapping);
     assert_null(dp_mapping_get(DP_MAPPING_COUNT));
     assert_null(dp_mapping_get((dp_mapping)-1));
     static const char *const bad[] = {"", " ", "d3", "d3dx", "d3d ", " d3d", "reverse-gl-log", "fp32", "linear log"};

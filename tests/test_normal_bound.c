@@ -5,6 +5,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "named.h"
 #include "texture/normal_measure.h"
 #include "views.h"
 

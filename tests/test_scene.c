@@ -5,6 +5,7 @@
  */
 #include <string.h>
 
+#include "named.h"
 #include "oracle.h"
 #include "support.h"
 #include "texture/scene.h"

@@ -6,6 +6,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "named.h"
 #include "oracle.h"
 #include "support.h"
 #include "texture/survey.h"
@@ -32,11 +33,8 @@ static void stage_set(stage *s, const char *scene, const char *format, const cha
     view.height = HEIGHT;
     assert_null(camera_init(&s->camera, &setup, &view));
     scene_defaults(scene_find(scene), s->parameters);
-    s->frame = (frame){.camera = &s->camera,
-                       .scene = scene_find(scene),
-                       .parameters = s->parameters,
-                       .sky = FRAME_SKY,
-                       .threads = 2};
+    s->frame = (frame){
+        .camera = &s->camera, .scene = scene_find(scene), .parameters = s->parameters, .sky = FRAME_SKY, .threads = 2};
 }
 
 static const struct {

@@ -4,6 +4,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "named.h"
 #include "printed.h"
 #include "texture/decode.h"
 #include "texture/frame.h"
@@ -111,7 +112,7 @@ static size_t want_decoding(values *v, const frame *f, size_t i, const decode_ro
             const float d = (float)dp_format_value(&setup->spec.format, codes[x]);
             const double want = decode_exact(setup, row->quantity, (double)d);
             float got;
-            row->run(setup, &d, &got, 1);
+            decode_run(row, setup, &d, &got, 1);
             const double off = want == (double)got ? 0 : fabs(((double)got - want) / want);
             if (!isfinite(off)) {
                 s.infinite++;

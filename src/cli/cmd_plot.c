@@ -33,14 +33,6 @@ typedef struct plotting {
     chart *chart;
 } plotting;
 
-bool list_figure(size_t index, list_item *item) {
-    const figure_row *row = figure_get(index);
-    if (row == NULL)
-        return false;
-    *item = (list_item){.name = row->name, .note = row->summary, .row = row};
-    return true;
-}
-
 /* The depth and range of the request; what this figure has no use for is refused rather than ignored. */
 static int resolve_depths(plotting *p) {
     const options *o = p->o;

@@ -48,8 +48,11 @@ bool list_position(size_t index, list_item *item);
 bool list_normal(size_t index, list_item *item);
 bool list_method(size_t index, list_item *item);
 
-/** The cases for which method `index` is the cheapest within --tolerance, at the default camera's far/near. */
-struct options;
-void list_method_choice(const struct options *o, size_t index, char chosen[LIST_TEXT_SIZE]);
+/** What can be listed: the row of a list_topic(). */
+typedef struct topic {
+    const char *name, *note;
+    list_get get;
+    const char *bound; /**< what a thing's bound is called */
+} topic;
 
 #endif

@@ -5,6 +5,32 @@
 #include "cli/options.h"
 #include "method/method.h"
 
+static const struct {
+    unsigned bit;
+    int (*run)(const options *);
+} commands[] = {
+    {VERB_TABLE, cmd_table},
+    {VERB_PLOT, cmd_plot},
+    {VERB_ZFIGHT, cmd_zfight},
+    {VERB_BUDGET, cmd_budget},
+    {VERB_TEXTURE, cmd_texture},
+    {VERB_BENCH, cmd_bench},
+    {VERB_STABILITY, cmd_stability},
+    {VERB_CHECK, cmd_check},
+    {VERB_SOLVE, cmd_solve},
+    {VERB_BIAS, cmd_bias},
+    {VERB_LIST, cmd_list},
+    {VERB_HELP, cmd_help},
+    {VERB_COMPLETIONS, cmd_completions},
+};
+
+static int run(const options *o) {
+    size_t i = 0;
+    while (commands[i].bit != o->verb->bit)
+        i++;
+    return commands[i].run(o);
+}
+
 /* An option's file is written: it may be no other option's and none that the command reads. "-" is no file. */
 static int refuse_overwriting(const options *o) {
     const struct {
@@ -34,7 +60,7 @@ int main(int argc, char **argv) {
     if (status == EXIT_FINE)
         status = refuse_overwriting(&o);
     if (status == EXIT_FINE)
-        status = o.verb->run(&o);
+        status = run(&o);
     options_release(&o);
     return status;
 }

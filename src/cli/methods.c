@@ -13,32 +13,6 @@
 #include "report/append.h"
 #include "report/number.h"
 
-static const double formula_at = 1e4; /* where a claim that is a formula is shown */
-
-bool list_method(size_t index, list_item *item) {
-    const method_row *row = method_get(index);
-    if (row == NULL)
-        return false;
-    const method_family_row *family = method_family_get(row->family);
-    *item = (list_item){.name = row->name, .aliases = family->name, .note = row->note, .source = row->source};
-    for (size_t i = 0; i < family->case_count; i++) {
-        const method_claim *c = &row->claims[i];
-        char worst[NUMBER_SIZE] = "nothing", hi[NUMBER_SIZE];
-        if (!method_speaks(row, i))
-            continue;
-        if (!isnan(c->worst))
-            number_digits(method_claim_at(c, fmin(formula_at, c->ratio_hi)), 3, worst);
-        number_digits(c->ratio_hi, 3, hi);
-        append(item->bound, sizeof item->bound, "%s%s %s", *item->bound != '\0' ? "; " : "", family->cases[i].name,
-               worst);
-        if (c->formula != NULL)
-            append(item->bound, sizeof item->bound, " at far/near 10000");
-        if (!isnan(c->worst) && c->ratio_hi < METHOD_RATIO_HI)
-            append(item->bound, sizeof item->bound, " to far/near %s", hi);
-    }
-    return true;
-}
-
 /* The lattice and the pipeline are two questions, each with its choice. */
 void list_method_choice(const options *o, size_t index, char chosen[LIST_TEXT_SIZE]) {
     const method_row *row = method_get(index);
@@ -52,13 +26,6 @@ void list_method_choice(const options *o, size_t index, char chosen[LIST_TEXT_SI
     for (size_t i = 0; i < family->case_count; i++)
         if (method_choose(family, i, &wish) == row)
             append(chosen, LIST_TEXT_SIZE, "%s%s", *chosen != '\0' ? ", " : "", family->cases[i].name);
-}
-
-bool list_family(size_t index, list_item *item) {
-    const method_family_row *row = method_family_get(index);
-    if (row != NULL)
-        *item = (list_item){.name = row->name, .note = row->summary, .row = row};
-    return row != NULL;
 }
 
 static bool wanted(const options *o, const method_case *c) {

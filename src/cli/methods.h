@@ -19,6 +19,9 @@ typedef struct methods_asked {
 /** @return EXIT_FINE, or EXIT_USAGE after one line on stderr */
 int methods_resolve(const options *o, const method_family_row *family, methods_asked *out);
 
+/** The cases for which method `index` is the cheapest within --tolerance, at the default camera's far/near. */
+void list_method_choice(const options *o, size_t index, char chosen[LIST_TEXT_SIZE]);
+
 /** Processor and, unless SOURCE_DATE_EPOCH names another, today's date. @return out */
 const char *methods_machine(char *out, size_t size);
 

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "cli/option_rows.h"
 
+#include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -16,36 +17,45 @@ const char *option_argument(const option_row *row, char out[OPTION_TEXT_SIZE]) {
     return out;
 }
 
+/* As option_error(), which knows the rows; the rows know what is here. */
+static int __attribute__((format(printf, 2, 3))) refuse(const option_row *row, const char *format, ...) {
+    va_list arguments;
+    va_start(arguments, format);
+    const int status = named_error(row->name, format, arguments);
+    va_end(arguments);
+    return status;
+}
+
 /* ---- Kinds ------------------------------------------------------------------------------------------------------- */
 
-static void *field(options *o, option_id id) {
-    return (char *)o + option_rows[id].place;
+static void *field(options *o, const option_row *row) {
+    return (char *)o + row->place;
 }
 
 /* Flags, counts and enumerations are as wide as their fields. */
-static void set_whole(options *o, option_id id, uint64_t whole) {
+static void set_whole(options *o, const option_row *row, uint64_t whole) {
     const bool flag = whole != 0;
     const unsigned narrow = (unsigned)whole;
-    const size_t size = option_rows[id].size;
+    const size_t size = row->size;
     const void *const from = size == sizeof flag     ? (const void *)&flag
                              : size == sizeof narrow ? &narrow
                                                      : (void *)&whole;
-    memcpy(field(o, id), from, size);
+    memcpy(field(o, row), from, size);
 }
 
-int parse_flag(options *o, option_id id, const char *value) {
+int parse_flag(options *o, const option_row *row, const char *value) {
     (void)value;
-    set_whole(o, id, 1);
+    set_whole(o, row, 1);
     return EXIT_FINE;
 }
 
-int parse_text(options *o, option_id id, const char *value) {
-    *(const char **)field(o, id) = value;
+int parse_text(options *o, const option_row *row, const char *value) {
+    *(const char **)field(o, row) = value;
     return EXIT_FINE;
 }
 
-int parse_file(options *o, option_id id, const char *value) {
-    return *value != '\0' ? parse_text(o, id, value) : option_error(id, "must be a file name, got ''");
+int parse_file(options *o, const option_row *row, const char *value) {
+    return *value != '\0' ? parse_text(o, row, value) : refuse(row, "must be a file name, got ''");
 }
 
 /* 1e12 and 1e-9, where printf writes 1e+12 and 1e-09; no power of ten in whole numbers, which are read without. */
@@ -67,73 +77,72 @@ const char *option_limits(const option_row *row, char out[OPTION_TEXT_SIZE]) {
     return out;
 }
 
-int parse_number(options *o, option_id id, const char *value) {
-    const option_row *row = &option_rows[id];
+int parse_number(options *o, const option_row *row, const char *value) {
     char limits[OPTION_TEXT_SIZE];
     double number;
     if (!number_parse(value, NUMBER_FINITE, &number) || !(number >= row->least && number <= row->most))
-        return option_error(id, "must be a number from %s, got '%s'", option_limits(row, limits), value);
-    *(double *)field(o, id) = number;
+        return refuse(row, "must be a number from %s, got '%s'", option_limits(row, limits), value);
+    *(double *)field(o, row) = number;
     return EXIT_FINE;
 }
 
-int parse_length(options *o, option_id id, const char *value) {
+int parse_length(options *o, const option_row *row, const char *value) {
     double length;
     if (!number_parse(value, NUMBER_FINITE, &length) || !(length > 0.0))
-        return option_error(id, "must be a positive number of scene units, got '%s'", value);
-    *(double *)field(o, id) = length;
+        return refuse(row, "must be a positive number of scene units, got '%s'", value);
+    *(double *)field(o, row) = length;
     return EXIT_FINE;
 }
 
-int parse_whole(options *o, option_id id, const char *value) {
-    const option_row *row = &option_rows[id];
+int parse_whole(options *o, const option_row *row, const char *value) {
     char limits[OPTION_TEXT_SIZE];
     unsigned long whole;
     if (!number_parse_count(value, (unsigned long)row->most, &whole) || (double)whole < row->least)
-        return option_error(id, "must be a whole number from %s, got '%s'", option_limits(row, limits), value);
-    set_whole(o, id, whole);
+        return refuse(row, "must be a whole number from %s, got '%s'", option_limits(row, limits), value);
+    set_whole(o, row, whole);
     return EXIT_FINE;
 }
 
-static int unknown_name(option_id id, const char *name) {
+static int unknown_name(const option_row *row, const char *name) {
     char text[NAMES_SIZE];
-    return option_error(id, "%s", names_refuse(option_rows[id].names, name, text));
+    return refuse(row, "%s", names_refuse(row->names, name, text));
 }
 
-int parse_word(options *o, option_id id, const char *value) {
+int parse_word(options *o, const option_row *row, const char *value) {
     size_t index;
-    if (!names_find(option_rows[id].names, value, &index, NULL))
-        return unknown_name(id, value);
-    set_whole(o, id, index);
+    if (!names_find(row->names, value, &index, NULL))
+        return unknown_name(row, value);
+    set_whole(o, row, index);
     return EXIT_FINE;
 }
 
-int parse_row(options *o, option_id id, const char *value) {
+int parse_row(options *o, const option_row *row, const char *value) {
     list_item item;
-    if (!names_find(option_rows[id].names, value, NULL, &item))
-        return unknown_name(id, value);
-    memcpy(field(o, id), &item.row, sizeof item.row); /* whatever it points to */
+    if (!names_find(row->names, value, NULL, &item))
+        return unknown_name(row, value);
+    memcpy(field(o, row), &item.row, sizeof item.row); /* whatever it points to */
     return EXIT_FINE;
 }
 
 /* ---- Languages of their own -------------------------------------------------------------------------------------- */
 
-int parse_far(options *o, option_id id, const char *value) {
+int parse_far(options *o, const option_row *row, const char *value) {
     if (!number_parse(value, NUMBER_FAR, &o->zfar))
-        return option_error(id, "must be a number greater than near and at most 1e18, or inf, got '%s'", value);
+        return refuse(row, "must be a number greater than near and at most 1e18, or inf, got '%s'", value);
     return EXIT_FINE;
 }
 
 /* NAME[,NAME...]: one after the other to `add`. */
-static int parse_list(options *o, option_id id, const char *value, int (*add)(options *, const char *)) {
+static int parse_list(options *o, const option_row *row, const char *value,
+                      int (*add)(options *, const option_row *, const char *)) {
     char name[64];
     const size_t length = strlen(value);
     if (length == 0 || *value == ',' || value[length - 1] == ',' || strstr(value, ",,") != NULL)
-        return option_error(id, "must be NAME[,NAME...] or all, got '%s'", value);
+        return refuse(row, "must be NAME[,NAME...] or all, got '%s'", value);
     for (const char *at = value; *at != '\0'; at += *at == ',') {
         const size_t part = strcspn(at, ",");
         snprintf(name, sizeof name, "%.*s", (int)part, at);
-        const int status = part < sizeof name ? add(o, name) : unknown_name(id, at);
+        const int status = part < sizeof name ? add(o, row, name) : unknown_name(row, at);
         if (status != EXIT_FINE)
             return status;
         at += part;
@@ -141,38 +150,37 @@ static int parse_list(options *o, option_id id, const char *value, int (*add)(op
     return EXIT_FINE;
 }
 
-static int add_one_format(options *o, const dp_format *format) {
+static int add_one_format(options *o, const option_row *row, const dp_format *format) {
     for (size_t i = 0; i < o->format_count; i++)
         if (strcmp(o->formats[i].name, format->name) == 0)
             return EXIT_FINE;
     if (o->format_count == OPTIONS_FORMATS_MAX)
-        return option_error(OPTION_FORMAT, "must be at most %d formats, got '%s' too", OPTIONS_FORMATS_MAX,
-                            format->name);
+        return refuse(row, "must be at most %d formats, got '%s' too", OPTIONS_FORMATS_MAX, format->name);
     o->formats[o->format_count++] = *format;
     return EXIT_FINE;
 }
 
-static int add_format(options *o, const char *name) {
+static int add_format(options *o, const option_row *row, const char *name) {
     dp_format found[2];
     const size_t count = dp_format_parse(name, found);
     const bool all = strcmp(name, "all") == 0;
-    int status = count > 0 || all ? EXIT_FINE : unknown_name(OPTION_FORMAT, name);
+    int status = count > 0 || all ? EXIT_FINE : unknown_name(row, name);
     for (size_t i = 0; i < (all ? dp_format_count() : count) && status == EXIT_FINE; i++)
-        status = add_one_format(o, all ? &dp_format_get(i)->format : &found[i]);
+        status = add_one_format(o, row, all ? &dp_format_get(i)->format : &found[i]);
     return status;
 }
 
-int parse_formats(options *o, option_id id, const char *value) {
+int parse_formats(options *o, const option_row *row, const char *value) {
     o->format_count = 0;
-    return parse_list(o, id, value, add_format);
+    return parse_list(o, row, value, add_format);
 }
 
-static int add_mapping(options *o, const char *name) {
+static int add_mapping(options *o, const option_row *row, const char *name) {
     dp_mapping mapping;
     if (strcmp(name, "all") == 0)
-        return add_mapping(o, "d3d") != EXIT_FINE ? EXIT_USAGE : add_mapping(o, "reversed");
+        return add_mapping(o, row, "d3d") != EXIT_FINE ? EXIT_USAGE : add_mapping(o, row, "reversed");
     if (dp_mapping_parse(name, &mapping) != DP_OK)
-        return unknown_name(OPTION_MAPPING, name);
+        return unknown_name(row, name);
     for (size_t i = 0; i < o->mapping_count; i++)
         if (o->mappings[i] == mapping)
             return EXIT_FINE;
@@ -180,73 +188,150 @@ static int add_mapping(options *o, const char *name) {
     return EXIT_FINE;
 }
 
-int parse_mappings(options *o, option_id id, const char *value) {
+int parse_mappings(options *o, const option_row *row, const char *value) {
     o->mapping_count = 0;
-    return parse_list(o, id, value, add_mapping);
+    return parse_list(o, row, value, add_mapping);
 }
 
 /* A share, or a percentage with its sign. */
-int parse_tolerance(options *o, option_id id, const char *value) {
+int parse_tolerance(options *o, const option_row *row, const char *value) {
     const size_t length = strlen(value);
     const bool percent = length > 0 && value[length - 1] == '%';
     double share;
     if (!number_parse_part(value, length - percent, NUMBER_FINITE, &share) || !(share >= 0.0))
-        return option_error(id, "must be a share such as 0.05, or 5%%, not negative, got '%s'", value);
+        return refuse(row, "must be a share such as 0.05, or 5%%, not negative, got '%s'", value);
     o->tolerance = percent ? share / 100.0 : share;
     return EXIT_FINE;
 }
 
-int parse_origin(options *o, option_id id, const char *value) {
+int parse_origin(options *o, const option_row *row, const char *value) {
     const char *at = value;
     for (int i = 0; i < 3; i++) {
         const size_t length = strcspn(at, ",");
         double *x = &o->camera.origin[i];
         if (!number_parse_part(at, length, NUMBER_FINITE, x) || !(*x >= -1e12 && *x <= 1e12) ||
             (at[length] == '\0') != (i == 2))
-            return option_error(id, "must be X,Y,Z, each from -1e12 to 1e12, got '%s'", value);
+            return refuse(row, "must be X,Y,Z, each from -1e12 to 1e12, got '%s'", value);
         at += length + 1;
     }
     return EXIT_FINE;
 }
 
-int parse_size(options *o, option_id id, const char *value) {
+int parse_size(options *o, const option_row *row, const char *value) {
     char width[16];
     unsigned long w, h;
     const size_t length = strcspn(value, "x");
     snprintf(width, sizeof width, "%.*s", (int)length, value);
     if (length >= sizeof width || value[length] == '\0' || !number_parse_count(width, TEXTURE_SIDE_MAX, &w) ||
         !number_parse_count(value + length + 1, TEXTURE_SIDE_MAX, &h) || w < 1 || h < 1)
-        return option_error(id, "must be WIDTHxHEIGHT, each from 1 to %u pixels, got '%s'", TEXTURE_SIDE_MAX, value);
+        return refuse(row, "must be WIDTHxHEIGHT, each from 1 to %u pixels, got '%s'", TEXTURE_SIDE_MAX, value);
     if ((uint64_t)w * h > TEXTURE_PIXELS_MAX)
-        return option_error(id, "must be at most %u pixels in all, got '%s'", (unsigned)TEXTURE_PIXELS_MAX, value);
+        return refuse(row, "must be at most %u pixels in all, got '%s'", (unsigned)TEXTURE_PIXELS_MAX, value);
     o->camera.width = (uint32_t)w;
     o->camera.height = (uint32_t)h;
     return EXIT_FINE;
 }
 
 /* The last of a name counts, as with every option. */
-int parse_parameter(options *o, option_id id, const char *value) {
+int parse_parameter(options *o, const option_row *row, const char *value) {
     const size_t length = strcspn(value, "=");
     named_number given = {{0}, 0};
     if (value[length] == '\0' || length == 0 || length >= sizeof given.name ||
         !number_parse(value + length + 1, NUMBER_FINITE, &given.value))
-        return option_error(id, "must be NAME=NUMBER, got '%s'", value);
+        return refuse(row, "must be NAME=NUMBER, got '%s'", value);
     memcpy(given.name, value, length);
     size_t i = 0;
     while (i < o->parameter_count && strcmp(o->parameters[i].name, given.name) != 0)
         i++;
     if (i == OPTIONS_PARAMETERS_MAX)
-        return option_error(id, "must not be more than %d, got '%s' too", OPTIONS_PARAMETERS_MAX, value);
+        return refuse(row, "must not be more than %d, got '%s' too", OPTIONS_PARAMETERS_MAX, value);
     o->parameters[i] = given;
     o->parameter_count += i == o->parameter_count;
     return EXIT_FINE;
 }
 
-int parse_form(options *o, option_id id, const char *value) {
-    const output_form form = id == OPTION_JSON ? FORM_JSON : FORM_CSV;
+int parse_form(options *o, const option_row *row, const char *value) {
+    const output_form form = (output_form)row->least;
     (void)value;
     if (o->form != FORM_TEXT && o->form != form)
-        return option_error(id, "must not be given together with --%s", form == FORM_JSON ? "csv" : "json");
+        return refuse(row, "must not be given together with --%s", form == FORM_JSON ? "csv" : "json");
     o->form = form;
     return EXIT_FINE;
+}
+
+/* ---- Depths ------------------------------------------------------------------------------------------------------ */
+
+static int wrong_form(const option_row *row, const char *text) {
+    return refuse(row, "must be Z[,Z...] or LO:HI:log|lin:COUNT, got '%s'", text);
+}
+
+/* LO:HI:log|lin:COUNT. */
+static int parse_spaced(const option_row *row, const char *text, depths *out) {
+    static const char *const ends[] = {"LO", "HI"};
+    const char *part = text;
+    size_t length = strcspn(part, ":");
+    unsigned long count;
+    double z[2];
+    for (int i = 0; i < 2; i++, part += length + 1, length = strcspn(part, ":")) {
+        if (part[length] == '\0')
+            return wrong_form(row, text);
+        if (!number_parse_part(part, length, NUMBER_FINITE, &z[i]))
+            return refuse(row, "%s must be a number, got '%.*s' in '%s'", ends[i], (int)length, part, text);
+    }
+    const bool log = length == 3 && memcmp(part, "log", 3) == 0;
+    if (part[length] == '\0')
+        return wrong_form(row, text);
+    if (!log && (length != 3 || memcmp(part, "lin", 3) != 0))
+        return refuse(row, "spacing must be log or lin, got '%.*s' in '%s'", (int)length, part, text);
+    part += length + 1;
+    if (!number_parse_count(part, DEPTHS_MAX, &count) || count < 2)
+        return refuse(row, "COUNT must be a whole number from 2 to %d, got '%s'", DEPTHS_MAX, part);
+    if (!(z[0] < z[1]))
+        return refuse(row, "LO must be less than HI, got '%s'", text);
+    *out = (depths){.kind = log ? DEPTHS_LOG : DEPTHS_LIN, .lo = z[0], .hi = z[1], .count = count};
+    return EXIT_FINE;
+}
+
+static int parse_listed(const option_row *row, const char *text, depths *out) {
+    depths d = {.kind = DEPTHS_LIST, .lo = (double)INFINITY, .hi = -(double)INFINITY};
+    size_t count = 1;
+    for (const char *c = text; *c != '\0'; c++)
+        count += *c == ',';
+    if (count > DEPTHS_MAX)
+        return refuse(row, "must be at most %d depths, got %zu", DEPTHS_MAX, count);
+    d.list = malloc(count * sizeof *d.list);
+    if (d.list == NULL)
+        return refuse(row, "no memory for %zu depths", count);
+    for (const char *item = text; d.count < count; d.count++) {
+        size_t length = strcspn(item, ",");
+        double z;
+        if (!number_parse_part(item, length, NUMBER_FINITE, &z)) {
+            free(d.list);
+            return refuse(row, "must be Z[,Z...] or LO:HI:log|lin:COUNT, got '%.*s'%s%s%s", (int)length, item,
+                          count > 1 ? " in '" : "", count > 1 ? text : "", count > 1 ? "'" : "");
+        }
+        d.list[d.count] = z;
+        d.lo = fmin(d.lo, z);
+        d.hi = fmax(d.hi, z);
+        item += length + 1;
+    }
+    *out = d;
+    return EXIT_FINE;
+}
+
+int parse_at(options *o, const option_row *row, const char *value) {
+    free(o->at.list); /* of an earlier --at: the last one counts */
+    o->at = (depths){.kind = DEPTHS_LIST};
+    return strchr(value, ':') != NULL ? parse_spaced(row, value, &o->at) : parse_listed(row, value, &o->at);
+}
+
+int parse_range(options *o, const option_row *row, const char *value) {
+    const int split = (int)strcspn(value, ":");
+    if (value[split] == '\0')
+        return refuse(row, "must be LO:HI, got '%s'", value);
+    if (!number_parse_part(value, (size_t)split, NUMBER_FINITE, &o->range_lo))
+        return refuse(row, "LO must be a number, got '%.*s' in '%s'", split, value, value);
+    if (!number_parse(value + split + 1, NUMBER_FINITE, &o->range_hi))
+        return refuse(row, "HI must be a number, got '%s' in '%s'", value + split + 1, value);
+    return o->range_lo < o->range_hi ? EXIT_FINE : refuse(row, "LO must be less than HI, got '%s'", value);
 }

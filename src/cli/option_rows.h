@@ -11,8 +11,10 @@
 #include "cli/names.h"
 #include "cli/options.h"
 
-/** Reads an argument. @return EXIT_FINE, or EXIT_USAGE after one line on stderr */
-typedef int option_parser(options *o, option_id id, const char *value);
+struct option_row;
+
+/** Reads an argument of the option of that row. @return EXIT_FINE, or EXIT_USAGE after one line on stderr */
+typedef int option_parser(options *o, const struct option_row *row, const char *value);
 
 typedef struct option_row {
     const char *name;       /**< long name without dashes */
@@ -22,7 +24,7 @@ typedef struct option_row {
     const char *help;       /**< what it does; @ stands for the names, limits and default follow */
     option_parser *parse;   /**< null for --help and --version */
     size_t place, size;     /**< of the field in `options` */
-    double least, most;     /**< of a number */
+    double least, most;     /**< of a number; least alone is the form of a parse_form */
     const char *unit;       /**< of a number; null when it has none */
     const name_list *names; /**< what it may be; null when it is no name */
     const char *standard;   /**< the default, as a user would write it; null when there is none */

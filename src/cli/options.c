@@ -20,31 +20,10 @@ const char *option_word(option_id id, size_t index) {
     return item.name;
 }
 
-/* One line whatever the arguments hold: control characters would break it, and a long argument would bury it. */
-static int print_error(const char *option, const char *format, va_list arguments) {
-    char line[1024];
-    size_t start = (size_t)snprintf(line, sizeof line, "depthprec: %s%s%s", option ? "--" : "", option ? option : "",
-                                    option ? ": " : "");
-    vsnprintf(line + start, sizeof line - start, format, arguments);
-    for (char *c = line; *c != '\0'; c++)
-        if ((unsigned char)*c < 0x20 || *c == 0x7f)
-            *c = '?';
-    fprintf(stderr, "%s\n", line);
-    return EXIT_USAGE;
-}
-
 int option_error(option_id id, const char *format, ...) {
     va_list arguments;
     va_start(arguments, format);
-    int status = print_error(option_name(id), format, arguments);
-    va_end(arguments);
-    return status;
-}
-
-int usage_error(const char *format, ...) {
-    va_list arguments;
-    va_start(arguments, format);
-    int status = print_error(NULL, format, arguments);
+    int status = named_error(option_name(id), format, arguments);
     va_end(arguments);
     return status;
 }
@@ -53,7 +32,7 @@ static void set_defaults(options *o) {
     *o = (options){.target = SOLVE_FOR_ANY};
     for (int id = 0; id < OPTION_COUNT; id++)
         if (option_rows[id].standard != NULL)
-            option_rows[id].parse(o, (option_id)id, option_rows[id].standard);
+            option_rows[id].parse(o, &option_rows[id], option_rows[id].standard);
 }
 
 void options_release(options *o) {
@@ -169,9 +148,9 @@ static void complete(options *o) {
     if (!option_given(o, OPTION_FAR))
         o->zfar = p->zfar;
     if (!option_given(o, OPTION_FORMAT))
-        parse_formats(o, OPTION_FORMAT, p->format);
+        parse_formats(o, &option_rows[OPTION_FORMAT], p->format);
     if (!option_given(o, OPTION_MAPPING))
-        parse_mappings(o, OPTION_MAPPING, dp_mapping_get(p->mapping)->name);
+        parse_mappings(o, &option_rows[OPTION_MAPPING], dp_mapping_get(p->mapping)->name);
 }
 
 /* argv[0] of what is left is the program, or the command in its place. */
@@ -196,7 +175,7 @@ static int read_options(options *o, int argc, char **argv, const verb *asked) {
         }
         if ((option_rows[id].commands & o->verb->bit) == 0)
             return wrong_command(o, (option_id)id);
-        int status = option_rows[id].parse(o, (option_id)id, optarg);
+        int status = option_rows[id].parse(o, &option_rows[id], optarg);
         if (status != EXIT_FINE)
             return status;
         o->given[id] = true;

@@ -16,6 +16,7 @@
 #include "api/bias.h"
 #include "api/presets.h"
 #include "cli/depths.h"
+#include "cli/errors.h"
 #include "cli/verbs.h"
 #include "depthprec/depthprec.h"
 #include "report/output.h"
@@ -195,9 +196,6 @@ static inline bool option_given(const options *o, option_id id) {
  * @return EXIT_USAGE
  */
 int option_error(option_id id, const char *format, ...) __attribute__((format(printf, 2, 3)));
-
-/** The same without an option: "depthprec: " and the rest. @return EXIT_USAGE */
-int usage_error(const char *format, ...) __attribute__((format(printf, 1, 2)));
 
 /** The long name of an option without its dashes. */
 const char *option_name(option_id id);

@@ -8,20 +8,6 @@
 #include "cli/texture_effect.h"
 #include "plot/canvas.h"
 
-bool list_position(size_t index, list_item *item) {
-    const position_row *row = position_get(index);
-    if (row != NULL)
-        *item = (list_item){.name = row->name, .note = row->note, .source = row->source, .row = row};
-    return row != NULL;
-}
-
-bool list_normal(size_t index, list_item *item) {
-    const normal_row *row = normal_get(index);
-    if (row != NULL)
-        *item = (list_item){.name = row->name, .note = row->note, .source = row->source, .row = row};
-    return row != NULL;
-}
-
 bool texture_product_wanted(const options *o) {
     return o->eye || option_given(o, OPTION_POSITION) || o->normal != NULL || o->effect != NULL || o->figure != NULL;
 }

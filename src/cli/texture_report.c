@@ -369,7 +369,7 @@ static bool add_decoding(statistics *r, const decode_row *row) {
         frame_codes(f, y, codes);
         for (uint32_t x = 0; x < width; x++)
             d[x] = codes[x] == UINT32_MAX ? NAN : (float)dp_format_value(&setup->spec.format, codes[x]);
-        row->run(setup, d, got, width);
+        decode_run(row, setup, d, got, width);
         for (uint32_t x = 0; x < width; x++) {
             if (codes[x] == UINT32_MAX || frame_rank(setup, codes[x]) >= sky)
                 continue;

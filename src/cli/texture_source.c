@@ -30,17 +30,6 @@ bool texture_scene_takes(const options *o, const char *name) {
     return o->scene != NULL && parameter_index(o->scene, name) < SCENE_PARAMETERS;
 }
 
-bool list_scene(size_t index, list_item *item) {
-    const scene_row *row = scene_get(index);
-    if (row == NULL)
-        return false;
-    *item = (list_item){.name = row->name, .note = row->note, .row = row};
-    for (size_t i = 0; i < SCENE_PARAMETERS && row->parameters[i].name != NULL; i++)
-        append(item->bound, sizeof item->bound, "%s%s=%g", i > 0 ? ", " : "", row->parameters[i].name,
-               row->parameters[i].value);
-    return true;
-}
-
 static int unknown_parameter(const scene_row *scene, const char *name) {
     const char *words[SCENE_PARAMETERS + 1] = {NULL};
     const name_list known = {.words = words};

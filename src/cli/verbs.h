@@ -30,20 +30,19 @@ enum {
 
 typedef struct verb {
     const char *name;
-    unsigned bit;                       /**< VERB_... */
-    int (*run)(const struct options *); /**< returns an exit status of report/output.h */
-    const char *operand;                /**< how help writes the operand, "FIGURE"; "" when there is none */
-    int operand_min, operand_max;       /**< how many operands the command takes */
-    const name_list *names;             /**< what the first operand may be; null when it is no name */
-    const char *summary;                /**< one line for `depthprec --help` */
-    const char *example;                /**< command lines for the command's own help, one a line */
-    int files_from; /**< operands from this one on are files that it reads, counted from 1; 0: none */
+    unsigned bit;                 /**< VERB_... */
+    const char *operand;          /**< how help writes the operand, "FIGURE"; "" when there is none */
+    int operand_min, operand_max; /**< how many operands the command takes */
+    const name_list *names;       /**< what the first operand may be; null when it is no name */
+    const char *summary;          /**< one line for `depthprec --help` */
+    const char *example;          /**< command lines for the command's own help, one a line */
+    int files_from;               /**< operands from this one on are files that it reads, counted from 1; 0: none */
 } verb;
 
 extern const verb verb_rows[];
 extern const size_t verb_count;
 
-/* What the rows name: one cmd_....c each, but for help.c and completions.c. */
+/* What main() runs: one cmd_....c each, but for help.c and completions.c. Each returns a status of report/output.h. */
 int cmd_table(const struct options *o);
 int cmd_budget(const struct options *o);
 int cmd_bias(const struct options *o);

@@ -134,7 +134,7 @@ number_text number_down(double value, int digits) {
 }
 
 number_text number_full(double value) {
-    number_text out;
+    number_text out = {""};
     number_shortest(value, out.text);
     return out;
 }

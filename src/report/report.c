@@ -13,14 +13,16 @@ bool column_shows(const column *c, unsigned form, unsigned when) {
 }
 
 void *column_part(const column *c, void *item) {
-    char *at = (char *)item + c->offset;
-    return item != NULL && c->pointed ? *(void **)at : item != NULL ? at : NULL;
+    if (item == NULL)
+        return NULL;
+    void *at = (char *)item + c->offset;
+    return c->pointed ? *(void **)at : at;
 }
 
 column_value column_of(const column *c, const void *item) {
-    const char *at = (const char *)item + c->offset;
+    const void *at = (const char *)item + c->offset;
     if (c->pointed)
-        at = *(const char *const *)at;
+        at = *(const void *const *)at;
     if (at == NULL)
         return (column_value){.word = NULL};
     switch (c->kind) {
@@ -35,7 +37,7 @@ column_value column_of(const column *c, const void *item) {
     case COLUMN_FLAG:
         return (column_value){.word = *(const bool *)at ? "true" : "false"};
     case COLUMN_LETTERS:
-        return (column_value){.word = *at != '\0' ? at : NULL};
+        return (column_value){.word = *(const char *)at != '\0' ? at : NULL};
     default:
         return (column_value){.word = *(const char *const *)at};
     }

@@ -230,7 +230,7 @@ static void measure_normal(const pack_row *row, pack_error *out) {
 pack_error pack_measure(const pack_row *row) {
     pack_error out = {.codes = 0};
     if (row->kind != PACK_NORMAL)
-        pack_measure_depth(row->kind == PACK_DEPTH ? row : pack_find("rg-depth"), &out);
+        pack_measure_depth(row->kind == PACK_DEPTH ? row : pack_get(PACK_RG_DEPTH), &out);
     if (row->kind != PACK_DEPTH)
         measure_normal(row, &out);
     return out;

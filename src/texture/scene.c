@@ -108,20 +108,21 @@ static bool decals_pair(const double *p, size_t index, double *front, double *ba
 }
 
 /* clang-format off */
-static const scene_row rows[] = {
-    {"plane", "a plane, seen head-on or slanted", plane_hit, NULL, {
+const scene_row scene_rows[] = {
+    [SCENE_PLANE] = {"plane", "a plane, seen head-on or slanted", plane_hit, NULL, {
         {"distance", LENGTH, 10, false, "eye depth in the middle of the image"},
         {"tilt", "degrees", -89.9, 89.9, 0, false, "the upper side leans back; 90 would be a floor"},
         {"turn", "degrees", -89.9, 89.9, 0, false, "the right side leans back"}}},
-    {"sphere", "a sphere on the view axis, before a wall or the sky", sphere_hit, NULL, {
+    [SCENE_SPHERE] = {"sphere", "a sphere on the view axis, before a wall or the sky", sphere_hit, NULL, {
         {"distance", LENGTH, 10, false, "eye depth of the centre, more than the radius"},
         {"radius", LENGTH, 3, false, "of the sphere"},
         {"wall", "scene units", 0, 1e15, 0, false, "eye depth of the wall; 0: sky"}}},
-    {"steps", "upright stairs that face the camera, in equal ratios of depth", steps_hit, steps_pair, {
+    [SCENE_STEPS] = {"steps", "upright stairs that face the camera, in equal ratios of depth", steps_hit, steps_pair, {
         {"from", LENGTH, 1, false, "eye depth of the leftmost"},
         {"to", LENGTH, 300, false, "eye depth of the rightmost"},
         {"count", "steps", 2, 65536, 16, true, "how many"}}},
-    {"decals", "a decal before each tile of a wall, the tiles in equal ratios of depth", decals_hit, decals_pair, {
+    [SCENE_DECALS] = {"decals", "a decal before each tile of a wall, the tiles in equal ratios of depth",
+        decals_hit, decals_pair, {
         {"gap", LENGTH, 0.01, false, "from a decal to the wall behind it"},
         {"from", LENGTH, 1, false, "eye depth of the first tile, top left"},
         {"to", LENGTH, 300, false, "eye depth of the last tile, bottom right"},
@@ -130,14 +131,7 @@ static const scene_row rows[] = {
 /* clang-format on */
 
 const scene_row *scene_get(size_t index) {
-    return index < sizeof rows / sizeof rows[0] ? &rows[index] : NULL;
-}
-
-const scene_row *scene_find(const char *name) {
-    for (size_t i = 0; i < sizeof rows / sizeof rows[0]; i++)
-        if (strcmp(rows[i].name, name) == 0)
-            return &rows[i];
-    return NULL;
+    return index < SCENE_ROWS ? &scene_rows[index] : NULL;
 }
 
 void scene_defaults(const scene_row *scene, double parameters[SCENE_PARAMETERS]) {

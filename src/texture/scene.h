@@ -39,8 +39,10 @@ typedef struct scene_row {
     } parameters[SCENE_PARAMETERS]; /**< a null name ends them */
 } scene_row;
 
-const scene_row *scene_get(size_t index); /**< null behind the last */
-const scene_row *scene_find(const char *name);
+enum { SCENE_PLANE = 0, SCENE_SPHERE, SCENE_STEPS, SCENE_DECALS, SCENE_ROWS };
+extern const scene_row scene_rows[SCENE_ROWS];
+
+const scene_row *scene_get(size_t index); /**< null beyond the last */
 
 /** The default values of a scene's parameters. */
 void scene_defaults(const scene_row *scene, double parameters[SCENE_PARAMETERS]);

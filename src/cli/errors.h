@@ -1,0 +1,14 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/** @file errors.h  What goes wrong with a command line: one line on stderr. */
+#ifndef CLI_ERRORS_H
+#define CLI_ERRORS_H
+
+#include <stdarg.h>
+
+/** Prints "depthprec: " and the rest, one line, on stderr. @return EXIT_USAGE */
+int usage_error(const char *format, ...) __attribute__((format(printf, 1, 2)));
+
+/** The same, with "--OPTION: " before the rest unless `option` is null. */
+int named_error(const char *option, const char *format, va_list arguments) __attribute__((format(printf, 2, 0)));
+
+#endif

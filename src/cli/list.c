@@ -1,0 +1,225 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "cli/list.h"
+
+#include <math.h>
+#include <stdio.h>
+
+#include "api/bias.h"
+#include "api/presets.h"
+#include "method/method.h"
+#include "plot/figure.h"
+#include "report/append.h"
+#include "report/number.h"
+#include "texture/effect.h"
+#include "texture/pack.h"
+#include "texture/position.h"
+#include "texture/scene.h"
+
+bool list_format(size_t index, list_item *item) {
+    const dp_format_row *row = dp_format_get(index);
+    if (row == NULL)
+        return false;
+    *item = (list_item){.name = row->format.name, .aliases = row->aliases, .note = row->note, .source = row->source};
+    append(item->bound, sizeof item->bound, "|value - d| <= %s", number_full(row->claim_absolute).text);
+    if (row->claim_relative > 0.0)
+        append(item->bound, sizeof item->bound, " + %s d", number_full(row->claim_relative).text);
+    return true;
+}
+
+bool list_mapping(size_t index, list_item *item) {
+    const dp_mapping_row *row = index < DP_MAPPING_COUNT ? dp_mapping_get((dp_mapping)index) : NULL;
+    return row != NULL &&
+           list_fill(item,
+                     (list_item){.name = row->name, .aliases = row->aliases, .note = row->note, .source = row->source});
+}
+
+bool list_model(size_t index, list_item *item) {
+    static const char *const notes[] = {
+        [DP_MODEL_EXACT] = "real arithmetic and one rounding into the format: the lattice of codes",
+        [DP_MODEL_STAGED] = "NDC depth, then window depth, each rounded once to binary32, then the format",
+        [DP_MODEL_FP32] = "every operation in binary32, see 'depthprec list ariths'; not for linear and log",
+        "the simplest of the three that is enough at the depths asked about, see --tolerance",
+    };
+    const char *name = dp_model_name((dp_model)index);
+    return index < sizeof notes / sizeof notes[0] &&
+           list_fill(item, (list_item){.name = name != NULL ? name : "auto", .note = notes[index]});
+}
+
+bool list_rounding(size_t index, list_item *item) {
+    *item = (list_item){.name = dp_rounding_name((dp_rounding)index)};
+    return item->name != NULL;
+}
+
+bool list_arith(size_t index, list_item *item) {
+    const dp_arith_row *row = dp_arith_get(index);
+    return row != NULL && list_fill(item, (list_item){.name = row->name, .note = row->note, .source = row->source});
+}
+
+bool list_composition(size_t index, list_item *item) {
+    const dp_composition_row *row = dp_composition_get((dp_composition)index);
+    return row != NULL && list_fill(item, (list_item){.name = row->name, .note = row->note});
+}
+
+static bool list_cause(size_t index, list_item *item) {
+    static const char *const notes[DP_CAUSE_COUNT] = {
+        [DP_CAUSE_EYE] = "rounding the eye depth itself to binary32: surfaces lie anywhere",
+        [DP_CAUSE_COMPOSITION] = "world positions through view and projection, with --world and --composition",
+        [DP_CAUSE_PROJECTION] = "A z + B in binary32, and the remap if there is one",
+        [DP_CAUSE_NDC] = "the divide and the viewport",
+        [DP_CAUSE_INTERPOLATION] = "across a triangle, as given with --interpolation",
+        [DP_CAUSE_FORMAT] = "the step of the format and the conversion into it",
+        [DP_CAUSE_LINEARIZATION] = "reading eye depth back in a binary32 shader, with --linearize",
+    };
+    return index < DP_CAUSE_COUNT &&
+           list_fill(item, (list_item){.name = dp_cause_name((dp_cause)index), .note = notes[index]});
+}
+
+bool list_preset(size_t index, list_item *item) {
+    const preset *row = preset_get(index);
+    if (row == NULL)
+        return false;
+    *item = (list_item){.name = row->name, .note = row->note, .source = row->source, .row = row};
+    const bool confirmed = row->unconfirmed[0] == '\0';
+    snprintf(item->bound, sizeof item->bound, "near %s, far %s, %s, %s, scene in %s; checked %s, %s%s",
+             number_full(row->znear).text, number_full(row->zfar).text, dp_mapping_get(row->mapping)->name, row->format,
+             row->unit, row->checked, confirmed ? "confirmed" : "not confirmed: ", row->unconfirmed);
+    return true;
+}
+
+bool list_api(size_t index, list_item *item) {
+    static const char *const rules[] = {
+        [BIAS_ONE] = "1",
+        [BIAS_CODE] = "1/(2^N - 1) as binary32",
+        [BIAS_POWER] = "2^-N",
+        [BIAS_BOUND] = "at most 2 x 2^-N",
+        [BIAS_FREE] = "the implementation's choice",
+        [BIAS_EXPONENT] = "2^(e - 23), e of the greatest depth",
+        [BIAS_MANTISSA] = "2^-24",
+    };
+    const bias_api *row = bias_api_get(index);
+    if (row == NULL)
+        return false;
+    *item =
+        (list_item){.name = row->name, .aliases = row->aliases, .note = row->note, .source = row->source, .row = row};
+    snprintf(item->bound, sizeof item->bound, "unorm: r = %s; fp32: r = %s", rules[row->unorm], rules[row->real]);
+    return true;
+}
+
+static bool list_packing(size_t index, list_item *item) {
+    const pack_row *row = pack_get(index);
+    if (row == NULL)
+        return false;
+    *item = (list_item){.name = row->name, .note = row->note, .source = row->source};
+    if (row->kind != PACK_DEPTH)
+        append(item->bound, sizeof item->bound, "angle: mean %g, at most %g degrees%s", row->normal.mean,
+               row->normal.max, row->kind == PACK_DEPTH_NORMAL ? "; " : "");
+    if (row->kind != PACK_NORMAL)
+        append(item->bound, sizeof item->bound, "depth: mean %g, at most %g of far", row->depth.mean, row->depth.max);
+    return true;
+}
+
+bool list_effect(size_t index, list_item *item) {
+    const effect_row *row = effect_get(index);
+    if (row == NULL)
+        return false;
+    *item = (list_item){.name = row->name, .note = row->note, .source = row->source, .row = row};
+    for (int i = 0; row->parameters[i].name != NULL; i++) {
+        const effect_parameter *p = &row->parameters[i];
+        append(item->bound, sizeof item->bound, "%s%s %g [%s]", i > 0 ? ", " : "", p->name, p->value, p->unit);
+        if (i == row->wanted)
+            append(item->bound, sizeof item->bound, " (%s usable)", row->smallest ? "smallest" : "largest");
+    }
+    return true;
+}
+
+bool list_figure(size_t index, list_item *item) {
+    const figure_row *row = figure_get(index);
+    if (row == NULL)
+        return false;
+    *item = (list_item){.name = row->name, .note = row->summary, .row = row};
+    return true;
+}
+
+bool list_scene(size_t index, list_item *item) {
+    const scene_row *row = scene_get(index);
+    if (row == NULL)
+        return false;
+    *item = (list_item){.name = row->name, .note = row->note, .row = row};
+    for (size_t i = 0; i < SCENE_PARAMETERS && row->parameters[i].name != NULL; i++)
+        append(item->bound, sizeof item->bound, "%s%s=%g", i > 0 ? ", " : "", row->parameters[i].name,
+               row->parameters[i].value);
+    return true;
+}
+
+bool list_position(size_t index, list_item *item) {
+    const position_row *row = position_get(index);
+    if (row != NULL)
+        *item = (list_item){.name = row->name, .note = row->note, .source = row->source, .row = row};
+    return row != NULL;
+}
+
+bool list_normal(size_t index, list_item *item) {
+    const normal_row *row = normal_get(index);
+    if (row != NULL)
+        *item = (list_item){.name = row->name, .note = row->note, .source = row->source, .row = row};
+    return row != NULL;
+}
+
+bool list_family(size_t index, list_item *item) {
+    const method_family_row *row = method_family_get(index);
+    if (row != NULL)
+        *item = (list_item){.name = row->name, .note = row->summary, .row = row};
+    return row != NULL;
+}
+
+static const double formula_at = 1e4; /* where a claim that is a formula is shown */
+
+bool list_method(size_t index, list_item *item) {
+    const method_row *row = method_get(index);
+    if (row == NULL)
+        return false;
+    const method_family_row *family = method_family_get(row->family);
+    *item = (list_item){.name = row->name, .aliases = family->name, .note = row->note, .source = row->source};
+    for (size_t i = 0; i < family->case_count; i++) {
+        const method_claim *c = &row->claims[i];
+        char worst[NUMBER_SIZE] = "nothing", hi[NUMBER_SIZE];
+        if (!method_speaks(row, i))
+            continue;
+        if (!isnan(c->worst))
+            number_digits(method_claim_at(c, fmin(formula_at, c->ratio_hi)), 3, worst);
+        number_digits(c->ratio_hi, 3, hi);
+        append(item->bound, sizeof item->bound, "%s%s %s", *item->bound != '\0' ? "; " : "", family->cases[i].name,
+               worst);
+        if (c->formula != NULL)
+            append(item->bound, sizeof item->bound, " at far/near 10000");
+        if (!isnan(c->worst) && c->ratio_hi < METHOD_RATIO_HI)
+            append(item->bound, sizeof item->bound, " to far/near %s", hi);
+    }
+    return true;
+}
+
+/* What can be listed. */
+static const topic topics[] = {
+    {"formats", "depth formats, and what their rounding is held to", list_format, "bound"},
+    {"mappings", "how an eye depth becomes a window depth", list_mapping, "bound"},
+    {"models", "what is modelled of the arithmetic before the buffer", list_model, "bound"},
+    {"ariths", "the variants of binary32 arithmetic", list_arith, "bound"},
+    {"transforms", "how world positions become clip coordinates", list_composition, "bound"},
+    {"causes", "what takes a part of the separation", list_cause, "bound"},
+    {"presets", "cameras as engines set them, for --preset", list_preset, "camera"},
+    {"apis", "what one unit of depth bias is, for bias --api", list_api, "rule"},
+    {"packings", "depth and normals in the channels of a texture, and what their errors are held to", list_packing,
+     "bound"},
+    {"effects", "what texture --effect knows: formulas and parameters", list_effect, "parameters"},
+    {"figures", "what plot can draw", list_figure, "bound"},
+    {"scenes", "synthetic depth images, for texture --scene", list_scene, "bound"},
+    {"positions", "ways from window depth to a place, for texture --position", list_position, "bound"},
+    {"normals", "normals from depth, for texture --normal", list_normal, "bound"},
+    {"methods", "ways to a quantity, by family: what each claims, for which set-up and far/near", list_method, "bound"},
+};
+enum { TOPIC_COUNT = sizeof topics / sizeof topics[0] };
+
+bool list_topic(size_t index, list_item *item) {
+    const struct topic *row = &topics[index];
+    return index < TOPIC_COUNT && list_fill(item, (list_item){.name = row->name, .note = row->note, .row = row});
+}
