@@ -183,7 +183,7 @@ static double longest_within(const dp_chain *c, const dp_steps *s1, dp_span firs
     for (int i = 0; i < 8; i++) {
         const dp_demand d = demand_of(c, s1, first, second, extra);
         const double s = distance(c, first.hi, &d);
-        if (!(s < best))
+        if (i > 0 && !(s < best)) /* the first one counts even where it is infinite: *out is what it demands */
             break;
         const double gain = best - s;
         best = s;
