@@ -130,6 +130,7 @@ static bool same_bits(float a, float b) {
     return memcmp(&a, &b, sizeof a) == 0 || (isnan(a) && isnan(b));
 }
 
+/* Long: every product of a pixel, and how each is made by hand. */
 static void frames_equal_plain_pixels(void **state) {
     static const struct {
         const char *scene, *format, *mapping;

@@ -11,7 +11,7 @@
 
 static const double PI = 3.14159265358979323846;
 
-/* The bound: never passed on planes of any tilt in any format, and reached by some. */
+/* The bound: never passed on planes of any tilt in any format, and reached by some. Long: cases, loops and verdict. */
 static void planes_are_within_the_bound(void **state) {
     (void)state;
     static const char *const formats[] = {"unorm16", "unorm24", "fp16", "fp32"};
