@@ -15,7 +15,7 @@ enum { WIDTH = 640, HEIGHT = 360, PIXELS = WIDTH * HEIGHT };
 
 typedef struct stage {
     texture_camera camera;
-    double parameters[SCENE_PARAMETERS];
+    double parameters[TEXTURE_PARAMETERS];
     frame frame;
 } stage;
 
@@ -32,7 +32,7 @@ static void stage_set(stage *s, const char *scene, const char *format, const cha
     view.width = WIDTH;
     view.height = HEIGHT;
     assert_null(camera_init(&s->camera, &setup, &view));
-    scene_defaults(scene_find(scene), s->parameters);
+    parameter_defaults(scene_find(scene)->parameters, s->parameters);
     s->frame = (frame){
         .camera = &s->camera, .scene = scene_find(scene), .parameters = s->parameters, .sky = FRAME_SKY, .threads = 2};
 }

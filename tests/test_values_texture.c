@@ -290,9 +290,9 @@ static void camera_of(const texture_case *c, texture_camera *out, uint32_t width
 /* The scene's own, but for those of the case; their options behind the others. */
 static void want_parameters(values *v, const texture_case *c, const scene_row *scene, double *parameters,
                             char options[256]) {
-    scene_defaults(scene, parameters);
+    parameter_defaults(scene->parameters, parameters);
     options[0] = '\0';
-    for (size_t i = 0; i < SCENE_PARAMETERS && scene->parameters[i].name != NULL; i++) {
+    for (size_t i = 0; i < TEXTURE_PARAMETERS && scene->parameters[i].name != NULL; i++) {
         const char *name = scene->parameters[i].name;
         for (size_t k = 0; k < 3 && c->parameters[k].name != NULL; k++)
             if (strcmp(c->parameters[k].name, name) == 0) {
@@ -311,7 +311,7 @@ static void test_scenes(void **state) {
     for (size_t i = 0; i < sizeof scenes / sizeof scenes[0]; i++) {
         const texture_case *c = &scenes[i];
         texture_camera camera;
-        double parameters[SCENE_PARAMETERS];
+        double parameters[TEXTURE_PARAMETERS];
         char options[512], more[256], arguments[1024];
         line_places lines = {0};
         values v = values_of("texture");

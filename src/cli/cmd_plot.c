@@ -10,9 +10,9 @@
 #include "cli/list.h"
 #include "cli/methods.h"
 #include "cli/plot_data.h"
+#include "core/append.h"
 #include "plot/figure.h"
 #include "plot/notes.h"
-#include "report/append.h"
 #include "report/number.h"
 
 enum { WIDTH = 800, HEIGHT = 500 };

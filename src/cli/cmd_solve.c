@@ -225,14 +225,11 @@ static int add_asked(solve_report *r, solve_result *result) {
 
 /* What else there is: the real depth buffers with the mappings that an engine can choose. */
 static void add_others(solve_report *r, solve_result *result) {
-    static const char *const formats[] = {"unorm16", "unorm24", "fp32"};
     static const dp_mapping mappings[] = {DP_MAPPING_D3D, DP_MAPPING_REVERSED, DP_MAPPING_LOG};
     dp_spec spec = spec_of(r->o);
-    for (size_t f = 0; f < sizeof formats / sizeof formats[0]; f++)
-        for (size_t m = 0; m < sizeof mappings / sizeof mappings[0]; m++) {
-            dp_format found[2];
-            dp_format_parse(formats[f], found);
-            spec.format = found[0];
+    for (size_t f = 0; f < dp_format_count(); f++)
+        for (size_t m = 0; m < sizeof mappings / sizeof mappings[0] && dp_format_get(f)->buffer; m++) {
+            spec.format = dp_format_get(f)->format;
             spec.mapping = mappings[m];
             spec.model = model_of(r, spec.mapping, false);
             if (listed(r, &spec) || (spec.mapping == DP_MAPPING_D3D && r->o->mappings[0] == DP_MAPPING_GL))

@@ -6,7 +6,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "report/append.h"
+#include "core/append.h"
 #include "report/number.h"
 
 const char *option_argument(const option_row *row, char out[OPTION_TEXT_SIZE]) {

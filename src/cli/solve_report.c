@@ -6,7 +6,7 @@
 #include <string.h>
 
 #include "cli/solve_report.h"
-#include "report/append.h"
+#include "core/append.h"
 
 enum { DIGITS_MOST = 17, UNITS = 8, ISLANDS_SHOWN = 6, PHRASE_SIZE = 256 };
 

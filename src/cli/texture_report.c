@@ -57,7 +57,7 @@ static bool is_image(const statistics *r) {
 static void *next_parameter(void *of, size_t i) {
     statistics *r = of;
     const scene_row *scene = r->source.frame.scene;
-    if (is_image(r) || i == SCENE_PARAMETERS || scene->parameters[i].name == NULL)
+    if (is_image(r) || scene->parameters[i].name == NULL)
         return NULL;
     r->parameter = scene->parameters[i].name;
     r->parameter_value = r->source.parameters[i];
