@@ -4,9 +4,6 @@
 # functions for processors without FMA, and on another processor (emulated: its reciprocal estimate is another one).
 . tests/tap.sh
 
-program=$DEPTHPREC
-case $program in */depthprec) program=$program-full ;; esac # one program for all commands, for the emulator
-
 everything() { # everything PROGRAM...: what commands print that use threads, estimates, kernels or the C library's curves
     while read -r arguments; do
         echo "$arguments"
@@ -26,7 +23,7 @@ END
     cat "$scratch/share.svg" "$scratch/map.svg" && rm "$scratch/share.svg" "$scratch/map.svg"
 }
 
-everything "$program" >"$scratch/here" 2>&1
+everything "$DEPTHPREC" >"$scratch/here" 2>&1
 check "the commands run here" sh -c '! grep "^exit status" "$1" && [ "$(wc -l <"$1")" -gt 500 ]' - "$scratch/here"
 
 same() { # same VARIABLE=VALUE... PROGRAM...
@@ -35,8 +32,8 @@ same() { # same VARIABLE=VALUE... PROGRAM...
     cmp -s "$scratch/here" "$scratch/there"
 }
 
-check "with one thread" same OMP_NUM_THREADS=1 "$program"
-check "with three threads" same OMP_NUM_THREADS=3 OMP_DYNAMIC=false "$program"
+check "with one thread" same OMP_NUM_THREADS=1 "$DEPTHPREC"
+check "with three threads" same OMP_NUM_THREADS=3 OMP_DYNAMIC=false "$DEPTHPREC"
 
 mkdir "$scratch/locales"
 if localedef -i de_DE -f UTF-8 "$scratch/locales/de_DE.UTF-8" >"$scratch/log" 2>&1; then
@@ -44,14 +41,14 @@ if localedef -i de_DE -f UTF-8 "$scratch/locales/de_DE.UTF-8" >"$scratch/log" 2>
         [ "$(LOCPATH=$scratch/locales LC_ALL=de_DE.UTF-8 locale decimal_point)" = , ]
     }
     check "the locale writes a comma" comma
-    check "in de_DE.UTF-8" same LOCPATH="$scratch/locales" LC_ALL=de_DE.UTF-8 LANG=de_DE.UTF-8 "$program"
+    check "in de_DE.UTF-8" same LOCPATH="$scratch/locales" LC_ALL=de_DE.UTF-8 LANG=de_DE.UTF-8 "$DEPTHPREC"
 else
     skip "in de_DE.UTF-8" "localedef makes no de_DE here"
 fi
 
-check "the C library without FMA" same GLIBC_TUNABLES=glibc.cpu.hwcaps=-AVX2,-FMA,-FMA4 "$program"
+check "the C library without FMA" same GLIBC_TUNABLES=glibc.cpu.hwcaps=-AVX2,-FMA,-FMA4 "$DEPTHPREC"
 if [ "${B##*/}" = build ] && command -v qemu-x86_64 >"$scratch/log" && [ "$(uname -m)" = x86_64 ]; then
-    check "on a Nehalem, emulated" same OMP_NUM_THREADS=2 qemu-x86_64 -cpu Nehalem "$program"
+    check "on a Nehalem, emulated" same OMP_NUM_THREADS=2 qemu-x86_64 -cpu Nehalem "$DEPTHPREC"
 else
     skip "on another processor" "qemu-x86_64 is not installed"
 fi

@@ -76,7 +76,7 @@ typedef struct column {
 
 /* The kind follows from the member's type, so the two cannot disagree. */
 #define FIELD_KIND(type, member)                                                                                       \
-    _Generic(((type){}).member, \
+    _Generic(((type){}).member,                                                                                        \
         double: COLUMN_NUMBER,                                                                                         \
         uint64_t: COLUMN_COUNT,                                                                                        \
         uint32_t: COLUMN_CODE,                                                                                         \
