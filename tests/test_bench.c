@@ -70,12 +70,16 @@ static void fill(const dp_setup *setup, method_inputs *in) {
         in->z[i] = 100 + (double)i;
 }
 
+static bool loses_one; /* the answer to input 6 is no number */
+
 /* The worst of each kind at an input of its own; what lies outside of the domain is worse and does not count. */
 static bool judge(const method_call *call, size_t i, method_error *e) {
     const double scale = strcmp(call->row->name, "exact") == 0 ? 1e-3 : 1;
     *e = (method_error){i == 3 ? 9 : 1, scale * (i == 5 ? 8 : 2), i == 7 ? 7 : 3};
     if (i == 4)
         *e = (method_error){1e9, 1e9, 1e9};
+    if (i == 6 && loses_one)
+        *e = (method_error){(double)NAN, (double)NAN, (double)NAN};
     return i != 4;
 }
 
@@ -159,6 +163,22 @@ static void worst_errors_and_places(void **state) {
     assert_true(results[0].claim == 10 && isnan(results[1].claim) && results[2].claim == 12);
 }
 
+/* No error is worse than to have no answer, and such a method is on no front. */
+static void no_number_is_the_worst(void **state) {
+    static bench_result results[BENCH_METHODS_MAX];
+    (void)state;
+    loses_one = true;
+    assert_int_equal(run_bench(REPETITIONS, results), 3);
+    loses_one = false;
+    for (int i = 0; i < 2; i++) {
+        const bench_result *r = &results[i];
+        const method_error *worst = &r->measured.worst;
+        assert_true(isnan(worst->absolute) && isnan(worst->relative) && isnan(worst->ulp) && !r->front);
+        assert_true(r->at_absolute == 106 && r->at_relative == 106 && r->at_ulp == 106);
+    }
+    assert_true(results[2].measured.worst.relative == 8); /* it stops before */
+}
+
 /* On the front are the fastest and the most exact; the third is slower an element than the first, and no better. */
 static void front(void **state) {
     static bench_result results[BENCH_METHODS_MAX];
@@ -204,8 +224,11 @@ static void statistics_by_hand(void **state) {
 }
 
 int main(void) {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(statistics_by_hand), cmocka_unit_test(medians_and_quartiles),
-                                       cmocka_unit_test(worst_errors_and_places), cmocka_unit_test(front),
+    const struct CMUnitTest tests[] = {cmocka_unit_test(statistics_by_hand),
+                                       cmocka_unit_test(medians_and_quartiles),
+                                       cmocka_unit_test(worst_errors_and_places),
+                                       cmocka_unit_test(no_number_is_the_worst),
+                                       cmocka_unit_test(front),
                                        cmocka_unit_test(untimed)};
     return run_tap(tests);
 }

@@ -182,18 +182,15 @@ bool list_method(size_t index, list_item *item) {
     *item = (list_item){.name = row->name, .aliases = family->name, .note = row->note, .source = row->source};
     for (size_t i = 0; i < family->case_count; i++) {
         const method_claim *c = &row->claims[i];
-        char worst[NUMBER_SIZE] = "nothing", hi[NUMBER_SIZE];
+        const double worst = method_claim_at(c, fmin(formula_at, c->ratio_hi));
         if (!method_speaks(row, i))
             continue;
-        if (!isnan(c->worst))
-            number_digits(method_claim_at(c, fmin(formula_at, c->ratio_hi)), 3, worst);
-        number_digits(c->ratio_hi, 3, hi);
         append(item->bound, sizeof item->bound, "%s%s %s", *item->bound != '\0' ? "; " : "", family->cases[i].name,
-               worst);
+               isnan(c->worst) ? "nothing" : number_of(worst, 3).text);
         if (c->formula != NULL)
             append(item->bound, sizeof item->bound, " at far/near 10000");
         if (!isnan(c->worst) && c->ratio_hi < METHOD_RATIO_HI)
-            append(item->bound, sizeof item->bound, " to far/near %s", hi);
+            append(item->bound, sizeof item->bound, " to far/near %s", number_of(c->ratio_hi, 3).text);
     }
     return true;
 }

@@ -255,7 +255,8 @@ static void say_beside(const solve_report *r, const solve_candidate *c, page *p)
                   binary32 > r->limit * (1.0 + 1e-6) ? ", too much: 'depthprec budget' says why" : "");
 }
 
-void solve_report_answer(page *p, const solve_report *r) {
+void solve_report_answer(page *p, void *item) {
+    const solve_report *r = item;
     const solve_candidate *c = &r->items[0];
     char wanted[NUMBER_SIZE + 16] = "";
     say_sentence(r, c, p->out);

@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The rows: binary32 loops over the pixels of a line. */
 #include <math.h>
-#include <string.h>
 
+#include "core/bits.h"
 #include "texture/clones.h"
 #include "texture/position.h"
 #include "texture/position_bound.h"
@@ -88,21 +88,13 @@ static void rays_run(const position_state *s, uint32_t row, uint32_t column, con
 /* ---- Top left and extents ---------------------------------------------------------------------------------------- */
 
 /* To binary16 and back: nearest, ties to even; beyond 65504 infinite from 65520 on. */
-static inline float half_of(float a) {
-    uint32_t bits, sign;
-    memcpy(&bits, &a, sizeof bits);
-    sign = bits & 0x80000000u;
-    bits ^= sign;
-    uint32_t normal = (bits + 0xfffu + (bits >> 13 & 1u)) & ~0x1fffu;
-    normal = bits >= 0x477ff000u ? 0x7f800000u : normal;
-    float tiny, r;
-    memcpy(&tiny, &bits, sizeof tiny);
-    tiny = (tiny + 0.5f) - 0.5f; /* multiples of 2^-24 */
-    uint32_t tiny_bits;
-    memcpy(&tiny_bits, &tiny, sizeof tiny_bits);
-    bits = (bits < 0x38800000u ? tiny_bits : normal) | sign;
-    memcpy(&r, &bits, sizeof r);
-    return a == a ? r : a;
+DP_INLINE float half_of(float a) {
+    const uint32_t sign = dp_bits32(a) & 0x80000000u, bits = dp_bits32(a) ^ sign;
+    const uint32_t rounded = (bits + 0xfffu + (bits >> 13 & 1u)) & ~0x1fffu;
+    const uint32_t normal = bits >= 0x477ff000u ? 0x7f800000u : rounded;
+    const float tiny = (dp_float32(bits) + 0.5f) - 0.5f; /* multiples of 2^-24 */
+    const float half = dp_float32((bits < 0x38800000u ? dp_bits32(tiny) : normal) | sign);
+    return a == a ? half : a;
 }
 
 /* What a component becomes: view-relative first, in binary16 where the row says so, then moved to the world. */
