@@ -68,6 +68,12 @@ static void errors_are_within_claims_and_repeat(void **state) {
                       first[i].row->name, family->cases[which].name, error, first[i].claim);
                 TALLY(&t, isnan(first[i].ns) && first[i].measured.count > 0, "%s: timed or not measured",
                       first[i].row->name);
+                const method_error *worst = &first[i].measured.worst; /* of normals, an angle in three units */
+                const double degrees = worst->relative * 180 / 3.14159265358979323846;
+                TALLY(&t,
+                      f != METHOD_NORMAL || (fabs(worst->absolute - degrees) <= 1e-12 * degrees &&
+                                             fabs(worst->ulp * 0x1p-24 - worst->relative) <= 1e-12 * worst->relative),
+                      "%s: %g degrees, %g radians", first[i].row->name, worst->absolute, worst->relative);
             }
         }
     }

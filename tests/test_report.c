@@ -175,6 +175,21 @@ static void kinds_in_json(void **unused) {
     json_decref(all);
 }
 
+/* Every byte that a name may hold, and what is more than a byte, comes back. */
+static void any_text_in_json(void **unused) {
+    (void)unused;
+    const char *const before = apple.word;
+    char text[160];
+    for (int c = 1; c < 128; c++)
+        text[c - 1] = (char)c;
+    strcpy(text + 127, "\u00e9\u2014\U0001f34f");
+    apple.word = text;
+    json_t *all = json_of(0, 1);
+    assert_string_equal(json_string_value(json_object_get(fruit_of(all, 0), "word")), text);
+    json_decref(all);
+    apple.word = before;
+}
+
 static void nothing_in_json(void **unused) {
     (void)unused;
     json_t *all = json_of(0, 3);
@@ -331,9 +346,9 @@ static void wrapped(void **unused) {
 
 int main(void) {
     setenv("NO_COLOR", "1", 1);
-    const struct CMUnitTest tests[] = {cmocka_unit_test(kinds_in_json), cmocka_unit_test(nothing_in_json),
-                                       cmocka_unit_test(conditions),    cmocka_unit_test(kinds_in_csv),
-                                       cmocka_unit_test(kinds_in_text), cmocka_unit_test(pointed),
-                                       cmocka_unit_test(wrapped)};
+    const struct CMUnitTest tests[] = {cmocka_unit_test(kinds_in_json),   cmocka_unit_test(any_text_in_json),
+                                       cmocka_unit_test(nothing_in_json), cmocka_unit_test(conditions),
+                                       cmocka_unit_test(kinds_in_csv),    cmocka_unit_test(kinds_in_text),
+                                       cmocka_unit_test(pointed),         cmocka_unit_test(wrapped)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -201,8 +201,21 @@ static void claims_beyond_the_walk(void **state) {
     assert_int_equal(verdict_where(beyond_all, METHOD_ORTHO), STABILITY_HOLDS);
 }
 
+/* As depthprec(1) has them. */
+static void verdicts_have_their_names(void **state) {
+    static const char *const names[STABILITY_VERDICTS] = {[STABILITY_HOLDS] = "holds",
+                                                          [STABILITY_BROKEN] = "broken",
+                                                          [STABILITY_MODEST] = "too modest",
+                                                          [STABILITY_UNCLAIMED] = "no claim"};
+    (void)state;
+    for (int i = 0; i < STABILITY_VERDICTS; i++)
+        assert_string_equal(stability_verdict_name((stability_verdict)i), names[i]);
+    assert_null(stability_verdict_name(STABILITY_VERDICTS));
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
+        cmocka_unit_test(verdicts_have_their_names),
         cmocka_unit_test(interval_claims),
         cmocka_unit_test(linearize_claims),
         cmocka_unit_test(encode_claims),
