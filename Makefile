@@ -224,6 +224,7 @@ lint-licence:
 .PHONY: install uninstall installcheck plots bench clean distclean dist help
 VERSION = $(shell sed -n 's/^.define DP_VERSION *"\(.*\)"/\1/p' include/depthprec/depthprec.h)
 D = $(DESTDIR)
+COMPLETIONS := bash-completion/completions/depthprec zsh/site-functions/_depthprec fish/vendor_completions.d/depthprec.fish
 
 install: all
 	$(Q)$(INSTALL) -d $(D)$(bindir) $(D)$(libdir)/pkgconfig $(D)$(includedir)/depthprec
@@ -235,12 +236,15 @@ install: all
 	    -e 's|@version@|$(VERSION)|' src/depthprec.pc.in >$(D)$(libdir)/pkgconfig/depthprec.pc
 	$(Q)$(INSTALL_DATA) $(HEADERS) $(D)$(includedir)/depthprec
 	$(Q)for m in $(MAN); do s=$(D)$(mandir)/man$${m##*.}; $(INSTALL) -d $$s && $(INSTALL_DATA) $$m $$s || exit 1; done
+	$(Q)for f in $(COMPLETIONS); do $(INSTALL) -d $(D)$(datarootdir)/$${f%/*} && \
+	    $(B)/depthprec completions $$(expr $$f : '\([a-z]*\)') >$(D)$(datarootdir)/$$f || exit 1; done
 
 uninstall:
 	$(Q)rm -f $(D)$(bindir)/depthprec $(D)$(libdir)/libdepthprec.so.0 $(D)$(libdir)/libdepthprec.so \
 	    $(D)$(libdir)/libdepthprec.a $(D)$(libdir)/pkgconfig/depthprec.pc
 	$(Q)for m in $(notdir $(MAN)); do rm -f $(D)$(mandir)/man$${m##*.}/$$m; done
 	$(Q)rm -rf $(D)$(includedir)/depthprec
+	$(Q)rm -f $(addprefix $(D)$(datarootdir)/,$(COMPLETIONS))
 
 installcheck:
 	$(Q)$(D)$(bindir)/depthprec --version
@@ -273,7 +277,7 @@ help:
 ## make check-full  the exhaustive tests too
 ## make asan        the tests under the address and undefined-behaviour sanitizers
 ## make fuzz        each fuzz target for FUZZ_SECONDS=20 (needs clang)
-## make mutants     whether the tests notice changes of the source, those of tests/mutants.txt: over an hour (ROOM=, ONLY=)
+## make mutants     whether the tests notice the changes of the source in tests/mutants.txt: an hour (ROOM=, ONLY=)
 ## make coverage    the lines that the tests reach, per file
 ## make lint        format, warnings of gcc and clang, cppcheck, manual pages, spelling, scripts, licences
 ## make plots       draw the gallery in plots/ again

@@ -88,7 +88,7 @@ static void run_stream(const way *w, uint32_t row) {
 
 static void run_decode(const way *w, uint32_t row) {
     const decode_row *r = w->method;
-    r->run(&camera.setup, window + (size_t)row * WIDTH, plane[0] + (size_t)row * WIDTH, WIDTH);
+    decode_run(r, &camera.setup, window + (size_t)row * WIDTH, plane[0] + (size_t)row * WIDTH, WIDTH);
 }
 
 static void run_batch(const way *w, uint32_t row) {

@@ -70,7 +70,13 @@ table() {
         grep -q ',16611104,' "$scratch/table"
 }
 figure() { "$stage/usr/bin/depthprec" plot error -o "$scratch/error.svg" && grep -q '</svg>' "$scratch/error.svg"; }
+completions() {
+    share=$stage/usr/share
+    grep -q 'complete .* depthprec' "$share/bash-completion/completions/depthprec" && grep -q '^#compdef depthprec' \
+        "$share/zsh/site-functions/_depthprec" && grep -q -e '-l near' "$share/fish/vendor_completions.d/depthprec.fish"
+}
 check "the manual pages are installed" pages
+check "the completions are installed" completions
 check "the installed program prints the right code" table
 check "and draws" figure
 

@@ -1,6 +1,7 @@
 #!/bin/sh
 # SPDX-License-Identifier: GPL-3.0-or-later
-# The rules of the house: an include goes down only, one file knows cairo, and the core needs nothing but libm.
+# The rules of the house: an include goes down only, one file knows cairo, the core needs nothing but libm, no two files
+# need each other, no line and no function is too long.
 . tests/tap.sh
 
 # folder | the layers that its files may include
@@ -74,4 +75,52 @@ global() {
     awk 'NF == 3 && $3 !~ /^dp_/ { print $3 }' "$scratch/symbols"
 }
 check "every global name of the library begins with dp_" empty global
+
+# ---- Files -------------------------------------------------------------------------------------------------------
+
+# Who needs whom, as the linker sees it: "user used", from what each object defines and what it leaves open.
+uses() {
+    for source in src/*/*.c; do echo "$B/obj/${source%.c}.o"; done >"$scratch/objects"
+    xargs nm -A -g --defined-only <"$scratch/objects" >"$scratch/defined" || return
+    xargs nm -A -u <"$scratch/objects" >"$scratch/open" || return
+    awk '{ split($1, file, ":"); sub(/^.*\/obj\/src\//, "", file[1]); sub(/\.o$/, "", file[1]) }
+        NR == FNR { home[$NF] = file[1]; next }
+        ($NF in home) && home[$NF] != file[1] { print file[1], home[$NF] }' "$scratch/defined" "$scratch/open"
+}
+circles() {
+    uses >"$scratch/uses" && grep -q '^cli/main ' "$scratch/uses" || return
+    tsort "$scratch/uses" 2>"$scratch/circles" >"$scratch/order"
+    cat "$scratch/circles"
+}
+header_circles() {
+    find src include -name '*.h' -exec grep -Hn '^#include "' {} + >"$scratch/headers" || return
+    sed -E 's,^(src|include)/([^:]*):.*"(.*)".*,\2 \3,' "$scratch/headers" >"$scratch/uses"
+    tsort "$scratch/uses" 2>"$scratch/circles" >"$scratch/order"
+    cat "$scratch/circles"
+}
+check "no circle between files" empty circles
+check "no circle between headers" empty header_circles
+
+# ---- Lines and functions -----------------------------------------------------------------------------------------
+
+long_lines() { lines -rnE --include='*.[ch]' '^.{121,}' src include tests; }
+
+# A function begins with a line that starts in the first column and ends with "{", maybe some lines on. Its reason to be
+# long stands in the comment right above it, behind the word "Long:".
+long_functions() {
+    find src include tests -name '*.[ch]' >"$scratch/files" && grep -q '^src/cli/main.c$' "$scratch/files" || return
+    xargs awk '
+        FNR == 1 { inside = reason = 0 }
+        !inside && /^[a-z].*[({,]$/ && !/=/ { start = FNR; name = $0 }
+        !inside && start && /\) \{$/ { inside = 1; body = FNR }
+        !inside && /Long: / { reason = 1 }
+        !inside && /^$/ { reason = 0 }
+        /^}/ {
+            if (inside && FNR - body - 1 > 60 && !reason)
+                print FILENAME ":" start ": " FNR - body - 1 " lines: " name
+            inside = start = reason = 0
+        }' <"$scratch/files"
+}
+check "no line is longer than 120 columns" empty long_lines
+check "no function is longer than 60 lines without a reason beside it" empty long_functions
 finish

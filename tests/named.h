@@ -11,7 +11,10 @@
 #include "plot/figure.h"
 #include "texture/decode.h"
 #include "texture/effect.h"
+#include "texture/normal.h"
+#include "texture/pack.h"
 #include "texture/position.h"
+#include "texture/scene.h"
 
 #define BY_NAME(type, find, get)                                                                                       \
     static inline const type *find(const char *name) {                                                                 \
@@ -28,5 +31,8 @@ BY_NAME(figure_row, figure_find, figure_get)
 BY_NAME(decode_row, decode_find, decode_get)
 BY_NAME(effect_row, effect_find, effect_get)
 BY_NAME(position_row, position_find, position_get)
+BY_NAME(normal_row, normal_find, normal_get)
+BY_NAME(pack_row, pack_find, pack_get)
+BY_NAME(scene_row, scene_find, scene_get)
 
 #endif

@@ -14,7 +14,8 @@ static double toy_bound(const dp_setup *setup, double z) {
     return 3e-5 * z * z / setup->spec.znear + 1e-6 * z;
 }
 
-/* Two arrays: the keys, and the least key from each depth on. */
+/* Two arrays: the keys, and the least key from each depth on. Long: the whole census in one place, to be read at once.
+ */
 static void plain_census(const census_request *r, census_result *result) {
     dp_pipeline p;
     assert_int_equal(dp_pipeline_init(&p, r->setup), DP_OK);

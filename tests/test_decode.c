@@ -159,7 +159,7 @@ static void rows_keep_their_bounds(void **state) {
             const decode_row *row = decode_get(rows);
             if (!decode_applies(row, &setup))
                 continue;
-            row->run(&setup, d, out, PIXELS);
+            decode_run(row, &setup, d, out, PIXELS);
             for (int i = 0; i < PIXELS; i++) {
                 const double want = decode_exact(&setup, row->quantity, (double)d[i]), got = (double)out[i];
                 if (fabs(want) > (double)FLT_MAX * 0.99 || fabs(want) < 1e-30) {
@@ -202,7 +202,7 @@ static void check_hard(const vector_row *row, void *context) {
     assert_int_equal(dp_setup_init(&setup, &spec), DP_OK);
     mpq_init(want);
     (setup.curve == DP_CURVE_LOG ? logarithmic : rational)(&spec, (double)d, decoding->quantity, want);
-    decoding->run(&setup, &d, &got, 1);
+    decode_run(decoding, &setup, &d, &got, 1);
     const double off = oracle_relative((double)got, want), bound = decode_bound(decoding, &setup, (double)d);
     TALLY(t, off <= bound, "%s, line %d: %g above %g", decoding->name, row->line, off, bound);
     TALLY(t, off >= 0.97 * vector_number(row, 7) * bound, "%s, line %d: %g is %g of %g", decoding->name, row->line, off,
@@ -307,11 +307,11 @@ static void loops_have_no_edges(void **state) {
                 if (!decode_applies(decode_get(k), &setup))
                     continue;
                 for (int i = 0; i < MOST; i++)
-                    decode_get(k)->run(&setup, &d[i], &one[i], 1);
+                    decode_run(decode_get(k), &setup, &d[i], &one[i], 1);
                 assert_true(isnan(one[7]));
                 for (size_t count = 0; count <= MOST; count++) {
                     memcpy(all, d, sizeof d);
-                    decode_get(k)->run(&setup, all, all, count);
+                    decode_run(decode_get(k), &setup, all, all, count);
                     assert_memory_equal(all, one, count * sizeof *all);
                     assert_memory_equal(all + count, d + count, (MOST - count) * sizeof *all);
                 }

@@ -8,6 +8,7 @@
 
 #include "drawn.h"
 #include "drawn_truth.h"
+#include "named.h"
 #include "plot/figure.h"
 #include "support.h"
 #include "texture/normal_measure.h"

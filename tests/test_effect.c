@@ -205,9 +205,9 @@ static void parameters_of(const effect_row *row, double *p) {
         const char *name;
         double value;
     } given[] = {{"rise", RISE}, {"focal", FOCAL}, {"start", START}, {"end", END}};
-    effect_defaults(row, p);
+    parameter_defaults(row->parameters, p);
     for (size_t i = 0; i < sizeof given / sizeof given[0]; i++) {
-        const int index = effect_parameter_find(row, given[i].name);
+        const int index = parameter_find(row->parameters, given[i].name);
         if (index >= 0)
             p[index] = given[i].value;
     }
@@ -240,8 +240,8 @@ static void test_by_hand(void **state) {
         const cell k = cell_of(&c, dp_code(&setup, z));
         const hand *h = &hands[rng_below(&r, HAND_COUNT)];
         const effect_row *row = effect_find(h->name);
-        const effect_parameter *wanted = &row->parameters[row->wanted];
-        double p[EFFECT_PARAMETERS_MAX];
+        const texture_parameter *wanted = &row->parameters[row->wanted];
+        double p[TEXTURE_PARAMETERS];
         parameters_of(row, p);
         const double levels = rng_log(&r, 0.01, 100);
         const long double usable = h->usable(&c, k, (long double)levels / 255);
@@ -281,8 +281,8 @@ static void test_sharp(void **state) {
         const cell k = cell_of(&c, dp_code(&setup, z));
         const hand *h = &hands[rng_below(&r, HAND_COUNT)];
         const effect_row *row = effect_find(h->name);
-        const effect_parameter *wanted = &row->parameters[row->wanted];
-        double p[EFFECT_PARAMETERS_MAX];
+        const texture_parameter *wanted = &row->parameters[row->wanted];
+        double p[TEXTURE_PARAMETERS];
         parameters_of(row, p);
         const double levels = rng_log(&r, 0.01, 100);
         const double usable = effect_usable(row, &setup, p, z, levels);
@@ -321,7 +321,7 @@ static void test_outputs(void **state) {
         for (size_t i = 0; i < count(); i++) {
             const effect_row *row = effect_get(i);
             const cell k = cell_of(&c, code);
-            double p[EFFECT_PARAMETERS_MAX], worst = 0;
+            double p[TEXTURE_PARAMETERS], worst = 0;
             if (row->kind == EFFECT_STEP)
                 continue;
             parameters_of(row, p);
@@ -361,7 +361,7 @@ static void test_edge(void **state) {
         const double z = rng_log(&r, setup.spec.znear, setup.spec.zfar / 1.5);
         const cell k = cell_of(&c, dp_code(&setup, z));
         const double slope = rng_below(&r, 8) == 0 ? 0 : (double)(k.hi - k.lo) * rng_log(&r, 0.05, 20);
-        double p[EFFECT_PARAMETERS_MAX] = {0, slope};
+        double p[TEXTURE_PARAMETERS] = {0, slope};
         if (reach(k) < 1e-9L * k.hi || k.hi + (long double)slope > c.f) {
             t.skipped++;
             continue;
@@ -411,48 +411,48 @@ static void test_rows(void **state) {
         assert_true(row->note[0] != '\0' && row->source[0] != '\0');
         int parameters = 0;
         for (; row->parameters[parameters].name != NULL; parameters++) {
-            const effect_parameter *p = &row->parameters[parameters];
+            const texture_parameter *p = &row->parameters[parameters];
             assert_true(p->lo <= p->value && p->value <= p->hi && p->unit[0] != '\0' && p->note[0] != '\0');
-            assert_int_equal(effect_parameter_find(row, p->name), parameters);
+            assert_int_equal(parameter_find(row->parameters, p->name), parameters);
         }
-        assert_true(parameters >= 1 && parameters <= EFFECT_PARAMETERS_MAX && row->wanted < parameters);
+        assert_true(parameters >= 1 && parameters <= TEXTURE_PARAMETERS && row->wanted < parameters);
         /* What needs z/far says so. */
         const dp_setup infinite = setup_of(0.1, INFINITY, DP_MAPPING_REVERSED, "fp32");
-        double p[EFFECT_PARAMETERS_MAX];
-        effect_defaults(row, p);
+        double p[TEXTURE_PARAMETERS];
+        parameter_defaults(row->parameters, p);
         assert_true(effect_applies(row, &infinite) != row->eye01);
         assert_true((isnan(effect_error(row, &infinite, p, 10)) != 0) == row->eye01);
         assert_true(!row->eye01 || isnan(effect_usable(row, &infinite, p, 10, 1)));
     }
     assert_null(effect_find("bloom"));
     assert_null(effect_get(count()));
-    assert_int_equal(effect_parameter_find(effect_get(0), "nothing"), -1);
+    assert_int_equal(parameter_find(effect_get(0)->parameters, "nothing"), -1);
 }
 
 static void test_limits(void **state) {
     const dp_setup infinite = setup_of(0.1, INFINITY, DP_MAPPING_D3D, "unorm24");
     const dp_setup finite = setup_of(0.1, 1000, DP_MAPPING_D3D, "unorm16");
     dp_setup pipeline = finite;
-    double p[EFFECT_PARAMETERS_MAX];
+    double p[TEXTURE_PARAMETERS];
     (void)state;
     /* The last cell of an infinite far plane has no end: no distance is enough, but 1/z stays where it is. */
-    effect_defaults(effect_find("intersection"), p);
+    parameter_defaults(effect_find("intersection")->parameters, p);
     assert_true(effect_error(effect_find("intersection"), &infinite, p, 1e9) == 255);
     assert_true(isnan(effect_usable(effect_find("intersection"), &infinite, p, 1e9, 1)));
-    effect_defaults(effect_find("force-field"), p);
+    parameter_defaults(effect_find("force-field")->parameters, p);
     assert_true(isnan(effect_usable(effect_find("force-field"), &infinite, p, 1e9, 1)));
-    effect_defaults(effect_find("motion-blur"), p);
+    parameter_defaults(effect_find("motion-blur")->parameters, p);
     assert_true(effect_error(effect_find("motion-blur"), &infinite, p, 1e9) < 1e-4);
     /* Level ground: the height does not depend on the depth. */
     const effect_row *water = effect_find("water-line");
-    effect_defaults(water, p);
+    parameter_defaults(water->parameters, p);
     assert_true(effect_error(water, &finite, p, 10) == 255);
-    p[effect_parameter_find(water, "rise")] = 0;
+    p[parameter_find(water->parameters, "rise")] = 0;
     assert_true(effect_error(water, &finite, p, 10) == 0 && effect_usable(water, &finite, p, 10, 1) == 0);
     assert_true(effect_error(water, &infinite, p, 1e9) == 0);
     /* Where fog has saturated no depth shows. */
     const effect_row *fog = effect_find("fog");
-    effect_defaults(fog, p);
+    parameter_defaults(fog->parameters, p);
     p[0] = 100;
     assert_true(effect_error(fog, &finite, p, 500) == 0);
     assert_true(effect_usable(fog, &finite, p, 500, 1) < 1);
@@ -461,11 +461,11 @@ static void test_limits(void **state) {
     dp_setup ortho;
     spec.ortho = 1;
     assert_int_equal(dp_setup_init(&ortho, &spec), DP_OK);
-    effect_defaults(effect_find("motion-blur"), p);
+    parameter_defaults(effect_find("motion-blur")->parameters, p);
     assert_true(effect_error(effect_find("motion-blur"), &ortho, p, 10) == 0);
     /* No cells, no error. */
     pipeline.spec.model = DP_MODEL_FP32;
-    effect_defaults(fog, p);
+    parameter_defaults(fog->parameters, p);
     assert_true(isnan(effect_error(fog, &pipeline, p, 10)) && isnan(effect_usable(fog, &pipeline, p, 10, 1)));
 }
 

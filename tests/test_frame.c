@@ -17,7 +17,7 @@ enum { WIDTH = 2100, HEIGHT = 260, PIXELS = WIDTH * HEIGHT };
 
 typedef struct stage {
     texture_camera camera;
-    double parameters[SCENE_PARAMETERS];
+    double parameters[TEXTURE_PARAMETERS];
     frame frame;
 } stage;
 
@@ -40,7 +40,7 @@ static void stage_set(stage *s, const char *scene, const char *format, const cha
     view.origin[0] = 100;
     view.origin[2] = -7;
     assert_null(camera_init(&s->camera, &setup, &view));
-    scene_defaults(scene_find(scene), s->parameters);
+    parameter_defaults(scene_find(scene)->parameters, s->parameters);
     s->frame = (frame){
         .camera = &s->camera, .scene = scene_find(scene), .parameters = s->parameters, .sky = FRAME_SKY, .threads = 1};
 }
@@ -74,11 +74,11 @@ static float *make(const frame *f, const frame_product *p, bool bottom_up) {
 
 /* One of each. */
 enum { PRODUCTS = 10 };
-static double settings[EFFECT_PARAMETERS_MAX];
+static double settings[TEXTURE_PARAMETERS];
 
 static size_t products(frame_product out[PRODUCTS]) {
     const effect_row *effect = effect_find("intersection");
-    effect_defaults(effect, settings);
+    parameter_defaults(effect->parameters, settings);
     const frame_product all[] = {
         {.kind = FRAME_EYE},
         {.kind = FRAME_EYE, .radial = true},
@@ -130,6 +130,7 @@ static bool same_bits(float a, float b) {
     return memcmp(&a, &b, sizeof a) == 0 || (isnan(a) && isnan(b));
 }
 
+/* Long: every product of a pixel, and how each is made by hand. */
 static void frames_equal_plain_pixels(void **state) {
     static const struct {
         const char *scene, *format, *mapping;
@@ -394,8 +395,8 @@ static void an_edge_on_either_diagonal_is_one(void **state) {
                  {{{10, 10}, {60, 10}}, 1}, {{{60, 10}, {10, 10}}, 1}, {{{10, 10}, {60, 60}}, 1}};
     (void)state;
     const effect_row *edge = effect_find("edge");
-    double at[EFFECT_PARAMETERS_MAX];
-    effect_defaults(edge, at);
+    double at[TEXTURE_PARAMETERS];
+    parameter_defaults(edge->parameters, at);
     at[0] = 0.03; /* of far, 1000: 30 */
     for (size_t k = 0; k < sizeof quads / sizeof quads[0]; k++) {
         stage s;

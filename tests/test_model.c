@@ -261,6 +261,35 @@ static void parts_add_up(void **state) {
 }
 
 /* Nothing but the divide rounds in reversed infinite fp32, so there the term is all that an error adds. */
+/* What an unset variable would hold afterwards. */
+__attribute__((noinline)) static void spoil_stack(void) {
+    volatile double below[4096];
+    for (size_t i = 0; i < sizeof below / sizeof below[0]; i++)
+        below[i] = NAN;
+}
+
+/* The shares go on evenly where a binade behind z bounds the separation that the demands alone leave unbounded. */
+static void parts_go_on_where_nothing_bounds(void **state) {
+    (void)state;
+    dp_setup setup;
+    dp_spec spec = dp_spec_default();
+    dp_format format[2];
+    assert_int_equal(dp_format_parse("fp32", format), 1);
+    spec.format = format[0];
+    spec.model = DP_MODEL_FP32;
+    spec.mapping = DP_MAPPING_D3D;
+    spec.znear = 0x1.c1e6c0e932ed4p+1;
+    spec.zfar = 0x1.1e7b43acbf0dep+24;
+    assert_int_equal(dp_setup_init(&setup, &spec), DP_OK);
+    for (double z = 8.36e6; z < 8.39e6; z += 1e3) {
+        dp_budget budget;
+        spoil_stack();
+        assert_int_equal(dp_budget_at(&setup, z, NULL, &budget), DP_OK);
+        assert_relative(budget.window, 3e-7, 0.35);
+        assert_relative(budget.cause[DP_CAUSE_PROJECTION] / budget.separation, 0.77, 0.1);
+    }
+}
+
 static void interpolation_adds_itself(void **state) {
     (void)state;
     const dp_setup setup = make("fp32", DP_MAPPING_REVERSED, 0.1, INFINITY);
@@ -323,6 +352,7 @@ int main(void) {
         cmocka_unit_test(refusals),
         cmocka_unit_test(blocks_come_to_the_same),
         cmocka_unit_test(parts_add_up),
+        cmocka_unit_test(parts_go_on_where_nothing_bounds),
         cmocka_unit_test(interpolation_adds_itself),
         cmocka_unit_test(no_terms_are_zero_terms),
         cmocka_unit_test(causes_have_names),

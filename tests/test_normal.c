@@ -6,6 +6,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "named.h"
 #include "views.h"
 
 static const double PI = 3.14159265358979323846;

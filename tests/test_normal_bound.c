@@ -5,12 +5,13 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "named.h"
 #include "texture/normal_measure.h"
 #include "views.h"
 
 static const double PI = 3.14159265358979323846;
 
-/* The bound: never passed on planes of any tilt in any format, and reached by some. */
+/* The bound: never passed on planes of any tilt in any format, and reached by some. Long: cases, loops and verdict. */
 static void planes_are_within_the_bound(void **state) {
     (void)state;
     static const char *const formats[] = {"unorm16", "unorm24", "fp16", "fp32"};

@@ -134,32 +134,44 @@ static void reading(void **unused) {
     assert_true(number_parse_count("007", 10, &count) && count == 7);
 }
 
-/* What is printed of a bound lies on its safe side, by less than a unit of its last digit, below a power of ten by one
- * of the digits above it; and it is the number itself where so many digits hold it. */
-static void bounds_outward(void **unused) {
+/* Digits of a value that is rounded up, or down: never on its other side, and no further off than a unit. */
+static void rounded(void **unused) {
     (void)unused;
-    static const double values[] = {0.1,      1.0 / 3, 2.0 / 3,    9.99999949, 9.9999995,
-                                    123456.5, 1e-7,    0.99999951, 4.5e300,    1e22};
-    for (size_t i = 0; i < 10 * sizeof values / sizeof values[0]; i++) {
-        const double value = values[i / 10] * (1 + 0.013 * (double)(i % 10));
-        const double unit = pow(10, floor(log10(value)) - 5);
-        const double up = strtod(number_up(value, 6).text, NULL), down = strtod(number_down(value, 6).text, NULL);
-        assert_true(up >= value && up <= value + 1.01 * unit);
-        assert_true(down <= value && down >= value - 10.01 * unit);
-        assert_true(up > down || up == value);
+    uint64_t state = 1965;
+    for (int i = 0; i < 100000; i++) {
+        const double value = ldexp((double)(next(&state) >> 11), (int)(next(&state) % 200) - 150);
+        char nearest[64];
+        snprintf(nearest, sizeof nearest, "%.4g", value); /* 9.9996 is 10, whose unit is the larger */
+        const double unit = pow(10.0, floor(log10(strtod(nearest, NULL))) - 3);
+        const double up = strtod(number_up(value, 4).text, NULL), down = strtod(number_down(value, 4).text, NULL);
+        assert_true(up >= value && up <= value + 1.001 * unit);
+        assert_true(down <= value && down >= value - 1.001 * unit);
+        assert_true(strlen(number_up(value, 4).text) <= strlen("1.234e-123"));
     }
-    assert_string_equal(number_up(0.25, 6).text, "0.25");
-    assert_string_equal(number_up(1.0 / 3, 3).text, "0.334");
-    assert_string_equal(number_down(2.0 / 3, 3).text, "0.666");
-    assert_string_equal(number_up(9.999999, 3).text, "10");
-    assert_string_equal(number_up(INFINITY, 3).text, "inf");
-    assert_string_equal(number_up(NAN, 3).text, "-");
+    static const struct {
+        double value;
+        const char *up, *down, *nearest;
+    } cases[] = {{1.2301, "1.24", "1.23", "1.23"},
+                 {1.2399, "1.24", "1.23", "1.24"},
+                 {9.999, "10", "9.9", "10"},
+                 {1.25, "1.25", "1.25", "1.25"},
+                 {0.0, "0", "0", "0"},
+                 {-0.0, "0", "0", "0"},
+                 {-1.2399, "-1.24", "-1.24", "-1.24"},
+                 {INFINITY, "inf", "inf", "inf"},
+                 {-INFINITY, "-inf", "-inf", "-inf"},
+                 {NAN, "-", "-", "-"}};
+    for (size_t i = 0; i < sizeof cases / sizeof cases[0]; i++) {
+        assert_string_equal(number_up(cases[i].value, 3).text, cases[i].up);
+        assert_string_equal(number_down(cases[i].value, 3).text, cases[i].down);
+        assert_string_equal(number_of(cases[i].value, 3).text, cases[i].nearest);
+    }
 }
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(bounds_outward), cmocka_unit_test(reading), cmocka_unit_test(random_bits),
-        cmocka_unit_test(short_decimals), cmocka_unit_test(edges),
+        cmocka_unit_test(reading), cmocka_unit_test(random_bits), cmocka_unit_test(short_decimals),
+        cmocka_unit_test(edges),   cmocka_unit_test(rounded),
     };
     return cmocka_run_group_tests_name("number", tests, NULL, NULL);
 }

@@ -187,6 +187,7 @@ static uint64_t word_at(const options *o, size_t field, size_t size) {
     return size == sizeof narrow ? narrow : wide;
 }
 
+/* Long: its rows are written out, by hand. */
 static void test_words(void **state) {
     static const struct {
         const char *command;

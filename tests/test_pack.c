@@ -6,6 +6,7 @@
 #include <ctype.h>
 #include <string.h>
 
+#include "named.h"
 #include "support.h"
 #include "texture/pack.h"
 
@@ -17,7 +18,7 @@ static size_t count(void) {
 }
 
 /* Measured once: a test program asks often. */
-static const pack_error *measured(const char *name) {
+static const pack_error *error_of(const char *name) {
     static pack_error errors[64];
     static bool done[64];
     for (size_t i = 0; i < count() && i < 64; i++)
@@ -63,7 +64,7 @@ static void test_claims(void **state) {
     (void)state;
     for (size_t i = 0; i < count(); i++) {
         const pack_row *row = pack_get(i);
-        const pack_error *e = measured(row->name);
+        const pack_error *e = error_of(row->name);
         if (row->kind != PACK_NORMAL) {
             claim(&t, row->name, "mean of depth", e->depth.mean, row->depth.mean);
             claim(&t, row->name, "maximum of depth", e->depth.max, row->depth.max);
@@ -177,7 +178,7 @@ static void test_rg_binary32(void **state) {
     (void)state;
     for (size_t k = 0; k < 2; k++) {
         const pack_row *row = pack_find(names[k]);
-        const pack_error *e = measured(names[k]);
+        const pack_error *e = error_of(names[k]);
         const uint64_t cases = test_cases(20000, 2000000, 2000000);
         double sum = 0, unused = 0;
         for (uint64_t i = 0; i < cases; i++) {
@@ -203,7 +204,7 @@ static void test_rg_binary32_all(void **state) {
         skip();
     for (size_t k = 0; k < 2; k++) {
         const pack_row *row = pack_find(names[k]);
-        const pack_error *e = measured(names[k]);
+        const pack_error *e = error_of(names[k]);
         double mean = 0, max = 0;
         for (uint32_t exponent = 0; exponent < 127; exponent++) {
             const double weight = exponent == 0 ? 0x1p-126 : ldexp(1, (int)exponent - 127);
@@ -234,21 +235,21 @@ static void test_rg_known(void **state) {
             assert_true(decoded(pack_get(i), encoded(pack_get(i), 0)) == 0);
         }
     /* Quarter and half a step; truncated, half and a whole one, all of it towards 0. */
-    const pack_error *e = measured("rg-depth");
+    const pack_error *e = error_of("rg-depth");
     assert_relative(e->depth.mean, step / 4, 1e-9);
     assert_relative(e->depth.max, step / 2, 1e-9);
     assert_scene(e->depth_bias, 0, 1e-9 * step);
     assert_int_equal(e->depth_codes, 255 * 256);
-    e = measured("rg-depth-zero");
+    e = error_of("rg-depth-zero");
     assert_relative(e->depth.mean, step / 2, 1e-9);
     assert_relative(e->depth.max, step, 1e-9);
     assert_relative(e->depth_bias, -step / 2, 1e-9);
     assert_int_equal(e->depth_codes, 255 * 255);
     /* A coarse code too few: 1/255, and what truncation takes of the fine one. */
-    e = measured("rg-depth-fp32-zero");
+    e = error_of("rg-depth-fp32-zero");
     assert_relative(e->depth.max, 1 / 255.0 + step, 1e-3);
     assert_true(e->depth_bias < -60 * step);
-    assert_true(measured("rg-depth-fp32")->depth.max < 0.504 * step);
+    assert_true(error_of("rg-depth-fp32")->depth.max < 0.504 * step);
 }
 
 /* Normal in xy, depth in zw. */
@@ -270,8 +271,8 @@ static void test_both(void **state) {
         depth->decode(depth, last, want + 3);
         assert_memory_equal(out, want, sizeof out);
     }
-    assert_true(measured("depth-normal")->normal.max == measured("stereo-8")->normal.max);
-    assert_true(measured("depth-normal")->depth.max == measured("rg-depth")->depth.max);
+    assert_true(error_of("depth-normal")->normal.max == error_of("stereo-8")->normal.max);
+    assert_true(error_of("depth-normal")->depth.max == error_of("rg-depth")->depth.max);
 }
 
 int main(void) {

@@ -5,6 +5,7 @@
  */
 #include <string.h>
 
+#include "named.h"
 #include "support.h"
 #include "texture/pack.h"
 
@@ -18,7 +19,7 @@ static size_t count(void) {
 }
 
 /* Measured once: a test program asks often. */
-static const pack_error *measured(const char *name) {
+static const pack_error *error_of(const char *name) {
     static pack_error errors[64];
     static bool done[64];
     for (size_t i = 0; i < count() && i < 64; i++)
@@ -119,7 +120,7 @@ static void test_normals_sampled(void **state) {
         uint64_t differ = 0;
         if (row->kind == PACK_DEPTH)
             continue;
-        const pack_error *e = measured(row->name);
+        const pack_error *e = error_of(row->name);
         for (uint64_t k = 0; k < cases; k++) {
             const vec n = any_normal(&r, row);
             const double in[PACK_INPUTS_MAX] = {(double)n.x, (double)n.y, (double)n.z, 0};
@@ -157,7 +158,7 @@ static void test_normals_worst(void **state) {
         uint32_t codes[3];
         if (row->kind == PACK_DEPTH)
             continue;
-        const pack_error *e = measured(row->name);
+        const pack_error *e = error_of(row->name);
         const vec at = {e->normal_at[0], e->normal_at[1], e->normal_at[2]};
         TALLY(&t, fabsl(own_error(row, at, codes) - (long double)e->normal.max) <= 1e-6L * (long double)e->normal.max,
               "%s: %.12Lg at the worst place, %.12g", row->name, own_error(row, at, codes), e->normal.max);
@@ -220,9 +221,9 @@ static void test_means_by_area(void **state) {
         const pack_row *row = pack_find(rows[i].name);
         const int places = (int)test_cases(4, 4, 16) * rows[i].codes;
         const double mean = (double)((4 * mean_by_area(row, 2 * places) - mean_by_area(row, places)) / 3);
-        print_message("# %s: mean %.7g by area, %.7g +- %.2g\n", row->name, mean, measured(row->name)->normal.mean,
-                      measured(row->name)->normal_spread);
-        assert_relative(measured(row->name)->normal.mean, mean, 1e-3);
+        print_message("# %s: mean %.7g by area, %.7g +- %.2g\n", row->name, mean, error_of(row->name)->normal.mean,
+                      error_of(row->name)->normal_spread);
+        assert_relative(error_of(row->name)->normal.mean, mean, 1e-3);
     }
 }
 
@@ -233,18 +234,18 @@ static void test_published(void **state) {
     } rows[] = {{"oct-8", 0.337, 0.944}, {"oct-10", 0.0838, 0.235}, {"oct-12", 0.0209, 0.0587}};
     (void)state;
     for (size_t i = 0; i < 3; i++) {
-        const pack_error *e = measured(rows[i].name);
+        const pack_error *e = error_of(rows[i].name);
         assert_relative(e->normal.mean, rows[i].mean, 2e-3);
         assert_true(e->normal.max > rows[i].max && e->normal.max < 1.02 * rows[i].max);
     }
-    const pack_error *e = measured("stereo-8");
+    const pack_error *e = error_of("stereo-8");
     assert_relative(e->normal.mean, 0.459, 2e-3);
     assert_relative(e->normal.max, (double)(2 * atanl(sqrtl(2) * 1.7777L / 255) * 180 / PIL), 1e-12);
     assert_true(fabs(e->normal.max - 1.130) < 5e-4);
     assert_true(e->normal_at[2] > 1 - 1e-12);
     /* A code is half a step off at most, three times at right angles: the limit of small steps, less its bending. */
-    assert_relative(measured("xyz-12")->normal.max, sqrt(3.0) / 2 / 2047 * 180 / (double)PIL, 1e-3);
-    assert_int_equal(measured("oct-8")->codes, 255 * 255);
+    assert_relative(error_of("xyz-12")->normal.max, sqrt(3.0) / 2 / 2047 * 180 / (double)PIL, 1e-3);
+    assert_int_equal(error_of("oct-8")->codes, 255 * 255);
 }
 
 int main(void) {

@@ -111,25 +111,28 @@ static fruit nothing = {.mass = NAN, .guarantee = NAN, .share = NAN, .digits = 3
 static fruit endless = {
     .mass = INFINITY, .guarantee = INFINITY, .share = -INFINITY, .digits = 3, .word = "", .names = ""};
 
-/* What a report of these fruits writes; freed by the next call. */
-static const char *written(output_form form, unsigned when, size_t count) {
+/* What a report writes; lost with the next call. */
+static const char *written_by(const report_spec *spec, output_form form) {
     static char text[4096];
-    fruit items[3] = {apple, nothing, endless};
-    basket b = {.owner = "Eve, A", .seal = "wax", .items = items, .count = count, .baskets = form == FORM_TEXT ? 2 : 1};
-    const report_spec spec = {"test", root, &b, .when = when, .label = 8};
     char path[] = "/tmp/depthprec-report-XXXXXX";
     static output out;
     const int fd = mkstemp(path);
     assert_true(fd >= 0);
     fclose(fdopen(fd, "w"));
     assert_int_equal(output_open(&out, path), EXIT_FINE);
-    report_write(&spec, &out, form);
+    report_write(spec, &out, form);
     assert_int_equal(output_close(&out), EXIT_FINE);
     FILE *file = fopen(path, "r");
     text[fread(text, 1, sizeof text - 1, file)] = '\0';
     fclose(file);
     remove(path);
     return text;
+}
+
+static const char *written(output_form form, unsigned when, size_t count) {
+    fruit items[3] = {apple, nothing, endless};
+    basket b = {.owner = "Eve, A", .seal = "wax", .items = items, .count = count, .baskets = form == FORM_TEXT ? 2 : 1};
+    return written_by(&(report_spec){"test", root, &b, .when = when, .label = 8}, form);
 }
 
 static json_t *fruit_of(json_t *all, size_t i) {
@@ -255,6 +258,71 @@ static void kinds_in_text(void **unused) {
     assert_string_equal(written(FORM_TEXT, 0, 3), want);
 }
 
+/* ---- Values that are pointed to, and tables with words around them ------------------------------------------------
+ */
+
+typedef struct sight {
+    const double *seen;
+    const bool *certain;
+} sight;
+
+typedef struct sights {
+    const sight *items;
+    size_t count;
+    sight at_hand;
+} sights;
+
+static void *next_sight(void *of, size_t i) {
+    sights *s = of;
+    if (i == s->count)
+        return NULL;
+    s->at_hand = s->items[i];
+    return &s->at_hand;
+}
+
+static void say_begin(page *p, void *item) {
+    page_line(p, "%d seen", (int)((sights *)item)->count);
+}
+
+static void say_end(page *p, void *item) {
+    page_line(p, "no more than %d", (int)((sights *)item)->count);
+}
+
+static const column sight_columns[] = {{FIELD(sight, seen, "seen", ""), SHOWN("seen", -4, 3)},
+                                       {FIELD(sight, certain, "certain", ""), SHOWN("certain", 8, 0)},
+                                       {FIELD(sight, seen, "if_seen", ""), .optional = true},
+                                       {FIELD(sight, certain, "if_certain", ""), .optional = true},
+                                       {.kind = COLUMN_END}};
+
+static const column sights_columns[] = {
+    {LIST("sights", sight_columns, next_sight), .indent = 3, .head = say_begin, .notes = say_end},
+    {.kind = COLUMN_END}};
+
+/* Null does not exist, NaN behind a pointer has no value: JSON leaves out the one alone. */
+static void pointed(void **unused) {
+    (void)unused;
+    static const double numbers[] = {2.5, NAN};
+    static const bool answers[] = {false, true};
+    const sight items[] = {{&numbers[0], &answers[1]}, {&numbers[1], &answers[0]}, {NULL, NULL}};
+    sights all = {.items = items, .count = 3};
+    report_spec spec = {.command = "test", .columns = sights_columns, .item = &all};
+    const char *json = strchr(written_by(&spec, FORM_JSON), '[');
+    assert_non_null(json);
+    assert_string_equal(json, "[\n{\"seen\":2.5,\"certain\":true,\"if_seen\":2.5,\"if_certain\":true},\n"
+                              "{\"seen\":null,\"certain\":false,\"if_seen\":null,\"if_certain\":false},\n"
+                              "{\"seen\":null,\"certain\":null}]}\n");
+    assert_string_equal(written_by(&spec, FORM_CSV), "seen,certain,if_seen,if_certain\r\n"
+                                                     "2.5,true,2.5,true\r\n,false,,false\r\n,,,\r\n");
+    assert_string_equal(written_by(&spec, FORM_TEXT), "  3 seen\n"
+                                                      "   seen certain\n"
+                                                      "   2.5     true\n"
+                                                      "   -      false\n"
+                                                      "   -          -\n"
+                                                      "  no more than 3\n");
+    all.count = 0;
+    assert_string_equal(written_by(&spec, FORM_TEXT), "  0 seen\n  no more than 0\n");
+}
+
 /* Notes break between words: the last that fits ends in column 96. */
 static void wrapped(void **unused) {
     (void)unused;
@@ -281,6 +349,6 @@ int main(void) {
     const struct CMUnitTest tests[] = {cmocka_unit_test(kinds_in_json),   cmocka_unit_test(any_text_in_json),
                                        cmocka_unit_test(nothing_in_json), cmocka_unit_test(conditions),
                                        cmocka_unit_test(kinds_in_csv),    cmocka_unit_test(kinds_in_text),
-                                       cmocka_unit_test(wrapped)};
+                                       cmocka_unit_test(pointed),         cmocka_unit_test(wrapped)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -114,6 +114,7 @@ static int island_of(const solve_problem *p, const solve_result *s, double x) {
     return -1;
 }
 
+/* Long: three claims on each answer, judged as it is solved for. */
 static void test_tight(void **state) {
     (void)state;
     static solve_result s;

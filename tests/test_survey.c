@@ -6,6 +6,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "named.h"
 #include "oracle.h"
 #include "support.h"
 #include "texture/survey.h"
@@ -14,7 +15,7 @@ enum { WIDTH = 640, HEIGHT = 360, PIXELS = WIDTH * HEIGHT };
 
 typedef struct stage {
     texture_camera camera;
-    double parameters[SCENE_PARAMETERS];
+    double parameters[TEXTURE_PARAMETERS];
     frame frame;
 } stage;
 
@@ -31,12 +32,9 @@ static void stage_set(stage *s, const char *scene, const char *format, const cha
     view.width = WIDTH;
     view.height = HEIGHT;
     assert_null(camera_init(&s->camera, &setup, &view));
-    scene_defaults(scene_find(scene), s->parameters);
-    s->frame = (frame){.camera = &s->camera,
-                       .scene = scene_find(scene),
-                       .parameters = s->parameters,
-                       .sky = FRAME_SKY,
-                       .threads = 2};
+    parameter_defaults(scene_find(scene)->parameters, s->parameters);
+    s->frame = (frame){
+        .camera = &s->camera, .scene = scene_find(scene), .parameters = s->parameters, .sky = FRAME_SKY, .threads = 2};
 }
 
 static const struct {

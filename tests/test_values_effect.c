@@ -50,7 +50,7 @@ static void want_effect_rows(values *v, const effect_row *row, const double *par
 }
 
 static void check_effect(values *v, const char *arguments, const effect_row *row, const line_places *lines) {
-    const effect_parameter *wanted_one = &row->parameters[row->wanted];
+    const texture_parameter *wanted_one = &row->parameters[row->wanted];
     const char *direction = row->smallest ? "from" : "up to";
     char head[128], label[128];
     static const text_column shown[] = {{"z", 9},        {"code", 10},  {"z_stored", 9},
@@ -79,20 +79,20 @@ static void test_effects(void **state) {
     (void)state;
     for (size_t i = 0; i < sizeof effects / sizeof effects[0]; i++) {
         const effect_row *row = effect_find(effects[i].effect);
-        double parameters[EFFECT_PARAMETERS_MAX];
+        double parameters[TEXTURE_PARAMETERS];
         char options[512], arguments[1024];
         dp_setup setups[CAMERA_SETUPS];
         line_places lines = {0};
         values v = values_of("texture");
         assert_non_null(row);
-        effect_defaults(row, parameters);
+        parameter_defaults(row->parameters, parameters);
         size_t used = (size_t)snprintf(arguments, sizeof arguments, "texture --effect %s %s --at ", row->name,
                                        camera_options(&effects[i].camera, options));
         for (int k = 0; k < DEPTHS; k++)
             used += (size_t)snprintf(arguments + used, sizeof arguments - used, "%s%.17g", k > 0 ? "," : "",
                                      effects[i].z[k]);
         for (int k = 0; row->parameters[k].name != NULL; k++) {
-            const effect_parameter *q = &row->parameters[k];
+            const texture_parameter *q = &row->parameters[k];
             parameters[k] = fmin(q->hi, q->value * 1.25); /* not the default */
             snprintf(arguments + strlen(arguments), sizeof arguments - strlen(arguments), " --parameter %s=%.17g",
                      q->name, parameters[k]);

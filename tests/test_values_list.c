@@ -120,7 +120,7 @@ static bool scene(size_t i, listed *l) {
     if (r == NULL)
         return false;
     *l = (listed){r->name, "", r->note, NULL, {0}, 0};
-    for (size_t k = 0; k < SCENE_PARAMETERS && r->parameters[k].name != NULL; k++)
+    for (size_t k = 0; k < TEXTURE_PARAMETERS && r->parameters[k].name != NULL; k++)
         add_number(l, r->parameters[k].value);
     return true;
 }

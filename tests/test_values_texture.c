@@ -4,6 +4,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "named.h"
 #include "printed.h"
 #include "texture/decode.h"
 #include "texture/frame.h"
@@ -111,7 +112,7 @@ static size_t want_decoding(values *v, const frame *f, size_t i, const decode_ro
             const float d = (float)dp_format_value(&setup->spec.format, codes[x]);
             const double want = decode_exact(setup, row->quantity, (double)d);
             float got;
-            row->run(setup, &d, &got, 1);
+            decode_run(row, setup, &d, &got, 1);
             const double off = want == (double)got ? 0 : fabs(((double)got - want) / want);
             if (!isfinite(off)) {
                 s.infinite++;
@@ -289,9 +290,9 @@ static void camera_of(const texture_case *c, texture_camera *out, uint32_t width
 /* The scene's own, but for those of the case; their options behind the others. */
 static void want_parameters(values *v, const texture_case *c, const scene_row *scene, double *parameters,
                             char options[256]) {
-    scene_defaults(scene, parameters);
+    parameter_defaults(scene->parameters, parameters);
     options[0] = '\0';
-    for (size_t i = 0; i < SCENE_PARAMETERS && scene->parameters[i].name != NULL; i++) {
+    for (size_t i = 0; i < TEXTURE_PARAMETERS && scene->parameters[i].name != NULL; i++) {
         const char *name = scene->parameters[i].name;
         for (size_t k = 0; k < 3 && c->parameters[k].name != NULL; k++)
             if (strcmp(c->parameters[k].name, name) == 0) {
@@ -310,7 +311,7 @@ static void test_scenes(void **state) {
     for (size_t i = 0; i < sizeof scenes / sizeof scenes[0]; i++) {
         const texture_case *c = &scenes[i];
         texture_camera camera;
-        double parameters[SCENE_PARAMETERS];
+        double parameters[TEXTURE_PARAMETERS];
         char options[512], more[256], arguments[1024];
         line_places lines = {0};
         values v = values_of("texture");

@@ -51,6 +51,11 @@ typedef struct dp_format_row {
     const char *aliases;   /**< other accepted spellings, separated by one space */
     double claim_absolute; /**< |value - d| of a nearest rounding is at most claim_absolute + claim_relative d */
     double claim_relative;
+    int buffer;            /**< some API has it as a depth buffer */
+    int bytes;             /**< per pixel, with the padding that it is stored with */
+    int rank;              /**< orders equal bytes: 0 is to be had everywhere */
+    const char *available; /**< which APIs have it */
+    const char *caution;   /**< what is easily overlooked about that, one line; "" when nothing */
     const char *note;
     const char *source; /**< paper, specification clause */
 } dp_format_row;

@@ -39,10 +39,12 @@ typedef struct dp_mapping_row {
     const char *name;
     const char *aliases; /**< other accepted spellings, separated by one space */
     dp_curve curve;
-    int reversed;     /**< near is stored as 1, far as 0 */
-    int ndc_signed;   /**< NDC depth runs over [-1, 1] and is mapped to [0, 1] afterwards */
-    int far_infinite; /**< far may be infinite */
-    int ortho;        /**< has an orthographic form */
+    int reversed;       /**< near is stored as 1, far as 0 */
+    int ndc_signed;     /**< NDC depth runs over [-1, 1] and is mapped to [0, 1] afterwards */
+    int far_infinite;   /**< far may be infinite */
+    int ortho;          /**< has an orthographic form */
+    int rank;           /**< how much it asks of a renderer: 0 nothing */
+    const char *effort; /**< what that is; "" when nothing */
     const char *note;
     const char *source;
 } dp_mapping_row;

@@ -7,6 +7,7 @@
 #include "depthprec/depthprec.h"
 
 typedef struct cost {
+    int buffer;            /**< some API has the format as a depth buffer */
     int bytes;             /**< per pixel, with the padding that the format is stored with */
     int rank;              /**< orders equal bytes: 0 is to be had everywhere without a change to the renderer */
     const char *available; /**< which APIs have the format */

@@ -6,8 +6,8 @@
 #include <string.h>
 
 #include "cli/setups.h"
+#include "core/append.h"
 #include "plot/notes.h"
-#include "report/append.h"
 #include "report/number.h"
 #include "report/report.h"
 

@@ -10,9 +10,9 @@
 #include "cli/list.h"
 #include "cli/methods.h"
 #include "cli/plot_data.h"
+#include "core/append.h"
 #include "plot/figure.h"
 #include "plot/notes.h"
-#include "report/append.h"
 #include "report/number.h"
 
 enum { WIDTH = 800, HEIGHT = 500 };
@@ -112,19 +112,17 @@ static void name_setups(plotting *p) {
 
 /* What holds for all set-ups: the full label without the name in front. */
 static void subtitle_of(const options *o, const figure_request *request, char *out, size_t size) {
-    char full[SETUP_LABEL_SIZE], lo[NUMBER_SIZE], hi[NUMBER_SIZE];
+    char full[SETUP_LABEL_SIZE];
     setup_label(&request->setups[0], true, full);
     char *model = strrchr(full, ',');
     if (o->model_auto && request->count > 1 && model != NULL)
         *model = '\0'; /* the names say it */
     const char *rest = strstr(full, ", ");
     const char *one = request->count == 1 ? full : rest != NULL ? rest + 2 : "";
-    number_shortest(isnan(request->at) ? request->lo : request->at, lo);
-    number_shortest(request->hi, hi);
     if (!isnan(request->at))
-        snprintf(out, size, "%s, at depth %s", one, lo);
+        snprintf(out, size, "%s, at depth %s", one, number_full(request->at).text);
     else if (!isnan(request->lo))
-        snprintf(out, size, "%s, depths %s to %s", one, lo, hi);
+        snprintf(out, size, "%s, depths %s to %s", one, number_full(request->lo).text, number_full(request->hi).text);
     else
         snprintf(out, size, "%s", one);
 }
@@ -132,16 +130,15 @@ static void subtitle_of(const options *o, const figure_request *request, char *o
 /* Which family and, where it is timed, in which case; the figure measures that and not the set-ups. */
 static int resolve_methods(plotting *p) {
     const options *o = p->o;
-    char machine[192], znear[NUMBER_SIZE], zfar[NUMBER_SIZE];
+    char machine[192];
     const char *family = o->operand_count > 1 ? o->operands[1] : p->row->family;
     const name_list families = {.get = list_family};
     list_item item;
     int status = check_operand(o->verb, "FAMILY", &families, family, &item);
     if (status == EXIT_FINE)
         status = methods_resolve(o, item.row, &p->asked);
-    number_shortest(o->znear, znear);
-    number_shortest(o->zfar, zfar);
-    snprintf(p->where, sizeof p->where, "near %s, far %s; %s", znear, zfar, methods_machine(machine, sizeof machine));
+    snprintf(p->where, sizeof p->where, "near %s, far %s; %s", number_full(o->znear).text, number_full(o->zfar).text,
+             methods_machine(machine, sizeof machine));
     p->request.setups = &p->asked.setup;
     p->request.count = 1;
     p->request.family = p->asked.family;

@@ -73,14 +73,9 @@ static int check_depths(const options *o, solve_report *r) {
     const double most = free_far ? 1e18 : o->zfar;
     if (r->lo >= least && r->hi <= most)
         return EXIT_FINE;
-    char lo[NUMBER_SIZE];
-    char hi[NUMBER_SIZE];
-    char got[NUMBER_SIZE];
-    number_shortest(least, lo);
-    number_shortest(most, hi);
-    number_shortest(r->lo >= least ? r->hi : r->lo, got);
     return option_error(id, "depths must lie in [%s, %s] = [%s, %s], got %s", free_near ? "1e-12" : "near",
-                        free_far ? "1e18" : "far", lo, hi, got);
+                        free_far ? "1e18" : "far", number_full(least).text, number_full(most).text,
+                        number_full(r->lo >= least ? r->hi : r->lo).text);
 }
 
 /* ---- Candidates -------------------------------------------------------------------------------------------------- */
@@ -230,14 +225,11 @@ static int add_asked(solve_report *r, solve_result *result) {
 
 /* What else there is: the real depth buffers with the mappings that an engine can choose. */
 static void add_others(solve_report *r, solve_result *result) {
-    static const char *const formats[] = {"unorm16", "unorm24", "fp32"};
     static const dp_mapping mappings[] = {DP_MAPPING_D3D, DP_MAPPING_REVERSED, DP_MAPPING_LOG};
     dp_spec spec = spec_of(r->o);
-    for (size_t f = 0; f < sizeof formats / sizeof formats[0]; f++)
-        for (size_t m = 0; m < sizeof mappings / sizeof mappings[0]; m++) {
-            dp_format found[2];
-            dp_format_parse(formats[f], found);
-            spec.format = found[0];
+    for (size_t f = 0; f < dp_format_count(); f++)
+        for (size_t m = 0; m < sizeof mappings / sizeof mappings[0] && dp_format_get(f)->buffer; m++) {
+            spec.format = dp_format_get(f)->format;
             spec.mapping = mappings[m];
             spec.model = model_of(r, spec.mapping, false);
             if (listed(r, &spec) || (spec.mapping == DP_MAPPING_D3D && r->o->mappings[0] == DP_MAPPING_GL))

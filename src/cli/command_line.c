@@ -4,7 +4,7 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "report/append.h"
+#include "core/append.h"
 
 /* In quotes where a shell would see more in it than a word. */
 static void append_word(char *out, const char *word) {

@@ -25,21 +25,9 @@ depths depths_spaced(depths_kind kind, double lo, double hi, size_t count) {
     return (depths){.kind = kind, .lo = lo, .hi = hi, .count = count};
 }
 
-/* "[0.1, 1000]", or "[0.1, inf)". */
-static const char *planes_text(const options *o, char *out, size_t size) {
-    char lo[NUMBER_SIZE];
-    char hi[NUMBER_SIZE];
-    number_shortest(o->znear, lo);
-    number_shortest(o->zfar, hi);
-    snprintf(out, size, "[%s, %s%c", lo, hi, isinf(o->zfar) ? ')' : ']');
-    return out;
-}
-
 static int outside(const options *o, option_id id, double z) {
-    char planes[2 * NUMBER_SIZE + 8];
-    char text[NUMBER_SIZE];
-    number_shortest(z, text);
-    return option_error(id, "depths must lie in [near, far] = %s, got %s", planes_text(o, planes, sizeof planes), text);
+    return option_error(id, "depths must lie in [near, far] = [%s, %s%c, got %s", number_full(o->znear).text,
+                        number_full(o->zfar).text, isinf(o->zfar) ? ')' : ']', number_full(z).text);
 }
 
 int depths_resolve(const options *o, size_t count, depths *out) {
@@ -54,12 +42,10 @@ int depths_resolve(const options *o, size_t count, depths *out) {
 }
 
 int depths_in_binary32(const depths *d) {
-    char text[NUMBER_SIZE];
     if (!isinf((float)d->hi))
         return EXIT_FINE;
-    number_shortest(d->hi, text);
     return option_error(OPTION_AT, "depths in binary32 must be at most 3.4028235e+38, its largest number, got %s",
-                        text);
+                        number_full(d->hi).text);
 }
 
 int range_resolve(const options *o, double *lo, double *hi) {

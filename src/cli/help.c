@@ -4,7 +4,7 @@
 #include <string.h>
 
 #include "cli/option_rows.h"
-#include "report/append.h"
+#include "core/append.h"
 #include "report/page.h"
 
 /* In GNU layout. */

@@ -6,9 +6,9 @@
 
 #include "api/bias.h"
 #include "api/presets.h"
+#include "core/append.h"
 #include "method/method.h"
 #include "plot/figure.h"
-#include "report/append.h"
 #include "report/number.h"
 #include "texture/effect.h"
 #include "texture/pack.h"
@@ -124,7 +124,7 @@ bool list_effect(size_t index, list_item *item) {
         return false;
     *item = (list_item){.name = row->name, .note = row->note, .source = row->source, .row = row};
     for (int i = 0; row->parameters[i].name != NULL; i++) {
-        const effect_parameter *p = &row->parameters[i];
+        const texture_parameter *p = &row->parameters[i];
         append(item->bound, sizeof item->bound, "%s%s %g [%s]", i > 0 ? ", " : "", p->name, p->value, p->unit);
         if (i == row->wanted)
             append(item->bound, sizeof item->bound, " (%s usable)", row->smallest ? "smallest" : "largest");
@@ -145,7 +145,7 @@ bool list_scene(size_t index, list_item *item) {
     if (row == NULL)
         return false;
     *item = (list_item){.name = row->name, .note = row->note, .row = row};
-    for (size_t i = 0; i < SCENE_PARAMETERS && row->parameters[i].name != NULL; i++)
+    for (size_t i = 0; row->parameters[i].name != NULL; i++)
         append(item->bound, sizeof item->bound, "%s%s=%g", i > 0 ? ", " : "", row->parameters[i].name,
                row->parameters[i].value);
     return true;
@@ -182,18 +182,15 @@ bool list_method(size_t index, list_item *item) {
     *item = (list_item){.name = row->name, .aliases = family->name, .note = row->note, .source = row->source};
     for (size_t i = 0; i < family->case_count; i++) {
         const method_claim *c = &row->claims[i];
-        char worst[NUMBER_SIZE] = "nothing", hi[NUMBER_SIZE];
+        const double worst = method_claim_at(c, fmin(formula_at, c->ratio_hi));
         if (!method_speaks(row, i))
             continue;
-        if (!isnan(c->worst))
-            number_digits(method_claim_at(c, fmin(formula_at, c->ratio_hi)), 3, worst);
-        number_digits(c->ratio_hi, 3, hi);
         append(item->bound, sizeof item->bound, "%s%s %s", *item->bound != '\0' ? "; " : "", family->cases[i].name,
-               worst);
+               isnan(c->worst) ? "nothing" : number_of(worst, 3).text);
         if (c->formula != NULL)
             append(item->bound, sizeof item->bound, " at far/near 10000");
         if (!isnan(c->worst) && c->ratio_hi < METHOD_RATIO_HI)
-            append(item->bound, sizeof item->bound, " to far/near %s", hi);
+            append(item->bound, sizeof item->bound, " to far/near %s", number_of(c->ratio_hi, 3).text);
     }
     return true;
 }

@@ -9,8 +9,8 @@
 
 #include "cli/list.h"
 #include "cli/setups.h"
+#include "core/append.h"
 #include "method/choose.h"
-#include "report/append.h"
 #include "report/number.h"
 
 /* The lattice and the pipeline are two questions, each with its choice. */

@@ -4,7 +4,7 @@
 #include <string.h>
 #include <strings.h>
 
-#include "report/append.h"
+#include "core/append.h"
 
 enum { LENGTH_MAX = 32 }; /* longer names are no slips */
 

@@ -6,7 +6,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "report/append.h"
+#include "core/append.h"
 #include "report/number.h"
 
 const char *option_argument(const option_row *row, char out[OPTION_TEXT_SIZE]) {
@@ -59,21 +59,20 @@ int parse_file(options *o, const option_row *row, const char *value) {
 }
 
 /* 1e12 and 1e-9, where printf writes 1e+12 and 1e-09; no power of ten in whole numbers, which are read without. */
-static const char *limit_text(double limit, bool whole, char out[NUMBER_SIZE]) {
-    number_digits(limit, 6, out);
-    if (whole || strtod(out, NULL) != limit)
-        snprintf(out, NUMBER_SIZE, "%.0f", limit);
-    char *exponent = strchr(out, 'e');
+static number_text limit_text(double limit, bool whole) {
+    number_text out = number_of(limit, 6);
+    if (whole || strtod(out.text, NULL) != limit)
+        snprintf(out.text, sizeof out.text, "%.0f", limit);
+    char *exponent = strchr(out.text, 'e');
     if (exponent != NULL)
         snprintf(exponent, 8, "e%ld", strtol(exponent + 1, NULL, 10));
     return out;
 }
 
 const char *option_limits(const option_row *row, char out[OPTION_TEXT_SIZE]) {
-    char least[NUMBER_SIZE], most[NUMBER_SIZE];
     const bool whole = row->parse == parse_whole;
-    snprintf(out, OPTION_TEXT_SIZE, "%s to %s%s%s", limit_text(row->least, whole, least),
-             limit_text(row->most, whole, most), row->unit != NULL ? " " : "", row->unit != NULL ? row->unit : "");
+    snprintf(out, OPTION_TEXT_SIZE, "%s to %s%s%s", limit_text(row->least, whole).text,
+             limit_text(row->most, whole).text, row->unit != NULL ? " " : "", row->unit != NULL ? row->unit : "");
     return out;
 }
 

@@ -8,7 +8,7 @@
 #include <string.h>
 
 #include "cli/option_rows.h"
-#include "report/append.h"
+#include "core/append.h"
 
 const char *option_name(option_id id) {
     return option_rows[id].name;

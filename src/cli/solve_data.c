@@ -1,14 +1,10 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* What solve found, in columns: JSON, CSV and the table of alternatives. */
 #include <math.h>
-#include <stdio.h>
 #include <string.h>
 
 #include "cli/setups.h"
 #include "cli/solve_report.h"
-
-/* A line of CSV is the answer, an earlier island of it in the lattice or an alternative. */
-static const char ANSWER[] = "answer", ISLAND[] = "island", ALTERNATIVE[] = "alternative";
 
 /* What was found about a candidate; parts that are not asked for or do not exist are null. */
 typedef struct candidate {
@@ -24,32 +20,17 @@ typedef struct candidate {
 } candidate;
 
 typedef struct solving {
-    const solve_report *report;
+    solve_report report;
     const char *target, *measure;
-    double limit, lo, hi;
-    bool possible;
-    dp_setup setup; /* of the candidate */
+    dp_setup setup; /* of the candidate: the answer, or the one at hand */
     candidate candidate;
 } solving;
-
-const char *solve_measure_name(const solve_report *r) {
-    return r->kind == MEASURE_ERROR ? "error" : "separation";
-}
-
-double solve_in_binary32(const solve_report *r, const solve_candidate *c) {
-    dp_setup setup;
-    dp_budget budget;
-    return r->kind == MEASURE_SEPARATION && dp_setup_init(&setup, &c->spec) == DP_OK &&
-                   dp_budget_at(&setup, c->reached.z, NULL, &budget) == DP_OK
-               ? budget.separation
-               : (double)NAN;
-}
 
 static void take_candidate(solving *s, const solve_candidate *c) {
     candidate *x = &s->candidate;
     const bool solved = c->solved && c->possible;
     *x = (candidate){.found = *c,
-                     .separation_fp32 = solve_in_binary32(s->report, c),
+                     .separation_fp32 = solve_in_binary32(&s->report, c),
                      .distance = c->possible ? c->distance.value : (double)NAN,
                      .lattice_distance = c->lattice.possible ? c->lattice.value : (double)NAN,
                      .steady = solved ? c->plane.steady : (double)NAN};
@@ -82,20 +63,16 @@ static void write_cells(const solve_report *r, candidate *x) {
 
 static void *next_alternative(void *of, size_t i) {
     solving *s = of;
-    if (i + 1 >= s->report->count)
+    if (i + 1 >= s->report.count)
         return NULL;
-    take_candidate(s, &s->report->items[i + 1]);
-    if (s->report->o->form == FORM_TEXT)
-        write_cells(s->report, &s->candidate);
+    take_candidate(s, &s->report.items[i + 1]);
+    if (s->report.o->form == FORM_TEXT)
+        write_cells(&s->report, &s->candidate);
     return &s->candidate;
 }
 
-static void say_answer(page *p, void *item) {
-    solve_report_answer(p, ((const solving *)item)->report);
-}
-
 static void say_others(page *p, void *item) {
-    const solve_report *r = ((const solving *)item)->report;
+    const solve_report *r = item;
     if (r->count > 1)
         output_text(p->out, r->target == SOLVE_FOR_SEPARATION ? "\nOthers\n" : "\nAlternatives, cheapest first\n");
 }
@@ -109,7 +86,7 @@ static bool is_first_of_format(const solve_report *r, size_t index) {
 }
 
 static void say_cautions(page *p, void *item) {
-    const solve_report *r = ((const solving *)item)->report;
+    const solve_report *r = item;
     for (size_t i = 1; i < r->count && r->target != SOLVE_FOR_SEPARATION; i++)
         if (is_first_of_format(r, i) && r->items[i].possible && r->items[i].price.caution[0] != '\0')
             page_line(p, "%s", r->items[i].price.caution);
@@ -118,21 +95,21 @@ static void say_cautions(page *p, void *item) {
 /* ---- CSV --------------------------------------------------------------------------------------------------------- */
 
 static void *next_island(void *of, size_t i) {
-    solving *s = of;
-    return i < (size_t)s->report->items[0].island_count ? &s->report->islands[i] : NULL;
+    const solve_report *r = of;
+    return i < (size_t)r->items[0].island_count ? &r->islands[i] : NULL;
 }
 
 /* The last island is that of the answer itself. */
 static void *next_line(void *of, size_t i) {
     solving *s = of;
-    const solve_report *r = s->report;
+    const solve_report *r = &s->report;
     candidate *x = &s->candidate;
     const size_t islands = r->items[0].island_count > 0 ? (size_t)r->items[0].island_count - 1 : 0;
     const bool is_island = i > 0 && i <= islands;
     if (i == r->count + islands)
         return NULL;
     take_candidate(s, &r->items[i > islands ? i - islands : 0]);
-    x->role = i == 0 ? ANSWER : is_island ? ISLAND : ALTERNATIVE;
+    x->role = i == 0 ? "answer" : is_island ? "island" : "alternative";
     if (is_island) { /* of the lattice */
         s->setup.spec.model = DP_MODEL_EXACT;
         x->setup = setup_fields_of(&s->setup);
@@ -169,7 +146,7 @@ static const column line_columns[] = {{FIELD(solving, candidate.role, "role", ""
                                       {FIELD(solving, target, "for", "")},
                                       {FIELD(solving, candidate.found.possible, "possible", "")},
                                       {FIELD(solving, measure, "measure", "")},
-                                      {FIELD(solving, limit, "limit", "scene")},
+                                      {FIELD(solving, report.limit, "limit", "scene")},
                                       {FIELD(solving, candidate.found.reached.value, "value", "scene")},
                                       {FIELD(solving, candidate.found.reached.z, "z", "scene")},
                                       {FIELD(solving, candidate.from, "from", "scene")},
@@ -181,21 +158,12 @@ static const column line_columns[] = {{FIELD(solving, candidate.role, "role", ""
                                       {FIELD(solving, candidate.found.lattice.reached.value, "lattice value", "scene")},
                                       {.kind = COLUMN_END}};
 
-static unsigned conditions(const solve_report *r) {
-    return (r->target == SOLVE_FOR_SEPARATION ? OF_SEPARATION : OF_OTHERS) |
-           (r->target == SOLVE_FOR_DISTANCE ? OF_DISTANCE : 0);
-}
-
 /* What is measured names a column, and what is solved for another. */
 void solve_report_write(const solve_report *r, output *out) {
     static const char *const heads[] = {"least near", "largest far", "near", "near", "", "distance"};
-    solving s = {.report = r,
-                 .target = option_word(OPTION_FOR, r->target),
-                 .measure = solve_measure_name(r),
-                 .limit = r->limit,
-                 .lo = r->lo,
-                 .hi = r->hi,
-                 .possible = r->items[0].possible};
+    solving s = {.report = *r, .target = option_word(OPTION_FOR, r->target), .measure = solve_measure_name(r)};
+    const unsigned when = (r->target == SOLVE_FOR_SEPARATION ? OF_SEPARATION : OF_OTHERS) |
+                          (r->target == SOLVE_FOR_DISTANCE ? OF_DISTANCE : 0);
     const column lattice[] = {{FIELD(candidate, found.lattice.possible, "possible", "")},
                               {FIELD(candidate, lattice_near, "near", "scene"), .optional = true},
                               {FIELD(candidate, lattice_far, "far", "scene"), .optional = true},
@@ -231,17 +199,17 @@ void solve_report_write(const solve_report *r, output *out) {
     const column columns[] = {
         {FIELD(solving, target, "for", ""), .only = AS_JSON},
         {FIELD(solving, measure, "measure", ""), .only = AS_JSON},
-        {FIELD(solving, limit, "limit", ""), .only = AS_JSON},
-        {FIELD(solving, lo, "lo", "scene"), .only = AS_JSON},
-        {FIELD(solving, hi, "hi", "scene"), .only = AS_JSON},
-        {FIELD(solving, possible, "possible", ""), .only = AS_JSON},
+        {FIELD(solving, report.limit, "limit", ""), .only = AS_JSON},
+        {FIELD(solving, report.lo, "lo", "scene"), .only = AS_JSON},
+        {FIELD(solving, report.hi, "hi", "scene"), .only = AS_JSON},
+        {FIELD(solving, candidate.found.possible, "possible", ""), .only = AS_JSON},
         {PART(solving, candidate, "answer", about), .only = AS_JSON},
         {LIST("islands", island_columns, next_island), .only = AS_JSON},
         {LIST("alternatives", about, next_alternative), .only = AS_JSON},
         {LIST(NULL, beside, next_alternative), .only = AS_TEXT, .indent = 2, .head = say_others, .notes = say_cautions},
         {LIST(NULL, line_columns, next_line), .only = AS_CSV},
         {.kind = COLUMN_END}};
-    const report_spec spec = {"solve", columns, &s, .when = conditions(r), .label = 15, .head = say_answer};
+    const report_spec spec = {"solve", columns, &s, .when = when, .label = 15, .head = solve_report_answer};
     take_candidate(&s, &r->items[0]);
     report_write(&spec, out, r->o->form);
 }

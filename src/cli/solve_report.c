@@ -6,7 +6,20 @@
 #include <string.h>
 
 #include "cli/solve_report.h"
-#include "report/append.h"
+#include "core/append.h"
+
+const char *solve_measure_name(const solve_report *r) {
+    return r->kind == MEASURE_ERROR ? "error" : "separation";
+}
+
+double solve_in_binary32(const solve_report *r, const solve_candidate *c) {
+    dp_setup setup;
+    dp_budget budget;
+    return r->kind == MEASURE_SEPARATION && dp_setup_init(&setup, &c->spec) == DP_OK &&
+                   dp_budget_at(&setup, c->reached.z, NULL, &budget) == DP_OK
+               ? budget.separation
+               : (double)NAN;
+}
 
 enum { DIGITS_MOST = 17, UNITS = 8, ISLANDS_SHOWN = 6, PHRASE_SIZE = 256 };
 
@@ -255,7 +268,8 @@ static void say_beside(const solve_report *r, const solve_candidate *c, page *p)
                   binary32 > r->limit * (1.0 + 1e-6) ? ", too much: 'depthprec budget' says why" : "");
 }
 
-void solve_report_answer(page *p, const solve_report *r) {
+void solve_report_answer(page *p, void *item) {
+    const solve_report *r = item;
     const solve_candidate *c = &r->items[0];
     char wanted[NUMBER_SIZE + 16] = "";
     say_sentence(r, c, p->out);

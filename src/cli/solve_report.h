@@ -53,8 +53,8 @@ void solve_report_write(const solve_report *r, output *out);
 
 enum { SOLVE_DIGITS = 6 };
 
-/** The answer in sentences, and what stands behind it. */
-void solve_report_answer(page *p, const solve_report *r);
+/** The answer in sentences, and what stands behind it; of an item that begins with its solve_report. */
+void solve_report_answer(page *p, void *item);
 
 /** "separation" or "error". */
 const char *solve_measure_name(const solve_report *r);

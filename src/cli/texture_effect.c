@@ -8,8 +8,7 @@
 #include <math.h>
 #include <stdio.h>
 
-#include "cli/names.h"
-#include "cli/options.h"
+#include "cli/texture_source.h"
 #include "cli/walk.h"
 #include "report/number.h"
 
@@ -19,34 +18,12 @@ static const double ONE_LEVEL = 1;
 
 /* ---- Which effect ------------------------------------------------------------------------------------------------ */
 
-static int unknown_parameter(const effect_row *row, const char *name) {
-    const char *words[EFFECT_PARAMETERS_MAX + 1] = {NULL};
-    const name_list known = {.words = words};
-    char text[NAMES_SIZE];
-    for (int i = 0; i < EFFECT_PARAMETERS_MAX; i++)
-        words[i] = row->parameters[i].name;
-    return option_error(OPTION_PARAMETER, "of %s %s", row->name, names_refuse(&known, name, text));
-}
-
-static int set_parameter(const effect_row *row, const named_number *given, double *parameters) {
-    const int index = effect_parameter_find(row, given->name);
-    if (index < 0)
-        return unknown_parameter(row, given->name);
-    const effect_parameter *p = &row->parameters[index];
-    if (!(given->value >= p->lo && given->value <= p->hi))
-        return option_error(OPTION_PARAMETER, "%s must be from %s to %s, got %s", p->name,
-                            number_of(p->lo, DIGITS).text, number_of(p->hi, DIGITS).text,
-                            number_full(given->value).text);
-    parameters[index] = given->value;
-    return EXIT_FINE;
-}
-
-int texture_effect_resolve(const options *o, const effect_row **row, double parameters[EFFECT_PARAMETERS_MAX]) {
+int texture_effect_resolve(const options *o, const effect_row **row, double parameters[TEXTURE_PARAMETERS]) {
     int status = EXIT_FINE;
     *row = o->effect;
-    effect_defaults(*row, parameters);
+    parameter_defaults((*row)->parameters, parameters);
     for (size_t i = 0; i < o->parameter_count && status == EXIT_FINE; i++)
-        status = set_parameter(*row, &o->parameters[i], parameters);
+        status = texture_parameter_set((*row)->name, (*row)->parameters, &o->parameters[i], parameters);
     return status;
 }
 
@@ -61,9 +38,9 @@ typedef struct row {
 typedef struct table {
     walk walk;
     const effect_row *effect;
-    const effect_parameter *wanted;
+    const texture_parameter *wanted;
     const char *name, *wanted_name, *direction;
-    double parameters[EFFECT_PARAMETERS_MAX];
+    double parameters[TEXTURE_PARAMETERS];
     struct parameter {
         const char *name, *unit;
         double value;
@@ -99,7 +76,7 @@ static void *next_row(void *of, size_t i) {
 
 static void *next_parameter(void *of, size_t i) {
     table *t = of;
-    const effect_parameter *p = &t->effect->parameters[i];
+    const texture_parameter *p = &t->effect->parameters[i];
     t->parameter = (struct parameter){p->name, p->unit, t->parameters[i]};
     return p->name != NULL ? &t->parameter : NULL;
 }

@@ -8,7 +8,7 @@
 struct options;
 
 /** The effect that --effect names. @return EXIT_FINE, or EXIT_USAGE after one line on stderr */
-int texture_effect_resolve(const struct options *o, const effect_row **row, double parameters[EFFECT_PARAMETERS_MAX]);
+int texture_effect_resolve(const struct options *o, const effect_row **row, double parameters[TEXTURE_PARAMETERS]);
 
 /** For each set-up and depth: the error in levels and the usable values of the wanted parameter. @return exit status */
 int texture_effect_table(const struct options *o);

@@ -6,6 +6,7 @@
 #include <string.h>
 
 #include "cli/texture_effect.h"
+#include "core/append.h"
 #include "plot/canvas.h"
 
 bool texture_product_wanted(const options *o) {
@@ -102,8 +103,7 @@ int texture_product_check(const texture_source *s, texture_product *p) {
     const char *wrong = frame_refuses(&s->frame, &p->made);
     if (wrong != NULL)
         return usage_error("texture: %s: %s", p->name, wrong);
-    const size_t length = strlen(p->name);
     if (p->made.error)
-        snprintf(p->name + length, sizeof p->name - length, ", %s", truths[p->made.kind][s->path == NULL]);
+        append(p->name, sizeof p->name, ", %s", truths[p->made.kind][s->path == NULL]);
     return EXIT_FINE;
 }

@@ -9,7 +9,7 @@ enum { PRODUCT_NAME_SIZE = 96 };
 
 typedef struct texture_product {
     frame_product made;
-    double settings[EFFECT_PARAMETERS_MAX];
+    double settings[TEXTURE_PARAMETERS];
     char name[PRODUCT_NAME_SIZE]; /**< "normals by high, angle to the truth" */
     const char *unit;             /**< "scene units", "degrees", "levels of 1/255", "" */
 } texture_product;

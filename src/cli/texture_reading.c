@@ -5,7 +5,7 @@
 #include <string.h>
 
 #include "cli/texture_source.h"
-#include "report/append.h"
+#include "core/append.h"
 #include "report/number.h"
 #include "texture/image_depths.h"
 

@@ -10,8 +10,6 @@
 #include "cli/setups.h"
 #include "report/number.h"
 #include "report/report.h"
-#include "texture/decode.h"
-#include "texture/position.h"
 #include "texture/survey.h"
 
 enum { ERRORS_MAX = 32 };
@@ -59,7 +57,7 @@ static bool is_image(const statistics *r) {
 static void *next_parameter(void *of, size_t i) {
     statistics *r = of;
     const scene_row *scene = r->source.frame.scene;
-    if (is_image(r) || i == SCENE_PARAMETERS || scene->parameters[i].name == NULL)
+    if (is_image(r) || scene->parameters[i].name == NULL)
         return NULL;
     r->parameter = scene->parameters[i].name;
     r->parameter_value = r->source.parameters[i];
@@ -341,93 +339,53 @@ static void name_all(statistics *r) {
 
 /* ---- What is measured -------------------------------------------------------------------------------------------- */
 
-static bool add_error(statistics *r, const char *what, const char *method, const char *unit,
-                      const frame_product *product) {
+static bool add_error(statistics *r, const frame_product *product) {
+    static const char *const words[FRAME_KINDS][2] = {[FRAME_EYE] = {"eye depth", "scene units"},
+                                                      [FRAME_POSITION] = {"position ", "scene units"},
+                                                      [FRAME_NORMAL] = {"normal ", "degrees"}};
     if (r->error_count == ERRORS_MAX || frame_refuses(&r->source.frame, product) != NULL)
         return true;
     error_line *e = &r->errors[r->error_count++];
-    snprintf(e->name, sizeof e->name, "%s%s%s", what, *method != '\0' ? " " : "", method);
-    e->unit = unit;
+    snprintf(e->name, sizeof e->name, "%s%s", words[product->kind][0],
+             product->position != NULL ? product->position->name
+             : product->normal != NULL ? product->normal->name
+                                       : "");
+    e->unit = words[product->kind][1];
     return frame_summarise(&r->source.frame, product, &e->sum);
 }
 
-/* What a decoding in binary32 adds to what is stored: relative, over the pixels that are not sky. */
 static bool add_decoding(statistics *r, const decode_row *row) {
-    const frame *f = &r->source.frame;
-    const dp_setup *setup = &r->source.setup;
-    const uint32_t width = f->camera->width, sky = frame_sky_rank(f);
-    if (r->error_count == ERRORS_MAX || f->metric || !decode_applies(row, setup))
+    if (r->error_count == ERRORS_MAX || r->source.frame.metric || !decode_applies(row, &r->source.setup))
         return true;
-    uint32_t *codes = calloc(width, sizeof *codes);
-    float *d = calloc(width, sizeof *d), *got = calloc(width, sizeof *got);
-    const bool good = codes != NULL && d != NULL && got != NULL;
     error_line *e = &r->errors[r->error_count++];
     snprintf(e->name, sizeof e->name, "decode %s", row->name);
     e->unit = "relative";
-    e->sum = (frame_summary){.lo = INFINITY, .p99 = NAN};
-    for (uint32_t y = 0; good && y < f->camera->height; y++) {
-        frame_codes(f, y, codes);
-        for (uint32_t x = 0; x < width; x++)
-            d[x] = codes[x] == UINT32_MAX ? NAN : (float)dp_format_value(&setup->spec.format, codes[x]);
-        row->run(setup, d, got, width);
-        for (uint32_t x = 0; x < width; x++) {
-            if (codes[x] == UINT32_MAX || frame_rank(setup, codes[x]) >= sky)
-                continue;
-            const double want = decode_exact(setup, row->quantity, (double)d[x]);
-            const double off = want == (double)got[x] ? 0 : fabs((double)got[x] - want) / fabs(want);
-            if (!isfinite(off)) {
-                e->sum.infinite++;
-                continue;
-            }
-            e->sum.count++;
-            e->sum.mean += off;
-            e->sum.lo = fmin(e->sum.lo, off);
-            if (off > e->sum.hi || e->sum.count == 1) {
-                e->sum.hi = off;
-                e->sum.hi_column = x;
-                e->sum.hi_row = y;
-            }
-        }
-    }
-    e->sum.mean = e->sum.count > 0 ? e->sum.mean / (double)e->sum.count : (double)NAN;
-    e->sum.hi = e->sum.count > 0 ? e->sum.hi : (double)NAN;
-    free(codes);
-    free(d);
-    free(got);
-    return good;
-}
-
-/* How often the pixels are visited: once for the survey, and once for each product that is measured. */
-static uint64_t passes(const statistics *r) {
-    uint64_t count = 2;
-    for (size_t i = 0; r->source.path == NULL && position_get(i) != NULL; i++)
-        count++;
-    for (size_t i = 0; r->source.path == NULL && normal_get(i) != NULL; i++)
-        count++;
-    return count;
+    return frame_summarise_decoding(&r->source.frame, row, &e->sum);
 }
 
 /* Of an image what is certain without looking any further; a scene tells the truth about everything. */
-static bool measure(statistics *r, progress *bar) {
-    frame_product p = {.kind = FRAME_EYE, .error = true};
-    uint64_t done = 1;
-    progress_step(bar, done);
-    bool good = add_error(r, "eye depth", "", "scene units", &p);
-    progress_step(bar, ++done);
-    for (size_t i = 0; good && decode_get(i) != NULL; i++)
-        good = add_decoding(r, decode_get(i));
-    if (r->source.path != NULL)
-        return good;
-    p.kind = FRAME_POSITION;
-    for (size_t i = 0; good && (p.position = position_get(i)) != NULL; i++) {
-        good = add_error(r, "position", p.position->name, "scene units", &p);
-        progress_step(bar, ++done);
+static size_t products_of(const statistics *r, frame_product out[ERRORS_MAX]) {
+    size_t count = 0;
+    out[count++] = (frame_product){.kind = FRAME_EYE, .error = true};
+    for (size_t i = 0; !is_image(r) && position_get(i) != NULL; i++)
+        out[count++] = (frame_product){.kind = FRAME_POSITION, .error = true, .position = position_get(i)};
+    for (size_t i = 0; !is_image(r) && normal_get(i) != NULL; i++)
+        out[count++] = (frame_product){.kind = FRAME_NORMAL, .error = true, .normal = normal_get(i)};
+    return count;
+}
+
+static bool measure(statistics *r) {
+    frame_product products[ERRORS_MAX];
+    const size_t count = products_of(r, products);
+    progress bar = progress_start("passes", count + 1, r->o->quiet);
+    bool good = survey_make(&r->source.frame, &r->survey);
+    for (size_t k = 0; good && k < count; k++) {
+        progress_step(&bar, k + 1);
+        good = add_error(r, &products[k]);
+        for (size_t i = 0; good && k == 0 && decode_get(i) != NULL; i++)
+            good = add_decoding(r, decode_get(i));
     }
-    p.kind = FRAME_NORMAL;
-    for (size_t i = 0; good && (p.normal = normal_get(i)) != NULL; i++) {
-        good = add_error(r, "normal", p.normal->name, "degrees", &p);
-        progress_step(bar, ++done);
-    }
+    progress_end(&bar);
     return good;
 }
 
@@ -439,10 +397,7 @@ int texture_report_write(const options *o, const texture_source *source) {
         r->o = o;
         r->source = *source;
         r->condition = position_condition(&source->camera);
-        progress bar = progress_start("passes", passes(r), o->quiet);
-        const bool good = survey_make(&source->frame, &r->survey) && measure(r, &bar);
-        progress_end(&bar);
-        if (good) {
+        if (measure(r)) {
             r->named.pairs = survey_pairs_make(&source->frame, &r->pairs) ? &r->pairs : NULL;
             name_all(r);
             const report_spec spec = {"texture", columns, r, .when = conditions(r), .label = 14, .head = say_head};

@@ -7,7 +7,6 @@
 
 #include "cli/names.h"
 #include "cli/setups.h"
-#include "report/append.h"
 #include "report/number.h"
 
 /* UINT32_MAX stands for "no depth" among codes. */
@@ -18,44 +17,36 @@ const char *texture_origin_name(texture_origin origin) {
     return names[origin];
 }
 
-/* The place of a parameter in a scene; SCENE_PARAMETERS when it has none of that name. */
-static size_t parameter_index(const scene_row *scene, const char *name) {
-    size_t i = 0;
-    while (i < SCENE_PARAMETERS && (scene->parameters[i].name == NULL || strcmp(scene->parameters[i].name, name) != 0))
-        i++;
-    return i;
-}
-
 bool texture_scene_takes(const options *o, const char *name) {
-    return o->scene != NULL && parameter_index(o->scene, name) < SCENE_PARAMETERS;
+    return o->scene != NULL && parameter_find(o->scene->parameters, name) >= 0;
 }
 
-static int unknown_parameter(const scene_row *scene, const char *name) {
-    const char *words[SCENE_PARAMETERS + 1] = {NULL};
+int texture_parameter_set(const char *whose, const texture_parameter *list, const named_number *given, double *out) {
+    const char *words[TEXTURE_PARAMETERS + 1];
     const name_list known = {.words = words};
+    const int index = parameter_find(list, given->name);
     char text[NAMES_SIZE];
-    for (size_t i = 0; i < SCENE_PARAMETERS; i++)
-        words[i] = scene->parameters[i].name;
-    return option_error(OPTION_PARAMETER, "of the scene %s %s", scene->name, names_refuse(&known, name, text));
+    for (int i = 0; i <= TEXTURE_PARAMETERS; i++)
+        words[i] = list[i].name;
+    if (index < 0)
+        return option_error(OPTION_PARAMETER, "of %s %s", whose, names_refuse(&known, given->name, text));
+    const texture_parameter *p = &list[index];
+    if (!(given->value >= p->lo && given->value <= p->hi) || (p->whole && given->value != floor(given->value)))
+        return option_error(OPTION_PARAMETER, "%s must be %sfrom %s to %s, got %s", p->name,
+                            p->whole ? "a whole number " : "", number_of(p->lo, 6).text, number_of(p->hi, 6).text,
+                            number_full(given->value).text);
+    out[index] = given->value;
+    return EXIT_FINE;
 }
 
+/* What is not the scene's may be the effect's. */
 static int scene_parameters(const options *o, const scene_row *scene, double *out) {
-    scene_defaults(scene, out);
-    for (size_t k = 0; k < o->parameter_count; k++) {
-        const named_number *given = &o->parameters[k];
-        const size_t i = parameter_index(scene, given->name);
-        if (i == SCENE_PARAMETERS && o->effect != NULL)
-            continue;
-        if (i == SCENE_PARAMETERS)
-            return unknown_parameter(scene, given->name);
-        const double lo = scene->parameters[i].lo, hi = scene->parameters[i].hi;
-        const bool whole = scene->parameters[i].whole;
-        if (!(given->value >= lo && given->value <= hi) || (whole && given->value != floor(given->value)))
-            return option_error(OPTION_PARAMETER, "%s must be %sfrom %g to %g %s, got %g", given->name,
-                                whole ? "a whole number " : "", lo, hi, scene->parameters[i].unit, given->value);
-        out[i] = given->value;
-    }
-    return EXIT_FINE;
+    int status = EXIT_FINE;
+    parameter_defaults(scene->parameters, out);
+    for (size_t i = 0; i < o->parameter_count && status == EXIT_FINE; i++)
+        if (o->effect == NULL || texture_scene_takes(o, o->parameters[i].name))
+            status = texture_parameter_set(scene->name, scene->parameters, &o->parameters[i], out);
+    return status;
 }
 
 /* Options that need another one, or have no meaning beside it. */

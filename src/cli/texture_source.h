@@ -33,7 +33,7 @@ typedef struct texture_source {
     texture_reading readings[READINGS_MAX];
     uint32_t column, row; /**< the pixel of the readings */
     dp_setup planes;      /**< with --metric: what --near and --far say */
-    double parameters[SCENE_PARAMETERS];
+    double parameters[TEXTURE_PARAMETERS];
     dp_setup setup;
     texture_camera camera;
     frame frame; /**< points into this struct, which must stay where it is */
@@ -60,6 +60,9 @@ const char *texture_readings_of(const texture_source *s, const char *what, char 
 
 /** One line on stderr about what is assumed, if anything is. */
 void texture_warn(const options *o, const texture_source *s);
+
+/** Sets one --parameter of a scene or an effect, called `whose`. @return EXIT_FINE, or EXIT_USAGE after one line */
+int texture_parameter_set(const char *whose, const texture_parameter *list, const named_number *given, double *out);
 
 /** Does the scene of --scene have a parameter of this name? Then parameters not taken are the effect's. */
 bool texture_scene_takes(const options *o, const char *name);

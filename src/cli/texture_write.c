@@ -148,12 +148,10 @@ int texture_product_write(const options *o, const texture_source *s, const textu
                           frame_run(&s->frame, &p->made, bottom_up(w), take, w);
         const double lo = w->lo;
         status = writing_close(w, good);
-        char from[NUMBER_SIZE], to[NUMBER_SIZE];
-        number_shortest(lo, from);
-        number_shortest(hi, to);
         if (status == EXIT_FINE && png && !o->quiet)
-            fprintf(stderr, "depthprec: %s: 1 is %s, 65535 is %s%s%s, 0 where there is no %s\n", o->output, from, to,
-                    *p->unit != '\0' ? " " : "", p->unit, p->made.error ? "bound" : "value");
+            fprintf(stderr, "depthprec: %s: 1 is %s, 65535 is %s%s%s, 0 where there is no %s\n", o->output,
+                    number_full(lo).text, number_full(hi).text, *p->unit != '\0' ? " " : "", p->unit,
+                    p->made.error ? "bound" : "value");
     }
     free(w);
     return status;

@@ -17,17 +17,18 @@
 /* clang-format off */
 #define DP_BATCH_KERNELS(X)                                                                                            \
     /* general: double to uint32_t */                                                                                  \
-    X(CODE_PERSPECTIVE_UNORM) X(CODE_PERSPECTIVE_FLOAT) X(CODE_LINEAR_UNORM) X(CODE_LINEAR_FLOAT)                       \
+    X(CODE_PERSPECTIVE_UNORM) X(CODE_PERSPECTIVE_FLOAT) X(CODE_LINEAR_UNORM) X(CODE_LINEAR_FLOAT)                      \
     X(ENCODE_UNORM) X(ENCODE_FLOAT)                                                                                    \
     /* general: uint32_t to double */                                                                                  \
     X(DECODE_UNORM) X(DECODE_UNORM_WIDE) X(DECODE_FLOAT)                                                               \
-    X(EYE_PERSPECTIVE_UNORM) X(EYE_PERSPECTIVE_FLOAT) X(EYE_LINEAR_UNORM) X(EYE_LINEAR_FLOAT)                           \
-    X(WIDTH_PERSPECTIVE_UNORM) X(WIDTH_PERSPECTIVE_FLOAT) X(WIDTH_LINEAR_UNORM) X(WIDTH_LINEAR_FLOAT)                   \
+    X(EYE_PERSPECTIVE_UNORM) X(EYE_PERSPECTIVE_FLOAT) X(EYE_LINEAR_UNORM) X(EYE_LINEAR_FLOAT)                          \
+    X(WIDTH_PERSPECTIVE_UNORM) X(WIDTH_PERSPECTIVE_FLOAT) X(WIDTH_LINEAR_UNORM) X(WIDTH_LINEAR_FLOAT)                  \
     /* conversions */                                                                                                  \
     X(WIDEN_REAL) X(NARROW_REAL) X(WIDEN_CODE) X(NARROW_CODE)                                                          \
     /* direct */                                                                                                       \
     X(STANDARD_16) X(STANDARD_32) X(REVERSED_16) X(REVERSED_32)                                                        \
-    X(UNORM_OF_FLOAT_16) X(UNORM_OF_FLOAT_32) X(UNORM24_OF_FLOAT) X(FLOAT_OF_UNORM_16) X(FLOAT_OF_UNORM_32)                                \
+    X(UNORM_OF_FLOAT_16) X(UNORM_OF_FLOAT_32) X(UNORM24_OF_FLOAT)                                                      \
+    X(FLOAT_OF_UNORM_16) X(FLOAT_OF_UNORM_32)                                                                          \
     X(HALF_OF_FLOAT) X(FLOAT_OF_HALF) X(BITS_OF_FLOAT) X(FLOAT_OF_BITS) X(FAST_EYE_16) X(FAST_EYE_32)
 /* clang-format on */
 

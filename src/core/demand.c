@@ -57,7 +57,7 @@ static double format_loss(const dp_pipeline *p, double low, double high) {
 /* ---- A pair ------------------------------------------------------------------------------------------------------ */
 
 /* The more demanding of two: window depth over slope decides. */
-static void take_larger(dp_demand *d, double window, double slope) {
+static void keep_larger(dp_demand *d, double window, double slope) {
     if (window * d->slope > d->window * slope) {
         d->window = window;
         d->slope = slope;
@@ -72,9 +72,9 @@ static void clamp_either(const dp_chain *c, dp_demand *d, double full1, double f
     const double slope = fabs(c->pipeline.ortho ? c->a : c->b);
     const int reversed = c->pipeline.reversed;
     if (reversed ? g2 - full2 <= 0.0 : g2 + full2 >= 1.0)
-        take_larger(d, (reversed ? c->below : c->above) + full1 + d->rest, slope);
+        keep_larger(d, (reversed ? c->below : c->above) + full1 + d->rest, slope);
     if (reversed ? g1 + full1 >= 1.0 : g1 - full1 <= 0.0)
-        take_larger(d, (reversed ? c->above : c->below) + full2 + d->rest, slope);
+        keep_larger(d, (reversed ? c->above : c->below) + full2 + d->rest, slope);
 }
 
 /*
@@ -183,7 +183,7 @@ static double longest_within(const dp_chain *c, const dp_steps *s1, dp_span firs
     for (int i = 0; i < 8; i++) {
         const dp_demand d = demand_of(c, s1, first, second, extra);
         const double s = distance(c, first.hi, &d);
-        if (!(s < best))
+        if (i > 0 && !(s < best)) /* the first one counts even where it is infinite: *out is what it demands */
             break;
         const double gain = best - s;
         best = s;

@@ -7,6 +7,10 @@
 #include "core/lattice.h"
 #include "core/text.h"
 
+/*
+ * Availability. Vulkan: D16_UNORM is mandatory, and one of X8_D24 and D32_SFLOAT (specification, required format
+ * support). Metal: Depth24Unorm_Stencil8 is not on Apple silicon (isDepth24Stencil8PixelFormatSupported).
+ */
 /* clang-format off */
 static const dp_format_row rows[] = {
     {
@@ -14,6 +18,7 @@ static const dp_format_row rows[] = {
         .aliases = "f16 r16f half float16 binary16 R16_FLOAT R16_SFLOAT VK_FORMAT_R16_SFLOAT DXGI_FORMAT_R16_FLOAT "
                    "GL_R16F r16float MTLPixelFormatR16Float",
         .claim_absolute = 0x1p-25, .claim_relative = 0x1p-11,
+        .bytes = 2, .available = "colour targets only", .caution = "fp16 is no depth buffer in any API",
         .note = "depth written to a colour target: no API has an fp16 depth buffer",
         .source = "IEEE 754-2019 binary16",
     },
@@ -24,6 +29,8 @@ static const dp_format_row rows[] = {
                    "DEPTH_COMPONENT32F DEPTH32F_STENCIL8 GL_DEPTH_COMPONENT32F GL_DEPTH32F_STENCIL8 depth32float "
                    "depth32float-stencil8 MTLPixelFormatDepth32Float MTLPixelFormatDepth32Float_Stencil8",
         .claim_absolute = 0x1p-150, .claim_relative = 0x1p-24,
+        .buffer = 1, .bytes = 4, .available = "every API",
+        .caution = "fp32 needs OpenGL 3.0, OpenGL ES 3.0 or WebGL 2",
         .note = "32-bit depth buffer",
         .source = "IEEE 754-2019 binary32",
     },
@@ -33,6 +40,7 @@ static const dp_format_row rows[] = {
                    "DXGI_FORMAT_D16_UNORM D3DFMT_D16 DEPTH_COMPONENT16 GL_DEPTH_COMPONENT16 depth16unorm "
                    "MTLPixelFormatDepth16Unorm",
         .claim_absolute = 0.5 / 65535.0, .claim_relative = 0.0,
+        .buffer = 1, .bytes = 2, .available = "every API", .caution = "",
         .note = "16-bit depth buffer",
         .source = "D3D 11.3 functional specification 3.2.3.6, 17.11",
     },
@@ -43,6 +51,8 @@ static const dp_format_row rows[] = {
                    "DEPTH_COMPONENT24 DEPTH24_STENCIL8 GL_DEPTH_COMPONENT24 GL_DEPTH24_STENCIL8 "
                    "MTLPixelFormatDepth24Unorm_Stencil8",
         .claim_absolute = 0.5 / 16777215.0, .claim_relative = 0.0,
+        .buffer = 1, .bytes = 4, .rank = 2, .available = "optional in Vulkan, none on Apple silicon",
+        .caution = "unorm24 is missing on many GPUs; depth24plus of WebGPU means it or fp32",
         .note = "24-bit depth buffer",
         .source = "D3D 11.3 functional specification 3.2.3.6, 17.11",
     },

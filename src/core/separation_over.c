@@ -64,7 +64,7 @@ static int is_single(const dp_setup *setup, const part *p) {
     return nextafter(p->lo, HUGE_VAL) >= p->hi;
 }
 
-static void settle(dp_separation_worst *worst, double bound) {
+static void raise_bound(dp_separation_worst *worst, double bound) {
     worst->bound = larger(worst->bound, bound);
 }
 
@@ -74,13 +74,13 @@ static void offer(search *s, double lo, double hi) {
     look(s->worst, s->setup, hi);
     part p = {lo, hi, 0.0};
     if (is_single(s->setup, &p)) {
-        settle(s->worst, s->worst->separation);
+        raise_bound(s->worst, s->worst->separation);
         return;
     }
     p.bound = bound_of(s->setup, lo, hi);
     s->evaluations++;
     if (s->count == PARTS_MAX)
-        settle(s->worst, p.bound);
+        raise_bound(s->worst, p.bound);
     else
         s->parts[s->count++] = p;
 }
@@ -104,9 +104,9 @@ static void refine(search *s) {
     while (s->count > 0) {
         const part p = s->parts[--s->count];
         const double enough = s->limit > 0.0 ? s->limit : slack * s->worst->separation;
-        const int hopeless = s->limit > 0.0 && s->worst->separation > s->limit;
-        if (p.bound <= enough || hopeless || s->evaluations >= EVALUATIONS_MAX || isinf(s->worst->separation))
-            settle(s->worst, p.bound);
+        const int exceeded = s->limit > 0.0 && s->worst->separation > s->limit;
+        if (p.bound <= enough || exceeded || s->evaluations >= EVALUATIONS_MAX || isinf(s->worst->separation))
+            raise_bound(s->worst, p.bound);
         else
             divide(s, &p);
     }
@@ -150,8 +150,8 @@ static void over_binades(const dp_setup *setup, dp_separation_worst *out) {
         if (end * (1.0 + 0x1p-46) < out->lo)
             continue;
         const double z = smaller(end * (1.0 + 0x1p-46), out->hi);
-        settle(out,
-               with_eye(setup, z, dp_curve_ahead(setup, dp_step_num(format, e), 1.0, z) * dp_curve_outward(setup)));
+        raise_bound(
+            out, with_eye(setup, z, dp_curve_ahead(setup, dp_step_num(format, e), 1.0, z) * dp_curve_outward(setup)));
         look(out, setup, smaller(larger(end * (1.0 - 0x1p-46), out->lo), out->hi));
         if (end * (1.0 - 0x1p-46) > out->hi)
             break;

@@ -15,19 +15,15 @@
 #include "method/limit.h"
 #include "method/truth.h"
 
-static bool is_reversed(const dp_setup *setup) {
-    return setup->reversed != 0;
-}
-
 /* ---- The rows of texture/decode.h -------------------------------------------------------------------------------- */
 
 /* Shares of far, or of the way from near to far, become depths. */
-static void decode_run(const method_call *c) {
+static void decoded_run(const method_call *c) {
     const decode_row *row = c->row->decode;
     const dp_spec *spec = &c->setup->spec;
     const bool of_far = row->quantity == DECODE_01;
     const float scale = (float)(of_far ? spec->zfar : spec->zfar - spec->znear), base = of_far ? 0 : (float)spec->znear;
-    row->run(c->setup, c->in->d, c->out->eye, c->in->count);
+    decode_run(row, c->setup, c->in->d, c->out->eye, c->in->count);
     if (row->quantity != DECODE_EYE)
         for (size_t i = 0; i < c->in->count; i++)
             c->out->eye[i] = base + scale * c->out->eye[i];
@@ -54,7 +50,7 @@ typedef struct textbook {
 
 static textbook textbook_of(const dp_setup *setup) {
     double n = setup->spec.znear, f = setup->spec.zfar;
-    return is_reversed(setup) ? (textbook){n * f, n, f - n} : (textbook){n * f, f, n - f};
+    return setup->reversed ? (textbook){n * f, n, f - n} : (textbook){n * f, f, n - f};
 }
 
 static void textbook_run(const method_call *c) {
@@ -87,7 +83,7 @@ static float toward_near(bool reversed, float d) {
 static void complement_run(const method_call *c) {
     const double n = c->setup->spec.znear, f = c->setup->spec.zfar;
     const float product = (float)(n * f), base = (float)n, slope = (float)(f - n);
-    const bool reversed = is_reversed(c->setup);
+    const bool reversed = c->setup->reversed != 0;
     for (size_t i = 0; i < c->in->count; i++)
         c->out->eye[i] = product / (base + slope * toward_near(reversed, c->in->d[i]));
 }
@@ -95,7 +91,7 @@ static void complement_run(const method_call *c) {
 static void newton_run(const method_call *c) {
     const double n = c->setup->spec.znear, f = c->setup->spec.zfar;
     const float product = (float)(n * f), base = (float)n, slope = (float)(f - n);
-    const bool reversed = is_reversed(c->setup);
+    const bool reversed = c->setup->reversed != 0;
     for (size_t i = 0; i < c->in->count; i++) {
         const float x = base + slope * toward_near(reversed, c->in->d[i]), y = estimate_reciprocal(x);
         c->out->eye[i] = product * (y * (2.0f - x * y));
@@ -115,7 +111,7 @@ static __m128 newton_four(const newton *c, __m128 d) {
 
 static void rcpps_run(const method_call *c) {
     const double n = c->setup->spec.znear, f = c->setup->spec.zfar;
-    const bool reversed = is_reversed(c->setup);
+    const bool reversed = c->setup->reversed != 0;
     const newton k = {_mm_set1_ps((float)(n * f)), _mm_set1_ps((float)n), _mm_set1_ps((float)(f - n)),
                       _mm_set1_ps(reversed ? 0.0f : 1.0f), _mm_set1_ps(reversed ? 1.0f : -1.0f)};
     size_t i = 0;
@@ -155,7 +151,7 @@ static void pair_run(const method_call *c) {
     const double n = c->setup->spec.znear, f = c->setup->spec.zfar;
     /* In units of near: then nothing leaves the range of binary32, whatever the scene's units are. */
     const pair slope = pair_of(f / n - 1), product = pair_of(f);
-    const float from = is_reversed(c->setup) ? 0.0f : 1.0f, sign = is_reversed(c->setup) ? 1.0f : -1.0f;
+    const float from = c->setup->reversed ? 0.0f : 1.0f, sign = c->setup->reversed ? 1.0f : -1.0f;
     for (size_t i = 0; i < c->in->count; i++) {
         pair q = two_sum(from, sign * c->in->d[i]);
         pair m = two_product(slope.hi, q.hi);
@@ -171,7 +167,7 @@ static void pair_run(const method_call *c) {
 /* As the engine has it: n/(phi d + q), which also has a limit for an infinite far plane. */
 static void phi_run(const method_call *c) {
     const double n = c->setup->spec.znear, phi = n / c->setup->spec.zfar;
-    const bool reversed = is_reversed(c->setup);
+    const bool reversed = c->setup->reversed != 0;
     for (size_t i = 0; i < c->in->count; i++) {
         double d = (double)c->in->d[i], q = 1 - d;
         c->out->eye[i] = (float)(n / (reversed ? phi * q + d : phi * d + q));
@@ -334,18 +330,18 @@ static const method_row methods[] = {
      "the reciprocal by subtraction of bit patterns is folklore", .run = magic_run},
     {METHOD_LINEARIZE, "unity", "1/(Z d + W) in binary32, LinearEyeDepth of Unity with _ZBufferParams",
      {CANCELLED(3, 0), FULL(4 * UNIT)}, METHOD_INFINITE, 0.22, "1", 0,
-     "UnityCG.cginc", .run = decode_run, .decode = &decode_rows[DECODE_LINEAR_EYE]},
+     "UnityCG.cginc", .run = decoded_run, .decode = &decode_rows[DECODE_LINEAR_EYE]},
     {METHOD_LINEARIZE, "complement-unity",
      "1/(Z (1 - d) + 1/f), as Unity but of the complement; reversed it is LinearEyeDepth itself",
      {FULL(5 * UNIT), NOWHERE}, METHOD_INFINITE, 0.23, "1", 0,
-     "depthprec(7)", .run = decode_run, .decode = &decode_rows[DECODE_COMPLEMENT]},
+     "depthprec(7)", .run = decoded_run, .decode = &decode_rows[DECODE_COMPLEMENT]},
     {METHOD_LINEARIZE, "linear-01", "f times Linear01Depth, 1/(X d + Y), in binary32",
      {CANCELLED_FUSED(2, 2), FULL(6 * UNIT)}, 0, 0.29, "1", 0,
-     "UnityCG.cginc", .run = decode_run, .decode = &decode_rows[DECODE_LINEAR_01]},
+     "UnityCG.cginc", .run = decoded_run, .decode = &decode_rows[DECODE_LINEAR_01]},
     {METHOD_LINEARIZE, "linear-01-near",
      "n + (f - n) times Linear01DepthFromNear, d/(X d + Y) or (1 - d)/(X d + Y), in binary32",
      {CANCELLED_FUSED(2, 4), FULL(8 * UNIT)}, 0, 0.29, "1", 0,
-     "the Core package's Common.hlsl", .run = decode_run, .decode = &decode_rows[DECODE_LINEAR_01_NEAR]},
+     "the Core package's Common.hlsl", .run = decoded_run, .decode = &decode_rows[DECODE_LINEAR_01_NEAR]},
     {METHOD_LINEARIZE, "textbook", "n f/(f - d (f - n)) in binary32",
      {CANCELLED(3, 1), FULL(5 * UNIT)}, 0, 0.23, "1", 0,
      "the inverse of the projection, in most tutorials", .run = textbook_run},

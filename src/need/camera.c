@@ -5,6 +5,7 @@
 #include <string.h>
 
 #include "api/presets.h"
+#include "core/append.h"
 #include "need/reader.h"
 
 enum {
@@ -41,9 +42,8 @@ static int word_among(reader *r, const config_setting_t *s, const char *(*name)(
             return (int)i;
     char all[NEED_TEXT_SIZE / 2] = "";
     for (size_t i = 0; name(i) != NULL; i++) {
-        const size_t used = strlen(all);
         reader_known(r, text, name(i));
-        snprintf(all + used, sizeof all - used, "%s%s", i > 0 ? ", " : "", name(i));
+        append(all, sizeof all, "%s%s", i > 0 ? ", " : "", name(i));
     }
     reader_fail(r, s, "%s: must be one of %s, got '%.40s'", config_setting_name(s), all, text);
     return -1;
@@ -65,7 +65,7 @@ static const char *preset_name(size_t i) {
     return preset_get(i) != NULL ? preset_get(i)->name : NULL;
 }
 
-static bool take_preset(reader *r, const config_setting_t *s, draft *d) {
+static bool read_preset(reader *r, const config_setting_t *s, draft *d) {
     const int index = word_among(r, s, preset_name);
     if (index < 0)
         return false;
@@ -81,7 +81,7 @@ static bool take_preset(reader *r, const config_setting_t *s, draft *d) {
     return true;
 }
 
-static bool take_mapping(reader *r, const config_setting_t *s, draft *d) {
+static bool read_mapping(reader *r, const config_setting_t *s, draft *d) {
     const char *text;
     if (!reader_string(r, s, &text))
         return false;
@@ -94,7 +94,7 @@ static bool take_mapping(reader *r, const config_setting_t *s, draft *d) {
     return reader_fail(r, s, "mapping: must be one of " DP_MAPPING_NAMES ", got '%.40s'", text);
 }
 
-static bool take_format(reader *r, const config_setting_t *s, draft *d) {
+static bool read_format(reader *r, const config_setting_t *s, draft *d) {
     const char *text;
     if (!reader_string(r, s, &text))
         return false;
@@ -109,14 +109,14 @@ static bool take_format(reader *r, const config_setting_t *s, draft *d) {
                        text);
 }
 
-static bool take_ortho(reader *r, const config_setting_t *s, draft *d) {
+static bool read_ortho(reader *r, const config_setting_t *s, draft *d) {
     if (config_setting_type(s) != CONFIG_TYPE_BOOL)
         return reader_fail(r, s, "ortho: must be true or false, got %s", reader_shown(r, s));
     d->spec.ortho = config_setting_get_bool(s);
     return true;
 }
 
-static bool take_words(reader *r, config_setting_t *const *found, draft *d) {
+static bool read_words(reader *r, config_setting_t *const *found, draft *d) {
     const int rounding = found[KEY_ROUNDING] != NULL ? word_among(r, found[KEY_ROUNDING], rounding_name) : 0;
     const int model =
         rounding >= 0 && found[KEY_MODEL] != NULL ? word_among(r, found[KEY_MODEL], model_name) : DP_MODEL_COUNT;
@@ -162,13 +162,13 @@ bool reader_camera(reader *r, config_setting_t *group, need_camera *out) {
         if (found[k] == NULL)
             return reader_fail(r, group, "camera '%s': needs %s, or a preset", out->name, keys[k]);
     const bool good =
-        (found[KEY_PRESET] == NULL || take_preset(r, found[KEY_PRESET], &d)) &&
+        (found[KEY_PRESET] == NULL || read_preset(r, found[KEY_PRESET], &d)) &&
         (found[KEY_NEAR] == NULL || reader_length(r, found[KEY_NEAR], "near", READER_POSITIVE, &d.spec.znear)) &&
         (found[KEY_FAR] == NULL ||
          reader_length(r, found[KEY_FAR], "far", READER_POSITIVE | READER_INFINITE, &d.spec.zfar)) &&
-        (found[KEY_MAPPING] == NULL || take_mapping(r, found[KEY_MAPPING], &d)) &&
-        (found[KEY_FORMAT] == NULL || take_format(r, found[KEY_FORMAT], &d)) &&
-        (found[KEY_ORTHO] == NULL || take_ortho(r, found[KEY_ORTHO], &d)) && take_words(r, found, &d) &&
+        (found[KEY_MAPPING] == NULL || read_mapping(r, found[KEY_MAPPING], &d)) &&
+        (found[KEY_FORMAT] == NULL || read_format(r, found[KEY_FORMAT], &d)) &&
+        (found[KEY_ORTHO] == NULL || read_ortho(r, found[KEY_ORTHO], &d)) && read_words(r, found, &d) &&
         (found[KEY_LOG_C] == NULL || reader_length(r, found[KEY_LOG_C], "log_c", READER_POSITIVE, &d.spec.log_c));
     if (good && found[KEY_LOG_C] != NULL && d.spec.mapping != DP_MAPPING_LOG)
         return reader_fail(r, found[KEY_LOG_C], "log_c: is for the mapping log only, got %s",

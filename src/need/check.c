@@ -6,7 +6,7 @@
 #include "need/judge.h"
 
 /* What the exact lattice refuses by this factor, no arithmetic in front of it can save: see check.h. */
-static const double hopeless = 4.0;
+static const double refusal_factor = 4.0;
 
 const char *check_method_name(check_method method) {
     static const char *const names[CHECK_METHOD_COUNT] = {
@@ -44,7 +44,7 @@ static void judge_separation(const need *n, const need_camera *camera, const dp_
         return;
     }
     judge_in(n, &setup, v);
-    if (v->value > (camera->automatic ? 1.0 : hopeless) * n->limit)
+    if (v->value > (camera->automatic ? 1.0 : refusal_factor) * n->limit)
         return;
     if (with_model(asked, DP_MODEL_FP32, &setup) || with_model(asked, DP_MODEL_STAGED, &setup))
         judge_in(n, &setup, v);

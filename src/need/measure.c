@@ -86,7 +86,7 @@ static int has_inside(const dp_setup *setup) {
     return setup->spec.format.kind == DP_FORMAT_FLOAT && setup->reversed && setup->curve == DP_CURVE_PERSPECTIVE;
 }
 
-double measure_decisive(const dp_setup *setup, double lo, double hi) {
+double measure_governing(const dp_setup *setup, double lo, double hi) {
     return setup->reversed && setup->curve == DP_CURVE_LINEAR ? lo : hi;
 }
 
@@ -108,7 +108,7 @@ static measure_worst worst_at(measure_kind kind, const dp_setup *setup, double z
 
 void measure_parts(measure_kind kind, const dp_setup *setup, double lo, double hi, measure_worst *falling,
                    measure_worst *rising) {
-    *falling = worst_at(kind, setup, measure_decisive(setup, lo, hi));
+    *falling = worst_at(kind, setup, measure_governing(setup, lo, hi));
     *rising = (measure_worst){0.0, lo};
     if (!(lo < hi) || isinf(hi) || !has_inside(setup))
         return;

@@ -41,7 +41,7 @@ void measure_parts(measure_kind kind, const dp_setup *setup, double lo, double h
 double measure_summit(measure_kind kind, const dp_setup *setup, double lo, double hi);
 
 /** The depth that decides over [lo, hi] when there is but one: hi, or lo where the steps shrink towards far. */
-double measure_decisive(const dp_setup *setup, double lo, double hi);
+double measure_governing(const dp_setup *setup, double lo, double hi);
 
 /** The exponent field of the FLOAT step that the separation takes at z, exactly; 0 for UNORM. */
 uint32_t measure_field(const dp_setup *setup, double z);

@@ -240,7 +240,7 @@ static bool hunt_island(hunt *h, const solve_island *island) {
 }
 
 /* The lattice's answer in the model exact: all from `value` to `until` pass, and the next double fails. */
-static void take_lattice(const solve_problem *p, const solve_result *lattice, plane_answer *a) {
+static void answer_of_lattice(const solve_problem *p, const solve_result *lattice, plane_answer *a) {
     a->possible = lattice->possible;
     a->value = a->steady = lattice->value;
     a->until = lattice->until;
@@ -257,7 +257,7 @@ static void take_lattice(const solve_problem *p, const solve_result *lattice, pl
 }
 
 /* Nothing was found although the lattice has an answer: the inner end of its answer comes nearest. */
-static void take_nothing(const solve_problem *p, const solve_result *lattice, plane_answer *a) {
+static void nearest_miss(const solve_problem *p, const solve_result *lattice, plane_answer *a) {
     const bool inert =
         p->unknown == SOLVE_NEAR && !p->spec.ortho && dp_mapping_get(p->spec.mapping)->curve != DP_CURVE_PERSPECTIVE;
     a->value = a->until = a->steady = lattice->possible ? lattice->until : lattice->value;
@@ -287,12 +287,12 @@ dp_status plane_solve(const solve_problem *problem, plane_effort effort, solve_r
     if (problem->kind == MEASURE_ERROR) {
         plane_error_solve(problem, lattice, out);
     } else if (problem->spec.model == DP_MODEL_EXACT) {
-        take_lattice(problem, lattice, out);
+        answer_of_lattice(problem, lattice, out);
     } else {
         for (int i = lattice->island_count; i-- > 0 && !out->possible;)
             hunt_island(&h, &lattice->islands[i]);
         if (!out->possible)
-            take_nothing(problem, lattice, out);
+            nearest_miss(problem, lattice, out);
     }
     out->reached = reached_at(problem, out->value);
     return DP_OK;

@@ -181,7 +181,7 @@ static bool is_decided_at(const solve_problem *p, double x, double *z) {
     dp_setup setup;
     if (solve_setup(p, x, &setup) != DP_OK)
         return false;
-    *z = measure_decisive(&setup, p->lo, p->hi);
+    *z = measure_governing(&setup, p->lo, p->hi);
     const double cells = fabs((double)dp_code(&setup, p->lo) - (double)dp_code(&setup, p->hi));
     return p->lo == p->hi || (p->spec.format.kind == DP_FORMAT_UNORM && cells >= CELLS);
 }

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "need/reader.h"
+#include "core/append.h"
 
 #include <math.h>
 #include <stdarg.h>
@@ -29,10 +30,9 @@ bool reader_fail(reader *r, const config_setting_t *s, const char *format, ...) 
 
 void reader_known(reader *r, const char *given, const char *name) {
     char *known = r->error->known;
-    const size_t used = strlen(known);
     snprintf(r->error->given, sizeof r->error->given, "%s", given);
-    if (used + strlen(name) + 2 < NEED_KNOWN_SIZE)
-        snprintf(known + used, NEED_KNOWN_SIZE - used, "%s%s", used > 0 ? " " : "", name);
+    if (strlen(known) + strlen(name) + 2 < NEED_KNOWN_SIZE)
+        append(known, NEED_KNOWN_SIZE, "%s%s", *known != '\0' ? " " : "", name);
 }
 
 const char *reader_shown(reader *r, const config_setting_t *s) {

@@ -10,7 +10,7 @@
 
 #include "core/bits.h"
 
-enum { BREAKS_MAX = 3 * 260, ITERATIONS = 200, WALK = 4096 };
+enum { BREAKS_MAX = 3 * 260, ITERATIONS = 200, EXTEND_MOST = 4096 };
 
 static const double near_least = 1e-12, near_most = 1e12, far_most = 1e18, planes_apart = 1e-6;
 
@@ -97,7 +97,8 @@ static double unknown_of(const dp_setup *setup, solve_unknown unknown, double z,
 }
 
 /* The first double of (lo, hi] at which the field of z has gone beyond `bound`; it has at hi and has not at lo. */
-static uint64_t place(const search *s, double z, uint32_t bound, bool upward, double guess, uint64_t lo, uint64_t hi) {
+static uint64_t crossing(const search *s, double z, uint32_t bound, bool upward, double guess, uint64_t lo,
+                         uint64_t hi) {
     const uint64_t start = guess > dp_float64(lo) && guess < dp_float64(hi) ? dp_bits64(guess) : lo + (hi - lo) / 2;
     uint64_t at = start;
     for (uint64_t step = 1; hi - lo > 1; step *= 4) {
@@ -128,7 +129,7 @@ static void add_breaks(search *s, double z) {
     uint64_t from = dp_bits64(s->least);
     for (uint32_t field = first; field != last && s->break_count < BREAKS_MAX;) {
         const double v = measure_threshold(&setup, upward ? field + 1 : field);
-        from = place(s, z, field, upward, unknown_of(&setup, p->unknown, z, v), from, dp_bits64(s->most));
+        from = crossing(s, z, field, upward, unknown_of(&setup, p->unknown, z, v), from, dp_bits64(s->most));
         s->breaks[s->break_count++] = from;
         field = field_at(s, z, dp_float64(from));
     }
@@ -145,10 +146,10 @@ static void find_breaks(search *s) {
     dp_setup setup;
     s->breaks[s->break_count++] = dp_bits64(s->least);
     if (p->spec.format.kind == DP_FORMAT_FLOAT && !s->inert && solve_setup(p, s->most, &setup) == DP_OK) {
-        const double decisive = measure_decisive(&setup, p->lo, p->hi);
+        const double governing = measure_governing(&setup, p->lo, p->hi);
         const double summit = measure_summit(p->kind, &setup, p->lo, p->hi);
-        add_breaks(s, decisive);
-        if (p->lo < p->hi && p->unknown == SOLVE_NEAR && decisive == p->hi && setup.reversed) {
+        add_breaks(s, governing);
+        if (p->lo < p->hi && p->unknown == SOLVE_NEAR && governing == p->hi && setup.reversed) {
             add_breaks(s, p->lo);
             if (summit > p->lo && summit < p->hi)
                 add_breaks(s, summit);
@@ -222,8 +223,8 @@ static uint64_t edge(const search *s, part which, uint64_t inside, uint64_t outs
 }
 
 /* On from `at`, which passes, towards `end` while the neighbour does. */
-static uint64_t walk(const search *s, part which, uint64_t at, uint64_t end) {
-    for (int i = 0; i < WALK && at != end; i++) {
+static uint64_t extend(const search *s, part which, uint64_t at, uint64_t end) {
+    for (int i = 0; i < EXTEND_MOST && at != end; i++) {
         const uint64_t next = end < at ? at - 1 : at + 1;
         if (!passes(s, which, dp_float64(next)))
             break;
@@ -239,7 +240,7 @@ static bool trim(const search *s, part which, uint64_t good, uint64_t *bad) {
     if (!passes(s, which, dp_float64(good)))
         return false;
     const uint64_t inside = passes_surely(s, which, dp_float64(good)) ? edge(s, which, good, *bad) : good;
-    *bad = walk(s, which, inside, *bad);
+    *bad = extend(s, which, inside, *bad);
     return true;
 }
 

@@ -5,32 +5,30 @@
 
 #include "plot/figure.h"
 
-/* Which of the different formats (or mappings) set-up i has, counted in the order in which they appear. */
-static int rank(const figure_request *r, size_t i, bool mapping, int *kinds) {
-    size_t first[CHART_SERIES];
-    int count = 0, found = 0;
-    for (size_t k = 0; k < r->count && count < CHART_SERIES; k++) {
-        int same = -1;
-        for (int j = 0; j < count; j++) {
-            const dp_spec *a = &r->setups[first[j]].spec, *b = &r->setups[k].spec;
-            if (mapping ? a->mapping == b->mapping : strcmp(a->format.name, b->format.name) == 0)
-                same = j;
-        }
-        if (same < 0)
-            first[same = count++] = k;
-        if (k == i)
-            found = same;
-    }
-    *kinds = count;
+/* The first set-up with the format (or mapping) of set-up i. */
+static size_t first_alike(const figure_request *r, size_t i, bool mapping) {
+    const dp_spec *asked = &r->setups[i].spec;
+    size_t k = 0;
+    while (mapping ? r->setups[k].spec.mapping != asked->mapping
+                   : strcmp(r->setups[k].spec.format.name, asked->format.name) != 0)
+        k++;
+    return k;
+}
+
+/* How many different formats (or mappings) the first `count` set-ups have. */
+static int kinds(const figure_request *r, size_t count, bool mapping) {
+    int found = 0;
+    for (size_t i = 0; i < count; i++)
+        found += first_alike(r, i, mapping) == i;
     return found;
 }
 
 chart_style figure_style(const figure_request *request, size_t i) {
-    int formats, mappings;
-    int format = rank(request, i, false, &formats), mapping = rank(request, i, true, &mappings);
-    if (formats > 1 && mappings > 1)
-        return (chart_style){format, mapping, format, false};
-    return (chart_style){(int)i, (int)i, (int)i, false};
+    if (kinds(request, request->count, false) == 1 || kinds(request, request->count, true) == 1)
+        return (chart_style){(int)i, (int)i, (int)i, false};
+    const int format = kinds(request, first_alike(request, i, false), false);
+    const int mapping = kinds(request, first_alike(request, i, true), true);
+    return (chart_style){format, mapping, format, false};
 }
 
 void figure_range(const figure_request *request, double *lo, double *hi) {

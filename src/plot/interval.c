@@ -8,6 +8,7 @@
 #include <string.h>
 
 #include "census/census.h"
+#include "core/append.h"
 #include "plot/envelope.h"
 
 static double widest_cell(const dp_worst *worst) {
@@ -38,7 +39,7 @@ static void into_background(chart_series *s) {
     s->style.marker = -1;
     s->unlisted = true;
     s->note[0] = '\0';
-    snprintf(s->name + strlen(s->name), sizeof s->name - strlen(s->name), ", lattice");
+    append(s->name, sizeof s->name, ", lattice");
 }
 
 /* What a census found of one set-up: the longest interval of each band, at its nearer depth. */
@@ -125,8 +126,7 @@ const char *interval_build(const figure_request *request, chart *out) {
         snprintf(out->title, sizeof out->title, "%s",
                  changed == request->count ? "Guaranteed separation in binary32 arithmetic"
                                            : "Z-fighting interval; in the model fp32, guaranteed separation");
-    snprintf(out->subtitle + strlen(out->subtitle), sizeof out->subtitle - strlen(out->subtitle),
-             ". Thin: the interval of the lattice alone%s",
-             counted != NULL ? ". Points: the longest interval that there is in each power of two" : "");
+    append(out->subtitle, sizeof out->subtitle, ". Thin: the interval of the lattice alone%s",
+           counted != NULL ? ". Points: the longest interval that there is in each power of two" : "");
     return NULL;
 }

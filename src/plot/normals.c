@@ -4,6 +4,7 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "core/bits.h"
 #include "plot/figure.h"
 #include "plot/refine.h"
 #include "texture/normal_measure.h"
@@ -15,18 +16,15 @@ enum { COLUMNS_EACH = 16, DEPTHS_EACH = 4 };
 /* The middle of an image of 1080 lines with a field of view of 60 degrees (orthographic: 10 units high). */
 enum { SIDE = 48, LINES = 1080, RADIUS = 16, PLANE = 0, SPHERE };
 
-static const double PI = 3.14159265358979323846;
-static const double READING = 0x1p-24; /* one rounding to binary32 */
-
 static const char *const surfaces[] = {"plane at 60\u00b0", "outline of a sphere"};
-static const char *const methods[] = {"low", "medium", "high", "projective", "bound of projective"};
-enum { SURFACES = sizeof surfaces / sizeof surfaces[0], BOUND = sizeof methods / sizeof methods[0] - 1 };
+static const int methods[] = {NORMAL_LOW, NORMAL_MEDIUM, NORMAL_HIGH, NORMAL_PROJECTIVE}; /* behind them the bound */
+enum { SURFACES = sizeof surfaces / sizeof surfaces[0], BOUND = sizeof methods / sizeof methods[0] };
 
 static bool middle(const dp_setup *setup, texture_camera *camera) {
     camera_spec spec = camera_spec_default();
     const double share = (double)SIDE / LINES;
     spec.width = spec.height = SIDE;
-    spec.fov_y = 2 * atan(tan(spec.fov_y / 2 * PI / 180) * share) * 180 / PI;
+    spec.fov_y = 2 * atan(tan(spec.fov_y / 2 * M_PI / 180) * share) * 180 / M_PI;
     spec.half_height *= share;
     return camera_init(camera, setup, &spec) == NULL;
 }
@@ -34,7 +32,7 @@ static bool middle(const dp_setup *setup, texture_camera *camera) {
 /* The largest over the image; it changes slowly, so some pixels stand for all. */
 static double bound_of(const texture_camera *camera, const double *parameters) {
     enum { APART = 8 };
-    const scene_row *scene = scene_find("plane");
+    const scene_row *scene = &scene_rows[SCENE_PLANE];
     scene_hit hit;
     double worst = 0;
     scene->hit(camera, parameters, SIDE / 2, SIDE / 2, &hit);
@@ -43,11 +41,11 @@ static double bound_of(const texture_camera *camera, const double *parameters) {
     const normal_plane plane = normal_plane_at(camera, SIDE / 2, SIDE / 2, hit.z, hit.normal);
     for (uint32_t i = 0; i < SIDE; i += APART)
         for (uint32_t j = 0; j < SIDE; j += APART) {
-            const double error = normal_plane_error(camera, i, j, &plane, READING);
+            const double error = normal_plane_error(camera, i, j, &plane, DP_UNIT);
             if (isfinite(error))
                 worst = fmax(worst, normal_plane_bound(camera, i, j, &plane, error));
         }
-    return worst * 180 / PI;
+    return worst * 180 / M_PI;
 }
 
 /* A plane slanted askew: cos 33 cos 53.4 = 1/2. A sphere as large in the image at every depth, and a wall behind it as
@@ -61,11 +59,12 @@ static double measure(const dp_setup *setup, size_t surface, size_t method, doub
     const double plane[] = {z, 33, 53.4, 0}, sphere[] = {z, radius, z + 2 * radius, 0};
     if (method == BOUND)
         return bound_of(&camera, plane);
-    if (!normal_measure(normal_find(methods[method]), &camera, scene_find(surface == PLANE ? "plane" : "sphere"),
-                        surface == PLANE ? plane : sphere, 0, SIDE, &m))
+    if (!normal_measure(&normal_methods[methods[method]], &camera,
+                        &scene_rows[surface == PLANE ? SCENE_PLANE : SCENE_SPHERE], surface == PLANE ? plane : sphere,
+                        0, SIDE, &m))
         return NAN;
     const bool whole = z - radius >= setup->spec.znear && m.sky == 0; /* neither sphere nor wall leaves the view */
-    return (surface == PLANE ? m.inside.p99 : whole ? m.edges.mean : (double)NAN) * 180 / PI;
+    return (surface == PLANE ? m.inside.p99 : whole ? m.edges.mean : (double)NAN) * 180 / M_PI;
 }
 
 static void add_curve(const figure_request *request, const dp_setup *setup, normals_error *error, chart *out,
@@ -77,7 +76,8 @@ static void add_curve(const figure_request *request, const dp_setup *setup, norm
         return;
     s->style = method == BOUND ? (chart_style){.colour = -1, .stroke = 1, .marker = -1, .thin = true}
                                : (chart_style){.colour = (int)method, .stroke = (int)method, .marker = (int)method};
-    snprintf(s->name, sizeof s->name, "%s", methods[method]);
+    snprintf(s->name, sizeof s->name, "%s",
+             method == BOUND ? "bound of projective" : normal_methods[methods[method]].name);
     for (int k = 0; k < slices; k++) {
         double worst = NAN;
         for (int i = k * DEPTHS_EACH; i < (k + 1) * DEPTHS_EACH; i++) /* fmax drops NaN */

@@ -7,6 +7,7 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "core/append.h"
 #include "need/check.h"
 #include "plot/envelope.h"
 #include "plot/notes.h"
@@ -156,12 +157,12 @@ static void write_subtitle(const scene *s, chart *out) {
     const need_file *file = s->request.file;
     const char *slash = strrchr(file->path, '/');
     char text[sizeof out->subtitle];
-    int used = snprintf(text, sizeof text, "%.100s: %zu met, %zu missed", slash != NULL ? slash + 1 : file->path,
-                        s->passed, s->count - s->passed);
+    snprintf(text, sizeof text, "%.100s: %zu met, %zu missed", slash != NULL ? slash + 1 : file->path, s->passed,
+             s->count - s->passed);
     if (file->unit[0] != '\0')
-        used += snprintf(text + used, sizeof text - (size_t)used, "; a scene unit is 1 %s", file->unit);
+        append(text, sizeof text, "; a scene unit is 1 %s", file->unit);
     if (s->ties > 0)
-        snprintf(text + used, sizeof text - (size_t)used, "; not shown: %zu of ties", s->ties);
+        append(text, sizeof text, "; not shown: %zu of ties", s->ties);
     notes_clean(out->subtitle, sizeof out->subtitle, text);
 }
 

@@ -56,12 +56,6 @@ bool number_parse_count(const char *text, unsigned long max, unsigned long *out)
     return true;
 }
 
-static size_t text_copy(const char *text, char out[NUMBER_SIZE]) {
-    size_t length = strlen(text);
-    memcpy(out, text, length + 1);
-    return length;
-}
-
 size_t number_count(uint64_t value, char out[NUMBER_SIZE]) {
     char reversed[20];
     size_t digits = 0;
@@ -77,7 +71,7 @@ size_t number_count(uint64_t value, char out[NUMBER_SIZE]) {
 
 size_t number_shortest(double value, char out[NUMBER_SIZE]) {
     if (!isfinite(value))
-        return number_digits(value, 1, out);
+        return (size_t)snprintf(out, NUMBER_SIZE, "%g", value);
     /* Small whole numbers are common (near, far, codes given as depths) and need no search. */
     if (fabs(value) < 1e9 && value == trunc(value)) {
         const size_t sign = value < 0.0;
@@ -94,35 +88,20 @@ size_t number_shortest(double value, char out[NUMBER_SIZE]) {
     }
 }
 
-size_t number_digits(double value, int digits, char out[NUMBER_SIZE]) {
-    if (isnan(value))
-        return text_copy("nan", out);
-    if (isinf(value))
-        return text_copy(value < 0.0 ? "-inf" : "inf", out);
-    return (size_t)snprintf(out, NUMBER_SIZE, "%.*g", digits, value + 0.0); /* -0 becomes 0 */
-}
-
-size_t number_bound(double value, int digits, bool upward, char out[NUMBER_SIZE]) {
-    const size_t length = number_digits(value, digits, out);
-    const double shown = strtod(out, NULL);
-    if (!isfinite(value) || value <= 0.0 || !(upward ? shown < value : shown > value))
-        return length;
-    const double unit = pow(10.0, floor(log10(shown)) - (digits - 1));
-    return number_digits(shown + (upward ? unit : -unit), digits, out);
-}
-
 number_text number_of(double value, int digits) {
     number_text out = {"-"};
     if (!isnan(value))
-        number_digits(value, digits, out.text);
+        snprintf(out.text, sizeof out.text, "%.*g", digits, value + 0.0); /* -0 becomes 0 */
     return out;
 }
 
 static number_text bound_of(double value, int digits, bool upward) {
-    number_text out = {"-"};
-    if (!isnan(value))
-        number_bound(value, digits, upward, out.text);
-    return out;
+    const number_text out = number_of(value, digits);
+    if (!isfinite(value) || value <= 0.0)
+        return out;
+    const double shown = strtod(out.text, NULL);
+    const double unit = pow(10.0, floor(log10(shown)) - (digits - 1));
+    return (upward ? shown < value : shown > value) ? number_of(shown + (upward ? unit : -unit), digits) : out;
 }
 
 number_text number_up(double value, int digits) {
@@ -134,7 +113,7 @@ number_text number_down(double value, int digits) {
 }
 
 number_text number_full(double value) {
-    number_text out;
+    number_text out = {""};
     number_shortest(value, out.text);
     return out;
 }

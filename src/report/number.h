@@ -7,7 +7,7 @@
 #include <stddef.h>
 #include <stdint.h>
 
-/** The room that number_shortest() and number_digits() need, with the terminating null. */
+/** The room that number_shortest() needs, with the terminating null. */
 enum { NUMBER_SIZE = 32 };
 
 /** What number_parse() lets through. */
@@ -34,20 +34,19 @@ size_t number_count(uint64_t value, char out[NUMBER_SIZE]);
 /** The shortest text that reads back to the same double, by %.15g, %.16g, %.17g; "inf" for INFINITY. @return length */
 size_t number_shortest(double value, char out[NUMBER_SIZE]);
 
-/** %.*g with "inf" for INFINITY. @return length */
-size_t number_digits(double value, int digits, char out[NUMBER_SIZE]);
-
-/** The same rounded up, or down: what is read back is never below, or above, a positive value. @return length */
-size_t number_bound(double value, int digits, bool upward, char out[NUMBER_SIZE]);
-
 /** A number on its way into a sentence: printf("%s", number_of(z, 6).text). Lives until the statement ends. */
 typedef struct number_text {
     char text[NUMBER_SIZE];
 } number_text;
 
-number_text number_of(double value, int digits);   /**< number_digits(), "-" for NaN */
-number_text number_up(double value, int digits);   /**< number_bound() upward, "-" for NaN */
-number_text number_down(double value, int digits); /**< number_bound() downward, "-" for NaN */
-number_text number_full(double value);             /**< number_shortest() */
+/** Significant digits, "inf" for INFINITY, "-" for NaN. */
+number_text number_of(double value, int digits);
+
+/** The same rounded up, or down: what is read back is never below, or above, a positive value. */
+number_text number_up(double value, int digits);
+number_text number_down(double value, int digits);
+
+/** As number_shortest(). */
+number_text number_full(double value);
 
 #endif

@@ -8,39 +8,6 @@
 #include "depthprec/depthprec.h"
 #include "report/column.h"
 
-bool column_shows(const column *c, unsigned form, unsigned when) {
-    return (c->only == 0 || (c->only & form) != 0) && (c->when & ~when) == 0;
-}
-
-void *column_part(const column *c, void *item) {
-    char *at = (char *)item + c->offset;
-    return item != NULL && c->pointed ? *(void **)at : item != NULL ? at : NULL;
-}
-
-column_value column_of(const column *c, const void *item) {
-    const char *at = (const char *)item + c->offset;
-    if (c->pointed)
-        at = *(const char *const *)at;
-    if (at == NULL)
-        return (column_value){.word = NULL};
-    switch (c->kind) {
-    case COLUMN_NUMBER:
-        return (column_value){.is_number = true, .number = *(const double *)at};
-    case COLUMN_COUNT:
-        return (column_value){.is_count = true, .count = *(const uint64_t *)at};
-    case COLUMN_CODE:
-        return (column_value){.is_count = true, .count = *(const uint32_t *)at};
-    case COLUMN_INT:
-        return (column_value){.is_count = true, .count = (uint64_t) * (const int *)at};
-    case COLUMN_FLAG:
-        return (column_value){.word = *(const bool *)at ? "true" : "false"};
-    case COLUMN_LETTERS:
-        return (column_value){.word = *at != '\0' ? at : NULL};
-    default:
-        return (column_value){.word = *(const char *const *)at};
-    }
-}
-
 /* A number with all its digits. */
 static void put_digits(output *out, const column_value *v) {
     char text[NUMBER_SIZE];

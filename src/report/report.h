@@ -76,7 +76,7 @@ typedef struct column {
 
 /* The kind follows from the member's type, so the two cannot disagree. */
 #define FIELD_KIND(type, member)                                                                                       \
-    _Generic(((type *)0)->member,                                                                                      \
+    _Generic(((type){}).member,                                                                                        \
         double: COLUMN_NUMBER,                                                                                         \
         uint64_t: COLUMN_COUNT,                                                                                        \
         uint32_t: COLUMN_CODE,                                                                                         \
@@ -87,7 +87,7 @@ typedef struct column {
         const char *: COLUMN_WORD,                                                                                     \
         char *: COLUMN_LETTERS)
 #define FIELD_POINTED(type, member)                                                                                    \
-    _Generic(((type *)0)->member, const double * : true, const bool * : true, default : false)
+    _Generic(((type){}).member, const double * : true, const bool * : true, default : false)
 #define FIELD_AT(type, member)                                                                                         \
     .kind = FIELD_KIND(type, member), .pointed = FIELD_POINTED(type, member), .offset = offsetof(type, member)
 #define FIELD(type, member, its_key, its_unit)  .key = (its_key), .unit = (its_unit), FIELD_AT(type, member)

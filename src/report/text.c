@@ -50,16 +50,14 @@ static bool has_title(const text_walk *w, const column *c) {
 static void put_value(text_line *line, const column *c, const void *item) {
     const column_value v = column_of(c, item);
     const int digits = c->digits_at > 0 ? *(const int *)((const char *)item + c->digits_at) : c->digits;
-    char text[NUMBER_SIZE] = "-";
+    number_text number = {"-"};
     if (v.is_count)
-        number_count(v.count, text);
-    else if (v.is_number && !isnan(v.number) && c->fixed)
-        snprintf(text, sizeof text, "%.*f", digits, v.number);
-    else if (v.is_number && !isnan(v.number) && c->upward)
-        number_bound(v.number, digits, true, text);
-    else if (v.is_number && !isnan(v.number))
-        number_digits(v.number, digits, text);
-    put(line, c, v.word != NULL ? v.word : text);
+        number_count(v.count, number.text);
+    else if (v.is_number && c->fixed && !isnan(v.number))
+        snprintf(number.text, sizeof number.text, "%.*f", digits, v.number);
+    else if (v.is_number)
+        number = c->upward ? number_up(v.number, digits) : number_of(v.number, digits);
+    put(line, c, v.word != NULL ? v.word : number.text);
 }
 
 /* A line of the titles where there is no item. */

@@ -2,14 +2,9 @@
 #include "texture/decode.h"
 
 #include <math.h>
-#include <string.h>
 
 #include "core/engine.h"
 #include "texture/clones.h"
-
-static bool is_reversed(const dp_setup *setup) {
-    return setup->reversed != 0;
-}
 
 /* ---- Constants --------------------------------------------------------------------------------------------------- */
 
@@ -23,7 +18,7 @@ static double excess_by_far(const dp_setup *setup) {
 
 zbuffer_params zbuffer_params_of(const dp_setup *setup) {
     const double n = setup->spec.znear, f = setup->spec.zfar;
-    if (is_reversed(setup))
+    if (setup->reversed)
         return (zbuffer_params){(float)excess(setup), 1.0f, (float)excess_by_far(setup), (float)(1 / f)};
     return (zbuffer_params){(float)-excess(setup), (float)(f / n), (float)-excess_by_far(setup), (float)(1 / n)};
 }
@@ -40,13 +35,13 @@ static decode_constants linear_01(const dp_setup *setup) {
 
 static decode_constants linear_01_near(const dp_setup *setup) {
     const zbuffer_params p = zbuffer_params_of(setup);
-    const bool r = is_reversed(setup);
+    const bool r = setup->reversed != 0;
     return (decode_constants){DECODE_QUOTIENT, r ? 1.0f : 0.0f, r ? -1.0f : 1.0f, p.x, p.y};
 }
 
 static decode_constants ortho_eye(const dp_setup *setup) {
     const double n = setup->spec.znear, f = setup->spec.zfar;
-    const bool r = is_reversed(setup);
+    const bool r = setup->reversed != 0;
     return (decode_constants){DECODE_AFFINE, 0, 1, (float)(r ? n - f : f - n), (float)(r ? f : n)};
 }
 
@@ -62,7 +57,7 @@ static decode_constants log_eye(const dp_setup *setup) {
 /* All terms positive: q is the share of the way from the far plane, 1 - d or d itself. */
 static decode_constants complement(const dp_setup *setup) {
     const double n = setup->spec.znear, f = setup->spec.zfar, c = setup->spec.log_c;
-    const bool r = is_reversed(setup);
+    const bool r = setup->reversed != 0;
     if (setup->curve == DP_CURVE_LOG)
         return (decode_constants){DECODE_EXPM1, 0, 1, (float)log1p(c * f), (float)c};
     if (setup->curve == DP_CURVE_PERSPECTIVE)
@@ -75,37 +70,38 @@ static decode_constants complement(const dp_setup *setup) {
 
 /* ---- Rows -------------------------------------------------------------------------------------------------------- */
 
-/* clang-format off */
-#define RUN(name) \
-    static void name##_run(const dp_setup *setup, const float *d, float *out, size_t count) { \
-        const decode_constants c = name(setup); \
-        decode_apply(&c, d, out, count); \
-    }
-RUN(linear_eye) RUN(linear_01) RUN(linear_01_near) RUN(ortho_eye) RUN(w_eye) RUN(log_eye) RUN(complement)
-
 static const char unity[] = "UnityCG.cginc and the Core package's Common.hlsl, _ZBufferParams";
+
+/* clang-format off */
 /* The first eye depth that applies to a set-up is the usual one of engines. */
 const decode_row decode_rows[] = {
-    [DECODE_LINEAR_EYE] = {.name = "linear-eye", .note = "LinearEyeDepth: 1/(Z d + W)", .quantity = DECODE_EYE,
-     .perspective = true, .far_infinite = true, .source = unity, .constants = linear_eye, .run = linear_eye_run},
-    [DECODE_LINEAR_01] = {.name = "linear-01", .note = "Linear01Depth: 1/(X d + Y), eye depth over far", .quantity = DECODE_01,
-     .perspective = true, .source = unity, .constants = linear_01, .run = linear_01_run},
-    [DECODE_LINEAR_01_NEAR] = {.name = "linear-01-near",
-     .note = "Linear01DepthFromNear: d/(X d + Y), reversed (1 - d)/(X d + Y); 0 at near, 1 at far",
-     .quantity = DECODE_01_NEAR, .perspective = true, .source = unity,
-     .constants = linear_01_near, .run = linear_01_near_run},
-    [DECODE_ORTHO_EYE] = {.name = "ortho-eye", .note = "orthographic LinearDepthToEyeDepth: n + (f - n) d, reversed f - (f - n) d",
-     .quantity = DECODE_EYE, .ortho = true, .source = "the Core package's Common.hlsl",
-     .constants = ortho_eye, .run = ortho_eye_run},
-    [DECODE_W_EYE] = {.name = "w-eye", .note = "linear depth times far: f d", .quantity = DECODE_EYE, .w = true,
-     .source = "depthprec(7)", .constants = w_eye, .run = w_eye_run},
-    [DECODE_LOG_EYE] = {.name = "log-eye", .note = "logarithmic: ((C f + 1)^d - 1)/C by exp2", .quantity = DECODE_EYE, .log = true,
-     .source = "Kemen, Logarithmic depth buffer, 2009 (Outerra)", .constants = log_eye, .run = log_eye_run},
-    [DECODE_COMPLEMENT] = {.name = "complement",
-     .note = "no cancellation: 1/((1/n - 1/f) q + 1/f), q = 1 - d, reversed d; orthographic n + (f - n)(1 - q); "
-             "f d; expm1(d log(C f + 1))/C",
-     .quantity = DECODE_EYE, .perspective = true, .ortho = true, .w = true, .log = true, .far_infinite = true,
-     .source = "depthprec(7)", .constants = complement, .run = complement_run},
+    [DECODE_LINEAR_EYE] = {
+        .name = "linear-eye", .note = "LinearEyeDepth: 1/(Z d + W)", .source = unity,
+        .quantity = DECODE_EYE, .perspective = true, .far_infinite = true, .constants = linear_eye},
+    [DECODE_LINEAR_01] = {
+        .name = "linear-01", .note = "Linear01Depth: 1/(X d + Y), eye depth over far", .source = unity,
+        .quantity = DECODE_01, .perspective = true, .constants = linear_01},
+    [DECODE_LINEAR_01_NEAR] = {
+        .name = "linear-01-near", .source = unity,
+        .note = "Linear01DepthFromNear: d/(X d + Y), reversed (1 - d)/(X d + Y); 0 at near, 1 at far",
+        .quantity = DECODE_01_NEAR, .perspective = true, .constants = linear_01_near},
+    [DECODE_ORTHO_EYE] = {
+        .name = "ortho-eye", .source = "the Core package's Common.hlsl",
+        .note = "orthographic LinearDepthToEyeDepth: n + (f - n) d, reversed f - (f - n) d",
+        .quantity = DECODE_EYE, .ortho = true, .constants = ortho_eye},
+    [DECODE_W_EYE] = {
+        .name = "w-eye", .note = "linear depth times far: f d", .source = "depthprec(7)",
+        .quantity = DECODE_EYE, .w = true, .constants = w_eye},
+    [DECODE_LOG_EYE] = {
+        .name = "log-eye", .note = "logarithmic: ((C f + 1)^d - 1)/C by exp2",
+        .source = "Kemen, Logarithmic depth buffer, 2009 (Outerra)",
+        .quantity = DECODE_EYE, .log = true, .constants = log_eye},
+    [DECODE_COMPLEMENT] = {
+        .name = "complement", .source = "depthprec(7)",
+        .note = "no cancellation: 1/((1/n - 1/f) q + 1/f), q = 1 - d, reversed d; orthographic n + (f - n)(1 - q); "
+                "f d; expm1(d log(C f + 1))/C",
+        .quantity = DECODE_EYE, .perspective = true, .ortho = true, .w = true, .log = true, .far_infinite = true,
+        .constants = complement},
 };
 /* clang-format on */
 
@@ -171,6 +167,11 @@ void decode_apply(const decode_constants *c, const float *d, float *out, size_t 
     loops[c->form](*c, d, out, count);
 }
 
+void decode_run(const decode_row *row, const dp_setup *setup, const float *d, float *out, size_t count) {
+    const decode_constants c = row->constants(setup);
+    decode_apply(&c, d, out, count);
+}
+
 /* ---- Exactly ----------------------------------------------------------------------------------------------------- */
 
 /* (C f + 1)^d - 1: the exponent needs more digits than a double has, because its error is multiplied by itself. */
@@ -182,7 +183,7 @@ static double exact_power(const dp_setup *setup, double d) {
 double decode_exact(const dp_setup *setup, decode_quantity quantity, double d) {
     const double n = setup->spec.znear, f = setup->spec.zfar;
     const double rest = 1 - d, lost = (1 - rest) - d; /* 1 - d = rest + lost, for d in [0, 1] */
-    const bool r = is_reversed(setup), infinite = isinf(f);
+    const bool r = setup->reversed != 0, infinite = isinf(f);
     /* the shares of the near and of the far end: 1/z = near/n + far/f */
     const double near_hi = r ? d : rest, near_lo = r ? 0 : lost, far_hi = r ? rest : d, far_lo = r ? lost : 0;
     if (infinite && quantity != DECODE_EYE)
@@ -209,8 +210,6 @@ double decode_exact(const dp_setup *setup, decode_quantity quantity, double d) {
 
 /* ---- Bound ------------------------------------------------------------------------------------------------------- */
 
-static const double UNIT = 0x1p-24; /* one rounding to binary32, relative */
-
 double decode_bound(const decode_row *row, const dp_setup *setup, double d) {
     const decode_constants c = row->constants(setup);
     const double exact = decode_exact(setup, row->quantity, d);
@@ -218,7 +217,7 @@ double decode_bound(const decode_row *row, const dp_setup *setup, double d) {
     /* 1 - d is exact from d = 1/2 on; below, it lies in [1/2, 1] and is rounded by half a unit of 1 */
     const double q = turned ? 1 - d : d, q_off = turned && d < 0.5 ? 0.5 / q : 0;
     /* scale and product are rounded once each, base once, but not the 1 of a reversed share; then the sum */
-    const bool base_is_one = row->quantity != DECODE_EYE && is_reversed(setup);
+    const bool base_is_one = row->quantity != DECODE_EYE && setup->reversed != 0;
     const double big =
         (2 + (c.form == DECODE_QUOTIENT ? 0 : q_off)) * (double)fabsf(c.scale) * (c.form == DECODE_QUOTIENT ? d : q) +
         (base_is_one ? 0 : (double)fabsf(c.base));
@@ -234,12 +233,12 @@ double decode_bound(const decode_row *row, const dp_setup *setup, double d) {
     else {
         /* the exponent is rounded relative to itself, its product by half a unit in the last place */
         const double away = setup->spec.log_c * exact, steep = (away + 1) / away;
-        const double per = c.form == DECODE_EXP2 ? M_LN2 : 1, product = dp_half_ulp((double)c.scale * d) / UNIT;
+        const double per = c.form == DECODE_EXP2 ? M_LN2 : 1, product = dp_half_ulp((double)c.scale * d) / DP_UNIT;
         const double power = log1p(away) + per * product;
         /* exp2f within 0.55 ulp, as today's C libraries have it (0.51; tests/test_decode.c looks), expm1f within 1 ulp;
          * the difference with 1, exact below 2^24; then quotient and C */
         off = c.form == DECODE_EXP2 ? (power + 1.1) * steep + (away < 0x1.fffp23 ? 0 : 1) + 2 : power * steep + 4;
     }
-    off *= UNIT * (1 + 0x1p-20); /* the constants are rounded, too, and so is this */
+    off *= DP_UNIT * (1 + 0x1p-20); /* the constants are rounded, too, and so is this */
     return off < 0.5 ? off / (1 - off) : (double)INFINITY;
 }

@@ -51,8 +51,6 @@ typedef struct decode_row {
     bool far_infinite;
     const char *source;
     decode_constants (*constants)(const dp_setup *setup);
-    /** decode_apply() with the row's constants. */
-    void (*run)(const dp_setup *setup, const float *d, float *out, size_t count);
 } decode_row;
 
 /** The rows in their order; the last applies to all. */
@@ -81,6 +79,7 @@ const decode_row *decode_best(void);
 /** `count` window depths in binary32, as a shader would; in place is allowed. NaN stays NaN. Vectorized, but for the
  *  exponentials. */
 void decode_apply(const decode_constants *c, const float *d, float *out, size_t count);
+void decode_run(const decode_row *row, const dp_setup *setup, const float *d, float *out, size_t count);
 
 /**
  * The quantity exactly, rounded to double: the reference. `d`, in [0, 1], is taken as it is, and so are the planes.

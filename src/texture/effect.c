@@ -100,61 +100,55 @@ static double depth_of_field(const dp_setup *setup, const double *p, double z, d
 /* ---- Rows -------------------------------------------------------------------------------------------------------- */
 
 #define RISE                                                                                                           \
-    { "rise", "scene per scene", "how much higher the pixel's ray comes with each unit of eye depth", -1e6, 1e6, -0.25 }
+    {                                                                                                                  \
+        "rise", "how much higher the pixel's ray comes with each unit of eye depth", "scene per scene", -1e6, 1e6,     \
+            -0.25, false                                                                                               \
+    }
 #define DEPTH_TEXTURE "shaders on Unity's _CameraDepthTexture"
 
 /* clang-format off */
 static const effect_row rows[] = {
     {"intersection", "saturate(|eye - scene|/half-width)",
-     {{"half-width", "scene", "distance from the surface over which the highlight fades", 1e-12, 1e12, 0.1}},
+     {{"half-width", "distance from the surface over which the highlight fades", "scene", 1e-12, 1e12, 0.1, false}},
      0, true, false, "the eye depth of the surface",
      DEPTH_TEXTURE "; Lorach 2007, Soft particles", EFFECT_FADE, eye, intersection},
     {"force-field", "(1 - (scene - eye)) power",
-     {{"power", "1/scene", "how fast the glow falls behind the surface", 1e-12, 1e12, 1}},
+     {{"power", "how fast the glow falls behind the surface", "1/scene", 1e-12, 1e12, 1, false}},
      0, false, false, "the eye depth of the surface", DEPTH_TEXTURE, EFFECT_GAIN, eye, force_field},
     {"fog", "saturate(eye01 density)",
-     {{"density", "1", "how thick the fog is at the far plane", 1e-12, 1e12, 1}},
+     {{"density", "how thick the fog is at the far plane", "1", 1e-12, 1e12, 1, false}},
      0, false, true, NULL, DEPTH_TEXTURE, EFFECT_CLAMPED, eye01, fog},
     {"scan-line", "saturate(|cur - eye01|/half-width)",
-     {{"half-width", "eye01", "depth over which the line fades, of far", 1e-15, 1, 0.01}},
+     {{"half-width", "depth over which the line fades, of far", "eye01", 1e-15, 1, 0.01, false}},
      0, true, true, "the depth cur of the line", DEPTH_TEXTURE, EFFECT_FADE, eye01, scan_line},
     {"water-line", "world y < level; with a band, saturate((level - y)/band)",
-     {{"band", "scene", "height over which the edge is softened, 0 for a hard one", 0, 1e12, 0}, RISE},
+     {{"band", "height over which the edge is softened, 0 for a hard one", "scene", 0, 1e12, 0, false}, RISE},
      WATER_BAND, true, false, "the level of the water", DEPTH_TEXTURE, EFFECT_FADE, water_height, water_line},
     {"height-fog", "saturate((y - start)/(end - start) density)",
-     {{"density", "1", "how thick the fog is at the height end", 1e-12, 1e12, 1},
-      {"start", "scene", "height over the camera where fog begins", -1e12, 1e12, 0},
-      {"end", "scene", "height over the camera where density is reached", -1e12, 1e12, -100}, RISE},
+     {{"density", "how thick the fog is at the height end", "1", 1e-12, 1e12, 1, false},
+      {"start", "height over the camera where fog begins", "scene", -1e12, 1e12, 0, false},
+      {"end", "height over the camera where density is reached", "scene", -1e12, 1e12, -100, false}, RISE},
      HEIGHT_DENSITY, false, false, NULL, DEPTH_TEXTURE, EFFECT_CLAMPED, height_share, height_fog},
     {"edge", "|s1 - s4| > threshold, |s2 - s3| > threshold: Roberts' diagonals of eye01",
-     {{"threshold", "eye01", "difference of two pixels that makes an edge, of far", 0, 1, 0.001},
-      {"slope", "scene", "a plane's change of eye depth from one pixel of a diagonal to the other", 0, 1e12, 0.1}},
-     EDGE_THRESHOLD, true, true, "the first pixel's place in its cell", DEPTH_TEXTURE "; Roberts 1963", EFFECT_STEP, eye01, edge},
+     {{"threshold", "difference of two pixels that makes an edge, of far", "eye01", 0, 1, 0.001, false},
+      {"slope", "a plane's change of eye depth from one pixel of a diagonal to the other", "scene", 0, 1e12, 0.1,
+       false}},
+     EDGE_THRESHOLD, true, true, "the first pixel's place in its cell", DEPTH_TEXTURE "; Roberts 1963", EFFECT_STEP,
+     eye01, edge},
     {"motion-blur", "(current - last NDC)/2 = move focal/(2 z), the world position taken from the depth",
-     {{"move", "scene", "sideways way of the camera from the last frame to this", 1e-12, 1e12, 0.1},
-      {"focal", "1", "NDC per unit of slope: 1/tan(fov/2), orthographic 1/half height", 1e-12, 1e12, 1.7320508075688772}},
+     {{"move", "sideways way of the camera from the last frame to this", "scene", 1e-12, 1e12, 0.1, false},
+      {"focal", "NDC per unit of slope: 1/tan(fov/2), orthographic 1/half height", "1", 1e-12, 1e12,
+       1.7320508075688772, false}},
      BLUR_MOVE, false, false, NULL, DEPTH_TEXTURE "; Rosado 2007, GPU Gems 3, chapter 27", EFFECT_GAIN, velocity,
      motion_blur},
     {"depth-of-field", "saturate(|eye01 - focus| level)",
-     {{"level", "1", "how fast the picture blurs away from the focus", 1e-12, 1e15, 10}},
+     {{"level", "how fast the picture blurs away from the focus", "1", 1e-12, 1e15, 10, false}},
      0, false, true, "the focus", DEPTH_TEXTURE, EFFECT_GAIN, eye01, depth_of_field},
 };
 /* clang-format on */
 
 const effect_row *effect_get(size_t index) {
     return index < sizeof rows / sizeof rows[0] ? &rows[index] : NULL;
-}
-
-int effect_parameter_find(const effect_row *row, const char *name) {
-    for (int i = 0; row->parameters[i].name != NULL; i++)
-        if (strcmp(row->parameters[i].name, name) == 0)
-            return i;
-    return -1;
-}
-
-void effect_defaults(const effect_row *row, double parameters[EFFECT_PARAMETERS_MAX]) {
-    for (int i = 0; i < EFFECT_PARAMETERS_MAX; i++)
-        parameters[i] = row->parameters[i].value;
 }
 
 bool effect_applies(const effect_row *row, const dp_setup *setup) {
@@ -164,34 +158,34 @@ bool effect_applies(const effect_row *row, const dp_setup *setup) {
 /* ---- A ramp of the depth ----------------------------------------------------------------------------------------- */
 
 /* The effect at one cell: what errors and limits are taken of. */
-typedef struct place {
+typedef struct cell_case {
     const effect_row *row;
     const dp_setup *setup;
     dp_cell cell;
     double first, last; /* the outermost depths that are stored as the cell's code */
-} place;
+} cell_case;
 
 /* Of the quantity, from the stored depth to the farther end. Errors are made of it, as outputs would cancel. */
-static double change(const place *at, const double *p) {
+static double change(const cell_case *at, const double *p) {
     const double seen = at->row->quantity(at->setup, p, at->cell.stored);
     return fmax(fabs(minus(at->row->quantity(at->setup, p, at->cell.lo), seen)),
                 fabs(minus(at->row->quantity(at->setup, p, at->cell.hi), seen)));
 }
 
-static double fade_error(const place *at, const double *p) {
+static double fade_error(const cell_case *at, const double *p) {
     const double c = change(at, p), wanted = p[at->row->wanted];
     return wanted > 0 ? fmin(c / wanted, 1) : c > 0;
 }
 
-static double fade_limit(const place *at, const double *p, double share) {
+static double fade_limit(const cell_case *at, const double *p, double share) {
     return change(at, p) / share;
 }
 
-static double gain_error(const place *at, const double *p) {
+static double gain_error(const cell_case *at, const double *p) {
     return fmin(change(at, p) * p[at->row->wanted], 1);
 }
 
-static double gain_limit(const place *at, const double *p, double share) {
+static double gain_limit(const cell_case *at, const double *p, double share) {
     return share / change(at, p);
 }
 
@@ -203,7 +197,7 @@ typedef struct pair {
     double most, least;
 } pair;
 
-static pair pair_at(const place *at, const double *p, double end) {
+static pair pair_at(const cell_case *at, const double *p, double end) {
     const double a = at->row->quantity(at->setup, p, at->cell.stored);
     const double b = at->row->quantity(at->setup, p, end);
     return (pair){fmax(fmax(a, b), 0), fmax(fmin(a, b), 0)};
@@ -219,13 +213,13 @@ static double clamped_limit_of(pair q, double share) {
     return q.most - q.least <= share * q.most ? HUGE_VAL : share / (q.most - q.least);
 }
 
-static double clamped_error(const place *at, const double *p) {
+static double clamped_error(const cell_case *at, const double *p) {
     const double wanted = p[at->row->wanted];
     return fmax(clamped_error_of(pair_at(at, p, at->cell.lo), wanted),
                 clamped_error_of(pair_at(at, p, at->cell.hi), wanted));
 }
 
-static double clamped_limit(const place *at, const double *p, double share) {
+static double clamped_limit(const cell_case *at, const double *p, double share) {
     return fmin(clamped_limit_of(pair_at(at, p, at->cell.lo), share),
                 clamped_limit_of(pair_at(at, p, at->cell.hi), share));
 }
@@ -236,7 +230,7 @@ static double clamped_limit(const place *at, const double *p, double share) {
  * The difference of two stored depths over all places of the first in its cell, the second `slope` behind it: stored
  * depths are monotone, so its ends belong to the ends of the cell. False where the plane leaves the far plane.
  */
-static bool differences(const place *at, double slope, double out[2]) {
+static bool differences(const cell_case *at, double slope, double out[2]) {
     const double zfar = at->setup->spec.zfar;
     if (at->first + slope > zfar)
         return false;
@@ -246,7 +240,7 @@ static bool differences(const place *at, double slope, double out[2]) {
     return true;
 }
 
-static double step_error(const place *at, const double *p) {
+static double step_error(const cell_case *at, const double *p) {
     const double plane = p[EDGE_SLOPE] / at->setup->spec.zfar;
     double d[2];
     if (!differences(at, p[EDGE_SLOPE], d))
@@ -255,7 +249,7 @@ static double step_error(const place *at, const double *p) {
 }
 
 /* Wrong are the thresholds from d[0] to the plane's own difference, and from there to d[1]. */
-static double step_limit(const place *at, const double *p, double share) {
+static double step_limit(const cell_case *at, const double *p, double share) {
     const double plane = p[EDGE_SLOPE] / at->setup->spec.zfar;
     double d[2];
     (void)share;
@@ -267,8 +261,8 @@ static double step_limit(const place *at, const double *p, double share) {
 /* ---- Errors and limits ------------------------------------------------------------------------------------------- */
 
 static const struct {
-    double (*error)(const place *, const double *);
-    double (*limit)(const place *, const double *, double share);
+    double (*error)(const cell_case *, const double *);
+    double (*limit)(const cell_case *, const double *, double share);
 } kinds[] = {
     [EFFECT_FADE] = {fade_error, fade_limit},
     [EFFECT_GAIN] = {gain_error, gain_limit},
@@ -287,8 +281,8 @@ static double inside(const dp_setup *setup, uint32_t code, double end, double z)
     return z;
 }
 
-static place place_at(const effect_row *row, const dp_setup *setup, double z) {
-    place at = {.row = row, .setup = setup};
+static cell_case case_at(const effect_row *row, const dp_setup *setup, double z) {
+    cell_case at = {.row = row, .setup = setup};
     const uint32_t code = dp_code(setup, z);
     at.cell = dp_cell_of(setup, code);
     if (row->kind == EFFECT_STEP) {
@@ -298,26 +292,26 @@ static place place_at(const effect_row *row, const dp_setup *setup, double z) {
     return at;
 }
 
-static bool has_error(const place *at) {
+static bool has_error(const cell_case *at) {
     return effect_applies(at->row, at->setup) && at->setup->spec.model != DP_MODEL_FP32;
 }
 
-static double error_in(const place *at, const double *parameters) {
+static double error_in(const cell_case *at, const double *parameters) {
     return LEVELS * kinds[at->row->kind].error(at, parameters);
 }
 
 double effect_error(const effect_row *row, const dp_setup *setup, const double *parameters, double z) {
-    const place at = place_at(row, setup, z);
+    const cell_case at = case_at(row, setup, z);
     return has_error(&at) ? error_in(&at, parameters) : (double)NAN;
 }
 
 double effect_error_within(const effect_row *row, const dp_setup *setup, const double *parameters,
                            const effect_depths *depths) {
-    const place at = {.row = row,
-                      .setup = setup,
-                      .cell = {.stored = depths->seen, .lo = depths->lo, .hi = depths->hi},
-                      .first = depths->lo,
-                      .last = depths->hi};
+    const cell_case at = {.row = row,
+                          .setup = setup,
+                          .cell = {.stored = depths->seen, .lo = depths->lo, .hi = depths->hi},
+                          .first = depths->lo,
+                          .last = depths->hi};
     if (!has_error(&at))
         return NAN;
     if (row->kind != EFFECT_STEP)
@@ -328,7 +322,7 @@ double effect_error_within(const effect_row *row, const dp_setup *setup, const d
 }
 
 /* The closed form is off by its rounding: goes to the last value that is usable, as effect_error() sees it. */
-static void settle(const place *at, double *p, double levels) {
+static void to_last_usable(const cell_case *at, double *p, double levels) {
     enum { STEPS = 64 };
     double *wanted = &p[at->row->wanted];
     const double usable = at->row->smallest ? HUGE_VAL : 0, beyond = at->row->smallest ? 0 : HUGE_VAL;
@@ -345,16 +339,16 @@ static void settle(const place *at, double *p, double levels) {
 }
 
 double effect_usable(const effect_row *row, const dp_setup *setup, const double *parameters, double z, double levels) {
-    const place at = place_at(row, setup, z);
-    const effect_parameter *range = &row->parameters[row->wanted];
-    double p[EFFECT_PARAMETERS_MAX];
+    const cell_case at = case_at(row, setup, z);
+    const texture_parameter *range = &row->parameters[row->wanted];
+    double p[TEXTURE_PARAMETERS];
     if (!has_error(&at))
         return (double)NAN;
     memcpy(p, parameters, sizeof p);
     double *wanted = &p[row->wanted];
     *wanted = kinds[row->kind].limit(&at, p, levels / LEVELS);
     if (*wanted > 0 && isfinite(*wanted))
-        settle(&at, p, levels);
+        to_last_usable(&at, p, levels);
     if (row->smallest)
         return *wanted <= range->hi ? fmax(*wanted, range->lo) : (double)NAN;
     return *wanted >= range->lo ? fmin(*wanted, range->hi) : (double)NAN;

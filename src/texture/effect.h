@@ -18,15 +18,7 @@
 #include <stddef.h>
 
 #include "depthprec/depthprec.h"
-
-enum { EFFECT_PARAMETERS_MAX = 4 };
-
-typedef struct effect_parameter {
-    const char *name;     /**< "half-width"; null ends the list */
-    const char *unit;     /**< "scene", "eye01", "1", ... */
-    const char *note;     /**< what it is */
-    double lo, hi, value; /**< allowed range and default */
-} effect_parameter;
+#include "texture/parameter.h"
 
 /** How the wanted parameter p and the row's quantity v, with v' where it is compared, make the output. */
 typedef enum effect_kind {
@@ -40,7 +32,7 @@ typedef struct effect_row {
     const char *name; /**< "intersection", "force-field", "fog", "scan-line", "water-line", "height-fog", "edge",
                            "motion-blur", "depth-of-field" */
     const char *note; /**< the formula */
-    effect_parameter parameters[EFFECT_PARAMETERS_MAX + 1];
+    texture_parameter parameters[TEXTURE_PARAMETERS + 1];
     int wanted;            /**< the parameter whose usable values are looked for */
     bool smallest;         /**< it is usable from some value up; else from some value down */
     bool eye01;            /**< uses z/far, so far must be finite */
@@ -56,12 +48,6 @@ typedef struct effect_row {
 /** The rows in order; null beyond the last. */
 const effect_row *effect_get(size_t index);
 
-/** The index of a parameter of the row, "rise" for example; -1 when it has none of that name. */
-int effect_parameter_find(const effect_row *row, const char *name);
-
-/** Writes the row's defaults. */
-void effect_defaults(const effect_row *row, double parameters[EFFECT_PARAMETERS_MAX]);
-
 /** Can the effect be had? Not when it needs a finite far plane and there is none. */
 bool effect_applies(const effect_row *row, const dp_setup *setup);
 
@@ -73,7 +59,7 @@ bool effect_applies(const effect_row *row, const dp_setup *setup);
  * pixels of a plane, the one at a depth of z's cell and the other `slope` behind it, give another answer than the plane
  * does, and 0 elsewhere.
  *
- * @param parameters  EFFECT_PARAMETERS_MAX numbers, in the order of the row, within their ranges
+ * @param parameters  TEXTURE_PARAMETERS numbers, in the order of the row, within their ranges
  * @param z           in [near, far]
  * @return from 0 to 255; NaN where the effect cannot be had, and in the model fp32, which has no cells
  */

@@ -12,6 +12,7 @@
 #include <stdint.h>
 
 #include "texture/camera.h"
+#include "texture/decode.h"
 #include "texture/effect.h"
 #include "texture/grain.h"
 #include "texture/image.h"
@@ -109,5 +110,11 @@ typedef struct frame_summary {
 } frame_summary;
 
 bool frame_summarise(const frame *f, const frame_product *product, frame_summary *out);
+
+/**
+ * What a decoding in binary32 adds to what is stored: relative, over the pixels that are not sky; p99 is NaN. What is
+ * no number counts as infinite. @return false when out of memory
+ */
+bool frame_summarise_decoding(const frame *f, const decode_row *row, frame_summary *out);
 
 #endif

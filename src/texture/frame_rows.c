@@ -189,12 +189,12 @@ static void make_normal_error(const frame_row *in) {
 
 /* The settings of a pixel: world height per unit of eye depth is that of its ray. */
 typedef struct settings {
-    double at[EFFECT_PARAMETERS_MAX];
+    double at[TEXTURE_PARAMETERS];
     int rise;
 } settings;
 
 static settings settings_of(const frame_row *in) {
-    settings s = {.rise = effect_parameter_find(in->product->effect, "rise")};
+    settings s = {.rise = parameter_find(in->product->effect->parameters, "rise")};
     memcpy(s.at, in->product->effect_settings, sizeof s.at);
     return s;
 }
@@ -244,7 +244,7 @@ static double effect_error_at(const frame_row *in, ranges *last, const double *a
     const grain_range *range = range_of(in, last, x);
     effect_depths depths = {.seen = (double)eyes_of(in)[x], .lo = range->lo, .hi = range->hi};
     if (row->kind == EFFECT_STEP) {
-        const double slope = at[effect_parameter_find(row, "slope")];
+        const double slope = at[parameter_find(row->parameters, "slope")];
         const double ends[2] = {range->lo + slope, fmin(range->hi + slope, setup->spec.zfar)};
         for (int i = 0; i < 2; i++)
             depths.beside = fmax(depths.beside, grain_range_of(setup, in->frame->grain, dp_code(setup, ends[i])).reach);

@@ -17,26 +17,29 @@ typedef struct summing {
     uint64_t *bins;
 } summing;
 
+/* @return whether it is a finite number */
+static bool add(frame_summary *out, double value, uint32_t column, uint32_t row) {
+    out->infinite += isinf(value) ? 1 : 0;
+    if (!isfinite(value))
+        return false;
+    if (out->count++ == 0 || value > out->hi) {
+        out->hi = value;
+        out->hi_column = column;
+        out->hi_row = row;
+    }
+    out->lo = fmin(out->lo, value);
+    return true;
+}
+
 /* Sums go row by row, from the top: so they are the same in every run. */
 static bool take(void *context, uint32_t row, uint32_t count, const float *values) {
     summing *s = context;
-    frame_summary *out = s->out;
     for (uint32_t i = 0; i < count; i++) {
         double sum = 0;
         for (size_t x = 0; x < s->row_values; x++) {
             const double value = (double)values[i * s->row_values + x];
-            if (isnan(value))
+            if (!add(s->out, value, (uint32_t)(x / s->channels), row + i))
                 continue;
-            if (isinf(value)) {
-                out->infinite++;
-                continue;
-            }
-            if (out->count++ == 0 || value > out->hi) {
-                out->hi = value;
-                out->hi_column = (uint32_t)(x / s->channels);
-                out->hi_row = row + i;
-            }
-            out->lo = fmin(out->lo, value);
             sum += value;
             s->bins[dp_bits32(fabsf((float)value)) >> BIN_SHIFT]++;
         }
@@ -71,5 +74,34 @@ bool frame_summarise(const frame *f, const frame_product *product, frame_summary
         out->p99 = quantile(&s, 0.99);
     }
     free(s.bins);
+    return good;
+}
+
+bool frame_summarise_decoding(const frame *f, const decode_row *row, frame_summary *out) {
+    const dp_setup *setup = &f->camera->setup;
+    const uint32_t width = f->camera->width, sky = frame_sky_rank(f);
+    double sum = 0;
+    uint32_t *codes = calloc(width, sizeof *codes);
+    float *d = calloc(width, sizeof *d), *got = calloc(width, sizeof *got);
+    const bool good = codes != NULL && d != NULL && got != NULL;
+    *out = (frame_summary){.lo = INFINITY, .hi = NAN, .p99 = NAN};
+    for (uint32_t y = 0; good && y < f->camera->height; y++) {
+        frame_codes(f, y, codes);
+        for (uint32_t x = 0; x < width; x++)
+            d[x] = codes[x] == UINT32_MAX ? NAN : (float)dp_format_value(&setup->spec.format, codes[x]);
+        decode_run(row, setup, d, got, width);
+        for (uint32_t x = 0; x < width; x++) {
+            if (codes[x] == UINT32_MAX || frame_rank(setup, codes[x]) >= sky)
+                continue;
+            const double want = decode_exact(setup, row->quantity, (double)d[x]);
+            const double off = want == (double)got[x] ? 0 : fabs((double)got[x] - want) / fabs(want);
+            if (add(out, isfinite(off) ? off : (double)INFINITY, x, y))
+                sum += off;
+        }
+    }
+    out->mean = out->count > 0 ? sum / (double)out->count : (double)NAN;
+    free(codes);
+    free(d);
+    free(got);
     return good;
 }

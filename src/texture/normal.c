@@ -221,18 +221,12 @@ const normal_row normal_methods[] = {
     [NORMAL_HIGH] = {"high", "on each axis the side, 2 pixels away, whose line through two pixels meets the depth best",
      2, 4, urp, high_run, high_sides},
     [NORMAL_HIGH_1] = {"high-1", "the same with the pixels next to it", 1, 2, "", high_1_run, high_1_sides},
-    [NORMAL_PROJECTIVE] = {"projective", "the pixels next to it, lines in 1/z, and the normal from the differences of 1/z: exact on planes",
+    [NORMAL_PROJECTIVE] = {"projective",
+     "the pixels next to it, lines in 1/z, and the normal from the differences of 1/z: exact on planes",
      1, 2, "depthprec(7)", projective_run, projective_sides},
 };
 /* clang-format on */
 
 const normal_row *normal_get(size_t index) {
     return index < NORMAL_METHODS ? &normal_methods[index] : NULL;
-}
-
-const normal_row *normal_find(const char *name) {
-    for (size_t i = 0; i < NORMAL_METHODS; i++)
-        if (strcmp(normal_methods[i].name, name) == 0)
-            return &normal_methods[i];
-    return NULL;
 }

@@ -49,7 +49,6 @@ enum { NORMAL_LOW = 0, NORMAL_MEDIUM, NORMAL_MEDIUM_1, NORMAL_HIGH, NORMAL_HIGH_
 extern const normal_row normal_methods[NORMAL_METHODS];
 
 const normal_row *normal_get(size_t index); /**< null beyond the last */
-const normal_row *normal_find(const char *name);
 
 /** Writes the eye depths of a row, camera->width of them; NaN for sky. */
 typedef void (*normal_source)(void *context, uint32_t row, float *eye);

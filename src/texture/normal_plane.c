@@ -6,9 +6,6 @@
 #include "core/engine.h"
 #include "texture/normal.h"
 
-static const double PI = 3.14159265358979323846;
-static const double UNIT = 0x1p-24; /* the largest relative error of an operation in binary32 */
-
 static double dot(const double a[3], const double b[3]) {
     return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
 }
@@ -149,7 +146,7 @@ static double rounding(const texture_camera *camera, const double exact[3], cons
     const double own = 2 * (fabs(x) + fabs(y)) + inner + fabs(exact[2]);
     double last[3], most = 0;
     for (int i = 0; i < 3; i++)
-        last[i] = dp_half_ulp(fabs(exact[i]) / size + beside) / UNIT * size;
+        last[i] = dp_half_ulp(fabs(exact[i]) / size + beside) / DP_UNIT * size;
     for (int i = 0; i < 16; i++) {
         const double to_a = i & 1 ? each : -each, to_b = i & 2 ? each : -each;
         const double added[3] = {to_a * a + (i & 4 ? last[0] : -last[0]), to_b * b + (i & 8 ? last[1] : -last[1]),
@@ -166,7 +163,7 @@ double normal_plane_bound(const texture_camera *camera, uint32_t column, uint32_
     double exact[3], place[3], farthest[3] = {0}, worst = -1; /* tan^2 of the angle, for comparing */
     mistake m = {.camera = camera};
     if (!(error < (double)INFINITY))
-        return PI;
+        return M_PI;
     exact_vector(camera, plane, exact);
     ray(camera, column, row, m.direction, place);
     for (int i = 0; i < 32; i++) { /* the corners of the cube of errors, for each choice of sides */
@@ -179,7 +176,7 @@ double normal_plane_bound(const texture_camera *camera, uint32_t column, uint32_
         cross_product(exact, found, cross);
         const double along = dot(exact, found), tangent = dot(cross, cross) / (along * along);
         if (!(along > 0))
-            return PI;
+            return M_PI;
         if (tangent > worst) {
             worst = tangent;
             memcpy(farthest, found, sizeof farthest);
@@ -188,9 +185,9 @@ double normal_plane_bound(const texture_camera *camera, uint32_t column, uint32_
     worst = normal_angle(exact, farthest);
     /* Vectors within an angle of at most a right one of another are convex: the corners speak for all between. The
      * roundings are those of a vector between, which differ by less than this, as their products do. */
-    const double more = 24 * UNIT * (1 + hypot(m.direction[0], m.direction[1]));
-    if (!(worst < PI / 2 && more < 0.5))
-        return PI;
-    return fmin((worst + UNIT * rounding(camera, exact, m.direction, worst + more)) / (1 - more) + 1e-14,
-                PI); /* in double */
+    const double more = 24 * DP_UNIT * (1 + hypot(m.direction[0], m.direction[1]));
+    if (!(worst < M_PI / 2 && more < 0.5))
+        return M_PI;
+    return fmin((worst + DP_UNIT * rounding(camera, exact, m.direction, worst + more)) / (1 - more) + 1e-14,
+                M_PI); /* in double */
 }

@@ -140,7 +140,7 @@ static void both_decode(const pack_row *row, const uint32_t codes[], double *out
 
 /* clang-format off */
 static const pack_row rows[] = {
-    {.name = "rg-depth", .kind = PACK_DEPTH, .channels = 2, .bits = 8,
+    [PACK_RG_DEPTH] = {.name = "rg-depth", .kind = PACK_DEPTH, .channels = 2, .bits = 8,
      .note = "linear depth in two channels: frac(v (1, 255)), x -= y/255; back by x + y/255. Steps of 1/65025; v = 1 "
              "decodes to 0. Exact arithmetic, channels to the nearest",
      .depth = {3.845e-6, 7.690e-6}, .source = UNITY "EncodeFloatRG, DecodeFloatRG",
@@ -163,14 +163,14 @@ static const pack_row rows[] = {
      .normal = {0.459, 1.130}, .source = UNITY "EncodeViewNormalStereo, DecodeViewNormalStereo",
      .encode = stereo_encode, .decode = stereo_decode},
     {.name = "oct-8", .kind = PACK_NORMAL, .layout = PACK_OCT, .channels = 2, .bits = 8, .sphere = true,
-     .note = "octahedral, two SNORM channels, each to the nearest", .normal = {0.3374, 0.9571}, .source = CIGOLLE ", oct",
-     .encode = oct_encode, .decode = oct_decode},
+     .note = "octahedral, two SNORM channels, each to the nearest", .normal = {0.3374, 0.9571},
+     .source = CIGOLLE ", oct", .encode = oct_encode, .decode = oct_decode},
     {.name = "oct-10", .kind = PACK_NORMAL, .layout = PACK_OCT, .channels = 2, .bits = 10, .sphere = true,
-     .note = "octahedral, two SNORM channels, each to the nearest", .normal = {0.0838, 0.2379}, .source = CIGOLLE ", oct",
-     .encode = oct_encode, .decode = oct_decode},
+     .note = "octahedral, two SNORM channels, each to the nearest", .normal = {0.0838, 0.2379},
+     .source = CIGOLLE ", oct", .encode = oct_encode, .decode = oct_decode},
     {.name = "oct-12", .kind = PACK_NORMAL, .layout = PACK_OCT, .channels = 2, .bits = 12, .sphere = true,
-     .note = "octahedral, two SNORM channels, each to the nearest", .normal = {0.02092, 0.05938}, .source = CIGOLLE ", oct",
-     .encode = oct_encode, .decode = oct_decode},
+     .note = "octahedral, two SNORM channels, each to the nearest", .normal = {0.02092, 0.05938},
+     .source = CIGOLLE ", oct", .encode = oct_encode, .decode = oct_decode},
     {.name = "xyz-8", .kind = PACK_NORMAL, .layout = PACK_XYZ, .channels = 3, .bits = 8, .sphere = true,
      .note = "the three components in SNORM channels, normalized after reading", .normal = {0.1703, 0.3904},
      .source = CIGOLLE ", snorm", .encode = xyz_encode, .decode = xyz_decode},
@@ -181,18 +181,12 @@ static const pack_row rows[] = {
      .note = "the three components in SNORM channels, normalized after reading", .normal = {0.01056, 0.02424},
      .source = CIGOLLE ", snorm", .encode = xyz_encode, .decode = xyz_decode},
     {.name = "depth-normal", .kind = PACK_DEPTH_NORMAL, .layout = PACK_STEREO, .channels = 4, .bits = 8,
-     .note = "one texel for both: stereo-8 in xy, rg-depth in zw", .depth = {3.845e-6, 7.690e-6}, .normal = {0.459, 1.130},
-     .source = UNITY "EncodeDepthNormal, DecodeDepthNormal", .encode = both_encode, .decode = both_decode},
+     .note = "one texel for both: stereo-8 in xy, rg-depth in zw",
+     .depth = {3.845e-6, 7.690e-6}, .normal = {0.459, 1.130}, .source = UNITY "EncodeDepthNormal, DecodeDepthNormal",
+     .encode = both_encode, .decode = both_decode},
 };
 /* clang-format on */
 
 const pack_row *pack_get(size_t index) {
     return index < sizeof rows / sizeof rows[0] ? &rows[index] : NULL;
-}
-
-const pack_row *pack_find(const char *name) {
-    for (size_t i = 0; i < sizeof rows / sizeof rows[0]; i++)
-        if (strcmp(rows[i].name, name) == 0)
-            return &rows[i];
-    return NULL;
 }

@@ -50,9 +50,6 @@ typedef struct pack_row {
 /** The rows in order; null beyond the last. */
 const pack_row *pack_get(size_t index);
 
-/** The row of a name; null when there is none. */
-const pack_row *pack_find(const char *name);
-
 /** The error over the whole domain. */
 typedef struct pack_error {
     pack_bound depth, normal; /**< as the claims */

@@ -177,7 +177,7 @@ static double error_of(const pack_row *row, const double n[3]) {
 }
 
 /* A corner belongs to several codes: of the vectors a hair beside it, the one whose code is that of the search. */
-static void settle(const search *s, double out[3]) {
+static void beside_corner(const search *s, double out[3]) {
     double worst = -1;
     for (int k = 0; k < 8; k++) {
         double n[3], length = 0;
@@ -221,7 +221,7 @@ static void measure_normal(const pack_row *row, pack_error *out) {
     const uint32_t codes = 1U << (row->layout == PACK_STEREO ? row->bits : row->bits - 1);
     search s = {.row = row, .most = codes - 1};
     searches[row->layout](&s);
-    settle(&s, out->normal_at);
+    beside_corner(&s, out->normal_at);
     out->normal.max = asin(sqrt(s.sine2)) * 180 / M_PI;
     out->codes = s.codes;
     mean(row, out);
@@ -230,7 +230,7 @@ static void measure_normal(const pack_row *row, pack_error *out) {
 pack_error pack_measure(const pack_row *row) {
     pack_error out = {.codes = 0};
     if (row->kind != PACK_NORMAL)
-        pack_measure_depth(row->kind == PACK_DEPTH ? row : pack_find("rg-depth"), &out);
+        pack_measure_depth(row->kind == PACK_DEPTH ? row : pack_get(PACK_RG_DEPTH), &out);
     if (row->kind != PACK_DEPTH)
         measure_normal(row, &out);
     return out;

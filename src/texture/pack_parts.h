@@ -7,6 +7,9 @@
 
 enum { PACK_BYTE = 255 };
 
+/** The row whose depths those of depth-normal are. */
+enum { PACK_RG_DEPTH = 0 };
+
 /** kScale of EncodeViewNormalStereo. */
 #define PACK_STEREO_SCALE 1.7777
 

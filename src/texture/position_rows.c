@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The rows: binary32 loops over the pixels of a line. */
 #include <math.h>
-#include <string.h>
 
+#include "core/bits.h"
 #include "texture/clones.h"
 #include "texture/position.h"
 #include "texture/position_bound.h"
@@ -88,21 +88,13 @@ static void rays_run(const position_state *s, uint32_t row, uint32_t column, con
 /* ---- Top left and extents ---------------------------------------------------------------------------------------- */
 
 /* To binary16 and back: nearest, ties to even; beyond 65504 infinite from 65520 on. */
-static inline float half_of(float a) {
-    uint32_t bits, sign;
-    memcpy(&bits, &a, sizeof bits);
-    sign = bits & 0x80000000u;
-    bits ^= sign;
-    uint32_t normal = (bits + 0xfffu + (bits >> 13 & 1u)) & ~0x1fffu;
-    normal = bits >= 0x477ff000u ? 0x7f800000u : normal;
-    float tiny, r;
-    memcpy(&tiny, &bits, sizeof tiny);
-    tiny = (tiny + 0.5f) - 0.5f; /* multiples of 2^-24 */
-    uint32_t tiny_bits;
-    memcpy(&tiny_bits, &tiny, sizeof tiny_bits);
-    bits = (bits < 0x38800000u ? tiny_bits : normal) | sign;
-    memcpy(&r, &bits, sizeof r);
-    return a == a ? r : a;
+DP_INLINE float half_of(float a) {
+    const uint32_t sign = dp_bits32(a) & 0x80000000u, bits = dp_bits32(a) ^ sign;
+    const uint32_t rounded = (bits + 0xfffu + (bits >> 13 & 1u)) & ~0x1fffu;
+    const uint32_t normal = bits >= 0x477ff000u ? 0x7f800000u : rounded;
+    const float tiny = (dp_float32(bits) + 0.5f) - 0.5f; /* multiples of 2^-24 */
+    const float half = dp_float32((bits < 0x38800000u ? dp_bits32(tiny) : normal) | sign);
+    return a == a ? half : a;
 }
 
 /* What a component becomes: view-relative first, in binary16 where the row says so, then moved to the world. */
@@ -205,17 +197,20 @@ const position_row position_rows[] = {
     [POSITION_MATRIX] = {.name = "matrix", .note = "inverse view-projection matrix times NDC, divided by w",
      .perspective = true, .ortho = true, .source = "ComputeWorldSpacePosition, the Core package's Common.hlsl",
      .run = matrix_run, .bound = matrix_bound},
-    [POSITION_RAYS] = {.name = "rays", .note = "camera + ray eye/n, the ray between the rays through the near plane's four corners",
+    [POSITION_RAYS] = {.name = "rays",
+     .note = "camera + ray eye/n, the ray between the rays through the near plane's four corners",
      .perspective = true, .curved = true, .source = "image effects with _FrustumCornersRay",
      .run = rays_run, .bound = rays_bound},
     [POSITION_EXTENTS] = {.name = "extents",
      .note = "(top left + x extent u + y extent v) eye/n; orthographic: + z extent eye/f instead of the factor",
      .perspective = true, .ortho = true, .curved = true, .source = "URP, ReconstructViewPos in SSAO.hlsl",
      .run = extents_run, .bound = extents_bound},
-    [POSITION_EXTENTS_HALF] = {.name = "extents-half", .note = "the same, returned in binary16 before the camera's place is added",
+    [POSITION_EXTENTS_HALF] = {.name = "extents-half",
+     .note = "the same, returned in binary16 before the camera's place is added",
      .perspective = true, .ortho = true, .curved = true, .source = "URP, ReconstructViewPos in SSAO.hlsl",
      .run = half_run, .bound = half_bound},
-    [POSITION_VIEW] = {.name = "view", .note = "camera + ray z, the ray counted from the image's middle, z without cancellation",
+    [POSITION_VIEW] = {.name = "view",
+     .note = "camera + ray z, the ray counted from the image's middle, z without cancellation",
      .perspective = true, .ortho = true, .curved = true, .source = "depthprec(7)",
      .run = view_run, .bound = view_bound},
 };

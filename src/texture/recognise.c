@@ -10,6 +10,7 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "core/append.h"
 #include "core/bits.h"
 #include "texture/clones.h"
 #include "texture/image_depths.h"
@@ -354,9 +355,8 @@ static void find_steps(const image *img, finding *f, const tally *s, recognised 
     if (found.steps == 0 || img->type == IMAGE_U8)
         return;
     out->certain = false;
-    const size_t used = strlen(f->reason);
-    snprintf(f->reason + used, sizeof f->reason - used, "; all are multiples of 1/%.9g%s", found.steps,
-             out->steps_certain ? "" : ", perhaps by chance");
+    append(f->reason, sizeof f->reason, "; all are multiples of 1/%.9g%s", found.steps,
+           out->steps_certain ? "" : ", perhaps by chance");
 }
 
 /* How many numbers agree, against how many would without that lattice. */

@@ -108,41 +108,30 @@ static bool decals_pair(const double *p, size_t index, double *front, double *ba
 }
 
 /* clang-format off */
-static const scene_row rows[] = {
-    {"plane", "a plane, seen head-on or slanted", plane_hit, NULL, {
-        {"distance", LENGTH, 10, false, "eye depth in the middle of the image"},
-        {"tilt", "degrees", -89.9, 89.9, 0, false, "the upper side leans back; 90 would be a floor"},
-        {"turn", "degrees", -89.9, 89.9, 0, false, "the right side leans back"}}},
-    {"sphere", "a sphere on the view axis, before a wall or the sky", sphere_hit, NULL, {
-        {"distance", LENGTH, 10, false, "eye depth of the centre, more than the radius"},
-        {"radius", LENGTH, 3, false, "of the sphere"},
-        {"wall", "scene units", 0, 1e15, 0, false, "eye depth of the wall; 0: sky"}}},
-    {"steps", "upright stairs that face the camera, in equal ratios of depth", steps_hit, steps_pair, {
-        {"from", LENGTH, 1, false, "eye depth of the leftmost"},
-        {"to", LENGTH, 300, false, "eye depth of the rightmost"},
-        {"count", "steps", 2, 65536, 16, true, "how many"}}},
-    {"decals", "a decal before each tile of a wall, the tiles in equal ratios of depth", decals_hit, decals_pair, {
-        {"gap", LENGTH, 0.01, false, "from a decal to the wall behind it"},
-        {"from", LENGTH, 1, false, "eye depth of the first tile, top left"},
-        {"to", LENGTH, 300, false, "eye depth of the last tile, bottom right"},
-        {"count", "decals", 2, 1024, 8, true, "in a row, and rows"}}},
+const scene_row scene_rows[] = {
+    [SCENE_PLANE] = {"plane", "a plane, seen head-on or slanted", plane_hit, NULL, {
+        {"distance", "eye depth in the middle of the image", LENGTH, 10, false},
+        {"tilt", "the upper side leans back; 90 would be a floor", "degrees", -89.9, 89.9, 0, false},
+        {"turn", "the right side leans back", "degrees", -89.9, 89.9, 0, false}}},
+    [SCENE_SPHERE] = {"sphere", "a sphere on the view axis, before a wall or the sky", sphere_hit, NULL, {
+        {"distance", "eye depth of the centre, more than the radius", LENGTH, 10, false},
+        {"radius", "of the sphere", LENGTH, 3, false},
+        {"wall", "eye depth of the wall; 0: sky", "scene units", 0, 1e15, 0, false}}},
+    [SCENE_STEPS] = {"steps", "upright stairs that face the camera, in equal ratios of depth", steps_hit, steps_pair, {
+        {"from", "eye depth of the leftmost", LENGTH, 1, false},
+        {"to", "eye depth of the rightmost", LENGTH, 300, false},
+        {"count", "how many", "steps", 2, 65536, 16, true}}},
+    [SCENE_DECALS] = {"decals", "a decal before each tile of a wall, the tiles in equal ratios of depth",
+        decals_hit, decals_pair, {
+        {"gap", "from a decal to the wall behind it", LENGTH, 0.01, false},
+        {"from", "eye depth of the first tile, top left", LENGTH, 1, false},
+        {"to", "eye depth of the last tile, bottom right", LENGTH, 300, false},
+        {"count", "in a row, and rows", "decals", 2, 1024, 8, true}}},
 };
 /* clang-format on */
 
 const scene_row *scene_get(size_t index) {
-    return index < sizeof rows / sizeof rows[0] ? &rows[index] : NULL;
-}
-
-const scene_row *scene_find(const char *name) {
-    for (size_t i = 0; i < sizeof rows / sizeof rows[0]; i++)
-        if (strcmp(rows[i].name, name) == 0)
-            return &rows[i];
-    return NULL;
-}
-
-void scene_defaults(const scene_row *scene, double parameters[SCENE_PARAMETERS]) {
-    for (size_t i = 0; i < SCENE_PARAMETERS; i++)
-        parameters[i] = scene->parameters[i].value;
+    return index < SCENE_ROWS ? &scene_rows[index] : NULL;
 }
 
 void scene_codes(const scene_row *scene, const texture_camera *camera, const double *parameters, uint32_t row,

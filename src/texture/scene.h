@@ -13,8 +13,7 @@
 #include <stdint.h>
 
 #include "texture/camera.h"
-
-enum { SCENE_PARAMETERS = 4 };
+#include "texture/parameter.h"
 
 /** What a pixel sees. */
 typedef struct scene_hit {
@@ -31,19 +30,13 @@ typedef struct scene_row {
     /** Pair `index` of surfaces, one behind the other, that a depth buffer should tell apart: their eye depths. Null
      *  where a scene has none. @return false behind the last */
     bool (*pair)(const double *parameters, size_t index, double *front, double *back);
-    struct {
-        const char *name, *unit;
-        double lo, hi, value; /**< allowed range, ends included, and default */
-        bool whole;           /**< a whole number */
-        const char *note;
-    } parameters[SCENE_PARAMETERS]; /**< a null name ends them */
+    texture_parameter parameters[TEXTURE_PARAMETERS + 1];
 } scene_row;
 
-const scene_row *scene_get(size_t index); /**< null behind the last */
-const scene_row *scene_find(const char *name);
+enum { SCENE_PLANE = 0, SCENE_SPHERE, SCENE_STEPS, SCENE_DECALS, SCENE_ROWS };
+extern const scene_row scene_rows[SCENE_ROWS];
 
-/** The default values of a scene's parameters. */
-void scene_defaults(const scene_row *scene, double parameters[SCENE_PARAMETERS]);
+const scene_row *scene_get(size_t index); /**< null beyond the last */
 
 /** The codes that a row of pixels stores: dp_code() of each hit, the far plane's code for sky. */
 void scene_codes(const scene_row *scene, const texture_camera *camera, const double *parameters, uint32_t row,

@@ -1,0 +1,34 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/** @file parameter.h  The numbers that a scene or an effect takes: a list that a null name ends. */
+#ifndef TEXTURE_PARAMETER_H
+#define TEXTURE_PARAMETER_H
+
+#include <stdbool.h>
+#include <stddef.h>
+#include <string.h>
+
+enum { TEXTURE_PARAMETERS = 4 }; /**< at most in a list, without its end */
+
+typedef struct texture_parameter {
+    const char *name; /**< "half-width" */
+    const char *note; /**< what it is */
+    const char *unit; /**< "scene units", "eye01", "1", ... */
+    double lo, hi;    /**< allowed range, ends included */
+    double value;     /**< default */
+    bool whole;       /**< a whole number */
+} texture_parameter;
+
+/** The index of a name in a list; -1 when there is none. */
+static inline int parameter_find(const texture_parameter *list, const char *name) {
+    for (int i = 0; list[i].name != NULL; i++)
+        if (strcmp(list[i].name, name) == 0)
+            return i;
+    return -1;
+}
+
+static inline void parameter_defaults(const texture_parameter *list, double out[TEXTURE_PARAMETERS]) {
+    for (int i = 0; i < TEXTURE_PARAMETERS; i++)
+        out[i] = list[i].value;
+}
+
+#endif
