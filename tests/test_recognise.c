@@ -433,6 +433,8 @@ static void directions(void **state) {
         {0.01, 0.2, 300, 100, 1, "most are below 1/4: likely reversed"},
         {0.01, 0.2, 0, 4, 1, "most are below 1/4: likely reversed"},
         {0.01, 0.99, 0, 0, -1, "neither sky nor mass shows a direction"},
+        {0.26, 0.49, 0, 0, -1, "neither sky nor mass shows a direction"},
+        {0.51, 0.74, 0, 0, -1, "neither sky nor mass shows a direction"},
         {0.01, 0.99, 900, 0, 1, "sky at 0: likely reversed"},
         {0.01, 0.99, 0, 900, 0, "sky at 1: likely not reversed"},
         {0.01, 0.99, 900, 900, -1, "neither sky nor mass shows a direction"},
