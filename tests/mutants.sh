@@ -138,7 +138,7 @@ judge() { # judge TREE TEST...: prints what came of it
     near=$(paths "$@")
     # shellcheck disable=SC2046
     make -C "$tree" all $(echo "$near" | grep '^build/') >"$tree/mutants.log" 2>&1 ||
-        { echo "error: it does not compile" && return; }
+        { echo "error: it does not compile: $(grep -m 1 -i error "$tree/mutants.log" | cut -c 1-120)" && return; }
     tests=$near how=
     for round in 1 2 3 4; do
         if [ $round = 3 ]; then
