@@ -369,11 +369,28 @@ static void test_cost(void **state) {
         assert_null(strstr(cost_of(&dp_format_get(i)->format, DP_MAPPING_GL).available, "study"));
 }
 
+/* Where an infinite far plane passes it is the largest far that does; mappings without one end at 1e18. */
+static void test_infinite(void **state) {
+    static const char *const formats[] = {"unorm24", "fp32"};
+    (void)state;
+    for (int m = 0; m < DP_MAPPING_COUNT; m++)
+        for (int f = 0; f < 2; f++) {
+            static solve_result s;
+            const solve_problem p = problem_of(formats[f], (dp_mapping)m, SOLVE_FAR, 1.0, 1.9, 2.0);
+            const bool infinite = dp_mapping_get((dp_mapping)m)->far_infinite;
+            assert_int_equal(solve(&p, &s), DP_OK);
+            assert_true(s.possible && s.island_count == 1 && s.until <= 3.0);
+            assert_true(isinf(s.value) == infinite && isinf(s.most) == infinite);
+            assert_true(s.value == s.islands[0].hi && (infinite || s.value <= 1e18));
+            assert_true(worst_of(&p, s.value).value <= p.limit);
+        }
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_known), cmocka_unit_test(test_closed_form), cmocka_unit_test(test_tight),
         cmocka_unit_test(test_error), cmocka_unit_test(test_range),       cmocka_unit_test(test_door),
-        cmocka_unit_test(test_cost),
+        cmocka_unit_test(test_cost),  cmocka_unit_test(test_infinite),
     };
     gsl_set_error_handler_off();
     return run_tap(tests);
