@@ -4,7 +4,7 @@
 #   mutants.sh          a test of the table itself: no row is stale, no room is forgotten
 #   mutants.sh --run    makes each change in a copy of the tree and says whether the tests notice it; `make mutants`
 # ROOM=core and ONLY=regex choose rows, JOBS says how many copies work side by side (2), TEST_SECONDS how long one test
-# may take (300). First come the tests that the row or the room names, then, unless NEAR=1, all others; the first that
+# may take (600). First come the tests that the row or the room names, then, unless NEAR=1, all others; the first that
 # fails ends the row.
 set -u
 
@@ -80,7 +80,7 @@ fi
 # ---- The run -----------------------------------------------------------------------------------------------------
 
 unset MAKEFLAGS MAKELEVEL MFLAGS DEPTHPREC_FULL DEPTHPREC_QUICK
-: "${CC:=cc}" "${TEST_SECONDS:=300}"
+: "${CC:=cc}" "${TEST_SECONDS:=600}"
 export CC TEST_SECONDS LC_ALL=C B=build
 
 stale >&2
