@@ -277,7 +277,7 @@ help:
 ## make check-full  the exhaustive tests too
 ## make asan        the tests under the address and undefined-behaviour sanitizers
 ## make fuzz        each fuzz target for FUZZ_SECONDS=20 (needs clang)
-## make mutants     whether the tests notice changes of the source, those of tests/mutants.txt: over an hour (ROOM=, ONLY=)
+## make mutants     whether the tests notice the changes of the source in tests/mutants.txt: an hour (ROOM=, ONLY=)
 ## make coverage    the lines that the tests reach, per file
 ## make lint        format, warnings of gcc and clang, cppcheck, manual pages, spelling, scripts, licences
 ## make plots       draw the gallery in plots/ again

@@ -3,9 +3,9 @@
 # Changes of our own source that a user would see: tests/mutants.txt.
 #   mutants.sh          a test of the table itself: no row is stale, no room is forgotten
 #   mutants.sh --run    makes each change in a copy of the tree and says whether the tests notice it; `make mutants`
-# ROOM=core and ONLY=regex choose rows, JOBS says how many copies work side by side (2), TEST_SECONDS how long one test may
-# take (300). First come the tests that the row or the room names, then, unless NEAR=1, all others; the first that fails
-# ends the row.
+# ROOM=core and ONLY=regex choose rows, JOBS says how many copies work side by side (2), TEST_SECONDS how long one test
+# may take (300). First come the tests that the row or the room names, then, unless NEAR=1, all others; the first that
+# fails ends the row.
 set -u
 
 table=tests/mutants.txt
@@ -94,7 +94,8 @@ trap 'trap "" INT TERM; kill 0; wait; exit 130' INT TERM
 
 rows | ROOM=${ROOM-} ONLY=${ONLY-} awk -F "$mark" -v table="$table" '
     { text = table ":" $8 ": " $3 " | " $4 "\n- " $5 "\n+ " $6 "\n= " $7 }
-    (ENVIRON["ROOM"] == "" || $2 == ENVIRON["ROOM"]) && (ENVIRON["ONLY"] == "" || text ~ ENVIRON["ONLY"])' >"$folder/rows"
+    (ENVIRON["ROOM"] == "" || $2 == ENVIRON["ROOM"]) &&
+    (ENVIRON["ONLY"] == "" || text ~ ENVIRON["ONLY"])' >"$folder/rows"
 count=$(wc -l <"$folder/rows")
 [ "$count" -gt 0 ] || { echo "no such row in $table" >&2 && exit 1; }
 
@@ -119,7 +120,8 @@ paths() { # paths TEST...: as run.sh and make want them
 }
 
 passes() { # passes TREE PATH EFFORT: whether that test passes there; EFFORT is 1 for the quick part of it
-    (cd "$1" && DEPTHPREC=$1/build/depthprec DEPTHPREC_QUICK=$3 JOBS=1 sh tests/run.sh "$2" >mutants.log 2>&1 </dev/null)
+    (cd "$1" && export DEPTHPREC="$1/build/depthprec" DEPTHPREC_QUICK="$3" JOBS=1 &&
+        sh tests/run.sh "$2" >mutants.log 2>&1 </dev/null)
 }
 
 # A test that fails without any change notices nothing.
@@ -141,8 +143,10 @@ judge() { # judge TREE TEST...: prints what came of it
     for round in 1 2 3 4; do
         if [ $round = 3 ]; then
             [ -z "${NEAR-}" ] || break
-            make -C "$tree" check-programs >"$tree/mutants.log" 2>&1 || { echo "error: the tests do not compile" && return; }
-            tests=$(cd "$tree" && ls tests/test_*.c tests/*.sh | sed -n 's|^tests/\(test_.*\)\.c$|build/tests/\1|p; /\.sh$/p')
+            make -C "$tree" check-programs >"$tree/mutants.log" 2>&1 ||
+                { echo "error: the tests do not compile" && return; }
+            tests=$(cd "$tree" && ls tests/test_*.c tests/*.sh |
+                sed -n 's|^tests/\(test_.*\)\.c$|build/tests/\1|p; /\.sh$/p')
             tests=$(echo "$tests" | grep -vxE "tests/(run|tap|coverage|mutants)\.sh|$(echo "$near" | tr '\n' '|')-")
             how=', which is not named'
         fi
@@ -198,7 +202,8 @@ cat "$folder"/verdict.* | awk -F "$mark" -v count="$count" '
     { $2 ~ /^error/ ? wrong[$1]++ : unnoticed[$1]++; print $3 ": " $2 "\n- " $4 "\n+ " $5 "\n= " $6 "\n" }
     END {
         for (room in rooms) {
-            printf "%-9s %3d noticed, %d unnoticed, %d in error\n", room, noticed[room], unnoticed[room], wrong[room] | "sort"
+            printf "%-9s %3d noticed, %d unnoticed, %d in error\n", room, noticed[room], unnoticed[room], wrong[room] | \
+                "sort"
             bad += unnoticed[room] + wrong[room]
         }
         close("sort")

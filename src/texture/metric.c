@@ -158,17 +158,13 @@ static bool replace(image *img, const metric *m, double scale) {
 }
 
 const char *metric_convert(image *img, double scale, metric *out) {
-    const size_t count = (size_t)img->width * img->height;
     look l;
     look_at(img, &l);
     const char *wrong = l.depths == 0           ? "no sample is a depth: all are 0, below 0 or not finite"
                         : img->type < IMAGE_F16 ? of_integers(img, scale, &l, out)
                                                 : of_numbers(img, scale, &l, out);
     distinct_free(&l.seen);
-    if (wrong == NULL) {
-        out->holes = count - l.depths;
-        if (!replace(img, out, scale))
-            wrong = "no memory";
-    }
+    if (wrong == NULL && !replace(img, out, scale))
+        wrong = "no memory";
     return wrong;
 }
