@@ -37,6 +37,11 @@ cairo_elsewhere() {
     lines -v '^src/plot/canvas\.c:' "$scratch/cairo"
 }
 
+core_inside() {
+    includes core/ src >"$scratch/core" && grep -q '^src/core/' "$scratch/core" || return
+    lines -vE '^src/core/|"core/(append|bits|engine)\.h"' "$scratch/core"
+}
+
 echo "$layers" >"$scratch/layers"
 while IFS='|' read -r folder allowed; do
     folder=${folder%% *}
@@ -44,6 +49,7 @@ while IFS='|' read -r folder allowed; do
     check "$folder includes only: ${allowed# }" empty strangers "$folder" $allowed
 done <"$scratch/layers"
 check "every folder of src has its row" empty sh -c 'for d in src/*/; do grep -q "^${d%/} " "$1" || echo "$d"; done' - "$scratch/layers"
+check "of the core's own headers other rooms include append.h, bits.h and engine.h alone" empty core_inside
 check "cairo is included in src/plot/canvas.c alone" empty cairo_elsewhere
 check "GSL is not in the library" empty includes gsl/ include src/core
 

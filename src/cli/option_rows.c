@@ -152,7 +152,7 @@ const option_row option_rows[OPTION_COUNT] = {
     [OPTION_SIZE] = {"size", 0, "WxH", VERB_TEXTURE,
         "with --scene: its pixels", parse_size, .standard = "640x360"},
     [OPTION_PARAMETER] = {"parameter", 0, "NAME=VALUE", VERB_TEXTURE,
-        "of the scene or the effect; as often as needed", parse_parameter},
+        "of the scene or the effect; as often as needed", .parse = parse_parameter},
     [OPTION_SKY] = {"sky", 0, "T", VERB_TEXTURE,
         "window depths within T of the far plane's are sky", NUMBER(sky, 0, 0.5, NULL), .standard = "0.0001"},
     [OPTION_METRIC] = {"metric", 0, "SCALE", VERB_TEXTURE,
@@ -194,8 +194,8 @@ const option_row option_rows[OPTION_COUNT] = {
     [OPTION_VERBOSE] = {"verbose", 'v', NULL, WRITTEN,
         "say more: the cell around each depth", FLAG(verbose)},
     [OPTION_HELP] = {"help", 'h', NULL, (unsigned)EVERY,
-        "this help", NULL},
+        "this help", .parse = NULL},
     [OPTION_VERSION] = {"version", 0, NULL, (unsigned)EVERY,
-        "version and licence", NULL},
+        "version and licence", .parse = NULL},
 };
 /* clang-format on */
