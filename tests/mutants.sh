@@ -181,7 +181,8 @@ work() { # work TREE: takes the next row that nobody has taken, until none is le
         # shellcheck disable=SC2086
         verdict=$(judge "$1" $tests)
         cp "$1/kept" "$1/$file" # newer than what was made of the change, so make makes it again
-        echo "$room$mark$verdict$mark$table:$line: $file$mark$old$mark$new$mark$seen" >"$folder/verdict.$number"
+        printf '%s\n' "$room$mark$verdict$mark$table:$line: $file$mark$old$mark$new$mark$seen" \
+            >"$folder/verdict.$number" # echo would take the backslashes
         printf '  %3d of %d  %3d s  %-48s %s\n' "$(find "$folder" -name 'verdict.*' | wc -l)" "$count" \
             $(($(date +%s) - started)) "$file:$line" "$verdict" >&2
     done <"$folder/rows"
