@@ -19,8 +19,8 @@ needs.sh                     | jq        | 1 | 1
 needs.sh                     | xmllint   | 1 | 1
 needs.sh                     | depthprec | 1 | all
 needs.sh                     | depthprec | 0 | 2
-install.sh                   | readelf   | 1 | 4
-install.sh                   | readelf   | 0 | 4
+install.sh                   | readelf   | 1 | 3
+install.sh                   | readelf   | 0 | 3
 install.sh                   | nm        | 1 | 1
 install.sh                   | nm        | 0 | 1
 headers.sh                   | cc        | 1 | 10
