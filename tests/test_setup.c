@@ -229,12 +229,43 @@ static void texts(void **state) {
     assert_string_equal(dp_version(), DP_VERSION);
 }
 
+/* The numbers that a sentence names are where the door is: they pass, and what lies just beyond does not. */
+static void limits_in_sentences(void **state) {
+    (void)state;
+    double least, most, share;
+    assert_int_equal(sscanf(dp_status_text(DP_ERROR_NEAR), "near must be from %lf to %lf", &least, &most), 2);
+    ACCEPT(spec.znear = least);
+    ACCEPT(spec.znear = most; spec.zfar = 2 * most);
+    REFUSE(DP_ERROR_NEAR, spec.znear = nextafter(least, 0));
+    REFUSE(DP_ERROR_NEAR, spec.znear = nextafter(most, INFINITY); spec.zfar = 2 * most);
+    assert_int_equal(sscanf(strstr(dp_status_text(DP_ERROR_FAR), "at most"), "at most %lf", &most), 1);
+    ACCEPT(spec.zfar = most);
+    REFUSE(DP_ERROR_FAR, spec.zfar = nextafter(most, INFINITY));
+    assert_int_equal(sscanf(strstr(dp_status_text(DP_ERROR_PLANES), "at least"), "at least %lf", &share), 1);
+    ACCEPT(spec.znear = 1; spec.zfar = 1 + share * (1 + 1e-9));
+    REFUSE(DP_ERROR_PLANES, spec.znear = 1; spec.zfar = 1 + share * (1 - 1e-9));
+    assert_int_equal(sscanf(strstr(dp_status_text(DP_ERROR_LOG_C), "from"), "from %lf to %lf", &least, &most), 2);
+    ACCEPT(spec.mapping = DP_MAPPING_LOG; spec.log_c = least);
+    ACCEPT(spec.mapping = DP_MAPPING_LOG; spec.log_c = most);
+    REFUSE(DP_ERROR_LOG_C, spec.mapping = DP_MAPPING_LOG; spec.log_c = nextafter(least, 0));
+    REFUSE(DP_ERROR_LOG_C, spec.mapping = DP_MAPPING_LOG; spec.log_c = nextafter(most, INFINITY));
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(defaults),     cmocka_unit_test(near_plane),   cmocka_unit_test(far_plane),
-        cmocka_unit_test(too_close),    cmocka_unit_test(infinite_far), cmocka_unit_test(orthographic),
-        cmocka_unit_test(log_constant), cmocka_unit_test(bad_rows),     cmocka_unit_test(null_pointers),
-        cmocka_unit_test(depths),       cmocka_unit_test(ranges),       cmocka_unit_test(texts),
+        cmocka_unit_test(defaults),
+        cmocka_unit_test(near_plane),
+        cmocka_unit_test(far_plane),
+        cmocka_unit_test(too_close),
+        cmocka_unit_test(infinite_far),
+        cmocka_unit_test(orthographic),
+        cmocka_unit_test(log_constant),
+        cmocka_unit_test(bad_rows),
+        cmocka_unit_test(null_pointers),
+        cmocka_unit_test(depths),
+        cmocka_unit_test(ranges),
+        cmocka_unit_test(texts),
+        cmocka_unit_test(limits_in_sentences),
     };
     return run_tap(tests);
 }
