@@ -310,11 +310,112 @@ static void test_sweep(void **state) {
     }
 }
 
+/* A camera that leaves one plane open: the other one is `plane`. */
+static solve_problem camera(solve_unknown unknown, const char *format, dp_mapping mapping, double plane) {
+    dp_format found[2];
+    solve_problem p = {.spec = dp_spec_default(), .unknown = unknown};
+    assert_int_equal(dp_format_parse(format, found), 1);
+    p.spec.format = found[0];
+    p.spec.mapping = mapping;
+    *(unknown == SOLVE_NEAR ? &p.spec.zfar : &p.spec.znear) = plane;
+    return p;
+}
+
+/* Planes that do by the thousand, though neither the lattice's own ends nor the places next to its outer one do. */
+static void test_far_from_the_lattice(void **state) {
+    (void)state;
+    static const struct row {
+        dp_model model;
+        solve_unknown unknown;
+        const char *format;
+        dp_mapping mapping;
+        bool ortho;
+        double plane, limit, z;
+    } rows[] = {
+        {DP_MODEL_FP32, SOLVE_FAR, "unorm24", DP_MAPPING_D3D, false, 1.2, 4.2e-6, 7.5},
+        {DP_MODEL_FP32, SOLVE_FAR, "fp32", DP_MAPPING_GL_REVERSED, false, 28, 2e-5, 110},
+        {DP_MODEL_FP32, SOLVE_NEAR, "unorm24", DP_MAPPING_REVERSED, true, 540000, 0.048, 250000},
+        {DP_MODEL_STAGED, SOLVE_FAR, "fp32", DP_MAPPING_D3D, false, 27, 2.4e-5, 87},
+        {DP_MODEL_STAGED, SOLVE_NEAR, "unorm24", DP_MAPPING_REVERSED, true, 0.19, 2.6e-8, 0.051},
+    };
+    static solve_result lattice;
+    plane_answer a;
+    char text[320];
+    tally found = {.name = "planes that do far from the lattice's answer are found"};
+    for (size_t i = 0; i < sizeof rows / sizeof rows[0]; i++) {
+        const struct row *w = &rows[i];
+        solve_problem p = camera(w->unknown, w->format, w->mapping, w->plane);
+        p.spec.model = w->model;
+        p.spec.ortho = w->ortho;
+        p.limit = w->limit;
+        p.lo = p.hi = w->z;
+        int passing = 0; /* of 6900, up to 1000 times nearer or farther than the depth */
+        for (double ratio = 1.0; ratio < 1000.0; ratio *= 1.001)
+            passing += meets(&p, w->unknown == SOLVE_NEAR ? w->z / ratio : w->z * ratio);
+        assert_int_equal(plane_solve(&p, PLANE_FIND, &lattice, &a), DP_OK);
+        TALLY(&found, passing >= 1000 && a.possible && meets(&p, a.value), "%s: %d planes do, found: %d",
+              describe(&p, text), passing, a.possible);
+    }
+    tally_end(&found);
+}
+
+/*
+ * At 5000 binary32 depths lie 2^-11 apart, so no plane reaches 0.0004, though real depths on the lattice would. In these
+ * two cameras the plane at the depth itself reaches 2^-11, so none can come nearer; the other end of what the lattice
+ * allows is twice as far off at least.
+ */
+static void test_nearest_miss(void **state) {
+    (void)state;
+    static const double other[] = {[SOLVE_NEAR] = 1e4, [SOLVE_FAR] = 2500.0};
+    static solve_result lattice;
+    plane_answer a;
+    for (int unknown = SOLVE_NEAR; unknown <= SOLVE_FAR; unknown++) {
+        solve_problem p = camera((solve_unknown)unknown, "unorm24", DP_MAPPING_D3D, other[unknown]);
+        dp_setup setup;
+        p.spec.model = DP_MODEL_FP32;
+        p.limit = 0.0004;
+        p.lo = p.hi = 5000.0;
+        assert_int_equal(plane_solve(&p, PLANE_PROVE, &lattice, &a), DP_OK);
+        assert_true(lattice.possible && !a.possible && !a.certain);
+        *(unknown == SOLVE_NEAR ? &p.spec.znear : &p.spec.zfar) = a.value;
+        assert_int_equal(dp_setup_init(&setup, &p.spec), DP_OK);
+        assert_relative(dp_separation(&setup, 5000.0), 0x1p-11, 1e-11);
+        assert_relative(a.reached.value, 0x1p-11, 1e-11);
+    }
+}
+
+/*
+ * 25.5 = 255/10 is a stored depth of UNORM8 with near 1 and far inf. However it were aligned its error would be up to
+ * 255/9.5 - 25.5 = 1.3421, more than the limit; as it is aligned the error is 0 there, and next to 0 where far is
+ * large.
+ */
+static void test_infinite_far(void **state) {
+    (void)state;
+    static const dp_model models[] = {DP_MODEL_EXACT, DP_MODEL_STAGED};
+    static const dp_mapping mappings[] = {DP_MAPPING_D3D, DP_MAPPING_REVERSED};
+    static solve_result lattice;
+    plane_answer a;
+    for (int i = 0; i < 4; i++) {
+        solve_problem p = camera(SOLVE_FAR, "unorm8", mappings[i % 2], 1.0);
+        p.spec.model = models[i / 2];
+        p.kind = MEASURE_ERROR;
+        p.limit = 1.342;
+        p.lo = p.hi = 25.5;
+        assert_int_equal(plane_solve(&p, PLANE_PROVE, &lattice, &a), DP_OK);
+        assert_true(lattice.possible && lattice.value < 1e6);
+        assert_true(a.possible && a.certain);
+        assert_ulp(a.value, INFINITY, 0.0);
+        assert_scene(a.reached.value, 0.0, 1e-5);
+    }
+}
+
 int main(void) {
     gsl_set_error_handler_off();
-    const struct CMUnitTest tests[] = {cmocka_unit_test(test_fp32),          cmocka_unit_test(test_staged),
-                                       cmocka_unit_test(test_exact),         cmocka_unit_test(test_error),
-                                       cmocka_unit_test(test_error_by_hand), cmocka_unit_test(test_half_code),
-                                       cmocka_unit_test(test_sweep)};
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(test_fp32),          cmocka_unit_test(test_staged),
+        cmocka_unit_test(test_exact),         cmocka_unit_test(test_error),
+        cmocka_unit_test(test_error_by_hand), cmocka_unit_test(test_half_code),
+        cmocka_unit_test(test_sweep),         cmocka_unit_test(test_far_from_the_lattice),
+        cmocka_unit_test(test_nearest_miss),  cmocka_unit_test(test_infinite_far)};
     return run_tap(tests);
 }
