@@ -360,9 +360,9 @@ static void test_far_from_the_lattice(void **state) {
 }
 
 /*
- * At 5000 binary32 depths lie 2^-11 apart, so no plane reaches 0.0004, though real depths on the lattice would. In these
- * two cameras the plane at the depth itself reaches 2^-11, so none can come nearer; the other end of what the lattice
- * allows is twice as far off at least.
+ * At 5000 binary32 depths lie 2^-11 apart, so no plane reaches 0.0004, though real depths on the lattice would. In
+ * these two cameras the plane at the depth itself reaches 2^-11, so none can come nearer; the other end of what the
+ * lattice allows is twice as far off at least.
  */
 static void test_nearest_miss(void **state) {
     (void)state;
