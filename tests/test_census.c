@@ -6,12 +6,18 @@
 #include <string.h>
 
 #include "census/census.h"
+#include "depthprec/depthprec.h"
 #include "support.h"
 
 /* ---- A plain census ---------------------------------------------------------------------------------------------- */
 
 static double toy_bound(const dp_setup *setup, double z) {
     return 3e-5 * z * z / setup->spec.znear + 1e-6 * z;
+}
+
+/* Of equally long intervals the farthest takes the greatest share of it: the census meets that one first. */
+static double falling_bound(const dp_setup *setup, double z) {
+    return 1e-3 * setup->spec.znear / z;
 }
 
 /* Two arrays: the keys, and the least key from each depth on. Long: the whole census in one place, to be read at once.
@@ -70,12 +76,12 @@ static void plain_census(const census_request *r, census_result *result) {
             b->longest_z = (double)z;
         }
         /* The surfaces that are stored as the two ends may be half a step farther apart at either. */
-        if (length == 0.0)
+        if (length == 0.0 || r->bound == NULL)
             continue;
         const float other = census_depth(start + (uint32_t)j);
         const double halves = 0.5 * ((double)nextafterf(z, HUGE_VALF) - (double)z) +
                               0.5 * ((double)nextafterf(other, HUGE_VALF) - (double)other);
-        b->slack = fmax(b->slack, (length + halves) / toy_bound(r->setup, (double)z));
+        b->slack = fmax(b->slack, (length + halves) / r->bound(r->setup, (double)z));
     }
     result->near_effective = drawn_lo;
     result->far_effective = drawn_hi;
@@ -152,9 +158,10 @@ static void describe(char out[256], const census_request *r) {
 }
 
 static void compare_plain(tally *t, rng *r, uint64_t cases, double count) {
+    static double (*const bounds[])(const dp_setup *, double) = {toy_bound, falling_bound, NULL};
     for (uint64_t n = 0; n < cases; n++) {
         const dp_setup setup = random_setup(r);
-        census_request q = {.setup = &setup, .bound = rng_below(r, 2) ? toy_bound : NULL};
+        census_request q = {.setup = &setup, .bound = bounds[rng_below(r, 3)]};
         if (rng_below(r, 4) > 0) /* borders between segments, far more than usual */
             q.segment = (uint32_t)rng_log(r, 1.0, 20000.0);
         static census_result want, got;
@@ -210,6 +217,19 @@ static void matches_plain_where_ties_are_rare(void **state) {
             assert_true(same_result(&want, &got));
             assert_true(got.all.ties < got.all.pairs / 10);
         }
+}
+
+/* Many intervals are as long as the longest. Where the guarantee is no smaller for the nearer ones, the sweep itself
+ * looks at the farthest alone. */
+static void names_the_nearest_of_equally_long(void **state) {
+    (void)state;
+    static census_result want, got;
+    const dp_setup setup = setup_of(1.0, 1.5, "unorm16", DP_MAPPING_REVERSED, "ieee");
+    const census_request q = {.setup = &setup, .lo = 1.49, .hi = 1.5, .bound = dp_separation};
+    plain_census(&q, &want);
+    assert_int_equal(census_run(&q, &got), CENSUS_DONE);
+    assert_true(same_result(&want, &got));
+    assert_true(got.all.longest_z == want.bands[0].longest_z);
 }
 
 /* ---- Published counts: design values from an independent census -------------------------------------------------- */
@@ -428,11 +448,17 @@ static void refuses(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(matches_plain), cmocka_unit_test(matches_plain_where_ties_are_rare),
-        cmocka_unit_test(counts),        cmocka_unit_test(clipped),
-        cmocka_unit_test(same_levels),   cmocka_unit_test(same_codes),
-        cmocka_unit_test(same_threads),  cmocka_unit_test(sampled),
-        cmocka_unit_test(gaps),          cmocka_unit_test(stops),
+        cmocka_unit_test(matches_plain),
+        cmocka_unit_test(matches_plain_where_ties_are_rare),
+        cmocka_unit_test(names_the_nearest_of_equally_long),
+        cmocka_unit_test(counts),
+        cmocka_unit_test(clipped),
+        cmocka_unit_test(same_levels),
+        cmocka_unit_test(same_codes),
+        cmocka_unit_test(same_threads),
+        cmocka_unit_test(sampled),
+        cmocka_unit_test(gaps),
+        cmocka_unit_test(stops),
         cmocka_unit_test(refuses),
     };
     return run_tap(tests);

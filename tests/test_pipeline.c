@@ -3,6 +3,7 @@
 #include <float.h>
 #include <math.h>
 #include <mpfr.h>
+#include <stdbool.h>
 #include <stdio.h>
 #include <string.h>
 
@@ -329,7 +330,15 @@ static void known_planes(void **state) {
     assert_false(dp_pipeline_drawn(&p, nextafterf(10.0f, 0.0f))); /* being drawn is not monotone */
 }
 
-/* The planes by looking at every depth from either end. */
+/* The binary32 depth nearest to a plane, on the side to which `step` leads. */
+static uint32_t beside(double plane, int step) {
+    uint32_t bits = bits_of((float)plane);
+    while (step * ((double)depth_of(bits) - plane) < 0.0)
+        bits += (uint32_t)step;
+    return bits;
+}
+
+/* The planes by looking at every depth from either end, between the ones asked for. */
 static void planes(void **state) {
     (void)state;
     tally t = {.name = "effective planes"};
@@ -338,7 +347,8 @@ static void planes(void **state) {
     for (uint64_t n = 0; n < cases; n++) {
         const dp_setup setup = random_setup(&r);
         const dp_pipeline p = pipeline_of(&setup);
-        uint32_t first = bits_of(p.znear), last = bits_of(isinf(p.zfar) ? FLT_MAX : p.zfar);
+        const bool infinite = isinf(setup.spec.zfar);
+        uint32_t first = beside(setup.spec.znear, 1), last = infinite ? bits_of(FLT_MAX) : beside(setup.spec.zfar, -1);
         const uint32_t end = last;
         float znear, zfar;
         dp_pipeline_planes(&p, &znear, &zfar);
@@ -350,8 +360,9 @@ static void planes(void **state) {
         TALLY(&t, none ? isnan(znear) && isnan(zfar) : znear == depth_of(first), "near: %a %a %s %s%s",
               setup.spec.znear, setup.spec.zfar, dp_mapping_get(setup.spec.mapping)->name, p.arith->name,
               p.ortho ? " ortho" : "");
-        TALLY(&t, none || zfar == (last == end ? p.zfar : depth_of(last)), "far: %a %a %s %s%s", setup.spec.znear,
-              setup.spec.zfar, dp_mapping_get(setup.spec.mapping)->name, p.arith->name, p.ortho ? " ortho" : "");
+        TALLY(&t, none || zfar == (last == end && infinite ? HUGE_VALF : depth_of(last)), "far: %a %a %s %s%s",
+              setup.spec.znear, setup.spec.zfar, dp_mapping_get(setup.spec.mapping)->name, p.arith->name,
+              p.ortho ? " ortho" : "");
     }
     tally_end(&t);
 }

@@ -214,11 +214,27 @@ static void test_bound(void **state) {
     assert_true(r.bands[0].bound == 5 && r.bands[1].bound == 1 && r.all.bound == 5);
 }
 
+/* 1 everywhere, by hand: no two surfaces are farther apart than what is left up to far, 10. */
+static void test_bound_ends_at_far(void **state) {
+    static const struct {
+        double lo, hi, bound;
+    } rows[] = {{9.25, 10, 0.75}, {9.5, 9.75, 0.5}, {8.5, 10, 1}, {8.5, 8.75, 1}};
+    static census_result r;
+    dp_setup setups[CAMERA_SETUPS];
+    (void)state;
+    camera_setups(&cases[1].camera, setups);
+    peak = 1;
+    for (size_t i = 0; i < sizeof rows / sizeof rows[0]; i++) {
+        const census_request q = {.setup = setups, .lo = rows[i].lo, .hi = rows[i].hi, .bound = peaked};
+        assert_int_equal(census_run(&q, &r), CENSUS_DONE);
+        assert_true(r.band_count == 1 && r.bands[0].bound == rows[i].bound && r.all.bound == rows[i].bound);
+    }
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_zfight),
-        cmocka_unit_test(test_warning),
-        cmocka_unit_test(test_bound),
+        cmocka_unit_test(test_zfight), cmocka_unit_test(test_warning),
+        cmocka_unit_test(test_bound),  cmocka_unit_test(test_bound_ends_at_far),
         cmocka_unit_test(check_apart),
     };
     return run_tap(tests);

@@ -187,27 +187,16 @@ static void make_normal_error(const frame_row *in) {
     }
 }
 
-/* The settings of a pixel: world height per unit of eye depth is that of its ray. */
-typedef struct settings {
-    double at[TEXTURE_PARAMETERS];
-    int rise;
-} settings;
-
-static settings settings_of(const frame_row *in) {
-    settings s = {.rise = parameter_find(in->product->effect->parameters, "rise")};
-    memcpy(s.at, in->product->effect_settings, sizeof s.at);
-    return s;
-}
-
-static const double *settings_at(const frame_row *in, settings *s, uint32_t x) {
+/* The settings of a row: world height per unit of eye depth is that of its rays. No camera rolls: all rise alike. */
+static void settings_of(const frame_row *in, double at[TEXTURE_PARAMETERS]) {
     const texture_camera *c = camera_of(in);
-    const double ray[3] = {c->ortho ? 0 : camera_slope_x(c, x), c->ortho ? 0 : camera_slope_y(c, in->row), 1};
+    const int rise = parameter_find(in->product->effect->parameters, "rise");
+    const double ray[3] = {0, c->ortho ? 0 : camera_slope_y(c, in->row), 1};
     double world[3];
-    if (s->rise >= 0) {
-        camera_turn(c, ray, world);
-        s->at[s->rise] = world[1];
-    }
-    return s->at;
+    memcpy(at, in->product->effect_settings, TEXTURE_PARAMETERS * sizeof *at);
+    camera_turn(c, ray, world);
+    if (rise >= 0)
+        at[rise] = world[1];
 }
 
 /* Two pixels that are compared, as Roberts' edge detector does along both diagonals of a quad. */
@@ -222,9 +211,10 @@ static double step(const frame_row *in, const double *at, uint32_t x) {
 
 static void make_effect(const frame_row *in) {
     const effect_row *row = in->product->effect;
-    settings s = settings_of(in);
+    double at[TEXTURE_PARAMETERS];
+    settings_of(in, at);
     for (uint32_t x = 0; x < camera_of(in)->width; x++) {
-        const double z = eyes_of(in)[x], *at = settings_at(in, &s, x);
+        const double z = eyes_of(in)[x];
         double value = NAN;
         if (!isnan(z) && row->kind == EFFECT_STEP)
             value = step(in, at, x);
@@ -254,13 +244,13 @@ static double effect_error_at(const frame_row *in, ranges *last, const double *a
 }
 
 static void make_effect_error(const frame_row *in) {
-    settings s = settings_of(in);
+    double at[TEXTURE_PARAMETERS];
     ranges last = nothing_yet();
+    settings_of(in, at);
     for (uint32_t x = 0; x < camera_of(in)->width; x++) {
-        const double *at = settings_at(in, &s, x);
         if (isnan(eyes_of(in)[x]))
             in->out[x] = NAN;
-        else if (x > 0 && in->codes[x] == in->codes[x - 1] && s.rise < 0)
+        else if (x > 0 && in->codes[x] == in->codes[x - 1])
             in->out[x] = in->out[x - 1];
         else
             in->out[x] = upwards(fmin(effect_error_at(in, &last, at, x), LEVELS));
