@@ -86,7 +86,7 @@ static void judge_beyond(const solve_problem *p, const plane_answer *a, const so
         TALLY(&s->beyond, !meets(p, x), "%s: %.17g beyond %.17g passes", describe(p, text), x, a->value);
     }
     const double share = fabs(a->fails_to / a->value - 1.0);
-    const double end = p->unknown == SOLVE_NEAR ? lattice->value : lattice->value;
+    const double end = lattice->value;
     TALLY(&s->beyond, share >= 0.0009 || fabs(a->fails_to / end - 1.0) < 1e-6 || lattice->island_count > 1,
           "%s: %.17g is said to fail, %.3g from %.17g", describe(p, text), a->fails_to, share, a->value);
 }

@@ -256,7 +256,7 @@ static void answer_of_lattice(const solve_problem *p, const solve_result *lattic
     a->steady = a->value;
 }
 
-/* Nothing was found although the lattice has an answer: the inner end of its answer comes nearest. */
+/* Nothing was found although the lattice has an answer: the inner end of its answer comes near. */
 static void nearest_miss(const solve_problem *p, const solve_result *lattice, plane_answer *a) {
     const bool inert =
         p->unknown == SOLVE_NEAR && !p->spec.ortho && dp_mapping_get(p->spec.mapping)->curve != DP_CURVE_PERSPECTIVE;

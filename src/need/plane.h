@@ -18,7 +18,7 @@ typedef enum plane_effort { PLANE_FIND = 0, PLANE_PROVE } plane_effort;
 
 typedef struct plane_answer {
     bool possible;
-    double value;      /**< the least near, or the largest far; impossible: the value that comes nearest */
+    double value;      /**< the least near, or the largest far; impossible: one that comes near */
     double until;      /**< the other end of the values that pass; between the two some may fail */
     double steady;     /**< from here to `until` all that were tried pass; NaN where the last that was tried fails */
     uint64_t tried;    /**< values tried from `value` to `until`; 0 where all of them pass for certain */
