@@ -1,8 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* list: the rows of the tables that the program works from, with what is claimed of each and where it comes from. */
 #include "cli/methods.h"
-#include "core/append.h"
-#include "report/number.h"
 #include "report/report.h"
 
 static const topic all_topics = {"topics", "", list_topic, "bound"};
