@@ -1,18 +1,13 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Columns as data: every kind in every form. JSON is read by jansson; CSV and text are written out by hand. */
-#include <math.h>
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdint.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
-#include <cmocka.h>
 #include <jansson.h>
 
 #include "report/report.h"
+#include "support.h"
 
 enum { DEAR = 1, CHEAP = 2 };
 
@@ -350,5 +345,5 @@ int main(void) {
                                        cmocka_unit_test(nothing_in_json), cmocka_unit_test(conditions),
                                        cmocka_unit_test(kinds_in_csv),    cmocka_unit_test(kinds_in_text),
                                        cmocka_unit_test(pointed),         cmocka_unit_test(wrapped)};
-    return cmocka_run_group_tests(tests, NULL, NULL);
+    return run_tap(tests);
 }

@@ -19,8 +19,4 @@ void check_report(const options *o, output *out, const check_file *files, size_t
 /** Reads a requirement file. @return EXIT_FINE, EXIT_USAGE or EXIT_IO after one line on stderr that names the line */
 int check_read(const char *path, need_file *file);
 
-/** A check_counter that runs a census or a sample; context is the options. */
-bool check_count_ties(void *context, const dp_setup *setup, double lo, double hi, bool sample, double *share,
-                      double *z);
-
 #endif

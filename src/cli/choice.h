@@ -4,7 +4,7 @@
  *
  *     choosing c = choosing_start(setup, o->tolerance);
  *     for each depth: choosing_add(&c, z);
- *     choosing_finish(&c);                               // c.choice and c.best say what it came to
+ *     choosing_finish(&c);                               // c.choice says what it came to
  */
 #ifndef CLI_CHOICE_H
 #define CLI_CHOICE_H

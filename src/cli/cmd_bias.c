@@ -4,7 +4,6 @@
  * coplanar layers apart, or to bring one nearer by a gap.
  */
 #include <math.h>
-#include <stdio.h>
 #include <string.h>
 
 #include "api/bias.h"

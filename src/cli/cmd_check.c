@@ -3,7 +3,6 @@
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
-#include <string.h>
 
 #include "census/census.h"
 #include "cli/check_report.h"
@@ -31,8 +30,9 @@ static int advance(void *context, uint64_t done) {
     return 0;
 }
 
-bool check_count_ties(void *context, const dp_setup *setup, double lo, double hi, bool sample, double *share,
-                      double *z) {
+/* A check_counter that runs a census or a sample; context is the options. */
+static bool count_ties(void *context, const dp_setup *setup, double lo, double hi, bool sample, double *share,
+                       double *z) {
     const options *o = context;
     census_result *result = malloc(sizeof *result);
     if (result == NULL)
@@ -62,7 +62,7 @@ bool check_count_ties(void *context, const dp_setup *setup, double lo, double hi
 }
 
 static int judge(const options *o, check_file *f) {
-    const check_request request = {.file = &f->file, .count = check_count_ties, .context = (void *)(uintptr_t)o};
+    const check_request request = {.file = &f->file, .count = count_ties, .context = (void *)(uintptr_t)o};
     f->count = check_count(&f->file);
     f->verdicts = calloc(f->count, sizeof *f->verdicts);
     if (f->verdicts == NULL)

@@ -1,8 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* list: the rows of the tables that the program works from, with what is claimed of each and where it comes from. */
 #include "cli/methods.h"
-#include "core/append.h"
-#include "report/number.h"
 #include "report/report.h"
 
 static const topic all_topics = {"topics", "", list_topic, "bound"};
@@ -59,7 +57,9 @@ static void say_other_formats(page *p, void *of) {
 
 enum { WITH_CHOICES = 1 };
 
+/* Text lists the topics as help does its commands. */
 static void write_list(listing *l, output *out) {
+    const bool topics_alone = l->topic == &all_topics;
     const column items[] = {{FIELD(listing, item.name, "name", "")},
                             {FIELD(listing, item.aliases, "aliases", ""), .names = true},
                             {FIELD(listing, item.note, "note", "")},
@@ -68,13 +68,12 @@ static void write_list(listing *l, output *out) {
                             {FIELD(listing, item.source, "source", "")},
                             {FIELD(listing, chosen, "chosen", ""), .only = AS_CSV, .when = WITH_CHOICES},
                             {.kind = COLUMN_END}};
-    const column columns[] = {{FIELD(listing, what, "what", ""), .only = AS_JSON},
-                              {LIST("items", items, next_item), .head = say_item},
-                              {.kind = COLUMN_END}};
-    const bool topics_alone = l->topic == &all_topics && l->o->form == FORM_TEXT;
-    report_write(&(report_spec){"list", topics_alone ? columns + 2 : columns, l,
-                                .when = option_given(l->o, OPTION_TOLERANCE) ? WITH_CHOICES : 0, .label = 12,
-                                .head = topics_alone ? say_topics : NULL,
+    const column columns[] = {
+        {FIELD(listing, what, "what", ""), .only = AS_JSON},
+        {LIST("items", items, next_item), .only = topics_alone ? AS_JSON | AS_CSV : 0, .head = say_item},
+        {.kind = COLUMN_END}};
+    report_write(&(report_spec){"list", columns, l, .when = option_given(l->o, OPTION_TOLERANCE) ? WITH_CHOICES : 0,
+                                .label = 12, .head = topics_alone ? say_topics : NULL,
                                 .notes = l->topic->get == list_format ? say_other_formats : NULL},
                  out, l->o->form);
 }

@@ -2,7 +2,6 @@
 #include "cli/depths.h"
 
 #include <math.h>
-#include <stdio.h>
 
 #include "cli/options.h"
 #include "report/number.h"

@@ -32,7 +32,7 @@ typedef bool (*list_get)(size_t index, list_item *item);
 /** The tables, and what options and operands may be called. */
 bool list_format(size_t index, list_item *item);
 bool list_mapping(size_t index, list_item *item);
-bool list_rounding(size_t index, list_item *item); /**< of name alone, as the next two */
+bool list_rounding(size_t index, list_item *item); /**< of name alone */
 bool list_verb(size_t index, list_item *item);
 bool list_family(size_t index, list_item *item);
 bool list_model(size_t index, list_item *item);

@@ -11,7 +11,6 @@
 #include "cli/setups.h"
 #include "core/append.h"
 #include "method/choose.h"
-#include "report/number.h"
 
 /* The lattice and the pipeline are two questions, each with its choice. */
 void list_method_choice(const options *o, size_t index, char chosen[LIST_TEXT_SIZE]) {

@@ -3,9 +3,8 @@
  * @file names.h  Names that stand for the rows of a table: looked up, listed in a refusal, and the nearest one offered.
  *
  *     static const name_list themes = {.words = (const char *const[]){"light", "dark", NULL}};
- *     if (!names_find(&themes, text, &index, NULL))
- *         usage_error("%s", names_refuse(&themes, text, buffer)); // must be light or dark, got 'drak'; did you mean
- * ...
+ *     if (!names_find(&themes, text, &index, NULL))       // must be light or dark, got 'drak'; did you mean 'dark'?
+ *         usage_error("%s", names_refuse(&themes, text, buffer));
  */
 #ifndef CLI_NAMES_H
 #define CLI_NAMES_H
@@ -29,9 +28,8 @@ bool names_find(const name_list *n, const char *text, size_t *index, list_item *
 /** All names: "a, b or c" with ", " between them and " or " before the last. @return out */
 const char *names_join(const name_list *n, const char *between, const char *last, char out[NAMES_SIZE]);
 
-/** "; did you mean 'PREFIXname'?" with the name, or other spelling, nearest to `given`; "" when none is near. @return
- * out
- */
+/** "; did you mean 'PREFIXname'?" with the name, or other spelling, nearest to `given`; "" when none is near.
+ *  @return out */
 const char *names_nearest(const name_list *n, const char *prefix, const char *given, char out[NAMES_SIZE]);
 
 /** "must be a, b or c, got 'given'" and the nearest. @return out */

@@ -192,7 +192,7 @@ static inline bool option_given(const options *o, option_id id) {
 
 /**
  * Prints "depthprec: --NAME: " and the rest, one line, on stderr. The rest says what is allowed and what was given:
- *     return option_error(OPTION_WIDTH, "must be a whole number from 64 to 16384, got '%s'", text);
+ *     return option_error(OPTION_FORMAT, "must be one format, got %zu", count);
  * @return EXIT_USAGE
  */
 int option_error(option_id id, const char *format, ...) __attribute__((format(printf, 2, 3)));

@@ -10,7 +10,7 @@ enum { PRODUCT_NAME_SIZE = 96 };
 typedef struct texture_product {
     frame_product made;
     double settings[TEXTURE_PARAMETERS];
-    char name[PRODUCT_NAME_SIZE]; /**< "normals by high, angle to the truth" */
+    char name[PRODUCT_NAME_SIZE]; /**< "normals by high, error" */
     const char *unit;             /**< "scene units", "degrees", "levels of 1/255", "" */
 } texture_product;
 

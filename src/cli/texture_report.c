@@ -179,8 +179,10 @@ static void say_geometry(page *p, void *item) {
 
 static void *next_reading(void *of, size_t i) {
     statistics *r = of;
-    r->reading = r->source.readings[i < READINGS_MAX ? i : 0];
-    return i < r->source.reading_count ? r : NULL;
+    if (i == r->source.reading_count)
+        return NULL;
+    r->reading = r->source.readings[i];
+    return r;
 }
 
 static void *next_band(void *of, size_t i) {

@@ -3,7 +3,6 @@
 
 #include <math.h>
 #include <stdlib.h>
-#include <string.h>
 
 /* A chain of blocks: the link, then the caller's bytes. */
 typedef union block {

@@ -13,7 +13,7 @@
 #include <stddef.h>
 #include <stdint.h>
 
-enum { CHART_TEXT = 192, CHART_SERIES = 32, CHART_PANELS = 8, CHART_LEVELS = 64 };
+enum { CHART_TEXT = 192, CHART_SERIES = 32, CHART_PANELS = 8 };
 
 typedef enum chart_scale {
     CHART_LINEAR = 0,

@@ -5,8 +5,8 @@
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
-#include <string.h>
 
+#include "core/append.h"
 #include "plot/area.h"
 #include "plot/heat.h"
 #include "plot/legend.h"
@@ -209,10 +209,10 @@ static void describe(const chart *c, char *out, size_t size) {
     for (size_t p = 0; p < c->panel_count; p++) {
         const chart_panel *panel = &c->panels[p];
         if (panel->title[0] != '\0')
-            snprintf(out + strlen(out), size - strlen(out), " %s.", panel->title);
+            append(out, size, " %s.", panel->title);
         for (size_t s = 0; s < panel->series_count; s++)
-            snprintf(out + strlen(out), size - strlen(out), "%s %s%s", s == 0 ? " Shown:" : ";", panel->series[s].name,
-                     s + 1 == panel->series_count ? "." : "");
+            append(out, size, "%s %s%s", s == 0 ? " Shown:" : ";", panel->series[s].name,
+                   s + 1 == panel->series_count ? "." : "");
     }
 }
 

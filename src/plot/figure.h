@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /**
- * @file figure.h  The figures, one row each. Adding a figure is writing its file and adding its row to figures.c.
+ * @file figure.h  The figures, one row each. A new one is a file, its function below, and its row in figures.c.
  *
  * A figure measures what it shows, the way the commands do, and fills a chart; draw.h makes the picture.
  */
@@ -43,7 +43,7 @@ enum {
 };
 
 /**
- * Fills in an empty chart whose subtitle is set; an empty title is replaced by the row's when left empty.
+ * Fills in an empty chart whose subtitle is set; a title left empty becomes the row's.
  * @return null, or a sentence about what of the request cannot be drawn, which lasts as long as the chart;
  *         chart_failed() tells of memory
  */

@@ -2,8 +2,8 @@
 /* How far normals from depth are off: methods measured on a plane and at the outline of a sphere, at each depth. */
 #include <math.h>
 #include <stdio.h>
-#include <string.h>
 
+#include "core/append.h"
 #include "core/bits.h"
 #include "plot/figure.h"
 #include "plot/refine.h"
@@ -105,8 +105,7 @@ const char *normals_draw(const figure_request *request, normals_error *error, ch
 }
 
 const char *normals_build(const figure_request *request, chart *out) {
-    snprintf(out->subtitle + strlen(out->subtitle), sizeof out->subtitle - strlen(out->subtitle),
-             "; 1080 lines, %s; plane: 99 %% of the pixels, outline: mean",
-             request->setups[0].spec.ortho ? "10 units high" : "field of view 60\u00b0");
+    append(out->subtitle, sizeof out->subtitle, "; 1080 lines, %s; plane: 99 %% of the pixels, outline: mean",
+           request->setups[0].spec.ortho ? "10 units high" : "field of view 60\u00b0");
     return normals_draw(request, measure, out);
 }

@@ -8,8 +8,6 @@
 
 #include "plot/chart.h"
 
-enum { PICTURE_CHANNELS = 3 };
-
 /** An image of width x height pixels, and the smaller one that stands for it: row 0 at the top. */
 typedef struct picture {
     uint32_t width, height;

@@ -3,7 +3,8 @@
 
 #include <math.h>
 #include <stdio.h>
-#include <string.h>
+
+#include "core/append.h"
 
 /* Plain decades lie in [10^PLAIN_LO, 10^PLAIN_HI]. */
 enum { PLAIN_LO = -3, PLAIN_HI = 4 };
@@ -24,7 +25,7 @@ static void superscript(char *out, size_t size, int power) {
     snprintf(plain, sizeof plain, "%d", power < 0 ? -power : power);
     snprintf(out, size, "%s", power < 0 ? "\u207b" : "");
     for (const char *p = plain; *p != '\0'; p++)
-        snprintf(out + strlen(out), size - strlen(out), "%s", digits[*p - '0']);
+        append(out, size, "%s", digits[*p - '0']);
 }
 
 void ticks_label(double value, bool powers, char out[TICKS_TEXT]) {

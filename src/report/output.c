@@ -39,7 +39,7 @@ static int cannot_write(const char *path, int error) {
     if (path == NULL)
         fprintf(stderr, "depthprec: cannot write to stdout: %s\n", strerror(error));
     else
-        fprintf(stderr, "depthprec: --output: cannot write '%s': %s\n", path, strerror(error));
+        fprintf(stderr, "depthprec: cannot write '%s': %s\n", path, strerror(error));
     return EXIT_IO;
 }
 
