@@ -203,6 +203,23 @@ static dp_setup setup_of(double znear, double zfar, const char *format, dp_mappi
     return setup;
 }
 
+/* Across a power of two: one code on both sides of it, in segments that are shorter than the interval. */
+static void matches_plain_across_bands(void **state) {
+    (void)state;
+    tally t = {.name = "two bands"};
+    for (int mapping = 0; mapping < 4; mapping++) {
+        static census_result want, got;
+        const dp_setup setup = setup_of(1.0, 100.0, "unorm8", (dp_mapping)mapping, "ieee");
+        const census_request q = {.setup = &setup, .lo = 63.99, .hi = 64.01, .bound = toy_bound, .segment = 300};
+        plain_census(&q, &want);
+        assert_int_equal(census_run(&q, &got), CENSUS_DONE);
+        assert_int_equal(got.band_count, 2);
+        TALLY(&t, same_result(&want, &got), "mapping %d: %g and %g, want %g and %g", mapping, got.bands[0].longest,
+              got.bands[1].longest, want.bands[0].longest, want.bands[1].longest);
+    }
+    tally_end(&t);
+}
+
 /* Next to the near plane most blocks have no tie at all, and the sweep takes its other turns. */
 static void matches_plain_where_ties_are_rare(void **state) {
     (void)state;
@@ -450,6 +467,7 @@ int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(matches_plain),
         cmocka_unit_test(matches_plain_where_ties_are_rare),
+        cmocka_unit_test(matches_plain_across_bands),
         cmocka_unit_test(names_the_nearest_of_equally_long),
         cmocka_unit_test(counts),
         cmocka_unit_test(clipped),

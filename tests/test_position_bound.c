@@ -166,6 +166,46 @@ static void the_hardest_places_need_each_term(void **state) {
     tally_end(&t);
 }
 
+/* What depthprec(7) says of a matrix at the world's origin: units of z/n, at far and over all directions of view. */
+static void a_matrix_loses_what_is_said(void **state) {
+    (void)state;
+    static const struct {
+        dp_mapping mapping;
+        double least, most;
+    } said[] = {{DP_MAPPING_D3D, 6, 7.1}, {DP_MAPPING_GL, 3, 3.8}, {DP_MAPPING_GL_REVERSED, 3, 3.8}};
+    enum { STEP = 5, TURNS = 180 / STEP + 1, WIDTH = 64, HEIGHT = 36, PIXELS = 5 };
+    const double ratio = 1e4;
+    for (int i = 0; i < 3; i++) {
+        double least = INFINITY, most = 0;
+        for (int k = 0; k < TURNS * TURNS * PIXELS; k++) {
+            const int turn = k / PIXELS;
+            const uint32_t column = (uint32_t)(k % PIXELS) * (WIDTH - 1) / (PIXELS - 1), row = column * HEIGHT / WIDTH;
+            dp_spec spec = dp_spec_default();
+            dp_setup setup;
+            view v = {.spec = camera_spec_default()};
+            double place[3];
+            spec.mapping = said[i].mapping;
+            spec.zfar = ratio * spec.znear;
+            v.spec.width = WIDTH;
+            v.spec.height = HEIGHT;
+            v.spec.yaw = STEP * (turn % TURNS);
+            v.spec.pitch = STEP * (turn / TURNS) - 90;
+            assert_int_equal(dp_setup_init(&setup, &spec), DP_OK);
+            assert_null(camera_init(&v.camera, &setup, &v.spec));
+            const float d = setup.reversed ? 0 : 1;
+            position_exact(&v.camera, row, column, (double)d, place, NULL);
+            const double distance = sqrt(place[0] * place[0] + place[1] * place[1] + place[2] * place[2]);
+            const double units =
+                position_bound(position_find("matrix"), &v.camera, column, row, d) / distance / ratio * 0x1p24;
+            least = fmin(least, units);
+            most = fmax(most, units);
+        }
+        print_message("# mapping %d: %.3g to %.3g\n", (int)said[i].mapping, least, most);
+        assert_true(least >= said[i].least && least <= 1.1 * said[i].least);
+        assert_true(most <= said[i].most && most >= 0.9 * said[i].most);
+    }
+}
+
 /* ---- The inverse matrix ------------------------------------------------------------------------------------------ */
 
 /* Elimination in rationals: the right half, 1, becomes the inverse of the left. */
@@ -254,6 +294,7 @@ int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(bounds_hold_and_are_not_idle),
         cmocka_unit_test(the_hardest_places_need_each_term),
+        cmocka_unit_test(a_matrix_loses_what_is_said),
         cmocka_unit_test(inverses_are_rounded_once),
     };
     return run_tap(tests);

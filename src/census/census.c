@@ -39,6 +39,18 @@ typedef struct census {
     double known[CENSUS_BANDS_MAX]; /* longest so far of each band: a segment need not look for less */
 } census;
 
+/* The last of from..end, runs or blocks, whose keys or those behind come down to v: from itself does. */
+static size_t last_down_to(const int32_t *least, size_t from, size_t end, int32_t v) {
+    while (from < end) {
+        const size_t middle = end - (end - from) / 2;
+        if (least[middle] <= v)
+            from = middle;
+        else
+            end = middle - 1;
+    }
+    return from;
+}
+
 /* ---- A segment --------------------------------------------------------------------------------------------------- */
 
 typedef struct sweep {
@@ -76,25 +88,12 @@ static uint32_t known_steps(const sweep *w) {
     return steps < SEGMENT ? (uint32_t)steps : SEGMENT;
 }
 
-/* The last of runs from..end whose keys, or those behind, come down to v. There is one: beyond[from] <= v. */
-static uint32_t last_run(const sweep *w, uint32_t from, int32_t v) {
-    uint32_t end = w->runs - 1;
-    while (from < end) {
-        const uint32_t middle = end - (end - from) / 2;
-        if (w->beyond[middle] <= v)
-            from = middle;
-        else
-            end = middle - 1;
-    }
-    return from;
-}
-
 /* Looks at a run's depths. One whose key a nearer depth of the run reaches has the shorter interval: left out. */
 static void look_at_run(sweep *w, uint32_t run) {
     int32_t home[CENSUS_RUN];
     int32_t away[CENSUS_RUN];
     uint32_t away_run = UINT32_MAX;
-    int32_t highest = INT32_MIN;
+    int64_t highest = INT64_MIN; /* below all keys */
     segment *s = w->s;
     uint32_t known = known_steps(w);
     run_keys(w, run, home);
@@ -104,10 +103,10 @@ static void look_at_run(sweep *w, uint32_t run) {
         const int32_t v = home[i];
         if (from >= s->count)
             return;
-        if ((i > 0 && v <= highest) || w->beyond[from / CENSUS_RUN] > v)
+        if (v <= highest || w->beyond[from / CENSUS_RUN] > v)
             continue;
         highest = v;
-        const uint32_t other = last_run(w, from / CENSUS_RUN, v);
+        const uint32_t other = (uint32_t)last_down_to(w->beyond, from / CENSUS_RUN, w->runs - 1, v);
         if (other != away_run)
             run_keys(w, away_run = other, away);
         uint32_t end = CENSUS_RUN - 1;
@@ -202,16 +201,14 @@ static void sweep_segment(const census *c, segment *s, double longest, sweep *w)
         }
         next = w->key[CENSUS_BLOCK - 1];
         const uint32_t base = b * CENSUS_RUNS;
-        int32_t greatest = INT32_MIN;
+        int32_t greatest = INT32_MIN, least = INT32_MAX;
         for (uint32_t i = 0; i < CENSUS_RUNS; i++) {
             const uint32_t run = base + CENSUS_RUNS - 1 - i;
             w->peak[run] = sight.greatest[i];
             w->beyond[run] = sight.least[i] < w->beyond[run + 1] ? sight.least[i] : w->beyond[run + 1];
             greatest = sight.greatest[i] > greatest ? sight.greatest[i] : greatest;
-        }
-        int32_t least = sight.least[0];
-        for (uint32_t i = 1; i < CENSUS_RUNS; i++)
             least = sight.least[i] < least ? sight.least[i] : least;
+        }
         c->greatest[s->block + b] = greatest;
         c->least[s->block + b] = least;
         c->block_first[s->block + b] = s->first + b * CENSUS_BLOCK;
@@ -257,21 +254,12 @@ static void keys_of_block(const census *c, size_t block, int32_t key[CENSUS_BLOC
     c->level->keys(&c->plan, z, CENSUS_BLOCK, key);
 }
 
-/* The last block from `from` on whose keys, or those behind, come down to v; least[from] <= v. */
 static size_t last_block(const census *c, size_t from, int32_t v) {
-    size_t end = c->block_count - 1;
-    while (from < end) {
-        const size_t middle = end - (end - from) / 2;
-        if (c->least[middle] <= v)
-            from = middle;
-        else
-            end = middle - 1;
-    }
-    return from;
+    return last_down_to(c->least, from, c->block_count - 1, v);
 }
 
 /* The intervals that begin in a block and end in or behind block `from`; keys up to `highest` were met nearer. */
-static void look_at_block(const census *c, size_t block, size_t from, int32_t highest, int any, census_band *band) {
+static void look_at_block(const census *c, size_t block, size_t from, int64_t highest, census_band *band) {
     int32_t home[CENSUS_BLOCK];
     int32_t away[CENSUS_BLOCK];
     size_t away_block = SIZE_MAX;
@@ -279,10 +267,9 @@ static void look_at_block(const census *c, size_t block, size_t from, int32_t hi
     keys_of_block(c, block, home);
     for (uint32_t i = 0; i < count; i++) {
         const int32_t v = home[i];
-        if ((any && v <= highest) || c->least[from] > v)
+        if (v <= highest || c->least[from] > v)
             continue;
         highest = v;
-        any = 1;
         const size_t other = last_block(c, from, v);
         if (other != away_block)
             keys_of_block(c, away_block = other, away);
@@ -309,23 +296,21 @@ static int worth_a_look(const census *c, size_t block, size_t from, const census
 /* Intervals from one segment into a later one. Needs `least` to run on to the end. */
 static void bridge(const census *c, census_result *result) {
     int band = -1;
-    int any = 0;
-    int32_t highest = 0;
+    int64_t highest = INT64_MIN;
     for (size_t i = 0; i + 1 < c->segment_count; i++) {
         const segment *s = &c->segments[i];
         const size_t from = c->segments[i + 1].block;
         if (s->band != band) {
             band = s->band;
-            any = 0;
+            highest = INT64_MIN;
         }
         for (size_t block = s->block; block < from; block++) {
             const int32_t top = c->greatest[block];
-            if (any && top <= highest)
+            if (top <= highest)
                 continue;
             if (top >= c->least[from] && worth_a_look(c, block, from, &result->bands[band]))
-                look_at_block(c, block, from, highest, any, &result->bands[band]);
+                look_at_block(c, block, from, highest, &result->bands[band]);
             highest = top;
-            any = 1;
         }
     }
 }

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /**
- * @file census_kernel.h  The inner loops of the census: the codes of many binary32 depths, and what is seen in them.
+ * @file kernel.h  The inner loops of the census: the codes of many binary32 depths, and what is seen in them.
  *
  * The arithmetic is dp_pipeline_code()'s, one array pass per operation, so that each is one rounded binary32
  * operation on every processor. A level is the same C compiled for another instruction set: all give the same bits.

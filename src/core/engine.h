@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /*
  * The engine's inner steps, for the bounds, the tests and the benchmarks; and all that rooms above the core may use of
- * it beside the public headers: bits, roundings, exact sums, points of the lattice, curves and logarithms.
+ * it beside the public headers and append.h: bits, roundings, exact sums, points of the lattice, curves and logarithms.
  */
 #ifndef CORE_ENGINE_H
 #define CORE_ENGINE_H

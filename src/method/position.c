@@ -84,8 +84,8 @@ static double half_claim(double ratio, double a, double b) {
 /* ---- Rows, cheapest first ---------------------------------------------------------------------------------------- */
 
 /* LinearEyeDepth, and what the ray and its products lose at the worst pixel, in units: those of position_bound() at its
- * worst over the image and all directions; near, far and the scene's units do not matter then. Those of the matrix are
- * measured: 1.6 times the worst of 3000. */
+ * worst over the image and all directions; near, far and the scene's units do not matter then. Those of the matrix with
+ * a standard mapping are measured: 1.6 times the worst of 3000. */
 #define UNIT            DP_UNIT
 #define CANCELLED(a, b) FORMULA_TO(METHOD_CANCELLED, method_cancelled, a, b)
 #define HALF            FORMULA_TO(METHOD_CANCELLED, half_claim, 3, 13.8)

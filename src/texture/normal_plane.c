@@ -109,11 +109,11 @@ double normal_plane_error_of(const texture_camera *camera, const grain *g, uint3
 
 /* ---- The bound -------------------------------------------------------------------------------------------------- */
 
-/* The error of the vector (a, b, c) or (p, q, -1) that errors of the three depths make; sides are +1 or -1. */
+/* The error of the vector (a, b, c), orthographic (a, b, -1), that errors of the three depths make. */
 typedef struct mistake {
     const texture_camera *camera;
     double direction[3]; /* of the pixel */
-    double per_x, per_y; /* 1 over the step of sx and sy from pixel to pixel */
+    double per_x, per_y; /* 1 over the step of sx and of sy to the neighbour, with its sign */
 } mistake;
 
 static void mistaken(const mistake *m, const double exact[3], double own, double beside, double over, double out[3]) {
@@ -183,8 +183,8 @@ double normal_plane_bound(const texture_camera *camera, uint32_t column, uint32_
         }
     }
     worst = normal_angle(exact, farthest);
-    /* Vectors within an angle of at most a right one of another are convex: the corners speak for all between. The
-     * roundings are those of a vector between, which differ by less than this, as their products do. */
+    /* Vectors less than a right angle from another form a convex cone: the corners speak for all between. The roundings
+     * are those of a vector between, which turn it by at most this share of `worst` more. */
     const double more = 24 * DP_UNIT * (1 + hypot(m.direction[0], m.direction[1]));
     if (!(worst < M_PI / 2 && more < 0.5))
         return M_PI;

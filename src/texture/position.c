@@ -207,5 +207,5 @@ double position_off(const texture_camera *camera, const double relative[3], cons
 
 double position_bound(const position_row *row, const texture_camera *camera, uint32_t i, uint32_t j, float d) {
     const double units = row->bound(camera, j, i, (double)d);
-    return isnan(units) ? (double)INFINITY : units * 0x1p-24 * (1 + 0x1p-18); /* products of small errors */
+    return isnan(units) ? (double)INFINITY : units * DP_UNIT * (1 + 0x1p-18); /* products of small errors */
 }

@@ -7,6 +7,7 @@
 
 #include <math.h>
 
+#include "core/bits.h"
 #include "texture/decode.h"
 #include "texture/position.h"
 
@@ -48,7 +49,7 @@ static pixel pixel_of(const texture_camera *camera, uint32_t row, uint32_t colum
  */
 static void from_camera(const texture_camera *camera, const pixel *p, double d, const decode_row *row, double more,
                         const double ray[3], double off[3]) {
-    const double z_off = decode_bound(row, &camera->setup, d) * 0x1p24;
+    const double z_off = decode_bound(row, &camera->setup, d) / DP_UNIT;
     for (int k = 0; k < 3; k++) {
         off[k] = ray[k] * p->scale + (z_off + more) * fabs(p->depth[k]);
         if (camera->ortho)
@@ -95,7 +96,7 @@ double half_bound(const texture_camera *camera, uint32_t row, uint32_t column, d
     double off[3];
     extents_off(camera, &p, d, off);
     for (int k = 0; k < 3; k++) {
-        const double most = fabs(p.place[k]) + off[k] * 0x1p-24;
+        const double most = fabs(p.place[k]) + off[k] * DP_UNIT;
         if (most >= 65504)
             return (double)INFINITY;
         off[k] += fmax(most * 0x1p13, 0x1p-1); /* half a step of binary16, or of its subnormals, 2^-25 */
@@ -180,7 +181,7 @@ static bool rounded_matrix(const matrix *m, const double world[3], double off[3]
                 term += fabs(m->from[k][i]) * wrong[i];
             off[k] += term;
             small = small && term <= 1e-6 * off[k];
-            moved[k] = term * 0x1p-24;
+            moved[k] = term * DP_UNIT;
         }
         if (small)
             return true;
@@ -228,7 +229,7 @@ double matrix_bound(const texture_camera *camera, uint32_t row, uint32_t column,
         w_off = row_off(&m, CLIP_W, most, 1) / m.clip_w;
         w_sum = summed(&m, CLIP_W) * m.clip_w + 3;
     }
-    const double rounded = 1 - w_off * 0x1p-24, left = rounded * rounded * (1 - w_sum * 0x1p-24);
+    const double rounded = 1 - w_off * DP_UNIT, left = rounded * rounded * (1 - w_sum * DP_UNIT);
     if (!(rounded > 0.5 && left > 0.125))
         return (double)INFINITY;
     for (int k = 0; k < 3; k++) {
