@@ -281,7 +281,7 @@ static void write_data(output *out, output_form form, const char *figure, const 
                  .second = axis_of(&first->second),
                  .value = axis_of(&c->value)};
     const unsigned when = (first->second.label != NULL ? WITH_SECOND : 0) | (c->value.label != NULL ? WITH_VALUE : 0);
-    draw_digest(c, p.digest);
+    chart_digest(c, p.digest);
     const column points[] = {{FIELD(point, x, p.x.key, p.x.unit), .optional = true},
                              {FIELD(point, y, p.y.key, p.y.unit), .optional = true},
                              {FIELD(point, second, p.second.key, p.second.unit), .optional = true, .when = WITH_SECOND},

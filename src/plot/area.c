@@ -23,13 +23,13 @@ static double reached(const chart_panel *panel, size_t count, size_t i) {
 void area_draw(const pencil *p, const axes *a, const chart_panel *panel, size_t index) {
     const chart_series *s = &panel->series[index];
     const canvas_colour tint = area_tint(p->theme, s->style.colour);
-    trace t = trace_start(p->c);
+    trace t = {.c = p->c};
     bool open = false;
     for (size_t i = 0; i <= s->count; i++) {
         double top = i < s->count ? reached(panel, index + 1, i) : (double)NAN;
         if (isnan(top) && open) {
             trace_fill(&t, a->frame.y + a->frame.h, tint);
-            t = trace_start(p->c);
+            t = (trace){.c = p->c};
         }
         open = !isnan(top);
         if (open)

@@ -86,7 +86,6 @@ static void ticks_that_fit(const pencil *p, const axes *a, ticks *out) {
 void axes_draw_grid(const pencil *p, const axes *a) {
     ticks t;
     canvas_pen pen = {.colour = p->theme->grid, .width = p->scale};
-    canvas_path_begin(p->c);
     ticks_that_fit(p, a, &t);
     for (size_t i = 0; i < t.count; i++)
         if (t.items[i].text[0] != '\0') {
@@ -110,7 +109,6 @@ static void draw_x_ticks(const pencil *p, const axes *a, const canvas_pen *pen, 
     ticks t;
     double bottom = snap(a->frame.y + a->frame.h);
     ticks_that_fit(p, a, &t);
-    canvas_path_begin(p->c);
     for (size_t i = 0; i < t.count; i++) {
         double x = snap(axes_x(a, t.items[i].at));
         canvas_path_segment(p->c, x, bottom, x, bottom + tick_length(p, &t.items[i]));
@@ -126,7 +124,6 @@ static void draw_x_ticks(const pencil *p, const axes *a, const canvas_pen *pen, 
 static void draw_y_ticks(const pencil *p, const axes *a, double x, int side, const canvas_pen *pen, bool labels) {
     ticks t;
     ticks_make(a->y, axes_room_y(p, a->frame.h), &t);
-    canvas_path_begin(p->c);
     for (size_t i = 0; i < t.count; i++) {
         double y = snap(axes_y(a, t.items[i].at));
         canvas_path_segment(p->c, x, y, x + side * tick_length(p, &t.items[i]), y);

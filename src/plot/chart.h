@@ -11,7 +11,6 @@
 
 #include <stdbool.h>
 #include <stddef.h>
-#include <stdint.h>
 
 enum { CHART_TEXT = 192, CHART_SERIES = 32, CHART_PANELS = 8 };
 
@@ -20,6 +19,10 @@ typedef enum chart_scale {
     CHART_LOG,
     CHART_DOWN /**< linear, growing downwards: rows of an image; lo and hi are never fitted */
 } chart_scale;
+
+typedef struct chart_extent {
+    double lo, hi;
+} chart_extent;
 
 /** One direction of a panel. */
 typedef struct chart_axis {
@@ -127,10 +130,8 @@ double chart_axis_at(const chart_axis *axis, double t);
 /** The share of a value: 0 at lo, 1 at hi; infinite values keep their sign. */
 double chart_axis_share(const chart_axis *axis, double value);
 
-/** 64 bits (FNV-1a) over every name and every number to 30 bits: equal when the figures say the same. */
-uint64_t chart_digest(const chart *c);
-
-/** Does the chart have a CHART_LINE that ends in an arrow? */
-bool chart_has_blind(const chart *c);
+/** 64 bits (FNV-1a, "0123456789abcdef") over every name and every number to 30 bits: the same when the figures say so.
+ */
+void chart_digest(const chart *c, char out[17]);
 
 #endif

@@ -1,7 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "plot/draw.h"
 
-#include <inttypes.h>
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -199,10 +198,6 @@ static bool draw_page(const pencil *p, const chart *c, double width, double heig
     return true;
 }
 
-void draw_digest(const chart *c, char out[17]) {
-    snprintf(out, 17, "%016" PRIx64, chart_digest(c));
-}
-
 /* One paragraph: title, what holds for all, then what is shown. */
 static void describe(const chart *c, char *out, size_t size) {
     snprintf(out, size, "%s. %s.", c->title, c->subtitle);
@@ -221,7 +216,7 @@ bool draw_chart(const chart *c, const theme *t, canvas_format format, int width,
     char digest[17], description[CHART_TEXT * 32], clean_title[CHART_TEXT], clean_command[4096];
     char clean_description[sizeof description];
     describe(c, description, sizeof description);
-    draw_digest(c, digest);
+    chart_digest(c, digest);
     const notes noted = {notes_clean(clean_title, sizeof clean_title, c->title),
                          notes_clean(clean_description, sizeof clean_description, description),
                          notes_clean(clean_command, sizeof clean_command, command), digest};

@@ -20,7 +20,6 @@ static void draw_hatch(const pencil *p, canvas_rect f) {
     double step = 9 * p->scale;
     pen.colour.a = 0.35;
     canvas_fill(p->c, f, p->theme->empty);
-    canvas_path_begin(p->c);
     for (double x = f.x - f.h; x < f.x + f.w; x += step)
         canvas_path_segment(p->c, x, f.y + f.h, x + f.h, f.y);
     canvas_path_end(p->c, &pen);
@@ -108,7 +107,6 @@ static void square_contour(const pencil *p, canvas_rect f, const chart_map *m, i
 
 static void draw_contour(const pencil *p, canvas_rect f, const chart_map *m, double level, chart_scale scale,
                          const canvas_pen *pen) {
-    canvas_path_begin(p->c);
     for (int row = 0; row + 1 < m->rows; row += CONTOUR_STRIDE)
         for (int column = 0; column + 1 < m->columns; column += CONTOUR_STRIDE)
             square_contour(p, f, m, column, row, level, scale);
