@@ -15,10 +15,6 @@
 #ifndef CENSUS_KERNEL_H
 #define CENSUS_KERNEL_H
 
-#include <stddef.h>
-#include <stdint.h>
-#include <string.h>
-
 #include "core/bits.h"
 #include "depthprec/pipeline.h"
 

@@ -8,7 +8,6 @@
  */
 #include <png.h>
 #include <setjmp.h>
-#include <string.h>
 
 #include "texture/image_kind.h"
 
