@@ -2,7 +2,6 @@
 #include "api/bias.h"
 
 #include <math.h>
-#include <string.h>
 
 /* clang-format off */
 static const bias_api rows[] = {

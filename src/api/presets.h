@@ -8,8 +8,6 @@
 #ifndef API_PRESETS_H
 #define API_PRESETS_H
 
-#include <stddef.h>
-
 #include "depthprec/depthprec.h"
 
 typedef struct preset {

@@ -15,8 +15,6 @@
 #ifndef CENSUS_CENSUS_H
 #define CENSUS_CENSUS_H
 
-#include <stdint.h>
-
 #include "census/kernel.h"
 #include "depthprec/setup.h"
 

@@ -10,10 +10,6 @@
 #ifndef METHOD_METHOD_H
 #define METHOD_METHOD_H
 
-#include <stdbool.h>
-#include <stddef.h>
-#include <stdint.h>
-
 #include "core/bits.h"
 #include "depthprec/depthprec.h"
 #include "texture/decode.h"

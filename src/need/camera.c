@@ -1,7 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The cameras of a requirement file. */
 #include <math.h>
-#include <stdio.h>
 #include <string.h>
 
 #include "api/presets.h"

@@ -2,7 +2,6 @@
 #include "need/plane.h"
 
 #include <math.h>
-#include <string.h>
 
 #include "need/plane_error.h"
 

@@ -2,7 +2,6 @@
 #include "need/solve.h"
 
 #include <math.h>
-#include <stdint.h>
 #include <stdlib.h>
 
 #include <gsl/gsl_errno.h>

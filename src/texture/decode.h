@@ -9,7 +9,6 @@
 #define TEXTURE_DECODE_H
 
 #include <stdbool.h>
-#include <stddef.h>
 
 #include "depthprec/depthprec.h"
 

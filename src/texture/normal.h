@@ -10,10 +10,6 @@
 #ifndef TEXTURE_NORMAL_H
 #define TEXTURE_NORMAL_H
 
-#include <stdbool.h>
-#include <stddef.h>
-#include <stdint.h>
-
 #include "texture/camera.h"
 #include "texture/grain.h"
 

@@ -2,7 +2,6 @@
 #include "texture/pack.h"
 
 #include <math.h>
-#include <string.h>
 
 #include "texture/pack_parts.h"
 

@@ -8,10 +8,6 @@
 #ifndef TEXTURE_POSITION_H
 #define TEXTURE_POSITION_H
 
-#include <stdbool.h>
-#include <stddef.h>
-#include <stdint.h>
-
 #include "texture/camera.h"
 #include "texture/decode.h"
 

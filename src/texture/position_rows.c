@@ -1,6 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The rows: binary32 loops over the pixels of a line. */
-#include <math.h>
 
 #include "core/bits.h"
 #include "texture/clones.h"
