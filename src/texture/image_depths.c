@@ -2,6 +2,7 @@
 /* Samples of a row as window depths or codes: blocks that stay in the first-level cache, through the batch kernels. */
 #include "texture/image_depths.h"
 
+#include <math.h>
 #include <string.h>
 
 #include "texture/clones.h"
@@ -146,6 +147,34 @@ static void block_depths(const reading *r, const void *at, size_t count, void *d
 }
 
 /* ---- Public ------------------------------------------------------------------------------------------------------ */
+
+/* The number that the bits of a binary16 stand for; NaN for infinities, too. */
+static double half_of(uint16_t bits) {
+    const int exponent = bits >> 10 & 31, fraction = bits & 1023;
+    const double size = exponent == 31  ? (double)NAN
+                        : exponent == 0 ? ldexp(fraction, -24)
+                                        : ldexp(1024 + fraction, exponent - 25);
+    return bits >> 15 ? -size : size;
+}
+
+double image_sample(const image *img, size_t pixel) {
+    const size_t i = pixel * img->channels;
+    const void *at = img->data;
+    switch (img->type) {
+    case IMAGE_U8:
+        return ((const uint8_t *)at)[i];
+    case IMAGE_U16:
+        return ((const uint16_t *)at)[i];
+    case IMAGE_U32:
+        return ((const uint32_t *)at)[i];
+    case IMAGE_F16:
+        return half_of(((const uint16_t *)at)[i]);
+    case IMAGE_F32:
+        return (double)((const float *)at)[i];
+    default:
+        return ((const double *)at)[i];
+    }
+}
 
 bool image_are_codes(const image *img, const dp_format *format) {
     return img->type <= IMAGE_U32 && 8 * image_type_size(img->type) >= (size_t)format->bits;
