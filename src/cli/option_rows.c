@@ -204,6 +204,8 @@ const option_row option_rows[OPTION_COUNT] = {
         "no messages and no progress, only data and errors", FLAG(quiet)},
     [OPTION_VERBOSE] = {"verbose", 'v', NULL, WRITTEN,
         "say more: the cell around each depth", FLAG(verbose)},
+    [OPTION_FULL] = {"full", 0, NULL, WRITTEN,
+        "all columns, however wide; and a table for each set-up in place of a comparison", FLAG(full)},
     [OPTION_HELP] = {"help", 'h', NULL, (unsigned)EVERY,
         "this help", .parse = NULL},
     [OPTION_VERSION] = {"version", 0, NULL, (unsigned)EVERY,

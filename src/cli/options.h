@@ -84,6 +84,7 @@ typedef enum option_id {
     OPTION_OUTPUT,
     OPTION_QUIET,
     OPTION_VERBOSE,
+    OPTION_FULL,
     OPTION_HELP,
     OPTION_VERSION,
     OPTION_COUNT
@@ -171,7 +172,7 @@ typedef struct options {
     report_form report;
     output_form form;
     const char *output; /**< the argument of -o; null when not given. "-" is stdout: hand it to output_open() */
-    bool quiet, verbose, version;
+    bool quiet, verbose, full, version;
 } options;
 
 /**

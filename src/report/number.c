@@ -193,3 +193,17 @@ number_text number_full(double value) {
     number_shortest(value, out.text);
     return out;
 }
+
+number_text number_brief(number_text number) {
+    const double value = strtod(number.text, NULL);
+    if (strncmp(number.text, "0.000", 5) == 0)
+        snprintf(number.text, sizeof number.text, "%.*e", (int)strlen(number.text + strspn(number.text, "0.")) - 1,
+                 value);
+    char *exponent = strchr(number.text, 'e');
+    const long power = exponent != NULL ? strtol(exponent + 1, NULL, 10) : 0;
+    if (power > 0 && power < 6)
+        snprintf(number.text, sizeof number.text, "%.0f", value);
+    else if (exponent != NULL)
+        snprintf(exponent, 8, "e%ld", power);
+    return number;
+}

@@ -55,6 +55,9 @@ number_text number_of(double value, int digits);
 number_text number_up(double value, int digits);
 number_text number_down(double value, int digits);
 
+/** The same number in fewer characters: 82800 for 8.28e+04, 1.2e-7 for 1.2e-07. */
+number_text number_brief(number_text number);
+
 /** As number_shortest(). */
 number_text number_full(double value);
 

@@ -68,6 +68,7 @@ int output_open(output *out, const char *path) {
     out->error = 0;
     out->path = NULL;
     out->target = NULL;
+    out->width = 0;
     out->used = 0;
     if (path == NULL || strcmp(path, "-") == 0)
         return EXIT_FINE;

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "report/report.h"
 
+#include <limits.h>
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -66,6 +67,7 @@ static bool column_exists(const column_value *v) {
 typedef struct text_walk {
     page page;
     unsigned when;
+    int spared; /* columns that are spared no earlier than this one are left out */
 } text_walk;
 
 /* A line of a table: whether something stands in it, and whether that was aligned to the left. */
@@ -100,7 +102,29 @@ static void put(text_line *line, const column *c, const char *text) {
 
 /* The columns that text has, those of parts as if they stood here. */
 static bool has_title(const text_walk *w, const column *c) {
-    return c->title != NULL && column_shows(c, AS_TEXT, w->when);
+    return c->title != NULL && c->spare < w->spared && column_shows(c, AS_TEXT, w->when);
+}
+
+static void measure_titles(const text_walk *w, const column *c, int *width, int *last) {
+    for (; c->kind != COLUMN_END; c++) {
+        if (c->kind == COLUMN_PART && column_shows(c, AS_TEXT, w->when))
+            measure_titles(w, c->columns, width, last);
+        if (!has_title(w, c))
+            continue;
+        *width += c->width < 0 ? 2 - c->width : c->width;
+        *last = c->spare > *last ? c->spare : *last;
+    }
+}
+
+/* Leaves out what is spared first, until the rest fits the page. */
+static void spare(text_walk *w, const column *list) {
+    int width, last = INT_MAX;
+    do {
+        w->spared = last;
+        width = list->indent + (list->columns->width < 0 ? -2 : 0);
+        last = 0;
+        measure_titles(w, list->columns, &width, &last);
+    } while (width > w->page.width && last > 0);
 }
 
 static void put_value(text_line *line, const column *c, const void *item) {
@@ -112,7 +136,9 @@ static void put_value(text_line *line, const column *c, const void *item) {
     else if (v.is_number && c->fixed && !isnan(v.number))
         snprintf(number.text, sizeof number.text, "%.*f", digits, v.number);
     else if (v.is_number)
-        number = c->upward ? number_up(v.number, digits) : number_of(v.number, digits);
+        number = (c->upward ? number_up : c->downward ? number_down : number_of)(v.number, digits);
+    if (c->brief)
+        number = number_brief(number);
     put(line, c, v.word != NULL ? v.word : number.text);
 }
 
@@ -150,6 +176,7 @@ static void put_table(text_walk *w, const column *list, void *item) {
     void *inner;
     if (list->head != NULL)
         list->head(&w->page, item);
+    spare(w, list);
     for (size_t i = 0; (inner = list->get(item, i)) != NULL; i++) {
         if (i == 0)
             put_line(w, list, NULL);
@@ -173,13 +200,15 @@ static void put_sections(text_walk *w, const column *list, void *item) {
 }
 
 static void put_lists(text_walk *w, const column *c, void *item) {
-    for (; c->kind != COLUMN_END; c++)
+    for (; c->kind != COLUMN_END; c++) {
+        w->spared = INT_MAX;
         if (c->kind == COLUMN_LIST && column_shows(c, AS_TEXT, w->when))
             (is_table(w, c->columns) ? put_table : put_sections)(w, c, item);
+    }
 }
 
 static void report_text(const report_spec *spec, output *out) {
-    text_walk w = {.page = page_start(out, spec->label), .when = spec->when};
+    text_walk w = {.page = page_start(out, spec->label), .when = spec->when, .spared = INT_MAX};
     if (spec->head != NULL)
         spec->head(&w.page, spec->item);
     put_lists(&w, spec->columns, spec->item);
