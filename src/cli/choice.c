@@ -24,7 +24,7 @@ choosing choosing_start(const dp_setup *setup, double tolerance) {
 }
 
 /* The worst of what the blocks say. */
-static void take_block(choosing *c) {
+void choosing_finish(choosing *c) {
     dp_choice block;
     if (c->waiting == 0 || dp_model_choose(c->setup, c->z, c->waiting, c->tolerance, &block) != DP_OK)
         return;
@@ -43,11 +43,7 @@ static void take_block(choosing *c) {
 void choosing_add(choosing *c, double z) {
     c->z[c->waiting++] = z;
     if (c->waiting == CHOICE_BLOCK)
-        take_block(c);
-}
-
-void choosing_finish(choosing *c) {
-    take_block(c);
+        choosing_finish(c);
 }
 
 choosing choose_at(const dp_setup *setup, double tolerance, const depths *at) {

@@ -9,19 +9,16 @@
 #include "cli/names.h"
 #include "cli/progress.h"
 
-static int refuse(const char *path, const need_error *e) {
-    char where[32] = "";
-    char text[NAMES_SIZE];
-    const name_list known = {.words = (const char *const[]){e->known, NULL}};
-    if (e->line > 0)
-        snprintf(where, sizeof where, ":%d", e->line);
-    const int status = usage_error("%s%s: %s%s", path, where, e->text, names_nearest(&known, "", e->given, text));
-    return e->unreadable ? EXIT_IO : status;
-}
-
 int check_read(const char *path, need_file *file) {
-    need_error error;
-    return need_read(path, file, &error) ? EXIT_FINE : refuse(path, &error);
+    need_error e;
+    char where[32] = "", text[NAMES_SIZE];
+    if (need_read(path, file, &e))
+        return EXIT_FINE;
+    const name_list known = {.words = (const char *const[]){e.known, NULL}};
+    if (e.line > 0)
+        snprintf(where, sizeof where, ":%d", e.line);
+    const int status = usage_error("%s%s: %s%s", path, where, e.text, names_nearest(&known, "", e.given, text));
+    return e.unreadable ? EXIT_IO : status;
 }
 
 /* The census tells how many depths it has done; a census of some seconds shows a bar. */

@@ -90,7 +90,7 @@ static int choose_models(plotting *p) {
     enum { CHOICE_DEPTHS = 257 };
     double lo, hi;
     figure_range(&p->request, &lo, &hi);
-    const depths at = depths_spaced(DEPTHS_LOG, lo, hi, CHOICE_DEPTHS);
+    const depths at = {DEPTHS_LOG, lo, hi, CHOICE_DEPTHS, NULL};
     setups_choose(p->o, &at, &p->all);
     for (size_t i = 0; i < p->all.count && (p->row->takes & FIGURE_FP32) == 0; i++)
         if (p->all.items[i].spec.model == DP_MODEL_FP32)

@@ -58,10 +58,6 @@ void setups_release(setups *s) {
     s->count = 0;
 }
 
-static const char *setup_projection(const dp_setup *setup) {
-    return setup->spec.ortho ? "orthographic" : "perspective";
-}
-
 const column setup_columns[] = {{FIELD(setup_fields, znear, "near", "scene")},
                                 {FIELD(setup_fields, zfar, "far", "scene")},
                                 {FIELD(setup_fields, projection, "projection", "")},
@@ -78,7 +74,7 @@ setup_fields setup_fields_of(const dp_setup *setup) {
     return (setup_fields){.znear = spec->znear,
                           .zfar = spec->zfar,
                           .log_c = spec->mapping == DP_MAPPING_LOG ? spec->log_c : (double)NAN,
-                          .projection = setup_projection(setup),
+                          .projection = spec->ortho ? "orthographic" : "perspective",
                           .mapping = dp_mapping_get(spec->mapping)->name,
                           .format = spec->format.name,
                           .rounding = dp_rounding_name(spec->rounding),

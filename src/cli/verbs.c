@@ -76,9 +76,8 @@ const verb verb_rows[] = {
 const size_t verb_count = sizeof verb_rows / sizeof verb_rows[0];
 
 bool list_verb(size_t index, list_item *item) {
-    if (index < verb_count)
-        *item = (list_item){.name = verb_rows[index].name, .note = verb_rows[index].summary, .row = &verb_rows[index]};
-    return index < verb_count;
+    const verb *v = &verb_rows[index];
+    return index < verb_count && list_fill(item, (list_item){.name = v->name, .note = v->summary, .row = v});
 }
 
 const verb *verb_find(const char *name) {

@@ -39,17 +39,11 @@ bool number_parse_part(const char *text, size_t length, number_kind kind, double
 }
 
 bool number_parse_count(const char *text, unsigned long max, unsigned long *out) {
-    unsigned long value = 0;
-    if (*text == '\0')
+    const size_t digits = strspn(text, "0123456789");
+    errno = 0;
+    const unsigned long value = strtoul(text, NULL, 10);
+    if (digits == 0 || text[digits] != '\0' || errno == ERANGE || value > max)
         return false;
-    for (; *text != '\0'; text++) {
-        if (*text < '0' || *text > '9')
-            return false;
-        unsigned long digit = (unsigned long)(*text - '0');
-        if (digit > max || value > (max - digit) / 10)
-            return false;
-        value = 10 * value + digit;
-    }
     *out = value;
     return true;
 }
