@@ -40,7 +40,7 @@ static chart_series *add(const field *f, chart *out, chart_panel *panel, chart_k
     size_t count = 0;
     for (size_t i = 0; i < f->count; i++)
         count += (f->methods[i].is & bits) == set;
-    chart_series *s = count > (kind == CHART_LINE) ? chart_add_series(out, panel, kind, count) : NULL;
+    chart_series *s = count > (kind == CHART_LINE ? 1u : 0u) ? chart_add_series(out, panel, kind, count) : NULL;
     for (size_t i = 0, k = 0; i < f->count && s != NULL; i++) {
         const timed *t = &f->methods[i];
         if ((t->is & bits) != set)
