@@ -103,5 +103,5 @@ void area_label(const pencil *p, const axes *a, const axes *right, const chart_p
         }
     }
     if (found)
-        canvas_text(p->c, x, y + 0.36 * font.size, s->name, &font, CANVAS_MIDDLE, 0);
+        canvas_text(p->c, x, y + 0.36 * font.size, s->name, &font, CANVAS_MIDDLE);
 }

@@ -187,14 +187,12 @@ double canvas_text_width(canvas *c, const char *text, const canvas_font *font) {
     return extents.x_advance;
 }
 
-void canvas_text(canvas *c, double x, double y, const char *text, const canvas_font *font, canvas_align align,
-                 int quarter_turns) {
+void canvas_text(canvas *c, double x, double y, const char *text, const canvas_font *font, canvas_align align) {
     if (*text == '\0')
         return;
     double back = canvas_text_width(c, text, font) * (double)align / 2;
     cairo_save(c->cr);
     cairo_translate(c->cr, reach(x), reach(y));
-    cairo_rotate(c->cr, -quarter_turns * 2 * atan(1));
     if (font->halo.a > 0) {
         cairo_move_to(c->cr, -back, 0);
         cairo_text_path(c->cr, text);

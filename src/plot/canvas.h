@@ -83,9 +83,8 @@ void canvas_path_fill(canvas *c, canvas_colour colour); /**< instead of the end:
 /** A filled circle with a rim. */
 void canvas_disc(canvas *c, double x, double y, double radius, canvas_colour fill, const canvas_pen *rim);
 
-/** One line of text with its baseline at y; `angle` turns it anticlockwise about (x, y), in quarter turns. */
-void canvas_text(canvas *c, double x, double y, const char *text, const canvas_font *font, canvas_align align,
-                 int quarter_turns);
+/** One line of text with its baseline at y. */
+void canvas_text(canvas *c, double x, double y, const char *text, const canvas_font *font, canvas_align align);
 
 /** How far the text reaches, px. */
 double canvas_text_width(canvas *c, const char *text, const canvas_font *font);

@@ -53,15 +53,11 @@ void *chart_memory(chart *c, size_t count, size_t size) {
 }
 
 chart_panel *chart_add_panel(chart *c) {
-    if (c->panel_count == CHART_PANELS) {
-        chart_fail(c);
-        return NULL;
-    }
     return &c->panels[c->panel_count++];
 }
 
 chart_series *chart_add_series(chart *c, chart_panel *panel, chart_kind kind, size_t count) {
-    if (panel == NULL || panel->series_count == CHART_SERIES) {
+    if (panel->series_count == CHART_SERIES) {
         chart_fail(c);
         return NULL;
     }

@@ -109,8 +109,10 @@ bool chart_failed(const chart *c);
 /** A block that lives as long as the chart, zeroed; null when out of memory. */
 void *chart_memory(chart *c, size_t count, size_t size);
 
-/** The next panel or series, empty; null when the room or the memory is used up. */
+/** The next panel, empty; there are fewer than CHART_PANELS. */
 chart_panel *chart_add_panel(chart *c);
+
+/** The panel's next series, empty; null when the room or the memory is used up. */
 chart_series *chart_add_series(chart *c, chart_panel *panel, chart_kind kind, size_t count);
 
 /** Fits every axis with lo == hi to the finite data, the same axis in all panels alike. */

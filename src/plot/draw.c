@@ -81,9 +81,10 @@ static void keep_shape(grid *g, double shape, double left) {
 
 static void draw_caption(const pencil *p, const chart_axis *axis, canvas_align align, double x, double y, double room) {
     char text[CHART_TEXT];
-    words w = words_break(p, axes_caption(axis, text), &p->text, room, 1);
+    snprintf(text, sizeof text, "%s%s%s%s", axis->label, *axis->unit ? " (" : "", axis->unit, *axis->unit ? ")" : "");
+    words w = words_break(p, text, &p->text, room, 1);
     if (w.count > 0)
-        canvas_text(p->c, x, y, w.lines[0], &p->text, align, 0);
+        canvas_text(p->c, x, y, w.lines[0], &p->text, align);
 }
 
 static bool is_points(const chart_series *s) {
@@ -213,12 +214,10 @@ static void describe(const chart *c, char *out, size_t size) {
 
 bool draw_chart(const chart *c, const theme *t, canvas_format format, int width, int height, const char *command,
                 canvas_bytes *out) {
-    char digest[17], description[CHART_TEXT * 32], clean_title[CHART_TEXT], clean_command[4096];
-    char clean_description[sizeof description];
+    char digest[17], description[CHART_TEXT * 32], clean_description[sizeof description], clean_command[4096];
     describe(c, description, sizeof description);
     chart_digest(c, digest);
-    const notes noted = {notes_clean(clean_title, sizeof clean_title, c->title),
-                         notes_clean(clean_description, sizeof clean_description, description),
+    const notes noted = {c->title, notes_clean(clean_description, sizeof clean_description, description),
                          notes_clean(clean_command, sizeof clean_command, command), digest};
     *out = (canvas_bytes){NULL, 0};
     canvas *surface = canvas_new(format, width, height, &noted);

@@ -144,7 +144,7 @@ static bool draw_label(const pencil *p, canvas_rect f, boxes *taken, canvas_poin
     taken->at[taken->count++] = box;
     font.colour = (canvas_colour){0, 0, 0, 1};
     font.halo = (canvas_colour){1, 1, 1, 0.8};
-    canvas_text(p->c, at.x, at.y + 0.36 * font.size, text, &font, CANVAS_MIDDLE, 0);
+    canvas_text(p->c, at.x, at.y + 0.36 * font.size, text, &font, CANVAS_MIDDLE);
     return true;
 }
 
@@ -213,7 +213,7 @@ void heat_draw_ball(const pencil *p, canvas_rect area) {
     canvas_image(p->c, (canvas_rect){area.x, area.y, area.w, area.w}, SIDE, SIDE, pixels);
     for (size_t i = 0; i < sizeof meanings / sizeof meanings[0]; i++)
         canvas_text(p->c, area.x, area.y + area.w + (1.4 + 1.35 * (double)i) * p->small.size, meanings[i], &p->small,
-                    CANVAS_LEFT, 0);
+                    CANVAS_LEFT);
 }
 
 void heat_draw_bar(const pencil *p, canvas_rect strip, const chart_axis *value) {

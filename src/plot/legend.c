@@ -86,7 +86,7 @@ legend legend_make(const pencil *p, const chart *c, double width) {
 static void draw_text(const pencil *p, const char *text, double x, double middle, double room) {
     words w = words_break(p, text, &p->text, room, 1);
     if (w.count > 0)
-        canvas_text(p->c, x, middle + 0.36 * p->text.size, w.lines[0], &p->text, CANVAS_LEFT, 0);
+        canvas_text(p->c, x, middle + 0.36 * p->text.size, w.lines[0], &p->text, CANVAS_LEFT);
 }
 
 double legend_draw(const pencil *p, const legend *l, double x, double y) {

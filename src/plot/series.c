@@ -129,7 +129,7 @@ static void draw_points(const pencil *p, const axes *a, const chart_panel *panel
         if (s->labels == NULL)
             continue;
         point_label l = place_label(p, a, s, i);
-        canvas_text(p->c, l.x, l.baseline, s->labels[i], &l.font, l.align, 0);
+        canvas_text(p->c, l.x, l.baseline, s->labels[i], &l.font, l.align);
     }
 }
 

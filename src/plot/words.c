@@ -47,7 +47,7 @@ double words_height(const canvas_font *font) {
 
 double words_draw(const pencil *p, const words *w, const canvas_font *font, double x, double y) {
     for (size_t i = 0; i < w->count; i++) {
-        canvas_text(p->c, x, y + font->size, w->lines[i], font, CANVAS_LEFT, 0);
+        canvas_text(p->c, x, y + font->size, w->lines[i], font, CANVAS_LEFT);
         y += words_height(font);
     }
     return y;
