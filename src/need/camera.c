@@ -76,7 +76,7 @@ static bool read_preset(reader *r, const config_setting_t *s, draft *d) {
     d->spec.znear = row->znear * factor / divisor;
     d->spec.zfar = row->zfar * factor / divisor;
     d->spec.mapping = row->mapping;
-    d->format_count = preset_formats(row, d->formats);
+    d->format_count = dp_format_parse(row->format, d->formats);
     return true;
 }
 

@@ -3,8 +3,6 @@
 
 #include <math.h>
 
-#include "need/plane_error.h"
-
 /*
  * RUN binary32 values in a row stand for a place: one of them passes where about every RUNth does. REGION of them are
  * a part in a thousand; LOOKS bounds how often it is begun again because a value in it passes.

@@ -151,7 +151,7 @@ void position_prepare(position_state *s, const texture_camera *camera) {
     const double plane = camera->ortho ? 1 : n; /* how much larger the half extents are on the near plane */
     *s = (position_state){.camera = camera,
                           .usual = decode_usual(setup)->constants(setup),
-                          .best = decode_best()->constants(setup),
+                          .best = decode_rows[DECODE_COMPLEMENT].constants(setup),
                           .ndc_scale = 1,
                           .inverse_width = (float)(1.0 / camera->width),
                           .inverse_height = (float)(1.0 / camera->height),
