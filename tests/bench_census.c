@@ -173,7 +173,7 @@ static void each_level(void) {
     static census_result result;
     char text[64];
     for (size_t i = 0; i < census_level_count; i++) {
-        if (!census_levels[i].supported())
+        if (!dp_path_available(census_levels[i].path))
             continue;
         const census_request q = {.setup = &setup, .lo = 64.0, .hi = 128.0, .threads = 1, .level = &census_levels[i]};
         timing t = {.count = RUNS};

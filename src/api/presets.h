@@ -26,9 +26,4 @@ typedef struct preset {
 /** The rows in order; null for an index that is not below their number. */
 const preset *preset_get(size_t index);
 
-/**
- * The formats of a preset, one or two. @return their number
- */
-size_t preset_formats(const preset *row, dp_format out[2]);
-
 #endif

@@ -257,29 +257,16 @@ KERNEL uint32_t disorder(const int32_t *restrict key, const int32_t *restrict re
 
 LEVEL(baseline, )
 
-static int always(void) {
-    return 1;
-}
-
 #if defined(__x86_64__)
 LEVEL(avx2, __attribute__((target("avx2,fma"))))
 LEVEL(avx512, __attribute__((target("avx512f,avx512bw,avx512dq,avx512vl,fma"))))
-
-static int has_avx2(void) {
-    return __builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma");
-}
-
-static int has_avx512(void) {
-    return has_avx2() && __builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512bw") &&
-           __builtin_cpu_supports("avx512dq") && __builtin_cpu_supports("avx512vl");
-}
 #endif
 
 const census_level census_levels[] = {
-    {"baseline", always, keys_baseline, block_baseline, reach_baseline, disorder_baseline},
+    {"baseline", DP_PATH_BASELINE, keys_baseline, block_baseline, reach_baseline, disorder_baseline},
 #if defined(__x86_64__)
-    {"avx2", has_avx2, keys_avx2, block_avx2, reach_avx2, disorder_avx2},
-    {"avx512", has_avx512, keys_avx512, block_avx512, reach_avx512, disorder_avx512},
+    {"avx2", DP_PATH_AVX2, keys_avx2, block_avx2, reach_avx2, disorder_avx2},
+    {"avx512", DP_PATH_AVX512, keys_avx512, block_avx512, reach_avx512, disorder_avx512},
 #endif
 };
 const size_t census_level_count = sizeof census_levels / sizeof census_levels[0];
@@ -287,7 +274,7 @@ const size_t census_level_count = sizeof census_levels / sizeof census_levels[0]
 const census_level *census_level_best(void) {
     const census_level *best = &census_levels[0];
     for (size_t i = 1; i < census_level_count; i++)
-        if (census_levels[i].supported())
+        if (dp_path_available(census_levels[i].path))
             best = &census_levels[i];
     return best;
 }

@@ -17,6 +17,7 @@
 #define CENSUS_KERNEL_H
 
 #include "core/bits.h"
+#include "depthprec/batch.h"
 #include "depthprec/pipeline.h"
 
 enum { CENSUS_RUNS = 16, CENSUS_RUN = 64, CENSUS_BLOCK = CENSUS_RUNS * CENSUS_RUN };
@@ -56,7 +57,7 @@ typedef struct census_sight {
 
 typedef struct census_level {
     const char *name;
-    int (*supported)(void);
+    dp_path path; /**< whose instructions it takes */
     /** The keys of `count` depths, at most CENSUS_BLOCK. */
     void (*keys)(const census_plan *plan, const float *z, size_t count, int32_t *key);
     /** Keys of the block that begins at `first`, by rows; depths behind `last` are taken as `last`. */

@@ -75,7 +75,7 @@ static bool read_preset(reader *r, const config_setting_t *s, draft *d) {
     d->spec.znear = convert ? unit_convert(row->znear, unit, r->unit) : row->znear;
     d->spec.zfar = convert ? unit_convert(row->zfar, unit, r->unit) : row->zfar;
     d->spec.mapping = row->mapping;
-    d->format_count = preset_formats(row, d->formats);
+    d->format_count = dp_format_parse(row->format, d->formats);
     return true;
 }
 

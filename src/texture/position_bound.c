@@ -68,7 +68,7 @@ double view_bound(const texture_camera *camera, uint32_t row, uint32_t column, d
     double ray[3], off[3];
     for (int k = 0; k < 3; k++) /* step and product; base */
         ray[k] = 2 * fabs(p.across[k]) + fabs(p.up[k] + p.ahead[k]);
-    from_camera(camera, &p, d, decode_best(), 2, ray, off);
+    from_camera(camera, &p, d, &decode_rows[DECODE_COMPLEMENT], 2, ray, off);
     return to_world(camera, &p, off);
 }
 
