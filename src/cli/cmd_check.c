@@ -87,7 +87,7 @@ int cmd_check(const options *o) {
     output out;
     if (o->report != REPORT_TEXT && o->form != FORM_TEXT)
         return option_error(OPTION_REPORT, "must not be given together with --json or --csv");
-    int status = output_open(&out, o->output);
+    int status = options_open(o, &out);
     if (status != EXIT_FINE)
         return status;
     check_file *files = calloc(count, sizeof *files);

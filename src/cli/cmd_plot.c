@@ -315,7 +315,7 @@ static int write_figure(const plotting *p) {
     const options *o = p->o;
     chart *c = p->chart;
     output out;
-    int status = output_open(&out, o->output);
+    int status = options_open(o, &out);
     if (status != EXIT_FINE)
         return status;
     const char *wrong = p->row->build(&p->request, c);

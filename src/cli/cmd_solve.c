@@ -310,7 +310,7 @@ int cmd_solve(const options *o) {
     if (!isnan(r.limit))
         add_others(&r, &result);
     arrange(&r, &result);
-    status = output_open(&out, o->output);
+    status = options_open(o, &out);
     if (status != EXIT_FINE)
         return status;
     solve_report_write(&r, &out);

@@ -94,7 +94,7 @@ static bool all_hold(const walking *w) {
 int cmd_stability(const options *o) {
     output out;
     walking w = {.family = o->operand_row};
-    int status = output_open(&out, o->output);
+    int status = options_open(o, &out);
     if (status != EXIT_FINE)
         return status;
     w.count = stability_run(w.family, w.results);

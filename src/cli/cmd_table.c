@@ -30,7 +30,7 @@ enum {
 typedef struct row {
     dp_sample sample;
     double binary32;            /* the guaranteed separation; NaN where there is no such pipeline */
-    double lattice, guaranteed; /* of text: the separation in the model exact and in the fullest that there is */
+    double lattice, guaranteed; /* the separation in the model exact, and in the fullest that there is */
     int depth_digits, stored_digits, cell_digits;
 } row;
 
@@ -95,10 +95,8 @@ static double separation_in(const dp_setup *setup, double z) {
     return dp_sample_at(setup, z, &sample) == DP_OK ? sample.separation : (double)NAN;
 }
 
-static void set_text(const table *t, row *r) {
+static void set_digits(row *r) {
     const dp_sample *s = &r->sample;
-    r->lattice = separation_in(&t->exact, s->z);
-    r->guaranteed = isnan(r->binary32) ? separation_in(&t->full, s->z) : r->binary32;
     /* A depth just short of 1 should not look like the far plane's. */
     r->depth_digits = digits_within(s->depth, 1.0 - s->depth, DIGITS_DEPTH, DIGITS_DEPTH_MOST);
     r->stored_digits = digits_to_see(s->z, s->error);
@@ -118,8 +116,11 @@ static void *next_row(void *of, size_t i) {
     r->binary32 = separation_in_binary32(t->walk.setup, &r->sample);
     if (t->interval.row != NULL)
         r->sample.interval = way_interval(&t->interval, t->walk.setup, z);
+    const bool exact = t->walk.setup->spec.model == DP_MODEL_EXACT;
+    r->lattice = exact ? r->sample.separation : separation_in(&t->exact, z);
+    r->guaranteed = isnan(r->binary32) ? separation_in(&t->full, z) : r->binary32;
     if (t->walk.o->form == FORM_TEXT)
-        set_text(t, r);
+        set_digits(r);
     if (t->walk.o->form != FORM_CSV)
         choosing_add(&t->choice, z);
     return r;
@@ -253,8 +254,10 @@ static const column row_columns[] = {
     {FIELD(row, sample.interval, "interval", "scene"), SHOWN("interval", 11, DIGITS_SHORT), .spare = 1},
     {FIELD(row, sample.separation, "separation", "scene")},
     {FIELD(row, binary32, "separation_fp32", "scene")},
-    {TEXT_FIELD(row, lattice, "lattice", 11, DIGITS_SHORT), .upward = true},
-    {TEXT_FIELD(row, guaranteed, "guaranteed", 11, DIGITS_SHORT), .upward = true},
+    {FIELD(row, lattice, "lattice", "scene"), SHOWN("lattice", 11, DIGITS_SHORT), .upward = true,
+     .only = AS_TEXT | AS_JSON},
+    {FIELD(row, guaranteed, "guaranteed", "scene"), SHOWN("guaranteed", 11, DIGITS_SHORT), .upward = true,
+     .only = AS_TEXT | AS_JSON},
     {TEXT_FIELD(row, sample.lo, "cell from", 18, 0), .digits_at = offsetof(row, cell_digits), .when = VERBOSE},
     {TEXT_FIELD(row, sample.hi, "to", 18, 0), .digits_at = offsetof(row, cell_digits), .when = VERBOSE},
     {.kind = COLUMN_END}};

@@ -267,7 +267,7 @@ int cmd_zfight(const options *o) {
             status = usage_error("no memory for %zu set-ups", z.walk.all.count);
     }
     if (status == EXIT_FINE)
-        status = output_open(&z.walk.out, o->output);
+        status = options_open(o, &z.walk.out);
     if (status == EXIT_FINE)
         status = run(&z);
     free(z.results);

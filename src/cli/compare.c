@@ -193,7 +193,7 @@ bool compare_suits(const walk *w) {
 
 int compare_write(walk *w) {
     comparison c = {.walk = w, .rows = calloc(w->all.count, sizeof(compared))};
-    int status = c.rows != NULL ? output_open(&w->out, w->o->output) : usage_error("table: no memory");
+    int status = c.rows != NULL ? options_open(w->o, &w->out) : usage_error("table: no memory");
     if (status == EXIT_FINE) {
         choose_depths(&c);
         for (size_t i = 0; i < w->all.count; i++) {

@@ -198,3 +198,9 @@ int options_parse(options *o, int argc, char **argv) {
     names_nearest(&(name_list){.get = list_verb}, "", argv[1], text);
     return usage_error("unknown command '%s'%s", argv[1], text[0] != '\0' ? text : "; 'depthprec --help' lists them");
 }
+
+int options_open(const options *o, output *out) {
+    const int status = output_open(out, o->output);
+    out->width = o->full ? OUTPUT_UNLIMITED : 0;
+    return status;
+}

@@ -171,7 +171,7 @@ typedef struct options {
 
     report_form report;
     output_form form;
-    const char *output; /**< the argument of -o; null when not given. "-" is stdout: hand it to output_open() */
+    const char *output; /**< the argument of -o; null when not given. "-" is stdout: see options_open() */
     bool quiet, verbose, full, version;
 } options;
 
@@ -182,6 +182,9 @@ typedef struct options {
  * @return EXIT_FINE, or EXIT_USAGE after one line on stderr
  */
 int options_parse(options *o, int argc, char **argv);
+
+/** Opens what --output names, as wide as --full makes it. @return EXIT_FINE, or EXIT_IO after one line on stderr */
+int options_open(const options *o, output *out);
 
 /** Frees what options_parse() allocated, whatever it returned. */
 void options_release(options *o);

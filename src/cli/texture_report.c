@@ -392,7 +392,7 @@ static bool measure(statistics *r) {
 int texture_report_write(const options *o, const texture_source *source) {
     output out;
     statistics r = {.o = o, .source = *source, .condition = position_condition(&source->camera)};
-    const int status = output_open(&out, o->output);
+    const int status = options_open(o, &out);
     if (status != EXIT_FINE)
         return status;
     if (!measure(&r)) {

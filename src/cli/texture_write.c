@@ -37,7 +37,7 @@ static ssize_t stream_write(void *cookie, const char *bytes, size_t size) {
 }
 
 static int writing_open(const options *o, writing *w, const texture_source *s, image_type type, uint32_t channels) {
-    int status = output_open(&w->out, o->output);
+    int status = options_open(o, &w->out);
     if (status != EXIT_FINE)
         return status;
     w->source = s;

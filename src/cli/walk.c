@@ -15,7 +15,7 @@ int walk_start(walk *w, const options *o) {
 
 int walk_write(walk *w, const report_spec *spec, int status) {
     if (status == EXIT_FINE)
-        status = output_open(&w->out, w->o->output);
+        status = options_open(w->o, &w->out);
     if (status == EXIT_FINE) {
         const bool silent = w->o->quiet || isatty(w->out.fd); /* rows on the same terminal are progress enough */
         w->progress = progress_start("rows", (uint64_t)w->all.count * w->at.count, silent);
