@@ -205,7 +205,7 @@ static unsigned conditions(const budget *b) {
 }
 
 int cmd_budget(const options *o) {
-    budget b = {.walk.warns = true, .terms = o->terms, .linearize = o->terms.linearize != 0};
+    budget b = {.terms = o->terms, .linearize = o->terms.linearize != 0};
     options in_binary32 = *o;
     in_binary32.model = DP_MODEL_FP32;
     if (o->terms.world > 0.0)
