@@ -77,35 +77,6 @@ static svg_point place_of(const drawn_panel *p, double time, double error) {
     return (svg_point){drawn_px(&p->x, time), drawn_px(&p->y, fmax(error, exact)), false};
 }
 
-/* A thin line from the point to the end of its words. */
-static bool is_led(const drawn *d, svg_point from, double x, double y) {
-    for (size_t i = 0; i < d->svg->count; i++) {
-        const svg_mark *m = &d->svg->marks[i];
-        if (m->kind == SVG_PATH && m->count == 2 && svg_rgb(m->stroke) == d->theme->faint && m->width < d->scale &&
-            hypot(m->points[0].x - from.x, m->points[0].y - from.y) < 1.5 &&
-            hypot(m->points[1].x - x, m->points[1].y - y) < 3)
-            return true;
-    }
-    return false;
-}
-
-/* The name stands beside its point, or is led to it. */
-static const svg_mark *check_name(const drawn *d, const drawn_panel *p, svg_point at, const char *name) {
-    const svg_box near = {p->frame.x0 - 2, p->frame.y0 - 20, d->svg->width, p->frame.y1 + 20};
-    const svg_mark *words = drawn_words(d, near, name);
-    if (words == NULL)
-        fail_msg("no point is named '%s'", name);
-    const double middle = words->at.y - 0.36 * words->size;
-    const bool right = words->box.x0 > at.x;
-    const double gap = right ? words->at.x - at.x : at.x - words->box.x1;
-    assert_int_equal(svg_rgb(words->fill), d->theme->text);
-    if (fabs(gap - 8 * d->scale) > 1.8 || fabs(middle - at.y) > 4 * 0.75 * 1.25 * words->size + 1)
-        fail_msg("'%s' stands %.1f, %.1f px from its point", name, gap, middle - at.y);
-    if (fabs(middle - at.y) > 0.625 * words->size + 1)
-        assert_true(is_led(d, at, right ? words->at.x : words->box.x1, middle));
-    return words;
-}
-
 static bool overlap(svg_box a, svg_box b) {
     return a.x0 < b.x1 && b.x0 < a.x1 && a.y0 < b.y1 && b.y0 < a.y1;
 }
@@ -136,9 +107,9 @@ static void check_fronts(const drawn *d, const drawn_panel *p) {
 }
 
 static void check_pareto_words(const drawn *d) {
-    static const char *const texts[] = {"behind it", "on the Pareto front (without error: at 10\u207b\u00b9\u2077)"};
+    static const char *const texts[] = {"dominated", "on the Pareto front (without error: at 10\u207b\u00b9\u2077)"};
     assert_string_equal(d->title, "Speed against accuracy");
-    assert_string_equal(d->x_caption->text, "time an element (ns)");
+    assert_string_equal(d->x_caption->text, "time per element (ns)");
     assert_string_equal(d->y_caption->text, "worst error (relative error)");
     assert_null(d->right_caption);
     drawn_legend_is(d, 2, texts);
@@ -171,14 +142,14 @@ static void pareto_of_the_test(void **state) {
             fail_msg("'%s' is not marked as it should be", names[i]);
         char name[64];
         snprintf(name, sizeof name, "%s%s", names[i], group[i] == 1 ? " (pipeline)" : "");
-        words[i] = check_name(d, p, at, name);
+        words[i] = drawn_label(d, p, at, name);
         for (size_t k = 0; k < i; k++)
             assert_false(words[k] != NULL && overlap(words[k]->box, words[i]->box));
         shown++;
     }
     assert_int_equal(count, shown);
     check_fronts(d, p);
-    drawn_description_is(d, " Shown: front; front; behind it; on the Pareto front; methods.");
+    drawn_description_is(d, " Shown: front; front; dominated; on the Pareto front.");
     drawn_close(d);
 }
 
