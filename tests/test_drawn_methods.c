@@ -271,9 +271,7 @@ static void stability_of_the_test(void **state) {
         assert_px(drawn_px(&p->x, sqrt(1e9)), p->frame.x1, 1.5);
         assert_int_equal(p->y.labels, METHODS);
         for (size_t i = 0; i < METHODS; i++) {
-            char name[64];
-            snprintf(name, sizeof name, "%s, case", names[i]);
-            assert_string_equal(p->y.at[METHODS - 1 - i]->text, name);
+            assert_string_equal(p->y.at[METHODS - 1 - i]->text, names[i]);
             assert_px(p->y.px[METHODS - 1 - i], row_of(p, i, METHODS), 1);
             for (size_t k = 0; k < STEPS; k++) { /* below the marks */
                 const uint32_t colour = field_at(d, p, drawn_px(&p->x, ratios[k] * 1.5), row_of(p, i, METHODS) + 12);
@@ -282,49 +280,109 @@ static void stability_of_the_test(void **state) {
         }
         check_ends(d, p, claimed, texts[0], 4);
         check_ends(d, p, breaks, texts[1], 7);
-        drawn_description_is(d, " Shown: claimed up to here; the claim breaks here.");
+        drawn_description_is(d, " case. Shown: claimed up to here; the claim breaks here.");
         drawn_close(d);
     }
+}
+
+/* The significant bits of the formats whose steps are counted. */
+static double digits_of(const char *which) {
+    static const struct {
+        const char *name;
+        int bits;
+    } rows[] = {{"fp16 d3d", 11}, {"unorm16 d3d", 16}, {"unorm24 d3d", 24}};
+    for (size_t i = 0; i < sizeof rows / sizeof rows[0]; i++)
+        if (strcmp(which, rows[i].name) == 0)
+            return rows[i].bits * log10(2);
+    fail_msg("whose steps are those of %s?", which);
+    return NAN;
+}
+
+/* One row of what `stability --csv` prints, in the panel of its case and the row of its method. */
+static void check_field(const drawn *d, const char *row, bool steps, bool seen[DRAWN_PANELS][DRAWN_LABELS]) {
+    char method[64], which[64];
+    double ratio, error;
+    drawn_marker all[64];
+    size_t panel = 0;
+    int label = 0;
+    assert_int_equal(sscanf(row, "%*[^,],%63[^,],%63[^,]", method, which), 2);
+    const char *at = row;
+    for (int comma = 0; comma < 4; comma++)
+        at = strchr(at, ',') + 1;
+    const double to = strtod(at, NULL);
+    assert_int_equal(sscanf(strchr(strchr(at, ',') + 1, ',') + 1, "%lf,%lf", &ratio, &error), 2);
+    while (panel < d->panel_count && strcmp(d->panels[panel].heading, which) != 0)
+        panel++;
+    while (label < d->panels[0].y.labels && strcmp(d->panels[0].y.at[label]->text, method) != 0)
+        label++;
+    if (panel == d->panel_count || label == d->panels[0].y.labels)
+        fail_msg("no row shows %s of %s", method, which);
+    const drawn_panel *p = &d->panels[panel];
+    const double y = d->panels[0].y.px[label] - d->panels[0].frame.y0 + p->frame.y0;
+    const double left = steps ? fmin(fmax(digits_of(which) - log10(error), 0), 16) : digits(error);
+    const uint32_t colour = field_at(d, p, drawn_px(&p->x, ratio) - 2, y + 6);
+    assert_px(drawn_bar_px(d, colour), drawn_px(&d->value, left), 2);
+    if (to > 0 && isfinite(to))
+        assert_true(marked(all, drawn_markers(d, p, all, 64), &drawn_legend(d, "claimed up to here")->marker,
+                           (svg_point){drawn_px(&p->x, to), y, false}));
+    seen[panel][label] = true;
+}
+
+/* What a case has no method for is hatched; names of rows can be read, and no mark touches the frame. */
+static void check_panels(const drawn *d, bool seen[DRAWN_PANELS][DRAWN_LABELS]) {
+    const drawn_scale *y = &d->panels[0].y;
+    bool hatched = false;
+    for (int label = 1; label < y->labels; label++)
+        assert_true(fabs(y->px[label] - y->px[label - 1]) > 13 * d->scale);
+    for (size_t i = 0; i < d->panel_count; i++) {
+        const drawn_panel *p = &d->panels[i];
+        drawn_marker all[64];
+        const size_t count = drawn_markers(d, p, all, 64);
+        for (size_t k = 0; k < count; k++)
+            assert_true(all[k].x + all[k].width / 2 < p->frame.x1 && all[k].x - all[k].width / 2 > p->frame.x0);
+        for (int label = 0; label < y->labels; label++) {
+            const double place = y->px[label] - d->panels[0].frame.y0 + p->frame.y0;
+            const uint32_t colour = field_at(d, p, (p->frame.x0 + p->frame.x1) / 2, place + 5) & 0xFFFFFF;
+            hatched = hatched || !seen[i][label];
+            assert_int_equal(colour == d->theme->empty, !seen[i][label]);
+        }
+    }
+    assert_true(hatched);
 }
 
 /* Names, colours and ends of the program's methods against what `stability --csv` prints. */
 static void stability_of_the_program(void **state) {
     (void)state;
-    drawn *d = drawn_run(&drawn_light, "plot stability linearize");
-    const drawn_panel *p = &d->panels[0];
-    drawn_marker all[128];
-    const size_t count = drawn_markers(d, p, all, 128);
-    char *text = drawn_output("stability linearize --csv"), *row = strchr(text, '\n') + 1;
-    int rows = 0;
-    assert_string_equal(d->subtitle, "linearize: eye depth of a binary32 window depth; worst relative error over near "
-                                     "1e-12, 0.1 and 1e6");
-    for (char *end; (end = strchr(row, '\n')) != NULL; row = end + 1) {
-        char method[64], which[64], name[160];
-        double ratio, error, to;
-        *end = '\0';
-        assert_int_equal(sscanf(row, "linearize,%63[^,],%63[^,]", method, which), 2);
-        char *at = row;
-        for (int comma = 0; comma < 4; comma++)
-            at = strchr(at, ',') + 1;
-        to = strtod(at, NULL);
-        assert_int_equal(sscanf(strchr(strchr(at, ',') + 1, ',') + 1, "%lf,%lf", &ratio, &error), 2);
-        snprintf(name, sizeof name, "%s, %s", method, which);
-        int label = 0;
-        while (label < p->y.labels && strcmp(p->y.at[label]->text, name) != 0)
-            label++;
-        if (label == p->y.labels)
-            fail_msg("no row is named '%s'", name);
-        const double y = p->y.px[label];
-        const uint32_t colour = field_at(d, p, drawn_px(&p->x, ratio) - 2, y + 2);
-        assert_px(drawn_bar_px(d, colour), drawn_px(&d->value, digits(error)), 2);
-        if (to > 0 && isfinite(to))
-            assert_true(marked(all, count, &drawn_legend(d, "claimed up to here")->marker,
-                               (svg_point){drawn_px(&p->x, to), y, false}));
-        rows++;
+    static const struct {
+        const char *family, *subtitle;
+        size_t cases;
+        bool steps;
+    } figures[] = {
+        {"linearize",
+         "linearize: eye depth of a binary32 window depth; worst relative error over near 1e-12, 0.1 and "
+         "1e6. Hatched: not of this case",
+         2, false},
+        {"encode",
+         "encode: code of a binary32 window depth; worst steps of the format over near 1e-12, 0.1 and 1e6, "
+         "as digits of the code. Hatched: not of this case",
+         3, true},
+    };
+    for (size_t i = 0; i < sizeof figures / sizeof figures[0]; i++) {
+        drawn *d = drawn_run(&drawn_light, "plot stability %s", figures[i].family);
+        char *text = drawn_output("stability %s --csv", figures[i].family), *row = strchr(text, '\n') + 1;
+        bool seen[DRAWN_PANELS][DRAWN_LABELS] = {{false}};
+        int rows = 0;
+        assert_string_equal(d->subtitle, figures[i].subtitle);
+        assert_int_equal(d->panel_count, figures[i].cases);
+        for (char *end; (end = strchr(row, '\n')) != NULL; row = end + 1, rows++) {
+            *end = '\0';
+            check_field(d, row, figures[i].steps, seen);
+        }
+        assert_true(rows > 100);
+        check_panels(d, seen);
+        free(text);
+        drawn_close(d);
     }
-    assert_true(rows > 100);
-    free(text);
-    drawn_close(d);
 }
 
 int main(void) {

@@ -50,7 +50,7 @@ typedef struct chart_style {
     int colour; /**< -1 is the colour of the text */
     int stroke;
     int marker; /**< -1 for none */
-    bool thin;  /**< a line in the background */
+    bool thin;  /**< a line in the background; points that stand close */
 } chart_style;
 
 typedef struct chart_series {

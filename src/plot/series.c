@@ -97,12 +97,16 @@ static void draw_drops(const pencil *p, const axes *a, const chart_panel *panel,
     canvas_path_end(p->c, &thick);
 }
 
+static double point_size(const chart_series *s) {
+    return s->style.thin ? 1 : 1.5;
+}
+
 /* Those within the frame. */
 static void draw_points(const pencil *p, const axes *a, const chart_panel *panel, size_t index) {
     const chart_series *s = &panel->series[index];
     for (size_t i = 0; i < s->count; i++)
         if (axes_holds(a, s->x[i], s->y[i]))
-            draw_marker(p, s, axes_x(a, s->x[i]), axes_y(a, s->y[i]), 1.5);
+            draw_marker(p, s, axes_x(a, s->x[i]), axes_y(a, s->y[i]), point_size(s));
 }
 
 static void draw_level(const pencil *p, const chart_series *s, double x0, double x1, double y) {
@@ -135,7 +139,7 @@ static void swatch_drops(const pencil *p, const chart_series *s, double x, doubl
 }
 
 static void swatch_points(const pencil *p, const chart_series *s, double x, double y, double width) {
-    draw_marker(p, s, x + width / 2, y, 1.5);
+    draw_marker(p, s, x + width / 2, y, point_size(s));
 }
 
 static void swatch_levels(const pencil *p, const chart_series *s, double x, double y, double width) {
