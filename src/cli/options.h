@@ -41,6 +41,8 @@ typedef enum option_id {
     OPTION_TOLERANCE,
     OPTION_AT,
     OPTION_RANGE,
+    OPTION_DEPTH,
+    OPTION_CODE,
     OPTION_FOR,
     OPTION_SEPARATION,
     OPTION_ERROR,
@@ -136,6 +138,7 @@ typedef struct options {
 
     depths at;                 /**< what --at said; count is 0 when it was not given. See depths_resolve() */
     double range_lo, range_hi; /**< what --range said, lo < hi. See range_resolve() */
+    depths looked_up;          /**< window depths of --depth in [0, 1], or codes of --code; count is 0 without them */
 
     solve_target target;                    /**< --for */
     double wanted_separation, wanted_error; /**< positive, scene units; 0 when not given */
