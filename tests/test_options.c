@@ -338,6 +338,15 @@ static void test_lists(void **state) {
          4294967295,
          {"4294967296", "-1", "1.5", "x"},
          "N[,N...], whole numbers from 0 to 4294967295"},
+        {"texture",
+         OPTION_PIXEL,
+         AT(pixels),
+         "3,0;2,65535",
+         4,
+         3,
+         65535,
+         {"65536", "1.5", "x", "-1"},
+         "X,Y[;X,Y...], whole numbers from 0 to 65535"},
     };
     tally t = {.name = "lists"};
     (void)state;

@@ -302,20 +302,22 @@ static int parse_spaced(const option_row *row, const char *text, depths *out) {
 /* Numbers separated by commas, what is `said` of them; from least to most where the row has limits. */
 static int parse_listed(const option_row *row, const char *text, const char *said, depths *out) {
     depths d = {.kind = DEPTHS_LIST, .lo = (double)INFINITY, .hi = -(double)INFINITY};
-    const bool limited = row->least < row->most, whole = row->parse == parse_codes;
+    const bool paired = row->parse == parse_pixels, whole = paired || row->parse == parse_codes;
+    const bool limited = row->least < row->most;
     size_t count = 1;
     for (const char *c = text; *c != '\0'; c++)
-        count += *c == ',';
+        count += *c == ',' || (paired && *c == ';');
     if (count > DEPTHS_MAX)
         return refuse(row, "must be at most %d depths, got %zu", DEPTHS_MAX, count);
     d.list = malloc(count * sizeof *d.list);
     if (d.list == NULL)
         return refuse(row, "no memory for %zu depths", count);
     for (const char *item = text; d.count < count; d.count++) {
-        size_t length = strcspn(item, ",");
+        const size_t length = strcspn(item, paired ? ",;" : ",");
+        const bool ends = !paired || (d.count % 2 == 0 ? item[length] == ',' : item[length] != ',');
         double z;
-        if (!number_parse_part(item, length, NUMBER_FINITE, &z) || (limited && !(z >= row->least && z <= row->most)) ||
-            (whole && z != floor(z))) {
+        if (!number_parse_part(item, length, NUMBER_FINITE, &z) || !ends ||
+            (limited && !(z >= row->least && z <= row->most)) || (whole && z != floor(z))) {
             free(d.list);
             return refuse(row, "must be %s, got '%.*s'%s%s%s", said, (int)length, item, count > 1 ? " in '" : "",
                           count > 1 ? text : "", count > 1 ? "'" : "");
@@ -332,7 +334,7 @@ static int parse_listed(const option_row *row, const char *text, const char *sai
 int parse_list(options *o, const option_row *row, const char *value) {
     char limits[OPTION_TEXT_SIZE], said[OPTION_TEXT_SIZE + 64];
     depths *out = field(o, row);
-    snprintf(said, sizeof said, "%s, %snumbers from %s", row->argument, row->parse == parse_codes ? "whole " : "",
+    snprintf(said, sizeof said, "%s, %snumbers from %s", row->argument, row->parse != parse_list ? "whole " : "",
              option_limits(row, limits));
     free(out->list); /* of an earlier one: the last one counts */
     *out = (depths){.kind = DEPTHS_LIST};
@@ -340,6 +342,10 @@ int parse_list(options *o, const option_row *row, const char *value) {
 }
 
 int parse_codes(options *o, const option_row *row, const char *value) {
+    return parse_list(o, row, value);
+}
+
+int parse_pixels(options *o, const option_row *row, const char *value) {
     return parse_list(o, row, value);
 }
 

@@ -175,6 +175,9 @@ const option_row option_rows[OPTION_COUNT] = {
     [OPTION_METRIC] = {"metric", 0, "SCALE", VERB_TEXTURE,
         "the samples are eye depths in units of SCALE, 0.001 for millimetres; 0, below 0, NaN and infinity are holes",
         NUMBER(metric, METRIC_SCALE_MIN, METRIC_SCALE_MAX, "scene units")},
+    [OPTION_PIXEL] = {"pixel", 0, "X,Y[;X,Y...]", VERB_TEXTURE,
+        "all about single pixels: code, eye depth and which depths it may be, neighbours, position, normal; 0,0 is the "
+        "left of the top row", SEVERAL(parse_pixels, pixels, 0, TEXTURE_SIDE_MAX - 1)},
     [OPTION_EYE] = {"eye", 0, NULL, VERB_TEXTURE,
         "product: eye depth", FLAG(eye)},
     [OPTION_RADIAL] = {"radial", 0, NULL, VERB_TEXTURE,

@@ -62,6 +62,7 @@ option_parser parse_word;   /**< the same: the index of one of `names` */
 option_parser parse_row;    /**< a pointer to the row of one of `names` */
 option_parser parse_list;   /**< depths: numbers from least to most, separated by commas */
 option_parser parse_codes;  /**< the same, whole ones */
+option_parser parse_pixels; /**< the same, pairs of them with a semicolon in between */
 
 /* ---- Languages of their own -------------------------------------------------------------------------------------- */
 

@@ -69,6 +69,7 @@ typedef enum option_id {
     OPTION_PARAMETER,
     OPTION_SKY,
     OPTION_METRIC,
+    OPTION_PIXEL,
     OPTION_EYE,
     OPTION_RADIAL,
     OPTION_POSITION,
@@ -162,6 +163,7 @@ typedef struct options {
     size_t parameter_count;
     double sky;    /**< window depth */
     double metric; /**< scene units of 1 in a sample of metric depth; 0 when not given */
+    depths pixels; /**< column and row of each in turn; count is 0 when not given */
     bool eye, radial, error_map;
     const position_row *position; /**< null for exact as well */
     const normal_row *normal;
