@@ -6,6 +6,7 @@
 
 #include <jansson.h>
 
+#include "report/number.h"
 #include "report/report.h"
 #include "support.h"
 
@@ -375,7 +376,7 @@ static void write_four(page *p) {
                                   {GROUP("inner", inner)},
                                   {.kind = COLUMN_END}};
     static const column columns[] = {{LIST("rows", rows, next_once)}, {.kind = COLUMN_END}};
-    report_write(&(report_spec){"test", columns, &(four){1, 2, 3, 4}}, p->out, FORM_TEXT);
+    report_write(&(report_spec){.command = "test", .columns = columns, .item = &(four){1, 2, 3, 4}}, p->out, FORM_TEXT);
 }
 
 /* Columns that are spared, the highest first, until the rest fits. */

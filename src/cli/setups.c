@@ -89,8 +89,8 @@ const char *setup_label(const dp_setup *setup, bool full, char out[SETUP_LABEL_S
     if (full)
         snprintf(out + length, SETUP_LABEL_SIZE - (size_t)length, "%s%s, near %s, far %s, %s, %s, %s%s%s",
                  has_log_c ? " C " : "", has_log_c ? number_full(f.log_c).text : "", number_full(f.znear).text,
-                 number_full(f.zfar).text, f.projection, f.rounding, f.model, has_arith ? " " : "",
-                 has_arith ? f.arith : "");
+                 number_full(f.zfar).text, f.projection, f.rounding, has_arith ? "float" : f.model,
+                 has_arith ? " " : "", has_arith ? f.arith : "");
     return out;
 }
 
