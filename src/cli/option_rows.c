@@ -54,6 +54,7 @@ enum {
 #define LIMITS(lo, hi, of) .least = (lo), .most = (hi), .unit = (of)
 #define NUMBER(field, ...) .parse = parse_number, FIELD(double, field), LIMITS(__VA_ARGS__)
 #define WHOLE(field, ...)  .parse = parse_whole, SIZED(field), LIMITS(__VA_ARGS__)
+#define SEVERAL(kind, field, lo, hi) .parse = (kind), FIELD(depths, field), LIMITS(lo, hi, NULL)
 #define WORD(field, among) .parse = parse_word, SIZED(field), .names = &(among)
 #define ROW(field, among)  .parse = parse_row, SIZED(field), .names = &(among)
 
@@ -98,6 +99,12 @@ const option_row option_rows[OPTION_COUNT] = {
     [OPTION_RANGE] = {"range", 0, "LO:HI", MODELLED | VERB_ZFIGHT | VERB_BIAS | VERB_SOLVE,
         "the depths that worst cases are taken over", parse_range, .without = "near to far",
         .except = {VERB_SOLVE, "none"}},
+    [OPTION_DEPTH] = {"depth", 0, "D[,D...]", VERB_TABLE,
+        "the other way round: the eye depths of these window depths, each with the cell that it is stored in",
+        SEVERAL(parse_list, looked_up, 0, 1)},
+    [OPTION_CODE] = {"code", 0, "N[,N...]", VERB_TABLE,
+        "the same for stored codes, decimal or 0x...: those of a float are its bits",
+        SEVERAL(parse_codes, looked_up, 0, 4294967295)},
     [OPTION_FOR] = {"for", 0, NULL, VERB_SOLVE,
         "what to solve for; distance is the depth up to which --separation holds", WORD(target, targets),
         .without = "the first of near, far, format and mapping that is not given", .group = "What is wanted"},
@@ -168,6 +175,9 @@ const option_row option_rows[OPTION_COUNT] = {
     [OPTION_METRIC] = {"metric", 0, "SCALE", VERB_TEXTURE,
         "the samples are eye depths in units of SCALE, 0.001 for millimetres; 0, below 0, NaN and infinity are holes",
         NUMBER(metric, METRIC_SCALE_MIN, METRIC_SCALE_MAX, "scene units")},
+    [OPTION_PIXEL] = {"pixel", 0, "X,Y[;X,Y...]", VERB_TEXTURE,
+        "all about single pixels: code, eye depth and which depths it may be, neighbours, position, normal; 0,0 is the "
+        "left of the top row", SEVERAL(parse_pixels, pixels, 0, TEXTURE_SIDE_MAX - 1)},
     [OPTION_EYE] = {"eye", 0, NULL, VERB_TEXTURE,
         "product: eye depth", FLAG(eye)},
     [OPTION_RADIAL] = {"radial", 0, NULL, VERB_TEXTURE,
