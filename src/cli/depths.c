@@ -32,11 +32,15 @@ static int outside(const options *o, option_id id, double z) {
 int depths_resolve(const options *o, size_t count, depths *out) {
     *out = o->at;
     if (o->at.count == 0)
-        *out = depths_spaced(DEPTHS_LOG, o->znear, isinf(o->zfar) ? o->znear * infinite_far_ratio : o->zfar, count);
+        *out = depths_spaced(o->znear > 0.0 ? DEPTHS_LOG : DEPTHS_LIN, o->znear,
+                             isinf(o->zfar) ? o->znear * infinite_far_ratio : o->zfar, count);
     if (out->lo < o->znear)
         return outside(o, OPTION_AT, out->lo);
     if (out->hi > o->zfar)
         return outside(o, OPTION_AT, out->hi);
+    if (out->kind == DEPTHS_LOG && out->lo <= 0.0)
+        return option_error(OPTION_AT, "log spacing needs LO greater than 0, got %s: lin has equal steps",
+                            number_full(out->lo).text);
     return EXIT_FINE;
 }
 

@@ -125,6 +125,14 @@ int parse_row(options *o, const option_row *row, const char *value) {
 
 /* ---- Languages of their own -------------------------------------------------------------------------------------- */
 
+/* What is not positive needs --ortho, which may come later: check_near() of options.c. */
+int parse_near(options *o, const option_row *row, const char *value) {
+    if (!number_parse(value, NUMBER_FINITE, &o->znear) || o->znear > 0.0)
+        return parse_number(o, row, value);
+    o->znear += 0.0; /* -0 is 0 */
+    return EXIT_FINE;
+}
+
 int parse_far(options *o, const option_row *row, const char *value) {
     if (!number_parse(value, NUMBER_FAR, &o->zfar))
         return refuse(row, "must be a number greater than near and at most 1e18, or inf, got '%s'", value);
@@ -309,7 +317,7 @@ static int parse_listed(const option_row *row, const char *text, depths *out) {
             return refuse(row, "must be Z[,Z...] or LO:HI:log|lin:COUNT, got '%.*s'%s%s%s", (int)length, item,
                           count > 1 ? " in '" : "", count > 1 ? text : "", count > 1 ? "'" : "");
         }
-        d.list[d.count] = z;
+        d.list[d.count] = z + 0.0; /* -0 is 0 */
         d.lo = fmin(d.lo, z);
         d.hi = fmax(d.hi, z);
         item += length + 1;
