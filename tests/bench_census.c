@@ -57,11 +57,11 @@ PLAIN static plain_result plain_census(float a, float b, uint32_t first, size_t 
                                        uint32_t *least) {
     plain_result r = {0, 0, 0.0};
     for (size_t i = 0; i < count; i++) {
-        const float z = census_depth(first + (uint32_t)i);
+        const float z = dp_float32(first + (uint32_t)i);
         const float product = a * z;
         const float clip = product + b;
         const float window = clip / z;
-        code[i] = census_bits(window > 0.0f ? window < 1.0f ? window : 1.0f : 0.0f);
+        code[i] = dp_bits32(window > 0.0f ? window < 1.0f ? window : 1.0f : 0.0f);
         if (i > 0) {
             r.ties += code[i] == code[i - 1];
             r.swaps += code[i] < code[i - 1];
@@ -75,7 +75,7 @@ PLAIN static plain_result plain_census(float a, float b, uint32_t first, size_t 
             end = i;
         while (end + 1 < count && least[end + 1] <= code[i])
             end++;
-        const double length = (double)census_depth(first + (uint32_t)end) - (double)census_depth(first + (uint32_t)i);
+        const double length = (double)dp_float32(first + (uint32_t)end) - (double)dp_float32(first + (uint32_t)i);
         if (least[end] <= code[i] && code[end] <= code[i] && length > r.longest)
             r.longest = length;
     }
@@ -112,7 +112,7 @@ static void line(const char *what, double value, const char *unit, double spread
 /* Both over the farthest binade of the camera, one thread each. */
 static void against_plain(void) {
     const dp_setup setup = make("fp32", DP_MAPPING_D3D, 1000.0);
-    const uint32_t first = census_bits(256.0f);
+    const uint32_t first = dp_bits32(256.0f);
     const size_t count = (1U << 23) + 1;
     uint32_t *code = malloc(count * sizeof *code);
     uint32_t *least = malloc(count * sizeof *least);
@@ -173,7 +173,7 @@ static void each_level(void) {
     static census_result result;
     char text[64];
     for (size_t i = 0; i < census_level_count; i++) {
-        if (!census_levels[i].supported())
+        if (!dp_path_available(census_levels[i].path))
             continue;
         const census_request q = {.setup = &setup, .lo = 64.0, .hi = 128.0, .threads = 1, .level = &census_levels[i]};
         timing t = {.count = RUNS};

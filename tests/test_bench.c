@@ -85,7 +85,11 @@ static bool judge(const method_call *call, size_t i, method_error *e) {
 
 static const method_row rows[] = {
     {.name = "fast", .claims = {FULL(10)}, .run = run_0},
-    {.name = "exact", .claims = {UP_TO(4, 100)}, .run = run_1, .open = open_1, .close = close_1},
+    {.name = "exact",
+     .claims = {{4, METHOD_RATIO_LO, 100, NULL, 0, 0}},
+     .run = run_1,
+     .open = open_1,
+     .close = close_1},
     {.name = "neither", .claims = {FULL(12)}, .run = run_2, .limit = 6},
 };
 static const size_t row_count = sizeof rows / sizeof rows[0];

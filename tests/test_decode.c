@@ -282,7 +282,7 @@ static void rows_apply_where_they_say(void **state) {
                            : spec.mapping == DP_MAPPING_LINEAR ? "w-eye"
                                                                : "linear-eye";
         assert_string_equal(decode_usual(&setup)->name, want);
-        assert_true(decode_applies(decode_best(), &setup));
+        assert_true(decode_applies(&decode_rows[DECODE_COMPLEMENT], &setup));
         assert_int_equal(decode_applies(decode_find("linear-01"), &setup),
                          strcmp(want, "linear-eye") == 0 && !isinf(spec.zfar));
     }

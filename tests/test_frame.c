@@ -10,6 +10,7 @@
 #include "oracle.h"
 #include "support.h"
 #include "texture/frame.h"
+#include "texture/normal_measure.h"
 #include "texture/survey.h"
 
 /* Three strips, the last one shorter. */

@@ -13,7 +13,6 @@
 #include <cmocka.h>
 
 #include "report/number.h"
-#include "report/shortest.h"
 
 static const char *reference(double value, char out[64]) {
     for (int digits = 15; digits <= 17; digits++) {
@@ -50,13 +49,13 @@ static void random_bits(void **unused) {
         if (i % 2 == 0) /* half of them where the quick way works */
             bits = (bits & 0x800FFFFFFFFFFFFFU) | (897 + (bits >> 52) % 180) << 52;
         double value;
-        char text[SHORTEST_SIZE];
+        char text[NUMBER_SIZE];
         memcpy(&value, &bits, sizeof value);
         if (!isfinite(value))
             continue;
         same_as_reference(value);
         inside += fabs(value) >= 1e-38 && fabs(value) < 1e17;
-        quick += shortest_quick(value, text) > 0;
+        quick += number_quick(value, text) > 0;
     }
     printf("# seed 20140611; the quick way served %ld of %ld\n", quick, inside);
     assert_true(quick > inside / 2);

@@ -7,8 +7,8 @@
 #include <string.h>
 
 #include "named.h"
+#include "pack_measure.h"
 #include "support.h"
-#include "texture/pack.h"
 
 static size_t count(void) {
     size_t rows = 0;

@@ -6,8 +6,8 @@
 #include <string.h>
 
 #include "named.h"
+#include "pack_measure.h"
 #include "support.h"
-#include "texture/pack.h"
 
 static const long double PIL = 3.14159265358979323846264338327950288L;
 

@@ -147,7 +147,7 @@ static void test_blind(void **state) {
     const chart_series *s = &c->panels[0].series[0];
     dp_worst worst;
     assert_int_equal(dp_worst_over(&a.setups[0], 0.1, INFINITY, &worst), DP_OK);
-    assert_true(chart_has_blind(c));
+    assert_true(isinf(s->y[s->count - 1]));
     for (size_t i = 1; i < s->count; i++) {
         assert_true(isinf(s->y[i]) || s->x[i] < worst.blind_from * 1.05);
         assert_false(isinf(s->y[i]) && s->x[i] < worst.blind_from / 1.05);
@@ -296,15 +296,19 @@ static void test_digest(void **state) {
     ask(&a, 0.1, 1000);
     ask_add(&a, "fp32", DP_MAPPING_D3D);
     chart *c = build(&a, "error");
-    uint64_t before = chart_digest(c);
+    char before[17], after[17];
+    chart_digest(c, before);
     double *y = &c->panels[0].series[0].y[2], kept = *y;
     *y = kept * (1 + 1e-14);
-    assert_true(chart_digest(c) == before); /* not the last bits */
+    chart_digest(c, after);
+    assert_string_equal(after, before); /* not the last bits */
     *y = kept * (1 + 1e-6);
-    assert_false(chart_digest(c) == before);
+    chart_digest(c, after);
+    assert_string_not_equal(after, before);
     *y = kept;
     c->panels[0].series[0].name[0]++;
-    assert_false(chart_digest(c) == before);
+    chart_digest(c, after);
+    assert_string_not_equal(after, before);
     chart_free(c);
 }
 
@@ -364,7 +368,7 @@ static void test_trace(void **state) {
     rng r = rng_make("trace");
     for (int shape = 0; shape < 3; shape++) {
         canvas *c = canvas_new(CANVAS_SVG, 500, 500, &none);
-        trace t = trace_start(c);
+        trace t = {.c = c};
         for (int i = 0; i < POINTS; i++) {
             points[i][0] = 500.0 * i / POINTS;
             points[i][1] = shape == 0   ? 250 + 200 * sin(points[i][0] / 30)
@@ -372,11 +376,10 @@ static void test_trace(void **state) {
                                         : points[i][0];
             trace_point(&t, points[i][0], points[i][1]);
         }
-        size_t emitted = trace_finish(&t, &(canvas_pen){.colour = {0, 0, 0, 1}, .width = 1});
-        assert_true(emitted <= (shape == 0 ? 400u : shape == 1 ? 2001u : 3u));
+        trace_finish(&t, &(canvas_pen){.colour = {0, 0, 0, 1}, .width = 1});
         canvas_bytes bytes;
         assert_true(canvas_finish(c, &bytes));
-        const char *path = strstr((const char *)bytes.at, " d=\"M ");
+        const char *path = strstr(bytes.at, " d=\"M ");
         assert_non_null(path);
         int count = 0, used;
         path += 4;
@@ -385,7 +388,7 @@ static void test_trace(void **state) {
             path += used;
             count++;
         }
-        assert_true(count >= 2);
+        assert_true(count >= 2 && count <= (shape == 0 ? 400 : shape == 1 ? 2001 : 3));
         free(bytes.at);
         double worst = 0;
         for (int i = 0; i < POINTS; i += 7) {

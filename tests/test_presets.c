@@ -40,7 +40,7 @@ static void test_rows(void **state) {
         assert_int_equal(strlen(row->checked), 10);
         assert_true(strspn(row->checked, "0123456789-") == 10 && row->checked[4] == '-' && row->checked[7] == '-');
         dp_format formats[2];
-        const size_t found = preset_formats(row, formats);
+        const size_t found = dp_format_parse(row->format, formats);
         assert_true(found >= 1);
         for (size_t f = 0; f < found; f++) {
             dp_spec spec = dp_spec_default();
@@ -74,14 +74,14 @@ static void test_unconfirmed(void **state) {
 static void test_known_values(void **state) {
     dp_format formats[2];
     (void)state;
-    assert_int_equal(preset_formats(preset_find("three-webgpu"), formats), 2); /* depth24plus */
+    assert_int_equal(dp_format_parse(preset_find("three-webgpu")->format, formats), 2); /* depth24plus */
     assert_string_equal(preset_find("unreal")->unit, "cm");
     assert_true(isinf(preset_find("unreal")->zfar) && isinf(preset_find("bevy")->zfar));
     assert_int_equal(preset_find("unity")->mapping, DP_MAPPING_REVERSED);
     assert_int_equal(preset_find("unity-gl")->mapping, DP_MAPPING_GL);
     assert_int_equal(preset_find("cesium")->mapping, DP_MAPPING_LOG);
     assert_true(strstr(preset_find("mujoco")->unconfirmed, "near") != NULL);
-    preset_formats(preset_find("godot-mobile"), formats);
+    dp_format_parse(preset_find("godot-mobile")->format, formats);
     assert_string_equal(formats[0].name, "unorm24");
 }
 

@@ -308,8 +308,8 @@ static void jumps_are_found(void **state) {
         for (size_t i = 1; i < curve.points; i++)
             TALLY(&t, (x[i] >= k.jump) == (x[i - 1] >= k.jump) || x[i] - x[i - 1] < 1.5 / COLUMNS, "jump at %a: %a %a",
                   k.jump, x[i - 1], x[i]);
-        TALLY(&t, (size_t)k.calls == curve.evaluations && curve.points <= 80, "%d calls, %zu evaluations", k.calls,
-              curve.evaluations);
+        TALLY(&t, (size_t)k.calls == c->evaluations && curve.points <= 80, "%d calls, %zu evaluations", k.calls,
+              c->evaluations);
         chart_free(c);
     }
     tally_end(&t);

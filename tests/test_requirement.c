@@ -147,10 +147,11 @@ static const struct {
     {CAMERA NEEDS("at = 1; separation = 0;"), 2, "separation: must be a finite length above 0"},
     {CAMERA NEEDS("at = 1; separation = 1e999;"), 2, "separation: must be a finite length"},
     {CAMERA NEEDS("at = 1; separation = \"1 mm\";"), 2, "does not say what a scene unit is"},
-    {"unit = \"m\";\n" CAMERA NEEDS("at = 1; separation = \"1 furlong\";"), 3, "the unit must be mm, cm, m or km"},
+    {"unit = \"m\";\n" CAMERA NEEDS("at = 1; separation = \"1 furlong\";"), 3,
+     "the unit must be nm, um, mm, cm, m, km, in or ft"},
     {"unit = \"m\";\n" CAMERA NEEDS("at = 1; separation = \"0x1p3 m\";"), 3, "must be a length"},
     {"unit = \"m\";\n" CAMERA NEEDS("at = 1; separation = \"nan m\";"), 3, "must be a length"},
-    {"unit = \"parsec\";", 1, "unit: must be mm, cm, m or km"},
+    {"unit = \"parsec\";", 1, "unit: must be nm, um, mm, cm, m, km, in or ft"},
     {CAMERA NEEDS("at = 1; ties = 0.1;"), 2, "ties: needs a range"},
     {"cameras = { a = { near = 1; far = 9; mapping = \"d3d\"; format = \"fp32\"; model = \"exact\"; }; };\n" NEEDS(
          "at = 1; ties = 0.1;"),

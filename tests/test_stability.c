@@ -87,7 +87,7 @@ static stability_verdict verdict_by(const char *name, method_claim claim) {
 }
 
 static stability_verdict verdict_of(const char *name, double worst, double ratio_hi) {
-    return verdict_by(name, (method_claim)UP_TO(worst, ratio_hi));
+    return verdict_by(name, (method_claim){worst, METHOD_RATIO_LO, ratio_hi, NULL, 0, 0});
 }
 
 /* Its own formula, times a factor. */

@@ -143,6 +143,17 @@ static void want_row(values *v, const dp_setup *setup, const method_row *method,
     want_number(v, "interval", interval_of(method, setup, z));
     want_number(v, "separation", dp_separation(setup, z));
     want_number(v, "separation_fp32", in_binary32(setup, z));
+    dp_setup other;
+    dp_spec spec = setup->spec;
+    spec.model = DP_MODEL_EXACT;
+    assert_int_equal(dp_setup_init(&other, &spec), DP_OK);
+    want_number(v, "lattice", dp_separation(&other, z));
+    spec.model = DP_MODEL_FP32;
+    if (dp_setup_init(&other, &spec) != DP_OK) { /* a mapping without a pipeline */
+        spec.model = DP_MODEL_STAGED;
+        assert_int_equal(dp_setup_init(&other, &spec), DP_OK);
+    }
+    want_number(v, "guaranteed", dp_separation(&other, z));
 }
 
 /* What --tolerance takes for a set-up: the cheapest claim for these planes, in the pipeline or on its lattice. */
@@ -213,13 +224,22 @@ static void want_table(values *v, const table_case *c, dp_setup *setup, size_t i
 }
 
 static void check_table_text(const values *v, const char *arguments, const line_places *lines) {
-    static const text_column columns[] = {{"z", 9},       {"code", 10},    {"depth", 7},      {"z_stored", 9},
-                                          {"error", 6},   {"interval", 6}, {"separation", 6}, {"separation_fp32", 6},
-                                          {"cell_lo", 9}, {"cell_hi", 9}};
-    for (int verbose = 0; verbose < 2; verbose++) {
-        printed p = print_of("%s%s", arguments, verbose ? " -v" : "");
+    static const text_column narrow[] = {{"z", 8},        {"code", 10},   {"depth", 7},     {"error", 5},
+                                         {"interval", 5}, {"lattice", 5}, {"guaranteed", 5}};
+    static const text_column verbose[] = {{"z", 8},          {"code", 10},   {"lattice", 5},
+                                          {"guaranteed", 5}, {"cell_lo", 9}, {"cell_hi", 9}};
+    static const text_column full[] = {{"z", 8},       {"code", 10},    {"depth", 7},   {"z_stored", 9},
+                                       {"error", 5},   {"interval", 5}, {"lattice", 5}, {"guaranteed", 5},
+                                       {"cell_lo", 9}, {"cell_hi", 9}};
+    static const struct {
+        const char *options;
+        const text_column *columns;
+        size_t count;
+    } forms[] = {{"", narrow, 7}, {"-v", verbose, 6}, {"--full", full, 8}, {"--full -v", full, 10}};
+    for (size_t i = 0; i < sizeof forms / sizeof forms[0]; i++) {
+        printed p = print_of("%s %s", arguments, forms[i].options);
         assert_int_equal(p.status, 0);
-        check_text_table(v, p.out, columns, verbose ? 10 : 8, lines);
+        check_text_table(v, p.out, forms[i].columns, forms[i].count, lines);
         printed_free(&p);
     }
 }

@@ -3,6 +3,8 @@
 
 #include <string.h>
 
+#include "texture/normal_measure.h"
+
 texture_camera view_camera(const char *format, dp_mapping mapping, double znear, double zfar, bool ortho,
                            uint32_t width, uint32_t height, double extent) {
     dp_spec spec = dp_spec_default();

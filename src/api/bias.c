@@ -2,7 +2,6 @@
 #include "api/bias.h"
 
 #include <math.h>
-#include <string.h>
 
 /* clang-format off */
 static const bias_api rows[] = {
@@ -111,29 +110,18 @@ double bias_window_slope(const dp_setup *setup, double z, double slope) {
     const double c = setup->spec.log_c;
     if (isinf(z) || slope == 0.0)
         return 0.0;
-    switch (setup->curve) {
-    case DP_CURVE_PERSPECTIVE:
-        return slope / (setup->kappa * z * z);
-    case DP_CURVE_LINEAR:
-        return slope / setup->kappa;
-    case DP_CURVE_LOG:
-        break;
-    }
-    return slope * c / ((c * z + 1.0) * setup->kappa);
+    return setup->curve == DP_CURVE_PERSPECTIVE ? slope / (setup->kappa * z * z)
+           : setup->curve == DP_CURVE_LINEAR    ? slope / setup->kappa
+                                                : slope * c / ((c * z + 1.0) * setup->kappa);
 }
 
 /* How far z moves when its window depth moves by t towards far; the result lies between the planes. */
 static double shift_of(const dp_setup *setup, double z, double t) {
     const double c = setup->spec.log_c;
-    switch (setup->curve) {
-    case DP_CURVE_PERSPECTIVE: /* 1/z' = 1/z - t kappa */
-        return t * setup->kappa * z * (z / (1.0 - t * setup->kappa * z));
-    case DP_CURVE_LINEAR:
-        return t * setup->kappa;
-    case DP_CURVE_LOG:
-        break;
-    }
-    return (c * z + 1.0) / c * expm1(t * setup->kappa);
+    /* perspective: 1/z' = 1/z - t kappa */
+    return setup->curve == DP_CURVE_PERSPECTIVE ? t * setup->kappa * z * (z / (1.0 - t * setup->kappa * z))
+           : setup->curve == DP_CURVE_LINEAR    ? t * setup->kappa
+                                                : (c * z + 1.0) / c * expm1(t * setup->kappa);
 }
 
 /* The window distance from z to z - gap; INFINITY when that lies before the near plane. */
@@ -144,15 +132,9 @@ static double window_of_gap(const dp_setup *setup, double z, double gap) {
         return 0.0;
     if (!(to >= setup->spec.znear))
         return (double)INFINITY;
-    switch (setup->curve) {
-    case DP_CURVE_PERSPECTIVE:
-        return gap / (setup->kappa * z * to);
-    case DP_CURVE_LINEAR:
-        return gap / setup->kappa;
-    case DP_CURVE_LOG:
-        break;
-    }
-    return -log1p(-c * gap / (c * z + 1.0)) / setup->kappa;
+    return setup->curve == DP_CURVE_PERSPECTIVE ? gap / (setup->kappa * z * to)
+           : setup->curve == DP_CURVE_LINEAR    ? gap / setup->kappa
+                                                : -log1p(-c * gap / (c * z + 1.0)) / setup->kappa;
 }
 
 bias_effect bias_at(const dp_setup *setup, const bias_state *state, double slope, double z) {
@@ -225,10 +207,6 @@ double bias_needed(const dp_setup *setup, const bias_goal *goal, double z) {
     return needed_with(setup, goal, z, exponent_of(&setup->spec.format, dp_window(setup, z)));
 }
 
-static double clamped(double z, double lo, double hi) {
-    return fmin(fmax(z, lo), hi);
-}
-
 /*
  * r and the steps change only where the exponent of d does, and between two such places the need is monotone in z, or
  * was 0 before it rises: the greatest is at an end of the range or of a binade of d, seen from either side.
@@ -245,7 +223,7 @@ double bias_needed_over(const dp_setup *setup, const bias_goal *goal, double lo,
         const double ends[2] = {ldexp(1.0, setup->reversed ? e + 1 : e), ldexp(1.0, setup->reversed ? e : e + 1)};
         for (int end = 0; end < 2; end++) {
             const double d = fmin(ends[end], 1.0);
-            const double z = clamped(dp_eye(setup, d, 1.0 - d), lo, hi);
+            const double z = fmin(fmax(dp_eye(setup, d, 1.0 - d), lo), hi);
             const double needed = needed_with(setup, goal, z, e);
             if (needed > most) {
                 most = needed;

@@ -23,8 +23,6 @@
 #define API_BIAS_H
 
 #include <stdbool.h>
-#include <stddef.h>
-#include <stdint.h>
 
 #include "depthprec/depthprec.h"
 

@@ -57,7 +57,3 @@ static const preset rows[] = {
 const preset *preset_get(size_t index) {
     return index < sizeof rows / sizeof rows[0] ? &rows[index] : NULL;
 }
-
-size_t preset_formats(const preset *row, dp_format out[2]) {
-    return dp_format_parse(row->format, out);
-}

@@ -8,8 +8,6 @@
 #ifndef API_PRESETS_H
 #define API_PRESETS_H
 
-#include <stddef.h>
-
 #include "depthprec/depthprec.h"
 
 typedef struct preset {
@@ -27,10 +25,5 @@ typedef struct preset {
 
 /** The rows in order; null for an index that is not below their number. */
 const preset *preset_get(size_t index);
-
-/**
- * The formats of a preset, one or two. @return their number
- */
-size_t preset_formats(const preset *row, dp_format out[2]);
 
 #endif

@@ -14,7 +14,6 @@
 
 #include <math.h>
 #include <stdlib.h>
-#include <string.h>
 
 #include "census/range.h"
 
@@ -74,7 +73,7 @@ static void run_keys(const sweep *w, uint32_t run, int32_t key[CENSUS_RUN]) {
     float z[CENSUS_RUN];
     for (uint32_t i = 0; i < CENSUS_RUN; i++) {
         const uint32_t bits = w->s->first + run * CENSUS_RUN + i;
-        z[i] = census_depth(bits < w->last ? bits : w->last);
+        z[i] = dp_float32(bits < w->last ? bits : w->last);
     }
     w->c->level->keys(&w->c->plan, z, CENSUS_RUN, key);
 }
@@ -117,7 +116,7 @@ static void look_at_run(sweep *w, uint32_t run) {
             end = s->count - 1;
         if (end < from)
             continue;
-        census_note(w->c->request, &s->found, census_depth(s->first + place), census_depth(s->first + end));
+        census_note(w->c->request, &s->found, dp_float32(s->first + place), dp_float32(s->first + end));
         known = known_steps(w);
     }
 }
@@ -154,7 +153,7 @@ static void update_bound(sweep *w, uint32_t first) {
     const census_request *r = w->c->request;
     if (r->bound == NULL)
         return;
-    const double here = r->bound(r->setup, (double)census_depth(first));
+    const double here = r->bound(r->setup, (double)dp_float32(first));
     w->bound = here < w->bound_above ? here : w->bound_above;
     w->bound_above = here;
 }
@@ -166,7 +165,7 @@ static void count_block(sweep *w, const census_sight *sight, uint32_t offset) {
     found->ties += sight->ties - filling;
     found->swaps += sight->swaps;
     found->clipped += sight->clipped;
-    if (filling > 0 && !dp_pipeline_drawn(&w->c->plan.pipeline, census_depth(w->last)))
+    if (filling > 0 && !dp_pipeline_drawn(&w->c->plan.pipeline, dp_float32(w->last)))
         found->clipped -= filling;
 }
 
@@ -190,7 +189,7 @@ static void sweep_segment(const census *c, segment *s, double longest, sweep *w)
     w->before_known = 1;
     s->found = (census_band){.longest_z = (double)NAN, .slack_z = (double)NAN};
     const int has_next = w->last < c->last;
-    int32_t next = has_next ? census_key(&c->plan, census_depth(w->last + 1)) : 0;
+    int32_t next = has_next ? census_key(&c->plan, dp_float32(w->last + 1)) : 0;
     for (uint32_t b = blocks; b-- > 0;) {
         census_sight sight;
         c->level->block(&c->plan, s->first + b * CENSUS_BLOCK, w->last, w->key, &sight);
@@ -250,7 +249,7 @@ static void keys_of_block(const census *c, size_t block, int32_t key[CENSUS_BLOC
     const uint32_t first = c->block_first[block];
     const uint32_t last = block_last(c, block);
     for (uint32_t i = 0; i < CENSUS_BLOCK; i++)
-        z[i] = census_depth(first + i < last ? first + i : last);
+        z[i] = dp_float32(first + i < last ? first + i : last);
     c->level->keys(&c->plan, z, CENSUS_BLOCK, key);
 }
 
@@ -276,21 +275,20 @@ static void look_at_block(const census *c, size_t block, size_t from, int64_t hi
         uint32_t end = block_last(c, other) - c->block_first[other];
         while (end > 0 && away[end] > v)
             end--;
-        census_note(c->request, band, census_depth(c->block_first[block] + i),
-                    census_depth(c->block_first[other] + end));
+        census_note(c->request, band, dp_float32(c->block_first[block] + i), dp_float32(c->block_first[other] + end));
     }
 }
 
 static int worth_a_look(const census *c, size_t block, size_t from, const census_band *band) {
     const census_request *r = c->request;
-    const double z1 = (double)census_depth(c->block_first[block]);
-    const double most = (double)census_depth(block_last(c, last_block(c, from, c->greatest[block]))) - z1;
+    const double z1 = (double)dp_float32(c->block_first[block]);
+    const double most = (double)dp_float32(block_last(c, last_block(c, from, c->greatest[block]))) - z1;
     if (most >= band->longest)
         return 1;
-    const double halves = census_step(census_bits((float)(z1 + most)));
+    const double halves = census_step(dp_bits32((float)(z1 + most)));
     return r->bound != NULL &&
-           most + halves >= band->slack * fmin(r->bound(r->setup, z1),
-                                               r->bound(r->setup, (double)census_depth(block_last(c, block))));
+           most + halves >=
+               band->slack * fmin(r->bound(r->setup, z1), r->bound(r->setup, (double)dp_float32(block_last(c, block))));
 }
 
 /* Intervals from one segment into a later one. Needs `least` to run on to the end. */
@@ -394,14 +392,7 @@ static void gather(census *c, census_result *result) {
         const segment *s = &c->segments[i];
         census_band *band = &result->bands[s->band];
         band->pairs += s->count;
-        band->ties += s->found.ties;
-        band->swaps += s->found.swaps;
-        band->clipped += s->found.clipped;
-        band->longest = fmax(band->longest, s->found.longest);
-        if (s->found.slack > band->slack) {
-            band->slack = s->found.slack;
-            band->slack_z = s->found.slack_z;
-        }
+        census_add(band, &s->found);
     }
     result->bands[result->band_count - 1].pairs--; /* the last depth has no neighbour behind it */
     for (size_t i = c->block_count - 1; i-- > 0;)

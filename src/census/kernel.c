@@ -30,7 +30,7 @@ static float_rule float_rule_of(const dp_format *f, int nearest) {
     const int rounds = nearest && shift > 0;
     return (float_rule){.shift = shift,
                         .rebias = (uint32_t)(127 - f->bias) << f->mantissa_bits,
-                        .normal = (int32_t)census_bits((float)ldexp(1.0, 1 - f->bias)),
+                        .normal = (int32_t)dp_bits32((float)ldexp(1.0, 1 - f->bias)),
                         .up = {(float)ldexp(1.0, f->bias - 1), (float)ldexp(1.0, f->mantissa_bits)},
                         .round = rounds ? (1U << (shift - 1)) - 1U : 0U,
                         .even = rounds ? 1U : 0U};
@@ -39,9 +39,9 @@ static float_rule float_rule_of(const dp_format *f, int nearest) {
 KERNEL uint32_t float_code(float_rule r, int32_t d, int nearest) {
     const uint32_t bits = (uint32_t)d;
     const uint32_t normal = ((bits + r.round + (bits >> r.shift & r.even)) >> r.shift) - r.rebias;
-    const int32_t small = d < r.normal ? d : r.normal;                     /* so that the side not taken converts too */
-    const float steps = census_depth((uint32_t)small) * r.up[0] * r.up[1]; /* exact; at most 2^23 */
-    const uint32_t subnormal = nearest ? census_bits(steps + 0x1p23f) - census_bits(0x1p23f) : (uint32_t)(int32_t)steps;
+    const int32_t small = d < r.normal ? d : r.normal;                   /* so that the side not taken converts too */
+    const float steps = dp_float32((uint32_t)small) * r.up[0] * r.up[1]; /* exact; at most 2^23 */
+    const uint32_t subnormal = nearest ? dp_bits32(steps + 0x1p23f) - dp_bits32(0x1p23f) : (uint32_t)(int32_t)steps;
     return d < r.normal ? subnormal : normal;
 }
 
@@ -55,7 +55,7 @@ KERNEL uint32_t float_code(float_rule r, int32_t d, int nearest) {
         memcpy(&bits, &window[i], sizeof bits);                                                                        \
         bits = bits > 0 ? bits : 0;                                                                                    \
         bits = bits < one ? bits : one;                                                                                \
-        const float d = census_depth((uint32_t)bits);                                                                  \
+        const float d = dp_float32((uint32_t)bits);                                                                    \
         (void)d;                                                                                                       \
         key[i] = (int32_t)((CODE) ^ flip);                                                                             \
     }                                                                                                                  \
@@ -195,7 +195,7 @@ KERNEL void block_keys(const census_plan *plan, uint32_t first, uint32_t last, i
     for (uint32_t row = 0; row < CENSUS_RUN; row++)
         for (uint32_t run = 0; run < CENSUS_RUNS; run++) {
             const uint32_t bits = top - run * CENSUS_RUN - row;
-            z[row * CENSUS_RUNS + run] = census_depth(bits < last ? bits : last);
+            z[row * CENSUS_RUNS + run] = dp_float32(bits < last ? bits : last);
         }
     sight->clipped = codes(plan, z, CENSUS_BLOCK, key);
     look(key, sight);
@@ -257,29 +257,16 @@ KERNEL uint32_t disorder(const int32_t *restrict key, const int32_t *restrict re
 
 LEVEL(baseline, )
 
-static int always(void) {
-    return 1;
-}
-
 #if defined(__x86_64__)
 LEVEL(avx2, __attribute__((target("avx2,fma"))))
 LEVEL(avx512, __attribute__((target("avx512f,avx512bw,avx512dq,avx512vl,fma"))))
-
-static int has_avx2(void) {
-    return __builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma");
-}
-
-static int has_avx512(void) {
-    return has_avx2() && __builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512bw") &&
-           __builtin_cpu_supports("avx512dq") && __builtin_cpu_supports("avx512vl");
-}
 #endif
 
 const census_level census_levels[] = {
-    {"baseline", always, keys_baseline, block_baseline, reach_baseline, disorder_baseline},
+    {"baseline", DP_PATH_BASELINE, keys_baseline, block_baseline, reach_baseline, disorder_baseline},
 #if defined(__x86_64__)
-    {"avx2", has_avx2, keys_avx2, block_avx2, reach_avx2, disorder_avx2},
-    {"avx512", has_avx512, keys_avx512, block_avx512, reach_avx512, disorder_avx512},
+    {"avx2", DP_PATH_AVX2, keys_avx2, block_avx2, reach_avx2, disorder_avx2},
+    {"avx512", DP_PATH_AVX512, keys_avx512, block_avx512, reach_avx512, disorder_avx512},
 #endif
 };
 const size_t census_level_count = sizeof census_levels / sizeof census_levels[0];
@@ -287,7 +274,7 @@ const size_t census_level_count = sizeof census_levels / sizeof census_levels[0]
 const census_level *census_level_best(void) {
     const census_level *best = &census_levels[0];
     for (size_t i = 1; i < census_level_count; i++)
-        if (census_levels[i].supported())
+        if (dp_path_available(census_levels[i].path))
             best = &census_levels[i];
     return best;
 }

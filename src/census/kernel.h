@@ -7,6 +7,7 @@
  *
  * A *key* is a code turned so that a correct buffer has strictly increasing keys with distance: reversed codes are
  * complemented, and the sign bit is flipped so that keys compare as signed numbers, which every instruction set can.
+ * Positive binary32 depths are counted by their bit patterns, which are ordered as they are.
  *
  * A *block* is 1024 neighbouring depths seen as 16 runs of 64. It lies in memory by rows: row r holds the r-th depth,
  * counted from the far end, of all 16 runs, the farthest run first. So neighbours in depth are 16 apart in memory, a
@@ -15,11 +16,8 @@
 #ifndef CENSUS_KERNEL_H
 #define CENSUS_KERNEL_H
 
-#include <stddef.h>
-#include <stdint.h>
-#include <string.h>
-
 #include "core/bits.h"
+#include "depthprec/batch.h"
 #include "depthprec/pipeline.h"
 
 enum { CENSUS_RUNS = 16, CENSUS_RUN = 64, CENSUS_BLOCK = CENSUS_RUNS * CENSUS_RUN };
@@ -45,15 +43,6 @@ typedef struct census_plan {
 
 census_plan census_plan_make(const dp_pipeline *pipeline);
 
-/* Positive binary32 depths are counted by their bit patterns, which are ordered as they are. */
-static inline uint32_t census_bits(float z) {
-    return dp_bits32(z);
-}
-
-static inline float census_depth(uint32_t bits) {
-    return dp_float32(bits);
-}
-
 /** The key of one depth, the slow way. */
 static inline int32_t census_key(const census_plan *plan, float z) {
     return (int32_t)(dp_pipeline_code(&plan->pipeline, z) ^ plan->flip);
@@ -68,7 +57,7 @@ typedef struct census_sight {
 
 typedef struct census_level {
     const char *name;
-    int (*supported)(void);
+    dp_path path; /**< whose instructions it takes */
     /** The keys of `count` depths, at most CENSUS_BLOCK. */
     void (*keys)(const census_plan *plan, const float *z, size_t count, int32_t *key);
     /** Keys of the block that begins at `first`, by rows; depths behind `last` are taken as `last`. */

@@ -12,8 +12,8 @@ static int ends_of(double lo, double hi, uint32_t *first, uint32_t *last) {
         return 0;
     const float znear = (float)lo;
     const float zfar = (float)hi;
-    *first = census_bits(znear) + ((double)znear < lo);
-    *last = census_bits(zfar) - ((double)zfar > hi);
+    *first = dp_bits32(znear) + ((double)znear < lo);
+    *last = dp_bits32(zfar) - ((double)zfar > hi);
     return *first >= 1U << 23 && *first <= *last;
 }
 
@@ -58,9 +58,9 @@ census_status census_open(const census_request *request, census_plan *plan, cens
     for (int i = 0; i < result->band_count; i++) {
         census_band *band = &result->bands[i];
         const uint32_t field = (*first >> 23) + (uint32_t)i;
-        band->lo = i == 0 ? request->lo : (double)census_depth(field << 23);
-        band->hi = i == result->band_count - 1 ? request->hi : 2.0 * (double)census_depth(field << 23);
-        band->longest_z = band->slack_z = band->bound = (double)NAN;
+        band->lo = i == 0 ? request->lo : (double)dp_float32(field << 23);
+        band->hi = i == result->band_count - 1 ? request->hi : 2.0 * (double)dp_float32(field << 23);
+        band->longest_z = band->slack_z = band->bound = band->first = band->last_apart = (double)NAN;
         if (request->bound != NULL)
             band->bound = greatest_bound(request, band, i == result->band_count - 1);
     }
@@ -69,8 +69,8 @@ census_status census_open(const census_request *request, census_plan *plan, cens
 
 /* Of the guarantee: surfaces are real, and each may be half a step away from the depth that stands for it. */
 static void note_used(const census_request *request, census_band *band, float z1, float z2) {
-    const double half1 = 0.5 * census_step(census_bits(z1));
-    const double half2 = 0.5 * census_step(census_bits(z2));
+    const double half1 = 0.5 * census_step(dp_bits32(z1));
+    const double half2 = 0.5 * census_step(dp_bits32(z2));
     const double bound = request->bound(request->setup, (double)z1);
     const double apart = (double)z2 - (double)z1 + half1 + half2;
     const double slack = bound > 0.0 ? apart / bound : HUGE_VAL; /* no bound at all is a broken one */
@@ -92,40 +92,46 @@ void census_note(const census_request *request, census_band *band, float z1, flo
     note_used(request, band, z1, z2);
 }
 
+void census_add(census_band *to, const census_band *from) {
+    to->pairs += from->pairs;
+    to->ties += from->ties;
+    to->swaps += from->swaps;
+    to->clipped += from->clipped;
+    to->first = fmin(to->first, from->first); /* the number, where one of them is none */
+    to->last_apart = fmax(to->last_apart, from->last_apart);
+    if (from->longest > to->longest || (from->longest == to->longest && from->longest_z < to->longest_z)) {
+        to->longest = from->longest;
+        to->longest_z = from->longest_z;
+    }
+    if (from->slack > to->slack || (from->slack == to->slack && from->slack_z < to->slack_z)) {
+        to->slack = from->slack;
+        to->slack_z = from->slack_z;
+    }
+}
+
 /* How many depths lie in first..last and outside [lo, hi]; all, when these are NaN. */
 static uint64_t outside(uint32_t first, uint32_t last, double lo, double hi) {
     return isnan(lo) ? (uint64_t)last - first + 1
-                     : (uint64_t)(census_bits((float)lo) - first) + (last - census_bits((float)hi));
+                     : (uint64_t)(dp_bits32((float)lo) - first) + (last - dp_bits32((float)hi));
 }
 
 void census_close(const census_request *request, const census_plan *plan, uint32_t first, uint32_t last,
                   census_result *result) {
     census_band *all = &result->all;
-    *all = (census_band){
-        .lo = request->lo, .hi = request->hi, .longest_z = (double)NAN, .slack_z = (double)NAN, .bound = (double)NAN};
+    *all = (census_band){.lo = request->lo, .hi = request->hi};
+    all->longest_z = all->slack_z = all->bound = all->first = all->last_apart = (double)NAN;
     for (int i = 0; i < result->band_count; i++) {
         census_band *band = &result->bands[i];
         if (request->bound != NULL && band->longest > 0.0)
             band->bound = fmax(band->bound, bound_at(request, band->longest_z));
-        all->pairs += band->pairs;
-        all->ties += band->ties;
-        all->swaps += band->swaps;
-        all->clipped += band->clipped;
         all->bound = fmax(all->bound, band->bound);
-        if (band->longest > all->longest) {
-            all->longest = band->longest;
-            all->longest_z = band->longest_z;
-        }
-        if (band->slack > all->slack) {
-            all->slack = band->slack;
-            all->slack_z = band->slack_z;
-        }
+        census_add(all, band);
     }
     /* The planes of a part of the camera's range: the same search between its ends. */
     dp_pipeline part = plan->pipeline;
     float znear, zfar;
-    part.znear = census_depth(first);
-    part.zfar = census_depth(last);
+    part.znear = dp_float32(first);
+    part.zfar = dp_float32(last);
     dp_pipeline_planes(&part, &znear, &zfar);
     result->near_effective = (double)znear;
     result->far_effective = (double)zfar;

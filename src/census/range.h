@@ -19,11 +19,14 @@ static inline int census_band_of(uint32_t first, uint32_t bits) {
 
 /* The binary32 step in a depth's band. */
 static inline double census_step(uint32_t bits) {
-    return (double)census_depth(bits + 1) - (double)census_depth(bits);
+    return (double)dp_float32(bits + 1) - (double)dp_float32(bits);
 }
 
 /* Takes an interval into account. Where several are as long, the nearest is kept, so the order does not matter. */
 void census_note(const census_request *request, census_band *band, float z1, float z2);
+
+/* Adds up what was counted. Of intervals as long the nearest is kept, so the order does not matter. */
+void census_add(census_band *to, const census_band *from);
 
 /* `all`, the effective planes and the holes, from the finished bands. */
 void census_close(const census_request *request, const census_plan *plan, uint32_t first, uint32_t last,

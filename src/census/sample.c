@@ -1,5 +1,4 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-#include <float.h>
 #include <math.h>
 #include <string.h>
 
@@ -32,12 +31,12 @@ static uint32_t depth_of_draw(const sample *s, uint64_t i) {
 
 static float partner(const sample *s, uint32_t bits) {
     if (s->request->gap > 0.0)
-        return (float)((double)census_depth(bits) + s->request->gap);
-    return census_depth(bits + 1);
+        return (float)((double)dp_float32(bits) + s->request->gap);
+    return dp_float32(bits + 1);
 }
 
 static int out_of_order(const sample *s, int32_t key, uint32_t bits) {
-    return census_key(&s->plan, census_depth(bits)) <= key;
+    return census_key(&s->plan, dp_float32(bits)) <= key;
 }
 
 /*
@@ -69,17 +68,17 @@ static void walk(const sample *s, uint32_t bits, int32_t key, census_band *band)
             right = middle;
     }
     if (wrong > 0)
-        census_note(&s->request->common, band, census_depth(bits), census_depth(bits + (uint32_t)wrong));
+        census_note(&s->request->common, band, dp_float32(bits), dp_float32(bits + (uint32_t)wrong));
 }
 
 static void judge(const sample *s, uint64_t from, size_t count, census_band *bands) {
     uint32_t bits[BATCH];
     float near_z[BATCH], far_z[BATCH];
     int32_t near_key[BATCH], far_key[BATCH];
-    const float end = census_depth(s->last);
+    const float end = dp_float32(s->last);
     for (size_t i = 0; i < count; i++) {
         bits[i] = depth_of_draw(s, from + i);
-        near_z[i] = census_depth(bits[i]);
+        near_z[i] = dp_float32(bits[i]);
         const float z = partner(s, bits[i]);
         far_z[i] = z <= end ? z : 0.0f; /* leaves the range: not a pair */
     }
@@ -92,23 +91,12 @@ static void judge(const sample *s, uint64_t from, size_t count, census_band *ban
         band->pairs++;
         band->ties += far_key[i] == near_key[i];
         band->swaps += far_key[i] < near_key[i];
+        if (far_key[i] > near_key[i])
+            band->last_apart = fmax(band->last_apart, (double)near_z[i]);
+        else
+            band->first = fmin(band->first, (double)near_z[i]);
         if (s->request->gap <= 0.0)
             walk(s, bits[i], near_key[i], band);
-    }
-}
-
-/* Bands of the threads are added up; of intervals as long, the nearest is kept, so their order does not matter. */
-static void add(census_band *to, const census_band *from) {
-    to->pairs += from->pairs;
-    to->ties += from->ties;
-    to->swaps += from->swaps;
-    if (from->longest > to->longest || (from->longest == to->longest && from->longest_z < to->longest_z)) {
-        to->longest = from->longest;
-        to->longest_z = from->longest_z;
-    }
-    if (from->slack > to->slack || (from->slack == to->slack && from->slack_z < to->slack_z)) {
-        to->slack = from->slack;
-        to->slack_z = from->slack_z;
     }
 }
 
@@ -120,6 +108,8 @@ static int judge_all(const sample *s, uint64_t total, census_result *result) {
     {
         census_band mine[CENSUS_BANDS_MAX];
         memset(mine, 0, sizeof mine);
+        for (int i = 0; i < CENSUS_BANDS_MAX; i++)
+            mine[i].first = mine[i].last_apart = (double)NAN;
 #pragma omp for schedule(dynamic, 16)
         for (uint64_t from = 0; from < total; from += BATCH) {
             int stopped;
@@ -142,7 +132,7 @@ static int judge_all(const sample *s, uint64_t total, census_result *result) {
         }
 #pragma omp critical(sample_add)
         for (int i = 0; i < result->band_count; i++)
-            add(&result->bands[i], &mine[i]);
+            census_add(&result->bands[i], &mine[i]);
     }
     return stop;
 }

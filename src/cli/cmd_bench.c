@@ -125,7 +125,7 @@ int cmd_bench(const options *o) {
     benching b = {.o = o, .tolerance = option_given(o, OPTION_TOLERANCE) ? o->tolerance : (double)NAN};
     int status = methods_resolve(o, o->operand_row, &b.asked);
     if (status == EXIT_FINE)
-        status = output_open(&out, o->output);
+        status = options_open(o, &out);
     if (status != EXIT_FINE)
         return status;
     b.count = bench_run(b.asked.family, b.asked.which, &b.asked.setup, BENCH_REPETITIONS, b.results);

@@ -1,6 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* check: the requirements of files, judged: exit 1 with the depth at which one fails. */
-#include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 
@@ -9,19 +8,16 @@
 #include "cli/names.h"
 #include "cli/progress.h"
 
-static int refuse(const char *path, const need_error *e) {
-    char where[32] = "";
-    char text[NAMES_SIZE];
-    const name_list known = {.words = (const char *const[]){e->known, NULL}};
-    if (e->line > 0)
-        snprintf(where, sizeof where, ":%d", e->line);
-    const int status = usage_error("%s%s: %s%s", path, where, e->text, names_nearest(&known, "", e->given, text));
-    return e->unreadable ? EXIT_IO : status;
-}
-
 int check_read(const char *path, need_file *file) {
-    need_error error;
-    return need_read(path, file, &error) ? EXIT_FINE : refuse(path, &error);
+    need_error e;
+    char where[32] = "", text[NAMES_SIZE];
+    if (need_read(path, file, &e))
+        return EXIT_FINE;
+    const name_list known = {.words = (const char *const[]){e.known, NULL}};
+    if (e.line > 0)
+        snprintf(where, sizeof where, ":%d", e.line);
+    const int status = usage_error("%s%s: %s%s", path, where, e.text, names_nearest(&known, "", e.given, text));
+    return e.unreadable ? EXIT_IO : status;
 }
 
 /* The census tells how many depths it has done; a census of some seconds shows a bar. */
@@ -90,7 +86,7 @@ int cmd_check(const options *o) {
     output out;
     if (o->report != REPORT_TEXT && o->form != FORM_TEXT)
         return option_error(OPTION_REPORT, "must not be given together with --json or --csv");
-    int status = output_open(&out, o->output);
+    int status = options_open(o, &out);
     if (status != EXIT_FINE)
         return status;
     check_file *files = calloc(count, sizeof *files);
@@ -99,7 +95,7 @@ int cmd_check(const options *o) {
     if (status == EXIT_FINE)
         status = judge_all(o, files, count, &failed);
     if (status == EXIT_FINE) {
-        check_report(o, &out, files, count);
+        check_report(o, &out, files, count, failed == 0);
         status = output_close(&out);
     } else {
         output_abandon(&out);

@@ -84,7 +84,7 @@ int cmd_list(const options *o) {
     if (option_given(o, OPTION_TOLERANCE) && l.topic->get != list_method)
         return option_error(OPTION_TOLERANCE, "has no meaning but in list methods");
     output out;
-    int status = output_open(&out, o->output);
+    int status = options_open(o, &out);
     if (status != EXIT_FINE)
         return status;
     l.what = l.topic->name;

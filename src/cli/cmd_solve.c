@@ -128,38 +128,30 @@ static dp_status solve_plane(const solve_report *r, solve_candidate *c, solve_un
     return DP_OK;
 }
 
-static dp_status evaluate(const solve_report *r, solve_candidate *c) {
-    dp_setup setup, exact;
-    dp_spec spec = c->spec;
-    spec.model = DP_MODEL_EXACT;
-    const dp_status status = dp_setup_init(&setup, &c->spec);
-    if (status != DP_OK || dp_setup_init(&exact, &spec) != DP_OK)
+/* With the planes as they are: how far it holds, or whether it does. */
+static dp_status answer_as_is(const solve_report *r, const dp_spec *spec, distance_answer *out) {
+    dp_setup setup;
+    const dp_status status = dp_setup_init(&setup, spec);
+    if (status != DP_OK)
         return status;
-    c->reached = judge(r->kind, &setup, r->lo, r->hi, r->limit);
-    c->possible = isnan(r->limit) || c->reached.passed;
-    c->lattice = (solve_lattice){.value = (double)NAN, .reached = judge(r->kind, &exact, r->lo, r->hi, r->limit)};
-    c->lattice.possible = isnan(r->limit) || c->lattice.reached.passed;
+    if (r->target == SOLVE_FOR_DISTANCE)
+        return distance_solve(r->kind, &setup, r->lo, r->hi, r->limit, out);
+    *out = (distance_answer){.value = (double)NAN, .reached = judge(r->kind, &setup, r->lo, r->hi, r->limit)};
+    out->possible = isnan(r->limit) || out->reached.passed;
     return DP_OK;
 }
 
-static dp_status measure_out(const solve_report *r, solve_candidate *c) {
-    dp_setup setup, exact;
-    distance_answer ideal;
-    dp_spec spec = c->spec;
-    spec.model = DP_MODEL_EXACT;
-    dp_status status = dp_setup_init(&setup, &c->spec);
+static dp_status evaluate(const solve_report *r, solve_candidate *c) {
+    distance_answer ideal = {0};
+    dp_spec exact = c->spec;
+    exact.model = DP_MODEL_EXACT;
+    dp_status status = answer_as_is(r, &c->spec, &c->distance);
     if (status == DP_OK)
-        status = dp_setup_init(&exact, &spec);
-    if (status == DP_OK)
-        status = distance_solve(r->kind, &setup, r->lo, r->hi, r->limit, &c->distance);
-    if (status == DP_OK)
-        status = distance_solve(r->kind, &exact, r->lo, r->hi, r->limit, &ideal);
-    if (status != DP_OK)
-        return status;
+        status = answer_as_is(r, &exact, &ideal);
     c->reached = c->distance.reached;
     c->possible = c->distance.possible;
     c->lattice = (solve_lattice){ideal.possible, ideal.value, ideal.reached};
-    return DP_OK;
+    return status;
 }
 
 /* Fills in what is missing. */
@@ -168,7 +160,7 @@ static dp_status try_candidate(const solve_report *r, solve_candidate *c, solve_
         return solve_plane(r, c, SOLVE_NEAR, PLANE_FIND, result);
     if (r->target == SOLVE_FOR_FAR)
         return solve_plane(r, c, SOLVE_FAR, PLANE_FIND, result);
-    return r->target == SOLVE_FOR_DISTANCE ? measure_out(r, c) : evaluate(r, c);
+    return evaluate(r, c);
 }
 
 /* Where the planes are given and do not do, the near plane that this format and mapping would need. */
@@ -203,9 +195,10 @@ static int refused(const solve_report *r, const solve_candidate *c, dp_status st
     return setup_refused(r->o, &c->spec, status);
 }
 
-static void add(solve_report *r, const dp_spec *spec, bool asked) {
+static solve_candidate *add(solve_report *r, const dp_spec *spec, bool asked) {
     solve_candidate *c = &r->items[r->count++];
     *c = (solve_candidate){.spec = *spec, .asked = asked, .price = cost_of(&spec->format, spec->mapping)};
+    return c;
 }
 
 static int add_asked(solve_report *r, solve_result *result) {
@@ -216,8 +209,7 @@ static int add_asked(solve_report *r, solve_result *result) {
             spec.format = o->formats[f];
             spec.mapping = o->mappings[m];
             spec.model = model_of(r, spec.mapping, is_known(o, OPTION_MAPPING));
-            add(r, &spec, true);
-            solve_candidate *c = &r->items[r->count - 1];
+            solve_candidate *c = add(r, &spec, true);
             const dp_status status = try_candidate(r, c, result);
             if (status != DP_OK)
                 return refused(r, c, status);
@@ -236,8 +228,7 @@ static void add_others(solve_report *r, solve_result *result) {
             spec.model = model_of(r, spec.mapping, false);
             if (listed(r, &spec) || (spec.mapping == DP_MAPPING_D3D && r->o->mappings[0] == DP_MAPPING_GL))
                 continue;
-            add(r, &spec, false);
-            if (try_candidate(r, &r->items[r->count - 1], result) != DP_OK)
+            if (try_candidate(r, add(r, &spec, false), result) != DP_OK)
                 r->count--;
         }
 }
@@ -305,35 +296,26 @@ static void arrange(solve_report *r, solve_result *result) {
     r->islands = result->islands;
 }
 
-static int run(solve_report *r, solve_result *result, output *out) {
-    int status = add_asked(r, result);
-    if (status != EXIT_FINE)
-        return status;
-    if (!isnan(r->limit))
-        add_others(r, result);
-    arrange(r, result);
-    status = output_open(out, r->o->output);
-    if (status != EXIT_FINE)
-        return status;
-    const bool possible = r->items[0].possible;
-    solve_report_write(r, out);
-    status = output_close(out);
-    return status == EXIT_FINE && !possible ? EXIT_FAILED : status;
-}
-
 int cmd_solve(const options *o) {
-    static output out;
-    solve_report r = {.o = o};
+    output out;
+    solve_result result;
+    solve_candidate items[SOLVE_CANDIDATES_MAX];
+    solve_report r = {.o = o, .items = items};
     gsl_set_error_handler_off();
     int status = check_target(o, &r);
     if (status == EXIT_FINE)
         status = check_depths(o, &r);
+    if (status == EXIT_FINE)
+        status = add_asked(&r, &result);
     if (status != EXIT_FINE)
         return status;
-    solve_result *result = malloc(sizeof *result);
-    r.items = malloc(SOLVE_CANDIDATES_MAX * sizeof *r.items);
-    status = result != NULL && r.items != NULL ? run(&r, result, &out) : usage_error("solve: no memory");
-    free(r.items);
-    free(result);
-    return status;
+    if (!isnan(r.limit))
+        add_others(&r, &result);
+    arrange(&r, &result);
+    status = options_open(o, &out);
+    if (status != EXIT_FINE)
+        return status;
+    solve_report_write(&r, &out);
+    status = output_close(&out);
+    return status == EXIT_FINE && !items[0].possible ? EXIT_FAILED : status;
 }

@@ -1,7 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* stability: where the methods of a family lose what they claim. */
 #include <math.h>
-#include <stdlib.h>
 
 #include "cli/methods.h"
 #include "report/report.h"
@@ -94,25 +93,18 @@ static bool all_hold(const walking *w) {
 
 int cmd_stability(const options *o) {
     output out;
-    walking *w = calloc(1, sizeof *w);
-    if (w == NULL)
+    walking w = {.family = o->operand_row};
+    int status = options_open(o, &out);
+    if (status != EXIT_FINE)
+        return status;
+    w.count = stability_run(w.family, w.results);
+    if (w.count == 0) {
+        output_abandon(&out);
         return usage_error("no memory for the methods");
-    w->family = o->operand_row;
-    int status = output_open(&out, o->output);
-    if (status == EXIT_FINE) {
-        w->count = stability_run(w->family, w->results);
-        if (w->count > 0) {
-            w->name = w->family->name;
-            w->measure = w->family->measure;
-            report_write(&(report_spec){"stability", columns, w, .head = say_family}, &out, o->form);
-            status = output_close(&out);
-        } else {
-            output_abandon(&out);
-            status = usage_error("no memory for the methods");
-        }
-        if (status == EXIT_FINE && !all_hold(w))
-            status = EXIT_FAILED;
     }
-    free(w);
-    return status;
+    w.name = w.family->name;
+    w.measure = w.family->measure;
+    report_write(&(report_spec){"stability", columns, &w, .head = say_family}, &out, o->form);
+    status = output_close(&out);
+    return status == EXIT_FINE && !all_hold(&w) ? EXIT_FAILED : status;
 }

@@ -7,18 +7,29 @@
 #include <math.h>
 
 #include "cli/choice.h"
-#include "cli/clipping.h"
+#include "cli/compare.h"
+#include "cli/reach.h"
 #include "cli/walk.h"
+#include "core/append.h"
 #include "method/ways.h"
 #include "report/number.h"
 
 /* Beyond fifteen digits a decimal shows its own rounding (0.10000000000000001). */
-enum { DIGITS_FEW = 6, DIGITS_USUAL = 9, DIGITS_DEPTH = 7, DIGITS_DEPTH_MOST = 10, DIGITS_MOST = 15 };
+enum {
+    DIGITS_SHORT = 5,
+    DIGITS_FEW = 6,
+    DIGITS_Z = 8,
+    DIGITS_USUAL = 9,
+    DIGITS_DEPTH = 7,
+    DIGITS_DEPTH_MOST = 10,
+    DIGITS_MOST = 15
+};
 
 /* A depth, and in text as many digits of it as tell it from its neighbours. */
 typedef struct row {
     dp_sample sample;
-    double binary32; /* the guaranteed separation; NaN where there is no such pipeline */
+    double binary32;            /* the guaranteed separation; NaN where there is no such pipeline */
+    double lattice, guaranteed; /* the separation in the model exact, and in the fullest that there is */
     int depth_digits, stored_digits, cell_digits;
 } row;
 
@@ -34,6 +45,7 @@ typedef struct table {
     walk walk;
     double lo, hi;
     way interval; /* without a row, the exact cell */
+    dp_setup exact, full;
     row row;
     dp_worst worst_case;
     const dp_worst *worst; /* null in a model without cells */
@@ -77,6 +89,11 @@ static int digits_to_see(double at, double step) {
 
 /* ---- What is reported -------------------------------------------------------------------------------------------- */
 
+static double separation_in(const dp_setup *setup, double z) {
+    dp_sample sample;
+    return dp_sample_at(setup, z, &sample) == DP_OK ? sample.separation : (double)NAN;
+}
+
 static void set_digits(row *r) {
     const dp_sample *s = &r->sample;
     /* A depth just short of 1 should not look like the far plane's. */
@@ -98,6 +115,9 @@ static void *next_row(void *of, size_t i) {
     r->binary32 = separation_in_binary32(t->walk.setup, &r->sample);
     if (t->interval.row != NULL)
         r->sample.interval = way_interval(&t->interval, t->walk.setup, z);
+    const bool exact = t->walk.setup->spec.model == DP_MODEL_EXACT;
+    r->lattice = exact ? r->sample.separation : separation_in(&t->exact, z);
+    r->guaranteed = isnan(r->binary32) ? separation_in(&t->full, z) : r->binary32;
     if (t->walk.o->form == FORM_TEXT)
         set_digits(r);
     if (t->walk.o->form != FORM_CSV)
@@ -124,6 +144,8 @@ static void *next_setup(void *of, size_t i) {
         return NULL;
     const dp_setup *setup = t->walk.setup;
     const options *o = t->walk.o;
+    t->exact = reach_in(setup, DP_MODEL_EXACT);
+    t->full = reach_model(setup);
     t->choice = choosing_start(setup, o->tolerance);
     if (option_given(o, OPTION_TOLERANCE))
         t->interval = way_choose(setup, o->tolerance, has_cut_cells(t, setup));
@@ -139,6 +161,27 @@ static void *next_setup(void *of, size_t i) {
 }
 
 /* ---- Text -------------------------------------------------------------------------------------------------------- */
+
+/* The answer first: how far one can trust the set-up. */
+static void say_reach(page *p, void *item) {
+    const table *t = item;
+    char text[REACH_TEXT_SIZE], sentence[REACH_TEXT_SIZE] = "";
+    walk_title(p, item);
+    if (t->walk.all.count > 1)
+        return;
+    for (size_t i = 0; i < REACH_LIMITS; i++) {
+        const double up_to = reach_of(&t->full, reach_limits[i]);
+        if (!isnan(up_to))
+            append(sentence, sizeof sentence, "%s %s apart up to %s%s", *sentence != '\0' ? "," : "",
+                   number_full(reach_limits[i]).text, up_to < t->full.spec.zfar ? "z = " : "",
+                   reach_text(&t->full, up_to, text));
+    }
+    if (*sentence != '\0')
+        page_text(p, "Guaranteed to be told apart: surfaces%s.", sentence);
+    else
+        page_text(p, "Surfaces %s apart are nowhere sure to be told apart.",
+                  number_full(reach_limits[REACH_LIMITS - 1]).text);
+}
 
 static void say_worst(page *p, const dp_worst *w) {
     if (w == NULL)
@@ -198,18 +241,24 @@ static void say_notes(page *p, void *item) {
 enum { WITH_TOLERANCE = 1, WITH_ARITH = 2, VERBOSE = 4 };
 
 static const column row_columns[] = {
-    {FIELD(row, sample.z, "z", "scene"), SHOWN("z", 12, DIGITS_USUAL)},
+    {FIELD(row, sample.z, "z", "scene"), SHOWN("z", 11, DIGITS_Z)},
     {FIELD(row, sample.code, "code", ""), SHOWN("code", 11, 0)},
-    {FIELD(row, sample.depth, "depth", ""), SHOWN("depth", 13, 0), .digits_at = offsetof(row, depth_digits)},
-    {FIELD(row, sample.stored, "z_stored", "scene"), SHOWN("stored", 15, 0), .digits_at = offsetof(row, stored_digits)},
-    {FIELD(row, sample.error, "error", "scene"), SHOWN("error", 13, DIGITS_FEW)},
+    {FIELD(row, sample.depth, "depth", ""), SHOWN("depth", 13, 0), .digits_at = offsetof(row, depth_digits),
+     .spare = 2},
+    {FIELD(row, sample.stored, "z_stored", "scene"), SHOWN("stored", 15, 0), .digits_at = offsetof(row, stored_digits),
+     .spare = 4},
+    {FIELD(row, sample.error, "error", "scene"), SHOWN("error", 12, DIGITS_SHORT), .spare = 3},
     {FIELD(row, sample.lo, "cell_lo", "scene")},
     {FIELD(row, sample.hi, "cell_hi", "scene")},
-    {FIELD(row, sample.interval, "interval", "scene"), SHOWN("interval", 12, DIGITS_FEW)},
-    {FIELD(row, sample.separation, "separation", "scene"), SHOWN("separation", 12, DIGITS_FEW), .upward = true},
-    {FIELD(row, binary32, "separation_fp32", "scene"), SHOWN("in binary32", 12, DIGITS_FEW), .upward = true},
-    {TEXT_FIELD(row, sample.lo, "cell from", 19, 0), .digits_at = offsetof(row, cell_digits), .when = VERBOSE},
-    {TEXT_FIELD(row, sample.hi, "to", 19, 0), .digits_at = offsetof(row, cell_digits), .when = VERBOSE},
+    {FIELD(row, sample.interval, "interval", "scene"), SHOWN("interval", 11, DIGITS_SHORT), .spare = 1},
+    {FIELD(row, sample.separation, "separation", "scene")},
+    {FIELD(row, binary32, "separation_fp32", "scene")},
+    {FIELD(row, lattice, "lattice", "scene"), SHOWN("lattice", 11, DIGITS_SHORT), .upward = true,
+     .only = AS_TEXT | AS_JSON},
+    {FIELD(row, guaranteed, "guaranteed", "scene"), SHOWN("guaranteed", 11, DIGITS_SHORT), .upward = true,
+     .only = AS_TEXT | AS_JSON},
+    {TEXT_FIELD(row, sample.lo, "cell from", 18, 0), .digits_at = offsetof(row, cell_digits), .when = VERBOSE},
+    {TEXT_FIELD(row, sample.hi, "to", 18, 0), .digits_at = offsetof(row, cell_digits), .when = VERBOSE},
     {.kind = COLUMN_END}};
 
 static const column worst_columns[] = {{FIELD(dp_worst, lo, "lo", "scene")},
@@ -249,7 +298,7 @@ static const column setup_report[] = {
     {PART(table, chosen, "auto", choice_columns), .only = AS_JSON},
     {.kind = COLUMN_END}};
 
-static const column columns[] = {{LIST("setups", setup_report, next_setup), .head = walk_title, .notes = say_notes},
+static const column columns[] = {{LIST("setups", setup_report, next_setup), .head = say_reach, .notes = say_notes},
                                  {.kind = COLUMN_END}};
 
 /* What a table of these set-ups has: the variant of arithmetic only where some set-up has that model. */
@@ -263,7 +312,7 @@ static unsigned conditions(const table *t) {
 }
 
 int cmd_table(const options *o) {
-    table t = {.walk.warns = true};
+    table t = {0};
     int status = walk_start(&t.walk, o);
     if (status == EXIT_FINE)
         status = range_resolve(o, &t.lo, &t.hi);
@@ -271,6 +320,8 @@ int cmd_table(const options *o) {
         status = depths_in_binary32(&t.walk.at);
     if (status == EXIT_FINE)
         setups_choose(o, &t.walk.at, &t.walk.all);
+    if (status == EXIT_FINE && compare_suits(&t.walk))
+        return compare_write(&t.walk);
     const report_spec spec = {"table", columns, &t, .when = conditions(&t), .label = 16};
     return walk_write(&t.walk, &spec, status);
 }

@@ -1,12 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* texture: a depth image, or a synthetic scene in its place. */
 #include <stdio.h>
-#include <stdlib.h>
 
-#include "cli/texture_effect.h"
-#include "cli/texture_product.h"
-#include "cli/texture_report.h"
-#include "cli/texture_source.h"
+#include "cli/texture.h"
 
 /* Options that need a product, or a figure of one. */
 static int check_alone(const options *o) {
@@ -55,20 +51,18 @@ int cmd_texture(const options *o) {
         const int status = check_table(o);
         return status == EXIT_FINE ? texture_effect_table(o) : status;
     }
-    texture_source *source = calloc(1, sizeof *source);
-    int status = source != NULL ? check_alone(o) : usage_error("texture: no memory");
+    texture_source source = {0};
+    int status = check_alone(o);
     if (status == EXIT_FINE && made)
         status = texture_product_resolve(o, &product);
     if (status == EXIT_FINE)
-        status = texture_source_open(o, source);
+        status = texture_source_open(o, &source);
     if (status == EXIT_FINE && made)
-        status = make_product(o, source, &product);
+        status = make_product(o, &source, &product);
     else if (status == EXIT_FINE && o->scene != NULL && o->output != NULL && o->form == FORM_TEXT)
-        status = texture_depth_write(o, source);
+        status = texture_depth_write(o, &source);
     else if (status == EXIT_FINE)
-        status = texture_report_write(o, source);
-    if (source != NULL)
-        texture_source_close(source);
-    free(source);
+        status = texture_report_write(o, &source);
+    image_free(&source.picture);
     return status;
 }

@@ -20,28 +20,22 @@ double depths_get(const depths *d, size_t i) {
     return fmin(fmax(z, d->lo), d->hi);
 }
 
-depths depths_spaced(depths_kind kind, double lo, double hi, size_t count) {
-    return (depths){.kind = kind, .lo = lo, .hi = hi, .count = count};
-}
-
-static int outside(const options *o, option_id id, double z) {
+static int check_within(const options *o, option_id id, double lo, double hi) {
+    if (lo >= o->znear && hi <= o->zfar)
+        return EXIT_FINE;
     return option_error(id, "depths must lie in [near, far] = [%s, %s%c, got %s", number_full(o->znear).text,
-                        number_full(o->zfar).text, isinf(o->zfar) ? ')' : ']', number_full(z).text);
+                        number_full(o->zfar).text, isinf(o->zfar) ? ')' : ']',
+                        number_full(lo < o->znear ? lo : hi).text);
 }
 
 int depths_resolve(const options *o, size_t count, depths *out) {
-    *out = o->at;
-    if (o->at.count == 0)
-        *out = depths_spaced(o->znear > 0.0 ? DEPTHS_LOG : DEPTHS_LIN, o->znear,
-                             isinf(o->zfar) ? o->znear * infinite_far_ratio : o->zfar, count);
-    if (out->lo < o->znear)
-        return outside(o, OPTION_AT, out->lo);
-    if (out->hi > o->zfar)
-        return outside(o, OPTION_AT, out->hi);
-    if (out->kind == DEPTHS_LOG && out->lo <= 0.0)
+    const double end = isinf(o->zfar) ? o->znear * infinite_far_ratio : o->zfar;
+    *out = o->at.count > 0 ? o->at : (depths){o->znear > 0.0 ? DEPTHS_LOG : DEPTHS_LIN, o->znear, end, count, NULL};
+    const int status = check_within(o, OPTION_AT, out->lo, out->hi);
+    if (status == EXIT_FINE && out->kind == DEPTHS_LOG && out->lo <= 0.0)
         return option_error(OPTION_AT, "log spacing needs LO greater than 0, got %s: lin has equal steps",
                             number_full(out->lo).text);
-    return EXIT_FINE;
+    return status;
 }
 
 int depths_in_binary32(const depths *d) {
@@ -55,9 +49,5 @@ int range_resolve(const options *o, double *lo, double *hi) {
     bool asked = option_given(o, OPTION_RANGE);
     *lo = asked ? o->range_lo : o->znear;
     *hi = asked ? o->range_hi : o->zfar;
-    if (*lo < o->znear)
-        return outside(o, OPTION_RANGE, *lo);
-    if (*hi > o->zfar)
-        return outside(o, OPTION_RANGE, *hi);
-    return EXIT_FINE;
+    return check_within(o, OPTION_RANGE, *lo, *hi);
 }

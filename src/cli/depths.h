@@ -18,15 +18,12 @@ typedef enum depths_kind { DEPTHS_LIST = 0, DEPTHS_LOG, DEPTHS_LIN } depths_kind
 typedef struct depths {
     depths_kind kind;
     double lo, hi; /**< least and greatest depth, scene units */
-    size_t count;
-    double *list; /**< DEPTHS_LIST: the depths in the order given, owned by the options; else null */
+    size_t count;  /**< of a spaced set at least 2, or 1 for lo alone */
+    double *list;  /**< DEPTHS_LIST: the depths in the order given, owned by the options; else null */
 } depths;
 
 /** Depth i, i < count. The first of a spaced set is exactly lo, the last exactly hi, and none leaves [lo, hi]. */
 double depths_get(const depths *d, size_t i);
-
-/** Log-spaced (or linear) depths from lo to hi; count >= 2, or 1 for lo alone. */
-depths depths_spaced(depths_kind kind, double lo, double hi, size_t count);
 
 /**
  * The depths of a command: those of --at, or `count` log-spaced ones from near to far (to 1e6 near when far is

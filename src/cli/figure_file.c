@@ -2,8 +2,38 @@
 #include "cli/figure_file.h"
 
 #include <stdlib.h>
+#include <string.h>
 
-#include "cli/command_line.h"
+#include "core/append.h"
+
+enum { COMMAND_LINE_SIZE = 4096 };
+
+/* In quotes where a shell would see more in it than a word. */
+static void append_word(char *out, const char *word) {
+    static const char plain[] = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789-_=+,.:/%@";
+    const bool quoted = *word == '\0' || word[strspn(word, plain)] != '\0';
+    append(out, COMMAND_LINE_SIZE, quoted ? " '" : " ");
+    for (; *word != '\0'; word++)
+        append(out, COMMAND_LINE_SIZE, *word == '\'' ? "'\\''" : "%c", *word);
+    append(out, COMMAND_LINE_SIZE, quoted ? "'" : "");
+}
+
+/*
+ * The words of the command, for the metadata, quoted where a shell would see more in one than a word, without where the
+ * figure was written to, an argument in o->argv: a figure is the same under any name.
+ */
+static void command_line(const options *o, const char *written, char out[COMMAND_LINE_SIZE]) {
+    const char *first = o->operand_count > 0 ? o->operands[0] : NULL;
+    snprintf(out, COMMAND_LINE_SIZE, "depthprec %s", o->verb->name);
+    if (first != NULL)
+        append_word(out, first);
+    for (char **word = o->argv + 2; *word != NULL; word++) {
+        bool next_is_written = word[1] != NULL && word[1] == written;
+        bool holds_written = written != NULL && written >= *word && written <= *word + strlen(*word);
+        if (*word != first && strcmp(*word, "--") != 0 && !next_is_written && !holds_written)
+            append_word(out, *word);
+    }
+}
 
 bool figure_file_write(const options *o, const char *path, const chart *c, int width, int height, output *out) {
     char command[COMMAND_LINE_SIZE];

@@ -35,12 +35,13 @@ static void list_commands(output *out) {
 
 enum { DESCRIPTION_SIZE = 1024 };
 
-/* "what it does (LEAST to MOST UNIT; default D: what that means)". */
+/* "what it does (LEAST to MOST UNIT; default D: what that means)" for a command; for all of them, those with another
+ * default at the end. */
 static const char *describe(const verb *v, const option_row *row, char out[DESCRIPTION_SIZE]) {
     char text[OPTION_TEXT_SIZE];
     const int before = (int)strcspn(row->help, "@");
     const bool named = row->help[before] != '\0', limited = row->least < row->most;
-    const bool other = (row->except.commands & v->bit) != 0;
+    const bool other = v != NULL && (row->except.commands & v->bit) != 0;
     const char *standard = other ? NULL : row->standard, *meaning = other ? row->except.text : row->without;
     out[0] = '\0';
     append(out, DESCRIPTION_SIZE, "%.*s", before, row->help);
@@ -51,35 +52,53 @@ static const char *describe(const verb *v, const option_row *row, char out[DESCR
     if (standard != NULL || meaning != NULL)
         append(out, DESCRIPTION_SIZE, "%sdefault%s%s%s%s", limited ? "; " : " (", standard != NULL ? " " : "",
                standard != NULL ? standard : "", meaning != NULL ? ": " : "", meaning != NULL ? meaning : "");
+    for (size_t i = 0; v == NULL && i < verb_count; i++)
+        if ((row->except.commands & verb_rows[i].bit) != 0)
+            append(out, DESCRIPTION_SIZE, "; of %s: %s", verb_rows[i].name, row->except.text);
     if (limited || standard != NULL || meaning != NULL)
         append(out, DESCRIPTION_SIZE, ")");
     return out;
 }
 
-static void list_options(output *out, const verb *v) {
-    page p = page_start(out, 28);
-    output_format(out, "depthprec %s: %s\n\n%s\nUsage: depthprec %s%s%s [options]\n\nOptions\n", v->name, v->summary,
-                  v->example, v->name, *v->operand != '\0' ? " " : "", v->operand);
+/* Those of a command; without one, all, and which commands take them. */
+static void list_options(page *p, const verb *v) {
+    const char *group = NULL, *shown = NULL;
     for (int id = 0; id < OPTION_COUNT; id++) {
         const option_row *row = &option_rows[id];
         char label[128] = "    ", text[DESCRIPTION_SIZE], argument[OPTION_TEXT_SIZE];
+        group = row->group != NULL ? row->group : group;
+        if (v != NULL && (row->commands & v->bit) == 0)
+            continue;
+        if (group != shown)
+            output_format(p->out, "\n%s\n", group);
+        shown = group;
         if (row->letter != 0)
             snprintf(label, sizeof label, "-%c, ", row->letter);
         option_argument(row, argument);
         append(label, sizeof label, "--%s%s%s", row->name, *argument != '\0' ? " " : "", argument);
-        if ((row->commands & v->bit) != 0)
-            page_wrapped(&p, label, describe(v, row, text));
+        page_wrapped(p, label, describe(v, row, text));
+        snprintf(text, sizeof text, "Taken by %s.", option_takers(row, argument));
+        if (v == NULL && ~row->commands != 0)
+            page_wrapped(p, "", text);
     }
 }
 
 int cmd_help(const options *o) {
+    const verb *v = o->operand_row;
     output out;
     output_open(&out, NULL);
+    page p = page_start(&out, 28);
     if (o->version)
         version(&out);
-    else if (o->operand_row != NULL)
-        list_options(&out, o->operand_row);
-    else
+    else if (v == NULL && o->operand_count == 0)
         list_commands(&out);
+    else {
+        if (v == NULL)
+            output_text(&out, "The options of all commands, and which take them\n");
+        else
+            output_format(&out, "depthprec %s: %s\n\n%s\nUsage: depthprec %s%s%s [options]\n", v->name, v->summary,
+                          v->example, v->name, *v->operand != '\0' ? " " : "", v->operand);
+        list_options(&p, v);
+    }
     return output_close(&out);
 }

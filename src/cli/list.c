@@ -134,10 +134,7 @@ bool list_effect(size_t index, list_item *item) {
 
 bool list_figure(size_t index, list_item *item) {
     const figure_row *row = figure_get(index);
-    if (row == NULL)
-        return false;
-    *item = (list_item){.name = row->name, .note = row->summary, .row = row};
-    return true;
+    return row != NULL && list_fill(item, (list_item){.name = row->name, .note = row->summary, .row = row});
 }
 
 bool list_scene(size_t index, list_item *item) {
@@ -153,23 +150,19 @@ bool list_scene(size_t index, list_item *item) {
 
 bool list_position(size_t index, list_item *item) {
     const position_row *row = position_get(index);
-    if (row != NULL)
-        *item = (list_item){.name = row->name, .note = row->note, .source = row->source, .row = row};
-    return row != NULL;
+    return row != NULL &&
+           list_fill(item, (list_item){.name = row->name, .note = row->note, .source = row->source, .row = row});
 }
 
 bool list_normal(size_t index, list_item *item) {
     const normal_row *row = normal_get(index);
-    if (row != NULL)
-        *item = (list_item){.name = row->name, .note = row->note, .source = row->source, .row = row};
-    return row != NULL;
+    return row != NULL &&
+           list_fill(item, (list_item){.name = row->name, .note = row->note, .source = row->source, .row = row});
 }
 
 bool list_family(size_t index, list_item *item) {
     const method_family_row *row = method_family_get(index);
-    if (row != NULL)
-        *item = (list_item){.name = row->name, .note = row->summary, .row = row};
-    return row != NULL;
+    return row != NULL && list_fill(item, (list_item){.name = row->name, .note = row->summary, .row = row});
 }
 
 static const double formula_at = 1e4; /* where a claim that is a formula is shown */

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "cli/names.h"
 
+#include <ctype.h>
 #include <string.h>
 #include <strings.h>
 
@@ -55,10 +56,6 @@ const char *names_join(const name_list *n, const char *between, const char *last
 
 /* ---- The nearest ------------------------------------------------------------------------------------------------- */
 
-static char lower(char c) {
-    return c >= 'A' && c <= 'Z' ? (char)(c - 'A' + 'a') : c;
-}
-
 static int min(int a, int b) {
     return a < b ? a : b;
 }
@@ -78,9 +75,9 @@ static int edits(const char *a, size_t a_length, const char *b, size_t b_length)
     for (size_t i = 1; i <= a_length; i++) {
         here[0] = (int)i;
         for (size_t j = 1; j <= b_length; j++) {
-            int change = lower(a[i - 1]) != lower(b[j - 1]);
+            int change = tolower(a[i - 1]) != tolower(b[j - 1]);
             here[j] = min(min(above[j], here[j - 1]) + 1, above[j - 1] + change);
-            if (i > 1 && j > 1 && lower(a[i - 1]) == lower(b[j - 2]) && lower(a[i - 2]) == lower(b[j - 1]))
+            if (i > 1 && j > 1 && tolower(a[i - 1]) == tolower(b[j - 2]) && tolower(a[i - 2]) == tolower(b[j - 1]))
                 here[j] = min(here[j], before[j - 2] + change);
         }
         int *oldest = before;

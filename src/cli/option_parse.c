@@ -69,6 +69,14 @@ static number_text limit_text(double limit, bool whole) {
     return out;
 }
 
+const char *option_takers(const option_row *row, char out[OPTION_TEXT_SIZE]) {
+    out[0] = '\0';
+    for (size_t i = 0; i < verb_count; i++)
+        if ((row->commands & verb_rows[i].bit) != 0)
+            append(out, OPTION_TEXT_SIZE, "%s%s", out[0] != '\0' ? ", " : "", verb_rows[i].name);
+    return out;
+}
+
 const char *option_limits(const option_row *row, char out[OPTION_TEXT_SIZE]) {
     const bool whole = row->parse == parse_whole;
     snprintf(out, OPTION_TEXT_SIZE, "%s to %s%s%s", limit_text(row->least, whole).text,

@@ -32,7 +32,8 @@ typedef struct option_row {
     struct {
         unsigned commands;
         const char *text;
-    } except; /**< commands that have another default */
+    } except;          /**< commands that have another default */
+    const char *group; /**< the heading above this row and those behind it; null where the one before goes on */
 } option_row;
 
 /** Index: option_id. */
@@ -45,6 +46,9 @@ const char *option_argument(const option_row *row, char out[OPTION_TEXT_SIZE]);
 
 /** "LEAST to MOST UNIT". @return out */
 const char *option_limits(const option_row *row, char out[OPTION_TEXT_SIZE]);
+
+/** "table, plot, budget": the commands that take it. @return out */
+const char *option_takers(const option_row *row, char out[OPTION_TEXT_SIZE]);
 
 /* ---- Kinds ------------------------------------------------------------------------------------------------------- */
 

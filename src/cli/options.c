@@ -103,11 +103,9 @@ static int unknown_option(const options *o, int refused, const char *argument) {
 }
 
 static int wrong_command(const options *o, option_id id) {
-    char takers[NAMES_SIZE] = "";
-    for (size_t i = 0; i < verb_count; i++)
-        if ((option_rows[id].commands & verb_rows[i].bit) != 0)
-            append(takers, sizeof takers, "%s%s", takers[0] != '\0' ? ", " : "", verb_rows[i].name);
-    return option_error(id, "is not an option of %s, but of %s", o->verb->name, takers);
+    char takers[OPTION_TEXT_SIZE];
+    return option_error(id, "is not an option of %s, but of %s", o->verb->name,
+                        option_takers(&option_rows[id], takers));
 }
 
 int check_operand(const verb *v, const char *what, const name_list *n, const char *given, list_item *found) {
@@ -220,4 +218,10 @@ int options_parse(options *o, int argc, char **argv) {
     char text[NAMES_SIZE];
     names_nearest(&(name_list){.get = list_verb}, "", argv[1], text);
     return usage_error("unknown command '%s'%s", argv[1], text[0] != '\0' ? text : "; 'depthprec --help' lists them");
+}
+
+int options_open(const options *o, output *out) {
+    const int status = output_open(out, o->output);
+    out->width = o->full ? OUTPUT_UNLIMITED : 0;
+    return status;
 }

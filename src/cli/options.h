@@ -32,13 +32,13 @@ typedef enum option_id {
     OPTION_FAR,
     OPTION_FORMAT,
     OPTION_MAPPING,
+    OPTION_LOG_C,
     OPTION_ORTHO,
     OPTION_PRESET,
     OPTION_ROUNDING,
     OPTION_MODEL,
     OPTION_ARITH,
     OPTION_TOLERANCE,
-    OPTION_LOG_C,
     OPTION_AT,
     OPTION_RANGE,
     OPTION_FOR,
@@ -84,6 +84,7 @@ typedef enum option_id {
     OPTION_OUTPUT,
     OPTION_QUIET,
     OPTION_VERBOSE,
+    OPTION_FULL,
     OPTION_HELP,
     OPTION_VERSION,
     OPTION_COUNT
@@ -170,8 +171,8 @@ typedef struct options {
 
     report_form report;
     output_form form;
-    const char *output; /**< the argument of -o; null when not given. "-" is stdout: hand it to output_open() */
-    bool quiet, verbose, version;
+    const char *output; /**< the argument of -o; null when not given. "-" is stdout: see options_open() */
+    bool quiet, verbose, full, version;
 } options;
 
 /**
@@ -181,6 +182,9 @@ typedef struct options {
  * @return EXIT_FINE, or EXIT_USAGE after one line on stderr
  */
 int options_parse(options *o, int argc, char **argv);
+
+/** Opens what --output names, as wide as --full makes it. @return EXIT_FINE, or EXIT_IO after one line on stderr */
+int options_open(const options *o, output *out);
 
 /** Frees what options_parse() allocated, whatever it returned. */
 void options_release(options *o);

@@ -3,12 +3,10 @@
  * texture --effect NAME without an image: what the stored depth does to an effect, depth by depth, and from which (or
  * up to which) value of its parameter on that is no more than a level of 8 bits.
  */
-#include "cli/texture_effect.h"
-
 #include <math.h>
 #include <stdio.h>
 
-#include "cli/texture_source.h"
+#include "cli/texture.h"
 #include "cli/walk.h"
 #include "report/number.h"
 

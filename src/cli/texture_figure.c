@@ -6,7 +6,7 @@
 #include "cli/figure_file.h"
 #include "cli/progress.h"
 #include "cli/setups.h"
-#include "cli/texture_product.h"
+#include "cli/texture.h"
 #include "plot/notes.h"
 #include "plot/picture.h"
 

@@ -1,11 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-#include "cli/texture_product.h"
-
-#include <math.h>
 #include <stdio.h>
 #include <string.h>
 
-#include "cli/texture_effect.h"
+#include "cli/texture.h"
 #include "core/append.h"
 #include "plot/canvas.h"
 

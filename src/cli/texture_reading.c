@@ -1,10 +1,9 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* What an image does not say: how coarse it is against its buffer, and what was assumed about it. */
-#include <math.h>
 #include <stdio.h>
 #include <string.h>
 
-#include "cli/texture_source.h"
+#include "cli/texture.h"
 #include "core/append.h"
 #include "report/number.h"
 #include "texture/image_depths.h"
@@ -64,7 +63,7 @@ static grain steps_grain(const texture_source *s, double found, double own) {
                    .least = s->picture.type == IMAGE_F16 ? 0x1p-24 : 0x1p-149};
 }
 
-void texture_grain(const options *o, texture_source *s) {
+static void find_grain(const options *o, texture_source *s) {
     const dp_format *format = &s->setup.spec.format;
     const image_type type = s->picture.type;
     const double own = type_steps(s), found = o->metric > 0 ? 0 : found_steps(s);
@@ -161,7 +160,7 @@ static void formats_of(texture_source *s) {
         s->reading_count--; /* no choice */
 }
 
-void texture_readings(const options *o, texture_source *s) {
+static void find_readings(const options *o, texture_source *s) {
     double d;
     s->reading_count = 0;
     if (o->metric > 0 || !find_pixel(s, &d))
@@ -192,7 +191,7 @@ static void warn_of(const texture_source *s, const char *what) {
         fprintf(stderr, "depthprec: %s: the %s is assumed: pixel %s; --%s tells\n", s->path, what, text, what);
 }
 
-void texture_warn(const options *o, const texture_source *s) {
+static void warn(const options *o, const texture_source *s) {
     if (o->quiet)
         return;
     warn_of(s, "mapping");
@@ -204,4 +203,10 @@ void texture_warn(const options *o, const texture_source *s) {
                 "depthprec: %s: may be metric depth, whole numbers with 0 for holes; --metric 0.001 reads "
                 "millimetres\n",
                 s->path);
+}
+
+void texture_read_on(const options *o, texture_source *s) {
+    find_grain(o, s);
+    find_readings(o, s);
+    warn(o, s);
 }

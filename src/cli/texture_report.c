@@ -1,13 +1,11 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-#include "cli/texture_report.h"
-
 #include <math.h>
 #include <stdio.h>
-#include <stdlib.h>
 #include <string.h>
 
 #include "cli/progress.h"
 #include "cli/setups.h"
+#include "cli/texture.h"
 #include "report/number.h"
 #include "report/report.h"
 #include "texture/survey.h"
@@ -393,23 +391,17 @@ static bool measure(statistics *r) {
 
 int texture_report_write(const options *o, const texture_source *source) {
     output out;
-    statistics *r = calloc(1, sizeof *r);
-    int status = r == NULL ? usage_error("texture: no memory") : output_open(&out, o->output);
-    if (status == EXIT_FINE) {
-        r->o = o;
-        r->source = *source;
-        r->condition = position_condition(&source->camera);
-        if (measure(r)) {
-            r->named.pairs = survey_pairs_make(&source->frame, &r->pairs) ? &r->pairs : NULL;
-            name_all(r);
-            const report_spec spec = {"texture", columns, r, .when = conditions(r), .label = 14, .head = say_head};
-            report_write(&spec, &out, o->form);
-            status = output_close(&out);
-        } else {
-            output_abandon(&out);
-            status = usage_error("texture: no memory for the statistics");
-        }
+    statistics r = {.o = o, .source = *source, .condition = position_condition(&source->camera)};
+    const int status = options_open(o, &out);
+    if (status != EXIT_FINE)
+        return status;
+    if (!measure(&r)) {
+        output_abandon(&out);
+        return usage_error("texture: no memory for the statistics");
     }
-    free(r);
-    return status;
+    r.named.pairs = survey_pairs_make(&source->frame, &r.pairs) ? &r.pairs : NULL;
+    name_all(&r);
+    report_write(&(report_spec){"texture", columns, &r, .when = conditions(&r), .label = 14, .head = say_head}, &out,
+                 o->form);
+    return output_close(&out);
 }

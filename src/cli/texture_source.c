@@ -1,12 +1,11 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-#include "cli/texture_source.h"
-
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
 
 #include "cli/names.h"
 #include "cli/setups.h"
+#include "cli/texture.h"
 #include "report/number.h"
 
 /* UINT32_MAX stands for "no depth" among codes. */
@@ -166,7 +165,6 @@ static int make_camera(const options *o, texture_source *s) {
 }
 
 int texture_source_open(const options *o, texture_source *s) {
-    *s = (texture_source){0};
     int status = check_together(o);
     if (status == EXIT_FINE && o->scene != NULL)
         status = scene_parameters(o, o->scene, s->parameters);
@@ -174,11 +172,8 @@ int texture_source_open(const options *o, texture_source *s) {
         status = read_image(o, s);
     if (status == EXIT_FINE)
         status = make_camera(o, s);
-    if (status == EXIT_FINE && s->path != NULL) {
-        texture_grain(o, s);
-        texture_readings(o, s);
-        texture_warn(o, s);
-    }
+    if (status == EXIT_FINE && s->path != NULL)
+        texture_read_on(o, s);
     s->frame = (frame){.camera = &s->camera,
                        .image = s->path != NULL ? &s->picture : NULL,
                        .scene = o->scene,
@@ -189,8 +184,4 @@ int texture_source_open(const options *o, texture_source *s) {
                        .sky = o->sky,
                        .threads = o->threads};
     return status;
-}
-
-void texture_source_close(texture_source *s) {
-    image_free(&s->picture);
 }

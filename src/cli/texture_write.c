@@ -7,7 +7,7 @@
 #include <string.h>
 
 #include "cli/progress.h"
-#include "cli/texture_product.h"
+#include "cli/texture.h"
 #include "report/number.h"
 
 enum { GREYS = 65535, STREAM_BUFFER = 1 << 16 };
@@ -37,7 +37,7 @@ static ssize_t stream_write(void *cookie, const char *bytes, size_t size) {
 }
 
 static int writing_open(const options *o, writing *w, const texture_source *s, image_type type, uint32_t channels) {
-    int status = output_open(&w->out, o->output);
+    int status = options_open(o, &w->out);
     if (status != EXIT_FINE)
         return status;
     w->source = s;
@@ -136,24 +136,20 @@ static bool scale_of(const texture_source *s, const texture_product *p, writing 
 }
 
 int texture_product_write(const options *o, const texture_source *s, const texture_product *p) {
-    writing *w = calloc(1, sizeof *w);
+    writing w = {0};
     double hi = 0;
-    if (w == NULL)
-        return usage_error("texture: no memory");
-    image_file_of(o->output, &w->file);
-    const bool png = w->file == IMAGE_PNG;
-    int status = writing_open(o, w, s, png ? IMAGE_U16 : IMAGE_F32, (uint32_t)frame_channels(&p->made));
-    if (status == EXIT_FINE) {
-        const bool good = w->writer != NULL && (!png || scale_of(s, p, w, &hi)) &&
-                          frame_run(&s->frame, &p->made, bottom_up(w), take, w);
-        const double lo = w->lo;
-        status = writing_close(w, good);
-        if (status == EXIT_FINE && png && !o->quiet)
-            fprintf(stderr, "depthprec: %s: 1 is %s, 65535 is %s%s%s, 0 where there is no %s\n", o->output,
-                    number_full(lo).text, number_full(hi).text, *p->unit != '\0' ? " " : "", p->unit,
-                    p->made.error ? "bound" : "value");
-    }
-    free(w);
+    image_file_of(o->output, &w.file);
+    const bool png = w.file == IMAGE_PNG;
+    int status = writing_open(o, &w, s, png ? IMAGE_U16 : IMAGE_F32, (uint32_t)frame_channels(&p->made));
+    if (status != EXIT_FINE)
+        return status;
+    const bool good = w.writer != NULL && (!png || scale_of(s, p, &w, &hi)) &&
+                      frame_run(&s->frame, &p->made, bottom_up(&w), take, &w);
+    status = writing_close(&w, good);
+    if (status == EXIT_FINE && png && !o->quiet)
+        fprintf(stderr, "depthprec: %s: 1 is %s, 65535 is %s%s%s, 0 where there is no %s\n", o->output,
+                number_full(w.lo).text, number_full(hi).text, *p->unit != '\0' ? " " : "", p->unit,
+                p->made.error ? "bound" : "value");
     return status;
 }
 
@@ -191,30 +187,24 @@ static void depth_row(const writing *w, uint32_t row) {
 }
 
 int texture_depth_write(const options *o, const texture_source *s) {
-    image_type type = IMAGE_F32;
-    writing *w = calloc(1, sizeof *w);
-    if (w == NULL)
-        return usage_error("texture: no memory");
-    int status = EXIT_FINE;
-    if (!image_file_of(o->output, &w->file))
-        status = option_error(OPTION_OUTPUT,
-                              "must end in .png, .pfm or .npy for the scene's depths, got '%s'; --json "
-                              "or --csv writes statistics",
-                              o->output);
-    else if (!depth_type(&s->setup.spec.format, w->file, &type))
-        status = option_error(OPTION_OUTPUT, "%s does not hold %s: .npy does, got '%s'", image_file_name(w->file),
-                              s->setup.spec.format.name, o->output);
-    if (status == EXIT_FINE)
-        status = writing_open(o, w, s, type, 1);
-    if (status == EXIT_FINE) {
-        bool good = w->writer != NULL;
-        for (uint32_t i = 0; i < s->camera.height && good; i++) {
-            depth_row(w, bottom_up(w) ? s->camera.height - 1 - i : i);
-            good = image_writer_rows(w->writer, w->row, 1);
-            progress_step(&w->bar, i + 1);
-        }
-        status = writing_close(w, good);
+    image_type type;
+    writing w = {0};
+    if (!image_file_of(o->output, &w.file))
+        return option_error(OPTION_OUTPUT,
+                            "must end in .png, .pfm or .npy for the scene's depths, got '%s'; --json or --csv writes "
+                            "statistics",
+                            o->output);
+    if (!depth_type(&s->setup.spec.format, w.file, &type))
+        return option_error(OPTION_OUTPUT, "%s does not hold %s: .npy does, got '%s'", image_file_name(w.file),
+                            s->setup.spec.format.name, o->output);
+    const int status = writing_open(o, &w, s, type, 1);
+    if (status != EXIT_FINE)
+        return status;
+    bool good = w.writer != NULL;
+    for (uint32_t i = 0; i < s->camera.height && good; i++) {
+        depth_row(&w, bottom_up(&w) ? s->camera.height - 1 - i : i);
+        good = image_writer_rows(w.writer, w.row, 1);
+        progress_step(&w.bar, i + 1);
     }
-    free(w);
-    return status;
+    return writing_close(&w, good);
 }

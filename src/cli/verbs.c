@@ -6,7 +6,7 @@
 static const name_list figures = {.get = list_figure};
 static const name_list families = {.get = list_family};
 static const name_list topics = {.get = list_topic};
-static const name_list commands = {.get = list_verb};
+static const name_list commands = {.words = (const char *const[]){"options", NULL}, .get = list_verb};
 static const name_list shells = {.words = (const char *const[]){"bash", "zsh", "fish", NULL}};
 
 /* clang-format off */
@@ -65,8 +65,9 @@ const verb verb_rows[] = {
      "  depthprec list formats\n"
      "  depthprec list mappings --json\n", 0},
     {"help", VERB_HELP, "COMMAND", 0, 1, &commands,
-     "the options of a command",
-     "  depthprec help table\n", 0},
+     "the options of a command; 'depthprec help options' has those of all",
+     "  depthprec help table\n"
+     "  depthprec help options\n", 0},
     {"completions", VERB_COMPLETIONS, "SHELL", 1, 1, &shells,
      "what a shell completes: commands, options and their words",
      "  . <(depthprec completions bash)\n", 0},
@@ -75,9 +76,8 @@ const verb verb_rows[] = {
 const size_t verb_count = sizeof verb_rows / sizeof verb_rows[0];
 
 bool list_verb(size_t index, list_item *item) {
-    if (index < verb_count)
-        *item = (list_item){.name = verb_rows[index].name, .note = verb_rows[index].summary, .row = &verb_rows[index]};
-    return index < verb_count;
+    const verb *v = &verb_rows[index];
+    return index < verb_count && list_fill(item, (list_item){.name = v->name, .note = v->summary, .row = v});
 }
 
 const verb *verb_find(const char *name) {

@@ -3,8 +3,6 @@
 
 #include <unistd.h>
 
-#include "cli/clipping.h"
-
 enum { DEFAULT_ROWS = 9 };
 
 int walk_start(walk *w, const options *o) {
@@ -15,14 +13,14 @@ int walk_start(walk *w, const options *o) {
 
 int walk_write(walk *w, const report_spec *spec, int status) {
     if (status == EXIT_FINE)
-        status = output_open(&w->out, w->o->output);
+        status = options_open(w->o, &w->out);
     if (status == EXIT_FINE) {
         const bool silent = w->o->quiet || isatty(w->out.fd); /* rows on the same terminal are progress enough */
         w->progress = progress_start("rows", (uint64_t)w->all.count * w->at.count, silent);
         report_write(spec, &w->out, w->o->form);
         progress_end(&w->progress);
         status = output_close(&w->out);
-        if (status == EXIT_FINE && w->warns && !w->o->quiet)
+        if (status == EXIT_FINE && !w->o->quiet)
             clipping_warn(&w->all);
     }
     setups_release(&w->all);

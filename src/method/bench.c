@@ -5,6 +5,9 @@
 #include <stdlib.h>
 #include <time.h>
 
+#include <gsl/gsl_sort_double.h>
+#include <gsl/gsl_statistics_double.h>
+
 /* What one timing should last: long enough for the clock, short enough that the machine stays in one mood. */
 static const double slice = 4e5; /* ns */
 enum { REPETITIONS_MAX = 99 };
@@ -73,22 +76,12 @@ static double once(method_run *run, const method_call *call, size_t rounds) {
     return (now() - start) / (double)rounds / (double)call->in->count;
 }
 
-static int ascending(const void *a, const void *b) {
-    const double x = *(const double *)a, y = *(const double *)b;
-    return (x > y) - (x < y);
-}
-
-/* Of values in ascending order. */
-static double quantile(const double *sorted, size_t count, double share) {
-    const double at = share * (double)(count - 1);
-    const size_t below = (size_t)at, above = below + 1 < count ? below + 1 : below;
-    return sorted[below] + (at - (double)below) * (sorted[above] - sorted[below]);
-}
-
 bench_times bench_statistics(double *times, size_t count) {
-    qsort(times, count, sizeof *times, ascending);
-    const double median = quantile(times, count, 0.5);
-    return (bench_times){median, (quantile(times, count, 0.75) - quantile(times, count, 0.25)) / 2 / median};
+    gsl_sort(times, 1, count);
+    const double lower = gsl_stats_quantile_from_sorted_data(times, 1, count, 0.25);
+    const double median = gsl_stats_median_from_sorted_data(times, 1, count);
+    const double upper = gsl_stats_quantile_from_sorted_data(times, 1, count, 0.75);
+    return (bench_times){median, (upper - lower) / 2 / median};
 }
 
 typedef struct contestant {

@@ -4,7 +4,7 @@
 #include <stdlib.h>
 
 #include "core/bits.h"
-#include "method/limit.h"
+#include "method/method.h"
 #if defined(__x86_64__)
 #include <immintrin.h>
 #endif

@@ -3,7 +3,6 @@
 #include <math.h>
 
 #include "census/census.h"
-#include "method/limit.h"
 #include "method/truth.h"
 
 /* ---- The lattice ------------------------------------------------------------------------------------------------- */

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* What no method can beat: loops that read a family's inputs, write its outputs and do next to nothing in between. */
-#include "method/limit.h"
+#include "method/method.h"
 
 #include "texture/clones.h"
 

@@ -12,7 +12,6 @@
 
 #include "core/bits.h"
 #include "method/estimate.h"
-#include "method/limit.h"
 #include "method/truth.h"
 
 /* ---- The rows of texture/decode.h -------------------------------------------------------------------------------- */

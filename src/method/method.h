@@ -10,10 +10,6 @@
 #ifndef METHOD_METHOD_H
 #define METHOD_METHOD_H
 
-#include <stdbool.h>
-#include <stddef.h>
-#include <stdint.h>
-
 #include "core/bits.h"
 #include "depthprec/depthprec.h"
 #include "texture/decode.h"
@@ -166,7 +162,7 @@ typedef struct method_family_row {
     void (*fill)(const dp_setup *setup, method_inputs *in);
     /** The error of answer i of a call; false where the method's domain leaves that input out. */
     bool (*judge)(const method_call *call, size_t i, method_error *error);
-    /** What no method can beat: run() of one that does nothing but move the same bytes. See limit.h. */
+    /** What no method can beat: run() of one that does nothing but move the same bytes. */
     method_run *limit;
 } method_family_row;
 
@@ -224,6 +220,10 @@ double method_cancelled(double ratio, double a, double b);
 /** Where half of the divisor may be error, and the claims on binary32 arithmetic have grown to 1. */
 #define METHOD_CANCELLED       (0x1p24 / 6)
 #define METHOD_CANCELLED_FUSED (0x1p24 / 4)
+
+/** Loops that move the bytes of a family's inputs and outputs: z to value, z and hi to value, d to eye, d to code, d to
+ *  places, eye to places. */
+method_run limit_depths, limit_ranges, limit_windows, limit_codes, limit_places, limit_eyes;
 
 extern const method_family_row interval_family, linearize_family, encode_family, worst_family, position_family,
     normal_family;

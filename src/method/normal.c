@@ -9,7 +9,7 @@
 #include <math.h>
 #include <stdlib.h>
 
-#include "method/limit.h"
+#include "method/method.h"
 
 enum { WIDTH = 1920, HEIGHT = 1080, LINE = METHOD_STRIP_LINE, LINES = METHOD_STRIP_EYES / LINE };
 

@@ -3,7 +3,6 @@
 #include <math.h>
 #include <stdlib.h>
 
-#include "method/limit.h"
 #include "method/truth.h"
 
 /* Places are judged out to the farthest finite far plane that there can be, seen along the longest ray. */

@@ -75,8 +75,8 @@ double truth_longest(const dp_setup *setup, double lo, double hi, double least) 
         end = end < i ? i : end;
         while (end + 1 < count && rest[end + 1] <= key[i])
             end++;
-        longest = fmax(longest, (double)census_depth(census_bits(first) + (uint32_t)end) -
-                                    (double)census_depth(census_bits(first) + (uint32_t)i));
+        longest = fmax(longest, (double)dp_float32(dp_bits32(first) + (uint32_t)end) -
+                                    (double)dp_float32(dp_bits32(first) + (uint32_t)i));
     }
     free(key);
     return longest;

@@ -5,9 +5,6 @@
 #ifndef METHOD_TRUTH_H
 #define METHOD_TRUTH_H
 
-#include <stdbool.h>
-
-#include "depthprec/depthprec.h"
 #include "method/method.h"
 
 /**

@@ -6,9 +6,6 @@
 #ifndef METHOD_WAYS_H
 #define METHOD_WAYS_H
 
-#include <stdbool.h>
-
-#include "depthprec/depthprec.h"
 #include "method/method.h"
 
 typedef struct way {

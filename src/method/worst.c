@@ -2,7 +2,6 @@
 /* The worst z-fighting interval over a range of depths. */
 #include <math.h>
 
-#include "method/limit.h"
 #include "method/truth.h"
 
 /* Log-spaced by chance: a sample never finds more than there is. */

@@ -1,7 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The cameras of a requirement file. */
 #include <math.h>
-#include <stdio.h>
 #include <string.h>
 
 #include "api/presets.h"
@@ -70,14 +69,13 @@ static bool read_preset(reader *r, const config_setting_t *s, draft *d) {
     if (index < 0)
         return false;
     const preset *row = preset_get((size_t)index);
-    const double mm = strcmp(row->unit, "m") == 0 ? 1000.0 : strcmp(row->unit, "cm") == 0 ? 10.0 : 0.0;
+    const unit_row *unit = unit_find(row->unit);
     /* Where the file says what its scene unit is, a preset in metres is converted into it. */
-    const double factor = mm > 0.0 && r->scene_mm > 0.0 ? mm : 1.0;
-    const double divisor = factor == 1.0 ? 1.0 : r->scene_mm;
-    d->spec.znear = row->znear * factor / divisor;
-    d->spec.zfar = row->zfar * factor / divisor;
+    const bool convert = unit != NULL && r->unit != NULL;
+    d->spec.znear = convert ? unit_convert(row->znear, unit, r->unit) : row->znear;
+    d->spec.zfar = convert ? unit_convert(row->zfar, unit, r->unit) : row->zfar;
     d->spec.mapping = row->mapping;
-    d->format_count = preset_formats(row, d->formats);
+    d->format_count = dp_format_parse(row->format, d->formats);
     return true;
 }
 

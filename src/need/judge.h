@@ -6,7 +6,6 @@
 #define NEED_JUDGE_H
 
 #include <stdbool.h>
-#include <stdint.h>
 
 #include "need/measure.h"
 

@@ -2,9 +2,6 @@
 #include "need/plane.h"
 
 #include <math.h>
-#include <string.h>
-
-#include "need/plane_error.h"
 
 /*
  * RUN binary32 values in a row stand for a place: one of them passes where about every RUNth does. REGION of them are
@@ -144,14 +141,15 @@ static double other_end(const hunt *h, double passes, double fails) {
     return narrow(&outwards, fails, passes, RUN_OF_PLACE);
 }
 
-static void try_run(hunt *h, double x, int count, bool *any) {
+/* @return whether any of them passes */
+static bool try_run(hunt *h, double x, int count) {
     plane_answer *a = h->out;
-    *any = false;
+    bool any = false;
     for (int i = 0; i < count && is_inside(h, x); i++, x = step(h, x, true)) {
         const bool good = plane_passes(h->problem, x);
         a->tried++;
         a->passed += good;
-        *any = *any || good;
+        any = any || good;
         if (!good)
             h->failed = x;
         if (!good)
@@ -159,6 +157,7 @@ static void try_run(hunt *h, double x, int count, bool *any) {
         else if (isnan(a->steady))
             a->steady = x;
     }
+    return any;
 }
 
 /* Between the innermost value that failed and the next one tried that passes, with all beyond it. */
@@ -185,17 +184,15 @@ static void survey(hunt *h) {
     const int places = (find || range ? PLACES_FEW : PLACES) / (find && range ? 2 : 1);
     const int run = find && range ? 1 : find || range ? RUN_FEW : RUN_OF_PLACE;
     const double from = isinf(a->value) ? farthest : a->value;
-    bool any;
     a->steady = a->value;
-    try_run(h, from, places, &any);
+    try_run(h, from, places);
     plane_answer kept = *a;
     double failed = h->failed;
     double good = from;
     double bad = (double)NAN; /* the first place behind `good` where none passes */
     for (int i = 1; i <= places; i++) {
         const double x = i == places ? h->inner : (double)(float)(from * pow(h->inner / from, (double)i / places));
-        try_run(h, x, i == places ? 1 : run, &any);
-        if (any) {
+        if (try_run(h, x, i == places ? 1 : run)) {
             kept = *a;
             failed = h->failed;
             good = x;

@@ -45,4 +45,13 @@ bool plane_passes(const solve_problem *problem, double value);
 /** Over a range the ends are judged first: they are looked at anyhow, and where one fails so does the range. */
 bool plane_fails_at_ends(const solve_problem *problem, const dp_setup *setup);
 
+/**
+ * The plane that an error needs, |stored - z| of the codes that the depths really have. From the plane that will do
+ * however the depths are aligned to the codes, on through the codes that the deciding depth takes, to the first value
+ * that fails: all from there to `until` pass. Models exact and staged.
+ *
+ * @param lattice  what solve() found in the model exact
+ */
+void plane_error_solve(const solve_problem *problem, const solve_result *lattice, plane_answer *out);
+
 #endif

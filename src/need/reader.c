@@ -4,15 +4,8 @@
 
 #include <math.h>
 #include <stdarg.h>
-#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-
-static const struct {
-    const char *name;
-    double mm;
-} units[] = {{"mm", 1.0}, {"cm", 10.0}, {"m", 1000.0}, {"km", 1e6}};
-enum { UNIT_COUNT = sizeof units / sizeof units[0] };
 
 bool reader_fail(reader *r, const config_setting_t *s, const char *format, ...) {
     va_list arguments;
@@ -97,13 +90,11 @@ bool reader_unit(reader *r, const config_setting_t *s) {
     const char *name = "";
     if (!reader_string(r, s, &name))
         return false;
-    for (int i = 0; i < UNIT_COUNT; i++)
-        if (strcmp(units[i].name, name) == 0) {
-            r->file->unit = units[i].name;
-            r->scene_mm = units[i].mm;
-            return true;
-        }
-    return reader_fail(r, s, "unit: must be mm, cm, m or km, got '%.40s'", name);
+    r->unit = unit_find(name);
+    if (r->unit == NULL)
+        return reader_fail(r, s, "unit: must be " UNIT_NAMES ", got '%.40s'", name);
+    r->file->unit = r->unit->name;
+    return true;
 }
 
 /* A decimal number at the beginning of a text; *rest is what follows it and blanks. No sign, no hexadecimal. */
@@ -137,18 +128,16 @@ static bool length_text(reader *r, const config_setting_t *s, const char *key, c
         *out = value;
         return true;
     }
-    for (int i = 0; i < UNIT_COUNT; i++) {
-        if (strcmp(units[i].name, unit) != 0)
-            continue;
-        if (r->scene_mm == 0.0)
-            return reader_fail(r, s,
-                               "%s: '%.40s' has a unit, but the file does not say what a scene unit is: add "
-                               "unit = \"m\"; or the like at its top",
-                               key, text);
-        *out = value * units[i].mm / r->scene_mm;
-        return true;
-    }
-    return reader_fail(r, s, "%s: the unit must be mm, cm, m or km, got '%.40s'", key, unit);
+    const unit_row *row = unit_find(unit);
+    if (row == NULL)
+        return reader_fail(r, s, "%s: the unit must be " UNIT_NAMES ", got '%.40s'", key, unit);
+    if (r->unit == NULL)
+        return reader_fail(r, s,
+                           "%s: '%.40s' has a unit, but the file does not say what a scene unit is: add "
+                           "unit = \"m\"; or the like at its top",
+                           key, text);
+    *out = unit_convert(value, row, r->unit);
+    return true;
 }
 
 bool reader_length(reader *r, const config_setting_t *s, const char *key, unsigned allowed, double *out) {

@@ -5,12 +5,13 @@
 
 #include <libconfig.h>
 
+#include "api/unit.h"
 #include "need/requirement.h"
 
 typedef struct reader {
     need_file *file;
     need_error *error;
-    double scene_mm; /* millimetres in a scene unit; 0 when the file does not say */
+    const unit_row *unit; /* of a scene unit; null when the file does not say */
     char shown[80];
 } reader;
 

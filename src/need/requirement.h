@@ -13,7 +13,6 @@
 #define NEED_REQUIREMENT_H
 
 #include <stdbool.h>
-#include <stddef.h>
 
 #include "depthprec/depthprec.h"
 

@@ -2,7 +2,6 @@
 #include "need/solve.h"
 
 #include <math.h>
-#include <stdint.h>
 #include <stdlib.h>
 
 #include <gsl/gsl_errno.h>
@@ -177,9 +176,7 @@ static double residual(double t, void *context) {
 
 static double find_root(equation *e, double a, double b) {
     gsl_root_fsolver *brent = e->s->brent;
-    gsl_function curve;
-    curve.function = residual;
-    curve.params = e;
+    gsl_function curve = {residual, e};
     if (gsl_root_fsolver_set(brent, &curve, log(a), log(b)) != GSL_SUCCESS)
         return a;
     for (int i = 0; i < ITERATIONS; i++) {

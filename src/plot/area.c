@@ -23,13 +23,13 @@ static double reached(const chart_panel *panel, size_t count, size_t i) {
 void area_draw(const pencil *p, const axes *a, const chart_panel *panel, size_t index) {
     const chart_series *s = &panel->series[index];
     const canvas_colour tint = area_tint(p->theme, s->style.colour);
-    trace t = trace_start(p->c);
+    trace t = {.c = p->c};
     bool open = false;
     for (size_t i = 0; i <= s->count; i++) {
         double top = i < s->count ? reached(panel, index + 1, i) : (double)NAN;
         if (isnan(top) && open) {
             trace_fill(&t, a->frame.y + a->frame.h, tint);
-            t = trace_start(p->c);
+            t = (trace){.c = p->c};
         }
         open = !isnan(top);
         if (open)
@@ -103,5 +103,5 @@ void area_label(const pencil *p, const axes *a, const axes *right, const chart_p
         }
     }
     if (found)
-        canvas_text(p->c, x, y + 0.36 * font.size, s->name, &font, CANVAS_MIDDLE, 0);
+        canvas_text(p->c, x, y + 0.36 * font.size, s->name, &font, CANVAS_MIDDLE);
 }

@@ -2,7 +2,6 @@
 #include "plot/axes.h"
 
 #include <math.h>
-#include <stdio.h>
 
 #define TICK_LENGTH  5.0
 #define MINOR_LENGTH 3.0
@@ -82,60 +81,52 @@ static void ticks_that_fit(const pencil *p, const axes *a, ticks *out) {
         ticks_make(a->x, --room, out);
 }
 
-/* All lines of one pen are one path: an SVG spends two hundred bytes on each path's style. */
+/* Lines at the ticks of an axis, from one side on, shorter ones at minor ticks; none of length 0. All lines of one pen
+ * are one path: an SVG spends two hundred bytes on each path's style. */
+static void add_lines(const pencil *p, const axes *a, bool across, const ticks *t, double from, double major,
+                      double minor) {
+    for (size_t i = 0; i < t->count; i++) {
+        const double to = from + (t->items[i].text[0] != '\0' ? major : minor);
+        const double at = snap(across ? axes_y(a, t->items[i].at) : axes_x(a, t->items[i].at));
+        if (to != from && across)
+            canvas_path_segment(p->c, from, at, to, at);
+        else if (to != from)
+            canvas_path_segment(p->c, at, from, at, to);
+    }
+}
+
 void axes_draw_grid(const pencil *p, const axes *a) {
     ticks t;
     canvas_pen pen = {.colour = p->theme->grid, .width = p->scale};
-    canvas_path_begin(p->c);
     ticks_that_fit(p, a, &t);
-    for (size_t i = 0; i < t.count; i++)
-        if (t.items[i].text[0] != '\0') {
-            double x = snap(axes_x(a, t.items[i].at));
-            canvas_path_segment(p->c, x, a->frame.y, x, a->frame.y + a->frame.h);
-        }
+    add_lines(p, a, false, &t, a->frame.y, a->frame.h, 0);
     ticks_make(a->y, axes_room_y(p, a->frame.h), &t);
-    for (size_t i = 0; i < t.count; i++)
-        if (t.items[i].text[0] != '\0') {
-            double y = snap(axes_y(a, t.items[i].at));
-            canvas_path_segment(p->c, a->frame.x, y, a->frame.x + a->frame.w, y);
-        }
+    add_lines(p, a, true, &t, a->frame.x, a->frame.w, 0);
     canvas_path_end(p->c, &pen);
-}
-
-static double tick_length(const pencil *p, const tick *t) {
-    return (t->text[0] != '\0' ? TICK_LENGTH : MINOR_LENGTH) * p->scale;
 }
 
 static void draw_x_ticks(const pencil *p, const axes *a, const canvas_pen *pen, bool labels) {
     ticks t;
     double bottom = snap(a->frame.y + a->frame.h);
     ticks_that_fit(p, a, &t);
-    canvas_path_begin(p->c);
-    for (size_t i = 0; i < t.count; i++) {
-        double x = snap(axes_x(a, t.items[i].at));
-        canvas_path_segment(p->c, x, bottom, x, bottom + tick_length(p, &t.items[i]));
-    }
+    add_lines(p, a, false, &t, bottom, TICK_LENGTH * p->scale, MINOR_LENGTH * p->scale);
     canvas_path_end(p->c, pen);
     for (size_t i = 0; i < t.count && labels; i++)
         canvas_text(p->c, snap(axes_x(a, t.items[i].at)),
                     bottom + (TICK_LENGTH + LABEL_GAP) * p->scale + 0.73 * p->small.size, t.items[i].text, &p->small,
-                    CANVAS_MIDDLE, 0);
+                    CANVAS_MIDDLE);
 }
 
 /* side -1: ticks and labels to the left of x; +1: to the right. */
 static void draw_y_ticks(const pencil *p, const axes *a, double x, int side, const canvas_pen *pen, bool labels) {
     ticks t;
     ticks_make(a->y, axes_room_y(p, a->frame.h), &t);
-    canvas_path_begin(p->c);
-    for (size_t i = 0; i < t.count; i++) {
-        double y = snap(axes_y(a, t.items[i].at));
-        canvas_path_segment(p->c, x, y, x + side * tick_length(p, &t.items[i]), y);
-    }
+    add_lines(p, a, true, &t, x, side * TICK_LENGTH * p->scale, side * MINOR_LENGTH * p->scale);
     canvas_path_end(p->c, pen);
     for (size_t i = 0; i < t.count && labels; i++)
         canvas_text(p->c, x + side * (TICK_LENGTH + LABEL_GAP) * p->scale,
                     snap(axes_y(a, t.items[i].at)) + 0.36 * p->small.size, t.items[i].text, &p->small,
-                    side < 0 ? CANVAS_RIGHT : CANVAS_LEFT, 0);
+                    side < 0 ? CANVAS_RIGHT : CANVAS_LEFT);
 }
 
 static void draw_box(const pencil *p, canvas_rect f, const canvas_pen *pen) {
@@ -159,12 +150,4 @@ void axes_draw_scale(const pencil *p, const axes *a) {
     canvas_pen pen = {.colour = p->theme->frame, .width = p->scale};
     draw_box(p, a->frame, &pen);
     axes_draw_right(p, a, true);
-}
-
-char *axes_caption(const chart_axis *axis, char out[CHART_TEXT]) {
-    if (axis->unit[0] == '\0')
-        snprintf(out, CHART_TEXT, "%s", axis->label);
-    else
-        snprintf(out, CHART_TEXT, "%s (%s)", axis->label, axis->unit);
-    return out;
 }

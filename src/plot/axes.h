@@ -47,7 +47,4 @@ void axes_draw_right(const pencil *p, const axes *a, bool labels);
 /** A vertical axis at the right side of a strip (a colour bar): frame, ticks and labels to the right of it. */
 void axes_draw_scale(const pencil *p, const axes *a);
 
-/** "label (unit)" in out. @return out */
-char *axes_caption(const chart_axis *axis, char out[CHART_TEXT]);
-
 #endif

@@ -68,8 +68,6 @@ static void add_panel(const figure_request *request, chart *out, size_t i) {
     stacked split = {.setup = &request->setups[i], .terms = &request->terms};
     refine r;
     chart_panel *panel = figure_panel(request, out, y);
-    if (panel == NULL)
-        return;
     panel->second =
         (chart_axis){.scale = CHART_LOG, .label = "guaranteed separation", .key = "separation", .unit = "scene units"};
     if (request->count > 1)

@@ -18,12 +18,13 @@ struct canvas {
     cairo_surface_t *surface;
     cairo_t *cr;
     canvas_format format;
-    notes_buffer bytes;
+    FILE *stream; /* into the bytes */
+    canvas_bytes bytes;
     notes words;
 };
 
 static cairo_status_t append(void *closure, const unsigned char *data, unsigned int size) {
-    return notes_append(closure, data, size) ? CAIRO_STATUS_SUCCESS : CAIRO_STATUS_WRITE_ERROR;
+    return fwrite(data, 1, size, closure) == size ? CAIRO_STATUS_SUCCESS : CAIRO_STATUS_WRITE_ERROR;
 }
 
 canvas_format canvas_format_of(const char *path) {
@@ -55,16 +56,20 @@ static void pdf_metadata(cairo_surface_t *surface, const notes *words) {
 
 canvas *canvas_new(canvas_format format, int width, int height, const notes *words) {
     canvas *c = calloc(1, sizeof *c);
-    if (c == NULL)
+    FILE *stream = c != NULL ? open_memstream(&c->bytes.at, &c->bytes.size) : NULL;
+    if (stream == NULL) {
+        free(c);
         return NULL;
+    }
+    c->stream = stream;
     c->format = format;
     c->words = *words;
     if (format == CANVAS_SVG) {
-        c->surface = cairo_svg_surface_create_for_stream(append, &c->bytes, width, height);
+        c->surface = cairo_svg_surface_create_for_stream(append, c->stream, width, height);
         cairo_svg_surface_set_document_unit(c->surface, CAIRO_SVG_UNIT_PX);
     } else if (format == CANVAS_PDF) {
         c->surface =
-            cairo_pdf_surface_create_for_stream(append, &c->bytes, width * POINTS_PER_PX, height * POINTS_PER_PX);
+            cairo_pdf_surface_create_for_stream(append, c->stream, width * POINTS_PER_PX, height * POINTS_PER_PX);
         pdf_metadata(c->surface, words);
     } else {
         c->surface = cairo_image_surface_create(CAIRO_FORMAT_RGB24, width, height);
@@ -80,21 +85,24 @@ bool canvas_finish(canvas *c, canvas_bytes *out) {
     cairo_status_t drawn = cairo_status(c->cr);
     cairo_destroy(c->cr);
     if (drawn == CAIRO_STATUS_SUCCESS && c->format == CANVAS_PNG)
-        drawn = cairo_surface_write_to_png_stream(c->surface, append, &c->bytes);
+        drawn = cairo_surface_write_to_png_stream(c->surface, append, c->stream);
     cairo_surface_finish(c->surface);
     if (drawn == CAIRO_STATUS_SUCCESS)
         drawn = cairo_surface_status(c->surface);
     cairo_surface_destroy(c->surface);
-    bool good = drawn == CAIRO_STATUS_SUCCESS && !c->bytes.failed;
+    bool good = fclose(c->stream) == 0 && drawn == CAIRO_STATUS_SUCCESS;
+    *out = (canvas_bytes){NULL, 0};
+    FILE *whole = good ? open_memstream(&out->at, &out->size) : NULL;
+    good = whole != NULL;
     if (good && c->format == CANVAS_SVG)
-        good = notes_into_svg(&c->bytes, &c->words);
-    if (good && c->format == CANVAS_PNG)
-        good = notes_into_png(&c->bytes, &c->words);
-    if (!good) {
-        free(c->bytes.at);
-        c->bytes = (notes_buffer){0};
-    }
-    *out = (canvas_bytes){c->bytes.at, c->bytes.size};
+        notes_write_svg(whole, c->bytes.at, c->bytes.size, &c->words);
+    else if (good && c->format == CANVAS_PNG)
+        notes_write_png(whole, c->bytes.at, c->bytes.size, &c->words);
+    else if (good)
+        fwrite(c->bytes.at, 1, c->bytes.size, whole);
+    if (good)
+        good = (ferror(whole) | fclose(whole)) == 0;
+    free(c->bytes.at);
     free(c);
     return good;
 }
@@ -105,10 +113,6 @@ static double reach(double v) {
 
 static void use_colour(canvas *c, canvas_colour colour) {
     cairo_set_source_rgba(c->cr, colour.r, colour.g, colour.b, colour.a);
-}
-
-void canvas_path_begin(canvas *c) {
-    cairo_new_path(c->cr);
 }
 
 void canvas_path_to(canvas *c, double x, double y) {
@@ -139,7 +143,6 @@ void canvas_path_fill(canvas *c, canvas_colour colour) {
 }
 
 static void outline(canvas *c, const canvas_point *points, size_t count) {
-    canvas_path_begin(c);
     for (size_t i = 0; i < count; i++)
         canvas_path_to(c, points[i].x, points[i].y);
 }
@@ -164,16 +167,11 @@ void canvas_segment(canvas *c, double x0, double y0, double x1, double y1, const
     canvas_line(c, (canvas_point[]){{x0, y0}, {x1, y1}}, 2, pen);
 }
 
-void canvas_disc(canvas *c, double x, double y, double radius, canvas_colour fill, const canvas_pen *pen) {
-    cairo_new_path(c->cr);
+void canvas_disc(canvas *c, double x, double y, double radius, canvas_colour fill, const canvas_pen *rim) {
     cairo_arc(c->cr, reach(x), reach(y), radius, 0, 8 * atan(1));
     use_colour(c, fill);
-    if (pen == NULL) {
-        cairo_fill(c->cr);
-    } else {
-        cairo_fill_preserve(c->cr);
-        canvas_path_end(c, pen);
-    }
+    cairo_fill_preserve(c->cr);
+    canvas_path_end(c, rim);
 }
 
 static void use_font(canvas *c, const canvas_font *font) {
@@ -189,14 +187,12 @@ double canvas_text_width(canvas *c, const char *text, const canvas_font *font) {
     return extents.x_advance;
 }
 
-void canvas_text(canvas *c, double x, double y, const char *text, const canvas_font *font, canvas_align align,
-                 int quarter_turns) {
+void canvas_text(canvas *c, double x, double y, const char *text, const canvas_font *font, canvas_align align) {
     if (*text == '\0')
         return;
     double back = canvas_text_width(c, text, font) * (double)align / 2;
     cairo_save(c->cr);
     cairo_translate(c->cr, reach(x), reach(y));
-    cairo_rotate(c->cr, -quarter_turns * 2 * atan(1));
     if (font->halo.a > 0) {
         cairo_move_to(c->cr, -back, 0);
         cairo_text_path(c->cr, text);

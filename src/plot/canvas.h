@@ -55,7 +55,7 @@ typedef struct canvas_font {
 typedef enum canvas_align { CANVAS_LEFT = 0, CANVAS_MIDDLE, CANVAS_RIGHT } canvas_align;
 
 typedef struct canvas_bytes {
-    unsigned char *at; /**< free() it */
+    char *at; /**< free() it */
     size_t size;
 } canvas_bytes;
 
@@ -65,7 +65,7 @@ canvas_format canvas_format_of(const char *path);
 /** A surface of whole px in each direction, 1 to 16384. @return null when out of memory */
 canvas *canvas_new(canvas_format format, int width, int height, const notes *words);
 
-/** Frees everything but the bytes. @return false when cairo failed or memory ran out; *out is then empty */
+/** Frees everything but the bytes. @return false when cairo failed or memory ran out, whatever the bytes are then */
 bool canvas_finish(canvas *c, canvas_bytes *out);
 
 void canvas_fill(canvas *c, canvas_rect area, canvas_colour colour);
@@ -73,20 +73,18 @@ void canvas_polygon(canvas *c, const canvas_point *points, size_t count, canvas_
 void canvas_line(canvas *c, const canvas_point *points, size_t count, const canvas_pen *pen);
 void canvas_segment(canvas *c, double x0, double y0, double x1, double y1, const canvas_pen *pen);
 
-/** A line point by point, for those too long for an array: begin, to, to, ..., end. */
-void canvas_path_begin(canvas *c);
+/** A line point by point, for those too long for an array: to, to, ..., end. */
 void canvas_path_to(canvas *c, double x, double y);
 void canvas_path_break(canvas *c); /**< the next point begins a new piece */
 void canvas_path_segment(canvas *c, double x0, double y0, double x1, double y1); /**< a piece of its own */
 void canvas_path_end(canvas *c, const canvas_pen *pen);
 void canvas_path_fill(canvas *c, canvas_colour colour); /**< instead of the end: closes it and fills the inside */
 
-/** A filled circle with a rim; pen may be null. */
-void canvas_disc(canvas *c, double x, double y, double radius, canvas_colour fill, const canvas_pen *pen);
+/** A filled circle with a rim. */
+void canvas_disc(canvas *c, double x, double y, double radius, canvas_colour fill, const canvas_pen *rim);
 
-/** One line of text with its baseline at y; `angle` turns it anticlockwise about (x, y), in quarter turns. */
-void canvas_text(canvas *c, double x, double y, const char *text, const canvas_font *font, canvas_align align,
-                 int quarter_turns);
+/** One line of text with its baseline at y. */
+void canvas_text(canvas *c, double x, double y, const char *text, const canvas_font *font, canvas_align align);
 
 /** How far the text reaches, px. */
 double canvas_text_width(canvas *c, const char *text, const canvas_font *font);

@@ -1,7 +1,9 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "plot/chart.h"
 
+#include <inttypes.h>
 #include <math.h>
+#include <stdio.h>
 #include <stdlib.h>
 
 /* A chain of blocks: the link, then the caller's bytes. */
@@ -51,15 +53,11 @@ void *chart_memory(chart *c, size_t count, size_t size) {
 }
 
 chart_panel *chart_add_panel(chart *c) {
-    if (c->panel_count == CHART_PANELS) {
-        chart_fail(c);
-        return NULL;
-    }
     return &c->panels[c->panel_count++];
 }
 
 chart_series *chart_add_series(chart *c, chart_panel *panel, chart_kind kind, size_t count) {
-    if (panel == NULL || panel->series_count == CHART_SERIES) {
+    if (panel->series_count == CHART_SERIES) {
         chart_fail(c);
         return NULL;
     }
@@ -103,11 +101,7 @@ double chart_axis_share(const chart_axis *axis, double value) {
     return axis->scale == CHART_DOWN ? 1 - share : share;
 }
 
-typedef struct extent {
-    double lo, hi;
-} extent;
-
-static void widen(extent *e, const double *values, size_t count, chart_scale scale) {
+static void widen(chart_extent *e, const double *values, size_t count, chart_scale scale) {
     for (size_t i = 0; i < count; i++)
         if (isfinite(values[i]) && (scale == CHART_LINEAR || values[i] > 0)) {
             e->lo = fmin(e->lo, values[i]);
@@ -116,11 +110,11 @@ static void widen(extent *e, const double *values, size_t count, chart_scale sca
 }
 
 /* A little air at both ends, so that no curve runs along the frame. */
-static void fit(chart_axis *axis, extent e, bool air) {
+static void fit(chart_axis *axis, chart_extent e, bool air) {
     if (axis->lo != axis->hi)
         return;
     if (!(e.lo <= e.hi))
-        e = (extent){axis->scale == CHART_LOG ? 0.1 : 0, 1};
+        e = (chart_extent){axis->scale == CHART_LOG ? 0.1 : 0, 1};
     if (axis->scale == CHART_LOG) {
         double step = air ? fmax(pow(e.hi / e.lo, 0.04), 1.05) : e.lo < e.hi ? 1 : 1.05;
         axis->lo = fmax(e.lo / step, 1e-300);
@@ -133,14 +127,14 @@ static void fit(chart_axis *axis, extent e, bool air) {
 }
 
 /* Bands stand on each other: what they reach is their sum. */
-static void widen_y(extent *e, const chart_panel *panel, bool second, chart_scale scale) {
+static void widen_y(chart_extent *e, const chart_panel *panel, bool second, chart_scale scale) {
     for (size_t s = 0; s < panel->series_count; s++)
         if (panel->series[s].kind != CHART_AREA && panel->series[s].second == second)
             widen(e, panel->series[s].y, panel->series[s].count, scale);
 }
 
 void chart_fit(chart *c) {
-    extent x = {INFINITY, -INFINITY}, y = x, second = x, value = x;
+    chart_extent x = {INFINITY, -INFINITY}, y = x, second = x, value = x;
     for (size_t p = 0; p < c->panel_count; p++) {
         const chart_panel *panel = &c->panels[p];
         for (size_t s = 0; s < panel->series_count; s++)
@@ -180,7 +174,7 @@ static void mix_axis(uint64_t *h, const chart_axis *axis) {
     mix(h, axis->unit != NULL ? axis->unit : "");
 }
 
-uint64_t chart_digest(const chart *c) {
+void chart_digest(const chart *c, char out[17]) {
     uint64_t h = UINT64_C(0xCBF29CE484222325);
     mix_axis(&h, &c->value);
     for (size_t p = 0; p < c->panel_count; p++) {
@@ -199,15 +193,5 @@ uint64_t chart_digest(const chart *c) {
         mix_numbers(&h, panel->map.y, (size_t)panel->map.rows);
         mix_numbers(&h, panel->map.value, (size_t)panel->map.columns * (size_t)panel->map.rows);
     }
-    return h;
-}
-
-bool chart_has_blind(const chart *c) {
-    for (size_t p = 0; p < c->panel_count; p++)
-        for (size_t s = 0; s < c->panels[p].series_count; s++) {
-            const chart_series *series = &c->panels[p].series[s];
-            if (series->kind == CHART_LINE && series->count > 0 && isinf(series->y[series->count - 1]))
-                return true;
-        }
-    return false;
+    snprintf(out, 17, "%016" PRIx64, h);
 }

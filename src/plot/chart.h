@@ -11,7 +11,6 @@
 
 #include <stdbool.h>
 #include <stddef.h>
-#include <stdint.h>
 
 enum { CHART_TEXT = 192, CHART_SERIES = 32, CHART_PANELS = 8 };
 
@@ -20,6 +19,10 @@ typedef enum chart_scale {
     CHART_LOG,
     CHART_DOWN /**< linear, growing downwards: rows of an image; lo and hi are never fitted */
 } chart_scale;
+
+typedef struct chart_extent {
+    double lo, hi;
+} chart_extent;
 
 /** One direction of a panel. */
 typedef struct chart_axis {
@@ -106,8 +109,10 @@ bool chart_failed(const chart *c);
 /** A block that lives as long as the chart, zeroed; null when out of memory. */
 void *chart_memory(chart *c, size_t count, size_t size);
 
-/** The next panel or series, empty; null when the room or the memory is used up. */
+/** The next panel, empty; there are fewer than CHART_PANELS. */
 chart_panel *chart_add_panel(chart *c);
+
+/** The panel's next series, empty; null when the room or the memory is used up. */
 chart_series *chart_add_series(chart *c, chart_panel *panel, chart_kind kind, size_t count);
 
 /** Fits every axis with lo == hi to the finite data, the same axis in all panels alike. */
@@ -127,10 +132,8 @@ double chart_axis_at(const chart_axis *axis, double t);
 /** The share of a value: 0 at lo, 1 at hi; infinite values keep their sign. */
 double chart_axis_share(const chart_axis *axis, double value);
 
-/** 64 bits (FNV-1a) over every name and every number to 30 bits: equal when the figures say the same. */
-uint64_t chart_digest(const chart *c);
-
-/** Does the chart have a CHART_LINE that ends in an arrow? */
-bool chart_has_blind(const chart *c);
+/** 64 bits (FNV-1a, "0123456789abcdef") over every name and every number to 30 bits: the same when the figures say so.
+ */
+void chart_digest(const chart *c, char out[17]);
 
 #endif

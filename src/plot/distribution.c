@@ -69,8 +69,6 @@ static void build_staircases(const figure_request *request, chart *out) {
     staircase_range(request, &lo, &hi);
     for (size_t i = 0; i < request->count; i++) {
         chart_panel *panel = figure_panel(request, out, y);
-        if (panel == NULL)
-            return;
         panel->x.scale = scale_of(lo, hi);
         panel->x.lo = lo;
         panel->x.hi = hi;

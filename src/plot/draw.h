@@ -20,7 +20,4 @@ enum { DRAW_WIDTH_MIN = 320, DRAW_HEIGHT_MIN = 200, DRAW_SIZE_MAX = 8192 };
 bool draw_chart(const chart *c, const theme *t, canvas_format format, int width, int height, const char *command,
                 canvas_bytes *out);
 
-/** The digest line of the metadata, "0123456789abcdef". */
-void draw_digest(const chart *c, char out[17]);
-
 #endif

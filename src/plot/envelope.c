@@ -200,7 +200,7 @@ chart_panel *envelope_curves(const figure_request *request, chart *out, chart_ax
     chart_panel *panel = figure_panel(request, out, y);
     curve *curves = chart_memory(out, request->count, sizeof *curves);
     refine *refined = chart_memory(out, request->count, sizeof *refined);
-    if (panel == NULL || curves == NULL || refined == NULL)
+    if (curves == NULL || refined == NULL)
         return NULL;
     for (size_t i = 0; i < request->count; i++) {
         curves[i] = (curve){.setup = &request->setups[i], .value = value};

@@ -56,6 +56,7 @@ typedef struct figure_row {
     size_t setups_max;   /**< most set-ups that stay legible */
     unsigned takes;      /**< FIGURE_... bits */
     const char *family;  /**< of methods, shown when none is named; null: the figure shows no methods */
+    const char *formats; /**< those shown when none are named and all would be too many set-ups; else null */
     figure_build *build;
 } figure_row;
 
@@ -69,8 +70,7 @@ chart_style figure_style(const figure_request *request, size_t i);
 /** The range of a curve: what was asked, or near to far; to 1e6 near when far is infinite. */
 void figure_range(const figure_request *request, double *lo, double *hi);
 
-/** The next panel, with the given axis and a logarithmic one of eye depth over that range; null where there is no room.
- */
+/** The next panel, with the given axis and a logarithmic one of eye depth over that range. */
 chart_panel *figure_panel(const figure_request *request, chart *out, chart_axis y);
 
 figure_build distribution_build, share_build, error_build, interval_build, budget_build, scene_build, map_build,

@@ -20,7 +20,6 @@ static void draw_hatch(const pencil *p, canvas_rect f) {
     double step = 9 * p->scale;
     pen.colour.a = 0.35;
     canvas_fill(p->c, f, p->theme->empty);
-    canvas_path_begin(p->c);
     for (double x = f.x - f.h; x < f.x + f.w; x += step)
         canvas_path_segment(p->c, x, f.y + f.h, x + f.h, f.y);
     canvas_path_end(p->c, &pen);
@@ -108,7 +107,6 @@ static void square_contour(const pencil *p, canvas_rect f, const chart_map *m, i
 
 static void draw_contour(const pencil *p, canvas_rect f, const chart_map *m, double level, chart_scale scale,
                          const canvas_pen *pen) {
-    canvas_path_begin(p->c);
     for (int row = 0; row + 1 < m->rows; row += CONTOUR_STRIDE)
         for (int column = 0; column + 1 < m->columns; column += CONTOUR_STRIDE)
             square_contour(p, f, m, column, row, level, scale);
@@ -146,7 +144,7 @@ static bool draw_label(const pencil *p, canvas_rect f, boxes *taken, canvas_poin
     taken->at[taken->count++] = box;
     font.colour = (canvas_colour){0, 0, 0, 1};
     font.halo = (canvas_colour){1, 1, 1, 0.8};
-    canvas_text(p->c, at.x, at.y + 0.36 * font.size, text, &font, CANVAS_MIDDLE, 0);
+    canvas_text(p->c, at.x, at.y + 0.36 * font.size, text, &font, CANVAS_MIDDLE);
     return true;
 }
 
@@ -215,7 +213,7 @@ void heat_draw_ball(const pencil *p, canvas_rect area) {
     canvas_image(p->c, (canvas_rect){area.x, area.y, area.w, area.w}, SIDE, SIDE, pixels);
     for (size_t i = 0; i < sizeof meanings / sizeof meanings[0]; i++)
         canvas_text(p->c, area.x, area.y + area.w + (1.4 + 1.35 * (double)i) * p->small.size, meanings[i], &p->small,
-                    CANVAS_LEFT, 0);
+                    CANVAS_LEFT);
 }
 
 void heat_draw_bar(const pencil *p, canvas_rect strip, const chart_axis *value) {

@@ -61,6 +61,6 @@ void labels_draw(const pencil *p, const axes *a, const chart_panel *panel, size_
             canvas_pen thin = {.colour = p->theme->faint, .width = 0.7 * p->scale};
             canvas_segment(p->c, x, y, end, middle, &thin);
         }
-        canvas_text(p->c, end, middle + 0.36 * font.size, s->labels[i], &font, left ? CANVAS_RIGHT : CANVAS_LEFT, 0);
+        canvas_text(p->c, end, middle + 0.36 * font.size, s->labels[i], &font, left ? CANVAS_RIGHT : CANVAS_LEFT);
     }
 }

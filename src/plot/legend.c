@@ -55,6 +55,17 @@ static size_t group_size(const legend *l) {
     return size < l->count && l->count % size == 0 ? size : 1;
 }
 
+/* Does a line end in an arrow? */
+static bool has_blind(const chart *c) {
+    for (size_t p = 0; p < c->panel_count; p++)
+        for (size_t s = 0; s < c->panels[p].series_count; s++) {
+            const chart_series *series = &c->panels[p].series[s];
+            if (series->kind == CHART_LINE && series->count > 0 && isinf(series->y[series->count - 1]))
+                return true;
+        }
+    return false;
+}
+
 legend legend_make(const pencil *p, const chart *c, double width) {
     legend l = {0};
     for (size_t i = 0; i < c->panel_count; i++)
@@ -62,7 +73,7 @@ legend legend_make(const pencil *p, const chart *c, double width) {
             if (!c->panels[i].series[s].unlisted && !listed(&l, &c->panels[i].series[s]))
                 l.entries[l.count++] = &c->panels[i].series[s];
     l.width = width;
-    l.arrows = l.count > 0 && chart_has_blind(c);
+    l.arrows = l.count > 0 && has_blind(c);
     /* The fewest rows that fit; then as many more as keep each group in one column. */
     size_t rows = 1, group = group_size(&l);
     while (rows < l.count && !arrange(p, &l, rows, width))
@@ -75,7 +86,7 @@ legend legend_make(const pencil *p, const chart *c, double width) {
 static void draw_text(const pencil *p, const char *text, double x, double middle, double room) {
     words w = words_break(p, text, &p->text, room, 1);
     if (w.count > 0)
-        canvas_text(p->c, x, middle + 0.36 * p->text.size, w.lines[0], &p->text, CANVAS_LEFT, 0);
+        canvas_text(p->c, x, middle + 0.36 * p->text.size, w.lines[0], &p->text, CANVAS_LEFT);
 }
 
 double legend_draw(const pencil *p, const legend *l, double x, double y) {

@@ -72,22 +72,12 @@ static void add_panel(const figure_request *request, chart *out, size_t i, doubl
     const dp_spec *spec = &like->spec;
     bool infinite = isinf(spec->zfar);
     chart_panel *panel = chart_add_panel(out);
-    if (panel == NULL)
-        return;
-    panel->x = (chart_axis){CHART_LOG,
-                            fmax(spec->znear / around, 1e-12),
-                            fmin(spec->znear * around, 1e12),
-                            "near plane",
-                            "near",
-                            "scene units",
-                            NULL};
-    panel->y = (chart_axis){CHART_LOG,
-                            infinite ? spec->znear * infinite_from : spec->zfar / around,
-                            fmin(infinite ? spec->znear * infinite_to : spec->zfar * around, 1e18),
-                            "far plane",
-                            "far",
-                            "scene units",
-                            NULL};
+    panel->x = (chart_axis){.scale = CHART_LOG, .label = "near plane", .key = "near", .unit = "scene units"};
+    panel->x.lo = fmax(spec->znear / around, 1e-12);
+    panel->x.hi = fmin(spec->znear * around, 1e12);
+    panel->y = (chart_axis){.scale = CHART_LOG, .label = "far plane", .key = "far", .unit = "scene units"};
+    panel->y.lo = infinite ? spec->znear * infinite_from : spec->zfar / around;
+    panel->y.hi = fmin(infinite ? spec->znear * infinite_to : spec->zfar * around, 1e18);
     if (request->count > 1)
         snprintf(panel->title, sizeof panel->title, "%s", request->names[i]);
     if (!chart_add_map(out, panel, (int)(GRID_COLUMNS * shrink), (int)(GRID_ROWS * shrink)))

@@ -93,8 +93,6 @@ const char *normals_draw(const figure_request *request, normals_error *error, ch
         const size_t setup = i / SURFACES, surface = i % SURFACES;
         const bool alone = request->count == 1; /* then the subtitle names it */
         chart_panel *panel = figure_panel(request, out, y);
-        if (panel == NULL)
-            return NULL;
         snprintf(panel->title, sizeof panel->title, "%s%s%s", alone ? "" : request->names[setup], alone ? "" : ": ",
                  surfaces[surface]);
         for (size_t method = 0; method < BOUND + (surface == PLANE); method++)

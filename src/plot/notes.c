@@ -2,122 +2,76 @@
 #include "plot/notes.h"
 
 #include <stdint.h>
-#include <stdlib.h>
 #include <string.h>
 
-static bool grow(notes_buffer *b, size_t size) {
-    size_t room = 2 * b->room + size + 4096;
-    unsigned char *at = realloc(b->at, room);
-    if (at == NULL)
-        return false;
-    b->at = at;
-    b->room = room;
-    return true;
-}
-
-bool notes_append(notes_buffer *b, const void *bytes, size_t size) {
-    b->failed = b->failed || (b->room - b->size < size && !grow(b, size));
-    if (b->failed)
-        return false;
-    memcpy(b->at + b->size, bytes, size);
-    b->size += size;
-    return true;
-}
-
-static void text(notes_buffer *b, const char *s) {
-    notes_append(b, s, strlen(s));
-}
-
-static void escaped(notes_buffer *b, const char *s) {
+static void escaped(FILE *out, const char *s) {
     for (; *s != '\0'; s++) {
         if (*s == '&')
-            text(b, "&amp;");
+            fputs("&amp;", out);
         else if (*s == '<')
-            text(b, "&lt;");
+            fputs("&lt;", out);
         else if (*s == '>')
-            text(b, "&gt;");
+            fputs("&gt;", out);
         else
-            notes_append(b, s, 1);
+            fputc(*s, out);
     }
 }
 
-static void element(notes_buffer *b, const char *open, const char *content, const char *close) {
-    text(b, open);
-    escaped(b, content);
-    text(b, close);
+static void element(FILE *out, const char *open, const char *content, const char *close) {
+    fputs(open, out);
+    escaped(out, content);
+    fputs(close, out);
 }
 
-static bool replace(notes_buffer *b, notes_buffer *whole) {
-    if (whole->failed) {
-        free(whole->at);
-        return false;
-    }
-    free(b->at);
-    *b = *whole;
-    return true;
+void notes_write_svg(FILE *out, const char *svg, size_t size, const notes *words) {
+    size_t tag = 0; /* to the end of <svg ...> */
+    while (tag + 4 < size && memcmp(svg + tag, "<svg", 4) != 0)
+        tag++;
+    while (tag < size && svg[tag] != '>')
+        tag++;
+    fwrite(svg, 1, tag, out);
+    fputs(" role=\"img\" aria-labelledby=\"title desc\">\n", out);
+    element(out, "<title id=\"title\">", words->title, "</title>\n");
+    element(out, "<desc id=\"desc\">", words->description, "</desc>\n");
+    element(out, "<metadata>\ncommand: ", words->command, "\n");
+    element(out, "data: ", words->data, "\n</metadata>");
+    fwrite(svg + tag + 1, 1, size - tag - 1, out);
 }
 
-bool notes_into_svg(notes_buffer *b, const notes *words) {
-    size_t head = 0;
-    while (head + 4 < b->size && memcmp(b->at + head, "<svg", 4) != 0)
-        head++;
-    const unsigned char *close = memchr(b->at + head, '>', b->size - head);
-    if (close == NULL)
-        return false;
-    size_t tag = (size_t)(close - b->at);
-    notes_buffer whole = {0};
-    notes_append(&whole, b->at, tag);
-    text(&whole, " role=\"img\" aria-labelledby=\"title desc\">\n");
-    element(&whole, "<title id=\"title\">", words->title, "</title>\n");
-    element(&whole, "<desc id=\"desc\">", words->description, "</desc>\n");
-    element(&whole, "<metadata>\ncommand: ", words->command, "\n");
-    element(&whole, "data: ", words->data, "\n</metadata>");
-    notes_append(&whole, close + 1, b->size - tag - 1);
-    return replace(b, &whole);
+static void big_endian(FILE *out, uint32_t v) {
+    for (int shift = 24; shift >= 0; shift -= 8)
+        fputc((int)(v >> shift & 255), out);
 }
 
-/* The CRC of PNG (ISO 3309), bit by bit: a few hundred bytes do not need a table. */
-static uint32_t crc(const unsigned char *bytes, size_t size) {
-    uint32_t c = 0xFFFFFFFFu;
+/* Bytes of a chunk with its CRC (ISO 3309), bit by bit: a few hundred bytes do not need a table. */
+static void summed(FILE *out, const char *bytes, size_t size, uint32_t *crc) {
+    fwrite(bytes, 1, size, out);
     for (size_t i = 0; i < size; i++) {
-        c ^= bytes[i];
+        *crc ^= (unsigned char)bytes[i];
         for (int bit = 0; bit < 8; bit++)
-            c = (c & 1) != 0 ? 0xEDB88320u ^ c >> 1 : c >> 1;
+            *crc = (*crc & 1) != 0 ? 0xEDB88320u ^ *crc >> 1 : *crc >> 1;
     }
-    return ~c;
 }
 
-static void big_endian(notes_buffer *b, uint32_t v) {
-    notes_append(b,
-                 (unsigned char[]){(unsigned char)(v >> 24), (unsigned char)(v >> 16), (unsigned char)(v >> 8),
-                                   (unsigned char)v},
-                 4);
-}
-
-static void chunk(notes_buffer *b, const char *keyword, const char *content) {
+static void chunk(FILE *out, const char *keyword, const char *content) {
+    uint32_t crc = 0xFFFFFFFFu;
     /* keyword, null, no compression (two bytes), no language, no translated keyword, then UTF-8 */
-    big_endian(b, (uint32_t)(strlen(keyword) + 5 + strlen(content)));
-    size_t start = b->size;
-    text(b, "iTXt");
-    notes_append(b, keyword, strlen(keyword) + 1);
-    notes_append(b, "\0\0\0\0", 4);
-    text(b, content);
-    if (!b->failed)
-        big_endian(b, crc(b->at + start, b->size - start));
+    big_endian(out, (uint32_t)(strlen(keyword) + 5 + strlen(content)));
+    summed(out, "iTXt", 4, &crc);
+    summed(out, keyword, strlen(keyword) + 1, &crc);
+    summed(out, "\0\0\0\0", 4, &crc);
+    summed(out, content, strlen(content), &crc);
+    big_endian(out, ~crc);
 }
 
-bool notes_into_png(notes_buffer *b, const notes *words) {
+void notes_write_png(FILE *out, const char *png, size_t size, const notes *words) {
     enum { HEAD = 8 + 25 }; /* the signature and the IHDR chunk, always of these sizes */
-    if (b->size < HEAD)
-        return false;
-    notes_buffer whole = {0};
-    notes_append(&whole, b->at, HEAD);
-    chunk(&whole, "Title", words->title);
-    chunk(&whole, "Description", words->description);
-    chunk(&whole, "Source", words->command);
-    chunk(&whole, "Comment", words->data);
-    notes_append(&whole, b->at + HEAD, b->size - HEAD);
-    return replace(b, &whole);
+    fwrite(png, 1, HEAD, out);
+    chunk(out, "Title", words->title);
+    chunk(out, "Description", words->description);
+    chunk(out, "Source", words->command);
+    chunk(out, "Comment", words->data);
+    fwrite(png + HEAD, 1, size - HEAD, out);
 }
 
 /* Length of the valid UTF-8 character at s (no overlong forms, no surrogates), 0 when there is none. */

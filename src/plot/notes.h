@@ -3,8 +3,8 @@
 #ifndef PLOT_NOTES_H
 #define PLOT_NOTES_H
 
-#include <stdbool.h>
 #include <stddef.h>
+#include <stdio.h>
 
 /** All UTF-8, none null. */
 typedef struct notes {
@@ -14,20 +14,11 @@ typedef struct notes {
     const char *data;        /**< the digest of the numbers that were drawn */
 } notes;
 
-typedef struct notes_buffer {
-    unsigned char *at;
-    size_t size, room;
-    bool failed; /**< memory ran out; what is appended later is dropped */
-} notes_buffer;
+/** Writes an SVG with <title>, <desc> and <metadata> as the first children of its root, and its role and label. */
+void notes_write_svg(FILE *out, const char *svg, size_t size, const notes *words);
 
-/** @return false when memory ran out */
-bool notes_append(notes_buffer *b, const void *bytes, size_t size);
-
-/** Adds <title>, <desc> and <metadata> as the first children of the root, and its role and label. */
-bool notes_into_svg(notes_buffer *b, const notes *words);
-
-/** Adds iTXt chunks behind the header. */
-bool notes_into_png(notes_buffer *b, const notes *words);
+/** Writes a PNG with iTXt chunks behind the header. */
+void notes_write_png(FILE *out, const char *png, size_t size, const notes *words);
 
 /** Copies text into out as valid UTF-8 without control characters; what is neither becomes '?'. @return out */
 char *notes_clean(char *out, size_t size, const char *text);

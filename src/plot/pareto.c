@@ -8,11 +8,14 @@
 /* A log axis has no 0: what is exact is drawn here, and the legend says so. */
 static const double exact = 1e-17;
 
-/* A method that has a time and a finite error. Those judged by the pipeline answer a question of their own. */
+/* What a method is. Those judged by the pipeline answer a question of their own. */
+enum { FRONT = 1, PIPELINE = 2 };
+
+/* A method that has a time and a finite error. */
 typedef struct timed {
     const bench_result *of;
     double error;
-    bool pipeline;
+    int is;
 } timed;
 
 typedef struct field {
@@ -25,61 +28,55 @@ static field gather(const method_family_row *family, const bench_result *results
     for (size_t i = 0; i < count; i++) {
         const bench_result *r = &results[i];
         const double error = measured_error(family, &r->measured);
+        const int is = (r->front ? FRONT : 0) | ((r->row->domain & METHOD_PIPELINE) != 0 ? PIPELINE : 0);
         if (isfinite(error) && isfinite(r->ns) && r->ns > 0)
-            f.methods[f.count++] = (timed){r, error, (r->row->domain & METHOD_PIPELINE) != 0};
+            f.methods[f.count++] = (timed){r, error, is};
     }
     return f;
 }
 
-static void put(chart_series *s, size_t i, const timed *t) {
-    s->x[i] = t->of->ns;
-    s->y[i] = fmax(t->error, exact);
+/* Those of which `bits` are `set`, along a line the fastest first; null where there are none, or a line has but one. */
+static chart_series *add(const field *f, chart *out, chart_panel *panel, chart_kind kind, int bits, int set) {
+    size_t count = 0;
+    for (size_t i = 0; i < f->count; i++)
+        count += (f->methods[i].is & bits) == set;
+    chart_series *s = count > (kind == CHART_LINE ? 1u : 0u) ? chart_add_series(out, panel, kind, count) : NULL;
+    for (size_t i = 0, k = 0; i < f->count && s != NULL; i++) {
+        const timed *t = &f->methods[i];
+        if ((t->is & bits) != set)
+            continue;
+        size_t at = k++;
+        for (; kind == CHART_LINE && at > 0 && s->x[at - 1] > t->of->ns; at--) {
+            s->x[at] = s->x[at - 1];
+            s->y[at] = s->y[at - 1];
+        }
+        s->x[at] = t->of->ns;
+        s->y[at] = fmax(t->error, exact);
+        if (t->error < exact)
+            snprintf(s->note, sizeof s->note, " (without error: at 10\u207b\u00b9\u2077)");
+    }
+    return s;
 }
 
-/* The front of those who answer one question, fastest first. */
-static void add_front(const field *f, chart *out, chart_panel *panel, bool pipeline) {
-    const timed *order[BENCH_METHODS_MAX];
-    size_t count = 0;
-    for (size_t i = 0; i < f->count; i++) {
-        const timed *t = &f->methods[i];
-        if (!t->of->front || t->pipeline != pipeline)
-            continue;
-        size_t k = count++;
-        for (; k > 0 && order[k - 1]->of->ns > t->of->ns; k--)
-            order[k] = order[k - 1];
-        order[k] = t;
-    }
-    chart_series *s = count > 1 ? chart_add_series(out, panel, CHART_LINE, count) : NULL;
+static void add_front(const field *f, chart *out, chart_panel *panel, int pipeline) {
+    chart_series *s = add(f, out, panel, CHART_LINE, FRONT | PIPELINE, FRONT | pipeline);
     if (s == NULL)
         return;
     s->unlisted = true;
     s->style = (chart_style){0, 0, -1, true};
     snprintf(s->name, sizeof s->name, "front");
-    for (size_t i = 0; i < count; i++)
-        put(s, i, order[i]);
 }
 
-static void add_points(const field *f, chart *out, chart_panel *panel, bool front) {
-    size_t count = 0;
-    for (size_t i = 0; i < f->count; i++)
-        count += f->methods[i].of->front == front;
-    chart_series *s = count > 0 ? chart_add_series(out, panel, CHART_POINTS, count) : NULL;
+static void add_points(const field *f, chart *out, chart_panel *panel, int front) {
+    chart_series *s = add(f, out, panel, CHART_POINTS, FRONT, front);
     if (s == NULL)
         return;
     s->style = front ? (chart_style){0, 0, 0, false} : (chart_style){1, 1, 1, false};
     snprintf(s->name, sizeof s->name, "%s", front ? "on the Pareto front" : "behind it");
-    count = 0;
-    for (size_t i = 0; i < f->count; i++) {
-        if (f->methods[i].of->front != front)
-            continue;
-        put(s, count++, &f->methods[i]);
-        if (f->methods[i].error < exact)
-            snprintf(s->note, sizeof s->note, " (without error: at 10\u207b\u00b9\u2077)");
-    }
 }
 
 static const chart_series *add_labels(const field *f, chart *out, chart_panel *panel) {
-    chart_series *s = chart_add_series(out, panel, CHART_LABELS, f->count);
+    chart_series *s = add(f, out, panel, CHART_LABELS, 0, 0);
     if (s == NULL)
         return NULL;
     s->unlisted = true;
@@ -87,8 +84,7 @@ static const chart_series *add_labels(const field *f, chart *out, chart_panel *p
     s->labels = chart_memory(out, f->count, sizeof *s->labels);
     for (size_t i = 0; i < f->count && s->labels != NULL; i++) {
         const timed *t = &f->methods[i];
-        put(s, i, t);
-        snprintf(s->labels[i], sizeof s->labels[i], "%s%s", t->of->row->name, t->pipeline ? " (pipeline)" : "");
+        snprintf(s->labels[i], sizeof s->labels[i], "%s%s", t->of->row->name, t->is & PIPELINE ? " (pipeline)" : "");
     }
     return s;
 }
@@ -109,14 +105,12 @@ const char *pareto_draw(const method_family_row *family, const bench_result *res
     chart_panel *panel = chart_add_panel(out);
     if (f.count == 0)
         return "no method of this family has a time and a finite error here";
-    if (panel == NULL)
-        return NULL;
     panel->x = (chart_axis){.scale = CHART_LOG, .label = "time an element", .key = "time", .unit = "ns"};
     panel->y = (chart_axis){.scale = CHART_LOG, .label = "worst error", .key = "error", .unit = family->measure};
-    for (int pipeline = 0; pipeline < 2; pipeline++)
-        add_front(&f, out, panel, pipeline);
-    add_points(&f, out, panel, false);
-    add_points(&f, out, panel, true);
+    add_front(&f, out, panel, 0);
+    add_front(&f, out, panel, PIPELINE);
+    add_points(&f, out, panel, 0);
+    add_points(&f, out, panel, FRONT);
     const chart_series *all = add_labels(&f, out, panel);
     if (all == NULL)
         return NULL;

@@ -72,8 +72,6 @@ static double field(const picture *in, int row, int column, int channel) {
 
 static void add_panel(const picture *in, chart *out, int channel) {
     chart_panel *panel = chart_add_panel(out);
-    if (panel == NULL)
-        return;
     panel->x = (chart_axis){.hi = in->width, .label = "column", .key = "column", .unit = "px"};
     panel->y = (chart_axis){.scale = CHART_DOWN, .hi = in->height, .label = "row", .key = "row", .unit = "px"};
     if (in->names != NULL)

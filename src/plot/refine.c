@@ -9,27 +9,6 @@
 
 #include <math.h>
 
-typedef struct extent {
-    double lo, hi;
-} extent;
-
-/* What one value is at one place; as many of them a place as the request has values. */
-typedef struct known {
-    double y, step, flicker;
-} known;
-
-struct refine_places {
-    chart *account;
-    int count;
-    bool *visited;
-    known *at;
-    extent seen[REFINE_VALUES]; /* what has been seen of each value */
-};
-
-static known *known_at(const refine *r, int place, int value) {
-    return &r->places->at[place * r->request.values + value];
-}
-
 /* A log axis is fitted with this much air at least: see chart_fit(). */
 static const double least_air = 1.05;
 
@@ -59,28 +38,24 @@ static double along(const refine *r, int value, double y) {
 }
 
 static double along_at(const refine *r, int value, int place) {
-    return along(r, value, known_at(r, place, value)->y);
+    return along(r, value, r->at[place].y[value]);
 }
 
 static void measure(refine *r, int first, int last, refine_sample *out) {
-    r->evaluations++;
+    r->account->evaluations++;
     r->request.sample(r->request.context, edge(r, first), r->request.slices ? edge(r, last + 1) : edge(r, last), out);
 }
 
 static void visit(refine *r, int i) {
-    struct refine_places *p = r->places;
-    refine_sample s = {.step = {0}};
-    if (i < 0 || i >= p->count || p->visited[i])
+    if (i < 0 || i >= r->places || r->visited[i])
         return;
-    measure(r, i, i, &s);
-    p->visited[i] = true;
+    measure(r, i, i, &r->at[i]);
+    r->visited[i] = true;
     r->points++;
     for (int v = 0; v < r->request.values; v++) {
-        *known_at(r, i, v) = (known){s.y[v], s.step[v], s.flicker[v]};
-        if (isfinite(s.y[v]) && (r->request.axis[v].scale == CHART_LINEAR || s.y[v] > 0)) {
-            p->seen[v].lo = fmin(p->seen[v].lo, s.y[v]);
-            p->seen[v].hi = fmax(p->seen[v].hi, s.y[v]);
-        }
+        const double y = r->at[i].y[v];
+        if (isfinite(y) && (r->request.axis[v].scale == CHART_LINEAR || y > 0))
+            r->seen[v] = (chart_extent){fmin(r->seen[v].lo, y), fmax(r->seen[v].hi, y)};
     }
 }
 
@@ -96,17 +71,13 @@ static void visit_around(refine *r, double x) {
 
 bool refine_begin(refine *r, const refine_request *request, chart *account) {
     const int places = request->columns + !request->slices;
-    *r = (refine){.request = *request, .places = chart_memory(account, 1, sizeof *r->places)};
-    struct refine_places *p = r->places;
-    if (p == NULL)
-        return false;
-    *p = (struct refine_places){.account = account, .count = places};
-    p->visited = chart_memory(account, (size_t)places, sizeof *p->visited);
-    p->at = chart_memory(account, (size_t)places * (size_t)request->values, sizeof *p->at);
-    if (p->visited == NULL || p->at == NULL)
+    *r = (refine){.request = *request, .account = account, .places = places};
+    r->visited = chart_memory(account, (size_t)places, sizeof *r->visited);
+    r->at = chart_memory(account, (size_t)places, sizeof *r->at);
+    if (r->visited == NULL || r->at == NULL)
         return false;
     for (int v = 0; v < request->values; v++)
-        p->seen[v] = (extent){INFINITY, -INFINITY};
+        r->seen[v] = (chart_extent){INFINITY, -INFINITY};
     for (int k = 0; k < 2; k++) { /* the planes cut the cells at the ends */
         visit(r, k);
         visit(r, places - 1 - k);
@@ -117,20 +88,20 @@ bool refine_begin(refine *r, const refine_request *request, chart *account) {
 }
 
 void refine_share_axis(refine *curves, size_t count) {
-    extent all = {INFINITY, -INFINITY};
+    chart_extent all = {INFINITY, -INFINITY};
     for (size_t i = 0; i < count; i++) {
-        all.lo = fmin(all.lo, curves[i].places->seen[0].lo);
-        all.hi = fmax(all.hi, curves[i].places->seen[0].hi);
+        all.lo = fmin(all.lo, curves[i].seen[0].lo);
+        all.hi = fmax(all.hi, curves[i].seen[0].hi);
     }
     for (size_t i = 0; i < count; i++)
-        curves[i].places->seen[0] = all;
+        curves[i].seen[0] = all;
 }
 
 /* Half a pixel along the axis. What is seen later can only make it longer. */
 double refine_half_pixel(const refine *r, int value) {
     const chart_axis *axis = &r->request.axis[value];
     const bool fitted = axis->lo < axis->hi;
-    const extent *seen = &r->places->seen[value];
+    const chart_extent *seen = &r->seen[value];
     const double lo = fitted ? axis->lo : seen->lo, hi = fitted ? axis->hi : seen->hi;
     if (!(lo <= hi))
         return 0;
@@ -158,8 +129,8 @@ static bool is_straight(const refine *r, const int at[5]) {
     return true;
 }
 
-static extent range_of(const refine *r, int value, const int at[5]) {
-    extent e = {INFINITY, -INFINITY};
+static chart_extent range_of(const refine *r, int value, const int at[5]) {
+    chart_extent e = {INFINITY, -INFINITY};
     for (int k = 0; k < 5; k++) {
         e.lo = fmin(e.lo, along_at(r, value, at[k]));
         e.hi = fmax(e.hi, along_at(r, value, at[k]));
@@ -171,11 +142,11 @@ static extent range_of(const refine *r, int value, const int at[5]) {
 static bool is_contained(refine *r, const int at[5]) {
     refine_sample whole = {.step = {0}};
     for (int v = 0; v < r->request.values; v++) {
-        const extent e = range_of(r, v, at);
+        const chart_extent e = range_of(r, v, at);
         double step = 0, flicker = 0, half = refine_half_pixel(r, v);
         for (int k = 0; k < 5; k++) {
-            step = fmax(step, known_at(r, at[k], v)->step);
-            flicker = fmax(flicker, known_at(r, at[k], v)->flicker);
+            step = fmax(step, r->at[at[k]].step[v]);
+            flicker = fmax(flicker, r->at[at[k]].flicker[v]);
         }
         if (isfinite(e.hi) && (flicker > half / 2 || (step > half && !(e.hi - e.lo <= half))))
             return false;
@@ -201,22 +172,20 @@ static void split(refine *r, int i, int j) {
 }
 
 void refine_finish(refine *r) {
-    const struct refine_places *p = r->places;
-    for (int i = 0, j; i + 1 < p->count; i = j) {
-        for (j = i + 1; !p->visited[j]; j++) { /* the last place is known */
+    for (int i = 0, j; i + 1 < r->places; i = j) {
+        for (j = i + 1; !r->visited[j]; j++) { /* the last place is known */
         }
         split(r, i, j);
     }
-    p->account->evaluations += r->evaluations;
-    p->account->places += (size_t)p->count;
-    p->account->curves++;
+    r->account->places += (size_t)r->places;
+    r->account->curves++;
 }
 
 void refine_take(const refine *r, int value, double *x, double *y) {
     size_t k = 0;
-    for (int i = 0; i < r->places->count; i++)
-        if (r->places->visited[i]) {
+    for (int i = 0; i < r->places; i++)
+        if (r->visited[i]) {
             x[k] = place_x(r, i);
-            y[k++] = known_at(r, i, value)->y;
+            y[k++] = r->at[i].y[value];
         }
 }

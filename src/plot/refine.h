@@ -48,11 +48,15 @@ typedef struct refine_request {
     const void *context;
 } refine_request;
 
+/** Private to refine.c, but for the points. */
 typedef struct refine {
     refine_request request;
-    size_t points;                /**< places evaluated */
-    size_t evaluations;           /**< of them and of slices between them */
-    struct refine_places *places; /**< private; memory of the chart, null when it ran out */
+    chart *account;
+    size_t points; /**< places evaluated */
+    int places;
+    bool *visited;                    /* memory of the chart, as */
+    refine_sample *at;                /* what the curve is at each of them */
+    chart_extent seen[REFINE_VALUES]; /* what has been seen of each value */
 } refine;
 
 /** Edge i of `count` slices between lo and hi, evenly spaced on the scale; 0 is exactly lo and count exactly hi. */

@@ -140,8 +140,6 @@ static void add_panel(scene *s, chart *out, const check_verdict *first) {
     bool wanted[NEED_KIND_COUNT] = {false};
     s->request.setups = &setup;
     chart_panel *panel = figure_panel(&s->request, out, y);
-    if (panel == NULL)
-        return;
     snprintf(panel->title, sizeof panel->title, "%s: %s %s, %s", first->camera->name, spec->format.name,
              dp_mapping_get(spec->mapping)->name, dp_model_name(spec->model));
     for (size_t i = 0; i < s->count; i++)

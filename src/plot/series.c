@@ -39,7 +39,7 @@ static void draw_markers(const pencil *p, const axes *a, const chart_panel *pane
 
 /* Strokes the line; returns where it leaves the frame upwards for ever, or NaN. */
 static double stroke_line(const pencil *p, const axes *a, const chart_series *s, const canvas_pen *pen) {
-    trace t = trace_start(p->c);
+    trace t = {.c = p->c};
     double end = NAN;
     for (size_t i = 0; i < s->count; i++) {
         if (isinf(s->y[i])) {
@@ -80,14 +80,12 @@ static void draw_drops(const pencil *p, const axes *a, const chart_panel *panel,
     thin.width = 1.1 * p->scale / sqrt(crowd);
     thin.colour.a = 0.6;
     thick.width = 1.6 * p->scale / sqrt(crowd);
-    canvas_path_begin(p->c);
     for (size_t i = 0; i < s->count; i++) {
         double x = axes_x(a, s->x[i]), y = axes_y(a, s->y[i]);
         canvas_path_segment(p->c, a->frame.x, y, x, y);
         canvas_path_to(p->c, x, bottom);
     }
     canvas_path_end(p->c, &thin);
-    canvas_path_begin(p->c);
     for (size_t i = 0; i < s->count; i++) {
         double x = axes_x(a, s->x[i]), y = axes_y(a, s->y[i]);
         canvas_path_segment(p->c, a->frame.x, y, a->frame.x + rug, y);
@@ -131,7 +129,7 @@ static void draw_points(const pencil *p, const axes *a, const chart_panel *panel
         if (s->labels == NULL)
             continue;
         point_label l = place_label(p, a, s, i);
-        canvas_text(p->c, l.x, l.baseline, s->labels[i], &l.font, l.align, 0);
+        canvas_text(p->c, l.x, l.baseline, s->labels[i], &l.font, l.align);
     }
 }
 

@@ -26,7 +26,7 @@ const char *share_build(const figure_request *request, chart *out) {
     const chart_axis y = {CHART_LINEAR, 0, 100, "codes between near and z", "share", "% of all between the planes",
                           NULL};
     chart_panel *panel = figure_panel(request, out, y);
-    for (size_t i = 0; i < request->count && panel != NULL; i++) {
+    for (size_t i = 0; i < request->count; i++) {
         const dp_setup *setup = &request->setups[i];
         const uint32_t first = dp_code(setup, setup->spec.znear);
         const counted c = {setup, first, distance(dp_code(setup, setup->spec.zfar), first)};

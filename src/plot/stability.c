@@ -45,14 +45,10 @@ static bool add_rows(const method_family_row *family, const stability_result *co
     const double half = sqrt(first->ratio[1] / first->ratio[0]); /* each column is centred on its far/near */
     const char **names = chart_memory(out, count, sizeof *names);
     char(*text)[CHART_TEXT] = chart_memory(out, count, sizeof *text);
-    panel->x = (chart_axis){.scale = CHART_LOG,
-                            .lo = first->ratio[0] / half,
-                            .hi = first->ratio[first->steps - 1] * half,
-                            .label = "far/near",
-                            .key = "ratio",
-                            .unit = ""};
-    panel->y =
-        (chart_axis){.lo = 0, .hi = (double)count, .label = "method", .key = "method", .unit = "", .names = names};
+    panel->x = (chart_axis){.scale = CHART_LOG, .label = "far/near", .key = "ratio", .unit = ""};
+    panel->x.lo = first->ratio[0] / half;
+    panel->x.hi = first->ratio[first->steps - 1] * half;
+    panel->y = (chart_axis){.hi = (double)count, .label = "method", .key = "method", .unit = "", .names = names};
     if (names == NULL || text == NULL || !chart_add_map(out, panel, first->steps, (int)count))
         return false;
     double most = 1;
@@ -77,7 +73,7 @@ const char *stability_draw(const method_family_row *family, const stability_resu
         for (size_t i = 0; i < count; i++)
             if (results[i].which == which)
                 ordered[used++] = &results[i];
-    if (panel == NULL || used == 0 || !add_rows(family, ordered, used, out, panel))
+    if (used == 0 || !add_rows(family, ordered, used, out, panel))
         return NULL;
     add_marks(ordered, used, out, panel, claimed, "claimed up to here", (chart_style){-1, 0, 0, false});
     add_marks(ordered, used, out, panel, broken, "the claim breaks here", (chart_style){0, 1, 1, false});

@@ -3,14 +3,8 @@
 
 #include <math.h>
 
-trace trace_start(canvas *c) {
-    canvas_path_begin(c);
-    return (trace){.c = c};
-}
-
 static void emit(trace *t, canvas_point p) {
     canvas_path_to(t->c, p.x, p.y);
-    t->emitted++;
 }
 
 static void anchor_at(trace *t, canvas_point p) {
@@ -91,8 +85,7 @@ void trace_fill(trace *t, double bottom, canvas_colour colour) {
     canvas_path_fill(t->c, colour);
 }
 
-size_t trace_finish(trace *t, const canvas_pen *pen) {
+void trace_finish(trace *t, const canvas_pen *pen) {
     trace_break(t);
     canvas_path_end(t->c, pen);
-    return t->emitted;
 }

@@ -13,7 +13,7 @@
 
 #define TRACE_TOLERANCE 0.1 /* px */
 
-/** Private to trace.c. */
+/** Begins as {.c = canvas}; the rest is private to trace.c. */
 typedef struct trace {
     canvas *c;
     bool column_open; /* the pixel column being gathered */
@@ -21,17 +21,15 @@ typedef struct trace {
     bool anchored; /* the segment being stretched */
     canvas_point begin, anchor, end;
     double slope_lo, slope_hi;
-    size_t emitted;
 } trace;
 
-trace trace_start(canvas *c);
 void trace_point(trace *t, double x, double y);
 void trace_break(trace *t);
 
 /** Fills between what was traced, in one piece, and the horizontal at y = bottom. */
 void trace_fill(trace *t, double bottom, canvas_colour colour);
 
-/** Draws what was traced. @return how many points the canvas was given */
-size_t trace_finish(trace *t, const canvas_pen *pen);
+/** Draws what was traced. */
+void trace_finish(trace *t, const canvas_pen *pen);
 
 #endif

@@ -22,35 +22,21 @@ static void cut(const pencil *p, char line[WORDS_TEXT], const canvas_font *font,
 
 words words_break(const pencil *p, const char *text, const canvas_font *font, double width, size_t max_lines) {
     words w = {0};
-    while (*text == ' ')
-        text++;
-    while (*text != '\0' && w.count < max_lines) {
+    for (text += strspn(text, " "); *text != '\0' && w.count < max_lines; text += strspn(text, " ")) {
         char *line = w.lines[w.count++];
-        if (w.count == max_lines) { /* the last line takes what is left */
-            snprintf(line, WORDS_TEXT, "%s", text);
-            if (canvas_text_width(p->c, line, font) > width)
-                cut(p, line, font, width);
-            break;
-        }
-        size_t fits = 0;
-        for (size_t end = strcspn(text, " ");; end += 1 + strcspn(text + end + 1, " ")) {
+        /* One word at least; the last line takes what is left. */
+        size_t fits = w.count < max_lines ? strcspn(text, " ") : strlen(text);
+        for (size_t end = fits; text[end] != '\0';) {
+            end += 1 + strcspn(text + end + 1, " ");
             snprintf(line, WORDS_TEXT, "%.*s", (int)end, text);
-            if (end >= WORDS_TEXT || canvas_text_width(p->c, line, font) > width)
+            if (canvas_text_width(p->c, line, font) > width)
                 break;
             fits = end;
-            if (text[end] == '\0')
-                break;
         }
-        if (fits == 0) { /* one word wider than the line */
-            fits = strcspn(text, " ");
-            snprintf(line, WORDS_TEXT, "%.*s", (int)fits, text);
+        snprintf(line, WORDS_TEXT, "%.*s", (int)fits, text);
+        if (canvas_text_width(p->c, line, font) > width)
             cut(p, line, font, width);
-        } else {
-            snprintf(line, WORDS_TEXT, "%.*s", (int)fits, text);
-        }
         text += fits;
-        while (*text == ' ')
-            text++;
     }
     return w;
 }
@@ -61,7 +47,7 @@ double words_height(const canvas_font *font) {
 
 double words_draw(const pencil *p, const words *w, const canvas_font *font, double x, double y) {
     for (size_t i = 0; i < w->count; i++) {
-        canvas_text(p->c, x, y + font->size, w->lines[i], font, CANVAS_LEFT, 0);
+        canvas_text(p->c, x, y + font->size, w->lines[i], font, CANVAS_LEFT);
         y += words_height(font);
     }
     return y;

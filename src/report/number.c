@@ -7,8 +7,6 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "report/shortest.h"
-
 /*
  * strtod and printf follow LC_NUMERIC, which stays "C" in a program that never calls setlocale. strtod alone is too
  * kind: it skips leading space, stops at the first thing it does not know, and reads "nan".
@@ -41,17 +39,11 @@ bool number_parse_part(const char *text, size_t length, number_kind kind, double
 }
 
 bool number_parse_count(const char *text, unsigned long max, unsigned long *out) {
-    unsigned long value = 0;
-    if (*text == '\0')
+    const size_t digits = strspn(text, "0123456789");
+    errno = 0;
+    const unsigned long value = strtoul(text, NULL, 10);
+    if (digits == 0 || text[digits] != '\0' || errno == ERANGE || value > max)
         return false;
-    for (; *text != '\0'; text++) {
-        if (*text < '0' || *text > '9')
-            return false;
-        unsigned long digit = (unsigned long)(*text - '0');
-        if (digit > max || value > (max - digit) / 10)
-            return false;
-        value = 10 * value + digit;
-    }
     *out = value;
     return true;
 }
@@ -69,6 +61,84 @@ size_t number_count(uint64_t value, char out[NUMBER_SIZE]) {
     return length;
 }
 
+/*
+ * The value is scaled by a power of ten to x in [1e16, 1e17), in fixed point with seven bits behind the point: its
+ * 17 digits and a little more. The error of x is bounded (SLACK), so a decision is either certain or left to printf.
+ * All errors are truncations: x lies in [scaled, scaled + SLACK].
+ */
+__extension__ typedef unsigned __int128 wide;
+
+enum { POINT_BITS = 7, SLACK = 2 };
+
+/*
+ * m 2^e 10^k in fixed point, m < 2^53 and k <= 55: less than 2 below the truth, 1 for the last truncation and less than
+ * 2^-50 for the others, each of 2^-121 relative.
+ */
+static uint64_t scale(uint64_t m, int e, int k) {
+    wide product = m;
+    for (; k > 0; k--, e++) {
+        product *= 5;
+        if (product >> 124 != 0) {
+            product >>= 3;
+            e += 3;
+        }
+    }
+    const int shift = -(e + POINT_BITS);
+    return shift >= 0 && shift < 128 ? (uint64_t)(product >> shift) : 0;
+}
+
+/* Like %g: the first digit of n, which has as many as are wanted, stands for 10^exponent. */
+static size_t write_general(uint64_t n, int exponent, bool negative, char *out) {
+    char text[NUMBER_SIZE];
+    char *start = out;
+    const int digits = (int)number_count(n, text);
+    const bool scientific = exponent < -4 || exponent >= digits;
+    int kept = digits;
+    while (text[kept - 1] == '0')
+        kept--;
+    if (negative)
+        *out++ = '-';
+    /* Places left of the point first, from the first digit or from the 0 before it; a point only when more follow. */
+    int place = scientific || exponent < 0 ? 0 : exponent;
+    for (int i = scientific ? 0 : exponent - place; place >= 0 || i < kept; place--, i++) {
+        if (place == -1)
+            *out++ = '.';
+        *out++ = i < 0 || i >= kept ? '0' : text[i];
+    }
+    *out = '\0';
+    return (size_t)(out - start) + (scientific ? (size_t)snprintf(out, 8, "e%+03d", exponent) : 0);
+}
+
+size_t number_quick(double value, char out[NUMBER_SIZE]) {
+    static const uint64_t least = 10000000000000000U; /* 1e16 */
+    const double magnitude = fabs(value);
+    if (!(magnitude >= 1e-38 && magnitude < 1e17))
+        return 0;
+    int exponent2;
+    const uint64_t m = (uint64_t)ldexp(frexp(magnitude, &exponent2), 53);
+    if ((m & (m - 1)) == 0) /* a power of two: its neighbour below is nearer, which the test below does not know */
+        return 0;
+    const int exponent = (int)floor(log10(magnitude)); /* next to a power of ten maybe wrong: then x is out of range */
+    const uint64_t scaled = scale(m, exponent2 - 53, 16 - exponent);
+    if (scaled < least << POINT_BITS || scaled + SLACK >= (least * 10) << POINT_BITS)
+        return 0;
+    const uint64_t half_ulp = scaled / (2 * m);
+    uint64_t unit = (uint64_t)100 << POINT_BITS, limit = least / 10;
+    for (int digits = 15; digits <= 17; digits++, unit /= 10, limit *= 10) {
+        const uint64_t rest = scaled % unit, half = unit / 2;
+        if (rest + SLACK >= half && rest <= half + SLACK)
+            return 0; /* which way it rounds is not certain */
+        const uint64_t n = scaled / unit + (rest > half);
+        const uint64_t off = rest > half ? unit - rest : rest;
+        const bool carried = n == limit; /* 9.99... became 10 */
+        if (digits == 17 || off + SLACK < half_ulp)
+            return write_general(carried ? n / 10 : n, exponent + carried, value < 0.0, out);
+        if (off <= half_ulp + 1 + SLACK)
+            return 0; /* whether it reads back is not certain */
+    }
+    return 0;
+}
+
 size_t number_shortest(double value, char out[NUMBER_SIZE]) {
     if (!isfinite(value))
         return (size_t)snprintf(out, NUMBER_SIZE, "%g", value);
@@ -78,7 +148,7 @@ size_t number_shortest(double value, char out[NUMBER_SIZE]) {
         out[0] = '-';
         return sign + number_count((uint64_t)fabs(value), out + sign);
     }
-    size_t quick = shortest_quick(value, out);
+    size_t quick = number_quick(value, out);
     if (quick > 0)
         return quick;
     for (int digits = 15;; digits++) {
@@ -116,4 +186,18 @@ number_text number_full(double value) {
     number_text out = {""};
     number_shortest(value, out.text);
     return out;
+}
+
+number_text number_brief(number_text number) {
+    const double value = strtod(number.text, NULL);
+    if (strncmp(number.text, "0.000", 5) == 0)
+        snprintf(number.text, sizeof number.text, "%.*e", (int)strlen(number.text + strspn(number.text, "0.")) - 1,
+                 value);
+    char *exponent = strchr(number.text, 'e');
+    const long power = exponent != NULL ? strtol(exponent + 1, NULL, 10) : 0;
+    if (power > 0 && power < 6)
+        snprintf(number.text, sizeof number.text, "%.0f", value);
+    else if (exponent != NULL)
+        snprintf(exponent, 8, "e%ld", power);
+    return number;
 }

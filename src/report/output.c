@@ -64,11 +64,7 @@ static int open_temporary(const char *target, const struct stat *old) {
 }
 
 int output_open(output *out, const char *path) {
-    out->fd = STDOUT_FILENO;
-    out->error = 0;
-    out->path = NULL;
-    out->target = NULL;
-    out->used = 0;
+    *out = (output){.fd = STDOUT_FILENO};
     if (path == NULL || strcmp(path, "-") == 0)
         return EXIT_FINE;
     out->path = path;

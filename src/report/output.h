@@ -30,13 +30,14 @@ enum {
 /** How data are written. */
 typedef enum output_form { FORM_TEXT = 0, FORM_JSON, FORM_CSV } output_form;
 
-enum { OUTPUT_BUFFER_SIZE = 1 << 16 };
+enum { OUTPUT_BUFFER_SIZE = 1 << 16, OUTPUT_UNLIMITED = 1 << 30 };
 
 typedef struct output {
     int fd;
     int error;        /**< errno of the first write that failed; later writes are dropped */
     const char *path; /**< the name for messages */
     char *target;     /**< what the temporary file is renamed to; null when writing straight */
+    int width;        /**< characters in a line of text; 0: as the terminal or the page has it */
     size_t used;      /**< bytes waiting in the buffer */
     char buffer[OUTPUT_BUFFER_SIZE];
 } output;

@@ -5,79 +5,91 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/ioctl.h>
 #include <unistd.h>
 
-/* Where the words of a wrapped note end. */
-enum { PAGE_WIDTH = 96, INDENT = 2 };
+enum {
+    PAGE_WIDTH = 80, /* where nothing says how wide it is */
+    PAGE_LEAST = 40,
+    INDENT = 2
+};
+
+static int width_of(const output *out) {
+    struct winsize size;
+    if (out->width > 0)
+        return out->width;
+    if (ioctl(out->fd, TIOCGWINSZ, &size) != 0 || size.ws_col == 0)
+        return PAGE_WIDTH;
+    return size.ws_col > PAGE_LEAST ? size.ws_col : PAGE_LEAST;
+}
 
 page page_start(output *out, int label) {
     const char *term = getenv("TERM");
     const bool colour = getenv("NO_COLOR") == NULL && term != NULL && strcmp(term, "dumb") != 0 && isatty(out->fd);
     return (page){.out = out,
                   .label = label,
+                  .width = width_of(out),
                   .strong = colour ? "\033[1m" : "",
                   .soft = colour ? "\033[2m" : "",
                   .plain = colour ? "\033[0m" : ""};
 }
 
-static void put(page *p, const char *format, va_list arguments) {
-    char line[1024];
-    vsnprintf(line, sizeof line, format, arguments);
-    output_text(p->out, line);
+/* Words from `column` on, broken where the page ends, those of further lines `left` blanks from the margin. */
+static void put_words(page *p, int column, int left, const char *text) {
+    for (bool first = true; *text != '\0'; first = false) {
+        const int word = (int)strcspn(text, " ");
+        if (!first && column + 1 + word > p->width) {
+            output_format(p->out, "\n%*s", left, "");
+            column = left;
+            first = true;
+        }
+        output_format(p->out, "%s%.*s", first ? "" : " ", word, text);
+        column += word + !first;
+        text += word + (text[word] == ' ');
+    }
+}
+
+#define FORMATTED(text, format)                                                                                        \
+    char text[1024];                                                                                                   \
+    va_list arguments;                                                                                                 \
+    va_start(arguments, format);                                                                                       \
+    vsnprintf(text, sizeof text, format, arguments);                                                                   \
+    va_end(arguments)
+
+void page_text(page *p, const char *format, ...) {
+    FORMATTED(text, format);
+    put_words(p, 0, INDENT, text);
+    output_char(p->out, '\n');
 }
 
 void page_title(page *p, const char *format, ...) {
-    va_list arguments;
-    va_start(arguments, format);
+    FORMATTED(text, format);
     output_text(p->out, p->strong);
-    put(p, format, arguments);
+    put_words(p, 0, INDENT, text);
     output_format(p->out, "%s\n", p->plain);
-    va_end(arguments);
-}
-
-/* A label that is too long is parted from its words by one blank. */
-static void put_label(page *p, const char *label) {
-    const int pad = p->label - (int)strlen(label);
-    output_format(p->out, "%*s%s%s%s%*s", INDENT, "", p->strong, label, p->plain, pad > 0 ? pad : 1, "");
-}
-
-void page_note(page *p, const char *label, const char *format, ...) {
-    va_list arguments;
-    va_start(arguments, format);
-    put_label(p, label);
-    put(p, format, arguments);
-    output_char(p->out, '\n');
-    va_end(arguments);
 }
 
 void page_line(page *p, const char *format, ...) {
-    va_list arguments;
-    va_start(arguments, format);
+    FORMATTED(text, format);
     output_format(p->out, "%*s", INDENT, "");
-    put(p, format, arguments);
+    put_words(p, INDENT, INDENT, text);
     output_char(p->out, '\n');
-    va_end(arguments);
+}
+
+void page_note(page *p, const char *label, const char *format, ...) {
+    FORMATTED(text, format);
+    page_wrapped(p, label, text);
 }
 
 void page_wrapped(page *p, const char *label, const char *text) {
-    const int left = INDENT + p->label;
-    int column = left;
+    const int length = (int)strlen(label), left = INDENT + p->label;
     if (text == NULL || *text == '\0')
         return;
-    if ((int)strlen(label) >= p->label) { /* alone on a line */
-        output_format(p->out, "%*s%s%s%s\n", INDENT, "", p->strong, label, p->plain);
-        label = "";
-    }
-    put_label(p, label);
-    while (*text != '\0') {
-        const int word = (int)strcspn(text, " ");
-        if (column > left && column + 1 + word > PAGE_WIDTH) {
-            output_format(p->out, "\n%*s", left, "");
-            column = left;
-        }
-        output_format(p->out, "%s%.*s", column > left ? " " : "", word, text);
-        column += word + (column > left);
-        text += word + (text[word] == ' ');
-    }
+    output_format(p->out, "%*s%s%s%s", INDENT, "", p->strong, label, p->plain);
+    if (length >= p->label)
+        output_format(p->out, "\n%*s", left, "");
+    else
+        output_format(p->out, "%*s", p->label - length, "");
+    put_words(p, left, left, text);
     output_char(p->out, '\n');
 }

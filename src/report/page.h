@@ -11,20 +11,25 @@
 typedef struct page {
     output *out;
     int label;                         /**< characters that the labels of notes take */
+    int width;                         /**< characters in a line: those of a terminal, else 80; output.width if set */
     const char *strong, *soft, *plain; /**< bold and dim on a terminal; "" elsewhere, and where NO_COLOR is set */
 } page;
 
 page page_start(output *out, int label);
 
+/* All of these break lines between words where the page ends. */
+
+/** A sentence from the margin on. */
+void page_text(page *p, const char *format, ...) __attribute__((format(printf, 2, 3)));
+
 /** A heading on a line of its own. */
 void page_title(page *p, const char *format, ...) __attribute__((format(printf, 2, 3)));
 
-/** "  label     words"; without a label, a sentence by itself. */
-void page_note(page *p, const char *label, const char *format, ...) __attribute__((format(printf, 3, 4)));
+/** A sentence, indented. */
 void page_line(page *p, const char *format, ...) __attribute__((format(printf, 2, 3)));
 
-/** A note broken between words where the page ends, its lines below each other, and below a label that is too long;
- *  nothing where the text is empty. */
+/** "  label     words", the words below each other, and below a label that is too long; nothing without words. */
+void page_note(page *p, const char *label, const char *format, ...) __attribute__((format(printf, 3, 4)));
 void page_wrapped(page *p, const char *label, const char *text);
 
 #endif

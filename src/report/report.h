@@ -52,17 +52,20 @@ typedef struct column {
     const char *unit;  /**< "scene"; null or "": none */
     const char *title; /**< above the text's column; null: text does not have it */
     column_kind kind;
-    size_t offset;                /**< in the item */
-    size_t digits_at;             /**< where the item holds the digits, an int; 0: they are in `digits` */
-    int width;                    /**< characters, with the blank before it; negative: aligned to the left, without */
-    int digits;                   /**< significant ones of a number */
-    bool fixed;                   /**< ... or, after the point */
-    bool upward;                  /**< what holds as it is printed: text rounds a number up */
-    bool optional;                /**< JSON leaves it out where it does not exist; of a pointer, where that is null */
-    bool names;                   /**< a word of words parted by one space: an array of strings in JSON */
-    bool pointed;                 /**< the item holds a pointer to the value or part, null where it does not exist */
-    unsigned only;                /**< the forms that have it; 0: all */
-    unsigned when;                /**< conditions of the report, bits that must all be set */
+    size_t offset;    /**< in the item */
+    size_t digits_at; /**< where the item holds the digits, an int; 0: they are in `digits` */
+    int width;        /**< characters, with the blank before it; negative: aligned to the left, without */
+    int digits;       /**< significant ones of a number */
+    bool fixed;       /**< ... or, after the point */
+    bool upward;      /**< what holds as it is printed: text rounds a number up */
+    bool downward;    /**< the same, down */
+    bool brief;       /**< short: 82800 and 1.2e-7 in place of 8.28e+04 and 1.2e-07 */
+    bool optional;    /**< JSON leaves it out where it does not exist; of a pointer, where that is null */
+    bool names;       /**< a word of words parted by one space: an array of strings in JSON */
+    bool pointed;     /**< the item holds a pointer to the value or part, null where it does not exist */
+    int spare;        /**< text leaves it out where the table is wider than the page, the highest first; 0: never */
+    unsigned only;    /**< the forms that have it; 0: all */
+    unsigned when;    /**< conditions of the report, bits that must all be set */
     const struct column *columns; /**< of a part, or of a list's items */
     /** COLUMN_LIST: the item of that index, asked for once and in order; null behind the last. It may live in the outer
      *  item, or lie anywhere until the next is asked for. */

@@ -14,7 +14,6 @@ static bool within(double x, double lo, double hi) {
     return x >= lo && x <= hi; /* false for NaN */
 }
 
-/* clang-format off */
 static const char *wrong(const camera_spec *s, bool ortho) {
     if (s->width < 1 || s->height < 1 || s->width > TEXTURE_SIDE_MAX || s->height > TEXTURE_SIDE_MAX)
         return "width and height must be from 1 to 65536 pixels";
@@ -31,7 +30,6 @@ static const char *wrong(const camera_spec *s, bool ortho) {
             return "the camera's coordinates must be from -1e12 to 1e12";
     return NULL;
 }
-/* clang-format on */
 
 const char *camera_init(texture_camera *camera, const dp_setup *setup, const camera_spec *spec) {
     const bool ortho = setup->spec.ortho != 0;

@@ -15,7 +15,6 @@
 #define TEXTURE_CAMERA_H
 
 #include <stdbool.h>
-#include <stdint.h>
 
 #include "depthprec/depthprec.h"
 

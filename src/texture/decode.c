@@ -124,10 +124,6 @@ const decode_row *decode_usual(const dp_setup *setup) {
     return row;
 }
 
-const decode_row *decode_best(void) {
-    return &decode_rows[DECODE_COMPLEMENT];
-}
-
 /* ---- Loops: "in place" means the same element, so no iteration waits for another --------------------------------- */
 
 TEXTURE_CLONES static void reciprocal_loop(const decode_constants c, const float *d, float *out, size_t count) {

@@ -9,7 +9,6 @@
 #define TEXTURE_DECODE_H
 
 #include <stdbool.h>
-#include <stddef.h>
 
 #include "depthprec/depthprec.h"
 
@@ -71,10 +70,8 @@ const decode_row *decode_get(size_t index); /**< null beyond the last */
 /** Does the row apply to the set-up's curve, projection and far plane? */
 bool decode_applies(const decode_row *row, const dp_setup *setup);
 
-/** The row that engines use for the eye depth of a set-up, and the one that cancels nothing ("complement"). Never null.
- */
+/** The row that engines use for the eye depth of a set-up. Never null. The one that cancels nothing is "complement". */
 const decode_row *decode_usual(const dp_setup *setup);
-const decode_row *decode_best(void);
 
 /** `count` window depths in binary32, as a shader would; in place is allowed. NaN stays NaN. Vectorized, but for the
  *  exponentials. */

@@ -14,9 +14,6 @@
 #ifndef TEXTURE_EFFECT_H
 #define TEXTURE_EFFECT_H
 
-#include <stdbool.h>
-#include <stddef.h>
-
 #include "depthprec/depthprec.h"
 #include "texture/parameter.h"
 

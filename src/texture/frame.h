@@ -8,9 +8,6 @@
 #ifndef TEXTURE_FRAME_H
 #define TEXTURE_FRAME_H
 
-#include <stdbool.h>
-#include <stdint.h>
-
 #include "texture/camera.h"
 #include "texture/decode.h"
 #include "texture/effect.h"

@@ -2,32 +2,22 @@
 /* Samples of a row as window depths or codes: blocks that stay in the first-level cache, through the batch kernels. */
 #include "texture/image_depths.h"
 
+#include <math.h>
+#include <string.h>
+
 #include "texture/clones.h"
 
 enum { BLOCK = 1024 };
 
-/* A block of samples of any type, and of depths of either. */
+/* A block of samples side by side, and of depths of either type. */
 typedef union block {
-    uint8_t u8[BLOCK];
+    unsigned char bytes[BLOCK * sizeof(double)];
     uint16_t u16[BLOCK];
-    uint32_t u32[BLOCK];
-    uint64_t u64[BLOCK];
     float real32[BLOCK];
     double real64[BLOCK];
 } block;
 
 /* ---- Loops ------------------------------------------------------------------------------------------------------- */
-
-/* Channel 0 alone, side by side. */
-#define EVERY(T)                                                                                                       \
-    static void every_##T(const T *from, size_t step, size_t count, T *to) {                                           \
-        for (size_t i = 0; i < count; i++)                                                                             \
-            to[i] = from[i * step];                                                                                    \
-    }
-EVERY(uint8_t)
-EVERY(uint16_t)
-EVERY(uint32_t)
-EVERY(uint64_t)
 
 /* Numbers of [0, 1], NaN in place of others; + 0 turns -0 into 0. */
 #define CLEAN(NAME, FROM, TO)                                                                                          \
@@ -57,42 +47,40 @@ BAR(bar_double_32, uint32_t, double)
 BAR_CODES(bar_codes_float, float)
 BAR_CODES(bar_codes_double, double)
 
+#define WIDEN(NAME, FROM)                                                                                              \
+    TEXTURE_CLONES static void NAME(const FROM *from, uint32_t code_max, size_t count, uint32_t *to) {                 \
+        for (size_t i = 0; i < count; i++)                                                                             \
+            to[i] = from[i] > code_max ? UINT32_MAX : from[i];                                                         \
+    }
+WIDEN(widen_16, uint16_t)
+WIDEN(widen_32, uint32_t)
+
+TEXTURE_CLONES static void words_of_bytes(const uint8_t *from, size_t step, size_t count, uint16_t *to) {
+    for (size_t i = 0; i < count; i++)
+        to[i] = from[i * step];
+}
+
 /* -0 of binary16 is 0. All other numbers with a sign, those above 1 and NaN have bits above those of 1. */
-TEXTURE_CLONES static void unsign(const uint16_t *from, size_t count, uint16_t *to) {
+TEXTURE_CLONES static void unsign(const uint16_t *from, size_t step, size_t count, uint16_t *to) {
     for (size_t i = 0; i < count; i++)
-        to[i] = from[i] == 0x8000 ? 0 : from[i];
-}
-
-TEXTURE_CLONES static void widen_8(const uint8_t *from, size_t count, uint16_t *to) {
-    for (size_t i = 0; i < count; i++)
-        to[i] = from[i];
-}
-
-TEXTURE_CLONES static void widen_16(const uint16_t *from, uint32_t code_max, size_t count, uint32_t *to) {
-    for (size_t i = 0; i < count; i++)
-        to[i] = from[i] > code_max ? UINT32_MAX : from[i];
-}
-
-TEXTURE_CLONES static void widen_32(const uint32_t *from, uint32_t code_max, size_t count, uint32_t *to) {
-    for (size_t i = 0; i < count; i++)
-        to[i] = from[i] > code_max ? UINT32_MAX : from[i];
+        to[i] = from[i * step] == 0x8000 ? 0 : from[i * step];
 }
 
 /* ---- Blocks -------------------------------------------------------------------------------------------------------*/
 
+/* Channel 0 alone, side by side: bytes as words, binary16 without a sign of 0. */
 static const void *samples(const image *img, size_t first, size_t count, block *scratch) {
     const size_t step = img->channels, size = image_type_size(img->type);
     const void *at = (const unsigned char *)img->data + first * step * size;
-    if (step == 1)
+    if (img->type == IMAGE_U8)
+        words_of_bytes(at, step, count, scratch->u16);
+    else if (img->type == IMAGE_F16)
+        unsign(at, step, count, scratch->u16);
+    else if (step == 1)
         return at;
-    if (size == sizeof(uint8_t))
-        every_uint8_t(at, step, count, scratch->u8);
-    else if (size == sizeof(uint16_t))
-        every_uint16_t(at, step, count, scratch->u16);
-    else if (size == sizeof(uint32_t))
-        every_uint32_t(at, step, count, scratch->u32);
     else
-        every_uint64_t(at, step, count, scratch->u64);
+        for (size_t i = 0; i < count; i++)
+            memcpy(scratch->bytes + i * size, (const unsigned char *)at + i * step * size, size);
     return scratch;
 }
 
@@ -128,22 +116,15 @@ static reading begin(const image *img, const dp_format *format, dp_real real) {
 }
 
 /* Shares of the type's maximum. */
-static void shares(const reading *r, const void *at, size_t count, double *d) {
-    const uint8_t *bytes = at;
-    const uint16_t *words = at;
+static void shares(const reading *r, const uint16_t *words, size_t count, double *d) {
+    const double most = r->img->type == IMAGE_U8 ? 255 : 65535;
     for (size_t i = 0; i < count; i++)
-        d[i] = r->img->type == IMAGE_U8 ? bytes[i] / 255.0 : words[i] / 65535.0;
+        d[i] = words[i] / most;
 }
 
-static void decoded(const reading *r, const void *at, size_t count, void *d) {
-    uint16_t narrow[BLOCK];
-    const void *codes = r->img->type == IMAGE_U8 || r->img->type == IMAGE_F16 ? narrow : at;
-    if (r->img->type == IMAGE_U8)
-        widen_8(at, count, narrow);
-    if (r->img->type == IMAGE_F16)
-        unsign(at, count, narrow);
-    dp_batch_run(&r->decode, codes, d, count);
+static void decoded(const reading *r, const void *codes, size_t count, void *d) {
     const uint32_t code_max = r->format.code_max;
+    dp_batch_run(&r->decode, codes, d, count);
     if (r->real == DP_REAL_FLOAT)
         bar_float_16(codes, code_max, count, d);
     else if (r->img->type == IMAGE_U32)
@@ -167,6 +148,34 @@ static void block_depths(const reading *r, const void *at, size_t count, void *d
 
 /* ---- Public ------------------------------------------------------------------------------------------------------ */
 
+/* The number that the bits of a binary16 stand for; NaN for infinities, too. */
+static double half_of(uint16_t bits) {
+    const int exponent = bits >> 10 & 31, fraction = bits & 1023;
+    const double size = exponent == 31  ? (double)NAN
+                        : exponent == 0 ? ldexp(fraction, -24)
+                                        : ldexp(1024 + fraction, exponent - 25);
+    return bits >> 15 ? -size : size;
+}
+
+double image_sample(const image *img, size_t pixel) {
+    const size_t i = pixel * img->channels;
+    const void *at = img->data;
+    switch (img->type) {
+    case IMAGE_U8:
+        return ((const uint8_t *)at)[i];
+    case IMAGE_U16:
+        return ((const uint16_t *)at)[i];
+    case IMAGE_U32:
+        return ((const uint32_t *)at)[i];
+    case IMAGE_F16:
+        return half_of(((const uint16_t *)at)[i]);
+    case IMAGE_F32:
+        return (double)((const float *)at)[i];
+    default:
+        return ((const double *)at)[i];
+    }
+}
+
 bool image_are_codes(const image *img, const dp_format *format) {
     return img->type <= IMAGE_U32 && 8 * image_type_size(img->type) >= (size_t)format->bits;
 }
@@ -178,16 +187,6 @@ void image_depths(const image *img, const dp_format *format, uint32_t row, uint3
         const size_t some = count - i < BLOCK ? count - i : BLOCK;
         block_depths(&r, samples(img, (size_t)row * img->width + column + i, some, &scratch), some, d + i);
     }
-}
-
-static void widened(const image *img, const void *at, uint32_t code_max, size_t count, uint32_t *codes) {
-    uint16_t narrow[BLOCK];
-    if (img->type == IMAGE_U8)
-        widen_8(at, count, narrow);
-    if (img->type == IMAGE_U32)
-        widen_32(at, code_max, count, codes);
-    else
-        widen_16(img->type == IMAGE_U8 ? narrow : at, code_max, count, codes);
 }
 
 /* What is no code becomes the nearest one, from binary32 where the samples have no more bits. */
@@ -213,8 +212,10 @@ void image_codes(const image *img, const dp_format *format, uint32_t row, uint32
     for (size_t i = 0; i < count; i += BLOCK) {
         const size_t some = count - i < BLOCK ? count - i : BLOCK;
         const void *at = samples(img, (size_t)row * img->width + column + i, some, &scratch);
-        if (are_codes)
-            widened(img, at, format->code_max, some, codes + i);
+        if (are_codes && img->type == IMAGE_U32)
+            widen_32(at, format->code_max, some, codes + i);
+        else if (are_codes)
+            widen_16(at, format->code_max, some, codes + i);
         else
             encoded(&encode, &r, at, some, codes + i);
     }

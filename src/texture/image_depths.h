@@ -1,10 +1,13 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/** @file image_depths.h  Samples of an image as window depths, and as codes. */
+/** @file image_depths.h  Samples of an image as they are, as window depths, and as codes. */
 #ifndef TEXTURE_IMAGE_DEPTHS_H
 #define TEXTURE_IMAGE_DEPTHS_H
 
 #include "depthprec/depthprec.h"
 #include "texture/image.h"
+
+/** Channel 0 of a pixel, counted along the rows, as it is; NaN for the infinities of f2. */
+double image_sample(const image *image, size_t pixel);
 
 /**
  * Whether integers of an image are codes of the format, which is so where the type has at least as many bits as the

@@ -42,14 +42,11 @@ size_t image_bytes(const image *image);
  */
 bool source_grow(image_source *source, image *out, size_t *have, size_t need);
 
-/** Reads all samples as they lie in the file, which must end after them. */
-bool source_samples(image_source *source, image *out);
+/** Reads all samples, behind which the file must end. @param little  its samples have the lowest byte first */
+bool source_samples(image_source *source, image *out, bool little);
 
 /** Nothing may follow. */
 bool source_ended(image_source *source);
-
-/** Reverses the bytes of `count` samples of 1, 2, 4 or 8 bytes. */
-void image_swap(void *samples, size_t size, size_t count);
 
 /** Whether this machine stores the lowest byte first. */
 static inline bool image_little(void) {

@@ -165,38 +165,20 @@ static bool read_sides(dictionary *d, image_type type, image *out) {
 
 /* Rows run slowest in Fortran's order of a[row][column][channel]: a stripe of columns at a time, so that what is read
  * from memory is used up. */
-#define TRANSPOSE(T)                                                                                                   \
-    static void transpose_##T(const image *img, const T *from, T *to) {                                                \
-        const size_t width = img->width, height = img->height, channels = img->channels, stripe = 32;                  \
-        for (size_t k = 0; k < channels; k++)                                                                          \
-            for (size_t first = 0; first < width; first += stripe)                                                     \
-                for (size_t y = 0; y < height; y++)                                                                    \
-                    for (size_t x = first; x < first + stripe && x < width; x++)                                       \
-                        to[(y * width + x) * channels + k] = from[(k * width + x) * height + y];                       \
-    }
-TRANSPOSE(uint8_t)
-TRANSPOSE(uint16_t)
-TRANSPOSE(uint32_t)
-TRANSPOSE(uint64_t)
-
 static bool transpose(image_source *source, image *out) {
-    void *to = malloc(image_bytes(out));
+    const size_t width = out->width, height = out->height, channels = out->channels, stripe = 32;
+    const size_t size = image_type_size(out->type);
+    const unsigned char *from = out->data;
+    unsigned char *to = malloc(image_bytes(out));
     if (to == NULL)
         return source_fail(source, "out of memory: %u x %u pixels in Fortran's order need %zu bytes twice", out->width,
                            out->height, image_bytes(out));
-    switch (image_type_size(out->type)) {
-    case 1:
-        transpose_uint8_t(out, out->data, to);
-        break;
-    case 2:
-        transpose_uint16_t(out, out->data, to);
-        break;
-    case 4:
-        transpose_uint32_t(out, out->data, to);
-        break;
-    default:
-        transpose_uint64_t(out, out->data, to);
-    }
+    for (size_t k = 0; k < channels; k++)
+        for (size_t first = 0; first < width; first += stripe)
+            for (size_t y = 0; y < height; y++)
+                for (size_t x = first; x < first + stripe && x < width; x++)
+                    memcpy(to + ((y * width + x) * channels + k) * size, from + ((k * width + x) * height + y) * size,
+                           size);
     free(out->data);
     out->data = to;
     return true;
@@ -222,12 +204,8 @@ static bool read_npy(image_source *source, image *out) {
     dictionary d = {.source = source, .at = text};
     image_type type;
     bool little;
-    if (!read_dictionary(&d) || !read_type(&d, &type, &little) || !read_sides(&d, type, out) ||
-        !source_samples(source, out))
-        return false;
-    if (little != image_little())
-        image_swap(out->data, image_type_size(type), (size_t)out->width * out->height * out->channels);
-    return !d.fortran || transpose(source, out);
+    return read_dictionary(&d) && read_type(&d, &type, &little) && read_sides(&d, type, out) &&
+           source_samples(source, out, little) && (!d.fortran || transpose(source, out));
 }
 
 /* ---- Writing ------------------------------------------------------------------------------------------------------*/

@@ -82,10 +82,9 @@ static bool read_pfm(image_source *source, image *out) {
     if (!is_blank(blank))
         return source_fail(source, "PFM: a blank must follow '%.2s'", magic);
     if (!side(source, "width", &width) || !side(source, "height", &height) || !read_scale(source, &little) ||
-        !source_shape(source, out, width, height, magic[1] == 'F' ? 3 : 1, IMAGE_F32) || !source_samples(source, out))
+        !source_shape(source, out, width, height, magic[1] == 'F' ? 3 : 1, IMAGE_F32) ||
+        !source_samples(source, out, little))
         return false;
-    if (little != image_little())
-        image_swap(out->data, sizeof(float), (size_t)out->width * out->height * out->channels);
     flip(out);
     return true;
 }

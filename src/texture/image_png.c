@@ -8,7 +8,6 @@
  */
 #include <png.h>
 #include <setjmp.h>
-#include <string.h>
 
 #include "texture/image_kind.h"
 
@@ -98,15 +97,6 @@ static bool read_png(image_source *source, image *out) {
 
 /* ---- Writing ----------------------------------------------------------------------------------------------------- */
 
-static void drain(png_structp png, png_bytep from, size_t size) {
-    if (fwrite(from, 1, size, png_get_io_ptr(png)) != size)
-        png_longjmp(png, 1);
-}
-
-static void no_flush(png_structp png) {
-    (void)png;
-}
-
 static void broken(png_structp png, png_const_charp message) {
     (void)message;
     png_longjmp(png, 1);
@@ -119,7 +109,7 @@ static bool begin_png(image_writer *w) {
     w->info = w->png != NULL ? png_create_info_struct(w->png) : NULL;
     if (w->info == NULL || setjmp(png_jmpbuf((png_structp)w->png)) != 0)
         return false;
-    png_set_write_fn(w->png, w->stream, drain, no_flush);
+    png_init_io(w->png, w->stream);
     png_set_compression_level(w->png, 1);
     png_set_filter(w->png, PNG_FILTER_TYPE_BASE, PNG_FILTER_SUB);
     png_set_compression_buffer_size(w->png, 1 << 16);

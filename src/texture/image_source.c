@@ -111,7 +111,18 @@ static bool misfit(image_source *source, const image *out, uint64_t there) {
                        there == 1 ? "s" : "");
 }
 
-bool source_samples(image_source *source, image *out) {
+static void reverse_bytes(image *img) {
+    const size_t size = image_type_size(img->type);
+    unsigned char *at = img->data, *end = at + image_bytes(img);
+    for (; at < end; at += size)
+        for (size_t i = 0; i < size / 2; i++) {
+            const unsigned char other = at[i];
+            at[i] = at[size - 1 - i];
+            at[size - 1 - i] = other;
+        }
+}
+
+bool source_samples(image_source *source, image *out, bool little) {
     const size_t all = image_bytes(out);
     if (source->sized && source->left != all)
         return misfit(source, out, source->left);
@@ -125,6 +136,8 @@ bool source_samples(image_source *source, image *out) {
         return source->stream != NULL && ferror(source->stream) ? source_cut(source, "samples")
                                                                 : misfit(source, out, done + got);
     }
+    if (little != image_little())
+        reverse_bytes(out);
     return source_ended(source);
 }
 
@@ -133,21 +146,6 @@ bool source_ended(image_source *source) {
     if (source_read(source, &more, 1) == 0)
         return source->stream == NULL || !ferror(source->stream) || source_cut(source, "end");
     return source_fail(source, "something follows the image: a file must hold one image and nothing else");
-}
-
-void image_swap(void *samples, size_t size, size_t count) {
-    uint16_t *half = samples;
-    uint32_t *single = samples;
-    uint64_t *wide = samples;
-    if (size == sizeof *half)
-        for (size_t i = 0; i < count; i++)
-            half[i] = __builtin_bswap16(half[i]);
-    if (size == sizeof *single)
-        for (size_t i = 0; i < count; i++)
-            single[i] = __builtin_bswap32(single[i]);
-    if (size == sizeof *wide)
-        for (size_t i = 0; i < count; i++)
-            wide[i] = __builtin_bswap64(wide[i]);
 }
 
 bool image_rows_plain(image_writer *writer, const void *rows, uint32_t count) {

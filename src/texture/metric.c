@@ -5,41 +5,14 @@
 #include <stdio.h>
 #include <stdlib.h>
 
+#include "texture/image_depths.h"
 #include "texture/recognise.h"
 #include "texture/recognise_lattice.h"
 
 enum { BITS_MAX = 31, VALUES_LEAST = 16 };
 
-static double sample(const image *img, size_t pixel) {
-    const size_t i = pixel * img->channels;
-    const void *at = img->data;
-    switch (img->type) {
-    case IMAGE_U8:
-        return ((const uint8_t *)at)[i];
-    case IMAGE_U16:
-        return ((const uint16_t *)at)[i];
-    case IMAGE_U32:
-        return ((const uint32_t *)at)[i];
-    case IMAGE_F16:
-        return recognise_half(((const uint16_t *)at)[i]);
-    case IMAGE_F32:
-        return (double)((const float *)at)[i];
-    default:
-        return ((const double *)at)[i];
-    }
-}
-
 static bool is_depth(double x) {
     return x > 0 && isfinite(x);
-}
-
-static uint32_t common(uint32_t a, uint32_t b) {
-    while (b != 0) {
-        const uint32_t rest = a % b;
-        a = b;
-        b = rest;
-    }
-    return a;
 }
 
 /* What is looked at before anything is changed. */
@@ -55,14 +28,14 @@ static void look_at(const image *img, look *l) {
     *l = (look){.least = (double)INFINITY};
     distinct_init(&l->seen, count);
     for (size_t i = 0; i < count; i++) {
-        const double x = sample(img, i);
+        const double x = image_sample(img, i);
         if (!is_depth(x))
             continue;
         l->depths++;
         l->least = fmin(l->least, x);
         l->most = fmax(l->most, x);
         if (img->type < IMAGE_F16)
-            l->divisor = common(l->divisor, (uint32_t)x);
+            l->divisor = common_divisor(l->divisor, (uint32_t)x);
     }
 }
 
@@ -70,8 +43,8 @@ static void look_at(const image *img, look *l) {
 
 static void add_all(const image *img, look *l, double scale) {
     for (size_t i = 0; i < (size_t)img->width * img->height && l->seen.count < RECOGNISE_DISTINCT_MAX; i++)
-        if (is_depth(sample(img, i)))
-            distinct_add(&l->seen, sample(img, i) * scale);
+        if (is_depth(image_sample(img, i)))
+            distinct_add(&l->seen, image_sample(img, i) * scale);
 }
 
 static const char *of_integers(const image *img, double scale, look *l, metric *out) {
@@ -142,7 +115,7 @@ static bool replace(image *img, const metric *m, double scale) {
     const bool integers = img->type < IMAGE_F16;
     uint32_t *made = malloc(count * sizeof *made);
     for (size_t i = 0; i < count && made != NULL; i++) {
-        const double x = sample(img, i);
+        const double x = image_sample(img, i);
         if (integers)
             made[i] = is_depth(x) ? (uint32_t)x : UINT32_MAX;
         else

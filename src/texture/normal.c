@@ -6,7 +6,6 @@
 #include "texture/normal.h"
 
 #include <math.h>
-#include <string.h>
 
 #include "core/bits.h"
 #include "texture/clones.h"

@@ -10,10 +10,6 @@
 #ifndef TEXTURE_NORMAL_H
 #define TEXTURE_NORMAL_H
 
-#include <stdbool.h>
-#include <stddef.h>
-#include <stdint.h>
-
 #include "texture/camera.h"
 #include "texture/grain.h"
 
@@ -49,19 +45,6 @@ enum { NORMAL_LOW = 0, NORMAL_MEDIUM, NORMAL_MEDIUM_1, NORMAL_HIGH, NORMAL_HIGH_
 extern const normal_row normal_methods[NORMAL_METHODS];
 
 const normal_row *normal_get(size_t index); /**< null beyond the last */
-
-/** Writes the eye depths of a row, camera->width of them; NaN for sky. */
-typedef void (*normal_source)(void *context, uint32_t row, float *eye);
-/** Takes the normals of a row, or rather of in->row, and may look at what they were made from. */
-typedef void (*normal_sink)(void *context, const normal_rows *in, const float *const normal[3]);
-
-/**
- * The normals of `count` rows from `first` on, in that order. The source is asked for each row once, and for those
- * within reach of them.
- * @return false when out of memory
- */
-bool normal_run(const normal_row *method, const texture_camera *camera, uint32_t first, uint32_t count,
-                normal_source source, normal_sink sink, void *context);
 
 /** The angle between two vectors, radians in [0, pi], of any length and without cancellation; NaN for a null vector. */
 double normal_angle(const double a[3], const double b[3]);

@@ -1,11 +1,23 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/** @file normal_measure.h  How far a method's normals of a scene, stored in a depth buffer, are from the scene's own.
- */
+/** @file normal_measure.h  Normals of a whole image, and how far those of a scene, stored, are from the scene's own. */
 #ifndef TEXTURE_NORMAL_MEASURE_H
 #define TEXTURE_NORMAL_MEASURE_H
 
 #include "texture/normal.h"
 #include "texture/scene.h"
+
+/** Writes the eye depths of a row, camera->width of them; NaN for sky. */
+typedef void (*normal_source)(void *context, uint32_t row, float *eye);
+/** Takes the normals of a row, or rather of in->row, and may look at what they were made from. */
+typedef void (*normal_sink)(void *context, const normal_rows *in, const float *const normal[3]);
+
+/**
+ * The normals of `count` rows from `first` on, in that order. The source is asked for each row once, and for those
+ * within reach of them.
+ * @return false when out of memory
+ */
+bool normal_run(const normal_row *method, const texture_camera *camera, uint32_t first, uint32_t count,
+                normal_source source, normal_sink sink, void *context);
 
 /** Angular errors of some pixels, radians; NaN where there are none. */
 typedef struct normal_spread {

@@ -2,13 +2,10 @@
 #include "texture/pack.h"
 
 #include <math.h>
-#include <string.h>
-
-#include "texture/pack_parts.h"
 
 /* ---- Depth ------------------------------------------------------------------------------------------------------- */
 
-enum { BYTE = PACK_BYTE };
+enum { BYTE = 255 };
 
 /*
  * enc = frac(v (1, 255)), enc.x -= enc.y/255. In exact arithmetic that leaves whole 255ths in x, which are stored as
@@ -33,21 +30,45 @@ static void rg_decode(const pack_row *row, const uint32_t codes[], double *out) 
     out[0] = (BYTE * codes[0] + codes[1]) / (double)(BYTE * BYTE);
 }
 
+/* frac() of a number that is not negative and below 2^31. */
+static float fraction(float x) {
+    return x - (float)(int32_t)x;
+}
+
+/* UNORM conversion of a render target: the product is exact, ties go up; what is below 0 is stored as 0. x <= 1. */
+static uint32_t store(float x, double half) {
+    return (uint32_t)(int32_t)((double)x * BYTE + half);
+}
+
+/* EncodeFloatRG of v in [0, 1) in binary32, the coarse code times 256 and the fine one; half is
+ * 0.5 to store the nearest code, 0 to truncate. */
+static uint32_t rg32_code(float v, double half) {
+    const float y = fraction((float)BYTE * v);
+    const float x = v - y * (1.0F / BYTE);
+    return store(x, half) << 8 | store(y, half);
+}
+
+/* DecodeFloatRG in binary32. */
+static float rg32_depth(uint32_t code) {
+    const float x = (float)(int32_t)(code >> 8) / BYTE, y = (float)(int32_t)(code & BYTE) / BYTE;
+    return x + y * (1.0F / BYTE);
+}
+
 static void rg32_encode(const pack_row *row, const double *in, uint32_t codes[]) {
     const float v = (float)in[0];
-    const uint32_t code = v < 1 ? pack_rg32_encode(v, row->truncates ? 0 : 0.5) : 0;
+    const uint32_t code = v < 1 ? rg32_code(v, row->truncates ? 0 : 0.5) : 0;
     codes[0] = code >> 8;
     codes[1] = code & BYTE;
 }
 
 static void rg32_decode(const pack_row *row, const uint32_t codes[], double *out) {
     (void)row;
-    out[0] = (double)pack_rg32_decode(codes[0] << 8 | codes[1]);
+    out[0] = (double)rg32_depth(codes[0] << 8 | codes[1]);
 }
 
 /* ---- Normals ----------------------------------------------------------------------------------------------------- */
 
-static const double STEREO = PACK_STEREO_SCALE;
+static const double STEREO = 1.7777; /* kScale of EncodeViewNormalStereo */
 
 static void stereo_encode(const pack_row *row, const double *in, uint32_t codes[]) {
     const double most = (double)((1U << row->bits) - 1);
@@ -140,7 +161,7 @@ static void both_decode(const pack_row *row, const uint32_t codes[], double *out
 
 /* clang-format off */
 static const pack_row rows[] = {
-    [PACK_RG_DEPTH] = {.name = "rg-depth", .kind = PACK_DEPTH, .channels = 2, .bits = 8,
+    {.name = "rg-depth", .kind = PACK_DEPTH, .channels = 2, .bits = 8,
      .note = "linear depth in two channels: frac(v (1, 255)), x -= y/255; back by x + y/255. Steps of 1/65025; v = 1 "
              "decodes to 0. Exact arithmetic, channels to the nearest",
      .depth = {3.845e-6, 7.690e-6}, .source = UNITY "EncodeFloatRG, DecodeFloatRG",

@@ -3,8 +3,8 @@
  * @file pack.h  Depth and normals in the channels of a texture: encodings, a row each, with their errors.
  *
  * Errors of a depth are shares of the range [0, 1): times far, they are scene units of a linear depth z/far. Errors of
- * a normal are angles in degrees, over unit vectors spread evenly on the row's domain. Claims are data: pack_measure()
- * measures what they speak of, and a test fails when it exceeds them or stays below them.
+ * a normal are angles in degrees, over unit vectors spread evenly on the row's domain. Claims are data: a test measures
+ * what they speak of, and fails when it exceeds them or stays below them.
  */
 #ifndef TEXTURE_PACK_H
 #define TEXTURE_PACK_H
@@ -49,25 +49,5 @@ typedef struct pack_row {
 
 /** The rows in order; null beyond the last. */
 const pack_row *pack_get(size_t index);
-
-/** The error over the whole domain. */
-typedef struct pack_error {
-    pack_bound depth, normal; /**< as the claims */
-    double depth_bias;        /**< mean of decoded - given */
-    double depth_at;          /**< an input that reaches depth.max, to 1e-6 of it */
-    double normal_at[3];      /**< an input that reaches normal.max, to 1e-6 of it */
-    double normal_spread;     /**< standard error of normal.mean, degrees */
-    uint64_t codes;           /**< combinations of channel codes that inputs are stored as, those of the depth apart */
-    uint64_t depth_codes;
-} pack_error;
-
-/**
- * Measures a row; at most about half a second.
- *
- * Maxima of normals are those of the continuous domain: each code is visited, and the angle is largest at a corner of
- * the region that is stored as it (depthprec(7)). Means of normals are over 2^20 evenly spread vectors. Depths in exact
- * arithmetic: every code with its own interval. In binary32: every binary32 number in [2^-9, 1), every 61st below.
- */
-pack_error pack_measure(const pack_row *row);
 
 #endif

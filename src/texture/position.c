@@ -151,7 +151,7 @@ void position_prepare(position_state *s, const texture_camera *camera) {
     const double plane = camera->ortho ? 1 : n; /* how much larger the half extents are on the near plane */
     *s = (position_state){.camera = camera,
                           .usual = decode_usual(setup)->constants(setup),
-                          .best = decode_best()->constants(setup),
+                          .best = decode_rows[DECODE_COMPLEMENT].constants(setup),
                           .ndc_scale = 1,
                           .inverse_width = (float)(1.0 / camera->width),
                           .inverse_height = (float)(1.0 / camera->height),
@@ -197,9 +197,9 @@ void position_exact(const texture_camera *camera, uint32_t row, uint32_t column,
 
 double position_off(const texture_camera *camera, const double relative[3], const float world[3]) {
     double off[3];
-    for (int k = 0; k < 3; k++) { /* world - origin as a sum of two doubles */
-        const double w = (double)world[k], o = camera->origin[k], s = w - o, back = s - w;
-        off[k] = (s - relative[k]) + ((w - (s - back)) - (o + back));
+    for (int k = 0; k < 3; k++) {
+        const dp_pair from_camera = dp_two_sum((double)world[k], -camera->origin[k]);
+        off[k] = (from_camera.hi - relative[k]) + from_camera.lo;
     }
     const double length = sqrt(dot(off, off));
     return isnan(length) ? (double)INFINITY : length;

@@ -8,10 +8,6 @@
 #ifndef TEXTURE_POSITION_H
 #define TEXTURE_POSITION_H
 
-#include <stdbool.h>
-#include <stddef.h>
-#include <stdint.h>
-
 #include "texture/camera.h"
 #include "texture/decode.h"
 
@@ -31,6 +27,9 @@ typedef struct position_state {
     float znear, inverse_near, inverse_far;
 } position_state;
 
+/** A bound of a row at a pixel, in units of 2^-24. */
+typedef double position_bound_of(const texture_camera *camera, uint32_t row, uint32_t column, double d);
+
 typedef struct position_row {
     const char *name; /**< "matrix", "rays", "extents", "extents-half", "view" */
     const char *note;
@@ -41,9 +40,10 @@ typedef struct position_row {
      *  each other or d. NaN depths give NaN. */
     void (*run)(const position_state *s, uint32_t row, uint32_t column, const float *d, size_t count, float *x,
                 float *y, float *z);
-    /** See position_bound(); in units of 2^-24. */
-    double (*bound)(const texture_camera *camera, uint32_t row, uint32_t column, double d);
+    position_bound_of *bound; /**< see position_bound() */
 } position_row;
+
+position_bound_of matrix_bound, rays_bound, extents_bound, half_bound, view_bound;
 
 enum { POSITION_MATRIX = 0, POSITION_RAYS, POSITION_EXTENTS, POSITION_EXTENTS_HALF, POSITION_VIEW, POSITION_ROWS };
 extern const position_row position_rows[POSITION_ROWS];

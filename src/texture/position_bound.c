@@ -3,13 +3,11 @@
  * Each rounding counts one unit of 2^-24 in the term that it rounds, in each of the world's three coordinates by
  * itself. A sum with 0 and a difference of numbers within a factor of two are exact.
  */
-#include "texture/position_bound.h"
+#include "texture/position.h"
 
 #include <math.h>
 
 #include "core/bits.h"
-#include "texture/decode.h"
-#include "texture/position.h"
 
 static double length(const double x[3]) {
     return sqrt(x[0] * x[0] + x[1] * x[1] + x[2] * x[2]);
@@ -70,7 +68,7 @@ double view_bound(const texture_camera *camera, uint32_t row, uint32_t column, d
     double ray[3], off[3];
     for (int k = 0; k < 3; k++) /* step and product; base */
         ray[k] = 2 * fabs(p.across[k]) + fabs(p.up[k] + p.ahead[k]);
-    from_camera(camera, &p, d, decode_best(), 2, ray, off);
+    from_camera(camera, &p, d, &decode_rows[DECODE_COMPLEMENT], 2, ray, off);
     return to_world(camera, &p, off);
 }
 

@@ -1,11 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The rows: binary32 loops over the pixels of a line. */
-#include <math.h>
-
 #include "core/bits.h"
 #include "texture/clones.h"
 #include "texture/position.h"
-#include "texture/position_bound.h"
 
 /* What stays the same along a line of pixels, and where the planes go. */
 typedef struct line {

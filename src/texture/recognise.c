@@ -7,8 +7,6 @@
 
 #include <math.h>
 #include <stdarg.h>
-#include <stdio.h>
-#include <string.h>
 
 #include "core/append.h"
 #include "core/bits.h"
@@ -47,21 +45,10 @@ typedef struct extent {
     size_t outside; /* of [0, 1] */
 } extent;
 
-double recognise_half(uint16_t bits) {
-    const int exponent = bits >> 10 & 31, fraction = bits & 1023;
-    const double size = exponent == 31  ? (double)NAN
-                        : exponent == 0 ? ldexp(fraction, -24)
-                                        : ldexp(1024 + fraction, exponent - 25);
-    return bits >> 15 ? -size : size;
-}
-
 static extent extent_of(const image *img) {
-    const size_t count = (size_t)img->width * img->height, step = img->channels;
     extent e = {(double)INFINITY, -(double)INFINITY, 0};
-    for (size_t i = 0; i < count; i++) {
-        const double x = img->type == IMAGE_F64   ? ((const double *)img->data)[i * step]
-                         : img->type == IMAGE_F32 ? (double)((const float *)img->data)[i * step]
-                                                  : recognise_half(((const uint16_t *)img->data)[i * step]);
+    for (size_t i = 0; i < (size_t)img->width * img->height; i++) {
+        const double x = image_sample(img, i);
         if (!isfinite(x))
             continue;
         e.lo = fmin(x, e.lo);
@@ -80,14 +67,12 @@ typedef struct bits_seen {
 } bits_seen;
 
 static bits_seen look_at_bits(const image *img) {
-    const uint32_t *wide = img->data;
-    const uint16_t *narrow = img->data;
-    const size_t step = img->channels, count = (size_t)img->width * img->height * step;
+    const uint32_t first = (uint32_t)image_sample(img, 0);
     bits_seen s = {.widened = true};
-    for (size_t i = 0; i < count; i += step) {
-        const uint32_t x = img->type == IMAGE_U32 ? wide[i] : narrow[i];
+    for (size_t i = 0; i < (size_t)img->width * img->height; i++) {
+        const uint32_t x = (uint32_t)image_sample(img, i);
         s.most = x > s.most ? x : s.most;
-        s.differ |= x ^ (img->type == IMAGE_U32 ? wide[0] : narrow[0]);
+        s.differ |= x ^ first;
         s.widened = s.widened && x == WIDENED * (x & 0xFF);
     }
     return s;
@@ -242,19 +227,10 @@ static void count_row(const double *d, size_t count, const finding *f, tally *s,
             count_new(s, f, d[i]);
 }
 
-static bool coprime(uint32_t a, uint32_t b) {
-    while (b != 0) {
-        const uint32_t rest = a % b;
-        a = b;
-        b = rest;
-    }
-    return a == 1;
-}
-
 /* Rows are visited in strides, so that different numbers of all heights are counted before their count is full. */
 static uint32_t stride_of(uint32_t height) {
     uint32_t stride = (uint32_t)(0.618 * height);
-    while (!coprime(stride, height))
+    while (common_divisor(stride, height) != 1)
         stride++;
     return stride;
 }

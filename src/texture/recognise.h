@@ -54,7 +54,4 @@ typedef struct recognised {
 /** Looks at channel 0 of every pixel. Never fails: an image that cannot be window depth has depth == false. */
 void recognise(const image *image, recognised *out);
 
-/** The number that the bits of a binary16 stand for; NaN for infinities, too. */
-double recognise_half(uint16_t bits);
-
 #endif

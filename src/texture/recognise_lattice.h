@@ -31,6 +31,9 @@ void lattice_double(const double *d, size_t count, size_t off[LATTICE_COUNT]);
 /** The share of numbers near d that lie on a lattice by chance, see recognise.h. 0 <= d <= 1 */
 double lattice_chance(lattice which, bool single, double d);
 
+/** The greatest common divisor; of 0 and b it is b. */
+uint32_t common_divisor(uint32_t a, uint32_t b);
+
 /** Different numbers. */
 typedef struct distinct_set {
     uint64_t *slots; /**< null when there was no memory: nothing is counted */

@@ -2,7 +2,6 @@
 #include "texture/scene.h"
 
 #include <math.h>
-#include <string.h>
 
 #define LENGTH "scene units", 1e-9, 1e15
 

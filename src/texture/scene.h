@@ -8,10 +8,6 @@
 #ifndef TEXTURE_SCENE_H
 #define TEXTURE_SCENE_H
 
-#include <stdbool.h>
-#include <stddef.h>
-#include <stdint.h>
-
 #include "texture/camera.h"
 #include "texture/parameter.h"
 

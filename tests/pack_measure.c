@@ -1,4 +1,185 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
+/* The error of packings: of depths in doubles by the intervals of all codes, in binary32 by its numbers; of normals at
+ * the corners of all codes. */
+#include "pack_measure.h"
+
+#include <math.h>
+#include <string.h>
+
+#include "core/bits.h"
+
+typedef struct sums {
+    double sum, bias, weight, max, at;
+    uint64_t codes;
+} sums;
+
+static void sums_end(const sums *t, pack_error *out) {
+    out->depth = (pack_bound){t->sum / t->weight, t->max};
+    out->depth_bias = t->bias / t->weight;
+    out->depth_at = t->at;
+    out->depth_codes = t->codes;
+}
+
+/* ---- Depths in exact arithmetic
+ * -------------------------------------------------------------------------------------------- */
+
+static uint32_t code_of(const pack_row *row, double v, double *decoded) {
+    uint32_t codes[PACK_CHANNELS_MAX];
+    row->encode(row, &v, codes);
+    row->decode(row, codes, decoded);
+    return codes[0] << row->bits | codes[1];
+}
+
+/* The greatest number that is stored as `from` is: intervals are shorter than `span`, and codes never come back. */
+static double last_alike(const pack_row *row, double from, uint32_t code, double span) {
+    double in = from, out = fmin(from + span, 1), decoded;
+    for (double mid = (in + out) / 2; mid > in && mid < out; mid = (in + out) / 2)
+        *(code_of(row, mid, &decoded) == code ? &in : &out) = mid;
+    return in;
+}
+
+/* Inside an interval the error is linear, so its ends and the integral of |x| and x say all. */
+static void add_interval(sums *t, double from, double to, double decoded) {
+    const double a = decoded - from, b = decoded - to;
+    const double width = to - from;
+    t->weight += width;
+    t->bias += width * (a + b) / 2;
+    t->sum += a > 0 && b < 0 ? (a * a + b * b) / 2 : width * fabs(a + b) / 2;
+    if (fmax(fabs(a), fabs(b)) > t->max) {
+        t->max = fmax(fabs(a), fabs(b));
+        t->at = fabs(a) > fabs(b) ? from : to;
+    }
+    t->codes++;
+}
+
+static void measure_exact(const pack_row *row, pack_error *out) {
+    const double span = 1.5 / (double)(((1U << row->bits) - 1) * ((1U << row->bits) - 1));
+    sums t = {0};
+    for (double from = 0; from < 1;) {
+        double decoded;
+        const uint32_t code = code_of(row, from, &decoded);
+        const double to = last_alike(row, from, code, span);
+        const double next = nextafter(to, 1);
+        add_interval(&t, from, next, decoded);
+        if (next >= 1)
+            break;
+        from = next;
+    }
+    sums_end(&t, out);
+}
+
+/* ---- Depths in binary32
+ * ---------------------------------------------------------------------------------------------------- */
+
+enum { BYTE = 255 };
+
+/* frac() of a number that is not negative and below 2^31. */
+static float fraction(float x) {
+    return x - (float)(int32_t)x;
+}
+
+/* UNORM conversion of a render target: the product is exact, ties go up; what is below 0 is stored as 0. x <= 1. */
+static uint32_t store(float x, double half) {
+    return (uint32_t)(int32_t)((double)x * BYTE + half);
+}
+
+/* EncodeFloatRG of v in [0, 1) in binary32, the coarse code times 256 and the fine one; half is
+ * 0.5 to store the nearest code, 0 to truncate. */
+static uint32_t shader_code(float v, double half) {
+    const float y = fraction((float)BYTE * v);
+    const float x = v - y * (1.0F / BYTE);
+    return store(x, half) << 8 | store(y, half);
+}
+
+/* DecodeFloatRG in binary32. */
+static float shader_depth(uint32_t code) {
+    const float x = (float)(int32_t)(code >> 8) / BYTE, y = (float)(int32_t)(code & BYTE) / BYTE;
+    return x + y * (1.0F / BYTE);
+}
+
+/*
+ * A number stands for the reals from it to the next, so each binade has its weight. From 2^-9 up all are visited;
+ * below, where the coarse channel is 0, every 61st, down to 2^-24, under which all decode to 0 or nearly.
+ */
+enum { EXPONENT_ALL = -9, EXPONENT_LAST = -24, STRIDE = 61 };
+
+/* The errors of a block, in loops that a compiler can make vectors of: the reduction has LANES sums of its own. */
+enum { BLOCK = 512, LANES = 8 };
+
+typedef struct lanes {
+    double sum[LANES], bias[LANES];
+    float max[LANES];
+} lanes;
+
+static void add_block(const pack_row *row, uint32_t first, uint32_t stride, uint8_t used[], lanes *l) {
+    const double half = row->truncates ? 0 : 0.5;
+    uint32_t code[BLOCK];
+    float error[BLOCK];
+    for (uint32_t i = 0; i < BLOCK; i++) {
+        const float v = dp_float32(first + i * stride);
+        code[i] = shader_code(v, half);
+        error[i] = shader_depth(code[i]) - v;
+    }
+    for (uint32_t i = 0; i < BLOCK; i += LANES)
+        for (uint32_t k = 0; k < LANES; k++) {
+            const float e = error[i + k], size = fabsf(e);
+            l->sum[k] += (double)size;
+            l->bias[k] += (double)e;
+            l->max[k] = size > l->max[k] ? size : l->max[k];
+        }
+    for (uint32_t i = 0; i < BLOCK; i++)
+        used[code[i]] = 1;
+}
+
+/* A number that reaches the largest error of its binade, which is known to be there. */
+static double find(const pack_row *row, uint32_t first, uint32_t stride, float max) {
+    const double half = row->truncates ? 0 : 0.5;
+    for (;; first += stride) {
+        const float v = dp_float32(first);
+        if (fabsf(shader_depth(shader_code(v, half)) - v) == max)
+            return (double)v;
+    }
+}
+
+static void add_binade(const pack_row *row, int exponent, uint8_t used[], sums *t) {
+    const uint32_t stride = exponent < EXPONENT_ALL ? STRIDE : 1;
+    const uint32_t first = (uint32_t)(exponent + 127) << 23;
+    const uint32_t blocks = (1U << 23) / (BLOCK * stride);
+    lanes l = {.max = {0}};
+    for (uint32_t b = 0; b < blocks; b++)
+        add_block(row, first + b * BLOCK * stride, stride, used, &l);
+    const double weight = ldexp(1, exponent), share = weight / ((double)blocks * BLOCK);
+    float max = 0;
+    for (int k = 0; k < LANES; k++) {
+        t->sum += l.sum[k] * share;
+        t->bias += l.bias[k] * share;
+        max = l.max[k] > max ? l.max[k] : max;
+    }
+    t->weight += weight;
+    if ((double)max > t->max) {
+        t->max = (double)max;
+        t->at = find(row, first, stride, max);
+    }
+}
+
+static void measure_binary32(const pack_row *row, pack_error *out) {
+    uint8_t used[1 << 16];
+    sums t = {0};
+    memset(used, 0, sizeof used);
+    for (int exponent = -1; exponent >= EXPONENT_LAST; exponent--)
+        add_binade(row, exponent, used, &t);
+    for (uint32_t i = 0; i < 1U << 16; i++)
+        t.codes += used[i];
+    sums_end(&t, out);
+}
+
+static void measure_depth(const pack_row *row, pack_error *out) {
+    if (row->binary32)
+        measure_binary32(row, out);
+    else
+        measure_exact(row, out);
+}
+
 /*
  * The error of normal packings.
  *
@@ -10,9 +191,6 @@
  *
  * Signs and the order of the axes change nothing, so one part of the sphere is enough.
  */
-#include <math.h>
-
-#include "texture/pack_parts.h"
 
 /* ---- The largest angle ------------------------------------------------------------------------------------------- */
 
@@ -138,7 +316,7 @@ static void stereo_offer(search *s, double x, double y) {
 
 /* Corners of a cell in the disc of the hemisphere, and where its sides meet the rim. Codes have no middle one. */
 static void stereo_search(search *s) {
-    const double scale = 2 * PACK_STEREO_SCALE / s->most;
+    const double scale = 2 * 1.7777 / s->most;
     for (double a = 0.5; a < s->most / 2; a++)
         for (double b = 0.5; b <= a; b++) {
             const double x[2] = {scale * (a - 0.5), scale * (a + 0.5)};
@@ -230,7 +408,7 @@ static void measure_normal(const pack_row *row, pack_error *out) {
 pack_error pack_measure(const pack_row *row) {
     pack_error out = {.codes = 0};
     if (row->kind != PACK_NORMAL)
-        pack_measure_depth(row->kind == PACK_DEPTH ? row : pack_get(PACK_RG_DEPTH), &out);
+        measure_depth(row->kind == PACK_DEPTH ? row : pack_get(0), &out);
     if (row->kind != PACK_DEPTH)
         measure_normal(row, &out);
     return out;

@@ -1,0 +1,14 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/** @file compare.h  Several set-ups on one screen: what each guarantees at a few depths, and how far. */
+#ifndef CLI_COMPARE_H
+#define CLI_COMPARE_H
+
+#include "cli/walk.h"
+
+/** Whether that is what was asked for: text, more than one set-up, and nothing that only the tables show. */
+bool compare_suits(const walk *w);
+
+/** Writes the screen in place of the tables of a walk that was started; frees what walk_start() made. */
+int compare_write(walk *w);
+
+#endif

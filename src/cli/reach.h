@@ -1,0 +1,28 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/** @file reach.h  How far a set-up goes: the depths up to which three common separations are guaranteed. */
+#ifndef CLI_REACH_H
+#define CLI_REACH_H
+
+#include "cli/options.h"
+
+enum { REACH_LIMITS = 3, REACH_MIDDLE = 1, REACH_DIGITS = 3, REACH_TEXT_SIZE = 256 };
+
+/** The separations, scene units. */
+extern const double reach_limits[REACH_LIMITS];
+
+/** The same set-up in another model. */
+dp_setup reach_in(const dp_setup *setup, dp_model model);
+
+/**
+ * In the fullest model that it has, whose separation can be relied on: every operation in binary32; staged for mappings
+ * that have no such pipeline.
+ */
+dp_setup reach_model(const dp_setup *setup);
+
+/** Of a set-up in that model: the depth up to which that separation is guaranteed; NaN: not even at near. */
+double reach_of(const dp_setup *full, double limit);
+
+/** "82800", "the far plane" where nothing is beyond it, rounded to the safe side. @return out */
+const char *reach_text(const dp_setup *setup, double up_to, char out[REACH_TEXT_SIZE]);
+
+#endif

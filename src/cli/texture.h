@@ -1,0 +1,111 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/** @file texture.h  The command texture: what it works on, and what its files make of that. */
+#ifndef CLI_TEXTURE_H
+#define CLI_TEXTURE_H
+
+#include "cli/options.h"
+#include "texture/frame.h"
+#include "texture/metric.h"
+#include "texture/recognise.h"
+
+/* ---- The image or scene, its format and mapping, the camera ------------------------------------------------------ */
+
+/** How a name came about. */
+typedef enum texture_origin { ORIGIN_GIVEN = 0, ORIGIN_FOUND, ORIGIN_ASSUMED } texture_origin;
+
+/** How the pixel that is named would be read otherwise. */
+typedef struct texture_reading {
+    const char *what; /**< "mapping" or "format" */
+    const char *name;
+    double z; /**< eye depth; NaN where it has none */
+} texture_reading;
+
+enum { READINGS_MAX = 8, READINGS_SIZE = 512 };
+
+typedef struct texture_source {
+    const char *path; /**< null for a scene */
+    image picture;
+    recognised found;
+    texture_origin format_from, mapping_from, direction_from;
+    image_type type; /**< of the file, where --metric has changed the picture's */
+    uint32_t channels;
+    metric metric;        /**< with --metric */
+    grain grain;          /**< of an image */
+    size_t reading_count; /**< 0 where nothing is assumed that would be read otherwise */
+    texture_reading readings[READINGS_MAX];
+    uint32_t column, row; /**< the pixel of the readings */
+    dp_setup planes;      /**< with --metric: what --near and --far say */
+    double parameters[TEXTURE_PARAMETERS];
+    dp_setup setup;
+    texture_camera camera;
+    frame frame; /**< points into this struct, which must stay where it is */
+} texture_source;
+
+/** "given", "found", "assumed". */
+const char *texture_origin_name(texture_origin origin);
+
+/** Reads the image, to be freed by image_free(), or prepares the scene. @return an exit status, after one line on
+ * stderr
+ */
+int texture_source_open(const options *o, texture_source *out);
+
+/**
+ * Of an image, what it does not say: fills in grain, how the samples were rounded, which is said in `why` of what was
+ * found, and the readings of a pixel. One line on stderr about what is assumed, if anything is.
+ */
+void texture_read_on(const options *o, texture_source *s);
+
+/** Whether the samples are coarser than the format, and not by its own steps. */
+bool texture_coarser(const texture_source *s);
+
+/** "320,180 is at z = 4.2 as d3d, 0.4 as reversed", of "mapping" or "format"; "" where it has none. @return out */
+const char *texture_readings_of(const texture_source *s, const char *what, char out[READINGS_SIZE]);
+
+/** Sets one --parameter of a scene or an effect, called `whose`. @return EXIT_FINE, or EXIT_USAGE after one line */
+int texture_parameter_set(const char *whose, const texture_parameter *list, const named_number *given, double *out);
+
+/** Does the scene of --scene have a parameter of this name? Then parameters not taken are the effect's. */
+bool texture_scene_takes(const options *o, const char *name);
+
+/* ---- What --eye, --position, --normal and --effect make: an image of numbers, or a figure ------------------------ */
+
+enum { PRODUCT_NAME_SIZE = 96 };
+
+typedef struct texture_product {
+    frame_product made;
+    double settings[TEXTURE_PARAMETERS];
+    char name[PRODUCT_NAME_SIZE]; /**< "normals by high, error" */
+    const char *unit;             /**< "scene units", "degrees", "levels of 1/255", "" */
+} texture_product;
+
+/** Is one asked for? */
+bool texture_product_wanted(const options *o);
+
+/** Names and combinations, before anything is read. @return an exit status, after one line on stderr */
+int texture_product_resolve(const options *o, texture_product *out);
+
+/** Whether it can be made of this source, likewise. */
+int texture_product_check(const texture_source *s, texture_product *p);
+
+/** Writes the file of -o. */
+int texture_product_write(const options *o, const texture_source *s, const texture_product *p);
+
+/** The depth image of a scene, to the file of -o: integers or floats as the format has them. */
+int texture_depth_write(const options *o, const texture_source *s);
+
+/** Draws the file of --figure. */
+int texture_figure_draw(const options *o, const texture_source *s, const texture_product *p);
+
+/* ---- Reports ----------------------------------------------------------------------------------------------------- */
+
+/** The statistics of a depth image: text, JSON, CSV. @return an exit status */
+int texture_report_write(const options *o, const texture_source *source);
+
+/** The effect that --effect names. @return EXIT_FINE, or EXIT_USAGE after one line on stderr */
+int texture_effect_resolve(const options *o, const effect_row **row, double parameters[TEXTURE_PARAMETERS]);
+
+/** --effect without an image: for each set-up and depth, the error in levels and the usable values of the wanted
+ *  parameter. @return an exit status */
+int texture_effect_table(const options *o);
+
+#endif
