@@ -171,8 +171,8 @@ static void each_cause(void **state) {
                                  .world = world,
                                  .a = (double)(float)s.a,
                                  .b = (double)(float)s.b,
-                                 .znear = n,
-                                 .zfar = 1000.0};
+                                 .zfar = 1000.0,
+                                 .reach = 1000.0};
         const dp_composed m = dp_composition_at(&in, z, z);
         const double eye_claim[TOTALS] = {m.own, m.shared, m.own_tilt, m.shared_tilt};
         for (uint64_t i = test_cases(30000, 300000, 10000000); i > 0; i--) {
