@@ -29,7 +29,8 @@ static const struct {
     const char *planes, *option;
 } planes[] = {{"-n 0 -f 10", "near"},  {"-n x -f 10", "near"},       {"-n 1e13 -f 1e14", "near"},
               {"-n=-1 -f 10", "near"}, {"-n 5 -f 2", "far"},         {"-n 1 -f x", "far"},
-              {"-n 1 -f 1e19", "far"}, {"-n 1 -f 1.0000001", "far"}, {"-n 1e-13 -f 10", "near"}};
+              {"-n 1 -f 1e19", "far"}, {"-n 1 -f 1.0000001", "far"}, {"-n 1e-13 -f 10", "near"},
+              {"-n -5 -f 10", "near"}};
 
 static const refusal refusals[] = {
     {"table --at 0.01", "at", 2},
@@ -46,6 +47,11 @@ static const refusal refusals[] = {
     {"table --at 1:2:sqrt:5", "at", 2},
     {"table --log-c 0 -m log", "log-c", 2},
     {"table --ortho -m log", "ortho", 2},
+    {"table --ortho -n -1e-13 -f 10", "near", 2},
+    {"table --ortho -n -1e13 -f 10", "near", 2},
+    {"table --ortho -n -5 -f -5", "far", 2},
+    {"table --ortho -n -5 -f 1e-13", "far", 2},
+    {"table --ortho -n -5 -f 5 --at -1:5:log:3", "at", 2},
     {"table -f inf -m linear", "far", 2},
     {"table --model fp32 -m linear", "model", 2},
     {"table --model exakt", "model", 2},
@@ -58,7 +64,7 @@ static const refusal refusals[] = {
     {"table --json --csv", "csv", 2},
     {"table --csv --json", "json", 2},
     {"table -o ''", "output", 2},
-    {"table -o /nonexistent/x", "output", 3},
+    {"table -o /nonexistent/x", "", 3},
     {"table --preset nothing", "preset", 2},
     {"budget -m linear", "mapping", 2},
     {"budget --at 5000", "at", 2},

@@ -133,6 +133,14 @@ int parse_row(options *o, const option_row *row, const char *value) {
 
 /* ---- Languages of their own -------------------------------------------------------------------------------------- */
 
+/* What is not positive needs --ortho, which may come later: check_near() of options.c. */
+int parse_near(options *o, const option_row *row, const char *value) {
+    if (!number_parse(value, NUMBER_FINITE, &o->znear) || o->znear > 0.0)
+        return parse_number(o, row, value);
+    o->znear += 0.0; /* -0 is 0 */
+    return EXIT_FINE;
+}
+
 int parse_far(options *o, const option_row *row, const char *value) {
     if (!number_parse(value, NUMBER_FAR, &o->zfar))
         return refuse(row, "must be a number greater than near and at most 1e18, or inf, got '%s'", value);

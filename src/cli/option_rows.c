@@ -61,7 +61,8 @@ enum {
 /* clang-format off */
 const option_row option_rows[OPTION_COUNT] = {
     [OPTION_NEAR] = {"near", 'n', "Z", PLACED | TAKEN,
-        "near plane", NUMBER(znear, 1e-12, 1e12, "scene units"), .standard = "0.1", .group = "The camera"},
+        "near plane; with --ortho 0 or negative too", .parse = parse_near, FIELD(double, znear),
+        LIMITS(1e-12, 1e12, "scene units"), .standard = "0.1", .group = "The camera"},
     [OPTION_FAR] = {"far", 'f', "Z|inf", PLACED | TAKEN,
         "far plane, up to 1e18 scene units and beyond near by 1e-6 of it at least, or inf",
         parse_far, .standard = "1000", .except = {VERB_SOLVE, "inf"}},

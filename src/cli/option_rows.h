@@ -66,7 +66,8 @@ option_parser parse_pixels; /**< the same, pairs of them with a semicolon in bet
 
 /* ---- Languages of their own -------------------------------------------------------------------------------------- */
 
-option_parser parse_far, parse_formats, parse_mappings, parse_tolerance, parse_at, parse_range, parse_origin;
+option_parser parse_near, parse_far, parse_formats, parse_mappings, parse_tolerance, parse_at, parse_range,
+    parse_origin;
 option_parser parse_size, parse_parameter, parse_form;
 
 #endif

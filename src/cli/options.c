@@ -8,6 +8,7 @@
 
 #include "cli/option_rows.h"
 #include "core/append.h"
+#include "report/number.h"
 
 const char *option_name(option_id id) {
     return option_rows[id].name;
@@ -152,6 +153,25 @@ static void complete(options *o) {
         parse_mappings(o, &option_rows[OPTION_MAPPING], dp_mapping_get(p->mapping)->name);
 }
 
+/* The commands that have been taught what lies at depth 0 and behind it. */
+enum { ANY_SIGN = VERB_TABLE | VERB_BUDGET | VERB_SOLVE | VERB_ZFIGHT };
+
+static int check_near(const options *o) {
+    const option_row *row = &option_rows[OPTION_NEAR];
+    const number_text given = number_full(o->znear);
+    char limits[OPTION_TEXT_SIZE];
+    if (o->znear > 0.0)
+        return EXIT_FINE;
+    if (!o->ortho)
+        return option_error(OPTION_NEAR, "must be a number from %s, got '%s'", option_limits(row, limits), given.text);
+    if (o->znear != 0.0 && !(-o->znear >= row->least && -o->znear <= row->most))
+        return option_error(OPTION_NEAR, "must be 0, or a number from %s or its negative, got '%s'",
+                            option_limits(row, limits), given.text);
+    if ((o->verb->bit & ANY_SIGN) == 0)
+        return option_error(OPTION_NEAR, "must be greater than 0 for %s, got '%s'", o->verb->name, given.text);
+    return EXIT_FINE;
+}
+
 /* argv[0] of what is left is the program, or the command in its place. */
 static int read_options(options *o, int argc, char **argv, const verb *asked) {
     char letters[2 * OPTION_COUNT + 2];
@@ -182,7 +202,8 @@ static int read_options(options *o, int argc, char **argv, const verb *asked) {
     complete(o);
     o->operands = argv + optind;
     o->operand_count = argc - optind;
-    return check_operands(o);
+    const int status = check_near(o);
+    return status == EXIT_FINE ? check_operands(o) : status;
 }
 
 int options_parse(options *o, int argc, char **argv) {
