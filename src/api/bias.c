@@ -139,10 +139,10 @@ static double shift_of(const dp_setup *setup, double z, double t) {
 /* The window distance from z to z - gap; INFINITY when that lies before the near plane. */
 static double window_of_gap(const dp_setup *setup, double z, double gap) {
     const double c = setup->spec.log_c;
-    const double to = z - gap;
+    const double to = fmax(z - gap, setup->spec.znear);
     if (gap == 0.0)
         return 0.0;
-    if (!(to >= setup->spec.znear))
+    if (z < setup->spec.znear + gap) /* near + gap itself, as rounded, leads to the near plane */
         return (double)INFINITY;
     return setup->curve == DP_CURVE_PERSPECTIVE ? gap / (setup->kappa * z * to)
            : setup->curve == DP_CURVE_LINEAR    ? gap / setup->kappa

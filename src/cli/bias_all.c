@@ -77,6 +77,19 @@ static double range_from(const all *a) {
     return fmin(fmax(a->lo, a->walk.o->znear + a->walk.o->gap), a->hi);
 }
 
+/* The call, or where in the range there is one. */
+static void say_result(row *r) {
+    const number_text from = number_up(r->from, DIGITS_Z), to = number_down(r->to, DIGITS_Z);
+    if (!isnan(r->units) || isnan(r->from))
+        append(r->said, sizeof r->said, "%s", isnan(r->units) ? "no bias is enough" : r->call);
+    else if (r->from == r->lo)
+        append(r->said, sizeof r->said, "enough only up to z = %s", to.text);
+    else if (r->to == r->hi)
+        append(r->said, sizeof r->said, "enough only from z = %s on", from.text);
+    else
+        append(r->said, sizeof r->said, "enough only from z = %s to %s", from.text, to.text);
+}
+
 static void measure(const all *a, const bias_api *api, const dp_setup *setup, double z, row *r) {
     const options *o = a->walk.o;
     const bias_goal goal = goal_of(o, api, setup);
@@ -94,11 +107,7 @@ static void measure(const all *a, const bias_api *api, const dp_setup *setup, do
     }
     if (!isnan(r->units))
         memcpy(r->call, bias_call(api, r->units, o->factor).text, sizeof r->call);
-    if (!isnan(r->units) || isnan(r->from))
-        append(r->said, sizeof r->said, "%s", isnan(r->units) ? "no bias is enough" : r->call);
-    else
-        append(r->said, sizeof r->said, "enough only from z = %s to %s", number_up(r->from, DIGITS_Z).text,
-               number_down(r->to, DIGITS_Z).text);
+    say_result(r);
 }
 
 static size_t api_count(void) {
