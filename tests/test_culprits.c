@@ -80,6 +80,8 @@ static const refusal refusals[] = {
     {"zfight --threads 0", "threads", 2},
     {"bias --api d3d13", "api", 2},
     {"bias --units 1.5", "units", 2},
+    {"bias --api all --units 1", "api", 2},
+    {"bias --api all --at 1 --range 1:2", "range", 2},
     {"bias --units 1 --gap 1", "units", 2},
     {"bias --clamp 1", "clamp", 2},
     {"bias --api d3d9 --units 1 --clamp 1", "clamp", 2},

@@ -280,6 +280,7 @@ static void test_rows(void **state) {
     } rows[] = {
         {"table", OPTION_PRESET, AT(preset), "unreal", "unreal", offsetof(preset, name), "unrael", "unreal"},
         {"bias", OPTION_API, AT(api), "Vulkan", "vulkan", offsetof(bias_api, name), "wegbpu", "webgpu"},
+        {"bias", OPTION_API, AT(api), "all", NULL, 0, "metall", "metal"},
         {"bias", OPTION_API, AT(api), "d3d12", "d3d11", offsetof(bias_api, name), "d3d14", "d3d11"},
         {"texture", OPTION_SCENE, AT(scene), "steps", "steps", offsetof(scene_row, name), "decal", "decals"},
         {"texture", OPTION_POSITION, AT(position), "rays", "rays", offsetof(position_row, name), "matirx", "matrix"},

@@ -16,7 +16,7 @@ static const name_list roundings = {.get = list_rounding};
 static const name_list models = {.get = list_model};
 static const name_list ariths = {.get = list_arith};
 static const name_list compositions = {.get = list_composition};
-static const name_list apis = {.get = list_api};
+static const name_list apis = {.words = (const char *const[]){"all", NULL}, .get = list_api};
 static const name_list scenes = {.get = list_scene};
 static const name_list positions = {.words = (const char *const[]){"exact", NULL}, .get = list_position};
 static const name_list normals = {.get = list_normal};
@@ -127,7 +127,7 @@ const option_row option_rows[OPTION_COUNT] = {
     [OPTION_LINEARIZE] = {"linearize", 0, NULL, BUDGETED,
         "count reading the eye depth back in a binary32 shader", FLAG(terms.linearize)},
     [OPTION_API] = {"api", 0, "NAME", VERB_BIAS,
-        "whose rule: @", ROW(api, apis), .standard = "d3d11", .group = "The bias"},
+        "whose rule: @; all writes the bias that is needed as each has it", ROW(api, apis), .standard = "d3d11", .group = "The bias"},
     [OPTION_UNITS] = {"units", 0, "U", VERB_BIAS,
         "constant bias in units of r, a whole number for d3d11 and webgpu; in window depth for d3d9 and vulkan-float",
         NUMBER(units, -1e12, 1e12, NULL),

@@ -147,7 +147,7 @@ typedef struct options {
     dp_budget_terms terms; /**< --interpolation, --world, --composition, --linearize; zero when not given */
 
     const preset *preset; /**< --preset; null when not given. What the user did not give is already filled in */
-    const bias_api *api;  /**< --api */
+    const bias_api *api;  /**< --api; null for all */
     double units, factor; /**< of a bias */
     double clamp;         /**< of a bias, window depth; 0 is none */
     double slope;         /**< scene units per pixel, not negative */

@@ -59,6 +59,7 @@ const verb verb_rows[] = {
     {"bias", VERB_BIAS, "", 0, 0, NULL,
      "depth-bias units to scene units, per API; how much bias is enough",
      "  depthprec bias --api gl -F d24 -m gl --units -1 --at 1,10,100\n"
+     "  depthprec bias --api all --gap 0.02 --at 300\n"
      "  depthprec bias --api webgpu -F depth24plus -m d3d --gap 0.01 --range 1:100\n"
      "  depthprec bias --preset bevy --api vulkan --units 4 --factor 1 --slope 0.02\n", 0},
     {"list", VERB_LIST, "WHAT", 0, 1, &topics,
