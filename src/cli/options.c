@@ -154,7 +154,7 @@ static void complete(options *o) {
 }
 
 /* The commands that have been taught what lies at depth 0 and behind it. */
-enum { ANY_SIGN = VERB_TABLE | VERB_BUDGET | VERB_SOLVE | VERB_ZFIGHT };
+enum { ANY_SIGN = VERB_TABLE | VERB_BUDGET | VERB_SOLVE | VERB_ZFIGHT | VERB_TEXTURE };
 
 static int check_near(const options *o) {
     const option_row *row = &option_rows[OPTION_NEAR];
@@ -169,6 +169,8 @@ static int check_near(const options *o) {
                             option_limits(row, limits), given.text);
     if ((o->verb->bit & ANY_SIGN) == 0)
         return option_error(OPTION_NEAR, "must be greater than 0 for %s, got '%s'", o->verb->name, given.text);
+    if (o->effect != NULL && o->znear < 0.0)
+        return option_error(OPTION_EFFECT, "needs near not less than 0, got '%s'", given.text);
     return EXIT_FINE;
 }
 

@@ -52,15 +52,31 @@ static size_t edges_between(double lo, double hi, const int *factors, size_t fac
     return count;
 }
 
+/* Depths of either sign: decades on both sides of 0, down to where they are small against the largest. */
+static size_t edges_about_0(double lo, double hi, double *edge) {
+    enum { DECADES = 5 };
+    const double most = fmax(fabs(lo), fabs(hi));
+    const int top = (int)floor(log10(most));
+    size_t count = 0;
+    for (int i = -DECADES; i <= DECADES; i++) {
+        const int power = top - DECADES + abs(i);
+        const double size = power < 0 ? 1 / pow(10, -power) : pow(10, power);
+        const double at = i < 0 ? -size : size;
+        if (i != 0 && at > lo && at < hi)
+            edge[count++] = at;
+    }
+    return count;
+}
+
 static void make_bands(surveying *s, double hi) {
     static const int factors[] = {1, 2, 5};
     const double lo = s->setup->spec.znear;
     bands *b = &s->bands;
     size_t fine = 3;
-    while (fine > 1 && edges_between(lo, hi, factors, fine, NULL) > SURVEY_BANDS - 1)
+    while (lo > 0 && fine > 1 && edges_between(lo, hi, factors, fine, NULL) > SURVEY_BANDS - 1)
         fine = 1;
     b->edge[0] = lo;
-    b->count = 1 + edges_between(lo, hi, factors, fine, b->edge + 1);
+    b->count = 1 + (lo > 0 ? edges_between(lo, hi, factors, fine, b->edge + 1) : edges_about_0(lo, hi, b->edge + 1));
     if (b->count > SURVEY_BANDS)
         b->count = SURVEY_BANDS;
     b->edge[b->count] = hi;
