@@ -198,9 +198,9 @@ static void say_worst(page *p, const dp_worst *w) {
 
 static void say_drawn(page *p, const clipping *c) {
     if (isnan(c->znear) && c->loses)
-        page_note(p, "drawn", "nothing: clipping loses all depths");
+        page_note(p, "clip range", "empty: clipping loses all depths");
     else if (!isnan(c->znear))
-        page_note(p, "drawn", "from %s to %s%s", number_of(c->znear, DIGITS_USUAL).text,
+        page_note(p, "clip range", "effectively %s to %s%s", number_of(c->znear, DIGITS_USUAL).text,
                   number_of(c->zfar, DIGITS_USUAL).text, c->loses ? ": clipping loses the rest" : "");
 }
 

@@ -150,8 +150,8 @@ static void say_head(page *p, void *item) {
     if (v->band_count == 0)
         page_note(p, "depths", "none");
     else
-        page_note(p, "depths", "%s to %s, %llu different codes", number_of(v->lo, 8).text, number_of(v->hi, 8).text,
-                  (unsigned long long)v->codes);
+        page_note(p, "depths", "%s to %s, %llu distinct code%s", number_of(v->lo, 8).text, number_of(v->hi, 8).text,
+                  (unsigned long long)v->codes, v->codes == 1 ? "" : "s");
 }
 
 static void say_pairs(const survey_pairs *s, page *p) {
