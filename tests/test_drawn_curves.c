@@ -153,14 +153,15 @@ static size_t one_panel(const curves_case *q, const drawn_theme *look, double zn
                         const char *mappings) {
     cameras c = cameras_of(drawn_camera(znear, zfar), formats, mappings);
     char subtitle[128];
-    drawn *d = drawn_run(look, "plot %s %s -n %g -f %g -F %s -m %s --theme %s", q->figure, q->arguments, znear, zfar,
-                         formats, mappings, look->name);
-    snprintf(subtitle, sizeof subtitle, "near %g, far %g, perspective, nearest, exact", znear, zfar);
+    drawn *d = drawn_run(look, "plot %s %s%s -n %g -f %g -F %s -m %s --theme %s", q->figure, q->arguments,
+                         znear > 0 ? "" : " --ortho", znear, zfar, formats, mappings, look->name);
+    snprintf(subtitle, sizeof subtitle, "near %g, far %g, %s, nearest, exact", znear, zfar,
+             znear > 0 ? "perspective" : "orthographic");
     assert_int_equal(d->panel_count, 1);
     captions(d, q->title, subtitle, q->y);
     const size_t alike = legend_names(d, &c);
     described(d, &c);
-    spans(&d->panels[0], true, znear, zfar);
+    spans(&d->panels[0], znear > 0, znear, zfar);
     assert_int_equal(d->panels[0].y.log, q->log);
     staggered(d, &d->panels[0]);
     check_curves(d, &c, strchr(mappings, ',') != NULL ? 2 : 1, q);
@@ -178,6 +179,8 @@ static void curves_show_the_library(void **state) {
         assert_true(one_panel(&curve_cases[i], &drawn_light, 0.1, 1000, "unorm16,unorm24,fp32,fp16", "d3d,reversed") >
                     1);
         one_panel(&curve_cases[i], i % 2 == 0 ? &drawn_dark : &drawn_print, 0.5, 3000, "unorm16,unorm24,fp16", "log");
+        one_panel(&curve_cases[i], &drawn_light, -100, 500, "unorm16,fp16", "d3d");
+        one_panel(&curve_cases[i], &drawn_light, 0, 500, "fp16,unorm8", "reversed");
     }
 }
 
