@@ -15,6 +15,7 @@
 
 #include "api/bias.h"
 #include "api/presets.h"
+#include "api/unit.h"
 #include "cli/depths.h"
 #include "cli/errors.h"
 #include "cli/verbs.h"
@@ -35,6 +36,7 @@ typedef enum option_id {
     OPTION_LOG_C,
     OPTION_ORTHO,
     OPTION_PRESET,
+    OPTION_UNIT,
     OPTION_ROUNDING,
     OPTION_MODEL,
     OPTION_ARITH,
@@ -142,6 +144,7 @@ typedef struct options {
 
     dp_budget_terms terms; /**< --interpolation, --world, --composition, --linearize; zero when not given */
 
+    const unit_row *unit; /**< what a scene unit is; null where nothing says it: lengths are converted already */
     const preset *preset; /**< --preset; null when not given. What the user did not give is already filled in */
     const bias_api *api;  /**< --api */
     double units, factor; /**< of a bias */
@@ -176,8 +179,8 @@ typedef struct options {
 } options;
 
 /**
- * Reads a command line. argv[0] is the program; the command is argv[1] unless that is missing or an option, and then
- * `table` is meant. --help and --version anywhere make the command `help`.
+ * Reads a command line. argv[0] is the program; the command is the first word that belongs to no option, `table`
+ * where there is none. --help and --version anywhere make the command `help`. No order of the options matters.
  *
  * @return EXIT_FINE, or EXIT_USAGE after one line on stderr
  */
