@@ -162,7 +162,7 @@ static void find_frames(drawn *d) {
             continue;
         }
         assert_true(d->panel_count < DRAWN_PANELS);
-        d->panels[d->panel_count++] = (drawn_panel){.frame = m->box, .heading = ""};
+        d->panels[d->panel_count++] = (drawn_panel){.frame = m->box, .heading = {0}};
     }
     assert_true(d->panel_count > 0);
 }
@@ -180,10 +180,9 @@ static void check_order(const drawn *d) {
 static void read_heading(drawn *d, svg_mark *m) {
     for (size_t i = 0; i < d->panel_count; i++) {
         drawn_panel *p = &d->panels[i];
-        const double above = p->frame.y0 - m->at.y;
-        if (fabs(m->at.x - p->frame.x0) < 1 && above > 0 && above < 20 * d->scale) {
-            assert_int_equal(p->heading[0], '\0');
-            p->heading = m->text;
+        const double above = (p->frame.y0 - m->at.y) / d->scale;
+        if (fabs(m->at.x - p->frame.x0) < 1 && above > 0 && above < 3 * 17.6 && m->box.x1 <= p->frame.x1 + 1) {
+            join(p->heading, sizeof p->heading, m->text);
             m->used = DRAWN_PAGE;
         }
     }

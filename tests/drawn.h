@@ -40,7 +40,7 @@ typedef struct drawn_scale {
 
 typedef struct drawn_panel {
     svg_box frame;
-    const char *heading; /**< "" without */
+    char heading[SVG_TEXT]; /**< "" without; its lines joined */
     drawn_scale x, y, second;
 } drawn_panel;
 

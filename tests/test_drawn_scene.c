@@ -311,11 +311,27 @@ static void normals_of_the_program(void **state) {
     drawn_close(d);
 }
 
+/* As many set-ups as it shows where none are named, and each panel says all of what it shows. */
+static void normals_by_default(void **state) {
+    (void)state;
+    static const char *const surfaces[] = {"plane at 60\u00b0", "outline of a sphere"};
+    cameras c = cameras_of(drawn_camera(0.1, 1000), "fp32,unorm24", "d3d,reversed");
+    drawn *d = drawn_run(&drawn_light, "plot normals");
+    assert_int_equal(d->panel_count, 2 * c.count);
+    for (size_t i = 0; i < d->panel_count; i++) {
+        char heading[80];
+        snprintf(heading, sizeof heading, "%s: %s", c.names[i / 2], surfaces[i % 2]);
+        assert_string_equal(d->panels[i].heading, heading);
+    }
+    drawn_close(d);
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(scene_of_requirements),
         cmocka_unit_test(normals_of_the_test),
         cmocka_unit_test(normals_of_the_program),
+        cmocka_unit_test(normals_by_default),
     };
     return run_tap(tests);
 }

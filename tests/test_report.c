@@ -6,6 +6,7 @@
 
 #include <jansson.h>
 
+#include "report/number.h"
 #include "report/report.h"
 #include "support.h"
 
@@ -246,7 +247,8 @@ static void kinds_in_text(void **unused) {
         "-             -        -      -           -                     0  false  0\n"
         "            inf      inf   -inf         inf                     0  false  0\n"
         "  fruits  3\n"
-        "  a label too long still apart\n"
+        "  a label too long\n"
+        "          still apart\n"
         "  done\n";
     char want[2 * sizeof section];
     snprintf(want, sizeof want, "%s\n%s", section, section);
@@ -319,18 +321,15 @@ static void pointed(void **unused) {
 }
 
 /* Notes break between words: the last that fits ends in column 96. */
-static void wrapped(void **unused) {
-    (void)unused;
+/* What a page of that width makes of a label, of words, and of the columns of a table; 0: as wide as nothing says. */
+static void check_page(int width, void (*write)(page *p), const char *want) {
     static output out;
-    char text[256] = "", path[] = "/tmp/depthprec-report-XXXXXX";
-    static const char ten[] = "abcdefghi abcdefghi abcdefghi abcdefghi abcdefghi abcdefghi abcdefghi abcdefghi";
-    char words[128], want[256];
-    snprintf(words, sizeof words, "%s %s x", ten, "abcdefgh");
-    snprintf(want, sizeof want, "  label %s %s\n        x\n", ten, "abcdefgh");
+    char text[512] = "", path[] = "/tmp/depthprec-report-XXXXXX";
     fclose(fdopen(mkstemp(path), "w"));
     assert_int_equal(output_open(&out, path), EXIT_FINE);
+    out.width = width;
     page p = page_start(&out, 6);
-    page_wrapped(&p, "label", words);
+    write(&p);
     assert_int_equal(output_close(&out), EXIT_FINE);
     FILE *file = fopen(path, "r");
     assert_true(fread(text, 1, sizeof text - 1, file) > 0);
@@ -339,11 +338,94 @@ static void wrapped(void **unused) {
     assert_string_equal(text, want);
 }
 
+#define EIGHT "abcdefg abcdefg abcdefg abcdefg abcdefg abcdefg abcdefg abcdefg " /* 64 characters */
+
+static void write_label(page *p) {
+    page_wrapped(p, "label", EIGHT "abcdefgh x");
+}
+
+static void write_sentences(page *p) {
+    page_text(p, "%s", EIGHT "abcdefgh abcdef x");
+    page_line(p, "%s", EIGHT "abcdefgh abcd x");
+    page_wrapped(p, "nothing", "");
+}
+
+static void wrapped(void **unused) {
+    (void)unused;
+    check_page(0, write_label, "  label " EIGHT "abcdefgh\n        x\n");
+    check_page(81, write_label, "  label " EIGHT "abcdefgh\n        x\n");
+    check_page(82, write_label, "  label " EIGHT "abcdefgh x\n");
+    check_page(OUTPUT_UNLIMITED, write_label, "  label " EIGHT "abcdefgh x\n");
+    check_page(0, write_sentences, EIGHT "abcdefgh abcdef\n  x\n  " EIGHT "abcdefgh abcd\n  x\n");
+}
+
+static void *next_once(void *of, size_t i) {
+    return i == 0 ? of : NULL;
+}
+
+typedef struct four {
+    double one, two, three, four;
+} four;
+
+static void write_four(page *p) {
+    static const column inner[] = {{FIELD(four, three, "three", ""), SHOWN("three", 9, 3), .spare = 2},
+                                   {FIELD(four, four, "four", ""), SHOWN("four", 9, 3)},
+                                   {.kind = COLUMN_END}};
+    static const column rows[] = {{FIELD(four, one, "one", ""), SHOWN("one", 6, 3)},
+                                  {FIELD(four, two, "two", ""), SHOWN("two", 9, 3), .spare = 1},
+                                  {GROUP("inner", inner)},
+                                  {.kind = COLUMN_END}};
+    static const column columns[] = {{LIST("rows", rows, next_once)}, {.kind = COLUMN_END}};
+    report_write(&(report_spec){.command = "test", .columns = columns, .item = &(four){1, 2, 3, 4}}, p->out, FORM_TEXT);
+}
+
+/* Columns that are spared, the highest first, until the rest fits. */
+static void spared(void **unused) {
+    static const struct {
+        int width;
+        const char *want;
+    } cases[] = {{OUTPUT_UNLIMITED, "   one      two    three     four\n     1        2        3        4\n"},
+                 {33, "   one      two    three     four\n     1        2        3        4\n"},
+                 {32, "   one      two     four\n     1        2        4\n"},
+                 {24, "   one      two     four\n     1        2        4\n"},
+                 {23, "   one     four\n     1        4\n"},
+                 {5, "   one     four\n     1        4\n"}};
+    (void)unused;
+    for (size_t i = 0; i < sizeof cases / sizeof cases[0]; i++)
+        check_page(cases[i].width, write_four, cases[i].want);
+}
+
+static void brief(void **unused) {
+    (void)unused;
+    static const struct {
+        const char *number, *want;
+    } cases[] = {{"8.28e+04", "82800"},
+                 {"1.2e-07", "1.2e-7"},
+                 {"0.00062", "6.2e-4"},
+                 {"0.0062", "0.0062"},
+                 {"6.63e+05", "663000"},
+                 {"6.6e+06", "6.6e6"},
+                 {"1e+18", "1e18"},
+                 {"1000", "1000"},
+                 {"0.0001", "1e-4"},
+                 {"0.000123", "1.23e-4"},
+                 {"inf", "inf"},
+                 {"-", "-"},
+                 {"0", "0"},
+                 {"12.5", "12.5"}};
+    for (size_t i = 0; i < sizeof cases / sizeof cases[0]; i++) {
+        number_text number;
+        snprintf(number.text, sizeof number.text, "%s", cases[i].number);
+        assert_string_equal(number_brief(number).text, cases[i].want);
+    }
+}
+
 int main(void) {
     setenv("NO_COLOR", "1", 1);
     const struct CMUnitTest tests[] = {cmocka_unit_test(kinds_in_json),   cmocka_unit_test(any_text_in_json),
                                        cmocka_unit_test(nothing_in_json), cmocka_unit_test(conditions),
                                        cmocka_unit_test(kinds_in_csv),    cmocka_unit_test(kinds_in_text),
-                                       cmocka_unit_test(pointed),         cmocka_unit_test(wrapped)};
+                                       cmocka_unit_test(pointed),         cmocka_unit_test(wrapped),
+                                       cmocka_unit_test(spared),          cmocka_unit_test(brief)};
     return run_tap(tests);
 }

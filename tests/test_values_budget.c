@@ -131,7 +131,7 @@ static size_t budget_text_columns(const budget_case *c, char text[2 * DP_CAUSE_C
             continue;
         snprintf(text[2 * i], 64, "part.%s", dp_cause_name((dp_cause)i));
         snprintf(text[2 * i + 1], 64, "share.%s", dp_cause_name((dp_cause)i));
-        out[count++] = (text_column){text[2 * i], 4};
+        out[count++] = (text_column){text[2 * i], 2};
         out[count++] = (text_column){text[2 * i + 1], 0};
     }
     return count;
@@ -212,7 +212,7 @@ static const char *advice_in(const char *at, const dp_setup *setup, const budget
     return words_in(at, "\n");
 }
 
-/* "  arithmetic (mesa) adds 171 % to the separation at z = 316.228: see --model fp32": 3 digits and 6. */
+/* "  float arithmetic (mesa) makes this 2.71 times worse at z = 316.228: it takes model float": 3 digits and 6. */
 static void choice_in(const char *at, const dp_setup *setup, const budget_case *c) {
     dp_choice choice;
     char arith[64] = "";
@@ -222,24 +222,21 @@ static void choice_in(const char *at, const dp_setup *setup, const budget_case *
     const bool enough = choice.model == DP_MODEL_EXACT;
     if (setup->spec.arith != 0)
         snprintf(arith, sizeof arith, " (%s)", dp_arith_get(setup->spec.arith)->name);
-    at = words_in(words_in(at, enough ? "  model exact is enough: arithmetic" : "  arithmetic"), arith);
-    if (share == 0) {
-        words_in(at, " adds nothing to the separation\n");
-        return;
+    at = words_in(words_in(at, "  float arithmetic"), arith);
+    if (share == 0)
+        at = words_in(at, " adds nothing");
+    else if (isinf(share))
+        at = words_in(at, " leaves nothing certain");
+    else {
+        at = words_in(at, enough ? " makes this at most " : " makes this ");
+        at = number_in(at, share >= 1 ? share + 1 : 100 * share, 3, false);
+        at = words_in(at, share >= 1 ? " times worse" : " % worse");
     }
-    if (isinf(share))
-        at = words_in(at, " leaves no separation certain at z = ");
-    else if (share >= 10)
-        at =
-            words_in(number_in(words_in(at, " makes the separation "), share + 1, 3, false), " times as large at z = ");
-    else
-        at = words_in(number_in(words_in(at, enough ? " adds at most " : " adds "), 100 * share, 3, false),
-                      " % to the separation at z = ");
-    at = number_in(at, z, 6, false);
-    words_in(at, enough                              ? "\n"
-                 : choice.model == DP_MODEL_STAGED   ? ": model staged is enough\n"
-                 : setup->spec.model == choice.model ? ": model fp32 is needed\n"
-                                                     : ": see --model fp32\n");
+    if (share != 0)
+        at = number_in(words_in(at, " at z = "), z, 6, false);
+    words_in(at, enough                            ? ": the lattice is enough\n"
+                 : choice.model == DP_MODEL_STAGED ? ": model staged is enough\n"
+                                                   : ": it takes model float\n");
 }
 
 /* They stand below each table, the only lines that begin with two blanks and a word. */
@@ -277,7 +274,7 @@ static void test_budget(void **state) {
             want_budget(&v, c, &setups[k], k, &lines);
         check_json(&v, 0, arguments);
         check_csv(&v, 0, arguments, columns, budget_columns(heads, columns), &lines);
-        printed p = print_of("%s", arguments);
+        printed p = print_of("%s --full", arguments);
         check_text_table(&v, p.out, shown, budget_text_columns(c, texts, shown), &lines);
         check_sentences(p.out, c, setups, n);
         printed_free(&p);

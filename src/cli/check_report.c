@@ -174,10 +174,8 @@ static const column columns[] = {{FIELD(verdicts, passed, "passed", ""), .only =
                                  {LIST("requirements", verdict_columns, next_verdict)},
                                  {.kind = COLUMN_END}};
 
-void check_report(const options *o, output *out, const check_file *files, size_t count) {
-    verdicts all = {.files = files, .count = count, .passed = true};
-    for (size_t i = 0; i < count; i++)
-        all.passed = all.passed && files[i].failed == 0;
+void check_report(const options *o, output *out, const check_file *files, size_t count, bool passed) {
+    verdicts all = {.files = files, .count = count, .passed = passed};
     const output_form form = o->report == REPORT_JSON ? FORM_JSON : o->form;
     if (o->report == REPORT_JUNIT)
         write_junit(out, files, count);

@@ -13,8 +13,8 @@ typedef struct check_file {
     long failed;
 } check_file;
 
-/** Writes the report that the options ask for. */
-void check_report(const options *o, output *out, const check_file *files, size_t count);
+/** Writes the report that the options ask for; `passed`: nothing failed. */
+void check_report(const options *o, output *out, const check_file *files, size_t count, bool passed);
 
 /** Reads a requirement file. @return EXIT_FINE, EXIT_USAGE or EXIT_IO after one line on stderr that names the line */
 int check_read(const char *path, need_file *file);

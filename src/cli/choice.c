@@ -62,39 +62,33 @@ void setups_choose(const options *o, const depths *at, setups *s) {
     }
 }
 
-/* "adds 171 % to the separation at z = 316.228"; beyond tenfold a percentage says less than a factor. */
+/* "makes this 3.03 times worse at z = 316.228"; what is less than double is said in percent. */
 static void effect(double share, double z, bool at_most, char *out, size_t size) {
     const number_text depth = number_of(z, 6);
+    const char *most = at_most ? "at most " : "";
     if (isinf(share))
-        snprintf(out, size, "leaves no separation certain at z = %s", depth.text);
-    else if (share >= 10.0)
-        snprintf(out, size, "makes the separation %s times as large at z = %s", number_of(share + 1.0, 3).text,
-                 depth.text);
+        snprintf(out, size, "leaves nothing certain at z = %s", depth.text);
+    else if (share >= 1.0)
+        snprintf(out, size, "makes this %s%s times worse at z = %s", most, number_of(share + 1.0, 3).text, depth.text);
     else
-        snprintf(out, size, "adds %s%s %% to the separation at z = %s", at_most ? "at most " : "",
-                 number_of(100.0 * share, 3).text, depth.text);
+        snprintf(out, size, "makes this %s%s %% worse at z = %s", most, number_of(100.0 * share, 3).text, depth.text);
 }
 
 choice_words choice_sentence(const choosing *c) {
     const dp_choice *choice = &c->choice;
     const bool arithmetic = fullest(choice) == DP_MODEL_FP32;
-    const bool shown = c->setup->spec.model == choice->model;
     const double share = choice->share[DP_MODEL_EXACT];
     char subject[64] = "rounding to binary32";
     char what[sizeof(choice_words) / 2];
     choice_words out;
     if (arithmetic)
-        snprintf(subject, sizeof subject, c->setup->spec.arith != 0 ? "arithmetic (%s)" : "arithmetic",
+        snprintf(subject, sizeof subject, c->setup->spec.arith != 0 ? "float arithmetic (%s)" : "float arithmetic",
                  dp_arith_get(c->setup->spec.arith)->name);
     effect(share, choice->share_z[DP_MODEL_EXACT], choice->model == DP_MODEL_EXACT, what, sizeof what);
-    if (choice->model == DP_MODEL_EXACT)
-        snprintf(out.text, sizeof out.text, "model exact is enough: %s %s", subject,
-                 share > 0.0 ? what : "adds nothing to the separation");
-    else
-        snprintf(out.text, sizeof out.text, "%s %s: %s", subject, what,
-                 choice->model == DP_MODEL_STAGED ? "model staged is enough"
-                 : shown                          ? "model fp32 is needed"
-                                                  : "see --model fp32");
+    snprintf(out.text, sizeof out.text, "%s %s: %s", subject, share > 0.0 ? what : "adds nothing",
+             choice->model == DP_MODEL_EXACT    ? "the lattice is enough"
+             : choice->model == DP_MODEL_STAGED ? "model staged is enough"
+                                                : "it takes model float");
     return out;
 }
 

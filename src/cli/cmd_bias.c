@@ -50,9 +50,9 @@ static double with_sign(const dp_setup *setup, double units) {
 }
 
 /* What is asked of this set-up: the factor is written with the sign that the API takes, the goal counts nearer as +. */
-static bias_goal goal_of(const biasing *b, const dp_setup *setup, double gap) {
+static bias_goal goal_of(const biasing *b, double gap) {
     bias_goal goal = b->goal;
-    goal.factor = b->state.factor * bias_sign(setup);
+    goal.factor = b->state.factor * bias_sign(b->walk.setup);
     goal.gap = gap;
     return goal;
 }
@@ -66,8 +66,8 @@ static void *next_row(void *of, size_t i) {
         return NULL;
     const dp_setup *setup = b->walk.setup;
     if (b->inverse) {
-        const bias_goal apart = goal_of(b, setup, 0.0);
-        const bias_goal gap = goal_of(b, setup, b->goal.gap);
+        const bias_goal apart = goal_of(b, 0.0);
+        const bias_goal gap = goal_of(b, b->goal.gap);
         state.units = bias_sign(setup);
         state.factor = 0.0;
         r->apart = with_sign(setup, bias_needed(setup, &apart, z));
@@ -80,23 +80,25 @@ static void *next_row(void *of, size_t i) {
     return r;
 }
 
-static double shift_with(const biasing *b, const dp_setup *setup, double units, double z) {
+static double shift_with(const biasing *b, double units, double z) {
     bias_state state = b->state;
     state.units = units;
-    return isnan(units) || isinf(z) ? (double)NAN : bias_at(setup, &state, b->goal.slope, z).shift;
+    return isnan(units) || isinf(z) ? (double)NAN : bias_at(b->walk.setup, &state, b->goal.slope, z).shift;
 }
 
-static needs over_range(const biasing *b, const dp_setup *setup, double lo, double hi) {
+static needs over_range(const biasing *b) {
+    const dp_setup *setup = b->walk.setup;
+    const double lo = b->range_lo, hi = b->range_hi;
     needs n = {.lo = lo, .hi = hi, .gap_lo = fmax(lo, setup->spec.znear + b->goal.gap)};
-    const bias_goal apart = goal_of(b, setup, 0.0);
-    const bias_goal gap = goal_of(b, setup, b->goal.gap);
+    const bias_goal apart = goal_of(b, 0.0);
+    const bias_goal gap = goal_of(b, b->goal.gap);
     n.apart = with_sign(setup, bias_needed_over(setup, &apart, lo, hi, &n.apart_z));
     n.gap = n.gap_z = (double)NAN;
     if (b->goal.gap > 0.0 && n.gap_lo < hi)
         n.gap = with_sign(setup, bias_needed_over(setup, &gap, n.gap_lo, hi, &n.gap_z));
     const double units = b->goal.gap > 0.0 ? n.gap : n.apart;
-    n.shift_lo = shift_with(b, setup, units, n.gap_lo);
-    n.shift_hi = shift_with(b, setup, units, hi);
+    n.shift_lo = shift_with(b, units, n.gap_lo);
+    n.shift_hi = shift_with(b, units, hi);
     return n;
 }
 
@@ -106,7 +108,7 @@ static void *next_setup(void *of, size_t i) {
         return NULL;
     b->limited = false;
     if (b->inverse && b->walk.o->form != FORM_CSV)
-        b->needs = over_range(b, b->walk.setup, b->range_lo, b->range_hi);
+        b->needs = over_range(b);
     return b;
 }
 

@@ -11,7 +11,7 @@
 #include "cli/walk.h"
 #include "report/number.h"
 
-enum { DIGITS = 4, DIGITS_MORE = 6, DIGITS_Z = 9 };
+enum { DIGITS_PART = 2, DIGITS = 4, DIGITS_MORE = 6, DIGITS_Z = 9 };
 
 typedef struct row {
     double z;
@@ -77,11 +77,11 @@ static const worst *find_worst(budget *b) {
 
 static void write_cause(row *r, int i) {
     const double share = share_of(r, i);
-    const number_text part = number_of(r->parts.cause[i], DIGITS);
+    const number_text part = number_brief(number_of(r->parts.cause[i], DIGITS_PART));
     if (isinf(r->parts.separation)) /* no parts of what does not exist */
-        snprintf(r->cause[i], sizeof r->cause[i], "- %5s", "-");
+        snprintf(r->cause[i], sizeof r->cause[i], "- %4s", "-");
     else
-        snprintf(r->cause[i], sizeof r->cause[i], share > 0.0 && share < 0.005 ? "%s  <1 %%" : "%s %3.0f %%", part.text,
+        snprintf(r->cause[i], sizeof r->cause[i], share > 0.0 && share < 0.005 ? "%s  <1%%" : "%s %3.0f%%", part.text,
                  100.0 * share);
 }
 
@@ -152,22 +152,22 @@ static void say_notes(page *p, void *item) {
 enum { WITH_WORLD = 1, WITH_INTERPOLATION = 2, WITH_LINEARIZE = 4 };
 
 /* Text has the causes that there can be. */
-#define CAUSE(id, name, needed)                                                                                        \
+#define CAUSE(id, name, needed, its_spare)                                                                             \
     {FIELD(row, parts.cause[id], name, "scene")}, {                                                                    \
-        TEXT_FIELD(row, cause[id], name, 19, 0), .when = (needed)                                                      \
+        TEXT_FIELD(row, cause[id], name, 14, 0), .when = (needed), .spare = (its_spare)                                \
     }
-static const column cause_columns[] = {CAUSE(DP_CAUSE_EYE, "eye", 0),
-                                       CAUSE(DP_CAUSE_COMPOSITION, "composition", WITH_WORLD),
-                                       CAUSE(DP_CAUSE_PROJECTION, "projection", 0),
-                                       CAUSE(DP_CAUSE_NDC, "ndc", 0),
-                                       CAUSE(DP_CAUSE_INTERPOLATION, "interpolation", WITH_INTERPOLATION),
-                                       CAUSE(DP_CAUSE_FORMAT, "format", 0),
-                                       CAUSE(DP_CAUSE_LINEARIZATION, "linearization", WITH_LINEARIZE),
+static const column cause_columns[] = {CAUSE(DP_CAUSE_EYE, "eye", 0, 4),
+                                       CAUSE(DP_CAUSE_COMPOSITION, "composition", WITH_WORLD, 0),
+                                       CAUSE(DP_CAUSE_PROJECTION, "projection", 0, 2),
+                                       CAUSE(DP_CAUSE_NDC, "ndc", 0, 1),
+                                       CAUSE(DP_CAUSE_INTERPOLATION, "interpolation", WITH_INTERPOLATION, 0),
+                                       CAUSE(DP_CAUSE_FORMAT, "format", 0, 3),
+                                       CAUSE(DP_CAUSE_LINEARIZATION, "linearization", WITH_LINEARIZE, 0),
                                        {.kind = COLUMN_END}};
 
 static const column row_columns[] = {
-    {FIELD(row, z, "z", "scene"), SHOWN("z", 12, DIGITS_Z)},
-    {FIELD(row, parts.separation, "separation", "scene"), SHOWN("separation", 13, DIGITS_MORE), .upward = true},
+    {FIELD(row, z, "z", "scene"), SHOWN("z", 11, DIGITS_Z)},
+    {FIELD(row, parts.separation, "separation", "scene"), SHOWN("guaranteed", 12, DIGITS_MORE), .upward = true},
     {FIELD(row, parts.window, "window", "")},
     {GROUP("causes", cause_columns)},
     {.kind = COLUMN_END}};
@@ -205,7 +205,7 @@ static unsigned conditions(const budget *b) {
 }
 
 int cmd_budget(const options *o) {
-    budget b = {.walk.warns = true, .terms = o->terms, .linearize = o->terms.linearize != 0};
+    budget b = {.terms = o->terms, .linearize = o->terms.linearize != 0};
     options in_binary32 = *o;
     in_binary32.model = DP_MODEL_FP32;
     if (o->terms.world > 0.0)

@@ -1,6 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* check: the requirements of files, judged: exit 1 with the depth at which one fails. */
-#include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 
@@ -96,7 +95,7 @@ int cmd_check(const options *o) {
     if (status == EXIT_FINE)
         status = judge_all(o, files, count, &failed);
     if (status == EXIT_FINE) {
-        check_report(o, &out, files, count);
+        check_report(o, &out, files, count, failed == 0);
         status = output_close(&out);
     } else {
         output_abandon(&out);

@@ -147,8 +147,20 @@ static int resolve_methods(plotting *p) {
     return status;
 }
 
+/* Where none are named and all would be too many: those that the figure shows then. */
+static void choose_formats(options *o, const figure_row *row) {
+    const size_t all = o->format_count;
+    if (row->formats == NULL || option_given(o, OPTION_FORMAT) || all * o->mapping_count <= row->setups_max)
+        return;
+    o->format_count = 0;
+    for (size_t i = 0; i < all; i++)
+        if (strstr(row->formats, o->formats[i].name) != NULL)
+            o->formats[o->format_count++] = o->formats[i];
+}
+
 static int resolve_setups(plotting *p) {
     options in_model = *p->o;
+    choose_formats(&in_model, p->row);
     if ((p->row->takes & FIGURE_BINARY32) != 0)
         in_model.model = DP_MODEL_FP32;
     int status = check_options(p->o, p->row);

@@ -7,7 +7,6 @@
 #include <math.h>
 
 #include "cli/choice.h"
-#include "cli/clipping.h"
 #include "cli/compare.h"
 #include "cli/reach.h"
 #include "cli/walk.h"
@@ -313,7 +312,7 @@ static unsigned conditions(const table *t) {
 }
 
 int cmd_table(const options *o) {
-    table t = {.walk.warns = true};
+    table t = {0};
     int status = walk_start(&t.walk, o);
     if (status == EXIT_FINE)
         status = range_resolve(o, &t.lo, &t.hi);

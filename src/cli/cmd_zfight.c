@@ -6,7 +6,6 @@
 #include <stdlib.h>
 
 #include "census/census.h"
-#include "cli/clipping.h"
 #include "cli/walk.h"
 #include "report/number.h"
 
@@ -66,14 +65,11 @@ static census_status work(zfight *z, const dp_setup *setup, census_result *resul
 
 static int work_all(zfight *z) {
     for (size_t i = 0; i < z->walk.all.count; i++) {
-        switch (work(z, &z->walk.all.items[i], &z->results[i])) {
-        case CENSUS_DONE:
-            break;
-        case CENSUS_NO_MEMORY:
+        const census_status status = work(z, &z->walk.all.items[i], &z->results[i]);
+        if (status == CENSUS_NO_MEMORY)
             return usage_error("no memory for the census");
-        default: /* interrupted: what else there is was refused before */
+        if (status != CENSUS_DONE) /* interrupted: what else there is was refused before */
             return EXIT_FAILED;
-        }
         z->before += visits(z);
     }
     return EXIT_FINE;

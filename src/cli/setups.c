@@ -89,7 +89,35 @@ const char *setup_label(const dp_setup *setup, bool full, char out[SETUP_LABEL_S
     if (full)
         snprintf(out + length, SETUP_LABEL_SIZE - (size_t)length, "%s%s, near %s, far %s, %s, %s, %s%s%s",
                  has_log_c ? " C " : "", has_log_c ? number_full(f.log_c).text : "", number_full(f.znear).text,
-                 number_full(f.zfar).text, f.projection, f.rounding, f.model, has_arith ? " " : "",
-                 has_arith ? f.arith : "");
+                 number_full(f.zfar).text, f.projection, f.rounding, has_arith ? "float" : f.model,
+                 has_arith ? " " : "", has_arith ? f.arith : "");
     return out;
+}
+
+clipping clipping_of(const dp_setup *setup) {
+    dp_pipeline p;
+    float znear;
+    float zfar;
+    if (setup->spec.model != DP_MODEL_FP32 || dp_pipeline_init(&p, setup) != DP_OK)
+        return (clipping){(double)NAN, (double)NAN, false};
+    dp_pipeline_planes(&p, &znear, &zfar);
+    return (clipping){(double)znear, (double)zfar, !(znear == p.znear && zfar == p.zfar)};
+}
+
+void clipping_say(const dp_setup *setup, double znear, double zfar, const char *rest) {
+    char label[SETUP_LABEL_SIZE];
+    setup_label(setup, false, label);
+    if (isnan(znear))
+        fprintf(stderr, "depthprec: warning: %s: clipping in binary32 loses everything\n", label);
+    else
+        fprintf(stderr, "depthprec: warning: %s: clipping in binary32 keeps only %s to %s%s\n", label,
+                number_of(znear, 9).text, number_of(zfar, 9).text, rest);
+}
+
+void clipping_warn(const setups *all) {
+    for (size_t i = 0; i < all->count; i++) {
+        const clipping c = clipping_of(&all->items[i]);
+        if (c.loses)
+            clipping_say(&all->items[i], c.znear, c.zfar, "");
+    }
 }

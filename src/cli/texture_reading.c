@@ -1,6 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* What an image does not say: how coarse it is against its buffer, and what was assumed about it. */
-#include <math.h>
 #include <stdio.h>
 #include <string.h>
 

@@ -3,8 +3,6 @@
 
 #include <unistd.h>
 
-#include "cli/clipping.h"
-
 enum { DEFAULT_ROWS = 9 };
 
 int walk_start(walk *w, const options *o) {
@@ -22,7 +20,7 @@ int walk_write(walk *w, const report_spec *spec, int status) {
         report_write(spec, &w->out, w->o->form);
         progress_end(&w->progress);
         status = output_close(&w->out);
-        if (status == EXIT_FINE && w->warns && !w->o->quiet)
+        if (status == EXIT_FINE && !w->o->quiet)
             clipping_warn(&w->all);
     }
     setups_release(&w->all);

@@ -19,7 +19,6 @@ typedef struct walk {
     output out;
     progress progress;
     uint64_t done;
-    bool warns;            /**< says on stderr what binary32 clipping loses */
     const dp_setup *setup; /**< the one at hand */
     setup_fields fields;
 } walk;
@@ -28,7 +27,8 @@ typedef struct walk {
 int walk_start(walk *w, const options *o);
 
 /**
- * Writes the report where `status` is EXIT_FINE, and frees what walk_start() made in any case.
+ * Writes the report where `status` is EXIT_FINE, says on stderr what binary32 clipping loses, and frees what
+ * walk_start() made in any case.
  * @return an exit status
  */
 int walk_write(walk *w, const report_spec *spec, int status);

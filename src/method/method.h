@@ -56,6 +56,7 @@ typedef struct method_claim {
 
 /* clang-format off */
 #define FULL(worst)          {(worst), METHOD_RATIO_LO, METHOD_RATIO_HI, NULL, 0, 0}
+#define UP_TO(worst, ratio)  {(worst), METHOD_RATIO_LO, (ratio), NULL, 0, 0}
 #define FORMULA(f, a, b)     {1, METHOD_RATIO_LO, METHOD_RATIO_HI, (f), (a), (b)}
 #define FORMULA_TO(ratio, f, a, b) {1, METHOD_RATIO_LO, (ratio), (f), (a), (b)}
 #define NOWHERE              {0, 0, 0, NULL, 0, 0}

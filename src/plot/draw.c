@@ -22,13 +22,14 @@
 #define PANEL_GAP   20.0
 #define BAR_WIDTH   16.0
 #define BALL_WIDTH  72.0
+#define HEADING_GAP 2.0
 #define PANEL_SHAPE 1.5 /* the width of a panel over its height that looks best */
 
 /* The panels in rows and columns. */
 typedef struct grid {
     int columns, rows;
     canvas_rect area; /* of all frames and the headings above them */
-    double heading;   /* height above each frame */
+    double heading;   /* height above each frame; 0: there are none */
     double gap_x, gap_y;
 } grid;
 
@@ -114,14 +115,33 @@ static void draw_curves(const pencil *p, const axes *a, const axes *right, const
     canvas_unclip(p->c);
 }
 
+static words heading_of(const pencil *p, const chart_panel *panel, double width) {
+    enum { LINES = 3 };
+    return words_break(p, panel->title, &p->heading, width, LINES);
+}
+
+static double heading_height(const pencil *p, size_t lines) {
+    return (double)lines * words_height(&p->heading) + HEADING_GAP * p->scale;
+}
+
+/* All frames begin as far down as the longest heading needs. */
+static double common_heading(const pencil *p, const chart *c, const grid *g) {
+    size_t lines = 0;
+    for (size_t i = 0; i < c->panel_count; i++) {
+        const size_t own = heading_of(p, &c->panels[i], panel_frame(g, 0).w).count;
+        lines = own > lines ? own : lines;
+    }
+    return heading_height(p, lines);
+}
+
 static bool draw_panel(const pencil *p, const chart *c, const grid *g, int index) {
     const chart_panel *panel = &c->panels[index];
     axes a = {&panel->x, &panel->y, panel_frame(g, index)}, right = {&panel->x, &panel->second, a.frame};
     bool lowest = (size_t)(index + g->columns) >= c->panel_count, leftmost = index % g->columns == 0;
     bool rightmost = (index + 1) % g->columns == 0 || (size_t)index + 1 == c->panel_count;
     if (g->heading > 0) {
-        words w = words_break(p, panel->title, &p->heading, a.frame.w, 1);
-        words_draw(p, &w, &p->heading, a.frame.x, a.frame.y - g->heading);
+        const words w = heading_of(p, panel, a.frame.w);
+        words_draw(p, &w, &p->heading, a.frame.x, a.frame.y - heading_height(p, w.count));
     }
     if (panel->map.columns > 0) {
         canvas_clip(p->c, a.frame);
@@ -150,7 +170,7 @@ static bool draw_page(const pencil *p, const chart *c, double width, double heig
     grid g = {1, 1, {MARGIN * s, top, width - 2 * MARGIN * s, fmax(bottom - top, 40 * s)}, 0, 0, 0};
     g.columns = columns_for(c->panel_count, g.area);
     g.rows = ((int)c->panel_count + g.columns - 1) / g.columns;
-    g.heading = c->panel_count > 1 ? words_height(&p->heading) + 0.25 * SPACE * s : 0;
+    g.heading = c->panel_count > 1 ? heading_height(p, 1) : 0; /* so far */
     /* The topmost tick label rises half its height above the frame; the caption stays clear of it. */
     double clear = g.heading > 0 ? 0.75 * SPACE * s : 0.5 * p->small.size + 0.75 * SPACE * s;
     g.area.y += clear;
@@ -170,6 +190,8 @@ static bool draw_page(const pencil *p, const chart *c, double width, double heig
     g.area.x += left;
     g.area.w -= left + fmax(fmax(bar, scale), right - 0.75 * MARGIN * s);
 
+    if (g.heading > 0)
+        g.heading = common_heading(p, c, &g);
     const double end = g.area.x + g.area.w;
     if (c->shape > 0)
         keep_shape(&g, c->shape, left);

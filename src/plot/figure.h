@@ -56,6 +56,7 @@ typedef struct figure_row {
     size_t setups_max;   /**< most set-ups that stay legible */
     unsigned takes;      /**< FIGURE_... bits */
     const char *family;  /**< of methods, shown when none is named; null: the figure shows no methods */
+    const char *formats; /**< those shown when none are named and all would be too many set-ups; else null */
     figure_build *build;
 } figure_row;
 

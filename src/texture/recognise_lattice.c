@@ -142,7 +142,6 @@ bool distinct_add(distinct_set *set, double d) {
 /* Images that hold less than their samples could: 8 bits repeated in 16, ten bits scaled to 16, k/255 as numbers, bits
  * shifted up. */
 
-
 /* How far a sample near d may lie beside the grid, in steps of it: integers half a code, numbers 1.5 units. */
 static double tolerance(const grid_source *s, double d, double steps) {
     int exponent;
