@@ -240,7 +240,7 @@ static void test_no_units(void **state) {
                                         "table|--at|1,5m",
                                         "table|--at|5m,3kms",
                                         "table|--at|1:5m:lin:3",
-                                        "table|--at|1x:5m:log:3",
+                                        "table|--at|1y:5m:log:3",
                                         "table|--range|1:5m",
                                         "table|--range|1m:5kms",
                                         "table|--range|1c:5m",

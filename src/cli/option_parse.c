@@ -133,12 +133,13 @@ static bool read_length(lengths *seen, const char *text, size_t length, number_k
 
 #define UNITS_ARE "a unit is " UNIT_NAMES
 
-/* What a refusal adds where letters and digits make one expect a unit. */
-static const char *unit_hint(const char *value) {
+/* What a refusal adds where letters behind digits make one expect a unit; not those of 1e400 and 0x10. */
+static const char *unit_hint(const char *text, size_t length) {
+    const size_t digits = strcspn(text, "0123456789");
     bool letter = false;
-    for (const char *c = value; *c != '\0'; c++)
-        letter = letter || is_letter(*c);
-    return letter && strpbrk(value, "0123456789") != NULL ? "; " UNITS_ARE : "";
+    for (size_t i = digits; i < length; i++)
+        letter = letter || (is_letter(text[i]) && strchr("eEx", text[i]) == NULL);
+    return letter ? "; " UNITS_ARE : "";
 }
 
 /* "1,5m" is no length, and which depths would be meant is not clear. */
@@ -155,9 +156,11 @@ int parse_length(options *o, const option_row *row, const char *value) {
     double length;
     const bool read = read_length(&seen, value, strlen(value), NUMBER_FINITE, &length);
     if (limited && (!read || !(length >= row->least && length <= row->most)))
-        return refuse(row, "must be a number from %s, got '%s'%s", option_limits(row, limits), value, unit_hint(value));
+        return refuse(row, "must be a number from %s, got '%s'%s", option_limits(row, limits), value,
+                      unit_hint(value, strlen(value)));
     if (!read || (!limited && !(length > 0.0)))
-        return refuse(row, "must be a positive number of scene units, got '%s'%s", value, unit_hint(value));
+        return refuse(row, "must be a positive number of scene units, got '%s'%s", value,
+                      unit_hint(value, strlen(value)));
     *(double *)field(o, row) = length;
     return EXIT_FINE;
 }
@@ -202,7 +205,7 @@ int parse_row(options *o, const option_row *row, const char *value) {
 int parse_far(options *o, const option_row *row, const char *value) {
     if (!read_length(&(lengths){.o = o}, value, strlen(value), NUMBER_FAR, &o->zfar))
         return refuse(row, "must be a number greater than near and at most 1e18, or inf, got '%s'%s", value,
-                      unit_hint(value));
+                      unit_hint(value, strlen(value)));
     return EXIT_FINE;
 }
 
@@ -286,7 +289,8 @@ int parse_origin(options *o, const option_row *row, const char *value) {
         double *x = &o->camera.origin[i];
         if (!read_length(&seen, at, length, NUMBER_FINITE, x) || !(*x >= -1e12 && *x <= 1e12) ||
             (at[length] == '\0') != (i == 2))
-            return refuse(row, "must be X,Y,Z, each from -1e12 to 1e12, got '%s'%s", value, unit_hint(value));
+            return refuse(row, "must be X,Y,Z, each from -1e12 to 1e12, got '%s'%s", value,
+                          unit_hint(value, strlen(value)));
         at += length + 1;
     }
     return check_mixed(&seen, row, value);
@@ -352,7 +356,7 @@ static int parse_spaced(lengths *seen, const option_row *row, const char *text, 
             return wrong_form(row, text);
         if (!read_length(seen, part, length, NUMBER_FINITE, &z[i]))
             return refuse(row, "%s must be a number, got '%.*s' in '%s'%s", ends[i], (int)length, part, text,
-                          unit_hint(part));
+                          unit_hint(part, length));
     }
     const bool log = length == 3 && memcmp(part, "log", 3) == 0;
     if (part[length] == '\0')
@@ -384,7 +388,8 @@ static int parse_listed(lengths *seen, const option_row *row, const char *text, 
         if (!read_length(seen, item, length, NUMBER_FINITE, &z)) {
             free(d.list);
             return refuse(row, "must be Z[,Z...] or LO:HI:log|lin:COUNT, got '%.*s'%s%s%s%s", (int)length, item,
-                          count > 1 ? " in '" : "", count > 1 ? text : "", count > 1 ? "'" : "", unit_hint(item));
+                          count > 1 ? " in '" : "", count > 1 ? text : "", count > 1 ? "'" : "",
+                          unit_hint(item, length));
         }
         d.list[d.count] = z;
         d.lo = fmin(d.lo, z);
@@ -408,9 +413,10 @@ int parse_range(options *o, const option_row *row, const char *value) {
     if (value[split] == '\0')
         return refuse(row, "must be LO:HI, got '%s'", value);
     if (!read_length(&seen, value, split, NUMBER_FINITE, &o->range_lo))
-        return refuse(row, "LO must be a number, got '%.*s' in '%s'%s", (int)split, value, value, unit_hint(value));
+        return refuse(row, "LO must be a number, got '%.*s' in '%s'%s", (int)split, value, value,
+                      unit_hint(value, split));
     if (!read_length(&seen, hi, strlen(hi), NUMBER_FINITE, &o->range_hi))
-        return refuse(row, "HI must be a number, got '%s' in '%s'%s", hi, value, unit_hint(hi));
+        return refuse(row, "HI must be a number, got '%s' in '%s'%s", hi, value, unit_hint(hi, strlen(hi)));
     const int status = check_mixed(&seen, row, value);
     return status != EXIT_FINE || o->range_lo < o->range_hi ? status
                                                             : refuse(row, "LO must be less than HI, got '%s'", value);

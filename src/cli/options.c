@@ -120,7 +120,8 @@ static int check_operands(options *o) {
     list_item item = {0};
     char text[NAMES_SIZE] = "";
     if (o->operand_count > v->operand_max)
-        return usage_error("unexpected argument '%s'", o->operands[v->operand_max]);
+        return usage_error("unexpected argument '%s'%s", o->operands[v->operand_max],
+                           names_nearest(&(name_list){.get = list_verb}, "", o->operands[v->operand_max], text));
     if (o->operand_count < v->operand_min)
         return usage_error("%s: needs %s%s%s", v->name, v->operand, v->names != NULL ? ": " : "",
                            v->names != NULL ? names_join(v->names, ", ", " or ", text) : "");
@@ -214,7 +215,7 @@ static int read_options(options *o, int argc, char **argv, const verb *asked, bo
     return EXIT_FINE;
 }
 
-/* Puts the command, the first word that belongs to no option, before all options. */
+/* Puts the command before all options where the first word that belongs to no option is one. */
 static void put_command_first(int argc, char **argv) {
     char letters[2 * OPTION_COUNT + 3];
     struct option longs[OPTION_COUNT + 1];
@@ -225,7 +226,7 @@ static void put_command_first(int argc, char **argv) {
     do
         value = getopt_long(argc, argv, letters, longs, NULL);
     while (value != -1 && value != '?' && value != ':' && value != 1);
-    if (value != 1)
+    if (value != 1 || verb_find(argv[optind - 1]) == NULL)
         return;
     char *const command = argv[optind - 1];
     memmove(argv + 2, argv + 1, (size_t)(optind - 2) * sizeof *argv);
