@@ -134,13 +134,14 @@ static bool shows(const char *word, const wanted *want, int digits) {
     return isfinite(value) && fabs(got - value) <= unit * (1 + 1e-9);
 }
 
-/* A line of a table: at least two words, and the first two are numbers, or none. */
+/* A line of a table: at least two words, and the first two are numbers, or "all" and a number, or none. */
 static bool is_table_line(const char *line, size_t length) {
     const char *at = line, *end = line + length;
     for (int i = 0; i < 2; i++) {
         char *rest;
         at += strspn(at, " ");
         strtod(at, &rest);
+        rest += i == 0 && strncmp(at, "all ", 4) == 0 ? 3 : 0;
         if (i == 1 && rest == at)
             rest += *at == '-';
         if (at >= end || rest == at || (*rest != ' ' && *rest != '\n'))
@@ -161,6 +162,11 @@ static bool next_word(const char **at, const char *end, char word[WORD_SIZE]) {
     return used > 0;
 }
 
+/* The sum of a table is labelled in place of its first number. */
+static bool is_sum(const char *word, size_t column) {
+    return column == 0 && strcmp(word, "all") == 0;
+}
+
 static const char *line_end(const char *line) {
     return line + strcspn(line, "\n");
 }
@@ -177,7 +183,7 @@ void check_text_table(const values *v, const char *text, const text_column *colu
                 fail_msg("%s: more lines than %zu: %.*s", v->command, lines->count, (int)(end - at), at);
             for (size_t i = 0; i < count; i++) {
                 const wanted *want = resolve(v, &lines->items[line], columns[i].path);
-                TALLY(&t, next_word(&at, end, word) && shows(word, want, columns[i].digits),
+                TALLY(&t, next_word(&at, end, word) && (is_sum(word, i) || shows(word, want, columns[i].digits)),
                       "line %zu, column %zu, %s: printed '%s', computed %.17g", line, i, columns[i].path, word,
                       want->number);
             }

@@ -400,6 +400,7 @@ static void gaps(void **state) {
     census_sample_request q = {.common = {.setup = &setup, .lo = 50.0, .hi = 50.5}, .gap = 0.001};
     dp_pipeline p;
     uint64_t pairs = 0, ties = 0, swaps = 0;
+    double first = NAN, last_apart = NAN;
     assert_int_equal(dp_pipeline_init(&p, &setup), DP_OK);
     for (float z = 50.0f; z <= 50.5f; z = nextafterf(z, 100.0f)) {
         const float other = (float)((double)z + 0.001);
@@ -409,12 +410,15 @@ static void gaps(void **state) {
         pairs++;
         ties += a == b;
         swaps += a > b;
+        first = a >= b && isnan(first) ? (double)z : first;
+        last_apart = a < b ? (double)z : last_apart;
     }
     assert_int_equal(census_sample(&q, &got), CENSUS_DONE);
     assert_true(got.all.pairs == pairs && got.all.ties == ties && got.all.swaps == swaps && ties > 0);
+    assert_true(got.all.first == first && got.all.last_apart == last_apart && first < last_apart);
     q.gap = 0.02; /* beyond the longest interval */
     assert_int_equal(census_sample(&q, &got), CENSUS_DONE);
-    assert_true(got.all.ties == 0 && got.all.swaps == 0 && got.all.pairs > 0);
+    assert_true(got.all.ties == 0 && got.all.swaps == 0 && got.all.pairs > 0 && isnan(got.all.first));
 }
 
 /* ---- Errors and interruption ------------------------------------------------------------------------------------- */

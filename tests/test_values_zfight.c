@@ -69,6 +69,15 @@ static void want_counts(values *v, const zfight_case *c, const census_band *b) {
     want_derived(v, "swaps_share", 100 * (double)b->swaps / (double)b->pairs);
 }
 
+/* The depth behind the last pair in order; none where no pair of the range begins there. */
+static double always_from(const zfight_case *c, double last) {
+    float z = nextafterf((float)last, HUGE_VALF);
+    if (isnan(last))
+        for (z = (float)c->lo; (double)z < c->lo;)
+            z = nextafterf(z, HUGE_VALF);
+    return (double)(float)((double)z + c->gap) <= c->hi ? (double)z : NAN;
+}
+
 static void want_census(values *v, const zfight_case *c, const dp_setup *setup, size_t i, line_places *shown,
                         line_places *lines) {
     static census_result r;
@@ -97,8 +106,36 @@ static void want_census(values *v, const zfight_case *c, const dp_setup *setup, 
         want_count(v, "clipped", r.all.clipped);
         want_count(v, "holes", r.holes);
     }
+    if (c->gap > 0) {
+        want_number(v, "first", r.all.first);
+        want_number(v, "always_from", always_from(c, r.all.last_apart));
+    }
     want_number(v, "near_effective", r.near_effective);
     want_number(v, "far_effective", r.far_effective);
+}
+
+/* The sentence above the first set-up's table. */
+static void check_answer(const values *v, const char *text) {
+    static const char *const neighbours[] = {"setups[0].ties_share", "setups[0].swaps_share", NULL};
+    static const char *const longest[] = {"setups[0].longest", "setups[0].longest_z", "setups[0].bound", NULL};
+    static const char *const always[] = {"setups[0].first", "setups[0].always_from", NULL};
+    static const char *const first[] = {"setups[0].first", NULL};
+    const wanted *from = value_find(v, "setups[0].first"), *on = value_find(v, "setups[0].always_from");
+    if (from == NULL) {
+        check_text_numbers(v, text, "Neighbouring binary32 depths", 3, neighbours);
+        check_text_numbers(v, text, "the longest interval", 6, longest);
+        return;
+    }
+    char label[128];
+    const double gap = value_at(v, "setups[0].gap")->number;
+    snprintf(label, sizeof label, "%s %g apart %s",
+             strstr(text, "Of the pairs drawn") != NULL ? "Of the pairs drawn, surfaces" : "Surfaces", gap,
+             isnan(from->number) ? "never fight" : "first fight at z =");
+    if (isnan(from->number))
+        assert_non_null(strstr(text, label));
+    else
+        check_text_numbers(v, text, label, 6, isnan(on->number) ? first : always);
+    assert_true(isnan(from->number) || (strstr(text, "nowhere always") != NULL) == isnan(on->number));
 }
 
 static void test_zfight(void **state) {
@@ -144,9 +181,10 @@ static void test_zfight(void **state) {
             want_census(&v, c, &setups[k], k, &shown, &lines);
         check_json(&v, 0, arguments);
         check_csv(&v, 0, arguments, columns, sizeof columns / sizeof columns[0], &lines);
-        printed p = print_of("%s", arguments);
+        printed p = print_of("%s --full", arguments);
         check_text_table(&v, p.out, c->gap > 0 ? of_gaps : of_intervals, c->gap > 0 ? 6 : 9, &shown);
         check_text_numbers(&v, p.out, "drawn from", 9, drawn);
+        check_answer(&v, p.out);
         printed_free(&p);
         values_free(&v);
         places_free(&shown);

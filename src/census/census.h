@@ -28,6 +28,8 @@ typedef struct census_band {
     uint64_t clipped;     /**< depths of the band that clipping would lose */
     double longest;       /**< scene units; 0 when every pair is in order */
     double longest_z;     /**< its nearer depth, the nearest where several intervals are as long; NaN when none */
+    double first;         /**< census_sample(): the nearest depth whose pair ties or swaps; NaN: none does */
+    double last_apart;    /**< census_sample(): the farthest whose pair is in order; NaN: none is */
     double bound;         /**< the greatest guaranteed separation at 1025 depths of the band, none longer than what is
                                left up to far; NaN without a bound */
     double slack;         /**< used: greatest share of bound(z1) that two surfaces may be apart which are stored as the

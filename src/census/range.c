@@ -60,7 +60,7 @@ census_status census_open(const census_request *request, census_plan *plan, cens
         const uint32_t field = (*first >> 23) + (uint32_t)i;
         band->lo = i == 0 ? request->lo : (double)dp_float32(field << 23);
         band->hi = i == result->band_count - 1 ? request->hi : 2.0 * (double)dp_float32(field << 23);
-        band->longest_z = band->slack_z = band->bound = (double)NAN;
+        band->longest_z = band->slack_z = band->bound = band->first = band->last_apart = (double)NAN;
         if (request->bound != NULL)
             band->bound = greatest_bound(request, band, i == result->band_count - 1);
     }
@@ -97,6 +97,8 @@ void census_add(census_band *to, const census_band *from) {
     to->ties += from->ties;
     to->swaps += from->swaps;
     to->clipped += from->clipped;
+    to->first = fmin(to->first, from->first); /* the number, where one of them is none */
+    to->last_apart = fmax(to->last_apart, from->last_apart);
     if (from->longest > to->longest || (from->longest == to->longest && from->longest_z < to->longest_z)) {
         to->longest = from->longest;
         to->longest_z = from->longest_z;
@@ -116,8 +118,8 @@ static uint64_t outside(uint32_t first, uint32_t last, double lo, double hi) {
 void census_close(const census_request *request, const census_plan *plan, uint32_t first, uint32_t last,
                   census_result *result) {
     census_band *all = &result->all;
-    *all = (census_band){
-        .lo = request->lo, .hi = request->hi, .longest_z = (double)NAN, .slack_z = (double)NAN, .bound = (double)NAN};
+    *all = (census_band){.lo = request->lo, .hi = request->hi};
+    all->longest_z = all->slack_z = all->bound = all->first = all->last_apart = (double)NAN;
     for (int i = 0; i < result->band_count; i++) {
         census_band *band = &result->bands[i];
         if (request->bound != NULL && band->longest > 0.0)

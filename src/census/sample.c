@@ -1,4 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
+#include <math.h>
 #include <string.h>
 
 #include "census/range.h"
@@ -90,6 +91,10 @@ static void judge(const sample *s, uint64_t from, size_t count, census_band *ban
         band->pairs++;
         band->ties += far_key[i] == near_key[i];
         band->swaps += far_key[i] < near_key[i];
+        if (far_key[i] > near_key[i])
+            band->last_apart = fmax(band->last_apart, (double)near_z[i]);
+        else
+            band->first = fmin(band->first, (double)near_z[i]);
         if (s->request->gap <= 0.0)
             walk(s, bits[i], near_key[i], band);
     }
@@ -103,6 +108,8 @@ static int judge_all(const sample *s, uint64_t total, census_result *result) {
     {
         census_band mine[CENSUS_BANDS_MAX];
         memset(mine, 0, sizeof mine);
+        for (int i = 0; i < CENSUS_BANDS_MAX; i++)
+            mine[i].first = mine[i].last_apart = (double)NAN;
 #pragma omp for schedule(dynamic, 16)
         for (uint64_t from = 0; from < total; from += BATCH) {
             int stopped;

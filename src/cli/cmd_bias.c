@@ -177,22 +177,22 @@ static unsigned conditions(const biasing *b) {
 }
 
 static const column row_columns[] = {
-    {FIELD(row, effect.z, "z", "scene"), SHOWN("z", 12, DIGITS_Z)},
-    {FIELD(row, effect.r.least, "r", ""), SHOWN("r", 13, DIGITS)},
+    {FIELD(row, effect.z, "z", "scene"), SHOWN("z", 11, DIGITS_Z)},
+    {FIELD(row, effect.r.least, "r", ""), SHOWN("r", 12, DIGITS)},
     {FIELD(row, effect.r.most, "r_most", "")},
     {FIELD(row, effect.m, "slope", "per pixel")},
-    {TEXT_FIELD(row, effect.m, "slope", 13, DIGITS), .when = WITH_SLOPE},
+    {TEXT_FIELD(row, effect.m, "slope", 12, DIGITS), .when = WITH_SLOPE, .spare = 2},
     {FIELD(row, one_unit, "one_unit", "scene"), SHOWN("one unit", 13, DIGITS), .when = INVERSE},
     {FIELD(row, apart, "units_apart", ""), SHOWN("told apart", 17, DIGITS_Z), .when = INVERSE},
     {FIELD(row, gap, "units_gap", ""), .only = AS_CSV, .when = INVERSE},
     {FIELD(row, gap, "units_gap", ""), SHOWN("the gap", 17, DIGITS_Z), .only = AS_JSON | AS_TEXT,
      .when = INVERSE | WITH_GAP},
-    {FIELD(row, effect.offset, "bias", ""), SHOWN("bias", 13, DIGITS), .when = EFFECT},
+    {FIELD(row, effect.offset, "bias", ""), SHOWN("bias", 12, DIGITS), .when = EFFECT, .spare = 1},
     {FIELD(row, effect.depth, "depth", ""), .when = EFFECT},
     {FIELD(row, effect.code, "code", ""), SHOWN("code", 11, 0), .when = EFFECT},
     {FIELD(row, effect.moved, "code_moved", ""), SHOWN("moved to", 11, 0), .when = EFFECT},
-    {FIELD(row, effect.to, "z_moved", "scene"), SHOWN("stands for", 18, DIGITS_Z + 1), .when = EFFECT},
-    {FIELD(row, effect.shift, "shift", "scene"), SHOWN("shift", 13, DIGITS), .when = EFFECT},
+    {FIELD(row, effect.to, "z_moved", "scene"), SHOWN("decoded depth", 18, DIGITS_Z + 1), .when = EFFECT},
+    {FIELD(row, effect.shift, "shift", "scene"), SHOWN("shift", 12, DIGITS), .when = EFFECT},
     {FIELD(row, effect.limited, "limited", ""), .only = AS_JSON, .when = EFFECT},
     {TEXT_FIELD(row, held, "", -1, 0), .when = VERBOSE},
     {.kind = COLUMN_END}};

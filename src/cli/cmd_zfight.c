@@ -14,6 +14,7 @@ typedef struct band {
     census_band counts;
     double ties, swaps; /* percent of the pairs */
     double longest, used, clipped;
+    char from[NUMBER_SIZE]; /* of text: "all" below the bands */
 } band;
 
 /* A census, which walks over set-ups alone; below `before`, what belongs to the one at hand. */
@@ -23,6 +24,7 @@ typedef struct zfight {
     const char *method;
     uint64_t seed;
     double gap, lo, hi;
+    double always;   /* of the result: from there on every pair fights; NaN: from nowhere on */
     uint64_t before; /* depths of the set-ups that are finished */
     const census_result *result;
     band whole, band;
@@ -113,7 +115,16 @@ static void *next_band(void *of, size_t index) {
     if (at > z->result->band_count || (at == z->result->band_count && z->walk.o->form != FORM_TEXT))
         return NULL;
     z->band = band_of(z, at < z->result->band_count ? &z->result->bands[at] : &z->result->all);
+    snprintf(z->band.from, sizeof z->band.from, "%s",
+             at < z->result->band_count ? number_of(z->band.counts.lo, DIGITS).text : "all");
     return &z->band;
+}
+
+/* From where on every pair fights: the depth behind the last that is in order, unless no pair begins there. */
+static double always_from(const zfight *z) {
+    const double last = z->result->all.last_apart;
+    const float from = isnan(last) ? (float)z->lo : nextafterf((float)last, HUGE_VALF);
+    return z->gap > 0.0 && (double)(float)((double)from + z->gap) <= z->hi ? (double)from : (double)NAN;
 }
 
 static void *next_setup(void *of, size_t i) {
@@ -122,7 +133,40 @@ static void *next_setup(void *of, size_t i) {
         return NULL;
     z->result = &z->results[i];
     z->whole = band_of(z, &z->result->all);
+    z->always = always_from(z);
     return z;
+}
+
+static void say_gap(page *p, const zfight *z) {
+    const census_band *all = &z->result->all;
+    const number_text gap = number_full(z->gap), first = number_down(all->first, DIGITS);
+    const number_text always = number_up(z->always, DIGITS);
+    const char *drawn = z->walk.o->sample > 0 ? "Of the pairs drawn, surfaces" : "Surfaces";
+    if (isnan(all->first))
+        page_text(p, "%s %s apart never fight from %s to %s.", drawn, gap.text, number_full(z->lo).text,
+                  number_full(z->hi).text);
+    else if (isnan(z->always))
+        page_text(p, "%s %s apart first fight at z = %s, and nowhere always.", drawn, gap.text, first.text);
+    else
+        page_text(p, "%s %s apart first fight at z = %s, and always from z = %s on.", drawn, gap.text, first.text,
+                  always.text);
+    page_line(p, "(fight: they are stored as one code, or in the wrong order)");
+}
+
+static void say_neighbours(page *p, const zfight *z) {
+    const census_band *all = &z->result->all;
+    page_text(p, "Neighbouring binary32 depths%s: %s %% tie, %s %% swap. --gap asks about surfaces.",
+              z->walk.o->sample > 0 ? ", drawn at random" : "", number_of(z->whole.ties, 3).text,
+              number_of(z->whole.swaps, 3).text);
+    if (all->longest > 0.0)
+        page_line(p, "the longest interval: %s at z = %s, of %s guaranteed", number_of(all->longest, DIGITS).text,
+                  number_of(all->longest_z, DIGITS).text, number_up(all->bound, DIGITS).text);
+}
+
+static void say_answer(page *p, void *item) {
+    const zfight *z = item;
+    walk_title(p, item);
+    (z->gap > 0.0 ? say_gap : say_neighbours)(p, z);
 }
 
 static void say_planes(page *p, void *item) {
@@ -142,21 +186,22 @@ static unsigned conditions(const options *o) {
 }
 
 static const column count_columns[] = {
-    {FIELD(band, counts.pairs, "pairs", ""), SHOWN("pairs", 12, 0)},
+    {FIELD(band, counts.pairs, "pairs", ""), SHOWN("pairs", 11, 0), .spare = 2},
     {FIELD(band, counts.ties, "ties", "")},
     {FIELD(band, counts.swaps, "swaps", "")},
     {TEXT_FIELD(band, ties, "ties %", 9, 4), .fixed = true},
     {TEXT_FIELD(band, swaps, "swaps %", 9, 4), .fixed = true},
     {FIELD(band, longest, "longest", "scene")},
     {FIELD(band, counts.longest_z, "longest_z", "scene")},
-    {TEXT_FIELD(band, longest, "longest", 13, DIGITS), .when = WITH_INTERVALS},
-    {TEXT_FIELD(band, counts.longest_z, "at", 11, DIGITS), .when = WITH_INTERVALS},
-    {FIELD(band, counts.bound, "bound", "scene"), SHOWN("bound", 13, DIGITS), .upward = true},
+    {TEXT_FIELD(band, longest, "longest", 12, DIGITS), .when = WITH_INTERVALS},
+    {TEXT_FIELD(band, counts.longest_z, "at", 10, DIGITS), .when = WITH_INTERVALS},
+    {FIELD(band, counts.bound, "bound", "scene"), SHOWN("guaranteed", 12, DIGITS), .upward = true},
     {FIELD(band, used, "used", "")},
     {TEXT_FIELD(band, used, "used", 8, 3), .fixed = true, .when = WITH_INTERVALS},
     {.kind = COLUMN_END}};
 
-static const column band_columns[] = {{FIELD(band, counts.lo, "lo", "scene"), SHOWN("from", 10, DIGITS)},
+static const column band_columns[] = {{FIELD(band, counts.lo, "lo", "scene")},
+                                      {TEXT_FIELD(band, from, "from", 10, 0)},
                                       {FIELD(band, counts.hi, "hi", "scene"), SHOWN("to", 10, DIGITS)},
                                       {GROUP(NULL, count_columns)},
                                       {FIELD(band, clipped, "clipped", ""), .only = AS_CSV},
@@ -182,13 +227,15 @@ static const column setup_report[] = {
     {FIELD(zfight, lo, "lo", "scene"), .only = AS_JSON},
     {FIELD(zfight, hi, "hi", "scene"), .only = AS_JSON},
     {PART(zfight, whole, NULL, count_columns), .only = AS_JSON},
+    {FIELD(zfight, whole.counts.first, "first", "scene"), .only = AS_JSON, .when = WITH_GAP},
+    {FIELD(zfight, always, "always_from", "scene"), .only = AS_JSON, .when = WITH_GAP},
     {PART(zfight, result, NULL, clipped_columns), .only = AS_JSON, .pointed = true, .when = WITH_CLIPPED},
     {PART(zfight, result, NULL, plane_columns), .only = AS_JSON, .pointed = true},
     {LIST("bands", band_columns, next_band)},
     {PART(zfight, result, NULL, plane_columns), .only = AS_CSV, .pointed = true},
     {.kind = COLUMN_END}};
 
-static const column columns[] = {{LIST("setups", setup_report, next_setup), .head = walk_title, .notes = say_planes},
+static const column columns[] = {{LIST("setups", setup_report, next_setup), .head = say_answer, .notes = say_planes},
                                  {.kind = COLUMN_END}};
 
 /* ---- The command ------------------------------------------------------------------------------------------------- */

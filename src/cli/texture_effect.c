@@ -115,10 +115,10 @@ static int write_table(table *t, int status) {
     snprintf(usable, sizeof usable, "%s %s", t->wanted_name, t->direction);
     const column rows[] = {{FIELD(row, sample.z, "z", "scene"), SHOWN("z", 12, DIGITS_Z)},
                            {FIELD(row, sample.code, "code", ""), SHOWN("code", 11, 0)},
-                           {FIELD(row, sample.stored, "z_stored", "scene"), SHOWN("stored", 16, DIGITS_Z)},
-                           {FIELD(row, sample.interval, "interval", "scene"), SHOWN("interval", 14, DIGITS)},
-                           {FIELD(row, levels, "levels", "1/255"), SHOWN("levels", 13, DIGITS)},
-                           {FIELD(row, usable, "usable", ""), SHOWN(usable, 21, DIGITS), .only = AS_JSON | AS_TEXT},
+                           {FIELD(row, sample.stored, "z_stored", "scene"), SHOWN("stored", 15, DIGITS_Z)},
+                           {FIELD(row, sample.interval, "interval", "scene"), SHOWN("interval", 13, DIGITS)},
+                           {FIELD(row, levels, "levels", "1/255"), SHOWN("levels", 12, DIGITS)},
+                           {FIELD(row, usable, "usable", ""), SHOWN(usable, 17, DIGITS), .only = AS_JSON | AS_TEXT},
                            {FIELD(row, usable, usable, t->wanted->unit), .only = AS_CSV},
                            {.kind = COLUMN_END}};
     const column setup_report[] = {{PART(table, walk.fields, NULL, setup_columns)},
