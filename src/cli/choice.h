@@ -45,8 +45,9 @@ typedef struct choice_words {
 
 /**
  * Which model is enough and what decides it. The set-up's own model is taken into account: it is not recommended again.
+ * The unit of depths may be null.
  */
-choice_words choice_sentence(const choosing *c);
+choice_words choice_sentence(const choosing *c, const char *unit);
 
 /** What a model neglects of the separation, as a share, and the depth where it does; NaN where it neglects nothing. */
 typedef struct choice_share {

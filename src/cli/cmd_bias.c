@@ -126,18 +126,19 @@ static void say_states(page *p, void *item) {
     if (!b->inverse && s->clamp != 0.0)
         output_format(p->out, ", clamp %s", number_full(s->clamp).text);
     if (b->goal.slope > 0.0)
-        output_format(p->out, ", slope %s a pixel", number_full(b->goal.slope).text);
+        output_format(p->out, ", slope %s per pixel", number_in(number_full(b->goal.slope), p->unit).text);
     output_char(p->out, '\n');
 }
 
 /* "  told apart  -2 units from 0.1 to 1000 (needed at z = 0.1)" */
 static void say_needed(page *p, const char *what, double units, double lo, double hi, double z) {
-    const number_text from = number_of(lo, DIGITS_Z), to = number_of(hi, DIGITS_Z);
+    const number_text from = number_in(number_of(lo, DIGITS_Z), p->unit);
+    const number_text to = number_in(number_of(hi, DIGITS_Z), p->unit);
     if (isnan(units))
         page_note(p, what, "no bias is enough from %s to %s", from.text, to.text);
     else
         page_note(p, what, "%s unit%s from %s to %s (needed at z = %s)", number_of(units, DIGITS_Z).text,
-                  fabs(units) == 1.0 ? "" : "s", from.text, to.text, number_of(z, DIGITS_Z).text);
+                  fabs(units) == 1.0 ? "" : "s", from.text, to.text, number_in(number_of(z, DIGITS_Z), p->unit).text);
 }
 
 static void say_range(page *p, const biasing *b) {
@@ -148,7 +149,8 @@ static void say_range(page *p, const biasing *b) {
     say_needed(p, "the gap", r->gap, r->gap_lo, r->hi, r->gap_z);
     if (!isnan(r->shift_hi))
         page_note(p, "", "the same units bring a layer nearer by %s at z = %s",
-                  number_of(fabs(r->shift_hi), DIGITS).text, number_of(r->hi, DIGITS_Z).text);
+                  number_in(number_of(fabs(r->shift_hi), DIGITS), p->unit).text,
+                  number_in(number_of(r->hi, DIGITS_Z), p->unit).text);
 }
 
 static void say_notes(page *p, void *item) {

@@ -166,21 +166,22 @@ static void *next_setup(void *of, size_t i) {
 static void say_reach(page *p, void *item) {
     const table *t = item;
     char text[REACH_TEXT_SIZE], sentence[REACH_TEXT_SIZE] = "";
+    const unit_row *unit = t->walk.o->unit;
     walk_title(p, item);
     if (t->walk.all.count > 1)
         return;
     for (size_t i = 0; i < REACH_LIMITS; i++) {
-        const double up_to = reach_of(&t->full, reach_limits[i]);
+        const double up_to = reach_of(&t->full, reach_limit(i, unit));
         if (!isnan(up_to))
             append(sentence, sizeof sentence, "%s %s apart up to %s%s", *sentence != '\0' ? "," : "",
-                   number_full(reach_limits[i]).text, up_to < t->full.spec.zfar ? "z = " : "",
-                   reach_text(&t->full, up_to, text));
+                   reach_limit_text(i, unit).text, up_to < t->full.spec.zfar ? "z = " : "",
+                   reach_text(&t->full, up_to, unit, text));
     }
     if (*sentence != '\0')
         page_text(p, "Guaranteed to be told apart: surfaces%s.", sentence);
     else
         page_text(p, "Surfaces %s apart are nowhere sure to be told apart.",
-                  number_full(reach_limits[REACH_LIMITS - 1]).text);
+                  reach_limit_text(REACH_LIMITS - 1, unit).text);
 }
 
 static void say_worst(page *p, const dp_worst *w) {
@@ -189,26 +190,28 @@ static void say_worst(page *p, const dp_worst *w) {
     if (isinf(w->error))
         page_note(p, "worst error", "unbounded, code %u", w->error_code);
     else
-        page_note(p, "worst error", "%s at z = %s, code %u", number_of(w->error, DIGITS_FEW).text,
-                  number_of(w->error_z, DIGITS_USUAL).text, w->error_code);
+        page_note(p, "worst error", "%s at z = %s, code %u", number_in(number_of(w->error, DIGITS_FEW), p->unit).text,
+                  number_in(number_of(w->error_z, DIGITS_USUAL), p->unit).text, w->error_code);
     const int digits = digits_to_see(w->interval_lo, w->interval);
-    const number_text lo = number_of(w->interval_lo, digits);
+    const number_text lo = number_in(number_of(w->interval_lo, digits), p->unit);
     if (isinf(w->interval))
         page_note(p, "worst interval", "unbounded, from %s on, code %u", lo.text, w->interval_code);
     else
-        page_note(p, "worst interval", "%s from %s to %s, code %u", number_of(w->interval, DIGITS_FEW).text, lo.text,
-                  number_of(w->interval_hi, digits).text, w->interval_code);
+        page_note(p, "worst interval", "%s from %s to %s, code %u",
+                  number_in(number_of(w->interval, DIGITS_FEW), p->unit).text, lo.text,
+                  number_in(number_of(w->interval_hi, digits), p->unit).text, w->interval_code);
     if (!isnan(w->blind_from))
         page_note(p, "blind", "from z = %s: behind it nothing is told apart",
-                  number_of(w->blind_from, DIGITS_USUAL).text);
+                  number_in(number_of(w->blind_from, DIGITS_USUAL), p->unit).text);
 }
 
 static void say_drawn(page *p, const clipping *c) {
     if (isnan(c->znear) && c->loses)
         page_note(p, "drawn", "nothing: clipping loses all depths");
     else if (!isnan(c->znear))
-        page_note(p, "drawn", "from %s to %s%s", number_of(c->znear, DIGITS_USUAL).text,
-                  number_of(c->zfar, DIGITS_USUAL).text, c->loses ? ": clipping loses the rest" : "");
+        page_note(p, "drawn", "from %s to %s%s", number_in(number_of(c->znear, DIGITS_USUAL), p->unit).text,
+                  number_in(number_of(c->zfar, DIGITS_USUAL), p->unit).text,
+                  c->loses ? ": clipping loses the rest" : "");
 }
 
 static void say_way(page *p, const way *w, double tolerance) {
@@ -227,11 +230,12 @@ static void say_notes(page *p, void *item) {
     const guarantee *g = t->guarantee;
     say_worst(p, t->worst);
     if (g != NULL)
-        page_note(p, "worst separation", "%s at z = %s, %s", number_up(g->worst.bound, DIGITS_FEW).text,
-                  number_of(g->worst.z, DIGITS_USUAL).text,
+        page_note(p, "worst separation", "%s at z = %s, %s",
+                  number_in(number_up(g->worst.bound, DIGITS_FEW), p->unit).text,
+                  number_in(number_of(g->worst.z, DIGITS_USUAL), p->unit).text,
                   g->model == DP_MODEL_FP32 ? "guaranteed in binary32 (model fp32)" : "in the model staged");
     say_drawn(p, &t->planes);
-    page_line(p, "%s", choice_sentence(&t->choice).text);
+    page_line(p, "%s", choice_sentence(&t->choice, p->unit).text);
     if (option_given(t->walk.o, OPTION_TOLERANCE))
         say_way(p, &t->interval, t->walk.o->tolerance);
 }

@@ -174,8 +174,8 @@ static void say_planes(page *p, void *item) {
     if (isnan(r->near_effective))
         page_line(p, "clipping loses everything");
     else
-        page_line(p, "drawn from %s to %s", number_of(r->near_effective, PLANE_DIGITS).text,
-                  number_of(r->far_effective, PLANE_DIGITS).text);
+        page_line(p, "drawn from %s to %s", number_in(number_of(r->near_effective, PLANE_DIGITS), p->unit).text,
+                  number_in(number_of(r->far_effective, PLANE_DIGITS), p->unit).text);
 }
 
 enum { WITH_INTERVALS = 1, WITH_CLIPPED = 2, WITH_SAMPLE = 4, WITH_GAP = 8 };

@@ -42,7 +42,7 @@ static void measure(const comparison *c, compared *r) {
     for (size_t i = 0; i < c->depth_count; i++)
         r->separation[i] = dp_sample_at(&full, c->depths[i], &sample) == DP_OK ? sample.separation : (double)NAN;
     for (size_t i = 0; i < LIMITS; i++)
-        r->up_to[i] = reach_of(&full, reach_limits[i]);
+        r->up_to[i] = reach_of(&full, reach_limit(i, c->walk->o->unit));
 }
 
 /* As far as it goes, then as close as it comes, then as cheap as it is. */
@@ -95,7 +95,7 @@ static void say_farthest(page *p, const comparison *c, const char *limit) {
         page_text(p, "None of these is sure to tell surfaces %s apart, not even at the near plane.", limit);
     else if (all == 0)
         page_text(p, "%s goes farthest: it tells surfaces %s apart up to z = %s.", best->name, limit,
-                  reach_text(best->setup, best->up_to[MIDDLE], text));
+                  reach_text(best->setup, best->up_to[MIDDLE], c->walk->o->unit, text));
     else
         page_text(p, "%s tell%s surfaces %s apart all the way to the far plane.", names, all == 1 ? "s" : "", limit);
 }
@@ -119,8 +119,8 @@ static void say_reversing(page *p, const comparison *c, const char *limit) {
         const compared *r = &c->rows[i], *other = reversed_of(c, r);
         if (other == NULL || r->cost.buffer == 0 || isnan(r->up_to[MIDDLE]))
             continue;
-        reach_text(r->setup, r->up_to[MIDDLE], before);
-        reach_text(other->setup, other->up_to[MIDDLE], after);
+        reach_text(r->setup, r->up_to[MIDDLE], c->walk->o->unit, before);
+        reach_text(other->setup, other->up_to[MIDDLE], c->walk->o->unit, after);
         append(gains, sizeof gains, "%s %s", *gains != '\0' ? "," : "", r->name);
         append(gains, sizeof gains, strcmp(before, after) == 0 ? " no farther" : " from %s to %s", before, after);
     }
@@ -130,7 +130,7 @@ static void say_reversing(page *p, const comparison *c, const char *limit) {
 
 static void say_notes(page *p, void *item) {
     const comparison *c = item;
-    const number_text limit = number_full(reach_limits[MIDDLE]);
+    const number_text limit = reach_limit_text(MIDDLE, c->walk->o->unit);
     bool staged = false;
     output_char(p->out, '\n');
     say_farthest(p, c, limit.text);
@@ -150,8 +150,10 @@ static void say_notes(page *p, void *item) {
 static void say_head(page *p, void *item) {
     const comparison *c = item;
     const options *o = c->walk->o;
-    page_title(p, "near %s, far %s, %s", number_full(o->znear).text, number_full(o->zfar).text,
-               o->ortho ? "orthographic" : "perspective");
+    const char *unit = options_unit(o);
+    page_title(p, "near %s, far %s, %s%s%s", number_full(o->znear).text, number_full(o->zfar).text,
+               o->ortho ? "orthographic" : "perspective", unit != NULL ? ", lengths in " : "",
+               unit != NULL ? unit : "");
     output_format(p->out, "%s%-20s%*s%*s%s\n", p->soft, "", 7 * (int)c->depth_count, "guaranteed separation at z",
                   7 * LIMITS, "told apart up to z", p->plain);
 }
@@ -172,7 +174,7 @@ static void write(comparison *c) {
     }
     for (size_t i = 0; i < LIMITS; i++) {
         char *title = c->titles[DEPTHS + i];
-        snprintf(title, NUMBER_SIZE, "%s", number_full(reach_limits[i]).text);
+        snprintf(title, NUMBER_SIZE, "%s", reach_limit_text(i, c->walk->o->unit).text);
         rows[n++] = (column){TEXT_FIELD(compared, up_to[0], title, 7, REACH_DIGITS), .downward = true, .brief = true};
         rows[n - 1].offset = offsetof(compared, up_to[i]);
     }

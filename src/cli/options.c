@@ -19,6 +19,10 @@ const char *option_word(option_id id, size_t index) {
     return item.name;
 }
 
+const char *options_unit(const options *o) {
+    return o->unit != NULL ? o->unit->name : NULL;
+}
+
 int option_error(option_id id, const char *format, ...) {
     va_list arguments;
     va_start(arguments, format);

@@ -204,6 +204,9 @@ static inline bool option_given(const options *o, option_id id) {
  */
 int option_error(option_id id, const char *format, ...) __attribute__((format(printf, 2, 3)));
 
+/** "m": what a scene unit is; null where nothing says it. */
+const char *options_unit(const options *o);
+
 /** The long name of an option without its dashes. */
 const char *option_name(option_id id);
 

@@ -67,9 +67,10 @@ const column setup_columns[] = {{FIELD(setup_fields, znear, "near", "scene")},
                                 {FIELD(setup_fields, model, "model", "")},
                                 {FIELD(setup_fields, arith, "arith", ""), .only = AS_JSON, .optional = true},
                                 {FIELD(setup_fields, log_c, "log_c", ""), .only = AS_JSON, .optional = true},
+                                {FIELD(setup_fields, unit, "unit", ""), .only = AS_JSON},
                                 {.kind = COLUMN_END}};
 
-setup_fields setup_fields_of(const dp_setup *setup) {
+setup_fields setup_fields_of(const dp_setup *setup, const char *unit) {
     const dp_spec *spec = &setup->spec;
     return (setup_fields){.znear = spec->znear,
                           .zfar = spec->zfar,
@@ -79,11 +80,12 @@ setup_fields setup_fields_of(const dp_setup *setup) {
                           .format = spec->format.name,
                           .rounding = dp_rounding_name(spec->rounding),
                           .model = dp_model_name(spec->model),
-                          .arith = spec->model == DP_MODEL_FP32 ? dp_arith_get(spec->arith)->name : NULL};
+                          .arith = spec->model == DP_MODEL_FP32 ? dp_arith_get(spec->arith)->name : NULL,
+                          .unit = unit};
 }
 
 const char *setup_label(const dp_setup *setup, bool full, char out[SETUP_LABEL_SIZE]) {
-    const setup_fields f = setup_fields_of(setup);
+    const setup_fields f = setup_fields_of(setup, NULL);
     const int length = snprintf(out, SETUP_LABEL_SIZE, "%s %s", f.format, f.mapping);
     const bool has_log_c = !isnan(f.log_c), has_arith = f.arith != NULL;
     if (full)
@@ -92,6 +94,13 @@ const char *setup_label(const dp_setup *setup, bool full, char out[SETUP_LABEL_S
                  number_full(f.zfar).text, f.projection, f.rounding, has_arith ? "float" : f.model,
                  has_arith ? " " : "", has_arith ? f.arith : "");
     return out;
+}
+
+void setup_title(page *p, const dp_setup *setup, const char *unit) {
+    char label[SETUP_LABEL_SIZE];
+    p->unit = unit;
+    page_title(p, "%s%s%s", setup_label(setup, true, label), unit != NULL ? ", lengths in " : "",
+               unit != NULL ? unit : "");
 }
 
 clipping clipping_of(const dp_setup *setup) {

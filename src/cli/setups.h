@@ -38,18 +38,22 @@ const char *setup_label(const dp_setup *setup, bool full, char out[SETUP_LABEL_S
 
 /**
  * What names a set-up in JSON and CSV: near, far, projection, mapping, format, rounding, model. In JSON `arith` follows
- * where the model is fp32, `log_c` where the mapping is log.
+ * where the model is fp32, `log_c` where the mapping is log, and the unit, null where nothing says it.
  */
 typedef struct setup_fields {
     double znear, zfar, log_c; /**< log_c is NaN unless the mapping is log */
     const char *projection, *mapping, *format, *rounding, *model;
     const char *arith; /**< null unless the model is fp32 */
+    const char *unit;  /**< what a scene unit is; null where nothing says it */
 } setup_fields;
 
 extern const column setup_columns[];
 
-/** Points into the set-up, which must stay where it is. */
-setup_fields setup_fields_of(const dp_setup *setup);
+/** Points into the set-up, which must stay where it is. The unit is that of its lengths, or null. */
+setup_fields setup_fields_of(const dp_setup *setup, const char *unit);
+
+/** What text says above a set-up: its label and the unit, which is that of the page from here on. */
+void setup_title(page *p, const dp_setup *setup, const char *unit);
 
 /** What binary32 clipping draws of what lies between the planes. */
 typedef struct clipping {

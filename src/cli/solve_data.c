@@ -37,7 +37,7 @@ static void take_candidate(solving *s, const solve_candidate *c) {
     x->plane = solved ? &x->found.plane : NULL;
     *(c->unknown == SOLVE_NEAR ? &x->lattice_near : &x->lattice_far) = c->solved ? &x->found.lattice.value : NULL;
     s->setup = (dp_setup){.spec = c->spec};
-    x->setup = setup_fields_of(&s->setup);
+    x->setup = setup_fields_of(&s->setup, options_unit(s->report.o));
 }
 
 /* ---- The table of alternatives ----------------------------------------------------------------------------------- */
@@ -112,7 +112,7 @@ static void *next_line(void *of, size_t i) {
     x->role = i == 0 ? "answer" : is_island ? "island" : "alternative";
     if (is_island) { /* of the lattice */
         s->setup.spec.model = DP_MODEL_EXACT;
-        x->setup = setup_fields_of(&s->setup);
+        x->setup = setup_fields_of(&s->setup, options_unit(r->o));
         x->from = r->islands[i - 1].lo;
         x->to = r->islands[i - 1].hi;
         x->steady = (double)NAN;

@@ -31,7 +31,7 @@ bool walk_setup(walk *w, size_t i) {
     if (i == w->all.count)
         return false;
     w->setup = &w->all.items[i];
-    w->fields = setup_fields_of(w->setup);
+    w->fields = setup_fields_of(w->setup, options_unit(w->o));
     return true;
 }
 
@@ -45,6 +45,6 @@ bool walk_depth(walk *w, size_t i, double *z) {
 }
 
 void walk_title(page *p, void *item) {
-    char label[SETUP_LABEL_SIZE];
-    page_title(p, "%s", setup_label(((const walk *)item)->setup, true, label));
+    const walk *w = item;
+    setup_title(p, w->setup, w->fields.unit);
 }
