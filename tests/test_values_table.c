@@ -21,7 +21,7 @@ typedef struct table_case {
 } table_case;
 
 static const table_case tables[] = {
-    {{0.3, 1000, {"unorm16", "fp32"}, {"d3d", "log"}, .rounding = DP_ROUND_ZERO, .log_c = 2},
+    {{0.3, 1000, {"unorm16", "fp32"}, {"d3d", "log"}, .rounding = DP_ROUND_ZERO, .log_c = 2, .unit = "km"},
      0.5,
      700,
      {0.3, 1.7, 55, 321.5, 900, 1000},
@@ -43,7 +43,7 @@ static const table_case tables[] = {
      .allowed = 0.05},
     {{1, 50, {"unorm16"}, {"d3d", "linear"}, .model = DP_MODEL_STAGED}, 1, 50, {1, 2, 3, 4, 5, 50}, .allowed = 0.05},
     {{2, 90, {"unorm24"}, {"reversed", "gl"}, .ortho = 1}, 3, 80, {2, 3, 5, 7, 60, 90}, .allowed = 0.05},
-    {{0.1, 1000, {"unorm16", "unorm24", "fp32"}, {"d3d", "reversed", "log"}, .ortho = 0},
+    {{0.1, 1000, {"unorm16", "unorm24", "fp32"}, {"d3d", "reversed", "log"}, .unit = "cm"},
      0.2,
      900,
      {0.1, 0.5, 3, 20, 100, 900},
@@ -262,6 +262,7 @@ static void test_table(void **state) {
     for (size_t i = 0; i < sizeof tables / sizeof tables[0]; i++) {
         const table_case *c = &tables[i];
         values v = values_of("table");
+        v.unit = c->camera.unit;
         line_places lines = {0};
         dp_setup setups[CAMERA_SETUPS];
         csv_column used[sizeof columns / sizeof columns[0]];

@@ -74,7 +74,9 @@ static void *next_alternative(void *of, size_t i) {
 static void say_others(page *p, void *item) {
     const solve_report *r = item;
     if (r->count > 1)
-        output_text(p->out, r->target == SOLVE_FOR_SEPARATION ? "\nOthers\n" : "\nAlternatives, cheapest first\n");
+        output_format(p->out, "\n%s%s%s\n",
+                      r->target == SOLVE_FOR_SEPARATION ? "Others" : "Alternatives, cheapest first",
+                      r->o->unit != NULL ? ", lengths in " : "", r->o->unit != NULL ? r->o->unit->name : "");
 }
 
 /* The first possible alternative with its format, so that a caution is said once. */
