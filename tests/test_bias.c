@@ -3,6 +3,7 @@
  * Depth bias: the rule of each API, the conformance rows of WebGPU, the way into the scene and back, and whether as
  * many units as are said to be enough are enough for every binary32 depth.
  */
+#include <float.h>
 #include <stdio.h>
 #include <string.h>
 
@@ -162,11 +163,18 @@ static dp_setup any_setup(rng *r, const char *format, double *lo, double *hi) {
     return setup_of(znear, zfar, mapping, format);
 }
 
+/* Where long double has 113 bits, __float128 has no name. */
+#if LDBL_MANT_DIG >= 113
+typedef long double quadruple;
+#else
+typedef __float128 quadruple;
+#endif
+
 /* z' - z in quadruple precision, from the definition of each curve; the logarithm to first and second order. */
 static double shift_reference(const dp_setup *setup, double z, double o) {
-    const __float128 n = setup->spec.znear;
-    const __float128 f = setup->spec.zfar;
-    const __float128 t = setup->reversed ? -(__float128)o : (__float128)o;
+    const quadruple n = setup->spec.znear;
+    const quadruple f = setup->spec.zfar;
+    const quadruple t = setup->reversed ? -(quadruple)o : (quadruple)o;
     switch (setup->spec.mapping) {
     case DP_MAPPING_LINEAR:
         return (double)(t * f);
@@ -177,8 +185,8 @@ static double shift_reference(const dp_setup *setup, double z, double o) {
     default:
         break;
     }
-    const __float128 kappa = 1 / n - (isinf(setup->spec.zfar) ? 0 : 1 / f);
-    return (double)(1 / (1 / (__float128)z - t * kappa) - z);
+    const quadruple kappa = 1 / n - (isinf(setup->spec.zfar) ? 0 : 1 / f);
+    return (double)(1 / (1 / (quadruple)z - t * kappa) - z);
 }
 
 static void test_shift(void **state) {

@@ -52,7 +52,7 @@ static const refusal refusals[] = {
     {"table --json --csv", "csv", 2},
     {"table --csv --json", "json", 2},
     {"table -o ''", "output", 2},
-    {"table -o /nonexistent/x", "output", 3},
+    {"table -o /nonexistent/x", "", 3},
     {"table --preset nothing", "preset", 2},
     {"budget -m linear", "mapping", 2},
     {"budget --at 5000", "at", 2},

@@ -228,7 +228,7 @@ static void check_text(const values *v, const bias_case *c, const char *argument
             (strcmp(shown[count].path, "units_gap") != 0 || c->gap > 0))
             count++;
     }
-    printed p = print_of("%s", arguments);
+    printed p = print_of("%s --full", arguments);
     check_text_table(v, p.out, shown, count, lines);
     if (c->inverse)
         check_text_numbers(v, p.out, "told apart  ", 9, apart);

@@ -230,7 +230,7 @@ static void check_forms(const json_t *items, const char *what, const char *bound
     size_t i, used = 0;
     const json_t *o;
     snprintf(arguments, sizeof arguments, "list %s", what);
-    printed p = print_of("%s", arguments);
+    printed p = print_of("%s --full", arguments);
     for (const char *at = p.out; *at != '\0' && used + 1 < sizeof text; at++)
         if (!isspace((unsigned char)*at))
             text[used++] = *at;

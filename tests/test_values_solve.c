@@ -462,7 +462,7 @@ static void check_text(values *v, const solve_case *c, const char *arguments, co
     static const char *const certain[] = {"answer.separation_fp32", NULL};
     const bool in_fp32 = strcmp(value_at(v, "answer.model")->text, "fp32") == 0;
     char label[128];
-    printed p = print_of("%s", arguments);
+    printed p = print_of("%s --full", arguments);
     assert_int_equal(p.status, !c->possible);
     snprintf(label, sizeof label, "%-14s ", measure_of(c));
     check_text_numbers(v, p.out, label, 6, worst);

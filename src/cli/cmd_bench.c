@@ -58,8 +58,8 @@ static void say_inputs(page *p, void *item) {
     const benching *b = item;
     const method_family_row *f = b->asked.family;
     page_title(p, "%s: %s", f->name, f->summary);
-    output_format(p->out, "%s, near %s, far %s; %s\n", f->cases[b->asked.which].name, number_full(b->o->znear).text,
-                  number_full(b->o->zfar).text, b->machine);
+    page_text(p, "%s, near %s, far %s; %s", f->cases[b->asked.which].name, number_full(b->o->znear).text,
+              number_full(b->o->zfar).text, b->machine);
 }
 
 static void say_marks(page *p, void *item) {
@@ -94,7 +94,7 @@ enum { IN_STEPS = 1, IN_ULP = 2 };
 static const column line_columns[] = {
     {FIELD(line, name, "name", ""), .only = AS_JSON},
     {FIELD(line, name, "method", ""), .only = AS_CSV},
-    {TEXT_FIELD(line, label, "  method", -22, 0)},
+    {TEXT_FIELD(line, label, "  method", -21, 0)},
     {FIELD(line, of.ns, "ns", ""), SHOWN("ns", 8, 3)},
     {FIELD(line, limits, "limits", ""), SHOWN("x memory", 10, 3), .only = AS_JSON | AS_TEXT},
     {FIELD(line, of.spread, "spread", "")},

@@ -154,7 +154,11 @@ static void say_head(page *p, void *item) {
     page_title(p, "near %s, far %s, %s%s%s", number_full(o->znear).text, number_full(o->zfar).text,
                o->ortho ? "orthographic" : "perspective", unit != NULL ? ", lengths in " : "",
                unit != NULL ? unit : "");
-    output_format(p->out, "%s%-20s%*s%*s%s\n", p->soft, "", 7 * (int)c->depth_count, "guaranteed separation at z",
+    const int width = 7 * (int)c->depth_count;
+    output_format(p->out, "%s%-20s%*s%*s%s\n", p->soft, "", width,
+                  width > 27   ? "guaranteed separation at z"
+                  : width > 14 ? "guaranteed at z"
+                               : "at z",
                   7 * LIMITS, "told apart up to z", p->plain);
 }
 

@@ -6,6 +6,7 @@
 #include "cli/progress.h"
 #include "cli/setups.h"
 #include "cli/texture.h"
+#include "core/append.h"
 #include "report/number.h"
 #include "report/report.h"
 #include "texture/survey.h"
@@ -105,8 +106,8 @@ static number_text in_scene(const page *p, double length) {
 
 static void say_metric(const statistics *r, page *p) {
     const metric *m = &r->source.metric;
-    output_format(p->out, "metric depth, a unit of the samples is %s, up to %s\n", in_scene(p, r->o->metric).text,
-                  in_scene(p, m->zfar).text);
+    page_text(p, "metric depth, a unit of the samples is %s, up to %s", in_scene(p, r->o->metric).text,
+              in_scene(p, m->zfar).text);
     if (m->step > 0)
         page_note(p, "samples", "steps of %s, rounded or cut off", in_scene(p, m->step).text);
     else
@@ -115,17 +116,17 @@ static void say_metric(const statistics *r, page *p) {
 
 static void say_source(statistics *r, page *p) {
     const texture_source *s = &r->source;
+    char parameters[512] = "";
     p->unit = options_unit(r->o);
-    if (is_image(r))
-        output_format(p->out, "%s: %u x %u pixels, %s of %s, %u channel%s\n", s->path, s->camera.width,
-                      s->camera.height, image_file_name(s->picture.file), r->named.type, s->channels,
-                      s->channels == 1 ? "" : "s, the first is read");
-    else
-        output_format(p->out, "scene %s: %u x %u pixels", r->named.scene, s->camera.width, s->camera.height);
     for (size_t i = 0; next_parameter(r, i) != NULL; i++)
-        output_format(p->out, "%s %s %s", i > 0 ? "," : ";", r->parameter, number_of(r->parameter_value, 6).text);
-    if (!is_image(r))
-        output_char(p->out, '\n');
+        append(parameters, sizeof parameters, "%s %s %s", i > 0 ? "," : ";", r->parameter,
+               number_of(r->parameter_value, 6).text);
+    if (is_image(r))
+        page_text(p, "%s: %u x %u pixels, %s of %s, %u channel%s", s->path, s->camera.width, s->camera.height,
+                  image_file_name(s->picture.file), r->named.type, s->channels,
+                  s->channels == 1 ? "" : "s, the first is read");
+    else
+        page_text(p, "scene %s: %u x %u pixels%s", r->named.scene, s->camera.width, s->camera.height, parameters);
     if (r->o->metric > 0) {
         say_metric(r, p);
     } else {
@@ -268,12 +269,12 @@ static const column found_columns[] = {{FIELD(statistics, named.format_from, "fo
 
 /* CSV calls the ends of a band otherwise. */
 static const column band_columns[] = {
-    {FIELD(statistics, band.lo, "lo", "scene"), SHOWN("from", 9, 6), .only = AS_JSON | AS_TEXT},
-    {FIELD(statistics, band.hi, "hi", "scene"), SHOWN("to", 9, 6), .only = AS_JSON | AS_TEXT},
+    {FIELD(statistics, band.lo, "lo", "scene"), SHOWN("from", 8, 6), .only = AS_JSON | AS_TEXT},
+    {FIELD(statistics, band.hi, "hi", "scene"), SHOWN("to", 8, 6), .only = AS_JSON | AS_TEXT},
     {FIELD(statistics, band.lo, "from", "scene"), .only = AS_CSV},
     {FIELD(statistics, band.hi, "to", "scene"), .only = AS_CSV},
     {FIELD(statistics, band.pixels, "pixels", ""), SHOWN("pixels", 10, 0)},
-    {FIELD(statistics, band.codes, "codes", ""), SHOWN("codes", 9, 0)},
+    {FIELD(statistics, band.codes, "codes", ""), SHOWN("codes", 8, 0)},
     {FIELD(statistics, band.available, "available", ""), SHOWN("available", 11, 0)},
     {FIELD(statistics, band.gap, "gap", "scene"), SHOWN("nearest gap", 12, 6)},
     {FIELD(statistics, band.gap_z, "gap_z", "scene"), SHOWN("at z", 10, 6)},
@@ -297,8 +298,8 @@ static const column error_columns[] = {{FIELD(error_line, name, "name", "")},
                                        {FIELD(error_line, sum.infinite, "unbounded", "")},
                                        {FIELD(error_line, masked, "masked", "")},
                                        {FIELD(error_line, sum.mean, "mean", ""), SHOWN("mean", 11, 4)},
-                                       {FIELD(error_line, sum.p99, "p99", ""), SHOWN("99 %", 11, 4)},
-                                       {FIELD(error_line, sum.hi, "max", ""), SHOWN("at most", 11, 4)},
+                                       {FIELD(error_line, sum.p99, "p99", ""), SHOWN("99 %", 10, 4)},
+                                       {FIELD(error_line, sum.hi, "max", ""), SHOWN("at most", 10, 4)},
                                        {FIELD(error_line, sum.hi_column, "column", "")},
                                        {FIELD(error_line, sum.hi_row, "row", "")},
                                        {TEXT_FIELD(error_line, at, "at pixel", -1, 0)},

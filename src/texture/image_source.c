@@ -149,5 +149,17 @@ bool source_ended(image_source *source) {
 }
 
 bool image_rows_plain(image_writer *writer, const void *rows, uint32_t count) {
-    return fwrite(rows, writer->row_size, count, writer->stream) == count;
+    const size_t size = image_type_size(writer->type);
+    if (image_little() || size == 1)
+        return fwrite(rows, writer->row_size, count, writer->stream) == count;
+    uint64_t some[512]; /* which any sample may lie in */
+    const unsigned char *from = rows;
+    for (size_t left = writer->row_size * count, bytes; left > 0; left -= bytes, from += bytes) {
+        bytes = left < sizeof some ? left : sizeof some;
+        memcpy(some, from, bytes);
+        image_swap(some, size, bytes / size);
+        if (fwrite(some, 1, bytes, writer->stream) != bytes)
+            return false;
+    }
+    return true;
 }
