@@ -266,8 +266,7 @@ static void test_no_units(void **state) {
     options o;
     assert_int_equal(parse_line(&o, "table|-f|infm", line), EXIT_USAGE);
     assert_int_equal(parse_line(&o, "table|--preset|mujoco|--at|1m", line), EXIT_USAGE);
-    assert_string_equal(line,
-                        "depthprec: --unit: must be given beside lengths with a unit: mujoco measures in extents");
+    assert_string_equal(line, "depthprec: --unit: must be given: mujoco measures in extents");
     options_release(&o);
     tally_end(&t);
 }
@@ -475,7 +474,7 @@ static void test_rows(void **state) {
         size_t name_at;
         const char *near, *meant;
     } rows[] = {
-        {"table", OPTION_PRESET, AT(preset), "unreal", "unreal", offsetof(preset, name), "unrael", "unreal"},
+        {"table", OPTION_PRESET, AT(presets), "unreal", "unreal", offsetof(preset, name), "unrael", "unreal"},
         {"bias", OPTION_API, AT(api), "Vulkan", "vulkan", offsetof(bias_api, name), "wegbpu", "webgpu"},
         {"bias", OPTION_API, AT(api), "d3d12", "d3d11", offsetof(bias_api, name), "d3d14", "d3d11"},
         {"texture", OPTION_SCENE, AT(scene), "steps", "steps", offsetof(scene_row, name), "decal", "decals"},

@@ -54,12 +54,12 @@ choosing choose_at(const dp_setup *setup, double tolerance, const depths *at) {
     return c;
 }
 
-void setups_choose(const options *o, const depths *at, setups *s) {
-    for (size_t i = 0; i < s->count && o->model_auto; i++) {
-        dp_spec spec = s->items[i].spec;
-        spec.model = choose_at(&s->items[i], o->tolerance, at).choice.model;
-        dp_setup_init(&s->items[i], &spec); /* the choice is among the models that the set-up has */
-    }
+void setup_choose(const options *o, const depths *at, dp_setup *setup) {
+    dp_spec spec = setup->spec;
+    if (!o->model_auto)
+        return;
+    spec.model = choose_at(setup, o->tolerance, at).choice.model;
+    dp_setup_init(setup, &spec); /* the choice is among the models that the set-up has */
 }
 
 /* "makes this 3.03 times worse at z = 316.228"; what is less than double is said in percent. */

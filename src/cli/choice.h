@@ -35,8 +35,8 @@ void choosing_finish(choosing *c);
 /** All at once. */
 choosing choose_at(const dp_setup *setup, double tolerance, const depths *at);
 
-/** Under --model auto, gives each set-up the model that is enough at these depths; else leaves all as they are. */
-void setups_choose(const options *o, const depths *at, setups *s);
+/** Under --model auto, gives a set-up the model that is enough at these depths; else leaves it as it is. */
+void setup_choose(const options *o, const depths *at, dp_setup *setup);
 
 /** One sentence without a line end. */
 typedef struct choice_words {

@@ -259,7 +259,7 @@ int cmd_bias(const options *given) {
                  .api = api->name};
     b.units = b.inverse ? (double)NAN : o.units;
     b.gap = b.inverse ? o.gap : (double)NAN;
-    if (!option_given(&o, OPTION_FORMAT) && o.preset == NULL)
+    if (!option_given(&o, OPTION_FORMAT) && o.preset_count == 0)
         drop_fp16(&o);
     int status = check_states(&o, api);
     if (status != EXIT_FINE)

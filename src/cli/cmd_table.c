@@ -144,6 +144,7 @@ static void *next_setup(void *of, size_t i) {
         return NULL;
     const dp_setup *setup = t->walk.setup;
     const options *o = t->walk.o;
+    range_resolve(&t->walk.here, &t->lo, &t->hi);
     t->exact = reach_in(setup, DP_MODEL_EXACT);
     t->full = reach_model(setup);
     t->choice = choosing_start(setup, o->tolerance);
@@ -166,7 +167,7 @@ static void *next_setup(void *of, size_t i) {
 static void say_reach(page *p, void *item) {
     const table *t = item;
     char text[REACH_TEXT_SIZE], sentence[REACH_TEXT_SIZE] = "";
-    const unit_row *unit = t->walk.o->unit;
+    const unit_row *unit = t->walk.here.unit;
     walk_title(p, item);
     if (t->walk.all.count > 1)
         return;
@@ -175,7 +176,7 @@ static void say_reach(page *p, void *item) {
         if (!isnan(up_to))
             append(sentence, sizeof sentence, "%s %s apart up to %s%s", *sentence != '\0' ? "," : "",
                    reach_limit_text(i, unit).text, up_to < t->full.spec.zfar ? "z = " : "",
-                   reach_text(&t->full, up_to, unit, text));
+                   reach_text(t->full.spec.zfar, up_to, unit, text));
     }
     if (*sentence != '\0')
         page_text(p, "Guaranteed to be told apart: surfaces%s.", sentence);
@@ -242,7 +243,7 @@ static void say_notes(page *p, void *item) {
 
 /* ---- Columns ----------------------------------------------------------------------------------------------------- */
 
-enum { WITH_TOLERANCE = 1, WITH_ARITH = 2, VERBOSE = 4 };
+enum { WITH_TOLERANCE = 1, WITH_ARITH = 2, VERBOSE = 4, WITH_PRESETS = 8 };
 
 static const column row_columns[] = {
     {FIELD(row, sample.z, "z", "scene"), SHOWN("z", 11, DIGITS_Z)},
@@ -296,6 +297,8 @@ static const column setup_report[] = {
     {FIELD(table, interval.claim, "claim", ""), .only = AS_JSON, .when = WITH_TOLERANCE},
     {LIST("rows", row_columns, next_row)},
     {FIELD(table, interval.name, "method", ""), .only = AS_CSV, .when = WITH_TOLERANCE},
+    {FIELD(table, walk.fields.preset, "preset", ""), .only = AS_CSV, .when = WITH_PRESETS},
+    {FIELD(table, walk.fields.unit, "unit", ""), .only = AS_CSV, .when = WITH_PRESETS},
     {PART(table, worst, "worst", worst_columns), .only = AS_JSON, .pointed = true},
     {PART(table, guarantee, "worst_separation", guarantee_columns), .only = AS_JSON, .pointed = true, .optional = true},
     {PART(table, drawn, NULL, drawn_columns), .only = AS_JSON, .pointed = true},
@@ -307,8 +310,8 @@ static const column columns[] = {{LIST("setups", setup_report, next_setup), .hea
 
 /* What a table of these set-ups has: the variant of arithmetic only where some set-up has that model. */
 static unsigned conditions(const table *t) {
-    unsigned when =
-        (option_given(t->walk.o, OPTION_TOLERANCE) ? WITH_TOLERANCE : 0) | (t->walk.o->verbose ? VERBOSE : 0);
+    unsigned when = (option_given(t->walk.o, OPTION_TOLERANCE) ? WITH_TOLERANCE : 0) |
+                    (t->walk.o->verbose ? VERBOSE : 0) | (t->walk.o->preset_count > 1 ? WITH_PRESETS : 0);
     for (size_t i = 0; i < t->walk.all.count; i++)
         if (t->walk.all.items[i].spec.model == DP_MODEL_FP32)
             when |= WITH_ARITH;
@@ -318,12 +321,13 @@ static unsigned conditions(const table *t) {
 int cmd_table(const options *o) {
     table t = {0};
     int status = walk_start(&t.walk, o);
-    if (status == EXIT_FINE)
-        status = range_resolve(o, &t.lo, &t.hi);
-    if (status == EXIT_FINE && (o->model == DP_MODEL_FP32 || o->model_auto))
-        status = depths_in_binary32(&t.walk.at);
-    if (status == EXIT_FINE)
-        setups_choose(o, &t.walk.at, &t.walk.all);
+    for (size_t i = 0; status == EXIT_FINE && walk_setup(&t.walk, i); i++) {
+        status = range_resolve(&t.walk.here, &t.lo, &t.hi);
+        if (status == EXIT_FINE && (o->model == DP_MODEL_FP32 || o->model_auto))
+            status = depths_in_binary32(&t.walk.at);
+        if (status == EXIT_FINE)
+            setup_choose(o, &t.walk.at, &t.walk.all.items[i]);
+    }
     if (status == EXIT_FINE && compare_suits(&t.walk))
         return compare_write(&t.walk);
     const report_spec spec = {"table", columns, &t, .when = conditions(&t), .label = 16};

@@ -215,7 +215,7 @@ static int parse_list(options *o, const option_row *row, const char *value,
     char name[64];
     const size_t length = strlen(value);
     if (length == 0 || *value == ',' || value[length - 1] == ',' || strstr(value, ",,") != NULL)
-        return refuse(row, "must be NAME[,NAME...] or all, got '%s'", value);
+        return refuse(row, "must be %s, got '%s'", row->argument, value);
     for (const char *at = value; *at != '\0'; at += *at == ',') {
         const size_t part = strcspn(at, ",");
         snprintf(name, sizeof name, "%.*s", (int)part, at);
@@ -268,6 +268,23 @@ static int add_mapping(options *o, const option_row *row, const char *name) {
 int parse_mappings(options *o, const option_row *row, const char *value) {
     o->mapping_count = 0;
     return parse_list(o, row, value, add_mapping);
+}
+
+static int add_preset(options *o, const option_row *row, const char *name) {
+    list_item found;
+    if (!names_find(row->names, name, NULL, &found))
+        return unknown_name(row, name);
+    for (size_t i = 0; i < o->preset_count; i++)
+        if (o->presets[i] == found.row)
+            return EXIT_FINE;
+    if (o->preset_count == OPTIONS_PRESETS_MAX)
+        return refuse(row, "must be at most %d presets, got '%s' too", OPTIONS_PRESETS_MAX, name);
+    o->presets[o->preset_count++] = found.row;
+    return EXIT_FINE;
+}
+
+int parse_presets(options *o, const option_row *row, const char *value) {
+    return parse_list(o, row, value, add_preset);
 }
 
 /* A share, or a percentage with its sign. */

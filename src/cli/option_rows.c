@@ -77,9 +77,9 @@ const option_row option_rows[OPTION_COUNT] = {
         "constant of the log mapping", NUMBER(log_c, 1e-12, 1e12, NULL), .standard = "1"},
     [OPTION_ORTHO] = {"ortho", 0, NULL, CAMERA | TAKEN,
         "orthographic projection; not with linear and log", FLAG(ortho), .without = "perspective"},
-    [OPTION_PRESET] = {"preset", 0, "NAME", CAMERA | TAKEN,
-        "fill in near, far, mapping and format as an engine sets them, where they are not given; "
-        "'depthprec list presets'", ROW(preset, presets)},
+    [OPTION_PRESET] = {"preset", 0, "NAME[,NAME...]", CAMERA | TAKEN,
+        "fill in near, far, mapping and format as an engine sets them, where they are not given: @; table compares "
+        "several; 'depthprec list presets'", .parse = parse_presets, .names = &presets},
     [OPTION_UNIT] = {"unit", 0, NULL, PLACED | TAKEN,
         "what a scene unit is; a preset in another one is converted. Any length may have a unit behind it: 10cm",
         .parse = parse_unit, .names = &units, .without = "that of the preset, or m where a length has a unit"},

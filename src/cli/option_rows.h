@@ -63,8 +63,8 @@ option_parser parse_row;    /**< a pointer to the row of one of `names` */
 
 /* ---- Languages of their own -------------------------------------------------------------------------------------- */
 
-option_parser parse_unit, parse_far, parse_formats, parse_mappings, parse_tolerance, parse_at, parse_range,
-    parse_origin;
+option_parser parse_unit, parse_presets, parse_far, parse_formats, parse_mappings, parse_tolerance, parse_at,
+    parse_range, parse_origin;
 option_parser parse_size, parse_parameter, parse_form;
 
 #endif

@@ -136,33 +136,52 @@ static int check_operands(options *o) {
     return status;
 }
 
-/* A length of the preset, in scene units. */
-static double preset_length(const options *o, double length) {
-    const unit_row *own = unit_find(o->preset->unit);
-    return own != NULL ? unit_convert(length, own, o->unit) : length;
-}
-
-/* What follows from other options: a preset gives what the user did not. */
-static int complete(options *o) {
-    const preset *p = o->preset;
-    o->model_auto = o->model == DP_MODEL_COUNT;
-    if (o->model_auto)
-        o->model = DP_MODEL_EXACT;
-    if (p == NULL)
-        return EXIT_FINE;
-    if (o->unit != NULL && !option_given(o, OPTION_UNIT) && strcmp(p->unit, "extents") == 0)
-        return option_error(OPTION_UNIT, "must be given beside lengths with a unit: %s measures in %s", p->name,
-                            p->unit);
+/* A preset gives what the user did not. */
+static void take_preset(options *o, const preset *p) {
+    const unit_row *own = unit_find(p->unit);
     if (!option_given(o, OPTION_NEAR))
-        o->znear = preset_length(o, p->znear);
+        o->znear = unit_convert(p->znear, own, o->unit);
     if (!option_given(o, OPTION_FAR))
-        o->zfar = preset_length(o, p->zfar);
+        o->zfar = unit_convert(p->zfar, own, o->unit);
     if (!option_given(o, OPTION_LOG_C)) /* 1 for a depth in the preset's own unit */
-        o->log_c /= preset_length(o, 1.0);
+        o->log_c /= unit_convert(1.0, own, o->unit);
     if (!option_given(o, OPTION_FORMAT))
         parse_formats(o, &option_rows[OPTION_FORMAT], p->format);
     if (!option_given(o, OPTION_MAPPING))
         parse_mappings(o, &option_rows[OPTION_MAPPING], dp_mapping_get(p->mapping)->name);
+}
+
+void options_of(const options *o, size_t camera, options *out) {
+    *out = *o;
+    if (o->preset_count < 2)
+        return;
+    const preset *p = o->presets[camera];
+    const unit_row *own = option_given(o, OPTION_UNIT) ? NULL : unit_find(p->unit);
+    out->unit = own != NULL ? own : o->unit;
+    out->znear = unit_convert(o->znear, o->unit, out->unit);
+    out->zfar = unit_convert(o->zfar, o->unit, out->unit);
+    out->range_lo = unit_convert(o->range_lo, o->unit, out->unit);
+    out->range_hi = unit_convert(o->range_hi, o->unit, out->unit);
+    out->at.lo = unit_convert(o->at.lo, o->unit, out->unit);
+    out->at.hi = unit_convert(o->at.hi, o->unit, out->unit);
+    out->at.from = o->unit;
+    out->at.to = out->unit;
+    take_preset(out, p);
+}
+
+/* What follows from other options. */
+static int complete(options *o) {
+    o->model_auto = o->model == DP_MODEL_COUNT;
+    if (o->model_auto)
+        o->model = DP_MODEL_EXACT;
+    for (size_t i = 0; i < o->preset_count && o->unit != NULL && !option_given(o, OPTION_UNIT); i++)
+        if (strcmp(o->presets[i]->unit, "extents") == 0)
+            return option_error(OPTION_UNIT, "must be given: %s measures in %s", o->presets[i]->name,
+                                o->presets[i]->unit);
+    if (o->preset_count > 1 && o->verb->bit != VERB_TABLE)
+        return option_error(OPTION_PRESET, "must be one preset for %s, got %zu", o->verb->name, o->preset_count);
+    if (o->preset_count == 1)
+        take_preset(o, o->presets[0]);
     return EXIT_FINE;
 }
 
@@ -254,8 +273,8 @@ int options_parse(options *o, int argc, char **argv) {
     }
     const verb *const asked = named ? o->verb : NULL;
     int status = read_options(o, argc - named, argv + named, asked, true);
-    if (status == EXIT_FINE && o->unit == NULL && o->preset != NULL)
-        o->unit = unit_find(o->preset->unit);
+    for (size_t i = 0; i < o->preset_count && o->unit == NULL; i++)
+        o->unit = unit_find(o->presets[i]->unit);
     if (status == EXIT_FINE)
         status = read_options(o, argc - named, argv + named, asked, false);
     if (status != EXIT_FINE || option_given(o, OPTION_HELP) || option_given(o, OPTION_VERSION))

@@ -40,8 +40,8 @@ double reach_of(const dp_setup *full, double limit) {
     return status == DP_OK && answer.possible ? answer.value : (double)NAN;
 }
 
-const char *reach_text(const dp_setup *setup, double up_to, const unit_row *unit, char out[REACH_TEXT_SIZE]) {
-    if (up_to >= setup->spec.zfar)
+const char *reach_text(double zfar, double up_to, const unit_row *unit, char out[REACH_TEXT_SIZE]) {
+    if (up_to >= zfar)
         snprintf(out, REACH_TEXT_SIZE, "the far plane");
     else
         snprintf(out, REACH_TEXT_SIZE, "%s",

@@ -26,6 +26,6 @@ double reach_of(const dp_setup *full, double limit);
 
 /** "82800 m", "the far plane" where nothing is beyond it, rounded to the safe side; the unit may be null. @return out
  */
-const char *reach_text(const dp_setup *setup, double up_to, const unit_row *unit, char out[REACH_TEXT_SIZE]);
+const char *reach_text(double zfar, double up_to, const unit_row *unit, char out[REACH_TEXT_SIZE]);
 
 #endif

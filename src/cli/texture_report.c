@@ -130,7 +130,7 @@ static void say_source(statistics *r, page *p) {
     if (r->o->metric > 0) {
         say_metric(r, p);
     } else {
-        setup_title(p, &s->setup, p->unit);
+        setup_title(p, &s->setup, &r->setup);
         say_origins(r, p);
     }
 }
