@@ -143,7 +143,8 @@ void oracle_init(oracle *o, const dp_spec *spec) {
         mpq_set_d(o->zfar, spec->zfar);
     int exponent;
     frexp(spec->znear, &exponent);
-    o->shift = (mp_bitcnt_t)(53 - exponent + 8); /* every double from near on is a multiple of 2^-shift */
+    /* Every double from near on is a multiple of 2^-shift; about 0 that is 2^-1074, and room for its 53 bits. */
+    o->shift = spec->znear > 0 ? (mp_bitcnt_t)(53 - exponent + 8) : 1130;
     mpz_t n, f;
     mpz_inits(n, f, NULL);
     mpq_t t;

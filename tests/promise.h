@@ -18,8 +18,11 @@
 
 /* ---- Depths ------------------------------------------------------------------------------------------------------ */
 
-double promise_depth(uint32_t bits);
-uint32_t promise_bits(double z); /**< of z > 0 rounded to binary32 */
+/**
+ * Binary32 depths of either sign are counted by their *rank*, which is 2^31 at zero and one more at the next depth.
+ */
+double promise_depth(uint32_t rank);
+uint32_t promise_rank(double z); /**< of z rounded to binary32 */
 
 /** The first and the last binary32 depth that a depth of [near, far] rounds to. */
 typedef struct promise_range {
@@ -30,13 +33,16 @@ typedef struct promise_range {
 promise_range promise_range_of(const dp_setup *setup);
 
 /** The ends of a depth's cell: the extreme doubles that round to it, within the range. */
-double promise_cell_lo(const promise_range *range, uint32_t bits);
-double promise_cell_hi(const promise_range *range, uint32_t bits);
+double promise_cell_lo(const promise_range *range, uint32_t rank);
+double promise_cell_hi(const promise_range *range, uint32_t rank);
 
 /* ---- Drawing ----------------------------------------------------------------------------------------------------- */
 
-/** A random set-up in the model fp32. */
+/** A random set-up in the model fp32, near > 0. */
 dp_setup promise_draw(rng *r);
+
+/** The same of an orthographic camera with near <= 0; far may be 0 or less too. */
+dp_setup promise_draw_signed(rng *r);
 
 enum { PROMISE_RUNS = 4 };
 
@@ -49,7 +55,7 @@ typedef struct promise_window_plan {
     double place; /**< the depth that it was planned about */
 } promise_window_plan;
 
-/** A place in the range: about a plane, a power of two of z or of the window depth, or anywhere. */
+/** A place in the range: about a plane, 0, a power of two of z or of the window depth, or anywhere. */
 double promise_place(rng *r, const promise_pipe *p, const promise_range *range);
 
 /**

@@ -67,9 +67,11 @@ static bool sweep_band(promise_band *b, uint32_t first, uint32_t last, uint32_t 
 
 promise_band promise_measure_band(const dp_setup *setup, double z) {
     const promise_range range = promise_range_of(setup);
-    const uint32_t binade = promise_bits(z) & 0x7f800000U;
-    const uint32_t first = binade > range.first ? binade : range.first;
-    const uint32_t behind = binade + 0x7fffffU;
+    const uint32_t zero = promise_rank(0.0);
+    const uint32_t binade = zero + ((promise_rank(fabs(z)) - zero) & 0x7f800000U);
+    const uint32_t begin = z < 0.0 ? zero - (binade + 0x7fffffU - zero) : binade;
+    const uint32_t first = begin > range.first ? begin : range.first;
+    const uint32_t behind = begin + 0x7fffffU;
     const uint32_t last = behind < range.last ? behind : range.last;
     promise_band b = {
         .setup = *setup, .slack = NAN, .slack_held = NAN, .slack_lattice = NAN, .cut = range.last < behind};
@@ -87,7 +89,7 @@ promise_band promise_measure_band(const dp_setup *setup, double z) {
         held = fmax(held, fmin(s, range.zfar - at));
         lattice = fmax(lattice, fmin(dp_separation(&exact, at), range.zfar - at));
     }
-    const uint32_t end = promise_bits(fmin(range.zfar, b.hi + b.bound));
+    const uint32_t end = promise_rank(fmin(range.zfar, b.hi + b.bound));
     if (end - first >= SWEEP_MAX || isinf(b.bound) || !sweep_band(&b, first, last, end))
         return b;
     const double step = promise_depth(binade + 1) - promise_depth(binade);

@@ -10,17 +10,22 @@
 
 /* ---- Depths ------------------------------------------------------------------------------------------------------ */
 
-double promise_depth(uint32_t bits) {
+enum { SIGN = 31 };
+
+double promise_depth(uint32_t rank) {
+    const uint32_t zero = 1U << SIGN;
+    const uint32_t size = rank < zero ? zero - rank : rank - zero;
     float z;
-    memcpy(&z, &bits, sizeof z);
-    return (double)z;
+    memcpy(&z, &size, sizeof z);
+    return rank < zero ? -(double)z : (double)z;
 }
 
-uint32_t promise_bits(double z) {
-    const float x = (float)z;
+uint32_t promise_rank(double z) {
+    const uint32_t zero = 1U << SIGN;
+    const float x = (float)fabs(z);
     uint32_t bits;
     memcpy(&bits, &x, sizeof bits);
-    return bits;
+    return z < 0.0 ? zero - bits : zero + bits;
 }
 
 static const double beyond_all = 0x1.ffffffp127; /* here binary32 rounds to infinity */
@@ -46,21 +51,21 @@ promise_range promise_range_of(const dp_setup *setup) {
     promise_range range = {.znear = setup->spec.znear, .zfar = setup->spec.zfar};
     if (isinf(range.zfar))
         range.zfar = last_depth(setup);
-    range.first = promise_bits(range.znear);
-    range.last = promise_bits(range.zfar);
+    range.first = promise_rank(range.znear);
+    range.last = promise_rank(range.zfar);
     return range;
 }
 
 /* A midpoint belongs to the neighbour whose last bit is 0. */
-double promise_cell_lo(const promise_range *range, uint32_t bits) {
-    const double middle = 0.5 * (promise_depth(bits - 1) + promise_depth(bits));
-    return fmax(range->znear, bits & 1 ? nextafter(middle, HUGE_VAL) : middle);
+double promise_cell_lo(const promise_range *range, uint32_t rank) {
+    const double middle = 0.5 * (promise_depth(rank - 1) + promise_depth(rank));
+    return fmax(range->znear, rank & 1 ? nextafter(middle, HUGE_VAL) : middle);
 }
 
-double promise_cell_hi(const promise_range *range, uint32_t bits) {
-    const double x = promise_depth(bits);
-    const double middle = bits == promise_bits((double)FLT_MAX) ? beyond_all : 0.5 * (x + promise_depth(bits + 1));
-    return fmin(range->zfar, bits & 1 ? nextafter(middle, 0.0) : middle);
+double promise_cell_hi(const promise_range *range, uint32_t rank) {
+    const double x = promise_depth(rank);
+    const double middle = rank == promise_rank((double)FLT_MAX) ? beyond_all : 0.5 * (x + promise_depth(rank + 1));
+    return fmin(range->zfar, rank & 1 ? nextafter(middle, -HUGE_VAL) : middle);
 }
 
 /* ---- Set-ups ----------------------------------------------------------------------------------------------------- */
@@ -99,6 +104,35 @@ static double draw_plane(rng *r, double z) {
     }
 }
 
+static void draw_rest(rng *r, dp_spec *spec) {
+    spec->mapping = (dp_mapping)rng_below(r, 4);
+    spec->format = draw_format(r);
+    spec->rounding = (dp_rounding)rng_below(r, DP_ROUNDING_COUNT);
+    spec->arith = rng_below(r, dp_arith_count());
+    spec->model = DP_MODEL_FP32;
+}
+
+/* Near 0, far 0, planes as far on either side of the camera, both behind it, and any others. */
+dp_setup promise_draw_signed(rng *r) {
+    for (;;) {
+        dp_spec spec = dp_spec_default();
+        dp_setup setup;
+        const bool usual = rng_below(r, 10) < 7;
+        const double behind = draw_plane(r, usual ? rng_log(r, 1e-3, 1e3) : rng_log(r, 1e-12, 1e12));
+        const double ahead = draw_plane(r, behind * (rng_below(r, 2) ? rng_log(r, 1e-6, 1e6) : rng_log(r, 0.5, 10.0)));
+        const uint64_t kind = rng_below(r, 8);
+        spec.znear = kind < 2 ? 0.0 : -behind;
+        spec.zfar = kind == 2   ? 0.0
+                    : kind == 3 ? behind
+                    : kind == 4 ? -draw_plane(r, behind * (1.0 - rng_log(r, 1e-6, 0.9)))
+                                : ahead;
+        spec.ortho = 1;
+        draw_rest(r, &spec);
+        if (dp_setup_init(&setup, &spec) == DP_OK)
+            return setup;
+    }
+}
+
 dp_setup promise_draw(rng *r) {
     for (;;) {
         dp_spec spec = dp_spec_default();
@@ -108,11 +142,7 @@ dp_setup promise_draw(rng *r) {
         const double ratio = rng_below(r, 3) ? rng_log(r, 1.0, 1e12) : 1.0 + rng_log(r, 1e-6, 1.0);
         spec.zfar = rng_below(r, 6) == 0 ? (double)INFINITY : draw_plane(r, spec.znear * ratio);
         spec.ortho = rng_below(r, 4) == 0;
-        spec.mapping = (dp_mapping)rng_below(r, 4);
-        spec.format = draw_format(r);
-        spec.rounding = (dp_rounding)rng_below(r, DP_ROUNDING_COUNT);
-        spec.arith = rng_below(r, dp_arith_count());
-        spec.model = DP_MODEL_FP32;
+        draw_rest(r, &spec);
         if (dp_setup_init(&setup, &spec) == DP_OK)
             return setup;
     }
@@ -157,11 +187,45 @@ static double draw_power(rng *r, const promise_pipe *p, double z) {
     const double value = rng_below(r, 3) ? a * z + offset : z;
     const double power = copysign(exp2(floor(log2(fabs(value)))), value);
     const double place = value == z || a == 0.0 ? power : (power - offset) / a;
-    return place > 0.0 ? place : z;
+    return place > 0.0 || z <= 0.0 ? place : z;
+}
+
+static double of_either_sign(rng *r, double size) {
+    return rng_below(r, 2) ? size : -size;
+}
+
+/* A range with depths of 0 or less. */
+static double place_signed(rng *r, const promise_pipe *p, const promise_range *range) {
+    const double extent = range->zfar - range->znear;
+    const double most = fmax(fabs(range->znear), fabs(range->zfar));
+    const double any = range->znear + extent * rng_unit(r);
+    switch (rng_below(r, 10)) {
+    case 0:
+        return range->znear;
+    case 1:
+        return range->zfar;
+    case 2:
+    case 3:
+        return draw_power(r, p, -fabs(any));
+    case 4:
+        return promise_depth(where_window(p, range, draw_window(r)));
+    case 5:
+        return range->znear + extent * rng_log(r, 1e-9, 1.0);
+    case 6:
+        return range->zfar - extent * rng_log(r, 1e-9, 1.0);
+    case 7: /* about 0, where the steps of z are the finest */
+        return of_either_sign(r, rng_below(r, 4) ? most * rng_log(r, 1e-12, 1.0) : rng_log(r, 1e-46, most));
+    case 8:
+        return rng_below(r, 2) ? 0.0 : of_either_sign(r, exp2(-126.0) * rng_log(r, 1e-3, 1e3));
+    default:
+        return any;
+    }
 }
 
 double promise_place(rng *r, const promise_pipe *p, const promise_range *range) {
     const double end = range->zfar;
+    if (range->znear <= 0.0)
+        return fmin(end, fmax(range->znear, place_signed(r, p, range)));
     const double usual_end = range->znear * 0x1p40 < end && rng_below(r, 4) ? range->znear * 0x1p40 : end;
     double z = rng_log(r, range->znear, usual_end);
     switch (rng_below(r, 8)) {
@@ -224,8 +288,8 @@ static uint32_t where_key(const promise_pipe *p, uint32_t first, uint32_t last, 
 promise_window_plan promise_plan(const dp_setup *setup, const promise_pipe *p, double place, uint32_t depths) {
     const promise_range range = promise_range_of(setup);
     promise_window_plan plan = {.place = place};
-    const uint32_t x = promise_bits(place);
-    const uint32_t reach = promise_bits(fmin(range.zfar, place + promise_bound(setup, place))) - x;
+    const uint32_t x = promise_rank(place);
+    const uint32_t reach = promise_rank(fmin(range.zfar, place + promise_bound(setup, place))) - x;
     if (reach <= depths / 2) {
         add_run(&plan, &range, x + reach / 2, depths);
         return plan;
@@ -234,7 +298,7 @@ promise_window_plan promise_plan(const dp_setup *setup, const promise_pipe *p, d
     const uint32_t begin = where_key(p, range.first, x, key, false);
     const uint32_t end = where_key(p, x, range.last, key, true);
     const double z = fmax(range.znear, promise_depth(begin));
-    const uint32_t behind = promise_bits(fmin(range.zfar, z + promise_bound(setup, z)));
+    const uint32_t behind = promise_rank(fmin(range.zfar, z + promise_bound(setup, z)));
     add_run(&plan, &range, begin, depths / 5 * 2);
     add_run(&plan, &range, end < behind ? end : behind, depths / 5 * 2);
     add_run(&plan, &range, end < behind ? behind : end, depths / 5);

@@ -26,7 +26,7 @@ typedef struct judge {
     const promise_pipe *pipe;
     promise_range range;
     size_t count;
-    uint32_t *bits, *keys;
+    uint32_t *ranks, *keys;
     uint32_t *least; /* the smallest key from here to the far end of the window */
     uint64_t broken; /* of this window */
     promise_result *result;
@@ -92,7 +92,7 @@ void promise_judge_pair(const dp_setup *setup, const promise_pipe *p, uint32_t x
 
 static void judge_pair(judge *j, size_t i1, size_t i2) {
     promise_pair pair = {.ratio = 0.0};
-    promise_judge_pair(j->setup, j->pipe, j->bits[i1], j->bits[i2], &pair);
+    promise_judge_pair(j->setup, j->pipe, j->ranks[i1], j->ranks[i2], &pair);
     j->broken += pair.broken;
     if (pair.ratio > j->result->worst.ratio || (pair.broken && !j->result->worst.broken))
         j->result->worst = pair;
@@ -105,7 +105,7 @@ static void judge_block(judge *j, size_t from, size_t to, double limit) {
     size_t most_at[2] = {from, from};
     for (size_t i = from; i < to; i++) {
         const size_t other = farthest(j, i, j->keys[i]);
-        const double interval = promise_cell_hi(&j->range, j->bits[other]) - promise_cell_lo(&j->range, j->bits[i]);
+        const double interval = promise_cell_hi(&j->range, j->ranks[other]) - promise_cell_lo(&j->range, j->ranks[i]);
         const bool longest = interval > most;
         if (longest)
             most = interval, most_at[0] = i, most_at[1] = other;
@@ -113,7 +113,7 @@ static void judge_block(judge *j, size_t from, size_t to, double limit) {
             judge_pair(j, i, other);
     }
     judge_pair(j, most_at[0], most_at[1]);
-    notice(j, promise_cell_lo(&j->range, j->bits[most_at[0]]), promise_cell_hi(&j->range, j->bits[most_at[1]]));
+    notice(j, promise_cell_lo(&j->range, j->ranks[most_at[0]]), promise_cell_hi(&j->range, j->ranks[most_at[1]]));
 }
 
 /*
@@ -126,11 +126,11 @@ static void judge_run(judge *j, size_t from, size_t to) {
         uint32_t key = 0;
         for (size_t i = from; i < end; i++)
             key = j->keys[i] > key ? j->keys[i] : key;
-        const double lo = promise_cell_lo(&j->range, j->bits[from]);
+        const double lo = promise_cell_lo(&j->range, j->ranks[from]);
         const double first = promise_bound(j->setup, lo);
-        const double last = promise_bound(j->setup, promise_cell_hi(&j->range, j->bits[end - 1]));
+        const double last = promise_bound(j->setup, promise_cell_hi(&j->range, j->ranks[end - 1]));
         const double smallest = fmin(first, last);
-        const double reach = promise_cell_hi(&j->range, j->bits[farthest(j, from, key)]) - lo;
+        const double reach = promise_cell_hi(&j->range, j->ranks[farthest(j, from, key)]) - lo;
         if (isinf(smallest))
             continue;
         const bool even = fmax(first, last) <= 1.1 * smallest;
@@ -155,13 +155,13 @@ void promise_judge(const dp_setup *setup, const promise_pipe *p, const promise_w
                .pipe = p,
                .range = promise_range_of(setup),
                .count = count,
-               .bits = memory,
+               .ranks = memory,
                .keys = memory + count,
                .least = memory + 2 * count,
                .result = result};
     for (size_t k = 0, at = 0; k < (size_t)plan->count; at += plan->run[k++].count) {
         for (uint32_t i = 0; i < plan->run[k].count; i++)
-            j.bits[at + i] = plan->run[k].first + i;
+            j.ranks[at + i] = plan->run[k].first + i;
         promise_keys(p, plan->run[k].first, plan->run[k].count, j.keys + at);
     }
     uint32_t least = UINT32_MAX;

@@ -117,11 +117,17 @@ static inline float flushed(float x, bool flush) {
     return flush && fabsf(x) < FLT_MIN ? 0.0F : x;
 }
 
+/* The depth of a rank: positive ones are ordered as their bits, negative ones against them. */
+static inline float depth_of(uint32_t rank) {
+    const uint32_t zero = 0x80000000U;
+    return float_of(rank < zero ? zero | (zero - rank) : rank - zero);
+}
+
 CLONES static void clip_of(const promise_pipe *p, uint32_t first, int n, float *restrict z, float *restrict clip) {
     const float a = p->a;
     const float b = p->b;
     for (int i = 0; i < n; i++)
-        z[i] = float_of(first + (uint32_t)i);
+        z[i] = flushed(depth_of(first + (uint32_t)i), p->flush);
     if (p->fused)
         for (int i = 0; i < n; i++)
             clip[i] = fused_of(a, z[i], b);
@@ -259,15 +265,15 @@ void promise_keys(const promise_pipe *p, uint32_t first, size_t count, uint32_t 
 
 /* ---- One depth --------------------------------------------------------------------------------------------------- */
 
-uint32_t promise_key(const promise_pipe *p, uint32_t bits) {
+uint32_t promise_key(const promise_pipe *p, uint32_t rank) {
     uint32_t key;
-    promise_keys(p, bits, 1, &key);
+    promise_keys(p, rank, 1, &key);
     return key;
 }
 
-float promise_window(const promise_pipe *p, uint32_t bits) {
+float promise_window(const promise_pipe *p, uint32_t rank) {
     float w;
-    window_of(p, bits, 1, &w);
+    window_of(p, rank, 1, &w);
     return w;
 }
 
@@ -286,10 +292,11 @@ uint32_t promise_code(const promise_pipe *p, uint32_t key) {
     return (field << m) + (uint32_t)ldexp(2.0 * fraction - 1.0, m);
 }
 
-bool promise_subnormal(const promise_pipe *p, uint32_t bits) {
-    const double z = (double)float_of(bits);
+bool promise_subnormal(const promise_pipe *p, uint32_t rank) {
+    const double z = (double)depth_of(rank);
     const double w = p->ortho ? 1.0 : z;
     const double product = fabs((double)p->a * z);
-    const double window = fabs((product - fabs((double)p->b)) / w);
-    return w > 0x1p125 || (product > 0.0 && product < 0x1p-125) || (window > 0.0 && window < 0x1p-123);
+    const double window = fabs(((double)p->a * z + (double)p->b) / w);
+    return w > 0x1p125 || fabs(z) < 0x1p-125 || (product > 0.0 && product < 0x1p-125) ||
+           (window > 0.0 && window < 0x1p-123);
 }

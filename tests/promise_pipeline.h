@@ -23,7 +23,7 @@ typedef struct promise_pipe {
     bool fused, reciprocal;
     bool remap;    /**< signed NDC is moved to [0, 1] before the divide */
     bool viewport; /**< signed NDC is moved to [0, 1] after it */
-    bool flush;    /**< subnormal results of operations become 0 */
+    bool flush;    /**< subnormal eye depths and results of operations become 0 */
     dp_conversion conversion;
     dp_rounding rounding;
     dp_format format;
@@ -32,19 +32,19 @@ typedef struct promise_pipe {
 /** The pipeline of a set-up; mappings with a pipeline only. */
 promise_pipe promise_pipe_make(const dp_setup *setup, bool flush);
 
-/** The keys of `count` binary32 depths that follow each other, the first having the bits `first`. */
+/** The keys of `count` binary32 depths that follow each other, the first having the rank `first`: see promise.h. */
 void promise_keys(const promise_pipe *p, uint32_t first, size_t count, uint32_t *keys);
 
 /** The key of one depth. */
-uint32_t promise_key(const promise_pipe *p, uint32_t bits);
+uint32_t promise_key(const promise_pipe *p, uint32_t rank);
 
 /** The window depth before the clamp. */
-float promise_window(const promise_pipe *p, uint32_t bits);
+float promise_window(const promise_pipe *p, uint32_t rank);
 
 /** The code that a key stands for. */
 uint32_t promise_code(const promise_pipe *p, uint32_t key);
 
-/** Whether an operation on this depth gives a subnormal number, so that flushing may matter. */
-bool promise_subnormal(const promise_pipe *p, uint32_t bits);
+/** Whether this depth or an operation on it is a subnormal number, so that flushing may matter. */
+bool promise_subnormal(const promise_pipe *p, uint32_t rank);
 
 #endif

@@ -62,6 +62,49 @@ double rng_log(rng *r, double lo, double hi) {
     return fmin(hi, fmax(lo, x));
 }
 
+static double sign_of(rng *r) {
+    return rng_below(r, 2) ? 1.0 : -1.0;
+}
+
+void rng_planes(rng *r, double *znear, double *zfar) {
+    const double size = rng_below(r, 2) ? rng_log(r, 1e-2, 1e3) : rng_log(r, 1e-12, 1e12);
+    const uint64_t kind = rng_below(r, 8);
+    *znear = kind < 2 ? 0.0 : rng_below(r, 2) ? -size : -ceil(size);
+    const double other = -*znear > 0.0 ? -*znear : size;
+    if (kind == 2)
+        *zfar = 0.0;
+    else if (kind == 3)
+        *zfar = fmin(*znear * (1.0 - rng_log(r, 1.1e-6, 0.9)), -1e-12);
+    else if (kind == 4)
+        *zfar = other;
+    else
+        *zfar = fmin(fmax(other * rng_log(r, 1e-6, rng_below(r, 2) ? 10.0 : 1e12), 1e-12), 1e18);
+    if (!(*zfar - *znear >= 1.1e-6 * other))
+        *zfar = *znear < 0.0 ? 0.0 : other;
+}
+
+double rng_depth(rng *r, double znear, double zfar) {
+    const double extent = zfar - znear;
+    double z = znear + extent * rng_unit(r);
+    switch (rng_below(r, 8)) {
+    case 0:
+        z = znear + extent * rng_log(r, 1e-17, 1.0);
+        break;
+    case 1:
+        z = zfar - extent * rng_log(r, 1e-17, 1.0);
+        break;
+    case 2:
+        z = sign_of(r) * extent * rng_log(r, 1e-40, 1.0);
+        break;
+    case 3:
+        z = rng_below(r, 8) ? sign_of(r) * rng_log(r, 1e-320, extent) : 0.0;
+        break;
+    default:
+        break;
+    }
+    return fmin(fmax(z, znear), zfar);
+}
+
 /* ---- effort ---- */
 
 static int is_set(const char *name) {

@@ -38,6 +38,11 @@ double rng_unit(rng *r);                    /**< [0, 1) */
 double rng_uniform(rng *r, double lo, double hi);
 double rng_log(rng *r, double lo, double hi); /**< log-uniform in [lo, hi], both positive */
 
+/** Planes of an orthographic camera, near <= 0: near 0, far 0, both behind the camera, and 0 between them. */
+void rng_planes(rng *r, double *znear, double *zfar);
+/** A depth of such planes: next to either, next to 0, or anywhere. */
+double rng_depth(rng *r, double znear, double zfar);
+
 typedef enum effort { EFFORT_QUICK = 0, EFFORT_CHECK, EFFORT_FULL } effort;
 effort test_effort(void);
 /** One of three numbers of cases, by effort. */

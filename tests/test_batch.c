@@ -32,6 +32,11 @@ static const camera cameras[] = {
     {0.1, 1000.0, 0, DP_MAPPING_LINEAR},
     {0.1, 1000.0, 1, DP_MAPPING_D3D},
     {1.0, 4.0, 1, DP_MAPPING_REVERSED},
+    {0.0, 500.0, 1, DP_MAPPING_D3D},
+    {-100.0, 500.0, 1, DP_MAPPING_D3D},
+    {-100.0, 500.0, 1, DP_MAPPING_REVERSED},
+    {-1e12, 0.0, 1, DP_MAPPING_REVERSED},
+    {-4.0, -1.0, 1, DP_MAPPING_GL},
     {0.1, 1000.0, 0, DP_MAPPING_LOG},
 };
 static const char *const formats[] = {"fp16",    "fp32",    "unorm16", "unorm24",    "unorm1",        "unorm2",
@@ -266,7 +271,9 @@ static double any_depth(rng *r, const dp_setup *s, int window) {
     } else if (window) {
         x = kind < 10 ? rng_unit(r) : rng_log(r, 1e-9, 1.0);
     } else {
-        x = kind < 10 ? rng_log(r, s->spec.znear, far_end) : rng_uniform(r, s->spec.znear, far_end);
+        x = s->spec.znear <= 0.0 ? rng_depth(r, s->spec.znear, far_end)
+            : kind < 10          ? rng_log(r, s->spec.znear, far_end)
+                                 : rng_uniform(r, s->spec.znear, far_end);
     }
     const int64_t shift = kind < 6 ? (int64_t)rng_below(r, 5) - 2 : 0;
     for (int64_t i = shift; i != 0; i += i < 0 ? 1 : -1)

@@ -221,6 +221,9 @@ static void random_ranges(void **state) {
                                      : fmin(1e18, spec.znear * (1 + rng_log(&r, 1.0001e-6, 1e30)));
         if (kind >= 10)
             spec.zfar = INFINITY;
+        if (spec.ortho && rng_below(&r, 2))
+            rng_planes(&r, &spec.znear, &spec.zfar);
+        const int either_sign = spec.znear <= 0;
         spec.log_c = rng_below(&r, 2) ? 1 : rng_log(&r, 1e-6, 1e6);
         int e = 2 + (int)rng_below(&r, 7), pick = (int)rng_below(&r, 6);
         if (pick < 2)
@@ -232,9 +235,11 @@ static void random_ranges(void **state) {
         else
             spec.format = oracle_float(8, 23, 127);
         double zfar = isinf(spec.zfar) ? spec.znear * 1e9 : spec.zfar;
-        double lo = rng_log(&r, spec.znear, zfar), hi = rng_log(&r, spec.znear, zfar);
+        double lo = either_sign ? rng_depth(&r, spec.znear, zfar) : rng_log(&r, spec.znear, zfar);
+        double hi = either_sign ? rng_depth(&r, spec.znear, zfar) : rng_log(&r, spec.znear, zfar);
+        const double size = either_sign ? zfar - spec.znear : lo;
         if (spec.format.bits > 24) { /* a short range of a long format */
-            hi = fmin(zfar, lo * (1 + rng_log(&r, 1e-9, 1e-2)));
+            hi = fmin(zfar, lo + size * rng_log(&r, 1e-9, either_sign ? 1e-6 : 1e-2));
         } else {
             switch (rng_below(&r, 6)) {
             case 0:
@@ -245,7 +250,7 @@ static void random_ranges(void **state) {
                 hi = lo;
                 break;
             case 2: /* within a cell or a few */
-                hi = fmin(zfar, lo * (1 + rng_log(&r, 1e-15, 1e-3)));
+                hi = fmin(zfar, lo + size * rng_log(&r, 1e-15, 1e-3));
                 break;
             case 3:
                 hi = spec.zfar;
@@ -254,6 +259,8 @@ static void random_ranges(void **state) {
                 break;
             }
         }
+        if (either_sign && lo == hi && (lo == spec.znear || lo == spec.zfar))
+            continue; /* nothing is off there, and the sweep names no place */
         check_worst(&spec, fmin(lo, hi), fmax(lo, hi), &t);
     }
     tally_end(&t);

@@ -16,19 +16,22 @@ typedef struct pair {
     const char *name;
     dp_mapping mapping;
     int ortho, infinite;
+    int either_sign; /* near <= 0 */
 } pair;
 
 static const pair pairs[] = {
-    {"d3d", DP_MAPPING_D3D, 0, 0},
-    {"gl", DP_MAPPING_GL, 0, 0},
-    {"reversed", DP_MAPPING_REVERSED, 0, 0},
-    {"gl-reversed", DP_MAPPING_GL_REVERSED, 0, 0},
-    {"linear", DP_MAPPING_LINEAR, 0, 0},
-    {"ortho d3d", DP_MAPPING_D3D, 1, 0},
-    {"ortho reversed", DP_MAPPING_REVERSED, 1, 0},
-    {"infinite d3d", DP_MAPPING_D3D, 0, 1},
-    {"infinite reversed", DP_MAPPING_REVERSED, 0, 1},
-    {"log", DP_MAPPING_LOG, 0, 0},
+    {"d3d", DP_MAPPING_D3D, 0, 0, 0},
+    {"gl", DP_MAPPING_GL, 0, 0, 0},
+    {"reversed", DP_MAPPING_REVERSED, 0, 0, 0},
+    {"gl-reversed", DP_MAPPING_GL_REVERSED, 0, 0, 0},
+    {"linear", DP_MAPPING_LINEAR, 0, 0, 0},
+    {"ortho d3d", DP_MAPPING_D3D, 1, 0, 0},
+    {"ortho reversed", DP_MAPPING_REVERSED, 1, 0, 0},
+    {"ortho d3d, near <= 0", DP_MAPPING_D3D, 1, 0, 1},
+    {"ortho reversed, near <= 0", DP_MAPPING_REVERSED, 1, 0, 1},
+    {"infinite d3d", DP_MAPPING_D3D, 0, 1, 0},
+    {"infinite reversed", DP_MAPPING_REVERSED, 0, 1, 0},
+    {"log", DP_MAPPING_LOG, 0, 0, 0},
 };
 enum { PAIRS = sizeof pairs / sizeof *pairs };
 
@@ -93,13 +96,13 @@ static void check(bench *b, double z) {
 }
 
 static void check_around(bench *b, double z) {
-    if (!(z > 0) || isinf(z))
+    if (!(z > 0 || b->spec.znear <= 0) || isinf(z))
         return;
     uint64_t before = b->cases;
     check(b, z);
     double down = z, up = z;
     for (int i = 0; i < 2; i++) {
-        check(b, down = nextafter(down, 0));
+        check(b, down = nextafter(down, -INFINITY));
         check(b, up = nextafter(up, INFINITY));
     }
     b->aimed += b->cases - before;
@@ -116,6 +119,8 @@ static void check_boundary(bench *b, uint32_t code) {
 
 static double random_depth(rng *r, const dp_spec *spec) {
     double zfar = isinf(spec->zfar) ? spec->znear * 1e20 : spec->zfar;
+    if (spec->znear <= 0)
+        return rng_depth(r, spec->znear, spec->zfar);
     switch (rng_below(r, 6)) {
     case 0:
         return spec->znear * (1 + rng_log(r, 1e-17, 1));
@@ -150,6 +155,8 @@ static void random_camera(rng *r, const pair *p, dp_spec *spec) {
     }
     if (p->infinite)
         spec->zfar = INFINITY;
+    if (p->either_sign)
+        rng_planes(r, &spec->znear, &spec->zfar);
     spec->log_c = rng_below(r, 2) ? 1 : rng_below(r, 2) ? rng_log(r, 1e-4, 1e3) : rng_log(r, 1e-12, 1e12);
     spec->rounding = (dp_rounding)rng_below(r, DP_ROUNDING_COUNT);
 }
@@ -233,6 +240,8 @@ static int tie_camera(rng *r, const pair *p, const mpq_t boundary, dp_spec *spec
             mpz_sub(a, den, a);
         if (p->ortho) { /* z = n + a, f = n + r */
             mpz_set_ui(n, 1 + rng_below(r, 1000));
+            if (p->either_sign) /* the depth of the tie itself at 0 now and then */
+                rng_below(r, 8) ? mpz_neg(n, rng_below(r, 2) ? n : a) : mpz_set_ui(n, 0);
             mpz_add(at, n, a);
             mpz_add(f, n, den);
         } else {
@@ -249,12 +258,12 @@ static int tie_camera(rng *r, const pair *p, const mpq_t boundary, dp_spec *spec
     }
     int exact = set_exact(&spec->znear, n) && set_exact(z, at) && set_exact(&spec->zfar, f);
     int exponent, scale = (int)rng_below(r, 20);
-    frexp(*z, &exponent);
+    frexp(*z != 0 ? *z : spec->zfar, &exponent);
     spec->znear = ldexp(spec->znear, scale - exponent);
     spec->zfar = p->infinite ? HUGE_VAL : ldexp(spec->zfar, scale - exponent);
     *z = ldexp(*z, scale - exponent);
     mpz_clears(a, t, n, at, f, NULL);
-    return exact && spec->znear >= 1e-12;
+    return exact && (spec->znear >= 1e-12 || p->either_sign);
 }
 
 static void ties_of(rng *r, const pair *p, const dp_format *format, uint64_t cameras, tally *t) {
@@ -297,7 +306,7 @@ static void random_codes(void **state) {
     tally t = {.name = p->name};
     dp_format format[6];
     formats(format);
-    int slow = p->mapping == DP_MAPPING_LOG;
+    int slow = p->mapping == DP_MAPPING_LOG || p->either_sign;
     uint64_t cases = slow ? test_cases(2000, 100000, 1000000) : test_cases(10000, 1000000, 1000000);
     for (int i = 0; i < 6; i++)
         random_cases(&r, p, &format[i], i < 4 ? cases : cases / 50, &t);

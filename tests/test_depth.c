@@ -63,11 +63,15 @@ static void random_spec(rng *r, dp_spec *spec) {
     }
     if (kind >= 10)
         spec->zfar = INFINITY;
+    if (spec->ortho && rng_below(r, 2))
+        rng_planes(r, &spec->znear, &spec->zfar);
     spec->log_c = rng_below(r, 2) ? 1 : rng_log(r, 1e-6, 1e6);
 }
 
 static double random_depth(rng *r, const dp_spec *spec) {
     double zfar = isinf(spec->zfar) ? spec->znear * 1e12 : spec->zfar;
+    if (spec->znear <= 0)
+        return rng_depth(r, spec->znear, spec->zfar);
     switch (rng_below(r, 8)) {
     case 0:
         return spec->znear;
@@ -191,7 +195,9 @@ static void slivers(void **state) {
         random_spec(&r, &s.spec);
         s.spec.mapping = rng_below(&r, 2) ? DP_MAPPING_LINEAR : DP_MAPPING_LOG;
         s.spec.ortho = 0;
-        if (isinf(s.spec.zfar))
+        if (s.spec.znear <= 0)
+            s.spec.znear = rng_log(&r, 1e-12, 1e6);
+        if (isinf(s.spec.zfar) || !(s.spec.zfar > 1.1 * s.spec.znear))
             s.spec.zfar = s.spec.znear * 1000;
         open_scene(&s);
         uint32_t code = oracle_code(&s.o, rng_log(&r, s.spec.znear, s.spec.zfar));
@@ -470,7 +476,7 @@ static void guarantee(void **state) {
              * fine that half of it in d is about half of s in z: half is what truncation needs before a binade end
              */
             int fine = s.spec.format.kind == DP_FORMAT_UNORM || s.spec.format.mantissa_bits >= 10;
-            if (aimed && fine && separation > 4096 * (depth - nextafter(depth, 0))) {
+            if (aimed && fine && separation > 4096 * (nextafter(fabs(depth), HUGE_VAL) - fabs(depth))) {
                 mpq_set_d(z, (s.spec.format.kind == DP_FORMAT_UNORM ? 0.99 : 0.49) * separation);
                 mpq_add(z, z, at);
                 if (!s.o.infinite && mpq_cmp(z, s.o.zfar) > 0)

@@ -41,7 +41,7 @@ static bool matters(const promise_pipe *p, const promise_window_plan *plan) {
  * depths ends there. So a window across is judged up to there alone.
  */
 static promise_window_plan up_to_normal_reciprocals(promise_window_plan plan) {
-    const uint32_t last = promise_bits(0x1p126);
+    const uint32_t last = promise_rank(0x1p126);
     if (plan.run[0].first > last)
         return plan;
     while (plan.run[plan.count - 1].first > last)
@@ -68,8 +68,9 @@ static void judge_place(const dp_setup *setup, double place, uint32_t depths, pr
 static bool range_holds(const promise_pair *pair, rng *r) {
     const promise_range range = promise_range_of(&pair->setup);
     dp_separation_worst over;
-    const double lo = fmax(range.znear, pair->z1 * (1.0 - rng_log(r, 1e-7, 0.5)));
-    const double hi = fmin(range.zfar, pair->z1 * (1.0 + rng_log(r, 1e-7, 1.0)));
+    const double size = range.znear > 0.0 ? pair->z1 : (range.zfar - range.znear) * rng_log(r, 1e-9, 1.0);
+    const double lo = fmax(range.znear, pair->z1 - size * rng_log(r, 1e-7, 0.5));
+    const double hi = fmin(range.zfar, pair->z1 + size * rng_log(r, 1e-7, 1.0));
     return pair->ratio <= 0.0 || dp_separation_over(&pair->setup, lo, hi, 0.0, &over) != DP_OK ||
            !promise_beyond(pair->z1, over.bound, pair->z2);
 }
@@ -82,8 +83,10 @@ typedef struct outcome {
     double place;
 } outcome;
 
-static outcome judge_setup(rng *r, uint32_t depths) {
-    const dp_setup setup = promise_draw(r);
+typedef dp_setup drawing(rng *r);
+
+static outcome judge_setup(drawing *draw, rng *r, uint32_t depths) {
+    const dp_setup setup = draw(r);
     const promise_pipe p = promise_pipe_make(&setup, false);
     const promise_range range = promise_range_of(&setup);
     dp_setup exact = setup;
@@ -185,16 +188,15 @@ static void print_report(report *t) {
     fflush(stdout);
 }
 
-static void random_set_ups(void **state) {
-    (void)state;
-    const uint64_t setups = number("PROMISE_SETUPS", test_cases(60, 20000, 1000000));
+/* @return how many depths were judged */
+static uint64_t judge_set_ups(const char *name, drawing *draw, uint64_t setups) {
     const uint32_t depths = (uint32_t)number("PROMISE_DEPTHS", test_cases(1000, 1150, 2200));
-    const rng base = rng_make("promise");
+    const rng base = rng_make(name);
     report t = {.broken = NULL};
 #pragma omp parallel for schedule(dynamic, 8)
     for (uint64_t i = 0; i < setups; i++) {
         rng r = numbers_of(&base, i);
-        const outcome o = judge_setup(&r, i % 32 ? depths : 8 * depths);
+        const outcome o = judge_setup(draw, &r, i % 32 ? depths : 8 * depths);
 #pragma omp critical
         add(&t, &o);
     }
@@ -203,11 +205,23 @@ static void random_set_ups(void **state) {
     free(t.broken);
     assert_int_equal(broken, 0);
     assert_int_equal(t.ranges, 0);
-    if (test_effort() != EFFORT_QUICK && !getenv("PROMISE_SETUPS") && !getenv("PROMISE_DEPTHS"))
-        assert_true((double)t.depths >= (test_effort() == EFFORT_FULL ? 1e10 : 1e8));
     assert_int_equal(t.lattices, 0);
     for (int c = 0; c < DP_CAUSE_COUNT && test_effort() != EFFORT_QUICK; c++)
         assert_int_equal(t.noticed[c], t.present[c]);
+    return t.depths;
+}
+
+static void random_set_ups(void **state) {
+    (void)state;
+    const uint64_t setups = number("PROMISE_SETUPS", test_cases(60, 20000, 1000000));
+    const uint64_t depths = judge_set_ups("promise", promise_draw, setups);
+    if (test_effort() != EFFORT_QUICK && !getenv("PROMISE_SETUPS") && !getenv("PROMISE_DEPTHS"))
+        assert_true((double)depths >= (test_effort() == EFFORT_FULL ? 1e10 : 1e8));
+}
+
+static void depths_of_either_sign(void **state) {
+    (void)state;
+    judge_set_ups("promise, either sign", promise_draw_signed, number("PROMISE_SETUPS", test_cases(60, 6000, 300000)));
 }
 
 /* ---- Set-ups that have been a trap ------------------------------------------------------------------------------- */
@@ -288,14 +302,14 @@ static void pipelines_agree(void **state) {
     (void)state;
     tally t = {.name = "codes of the two pipelines"};
     rng r = rng_make("pipelines");
-    for (uint64_t i = test_cases(200, 4000, 100000); i > 0; i--) {
-        const dp_setup setup = promise_draw(&r);
+    for (uint64_t i = test_cases(200, 6000, 150000); i > 0; i--) {
+        const dp_setup setup = i % 3 ? promise_draw(&r) : promise_draw_signed(&r);
         const promise_pipe p = promise_pipe_make(&setup, false);
         const promise_range range = promise_range_of(&setup);
         dp_pipeline library;
         assert_int_equal(dp_pipeline_init(&library, &setup), DP_OK);
         for (int k = 0; k < 16; k++) {
-            const uint32_t x = promise_bits(promise_place(&r, &p, &range));
+            const uint32_t x = promise_rank(promise_place(&r, &p, &range));
             const uint32_t want = promise_code(&p, promise_key(&p, x));
             const uint32_t got = dp_pipeline_code(&library, (float)promise_depth(x));
             TALLY(&t, got == want, "-n %.17g -f %.17g -F %s mapping %d ortho %d arith %zu rounding %d at %.9g: %u, %u",
@@ -316,6 +330,16 @@ static promise_band draw_band(rng *r) {
     const uint64_t kind = rng_below(r, 8);
     const double z = kind == 0 ? range.znear : kind < 3 ? end : rng_log(r, range.znear, end);
     return promise_measure_band(&setup, z);
+}
+
+/* A binade of an orthographic camera with depths of either sign. Most lie so close to 0 that they are within a code. */
+static promise_band draw_band_signed(rng *r) {
+    const dp_setup setup = promise_draw_signed(r);
+    const promise_range range = promise_range_of(&setup);
+    const double most = fmax(fabs(range.znear), fabs(range.zfar));
+    const double size = most * (rng_below(r, 4) ? 1.0 - rng_unit(r) : rng_log(r, 1e-9, 1.0));
+    const double z = rng_below(r, 2) ? size : -size;
+    return promise_measure_band(&setup, z >= range.znear && z <= range.zfar ? z : -z);
 }
 
 static int by_slack(const void *a, const void *b) {
@@ -396,10 +420,8 @@ static shares print_bands(promise_band *bands, size_t count) {
     return share_of("and against the lattice's own", bands, count, offsetof(promise_band, slack_lattice));
 }
 
-static void tight(void **state) {
-    (void)state;
-    const uint64_t count = number("PROMISE_BANDS", test_cases(1, 300, 6000));
-    const rng base = rng_make("bands");
+static void judge_bands(const char *name, promise_band (*draw)(rng *), uint64_t count) {
+    const rng base = rng_make(name);
     promise_band *bands = calloc(count, sizeof *bands);
     assert_non_null(bands);
     size_t measured = 0;
@@ -407,7 +429,7 @@ static void tight(void **state) {
 #pragma omp parallel for schedule(dynamic, 1)
     for (uint64_t i = 0; i < count; i++) {
         rng r = numbers_of(&base, i);
-        const promise_band b = draw_band(&r);
+        const promise_band b = draw(&r);
 #pragma omp critical
         if (isnan(b.slack))
             unmeasured++;
@@ -425,12 +447,21 @@ static void tight(void **state) {
     assert_true((double)n.above_2 <= expected + 3.0 * sqrt(expected));
 }
 
+static void tight(void **state) {
+    (void)state;
+    judge_bands("bands", draw_band, number("PROMISE_BANDS", test_cases(1, 300, 6000)));
+}
+
+static void tight_with_either_sign(void **state) {
+    (void)state;
+    judge_bands("bands, either sign", draw_band_signed, number("PROMISE_BANDS", test_cases(4, 150, 3000)));
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(pipelines_agree),
-        cmocka_unit_test(known_traps),
-        cmocka_unit_test(random_set_ups),
-        cmocka_unit_test(tight),
+        cmocka_unit_test(pipelines_agree), cmocka_unit_test(known_traps),
+        cmocka_unit_test(random_set_ups),  cmocka_unit_test(depths_of_either_sign),
+        cmocka_unit_test(tight),           cmocka_unit_test(tight_with_either_sign),
     };
     return run_tap(tests);
 }

@@ -110,6 +110,42 @@ static void orthographic(void **state) {
     ACCEPT(spec.ortho = -1);
 }
 
+/* Near and far of an orthographic camera: 0 or of either sign, but not so small that exact products lose bits. */
+static void orthographic_planes(void **state) {
+    (void)state;
+    static const double near_bad[] = {-INFINITY, INFINITY, NAN, 1e-13, -1e-13, 0x1p-1074, -0x1p-1074, -1.1e12, 1.1e12};
+    static const double far_bad[] = {-INFINITY, NAN, -100, -101, 1e-13, -1e-13, 0x1p-1074, 1.1e18};
+    static const double far_good[] = {-99, -1, -1e-12, 0, 1e-12, 1, 100, 1e18};
+    for (size_t i = 0; i < sizeof near_bad / sizeof *near_bad; i++)
+        REFUSE(DP_ERROR_ORTHO_NEAR, spec.ortho = 1; spec.znear = near_bad[i]; spec.zfar = 1e18);
+    for (size_t i = 0; i < sizeof far_bad / sizeof *far_bad; i++)
+        REFUSE(DP_ERROR_ORTHO_FAR, spec.ortho = 1; spec.znear = -100; spec.zfar = far_bad[i]);
+    for (size_t i = 0; i < sizeof far_good / sizeof *far_good; i++)
+        ACCEPT(spec.ortho = 1; spec.znear = -100; spec.zfar = far_good[i]);
+    REFUSE(DP_ERROR_INFINITE, spec.ortho = 1; spec.znear = -100; spec.zfar = INFINITY);
+    REFUSE(DP_ERROR_INFINITE, spec.ortho = 1; spec.znear = 0; spec.zfar = INFINITY);
+    REFUSE(DP_ERROR_PLANES, spec.ortho = 1; spec.znear = -1; spec.zfar = -1 + 0.99e-6);
+    ACCEPT(spec.ortho = 1; spec.znear = -1; spec.zfar = -1 + 1.01e-6);
+    REFUSE(DP_ERROR_ORTHO_FAR, spec.ortho = 1; spec.znear = 0; spec.zfar = nextafter(1e-12, 0));
+    REFUSE(DP_ERROR_ORTHO_FAR, spec.ortho = 1; spec.znear = 0; spec.zfar = 0);
+    ACCEPT(spec.ortho = 1; spec.znear = 0; spec.zfar = 1e-12);
+    ACCEPT(spec.ortho = 1; spec.znear = -1e12; spec.zfar = -1e11);
+    ACCEPT(spec.ortho = 1; spec.znear = -1e-12; spec.zfar = 1e18);
+    REFUSE(DP_ERROR_ORTHO, spec.ortho = 1; spec.znear = -1; spec.mapping = DP_MAPPING_LOG);
+    REFUSE(DP_ERROR_NEAR, spec.znear = -1);
+    /* -0 is 0, in what is printed too */
+    dp_spec zeros = dp_spec_default();
+    dp_setup setup;
+    zeros.ortho = 1;
+    zeros.znear = -0.0;
+    assert_int_equal(dp_setup_init(&setup, &zeros), DP_OK);
+    assert_false(signbit(setup.spec.znear));
+    zeros.znear = -1;
+    zeros.zfar = -0.0;
+    assert_int_equal(dp_setup_init(&setup, &zeros), DP_OK);
+    assert_false(signbit(setup.spec.zfar));
+}
+
 static void log_constant(void **state) {
     (void)state;
     static const double bad[] = {0.0, -1.0, 1e-13, 1e13, NAN, INFINITY, -INFINITY};
@@ -259,6 +295,7 @@ int main(void) {
         cmocka_unit_test(too_close),
         cmocka_unit_test(infinite_far),
         cmocka_unit_test(orthographic),
+        cmocka_unit_test(orthographic_planes),
         cmocka_unit_test(log_constant),
         cmocka_unit_test(bad_rows),
         cmocka_unit_test(null_pointers),

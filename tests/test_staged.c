@@ -62,8 +62,23 @@ static int random_setup(rng *r, dp_spec *spec, dp_setup *setup) {
     return dp_setup_init(setup, spec) == DP_OK;
 }
 
+/* The same with every other orthographic near plane at 0 or behind the camera. */
+static int random_setup_signed(rng *r, dp_spec *spec, dp_setup *setup) {
+    const int made = random_setup(r, spec, setup);
+    if (!spec->ortho || rng_below(r, 2))
+        return made;
+    rng_planes(r, &spec->znear, &spec->zfar);
+    return dp_setup_init(setup, spec) == DP_OK;
+}
+
 static double range_end(const dp_spec *spec) {
     return isinf(spec->zfar) ? 1e6 * spec->znear : spec->zfar;
+}
+
+static double random_depth(rng *r, const dp_spec *spec) {
+    if (spec->znear <= 0.0)
+        return rng_depth(r, spec->znear, spec->zfar);
+    return fmin(fmax(rng_log(r, spec->znear, range_end(spec)), spec->znear), spec->zfar);
 }
 
 static void codes_match_mpfr(void **state) {
@@ -73,19 +88,19 @@ static void codes_match_mpfr(void **state) {
     for (uint64_t i = test_cases(2000, 40000, 1000000); i > 0; i--) {
         dp_spec spec;
         dp_setup setup;
-        if (!random_setup(&r, &spec, &setup))
+        if (!random_setup_signed(&r, &spec, &setup))
             continue;
         oracle o;
         oracle_init(&o, &spec);
-        const double z0 = fmin(fmax(rng_log(&r, spec.znear, range_end(&spec)), spec.znear), spec.zfar);
+        const double z0 = random_depth(&r, &spec);
         const dp_cell cell = dp_cell_of(&setup, dp_code(&setup, z0));
         /* A random depth, and the doubles around both ends of its cell. */
         double z[7] = {z0,
                        cell.lo,
-                       nextafter(cell.lo, 0),
+                       nextafter(cell.lo, -HUGE_VAL),
                        nextafter(cell.lo, HUGE_VAL),
                        cell.hi,
-                       nextafter(cell.hi, 0),
+                       nextafter(cell.hi, -HUGE_VAL),
                        nextafter(cell.hi, HUGE_VAL)};
         for (int k = 0; k < 7; k++) {
             if (!(z[k] >= spec.znear && z[k] <= spec.zfar) || isinf(z[k]))
@@ -97,13 +112,14 @@ static void codes_match_mpfr(void **state) {
                   oracle_describe(&spec, text, sizeof text));
         }
         /* The cell ends where the code changes. */
-        if (cell.lo > spec.znear && cell.hi < spec.zfar && cell.width > 1e-13 * cell.hi) {
+        const double size = fmax(fabs(cell.lo), fabs(cell.hi));
+        if (cell.lo > spec.znear && cell.hi < spec.zfar && cell.width > 1e-13 * size) {
             const double inside_lo = cell.lo + 0.25 * cell.width;
             const double inside_hi = cell.hi - 0.25 * cell.width;
             TALLY(&t, staged_code(&o, inside_lo) == cell.code && staged_code(&o, inside_hi) == cell.code, "cell of %u",
                   cell.code);
-            const double before = cell.lo * (1.0 - 1e-14);
-            const double after = cell.hi * (1.0 + 1e-14);
+            const double before = cell.lo - size * 1e-14;
+            const double after = cell.hi + size * 1e-14;
             TALLY(&t, staged_code(&o, before) != cell.code && staged_code(&o, after) != cell.code,
                   "cell of %u is larger than [%a, %a]", cell.code, cell.lo, cell.hi);
         }
@@ -119,11 +135,11 @@ static void separation_is_safe(void **state) {
     for (uint64_t i = test_cases(2000, 40000, 1000000); i > 0; i--) {
         dp_spec spec;
         dp_setup setup;
-        if (!random_setup(&r, &spec, &setup))
+        if (!random_setup_signed(&r, &spec, &setup))
             continue;
         oracle o;
         oracle_init(&o, &spec);
-        double z = fmin(fmax(rng_log(&r, spec.znear, range_end(&spec)), spec.znear), spec.zfar);
+        double z = random_depth(&r, &spec);
         if (rng_below(&r, 2) == 0)
             z = fmax(dp_cell_of(&setup, dp_code(&setup, z)).lo, spec.znear);
         const double behind = nextafter(z + dp_separation(&setup, z), HUGE_VAL);
@@ -228,7 +244,7 @@ static int walk_cells(const dp_setup *setup, double lo, uint64_t most, double *h
     for (uint64_t i = 0; i < most; i++) {
         if (!(cell.hi < range_end(&setup->spec)))
             break;
-        begin = cell.hi * (1 - 1e-13);
+        begin = cell.hi - fabs(cell.hi) * 1e-13;
         *error = fmax(*error, error_of_cell(setup, &cell, lo, begin));
         *interval = fmax(*interval, cell.width);
         *hi = begin;
@@ -295,7 +311,7 @@ static void worst_is_near_in_each_class(void **state) {
         spec.format = format[0];
         if (dp_setup_init(&setup, &spec) != DP_OK || setup.curve == DP_CURVE_LOG)
             continue;
-        const double lo = fmin(fmax(rng_log(&r, spec.znear, range_end(&spec)), spec.znear), spec.zfar);
+        const double lo = random_depth(&r, &spec);
         if (!walk_cells(&setup, lo, 1 + rng_below(&r, 1500), &hi, &error, &interval) ||
             dp_worst_over(&setup, lo, hi, &worst) != DP_OK)
             continue;

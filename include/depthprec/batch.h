@@ -85,7 +85,8 @@ typedef struct dp_batch {
  * Prepares a task. ENCODE and DECODE read only the set-up's format and rounding.
  *
  * CODE and WIDTH in the models `staged` and `fp32`, and CODE, WIDTH and EYE of the logarithmic mapping, have no vector
- * kernel: each element then costs what the scalar function does.
+ * kernel, nor has EYE of orthographic planes with depth 0 between them: each element then costs what the scalar
+ * function does.
  *
  * @return DP_OK; DP_ERROR_NULL; DP_ERROR_BATCH for a task, type or path that does not exist or is not available;
  *         DP_ERROR_FORMAT for DP_WORD_16 with a format of more bits. *batch is then left as it was

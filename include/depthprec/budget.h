@@ -77,7 +77,7 @@ DP_API const char *dp_cause_name(dp_cause cause);
  *
  * With terms->world, of two surfaces that the same matrix transforms and that one pixel sees, at real places in the
  * world box: on one ray from the camera within 60 degrees of its axis, or parallel to the axis if orthographic (with
- * the camera-relative composition, no farther beside it than zfar).
+ * the camera-relative composition, no farther beside it than the plane of larger magnitude).
  *
  * Bound: never violated by the pipeline of pipeline.h with depth clamp. Cost: some 300 operations.
  */

@@ -49,7 +49,8 @@ DP_API double dp_window(const dp_setup *setup, double z);
  * The eye depth of a window depth given as the pair d and q = 1 - d, each to full accuracy: so nothing cancels near
  * either end. Never pass 1 - d computed from a rounded d.
  *
- * Formula: perspective 1/z = q/n + d/f (standard) or d/n + q/f (reversed). Bound: 2^-50 relative (log: 2^-45).
+ * Formula: perspective 1/z = q/n + d/f (standard) or d/n + q/f (reversed); orthographic z = q n + d f, or the reverse.
+ * Bound: 2^-50 relative (log: 2^-45), of that formula with d and q as given where depth 0 lies between the planes.
  * Special cases: INFINITY at the infinite far plane. Results are not clipped to [near, far].
  */
 DP_API double dp_eye(const dp_setup *setup, double d, double q);

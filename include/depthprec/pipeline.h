@@ -47,7 +47,7 @@ DP_API dp_status dp_pipeline_init(dp_pipeline *pipeline, const dp_setup *setup);
 /** z_clip of a binary32 eye depth, before the divide (after the remap, if the arithmetic has one). */
 DP_API float dp_pipeline_clip(const dp_pipeline *pipeline, float z);
 
-/** The window depth in binary32, not clamped. z > 0. */
+/** The window depth in binary32, not clamped. z > 0 under a perspective. */
 DP_API float dp_pipeline_window(const dp_pipeline *pipeline, float z);
 
 /** The stored code; a window depth outside [0, 1] is clamped, as a depth clamp does. */

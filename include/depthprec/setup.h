@@ -24,9 +24,11 @@ typedef enum dp_model {
 
 /** What is asked for. Start from dp_spec_default() and change what differs. */
 typedef struct dp_spec {
-    double znear; /**< near plane, scene units, in [1e-12, 1e12] */
-    double zfar;  /**< far plane, scene units, at most 1e18, or INFINITY; (far - near)/near >= 1e-6 */
-    int ortho;    /**< nonzero: orthographic projection (d3d, gl, reversed and gl-reversed only) */
+    double
+        znear; /**< near plane, scene units, in [1e-12, 1e12]; orthographic: 0, or of that magnitude, of either sign */
+    double zfar; /**< far plane, scene units, at most 1e18, or INFINITY; (far - near)/near >= 1e-6. Orthographic:
+                    finite; 0, or of a magnitude in [1e-12, 1e18], of either sign; (far - near)/|near| >= 1e-6 */
+    int ortho;   /**< nonzero: orthographic projection (d3d, gl, reversed and gl-reversed only) */
     dp_mapping mapping;
     dp_format format;
     dp_rounding rounding;
@@ -44,6 +46,7 @@ typedef struct dp_setup {
     dp_curve curve; /**< the curve in force: an orthographic projection turns PERSPECTIVE into LINEAR */
     int reversed;
     double anchor; /**< the depth that a LINEAR curve sends to its near end: near (orthographic) or 0 (linear) */
+    int astride;   /**< depth 0 lies between the planes: eye depths are differences, and take the exact way */
     double kappa;  /**< PERSPECTIVE: 1/n - 1/f; LINEAR: f - anchor; LOG: log(C f + 1) */
     double scale;  /**< d is this times (z - n)/z, (f - z)/z, z - n, f - z, z or log(C z + 1) */
     double den;    /**< lattice points and rounding boundaries are num/den: UNORM 2 (2^N - 1); FLOAT 1 */

@@ -71,6 +71,8 @@ static int check_depths(const options *o, solve_report *r) {
     const bool free_far = r->target == SOLVE_FOR_FAR || !is_known(o, OPTION_FAR);
     const double least = free_near ? 1e-12 : o->znear;
     const double most = free_far ? 1e18 : o->zfar;
+    if (r->target == SOLVE_FOR_FAR && !(r->hi > 0.0) && o->znear <= 0.0)
+        return option_error(id, "must reach depths above 0, to solve for far, got %s", number_full(r->hi).text);
     if (r->lo >= least && r->hi <= most)
         return EXIT_FINE;
     return option_error(id, "depths must lie in [%s, %s] = [%s, %s], got %s", free_near ? "1e-12" : "near",

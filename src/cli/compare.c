@@ -81,7 +81,7 @@ static void choose_depths(comparison *c) {
     double near = INFINITY, far = 0;
     for (size_t i = 0; i < c->walk->all.count; i++) {
         near = fmin(near, c->rows[i].znear);
-        far = fmax(far, fmin(c->rows[i].zfar, 1e6 * c->rows[i].znear));
+        far = fmax(far, isinf(c->rows[i].zfar) ? 1e6 * c->rows[i].znear : c->rows[i].zfar);
     }
     if (option_given(o, OPTION_AT)) {
         for (c->depth_count = 0; c->depth_count < o->at.count; c->depth_count++)
@@ -198,7 +198,7 @@ static void say_head(page *p, void *item) {
     say_cameras(p, c);
     output_format(p->out, "%s%-*s%*s%*s%s\n", p->soft, c->name_width, "", width,
                   width > 27   ? "guaranteed separation at z"
-                  : width > 14 ? "guaranteed at z"
+                  : width > 20 ? "guaranteed at z"
                                : "at z",
                   COLUMN_WIDTH * (c->limit_end - c->limit_begin),
                   c->limit_end - c->limit_begin == LIMITS ? "told apart up to z" : "apart up to z", p->plain);

@@ -33,8 +33,13 @@ static int check_within(const options *o, option_id id, double lo, double hi) {
 
 int depths_resolve(const options *o, size_t count, depths *out) {
     const double end = isinf(o->zfar) ? o->znear * infinite_far_ratio : o->zfar;
-    *out = o->at.count > 0 ? o->at : (depths){.kind = DEPTHS_LOG, .lo = o->znear, .hi = end, .count = count};
-    return check_within(o, OPTION_AT, out->lo, out->hi);
+    const depths_kind kind = o->znear > 0.0 ? DEPTHS_LOG : DEPTHS_LIN;
+    *out = o->at.count > 0 ? o->at : (depths){.kind = kind, .lo = o->znear, .hi = end, .count = count};
+    const int status = check_within(o, OPTION_AT, out->lo, out->hi);
+    if (status == EXIT_FINE && out->kind == DEPTHS_LOG && out->lo <= 0.0)
+        return option_error(OPTION_AT, "log spacing needs LO greater than 0, got %s: lin has equal steps",
+                            number_full(out->lo).text);
+    return status;
 }
 
 int depths_in_binary32(const depths *d) {

@@ -28,7 +28,7 @@ double depths_get(const depths *d, size_t i);
 
 /**
  * The depths of a command: those of --at, or `count` log-spaced ones from near to far (to 1e6 near when far is
- * infinite). Call it after setups_make(), which checks near and far.
+ * infinite; evenly spaced when near is not positive). Call it after setups_make(), which checks near and far.
  *
  * @return EXIT_FINE, or EXIT_USAGE after one line when a depth lies outside [near, far]
  */

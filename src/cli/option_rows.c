@@ -17,7 +17,7 @@ static const name_list roundings = {.get = list_rounding};
 static const name_list models = {.get = list_model};
 static const name_list ariths = {.get = list_arith};
 static const name_list compositions = {.get = list_composition};
-static const name_list apis = {.get = list_api};
+static const name_list apis = {.words = (const char *const[]){"all", NULL}, .get = list_api};
 static const name_list scenes = {.get = list_scene};
 static const name_list positions = {.words = (const char *const[]){"exact", NULL}, .get = list_position};
 static const name_list normals = {.get = list_normal};
@@ -48,21 +48,23 @@ enum {
 #define FIELD(type, field) .place = offsetof(options, field) + 0 * sizeof(1 ? &((options *)0)->field : (type *)0)
 #define SIZED(field)       .place = offsetof(options, field), .size = sizeof((options *)0)->field
 
-#define FLAG(field)        .parse = parse_flag, SIZED(field)
-#define TEXT(field)        .parse = parse_text, FIELD(const char *, field)
-#define FILE_NAME(field)   .parse = parse_file, FIELD(const char *, field)
-#define LIMITS(lo, hi, of) .least = (lo), .most = (hi), .unit = (of)
-#define POSITIVE(field)    .parse = parse_length, FIELD(double, field)
-#define LENGTH(field, ...) POSITIVE(field), LIMITS(__VA_ARGS__)
-#define NUMBER(field, ...) .parse = parse_number, FIELD(double, field), LIMITS(__VA_ARGS__)
-#define WHOLE(field, ...)  .parse = parse_whole, SIZED(field), LIMITS(__VA_ARGS__)
-#define WORD(field, among) .parse = parse_word, SIZED(field), .names = &(among)
-#define ROW(field, among)  .parse = parse_row, SIZED(field), .names = &(among)
+#define FLAG(field)                  .parse = parse_flag, SIZED(field)
+#define TEXT(field)                  .parse = parse_text, FIELD(const char *, field)
+#define FILE_NAME(field)             .parse = parse_file, FIELD(const char *, field)
+#define LIMITS(lo, hi, of)           .least = (lo), .most = (hi), .unit = (of)
+#define POSITIVE(field)              .parse = parse_length, FIELD(double, field)
+#define LENGTH(field, ...)           POSITIVE(field), LIMITS(__VA_ARGS__)
+#define NUMBER(field, ...)           .parse = parse_number, FIELD(double, field), LIMITS(__VA_ARGS__)
+#define WHOLE(field, ...)            .parse = parse_whole, SIZED(field), LIMITS(__VA_ARGS__)
+#define SEVERAL(kind, field, lo, hi) .parse = (kind), FIELD(depths, field), LIMITS(lo, hi, NULL)
+#define WORD(field, among)           .parse = parse_word, SIZED(field), .names = &(among)
+#define ROW(field, among)            .parse = parse_row, SIZED(field), .names = &(among)
 
 /* clang-format off */
 const option_row option_rows[OPTION_COUNT] = {
     [OPTION_NEAR] = {"near", 'n', "Z", PLACED | TAKEN,
-        "near plane", LENGTH(znear, 1e-12, 1e12, "scene units"), .standard = "0.1", .group = "The camera"},
+        "near plane; with --ortho 0 or negative too", .parse = parse_near, FIELD(double, znear),
+        LIMITS(1e-12, 1e12, "scene units"), .standard = "0.1", .group = "The camera"},
     [OPTION_FAR] = {"far", 'f', "Z|inf", PLACED | TAKEN,
         "far plane, up to 1e18 scene units and beyond near by 1e-6 of it at least, or inf",
         parse_far, .standard = "1000", .except = {VERB_SOLVE, "inf"}},
@@ -103,6 +105,12 @@ const option_row option_rows[OPTION_COUNT] = {
     [OPTION_RANGE] = {"range", 0, "LO:HI", MODELLED | VERB_ZFIGHT | VERB_BIAS | VERB_SOLVE,
         "the depths that worst cases are taken over", parse_range, .without = "near to far",
         .except = {VERB_SOLVE, "none"}},
+    [OPTION_DEPTH] = {"depth", 0, "D[,D...]", VERB_TABLE,
+        "the other way round: the eye depths of these window depths, each with the cell that it is stored in",
+        SEVERAL(parse_list, looked_up, 0, 1)},
+    [OPTION_CODE] = {"code", 0, "N[,N...]", VERB_TABLE,
+        "the same for stored codes, decimal or 0x...: those of a float are its bits",
+        SEVERAL(parse_codes, looked_up, 0, 4294967295)},
     [OPTION_FOR] = {"for", 0, NULL, VERB_SOLVE,
         "what to solve for; distance is the depth up to which --separation holds", WORD(target, targets),
         .without = "the first of near, far, format and mapping that is not given", .group = "What is wanted"},
@@ -124,7 +132,7 @@ const option_row option_rows[OPTION_COUNT] = {
     [OPTION_LINEARIZE] = {"linearize", 0, NULL, BUDGETED,
         "count reading the eye depth back in a binary32 shader", FLAG(terms.linearize)},
     [OPTION_API] = {"api", 0, "NAME", VERB_BIAS,
-        "whose rule: @", ROW(api, apis), .standard = "d3d11", .group = "The bias"},
+        "whose rule: @; all writes the bias that is needed as each has it", ROW(api, apis), .standard = "d3d11", .group = "The bias"},
     [OPTION_UNITS] = {"units", 0, "U", VERB_BIAS,
         "constant bias in units of r, a whole number for d3d11 and webgpu; in window depth for d3d9 and vulkan-float",
         NUMBER(units, -1e12, 1e12, NULL),
@@ -173,6 +181,9 @@ const option_row option_rows[OPTION_COUNT] = {
     [OPTION_METRIC] = {"metric", 0, "SCALE", VERB_TEXTURE,
         "the samples are eye depths in units of SCALE, 0.001 for millimetres; 0, below 0, NaN and infinity are holes",
         LENGTH(metric, METRIC_SCALE_MIN, METRIC_SCALE_MAX, "scene units")},
+    [OPTION_PIXEL] = {"pixel", 0, "X,Y[;X,Y...]", VERB_TEXTURE,
+        "all about single pixels: code, eye depth and which depths it may be, neighbours, position, normal; 0,0 is the "
+        "left of the top row", SEVERAL(parse_pixels, pixels, 0, TEXTURE_SIDE_MAX - 1)},
     [OPTION_EYE] = {"eye", 0, NULL, VERB_TEXTURE,
         "product: eye depth", FLAG(eye)},
     [OPTION_RADIAL] = {"radial", 0, NULL, VERB_TEXTURE,

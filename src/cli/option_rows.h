@@ -60,11 +60,14 @@ option_parser parse_length; /**< double: scene units, or with a unit behind; fro
 option_parser parse_whole;  /**< unsigned or 64 bits wide, from least to most */
 option_parser parse_word;   /**< the same: the index of one of `names` */
 option_parser parse_row;    /**< a pointer to the row of one of `names` */
+option_parser parse_list;   /**< depths: numbers from least to most, separated by commas */
+option_parser parse_codes;  /**< the same, whole ones */
+option_parser parse_pixels; /**< the same, pairs of them with a semicolon in between */
 
 /* ---- Languages of their own -------------------------------------------------------------------------------------- */
 
-option_parser parse_unit, parse_presets, parse_far, parse_formats, parse_mappings, parse_tolerance, parse_at,
-    parse_range, parse_origin;
+option_parser parse_unit, parse_presets, parse_near, parse_far, parse_formats, parse_mappings, parse_tolerance,
+    parse_at, parse_range, parse_origin;
 option_parser parse_size, parse_parameter, parse_form;
 
 #endif

@@ -8,6 +8,7 @@
 
 #include "cli/option_rows.h"
 #include "core/append.h"
+#include "report/number.h"
 
 const char *option_name(option_id id) {
     return option_rows[id].name;
@@ -40,7 +41,9 @@ static void set_defaults(options *o) {
 
 void options_release(options *o) {
     free(o->at.list);
-    o->at.list = NULL;
+    free(o->looked_up.list);
+    free(o->pixels.list);
+    o->at.list = o->looked_up.list = o->pixels.list = NULL;
 }
 
 /* getopt's names for an option: its letter, or a number that no letter has. */
@@ -185,6 +188,27 @@ static int complete(options *o) {
     return EXIT_FINE;
 }
 
+/* The commands that have been taught what lies at depth 0 and behind it. */
+enum { ANY_SIGN = VERB_TABLE | VERB_BUDGET | VERB_SOLVE | VERB_ZFIGHT | VERB_TEXTURE };
+
+static int check_near(const options *o) {
+    const option_row *row = &option_rows[OPTION_NEAR];
+    const number_text given = number_full(o->znear);
+    char limits[OPTION_TEXT_SIZE];
+    if (o->znear > 0.0)
+        return EXIT_FINE;
+    if (!o->ortho)
+        return option_error(OPTION_NEAR, "must be a number from %s, got '%s'", option_limits(row, limits), given.text);
+    if (o->znear != 0.0 && !(-o->znear >= row->least && -o->znear <= row->most))
+        return option_error(OPTION_NEAR, "must be 0, or a number from %s or its negative, got '%s'",
+                            option_limits(row, limits), given.text);
+    if ((o->verb->bit & ANY_SIGN) == 0)
+        return option_error(OPTION_NEAR, "must be greater than 0 for %s, got '%s'", o->verb->name, given.text);
+    if (o->effect != NULL && o->znear < 0.0)
+        return option_error(OPTION_EFFECT, "needs near not less than 0, got '%s'", given.text);
+    return EXIT_FINE;
+}
+
 /* What lengths mean must be known before they are read. */
 static bool is_early(int id) {
     return id == OPTION_UNIT || id == OPTION_PRESET;
@@ -280,6 +304,8 @@ int options_parse(options *o, int argc, char **argv) {
     if (status != EXIT_FINE || option_given(o, OPTION_HELP) || option_given(o, OPTION_VERSION))
         return status;
     status = complete(o);
+    if (status == EXIT_FINE)
+        status = check_near(o);
     return status == EXIT_FINE ? check_operands(o) : status;
 }
 

@@ -24,6 +24,16 @@ DP_INLINE float dp_float32(uint32_t bits) {
     return x;
 }
 
+/* The place of a number among all of binary32, from the least on: one more is the next number. Both zeros are one. */
+DP_INLINE uint32_t dp_rank32(float x) {
+    const uint32_t bits = dp_bits32(x);
+    return bits < 0x80000000U ? 0x80000000U + bits : 0U - bits;
+}
+
+DP_INLINE float dp_ranked32(uint32_t rank) {
+    return dp_float32(rank < 0x80000000U ? 0U - rank : rank - 0x80000000U);
+}
+
 DP_INLINE uint64_t dp_bits64(double x) {
     uint64_t bits;
     memcpy(&bits, &x, sizeof bits);

@@ -46,8 +46,8 @@ static void visit(const search *s, uint32_t rank) {
     const dp_setup *setup = s->setup;
     const uint32_t code = code_of_rank(s, rank);
     const dp_cell cell = dp_cell_of(setup, code);
-    const int cut_lo = code == setup->code_near || (rank == 0 && worst->lo > cell.lo);
-    const int cut_hi = code == setup->code_far || (rank == s->count && worst->hi < cell.hi);
+    const int cut_lo = code == setup->code_near || (rank == 0 && worst->lo >= cell.lo);
+    const int cut_hi = code == setup->code_far || (rank == s->count && worst->hi <= cell.hi);
     const double lo = cut_lo && worst->lo > cell.lo ? worst->lo : cell.lo;
     const double hi = cut_hi && worst->hi < cell.hi ? worst->hi : cell.hi;
     offer_error(worst, cut_lo ? error_at_cut(setup, code, lo) : error_at_boundary(setup, code, 0), lo, code);

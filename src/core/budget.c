@@ -35,7 +35,8 @@ static double linearization_error(const dp_setup *setup, const dp_chain *c, doub
     const double f = setup->spec.zfar;
     if (c->pipeline.ortho) {
         const double start = setup->reversed ? f : n;
-        return DP_UNIT * (3.0 * fabs(z - start) + start + z) / (f - n) * outward;
+        const double scene = DP_UNIT * (3.0 * fabs(z - start) + fabs(start) + fabs(z));
+        return larger(scene, 0x1p-126) / (f - n) * outward;
     }
     const double start = setup->reversed ? 1.0 / f : 1.0 / n;
     const double relative = DP_UNIT * ((3.0 * fabs(1.0 / z - start) + start) * z + 2.0) * outward;
@@ -47,7 +48,17 @@ static double last_within(double z, double longest) {
     if (!(z + longest < 0x1.fffffep127))
         return z + longest;
     const float last = (float)(z + longest);
-    return (double)((double)last > z + longest ? nextafterf(last, 0.0F) : last);
+    return (double)((double)last > z + longest ? nextafterf(last, -HUGE_VALF) : last);
+}
+
+/* The binary32 depth of a surface; and 0, where hardware may make that of it. */
+static dp_span entered(double z) {
+    return fabs(z) < 0x1p-126 ? (dp_span){smaller(z, 0.0), larger(z, 0.0)} : (dp_span){z, z};
+}
+
+/* A little behind a depth, or before it. */
+static double moved(double z, double share) {
+    return isinf(z) ? z : z + fabs(z) * share;
 }
 
 /* What the lattice alone asks for: no arithmetic before it makes two surfaces easier to tell apart. */
@@ -60,14 +71,14 @@ static double lattice_separation(const dp_setup *setup, double z) {
 /* The separation of depths that a composition moves: that of any depth which a surface at z may be moved to. */
 static double composed_separation(const dp_setup *setup, const dp_chain *c, const dp_composed *m, double z,
                                   double extra) {
-    if (!(m->reach < z))
-        return HUGE_VAL;
     const double n = setup->spec.znear;
-    const double first = larger(z - m->reach, smaller(n, z) * (1.0 - 0x1p-20));
+    if (!(m->reach < (n > 0.0 ? z : HUGE_VAL))) /* where depths have either sign no eye is in the way */
+        return HUGE_VAL;
+    const double first = larger(z - m->reach, moved(smaller(n, z), -0x1p-20));
     dp_demand d;
     const double plain = dp_demand_longest(c, (dp_span){first, z + m->reach}, extra, &d) * outward;
     const double s = dp_composition_separation(m, z, plain, 0);
-    const int clamped = z - m->reach <= n * (1.0 + 0x1p-20) || z + m->reach + s >= setup->spec.zfar * (1.0 - 0x1p-20);
+    const int clamped = z - m->reach <= moved(n, 0x1p-20) || z + m->reach + s >= moved(setup->spec.zfar, -0x1p-20);
     return clamped ? dp_composition_separation(m, z, plain, 1) : s;
 }
 
@@ -79,9 +90,10 @@ static void add_composition(const dp_setup *setup, const dp_chain *c, double z, 
                              .world = terms->world,
                              .a = c->a,
                              .b = c->b,
-                             .znear = setup->spec.znear,
                              .zfar = setup->spec.zfar,
+                             .reach = larger(fabs(setup->spec.znear), fabs(setup->spec.zfar)),
                              .ortho = p->ortho,
+                             .any_sign = setup->spec.znear <= 0.0,
                              .fused = p->arith->fused,
                              .remap = p->ndc_signed && p->arith->remap};
     /* As below: first a separation from all that is behind, then from what is nearer than that. */
@@ -128,7 +140,7 @@ dp_status dp_budget_at(const dp_setup *setup, double z, const dp_budget_terms *t
     }
     const double extra = part[DP_CAUSE_INTERPOLATION] + part[DP_CAUSE_LINEARIZATION];
     dp_demand d;
-    const double z2 = last_within(z1, dp_demand_longest(&c, (dp_span){z1, z1}, extra, &d));
+    const double z2 = last_within(z1, dp_demand_longest(&c, entered(z1), extra, &d));
     const double longest = z2 - z1;
     const double eye = dp_eye_rounding(z1, z2);
     const double pipeline_needs = (longest + eye) * outward;
@@ -155,12 +167,16 @@ double dp_budget_bound(const dp_setup *setup, float nearest, float farthest) {
     if (dp_pipeline_init(&pipeline, setup) != DP_OK || isinf(farthest))
         return HUGE_VAL;
     const dp_chain c = dp_chain_make(setup, &pipeline);
-    const dp_span run = {(double)nearest, (double)farthest};
+    const dp_span run = {entered((double)nearest).lo, entered((double)farthest).hi};
     dp_demand d;
     const double longest = dp_demand_longest(&c, run, 0.0, &d);
-    const double step = 2.0 * dp_half_ulp(run.hi); /* of all depths of the run: what is apart is apart by whole ones */
-    const double whole = longest < 0x1p45 * step ? floor(longest / step) * step : longest;
-    return (whole + dp_eye_rounding(run.hi, run.hi + whole)) * outward;
+    /* Of all depths of the run, and of those behind it: what is apart is apart by whole ones. Towards 0 they shrink. */
+    const double finest = run.lo > 0.0 ? run.hi : -(run.hi + longest);
+    const double step = 2.0 * dp_half_ulp(larger(finest, 0.0));
+    const int counted = finest > 0.0 && longest < 0x1p45 * step;
+    const double whole = counted ? floor(longest / step) * step : longest;
+    const double nearest_size = fabs(run.lo); /* the larger one of a negative run */
+    return (dp_eye_rounding(larger(nearest_size, run.hi), larger(nearest_size, run.hi + whole)) + whole) * outward;
 }
 
 dp_status dp_code_range(const dp_setup *setup, double z, uint32_t *lowest, uint32_t *highest) {

@@ -78,6 +78,12 @@ static magnitude magnitude_of(double v1, double v2, double error) {
                        .least = (v1 < 0.0) != (v2 < 0.0) ? 0.0 : larger(small, 0.0)};
 }
 
+/* Of the depths of a span. */
+static magnitude size_of(dp_span r) {
+    const double least = r.lo < 0.0 && r.hi > 0.0 ? 0.0 : smaller(fabs(r.lo), fabs(r.hi));
+    return (magnitude){.most = larger(fabs(r.lo), fabs(r.hi)), .least = least};
+}
+
 /* The step of a rounding whose results have such magnitudes. */
 static dp_step step_of(magnitude m) {
     return (dp_step){.error = dp_half_ulp(m.most), .grid = 2.0 * dp_half_ulp(m.least)};
@@ -87,16 +93,23 @@ static dp_step scaled(dp_step s, double factor) {
     return (dp_step){s.error * factor, s.grid * factor};
 }
 
-/* fl(A z), in clip depth. */
+/* fl(A z), in clip depth. Orthographic depths may be so small that it is subnormal, whatever A is. */
 static dp_step product_of(const dp_chain *c, dp_span r) {
-    if (c->a_exact || c->fused)
+    const magnitude z = size_of(r);
+    const magnitude product = {fabs(c->a) * z.most, fabs(c->a) * z.least};
+    const int subnormal = c->pipeline.ortho && product.least < 0x1p-126;
+    if (c->fused || (c->a_exact && !subnormal))
         return (dp_step){0.0, 0.0};
-    return step_of((magnitude){fabs(c->a) * r.hi, fabs(c->a) * r.lo});
+    dp_step s = step_of(product);
+    if (subnormal)
+        s.error = dp_result_error(product.least, c->a_exact ? smaller(product.most, 0x1p-126) : product.most);
+    return s;
 }
 
 /* What all computed products of a span, and with B all sums, are multiples of. */
 static double product_granule(const dp_chain *c, dp_span r) {
-    return c->a_exact ? c->a_granule * 2.0 * dp_half_ulp(r.lo) : 2.0 * dp_half_ulp(fabs(c->a) * r.lo);
+    const double least = size_of(r).least;
+    return c->a_exact ? c->a_granule * 2.0 * dp_half_ulp(least) : 2.0 * dp_half_ulp(fabs(c->a) * least);
 }
 
 /*
@@ -106,7 +119,7 @@ static double product_granule(const dp_chain *c, dp_span r) {
  */
 static dp_step add_b(const dp_chain *c, dp_span r, magnitude m, double *lo, double *hi) {
     *lo = *hi = 0.0;
-    if (c->a == 0.0)
+    if (c->a == 0.0 || (c->b == 0.0 && !c->fused))
         return (dp_step){0.0, 0.0};
     if (c->fused) {
         *hi = dp_result_error(m.least, m.most);
@@ -216,8 +229,10 @@ dp_steps dp_chain_steps_beyond(const dp_chain *c, double z) {
     const double g = up * larger(fabs(clip_of(c, z)) / w1, fabs(clip_of(c, zfar)) / w2);
     const double q = up * larger(fabs(dividend(c, z)) / w1, fabs(dividend(c, zfar)) / w2);
     const int rounded = !c->a_exact && !c->fused;
-    double clip = rounded ? DP_UNIT * fabs(c->a) * (c->pipeline.ortho ? zfar : 1.0) : 0.0;
-    clip += c->a == 0.0 ? 0.0 : DP_UNIT * (g + clip);
+    const double flushed = c->pipeline.ortho && c->reach.lo <= 0.0 ? 0x1p-126 : 0.0;
+    double clip = rounded ? DP_UNIT * fabs(c->a) * (c->pipeline.ortho ? larger(fabs(z), fabs(zfar)) : 1.0) : 0.0;
+    clip = larger(clip, flushed);
+    clip += c->a == 0.0 ? 0.0 : larger(DP_UNIT * (g + clip), flushed);
     if (c->remap)
         clip = 0.5 * clip + DP_UNIT * (q + clip);
     double ndc = 0.0;

@@ -10,7 +10,7 @@
 
 #include "depthprec/pipeline.h"
 
-/* Binary32 eye depths, as doubles, lo <= hi. */
+/* Binary32 eye depths, as doubles, lo <= hi; of either sign where the camera is orthographic. */
 typedef struct dp_span {
     double lo, hi;
 } dp_span;

@@ -43,10 +43,11 @@ static int is_power2(double x) {
     return x > 0.0 && x == dp_power2(dp_exponent(x));
 }
 
-/* The last sum, a z + b with a and b of opposite signs: no larger than either. */
-static void last_sum(dp_row_off *r, double scale, double b, double z, double until) {
+/* The last sum, a z + b with a and b of opposite signs: no larger than either. With depths of any sign both add up. */
+static void last_sum(dp_row_off *r, const dp_composing *in, double scale, double b, double z, double until) {
     const double constant = b > 0.0 ? half_ulp(b) : 0.0;
-    const double sum = larger(constant, isinf(until) ? DP_UNIT * scale * z : half_ulp(scale * until));
+    const double added = in->any_sign ? b : 0.0;
+    const double sum = larger(constant, isinf(until) ? DP_UNIT * (scale * z + added) : half_ulp(scale * until + added));
     r->sums += sum;
     r->late += sum;
     r->grow += isinf(until) ? DP_UNIT * scale : 0.0;
@@ -73,7 +74,7 @@ static dp_row_off world_row(const dp_composing *in, double scale, double b, doub
     r.products = in->fused ? smaller(root2 * DP_UNIT * most, 2.0 * half_ulp(most))
                            : smaller(root3 * DP_UNIT * most, 3.0 * half_ulp(most));
     world_sums(&r, most, b, scale * until);
-    last_sum(&r, scale, b, z, until);
+    last_sum(&r, in, scale, b, z, until);
     r.entries = smaller(root3 * DP_UNIT * scale, 3.0 * half_ulp(scale)) * w;
     r.constant = half_ulp(root3 * most + b);
     r.turn = DP_UNIT * scale * slant;
@@ -87,14 +88,14 @@ static dp_row_off world_row(const dp_composing *in, double scale, double b, doub
 static dp_row_off relative_row(const dp_composing *in, double scale, double b, double z, double until) {
     const double at = isinf(until) ? z : until;
     const double per_z = in->ortho ? 0.0 : slant;
-    const double length = in->ortho ? smaller(root2 * in->zfar, 2.0 * root3 * in->world) : slant * at;
+    const double length = in->ortho ? smaller(root2 * in->reach, 2.0 * root3 * in->world) : slant * at;
     const double in_double = 0x1p-53 * (root3 * in->world + length);
     const int sums = b > 0.0 ? 2 : 1;
     const double part = 0.5 * scale * (length + at) + b;
     dp_row_off r = {.position = scale * (DP_UNIT * length + in_double), .products = DP_UNIT * scale * length};
     r.late = r.sums = sums * (isinf(until) ? DP_UNIT * part : half_ulp(part));
     r.grow = isinf(until) ? DP_UNIT * scale * (2.0 * per_z + sums * 0.5 * (per_z + 1.0)) : 0.0;
-    last_sum(&r, scale, b, z, until);
+    last_sum(&r, in, scale, b, z, until);
     r.entries = DP_UNIT * scale * length;
     r.turn = DP_UNIT * scale * slant;
     return r;
@@ -172,8 +173,10 @@ static dp_composed perspective(dp_composed m, const dp_composing *in, double z, 
 }
 
 dp_composed dp_composition_at(const dp_composing *in, double z, double until) {
-    dp_composed m = {.clip = clip_row(in, z, until), .w = w_row(in, z, until)};
-    m = in->ortho ? orthographic(m, in, z, until) : perspective(m, in, z, until);
+    const double size = fabs(z);
+    const double farthest = isinf(until) ? until : larger(size, fabs(until));
+    dp_composed m = {.clip = clip_row(in, size, farthest), .w = w_row(in, size, farthest)};
+    m = in->ortho ? orthographic(m, in, size, farthest) : perspective(m, in, size, farthest);
     const double tilt = m.own_tilt + m.shared_tilt;
     const double moved = m.own + m.shared;
     m.reach = tilt < 1.0 ? (moved + z * tilt) / (1.0 - tilt) * outward : HUGE_VAL;

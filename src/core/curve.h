@@ -14,7 +14,7 @@
 #include "core/lattice.h"
 #include "depthprec/setup.h"
 
-/* The eye depth of a point: few units of 2^-53 relative, log 2^-45. */
+/* The eye depth of a point, num/den: few units of 2^-53 relative, log 2^-45. */
 double dp_curve_eye(const dp_setup *setup, dp_point point);
 
 /*

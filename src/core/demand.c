@@ -195,6 +195,16 @@ static double longest_within(const dp_chain *c, const dp_steps *s1, dp_span firs
     return best;
 }
 
+/* Where the binade ends whose farthest depth is `hi`, towards near; depths within `tiny` of 0 count as one binade. */
+static double binade_begin(double hi, double tiny) {
+    if (hi <= -tiny)
+        return -2.0 * dp_power2(dp_exponent(-hi));
+    if (hi <= tiny)
+        return -tiny;
+    const double power = dp_power2(dp_exponent(hi));
+    return larger(power < hi ? power : 0.5 * power, tiny);
+}
+
 /*
  * Beyond 2^126 the reciprocal of w is subnormal: hardware that makes 0 of it tells nothing apart there.
  *
@@ -210,9 +220,9 @@ double dp_demand_longest(const dp_chain *c, dp_span first, double extra, dp_dema
     double hi = smaller(first.hi + any, c->reach.hi);
     if (hi <= first.lo)
         hi = first.hi;
+    const double tiny = first.lo > 0.0 ? 0.0 : larger(0x1p-24 * larger(-first.lo, fabs(hi)), 0x1p-126);
     for (double end = HUGE_VAL;; end = hi) {
-        double lo = dp_power2(dp_exponent(hi));
-        lo = lo < hi ? lo : 0.5 * lo;
+        double lo = binade_begin(hi, tiny);
         if (lo < first.hi)
             lo = first.lo;
         dp_demand d;

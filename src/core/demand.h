@@ -15,8 +15,9 @@ typedef struct dp_demand {
 } dp_demand;
 
 /*
- * How far behind a depth of `first`, which lies in one binade, another binary32 depth can lie at most without being
- * stored strictly behind it. INFINITY where there is no such distance. `extra` is window depth that is demanded on top.
+ * How far behind a depth of `first`, which lies in one binade or next to 0, another binary32 depth can lie at most
+ * without being stored strictly behind it. INFINITY where there is no such distance. `extra` is window depth that is
+ * demanded on top.
  */
 double dp_demand_longest(const dp_chain *chain, dp_span first, double extra, dp_demand *out);
 

@@ -36,7 +36,8 @@ static inline dp_pair dp_two_product(double a, double b) {
 /*
  * p a (x1 - x2) + q b (y1 - y2), evaluated exactly and rounded once at the end: the sign is right, zero means zero,
  * and the value is good to 2^-50 relative. Arguments up to 1e60, and no two of them so small that the last bit of a
- * product falls below 2^-1074: the library's are depths in [1e-12, 1e18] and quotients of at least 2^-278.
+ * product falls below 2^-1074: the library's are planes and depths in [1e-12, 1e18] and quotients of at least 2^-278;
+ * orthographic depths may be any double, of either sign, as they are multiplied by whole numbers below 2^33 alone.
  */
 double dp_exact_residual(double p, double a, double x1, double x2, double q, double b, double y1, double y2);
 

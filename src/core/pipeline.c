@@ -49,7 +49,7 @@ static float round_up(double value) {
 
 static float round_down(double value) {
     const float f = (float)value;
-    return (double)f > value ? nextafterf(f, 0.0f) : f;
+    return (double)f > value ? nextafterf(f, -INFINITY) : f;
 }
 
 dp_status dp_pipeline_init(dp_pipeline *pipeline, const dp_setup *setup) {
@@ -118,31 +118,34 @@ int dp_pipeline_drawn(const dp_pipeline *p, float z) {
     return above_lower(p, z) && below_upper(p, z);
 }
 
-/* Positive binary32 values are ordered as their bit patterns, which are walked as integers. */
-static int near_keeps(const dp_pipeline *p, uint32_t bits) {
-    return p->reversed ? below_upper(p, dp_float32(bits)) : above_lower(p, dp_float32(bits));
+/* Depths are walked as integers, their ranks. */
+static int near_keeps(const dp_pipeline *p, uint32_t rank) {
+    return p->reversed ? below_upper(p, dp_ranked32(rank)) : above_lower(p, dp_ranked32(rank));
 }
 
-static int far_keeps(const dp_pipeline *p, uint32_t bits) {
-    return p->reversed ? above_lower(p, dp_float32(bits)) : below_upper(p, dp_float32(bits));
+static int far_keeps(const dp_pipeline *p, uint32_t rank) {
+    return p->reversed ? above_lower(p, dp_ranked32(rank)) : below_upper(p, dp_ranked32(rank));
 }
 
 /* z, fl(A z) and z_clip stay in one binade each, so that all three have one step throughout lo..hi. */
 static int same_steps(const dp_pipeline *p, uint32_t lo, uint32_t hi) {
-    const float z[2] = {dp_float32(lo), dp_float32(hi)};
+    const float z[2] = {dp_ranked32(lo), dp_ranked32(hi)};
     return ilogbf(z[0]) == ilogbf(z[1]) && ilogbf(p->a * z[0]) == ilogbf(p->a * z[1]) &&
            ilogbf(dp_pipeline_clip(p, z[0])) == ilogbf(dp_pipeline_clip(p, z[1]));
 }
 
 /*
- * The farthest depth in lo..hi that the far plane keeps, or 0.
+ * The farthest depth in lo..hi that the far plane keeps, or 0, which is the rank of no depth.
  *
- * Where w is constant or grows against z_clip, keeping is monotone in z. Not so for the standard perspective, where
- * z_clip <= z compares two growing numbers. But while the binades stay, z_clip - z in steps is a non-decreasing
- * whole number plus at most one step that depends on whether z is even (rounding ties): a depth that is lost, and
- * its neighbour lost too, lose all that follow in the binade. So halving finds the last one without looking at each.
+ * Where w is constant or grows against z_clip, keeping is monotone in z: the nearest decides for all. Not so for the
+ * standard perspective, where z_clip <= z compares two growing numbers. But while the binades stay, z_clip - z in steps
+ * is a non-decreasing whole number plus at most one step that depends on whether z is even (rounding ties): a depth
+ * that is lost, and its neighbour lost too, lose all that follow in the binade. So halving finds the last one without
+ * looking at each.
  */
 static uint32_t farthest_kept(const dp_pipeline *p, uint32_t lo, uint32_t hi) {
+    if (p->ortho && lo <= hi && !far_keeps(p, lo))
+        return 0;
     while (lo <= hi) {
         if (far_keeps(p, hi))
             return hi;
@@ -174,16 +177,16 @@ static uint32_t nearest_kept(const dp_pipeline *p, uint32_t lo, uint32_t hi) {
 }
 
 void dp_pipeline_planes(const dp_pipeline *p, float *znear, float *zfar) {
-    const uint32_t lo = dp_bits32(p->znear);
-    const uint32_t hi = dp_bits32(isinf(p->zfar) ? FLT_MAX : p->zfar);
+    const uint32_t lo = dp_rank32(p->znear);
+    const uint32_t hi = dp_rank32(isinf(p->zfar) ? FLT_MAX : p->zfar);
     uint32_t first = nearest_kept(p, lo, hi);
     uint32_t last = farthest_kept(p, first, hi);
     /* Planes that nearly touch leave a few thousand depths, where the two conditions may interfere: look at each. */
-    while (first <= last && !dp_pipeline_drawn(p, dp_float32(first)))
+    while (first <= last && !dp_pipeline_drawn(p, dp_ranked32(first)))
         first++;
-    while (first <= last && !dp_pipeline_drawn(p, dp_float32(last)))
+    while (first <= last && !dp_pipeline_drawn(p, dp_ranked32(last)))
         last--;
     const int drawn = first <= last;
-    *znear = drawn ? dp_float32(first) : NAN;
-    *zfar = drawn ? (last == hi ? p->zfar : dp_float32(last)) : NAN;
+    *znear = drawn ? dp_ranked32(first) : NAN;
+    *zfar = drawn ? (last == hi ? p->zfar : dp_ranked32(last)) : NAN;
 }

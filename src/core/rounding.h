@@ -15,11 +15,6 @@ static inline double dp_half_ulp(double x) {
     return x < 0x1p-126 ? 0x1p-150 : dp_power2(dp_exponent(x) - 24);
 }
 
-/* Surfaces are real: each is up to half a step of binary32 away from the depth that enters the pipeline. */
-static inline double dp_eye_rounding(double z1, double z2) {
-    return isinf(z2) ? 0.0 : dp_half_ulp(z1) + dp_half_ulp(z2);
-}
-
 /*
  * The most that rounding a result of `least` to `most` changes it by. A result below the normal numbers may be flushed
  * to zero or not, as the hardware likes: the worse of the two.
@@ -28,6 +23,17 @@ static inline double dp_result_error(double least, double most) {
     const double error = dp_half_ulp(most);
     const double flushed = most < 0x1p-126 ? most : 0x1p-126;
     return least < 0x1p-126 && flushed > error ? flushed : error;
+}
+
+/* The most that rounding an eye depth of either sign changes it by: one as small as this may be flushed, too. */
+static inline double dp_depth_rounding(double z) {
+    const double size = fabs(z);
+    return size < 0x1p-126 ? 0x1p-126 : dp_half_ulp(size);
+}
+
+/* Surfaces are real: each is up to half a step of binary32 away from the depth that enters the pipeline. */
+static inline double dp_eye_rounding(double z1, double z2) {
+    return isinf(z2) ? 0.0 : dp_depth_rounding(z1) + dp_depth_rounding(z2);
 }
 
 /* The lowest set bit of a normal binary32 number, as a value: the number is a whole multiple of it. 0 has none. */

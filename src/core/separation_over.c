@@ -38,9 +38,12 @@ static void look(dp_separation_worst *worst, const dp_setup *setup, double depth
     }
 }
 
-/* A separation in window depths, with what rounding the eye depths adds. */
-static double with_eye(const dp_setup *setup, double z, double s) {
-    return setup->spec.model == DP_MODEL_EXACT ? s : (s + dp_eye_rounding(z, z + s)) * (1.0 + 0x1p-50);
+/* A separation in window depths, with what rounding the eye depths from lo to hi adds: most at one of the two. */
+static double with_eye(const dp_setup *setup, double lo, double hi, double s) {
+    if (setup->spec.model == DP_MODEL_EXACT)
+        return s;
+    const double size = fabs(lo);
+    return (s + dp_eye_rounding(larger(size, hi), larger(size, hi + s))) * (1.0 + 0x1p-50);
 }
 
 /*
@@ -54,7 +57,7 @@ static double bound_of(const dp_setup *setup, double lo, double hi) {
         return larger(dp_budget_bound(setup, (float)lo, (float)hi), bound_of(&exact, lo, hi));
     }
     const double step = dp_separation_step(setup, lo, hi) * (1.0 + 0x1p-50);
-    return with_eye(setup, hi, dp_curve_ahead(setup, step, 1.0, hi) * dp_curve_outward(setup));
+    return with_eye(setup, lo, hi, dp_curve_ahead(setup, step, 1.0, hi) * dp_curve_outward(setup));
 }
 
 /* Nothing lies between the ends of the part. */
@@ -85,13 +88,22 @@ static void offer(search *s, double lo, double hi) {
         s->parts[s->count++] = p;
 }
 
+/* Half-way between two depths, for parts of many binades as well as of one. From 0 on, most of the binades are left. */
+static double middle_of(double lo, double hi) {
+    if (lo < 0.0)
+        return hi > 0.0 ? 0.0 : -middle_of(-hi, -lo);
+    if (lo == 0.0)
+        return hi * (hi > 0x1p-100 ? 0x1p-20 : 0.5);
+    return lo < 0.5 * hi ? sqrt(lo) * sqrt(hi) : 0.5 * lo + 0.5 * hi;
+}
+
 /* The depths of a part that lie on either side of its middle; binary32 depths have no depth between them. */
 static void divide(search *s, const part *p) {
-    const double middle = p->lo < 0.5 * p->hi ? sqrt(p->lo) * sqrt(p->hi) : 0.5 * p->lo + 0.5 * p->hi;
+    const double middle = middle_of(p->lo, p->hi);
     if (s->setup->spec.model == DP_MODEL_FP32) {
         float m = (float)middle;
         if ((double)m >= p->hi)
-            m = nextafterf(m, 0.0F);
+            m = nextafterf(m, -HUGE_VALF);
         offer(s, p->lo, (double)m);
         offer(s, (double)nextafterf(m, HUGE_VALF), p->hi);
         return;
@@ -112,6 +124,16 @@ static void refine(search *s) {
     }
 }
 
+/* Where the next binade begins behind a depth; depths within `tiny` of 0 count as one. */
+static double next_binade(double z, double tiny) {
+    if (z >= tiny)
+        return 2.0 * dp_power2(dp_exponent(z));
+    if (z >= -tiny)
+        return tiny;
+    const double power = dp_power2(dp_exponent(-z));
+    return smaller(-z > power ? -power : -0.5 * power, -tiny);
+}
+
 /* fp32: parts within one binade, the nearest first, so that the farthest is looked at first. */
 static void begin(search *s) {
     const dp_separation_worst *w = s->worst;
@@ -121,10 +143,11 @@ static void begin(search *s) {
     }
     const double hi = (double)(float)w->hi;
     double lo = (double)(float)w->lo;
+    const double tiny = lo > 0.0 ? 0.0 : larger(0x1p-24 * larger(-lo, fabs(hi)), 0x1p-126);
     while (lo < hi) {
-        const double next = 2.0 * dp_power2(dp_exponent(lo));
-        offer(s, lo, next <= hi ? (double)nextafterf((float)next, 0.0F) : hi);
-        lo = next;
+        const double next = next_binade(lo, tiny);
+        offer(s, lo, next <= hi ? (double)nextafterf((float)next, -HUGE_VALF) : hi);
+        lo = (double)(float)next;
     }
     if (lo == hi)
         offer(s, lo, hi);
@@ -150,8 +173,8 @@ static void over_binades(const dp_setup *setup, dp_separation_worst *out) {
         if (end * (1.0 + 0x1p-46) < out->lo)
             continue;
         const double z = smaller(end * (1.0 + 0x1p-46), out->hi);
-        raise_bound(
-            out, with_eye(setup, z, dp_curve_ahead(setup, dp_step_num(format, e), 1.0, z) * dp_curve_outward(setup)));
+        raise_bound(out, with_eye(setup, z, z,
+                                  dp_curve_ahead(setup, dp_step_num(format, e), 1.0, z) * dp_curve_outward(setup)));
         look(out, setup, smaller(larger(end * (1.0 - 0x1p-46), out->lo), out->hi));
         if (end * (1.0 - 0x1p-46) > out->hi)
             break;
@@ -166,8 +189,8 @@ dp_status dp_separation_over(const dp_setup *setup, double lo, double hi, double
     dp_separation_worst worst = {.lo = lo, .hi = hi, .z = hi};
     look(&worst, setup, hi);
     look(&worst, setup, lo);
-    const int exact =
-        setup->spec.model == DP_MODEL_EXACT || (setup->spec.model == DP_MODEL_STAGED && dp_staged_is_exact(setup));
+    const int exact = setup->spec.model == DP_MODEL_EXACT ||
+                      (setup->spec.model == DP_MODEL_STAGED && dp_staged_is_exact(setup) && lo >= 0.0);
     if (isinf(worst.separation)) {
         worst.bound = worst.separation;
     } else if (exact) {

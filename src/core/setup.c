@@ -36,10 +36,16 @@ static int within(double value, double lowest, double highest) {
     return value >= lowest && value <= highest;
 }
 
+/* 0, or of a magnitude whose last bits no product behind the door loses. */
+static int is_plane(double z, double most) {
+    return z == 0.0 || within(fabs(z), 1e-12, most);
+}
+
 static dp_status check(const dp_spec *spec) {
     const dp_mapping_row *row = dp_mapping_get(spec->mapping);
     if (row == NULL)
         return DP_ERROR_MAPPING;
+    const int any_sign = spec->ortho != 0;
     const struct {
         int good;
         dp_status status;
@@ -48,9 +54,12 @@ static dp_status check(const dp_spec *spec) {
         {dp_rounding_name(spec->rounding) != NULL, DP_ERROR_ROUNDING},
         {dp_model_name(spec->model) != NULL, DP_ERROR_MODEL},
         {dp_arith_get(spec->arith) != NULL, DP_ERROR_ARITH},
-        {within(spec->znear, 1e-12, 1e12), DP_ERROR_NEAR},
-        {(spec->zfar > spec->znear && spec->zfar <= 1e18) || spec->zfar == HUGE_VAL, DP_ERROR_FAR},
-        {(spec->zfar - spec->znear) / spec->znear >= 1e-6, DP_ERROR_PLANES},
+        {any_sign || within(spec->znear, 1e-12, 1e12), DP_ERROR_NEAR},
+        {!any_sign || is_plane(spec->znear, 1e12), DP_ERROR_ORTHO_NEAR},
+        {(spec->zfar > spec->znear && spec->zfar <= 1e18) || spec->zfar == HUGE_VAL,
+         spec->znear > 0.0 ? DP_ERROR_FAR : DP_ERROR_ORTHO_FAR},
+        {isinf(spec->zfar) || is_plane(spec->zfar, 1e18), DP_ERROR_ORTHO_FAR},
+        {spec->znear == 0.0 || (spec->zfar - spec->znear) / fabs(spec->znear) >= 1e-6, DP_ERROR_PLANES},
         {!spec->ortho || row->ortho, DP_ERROR_ORTHO},
         {!isinf(spec->zfar) || (row->far_infinite && !spec->ortho), DP_ERROR_INFINITE},
         {spec->model != DP_MODEL_FP32 || row->curve == DP_CURVE_PERSPECTIVE, DP_ERROR_MODEL},
@@ -70,12 +79,15 @@ dp_status dp_setup_init(dp_setup *setup, const dp_spec *spec) {
         return status;
 
     const dp_mapping_row *row = dp_mapping_get(spec->mapping);
-    const double n = spec->znear;
-    const double f = spec->zfar;
+    const double n = spec->znear + 0.0; /* -0 is 0 */
+    const double f = spec->zfar + 0.0;
     *setup = (dp_setup){.spec = *spec,
                         .curve = spec->ortho ? DP_CURVE_LINEAR : row->curve,
                         .reversed = row->reversed,
+                        .astride = n < 0.0 && f > 0.0,
                         .den = dp_point_den(&spec->format)};
+    setup->spec.znear = n;
+    setup->spec.zfar = f;
     if (setup->curve == DP_CURVE_PERSPECTIVE) {
         setup->kappa = isinf(f) ? 1.0 / n : (f - n) / n / f;
         setup->scale = isinf(f) ? 1.0 : (row->reversed ? n : f) / (f - n);

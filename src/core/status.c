@@ -22,6 +22,9 @@ static const char *const sentences[DP_STATUS_COUNT] = {
     [DP_ERROR_RANGE] = "a range must go from a depth to one not nearer, both in [near, far]",
     [DP_ERROR_BINARY32] = "a depth in the model fp32 must be at most 3.4028235e+38, the largest binary32 number",
     [DP_ERROR_BATCH] = "not a task, element type or path that this processor has",
+    [DP_ERROR_ORTHO_NEAR] = "near must be 0, or from 1e-12 to 1e12 of either sign, in an orthographic projection",
+    [DP_ERROR_ORTHO_FAR] =
+        "far must be greater than near, and 0, or from 1e-12 to 1e18 of either sign, in an orthographic projection",
 };
 
 const char *dp_status_text(dp_status status) {

@@ -148,6 +148,11 @@ static bool make_setups(reader *r, const config_setting_t *group, const draft *d
     return true;
 }
 
+/* An orthographic camera may have planes at its place and behind it. */
+static unsigned planes_of(const draft *d) {
+    return d->spec.ortho ? READER_SIGNED : READER_POSITIVE;
+}
+
 bool reader_camera(reader *r, config_setting_t *group, need_camera *out) {
     config_setting_t *found[KEY_COUNT];
     draft d = {.spec = dp_spec_default()};
@@ -160,12 +165,12 @@ bool reader_camera(reader *r, config_setting_t *group, need_camera *out) {
             return reader_fail(r, group, "camera '%s': needs %s, or a preset", out->name, keys[k]);
     const bool good =
         (found[KEY_PRESET] == NULL || read_preset(r, found[KEY_PRESET], &d)) &&
-        (found[KEY_NEAR] == NULL || reader_length(r, found[KEY_NEAR], "near", READER_POSITIVE, &d.spec.znear)) &&
+        (found[KEY_ORTHO] == NULL || read_ortho(r, found[KEY_ORTHO], &d)) &&
+        (found[KEY_NEAR] == NULL || reader_length(r, found[KEY_NEAR], "near", planes_of(&d), &d.spec.znear)) &&
         (found[KEY_FAR] == NULL ||
-         reader_length(r, found[KEY_FAR], "far", READER_POSITIVE | READER_INFINITE, &d.spec.zfar)) &&
+         reader_length(r, found[KEY_FAR], "far", planes_of(&d) | READER_INFINITE, &d.spec.zfar)) &&
         (found[KEY_MAPPING] == NULL || read_mapping(r, found[KEY_MAPPING], &d)) &&
-        (found[KEY_FORMAT] == NULL || read_format(r, found[KEY_FORMAT], &d)) &&
-        (found[KEY_ORTHO] == NULL || read_ortho(r, found[KEY_ORTHO], &d)) && read_words(r, found, &d) &&
+        (found[KEY_FORMAT] == NULL || read_format(r, found[KEY_FORMAT], &d)) && read_words(r, found, &d) &&
         (found[KEY_LOG_C] == NULL || reader_length(r, found[KEY_LOG_C], "log_c", READER_POSITIVE, &d.spec.log_c));
     if (good && found[KEY_LOG_C] != NULL && d.spec.mapping != DP_MAPPING_LOG)
         return reader_fail(r, found[KEY_LOG_C], "log_c: is for the mapping log only, got %s",

@@ -18,14 +18,15 @@ typedef struct ruler {
 
 /* A depth between the two ends, or NaN when there is none to try. */
 static double between(const ruler *r) {
-    double middle = r->holds < 0.5 * r->fails ? sqrt(r->holds) * sqrt(r->fails) : 0.5 * r->holds + 0.5 * r->fails;
+    const bool far_apart = r->holds > 0.0 && r->holds < 0.5 * r->fails;
+    double middle = far_apart ? sqrt(r->holds) * sqrt(r->fails) : 0.5 * r->holds + 0.5 * r->fails;
     if (r->whole) {
         middle = (double)(float)middle;
         if (middle <= r->holds)
             middle = (double)nextafterf((float)r->holds, HUGE_VALF);
         if (middle <= r->holds)
             middle = (double)nextafterf((float)middle, HUGE_VALF);
-    } else if (r->fails <= r->holds * (1.0 + 0x1p-48)) {
+    } else if (r->fails <= r->holds + fabs(r->holds) * 0x1p-48) {
         return (double)NAN;
     }
     return middle > r->holds && middle < r->fails ? middle : (double)NAN;
@@ -53,7 +54,7 @@ static void confirm(ruler *r, distance_answer *out) {
         out->reached = judge(r->kind, r->setup, r->lo, r->holds, r->limit);
         if (out->reached.passed)
             break;
-        r->holds = fmax(reach * (1.0 - share), r->lo);
+        r->holds = fmax(reach - fabs(reach) * share, r->lo);
     }
     out->value = r->holds;
 }

@@ -147,13 +147,18 @@ bool reader_length(reader *r, const config_setting_t *s, const char *key, unsign
         return true;
     }
     if (text) {
-        if (!length_text(r, s, key, config_setting_get_string(s), out))
+        const char *value = config_setting_get_string(s);
+        const bool negative = (allowed & READER_SIGNED) != 0 && *value == '-';
+        if (!length_text(r, s, key, value + negative, out))
             return false;
+        *out = negative ? -*out : *out;
     } else if (is_number(s)) {
         *out = number_of(s);
     } else {
         return reader_fail(r, s, "%s: must be a length such as 0.1 or \"10 cm\", got %s", key, reader_shown(r, s));
     }
+    if (isfinite(*out) && (allowed & READER_SIGNED) != 0)
+        return true;
     if (!isfinite(*out) || *out < 0.0 || ((allowed & READER_POSITIVE) != 0 && *out == 0.0))
         return reader_fail(r, s, "%s: must be a finite length %s, got %s", key,
                            (allowed & READER_POSITIVE) != 0 ? "above 0" : "not below 0", reader_shown(r, s));

@@ -15,8 +15,8 @@ typedef struct reader {
     char shown[80];
 } reader;
 
-/* What a length may be besides finite and not negative. */
-enum { READER_POSITIVE = 1 << 0, READER_INFINITE = 1 << 1 };
+/* What a length may be besides finite and not negative; of any sign, it is finite or infinite. */
+enum { READER_POSITIVE = 1 << 0, READER_INFINITE = 1 << 1, READER_SIGNED = 1 << 2 };
 
 /* Notes what is wrong and where; s may be null. @return false */
 bool reader_fail(reader *r, const config_setting_t *s, const char *format, ...) __attribute__((format(printf, 3, 4)));

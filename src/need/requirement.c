@@ -39,11 +39,16 @@ static bool known_camera(reader *r, const config_setting_t *s, size_t *out) {
     return reader_fail(r, s, "camera: must be one of those under 'cameras', got '%s'", name);
 }
 
+/* Depths may have any sign where the camera's planes may. */
+static unsigned sign_of(const reader *r, const need *n) {
+    return r->file->cameras[n->camera].setups[0].spec.znear <= 0.0 ? READER_SIGNED : 0;
+}
+
 static bool read_range(reader *r, config_setting_t *s, need *n) {
     if ((!config_setting_is_array(s) && !config_setting_is_list(s)) || config_setting_length(s) != 2)
         return reader_fail(r, s, "range: must be two depths, [LO, HI], got %s", reader_shown(r, s));
-    return reader_length(r, config_setting_get_elem(s, 0), "range", 0, &n->lo) &&
-           reader_length(r, config_setting_get_elem(s, 1), "range", READER_INFINITE, &n->hi) &&
+    return reader_length(r, config_setting_get_elem(s, 0), "range", sign_of(r, n), &n->lo) &&
+           reader_length(r, config_setting_get_elem(s, 1), "range", sign_of(r, n) | READER_INFINITE, &n->hi) &&
            (n->lo < n->hi || reader_fail(r, s,
                                          "range: its near end must be below its far end, got %g and %g; a single "
                                          "depth is written at = %g",
@@ -78,6 +83,8 @@ static bool suits(reader *r, const config_setting_t *s, const need *n) {
             camera->name, dp_mapping_get(spec->mapping)->name);
     if (!(n->lo < n->hi) || isinf(n->hi))
         return reader_fail(r, s, "ties: needs a range with a finite far end");
+    if (!(n->lo > 0.0))
+        return reader_fail(r, s, "ties: needs a range of depths above 0, got %.15g", n->lo);
     return true;
 }
 
@@ -122,8 +129,9 @@ static bool read_need(reader *r, config_setting_t *group, bool listed, need *n) 
     const int where = one_of(r, group, found, KEY_AT, KEY_RANGE, "at = DEPTH or range = [LO, HI]");
     if (where < 0)
         return false;
-    if (where == KEY_RANGE ? !read_range(r, found[KEY_RANGE], n)
-                           : !reader_length(r, found[KEY_AT], "at", READER_POSITIVE, &n->lo))
+    if (where == KEY_RANGE
+            ? !read_range(r, found[KEY_RANGE], n)
+            : !reader_length(r, found[KEY_AT], "at", sign_of(r, n) != 0 ? READER_SIGNED : READER_POSITIVE, &n->lo))
         return false;
     if (where == KEY_AT)
         n->hi = n->lo;

@@ -328,7 +328,7 @@ static dp_status limits(search *s) {
             s->most = nextafter(s->most, 0.0);
         return solve_setup(p, s->most, &setup);
     }
-    s->least = fmax(p->hi, p->spec.znear * (1.0 + planes_apart));
+    s->least = fmax(fmax(p->hi, p->spec.znear * (1.0 + planes_apart)), near_least);
     s->most = far_most;
     if (p->lo < p->spec.znear || !(s->least <= s->most))
         return DP_ERROR_RANGE;
@@ -356,7 +356,9 @@ dp_status solve(const solve_problem *problem, solve_result *result) {
         return DP_ERROR_NULL;
     if (problem->spec.model != DP_MODEL_EXACT)
         return DP_ERROR_MODEL;
-    if (!(problem->limit > 0.0 && problem->lo > 0.0 && problem->lo <= problem->hi && problem->hi < HUGE_VAL))
+    /* A near plane is looked for among the positive ones; a far one behind the depths, which may begin anywhere. */
+    const double first = problem->unknown == SOLVE_FAR && problem->spec.ortho ? problem->hi : problem->lo;
+    if (!(problem->limit > 0.0 && first > 0.0 && problem->lo <= problem->hi && problem->hi < HUGE_VAL))
         return DP_ERROR_RANGE;
     search s = {.problem = problem, .result = result, .best_value = HUGE_VAL, .best = (double)NAN};
     const dp_status status = limits(&s);
