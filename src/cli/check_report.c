@@ -148,7 +148,7 @@ static void *next_verdict(void *of, size_t i) {
                              .unit = f->file.unit[0] != '\0' ? f->file.unit : NULL,
                              .method = check_method_name(v->method),
                              .asked = *v->asked,
-                             .setup = setup_fields_of(&v->setup),
+                             .setup = setup_fields_of(&v->setup, f->file.unit[0] != '\0' ? f->file.unit : NULL),
                              .found = *v,
                              .code = has_code(v) ? v->code : (double)NAN};
     return &all->verdict;

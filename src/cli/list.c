@@ -6,6 +6,7 @@
 
 #include "api/bias.h"
 #include "api/presets.h"
+#include "api/unit.h"
 #include "core/append.h"
 #include "method/method.h"
 #include "plot/figure.h"
@@ -84,6 +85,11 @@ bool list_preset(size_t index, list_item *item) {
              number_full(row->znear).text, number_full(row->zfar).text, dp_mapping_get(row->mapping)->name, row->format,
              row->unit, row->checked, confirmed ? "confirmed" : "not confirmed: ", row->unconfirmed);
     return true;
+}
+
+bool list_unit(size_t index, list_item *item) {
+    const unit_row *row = unit_get(index);
+    return row != NULL && list_fill(item, (list_item){.name = row->name, .row = row});
 }
 
 bool list_api(size_t index, list_item *item) {

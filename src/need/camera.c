@@ -71,9 +71,8 @@ static bool read_preset(reader *r, const config_setting_t *s, draft *d) {
     const preset *row = preset_get((size_t)index);
     const unit_row *unit = unit_find(row->unit);
     /* Where the file says what its scene unit is, a preset in metres is converted into it. */
-    const bool convert = unit != NULL && r->unit != NULL;
-    d->spec.znear = convert ? unit_convert(row->znear, unit, r->unit) : row->znear;
-    d->spec.zfar = convert ? unit_convert(row->zfar, unit, r->unit) : row->zfar;
+    d->spec.znear = unit_convert(row->znear, unit, r->unit);
+    d->spec.zfar = unit_convert(row->zfar, unit, r->unit);
     d->spec.mapping = row->mapping;
     d->format_count = dp_format_parse(row->format, d->formats);
     return true;
