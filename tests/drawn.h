@@ -146,6 +146,9 @@ typedef bool (*drawn_truth)(const void *context, double from, double to, double 
 void drawn_follows(const drawn_panel *p, const drawn_scale *y, const svg_mark *line, drawn_truth truth,
                    const void *context, int places, double slack);
 
+/** The name of a point: beside it, or a little away with a thin line to it; fails the test when there is none. */
+const svg_mark *drawn_label(const drawn *d, const drawn_panel *p, svg_point at, const char *name);
+
 /** Words within a panel, as such consumed; null when there are none such. */
 const svg_mark *drawn_words(const drawn *d, svg_box within, const char *text);
 

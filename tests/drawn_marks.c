@@ -95,6 +95,42 @@ void drawn_follows(const drawn_panel *p, const drawn_scale *y, const svg_mark *l
         fail_msg("only %d of %d places of the curve could be judged", seen, places);
 }
 
+/* ---- Names of points --------------------------------------------------------------------------------------------- */
+
+/* A thin line from the point to the end of its words. */
+static bool is_led(const drawn *d, svg_point from, double x, double y) {
+    for (size_t i = 0; i < d->svg->count; i++) {
+        const svg_mark *m = &d->svg->marks[i];
+        if (m->kind == SVG_PATH && m->count == 2 && svg_rgb(m->stroke) == d->theme->faint && m->width < d->scale &&
+            hypot(m->points[0].x - from.x, m->points[0].y - from.y) < 1.5 &&
+            hypot(m->points[1].x - x, m->points[1].y - y) < 3)
+            return true;
+    }
+    return false;
+}
+
+const svg_mark *drawn_label(const drawn *d, const drawn_panel *p, svg_point at, const char *name) {
+    const svg_box near = {p->frame.x0 - 2, p->frame.y0 - 20, d->svg->width, p->frame.y1 + 20};
+    const svg_mark *words = drawn_words(d, near, name);
+    if (words == NULL)
+        fail_msg("no point is named '%s'", name);
+    const double middle = words->at.y - 0.36 * words->size;
+    const bool right = svg_middle_x(words->box) > at.x;
+    const double gap = right ? words->at.x - at.x : at.x - words->box.x1;
+    assert_int_equal(svg_rgb(words->fill), d->theme->text);
+    if (gap < 4 * d->scale) { /* where the frame ends, above the point or below it */
+        assert_true(fmin(fabs(words->box.x1 - p->frame.x1), fabs(words->box.x0 - p->frame.x0)) < 2 * d->scale);
+        assert_true(is_led(d, at, fmin(fmax(at.x, words->box.x0), words->box.x1),
+                           middle + (middle < at.y ? 0.625 : -0.625) * words->size));
+        return words;
+    }
+    if (fabs(gap - 8 * d->scale) > 1.8 || fabs(middle - at.y) > 4 * 0.75 * 1.25 * words->size + 1)
+        fail_msg("'%s' stands %.1f, %.1f px from its point", name, gap, middle - at.y);
+    if (fabs(middle - at.y) > 0.625 * words->size + 1)
+        assert_true(is_led(d, at, right ? words->at.x : words->box.x1, middle));
+    return words;
+}
+
 /* ---- Markers ----------------------------------------------------------------------------------------------------- */
 
 static drawn_shape triangle(const svg_mark *m) {

@@ -97,16 +97,16 @@ bool true_separation(const void *setup, double from, double to, double *lo, doub
     return isfinite(*hi);
 }
 
-/* Codes behind the near plane's, of those between both planes. */
+/* Codes before the far plane's, of those between both planes. */
 bool true_share(const void *setup, double from, double to, double *lo, double *hi) {
     const dp_setup *s = setup;
     *lo = *hi = NAN;
     if (!in_range(s, &from, &to))
         return false;
     const double first = dp_code(s, s->spec.znear), last = dp_code(s, s->spec.zfar);
-    *lo = 100 * (dp_code(s, from) - first) / (last - first);
-    *hi = 100 * (dp_code(s, to) - first) / (last - first);
-    return true;
+    *lo = 100 * (last - dp_code(s, to)) / (last - first);
+    *hi = 100 * (last - dp_code(s, from)) / (last - first);
+    return *lo > 0; /* on a logarithmic axis */
 }
 
 bool true_window(const void *setup, double from, double to, double *lo, double *hi) {

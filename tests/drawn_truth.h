@@ -27,7 +27,7 @@ bool true_error(const void *setup, double from, double to, double *lo, double *h
 bool true_interval(const void *setup, double from, double to, double *lo, double *hi);   /**< of cells touched */
 bool true_density(const void *setup, double from, double to, double *lo, double *hi);    /**< 1/interval */
 bool true_separation(const void *setup, double from, double to, double *lo, double *hi); /**< the largest */
-bool true_share(const void *setup, double from, double to, double *lo, double *hi);      /**< of the codes, % */
+bool true_share(const void *setup, double from, double to, double *lo, double *hi);      /**< of the codes behind, % */
 bool true_window(const void *setup, double from, double to, double *lo, double *hi);
 
 #endif

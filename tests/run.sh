@@ -13,8 +13,8 @@ if [ "${1-}" = --one ]; then # run.sh --one FOLDER NUMBER TEST
     started=$(date +%s.%N)
     case $test in
     *.sh) set -- sh "$test" ;;
-    /*) set -- "$test" ;;
-    *) set -- "./$test" ;;
+    /*) set -- ${EMULATOR-} "$test" ;;
+    *) set -- ${EMULATOR-} "./$test" ;;
     esac
     timeout "${TEST_SECONDS:-${DEPTHPREC_FULL:+3}600}" "$@" >"$folder.out" 2>&1 </dev/null
     status=$?

@@ -3,6 +3,7 @@
  * Depth bias: the rule of each API, the conformance rows of WebGPU, the way into the scene and back, and whether as
  * many units as are said to be enough are enough for every binary32 depth.
  */
+#include <float.h>
 #include <stdio.h>
 #include <string.h>
 
@@ -55,7 +56,7 @@ static void test_webgpu_rows(void **state) {
         {0.25, 0.5, 0.5, 0.0, 0.0, 0.0, 0.25},          {0.25, 0.5, 0.5, 0.0, 1.0, 0.0, 0.75},
         {0.25, 0.5, 0.5, 0.0, -0.5, 0.0, 0.0},
     };
-    static const char *const apis[] = {"webgpu", "d3d11", "d3d12", "vulkan", "vulkan-exact", "gl"};
+    static const char *const apis[] = {"webgpu", "d3d11", "d3d12", "vulkan", "vulkan-exact", "gl", "metal"};
     const dp_format fp32 = format_of("depth32float");
     (void)state;
     for (size_t a = 0; a < sizeof apis / sizeof apis[0]; a++)
@@ -91,6 +92,8 @@ static void test_units(void **state) {
     } rows[] = {
         {"d3d11", "unorm24", 0.3, 0x1.000002p-24, 0x1.000002p-24}, /* 1/(2^24 - 1) lies just above a tie */
         {"webgpu", "unorm16", 0.3, 0x1.0001p-16, 0x1.0001p-16},
+        {"metal", "unorm16", 0.3, 0x1.0001p-16, 0x1.0001p-16}, /* the smallest positive value */
+        {"metal", "fp32", 0.3, 0x1p-25, 0x1p-25},
         {"vulkan", "unorm24", 0.3, 0x1p-24, 0x1p-23},
         {"vulkan-exact", "unorm24", 0.3, 0x1p-24, 0x1p-24},
         {"vulkan-unorm", "fp32", 0.3, 0x1p-24, 0x1p-24},
@@ -116,11 +119,15 @@ static void test_units(void **state) {
 }
 
 static void test_names(void **state) {
+    const dp_setup fp32 = setup_of(1e-7, 1e9, DP_MAPPING_REVERSED, "fp32"); /* more units than 2^24 */
     (void)state;
+    assert_true(bias_needed(&fp32, &(bias_goal){.api = called("metal"), .gap = 4.999}, 5.0) > 0x1p24);
     for (size_t i = 0; bias_api_get(i) != NULL; i++) {
         const bias_api *row = bias_api_get(i);
         assert_true(called(row->name) == row);
-        assert_true(row->note[0] != '\0' && row->source[0] != '\0');
+        assert_true(row->note[0] != '\0' && row->source[0] != '\0' && row->call[0] != '\0');
+        assert_true(row->whole || bias_needed(&fp32, &(bias_goal){.api = row, .gap = 1.0 / 3}, 5.0) ==
+                                      held(bias_needed(&fp32, &(bias_goal){.api = row, .gap = 1.0 / 3}, 5.0)));
         char names[128];
         strcpy(names, row->aliases);
         for (char *name = strtok(names, " "); name != NULL; name = strtok(NULL, " "))
@@ -162,11 +169,18 @@ static dp_setup any_setup(rng *r, const char *format, double *lo, double *hi) {
     return setup_of(znear, zfar, mapping, format);
 }
 
+/* Where long double has 113 bits, __float128 has no name. */
+#if LDBL_MANT_DIG >= 113
+typedef long double quadruple;
+#else
+typedef __float128 quadruple;
+#endif
+
 /* z' - z in quadruple precision, from the definition of each curve; the logarithm to first and second order. */
 static double shift_reference(const dp_setup *setup, double z, double o) {
-    const __float128 n = setup->spec.znear;
-    const __float128 f = setup->spec.zfar;
-    const __float128 t = setup->reversed ? -(__float128)o : (__float128)o;
+    const quadruple n = setup->spec.znear;
+    const quadruple f = setup->spec.zfar;
+    const quadruple t = setup->reversed ? -(quadruple)o : (quadruple)o;
     switch (setup->spec.mapping) {
     case DP_MAPPING_LINEAR:
         return (double)(t * f);
@@ -177,8 +191,8 @@ static double shift_reference(const dp_setup *setup, double z, double o) {
     default:
         break;
     }
-    const __float128 kappa = 1 / n - (isinf(setup->spec.zfar) ? 0 : 1 / f);
-    return (double)(1 / (1 / (__float128)z - t * kappa) - z);
+    const quadruple kappa = 1 / n - (isinf(setup->spec.zfar) ? 0 : 1 / f);
+    return (double)(1 / (1 / (quadruple)z - t * kappa) - z);
 }
 
 static void test_shift(void **state) {
@@ -306,7 +320,7 @@ static void test_enough(void **state) {
         const int reversed = (int)rng_below(&r, 2);
         const char *format = formats[rng_below(&r, 4)];
         const dp_setup setup = setup_of(0.1, 1000.0, reversed ? DP_MAPPING_REVERSED : DP_MAPPING_D3D, format);
-        bias_goal goal = {.api = bias_api_get(rng_below(&r, 8))};
+        bias_goal goal = {.api = bias_api_get(rng_below(&r, 9))};
         if (goal.api->guaranteed && setup.spec.format.kind == DP_FORMAT_UNORM) {
             t.skipped++; /* there r is what the implementation found to be enough */
             continue;
@@ -349,7 +363,7 @@ static void test_gap(void **state) {
     for (uint64_t i = 0; i < test_cases(200, 5000, 50000); i++) {
         double lo, hi, worst;
         const dp_setup setup = any_setup(&r, rng_below(&r, 2) ? "unorm24" : "fp32", &lo, &hi);
-        bias_goal goal = {.api = bias_api_get(rng_below(&r, 8)), .gap = lo * rng_log(&r, 1e-4, 1.0)};
+        bias_goal goal = {.api = bias_api_get(rng_below(&r, 9)), .gap = lo * rng_log(&r, 1e-4, 1.0)};
         lo += goal.gap;
         if (!(lo * 1.01 < hi))
             continue;
@@ -379,6 +393,44 @@ static void test_gap(void **state) {
         TALLY(&t, most * (1.0 + 1e-5) + 1.0 >= units, "%s %s from %a to %a gap %a: %.9g, only %.9g needed",
               goal.api->name, dp_mapping_get(setup.spec.mapping)->name, from, to, goal.gap, units, most);
     }
+    tally_end(&t);
+}
+
+/* Where a bias is enough it is at every depth, and just beyond the ends none is; a far plane has no unit at all. */
+static void test_enough_over(void **state) {
+    rng r = rng_make("bias enough over");
+    tally t = {.name = "enough over"};
+    uint64_t up_to = 0, onwards = 0;
+    (void)state;
+    for (uint64_t i = 0; i < test_cases(300, 3000, 30000); i++) {
+        double lo, hi, from, to;
+        const dp_setup setup = any_setup(&r, rng_below(&r, 2) ? "unorm24" : "fp32", &lo, &hi);
+        bias_goal goal = {.api = bias_api_get(rng_below(&r, 9)), .gap = rng_below(&r, 2) ? lo * 0.01 : 0};
+        goal.slope = rng_below(&r, 2) ? rng_log(&r, 1e-4, 0.1) : 0;
+        lo += goal.gap;
+        if (!(lo * 1.01 < hi))
+            continue;
+        bias_enough_over(&setup, &goal, lo, hi, &from, &to);
+        if (isnan(from)) {
+            t.skipped++;
+            continue;
+        }
+        TALLY(&t, from >= lo && from <= to && to <= hi, "from %a to %a", from, to);
+        for (int k = 0; k <= 20; k++) {
+            const double z = k == 0 ? from : k == 20 ? to : fmin(from * pow(to / from, k / 20.0), to);
+            TALLY(&t, isfinite(bias_needed(&setup, &goal, z)), "%s: none at %a of %a to %a", goal.api->name, z, from,
+                  to);
+        }
+        if (to < hi)
+            TALLY(&t, isinf(bias_needed(&setup, &goal, fmin(to * (1 + 0x1p-40), hi))), "%s: enough beyond %a of %a",
+                  goal.api->name, to, hi);
+        if (from > lo)
+            TALLY(&t, isinf(bias_needed(&setup, &goal, fmax(from * (1 - 0x1p-40), lo))), "%s: enough before %a of %a",
+                  goal.api->name, from, lo);
+        up_to += to < hi;
+        onwards += from > lo;
+    }
+    TALLY(&t, up_to > 0 && onwards > 0, "%d, %d", (int)up_to, (int)onwards);
     tally_end(&t);
 }
 
@@ -502,6 +554,7 @@ int main(void) {
         cmocka_unit_test(test_limited),
         cmocka_unit_test(test_one_unit_can_fail),
         cmocka_unit_test(test_enough),
+        cmocka_unit_test(test_enough_over),
         cmocka_unit_test(test_gap),
         cmocka_unit_test(test_sampled_apart),
         cmocka_unit_test(test_longest_cells),

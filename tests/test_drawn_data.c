@@ -50,9 +50,12 @@ static int check_points(const drawn *d, const drawn_panel *p, const json_t *root
     int seen = 0;
     size_t i;
     const json_t *point;
-    for (size_t k = 0; k < d->entry_count; k++)
-        if (strcmp(d->entries[k].text, text_of(series, "name")) == 0)
+    const char *name = text_of(series, "name");
+    for (size_t k = 0; k < d->entry_count; k++) {
+        const char *text = d->entries[k].text, *rest = text + strlen(name);
+        if (strncmp(text, name, strlen(name)) == 0 && (*rest == '\0' || strncmp(rest, " = ", 3) == 0))
             e = &d->entries[k];
+    }
     if (e == NULL || e->lines != 1)
         return 0;
     if (strstr(e->text, "right axis") != NULL) {
@@ -62,7 +65,7 @@ static int check_points(const drawn *d, const drawn_panel *p, const json_t *root
     const svg_mark *curve = drawn_curve(d, p, e);
     json_array_foreach(json_object_get(series, "points"), i, point) {
         const double at = number_of(point, x_key), value = number_of(point, y_key);
-        if (!isfinite(value))
+        if (!isfinite(value) || (y->log && value == 0))
             continue;
         if (!on_line(curve, drawn_px(&p->x, at), drawn_px(y, value)))
             fail_msg("%s: the point %g, %g is not on the curve", e->text, at, value);

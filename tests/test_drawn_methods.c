@@ -77,35 +77,6 @@ static svg_point place_of(const drawn_panel *p, double time, double error) {
     return (svg_point){drawn_px(&p->x, time), drawn_px(&p->y, fmax(error, exact)), false};
 }
 
-/* A thin line from the point to the end of its words. */
-static bool is_led(const drawn *d, svg_point from, double x, double y) {
-    for (size_t i = 0; i < d->svg->count; i++) {
-        const svg_mark *m = &d->svg->marks[i];
-        if (m->kind == SVG_PATH && m->count == 2 && svg_rgb(m->stroke) == d->theme->faint && m->width < d->scale &&
-            hypot(m->points[0].x - from.x, m->points[0].y - from.y) < 1.5 &&
-            hypot(m->points[1].x - x, m->points[1].y - y) < 3)
-            return true;
-    }
-    return false;
-}
-
-/* The name stands beside its point, or is led to it. */
-static const svg_mark *check_name(const drawn *d, const drawn_panel *p, svg_point at, const char *name) {
-    const svg_box near = {p->frame.x0 - 2, p->frame.y0 - 20, d->svg->width, p->frame.y1 + 20};
-    const svg_mark *words = drawn_words(d, near, name);
-    if (words == NULL)
-        fail_msg("no point is named '%s'", name);
-    const double middle = words->at.y - 0.36 * words->size;
-    const bool right = words->box.x0 > at.x;
-    const double gap = right ? words->at.x - at.x : at.x - words->box.x1;
-    assert_int_equal(svg_rgb(words->fill), d->theme->text);
-    if (fabs(gap - 8 * d->scale) > 1.8 || fabs(middle - at.y) > 4 * 0.75 * 1.25 * words->size + 1)
-        fail_msg("'%s' stands %.1f, %.1f px from its point", name, gap, middle - at.y);
-    if (fabs(middle - at.y) > 0.625 * words->size + 1)
-        assert_true(is_led(d, at, right ? words->at.x : words->box.x1, middle));
-    return words;
-}
-
 static bool overlap(svg_box a, svg_box b) {
     return a.x0 < b.x1 && b.x0 < a.x1 && a.y0 < b.y1 && b.y0 < a.y1;
 }
@@ -136,9 +107,9 @@ static void check_fronts(const drawn *d, const drawn_panel *p) {
 }
 
 static void check_pareto_words(const drawn *d) {
-    static const char *const texts[] = {"behind it", "on the Pareto front (without error: at 10\u207b\u00b9\u2077)"};
+    static const char *const texts[] = {"dominated", "on the Pareto front (without error: at 10\u207b\u00b9\u2077)"};
     assert_string_equal(d->title, "Speed against accuracy");
-    assert_string_equal(d->x_caption->text, "time an element (ns)");
+    assert_string_equal(d->x_caption->text, "time per element (ns)");
     assert_string_equal(d->y_caption->text, "worst error (relative error)");
     assert_null(d->right_caption);
     drawn_legend_is(d, 2, texts);
@@ -171,14 +142,14 @@ static void pareto_of_the_test(void **state) {
             fail_msg("'%s' is not marked as it should be", names[i]);
         char name[64];
         snprintf(name, sizeof name, "%s%s", names[i], group[i] == 1 ? " (pipeline)" : "");
-        words[i] = check_name(d, p, at, name);
+        words[i] = drawn_label(d, p, at, name);
         for (size_t k = 0; k < i; k++)
             assert_false(words[k] != NULL && overlap(words[k]->box, words[i]->box));
         shown++;
     }
     assert_int_equal(count, shown);
     check_fronts(d, p);
-    drawn_description_is(d, " Shown: front; front; behind it; on the Pareto front; methods.");
+    drawn_description_is(d, " Shown: front; front; dominated; on the Pareto front.");
     drawn_close(d);
 }
 
@@ -300,9 +271,7 @@ static void stability_of_the_test(void **state) {
         assert_px(drawn_px(&p->x, sqrt(1e9)), p->frame.x1, 1.5);
         assert_int_equal(p->y.labels, METHODS);
         for (size_t i = 0; i < METHODS; i++) {
-            char name[64];
-            snprintf(name, sizeof name, "%s, case", names[i]);
-            assert_string_equal(p->y.at[METHODS - 1 - i]->text, name);
+            assert_string_equal(p->y.at[METHODS - 1 - i]->text, names[i]);
             assert_px(p->y.px[METHODS - 1 - i], row_of(p, i, METHODS), 1);
             for (size_t k = 0; k < STEPS; k++) { /* below the marks */
                 const uint32_t colour = field_at(d, p, drawn_px(&p->x, ratios[k] * 1.5), row_of(p, i, METHODS) + 12);
@@ -311,49 +280,109 @@ static void stability_of_the_test(void **state) {
         }
         check_ends(d, p, claimed, texts[0], 4);
         check_ends(d, p, breaks, texts[1], 7);
-        drawn_description_is(d, " Shown: claimed up to here; the claim breaks here.");
+        drawn_description_is(d, " case. Shown: claimed up to here; the claim breaks here.");
         drawn_close(d);
     }
+}
+
+/* The significant bits of the formats whose steps are counted. */
+static double digits_of(const char *which) {
+    static const struct {
+        const char *name;
+        int bits;
+    } rows[] = {{"fp16 d3d", 11}, {"unorm16 d3d", 16}, {"unorm24 d3d", 24}};
+    for (size_t i = 0; i < sizeof rows / sizeof rows[0]; i++)
+        if (strcmp(which, rows[i].name) == 0)
+            return rows[i].bits * log10(2);
+    fail_msg("whose steps are those of %s?", which);
+    return NAN;
+}
+
+/* One row of what `stability --csv` prints, in the panel of its case and the row of its method. */
+static void check_field(const drawn *d, const char *row, bool steps, bool seen[DRAWN_PANELS][DRAWN_LABELS]) {
+    char method[64], which[64];
+    double ratio, error;
+    drawn_marker all[64];
+    size_t panel = 0;
+    int label = 0;
+    assert_int_equal(sscanf(row, "%*[^,],%63[^,],%63[^,]", method, which), 2);
+    const char *at = row;
+    for (int comma = 0; comma < 4; comma++)
+        at = strchr(at, ',') + 1;
+    const double to = strtod(at, NULL);
+    assert_int_equal(sscanf(strchr(strchr(at, ',') + 1, ',') + 1, "%lf,%lf", &ratio, &error), 2);
+    while (panel < d->panel_count && strcmp(d->panels[panel].heading, which) != 0)
+        panel++;
+    while (label < d->panels[0].y.labels && strcmp(d->panels[0].y.at[label]->text, method) != 0)
+        label++;
+    if (panel == d->panel_count || label == d->panels[0].y.labels)
+        fail_msg("no row shows %s of %s", method, which);
+    const drawn_panel *p = &d->panels[panel];
+    const double y = d->panels[0].y.px[label] - d->panels[0].frame.y0 + p->frame.y0;
+    const double left = steps ? fmin(fmax(digits_of(which) - log10(error), 0), 16) : digits(error);
+    const uint32_t colour = field_at(d, p, drawn_px(&p->x, ratio) - 2, y + 6);
+    assert_px(drawn_bar_px(d, colour), drawn_px(&d->value, left), 2);
+    if (to > 0 && isfinite(to))
+        assert_true(marked(all, drawn_markers(d, p, all, 64), &drawn_legend(d, "claimed up to here")->marker,
+                           (svg_point){drawn_px(&p->x, to), y, false}));
+    seen[panel][label] = true;
+}
+
+/* What a case has no method for is hatched; names of rows can be read, and no mark touches the frame. */
+static void check_panels(const drawn *d, bool seen[DRAWN_PANELS][DRAWN_LABELS]) {
+    const drawn_scale *y = &d->panels[0].y;
+    bool hatched = false;
+    for (int label = 1; label < y->labels; label++)
+        assert_true(fabs(y->px[label] - y->px[label - 1]) > 13 * d->scale);
+    for (size_t i = 0; i < d->panel_count; i++) {
+        const drawn_panel *p = &d->panels[i];
+        drawn_marker all[64];
+        const size_t count = drawn_markers(d, p, all, 64);
+        for (size_t k = 0; k < count; k++)
+            assert_true(all[k].x + all[k].width / 2 < p->frame.x1 && all[k].x - all[k].width / 2 > p->frame.x0);
+        for (int label = 0; label < y->labels; label++) {
+            const double place = y->px[label] - d->panels[0].frame.y0 + p->frame.y0;
+            const uint32_t colour = field_at(d, p, (p->frame.x0 + p->frame.x1) / 2, place + 5) & 0xFFFFFF;
+            hatched = hatched || !seen[i][label];
+            assert_int_equal(colour == d->theme->empty, !seen[i][label]);
+        }
+    }
+    assert_true(hatched);
 }
 
 /* Names, colours and ends of the program's methods against what `stability --csv` prints. */
 static void stability_of_the_program(void **state) {
     (void)state;
-    drawn *d = drawn_run(&drawn_light, "plot stability linearize");
-    const drawn_panel *p = &d->panels[0];
-    drawn_marker all[128];
-    const size_t count = drawn_markers(d, p, all, 128);
-    char *text = drawn_output("stability linearize --csv"), *row = strchr(text, '\n') + 1;
-    int rows = 0;
-    assert_string_equal(d->subtitle, "linearize: eye depth of a binary32 window depth; worst relative error over near "
-                                     "1e-12, 0.1 and 1e6");
-    for (char *end; (end = strchr(row, '\n')) != NULL; row = end + 1) {
-        char method[64], which[64], name[160];
-        double ratio, error, to;
-        *end = '\0';
-        assert_int_equal(sscanf(row, "linearize,%63[^,],%63[^,]", method, which), 2);
-        char *at = row;
-        for (int comma = 0; comma < 4; comma++)
-            at = strchr(at, ',') + 1;
-        to = strtod(at, NULL);
-        assert_int_equal(sscanf(strchr(strchr(at, ',') + 1, ',') + 1, "%lf,%lf", &ratio, &error), 2);
-        snprintf(name, sizeof name, "%s, %s", method, which);
-        int label = 0;
-        while (label < p->y.labels && strcmp(p->y.at[label]->text, name) != 0)
-            label++;
-        if (label == p->y.labels)
-            fail_msg("no row is named '%s'", name);
-        const double y = p->y.px[label];
-        const uint32_t colour = field_at(d, p, drawn_px(&p->x, ratio) - 2, y + 2);
-        assert_px(drawn_bar_px(d, colour), drawn_px(&d->value, digits(error)), 2);
-        if (to > 0 && isfinite(to))
-            assert_true(marked(all, count, &drawn_legend(d, "claimed up to here")->marker,
-                               (svg_point){drawn_px(&p->x, to), y, false}));
-        rows++;
+    static const struct {
+        const char *family, *subtitle;
+        size_t cases;
+        bool steps;
+    } figures[] = {
+        {"linearize",
+         "linearize: eye depth of a binary32 window depth; worst relative error over near 1e-12, 0.1 and "
+         "1e6. Hatched: not of this case",
+         2, false},
+        {"encode",
+         "encode: code of a binary32 window depth; worst steps of the format over near 1e-12, 0.1 and 1e6, "
+         "as digits of the code. Hatched: not of this case",
+         3, true},
+    };
+    for (size_t i = 0; i < sizeof figures / sizeof figures[0]; i++) {
+        drawn *d = drawn_run(&drawn_light, "plot stability %s", figures[i].family);
+        char *text = drawn_output("stability %s --csv", figures[i].family), *row = strchr(text, '\n') + 1;
+        bool seen[DRAWN_PANELS][DRAWN_LABELS] = {{false}};
+        int rows = 0;
+        assert_string_equal(d->subtitle, figures[i].subtitle);
+        assert_int_equal(d->panel_count, figures[i].cases);
+        for (char *end; (end = strchr(row, '\n')) != NULL; row = end + 1, rows++) {
+            *end = '\0';
+            check_field(d, row, figures[i].steps, seen);
+        }
+        assert_true(rows > 100);
+        check_panels(d, seen);
+        free(text);
+        drawn_close(d);
     }
-    assert_true(rows > 100);
-    free(text);
-    drawn_close(d);
 }
 
 int main(void) {

@@ -69,56 +69,102 @@ static double given(const dp_setup *s, const need *n, double *z) {
     return far.bound;
 }
 
-/* The range as a level line at the limit, in the colour of the verdict; its worst place marked and named. */
+/* Softened: a curve that runs along it can be seen on it. */
+static svg_mark level_pen(const drawn *d, uint32_t colour) {
+    svg_mark pen = {.stroke = {0, 0, 0, 1}, .width = 6 * d->scale};
+    double *parts[3] = {&pen.stroke.r, &pen.stroke.g, &pen.stroke.b};
+    for (int i = 0; i < 3; i++) {
+        const int shift = 16 - 8 * i;
+        const double own = (colour >> shift & 255) / 255.0, ground = (d->theme->background >> shift & 255) / 255.0;
+        *parts[i] = ground + 0.45 * (own - ground);
+    }
+    return pen;
+}
+
+/* The allowed level over the range, in the colour of the verdict, below all curves; one at a single depth reaches a
+ * little to both sides. */
+static void check_level(const drawn *d, const drawn_panel *p, const need *n, bool passed) {
+    const svg_mark pen = level_pen(d, d->theme->palette[passed ? 2 : 1]);
+    const double y = drawn_px(&p->y, n->limit), from = drawn_px(&p->x, n->lo), to = drawn_px(&p->x, n->hi);
+    const double more = fmax(22 * d->scale - (to - from), 0) / 2;
+    const svg_mark *lines[32], *found = NULL;
+    const size_t count = drawn_strokes(d, p, &pen, lines, 32);
+    for (size_t i = 0; i < count; i++) {
+        const svg_point a = lines[i]->points[0], b = lines[i]->points[1];
+        if (fabs(a.y - y) < 1 && fabs(b.y - y) < 1 && fabs(a.x - (from - more)) < 1.5 && fabs(b.x - (to + more)) < 1.5)
+            found = lines[i];
+    }
+    if (found == NULL)
+        fail_msg("nothing shows what '%s' allows", n->name);
+    for (size_t i = 0; i < d->entry_count; i++)
+        if (d->entries[i].line != NULL && d->entries[i].line->width < 3 * d->scale) {
+            const svg_mark *curve[1];
+            if (drawn_strokes(d, p, d->entries[i].line, curve, 1) == 1)
+                assert_true(curve[0] > found);
+        }
+}
+
+/* No curve runs through the words, and no others stand there. */
+static void check_clear(const drawn *d, const drawn_panel *p, const svg_mark *words) {
+    for (size_t i = 0; i < d->entry_count; i++) {
+        const svg_mark *curve[1];
+        double top, bottom;
+        if (d->entries[i].line == NULL || d->entries[i].line->width > 3 * d->scale ||
+            drawn_strokes(d, p, d->entries[i].line, curve, 1) != 1)
+            continue;
+        const double middle = words->at.y - 0.36 * words->size;
+        for (double x = words->box.x0 + 2; x < words->box.x1 - 2; x++)
+            if (drawn_reach(curve[0], x, x + 1, &top, &bottom) && top < middle + 5 && bottom > middle - 5)
+                fail_msg("'%s' is crossed by a curve", words->text);
+    }
+    for (size_t i = 0; i < d->svg->count; i++) {
+        const svg_mark *m = &d->svg->marks[i];
+        if (m != words && m->kind == SVG_WORDS && m->box.x0 < words->box.x1 && words->box.x0 < m->box.x1 &&
+            m->box.y0 + 3 < words->box.y1 && words->box.y0 + 3 < m->box.y1)
+            fail_msg("'%s' and '%s' stand on each other", words->text, m->text);
+    }
+}
+
+/* What is allowed, and a mark with the name where it is worst. */
 static void check_need(const drawn *d, const drawn_panel *p, const dp_setup *setup, const need *n, size_t *met,
                        size_t *inner) {
     double z;
     const bool passed = given(setup, n, &z) <= n->limit;
-    const drawn_entry *e =
-        drawn_legend(d, passed ? "requirement met, where it is worst" : "requirement missed, where it is worst");
-    const svg_mark pen = {
-        .stroke = {passed ? 0 : 0xD5 / 255.0, passed ? 0x9E / 255.0 : 0x5E / 255.0, passed ? 0x73 / 255.0 : 0, 1},
-        .width = 2 * d->scale};
-    const svg_mark *lines[2];
+    const drawn_entry *e = drawn_legend(d, passed ? "met, where it is worst" : "missed, where it is worst");
     drawn_marker all[32];
     char text[64];
     const size_t count = drawn_markers(d, p, all, 32);
     const double y = drawn_px(&p->y, n->limit);
-    bool marked = false, level = n->lo == n->hi; /* nothing is to be seen of a range that is a point */
+    bool marked = false;
     *met += passed;
     *inner += drawn_px(&p->x, z) < drawn_px(&p->x, n->hi) - 3;
-    assert_int_equal(drawn_strokes(d, p, &pen, lines, 2), 1);
-    for (size_t i = 0; i + 1 < lines[0]->count; i++) {
-        const svg_point a = lines[0]->points[i], b = lines[0]->points[i + 1];
-        level = level || (!b.starts && fabs(a.y - y) < 1 && fabs(b.y - y) < 1 &&
-                          fabs(a.x - drawn_px(&p->x, n->lo)) < 1.5 && fabs(b.x - drawn_px(&p->x, n->hi)) < 1.5);
-    }
-    assert_true(level);
-    const svg_mark *words = NULL;
+    check_level(d, p, n, passed);
     snprintf(text, sizeof text, "%s%s", n->name, n->is_error ? " (error)" : "");
-    words = drawn_words(d, (svg_box){p->frame.x0, p->frame.y0 - 10, p->frame.x1, p->frame.y1}, text);
-    assert_non_null(words);
-    for (size_t i = 0; i < count; i++)
+    for (size_t i = 0; i < count && !marked; i++)
         if (drawn_alike(&all[i], &e->marker) && fabs(all[i].y - y) < 1.2 && fabs(all[i].x - drawn_px(&p->x, z)) < 2) {
             marked = true;
-            assert_px(words->box.x0 > all[i].x ? words->at.x - all[i].x : all[i].x - words->box.x1, 9 * d->scale, 1.5);
-            assert_px(words->at.y - 0.36 * words->size, all[i].y, 1);
+            check_clear(d, p, drawn_label(d, p, (svg_point){all[i].x, all[i].y, false}, text));
         }
     if (!marked)
         fail_msg("'%s' has no mark at %g", text, z);
 }
 
 static void check_scene_legend(const drawn *d) {
-    static const char *const texts[] = {"separation that the set-up gives", "error that the set-up gives",
-                                        "requirement met, where it is worst", "requirement missed, where it is worst"};
-    drawn_legend_is(d, 4, texts);
+    static const char *const texts[] = {"separation given",       "error given",     "allowed, met",
+                                        "met, where it is worst", "allowed, missed", "missed, where it is worst"};
+    drawn_legend_is(d, 6, texts);
     drawn_style_is(d, &d->entries[0], 0, 0, DRAWN_NONE, false);
     drawn_style_is(d, &d->entries[1], 3, 1, DRAWN_NONE, false);
-    const drawn_marker *met = &d->entries[2].marker, *missed = &d->entries[3].marker;
+    const drawn_marker *met = &d->entries[3].marker, *missed = &d->entries[5].marker;
+    for (int i = 2; i < 6; i += 2) {
+        const svg_mark pen = level_pen(d, d->theme->palette[i == 2 ? 2 : 1]);
+        assert_int_equal(svg_rgb(d->entries[i].line->stroke), svg_rgb(pen.stroke));
+        assert_px(d->entries[i].line->width, pen.width, 1e-6);
+    }
     assert_int_equal(met->shape, DRAWN_DISC);
-    assert_int_equal(met->inside, 0x009E73); /* green, and full */
+    assert_int_equal(met->inside, d->theme->palette[2]); /* green, and full */
     assert_int_equal(missed->shape, DRAWN_TRIANGLE_DOWN);
-    assert_int_equal(missed->rim, 0xD55E00);
+    assert_int_equal(missed->rim, d->theme->palette[1]);
     assert_int_equal(missed->inside, d->theme->background);
 }
 
@@ -165,13 +211,12 @@ static void scene_of_requirements(void **state) {
     snprintf(subtitle, sizeof subtitle, "street.need: %zu met, %zu missed; a scene unit is 1 m; not shown: 1 of ties",
              met, NEEDS - met);
     assert_string_equal(d->subtitle, subtitle);
-    drawn_description_is(d, " street: unorm24 d3d, exact. Shown: separation that the set-up gives; error that the "
-                            "set-up gives; range of what is met; requirement met, where it is worst; range of what is "
-                            "missed; requirement missed, where it is worst. cockpit: fp32 reversed, fp32. Shown: "
-                            "separation that the set-up gives; range of what is met; requirement met, where it is "
-                            "worst; range of what is missed; requirement missed, where it is worst. scope: fp32 "
-                            "reversed, exact. Shown: separation that the set-up gives; range of what is met; "
-                            "requirement met, where it is worst.");
+    drawn_description_is(d,
+                         " street: unorm24 d3d, exact. Shown: separation given; error given; allowed, met; met, where "
+                         "it is worst; allowed, missed; missed, where it is worst. cockpit: fp32 reversed, fp32. "
+                         "Shown: separation given; allowed, met; met, where it is worst; allowed, missed; missed, "
+                         "where it is worst. scope: fp32 reversed, exact. Shown: separation given; allowed, met; "
+                         "met, where it is worst.");
     drawn_close(d);
 }
 

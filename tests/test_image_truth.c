@@ -255,8 +255,9 @@ static void one_image(tally *t, rng *r, const file_kind *k, used *u) {
         used other = {0};
         double lo = INFINITY, hi = -INFINITY;
         for (int i = 0; i < PIXELS; i++) {
-            lo = fmin(lo, (double)eye[i]);
-            hi = fmax(hi, (double)eye[i]);
+            const double depth = (double)eye[i]; /* fmin and fmax here crash gcc 12 when it compiles for aarch64 */
+            lo = depth < lo ? depth : lo;
+            hi = depth > hi ? depth : hi;
         }
         /* Half a grey of the product on top of the map in binary32, and rounded up. */
         for (int i = 0; i < PIXELS; i++)

@@ -3,6 +3,7 @@
  * Every row of the option table: what it takes and where that goes, by values written down here; what it refuses; its
  * default. The languages of lists, depths and sizes are tried in cli/errors.txt.
  */
+#include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -279,6 +280,7 @@ static void test_rows(void **state) {
     } rows[] = {
         {"table", OPTION_PRESET, AT(preset), "unreal", "unreal", offsetof(preset, name), "unrael", "unreal"},
         {"bias", OPTION_API, AT(api), "Vulkan", "vulkan", offsetof(bias_api, name), "wegbpu", "webgpu"},
+        {"bias", OPTION_API, AT(api), "all", NULL, 0, "metall", "metal"},
         {"bias", OPTION_API, AT(api), "d3d12", "d3d11", offsetof(bias_api, name), "d3d14", "d3d11"},
         {"texture", OPTION_SCENE, AT(scene), "steps", "steps", offsetof(scene_row, name), "decal", "decals"},
         {"texture", OPTION_POSITION, AT(position), "rays", "rays", offsetof(position_row, name), "matirx", "matrix"},
@@ -304,6 +306,67 @@ static void test_rows(void **state) {
         parse(&o, rows[i].command, OPTION_QUIET, NULL, line);
         memcpy(&row, (const char *)&o + rows[i].field, sizeof row);
         TALLY(&t, (row != NULL) == (rows[i].id == OPTION_API), "--%s: default", option_name(rows[i].id));
+    }
+    tally_end(&t);
+}
+
+/* Numbers separated by commas. */
+static void test_lists(void **state) {
+    static const struct {
+        const char *command;
+        option_id id;
+        size_t field;
+        const char *given;
+        size_t count;
+        double first, last;
+        const char *wrong[4], *said;
+    } rows[] = {
+        {"table",
+         OPTION_DEPTH,
+         AT(looked_up),
+         "0.25,0,-0,1",
+         4,
+         0.25,
+         1,
+         {"1.0001", "-1e-9", "", "nan"},
+         "D[,D...], numbers from 0 to 1"},
+        {"table",
+         OPTION_CODE,
+         AT(looked_up),
+         "0x10,4294967295",
+         2,
+         16,
+         4294967295,
+         {"4294967296", "-1", "1.5", "x"},
+         "N[,N...], whole numbers from 0 to 4294967295"},
+        {"texture",
+         OPTION_PIXEL,
+         AT(pixels),
+         "3,0;2,65535",
+         4,
+         3,
+         65535,
+         {"65536", "1.5", "x", "-1"},
+         "X,Y[;X,Y...], whole numbers from 0 to 65535"},
+    };
+    tally t = {.name = "lists"};
+    (void)state;
+    for (size_t i = 0; i < sizeof rows / sizeof rows[0]; i++) {
+        char line[1024] = "";
+        depths d;
+        options o;
+        TALLY(&t, parse(&o, rows[i].command, rows[i].id, rows[i].given, line) == EXIT_FINE, "%s", line);
+        memcpy(&d, (const char *)&o + rows[i].field, sizeof d);
+        TALLY(&t, d.count == rows[i].count && depths_get(&d, 0) == rows[i].first && d.hi == rows[i].last,
+              "--%s: %zu, %g", option_name(rows[i].id), d.count, d.hi);
+        for (size_t k = 0; k < d.count; k++)
+            TALLY(&t, !signbit(depths_get(&d, k)), "--%s: -0", option_name(rows[i].id));
+        options_release(&o);
+        for (size_t k = 0; k < 4; k++)
+            refused(&t, rows[i].command, rows[i].id, rows[i].wrong[k], rows[i].said);
+        parse(&o, rows[i].command, OPTION_QUIET, NULL, line);
+        memcpy(&d, (const char *)&o + rows[i].field, sizeof d);
+        TALLY(&t, d.count == 0, "--%s: default", option_name(rows[i].id));
     }
     tally_end(&t);
 }
@@ -444,10 +507,10 @@ static void test_all(void **state) {
 }
 
 int main(void) {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(test_numbers), cmocka_unit_test(test_lengths),
-                                       cmocka_unit_test(test_whole),   cmocka_unit_test(test_words),
-                                       cmocka_unit_test(test_rows),    cmocka_unit_test(test_flags),
-                                       cmocka_unit_test(test_texts),   cmocka_unit_test(test_own),
-                                       cmocka_unit_test(test_formats), cmocka_unit_test(test_all)};
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(test_numbers), cmocka_unit_test(test_lengths), cmocka_unit_test(test_whole),
+        cmocka_unit_test(test_words),   cmocka_unit_test(test_rows),    cmocka_unit_test(test_flags),
+        cmocka_unit_test(test_texts),   cmocka_unit_test(test_own),     cmocka_unit_test(test_formats),
+        cmocka_unit_test(test_lists),   cmocka_unit_test(test_all)};
     return run_tap(tests);
 }

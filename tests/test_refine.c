@@ -153,7 +153,7 @@ static double share_of(const asked *a, int series, double z) {
     const dp_setup *s = &a->setup;
     const double first = dp_code(s, s->spec.znear), last = dp_code(s, s->spec.zfar);
     (void)series;
-    return last == first ? 0 : 100 * fabs(dp_code(s, z) - first) / fabs(last - first);
+    return last == first ? 0 : 100 * fabs(dp_code(s, z) - last) / fabs(last - first);
 }
 
 /* The upper rim of a band: its share and those of the bands below; behind the bands the separation. */

@@ -347,6 +347,7 @@ static void write_label(page *p) {
 static void write_sentences(page *p) {
     page_text(p, "%s", EIGHT "abcdefgh abcdef x");
     page_line(p, "%s", EIGHT "abcdefgh abcd x");
+    page_line(p, "%s", EIGHT "abcdef z = 5000, 12 % more");
     page_wrapped(p, "nothing", "");
 }
 
@@ -356,7 +357,8 @@ static void wrapped(void **unused) {
     check_page(81, write_label, "  label " EIGHT "abcdefgh\n        x\n");
     check_page(82, write_label, "  label " EIGHT "abcdefgh x\n");
     check_page(OUTPUT_UNLIMITED, write_label, "  label " EIGHT "abcdefgh x\n");
-    check_page(0, write_sentences, EIGHT "abcdefgh abcdef\n  x\n  " EIGHT "abcdefgh abcd\n  x\n");
+    check_page(0, write_sentences,
+               EIGHT "abcdefgh abcdef\n  x\n  " EIGHT "abcdefgh abcd\n  x\n  " EIGHT "abcdef\n  z = 5000, 12 % more\n");
 }
 
 static void *next_once(void *of, size_t i) {

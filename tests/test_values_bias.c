@@ -88,6 +88,19 @@ static const bias_case cases[] = {
      0.2,
      5000},
     {{1, 200, {"unorm24"}, {"log"}, .log_c = 3}, {1, 2, 30, 90, 150, 199}, "vulkan-float", true, 0, 0, 0, 0, 3, 2, 150},
+    /* Where a bias is enough: up to short of the far plane, whose depth is 0; and from beyond the near plane. */
+    {{0.1, 1000, {"fp32"}, {"reversed"}, .ortho = 0},
+     {0.3, 1, 3, 20, 45, 60},
+     "metal",
+     true,
+     0,
+     0,
+     0,
+     0.01,
+     0.02,
+     0.1,
+     1000},
+    {{0.1, 1000, {"fp32"}, {"d3d"}, .ortho = 0}, {0.3, 1, 3, 20, 45, 60}, "d3d11", true, 0, 0, 0, 0.01, 1e-5, 0.1, 900},
     /* The worth of a unit falls with z, so the far end decides. */
     {{2, 60, {"fp32"}, {"reversed"}, .ortho = 1}, {2, 3, 7, 20, 45, 60}, "d3d11", true, 0, 0, 0, 1e-5, 0.001, 3, 58},
 };
@@ -157,17 +170,23 @@ static double shift_with(const bias_case *c, const dp_setup *setup, double units
 static void want_range(values *v, const bias_case *c, const dp_setup *setup) {
     const bias_goal apart = goal_of(c, setup, 0), gap = goal_of(c, setup, c->gap);
     const double gap_lo = fmax(c->lo, setup->spec.znear + c->gap);
-    double apart_z, gap_z;
+    double apart_z, gap_z, from, to;
     const double alone = signed_units(setup, bias_needed_over(setup, &apart, c->lo, c->hi, &apart_z));
     const double with_gap = signed_units(setup, bias_needed_over(setup, &gap, gap_lo, c->hi, &gap_z));
     want_number(v, "lo", c->lo);
     want_number(v, "hi", c->hi);
     want_number(v, "units_apart", alone);
     want_number(v, "units_apart_z", apart_z);
+    bias_enough_over(setup, &apart, c->lo, c->hi, &from, &to);
+    want_number(v, "apart_from", from);
+    want_number(v, "apart_to", to);
     if (c->gap > 0) {
         want_number(v, "gap_lo", gap_lo);
         want_number(v, "units_gap", with_gap);
         want_number(v, "units_gap_z", gap_z);
+        bias_enough_over(setup, &gap, gap_lo, c->hi, &from, &to);
+        want_number(v, "gap_from", from);
+        want_number(v, "gap_to", to);
     }
     const double shift_hi = shift_with(c, setup, c->gap > 0 ? with_gap : alone, c->hi);
     want_number(v, "shift_lo", shift_with(c, setup, c->gap > 0 ? with_gap : alone, c->gap > 0 ? gap_lo : c->lo));
@@ -219,6 +238,10 @@ static void check_text(const values *v, const bias_case *c, const char *argument
                                         "setups[0].range.units_apart_z", NULL};
     static const char *const gap[] = {"setups[0].range.units_gap", "setups[0].range.gap_lo", "setups[0].range.hi",
                                       "setups[0].range.units_gap_z", NULL};
+    static const char *const apart_where[][3] = {{"setups[0].range.apart_from", "setups[0].range.lo", NULL},
+                                                 {"setups[0].range.apart_to", "setups[0].range.hi", NULL}};
+    static const char *const gap_where[][3] = {{"setups[0].range.gap_from", "setups[0].range.gap_lo", NULL},
+                                               {"setups[0].range.gap_to", "setups[0].range.hi", NULL}};
     static const char *const nearer[] = {"setups[0].range.nearer", "setups[0].range.hi", NULL};
     text_column shown[8];
     size_t count = 0, all = c->inverse ? 6 : 8;
@@ -228,11 +251,15 @@ static void check_text(const values *v, const bias_case *c, const char *argument
             (strcmp(shown[count].path, "units_gap") != 0 || c->gap > 0))
             count++;
     }
-    printed p = print_of("%s", arguments);
+    printed p = print_of("%s --full", arguments);
     check_text_table(v, p.out, shown, count, lines);
+    const bool reversed = strcmp(value_at(v, "setups[0].mapping")->text, "reversed") == 0;
+    const bool none = c->inverse && isnan(value_at(v, "setups[0].range.units_apart")->number);
     if (c->inverse)
-        check_text_numbers(v, p.out, "told apart  ", 9, apart);
-    if (c->inverse && c->gap > 0) {
+        check_text_numbers(v, p.out, "told apart  ", 9, none ? apart_where[reversed] : apart);
+    if (c->inverse && c->gap > 0 && isnan(value_at(v, "setups[0].range.units_gap")->number)) {
+        check_text_numbers(v, p.out, "the gap  ", 9, gap_where[reversed]);
+    } else if (c->inverse && c->gap > 0) {
         check_text_numbers(v, p.out, "the gap  ", 9, gap);
         check_text_numbers(v, p.out, "the same units bring", 6, nearer);
     }

@@ -226,7 +226,7 @@ static void test_check(void **state) {
     }
     check_json(&v, 1, arguments);
     check_csv(&v, 1, arguments, columns, sizeof columns / sizeof columns[0], &lines);
-    printed p = print_of("%s", arguments);
+    printed p = print_of("%s --full", arguments);
     assert_int_equal(p.status, 1);
     check_text(&v, p.out, &file, verdicts, failed);
     check_junit(path, p.out, &file, verdicts, failed);

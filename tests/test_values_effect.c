@@ -67,7 +67,7 @@ static void check_effect(values *v, const char *arguments, const effect_row *row
                                   {head, "usable"}};
     check_json(v, 0, arguments);
     check_csv(v, 0, arguments, columns, sizeof columns / sizeof columns[0], lines);
-    printed p = print_of("%s", arguments);
+    printed p = print_of("%s --full", arguments);
     check_text_table(v, p.out, shown, sizeof shown / sizeof shown[0], lines);
     const bool none = isnan(value_at(v, decides[0])->number);
     snprintf(label, sizeof label, none ? "no %s is usable" : "%s %s ", wanted_one->name, direction);

@@ -161,11 +161,11 @@ static bool method(size_t i, listed *l) {
 static const struct {
     const char *what, *bound;
     bool (*get)(size_t, listed *);
-} topics[] = {{"formats", "bound", format}, {"mappings", "bound", mapping}, {"models", "bound", model},
-              {"ariths", "bound", arith},   {"causes", "bound", cause},     {"presets", "camera", preset_row},
-              {"apis", "rule", api},        {"packings", "bound", packing}, {"effects", "parameters", effect},
-              {"figures", "bound", figure}, {"scenes", "bound", scene},     {"positions", "bound", position},
-              {"normals", "bound", normal}, {"methods", "bound", method}};
+} topics[] = {{"formats", "bound", format},   {"mappings", "bound", mapping}, {"models", "bound", model},
+              {"arithmetic", "bound", arith}, {"causes", "bound", cause},     {"presets", "camera", preset_row},
+              {"apis", "rule", api},          {"packings", "bound", packing}, {"effects", "parameters", effect},
+              {"figures", "bound", figure},   {"scenes", "bound", scene},     {"positions", "bound", position},
+              {"normals", "bound", normal},   {"methods", "bound", method}};
 enum { TOPICS = sizeof topics / sizeof topics[0] };
 
 /* ---- Against what is printed ------------------------------------------------------------------------------------- */
@@ -230,7 +230,7 @@ static void check_forms(const json_t *items, const char *what, const char *bound
     size_t i, used = 0;
     const json_t *o;
     snprintf(arguments, sizeof arguments, "list %s", what);
-    printed p = print_of("%s", arguments);
+    printed p = print_of("%s --full", arguments);
     for (const char *at = p.out; *at != '\0' && used + 1 < sizeof text; at++)
         if (!isspace((unsigned char)*at))
             text[used++] = *at;

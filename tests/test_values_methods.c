@@ -61,6 +61,16 @@ static const method_row *want_bench(values *v, const method_family_row *family, 
     return choice;
 }
 
+/* Where the line of a method begins: the fastest stands first. */
+static const char *place_of(const char *text, size_t i, const method_row *choice) {
+    char label[64];
+    snprintf(label, sizeof label, "\n%c%c%-19s ", timed[i].front ? '*' : ' ', timed[i].row == choice ? '>' : ' ',
+             timed[i].row->name);
+    const char *at = strstr(text, label);
+    assert_non_null(at);
+    return at;
+}
+
 static void check_bench_text(const values *v, const method_family_row *family, const method_row *choice,
                              const char *text, size_t count) {
     static const char *const fields[] = {"ns",       "limits", "percent", "preparing", "relative",
@@ -68,10 +78,10 @@ static void check_bench_text(const values *v, const method_family_row *family, c
     static const char *const planes[] = {"near", "far", NULL}, *const limit[] = {"limit_ns", NULL};
     char label[64], at[9][PATH_SIZE];
     check_text_numbers(v, text, family->cases[asked_which].name, 15, planes);
-    check_text_numbers(v, text, "a limit is", 3, limit);
+    check_text_numbers(v, text, "ns: per element, the median; x memory: times the", 3, limit);
     for (size_t i = 0; i < count; i++) {
         const char *paths[10] = {NULL};
-        snprintf(label, sizeof label, "%s%s%-20s ", timed[i].front ? "*" : "",
+        snprintf(label, sizeof label, "%s%s%-19s ", timed[i].front ? "*" : "",
                  timed[i].row == choice ? ">"
                  : timed[i].front       ? " "
                                         : "",
@@ -81,6 +91,8 @@ static void check_bench_text(const values *v, const method_family_row *family, c
             paths[k] = at[k];
         }
         check_text_numbers(v, text, label, 2, paths);
+        for (size_t k = 0; k < i; k++)
+            assert_true((place_of(text, i, choice) < place_of(text, k, choice)) == (timed[i].ns < timed[k].ns));
     }
 }
 
@@ -102,7 +114,7 @@ static void check_bench(const char *name, const char *line, size_t which, double
                                          {"pareto", "pareto"},
                                          {"chosen", "chosen"},
                                          {"limit [ns]", "/limit_ns"}};
-    static const char *const forms[] = {"--json", "--csv", ""};
+    static const char *const forms[] = {"--json", "--csv", "--full"};
     for (int form = 0; form < 3; form++) {
         char arguments[256];
         const method_family_row *family = method_family_find(name);
@@ -165,7 +177,7 @@ static void check_stability(const char *name, int status) {
     static const csv_column columns[] = {{"family", "/family"}, {"method", "^name"},       {"case", "^case"},
                                          {"claim", "claim"},    {"claim_to", "^claim_to"}, {"verdict", "^verdict"},
                                          {"ratio", "ratio"},    {"error", "error"}};
-    static const char *const forms[] = {"--json", "--csv", ""};
+    static const char *const forms[] = {"--json", "--csv", "--full"};
     static const char *const fields[] = {"claim", "claim_to", "worst", "breaks_at", "infinite", "ortho"};
     for (int form = 0; form < 3; form++) {
         char arguments[128], label[96], at[6][PATH_SIZE];
@@ -185,7 +197,7 @@ static void check_stability(const char *name, int status) {
             check_csv_text(&v, text, columns, sizeof columns / sizeof columns[0], &lines);
         for (size_t i = 0; i < walked_count && form == 2; i++) {
             const stability_result *r = &walked[i];
-            snprintf(label, sizeof label, "%-20s %-14s", r->row->name, family->cases[r->which].name);
+            snprintf(label, sizeof label, "%-18s %-13s", r->row->name, family->cases[r->which].name);
             for (size_t k = 0; k < 6; k++)
                 snprintf(at[k], PATH_SIZE, "methods[%zu].%s", i, fields[k]);
             check_text_numbers(&v, text, label, 3, paths);

@@ -462,12 +462,12 @@ static void check_text(values *v, const solve_case *c, const char *arguments, co
     static const char *const certain[] = {"answer.separation_fp32", NULL};
     const bool in_fp32 = strcmp(value_at(v, "answer.model")->text, "fp32") == 0;
     char label[128];
-    printed p = print_of("%s", arguments);
+    printed p = print_of("%s --full", arguments);
     assert_int_equal(p.status, !c->possible);
     snprintf(label, sizeof label, "%-14s ", measure_of(c));
     check_text_numbers(v, p.out, label, 6, worst);
     if (isfinite(value_at(v, "answer.separation_fp32")->number) && !in_fp32 && !is_distance(c))
-        check_text_numbers(v, p.out, "in binary32", 6, certain);
+        check_text_numbers(v, p.out, "guaranteed", 6, certain);
     if (isnan(c->znear) || isnan(c->zfar)) {
         snprintf(label, sizeof label, "%-14s ", c->target);
         if (c->possible) {

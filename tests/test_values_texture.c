@@ -243,7 +243,7 @@ static void check_text(const values *v, const char *arguments, size_t errors, co
     static const char *const pairs[] = {"pairs.count", "pairs.ties", "pairs.first_tie", NULL};
     static const char *const certain[] = {"pairs.possible", "pairs.certain_to", NULL};
     static const char *const fields[] = {"mean", "p99", "max", "column", "row"};
-    printed p = print_of("%s", arguments);
+    printed p = print_of("%s --full", arguments);
     check_text_numbers(v, p.out, "sky  ", 3, sky);
     check_text_numbers(v, p.out, "depths  ", 8, depths);
     check_text_table(v, p.out, bands, sizeof bands / sizeof bands[0], lines);

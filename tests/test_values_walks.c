@@ -20,12 +20,11 @@ static void want_head(values *v, const json_t *root, const char *figure, const c
     want_text(v, "title", title);
     want_text(v, "data", json_string_value(json_object_get(root, "data")));
     want_text(v, "subtitle", json_string_value(json_object_get(root, "subtitle")));
-    values_under(v, "panels[0].");
-    want_text(v, "title", "");
 }
 
-static void want_point(values *v, size_t series, size_t point, const char *x, double at, const char *y, double is) {
-    values_under(v, "panels[0].series[%zu].points[%zu].", series, point);
+static void want_point(values *v, size_t panel, size_t series, size_t point, const char *x, double at, const char *y,
+                       double is) {
+    values_under(v, "panels[%zu].series[%zu].points[%zu].", panel, series, point);
     want_number(v, x, at);
     want_number(v, y, is);
 }
@@ -36,7 +35,7 @@ static size_t want_times(values *v, size_t series, const char *name, int front, 
         const bench_result *r = &timed[order != NULL ? order[i] : i];
         if (front >= 0 && r->front != (front == 1))
             continue;
-        want_point(v, series, n++, "time", r->ns, "error", fmax(r->measured.worst.relative, 1e-17));
+        want_point(v, 0, series, n++, "time", r->ns, "error", fmax(r->measured.worst.relative, 1e-17));
     }
     values_under(v, "panels[0].series[%zu].", series);
     want_text(v, "name", name);
@@ -62,13 +61,14 @@ static void test_pareto(void **state) {
             order[fronts++] = i;
     qsort(order, fronts, sizeof order[0], by_time);
     want_head(&v, root, "pareto", "a\\\\b\"c\"d");
+    values_under(&v, "panels[0].");
+    want_text(&v, "title", "");
     assert_non_null(strstr(json_string_value(json_object_get(root, "subtitle")), "near 0.2, far 800"));
-    want_axis(&v, "x", "time", "time an element", "ns", "log");
+    want_axis(&v, "x", "time", "time per element", "ns", "log");
     want_axis(&v, "y", "error", "worst error", family->measure, "log");
     size_t series = want_times(&v, 0, "front", -1, order, fronts);
-    series = want_times(&v, series, "behind it", 0, NULL, count);
-    series = want_times(&v, series, "on the Pareto front", 1, NULL, count);
-    want_times(&v, series, "methods", -1, NULL, count);
+    series = want_times(&v, series, "dominated", 0, NULL, count);
+    want_times(&v, series, "on the Pareto front", 1, NULL, count);
     check_json_text(&v, text);
     json_decref(root);
     free(text);
@@ -80,53 +80,57 @@ static double digits(double error) {
     return isinf(error) ? 0 : fmin(fmax(-log10(error), 0), 16);
 }
 
-/* Where a column of the map is drawn: at its far/near, but for the rounding of the logarithms. */
-static double column_of(const json_t *root, size_t point, size_t k) {
+/* Where a column of a map is drawn: at its far/near, but for the rounding of the logarithms. */
+static double column_of(const json_t *root, size_t panel, size_t point, size_t k) {
     double ratio;
     const json_t *map =
-        json_array_get(json_object_get(json_array_get(json_object_get(root, "panels"), 0), "series"), 2);
+        json_array_get(json_object_get(json_array_get(json_object_get(root, "panels"), panel), "series"), 2);
     assert_int_equal(json_unpack(json_array_get(json_object_get(map, "points"), point), "{s:F}", "ratio", &ratio), 0);
     assert_relative(ratio, 10 * pow(1000, (double)k), 1e-12);
     return ratio;
 }
 
-/* The rows of the figure from the bottom: the cases from the last, the methods of each from the last. */
+/* A panel for each case, in it the methods from the last. */
 static void test_walk(void **state) {
     (void)state;
-    const method_family_row *family = method_family_find("worst");
+    const method_family_row *family = method_family_find("worst"); /* each method speaks of each case */
+    static const char *const names[] = {"claimed up to here", "the claim breaks here", "map"};
     values v = values_of("plot");
     memset(verdicts, 0, sizeof verdicts);
     char *text = command_output(cmd_plot, 0, "plot stability worst --json");
     json_t *root = json_of(text);
-    const stability_result *rows[STABILITY_MAX];
-    size_t count = 0, claims = 0, breaks = 0;
-    for (size_t which = 0; which < family->case_count; which++)
-        for (size_t i = 0; i < walked_count; i++)
-            if (walked[i].which == which)
-                rows[count++] = &walked[i];
     want_head(&v, root, "stability", figure_find("stability")->title);
     want_axis(&v, "x", "ratio", "far/near", "", "log");
     want_axis(&v, "y", "method", "method", "", "linear");
     want_axis(&v, "value", "digits", "digits left", "", "linear");
-    for (size_t i = 0; i < count; i++) {
-        const method_claim *c = &rows[i]->row->claims[rows[i]->which];
-        const double height = (double)(count - 1 - i) + 0.5;
-        if (!isnan(c->worst))
-            want_point(&v, 0, claims++, "ratio", c->ratio_hi, "method", height);
-        if (isfinite(rows[i]->breaks))
-            want_point(&v, 1, breaks++, "ratio", rows[i]->breaks, "method", height);
-        for (size_t k = 0; k < 4; k++) {
-            const size_t point = (count - 1 - i) * 4 + k;
-            want_point(&v, 2, point, "ratio", column_of(root, point, k), "method", height);
-            want_number(&v, "digits", digits(rows[i]->error[k]));
+    for (size_t which = 0; which < family->case_count; which++) {
+        size_t count = 0, row = 0, claims = 0, breaks = 0;
+        for (size_t i = 0; i < walked_count; i++)
+            count += walked[i].which == which;
+        for (size_t i = 0; i < walked_count; i++) {
+            const stability_result *r = &walked[i];
+            const method_claim *c = &r->row->claims[which];
+            if (r->which != which)
+                continue;
+            const double height = (double)(count - 1 - row) + 0.5;
+            if (!isnan(c->worst))
+                want_point(&v, which, 0, claims++, "ratio", c->ratio_hi, "method", height);
+            if (isfinite(r->breaks))
+                want_point(&v, which, 1, breaks++, "ratio", r->breaks, "method", height);
+            for (size_t k = 0; k < 4; k++) {
+                const size_t point = (count - 1 - row) * 4 + k;
+                want_point(&v, which, 2, point, "ratio", column_of(root, which, point, k), "method", height);
+                want_number(&v, "digits", digits(r->error[k]));
+            }
+            row++;
         }
+        for (size_t s = 0; s < 3; s++) {
+            values_under(&v, "panels[%zu].series[%zu].", which, s);
+            want_text(&v, "name", names[s]);
+        }
+        values_under(&v, "panels[%zu].", which);
+        want_text(&v, "title", family->cases[which].name);
     }
-    values_under(&v, "panels[0].series[%d].", 0);
-    want_text(&v, "name", "claimed up to here");
-    values_under(&v, "panels[0].series[%d].", 1);
-    want_text(&v, "name", "the claim breaks here");
-    values_under(&v, "panels[0].series[%d].", 2);
-    want_text(&v, "name", "map");
     check_json_text(&v, text);
     json_decref(root);
     free(text);

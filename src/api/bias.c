@@ -6,28 +6,40 @@
 /* clang-format off */
 static const bias_api rows[] = {
     {"d3d11", "d3d10 d3d12 direct3d11 direct3d12", BIAS_CODE, BIAS_EXPONENT, true, true, true, false,
+     "D3D11_RASTERIZER_DESC.DepthBias = U", ", SlopeScaledDepthBias = F",
      "DepthBias is an integer; all is computed in binary32, at the vertices, after clipping",
      "Direct3D 11 programming guide, output merger stage, Depth Bias"},
     {"webgpu", "wgpu", BIAS_CODE, BIAS_EXPONENT, true, true, false, false,
+     "depthBias: U", ", depthBiasSlopeScale: F",
      "depthBias is an integer; depth24plus may follow either rule (gpuweb/gpuweb#6350)",
      "WebGPU, biased fragment depth; gpuweb/cts depth_bias.spec.ts"},
+    {"metal", "mtl", BIAS_CODE, BIAS_EXPONENT, false, true, false, false,
+     "setDepthBias(U, slopeScale: F, clamp: 0)", "",
+     "depthBias is a float; for integer buffers r is the smallest positive value that the buffer holds",
+     "Metal, MTLRenderCommandEncoder, setDepthBias(_:slopeScale:clamp:)"},
     {"vulkan", "vk", BIAS_BOUND, BIAS_EXPONENT, false, true, false, true,
+     "depthBiasConstantFactor = U", ", depthBiasSlopeFactor = F",
      "for integer buffers r is the implementation's choice, at most 2 x 2^-N",
      "Vulkan specification, Depth Bias Computation"},
     {"vulkan-exact", "vk-exact", BIAS_POWER, BIAS_EXPONENT, false, true, false, false,
+     "depthBiasConstantFactor = U", ", depthBiasSlopeFactor = F",
      "VK_EXT_depth_bias_control with depthBiasExact: r = 2^-N, less than the distance of two codes",
      "Vulkan specification, Depth Bias Computation; VK_EXT_depth_bias_control"},
     {"vulkan-unorm", "vk-unorm", BIAS_POWER, BIAS_MANTISSA, false, true, false, false,
+     "depthBiasConstantFactor = U", ", depthBiasSlopeFactor = F",
      "representation LEAST_REPRESENTABLE_VALUE_FORCE_UNORM with depthBiasExact: one r for all depths of a float buffer",
      "Vulkan specification, Depth Bias Computation; VK_EXT_depth_bias_control"},
     {"vulkan-float", "vk-float", BIAS_ONE, BIAS_ONE, false, true, false, false,
+     "depthBiasConstantFactor = U", ", depthBiasSlopeFactor = F",
      "representation FLOAT: r = 1, units are window depth, as in d3d9",
      "Vulkan specification, Depth Bias Computation; VK_EXT_depth_bias_control"},
     {"gl", "opengl gles webgl", BIAS_FREE, BIAS_EXPONENT, false, true, false, true,
+     "glPolygonOffset(F, U)", "",
      "glPolygonOffset(factor, units); the clamp is EXT_polygon_offset_clamp or GL 4.6; for integer buffers r is the "
      "implementation's choice, 2^-N is assumed",
      "OpenGL specification, Depth Offset; EXT_polygon_offset_clamp"},
     {"d3d9", "direct3d9 d3d8to9", BIAS_ONE, BIAS_ONE, false, false, false, false,
+     "D3DRS_DEPTHBIAS = U", ", D3DRS_SLOPESCALEDEPTHBIAS = F",
      "D3DRS_DEPTHBIAS is a window depth; there is no clamp",
      "Direct3D 9, Depth Bias: Offset = m D3DRS_SLOPESCALEDEPTHBIAS + D3DRS_DEPTHBIAS"},
 };
@@ -127,10 +139,10 @@ static double shift_of(const dp_setup *setup, double z, double t) {
 /* The window distance from z to z - gap; INFINITY when that lies before the near plane. */
 static double window_of_gap(const dp_setup *setup, double z, double gap) {
     const double c = setup->spec.log_c;
-    const double to = z - gap;
+    const double to = fmax(z - gap, setup->spec.znear);
     if (gap == 0.0)
         return 0.0;
-    if (!(to >= setup->spec.znear))
+    if (z < setup->spec.znear + gap) /* near + gap itself, as rounded, leads to the near plane */
         return (double)INFINITY;
     return setup->curve == DP_CURVE_PERSPECTIVE ? gap / (setup->kappa * z * to)
            : setup->curve == DP_CURVE_LINEAR    ? gap / setup->kappa
@@ -182,10 +194,11 @@ static double certain_step(const bias_goal *goal, const dp_format *format, int e
 
 static double round_up(const bias_api *api, const dp_format *format, double units) {
     const bias_rule rule = format->kind == DP_FORMAT_FLOAT ? api->real : api->unorm;
-    if (rule != BIAS_ONE)
-        return ceil(units);
-    const float nearest = (float)units;
-    return (double)((double)nearest < units ? nextafterf(nearest, HUGE_VALF) : nearest);
+    const double counted = rule == BIAS_ONE ? units : ceil(units);
+    const float nearest = (float)counted;
+    if (api->whole)
+        return counted;
+    return (double)((double)nearest < counted ? nextafterf(nearest, HUGE_VALF) : nearest);
 }
 
 /* bias_needed() at z for a primitive whose greatest window depth has the exponent e. */
@@ -232,4 +245,36 @@ double bias_needed_over(const dp_setup *setup, const bias_goal *goal, double lo,
         }
     }
     return most;
+}
+
+static bool enough_between(const dp_setup *setup, const bias_goal *goal, double a, double b) {
+    double worst;
+    return isfinite(bias_needed_over(setup, goal, fmin(a, b), fmax(a, b), &worst));
+}
+
+/* The depth farthest from `start` towards `end` up to which a bias is enough. */
+static double enough_towards(const dp_setup *setup, const bias_goal *goal, double start, double end) {
+    if (start == end || enough_between(setup, goal, start, end))
+        return end;
+    double good = start, bad = isinf(end) ? 1e300 : end;
+    while (fabs(bad - good) > 0x1p-48 * good) {
+        const double middle = sqrt(good) * sqrt(bad);
+        if (middle == good || middle == bad)
+            break;
+        *(enough_between(setup, goal, start, middle) ? &good : &bad) = middle;
+    }
+    return good;
+}
+
+void bias_enough_over(const dp_setup *setup, const bias_goal *goal, double lo, double hi, double *from, double *to) {
+    enum { TRIED = 64 };
+    const double last = isinf(hi) ? 0x1p64 * lo : hi;
+    double start = isfinite(bias_needed(setup, goal, lo)) ? lo : hi;
+    for (int i = 1; i < TRIED && !isfinite(bias_needed(setup, goal, start)); i++)
+        start = lo * pow(last / lo, (double)i / TRIED);
+    *from = *to = (double)NAN;
+    if (!isfinite(bias_needed(setup, goal, start)))
+        return;
+    *from = enough_towards(setup, goal, start, lo);
+    *to = enough_towards(setup, goal, start, hi);
 }

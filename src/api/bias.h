@@ -45,6 +45,8 @@ typedef struct bias_api {
     bool clamps;         /**< has a clamp */
     bool binary32;       /**< the specification says that o is computed in binary32 */
     bool guaranteed;     /**< r is by definition a difference that polygons with the same vertices keep apart */
+    const char *call;    /**< how a program sets it: U stands for the units, F for the factor */
+    const char *sloped;  /**< what follows where there is a factor, likewise; "" where `call` has it */
     const char *note;
     const char *source;
 } bias_api;
@@ -110,8 +112,8 @@ typedef struct bias_goal {
 
 /**
  * The fewest units that bring a layer in front of a coplanar one at z, whatever the depth's alignment to the codes: a
- * magnitude, to be given the sign of bias_sign(). A whole number where the API counts in r, else rounded up to
- * binary32.
+ * magnitude, to be given the sign of bias_sign(). A whole number where the API counts in r; and, where it takes a
+ * float, a binary32 number.
  *
  * They must cover the distance in window depth that certainly leads from one code to another (for guaranteed APIs r;
  * for fp32, whose depths are binary32 numbers, one step; else one step of the format and half a step of binary32 for
@@ -124,6 +126,13 @@ double bias_needed(const dp_setup *setup, const bias_goal *goal, double z);
 
 /** The greatest bias_needed() over a range, a certified bound, and the depth that needs it. lo < hi in [near, far]. */
 double bias_needed_over(const dp_setup *setup, const bias_goal *goal, double lo, double hi, double *worst);
+
+/**
+ * The part of a range in which a bias is enough: one span, from the near end where that is in it, else up to the far
+ * end, else about the first of a few depths between.
+ * @param from, to  NaN where there is none. Within 2^-48 of the true ends, inwards
+ */
+void bias_enough_over(const dp_setup *setup, const bias_goal *goal, double lo, double hi, double *from, double *to);
 
 /** The sign of units and factor that brings a layer nearer to the camera: -1, or 1 for reversed mappings. */
 int bias_sign(const dp_setup *setup);

@@ -41,20 +41,21 @@ static const char *sentence(const check_file *f, const check_verdict *v, char ou
 
 static void write_text(const options *o, output *out, const check_file *files, size_t count) {
     char text[SENTENCE_SIZE], label[SETUP_LABEL_SIZE];
+    page p = page_start(out, 0);
     for (const check_file *f = files; f < files + count; f++) {
         for (size_t k = 0; k < f->count; k++) {
             const check_verdict *v = &f->verdicts[k];
             if (o->quiet && v->passed)
                 continue;
-            output_format(out, "%s  %s:%d: %s: camera %s, %s (%s): %s\n", v->passed ? "pass" : "FAIL", f->file.path,
-                          v->asked->line, v->asked->name, v->camera->name, setup_label(&v->setup, false, label),
-                          dp_model_name(v->setup.spec.model), sentence(f, v, text));
+            page_text(&p, "%s  %s:%d: %s: camera %s, %s (%s): %s", v->passed ? "pass" : "FAIL", f->file.path,
+                      v->asked->line, v->asked->name, v->camera->name, setup_label(&v->setup, false, label),
+                      dp_model_name(v->setup.spec.model), sentence(f, v, text));
             if (o->verbose)
-                output_format(out, "      decided by %s: %s\n", check_method_name(v->method),
-                              setup_label(&v->setup, true, label));
+                page_line(&p, "    decided by %s: %s", check_method_name(v->method),
+                          setup_label(&v->setup, true, label));
         }
         if (!o->quiet)
-            output_format(out, "%s: %ld passed, %ld failed\n", f->file.path, (long)f->count - f->failed, f->failed);
+            page_text(&p, "%s: %ld passed, %ld failed", f->file.path, (long)f->count - f->failed, f->failed);
     }
 }
 

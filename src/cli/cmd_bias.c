@@ -7,6 +7,7 @@
 #include <string.h>
 
 #include "api/bias.h"
+#include "cli/bias_all.h"
 #include "cli/walk.h"
 #include "report/number.h"
 
@@ -24,8 +25,8 @@ typedef struct row {
 /* Inverse: the same over the range. */
 typedef struct needs {
     double lo, hi, gap_lo;
-    double apart, apart_z;
-    double gap, gap_z;
+    double apart, apart_z, apart_from, apart_to; /* and where a bias is enough at all */
+    double gap, gap_z, gap_from, gap_to;
     double shift_lo, shift_hi; /* what the units of the gap do at the ends, or those that tell apart without a gap */
 } needs;
 
@@ -44,10 +45,6 @@ typedef struct biasing {
 } biasing;
 
 /* ---- What is asked ----------------------------------------------------------------------------------------------- */
-
-static double with_sign(const dp_setup *setup, double units) {
-    return isinf(units) ? (double)NAN : units * bias_sign(setup) + 0.0; /* no -0 */
-}
 
 /* What is asked of this set-up: the factor is written with the sign that the API takes, the goal counts nearer as +. */
 static bias_goal goal_of(const biasing *b, double gap) {
@@ -70,8 +67,8 @@ static void *next_row(void *of, size_t i) {
         const bias_goal gap = goal_of(b, b->goal.gap);
         state.units = bias_sign(setup);
         state.factor = 0.0;
-        r->apart = with_sign(setup, bias_needed(setup, &apart, z));
-        r->gap = with_sign(setup, bias_needed(setup, &gap, z));
+        r->apart = bias_signed(setup, bias_needed(setup, &apart, z));
+        r->gap = bias_signed(setup, bias_needed(setup, &gap, z));
     }
     r->effect = bias_at(setup, &state, b->goal.slope, z);
     r->one_unit = r->effect.limited ? (double)NAN : fabs(r->effect.shift);
@@ -92,10 +89,13 @@ static needs over_range(const biasing *b) {
     needs n = {.lo = lo, .hi = hi, .gap_lo = fmax(lo, setup->spec.znear + b->goal.gap)};
     const bias_goal apart = goal_of(b, 0.0);
     const bias_goal gap = goal_of(b, b->goal.gap);
-    n.apart = with_sign(setup, bias_needed_over(setup, &apart, lo, hi, &n.apart_z));
-    n.gap = n.gap_z = (double)NAN;
+    n.apart = bias_signed(setup, bias_needed_over(setup, &apart, lo, hi, &n.apart_z));
+    bias_enough_over(setup, &apart, lo, hi, &n.apart_from, &n.apart_to);
+    n.gap = n.gap_z = n.gap_from = n.gap_to = (double)NAN;
     if (b->goal.gap > 0.0 && n.gap_lo < hi)
-        n.gap = with_sign(setup, bias_needed_over(setup, &gap, n.gap_lo, hi, &n.gap_z));
+        bias_enough_over(setup, &gap, n.gap_lo, hi, &n.gap_from, &n.gap_to);
+    if (b->goal.gap > 0.0 && n.gap_lo < hi)
+        n.gap = bias_signed(setup, bias_needed_over(setup, &gap, n.gap_lo, hi, &n.gap_z));
     const double units = b->goal.gap > 0.0 ? n.gap : n.apart;
     n.shift_lo = shift_with(b, units, n.gap_lo);
     n.shift_hi = shift_with(b, units, hi);
@@ -130,22 +130,36 @@ static void say_states(page *p, void *item) {
     output_char(p->out, '\n');
 }
 
-/* "  told apart  -2 units from 0.1 to 1000 (needed at z = 0.1)" */
-static void say_needed(page *p, const char *what, double units, double lo, double hi, double z) {
-    const number_text from = number_of(lo, DIGITS_Z), to = number_of(hi, DIGITS_Z);
-    if (isnan(units))
-        page_note(p, what, "no bias is enough from %s to %s", from.text, to.text);
-    else
+/* "  told apart  -2 units from 0.1 to 1000 (needed at z = 0.1)", or where a bias is enough at all. */
+static void say_needed(page *p, const char *what, double units, const double range[2], double z,
+                       const double enough[2]) {
+    const number_text lo = number_of(range[0], DIGITS_Z), hi = number_of(range[1], DIGITS_Z);
+    const number_text from = number_up(enough[0], DIGITS_Z), to = number_down(enough[1], DIGITS_Z);
+    if (!isnan(units))
         page_note(p, what, "%s unit%s from %s to %s (needed at z = %s)", number_of(units, DIGITS_Z).text,
-                  fabs(units) == 1.0 ? "" : "s", from.text, to.text, number_of(z, DIGITS_Z).text);
+                  fabs(units) == 1.0 ? "" : "s", lo.text, hi.text, number_of(z, DIGITS_Z).text);
+    else if (isnan(enough[0]))
+        page_note(p, what, "no bias is enough from %s to %s", lo.text, hi.text);
+    else if (enough[0] == range[0])
+        page_note(p, what, "enough up to z = %s; no bias is from there to %s", to.text, hi.text);
+    else if (enough[1] == range[1])
+        page_note(p, what, "enough from z = %s on; no bias is from %s to there", from.text, lo.text);
+    else
+        page_note(p, what, "enough from z = %s to %s; no bias is from %s to %s", from.text, to.text, lo.text, hi.text);
 }
 
 static void say_range(page *p, const biasing *b) {
     const needs *r = &b->needs;
-    say_needed(p, "told apart", r->apart, r->lo, r->hi, r->apart_z);
+    say_needed(p, "told apart", r->apart, (const double[]){r->lo, r->hi}, r->apart_z,
+               (const double[]){r->apart_from, r->apart_to});
+    if (b->goal.gap > 0.0)
+        say_needed(p, "the gap", r->gap, (const double[]){r->gap_lo, r->hi}, r->gap_z,
+                   (const double[]){r->gap_from, r->gap_to});
+    const double units = b->goal.gap > 0.0 ? r->gap : r->apart;
+    if (!isnan(units))
+        page_note(p, "to write", "%s", bias_call(b->state.api, units, b->state.factor).text);
     if (b->goal.gap == 0.0)
         return;
-    say_needed(p, "the gap", r->gap, r->gap_lo, r->hi, r->gap_z);
     if (!isnan(r->shift_hi))
         page_note(p, "", "the same units bring a layer nearer by %s at z = %s",
                   number_of(fabs(r->shift_hi), DIGITS).text, number_of(r->hi, DIGITS_Z).text);
@@ -177,22 +191,22 @@ static unsigned conditions(const biasing *b) {
 }
 
 static const column row_columns[] = {
-    {FIELD(row, effect.z, "z", "scene"), SHOWN("z", 12, DIGITS_Z)},
-    {FIELD(row, effect.r.least, "r", ""), SHOWN("r", 13, DIGITS)},
+    {FIELD(row, effect.z, "z", "scene"), SHOWN("z", 11, DIGITS_Z)},
+    {FIELD(row, effect.r.least, "r", ""), SHOWN("r", 12, DIGITS)},
     {FIELD(row, effect.r.most, "r_most", "")},
     {FIELD(row, effect.m, "slope", "per pixel")},
-    {TEXT_FIELD(row, effect.m, "slope", 13, DIGITS), .when = WITH_SLOPE},
+    {TEXT_FIELD(row, effect.m, "slope", 12, DIGITS), .when = WITH_SLOPE, .spare = 2},
     {FIELD(row, one_unit, "one_unit", "scene"), SHOWN("one unit", 13, DIGITS), .when = INVERSE},
     {FIELD(row, apart, "units_apart", ""), SHOWN("told apart", 17, DIGITS_Z), .when = INVERSE},
     {FIELD(row, gap, "units_gap", ""), .only = AS_CSV, .when = INVERSE},
     {FIELD(row, gap, "units_gap", ""), SHOWN("the gap", 17, DIGITS_Z), .only = AS_JSON | AS_TEXT,
      .when = INVERSE | WITH_GAP},
-    {FIELD(row, effect.offset, "bias", ""), SHOWN("bias", 13, DIGITS), .when = EFFECT},
+    {FIELD(row, effect.offset, "bias", ""), SHOWN("bias", 12, DIGITS), .when = EFFECT, .spare = 1},
     {FIELD(row, effect.depth, "depth", ""), .when = EFFECT},
     {FIELD(row, effect.code, "code", ""), SHOWN("code", 11, 0), .when = EFFECT},
     {FIELD(row, effect.moved, "code_moved", ""), SHOWN("moved to", 11, 0), .when = EFFECT},
-    {FIELD(row, effect.to, "z_moved", "scene"), SHOWN("stands for", 18, DIGITS_Z + 1), .when = EFFECT},
-    {FIELD(row, effect.shift, "shift", "scene"), SHOWN("shift", 13, DIGITS), .when = EFFECT},
+    {FIELD(row, effect.to, "z_moved", "scene"), SHOWN("decoded depth", 18, DIGITS_Z + 1), .when = EFFECT},
+    {FIELD(row, effect.shift, "shift", "scene"), SHOWN("shift", 12, DIGITS), .when = EFFECT},
     {FIELD(row, effect.limited, "limited", ""), .only = AS_JSON, .when = EFFECT},
     {TEXT_FIELD(row, held, "", -1, 0), .when = VERBOSE},
     {.kind = COLUMN_END}};
@@ -201,9 +215,13 @@ static const column needs_columns[] = {{FIELD(needs, lo, "lo", "scene")},
                                        {FIELD(needs, hi, "hi", "scene")},
                                        {FIELD(needs, apart, "units_apart", "")},
                                        {FIELD(needs, apart_z, "units_apart_z", "scene")},
+                                       {FIELD(needs, apart_from, "apart_from", "scene")},
+                                       {FIELD(needs, apart_to, "apart_to", "scene")},
                                        {FIELD(needs, gap_lo, "gap_lo", "scene"), .when = WITH_GAP},
                                        {FIELD(needs, gap, "units_gap", ""), .when = WITH_GAP},
                                        {FIELD(needs, gap_z, "units_gap_z", "scene"), .when = WITH_GAP},
+                                       {FIELD(needs, gap_from, "gap_from", "scene"), .when = WITH_GAP},
+                                       {FIELD(needs, gap_to, "gap_to", "scene"), .when = WITH_GAP},
                                        {FIELD(needs, shift_lo, "shift_lo", "scene")},
                                        {FIELD(needs, shift_hi, "shift_hi", "scene")},
                                        {.kind = COLUMN_END}};
@@ -251,14 +269,16 @@ static void drop_fp16(options *o) {
 int cmd_bias(const options *given) {
     options o = *given;
     const bias_api *api = o.api;
+    if (!option_given(&o, OPTION_FORMAT) && o.preset == NULL)
+        drop_fp16(&o);
+    if (api == NULL)
+        return bias_all_write(&o);
     biasing b = {.state = {api, o.units, o.factor, o.clamp},
                  .goal = {.api = api, .slope = o.slope, .gap = o.gap},
                  .inverse = !option_given(&o, OPTION_UNITS),
                  .api = api->name};
     b.units = b.inverse ? (double)NAN : o.units;
     b.gap = b.inverse ? o.gap : (double)NAN;
-    if (!option_given(&o, OPTION_FORMAT) && o.preset == NULL)
-        drop_fp16(&o);
     int status = check_states(&o, api);
     if (status != EXIT_FINE)
         return status;

@@ -47,12 +47,14 @@ static void say_item(page *p, void *of) {
 
 static void say_other_formats(page *p, void *of) {
     (void)of;
-    output_text(p->out,
-                "\nunormN, floatE.M, floatE.MbB\n"
-                "              formats for teaching: N = 1..32 bits; E = 2..8 exponent bits, M = 1..23 mantissa\n"
-                "              bits, bias B = 1..2^E-1\n"
-                "\ndepth24plus, depth24plus-stencil8\n"
-                "              unorm24 or fp32, as the implementation likes: stands for both\n");
+    output_char(p->out, '\n');
+    page_title(p, "unormN, floatE.M, floatE.MbB");
+    page_note(p, "",
+              "formats for teaching: N = 1..32 bits; E = 2..8 exponent bits, M = 1..23 mantissa bits, bias B = "
+              "1..2^E-1");
+    output_char(p->out, '\n');
+    page_title(p, "depth24plus, depth24plus-stencil8");
+    page_note(p, "", "unorm24 or fp32, as the implementation likes: stands for both");
 }
 
 enum { WITH_CHOICES = 1 };

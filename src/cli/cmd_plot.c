@@ -25,8 +25,8 @@ typedef struct plotting {
     const figure_row *row;
     figure_request request;
     setups all;
-    const char *names[CHART_SERIES];
-    char text[CHART_SERIES][SETUP_LABEL_SIZE];
+    const char *names[CHART_SETUPS];
+    char text[CHART_SETUPS][SETUP_LABEL_SIZE];
     methods_asked asked;
     char where[256]; /* of what is timed */
     need_file file;

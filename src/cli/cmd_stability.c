@@ -61,20 +61,20 @@ static const column step_columns[] = {{FIELD(line, ratio, "ratio", "")},
 
 /* In CSV a line is a step. */
 static const column line_columns[] = {
-    {FIELD(line, name, "name", ""), SHOWN("method", -20, 0), .only = AS_JSON | AS_TEXT},
+    {FIELD(line, name, "name", ""), SHOWN("method", -18, 0), .only = AS_JSON | AS_TEXT},
     {FIELD(line, name, "method", ""), .only = AS_CSV},
-    {FIELD(line, of_case, "case", ""), SHOWN("case", -14, 0)},
+    {FIELD(line, of_case, "case", ""), SHOWN("case", -13, 0)},
     {FIELD(line, of.claim, "claim", ""), SHOWN("claim", 9, 3), .only = AS_JSON | AS_TEXT},
     {FIELD(line, claimed, "claim", ""), .only = AS_CSV},
     {FIELD(line, claim_to, "claim_to", ""), SHOWN("up to", 9, 3)},
-    {FIELD(line, of.inside, "worst", ""), SHOWN("worst", 10, 3), .only = AS_JSON | AS_TEXT},
+    {FIELD(line, of.inside, "worst", ""), SHOWN("worst", 9, 3), .only = AS_JSON | AS_TEXT},
     {FIELD(line, of.inside_near, "worst_near", ""), .only = AS_JSON},
     {FIELD(line, of.inside_far, "worst_far", ""), .only = AS_JSON},
     {FIELD(line, of.inside_at, "worst_at", ""), .only = AS_JSON},
     {FIELD(line, breaks, "breaks", ""), SHOWN("breaks at", 10, 3), .only = AS_JSON | AS_TEXT},
-    {FIELD(line, of.infinite, "infinite", ""), SHOWN("far inf", 10, 3), .only = AS_JSON | AS_TEXT},
-    {FIELD(line, of.ortho, "ortho", ""), SHOWN("ortho", 10, 3), .only = AS_JSON | AS_TEXT},
-    {FIELD(line, verdict, "verdict", ""), SHOWN("verdict", -1, 0)},
+    {FIELD(line, of.infinite, "infinite", ""), SHOWN("far inf", 10, 3), .only = AS_JSON | AS_TEXT, .spare = 2},
+    {FIELD(line, of.ortho, "ortho", ""), SHOWN("ortho", 10, 3), .only = AS_JSON | AS_TEXT, .spare = 1},
+    {FIELD(line, verdict, "verdict", ""), SHOWN("verdict", -8, 0)},
     {LIST("walk", step_columns, next_step)},
     {.kind = COLUMN_END}};
 

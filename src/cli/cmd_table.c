@@ -8,6 +8,7 @@
 
 #include "cli/choice.h"
 #include "cli/compare.h"
+#include "cli/lookup.h"
 #include "cli/reach.h"
 #include "cli/walk.h"
 #include "core/append.h"
@@ -75,16 +76,8 @@ static bool has_cut_cells(const table *t, const dp_setup *setup) {
     return false;
 }
 
-/* The digits that it takes to see that a value near `at` is off by `step`, with two digits of the step. */
-static int digits_within(double at, double step, int least, int most) {
-    if (!isfinite(at) || !isfinite(step) || at == 0.0 || step == 0.0)
-        return least;
-    double digits = floor(log10(fabs(at))) - floor(log10(fabs(step))) + 2.0;
-    return (int)fmin(fmax(digits, least), most);
-}
-
 static int digits_to_see(double at, double step) {
-    return digits_within(at, step, DIGITS_USUAL, DIGITS_MOST);
+    return number_digits_within(at, step, DIGITS_USUAL, DIGITS_MOST);
 }
 
 /* ---- What is reported -------------------------------------------------------------------------------------------- */
@@ -97,7 +90,7 @@ static double separation_in(const dp_setup *setup, double z) {
 static void set_digits(row *r) {
     const dp_sample *s = &r->sample;
     /* A depth just short of 1 should not look like the far plane's. */
-    r->depth_digits = digits_within(s->depth, 1.0 - s->depth, DIGITS_DEPTH, DIGITS_DEPTH_MOST);
+    r->depth_digits = number_digits_within(s->depth, 1.0 - s->depth, DIGITS_DEPTH, DIGITS_DEPTH_MOST);
     r->stored_digits = digits_to_see(s->z, s->error);
     r->cell_digits = digits_to_see(s->lo, s->interval);
 }
@@ -205,9 +198,9 @@ static void say_worst(page *p, const dp_worst *w) {
 
 static void say_drawn(page *p, const clipping *c) {
     if (isnan(c->znear) && c->loses)
-        page_note(p, "drawn", "nothing: clipping loses all depths");
+        page_note(p, "clip range", "empty: clipping loses all depths");
     else if (!isnan(c->znear))
-        page_note(p, "drawn", "from %s to %s%s", number_of(c->znear, DIGITS_USUAL).text,
+        page_note(p, "clip range", "effectively %s to %s%s", number_of(c->znear, DIGITS_USUAL).text,
                   number_of(c->zfar, DIGITS_USUAL).text, c->loses ? ": clipping loses the rest" : "");
 }
 
@@ -312,6 +305,8 @@ static unsigned conditions(const table *t) {
 }
 
 int cmd_table(const options *o) {
+    if (lookup_wanted(o))
+        return lookup_write(o);
     table t = {0};
     int status = walk_start(&t.walk, o);
     if (status == EXIT_FINE)

@@ -13,6 +13,8 @@ static int check_alone(const options *o) {
         return option_error(OPTION_RADIAL, "needs --eye");
     if (option_given(o, OPTION_AT))
         return option_error(OPTION_AT, "is for the table of --effect without an image");
+    if (option_given(o, OPTION_PIXEL) && texture_product_wanted(o))
+        return option_error(OPTION_PIXEL, "tells all of a pixel, and makes no image or figure");
     for (size_t i = 0; i < sizeof drawn / sizeof drawn[0]; i++)
         if (option_given(o, drawn[i]) && o->figure == NULL)
             return option_error(drawn[i], "needs --figure");
@@ -25,7 +27,7 @@ static int check_table(const options *o) {
                                        OPTION_ORIGIN,    OPTION_SIZE,        OPTION_SKY,      OPTION_METRIC,
                                        OPTION_EYE,       OPTION_RADIAL,      OPTION_POSITION, OPTION_NORMAL,
                                        OPTION_ERROR_MAP, OPTION_FIGURE,      OPTION_THEME,    OPTION_WIDTH,
-                                       OPTION_HEIGHT,    OPTION_TITLE,       OPTION_THREADS};
+                                       OPTION_HEIGHT,    OPTION_TITLE,       OPTION_THREADS,  OPTION_PIXEL};
     for (size_t i = 0; i < sizeof pixels / sizeof pixels[0]; i++)
         if (option_given(o, pixels[i]))
             return option_error(pixels[i], "has no meaning with --effect alone, but with FILE or --scene");
@@ -59,6 +61,8 @@ int cmd_texture(const options *o) {
         status = texture_source_open(o, &source);
     if (status == EXIT_FINE && made)
         status = make_product(o, &source, &product);
+    else if (status == EXIT_FINE && option_given(o, OPTION_PIXEL))
+        status = texture_pixel_write(o, &source);
     else if (status == EXIT_FINE && o->scene != NULL && o->output != NULL && o->form == FORM_TEXT)
         status = texture_depth_write(o, &source);
     else if (status == EXIT_FINE)

@@ -61,7 +61,7 @@ static int better(const void *a, const void *b) {
 /* At most five of the depths asked about, else powers of ten: those that a reader looks for. */
 static void choose_depths(comparison *c) {
     const options *o = c->walk->o;
-    const double far = fmin(o->zfar, 1e6 * o->znear);
+    const double far = isinf(o->zfar) ? 1e6 * o->znear : o->zfar;
     if (option_given(o, OPTION_AT)) {
         for (c->depth_count = 0; c->depth_count < c->walk->at.count; c->depth_count++)
             c->depths[c->depth_count] = depths_get(&c->walk->at, c->depth_count);
@@ -152,7 +152,11 @@ static void say_head(page *p, void *item) {
     const options *o = c->walk->o;
     page_title(p, "near %s, far %s, %s", number_full(o->znear).text, number_full(o->zfar).text,
                o->ortho ? "orthographic" : "perspective");
-    output_format(p->out, "%s%-20s%*s%*s%s\n", p->soft, "", 7 * (int)c->depth_count, "guaranteed separation at z",
+    const int width = 7 * (int)c->depth_count;
+    output_format(p->out, "%s%-20s%*s%*s%s\n", p->soft, "", width,
+                  width > 27   ? "guaranteed separation at z"
+                  : width > 20 ? "guaranteed at z"
+                               : "at z",
                   7 * LIMITS, "told apart up to z", p->plain);
 }
 

@@ -78,7 +78,7 @@ const char *option_takers(const option_row *row, char out[OPTION_TEXT_SIZE]) {
 }
 
 const char *option_limits(const option_row *row, char out[OPTION_TEXT_SIZE]) {
-    const bool whole = row->parse == parse_whole;
+    const bool whole = row->parse == parse_whole || row->parse == parse_codes;
     snprintf(out, OPTION_TEXT_SIZE, "%s to %s%s%s", limit_text(row->least, whole).text,
              limit_text(row->most, whole).text, row->unit != NULL ? " " : "", row->unit != NULL ? row->unit : "");
     return out;
@@ -148,8 +148,8 @@ int parse_far(options *o, const option_row *row, const char *value) {
 }
 
 /* NAME[,NAME...]: one after the other to `add`. */
-static int parse_list(options *o, const option_row *row, const char *value,
-                      int (*add)(options *, const option_row *, const char *)) {
+static int parse_names(options *o, const option_row *row, const char *value,
+                       int (*add)(options *, const option_row *, const char *)) {
     char name[64];
     const size_t length = strlen(value);
     if (length == 0 || *value == ',' || value[length - 1] == ',' || strstr(value, ",,") != NULL)
@@ -187,7 +187,7 @@ static int add_format(options *o, const option_row *row, const char *name) {
 
 int parse_formats(options *o, const option_row *row, const char *value) {
     o->format_count = 0;
-    return parse_list(o, row, value, add_format);
+    return parse_names(o, row, value, add_format);
 }
 
 static int add_mapping(options *o, const option_row *row, const char *name) {
@@ -205,7 +205,7 @@ static int add_mapping(options *o, const option_row *row, const char *name) {
 
 int parse_mappings(options *o, const option_row *row, const char *value) {
     o->mapping_count = 0;
-    return parse_list(o, row, value, add_mapping);
+    return parse_names(o, row, value, add_mapping);
 }
 
 /* A share, or a percentage with its sign. */
@@ -307,25 +307,30 @@ static int parse_spaced(const option_row *row, const char *text, depths *out) {
     return EXIT_FINE;
 }
 
-static int parse_listed(const option_row *row, const char *text, depths *out) {
+/* Numbers separated by commas, what is `said` of them; from least to most where the row has limits. */
+static int parse_listed(const option_row *row, const char *text, const char *said, depths *out) {
     depths d = {.kind = DEPTHS_LIST, .lo = (double)INFINITY, .hi = -(double)INFINITY};
+    const bool paired = row->parse == parse_pixels, whole = paired || row->parse == parse_codes;
+    const bool limited = row->least < row->most;
     size_t count = 1;
     for (const char *c = text; *c != '\0'; c++)
-        count += *c == ',';
+        count += *c == ',' || (paired && *c == ';');
     if (count > DEPTHS_MAX)
         return refuse(row, "must be at most %d depths, got %zu", DEPTHS_MAX, count);
     d.list = malloc(count * sizeof *d.list);
     if (d.list == NULL)
         return refuse(row, "no memory for %zu depths", count);
     for (const char *item = text; d.count < count; d.count++) {
-        size_t length = strcspn(item, ",");
+        const size_t length = strcspn(item, paired ? ",;" : ",");
+        const bool ends = !paired || (d.count % 2 == 0 ? item[length] == ',' : item[length] != ',');
         double z;
-        if (!number_parse_part(item, length, NUMBER_FINITE, &z)) {
+        if (!number_parse_part(item, length, NUMBER_FINITE, &z) || !ends ||
+            (limited && !(z >= row->least && z <= row->most)) || (whole && z != floor(z))) {
             free(d.list);
-            return refuse(row, "must be Z[,Z...] or LO:HI:log|lin:COUNT, got '%.*s'%s%s%s", (int)length, item,
-                          count > 1 ? " in '" : "", count > 1 ? text : "", count > 1 ? "'" : "");
+            return refuse(row, "must be %s, got '%.*s'%s%s%s", said, (int)length, item, count > 1 ? " in '" : "",
+                          count > 1 ? text : "", count > 1 ? "'" : "");
         }
-        d.list[d.count] = z + 0.0; /* -0 is 0 */
+        d.list[d.count] = z + 0.0; /* no -0 */
         d.lo = fmin(d.lo, z);
         d.hi = fmax(d.hi, z);
         item += length + 1;
@@ -334,10 +339,29 @@ static int parse_listed(const option_row *row, const char *text, depths *out) {
     return EXIT_FINE;
 }
 
+int parse_list(options *o, const option_row *row, const char *value) {
+    char limits[OPTION_TEXT_SIZE], said[OPTION_TEXT_SIZE + 64];
+    depths *out = field(o, row);
+    snprintf(said, sizeof said, "%s, %snumbers from %s", row->argument, row->parse != parse_list ? "whole " : "",
+             option_limits(row, limits));
+    free(out->list); /* of an earlier one: the last one counts */
+    *out = (depths){.kind = DEPTHS_LIST};
+    return parse_listed(row, value, said, out);
+}
+
+int parse_codes(options *o, const option_row *row, const char *value) {
+    return parse_list(o, row, value);
+}
+
+int parse_pixels(options *o, const option_row *row, const char *value) {
+    return parse_list(o, row, value);
+}
+
 int parse_at(options *o, const option_row *row, const char *value) {
     free(o->at.list); /* of an earlier --at: the last one counts */
     o->at = (depths){.kind = DEPTHS_LIST};
-    return strchr(value, ':') != NULL ? parse_spaced(row, value, &o->at) : parse_listed(row, value, &o->at);
+    return strchr(value, ':') != NULL ? parse_spaced(row, value, &o->at)
+                                      : parse_listed(row, value, "Z[,Z...] or LO:HI:log|lin:COUNT", &o->at);
 }
 
 int parse_range(options *o, const option_row *row, const char *value) {

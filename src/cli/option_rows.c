@@ -16,7 +16,7 @@ static const name_list roundings = {.get = list_rounding};
 static const name_list models = {.get = list_model};
 static const name_list ariths = {.get = list_arith};
 static const name_list compositions = {.get = list_composition};
-static const name_list apis = {.get = list_api};
+static const name_list apis = {.words = (const char *const[]){"all", NULL}, .get = list_api};
 static const name_list scenes = {.get = list_scene};
 static const name_list positions = {.words = (const char *const[]){"exact", NULL}, .get = list_position};
 static const name_list normals = {.get = list_normal};
@@ -54,6 +54,7 @@ enum {
 #define LIMITS(lo, hi, of) .least = (lo), .most = (hi), .unit = (of)
 #define NUMBER(field, ...) .parse = parse_number, FIELD(double, field), LIMITS(__VA_ARGS__)
 #define WHOLE(field, ...)  .parse = parse_whole, SIZED(field), LIMITS(__VA_ARGS__)
+#define SEVERAL(kind, field, lo, hi) .parse = (kind), FIELD(depths, field), LIMITS(lo, hi, NULL)
 #define WORD(field, among) .parse = parse_word, SIZED(field), .names = &(among)
 #define ROW(field, among)  .parse = parse_row, SIZED(field), .names = &(among)
 
@@ -99,6 +100,12 @@ const option_row option_rows[OPTION_COUNT] = {
     [OPTION_RANGE] = {"range", 0, "LO:HI", MODELLED | VERB_ZFIGHT | VERB_BIAS | VERB_SOLVE,
         "the depths that worst cases are taken over", parse_range, .without = "near to far",
         .except = {VERB_SOLVE, "none"}},
+    [OPTION_DEPTH] = {"depth", 0, "D[,D...]", VERB_TABLE,
+        "the other way round: the eye depths of these window depths, each with the cell that it is stored in",
+        SEVERAL(parse_list, looked_up, 0, 1)},
+    [OPTION_CODE] = {"code", 0, "N[,N...]", VERB_TABLE,
+        "the same for stored codes, decimal or 0x...: those of a float are its bits",
+        SEVERAL(parse_codes, looked_up, 0, 4294967295)},
     [OPTION_FOR] = {"for", 0, NULL, VERB_SOLVE,
         "what to solve for; distance is the depth up to which --separation holds", WORD(target, targets),
         .without = "the first of near, far, format and mapping that is not given", .group = "What is wanted"},
@@ -120,7 +127,8 @@ const option_row option_rows[OPTION_COUNT] = {
     [OPTION_LINEARIZE] = {"linearize", 0, NULL, BUDGETED,
         "count reading the eye depth back in a binary32 shader", FLAG(terms.linearize)},
     [OPTION_API] = {"api", 0, "NAME", VERB_BIAS,
-        "whose rule: @", ROW(api, apis), .standard = "d3d11", .group = "The bias"},
+        "whose rule: @; all writes the bias that is needed as each has it", ROW(api, apis), .standard = "d3d11",
+        .group = "The bias"},
     [OPTION_UNITS] = {"units", 0, "U", VERB_BIAS,
         "constant bias in units of r, a whole number for d3d11 and webgpu; in window depth for d3d9 and vulkan-float",
         NUMBER(units, -1e12, 1e12, NULL),
@@ -169,6 +177,9 @@ const option_row option_rows[OPTION_COUNT] = {
     [OPTION_METRIC] = {"metric", 0, "SCALE", VERB_TEXTURE,
         "the samples are eye depths in units of SCALE, 0.001 for millimetres; 0, below 0, NaN and infinity are holes",
         NUMBER(metric, METRIC_SCALE_MIN, METRIC_SCALE_MAX, "scene units")},
+    [OPTION_PIXEL] = {"pixel", 0, "X,Y[;X,Y...]", VERB_TEXTURE,
+        "all about single pixels: code, eye depth and which depths it may be, neighbours, position, normal; 0,0 is the "
+        "left of the top row", SEVERAL(parse_pixels, pixels, 0, TEXTURE_SIDE_MAX - 1)},
     [OPTION_EYE] = {"eye", 0, NULL, VERB_TEXTURE,
         "product: eye depth", FLAG(eye)},
     [OPTION_RADIAL] = {"radial", 0, NULL, VERB_TEXTURE,

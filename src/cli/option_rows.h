@@ -60,6 +60,9 @@ option_parser parse_length; /**< double, positive: scene units */
 option_parser parse_whole;  /**< unsigned or 64 bits wide, from least to most */
 option_parser parse_word;   /**< the same: the index of one of `names` */
 option_parser parse_row;    /**< a pointer to the row of one of `names` */
+option_parser parse_list;   /**< depths: numbers from least to most, separated by commas */
+option_parser parse_codes;  /**< the same, whole ones */
+option_parser parse_pixels; /**< the same, pairs of them with a semicolon in between */
 
 /* ---- Languages of their own -------------------------------------------------------------------------------------- */
 

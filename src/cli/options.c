@@ -37,7 +37,9 @@ static void set_defaults(options *o) {
 
 void options_release(options *o) {
     free(o->at.list);
-    o->at.list = NULL;
+    free(o->looked_up.list);
+    free(o->pixels.list);
+    o->at.list = o->looked_up.list = o->pixels.list = NULL;
 }
 
 /* getopt's names for an option: its letter, or a number that no letter has. */

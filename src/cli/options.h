@@ -41,6 +41,8 @@ typedef enum option_id {
     OPTION_TOLERANCE,
     OPTION_AT,
     OPTION_RANGE,
+    OPTION_DEPTH,
+    OPTION_CODE,
     OPTION_FOR,
     OPTION_SEPARATION,
     OPTION_ERROR,
@@ -67,6 +69,7 @@ typedef enum option_id {
     OPTION_PARAMETER,
     OPTION_SKY,
     OPTION_METRIC,
+    OPTION_PIXEL,
     OPTION_EYE,
     OPTION_RADIAL,
     OPTION_POSITION,
@@ -136,6 +139,7 @@ typedef struct options {
 
     depths at;                 /**< what --at said; count is 0 when it was not given. See depths_resolve() */
     double range_lo, range_hi; /**< what --range said, lo < hi. See range_resolve() */
+    depths looked_up;          /**< window depths of --depth in [0, 1], or codes of --code; count is 0 without them */
 
     solve_target target;                    /**< --for */
     double wanted_separation, wanted_error; /**< positive, scene units; 0 when not given */
@@ -143,7 +147,7 @@ typedef struct options {
     dp_budget_terms terms; /**< --interpolation, --world, --composition, --linearize; zero when not given */
 
     const preset *preset; /**< --preset; null when not given. What the user did not give is already filled in */
-    const bias_api *api;  /**< --api */
+    const bias_api *api;  /**< --api; null for all */
     double units, factor; /**< of a bias */
     double clamp;         /**< of a bias, window depth; 0 is none */
     double slope;         /**< scene units per pixel, not negative */
@@ -159,6 +163,7 @@ typedef struct options {
     size_t parameter_count;
     double sky;    /**< window depth */
     double metric; /**< scene units of 1 in a sample of metric depth; 0 when not given */
+    depths pixels; /**< column and row of each in turn; count is 0 when not given */
     bool eye, radial, error_map;
     const position_row *position; /**< null for exact as well */
     const normal_row *normal;

@@ -186,16 +186,17 @@ void solve_report_write(const solve_report *r, output *out) {
                             {FIELD(candidate, found.price.caution, "caution", "")},
                             {FIELD(candidate, found.price.effort, "effort", "")},
                             {.kind = COLUMN_END}};
-    const column beside[] = {{TEXT_FIELD(candidate, setup.format, "format", -10, 0)},
-                             {TEXT_FIELD(candidate, setup.mapping, "mapping", -11, 0)},
-                             {TEXT_FIELD(candidate, setup.model, "model", -6, 0)},
-                             {TEXT_FIELD(candidate, plane_text, heads[r->target], 13, 0), .when = OF_OTHERS},
-                             {TEXT_FIELD(candidate, ideal_text, "lattice", 13, 0), .when = OF_OTHERS},
-                             {TEXT_FIELD(candidate, found.reached.value, s.measure, 13, SOLVE_DIGITS), .upward = true},
-                             {TEXT_FIELD(candidate, ideal_text, "lattice", 13, 0), .when = OF_SEPARATION},
-                             {TEXT_FIELD(candidate, found.price.bytes, "bytes", 7, 0), .when = OF_OTHERS},
-                             {TEXT_FIELD(candidate, found.price.available, "to be had", -1, 0), .when = OF_OTHERS},
-                             {.kind = COLUMN_END}};
+    const column beside[] = {
+        {TEXT_FIELD(candidate, setup.format, "format", -10, 0)},
+        {TEXT_FIELD(candidate, setup.mapping, "mapping", -11, 0)},
+        {TEXT_FIELD(candidate, setup.model, "model", -6, 0)},
+        {TEXT_FIELD(candidate, plane_text, heads[r->target], 13, 0), .when = OF_OTHERS},
+        {TEXT_FIELD(candidate, ideal_text, "lattice", 13, 0), .when = OF_OTHERS},
+        {TEXT_FIELD(candidate, found.reached.value, s.measure, 13, SOLVE_DIGITS), .upward = true},
+        {TEXT_FIELD(candidate, ideal_text, "lattice", 13, 0), .when = OF_SEPARATION},
+        {TEXT_FIELD(candidate, found.price.bytes, "bytes", 7, 0), .when = OF_OTHERS},
+        {TEXT_FIELD(candidate, found.price.available, "availability", -42, 0), .when = OF_OTHERS, .spare = 1},
+        {.kind = COLUMN_END}};
     const column columns[] = {
         {FIELD(solving, target, "for", ""), .only = AS_JSON},
         {FIELD(solving, measure, "measure", ""), .only = AS_JSON},

@@ -101,6 +101,9 @@ int texture_figure_draw(const options *o, const texture_source *s, const texture
 /** The statistics of a depth image: text, JSON, CSV. @return an exit status */
 int texture_report_write(const options *o, const texture_source *source);
 
+/** What --pixel asks about, likewise. */
+int texture_pixel_write(const options *o, const texture_source *source);
+
 /** The effect that --effect names. @return EXIT_FINE, or EXIT_USAGE after one line on stderr */
 int texture_effect_resolve(const options *o, const effect_row **row, double parameters[TEXTURE_PARAMETERS]);
 

@@ -8,6 +8,7 @@
 
 #include "cli/texture.h"
 #include "cli/walk.h"
+#include "core/append.h"
 #include "report/number.h"
 
 enum { DIGITS = 6, DIGITS_Z = 9 };
@@ -82,12 +83,13 @@ static void *next_parameter(void *of, size_t i) {
 static void say_effect(page *p, void *item) {
     table *t = item;
     walk_title(p, item);
-    output_text(p->out, t->name);
+    char parameters[512] = "";
     for (size_t i = 0; next_parameter(t, i) != NULL; i++)
-        output_format(p->out, ", %s %s", t->parameter.name, number_of(t->parameter.value, DIGITS_Z).text);
+        append(parameters, sizeof parameters, ", %s %s", t->parameter.name,
+               number_of(t->parameter.value, DIGITS_Z).text);
     if (t->effect->reference != NULL)
-        output_format(p->out, "; %s is where it is worst", t->effect->reference);
-    output_char(p->out, '\n');
+        append(parameters, sizeof parameters, "; %s is where it is worst", t->effect->reference);
+    page_text(p, "%s%s", t->name, parameters);
 }
 
 static void say_usable(page *p, void *item) {
@@ -115,10 +117,10 @@ static int write_table(table *t, int status) {
     snprintf(usable, sizeof usable, "%s %s", t->wanted_name, t->direction);
     const column rows[] = {{FIELD(row, sample.z, "z", "scene"), SHOWN("z", 12, DIGITS_Z)},
                            {FIELD(row, sample.code, "code", ""), SHOWN("code", 11, 0)},
-                           {FIELD(row, sample.stored, "z_stored", "scene"), SHOWN("stored", 16, DIGITS_Z)},
-                           {FIELD(row, sample.interval, "interval", "scene"), SHOWN("interval", 14, DIGITS)},
-                           {FIELD(row, levels, "levels", "1/255"), SHOWN("levels", 13, DIGITS)},
-                           {FIELD(row, usable, "usable", ""), SHOWN(usable, 21, DIGITS), .only = AS_JSON | AS_TEXT},
+                           {FIELD(row, sample.stored, "z_stored", "scene"), SHOWN("stored", 15, DIGITS_Z)},
+                           {FIELD(row, sample.interval, "interval", "scene"), SHOWN("interval", 13, DIGITS)},
+                           {FIELD(row, levels, "levels", "1/255"), SHOWN("levels", 12, DIGITS)},
+                           {FIELD(row, usable, "usable", ""), SHOWN(usable, 17, DIGITS), .only = AS_JSON | AS_TEXT},
                            {FIELD(row, usable, usable, t->wanted->unit), .only = AS_CSV},
                            {.kind = COLUMN_END}};
     const column setup_report[] = {{PART(table, walk.fields, NULL, setup_columns)},

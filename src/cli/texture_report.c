@@ -6,6 +6,7 @@
 #include "cli/progress.h"
 #include "cli/setups.h"
 #include "cli/texture.h"
+#include "core/append.h"
 #include "report/number.h"
 #include "report/report.h"
 #include "texture/survey.h"
@@ -101,8 +102,8 @@ static void say_origins(const statistics *r, page *p) {
 
 static void say_metric(const statistics *r, page *p) {
     const metric *m = &r->source.metric;
-    output_format(p->out, "metric depth, %s scene units a unit, up to %s\n", number_of(r->o->metric, 6).text,
-                  number_of(m->zfar, 6).text);
+    page_text(p, "metric depth, %s scene units per unit, up to %s", number_of(r->o->metric, 6).text,
+              number_of(m->zfar, 6).text);
     if (m->step > 0)
         page_note(p, "samples", "steps of %s scene units, rounded or cut off", number_of(m->step, 6).text);
     else
@@ -111,21 +112,20 @@ static void say_metric(const statistics *r, page *p) {
 
 static void say_source(statistics *r, page *p) {
     const texture_source *s = &r->source;
-    char label[SETUP_LABEL_SIZE];
-    if (is_image(r))
-        output_format(p->out, "%s: %u x %u pixels, %s of %s, %u channel%s\n", s->path, s->camera.width,
-                      s->camera.height, image_file_name(s->picture.file), r->named.type, s->channels,
-                      s->channels == 1 ? "" : "s, the first is read");
-    else
-        output_format(p->out, "scene %s: %u x %u pixels", r->named.scene, s->camera.width, s->camera.height);
+    char label[SETUP_LABEL_SIZE], parameters[512] = "";
     for (size_t i = 0; next_parameter(r, i) != NULL; i++)
-        output_format(p->out, "%s %s %s", i > 0 ? "," : ";", r->parameter, number_of(r->parameter_value, 6).text);
-    if (!is_image(r))
-        output_char(p->out, '\n');
+        append(parameters, sizeof parameters, "%s %s %s", i > 0 ? "," : ";", r->parameter,
+               number_of(r->parameter_value, 6).text);
+    if (is_image(r))
+        page_text(p, "%s: %u x %u pixels, %s of %s, %u channel%s", s->path, s->camera.width, s->camera.height,
+                  image_file_name(s->picture.file), r->named.type, s->channels,
+                  s->channels == 1 ? "" : "s, the first is read");
+    else
+        page_text(p, "scene %s: %u x %u pixels%s", r->named.scene, s->camera.width, s->camera.height, parameters);
     if (r->o->metric > 0) {
         say_metric(r, p);
     } else {
-        output_format(p->out, "%s\n", setup_label(&s->setup, true, label));
+        page_text(p, "%s", setup_label(&s->setup, true, label));
         say_origins(r, p);
     }
 }
@@ -150,8 +150,8 @@ static void say_head(page *p, void *item) {
     if (v->band_count == 0)
         page_note(p, "depths", "none");
     else
-        page_note(p, "depths", "%s to %s, %llu different codes", number_of(v->lo, 8).text, number_of(v->hi, 8).text,
-                  (unsigned long long)v->codes);
+        page_note(p, "depths", "%s to %s, %llu distinct code%s", number_of(v->lo, 8).text, number_of(v->hi, 8).text,
+                  (unsigned long long)v->codes, v->codes == 1 ? "" : "s");
 }
 
 static void say_pairs(const survey_pairs *s, page *p) {
@@ -263,18 +263,18 @@ static const column found_columns[] = {{FIELD(statistics, named.format_from, "fo
 
 /* CSV calls the ends of a band otherwise. */
 static const column band_columns[] = {
-    {FIELD(statistics, band.lo, "lo", "scene"), SHOWN("from", 12, 6), .only = AS_JSON | AS_TEXT},
-    {FIELD(statistics, band.hi, "hi", "scene"), SHOWN("to", 12, 6), .only = AS_JSON | AS_TEXT},
+    {FIELD(statistics, band.lo, "lo", "scene"), SHOWN("from", 8, 6), .only = AS_JSON | AS_TEXT},
+    {FIELD(statistics, band.hi, "hi", "scene"), SHOWN("to", 8, 6), .only = AS_JSON | AS_TEXT},
     {FIELD(statistics, band.lo, "from", "scene"), .only = AS_CSV},
     {FIELD(statistics, band.hi, "to", "scene"), .only = AS_CSV},
-    {FIELD(statistics, band.pixels, "pixels", ""), SHOWN("pixels", 11, 0)},
-    {FIELD(statistics, band.codes, "codes", ""), SHOWN("codes", 10, 0)},
+    {FIELD(statistics, band.pixels, "pixels", ""), SHOWN("pixels", 10, 0)},
+    {FIELD(statistics, band.codes, "codes", ""), SHOWN("codes", 8, 0)},
     {FIELD(statistics, band.available, "available", ""), SHOWN("available", 11, 0)},
-    {FIELD(statistics, band.gap, "gap", "scene"), SHOWN("nearest gap", 13, 6)},
+    {FIELD(statistics, band.gap, "gap", "scene"), SHOWN("nearest gap", 12, 6)},
     {FIELD(statistics, band.gap_z, "gap_z", "scene"), SHOWN("at z", 10, 6)},
     {FIELD(statistics, band.steps, "steps", "")},
-    {TEXT_FIELD(statistics, band_steps, "steps", 12, 17)},
-    {FIELD(statistics, band.interval, "interval", "scene"), SHOWN("interval", 13, 6)},
+    {TEXT_FIELD(statistics, band_steps, "steps", 12, 17), .spare = 1},
+    {FIELD(statistics, band.interval, "interval", "scene"), SHOWN("interval", 11, 6)},
     {.kind = COLUMN_END}};
 
 static const column pair_columns[] = {{FIELD(survey_pairs, pairs, "count", "")},
@@ -285,15 +285,15 @@ static const column pair_columns[] = {{FIELD(survey_pairs, pairs, "count", "")},
                                       {.kind = COLUMN_END}};
 
 static const column error_columns[] = {{FIELD(error_line, name, "name", "")},
-                                       {TEXT_FIELD(error_line, name, "can be off by", -24, 0), .when = OF_IMAGE},
-                                       {TEXT_FIELD(error_line, name, "is off by", -24, 0), .when = OF_SCENE},
+                                       {TEXT_FIELD(error_line, name, "can be off by", -22, 0), .when = OF_IMAGE},
+                                       {TEXT_FIELD(error_line, name, "is off by", -22, 0), .when = OF_SCENE},
                                        {FIELD(error_line, unit, "unit", "")},
                                        {FIELD(error_line, sum.count, "pixels", "")},
                                        {FIELD(error_line, sum.infinite, "unbounded", "")},
                                        {FIELD(error_line, masked, "masked", "")},
-                                       {FIELD(error_line, sum.mean, "mean", ""), SHOWN("mean", 12, 4)},
-                                       {FIELD(error_line, sum.p99, "p99", ""), SHOWN("99 %", 12, 4)},
-                                       {FIELD(error_line, sum.hi, "max", ""), SHOWN("at most", 12, 4)},
+                                       {FIELD(error_line, sum.mean, "mean", ""), SHOWN("mean", 11, 4)},
+                                       {FIELD(error_line, sum.p99, "p99", ""), SHOWN("99 %", 10, 4)},
+                                       {FIELD(error_line, sum.hi, "max", ""), SHOWN("at most", 10, 4)},
                                        {FIELD(error_line, sum.hi_column, "column", "")},
                                        {FIELD(error_line, sum.hi_row, "row", "")},
                                        {TEXT_FIELD(error_line, at, "at pixel", -1, 0)},

@@ -15,6 +15,7 @@ const verb verb_rows[] = {
      "what each depth stores, its error, its interval; the worst case",
      "  depthprec table -n 0.1 -f 1000 -F unorm24 -m d3d,reversed\n"
      "  depthprec table -n 0.1 -f inf -F fp32 -m reversed --at 1,10,100,1000\n"
+     "  depthprec table -F unorm24 -m d3d --depth 0.9987\n"
      "  depthprec table -F d32f --at 1:1000:log:10000 --csv -o depths.csv\n", 0},
     {"plot", VERB_PLOT, "FIGURE [FILE|FAMILY]", 1, 2, &figures,
      "draws a figure: SVG, PDF or PNG by the ending of -o",
@@ -33,10 +34,11 @@ const verb verb_rows[] = {
     {"texture", VERB_TEXTURE, "[FILE]", 0, 1, NULL,
      "a depth image: statistics, eye depth, positions, normals, effects",
      "  depthprec texture depth.png -n 0.3 -f 1000\n"
+     "  depthprec texture depth.png -n 0.3 -f 1000 --pixel 320,180\n"
      "  depthprec texture depth.png -n 0.3 -f 1000 --normal high -o normals.npy\n"
      "  depthprec texture --scene decals --parameter gap=0.01 -F d24 -m reversed\n", 1},
     {"bench", VERB_BENCH, "FAMILY", 1, 1, &families,
-     "methods of a family: ns an element against worst error",
+     "methods of a family: ns per element against worst error",
      "  depthprec bench linearize -n 0.1 -f 1000\n"
      "  depthprec bench interval -F fp32 -m reversed --tolerance 1e-6\n"
      "  depthprec plot pareto linearize -o pareto.svg\n", 0},
@@ -57,6 +59,7 @@ const verb verb_rows[] = {
     {"bias", VERB_BIAS, "", 0, 0, NULL,
      "depth-bias units to scene units, per API; how much bias is enough",
      "  depthprec bias --api gl -F d24 -m gl --units -1 --at 1,10,100\n"
+     "  depthprec bias --api all --gap 0.02 --at 300\n"
      "  depthprec bias --api webgpu -F depth24plus -m d3d --gap 0.01 --range 1:100\n"
      "  depthprec bias --preset bevy --api vulkan --units 4 --factor 1 --slope 0.02\n", 0},
     {"list", VERB_LIST, "WHAT", 0, 1, &topics,

@@ -32,6 +32,15 @@ double axes_y(const axes *a, double value) {
     return a->frame.y + (1 - within(chart_axis_share(a->y, value))) * a->frame.h;
 }
 
+static bool on_axis(const chart_axis *axis, double value) {
+    const double share = chart_axis_share(axis, value);
+    return share > -1e-6 && share < 1 + 1e-6;
+}
+
+bool axes_holds(const axes *a, double x, double y) {
+    return on_axis(a->x, x) && on_axis(a->y, y);
+}
+
 int axes_room_x(const pencil *p, double width) {
     return (int)fmax(2, width / (58 * p->scale));
 }

@@ -28,6 +28,9 @@ pencil pencil_make(canvas *c, const theme *t, double scale);
 double axes_x(const axes *a, double value);
 double axes_y(const axes *a, double value);
 
+/** Does a point lie in the frame, or on it? */
+bool axes_holds(const axes *a, double x, double y);
+
 /** How many labels fit. */
 int axes_room_x(const pencil *p, double width);
 int axes_room_y(const pencil *p, double height);

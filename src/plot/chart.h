@@ -12,7 +12,7 @@
 #include <stdbool.h>
 #include <stddef.h>
 
-enum { CHART_TEXT = 192, CHART_SERIES = 32, CHART_PANELS = 8 };
+enum { CHART_TEXT = 192, CHART_SETUPS = 32, CHART_SERIES = 2 * CHART_SETUPS, CHART_PANELS = 8 };
 
 typedef enum chart_scale {
     CHART_LINEAR = 0,
@@ -39,8 +39,8 @@ typedef struct chart_axis {
 typedef enum chart_kind {
     CHART_LINE = 0, /**< through the points; a point at y = INFINITY ends it with an arrow to the top */
     CHART_DROPS,    /**< each point joined to both axes: the codes of a small format */
-    CHART_POINTS,   /**< markers, with their labels where given */
-    CHART_LABELS,   /**< the labels of points, each where it is free of the points and of the others */
+    CHART_LEVELS,   /**< broad lines below all others, each from one point to the next of equal y */
+    CHART_POINTS,   /**< markers; their labels where given, each where it is free of points, lines and other labels */
     CHART_AREA,     /**< a band as thick as y, standing on the bands before it; its name is written into it */
     CHART_KIND_COUNT
 } chart_kind;
@@ -50,7 +50,7 @@ typedef struct chart_style {
     int colour; /**< -1 is the colour of the text */
     int stroke;
     int marker; /**< -1 for none */
-    bool thin;  /**< a line in the background */
+    bool thin;  /**< a line in the background; points that stand close */
 } chart_style;
 
 typedef struct chart_series {
@@ -64,7 +64,7 @@ typedef struct chart_series {
     bool second;        /**< CHART_LINE: y is measured on the panel's second axis */
     size_t count;
     double *x, *y;
-    char (*labels)[CHART_TEXT]; /**< CHART_POINTS, CHART_LABELS: a label each, or null */
+    char (*labels)[CHART_TEXT]; /**< CHART_POINTS: a label each, or null */
 } chart_series;
 
 /** A grid of values, colour-coded: value[row * columns + column], row 0 at the bottom. NaN is left empty. */

@@ -38,7 +38,7 @@ static void add_codes(const figure_request *request, chart *out, chart_panel *pa
     if (s == NULL)
         return;
     s->style.colour = 1;
-    snprintf(s->name, sizeof s->name, "codes and the depths they give back");
+    snprintf(s->name, sizeof s->name, "codes and their decoded depths");
     s->count = 0;
     for (uint32_t code = first; code <= last; code++) {
         double z = dp_stored(setup, code);

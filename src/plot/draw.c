@@ -88,15 +88,15 @@ static void draw_caption(const pencil *p, const chart_axis *axis, canvas_align a
         canvas_text(p->c, x, y, w.lines[0], &p->text, align);
 }
 
-static bool is_points(const chart_series *s) {
-    return s->kind == CHART_POINTS || s->kind == CHART_LABELS;
-}
-
 /* Points may stand on the frame; they are not cut by it. */
 static void draw_points(const pencil *p, const axes *a, const chart_panel *panel, bool behind) {
     for (size_t s = 0; s < panel->series_count; s++)
-        if (is_points(&panel->series[s]) && panel->series[s].behind == behind)
+        if (panel->series[s].kind == CHART_POINTS && panel->series[s].behind == behind)
             series_draw(p, a, panel, s);
+}
+
+static bool is_ground(chart_kind kind) {
+    return kind == CHART_AREA || kind == CHART_LEVELS;
 }
 
 /* Bands, the topmost first; lines and drops on them, and the names of the bands where these leave room. */
@@ -104,10 +104,10 @@ static void draw_curves(const pencil *p, const axes *a, const axes *right, const
     const chart_series *all = panel->series;
     canvas_clip(p->c, (canvas_rect){a->frame.x, a->frame.y, a->frame.w + 1, a->frame.h + 1});
     for (size_t s = panel->series_count; s-- > 0;)
-        if (all[s].kind == CHART_AREA)
+        if (is_ground(all[s].kind))
             series_draw(p, a, panel, s);
     for (size_t s = 0; s < panel->series_count; s++)
-        if (!is_points(&all[s]) && all[s].kind != CHART_AREA)
+        if (all[s].kind != CHART_POINTS && !is_ground(all[s].kind))
             series_draw(p, all[s].second ? right : a, panel, s);
     for (size_t s = 0; s < panel->series_count; s++)
         if (all[s].kind == CHART_AREA)
@@ -158,6 +158,7 @@ static bool draw_panel(const pencil *p, const chart *c, const grid *g, int index
     if (panel->second.label != NULL)
         axes_draw_right(p, &right, rightmost);
     draw_points(p, &a, panel, false);
+    labels_draw(p, &a, panel);
     return true;
 }
 

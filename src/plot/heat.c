@@ -4,7 +4,7 @@
 #include <math.h>
 #include <stdlib.h>
 
-#include "plot/series.h"
+#include "plot/ticks.h"
 
 enum { BAR_STEPS = 256 };
 
@@ -174,6 +174,7 @@ bool heat_draw(const pencil *p, const axes *a, const chart_panel *panel, const c
     const chart_axis *value = &c->value;
     ticks levels;
     boxes taken = {0};
+    const double half = 8 * p->scale;
     const chart_map *m = &panel->map;
     if (has_holes(m))
         draw_hatch(p, a->frame);
@@ -181,7 +182,7 @@ bool heat_draw(const pencil *p, const axes *a, const chart_panel *panel, const c
         return false;
     if (!c->contours)
         return true;
-    ticks_make(value, axes_room_y(p, a->frame.h), &levels);
+    ticks_make(value, (int)fmax(7, axes_room_y(p, a->frame.h)), &levels); /* lines need less room than labels */
     for (size_t i = 0; i < levels.count; i++) {
         if (levels.items[i].text[0] == '\0')
             continue;
@@ -192,7 +193,8 @@ bool heat_draw(const pencil *p, const axes *a, const chart_panel *panel, const c
     for (size_t s = 0; s < panel->series_count; s++)
         for (size_t i = 0; panel->series[s].kind == CHART_POINTS && i < panel->series[s].count; i++)
             if (taken.count < TICKS_MAX)
-                taken.at[taken.count++] = series_point_box(p, a, &panel->series[s], i);
+                taken.at[taken.count++] = (canvas_rect){axes_x(a, panel->series[s].x[i]) - half,
+                                                        axes_y(a, panel->series[s].y[i]) - half, 2 * half, 2 * half};
     draw_labels(p, a->frame, m, &levels, value->scale, &taken);
     return true;
 }
@@ -204,7 +206,7 @@ uint32_t heat_direction(double x, double y, double z) {
 
 void heat_draw_ball(const pencil *p, canvas_rect area) {
     enum { SIDE = 128 };
-    static const char *const meanings[] = {"red: right", "green: up", "blue: to us"};
+    static const char *const meanings[] = {"red: right", "green: up", "blue: towards the camera"};
     uint32_t pixels[SIDE * SIDE];
     for (int i = 0; i < SIDE * SIDE; i++) {
         const double x = (i % SIDE + 0.5) * 2 / SIDE - 1, y = 1 - (i / SIDE + 0.5) * 2 / SIDE, rest = 1 - x * x - y * y;

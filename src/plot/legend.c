@@ -5,6 +5,8 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "core/append.h"
+#include "plot/alike.h"
 #include "plot/series.h"
 #include "plot/words.h"
 
@@ -21,14 +23,19 @@ static bool listed(const legend *l, const chart_series *s) {
     return false;
 }
 
-static const char *text_of(const chart_series *s, char out[2 * CHART_TEXT]) {
-    snprintf(out, 2 * CHART_TEXT, "%s%s", s->name, s->note);
-    return out;
-}
-
-static double entry_width(const pencil *p, const chart_series *s) {
-    char text[2 * CHART_TEXT];
-    return (SWATCH + GAP) * p->scale + canvas_text_width(p->c, text_of(s, text), &p->text);
+/* The name, its note, and the curve that lies over it or under it. */
+static void write_text(const chart *c, const chart_panel *panel, size_t index, char out[LEGEND_TEXT]) {
+    const chart_series *s = &panel->series[index];
+    const alike found = c->panel_count == 1 ? alike_find(panel, index) : (alike){.other = NULL};
+    const double end = isnan(found.from) ? found.to : found.from;
+    char number[TICKS_TEXT];
+    snprintf(out, LEGEND_TEXT, "%s%s", s->name, s->note);
+    if (found.other == NULL)
+        return;
+    append(out, LEGEND_TEXT, " = %s", found.other->name);
+    ticks_label(end, end >= 1e6, number);
+    if (!isnan(end))
+        append(out, LEGEND_TEXT, "%s%s", isnan(found.from) ? " up to " : " from ", number);
 }
 
 /* As many columns as fit, each as wide as its widest entry. */
@@ -39,8 +46,8 @@ static bool arrange(const pencil *p, legend *l, size_t rows, double width) {
     for (size_t column = 0; column < l->columns; column++) {
         l->column_width[column] = 0;
         for (size_t i = column * rows; i < l->count && i < (column + 1) * rows; i++)
-            l->column_width[column] = fmax(l->column_width[column], entry_width(p, l->entries[i]));
-        l->column_width[column] += BETWEEN * p->scale;
+            l->column_width[column] = fmax(l->column_width[column], canvas_text_width(p->c, l->text[i], &p->text));
+        l->column_width[column] += (SWATCH + GAP + BETWEEN) * p->scale;
         sum += l->column_width[column];
     }
     return sum <= width;
@@ -66,12 +73,21 @@ static bool has_blind(const chart *c) {
     return false;
 }
 
+/* Of one panel, those that are marks on what the others show, or the others. */
+static void list(legend *l, const chart *c, const chart_panel *panel, bool marks) {
+    for (size_t k = 0; k < panel->series_count && l->count < LEGEND_MAX; k++) {
+        const chart_series *s = &panel->series[k];
+        if (s->unlisted || listed(l, s) || (s->kind == CHART_POINTS || s->kind == CHART_LEVELS) != marks)
+            continue;
+        write_text(c, panel, k, l->text[l->count]);
+        l->entries[l->count++] = s;
+    }
+}
+
 legend legend_make(const pencil *p, const chart *c, double width) {
     legend l = {0};
-    for (size_t i = 0; i < c->panel_count; i++)
-        for (size_t s = 0; s < c->panels[i].series_count && l.count < CHART_SERIES; s++)
-            if (!c->panels[i].series[s].unlisted && !listed(&l, &c->panels[i].series[s]))
-                l.entries[l.count++] = &c->panels[i].series[s];
+    for (size_t i = 0; i < 2 * c->panel_count; i++)
+        list(&l, c, &c->panels[i % c->panel_count], i >= c->panel_count);
     l.width = width;
     l.arrows = l.count > 0 && has_blind(c);
     /* The fewest rows that fit; then as many more as keep each group in one column. */
@@ -91,13 +107,12 @@ static void draw_text(const pencil *p, const char *text, double x, double middle
 
 double legend_draw(const pencil *p, const legend *l, double x, double y) {
     double height = words_height(&p->text), left = x, before = (SWATCH + GAP) * p->scale;
-    char text[2 * CHART_TEXT];
     size_t i = 0;
     for (size_t column = 0; column < l->columns; x += l->column_width[column], column++)
         for (size_t row = 0; row < l->rows && i < l->count; row++, i++) {
             double middle = y + ((double)row + 0.5) * height;
             series_swatch(p, l->entries[i], x, middle, SWATCH * p->scale);
-            draw_text(p, text_of(l->entries[i], text), x + before, middle, left + l->width - x - before);
+            draw_text(p, l->text[i], x + before, middle, left + l->width - x - before);
         }
     y += (double)l->rows * height;
     if (!l->arrows)

@@ -5,11 +5,12 @@
 
 #include "plot/axes.h"
 
-enum { LEGEND_MAX = CHART_SERIES };
+enum { LEGEND_MAX = CHART_SERIES, LEGEND_TEXT = 2 * CHART_TEXT };
 
 typedef struct legend {
     size_t count, columns, rows;
     const chart_series *entries[LEGEND_MAX];
+    char text[LEGEND_MAX][LEGEND_TEXT];
     double column_width[LEGEND_MAX], width;
     bool arrows; /**< a last line says what the arrows mean */
 } legend;

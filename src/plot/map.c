@@ -50,21 +50,15 @@ static size_t fill(chart_map *m, const dp_setup *like, const figure_request *req
     return by_way;
 }
 
-static void add_camera(chart *out, chart_panel *panel, const dp_spec *spec, bool labelled) {
+static void add_camera(chart *out, chart_panel *panel, const dp_spec *spec) {
     chart_series *s = chart_add_series(out, panel, CHART_POINTS, 1);
     if (s == NULL)
         return;
-    s->unlisted = true;
     s->style = (chart_style){.colour = -1};
     snprintf(s->name, sizeof s->name, "camera");
     s->x[0] = spec->znear;
     s->y[0] = isinf(spec->zfar) ? panel->y.hi : spec->zfar;
-    if (!labelled)
-        return;
-    s->labels = chart_memory(out, 1, sizeof *s->labels);
-    if (s->labels != NULL)
-        snprintf(s->labels[0], sizeof s->labels[0], isinf(spec->zfar) ? "near %.4g, far inf" : "near %.4g, far %.4g",
-                 spec->znear, spec->zfar);
+    snprintf(s->note, sizeof s->note, " asked about: near %.4g, far %.4g", spec->znear, spec->zfar);
 }
 
 static void add_panel(const figure_request *request, chart *out, size_t i, double shrink) {
@@ -83,7 +77,7 @@ static void add_panel(const figure_request *request, chart *out, size_t i, doubl
     if (!chart_add_map(out, panel, (int)(GRID_COLUMNS * shrink), (int)(GRID_ROWS * shrink)))
         return;
     panel->map.by_way = fill(&panel->map, like, request);
-    add_camera(out, panel, spec, request->count == 1);
+    add_camera(out, panel, spec);
 }
 
 const char *map_build(const figure_request *request, chart *out) {

@@ -21,16 +21,20 @@ typedef struct timed {
 typedef struct field {
     size_t count;
     timed methods[BENCH_METHODS_MAX];
+    chart_extent time, error;
 } field;
 
 static field gather(const method_family_row *family, const bench_result *results, size_t count) {
-    field f = {0};
+    field f = {.time = {INFINITY, 0}, .error = {INFINITY, 0}};
     for (size_t i = 0; i < count; i++) {
         const bench_result *r = &results[i];
         const double error = measured_error(family, &r->measured);
         const int is = (r->front ? FRONT : 0) | ((r->row->domain & METHOD_PIPELINE) != 0 ? PIPELINE : 0);
-        if (isfinite(error) && isfinite(r->ns) && r->ns > 0)
-            f.methods[f.count++] = (timed){r, error, is};
+        if (!isfinite(error) || !isfinite(r->ns) || !(r->ns > 0))
+            continue;
+        f.methods[f.count++] = (timed){r, error, is};
+        f.time = (chart_extent){fmin(f.time.lo, r->ns), fmax(f.time.hi, r->ns)};
+        f.error = (chart_extent){fmin(f.error.lo, fmax(error, exact)), fmax(f.error.hi, error)};
     }
     return f;
 }
@@ -72,32 +76,20 @@ static void add_points(const field *f, chart *out, chart_panel *panel, int front
     if (s == NULL)
         return;
     s->style = front ? (chart_style){0, 0, 0, false} : (chart_style){1, 1, 1, false};
-    snprintf(s->name, sizeof s->name, "%s", front ? "on the Pareto front" : "behind it");
-}
-
-static const chart_series *add_labels(const field *f, chart *out, chart_panel *panel) {
-    chart_series *s = add(f, out, panel, CHART_LABELS, 0, 0);
-    if (s == NULL)
-        return NULL;
-    s->unlisted = true;
-    snprintf(s->name, sizeof s->name, "methods");
-    s->labels = chart_memory(out, f->count, sizeof *s->labels);
-    for (size_t i = 0; i < f->count && s->labels != NULL; i++) {
+    snprintf(s->name, sizeof s->name, "%s", front ? "on the Pareto front" : "dominated");
+    s->labels = chart_memory(out, s->count, sizeof *s->labels);
+    for (size_t i = 0, k = 0; i < f->count && s->labels != NULL; i++) {
         const timed *t = &f->methods[i];
-        snprintf(s->labels[i], sizeof s->labels[i], "%s%s", t->of->row->name, t->is & PIPELINE ? " (pipeline)" : "");
+        if ((t->is & FRONT) == front)
+            snprintf(s->labels[k++], sizeof *s->labels, "%s%s", t->of->row->name,
+                     t->is & PIPELINE ? " (pipeline)" : "");
     }
-    return s;
 }
 
 /* Whole decades round the data, with room for the names. */
-static void fit(chart_axis *axis, const double *values, size_t count) {
-    double lo = values[0], hi = values[0];
-    for (size_t i = 1; i < count; i++) {
-        lo = fmin(lo, values[i]);
-        hi = fmax(hi, values[i]);
-    }
-    axis->lo = pow(10, floor(log10(lo) - 0.1));
-    axis->hi = pow(10, ceil(log10(hi) + 0.1));
+static void fit(chart_axis *axis, chart_extent e) {
+    axis->lo = pow(10, floor(log10(e.lo) - 0.1));
+    axis->hi = pow(10, ceil(log10(fmax(e.lo, e.hi)) + 0.1));
 }
 
 const char *pareto_draw(const method_family_row *family, const bench_result *results, size_t count, chart *out) {
@@ -105,17 +97,14 @@ const char *pareto_draw(const method_family_row *family, const bench_result *res
     chart_panel *panel = chart_add_panel(out);
     if (f.count == 0)
         return "no method of this family has a time and a finite error here";
-    panel->x = (chart_axis){.scale = CHART_LOG, .label = "time an element", .key = "time", .unit = "ns"};
+    panel->x = (chart_axis){.scale = CHART_LOG, .label = "time per element", .key = "time", .unit = "ns"};
     panel->y = (chart_axis){.scale = CHART_LOG, .label = "worst error", .key = "error", .unit = family->measure};
     add_front(&f, out, panel, 0);
     add_front(&f, out, panel, PIPELINE);
     add_points(&f, out, panel, 0);
     add_points(&f, out, panel, FRONT);
-    const chart_series *all = add_labels(&f, out, panel);
-    if (all == NULL)
-        return NULL;
-    fit(&panel->x, all->x, all->count);
-    fit(&panel->y, all->y, all->count);
+    fit(&panel->x, f.time);
+    fit(&panel->y, f.error);
     return NULL;
 }
 

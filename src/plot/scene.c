@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /*
  * A requirement file: a panel for each set-up, in it what the set-up gives as curves, and each requirement as a level
- * line over its range, marked where it is worst. A requirement is met where the curve runs below its line.
+ * line over its range, marked where it is worst. A requirement is met where the curve runs below its line, or on it.
  */
 #include <math.h>
 #include <stdio.h>
@@ -95,38 +95,36 @@ static void add_curve(const figure_request *r, chart *out, chart_panel *panel, c
     if (s == NULL)
         return;
     s->style = (chart_style){is_error ? COLOUR_ERROR : COLOUR_SEPARATION, is_error ? 1 : 0, -1, false};
-    snprintf(s->name, sizeof s->name, "%s",
-             is_error ? "error that the set-up gives" : "separation that the set-up gives");
+    snprintf(s->name, sizeof s->name, "%s", is_error ? "error given" : "separation given");
 }
 
-/* Level lines, a gap between each two; then the markers with the names. */
+/* What each requirement allows over its depths; then where it is worst, with the names. */
 static void add_needs(const scene *s, chart *out, chart_panel *panel, const check_verdict *first, bool passed) {
     size_t count = 0, k = 0;
     for (size_t i = 0; i < s->count; i++)
         count += same_setup(first, &s->verdicts[i]) && s->verdicts[i].passed == passed;
     if (count == 0)
         return;
-    chart_series *lines = chart_add_series(out, panel, CHART_LINE, 3 * count);
+    chart_series *levels = chart_add_series(out, panel, CHART_LEVELS, 2 * count);
     chart_series *points = chart_add_series(out, panel, CHART_POINTS, count);
-    if (lines == NULL || points == NULL)
+    if (levels == NULL || points == NULL)
         return;
     points->labels = chart_memory(out, count, sizeof *points->labels);
     if (points->labels == NULL)
         return;
-    lines->unlisted = true;
-    lines->style = (chart_style){passed ? COLOUR_MET : COLOUR_MISSED, 0, -1, false};
+    levels->style = (chart_style){passed ? COLOUR_MET : COLOUR_MISSED, 0, -1, false};
     points->style =
         (chart_style){passed ? COLOUR_MET : COLOUR_MISSED, passed ? 0 : 1, passed ? MARKER_MET : MARKER_MISSED, false};
-    snprintf(lines->name, sizeof lines->name, "range of what is %s", passed ? "met" : "missed");
-    snprintf(points->name, sizeof points->name, "requirement %s, where it is worst", passed ? "met" : "missed");
+    snprintf(levels->name, sizeof levels->name, "allowed, %s", passed ? "met" : "missed");
+    snprintf(points->name, sizeof points->name, "%s, where it is worst", passed ? "met" : "missed");
     for (size_t i = 0; i < s->count; i++) {
         const check_verdict *v = &s->verdicts[i];
         const need *n = v->asked;
         if (!same_setup(first, v) || v->passed != passed)
             continue;
         const double hi = fmin(n->hi, panel->x.hi);
-        memcpy(&lines->x[3 * k], (double[]){n->lo, hi, hi}, 3 * sizeof hi);
-        memcpy(&lines->y[3 * k], (double[]){n->limit, n->limit, NAN}, 3 * sizeof hi);
+        memcpy(&levels->x[2 * k], (double[]){n->lo, hi}, 2 * sizeof hi);
+        memcpy(&levels->y[2 * k], (double[]){n->limit, n->limit}, 2 * sizeof hi);
         points->x[k] = fmin(isfinite(v->z) ? v->z : hi, hi);
         points->y[k] = n->limit;
         snprintf(points->labels[k++], sizeof *points->labels, "%s%s", n->name, n->kind == NEED_ERROR ? " (error)" : "");

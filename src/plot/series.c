@@ -6,7 +6,10 @@
 #include "plot/area.h"
 #include "plot/trace.h"
 
-#define MARKER_SPACING 120.0 /* px along x at scale 1 */
+/* px at scale 1 */
+#define MARKER_SPACING 120.0 /* along x */
+#define LEVEL_WIDTH    6.0
+#define LEVEL_LENGTH   22.0 /* at least */
 
 static canvas_pen pen_of(const pencil *p, const chart_series *s) {
     return theme_pen(p->theme, s->style.colour, s->style.stroke, s->style.thin ? 0.5 * p->scale : p->scale);
@@ -26,8 +29,13 @@ static void draw_marker(const pencil *p, const chart_series *s, double x, double
 /* At even distances along the line, which need not have a point there. */
 static void draw_markers(const pencil *p, const axes *a, const chart_panel *panel, size_t index) {
     const chart_series *s = &panel->series[index];
-    double spacing = fmin(MARKER_SPACING * p->scale, a->frame.w / 3);
-    double next = a->frame.x + spacing * ((double)index + 0.5) / (double)panel->series_count;
+    double spacing = fmin(MARKER_SPACING * p->scale, a->frame.w / 3), before = 0, all = 0;
+    for (size_t k = 0; k < panel->series_count; k++)
+        if (panel->series[k].kind == CHART_LINE && panel->series[k].style.marker >= 0) {
+            before += k < index;
+            all++;
+        }
+    double next = a->frame.x + spacing * (before + 0.5) / all;
     for (size_t i = 1; i < s->count; i++) {
         double x0 = axes_x(a, s->x[i - 1]), y0 = axes_y(a, s->y[i - 1]);
         double x1 = axes_x(a, s->x[i]), y1 = axes_y(a, s->y[i]);
@@ -94,42 +102,30 @@ static void draw_drops(const pencil *p, const axes *a, const chart_panel *panel,
     canvas_path_end(p->c, &thick);
 }
 
-/* A label stands to the right of its point, to the left where it would leave the frame, and never above the frame. */
-typedef struct point_label {
-    double x, baseline, width;
-    canvas_align align;
-    canvas_font font;
-} point_label;
-
-static point_label place_label(const pencil *p, const axes *a, const chart_series *s, size_t i) {
-    double x = axes_x(a, s->x[i]), y = axes_y(a, s->y[i]), gap = 9 * p->scale;
-    point_label l = {.font = p->small};
-    l.font.colour = p->theme->text;
-    l.font.halo = p->theme->background;
-    l.width = s->labels != NULL ? canvas_text_width(p->c, s->labels[i], &l.font) : 0;
-    bool left = x + gap + l.width > a->frame.x + a->frame.w;
-    l.align = left ? CANVAS_RIGHT : CANVAS_LEFT;
-    l.x = left ? x - gap : x + gap;
-    l.baseline = fmax(y + 0.36 * l.font.size, a->frame.y + 1.2 * l.font.size);
-    return l;
+static double point_size(const chart_series *s) {
+    return s->style.thin ? 1 : 1.5;
 }
 
-canvas_rect series_point_box(const pencil *p, const axes *a, const chart_series *s, size_t i) {
-    point_label l = place_label(p, a, s, i);
-    double x = axes_x(a, s->x[i]), half = 8 * p->scale;
-    double far_end = l.align == CANVAS_LEFT ? l.x + l.width : l.x - l.width;
-    double lo = fmin(x - half, far_end), hi = fmax(x + half, far_end);
-    return (canvas_rect){lo, l.baseline - 1.2 * l.font.size, hi - lo, 1.7 * l.font.size};
-}
-
+/* Those within the frame. */
 static void draw_points(const pencil *p, const axes *a, const chart_panel *panel, size_t index) {
     const chart_series *s = &panel->series[index];
-    for (size_t i = 0; i < s->count; i++) {
-        draw_marker(p, s, axes_x(a, s->x[i]), axes_y(a, s->y[i]), 1.5);
-        if (s->labels == NULL)
-            continue;
-        point_label l = place_label(p, a, s, i);
-        canvas_text(p->c, l.x, l.baseline, s->labels[i], &l.font, l.align);
+    for (size_t i = 0; i < s->count; i++)
+        if (axes_holds(a, s->x[i], s->y[i]))
+            draw_marker(p, s, axes_x(a, s->x[i]), axes_y(a, s->y[i]), point_size(s));
+}
+
+static void draw_level(const pencil *p, const chart_series *s, double x0, double x1, double y) {
+    const canvas_pen pen = {.colour = area_tint(p->theme, s->style.colour), .width = LEVEL_WIDTH * p->scale};
+    canvas_segment(p->c, x0, y, x1, y, &pen);
+}
+
+/* Those of a single depth are long enough to be seen. */
+static void draw_levels(const pencil *p, const axes *a, const chart_panel *panel, size_t index) {
+    const chart_series *s = &panel->series[index];
+    for (size_t i = 0; i + 1 < s->count; i += 2) {
+        const double x0 = axes_x(a, s->x[i]), x1 = axes_x(a, s->x[i + 1]);
+        const double more = fmax(LEVEL_LENGTH * p->scale - (x1 - x0), 0) / 2;
+        draw_level(p, s, x0 - more, x1 + more, axes_y(a, s->y[i]));
     }
 }
 
@@ -148,7 +144,11 @@ static void swatch_drops(const pencil *p, const chart_series *s, double x, doubl
 }
 
 static void swatch_points(const pencil *p, const chart_series *s, double x, double y, double width) {
-    draw_marker(p, s, x + width / 2, y, 1.5);
+    draw_marker(p, s, x + width / 2, y, point_size(s));
+}
+
+static void swatch_levels(const pencil *p, const chart_series *s, double x, double y, double width) {
+    draw_level(p, s, x, x + width, y);
 }
 
 static void swatch_area(const pencil *p, const chart_series *s, double x, double y, double width) {
@@ -161,7 +161,7 @@ static const struct {
     void (*swatch)(const pencil *, const chart_series *, double x, double y, double width);
 } kinds[CHART_KIND_COUNT] = {
     [CHART_LINE] = {draw_line, swatch_line},       [CHART_DROPS] = {draw_drops, swatch_drops},
-    [CHART_POINTS] = {draw_points, swatch_points}, [CHART_LABELS] = {labels_draw, swatch_points},
+    [CHART_POINTS] = {draw_points, swatch_points}, [CHART_LEVELS] = {draw_levels, swatch_levels},
     [CHART_AREA] = {area_draw, swatch_area},
 };
 

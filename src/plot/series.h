@@ -11,11 +11,8 @@ void series_draw(const pencil *p, const axes *a, const chart_panel *panel, size_
 /** A sample `width` px wide, centred at height y. */
 void series_swatch(const pencil *p, const chart_series *s, double x, double y, double width);
 
-/** What point i of CHART_POINTS covers with its label. */
-canvas_rect series_point_box(const pencil *p, const axes *a, const chart_series *s, size_t i);
-
-/** Draws the labels of CHART_LABELS: beside their points, or a little away with a line to the point. labels.c */
-void labels_draw(const pencil *p, const axes *a, const chart_panel *panel, size_t index);
+/** Draws the labels of all points of a panel: beside them, or a little away with a line to the point. labels.c */
+void labels_draw(const pencil *p, const axes *a, const chart_panel *panel);
 
 /** The arrow that ends a curve where its value grows without bound; its tip is at (x, y). */
 void series_arrow(const pencil *p, double x, double y, canvas_colour colour);

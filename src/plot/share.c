@@ -11,25 +11,25 @@ static double distance(uint32_t a, uint32_t b) {
 
 typedef struct counted {
     const dp_setup *setup;
-    uint32_t first;
+    uint32_t last;
     double all; /* codes between the planes */
 } counted;
 
 static void sample(const void *context, double from, double to, refine_sample *out) {
     const counted *c = context;
     (void)to;
-    *out = (refine_sample){.y = {c->all > 0 ? 100 * distance(dp_code(c->setup, from), c->first) / c->all : 0},
-                           .step = {c->all > 0 ? 100 / c->all : 0}};
+    const double left = distance(dp_code(c->setup, from), c->last);
+    *out = (refine_sample){.y = {c->all > 0 ? 100 * left / c->all : 0}, .step = {left > 0 ? 1 / left : 0}};
 }
 
 const char *share_build(const figure_request *request, chart *out) {
-    const chart_axis y = {CHART_LINEAR, 0, 100, "codes between near and z", "share", "% of all between the planes",
-                          NULL};
+    const chart_axis y = {
+        .scale = CHART_LOG, .label = "codes between z and far", .key = "share", .unit = "% of all between the planes"};
     chart_panel *panel = figure_panel(request, out, y);
     for (size_t i = 0; i < request->count; i++) {
         const dp_setup *setup = &request->setups[i];
-        const uint32_t first = dp_code(setup, setup->spec.znear);
-        const counted c = {setup, first, distance(dp_code(setup, setup->spec.zfar), first)};
+        const uint32_t last = dp_code(setup, setup->spec.zfar);
+        const counted c = {setup, last, distance(dp_code(setup, setup->spec.znear), last)};
         const refine_request q = envelope_request(request, setup, out, panel, sample, &c);
         chart_series *s = envelope_curve(out, panel, &q);
         if (s == NULL)
@@ -37,5 +37,6 @@ const char *share_build(const figure_request *request, chart *out) {
         s->style = figure_style(request, i);
         snprintf(s->name, sizeof s->name, "%s", request->names[i]);
     }
+    chart_fit(out);
     return NULL;
 }

@@ -182,6 +182,13 @@ number_text number_down(double value, int digits) {
     return bound_of(value, digits, false);
 }
 
+int number_digits_within(double at, double step, int least, int most) {
+    if (!isfinite(at) || !isfinite(step) || at == 0.0 || step == 0.0)
+        return least;
+    const double digits = floor(log10(fabs(at))) - floor(log10(fabs(step))) + 2.0;
+    return (int)fmin(fmax(digits, least), most);
+}
+
 number_text number_full(double value) {
     number_text out = {""};
     number_shortest(value, out.text);

@@ -58,6 +58,9 @@ number_text number_down(double value, int digits);
 /** The same number in fewer characters: 82800 for 8.28e+04, 1.2e-7 for 1.2e-07. */
 number_text number_brief(number_text number);
 
+/** The digits that it takes to see that a value near `at` is off by `step`, with two digits of the step. */
+int number_digits_within(double at, double step, int least, int most);
+
 /** As number_shortest(). */
 number_text number_full(double value);
 

@@ -34,10 +34,20 @@ page page_start(output *out, int label) {
                   .plain = colour ? "\033[0m" : ""};
 }
 
+/* The next word, with what belongs to it: "z = 5", "12 %". */
+static int word_length(const char *text) {
+    size_t length = strcspn(text, " ");
+    while (strncmp(text + length, " = ", 3) == 0 || strncmp(text + length, " %", 2) == 0) {
+        length += text[length + 1] == '=' ? 3 : 1;
+        length += strcspn(text + length, " ");
+    }
+    return (int)length;
+}
+
 /* Words from `column` on, broken where the page ends, those of further lines `left` blanks from the margin. */
 static void put_words(page *p, int column, int left, const char *text) {
     for (bool first = true; *text != '\0'; first = false) {
-        const int word = (int)strcspn(text, " ");
+        const int word = word_length(text);
         if (!first && column + 1 + word > p->width) {
             output_format(p->out, "\n%*s", left, "");
             column = left;

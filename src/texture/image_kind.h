@@ -80,7 +80,7 @@ typedef struct image_kind {
 
 extern const image_kind image_kind_png, image_kind_pfm, image_kind_npy;
 
-/** Writes rows as they lie in memory: `rows` of PFM and npy. */
+/** Writes the samples alone, the lowest byte first on every machine: `rows` of PFM and npy. */
 bool image_rows_plain(image_writer *writer, const void *rows, uint32_t count);
 
 #endif

@@ -213,7 +213,7 @@ static bool read_npy(image_source *source, image *out) {
 static bool begin_npy(image_writer *w) {
     enum { SIZE = 192, UNIT = 64 }; /* the samples begin at a multiple of 64 bytes */
     char text[SIZE], channels[16] = "";
-    const char order = w->type == IMAGE_U8 ? '|' : image_little() ? '<' : '>';
+    const char order = w->type == IMAGE_U8 ? '|' : '<';
     if (w->channels > 1)
         snprintf(channels, sizeof channels, ", %u", w->channels);
     const int used = snprintf(text, sizeof text, "{'descr': '%c%s', 'fortran_order': False, 'shape': (%u, %u%s), }",

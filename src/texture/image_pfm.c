@@ -90,8 +90,7 @@ static bool read_pfm(image_source *source, image *out) {
 }
 
 static bool begin_pfm(image_writer *w) {
-    return fprintf(w->stream, "%s\n%u %u\n%s\n", w->channels == 3 ? "PF" : "Pf", w->width, w->height,
-                   image_little() ? "-1.0" : "1.0") > 0;
+    return fprintf(w->stream, "%s\n%u %u\n-1.0\n", w->channels == 3 ? "PF" : "Pf", w->width, w->height) > 0;
 }
 
 const image_kind image_kind_pfm = {

@@ -111,10 +111,8 @@ static bool misfit(image_source *source, const image *out, uint64_t there) {
                        there == 1 ? "s" : "");
 }
 
-static void reverse_bytes(image *img) {
-    const size_t size = image_type_size(img->type);
-    unsigned char *at = img->data, *end = at + image_bytes(img);
-    for (; at < end; at += size)
+static void reverse_bytes(unsigned char *at, size_t bytes, size_t size) {
+    for (const unsigned char *end = at + bytes; at < end; at += size)
         for (size_t i = 0; i < size / 2; i++) {
             const unsigned char other = at[i];
             at[i] = at[size - 1 - i];
@@ -137,7 +135,7 @@ bool source_samples(image_source *source, image *out, bool little) {
                                                                 : misfit(source, out, done + got);
     }
     if (little != image_little())
-        reverse_bytes(out);
+        reverse_bytes(out->data, image_bytes(out), image_type_size(out->type));
     return source_ended(source);
 }
 
@@ -149,5 +147,17 @@ bool source_ended(image_source *source) {
 }
 
 bool image_rows_plain(image_writer *writer, const void *rows, uint32_t count) {
-    return fwrite(rows, writer->row_size, count, writer->stream) == count;
+    const size_t size = image_type_size(writer->type);
+    if (image_little() || size == 1)
+        return fwrite(rows, writer->row_size, count, writer->stream) == count;
+    unsigned char some[4096]; /* whole samples */
+    const unsigned char *from = rows;
+    for (size_t left = writer->row_size * count, bytes; left > 0; left -= bytes, from += bytes) {
+        bytes = left < sizeof some ? left : sizeof some;
+        memcpy(some, from, bytes);
+        reverse_bytes(some, bytes, size);
+        if (fwrite(some, 1, bytes, writer->stream) != bytes)
+            return false;
+    }
+    return true;
 }

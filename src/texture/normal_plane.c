@@ -153,7 +153,8 @@ static double rounding(const texture_camera *camera, const double exact[3], cons
                                  camera->ortho ? 0 : own + last[2] - to_a * x - to_b * y};
         double cross[3];
         cross_product(exact, added, cross);
-        most = fmax(most, dot(cross, cross));
+        const double turned = dot(cross, cross);
+        most = turned > most ? turned : most; /* fmax here crashes gcc 12 when it compiles for aarch64 */
     }
     return sqrt(most) / (size * size);
 }

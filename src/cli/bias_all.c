@@ -1,0 +1,284 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/*
+ * bias --api all: a row an API for each place, a depth of --at or the range. A few set-ups stand beside each other:
+ * their units differ, and how they are written does not.
+ */
+#include "cli/bias_all.h"
+
+#include <ctype.h>
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+#include "cli/walk.h"
+#include "core/append.h"
+#include "report/number.h"
+
+enum { DIGITS_Z = 9, DIGITS_SHORT = 4, BESIDE = 6, WIDTH_UNITS = 11 };
+
+double bias_signed(const dp_setup *setup, double units) {
+    return isinf(units) ? (double)NAN : units * bias_sign(setup) + 0.0; /* no -0 */
+}
+
+/* Whole numbers in all their digits; a window depth as a float needs it. */
+static number_text units_text(double units) {
+    return units == nearbyint(units) ? number_full(units) : number_of(units, DIGITS_Z);
+}
+
+/* The letters U and F where they are words. */
+static void fill_in(bias_call_text *out, const char *form, const char *units, const char *factor) {
+    for (const char *c = form; *c != '\0'; c++) {
+        const bool word = (c == form || !isalnum((unsigned char)c[-1])) && !isalnum((unsigned char)c[1]);
+        if (word && (*c == 'U' || *c == 'F'))
+            append(out->text, BIAS_CALL_SIZE, "%s", *c == 'U' ? units : factor);
+        else
+            append(out->text, BIAS_CALL_SIZE, "%c", *c);
+    }
+}
+
+static bias_call_text call_of(const bias_api *api, const char *units, double factor) {
+    bias_call_text out = {""};
+    fill_in(&out, api->call, units, number_full(factor).text);
+    if (factor != 0.0)
+        fill_in(&out, api->sloped, units, number_full(factor).text);
+    return out;
+}
+
+bias_call_text bias_call(const bias_api *api, double units, double factor) {
+    return call_of(api, units_text(units).text, factor);
+}
+
+typedef struct row {
+    const char *api, *label;
+    double z, lo, hi; /* the depth, or the range */
+    bias_unit r;      /* at the depth; NaN over a range */
+    double units, units_z, from, to;
+    char call[BIAS_CALL_SIZE], said[BIAS_CALL_SIZE]; /* said: the call, or why there is none */
+    char beside[BESIDE][NUMBER_SIZE];                /* the units of each set-up, short */
+} row;
+
+typedef struct all {
+    walk walk;
+    double lo, hi; /* the range, where no depths are given */
+    bool by_range;
+    row row;
+    const char *apis;
+    bool fails; /* somewhere no bias is enough */
+} all;
+
+/* ---- What is needed ---------------------------------------------------------------------------------------------- */
+
+static bias_goal goal_of(const options *o, const bias_api *api, const dp_setup *setup) {
+    return (bias_goal){.api = api, .factor = o->factor * bias_sign(setup), .slope = o->slope, .gap = o->gap};
+}
+
+/* Where the gap leads to the near plane, at least. */
+static double range_from(const all *a) {
+    return fmin(fmax(a->lo, a->walk.o->znear + a->walk.o->gap), a->hi);
+}
+
+/* The call, or where in the range there is one. */
+static void say_result(row *r) {
+    const number_text from = number_up(r->from, DIGITS_Z), to = number_down(r->to, DIGITS_Z);
+    if (!isnan(r->units) || isnan(r->from))
+        append(r->said, sizeof r->said, "%s", isnan(r->units) ? "no bias is enough" : r->call);
+    else if (r->from == r->lo)
+        append(r->said, sizeof r->said, "enough only up to z = %s", to.text);
+    else if (r->to == r->hi)
+        append(r->said, sizeof r->said, "enough only from z = %s on", from.text);
+    else
+        append(r->said, sizeof r->said, "enough only from z = %s to %s", from.text, to.text);
+}
+
+static void measure(const all *a, const bias_api *api, const dp_setup *setup, double z, row *r) {
+    const options *o = a->walk.o;
+    const bias_goal goal = goal_of(o, api, setup);
+    *r = (row){.api = api->name, .label = api->name, .z = z, .lo = (double)NAN, .hi = (double)NAN, .units_z = z};
+    if (!a->by_range) {
+        r->r = bias_unit_at(api, &setup->spec.format, dp_window(setup, z));
+        r->units = bias_signed(setup, bias_needed(setup, &goal, z));
+        r->from = r->to = isnan(r->units) ? (double)NAN : z;
+    } else {
+        r->lo = range_from(a);
+        r->hi = a->hi;
+        r->r = (bias_unit){(double)NAN, (double)NAN};
+        r->units = bias_signed(setup, bias_needed_over(setup, &goal, r->lo, r->hi, &r->units_z));
+        bias_enough_over(setup, &goal, r->lo, r->hi, &r->from, &r->to);
+    }
+    if (!isnan(r->units))
+        memcpy(r->call, bias_call(api, r->units, o->factor).text, sizeof r->call);
+    say_result(r);
+}
+
+static size_t api_count(void) {
+    size_t count = 0;
+    while (bias_api_get(count) != NULL)
+        count++;
+    return count;
+}
+
+/* Place by place, API by API. */
+static void *next_row(void *of, size_t i) {
+    all *a = of;
+    const size_t apis = api_count();
+    const bias_api *api = bias_api_get(i % apis);
+    if (i / apis == (a->by_range ? 1 : a->walk.at.count) || output_failed(&a->walk.out))
+        return NULL;
+    measure(a, api, a->walk.setup, a->by_range ? (double)NAN : depths_get(&a->walk.at, i / apis), &a->row);
+    return &a->row;
+}
+
+/* In nine digits or, on the safe side, in fewer. */
+static void write_short(double units, char out[NUMBER_SIZE]) {
+    const bool whole = units == nearbyint(units) && fabs(units) < 1e9;
+    const number_text text = whole ? number_full(fabs(units)) : number_up(fabs(units), DIGITS_SHORT);
+    out[0] = '\0';
+    append(out, NUMBER_SIZE, "%s%s", units < 0.0 ? "-" : "", text.text);
+}
+
+/* The same for all set-ups at once. */
+static void *next_beside(void *of, size_t i) {
+    all *a = of;
+    const bias_api *api = bias_api_get(i);
+    row r;
+    if (api == NULL)
+        return NULL;
+    for (size_t k = 0; k < a->walk.all.count; k++) {
+        measure(a, api, &a->walk.all.items[k], a->by_range ? (double)NAN : depths_get(&a->walk.at, 0), &r);
+        write_short(r.units, a->row.beside[k]);
+        a->fails = a->fails || isnan(r.units);
+    }
+    a->row.api = api->name;
+    return &a->row;
+}
+
+static void *next_setup(void *of, size_t i) {
+    all *a = of;
+    return walk_setup(&a->walk, i) ? a : NULL;
+}
+
+/* ---- Text -------------------------------------------------------------------------------------------------------- */
+
+static void say_goal(page *p, const all *a) {
+    const options *o = a->walk.o;
+    char goal[64] = "To be told apart", place[128] = "", slope[64] = "";
+    if (o->gap > 0.0)
+        snprintf(goal, sizeof goal, "To come nearer by %s", number_full(o->gap).text);
+    if (o->slope > 0.0)
+        snprintf(slope, sizeof slope, ", slope %s a pixel", number_full(o->slope).text);
+    if (a->by_range)
+        snprintf(place, sizeof place, " from z = %s to %s", number_of(range_from(a), DIGITS_Z).text,
+                 number_of(a->hi, DIGITS_Z).text);
+    else if (a->walk.at.count == 1)
+        snprintf(place, sizeof place, " at z = %s", number_of(a->walk.at.lo, DIGITS_Z).text);
+    page_text(p, "%s%s%s:", goal, place, slope);
+}
+
+static void say_setup(page *p, void *item) {
+    walk_title(p, item);
+    say_goal(p, item);
+}
+
+static void say_choice(page *p, const dp_format *format) {
+    if (format->kind == DP_FORMAT_UNORM)
+        page_line(p, "vulkan and gl: r is the implementation's choice, 2^-%d is assumed", format->bits);
+}
+
+static void say_notes(page *p, void *item) {
+    say_choice(p, &((const all *)item)->walk.setup->spec.format);
+}
+
+/* Formats above mappings, and below what is written in place of U. */
+static void say_beside(page *p, void *item) {
+    const all *a = item;
+    const options *o = a->walk.o;
+    page_title(p, "near %s, far %s, %s", number_full(o->znear).text, number_full(o->zfar).text,
+               o->ortho ? "orthographic" : "perspective");
+    say_goal(p, a);
+    output_format(p->out, "%s%-13s", p->soft, "");
+    for (size_t k = 0; k < a->walk.all.count; k++)
+        output_format(p->out, "%*s", WIDTH_UNITS, a->walk.all.items[k].spec.format.name);
+    output_format(p->out, "%s\n", p->plain);
+}
+
+static void say_calls(page *p, void *item) {
+    const all *a = item;
+    if (a->fails)
+        page_line(p, "-: no bias is enough; with that format and mapping alone it is said where one is");
+    for (size_t k = 0; k < a->walk.all.count; k++)
+        if (a->walk.all.items[k].spec.format.kind == DP_FORMAT_UNORM) {
+            page_line(p, "vulkan and gl: in integer formats r is the implementation's choice, 2^-N is assumed");
+            break;
+        }
+    output_char(p->out, '\n');
+    for (size_t i = 0; bias_api_get(i) != NULL; i++)
+        page_note(p, bias_api_get(i)->name, "%s", call_of(bias_api_get(i), "U", a->walk.o->factor).text);
+}
+
+/* ---- Columns ----------------------------------------------------------------------------------------------------- */
+
+enum { OF_DEPTHS = 1, OF_RANGE = 2, OF_SEVERAL = 4 };
+
+static const column row_columns[] = {{FIELD(row, api, "api", ""), .only = AS_JSON | AS_CSV},
+                                     {FIELD(row, z, "z", "scene"), .when = OF_DEPTHS},
+                                     {TEXT_FIELD(row, z, "z", 12, DIGITS_Z), .when = OF_SEVERAL},
+                                     {TEXT_FIELD(row, label, "api", -16, 0)},
+                                     {FIELD(row, lo, "lo", "scene"), .when = OF_RANGE},
+                                     {FIELD(row, hi, "hi", "scene"), .when = OF_RANGE},
+                                     {FIELD(row, r.least, "r", ""), .when = OF_DEPTHS},
+                                     {FIELD(row, r.most, "r_most", ""), .when = OF_DEPTHS},
+                                     {FIELD(row, units, "units", "")},
+                                     {FIELD(row, units_z, "units_z", "scene"), .when = OF_RANGE},
+                                     {FIELD(row, from, "from", "scene"), .when = OF_RANGE},
+                                     {FIELD(row, to, "to", "scene"), .when = OF_RANGE},
+                                     {FIELD(row, call, "call", "")},
+                                     {TEXT_FIELD(row, said, "to write", -1, 0)},
+                                     {.kind = COLUMN_END}};
+
+static const column setup_report[] = {{PART(all, walk.fields, NULL, setup_columns)},
+                                      {LIST("rows", row_columns, next_row), .notes = say_notes},
+                                      {.kind = COLUMN_END}};
+
+static const column top_columns[] = {{FIELD(options, slope, "slope", "")},
+                                     {FIELD(options, factor, "factor", "")},
+                                     {FIELD(options, gap, "gap", "scene")},
+                                     {.kind = COLUMN_END}};
+
+static const column columns[] = {{FIELD(all, apis, "api", ""), .only = AS_JSON},
+                                 {PART(all, walk.o, NULL, top_columns), .only = AS_JSON, .pointed = true},
+                                 {LIST("setups", setup_report, next_setup), .head = say_setup},
+                                 {.kind = COLUMN_END}};
+
+static int write_beside(all *a, int status) {
+    column rows[BESIDE + 2] = {{TEXT_FIELD(row, api, "", -13, 0)}};
+    for (size_t k = 0; k < a->walk.all.count; k++) {
+        const char *mapping = dp_mapping_get(a->walk.all.items[k].spec.mapping)->name;
+        rows[k + 1] = (column){TEXT_FIELD(row, beside[0], mapping, WIDTH_UNITS, 0)};
+        rows[k + 1].offset = offsetof(row, beside[k]);
+    }
+    rows[a->walk.all.count + 1] = (column){.kind = COLUMN_END};
+    const column list[] = {{LIST(NULL, rows, next_beside), .head = say_beside, .notes = say_calls},
+                           {.kind = COLUMN_END}};
+    const report_spec spec = {"bias", list, a, .label = 14};
+    return walk_write(&a->walk, &spec, status);
+}
+
+/* ---- The command ------------------------------------------------------------------------------------------------- */
+
+int bias_all_write(const options *o) {
+    all a = {.by_range = !option_given(o, OPTION_AT), .apis = "all"};
+    if (option_given(o, OPTION_UNITS) || option_given(o, OPTION_CLAMP))
+        return option_error(OPTION_API, "must be one API, whose --%s these are, got 'all'",
+                            option_name(option_given(o, OPTION_UNITS) ? OPTION_UNITS : OPTION_CLAMP));
+    if (option_given(o, OPTION_AT) && option_given(o, OPTION_RANGE))
+        return option_error(OPTION_RANGE, "must not be given together with --at for all APIs");
+    int status = walk_start(&a.walk, o);
+    if (status == EXIT_FINE)
+        status = range_resolve(o, &a.lo, &a.hi);
+    const bool beside = o->form == FORM_TEXT && !o->full && a.walk.all.count > 1 && a.walk.all.count <= BESIDE &&
+                        (a.by_range || a.walk.at.count == 1);
+    const unsigned when = (a.by_range ? OF_RANGE : OF_DEPTHS) | (!a.by_range && a.walk.at.count > 1 ? OF_SEVERAL : 0);
+    if (beside)
+        return write_beside(&a, status);
+    return walk_write(&a.walk, &(report_spec){"bias", columns, &a, .when = when, .label = 14}, status);
+}

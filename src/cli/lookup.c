@@ -1,0 +1,104 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "cli/lookup.h"
+
+#include <math.h>
+
+#include "cli/walk.h"
+#include "report/number.h"
+#include "texture/decode.h"
+
+enum { DIGITS_DEPTH = 7, DEPTH_MOST = 10, DIGITS_Z = 8, DIGITS_CELL = 9, DIGITS_MOST = 15, DIGITS_INTERVAL = 3 };
+
+/* A window depth or a code, and the eye depths that are stored as that code. */
+typedef struct found {
+    double depth, z; /* as asked, or what the code stands for; and its eye depth */
+    dp_cell cell;
+    int depth_digits, cell_digits;
+} found;
+
+typedef struct lookup {
+    walk walk;
+    bool by_code;
+    found row;
+    bool empty; /* some code is that of no depth in the range */
+} lookup;
+
+static void *next_row(void *of, size_t i) {
+    lookup *l = of;
+    found *r = &l->row;
+    const dp_setup *setup = l->walk.setup;
+    const dp_format *format = &setup->spec.format;
+    double asked;
+    if (!walk_depth(&l->walk, i, &asked))
+        return NULL;
+    const uint32_t code = l->by_code ? (uint32_t)asked : dp_format_encode(format, setup->spec.rounding, asked);
+    r->depth = l->by_code ? dp_format_value(format, code) : asked;
+    r->cell = dp_cell_of(setup, code);
+    r->z = l->by_code ? r->cell.stored : decode_exact(setup, DECODE_EYE, asked);
+    r->depth_digits = number_digits_within(r->depth, 1.0 - r->depth, DIGITS_DEPTH, DEPTH_MOST);
+    r->cell_digits = number_digits_within(r->cell.lo, r->cell.width, DIGITS_CELL, DIGITS_MOST);
+    l->empty = l->empty || r->cell.width == 0.0;
+    return r;
+}
+
+static void *next_setup(void *of, size_t i) {
+    lookup *l = of;
+    l->empty = false;
+    return walk_setup(&l->walk, i) ? l : NULL;
+}
+
+static void say_notes(page *p, void *item) {
+    const lookup *l = item;
+    if (l->empty)
+        page_line(p, "an interval of 0: no depth from near to far is stored as that code");
+    if (isnan(l->row.cell.width))
+        page_line(p, "this model has no cells: the depths stored as one code need not be neighbours");
+}
+
+static const column row_columns[] = {
+    {FIELD(found, depth, "depth", ""), SHOWN("depth", 13, 0), .digits_at = offsetof(found, depth_digits)},
+    {FIELD(found, cell.code, "code", ""), SHOWN("code", 11, 0)},
+    {FIELD(found, z, "z", "scene"), SHOWN("eye depth", 12, DIGITS_Z)},
+    {FIELD(found, cell.stored, "z_stored", "scene"), SHOWN("stored", 15, DIGITS_CELL), .spare = 1},
+    {FIELD(found, cell.lo, "cell_lo", "scene"), SHOWN("cell from", 17, 0), .digits_at = offsetof(found, cell_digits)},
+    {FIELD(found, cell.hi, "cell_hi", "scene"), SHOWN("to", 17, 0), .digits_at = offsetof(found, cell_digits)},
+    {FIELD(found, cell.width, "interval", "scene"), SHOWN("interval", 9, DIGITS_INTERVAL)},
+    {.kind = COLUMN_END}};
+
+static const column setup_report[] = {
+    {PART(lookup, walk.fields, NULL, setup_columns)}, {LIST("rows", row_columns, next_row)}, {.kind = COLUMN_END}};
+
+static const column columns[] = {{LIST("setups", setup_report, next_setup), .head = walk_title, .notes = say_notes},
+                                 {.kind = COLUMN_END}};
+
+bool lookup_wanted(const options *o) {
+    return o->looked_up.count > 0;
+}
+
+/* What is asked is no depth of the scene, and a code must be one of each format. */
+static int check(const options *o, const setups *all) {
+    static const option_id depths_only[] = {OPTION_AT, OPTION_RANGE, OPTION_TOLERANCE};
+    if (option_given(o, OPTION_DEPTH) && option_given(o, OPTION_CODE))
+        return option_error(OPTION_CODE, "must not be given together with --depth");
+    const option_id asked = option_given(o, OPTION_CODE) ? OPTION_CODE : OPTION_DEPTH;
+    for (size_t i = 0; i < sizeof depths_only / sizeof depths_only[0]; i++)
+        if (option_given(o, depths_only[i]))
+            return option_error(depths_only[i], "has no meaning with --%s", option_name(asked));
+    for (size_t i = 0; i < all->count && asked == OPTION_CODE; i++) {
+        const dp_format *format = &all->items[i].spec.format;
+        if (o->looked_up.hi > (double)format->code_max)
+            return option_error(OPTION_CODE, "must be from 0 to %u in %s, got %s", format->code_max, format->name,
+                                number_full(o->looked_up.hi).text);
+    }
+    return EXIT_FINE;
+}
+
+int lookup_write(const options *o) {
+    lookup l = {.by_code = option_given(o, OPTION_CODE)};
+    int status = walk_start(&l.walk, o);
+    l.walk.at = o->looked_up;
+    if (status == EXIT_FINE)
+        status = check(o, &l.walk.all);
+    const report_spec spec = {"table", columns, &l, .label = 16};
+    return walk_write(&l.walk, &spec, status);
+}

@@ -1,0 +1,14 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/** @file lookup.h  table the other way round: the eye depths behind window depths or codes. */
+#ifndef CLI_LOOKUP_H
+#define CLI_LOOKUP_H
+
+#include "cli/options.h"
+
+/** Whether --depth or --code asks for it. */
+bool lookup_wanted(const options *o);
+
+/** Writes them. @return an exit status */
+int lookup_write(const options *o);
+
+#endif

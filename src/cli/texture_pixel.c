@@ -1,0 +1,279 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Single pixels: what is stored there, which depths that may be, and what the camera makes of it. */
+#include <math.h>
+#include <stdlib.h>
+
+#include "cli/setups.h"
+#include "cli/texture.h"
+#include "report/number.h"
+#include "report/report.h"
+#include "texture/image_depths.h"
+
+enum { DIGITS = 6, DIGITS_DEPTH = 10, DIGITS_Z = 9, DIGITS_MOST = 15, NEIGHBOURS = 4 };
+
+/* What does not exist is NaN. */
+typedef struct pixel {
+    uint32_t column, row;
+    const char *state;  /* "depth", "sky", "hole" */
+    double depth, code; /* window depth as the image has it, and the nearest code */
+    double z;           /* what the code gives back */
+    grain_range range;
+    double interval;
+    double truth, error;       /* of a scene */
+    double beside[NEIGHBOURS]; /* eye depths to the left, right, above, below */
+    double position[3];        /* world */
+    double normal[3];          /* view space, by the method projective */
+    double normal_off;         /* what that is off by at most, degrees; of a scene truly */
+} pixel;
+
+typedef struct pixels {
+    const options *o;
+    const texture_source *source;
+    setup_fields setup;
+    const char *source_path, *scene, *format_from, *mapping_from, *direction_from;
+    pixel *items, at; /* all, and the one at hand */
+    size_t count;
+} pixels;
+
+/* ---- What is found ----------------------------------------------------------------------------------------------- */
+
+/* The code of a pixel; UINT32_MAX where it has none, or lies outside. `codes` has room for a row. */
+static uint32_t code_at(const frame *f, uint32_t *codes, int64_t x, int64_t y) {
+    if (x < 0 || x >= f->camera->width || y < 0 || y >= f->camera->height)
+        return UINT32_MAX;
+    frame_codes(f, (uint32_t)y, codes);
+    return codes[x];
+}
+
+static double depth_at(const frame *f, const pixel *p, uint32_t code) {
+    double d = (double)NAN;
+    if (f->image != NULL && !f->metric)
+        image_depths(f->image, &f->camera->setup.spec.format, p->row, p->column, 1, &d);
+    else if (!f->metric && code != UINT32_MAX)
+        d = dp_format_value(&f->camera->setup.spec.format, code);
+    return d;
+}
+
+static void look(const texture_source *s, pixel *p, uint32_t *codes) {
+    static const int steps[NEIGHBOURS][2] = {{-1, 0}, {1, 0}, {0, -1}, {0, 1}};
+    const frame *f = &s->frame;
+    const dp_setup *setup = &s->camera.setup;
+    const double none = (double)NAN;
+    const uint32_t code = code_at(f, codes, p->column, p->row);
+    const bool hole = code == UINT32_MAX, sky = !hole && frame_rank(setup, code) >= frame_sky_rank(f);
+    double view[3], relative[3];
+    scene_hit hit = {.z = (double)INFINITY};
+    p->state = hole ? "hole" : sky ? "sky" : "depth";
+    p->depth = depth_at(f, p, code);
+    p->code = hole ? none : (double)code;
+    p->z = hole ? none : dp_stored(setup, code);
+    p->range = hole ? (grain_range){none, none, none} : grain_range_of(setup, f->grain, code);
+    p->interval = p->range.hi - p->range.lo;
+    if (f->scene != NULL)
+        f->scene->hit(&s->camera, f->parameters, p->column, p->row, &hit);
+    p->truth = isinf(hit.z) ? none : hit.z;
+    p->error = isinf(hit.z) || hole ? none : dp_error(setup, code, hit.z);
+    camera_view(&s->camera, p->column, p->row, p->z, view);
+    camera_turn(&s->camera, view, relative);
+    for (int k = 0; k < 3; k++)
+        p->position[k] = sky ? none : s->camera.origin[k] + relative[k];
+    for (int k = 0; k < NEIGHBOURS; k++) {
+        const uint32_t beside = code_at(f, codes, (int64_t)p->column + steps[k][0], (int64_t)p->row + steps[k][1]);
+        p->beside[k] = beside == UINT32_MAX ? none : dp_stored(setup, beside);
+    }
+}
+
+/* The normals of a strip at the pixels, or by how much they are off. */
+static bool take_normals(void *context, uint32_t row, uint32_t count, const float *values) {
+    const pixels *all = context;
+    for (size_t i = 0; i < all->count; i++) {
+        pixel *p = &all->items[i];
+        if (p->row < row || p->row >= row + count)
+            continue;
+        const float *at = values + 3 * ((size_t)(p->row - row) * all->source->camera.width + p->column);
+        for (int k = 0; k < 3; k++)
+            p->normal[k] = (double)at[k];
+    }
+    return true;
+}
+
+static bool take_errors(void *context, uint32_t row, uint32_t count, const float *values) {
+    const pixels *all = context;
+    for (size_t i = 0; i < all->count; i++) {
+        pixel *p = &all->items[i];
+        if (p->row >= row && p->row < row + count)
+            p->normal_off = (double)values[(size_t)(p->row - row) * all->source->camera.width + p->column];
+    }
+    return true;
+}
+
+static bool find(pixels *all) {
+    frame_product normals = {.kind = FRAME_NORMAL, .normal = normal_get(NORMAL_PROJECTIVE)};
+    const frame *f = &all->source->frame;
+    uint32_t *codes = malloc(all->source->camera.width * sizeof *codes);
+    for (size_t i = 0; codes != NULL && i < all->count; i++) {
+        all->items[i].column = (uint32_t)depths_get(&all->o->pixels, 2 * i);
+        all->items[i].row = (uint32_t)depths_get(&all->o->pixels, 2 * i + 1);
+        look(all->source, &all->items[i], codes);
+    }
+    bool good = codes != NULL && frame_run(f, &normals, false, take_normals, all);
+    normals.error = true;
+    good = good && frame_run(f, &normals, false, take_errors, all);
+    free(codes);
+    return good;
+}
+
+/* ---- Text -------------------------------------------------------------------------------------------------------- */
+
+/* Where the camera is known: of an image it is what the user says it was. */
+static bool has_camera(const pixels *all) {
+    return all->source->path == NULL || option_given(all->o, OPTION_FOV) || option_given(all->o, OPTION_HALF_HEIGHT);
+}
+
+static void say_normal(page *p, const pixels *all) {
+    const pixel *x = &all->at;
+    const bool known = all->scene != NULL;
+    page_note(p, "normal", "%s, %s, %s in view space", number_of(x->normal[0], DIGITS).text,
+              number_of(x->normal[1], DIGITS).text, number_of(x->normal[2], DIGITS).text);
+    page_note(p, "", "off by %s%s degrees%s", known ? "" : "at most ", number_of(x->normal_off, DIGITS).text,
+              known ? "" : " where the surface is flat");
+}
+
+static void say_pixel(page *p, void *item) {
+    const pixels *all = item;
+    const pixel *x = &all->at;
+    const int digits = number_digits_within(x->z, x->interval, DIGITS_Z, DIGITS_MOST);
+    const bool seen = *x->state == 'd';
+    page_title(p, "pixel %u,%u: %s%s", x->column, x->row, seen ? "eye depth " : x->state,
+               seen ? number_of(x->z, digits).text : "");
+    if (*x->state == 'h')
+        return;
+    page_note(p, "code", "%s%s%s", number_of(x->code, DIGITS_DEPTH).text, isnan(x->depth) ? "" : ", window depth ",
+              isnan(x->depth) ? "" : number_of(x->depth, DIGITS_DEPTH).text);
+    page_note(p, "may be", "%s to %s, an interval of %s", number_of(x->range.lo, digits).text,
+              number_of(x->range.hi, digits).text, number_of(x->interval, DIGITS).text);
+    if (!isnan(x->truth))
+        page_note(p, "truth", "%s, error %s", number_of(x->truth, digits).text, number_of(x->error, DIGITS).text);
+    page_note(p, "neighbours", "left %s, right %s, above %s, below %s", number_of(x->beside[0], digits).text,
+              number_of(x->beside[1], digits).text, number_of(x->beside[2], digits).text,
+              number_of(x->beside[3], digits).text);
+    if (!has_camera(all) || !seen)
+        return;
+    page_note(p, "position", "%s, %s, %s", number_of(x->position[0], DIGITS_Z).text,
+              number_of(x->position[1], DIGITS_Z).text, number_of(x->position[2], DIGITS_Z).text);
+    if (!isnan(x->normal[0]))
+        say_normal(p, all);
+}
+
+static void say_head(page *p, void *item) {
+    const pixels *all = item;
+    const texture_source *s = all->source;
+    char label[SETUP_LABEL_SIZE];
+    page_text(p, "%s: %u x %u pixels, %s", all->scene != NULL ? all->scene : s->path, s->camera.width, s->camera.height,
+              all->o->metric > 0 ? "metric depth" : setup_label(&s->setup, true, label));
+    if (all->o->metric == 0)
+        page_text(p, "format %s, mapping %s%s", all->format_from, all->mapping_from,
+                  has_camera(all)   ? ""
+                  : s->camera.ortho ? "; --half-height tells position and normal"
+                                    : "; --fov tells position and normal");
+    output_char(p->out, '\n');
+}
+
+/* ---- Columns ----------------------------------------------------------------------------------------------------- */
+
+enum { OF_SCENE = 1, WITH_CAMERA = 2 };
+
+static void *next_pixel(void *of, size_t i) {
+    pixels *all = of;
+    if (i == all->count)
+        return NULL;
+    all->at = all->items[i];
+    return all;
+}
+
+static const column vector_columns[][4] = {{{FIELD(pixels, at.position[0], "x", "scene")},
+                                            {FIELD(pixels, at.position[1], "y", "scene")},
+                                            {FIELD(pixels, at.position[2], "z", "scene")},
+                                            {.kind = COLUMN_END}},
+                                           {{FIELD(pixels, at.normal[0], "x", "")},
+                                            {FIELD(pixels, at.normal[1], "y", "")},
+                                            {FIELD(pixels, at.normal[2], "z", "")},
+                                            {.kind = COLUMN_END}}};
+
+static const column pixel_columns[] = {
+    {FIELD(pixels, at.column, "column", "")},
+    {FIELD(pixels, at.row, "row", "")},
+    {FIELD(pixels, at.state, "state", "")},
+    {FIELD(pixels, at.code, "code", "")},
+    {FIELD(pixels, at.depth, "depth", "")},
+    {FIELD(pixels, at.z, "z", "scene")},
+    {FIELD(pixels, at.range.lo, "lo", "scene")},
+    {FIELD(pixels, at.range.hi, "hi", "scene")},
+    {FIELD(pixels, at.interval, "interval", "scene")},
+    {FIELD(pixels, at.truth, "truth", "scene"), .when = OF_SCENE},
+    {FIELD(pixels, at.error, "error", "scene"), .when = OF_SCENE},
+    {FIELD(pixels, at.beside[0], "left", "scene")},
+    {FIELD(pixels, at.beside[1], "right", "scene")},
+    {FIELD(pixels, at.beside[2], "above", "scene")},
+    {FIELD(pixels, at.beside[3], "below", "scene")},
+    {GROUP("position", vector_columns[0]), .only = AS_JSON, .when = WITH_CAMERA},
+    {GROUP("normal", vector_columns[1]), .only = AS_JSON, .when = WITH_CAMERA},
+    {FIELD(pixels, at.position[0], "position_x", "scene"), .only = AS_CSV, .when = WITH_CAMERA},
+    {FIELD(pixels, at.position[1], "position_y", "scene"), .only = AS_CSV, .when = WITH_CAMERA},
+    {FIELD(pixels, at.position[2], "position_z", "scene"), .only = AS_CSV, .when = WITH_CAMERA},
+    {FIELD(pixels, at.normal[0], "normal_x", ""), .only = AS_CSV, .when = WITH_CAMERA},
+    {FIELD(pixels, at.normal[1], "normal_y", ""), .only = AS_CSV, .when = WITH_CAMERA},
+    {FIELD(pixels, at.normal[2], "normal_z", ""), .only = AS_CSV, .when = WITH_CAMERA},
+    {FIELD(pixels, at.normal_off, "normal_error", "degrees"), .when = WITH_CAMERA},
+    {.kind = COLUMN_END}};
+
+static const column columns[] = {{FIELD(pixels, source_path, "file", ""), .only = AS_JSON},
+                                 {FIELD(pixels, scene, "scene", ""), .only = AS_JSON},
+                                 {PART(pixels, setup, NULL, setup_columns)},
+                                 {FIELD(pixels, format_from, "format_from", ""), .only = AS_JSON},
+                                 {FIELD(pixels, mapping_from, "mapping_from", ""), .only = AS_JSON},
+                                 {FIELD(pixels, direction_from, "direction_from", ""), .only = AS_JSON},
+                                 {LIST("pixels", pixel_columns, next_pixel), .head = say_pixel},
+                                 {.kind = COLUMN_END}};
+
+/* ---- The command ------------------------------------------------------------------------------------------------- */
+
+static int check_inside(const options *o, const texture_camera *camera) {
+    for (size_t i = 0; i < o->pixels.count; i += 2) {
+        const double x = depths_get(&o->pixels, i), y = depths_get(&o->pixels, i + 1);
+        if (x >= camera->width || y >= camera->height)
+            return option_error(OPTION_PIXEL, "must lie in the %u x %u pixels, from 0,0 to %u,%u, got %.0f,%.0f",
+                                camera->width, camera->height, camera->width - 1, camera->height - 1, x, y);
+    }
+    return EXIT_FINE;
+}
+
+int texture_pixel_write(const options *o, const texture_source *source) {
+    output out;
+    pixels all = {.o = o,
+                  .source = source,
+                  .setup = setup_fields_of(&source->setup),
+                  .source_path = source->path,
+                  .scene = source->frame.scene != NULL ? source->frame.scene->name : NULL,
+                  .format_from = texture_origin_name(source->format_from),
+                  .mapping_from = texture_origin_name(source->mapping_from),
+                  .direction_from = texture_origin_name(source->direction_from),
+                  .count = o->pixels.count / 2};
+    int status = check_inside(o, &source->camera);
+    if (status == EXIT_FINE)
+        status = options_open(o, &out);
+    if (status != EXIT_FINE)
+        return status;
+    all.items = calloc(all.count, sizeof *all.items);
+    if (all.items != NULL && find(&all)) {
+        const unsigned when = (all.scene != NULL ? OF_SCENE : 0) | (has_camera(&all) ? WITH_CAMERA : 0);
+        report_write(&(report_spec){"texture", columns, &all, .when = when, .label = 14, .head = say_head}, &out,
+                     o->form);
+        status = output_close(&out);
+    } else {
+        output_abandon(&out);
+        status = usage_error("texture: no memory for the pixels");
+    }
+    free(all.items);
+    return status;
+}

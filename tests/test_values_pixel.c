@@ -1,0 +1,311 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Every value that texture --pixel prints, of scenes and of an image. */
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "named.h"
+#include "printed.h"
+#include "texture/frame.h"
+#include "texture/image_depths.h"
+
+enum { WIDTH = 40, HEIGHT = 24, PIXELS = 4 };
+
+typedef struct pixel_case {
+    camera_case camera;
+    const char *scene, *options; /* null: an image */
+    const char *direction_from;  /* null: given as all else; else the mapping is assumed, and --fov not given */
+    double fov, half_height, yaw, pitch, origin[3], sky;
+    uint32_t at[PIXELS][2];
+} pixel_case;
+
+static const pixel_case cases[] = {
+    {{0.3, 1000, {"unorm16"}, {"d3d"}, .ortho = 0},
+     "decals",
+     "--fov 40 --yaw 10 --pitch=-5 --origin 1,-2,3",
+     NULL,
+     40,
+     NAN,
+     10,
+     -5,
+     {1, -2, 3},
+     1e-4,
+     {{20, 12}, {0, 0}, {39, 23}, {3, 11}}},
+    {{1, 60, {"fp16"}, {"gl"}, .ortho = 1},
+     "sphere",
+     "--half-height 3 --yaw=-20",
+     NULL,
+     NAN,
+     3,
+     -20,
+     0,
+     {0, 0, 0},
+     1e-4,
+     {{20, 12}, {0, 0}, {26, 10}, {17, 15}}},
+    {{0.2, 500, {"unorm16"}, {"reversed"}, .ortho = 0},
+     NULL,
+     "--fov 70 --pitch 30 --sky 0.01",
+     NULL,
+     70,
+     NAN,
+     0,
+     30,
+     {0, 0, 0},
+     0.01,
+     {{5, 5}, {0, 15}, {10, 10}, {21, 22}}},
+    {{0.2, 500, {"unorm16"}, {"reversed"}, .ortho = 0},
+     NULL,
+     "-n 0.2 -f 500 -F unorm16",
+     "found",
+     NAN,
+     NAN,
+     0,
+     0,
+     {0, 0, 0},
+     1e-4,
+     {{6, 5}, {39, 0}, {10, 10}, {21, 22}}},
+};
+
+/* A window depth that falls to the right and downwards, with a hole at 10,10 and sky below row 15. */
+static float sample_at(uint32_t x, uint32_t y) {
+    return x == 10 && y == 10 ? (float)NAN
+           : y >= 16          ? 0.0f
+                              : 0.2412345f / (1 + 0.0371f * (float)x + 0.0113f * (float)(y * y));
+}
+
+static void write_image(const char *path, image *out) {
+    char header[128];
+    FILE *file = fopen(path, "wb");
+    assert_non_null(file);
+    snprintf(header, sizeof header, "{'descr': '<f4', 'fortran_order': False, 'shape': (%d, %d), }", HEIGHT, WIDTH);
+    fwrite("\x93NUMPY\x01\x00\x76\x00", 1, 10, file);
+    fprintf(file, "%-117s\n", header);
+    float *samples = malloc(WIDTH * HEIGHT * sizeof *samples);
+    assert_non_null(samples);
+    for (uint32_t y = 0; y < HEIGHT; y++)
+        for (uint32_t x = 0; x < WIDTH; x++)
+            samples[y * WIDTH + x] = sample_at(x, y);
+    fwrite(samples, sizeof *samples, WIDTH * HEIGHT, file);
+    assert_int_equal(fclose(file), 0);
+    *out = (image){.width = WIDTH, .height = HEIGHT, .channels = 1, .type = IMAGE_F32, .data = samples};
+}
+
+static void camera_of(const pixel_case *c, texture_camera *out) {
+    dp_setup setup[CAMERA_SETUPS];
+    camera_spec spec = camera_spec_default();
+    assert_int_equal(camera_setups(&c->camera, setup), 1);
+    spec.width = WIDTH;
+    spec.height = HEIGHT;
+    spec.fov_y = isnan(c->fov) ? spec.fov_y : c->fov;
+    spec.half_height = isnan(c->half_height) ? spec.half_height : c->half_height;
+    spec.yaw = c->yaw;
+    spec.pitch = c->pitch;
+    memcpy(spec.origin, c->origin, sizeof spec.origin);
+    assert_null(camera_init(out, setup, &spec));
+}
+
+static bool keep(void *context, uint32_t row, uint32_t count, const float *made) {
+    const frame_product *p = ((void **)context)[0];
+    float *all = ((void **)context)[1];
+    const size_t channels = (size_t)frame_channels(p);
+    memcpy(all + row * WIDTH * channels, made, count * WIDTH * channels * sizeof *all);
+    return true;
+}
+
+/* The normals of all pixels, or by how much they are off. */
+static void normals_of(const frame *f, bool error, float *out) {
+    const frame_product p = {.kind = FRAME_NORMAL, .error = error, .normal = normal_find("projective")};
+    void *context[] = {(void *)(uintptr_t)&p, out};
+    assert_true(frame_run(f, &p, false, keep, context));
+}
+
+/* The eye depth of a pixel; NaN outside and in holes. */
+static double eye_at(const frame *f, int x, int y, uint32_t *code) {
+    uint32_t codes[WIDTH];
+    *code = UINT32_MAX;
+    if (x < 0 || x >= WIDTH || y < 0 || y >= HEIGHT)
+        return NAN;
+    frame_codes(f, (uint32_t)y, codes);
+    *code = codes[x];
+    return codes[x] == UINT32_MAX ? NAN : dp_stored(&f->camera->setup, codes[x]);
+}
+
+static void want_place(values *v, const pixel_case *c, const frame *f, const uint32_t at[2], double z, bool seen,
+                       size_t i) {
+    static float normals[3 * WIDTH * HEIGHT], errors[WIDTH * HEIGHT];
+    const size_t index = at[1] * WIDTH + at[0];
+    double view[3], world[3];
+    if (c->direction_from != NULL)
+        return;
+    camera_view(f->camera, at[0], at[1], z, view);
+    camera_turn(f->camera, view, world);
+    normals_of(f, false, normals);
+    normals_of(f, true, errors);
+    for (int k = 0; k < 3; k++) {
+        const char *const axis = &"x\0y\0z"[2 * k];
+        values_under(v, "pixels[%zu].position.", i);
+        want_number(v, axis, seen ? c->origin[k] + world[k] : NAN);
+        values_under(v, "pixels[%zu].normal.", i);
+        want_number(v, axis, (double)normals[3 * index + (size_t)k]);
+    }
+    values_under(v, "pixels[%zu].", i);
+    want_number(v, "normal_error", (double)errors[index]);
+}
+
+static void want_pixel(values *v, const pixel_case *c, const frame *f, size_t i) {
+    static const char *const sides[] = {"left", "right", "above", "below"};
+    static const int steps[][2] = {{-1, 0}, {1, 0}, {0, -1}, {0, 1}};
+    const uint32_t *at = c->at[i];
+    const dp_setup *setup = &f->camera->setup;
+    uint32_t code, other;
+    const double z = eye_at(f, (int)at[0], (int)at[1], &code);
+    const bool hole = code == UINT32_MAX, sky = !hole && frame_rank(setup, code) >= frame_sky_rank(f);
+    const grain_range r = hole ? (grain_range){NAN, NAN, NAN} : grain_range_of(setup, f->grain, code);
+    values_under(v, "pixels[%zu].", i);
+    want_count(v, "column", at[0]);
+    want_count(v, "row", at[1]);
+    want_text(v, "state", hole ? "hole" : sky ? "sky" : "depth");
+    want_number(v, "code", hole ? NAN : code);
+    want_number(v, "z", z);
+    want_number(v, "lo", r.lo);
+    want_number(v, "hi", r.hi);
+    want_number(v, "interval", r.hi - r.lo);
+    if (f->scene != NULL) {
+        scene_hit hit;
+        f->scene->hit(f->camera, f->parameters, at[0], at[1], &hit);
+        assert_int_equal(code, dp_code(setup, fmin(hit.z, setup->spec.zfar)));
+        want_number(v, "depth", dp_format_value(&setup->spec.format, code));
+        want_number(v, "truth", isinf(hit.z) ? NAN : hit.z);
+        want_number(v, "error", isinf(hit.z) ? NAN : dp_error(setup, code, hit.z));
+    } else {
+        want_number(v, "depth", (double)sample_at(at[0], at[1]));
+    }
+    for (int k = 0; k < 4; k++)
+        want_number(v, sides[k], eye_at(f, (int)at[0] + steps[k][0], (int)at[1] + steps[k][1], &other));
+    want_place(v, c, f, at, z, !hole && !sky, i);
+}
+
+static void check_text(const values *v, const char *arguments, const pixel_case *c) {
+    printed p = print_of("%s", arguments);
+    assert_int_equal(p.status, 0);
+    for (size_t i = 0; i < PIXELS; i++) {
+        static const struct {
+            const char *label;
+            int digits;
+            const char *fields[5];
+        } lines[] = {{"code  ", 9, {"code", "depth"}},
+                     {"may be  ", 5, {"lo", "hi", "interval"}},
+                     {"truth  ", 6, {"truth", "error"}},
+                     {"position  ", 9, {"position.x", "position.y", "position.z"}},
+                     {"normal  ", 6, {"normal.x", "normal.y", "normal.z"}},
+                     {"off by", 6, {"normal_error"}}};
+        char title[32];
+        snprintf(title, sizeof title, "pixel %u,%u:", c->at[i][0], c->at[i][1]);
+        char *section = strstr(p.out, title);
+        assert_non_null(section);
+        char *end = strstr(section, "\n\n");
+        section = strndup(section, end != NULL ? (size_t)(end - section) + 1 : strlen(section));
+        for (size_t k = 0; k < sizeof lines / sizeof lines[0]; k++) {
+            char paths[5][PATH_SIZE];
+            const char *all[6] = {NULL};
+            for (size_t n = 0; n < 5 && lines[k].fields[n] != NULL; n++) {
+                snprintf(paths[n], PATH_SIZE, "pixels[%zu].%s", i, lines[k].fields[n]);
+                all[n] = paths[n];
+            }
+            const wanted *first = value_find(v, paths[0]);
+            const bool sky =
+                strcmp(value_at(v, (snprintf(title, sizeof title, "pixels[%zu].state", i), title))->text, "depth") != 0;
+            if (first != NULL && !isnan(first->number) && !(k >= 3 && sky))
+                check_text_numbers(v, section, lines[k].label, lines[k].digits, all);
+        }
+        free(section);
+    }
+    printed_free(&p);
+}
+
+static void test_pixels(void **state) {
+    static const csv_column columns[] = {SETUP_COLUMNS,
+                                         {"column", "column"},
+                                         {"row", "row"},
+                                         {"state", "state"},
+                                         {"code", "code"},
+                                         {"depth", "depth"},
+                                         {"z [scene]", "z"},
+                                         {"lo [scene]", "lo"},
+                                         {"hi [scene]", "hi"},
+                                         {"interval [scene]", "interval"},
+                                         {"truth [scene]", "truth"},
+                                         {"error [scene]", "error"},
+                                         {"left [scene]", "left"},
+                                         {"right [scene]", "right"},
+                                         {"above [scene]", "above"},
+                                         {"below [scene]", "below"},
+                                         {"position_x [scene]", "position.x"},
+                                         {"position_y [scene]", "position.y"},
+                                         {"position_z [scene]", "position.z"},
+                                         {"normal_x", "normal.x"},
+                                         {"normal_y", "normal.y"},
+                                         {"normal_z", "normal.z"},
+                                         {"normal_error [degrees]", "normal_error"}};
+    (void)state;
+    for (size_t i = 0; i < sizeof cases / sizeof cases[0]; i++) {
+        const pixel_case *c = &cases[i];
+        const grain floats = {.kind = GRAIN_FLOATS, .buffer = true, .bits = 24, .least = 0x1p-149};
+        const char *const path = scratch_file("pixel.npy");
+        texture_camera camera;
+        image shot = {0};
+        double parameters[TEXTURE_PARAMETERS];
+        frame f = {.camera = &camera, .sky = c->sky, .scene = c->scene != NULL ? scene_find(c->scene) : NULL};
+        char options[512], arguments[2048];
+        size_t used;
+        csv_column present[sizeof columns / sizeof columns[0]];
+        size_t count = 0;
+        line_places lines = {0};
+        values v = values_of("texture");
+        camera_of(c, &camera);
+        if (c->scene != NULL) {
+            parameter_defaults(f.scene->parameters, parameters);
+            f.parameters = parameters;
+            used = (size_t)snprintf(arguments, sizeof arguments, "texture --scene %s --size %dx%d", c->scene, WIDTH,
+                                    HEIGHT);
+        } else {
+            write_image(path, &shot);
+            f.image = &shot;
+            f.grain = &floats;
+            used = (size_t)snprintf(arguments, sizeof arguments, "texture %s", path);
+        }
+        used += (size_t)snprintf(arguments + used, sizeof arguments - used, " %s %s --pixel '",
+                                 c->direction_from == NULL ? camera_options(&c->camera, options) : "", c->options);
+        want_text(&v, "file", c->scene != NULL ? NULL : path);
+        want_text(&v, "scene", c->scene);
+        want_setup(&v, &camera.setup);
+        want_text(&v, "format_from", "given");
+        want_text(&v, "mapping_from", c->direction_from == NULL ? "given" : "assumed");
+        want_text(&v, "direction_from", c->direction_from == NULL ? "given" : c->direction_from);
+        for (size_t k = 0; k < PIXELS; k++) {
+            want_pixel(&v, c, &f, k);
+            used += (size_t)snprintf(arguments + used, sizeof arguments - used, "%s%u,%u", k > 0 ? ";" : "",
+                                     c->at[k][0], c->at[k][1]);
+            place_add(&lines, "", "pixels[%zu].", k);
+            snprintf(lines.items[k].inner, PATH_SIZE, "pixels[%zu].", k);
+            lines.items[k].outer[0] = '\0';
+        }
+        snprintf(arguments + used, sizeof arguments - used, "'");
+        for (size_t k = 0; k < sizeof columns / sizeof columns[0]; k++) {
+            const bool truth = k == 16 || k == 17, place = k >= 22;
+            if ((!truth || c->scene != NULL) && (!place || c->direction_from == NULL))
+                present[count++] = columns[k];
+        }
+        check_json(&v, 0, arguments);
+        check_csv(&v, 0, arguments, present, count, &lines);
+        check_text(&v, arguments, c);
+        values_free(&v);
+        places_free(&lines);
+        free(shot.data);
+    }
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {cmocka_unit_test(test_pixels), cmocka_unit_test(check_apart)};
+    return run_tap(tests);
+}
