@@ -58,7 +58,7 @@ static bool arith(size_t i, listed *l) {
 static bool model(size_t i, listed *l) {
     if (i > DP_MODEL_COUNT)
         return false;
-    *l = (listed){i < DP_MODEL_COUNT ? dp_model_name((dp_model)i) : "auto", "", NULL, NULL, {0}, 0};
+    *l = (listed){i < DP_MODEL_COUNT ? dp_model_name((dp_model)i) : "auto", i == DP_MODEL_FP32 ? "float" : "", NULL, NULL, {0}, 0};
     return true;
 }
 
@@ -236,7 +236,7 @@ static void check_forms(const json_t *items, const char *what, const char *bound
             text[used++] = *at;
     used = 0;
     json_array_foreach(items, i, o) {
-        char aliases[512] = "";
+        char aliases[1024] = "";
         size_t k;
         const json_t *name;
         json_array_foreach(json_object_get(o, "aliases"), k, name)
