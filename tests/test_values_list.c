@@ -161,11 +161,11 @@ static bool method(size_t i, listed *l) {
 static const struct {
     const char *what, *bound;
     bool (*get)(size_t, listed *);
-} topics[] = {{"formats", "bound", format}, {"mappings", "bound", mapping}, {"models", "bound", model},
-              {"ariths", "bound", arith},   {"causes", "bound", cause},     {"presets", "camera", preset_row},
-              {"apis", "rule", api},        {"packings", "bound", packing}, {"effects", "parameters", effect},
-              {"figures", "bound", figure}, {"scenes", "bound", scene},     {"positions", "bound", position},
-              {"normals", "bound", normal}, {"methods", "bound", method}};
+} topics[] = {{"formats", "bound", format},   {"mappings", "bound", mapping}, {"models", "bound", model},
+              {"arithmetic", "bound", arith}, {"causes", "bound", cause},     {"presets", "camera", preset_row},
+              {"apis", "rule", api},          {"packings", "bound", packing}, {"effects", "parameters", effect},
+              {"figures", "bound", figure},   {"scenes", "bound", scene},     {"positions", "bound", position},
+              {"normals", "bound", normal},   {"methods", "bound", method}};
 enum { TOPICS = sizeof topics / sizeof topics[0] };
 
 /* ---- Against what is printed ------------------------------------------------------------------------------------- */
@@ -196,7 +196,7 @@ static void check_numbers(const char *bound, const listed *l) {
 
 /* "a b c" and ["a", "b", "c"]. */
 static void check_aliases(const json_t *array, const char *aliases) {
-    char all[512] = "";
+    char all[1024] = "";
     size_t i;
     const json_t *name;
     json_array_foreach(array, i, name) {

@@ -467,7 +467,7 @@ static void check_text(values *v, const solve_case *c, const char *arguments, co
     snprintf(label, sizeof label, "%-14s ", measure_of(c));
     check_text_numbers(v, p.out, label, 6, worst);
     if (isfinite(value_at(v, "answer.separation_fp32")->number) && !in_fp32 && !is_distance(c))
-        check_text_numbers(v, p.out, "in binary32", 6, certain);
+        check_text_numbers(v, p.out, "guaranteed", 6, certain);
     if (isnan(c->znear) || isnan(c->zfar)) {
         snprintf(label, sizeof label, "%-14s ", c->target);
         if (c->possible) {

@@ -313,7 +313,7 @@ static void test_table_worst_lines(void **state) {
     want_number(&v, "near_effective", (double)znear);
     want_number(&v, "far_effective", (double)zfar);
     p = print_of("table -n 0.7 -f 5000 -F unorm24 -m gl --model fp32 -q");
-    check_text_numbers(&v, p.out, "drawn", 9, drawn);
+    check_text_numbers(&v, p.out, "clip range", 9, drawn);
     values_free(&v);
     printed_free(&p);
 }

@@ -184,7 +184,7 @@ static void test_zfight(void **state) {
         check_csv(&v, 0, arguments, columns, sizeof columns / sizeof columns[0], &lines);
         printed p = print_of("%s --full", arguments);
         check_text_table(&v, p.out, c->gap > 0 ? of_gaps : of_intervals, c->gap > 0 ? 6 : 9, &shown);
-        check_text_numbers(&v, p.out, "drawn from", 9, drawn);
+        check_text_numbers(&v, p.out, "effective clip range", 9, drawn);
         check_answer(&v, p.out);
         printed_free(&p);
         values_free(&v);

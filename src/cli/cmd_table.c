@@ -201,9 +201,9 @@ static void say_worst(page *p, const dp_worst *w) {
 
 static void say_drawn(page *p, const clipping *c) {
     if (isnan(c->znear) && c->loses)
-        page_note(p, "drawn", "nothing: clipping loses all depths");
+        page_note(p, "clip range", "empty: clipping loses all depths");
     else if (!isnan(c->znear))
-        page_note(p, "drawn", "from %s to %s%s", number_in(number_of(c->znear, DIGITS_USUAL), p->unit).text,
+        page_note(p, "clip range", "effectively %s to %s%s", number_in(number_of(c->znear, DIGITS_USUAL), p->unit).text,
                   number_in(number_of(c->zfar, DIGITS_USUAL), p->unit).text,
                   c->loses ? ": clipping loses the rest" : "");
 }

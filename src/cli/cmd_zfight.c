@@ -177,7 +177,8 @@ static void say_planes(page *p, void *item) {
     if (isnan(r->near_effective))
         page_line(p, "clipping loses everything");
     else
-        page_line(p, "drawn from %s to %s", number_in(number_of(r->near_effective, PLANE_DIGITS), p->unit).text,
+        page_line(p, "effective clip range: %s to %s",
+                  number_in(number_of(r->near_effective, PLANE_DIGITS), p->unit).text,
                   number_in(number_of(r->far_effective, PLANE_DIGITS), p->unit).text);
 }
 

@@ -38,7 +38,7 @@ bool list_model(size_t index, list_item *item) {
     static const char *const notes[] = {
         [DP_MODEL_EXACT] = "real arithmetic and one rounding into the format: the lattice of codes",
         [DP_MODEL_STAGED] = "NDC depth, then window depth, each rounded once to binary32, then the format",
-        [DP_MODEL_FP32] = "every operation in binary32, see 'depthprec list ariths'; not for linear and log",
+        [DP_MODEL_FP32] = "every operation in binary32, see 'depthprec list arithmetic'; not for linear and log",
         "the simplest of the three that is enough at the depths asked about, see --tolerance",
     };
     const char *name = dp_model_name((dp_model)index);
@@ -210,7 +210,7 @@ static const topic topics[] = {
     {"formats", "depth formats, and what their rounding is held to", list_format, "bound"},
     {"mappings", "how an eye depth becomes a window depth", list_mapping, "bound"},
     {"models", "what is modelled of the arithmetic before the buffer", list_model, "bound"},
-    {"ariths", "the variants of binary32 arithmetic", list_arith, "bound"},
+    {"arithmetic", "variants of binary32 arithmetic, for --arith", list_arith, "bound"},
     {"transforms", "how world positions become clip coordinates", list_composition, "bound"},
     {"causes", "what takes a part of the separation", list_cause, "bound"},
     {"presets", "cameras as engines set them, for --preset", list_preset, "camera"},

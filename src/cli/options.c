@@ -190,7 +190,7 @@ static int complete(options *o) {
 }
 
 /* The commands that have been taught what lies at depth 0 and behind it. */
-enum { ANY_SIGN = VERB_TABLE | VERB_BUDGET | VERB_SOLVE | VERB_ZFIGHT | VERB_TEXTURE };
+enum { ANY_SIGN = VERB_TABLE | VERB_BUDGET | VERB_SOLVE | VERB_ZFIGHT | VERB_TEXTURE | VERB_PLOT };
 
 static int check_near(const options *o) {
     const option_row *row = &option_rows[OPTION_NEAR];

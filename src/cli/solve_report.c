@@ -276,10 +276,12 @@ static void say_beside(const solve_report *r, const solve_candidate *c, page *p)
     if (c->spec.model == DP_MODEL_FP32 || isinf(c->reached.value))
         return;
     if (isinf(binary32))
-        page_note(p, "in binary32", "nothing is certain there: 'depthprec budget' says why");
+        page_note(p, "guaranteed", "nothing there: 'depthprec budget' says why");
+    else if (binary32 > r->limit * (1.0 + 1e-6))
+        page_note(p, "guaranteed", "only %s, short of %s: 'depthprec budget' says why", up(r, binary32).text,
+                  whole(r, r->limit).text);
     else if (!isnan(binary32))
-        page_note(p, "in binary32", "%s is certain there%s", up(r, binary32).text,
-                  binary32 > r->limit * (1.0 + 1e-6) ? ", too much: 'depthprec budget' says why" : "");
+        page_note(p, "guaranteed", "%s there", up(r, binary32).text);
 }
 
 void solve_report_answer(page *p, void *item) {

@@ -155,8 +155,8 @@ static void say_head(page *p, void *item) {
     if (v->band_count == 0)
         page_note(p, "depths", "none");
     else
-        page_note(p, "depths", "%s to %s, %llu different codes", number_in(number_of(v->lo, 8), p->unit).text,
-                  number_in(number_of(v->hi, 8), p->unit).text, (unsigned long long)v->codes);
+        page_note(p, "depths", "%s to %s, %llu distinct code%s", number_in(number_of(v->lo, 8), p->unit).text,
+                  number_in(number_of(v->hi, 8), p->unit).text, (unsigned long long)v->codes, v->codes == 1 ? "" : "s");
 }
 
 static void say_pairs(const survey_pairs *s, page *p) {
