@@ -405,8 +405,12 @@ static void test_words(void **state) {
         {"table",
          OPTION_MODEL,
          WORD_AT(model),
-         "exact, staged, fp32 or auto",
-         {{"exact", DP_MODEL_EXACT}, {"staged", DP_MODEL_STAGED}, {"fp32", DP_MODEL_FP32}, {"auto", DP_MODEL_EXACT}}},
+         "exact, staged, float or auto",
+         {{"exact", DP_MODEL_EXACT},
+          {"staged", DP_MODEL_STAGED},
+          {"float", DP_MODEL_FP32},
+          {"fp32", DP_MODEL_FP32},
+          {"auto", DP_MODEL_EXACT}}},
         {"budget",
          OPTION_COMPOSITION,
          WORD_AT(terms.composition),
@@ -709,6 +713,6 @@ int main(void) {
         cmocka_unit_test(test_no_units), cmocka_unit_test(test_twice),   cmocka_unit_test(test_order),
         cmocka_unit_test(test_whole),    cmocka_unit_test(test_words),   cmocka_unit_test(test_rows),
         cmocka_unit_test(test_flags),    cmocka_unit_test(test_texts),   cmocka_unit_test(test_own),
-        cmocka_unit_test(test_formats),  cmocka_unit_test(test_lists), cmocka_unit_test(test_all)};
+        cmocka_unit_test(test_formats),  cmocka_unit_test(test_lists),   cmocka_unit_test(test_all)};
     return run_tap(tests);
 }

@@ -43,7 +43,18 @@ bool list_model(size_t index, list_item *item) {
     };
     const char *name = dp_model_name((dp_model)index);
     return index < sizeof notes / sizeof notes[0] &&
-           list_fill(item, (list_item){.name = name != NULL ? name : "auto", .note = notes[index]});
+           list_fill(item, (list_item){.name = name != NULL ? name : "auto",
+                                       .aliases = index == DP_MODEL_FP32 ? "float" : NULL,
+                                       .note = notes[index]});
+}
+
+bool list_model_word(size_t index, list_item *item) {
+    const bool found = list_model(index, item);
+    if (found && index == DP_MODEL_FP32) {
+        item->name = item->aliases;
+        item->aliases = dp_model_name(DP_MODEL_FP32);
+    }
+    return found;
 }
 
 bool list_rounding(size_t index, list_item *item) {

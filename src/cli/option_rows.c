@@ -14,7 +14,7 @@ static const name_list mappings = {.words = (const char *const[]){"all", NULL},
 static const name_list presets = {.get = list_preset};
 static const name_list units = {.get = list_unit};
 static const name_list roundings = {.get = list_rounding};
-static const name_list models = {.get = list_model};
+static const name_list models = {.get = list_model_word};
 static const name_list ariths = {.get = list_arith};
 static const name_list compositions = {.get = list_composition};
 static const name_list apis = {.words = (const char *const[]){"all", NULL}, .get = list_api};
@@ -92,7 +92,7 @@ const option_row option_rows[OPTION_COUNT] = {
     [OPTION_MODEL] = {"model", 0, NULL, MODELLED | VERB_SOLVE,
         "the arithmetic before the buffer: none, the lattice alone; NDC and window depth each rounded to binary32; "
         "every operation in binary32; or the simplest that is enough", WORD(model, models), .standard = "exact",
-        .except = {VERB_SOLVE, "fp32, the guarantee"}},
+        .except = {VERB_SOLVE, "float, the guarantee"}},
     [OPTION_ARITH] = {"arith", 0, "NAME", CAMERA | VERB_SOLVE,
         "the binary32 arithmetic: @", WORD(arith, ariths), .standard = "ieee"},
     [OPTION_TOLERANCE] = {"tolerance", 0, "SHARE", ASKED | VERB_BENCH | VERB_LIST,
@@ -173,7 +173,8 @@ const option_row option_rows[OPTION_COUNT] = {
     [OPTION_SCENE] = {"scene", 0, "NAME", VERB_TEXTURE,
         "a synthetic scene in place of FILE: @; 'depthprec list scenes' has their parameters", ROW(scene, scenes)},
     [OPTION_SIZE] = {"size", 0, "WxH", VERB_TEXTURE,
-        "with --scene: its pixels", parse_size, .standard = "640x360"},
+        "with --scene: its pixels", parse_size, .standard = "640x360",
+        .instead = "; a figure's size is --width and --height"},
     [OPTION_PARAMETER] = {"parameter", 0, "NAME=VALUE", VERB_TEXTURE,
         "of the scene or the effect; as often as needed", .parse = parse_parameter},
     [OPTION_SKY] = {"sky", 0, "T", VERB_TEXTURE,

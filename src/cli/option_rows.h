@@ -32,8 +32,9 @@ typedef struct option_row {
     struct {
         unsigned commands;
         const char *text;
-    } except;          /**< commands that have another default */
-    const char *group; /**< the heading above this row and those behind it; null where the one before goes on */
+    } except;            /**< commands that have another default */
+    const char *instead; /**< what a command that does not take it may be meant to have; or null */
+    const char *group;   /**< the heading above this row and those behind it; null where the one before goes on */
 } option_row;
 
 /** Index: option_id. */

@@ -110,9 +110,10 @@ static int unknown_option(const options *o, int refused, const char *argument) {
 }
 
 static int wrong_command(const options *o, option_id id) {
+    const option_row *row = &option_rows[id];
     char takers[OPTION_TEXT_SIZE];
-    return option_error(id, "is not an option of %s, but of %s", o->verb->name,
-                        option_takers(&option_rows[id], takers));
+    return option_error(id, "is not an option of %s, but of %s%s", o->verb->name, option_takers(row, takers),
+                        row->instead != NULL ? row->instead : "");
 }
 
 int check_operand(const verb *v, const char *what, const name_list *n, const char *given, list_item *found) {

@@ -279,7 +279,7 @@ static void say_beside(const solve_report *r, const solve_candidate *c, page *p)
         page_note(p, "guaranteed", "nothing there: 'depthprec budget' says why");
     else if (binary32 > r->limit * (1.0 + 1e-6))
         page_note(p, "guaranteed", "only %s, short of %s: 'depthprec budget' says why", up(r, binary32).text,
-                  number_in(number_full(r->limit), p->unit).text);
+                  whole(r, r->limit).text);
     else if (!isnan(binary32))
         page_note(p, "guaranteed", "%s there", up(r, binary32).text);
 }
