@@ -233,8 +233,8 @@ static void say_plane(const solve_report *r, const solve_candidate *c, page *p) 
     else if (passed == tried)
         page_note(p, "passes", "every %s tried from %s to %s, %llu of them", what, lo.text, hi.text, tried);
     else
-        page_note(p, "passes", "%llu of %llu tried from %s to %s: it hangs on how the matrix is rounded", passed, tried,
-                  lo.text, hi.text);
+        page_note(p, "passes", "%llu of %llu tried from %s to %s: it depends on how the matrix is rounded", passed,
+                  tried, lo.text, hi.text);
     if (!isnan(a->fails_to))
         page_note(p, "fails", "every binary32 %s from there %s to %s", what, is_near(c) ? "down" : "up",
                   bound(r, a->fails_to, is_near(c)).text);
