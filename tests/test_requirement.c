@@ -20,6 +20,12 @@ static void example_is_read(void **state) {
     need_error e;
     if (!need_read("tests/needs/engine.need", &f, &e))
         fail_msg("line %d: %s", e.line, e.text);
+    need_release(&f);
+    assert_true(parse(
+        "cameras = { a = { preset = \"unity\"; model = \"float\"; }; };\n" NEEDS("separation = 1; at = 5;"), &f, &e));
+    assert_int_equal(f.cameras[0].setups[0].spec.model, DP_MODEL_FP32);
+    need_release(&f);
+    assert_true(need_read("tests/needs/engine.need", &f, &e));
     assert_string_equal(f.unit, "m");
     assert_int_equal(f.camera_count, 4);
     assert_int_equal(f.count, 6);

@@ -497,7 +497,9 @@ static void test_solve(void **state) {
         char arguments[512];
         line_places lines = {0};
         values v = values_of("solve");
-        snprintf(arguments, sizeof arguments, "solve --model %s %s", c->model, c->arguments);
+        v.unit = i % 2 == 0 ? "ft" : NULL;
+        snprintf(arguments, sizeof arguments, "solve --model %s %s%s", c->model, c->arguments,
+                 i % 2 == 0 ? " --unit ft" : "");
         printed p = print_of("%s --json", arguments);
         assert_int_equal(p.status, !c->possible);
         root = json_of(p.out);

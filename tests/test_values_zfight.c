@@ -29,7 +29,7 @@ static const zfight_case cases[] = {
      0,
      0},
     /* Far is drawn, the depth before it is not: a hole. */
-    {{1, 10, {"fp32"}, {"d3d"}, .implied = true, .model = DP_MODEL_FP32}, 9.99, 10, 0, 0, 0},
+    {{1, 10, {"fp32"}, {"d3d"}, .implied = true, .model = DP_MODEL_FP32, .unit = "in"}, 9.99, 10, 0, 0, 0},
     {{0.3, 900, {"unorm16"}, {"gl", "reversed"}, .implied = true, .model = DP_MODEL_FP32, .rounding = DP_ROUND_ZERO},
      7.98,
      8.03,
@@ -166,6 +166,7 @@ static void test_zfight(void **state) {
     for (size_t i = 0; i < sizeof cases / sizeof cases[0]; i++) {
         const zfight_case *c = &cases[i];
         values v = values_of("zfight");
+        v.unit = c->camera.unit;
         line_places shown = {0}, lines = {0};
         dp_setup setups[CAMERA_SETUPS];
         char options[512], arguments[1024];
@@ -205,6 +206,7 @@ static void test_warning(void **state) {
         dp_setup setups[CAMERA_SETUPS];
         char options[512];
         values v = values_of("zfight");
+        v.unit = c->camera.unit;
         camera_setups(&c->camera, setups);
         census_of(c, setups, &r);
         want_count(&v, "holes", r.holes);

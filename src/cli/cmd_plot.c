@@ -93,8 +93,9 @@ static int choose_models(plotting *p) {
     enum { CHOICE_DEPTHS = 257 };
     double lo, hi;
     figure_range(&p->request, &lo, &hi);
-    const depths at = {DEPTHS_LOG, lo, hi, CHOICE_DEPTHS, NULL};
-    setups_choose(p->o, &at, &p->all);
+    const depths at = {.kind = DEPTHS_LOG, .lo = lo, .hi = hi, .count = CHOICE_DEPTHS};
+    for (size_t i = 0; i < p->all.count; i++)
+        setup_choose(p->o, &at, &p->all.items[i]);
     for (size_t i = 0; i < p->all.count && (p->row->takes & FIGURE_FP32) == 0; i++)
         if (p->all.items[i].spec.model == DP_MODEL_FP32)
             return option_error(OPTION_MODEL,

@@ -6,6 +6,7 @@
 
 #include "api/bias.h"
 #include "api/presets.h"
+#include "api/unit.h"
 #include "core/append.h"
 #include "method/method.h"
 #include "plot/figure.h"
@@ -42,7 +43,18 @@ bool list_model(size_t index, list_item *item) {
     };
     const char *name = dp_model_name((dp_model)index);
     return index < sizeof notes / sizeof notes[0] &&
-           list_fill(item, (list_item){.name = name != NULL ? name : "auto", .note = notes[index]});
+           list_fill(item, (list_item){.name = name != NULL ? name : "auto",
+                                       .aliases = index == DP_MODEL_FP32 ? "float" : NULL,
+                                       .note = notes[index]});
+}
+
+bool list_model_word(size_t index, list_item *item) {
+    const bool found = list_model(index, item);
+    if (found && index == DP_MODEL_FP32) {
+        item->name = item->aliases;
+        item->aliases = dp_model_name(DP_MODEL_FP32);
+    }
+    return found;
 }
 
 bool list_rounding(size_t index, list_item *item) {
@@ -84,6 +96,11 @@ bool list_preset(size_t index, list_item *item) {
              number_full(row->znear).text, number_full(row->zfar).text, dp_mapping_get(row->mapping)->name, row->format,
              row->unit, row->checked, confirmed ? "confirmed" : "not confirmed: ", row->unconfirmed);
     return true;
+}
+
+bool list_unit(size_t index, list_item *item) {
+    const unit_row *row = unit_get(index);
+    return row != NULL && list_fill(item, (list_item){.name = row->name, .row = row});
 }
 
 bool list_api(size_t index, list_item *item) {
