@@ -126,7 +126,8 @@ for kind in ariths transforms scenes positions normals effects; do
 done
 EMULATOR="qemu-$machine -L $root" OMP_NUM_THREADS=1 DEPTHPREC_QUICK=1
 export EMULATOR OMP_NUM_THREADS DEPTHPREC_QUICK
-(everything "$scratch/here" "$PWD/build/depthprec") >"$scratch/here.txt" 2>&1
+# The method f16c is an instruction of x86-64, absent elsewhere.
+(everything "$scratch/here" "$PWD/build/depthprec") 2>&1 | sed '/^encode,f16c,/d' >"$scratch/here.txt"
 (everything "$scratch/there" $EMULATOR "$PWD/$B/depthprec") >"$scratch/there.txt" 2>&1 &
 failed=0
 sh tests/run.sh $programs || failed=1
