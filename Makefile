@@ -30,8 +30,8 @@ BENCHES := $(wildcard tests/bench_*.c)
 SUPPORT := $(filter-out $(TESTS) $(BENCHES),$(wildcard tests/*.c))
 FUZZ := $(wildcard tests/fuzz/fuzz_*.c)
 MAN := $(wildcard man/*.[1-9])
-TOOLS := tests/run.sh tests/tap.sh tests/coverage.sh
-SCRIPTS := $(wildcard src/*.sh tests/*.sh plots/*.sh man/*.sh)
+TOOLS := tests/run.sh tests/tap.sh tests/coverage.sh tests/cross.sh tests/linked.sh
+SCRIPTS := $(wildcard src/*.sh tests/*.sh plots/*.sh man/*.sh .ci/*.sh)
 ALL_C := $(CORE) $(ROOMS) $(TESTS) $(BENCHES) $(SUPPORT) $(FUZZ)
 ALL_H := $(HEADERS) $(wildcard src/*/*.h tests/*.h tests/*/*.h)
 
@@ -107,7 +107,7 @@ $(TESTS_O) $(SUPPORT_O): | $(B)/check.cflags
 $(B)/build.cflags $(B)/check.cflags: $(B)/%.cflags: Makefile
 	@mkdir -p $(@D)
 	@pkg-config --cflags $(PKGS_$*) 2>/dev/null >$@ || \
-	    { echo "depthprec: not everything of $(PKGS_$*) is installed: run 'make packages' (or 'make demo')" >&2; exit 1; }
+	    { sh src/packages.sh --missing $* && pkg-config --print-errors --exists $(PKGS_$*); exit 1; }
 	@echo 'int main(void) { return 0; }' | $(CC) -fopenmp -x c -o $@.probe - 2>/dev/null && echo -fopenmp >>$@; rm -f $@.probe
 $(B)/build.libs $(B)/check.libs: $(B)/%.libs: $(B)/%.cflags
 	@pkg-config --libs $(PKGS_$*) >$@ && sed -n '/^-fopenmp/p' $< >>$@
@@ -130,7 +130,7 @@ $(B)/depthprec: $(ROOMS_O) $(B)/libdepthprec.a | $(B)/build.libs
 
 # ---- Tests -------------------------------------------------------------------------------------------------------
 
-.PHONY: check check-full check-programs asan fuzz coverage mutants
+.PHONY: check check-full check-programs check-clang check-baseline asan fuzz coverage mutants cross
 SHELL_TESTS := $(filter-out $(TOOLS),$(wildcard tests/*.sh))
 ONCE := tests/layers.sh tests/headers.sh tests/install.sh
 RUN_TESTS = $(TEST_PROGRAMS) $(if $(filter release,$(CONF)),$(SHELL_TESTS),$(filter-out $(ONCE),$(SHELL_TESTS)))
@@ -148,6 +148,21 @@ check-full:
 asan:
 	@DEPTHPREC_QUICK=1 LSAN_OPTIONS=suppressions=$(CURDIR)/tests/lsan.supp:print_suppressions=0 \
 	    $(MAKE) --no-print-directory CONF=asan check
+
+# The programs with few cases, and the recorded texts, of another compiler, and without anything that needs AVX: neither
+# the kernels for it nor those of the C library.
+VARIANT = DEPTHPREC_QUICK=1 $(MAKE) --no-print-directory RUN_TESTS='$$(TEST_PROGRAMS) tests/cli.sh'
+check-clang:
+	@sh src/packages.sh clang
+	@$(VARIANT) B=build/clang CC=clang check
+
+check-baseline:
+	@GLIBC_TUNABLES=glibc.cpu.hwcaps=-AVX2,-FMA,-FMA4 $(VARIANT) B=build/baseline CPPFLAGS='$(CPPFLAGS) -DDP_BASELINE' check
+
+MACHINES ?= aarch64 s390x
+cross:
+	@sh src/packages.sh cross
+	@for m in $(MACHINES); do CC='$(CC)' sh tests/cross.sh $$m || exit 1; done
 
 $(B)/tests/%: $(B)/obj/tests/%.o $(B)/libsupport.a $(B)/librooms.a $(B)/libdepthprec.a | $(B)/check.libs $(B)/build.libs
 	@mkdir -p $(@D)
@@ -221,7 +236,7 @@ lint-licence:
 
 # ---- Install -----------------------------------------------------------------------------------------------------
 
-.PHONY: install uninstall installcheck plots bench clean distclean dist help
+.PHONY: install uninstall installcheck plots bench clean distclean dist deb help
 VERSION = $(shell sed -n 's/^.define DP_VERSION *"\(.*\)"/\1/p' include/depthprec/depthprec.h)
 D = $(DESTDIR)
 COMPLETIONS := bash-completion/completions/depthprec zsh/site-functions/_depthprec fish/vendor_completions.d/depthprec.fish
@@ -238,6 +253,7 @@ install: all
 	$(Q)for m in $(MAN); do s=$(D)$(mandir)/man$${m##*.}; $(INSTALL) -d $$s && $(INSTALL_DATA) $$m $$s || exit 1; done
 	$(Q)for f in $(COMPLETIONS); do $(INSTALL) -d $(D)$(datarootdir)/$${f%/*} && \
 	    $(B)/depthprec completions $$(expr $$f : '\([a-z]*\)') >$(D)$(datarootdir)/$$f || exit 1; done
+	$(if $(D),,@sh src/loader.sh $(libdir))
 
 uninstall:
 	$(Q)rm -f $(D)$(bindir)/depthprec $(D)$(libdir)/libdepthprec.so.0 $(D)$(libdir)/libdepthprec.so \
@@ -268,6 +284,10 @@ dist:
 	$(Q)git archive --prefix=depthprec-$(VERSION)/ -o build/depthprec-$(VERSION).tar.gz HEAD
 	@echo build/depthprec-$(VERSION).tar.gz
 
+deb:
+	@sh src/packages.sh deb
+	@sh .ci/deb.sh
+
 help:
 	@sed -n 's/^## \{0,1\}//p' Makefile
 
@@ -275,6 +295,8 @@ help:
 ## make             build the library and the program into build/
 ## make check       install what is missing, build, run the quick tests
 ## make check-full  the exhaustive tests too
+## make check-clang     built by clang, the quick tests; check-baseline: without AVX
+## make cross       built for MACHINES="aarch64 s390x" and run, emulated: the tests, and the same bytes as here (Debian)
 ## make asan        the tests under the address and undefined-behaviour sanitizers
 ## make fuzz        each fuzz target for FUZZ_SECONDS=20 (needs clang)
 ## make mutants     whether the tests notice the changes of the source in tests/mutants.txt: an hour (ROOM=, ONLY=)
@@ -285,6 +307,7 @@ help:
 ## make packages    install what building and testing need
 ## make install     to PREFIX=/usr/local (DESTDIR, bindir, libdir, ... as usual); uninstall, installcheck
 ## make dist        a source archive in build/; make clean removes build/
+## make deb         Debian's source package and three packages in build/deb/, judged by lintian (Debian)
 ##
 ## CONF=release|asan|coverage|fuzz  V=1 shows the commands  CC, CFLAGS, CPPFLAGS, LDFLAGS as usual
 

@@ -1,49 +1,67 @@
 #!/bin/sh
 # SPDX-License-Identifier: GPL-3.0-or-later
-# Installs the packages that a job needs and this machine lacks:  packages.sh build|check|lint|fuzz
+# Installs the packages that a job needs and this machine lacks:  packages.sh build|check|clang|lint|fuzz|cross|deb
 # Silent and quick when nothing is missing, so that every `make` may call it.
+# packages.sh --missing JOB installs nothing: it names what is missing and the one command that installs it.
+# packages.sh --libraries JOB prints Debian's names of the libraries of a job.
 
+how=install
+case ${1-} in
+--*)
+    how=${1#--}
+    shift
+    ;;
+esac
 job=${1:-build}
 
-# job   | how to see that it is there                   | Debian, Ubuntu    | Fedora             | Arch
+# job | how to see that it is there                   | Debian, Ubuntu        | Fedora             | Arch   ('-': not there)
 rows='
-build | command pkg-config                            | pkg-config        | pkgconf-pkg-config | pkgconf
-build | library cairo                                 | libcairo2-dev     | cairo-devel        | cairo
-build | library gsl                                   | libgsl-dev        | gsl-devel          | gsl
-build | library libconfig                             | libconfig-dev     | libconfig-devel    | libconfig
-build | library libpng                                | libpng-dev        | libpng-devel       | libpng
-build | file share/fonts/*/*/DejaVuSans.ttf           | fonts-dejavu-core | dejavu-sans-fonts  | ttf-dejavu
-check | library cmocka                                | libcmocka-dev     | libcmocka-devel    | cmocka
-check | library gmp                                   | libgmp-dev        | gmp-devel          | gmp
-check | library mpfr                                  | libmpfr-dev       | mpfr-devel         | mpfr
-check | library jansson                               | libjansson-dev    | jansson-devel      | jansson
-check | library libxml-2.0                            | libxml2-dev       | libxml2-devel      | libxml2
-check | command mandoc                                | mandoc            | mandoc             | mandoc
-check | command rsvg-convert                          | librsvg2-bin      | librsvg2-tools     | librsvg
-check | command g++                                   | g++               | gcc-c++            | gcc
-check | command xmllint                               | libxml2-utils     | libxml2            | libxml2
-check | command jq                                    | jq                | jq                 | jq
-lint  | command clang                                 | clang             | clang              | clang
-lint  | header omp.h                                  | libomp-dev        | libomp-devel       | openmp
-lint  | command clang-format                          | clang-format      | clang-tools-extra  | clang
-lint  | command cppcheck                              | cppcheck          | cppcheck           | cppcheck
-lint  | command codespell                             | codespell         | codespell          | codespell
-fuzz  | command clang                                 | clang             | clang              | clang
-fuzz  | file lib*/clang/*/lib/*/libclang_rt.fuzzer*.a | libclang-rt-dev   | compiler-rt        | compiler-rt
+build | command pkg-config                            | pkg-config            | pkgconf-pkg-config | pkgconf
+build | library cairo                                 | libcairo2-dev         | cairo-devel        | cairo
+build | library gsl                                   | libgsl-dev            | gsl-devel          | gsl
+build | library libconfig                             | libconfig-dev         | libconfig-devel    | libconfig
+build | library libpng                                | libpng-dev            | libpng-devel       | libpng
+build | file share/fonts/*/*/DejaVuSans.ttf           | fonts-dejavu-core     | dejavu-sans-fonts  | ttf-dejavu
+check | library cmocka                                | libcmocka-dev         | libcmocka-devel    | cmocka
+check | library gmp                                   | libgmp-dev            | gmp-devel          | gmp
+check | library mpfr                                  | libmpfr-dev           | mpfr-devel         | mpfr
+check | library jansson                               | libjansson-dev        | jansson-devel      | jansson
+check | library libxml-2.0                            | libxml2-dev           | libxml2-devel      | libxml2
+check | command mandoc                                | mandoc                | mandoc             | mandoc
+check | command rsvg-convert                          | librsvg2-bin          | librsvg2-tools     | librsvg
+check | command g++                                   | g++                   | gcc-c++            | gcc
+check | command xmllint                               | libxml2-utils         | libxml2            | libxml2
+check | command jq                                    | jq                    | jq                 | jq
+clang | command clang                                 | clang                 | clang              | clang
+clang | header omp.h                                  | libomp-dev            | libomp-devel       | openmp
+lint  | command clang-format                          | clang-format          | clang-tools-extra  | clang
+lint  | command cppcheck                              | cppcheck              | cppcheck           | cppcheck
+lint  | command codespell                             | codespell             | codespell          | codespell
+fuzz  | file lib*/clang/*/lib/*/libclang_rt.fuzzer*.a | libclang-rt-dev       | compiler-rt        | compiler-rt
+cross | command aarch64-linux-gnu-gcc                 | gcc-aarch64-linux-gnu | -                  | -
+cross | command s390x-linux-gnu-gcc                   | gcc-s390x-linux-gnu   | -                  | -
+cross | command qemu-s390x                            | qemu-user             | qemu-user          | qemu-user
+deb   | command dpkg-buildpackage                     | dpkg-dev              | -                  | -
+deb   | command dh                                    | debhelper             | -                  | -
+deb   | command lintian                               | lintian               | -                  | -
 '
 
 case $job in
 build) jobs=' build ' ;;
 check) jobs=' build check ' ;;
-lint) jobs=' build check lint ' ;;
-fuzz) jobs=' build fuzz ' ;;
+clang) jobs=' build check clang ' ;;
+lint) jobs=' build check clang lint ' ;;
+fuzz) jobs=' build clang fuzz ' ;;
+cross) jobs=' build check cross ' ;;
+deb) jobs=' build check deb ' ;;
 *)
-    echo "packages.sh: the job must be build, check, lint or fuzz, got '$job'" >&2
+    echo "packages.sh: the job must be build, check, clang, lint, fuzz, cross or deb, got '$job'" >&2
     exit 2
     ;;
 esac
 
 present() { # present KIND NAME
+    case $how-$1 in libraries-library) return 1 ;; libraries-*) return 0 ;; esac
     case $1 in
     command) command -v "$2" >/dev/null 2>&1 ;;
     library) command -v pkg-config >/dev/null 2>&1 && pkg-config --exists "$2" ;;
@@ -61,7 +79,9 @@ missing=$(
 )
 [ -n "$missing" ] || exit 0
 
-names() { echo "$missing" | cut -d'|' -f"$1" | sort -u | tr '\n' ' ' | sed 's/ $//'; }
+names() { echo "$missing" | cut -d'|' -f"$1" | sed '/^-$/d' | sort -u | tr '\n' ' ' | sed 's/ $//'; }
+
+[ "$how" != libraries ] || { names 1 && exit; }
 
 if command -v apt-get >/dev/null 2>&1; then
     names=$(names 1)
@@ -70,32 +90,34 @@ if command -v apt-get >/dev/null 2>&1; then
 elif command -v dnf >/dev/null 2>&1; then
     names=$(names 2)
     install="dnf install -y"
-    refresh=:
+    refresh='dnf makecache'
 elif command -v pacman >/dev/null 2>&1; then
     names=$(names 3)
     install="pacman -S --needed --noconfirm"
     refresh="pacman -Sy"
 else
-    echo "depthprec: no apt-get, dnf or pacman here: please install these (Debian's names): $(names 1)" >&2
+    echo "depthprec: no apt-get, dnf or pacman here: missing (Debian's names): $(names 1)" >&2
     exit 1
 fi
 
 as_root=
-if [ "$(id -u)" -ne 0 ]; then
-    as_root=sudo
-    if ! command -v sudo >/dev/null 2>&1; then
-        echo "depthprec: packages are missing and only root may install them: $install $names" >&2
-        exit 1
-    fi
+[ "$(id -u)" -eq 0 ] || as_root='sudo '
+if [ "$how" = missing ]; then
+    echo "depthprec: missing: $names. This installs them: $as_root$install $names" >&2
+    exit 1
+fi
+if [ -n "$as_root" ] && ! command -v sudo >/dev/null 2>&1; then
+    echo "depthprec: missing, and there is no sudo here: $names. As root: $install $names" >&2
+    exit 1
 fi
 
 echo "  INSTALL $names" >&2
 log=$(mktemp) || exit 1
 trap 'rm -f "$log"' EXIT
-install="$as_root env DEBIAN_FRONTEND=noninteractive $install"
+quietly="$as_root env DEBIAN_FRONTEND=noninteractive $install"
 # A fresh machine has no package lists, so a first refusal is answered with a refresh.
-$install $names >"$log" 2>&1 </dev/null || { $as_root $refresh && $install $names; } >"$log" 2>&1 </dev/null || {
+$quietly $names >"$log" 2>&1 </dev/null || { $as_root $refresh && $quietly $names; } >"$log" 2>&1 </dev/null || {
     tail -n 5 "$log" >&2
-    echo "depthprec: these packages are missing and could not be installed: $names" >&2
+    echo "depthprec: missing, and could not be installed: $names. By hand: $as_root$refresh; $as_root$install $names" >&2
     exit 1
 }

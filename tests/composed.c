@@ -194,7 +194,8 @@ void composed_aim(const set_up *s, double z, const pose *p, camera *c) {
     for (int k = 0; k < 3; k++)
         side[k] = p->side[k] - along * c->axis[k];
     const double across = sqrt(sum_of_products(side, side));
-    const double wide = (s->ortho ? fmin(s->setup.spec.zfar, world) : sqrt(3.0)) * p->wide * (1.0 - 1e-9) / across;
+    const double size = fmax(fabs(s->setup.spec.znear), fabs(s->setup.spec.zfar));
+    const double wide = (s->ortho ? fmin(size, world) : sqrt(3.0)) * p->wide * (1.0 - 1e-9) / across;
     for (int k = 0; k < 3; k++) {
         c->ray[k] = c->axis[k] + (s->ortho ? 0.0 : wide * side[k]);
         const double ahead = z * c->ray[k] + (s->ortho ? wide * side[k] : 0.0);
@@ -245,7 +246,7 @@ static void search_ray(rng *r, const set_up *s, const camera *c, double z, doubl
     }
     if (longest.gap > 0.8 * best->gap) {
         longest.bound = composed_separation_at(s, longest.z);
-        longest.ratio = longest.gap / (isinf(longest.bound) ? 1e9 * s->setup.spec.znear : longest.bound);
+        longest.ratio = longest.gap / (isinf(longest.bound) ? 1e9 * fabs(s->setup.spec.znear) : longest.bound);
         if (longest.ratio > best->ratio)
             *best = longest;
     }
@@ -260,7 +261,7 @@ found composed_search(rng *r, const set_up *s, double z, double wanted, uint64_t
     const uint64_t most = 1000 * times;
     found best = {0};
     const double bound = composed_separation_at(s, z);
-    const double width = isinf(bound) ? 20.0 * z : 1.05 * bound;
+    const double width = isinf(bound) ? 20.0 * fabs(z) : 1.05 * bound;
     for (uint64_t i = 0; i < times || (best.ratio < wanted && i < most); i++) {
         found here = {0};
         pose best_pose = composed_pose(r);

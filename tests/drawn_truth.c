@@ -30,6 +30,7 @@ cameras cameras_of(dp_spec spec, const char *formats, const char *mappings) {
 
 dp_spec drawn_camera(double znear, double zfar) {
     dp_spec spec = dp_spec_default();
+    spec.ortho = znear <= 0;
     spec.znear = znear;
     spec.zfar = zfar;
     return spec;

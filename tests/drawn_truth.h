@@ -19,7 +19,7 @@ typedef struct cameras {
 /** @param formats, mappings  names with commas between */
 cameras cameras_of(dp_spec spec, const char *formats, const char *mappings);
 
-/** The default set-up with other planes. */
+/** The default set-up with other planes; near <= 0: orthographic. */
 dp_spec drawn_camera(double znear, double zfar);
 
 /* The context of each is a dp_setup. */

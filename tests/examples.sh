@@ -23,6 +23,8 @@ case $CC in *' '*) compiler="$compiler ${CC#* }" ;; esac
 printf '#!/bin/sh\nexec %s %s -I"%s/include" "$@" -L"%s/%s" -lm\n' "$compiler" "$extra" "$root" "$root" "$B" \
     >"$scratch/bin/cc"
 chmod +x "$scratch/bin/cc"
+sed -e "s|@libdir@|$root/$B|; s|@includedir@|$root/include|" src/depthprec.pc.in >"$scratch/depthprec.pc"
+export PKG_CONFIG_PATH="$scratch"
 
 # split PAGE: NUMBER.sh, NUMBER.want and NUMBER.name of each example, and the files, into $scratch/run
 split() {

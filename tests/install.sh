@@ -80,6 +80,29 @@ check "the completions are installed" completions
 check "the installed program prints the right code" table
 check "and draws" figure
 
+# Without DESTDIR, where no loader looks: `make install` says so, and with what it says the README's example runs.
+own=$scratch/own
+install_own() { make --no-print-directory install PREFIX="$own" 2>"$scratch/said"; }
+says_how() {
+    cat "$scratch/said"
+    grep -q "the dynamic loader does not search $own/lib\." "$scratch/said" &&
+        grep -q "PKG_CONFIG_PATH=$own/lib/pkgconfig .*LD_LIBRARY_PATH=$own/lib " "$scratch/said"
+}
+example() { # as a stranger would: nothing but the two variables
+    mkdir "$scratch/example" && env -u PKG_CONFIG_SYSROOT_DIR -u PKG_CONFIG_LIBDIR PKG_CONFIG_PATH="$own/lib/pkgconfig" \
+        LD_LIBRARY_PATH="$own/lib" sh tests/linked.sh "$scratch/example" && needs "$scratch/example/ten" 'libdepthprec\.so\.0'
+}
+check "make install where no loader looks" install_own
+check "it says so, and what to do" says_how
+check "the README's example runs with what was installed" example
+
+lacking() { # without the libraries `make` names them, and the command
+    ! PKG_CONFIG_LIBDIR=$scratch make --no-print-directory B="$scratch/none" >"$scratch/said" 2>&1 || return
+    cat "$scratch/said"
+    grep -q 'depthprec: missing: .*gsl.*install' "$scratch/said" || grep -q 'depthprec: .*missing .*gsl' "$scratch/said"
+}
+check "without the libraries make names them and the command" lacking
+
 check "make uninstall" install_to uninstall
 nothing_left() { [ -d "$stage" ] && empty find "$stage" ! -type d; }
 check "nothing is left" nothing_left

@@ -178,6 +178,7 @@ void want_setup(values *v, const dp_setup *setup) {
         want_text(v, "arith", dp_arith_get(spec->arith)->name);
     if (spec->mapping == DP_MAPPING_LOG)
         want_number(v, "log_c", spec->log_c);
+    want_text(v, "unit", v->unit);
 }
 
 /* "--model auto", and what share of the separation each simpler model leaves out. */
@@ -334,5 +335,7 @@ const char *camera_options(const camera_case *c, char out[512]) {
         snprintf(out + strlen(out), 512 - strlen(out), " --arith %s", c->arith);
     if (c->log_c != 0)
         snprintf(out + strlen(out), 512 - strlen(out), " --log-c %.17g", c->log_c);
+    if (c->unit != NULL)
+        snprintf(out + strlen(out), 512 - strlen(out), " --unit %s", c->unit);
     return out;
 }

@@ -66,6 +66,7 @@ typedef struct values {
     size_t count, room;
     char prefix[PATH_SIZE];
     const char *command;
+    const char *unit; /**< of the scene, for want_setup(); null: not known */
 } values;
 
 /** Nothing but schema, command and version; values_free() when done. */
@@ -177,6 +178,7 @@ typedef struct camera_case {
     bool implied;
     const char *arith; /**< null: ieee, and then not written */
     double log_c;      /**< 0: 1, and then not written */
+    const char *unit;  /**< --unit; null: not written */
 } camera_case;
 
 size_t camera_setups(const camera_case *c, dp_setup out[CAMERA_SETUPS]);

@@ -94,6 +94,43 @@ static void random_set_ups(void **state) {
     tally_end(&never);
 }
 
+/* Orthographic cameras with depths of 0 and less. */
+static void depths_of_either_sign(void **state) {
+    (void)state;
+    rng r = rng_make("composed depths of either sign");
+    tally never = {.name = "depths of either sign"};
+    tally certain = {.name = "a separation there is"};
+    double worst = 0.0;
+    for (uint64_t i = test_cases(100, 2000, 100000); i > 0; i--) {
+        double n, f;
+        set_up s;
+        rng_planes(&r, &n, &f);
+        const double size = fmax(fabs(n), fabs(f));
+        const dp_composition composition = (dp_composition)rng_below(&r, DP_COMPOSITION_COUNT);
+        const double largest = composition == DP_COMPOSITION_RELATIVE ? 1e12 : 1e5;
+        const dp_budget_terms terms = {.world = fmin(size * rng_log(&r, 4.0, largest), 1e18),
+                                       .composition = composition};
+        if (!composed_make(&s, n, f, (dp_mapping)rng_below(&r, 4),
+                           (const char *[]){"fp32", "unorm24", "unorm16"}[rng_below(&r, 3)],
+                           rng_below(&r, dp_arith_count()), true, terms))
+            continue;
+        const double z = rng_depth(&r, n, f);
+        const double bound = composed_separation_at(&s, z);
+        TALLY(&certain, isfinite(bound), "near %.17g, far %.17g, world %.17g: z = %a", n, f, terms.world, z);
+        if (isinf(bound))
+            continue;
+        const found most = composed_search(&r, &s, z, 0.0, 1);
+        TALLY(&never, most.ratio < 1.0, "%s %s %s %s, near %.17g, far %.17g, world %.17g: z = %a: %g of %g",
+              dp_composition_get(terms.composition)->name, dp_mapping_get(s.setup.spec.mapping)->name,
+              s.setup.spec.format.name, s.arith->name, n, f, terms.world, most.z, most.gap, most.bound);
+        worst = fmax(worst, most.ratio);
+    }
+    printf("# depths of either sign: at most %.3f of a bound used\n", worst);
+    tally_end(&never);
+    tally_end(&certain);
+    assert_true(worst > 0.5);
+}
+
 /* ---- Each cause alone -------------------------------------------------------------------------------------------- */
 
 enum { POSITION, PRODUCTS, SUMS, MATRIX, TURN, CAUSES };
@@ -171,8 +208,8 @@ static void each_cause(void **state) {
                                  .world = world,
                                  .a = (double)(float)s.a,
                                  .b = (double)(float)s.b,
-                                 .znear = n,
-                                 .zfar = 1000.0};
+                                 .zfar = 1000.0,
+                                 .reach = 1000.0};
         const dp_composed m = dp_composition_at(&in, z, z);
         const double eye_claim[TOTALS] = {m.own, m.shared, m.own_tilt, m.shared_tilt};
         for (uint64_t i = test_cases(30000, 300000, 10000000); i > 0; i--) {
@@ -204,6 +241,7 @@ int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(within_four_times),
         cmocka_unit_test(random_set_ups),
+        cmocka_unit_test(depths_of_either_sign),
         cmocka_unit_test(each_cause),
     };
     return run_tap(tests);

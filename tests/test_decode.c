@@ -22,6 +22,10 @@ static dp_spec random_spec(rng *r) {
     spec.log_c = rng_log(r, 1e-3, 1e3) / spec.znear;
     if (spec.log_c > 1e12)
         spec.log_c = 1e12;
+    if (spec.ortho && rng_below(r, 2))
+        rng_planes(r, &spec.znear, &spec.zfar);
+    if (spec.zfar == 0) /* shares of which there are none */
+        spec.zfar = -spec.znear;
     return spec;
 }
 

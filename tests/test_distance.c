@@ -38,13 +38,20 @@ static int draw(rng *r, dp_model model, measure_kind kind, question *q) {
     spec.zfar = spec.znear * rng_log(r, 1.5, 1e5);
     if (dp_mapping_get(spec.mapping)->far_infinite && !spec.ortho && rng_below(r, 3) == 0)
         spec.zfar = INFINITY;
+    const int either_sign = spec.ortho && rng_below(r, 2);
+    if (either_sign)
+        rng_planes(r, &spec.znear, &spec.zfar);
     if (dp_setup_init(&q->setup, &spec) != DP_OK)
         return 0;
     q->kind = kind;
     q->hi = spec.zfar;
-    q->lo = rng_below(r, 2) == 0 ? spec.znear : spec.znear * rng_log(r, 1.0, 1.4);
-    const double end = fmin(q->hi, 1e5 * q->lo);
-    const double z = fmin(fmax(rng_log(r, q->lo, end), q->lo), end);
+    if (either_sign) {
+        q->lo = rng_below(r, 2) == 0 ? spec.znear : rng_depth(r, spec.znear, spec.zfar);
+    } else {
+        q->lo = rng_below(r, 2) == 0 ? spec.znear : spec.znear * rng_log(r, 1.0, 1.4);
+    }
+    const double end = either_sign ? q->hi : fmin(q->hi, 1e5 * q->lo);
+    const double z = either_sign ? rng_depth(r, q->lo, end) : fmin(fmax(rng_log(r, q->lo, end), q->lo), end);
     q->limit = judge(kind, &q->setup, z, z, NAN).value * rng_log(r, 0.7, 1.5);
     return q->limit > 0.0 && q->limit < INFINITY;
 }
@@ -58,7 +65,7 @@ static double at(const question *q, double z) {
 }
 
 static double slack_of(const question *q) {
-    return q->setup.spec.model == DP_MODEL_FP32 ? 1.03 : 1.0;
+    return q->setup.spec.model != DP_MODEL_FP32 ? 1.0 : q->setup.spec.znear > 0 ? 1.03 : 1.5;
 }
 
 static void in_model(dp_model model, measure_kind kind, uint64_t cases) {
@@ -93,7 +100,10 @@ static void in_model(dp_model model, measure_kind kind, uint64_t cases) {
         TALLY(&whole, worst.bound <= q.limit && error.error <= q.limit && a.reached.passed, "%s: up to %.17g", text,
               a.value);
         for (int k = 0; k <= 256; k++) {
-            const double z = k == 256 ? a.value : fmin(fmax(q.lo * pow(a.value / q.lo, k / 256.0), q.lo), a.value);
+            const double share = k / 256.0;
+            const double probe =
+                q.setup.spec.znear > 0 ? q.lo * pow(a.value / q.lo, share) : q.lo + (a.value - q.lo) * share;
+            const double z = k == 256 ? a.value : fmin(fmax(probe, q.lo), a.value);
             const double slack = k == 0 || k == 256 ? 1.0 : slack_of(&q);
             TALLY(&dense, at(&q, z) <= q.limit * slack, "%s: %.17g at %.17g, up to %.17g", text, at(&q, z), z, a.value);
         }

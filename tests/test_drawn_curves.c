@@ -116,7 +116,8 @@ typedef struct curves_case {
 } curves_case;
 
 static const curves_case curve_cases[] = {
-    {"error", "", "Worst error of the stored depth", "worst |stored \u2212 z| (scene units)", true_error, true, true},
+    {"error", "", "Worst error of the decoded depth", "worst |decoded depth \u2212 z| (scene units)", true_error, true,
+     true},
     {"interval", "--tolerance 0", "Z-fighting interval", "z-fighting interval (scene units)", true_interval, true,
      true},
     {"interval", "", "Z-fighting interval", "z-fighting interval (scene units)", true_interval, true, true},
@@ -146,21 +147,22 @@ static void staggered(const drawn *d, const drawn_panel *p) {
     const size_t count = drawn_markers(d, p, all, 256);
     for (size_t i = 0; i < count; i++)
         for (size_t k = 0; k < i; k++)
-            assert_true(fabs(all[i].x - all[k].x) > 5);
+            assert_true(fabs(all[i].x - all[k].x) > 5 || all[i].shape == DRAWN_ARROW || all[k].shape == DRAWN_ARROW);
 }
 
 static size_t one_panel(const curves_case *q, const drawn_theme *look, double znear, double zfar, const char *formats,
                         const char *mappings) {
     cameras c = cameras_of(drawn_camera(znear, zfar), formats, mappings);
     char subtitle[128];
-    drawn *d = drawn_run(look, "plot %s %s -n %g -f %g -F %s -m %s --theme %s", q->figure, q->arguments, znear, zfar,
-                         formats, mappings, look->name);
-    snprintf(subtitle, sizeof subtitle, "near %g, far %g, perspective, nearest, exact", znear, zfar);
+    drawn *d = drawn_run(look, "plot %s %s%s -n %g -f %g -F %s -m %s --theme %s", q->figure, q->arguments,
+                         znear > 0 ? "" : " --ortho", znear, zfar, formats, mappings, look->name);
+    snprintf(subtitle, sizeof subtitle, "near %g, far %g, %s, nearest, exact", znear, zfar,
+             znear > 0 ? "perspective" : "orthographic");
     assert_int_equal(d->panel_count, 1);
     captions(d, q->title, subtitle, q->y);
     const size_t alike = legend_names(d, &c);
     described(d, &c);
-    spans(&d->panels[0], true, znear, zfar);
+    spans(&d->panels[0], znear > 0, znear, zfar);
     assert_int_equal(d->panels[0].y.log, q->log);
     staggered(d, &d->panels[0]);
     check_curves(d, &c, strchr(mappings, ',') != NULL ? 2 : 1, q);
@@ -178,6 +180,8 @@ static void curves_show_the_library(void **state) {
         assert_true(one_panel(&curve_cases[i], &drawn_light, 0.1, 1000, "unorm16,unorm24,fp32,fp16", "d3d,reversed") >
                     1);
         one_panel(&curve_cases[i], i % 2 == 0 ? &drawn_dark : &drawn_print, 0.5, 3000, "unorm16,unorm24,fp16", "log");
+        one_panel(&curve_cases[i], &drawn_light, -100, 500, "unorm16,fp16", "d3d");
+        one_panel(&curve_cases[i], &drawn_light, 0, 500, "fp16,unorm8", "reversed");
     }
 }
 
@@ -317,6 +321,42 @@ static void guarantee_over_lattice(void **state) {
     }
 }
 
+/* The census of one set-up hides that of another behind equal points; the legend says so. */
+static void hidden_points(void **state) {
+    (void)state;
+    drawn *d = drawn_run(&drawn_light, "plot interval --model fp32 --range 1:1000 -F unorm24,fp32 -m d3d,reversed");
+    const drawn_panel *p = &d->panels[0];
+    drawn_marker all[256];
+    const size_t count = drawn_markers(d, p, all, 256);
+    const drawn_entry *under = drawn_legend(d, "unorm24 d3d, census"), *over = drawn_legend(d, "fp32 d3d, census");
+    size_t hidden = 0, points = 0;
+    for (size_t i = 0; i < count; i++)
+        if (drawn_alike(&all[i], &under->marker)) {
+            bool found = false;
+            for (size_t k = 0; k < count; k++)
+                found = found ||
+                        (drawn_alike(&all[k], &over->marker) && hypot(all[i].x - all[k].x, all[i].y - all[k].y) < 1);
+            points++;
+            hidden += found;
+        }
+    assert_true(points > 6 && hidden == points);
+    assert_string_equal(over->text, "fp32 d3d, census = unorm24 d3d, census");
+    assert_string_equal(drawn_legend(d, "unorm24 reversed, census")->text, "unorm24 reversed, census");
+    drawn_close(d);
+}
+
+/* Each of many set-ups has two curves, one of them with markers. */
+static void guarantees_of_many(void **state) {
+    (void)state;
+    drawn *d = drawn_run(&drawn_light, "plot interval --model fp32 --height 900 -F unorm16,unorm20,unorm24,fp16,fp32,"
+                                       "unorm12 -m d3d,gl,reversed");
+    drawn_marker all[256];
+    assert_int_equal(d->entry_count, 18 + 1); /* one says what an arrow means */
+    assert_true(drawn_markers(d, &d->panels[0], all, 256) > 90);
+    staggered(d, &d->panels[0]);
+    drawn_close(d);
+}
+
 /* ---- Staircases -------------------------------------------------------------------------------------------------- */
 
 /* A piece of a path from the left axis over to (x, y) on the curve, and down to the bottom axis. */
@@ -380,7 +420,7 @@ static void check_codes(const drawn *d, const drawn_panel *p, const dp_setup *s,
 
 static void staircases(void **state) {
     (void)state;
-    static const char *const texts[] = {"codes and the depths they give back", "window depth d(z)"};
+    static const char *const texts[] = {"codes and their decoded depths", "window depth d(z)"};
     cameras c = cameras_of(drawn_camera(1, 20), "unorm4,float3.3b5", "d3d,reversed");
     drawn *d = drawn_run(&drawn_light, "plot distribution -n 1 -f 20 -F unorm4,float3.3b5 -m d3d,reversed");
     captions(d, "Where the codes are", "near 1, far 20, perspective, nearest, exact", "window depth d");
@@ -427,7 +467,8 @@ static void staircase_without_end(void **state) {
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(curves_show_the_library), cmocka_unit_test(blind_ends_in_an_arrow),
-        cmocka_unit_test(guarantee_over_lattice),  cmocka_unit_test(staircases),
+        cmocka_unit_test(guarantee_over_lattice),  cmocka_unit_test(hidden_points),
+        cmocka_unit_test(guarantees_of_many),      cmocka_unit_test(staircases),
         cmocka_unit_test(staircase_without_end),
     };
     return run_tap(tests);

@@ -7,7 +7,10 @@
 
 #include "drawn.h"
 #include "drawn_map.h"
+#include "drawn_truth.h"
 #include "support.h"
+
+static const char fight_words[] = "stored as one code with what is behind: they fight";
 
 /* Below so many fields each is a rectangle. */
 enum { FEW = 4096 };
@@ -129,7 +132,8 @@ static uint32_t shown_at(const drawn *d, const drawn_panel *p, svg_point place) 
             continue;
         if (m->kind == SVG_IMAGE)
             found = drawn_map_pixel(m, place);
-        else if (m->kind == SVG_PATH && m->fill.a == 1 && svg_rgb(m->fill) != d->theme->empty)
+        else if (m->kind == SVG_PATH && m->fill.a == 1 && svg_rgb(m->fill) != d->theme->empty &&
+                 svg_rgb(m->fill) != d->theme->background) /* a hollow mark */
             found = 0xFF000000u | svg_rgb(m->fill);
     }
     return found;
@@ -198,7 +202,7 @@ static void check_panel(const drawn *d, const drawn_panel *p, const picture_case
 
 /* A ball that we look at: red to the right, green upwards, blue in its middle. */
 static void check_ball(const drawn *d) {
-    static const char *const meanings[] = {"red: right", "green: up", "blue: to us"};
+    static const char *const meanings[] = {"red: right", "green: up", "blue: towards the camera"};
     const svg_mark *ball = NULL;
     const svg_box page = {0, 0, d->svg->width, d->svg->height};
     for (size_t i = 0; i < d->svg->count; i++)
@@ -277,6 +281,8 @@ static void check_figure(const picture_case *q) {
                      q->headings[panels][0] != '\0' ? "." : "");
         }
     assert_int_equal(d->panel_count, panels);
+    if (strstr(q->arguments, "decals") != NULL)
+        snprintf(shown + strlen(shown), sizeof shown - strlen(shown), " Shown: %s.", fight_words);
     drawn_description_is(d, shown);
     assert_int_equal(is_hatched(d), q->holes);
     for (size_t i = 0; i < panels; i++) {
@@ -296,6 +302,33 @@ static void pictures_show_the_product(void **state) {
     (void)state;
     for (size_t i = 0; i < sizeof cases / sizeof cases[0]; i++)
         check_figure(&cases[i]);
+}
+
+/* Each decal that has the code of its tile, and no other. */
+static void decals_that_fight(void **state) {
+    (void)state;
+    cameras c = cameras_of(drawn_camera(0.1, 1000), "unorm16", "d3d");
+    drawn *d = drawn_run(&drawn_light, "texture --scene decals -F unorm16 -m d3d --eye --parameter count=6");
+    drawn_marker all[64];
+    const drawn_panel *p = &d->panels[0];
+    const size_t count = drawn_markers(d, p, all, 64);
+    size_t ties = 0;
+    drawn_legend_is(d, 1, (const char *const[]){fight_words});
+    for (int i = 0; i < 36; i++) { /* tiles row by row, from 1 to 300 in equal ratios */
+        const double wall = pow(300, i / 35.0), x = 640 * (i % 6 + 0.5) / 6, y = 360 * (i / 6 + 0.5) / 6;
+        bool found = false;
+        for (size_t k = 0; k < count; k++)
+            found = found || (drawn_alike(&all[k], &d->entries[0].marker) &&
+                              hypot(all[k].x - drawn_px(&p->x, x), all[k].y - drawn_px(&p->y, y)) < 1.5);
+        assert_int_equal(found, dp_code(&c.setups[0], wall) == dp_code(&c.setups[0], wall - 0.01));
+        ties += found;
+    }
+    assert_int_equal(count, ties);
+    assert_true(ties > 5 && ties < 31);
+    drawn_close(d);
+    d = drawn_run(&drawn_light, "texture --scene decals -F fp32 -m reversed --eye");
+    assert_int_equal(d->entry_count, 0);
+    drawn_close(d);
 }
 
 /* One value alone has the middle of a bar that goes to both sides of it; no error at all is dark. */
@@ -330,6 +363,6 @@ static void a_file(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {cmocka_unit_test(pictures_show_the_product), cmocka_unit_test(a_single_value),
-                                       cmocka_unit_test(a_file)};
+                                       cmocka_unit_test(decals_that_fight), cmocka_unit_test(a_file)};
     return run_tap(tests);
 }

@@ -64,6 +64,46 @@ static void names_of_interfaces(void **state) {
         {"Depth32Float", "fp32"},
         {"d24_unorm_s8_uint", "unorm24"},
         {"FP16", "fp16"},
+        {"d32", "fp32"},
+        /* The depth formats of the headers of each API, but for depths of 15 and 32 bits and floats of 24. */
+        {"VK_FORMAT_D16_UNORM", "unorm16"},
+        {"VK_FORMAT_X8_D24_UNORM_PACK32", "unorm24"},
+        {"VK_FORMAT_D32_SFLOAT", "fp32"},
+        {"VK_FORMAT_D16_UNORM_S8_UINT", "unorm16"},
+        {"VK_FORMAT_D24_UNORM_S8_UINT", "unorm24"},
+        {"VK_FORMAT_D32_SFLOAT_S8_UINT", "fp32"},
+        {"DXGI_FORMAT_D16_UNORM", "unorm16"},
+        {"DXGI_FORMAT_D24_UNORM_S8_UINT", "unorm24"},
+        {"DXGI_FORMAT_D32_FLOAT_S8X24_UINT", "fp32"},
+        {"DXGI_FORMAT_R24G8_TYPELESS", "unorm24"},
+        {"DXGI_FORMAT_R24_UNORM_X8_TYPELESS", "unorm24"},
+        {"DXGI_FORMAT_R32G8X24_TYPELESS", "fp32"},
+        {"DXGI_FORMAT_R32_FLOAT_X8X24_TYPELESS", "fp32"},
+        {"D3DFMT_D16", "unorm16"},
+        {"D3DFMT_D16_LOCKABLE", "unorm16"},
+        {"D3DFMT_D24S8", "unorm24"},
+        {"D3DFMT_D24X8", "unorm24"},
+        {"D3DFMT_D24X4S4", "unorm24"},
+        {"D3DFMT_D32F_LOCKABLE", "fp32"},
+        {"MTLPixelFormatDepth16Unorm", "unorm16"},
+        {"MTLPixelFormatDepth32Float", "fp32"},
+        {"MTLPixelFormatDepth24Unorm_Stencil8", "unorm24"},
+        {"MTLPixelFormatDepth32Float_Stencil8", "fp32"},
+        {"depth24Unorm_stencil8", "unorm24"},
+        {"depth32Float_stencil8", "fp32"},
+        {"depth16unorm", "unorm16"},
+        {"depth32float-stencil8", "fp32"},
+        {"Depth32FloatStencil8", "fp32"},
+        {"WGPUTextureFormat_Depth16Unorm", "unorm16"},
+        {"WGPUTextureFormat_Depth32Float", "fp32"},
+        {"WGPUTextureFormat_Depth32FloatStencil8", "fp32"},
+        {"GL_DEPTH_COMPONENT16", "unorm16"},
+        {"GL_DEPTH_COMPONENT24", "unorm24"},
+        {"GL_DEPTH_COMPONENT32F", "fp32"},
+        {"GL_DEPTH24_STENCIL8", "unorm24"},
+        {"GL_DEPTH32F_STENCIL8", "fp32"},
+        {"GL_DEPTH_COMPONENT24_OES", "unorm24"},
+        {"GL_DEPTH24_STENCIL8_OES", "unorm24"},
         {"Unorm24", "unorm24"},
     };
     for (size_t i = 0; i < sizeof name / sizeof *name; i++) {
@@ -71,8 +111,14 @@ static void names_of_interfaces(void **state) {
         assert_int_equal(dp_format_parse(name[i][0], got), 1);
         assert_string_equal(got[0].name, name[i][1]);
     }
-    static const char *const choice[] = {"depth24plus", "DEPTH24PLUS", "Depth24Plus"};
-    for (int i = 0; i < 3; i++) {
+    static const char *const choice[] = {"depth24plus",
+                                         "DEPTH24PLUS",
+                                         "Depth24Plus",
+                                         "depth24plus-stencil8",
+                                         "Depth24PlusStencil8",
+                                         "WGPUTextureFormat_Depth24Plus",
+                                         "WGPUTextureFormat_Depth24PlusStencil8"};
+    for (size_t i = 0; i < sizeof choice / sizeof choice[0]; i++) {
         dp_format got[2];
         assert_int_equal(dp_format_parse(choice[i], got), 2);
         check_parse(choice[i], "unorm24");

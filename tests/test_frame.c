@@ -22,8 +22,8 @@ typedef struct stage {
     frame frame;
 } stage;
 
-static void stage_set(stage *s, const char *scene, const char *format, const char *mapping, double zfar, bool ortho,
-                      uint32_t width, uint32_t height) {
+static void stage_between(stage *s, const char *scene, const char *format, const char *mapping, double znear,
+                          double zfar, bool ortho, uint32_t width, uint32_t height) {
     dp_format formats[2];
     dp_spec spec = dp_spec_default();
     dp_setup setup;
@@ -32,6 +32,7 @@ static void stage_set(stage *s, const char *scene, const char *format, const cha
     assert_int_equal(dp_mapping_parse(mapping, &spec.mapping), DP_OK);
     spec.format = formats[0];
     spec.ortho = ortho;
+    spec.znear = znear;
     spec.zfar = zfar;
     assert_int_equal(dp_setup_init(&setup, &spec), DP_OK);
     view.width = width;
@@ -44,6 +45,11 @@ static void stage_set(stage *s, const char *scene, const char *format, const cha
     parameter_defaults(scene_find(scene)->parameters, s->parameters);
     s->frame = (frame){
         .camera = &s->camera, .scene = scene_find(scene), .parameters = s->parameters, .sky = FRAME_SKY, .threads = 1};
+}
+
+static void stage_set(stage *s, const char *scene, const char *format, const char *mapping, double zfar, bool ortho,
+                      uint32_t width, uint32_t height) {
+    stage_between(s, scene, format, mapping, 0.1, zfar, ortho, width, height);
 }
 
 /* A product as a whole image, rows from the top, and the order in which the strips came. */
@@ -135,18 +141,25 @@ static bool same_bits(float a, float b) {
 static void frames_equal_plain_pixels(void **state) {
     static const struct {
         const char *scene, *format, *mapping;
-        double zfar;
+        double znear, zfar;
         bool ortho;
-    } cases[] = {{"plane", "unorm24", "d3d", 1000, false}, {"sphere", "fp32", "reversed", INFINITY, false},
-                 {"steps", "unorm16", "d3d", 1000, true},  {"decals", "fp16", "reversed", 1000, false},
-                 {"plane", "fp32", "linear", 1000, false}, {"sphere", "fp32", "log", 1000, false}};
+    } cases[] = {{"plane", "unorm24", "d3d", 0.1, 1000, false},  {"sphere", "fp32", "reversed", 0.1, INFINITY, false},
+                 {"steps", "unorm16", "d3d", 0.1, 1000, true},   {"decals", "fp16", "reversed", 0.1, 1000, false},
+                 {"plane", "fp32", "linear", 0.1, 1000, false},  {"sphere", "fp32", "log", 0.1, 1000, false},
+                 {"plane", "fp32", "d3d", -100, 1000, true},     {"plane", "unorm16", "gl-reversed", -20, 20, true},
+                 {"steps", "unorm16", "reversed", 0, 1000, true}};
     (void)state;
     tally t = {.name = "plain"};
     for (size_t k = 0; k < sizeof cases / sizeof cases[0]; k++) {
         stage s;
-        stage_set(&s, cases[k].scene, cases[k].format, cases[k].mapping, cases[k].zfar, cases[k].ortho, 97, 61);
+        stage_between(&s, cases[k].scene, cases[k].format, cases[k].mapping, cases[k].znear, cases[k].zfar,
+                      cases[k].ortho, 97, 61);
         if (k == 0)
             s.parameters[1] = 62;
+        if (cases[k].znear < 0) { /* through depth 0, in the middle of the image */
+            s.parameters[0] = 1e-9;
+            s.parameters[1] = 62;
+        }
         const texture_camera *c = &s.camera;
         s.frame.threads = 3;
         const frame_product eyes = {.kind = FRAME_EYE}, far = {.kind = FRAME_EYE, .radial = true},
@@ -178,8 +191,8 @@ static void frames_equal_plain_pixels(void **state) {
                 camera_turn(c, v, world);
                 for (int axis = 0; axis < 3; axis++)
                     world[axis] += c->origin[axis];
-                TALLY(&t, fabs((double)eye[i] - z) <= DP_BATCH_EYE_ERROR * z, "%zu: eye %g, not %g", k, (double)eye[i],
-                      z);
+                TALLY(&t, fabs((double)eye[i] - z) <= DP_BATCH_EYE_ERROR * fabs(z), "%zu: eye %g, not %g", k,
+                      (double)eye[i], z);
                 TALLY(&t, same_bits(radial[i], (float)((double)eye[i] * camera_radial(c, x, y))), "%zu: radial", k);
                 const double wrong = fabs(dp_error(&c->setup, code, h.z));
                 TALLY(&t, (double)error[i] >= wrong && (double)error[i] <= wrong * (1 + 0x1p-22) + 0x1p-148,

@@ -165,6 +165,12 @@ static void rounded(void **unused) {
         assert_string_equal(number_down(cases[i].value, 3).text, cases[i].down);
         assert_string_equal(number_of(cases[i].value, 3).text, cases[i].nearest);
     }
+    assert_string_equal(number_in(number_of(1.25, 3), "cm").text, "1.25 cm");
+    assert_string_equal(number_in(number_of(0, 3), "m").text, "0 m");
+    assert_string_equal(number_in(number_of(1.25, 3), NULL).text, "1.25");
+    assert_string_equal(number_in(number_of((double)INFINITY, 3), "cm").text, "inf");
+    assert_string_equal(number_in(number_of((double)NAN, 3), "cm").text, "-");
+    assert_string_equal(number_in(number_full(-2.2250738585072014e-308), "km").text, "-2.2250738585072014e-308 km");
 }
 
 int main(void) {

@@ -20,6 +20,12 @@ static void example_is_read(void **state) {
     need_error e;
     if (!need_read("tests/needs/engine.need", &f, &e))
         fail_msg("line %d: %s", e.line, e.text);
+    need_release(&f);
+    assert_true(parse(
+        "cameras = { a = { preset = \"unity\"; model = \"float\"; }; };\n" NEEDS("separation = 1; at = 5;"), &f, &e));
+    assert_int_equal(f.cameras[0].setups[0].spec.model, DP_MODEL_FP32);
+    need_release(&f);
+    assert_true(need_read("tests/needs/engine.need", &f, &e));
     assert_string_equal(f.unit, "m");
     assert_int_equal(f.camera_count, 4);
     assert_int_equal(f.count, 6);
@@ -98,6 +104,27 @@ static void lists_are_read(void **state) {
     need_release(&f);
 }
 
+/* An orthographic camera may begin at or behind its place, and so may its depths, with units too. */
+static void orthographic_depths_have_either_sign(void **state) {
+    (void)state;
+    need_file f;
+    need_error e;
+    if (!parse("unit = \"m\"; cameras = { a = { near = \"-25 cm\"; far = 0; mapping = \"d3d\"; format = \"fp32\"; "
+               "ortho = true; }; };"
+               "requirements = { x = { camera = \"a\"; at = \"-10 cm\"; separation = 1; };"
+               "y = { camera = \"a\"; range = (\"-20 cm\", 0); error = 1; }; };",
+               &f, &e))
+        fail_msg("line %d: %s", e.line, e.text);
+    assert_true(f.cameras[0].setups[0].spec.znear == -0.25 && f.cameras[0].setups[0].spec.zfar == 0);
+    assert_true(f.needs[0].lo == -0.1 && f.needs[0].hi == -0.1);
+    assert_true(f.needs[1].lo == -0.2 && f.needs[1].hi == 0);
+    need_release(&f);
+}
+
+#define SUN                                                                                                            \
+    "cameras = { a = { near = -1; far = 2; mapping = \"d3d\"; format = \"fp32\"; model = \"fp32\"; ortho = true; }; "  \
+    "};\n"
+
 /* What is wrong, on which line, and a piece of what is said. */
 static const struct {
     const char *text;
@@ -144,6 +171,10 @@ static const struct {
     {CAMERA NEEDS("range = [2, 1]; separation = 1;"), 2, "its near end must be below"},
     {CAMERA NEEDS("range = [1, 2, 3]; separation = 1;"), 2, "range: must be two depths"},
     {CAMERA NEEDS("range = 1; separation = 1;"), 2, "range: must be two depths"},
+    {SUN NEEDS("at = -1.5; separation = 1;"), 2, "within near and far of the camera 'a', -1 and 2, got -1.5"},
+    {SUN NEEDS("range = [-1, 2]; ties = 0.5;"), 2, "ties: needs a range of depths above 0, got -1"},
+    {SUN NEEDS("at = 1; separation = -1;"), 2, "separation: must be a finite length above 0"},
+    {CAMERA NEEDS("at = -1; separation = 1;"), 2, "at: must be a finite length above 0"},
     {CAMERA NEEDS("at = 1; separation = 0;"), 2, "separation: must be a finite length above 0"},
     {CAMERA NEEDS("at = 1; separation = 1e999;"), 2, "separation: must be a finite length"},
     {CAMERA NEEDS("at = 1; separation = \"1 mm\";"), 2, "does not say what a scene unit is"},
@@ -236,9 +267,13 @@ static void every_prefix_is_safe(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(example_is_read),       cmocka_unit_test(units_are_converted),
-        cmocka_unit_test(presets_are_converted), cmocka_unit_test(lists_are_read),
-        cmocka_unit_test(mistakes_are_refused),  cmocka_unit_test(names_come_with_the_known_ones),
+        cmocka_unit_test(example_is_read),
+        cmocka_unit_test(units_are_converted),
+        cmocka_unit_test(presets_are_converted),
+        cmocka_unit_test(lists_are_read),
+        cmocka_unit_test(orthographic_depths_have_either_sign),
+        cmocka_unit_test(mistakes_are_refused),
+        cmocka_unit_test(names_come_with_the_known_ones),
         cmocka_unit_test(every_prefix_is_safe),
     };
     return run_tap(tests);

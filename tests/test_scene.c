@@ -150,13 +150,14 @@ static void stairs_have_their_depths(void **state) {
     assert_true(h.z == 0.7);
     steps->hit(&c, p, 699, 19, &h);
     assert_true(h.z == 400);
-    double front, back;
-    for (size_t i = 0; i < 6; i++) {
-        assert_true(steps->pair(p, i, &front, &back));
-        assert_relative(front, (double)ratio(0.7, 400, (int)i, 7), 1e-15);
-        assert_relative(back, (double)ratio(0.7, 400, (int)i + 1, 7), 1e-15);
+    scene_pair pair;
+    for (size_t i = 0; i < 6; i++) { /* they meet where the columns of one end */
+        assert_true(steps->pair(p, i, &pair));
+        assert_relative(pair.front, (double)ratio(0.7, 400, (int)i, 7), 1e-15);
+        assert_relative(pair.back, (double)ratio(0.7, 400, (int)i + 1, 7), 1e-15);
+        assert_true(fabs(pair.at[0] * 700 - 100 * ((double)i + 1)) < 1e-9 && pair.at[1] == 0.5);
     }
-    assert_false(steps->pair(p, 6, &front, &back));
+    assert_false(steps->pair(p, 6, &pair));
 }
 
 static void decals_stand_before_their_tiles(void **state) {
@@ -170,17 +171,19 @@ static void decals_stand_before_their_tiles(void **state) {
             scene_hit h;
             const int tile = (int)(y / 80 * 3 + x / 100);
             const bool decal = x % 100 >= 25 && x % 100 < 75 && y % 80 >= 20 && y % 80 < 60;
-            double front, back;
+            scene_pair pair;
             decals->hit(&c, p, x, y, &h);
-            assert_true(decals->pair(p, (size_t)tile, &front, &back));
-            assert_relative(back, (double)ratio(1, 300, tile, 9), 1e-15);
-            assert_true(front == back - 0.125);
-            assert_true(h.z == (decal ? front : back));
+            assert_true(decals->pair(p, (size_t)tile, &pair));
+            assert_relative(pair.back, (double)ratio(1, 300, tile, 9), 1e-15);
+            assert_true(pair.front == pair.back - 0.125);
+            assert_true(h.z == (decal ? pair.front : pair.back));
+            assert_true(fabs(pair.at[0] * 300 - (x / 100 * 100 + 50)) < 1e-9);
+            assert_true(fabs(pair.at[1] * 240 - (y / 80 * 80 + 40)) < 1e-9);
             assert_int_equal(h.surface, 1 + 2 * tile + decal);
             before += decal;
         }
     assert_int_equal(before, 9 * 50 * 40);
-    assert_false(decals->pair(p, 9, &(double){0}, &(double){0}));
+    assert_false(decals->pair(p, 9, &(scene_pair){0}));
 }
 
 static void nothing_is_drawn_outside_the_planes(void **state) {

@@ -19,7 +19,7 @@ typedef struct stage {
     frame frame;
 } stage;
 
-static void stage_set(stage *s, const char *scene, const char *format, const char *mapping, double zfar) {
+static void stage_set(stage *s, const char *scene, const char *format, const char *mapping, double znear, double zfar) {
     dp_format formats[2];
     dp_spec spec = dp_spec_default();
     dp_setup setup;
@@ -27,6 +27,8 @@ static void stage_set(stage *s, const char *scene, const char *format, const cha
     assert_true(dp_format_parse(format, formats) >= 1);
     assert_int_equal(dp_mapping_parse(mapping, &spec.mapping), DP_OK);
     spec.format = formats[0];
+    spec.ortho = znear <= 0;
+    spec.znear = znear;
     spec.zfar = zfar;
     assert_int_equal(dp_setup_init(&setup, &spec), DP_OK);
     view.width = WIDTH;
@@ -39,10 +41,11 @@ static void stage_set(stage *s, const char *scene, const char *format, const cha
 
 static const struct {
     const char *format, *mapping;
-    double zfar;
-} setups[] = {{"unorm16", "d3d", 1000},  {"unorm24", "d3d", 1000}, {"unorm24", "reversed", INFINITY},
-              {"fp16", "reversed", 500}, {"fp32", "d3d", 1000},    {"fp32", "reversed", INFINITY},
-              {"fp32", "linear", 1000},  {"unorm24", "log", 1000}};
+    double znear, zfar; /* near <= 0: orthographic */
+} setups[] = {{"unorm16", "d3d", 0.1, 1000},    {"unorm24", "d3d", 0.1, 1000}, {"unorm24", "reversed", 0.1, INFINITY},
+              {"fp16", "reversed", 0.1, 500},   {"fp32", "d3d", 0.1, 1000},    {"fp32", "reversed", 0.1, INFINITY},
+              {"fp32", "linear", 0.1, 1000},    {"unorm24", "log", 0.1, 1000}, {"unorm16", "d3d", 0, 500},
+              {"unorm16", "reversed", -3, 500}, {"fp32", "gl", -400, 500}};
 enum { SETUPS = sizeof setups / sizeof setups[0] };
 
 /* ---- The sky ---- */
@@ -58,7 +61,7 @@ static void sky_begins_where_the_threshold_is(void **state) {
     for (size_t k = 0; k < SETUPS; k++)
         for (size_t i = 0; i < 6; i++) {
             stage s;
-            stage_set(&s, "plane", setups[k].format, setups[k].mapping, setups[k].zfar);
+            stage_set(&s, "plane", setups[k].format, setups[k].mapping, setups[k].znear, setups[k].zfar);
             s.frame.sky = limits[i];
             const dp_setup *setup = &s.camera.setup;
             const uint32_t rank = frame_sky_rank(&s.frame);
@@ -165,7 +168,7 @@ static void counts_are_those_of_sorted_codes(void **state) {
             stage s;
             survey v, alone;
             size_t count = 0, true_sky = 0;
-            stage_set(&s, scenes[c], setups[k].format, setups[k].mapping, setups[k].zfar);
+            stage_set(&s, scenes[c], setups[k].format, setups[k].mapping, setups[k].znear, setups[k].zfar);
             if (c == 0)
                 s.parameters[1] = 55;
             const uint32_t sky = frame_sky_rank(&s.frame);
@@ -214,7 +217,7 @@ static void decals_fight_as_the_oracle_says(void **state) {
             uint64_t ties = 0, seen = 0, tiles = 0;
             double first = NAN;
             oracle o;
-            stage_set(&s, "decals", setups[k].format, setups[k].mapping, setups[k].zfar);
+            stage_set(&s, "decals", setups[k].format, setups[k].mapping, setups[k].znear, setups[k].zfar);
             s.parameters[0] = gaps[g];
             s.parameters[1] = 1.5;
             s.parameters[2] = 450;
@@ -258,9 +261,9 @@ static void scenes_without_pairs_say_so(void **state) {
     (void)state;
     stage s;
     survey_pairs found;
-    stage_set(&s, "sphere", "fp32", "d3d", 1000);
+    stage_set(&s, "sphere", "fp32", "d3d", 0.1, 1000);
     assert_false(survey_pairs_make(&s.frame, &found));
-    stage_set(&s, "steps", "fp32", "d3d", 1000);
+    stage_set(&s, "steps", "fp32", "d3d", 0.1, 1000);
     assert_true(survey_pairs_make(&s.frame, &found));
     assert_int_equal(found.pairs, 15);
 }

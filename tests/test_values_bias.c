@@ -20,7 +20,7 @@ typedef struct bias_case {
 } bias_case;
 
 static const bias_case cases[] = {
-    {{0.3, 1000, {"unorm24", "fp32"}, {"d3d", "reversed"}, .ortho = 0},
+    {{0.3, 1000, {"unorm24", "fp32"}, {"d3d", "reversed"}, .unit = "cm"},
      {0.3, 1.7, 55, 321.5, 900, 1000},
      "vulkan",
      false,
@@ -271,6 +271,7 @@ static void test_bias(void **state) {
     for (size_t i = 0; i < sizeof cases / sizeof cases[0]; i++) {
         const bias_case *c = &cases[i];
         values v = values_of("bias");
+        v.unit = c->camera.unit;
         line_places lines = {0};
         dp_setup setups[CAMERA_SETUPS];
         char arguments[1024];

@@ -17,7 +17,7 @@ typedef struct budget_case {
 } budget_case;
 
 static const budget_case budgets[] = {
-    {{0.3, 1000, {"unorm24", "fp16"}, {"d3d", "gl-reversed"}, .implied = true, .model = DP_MODEL_FP32},
+    {{0.3, 1000, {"unorm24", "fp16"}, {"d3d", "gl-reversed"}, .implied = true, .model = DP_MODEL_FP32, .unit = "in"},
      {0.3, 1.7, 55, 321.5, 900, 990},
      {.world = 0},
      ""},
@@ -171,6 +171,12 @@ static const char *words_in(const char *at, const char *words) {
     return at + strlen(words);
 }
 
+/* The same of a length, with the unit behind it. */
+static const char *length_in(const char *at, const budget_case *c, double want, int digits, bool upward) {
+    at = number_in(at, want, digits, upward);
+    return c->camera.unit != NULL ? words_in(words_in(at, " "), c->camera.unit) : at;
+}
+
 /* "  at z = 990 format takes 52 %: reversed depth would need 0.1 in place of 0.3": 6 and 4 digits. */
 static const char *advice_in(const char *at, const dp_setup *setup, const budget_case *c) {
     dp_budget worst = {.separation = -1}, b;
@@ -186,7 +192,7 @@ static const char *advice_in(const char *at, const dp_setup *setup, const budget
         }
     }
     if (!isnan(hopeless)) {
-        at = number_in(words_in(at, "  at z = "), hopeless, 6, false);
+        at = length_in(words_in(at, "  at z = "), c, hopeless, 6, false);
         at = words_in(at, " no separation is certain: what lies behind may share its code\n");
     }
     if (isnan(z))
@@ -195,16 +201,16 @@ static const char *advice_in(const char *at, const dp_setup *setup, const budget
         largest = worst.cause[i] > worst.cause[largest] ? i : largest;
     const remedy_result remedy = remedy_find(setup, &c->terms, z, (dp_cause)largest);
     const double step = (double)nextafterf((float)z, HUGE_VALF) - (double)(float)z;
-    at = words_in(number_in(words_in(at, "  at z = "), z, 6, false), " ");
+    at = words_in(length_in(words_in(at, "  at z = "), c, z, 6, false), " ");
     at = words_in(words_in(at, dp_cause_name((dp_cause)largest)), " takes ");
     const double share = strtod(at, (char **)&at);
     assert_true(fabs(share - 100 * worst.cause[largest] / worst.separation) <= 0.5 + 1e-9);
     at = words_in(at, " %: ");
     if (remedy.text != NULL) {
-        at = number_in(words_in(words_in(at, remedy.text), " would need "), remedy.separation, 4, true);
-        at = number_in(words_in(at, " in place of "), worst.separation, 4, true);
+        at = length_in(words_in(words_in(at, remedy.text), " would need "), c, remedy.separation, 4, true);
+        at = length_in(words_in(at, " in place of "), c, worst.separation, 4, true);
     } else if (worst.separation < 2 * step) {
-        at = number_in(words_in(at, "nothing to gain, binary32 depths themselves are "), step, 4, false);
+        at = length_in(words_in(at, "nothing to gain, binary32 depths themselves are "), c, step, 4, false);
         at = words_in(at, " apart there");
     } else {
         at = words_in(at, "nothing that could be chosen otherwise helps against it");
@@ -233,7 +239,7 @@ static void choice_in(const char *at, const dp_setup *setup, const budget_case *
         at = words_in(at, share >= 1 ? " times worse" : " % worse");
     }
     if (share != 0)
-        at = number_in(words_in(at, " at z = "), z, 6, false);
+        at = length_in(words_in(at, " at z = "), c, z, 6, false);
     words_in(at, enough                            ? ": the lattice is enough\n"
                  : choice.model == DP_MODEL_STAGED ? ": model staged is enough\n"
                                                    : ": it takes model float\n");
@@ -255,6 +261,7 @@ static void test_budget(void **state) {
     for (size_t i = 0; i < sizeof budgets / sizeof budgets[0]; i++) {
         const budget_case *c = &budgets[i];
         values v = values_of("budget");
+        v.unit = c->camera.unit;
         line_places lines = {0};
         dp_setup setups[CAMERA_SETUPS];
         char options[512], arguments[1024], heads[2 * DP_CAUSE_COUNT][64], texts[2 * DP_CAUSE_COUNT][64];

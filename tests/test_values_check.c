@@ -214,6 +214,7 @@ static void test_check(void **state) {
     need_file file;
     check_verdict *verdicts;
     values v = values_of("check");
+    v.unit = "m";
     line_places lines = {0};
     (void)state;
     snprintf(text, sizeof text, needs, name_in_file);

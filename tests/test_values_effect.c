@@ -14,7 +14,7 @@ static const struct {
     const char *effect;
     double z[DEPTHS];
 } effects[] = {
-    {{0.3, 900, {"unorm16", "fp32"}, {"d3d", "reversed"}, .ortho = 0}, "intersection", {0.4, 30, 2, 500, 7}},
+    {{0.3, 900, {"unorm16", "fp32"}, {"d3d", "reversed"}, .unit = "cm"}, "intersection", {0.4, 30, 2, 500, 7}},
     {{0.3, 900, {"unorm16"}, {"d3d"}, .ortho = 0}, "depth-of-field", {0.4, 30, 2, 500, 7}},
     {{0.3, 900, {"unorm24", "fp16"}, {"d3d"}, .ortho = 0}, "fog", {0.4, 30, 2, 500, 7}},
     {{0.3, 900, {"unorm16"}, {"gl"}, .ortho = 0}, "scan-line", {0.4, 30, 2, 500, 7}},
@@ -84,6 +84,7 @@ static void test_effects(void **state) {
         dp_setup setups[CAMERA_SETUPS];
         line_places lines = {0};
         values v = values_of("texture");
+        v.unit = effects[i].camera.unit;
         assert_non_null(row);
         parameter_defaults(row->parameters, parameters);
         size_t used = (size_t)snprintf(arguments, sizeof arguments, "texture --effect %s %s --at ", row->name,

@@ -58,7 +58,7 @@ static bool arith(size_t i, listed *l) {
 static bool model(size_t i, listed *l) {
     if (i > DP_MODEL_COUNT)
         return false;
-    *l = (listed){i < DP_MODEL_COUNT ? dp_model_name((dp_model)i) : "auto", "", NULL, NULL, {0}, 0};
+    *l = (listed){i < DP_MODEL_COUNT ? dp_model_name((dp_model)i) : "auto", i == DP_MODEL_FP32 ? "float" : "", NULL, NULL, {0}, 0};
     return true;
 }
 
@@ -161,11 +161,11 @@ static bool method(size_t i, listed *l) {
 static const struct {
     const char *what, *bound;
     bool (*get)(size_t, listed *);
-} topics[] = {{"formats", "bound", format}, {"mappings", "bound", mapping}, {"models", "bound", model},
-              {"ariths", "bound", arith},   {"causes", "bound", cause},     {"presets", "camera", preset_row},
-              {"apis", "rule", api},        {"packings", "bound", packing}, {"effects", "parameters", effect},
-              {"figures", "bound", figure}, {"scenes", "bound", scene},     {"positions", "bound", position},
-              {"normals", "bound", normal}, {"methods", "bound", method}};
+} topics[] = {{"formats", "bound", format},   {"mappings", "bound", mapping}, {"models", "bound", model},
+              {"arithmetic", "bound", arith}, {"causes", "bound", cause},     {"presets", "camera", preset_row},
+              {"apis", "rule", api},          {"packings", "bound", packing}, {"effects", "parameters", effect},
+              {"figures", "bound", figure},   {"scenes", "bound", scene},     {"positions", "bound", position},
+              {"normals", "bound", normal},   {"methods", "bound", method}};
 enum { TOPICS = sizeof topics / sizeof topics[0] };
 
 /* ---- Against what is printed ------------------------------------------------------------------------------------- */
@@ -196,7 +196,7 @@ static void check_numbers(const char *bound, const listed *l) {
 
 /* "a b c" and ["a", "b", "c"]. */
 static void check_aliases(const json_t *array, const char *aliases) {
-    char all[512] = "";
+    char all[1024] = "";
     size_t i;
     const json_t *name;
     json_array_foreach(array, i, name) {
@@ -236,7 +236,7 @@ static void check_forms(const json_t *items, const char *what, const char *bound
             text[used++] = *at;
     used = 0;
     json_array_foreach(items, i, o) {
-        char aliases[512] = "";
+        char aliases[1024] = "";
         size_t k;
         const json_t *name;
         json_array_foreach(json_object_get(o, "aliases"), k, name)

@@ -540,7 +540,7 @@ static void check_text(values *v, const solve_case *c, const char *arguments, co
     if (is_distance(c))
         check_text_distance(v, c, p.out);
     if (isfinite(value_at(v, "answer.separation_fp32")->number) && !in_fp32 && !is_distance(c))
-        check_text_numbers(v, p.out, "in binary32", 6, certain);
+        check_text_numbers(v, p.out, "guaranteed", 6, certain);
     if (isnan(c->znear) || isnan(c->zfar)) {
         snprintf(label, sizeof label, "%-14s ", c->target);
         if (c->possible) {
@@ -570,7 +570,9 @@ static void test_solve(void **state) {
         char arguments[512];
         line_places lines = {0};
         values v = values_of("solve");
-        snprintf(arguments, sizeof arguments, "solve --model %s %s", c->model, c->arguments);
+        v.unit = i % 2 == 0 ? "ft" : NULL;
+        snprintf(arguments, sizeof arguments, "solve --model %s %s%s", c->model, c->arguments,
+                 i % 2 == 0 ? " --unit ft" : "");
         printed p = print_of("%s --json", arguments);
         assert_int_equal(p.status, !c->possible);
         root = json_of(p.out);

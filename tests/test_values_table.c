@@ -21,7 +21,7 @@ typedef struct table_case {
 } table_case;
 
 static const table_case tables[] = {
-    {{0.3, 1000, {"unorm16", "fp32"}, {"d3d", "log"}, .rounding = DP_ROUND_ZERO, .log_c = 2},
+    {{0.3, 1000, {"unorm16", "fp32"}, {"d3d", "log"}, .rounding = DP_ROUND_ZERO, .log_c = 2, .unit = "km"},
      0.5,
      700,
      {0.3, 1.7, 55, 321.5, 900, 1000},
@@ -43,7 +43,7 @@ static const table_case tables[] = {
      .allowed = 0.05},
     {{1, 50, {"unorm16"}, {"d3d", "linear"}, .model = DP_MODEL_STAGED}, 1, 50, {1, 2, 3, 4, 5, 50}, .allowed = 0.05},
     {{2, 90, {"unorm24"}, {"reversed", "gl"}, .ortho = 1}, 3, 80, {2, 3, 5, 7, 60, 90}, .allowed = 0.05},
-    {{0.1, 1000, {"unorm16", "unorm24", "fp32"}, {"d3d", "reversed", "log"}, .ortho = 0},
+    {{0.1, 1000, {"unorm16", "unorm24", "fp32"}, {"d3d", "reversed", "log"}, .unit = "cm"},
      0.2,
      900,
      {0.1, 0.5, 3, 20, 100, 900},
@@ -262,6 +262,7 @@ static void test_table(void **state) {
     for (size_t i = 0; i < sizeof tables / sizeof tables[0]; i++) {
         const table_case *c = &tables[i];
         values v = values_of("table");
+        v.unit = c->camera.unit;
         line_places lines = {0};
         dp_setup setups[CAMERA_SETUPS];
         csv_column used[sizeof columns / sizeof columns[0]];
@@ -312,15 +313,132 @@ static void test_table_worst_lines(void **state) {
     want_number(&v, "near_effective", (double)znear);
     want_number(&v, "far_effective", (double)zfar);
     p = print_of("table -n 0.7 -f 5000 -F unorm24 -m gl --model fp32 -q");
-    check_text_numbers(&v, p.out, "drawn", 9, drawn);
+    check_text_numbers(&v, p.out, "clip range", 9, drawn);
     values_free(&v);
     printed_free(&p);
 }
 
+/* ---- The comparison ---------------------------------------------------------------------------------------------- */
+
+enum { LIMITS = 3 };
+
+/* A row: its name, its set-up, and what one of its scene units is in those of the comparison. */
+typedef struct compared_row {
+    const char *name, *format;
+    double znear, zfar;
+    dp_mapping mapping;
+    double unit;
+} compared_row;
+
+static dp_setup setup_of(const compared_row *r) {
+    dp_setup setup;
+    dp_format formats[2];
+    dp_spec spec = {.znear = r->znear, .zfar = r->zfar, .mapping = r->mapping, .model = DP_MODEL_FP32};
+    assert_int_equal(dp_format_parse(r->format, formats), 1);
+    spec.format = formats[0];
+    assert_int_equal(dp_setup_init(&setup, &spec), DP_OK);
+    return setup;
+}
+
+/* Rounded up to two digits, and up to which depth, rounded down to three: it holds there, and no farther than it says.
+ */
+static void check_row(tally *t, const char *text, const compared_row *r, const double *z, size_t count,
+                      const double limits[LIMITS]) {
+    const dp_setup setup = setup_of(r);
+    const char *at = strstr(text, r->name);
+    dp_separation_worst worst;
+    assert_non_null(at);
+    at += strlen(r->name);
+    for (size_t i = 0; i < count; i++) {
+        const double shown = strtod(at, (char **)&at), truth = dp_separation(&setup, z[i] / r->unit) * r->unit;
+        TALLY(t, shown >= truth * (1 - 1e-12) && shown <= truth * 1.1, "%s at %g: %g, not %g", r->name, z[i], shown,
+              truth);
+    }
+    for (int i = 0; i < LIMITS; i++) {
+        const double shown = strtod(at, (char **)&at) / r->unit, limit = limits[i] / r->unit;
+        assert_int_equal(dp_separation_over(&setup, r->znear, shown, 0, &worst), DP_OK);
+        TALLY(t, worst.separation <= limit * (1 + 1e-12), "%s: %g apart up to %g", r->name, limits[i], shown);
+        if (shown >= r->zfar)
+            continue;
+        assert_int_equal(dp_separation_over(&setup, r->znear, fmin(shown * 1.011, r->zfar), 0, &worst), DP_OK);
+        TALLY(t, worst.bound > limit, "%s: %g apart beyond %g, too", r->name, limits[i], shown);
+    }
+}
+
+static void test_comparison(void **state) {
+    static const struct {
+        const char *arguments, *head;
+        double z[2], limits[LIMITS];
+        compared_row rows[2];
+    } cases[] = {
+        {"-n 0.1 -f 1000 -F fp32,d24 -m gl --at 10,500",
+         "  0.001   0.01    0.1  B",
+         {10, 500},
+         {0.001, 0.01, 0.1},
+         {{"fp32 gl", "fp32", 0.1, 1000, DP_MAPPING_GL, 1}, {"unorm24 gl", "unorm24", 0.1, 1000, DP_MAPPING_GL, 1}}},
+        {"--unit cm -n 10 -f 1km -F fp32,d24 -m d3d --at 5m,700m",
+         "   1 mm   1 cm  10 cm  B",
+         {500, 70000},
+         {0.1, 1, 10},
+         {{"fp32 d3d", "fp32", 10, 1e5, DP_MAPPING_D3D, 1}, {"unorm24 d3d", "unorm24", 10, 1e5, DP_MAPPING_D3D, 1}}},
+        {"--preset unity,unreal --at 100m,700m",
+         "   1 mm   1 cm  10 cm  B",
+         {100, 700},
+         {0.001, 0.01, 0.1},
+         {{"unity fp32 reversed", "fp32", 0.3, 1000, DP_MAPPING_REVERSED, 1},
+          {"unreal fp32 reversed", "fp32", 10, INFINITY, DP_MAPPING_REVERSED, 0.01}}},
+        {"--preset unreal,unity -n 2 -F d24 -f 30000 --at 3,3000",
+         "   1 mm   1 cm  10 cm  B",
+         {3, 3000},
+         {0.1, 1, 10},
+         {{"unity unorm24 reversed", "unorm24", 0.02, 300, DP_MAPPING_REVERSED, 100},
+          {"unreal unorm24 reversed", "unorm24", 2, 30000, DP_MAPPING_REVERSED, 1}}},
+    };
+    tally t = {.name = "comparison"};
+    (void)state;
+    for (size_t i = 0; i < sizeof cases / sizeof cases[0]; i++) {
+        printed p = print_of("table %s", cases[i].arguments);
+        TALLY(&t, p.status == 0 && strstr(p.out, cases[i].head) != NULL, "%s: %s", cases[i].arguments, p.errors);
+        for (int k = 0; k < 2; k++)
+            check_row(&t, p.out, &cases[i].rows[k], cases[i].z, 2, cases[i].limits);
+        printed_free(&p);
+    }
+    tally_end(&t);
+}
+
+/* Each in its own unit, where the unit is not chosen. */
+static void test_presets(void **state) {
+    static const struct {
+        const char *options, *unit;
+        double znear, z, range_lo;
+    } cases[] = {{"", "cm", 10, 10000, 500}, {" --unit ft", "ft", 0.1 / 0.3048, 100 / 0.3048, 5 / 0.3048}};
+    (void)state;
+    for (size_t i = 0; i < 2; i++) {
+        printed p = print_of("table --preset unity,unreal --at 100m --range 5m:50m --json%s", cases[i].options);
+        json_t *root = json_of(p.out), *unreal = json_array_get(json_object_get(root, "setups"), 1);
+        assert_int_equal(json_array_size(json_object_get(root, "setups")), 2);
+        assert_string_equal(json_string_value(json_object_get(unreal, "preset")), "unreal");
+        assert_string_equal(json_string_value(json_object_get(unreal, "unit")), cases[i].unit);
+        const double znear = json_number_value(json_object_get(unreal, "near"));
+        const double z = json_number_value(json_object_get(json_array_get(json_object_get(unreal, "rows"), 0), "z"));
+        const double lo = json_number_value(json_object_get(json_object_get(unreal, "worst"), "lo"));
+        assert_true(fabs(znear - cases[i].znear) <= 1e-15 * znear && fabs(z - cases[i].z) <= 1e-15 * z);
+        assert_true(fabs(lo - cases[i].range_lo) <= 1e-15 * lo);
+        json_decref(root);
+        printed_free(&p);
+        p = print_of("table --preset unity,unreal --at 100m --csv%s", cases[i].options);
+        char ending[32];
+        snprintf(ending, sizeof ending, ",unreal,%s\r\n", cases[i].unit);
+        assert_non_null(strstr(p.out, ",preset,unit\r\n"));
+        assert_string_equal(p.out + strlen(p.out) - strlen(ending), ending);
+        printed_free(&p);
+    }
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_table),
-        cmocka_unit_test(test_table_worst_lines),
+        cmocka_unit_test(test_table),      cmocka_unit_test(test_table_worst_lines),
+        cmocka_unit_test(test_comparison), cmocka_unit_test(test_presets),
         cmocka_unit_test(check_apart),
     };
     return run_tap(tests);

@@ -24,7 +24,7 @@ typedef struct texture_case {
 } texture_case;
 
 static const texture_case scenes[] = {
-    {{0.3, 1000, {"unorm16"}, {"d3d"}, .ortho = 0},
+    {{0.3, 1000, {"unorm16"}, {"d3d"}, .unit = "cm"},
      "decals",
      "--fov 40 --yaw 10 --pitch=-5 --origin 1,-2,3 --sky 0.001",
      "given",
@@ -315,6 +315,7 @@ static void test_scenes(void **state) {
         char options[512], more[256], arguments[1024];
         line_places lines = {0};
         values v = values_of("texture");
+        v.unit = c->camera.unit;
         camera_of(c, &camera, WIDTH, HEIGHT);
         want_parameters(&v, c, scene_find(c->scene), parameters, more);
         const frame f = {.camera = &camera, .scene = scene_find(c->scene), .parameters = parameters, .sky = c->sky};
@@ -571,6 +572,7 @@ static void test_images(void **state) {
         recognised found;
         line_places lines = {0};
         values v = values_of("texture");
+        v.unit = c->camera.unit;
         snprintf(path, sizeof path, "%s", scratch_file("a\"b\\c.npy"));
         const uint64_t holes = write_image(path, images[i].floats, images[i].damaged, images[i].sky, images[i].spread);
         assert_true(image_read(path, &shot, &error));

@@ -29,7 +29,7 @@ static const zfight_case cases[] = {
      0,
      0},
     /* Far is drawn, the depth before it is not: a hole. */
-    {{1, 10, {"fp32"}, {"d3d"}, .implied = true, .model = DP_MODEL_FP32}, 9.99, 10, 0, 0, 0},
+    {{1, 10, {"fp32"}, {"d3d"}, .implied = true, .model = DP_MODEL_FP32, .unit = "in"}, 9.99, 10, 0, 0, 0},
     {{0.3, 900, {"unorm16"}, {"gl", "reversed"}, .implied = true, .model = DP_MODEL_FP32, .rounding = DP_ROUND_ZERO},
      7.98,
      8.03,
@@ -166,6 +166,7 @@ static void test_zfight(void **state) {
     for (size_t i = 0; i < sizeof cases / sizeof cases[0]; i++) {
         const zfight_case *c = &cases[i];
         values v = values_of("zfight");
+        v.unit = c->camera.unit;
         line_places shown = {0}, lines = {0};
         dp_setup setups[CAMERA_SETUPS];
         char options[512], arguments[1024];
@@ -183,7 +184,7 @@ static void test_zfight(void **state) {
         check_csv(&v, 0, arguments, columns, sizeof columns / sizeof columns[0], &lines);
         printed p = print_of("%s --full", arguments);
         check_text_table(&v, p.out, c->gap > 0 ? of_gaps : of_intervals, c->gap > 0 ? 6 : 9, &shown);
-        check_text_numbers(&v, p.out, "drawn from", 9, drawn);
+        check_text_numbers(&v, p.out, "effective clip range", 9, drawn);
         check_answer(&v, p.out);
         printed_free(&p);
         values_free(&v);
@@ -205,6 +206,7 @@ static void test_warning(void **state) {
         dp_setup setups[CAMERA_SETUPS];
         char options[512];
         values v = values_of("zfight");
+        v.unit = c->camera.unit;
         camera_setups(&c->camera, setups);
         census_of(c, setups, &r);
         want_count(&v, "holes", r.holes);

@@ -28,6 +28,8 @@ static double divisor(double a, double b) {
 }
 
 double unit_convert(double value, const unit_row *from, const unit_row *to) {
+    if (from == NULL || to == NULL)
+        return value;
     const double common = divisor(from->nanometres, to->nanometres);
     return value * (from->nanometres / common) / (to->nanometres / common);
 }

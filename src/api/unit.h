@@ -20,7 +20,10 @@ const unit_row *unit_get(size_t index);
 /** The row of that name, letter by letter: m is never milli, nor is M a metre. @return null when there is none */
 const unit_row *unit_find(const char *name);
 
-/** A length in another unit: one rounding wherever one unit is a whole number of the other, else two. */
+/**
+ * A length in another unit: one rounding wherever one unit is a whole number of the other, else two. As it is where a
+ * unit is null: not known.
+ */
 double unit_convert(double value, const unit_row *from, const unit_row *to);
 
 #endif

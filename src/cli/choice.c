@@ -54,17 +54,16 @@ choosing choose_at(const dp_setup *setup, double tolerance, const depths *at) {
     return c;
 }
 
-void setups_choose(const options *o, const depths *at, setups *s) {
-    for (size_t i = 0; i < s->count && o->model_auto; i++) {
-        dp_spec spec = s->items[i].spec;
-        spec.model = choose_at(&s->items[i], o->tolerance, at).choice.model;
-        dp_setup_init(&s->items[i], &spec); /* the choice is among the models that the set-up has */
-    }
+void setup_choose(const options *o, const depths *at, dp_setup *setup) {
+    dp_spec spec = setup->spec;
+    if (!o->model_auto)
+        return;
+    spec.model = choose_at(setup, o->tolerance, at).choice.model;
+    dp_setup_init(setup, &spec); /* the choice is among the models that the set-up has */
 }
 
 /* "makes this 3.03 times worse at z = 316.228"; what is less than double is said in percent. */
-static void effect(double share, double z, bool at_most, char *out, size_t size) {
-    const number_text depth = number_of(z, 6);
+static void effect(double share, number_text depth, bool at_most, char *out, size_t size) {
     const char *most = at_most ? "at most " : "";
     if (isinf(share))
         snprintf(out, size, "leaves nothing certain at z = %s", depth.text);
@@ -74,7 +73,7 @@ static void effect(double share, double z, bool at_most, char *out, size_t size)
         snprintf(out, size, "makes this %s%s %% worse at z = %s", most, number_of(100.0 * share, 3).text, depth.text);
 }
 
-choice_words choice_sentence(const choosing *c) {
+choice_words choice_sentence(const choosing *c, const char *unit) {
     const dp_choice *choice = &c->choice;
     const bool arithmetic = fullest(choice) == DP_MODEL_FP32;
     const double share = choice->share[DP_MODEL_EXACT];
@@ -84,7 +83,8 @@ choice_words choice_sentence(const choosing *c) {
     if (arithmetic)
         snprintf(subject, sizeof subject, c->setup->spec.arith != 0 ? "float arithmetic (%s)" : "float arithmetic",
                  dp_arith_get(c->setup->spec.arith)->name);
-    effect(share, choice->share_z[DP_MODEL_EXACT], choice->model == DP_MODEL_EXACT, what, sizeof what);
+    effect(share, number_in(number_of(choice->share_z[DP_MODEL_EXACT], 6), unit), choice->model == DP_MODEL_EXACT, what,
+           sizeof what);
     snprintf(out.text, sizeof out.text, "%s %s: %s", subject, share > 0.0 ? what : "adds nothing",
              choice->model == DP_MODEL_EXACT    ? "the lattice is enough"
              : choice->model == DP_MODEL_STAGED ? "model staged is enough"

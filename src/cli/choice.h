@@ -35,8 +35,8 @@ void choosing_finish(choosing *c);
 /** All at once. */
 choosing choose_at(const dp_setup *setup, double tolerance, const depths *at);
 
-/** Under --model auto, gives each set-up the model that is enough at these depths; else leaves all as they are. */
-void setups_choose(const options *o, const depths *at, setups *s);
+/** Under --model auto, gives a set-up the model that is enough at these depths; else leaves it as it is. */
+void setup_choose(const options *o, const depths *at, dp_setup *setup);
 
 /** One sentence without a line end. */
 typedef struct choice_words {
@@ -45,8 +45,9 @@ typedef struct choice_words {
 
 /**
  * Which model is enough and what decides it. The set-up's own model is taken into account: it is not recommended again.
+ * The unit of depths may be null.
  */
-choice_words choice_sentence(const choosing *c);
+choice_words choice_sentence(const choosing *c, const char *unit);
 
 /** What a model neglects of the separation, as a share, and the depth where it does; NaN where it neglects nothing. */
 typedef struct choice_share {

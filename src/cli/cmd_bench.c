@@ -152,7 +152,7 @@ int cmd_bench(const options *o) {
     b.choice_name = b.choice != NULL ? b.choice->name : NULL;
     b.family = b.asked.family->name;
     b.measure = b.asked.family->measure;
-    b.fields = setup_fields_of(&b.asked.setup);
+    b.fields = setup_fields_of(&b.asked.setup, options_unit(o));
     b.limit = b.results[0].limit;
     order(&b);
     report_write(&(report_spec){"bench", columns, &b, .when = b.asked.family->steps ? IN_STEPS : IN_ULP,

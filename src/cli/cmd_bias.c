@@ -126,18 +126,20 @@ static void say_states(page *p, void *item) {
     if (!b->inverse && s->clamp != 0.0)
         output_format(p->out, ", clamp %s", number_full(s->clamp).text);
     if (b->goal.slope > 0.0)
-        output_format(p->out, ", slope %s a pixel", number_full(b->goal.slope).text);
+        output_format(p->out, ", slope %s per pixel", number_in(number_full(b->goal.slope), p->unit).text);
     output_char(p->out, '\n');
 }
 
 /* "  told apart  -2 units from 0.1 to 1000 (needed at z = 0.1)", or where a bias is enough at all. */
 static void say_needed(page *p, const char *what, double units, const double range[2], double z,
                        const double enough[2]) {
-    const number_text lo = number_of(range[0], DIGITS_Z), hi = number_of(range[1], DIGITS_Z);
-    const number_text from = number_up(enough[0], DIGITS_Z), to = number_down(enough[1], DIGITS_Z);
+    const number_text lo = number_in(number_of(range[0], DIGITS_Z), p->unit);
+    const number_text hi = number_in(number_of(range[1], DIGITS_Z), p->unit);
+    const number_text from = number_in(number_up(enough[0], DIGITS_Z), p->unit);
+    const number_text to = number_in(number_down(enough[1], DIGITS_Z), p->unit);
     if (!isnan(units))
         page_note(p, what, "%s unit%s from %s to %s (needed at z = %s)", number_of(units, DIGITS_Z).text,
-                  fabs(units) == 1.0 ? "" : "s", lo.text, hi.text, number_of(z, DIGITS_Z).text);
+                  fabs(units) == 1.0 ? "" : "s", lo.text, hi.text, number_in(number_of(z, DIGITS_Z), p->unit).text);
     else if (isnan(enough[0]))
         page_note(p, what, "no bias is enough from %s to %s", lo.text, hi.text);
     else if (enough[0] == range[0])
@@ -162,7 +164,8 @@ static void say_range(page *p, const biasing *b) {
         return;
     if (!isnan(r->shift_hi))
         page_note(p, "", "the same units bring a layer nearer by %s at z = %s",
-                  number_of(fabs(r->shift_hi), DIGITS).text, number_of(r->hi, DIGITS_Z).text);
+                  number_in(number_of(fabs(r->shift_hi), DIGITS), p->unit).text,
+                  number_in(number_of(r->hi, DIGITS_Z), p->unit).text);
 }
 
 static void say_notes(page *p, void *item) {
@@ -269,7 +272,7 @@ static void drop_fp16(options *o) {
 int cmd_bias(const options *given) {
     options o = *given;
     const bias_api *api = o.api;
-    if (!option_given(&o, OPTION_FORMAT) && o.preset == NULL)
+    if (!option_given(&o, OPTION_FORMAT) && o.preset_count == 0)
         drop_fp16(&o);
     if (api == NULL)
         return bias_all_write(&o);

@@ -114,25 +114,23 @@ static void *next_setup(void *of, size_t i) {
 
 static void say_setup(page *p, void *item) {
     const budget *b = item;
-    char label[SETUP_LABEL_SIZE];
-    setup_label(b->walk.setup, true, label);
+    walk_title(p, item);
     if (b->composition != NULL)
-        page_title(p, "%s, world %s, composition %s", label, number_full(b->terms.world).text, b->composition);
-    else
-        page_title(p, "%s", label);
+        page_title(p, "world %s, composition %s", number_in(number_full(b->terms.world), p->unit).text, b->composition);
 }
 
 static void say_worst(page *p, const worst *w) {
     const double step = remedy_step(w->z);
     char taken[128];
-    snprintf(taken, sizeof taken, "at z = %s %s takes %.0f %%: ", number_of(w->z, DIGITS_MORE).text, w->cause,
-             100.0 * w->share);
+    snprintf(taken, sizeof taken, "at z = %s %s takes %.0f %%: ", number_in(number_of(w->z, DIGITS_MORE), p->unit).text,
+             w->cause, 100.0 * w->share);
     if (w->remedy.text != NULL)
         page_line(p, "%s%s would need %s in place of %s", taken, w->remedy.text,
-                  number_up(w->remedy.separation, DIGITS).text, number_up(w->separation, DIGITS).text);
+                  number_in(number_up(w->remedy.separation, DIGITS), p->unit).text,
+                  number_in(number_up(w->separation, DIGITS), p->unit).text);
     else if (w->separation < 2.0 * step)
         page_line(p, "%snothing to gain, binary32 depths themselves are %s apart there", taken,
-                  number_of(step, DIGITS).text);
+                  number_in(number_of(step, DIGITS), p->unit).text);
     else
         page_line(p, "%snothing that could be chosen otherwise helps against it", taken);
 }
@@ -141,10 +139,10 @@ static void say_notes(page *p, void *item) {
     const budget *b = item;
     if (!isnan(b->hopeless))
         page_line(p, "at z = %s no separation is certain: what lies behind may share its code",
-                  number_of(b->hopeless, DIGITS_MORE).text);
+                  number_in(number_of(b->hopeless, DIGITS_MORE), p->unit).text);
     if (b->worst != NULL)
         say_worst(p, b->worst);
-    page_line(p, "%s", choice_sentence(&b->choice).text);
+    page_line(p, "%s", choice_sentence(&b->choice, p->unit).text);
 }
 
 /* ---- Columns ----------------------------------------------------------------------------------------------------- */

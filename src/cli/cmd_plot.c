@@ -25,8 +25,8 @@ typedef struct plotting {
     const figure_row *row;
     figure_request request;
     setups all;
-    const char *names[CHART_SERIES];
-    char text[CHART_SERIES][SETUP_LABEL_SIZE];
+    const char *names[CHART_SETUPS];
+    char text[CHART_SETUPS][SETUP_LABEL_SIZE];
     methods_asked asked;
     char where[256]; /* of what is timed */
     need_file file;
@@ -70,6 +70,9 @@ static int check_file_given(const options *o, const figure_row *row) {
 
 /* Options that this figure has no use for. */
 static int check_options(const options *o, const figure_row *row) {
+    if (o->znear <= 0.0 && (row->takes & FIGURE_SIGNED) == 0)
+        return option_error(OPTION_NEAR, "must be greater than 0 in the figure %s, got '%s'", row->name,
+                            number_full(o->znear).text);
     static const option_id terms[] = {OPTION_INTERPOLATION, OPTION_WORLD, OPTION_COMPOSITION, OPTION_LINEARIZE};
     for (size_t i = 0; i < sizeof terms / sizeof terms[0]; i++)
         if (option_given(o, terms[i]) && (row->takes & FIGURE_TERMS) == 0)
@@ -90,8 +93,9 @@ static int choose_models(plotting *p) {
     enum { CHOICE_DEPTHS = 257 };
     double lo, hi;
     figure_range(&p->request, &lo, &hi);
-    const depths at = {DEPTHS_LOG, lo, hi, CHOICE_DEPTHS, NULL};
-    setups_choose(p->o, &at, &p->all);
+    const depths at = {.kind = DEPTHS_LOG, .lo = lo, .hi = hi, .count = CHOICE_DEPTHS};
+    for (size_t i = 0; i < p->all.count; i++)
+        setup_choose(p->o, &at, &p->all.items[i]);
     for (size_t i = 0; i < p->all.count && (p->row->takes & FIGURE_FP32) == 0; i++)
         if (p->all.items[i].spec.model == DP_MODEL_FP32)
             return option_error(OPTION_MODEL,

@@ -16,7 +16,7 @@
 /* ---- What is asked ----------------------------------------------------------------------------------------------- */
 
 static bool is_known(const options *o, option_id id) {
-    return option_given(o, id) || o->preset != NULL;
+    return option_given(o, id) || o->preset_count > 0;
 }
 
 static int check_target(const options *o, solve_report *r) {

@@ -137,6 +137,7 @@ static void *next_setup(void *of, size_t i) {
         return NULL;
     const dp_setup *setup = t->walk.setup;
     const options *o = t->walk.o;
+    range_resolve(&t->walk.here, &t->lo, &t->hi);
     t->exact = reach_in(setup, DP_MODEL_EXACT);
     t->full = reach_model(setup);
     t->choice = choosing_start(setup, o->tolerance);
@@ -159,21 +160,22 @@ static void *next_setup(void *of, size_t i) {
 static void say_reach(page *p, void *item) {
     const table *t = item;
     char text[REACH_TEXT_SIZE], sentence[REACH_TEXT_SIZE] = "";
+    const unit_row *unit = t->walk.here.unit;
     walk_title(p, item);
     if (t->walk.all.count > 1)
         return;
     for (size_t i = 0; i < REACH_LIMITS; i++) {
-        const double up_to = reach_of(&t->full, reach_limits[i]);
+        const double up_to = reach_of(&t->full, reach_limit(i, unit));
         if (!isnan(up_to))
             append(sentence, sizeof sentence, "%s %s apart up to %s%s", *sentence != '\0' ? "," : "",
-                   number_full(reach_limits[i]).text, up_to < t->full.spec.zfar ? "z = " : "",
-                   reach_text(&t->full, up_to, text));
+                   reach_limit_text(i, unit).text, up_to < t->full.spec.zfar ? "z = " : "",
+                   reach_text(t->full.spec.zfar, up_to, unit, text));
     }
     if (*sentence != '\0')
         page_text(p, "Guaranteed to be told apart: surfaces%s.", sentence);
     else
         page_text(p, "Surfaces %s apart are nowhere sure to be told apart.",
-                  number_full(reach_limits[REACH_LIMITS - 1]).text);
+                  reach_limit_text(REACH_LIMITS - 1, unit).text);
 }
 
 static void say_worst(page *p, const dp_worst *w) {
@@ -182,26 +184,28 @@ static void say_worst(page *p, const dp_worst *w) {
     if (isinf(w->error))
         page_note(p, "worst error", "unbounded, code %u", w->error_code);
     else
-        page_note(p, "worst error", "%s at z = %s, code %u", number_of(w->error, DIGITS_FEW).text,
-                  number_of(w->error_z, DIGITS_USUAL).text, w->error_code);
+        page_note(p, "worst error", "%s at z = %s, code %u", number_in(number_of(w->error, DIGITS_FEW), p->unit).text,
+                  number_in(number_of(w->error_z, DIGITS_USUAL), p->unit).text, w->error_code);
     const int digits = digits_to_see(w->interval_lo, w->interval);
-    const number_text lo = number_of(w->interval_lo, digits);
+    const number_text lo = number_in(number_of(w->interval_lo, digits), p->unit);
     if (isinf(w->interval))
         page_note(p, "worst interval", "unbounded, from %s on, code %u", lo.text, w->interval_code);
     else
-        page_note(p, "worst interval", "%s from %s to %s, code %u", number_of(w->interval, DIGITS_FEW).text, lo.text,
-                  number_of(w->interval_hi, digits).text, w->interval_code);
+        page_note(p, "worst interval", "%s from %s to %s, code %u",
+                  number_in(number_of(w->interval, DIGITS_FEW), p->unit).text, lo.text,
+                  number_in(number_of(w->interval_hi, digits), p->unit).text, w->interval_code);
     if (!isnan(w->blind_from))
         page_note(p, "blind", "from z = %s: behind it nothing is told apart",
-                  number_of(w->blind_from, DIGITS_USUAL).text);
+                  number_in(number_of(w->blind_from, DIGITS_USUAL), p->unit).text);
 }
 
 static void say_drawn(page *p, const clipping *c) {
     if (isnan(c->znear) && c->loses)
-        page_note(p, "drawn", "nothing: clipping loses all depths");
+        page_note(p, "clip range", "empty: clipping loses all depths");
     else if (!isnan(c->znear))
-        page_note(p, "drawn", "from %s to %s%s", number_of(c->znear, DIGITS_USUAL).text,
-                  number_of(c->zfar, DIGITS_USUAL).text, c->loses ? ": clipping loses the rest" : "");
+        page_note(p, "clip range", "effectively %s to %s%s", number_in(number_of(c->znear, DIGITS_USUAL), p->unit).text,
+                  number_in(number_of(c->zfar, DIGITS_USUAL), p->unit).text,
+                  c->loses ? ": clipping loses the rest" : "");
 }
 
 static void say_way(page *p, const way *w, double tolerance) {
@@ -220,18 +224,19 @@ static void say_notes(page *p, void *item) {
     const guarantee *g = t->guarantee;
     say_worst(p, t->worst);
     if (g != NULL)
-        page_note(p, "worst separation", "%s at z = %s, %s", number_up(g->worst.bound, DIGITS_FEW).text,
-                  number_of(g->worst.z, DIGITS_USUAL).text,
+        page_note(p, "worst separation", "%s at z = %s, %s",
+                  number_in(number_up(g->worst.bound, DIGITS_FEW), p->unit).text,
+                  number_in(number_of(g->worst.z, DIGITS_USUAL), p->unit).text,
                   g->model == DP_MODEL_FP32 ? "guaranteed in binary32 (model fp32)" : "in the model staged");
     say_drawn(p, &t->planes);
-    page_line(p, "%s", choice_sentence(&t->choice).text);
+    page_line(p, "%s", choice_sentence(&t->choice, p->unit).text);
     if (option_given(t->walk.o, OPTION_TOLERANCE))
         say_way(p, &t->interval, t->walk.o->tolerance);
 }
 
 /* ---- Columns ----------------------------------------------------------------------------------------------------- */
 
-enum { WITH_TOLERANCE = 1, WITH_ARITH = 2, VERBOSE = 4 };
+enum { WITH_TOLERANCE = 1, WITH_ARITH = 2, VERBOSE = 4, WITH_PRESETS = 8 };
 
 static const column row_columns[] = {
     {FIELD(row, sample.z, "z", "scene"), SHOWN("z", 11, DIGITS_Z)},
@@ -285,6 +290,8 @@ static const column setup_report[] = {
     {FIELD(table, interval.claim, "claim", ""), .only = AS_JSON, .when = WITH_TOLERANCE},
     {LIST("rows", row_columns, next_row)},
     {FIELD(table, interval.name, "method", ""), .only = AS_CSV, .when = WITH_TOLERANCE},
+    {FIELD(table, walk.fields.preset, "preset", ""), .only = AS_CSV, .when = WITH_PRESETS},
+    {FIELD(table, walk.fields.unit, "unit", ""), .only = AS_CSV, .when = WITH_PRESETS},
     {PART(table, worst, "worst", worst_columns), .only = AS_JSON, .pointed = true},
     {PART(table, guarantee, "worst_separation", guarantee_columns), .only = AS_JSON, .pointed = true, .optional = true},
     {PART(table, drawn, NULL, drawn_columns), .only = AS_JSON, .pointed = true},
@@ -296,8 +303,8 @@ static const column columns[] = {{LIST("setups", setup_report, next_setup), .hea
 
 /* What a table of these set-ups has: the variant of arithmetic only where some set-up has that model. */
 static unsigned conditions(const table *t) {
-    unsigned when =
-        (option_given(t->walk.o, OPTION_TOLERANCE) ? WITH_TOLERANCE : 0) | (t->walk.o->verbose ? VERBOSE : 0);
+    unsigned when = (option_given(t->walk.o, OPTION_TOLERANCE) ? WITH_TOLERANCE : 0) |
+                    (t->walk.o->verbose ? VERBOSE : 0) | (t->walk.o->preset_count > 1 ? WITH_PRESETS : 0);
     for (size_t i = 0; i < t->walk.all.count; i++)
         if (t->walk.all.items[i].spec.model == DP_MODEL_FP32)
             when |= WITH_ARITH;
@@ -309,12 +316,13 @@ int cmd_table(const options *o) {
         return lookup_write(o);
     table t = {0};
     int status = walk_start(&t.walk, o);
-    if (status == EXIT_FINE)
-        status = range_resolve(o, &t.lo, &t.hi);
-    if (status == EXIT_FINE && (o->model == DP_MODEL_FP32 || o->model_auto))
-        status = depths_in_binary32(&t.walk.at);
-    if (status == EXIT_FINE)
-        setups_choose(o, &t.walk.at, &t.walk.all);
+    for (size_t i = 0; status == EXIT_FINE && walk_setup(&t.walk, i); i++) {
+        status = range_resolve(&t.walk.here, &t.lo, &t.hi);
+        if (status == EXIT_FINE && (o->model == DP_MODEL_FP32 || o->model_auto))
+            status = depths_in_binary32(&t.walk.at);
+        if (status == EXIT_FINE)
+            setup_choose(o, &t.walk.at, &t.walk.all.items[i]);
+    }
     if (status == EXIT_FINE && compare_suits(&t.walk))
         return compare_write(&t.walk);
     const report_spec spec = {"table", columns, &t, .when = conditions(&t), .label = 16};

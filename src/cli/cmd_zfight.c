@@ -139,12 +139,13 @@ static void *next_setup(void *of, size_t i) {
 
 static void say_gap(page *p, const zfight *z) {
     const census_band *all = &z->result->all;
-    const number_text gap = number_full(z->gap), first = number_down(all->first, DIGITS);
-    const number_text always = number_up(z->always, DIGITS);
+    const number_text gap = number_in(number_full(z->gap), p->unit);
+    const number_text first = number_in(number_down(all->first, DIGITS), p->unit);
+    const number_text always = number_in(number_up(z->always, DIGITS), p->unit);
     const char *drawn = z->walk.o->sample > 0 ? "Of the pairs drawn, surfaces" : "Surfaces";
     if (isnan(all->first))
-        page_text(p, "%s %s apart never fight from %s to %s.", drawn, gap.text, number_full(z->lo).text,
-                  number_full(z->hi).text);
+        page_text(p, "%s %s apart never fight from %s to %s.", drawn, gap.text,
+                  number_in(number_full(z->lo), p->unit).text, number_in(number_full(z->hi), p->unit).text);
     else if (isnan(z->always))
         page_text(p, "%s %s apart first fight at z = %s, and nowhere always.", drawn, gap.text, first.text);
     else
@@ -159,8 +160,10 @@ static void say_neighbours(page *p, const zfight *z) {
               z->walk.o->sample > 0 ? ", drawn at random" : "", number_of(z->whole.ties, 3).text,
               number_of(z->whole.swaps, 3).text);
     if (all->longest > 0.0)
-        page_line(p, "the longest interval: %s at z = %s, of %s guaranteed", number_of(all->longest, DIGITS).text,
-                  number_of(all->longest_z, DIGITS).text, number_up(all->bound, DIGITS).text);
+        page_line(p, "the longest interval: %s at z = %s, of %s guaranteed",
+                  number_in(number_of(all->longest, DIGITS), p->unit).text,
+                  number_in(number_of(all->longest_z, DIGITS), p->unit).text,
+                  number_in(number_up(all->bound, DIGITS), p->unit).text);
 }
 
 static void say_answer(page *p, void *item) {
@@ -174,8 +177,9 @@ static void say_planes(page *p, void *item) {
     if (isnan(r->near_effective))
         page_line(p, "clipping loses everything");
     else
-        page_line(p, "drawn from %s to %s", number_of(r->near_effective, PLANE_DIGITS).text,
-                  number_of(r->far_effective, PLANE_DIGITS).text);
+        page_line(p, "effective clip range: %s to %s",
+                  number_in(number_of(r->near_effective, PLANE_DIGITS), p->unit).text,
+                  number_in(number_of(r->far_effective, PLANE_DIGITS), p->unit).text);
 }
 
 enum { WITH_INTERVALS = 1, WITH_CLIPPED = 2, WITH_SAMPLE = 4, WITH_GAP = 8 };

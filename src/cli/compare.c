@@ -15,10 +15,23 @@
 #include "core/append.h"
 #include "report/number.h"
 
-enum { DEPTHS = 5, LIMITS = REACH_LIMITS, MIDDLE = REACH_MIDDLE, NAMED = 3, DIGITS_BOUND = 2, DIGITS_Z = 6 };
+enum {
+    DEPTHS = 5,
+    DEPTHS_OF_PRESETS = 3,
+    LIMITS = REACH_LIMITS,
+    MIDDLE = REACH_MIDDLE,
+    NAMED = 3,
+    DIGITS_BOUND = 2,
+    DIGITS_Z = 6
+};
+enum { PAGE = 80, NAME_WIDTH = 20, COLUMN_WIDTH = 7, BYTES_WIDTH = 3 };
 
+/* Lengths are in the unit of the comparison; the set-up has its own, see options_of(). */
 typedef struct compared {
     const dp_setup *setup;
+    size_t camera;
+    const unit_row *unit; /* of the set-up; null where nothing says it */
+    double znear, zfar;
     cost cost;
     char name[SETUP_LABEL_SIZE];
     double separation[DEPTHS]; /* NaN where the depth is not in the range of the set-up */
@@ -32,17 +45,21 @@ typedef struct comparison {
     double depths[DEPTHS];
     size_t depth_count;
     char titles[DEPTHS + LIMITS][NUMBER_SIZE];
+    int name_width, limit_begin, limit_end; /* limits that are shown */
 } comparison;
 
 /* ---- What is measured -------------------------------------------------------------------------------------------- */
 
 static void measure(const comparison *c, compared *r) {
+    const unit_row *unit = c->walk->o->unit;
     const dp_setup full = reach_model(r->setup);
     dp_sample sample;
     for (size_t i = 0; i < c->depth_count; i++)
-        r->separation[i] = dp_sample_at(&full, c->depths[i], &sample) == DP_OK ? sample.separation : (double)NAN;
+        r->separation[i] = dp_sample_at(&full, unit_convert(c->depths[i], unit, r->unit), &sample) == DP_OK
+                               ? unit_convert(sample.separation, r->unit, unit)
+                               : (double)NAN;
     for (size_t i = 0; i < LIMITS; i++)
-        r->up_to[i] = reach_of(&full, reach_limits[i]);
+        r->up_to[i] = unit_convert(reach_of(&full, reach_limit(i, r->unit)), r->unit, unit);
 }
 
 /* As far as it goes, then as close as it comes, then as cheap as it is. */
@@ -61,16 +78,20 @@ static int better(const void *a, const void *b) {
 /* At most five of the depths asked about, else powers of ten: those that a reader looks for. */
 static void choose_depths(comparison *c) {
     const options *o = c->walk->o;
-    const double far = fmin(o->zfar, 1e6 * o->znear);
+    double near = INFINITY, far = 0;
+    for (size_t i = 0; i < c->walk->all.count; i++) {
+        near = fmin(near, c->rows[i].znear);
+        far = fmax(far, isinf(c->rows[i].zfar) ? 1e6 * c->rows[i].znear : c->rows[i].zfar);
+    }
     if (option_given(o, OPTION_AT)) {
-        for (c->depth_count = 0; c->depth_count < c->walk->at.count; c->depth_count++)
-            c->depths[c->depth_count] = depths_get(&c->walk->at, c->depth_count);
+        for (c->depth_count = 0; c->depth_count < o->at.count; c->depth_count++)
+            c->depths[c->depth_count] = depths_get(&o->at, c->depth_count);
         return;
     }
-    const int first = (int)ceil(log10(o->znear) - 1e-9), last = (int)floor(log10(far) + 1e-9);
-    const int step = (last - first) / DEPTHS + 1;
+    const int first = (int)ceil(log10(near) - 1e-9), last = (int)floor(log10(far) + 1e-9);
+    const int most = o->preset_count > 1 ? DEPTHS_OF_PRESETS : DEPTHS, step = (last - first) / most + 1;
     for (int e = last - (last - first) / step * step; e <= last && c->depth_count < DEPTHS; e += step)
-        c->depths[c->depth_count++] = fmin(fmax(pow(10.0, e), o->znear), o->zfar);
+        c->depths[c->depth_count++] = fmin(fmax(pow(10.0, e), near), far);
     if (c->depth_count == 0)
         c->depths[c->depth_count++] = far;
 }
@@ -78,7 +99,7 @@ static void choose_depths(comparison *c) {
 /* ---- Text -------------------------------------------------------------------------------------------------------- */
 
 static bool to_the_end(const compared *r) {
-    return r->up_to[MIDDLE] >= r->setup->spec.zfar;
+    return r->up_to[MIDDLE] >= r->zfar;
 }
 
 static void say_farthest(page *p, const comparison *c, const char *limit) {
@@ -95,7 +116,7 @@ static void say_farthest(page *p, const comparison *c, const char *limit) {
         page_text(p, "None of these is sure to tell surfaces %s apart, not even at the near plane.", limit);
     else if (all == 0)
         page_text(p, "%s goes farthest: it tells surfaces %s apart up to z = %s.", best->name, limit,
-                  reach_text(best->setup, best->up_to[MIDDLE], text));
+                  reach_text(best->zfar, best->up_to[MIDDLE], c->walk->o->unit, text));
     else
         page_text(p, "%s tell%s surfaces %s apart all the way to the far plane.", names, all == 1 ? "s" : "", limit);
 }
@@ -106,8 +127,9 @@ static const compared *reversed_of(const comparison *c, const compared *r) {
     for (size_t i = 0; i < c->walk->all.count; i++) {
         const dp_spec *other = &c->rows[i].setup->spec;
         const dp_mapping_row *there = dp_mapping_get(other->mapping);
-        if (!here->reversed && there->reversed && here->ndc_signed == there->ndc_signed &&
-            here->curve == DP_CURVE_PERSPECTIVE && strcmp(other->format.name, r->setup->spec.format.name) == 0)
+        if (c->rows[i].camera == r->camera && !here->reversed && there->reversed &&
+            here->ndc_signed == there->ndc_signed && here->curve == DP_CURVE_PERSPECTIVE &&
+            strcmp(other->format.name, r->setup->spec.format.name) == 0)
             return &c->rows[i];
     }
     return NULL;
@@ -119,8 +141,8 @@ static void say_reversing(page *p, const comparison *c, const char *limit) {
         const compared *r = &c->rows[i], *other = reversed_of(c, r);
         if (other == NULL || r->cost.buffer == 0 || isnan(r->up_to[MIDDLE]))
             continue;
-        reach_text(r->setup, r->up_to[MIDDLE], before);
-        reach_text(other->setup, other->up_to[MIDDLE], after);
+        reach_text(r->zfar, r->up_to[MIDDLE], c->walk->o->unit, before);
+        reach_text(other->zfar, other->up_to[MIDDLE], c->walk->o->unit, after);
         append(gains, sizeof gains, "%s %s", *gains != '\0' ? "," : "", r->name);
         append(gains, sizeof gains, strcmp(before, after) == 0 ? " no farther" : " from %s to %s", before, after);
     }
@@ -130,7 +152,7 @@ static void say_reversing(page *p, const comparison *c, const char *limit) {
 
 static void say_notes(page *p, void *item) {
     const comparison *c = item;
-    const number_text limit = number_full(reach_limits[MIDDLE]);
+    const number_text limit = reach_limit_text(MIDDLE, c->walk->o->unit);
     bool staged = false;
     output_char(p->out, '\n');
     say_farthest(p, c, limit.text);
@@ -147,17 +169,39 @@ static void say_notes(page *p, void *item) {
     page_text(p, "--full prints the tables: codes, errors, intervals, worst cases.");
 }
 
+/* What the cameras have in common, and where there are several the planes of each. */
+static void say_cameras(page *p, const comparison *c) {
+    const options *o = c->walk->o;
+    char planes[1024] = "", unit[32] = "";
+    if (p->unit != NULL)
+        snprintf(unit, sizeof unit, ", lengths in %s", p->unit);
+    if (o->preset_count < 2) {
+        page_title(p, "near %s, far %s, %s%s", number_full(o->znear).text, number_full(o->zfar).text,
+                   o->ortho ? "orthographic" : "perspective", unit);
+        return;
+    }
+    page_title(p, "%zu presets, %s%s", o->preset_count, o->ortho ? "orthographic" : "perspective", unit);
+    for (size_t k = 0; k < o->preset_count; k++)
+        for (size_t i = 0; i < c->walk->all.count; i++)
+            if (c->rows[i].camera == k) {
+                append(planes, sizeof planes, "%s%s near %s, far %s", k > 0 ? "; " : "", o->presets[k]->name,
+                       number_full(c->rows[i].znear).text, number_full(c->rows[i].zfar).text);
+                break;
+            }
+    page_text(p, "%s", planes);
+}
+
 static void say_head(page *p, void *item) {
     const comparison *c = item;
-    const options *o = c->walk->o;
-    page_title(p, "near %s, far %s, %s", number_full(o->znear).text, number_full(o->zfar).text,
-               o->ortho ? "orthographic" : "perspective");
-    const int width = 7 * (int)c->depth_count;
-    output_format(p->out, "%s%-20s%*s%*s%s\n", p->soft, "", width,
+    const int width = COLUMN_WIDTH * (int)c->depth_count;
+    p->unit = options_unit(c->walk->o);
+    say_cameras(p, c);
+    output_format(p->out, "%s%-*s%*s%*s%s\n", p->soft, c->name_width, "", width,
                   width > 27   ? "guaranteed separation at z"
-                  : width > 14 ? "guaranteed at z"
+                  : width > 20 ? "guaranteed at z"
                                : "at z",
-                  7 * LIMITS, "told apart up to z", p->plain);
+                  COLUMN_WIDTH * (c->limit_end - c->limit_begin),
+                  c->limit_end - c->limit_begin == LIMITS ? "told apart up to z" : "apart up to z", p->plain);
 }
 
 static void *next_row(void *of, size_t i) {
@@ -165,22 +209,34 @@ static void *next_row(void *of, size_t i) {
     return i < c->walk->all.count ? &c->rows[i] : NULL;
 }
 
+/* Names of presets take room: of the limits, those beside the middle one go first. */
+static void fit(comparison *c) {
+    for (size_t i = 0; i < c->walk->all.count; i++)
+        c->name_width = (int)fmax(c->name_width, (double)strlen(c->rows[i].name) + 1);
+    const int room = PAGE - c->name_width - COLUMN_WIDTH * (int)c->depth_count;
+    const bool all = room >= COLUMN_WIDTH * LIMITS + BYTES_WIDTH;
+    c->limit_begin = all ? 0 : MIDDLE;
+    c->limit_end = all ? LIMITS : MIDDLE + (room >= COLUMN_WIDTH * 2 ? 2 : 1);
+}
+
 static void write(comparison *c) {
-    column rows[1 + DEPTHS + LIMITS + 2] = {{TEXT_FIELD(compared, name, "", -20, 0)}};
+    column rows[1 + DEPTHS + LIMITS + 2] = {{TEXT_FIELD(compared, name, "", -c->name_width, 0)}};
     size_t n = 1;
     for (size_t i = 0; i < c->depth_count; i++) {
         snprintf(c->titles[i], NUMBER_SIZE, "%s", number_of(c->depths[i], DIGITS_Z).text);
-        rows[n++] =
-            (column){TEXT_FIELD(compared, separation[0], c->titles[i], 7, DIGITS_BOUND), .upward = true, .brief = true};
+        rows[n++] = (column){TEXT_FIELD(compared, separation[0], c->titles[i], COLUMN_WIDTH, DIGITS_BOUND),
+                             .upward = true, .brief = true};
         rows[n - 1].offset = offsetof(compared, separation[i]);
     }
-    for (size_t i = 0; i < LIMITS; i++) {
+    for (int i = c->limit_begin; i < c->limit_end; i++) {
         char *title = c->titles[DEPTHS + i];
-        snprintf(title, NUMBER_SIZE, "%s", number_full(reach_limits[i]).text);
-        rows[n++] = (column){TEXT_FIELD(compared, up_to[0], title, 7, REACH_DIGITS), .downward = true, .brief = true};
+        snprintf(title, NUMBER_SIZE, "%s", reach_limit_text((size_t)i, c->walk->o->unit).text);
+        rows[n++] = (column){TEXT_FIELD(compared, up_to[0], title, COLUMN_WIDTH, REACH_DIGITS), .downward = true,
+                             .brief = true};
         rows[n - 1].offset = offsetof(compared, up_to[i]);
     }
-    rows[n++] = (column){TEXT_FIELD(compared, bytes, "B", 3, 0)};
+    if (c->limit_end - c->limit_begin == LIMITS)
+        rows[n++] = (column){TEXT_FIELD(compared, bytes, "B", BYTES_WIDTH, 0)};
     rows[n] = (column){.kind = COLUMN_END};
     const column columns[] = {{LIST(NULL, rows, next_row), .head = say_head, .notes = say_notes}, {.kind = COLUMN_END}};
     report_write(&(report_spec){"table", columns, c, .label = 16}, &c->walk->out, FORM_TEXT);
@@ -195,19 +251,33 @@ bool compare_suits(const walk *w) {
            (!option_given(o, OPTION_AT) || w->at.count <= DEPTHS);
 }
 
+static void add(comparison *c, size_t i) {
+    compared *r = &c->rows[i];
+    const options *o = c->walk->o;
+    walk_setup(c->walk, i);
+    const char *engine = c->walk->fields.preset;
+    *r = (compared){.setup = c->walk->setup,
+                    .camera = c->walk->all.cameras[i],
+                    .unit = c->walk->here.unit,
+                    .znear = unit_convert(c->walk->setup->spec.znear, c->walk->here.unit, o->unit),
+                    .zfar = unit_convert(c->walk->setup->spec.zfar, c->walk->here.unit, o->unit),
+                    .cost = cost_of(&c->walk->setup->spec.format, c->walk->setup->spec.mapping)};
+    char label[SETUP_LABEL_SIZE];
+    snprintf(r->name, sizeof r->name, "%s%s%s", engine != NULL ? engine : "", engine != NULL ? " " : "",
+             setup_label(r->setup, false, label));
+    r->bytes = (uint64_t)r->cost.bytes;
+}
+
 int compare_write(walk *w) {
-    comparison c = {.walk = w, .rows = calloc(w->all.count, sizeof(compared))};
+    comparison c = {.walk = w, .rows = calloc(w->all.count, sizeof(compared)), .name_width = NAME_WIDTH};
     int status = c.rows != NULL ? options_open(w->o, &w->out) : usage_error("table: no memory");
     if (status == EXIT_FINE) {
+        for (size_t i = 0; i < w->all.count; i++)
+            add(&c, i);
         choose_depths(&c);
-        for (size_t i = 0; i < w->all.count; i++) {
-            compared *r = &c.rows[i];
-            r->setup = &w->all.items[i];
-            r->cost = cost_of(&r->setup->spec.format, r->setup->spec.mapping);
-            r->bytes = (uint64_t)r->cost.bytes;
-            setup_label(r->setup, false, r->name);
-            measure(&c, r);
-        }
+        fit(&c);
+        for (size_t i = 0; i < w->all.count; i++)
+            measure(&c, &c.rows[i]);
         qsort(c.rows, w->all.count, sizeof *c.rows, better);
         write(&c);
         status = output_close(&w->out);

@@ -9,6 +9,8 @@
 static const double infinite_far_ratio = 1e6; /* the default depths end at this many nears when far is infinite */
 
 double depths_get(const depths *d, size_t i) {
+    if (d->kind == DEPTHS_LIST && d->from != NULL && d->to != NULL)
+        return unit_convert(d->list[i], d->from, d->to);
     if (d->kind == DEPTHS_LIST)
         return d->list[i];
     if (i == 0)
@@ -23,14 +25,16 @@ double depths_get(const depths *d, size_t i) {
 static int check_within(const options *o, option_id id, double lo, double hi) {
     if (lo >= o->znear && hi <= o->zfar)
         return EXIT_FINE;
-    return option_error(id, "depths must lie in [near, far] = [%s, %s%c, got %s", number_full(o->znear).text,
-                        number_full(o->zfar).text, isinf(o->zfar) ? ')' : ']',
-                        number_full(lo < o->znear ? lo : hi).text);
+    const char *unit = options_unit(o);
+    return option_error(id, "depths must lie in [near, far] = [%s, %s%c, got %s",
+                        number_in(number_full(o->znear), unit).text, number_in(number_full(o->zfar), unit).text,
+                        isinf(o->zfar) ? ')' : ']', number_in(number_full(lo < o->znear ? lo : hi), unit).text);
 }
 
 int depths_resolve(const options *o, size_t count, depths *out) {
     const double end = isinf(o->zfar) ? o->znear * infinite_far_ratio : o->zfar;
-    *out = o->at.count > 0 ? o->at : (depths){o->znear > 0.0 ? DEPTHS_LOG : DEPTHS_LIN, o->znear, end, count, NULL};
+    const depths_kind kind = o->znear > 0.0 ? DEPTHS_LOG : DEPTHS_LIN;
+    *out = o->at.count > 0 ? o->at : (depths){.kind = kind, .lo = o->znear, .hi = end, .count = count};
     const int status = check_within(o, OPTION_AT, out->lo, out->hi);
     if (status == EXIT_FINE && out->kind == DEPTHS_LOG && out->lo <= 0.0)
         return option_error(OPTION_AT, "log spacing needs LO greater than 0, got %s: lin has equal steps",

@@ -17,9 +17,10 @@ typedef enum depths_kind { DEPTHS_LIST = 0, DEPTHS_LOG, DEPTHS_LIN } depths_kind
 
 typedef struct depths {
     depths_kind kind;
-    double lo, hi; /**< least and greatest depth, scene units */
-    size_t count;  /**< of a spaced set at least 2, or 1 for lo alone */
-    double *list;  /**< DEPTHS_LIST: the depths in the order given, owned by the options; else null */
+    double lo, hi;                    /**< least and greatest depth, scene units */
+    size_t count;                     /**< of a spaced set at least 2, or 1 for lo alone */
+    const struct unit_row *from, *to; /**< null, or units that the list is converted from and into */
+    double *list; /**< DEPTHS_LIST: the depths in the order given, owned by the options; else null */
 } depths;
 
 /** Depth i, i < count. The first of a spaced set is exactly lo, the last exactly hi, and none leaves [lo, hi]. */

@@ -6,6 +6,7 @@
 
 #include "api/bias.h"
 #include "api/presets.h"
+#include "api/unit.h"
 #include "core/append.h"
 #include "method/method.h"
 #include "plot/figure.h"
@@ -37,12 +38,23 @@ bool list_model(size_t index, list_item *item) {
     static const char *const notes[] = {
         [DP_MODEL_EXACT] = "real arithmetic and one rounding into the format: the lattice of codes",
         [DP_MODEL_STAGED] = "NDC depth, then window depth, each rounded once to binary32, then the format",
-        [DP_MODEL_FP32] = "every operation in binary32, see 'depthprec list ariths'; not for linear and log",
+        [DP_MODEL_FP32] = "every operation in binary32, see 'depthprec list arithmetic'; not for linear and log",
         "the simplest of the three that is enough at the depths asked about, see --tolerance",
     };
     const char *name = dp_model_name((dp_model)index);
     return index < sizeof notes / sizeof notes[0] &&
-           list_fill(item, (list_item){.name = name != NULL ? name : "auto", .note = notes[index]});
+           list_fill(item, (list_item){.name = name != NULL ? name : "auto",
+                                       .aliases = index == DP_MODEL_FP32 ? "float" : NULL,
+                                       .note = notes[index]});
+}
+
+bool list_model_word(size_t index, list_item *item) {
+    const bool found = list_model(index, item);
+    if (found && index == DP_MODEL_FP32) {
+        item->name = item->aliases;
+        item->aliases = dp_model_name(DP_MODEL_FP32);
+    }
+    return found;
 }
 
 bool list_rounding(size_t index, list_item *item) {
@@ -84,6 +96,11 @@ bool list_preset(size_t index, list_item *item) {
              number_full(row->znear).text, number_full(row->zfar).text, dp_mapping_get(row->mapping)->name, row->format,
              row->unit, row->checked, confirmed ? "confirmed" : "not confirmed: ", row->unconfirmed);
     return true;
+}
+
+bool list_unit(size_t index, list_item *item) {
+    const unit_row *row = unit_get(index);
+    return row != NULL && list_fill(item, (list_item){.name = row->name, .row = row});
 }
 
 bool list_api(size_t index, list_item *item) {
@@ -193,7 +210,7 @@ static const topic topics[] = {
     {"formats", "depth formats, and what their rounding is held to", list_format, "bound"},
     {"mappings", "how an eye depth becomes a window depth", list_mapping, "bound"},
     {"models", "what is modelled of the arithmetic before the buffer", list_model, "bound"},
-    {"ariths", "the variants of binary32 arithmetic", list_arith, "bound"},
+    {"arithmetic", "variants of binary32 arithmetic, for --arith", list_arith, "bound"},
     {"transforms", "how world positions become clip coordinates", list_composition, "bound"},
     {"causes", "what takes a part of the separation", list_cause, "bound"},
     {"presets", "cameras as engines set them, for --preset", list_preset, "camera"},

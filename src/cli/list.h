@@ -36,9 +36,11 @@ bool list_rounding(size_t index, list_item *item); /**< of name alone */
 bool list_verb(size_t index, list_item *item);
 bool list_family(size_t index, list_item *item);
 bool list_model(size_t index, list_item *item);
+bool list_model_word(size_t index, list_item *item); /**< the same, fp32 as text and options call it: float */
 bool list_arith(size_t index, list_item *item);
 bool list_composition(size_t index, list_item *item);
 bool list_preset(size_t index, list_item *item);
+bool list_unit(size_t index, list_item *item); /**< of name alone */
 bool list_api(size_t index, list_item *item);
 bool list_effect(size_t index, list_item *item);
 bool list_topic(size_t index, list_item *item);

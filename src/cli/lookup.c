@@ -44,7 +44,10 @@ static void *next_row(void *of, size_t i) {
 static void *next_setup(void *of, size_t i) {
     lookup *l = of;
     l->empty = false;
-    return walk_setup(&l->walk, i) ? l : NULL;
+    if (!walk_setup(&l->walk, i))
+        return NULL;
+    l->walk.at = l->walk.o->looked_up;
+    return l;
 }
 
 static void say_notes(page *p, void *item) {
@@ -96,7 +99,6 @@ static int check(const options *o, const setups *all) {
 int lookup_write(const options *o) {
     lookup l = {.by_code = option_given(o, OPTION_CODE)};
     int status = walk_start(&l.walk, o);
-    l.walk.at = o->looked_up;
     if (status == EXIT_FINE)
         status = check(o, &l.walk.all);
     const report_spec spec = {"table", columns, &l, .label = 16};

@@ -6,6 +6,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "api/unit.h"
 #include "core/append.h"
 #include "report/number.h"
 
@@ -93,10 +94,73 @@ int parse_number(options *o, const option_row *row, const char *value) {
     return EXIT_FINE;
 }
 
+/* What the lengths of one argument have: some a unit, and some, other than 0, none. */
+typedef struct lengths {
+    options *o;
+    bool named, bare;
+} lengths;
+
+static bool is_letter(char c) {
+    return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (unsigned char)c >= 0x80;
+}
+
+/*
+ * A number of scene units, or one with a unit right behind it or behind one blank; a hexadecimal one takes no unit,
+ * which could be digits of it. A unit where nothing has said what a scene unit is makes that the metre.
+ */
+static bool read_length(lengths *seen, const char *text, size_t length, number_kind kind, double *out) {
+    char name[8] = "";
+    size_t end = length;
+    double number;
+    if (number_parse_part(text, length, kind, out)) {
+        seen->bare = seen->bare || *out != 0.0;
+        return true;
+    }
+    while (end > 0 && is_letter(text[end - 1]))
+        end--;
+    append(name, sizeof name, "%.*s", (int)(length - end), text + end);
+    const unit_row *unit = length - end < sizeof name ? unit_find(name) : NULL;
+    end -= end > 0 && text[end - 1] == ' ';
+    if (unit == NULL || memchr(text, 'x', end) != NULL || memchr(text, 'X', end) != NULL ||
+        !number_parse_part(text, end, NUMBER_FINITE, &number))
+        return false;
+    if (seen->o->unit == NULL)
+        seen->o->unit = unit_find("m");
+    *out = unit_convert(number, unit, seen->o->unit);
+    seen->named = true;
+    return isfinite(*out) && (*out != 0.0) == (number != 0.0);
+}
+
+#define UNITS_ARE "a unit is " UNIT_NAMES
+
+/* What a refusal adds where letters behind digits make one expect a unit; not those of 1e400 and 0x10. */
+static const char *unit_hint(const char *text, size_t length) {
+    const size_t digits = strcspn(text, "0123456789");
+    bool letter = false;
+    for (size_t i = digits; i < length; i++)
+        letter = letter || (is_letter(text[i]) && strchr("eEx", text[i]) == NULL);
+    return letter ? "; " UNITS_ARE : "";
+}
+
+/* "1,5m" is no length, and which depths would be meant is not clear. */
+static int check_mixed(const lengths *seen, const option_row *row, const char *value) {
+    if (!seen->named || !seen->bare)
+        return EXIT_FINE;
+    return refuse(row, "must have a unit in all places or in none, got '%s'; " UNITS_ARE, value);
+}
+
 int parse_length(options *o, const option_row *row, const char *value) {
+    char limits[OPTION_TEXT_SIZE];
+    const bool limited = row->least < row->most;
+    lengths seen = {.o = o};
     double length;
-    if (!number_parse(value, NUMBER_FINITE, &length) || !(length > 0.0))
-        return refuse(row, "must be a positive number of scene units, got '%s'", value);
+    const bool read = read_length(&seen, value, strlen(value), NUMBER_FINITE, &length);
+    if (limited && (!read || !(length >= row->least && length <= row->most)))
+        return refuse(row, "must be a number from %s, got '%s'%s", option_limits(row, limits), value,
+                      unit_hint(value, strlen(value)));
+    if (!read || (!limited && !(length > 0.0)))
+        return refuse(row, "must be a positive number of scene units, got '%s'%s", value,
+                      unit_hint(value, strlen(value)));
     *(double *)field(o, row) = length;
     return EXIT_FINE;
 }
@@ -113,6 +177,11 @@ int parse_whole(options *o, const option_row *row, const char *value) {
 static int unknown_name(const option_row *row, const char *name) {
     char text[NAMES_SIZE];
     return refuse(row, "%s", names_refuse(row->names, name, text));
+}
+
+int parse_unit(options *o, const option_row *row, const char *value) {
+    o->unit = unit_find(value);
+    return o->unit != NULL ? EXIT_FINE : refuse(row, "must be " UNIT_NAMES ", got '%s'", value);
 }
 
 int parse_word(options *o, const option_row *row, const char *value) {
@@ -135,15 +204,16 @@ int parse_row(options *o, const option_row *row, const char *value) {
 
 /* What is not positive needs --ortho, which may come later: check_near() of options.c. */
 int parse_near(options *o, const option_row *row, const char *value) {
-    if (!number_parse(value, NUMBER_FINITE, &o->znear) || o->znear > 0.0)
-        return parse_number(o, row, value);
+    if (!read_length(&(lengths){.o = o}, value, strlen(value), NUMBER_FINITE, &o->znear) || o->znear > 0.0)
+        return parse_length(o, row, value);
     o->znear += 0.0; /* -0 is 0 */
     return EXIT_FINE;
 }
 
 int parse_far(options *o, const option_row *row, const char *value) {
-    if (!number_parse(value, NUMBER_FAR, &o->zfar))
-        return refuse(row, "must be a number greater than near and at most 1e18, or inf, got '%s'", value);
+    if (!read_length(&(lengths){.o = o}, value, strlen(value), NUMBER_FAR, &o->zfar))
+        return refuse(row, "must be a number greater than near and at most 1e18, or inf, got '%s'%s", value,
+                      unit_hint(value, strlen(value)));
     return EXIT_FINE;
 }
 
@@ -153,7 +223,7 @@ static int parse_names(options *o, const option_row *row, const char *value,
     char name[64];
     const size_t length = strlen(value);
     if (length == 0 || *value == ',' || value[length - 1] == ',' || strstr(value, ",,") != NULL)
-        return refuse(row, "must be NAME[,NAME...] or all, got '%s'", value);
+        return refuse(row, "must be %s, got '%s'", row->argument, value);
     for (const char *at = value; *at != '\0'; at += *at == ',') {
         const size_t part = strcspn(at, ",");
         snprintf(name, sizeof name, "%.*s", (int)part, at);
@@ -208,6 +278,23 @@ int parse_mappings(options *o, const option_row *row, const char *value) {
     return parse_names(o, row, value, add_mapping);
 }
 
+static int add_preset(options *o, const option_row *row, const char *name) {
+    list_item found;
+    if (!names_find(row->names, name, NULL, &found))
+        return unknown_name(row, name);
+    for (size_t i = 0; i < o->preset_count; i++)
+        if (o->presets[i] == found.row)
+            return EXIT_FINE;
+    if (o->preset_count == OPTIONS_PRESETS_MAX)
+        return refuse(row, "must be at most %d presets, got '%s' too", OPTIONS_PRESETS_MAX, name);
+    o->presets[o->preset_count++] = found.row;
+    return EXIT_FINE;
+}
+
+int parse_presets(options *o, const option_row *row, const char *value) {
+    return parse_names(o, row, value, add_preset);
+}
+
 /* A share, or a percentage with its sign. */
 int parse_tolerance(options *o, const option_row *row, const char *value) {
     const size_t length = strlen(value);
@@ -221,15 +308,17 @@ int parse_tolerance(options *o, const option_row *row, const char *value) {
 
 int parse_origin(options *o, const option_row *row, const char *value) {
     const char *at = value;
+    lengths seen = {.o = o};
     for (int i = 0; i < 3; i++) {
         const size_t length = strcspn(at, ",");
         double *x = &o->camera.origin[i];
-        if (!number_parse_part(at, length, NUMBER_FINITE, x) || !(*x >= -1e12 && *x <= 1e12) ||
+        if (!read_length(&seen, at, length, NUMBER_FINITE, x) || !(*x >= -1e12 && *x <= 1e12) ||
             (at[length] == '\0') != (i == 2))
-            return refuse(row, "must be X,Y,Z, each from -1e12 to 1e12, got '%s'", value);
+            return refuse(row, "must be X,Y,Z, each from -1e12 to 1e12, got '%s'%s", value,
+                          unit_hint(value, strlen(value)));
         at += length + 1;
     }
-    return EXIT_FINE;
+    return check_mixed(&seen, row, value);
 }
 
 int parse_size(options *o, const option_row *row, const char *value) {
@@ -247,7 +336,6 @@ int parse_size(options *o, const option_row *row, const char *value) {
     return EXIT_FINE;
 }
 
-/* The last of a name counts, as with every option. */
 int parse_parameter(options *o, const option_row *row, const char *value) {
     const size_t length = strcspn(value, "=");
     named_number given = {{0}, 0};
@@ -258,10 +346,11 @@ int parse_parameter(options *o, const option_row *row, const char *value) {
     size_t i = 0;
     while (i < o->parameter_count && strcmp(o->parameters[i].name, given.name) != 0)
         i++;
+    if (i < o->parameter_count)
+        return refuse(row, "must not be given twice for '%s', got '%s' too", given.name, value);
     if (i == OPTIONS_PARAMETERS_MAX)
         return refuse(row, "must not be more than %d, got '%s' too", OPTIONS_PARAMETERS_MAX, value);
-    o->parameters[i] = given;
-    o->parameter_count += i == o->parameter_count;
+    o->parameters[o->parameter_count++] = given;
     return EXIT_FINE;
 }
 
@@ -281,7 +370,7 @@ static int wrong_form(const option_row *row, const char *text) {
 }
 
 /* LO:HI:log|lin:COUNT. */
-static int parse_spaced(const option_row *row, const char *text, depths *out) {
+static int parse_spaced(lengths *seen, const option_row *row, const char *text, depths *out) {
     static const char *const ends[] = {"LO", "HI"};
     const char *part = text;
     size_t length = strcspn(part, ":");
@@ -290,8 +379,9 @@ static int parse_spaced(const option_row *row, const char *text, depths *out) {
     for (int i = 0; i < 2; i++, part += length + 1, length = strcspn(part, ":")) {
         if (part[length] == '\0')
             return wrong_form(row, text);
-        if (!number_parse_part(part, length, NUMBER_FINITE, &z[i]))
-            return refuse(row, "%s must be a number, got '%.*s' in '%s'", ends[i], (int)length, part, text);
+        if (!read_length(seen, part, length, NUMBER_FINITE, &z[i]))
+            return refuse(row, "%s must be a number, got '%.*s' in '%s'%s", ends[i], (int)length, part, text,
+                          unit_hint(part, length));
     }
     const bool log = length == 3 && memcmp(part, "log", 3) == 0;
     if (part[length] == '\0')
@@ -307,8 +397,9 @@ static int parse_spaced(const option_row *row, const char *text, depths *out) {
     return EXIT_FINE;
 }
 
-/* Numbers separated by commas, what is `said` of them; from least to most where the row has limits. */
-static int parse_listed(const option_row *row, const char *text, const char *said, depths *out) {
+/* Numbers separated by commas, what is `said` of them: lengths where `seen` notes them; from least to most where the
+ * row has limits. */
+static int parse_listed(lengths *seen, const option_row *row, const char *text, const char *said, depths *out) {
     depths d = {.kind = DEPTHS_LIST, .lo = (double)INFINITY, .hi = -(double)INFINITY};
     const bool paired = row->parse == parse_pixels, whole = paired || row->parse == parse_codes;
     const bool limited = row->least < row->most;
@@ -324,11 +415,12 @@ static int parse_listed(const option_row *row, const char *text, const char *sai
         const size_t length = strcspn(item, paired ? ",;" : ",");
         const bool ends = !paired || (d.count % 2 == 0 ? item[length] == ',' : item[length] != ',');
         double z;
-        if (!number_parse_part(item, length, NUMBER_FINITE, &z) || !ends ||
-            (limited && !(z >= row->least && z <= row->most)) || (whole && z != floor(z))) {
+        const bool read = seen != NULL ? read_length(seen, item, length, NUMBER_FINITE, &z)
+                                       : number_parse_part(item, length, NUMBER_FINITE, &z);
+        if (!read || !ends || (limited && !(z >= row->least && z <= row->most)) || (whole && z != floor(z))) {
             free(d.list);
-            return refuse(row, "must be %s, got '%.*s'%s%s%s", said, (int)length, item, count > 1 ? " in '" : "",
-                          count > 1 ? text : "", count > 1 ? "'" : "");
+            return refuse(row, "must be %s, got '%.*s'%s%s%s%s", said, (int)length, item, count > 1 ? " in '" : "",
+                          count > 1 ? text : "", count > 1 ? "'" : "", seen != NULL ? unit_hint(item, length) : "");
         }
         d.list[d.count] = z + 0.0; /* no -0 */
         d.lo = fmin(d.lo, z);
@@ -344,9 +436,7 @@ int parse_list(options *o, const option_row *row, const char *value) {
     depths *out = field(o, row);
     snprintf(said, sizeof said, "%s, %snumbers from %s", row->argument, row->parse != parse_list ? "whole " : "",
              option_limits(row, limits));
-    free(out->list); /* of an earlier one: the last one counts */
-    *out = (depths){.kind = DEPTHS_LIST};
-    return parse_listed(row, value, said, out);
+    return parse_listed(NULL, row, value, said, out);
 }
 
 int parse_codes(options *o, const option_row *row, const char *value) {
@@ -358,19 +448,25 @@ int parse_pixels(options *o, const option_row *row, const char *value) {
 }
 
 int parse_at(options *o, const option_row *row, const char *value) {
-    free(o->at.list); /* of an earlier --at: the last one counts */
-    o->at = (depths){.kind = DEPTHS_LIST};
-    return strchr(value, ':') != NULL ? parse_spaced(row, value, &o->at)
-                                      : parse_listed(row, value, "Z[,Z...] or LO:HI:log|lin:COUNT", &o->at);
+    lengths seen = {.o = o};
+    const int status = strchr(value, ':') != NULL
+                           ? parse_spaced(&seen, row, value, &o->at)
+                           : parse_listed(&seen, row, value, "Z[,Z...] or LO:HI:log|lin:COUNT", &o->at);
+    return status == EXIT_FINE ? check_mixed(&seen, row, value) : status;
 }
 
 int parse_range(options *o, const option_row *row, const char *value) {
-    const int split = (int)strcspn(value, ":");
+    const size_t split = strcspn(value, ":");
+    const char *const hi = value + split + 1;
+    lengths seen = {.o = o};
     if (value[split] == '\0')
         return refuse(row, "must be LO:HI, got '%s'", value);
-    if (!number_parse_part(value, (size_t)split, NUMBER_FINITE, &o->range_lo))
-        return refuse(row, "LO must be a number, got '%.*s' in '%s'", split, value, value);
-    if (!number_parse(value + split + 1, NUMBER_FINITE, &o->range_hi))
-        return refuse(row, "HI must be a number, got '%s' in '%s'", value + split + 1, value);
-    return o->range_lo < o->range_hi ? EXIT_FINE : refuse(row, "LO must be less than HI, got '%s'", value);
+    if (!read_length(&seen, value, split, NUMBER_FINITE, &o->range_lo))
+        return refuse(row, "LO must be a number, got '%.*s' in '%s'%s", (int)split, value, value,
+                      unit_hint(value, split));
+    if (!read_length(&seen, hi, strlen(hi), NUMBER_FINITE, &o->range_hi))
+        return refuse(row, "HI must be a number, got '%s' in '%s'%s", hi, value, unit_hint(hi, strlen(hi)));
+    const int status = check_mixed(&seen, row, value);
+    return status != EXIT_FINE || o->range_lo < o->range_hi ? status
+                                                            : refuse(row, "LO must be less than HI, got '%s'", value);
 }

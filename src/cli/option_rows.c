@@ -12,8 +12,9 @@ static const name_list mappings = {.words = (const char *const[]){"all", NULL},
                                    .get = list_mapping,
                                    .more = " (or a name from 'depthprec list mappings')"};
 static const name_list presets = {.get = list_preset};
+static const name_list units = {.get = list_unit};
 static const name_list roundings = {.get = list_rounding};
-static const name_list models = {.get = list_model};
+static const name_list models = {.get = list_model_word};
 static const name_list ariths = {.get = list_arith};
 static const name_list compositions = {.get = list_composition};
 static const name_list apis = {.words = (const char *const[]){"all", NULL}, .get = list_api};
@@ -47,16 +48,17 @@ enum {
 #define FIELD(type, field) .place = offsetof(options, field) + 0 * sizeof(1 ? &((options *)0)->field : (type *)0)
 #define SIZED(field)       .place = offsetof(options, field), .size = sizeof((options *)0)->field
 
-#define FLAG(field)        .parse = parse_flag, SIZED(field)
-#define TEXT(field)        .parse = parse_text, FIELD(const char *, field)
-#define FILE_NAME(field)   .parse = parse_file, FIELD(const char *, field)
-#define LENGTH(field)      .parse = parse_length, FIELD(double, field)
-#define LIMITS(lo, hi, of) .least = (lo), .most = (hi), .unit = (of)
-#define NUMBER(field, ...) .parse = parse_number, FIELD(double, field), LIMITS(__VA_ARGS__)
-#define WHOLE(field, ...)  .parse = parse_whole, SIZED(field), LIMITS(__VA_ARGS__)
+#define FLAG(field)                  .parse = parse_flag, SIZED(field)
+#define TEXT(field)                  .parse = parse_text, FIELD(const char *, field)
+#define FILE_NAME(field)             .parse = parse_file, FIELD(const char *, field)
+#define LIMITS(lo, hi, of)           .least = (lo), .most = (hi), .unit = (of)
+#define POSITIVE(field)              .parse = parse_length, FIELD(double, field)
+#define LENGTH(field, ...)           POSITIVE(field), LIMITS(__VA_ARGS__)
+#define NUMBER(field, ...)           .parse = parse_number, FIELD(double, field), LIMITS(__VA_ARGS__)
+#define WHOLE(field, ...)            .parse = parse_whole, SIZED(field), LIMITS(__VA_ARGS__)
 #define SEVERAL(kind, field, lo, hi) .parse = (kind), FIELD(depths, field), LIMITS(lo, hi, NULL)
-#define WORD(field, among) .parse = parse_word, SIZED(field), .names = &(among)
-#define ROW(field, among)  .parse = parse_row, SIZED(field), .names = &(among)
+#define WORD(field, among)           .parse = parse_word, SIZED(field), .names = &(among)
+#define ROW(field, among)            .parse = parse_row, SIZED(field), .names = &(among)
 
 /* clang-format off */
 const option_row option_rows[OPTION_COUNT] = {
@@ -77,9 +79,12 @@ const option_row option_rows[OPTION_COUNT] = {
         "constant of the log mapping", NUMBER(log_c, 1e-12, 1e12, NULL), .standard = "1"},
     [OPTION_ORTHO] = {"ortho", 0, NULL, CAMERA | TAKEN,
         "orthographic projection; not with linear and log", FLAG(ortho), .without = "perspective"},
-    [OPTION_PRESET] = {"preset", 0, "NAME", CAMERA | TAKEN,
-        "fill in near, far, mapping and format as an engine sets them, where they are not given; "
-        "'depthprec list presets'", ROW(preset, presets)},
+    [OPTION_PRESET] = {"preset", 0, "NAME[,NAME...]", CAMERA | TAKEN,
+        "fill in near, far, mapping and format as an engine sets them, where they are not given: @; table compares "
+        "several; 'depthprec list presets'", .parse = parse_presets, .names = &presets},
+    [OPTION_UNIT] = {"unit", 0, NULL, PLACED | TAKEN,
+        "what a scene unit is; a preset in another one is converted. Any length may have a unit behind it: 10cm",
+        .parse = parse_unit, .names = &units, .without = "that of the preset, or m where a length has a unit"},
     [OPTION_ROUNDING] = {"rounding", 0, NULL, CAMERA | TAKEN,
         "how a depth between two codes is rounded: ties upwards in unorm formats and to even in floats, as the APIs "
         "demand; ties to even in both; or towards 0", WORD(rounding, roundings), .standard = "nearest",
@@ -87,7 +92,7 @@ const option_row option_rows[OPTION_COUNT] = {
     [OPTION_MODEL] = {"model", 0, NULL, MODELLED | VERB_SOLVE,
         "the arithmetic before the buffer: none, the lattice alone; NDC and window depth each rounded to binary32; "
         "every operation in binary32; or the simplest that is enough", WORD(model, models), .standard = "exact",
-        .except = {VERB_SOLVE, "fp32, the guarantee"}},
+        .except = {VERB_SOLVE, "float, the guarantee"}},
     [OPTION_ARITH] = {"arith", 0, "NAME", CAMERA | VERB_SOLVE,
         "the binary32 arithmetic: @", WORD(arith, ariths), .standard = "ieee"},
     [OPTION_TOLERANCE] = {"tolerance", 0, "SHARE", ASKED | VERB_BENCH | VERB_LIST,
@@ -110,16 +115,16 @@ const option_row option_rows[OPTION_COUNT] = {
         "what to solve for; distance is the depth up to which --separation holds", WORD(target, targets),
         .without = "the first of near, far, format and mapping that is not given", .group = "What is wanted"},
     [OPTION_SEPARATION] = {"separation", 0, "S", VERB_SOLVE,
-        "surfaces S apart, scene units, must be told apart, however the codes lie", LENGTH(wanted_separation)},
+        "surfaces S apart, scene units, must be told apart, however the codes lie", POSITIVE(wanted_separation)},
     [OPTION_ERROR] = {"error", 0, "E", VERB_SOLVE,
         "or: the stored depth may be E off, scene units, not more: at the depth of --at as the codes lie there, or at "
-        "every depth of --range", LENGTH(wanted_error)},
+        "every depth of --range", POSITIVE(wanted_error)},
     [OPTION_INTERPOLATION] = {"interpolation", 0, "E", BUDGETED,
         "error of a window depth interpolated across a triangle",
         NUMBER(terms.interpolation, 0, 0x1p24, "units of 2^-24"), .standard = "0", .group = "The budget"},
     [OPTION_WORLD] = {"world", 0, "R", BUDGETED,
         "world positions, no coordinate of them or of the camera beyond R",
-        NUMBER(terms.world, 0, 1e18, "scene units"), .standard = "0", .without = "eye depth is given"},
+        LENGTH(terms.world, 0, 1e18, "scene units"), .standard = "0", .without = "eye depth is given"},
     [OPTION_COMPOSITION] = {"composition", 0, NULL, BUDGETED,
         "how they become clip coordinates: one binary32 matrix of view and projection formed in double, or multiplied "
         "in binary32; or less the camera's position, in double, first",
@@ -127,7 +132,8 @@ const option_row option_rows[OPTION_COUNT] = {
     [OPTION_LINEARIZE] = {"linearize", 0, NULL, BUDGETED,
         "count reading the eye depth back in a binary32 shader", FLAG(terms.linearize)},
     [OPTION_API] = {"api", 0, "NAME", VERB_BIAS,
-        "whose rule: @; all writes the bias that is needed as each has it", ROW(api, apis), .standard = "d3d11", .group = "The bias"},
+        "whose rule: @; all writes the bias that is needed as each has it", ROW(api, apis), .standard = "d3d11",
+        .group = "The bias"},
     [OPTION_UNITS] = {"units", 0, "U", VERB_BIAS,
         "constant bias in units of r, a whole number for d3d11 and webgpu; in window depth for d3d9 and vulkan-float",
         NUMBER(units, -1e12, 1e12, NULL),
@@ -138,10 +144,11 @@ const option_row option_rows[OPTION_COUNT] = {
         "greatest bias, or least when negative, in window depth", NUMBER(clamp, -1e12, 1e12, NULL), .standard = "0",
         .without = "none"},
     [OPTION_SLOPE] = {"slope", 0, "S", VERB_BIAS,
-        "eye depth changes by S from one pixel to the next", NUMBER(slope, 0, 1e12, "scene units per pixel"),
+        "eye depth changes by S from one pixel to the next", LENGTH(slope, 0, 1e12, "scene units per pixel"),
         .standard = "0", .without = "facing the camera"},
     [OPTION_GAP] = {"gap", 0, "G", COUNTED | VERB_BIAS,
-        "zfight: ties and swaps of surfaces G apart, scene units; bias: how much nearer a layer must come", LENGTH(gap),
+        "zfight: ties and swaps of surfaces G apart, scene units; bias: how much nearer a layer must come",
+        POSITIVE(gap),
         .without = "of neighbouring binary32 depths", .except = {VERB_BIAS, "be told apart"},
         .group = "Pairs of surfaces"},
     [OPTION_SAMPLE] = {"sample", 0, "N", COUNTED,
@@ -154,7 +161,7 @@ const option_row option_rows[OPTION_COUNT] = {
         "vertical field of view", NUMBER(camera.fov_y, 0.01, 179, "degrees"), .standard = "60",
         .group = "The depth texture"},
     [OPTION_HALF_HEIGHT] = {"half-height", 0, "H", VERB_TEXTURE,
-        "with --ortho: half the height of the view", NUMBER(camera.half_height, 1e-12, 1e12, "scene units"),
+        "with --ortho: half the height of the view", LENGTH(camera.half_height, 1e-12, 1e12, "scene units"),
         .standard = "5"},
     [OPTION_YAW] = {"yaw", 0, "DEG", VERB_TEXTURE,
         "the camera's turn to the right", NUMBER(camera.yaw, -360, 360, "degrees"), .standard = "0",
@@ -166,7 +173,8 @@ const option_row option_rows[OPTION_COUNT] = {
     [OPTION_SCENE] = {"scene", 0, "NAME", VERB_TEXTURE,
         "a synthetic scene in place of FILE: @; 'depthprec list scenes' has their parameters", ROW(scene, scenes)},
     [OPTION_SIZE] = {"size", 0, "WxH", VERB_TEXTURE,
-        "with --scene: its pixels", parse_size, .standard = "640x360"},
+        "with --scene: its pixels", parse_size, .standard = "640x360",
+        .instead = "; a figure's size is --width and --height"},
     [OPTION_PARAMETER] = {"parameter", 0, "NAME=VALUE", VERB_TEXTURE,
         "of the scene or the effect; as often as needed", .parse = parse_parameter},
     [OPTION_SKY] = {"sky", 0, "T", VERB_TEXTURE,
@@ -175,7 +183,7 @@ const option_row option_rows[OPTION_COUNT] = {
         .without = "as Unity's shaders take it"},
     [OPTION_METRIC] = {"metric", 0, "SCALE", VERB_TEXTURE,
         "the samples are eye depths in units of SCALE, 0.001 for millimetres; 0, below 0, NaN and infinity are holes",
-        NUMBER(metric, METRIC_SCALE_MIN, METRIC_SCALE_MAX, "scene units")},
+        LENGTH(metric, METRIC_SCALE_MIN, METRIC_SCALE_MAX, "scene units")},
     [OPTION_PIXEL] = {"pixel", 0, "X,Y[;X,Y...]", VERB_TEXTURE,
         "all about single pixels: code, eye depth and which depths it may be, neighbours, position, normal; 0,0 is the "
         "left of the top row", SEVERAL(parse_pixels, pixels, 0, TEXTURE_SIDE_MAX - 1)},
@@ -219,7 +227,7 @@ const option_row option_rows[OPTION_COUNT] = {
         "all columns, however wide; and a table for each set-up in place of a comparison", FLAG(full)},
     [OPTION_HELP] = {"help", 'h', NULL, (unsigned)EVERY,
         "this help", .parse = NULL},
-    [OPTION_VERSION] = {"version", 0, NULL, (unsigned)EVERY,
+    [OPTION_VERSION] = {"version", 'V', NULL, (unsigned)EVERY,
         "version and licence", .parse = NULL},
 };
 /* clang-format on */

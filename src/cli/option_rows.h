@@ -32,8 +32,9 @@ typedef struct option_row {
     struct {
         unsigned commands;
         const char *text;
-    } except;          /**< commands that have another default */
-    const char *group; /**< the heading above this row and those behind it; null where the one before goes on */
+    } except;            /**< commands that have another default */
+    const char *instead; /**< what a command that does not take it may be meant to have; or null */
+    const char *group;   /**< the heading above this row and those behind it; null where the one before goes on */
 } option_row;
 
 /** Index: option_id. */
@@ -56,7 +57,7 @@ option_parser parse_flag;   /**< bool, no argument */
 option_parser parse_text;   /**< const char * */
 option_parser parse_file;   /**< the same, not empty */
 option_parser parse_number; /**< double, finite, from least to most */
-option_parser parse_length; /**< double, positive: scene units */
+option_parser parse_length; /**< double: scene units, or with a unit behind; from least to most, or positive */
 option_parser parse_whole;  /**< unsigned or 64 bits wide, from least to most */
 option_parser parse_word;   /**< the same: the index of one of `names` */
 option_parser parse_row;    /**< a pointer to the row of one of `names` */
@@ -66,8 +67,8 @@ option_parser parse_pixels; /**< the same, pairs of them with a semicolon in bet
 
 /* ---- Languages of their own -------------------------------------------------------------------------------------- */
 
-option_parser parse_near, parse_far, parse_formats, parse_mappings, parse_tolerance, parse_at, parse_range,
-    parse_origin;
+option_parser parse_unit, parse_presets, parse_near, parse_far, parse_formats, parse_mappings, parse_tolerance,
+    parse_at, parse_range, parse_origin;
 option_parser parse_size, parse_parameter, parse_form;
 
 #endif

@@ -20,6 +20,10 @@ const char *option_word(option_id id, size_t index) {
     return item.name;
 }
 
+const char *options_unit(const options *o) {
+    return o->unit != NULL ? o->unit->name : NULL;
+}
+
 int option_error(option_id id, const char *format, ...) {
     va_list arguments;
     va_start(arguments, format);
@@ -60,7 +64,8 @@ static bool takes_argument(const option_row *row) {
     return row->argument != NULL || row->names != NULL;
 }
 
-static void make_getopt_arrays(char *letters, struct option *longs) {
+static void make_getopt_arrays(const char *mode, char *letters, struct option *longs) {
+    letters = stpcpy(letters, mode);
     *letters++ = ':'; /* a missing argument is told apart from an unknown option */
     for (int id = 0; id < OPTION_COUNT; id++) {
         const option_row *row = &option_rows[id];
@@ -105,9 +110,10 @@ static int unknown_option(const options *o, int refused, const char *argument) {
 }
 
 static int wrong_command(const options *o, option_id id) {
+    const option_row *row = &option_rows[id];
     char takers[OPTION_TEXT_SIZE];
-    return option_error(id, "is not an option of %s, but of %s", o->verb->name,
-                        option_takers(&option_rows[id], takers));
+    return option_error(id, "is not an option of %s, but of %s%s", o->verb->name, option_takers(row, takers),
+                        row->instead != NULL ? row->instead : "");
 }
 
 int check_operand(const verb *v, const char *what, const name_list *n, const char *given, list_item *found) {
@@ -123,8 +129,7 @@ static int check_operands(options *o) {
     char text[NAMES_SIZE] = "";
     if (o->operand_count > v->operand_max)
         return usage_error("unexpected argument '%s'%s", o->operands[v->operand_max],
-                           verb_find(o->operands[v->operand_max]) != NULL ? ": the command comes before its options"
-                                                                          : "");
+                           names_nearest(&(name_list){.get = list_verb}, "", o->operands[v->operand_max], text));
     if (o->operand_count < v->operand_min)
         return usage_error("%s: needs %s%s%s", v->name, v->operand, v->names != NULL ? ": " : "",
                            v->names != NULL ? names_join(v->names, ", ", " or ", text) : "");
@@ -135,27 +140,56 @@ static int check_operands(options *o) {
     return status;
 }
 
-/* What follows from other options: a preset gives what the user did not. */
-static void complete(options *o) {
-    const preset *p = o->preset;
-    o->model_auto = o->model == DP_MODEL_COUNT;
-    if (o->model_auto)
-        o->model = DP_MODEL_EXACT;
-    if (p == NULL)
-        return;
+/* A preset gives what the user did not. */
+static void take_preset(options *o, const preset *p) {
+    const unit_row *own = unit_find(p->unit);
     if (!option_given(o, OPTION_NEAR))
-        o->znear = p->znear;
+        o->znear = unit_convert(p->znear, own, o->unit);
     if (!option_given(o, OPTION_FAR))
-        o->zfar = p->zfar;
+        o->zfar = unit_convert(p->zfar, own, o->unit);
+    if (!option_given(o, OPTION_LOG_C)) /* 1 for a depth in the preset's own unit */
+        o->log_c /= unit_convert(1.0, own, o->unit);
     if (!option_given(o, OPTION_FORMAT))
         parse_formats(o, &option_rows[OPTION_FORMAT], p->format);
     if (!option_given(o, OPTION_MAPPING))
         parse_mappings(o, &option_rows[OPTION_MAPPING], dp_mapping_get(p->mapping)->name);
 }
 
-/* The commands that have been taught what lies at depth 0 and behind it. */
-enum { ANY_SIGN = VERB_TABLE | VERB_BUDGET | VERB_SOLVE | VERB_ZFIGHT };
+void options_of(const options *o, size_t camera, options *out) {
+    *out = *o;
+    if (o->preset_count < 2)
+        return;
+    const preset *p = o->presets[camera];
+    const unit_row *own = option_given(o, OPTION_UNIT) ? NULL : unit_find(p->unit);
+    out->unit = own != NULL ? own : o->unit;
+    out->znear = unit_convert(o->znear, o->unit, out->unit);
+    out->zfar = unit_convert(o->zfar, o->unit, out->unit);
+    out->range_lo = unit_convert(o->range_lo, o->unit, out->unit);
+    out->range_hi = unit_convert(o->range_hi, o->unit, out->unit);
+    out->at.lo = unit_convert(o->at.lo, o->unit, out->unit);
+    out->at.hi = unit_convert(o->at.hi, o->unit, out->unit);
+    out->at.from = o->unit;
+    out->at.to = out->unit;
+    take_preset(out, p);
+}
 
+/* What follows from other options. */
+static int complete(options *o) {
+    o->model_auto = o->model == DP_MODEL_COUNT;
+    if (o->model_auto)
+        o->model = DP_MODEL_EXACT;
+    for (size_t i = 0; i < o->preset_count && o->unit != NULL && !option_given(o, OPTION_UNIT); i++)
+        if (strcmp(o->presets[i]->unit, "extents") == 0)
+            return option_error(OPTION_UNIT, "must be given: %s measures in %s", o->presets[i]->name,
+                                o->presets[i]->unit);
+    if (o->preset_count > 1 && o->verb->bit != VERB_TABLE)
+        return option_error(OPTION_PRESET, "must be one preset for %s, got %zu", o->verb->name, o->preset_count);
+    if (o->preset_count == 1)
+        take_preset(o, o->presets[0]);
+    return EXIT_FINE;
+}
+
+/* An orthographic camera may begin at its place or behind it. */
 static int check_near(const options *o) {
     const option_row *row = &option_rows[OPTION_NEAR];
     const number_text given = number_full(o->znear);
@@ -167,43 +201,80 @@ static int check_near(const options *o) {
     if (o->znear != 0.0 && !(-o->znear >= row->least && -o->znear <= row->most))
         return option_error(OPTION_NEAR, "must be 0, or a number from %s or its negative, got '%s'",
                             option_limits(row, limits), given.text);
-    if ((o->verb->bit & ANY_SIGN) == 0)
-        return option_error(OPTION_NEAR, "must be greater than 0 for %s, got '%s'", o->verb->name, given.text);
+    if (o->effect != NULL && o->znear < 0.0)
+        return option_error(OPTION_EFFECT, "needs near not less than 0, got '%s'", given.text);
     return EXIT_FINE;
 }
 
-/* argv[0] of what is left is the program, or the command in its place. */
-static int read_options(options *o, int argc, char **argv, const verb *asked) {
+/* What lengths mean must be known before they are read. */
+static bool is_early(int id) {
+    return id == OPTION_UNIT || id == OPTION_PRESET;
+}
+
+static int read_option(options *o, option_id id, const char *argument) {
+    const option_row *row = &option_rows[id];
+    if ((row->commands & o->verb->bit) == 0)
+        return wrong_command(o, id);
+    if (o->given[id] && takes_argument(row) && id != OPTION_PARAMETER)
+        return option_error(id, "must not be given twice, got '%s' too", argument);
+    o->given[id] = true;
+    return row->parse(o, row, argument);
+}
+
+static int ask_for_help(options *o, option_id id, const verb *asked) {
+    o->given[id] = true;
+    o->operand_row = asked;
+    o->version = id == OPTION_VERSION;
+    o->verb = verb_find("help");
+    return EXIT_FINE;
+}
+
+/*
+ * Those that are early, or the others; what is wrong with the line is told with the others. argv[0] is the program, or
+ * the command in its place.
+ */
+static int read_options(options *o, int argc, char **argv, const verb *asked, bool early) {
     char letters[2 * OPTION_COUNT + 2];
     struct option longs[OPTION_COUNT + 1];
     char text[OPTION_TEXT_SIZE];
-    make_getopt_arrays(letters, longs);
-    opterr = 0;
+    make_getopt_arrays("", letters, longs);
     optind = 0; /* start anew, also when an earlier call stopped half-way */
     for (int value; (value = getopt_long(argc, argv, letters, longs, NULL)) != -1;) {
+        const int id = id_of_value(value == ':' ? optopt : value);
+        const bool ends = value == '?' || value == ':' || id == OPTION_HELP || id == OPTION_VERSION;
+        if (early && ends)
+            return EXIT_FINE;
         if (value == '?')
             return unknown_option(o, optopt, argv[optind > 1 ? optind - 1 : 1]);
-        int id = id_of_value(value == ':' ? optopt : value);
         if (value == ':')
             return option_error((option_id)id, "needs an argument, %s", option_argument(&option_rows[id], text));
-        if (id == OPTION_HELP || id == OPTION_VERSION) {
-            o->operand_row = asked;
-            o->version = id == OPTION_VERSION;
-            o->verb = verb_find("help");
-            return EXIT_FINE;
-        }
-        if ((option_rows[id].commands & o->verb->bit) == 0)
-            return wrong_command(o, (option_id)id);
-        int status = option_rows[id].parse(o, &option_rows[id], optarg);
+        if (ends)
+            return ask_for_help(o, (option_id)id, asked);
+        const int status = is_early(id) == early ? read_option(o, (option_id)id, optarg) : EXIT_FINE;
         if (status != EXIT_FINE)
             return status;
-        o->given[id] = true;
     }
-    complete(o);
     o->operands = argv + optind;
     o->operand_count = argc - optind;
-    const int status = check_near(o);
-    return status == EXIT_FINE ? check_operands(o) : status;
+    return EXIT_FINE;
+}
+
+/* Puts the command before all options where the first word that belongs to no option is one. */
+static void put_command_first(int argc, char **argv) {
+    char letters[2 * OPTION_COUNT + 3];
+    struct option longs[OPTION_COUNT + 1];
+    int value;
+    make_getopt_arrays("-", letters, longs); /* words come in order, as arguments of an option 1 */
+    opterr = 0;
+    optind = 0;
+    do
+        value = getopt_long(argc, argv, letters, longs, NULL);
+    while (value != -1 && value != '?' && value != ':' && value != 1);
+    if (value != 1 || verb_find(argv[optind - 1]) == NULL)
+        return;
+    char *const command = argv[optind - 1];
+    memmove(argv + 2, argv + 1, (size_t)(optind - 2) * sizeof *argv);
+    argv[1] = command;
 }
 
 int options_parse(options *o, int argc, char **argv) {
@@ -212,14 +283,27 @@ int options_parse(options *o, int argc, char **argv) {
     o->verb = verb_find("table");
     if (argc < 1)
         return usage_error("no program name was given");
-    if (argc < 2 || argv[1][0] == '-')
-        return read_options(o, argc, argv, NULL);
-    o->verb = verb_find(argv[1]);
-    if (o->verb != NULL)
-        return read_options(o, argc - 1, argv + 1, o->verb);
+    put_command_first(argc, argv);
+    const bool named = argc > 1 && argv[1][0] != '-';
     char text[NAMES_SIZE];
-    names_nearest(&(name_list){.get = list_verb}, "", argv[1], text);
-    return usage_error("unknown command '%s'%s", argv[1], text[0] != '\0' ? text : "; 'depthprec --help' lists them");
+    if (named)
+        o->verb = verb_find(argv[1]);
+    if (o->verb == NULL) {
+        names_nearest(&(name_list){.get = list_verb}, "", argv[1], text);
+        return usage_error("unknown command '%s'%s", argv[1], *text != '\0' ? text : "; 'depthprec --help' lists them");
+    }
+    const verb *const asked = named ? o->verb : NULL;
+    int status = read_options(o, argc - named, argv + named, asked, true);
+    for (size_t i = 0; i < o->preset_count && o->unit == NULL; i++)
+        o->unit = unit_find(o->presets[i]->unit);
+    if (status == EXIT_FINE)
+        status = read_options(o, argc - named, argv + named, asked, false);
+    if (status != EXIT_FINE || option_given(o, OPTION_HELP) || option_given(o, OPTION_VERSION))
+        return status;
+    status = complete(o);
+    if (status == EXIT_FINE)
+        status = check_near(o);
+    return status == EXIT_FINE ? check_operands(o) : status;
 }
 
 int options_open(const options *o, output *out) {

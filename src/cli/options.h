@@ -15,6 +15,7 @@
 
 #include "api/bias.h"
 #include "api/presets.h"
+#include "api/unit.h"
 #include "cli/depths.h"
 #include "cli/errors.h"
 #include "cli/verbs.h"
@@ -35,6 +36,7 @@ typedef enum option_id {
     OPTION_LOG_C,
     OPTION_ORTHO,
     OPTION_PRESET,
+    OPTION_UNIT,
     OPTION_ROUNDING,
     OPTION_MODEL,
     OPTION_ARITH,
@@ -107,7 +109,7 @@ typedef enum solve_target {
 /** Values of --report. */
 typedef enum report_form { REPORT_TEXT = 0, REPORT_JSON, REPORT_JUNIT } report_form;
 
-enum { OPTIONS_FORMATS_MAX = 64, OPTIONS_PARAMETERS_MAX = 8 };
+enum { OPTIONS_FORMATS_MAX = 64, OPTIONS_PARAMETERS_MAX = 8, OPTIONS_PRESETS_MAX = 16 };
 
 /** One --parameter NAME=VALUE; whose it is, and whether there is such a one, is for the command to see. */
 typedef struct named_number {
@@ -146,7 +148,9 @@ typedef struct options {
 
     dp_budget_terms terms; /**< --interpolation, --world, --composition, --linearize; zero when not given */
 
-    const preset *preset; /**< --preset; null when not given. What the user did not give is already filled in */
+    const unit_row *unit; /**< what a scene unit is; null where nothing says it: lengths are converted already */
+    const preset *presets[OPTIONS_PRESETS_MAX]; /**< --preset, in the order given, each once */
+    size_t preset_count;  /**< of one, what the user did not give is already filled in; of several see options_of() */
     const bias_api *api;  /**< --api; null for all */
     double units, factor; /**< of a bias */
     double clamp;         /**< of a bias, window depth; 0 is none */
@@ -181,12 +185,23 @@ typedef struct options {
 } options;
 
 /**
- * Reads a command line. argv[0] is the program; the command is argv[1] unless that is missing or an option, and then
- * `table` is meant. --help and --version anywhere make the command `help`.
+ * Reads a command line. argv[0] is the program; the command is the first word that belongs to no option, `table`
+ * where there is none. --help and --version anywhere make the command `help`. No order of the options matters.
  *
  * @return EXIT_FINE, or EXIT_USAGE after one line on stderr
  */
 int options_parse(options *o, int argc, char **argv);
+
+/** How many cameras there are: as many as presets, at least one. */
+static inline size_t options_cameras(const options *o) {
+    return o->preset_count > 1 ? o->preset_count : 1;
+}
+
+/**
+ * The options as they would be with the preset of that index alone, all lengths in its own unit where that is known and
+ * --unit was not given; as they are where there are not several.
+ */
+void options_of(const options *o, size_t camera, options *out);
 
 /** Opens what --output names, as wide as --full makes it. @return EXIT_FINE, or EXIT_IO after one line on stderr */
 int options_open(const options *o, output *out);
@@ -205,6 +220,9 @@ static inline bool option_given(const options *o, option_id id) {
  * @return EXIT_USAGE
  */
 int option_error(option_id id, const char *format, ...) __attribute__((format(printf, 2, 3)));
+
+/** "m": what a scene unit is; null where nothing says it. */
+const char *options_unit(const options *o);
 
 /** The long name of an option without its dashes. */
 const char *option_name(option_id id);

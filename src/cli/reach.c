@@ -5,9 +5,19 @@
 #include <stdio.h>
 
 #include "need/distance.h"
-#include "report/number.h"
 
-const double reach_limits[REACH_LIMITS] = {0.001, 0.01, 0.1};
+static const struct {
+    double bare, value;
+    const char *unit;
+} limits[REACH_LIMITS] = {{0.001, 1, "mm"}, {0.01, 1, "cm"}, {0.1, 10, "cm"}};
+
+double reach_limit(size_t i, const unit_row *unit) {
+    return unit != NULL ? unit_convert(limits[i].value, unit_find(limits[i].unit), unit) : limits[i].bare;
+}
+
+number_text reach_limit_text(size_t i, const unit_row *unit) {
+    return unit != NULL ? number_in(number_full(limits[i].value), limits[i].unit) : number_full(limits[i].bare);
+}
 
 dp_setup reach_in(const dp_setup *setup, dp_model model) {
     dp_setup out = *setup;
@@ -30,10 +40,11 @@ double reach_of(const dp_setup *full, double limit) {
     return status == DP_OK && answer.possible ? answer.value : (double)NAN;
 }
 
-const char *reach_text(const dp_setup *setup, double up_to, char out[REACH_TEXT_SIZE]) {
-    if (up_to >= setup->spec.zfar)
+const char *reach_text(double zfar, double up_to, const unit_row *unit, char out[REACH_TEXT_SIZE]) {
+    if (up_to >= zfar)
         snprintf(out, REACH_TEXT_SIZE, "the far plane");
     else
-        snprintf(out, REACH_TEXT_SIZE, "%s", number_brief(number_down(up_to, REACH_DIGITS)).text);
+        snprintf(out, REACH_TEXT_SIZE, "%s",
+                 number_in(number_brief(number_down(up_to, REACH_DIGITS)), unit != NULL ? unit->name : NULL).text);
     return out;
 }

@@ -4,11 +4,13 @@
 #define CLI_REACH_H
 
 #include "cli/options.h"
+#include "report/number.h"
 
 enum { REACH_LIMITS = 3, REACH_MIDDLE = 1, REACH_DIGITS = 3, REACH_TEXT_SIZE = 256 };
 
-/** The separations, scene units. */
-extern const double reach_limits[REACH_LIMITS];
+/** A separation: 1 mm, 1 cm or 10 cm in that unit, or so many parts of a metre in scene units where it is null. */
+double reach_limit(size_t i, const unit_row *unit);
+number_text reach_limit_text(size_t i, const unit_row *unit);
 
 /** The same set-up in another model. */
 dp_setup reach_in(const dp_setup *setup, dp_model model);
@@ -22,7 +24,8 @@ dp_setup reach_model(const dp_setup *setup);
 /** Of a set-up in that model: the depth up to which that separation is guaranteed; NaN: not even at near. */
 double reach_of(const dp_setup *full, double limit);
 
-/** "82800", "the far plane" where nothing is beyond it, rounded to the safe side. @return out */
-const char *reach_text(const dp_setup *setup, double up_to, char out[REACH_TEXT_SIZE]);
+/** "82800 m", "the far plane" where nothing is beyond it, rounded to the safe side; the unit may be null. @return out
+ */
+const char *reach_text(double zfar, double up_to, const unit_row *unit, char out[REACH_TEXT_SIZE]);
 
 #endif

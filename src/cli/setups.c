@@ -27,11 +27,7 @@ int setup_refused(const options *o, const dp_spec *spec, dp_status status) {
                         number_full(spec->zfar).text);
 }
 
-int setups_make(const options *o, setups *out) {
-    out->count = 0;
-    out->items = malloc(o->format_count * o->mapping_count * sizeof *out->items);
-    if (out->items == NULL)
-        return usage_error("no memory for %zu set-ups", o->format_count * o->mapping_count);
+static int add_setups(const options *o, size_t camera, setups *out) {
     dp_spec spec = {.znear = o->znear,
                     .zfar = o->zfar,
                     .ortho = o->ortho,
@@ -43,19 +39,34 @@ int setups_make(const options *o, setups *out) {
         for (size_t m = 0; m < o->mapping_count; m++) {
             spec.format = o->formats[f];
             spec.mapping = o->mappings[m];
-            dp_status status = dp_setup_init(&out->items[out->count++], &spec);
-            if (status != DP_OK) {
-                setups_release(out);
+            out->cameras[out->count] = camera;
+            const dp_status status = dp_setup_init(&out->items[out->count++], &spec);
+            if (status != DP_OK)
                 return setup_refused(o, &spec, status);
-            }
         }
     return EXIT_FINE;
 }
 
+int setups_make(const options *o, setups *out) {
+    const size_t cameras = options_cameras(o), most = cameras * OPTIONS_FORMATS_MAX * DP_MAPPING_COUNT;
+    int status = EXIT_FINE;
+    *out = (setups){.items = malloc(most * sizeof *out->items), .cameras = malloc(most * sizeof *out->cameras)};
+    if (out->items == NULL || out->cameras == NULL)
+        status = usage_error("no memory for %zu set-ups", most);
+    for (size_t i = 0; i < cameras && status == EXIT_FINE; i++) {
+        options one;
+        options_of(o, i, &one);
+        status = add_setups(&one, i, out);
+    }
+    if (status != EXIT_FINE)
+        setups_release(out);
+    return status;
+}
+
 void setups_release(setups *s) {
     free(s->items);
-    s->items = NULL;
-    s->count = 0;
+    free(s->cameras);
+    *s = (setups){0};
 }
 
 const column setup_columns[] = {{FIELD(setup_fields, znear, "near", "scene")},
@@ -67,9 +78,11 @@ const column setup_columns[] = {{FIELD(setup_fields, znear, "near", "scene")},
                                 {FIELD(setup_fields, model, "model", "")},
                                 {FIELD(setup_fields, arith, "arith", ""), .only = AS_JSON, .optional = true},
                                 {FIELD(setup_fields, log_c, "log_c", ""), .only = AS_JSON, .optional = true},
+                                {FIELD(setup_fields, unit, "unit", ""), .only = AS_JSON},
+                                {FIELD(setup_fields, preset, "preset", ""), .only = AS_JSON, .optional = true},
                                 {.kind = COLUMN_END}};
 
-setup_fields setup_fields_of(const dp_setup *setup) {
+setup_fields setup_fields_of(const dp_setup *setup, const char *unit) {
     const dp_spec *spec = &setup->spec;
     return (setup_fields){.znear = spec->znear,
                           .zfar = spec->zfar,
@@ -79,11 +92,12 @@ setup_fields setup_fields_of(const dp_setup *setup) {
                           .format = spec->format.name,
                           .rounding = dp_rounding_name(spec->rounding),
                           .model = dp_model_name(spec->model),
-                          .arith = spec->model == DP_MODEL_FP32 ? dp_arith_get(spec->arith)->name : NULL};
+                          .arith = spec->model == DP_MODEL_FP32 ? dp_arith_get(spec->arith)->name : NULL,
+                          .unit = unit};
 }
 
 const char *setup_label(const dp_setup *setup, bool full, char out[SETUP_LABEL_SIZE]) {
-    const setup_fields f = setup_fields_of(setup);
+    const setup_fields f = setup_fields_of(setup, NULL);
     const int length = snprintf(out, SETUP_LABEL_SIZE, "%s %s", f.format, f.mapping);
     const bool has_log_c = !isnan(f.log_c), has_arith = f.arith != NULL;
     if (full)
@@ -92,6 +106,14 @@ const char *setup_label(const dp_setup *setup, bool full, char out[SETUP_LABEL_S
                  number_full(f.zfar).text, f.projection, f.rounding, has_arith ? "float" : f.model,
                  has_arith ? " " : "", has_arith ? f.arith : "");
     return out;
+}
+
+void setup_title(page *p, const dp_setup *setup, const setup_fields *fields) {
+    char label[SETUP_LABEL_SIZE];
+    const char *engine = fields->preset, *unit = fields->unit;
+    p->unit = unit;
+    page_title(p, "%s%s%s%s%s", engine != NULL ? engine : "", engine != NULL ? ": " : "",
+               setup_label(setup, true, label), unit != NULL ? ", lengths in " : "", unit != NULL ? unit : "");
 }
 
 clipping clipping_of(const dp_setup *setup) {

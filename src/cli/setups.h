@@ -10,12 +10,13 @@
 
 typedef struct setups {
     dp_setup *items;
+    size_t *cameras; /**< the camera of each, see options_of() */
     size_t count;
 } setups;
 
 /**
- * Expands formats x mappings, format-major in the order given (fp16 d3d, fp16 reversed, fp32 d3d, ...), and checks
- * each with dp_setup_init(). depth24plus stands for two formats, so it gives two set-ups per mapping.
+ * Expands formats x mappings of each camera, format-major in the order given (fp16 d3d, fp16 reversed, fp32 d3d, ...),
+ * and checks each with dp_setup_init(). depth24plus stands for two formats, so it gives two set-ups per mapping.
  *
  * @return EXIT_FINE, or EXIT_USAGE after one line on stderr that names the option at fault
  */
@@ -38,18 +39,23 @@ const char *setup_label(const dp_setup *setup, bool full, char out[SETUP_LABEL_S
 
 /**
  * What names a set-up in JSON and CSV: near, far, projection, mapping, format, rounding, model. In JSON `arith` follows
- * where the model is fp32, `log_c` where the mapping is log.
+ * where the model is fp32, `log_c` where the mapping is log, and the unit, null where nothing says it.
  */
 typedef struct setup_fields {
     double znear, zfar, log_c; /**< log_c is NaN unless the mapping is log */
     const char *projection, *mapping, *format, *rounding, *model;
-    const char *arith; /**< null unless the model is fp32 */
+    const char *arith;  /**< null unless the model is fp32 */
+    const char *unit;   /**< what a scene unit is; null where nothing says it */
+    const char *preset; /**< null where there are not several */
 } setup_fields;
 
 extern const column setup_columns[];
 
-/** Points into the set-up, which must stay where it is. */
-setup_fields setup_fields_of(const dp_setup *setup);
+/** Points into the set-up, which must stay where it is. The unit is that of its lengths, or null. */
+setup_fields setup_fields_of(const dp_setup *setup, const char *unit);
+
+/** What text says above a set-up: its label and the unit, which is that of the page from here on. */
+void setup_title(page *p, const dp_setup *setup, const setup_fields *fields);
 
 /** What binary32 clipping draws of what lies between the planes. */
 typedef struct clipping {

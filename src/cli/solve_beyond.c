@@ -49,8 +49,9 @@ void solve_look_beyond(solve_report *r) {
 
 void solve_say_beyond(page *p, const solve_report *r) {
     for (size_t i = 0; i < r->again_count && i < AGAIN_SHOWN; i++)
-        page_note(p, i == 0 ? "holds again" : "", "from z = %s to %s", number_up(r->again[i].lo, SOLVE_DIGITS).text,
-                  number_down(r->again[i].hi, SOLVE_DIGITS).text);
+        page_note(p, i == 0 ? "holds again" : "", "from z = %s to %s",
+                  number_in(number_up(r->again[i].lo, SOLVE_DIGITS), options_unit(r->o)).text,
+                  number_in(number_down(r->again[i].hi, SOLVE_DIGITS), options_unit(r->o)).text);
     if (r->again_count > AGAIN_SHOWN)
         page_note(p, "", "and farther; --json lists %zu ranges", r->again_count);
 }

@@ -37,7 +37,7 @@ static void take_candidate(solving *s, const solve_candidate *c) {
     x->plane = solved ? &x->found.plane : NULL;
     *(c->unknown == SOLVE_NEAR ? &x->lattice_near : &x->lattice_far) = c->solved ? &x->found.lattice.value : NULL;
     s->setup = (dp_setup){.spec = c->spec};
-    x->setup = setup_fields_of(&s->setup);
+    x->setup = setup_fields_of(&s->setup, options_unit(s->report.o));
 }
 
 /* ---- The table of alternatives ----------------------------------------------------------------------------------- */
@@ -74,7 +74,9 @@ static void *next_alternative(void *of, size_t i) {
 static void say_others(page *p, void *item) {
     const solve_report *r = item;
     if (r->count > 1)
-        output_text(p->out, r->target == SOLVE_FOR_SEPARATION ? "\nOthers\n" : "\nAlternatives, cheapest first\n");
+        output_format(p->out, "\n%s%s%s\n",
+                      r->target == SOLVE_FOR_SEPARATION ? "Others" : "Alternatives, cheapest first",
+                      r->o->unit != NULL ? ", lengths in " : "", r->o->unit != NULL ? r->o->unit->name : "");
 }
 
 /* The first possible alternative with its format, so that a caution is said once. */
@@ -117,7 +119,7 @@ static void *next_line(void *of, size_t i) {
     x->role = i == 0 ? "answer" : is_island ? "island" : "alternative";
     if (is_island) { /* of the lattice */
         s->setup.spec.model = DP_MODEL_EXACT;
-        x->setup = setup_fields_of(&s->setup);
+        x->setup = setup_fields_of(&s->setup, options_unit(r->o));
         x->from = r->islands[i - 1].lo;
         x->to = r->islands[i - 1].hi;
         x->steady = (double)NAN;

@@ -36,16 +36,25 @@ static const char *target_name(const solve_report *r) {
     return option_word(OPTION_FOR, r->target);
 }
 
-static number_text digits(double value) {
-    return number_of(value, SOLVE_DIGITS);
+/* Lengths, with the unit where it is known. */
+static number_text in_unit(const solve_report *r, number_text number) {
+    return number_in(number, options_unit(r->o));
 }
 
-static number_text up(double value) {
-    return number_up(value, SOLVE_DIGITS);
+static number_text whole(const solve_report *r, double value) {
+    return in_unit(r, number_full(value));
 }
 
-static number_text bound(double value, bool upward) {
-    return upward ? up(value) : number_down(value, SOLVE_DIGITS);
+static number_text digits(const solve_report *r, double value) {
+    return in_unit(r, number_of(value, SOLVE_DIGITS));
+}
+
+static number_text up(const solve_report *r, double value) {
+    return in_unit(r, number_up(value, SOLVE_DIGITS));
+}
+
+static number_text bound(const solve_report *r, double value, bool upward) {
+    return upward ? up(r, value) : in_unit(r, number_down(value, SOLVE_DIGITS));
 }
 
 /* ---- Numbers that keep what they promise, as they are printed ---------------------------------------------------- */
@@ -70,10 +79,14 @@ number_text solve_safe_digits(const solve_report *r, const solve_candidate *c, d
     return number_full(value);
 }
 
+static number_text safe_digits(const solve_report *r, const solve_candidate *c, double value, double until) {
+    return in_unit(r, solve_safe_digits(r, c, value, until));
+}
+
 /* The ends of the values that pass, the lower first, or the upper. */
 static number_text passing(const solve_report *r, const solve_candidate *c, bool lower) {
     const double lo = fmin(solve_plane_of(c), c->plane.until), hi = fmax(solve_plane_of(c), c->plane.until);
-    return lower ? solve_safe_digits(r, c, lo, hi) : solve_safe_digits(r, c, hi, lo);
+    return lower ? safe_digits(r, c, lo, hi) : safe_digits(r, c, hi, lo);
 }
 
 /* ---- Phrases ----------------------------------------------------------------------------------------------------- */
@@ -81,15 +94,15 @@ static number_text passing(const solve_report *r, const solve_candidate *c, bool
 /* "tell surfaces 0.01 apart at z = 5000", "keep the error within 0.01 from z = 10 to 5000" */
 static phrase goal_phrase(const solve_report *r, double value, const char *ending) {
     phrase out;
-    const number_text text = isnan(r->limit) ? up(value) : number_full(value);
+    const number_text text = isnan(r->limit) ? up(r, value) : whole(r, value);
     if (r->kind == MEASURE_ERROR)
         snprintf(out.text, PHRASE_SIZE, "keep%s the error within %s ", ending, text.text);
     else
         snprintf(out.text, PHRASE_SIZE, "tell%s surfaces %s apart ", ending, text.text);
     if (r->lo < r->hi)
-        append(out.text, PHRASE_SIZE, "from z = %s to %s", number_full(r->lo).text, number_full(r->hi).text);
+        append(out.text, PHRASE_SIZE, "from z = %s to %s", whole(r, r->lo).text, whole(r, r->hi).text);
     else
-        append(out.text, PHRASE_SIZE, "at z = %s", number_full(r->lo).text);
+        append(out.text, PHRASE_SIZE, "at z = %s", whole(r, r->lo).text);
     return out;
 }
 
@@ -99,9 +112,9 @@ static phrase given_phrase(const solve_report *r, const solve_candidate *c) {
     snprintf(out.text, PHRASE_SIZE, "%s %s%s", c->spec.format.name, dp_mapping_get(c->spec.mapping)->name,
              c->spec.ortho ? " orthographic" : "");
     if (r->target != SOLVE_FOR_NEAR)
-        append(out.text, PHRASE_SIZE, ", near %s", number_full(c->spec.znear).text);
+        append(out.text, PHRASE_SIZE, ", near %s", whole(r, c->spec.znear).text);
     if (r->target != SOLVE_FOR_FAR)
-        append(out.text, PHRASE_SIZE, ", far %s", number_full(c->spec.zfar).text);
+        append(out.text, PHRASE_SIZE, ", far %s", whole(r, c->spec.zfar).text);
     if (r->target == SOLVE_FOR_NEAR || r->target == SOLVE_FOR_FAR)
         append(out.text, PHRASE_SIZE, ",");
     return out;
@@ -124,28 +137,28 @@ static void sentence_of_distance(const solve_report *r, const solve_candidate *c
     };
     const distance_answer *d = &c->distance;
     output_format(out, "%s%s: %s %s %s", c->possible ? "" : "Impossible: ", given_phrase(r, c).text,
-                  r->kind == MEASURE_ERROR ? "an error within" : "a separation of", number_full(r->limit).text,
+                  r->kind == MEASURE_ERROR ? "an error within" : "a separation of", whole(r, r->limit).text,
                   manners[c->spec.model][c->possible]);
     if (c->possible)
-        output_format(out, " from z = %s up to z = %s", number_full(r->lo).text,
-                      (d->throughout ? number_full(d->value) : bound(d->value, false)).text);
+        output_format(out, " from z = %s up to z = %s", whole(r, r->lo).text,
+                      (d->throughout ? whole(r, d->value) : bound(r, d->value, false)).text);
     else
-        output_format(out, " even at z = %s", number_full(r->lo).text);
+        output_format(out, " even at z = %s", whole(r, r->lo).text);
     if (!isnan(r->fight.first))
-        output_format(out, "; first seen to fight at z = %s", number_down(r->fight.first, SOLVE_DIGITS).text);
+        output_format(out, "; first seen to fight at z = %s", bound(r, r->fight.first, false).text);
     else if (!isnan(r->fight.searched))
-        output_format(out, "; no fight found up to z = %s", number_down(r->fight.searched, SOLVE_DIGITS).text);
+        output_format(out, "; no fight found up to z = %s", bound(r, r->fight.searched, false).text);
     if (c->spec.model == DP_MODEL_EXACT)
         output_text(out, ".\n");
     else if (!c->lattice.possible)
         output_text(out, "; nor in the lattice.\n");
     else
-        output_format(out, "; in the lattice up to %s.\n", bound(c->lattice.value, false).text);
+        output_format(out, "; in the lattice up to %s.\n", bound(r, c->lattice.value, false).text);
 }
 
 static void sentence_of_nothing(const solve_report *r, const solve_candidate *c, output *out) {
     const phrase given = given_phrase(r, c), goal = goal_phrase(r, r->limit, "s");
-    const number_text plane = digits(solve_plane_of(c)), best = up(c->reached.value);
+    const number_text plane = digits(r, solve_plane_of(c)), best = up(r, c->reached.value);
     const char *what = target_name(r);
     if (isinf(c->reached.value))
         output_format(out, "Impossible: %s has no %s that %s: nothing behind is certain to be told apart.\n",
@@ -166,11 +179,11 @@ static void sentence_of_plane(const solve_report *r, const solve_candidate *c, o
     const plane_answer *p = &c->plane;
     const double value = solve_plane_of(c);
     const bool scattered = p->passed < p->tried;
-    const number_text safe = solve_safe_digits(r, c, value, p->until);
+    const number_text safe = safe_digits(r, c, value, p->until);
     const char *name = is_near(c) ? "Near" : "Far";
     if (scattered && !isnan(p->steady))
         output_format(out, "%s %s is enough for %s to %s; %s %s on every one tried is.\n", name, safe.text, given.text,
-                      goal.text, is_near(c) ? "from" : "down from", solve_safe_digits(r, c, p->steady, p->until).text);
+                      goal.text, is_near(c) ? "from" : "down from", safe_digits(r, c, p->steady, p->until).text);
     else if (scattered || !p->certain)
         output_format(out, "%s %s is enough for %s to %s.\n", name, safe.text, given.text, goal.text);
     else if (value == (is_near(c) ? c->least : c->most))
@@ -203,8 +216,8 @@ static void say_islands(const solve_report *r, const solve_candidate *c, page *p
         return; /* the lattice's */
     for (int i = before - 1; i >= 0 && before - 1 - i < ISLANDS_SHOWN; i--)
         page_note(p, i == before - 1 ? "also" : "", "from %s to %s",
-                  solve_safe_digits(r, c, r->islands[i].lo, r->islands[i].hi).text,
-                  solve_safe_digits(r, c, r->islands[i].hi, r->islands[i].lo).text);
+                  safe_digits(r, c, r->islands[i].lo, r->islands[i].hi).text,
+                  safe_digits(r, c, r->islands[i].hi, r->islands[i].lo).text);
     if (before > ISLANDS_SHOWN)
         page_note(p, "", "and %d more ranges further down; --json lists them", before - ISLANDS_SHOWN);
 }
@@ -215,7 +228,7 @@ static void say_plane(const solve_report *r, const solve_candidate *c, page *p) 
     const plane_answer *a = &c->plane;
     const number_text lo = passing(r, c, true), hi = passing(r, c, false);
     const unsigned long long tried = a->tried, passed = a->passed;
-    page_note(p, what, "%s exactly%s", number_full(solve_plane_of(c)).text,
+    page_note(p, what, "%s exactly%s", whole(r, solve_plane_of(c)).text,
               a->certain   ? ""
               : is_near(c) ? "; a smaller one may be enough, too"
                            : "; a larger one may be enough, too");
@@ -228,7 +241,7 @@ static void say_plane(const solve_report *r, const solve_candidate *c, page *p) 
                   lo.text, hi.text);
     if (!isnan(a->fails_to))
         page_note(p, "fails", "every binary32 %s from there %s to %s", what, is_near(c) ? "down" : "up",
-                  bound(a->fails_to, is_near(c)).text);
+                  bound(r, a->fails_to, is_near(c)).text);
     say_islands(r, c, p);
 }
 
@@ -256,27 +269,30 @@ static void say_beside(const solve_report *r, const solve_candidate *c, page *p)
         return;
     if (c->spec.model != DP_MODEL_EXACT) {
         if (!c->solved)
-            page_note(p, "in the lattice", "%s at z = %s", up(c->lattice.reached.value).text,
-                      digits(c->lattice.reached.z).text);
+            page_note(p, "in the lattice", "%s at z = %s", up(r, c->lattice.reached.value).text,
+                      digits(r, c->lattice.reached.z).text);
         else if (c->lattice.possible)
-            page_note(p, "in the lattice", "%s %s would do", target_name(r), bound(c->lattice.value, is_near(c)).text);
+            page_note(p, "in the lattice", "%s %s would do", target_name(r),
+                      bound(r, c->lattice.value, is_near(c)).text);
         else
             page_note(p, "in the lattice", "no %s would do in it either", target_name(r));
     }
     if (c->spec.model == DP_MODEL_FP32 || isinf(c->reached.value))
         return;
     if (isinf(binary32))
-        page_note(p, "in binary32", "nothing is certain there: 'depthprec budget' says why");
+        page_note(p, "guaranteed", "nothing there: 'depthprec budget' says why");
+    else if (binary32 > r->limit * (1.0 + 1e-6))
+        page_note(p, "guaranteed", "only %s, short of %s: 'depthprec budget' says why", up(r, binary32).text,
+                  whole(r, r->limit).text);
     else if (!isnan(binary32))
-        page_note(p, "in binary32", "%s is certain there%s", up(binary32).text,
-                  binary32 > r->limit * (1.0 + 1e-6) ? ", too much: 'depthprec budget' says why" : "");
+        page_note(p, "guaranteed", "%s there", up(r, binary32).text);
 }
 
 /* The planes that nobody gave. */
 static void say_assumed(const solve_report *r, page *p) {
-    const bool no_near = !option_given(r->o, OPTION_NEAR) && r->o->preset == NULL && r->target != SOLVE_FOR_NEAR;
-    const bool no_far = !option_given(r->o, OPTION_FAR) && r->o->preset == NULL && r->target != SOLVE_FOR_FAR;
-    const number_text near = number_full(r->items[0].spec.znear), far = number_full(r->items[0].spec.zfar);
+    const bool no_near = !option_given(r->o, OPTION_NEAR) && r->o->preset_count == 0 && r->target != SOLVE_FOR_NEAR;
+    const bool no_far = !option_given(r->o, OPTION_FAR) && r->o->preset_count == 0 && r->target != SOLVE_FOR_FAR;
+    const number_text near = whole(r, r->items[0].spec.znear), far = whole(r, r->items[0].spec.zfar);
     if (no_near && no_far)
         page_note(p, "assumed", "near %s, far %s: not given", near.text, far.text);
     else if (no_near || no_far)
@@ -295,8 +311,9 @@ void solve_report_answer(page *p, void *item) {
     if (c->solved && c->possible)
         say_plane(r, c, p);
     if (!isnan(r->limit))
-        snprintf(wanted, sizeof wanted, ", wanted %s", digits(r->limit).text);
-    page_note(p, solve_measure_name(r), "%s at z = %s%s", up(c->reached.value).text, digits(c->reached.z).text, wanted);
+        snprintf(wanted, sizeof wanted, ", wanted %s", digits(r, r->limit).text);
+    page_note(p, solve_measure_name(r), "%s at z = %s%s", up(r, c->reached.value).text, digits(r, c->reached.z).text,
+              wanted);
     say_model(r, c, p);
     say_beside(r, c, p);
 }

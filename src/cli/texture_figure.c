@@ -9,6 +9,7 @@
 #include "cli/texture.h"
 #include "plot/notes.h"
 #include "plot/picture.h"
+#include "texture/survey.h"
 
 enum { WIDTH = 800, BESIDE = 150, ABOVE = 130, HEIGHT_MIN = 240, HEIGHT_MAX = 1200 };
 
@@ -51,6 +52,15 @@ static void words_of(const options *o, const texture_source *s, const texture_pr
     notes_clean(c->subtitle, sizeof c->subtitle, subtitle);
 }
 
+/* Surfaces of a scene that fight; more than can be told apart are not marked. */
+static void mark_ties(const frame *f, chart *c) {
+    enum { MOST = 256 };
+    double at[MOST][2];
+    const size_t count = survey_ties(f, MOST, at);
+    if (count <= MOST)
+        picture_mark(c, count, at, "stored as one code with what is behind: they fight");
+}
+
 /* Fills the page: the picture in its shape, words above, axes around. */
 static int height_of(const options *o, const texture_source *s, int width, bool stacked) {
     if (o->height > 0)
@@ -89,6 +99,7 @@ int texture_figure_draw(const options *o, const texture_source *s, const texture
     if (good) {
         words_of(o, s, p, &d.shown, c);
         picture_build(&d.shown, c);
+        mark_ties(&s->frame, c);
         good = !chart_failed(c) && figure_file_write(o, o->figure, c, width, height_of(o, s, width, stacked), &out);
     }
     chart_free(c);

@@ -145,22 +145,27 @@ static void say_pixel(page *p, void *item) {
     const int digits = number_digits_within(x->z, x->interval, DIGITS_Z, DIGITS_MOST);
     const bool seen = *x->state == 'd';
     page_title(p, "pixel %u,%u: %s%s", x->column, x->row, seen ? "eye depth " : x->state,
-               seen ? number_of(x->z, digits).text : "");
+               seen ? number_in(number_of(x->z, digits), p->unit).text : "");
     if (*x->state == 'h')
         return;
     page_note(p, "code", "%s%s%s", number_of(x->code, DIGITS_DEPTH).text, isnan(x->depth) ? "" : ", window depth ",
               isnan(x->depth) ? "" : number_of(x->depth, DIGITS_DEPTH).text);
-    page_note(p, "may be", "%s to %s, an interval of %s", number_of(x->range.lo, digits).text,
-              number_of(x->range.hi, digits).text, number_of(x->interval, DIGITS).text);
+    page_note(p, "may be", "%s to %s, an interval of %s", number_in(number_of(x->range.lo, digits), p->unit).text,
+              number_in(number_of(x->range.hi, digits), p->unit).text,
+              number_in(number_of(x->interval, DIGITS), p->unit).text);
     if (!isnan(x->truth))
-        page_note(p, "truth", "%s, error %s", number_of(x->truth, digits).text, number_of(x->error, DIGITS).text);
-    page_note(p, "neighbours", "left %s, right %s, above %s, below %s", number_of(x->beside[0], digits).text,
-              number_of(x->beside[1], digits).text, number_of(x->beside[2], digits).text,
-              number_of(x->beside[3], digits).text);
+        page_note(p, "truth", "%s, error %s", number_in(number_of(x->truth, digits), p->unit).text,
+                  number_in(number_of(x->error, DIGITS), p->unit).text);
+    page_note(p, "neighbours", "left %s, right %s, above %s, below %s",
+              number_in(number_of(x->beside[0], digits), p->unit).text,
+              number_in(number_of(x->beside[1], digits), p->unit).text,
+              number_in(number_of(x->beside[2], digits), p->unit).text,
+              number_in(number_of(x->beside[3], digits), p->unit).text);
     if (!has_camera(all) || !seen)
         return;
-    page_note(p, "position", "%s, %s, %s", number_of(x->position[0], DIGITS_Z).text,
-              number_of(x->position[1], DIGITS_Z).text, number_of(x->position[2], DIGITS_Z).text);
+    page_note(p, "position", "%s, %s, %s", number_in(number_of(x->position[0], DIGITS_Z), p->unit).text,
+              number_in(number_of(x->position[1], DIGITS_Z), p->unit).text,
+              number_in(number_of(x->position[2], DIGITS_Z), p->unit).text);
     if (!isnan(x->normal[0]))
         say_normal(p, all);
 }
@@ -169,6 +174,7 @@ static void say_head(page *p, void *item) {
     const pixels *all = item;
     const texture_source *s = all->source;
     char label[SETUP_LABEL_SIZE];
+    p->unit = options_unit(all->o);
     page_text(p, "%s: %u x %u pixels, %s", all->scene != NULL ? all->scene : s->path, s->camera.width, s->camera.height,
               all->o->metric > 0 ? "metric depth" : setup_label(&s->setup, true, label));
     if (all->o->metric == 0)
@@ -252,7 +258,7 @@ int texture_pixel_write(const options *o, const texture_source *source) {
     output out;
     pixels all = {.o = o,
                   .source = source,
-                  .setup = setup_fields_of(&source->setup),
+                  .setup = setup_fields_of(&source->setup, options_unit(o)),
                   .source_path = source->path,
                   .scene = source->frame.scene != NULL ? source->frame.scene->name : NULL,
                   .format_from = texture_origin_name(source->format_from),

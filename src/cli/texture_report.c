@@ -100,19 +100,24 @@ static void say_origins(const statistics *r, page *p) {
             page_note(p, "pixel", "%s", readings);
 }
 
+static number_text in_scene(const page *p, double length) {
+    return number_in(number_of(length, 6), p->unit != NULL ? p->unit : "scene units");
+}
+
 static void say_metric(const statistics *r, page *p) {
     const metric *m = &r->source.metric;
-    page_text(p, "metric depth, %s scene units per unit, up to %s", number_of(r->o->metric, 6).text,
-              number_of(m->zfar, 6).text);
+    page_text(p, "metric depth, a unit of the samples is %s, up to %s", in_scene(p, r->o->metric).text,
+              in_scene(p, m->zfar).text);
     if (m->step > 0)
-        page_note(p, "samples", "steps of %s scene units, rounded or cut off", number_of(m->step, 6).text);
+        page_note(p, "samples", "steps of %s, rounded or cut off", in_scene(p, m->step).text);
     else
         page_note(p, "samples", "numbers of %d significant bits, rounded or cut off", r->source.grain.bits);
 }
 
 static void say_source(statistics *r, page *p) {
     const texture_source *s = &r->source;
-    char label[SETUP_LABEL_SIZE], parameters[512] = "";
+    char parameters[512] = "";
+    p->unit = options_unit(r->o);
     for (size_t i = 0; next_parameter(r, i) != NULL; i++)
         append(parameters, sizeof parameters, "%s %s %s", i > 0 ? "," : ";", r->parameter,
                number_of(r->parameter_value, 6).text);
@@ -125,7 +130,7 @@ static void say_source(statistics *r, page *p) {
     if (r->o->metric > 0) {
         say_metric(r, p);
     } else {
-        page_text(p, "%s", setup_label(&s->setup, true, label));
+        setup_title(p, &s->setup, &r->setup);
         say_origins(r, p);
     }
 }
@@ -140,8 +145,8 @@ static void say_head(page *p, void *item) {
     say_source(r, p);
     if (r->o->metric == 0)
         page_note(p, "sky", "%llu pixels, %s %%; depths from %s on are within %s of far and count as sky",
-                  (unsigned long long)v->sky, share(v->sky, v->pixels).text, number_of(v->sky_from, 6).text,
-                  number_of(r->o->sky, 3).text);
+                  (unsigned long long)v->sky, share(v->sky, v->pixels).text,
+                  number_in(number_of(v->sky_from, 6), p->unit).text, number_of(r->o->sky, 3).text);
     if (!is_image(r) && r->named.hidden > 0)
         page_note(p, "hidden", "%llu pixels of the scene count as sky", (unsigned long long)r->named.hidden);
     if (v->invalid > 0)
@@ -150,16 +155,17 @@ static void say_head(page *p, void *item) {
     if (v->band_count == 0)
         page_note(p, "depths", "none");
     else
-        page_note(p, "depths", "%s to %s, %llu different codes", number_of(v->lo, 8).text, number_of(v->hi, 8).text,
-                  (unsigned long long)v->codes);
+        page_note(p, "depths", "%s to %s, %llu distinct code%s", number_in(number_of(v->lo, 8), p->unit).text,
+                  number_in(number_of(v->hi, 8), p->unit).text, (unsigned long long)v->codes, v->codes == 1 ? "" : "s");
 }
 
 static void say_pairs(const survey_pairs *s, page *p) {
     char first[NUMBER_SIZE + 32] = "", certain[NUMBER_SIZE + 48] = "";
     if (s->ties > 0)
-        snprintf(first, sizeof first, ", the first at z = %s", number_of(s->first_tie, 6).text);
+        snprintf(first, sizeof first, ", the first at z = %s", number_in(number_of(s->first_tie, 6), p->unit).text);
     if (!isnan(s->certain_to))
-        snprintf(certain, sizeof certain, "; certain of two codes up to z = %s", number_of(s->certain_to, 6).text);
+        snprintf(certain, sizeof certain, "; certain of two codes up to z = %s",
+                 number_in(number_of(s->certain_to, 6), p->unit).text);
     page_note(p, "pairs", "%llu of surfaces that ought to be told apart: %llu fight, stored as one code%s",
               (unsigned long long)s->pairs, (unsigned long long)s->ties, first);
     page_note(p, "", "%llu are nearer than the separation%s", (unsigned long long)s->possible, certain);
@@ -317,7 +323,7 @@ static void name_all(statistics *r) {
     const grain *g = &s->grain;
     const bool is_metric = r->o->metric > 0, has_steps = g->kind == GRAIN_STEPS;
     const double none = (double)NAN;
-    r->setup = setup_fields_of(&s->setup);
+    r->setup = setup_fields_of(&s->setup, options_unit(r->o));
     r->named.scene = is_image(r) ? NULL : s->frame.scene->name;
     r->named.truth = is_image(r) ? NULL : "scene";
     r->named.type = image_type_name(s->type);

@@ -91,7 +91,7 @@ static int read_image(const options *o, texture_source *s) {
 
 /* What the user gave, which may leave a choice; else what was found, else what is usual. */
 static int choose_format(const options *o, texture_source *s, dp_format *out) {
-    const bool given = option_given(o, OPTION_FORMAT) || o->preset != NULL;
+    const bool given = option_given(o, OPTION_FORMAT) || o->preset_count > 0;
     s->format_from = given ? ORIGIN_GIVEN : s->path != NULL && s->found.certain ? ORIGIN_FOUND : ORIGIN_ASSUMED;
     if (!given && s->path != NULL && !s->found.depth)
         return usage_error("%s: cannot be window depth: %s; --format NAME reads it all the same", s->path,
@@ -110,7 +110,7 @@ static int choose_format(const options *o, texture_source *s, dp_format *out) {
 }
 
 static int choose_mapping(const options *o, texture_source *s, dp_mapping *out) {
-    const bool given = option_given(o, OPTION_MAPPING) || o->preset != NULL;
+    const bool given = option_given(o, OPTION_MAPPING) || o->preset_count > 0;
     if (given && o->mapping_count > 1)
         return option_error(OPTION_MAPPING, "must be one mapping, got %zu", o->mapping_count);
     /* Nothing in an image tells the curve; what is usual in perspective pictures tells nothing of orthographic ones. */

@@ -38,7 +38,7 @@ const verb verb_rows[] = {
      "  depthprec texture depth.png -n 0.3 -f 1000 --normal high -o normals.npy\n"
      "  depthprec texture --scene decals --parameter gap=0.01 -F d24 -m reversed\n", 1},
     {"bench", VERB_BENCH, "FAMILY", 1, 1, &families,
-     "methods of a family: ns an element against worst error",
+     "methods of a family: ns per element against worst error",
      "  depthprec bench linearize -n 0.1 -f 1000\n"
      "  depthprec bench interval -F fp32 -m reversed --tolerance 1e-6\n"
      "  depthprec plot pareto linearize -o pareto.svg\n", 0},

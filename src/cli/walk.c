@@ -5,10 +5,18 @@
 
 enum { DEFAULT_ROWS = 9 };
 
+/* The depths of set-up i. */
+static int resolve(walk *w, size_t i) {
+    options_of(w->o, w->all.cameras[i], &w->here);
+    return depths_resolve(&w->here, DEFAULT_ROWS, &w->at);
+}
+
 int walk_start(walk *w, const options *o) {
     w->o = o;
-    const int status = setups_make(o, &w->all);
-    return status == EXIT_FINE ? depths_resolve(o, DEFAULT_ROWS, &w->at) : status;
+    int status = setups_make(o, &w->all);
+    for (size_t i = w->all.count; i-- > 0 && status == EXIT_FINE;)
+        status = resolve(w, i);
+    return status;
 }
 
 int walk_write(walk *w, const report_spec *spec, int status) {
@@ -30,8 +38,10 @@ int walk_write(walk *w, const report_spec *spec, int status) {
 bool walk_setup(walk *w, size_t i) {
     if (i == w->all.count)
         return false;
+    resolve(w, i);
     w->setup = &w->all.items[i];
-    w->fields = setup_fields_of(w->setup);
+    w->fields = setup_fields_of(w->setup, options_unit(&w->here));
+    w->fields.preset = w->o->preset_count > 1 ? w->o->presets[w->all.cameras[i]]->name : NULL;
     return true;
 }
 
@@ -45,6 +55,6 @@ bool walk_depth(walk *w, size_t i, double *z) {
 }
 
 void walk_title(page *p, void *item) {
-    char label[SETUP_LABEL_SIZE];
-    page_title(p, "%s", setup_label(((const walk *)item)->setup, true, label));
+    const walk *w = item;
+    setup_title(p, w->setup, &w->fields);
 }

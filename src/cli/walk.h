@@ -15,7 +15,8 @@
 typedef struct walk {
     const options *o;
     setups all;
-    depths at;
+    options here; /**< those of the set-up at hand, see options_of() */
+    depths at;    /**< of the set-up at hand, before there is one of the first */
     output out;
     progress progress;
     uint64_t done;

@@ -3,7 +3,9 @@
 #include "depthprec/batch.h"
 
 #include <string.h>
-#if defined(__x86_64__) && defined(__GNUC__)
+/* Compiled with -DDP_BASELINE the library has the baseline alone, as on processors without vectors of their own. */
+#if defined(__x86_64__) && defined(__GNUC__) && !defined(DP_BASELINE)
+#define ASK_PROCESSOR
 #include <cpuid.h>
 #endif
 
@@ -18,7 +20,7 @@ static int always(void) {
     return 1;
 }
 
-#if defined(__x86_64__) && defined(__GNUC__)
+#ifdef ASK_PROCESSOR
 /* What the compiler's own table says costs nothing; asking the processor costs tens of microseconds in a virtual
  * machine. But not every compiler has a name for F16C. */
 static int has_f16c(void) {

@@ -24,10 +24,14 @@ static const dp_format_row rows[] = {
     },
     {
         .format = {"fp32", DP_FORMAT_FLOAT, 31, 8, 23, 127, 127U << 23},
-        .aliases = "f32 d32f float float32 binary32 D32_FLOAT D32_SFLOAT D32_SFLOAT_S8_UINT VK_FORMAT_D32_SFLOAT "
-                   "VK_FORMAT_D32_SFLOAT_S8_UINT DXGI_FORMAT_D32_FLOAT DXGI_FORMAT_D32_FLOAT_S8X24_UINT "
-                   "DEPTH_COMPONENT32F DEPTH32F_STENCIL8 GL_DEPTH_COMPONENT32F GL_DEPTH32F_STENCIL8 depth32float "
-                   "depth32float-stencil8 MTLPixelFormatDepth32Float MTLPixelFormatDepth32Float_Stencil8",
+        .aliases = "f32 d32 d32f d32fs8 float float32 binary32 D32_FLOAT D32_FLOAT_S8X24_UINT D32_SFLOAT "
+                   "D32_SFLOAT_S8_UINT VK_FORMAT_D32_SFLOAT VK_FORMAT_D32_SFLOAT_S8_UINT DXGI_FORMAT_D32_FLOAT "
+                   "DXGI_FORMAT_D32_FLOAT_S8X24_UINT DXGI_FORMAT_R32G8X24_TYPELESS "
+                   "DXGI_FORMAT_R32_FLOAT_X8X24_TYPELESS D3DFMT_D32F_LOCKABLE DEPTH_COMPONENT32F DEPTH32F_STENCIL8 "
+                   "GL_DEPTH_COMPONENT32F GL_DEPTH32F_STENCIL8 depth32float depth32float-stencil8 "
+                   "depth32float_stencil8 Depth32FloatStencil8 WGPUTextureFormat_Depth32Float "
+                   "WGPUTextureFormat_Depth32FloatStencil8 MTLPixelFormatDepth32Float "
+                   "MTLPixelFormatDepth32Float_Stencil8",
         .claim_absolute = 0x1p-150, .claim_relative = 0x1p-24,
         .buffer = 1, .bytes = 4, .available = "every API",
         .caution = "fp32 needs OpenGL 3.0, OpenGL ES 3.0 or WebGL 2",
@@ -37,8 +41,8 @@ static const dp_format_row rows[] = {
     {
         .format = {"unorm16", DP_FORMAT_UNORM, 16, 0, 0, 0, 65535U},
         .aliases = "d16 D16_UNORM D16_UNORM_S8_UINT VK_FORMAT_D16_UNORM VK_FORMAT_D16_UNORM_S8_UINT "
-                   "DXGI_FORMAT_D16_UNORM D3DFMT_D16 DEPTH_COMPONENT16 GL_DEPTH_COMPONENT16 depth16unorm "
-                   "MTLPixelFormatDepth16Unorm",
+                   "DXGI_FORMAT_D16_UNORM D3DFMT_D16 D3DFMT_D16_LOCKABLE DEPTH_COMPONENT16 GL_DEPTH_COMPONENT16 "
+                   "depth16unorm WGPUTextureFormat_Depth16Unorm MTLPixelFormatDepth16Unorm",
         .claim_absolute = 0.5 / 65535.0, .claim_relative = 0.0,
         .buffer = 1, .bytes = 2, .available = "every API", .caution = "",
         .note = "16-bit depth buffer",
@@ -47,9 +51,10 @@ static const dp_format_row rows[] = {
     {
         .format = {"unorm24", DP_FORMAT_UNORM, 24, 0, 0, 0, 16777215U},
         .aliases = "d24 d24s8 d24x8 D24_UNORM D24_UNORM_S8_UINT X8_D24_UNORM_PACK32 VK_FORMAT_D24_UNORM_S8_UINT "
-                   "VK_FORMAT_X8_D24_UNORM_PACK32 DXGI_FORMAT_D24_UNORM_S8_UINT D3DFMT_D24S8 D3DFMT_D24X8 "
-                   "DEPTH_COMPONENT24 DEPTH24_STENCIL8 GL_DEPTH_COMPONENT24 GL_DEPTH24_STENCIL8 "
-                   "MTLPixelFormatDepth24Unorm_Stencil8",
+                   "VK_FORMAT_X8_D24_UNORM_PACK32 DXGI_FORMAT_D24_UNORM_S8_UINT DXGI_FORMAT_R24G8_TYPELESS "
+                   "DXGI_FORMAT_R24_UNORM_X8_TYPELESS D3DFMT_D24S8 D3DFMT_D24X8 D3DFMT_D24X4S4 DEPTH_COMPONENT24 "
+                   "DEPTH24_STENCIL8 GL_DEPTH_COMPONENT24 GL_DEPTH24_STENCIL8 GL_DEPTH_COMPONENT24_OES "
+                   "GL_DEPTH24_STENCIL8_OES depth24unorm_stencil8 MTLPixelFormatDepth24Unorm_Stencil8",
         .claim_absolute = 0.5 / 16777215.0, .claim_relative = 0.0,
         .buffer = 1, .bytes = 4, .rank = 2, .available = "optional in Vulkan, none on Apple silicon",
         .caution = "unorm24 is missing on many GPUs; depth24plus of WebGPU means it or fp32",
@@ -63,7 +68,9 @@ static const struct {
     const char *names;
     const char *format[2];
 } choices[] = {
-    {"depth24plus depth24plus-stencil8", {"unorm24", "fp32"}},
+    {"depth24plus depth24plus-stencil8 Depth24PlusStencil8 WGPUTextureFormat_Depth24Plus "
+     "WGPUTextureFormat_Depth24PlusStencil8",
+     {"unorm24", "fp32"}},
 };
 
 static const char *const rounding_names[DP_ROUNDING_COUNT] = {

@@ -30,7 +30,9 @@ way way_choose(const dp_setup *setup, double tolerance, bool cut_cells) {
                               .ortho = spec->ortho,
                               .cut_cells = cut_cells && !pipeline,
                               .pipeline = pipeline};
-    const method_row *row = which < family->case_count ? method_choose(family, which, &wish) : NULL;
+    /* Claims are of far/near, which says nothing where near is not in front. */
+    const bool claimed = which < family->case_count && spec->znear > 0;
+    const method_row *row = claimed ? method_choose(family, which, &wish) : NULL;
     if (row == NULL)
         return (way){.name = pipeline ? NULL : "cell", .claim = pipeline ? (double)NAN : 0};
     return (way){row, row->name, method_claim_over(&row->claims[which], wish.ratio_lo, wish.ratio_hi)};

@@ -71,9 +71,8 @@ static bool read_preset(reader *r, const config_setting_t *s, draft *d) {
     const preset *row = preset_get((size_t)index);
     const unit_row *unit = unit_find(row->unit);
     /* Where the file says what its scene unit is, a preset in metres is converted into it. */
-    const bool convert = unit != NULL && r->unit != NULL;
-    d->spec.znear = convert ? unit_convert(row->znear, unit, r->unit) : row->znear;
-    d->spec.zfar = convert ? unit_convert(row->zfar, unit, r->unit) : row->zfar;
+    d->spec.znear = unit_convert(row->znear, unit, r->unit);
+    d->spec.zfar = unit_convert(row->zfar, unit, r->unit);
     d->spec.mapping = row->mapping;
     d->format_count = dp_format_parse(row->format, d->formats);
     return true;
@@ -114,10 +113,15 @@ static bool read_ortho(reader *r, const config_setting_t *s, draft *d) {
     return true;
 }
 
+/* Text calls the model fp32 float. */
+static int read_model(reader *r, const config_setting_t *s) {
+    const char *text = config_setting_get_string(s);
+    return text != NULL && strcmp(text, "float") == 0 ? DP_MODEL_FP32 : word_among(r, s, model_name);
+}
+
 static bool read_words(reader *r, config_setting_t *const *found, draft *d) {
     const int rounding = found[KEY_ROUNDING] != NULL ? word_among(r, found[KEY_ROUNDING], rounding_name) : 0;
-    const int model =
-        rounding >= 0 && found[KEY_MODEL] != NULL ? word_among(r, found[KEY_MODEL], model_name) : DP_MODEL_COUNT;
+    const int model = rounding >= 0 && found[KEY_MODEL] != NULL ? read_model(r, found[KEY_MODEL]) : DP_MODEL_COUNT;
     const int arith =
         rounding >= 0 && model >= 0 && found[KEY_ARITH] != NULL ? word_among(r, found[KEY_ARITH], arith_name) : 0;
     if (rounding < 0 || model < 0 || arith < 0)

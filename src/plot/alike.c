@@ -22,10 +22,22 @@ static bool meet(const chart_panel *panel, const chart_series *a, const chart_se
     return fabs(u - v) <= half_stroke || u == v || (isnan(u) && isnan(v));
 }
 
+static bool near_on(const chart_axis *axis, double a, double b) {
+    return fabs(chart_axis_share(axis, a) - chart_axis_share(axis, b)) <= half_stroke;
+}
+
+/* Is there a point of `b` where point i of `a` is? */
+static bool has_point(const chart_panel *panel, const chart_series *a, const chart_series *b, size_t i) {
+    for (size_t k = 0; k < b->count; k++)
+        if (near_on(&panel->x, a->x[i], b->x[k]) && near_on(&panel->y, a->y[i], b->y[k]))
+            return true;
+    return false;
+}
+
 /* Where the points of `a` part from `b`: the first and the last x. */
 static void parted(const chart_panel *panel, const chart_series *a, const chart_series *b, chart_extent *at) {
     for (size_t i = 0; i < a->count; i++)
-        if (!meet(panel, a, b, a->x[i]))
+        if (!(a->kind == CHART_LINE ? meet(panel, a, b, a->x[i]) : has_point(panel, a, b, i)))
             *at = (chart_extent){fmin(at->lo, a->x[i]), fmax(at->hi, a->x[i])};
 }
 
@@ -33,25 +45,25 @@ static double length(const chart_panel *panel, double from, double to) {
     return chart_axis_share(&panel->x, to) - chart_axis_share(&panel->x, from);
 }
 
-static bool is_curve(const chart_series *s) {
-    return s->kind == CHART_LINE && !s->unlisted && !s->second && s->count > 1;
+static bool takes_part(const chart_series *s) {
+    return !s->unlisted && !s->second && s->count > 1 && (s->kind == CHART_LINE || s->kind == CHART_POINTS);
 }
 
 alike alike_find(const chart_panel *panel, size_t index) {
     const chart_series *s = &panel->series[index];
     alike best = {.other = NULL};
     double longest = enough;
-    for (size_t k = 0; k < index && is_curve(s); k++) {
+    for (size_t k = 0; k < index && takes_part(s); k++) {
         const chart_series *other = &panel->series[k];
         const double lo = s->x[0], hi = s->x[s->count - 1];
         chart_extent at = {INFINITY, -INFINITY};
-        if (!is_curve(other))
+        if (!takes_part(other) || other->kind != s->kind)
             continue;
         parted(panel, s, other, &at);
         parted(panel, other, s, &at);
         const double before = length(panel, lo, at.lo), behind = length(panel, at.hi, hi);
         const bool everywhere = at.lo > at.hi;
-        const double own = everywhere ? 2 : fmax(before, behind);
+        const double own = everywhere ? 2 : s->kind == CHART_LINE ? fmax(before, behind) : 0;
         if (!(own > longest))
             continue;
         longest = own;

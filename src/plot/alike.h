@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/** @file alike.h  Curves that lie on each other, so that the legend can say what no eye sees. */
+/** @file alike.h  Curves, or points, that lie on each other, so that the legend can say what no eye sees. */
 #ifndef PLOT_ALIKE_H
 #define PLOT_ALIKE_H
 
@@ -13,7 +13,7 @@ typedef struct alike {
 
 /**
  * The listed line before line `index` of a panel with fitted axes that lies within half a stroke of it: everywhere, or
- * along half of the axis at least, the longest first.
+ * along half of the axis at least, the longest first. Of points likewise, but only where all are alike.
  */
 alike alike_find(const chart_panel *panel, size_t index);
 

@@ -12,7 +12,7 @@
 #include <stdbool.h>
 #include <stddef.h>
 
-enum { CHART_TEXT = 192, CHART_SERIES = 32, CHART_PANELS = 8 };
+enum { CHART_TEXT = 192, CHART_SETUPS = 32, CHART_SERIES = 2 * CHART_SETUPS, CHART_PANELS = 8 };
 
 typedef enum chart_scale {
     CHART_LINEAR = 0,

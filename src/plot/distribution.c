@@ -10,9 +10,9 @@ static double density(const dp_worst *worst) {
     return 1 / worst->interval;
 }
 
-/* A linear axis shows the picture of the textbooks, but not beyond a factor of a hundred. */
+/* A linear axis shows the picture of the textbooks, but not beyond a factor of a hundred; only it has 0. */
 static chart_scale scale_of(double lo, double hi) {
-    return hi / lo <= 100 ? CHART_LINEAR : CHART_LOG;
+    return !(lo > 0) || hi / lo <= 100 ? CHART_LINEAR : CHART_LOG;
 }
 
 /* An infinite far ends a little behind the depth from which nothing is told apart, seen by the farthest sighted. */
@@ -38,7 +38,7 @@ static void add_codes(const figure_request *request, chart *out, chart_panel *pa
     if (s == NULL)
         return;
     s->style.colour = 1;
-    snprintf(s->name, sizeof s->name, "codes and the depths they give back");
+    snprintf(s->name, sizeof s->name, "codes and their decoded depths");
     s->count = 0;
     for (uint32_t code = first; code <= last; code++) {
         double z = dp_stored(setup, code);

@@ -15,9 +15,10 @@ static double cell_error(const dp_setup *setup, double z) {
     return fmax(fabs(dp_error(setup, cell.code, cell.lo)), fabs(dp_error(setup, cell.code, cell.hi)));
 }
 
-/* How much neighbouring cells differ, relatively: a width goes with the square of z at most. */
+/* How much neighbouring cells differ, relatively: a width goes with the square of z at most. Depths of 0 and less are
+ * orthographic, with cells alike. */
 static double step_of(const dp_worst *w) {
-    return 2 * (w->interval_hi - w->interval_lo) / w->interval_lo;
+    return w->interval_lo <= 0 ? 0 : 2 * (w->interval_hi - w->interval_lo) / w->interval_lo;
 }
 
 /* A staged cell holds a whole number of binary32 steps, now one more, now one less: of a float in turns, so that three
@@ -53,7 +54,8 @@ static double flicker_of_separation(const dp_setup *setup, double z, double sepa
 void envelope_separation(const void *setup, double from, double to, refine_sample *out) {
     dp_separation_worst w = {.bound = (double)NAN};
     dp_separation_over(setup, from, to, 0, &w);
-    *out = (refine_sample){.y = {w.bound}, .flicker = {flicker_of_separation(setup, from, w.bound)}};
+    const double size = from > 0 ? from : fmax(-from, to);
+    *out = (refine_sample){.y = {w.bound}, .flicker = {flicker_of_separation(setup, size, w.bound)}};
 }
 
 /* ---- Knots ------------------------------------------------------------------------------------------------------- */
@@ -89,9 +91,13 @@ static void add_clip_binades(knot_list *k, const dp_setup *setup, double hi) {
     const bool ndc_signed = dp_mapping_get(spec->mapping)->ndc_signed;
     const double a = ndc_signed ? 1 + phi : setup->reversed ? -phi : 1; /* times 1/(1 - phi) or its negative, as b is */
     const double b = ndc_signed ? -2 * spec->znear : setup->reversed ? spec->znear : -spec->znear;
-    for (int e = ilogb(spec->znear) - 24; e <= ilogb(hi); e++) {
+    const bool either_sign = spec->znear <= 0;
+    const double most = either_sign ? fmax(-spec->znear, fabs(hi)) : hi;
+    for (int e = ilogb(either_sign ? most : spec->znear) - 24; e <= ilogb(most); e++) {
         const double power = ldexp(1.0, e), scaled = power * (1 - phi);
         add_knot(k, power);
+        if (either_sign)
+            add_knot(k, -power);
         if (a == 0 || spec->ortho)
             continue;
         add_knot(k, scaled / fabs(a));

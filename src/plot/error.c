@@ -3,7 +3,7 @@
 
 const char *error_build(const figure_request *request, chart *out) {
     const chart_axis y = {
-        .scale = CHART_LOG, .label = "worst |stored \u2212 z|", .key = "error", .unit = "scene units"};
+        .scale = CHART_LOG, .label = "worst |decoded depth \u2212 z|", .key = "error", .unit = "scene units"};
     envelope_curves(request, out, y, envelope_error, false);
     chart_fit(out);
     return NULL;

@@ -41,8 +41,9 @@ void figure_range(const figure_request *request, double *lo, double *hi) {
 
 chart_panel *figure_panel(const figure_request *request, chart *out, chart_axis y) {
     chart_panel *panel = chart_add_panel(out);
-    panel->x = (chart_axis){.scale = CHART_LOG, .label = "eye depth z", .key = "z", .unit = "scene units"};
+    panel->x = (chart_axis){.label = "eye depth z", .key = "z", .unit = "scene units"};
     figure_range(request, &panel->x.lo, &panel->x.hi);
+    panel->x.scale = panel->x.lo > 0 ? CHART_LOG : CHART_LINEAR;
     panel->y = y;
     return panel;
 }

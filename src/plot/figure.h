@@ -39,6 +39,7 @@ enum {
     FIGURE_FP32 = 1 << 2,      /**< set-ups of the model fp32, which have no cells */
     FIGURE_BINARY32 = 1 << 3,  /**< nothing but set-ups of the model fp32, whatever --model says */
     FIGURE_TOLERANCE = 1 << 4, /**< other ways to the interval than the exact cell */
+    FIGURE_SIGNED = 1 << 6,    /**< depths of 0 and less: a camera with near <= 0 */
     FIGURE_FILE = 1 << 5,      /**< a requirement file, which brings its own set-ups, with planes of their own */
 };
 
@@ -70,7 +71,8 @@ chart_style figure_style(const figure_request *request, size_t i);
 /** The range of a curve: what was asked, or near to far; to 1e6 near when far is infinite. */
 void figure_range(const figure_request *request, double *lo, double *hi);
 
-/** The next panel, with the given axis and a logarithmic one of eye depth over that range. */
+/** The next panel, with the given axis and one of eye depth over that range: logarithmic, or linear where it has depths
+ *  of 0 or less. */
 chart_panel *figure_panel(const figure_request *request, chart *out, chart_axis y);
 
 figure_build distribution_build, share_build, error_build, interval_build, budget_build, scene_build, map_build,

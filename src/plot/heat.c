@@ -8,7 +8,7 @@
 
 enum { BAR_STEPS = 256 };
 
-static bool has_holes(const chart_map *m) {
+bool heat_has_holes(const chart_map *m) {
     for (size_t i = 0; i < (size_t)m->columns * (size_t)m->rows; i++)
         if (isnan(m->value[i]))
             return true;
@@ -176,7 +176,7 @@ bool heat_draw(const pencil *p, const axes *a, const chart_panel *panel, const c
     boxes taken = {0};
     const double half = 8 * p->scale;
     const chart_map *m = &panel->map;
-    if (has_holes(m))
+    if (heat_has_holes(m))
         draw_hatch(p, a->frame);
     if (!draw_pixels(p, a->frame, m, c))
         return false;
@@ -206,7 +206,7 @@ uint32_t heat_direction(double x, double y, double z) {
 
 void heat_draw_ball(const pencil *p, canvas_rect area) {
     enum { SIDE = 128 };
-    static const char *const meanings[] = {"red: right", "green: up", "blue: to us"};
+    static const char *const meanings[] = {"red: right", "green: up", "blue: towards the camera"};
     uint32_t pixels[SIDE * SIDE];
     for (int i = 0; i < SIDE * SIDE; i++) {
         const double x = (i % SIDE + 0.5) * 2 / SIDE - 1, y = 1 - (i / SIDE + 0.5) * 2 / SIDE, rest = 1 - x * x - y * y;

@@ -20,9 +20,9 @@ static bool is_fp32(const figure_request *request, size_t i) {
 }
 
 /* The same set-ups, each with cells. Returns how many had none. */
-static size_t with_cells(const figure_request *request, dp_setup lattice[CHART_SERIES]) {
+static size_t with_cells(const figure_request *request, dp_setup lattice[CHART_SETUPS]) {
     size_t changed = 0;
-    for (size_t i = 0; i < request->count && i < CHART_SERIES; i++) {
+    for (size_t i = 0; i < request->count && i < CHART_SETUPS; i++) {
         dp_spec spec = request->setups[i].spec;
         lattice[i] = request->setups[i];
         if (!is_fp32(request, i))
@@ -63,7 +63,7 @@ static bool count_one(const dp_setup *setup, const chart_axis *x, census_result 
 
 /* A census of every set-up of the model fp32, when its depths are few enough; null: none of them has one. */
 static found *count_all(const figure_request *request, const chart_axis *x, chart *out) {
-    enum { SETUPS_MAX = CHART_SERIES / 3 }; /* three series each */
+    enum { SETUPS_MAX = 10 }; /* more points than that hide each other */
     const uint64_t visited = census_count(x->lo, x->hi);
     if (request->count > SETUPS_MAX || visited < 2 || visited > request->census)
         return NULL;
@@ -101,7 +101,7 @@ static void add_census(const figure_request *request, chart *out, chart_panel *p
 }
 
 const char *interval_build(const figure_request *request, chart *out) {
-    dp_setup lattice[CHART_SERIES];
+    dp_setup lattice[CHART_SETUPS];
     figure_request cells = *request;
     chart_axis y = {.scale = CHART_LOG, .label = "z-fighting interval", .key = "interval", .unit = "scene units"};
     cells.setups = lattice;

@@ -5,7 +5,7 @@
 
 #include "plot/axes.h"
 
-enum { LEGEND_MAX = CHART_SERIES, LEGEND_TEXT = 3 * CHART_TEXT };
+enum { LEGEND_MAX = CHART_SERIES, LEGEND_TEXT = 2 * CHART_TEXT };
 
 typedef struct legend {
     size_t count, columns, rows;

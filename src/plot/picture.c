@@ -130,3 +130,17 @@ void picture_build(const picture *in, chart *out) {
     for (int i = 0; i < panels; i++)
         add_panel(in, out, i);
 }
+
+void picture_mark(chart *out, size_t count, const double (*at)[2], const char *name) {
+    for (size_t i = 0; i < out->panel_count && count > 0; i++) {
+        chart_series *s = chart_add_series(out, &out->panels[i], CHART_POINTS, count);
+        if (s == NULL)
+            return;
+        s->style = (chart_style){.colour = -1, .stroke = 1, .marker = 2};
+        snprintf(s->name, sizeof s->name, "%s", name);
+        for (size_t k = 0; k < count; k++) {
+            s->x[k] = at[k][0];
+            s->y[k] = at[k][1];
+        }
+    }
+}

@@ -30,6 +30,9 @@ bool picture_open(picture *p, int most, chart *memory);
 /** Takes `count` rows of pixels from `row` on, each row once. */
 void picture_take(picture *p, uint32_t row, uint32_t count, const float *values);
 
+/** Marks places of the built chart, px from the left and upper edge, under a name for the legend. */
+void picture_mark(chart *out, size_t count, const double (*at)[2], const char *name);
+
 /** Fills in an empty chart whose title and subtitle are set. chart_failed() tells of memory. */
 void picture_build(const picture *in, chart *out);
 

@@ -29,8 +29,13 @@ static void draw_marker(const pencil *p, const chart_series *s, double x, double
 /* At even distances along the line, which need not have a point there. */
 static void draw_markers(const pencil *p, const axes *a, const chart_panel *panel, size_t index) {
     const chart_series *s = &panel->series[index];
-    double spacing = fmin(MARKER_SPACING * p->scale, a->frame.w / 3);
-    double next = a->frame.x + spacing * ((double)index + 0.5) / (double)panel->series_count;
+    double spacing = fmin(MARKER_SPACING * p->scale, a->frame.w / 3), before = 0, all = 0;
+    for (size_t k = 0; k < panel->series_count; k++)
+        if (panel->series[k].kind == CHART_LINE && panel->series[k].style.marker >= 0) {
+            before += k < index;
+            all++;
+        }
+    double next = a->frame.x + spacing * (before + 0.5) / all;
     for (size_t i = 1; i < s->count; i++) {
         double x0 = axes_x(a, s->x[i - 1]), y0 = axes_y(a, s->y[i - 1]);
         double x1 = axes_x(a, s->x[i]), y1 = axes_y(a, s->y[i]);

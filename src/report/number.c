@@ -165,6 +165,13 @@ number_text number_of(double value, int digits) {
     return out;
 }
 
+number_text number_in(number_text number, const char *unit) {
+    const size_t length = strlen(number.text);
+    if (unit != NULL && isfinite(strtod(number.text, NULL)) && strcmp(number.text, "-") != 0)
+        snprintf(number.text + length, sizeof number.text - length, " %s", unit);
+    return number;
+}
+
 static number_text bound_of(double value, int digits, bool upward) {
     const number_text out = number_of(value, digits);
     if (!isfinite(value) || value <= 0.0)

@@ -12,6 +12,7 @@ typedef struct page {
     output *out;
     int label;                         /**< characters that the labels of notes take */
     int width;                         /**< characters in a line: those of a terminal, else 80; output.width if set */
+    const char *unit;                  /**< of lengths, for number_in(); null where nothing says it */
     const char *strong, *soft, *plain; /**< bold and dim on a terminal; "" elsewhere, and where NO_COLOR is set */
 } page;
 

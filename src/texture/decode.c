@@ -196,7 +196,8 @@ double decode_exact(const dp_setup *setup, decode_quantity quantity, double d) {
     if (setup->curve == DP_CURVE_LINEAR && !setup->spec.ortho)
         return quantity == DECODE_EYE ? f * d : quantity == DECODE_01 ? d : fma(f, d, -n) / (f - n);
     if (setup->curve == DP_CURVE_LINEAR) {
-        const double z = n * near_hi + f * far_hi + (n * near_lo + f * far_lo);
+        const double sum = n * near_hi + f * far_hi + (n * near_lo + f * far_lo);
+        const double z = setup->astride ? dp_curve_eye(setup, dp_point_make(d, 1)) : sum; /* which cancels about 0 */
         return quantity == DECODE_EYE ? z : quantity == DECODE_01 ? z / f : far_hi + far_lo;
     }
     const double below = infinite ? near_hi + near_lo : f * near_hi + n * far_hi + (f * near_lo + n * far_lo);
@@ -218,12 +219,14 @@ double decode_bound(const decode_row *row, const dp_setup *setup, double d) {
         (2 + (c.form == DECODE_QUOTIENT ? 0 : q_off)) * (double)fabsf(c.scale) * (c.form == DECODE_QUOTIENT ? d : q) +
         (base_is_one ? 0 : (double)fabsf(c.base));
     double off;
+    if (exact == 0 && setup->astride)
+        return (double)INFINITY; /* a difference */
     if (exact == 0 || isinf(exact))
         return 0; /* a product with 0, or a quotient by 0 */
     if (c.form == DECODE_RECIPROCAL)
         off = big * exact + 2;
     else if (c.form == DECODE_AFFINE)
-        off = big / exact + 1;
+        off = big / fabs(exact) + 1;
     else if (c.form == DECODE_QUOTIENT)
         off = big * exact / q + 2 + q_off;
     else {

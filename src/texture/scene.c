@@ -76,10 +76,9 @@ static void steps_hit(const texture_camera *c, const double *p, double column, d
     face(c, step_depth(p, step), 1 + (int)step, out);
 }
 
-static bool steps_pair(const double *p, size_t index, double *front, double *back) {
+static bool steps_pair(const double *p, size_t index, scene_pair *out) {
     const double a = step_depth(p, (double)index), b = step_depth(p, (double)index + 1);
-    *front = fmin(a, b);
-    *back = fmax(a, b);
+    *out = (scene_pair){fmin(a, b), fmax(a, b), {((double)index + 1) / p[STEPS_COUNT], 0.5}};
     return (double)index + 1 < p[STEPS_COUNT];
 }
 
@@ -100,10 +99,11 @@ static void decals_hit(const texture_camera *c, const double *p, double column, 
         face(c, wall - p[DECALS_GAP], 2 + 2 * (int)index, out);
 }
 
-static bool decals_pair(const double *p, size_t index, double *front, double *back) {
-    *back = wall_depth(p, (double)index);
-    *front = *back - p[DECALS_GAP];
-    return (double)index < p[DECALS_COUNT] * p[DECALS_COUNT];
+static bool decals_pair(const double *p, size_t index, scene_pair *out) {
+    const double wall = wall_depth(p, (double)index), n = p[DECALS_COUNT];
+    *out = (scene_pair){
+        wall - p[DECALS_GAP], wall, {(fmod((double)index, n) + 0.5) / n, (floor((double)index / n) + 0.5) / n}};
+    return (double)index < n * n;
 }
 
 /* clang-format off */

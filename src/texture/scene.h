@@ -18,14 +18,20 @@ typedef struct scene_hit {
     int surface;      /**< 0 sky; pixels of different surfaces meet in a silhouette */
 } scene_hit;
 
+/** Two surfaces. */
+typedef struct scene_pair {
+    double front, back; /**< eye depths */
+    double at[2];       /**< where in the image they meet: shares of its width and height */
+} scene_pair;
+
 typedef struct scene_row {
     const char *name; /**< "plane", "sphere", "steps", "decals" */
     const char *note;
     /** The nearest hit at a pixel's centre (or between: column and row need not be whole). */
     void (*hit)(const texture_camera *camera, const double *parameters, double column, double row, scene_hit *out);
-    /** Pair `index` of surfaces, one behind the other, that a depth buffer should tell apart: their eye depths. Null
-     *  where a scene has none. @return false behind the last */
-    bool (*pair)(const double *parameters, size_t index, double *front, double *back);
+    /** Pair `index` of surfaces, one behind the other, that a depth buffer should tell apart. Null where a scene has
+     *  none. @return false behind the last */
+    bool (*pair)(const double *parameters, size_t index, scene_pair *out);
     texture_parameter parameters[TEXTURE_PARAMETERS + 1];
 } scene_row;
 

@@ -52,15 +52,31 @@ static size_t edges_between(double lo, double hi, const int *factors, size_t fac
     return count;
 }
 
+/* Depths of either sign: decades on both sides of 0, down to where they are small against the largest. */
+static size_t edges_about_0(double lo, double hi, double *edge) {
+    enum { DECADES = 5 };
+    const double most = fmax(fabs(lo), fabs(hi));
+    const int top = (int)floor(log10(most));
+    size_t count = 0;
+    for (int i = -DECADES; i <= DECADES; i++) {
+        const int power = top - DECADES + abs(i);
+        const double size = power < 0 ? 1 / pow(10, -power) : pow(10, power);
+        const double at = i < 0 ? -size : size;
+        if (i != 0 && at > lo && at < hi)
+            edge[count++] = at;
+    }
+    return count;
+}
+
 static void make_bands(surveying *s, double hi) {
     static const int factors[] = {1, 2, 5};
     const double lo = s->setup->spec.znear;
     bands *b = &s->bands;
     size_t fine = 3;
-    while (fine > 1 && edges_between(lo, hi, factors, fine, NULL) > SURVEY_BANDS - 1)
+    while (lo > 0 && fine > 1 && edges_between(lo, hi, factors, fine, NULL) > SURVEY_BANDS - 1)
         fine = 1;
     b->edge[0] = lo;
-    b->count = 1 + edges_between(lo, hi, factors, fine, b->edge + 1);
+    b->count = 1 + (lo > 0 ? edges_between(lo, hi, factors, fine, b->edge + 1) : edges_about_0(lo, hi, b->edge + 1));
     if (b->count > SURVEY_BANDS)
         b->count = SURVEY_BANDS;
     b->edge[b->count] = hi;
@@ -223,30 +239,50 @@ bool survey_make(const frame *f, survey *out) {
     return good;
 }
 
+/* Does the camera see the pair as a whole? */
+static bool is_seen(const dp_setup *setup, const scene_pair *pair) {
+    return pair->front >= setup->spec.znear && pair->back <= setup->spec.zfar;
+}
+
+static bool is_tie(const dp_setup *setup, const scene_pair *pair) {
+    return dp_code(setup, pair->front) == dp_code(setup, pair->back);
+}
+
 bool survey_pairs_make(const frame *f, survey_pairs *out) {
     const dp_setup *setup = &f->camera->setup;
-    double front, back;
+    scene_pair pair;
     *out = (survey_pairs){.first_tie = NAN, .certain_to = NAN};
     double first_possible = INFINITY, certain = NAN;
     if (f->scene == NULL || f->scene->pair == NULL)
         return false;
-    for (size_t i = 0; f->scene->pair(f->parameters, i, &front, &back); i++) {
-        if (!(front >= setup->spec.znear && back <= setup->spec.zfar))
+    for (size_t i = 0; f->scene->pair(f->parameters, i, &pair); i++) {
+        if (!is_seen(setup, &pair))
             continue;
-        const bool tie = dp_code(setup, front) == dp_code(setup, back);
+        const bool tie = is_tie(setup, &pair);
         /* Doubles near each other: their difference is exact, and so is the comparison. */
-        const bool possible = back - front < dp_separation(setup, front);
+        const bool possible = pair.back - pair.front < dp_separation(setup, pair.front);
         out->pairs++;
         out->ties += tie;
         out->possible += possible;
-        if (tie && !(front >= out->first_tie))
-            out->first_tie = front;
+        if (tie && !(pair.front >= out->first_tie))
+            out->first_tie = pair.front;
         if (possible)
-            first_possible = fmin(first_possible, front);
+            first_possible = fmin(first_possible, pair.front);
     }
-    for (size_t i = 0; f->scene->pair(f->parameters, i, &front, &back); i++)
-        if (front >= setup->spec.znear && back <= setup->spec.zfar && front < first_possible && !(front < certain))
-            certain = front;
+    for (size_t i = 0; f->scene->pair(f->parameters, i, &pair); i++)
+        if (is_seen(setup, &pair) && pair.front < first_possible && !(pair.front < certain))
+            certain = pair.front;
     out->certain_to = certain;
     return true;
+}
+
+size_t survey_ties(const frame *f, size_t most, double (*at)[2]) {
+    scene_pair pair;
+    size_t count = 0;
+    for (size_t i = 0; f->scene != NULL && f->scene->pair != NULL && f->scene->pair(f->parameters, i, &pair); i++)
+        if (is_seen(&f->camera->setup, &pair) && is_tie(&f->camera->setup, &pair) && count++ < most) {
+            at[count - 1][0] = pair.at[0] * f->camera->width;
+            at[count - 1][1] = pair.at[1] * f->camera->height;
+        }
+    return count;
 }

@@ -49,4 +49,7 @@ typedef struct survey_pairs {
 /** @return false when the scene has no pairs */
 bool survey_pairs_make(const frame *f, survey_pairs *out);
 
+/** Where the first `most` ties lie in the image, px from its left and upper edge. @return how many ties there are */
+size_t survey_ties(const frame *f, size_t most, double (*at)[2]);
+
 #endif

@@ -1,0 +1,49 @@
+#!/bin/sh
+# SPDX-License-Identifier: GPL-3.0-or-later
+# Builds Debian's source package and its three packages into build/deb, from the tree as it lies here with .ci/debian at
+# its top, and lets lintian judge them. Then they are unpacked, and the README's example is compiled against them.
+# DEB_BUILD_OPTIONS=nocheck is the default: the tests have run before; give another to run them in the package too.
+set -eu
+LC_ALL=C
+export LC_ALL
+
+: "${DEB_BUILD_OPTIONS:=nocheck}"
+export DEB_BUILD_OPTIONS
+unset MAKEFLAGS MFLAGS MAKELEVEL
+version=$(sed -n 's/^#define DP_VERSION *"\(.*\)"/\1/p' include/depthprec/depthprec.h)
+out=$PWD/build/deb
+tree=$out/depthprec-$version
+
+rm -rf "$out"
+mkdir -p "$tree"
+tar -c --exclude=./build --exclude=./.git --exclude=./shared . | tar -x -C "$tree"
+tar -cz -C "$out" -f "$out/depthprec_$version.orig.tar.gz" "depthprec-$version"
+cp -r .ci/debian "$tree/debian"
+{
+    echo "depthprec ($version-1~upstream) unstable; urgency=medium" # below the first revision that Debian itself may make
+    echo
+    echo "  * Version $version of upstream, whose history says what has changed."
+    echo
+    echo " -- $(sed -n 's/^Maintainer: //p' .ci/debian/control)  $(date -R -r include/depthprec/depthprec.h)"
+} >"$tree/debian/changelog"
+
+if ! (cd "$tree" && dpkg-buildpackage -us -uc -j"${JOBS:-$(nproc)}") >"$out/log" 2>&1; then
+    tail -n 30 "$out/log" >&2
+    echo "depthprec: dpkg-buildpackage failed, see $out/log" >&2
+    exit 1
+fi
+lintian --fail-on error,warning --allow-root "$out"/*.changes
+
+# ---- As an installed machine has them ----------------------------------------------------------------------------
+
+root=$out/root
+for package in "$out"/*.deb; do dpkg-deb -x "$package" "$root"; done
+libraries=$(dirname "$(find "$root/usr/lib" -name libdepthprec.so.0)")
+mkdir "$out/example"
+PKG_CONFIG_SYSROOT_DIR=$root PKG_CONFIG_LIBDIR=$libraries/pkgconfig PKG_CONFIG_ALLOW_SYSTEM_LIBS=1 \
+    PKG_CONFIG_ALLOW_SYSTEM_CFLAGS=1 LD_LIBRARY_PATH=$libraries sh tests/linked.sh "$out/example"
+"$root/usr/bin/depthprec" --version
+for page in man1/depthprec.1 man3/depthprec.3 man5/depthprec.5 man7/depthprec.7; do
+    gzip -cd "$root/usr/share/man/$page.gz" | cmp - "man/${page#*/}"
+done
+ls "$out"/*.deb "$out"/*.dsc

@@ -1,0 +1,213 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/*
+ * The comparison of several set-ups, and what is said of one: each number against the library. A distance is right when
+ * the separation is guaranteed over all depths up to it, and not over those up to one unit of its last digit farther.
+ */
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "printed.h"
+
+enum { LIMITS = 3, DEPTHS_MAX = 5, COLUMNS = 24, WORD = 48 };
+
+static const double limits[LIMITS] = {0.001, 0.01, 0.1};
+
+typedef struct camera {
+    const char *options;
+    double znear, zfar;
+    int ortho;
+    int depths; /* columns */
+    double z[DEPTHS_MAX];
+    size_t rows;
+} camera;
+
+static const camera cameras[] = {
+    {"", 0.1, 1000, 0, 5, {0.1, 1, 10, 100, 1000}, 8},
+    {"-n 0.3 -f 5000 -F d24,fp32,d16 -m gl,gl-reversed,log", 0.3, 5000, 0, 4, {1, 10, 100, 1000}, 9},
+    {"-n 0.01 -f inf -F all -m reversed,d3d --at 0.5,7,900", 0.01, INFINITY, 0, 3, {0.5, 7, 900}, 8},
+    {"--ortho -n 2 -f 700 -F unorm16,fp32 -m d3d", 2, 700, 1, 2, {10, 100}, 2},
+    {"-n 0.05 -f 2e7 -F d24,fp32 -m reversed", 0.05, 2e7, 0, 5, {0.1, 10, 1000, 1e5, 1e7}, 2},
+    {"-n 3 -f 5 -F d24,fp32 -m reversed", 3, 5, 0, 1, {5}, 2},
+};
+
+typedef struct words {
+    int count;
+    char word[COLUMNS][WORD];
+} words;
+
+static words split(const char *line) {
+    words w = {0};
+    const size_t length = strcspn(line, "\n");
+    for (size_t at = 0; at < length && w.count < COLUMNS;) {
+        at += strspn(line + at, " ");
+        const size_t size = strcspn(line + at, " \n");
+        if (size > 0 && at < length)
+            snprintf(w.word[w.count++], WORD, "%.*s", (int)size, line + at);
+        at += size;
+    }
+    return w;
+}
+
+static const char *next_line(const char *text) {
+    text += strcspn(text, "\n");
+    return text + (*text == '\n');
+}
+
+/* A unit of the last of so many significant digits. */
+static double unit_of(double value, int digits) {
+    return pow(10.0, floor(log10(fabs(value)) + 1e-12) - digits + 1);
+}
+
+static dp_setup full_setup(const camera *c, const char *format, const char *mapping) {
+    dp_spec spec = {.znear = c->znear, .zfar = c->zfar, .ortho = c->ortho, .log_c = 1};
+    dp_format formats[2];
+    dp_setup setup;
+    assert_int_equal(dp_format_parse(format, formats), 1);
+    spec.format = formats[0];
+    assert_int_equal(dp_mapping_parse(mapping, &spec.mapping), DP_OK);
+    spec.model = spec.mapping == DP_MAPPING_LOG ? DP_MODEL_STAGED : DP_MODEL_FP32;
+    assert_int_equal(dp_setup_init(&setup, &spec), DP_OK);
+    return setup;
+}
+
+/* Rounded up in the second digit: not below, and less than a unit above. */
+static void check_separation(tally *t, const dp_setup *setup, double z, const char *word) {
+    const double want = dp_separation(setup, z), got = strtod(word, NULL);
+    TALLY(t, isinf(want) ? strcmp(word, "inf") == 0 : got >= want && got <= want + unit_of(want, 2) * 1.001,
+          "%s at %g: printed %s, computed %.17g", setup->spec.format.name, z, word, want);
+}
+
+/* Is `limit` guaranteed at every depth up to z? */
+static bool holds(const dp_setup *setup, double z, double limit) {
+    dp_separation_worst w;
+    assert_int_equal(dp_separation_over(setup, setup->spec.znear, z, limit, &w), DP_OK);
+    return w.bound <= limit;
+}
+
+static void check_reach(tally *t, const dp_setup *setup, double limit, const char *word) {
+    const double z = strcmp(word, "far") == 0 ? setup->spec.zfar : strtod(word, NULL);
+    const double more = isfinite(z) ? z + 2.0 * unit_of(z, 3) : z;
+    if (strcmp(word, "-") == 0) {
+        TALLY(t, dp_separation(setup, setup->spec.znear) > limit, "%s: %g holds at near", setup->spec.format.name,
+              limit);
+        return;
+    }
+    TALLY(t, z >= setup->spec.znear * 0.99 && holds(setup, fmax(z, setup->spec.znear), limit),
+          "%s %d: %g does not hold up to %s", setup->spec.format.name, setup->spec.mapping, limit, word);
+    TALLY(t, z >= setup->spec.zfar * 0.99 || !holds(setup, fmin(more, setup->spec.zfar), limit),
+          "%s %d: %g holds beyond %s", setup->spec.format.name, setup->spec.mapping, limit, word);
+}
+
+static void check_row(tally *t, const camera *c, const words *w, double before) {
+    const dp_setup setup = full_setup(c, w->word[0], w->word[1]);
+    const int first = w->count - 1 - LIMITS - c->depths;
+    TALLY(t, first == 2, "%s %s: %d words", w->word[0], w->word[1], w->count);
+    if (first != 2)
+        return;
+    for (int i = 0; i < c->depths; i++)
+        check_separation(t, &setup, c->z[i], w->word[first + i]);
+    for (int i = 0; i < LIMITS; i++)
+        check_reach(t, &setup, limits[i], w->word[first + c->depths + i]);
+    TALLY(t, strtod(w->word[first + c->depths + 1], NULL) <= before, "%s %s stands behind a worse one", w->word[0],
+          w->word[1]);
+    TALLY(t, atoi(w->word[w->count - 1]) == (setup.spec.format.bits > 16 ? 4 : 2), "%s: bytes", w->word[0]);
+}
+
+static void check_titles(tally *t, const camera *c, const words *w) {
+    for (int i = 0; i < c->depths; i++)
+        TALLY(t, strtod(w->word[i], NULL) == c->z[i], "title %s is not %g", w->word[i], c->z[i]);
+    for (int i = 0; i < LIMITS; i++)
+        TALLY(t, strtod(w->word[c->depths + i], NULL) == limits[i], "title %s", w->word[c->depths + i]);
+}
+
+/* "fp32 d3d from 121 to 1000" and the like say again what the rows say: the words are in the table. */
+static void check_verdicts(tally *t, const camera *c, const char *text, const char *rows) {
+    const words best = split(rows);
+    const char *reach = best.word[2 + c->depths + 1];
+    const bool to_far = strtod(reach, NULL) >= c->zfar * 0.99;
+    char want[128];
+    snprintf(want, sizeof want, "%s %s", best.word[0], best.word[1]);
+    TALLY(t, strncmp(text, want, strlen(want)) == 0 || strstr(text, want) != NULL, "the best is %s: %s", want, text);
+    if (to_far)
+        snprintf(want, sizeof want, "apart all the way to the far plane.");
+    else
+        snprintf(want, sizeof want, "apart up to z = %s.", reach);
+    char flat[2048];
+    size_t used = 0;
+    for (const char *at = text; *at != '\0' && used + 1 < sizeof flat; at++)
+        if (*at != '\n' || at[1] != ' ')
+            flat[used++] = *at == '\n' ? '|' : *at;
+        else {
+            flat[used++] = ' ';
+            at += 2;
+        }
+    flat[used] = '\0';
+    TALLY(t, strstr(flat, want) != NULL, "'%s' is not said: %s", want, flat);
+}
+
+static void test_comparison(void **state) {
+    tally t = {.name = "comparison"};
+    (void)state;
+    for (size_t i = 0; i < sizeof cameras / sizeof cameras[0]; i++) {
+        const camera *c = &cameras[i];
+        printed p = print_of("table %s", c->options);
+        assert_int_equal(p.status, 0);
+        const char *line = next_line(next_line(p.out));
+        const words titles = split(line);
+        check_titles(&t, c, &titles);
+        const char *rows = line = next_line(line);
+        double before = HUGE_VAL;
+        size_t count = 0;
+        for (; *line != '\n' && *line != '\0'; line = next_line(line), count++) {
+            const words w = split(line);
+            check_row(&t, c, &w, before);
+            before = fmin(before, strtod(w.word[2 + c->depths + 1], NULL));
+        }
+        TALLY(&t, count == c->rows, "%s: %zu rows, not %zu", c->options, count, c->rows);
+        check_verdicts(&t, c, next_line(line), rows);
+        int lines = 0;
+        for (line = p.out; *line != '\0'; line = next_line(line), lines++)
+            TALLY(&t, strcspn(line, "\n") <= 80, "wider than 80: %.*s", (int)strcspn(line, "\n"), line);
+        TALLY(&t, lines <= 40, "%d lines", lines);
+        printed_free(&p);
+    }
+    tally_end(&t);
+}
+
+/* "Guaranteed to be told apart: surfaces 0.001 apart up to z = 31.9, ...": of one set-up. */
+static void test_one(void **state) {
+    static const camera one[] = {{"-F unorm24 -m d3d", 0.1, 1000, 0, 0, {0}, 1},
+                                 {"-F fp32 -m reversed -f inf", 0.1, INFINITY, 0, 0, {0}, 1},
+                                 {"-F unorm16 -m d3d -n 10 -f 1e5", 10, 1e5, 0, 0, {0}, 1},
+                                 {"-F fp32 -m reversed", 0.1, 1000, 0, 0, {0}, 1}};
+    tally t = {.name = "one"};
+    (void)state;
+    for (size_t i = 0; i < sizeof one / sizeof one[0]; i++) {
+        printed p = print_of("table --full %s", one[i].options);
+        words heading = split(p.out);
+        const dp_setup setup = full_setup(&one[i], heading.word[0], strtok(heading.word[1], ","));
+        const char *line = next_line(p.out);
+        for (int k = 0; k < LIMITS; k++) {
+            char begin[64], word[WORD] = "-";
+            snprintf(begin, sizeof begin, "%g apart up to ", limits[k]);
+            const char *at = strstr(line, begin);
+            if (at != NULL && at < next_line(line)) {
+                at += strlen(begin);
+                at += strncmp(at, "z = ", 4) == 0 ? 4 : 0;
+                snprintf(word, sizeof word, "%.*s", (int)strcspn(at, ",\n"), at);
+                if (word[0] != 't' && word[strlen(word) - 1] == '.')
+                    word[strlen(word) - 1] = '\0';
+            }
+            check_reach(&t, &setup, limits[k], strncmp(word, "the far plane", 13) == 0 ? "far" : word);
+        }
+        printed_free(&p);
+    }
+    tally_end(&t);
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {cmocka_unit_test(test_comparison), cmocka_unit_test(test_one)};
+    return run_tap(tests);
+}
