@@ -26,6 +26,8 @@ static const name_list effects = {.get = list_effect};
 static const name_list targets = {
     .words = (const char *const[]){"near", "far", "format", "mapping", "separation", "distance", NULL}};
 static const name_list themes = {.words = (const char *const[]){"light", "dark", "print", NULL}};
+static const name_list types = {.words = (const char *const[]){"svg", "pdf", "png", NULL}};
+static const name_list colours = {.words = (const char *const[]){"auto", "always", "never", NULL}};
 static const name_list reports = {.words = (const char *const[]){"text", "json", "junit", NULL}};
 
 /* Which commands take what. */
@@ -202,8 +204,11 @@ const option_row option_rows[OPTION_COUNT] = {
         "the error of the product in place of the product", FLAG(error_map)},
     [OPTION_FIGURE] = {"figure", 0, "FILE", VERB_TEXTURE,
         "draw the product: SVG, PDF or PNG", FILE_NAME(figure)},
+    [OPTION_TYPE] = {"type", 0, NULL, DRAWN,
+        "what kind of figure, where it goes to stdout or its file's name does not say it", WORD(type, types),
+        .standard = "svg", .group = "The figure"},
     [OPTION_THEME] = {"theme", 0, NULL, DRAWN,
-        "colours of the figure", WORD(theme, themes), .standard = "light", .group = "The figure"},
+        "colours of the figure", WORD(theme, themes), .standard = "light"},
     [OPTION_WIDTH] = {"width", 0, "PX", DRAWN,
         "width of the figure", WHOLE(width, DRAW_WIDTH_MIN, DRAW_SIZE_MAX, "pixels"), .without = "as suits it"},
     [OPTION_HEIGHT] = {"height", 0, "PX", DRAWN,
@@ -225,6 +230,9 @@ const option_row option_rows[OPTION_COUNT] = {
         "say more: the cell around each depth", FLAG(verbose)},
     [OPTION_FULL] = {"full", 0, NULL, WRITTEN,
         "all columns, however wide; and a table for each set-up in place of a comparison", FLAG(full)},
+    [OPTION_COLOR] = {"color", 0, NULL, WRITTEN,
+        "dress headings and verdicts of text; auto does so on a terminal where NO_COLOR is not set",
+        WORD(colour, colours), .standard = "auto"},
     [OPTION_HELP] = {"help", 'h', NULL, (unsigned)EVERY,
         "this help", .parse = NULL},
     [OPTION_VERSION] = {"version", 'V', NULL, (unsigned)EVERY,
