@@ -585,7 +585,7 @@ static void test_flags(void **state) {
                  {"texture", OPTION_RADIAL, WORD_AT(radial)},
                  {"texture", OPTION_ERROR_MAP, WORD_AT(error_map)},
                  {"list", OPTION_QUIET, WORD_AT(quiet)},
-                 {"list", OPTION_VERBOSE, WORD_AT(verbose)},
+                 {"table", OPTION_VERBOSE, WORD_AT(verbose)},
                  {"list", OPTION_FULL, WORD_AT(full)},
                  {"list", OPTION_VERSION, WORD_AT(version)}};
     static const char zeros[8];
