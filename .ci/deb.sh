@@ -20,7 +20,7 @@ tar -c --exclude=./build --exclude=./.git --exclude=./shared . | tar -x -C "$tre
 tar -cz -C "$out" -f "$out/depthprec_$version.orig.tar.gz" "depthprec-$version"
 cp -r .ci/debian "$tree/debian"
 {
-    echo "depthprec ($version-1) unstable; urgency=medium"
+    echo "depthprec ($version-1~upstream) unstable; urgency=medium" # below the first revision that Debian itself may make
     echo
     echo "  * Version $version of upstream, whose history says what has changed."
     echo

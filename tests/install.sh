@@ -96,6 +96,13 @@ check "make install where no loader looks" install_own
 check "it says so, and what to do" says_how
 check "the README's example runs with what was installed" example
 
+lacking() { # without the libraries `make` names them, and the command
+    ! PKG_CONFIG_LIBDIR=$scratch make --no-print-directory B="$scratch/none" >"$scratch/said" 2>&1 || return
+    cat "$scratch/said"
+    grep -q 'depthprec: missing: .*gsl.*install' "$scratch/said" || grep -q 'depthprec: .*missing .*gsl' "$scratch/said"
+}
+check "without the libraries make names them and the command" lacking
+
 check "make uninstall" install_to uninstall
 nothing_left() { [ -d "$stage" ] && empty find "$stage" ! -type d; }
 check "nothing is left" nothing_left

@@ -517,6 +517,31 @@ static void test_impossible(void **state) {
     assert_true(worst == 2.5);
 }
 
+/* An orthographic bias is as long everywhere, on both sides of 0, and ends at a plane behind the camera. */
+static void test_either_sign(void **state) {
+    static const double depths[] = {-99.0, -1.0, 0.0, 1.0, 400.0};
+    const bias_state three = {.api = called("d3d11"), .units = -3.0};
+    const bias_goal goal = {.api = called("d3d11"), .gap = 0.5};
+    dp_spec spec = dp_spec_default();
+    dp_setup setup;
+    (void)state;
+    spec.ortho = 1;
+    spec.znear = -100.0;
+    spec.zfar = 500.0;
+    spec.format = format_of("unorm16");
+    assert_int_equal(dp_setup_init(&setup, &spec), DP_OK);
+    const double unit = (double)(float)(1.0 / 65535.0) * 600.0; /* r is code 1 in binary32 */
+    for (size_t i = 0; i < sizeof depths / sizeof depths[0]; i++) {
+        const bias_effect e = bias_at(&setup, &three, 0.0, depths[i]);
+        assert_relative(e.shift, -3.0 * unit, 1e-14);
+        assert_scene(e.to, depths[i] - 3.0 * unit, 1e-12);
+        const double units = bias_needed(&setup, &goal, depths[i]);
+        assert_true(units * unit >= 0.5 && (units - 1.0) * unit < 0.5);
+    }
+    const bias_effect at_near = bias_at(&setup, &three, 0.0, -100.0);
+    assert_true(at_near.limited && at_near.to == -100.0);
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_webgpu_rows),
@@ -534,6 +559,7 @@ int main(void) {
         cmocka_unit_test(test_sampled_apart),
         cmocka_unit_test(test_longest_cells),
         cmocka_unit_test(test_impossible),
+        cmocka_unit_test(test_either_sign),
     };
     return run_tap(tests);
 }

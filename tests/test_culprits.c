@@ -53,7 +53,7 @@ static const refusal refusals[] = {
     {"table --ortho -n -5 -f 1e-13", "far", 2},
     {"table --ortho -n -5 -f 5 --at -1:5:log:3", "at", 2},
     {"zfight --ortho -n -5 -f 5", "range", 2},
-    {"plot interval --ortho -n 0 -f 5 -o x.svg", "near", 2},
+    {"plot map --ortho -n 0 -f 5 -o x.svg", "near", 2},
     {"texture --ortho -n -5 -f 5 --effect fog", "effect", 2},
     {"solve --ortho -n -5 -f 5 --for near --separation 1 --at 2", "for", 2},
     {"solve --ortho -f 5 --for near --separation 1 --at -2", "at", 2},

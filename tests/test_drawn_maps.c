@@ -213,8 +213,10 @@ static void check_words(const drawn *d, const map_case *q, const cameras *c) {
     snprintf(subtitle, sizeof subtitle, "%s%snear 0.1, far %g, perspective, nearest, exact%s",
              c->count == 1 ? c->names[0] : "", c->count == 1 ? ", " : "", q->zfar,
              isnan(q->lo)     ? ""
-             : q->lo == q->hi ? ", at depth 100"
-                              : ", depths 1 to 100");
+             : q->lo == q->hi ? ", at depth 100. Hatched: does not see that depth"
+                              : ", depths 1 to 100. Hatched: does not see those depths");
+    if (isinf(q->zfar))
+        strcat(subtitle, ". Hatched: far is not behind near");
     assert_string_equal(d->subtitle, subtitle);
     assert_string_equal(d->title, q->lo != q->hi ? "Worst z-fighting interval for each near and far plane"
                                                  : "Z-fighting interval at depth 100 for each near and far plane");

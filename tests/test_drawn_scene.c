@@ -220,6 +220,30 @@ static void scene_of_requirements(void **state) {
     drawn_close(d);
 }
 
+/* Of part of the depths: what is asked about others is not there; what reaches beyond them is named at the end. */
+static void scene_in_part(void **state) {
+    (void)state;
+    char path[320];
+    snprintf(path, sizeof path, "%s/street.need", drawn_folder());
+    write_needs(path);
+    drawn *d = drawn_run(&drawn_light, "plot scene %s --range 0.4:100", path);
+    const svg_box page = {0, 0, d->svg->width, d->svg->height};
+    const drawn_panel *p = &d->panels[0];
+    assert_px(drawn_px(&p->x, 0.4), p->frame.x0, 1.5);
+    assert_px(drawn_px(&p->x, 100), p->frame.x1, 1.5);
+    drawn_label(d, p, (svg_point){drawn_px(&p->x, 20), drawn_px(&p->y, 1e-3), false}, "kerb");
+    drawn_label(d, p, (svg_point){p->frame.x1, drawn_px(&p->y, 2e-2), false}, "paint");
+    assert_null(drawn_words(d, page, "tower"));
+    for (size_t i = 0; i < NEEDS; i++) {
+        drawn_marker all[32];
+        const size_t count = drawn_markers(d, &d->panels[needs[i].camera], all, 32);
+        for (size_t k = 0; k < count; k++)
+            assert_true(all[k].x < d->panels[needs[i].camera].frame.x1 + 1);
+    }
+    svg_free(d->svg); /* the other names are looked at above */
+    free(d);
+}
+
 /* ---- Normals ----------------------------------------------------------------------------------------------------- */
 
 /* Told apart by more than their curves are thick: each surface, method and set-up has its own height and slope. */
@@ -373,9 +397,8 @@ static void normals_by_default(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(scene_of_requirements),
-        cmocka_unit_test(normals_of_the_test),
-        cmocka_unit_test(normals_of_the_program),
+        cmocka_unit_test(scene_of_requirements), cmocka_unit_test(scene_in_part),
+        cmocka_unit_test(normals_of_the_test),   cmocka_unit_test(normals_of_the_program),
         cmocka_unit_test(normals_by_default),
     };
     return run_tap(tests);

@@ -142,8 +142,12 @@ enum { PICTURES = sizeof pictures / sizeof pictures[0] };
 
 static void draw(rng *r, const camera *c, int picture, double z[PIXELS]) {
     const double n = (double)c->n, f = isinf((double)c->f) ? n * 1e5 : (double)c->f;
-    const double one = rng_log(r, n, f);
+    const double one = n > 0 ? rng_log(r, n, f) : rng_depth(r, n, f);
     for (int i = 0; i < PIXELS; i++) {
+        if (n <= 0) {
+            z[i] = picture == 2 ? one : rng_depth(r, n, f);
+            continue;
+        }
         const double ramp = n + (f - n) * (i % WIDTH) / (WIDTH - 1);
         z[i] = picture == 0   ? rng_log(r, n, fmin(1.3 * n, f))
                : picture == 1 ? rng_uniform(r, n + 0.3 * (f - n), f)
@@ -219,8 +223,20 @@ static void widen(const float *from, double *to) {
         to[i] = (double)from[i];
 }
 
-static void one_image(tally *t, rng *r, const file_kind *k, used *u) {
-    const camera c = draw_camera(r, k->buffer);
+/* An orthographic camera that begins at its place or behind it. */
+static camera draw_camera_signed(rng *r, const char *format) {
+    camera c = draw_camera(r, format);
+    double n, f;
+    rng_planes(r, &n, &f);
+    c.n = (real)n;
+    c.f = (real)f;
+    c.ortho = 1;
+    c.mapping = rng_below(r, 2) ? "d3d" : "reversed";
+    return c;
+}
+
+static void one_image(tally *t, rng *r, const file_kind *k, bool either_sign, used *u) {
+    const camera c = either_sign ? draw_camera_signed(r, k->buffer) : draw_camera(r, k->buffer);
     const int picture = (int)rng_below(r, PICTURES), mode = (int)rng_below(r, 2);
     /* What is not said is taken to be finer than the file: binary16 of 16 bits is not. */
     const bool given = rng_below(r, 2) == 0 || k->whole || (k->type == IMAGE_F16 && quantum(c.format) == 65535);
@@ -277,13 +293,25 @@ static void eye_depth_is_within_what_is_said(void **state) {
     used all[KINDS] = {{0}};
     for (uint64_t i = 0; i < rounds; i++)
         for (size_t k = 0; k < KINDS; k++)
-            one_image(&t, &r, &kinds[k], &all[k]);
+            one_image(&t, &r, &kinds[k], false, &all[k]);
     for (size_t k = 0; k < KINDS; k++) {
         print_message("# %s: %.3f of the bound is used, %llu pixels, %llu masked\n", kinds[k].name, all[k].most,
                       (unsigned long long)all[k].pixels, (unsigned long long)all[k].masked);
         if (rounds >= 12 && !(all[k].most > 0.4))
             fail_msg("%s: the bound is loose", kinds[k].name);
     }
+    tally_end(&t);
+}
+
+static void depths_of_either_sign_too(void **state) {
+    (void)state;
+    tally t = {.name = "eye depth of either sign"};
+    rng r = rng_make("image truth, either sign");
+    used all = {0};
+    for (uint64_t i = test_cases(1, 4, 400); i > 0; i--)
+        for (size_t k = 0; k < KINDS; k++)
+            one_image(&t, &r, &kinds[k], true, &all);
+    assert_true(all.pixels > 0 && all.most > 0.4);
     tally_end(&t);
 }
 
@@ -432,6 +460,7 @@ static void products_are_within_what_is_said(void **state) {
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(eye_depth_is_within_what_is_said),
+        cmocka_unit_test(depths_of_either_sign_too),
         cmocka_unit_test(products_are_within_what_is_said),
     };
     cmocka_set_message_output(CM_OUTPUT_TAP);

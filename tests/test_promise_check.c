@@ -95,9 +95,9 @@ static bool draw_range(rng *r, asked *a) {
     const promise_range range = promise_range_of(&a->setup);
     a->lo = promise_place(r, &p, &range);
     const double s = promise_bound(&a->setup, a->lo);
-    const double least = a->lo + 3.0 * fmax(s, 16.0 * (promise_depth(promise_bits(a->lo) + 1) - a->lo));
+    const double least = a->lo + 3.0 * fmax(s, 16.0 * (promise_depth(promise_rank(a->lo) + 1) - a->lo));
     a->hi = fmin(range.zfar, least * (1.0 + rng_log(r, 1e-6, 1e-2)));
-    return a->hi > a->lo && promise_bits(a->hi) - promise_bits(a->lo) < DEPTHS_MAX;
+    return a->hi > a->lo && promise_rank(a->hi) - promise_rank(a->lo) < DEPTHS_MAX;
 }
 
 static asked draw(rng *r) {
@@ -161,7 +161,7 @@ static void a_single_depth(void **state) {
             z2 = a.lo + gap * (1.0 + (k < 2 ? 0.0 : rng_log(&r, 1e-9, 1.0)));
             while (!promise_beyond(a.lo, gap, z2))
                 z2 = nextafter(z2, HUGE_VAL);
-            in_order = z2 > range.zfar || promise_key(&p, promise_bits(a.lo)) < promise_key(&p, promise_bits(z2));
+            in_order = z2 > range.zfar || promise_key(&p, promise_rank(a.lo)) < promise_key(&p, promise_rank(z2));
         }
         TALLY(&depths, in_order, "%.17g and %.17g: %s", a.lo, z2, text);
     }

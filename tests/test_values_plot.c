@@ -148,7 +148,8 @@ static void test_map(void **state) {
     check_axis(root, "value", "interval", "worst z-fighting interval", "scene units", "log");
     assert_string_equal(text_in(root, "figure"), "map");
     assert_string_equal(text_in(root, "title"), "a \"quoted\" ti\\tle");
-    assert_string_equal(text_in(root, "subtitle"), "unorm16 d3d, near 0.5, far 300, perspective, nearest, exact");
+    assert_string_equal(text_in(root, "subtitle"),
+                        "unorm16 d3d, near 0.5, far 300, perspective, nearest, exact. Hatched: far is not behind near");
     assert_string_equal(text_in(map, "name"), "map");
     assert_string_equal(text_in(camera, "name"), "camera");
     assert_true(number_in(at(camera, "points", 0), "near") == 0.5 && number_in(at(camera, "points", 0), "far") == 300);

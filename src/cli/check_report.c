@@ -31,9 +31,13 @@ static const char *sentence(const check_file *f, const check_verdict *v, char ou
     const need_kind_row *kind = need_kind_get(v->asked->kind);
     out[0] = '\0';
     put(out, kind->phrase, f, v->value, kind->is_length, true);
-    if (!isnan(v->z))
+    if (!kind->is_length) { /* of a range, not of a depth */
+        put(out, " from", f, v->asked->lo, true, false);
+        put(out, " to", f, v->asked->hi, true, false);
+    } else if (!isnan(v->z)) {
         put(out, " at", f, v->z, true, false);
-    if (has_code(v))
+    }
+    if (kind->is_length && has_code(v))
         append(out, SENTENCE_SIZE, " (code %u)", v->code);
     put(out, ", allowed", f, v->asked->limit, kind->is_length, false);
     return out;
@@ -49,7 +53,8 @@ static void write_text(const options *o, output *out, const check_file *files, s
                 continue;
             page_text(&p, "%s  %s:%d: %s: camera %s, %s (%s): %s", v->passed ? "pass" : "FAIL", f->file.path,
                       v->asked->line, v->asked->name, v->camera->name, setup_label(&v->setup, false, label),
-                      dp_model_name(v->setup.spec.model), sentence(f, v, text));
+                      v->setup.spec.model == DP_MODEL_FP32 ? "float" : dp_model_name(v->setup.spec.model),
+                      sentence(f, v, text));
             if (o->verbose)
                 page_line(&p, "    decided by %s: %s", check_method_name(v->method),
                           setup_label(&v->setup, true, label));

@@ -35,10 +35,14 @@ static void list_commands(output *out) {
 
 enum { DESCRIPTION_SIZE = 1024 };
 
-/* "default D: what that means", of one command where it is named. */
-static void add_default(const char *of, const char *standard, const char *without, char out[DESCRIPTION_SIZE]) {
+/* "default D: what that means", or "default of solve D, else what holds". */
+static void add_default(const char *of, const char *standard, const char *without, bool excepted,
+                        char out[DESCRIPTION_SIZE]) {
     append(out, DESCRIPTION_SIZE, "default%s%s%s%s%s", *of != '\0' ? " of " : "", of, standard != NULL ? " " : "",
-           standard != NULL ? standard : "", without != NULL ? ": " : "");
+           standard != NULL ? standard : "",
+           without == NULL                ? ""
+           : standard != NULL && excepted ? ", "
+                                          : ": ");
     append(out, DESCRIPTION_SIZE, "%s", without != NULL ? without : "");
 }
 
@@ -51,7 +55,7 @@ static void add_exception(const struct option_exception *e, char out[DESCRIPTION
     if (e->help != NULL)
         append(out, DESCRIPTION_SIZE, "%s: %s%s", takers, e->help, has_default ? ", " : "");
     if (has_default)
-        add_default(e->help != NULL ? "" : takers, e->standard, e->without, out);
+        add_default(e->help != NULL ? "" : takers, e->standard, e->without, true, out);
 }
 
 /* "what it does (LEAST to MOST UNIT; default D: what that means)" for a command; for all of them, those with another
@@ -72,7 +76,7 @@ static const char *describe(const verb *v, const option_row *row, char out[DESCR
         append(out, DESCRIPTION_SIZE, " (%s", option_limits(row, text));
     if (standard != NULL || without != NULL) {
         append(out, DESCRIPTION_SIZE, limited ? "; " : " (");
-        add_default("", standard, without, out);
+        add_default("", standard, without, other != NULL, out);
     }
     if (limited || standard != NULL || without != NULL)
         append(out, DESCRIPTION_SIZE, ")");

@@ -115,15 +115,15 @@ const option_row option_rows[OPTION_COUNT] = {
         "cheapest method that claims no more is taken, or marked in a list", parse_tolerance, .standard = "5%",
         .except = {BUT(VERB_TABLE | VERB_PLOT, NULL, "5% for the model; intervals are exact", NULL),
                    BUT(VERB_BENCH, NULL, "none", "the cheapest method that claims no more than 0.05, or 5%, is marked"),
-                   BUT(VERB_LIST, NULL, NULL, "list methods: the cases for which each is the cheapest that claims no more "
-                       "than 0.05, or 5%")}},
+                   BUT(VERB_LIST, NULL, NULL, "list methods: the cases for which each is the cheapest that claims no "
+                       "more than 0.05, or 5%")}},
     [OPTION_AT] = {"at", 0, "Z[,Z...]|LO:HI:log|lin:COUNT", ASKED | TAKEN,
         "the depths asked about, at most 1000000, within [near, far]", parse_at,
         .without = "nine, log-spaced from near to far, or to 1e6 near",
         .except = {BUT(VERB_SOLVE, NULL, NULL, "the depth asked about"),
                    BUT(VERB_PLOT, NULL, NULL, "the depth asked about, in figures of a single one"),
-                   BUT(VERB_TABLE, NULL, "nine, log-spaced from near to far, or to 1e6 near; of several set-ups powers of "
-                       "ten", NULL)},
+                   BUT(VERB_TABLE, NULL, "nine, log-spaced from near to far, or to 1e6 near; of several set-ups powers "
+                       "of ten", NULL)},
         .group = "The depths"},
     [OPTION_RANGE] = {"range", 0, "LO:HI", MODELLED | VERB_ZFIGHT | VERB_BIAS | VERB_SOLVE,
         "the depths that worst cases are taken over", parse_range, .without = "near to far",
@@ -245,8 +245,8 @@ const option_row option_rows[OPTION_COUNT] = {
         "write to FILE when all is done; - is stdout", FILE_NAME(output), .without = "stdout",
         .except = {BUT(VERB_PLOT, NULL, NULL, "draw to FILE: SVG, PDF or PNG by its ending; with --json or --csv the "
                        "numbers go there, or to stdout"),
-                   BUT(VERB_TEXTURE, NULL, "stdout", "write the product to FILE: PNG, PFM or NPY by its ending; else what "
-                       "is printed")}},
+                   BUT(VERB_TEXTURE, NULL, "stdout", "write the product to FILE: PNG, PFM or NPY by its ending; else "
+                       "what is printed")}},
     [OPTION_QUIET] = {"quiet", 'q', NULL, WRITTEN,
         "no messages and no progress, only data and errors", FLAG(quiet),
         .except = {BUT(VERB_CHECK, NULL, NULL, "say only what fails")}},

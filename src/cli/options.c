@@ -189,9 +189,7 @@ static int complete(options *o) {
     return EXIT_FINE;
 }
 
-/* The commands that have been taught what lies at depth 0 and behind it. */
-enum { ANY_SIGN = VERB_TABLE | VERB_BUDGET | VERB_SOLVE | VERB_ZFIGHT | VERB_TEXTURE | VERB_PLOT };
-
+/* An orthographic camera may begin at its place or behind it. */
 static int check_near(const options *o) {
     const option_row *row = &option_rows[OPTION_NEAR];
     const number_text given = number_full(o->znear);
@@ -203,8 +201,6 @@ static int check_near(const options *o) {
     if (o->znear != 0.0 && !(-o->znear >= row->least && -o->znear <= row->most))
         return option_error(OPTION_NEAR, "must be 0, or a number from %s or its negative, got '%s'",
                             option_limits(row, limits), given.text);
-    if ((o->verb->bit & ANY_SIGN) == 0)
-        return option_error(OPTION_NEAR, "must be greater than 0 for %s, got '%s'", o->verb->name, given.text);
     if (o->effect != NULL && o->znear < 0.0)
         return option_error(OPTION_EFFECT, "needs near not less than 0, got '%s'", given.text);
     return EXIT_FINE;

@@ -8,7 +8,7 @@
 
 enum { BAR_STEPS = 256 };
 
-static bool has_holes(const chart_map *m) {
+bool heat_has_holes(const chart_map *m) {
     for (size_t i = 0; i < (size_t)m->columns * (size_t)m->rows; i++)
         if (isnan(m->value[i]))
             return true;
@@ -176,7 +176,7 @@ bool heat_draw(const pencil *p, const axes *a, const chart_panel *panel, const c
     boxes taken = {0};
     const double half = 8 * p->scale;
     const chart_map *m = &panel->map;
-    if (has_holes(m))
+    if (heat_has_holes(m))
         draw_hatch(p, a->frame);
     if (!draw_pixels(p, a->frame, m, c))
         return false;

@@ -8,6 +8,9 @@
 /** The map of a panel within its frame; contour labels keep clear of its points. @return false when out of memory */
 bool heat_draw(const pencil *p, const axes *a, const chart_panel *panel, const chart *c);
 
+/** Has a map a field without a value, which is hatched? */
+bool heat_has_holes(const chart_map *m);
+
 /** 0xRRGGBB of a direction, a unit vector of view space: x red, y green, towards the camera blue. */
 uint32_t heat_direction(double x, double y, double z);
 

@@ -2,7 +2,9 @@
 #include <math.h>
 #include <stdio.h>
 
+#include "core/append.h"
 #include "plot/envelope.h"
+#include "plot/heat.h"
 
 /* Set-ups computed for the whole figure, shared between its panels. */
 enum { GRID_COLUMNS = 400, GRID_ROWS = 300 };
@@ -91,6 +93,11 @@ const char *map_build(const figure_request *request, chart *out) {
     out->contours = true;
     for (size_t i = 0; i < request->count; i++)
         add_panel(request, out, i, 1 / sqrt((double)request->count));
+    if (heat_has_holes(&out->panels[0].map))
+        append(out->subtitle, sizeof out->subtitle, ". Hatched: %s",
+               !isnan(request->at)   ? "does not see that depth"
+               : !isnan(request->lo) ? "does not see those depths"
+                                     : "far is not behind near");
     chart_fit(out);
     return NULL;
 }

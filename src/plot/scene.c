@@ -122,7 +122,7 @@ static void add_needs(const scene *s, chart *out, chart_panel *panel, const chec
         const need *n = v->asked;
         if (!same_setup(first, v) || v->passed != passed)
             continue;
-        const double hi = fmin(n->hi, panel->x.hi);
+        const double hi = fmax(fmin(n->hi, panel->x.hi), n->lo); /* behind the panel's end where all of it is */
         memcpy(&levels->x[2 * k], (double[]){n->lo, hi}, 2 * sizeof hi);
         memcpy(&levels->y[2 * k], (double[]){n->limit, n->limit}, 2 * sizeof hi);
         points->x[k] = fmin(isfinite(v->z) ? v->z : hi, hi);
