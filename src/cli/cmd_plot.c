@@ -211,10 +211,10 @@ static void say_evaluations(const figure_row *row, const chart *c) {
         fields += (size_t)c->panels[p].map.columns * (size_t)c->panels[p].map.rows;
     }
     if (fields > 0)
-        fprintf(stderr, "depthprec: %s: %zu evaluations, one a field\n", row->name, fields);
+        fprintf(stderr, "depthprec: %s: %zu evaluations, one per field\n", row->name, fields);
     else if (c->curves > 0)
-        fprintf(stderr, "depthprec: %s: %zu evaluations for %zu curve%s (one a pixel column would be %zu)\n", row->name,
-                c->evaluations, c->curves, c->curves == 1 ? "" : "s", c->places);
+        fprintf(stderr, "depthprec: %s: %zu evaluations for %zu curve%s (one per pixel column would be %zu)\n",
+                row->name, c->evaluations, c->curves, c->curves == 1 ? "" : "s", c->places);
 }
 
 /* ---- The numbers ------------------------------------------------------------------------------------------------- */
@@ -358,9 +358,8 @@ static int write_figure(const plotting *p) {
 static int check_output(const options *o) {
     if (o->form == FORM_TEXT && o->output == NULL)
         return usage_error("plot: needs -o FILE that ends in .svg, .pdf or .png, or --csv or --json for the numbers");
-    if (o->form == FORM_TEXT && canvas_format_of(o->output) == CANVAS_FORMAT_COUNT)
-        return option_error(OPTION_OUTPUT, "must end in .svg, .pdf or .png, got '%s'", o->output);
-    return EXIT_FINE;
+    canvas_format type;
+    return o->form == FORM_TEXT ? figure_file_type(o, OPTION_OUTPUT, o->output, &type) : EXIT_FINE;
 }
 
 int cmd_plot(const options *o) {

@@ -26,6 +26,8 @@ static const name_list effects = {.get = list_effect};
 static const name_list targets = {
     .words = (const char *const[]){"near", "far", "format", "mapping", "separation", "distance", NULL}};
 static const name_list themes = {.words = (const char *const[]){"light", "dark", "print", NULL}};
+static const name_list types = {.words = (const char *const[]){"svg", "pdf", "png", NULL}};
+static const name_list colours = {.words = (const char *const[]){"auto", "always", "never", NULL}};
 static const name_list reports = {.words = (const char *const[]){"text", "json", "junit", NULL}};
 
 /* Which commands take what. */
@@ -60,21 +62,34 @@ enum {
 #define WORD(field, among)           .parse = parse_word, SIZED(field), .names = &(among)
 #define ROW(field, among)            .parse = parse_row, SIZED(field), .names = &(among)
 
+/* Where it is otherwise: a default spelled out, what holds without, what it does. */
+#define BUT(verbs, spelled, holds, does)                                                                               \
+    { .commands = (verbs), .standard = (spelled), .without = (holds), .help = (does) }
+
 /* clang-format off */
 const option_row option_rows[OPTION_COUNT] = {
     [OPTION_NEAR] = {"near", 'n', "Z", PLACED | TAKEN,
         "near plane; with --ortho 0 or negative too", .parse = parse_near, FIELD(double, znear),
-        LIMITS(1e-12, 1e12, "scene units"), .standard = "0.1", .group = "The camera"},
+        LIMITS(1e-12, 1e12, "scene units"), .standard = "0.1",
+        .except = {BUT(VERB_SOLVE, NULL, "what is solved for, or 0.1 where --for names another", NULL)},
+        .group = "The camera"},
     [OPTION_FAR] = {"far", 'f', "Z|inf", PLACED | TAKEN,
         "far plane, up to 1e18 scene units and beyond near by 1e-6 of it at least, or inf",
-        parse_far, .standard = "1000", .except = {VERB_SOLVE, "inf"}},
+        parse_far, .standard = "1000",
+        .except = {BUT(VERB_SOLVE, "inf", "solved for where near alone is given", NULL)}},
     [OPTION_FORMAT] = {"format", 'F', "NAME[,NAME...]|all", PLACED | TAKEN,
         "depth formats: @, names as the APIs write them, unormN, floatE.M[bB]; all are those of "
         "'depthprec list formats'", parse_formats, .names = &formats, .standard = "all",
-        .except = {VERB_TEXTURE, "as the image has it, or unorm24"}},
+        .except = {BUT(VERB_TEXTURE, NULL, "as the image has it; unorm24 with --scene; all with --effect alone", NULL),
+                   BUT(VERB_BENCH, NULL, "that of the family's first case", NULL),
+                   BUT(VERB_BIAS, "fp32,unorm16,unorm24", "the depth buffers", NULL),
+                   BUT(VERB_SOLVE, NULL, "solved for where near and far are given, else all", NULL)}},
     [OPTION_MAPPING] = {"mapping", 'm', "NAME[,NAME...]|all", PLACED | TAKEN,
         "mappings: @; all are d3d and reversed",
-        parse_mappings, .names = &mappings, .standard = "all", .except = {VERB_TEXTURE, "as the image has it, or d3d"}},
+        parse_mappings, .names = &mappings, .standard = "all",
+        .except = {BUT(VERB_TEXTURE, NULL, "as the image has it; d3d with --scene; all with --effect alone", NULL),
+                   BUT(VERB_BENCH, NULL, "that of the family's first case", NULL),
+                   BUT(VERB_SOLVE, NULL, "solved for where near, far and format are given, else all", NULL)}},
     [OPTION_LOG_C] = {"log-c", 0, "C", MODELLED | TAKEN,
         "constant of the log mapping", NUMBER(log_c, 1e-12, 1e12, NULL), .standard = "1"},
     [OPTION_ORTHO] = {"ortho", 0, NULL, CAMERA | TAKEN,
@@ -92,19 +107,31 @@ const option_row option_rows[OPTION_COUNT] = {
     [OPTION_MODEL] = {"model", 0, NULL, MODELLED | VERB_SOLVE,
         "the arithmetic before the buffer: none, the lattice alone; NDC and window depth each rounded to binary32; "
         "every operation in binary32; or the simplest that is enough", WORD(model, models), .standard = "exact",
-        .except = {VERB_SOLVE, "float, the guarantee"}},
+        .except = {BUT(VERB_SOLVE, "float", "the guarantee; staged for an error, and for linear and log", NULL),
+                   BUT(VERB_PLOT, "exact", "float in figures of its pipeline", NULL),
+                   BUT(VERB_TABLE, "exact", "of several set-ups the fullest that each has", NULL)}},
     [OPTION_ARITH] = {"arith", 0, "NAME", CAMERA | VERB_SOLVE,
         "the binary32 arithmetic: @", WORD(arith, ariths), .standard = "ieee"},
     [OPTION_TOLERANCE] = {"tolerance", 0, "SHARE", ASKED | VERB_BENCH | VERB_LIST,
         "what may be neglected, 0.05 or 5%: a model is enough when it adds no more to the separation; and the "
-        "cheapest method that claims no more is taken, or marked in a list", parse_tolerance, .standard = "5%"},
+        "cheapest method that claims no more is taken, or marked in a list", parse_tolerance, .standard = "5%",
+        .except = {BUT(VERB_TABLE | VERB_PLOT, NULL, "5% for the model; intervals are exact", NULL),
+                   BUT(VERB_BENCH, NULL, "none", "the cheapest method that claims no more than 0.05, or 5%, is marked"),
+                   BUT(VERB_LIST, NULL, NULL, "list methods: the cases for which each is the cheapest that claims no "
+                       "more than 0.05, or 5%")}},
     [OPTION_AT] = {"at", 0, "Z[,Z...]|LO:HI:log|lin:COUNT", ASKED | TAKEN,
         "the depths asked about, at most 1000000, within [near, far]", parse_at,
-        .without = "nine, log-spaced from near to far, or to 1e6 near", .except = {VERB_SOLVE, "none"},
+        .without = "nine, log-spaced from near to far, or to 1e6 near",
+        .except = {BUT(VERB_SOLVE, NULL, NULL, "the depth asked about"),
+                   BUT(VERB_PLOT, NULL, NULL, "the depth asked about, in figures of a single one"),
+                   BUT(VERB_TABLE, NULL, "nine, log-spaced from near to far, or to 1e6 near; of several set-ups powers "
+                       "of ten", NULL)},
         .group = "The depths"},
     [OPTION_RANGE] = {"range", 0, "LO:HI", MODELLED | VERB_ZFIGHT | VERB_BIAS | VERB_SOLVE,
         "the depths that worst cases are taken over", parse_range, .without = "near to far",
-        .except = {VERB_SOLVE, "none"}},
+        .except = {BUT(VERB_SOLVE, NULL, "near to far for a distance, else --at", "the depths that it must hold at"),
+                   BUT(VERB_ZFIGHT, NULL, "near to far; needed where far is inf", "the depths that are visited"),
+                   BUT(VERB_PLOT, NULL, "near to far, or to 1e6 near", "the depths that are shown")}},
     [OPTION_DEPTH] = {"depth", 0, "D[,D...]", VERB_TABLE,
         "the other way round: the eye depths of these window depths, each with the cell that it is stored in",
         SEVERAL(parse_list, looked_up, 0, 1)},
@@ -147,9 +174,8 @@ const option_row option_rows[OPTION_COUNT] = {
         "eye depth changes by S from one pixel to the next", LENGTH(slope, 0, 1e12, "scene units per pixel"),
         .standard = "0", .without = "facing the camera"},
     [OPTION_GAP] = {"gap", 0, "G", COUNTED | VERB_BIAS,
-        "zfight: ties and swaps of surfaces G apart, scene units; bias: how much nearer a layer must come",
-        POSITIVE(gap),
-        .without = "of neighbouring binary32 depths", .except = {VERB_BIAS, "be told apart"},
+        "where surfaces G apart, scene units, tie and swap", POSITIVE(gap), .without = "neighbouring binary32 depths",
+        .except = {BUT(VERB_BIAS, NULL, "told apart", "how much nearer a layer must come, scene units")},
         .group = "Pairs of surfaces"},
     [OPTION_SAMPLE] = {"sample", 0, "N", COUNTED,
         "draw N pairs at random", WHOLE(sample, 1, 1e12, NULL), .without = "visit every depth"},
@@ -202,8 +228,11 @@ const option_row option_rows[OPTION_COUNT] = {
         "the error of the product in place of the product", FLAG(error_map)},
     [OPTION_FIGURE] = {"figure", 0, "FILE", VERB_TEXTURE,
         "draw the product: SVG, PDF or PNG", FILE_NAME(figure)},
+    [OPTION_TYPE] = {"type", 0, NULL, DRAWN,
+        "what kind of figure, where it goes to stdout or its file's name does not say it", WORD(type, types),
+        .standard = "svg", .group = "The figure"},
     [OPTION_THEME] = {"theme", 0, NULL, DRAWN,
-        "colours of the figure", WORD(theme, themes), .standard = "light", .group = "The figure"},
+        "colours of the figure", WORD(theme, themes), .standard = "light"},
     [OPTION_WIDTH] = {"width", 0, "PX", DRAWN,
         "width of the figure", WHOLE(width, DRAW_WIDTH_MIN, DRAW_SIZE_MAX, "pixels"), .without = "as suits it"},
     [OPTION_HEIGHT] = {"height", 0, "PX", DRAWN,
@@ -218,13 +247,26 @@ const option_row option_rows[OPTION_COUNT] = {
     [OPTION_CSV] = {"csv", 0, NULL, WRITTEN,
         "write CSV (RFC 4180) with units in the header row", parse_form, .least = FORM_CSV},
     [OPTION_OUTPUT] = {"output", 'o', "FILE", WRITTEN,
-        "write to FILE when all is done; - is stdout", FILE_NAME(output), .without = "stdout"},
+        "write to FILE when all is done; - is stdout", FILE_NAME(output), .without = "stdout",
+        .except = {BUT(VERB_PLOT, NULL, NULL, "draw to FILE: SVG, PDF or PNG by its ending; with --json or --csv the "
+                       "numbers go there, or to stdout"),
+                   BUT(VERB_TEXTURE, NULL, "stdout", "write the product to FILE: PNG, PFM or NPY by its ending; else "
+                       "what is printed")}},
     [OPTION_QUIET] = {"quiet", 'q', NULL, WRITTEN,
-        "no messages and no progress, only data and errors", FLAG(quiet)},
-    [OPTION_VERBOSE] = {"verbose", 'v', NULL, WRITTEN,
-        "say more: the cell around each depth", FLAG(verbose)},
-    [OPTION_FULL] = {"full", 0, NULL, WRITTEN,
-        "all columns, however wide; and a table for each set-up in place of a comparison", FLAG(full)},
+        "no messages and no progress, only data and errors", FLAG(quiet),
+        .except = {BUT(VERB_CHECK, NULL, NULL, "say only what fails")}},
+    [OPTION_VERBOSE] = {"verbose", 'v', NULL, VERB_TABLE | VERB_PLOT | VERB_CHECK | VERB_BIAS,
+        "the cell around each depth", FLAG(verbose),
+        .except = {BUT(VERB_PLOT, NULL, NULL, "say how many values were computed"),
+                   BUT(VERB_CHECK, NULL, NULL, "say how each verdict was decided"),
+                   BUT(VERB_BIAS, NULL, NULL, "say where a biased depth is held at a plane")}},
+    [OPTION_FULL] = {"full", 0, NULL, WRITTEN & ~VERB_PLOT,
+        "all columns, however wide", FLAG(full),
+        .except = {BUT(VERB_TABLE, NULL, NULL, "all columns, however wide; and a table for each set-up in place of a "
+                       "comparison")}},
+    [OPTION_COLOR] = {"color", 0, NULL, WRITTEN,
+        "dress headings and verdicts of text; auto does so on a terminal where NO_COLOR is not set",
+        WORD(colour, colours), .standard = "auto"},
     [OPTION_HELP] = {"help", 'h', NULL, (unsigned)EVERY,
         "this help", .parse = NULL},
     [OPTION_VERSION] = {"version", 'V', NULL, (unsigned)EVERY,
