@@ -18,7 +18,7 @@ const verb verb_rows[] = {
      "  depthprec table -F unorm24 -m d3d --depth 0.9987\n"
      "  depthprec table -F d32f --at 1:1000:log:10000 --csv -o depths.csv\n", 0},
     {"plot", VERB_PLOT, "FIGURE [FILE|FAMILY]", 1, 2, &figures,
-     "draws a figure: SVG, PDF or PNG by the ending of -o, or --type",
+     "draws a figure: SVG, PDF or PNG by the ending of -o",
      "  depthprec plot error -F all -m d3d,reversed -o error.svg\n"
      "  depthprec plot error -F fp32 -m d3d,reversed -o - --type png >error.png\n"
      "  depthprec plot distribution -F unorm4 -n 1 -f 10 -o staircase.png --theme dark\n"
