@@ -12,6 +12,8 @@ trap 'rm -f "$list" "$page"' EXIT
 "$1" help options | awk '
     function text(line) { # a hyphen that is a dash of an option or a sign, and no line that looks like a macro
         gsub(/-/, "\\-", line)
+        while (match(line, /\. [A-Z]/)) # a sentence begins a line
+            line = substr(line, 1, RSTART) "\n" substr(line, RSTART + 2)
         print (line ~ /^[.'\'']/ ? "\\&" : "") line
     }
     function flags(label,    n, word, i, out) { # "-n, --near Z" as macros
@@ -25,10 +27,9 @@ trap 'rm -f "$list" "$page"' EXIT
     NR == 1 || /^$/ { next }
     /^[^ ]/ { if (begun) print ".El"; print ".Ss " $0; print ".Bl -tag -width Ds"; begun = 1; next }
     /^  (-|    --)/ {
-        sub(/^ */, "")
-        at = match($0, /  +/)
-        print ".It" flags(at ? substr($0, 1, at - 1) : $0)
-        if (at) text(substr($0, at + RLENGTH))
+        both = substr($0, 30, 1) == " " # what is said of it begins in column 31, or on the next line
+        print ".It" flags(both ? substr($0, 1, 30) : $0)
+        if (both) text(substr($0, 31))
         next
     }
     { sub(/^ */, "") }

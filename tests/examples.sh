@@ -89,6 +89,20 @@ record() { # record PAGE: with what its examples printed where that differs
         !instead { print }' "$1" >"$scratch/page" && cp "$scratch/page" "$1"
 }
 
+# ---- 80 columns. Wider by design are JSON, CSV, --full, and messages on stderr, which are one line each. ----
+
+wide() { # the lines of the examples' output that are too wide
+    for want in "$scratch"/run/*.want; do
+        ! grep -qE -e '--(json|csv|full)' "${want%want}sh" || continue
+        awk 'length > 80 && !/^depthprec: / { print FILENAME ": " $0 }' "$want"
+    done
+}
+
+rendered() { # rendered PAGE: its lines that are too wide on a terminal of 80 columns
+    mandoc -T ascii -O width=80 "$1" >"$scratch/rendered" && [ -s "$scratch/rendered" ] || return
+    col -bx <"$scratch/rendered" | awk 'length > 80 && !/^depthprec: /'
+}
+
 for page in README.md man/*.[0-9]; do
     rm -rf "$scratch/run" && mkdir "$scratch/run"
     split "$page"
@@ -98,6 +112,15 @@ for page in README.md man/*.[0-9]; do
         number=$((number + 1))
     done
     [ -z "${RECORD-}" ] || record "$page"
+    [ ! -e "$scratch/run/1.want" ] || check "$page: output of 80 columns" empty wide
+    case $page in
+    *.md) ;;
+    *) if command -v mandoc >/dev/null && command -v col >/dev/null; then
+        check "$page: 80 columns" empty rendered "$page"
+    else
+        skip "$page: 80 columns" "mandoc or col is not installed"
+    fi ;;
+    esac
     case $page in
     README.md | *.[13]) check "$page: has examples" [ $number -gt 1 ] ;;
     esac
