@@ -188,6 +188,65 @@ static void test_closed_form(void **state) {
     tally_end(&close);
 }
 
+enum { SPANS = 32 };
+
+/* Within a span it holds, and next to its ends it does not; of the depths drawn elsewhere hardly any passes. */
+static void check_spans(const question *q, const distance_answer *a, rng *r, tally *inside, tally *outside) {
+    distance_span span[SPANS];
+    char text[320];
+    const double after = a->possible ? a->value : q->lo, end = fmin(fmin(q->hi, 1e18), 64 * after);
+    const bool whole = q->setup.spec.model == DP_MODEL_FP32;
+    const size_t count = distance_again(&q->setup, after, q->hi, q->limit, span, SPANS);
+    describe(q, text);
+    for (size_t i = 0; i < count; i++) {
+        const double before = whole ? (double)nextafterf((float)span[i].lo, 0) : span[i].lo * (1 - 0x1p-44);
+        const double behind = whole ? (double)nextafterf((float)span[i].hi, INFINITY) : span[i].hi * (1 + 0x1p-40);
+        TALLY(inside, span[i].lo > (i > 0 ? span[i - 1].hi : after) && span[i].hi > span[i].lo && span[i].hi <= q->hi,
+              "%s: %.17g to %.17g", text, span[i].lo, span[i].hi);
+        for (int k = 0; k <= 64; k++) {
+            const double z = fmin(span[i].lo * pow(span[i].hi / span[i].lo, k / 64.0), span[i].hi);
+            TALLY(inside, at(q, z) <= q->limit * slack_of(q), "%s: %.17g at %.17g of %.17g to %.17g", text, at(q, z), z,
+                  span[i].lo, span[i].hi);
+        }
+        /* staged goes up and down with each rounding: there a bisection ends at one of many ends */
+        TALLY(inside, q->setup.spec.model == DP_MODEL_STAGED || at(q, before) > q->limit / slack_of(q),
+              "%s: passes before %.17g", text, span[i].lo);
+        TALLY(inside,
+              q->setup.spec.model == DP_MODEL_STAGED || behind > q->hi || at(q, behind) > q->limit / slack_of(q),
+              "%s: passes behind %.17g", text, span[i].hi);
+    }
+    for (int k = 0; k < 200 && after < end; k++) {
+        const double z = fmin(rng_log(r, after, end), end);
+        const double it = whole ? (double)(float)z : z;
+        bool known = it <= after * (1 + 0x1p-20) || it > end || at(q, it) > q->limit * 0.999;
+        for (size_t i = 0; i < count; i++)
+            known = known || (it >= span[i].lo && it <= span[i].hi);
+        outside->cases++;
+        outside->skipped += !known;
+    }
+}
+
+static void test_again(void **state) {
+    static const dp_model models[] = {DP_MODEL_EXACT, DP_MODEL_STAGED, DP_MODEL_FP32};
+    rng r = rng_make("distance again");
+    tally inside = {.name = "spans hold, and end"}, outside = {.name = "elsewhere"};
+    const uint64_t cases = test_cases(60, 600, 6000);
+    (void)state;
+    for (uint64_t i = 0; i < cases;) {
+        question q;
+        distance_answer a;
+        if (!draw(&r, models[i % 3], MEASURE_SEPARATION, &q) ||
+            distance_solve(q.kind, &q.setup, q.lo, q.hi, q.limit, &a) != DP_OK || a.throughout)
+            continue;
+        i++;
+        check_spans(&q, &a, &r, &inside, &outside);
+    }
+    assert_true(inside.cases > 0);
+    tally_end(&inside);
+    /* What is so short that no depth of it was tried: a depth in ten thousand. */
+    assert_true(outside.cases > 0 && outside.skipped * 10000 <= outside.cases);
+}
+
 static void test_door(void **state) {
     (void)state;
     distance_answer a;
@@ -208,6 +267,7 @@ static void test_door(void **state) {
 int main(void) {
     const struct CMUnitTest tests[] = {cmocka_unit_test(test_fp32),        cmocka_unit_test(test_staged),
                                        cmocka_unit_test(test_exact),       cmocka_unit_test(test_error),
-                                       cmocka_unit_test(test_closed_form), cmocka_unit_test(test_door)};
+                                       cmocka_unit_test(test_closed_form), cmocka_unit_test(test_again),
+                                       cmocka_unit_test(test_door)};
     return run_tap(tests);
 }

@@ -242,6 +242,12 @@ static void test_words(void **state) {
           {"mapping", SOLVE_FOR_MAPPING},
           {"separation", SOLVE_FOR_SEPARATION},
           {"distance", SOLVE_FOR_DISTANCE}}},
+        {"plot error", OPTION_TYPE, WORD_AT(type), "svg, pdf or png", {{"svg", 0}, {"pdf", 1}, {"png", 2}}},
+        {"list",
+         OPTION_COLOR,
+         WORD_AT(colour),
+         "auto, always or never",
+         {{"auto", OUTPUT_COLOUR_AUTO}, {"always", OUTPUT_COLOUR_ALWAYS}, {"never", OUTPUT_COLOUR_NEVER}}},
         {"texture", OPTION_THEME, WORD_AT(theme), "light, dark or print", {{"light", 0}, {"dark", 1}, {"print", 2}}},
         {"check x",
          OPTION_REPORT,
@@ -260,7 +266,8 @@ static void test_words(void **state) {
             TALLY(&t, status == EXIT_FINE && word_at(&o, rows[i].field, rows[i].size) == rows[i].words[k].value,
                   "--%s %s: %llu, %s", option_name(rows[i].id), word,
                   (unsigned long long)word_at(&o, rows[i].field, rows[i].size), line);
-            TALLY(&t, o.model_auto == (strcmp(word, "auto") == 0), "--%s %s: auto", option_name(rows[i].id), word);
+            TALLY(&t, o.model_auto == (rows[i].id == OPTION_MODEL && strcmp(word, "auto") == 0), "--%s %s: auto",
+                  option_name(rows[i].id), word);
         }
         refused(&t, rows[i].command, rows[i].id, "", rows[i].said);
         refused(&t, rows[i].command, rows[i].id, "nosuchword", rows[i].said);

@@ -66,9 +66,10 @@ static int ask(const asked *a, const char *path, char line[512]) {
                       (char *)(uintptr_t)targets[a->target],
                       "--separation",
                       separation,
+                      "--full",
                       "-o",
                       (char *)(uintptr_t)path};
-    int argc = 15;
+    int argc = 16;
     snprintf(separation, sizeof separation, "%.17g", a->separation);
     snprintf(planes[0], sizeof planes[0], "%.17g", a->znear);
     snprintf(planes[1], sizeof planes[1], "%.17g", a->zfar);

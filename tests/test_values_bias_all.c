@@ -47,8 +47,9 @@ static void arguments_of(const all_case *c, char out[1024]) {
         used += (size_t)snprintf(out + used, 1024 - used, " --at %.17g,%.17g", c->z[0], c->z[1]);
     else
         used += (size_t)snprintf(out + used, 1024 - used, " --range %.17g:%.17g", c->lo, c->hi);
-    snprintf(out + used, 1024 - used, " --factor=%.17g --slope %.17g%s%.17g", c->factor, c->slope,
-             c->gap > 0 ? " --gap " : " --slope ", c->gap > 0 ? c->gap : c->slope);
+    used += (size_t)snprintf(out + used, 1024 - used, " --factor=%.17g --slope %.17g", c->factor, c->slope);
+    if (c->gap > 0)
+        snprintf(out + used, 1024 - used, " --gap %.17g", c->gap);
 }
 
 /* The units as a program writes them: whole, or nine digits of a float. */

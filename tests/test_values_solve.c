@@ -53,6 +53,12 @@ static const solve_case cases[] = {
      "staged"},
     {"--for distance -n 0.1 -f 1000 -F unorm24,fp32 -m d3d,gl --separation 0.01", "distance", MEASURE_SEPARATION, 0.01,
      0.1, 1000, true, 0.1, 1000, "fp32"},
+    {"--for distance -n 0.1 -f 1000 -F unorm24 -m d3d --separation 0.01 --range 0.2:121.4", "distance",
+     MEASURE_SEPARATION, 0.01, 0.2, 121.4, true, 0.1, 1000, "fp32"},
+    {"--for distance -n 0.1 -f 2e5 -F fp32 -m reversed --separation 0.01", "distance", MEASURE_SEPARATION, 0.01, 0.1,
+     2e5, true, 0.1, 2e5, "fp32"},
+    {"--for distance -n 0.1 -f 1000 -F fp16 -m reversed --separation 0.01", "distance", MEASURE_SEPARATION, 0.01, 0.1,
+     1000, true, 0.1, 1000, "exact"},
     {"--for distance -n 0.1 -f 1000 -F fp32 -m reversed --separation 0.01 --range 0.5:1000", "distance",
      MEASURE_SEPARATION, 0.01, 0.5, 1000, true, 0.1, 1000, "exact"},
     {"--for distance -n 0.1 -f 1000 -F fp16 -m d3d --error 0.02 --range 0.2:900", "distance", MEASURE_ERROR, 0.02, 0.2,
@@ -218,6 +224,46 @@ static distance_answer want_distance(values *v, const solve_case *c, const dp_se
     return d;
 }
 
+/* The nearest surfaces that far apart, one at each binary32 depth, that are stored as one code or the wrong way. */
+static double first_fight(const dp_setup *setup, double from, double to, double apart) {
+    dp_pipeline p;
+    assert_int_equal(dp_pipeline_init(&p, setup), DP_OK);
+    float z = (float)from;
+    for (z = (double)z < from ? nextafterf(z, INFINITY) : z; (double)z <= to; z = nextafterf(z, INFINITY)) {
+        const uint32_t front = dp_pipeline_code(&p, z), back = dp_pipeline_code(&p, (float)((double)z + apart));
+        if (setup->reversed ? back >= front : back <= front)
+            return (double)z;
+    }
+    return NAN;
+}
+
+/* What lies beyond the distance: 2^14 depths are looked at, then twice as many, and so on until some fight. */
+static void want_beyond(values *v, const solve_case *c, const dp_setup *setup) {
+    distance_span again[32];
+    distance_answer d;
+    double first = NAN, end = NAN;
+    assert_int_equal(distance_solve(c->kind, setup, c->lo, c->hi, c->limit, &d), DP_OK);
+    const double from = d.possible ? d.value : c->lo;
+    if (setup->spec.model == DP_MODEL_FP32 && from < c->hi) {
+        first = first_fight(setup, from, c->hi - c->limit, c->limit);
+        end = from;
+        for (uint32_t depths = 1 << 14; end < c->hi && !(end >= first); depths *= 2)
+            for (uint32_t k = 0; k < depths && end < c->hi; k++)
+                end = fmin((double)nextafterf((float)end, INFINITY), c->hi);
+        end = fmin(end, c->hi - c->limit);
+    }
+    values_under(v, "fight.");
+    want_number(v, "first", first);
+    want_number(v, "searched_to", end);
+    const size_t count =
+        c->kind == MEASURE_SEPARATION && !d.throughout ? distance_again(setup, from, c->hi, c->limit, again, 32) : 0;
+    for (size_t i = 0; i < count; i++) {
+        values_under(v, "again[%zu].", i);
+        want_number(v, "lo", again[i].lo);
+        want_number(v, "hi", again[i].hi);
+    }
+}
+
 /* What real arithmetic would need: the same question in the model exact. */
 static void want_lattice(values *v, const solve_case *c, const dp_setup *setup, bool solved, bool is_answer) {
     const dp_setup exact = in_model(setup, DP_MODEL_EXACT);
@@ -322,6 +368,8 @@ static void want_solve(values *v, const solve_case *c, line_places *lines) {
     want_number(v, "hi", c->hi);
     want_bool(v, "possible", c->possible);
     want_candidate(v, c, answer, "answer.", true);
+    if (is_distance(c))
+        want_beyond(v, c, &own);
     place_add(lines, "", "answer.");
     for (size_t i = 0; i < json_array_size(islands); i++) {
         const double lo = number_in(json_array_get(islands, i), "lo"), hi = number_in(json_array_get(islands, i), "hi");
@@ -451,6 +499,29 @@ static void check_text_alternative(values *v, const solve_case *c, const char *t
     check_text_numbers(v, text, label, 6, paths);
 }
 
+/* All of it in one sentence: what is guaranteed, what is seen, what the lattice has. */
+static void check_text_distance(values *v, const solve_case *c, const char *text) {
+    static const char *const again[] = {"again[0].lo", "again[0].hi", NULL};
+    const bool seen = isfinite(value_at(v, "fight.first")->number);
+    const char *paths[9] = {"answer.near", "answer.far", "limit", "lo", "answer.plane"};
+    char label[64];
+    size_t count = 5;
+    if (isfinite(value_at(v, "fight.searched_to")->number))
+        paths[count++] = seen ? "fight.first" : "fight.searched_to";
+    if (strcmp(value_at(v, "answer.model")->text, "exact") != 0)
+        paths[count++] = "answer.lattice.plane";
+    snprintf(label, sizeof label, "%.20s %.20s,", value_at(v, "answer.format")->text,
+             value_at(v, "answer.mapping")->text);
+    char *const sentence = strndup(text, strcspn(text, "\n") - 1); /* without its full stop */
+    check_text_numbers(v, sentence, label, 6, paths);
+    free(sentence);
+    assert_true((strstr(text, "first seen to fight at z") != NULL) == seen);
+    assert_true((strstr(text, "holds again") != NULL) == (value_find(v, "again[0].lo") != NULL));
+    if (value_find(v, "again[0].lo") != NULL)
+        check_text_numbers(v, text, "holds again", 6, again);
+    assert_true((strstr(text, "  assumed  ") != NULL) == (strstr(c->arguments, "-f ") == NULL));
+}
+
 static void check_text(values *v, const solve_case *c, const char *arguments, const line_places *lines) {
     const char *const worst[] = {"answer.value", "answer.z", isnan(c->limit) ? NULL : "limit", NULL};
     static const char *const plane[] = {"answer.plane", NULL};
@@ -466,6 +537,8 @@ static void check_text(values *v, const solve_case *c, const char *arguments, co
     assert_int_equal(p.status, !c->possible);
     snprintf(label, sizeof label, "%-14s ", measure_of(c));
     check_text_numbers(v, p.out, label, 6, worst);
+    if (is_distance(c))
+        check_text_distance(v, c, p.out);
     if (isfinite(value_at(v, "answer.separation_fp32")->number) && !in_fp32 && !is_distance(c))
         check_text_numbers(v, p.out, "guaranteed", 6, certain);
     if (isnan(c->znear) || isnan(c->zfar)) {

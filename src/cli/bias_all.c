@@ -74,7 +74,7 @@ static bias_goal goal_of(const options *o, const bias_api *api, const dp_setup *
 
 /* Where the gap leads to the near plane, at least. */
 static double range_from(const all *a) {
-    return fmin(fmax(a->lo, a->walk.o->znear + a->walk.o->gap), a->hi);
+    return fmin(fmax(a->lo, a->walk.here.znear + a->walk.here.gap), a->hi);
 }
 
 /* The call, or where in the range there is one. */
@@ -91,7 +91,7 @@ static void say_result(row *r) {
 }
 
 static void measure(const all *a, const bias_api *api, const dp_setup *setup, double z, row *r) {
-    const options *o = a->walk.o;
+    const options *o = &a->walk.here;
     const bias_goal goal = goal_of(o, api, setup);
     *r = (row){.api = api->name, .label = api->name, .z = z, .lo = (double)NAN, .hi = (double)NAN, .units_z = z};
     if (!a->by_range) {
@@ -154,23 +154,28 @@ static void *next_beside(void *of, size_t i) {
 
 static void *next_setup(void *of, size_t i) {
     all *a = of;
-    return walk_setup(&a->walk, i) ? a : NULL;
+    if (!walk_setup(&a->walk, i))
+        return NULL;
+    if (a->by_range)
+        range_resolve(&a->walk.here, &a->lo, &a->hi); /* cannot fail: it did not before, or is from near to far */
+    return a;
 }
 
 /* ---- Text -------------------------------------------------------------------------------------------------------- */
 
 static void say_goal(page *p, const all *a) {
-    const options *o = a->walk.o;
+    const options *o = &a->walk.here;
+    const char *unit = options_unit(o);
     char goal[64] = "To be told apart", place[128] = "", slope[64] = "";
     if (o->gap > 0.0)
-        snprintf(goal, sizeof goal, "To come nearer by %s", number_full(o->gap).text);
+        snprintf(goal, sizeof goal, "To come nearer by %s", number_in(number_full(o->gap), unit).text);
     if (o->slope > 0.0)
-        snprintf(slope, sizeof slope, ", slope %s a pixel", number_full(o->slope).text);
+        snprintf(slope, sizeof slope, ", slope %s a pixel", number_in(number_full(o->slope), unit).text);
     if (a->by_range)
-        snprintf(place, sizeof place, " from z = %s to %s", number_of(range_from(a), DIGITS_Z).text,
-                 number_of(a->hi, DIGITS_Z).text);
+        snprintf(place, sizeof place, " from z = %s to %s", number_in(number_of(range_from(a), DIGITS_Z), unit).text,
+                 number_in(number_of(a->hi, DIGITS_Z), unit).text);
     else if (a->walk.at.count == 1)
-        snprintf(place, sizeof place, " at z = %s", number_of(a->walk.at.lo, DIGITS_Z).text);
+        snprintf(place, sizeof place, " at z = %s", number_in(number_of(a->walk.at.lo, DIGITS_Z), unit).text);
     page_text(p, "%s%s%s:", goal, place, slope);
 }
 
@@ -191,7 +196,7 @@ static void say_notes(page *p, void *item) {
 /* Formats above mappings, and below what is written in place of U. */
 static void say_beside(page *p, void *item) {
     const all *a = item;
-    const options *o = a->walk.o;
+    const options *o = &a->walk.here;
     page_title(p, "near %s, far %s, %s", number_full(o->znear).text, number_full(o->zfar).text,
                o->ortho ? "orthographic" : "perspective");
     say_goal(p, a);
@@ -276,7 +281,7 @@ int bias_all_write(const options *o) {
     if (status == EXIT_FINE)
         status = range_resolve(o, &a.lo, &a.hi);
     const bool beside = o->form == FORM_TEXT && !o->full && a.walk.all.count > 1 && a.walk.all.count <= BESIDE &&
-                        (a.by_range || a.walk.at.count == 1);
+                        o->preset_count <= 1 && (a.by_range || a.walk.at.count == 1);
     const unsigned when = (a.by_range ? OF_RANGE : OF_DEPTHS) | (!a.by_range && a.walk.at.count > 1 ? OF_SEVERAL : 0);
     if (beside)
         return write_beside(&a, status);

@@ -4,6 +4,7 @@
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
+#include <unistd.h>
 
 #include "cli/setups.h"
 #include "core/append.h"
@@ -43,23 +44,24 @@ static const char *sentence(const check_file *f, const check_verdict *v, char ou
     return out;
 }
 
-static void write_text(const options *o, output *out, const check_file *files, size_t count) {
+static void write_text(const options *o, bool failures, output *out, const check_file *files, size_t count) {
     char text[SENTENCE_SIZE], label[SETUP_LABEL_SIZE];
     page p = page_start(out, 0);
     for (const check_file *f = files; f < files + count; f++) {
         for (size_t k = 0; k < f->count; k++) {
             const check_verdict *v = &f->verdicts[k];
-            if (o->quiet && v->passed)
+            if (failures && v->passed)
                 continue;
-            page_text(&p, "%s  %s:%d: %s: camera %s, %s (%s): %s", v->passed ? "pass" : "FAIL", f->file.path,
-                      v->asked->line, v->asked->name, v->camera->name, setup_label(&v->setup, false, label),
+            page_text(&p, "%s%s%s  %s:%d: %s: camera %s, %s (%s): %s", v->passed ? p.good : p.bad,
+                      v->passed ? "pass" : "FAIL", p.plain, f->file.path, v->asked->line, v->asked->name,
+                      v->camera->name, setup_label(&v->setup, false, label),
                       v->setup.spec.model == DP_MODEL_FP32 ? "float" : dp_model_name(v->setup.spec.model),
                       sentence(f, v, text));
             if (o->verbose)
                 page_line(&p, "    decided by %s: %s", check_method_name(v->method),
                           setup_label(&v->setup, true, label));
         }
-        if (!o->quiet)
+        if (!failures)
             page_text(&p, "%s: %ld passed, %ld failed", f->file.path, (long)f->count - f->failed, f->failed);
     }
 }
@@ -180,13 +182,19 @@ static const column columns[] = {{FIELD(verdicts, passed, "passed", ""), .only =
                                  {LIST("requirements", verdict_columns, next_verdict)},
                                  {.kind = COLUMN_END}};
 
+void check_say_failures(const options *o, const check_file *files, size_t count) {
+    output errors = {.fd = STDERR_FILENO, .colour = (output_colour)o->colour};
+    write_text(o, true, &errors, files, count);
+    output_flush(&errors);
+}
+
 void check_report(const options *o, output *out, const check_file *files, size_t count, bool passed) {
     verdicts all = {.files = files, .count = count, .passed = passed};
     const output_form form = o->report == REPORT_JSON ? FORM_JSON : o->form;
     if (o->report == REPORT_JUNIT)
         write_junit(out, files, count);
     else if (form == FORM_TEXT)
-        write_text(o, out, files, count);
+        write_text(o, o->quiet, out, files, count);
     else
         report_write(&(report_spec){.command = "check", .columns = columns, .item = &all}, out, form);
 }

@@ -2,6 +2,7 @@
 /* check: the requirements of files, judged: exit 1 with the depth at which one fails. */
 #include <stdio.h>
 #include <stdlib.h>
+#include <string.h>
 
 #include "census/census.h"
 #include "cli/check_report.h"
@@ -97,6 +98,8 @@ int cmd_check(const options *o) {
     if (status == EXIT_FINE) {
         check_report(o, &out, files, count, failed == 0);
         status = output_close(&out);
+        if (failed > 0 && o->output != NULL && strcmp(o->output, "-") != 0)
+            check_say_failures(o, files, count);
     } else {
         output_abandon(&out);
     }

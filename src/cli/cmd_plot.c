@@ -358,9 +358,8 @@ static int write_figure(const plotting *p) {
 static int check_output(const options *o) {
     if (o->form == FORM_TEXT && o->output == NULL)
         return usage_error("plot: needs -o FILE that ends in .svg, .pdf or .png, or --csv or --json for the numbers");
-    if (o->form == FORM_TEXT && canvas_format_of(o->output) == CANVAS_FORMAT_COUNT)
-        return option_error(OPTION_OUTPUT, "must end in .svg, .pdf or .png, got '%s'", o->output);
-    return EXIT_FINE;
+    canvas_format type;
+    return o->form == FORM_TEXT ? figure_file_type(o, OPTION_OUTPUT, o->output, &type) : EXIT_FINE;
 }
 
 int cmd_plot(const options *o) {

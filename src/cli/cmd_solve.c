@@ -312,6 +312,7 @@ int cmd_solve(const options *o) {
     if (!isnan(r.limit))
         add_others(&r, &result);
     arrange(&r, &result);
+    solve_look_beyond(&r);
     status = options_open(o, &out);
     if (status != EXIT_FINE)
         return status;

@@ -6,7 +6,7 @@
 
 /* Options that need a product, or a figure of one. */
 static int check_alone(const options *o) {
-    static const option_id drawn[] = {OPTION_THEME, OPTION_WIDTH, OPTION_HEIGHT, OPTION_TITLE};
+    static const option_id drawn[] = {OPTION_TYPE, OPTION_THEME, OPTION_WIDTH, OPTION_HEIGHT, OPTION_TITLE};
     if (o->error_map && !texture_product_wanted(o))
         return option_error(OPTION_ERROR_MAP, "needs --eye, --position, --normal or --effect");
     if (o->radial && !texture_product_wanted(o))
@@ -23,11 +23,11 @@ static int check_alone(const options *o) {
 
 /* The table of an effect sees depths, not pixels. */
 static int check_table(const options *o) {
-    static const option_id pixels[] = {OPTION_FOV,       OPTION_HALF_HEIGHT, OPTION_YAW,      OPTION_PITCH,
-                                       OPTION_ORIGIN,    OPTION_SIZE,        OPTION_SKY,      OPTION_METRIC,
-                                       OPTION_EYE,       OPTION_RADIAL,      OPTION_POSITION, OPTION_NORMAL,
-                                       OPTION_ERROR_MAP, OPTION_FIGURE,      OPTION_THEME,    OPTION_WIDTH,
-                                       OPTION_HEIGHT,    OPTION_TITLE,       OPTION_THREADS,  OPTION_PIXEL};
+    static const option_id pixels[] = {
+        OPTION_FOV,       OPTION_HALF_HEIGHT, OPTION_YAW,   OPTION_PITCH,  OPTION_ORIGIN,   OPTION_SIZE,
+        OPTION_SKY,       OPTION_METRIC,      OPTION_EYE,   OPTION_RADIAL, OPTION_POSITION, OPTION_NORMAL,
+        OPTION_ERROR_MAP, OPTION_FIGURE,      OPTION_THEME, OPTION_WIDTH,  OPTION_HEIGHT,   OPTION_TITLE,
+        OPTION_THREADS,   OPTION_PIXEL,       OPTION_TYPE};
     for (size_t i = 0; i < sizeof pixels / sizeof pixels[0]; i++)
         if (option_given(o, pixels[i]))
             return option_error(pixels[i], "has no meaning with --effect alone, but with FILE or --scene");

@@ -35,11 +35,26 @@ static void command_line(const options *o, const char *written, char out[COMMAND
     }
 }
 
+int figure_file_type(const options *o, option_id id, const char *path, canvas_format *out) {
+    const bool typed = option_given(o, OPTION_TYPE);
+    *out = canvas_format_of(path);
+    if (typed && *out != CANVAS_FORMAT_COUNT && *out != o->type)
+        return option_error(OPTION_TYPE, "must be %s, which is what '%s' ends in, got '%s'",
+                            option_word(OPTION_TYPE, *out), path, option_word(OPTION_TYPE, o->type));
+    if (*out == CANVAS_FORMAT_COUNT && !typed && strcmp(path, "-") != 0)
+        return option_error(id, "must end in .svg, .pdf or .png, or --type say which, got '%s'", path);
+    if (*out == CANVAS_FORMAT_COUNT)
+        *out = (canvas_format)o->type;
+    return EXIT_FINE;
+}
+
 bool figure_file_write(const options *o, const char *path, const chart *c, int width, int height, output *out) {
     char command[COMMAND_LINE_SIZE];
     canvas_bytes bytes;
+    canvas_format type;
     command_line(o, path, command);
-    if (!draw_chart(c, theme_get(o->theme), canvas_format_of(path), width, height, command, &bytes))
+    if (figure_file_type(o, OPTION_OUTPUT, path, &type) != EXIT_FINE ||
+        !draw_chart(c, theme_get(o->theme), type, width, height, command, &bytes))
         return false;
     output_bytes(out, bytes.at, bytes.size);
     free(bytes.at);

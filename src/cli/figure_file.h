@@ -6,7 +6,12 @@
 #include "cli/options.h"
 #include "plot/draw.h"
 
-/** Draws in the format that the name of the file, the argument of an option, ends in. @return false without memory */
+/** The format that the name of a file says, or --type where it does not. @return EXIT_FINE, or EXIT_USAGE after one
+ * line
+ */
+int figure_file_type(const options *o, option_id id, const char *path, canvas_format *out);
+
+/** Draws into the file, the argument of an option, whose figure_file_type() is known. @return false without memory */
 bool figure_file_write(const options *o, const char *path, const chart *c, int width, int height, output *out);
 
 #endif

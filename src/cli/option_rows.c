@@ -26,6 +26,8 @@ static const name_list effects = {.get = list_effect};
 static const name_list targets = {
     .words = (const char *const[]){"near", "far", "format", "mapping", "separation", "distance", NULL}};
 static const name_list themes = {.words = (const char *const[]){"light", "dark", "print", NULL}};
+static const name_list types = {.words = (const char *const[]){"svg", "pdf", "png", NULL}};
+static const name_list colours = {.words = (const char *const[]){"auto", "always", "never", NULL}};
 static const name_list reports = {.words = (const char *const[]){"text", "json", "junit", NULL}};
 
 /* Which commands take what. */
@@ -226,8 +228,11 @@ const option_row option_rows[OPTION_COUNT] = {
         "the error of the product in place of the product", FLAG(error_map)},
     [OPTION_FIGURE] = {"figure", 0, "FILE", VERB_TEXTURE,
         "draw the product: SVG, PDF or PNG", FILE_NAME(figure)},
+    [OPTION_TYPE] = {"type", 0, NULL, DRAWN,
+        "what kind of figure, where it goes to stdout or its file's name does not say it", WORD(type, types),
+        .standard = "svg", .group = "The figure"},
     [OPTION_THEME] = {"theme", 0, NULL, DRAWN,
-        "colours of the figure", WORD(theme, themes), .standard = "light", .group = "The figure"},
+        "colours of the figure", WORD(theme, themes), .standard = "light"},
     [OPTION_WIDTH] = {"width", 0, "PX", DRAWN,
         "width of the figure", WHOLE(width, DRAW_WIDTH_MIN, DRAW_SIZE_MAX, "pixels"), .without = "as suits it"},
     [OPTION_HEIGHT] = {"height", 0, "PX", DRAWN,
@@ -243,8 +248,8 @@ const option_row option_rows[OPTION_COUNT] = {
         "write CSV (RFC 4180) with units in the header row", parse_form, .least = FORM_CSV},
     [OPTION_OUTPUT] = {"output", 'o', "FILE", WRITTEN,
         "write to FILE when all is done; - is stdout", FILE_NAME(output), .without = "stdout",
-        .except = {BUT(VERB_PLOT, NULL, NULL, "draw to FILE: SVG, PDF or PNG by its ending; with --json or --csv the "
-                       "numbers go there, or to stdout"),
+        .except = {BUT(VERB_PLOT, NULL, NULL, "draw to FILE: SVG, PDF or PNG by its ending; - is stdout, as --type says; "
+                       "the numbers of --json and --csv go there, too, or to stdout"),
                    BUT(VERB_TEXTURE, NULL, "stdout", "write the product to FILE: PNG, PFM or NPY by its ending; else "
                        "what is printed")}},
     [OPTION_QUIET] = {"quiet", 'q', NULL, WRITTEN,
@@ -259,6 +264,9 @@ const option_row option_rows[OPTION_COUNT] = {
         "all columns, however wide", FLAG(full),
         .except = {BUT(VERB_TABLE, NULL, NULL, "all columns, however wide; and a table for each set-up in place of a "
                        "comparison")}},
+    [OPTION_COLOR] = {"color", 0, NULL, WRITTEN,
+        "dress headings and verdicts of text; auto does so on a terminal where NO_COLOR is not set",
+        WORD(colour, colours), .standard = "auto"},
     [OPTION_HELP] = {"help", 'h', NULL, (unsigned)EVERY,
         "this help", .parse = NULL},
     [OPTION_VERSION] = {"version", 'V', NULL, (unsigned)EVERY,

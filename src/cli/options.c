@@ -309,5 +309,6 @@ int options_parse(options *o, int argc, char **argv) {
 int options_open(const options *o, output *out) {
     const int status = output_open(out, o->output);
     out->width = o->full ? OUTPUT_UNLIMITED : 0;
+    out->colour = (output_colour)o->colour;
     return status;
 }

@@ -79,6 +79,7 @@ typedef enum option_id {
     OPTION_EFFECT,
     OPTION_ERROR_MAP,
     OPTION_FIGURE,
+    OPTION_TYPE,
     OPTION_THEME,
     OPTION_WIDTH,
     OPTION_HEIGHT,
@@ -90,6 +91,7 @@ typedef enum option_id {
     OPTION_QUIET,
     OPTION_VERBOSE,
     OPTION_FULL,
+    OPTION_COLOR,
     OPTION_HELP,
     OPTION_VERSION,
     OPTION_COUNT
@@ -174,6 +176,7 @@ typedef struct options {
     const effect_row *effect;
     const char *figure; /**< file */
 
+    unsigned type;     /**< --type: a canvas_format, where the name of a file does not say it */
     unsigned theme;    /**< index of theme_get() */
     int width, height; /**< px; 0 when not given, so that each figure has its own default */
     const char *title; /**< null when not given */
@@ -182,6 +185,7 @@ typedef struct options {
     output_form form;
     const char *output; /**< the argument of -o; null when not given. "-" is stdout: see options_open() */
     bool quiet, verbose, full, version;
+    unsigned colour; /**< --color: an output_colour */
 } options;
 
 /**
@@ -203,7 +207,7 @@ static inline size_t options_cameras(const options *o) {
  */
 void options_of(const options *o, size_t camera, options *out);
 
-/** Opens what --output names, as wide as --full makes it. @return EXIT_FINE, or EXIT_IO after one line on stderr */
+/** Opens what --output names, as wide as --full makes it, as --color wants it dressed. @return EXIT_FINE, or EXIT_IO after one line on stderr */
 int options_open(const options *o, output *out);
 
 /** Frees what options_parse() allocated, whatever it returned. */

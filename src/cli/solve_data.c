@@ -94,6 +94,11 @@ static void say_cautions(page *p, void *item) {
             page_line(p, "%s", r->items[i].price.caution);
 }
 
+static void *next_again(void *of, size_t i) {
+    solve_report *r = of;
+    return i < r->again_count ? &r->again[i] : NULL;
+}
+
 /* ---- CSV --------------------------------------------------------------------------------------------------------- */
 
 static void *next_island(void *of, size_t i) {
@@ -160,6 +165,13 @@ static const column line_columns[] = {{FIELD(solving, candidate.role, "role", ""
                                       {FIELD(solving, candidate.found.lattice.reached.value, "lattice value", "scene")},
                                       {.kind = COLUMN_END}};
 
+static const column again_columns[] = {
+    {FIELD(distance_span, lo, "lo", "scene")}, {FIELD(distance_span, hi, "hi", "scene")}, {.kind = COLUMN_END}};
+
+static const column fight_columns[] = {{FIELD(solve_fight, first, "first", "scene")},
+                                       {FIELD(solve_fight, searched, "searched_to", "scene")},
+                                       {.kind = COLUMN_END}};
+
 /* What is measured names a column, and what is solved for another. */
 void solve_report_write(const solve_report *r, output *out) {
     static const char *const heads[] = {"least near", "largest far", "near", "near", "", "distance"};
@@ -207,6 +219,8 @@ void solve_report_write(const solve_report *r, output *out) {
         {FIELD(solving, report.hi, "hi", "scene"), .only = AS_JSON},
         {FIELD(solving, candidate.found.possible, "possible", ""), .only = AS_JSON},
         {PART(solving, candidate, "answer", about), .only = AS_JSON},
+        {PART(solving, report.fight, "fight", fight_columns), .only = AS_JSON, .when = OF_DISTANCE},
+        {LIST("again", again_columns, next_again), .only = AS_JSON, .when = OF_DISTANCE},
         {LIST("islands", island_columns, next_island), .only = AS_JSON},
         {LIST("alternatives", about, next_alternative), .only = AS_JSON},
         {LIST(NULL, beside, next_alternative), .only = AS_TEXT, .indent = 2, .head = say_others, .notes = say_cautions},

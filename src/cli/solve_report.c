@@ -144,6 +144,10 @@ static void sentence_of_distance(const solve_report *r, const solve_candidate *c
                       (d->throughout ? whole(r, d->value) : bound(r, d->value, false)).text);
     else
         output_format(out, " even at z = %s", whole(r, r->lo).text);
+    if (!isnan(r->fight.first))
+        output_format(out, "; first seen to fight at z = %s", bound(r, r->fight.first, false).text);
+    else if (!isnan(r->fight.searched))
+        output_format(out, "; no fight found up to z = %s", bound(r, r->fight.searched, false).text);
     if (c->spec.model == DP_MODEL_EXACT)
         output_text(out, ".\n");
     else if (!c->lattice.possible)
@@ -284,11 +288,26 @@ static void say_beside(const solve_report *r, const solve_candidate *c, page *p)
         page_note(p, "guaranteed", "%s there", up(r, binary32).text);
 }
 
+/* The planes that nobody gave. */
+static void say_assumed(const solve_report *r, page *p) {
+    const bool no_near = !option_given(r->o, OPTION_NEAR) && r->o->preset_count == 0 && r->target != SOLVE_FOR_NEAR;
+    const bool no_far = !option_given(r->o, OPTION_FAR) && r->o->preset_count == 0 && r->target != SOLVE_FOR_FAR;
+    const number_text near = whole(r, r->items[0].spec.znear), far = whole(r, r->items[0].spec.zfar);
+    if (no_near && no_far)
+        page_note(p, "assumed", "near %s, far %s: not given", near.text, far.text);
+    else if (no_near || no_far)
+        page_note(p, "assumed", "%s %s: not given", no_near ? "near" : "far", (no_near ? near : far).text);
+}
+
 void solve_report_answer(page *p, void *item) {
     const solve_report *r = item;
     const solve_candidate *c = &r->items[0];
     char wanted[NUMBER_SIZE + 16] = "";
-    say_sentence(r, c, p->out);
+    output sentence = {.fd = -1}; /* never flushed: what is written stays in its buffer */
+    say_sentence(r, c, &sentence);
+    page_text(p, "%.*s", (int)sentence.used - 1, sentence.buffer);
+    solve_say_beyond(p, r);
+    say_assumed(r, p);
     if (c->solved && c->possible)
         say_plane(r, c, p);
     if (!isnan(r->limit))

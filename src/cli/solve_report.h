@@ -33,6 +33,13 @@ typedef struct solve_candidate {
     solve_lattice lattice;
 } solve_candidate;
 
+/** Surfaces that far apart in the binary32 pipeline, from the guaranteed distance on. */
+typedef struct solve_fight {
+    double first;    /**< the nearest depth at which a census finds them to fight; NaN: none found */
+    double searched; /**< the farthest that it looked at; NaN: there is nothing to look at */
+} solve_fight;
+
+enum { SOLVE_AGAIN_MAX = 32 };
 enum { SOLVE_CANDIDATES_MAX = OPTIONS_FORMATS_MAX * DP_MAPPING_COUNT + 16 };
 
 typedef struct solve_report {
@@ -44,7 +51,16 @@ typedef struct solve_report {
     size_t count;           /**< at least 1 */
     solve_candidate *items; /**< the answer first, then the alternatives, best first */
     solve_island *islands;  /**< of the answer, in the lattice */
+    solve_fight fight;      /**< of the answer, where a distance is solved for */
+    size_t again_count;
+    distance_span again[SOLVE_AGAIN_MAX]; /**< where it holds again beyond that distance */
 } solve_report;
+
+/** Fills in `fight` and `again` of the answer. */
+void solve_look_beyond(solve_report *r);
+
+/** What text says of `again`. */
+void solve_say_beyond(page *p, const solve_report *r);
 
 /** Writes it in the form that the options ask for. */
 void solve_report_write(const solve_report *r, output *out);

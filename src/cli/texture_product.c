@@ -2,9 +2,9 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "cli/figure_file.h"
 #include "cli/texture.h"
 #include "core/append.h"
-#include "plot/canvas.h"
 
 bool texture_product_wanted(const options *o) {
     return o->eye || option_given(o, OPTION_POSITION) || o->normal != NULL || o->effect != NULL || o->figure != NULL;
@@ -52,8 +52,9 @@ static int check_files(const options *o) {
         return usage_error("texture: a product needs -o FILE that ends in .png, .pfm or .npy, or --figure FILE");
     if (o->output != NULL && !image_file_of(o->output, &file))
         return option_error(OPTION_OUTPUT, "must end in .png, .pfm or .npy for a product, got '%s'", o->output);
-    if (o->figure != NULL && canvas_format_of(o->figure) == CANVAS_FORMAT_COUNT)
-        return option_error(OPTION_FIGURE, "must end in .svg, .pdf or .png, got '%s'", o->figure);
+    canvas_format type;
+    if (o->figure != NULL && figure_file_type(o, OPTION_FIGURE, o->figure, &type) != EXIT_FINE)
+        return EXIT_USAGE;
     if (o->form != FORM_TEXT)
         return option_error(o->form == FORM_JSON ? OPTION_JSON : OPTION_CSV,
                             "is for statistics, which are not made beside a product");

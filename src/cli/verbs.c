@@ -18,8 +18,9 @@ const verb verb_rows[] = {
      "  depthprec table -F unorm24 -m d3d --depth 0.9987\n"
      "  depthprec table -F d32f --at 1:1000:log:10000 --csv -o depths.csv\n", 0},
     {"plot", VERB_PLOT, "FIGURE [FILE|FAMILY]", 1, 2, &figures,
-     "a figure: SVG, PDF or PNG by the ending of -o",
+     "a figure: SVG, PDF or PNG by the ending of -o, or --type",
      "  depthprec plot error -F all -m d3d,reversed -o error.svg\n"
+     "  depthprec plot error -F fp32 -m d3d,reversed -o - --type png >error.png\n"
      "  depthprec plot distribution -F unorm4 -n 1 -f 10 -o staircase.png --theme dark\n"
      "  depthprec plot scene engine.need -o scene.svg\n", 2},
     {"zfight", VERB_ZFIGHT, "", 0, 0, NULL,
@@ -34,6 +35,7 @@ const verb verb_rows[] = {
     {"texture", VERB_TEXTURE, "[FILE]", 0, 1, NULL,
      "a depth image: depths, positions, normals, effects, errors",
      "  depthprec texture depth.png -n 0.3 -f 1000\n"
+     "  capture | depthprec texture - -n 0.3 -f 1000\n"
      "  depthprec texture depth.png -n 0.3 -f 1000 --pixel 320,180\n"
      "  depthprec texture depth.png -n 0.3 -f 1000 --normal high -o normals.npy\n"
      "  depthprec texture --scene decals --parameter gap=0.01 -F d24 -m reversed\n", 1},
@@ -49,7 +51,8 @@ const verb verb_rows[] = {
     {"check", VERB_CHECK, "FILE...", 1, 1000, NULL,
      "do cameras meet the requirements of files? exit 1 if not",
      "  depthprec check engine.need\n"
-     "  depthprec check --report junit -o depth.xml engine.need\n", 1},
+     "  depthprec check --report junit -o depth.xml engine.need\n"
+     "  generate | depthprec check -\n", 1},
     {"solve", VERB_SOLVE, "", 0, 0, NULL,
      "near, far, format, mapping or distance for a separation",
      "  depthprec solve --for distance -n 0.1 -f 1000 -F d24 -m d3d --separation 0.01\n"

@@ -2,6 +2,7 @@
 #include "need/distance.h"
 
 #include <math.h>
+#include <stdlib.h>
 
 enum { STEPS = 400 };
 
@@ -92,4 +93,69 @@ dp_status distance_solve(measure_kind kind, const dp_setup *setup, double lo, do
     out->throughout = out->value == end;
     out->fails = out->throughout ? (double)NAN : r.fails;
     return DP_OK;
+}
+
+/* ---- Beyond ------------------------------------------------------------------------------------------------------ */
+
+enum { OCTAVES = 16, EACH = 64, NEXT_TO = 24, TRIED = 2 * OCTAVES * EACH };
+static const double SHORTEST = 0x1p-24;
+
+typedef struct trials {
+    const dp_setup *setup;
+    double after, end;
+    double z[TRIED];
+    size_t count;
+} trials;
+
+static void try_depth(trials *t, double z) {
+    if (t->setup->spec.model == DP_MODEL_FP32)
+        z = (double)(float)z;
+    if (t->count < TRIED && z > t->after && z <= t->end)
+        t->z[t->count++] = z;
+}
+
+static int ascending(const void *a, const void *b) {
+    const double x = *(const double *)a, y = *(const double *)b;
+    return (x > y) - (x < y);
+}
+
+static void choose_depths(trials *t) {
+    for (int i = 1; i <= OCTAVES * EACH; i++)
+        try_depth(t, t->after * exp2((double)i / EACH));
+    const double d = dp_window(t->setup, t->after);
+    for (int i = 0; i < OCTAVES && d > 0.0; i++) {
+        const double edge = ldexp(1.0, ilogb(d) + (t->setup->reversed ? -i : i + 1));
+        const double z = edge <= 1.0 ? dp_eye(t->setup, edge, 1.0 - edge) : (double)NAN;
+        for (int k = 0; k <= NEXT_TO; k++)
+            try_depth(t, z * (1.0 + ldexp(1.0, -k)));
+    }
+    qsort(t->z, t->count, sizeof t->z[0], ascending);
+}
+
+size_t distance_again(const dp_setup *setup, double after, double hi, double limit, distance_span *out, size_t room) {
+    trials t = {.setup = setup, .after = after, .end = fmin(hi, farthest)};
+    double fails = after;
+    size_t count = 0;
+    if (!(after > 0.0)) /* an orthographic range about the camera: a step is a step */
+        return 0;
+    choose_depths(&t);
+    for (size_t i = 0; i < t.count && count < room; i++) {
+        if (count > 0 && t.z[i] <= out[count - 1].hi)
+            continue;
+        if (!judge(MEASURE_SEPARATION, setup, t.z[i], t.z[i], limit).passed) {
+            fails = t.z[i];
+            continue;
+        }
+        ruler r = {.whole = setup->spec.model == DP_MODEL_FP32, .holds = fails, .fails = t.z[i]};
+        for (double middle = between(&r); !isnan(middle); middle = between(&r))
+            *(judge(MEASURE_SEPARATION, setup, middle, middle, limit).passed ? &r.fails : &r.holds) = middle;
+        distance_answer answer;
+        fails = r.fails;
+        if (distance_solve(MEASURE_SEPARATION, setup, r.fails, t.end, limit, &answer) != DP_OK || !answer.possible)
+            continue;
+        fails = answer.value;
+        if (answer.value > r.fails * (1.0 + SHORTEST)) /* else a depth that passes by how it was rounded */
+            out[count++] = (distance_span){r.fails, answer.value};
+    }
+    return count;
 }

@@ -26,4 +26,19 @@ typedef struct distance_answer {
 dp_status distance_solve(measure_kind kind, const dp_setup *setup, double lo, double hi, double limit,
                          distance_answer *out);
 
+/** Depths from lo to hi, throughout which it holds. */
+typedef struct distance_span {
+    double lo, hi;
+} distance_span;
+
+/**
+ * Where a separation holds again beyond the depth `after`, up to which distance_solve() found it to: each span is
+ * certified as that is, longer than 2^-24 of its depth, and begins where a bisection ends. Only those are found of
+ * which a depth is tried: 64 an octave over 16 octaves, and as many just behind the ends of the binades of window
+ * depth, where a float gets finer.
+ *
+ * @return how many there are in `out`, ascending
+ */
+size_t distance_again(const dp_setup *setup, double after, double hi, double limit, distance_span *out, size_t room);
+
 #endif

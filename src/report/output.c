@@ -132,14 +132,14 @@ static void write_all(output *out, const char *bytes, size_t size) {
     }
 }
 
-static void flush(output *out) {
+void output_flush(output *out) {
     write_all(out, out->buffer, out->used);
     out->used = 0;
 }
 
 void output_bytes(output *out, const void *bytes, size_t size) {
     if (size > OUTPUT_BUFFER_SIZE - out->used)
-        flush(out);
+        output_flush(out);
     if (size > OUTPUT_BUFFER_SIZE) {
         write_all(out, bytes, size);
         return;
@@ -171,7 +171,7 @@ static void drop_temporary(output *out) {
 }
 
 int output_close(output *out) {
-    flush(out);
+    output_flush(out);
     if (close(out->fd) != 0 && out->error == 0 && errno != EINTR)
         out->error = errno;
     if (out->target != NULL && out->error == 0) {

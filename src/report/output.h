@@ -30,6 +30,9 @@ enum {
 /** How data are written. */
 typedef enum output_form { FORM_TEXT = 0, FORM_JSON, FORM_CSV } output_form;
 
+/** Whether text is dressed for a terminal: where it is one and NO_COLOR is not set, always, or never. */
+typedef enum output_colour { OUTPUT_COLOUR_AUTO = 0, OUTPUT_COLOUR_ALWAYS, OUTPUT_COLOUR_NEVER } output_colour;
+
 enum { OUTPUT_BUFFER_SIZE = 1 << 16, OUTPUT_UNLIMITED = 1 << 30 };
 
 typedef struct output {
@@ -38,7 +41,8 @@ typedef struct output {
     const char *path; /**< the name for messages */
     char *target;     /**< what the temporary file is renamed to; null when writing straight */
     int width;        /**< characters in a line of text; 0: as the terminal or the page has it */
-    size_t used;      /**< bytes waiting in the buffer */
+    output_colour colour;
+    size_t used; /**< bytes waiting in the buffer */
     char buffer[OUTPUT_BUFFER_SIZE];
 } output;
 
@@ -78,6 +82,9 @@ bool output_same_file(const char *a, const char *b);
  * Each the wrong way round: who reads or writes there is still told that it is closed. Call it first of all.
  */
 void output_reserve_streams(void);
+
+/** Writes what waits now, and goes on. */
+void output_flush(output *out);
 
 /** Gives up: removes the temporary file, says nothing. For a command that fails half-way. */
 void output_abandon(output *out);

@@ -25,12 +25,15 @@ static int width_of(const output *out) {
 
 page page_start(output *out, int label) {
     const char *term = getenv("TERM");
-    const bool colour = getenv("NO_COLOR") == NULL && term != NULL && strcmp(term, "dumb") != 0 && isatty(out->fd);
+    const bool suits = getenv("NO_COLOR") == NULL && term != NULL && strcmp(term, "dumb") != 0 && isatty(out->fd);
+    const bool colour = out->colour == OUTPUT_COLOUR_AUTO ? suits : out->colour == OUTPUT_COLOUR_ALWAYS;
     return (page){.out = out,
                   .label = label,
                   .width = width_of(out),
                   .strong = colour ? "\033[1m" : "",
                   .soft = colour ? "\033[2m" : "",
+                  .good = colour ? "\033[32m" : "",
+                  .bad = colour ? "\033[1;31m" : "",
                   .plain = colour ? "\033[0m" : ""};
 }
 
@@ -44,17 +47,30 @@ static int word_length(const char *text) {
     return (int)length;
 }
 
+/* Characters that are seen: what dresses them is not. */
+static int seen_length(const char *text, int length) {
+    int seen = 0;
+    for (int i = 0; i < length; i++) {
+        if (text[i] == '\033')
+            i += (int)strcspn(text + i, "m");
+        else
+            seen++;
+    }
+    return seen;
+}
+
 /* Words from `column` on, broken where the page ends, those of further lines `left` blanks from the margin. */
 static void put_words(page *p, int column, int left, const char *text) {
     for (bool first = true; *text != '\0'; first = false) {
         const int word = word_length(text);
-        if (!first && column + 1 + word > p->width) {
+        const int seen = seen_length(text, word);
+        if (!first && column + 1 + seen > p->width) {
             output_format(p->out, "\n%*s", left, "");
             column = left;
             first = true;
         }
         output_format(p->out, "%s%.*s", first ? "" : " ", word, text);
-        column += word + !first;
+        column += seen + !first;
         text += word + (text[word] == ' ');
     }
 }

@@ -13,7 +13,8 @@ typedef struct page {
     int label;                         /**< characters that the labels of notes take */
     int width;                         /**< characters in a line: those of a terminal, else 80; output.width if set */
     const char *unit;                  /**< of lengths, for number_in(); null where nothing says it */
-    const char *strong, *soft, *plain; /**< bold and dim on a terminal; "" elsewhere, and where NO_COLOR is set */
+    const char *strong, *soft, *plain; /**< bold and dim on a terminal; "" elsewhere, see output.colour */
+    const char *good, *bad;            /**< of verdicts: green, and bold red */
 } page;
 
 page page_start(output *out, int label);
