@@ -76,7 +76,7 @@ const option_row option_rows[OPTION_COUNT] = {
     [OPTION_FAR] = {"far", 'f', "Z|inf", PLACED | TAKEN,
         "far plane, up to 1e18 scene units and beyond near by 1e-6 of it at least, or inf",
         parse_far, .standard = "1000",
-        .except = {BUT(VERB_SOLVE, "inf", "solved for where near alone is given", NULL)}},
+        .except = {BUT(VERB_SOLVE, NULL, "inf, solved for where near alone is given", NULL)}},
     [OPTION_FORMAT] = {"format", 'F', "NAME[,NAME...]|all", PLACED | TAKEN,
         "depth formats: @, names as the APIs write them, unormN, floatE.M[bB]; all are those of "
         "'depthprec list formats'", parse_formats, .names = &formats, .standard = "all",
