@@ -98,7 +98,7 @@ const option_row option_rows[OPTION_COUNT] = {
         "fill in near, far, mapping and format as an engine sets them, where they are not given: @; table compares "
         "several; 'depthprec list presets'", .parse = parse_presets, .names = &presets},
     [OPTION_UNIT] = {"unit", 0, NULL, PLACED | TAKEN,
-        "what a scene unit is; a preset in another one is converted. Any length may have a unit behind it: 10cm",
+        "what a scene unit is; a preset in another one is converted; any length may have a unit behind it: 10cm",
         .parse = parse_unit, .names = &units, .without = "that of the preset, or m where a length has a unit"},
     [OPTION_ROUNDING] = {"rounding", 0, NULL, CAMERA | TAKEN,
         "how a depth between two codes is rounded: ties upwards in unorm formats and to even in floats, as the APIs "
