@@ -223,6 +223,7 @@ static void check_text(const values *v, const char *arguments, const pixel_case 
     printed_free(&p);
 }
 
+/* Long: the columns of CSV are a third of it. */
 static void test_pixels(void **state) {
     static const csv_column columns[] = {SETUP_COLUMNS,
                                          {"column", "column"},
