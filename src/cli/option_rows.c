@@ -249,8 +249,8 @@ const option_row option_rows[OPTION_COUNT] = {
         "write CSV (RFC 4180) with units in the header row", parse_form, .least = FORM_CSV},
     [OPTION_OUTPUT] = {"output", 'o', "FILE", WRITTEN,
         "write to FILE when all is done; - is stdout", FILE_NAME(output), .without = "stdout",
-        .except = {BUT(VERB_PLOT, NULL, NULL, "draw to FILE: SVG, PDF or PNG by its ending; - is stdout, as --type says; "
-                       "the numbers of --json and --csv go there, too, or to stdout"),
+        .except = {BUT(VERB_PLOT, NULL, NULL, "draw to FILE: SVG, PDF or PNG by its ending; - is stdout, as --type "
+                       "says; the numbers of --json and --csv go there, too, or to stdout"),
                    BUT(VERB_TEXTURE, NULL, "stdout", "write the product to FILE: PNG, PFM or NPY by its ending; else "
                        "what is printed")}},
     [OPTION_QUIET] = {"quiet", 'q', NULL, WRITTEN,
