@@ -72,13 +72,11 @@ list methods --json
 list presets --json
 stability linearize --csv
 stability encode --csv
-stability position --csv
 zfight -n 1 -f 1.2 -F unorm16 -m all --csv
 zfight -n 1 -f 1.5 -F fp16 --sample 2000 --gap 0.0001 --json
 solve -f 1000 -F all $every --separation 0.01 --at 100 --json
 solve --for distance -n 0.1 -F unorm24 -m d3d --separation 0.01 --json
 bias --range 1:10 --gap 0.01 --csv
-check engine.need --json
 check village.need --csv
 each scenes texture -F unorm16 -m d3d --json $scene
 each scenes texture -F fp32 -m reversed --json $scene
@@ -126,7 +124,8 @@ for kind in ariths transforms scenes positions normals effects; do
 done
 EMULATOR="qemu-$machine -L $root" OMP_NUM_THREADS=1 DEPTHPREC_QUICK=1
 export EMULATOR OMP_NUM_THREADS DEPTHPREC_QUICK
-(everything "$scratch/here" "$PWD/build/depthprec") >"$scratch/here.txt" 2>&1
+# The method f16c is an instruction of x86-64, absent elsewhere.
+(everything "$scratch/here" "$PWD/build/depthprec") 2>&1 | sed '/^encode,f16c,/d' >"$scratch/here.txt"
 (everything "$scratch/there" $EMULATOR "$PWD/$B/depthprec") >"$scratch/there.txt" 2>&1 &
 failed=0
 sh tests/run.sh $programs || failed=1

@@ -150,7 +150,7 @@ check "depthprec.1: every figure" documented 1 aliases figures
 check "depthprec.1: every preset" documented 1 aliases presets
 check "depthprec.1: every API of depth bias" documented 1 aliases apis
 check "depthprec.1: every model" documented 1 aliases models
-check "depthprec.1: every arithmetic" documented 1 aliases ariths
+check "depthprec.1: every arithmetic" documented 1 aliases arithmetic
 check "depthprec.1: every composition" documented 1 aliases transforms
 check "depthprec.1: every cause" documented 1 aliases causes
 check "depthprec.3: every function" documented 3 functions

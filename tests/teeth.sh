@@ -26,6 +26,8 @@ install.sh                   | nm        | 0 | 1
 headers.sh                   | cc        | 1 | 10
 examples.sh                  | depthprec | 1 | 33
 examples.sh                  | depthprec | 0 | 31
+questions.sh                 | depthprec | 1 | all
+questions.sh                 | depthprec | 0 | all
 plots.sh                     | depthprec | 1 | 110
 plots.sh                     | depthprec | 0 | 110
 same.sh                      | depthprec | 1 | 1

@@ -302,7 +302,7 @@ static void guarantee_over_lattice(void **state) {
         snprintf(shown, sizeof shown, " Shown: %s, lattice; %s; %s.", texts[k], texts[k], census);
         char want[256];
         snprintf(want, sizeof want,
-                 "%s, near 0.1, far 1000, perspective, nearest, fp32 ieee, depths 1 to 100. Thin: the interval of the "
+                 "%s, near 0.1, far 1000, perspective, nearest, float ieee, depths 1 to 100. Thin: the interval of the "
                  "lattice alone. Points: the longest interval that there is in each power of two",
                  texts[k]);
         captions(d, "Guaranteed separation in binary32 arithmetic", want, "separation, interval (scene units)");

@@ -202,7 +202,7 @@ static void check_panel(const drawn *d, const drawn_panel *p, const picture_case
 
 /* A ball that we look at: red to the right, green upwards, blue in its middle. */
 static void check_ball(const drawn *d) {
-    static const char *const meanings[] = {"red: right", "green: up", "blue: towards the camera"};
+    static const char *const meanings[] = {"red: right", "green: up", "blue: towards", "the camera"};
     const svg_mark *ball = NULL;
     const svg_box page = {0, 0, d->svg->width, d->svg->height};
     for (size_t i = 0; i < d->svg->count; i++)
@@ -210,7 +210,7 @@ static void check_ball(const drawn *d) {
             ball = &d->svg->marks[i];
     assert_non_null(ball);
     double below = ball->box.y1;
-    for (int i = 0; i < 3; i++) {
+    for (int i = 0; i < 4; i++) {
         const svg_mark *words = drawn_words(d, page, meanings[i]);
         assert_non_null(words);
         assert_true(words->at.y > below && fabs(words->at.x - ball->box.x0) < 1);

@@ -28,9 +28,13 @@ static const struct {
     dp_mapping mapping;
     const char *names[14];
 } others[] = {
-    {DP_MAPPING_D3D, {"zo", "vulkan", "vk", "metal", "webgpu", "standard", "directx", "direct3d", "d3d11", "d3d12", "rh_zo", "lh_zo", "GL_ZERO_TO_ONE"}},
+    {DP_MAPPING_D3D,
+     {"zo", "vulkan", "vk", "metal", "webgpu", "standard", "directx", "direct3d", "d3d11", "d3d12", "rh_zo", "lh_zo",
+      "GL_ZERO_TO_ONE"}},
     {DP_MAPPING_GL, {"no", "opengl", "gles", "webgl", "rh_no", "lh_no", "GL_NEGATIVE_ONE_TO_ONE"}},
-    {DP_MAPPING_REVERSED, {"rev", "reverse", "reversed-z", "reverse-z", "reversedz", "inverted", "reversed_zo", "reversed-d3d", "d3d-reversed"}},
+    {DP_MAPPING_REVERSED,
+     {"rev", "reverse", "reversed-z", "reverse-z", "reversedz", "inverted", "reversed_zo", "reversed-d3d",
+      "d3d-reversed"}},
     {DP_MAPPING_GL_REVERSED, {"reversed-gl", "glrev", "gl_reversed", "reversed_no"}},
     {DP_MAPPING_LINEAR, {"w", "w-buffer", "wbuffer", "linear01"}},
     {DP_MAPPING_LOG, {"logarithmic", "logdepth"}},

@@ -26,18 +26,21 @@ static bool make(rng *r, view *out) {
     spec.znear = rng_log(r, 1e-3, 100);
     spec.zfar = rng_below(r, 7) == 0 ? INFINITY : spec.znear * rng_log(r, 3, 1e7);
     spec.ortho = rng_below(r, 5) == 0;
+    const double size = spec.znear;
+    if (spec.ortho && rng_below(r, 2))
+        rng_planes(r, &spec.znear, &spec.zfar);
     if (dp_setup_init(&setup, &spec) != DP_OK)
         return false;
     out->spec = camera_spec_default();
     out->spec.width = 1 + (uint32_t)rng_below(r, 4000);
     out->spec.height = 1 + (uint32_t)rng_below(r, 3000);
     out->spec.fov_y = rng_uniform(r, 1, 150);
-    out->spec.half_height = rng_log(r, 0.1, 1e4) * spec.znear;
+    out->spec.half_height = rng_log(r, 0.1, 1e4) * size;
     out->spec.yaw = rng_below(r, 8) == 0 ? 0 : rng_uniform(r, -180, 180);
     out->spec.pitch = rng_below(r, 8) == 0 ? 0 : rng_uniform(r, -90, 90);
     const bool moved = rng_below(r, 3) > 0;
     for (int k = 0; k < 3 && moved; k++)
-        out->spec.origin[k] = spec.znear * rng_log(r, 0.1, 1e8) * (rng_below(r, 2) == 0 ? 1 : -1);
+        out->spec.origin[k] = size * rng_log(r, 0.1, 1e8) * (rng_below(r, 2) == 0 ? 1 : -1);
     assert_null(camera_init(&out->camera, &setup, &out->spec));
     return true;
 }
@@ -80,7 +83,7 @@ static float depth_of(rng *r, const dp_setup *setup, uint64_t kind) {
     const double n = setup->spec.znear, f = isinf(setup->spec.zfar) ? n * 1e6 : setup->spec.zfar;
     if (kind < 2 && !isinf(setup->spec.zfar))
         return (float)kind;
-    return kind % 4 == 0 ? (float)rng_unit(r) : (float)dp_window(setup, rng_log(r, n, f));
+    return kind % 4 == 0 ? (float)rng_unit(r) : (float)dp_window(setup, n > 0 ? rng_log(r, n, f) : rng_depth(r, n, f));
 }
 
 static void bounds_hold_and_are_not_idle(void **state) {

@@ -193,7 +193,7 @@ static const char *advice_in(const char *at, const dp_setup *setup, const budget
     }
     if (!isnan(hopeless)) {
         at = length_in(words_in(at, "  at z = "), c, hopeless, 6, false);
-        at = words_in(at, " no separation is certain: what lies behind may share its code\n");
+        at = words_in(at, " no separation is guaranteed: everything farther may share its code\n");
     }
     if (isnan(z))
         return at;
@@ -210,10 +210,10 @@ static const char *advice_in(const char *at, const dp_setup *setup, const budget
         at = length_in(words_in(words_in(at, remedy.text), " would need "), c, remedy.separation, 4, true);
         at = length_in(words_in(at, " in place of "), c, worst.separation, 4, true);
     } else if (worst.separation < 2 * step) {
-        at = length_in(words_in(at, "nothing to gain, binary32 depths themselves are "), c, step, 4, false);
+        at = length_in(words_in(at, "nothing to gain: binary32 depths are themselves "), c, step, 4, false);
         at = words_in(at, " apart there");
     } else {
-        at = words_in(at, "nothing that could be chosen otherwise helps against it");
+        at = words_in(at, "no other format or mapping helps");
     }
     return words_in(at, "\n");
 }

@@ -58,7 +58,12 @@ static bool arith(size_t i, listed *l) {
 static bool model(size_t i, listed *l) {
     if (i > DP_MODEL_COUNT)
         return false;
-    *l = (listed){i < DP_MODEL_COUNT ? dp_model_name((dp_model)i) : "auto", i == DP_MODEL_FP32 ? "float" : "", NULL, NULL, {0}, 0};
+    *l = (listed){i < DP_MODEL_COUNT ? dp_model_name((dp_model)i) : "auto",
+                  i == DP_MODEL_FP32 ? "float" : "",
+                  NULL,
+                  NULL,
+                  {0},
+                  0};
     return true;
 }
 

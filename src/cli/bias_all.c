@@ -209,7 +209,7 @@ static void say_beside(page *p, void *item) {
 static void say_calls(page *p, void *item) {
     const all *a = item;
     if (a->fails)
-        page_line(p, "-: no bias is enough; with that format and mapping alone it is said where one is");
+        page_line(p, "-: no bias is enough; give that format and mapping alone to see where one is");
     for (size_t k = 0; k < a->walk.all.count; k++)
         if (a->walk.all.items[k].spec.format.kind == DP_FORMAT_UNORM) {
             page_line(p, "vulkan and gl: in integer formats r is the implementation's choice, 2^-N is assumed");

@@ -129,16 +129,16 @@ static void say_worst(page *p, const worst *w) {
                   number_in(number_up(w->remedy.separation, DIGITS), p->unit).text,
                   number_in(number_up(w->separation, DIGITS), p->unit).text);
     else if (w->separation < 2.0 * step)
-        page_line(p, "%snothing to gain, binary32 depths themselves are %s apart there", taken,
+        page_line(p, "%snothing to gain: binary32 depths are themselves %s apart there", taken,
                   number_in(number_of(step, DIGITS), p->unit).text);
     else
-        page_line(p, "%snothing that could be chosen otherwise helps against it", taken);
+        page_line(p, "%sno other format or mapping helps", taken);
 }
 
 static void say_notes(page *p, void *item) {
     const budget *b = item;
     if (!isnan(b->hopeless))
-        page_line(p, "at z = %s no separation is certain: what lies behind may share its code",
+        page_line(p, "at z = %s no separation is guaranteed: everything farther may share its code",
                   number_in(number_of(b->hopeless, DIGITS_MORE), p->unit).text);
     if (b->worst != NULL)
         say_worst(p, b->worst);

@@ -54,7 +54,7 @@ static void say_other_formats(page *p, void *of) {
               "1..2^E-1");
     output_char(p->out, '\n');
     page_title(p, "depth24plus, depth24plus-stencil8");
-    page_note(p, "", "unorm24 or fp32, as the implementation likes: stands for both");
+    page_note(p, "", "unorm24 or fp32, as the implementation chooses: both are shown");
 }
 
 enum { WITH_CHOICES = 1 };

@@ -211,10 +211,10 @@ static void say_evaluations(const figure_row *row, const chart *c) {
         fields += (size_t)c->panels[p].map.columns * (size_t)c->panels[p].map.rows;
     }
     if (fields > 0)
-        fprintf(stderr, "depthprec: %s: %zu evaluations, one a field\n", row->name, fields);
+        fprintf(stderr, "depthprec: %s: %zu evaluations, one per field\n", row->name, fields);
     else if (c->curves > 0)
-        fprintf(stderr, "depthprec: %s: %zu evaluations for %zu curve%s (one a pixel column would be %zu)\n", row->name,
-                c->evaluations, c->curves, c->curves == 1 ? "" : "s", c->places);
+        fprintf(stderr, "depthprec: %s: %zu evaluations for %zu curve%s (one per pixel column would be %zu)\n",
+                row->name, c->evaluations, c->curves, c->curves == 1 ? "" : "s", c->places);
 }
 
 /* ---- The numbers ------------------------------------------------------------------------------------------------- */

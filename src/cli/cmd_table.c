@@ -174,8 +174,7 @@ static void say_reach(page *p, void *item) {
     if (*sentence != '\0')
         page_text(p, "Guaranteed to be told apart: surfaces%s.", sentence);
     else
-        page_text(p, "Surfaces %s apart are nowhere sure to be told apart.",
-                  reach_limit_text(REACH_LIMITS - 1, unit).text);
+        page_text(p, "Surfaces %s apart may fight at every depth.", reach_limit_text(REACH_LIMITS - 1, unit).text);
 }
 
 static void say_worst(page *p, const dp_worst *w) {
@@ -195,7 +194,7 @@ static void say_worst(page *p, const dp_worst *w) {
                   number_in(number_of(w->interval, DIGITS_FEW), p->unit).text, lo.text,
                   number_in(number_of(w->interval_hi, digits), p->unit).text, w->interval_code);
     if (!isnan(w->blind_from))
-        page_note(p, "blind", "from z = %s: behind it nothing is told apart",
+        page_note(p, "blind", "from z = %s: nothing beyond is told apart",
                   number_in(number_of(w->blind_from, DIGITS_USUAL), p->unit).text);
 }
 

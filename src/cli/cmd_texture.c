@@ -14,7 +14,7 @@ static int check_alone(const options *o) {
     if (option_given(o, OPTION_AT))
         return option_error(OPTION_AT, "is for the table of --effect without an image");
     if (option_given(o, OPTION_PIXEL) && texture_product_wanted(o))
-        return option_error(OPTION_PIXEL, "tells all of a pixel, and makes no image or figure");
+        return option_error(OPTION_PIXEL, "describes single pixels, and makes no image or figure");
     for (size_t i = 0; i < sizeof drawn / sizeof drawn[0]; i++)
         if (option_given(o, drawn[i]) && o->figure == NULL)
             return option_error(drawn[i], "needs --figure");

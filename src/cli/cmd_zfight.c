@@ -147,7 +147,7 @@ static void say_gap(page *p, const zfight *z) {
         page_text(p, "%s %s apart never fight from %s to %s.", drawn, gap.text,
                   number_in(number_full(z->lo), p->unit).text, number_in(number_full(z->hi), p->unit).text);
     else if (isnan(z->always))
-        page_text(p, "%s %s apart first fight at z = %s, and nowhere always.", drawn, gap.text, first.text);
+        page_text(p, "%s %s apart first fight at z = %s, and at no depth do all of them.", drawn, gap.text, first.text);
     else
         page_text(p, "%s %s apart first fight at z = %s, and always from z = %s on.", drawn, gap.text, first.text,
                   always.text);
@@ -273,7 +273,7 @@ static int check(zfight *z) {
     if (status == EXIT_FINE)
         status = range_resolve(o, &z->lo, &z->hi);
     if (status == EXIT_FINE && isinf(z->hi))
-        status = option_error(OPTION_RANGE, "must be given when far is inf: every depth up to infinity is too many");
+        status = option_error(OPTION_RANGE, "must be given when far is inf: there are too many depths up to infinity");
     if (status == EXIT_FINE && !(z->lo > 0.0))
         status = option_error(OPTION_RANGE, "must begin above 0 for zfight, got %s", number_full(z->lo).text);
     if (status == EXIT_FINE && census_count(z->lo, z->hi) < 2)

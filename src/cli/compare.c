@@ -144,10 +144,10 @@ static void say_reversing(page *p, const comparison *c, const char *limit) {
         reach_text(r->zfar, r->up_to[MIDDLE], c->walk->o->unit, before);
         reach_text(other->zfar, other->up_to[MIDDLE], c->walk->o->unit, after);
         append(gains, sizeof gains, "%s %s", *gains != '\0' ? "," : "", r->name);
-        append(gains, sizeof gains, strcmp(before, after) == 0 ? " no farther" : " from %s to %s", before, after);
+        append(gains, sizeof gains, strcmp(before, after) == 0 ? " not at all" : " from %s to %s", before, after);
     }
     if (*gains != '\0')
-        page_text(p, "Reversing takes %s:%s.", limit, gains);
+        page_text(p, "Reversing moves the limit for %s:%s.", limit, gains);
 }
 
 static void say_notes(page *p, void *item) {

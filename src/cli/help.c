@@ -16,47 +16,73 @@ static void version(output *out) {
                      "There is NO WARRANTY, to the extent permitted by law.\n");
 }
 
+/* A screen of 24 lines. */
 static void list_commands(output *out) {
-    page p = page_start(out, 17);
+    page p = page_start(out, 18);
     output_text(out, "What a depth buffer can tell apart: exact precision and certified worst cases.\n\n"
-                     "  depthprec                                       the table of a common camera\n"
-                     "  depthprec -n 0.05 -f 4000 -F depth24plus        both formats that a browser may choose\n"
-                     "  depthprec -n 0.1 -f inf -F fp32 -m reversed     an infinite far plane\n\n"
-                     "Usage: depthprec [COMMAND] [options]\n\nCommands\n");
+                     "  depthprec -n 10cm -f 1km -F d24,fp32 -m gl,reversed   how far each keeps 1 cm\n"
+                     "  depthprec --preset unity,unreal --at 100m             two engines side by side\n\n"
+                     "Commands: depthprec [COMMAND] [options]\n");
     for (size_t i = 0; i < verb_count; i++) {
         char label[64] = "";
-        append(label, sizeof label, "%s%s%s", verb_rows[i].name, *verb_rows[i].operand != '\0' ? " " : "",
-               verb_rows[i].operand);
+        append(label, sizeof label, "%s%s%.*s", verb_rows[i].name, *verb_rows[i].operand != '\0' ? " " : "",
+               (int)strcspn(verb_rows[i].operand, " "), verb_rows[i].operand);
         page_note(&p, label, "%s%s", verb_rows[i].summary, i == 0 ? " (default)" : "");
     }
-    output_text(out, "\n'depthprec help COMMAND' lists the options of a command. Depths are in scene units.\n"
-                     "Exit status: 0 fine, 1 a check failed, 2 bad usage or input, 3 could not read or write.\n");
+    output_text(out, "\n'depthprec help COMMAND' lists its options. Lengths are in scene units, or 10cm.\n"
+                     "Exit: 0 fine, 1 a check failed, 2 bad usage or input, 3 cannot read or write.\n");
 }
 
 enum { DESCRIPTION_SIZE = 1024 };
+
+/* "default D: what that means", or "default of solve D, else what holds". */
+static void add_default(const char *of, const char *standard, const char *without, bool excepted,
+                        char out[DESCRIPTION_SIZE]) {
+    append(out, DESCRIPTION_SIZE, "default%s%s%s%s%s", *of != '\0' ? " of " : "", of, standard != NULL ? " " : "",
+           standard != NULL ? standard : "",
+           without == NULL                ? ""
+           : standard != NULL && excepted ? ", "
+                                          : ": ");
+    append(out, DESCRIPTION_SIZE, "%s", without != NULL ? without : "");
+}
+
+/* What is otherwise for some commands. */
+static void add_exception(const struct option_exception *e, char out[DESCRIPTION_SIZE]) {
+    const bool has_default = e->standard != NULL || e->without != NULL;
+    char takers[OPTION_TEXT_SIZE];
+    option_takers_of(e->commands, takers);
+    append(out, DESCRIPTION_SIZE, "; ");
+    if (e->help != NULL)
+        append(out, DESCRIPTION_SIZE, "%s: %s%s", takers, e->help, has_default ? ", " : "");
+    if (has_default)
+        add_default(e->help != NULL ? "" : takers, e->standard, e->without, true, out);
+}
 
 /* "what it does (LEAST to MOST UNIT; default D: what that means)" for a command; for all of them, those with another
  * default at the end. */
 static const char *describe(const verb *v, const option_row *row, char out[DESCRIPTION_SIZE]) {
     char text[OPTION_TEXT_SIZE];
-    const int before = (int)strcspn(row->help, "@");
-    const bool named = row->help[before] != '\0', limited = row->least < row->most;
-    const bool other = v != NULL && (row->except.commands & v->bit) != 0;
-    const char *standard = other ? NULL : row->standard, *meaning = other ? row->except.text : row->without;
+    const struct option_exception *other = v != NULL ? option_exception_of(row, v) : NULL;
+    const char *help = other != NULL && other->help != NULL ? other->help : row->help;
+    const char *standard = other != NULL ? other->standard : row->standard;
+    const char *without = other != NULL ? other->without : row->without;
+    const int before = (int)strcspn(help, "@");
+    const bool named = help[before] != '\0', limited = row->least < row->most;
     out[0] = '\0';
-    append(out, DESCRIPTION_SIZE, "%.*s", before, row->help);
+    append(out, DESCRIPTION_SIZE, "%.*s", before, help);
     if (named)
-        append(out, DESCRIPTION_SIZE, "%s%s", names_join(row->names, ", ", ", ", text), row->help + before + 1);
+        append(out, DESCRIPTION_SIZE, "%s%s", names_join(row->names, ", ", ", ", text), help + before + 1);
     if (limited)
         append(out, DESCRIPTION_SIZE, " (%s", option_limits(row, text));
-    if (standard != NULL || meaning != NULL)
-        append(out, DESCRIPTION_SIZE, "%sdefault%s%s%s%s", limited ? "; " : " (", standard != NULL ? " " : "",
-               standard != NULL ? standard : "", meaning != NULL ? ": " : "", meaning != NULL ? meaning : "");
-    for (size_t i = 0; v == NULL && i < verb_count; i++)
-        if ((row->except.commands & verb_rows[i].bit) != 0)
-            append(out, DESCRIPTION_SIZE, "; of %s: %s", verb_rows[i].name, row->except.text);
-    if (limited || standard != NULL || meaning != NULL)
+    if (standard != NULL || without != NULL) {
+        append(out, DESCRIPTION_SIZE, limited ? "; " : " (");
+        add_default("", standard, without, other != NULL, out);
+    }
+    if (limited || standard != NULL || without != NULL)
         append(out, DESCRIPTION_SIZE, ")");
+    for (int i = 0; v == NULL && i < OPTION_EXCEPTIONS; i++)
+        if (row->except[i].commands != 0)
+            add_exception(&row->except[i], out);
     return out;
 }
 

@@ -209,7 +209,7 @@ bool list_method(size_t index, list_item *item) {
 static const topic topics[] = {
     {"formats", "depth formats, and what their rounding is held to", list_format, "bound"},
     {"mappings", "how an eye depth becomes a window depth", list_mapping, "bound"},
-    {"models", "what is modelled of the arithmetic before the buffer", list_model, "bound"},
+    {"models", "how much of the arithmetic before the buffer is modelled", list_model, "bound"},
     {"arithmetic", "variants of binary32 arithmetic, for --arith", list_arith, "bound"},
     {"transforms", "how world positions become clip coordinates", list_composition, "bound"},
     {"causes", "what takes a part of the separation", list_cause, "bound"},

@@ -70,10 +70,21 @@ static number_text limit_text(double limit, bool whole) {
     return out;
 }
 
+const struct option_exception *option_exception_of(const option_row *row, const verb *v) {
+    for (int i = 0; i < OPTION_EXCEPTIONS; i++)
+        if ((row->except[i].commands & v->bit) != 0)
+            return &row->except[i];
+    return NULL;
+}
+
 const char *option_takers(const option_row *row, char out[OPTION_TEXT_SIZE]) {
+    return option_takers_of(row->commands, out);
+}
+
+const char *option_takers_of(unsigned commands, char out[OPTION_TEXT_SIZE]) {
     out[0] = '\0';
     for (size_t i = 0; i < verb_count; i++)
-        if ((row->commands & verb_rows[i].bit) != 0)
+        if ((commands & verb_rows[i].bit) != 0)
             append(out, OPTION_TEXT_SIZE, "%s%s", out[0] != '\0' ? ", " : "", verb_rows[i].name);
     return out;
 }

@@ -13,6 +13,8 @@
 
 struct option_row;
 
+enum { OPTION_EXCEPTIONS = 4 };
+
 /** Reads an argument of the option of that row. @return EXIT_FINE, or EXIT_USAGE after one line on stderr */
 typedef int option_parser(options *o, const struct option_row *row, const char *value);
 
@@ -29,10 +31,12 @@ typedef struct option_row {
     const name_list *names; /**< what it may be; null when it is no name */
     const char *standard;   /**< the default, as a user would write it; null when there is none */
     const char *without;    /**< what the default means, or holds without the option; or null */
-    struct {
+    /** Commands where it is otherwise: the default, spelled out; what holds without; what it does. Null as above, but a
+     *  default, which is then none. */
+    struct option_exception {
         unsigned commands;
-        const char *text;
-    } except;            /**< commands that have another default */
+        const char *standard, *without, *help;
+    } except[OPTION_EXCEPTIONS];
     const char *instead; /**< what a command that does not take it may be meant to have; or null */
     const char *group;   /**< the heading above this row and those behind it; null where the one before goes on */
 } option_row;
@@ -48,8 +52,12 @@ const char *option_argument(const option_row *row, char out[OPTION_TEXT_SIZE]);
 /** "LEAST to MOST UNIT". @return out */
 const char *option_limits(const option_row *row, char out[OPTION_TEXT_SIZE]);
 
-/** "table, plot, budget": the commands that take it. @return out */
+/** "table, plot, budget": the commands of these bits, or those that take it. @return out */
+const char *option_takers_of(unsigned commands, char out[OPTION_TEXT_SIZE]);
 const char *option_takers(const option_row *row, char out[OPTION_TEXT_SIZE]);
+
+/** Where it is otherwise for that command; null where it is not. */
+const struct option_exception *option_exception_of(const option_row *row, const verb *v);
 
 /* ---- Kinds ------------------------------------------------------------------------------------------------------- */
 

@@ -161,7 +161,7 @@ static void sentence_of_nothing(const solve_report *r, const solve_candidate *c,
     const number_text plane = digits(r, solve_plane_of(c)), best = up(r, c->reached.value);
     const char *what = target_name(r);
     if (isinf(c->reached.value))
-        output_format(out, "Impossible: %s has no %s that %s: nothing behind is certain to be told apart.\n",
+        output_format(out, "Impossible: %s has no %s that %s: nothing farther is certain to be told apart.\n",
                       given.text, what, goal.text);
     else if (!c->solved)
         output_format(out, "Impossible: no %s with near and far as they are %s; %s comes nearest, with %s.\n", what,
@@ -182,8 +182,9 @@ static void sentence_of_plane(const solve_report *r, const solve_candidate *c, o
     const number_text safe = safe_digits(r, c, value, p->until);
     const char *name = is_near(c) ? "Near" : "Far";
     if (scattered && !isnan(p->steady))
-        output_format(out, "%s %s is enough for %s to %s; %s %s on every one tried is.\n", name, safe.text, given.text,
-                      goal.text, is_near(c) ? "from" : "down from", safe_digits(r, c, p->steady, p->until).text);
+        output_format(out, "%s %s is enough for %s to %s; %s %s on every value tried passes.\n", name, safe.text,
+                      given.text, goal.text, is_near(c) ? "from" : "down from",
+                      safe_digits(r, c, p->steady, p->until).text);
     else if (scattered || !p->certain)
         output_format(out, "%s %s is enough for %s to %s.\n", name, safe.text, given.text, goal.text);
     else if (value == (is_near(c) ? c->least : c->most))
@@ -230,15 +231,15 @@ static void say_plane(const solve_report *r, const solve_candidate *c, page *p) 
     const unsigned long long tried = a->tried, passed = a->passed;
     page_note(p, what, "%s exactly%s", whole(r, solve_plane_of(c)).text,
               a->certain   ? ""
-              : is_near(c) ? "; a smaller one may be enough, too"
-                           : "; a larger one may be enough, too");
+              : is_near(c) ? "; a smaller one may be enough"
+                           : "; a larger one may be enough");
     if (tried == 0)
         page_note(p, "passes", "every %s from %s to %s", what, lo.text, hi.text);
     else if (passed == tried)
         page_note(p, "passes", "every %s tried from %s to %s, %llu of them", what, lo.text, hi.text, tried);
     else
-        page_note(p, "passes", "%llu of %llu tried from %s to %s: it hangs on how the matrix is rounded", passed, tried,
-                  lo.text, hi.text);
+        page_note(p, "passes", "%llu of %llu tried from %s to %s: it depends on how the matrix is rounded", passed,
+                  tried, lo.text, hi.text);
     if (!isnan(a->fails_to))
         page_note(p, "fails", "every binary32 %s from there %s to %s", what, is_near(c) ? "down" : "up",
                   bound(r, a->fails_to, is_near(c)).text);
@@ -257,8 +258,8 @@ static void say_model(const solve_report *r, const solve_candidate *c, page *p) 
     if (c->spec.model == DP_MODEL_FP32)
         more = dp_arith_get(c->spec.arith)->name;
     else if (c->spec.model == DP_MODEL_STAGED && chosen)
-        more = r->kind == MEASURE_ERROR ? "; fp32 has no cells whose error could be asked"
-                                        : "; the mapping has no binary32 pipeline for fp32";
+        more = r->kind == MEASURE_ERROR ? "; model float has no cells, so no error"
+                                        : "; model float does not cover this mapping";
     page_note(p, "model", "%s%s", words[c->spec.model], more);
 }
 
@@ -275,7 +276,7 @@ static void say_beside(const solve_report *r, const solve_candidate *c, page *p)
             page_note(p, "in the lattice", "%s %s would do", target_name(r),
                       bound(r, c->lattice.value, is_near(c)).text);
         else
-            page_note(p, "in the lattice", "no %s would do in it either", target_name(r));
+            page_note(p, "in the lattice", "no %s would do there either", target_name(r));
     }
     if (c->spec.model == DP_MODEL_FP32 || isinf(c->reached.value))
         return;

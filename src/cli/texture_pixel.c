@@ -180,8 +180,8 @@ static void say_head(page *p, void *item) {
     if (all->o->metric == 0)
         page_text(p, "format %s, mapping %s%s", all->format_from, all->mapping_from,
                   has_camera(all)   ? ""
-                  : s->camera.ortho ? "; --half-height tells position and normal"
-                                    : "; --fov tells position and normal");
+                  : s->camera.ortho ? "; --half-height adds position and normal"
+                                    : "; --fov adds position and normal");
     output_char(p->out, '\n');
 }
 

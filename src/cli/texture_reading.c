@@ -188,7 +188,7 @@ const char *texture_readings_of(const texture_source *s, const char *what, char 
 static void warn_of(const texture_source *s, const char *what) {
     char text[READINGS_SIZE];
     if (*texture_readings_of(s, what, text) != '\0')
-        fprintf(stderr, "depthprec: %s: the %s is assumed: pixel %s; --%s tells\n", s->path, what, text, what);
+        fprintf(stderr, "depthprec: %s: the %s is assumed: pixel %s; --%s sets it\n", s->path, what, text, what);
 }
 
 static void warn(const options *o, const texture_source *s) {
@@ -197,7 +197,7 @@ static void warn(const options *o, const texture_source *s) {
     warn_of(s, "mapping");
     warn_of(s, "format");
     if (s->reading_count == 0 && o->metric == 0 && s->mapping_from == ORIGIN_ASSUMED)
-        fprintf(stderr, "depthprec: %s: the mapping is assumed; --mapping tells\n", s->path);
+        fprintf(stderr, "depthprec: %s: the mapping is assumed; --mapping sets it\n", s->path);
     if (o->metric == 0 && s->found.metric)
         fprintf(stderr,
                 "depthprec: %s: may be metric depth, whole numbers with 0 for holes; --metric 0.001 reads "

@@ -12,35 +12,35 @@ static const name_list shells = {.words = (const char *const[]){"bash", "zsh", "
 /* clang-format off */
 const verb verb_rows[] = {
     {"table", VERB_TABLE, "", 0, 0, NULL,
-     "what each depth stores, its error, its interval; the worst case",
+     "codes, errors, and how far surfaces are told apart",
      "  depthprec table -n 0.1 -f 1000 -F unorm24 -m d3d,reversed\n"
      "  depthprec table -n 0.1 -f inf -F fp32 -m reversed --at 1,10,100,1000\n"
      "  depthprec table -F unorm24 -m d3d --depth 0.9987\n"
      "  depthprec table -F d32f --at 1:1000:log:10000 --csv -o depths.csv\n", 0},
     {"plot", VERB_PLOT, "FIGURE [FILE|FAMILY]", 1, 2, &figures,
-     "draws a figure: SVG, PDF or PNG by the ending of -o",
+     "a figure: SVG, PDF or PNG by the ending of -o, or --type",
      "  depthprec plot error -F all -m d3d,reversed -o error.svg\n"
      "  depthprec plot error -F fp32 -m d3d,reversed -o - --type png >error.png\n"
      "  depthprec plot distribution -F unorm4 -n 1 -f 10 -o staircase.png --theme dark\n"
      "  depthprec plot scene engine.need -o scene.svg\n", 2},
     {"zfight", VERB_ZFIGHT, "", 0, 0, NULL,
-     "ties, swaps, longest interval of the binary32 pipeline, every depth",
+     "from where surfaces fight, by visiting every depth",
      "  depthprec zfight -n 0.1 -f 1000 -F unorm24,fp32 -m d3d,reversed\n"
      "  depthprec zfight -F d24 -m gl --arith mesa --gap 0.01\n"
-     "  depthprec zfight -f inf -F fp32 -m reversed --range 0.1:1e9 --sample 1000000 --seed 7\n", 0},
+     "  depthprec zfight -f inf -F fp32 -m reversed --range 0.1:1e9 --sample 1000000\n", 0},
     {"budget", VERB_BUDGET, "", 0, 0, NULL,
-     "which cause takes how much of the separation; which model is enough",
+     "which cause takes how much of the separation",
      "  depthprec budget -n 0.1 -f 1000 -F unorm24 -m d3d\n"
      "  depthprec budget -F fp32 -m reversed --world 5000 --linearize --at 10,100,1000\n", 0},
     {"texture", VERB_TEXTURE, "[FILE]", 0, 1, NULL,
-     "a depth image: statistics, eye depth, positions, normals, effects",
+     "a depth image: depths, positions, normals, effects, errors",
      "  depthprec texture depth.png -n 0.3 -f 1000\n"
      "  capture | depthprec texture - -n 0.3 -f 1000\n"
      "  depthprec texture depth.png -n 0.3 -f 1000 --pixel 320,180\n"
      "  depthprec texture depth.png -n 0.3 -f 1000 --normal high -o normals.npy\n"
      "  depthprec texture --scene decals --parameter gap=0.01 -F d24 -m reversed\n", 1},
     {"bench", VERB_BENCH, "FAMILY", 1, 1, &families,
-     "methods of a family: ns per element against worst error",
+     "methods of a family: time against worst error",
      "  depthprec bench linearize -n 0.1 -f 1000\n"
      "  depthprec bench interval -F fp32 -m reversed --tolerance 1e-6\n"
      "  depthprec plot pareto linearize -o pareto.svg\n", 0},
@@ -49,33 +49,33 @@ const verb verb_rows[] = {
      "  depthprec stability linearize\n"
      "  depthprec plot stability interval -o stability.svg\n", 0},
     {"check", VERB_CHECK, "FILE...", 1, 1000, NULL,
-     "whether cameras meet the requirements of files; exit 1 when not",
+     "do cameras meet the requirements of files? exit 1 if not",
      "  depthprec check engine.need\n"
      "  depthprec check --report junit -o depth.xml engine.need\n"
      "  generate | depthprec check -\n", 1},
     {"solve", VERB_SOLVE, "", 0, 0, NULL,
-     "the near, far, format or mapping that a separation needs",
-     "  depthprec solve --for distance -n 0.1 -f 1000 -F unorm24 -m d3d --separation 0.01\n"
+     "near, far, format, mapping or distance for a separation",
+     "  depthprec solve --for distance -n 0.1 -f 1000 -F d24 -m d3d --separation 0.01\n"
      "  depthprec solve -F unorm24 -m d3d -f 10000 --separation 0.01 --at 5000\n"
      "  depthprec solve -n 0.1 -f 4000 --separation 0.001 --range 0.1:100\n"
      "  depthprec solve --for far -n 0.1 -F d24 -m d3d --error 0.05 --at 500\n", 0},
     {"bias", VERB_BIAS, "", 0, 0, NULL,
-     "depth-bias units to scene units, per API; how much bias is enough",
+     "what a depth bias does, how much is enough, per API",
      "  depthprec bias --api gl -F d24 -m gl --units -1 --at 1,10,100\n"
      "  depthprec bias --api all --gap 0.02 --at 300\n"
      "  depthprec bias --api webgpu -F depth24plus -m d3d --gap 0.01 --range 1:100\n"
      "  depthprec bias --preset bevy --api vulkan --units 4 --factor 1 --slope 0.02\n", 0},
     {"list", VERB_LIST, "WHAT", 0, 1, &topics,
-     "formats, mappings, presets, effects, methods, ...: 'depthprec list' has them all",
+     "formats, mappings, presets, methods: 'list' alone says what",
      "  depthprec list\n"
      "  depthprec list formats\n"
      "  depthprec list mappings --json\n", 0},
     {"help", VERB_HELP, "COMMAND", 0, 1, &commands,
-     "the options of a command; 'depthprec help options' has those of all",
+     "the options of a command; 'help options': those of all",
      "  depthprec help table\n"
      "  depthprec help options\n", 0},
     {"completions", VERB_COMPLETIONS, "SHELL", 1, 1, &shells,
-     "what a shell completes: commands, options and their words",
+     "for a shell: commands, options and their words",
      "  . <(depthprec completions bash)\n", 0},
 };
 /* clang-format on */

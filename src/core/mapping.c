@@ -6,7 +6,8 @@
 /* clang-format off */
 static const dp_mapping_row rows[DP_MAPPING_COUNT] = {
     [DP_MAPPING_D3D] = {
-        .name = "d3d", .aliases = "zo vulkan vk metal webgpu standard directx direct3d d3d11 d3d12 rh_zo lh_zo GL_ZERO_TO_ONE",
+        .name = "d3d",
+        .aliases = "zo vulkan vk metal webgpu standard directx direct3d d3d11 d3d12 rh_zo lh_zo GL_ZERO_TO_ONE",
         .curve = DP_CURVE_PERSPECTIVE, .far_infinite = 1, .ortho = 1,
         .effort = "",
         .note = "clip depth in [0, 1], near stored as 0: D3D, Vulkan, Metal, WebGPU",
@@ -20,7 +21,8 @@ static const dp_mapping_row rows[DP_MAPPING_COUNT] = {
         .source = "OpenGL 4.6 core specification 13.8",
     },
     [DP_MAPPING_REVERSED] = {
-        .name = "reversed", .aliases = "rev reverse reversed-z reverse-z reversedz inverted reversed_zo reversed-d3d d3d-reversed",
+        .name = "reversed",
+        .aliases = "rev reverse reversed-z reverse-z reversedz inverted reversed_zo reversed-d3d d3d-reversed",
         .curve = DP_CURVE_PERSPECTIVE, .reversed = 1, .far_infinite = 1, .ortho = 1,
         .rank = 1, .effort = "clear to 0, compare greater; OpenGL: glClipControl",
         .note = "clip depth in [0, 1], near stored as 1",

@@ -206,7 +206,7 @@ uint32_t heat_direction(double x, double y, double z) {
 
 void heat_draw_ball(const pencil *p, canvas_rect area) {
     enum { SIDE = 128 };
-    static const char *const meanings[] = {"red: right", "green: up", "blue: towards the camera"};
+    static const char *const meanings[] = {"red: right", "green: up", "blue: towards", "the camera"};
     uint32_t pixels[SIDE * SIDE];
     for (int i = 0; i < SIDE * SIDE; i++) {
         const double x = (i % SIDE + 0.5) * 2 / SIDE - 1, y = 1 - (i / SIDE + 0.5) * 2 / SIDE, rest = 1 - x * x - y * y;

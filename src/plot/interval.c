@@ -22,7 +22,7 @@ static bool is_fp32(const figure_request *request, size_t i) {
 /* The same set-ups, each with cells. Returns how many had none. */
 static size_t with_cells(const figure_request *request, dp_setup lattice[CHART_SETUPS]) {
     size_t changed = 0;
-    for (size_t i = 0; i < request->count && i < CHART_SETUPS; i++) {
+    for (size_t i = 0; i < request->count; i++) {
         dp_spec spec = request->setups[i].spec;
         lattice[i] = request->setups[i];
         if (!is_fp32(request, i))

@@ -48,11 +48,6 @@ static double crossed(const ground *g, canvas_rect box) {
     return length;
 }
 
-typedef struct place {
-    canvas_rect box;
-    double cost;
-} place;
-
 /* What a box hides: points, labels and lines, and above all itself beyond the frame. */
 static double cost_of(const ground *g, canvas_rect box) {
     double cost = 10 * (box.w * box.h - overlap(box, g->a->frame)) + box.h / 2 * crossed(g, box);
@@ -61,18 +56,21 @@ static double cost_of(const ground *g, canvas_rect box) {
     return cost;
 }
 
-static place best_place(const ground *g, double x, double y, double width) {
+static canvas_rect best_place(const ground *g, double x, double y, double width) {
     const canvas_rect frame = g->a->frame;
     const double high = 1.25 * g->p->small.size, gap = 8 * g->p->scale;
-    place best = {.cost = (double)INFINITY};
+    canvas_rect best = {0, 0, 0, 0};
+    double least = INFINITY;
     for (int line = 0; line <= 2 * LIFTS; line++) {
         double lift = (line + 1) / 2 * (line % 2 == 0 ? 1 : -1) * 0.75 * high;
         for (int side = 0; side < 2; side++) {
             const double left = side == 0 ? fmin(x + gap, frame.x + frame.w - width) : fmax(x - gap - width, frame.x);
             canvas_rect box = {left, y - high / 2 + lift, width, high};
             double cost = cost_of(g, box) + 0.3 * (fabs(lift) + side);
-            if (cost < best.cost)
-                best = (place){box, cost};
+            if (cost < least) {
+                best = box;
+                least = cost;
+            }
         }
     }
     return best;
@@ -83,7 +81,7 @@ static void draw_label(ground *g, double x, double y, const char *text) {
     canvas_font font = p->small;
     font.colour = p->theme->text;
     font.halo = p->theme->background;
-    const canvas_rect box = best_place(g, x, y, canvas_text_width(p->c, text, &font)).box;
+    const canvas_rect box = best_place(g, x, y, canvas_text_width(p->c, text, &font));
     const double middle = box.y + box.h / 2, end = box.x + box.w;
     const bool beside = end < x - 4 * p->scale || box.x > x + 4 * p->scale;
     take(g, box);

@@ -136,7 +136,7 @@ void picture_mark(chart *out, size_t count, const double (*at)[2], const char *n
         chart_series *s = chart_add_series(out, &out->panels[i], CHART_POINTS, count);
         if (s == NULL)
             return;
-        s->style = (chart_style){.colour = -1, .stroke = 1, .marker = 2};
+        s->style = (chart_style){.colour = -1, .stroke = 1, .marker = 2, .thin = out->panel_count > 1};
         snprintf(s->name, sizeof s->name, "%s", name);
         for (size_t k = 0; k < count; k++) {
             s->x[k] = at[k][0];

@@ -14,7 +14,8 @@ static bool has_matrix(const dp_setup *setup) {
 }
 
 bool position_applies(const position_row *row, const texture_camera *camera) {
-    return (camera->ortho ? row->ortho : row->perspective) && (row->curved || has_matrix(&camera->setup));
+    const bool divides = !(camera->ortho && row->by_far) || camera->setup.spec.zfar != 0;
+    return (camera->ortho ? row->ortho : row->perspective) && (row->curved || has_matrix(&camera->setup)) && divides;
 }
 
 /* ---- Matrices ---------------------------------------------------------------------------------------------------- */

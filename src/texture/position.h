@@ -35,6 +35,7 @@ typedef struct position_row {
     const char *note;
     bool perspective, ortho; /**< has such a form */
     bool curved;             /**< needs no projection matrix: takes linear and logarithmic depth, too */
+    bool by_far;             /**< orthographic: divides by the far plane, which must not be 0 */
     const char *source;
     /** Places of `count` pixels of a row from `column` on: three planes, world coordinates. The planes do not overlap
      *  each other or d. NaN depths give NaN. */

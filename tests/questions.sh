@@ -1,0 +1,136 @@
+#!/bin/sh
+# SPDX-License-Identifier: GPL-3.0-or-later
+# The questions of README.md: each command stands there and answers at the first try, and the number in its answer agrees
+# with a formula that awk computes. Then the words of the text: those that the glossary of depthprec.7 replaced are gone.
+. tests/tap.sh
+
+root=$PWD
+mkdir "$scratch/bin" "$scratch/work"
+ln -s "$DEPTHPREC" "$scratch/bin/depthprec"
+PATH=$scratch/bin:$PATH
+unset NO_COLOR LANGUAGE LANG POSIXLY_CORRECT
+export TERM=dumb
+
+# ---- The files that the questions are about ----
+
+depthprec texture --scene plane --parameter tilt=60 -F unorm16 -m d3d -o "$scratch/work/depth.png" 2>/dev/null
+cat >"$scratch/work/game.need" <<'END'
+unit = "m";
+cameras = { game = { near = 0.1; far = 1000; mapping = "d3d"; format = "d24"; }; };
+requirements = { walls = { camera = "game"; at = "50 m"; separation = "1 mm"; }; };
+END
+
+answers() { # answers STATUS COMMAND WORDS: the README has the command, which exits so and prints a line with these words
+    grep -qxF -e "$2" README.md || { echo "not in README.md: $2" && return 1; }
+    (cd "$scratch/work" && sh -c "$2" >"$scratch/answer" 2>"$scratch/errors" </dev/null)
+    status=$?
+    cat "$scratch/errors" "$scratch/answer"
+    [ $status -eq "$1" ] && grep -qF -e "$3" "$scratch/answer"
+}
+
+agrees() { # agrees PATTERN LEAST MOST: the number behind the pattern in the answer lies between two formulas of awk
+    tr -s ' \n' '  ' <"$scratch/answer" | awk -v pattern="$1" "
+        # window depth of a standard mapping with near n and far f, its eye depth, and the width of a step h there
+        function eye(d, n, f) { return n * f / (f - d * (f - n)) }
+        function width(z, n, f, h) { return z * z * (1 / n - (f ? 1 / f : 0)) * h }
+        {
+            d24 = 1 / (2 ^ 24 - 1)
+            least = $2
+            most = $3
+            number = match(\$0, pattern \" *-?[0-9][0-9.e+-]*\") ? substr(\$0, RSTART, RLENGTH) : \"\"
+            sub(pattern \" *\", \"\", number)
+            printf \"%.9g <= %s <= %.9g\n\", least, number, most
+            exit !(number != \"\" && least <= number + 0 && number + 0 <= most)
+        }"
+}
+
+# Surfaces fight where one step is as wide as the gap, at the latest, and never where two fit into it.
+check "1. walls 1 cm apart in D24" answers 0 \
+    'depthprec zfight -n 0.1 -f 1000 -F d24 -m gl --gap 0.01' 'first fight at z = 100.347'
+check "1. within the lattice" agrees 'at z =' 'sqrt(0.01 / width(1, 0.1, 1000, 2 * d24))' 'sqrt(0.01 / width(1, 0.1, 1000, d24))'
+# Around z = 83,000 a step of n/z, which is about 2^-20 there, is 2^-43.
+check "2. the same in fp32, reversed, infinite" answers 0 \
+    'depthprec zfight -n 0.1 -f inf -F fp32 -m reversed --range 1:1e5 --gap 0.01' 'first fight at z = 82908.5'
+check "2. within the lattice" agrees 'at z =' 'sqrt(0.01 / width(1, 0.1, 0, 2 ^ -42))' 'sqrt(0.01 / width(1, 0.1, 0, 2 ^ -43))'
+check "3. the cheapest format for 5 mm at 2 km" answers 0 \
+    'depthprec solve --for format -n 0.05 --separation 5mm --at 2km' 'fp32 reversed, near 0.05'
+check "3. two steps of binary32 at 2000 m" agrees 'separation' '2 ^ -12 - 1e-9' '2 ^ -12 + 1e-9'
+check "4. the near plane for 1 cm at 5 km" answers 0 \
+    'depthprec solve --for near -F d24 -m d3d --separation 1cm --at 5km' '152.58815002441406'
+check "4. at least that of the lattice" agrees 'near' 'width(5000, 1, 0, d24) / 0.01' '2 * width(5000, 1, 0, d24) / 0.01'
+check "5. the bias for a decal, in every API" answers 0 \
+    'depthprec bias --api all -F d24 --gap 2cm --at 300m' 'glPolygonOffset'
+check "5. so many steps in d3d11" agrees 'd3d11' '-1 - 0.02 / width(300, 0.1, 1000, d24) - 1' '-0.02 / width(300, 0.1, 1000, d24)'
+check "6. the eye depth of a window depth" answers 0 'depthprec table -F d24 -m d3d --depth 0.9987' '71.435205'
+check "6. by the formula" agrees '16755405' 'eye(0.9987, 0.1, 1000) - 1e-6' 'eye(0.9987, 0.1, 1000) + 1e-6'
+check "6. and back" answers 0 'depthprec table -F d24 -m d3d --at 71.435205' '16755405'
+check "6. by the formula, back" agrees '16755405' 0.99869999 0.99870001
+check "7. a pixel of a depth image" answers 0 \
+    'depthprec texture depth.png -n 0.1 -f 1000 -m d3d --pixel 320,180' '9.96747623'
+check "7. by the formula" agrees 'eye depth' 'eye(64884 / 65535, 0.1, 1000) - 1e-7' 'eye(64884 / 65535, 0.1, 1000) + 1e-7'
+
+figure='depthprec plot error -F d16,d24,fp32 -m reversed --theme dark -o error.svg'
+check "8. a dark figure, to a file" answers 0 "$figure" ''
+check "8. to the standard output, the same" answers 0 \
+    'depthprec plot error -F d16,d24,fp32 -m reversed --theme dark --type svg -o -' '</svg>'
+three() { # the figure has a curve of each, and both outputs are alike
+    cmp "$scratch/answer" "$scratch/work/error.svg" || return
+    for format in unorm16 unorm24 fp32; do grep -q "$format" "$scratch/answer" || return; done
+}
+check "8. three formats" three
+
+check "9. a job that fails below 1 mm at 50 m" answers 1 'depthprec check game.need' 'FAIL'
+check "9. by the formula" agrees 'separation' 'width(50, 0.1, 1000, d24) - 1e-7' 'width(50, 0.1, 1000, d24) + 1e-7'
+check "10. the worst error" answers 0 "depthprec table -F d24 -m d3d --json | jq '.setups[0].worst.error'" '0.2979'
+check "10. half a step before the far plane" agrees '^' '1000 - eye(1 - d24 / 2, 0.1, 1000) - 1e-6' \
+    '1000 - eye(1 - d24 / 2, 0.1, 1000) + 1e-6'
+check "11. the step of an orthographic camera" answers 0 'depthprec table --ortho -n 0 -f 500 -F d16 -m d3d' 'worst interval'
+check "11. by the formula" agrees 'worst interval' '500 / 65535 - 1e-8' '500 / 65535 + 1e-8'
+check "12. which linearization" answers 0 'depthprec bench linearize -F fp32 -m reversed' 'complement'
+check "12. the exact one, rounded once, is off by half an ulp" agrees '[* ] double  *[^ ]*  *[^ ]* ' '2 ^ -24 * 0.99' '2 ^ -24 * 1.01'
+check "13. must float arithmetic be modelled" answers 0 'depthprec table -F d24 -m d3d --at 100' 'model staged is enough'
+check "13. by so much more than the lattice" agrees 'makes this' \
+    "100 * ($(awk '/16762114/ { print $NF }' "$scratch/answer") / width(100, 0.1, 1000, d24) - 1) - 0.1" \
+    "100 * ($(awk '/16762114/ { print $NF }' "$scratch/answer") / width(100, 0.1, 1000, d24) - 1) + 0.1"
+check "14. two engines at 100 m" answers 0 'depthprec table --preset unity,unreal --at 100m' 'unreal fp32 reversed'
+# 100 m in binary32 are in steps of 2^-17; both cameras are good to a few of these
+check "14. two to four steps of binary32" agrees 'unreal fp32 reversed' '2 * 2 ^ -17' '4 * 2 ^ -17'
+
+# ---- Words and widths ----
+
+everything() { # the text of README.md and the pages, of help and of every list, to the folder text
+    mkdir -p "$scratch/text" && cp README.md man/depthprec.[1357] "$scratch/text" || return
+    depthprec help >"$scratch/text/help" || return
+    for verb in $(sed -n '/^Commands/,/^$/s/^  \([a-z]*\) .*/\1/p' "$scratch/text/help"); do
+        depthprec help "$verb" >"$scratch/text/help.$verb" || return
+    done
+    depthprec list >"$scratch/text/list" || return
+    for what in $(sed -n 's/^  \([a-z]*\) .*/\1/p' "$scratch/text/list"); do
+        depthprec list "$what" >"$scratch/text/list.$what" || return
+    done
+    [ "$(find "$scratch/text" -size +0 | wc -l)" -ge 30 ]
+}
+
+# What the glossary has better words for. A list by hand, because words like "one" are retired in one sense only.
+retired='to be had|drawn from|a limit is|an element|different codes|stands for|stand for|too much:|arithmetic adds
+|nothing is monotone|ariths|to us|hangs on|an octave of'
+
+free_of() { # free_of WORDS: no text has them, wherever its lines break
+    [ -s "$scratch/text/list" ] || return
+    for file in "$scratch"/text/*; do
+        tr -s ' \n' '  ' <"$file" | lines -owE -e ".{0,30}($1).{0,20}" | sed "s|^|${file##*/}: |"
+    done
+}
+
+narrow() { # help and lists are at most 80 columns wide
+    [ -s "$scratch/text/list" ] || return
+    awk 'length > 80 { print FILENAME ": " $0 }' "$scratch"/text/help* "$scratch"/text/list*
+}
+
+check "the text of the pages, of help and of lists" everything
+echo "$retired" | tr '|' '\n' >"$scratch/retired"
+while read -r words; do
+    [ -z "$words" ] || check "no text says \"$words\"" empty free_of "$words"
+done <"$scratch/retired"
+check "help and lists: 80 columns" empty narrow
+finish

@@ -1,0 +1,139 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Each default that help spells out: with it given, a command prints what it prints without. */
+#include <stdlib.h>
+#include <string.h>
+
+#include "cli/option_rows.h"
+#include "printed.h"
+
+/* A line of each command that has defaults, small where the work depends on it. */
+static const struct {
+    unsigned verb;
+    const char *line;
+} lines[] = {
+    {VERB_TABLE, "table"},
+    {VERB_PLOT, "plot error --csv"},
+    {VERB_ZFIGHT, "zfight --range 1:1.01"},
+    {VERB_BUDGET, "budget"},
+    {VERB_TEXTURE, "texture --scene steps --size 64x36"},
+    {VERB_BENCH, "bench interval --json"},
+    {VERB_CHECK, "check tests/needs/village.need"},
+    {VERB_SOLVE, "solve -F d24 -m d3d --separation 0.01 --at 50"},
+    {VERB_BIAS, "bias --units -1"},
+};
+
+/* Where an option matters only beside another, or in another line. */
+static const struct {
+    unsigned verbs;
+    option_id id;
+    const char *line; /* in place of the command's; null: that */
+    const char *more;
+} besides[] = {
+    {VERB_PLOT, OPTION_INTERPOLATION, "plot budget -F d24 -m d3d --csv", ""},
+    {VERB_PLOT, OPTION_WORLD, "plot budget -F d24 -m d3d --csv", ""},
+    {VERB_PLOT, OPTION_COMPOSITION, "plot budget -F d24 -m d3d --csv", "--world 100"},
+    {VERB_BUDGET, OPTION_COMPOSITION, NULL, "--world 100"},
+    {VERB_ZFIGHT, OPTION_SEED, NULL, "--sample 1000"},
+    {VERB_TEXTURE, OPTION_HALF_HEIGHT, NULL, "--ortho"},
+    {VERB_TEXTURE, OPTION_SIZE, "texture --scene plane", ""},
+    {VERB_BIAS, OPTION_CLAMP, NULL, "--api vulkan"},
+    {VERB_BIAS, OPTION_API, "bias -F fp32", ""},
+    {VERB_TABLE, OPTION_MODEL, "table -F d24 -m d3d", ""},
+    {VERB_TABLE, OPTION_ARITH, NULL, "--model float"},
+    {VERB_PLOT, OPTION_ARITH, "plot interval -F d24 -m d3d --csv", "--model float"},
+    {VERB_TABLE | VERB_PLOT | VERB_TEXTURE | VERB_BIAS, OPTION_LOG_C, NULL, "-m log"},
+    {VERB_SOLVE, OPTION_LOG_C, "solve -f 1000 -F d24 -m log --separation 0.01 --at 50", ""},
+};
+
+static void line_of(const verb *v, option_id id, char out[256]) {
+    const char *line = NULL, *more = "";
+    for (size_t i = 0; i < sizeof lines / sizeof lines[0]; i++)
+        if (lines[i].verb == v->bit)
+            line = lines[i].line;
+    for (size_t i = 0; i < sizeof besides / sizeof besides[0]; i++)
+        if ((besides[i].verbs & v->bit) != 0 && besides[i].id == id) {
+            line = besides[i].line != NULL ? besides[i].line : line;
+            more = besides[i].more;
+        }
+    if (line == NULL)
+        fail_msg("%s has no line in this test", v->name);
+    snprintf(out, 256, "%s %s", line, more);
+}
+
+/* Of what is timed, what was measured. */
+static void keep_setup(char *text) {
+    static const char *const keys[] = {"near", "far", "format", "mapping", "tolerance", "choice", "chosen"};
+    json_t *root = json_of(text), *kept = json_object();
+    for (size_t i = 0; i < sizeof keys / sizeof keys[0]; i++)
+        json_object_set(kept, keys[i], json_object_get(root, keys[i]));
+    assert_true(json_object_size(kept) >= 4);
+    char *written = json_dumps(kept, JSON_SORT_KEYS);
+    assert_true(strlen(written) <= strlen(text));
+    strcpy(text, written);
+    free(written);
+    json_decref(kept);
+    json_decref(root);
+}
+
+static void test_spelled_out(void **state) {
+    tally t = {.name = "defaults"};
+    int tried = 0;
+    (void)state;
+    for (size_t i = 0; i < verb_count; i++)
+        for (int id = 0; id < OPTION_COUNT; id++) {
+            const verb *v = &verb_rows[i];
+            const option_row *row = &option_rows[id];
+            const struct option_exception *e = option_exception_of(row, v);
+            const char *standard = e != NULL ? e->standard : row->standard;
+            if ((row->commands & v->bit) == 0 || standard == NULL || id == OPTION_THEME)
+                continue;
+            char line[256];
+            line_of(v, (option_id)id, line);
+            printed without = print_of("%s", line), with = print_of("%s --%s %s", line, row->name, standard);
+            if (v->bit == VERB_BENCH) {
+                keep_setup(without.out);
+                keep_setup(with.out);
+            }
+            TALLY(&t, without.status <= 1 && with.status == without.status && without.out[0] != '\0',
+                  "%s --%s %s: %s%s", line, row->name, standard, without.errors, with.errors);
+            TALLY(&t, strcmp(with.out, without.out) == 0, "%s: --%s %s is not the default", line, row->name, standard);
+            printed_free(&without);
+            printed_free(&with);
+            tried++;
+        }
+    assert_true(tried >= 60);
+    tally_end(&t);
+}
+
+/* The colours of a figure, whose metadata hold the command line. */
+static void test_theme(void **state) {
+    static const char *const themes[] = {"", "--theme light", "--theme dark"};
+    char *text[3];
+    (void)state;
+    for (int i = 0; i < 3; i++) {
+        char file[512];
+        snprintf(file, sizeof file, "%s", scratch_file("theme.svg"));
+        printed p = print_of("plot error -F d24 -m d3d %s -o %s", themes[i], file);
+        assert_int_equal(p.status, 0);
+        printed_free(&p);
+        char *whole = text_of_file(file), *command = strstr(whole, "depthprec plot error");
+        assert_non_null(command);
+        memset(command, ' ', strcspn(command, "<"));
+        text[i] = malloc(strlen(whole) + 1);
+        size_t used = 0;
+        for (const char *c = whole; *c != '\0'; c++)
+            if (*c != ' ')
+                text[i][used++] = *c;
+        text[i][used] = '\0';
+        free(whole);
+    }
+    assert_string_equal(text[0], text[1]);
+    assert_string_not_equal(text[0], text[2]);
+    for (int i = 0; i < 3; i++)
+        free(text[i]);
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {cmocka_unit_test(test_spelled_out), cmocka_unit_test(test_theme)};
+    return run_tap(tests);
+}

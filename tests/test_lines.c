@@ -1,0 +1,220 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Whole command lines: lengths with units, options that are given twice, and in what order words may stand. */
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+#include "cli/option_rows.h"
+#include "support.h"
+
+#define AT(member) offsetof(options, member)
+
+static double number_at(const options *o, size_t field) {
+    double number;
+    memcpy(&number, (const char *)o + field, sizeof number);
+    return number;
+}
+
+/* ---- Units of length --------------------------------------------------------------------------------------------- */
+
+enum { WORDS_MAX = 16 };
+
+/* A whole command line, words parted by '|'; `line` as parse() has it. */
+static int parse_line(options *o, const char *words, char line[1024]) {
+    static char text[512];
+    char *argv[WORDS_MAX + 1] = {(char[]){"depthprec"}};
+    int argc = 1;
+    snprintf(text, sizeof text, "%s", words);
+    for (char *word = strtok(text, "|"); word != NULL && argc < WORDS_MAX; word = strtok(NULL, "|"))
+        argv[argc++] = word;
+    memset(line, 0, 1024);
+    FILE *const terminal = stderr;
+    stderr = fmemopen(line, 1024, "w");
+    const int status = options_parse(o, argc, argv);
+    fclose(stderr);
+    stderr = terminal;
+    line[strcspn(line, "\n")] = '\0';
+    return status;
+}
+
+/* What a line makes of a field, converted by hand. */
+static const struct {
+    const char *words;
+    size_t field;
+    double expected;
+    const char *unit; /* null: not known */
+} lengths[] = {
+    {"table|-n|10cm", AT(znear), 0.1, "m"},
+    {"table|-n|0.25", AT(znear), 0.25, NULL},
+    {"table|-n|250 mm", AT(znear), 0.25, "m"},
+    {"table|-n|10cm|--unit|cm", AT(znear), 10, "cm"},
+    {"table|--unit|cm|-n|10cm", AT(znear), 10, "cm"},
+    {"table|--unit|mm|-n|0.25", AT(znear), 0.25, "mm"},
+    {"table|-n|1in", AT(znear), 0.0254, "m"},
+    {"table|-n|3ft|--unit|in", AT(znear), 36, "in"},
+    {"table|-n|5e3nm", AT(znear), 5e-6, "m"},
+    {"table|-n|7um|--unit|nm", AT(znear), 7000, "nm"},
+    {"table|-n|7\302\265m|--unit|nm", AT(znear), 7000, "nm"},
+    {"table|-n|0x1p3", AT(znear), 8, NULL},
+    {"table|-f|1km", AT(zfar), 1000, "m"},
+    {"table|-f|1km|--unit|ft", AT(zfar), 1e12 / 304.8e6, "ft"},
+    {"table|--at|5m|--preset|unreal", AT(at.lo), 500, "cm"},
+    {"table|--at|5km,10m", AT(at.hi), 5000, "m"},
+    {"table|--at|5km,10m", AT(at.lo), 10, "m"},
+    {"table|--at|1m:1km:log:5|--unit|cm", AT(at.lo), 100, "cm"},
+    {"table|--at|1m:1km:log:5|--unit|cm", AT(at.hi), 1e5, "cm"},
+    {"table|--range|1m:1km|--unit|mm", AT(range_lo), 1e3, "mm"},
+    {"table|--range|0:1km|--unit|mm", AT(range_hi), 1e6, "mm"},
+    {"table|--preset|unreal|--unit|m", AT(znear), 0.1, "m"},
+    {"table|--unit|m|--preset|unreal|-n|5", AT(znear), 5, "m"},
+    {"table|--preset|unity|--unit|cm", AT(znear), 30, "cm"},
+    {"table|--preset|unity|--unit|cm", AT(zfar), 1e5, "cm"},
+    {"table|--preset|unity", AT(znear), 0.3, "m"},
+    {"table|--preset|cesium|--unit|cm", AT(log_c), 0.01, "cm"},
+    {"table|--preset|cesium|--unit|cm|--log-c|2", AT(log_c), 2, "cm"},
+    {"table|--preset|three|--at|50cm", AT(at.lo), 0.5, "m"},
+    {"table|--preset|three", AT(znear), 0.1, NULL},
+    {"table|--preset|mujoco|--unit|m|--at|50cm", AT(at.lo), 0.5, "m"},
+    {"solve|--separation|1mm", AT(wanted_separation), 0.001, "m"},
+    {"solve|--error|2 cm|--preset|unreal", AT(wanted_error), 2, "cm"},
+    {"bias|--gap|3mm|--unit|cm", AT(gap), 0.3, "cm"},
+    {"bias|--slope|5cm", AT(slope), 0.05, "m"},
+    {"budget|--world|2km", AT(terms.world), 2000, "m"},
+    {"texture|x|--half-height|10ft", AT(camera.half_height), 3.048, "m"},
+    {"texture|x|--metric|1mm", AT(metric), 0.001, "m"},
+    {"texture|x|--origin|-1m,0,20cm", AT(camera.origin[0]), -1, "m"},
+    {"texture|x|--origin|-1m,0,20cm", AT(camera.origin[2]), 0.2, "m"},
+};
+
+static void test_units(void **state) {
+    tally t = {.name = "units"};
+    (void)state;
+    for (size_t i = 0; i < sizeof lengths / sizeof lengths[0]; i++) {
+        char line[1024];
+        options o;
+        const int status = parse_line(&o, lengths[i].words, line);
+        TALLY(&t, status == EXIT_FINE, "%s: %s", lengths[i].words, line);
+        TALLY(&t, fabs(number_at(&o, lengths[i].field) - lengths[i].expected) <= 4e-16 * fabs(lengths[i].expected),
+              "%s: %.17g", lengths[i].words, number_at(&o, lengths[i].field));
+        TALLY(&t,
+              lengths[i].unit == NULL ? o.unit == NULL : o.unit != NULL && strcmp(o.unit->name, lengths[i].unit) == 0,
+              "%s: in %s", lengths[i].words, o.unit != NULL ? o.unit->name : "nothing");
+        options_release(&o);
+    }
+    tally_end(&t);
+}
+
+static void test_no_units(void **state) {
+    static const char *const words[] = {"table|-n|5 kms",
+                                        "table|-n|1m2",
+                                        "table|-n|1,5m",
+                                        "table|-n|5  m",
+                                        "table|-n|5M",
+                                        "table|-n|0x5cm",
+                                        "table|-n|5 m ",
+                                        "table|-n|5e1000km",
+                                        "table|-f|1kmm",
+                                        "table|--at|1,5m",
+                                        "table|--at|5m,3kms",
+                                        "table|--at|1:5m:lin:3",
+                                        "table|--at|1y:5m:log:3",
+                                        "table|--range|1:5m",
+                                        "table|--range|1m:5kms",
+                                        "table|--range|1c:5m",
+                                        "table|--unit|M",
+                                        "table|--unit|parsec",
+                                        "solve|--separation|1mmm",
+                                        "solve|--error|1e-320nm",
+                                        "texture|x|--origin|1m,2m,3",
+                                        "texture|x|--origin|1m,2m,3q",
+                                        "bias|--slope|1m/s",
+                                        "texture|x|--metric|1 millimetre"};
+    tally t = {.name = "no units"};
+    (void)state;
+    for (size_t i = 0; i < sizeof words / sizeof words[0]; i++) {
+        char line[1024];
+        options o;
+        const int status = parse_line(&o, words[i], line);
+        TALLY(&t, status == EXIT_USAGE && strstr(line, "nm, um, mm, cm, m, km, in or ft") != NULL, "%s: %s", words[i],
+              line);
+        options_release(&o);
+    }
+    char line[1024];
+    options o;
+    assert_int_equal(parse_line(&o, "table|-f|infm", line), EXIT_USAGE);
+    assert_int_equal(parse_line(&o, "table|--preset|mujoco|--at|1m", line), EXIT_USAGE);
+    assert_string_equal(line, "depthprec: --unit: must be given: mujoco measures in extents");
+    options_release(&o);
+    tally_end(&t);
+}
+
+/* ---- The command line as a whole --------------------------------------------------------------------------------- */
+
+/* An option with an argument is given once; which one would count, nobody can see. */
+static void test_twice(void **state) {
+    static const char *const examples[OPTION_COUNT] = {
+        [OPTION_NEAR] = "1",       [OPTION_FORMAT] = "d24",    [OPTION_AT] = "1",     [OPTION_PRESET] = "unity",
+        [OPTION_UNIT] = "cm",      [OPTION_OUTPUT] = "x",      [OPTION_SEED] = "1",   [OPTION_SCENE] = "steps",
+        [OPTION_MODEL] = "staged", [OPTION_SEPARATION] = "1m", [OPTION_FAR] = "1000", [OPTION_MAPPING] = "gl"};
+    tally t = {.name = "twice"};
+    (void)state;
+    for (int id = 0; id < OPTION_COUNT; id++)
+        for (size_t v = 0; v < verb_count && examples[id] != NULL; v++) {
+            char words[256], line[1024], expected[128];
+            options o;
+            if ((option_rows[id].commands & verb_rows[v].bit) == 0)
+                continue;
+            const char *name = option_rows[id].name, *value = examples[id];
+            snprintf(words, sizeof words, "%s|--%s|%s|--%s=%s", verb_rows[v].name, name, value, name, value);
+            snprintf(expected, sizeof expected, "depthprec: --%s: must not be given twice, got '%s' too", name, value);
+            TALLY(&t, parse_line(&o, words, line) == EXIT_USAGE && strcmp(line, expected) == 0, "%s: %s", words, line);
+            options_release(&o);
+        }
+    char line[1024];
+    options o;
+    assert_int_equal(parse_line(&o, "texture|x|--parameter|a=1|--parameter|b=2", line), EXIT_FINE);
+    assert_int_equal(o.parameter_count, 2);
+    assert_int_equal(parse_line(&o, "texture|x|--parameter|a=1|--parameter|a=2", line), EXIT_USAGE);
+    assert_int_equal(parse_line(&o, "table|-q|-q|-v|-v|--json|--json|--ortho|--ortho", line), EXIT_FINE);
+    tally_end(&t);
+}
+
+/* Options before the command; what is no option's is the command, wherever it stands. */
+static void test_order(void **state) {
+    static const struct {
+        const char *words, *command, *operand; /* null: none */
+    } rows[] = {
+        {"-n|5", "table", NULL},
+        {"-n|5|table", "table", NULL},
+        {"-n|5|plot|error", "plot", "error"},
+        {"plot|-n|5|error", "plot", "error"},
+        {"-q|plot|error|-n|5", "plot", "error"},
+        {"--near=5|-q|check|--|-x", NULL, NULL}, /* check takes no --near */
+        {"-q|check|--|-x", "check", "-x"},
+        {"-V", "help", NULL},
+        {"--help|table", "help", NULL},
+        {"-q|help|table", NULL, NULL}, /* help takes no -q */
+    };
+    tally t = {.name = "order"};
+    (void)state;
+    for (size_t i = 0; i < sizeof rows / sizeof rows[0]; i++) {
+        char line[1024];
+        options o;
+        const int status = parse_line(&o, rows[i].words, line);
+        TALLY(&t, (status == EXIT_FINE) == (rows[i].command != NULL), "%s: %d, %s", rows[i].words, status, line);
+        TALLY(&t, rows[i].command == NULL || strcmp(o.verb->name, rows[i].command) == 0, "%s: %s", rows[i].words,
+              o.verb->name);
+        TALLY(&t,
+              rows[i].operand == NULL ? status != EXIT_FINE || o.operand_count == 0
+                                      : o.operand_count == 1 && strcmp(o.operands[0], rows[i].operand) == 0,
+              "%s: operands", rows[i].words);
+        TALLY(&t, strstr(rows[i].words, "-n|5") == NULL || o.znear == 5, "%s: near %g", rows[i].words, o.znear);
+    }
+    tally_end(&t);
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {cmocka_unit_test(test_units), cmocka_unit_test(test_no_units),
+                                       cmocka_unit_test(test_twice), cmocka_unit_test(test_order)};
+    return run_tap(tests);
+}
