@@ -197,11 +197,30 @@ static void not_90_percent(void **state) {
     assert_scene(without, 553, 0.5);
 }
 
+/* A shadow map of D16 from 0 to 500 has one step everywhere: 500/65535. */
+static void shadow_map(void **state) {
+    (void)state;
+    dp_spec spec = make("unorm16", "d3d", 0.1, 500).spec;
+    dp_setup setup;
+    spec.ortho = 1;
+    spec.znear = 0;
+    assert_int_equal(dp_setup_init(&setup, &spec), DP_OK);
+    for (int z = 10; z < 500; z += 10) {
+        dp_sample sample;
+        assert_int_equal(dp_sample_at(&setup, z, &sample), DP_OK);
+        assert_relative(sample.interval, 500.0 / 65535.0, 1e-13);
+        assert_relative(sample.separation, 500.0 / 65535.0, 1e-12);
+    }
+    dp_worst worst;
+    assert_int_equal(dp_worst_over(&setup, 0, 500, &worst), DP_OK);
+    assert_relative(worst.error, 250.0 / 65535.0, 1e-12);
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(reference_values), cmocka_unit_test(header_example), cmocka_unit_test(outerra_log_depth),
-        cmocka_unit_test(zero_radiance),    cmocka_unit_test(counts),         cmocka_unit_test(pettineo_linear),
-        cmocka_unit_test(not_98_percent),   cmocka_unit_test(not_90_percent),
+        cmocka_unit_test(shadow_map),        cmocka_unit_test(reference_values), cmocka_unit_test(header_example),
+        cmocka_unit_test(outerra_log_depth), cmocka_unit_test(zero_radiance),    cmocka_unit_test(counts),
+        cmocka_unit_test(pettineo_linear),   cmocka_unit_test(not_98_percent),   cmocka_unit_test(not_90_percent),
     };
     return run_tap(tests);
 }

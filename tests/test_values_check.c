@@ -138,6 +138,11 @@ static void label_of(const dp_setup *setup, char out[64]) {
 }
 
 /* "FAIL  FILE:LINE: NAME: camera CAMERA, SET-UP (MODEL): separation 0.1 m at 5 m (code 1), allowed 0.05 m" */
+/* The model fp32 is called float where a reader could take it for the format. */
+static const char *model_in_text(const check_verdict *d) {
+    return d->setup.spec.model == DP_MODEL_FP32 ? "float" : dp_model_name(d->setup.spec.model);
+}
+
 static void check_text(const values *v, const char *text, const need_file *file, const check_verdict *verdicts,
                        long failed) {
     char label[1024], setup[64];
@@ -146,14 +151,17 @@ static void check_text(const values *v, const char *text, const need_file *file,
         char at[4][PATH_SIZE];
         const char *paths[5] = {at[0], at[1], at[2], at[3], NULL};
         label_of(&d->setup, setup);
+        const need_kind_row *kind = need_kind_get(d->asked->kind);
         snprintf(label, sizeof label, "%s  %s:%d: %s: camera %s, %s (%s): %s ", d->passed ? "pass" : "FAIL", file->path,
-                 d->asked->line, d->asked->name, d->camera->name, setup, dp_model_name(d->setup.spec.model),
-                 need_kind_get(d->asked->kind)->phrase);
-        const char *const fields[] = {"value", "z", "code", "limit"};
+                 d->asked->line, d->asked->name, d->camera->name, setup, model_in_text(d), kind->phrase);
+        /* A share is of a range, anything else of a depth, if there is one. */
+        const char *const of_depth[] = {"value", "z", "code", "limit"};
+        const char *const of_range[] = {"value", "lo", "hi", "limit"};
+        const bool two = kind->is_length && isnan(d->z);
         for (int k = 0, n = 0; k < 4; k++)
-            if (k == 0 || k == 3 || !isnan(d->z))
-                snprintf(at[n++], PATH_SIZE, "requirements[%zu].%s", i, fields[k]);
-        paths[isnan(d->z) ? 2 : 4] = NULL;
+            if (k == 0 || k == 3 || !two)
+                snprintf(at[n++], PATH_SIZE, "requirements[%zu].%s", i, (kind->is_length ? of_depth : of_range)[k]);
+        paths[two ? 2 : 4] = NULL;
         check_text_numbers(v, text, label, 6, paths);
     }
     snprintf(label, sizeof label, "%s: %ld passed, %ld failed\n", file->path, (long)check_count(file) - failed, failed);
@@ -187,7 +195,7 @@ static void check_junit(const char *path, const char *text, const need_file *fil
         const check_verdict *d = &verdicts[i];
         label_of(&d->setup, setup);
         snprintf(line, sizeof line, "%s:%d: %s: camera %s, %s (%s): ", path, d->asked->line, d->asked->name,
-                 d->camera->name, setup, dp_model_name(d->setup.spec.model));
+                 d->camera->name, setup, model_in_text(d));
         const char *sentence = strstr(text, line);
         assert_non_null(sentence);
         snprintf(line, sizeof line, "%.*s", (int)strcspn(sentence + strlen(line), "\n"), sentence + strlen(line));

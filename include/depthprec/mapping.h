@@ -2,8 +2,9 @@
 /**
  * @file mapping.h  Mappings: how an eye depth becomes a window depth.
  *
- * Eye depth z > 0 is measured along the view axis in scene units; near and far are n and f; d is the window depth
- * in [0, 1] and q = 1 - d its complement. With phi = n/f, which is 0 when f is infinite:
+ * Eye depth z is measured along the view axis in scene units, positive unless the camera is orthographic; near and far
+ * are n and f; d is the window depth in [0, 1] and q = 1 - d its complement. With phi = n/f, which is 0 when f is
+ * infinite:
  *
  *     d3d, gl                 d = (1 - n/z) / (1 - phi)       orthographic  (z - n) / (f - n)
  *     reversed, gl-reversed   d = (n/z - phi) / (1 - phi)     orthographic  (f - z) / (f - n)

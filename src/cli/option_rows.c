@@ -227,7 +227,8 @@ const option_row option_rows[OPTION_COUNT] = {
     [OPTION_ERROR_MAP] = {"error-map", 0, NULL, VERB_TEXTURE,
         "the error of the product in place of the product", FLAG(error_map)},
     [OPTION_FIGURE] = {"figure", 0, "FILE", VERB_TEXTURE,
-        "draw the product: SVG, PDF or PNG", FILE_NAME(figure)},
+        "draw the product: SVG, PDF or PNG; up to 256 surfaces of a scene that share a code with what is behind are "
+        "marked", FILE_NAME(figure)},
     [OPTION_TYPE] = {"type", 0, NULL, DRAWN,
         "what kind of figure, where it goes to stdout or its file's name does not say it", WORD(type, types),
         .standard = "svg", .group = "The figure"},

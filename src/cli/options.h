@@ -207,10 +207,8 @@ static inline size_t options_cameras(const options *o) {
  */
 void options_of(const options *o, size_t camera, options *out);
 
-/**
- * Opens what --output names, as wide as --full makes it and dressed as --color wants it.
- * @return EXIT_FINE, or EXIT_IO after one line on stderr
- */
+/** Opens what --output names, as wide as --full makes it, as --color wants it dressed. @return EXIT_FINE, or EXIT_IO
+ * after one line on stderr */
 int options_open(const options *o, output *out);
 
 /** Frees what options_parse() allocated, whatever it returned. */
