@@ -41,12 +41,17 @@ worst=1 all_named check tests/needs/village.need
 all_named solve -f 1000 -F unorm24 -m d3d --separation 0.01 --at 100
 all_named solve -f 1000 -F unorm24 -m d3d --error 0.01 --at 100
 all_named solve --for distance -n 0.1 -f 1000 -F unorm24 -m d3d --separation 0.01
+all_named solve --for distance -n 0.1 -f 1000 -F fp16 -m reversed --separation 0.01
 all_named table --at 10 --range 5:50
+all_named table --depth 0.5
 all_named bias --at 10 --units 1
 all_named bias --range 1:10 --gap 0.01
+all_named bias --api all --at 10
+all_named bias --api all --range 1:10
 all_named bench worst --tolerance 0.1
 all_named stability encode
 all_named texture --scene decals --size 64x36
+all_named texture --scene decals --size 64x36 --pixel 1,2
 all_named texture --effect intersection --at 10
 "$DEPTHPREC" texture --scene plane --size 64x36 -F unorm16 -m d3d -o "$scratch/depth.npy"
 all_named texture "$scratch/depth.npy"

@@ -432,6 +432,19 @@ static void test_enough_over(void **state) {
     }
     TALLY(&t, up_to > 0 && onwards > 0, "%d, %d", (int)up_to, (int)onwards);
     tally_end(&t);
+    /* Orthographic depths below 0: the near plane has the depth 0, whose unit is nothing beside a slope. */
+    dp_spec spec = dp_spec_default();
+    dp_setup setup;
+    double from, to;
+    spec.ortho = 1;
+    spec.znear = -5.0;
+    spec.zfar = 50.0;
+    spec.format = format_of("fp32");
+    assert_int_equal(dp_setup_init(&setup, &spec), DP_OK);
+    const bias_goal goal = {.api = called("metal"), .slope = 0.01};
+    bias_enough_over(&setup, &goal, -5.0, 50.0, &from, &to);
+    assert_true(from > -5.0 && from < -4.99 && to == 50.0);
+    assert_true(isfinite(bias_needed(&setup, &goal, from)) && isinf(bias_needed(&setup, &goal, from - 1e-9)));
 }
 
 /* The fewest units that store a layer sampled at `front` before one sampled at `back`, both real window depths. */

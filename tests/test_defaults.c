@@ -20,6 +20,8 @@ static const struct {
     {VERB_CHECK, "check tests/needs/village.need"},
     {VERB_SOLVE, "solve -F d24 -m d3d --separation 0.01 --at 50"},
     {VERB_BIAS, "bias --units -1"},
+    {VERB_STABILITY, "stability encode"},
+    {VERB_LIST, "list scenes"},
 };
 
 /* Where an option matters only beside another, or in another line. */
@@ -85,7 +87,7 @@ static void test_spelled_out(void **state) {
             const option_row *row = &option_rows[id];
             const struct option_exception *e = option_exception_of(row, v);
             const char *standard = e != NULL ? e->standard : row->standard;
-            if ((row->commands & v->bit) == 0 || standard == NULL || id == OPTION_THEME)
+            if ((row->commands & v->bit) == 0 || standard == NULL || id == OPTION_THEME || id == OPTION_TYPE)
                 continue;
             char line[256];
             line_of(v, (option_id)id, line);
@@ -105,12 +107,12 @@ static void test_spelled_out(void **state) {
     tally_end(&t);
 }
 
-/* The colours of a figure, whose metadata hold the command line. */
+/* Type and colours of a figure, whose metadata hold the command line. */
 static void test_theme(void **state) {
-    static const char *const themes[] = {"", "--theme light", "--theme dark"};
-    char *text[3];
+    static const char *const themes[] = {"", "--theme light", "--type svg", "--theme dark"};
+    char *text[4];
     (void)state;
-    for (int i = 0; i < 3; i++) {
+    for (int i = 0; i < 4; i++) {
         char file[512];
         snprintf(file, sizeof file, "%s", scratch_file("theme.svg"));
         printed p = print_of("plot error -F d24 -m d3d %s -o %s", themes[i], file);
@@ -128,8 +130,9 @@ static void test_theme(void **state) {
         free(whole);
     }
     assert_string_equal(text[0], text[1]);
-    assert_string_not_equal(text[0], text[2]);
-    for (int i = 0; i < 3; i++)
+    assert_string_equal(text[0], text[2]);
+    assert_string_not_equal(text[0], text[3]);
+    for (int i = 0; i < 4; i++)
         free(text[i]);
 }
 

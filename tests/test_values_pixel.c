@@ -223,8 +223,45 @@ static void check_text(const values *v, const char *arguments, const pixel_case 
     printed_free(&p);
 }
 
-/* Long: the columns of CSV are a third of it. */
-static void test_pixels(void **state) {
+/* The scene or image of a case, and the words that ask for it, up to its pixels. */
+static size_t prepare(const pixel_case *c, frame *f, image *shot, double *parameters, char arguments[2048]) {
+    static const grain floats = {.kind = GRAIN_FLOATS, .buffer = true, .bits = 24, .least = 0x1p-149};
+    const char *const path = scratch_file("pixel.npy");
+    char options[512];
+    size_t used;
+    if (c->scene != NULL) {
+        f->scene = scene_find(c->scene);
+        parameter_defaults(f->scene->parameters, parameters);
+        f->parameters = parameters;
+        used = (size_t)snprintf(arguments, 2048, "texture --scene %s --size %dx%d", c->scene, WIDTH, HEIGHT);
+    } else {
+        write_image(path, shot);
+        f->image = shot;
+        f->grain = &floats;
+        used = (size_t)snprintf(arguments, 2048, "texture %s", path);
+    }
+    return used + (size_t)snprintf(arguments + used, 2048 - used, " %s %s --pixel '",
+                                   c->direction_from == NULL ? camera_options(&c->camera, options) : "", c->options);
+}
+
+static void want_all(values *v, const pixel_case *c, const frame *f, char *arguments, size_t used, line_places *lines) {
+    const bool given = c->direction_from == NULL;
+    want_text(v, "file", c->scene != NULL ? NULL : scratch_file("pixel.npy"));
+    want_text(v, "scene", c->scene);
+    want_setup(v, &f->camera->setup);
+    want_text(v, "format_from", "given");
+    want_text(v, "mapping_from", given ? "given" : "assumed");
+    want_text(v, "direction_from", given ? "given" : c->direction_from);
+    for (size_t k = 0; k < PIXELS; k++) {
+        want_pixel(v, c, f, k);
+        used += (size_t)snprintf(arguments + used, 2048 - used, "%s%u,%u", k > 0 ? ";" : "", c->at[k][0], c->at[k][1]);
+        place_add(lines, "", "pixels[%zu].", k);
+        lines->items[k].outer[0] = '\0'; /* the set-up stands at the top */
+    }
+    snprintf(arguments + used, 2048 - used, "'");
+}
+
+static void check_columns(const values *v, const pixel_case *c, const char *arguments, const line_places *lines) {
     static const csv_column columns[] = {SETUP_COLUMNS,
                                          {"column", "column"},
                                          {"row", "row"},
@@ -248,57 +285,32 @@ static void test_pixels(void **state) {
                                          {"normal_y", "normal.y"},
                                          {"normal_z", "normal.z"},
                                          {"normal_error [degrees]", "normal_error"}};
+    csv_column present[sizeof columns / sizeof columns[0]];
+    size_t count = 0;
+    for (size_t k = 0; k < sizeof columns / sizeof columns[0]; k++) {
+        const bool truth = k == 16 || k == 17, place = k >= 22;
+        if ((!truth || c->scene != NULL) && (!place || c->direction_from == NULL))
+            present[count++] = columns[k];
+    }
+    check_csv(v, 0, arguments, present, count, lines);
+}
+
+static void test_pixels(void **state) {
     (void)state;
     for (size_t i = 0; i < sizeof cases / sizeof cases[0]; i++) {
         const pixel_case *c = &cases[i];
-        const grain floats = {.kind = GRAIN_FLOATS, .buffer = true, .bits = 24, .least = 0x1p-149};
-        const char *const path = scratch_file("pixel.npy");
         texture_camera camera;
         image shot = {0};
         double parameters[TEXTURE_PARAMETERS];
-        frame f = {.camera = &camera, .sky = c->sky, .scene = c->scene != NULL ? scene_find(c->scene) : NULL};
-        char options[512], arguments[2048];
-        size_t used;
-        csv_column present[sizeof columns / sizeof columns[0]];
-        size_t count = 0;
+        frame f = {.camera = &camera, .sky = c->sky};
+        char arguments[2048];
         line_places lines = {0};
         values v = values_of("texture");
         camera_of(c, &camera);
-        if (c->scene != NULL) {
-            parameter_defaults(f.scene->parameters, parameters);
-            f.parameters = parameters;
-            used = (size_t)snprintf(arguments, sizeof arguments, "texture --scene %s --size %dx%d", c->scene, WIDTH,
-                                    HEIGHT);
-        } else {
-            write_image(path, &shot);
-            f.image = &shot;
-            f.grain = &floats;
-            used = (size_t)snprintf(arguments, sizeof arguments, "texture %s", path);
-        }
-        used += (size_t)snprintf(arguments + used, sizeof arguments - used, " %s %s --pixel '",
-                                 c->direction_from == NULL ? camera_options(&c->camera, options) : "", c->options);
-        want_text(&v, "file", c->scene != NULL ? NULL : path);
-        want_text(&v, "scene", c->scene);
-        want_setup(&v, &camera.setup);
-        want_text(&v, "format_from", "given");
-        want_text(&v, "mapping_from", c->direction_from == NULL ? "given" : "assumed");
-        want_text(&v, "direction_from", c->direction_from == NULL ? "given" : c->direction_from);
-        for (size_t k = 0; k < PIXELS; k++) {
-            want_pixel(&v, c, &f, k);
-            used += (size_t)snprintf(arguments + used, sizeof arguments - used, "%s%u,%u", k > 0 ? ";" : "",
-                                     c->at[k][0], c->at[k][1]);
-            place_add(&lines, "", "pixels[%zu].", k);
-            snprintf(lines.items[k].inner, PATH_SIZE, "pixels[%zu].", k);
-            lines.items[k].outer[0] = '\0';
-        }
-        snprintf(arguments + used, sizeof arguments - used, "'");
-        for (size_t k = 0; k < sizeof columns / sizeof columns[0]; k++) {
-            const bool truth = k == 16 || k == 17, place = k >= 22;
-            if ((!truth || c->scene != NULL) && (!place || c->direction_from == NULL))
-                present[count++] = columns[k];
-        }
+        const size_t used = prepare(c, &f, &shot, parameters, arguments);
+        want_all(&v, c, &f, arguments, used, &lines);
         check_json(&v, 0, arguments);
-        check_csv(&v, 0, arguments, present, count, &lines);
+        check_columns(&v, c, arguments, &lines);
         check_text(&v, arguments, c);
         values_free(&v);
         places_free(&lines);

@@ -252,15 +252,19 @@ static bool enough_between(const dp_setup *setup, const bias_goal *goal, double 
     return isfinite(bias_needed_over(setup, goal, fmin(a, b), fmax(a, b), &worst));
 }
 
+/* Halfway, on a logarithmic scale where there is one: depths of an orthographic camera may be 0 or negative. */
+static double halfway(double a, double b) {
+    return a > 0.0 && b > 0.0 ? sqrt(a) * sqrt(b) : 0.5 * a + 0.5 * b;
+}
+
 /* The depth farthest from `start` towards `end` up to which a bias is enough. */
 static double enough_towards(const dp_setup *setup, const bias_goal *goal, double start, double end) {
+    enum { STEPS = 256 };
     if (start == end || enough_between(setup, goal, start, end))
         return end;
     double good = start, bad = isinf(end) ? 1e300 : end;
-    while (fabs(bad - good) > 0x1p-48 * good) {
-        const double middle = sqrt(good) * sqrt(bad);
-        if (middle == good || middle == bad)
-            break;
+    for (int i = 0; i < STEPS && fabs(bad - good) > 0x1p-48 * fmax(fabs(good), fabs(bad)); i++) {
+        const double middle = halfway(good, bad);
         *(enough_between(setup, goal, start, middle) ? &good : &bad) = middle;
     }
     return good;
@@ -268,10 +272,10 @@ static double enough_towards(const dp_setup *setup, const bias_goal *goal, doubl
 
 void bias_enough_over(const dp_setup *setup, const bias_goal *goal, double lo, double hi, double *from, double *to) {
     enum { TRIED = 64 };
-    const double last = isinf(hi) ? 0x1p64 * lo : hi;
+    const double last = isinf(hi) ? 0x1p64 * lo : hi; /* an infinite far is that of a perspective: lo is positive */
     double start = isfinite(bias_needed(setup, goal, lo)) ? lo : hi;
     for (int i = 1; i < TRIED && !isfinite(bias_needed(setup, goal, start)); i++)
-        start = lo * pow(last / lo, (double)i / TRIED);
+        start = lo > 0.0 ? lo * pow(last / lo, (double)i / TRIED) : lo + (last - lo) * i / TRIED;
     *from = *to = (double)NAN;
     if (!isfinite(bias_needed(setup, goal, start)))
         return;

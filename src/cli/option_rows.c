@@ -76,7 +76,7 @@ const option_row option_rows[OPTION_COUNT] = {
     [OPTION_FAR] = {"far", 'f', "Z|inf", PLACED | TAKEN,
         "far plane, up to 1e18 scene units and beyond near by 1e-6 of it at least, or inf",
         parse_far, .standard = "1000",
-        .except = {BUT(VERB_SOLVE, "inf", "solved for where near alone is given", NULL)}},
+        .except = {BUT(VERB_SOLVE, NULL, "inf, solved for where near alone is given", NULL)}},
     [OPTION_FORMAT] = {"format", 'F', "NAME[,NAME...]|all", PLACED | TAKEN,
         "depth formats: @, names as the APIs write them, unormN, floatE.M[bB]; all are those of "
         "'depthprec list formats'", parse_formats, .names = &formats, .standard = "all",
@@ -98,7 +98,7 @@ const option_row option_rows[OPTION_COUNT] = {
         "fill in near, far, mapping and format as an engine sets them, where they are not given: @; table compares "
         "several; 'depthprec list presets'", .parse = parse_presets, .names = &presets},
     [OPTION_UNIT] = {"unit", 0, NULL, PLACED | TAKEN,
-        "what a scene unit is; a preset in another one is converted. Any length may have a unit behind it: 10cm",
+        "what a scene unit is; a preset in another one is converted; any length may have a unit behind it: 10cm",
         .parse = parse_unit, .names = &units, .without = "that of the preset, or m where a length has a unit"},
     [OPTION_ROUNDING] = {"rounding", 0, NULL, CAMERA | TAKEN,
         "how a depth between two codes is rounded: ties upwards in unorm formats and to even in floats, as the APIs "
@@ -249,8 +249,8 @@ const option_row option_rows[OPTION_COUNT] = {
         "write CSV (RFC 4180) with units in the header row", parse_form, .least = FORM_CSV},
     [OPTION_OUTPUT] = {"output", 'o', "FILE", WRITTEN,
         "write to FILE when all is done; - is stdout", FILE_NAME(output), .without = "stdout",
-        .except = {BUT(VERB_PLOT, NULL, NULL, "draw to FILE: SVG, PDF or PNG by its ending; with --json or --csv the "
-                       "numbers go there, or to stdout"),
+        .except = {BUT(VERB_PLOT, NULL, NULL, "draw to FILE: SVG, PDF or PNG by its ending; - is stdout, as --type says; "
+                       "the numbers of --json and --csv go there, too, or to stdout"),
                    BUT(VERB_TEXTURE, NULL, "stdout", "write the product to FILE: PNG, PFM or NPY by its ending; else "
                        "what is printed")}},
     [OPTION_QUIET] = {"quiet", 'q', NULL, WRITTEN,
