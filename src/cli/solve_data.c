@@ -10,6 +10,7 @@
 typedef struct candidate {
     solve_candidate found;
     setup_fields setup;
+    const char *model; /* as text calls it: a format is called fp32, too */
     double separation_fp32;
     const plane_answer *plane;                /* where one was found */
     const double *lattice_near, *lattice_far; /* where it was solved for */
@@ -38,6 +39,7 @@ static void take_candidate(solving *s, const solve_candidate *c) {
     *(c->unknown == SOLVE_NEAR ? &x->lattice_near : &x->lattice_far) = c->solved ? &x->found.lattice.value : NULL;
     s->setup = (dp_setup){.spec = c->spec};
     x->setup = setup_fields_of(&s->setup, options_unit(s->report.o));
+    x->model = c->spec.model == DP_MODEL_FP32 ? "float" : x->setup.model;
 }
 
 /* ---- The table of alternatives ----------------------------------------------------------------------------------- */
@@ -203,7 +205,7 @@ void solve_report_write(const solve_report *r, output *out) {
     const column beside[] = {
         {TEXT_FIELD(candidate, setup.format, "format", -10, 0)},
         {TEXT_FIELD(candidate, setup.mapping, "mapping", -11, 0)},
-        {TEXT_FIELD(candidate, setup.model, "model", -6, 0)},
+        {TEXT_FIELD(candidate, model, "model", -6, 0)},
         {TEXT_FIELD(candidate, plane_text, heads[r->target], 13, 0), .when = OF_OTHERS},
         {TEXT_FIELD(candidate, ideal_text, "lattice", 13, 0), .when = OF_OTHERS},
         {TEXT_FIELD(candidate, found.reached.value, s.measure, 13, SOLVE_DIGITS), .upward = true},

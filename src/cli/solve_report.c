@@ -251,7 +251,7 @@ static void say_model(const solve_report *r, const solve_candidate *c, page *p) 
     static const char *const words[DP_MODEL_COUNT] = {
         [DP_MODEL_EXACT] = "exact: real arithmetic, the lattice alone",
         [DP_MODEL_STAGED] = "staged: NDC and window depth each rounded to binary32",
-        [DP_MODEL_FP32] = "fp32: guaranteed in binary32 arithmetic, ",
+        [DP_MODEL_FP32] = "float: guaranteed in binary32 arithmetic, ",
     };
     const bool chosen = r->o->model_auto || !option_given(r->o, OPTION_MODEL);
     const char *more = "";
