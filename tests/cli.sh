@@ -40,6 +40,7 @@ compare() { # compare EXPECTED_STATUS
         cat "$scratch/case/got.stderr.plain"
         return 1
     fi
+    empty too_wide "$scratch/case/command" "$scratch/case/got.stdout" || return
     diff "$scratch/case/stdout" "$scratch/case/got.stdout" && diff "$scratch/case/stderr" "$scratch/case/got.stderr.plain"
 }
 

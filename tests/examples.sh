@@ -89,12 +89,11 @@ record() { # record PAGE: with what its examples printed where that differs
         !instead { print }' "$1" >"$scratch/page" && cp "$scratch/page" "$1"
 }
 
-# ---- 80 columns. Wider by design are JSON, CSV, --full, and messages on stderr, which are one line each. ----
+# ---- 80 columns ----
 
 wide() { # the lines of the examples' output that are too wide
     for want in "$scratch"/run/*.want; do
-        ! grep -qE -e '--(json|csv|full)' "${want%want}sh" || continue
-        awk 'length > 80 && !/^depthprec: / { print FILENAME ": " $0 }' "$want"
+        too_wide "${want%want}sh" "$want"
     done
 }
 
