@@ -68,7 +68,7 @@ if command -v xmllint >"$scratch/log" 2>&1; then
 fi
 
 check "an unknown figure" refuses 2 "must be distribution, .*got 'eror'.*error" eror -o "$scratch/x.svg"
-check "an unknown ending" refuses 2 "--output: must end in .svg, .pdf or .png, got" error -o "$scratch/x.gif"
+check "an unknown ending" refuses 2 "--output: must end in .svg, .pdf or .png, or --type say which, got" error -o "$scratch/x.gif"
 check "no -o" refuses 2 "needs -o FILE" error
 check "a folder that is not there" refuses 3 "" error -o "$scratch/none/x.svg"
 check "a width too small" refuses 2 "--width: must be .*from 320 to 8192" error --width 100 -o "$scratch/x.svg"
