@@ -196,7 +196,7 @@ static void say_head(page *p, void *item) {
     const int width = COLUMN_WIDTH * (int)c->depth_count;
     p->unit = options_unit(c->walk->o);
     say_cameras(p, c);
-    output_format(p->out, "%s%-*s%*s%*s%s\n", p->soft, c->name_width, "", width,
+    output_format(p->out, "%s%-*s%*s%*s%s\n", p->soft, c->name_width, width > 20 ? "" : "guaranteed", width,
                   width > 27   ? "guaranteed separation at z"
                   : width > 20 ? "guaranteed at z"
                                : "at z",
