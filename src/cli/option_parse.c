@@ -438,6 +438,7 @@ static int parse_listed(lengths *seen, const option_row *row, const char *text, 
         d.hi = fmax(d.hi, z);
         item += length + 1;
     }
+    free(out->list); /* --depth and --code are one field, and refused together later */
     *out = d;
     return EXIT_FINE;
 }
