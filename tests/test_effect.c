@@ -402,6 +402,8 @@ static void test_edge(void **state) {
 static void test_rows(void **state) {
     static const char *const names[] = {"intersection", "force-field", "fog",         "scan-line",     "water-line",
                                         "height-fog",   "edge",        "motion-blur", "depth-of-field"};
+    /* As depthprec(1) documents them: a command without --parameter is read with these in mind. */
+    static const double wanted[] = {0.1, 1, 1, 0.01, 0, 1, 0.001, 0.1, 10};
     (void)state;
     assert_int_equal(count(), sizeof names / sizeof names[0]);
     for (size_t i = 0; i < count(); i++) {
@@ -416,6 +418,7 @@ static void test_rows(void **state) {
             assert_int_equal(parameter_find(row->parameters, p->name), parameters);
         }
         assert_true(parameters >= 1 && parameters <= TEXTURE_PARAMETERS && row->wanted < parameters);
+        assert_true(effect_find(names[i])->parameters[effect_find(names[i])->wanted].value == wanted[i]);
         /* What needs z/far says so. */
         const dp_setup infinite = setup_of(0.1, INFINITY, DP_MAPPING_REVERSED, "fp32");
         double p[TEXTURE_PARAMETERS];

@@ -442,8 +442,12 @@ static void summaries_are_those_of_sorted_numbers(void **state) {
     const frame_product p = {.kind = FRAME_EYE, .error = true};
     frame_summary sum;
     float *values = make(&s.frame, &p, false);
-    size_t count = 0;
+    size_t count = 0, greatest = 0;
     long double total = 0;
+    for (size_t i = 0; i < 700 * 400; i++)
+        if (!isnan(values[i]) && !(values[i] <= values[greatest]))
+            greatest = i;
+    const uint32_t greatest_column = (uint32_t)(greatest % 700), greatest_row = (uint32_t)(greatest / 700);
     for (size_t i = 0; i < 700 * 400; i++)
         if (!isnan(values[i])) {
             total += (long double)values[i];
@@ -455,6 +459,7 @@ static void summaries_are_those_of_sorted_numbers(void **state) {
     assert_true(count > 100000 && count < 700 * 400); /* some is sky */
     assert_true(sum.lo == (double)values[0] && sum.hi == (double)values[count - 1]);
     assert_relative(sum.mean, (double)(total / count), 1e-12);
+    assert_true(sum.hi_column == greatest_column && sum.hi_row == greatest_row && greatest_row % 8 != 0);
     const double p99 = (double)values[(size_t)ceil(0.99 * (double)count) - 1];
     assert_true(sum.p99 >= p99 && sum.p99 <= p99 * (1 + 0x1p-11));
     free(values);

@@ -170,8 +170,30 @@ static void the_choice_is_the_cheapest_that_covers(void **state) {
     tally_end(&t);
 }
 
+/* A code beyond the last is no answer, however near its value would be. */
+static void test_codes_that_there_are_not(void **state) {
+    const method_family_row *family = method_family_find("encode");
+    dp_spec spec = {.znear = 0.1, .zfar = 1000, .log_c = 1};
+    dp_format formats[2];
+    dp_setup setup;
+    float d = 1.0f;
+    (void)state;
+    assert_int_equal(dp_format_parse("unorm16", formats), 1);
+    spec.format = formats[0];
+    assert_int_equal(dp_setup_init(&setup, &spec), DP_OK);
+    for (uint32_t code = 65535; code < 65538; code++) {
+        uint32_t given = code;
+        method_error error;
+        const method_inputs in = {.count = 1, .d = &d};
+        method_outputs out = {.code = &given};
+        assert_true(family->judge(&(method_call){NULL, &setup, NULL, &in, &out}, 0, &error));
+        assert_true(code > 65535 ? isinf(error.ulp) : error.ulp == 0);
+    }
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
+        cmocka_unit_test(test_codes_that_there_are_not),
         cmocka_unit_test(every_row_is_whole),
         cmocka_unit_test(errors_are_within_claims_and_repeat),
         cmocka_unit_test(linearize_errors_are_the_published_ones),
