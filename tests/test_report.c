@@ -324,7 +324,7 @@ static void pointed(void **unused) {
 /* What a page of that width makes of a label, of words, and of the columns of a table; 0: as wide as nothing says. */
 static void check_page(int width, void (*write)(page *p), const char *want) {
     static output out;
-    char text[512] = "", path[] = "/tmp/depthprec-report-XXXXXX";
+    char text[1024] = "", path[] = "/tmp/depthprec-report-XXXXXX";
     fclose(fdopen(mkstemp(path), "w"));
     assert_int_equal(output_open(&out, path), EXIT_FINE);
     out.width = width;
@@ -348,6 +348,9 @@ static void write_sentences(page *p) {
     page_text(p, "%s", EIGHT "abcdefgh abcdef x");
     page_line(p, "%s", EIGHT "abcdefgh abcd x");
     page_line(p, "%s", EIGHT "abcdef z = 5000, 12 % more");
+    p->unit = "m";
+    page_line(p, "%s", EIGHT "abcdefghi 5000 m more");
+    page_line(p, "%s", EIGHT "abcdefghi 5000 more");
     page_wrapped(p, "nothing", "");
 }
 
@@ -358,7 +361,9 @@ static void wrapped(void **unused) {
     check_page(82, write_label, "  label " EIGHT "abcdefgh x\n");
     check_page(OUTPUT_UNLIMITED, write_label, "  label " EIGHT "abcdefgh x\n");
     check_page(0, write_sentences,
-               EIGHT "abcdefgh abcdef\n  x\n  " EIGHT "abcdefgh abcd\n  x\n  " EIGHT "abcdef\n  z = 5000, 12 % more\n");
+               EIGHT "abcdefgh abcdef\n  x\n  " EIGHT "abcdefgh abcd\n  x\n  " EIGHT
+                     "abcdef\n  z = 5000, 12 % more\n  " EIGHT "abcdefghi\n  5000 m more\n  " EIGHT
+                     "abcdefghi 5000\n  more\n");
 }
 
 static void *next_once(void *of, size_t i) {

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "report/page.h"
 
+#include <ctype.h>
 #include <stdarg.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -37,10 +38,17 @@ page page_start(output *out, int label) {
                   .plain = colour ? "\033[0m" : ""};
 }
 
-/* The next word, with what belongs to it: "z = 5", "12 %". */
-static int word_length(const char *text) {
+/* Does a blank with that unit behind it stand here? */
+static bool is_unit(const char *text, const char *unit) {
+    return unit != NULL && text[0] == ' ' && strncmp(text + 1, unit, strlen(unit)) == 0 &&
+           !isalnum((unsigned char)text[1 + strlen(unit)]);
+}
+
+/* The next word, with what belongs to it: "z = 5 m", "12 %". */
+static int word_length(const char *text, const char *unit) {
     size_t length = strcspn(text, " ");
-    while (strncmp(text + length, " = ", 3) == 0 || strncmp(text + length, " %", 2) == 0) {
+    while (strncmp(text + length, " = ", 3) == 0 || strncmp(text + length, " %", 2) == 0 ||
+           (length > 0 && isdigit((unsigned char)text[length - 1]) && is_unit(text + length, unit))) {
         length += text[length + 1] == '=' ? 3 : 1;
         length += strcspn(text + length, " ");
     }
@@ -62,7 +70,7 @@ static int seen_length(const char *text, int length) {
 /* Words from `column` on, broken where the page ends, those of further lines `left` blanks from the margin. */
 static void put_words(page *p, int column, int left, const char *text) {
     for (bool first = true; *text != '\0'; first = false) {
-        const int word = word_length(text);
+        const int word = word_length(text, p->unit);
         const int seen = seen_length(text, word);
         if (!first && column + 1 + seen > p->width) {
             output_format(p->out, "\n%*s", left, "");
