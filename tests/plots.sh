@@ -4,7 +4,7 @@
 . tests/tap.sh
 export LSAN_OPTIONS="suppressions=$PWD/tests/lsan.supp:print_suppressions=0"
 
-facts() { sed -n '/^<metadata>/,/^<.metadata>/p' "$1"; } # the command and the digest of the numbers of an SVG
+facts() { sed -n '/^<title /p; /^<desc /p; /^<metadata>/,/^<.metadata>/p' "$1"; } # what an SVG says of itself, the command, the digest of its numbers
 recipes() { sed -n 's/^\([a-z][^ ]*\) .*/\1/p' plots/recipes; }
 same_numbers() { facts "$1" >"$scratch/a" && grep -q '^data: ' "$scratch/a" && facts "$2" | diff "$scratch/a" -; }
 processor() { sed -n 's/^model name[^:]*: //p' /proc/cpuinfo | sed q; } # nothing where the kernel does not say

@@ -59,6 +59,12 @@ const char *option_takers(const option_row *row, char out[OPTION_TEXT_SIZE]);
 /** Where it is otherwise for that command; null where it is not. */
 const struct option_exception *option_exception_of(const option_row *row, const verb *v);
 
+/** As option_error(), which knows the rows; the rows know the kinds that call this. @return EXIT_USAGE */
+int option_refuse(const option_row *row, const char *format, ...) __attribute__((format(printf, 2, 3)));
+
+/** The field of a row. */
+void *option_field(options *o, const option_row *row);
+
 /* ---- Kinds ------------------------------------------------------------------------------------------------------- */
 
 option_parser parse_flag;   /**< bool, no argument */
