@@ -7,6 +7,7 @@
 #include <string.h>
 
 #include "core/bits.h"
+#include "texture/pack_rg.h"
 
 typedef struct sums {
     double sum, bias, weight, max, at;
@@ -71,32 +72,6 @@ static void measure_exact(const pack_row *row, pack_error *out) {
 /* ---- Depths in binary32
  * ---------------------------------------------------------------------------------------------------- */
 
-enum { BYTE = 255 };
-
-/* frac() of a number that is not negative and below 2^31. */
-static float fraction(float x) {
-    return x - (float)(int32_t)x;
-}
-
-/* UNORM conversion of a render target: the product is exact, ties go up; what is below 0 is stored as 0. x <= 1. */
-static uint32_t store(float x, double half) {
-    return (uint32_t)(int32_t)((double)x * BYTE + half);
-}
-
-/* EncodeFloatRG of v in [0, 1) in binary32, the coarse code times 256 and the fine one; half is
- * 0.5 to store the nearest code, 0 to truncate. */
-static uint32_t shader_code(float v, double half) {
-    const float y = fraction((float)BYTE * v);
-    const float x = v - y * (1.0F / BYTE);
-    return store(x, half) << 8 | store(y, half);
-}
-
-/* DecodeFloatRG in binary32. */
-static float shader_depth(uint32_t code) {
-    const float x = (float)(int32_t)(code >> 8) / BYTE, y = (float)(int32_t)(code & BYTE) / BYTE;
-    return x + y * (1.0F / BYTE);
-}
-
 /*
  * A number stands for the reals from it to the next, so each binade has its weight. From 2^-9 up all are visited;
  * below, where the coarse channel is 0, every 61st, down to 2^-24, under which all decode to 0 or nearly.
@@ -117,8 +92,8 @@ static void add_block(const pack_row *row, uint32_t first, uint32_t stride, uint
     float error[BLOCK];
     for (uint32_t i = 0; i < BLOCK; i++) {
         const float v = dp_float32(first + i * stride);
-        code[i] = shader_code(v, half);
-        error[i] = shader_depth(code[i]) - v;
+        code[i] = pack_rg_code(v, half);
+        error[i] = pack_rg_depth(code[i]) - v;
     }
     for (uint32_t i = 0; i < BLOCK; i += LANES)
         for (uint32_t k = 0; k < LANES; k++) {
@@ -136,7 +111,7 @@ static double find(const pack_row *row, uint32_t first, uint32_t stride, float m
     const double half = row->truncates ? 0 : 0.5;
     for (;; first += stride) {
         const float v = dp_float32(first);
-        if (fabsf(shader_depth(shader_code(v, half)) - v) == max)
+        if (fabsf(pack_rg_depth(pack_rg_code(v, half)) - v) == max)
             return (double)v;
     }
 }

@@ -6,7 +6,7 @@ export LSAN_OPTIONS="suppressions=$PWD/tests/lsan.supp:print_suppressions=0"
 
 facts() { sed -n '/^<title /p; /^<desc /p; /^<metadata>/,/^<.metadata>/p' "$1"; } # what an SVG says of itself, the command, the digest of its numbers
 recipes() { sed -n 's/^\([a-z][^ ]*\) .*/\1/p' plots/recipes; }
-same_numbers() { facts "$1" >"$scratch/a" && grep -q '^data: ' "$scratch/a" && facts "$2" | diff "$scratch/a" -; }
+same_facts() { facts "$1" >"$scratch/a" && grep -q '^data: ' "$scratch/a" && facts "$2" | diff "$scratch/a" -; }
 processor() { sed -n 's/^model name[^:]*: //p' /proc/cpuinfo | sed q; } # nothing where the kernel does not say
 names_where() { # names_where FIGURE WORDS: in the description's sentence of the camera
     sed -n '/^<desc id="desc">.*near 0.1, far 1000; [^.]*, 20[0-9][0-9]-[01][0-9]-[0-3][0-9]\./p' "$1" >"$scratch/desc"
@@ -29,7 +29,7 @@ for drawn in $(recipes); do
         check "$drawn names this machine and today" names_where "$scratch/drawn/$drawn.svg" "$(processor), $(date -u +%F)."
         check "plots/$drawn.svg names its machine and day" names_where "plots/$drawn.svg" "" ;;
     *)
-        check "plots/$drawn.svg shows the numbers of today" same_numbers "plots/$drawn.svg" "$scratch/drawn/$drawn.svg" ;;
+        check "plots/$drawn.svg shows the words and numbers of today" same_facts "plots/$drawn.svg" "$scratch/drawn/$drawn.svg" ;;
     esac
     check "plots/README.md shows $drawn" grep -q "]($drawn.svg)" plots/README.md
 done

@@ -3,9 +3,9 @@
 
 #include <math.h>
 
-/* ---- Depth ------------------------------------------------------------------------------------------------------- */
+#include "texture/pack_rg.h"
 
-enum { BYTE = 255 };
+/* ---- Depth ------------------------------------------------------------------------------------------------------- */
 
 /*
  * enc = frac(v (1, 255)), enc.x -= enc.y/255. In exact arithmetic that leaves whole 255ths in x, which are stored as
@@ -13,57 +13,33 @@ enum { BYTE = 255 };
  */
 static void rg_encode(const pack_row *row, const double *in, uint32_t codes[]) {
     const double v = in[0];
-    const double coarse = BYTE * v, coarse_rest = fma(BYTE, v, -coarse);
+    const double coarse = PACK_BYTE * v, coarse_rest = fma(PACK_BYTE, v, -coarse);
     double x = floor(coarse);
     x -= x == coarse && coarse_rest < 0;
-    const double fine = BYTE * BYTE * v, fine_rest = fma(BYTE * BYTE, v, -fine);
+    const double fine = PACK_BYTE * PACK_BYTE * v, fine_rest = fma(PACK_BYTE * PACK_BYTE, v, -fine);
     const double half = row->truncates ? 0 : 0.5;
     double k = floor(fine);
     const double above = fine - k - half; /* exact, or too far from 0 to be in doubt */
     k += row->truncates ? (above == 0 && fine_rest < 0 ? -1 : 0) : above > -fine_rest || above == -fine_rest;
-    codes[0] = x < BYTE ? (uint32_t)x : 0; /* v = 1 does not survive: frac(1) is 0 */
-    codes[1] = x < BYTE ? (uint32_t)(k - BYTE * x) : 0;
+    codes[0] = x < PACK_BYTE ? (uint32_t)x : 0; /* v = 1 does not survive: frac(1) is 0 */
+    codes[1] = x < PACK_BYTE ? (uint32_t)(k - PACK_BYTE * x) : 0;
 }
 
 static void rg_decode(const pack_row *row, const uint32_t codes[], double *out) {
     (void)row;
-    out[0] = (BYTE * codes[0] + codes[1]) / (double)(BYTE * BYTE);
-}
-
-/* frac() of a number that is not negative and below 2^31. */
-static float fraction(float x) {
-    return x - (float)(int32_t)x;
-}
-
-/* UNORM conversion of a render target: the product is exact, ties go up; what is below 0 is stored as 0. x <= 1. */
-static uint32_t store(float x, double half) {
-    return (uint32_t)(int32_t)((double)x * BYTE + half);
-}
-
-/* EncodeFloatRG of v in [0, 1) in binary32, the coarse code times 256 and the fine one; half is
- * 0.5 to store the nearest code, 0 to truncate. */
-static uint32_t rg32_code(float v, double half) {
-    const float y = fraction((float)BYTE * v);
-    const float x = v - y * (1.0F / BYTE);
-    return store(x, half) << 8 | store(y, half);
-}
-
-/* DecodeFloatRG in binary32. */
-static float rg32_depth(uint32_t code) {
-    const float x = (float)(int32_t)(code >> 8) / BYTE, y = (float)(int32_t)(code & BYTE) / BYTE;
-    return x + y * (1.0F / BYTE);
+    out[0] = (PACK_BYTE * codes[0] + codes[1]) / (double)(PACK_BYTE * PACK_BYTE);
 }
 
 static void rg32_encode(const pack_row *row, const double *in, uint32_t codes[]) {
     const float v = (float)in[0];
-    const uint32_t code = v < 1 ? rg32_code(v, row->truncates ? 0 : 0.5) : 0;
+    const uint32_t code = v < 1 ? pack_rg_code(v, row->truncates ? 0 : 0.5) : 0;
     codes[0] = code >> 8;
-    codes[1] = code & BYTE;
+    codes[1] = code & PACK_BYTE;
 }
 
 static void rg32_decode(const pack_row *row, const uint32_t codes[], double *out) {
     (void)row;
-    out[0] = (double)rg32_depth(codes[0] << 8 | codes[1]);
+    out[0] = (double)pack_rg_depth(codes[0] << 8 | codes[1]);
 }
 
 /* ---- Normals ----------------------------------------------------------------------------------------------------- */
