@@ -154,11 +154,7 @@ static void *next_beside(void *of, size_t i) {
 
 static void *next_setup(void *of, size_t i) {
     all *a = of;
-    if (!walk_setup(&a->walk, i))
-        return NULL;
-    if (a->by_range)
-        range_resolve(&a->walk.here, &a->lo, &a->hi); /* cannot fail: it did not before, or is from near to far */
-    return a;
+    return walk_setup(&a->walk, i) ? a : NULL;
 }
 
 /* ---- Text -------------------------------------------------------------------------------------------------------- */
@@ -281,7 +277,7 @@ int bias_all_write(const options *o) {
     if (status == EXIT_FINE)
         status = range_resolve(o, &a.lo, &a.hi);
     const bool beside = o->form == FORM_TEXT && !o->full && a.walk.all.count > 1 && a.walk.all.count <= BESIDE &&
-                        o->preset_count <= 1 && (a.by_range || a.walk.at.count == 1);
+                        (a.by_range || a.walk.at.count == 1);
     const unsigned when = (a.by_range ? OF_RANGE : OF_DEPTHS) | (!a.by_range && a.walk.at.count > 1 ? OF_SEVERAL : 0);
     if (beside)
         return write_beside(&a, status);

@@ -36,8 +36,7 @@ typedef struct row {
 
 /* With --range: the separation that can be relied on all over it, in the fullest model that the set-up has. */
 typedef struct guarantee {
-    dp_model model;
-    const char *model_name;
+    const char *model;
     dp_separation_worst worst;
 } guarantee;
 
@@ -58,13 +57,6 @@ typedef struct table {
     choice_fields chosen;
 } table;
 
-static double separation_in_binary32(const dp_setup *setup, const dp_sample *sample) {
-    dp_budget budget;
-    if (setup->spec.model == DP_MODEL_FP32)
-        return sample->separation;
-    return dp_budget_at(setup, sample->z, NULL, &budget) == DP_OK ? budget.separation : (double)NAN;
-}
-
 /* Are there depths among those asked about whose cell a plane cuts? */
 static bool has_cut_cells(const table *t, const dp_setup *setup) {
     const uint32_t first = dp_code(setup, setup->spec.znear), last = dp_code(setup, setup->spec.zfar);
@@ -82,9 +74,12 @@ static int digits_to_see(double at, double step) {
 
 /* ---- What is reported -------------------------------------------------------------------------------------------- */
 
-static double separation_in(const dp_setup *setup, double z) {
+/* The separation of a row in the same set-up of another model, or of the same. */
+static double separation_in(const dp_setup *other, const dp_setup *setup, const dp_sample *here) {
     dp_sample sample;
-    return dp_sample_at(setup, z, &sample) == DP_OK ? sample.separation : (double)NAN;
+    if (other->spec.model == setup->spec.model)
+        return here->separation;
+    return dp_sample_at(other, here->z, &sample) == DP_OK ? sample.separation : (double)NAN;
 }
 
 static void set_digits(row *r) {
@@ -105,12 +100,11 @@ static void *next_row(void *of, size_t i) {
         return NULL;
     }
     dp_sample_at(t->walk.setup, z, &r->sample); /* cannot fail: depths_resolve() has seen to it */
-    r->binary32 = separation_in_binary32(t->walk.setup, &r->sample);
+    r->lattice = separation_in(&t->exact, t->walk.setup, &r->sample);
+    r->guaranteed = separation_in(&t->full, t->walk.setup, &r->sample);
+    r->binary32 = t->full.spec.model == DP_MODEL_FP32 ? r->guaranteed : (double)NAN;
     if (t->interval.row != NULL)
         r->sample.interval = way_interval(&t->interval, t->walk.setup, z);
-    const bool exact = t->walk.setup->spec.model == DP_MODEL_EXACT;
-    r->lattice = exact ? r->sample.separation : separation_in(&t->exact, z);
-    r->guaranteed = isnan(r->binary32) ? separation_in(&t->full, z) : r->binary32;
     if (t->walk.o->form == FORM_TEXT)
         set_digits(r);
     if (t->walk.o->form != FORM_CSV)
@@ -119,14 +113,9 @@ static void *next_row(void *of, size_t i) {
 }
 
 static const guarantee *guarantee_over(table *t) {
-    dp_setup full;
-    dp_spec spec = t->walk.setup->spec;
     guarantee *g = &t->over_range;
-    spec.model = g->model =
-        dp_mapping_get(spec.mapping)->curve == DP_CURVE_PERSPECTIVE ? DP_MODEL_FP32 : DP_MODEL_STAGED;
-    g->model_name = dp_model_name(g->model);
-    return option_given(t->walk.o, OPTION_RANGE) && dp_setup_init(&full, &spec) == DP_OK &&
-                   dp_separation_over(&full, t->lo, t->hi, 0.0, &g->worst) == DP_OK
+    g->model = dp_model_name(t->full.spec.model);
+    return option_given(t->walk.o, OPTION_RANGE) && dp_separation_over(&t->full, t->lo, t->hi, 0.0, &g->worst) == DP_OK
                ? g
                : NULL;
 }
@@ -226,7 +215,7 @@ static void say_notes(page *p, void *item) {
         page_note(p, "worst separation", "%s at z = %s, %s",
                   number_in(number_up(g->worst.bound, DIGITS_FEW), p->unit).text,
                   number_in(number_of(g->worst.z, DIGITS_USUAL), p->unit).text,
-                  g->model == DP_MODEL_FP32 ? "guaranteed in binary32 (model fp32)" : "in the model staged");
+                  t->full.spec.model == DP_MODEL_FP32 ? "guaranteed in binary32 (model fp32)" : "in the model staged");
     say_drawn(p, &t->planes);
     page_line(p, "%s", choice_sentence(&t->choice, p->unit).text);
     if (option_given(t->walk.o, OPTION_TOLERANCE))
@@ -270,7 +259,7 @@ static const column worst_columns[] = {{FIELD(dp_worst, lo, "lo", "scene")},
                                        {FIELD(dp_worst, blind_from, "blind_from", "scene")},
                                        {.kind = COLUMN_END}};
 
-static const column guarantee_columns[] = {{FIELD(guarantee, model_name, "model", "")},
+static const column guarantee_columns[] = {{FIELD(guarantee, model, "model", "")},
                                            {FIELD(guarantee, worst.lo, "lo", "scene")},
                                            {FIELD(guarantee, worst.hi, "hi", "scene")},
                                            {FIELD(guarantee, worst.bound, "bound", "scene")},

@@ -261,10 +261,6 @@ static void warn(const zfight *z) {
 
 static int check(zfight *z) {
     const options *o = z->walk.o;
-    for (size_t i = 0; i < o->mapping_count; i++)
-        if (dp_mapping_get(o->mappings[i])->curve != DP_CURVE_PERSPECTIVE)
-            return option_error(OPTION_MAPPING, "zfight needs d3d, gl, reversed or gl-reversed, got '%s'",
-                                dp_mapping_get(o->mappings[i])->name);
     if (option_given(o, OPTION_SEED) && o->sample == 0)
         return option_error(OPTION_SEED, "needs --sample");
     options fp32 = *o;

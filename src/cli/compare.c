@@ -24,7 +24,7 @@ enum {
     DIGITS_BOUND = 2,
     DIGITS_Z = 6
 };
-enum { PAGE = 80, NAME_WIDTH = 20, COLUMN_WIDTH = 7, BYTES_WIDTH = 3 };
+enum { NAME_WIDTH = 20, COLUMN_WIDTH = 7, BYTES_WIDTH = 3 };
 
 /* Lengths are in the unit of the comparison; the set-up has its own, see options_of(). */
 typedef struct compared {
@@ -192,16 +192,16 @@ static void say_cameras(page *p, const comparison *c) {
 }
 
 static void say_head(page *p, void *item) {
+    static const char *const above_limits[LIMITS + 1] = {"", "to z", "apart up to z", "told apart up to z"};
     const comparison *c = item;
-    const int width = COLUMN_WIDTH * (int)c->depth_count;
+    const int width = COLUMN_WIDTH * (int)c->depth_count, limits = c->limit_end - c->limit_begin;
     p->unit = options_unit(c->walk->o);
     say_cameras(p, c);
     output_format(p->out, "%s%-*s%*s%*s%s\n", p->soft, c->name_width, width > 20 ? "" : "guaranteed", width,
                   width > 27   ? "guaranteed separation at z"
                   : width > 20 ? "guaranteed at z"
                                : "at z",
-                  COLUMN_WIDTH * (c->limit_end - c->limit_begin),
-                  c->limit_end - c->limit_begin == LIMITS ? "told apart up to z" : "apart up to z", p->plain);
+                  COLUMN_WIDTH * limits, above_limits[limits], p->plain);
 }
 
 static void *next_row(void *of, size_t i) {
@@ -213,7 +213,7 @@ static void *next_row(void *of, size_t i) {
 static void fit(comparison *c) {
     for (size_t i = 0; i < c->walk->all.count; i++)
         c->name_width = (int)fmax(c->name_width, (double)strlen(c->rows[i].name) + 1);
-    const int room = PAGE - c->name_width - COLUMN_WIDTH * (int)c->depth_count;
+    const int room = page_start(&c->walk->out, 0).width - c->name_width - COLUMN_WIDTH * (int)c->depth_count;
     const bool all = room >= COLUMN_WIDTH * LIMITS + BYTES_WIDTH;
     c->limit_begin = all ? 0 : MIDDLE;
     c->limit_end = all ? LIMITS : MIDDLE + (room >= COLUMN_WIDTH * 2 ? 2 : 1);

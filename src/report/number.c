@@ -167,7 +167,7 @@ number_text number_of(double value, int digits) {
 
 number_text number_in(number_text number, const char *unit) {
     const size_t length = strlen(number.text);
-    if (unit != NULL && isfinite(strtod(number.text, NULL)) && strcmp(number.text, "-") != 0)
+    if (unit != NULL && strpbrk(number.text, "0123456789") != NULL) /* neither "inf" nor "-" */
         snprintf(number.text + length, sizeof number.text - length, " %s", unit);
     return number;
 }
