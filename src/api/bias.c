@@ -3,6 +3,8 @@
 
 #include <math.h>
 
+#include "core/bits.h"
+
 /* clang-format off */
 static const bias_api rows[] = {
     {"d3d11", "d3d10 d3d12 direct3d11 direct3d12", BIAS_CODE, BIAS_EXPONENT, true, true, true, false,
@@ -195,10 +197,7 @@ static double certain_step(const bias_goal *goal, const dp_format *format, int e
 static double round_up(const bias_api *api, const dp_format *format, double units) {
     const bias_rule rule = format->kind == DP_FORMAT_FLOAT ? api->real : api->unorm;
     const double counted = rule == BIAS_ONE ? units : ceil(units);
-    const float nearest = (float)counted;
-    if (api->whole)
-        return counted;
-    return (double)((double)nearest < counted ? nextafterf(nearest, HUGE_VALF) : nearest);
+    return api->whole ? counted : (double)dp_float_up(counted);
 }
 
 /* bias_needed() at z for a primitive whose greatest window depth has the exponent e. */

@@ -147,11 +147,6 @@ static int nearest_unorm24(dp_batch *b) {
     return b->setup.spec.format.bits == 24 && b->setup.spec.rounding != DP_ROUND_ZERO;
 }
 
-static float float_within(double z, int up) {
-    const float r = (float)z;
-    return up ? (double)r < z ? nextafterf(r, HUGE_VALF) : r : (double)r > z ? nextafterf(r, 0.0F) : r;
-}
-
 /*
  * t = s - p/z (or p/z - s) for N <= 24 and f >= 16 n, so that p/z < 1.07 2^24. With u = 2^-24: the quotient's remainder
  * is exact, the rest of p adds one rounding, and the inverse is within 4 u of 1/z; so the small part, at most 2.2, is
@@ -167,8 +162,8 @@ static int quotient_unorm(dp_batch *b) {
         return 0;
     /* Beyond 1e24 nothing changes: p/z is below 2e-5 there. Codes of depths between the planes and the nearest floats
        inside are those of the planes, or it is left to the general kernel. */
-    k->z_lo = float_within(n, 1);
-    k->z_hi = float_within(f < 1e24 ? f : 1e24, 0);
+    k->z_lo = dp_float_up(n);
+    k->z_hi = dp_float_down(f < 1e24 ? f : 1e24);
     if (dp_code(&b->setup, (double)k->z_lo) != b->setup.code_near ||
         dp_code(&b->setup, (double)k->z_hi) != b->setup.code_far)
         return 0;

@@ -34,6 +34,18 @@ DP_INLINE float dp_ranked32(uint32_t rank) {
     return dp_float32(rank < 0x80000000U ? 0U - rank : rank - 0x80000000U);
 }
 
+/* The least binary32 number that is not below a double. */
+DP_INLINE float dp_float_up(double x) {
+    const float nearest = (float)x;
+    return (double)nearest < x ? dp_ranked32(dp_rank32(nearest) + 1U) : nearest;
+}
+
+/* The greatest that is not above it. */
+DP_INLINE float dp_float_down(double x) {
+    const float nearest = (float)x;
+    return (double)nearest > x ? dp_ranked32(dp_rank32(nearest) - 1U) : nearest;
+}
+
 DP_INLINE uint64_t dp_bits64(double x) {
     uint64_t bits;
     memcpy(&bits, &x, sizeof bits);

@@ -45,10 +45,8 @@ static double linearization_error(const dp_setup *setup, const dp_chain *c, doub
 
 /* The farthest binary32 depth within `longest` behind one. */
 static double last_within(double z, double longest) {
-    if (!(z + longest < 0x1.fffffep127))
-        return z + longest;
-    const float last = (float)(z + longest);
-    return (double)((double)last > z + longest ? nextafterf(last, -HUGE_VALF) : last);
+    const double end = z + longest;
+    return end < 0x1.fffffep127 ? (double)dp_float_down(end) : end;
 }
 
 /* The binary32 depth of a surface; and 0, where hardware may make that of it. */
@@ -171,10 +169,9 @@ double dp_budget_bound(const dp_setup *setup, float nearest, float farthest) {
     dp_demand d;
     const double longest = dp_demand_longest(&c, run, 0.0, &d);
     /* Of all depths of the run, and of those behind it: what is apart is apart by whole ones. Towards 0 they shrink. */
-    const double finest = run.lo > 0.0 ? run.hi : -(run.hi + longest);
-    const double step = 2.0 * dp_half_ulp(larger(finest, 0.0));
-    const int counted = finest > 0.0 && longest < 0x1p45 * step;
-    const double whole = counted ? floor(longest / step) * step : longest;
+    const double nearest_to_0 = larger(larger(run.lo, -(run.hi + longest)), 0.0);
+    const double step = 2.0 * dp_half_ulp(nearest_to_0);
+    const double whole = longest < 0x1p45 * step ? floor(longest / step) * step : longest;
     const double nearest_size = fabs(run.lo); /* the larger one of a negative run */
     return (dp_eye_rounding(larger(nearest_size, run.hi), larger(nearest_size, run.hi + whole)) + whole) * outward;
 }

@@ -41,17 +41,6 @@ static entries orthographic(double n, double f, int ndc_signed, int reversed) {
     return reversed ? (entries){1.0 / (n - f), f / (f - n)} : (entries){1.0 / (f - n), -n / (f - n)};
 }
 
-/* The binary32 values next to a double, so that a plane is never stepped over. */
-static float round_up(double value) {
-    const float f = (float)value;
-    return (double)f < value ? nextafterf(f, INFINITY) : f;
-}
-
-static float round_down(double value) {
-    const float f = (float)value;
-    return (double)f > value ? nextafterf(f, -INFINITY) : f;
-}
-
 dp_status dp_pipeline_init(dp_pipeline *pipeline, const dp_setup *setup) {
     if (pipeline == NULL || setup == NULL)
         return DP_ERROR_NULL;
@@ -70,8 +59,8 @@ dp_status dp_pipeline_init(dp_pipeline *pipeline, const dp_setup *setup) {
                               .reversed = row->reversed,
                               .ndc_signed = row->ndc_signed,
                               .ortho = spec->ortho != 0,
-                              .znear = round_up(spec->znear),
-                              .zfar = round_down(spec->zfar)};
+                              .znear = dp_float_up(spec->znear), /* no plane is stepped over */
+                              .zfar = dp_float_down(spec->zfar)};
     return DP_OK;
 }
 

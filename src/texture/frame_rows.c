@@ -52,9 +52,7 @@ static ranges nothing_yet(void) {
 /* An error map must not be below the error: the nearest binary32 number that is not. A few roundings to double came
    before. */
 static float upwards(double error) {
-    const double most = error * (1 + 0x1p-48);
-    const float nearest = (float)most;
-    return (double)nearest < most ? nextafterf(nearest, (float)INFINITY) : nearest;
+    return dp_float_up(error * (1 + 0x1p-48));
 }
 
 TEXTURE_CLONES static void interleave_planes(const float *restrict x, const float *restrict y, const float *restrict z,
