@@ -74,6 +74,7 @@ static void in_model(dp_model model, measure_kind kind, uint64_t cases) {
     tally dense = {.name = "no depth up to the answer fails"};
     tally beyond = {.name = "beyond the answer it fails, next to it"};
     tally none = {.name = "impossible: it fails at the first depth"};
+    tally about = {.name = "the cheaper answer lies just before"};
     uint64_t throughout = 0;
     for (uint64_t i = 0; i < cases;) {
         question q;
@@ -86,6 +87,14 @@ static void in_model(dp_model model, measure_kind kind, uint64_t cases) {
         if (distance_solve(kind, &q.setup, q.lo, q.hi, q.limit, &a) != DP_OK) {
             tally_fail(&whole, "%s: refused", text);
             continue;
+        }
+        if (kind == MEASURE_SEPARATION) {
+            const double cheap = distance_about(&q.setup, q.lo, q.hi, q.limit);
+            TALLY(&about,
+                  !a.possible ? isnan(cheap)
+                              : cheap >= a.value - fabs(a.value) * DISTANCE_ABOUT &&
+                                    (a.throughout ? cheap <= a.value : cheap < a.fails),
+                  "%s: %.17g, not %.17g", text, cheap, a.value);
         }
         if (!a.possible) {
             TALLY(&none, at(&q, q.lo) > q.limit, "%s: %.17g there", text, at(&q, q.lo));
@@ -127,7 +136,8 @@ static void in_model(dp_model model, measure_kind kind, uint64_t cases) {
     tally_end(&dense);
     tally_end(&beyond);
     if (none.cases > 0)
-        tally_end(&none);
+        tally_end(&about);
+    tally_end(&none);
 }
 
 static void test_fp32(void **state) {

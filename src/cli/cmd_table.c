@@ -153,17 +153,18 @@ static void say_reach(page *p, void *item) {
     walk_title(p, item);
     if (t->walk.all.count > 1)
         return;
-    for (size_t i = 0; i < REACH_LIMITS; i++) {
-        const double up_to = reach_of(&t->full, reach_limit(i, unit));
-        if (!isnan(up_to))
+    double up_to[REACH_LIMITS];
+    reach_of(&t->full, unit, up_to);
+    for (size_t i = 0; i < REACH_LIMITS; i++)
+        if (!isnan(up_to[i]))
             append(sentence, sizeof sentence, "%s %s apart up to %s%s", *sentence != '\0' ? "," : "",
-                   reach_limit_text(i, unit).text, up_to < t->full.spec.zfar ? "z = " : "",
-                   reach_text(t->full.spec.zfar, up_to, unit, text));
-    }
+                   reach_limit_text(i, unit).text, up_to[i] < t->full.spec.zfar ? "z = " : "",
+                   reach_text(t->full.spec.zfar, up_to[i], unit, text));
     if (*sentence != '\0')
         page_text(p, "Guaranteed to be told apart: surfaces%s.", sentence);
     else
-        page_text(p, "Surfaces %s apart may fight at every depth.", reach_limit_text(REACH_LIMITS - 1, unit).text);
+        page_text(p, "Not even at the near plane are surfaces %s apart sure to be told apart.",
+                  reach_limit_text(REACH_LIMITS - 1, unit).text);
 }
 
 static void say_worst(page *p, const dp_worst *w) {

@@ -58,8 +58,9 @@ static void measure(const comparison *c, compared *r) {
         r->separation[i] = dp_sample_at(&full, unit_convert(c->depths[i], unit, r->unit), &sample) == DP_OK
                                ? unit_convert(sample.separation, r->unit, unit)
                                : (double)NAN;
+    reach_of(&full, r->unit, r->up_to);
     for (size_t i = 0; i < LIMITS; i++)
-        r->up_to[i] = unit_convert(reach_of(&full, reach_limit(i, r->unit)), r->unit, unit);
+        r->up_to[i] = unit_convert(r->up_to[i], r->unit, unit);
 }
 
 /* As far as it goes, then as close as it comes, then as cheap as it is. */

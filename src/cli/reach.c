@@ -33,11 +33,13 @@ dp_setup reach_model(const dp_setup *setup) {
     return reach_in(setup, curve == DP_CURVE_PERSPECTIVE ? DP_MODEL_FP32 : DP_MODEL_STAGED);
 }
 
-double reach_of(const dp_setup *full, double limit) {
-    distance_answer answer;
-    const dp_status status =
-        distance_solve(MEASURE_SEPARATION, full, full->spec.znear, full->spec.zfar, limit, &answer);
-    return status == DP_OK && answer.possible ? answer.value : (double)NAN;
+/* What is guaranteed of a smaller separation is so of a larger one: each is sought behind the one before. */
+void reach_of(const dp_setup *full, const unit_row *unit, double up_to[REACH_LIMITS]) {
+    double from = full->spec.znear;
+    for (size_t i = 0; i < REACH_LIMITS; i++) {
+        up_to[i] = distance_about(full, from, full->spec.zfar, reach_limit(i, unit));
+        from = isnan(up_to[i]) ? from : up_to[i];
+    }
 }
 
 const char *reach_text(double zfar, double up_to, const unit_row *unit, char out[REACH_TEXT_SIZE]) {

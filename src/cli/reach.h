@@ -21,8 +21,8 @@ dp_setup reach_in(const dp_setup *setup, dp_model model);
  */
 dp_setup reach_model(const dp_setup *setup);
 
-/** Of a set-up in that model: the depth up to which that separation is guaranteed; NaN: not even at near. */
-double reach_of(const dp_setup *full, double limit);
+/** Of a set-up in that model: the depth up to which each separation is guaranteed; NaN: not even at near. */
+void reach_of(const dp_setup *full, const unit_row *unit, double up_to[REACH_LIMITS]);
 
 /** "82800 m", "the far plane" where nothing is beyond it, rounded to the safe side; the unit may be null. @return out
  */

@@ -39,6 +39,10 @@ static double between(const ruler *r) {
  */
 static void extend(ruler *r, double end) {
     const double begin = r->kind == MEASURE_ERROR ? r->lo : r->holds;
+    if (r->kind == MEASURE_SEPARATION && dp_separation(r->setup, end) > r->limit) { /* cheaper than to judge them all */
+        r->fails = end;
+        return;
+    }
     const judgement j = judge(r->kind, r->setup, begin, end, r->limit);
     if (j.passed)
         r->holds = end;
@@ -46,6 +50,33 @@ static void extend(ruler *r, double end) {
         r->fails = j.z;
     else
         r->fails = end;
+}
+
+/* Until the ends are neighbours, or no farther apart than that share. */
+static void search(ruler *r, double share) {
+    const double end = r->fails;
+    if (r->lo < end)
+        extend(r, end);
+    for (int i = 0; i < STEPS && r->holds < end && r->fails > r->holds + fabs(r->holds) * share; i++) {
+        const double middle = between(r);
+        if (isnan(middle))
+            break;
+        extend(r, middle);
+    }
+}
+
+double distance_about(const dp_setup *setup, double lo, double hi, double limit) {
+    ruler r = {.kind = MEASURE_SEPARATION,
+               .setup = setup,
+               .limit = limit,
+               .whole = setup->spec.model == DP_MODEL_FP32,
+               .lo = lo,
+               .holds = lo,
+               .fails = fmin(hi, farthest)};
+    if (!(dp_separation(setup, lo) <= limit))
+        return (double)NAN;
+    search(&r, DISTANCE_ABOUT);
+    return r.holds;
 }
 
 /* As `check` would judge it, in one piece: where that stops refining too early, a little less. */
@@ -81,14 +112,7 @@ dp_status distance_solve(measure_kind kind, const dp_setup *setup, double lo, do
     out->possible = out->reached.passed;
     if (!out->possible)
         return DP_OK;
-    if (lo < end)
-        extend(&r, end);
-    for (int i = 0; i < STEPS && r.holds < end; i++) {
-        const double middle = between(&r);
-        if (isnan(middle))
-            break;
-        extend(&r, middle);
-    }
+    search(&r, 0.0);
     confirm(&r, out);
     out->throughout = out->value == end;
     out->fails = out->throughout ? (double)NAN : r.fails;

@@ -26,6 +26,15 @@ typedef struct distance_answer {
 dp_status distance_solve(measure_kind kind, const dp_setup *setup, double lo, double hi, double limit,
                          distance_answer *out);
 
+/** How far below the largest distance distance_about() may stay, as a share of it. */
+#define DISTANCE_ABOUT 0x1p-10
+
+/**
+ * The same for a separation, cheaper: certified too, but only nearly the largest. Of a set-up and depths
+ * that distance_solve() takes. @return NaN where it does not hold at `lo`
+ */
+double distance_about(const dp_setup *setup, double lo, double hi, double limit);
+
 /** Depths from lo to hi, throughout which it holds. */
 typedef struct distance_span {
     double lo, hi;
