@@ -74,12 +74,9 @@ static int digits_to_see(double at, double step) {
 
 /* ---- What is reported -------------------------------------------------------------------------------------------- */
 
-/* The separation of a row in the same set-up of another model, or of the same. */
+/* The separation of a row in another model, or in its own. */
 static double separation_in(const dp_setup *other, const dp_setup *setup, const dp_sample *here) {
-    dp_sample sample;
-    if (other->spec.model == setup->spec.model)
-        return here->separation;
-    return dp_sample_at(other, here->z, &sample) == DP_OK ? sample.separation : (double)NAN;
+    return other->spec.model == setup->spec.model ? here->separation : dp_separation(other, here->z);
 }
 
 static void set_digits(row *r) {
