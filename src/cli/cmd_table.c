@@ -147,11 +147,13 @@ static void say_reach(page *p, void *item) {
     const table *t = item;
     char text[REACH_TEXT_SIZE], sentence[REACH_TEXT_SIZE] = "";
     const unit_row *unit = t->walk.here.unit;
+    double up_to = (double)NAN;
     walk_title(p, item);
     if (t->walk.all.count > 1)
         return;
-    for (size_t i = 0; i < REACH_LIMITS; i++) {
-        const double up_to = reach_of(&t->full, reach_limit(i, unit));
+    /* What is wider than a separation that holds everywhere goes without saying. */
+    for (size_t i = 0; i < REACH_LIMITS && !(up_to >= t->full.spec.zfar); i++) {
+        up_to = reach_of(&t->full, reach_limit(i, unit));
         if (!isnan(up_to))
             append(sentence, sizeof sentence, "%s %s apart up to %s%s", *sentence != '\0' ? "," : "",
                    reach_limit_text(i, unit).text, up_to < t->full.spec.zfar ? "z = " : "",
