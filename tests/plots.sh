@@ -76,9 +76,9 @@ check "a range outside the planes" refuses 2 "--range: " error --range 1:2000 -o
 check "--at where it has no meaning" refuses 2 "--at: " error --at 3 -o "$scratch/x.svg"
 check "--at with two depths" refuses 2 "--at: must be one depth" map -F fp32 --at 3,4 -o "$scratch/x.svg"
 check "too many set-ups for maps" refuses 2 "at most 8 set-ups, got" map -m d3d,gl,reversed -o "$scratch/x.svg"
-check "error in the model fp32" refuses 2 "--model: fp32 has no cells for the figure error" error --model fp32 -o "$scratch/x.svg"
-check "map where auto chooses fp32" refuses 2 "--model: fp32 has no cells for the figure map" map --model auto -F unorm24 -m d3d -o "$scratch/x.svg"
-check "budget in another model" refuses 2 "--model: must be fp32 in the figure budget, got 'staged'" budget --model staged -o "$scratch/x.svg"
+check "error in the model fp32" refuses 2 "--model: float has no cells for the figure error" error --model fp32 -o "$scratch/x.svg"
+check "map where auto chooses fp32" refuses 2 "--model: float has no cells for the figure map" map --model auto -F unorm24 -m d3d -o "$scratch/x.svg"
+check "budget in another model" refuses 2 "--model: must be float in the figure budget, got 'staged'" budget --model staged -o "$scratch/x.svg"
 check "budget of log" refuses 2 "--mapping: binary32 arithmetic needs one of" budget -m log -o "$scratch/x.svg"
 check "--world where it has no meaning" refuses 2 "--world: has no meaning in the figure share" share --world 3 -o "$scratch/x.svg"
 check "--tolerance without auto" refuses 2 "--tolerance: needs --model auto in the figure share" share --tolerance 1% -o "$scratch/x.svg"
@@ -126,7 +126,7 @@ check "a census in the model fp32, no point of it above the guarantee" below_the
 
 check "auto chooses the model of each curve" sh -c '
     "$1" plot interval --model auto -F unorm16,unorm24 -m d3d,log --csv >"$2" &&
-        cut -d \" -f 2 "$2" | sed 1d | sort -u | tr "\n" ";" | grep -qx "unorm16 d3d, exact;unorm16 log, exact;unorm24 d3d, fp32;unorm24 d3d, fp32, census;unorm24 d3d, fp32, lattice;unorm24 log, staged;"
+        cut -d \" -f 2 "$2" | sed 1d | sort -u | tr "\n" ";" | grep -qx "unorm16 d3d, exact;unorm16 log, exact;unorm24 d3d, float;unorm24 d3d, float, census;unorm24 d3d, float, lattice;unorm24 log, staged;"
     ' - "$DEPTHPREC" "$scratch/csv"
 
 # A failed run leaves the old figure as it was.

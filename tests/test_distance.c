@@ -135,9 +135,10 @@ static void in_model(dp_model model, measure_kind kind, uint64_t cases) {
     tally_end(&whole);
     tally_end(&dense);
     tally_end(&beyond);
-    if (none.cases > 0)
+    if (kind == MEASURE_SEPARATION)
         tally_end(&about);
-    tally_end(&none);
+    if (none.cases > 0)
+        tally_end(&none);
 }
 
 static void test_fp32(void **state) {

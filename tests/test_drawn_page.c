@@ -114,7 +114,7 @@ static void models(void **state) {
     assert_non_null(strstr(d->subtitle, "near 0.1, far 1000, perspective, nearest, depths 100 to 1000. Thin: "));
     drawn_legend_is(d, 5,
                     (const char *const[]){"unorm16 d3d, exact", "unorm16 log, exact", "unorm24 log, staged",
-                                          "unorm24 d3d, fp32", "unorm24 d3d, fp32, census"});
+                                          "unorm24 d3d, float", "unorm24 d3d, float, census"});
     drawn_close(d);
 }
 

@@ -13,7 +13,7 @@ const unit_row *unit_get(size_t index) {
 
 const unit_row *unit_find(const char *name) {
     for (size_t i = 0; i < sizeof rows / sizeof rows[0]; i++)
-        if (strcmp(rows[i].name, name) == 0 || (*name != '\0' && strcmp(rows[i].aliases, name) == 0))
+        if (strcmp(rows[i].name, name) == 0 || (*name != '\0' && strcmp(rows[i].alias, name) == 0))
             return &rows[i];
     return NULL;
 }

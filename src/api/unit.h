@@ -7,8 +7,8 @@
 
 typedef struct unit_row {
     const char *name;
-    const char *aliases; /**< separated by one space; "" when there are none */
-    double nanometres;   /**< in one; a whole number */
+    const char *alias; /**< another spelling; "" when there is none */
+    double nanometres; /**< in one; a whole number */
 } unit_row;
 
 /** The names, for messages. */

@@ -80,8 +80,8 @@ static int check_options(const options *o, const figure_row *row) {
     if (option_given(o, OPTION_COMPOSITION) && !(o->terms.world > 0.0))
         return option_error(OPTION_COMPOSITION, "needs --world: eye depth is given");
     if (option_given(o, OPTION_MODEL) && (row->takes & FIGURE_BINARY32) != 0 && o->model != DP_MODEL_FP32)
-        return option_error(OPTION_MODEL, "must be fp32 in the figure %s, got '%s'", row->name,
-                            o->model_auto ? "auto" : dp_model_name(o->model));
+        return option_error(OPTION_MODEL, "must be float in the figure %s, got '%s'", row->name,
+                            option_word(OPTION_MODEL, o->model_auto ? DP_MODEL_COUNT : o->model));
     if (option_given(o, OPTION_TOLERANCE) && !o->model_auto && (row->takes & FIGURE_TOLERANCE) == 0)
         return option_error(OPTION_TOLERANCE, "needs --model auto in the figure %s", row->name);
     return EXIT_FINE;
@@ -99,7 +99,7 @@ static int choose_models(plotting *p) {
     for (size_t i = 0; i < p->all.count && (p->row->takes & FIGURE_FP32) == 0; i++)
         if (p->all.items[i].spec.model == DP_MODEL_FP32)
             return option_error(OPTION_MODEL,
-                                "fp32 has no cells for the figure %s to show; interval and budget draw its separation",
+                                "float has no cells for the figure %s to show; interval and budget draw its separation",
                                 p->row->name);
     return EXIT_FINE;
 }
@@ -110,7 +110,7 @@ static void name_setups(plotting *p) {
         char *name = p->text[i];
         p->names[i] = setup_label(&p->all.items[i], false, name);
         if (p->o->model_auto)
-            append(name, SETUP_LABEL_SIZE, ", %s", dp_model_name(p->all.items[i].spec.model));
+            append(name, SETUP_LABEL_SIZE, ", %s", option_word(OPTION_MODEL, p->all.items[i].spec.model));
     }
 }
 

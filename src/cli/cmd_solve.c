@@ -47,7 +47,7 @@ static int check_target(const options *o, solve_report *r) {
         return option_error(OPTION_FOR, "%s is what is solved for, got --%s too", option_word(OPTION_FOR, r->target),
                             option_word(OPTION_FOR, r->target));
     if (r->kind == MEASURE_ERROR && option_given(o, OPTION_MODEL) && o->model == DP_MODEL_FP32)
-        return option_error(OPTION_MODEL, "must be exact or staged for an error, which fp32 has none of, got 'fp32'");
+        return option_error(OPTION_MODEL, "must be exact or staged for an error, got 'float', which has no cells");
     return EXIT_FINE;
 }
 

@@ -74,12 +74,9 @@ static int digits_to_see(double at, double step) {
 
 /* ---- What is reported -------------------------------------------------------------------------------------------- */
 
-/* The separation of a row in the same set-up of another model, or of the same. */
+/* The separation of a row in another model, or in its own. */
 static double separation_in(const dp_setup *other, const dp_setup *setup, const dp_sample *here) {
-    dp_sample sample;
-    if (other->spec.model == setup->spec.model)
-        return here->separation;
-    return dp_sample_at(other, here->z, &sample) == DP_OK ? sample.separation : (double)NAN;
+    return other->spec.model == setup->spec.model ? here->separation : dp_separation(other, here->z);
 }
 
 static void set_digits(row *r) {
@@ -155,7 +152,8 @@ static void say_reach(page *p, void *item) {
         return;
     double up_to[REACH_LIMITS];
     reach_of(&t->full, unit, up_to);
-    for (size_t i = 0; i < REACH_LIMITS; i++)
+    /* What is wider than a separation that holds everywhere goes without saying. */
+    for (size_t i = 0; i < REACH_LIMITS && (i == 0 || !(up_to[i - 1] >= t->full.spec.zfar)); i++)
         if (!isnan(up_to[i]))
             append(sentence, sizeof sentence, "%s %s apart up to %s%s", *sentence != '\0' ? "," : "",
                    reach_limit_text(i, unit).text, up_to[i] < t->full.spec.zfar ? "z = " : "",
@@ -216,7 +214,7 @@ static void say_notes(page *p, void *item) {
         page_note(p, "worst separation", "%s at z = %s, %s",
                   number_in(number_up(g->worst.bound, DIGITS_FEW), p->unit).text,
                   number_in(number_of(g->worst.z, DIGITS_USUAL), p->unit).text,
-                  t->full.spec.model == DP_MODEL_FP32 ? "guaranteed in binary32 (model fp32)" : "in the model staged");
+                  t->full.spec.model == DP_MODEL_FP32 ? "guaranteed in binary32 (model float)" : "in the model staged");
     say_drawn(p, &t->planes);
     page_line(p, "%s", choice_sentence(&t->choice, p->unit).text);
     if (option_given(t->walk.o, OPTION_TOLERANCE))

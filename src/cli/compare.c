@@ -53,11 +53,12 @@ typedef struct comparison {
 static void measure(const comparison *c, compared *r) {
     const unit_row *unit = c->walk->o->unit;
     const dp_setup full = reach_model(r->setup);
-    dp_sample sample;
-    for (size_t i = 0; i < c->depth_count; i++)
-        r->separation[i] = dp_sample_at(&full, unit_convert(c->depths[i], unit, r->unit), &sample) == DP_OK
-                               ? unit_convert(sample.separation, r->unit, unit)
+    for (size_t i = 0; i < c->depth_count; i++) {
+        const double z = unit_convert(c->depths[i], unit, r->unit);
+        r->separation[i] = z >= full.spec.znear && z <= full.spec.zfar
+                               ? unit_convert(dp_separation(&full, z), r->unit, unit)
                                : (double)NAN;
+    }
     reach_of(&full, r->unit, r->up_to);
     for (size_t i = 0; i < LIMITS; i++)
         r->up_to[i] = unit_convert(r->up_to[i], r->unit, unit);

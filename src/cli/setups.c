@@ -14,7 +14,7 @@ int setup_refused(const options *o, const dp_spec *spec, dp_status status) {
         const bool given = option_given(o, OPTION_MODEL);
         return option_error(given ? OPTION_MODEL : OPTION_MAPPING,
                             "%s needs one of the mappings " DP_MAPPING_NAMES_PERSPECTIVE ", got %s",
-                            given ? "fp32" : "binary32 arithmetic", mapping);
+                            given ? option_word(OPTION_MODEL, DP_MODEL_FP32) : "binary32 arithmetic", mapping);
     }
     /* "--far: must be ..." rather than "--far: far must be ...". */
     const char *text = dp_status_text(status);
@@ -103,7 +103,7 @@ const char *setup_label(const dp_setup *setup, bool full, char out[SETUP_LABEL_S
     if (full)
         snprintf(out + length, SETUP_LABEL_SIZE - (size_t)length, "%s%s, near %s, far %s, %s, %s, %s%s%s",
                  has_log_c ? " C " : "", has_log_c ? number_full(f.log_c).text : "", number_full(f.znear).text,
-                 number_full(f.zfar).text, f.projection, f.rounding, has_arith ? "float" : f.model,
+                 number_full(f.zfar).text, f.projection, f.rounding, option_word(OPTION_MODEL, setup->spec.model),
                  has_arith ? " " : "", has_arith ? f.arith : "");
     return out;
 }

@@ -39,7 +39,7 @@ static void take_candidate(solving *s, const solve_candidate *c) {
     *(c->unknown == SOLVE_NEAR ? &x->lattice_near : &x->lattice_far) = c->solved ? &x->found.lattice.value : NULL;
     s->setup = (dp_setup){.spec = c->spec};
     x->setup = setup_fields_of(&s->setup, options_unit(s->report.o));
-    x->model = c->spec.model == DP_MODEL_FP32 ? "float" : x->setup.model;
+    x->model = option_word(OPTION_MODEL, c->spec.model);
 }
 
 /* ---- The table of alternatives ----------------------------------------------------------------------------------- */

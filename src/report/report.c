@@ -163,10 +163,9 @@ static void put_line(const text_walk *w, const column *list, void *item) {
 }
 
 static bool is_table(const text_walk *w, const column *c) {
-    for (; c->kind != COLUMN_END; c++)
-        if (has_title(w, c) || (c->kind == COLUMN_PART && column_shows(c, AS_TEXT, w->when) && is_table(w, c->columns)))
-            return true;
-    return false;
+    int width = 0, last = 0;
+    measure_titles(w, c, &width, &last);
+    return width > 0;
 }
 
 static void put_lists(text_walk *w, const column *c, void *item);
@@ -373,18 +372,14 @@ typedef struct csv_walk {
 } csv_walk;
 
 static void csv_word(output *out, const char *word) {
-    const bool plain = strpbrk(word, ",\"\r\n") == NULL;
-    if (plain) {
-        output_text(out, word);
-        return;
-    }
-    output_char(out, '"');
+    const char *quote = strpbrk(word, ",\"\r\n") != NULL ? "\"" : "";
+    output_text(out, quote);
     for (; *word != '\0'; word++) {
         if (*word == '"')
             output_char(out, '"');
         output_char(out, *word);
     }
-    output_char(out, '"');
+    output_text(out, quote);
 }
 
 static void csv_head(output *out, const column *c) {
