@@ -226,7 +226,7 @@ static void say_notes(page *p, void *item) {
         page_note(p, "worst separation", "%s at z = %s, %s",
                   number_in(number_up(g->worst.bound, DIGITS_FEW), p->unit).text,
                   number_in(number_of(g->worst.z, DIGITS_USUAL), p->unit).text,
-                  g->model == DP_MODEL_FP32 ? "guaranteed in binary32 (model fp32)" : "in the model staged");
+                  g->model == DP_MODEL_FP32 ? "guaranteed in binary32 (model float)" : "in the model staged");
     say_drawn(p, &t->planes);
     page_line(p, "%s", choice_sentence(&t->choice, p->unit).text);
     if (option_given(t->walk.o, OPTION_TOLERANCE))
