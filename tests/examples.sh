@@ -97,8 +97,16 @@ wide() { # the lines of the examples' output that are too wide
     done
 }
 
-rendered() { # rendered PAGE: its lines that are too wide on a terminal of 80 columns
-    mandoc -T ascii -O width=80 "$1" >"$scratch/rendered" && [ -s "$scratch/rendered" ] || return
+mandoc_page() { # mandoc_page PAGE
+    mandoc -T ascii -O width=80 "$1"
+}
+
+groff_page() { # groff_page PAGE
+    groff -T ascii -P -c -mdoc -r LL=80n "$1"
+}
+
+rendered() { # rendered TOOL PAGE: its lines that are too wide on a terminal of 80 columns
+    "$1_page" "$2" >"$scratch/rendered" && [ -s "$scratch/rendered" ] || return
     col -bx <"$scratch/rendered" | awk 'length > 80 && !/^depthprec: /'
 }
 
@@ -114,11 +122,13 @@ for page in README.md man/*.[0-9]; do
     [ ! -e "$scratch/run/1.want" ] || check "$page: output of 80 columns" empty wide
     case $page in
     *.md) ;;
-    *) if command -v mandoc >/dev/null && command -v col >/dev/null; then
-        check "$page: 80 columns" empty rendered "$page"
-    else
-        skip "$page: 80 columns" "mandoc or col is not installed"
-    fi ;;
+    *) for tool in mandoc groff; do
+        if command -v $tool >/dev/null && command -v col >/dev/null; then
+            check "$page: 80 columns by $tool" empty rendered $tool "$page"
+        else
+            skip "$page: 80 columns by $tool" "$tool or col is not installed"
+        fi
+    done ;;
     esac
     case $page in
     README.md | *.[13]) check "$page: has examples" [ $number -gt 1 ] ;;

@@ -109,7 +109,7 @@ static void many(void **state) {
 static void models(void **state) {
     (void)state;
     drawn *d = drawn_run(&drawn_light, "plot interval --model auto -F unorm16,unorm24 -m d3d,log --range 100:1000");
-    assert_string_equal(d->title, "Z-fighting interval; in the model fp32, guaranteed separation");
+    assert_string_equal(d->title, "Z-fighting interval; in the model float, guaranteed separation");
     assert_string_equal(d->y_caption->text, "separation, interval (scene units)");
     assert_non_null(strstr(d->subtitle, "near 0.1, far 1000, perspective, nearest, depths 100 to 1000. Thin: "));
     drawn_legend_is(d, 5,

@@ -186,7 +186,7 @@ static const struct {
     {CAMERA NEEDS("at = 1; ties = 0.1;"), 2, "ties: needs a range"},
     {"cameras = { a = { near = 1; far = 9; mapping = \"d3d\"; format = \"fp32\"; model = \"exact\"; }; };\n" NEEDS(
          "at = 1; ties = 0.1;"),
-     2, "ties: needs the model fp32 or auto"},
+     2, "ties: needs the model float or auto"},
     {"cameras = { a = { near = 1; far = 9; mapping = \"d3d\"; format = \"fp32\"; model = \"fp32\"; }; };\n" NEEDS(
          "at = 1; error = 0.1;"),
      2, "error: needs the model exact, staged or auto"},

@@ -189,7 +189,8 @@ static void test_one(void **state) {
         words heading = split(p.out);
         const dp_setup setup = full_setup(&one[i], heading.word[0], strtok(heading.word[1], ","));
         const char *line = next_line(p.out);
-        for (int k = 0; k < LIMITS; k++) {
+        bool everywhere = false; /* a separation is: then wider ones are not said */
+        for (int k = 0; k < LIMITS && !everywhere; k++) {
             char begin[64], word[WORD] = "-";
             snprintf(begin, sizeof begin, "%g apart up to ", limits[k]);
             const char *at = strstr(line, begin);
@@ -200,7 +201,8 @@ static void test_one(void **state) {
                 if (word[0] != 't' && word[strlen(word) - 1] == '.')
                     word[strlen(word) - 1] = '\0';
             }
-            check_reach(&t, &setup, limits[k], strncmp(word, "the far plane", 13) == 0 ? "far" : word);
+            everywhere = strncmp(word, "the far plane", 13) == 0;
+            check_reach(&t, &setup, limits[k], everywhere ? "far" : word);
         }
         printed_free(&p);
     }

@@ -46,7 +46,7 @@ static const char *sentence(const check_file *f, const check_verdict *v, char ou
 
 static void write_text(const options *o, bool failures, output *out, const check_file *files, size_t count) {
     char text[SENTENCE_SIZE], label[SETUP_LABEL_SIZE];
-    page p = page_start(out, 0);
+    page p = page_start(out, 4); /* where what decided is indented to */
     for (const check_file *f = files; f < files + count; f++) {
         for (size_t k = 0; k < f->count; k++) {
             const check_verdict *v = &f->verdicts[k];
@@ -57,7 +57,7 @@ static void write_text(const options *o, bool failures, output *out, const check
                       v->camera->name, setup_label(&v->setup, false, label),
                       option_word(OPTION_MODEL, v->setup.spec.model), sentence(f, v, text));
             if (o->verbose)
-                page_line(&p, "    decided by %s: %s", check_method_name(v->method),
+                page_note(&p, "", "decided by %s: %s", check_method_name(v->method),
                           setup_label(&v->setup, true, label));
         }
         if (!failures)

@@ -43,6 +43,14 @@ typedef struct budget {
     choice_fields chosen;
 } budget;
 
+enum { WITH_WORLD = 1, WITH_INTERPOLATION = 2, WITH_LINEARIZE = 4 };
+
+/* The terms that are asked for. */
+static unsigned conditions(const budget *b) {
+    return (b->terms.world > 0.0 ? WITH_WORLD : 0) | (b->terms.interpolation > 0.0 ? WITH_INTERPOLATION : 0) |
+           (b->linearize ? WITH_LINEARIZE : 0);
+}
+
 /* ---- What is reported -------------------------------------------------------------------------------------------- */
 
 static double share_of(const row *r, int cause) {
@@ -142,24 +150,23 @@ static void say_notes(page *p, void *item) {
                   number_in(number_of(b->hopeless, DIGITS_MORE), p->unit).text);
     if (b->worst != NULL)
         say_worst(p, b->worst);
-    page_line(p, "%s", choice_sentence(&b->choice, p->unit).text);
+    page_line(p, "%s%s", conditions(b) != 0 ? "without the added terms " : "",
+              choice_sentence(&b->choice, p->unit).text);
 }
 
 /* ---- Columns ----------------------------------------------------------------------------------------------------- */
-
-enum { WITH_WORLD = 1, WITH_INTERPOLATION = 2, WITH_LINEARIZE = 4 };
 
 /* Text has the causes that there can be. */
 #define CAUSE(id, name, needed, its_spare)                                                                             \
     {FIELD(row, parts.cause[id], name, "scene")}, {                                                                    \
         TEXT_FIELD(row, cause[id], name, 14, 0), .when = (needed), .spare = (its_spare)                                \
     }
-static const column cause_columns[] = {CAUSE(DP_CAUSE_EYE, "eye", 0, 4),
+static const column cause_columns[] = {CAUSE(DP_CAUSE_EYE, "eye", 0, 3),
                                        CAUSE(DP_CAUSE_COMPOSITION, "composition", WITH_WORLD, 0),
-                                       CAUSE(DP_CAUSE_PROJECTION, "projection", 0, 2),
+                                       CAUSE(DP_CAUSE_PROJECTION, "projection", 0, 4),
                                        CAUSE(DP_CAUSE_NDC, "ndc", 0, 1),
                                        CAUSE(DP_CAUSE_INTERPOLATION, "interpolation", WITH_INTERPOLATION, 0),
-                                       CAUSE(DP_CAUSE_FORMAT, "format", 0, 3),
+                                       CAUSE(DP_CAUSE_FORMAT, "format", 0, 2),
                                        CAUSE(DP_CAUSE_LINEARIZATION, "linearization", WITH_LINEARIZE, 0),
                                        {.kind = COLUMN_END}};
 
@@ -195,12 +202,6 @@ static const column term_columns[] = {{FIELD(budget, terms.interpolation, "inter
 static const column columns[] = {{GROUP("terms", term_columns), .only = AS_JSON},
                                  {LIST("setups", setup_report, next_setup), .head = say_setup, .notes = say_notes},
                                  {.kind = COLUMN_END}};
-
-/* The terms that are asked for. */
-static unsigned conditions(const budget *b) {
-    return (b->terms.world > 0.0 ? WITH_WORLD : 0) | (b->terms.interpolation > 0.0 ? WITH_INTERPOLATION : 0) |
-           (b->linearize ? WITH_LINEARIZE : 0);
-}
 
 int cmd_budget(const options *o) {
     budget b = {.terms = o->terms, .linearize = o->terms.linearize != 0};

@@ -173,11 +173,12 @@ static void say_answer(page *p, void *item) {
 }
 
 static void say_planes(page *p, void *item) {
-    const census_result *r = ((const zfight *)item)->result;
+    const zfight *z = item;
+    const census_result *r = z->result;
     if (isnan(r->near_effective))
         page_line(p, "clipping loses everything");
     else
-        page_line(p, "effective clip range: %s to %s",
+        page_line(p, "effective clip range%s: %s to %s", option_given(z->walk.o, OPTION_RANGE) ? " within --range" : "",
                   number_in(number_of(r->near_effective, PLANE_DIGITS), p->unit).text,
                   number_in(number_of(r->far_effective, PLANE_DIGITS), p->unit).text);
 }

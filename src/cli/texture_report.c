@@ -92,9 +92,10 @@ static void say_origins(const statistics *r, page *p) {
     if (is_image(r))
         say_grain(r, p);
     page_note(p, "mapping", "%s %s%s", r->setup.mapping, r->named.mapping_from,
-              is_image(r) && s->mapping_from == ORIGIN_ASSUMED ? ": --mapping tells" : "");
+              is_image(r) && s->mapping_from == ORIGIN_ASSUMED ? ": --mapping sets it" : "");
     if (is_image(r) && s->direction_from != ORIGIN_GIVEN)
-        page_note(p, "direction", "%s %s", s->setup.reversed ? "reversed" : "not reversed", r->named.direction_from);
+        page_note(p, "direction", "%s %s%s", s->setup.reversed ? "reversed" : "not reversed", r->named.direction_from,
+                  s->found.reversed >= 0 && s->setup.spec.ortho ? ": orthographic images do not tell" : "");
     for (const char *const *what = (const char *const[]){"mapping", "format", NULL}; *what != NULL; what++)
         if (*texture_readings_of(s, *what, readings) != '\0')
             page_note(p, "pixel", "%s", readings);

@@ -142,7 +142,7 @@ static bool make_setups(reader *r, const config_setting_t *group, const draft *d
         const dp_status status = dp_setup_init(&out->setups[i], &spec);
         if (status == DP_ERROR_MODEL)
             return reader_fail(r, group,
-                               "camera '%s': the model fp32 needs one of the mappings " DP_MAPPING_NAMES_PERSPECTIVE
+                               "camera '%s': the model float needs one of the mappings " DP_MAPPING_NAMES_PERSPECTIVE
                                ", got %s",
                                out->name, dp_mapping_get(spec.mapping)->name);
         if (status != DP_OK)

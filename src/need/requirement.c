@@ -75,7 +75,7 @@ static bool suits(reader *r, const config_setting_t *s, const need *n) {
     if (n->kind != NEED_TIES)
         return true;
     if (spec->model != DP_MODEL_FP32 && !camera->automatic)
-        return reader_fail(r, s, "ties: needs the model fp32 or auto, and the camera '%s' has %s", camera->name,
+        return reader_fail(r, s, "ties: needs the model float or auto, and the camera '%s' has %s", camera->name,
                            dp_model_name(spec->model));
     if (dp_mapping_get(spec->mapping)->curve != DP_CURVE_PERSPECTIVE)
         return reader_fail(

@@ -11,7 +11,7 @@ static const figure_row rows[] = {
     {"error", "Worst error of the decoded depth", "certified envelope of |decoded depth - z| against z, log-log",
      CHART_SETUPS, FIGURE_SIGNED, NULL, NULL, error_build},
     {"interval", "Z-fighting interval",
-     "certified envelope of the z-fighting interval against z, log-log; in the model fp32 the guaranteed separation "
+     "certified envelope of the z-fighting interval against z, log-log; in the model float the guaranteed separation "
      "beside it, and what a census finds as points",
      CHART_SETUPS, FIGURE_FP32 | FIGURE_TOLERANCE | FIGURE_SIGNED, NULL, NULL, interval_build},
     {"budget", "Causes of the guaranteed separation",

@@ -125,7 +125,7 @@ const char *interval_build(const figure_request *request, chart *out) {
     if (out->title[0] == '\0')
         snprintf(out->title, sizeof out->title, "%s",
                  changed == request->count ? "Guaranteed separation in binary32 arithmetic"
-                                           : "Z-fighting interval; in the model fp32, guaranteed separation");
+                                           : "Z-fighting interval; in the model float, guaranteed separation");
     append(out->subtitle, sizeof out->subtitle, ". Thin: the interval of the lattice alone%s",
            counted != NULL ? ". Points: the longest interval that there is in each power of two" : "");
     return NULL;
