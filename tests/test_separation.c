@@ -86,6 +86,11 @@ static double most_at(const dp_setup *s, double z, double bound) {
     return 1.04 * bound + ((double)nextafterf(size, INFINITY) - (double)size);
 }
 
+/* So near 0 that d cannot be told from 1/2, where planes are as far on either side: the step may be twice it. */
+static int is_hazy(const dp_setup *s, double lo, double hi) {
+    return s->spec.znear <= 0.0 && fmin(fabs(lo), fabs(hi)) < 1e-12 * (s->spec.zfar - s->spec.znear);
+}
+
 static void sweep(planes which, dp_model model, const char *name, double excess) {
     tally never_below = {.name = "never below the separation of a depth"};
     tally near = {.name = "not far above"};
@@ -108,12 +113,8 @@ static void sweep(planes which, dp_model model, const char *name, double excess)
             TALLY(&never_below, found <= most_at(&s, z, w.bound), "%s: over %a %a: bound %a, but %a at %a", name_of(&s),
                   lo, hi, w.bound, found, z);
         }
-        /* So near 0 that d cannot be told from 1/2, where planes are as far on either side: the step may be twice it.
-         */
-        const double size = fmin(fabs(lo), fabs(hi));
-        const int hazy = which == EITHER_SIGN && size < 1e-12 * (s.spec.zfar - s.spec.znear);
-        TALLY(&near, w.bound <= w.separation * (hazy ? 2.01 : excess), "%s: over %a %a: bound %g, separation %g at %g",
-              name_of(&s), lo, hi, w.bound, w.separation, w.z);
+        TALLY(&near, w.bound <= w.separation * (is_hazy(&s, lo, hi) ? 2.01 : excess),
+              "%s: over %a %a: bound %g, separation %g at %g", name_of(&s), lo, hi, w.bound, w.separation, w.z);
     }
     tally_end(&never_below);
     tally_end(&near);
@@ -157,7 +158,7 @@ static void limits(planes which, const char *name) {
         assert_int_equal(dp_separation_over(&s, lo, hi, limit, &w), DP_OK);
         const int is_decided = w.bound <= limit * (1.0 + 1e-12) || w.separation > limit;
         undecided += !is_decided;
-        TALLY(&decided, is_decided || (which == EITHER_SIGN && w.bound <= 1.5 * limit),
+        TALLY(&decided, is_decided || (which == EITHER_SIGN && w.bound <= (is_hazy(&s, lo, hi) ? 2.01 : 1.5) * limit),
               "%s: over %a %a: limit %.17g: %g to %g", name_of(&s), lo, hi, limit, w.separation, w.bound);
     }
     tally_end(&decided);

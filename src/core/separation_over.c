@@ -38,12 +38,16 @@ static void look(dp_separation_worst *worst, const dp_setup *setup, double depth
     }
 }
 
-/* A separation in window depths, with what rounding the eye depths from lo to hi adds: most at one of the two. */
-static double with_eye(const dp_setup *setup, double lo, double hi, double s) {
+/*
+ * What lies ahead at any depth from lo to hi, with what rounding the eye depths adds: most at one of the two. As
+ * dp_lattice_separation() has it, a little larger.
+ */
+static double with_eye(const dp_setup *setup, double lo, double hi, double ahead) {
+    const double outward = dp_curve_outward(setup) * (1.0 + 0x1p-50);
     if (setup->spec.model == DP_MODEL_EXACT)
-        return s;
+        return ahead * outward;
     const double size = fabs(lo);
-    return (s + dp_eye_rounding(larger(size, hi), larger(size, hi + s))) * (1.0 + 0x1p-50);
+    return (ahead + dp_eye_rounding(larger(size, hi), larger(size, hi + ahead))) * outward;
 }
 
 /*
@@ -57,7 +61,7 @@ static double bound_of(const dp_setup *setup, double lo, double hi) {
         return larger(dp_budget_bound(setup, (float)lo, (float)hi), bound_of(&exact, lo, hi));
     }
     const double step = dp_separation_step(setup, lo, hi) * (1.0 + 0x1p-50);
-    return with_eye(setup, lo, hi, dp_curve_ahead(setup, step, 1.0, hi) * dp_curve_outward(setup));
+    return with_eye(setup, lo, hi, dp_curve_ahead(setup, step, 1.0, hi));
 }
 
 /* Nothing lies between the ends of the part. */
@@ -173,8 +177,7 @@ static void over_binades(const dp_setup *setup, dp_separation_worst *out) {
         if (end * (1.0 + 0x1p-46) < out->lo)
             continue;
         const double z = smaller(end * (1.0 + 0x1p-46), out->hi);
-        raise_bound(out, with_eye(setup, z, z,
-                                  dp_curve_ahead(setup, dp_step_num(format, e), 1.0, z) * dp_curve_outward(setup)));
+        raise_bound(out, with_eye(setup, z, z, dp_curve_ahead(setup, dp_step_num(format, e), 1.0, z)));
         look(out, setup, smaller(larger(end * (1.0 - 0x1p-46), out->lo), out->hi));
         if (end * (1.0 - 0x1p-46) > out->hi)
             break;
