@@ -152,7 +152,7 @@ static const struct {
     {"cameras = { a = { near = 1; far = 2; mapping = \"d3d\"; format = \"fp31\"; }; };" NEEDS(""), 1,
      "format: must be"},
     {"cameras = { a = { near = 1; far = 2; mapping = \"log\"; format = \"fp32\"; model = \"fp32\"; }; };" NEEDS(""), 1,
-     "fp32 needs one of the mappings"},
+     "float needs one of the mappings"},
     {"cameras = { a = { near = 1; far = 2; mapping = \"d3d\"; format = \"fp32\"; log_c = 1.0; }; };" NEEDS(""), 1,
      "log_c: is for the mapping log"},
     {"cameras = { a = { near = 1; far = 2; mapping = \"d3d\"; format = \"fp32\"; model = \"real\"; }; };" NEEDS(""), 1,

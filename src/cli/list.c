@@ -219,7 +219,7 @@ static const topic topics[] = {
      "bound"},
     {"effects", "what texture --effect knows: formulas and parameters", list_effect, "parameters"},
     {"figures", "what plot can draw", list_figure, "bound"},
-    {"scenes", "synthetic depth images, for texture --scene", list_scene, "bound"},
+    {"scenes", "synthetic depth images, for texture --scene", list_scene, "parameters"},
     {"positions", "ways from window depth to a place, for texture --position", list_position, "bound"},
     {"normals", "normals from depth, for texture --normal", list_normal, "bound"},
     {"methods", "ways to a quantity, by family: what each claims, for which set-up and far/near", list_method, "bound"},
