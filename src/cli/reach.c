@@ -37,7 +37,7 @@ dp_setup reach_model(const dp_setup *setup) {
 void reach_of(const dp_setup *full, const unit_row *unit, double up_to[REACH_LIMITS]) {
     double from = full->spec.znear;
     for (size_t i = 0; i < REACH_LIMITS; i++) {
-        up_to[i] = distance_about(full, from, full->spec.zfar, reach_limit(i, unit));
+        up_to[i] = distance_about(full, from, full->spec.zfar, reach_limit(i, unit), REACH_DIGITS);
         from = isnan(up_to[i]) ? from : up_to[i];
     }
 }

@@ -52,12 +52,18 @@ static void extend(ruler *r, double end) {
         r->fails = end;
 }
 
-/* Until the ends are neighbours, or no farther apart than that share. */
-static void search(ruler *r, double share) {
+/* Whether every depth from the one to just before the other is the same, rounded down to that many digits. */
+static bool is_settled(double holds, double fails, int digits) {
+    const double unit = pow(10.0, floor(log10(fmin(fabs(holds), fabs(fails)))) + 1.0 - digits);
+    return floor(holds / unit) == ceil(fails / unit) - 1.0;
+}
+
+/* Until the ends are neighbours, or agree in so many digits if that is not 0. */
+static void search(ruler *r, int digits) {
     const double end = r->fails;
     if (r->lo < end)
         extend(r, end);
-    for (int i = 0; i < STEPS && r->holds < end && r->fails > r->holds + fabs(r->holds) * share; i++) {
+    for (int i = 0; i < STEPS && r->holds < end && !(digits > 0 && is_settled(r->holds, r->fails, digits)); i++) {
         const double middle = between(r);
         if (isnan(middle))
             break;
@@ -65,7 +71,7 @@ static void search(ruler *r, double share) {
     }
 }
 
-double distance_about(const dp_setup *setup, double lo, double hi, double limit) {
+double distance_about(const dp_setup *setup, double lo, double hi, double limit, int digits) {
     ruler r = {.kind = MEASURE_SEPARATION,
                .setup = setup,
                .limit = limit,
@@ -75,7 +81,7 @@ double distance_about(const dp_setup *setup, double lo, double hi, double limit)
                .fails = fmin(hi, farthest)};
     if (!(dp_separation(setup, lo) <= limit))
         return (double)NAN;
-    search(&r, DISTANCE_ABOUT);
+    search(&r, digits);
     return r.holds;
 }
 
@@ -112,7 +118,7 @@ dp_status distance_solve(measure_kind kind, const dp_setup *setup, double lo, do
     out->possible = out->reached.passed;
     if (!out->possible)
         return DP_OK;
-    search(&r, 0.0);
+    search(&r, 0);
     confirm(&r, out);
     out->throughout = out->value == end;
     out->fails = out->throughout ? (double)NAN : r.fails;

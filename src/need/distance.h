@@ -26,14 +26,12 @@ typedef struct distance_answer {
 dp_status distance_solve(measure_kind kind, const dp_setup *setup, double lo, double hi, double limit,
                          distance_answer *out);
 
-/** How far below the largest distance distance_about() may stay, as a share of it. */
-#define DISTANCE_ABOUT 0x1p-10
-
 /**
- * The same for a separation, cheaper: certified too, but only nearly the largest. Of a set-up and depths
- * that distance_solve() takes. @return NaN where it does not hold at `lo`
+ * The same for a separation, cheaper: certified too, and equal to the largest when both are rounded down to so many
+ * digits. Of a set-up and depths that distance_solve() takes, and 1 to 15 digits. @return NaN where it does not hold at
+ * `lo`
  */
-double distance_about(const dp_setup *setup, double lo, double hi, double limit);
+double distance_about(const dp_setup *setup, double lo, double hi, double limit, int digits);
 
 /** Depths from lo to hi, throughout which it holds. */
 typedef struct distance_span {
