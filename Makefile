@@ -109,8 +109,9 @@ $(B)/build.cflags $(B)/check.cflags: $(B)/%.cflags: Makefile
 	@pkg-config --cflags $(PKGS_$*) 2>/dev/null >$@ || \
 	    { sh src/packages.sh --missing $* && pkg-config --print-errors --exists $(PKGS_$*); exit 1; }
 	@echo 'int main(void) { return 0; }' | $(CC) -fopenmp -x c -o $@.probe - 2>/dev/null && echo -fopenmp >>$@; rm -f $@.probe
+	@echo -pthread >>$@
 $(B)/build.libs $(B)/check.libs: $(B)/%.libs: $(B)/%.cflags
-	@pkg-config --libs $(PKGS_$*) >$@ && sed -n '/^-fopenmp/p' $< >>$@
+	@pkg-config --libs $(PKGS_$*) >$@ && sed -n '/^-fopenmp/p;/^-pthread/p' $< >>$@
 
 $(B)/libdepthprec.a: $(CORE_O)
 $(B)/librooms.a: $(filter-out %/main.o,$(ROOMS_O))

@@ -5,14 +5,18 @@
 #include <stdlib.h>
 #include <string.h>
 
-#ifdef _OPENMP
-#include <omp.h>
-#endif
-
 #include "texture/frame_rows.h"
 #include "texture/image_depths.h"
+#include "texture/strips.h"
 
-enum { STRIP_PIXELS = 1 << 18, STRIP_ROWS_MIN = 8, AROUND = 2 * NORMAL_REACH };
+/* Of a thread that lost its core for a few milliseconds the others are ahead by as many strips as there are slots. */
+enum {
+    STRIP_PIXELS = 1 << 17,
+    STRIP_ROWS_MIN = 8,
+    AROUND = 2 * NORMAL_REACH,
+    SLOTS_A_THREAD = 4,
+    ROOM = 40 << 20 /* bytes, for all strips at hand */
+};
 
 uint32_t frame_sky_rank(const frame *f) {
     const dp_setup *setup = &f->camera->setup;
@@ -59,67 +63,104 @@ const char *frame_refuses(const frame *f, const frame_product *product) {
     return NULL;
 }
 
-/* Everything of a run. Strips hold AROUND/2 rows more on either side. */
+/* A thread's room: what a strip is made from. AROUND/2 rows more lie on either side. */
+typedef struct desk {
+    uint32_t *codes;
+    float *eyes, *scratch; /* scratch: four rows */
+    double *numbers;       /* of a row: see frame_row */
+} desk;
+
+/* Everything of a run. */
 typedef struct run {
     const frame *f;
-    const frame_product *product;
-    int threads;
-    uint32_t width, height, stride, sky, strip;
+    const frame_product *products;
+    size_t product_count, values; /* of all products in a pixel */
+    uint32_t width, height, stride, sky, strip, count, margin;
+    bool bottom_up, positions;
     dp_batch eye, depth;
     position_state position;
-    uint32_t *codes;
-    float *eyes, *out, *slope_x, *scratch; /* scratch: four rows a thread */
+    float *slope_x, *out; /* out: a strip in each slot, product by product */
+    desk *desks;
+    int threads;
+    size_t slots;
+    frame_take_all *take;
+    void *context;
 } run;
 
 int frame_threads(const frame *f) {
-#ifdef _OPENMP
-    return f->threads > 0 ? f->threads : omp_get_max_threads();
-#else
-    (void)f;
-    return 1;
-#endif
-}
-
-static int thread_now(void) {
-#ifdef _OPENMP
-    return omp_get_thread_num();
-#else
-    return 0;
-#endif
+    return strips_threads(f->threads);
 }
 
 static void run_free(run *r) {
-    free(r->codes);
-    free(r->eyes);
+    for (int i = 0; i < r->threads && r->desks != NULL; i++) {
+        free(r->desks[i].codes);
+        free(r->desks[i].eyes);
+        free(r->desks[i].scratch);
+        free(r->desks[i].numbers);
+    }
+    free(r->desks);
     free(r->out);
     free(r->slope_x);
-    free(r->scratch);
 }
 
-static bool run_start(run *r, const frame *f, const frame_product *product) {
-    const texture_camera *c = f->camera;
-    *r = (run){.f = f,
-               .product = product,
-               .threads = frame_threads(f),
-               .width = c->width,
-               .height = c->height,
-               .stride = c->width + AROUND,
-               .sky = frame_sky_rank(f)};
-    const uint32_t wanted = STRIP_PIXELS / c->width;
-    r->strip = wanted < STRIP_ROWS_MIN ? STRIP_ROWS_MIN : wanted;
-    if (r->strip > c->height)
-        r->strip = c->height;
-    const size_t rows = (size_t)r->strip + AROUND, channels = (size_t)frame_channels(product);
-    r->codes = malloc(rows * r->width * sizeof *r->codes);
-    r->eyes = malloc(rows * r->stride * sizeof *r->eyes);
-    r->out = malloc((size_t)r->strip * r->width * channels * sizeof *r->out);
+/* Long strips, so that they are seldom handed out; shorter where the rooms of many threads would be too large. */
+static void plan(run *r, const frame *f) {
+    const size_t pixel = 2 * sizeof(float) + SLOTS_A_THREAD * r->values * sizeof(float);
+    r->threads = frame_threads(f);
+    const size_t room = ROOM / (pixel * (size_t)r->threads), wanted = room < STRIP_PIXELS ? room : STRIP_PIXELS;
+    const size_t rows = wanted / r->width;
+    r->strip = rows < STRIP_ROWS_MIN ? STRIP_ROWS_MIN : (uint32_t)rows;
+    if (r->strip > r->height)
+        r->strip = r->height;
+    r->count = (r->height + r->strip - 1) / r->strip;
+    if ((uint32_t)r->threads > r->count)
+        r->threads = (int)r->count;
+    const size_t fit = ROOM / (r->strip * (size_t)r->width * r->values * sizeof *r->out);
+    r->slots = SLOTS_A_THREAD * (size_t)r->threads;
+    if (r->slots > fit)
+        r->slots = fit > 1 ? fit : 2;
+}
+
+static bool make_room(run *r) {
+    const size_t rows = (size_t)r->strip + AROUND, width = r->width;
+    r->out = malloc(r->slots * r->strip * width * r->values * sizeof *r->out);
     r->slope_x = malloc(r->stride * sizeof *r->slope_x);
-    r->scratch = malloc((size_t)r->threads * 4 * r->width * sizeof *r->scratch);
-    if (r->codes == NULL || r->eyes == NULL || r->out == NULL || r->slope_x == NULL || r->scratch == NULL)
+    r->desks = calloc((size_t)r->threads, sizeof *r->desks);
+    bool good = r->out != NULL && r->slope_x != NULL && r->desks != NULL;
+    for (int i = 0; i < r->threads && good; i++) {
+        desk *d = &r->desks[i];
+        d->codes = malloc(rows * width * sizeof *d->codes);
+        d->eyes = malloc(rows * r->stride * sizeof *d->eyes);
+        d->scratch = malloc(4 * width * sizeof *d->scratch);
+        d->numbers = malloc(FRAME_NUMBERS * width * sizeof *d->numbers);
+        good = d->codes != NULL && d->eyes != NULL && d->scratch != NULL && d->numbers != NULL;
+    }
+    return good;
+}
+
+static bool looks_around(const frame_product *product) {
+    return product->kind == FRAME_NORMAL || product->kind == FRAME_EFFECT;
+}
+
+static bool run_start(run *r, const frame *f) {
+    const texture_camera *c = f->camera;
+    r->f = f;
+    r->width = c->width;
+    r->height = c->height;
+    r->stride = c->width + AROUND;
+    r->sky = frame_sky_rank(f);
+    r->margin = NORMAL_REACH;
+    for (size_t i = 0; i < r->product_count; i++) {
+        r->values += (size_t)frame_channels(&r->products[i]);
+        r->positions = r->positions || r->products[i].kind == FRAME_POSITION;
+        r->margin = looks_around(&r->products[i]) ? 0 : r->margin;
+    }
+    plan(r, f);
+    if (!make_room(r))
         return false;
     for (uint32_t i = 0; i < r->stride; i++)
         r->slope_x[i] = (float)camera_slope_x(c, (double)i - NORMAL_REACH);
-    if (product->kind == FRAME_POSITION && product->position != NULL)
+    if (r->positions)
         position_prepare(&r->position, c);
     const dp_path path = dp_path_best();
     return dp_batch_init(&r->eye, &c->setup, DP_TASK_EYE, DP_REAL_FLOAT, DP_WORD_32, path) == DP_OK &&
@@ -127,10 +168,10 @@ static bool run_start(run *r, const frame *f, const frame_product *product) {
 }
 
 /* Row i of the strip that begins at row `first`, margins counted: its codes and eye depths. Beyond the image is NaN. */
-static void decode_row_of(const run *r, uint32_t first, uint32_t i) {
+static void decode_row_of(const run *r, const desk *d, uint32_t first, uint32_t i) {
     const int64_t row = (int64_t)first + i - NORMAL_REACH;
-    uint32_t *codes = r->codes + (size_t)i * r->width;
-    float *eyes = r->eyes + (size_t)i * r->stride + NORMAL_REACH;
+    uint32_t *codes = d->codes + (size_t)i * r->width;
+    float *eyes = d->eyes + (size_t)i * r->stride + NORMAL_REACH;
     const dp_setup *setup = &r->f->camera->setup;
     const uint32_t flip = setup->reversed ? setup->spec.format.code_max : 0, sky = r->sky;
     const bool inside = row >= 0 && row < r->height;
@@ -146,46 +187,85 @@ static void decode_row_of(const run *r, uint32_t first, uint32_t i) {
         eyes[-1 - k] = eyes[(int64_t)r->width + k] = NAN;
 }
 
-static void make_row(const run *r, uint32_t first, uint32_t i) {
-    float *scratch = r->scratch + (size_t)thread_now() * 4 * r->width;
-    const size_t middle = (size_t)i + NORMAL_REACH;
+/* Where the rows of a product begin in a slot. */
+static float *rows_of(const run *r, size_t slot, size_t product) {
+    const size_t pixels = (size_t)r->strip * r->width;
+    size_t before = 0;
+    for (size_t i = 0; i < product; i++)
+        before += (size_t)frame_channels(&r->products[i]);
+    return r->out + (slot * r->values + before) * pixels;
+}
+
+static void make_row(const run *r, const desk *d, uint32_t first, uint32_t i, size_t slot) {
+    const size_t middle = (size_t)i + NORMAL_REACH, width = r->width;
     frame_row in = {.frame = r->f,
-                    .product = r->product,
                     .position = &r->position,
                     .slope_x = r->slope_x + NORMAL_REACH,
                     .row = first + i,
-                    .codes = r->codes + middle * r->width,
-                    .planes = {scratch + r->width, scratch + 2 * (size_t)r->width, scratch + 3 * (size_t)r->width},
-                    .out = r->out + (size_t)i * r->width * (size_t)frame_channels(r->product)};
+                    .codes = d->codes + middle * width,
+                    .planes = {d->scratch + width, d->scratch + 2 * width, d->scratch + 3 * width},
+                    .numbers = d->numbers};
     for (int k = -NORMAL_REACH; k <= NORMAL_REACH; k++)
-        in.eyes[k + NORMAL_REACH] = r->eyes + (middle + (size_t)k) * r->stride + NORMAL_REACH;
-    if (r->product->kind == FRAME_POSITION) {
-        dp_batch_run(&r->depth, in.codes, scratch, r->width);
-        in.depth = scratch;
+        in.eyes[k + NORMAL_REACH] = d->eyes + (middle + (size_t)k) * r->stride + NORMAL_REACH;
+    if (r->positions) {
+        dp_batch_run(&r->depth, in.codes, d->scratch, width);
+        in.depth = d->scratch;
     }
-    frame_makers[r->product->kind][r->product->error](&in);
+    for (size_t k = 0; k < r->product_count; k++) {
+        const frame_product *product = &r->products[k];
+        in.product = product;
+        in.out = rows_of(r, slot, k) + (size_t)i * width * (size_t)frame_channels(product);
+        frame_makers[product->kind][product->error](&in);
+    }
 }
 
-bool frame_run(const frame *f, const frame_product *product, bool bottom_up, frame_take *take, void *context) {
-    run r;
-    bool good = run_start(&r, f, product);
-    const uint32_t strips = (r.height + r.strip - 1) / (r.strip > 0 ? r.strip : 1);
-    const bool neighbours = product->kind == FRAME_NORMAL || product->kind == FRAME_EFFECT;
-    const uint32_t margin = neighbours ? 0 : NORMAL_REACH;
-    for (uint32_t s = 0; s < strips && good; s++) {
-        const uint32_t first = (bottom_up ? strips - 1 - s : s) * r.strip;
-        const uint32_t count = r.height - first < r.strip ? r.height - first : r.strip;
-#pragma omp parallel num_threads(r.threads)
-        {
-#pragma omp for schedule(dynamic, 2)
-            for (uint32_t i = margin; i < count + AROUND - margin; i++)
-                decode_row_of(&r, first, i);
-#pragma omp for schedule(dynamic, 2)
-            for (uint32_t i = 0; i < count; i++)
-                make_row(&r, first, i);
-        }
-        good = take(context, first, count, r.out);
-    }
+/* Of the strip that is made at that turn. */
+static uint32_t first_row(const run *r, size_t turn) {
+    return (uint32_t)(r->bottom_up ? r->count - 1 - turn : turn) * r->strip;
+}
+
+static uint32_t row_count(const run *r, uint32_t first) {
+    return r->height - first < r->strip ? r->height - first : r->strip;
+}
+
+static void make(void *context, size_t turn, size_t slot, int thread) {
+    const run *r = context;
+    const desk *d = &r->desks[thread];
+    const uint32_t first = first_row(r, turn), count = row_count(r, first);
+    for (uint32_t i = r->margin; i < count + AROUND - r->margin; i++)
+        decode_row_of(r, d, first, i);
+    for (uint32_t i = 0; i < count; i++)
+        make_row(r, d, first, i, slot);
+}
+
+static bool take(void *context, size_t turn, size_t slot) {
+    const run *r = context;
+    const uint32_t first = first_row(r, turn);
+    const float *values[FRAME_PRODUCTS_MAX];
+    for (size_t k = 0; k < r->product_count; k++)
+        values[k] = rows_of(r, slot, k);
+    return r->take(r->context, first, row_count(r, first), values);
+}
+
+bool frame_run_all(const frame *f, const frame_product *products, size_t count, bool bottom_up, frame_take_all *taker,
+                   void *context) {
+    run r = {.products = products, .product_count = count, .bottom_up = bottom_up, .take = taker, .context = context};
+    const bool good = run_start(&r, f) && strips_run(&(strips){r.count, r.threads, r.slots, make, take, &r});
     run_free(&r);
     return good;
+}
+
+typedef struct single {
+    frame_take *take;
+    void *context;
+} single;
+
+static bool take_one(void *context, uint32_t row, uint32_t count, const float *const *values) {
+    const single *s = context;
+    return s->take(s->context, row, count, values[0]);
+}
+
+bool frame_run(const frame *f, const frame_product *product, bool bottom_up, frame_take *taker, void *context) {
+    single s = {taker, context};
+    return frame_run_all(f, product, 1, bottom_up, take_one, &s);
 }

@@ -2,8 +2,8 @@
 /**
  * @file frame.h  A whole depth image, or a scene in its place, through decoding, positions, normals and effects.
  *
- * Work goes over strips of rows on all cores: besides the image no more than a few strips are in memory, whatever the
- * size, and the bits do not depend on the number of threads.
+ * Work goes over strips of rows on all cores, as strips.h has it: besides the image no more than a few strips are in
+ * memory, below 64 MiB for images up to 8192 pixels wide, and the bits do not depend on the number of threads.
  */
 #ifndef TEXTURE_FRAME_H
 #define TEXTURE_FRAME_H
@@ -87,9 +87,11 @@ int frame_channels(const frame_product *product);
 /** Null, or a sentence about why this cannot be made of this frame. */
 const char *frame_refuses(const frame *f, const frame_product *product);
 
-/** Takes `count` rows from `row` on, channels interleaved. Called from one thread, strip by strip in order. @return
- *  false to stop */
+/** Takes `count` rows from `row` on, channels interleaved. Called strip by strip in order, by one thread at a time.
+ *  @return false to stop */
 typedef bool frame_take(void *context, uint32_t row, uint32_t count, const float *values);
+/** The same of several products: the rows of each. */
+typedef bool frame_take_all(void *context, uint32_t row, uint32_t count, const float *const *values);
 
 /**
  * Makes a product that frame_refuses() lets through.
@@ -97,6 +99,11 @@ typedef bool frame_take(void *context, uint32_t row, uint32_t count, const float
  * @return false when out of memory or stopped
  */
 bool frame_run(const frame *f, const frame_product *product, bool bottom_up, frame_take *take, void *context);
+
+/** Several products in one pass, at most FRAME_PRODUCTS_MAX. */
+enum { FRAME_PRODUCTS_MAX = 32 };
+bool frame_run_all(const frame *f, const frame_product *products, size_t count, bool bottom_up, frame_take_all *take,
+                   void *context);
 
 /** All finite numbers of a product. The bits do not depend on the number of threads. */
 typedef struct frame_summary {

@@ -5,6 +5,8 @@
 
 #include "texture/frame.h"
 
+enum { FRAME_NUMBERS = 8 };
+
 /** What a row is made of. */
 typedef struct frame_row {
     const frame *frame;
@@ -16,6 +18,7 @@ typedef struct frame_row {
     const float *depth;                      /**< window depth, FRAME_POSITION only */
     const float *eyes[2 * NORMAL_REACH + 1]; /**< eye depths of this row and its neighbours, as in normal_rows */
     float *planes[3];                        /**< room for three times the width */
+    double *numbers;                         /**< room for FRAME_NUMBERS times the width */
     float *out;
 } frame_row;
 
