@@ -50,20 +50,3 @@ const char *camera_init(texture_camera *camera, const dp_setup *setup, const cam
     };
     return NULL;
 }
-
-void camera_view(const texture_camera *camera, double column, double row, double z, double view[3]) {
-    const double scale = camera->ortho ? 1 : z;
-    view[0] = camera_slope_x(camera, column) * scale;
-    view[1] = camera_slope_y(camera, row) * scale;
-    view[2] = z;
-}
-
-void camera_turn(const texture_camera *camera, const double view[3], double world[3]) {
-    for (int i = 0; i < 3; i++)
-        world[i] = camera->axis[0][i] * view[0] + camera->axis[1][i] * view[1] + camera->axis[2][i] * view[2];
-}
-
-double camera_radial(const texture_camera *camera, double column, double row) {
-    const double x = camera_slope_x(camera, column), y = camera_slope_y(camera, row);
-    return camera->ortho ? 1 : sqrt(x * x + y * y + 1);
-}

@@ -14,8 +14,10 @@
 #ifndef TEXTURE_CAMERA_H
 #define TEXTURE_CAMERA_H
 
+#include <math.h>
 #include <stdbool.h>
 
+#include "core/bits.h"
 #include "depthprec/depthprec.h"
 
 /** Pixels of an image: at most this many on a side, and 2^28 in all. */
@@ -48,20 +50,31 @@ typedef struct texture_camera {
 const char *camera_init(texture_camera *camera, const dp_setup *setup, const camera_spec *spec);
 
 /** sx of column i and sy of row j: see above. Within 2 units of 2^-53 relative at whole columns and rows. */
-static inline double camera_slope_x(const texture_camera *c, double column) {
+DP_INLINE double camera_slope_x(const texture_camera *c, double column) {
     return (2 * column + 1 - c->width) / c->width * c->half[0];
 }
-static inline double camera_slope_y(const texture_camera *c, double row) {
+DP_INLINE double camera_slope_y(const texture_camera *c, double row) {
     return (c->height - 2 * row - 1) / c->height * c->half[1];
 }
 
 /** The view-space place of a pixel at eye depth z, in double: the reference of everything that is faster. */
-void camera_view(const texture_camera *camera, double column, double row, double z, double view[3]);
+DP_INLINE void camera_view(const texture_camera *camera, double column, double row, double z, double view[3]) {
+    const double scale = camera->ortho ? 1 : z;
+    view[0] = camera_slope_x(camera, column) * scale;
+    view[1] = camera_slope_y(camera, row) * scale;
+    view[2] = z;
+}
 
 /** From the camera, along the world's axes; the world's place is `origin` more. */
-void camera_turn(const texture_camera *camera, const double view[3], double world[3]);
+DP_INLINE void camera_turn(const texture_camera *camera, const double view[3], double world[3]) {
+    for (int i = 0; i < 3; i++)
+        world[i] = camera->axis[0][i] * view[0] + camera->axis[1][i] * view[1] + camera->axis[2][i] * view[2];
+}
 
 /** Distance from the camera (perspective: the ray's length) per unit of eye depth; orthographic: 1. */
-double camera_radial(const texture_camera *camera, double column, double row);
+DP_INLINE double camera_radial(const texture_camera *camera, double column, double row) {
+    const double x = camera_slope_x(camera, column), y = camera_slope_y(camera, row);
+    return camera->ortho ? 1 : sqrt(x * x + y * y + 1);
+}
 
 #endif

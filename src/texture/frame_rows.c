@@ -33,25 +33,25 @@ static scene_hit truth(const frame_row *in, uint32_t x) {
 }
 
 /* What a code says of the depth. Neighbours often share one. */
-typedef struct ranges {
+typedef struct one_range {
     uint32_t code;
     grain_range range;
-} ranges;
+} one_range;
 
-static const grain_range *range_of(const frame_row *in, ranges *last, uint32_t x) {
+static const grain_range *range_of(const frame_row *in, one_range *last, uint32_t x) {
     const uint32_t code = in->codes[x];
     if (code != last->code)
-        *last = (ranges){code, grain_range_of(&camera_of(in)->setup, in->frame->grain, code)};
+        *last = (one_range){code, grain_range_of(&camera_of(in)->setup, in->frame->grain, code)};
     return &last->range;
 }
 
-static ranges nothing_yet(void) {
-    return (ranges){.code = UINT32_MAX};
+static one_range nothing_yet(void) {
+    return (one_range){.code = UINT32_MAX};
 }
 
 /* An error map must not be below the error: the nearest binary32 number that is not. A few roundings to double came
    before. */
-static float upwards(double error) {
+DP_INLINE float upwards(double error) {
     return dp_float_up(error * (1 + 0x1p-48));
 }
 
@@ -81,22 +81,45 @@ static void make_eye(const frame_row *in) {
         in->out[x] = (float)((double)in->out[x] * stretch(in, x));
 }
 
+/* What the codes of a row stand for, in the room for numbers; the rest of that is free. */
+static grain_rows ranges_in(const frame_row *in) {
+    const size_t width = camera_of(in)->width;
+    const grain_rows out = {in->numbers, in->numbers + width, in->numbers + 2 * width, in->numbers + 3 * width};
+    grain_ranges_of(&camera_of(in)->setup, in->frame->grain, in->codes, width, &out);
+    return out;
+}
+
+static const double *along_in(const frame_row *in) {
+    const uint32_t width = camera_of(in)->width;
+    double *along = in->numbers + 4 * (size_t)width;
+    for (uint32_t x = 0; x < width; x++)
+        along[x] = stretch(in, x);
+    return along;
+}
+
+TEXTURE_CLONES static void eye_errors(const float *restrict eyes, const grain_rows *ranges, const double *along,
+                                      float *restrict out, size_t count) {
+    const double *stored = ranges->stored, *reach = ranges->reach;
+#pragma omp simd
+    for (size_t i = 0; i < count; i++) {
+        const float product = along != NULL ? (float)((double)eyes[i] * along[i]) : eyes[i];
+        const double by = along != NULL ? along[i] : 1;
+        const float error = upwards(fabs((double)product - stored[i] * by) + reach[i] * by);
+        out[i] = eyes[i] == eyes[i] ? error : (float)NAN;
+    }
+}
+
 /* What the product has lost in binary32, and how far what is stored is off: of a scene the latter alone, exactly. */
 static void make_eye_error(const frame_row *in) {
-    const dp_setup *setup = &camera_of(in)->setup;
-    ranges last = nothing_yet();
-    for (uint32_t x = 0; x < camera_of(in)->width; x++) {
-        const double along = in->product->radial ? stretch(in, x) : 1;
-        double error = NAN;
-        if (in->frame->scene != NULL) {
-            const double z = truth(in, x).z;
-            error = isnan(z) ? (double)NAN : fabs(dp_error(setup, in->codes[x], z)) * along;
-        } else if (!isnan(eyes_of(in)[x])) {
-            const float eye = eyes_of(in)[x], product = in->product->radial ? (float)((double)eye * along) : eye;
-            error =
-                fabs((double)product - dp_stored(setup, in->codes[x]) * along) + range_of(in, &last, x)->reach * along;
-        }
-        in->out[x] = upwards(error);
+    const texture_camera *c = camera_of(in);
+    if (in->frame->scene == NULL) {
+        const grain_rows ranges = ranges_in(in);
+        eye_errors(eyes_of(in), &ranges, in->product->radial ? along_in(in) : NULL, in->out, c->width);
+        return;
+    }
+    for (uint32_t x = 0; x < c->width; x++) {
+        const double along = in->product->radial ? stretch(in, x) : 1, z = truth(in, x).z;
+        in->out[x] = upwards(isnan(z) ? (double)NAN : fabs(dp_error(&c->setup, in->codes[x], z)) * along);
     }
 }
 
@@ -130,22 +153,38 @@ static void make_position(const frame_row *in) {
     interleave(in);
 }
 
+/* Of what is stored; the depth's own error lies along the ray. */
+TEXTURE_CLONES static void position_errors(const texture_camera *camera, const frame_row *in,
+                                           const grain_rows *ranges) {
+    const texture_camera c = *camera;
+    const float *const eyes = eyes_of(in), *const *planes = (const float *const *)in->planes;
+    const double row = in->row;
+    float *const out = in->out;
+#pragma omp simd
+    for (uint32_t x = 0; x < c.width; x++) {
+        const float world[3] = {planes[0][x], planes[1][x], planes[2][x]};
+        double view[3], relative[3];
+        camera_view(&c, x, row, ranges->stored[x], view);
+        camera_turn(&c, view, relative);
+        const float error = upwards(position_off(&c, relative, world) + ranges->reach[x] * camera_radial(&c, x, row));
+        out[x] = eyes[x] == eyes[x] ? error : (float)NAN;
+    }
+}
+
 static void make_position_error(const frame_row *in) {
-    const bool known = in->frame->scene != NULL;
-    ranges last = nothing_yet();
     places(in);
+    if (in->frame->scene == NULL) {
+        const grain_rows ranges = ranges_in(in);
+        position_errors(camera_of(in), in, &ranges);
+        return;
+    }
     for (uint32_t x = 0; x < camera_of(in)->width; x++) {
         const float world[3] = {in->planes[0][x], in->planes[1][x], in->planes[2][x]};
-        double z = NAN, relative[3];
-        if (!isnan(eyes_of(in)[x]))
-            z = known ? truth(in, x).z : dp_stored(&camera_of(in)->setup, in->codes[x]);
-        if (isnan(z)) { /* a hole, not an error without bound */
-            in->out[x] = NAN;
-            continue;
-        }
+        const double z = truth(in, x).z;
+        double relative[3];
         exact_place(in, x, z, relative);
-        in->out[x] = upwards(position_off(camera_of(in), relative, world) +
-                             (known ? 0 : range_of(in, &last, x)->reach * stretch(in, x)));
+        /* a hole, not an error without bound */
+        in->out[x] = isnan(z) ? NAN : upwards(position_off(camera_of(in), relative, world));
     }
 }
 
@@ -223,7 +262,7 @@ static void make_effect(const frame_row *in) {
 }
 
 /* Of an image the depths that it leaves open; of a scene those of the cell. */
-static double effect_error_at(const frame_row *in, ranges *last, const double *at, uint32_t x) {
+static double effect_error_at(const frame_row *in, one_range *last, const double *at, uint32_t x) {
     const dp_setup *setup = &camera_of(in)->setup;
     const effect_row *row = in->product->effect;
     if (in->frame->scene != NULL)
@@ -243,7 +282,7 @@ static double effect_error_at(const frame_row *in, ranges *last, const double *a
 
 static void make_effect_error(const frame_row *in) {
     double at[TEXTURE_PARAMETERS];
-    ranges last = nothing_yet();
+    one_range last = nothing_yet();
     settings_of(in, at);
     for (uint32_t x = 0; x < camera_of(in)->width; x++) {
         if (isnan(eyes_of(in)[x]))

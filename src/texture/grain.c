@@ -4,6 +4,9 @@
 #include <math.h>
 
 #include "core/engine.h"
+#include "texture/clones.h"
+
+enum { GRAIN_ROW = 256 };
 
 /* Outweighs what is lost in window depths that were computed in double, a few units of 2^-53 of cells that are at least
  * 2^-25 of their depth, and all roundings here. */
@@ -100,10 +103,15 @@ static void boundaries(const dp_setup *setup, const grain *g, uint32_t code, dp_
                                      : dp_point_of_code(format, format->code_max);
 }
 
+/* Whether ranges end on boundaries of the format. */
+static bool is_of_codes(const grain *g) {
+    return g == NULL || g->kind == GRAIN_CODES || g->buffer;
+}
+
 grain_range grain_range_of(const dp_setup *setup, const grain *g, uint32_t code) {
     const dp_point own = dp_point_of_code(&setup->spec.format, code);
     dp_point below, above;
-    if (g == NULL || g->kind == GRAIN_CODES || g->buffer) {
+    if (is_of_codes(g)) {
         boundaries(setup, g, code, &below, &above);
     } else {
         const double v = dp_format_value(&setup->spec.format, code);
@@ -117,4 +125,148 @@ grain_range grain_range_of(const dp_setup *setup, const grain *g, uint32_t code)
         .hi = dp_curve_eye(setup, to_far),
         .reach = fmax(dp_curve_span(setup, to_near, own), dp_curve_span(setup, own, to_far)) * OUTWARD,
     };
+}
+
+/* ---- Many at a time ---------------------------------------------------------------------------------------------- */
+
+/* Perspective set-ups alone: the operations of dp_curve_eye() and dp_curve_span(), in their order. */
+typedef struct ranging {
+    double top, den, znear, zfar, kappa; /* top: of the quotient that is the eye depth */
+    bool reversed, infinite;
+} ranging;
+
+/* Numerators of a code, of the boundary below the first code and of that above the last. */
+typedef struct numerators {
+    double own[GRAIN_ROW], below[GRAIN_ROW], above[GRAIN_ROW];
+} numerators;
+
+DP_INLINE double eye_of(const ranging *r, double num) {
+    const double comp = r->den - num, to_near = r->reversed ? num : comp, to_far = r->reversed ? comp : num;
+    return r->top / (r->infinite ? to_near : r->zfar * to_near + r->znear * to_far);
+}
+
+DP_INLINE double span_of(const ranging *r, double a, double b, double eyes) {
+    const double step = fabs(b - a) / r->den;
+    return step == 0 ? 0 : eyes * (step * r->kappa);
+}
+
+DP_INLINE void ranges_loop(const ranging r, const numerators *restrict n, size_t count, double *restrict stored,
+                           double *restrict lo, double *restrict hi, double *restrict reach) {
+    for (size_t i = 0; i < count; i++) {
+        const double to_near = r.reversed ? n->above[i] : n->below[i], to_far = r.reversed ? n->below[i] : n->above[i];
+        const double own = n->own[i], near = eye_of(&r, to_near), at = eye_of(&r, own), far = eye_of(&r, to_far);
+        const double before = span_of(&r, to_near, own, near * at), behind = span_of(&r, own, to_far, at * far);
+        stored[i] = at;
+        lo[i] = near;
+        hi[i] = far;
+        reach[i] = (before > behind ? before : behind) * OUTWARD;
+    }
+}
+
+/* With what does not change as constants, each loop becomes vectors. */
+TEXTURE_CLONES static void ranges_finite(const ranging *r, const numerators *n, size_t count, double *stored,
+                                         double *lo, double *hi, double *reach) {
+    if (r->reversed)
+        ranges_loop((ranging){r->top, r->den, r->znear, r->zfar, r->kappa, true, false}, n, count, stored, lo, hi,
+                    reach);
+    else
+        ranges_loop((ranging){r->top, r->den, r->znear, r->zfar, r->kappa, false, false}, n, count, stored, lo, hi,
+                    reach);
+}
+
+TEXTURE_CLONES static void ranges_infinite(const ranging *r, const numerators *n, size_t count, double *stored,
+                                           double *lo, double *hi, double *reach) {
+    ranges_loop((ranging){r->top, r->den, r->znear, r->zfar, r->kappa, r->reversed, true}, n, count, stored, lo, hi,
+                reach);
+}
+
+/* Of a binary floating-point format, as dp_float_value(). */
+DP_INLINE double float_value(uint32_t code, int mantissa, int bias) {
+    const uint32_t field = code >> mantissa, fraction = code & ((1U << mantissa) - 1U);
+    const uint32_t whole = field == 0 ? fraction : fraction | 1U << mantissa;
+    const uint64_t exponent = (uint64_t)((field == 0 ? 1U : field) + 1023U - (uint32_t)(bias + mantissa));
+    return (double)(int32_t)whole * dp_float64(exponent << 52);
+}
+
+/* Each code by itself, rounded to nearest. */
+TEXTURE_CLONES static void float_numerators(const dp_format *format, const uint32_t *restrict codes, size_t count,
+                                            numerators *restrict n) {
+    const int mantissa = format->mantissa_bits, bias = format->bias;
+    const uint32_t most = format->code_max;
+    for (size_t i = 0; i < count; i++) {
+        const uint32_t code = codes[i] <= most ? codes[i] : 0;
+        const uint32_t before = code > 0 ? code - 1 : 0, behind = code < most ? code + 1 : most;
+        const double own = float_value(code, mantissa, bias);
+        n->own[i] = own;
+        n->below[i] = 0.5 * (float_value(before, mantissa, bias) + own);
+        n->above[i] = 0.5 * (own + float_value(behind, mantissa, bias));
+    }
+}
+
+TEXTURE_CLONES static void unorm_numerators(const dp_format *format, const uint32_t *restrict codes, size_t count,
+                                            numerators *restrict n) {
+    const uint32_t most = format->code_max;
+    for (size_t i = 0; i < count; i++) {
+        const uint32_t code = codes[i] <= most ? codes[i] : 0;
+        const double own = 2.0 * (double)(int32_t)code;
+        n->own[i] = own;
+        n->below[i] = own - (code > 0 ? 1 : 0);
+        n->above[i] = own + (code < most ? 1 : 0);
+    }
+}
+
+static void numerators_of(const dp_setup *setup, const grain *g, const uint32_t *codes, size_t count, numerators *n) {
+    const dp_format *format = &setup->spec.format;
+    const bool alone = (g == NULL || g->kind == GRAIN_CODES) && setup->spec.rounding != DP_ROUND_ZERO;
+    if (alone && format->bits < 32) {
+        (format->kind == DP_FORMAT_UNORM ? unorm_numerators : float_numerators)(format, codes, count, n);
+        return;
+    }
+    for (size_t i = 0; i < count; i++) {
+        const uint32_t code = codes[i] <= format->code_max ? codes[i] : 0;
+        dp_point below, above;
+        boundaries(setup, g, code, &below, &above);
+        n->own[i] = dp_point_of_code(format, code).num;
+        n->below[i] = below.num;
+        n->above[i] = above.num;
+    }
+}
+
+static void one_by_one(const dp_setup *setup, const grain *g, const uint32_t *codes, size_t count,
+                       const grain_rows *out) {
+    for (size_t i = 0; i < count; i++) {
+        const bool again = i > 0 && codes[i] == codes[i - 1]; /* neighbours often share a code */
+        const uint32_t code = codes[i] <= setup->spec.format.code_max ? codes[i] : 0;
+        const grain_range range =
+            again ? (grain_range){out->lo[i - 1], out->hi[i - 1], out->reach[i - 1]} : grain_range_of(setup, g, code);
+        out->stored[i] = again ? out->stored[i - 1] : dp_stored(setup, code);
+        out->lo[i] = range.lo;
+        out->hi[i] = range.hi;
+        out->reach[i] = range.reach;
+    }
+}
+
+void grain_ranges_of(const dp_setup *setup, const grain *g, const uint32_t *codes, size_t count,
+                     const grain_rows *out) {
+    const dp_spec *spec = &setup->spec;
+    const bool infinite = isinf(spec->zfar) != 0;
+    if (setup->curve != DP_CURVE_PERSPECTIVE || !is_of_codes(g)) {
+        one_by_one(setup, g, codes, count, out);
+        return;
+    }
+    const double den = dp_point_den(&spec->format);
+    const ranging r = {(infinite ? spec->znear : spec->znear * spec->zfar) * den,
+                       den,
+                       spec->znear,
+                       spec->zfar,
+                       setup->kappa,
+                       setup->reversed != 0,
+                       infinite};
+    numerators n;
+    for (size_t i = 0; i < count; i += GRAIN_ROW) {
+        const size_t some = count - i < GRAIN_ROW ? count - i : GRAIN_ROW;
+        numerators_of(setup, g, codes + i, some, &n);
+        (infinite ? ranges_infinite : ranges_finite)(&r, &n, some, out->stored + i, out->lo + i, out->hi + i,
+                                                     out->reach + i);
+    }
 }

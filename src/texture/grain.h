@@ -54,4 +54,13 @@ typedef struct grain_range {
  */
 grain_range grain_range_of(const dp_setup *setup, const grain *g, uint32_t code);
 
+/** Room for what many codes say, an array each. */
+typedef struct grain_rows {
+    double *stored; /**< as dp_stored() */
+    double *lo, *hi, *reach;
+} grain_rows;
+
+/** The same of many codes, bit for bit; codes above code_max count as 0. */
+void grain_ranges_of(const dp_setup *setup, const grain *g, const uint32_t *codes, size_t count, const grain_rows *out);
+
 #endif

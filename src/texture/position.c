@@ -196,16 +196,6 @@ void position_exact(const texture_camera *camera, uint32_t row, uint32_t column,
     }
 }
 
-double position_off(const texture_camera *camera, const double relative[3], const float world[3]) {
-    double off[3];
-    for (int k = 0; k < 3; k++) {
-        const dp_pair from_camera = dp_two_sum((double)world[k], -camera->origin[k]);
-        off[k] = (from_camera.hi - relative[k]) + from_camera.lo;
-    }
-    const double length = sqrt(dot(off, off));
-    return isnan(length) ? (double)INFINITY : length;
-}
-
 double position_bound(const position_row *row, const texture_camera *camera, uint32_t i, uint32_t j, float d) {
     const double units = row->bound(camera, j, i, (double)d);
     return isnan(units) ? (double)INFINITY : units * DP_UNIT * (1 + 0x1p-18); /* products of small errors */

@@ -8,6 +8,7 @@
 #ifndef TEXTURE_POSITION_H
 #define TEXTURE_POSITION_H
 
+#include "core/engine.h"
 #include "texture/camera.h"
 #include "texture/decode.h"
 
@@ -66,7 +67,15 @@ void position_exact(const texture_camera *camera, uint32_t row, uint32_t column,
 
 /** How far from the exact place (position_exact()) a world place lies, scene units; no digits are lost however far the
  *  camera is from the origin. */
-double position_off(const texture_camera *camera, const double relative[3], const float world[3]);
+DP_INLINE double position_off(const texture_camera *camera, const double relative[3], const float world[3]) {
+    double off[3];
+    for (int k = 0; k < 3; k++) {
+        const dp_pair from_camera = dp_two_sum((double)world[k], -camera->origin[k]);
+        off[k] = (from_camera.hi - relative[k]) + from_camera.lo;
+    }
+    const double length = sqrt(off[0] * off[0] + off[1] * off[1] + off[2] * off[2]);
+    return length == length ? length : (double)INFINITY;
+}
 
 /**
  * A bound on how far a row is off at one pixel (position_off()), scene units; INFINITY where nothing can be promised.

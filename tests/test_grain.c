@@ -1,0 +1,74 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/*
+ * What many codes say of the depth is what each says by itself, bit for bit: all formats, mappings and roundings of an
+ * image, at random codes and at both ends.
+ */
+#include <math.h>
+#include <string.h>
+
+#include "support.h"
+#include "texture/grain.h"
+
+enum { COUNT = 700, GRAINS = 6 };
+
+static const grain grains[GRAINS] = {
+    {.kind = GRAIN_CODES},
+    {.kind = GRAIN_FLOATS, .buffer = true, .bits = 24, .least = 0x1p-149},
+    {.kind = GRAIN_FLOATS, .bits = 11, .margin = 0x1p-24, .least = 0x1p-24},
+    {.kind = GRAIN_STEPS, .steps = 255, .buffer = true},
+    {.kind = GRAIN_STEPS, .steps = 65535, .margin = 0x1p-24, .rounding = GRAIN_NEAREST},
+    {.kind = GRAIN_STEPS, .steps = 1023, .own = 65535, .margin = 0x1p-24, .bits = 24, .least = 0x1p-149},
+};
+
+static void fill_codes(rng *r, uint32_t code_max, uint32_t codes[COUNT]) {
+    for (size_t i = 0; i < COUNT; i++)
+        codes[i] = (uint32_t)rng_below(r, (uint64_t)code_max + 1);
+    codes[1] = codes[0] = 0;
+    codes[2] = code_max;
+    codes[3] = code_max - 1;
+    codes[4] = 1;
+    codes[5] = UINT32_MAX; /* no depth: anything, but nothing beyond the arrays */
+}
+
+static void compare(const dp_setup *setup, const grain *g, const uint32_t codes[COUNT]) {
+    static double stored[COUNT], lo[COUNT], hi[COUNT], reach[COUNT];
+    const grain_rows got = {stored, lo, hi, reach};
+    grain_ranges_of(setup, g, codes, COUNT, &got);
+    for (size_t i = 0; i < COUNT; i++) {
+        const uint32_t code = codes[i] <= setup->spec.format.code_max ? codes[i] : 0;
+        const grain_range want = grain_range_of(setup, g, code);
+        const double wanted[4] = {dp_stored(setup, code), want.lo, want.hi, want.reach};
+        const double found[4] = {stored[i], lo[i], hi[i], reach[i]};
+        if (memcmp(wanted, found, sizeof found) != 0)
+            fail_msg("%s %s, code %u: %.17g in %.17g to %.17g, reach %.17g; alone %.17g in %.17g to %.17g, %.17g",
+                     setup->spec.format.name, dp_mapping_get(setup->spec.mapping)->name, code, found[0], found[1],
+                     found[2], found[3], wanted[0], wanted[1], wanted[2], wanted[3]);
+    }
+}
+
+static void many_codes_say_what_each_says(void **state) {
+    rng r = rng_make("grain");
+    (void)state;
+    uint32_t codes[COUNT];
+    for (size_t f = 0; f < dp_format_count(); f++)
+        for (int m = 0; m < DP_MAPPING_COUNT; m++)
+            for (int variant = 0; variant < 3; variant++) {
+                dp_spec spec = dp_spec_default();
+                dp_setup setup;
+                spec.format = dp_format_get(f)->format;
+                spec.mapping = (dp_mapping)m;
+                spec.zfar = variant == 1 ? (double)INFINITY : 1000;
+                spec.rounding = variant == 2 ? DP_ROUND_ZERO : DP_ROUND_NEAREST;
+                if (spec.format.bits > 31 || dp_setup_init(&setup, &spec) != DP_OK)
+                    continue;
+                fill_codes(&r, spec.format.code_max, codes);
+                compare(&setup, NULL, codes);
+                for (size_t g = 0; g < GRAINS; g++)
+                    compare(&setup, &grains[g], codes);
+            }
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {cmocka_unit_test(many_codes_say_what_each_says)};
+    return run_tap(tests);
+}
