@@ -199,28 +199,36 @@ static void make_normal(const frame_row *in) {
     interleave(in);
 }
 
-/* The bound for a plane through the pixel's place with the normal that was found. */
-static double plane_bound(const frame_row *in, uint32_t x, const double found[3]) {
+TEXTURE_CLONES static void in_degrees(const float *restrict found, const double *restrict angles, float *restrict out,
+                                      size_t count) {
+#pragma omp simd
+    for (size_t i = 0; i < count; i++) {
+        const float degrees = upwards(angles[i] * TO_DEGREES);
+        out[i] = found[i] == found[i] ? degrees : (float)NAN;
+    }
+}
+
+/* Of an image the bound for a plane through the pixel's place with the normal that was found. */
+static void normal_bounds(const frame_row *in) {
     const texture_camera *c = camera_of(in);
-    const normal_plane plane = normal_plane_at(c, x, in->row, dp_stored(&c->setup, in->codes[x]), found);
-    const double error = in->frame->scene != NULL
-                             ? normal_plane_error(c, x, in->row, &plane, DP_BATCH_EYE_ERROR)
-                             : normal_plane_error_of(c, in->frame->grain, x, in->row, &plane, DP_BATCH_EYE_ERROR);
-    return isinf(error) ? (double)NAN : normal_plane_bound(c, x, in->row, &plane, error);
+    const grain_rows ranges = ranges_in(in);
+    double *bounds = in->numbers + 4 * (size_t)c->width;
+    const normal_planes planes = {c, in->row, {in->planes[0], in->planes[1], in->planes[2]}, ranges.stored};
+    normal_planes_bounds(&planes, in->frame->grain, DP_BATCH_EYE_ERROR, bounds);
+    in_degrees(in->planes[0], bounds, in->out, c->width);
 }
 
 static void make_normal_error(const frame_row *in) {
     normals(in);
+    if (in->frame->scene == NULL) {
+        normal_bounds(in);
+        return;
+    }
     for (uint32_t x = 0; x < camera_of(in)->width; x++) {
         const double found[3] = {in->planes[0][x], in->planes[1][x], in->planes[2][x]};
-        double angle = NAN;
-        if (!isnan(found[0]) && in->frame->scene != NULL) {
-            const scene_hit hit = truth(in, x);
-            angle = isnan(hit.z) ? (double)NAN : normal_angle(found, hit.normal);
-        } else if (!isnan(found[0])) {
-            angle = plane_bound(in, x, found);
-        }
-        in->out[x] = upwards(angle * TO_DEGREES);
+        const scene_hit hit = truth(in, x);
+        const bool known = !isnan(found[0]) && !isnan(hit.z);
+        in->out[x] = upwards(known ? normal_angle(found, hit.normal) * TO_DEGREES : (double)NAN);
     }
 }
 

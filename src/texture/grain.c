@@ -5,6 +5,7 @@
 
 #include "core/engine.h"
 #include "texture/clones.h"
+#include "texture/grain_loops.h"
 
 enum { GRAIN_ROW = 256 };
 
@@ -129,26 +130,10 @@ grain_range grain_range_of(const dp_setup *setup, const grain *g, uint32_t code)
 
 /* ---- Many at a time ---------------------------------------------------------------------------------------------- */
 
-/* Perspective set-ups alone: the operations of dp_curve_eye() and dp_curve_span(), in their order. */
-typedef struct ranging {
-    double top, den, znear, zfar, kappa; /* top: of the quotient that is the eye depth */
-    bool reversed, infinite;
-} ranging;
-
 /* Numerators of a code, of the boundary below the first code and of that above the last. */
 typedef struct numerators {
     double own[GRAIN_ROW], below[GRAIN_ROW], above[GRAIN_ROW];
 } numerators;
-
-DP_INLINE double eye_of(const ranging *r, double num) {
-    const double comp = r->den - num, to_near = r->reversed ? num : comp, to_far = r->reversed ? comp : num;
-    return r->top / (r->infinite ? to_near : r->zfar * to_near + r->znear * to_far);
-}
-
-DP_INLINE double span_of(const ranging *r, double a, double b, double eyes) {
-    const double step = fabs(b - a) / r->den;
-    return step == 0 ? 0 : eyes * (step * r->kappa);
-}
 
 DP_INLINE void ranges_loop(const ranging r, const numerators *restrict n, size_t count, double *restrict stored,
                            double *restrict lo, double *restrict hi, double *restrict reach) {
@@ -178,14 +163,6 @@ TEXTURE_CLONES static void ranges_infinite(const ranging *r, const numerators *n
                                            double *lo, double *hi, double *reach) {
     ranges_loop((ranging){r->top, r->den, r->znear, r->zfar, r->kappa, r->reversed, true}, n, count, stored, lo, hi,
                 reach);
-}
-
-/* Of a binary floating-point format, as dp_float_value(). */
-DP_INLINE double float_value(uint32_t code, int mantissa, int bias) {
-    const uint32_t field = code >> mantissa, fraction = code & ((1U << mantissa) - 1U);
-    const uint32_t whole = field == 0 ? fraction : fraction | 1U << mantissa;
-    const uint64_t exponent = (uint64_t)((field == 0 ? 1U : field) + 1023U - (uint32_t)(bias + mantissa));
-    return (double)(int32_t)whole * dp_float64(exponent << 52);
 }
 
 /* Each code by itself, rounded to nearest. */

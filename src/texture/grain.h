@@ -63,4 +63,14 @@ typedef struct grain_rows {
 /** The same of many codes, bit for bit; codes above code_max count as 0. */
 void grain_ranges_of(const dp_setup *setup, const grain *g, const uint32_t *codes, size_t count, const grain_rows *out);
 
+/**
+ * How far a stored depth at z can be off at most, of 1/z or of z where the set-up is orthographic: what the image holds
+ * may be any sample whose range has z, that of z's code or one at the ends of its range.
+ * @param reading  relative error of reading it back, which comes on top
+ */
+double grain_error_of(const dp_setup *setup, const grain *g, double z, double reading);
+
+/** The same at many depths, bit for bit; anything where z is not between near and far. */
+void grain_errors_of(const dp_setup *setup, const grain *g, const double *z, size_t count, double reading, double *out);
+
 #endif

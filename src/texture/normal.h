@@ -85,4 +85,15 @@ double normal_plane_error_of(const texture_camera *camera, const grain *g, uint3
 double normal_plane_bound(const texture_camera *camera, uint32_t column, uint32_t row, const normal_plane *plane,
                           double error);
 
+/** Planes through what the pixels of a row see, at eye depths z, with normals that were found. */
+typedef struct normal_planes {
+    const texture_camera *camera;
+    uint32_t row;
+    const float *normal[3];
+    const double *z;
+} normal_planes;
+
+/** normal_plane_bound() of each with the error of normal_plane_error_of(), bit for bit; NaN where that is infinite. */
+void normal_planes_bounds(const normal_planes *in, const grain *g, double reading, double *bounds);
+
 #endif

@@ -4,15 +4,13 @@
 #include <string.h>
 
 #include "core/engine.h"
+#include "texture/clones.h"
 #include "texture/normal.h"
+
+enum { NORMAL_BLOCK = 256 };
 
 static double dot(const double a[3], const double b[3]) {
     return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
-}
-
-static void cross_product(const double a[3], const double b[3], double out[3]) {
-    for (int i = 0; i < 3; i++)
-        out[i] = a[(i + 1) % 3] * b[(i + 2) % 3] - a[(i + 2) % 3] * b[(i + 1) % 3];
 }
 
 double normal_angle(const double a[3], const double b[3]) {
@@ -53,31 +51,17 @@ double normal_plane_depth(const texture_camera *camera, const normal_plane *plan
 
 /* ---- The error of the stored depths ----------------------------------------------------------------------------- */
 
-static double range_error(const texture_camera *camera, double stored, double lo, double hi, double reading) {
-    if (camera->ortho)
-        return fmax(stored - lo, hi - stored) + reading * stored;
-    const double w = 1 / stored; /* 0 at an infinite far plane */
-    return fmax(1 / lo - w, w - 1 / hi) + reading * w;
-}
-
 static double cell_error(const texture_camera *camera, const grain *g, double z, double reading) {
     const dp_cell cell = dp_cell_of(&camera->setup, dp_code(&camera->setup, z));
     (void)g;
-    return range_error(camera, cell.stored, cell.lo, cell.hi, reading);
+    if (camera->ortho)
+        return fmax(cell.stored - cell.lo, cell.hi - cell.stored) + reading * cell.stored;
+    const double w = 1 / cell.stored; /* 0 at an infinite far plane */
+    return fmax(1 / cell.lo - w, w - 1 / cell.hi) + reading * w;
 }
 
-/* What the image holds of a depth at z may be any sample whose range has z: that of z's code, or one at its ends. */
 static double grain_error(const texture_camera *camera, const grain *g, double z, double reading) {
-    const dp_setup *setup = &camera->setup;
-    const grain_range own = grain_range_of(setup, g, dp_code(setup, z));
-    const double at[3] = {z, own.lo, own.hi};
-    double worst = 0;
-    for (int i = 0; i < 3; i++) {
-        const uint32_t code = dp_code(setup, at[i]);
-        const grain_range range = grain_range_of(setup, g, code);
-        worst = fmax(worst, range_error(camera, dp_stored(setup, code), range.lo, range.hi, reading));
-    }
-    return worst;
+    return grain_error_of(&camera->setup, g, z, reading);
 }
 
 typedef double error_at(const texture_camera *camera, const grain *g, double z, double reading);
@@ -107,27 +91,111 @@ double normal_plane_error_of(const texture_camera *camera, const grain *g, uint3
     return worst_error(camera, grain_error, g, column, row, plane, reading);
 }
 
-/* ---- The bound -------------------------------------------------------------------------------------------------- */
+/* The planes of a row: a neighbour of each pixel at a time. */
+typedef struct plane_block {
+    double normal[3][NORMAL_BLOCK], offset[NORMAL_BLOCK];
+} plane_block;
 
-/* The error of the vector (a, b, c), orthographic (a, b, -1), that errors of the three depths make. */
-typedef struct mistake {
-    const texture_camera *camera;
-    double direction[3]; /* of the pixel */
-    double per_x, per_y; /* 1 over the step of sx and of sy to the neighbour, with its sign */
-} mistake;
-
-static void mistaken(const mistake *m, const double exact[3], double own, double beside, double over, double out[3]) {
-    const double a = (beside - own) * m->per_x, b = (over - own) * m->per_y;
-    out[0] = exact[0] + a;
-    out[1] = exact[1] + b;
-    out[2] = exact[2] + (m->camera->ortho ? 0 : own - m->direction[0] * a - m->direction[1] * b);
+/* What multiplies the depth and what does not are constants of a row but for x. */
+TEXTURE_CLONES static void depths_beside(const texture_camera *camera, const plane_block *restrict p, double column,
+                                         double row, size_t count, double *restrict z) {
+    const texture_camera c = *camera;
+    const double y = camera_slope_y(&c, row);
+#pragma omp simd
+    for (size_t i = 0; i < count; i++) {
+        const double x = camera_slope_x(&c, column + (double)(int32_t)i);
+        const double across = p->normal[0][i] * x + p->normal[1][i] * y;
+        const double above = c.ortho ? p->offset[i] - across : p->offset[i];
+        z[i] = above / (c.ortho ? p->normal[2][i] : across + p->normal[2][i]);
+    }
 }
 
-/* The vector that the method would find without errors: away from the camera; orthographic: towards it. */
-static void exact_vector(const texture_camera *camera, const normal_plane *plane, double out[3]) {
-    const double by = camera->ortho ? -plane->normal[2] : plane->offset;
-    for (int i = 0; i < 3; i++)
-        out[i] = plane->normal[i] / by;
+TEXTURE_CLONES static void keep_worst(const dp_spec *spec, const double *restrict z, const double *restrict error,
+                                      size_t count, double *restrict worst) {
+    const double least = spec->znear, most = spec->zfar;
+    for (size_t i = 0; i < count; i++) {
+        const double larger = error[i] > worst[i] ? error[i] : worst[i];
+        worst[i] = z[i] >= least && z[i] <= most ? larger : (double)INFINITY;
+    }
+}
+
+static void block_errors(const normal_planes *p, const grain *g, const plane_block *b, size_t first, size_t count,
+                         double reading, double *worst) {
+    const texture_camera *camera = p->camera;
+    double z[NORMAL_BLOCK], error[NORMAL_BLOCK];
+    memset(worst, 0, count * sizeof *worst);
+    for (int k = 0; k < 5; k++) {
+        const int dx = (k == 2) - (k == 1), dy = (k == 4) - (k == 3);
+        const double column = (double)first + dx, row = (double)p->row + dy;
+        if (row < 0 || row >= camera->height)
+            continue;
+        const size_t skipped = column < 0 ? 1 : 0;
+        const size_t some = count - (column + (double)count > camera->width ? 1 : 0) - skipped;
+        depths_beside(camera, b, column, row, count, z);
+        grain_errors_of(&camera->setup, g, z + skipped, some, reading, error + skipped);
+        keep_worst(&camera->setup.spec, z + skipped, error + skipped, some, worst + skipped);
+    }
+}
+
+/* ---- The bound -------------------------------------------------------------------------------------------------- */
+
+/* A pixel of a plane, and what its bound is made of. */
+typedef struct bounding {
+    double exact[3];     /* the vector that the method would find without errors: away from the camera, or towards an
+                            orthographic one */
+    double x, y;         /* the pixel's ray, 0 where they are orthographic */
+    double apart, along; /* half the angle's sides, of the corner that is farthest */
+    double angle, more;  /* that angle; the share that roundings turn a vector between by, at most */
+    bool turned;         /* could the errors turn the plane round? */
+} bounding;
+
+/* The errors of the vector (a, b, c), orthographic (a, b, -1), that errors of the three depths make: the corners of the
+ * cube of errors, for each choice of sides. Signs of the pixel's error, of a and of b, each once. */
+static const double corners[][3] = {{-1, 0, 0},   {1, 1, 1},  {-1, -1, 0}, {1, 0, 1},   {-1, 0, -1}, {1, 1, 0},
+                                    {-1, -1, -1}, {1, 0, 0},  {1, -1, 1},  {-1, 1, 0},  {1, -1, 0},  {-1, 1, -1},
+                                    {1, 1, -1},   {1, 0, -1}, {-1, 0, 1},  {-1, -1, 1}, {1, -1, -1}, {-1, 1, 1}};
+enum { CORNERS = sizeof corners / sizeof corners[0] };
+
+DP_INLINE double dot3(const double a[3], const double b[3]) {
+    return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+}
+
+DP_INLINE double square_of_cross(const double a[3], const double b[3]) {
+    const double c[3] = {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
+    return dot3(c, c);
+}
+
+/* The corner whose vector is farthest from the exact one, by the square of its tangent. */
+DP_INLINE void find_farthest(bounding *out, bool ortho, double per_x, double per_y, double error) {
+    const double a = 2 * error * per_x, b = 2 * error * per_y, *exact = out->exact;
+    double worst = -1, farthest[3] = {0, 0, 0};
+    bool turned = false;
+#pragma GCC unroll 18
+    for (int i = 0; i < CORNERS; i++) {
+        const double own = corners[i][0] * error, to_a = corners[i][1] * a, to_b = corners[i][2] * b;
+        const double found[3] = {exact[0] + to_a, exact[1] + to_b,
+                                 exact[2] + (ortho ? 0 : own - out->x * to_a - out->y * to_b)};
+        const double along = dot3(exact, found), tangent = square_of_cross(exact, found) / (along * along);
+        const bool farther = tangent > worst;
+        turned |= !(along > 0);
+        worst = farther ? tangent : worst;
+        for (int k = 0; k < 3; k++)
+            farthest[k] = farther ? found[k] : farthest[k];
+    }
+    const double la = sqrt(dot3(exact, exact)), lb = sqrt(dot3(farthest, farthest));
+    double sum = 0, difference = 0; /* as normal_angle() */
+    for (int k = 0; k < 3; k++) {
+        const double ua = exact[k] / la, ub = farthest[k] / lb;
+        sum += (ua + ub) * (ua + ub);
+        difference += (ua - ub) * (ua - ub);
+    }
+    out->apart = sqrt(difference);
+    out->along = sqrt(sum);
+    out->turned = turned;
+}
+
+DP_INLINE double half_ulp(double x) { /* dp_half_ulp(), which is not compiled for another instruction set */
+    return x < 0x1p-126 ? 0x1p-150 : dp_float64(((dp_bits64(x) >> 52) - 24) << 52);
 }
 
 /*
@@ -135,60 +203,135 @@ static void exact_vector(const texture_camera *camera, const normal_plane *plane
  * turn it most where all are whole. Those of a and b pass into c; those of c have one direction and count together.
  * A component of the unit vector, at most `beside` from the exact one, is rounded by half a unit in its last place.
  */
-static double rounding(const texture_camera *camera, const double exact[3], const double direction[3], double beside) {
-    const double a = exact[0], b = exact[1], x = direction[0] * a, y = direction[1] * b;
-    const double size = sqrt(dot(exact, exact));
+DP_INLINE double rounding(const bounding *p, bool ortho, double beside) {
+    const double *exact = p->exact, direction[3] = {p->x, p->y, 1};
+    const double a = exact[0], b = exact[1], x = p->x * a, y = p->y * b;
+    const double size = sqrt(dot3(exact, exact));
     /* difference, 1 over the step and the product with it; in perspective also the product with a depth */
-    const double each = camera->ortho ? 3 : 4;
+    const double each = ortho ? 3 : 4;
     /* the sum of the slopes' products and the product of depths: no case is known that shows the second without the
      * first; slopes and their products; the last sum */
-    const double inner = fabs(x + y) + fabs(dot(exact, direction));
+    const double inner = fabs(x + y) + fabs(dot3(exact, direction));
     const double own = 2 * (fabs(x) + fabs(y)) + inner + fabs(exact[2]);
     double last[3], most = 0;
     for (int i = 0; i < 3; i++)
-        last[i] = dp_half_ulp(fabs(exact[i]) / size + beside) / DP_UNIT * size;
+        last[i] = half_ulp(fabs(exact[i]) / size + beside) / DP_UNIT * size;
+#pragma GCC unroll 16
     for (int i = 0; i < 16; i++) {
         const double to_a = i & 1 ? each : -each, to_b = i & 2 ? each : -each;
         const double added[3] = {to_a * a + (i & 4 ? last[0] : -last[0]), to_b * b + (i & 8 ? last[1] : -last[1]),
-                                 camera->ortho ? 0 : own + last[2] - to_a * x - to_b * y};
-        double cross[3];
-        cross_product(exact, added, cross);
-        const double turned = dot(cross, cross);
+                                 ortho ? 0 : own + last[2] - to_a * x - to_b * y};
+        const double turned = square_of_cross(exact, added);
         most = turned > most ? turned : most; /* fmax here crashes gcc 12 when it compiles for aarch64 */
     }
     return sqrt(most) / (size * size);
 }
 
+/* Arrays of a block: gathered from and scattered to the struct above, so that a loop over them becomes vectors. */
+typedef struct bound_block {
+    double exact[3][NORMAL_BLOCK], x[NORMAL_BLOCK], y, apart[NORMAL_BLOCK], along[NORMAL_BLOCK], angle[NORMAL_BLOCK],
+        more[NORMAL_BLOCK];
+    int64_t turned[NORMAL_BLOCK];
+} bound_block;
+
+DP_INLINE void begin_bounds(const texture_camera *camera, bool ortho, const plane_block *restrict p, double column,
+                            double row, const double *restrict error, size_t count, bound_block *restrict b) {
+    const texture_camera c = *camera;
+    const double per_x = c.width / (2 * c.half[0]), per_y = c.height / (2 * c.half[1]);
+    const double y = ortho ? 0 : camera_slope_y(&c, row);
+    b->y = y;
+#pragma omp simd
+    for (size_t i = 0; i < count; i++) {
+        const double by = ortho ? -p->normal[2][i] : p->offset[i];
+        bounding one = {.x = ortho ? 0 : camera_slope_x(&c, column + (double)(int32_t)i), .y = y};
+        for (int k = 0; k < 3; k++)
+            b->exact[k][i] = one.exact[k] = p->normal[k][i] / by;
+        find_farthest(&one, ortho, per_x, per_y, error[i]);
+        b->x[i] = one.x;
+        b->apart[i] = one.apart;
+        b->along[i] = one.along;
+        b->turned[i] = one.turned;
+    }
+}
+
+DP_INLINE void end_bounds(bool ortho, const bound_block *restrict b, const double *restrict error, size_t count,
+                          double *restrict bound) {
+#pragma omp simd
+    for (size_t i = 0; i < count; i++) {
+        const bounding one = {.exact = {b->exact[0][i], b->exact[1][i], b->exact[2][i]}, .x = b->x[i], .y = b->y};
+        const double worst = b->angle[i], more = b->more[i];
+        const double all = (worst + DP_UNIT * rounding(&one, ortho, worst + more)) / (1 - more) + 1e-14; /* in double */
+        const bool known = error[i] < (double)INFINITY && b->turned[i] == 0 && worst < M_PI / 2 && more < 0.5;
+        bound[i] = known && all < M_PI ? all : M_PI;
+    }
+}
+
+TEXTURE_CLONES static void begin_perspective(const texture_camera *camera, const plane_block *p, double column,
+                                             double row, const double *error, size_t count, bound_block *b) {
+    begin_bounds(camera, false, p, column, row, error, count, b);
+}
+
+TEXTURE_CLONES static void begin_ortho(const texture_camera *camera, const plane_block *p, double column, double row,
+                                       const double *error, size_t count, bound_block *b) {
+    begin_bounds(camera, true, p, column, row, error, count, b);
+}
+
+TEXTURE_CLONES static void end_perspective(const bound_block *b, const double *error, size_t count, double *bound) {
+    end_bounds(false, b, error, count, bound);
+}
+
+TEXTURE_CLONES static void end_ortho(const bound_block *b, const double *error, size_t count, double *bound) {
+    end_bounds(true, b, error, count, bound);
+}
+
+static void block_bounds(const texture_camera *camera, const plane_block *p, double column, double row,
+                         const double *error, size_t count, double *bound) {
+    bound_block b;
+    (camera->ortho ? begin_ortho : begin_perspective)(camera, p, column, row, error, count, &b);
+    for (size_t i = 0; i < count; i++) {
+        b.angle[i] = 2 * atan2(b.apart[i], b.along[i]);
+        /* Vectors less than a right angle from another form a convex cone: the corners speak for all between. The
+         * roundings are those of a vector between, which turn it by at most this share of the angle more. */
+        b.more[i] = 24 * DP_UNIT * (1 + hypot(b.x[i], b.y));
+    }
+    (camera->ortho ? end_ortho : end_perspective)(&b, error, count, bound);
+}
+
 double normal_plane_bound(const texture_camera *camera, uint32_t column, uint32_t row, const normal_plane *plane,
                           double error) {
-    double exact[3], place[3], farthest[3] = {0}, worst = -1; /* tan^2 of the angle, for comparing */
-    mistake m = {.camera = camera};
-    if (!(error < (double)INFINITY))
-        return M_PI;
-    exact_vector(camera, plane, exact);
-    ray(camera, column, row, m.direction, place);
-    for (int i = 0; i < 32; i++) { /* the corners of the cube of errors, for each choice of sides */
-        const double own = i & 1 ? error : -error, beside = i & 2 ? error : -error, over = i & 4 ? error : -error;
-        double found[3];
-        m.per_x = camera->width / (2 * camera->half[0]) * (i & 8 ? 1 : -1);
-        m.per_y = camera->height / (2 * camera->half[1]) * (i & 16 ? 1 : -1);
-        mistaken(&m, exact, own, beside, over, found);
-        double cross[3];
-        cross_product(exact, found, cross);
-        const double along = dot(exact, found), tangent = dot(cross, cross) / (along * along);
-        if (!(along > 0))
-            return M_PI;
-        if (tangent > worst) {
-            worst = tangent;
-            memcpy(farthest, found, sizeof farthest);
-        }
+    plane_block p;
+    double bound;
+    for (int k = 0; k < 3; k++)
+        p.normal[k][0] = plane->normal[k];
+    p.offset[0] = plane->offset;
+    block_bounds(camera, &p, column, row, &error, 1, &bound);
+    return bound;
+}
+
+/* ---- A row of planes --------------------------------------------------------------------------------------------- */
+
+TEXTURE_CLONES static void gather(const normal_planes *in, size_t first, size_t count, plane_block *restrict p) {
+    const texture_camera c = *in->camera;
+    const double y = camera_slope_y(&c, in->row);
+    for (size_t i = 0; i < count; i++) {
+        const double z = in->z[first + i], scale = c.ortho ? 1 : z;
+        double n[3];
+        for (int k = 0; k < 3; k++)
+            p->normal[k][i] = n[k] = (double)in->normal[k][first + i];
+        const double view[3] = {camera_slope_x(&c, (double)(int32_t)(first + i)) * scale, y * scale, z};
+        p->offset[i] = dot3(n, view);
     }
-    worst = normal_angle(exact, farthest);
-    /* Vectors less than a right angle from another form a convex cone: the corners speak for all between. The roundings
-     * are those of a vector between, which turn it by at most this share of `worst` more. */
-    const double more = 24 * DP_UNIT * (1 + hypot(m.direction[0], m.direction[1]));
-    if (!(worst < M_PI / 2 && more < 0.5))
-        return M_PI;
-    return fmin((worst + DP_UNIT * rounding(camera, exact, m.direction, worst + more)) / (1 - more) + 1e-14,
-                M_PI); /* in double */
+}
+
+void normal_planes_bounds(const normal_planes *in, const grain *g, double reading, double *bounds) {
+    plane_block p;
+    double error[NORMAL_BLOCK];
+    for (size_t first = 0; first < in->camera->width; first += NORMAL_BLOCK) {
+        const size_t rest = in->camera->width - first, count = rest < NORMAL_BLOCK ? rest : NORMAL_BLOCK;
+        gather(in, first, count, &p);
+        block_errors(in, g, &p, first, count, reading, error);
+        block_bounds(in->camera, &p, (double)first, in->row, error, count, bounds + first);
+        for (size_t i = 0; i < count; i++)
+            bounds[first + i] = isinf(error[i]) ? (double)NAN : bounds[first + i];
+    }
 }

@@ -1,0 +1,186 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* How far depths can be off in 1/z: one by one for any grain, in vectors where samples are codes of a perspective. */
+#include <math.h>
+
+#include "texture/clones.h"
+#include "texture/grain.h"
+#include "texture/grain_loops.h"
+
+enum { BLOCK = 256 };
+
+static double range_error(const dp_setup *setup, double stored, double lo, double hi, double reading) {
+    if (setup->spec.ortho)
+        return fmax(stored - lo, hi - stored) + reading * stored;
+    const double w = 1 / stored; /* 0 at an infinite far plane */
+    return fmax(1 / lo - w, w - 1 / hi) + reading * w;
+}
+
+double grain_error_of(const dp_setup *setup, const grain *g, double z, double reading) {
+    const grain_range own = grain_range_of(setup, g, dp_code(setup, z));
+    const double at[3] = {z, own.lo, own.hi};
+    double worst = 0;
+    for (int i = 0; i < 3; i++) {
+        const uint32_t code = dp_code(setup, at[i]);
+        const grain_range range = grain_range_of(setup, g, code);
+        worst = fmax(worst, range_error(setup, dp_stored(setup, code), range.lo, range.hi, reading));
+    }
+    return worst;
+}
+
+/* ---- In vectors -------------------------------------------------------------------------------------------------- */
+
+/*
+ * On which side of a boundary lies the depth that it was rounded to? The sign of p den (q - z) +- z num (f - n), as
+ * dp_curve_gap() has it, in pairs of doubles: each product and sum there loses a few units of 2^-104 of p den z.
+ */
+typedef struct siding {
+    dp_pair scale, width; /* p den, f - n; without a far plane 1 */
+    double from;          /* q */
+    bool alone;           /* 1 in the place of q - z */
+} siding;
+
+static siding siding_of(const ranging *r) {
+    const dp_pair one = {1, 0};
+    if (r->infinite)
+        return (siding){dp_two_product(r->reversed ? r->znear : 1, r->den), one, r->znear, r->reversed};
+    return (siding){dp_two_product(r->reversed ? r->znear : r->zfar, r->den), dp_two_sum(r->zfar, -r->znear),
+                    r->reversed ? r->zfar : r->znear, false};
+}
+
+DP_INLINE dp_pair pair_sum(double a, double b) {
+    const double s = a + b, t = s - a;
+    return (dp_pair){s, (a - (s - t)) + (b - t)};
+}
+
+DP_INLINE dp_pair pair_product(dp_pair a, dp_pair b) {
+    const double p = a.hi * b.hi;
+    return (dp_pair){p, __builtin_fma(a.hi, b.hi, -p) + (a.hi * b.lo + a.lo * b.hi)};
+}
+
+/* Positive: the boundary lies behind z. *doubt: no sign, or one that may be wrong. */
+DP_INLINE double side_of(const siding *s, bool reversed, double num, double z, int64_t *doubt) {
+    const dp_pair away = pair_sum(s->from, -z), one = {1, 0};
+    const dp_pair a = pair_product(s->scale, s->alone ? one : away);
+    const dp_pair b = pair_product(pair_product((dp_pair){z, 0}, (dp_pair){num, 0}), s->width);
+    const double sign = reversed ? -1 : 1;
+    const dp_pair sum = pair_sum(a.hi, sign * b.hi);
+    const double side = sum.hi + (sum.lo + (a.lo + sign * b.lo));
+    *doubt |= !(fabs(side) > 0x1p-98 * (fabs(b.hi) + fabs(s->scale.hi) * z));
+    return side;
+}
+
+DP_INLINE double error_of(double stored, double lo, double hi, double reading) {
+    const double w = 1 / stored, before = 1 / lo - w, behind = w - 1 / hi;
+    return (before > behind ? before : behind) + reading * w;
+}
+
+/* Numerators of the codes and boundaries round a code, from below. */
+typedef struct around {
+    double code[3][BLOCK], boundary[4][BLOCK];
+} around;
+
+TEXTURE_CLONES static void around_unorm(const dp_format *format, const uint32_t *restrict codes, size_t count,
+                                        around *restrict a) {
+    const double most = 2.0 * format->code_max;
+    for (size_t i = 0; i < count; i++) {
+        const double own = 2.0 * (double)(int32_t)codes[i];
+        a->code[0][i] = own - 2;
+        a->code[1][i] = own;
+        a->code[2][i] = own + 2;
+        a->boundary[0][i] = own - 3 > 0 ? own - 3 : 0;
+        a->boundary[1][i] = own - 1;
+        a->boundary[2][i] = own + 1;
+        a->boundary[3][i] = own + 3 < most ? own + 3 : most;
+    }
+}
+
+TEXTURE_CLONES static void around_float(const dp_format *format, const uint32_t *restrict codes, size_t count,
+                                        around *restrict a) {
+    const int mantissa = format->mantissa_bits, bias = format->bias;
+    const uint32_t most = format->code_max;
+    for (size_t i = 0; i < count; i++) {
+        const uint32_t code = codes[i];
+        double value[5];
+        for (uint32_t k = 0; k < 5; k++) {
+            const uint32_t at = code + k < 2 ? 0 : code + k - 2;
+            value[k] = float_value(at < most ? at : most, mantissa, bias);
+        }
+        for (int k = 0; k < 3; k++)
+            a->code[k][i] = value[k + 1];
+        for (int k = 0; k < 4; k++)
+            a->boundary[k][i] = 0.5 * (value[k] + value[k + 1]);
+    }
+}
+
+/* The code's own error, and those of its neighbours where the ends of its range, rounded, are theirs. In doubt where
+ * that cannot be told: at the ends of window depth, and where cells are hardly wider than the roundings. */
+DP_INLINE void errors_loop(const ranging r, const siding s, const around *restrict a, double reading, size_t count,
+                           double *restrict error, int64_t *restrict doubts) {
+    const int before = r.reversed ? 2 : 0, behind = 2 - before, lowest = r.reversed ? 3 : 0, step = r.reversed ? -1 : 1;
+#pragma omp simd
+    for (size_t i = 0; i < count; i++) {
+        const double end0 = eye_of(&r, a->boundary[lowest][i]), lo = eye_of(&r, a->boundary[lowest + step][i]);
+        const double hi = eye_of(&r, a->boundary[lowest + 2 * step][i]);
+        const double end3 = eye_of(&r, a->boundary[lowest + 3 * step][i]);
+        const double own = error_of(eye_of(&r, a->code[1][i]), lo, hi, reading);
+        const double near = error_of(eye_of(&r, a->code[before][i]), end0, lo, reading);
+        const double far = error_of(eye_of(&r, a->code[behind][i]), hi, end3, reading);
+        int64_t doubt = !(lo > r.znear && hi < r.zfar && hi - lo > 0x1p-45 * hi && a->code[0][i] >= 0);
+        const double at_lo = side_of(&s, r.reversed, a->boundary[lowest + step][i], lo, &doubt);
+        const double at_hi = side_of(&s, r.reversed, a->boundary[lowest + 2 * step][i], hi, &doubt);
+        const double worse = at_lo > 0 && near > own ? near : own;
+        error[i] = at_hi < 0 && far > worse ? far : worse;
+        doubts[i] = doubt;
+    }
+}
+
+TEXTURE_CLONES static void errors_standard(const ranging *r, const siding *s, const around *a, double reading,
+                                           size_t count, double *error, int64_t *doubts) {
+    errors_loop((ranging){r->top, r->den, r->znear, r->zfar, r->kappa, false, false},
+                (siding){s->scale, s->width, s->from, false}, a, reading, count, error, doubts);
+}
+
+TEXTURE_CLONES static void errors_reversed(const ranging *r, const siding *s, const around *a, double reading,
+                                           size_t count, double *error, int64_t *doubts) {
+    errors_loop((ranging){r->top, r->den, r->znear, r->zfar, r->kappa, true, false},
+                (siding){s->scale, s->width, s->from, false}, a, reading, count, error, doubts);
+}
+
+TEXTURE_CLONES static void errors_infinite(const ranging *r, const siding *s, const around *a, double reading,
+                                           size_t count, double *error, int64_t *doubts) {
+    errors_loop(*r, *s, a, reading, count, error, doubts);
+}
+
+static bool in_vectors(const dp_setup *setup, const grain *g) {
+    return setup->curve == DP_CURVE_PERSPECTIVE && (g == NULL || g->kind == GRAIN_CODES) &&
+           setup->spec.rounding == DP_ROUND_NEAREST && setup->spec.format.bits < 32;
+}
+
+void grain_errors_of(const dp_setup *setup, const grain *g, const double *z, size_t count, double reading,
+                     double *out) {
+    const dp_format *format = &setup->spec.format;
+    dp_batch batch;
+    if (!in_vectors(setup, g) ||
+        dp_batch_init(&batch, setup, DP_TASK_CODE, DP_REAL_DOUBLE, DP_WORD_32, dp_path_best()) != DP_OK) {
+        for (size_t i = 0; i < count; i++)
+            out[i] = grain_error_of(setup, g, z[i], reading);
+        return;
+    }
+    const ranging r = ranging_of(setup);
+    const siding s = siding_of(&r);
+    for (size_t first = 0; first < count; first += BLOCK) {
+        const size_t some = count - first < BLOCK ? count - first : BLOCK;
+        uint32_t codes[BLOCK];
+        int64_t doubts[BLOCK];
+        around a;
+        dp_batch_run(&batch, z + first, codes, some);
+        (format->kind == DP_FORMAT_UNORM ? around_unorm : around_float)(format, codes, some, &a);
+        (r.infinite   ? errors_infinite
+         : r.reversed ? errors_reversed
+                      : errors_standard)(&r, &s, &a, reading, some, out + first, doubts);
+        for (size_t i = 0; i < some; i++) /* depths beyond the planes, which many are at borders, have no such error */
+            if (z[first + i] >= r.znear && z[first + i] <= r.zfar &&
+                (doubts[i] != 0 || codes[i] == 0 || codes[i] == format->code_max))
+                out[first + i] = grain_error_of(setup, g, z[first + i], reading);
+    }
+}
