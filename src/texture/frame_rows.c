@@ -154,19 +154,18 @@ static void make_position(const frame_row *in) {
 }
 
 /* Of what is stored; the depth's own error lies along the ray. */
-TEXTURE_CLONES static void position_errors(const texture_camera *camera, const frame_row *in,
-                                           const grain_rows *ranges) {
+TEXTURE_CLONES static void position_errors(const texture_camera *camera, uint32_t row, const float *restrict eyes,
+                                           float *const planes[3], const grain_rows *ranges, float *restrict out) {
     const texture_camera c = *camera;
-    const float *const eyes = eyes_of(in), *const *planes = (const float *const *)in->planes;
-    const double row = in->row;
-    float *const out = in->out;
-#pragma omp simd
+    const float *restrict wx = planes[0], *restrict wy = planes[1], *restrict wz = planes[2];
+    const double *restrict stored = ranges->stored, *restrict reach = ranges->reach;
     for (uint32_t x = 0; x < c.width; x++) {
-        const float world[3] = {planes[0][x], planes[1][x], planes[2][x]};
+        const float world[3] = {wx[x], wy[x], wz[x]};
+        const double column = (double)(int32_t)x;
         double view[3], relative[3];
-        camera_view(&c, x, row, ranges->stored[x], view);
+        camera_view(&c, column, row, stored[x], view);
         camera_turn(&c, view, relative);
-        const float error = upwards(position_off(&c, relative, world) + ranges->reach[x] * camera_radial(&c, x, row));
+        const float error = upwards(position_off(&c, relative, world) + reach[x] * camera_radial(&c, column, row));
         out[x] = eyes[x] == eyes[x] ? error : (float)NAN;
     }
 }
@@ -175,7 +174,7 @@ static void make_position_error(const frame_row *in) {
     places(in);
     if (in->frame->scene == NULL) {
         const grain_rows ranges = ranges_in(in);
-        position_errors(camera_of(in), in, &ranges);
+        position_errors(camera_of(in), in->row, eyes_of(in), in->planes, &ranges, in->out);
         return;
     }
     for (uint32_t x = 0; x < camera_of(in)->width; x++) {

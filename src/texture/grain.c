@@ -161,8 +161,12 @@ TEXTURE_CLONES static void ranges_finite(const ranging *r, const numerators *n, 
 
 TEXTURE_CLONES static void ranges_infinite(const ranging *r, const numerators *n, size_t count, double *stored,
                                            double *lo, double *hi, double *reach) {
-    ranges_loop((ranging){r->top, r->den, r->znear, r->zfar, r->kappa, r->reversed, true}, n, count, stored, lo, hi,
-                reach);
+    if (r->reversed)
+        ranges_loop((ranging){r->top, r->den, r->znear, r->zfar, r->kappa, true, true}, n, count, stored, lo, hi,
+                    reach);
+    else
+        ranges_loop((ranging){r->top, r->den, r->znear, r->zfar, r->kappa, false, true}, n, count, stored, lo, hi,
+                    reach);
 }
 
 /* Each code by itself, rounded to nearest. */

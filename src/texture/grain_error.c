@@ -117,7 +117,6 @@ TEXTURE_CLONES static void around_float(const dp_format *format, const uint32_t 
 DP_INLINE void errors_loop(const ranging r, const siding s, const around *restrict a, double reading, size_t count,
                            double *restrict error, int64_t *restrict doubts) {
     const int before = r.reversed ? 2 : 0, behind = 2 - before, lowest = r.reversed ? 3 : 0, step = r.reversed ? -1 : 1;
-#pragma omp simd
     for (size_t i = 0; i < count; i++) {
         const double end0 = eye_of(&r, a->boundary[lowest][i]), lo = eye_of(&r, a->boundary[lowest + step][i]);
         const double hi = eye_of(&r, a->boundary[lowest + 2 * step][i]);
@@ -148,7 +147,12 @@ TEXTURE_CLONES static void errors_reversed(const ranging *r, const siding *s, co
 
 TEXTURE_CLONES static void errors_infinite(const ranging *r, const siding *s, const around *a, double reading,
                                            size_t count, double *error, int64_t *doubts) {
-    errors_loop(*r, *s, a, reading, count, error, doubts);
+    if (r->reversed)
+        errors_loop((ranging){r->top, r->den, r->znear, r->zfar, r->kappa, true, true},
+                    (siding){s->scale, s->width, s->from, true}, a, reading, count, error, doubts);
+    else
+        errors_loop((ranging){r->top, r->den, r->znear, r->zfar, r->kappa, false, true},
+                    (siding){s->scale, s->width, s->from, false}, a, reading, count, error, doubts);
 }
 
 static bool in_vectors(const dp_setup *setup, const grain *g) {

@@ -240,7 +240,6 @@ DP_INLINE void begin_bounds(const texture_camera *camera, bool ortho, const plan
     const double per_x = c.width / (2 * c.half[0]), per_y = c.height / (2 * c.half[1]);
     const double y = ortho ? 0 : camera_slope_y(&c, row);
     b->y = y;
-#pragma omp simd
     for (size_t i = 0; i < count; i++) {
         const double by = ortho ? -p->normal[2][i] : p->offset[i];
         bounding one = {.x = ortho ? 0 : camera_slope_x(&c, column + (double)(int32_t)i), .y = y};
@@ -256,7 +255,6 @@ DP_INLINE void begin_bounds(const texture_camera *camera, bool ortho, const plan
 
 DP_INLINE void end_bounds(bool ortho, const bound_block *restrict b, const double *restrict error, size_t count,
                           double *restrict bound) {
-#pragma omp simd
     for (size_t i = 0; i < count; i++) {
         const bounding one = {.exact = {b->exact[0][i], b->exact[1][i], b->exact[2][i]}, .x = b->x[i], .y = b->y};
         const double worst = b->angle[i], more = b->more[i];
