@@ -159,7 +159,7 @@ TEXTURE_CLONES static void position_errors(const texture_camera *camera, uint32_
     const texture_camera c = *camera;
     const float *restrict wx = planes[0], *restrict wy = planes[1], *restrict wz = planes[2];
     const double *restrict stored = ranges->stored, *restrict reach = ranges->reach;
-    for (uint32_t x = 0; x < c.width; x++) {
+    for (size_t x = 0; x < c.width; x++) {
         const float world[3] = {wx[x], wy[x], wz[x]};
         const double column = (double)(int32_t)x;
         double view[3], relative[3];
