@@ -7,7 +7,7 @@
 /* Options that need a product, or a figure of one. */
 static int check_alone(const options *o) {
     static const option_id drawn[] = {OPTION_TYPE, OPTION_THEME, OPTION_WIDTH, OPTION_HEIGHT, OPTION_TITLE};
-    if (o->error_map && !texture_product_wanted(o))
+    if (option_given(o, OPTION_ERROR_MAP) && !texture_product_wanted(o))
         return option_error(OPTION_ERROR_MAP, "needs --eye, --position, --normal or --effect");
     if (o->radial && !texture_product_wanted(o))
         return option_error(OPTION_RADIAL, "needs --eye");
@@ -35,7 +35,7 @@ static int check_table(const options *o) {
 }
 
 static int make_product(const options *o, const texture_source *source, texture_product *product) {
-    int status = texture_product_check(source, product);
+    int status = texture_product_check(o, source, product);
     if (status == EXIT_FINE && source->path != NULL && source->found.invalid > 0 && !o->quiet)
         fprintf(stderr, "depthprec: %s: %zu pixels hold no window depth and are NaN in what is made\n", source->path,
                 source->found.invalid);

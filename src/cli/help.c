@@ -102,6 +102,8 @@ static void list_options(page *p, const verb *v) {
             snprintf(label, sizeof label, "-%c, ", row->letter);
         option_argument(row, argument);
         append(label, sizeof label, "--%s%s%s", row->name, *argument != '\0' ? " " : "", argument);
+        if (row->optional != NULL)
+            append(label, sizeof label, "[=%s]", row->optional);
         page_wrapped(p, label, describe(v, row, text));
         snprintf(text, sizeof text, "Taken by %s.", option_takers(row, argument));
         if (v == NULL && ~row->commands != 0)

@@ -262,6 +262,13 @@ int parse_parameter(options *o, const option_row *row, const char *value) {
     return EXIT_FINE;
 }
 
+/* With a name it stands beside the product. */
+int parse_error_map(options *o, const option_row *row, const char *value) {
+    o->error_map = value == NULL;
+    o->error_file = value;
+    return value == NULL || *value != '\0' ? EXIT_FINE : option_refuse(row, "must be a file name, got ''");
+}
+
 int parse_form(options *o, const option_row *row, const char *value) {
     const output_form form = (output_form)row->least;
     (void)value;

@@ -227,7 +227,8 @@ const option_row option_rows[OPTION_COUNT] = {
         "product: an effect that consumes depth: @; without an image, the values of its parameter that are usable",
         ROW(effect, effects)},
     [OPTION_ERROR_MAP] = {"error-map", 0, NULL, VERB_TEXTURE,
-        "the error of the product in place of the product", FLAG(error_map)},
+        "the error of the product in place of the product; with FILE beside it, in the same pass",
+        .parse = parse_error_map, SIZED(error_map), .optional = "FILE"},
     [OPTION_FIGURE] = {"figure", 0, "FILE", VERB_TEXTURE,
         "draw the product: SVG, PDF or PNG; up to 256 surfaces of a scene that share a code with what is behind are "
         "marked", FILE_NAME(figure)},

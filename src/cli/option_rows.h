@@ -37,8 +37,9 @@ typedef struct option_row {
         unsigned commands;
         const char *standard, *without, *help;
     } except[OPTION_EXCEPTIONS];
-    const char *instead; /**< what a command that does not take it may be meant to have; or null */
-    const char *group;   /**< the heading above this row and those behind it; null where the one before goes on */
+    const char *instead;  /**< what a command that does not take it may be meant to have; or null */
+    const char *optional; /**< an argument that may be left out, and is written behind "=": "FILE"; else null */
+    const char *group;    /**< the heading above this row and those behind it; null where the one before goes on */
 } option_row;
 
 /** Index: option_id. */
@@ -82,7 +83,7 @@ option_parser parse_pixels; /**< the same, pairs of them with a semicolon in bet
 /* ---- Languages of their own -------------------------------------------------------------------------------------- */
 
 option_parser parse_unit, parse_presets, parse_near, parse_far, parse_formats, parse_mappings, parse_tolerance,
-    parse_at, parse_range, parse_origin;
+    parse_at, parse_range, parse_origin, parse_error_map;
 option_parser parse_size, parse_parameter, parse_form;
 
 #endif

@@ -69,8 +69,10 @@ static void make_getopt_arrays(const char *mode, char *letters, struct option *l
     *letters++ = ':'; /* a missing argument is told apart from an unknown option */
     for (int id = 0; id < OPTION_COUNT; id++) {
         const option_row *row = &option_rows[id];
-        *longs++ =
-            (struct option){row->name, takes_argument(row) ? required_argument : no_argument, NULL, getopt_value(id)};
+        const int has = takes_argument(row)     ? required_argument
+                        : row->optional != NULL ? optional_argument
+                                                : no_argument;
+        *longs++ = (struct option){row->name, has, NULL, getopt_value(id)};
         if (row->letter != 0) {
             *letters++ = row->letter;
             if (takes_argument(row))
@@ -215,7 +217,7 @@ static int read_option(options *o, option_id id, const char *argument) {
     const option_row *row = &option_rows[id];
     if ((row->commands & o->verb->bit) == 0)
         return wrong_command(o, id);
-    if (o->given[id] && takes_argument(row) && id != OPTION_PARAMETER)
+    if (o->given[id] && (takes_argument(row) || argument != NULL) && id != OPTION_PARAMETER)
         return option_error(id, "must not be given twice, got '%s' too", argument);
     o->given[id] = true;
     return row->parse(o, row, argument);

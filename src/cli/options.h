@@ -170,7 +170,8 @@ typedef struct options {
     double sky;    /**< window depth */
     double metric; /**< scene units of 1 in a sample of metric depth; 0 when not given */
     depths pixels; /**< column and row of each in turn; count is 0 when not given */
-    bool eye, radial, error_map;
+    bool eye, radial, error_map; /**< error_map: in place of the product */
+    const char *error_file;      /**< beside it; or null */
     const position_row *position; /**< null for exact as well */
     const normal_row *normal;
     const effect_row *effect;

@@ -73,9 +73,10 @@ enum { PRODUCT_NAME_SIZE = 96 };
 
 typedef struct texture_product {
     frame_product made;
+    frame_product error; /**< of it, for the file of --error-map */
     double settings[TEXTURE_PARAMETERS];
     char name[PRODUCT_NAME_SIZE]; /**< "normals by high, error" */
-    const char *unit;             /**< "scene units", "degrees", "levels of 1/255", "" */
+    const char *unit, *unit_of_error; /**< "scene units", "degrees", "levels of 1/255", "" */
 } texture_product;
 
 /** Is one asked for? */
@@ -85,7 +86,7 @@ bool texture_product_wanted(const options *o);
 int texture_product_resolve(const options *o, texture_product *out);
 
 /** Whether it can be made of this source, likewise. */
-int texture_product_check(const texture_source *s, texture_product *p);
+int texture_product_check(const options *o, const texture_source *s, texture_product *p);
 
 /** Writes the file of -o. */
 int texture_product_write(const options *o, const texture_source *s, const texture_product *p);

@@ -52,6 +52,10 @@ static int check_files(const options *o) {
         return usage_error("texture: a product needs -o FILE that ends in .png, .pfm or .npy, or --figure FILE");
     if (o->output != NULL && !image_file_of(o->output, &file))
         return option_error(OPTION_OUTPUT, "must end in .png, .pfm or .npy for a product, got '%s'", o->output);
+    if (o->error_file != NULL && !image_file_of(o->error_file, &file))
+        return option_error(OPTION_ERROR_MAP, "must end in .png, .pfm or .npy, got '%s'", o->error_file);
+    if (o->error_file != NULL && o->output == NULL)
+        return option_error(OPTION_ERROR_MAP, "needs -o FILE for the product beside it, got '%s'", o->error_file);
     canvas_format type;
     if (o->figure != NULL && figure_file_type(o, OPTION_FIGURE, o->figure, &type) != EXIT_FINE)
         return EXIT_USAGE;
@@ -86,19 +90,22 @@ int texture_product_resolve(const options *o, texture_product *p) {
     snprintf(p->name, sizeof p->name, "%s%s", kinds[chosen].by, names[p->made.kind]);
     if (status == EXIT_FINE && p->made.kind == FRAME_EFFECT)
         status = resolve_effect(o, p);
+    p->error = p->made;
+    p->error.error = true;
+    p->unit_of_error = kinds[chosen].unit_of_error;
     if (status == EXIT_FINE)
         status = check_files(o);
     return status;
 }
 
-int texture_product_check(const texture_source *s, texture_product *p) {
+int texture_product_check(const options *o, const texture_source *s, texture_product *p) {
     static const char *const truths[][2] = {
         [FRAME_EYE] = {"half of each cell", "error"},
         [FRAME_POSITION] = {"largest possible error", "error"},
         [FRAME_NORMAL] = {"bound of the error on planes", "error"},
         [FRAME_EFFECT] = {"largest possible error", "largest possible error"},
     };
-    const char *wrong = frame_refuses(&s->frame, &p->made);
+    const char *wrong = frame_refuses(&s->frame, o->error_file != NULL ? &p->error : &p->made);
     if (wrong != NULL)
         return usage_error("texture: %s: %s", p->name, wrong);
     if (p->made.error)

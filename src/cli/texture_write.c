@@ -20,12 +20,13 @@ typedef struct writing {
     image_file file;
     size_t row_values;
     const texture_source *source;
-    void *row;        /* room for a row of the file's samples */
-    double lo, scale; /* of the 16 bits of a PNG */
-    bool upwards;     /* an error must not come back smaller, */
-    double more;      /* and has to hold for the product in 16 bits, which is rounded, too */
-    image_type type;  /* depth images: */
+    void *row;            /* room for a row of the file's samples */
+    double lo, hi, scale; /* of the 16 bits of a PNG */
+    bool upwards;         /* an error must not come back smaller, */
+    double more;          /* and has to hold for the product in 16 bits, which is rounded, too */
+    image_type type;      /* depth images: */
     uint32_t *codes;
+    bool quiet;
     progress bar;
     uint64_t done;
 } writing;
@@ -36,8 +37,8 @@ static ssize_t stream_write(void *cookie, const char *bytes, size_t size) {
     return output_failed(out) ? 0 : (ssize_t)size; /* what a cookie reports as an error */
 }
 
-static int writing_open(const options *o, writing *w, const texture_source *s, image_type type, uint32_t channels) {
-    int status = options_open(o, &w->out);
+static int writing_open(writing *w, const char *path, const texture_source *s, image_type type, uint32_t channels) {
+    int status = output_open(&w->out, path);
     if (status != EXIT_FINE)
         return status;
     w->source = s;
@@ -50,12 +51,12 @@ static int writing_open(const options *o, writing *w, const texture_source *s, i
         setvbuf(w->stream, NULL, _IOFBF, STREAM_BUFFER);
         w->writer = image_writer_open(w->stream, w->file, type, s->camera.width, s->camera.height, channels);
     }
-    w->bar = progress_start("rows", s->camera.height, o->quiet);
+    w->bar = progress_start("rows", s->camera.height, w->quiet);
     return EXIT_FINE;
 }
 
-/* A file appears only when all of it is there. */
-static int writing_close(writing *w, bool good) {
+/* Whether all of it could be given to the output. */
+static bool writing_end(writing *w, bool good) {
     progress_end(&w->bar);
     if (w->writer != NULL && !image_writer_close(w->writer))
         good = false;
@@ -63,10 +64,24 @@ static int writing_close(writing *w, bool good) {
         good = false;
     free(w->row);
     free(w->codes);
-    if (good || output_failed(&w->out))
-        return output_close(&w->out); /* which says what failed */
-    output_abandon(&w->out);
-    return usage_error("texture: no memory");
+    return good;
+}
+
+/* Files appear only when all of them are there. */
+static int writing_close(writing *w, int count, bool good) {
+    int status = EXIT_FINE;
+    bool said = false;
+    for (int i = 0; i < count; i++)
+        good = writing_end(&w[i], good);
+    for (int i = 0; i < count; i++) {
+        const bool failed = output_failed(&w[i].out);
+        if (!good && !failed)
+            output_abandon(&w[i].out);
+        else if (output_close(&w[i].out) != EXIT_FINE) /* which says what failed */
+            status = EXIT_IO;
+        said = said || failed;
+    }
+    return good || said ? status : usage_error("texture: no memory");
 }
 
 static bool bottom_up(const writing *w) {
@@ -101,55 +116,86 @@ static bool take(void *context, uint32_t row, uint32_t count, const float *value
  * The product in 16 bits is off by half a grey more; a place in all three coordinates, and a normal by the angle that
  * three such differences of a unit vector can make.
  */
-static bool rounding_of_product(const texture_source *s, const texture_product *p, double *more) {
+static bool rounding_of_product(const texture_source *s, const frame_product *made, double *more) {
     static const double factors[FRAME_KINDS] = {[FRAME_EYE] = 1,
                                                 [FRAME_POSITION] = 1.7320508075688774,
                                                 [FRAME_NORMAL] = 1.74 * 57.29577951308233,
                                                 [FRAME_EFFECT] = 255};
-    frame_product plain = p->made;
+    frame_product plain = *made;
     frame_summary sum = {.lo = -1, .hi = 1, .count = 1};
     plain.error = false;
     /* Without what it compares with an effect has no product yet; it will be from 0 to 1. */
-    const bool open = p->made.kind == FRAME_EFFECT && p->made.effect->reference != NULL;
+    const bool open = made->kind == FRAME_EFFECT && made->effect->reference != NULL;
     *more = 0;
     if (open)
         sum.lo = 0;
-    else if (p->made.kind != FRAME_NORMAL && !frame_summarise(&s->frame, &plain, &sum))
+    else if (made->kind != FRAME_NORMAL && !frame_summarise(&s->frame, &plain, &sum))
         return false;
     if (sum.count > 0)
-        *more = factors[p->made.kind] * (sum.hi - sum.lo) / (2.0 * (GREYS - 1)) * (1 + 0x1p-20);
+        *more = factors[made->kind] * (sum.hi - sum.lo) / (2.0 * (GREYS - 1)) * (1 + 0x1p-20);
     return true;
 }
 
 /* What the samples of a PNG mean; normals have their range by nature, all else that of what was found. */
-static bool scale_of(const texture_source *s, const texture_product *p, writing *w, double *hi) {
+static bool scale_of(const texture_source *s, const frame_product *made, writing *w) {
     frame_summary sum = {.lo = -1, .hi = 1, .count = 1};
-    if ((p->made.kind != FRAME_NORMAL || p->made.error) && !frame_summarise(&s->frame, &p->made, &sum))
+    if (w->type != IMAGE_U16)
+        return true;
+    if ((made->kind != FRAME_NORMAL || made->error) && !frame_summarise(&s->frame, made, &sum))
         return false;
-    w->upwards = p->made.error;
-    if (p->made.error && !rounding_of_product(s, p, &w->more))
+    w->upwards = made->error;
+    if (made->error && !rounding_of_product(s, made, &w->more))
         return false;
-    w->lo = sum.count == 0 ? 0 : p->made.error ? 0 : sum.lo;
-    *hi = (sum.count == 0 ? 1 : sum.hi) + w->more;
-    w->scale = *hi > w->lo ? 1 / (*hi - w->lo) : 0;
+    w->lo = sum.count == 0 ? 0 : made->error ? 0 : sum.lo;
+    w->hi = (sum.count == 0 ? 1 : sum.hi) + w->more;
+    w->scale = w->hi > w->lo ? 1 / (w->hi - w->lo) : 0;
     return true;
 }
 
+static void say_scale(const options *o, const writing *w, const char *path, const char *unit, bool error) {
+    if (w->type == IMAGE_U16 && !o->quiet)
+        fprintf(stderr, "depthprec: %s: 1 is %s, 65535 is %s%s%s, 0 where there is no %s\n", path,
+                number_full(w->lo).text, number_full(w->hi).text, *unit != '\0' ? " " : "", unit,
+                error ? "bound" : "value");
+}
+
+static bool take_both(void *context, uint32_t row, uint32_t count, const float *const *values) {
+    writing *w = context;
+    return take(&w[0], row, count, values[0]) && take(&w[1], row, count, values[1]);
+}
+
+/* In one pass, but where one file begins with the bottom row and the other does not. */
+static bool make_both(const texture_source *s, const frame_product made[2], writing w[2]) {
+    if (bottom_up(&w[0]) == bottom_up(&w[1]))
+        return frame_run_all(&s->frame, made, 2, bottom_up(&w[0]), take_both, w);
+    return frame_run(&s->frame, &made[0], bottom_up(&w[0]), take, &w[0]) &&
+           frame_run(&s->frame, &made[1], bottom_up(&w[1]), take, &w[1]);
+}
+
 int texture_product_write(const options *o, const texture_source *s, const texture_product *p) {
-    writing w = {0};
-    double hi = 0;
-    image_file_of(o->output, &w.file);
-    const bool png = w.file == IMAGE_PNG;
-    int status = writing_open(o, &w, s, png ? IMAGE_U16 : IMAGE_F32, (uint32_t)frame_channels(&p->made));
+    writing w[2] = {{.quiet = o->quiet}, {.quiet = true}}; /* one bar */
+    const frame_product made[2] = {p->made, p->error};
+    const char *const paths[2] = {o->output, o->error_file}, *const units[2] = {p->unit, p->unit_of_error};
+    const int count = o->error_file != NULL ? 2 : 1;
+    int status = EXIT_FINE, opened = 0;
+    bool good = true;
+    for (; opened < count && status == EXIT_FINE; opened++) {
+        image_file_of(paths[opened], &w[opened].file);
+        status = writing_open(&w[opened], paths[opened], s, w[opened].file == IMAGE_PNG ? IMAGE_U16 : IMAGE_F32,
+                              (uint32_t)frame_channels(&made[opened]));
+    }
+    if (status != EXIT_FINE && opened == 2) {
+        writing_end(&w[0], false);
+        output_abandon(&w[0].out);
+    }
     if (status != EXIT_FINE)
         return status;
-    const bool good = w.writer != NULL && (!png || scale_of(s, p, &w, &hi)) &&
-                      frame_run(&s->frame, &p->made, bottom_up(&w), take, &w);
-    status = writing_close(&w, good);
-    if (status == EXIT_FINE && png && !o->quiet)
-        fprintf(stderr, "depthprec: %s: 1 is %s, 65535 is %s%s%s, 0 where there is no %s\n", o->output,
-                number_full(w.lo).text, number_full(hi).text, *p->unit != '\0' ? " " : "", p->unit,
-                p->made.error ? "bound" : "value");
+    for (int i = 0; i < count; i++)
+        good = good && w[i].writer != NULL && scale_of(s, &made[i], &w[i]);
+    good = good && (count == 2 ? make_both(s, made, w) : frame_run(&s->frame, &made[0], bottom_up(&w[0]), take, &w[0]));
+    status = writing_close(w, count, good);
+    for (int i = 0; i < count && status == EXIT_FINE; i++)
+        say_scale(o, &w[i], paths[i], units[i], made[i].error);
     return status;
 }
 
@@ -188,7 +234,7 @@ static void depth_row(const writing *w, uint32_t row) {
 
 int texture_depth_write(const options *o, const texture_source *s) {
     image_type type;
-    writing w = {0};
+    writing w = {.quiet = o->quiet};
     if (!image_file_of(o->output, &w.file))
         return option_error(OPTION_OUTPUT,
                             "must end in .png, .pfm or .npy for the scene's depths, got '%s'; --json or --csv writes "
@@ -197,7 +243,7 @@ int texture_depth_write(const options *o, const texture_source *s) {
     if (!depth_type(&s->setup.spec.format, w.file, &type))
         return option_error(OPTION_OUTPUT, "%s does not hold %s: .npy does, got '%s'", image_file_name(w.file),
                             s->setup.spec.format.name, o->output);
-    const int status = writing_open(o, &w, s, type, 1);
+    const int status = writing_open(&w, o->output, s, type, 1);
     if (status != EXIT_FINE)
         return status;
     bool good = w.writer != NULL;
@@ -206,5 +252,5 @@ int texture_depth_write(const options *o, const texture_source *s) {
         good = image_writer_rows(w.writer, w.row, 1);
         progress_step(&w.bar, i + 1);
     }
-    return writing_close(&w, good);
+    return writing_close(&w, 1, good);
 }

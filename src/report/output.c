@@ -11,14 +11,16 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-/* The temporary file, for the signal handler: empty when there is none. */
-static char temporary[4096 + 64];
+/* The temporary files, for the signal handler: empty where there is none. */
+typedef char temporary_path[4096 + 64];
+static temporary_path temporaries[OUTPUTS_MAX];
 
 static const int deadly[] = {SIGHUP, SIGINT, SIGQUIT, SIGTERM};
 
 static void remove_and_die(int number) {
-    if (temporary[0] != '\0')
-        unlink(temporary);
+    for (int i = 0; i < OUTPUTS_MAX; i++)
+        if (temporaries[i][0] != '\0')
+            unlink(temporaries[i]);
     signal(number, SIG_DFL);
     raise(number);
 }
@@ -43,12 +45,17 @@ static int cannot_write(const char *path, int error) {
     return EXIT_IO;
 }
 
-/* Opens TARGET's temporary neighbour, which is named after the process and not after the target: no name too long. */
-static int open_temporary(const char *target, const struct stat *old) {
-    const char *slash = strrchr(target, '/');
-    int folder = slash == NULL ? 0 : (int)(slash - target) + 1;
-    int length = snprintf(temporary, sizeof temporary, "%.*s.depthprec-%ld.tmp", folder, target, (long)getpid());
-    if (length < 0 || (size_t)length >= sizeof temporary) {
+/* Opens the target's temporary neighbour, which is named after the process and not after it: no name too long. */
+static int open_temporary(output *out, const struct stat *old) {
+    const char *target = out->target, *slash = strrchr(target, '/');
+    const int folder = slash == NULL ? 0 : (int)(slash - target) + 1;
+    int slot = 0;
+    while (slot < OUTPUTS_MAX - 1 && temporaries[slot][0] != '\0')
+        slot++;
+    char *const temporary = out->temporary = temporaries[slot];
+    const int length = snprintf(temporary, sizeof temporaries[slot], "%.*s.depthprec-%ld%s.tmp", folder, target,
+                                (long)getpid(), slot > 0 ? "b" : "");
+    if (length < 0 || (size_t)length >= sizeof temporaries[slot]) {
         temporary[0] = '\0';
         errno = ENAMETOOLONG;
         return -1;
@@ -84,7 +91,7 @@ int output_open(output *out, const char *path) {
     out->target = exists ? realpath(path, NULL) : strdup(path); /* a link to a file stays a link */
     if (out->target == NULL)
         return cannot_write(path, errno);
-    out->fd = open_temporary(out->target, exists ? &old : NULL);
+    out->fd = open_temporary(out, exists ? &old : NULL);
     if (out->fd >= 0)
         return EXIT_FINE;
     int error = errno;
@@ -163,9 +170,10 @@ void output_format(output *out, const char *format, ...) {
 }
 
 static void drop_temporary(output *out) {
-    if (temporary[0] != '\0')
-        unlink(temporary);
-    temporary[0] = '\0';
+    if (out->temporary != NULL && out->temporary[0] != '\0')
+        unlink(out->temporary);
+    if (out->temporary != NULL)
+        out->temporary[0] = '\0';
     free(out->target);
     out->target = NULL;
 }
@@ -175,8 +183,8 @@ int output_close(output *out) {
     if (close(out->fd) != 0 && out->error == 0 && errno != EINTR)
         out->error = errno;
     if (out->target != NULL && out->error == 0) {
-        if (rename(temporary, out->target) == 0)
-            temporary[0] = '\0';
+        if (rename(out->temporary, out->target) == 0)
+            out->temporary[0] = '\0';
         else
             out->error = errno;
     }

@@ -11,7 +11,7 @@
  *
  * A file is written under a temporary name in the same folder and renamed by output_close(), so an interrupted or
  * failed run leaves an old file as it was. A target that exists and is no regular file (a device, a fifo) is written
- * straight to. One output may be open at a time. Output is collected in a buffer: a short one is a single write(2).
+ * straight to. Two outputs may be open at a time. Output is collected in a buffer: a short one is a single write(2).
  */
 #ifndef REPORT_OUTPUT_H
 #define REPORT_OUTPUT_H
@@ -33,13 +33,14 @@ typedef enum output_form { FORM_TEXT = 0, FORM_JSON, FORM_CSV } output_form;
 /** Whether text is dressed for a terminal: where it is one and NO_COLOR is not set, always, or never. */
 typedef enum output_colour { OUTPUT_COLOUR_AUTO = 0, OUTPUT_COLOUR_ALWAYS, OUTPUT_COLOUR_NEVER } output_colour;
 
-enum { OUTPUT_BUFFER_SIZE = 1 << 16, OUTPUT_UNLIMITED = 1 << 30 };
+enum { OUTPUTS_MAX = 2, OUTPUT_BUFFER_SIZE = 1 << 16, OUTPUT_UNLIMITED = 1 << 30 };
 
 typedef struct output {
     int fd;
     int error;        /**< errno of the first write that failed; later writes are dropped */
     const char *path; /**< the name for messages */
     char *target;     /**< what the temporary file is renamed to; null when writing straight */
+    char *temporary;
     int width;        /**< characters in a line of text; 0: as the terminal or the page has it */
     output_colour colour;
     size_t used; /**< bytes waiting in the buffer */
