@@ -127,6 +127,42 @@ static void bits_do_not_depend_on_threads_or_direction(void **state) {
     }
 }
 
+typedef struct wholes {
+    whole each[PRODUCTS];
+    size_t count;
+} wholes;
+
+static bool collect_all(void *context, uint32_t row, uint32_t count, const float *const *values) {
+    wholes *w = context;
+    for (size_t i = 0; i < w->count; i++)
+        collect(&w->each[i], row, count, values[i]);
+    return true;
+}
+
+static void products_of_one_pass_are_those_of_many(void **state) {
+    (void)state;
+    frame_product all[PRODUCTS];
+    wholes w = {.count = products(all)};
+    stage s;
+    stage_set(&s, "sphere", "unorm24", "d3d", 1000, false, WIDTH, HEIGHT);
+    for (size_t i = 0; i < w.count; i++) {
+        w.each[i].row_values = (size_t)WIDTH * (size_t)frame_channels(&all[i]);
+        w.each[i].values = calloc(w.each[i].row_values * HEIGHT, sizeof(float));
+        assert_non_null(w.each[i].values);
+    }
+    for (int threads = 1; threads <= 3; threads++) {
+        s.frame.threads = threads;
+        assert_true(frame_run_all(&s.frame, all, w.count, threads == 2, collect_all, &w));
+        for (size_t i = 0; i < w.count; i++) {
+            float *want = make(&s.frame, &all[i], false);
+            assert_memory_equal(w.each[i].values, want, w.each[i].row_values * HEIGHT * sizeof(float));
+            free(want);
+        }
+    }
+    for (size_t i = 0; i < w.count; i++)
+        free(w.each[i].values);
+}
+
 /* What a pixel of the frame is, one by one, from the scalar functions alone. */
 static bool is_sky(const dp_setup *setup, uint32_t code) {
     const double d = dp_format_value(&setup->spec.format, code);
@@ -490,6 +526,7 @@ static void the_smallest_images_and_a_stop(void **state) {
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(bits_do_not_depend_on_threads_or_direction),
+        cmocka_unit_test(products_of_one_pass_are_those_of_many),
         cmocka_unit_test(frames_equal_plain_pixels),
         cmocka_unit_test(normals_do_not_know_of_strips),
         cmocka_unit_test(true_errors_are_within_the_predicted),

@@ -46,10 +46,39 @@ static void compare(const dp_setup *setup, const grain *g, const uint32_t codes[
     }
 }
 
+/* Where codes change their minds: on cells' ends, as rounded, and next to them; in the middle; anywhere. */
+static void fill_depths(rng *r, const dp_setup *setup, const uint32_t codes[COUNT], double z[COUNT]) {
+    const dp_spec *spec = &setup->spec;
+    const double most = isinf(spec->zfar) ? 1e9 : spec->zfar;
+    for (size_t i = 0; i < COUNT; i++) {
+        const uint32_t code = codes[i] <= spec->format.code_max ? codes[i] : 0;
+        const grain_range range = grain_range_of(setup, NULL, code);
+        const double at[6] = {range.lo,
+                              range.hi,
+                              dp_stored(setup, code),
+                              nextafter(range.lo, 0),
+                              nextafter(range.hi, INFINITY),
+                              rng_uniform(r, spec->znear, most)};
+        z[i] = fmin(fmax(at[i % 6], spec->znear), most);
+    }
+}
+
+static void compare_errors(const dp_setup *setup, const grain *g, const double z[COUNT]) {
+    static double got[COUNT];
+    grain_errors_of(setup, g, z, COUNT, 0x1p-23, got);
+    for (size_t i = 0; i < COUNT; i++) {
+        const double want = grain_error_of(setup, g, z[i], 0x1p-23);
+        if (memcmp(&want, &got[i], sizeof want) != 0)
+            fail_msg("%s %s at %.17g: %.17g, alone %.17g", setup->spec.format.name,
+                     dp_mapping_get(setup->spec.mapping)->name, z[i], got[i], want);
+    }
+}
+
 static void many_codes_say_what_each_says(void **state) {
     rng r = rng_make("grain");
     (void)state;
     uint32_t codes[COUNT];
+    double z[COUNT];
     for (size_t f = 0; f < dp_format_count(); f++)
         for (int m = 0; m < DP_MAPPING_COUNT; m++)
             for (int variant = 0; variant < 3; variant++) {
@@ -63,6 +92,8 @@ static void many_codes_say_what_each_says(void **state) {
                     continue;
                 fill_codes(&r, spec.format.code_max, codes);
                 compare(&setup, NULL, codes);
+                fill_depths(&r, &setup, codes, z);
+                compare_errors(&setup, NULL, z);
                 for (size_t g = 0; g < GRAINS; g++)
                     compare(&setup, &grains[g], codes);
             }

@@ -441,6 +441,20 @@ static void test_texts(void **state) {
     tally_end(&t);
 }
 
+/* An argument that may be left out is written behind "=". */
+static void test_optional(void **state) {
+    char line[1024] = "";
+    options o;
+    (void)state;
+    assert_int_equal(parse(&o, "texture", OPTION_ERROR_MAP, NULL, line), EXIT_FINE);
+    assert_true(o.error_map && o.error_file == NULL && option_given(&o, OPTION_ERROR_MAP));
+    assert_int_equal(options_parse(&o, 3, (char *[]){"depthprec", "texture", "--error-map=a.npy", NULL}), EXIT_FINE);
+    assert_true(!o.error_map && option_given(&o, OPTION_ERROR_MAP));
+    assert_string_equal(o.error_file, "a.npy");
+    assert_int_equal(options_parse(&o, 4, (char *[]){"depthprec", "texture", "--error-map", "a.npy", NULL}), EXIT_FINE);
+    assert_true(o.error_map && o.error_file == NULL && o.operand_count == 1);
+}
+
 /* ---- Languages of their own, and all rows ------------------------------------------------------------------------ */
 
 static bool near_to(double a, double b) {
@@ -520,11 +534,12 @@ static void test_all(void **state) {
 }
 
 int main(void) {
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_numbers), cmocka_unit_test(test_lengths),
+    const struct CMUnitTest tests[] = {cmocka_unit_test(test_numbers), cmocka_unit_test(test_lengths),
 
-        cmocka_unit_test(test_whole),   cmocka_unit_test(test_words),   cmocka_unit_test(test_rows),
-        cmocka_unit_test(test_flags),   cmocka_unit_test(test_texts),   cmocka_unit_test(test_own),
-        cmocka_unit_test(test_formats), cmocka_unit_test(test_lists),   cmocka_unit_test(test_all)};
+                                       cmocka_unit_test(test_whole),   cmocka_unit_test(test_words),
+                                       cmocka_unit_test(test_rows),    cmocka_unit_test(test_flags),
+                                       cmocka_unit_test(test_texts),   cmocka_unit_test(test_optional),
+                                       cmocka_unit_test(test_own),     cmocka_unit_test(test_formats),
+                                       cmocka_unit_test(test_lists),   cmocka_unit_test(test_all)};
     return run_tap(tests);
 }
