@@ -176,6 +176,16 @@ static double exact_power(const dp_setup *setup, double d) {
     return power + lo * (power + 1);
 }
 
+/* By the shares of the near and of the far end. */
+DP_INLINE double perspective_exact(const dp_setup *setup, decode_quantity quantity, double near_hi, double near_lo,
+                                   double far_hi, double far_lo) {
+    const double n = setup->spec.znear, f = setup->spec.zfar;
+    const bool infinite = isinf(f) != 0;
+    const double below = infinite ? near_hi + near_lo : f * near_hi + n * far_hi + (f * near_lo + n * far_lo);
+    const double above = quantity == DECODE_EYE ? (infinite ? n : n * f) : quantity == DECODE_01 ? n : n * far_hi;
+    return above / below;
+}
+
 double decode_exact(const dp_setup *setup, decode_quantity quantity, double d) {
     const double n = setup->spec.znear, f = setup->spec.zfar;
     const double rest = 1 - d, lost = (1 - rest) - d; /* 1 - d = rest + lost, for d in [0, 1] */
@@ -200,9 +210,36 @@ double decode_exact(const dp_setup *setup, decode_quantity quantity, double d) {
         const double z = setup->astride ? dp_curve_eye(setup, dp_point_make(d, 1)) : sum; /* which cancels about 0 */
         return quantity == DECODE_EYE ? z : quantity == DECODE_01 ? z / f : far_hi + far_lo;
     }
-    const double below = infinite ? near_hi + near_lo : f * near_hi + n * far_hi + (f * near_lo + n * far_lo);
-    const double above = quantity == DECODE_EYE ? (infinite ? n : n * f) : quantity == DECODE_01 ? n : n * far_hi;
-    return above / below;
+    return perspective_exact(setup, quantity, near_hi, near_lo, far_hi, far_lo);
+}
+
+/* What decode_exact() does in perspective, for all that is alike in a loop. */
+DP_INLINE void perspective_loop(const dp_setup *setup, decode_quantity quantity, bool reversed, const float *restrict d,
+                                double *restrict out, size_t count) {
+    const dp_setup s = *setup;
+    for (size_t i = 0; i < count; i++) {
+        const double at = (double)d[i], rest = 1 - at, lost = (1 - rest) - at;
+        out[i] = perspective_exact(&s, quantity, reversed ? at : rest, reversed ? 0 : lost, reversed ? rest : at,
+                                   reversed ? lost : 0);
+    }
+}
+
+TEXTURE_CLONES static void perspective_standard(const dp_setup *setup, decode_quantity quantity, const float *d,
+                                                double *out, size_t count) {
+    perspective_loop(setup, quantity, false, d, out, count);
+}
+
+TEXTURE_CLONES static void perspective_reversed(const dp_setup *setup, decode_quantity quantity, const float *d,
+                                                double *out, size_t count) {
+    perspective_loop(setup, quantity, true, d, out, count);
+}
+
+void decode_exact_run(const dp_setup *setup, decode_quantity quantity, const float *d, double *out, size_t count) {
+    const bool simple = setup->curve == DP_CURVE_PERSPECTIVE && !(isinf(setup->spec.zfar) && quantity != DECODE_EYE);
+    if (simple)
+        (setup->reversed ? perspective_reversed : perspective_standard)(setup, quantity, d, out, count);
+    for (size_t i = 0; i < count && !simple; i++)
+        out[i] = decode_exact(setup, quantity, (double)d[i]);
 }
 
 /* ---- Bound ------------------------------------------------------------------------------------------------------- */

@@ -85,6 +85,8 @@ void decode_run(const decode_row *row, const dp_setup *setup, const float *d, fl
  * Special cases: INFINITY for the eye depth at an infinite far plane.
  */
 double decode_exact(const dp_setup *setup, decode_quantity quantity, double d);
+/** The same of many, bit for bit. */
+void decode_exact_run(const dp_setup *setup, decode_quantity quantity, const float *d, double *out, size_t count);
 
 /**
  * A bound on the relative error of the row at window depth d, a binary32 number: INFINITY where it has no digit left.

@@ -3,7 +3,9 @@
 #include <stdlib.h>
 
 #include "core/bits.h"
+#include "texture/clones.h"
 #include "texture/frame.h"
+#include "texture/strips.h"
 
 /* Magnitudes by their leading 20 bits below the sign: 8 of the exponent, 12 of the significand, so an upper end of a
    bin is at most 2^-11 above what lies in it (subnormals aside). */
@@ -27,7 +29,7 @@ static bool add(frame_summary *out, double value, uint32_t column, uint32_t row)
         out->hi_column = column;
         out->hi_row = row;
     }
-    out->lo = fmin(out->lo, value);
+    out->lo = value < out->lo ? value : out->lo;
     return true;
 }
 
@@ -77,31 +79,85 @@ bool frame_summarise(const frame *f, const frame_product *product, frame_summary
     return good;
 }
 
-bool frame_summarise_decoding(const frame *f, const decode_row *row, frame_summary *out) {
-    const dp_setup *setup = &f->camera->setup;
-    const uint32_t width = f->camera->width, sky = frame_sky_rank(f);
-    double sum = 0;
-    uint32_t *codes = calloc(width, sizeof *codes);
-    float *d = calloc(width, sizeof *d), *got = calloc(width, sizeof *got);
-    const bool good = codes != NULL && d != NULL && got != NULL;
-    *out = (frame_summary){.lo = INFINITY, .hi = NAN, .p99 = NAN};
-    for (uint32_t y = 0; good && y < f->camera->height; y++) {
-        frame_codes(f, y, codes);
-        for (uint32_t x = 0; x < width; x++)
-            d[x] = codes[x] == UINT32_MAX ? NAN : (float)dp_format_value(&setup->spec.format, codes[x]);
-        decode_run(row, setup, d, got, width);
-        for (uint32_t x = 0; x < width; x++) {
-            if (codes[x] == UINT32_MAX || frame_rank(setup, codes[x]) >= sky)
-                continue;
-            const double want = decode_exact(setup, row->quantity, (double)d[x]);
-            const double off = want == (double)got[x] ? 0 : fabs((double)got[x] - want) / fabs(want);
-            if (add(out, isfinite(off) ? off : (double)INFINITY, x, y))
-                sum += off;
-        }
+/* ---- A decoding -------------------------------------------------------------------------------------------------- */
+
+enum { ROWS = 16 };
+
+typedef struct decoding {
+    const frame *f;
+    const decode_row *row;
+    frame_summary *out;
+    dp_batch window;
+    uint32_t width, sky;
+    double sum;
+    double *off; /* in each slot ROWS rows; NaN where nothing is decoded */
+    struct {
+        uint32_t *codes;
+        float *d, *got;
+    } * desks; /* of a thread */
+} decoding;
+
+TEXTURE_CLONES static void relative(const float *restrict got, const uint32_t *restrict codes, uint32_t flip,
+                                    uint32_t sky, double *restrict off, size_t count) {
+    for (size_t i = 0; i < count; i++) {
+        const double want = off[i], found = (double)got[i];
+        const double away = want == found ? 0 : fabs(found - want) / fabs(want);
+        const uint32_t rank = flip != 0 ? flip - codes[i] : codes[i];
+        const double number = fabs(away) < (double)INFINITY ? away : (double)INFINITY;
+        off[i] = codes[i] == UINT32_MAX || rank >= sky ? (double)NAN : number;
     }
-    out->mean = out->count > 0 ? sum / (double)out->count : (double)NAN;
-    free(codes);
-    free(d);
-    free(got);
+}
+
+static void decode_strip(void *context, size_t index, size_t slot, int thread) {
+    const decoding *s = context;
+    const dp_setup *setup = &s->f->camera->setup;
+    uint32_t *const codes = s->desks[thread].codes;
+    float *const d = s->desks[thread].d, *const got = s->desks[thread].got;
+    double *off = s->off + slot * ROWS * s->width;
+    for (uint32_t y = (uint32_t)index * ROWS; y < s->f->camera->height && y / ROWS == index; y++, off += s->width) {
+        frame_codes(s->f, y, codes);
+        dp_batch_run(&s->window, codes, d, s->width);
+        decode_run(s->row, setup, d, got, s->width);
+        decode_exact_run(setup, s->row->quantity, d, off, s->width);
+        relative(got, codes, setup->reversed ? setup->spec.format.code_max : 0, s->sky, off, s->width);
+    }
+}
+
+static bool add_strip(void *context, size_t index, size_t slot) {
+    decoding *s = context;
+    const double *off = s->off + slot * ROWS * s->width;
+    for (uint32_t y = (uint32_t)index * ROWS; y < s->f->camera->height && y / ROWS == index; y++, off += s->width)
+        for (uint32_t x = 0; x < s->width; x++)
+            if (!isnan(off[x]) && add(s->out, off[x], x, y))
+                s->sum += off[x];
+    return true;
+}
+
+bool frame_summarise_decoding(const frame *f, const decode_row *row, frame_summary *out) {
+    const int threads = frame_threads(f);
+    const size_t width = f->camera->width, slots = 4 * (size_t)threads;
+    decoding s = {.f = f, .row = row, .out = out, .width = f->camera->width, .sky = frame_sky_rank(f)};
+    s.off = malloc(slots * ROWS * width * sizeof *s.off);
+    s.desks = calloc((size_t)threads, sizeof *s.desks);
+    bool good =
+        s.off != NULL && s.desks != NULL &&
+        dp_batch_init(&s.window, &f->camera->setup, DP_TASK_DECODE, DP_REAL_FLOAT, DP_WORD_32, dp_path_best()) == DP_OK;
+    for (int i = 0; i < threads && good; i++) {
+        s.desks[i].codes = malloc(width * sizeof *s.desks[i].codes);
+        s.desks[i].d = malloc(width * sizeof *s.desks[i].d);
+        s.desks[i].got = malloc(width * sizeof *s.desks[i].got);
+        good = s.desks[i].codes != NULL && s.desks[i].d != NULL && s.desks[i].got != NULL;
+    }
+    *out = (frame_summary){.lo = INFINITY, .hi = NAN, .p99 = NAN};
+    const size_t count = (f->camera->height + ROWS - 1) / ROWS;
+    good = good && strips_run(&(strips){count, threads, slots, decode_strip, add_strip, &s});
+    out->mean = out->count > 0 ? s.sum / (double)out->count : (double)NAN;
+    for (int i = 0; i < threads && s.desks != NULL; i++) {
+        free(s.desks[i].codes);
+        free(s.desks[i].d);
+        free(s.desks[i].got);
+    }
+    free(s.desks);
+    free(s.off);
     return good;
 }
