@@ -5,6 +5,7 @@
 #include <stdlib.h>
 
 #include "core/engine.h"
+#include "texture/strips.h"
 
 /* Bands by rank: band i holds the ranks from start[i] up to start[i + 1]. */
 typedef struct bands {
@@ -126,27 +127,47 @@ static void visit_row(surveying *s, uint32_t row, uint32_t *codes, surveying *mi
     }
 }
 
+enum { ROWS = 16 };
+
+/* A thread's own counts, and the codes of a row. */
+typedef struct visitor {
+    surveying counts;
+    uint32_t *codes;
+} visitor;
+
+typedef struct visiting {
+    surveying *s;
+    visitor *visitors;
+} visiting;
+
+static void visit_strip(void *context, size_t index, size_t slot, int thread) {
+    const visiting *v = context;
+    visitor *mine = &v->visitors[thread];
+    (void)slot;
+    for (uint32_t row = (uint32_t)index * ROWS; row < v->s->f->camera->height && row / ROWS == index; row++)
+        visit_row(v->s, row, mine->codes, &mine->counts);
+}
+
+static void add_counts(surveying *s, const surveying *counts) {
+    for (size_t i = 0; i < s->bands.count; i++)
+        s->pixels[i] += counts->pixels[i];
+    s->sky_pixels += counts->sky_pixels;
+    s->true_sky += counts->true_sky;
+    s->invalid += counts->invalid;
+}
+
 static bool visit(surveying *s) {
-    bool good = true;
-#pragma omp parallel num_threads(frame_threads(s->f))
-    {
-        surveying mine = {0};
-        uint32_t *codes = malloc((size_t)s->f->camera->width * sizeof *codes);
-#pragma omp for schedule(dynamic, 8)
-        for (uint32_t row = 0; row < s->f->camera->height; row++)
-            if (codes != NULL)
-                visit_row(s, row, codes, &mine);
-#pragma omp critical
-        {
-            good = good && codes != NULL;
-            for (size_t i = 0; i < s->bands.count; i++)
-                s->pixels[i] += mine.pixels[i];
-            s->sky_pixels += mine.sky_pixels;
-            s->true_sky += mine.true_sky;
-            s->invalid += mine.invalid;
-        }
-        free(codes);
+    const int threads = frame_threads(s->f);
+    visiting v = {s, calloc((size_t)threads, sizeof(visitor))};
+    bool good = v.visitors != NULL;
+    for (int i = 0; i < threads && good; i++)
+        good = (v.visitors[i].codes = malloc((size_t)s->f->camera->width * sizeof(uint32_t))) != NULL;
+    good = good && strips_run(&(strips){(s->f->camera->height + ROWS - 1) / ROWS, threads, 1, visit_strip, NULL, &v});
+    for (int i = 0; i < threads && v.visitors != NULL; i++) {
+        add_counts(s, &v.visitors[i].counts);
+        free(v.visitors[i].codes);
     }
+    free(v.visitors);
     return good;
 }
 
@@ -195,7 +216,19 @@ static void finish_band(const surveying *s, size_t index, survey_band *out) {
     }
 }
 
-static void finish(const surveying *s, survey *out) {
+typedef struct finishing {
+    const surveying *s;
+    survey *out;
+    size_t first; /* band */
+} finishing;
+
+static void finish_one(void *context, size_t index, size_t slot, int thread) {
+    const finishing *f = context;
+    (void)slot, (void)thread;
+    finish_band(f->s, f->first + index, &f->out->bands[index]);
+}
+
+static bool finish(const surveying *s, survey *out) {
     size_t first = s->bands.count, last = 0;
     out->lo = out->hi = NAN;
     for (size_t i = 0; i < s->bands.count; i++)
@@ -204,11 +237,11 @@ static void finish(const surveying *s, survey *out) {
             last = i;
         }
     if (first == s->bands.count)
-        return;
+        return true;
     out->band_count = last + 1 - first;
-#pragma omp parallel for schedule(dynamic, 1) num_threads(frame_threads(s->f))
-    for (size_t i = first; i <= last; i++)
-        finish_band(s, i, &out->bands[i - first]);
+    finishing by_band = {s, out, first};
+    if (!strips_run(&(strips){out->band_count, frame_threads(s->f), 1, finish_one, NULL, &by_band}))
+        return false;
     for (size_t i = 0; i < out->band_count; i++)
         out->codes += out->bands[i].codes;
     const uint32_t nearest = next_used(s, 0, s->sky);
@@ -217,6 +250,7 @@ static void finish(const surveying *s, survey *out) {
         farthest--;
     out->lo = stored(s->setup, nearest);
     out->hi = stored(s->setup, farthest);
+    return true;
 }
 
 bool survey_make(const frame *f, survey *out) {
@@ -227,14 +261,13 @@ bool survey_make(const frame *f, survey *out) {
     if (s.used == NULL)
         return false;
     make_bands(&s, sky_from);
-    const bool good = visit(&s);
+    bool good = visit(&s);
     *out = (survey){.pixels = (uint64_t)f->camera->width * f->camera->height,
                     .sky = s.sky_pixels,
                     .true_sky = s.true_sky,
                     .invalid = s.invalid,
                     .sky_from = sky_from};
-    if (good)
-        finish(&s, out);
+    good = good && finish(&s, out);
     free(s.used);
     return good;
 }
