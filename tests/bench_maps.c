@@ -1,0 +1,200 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/*
+ * Maps as whole processes: a depth image of 3840 x 2160 codes of unorm24 is read from .npy, and what is made of it
+ * written to .npy, beside a process that reads and writes as many bytes and does nothing else. All take turns; medians.
+ * Then the same on one thread and on all while another process keeps a core busy: nobody may wait for a thread that
+ * lost its core. Memory is what a process held at most beyond its images, the one that was read and those written,
+ * which it holds a strip at a time. A missed aim is a word in a table, never a failure.
+ */
+#include <fcntl.h>
+#include <math.h>
+#include <signal.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/resource.h>
+#include <sys/wait.h>
+#include <time.h>
+#include <unistd.h>
+
+#include "texture/image.h"
+
+enum { WIDTH = 3840, HEIGHT = 2160, RUNS = 5, BLOCK = 1 << 16, WORDS = 32 };
+
+static const double image_bytes_each = 4.0 * WIDTH * HEIGHT;
+static char folder[] = "/tmp/depthprec-bench-XXXXXX";
+static const char *program;
+
+typedef struct way {
+    const char *name, *words;
+    int planes; /* written, of 4 bytes a pixel */
+    double aim; /* seconds, 0: none */
+} way;
+
+static const way ways[] = {
+    {"eye depth", "--eye -o out.npy", 1, 0},
+    {"  and its error", "--eye -o out.npy --error-map=error.npy", 2, 0.3},
+    {"places", "--position view -o out.npy", 3, 0},
+    {"  and their errors", "--position view -o out.npy --error-map=error.npy", 4, 0.6},
+    {"normals", "--normal projective -o out.npy", 3, 0},
+    {"  and their errors", "--normal projective -o out.npy --error-map=error.npy", 4, 0.8},
+    {"statistics", "-o out.txt", 0, 0.5},
+};
+enum { WAYS = sizeof ways / sizeof ways[0] };
+
+/* What a process took: seconds, of all cores, and bytes. */
+typedef struct cost {
+    double wall, cpu, memory;
+} cost;
+
+static double now(void) {
+    struct timespec t;
+    clock_gettime(CLOCK_MONOTONIC, &t);
+    return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
+}
+
+static double seconds(struct timeval t) {
+    return (double)t.tv_sec + 1e-6 * (double)t.tv_usec;
+}
+
+/* As many bytes as a way moves, through the same calls. */
+static void move_bytes(int planes) {
+    char *const bytes = malloc((size_t)image_bytes_each), block[BLOCK];
+    FILE *const in = fopen("in.npy", "rb");
+    if (bytes == NULL || in == NULL || fread(bytes, 1, (size_t)image_bytes_each, in) == 0)
+        _exit(2);
+    for (int k = 0; k < planes; k++) {
+        const int out = open(k == 0 ? "out.npy" : "error.npy", O_WRONLY | O_CREAT | (k < 2 ? O_TRUNC : O_APPEND), 0666);
+        for (size_t i = 0; i + BLOCK <= (size_t)image_bytes_each; i += BLOCK) {
+            memcpy(block, bytes + i, BLOCK);
+            if (write(out, block, BLOCK) != BLOCK)
+                _exit(2);
+        }
+        close(out);
+    }
+    _exit(0);
+}
+
+static void run_program(const char *words, int threads) {
+    char line[512], *argv[WORDS], *rest = line;
+    int argc = 0;
+    snprintf(line, sizeof line, "depthprec texture in.npy -n 0.1 -f 1000 -F unorm24 -m d3d -q --threads %d %s", threads,
+             words);
+    for (char *word; argc < WORDS - 1 && (word = strtok_r(rest, " ", &rest)) != NULL;)
+        argv[argc++] = word;
+    argv[argc] = NULL;
+    execv(program, argv);
+    _exit(2);
+}
+
+/* words: null for the floor. */
+static cost measure(const char *words, int planes, int threads) {
+    struct rusage used;
+    int status;
+    const double start = now();
+    const pid_t child = fork();
+    if (child == 0 && words == NULL)
+        move_bytes(planes);
+    if (child == 0)
+        run_program(words, threads);
+    if (child < 0 || wait4(child, &status, 0, &used) != child || status != 0) {
+        fprintf(stderr, "bench_maps: %s failed\n", words != NULL ? words : "copying");
+        exit(2);
+    }
+    return (cost){now() - start, seconds(used.ru_utime) + seconds(used.ru_stime), 1024.0 * (double)used.ru_maxrss};
+}
+
+static int ascending(const void *a, const void *b) {
+    const double x = *(const double *)a, y = *(const double *)b;
+    return (x > y) - (x < y);
+}
+
+static double median(double values[RUNS]) {
+    qsort(values, RUNS, sizeof values[0], ascending);
+    return values[RUNS / 2];
+}
+
+static void compare_with_floor(int threads) {
+    static double wall[WAYS][2][RUNS], cpu[WAYS][2][RUNS], memory[WAYS];
+    for (int run = -1; run < RUNS; run++)
+        for (int i = 0; i < WAYS; i++)
+            for (int floor = 0; floor < 2; floor++) {
+                const cost c = measure(floor ? NULL : ways[i].words, ways[i].planes, threads);
+                if (run < 0)
+                    continue;
+                wall[i][floor][run] = c.wall;
+                cpu[i][floor][run] = c.cpu;
+                if (!floor)
+                    memory[i] = fmax(memory[i], c.memory - image_bytes_each);
+            }
+    printf("\nmaps as processes, %d threads   s   moving   ratio  CPU s   ratio  MiB more   aim\n", threads);
+    for (int i = 0; i < WAYS; i++) {
+        const double taken = median(wall[i][0]), floor = median(wall[i][1]);
+        const double used = median(cpu[i][0]), floor_used = median(cpu[i][1]);
+        printf("%-24s %8.3f %8.3f %7.1f %6.2f %7.1f %9.1f", ways[i].name, taken, floor, taken / floor, used,
+               used / floor_used, memory[i] / 0x1p20);
+        if (ways[i].aim > 0)
+            printf("   <= %.1f s  %s", ways[i].aim, taken <= ways[i].aim ? "met" : "missed");
+        printf("\n");
+    }
+}
+
+static void compare_under_load(int threads) {
+    double taken[2][RUNS];
+    printf("\nbeside a process that keeps a core busy, s   1 thread  %d threads   ratio   aim\n", threads);
+    for (int i = 1; i < WAYS; i += 2) {
+        const pid_t busy = fork();
+        if (busy == 0)
+            for (volatile unsigned spin = 0;; spin++)
+                ;
+        for (int run = 0; run < RUNS; run++)
+            for (int t = 0; t < 2; t++)
+                taken[t][run] = measure(ways[i].words, 0, t == 0 ? 1 : threads).wall;
+        kill(busy, SIGKILL);
+        waitpid(busy, NULL, 0);
+        const double one = median(taken[0]), all = median(taken[1]);
+        printf("%-42s %8.3f %10.3f %7.2f   <= 2  %s\n", ways[i].name, one, all, all / one,
+               all <= 2 * one ? "met" : "missed");
+    }
+}
+
+/* Hills with steps between them, and noise. */
+static void fill(void) {
+    FILE *const file = fopen("in.npy", "wb");
+    image_writer *w = file != NULL ? image_writer_open(file, IMAGE_NPY, IMAGE_U32, WIDTH, HEIGHT, 1) : NULL;
+    static uint32_t row[WIDTH];
+    uint32_t noise = 1;
+    for (uint32_t y = 0; y < HEIGHT && w != NULL; y++) {
+        for (uint32_t x = 0; x < WIDTH; x++) {
+            const double hill = 20 + 5 * sin(0.004 * x) + 4 * cos(0.006 * y);
+            noise = noise * 1664525u + 1013904223u;
+            const double z = (x / 97 + y / 61) % 5 == 0 ? 0.5 * hill : hill, rough = z + 0.001 * (noise >> 16) / 65536;
+            row[x] = (uint32_t)(1000 / 999.9 * (1 - 0.1 / rough) * 16777215 + 0.5);
+        }
+        image_writer_rows(w, row, 1);
+    }
+    if (w == NULL || !image_writer_close(w) || fclose(file) != 0)
+        exit(2);
+}
+
+static void clean(void) {
+    static const char *const names[] = {"in.npy", "out.npy", "error.npy", "out.txt"};
+    for (size_t i = 0; i < sizeof names / sizeof names[0]; i++)
+        unlink(names[i]);
+    if (chdir("/") == 0)
+        rmdir(folder);
+}
+
+int main(int argc, char **argv) {
+    const int threads = (int)sysconf(_SC_NPROCESSORS_ONLN);
+    program = argc > 1 ? realpath(argv[1], NULL) : NULL;
+    if (program == NULL || mkdtemp(folder) == NULL || chdir(folder) != 0) {
+        fprintf(stderr, "usage: bench_maps DEPTHPREC\n");
+        return 2;
+    }
+    fill();
+    compare_with_floor(threads);
+    compare_under_load(threads);
+    clean();
+    return 0;
+}
