@@ -154,19 +154,37 @@ static void make_position(const frame_row *in) {
 }
 
 /* Of what is stored; the depth's own error lies along the ray. */
-TEXTURE_CLONES static void position_errors(const texture_camera *camera, uint32_t row, const float *restrict eyes,
-                                           float *const planes[3], const grain_rows *ranges, float *restrict out) {
-    const texture_camera c = *camera;
-    const float *restrict wx = planes[0], *restrict wy = planes[1], *restrict wz = planes[2];
-    const double *restrict stored = ranges->stored, *restrict reach = ranges->reach;
-    for (size_t x = 0; x < c.width; x++) {
-        const float world[3] = {wx[x], wy[x], wz[x]};
-        const double column = (double)(int32_t)x;
+DP_INLINE void position_loop(const texture_camera *camera, bool ortho, uint32_t row, const float *restrict x,
+                             const float *restrict y, const float *restrict z, const double *restrict stored,
+                             const double *restrict reach, double *restrict error) {
+    texture_camera c = *camera;
+    c.ortho = ortho;
+    for (int column = 0; column < (int)camera->width; column++) {
+        const float world[3] = {x[column], y[column], z[column]};
         double view[3], relative[3];
-        camera_view(&c, column, row, stored[x], view);
+        camera_view(&c, column, row, stored[column], view);
         camera_turn(&c, view, relative);
-        const float error = upwards(position_off(&c, relative, world) + reach[x] * camera_radial(&c, column, row));
-        out[x] = eyes[x] == eyes[x] ? error : (float)NAN;
+        error[column] = position_off(&c, relative, world) + reach[column] * camera_radial(&c, column, row);
+    }
+}
+
+TEXTURE_CLONES static void position_perspective(const texture_camera *c, uint32_t row, float *const at[3],
+                                                const grain_rows *r, double *error) {
+    position_loop(c, false, row, at[0], at[1], at[2], r->stored, r->reach, error);
+}
+
+TEXTURE_CLONES static void position_ortho(const texture_camera *c, uint32_t row, float *const at[3],
+                                          const grain_rows *r, double *error) {
+    position_loop(c, true, row, at[0], at[1], at[2], r->stored, r->reach, error);
+}
+
+/* Rounded up to binary32, times a unit; NaN where there is no product. */
+TEXTURE_CLONES static void round_up(const float *restrict found, const double *restrict error, double unit,
+                                    float *restrict out, size_t count) {
+#pragma omp simd
+    for (size_t i = 0; i < count; i++) {
+        const float rounded = upwards(error[i] * unit);
+        out[i] = found[i] == found[i] ? rounded : (float)NAN;
     }
 }
 
@@ -174,7 +192,10 @@ static void make_position_error(const frame_row *in) {
     places(in);
     if (in->frame->scene == NULL) {
         const grain_rows ranges = ranges_in(in);
-        position_errors(camera_of(in), in->row, eyes_of(in), in->planes, &ranges, in->out);
+        double *const errors = in->numbers + 4 * (size_t)camera_of(in)->width;
+        (camera_of(in)->ortho ? position_ortho : position_perspective)(camera_of(in), in->row, in->planes, &ranges,
+                                                                       errors);
+        round_up(eyes_of(in), errors, 1, in->out, camera_of(in)->width);
         return;
     }
     for (uint32_t x = 0; x < camera_of(in)->width; x++) {
@@ -198,15 +219,6 @@ static void make_normal(const frame_row *in) {
     interleave(in);
 }
 
-TEXTURE_CLONES static void in_degrees(const float *restrict found, const double *restrict angles, float *restrict out,
-                                      size_t count) {
-#pragma omp simd
-    for (size_t i = 0; i < count; i++) {
-        const float degrees = upwards(angles[i] * TO_DEGREES);
-        out[i] = found[i] == found[i] ? degrees : (float)NAN;
-    }
-}
-
 /* Of an image the bound for a plane through the pixel's place with the normal that was found. */
 static void normal_bounds(const frame_row *in) {
     const texture_camera *c = camera_of(in);
@@ -214,7 +226,7 @@ static void normal_bounds(const frame_row *in) {
     double *bounds = in->numbers + 4 * (size_t)c->width;
     const normal_planes planes = {c, in->row, {in->planes[0], in->planes[1], in->planes[2]}, ranges.stored};
     normal_planes_bounds(&planes, in->frame->grain, DP_BATCH_EYE_ERROR, bounds);
-    in_degrees(in->planes[0], bounds, in->out, c->width);
+    round_up(in->planes[0], bounds, TO_DEGREES, in->out, c->width);
 }
 
 static void make_normal_error(const frame_row *in) {
