@@ -53,7 +53,7 @@ const char *truth_path(const char *name) {
     static struct {
         const char *name;
         char path[64];
-    } known[16];
+    } known[32];
     size_t i = 0;
     while (known[i].name != NULL && strcmp(known[i].name, name) != 0)
         assert_true(++i < sizeof known / sizeof known[0]);

@@ -6,7 +6,7 @@
 #include <unistd.h>
 
 enum { BAR_WIDTH = 30 };
-static const double first_after = 1.0; /* seconds; shorter work shows nothing */
+static const double first_after = 0.5; /* seconds; shorter work shows nothing */
 static const double redraw_every = 0.1;
 
 static double now(void) {

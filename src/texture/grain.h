@@ -63,6 +63,9 @@ typedef struct grain_rows {
 /** The same of many codes, bit for bit; codes above code_max count as 0. */
 void grain_ranges_of(const dp_setup *setup, const grain *g, const uint32_t *codes, size_t count, const grain_rows *out);
 
+/** How far what is stored is off at most of depths from lo to hi, of 1/z or, where the set-up is orthographic, of z. */
+double grain_range_error(const dp_setup *setup, double stored, double lo, double hi, double reading);
+
 /**
  * How far a stored depth at z can be off at most, of 1/z or of z where the set-up is orthographic: what the image holds
  * may be any sample whose range has z, that of z's code or one at the ends of its range.

@@ -8,7 +8,7 @@
 
 enum { BLOCK = 256 };
 
-static double range_error(const dp_setup *setup, double stored, double lo, double hi, double reading) {
+double grain_range_error(const dp_setup *setup, double stored, double lo, double hi, double reading) {
     if (setup->spec.ortho)
         return fmax(stored - lo, hi - stored) + reading * stored;
     const double w = 1 / stored; /* 0 at an infinite far plane */
@@ -22,7 +22,7 @@ double grain_error_of(const dp_setup *setup, const grain *g, double z, double re
     for (int i = 0; i < 3; i++) {
         const uint32_t code = dp_code(setup, at[i]);
         const grain_range range = grain_range_of(setup, g, code);
-        worst = fmax(worst, range_error(setup, dp_stored(setup, code), range.lo, range.hi, reading));
+        worst = fmax(worst, grain_range_error(setup, dp_stored(setup, code), range.lo, range.hi, reading));
     }
     return worst;
 }

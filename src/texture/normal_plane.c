@@ -54,10 +54,7 @@ double normal_plane_depth(const texture_camera *camera, const normal_plane *plan
 static double cell_error(const texture_camera *camera, const grain *g, double z, double reading) {
     const dp_cell cell = dp_cell_of(&camera->setup, dp_code(&camera->setup, z));
     (void)g;
-    if (camera->ortho)
-        return fmax(cell.stored - cell.lo, cell.hi - cell.stored) + reading * cell.stored;
-    const double w = 1 / cell.stored; /* 0 at an infinite far plane */
-    return fmax(1 / cell.lo - w, w - 1 / cell.hi) + reading * w;
+    return grain_range_error(&camera->setup, cell.stored, cell.lo, cell.hi, reading);
 }
 
 static double grain_error(const texture_camera *camera, const grain *g, double z, double reading) {
