@@ -9,6 +9,7 @@
 #include "api/unit.h"
 #include "core/append.h"
 #include "method/method.h"
+#include "need/model.h"
 #include "plot/figure.h"
 #include "report/number.h"
 #include "texture/effect.h"
@@ -43,17 +44,15 @@ bool list_model(size_t index, list_item *item) {
     };
     const char *name = dp_model_name((dp_model)index);
     return index < sizeof notes / sizeof notes[0] &&
-           list_fill(item, (list_item){.name = name != NULL ? name : "auto",
-                                       .aliases = index == DP_MODEL_FP32 ? "float" : NULL,
+           list_fill(item, (list_item){.name = name != NULL ? name : model_word(index),
+                                       .aliases = index == DP_MODEL_FP32 ? model_word(index) : NULL,
                                        .note = notes[index]});
 }
 
 bool list_model_word(size_t index, list_item *item) {
     const bool found = list_model(index, item);
-    if (found && index == DP_MODEL_FP32) {
-        item->name = item->aliases;
-        item->aliases = dp_model_name(DP_MODEL_FP32);
-    }
+    if (found && item->aliases != NULL)
+        *item = (list_item){.name = item->aliases, .aliases = item->name, .note = item->note};
     return found;
 }
 
