@@ -126,8 +126,8 @@ const option_row option_rows[OPTION_COUNT] = {
         .without = "nine, log-spaced from near to far, or to 1e6 times near",
         .except = {BUT(VERB_SOLVE, NULL, NULL, "the depth asked about"),
                    BUT(VERB_PLOT, NULL, NULL, "the depth asked about, in figures of a single one"),
-                   BUT(VERB_TABLE, NULL, "nine, log-spaced from near to far, or to 1e6 times near; of several set-ups powers "
-                       "of ten", NULL)},
+                   BUT(VERB_TABLE, NULL, "nine, log-spaced from near to far, or to 1e6 times near; of several set-ups "
+                       "powers of ten", NULL)},
         .group = "The depths"},
     [OPTION_RANGE] = {"range", 0, "LO:HI", MODELLED | VERB_ZFIGHT | VERB_BIAS | VERB_SOLVE,
         "the depths that worst cases are taken over", parse_range, .without = "near to far",
@@ -210,7 +210,8 @@ const option_row option_rows[OPTION_COUNT] = {
         NUMBER(sky, 0, 0.5, NULL), .standard = "0.0001",
         .without = "as Unity's shaders take it"},
     [OPTION_METRIC] = {"metric", 0, "SCALE", VERB_TEXTURE,
-        "the samples are eye depths in units of SCALE, 0.001 for millimetres; 0, negative numbers, NaN and infinity are holes",
+        "the samples are eye depths in units of SCALE, 0.001 for millimetres; 0, negative numbers, NaN and infinity "
+        "are holes",
         LENGTH(metric, METRIC_SCALE_MIN, METRIC_SCALE_MAX, "scene units")},
     [OPTION_PIXEL] = {"pixel", 0, "X,Y[;X,Y...]", VERB_TEXTURE,
         "all about single pixels: code, eye depth and which depths it may be, neighbours, position, normal; 0,0 is the "
@@ -239,7 +240,8 @@ const option_row option_rows[OPTION_COUNT] = {
     [OPTION_WIDTH] = {"width", 0, "PX", DRAWN,
         "width of the figure", WHOLE(width, DRAW_WIDTH_MIN, DRAW_SIZE_MAX, "pixels"), .without = "as suits the figure"},
     [OPTION_HEIGHT] = {"height", 0, "PX", DRAWN,
-        "height of the figure", WHOLE(height, DRAW_HEIGHT_MIN, DRAW_SIZE_MAX, "pixels"), .without = "as suits the figure"},
+        "height of the figure", WHOLE(height, DRAW_HEIGHT_MIN, DRAW_SIZE_MAX, "pixels"),
+        .without = "as suits the figure"},
     [OPTION_TITLE] = {"title", 0, "TEXT", DRAWN,
         "title of the figure in place of its own", TEXT(title)},
     [OPTION_REPORT] = {"report", 0, NULL, VERB_CHECK,

@@ -156,8 +156,7 @@ static void write_subtitle(const scene *s, chart *out) {
     char text[sizeof out->subtitle];
     snprintf(text, sizeof text, "%.100s: %zu met, %zu missed", slash != NULL ? slash + 1 : file->path, s->passed,
              s->count - s->passed);
-    if (file->unit[0] != '\0')
-        append(text, sizeof text, "; a scene unit is 1 %s", file->unit);
+    out->unit = file->unit[0] != '\0' ? file->unit : NULL;
     if (s->ties > 0)
         append(text, sizeof text, "; not shown: %zu of ties", s->ties);
     notes_clean(out->subtitle, sizeof out->subtitle, text);
