@@ -100,7 +100,10 @@ static void pfm_of_others(void **state) {
     static const char *const headers[][2] = {{"Pf\n3 2\n1\n", "Pf\n3 2\n-1\n"},
                                              {"Pf 3 2 1.000 ", "Pf\t3\t2\t-1.0e0\t"},
                                              {"Pf\r3\n\n 2\n+1.0\r", "Pf\n3 2 \n -1.0\n"},
-                                             {"PF\n1 2\n1.0\n", "PF\n1 2\n-1.0\n"}};
+                                             {"PF\n1 2\n1.0\n", "PF\n1 2\n-1.0\n"},
+                                             {"Pf\r\n3 2\r\n1.0\r\n", "Pf\r\n3 2\r\n-1.0\r\n"},
+                                             {"Pf\r\n3 2\r\n1.0\n", "Pf\n3 2\n-1.0\r"},
+                                             {"Pf\n# by hand\n3 2 # wide, high\n#\n1\n", "Pf #a#b\r3\v\f2\t-1\v"}};
     for (size_t i = 0; i < sizeof headers / sizeof headers[0]; i++)
         for (int little = 0; little < 2; little++) {
             handmade h = {.size = 0};
@@ -110,6 +113,19 @@ static void pfm_of_others(void **state) {
             const bool colour = headers[i][0][1] == 'F';
             assert_samples(&h, IMAGE_PFM, IMAGE_F32, colour ? 1 : 3, 2, colour ? 3 : 1, rows);
         }
+}
+
+/* A sample may look like the other half of a line end. */
+static void pfm_line_ends(void **state) {
+    (void)state;
+    static const char *const headers[] = {"Pf\r1 1\r-1\r", "Pf\n1 1\n-1\r", "Pf\r\n1 1\r\n-1\r\n", "Pf\r\n1 1\r\n-1\n"};
+    for (size_t i = 0; i < sizeof headers / sizeof headers[0]; i++) {
+        static const uint32_t bits = 0x3E80000A; /* LF is its first byte in the file */
+        handmade h = {.size = 0};
+        handmade_text(&h, headers[i]);
+        handmade_number(&h, bits, 4, 1);
+        assert_samples(&h, IMAGE_PFM, IMAGE_F32, 1, 1, 1, &bits);
+    }
 }
 
 /* The lowest `size` bytes of a number as this machine keeps them. */
@@ -342,9 +358,10 @@ static void names(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(png_of_others), cmocka_unit_test(png_chunks),     cmocka_unit_test(pfm_of_others),
-        cmocka_unit_test(npy_of_others), cmocka_unit_test(npy_transposed), cmocka_unit_test(round_trips),
-        cmocka_unit_test(written_bytes), cmocka_unit_test(writers_refuse), cmocka_unit_test(names),
+        cmocka_unit_test(png_of_others), cmocka_unit_test(png_chunks),    cmocka_unit_test(pfm_of_others),
+        cmocka_unit_test(pfm_line_ends), cmocka_unit_test(npy_of_others), cmocka_unit_test(npy_transposed),
+        cmocka_unit_test(round_trips),   cmocka_unit_test(written_bytes), cmocka_unit_test(writers_refuse),
+        cmocka_unit_test(names),
     };
     return run_tap(tests);
 }

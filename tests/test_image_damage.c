@@ -85,6 +85,8 @@ static void pfm_sentences(void **state) {
         {"Pfx1 1 1\n", "PFM: a blank must follow 'Pf'"},
         {"Pf\n", "cut short within its header"},
         {"Pf\n1 1 -1.0", "cut short within its header"},
+        {"Pf\n# never ends", "cut short within its header"},
+        {"Pf\r\n1 1\r\n-1\rabcd", "PFM: CR LF must follow its scale, as it follows 'Pf'"},
         {"Pf\n-1 1 1\n", "PFM: its width must be a whole number, got '-1'"},
         {"Pf\n1 1x 1\n", "PFM: its height must be a whole number, got '1x'"},
         {"Pf\n1 1\a 1\n", "PFM: its height must be a number"},
@@ -121,6 +123,23 @@ static void pfm_sentences(void **state) {
     }
 }
 
+/* A header without end, as a pipe may have one. */
+static void pfm_endless(void **state) {
+    (void)state;
+    enum { SIZE = 10002 };
+    unsigned char *bytes = malloc(SIZE + 1);
+    image got;
+    image_error error;
+    assert_non_null(bytes);
+    memset(bytes, '#', SIZE + 1);
+    memcpy(bytes, "Pf\n", 3);
+    assert_false(parse(bytes, SIZE + 1, &got, &error));
+    assert_string_equal(error.text, "PFM: its header must have at most 10000 bytes");
+    assert_false(parse(bytes, SIZE - 1, &got, &error));
+    assert_string_equal(error.text, "cut short within its header");
+    free(bytes);
+}
+
 static void npy_sentences(void **state) {
     (void)state;
     static const char *const rows[][2] = {
@@ -146,6 +165,8 @@ static void npy_sentences(void **state) {
         {"{'shape': (3, 4)}", "npy: its header must have descr, fortran_order and shape"},
         {"{'descr': '<i4', 'fortran_order': False, 'shape': (3, 4)}",
          "npy: its samples must be f2, f4, f8, u1, u2 or u4, got '<i4': save a.astype(\"f4\"), or u4 for codes"},
+        {"{'descr': '|b1', 'fortran_order': False, 'shape': (3, 4)}",
+         "npy: its samples are bool, true or false, which is a mask and no depth"},
         {"{'descr': '', 'fortran_order': False, 'shape': (3, 4)}",
          "npy: its samples must be f2, f4, f8, u1, u2 or u4, got '': save a.astype(\"f4\"), or u4 for codes"},
         {"{'descr': '|u2', 'fortran_order': False, 'shape': (3, 4)}",
@@ -455,10 +476,10 @@ static void large_pipes(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(other_files),      cmocka_unit_test(pfm_sentences),   cmocka_unit_test(npy_sentences),
-        cmocka_unit_test(png_sentences),    cmocka_unit_test(cut_anywhere),    cmocka_unit_test(bits_flipped),
-        cmocka_unit_test(unreadable_paths), cmocka_unit_test(nothing_printed), cmocka_unit_test(huge_claims),
-        cmocka_unit_test(large_pipes),
+        cmocka_unit_test(other_files),  cmocka_unit_test(pfm_sentences),    cmocka_unit_test(npy_sentences),
+        cmocka_unit_test(pfm_endless),  cmocka_unit_test(png_sentences),    cmocka_unit_test(cut_anywhere),
+        cmocka_unit_test(bits_flipped), cmocka_unit_test(unreadable_paths), cmocka_unit_test(nothing_printed),
+        cmocka_unit_test(huge_claims),  cmocka_unit_test(large_pipes),
     };
     return run_tap(tests);
 }
