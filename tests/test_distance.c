@@ -76,6 +76,16 @@ static void round_down(double value, int digits, char out[32]) {
     fesetround(FE_TONEAREST);
 }
 
+static void judge_about(tally *t, const question *q, const distance_answer *a, const char *text) {
+    enum { DIGITS = 3 };
+    const double cheap = distance_about(&q->setup, q->lo, q->hi, q->limit, DIGITS);
+    char printed[32], wanted[32];
+    round_down(cheap, DIGITS, printed);
+    round_down(a->value, DIGITS, wanted);
+    const bool alike = (a->throughout ? cheap <= a->value : cheap < a->fails) && strcmp(printed, wanted) == 0;
+    TALLY(t, a->possible ? alike : isnan(cheap), "%s: %.17g, not %.17g", text, cheap, a->value);
+}
+
 static void in_model(dp_model model, measure_kind kind, uint64_t cases) {
     rng r = rng_make(kind == MEASURE_ERROR ? "distance error" : dp_model_name(model));
     tally whole = {.name = "the range up to the answer passes as check judges"};
@@ -96,17 +106,8 @@ static void in_model(dp_model model, measure_kind kind, uint64_t cases) {
             tally_fail(&whole, "%s: refused", text);
             continue;
         }
-        if (kind == MEASURE_SEPARATION) {
-            enum { DIGITS = 3 };
-            const double cheap = distance_about(&q.setup, q.lo, q.hi, q.limit, DIGITS);
-            char printed[32], wanted[32];
-            round_down(cheap, DIGITS, printed);
-            round_down(a.value, DIGITS, wanted);
-            TALLY(&about,
-                  !a.possible ? isnan(cheap)
-                              : (a.throughout ? cheap <= a.value : cheap < a.fails) && strcmp(printed, wanted) == 0,
-                  "%s: %.17g, not %.17g", text, cheap, a.value);
-        }
+        if (kind == MEASURE_SEPARATION)
+            judge_about(&about, &q, &a, text);
         if (!a.possible) {
             TALLY(&none, at(&q, q.lo) > q.limit, "%s: %.17g there", text, at(&q, q.lo));
             continue;
