@@ -207,20 +207,19 @@ bool list_method(size_t index, list_item *item) {
 
 /* What can be listed. */
 static const topic topics[] = {
-    {"formats", "depth formats, and what their rounding is held to", list_format, "bound"},
+    {"formats", "depth formats and the bounds of their rounding", list_format, "bound"},
     {"mappings", "how an eye depth becomes a window depth", list_mapping, "bound"},
     {"models", "how much of the arithmetic before the buffer is modelled", list_model, "bound"},
     {"arithmetic", "variants of binary32 arithmetic, for --arith", list_arith, "bound"},
     {"transforms", "how world positions become clip coordinates", list_composition, "bound"},
-    {"causes", "what takes a part of the separation", list_cause, "bound"},
+    {"causes", "the parts of the separation, for budget", list_cause, "bound"},
     {"presets", "cameras as engines set them, for --preset", list_preset, "camera"},
     {"apis", "what one unit of depth bias is, for bias --api", list_api, "rule"},
-    {"packings", "depth and normals in the channels of a texture, and what their errors are held to", list_packing,
-     "bound"},
-    {"effects", "what texture --effect knows: formulas and parameters", list_effect, "parameters"},
-    {"figures", "what plot can draw", list_figure, "bound"},
+    {"packings", "depth and normals in the channels of a texture, and their error bounds", list_packing, "bound"},
+    {"effects", "effects for texture --effect: formulas and parameters", list_effect, "parameters"},
+    {"figures", "figures, for plot", list_figure, "bound"},
     {"scenes", "synthetic depth images, for texture --scene", list_scene, "parameters"},
-    {"positions", "ways from window depth to a place, for texture --position", list_position, "bound"},
+    {"positions", "positions from window depth, for texture --position", list_position, "bound"},
     {"normals", "normals from depth, for texture --normal", list_normal, "bound"},
     {"methods", "ways to a quantity, by family: what each claims, for which set-up and far/near", list_method, "bound"},
 };

@@ -42,7 +42,7 @@ static bool read_header(reading *r) {
     png_read_info(r->png, r->info);
     const int bits = png_get_bit_depth(r->png, r->info);
     if (png_get_color_type(r->png, r->info) == PNG_COLOR_TYPE_PALETTE)
-        return source_fail(r->source, "PNG with a palette, whose numbers are names of colours: save it as grey");
+        return source_fail(r->source, "PNG with a palette, not with depths: save it as greyscale");
     if (bits < 8)
         return source_fail(r->source, "PNG of %d bit%s a sample: save it with 8 or 16", bits, bits > 1 ? "s" : "");
     if (!source_shape(r->source, r->out, png_get_image_width(r->png, r->info), png_get_image_height(r->png, r->info),
@@ -52,7 +52,7 @@ static bool read_header(reading *r) {
     const uint64_t least = image_bytes(r->out) / 1032;
     if (r->source->sized && r->source->left < least)
         return source_fail(
-            r->source, "cut short: %u x %u pixels, %u channel%s of %s, take at least %llu bytes, and %llu follow",
+            r->source, "truncated: %u x %u pixels, %u channel%s of %s, need at least %llu bytes, but %llu follow",
             r->out->width, r->out->height, r->out->channels, r->out->channels > 1 ? "s" : "",
             image_type_name(r->out->type), (unsigned long long)least, (unsigned long long)r->source->left);
     return true;
