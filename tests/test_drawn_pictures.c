@@ -10,7 +10,7 @@
 #include "drawn_truth.h"
 #include "support.h"
 
-static const char fight_words[] = "share a code with what is behind: they fight";
+static const char fight_words[] = "stored as one code with what is behind: they fight";
 
 /* Below so many fields each is a rectangle. */
 enum { FEW = 4096 };

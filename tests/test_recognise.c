@@ -315,7 +315,7 @@ static void packings(void **state) {
             for (uint32_t i = 0; i < SAMPLES; i++)
                 s->data.u32[i] = ((most << 24) - 0x101 * i) / 256 * 256 + stencil;
             recognise(&s->img, &r);
-            assert_true(!r.depth && r.invalid == SAMPLES && strstr(r.why, "shift them down by 8 first") != NULL);
+            assert_true(!r.depth && r.invalid == SAMPLES && strstr(r.why, "shift right by 8 first") != NULL);
         }
     for (uint32_t i = 0; i < SAMPLES; i++) /* low bytes that differ in a bit */
         s->data.u32[i] = 0x3A000000 + i * 0x180;

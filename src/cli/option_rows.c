@@ -211,8 +211,8 @@ const option_row option_rows[OPTION_COUNT] = {
         NUMBER(sky, 0, 0.5, NULL), .standard = "0.0001",
         .without = "as Unity's shaders take it"},
     [OPTION_METRIC] = {"metric", 0, "SCALE", VERB_TEXTURE,
-        "the samples are eye depths in units of SCALE, 0.001 for millimetres; 0, negative numbers, NaN and infinity are "
-        "holes",
+        "the samples are eye depths in units of SCALE, 0.001 for millimetres; 0, negative numbers, NaN and infinity "
+        "are holes",
         LENGTH(metric, METRIC_SCALE_MIN, METRIC_SCALE_MAX, "scene units")},
     [OPTION_PIXEL] = {"pixel", 0, "X,Y[;X,Y...]", VERB_TEXTURE,
         "describe single pixels: code, eye depth and its range, neighbours, position, normal; 0,0 is the "

@@ -52,7 +52,7 @@ static bool read_header(reading *r) {
     const uint64_t least = image_bytes(r->out) / 1032;
     if (r->source->sized && r->source->left < least)
         return source_fail(
-            r->source, "truncated: %u x %u pixels, %u channel%s of %s, need at least %llu bytes, but %llu follow",
+            r->source, "cut short: %u x %u pixels, %u channel%s of %s, take at least %llu bytes, and %llu follow",
             r->out->width, r->out->height, r->out->channels, r->out->channels > 1 ? "s" : "",
             image_type_name(r->out->type), (unsigned long long)least, (unsigned long long)r->source->left);
     return true;
