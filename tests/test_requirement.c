@@ -201,11 +201,11 @@ static const struct {
     {CAMERA "requirements = ( { camera = \"a\"; at = 1; error = 1; } );", 2, "needs a name"},
     {CAMERA "requirements = ( { name = \"x\"; camera = \"a\"; at = 1; error = 1; },\n"
             "{ name = \"x\"; camera = \"a\"; at = 1; error = 1; } );",
-     3, "is already there, on line 2"},
+     3, "is already on line 2"},
     {CAMERA NEEDS("at = 1; error = 1; at = 2;"), 2, "duplicate"},
     {CAMERA NEEDS("name = \"q\"; at = 1; error = 1;"), 2, "has no key 'name'"},
     {CAMERA "requirements = {", 2, "syntax error"},
-    {CAMERA NEEDS("range = [0.5, 50]; error = 1;"), 2, "two numbers alike"},
+    {CAMERA NEEDS("range = [0.5, 50]; error = 1;"), 2, "two numbers of one kind"},
     {"@include \"/etc/passwd\"\n", 1, "@include is not allowed"},
     {"\n  @include \"x\"\n", 2, "@include is not allowed"},
 };

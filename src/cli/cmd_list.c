@@ -84,7 +84,7 @@ int cmd_list(const options *o) {
     const topic *asked = o->operand_row;
     listing l = {.o = o, .topic = asked != NULL ? asked : &all_topics};
     if (option_given(o, OPTION_TOLERANCE) && l.topic->get != list_method)
-        return option_error(OPTION_TOLERANCE, "has no meaning but in list methods");
+        return option_error(OPTION_TOLERANCE, "applies to list methods only");
     output out;
     int status = options_open(o, &out);
     if (status != EXIT_FINE)
