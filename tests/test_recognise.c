@@ -29,7 +29,7 @@ typedef struct square {
 static square *square_of(image_type type) {
     square *s = calloc(1, sizeof *s);
     assert_non_null(s);
-    s->img = (image){SIDE, SIDE, 1, type, IMAGE_NPY, &s->data};
+    s->img = (image){SIDE, SIDE, 1, type, IMAGE_NPY, &s->data, NULL};
     return s;
 }
 
@@ -466,7 +466,7 @@ static void counted(void **state) {
     double *d = malloc(COUNT * sizeof *d);
     assert_non_null(d);
     for (uint32_t channels = 1; channels <= 3; channels++) {
-        const image img = {WIDTH / channels, HEIGHT, channels, IMAGE_F64, IMAGE_NPY, d};
+        const image img = {WIDTH / channels, HEIGHT, channels, IMAGE_F64, IMAGE_NPY, d, NULL};
         const size_t pixels = (size_t)img.width * HEIGHT;
         size_t zero = 0, one = 0, invalid = 0;
         double lo = 2, hi = -1;
@@ -490,7 +490,7 @@ static void counted(void **state) {
     }
     for (int i = 0; i < COUNT; i++)
         d[i] = (i % 777) / 1000.0;
-    const image img = {WIDTH, HEIGHT, 1, IMAGE_F64, IMAGE_NPY, d};
+    const image img = {WIDTH, HEIGHT, 1, IMAGE_F64, IMAGE_NPY, d, NULL};
     recognised found;
     recognise(&img, &found);
     assert_int_equal(found.distinct, 777);

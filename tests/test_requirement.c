@@ -156,7 +156,7 @@ static const struct {
     {"cameras = { a = { near = 1; far = 2; mapping = \"d3d\"; format = \"fp32\"; log_c = 1.0; }; };" NEEDS(""), 1,
      "log_c: is for the mapping log"},
     {"cameras = { a = { near = 1; far = 2; mapping = \"d3d\"; format = \"fp32\"; model = \"real\"; }; };" NEEDS(""), 1,
-     "model: must be one of exact, staged, fp32, auto"},
+     "model: must be one of exact, staged, float, auto"},
     {"cameras = { a = { near = 1; far = 2; mapping = \"d3d\"; format = \"fp32\"; arith = 3; }; };" NEEDS(""), 1,
      "arith: must be a word"},
     {"cameras = { a = { near = 1; far = 2; mapping = \"d3d\"; format = \"fp32\"; ortho = 1; }; };" NEEDS(""), 1,

@@ -3,7 +3,7 @@
 #include "cli/methods.h"
 #include "report/report.h"
 
-static const topic all_topics = {"topics", "", list_topic, "bound"};
+static const topic all_topics = {"topics", "", list_topic, .bound = "bound"};
 
 /* What is listed, and the thing at hand. */
 typedef struct listing {
@@ -39,7 +39,7 @@ static void say_item(page *p, void *of) {
     const list_item *item = &l->item;
     page_title(p, "%s", item->name);
     page_wrapped(p, "", item->note);
-    page_wrapped(p, l->topic->bound, item->bound);
+    page_wrapped(p, l->topic->shown != NULL ? l->topic->shown : l->topic->bound, item->bound);
     page_wrapped(p, "chosen", l->chosen);
     page_wrapped(p, "source", item->source);
     page_wrapped(p, "also", item->aliases);

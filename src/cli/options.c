@@ -289,7 +289,8 @@ int options_parse(options *o, int argc, char **argv) {
         o->verb = verb_find(argv[1]);
     if (o->verb == NULL) {
         names_nearest(&(name_list){.get = list_verb}, "", argv[1], text);
-        return usage_error("unknown command '%s'%s", argv[1], *text != '\0' ? text : "; 'depthprec --help' lists them");
+        return usage_error("unknown command '%s'%s", argv[1],
+                           *text != '\0' ? text : "; 'depthprec --help' lists the commands");
     }
     const verb *const asked = named ? o->verb : NULL;
     int status = read_options(o, argc - named, argv + named, asked, true);

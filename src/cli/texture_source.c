@@ -54,7 +54,7 @@ static int check_together(const options *o) {
     if (file && o->scene != NULL)
         return option_error(OPTION_SCENE, "stands in place of FILE, got '%s' too", o->operands[0]);
     if (!file && o->scene == NULL)
-        return usage_error("texture: needs FILE, a PNG, PFM or npy image, or --scene NAME");
+        return usage_error("texture: needs FILE, a PNG, PFM, npy or DDS image, or --scene NAME");
     if (file && option_given(o, OPTION_SIZE))
         return option_error(OPTION_SIZE, "is for --scene: the image has its own");
     if (file && o->effect == NULL && o->parameter_count > 0)

@@ -7,6 +7,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "need/model.h"
 #include "need/reader.h"
 
 static const need_kind_row kinds[NEED_KIND_COUNT] = {
@@ -70,13 +71,13 @@ static bool suits(reader *r, const config_setting_t *s, const need *n) {
     const need_camera *camera = &r->file->cameras[n->camera];
     const dp_spec *spec = &camera->setups[0].spec;
     if (n->kind == NEED_ERROR && spec->model == DP_MODEL_FP32)
-        return reader_fail(r, s, "error: needs the model exact, staged or auto, and the camera '%s' has fp32",
-                           camera->name);
+        return reader_fail(r, s, "error: needs the model exact, staged or auto, and the camera '%s' has %s",
+                           camera->name, model_word(spec->model));
     if (n->kind != NEED_TIES)
         return true;
     if (spec->model != DP_MODEL_FP32 && !camera->automatic)
         return reader_fail(r, s, "ties: needs the model float or auto, and the camera '%s' has %s", camera->name,
-                           dp_model_name(spec->model));
+                           model_word(spec->model));
     if (dp_mapping_get(spec->mapping)->curve != DP_CURVE_PERSPECTIVE)
         return reader_fail(
             r, s, "ties: needs one of the mappings " DP_MAPPING_NAMES_PERSPECTIVE ", and the camera '%s' has %s",

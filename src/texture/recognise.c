@@ -7,6 +7,7 @@
 
 #include <math.h>
 #include <stdarg.h>
+#include <string.h>
 
 #include "core/append.h"
 #include "core/bits.h"
@@ -120,6 +121,14 @@ static void judge_longs(const image *img, finding *f) {
         f->none = true;
         say(f, "whole numbers up to %u are codes of no named format: bits of fp32 end at %u", s.most, FP32_ONE);
     }
+}
+
+/* The file names its format. */
+static void judge_named(const image *img, finding *f) {
+    f->sure = true;
+    while (f->which < LATTICE_FP32 && strcmp(lattice_name(f->which), img->says) != 0)
+        f->which++;
+    say(f, "%s, as the %s names it", img->says, image_file_name(img->file));
 }
 
 /* ---- Numbers ----------------------------------------------------------------------------------------------------- */
@@ -350,7 +359,10 @@ void recognise(const image *img, recognised *out) {
     tally s = {0};
     dp_format formats[2];
     extent numbers = {0};
-    judges[img->type](img, &f);
+    if (img->says != NULL)
+        judge_named(img, &f);
+    else
+        judges[img->type](img, &f);
     dp_format_parse(lattice_name(f.which), formats);
     *out = (recognised){.format = formats[0],
                         .reversed = -1,
