@@ -23,7 +23,7 @@ typedef struct need {
 } need;
 
 static const char *const camera_names[] = {"street", "cockpit", "scope"};
-static const char *const headings[] = {"street: unorm24 d3d, exact", "cockpit: fp32 reversed, fp32",
+static const char *const headings[] = {"street: unorm24 d3d, exact", "cockpit: fp32 reversed, float",
                                        "scope: fp32 reversed, exact"};
 static const need needs[] = {
     {"kerb", 0, false, 0.5, 20, 1e-3},  {"paint", 0, false, 5, 500, 2e-2},     {"haze", 0, true, 1, 900, 0.4},
@@ -213,7 +213,7 @@ static void scene_of_requirements(void **state) {
     assert_string_equal(d->subtitle, subtitle);
     drawn_description_is(d,
                          " street: unorm24 d3d, exact. Shown: separation given; error given; allowed, met; met, where "
-                         "it is worst; allowed, missed; missed, where it is worst. cockpit: fp32 reversed, fp32. "
+                         "it is worst; allowed, missed; missed, where it is worst. cockpit: fp32 reversed, float. "
                          "Shown: separation given; allowed, met; met, where it is worst; allowed, missed; missed, "
                          "where it is worst. scope: fp32 reversed, exact. Shown: separation given; allowed, met; "
                          "met, where it is worst.");

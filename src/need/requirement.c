@@ -70,7 +70,7 @@ static bool suits(reader *r, const config_setting_t *s, const need *n) {
     const need_camera *camera = &r->file->cameras[n->camera];
     const dp_spec *spec = &camera->setups[0].spec;
     if (n->kind == NEED_ERROR && spec->model == DP_MODEL_FP32)
-        return reader_fail(r, s, "error: needs the model exact, staged or auto, and the camera '%s' has fp32",
+        return reader_fail(r, s, "error: needs the model exact, staged or auto, and the camera '%s' has float",
                            camera->name);
     if (n->kind != NEED_TIES)
         return true;
