@@ -38,11 +38,11 @@ static int resolve_depths(plotting *p) {
     const options *o = p->o;
     if (option_given(o, OPTION_AT)) {
         if ((p->row->takes & FIGURE_AT) == 0)
-            return option_error(OPTION_AT, "has no meaning in the figure %s; --range cuts its axis", p->row->name);
+            return option_error(OPTION_AT, "does not apply to the figure %s; --range limits its axis", p->row->name);
         if (o->at.count != 1)
             return option_error(OPTION_AT, "must be one depth in the figure %s, got %zu", p->row->name, o->at.count);
         if (option_given(o, OPTION_RANGE))
-            return option_error(OPTION_AT, "must not be given together with --range");
+            return option_error(OPTION_AT, "cannot be combined with --range");
         p->request.at = o->at.lo;
     }
     if (!option_given(o, OPTION_RANGE))
@@ -64,7 +64,7 @@ static int check_file_given(const options *o, const figure_row *row) {
         return usage_error("plot %s: needs FILE, a requirement file, see depthprec(5)", row->name);
     for (size_t i = 0; i < sizeof camera / sizeof camera[0]; i++)
         if (option_given(o, camera[i]))
-            return option_error(camera[i], "has no meaning in the figure %s: the file says it", row->name);
+            return option_error(camera[i], "does not apply to the figure %s: the file has it", row->name);
     return EXIT_FINE;
 }
 
@@ -76,7 +76,7 @@ static int check_options(const options *o, const figure_row *row) {
     static const option_id terms[] = {OPTION_INTERPOLATION, OPTION_WORLD, OPTION_COMPOSITION, OPTION_LINEARIZE};
     for (size_t i = 0; i < sizeof terms / sizeof terms[0]; i++)
         if (option_given(o, terms[i]) && (row->takes & FIGURE_TERMS) == 0)
-            return option_error(terms[i], "has no meaning in the figure %s, but in budget", row->name);
+            return option_error(terms[i], "does not apply to the figure %s, only to budget", row->name);
     if (option_given(o, OPTION_COMPOSITION) && !(o->terms.world > 0.0))
         return option_error(OPTION_COMPOSITION, "needs --world: eye depth is given");
     if (option_given(o, OPTION_MODEL) && (row->takes & FIGURE_BINARY32) != 0 && o->model != DP_MODEL_FP32)
