@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /**
- * @file progress.h  A bar on stderr, for work that lasts: only on a terminal, only after half a second, never with --quiet.
+ * @file progress.h  A bar on stderr, for work that lasts: on a terminal, after half a second, never with --quiet.
  *
  *     progress p = progress_start("rows", total, o->quiet);
  *     for (...) progress_step(&p, done);       // cheap: the clock is read only now and then

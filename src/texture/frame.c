@@ -68,6 +68,7 @@ typedef struct desk {
     uint32_t *codes;
     float *eyes, *scratch; /* scratch: four rows */
     double *numbers;       /* of a row: see frame_row */
+    grain_memo *memo;      /* of normals' error maps; else null */
 } desk;
 
 /* Everything of a run. */
@@ -76,7 +77,7 @@ typedef struct run {
     const frame_product *products;
     size_t product_count, values; /* of all products in a pixel */
     uint32_t width, height, stride, sky, strip, count, margin;
-    bool bottom_up, positions;
+    bool bottom_up, positions, bounds; /* bounds: of normals */
     dp_batch eye, depth;
     position_state position;
     float *slope_x, *out; /* out: a strip in each slot, product by product */
@@ -97,6 +98,7 @@ static void run_free(run *r) {
         free(r->desks[i].eyes);
         free(r->desks[i].scratch);
         free(r->desks[i].numbers);
+        free(r->desks[i].memo);
     }
     free(r->desks);
     free(r->out);
@@ -133,7 +135,9 @@ static bool make_room(run *r) {
         d->eyes = malloc(rows * r->stride * sizeof *d->eyes);
         d->scratch = malloc(4 * width * sizeof *d->scratch);
         d->numbers = malloc(FRAME_NUMBERS * width * sizeof *d->numbers);
-        good = d->codes != NULL && d->eyes != NULL && d->scratch != NULL && d->numbers != NULL;
+        d->memo = r->bounds ? calloc(1, sizeof *d->memo) : NULL;
+        good = (d->memo != NULL || !r->bounds) && d->codes != NULL && d->eyes != NULL && d->scratch != NULL &&
+               d->numbers != NULL;
     }
     return good;
 }
@@ -153,6 +157,7 @@ static bool run_start(run *r, const frame *f) {
     for (size_t i = 0; i < r->product_count; i++) {
         r->values += (size_t)frame_channels(&r->products[i]);
         r->positions = r->positions || r->products[i].kind == FRAME_POSITION;
+        r->bounds = r->bounds || (r->products[i].kind == FRAME_NORMAL && r->products[i].error);
         r->margin = looks_around(&r->products[i]) ? 0 : r->margin;
     }
     plan(r, f);
@@ -204,6 +209,7 @@ static void make_row(const run *r, const desk *d, uint32_t first, uint32_t i, si
                     .row = first + i,
                     .codes = d->codes + middle * width,
                     .planes = {d->scratch + width, d->scratch + 2 * width, d->scratch + 3 * width},
+                    .memo = d->memo,
                     .numbers = d->numbers};
     for (int k = -NORMAL_REACH; k <= NORMAL_REACH; k++)
         in.eyes[k + NORMAL_REACH] = d->eyes + (middle + (size_t)k) * r->stride + NORMAL_REACH;

@@ -224,7 +224,7 @@ static void normal_bounds(const frame_row *in) {
     const texture_camera *c = camera_of(in);
     const grain_rows ranges = ranges_in(in);
     double *bounds = in->numbers + 4 * (size_t)c->width;
-    const normal_planes planes = {c, in->row, {in->planes[0], in->planes[1], in->planes[2]}, ranges.stored};
+    const normal_planes planes = {c, in->row, {in->planes[0], in->planes[1], in->planes[2]}, ranges.stored, in->memo};
     normal_planes_bounds(&planes, in->frame->grain, DP_BATCH_EYE_ERROR, bounds);
     round_up(in->planes[0], bounds, TO_DEGREES, in->out, c->width);
 }

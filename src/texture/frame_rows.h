@@ -18,6 +18,7 @@ typedef struct frame_row {
     const float *depth;                      /**< window depth, FRAME_POSITION only */
     const float *eyes[2 * NORMAL_REACH + 1]; /**< eye depths of this row and its neighbours, as in normal_rows */
     float *planes[3];                        /**< room for three times the width */
+    grain_memo *memo;                        /**< of a thread's own */
     double *numbers;                         /**< room for FRAME_NUMBERS times the width */
     float *out;
 } frame_row;

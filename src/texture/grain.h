@@ -73,7 +73,15 @@ double grain_range_error(const dp_setup *setup, double stored, double lo, double
  */
 double grain_error_of(const dp_setup *setup, const grain *g, double z, double reading);
 
-/** The same at many depths, bit for bit; anything where z is not between near and far. */
-void grain_errors_of(const dp_setup *setup, const grain *g, const double *z, size_t count, double reading, double *out);
+/** Errors of codes that were met, of one set-up, grain and reading. Zeros to begin with. */
+enum { GRAIN_MEMO = 1 << 14 };
+typedef struct grain_memo {
+    uint32_t code[GRAIN_MEMO]; /**< + 1 */
+    double error[GRAIN_MEMO];
+} grain_memo;
+
+/** The same at many depths, bit for bit; anything where z is not between near and far. @param memo  may be null */
+void grain_errors_of(const dp_setup *setup, const grain *g, const double *z, size_t count, double reading,
+                     grain_memo *memo, double *out);
 
 #endif

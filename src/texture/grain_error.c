@@ -160,31 +160,51 @@ static bool in_vectors(const dp_setup *setup, const grain *g) {
            setup->spec.rounding == DP_ROUND_NEAREST && setup->spec.format.bits < 32;
 }
 
-void grain_errors_of(const dp_setup *setup, const grain *g, const double *z, size_t count, double reading,
-                     double *out) {
-    const dp_format *format = &setup->spec.format;
-    dp_batch batch;
-    if (!in_vectors(setup, g) ||
-        dp_batch_init(&batch, setup, DP_TASK_CODE, DP_REAL_DOUBLE, DP_WORD_32, dp_path_best()) != DP_OK) {
-        for (size_t i = 0; i < count; i++)
+/* A depth's error is its code's. */
+static void one_by_one(const dp_setup *setup, const grain *g, const double *z, const uint32_t *codes, size_t count,
+                       double reading, grain_memo *memo, double *out) {
+    for (size_t i = 0; i < count; i++) {
+        const size_t slot = codes[i] % GRAIN_MEMO;
+        if (!(z[i] >= setup->spec.znear && z[i] <= setup->spec.zfar))
+            continue; /* many are beyond the planes at borders */
+        if (memo == NULL || memo->code[slot] != codes[i] + 1) {
             out[i] = grain_error_of(setup, g, z[i], reading);
-        return;
+            if (memo == NULL)
+                continue;
+            memo->code[slot] = codes[i] + 1;
+            memo->error[slot] = out[i];
+        }
+        out[i] = memo->error[slot];
     }
+}
+
+void grain_errors_of(const dp_setup *setup, const grain *g, const double *z, size_t count, double reading,
+                     grain_memo *memo, double *out) {
+    const dp_format *format = &setup->spec.format;
+    const bool vectors = in_vectors(setup, g);
     const ranging r = ranging_of(setup);
     const siding s = siding_of(&r);
+    dp_batch batch;
+    dp_batch_init(&batch, setup, DP_TASK_CODE, DP_REAL_DOUBLE, DP_WORD_32, dp_path_best()); /* a checked set-up */
     for (size_t first = 0; first < count; first += BLOCK) {
         const size_t some = count - first < BLOCK ? count - first : BLOCK;
         uint32_t codes[BLOCK];
         int64_t doubts[BLOCK];
         around a;
         dp_batch_run(&batch, z + first, codes, some);
-        (format->kind == DP_FORMAT_UNORM ? around_unorm : around_float)(format, codes, some, &a);
+        if (!vectors) {
+            one_by_one(setup, g, z + first, codes, some, reading, memo, out + first);
+            continue;
+        }
+        if (format->kind == DP_FORMAT_UNORM)
+            around_unorm(format, codes, some, &a);
+        else
+            around_float(format, codes, some, &a);
         (r.infinite   ? errors_infinite
          : r.reversed ? errors_reversed
                       : errors_standard)(&r, &s, &a, reading, some, out + first, doubts);
-        for (size_t i = 0; i < some; i++) /* depths beyond the planes, which many are at borders, have no such error */
-            if (z[first + i] >= r.znear && z[first + i] <= r.zfar &&
-                (doubts[i] != 0 || codes[i] == 0 || codes[i] == format->code_max))
-                out[first + i] = grain_error_of(setup, g, z[first + i], reading);
+        for (size_t i = 0; i < some; i++)
+            if (doubts[i] != 0 || codes[i] == 0 || codes[i] == format->code_max)
+                one_by_one(setup, g, z + first + i, codes + i, 1, reading, NULL, out + first + i);
     }
 }

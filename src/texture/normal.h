@@ -91,6 +91,7 @@ typedef struct normal_planes {
     uint32_t row;
     const float *normal[3];
     const double *z;
+    grain_memo *memo; /**< of what is asked for; or null */
 } normal_planes;
 
 /** normal_plane_bound() of each with the error of normal_plane_error_of(), bit for bit; NaN where that is infinite. */

@@ -129,7 +129,7 @@ static void block_errors(const normal_planes *p, const grain *g, const plane_blo
         const size_t skipped = column < 0 ? 1 : 0;
         const size_t some = count - (column + (double)count > camera->width ? 1 : 0) - skipped;
         depths_beside(camera, b, column, row, count, z);
-        grain_errors_of(&camera->setup, g, z + skipped, some, reading, error + skipped);
+        grain_errors_of(&camera->setup, g, z + skipped, some, reading, p->memo, error + skipped);
         keep_worst(&camera->setup.spec, z + skipped, error + skipped, some, worst + skipped);
     }
 }
@@ -282,7 +282,10 @@ TEXTURE_CLONES static void end_ortho(const bound_block *b, const double *error, 
 static void block_bounds(const texture_camera *camera, const plane_block *p, double column, double row,
                          const double *error, size_t count, double *bound) {
     bound_block b;
-    (camera->ortho ? begin_ortho : begin_perspective)(camera, p, column, row, error, count, &b);
+    if (camera->ortho)
+        begin_ortho(camera, p, column, row, error, count, &b);
+    else
+        begin_perspective(camera, p, column, row, error, count, &b);
     for (size_t i = 0; i < count; i++) {
         b.angle[i] = 2 * atan2(b.apart[i], b.along[i]);
         /* Vectors less than a right angle from another form a convex cone: the corners speak for all between. The
