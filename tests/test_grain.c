@@ -10,11 +10,13 @@
 #include "support.h"
 #include "texture/grain.h"
 
-enum { COUNT = 700, GRAINS = 6 };
+enum { COUNT = 700, GRAINS = 8 };
 
 static const grain grains[GRAINS] = {
     {.kind = GRAIN_CODES},
     {.kind = GRAIN_FLOATS, .buffer = true, .bits = 24, .least = 0x1p-149},
+    {.kind = GRAIN_FLOATS, .buffer = true, .bits = 11, .least = 0x1p-24},
+    {.kind = GRAIN_FLOATS, .buffer = true, .bits = 53, .least = 0x1p-149},
     {.kind = GRAIN_FLOATS, .bits = 11, .margin = 0x1p-24, .least = 0x1p-24},
     {.kind = GRAIN_STEPS, .steps = 255, .buffer = true},
     {.kind = GRAIN_STEPS, .steps = 65535, .margin = 0x1p-24, .rounding = GRAIN_NEAREST},

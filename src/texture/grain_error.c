@@ -155,6 +155,71 @@ TEXTURE_CLONES static void errors_infinite(const ranging *r, const siding *s, co
                     (siding){s->scale, s->width, s->from, false}, a, reading, count, error, doubts);
 }
 
+/* ---- Numbers that were codes of UNORM: see codes_of() of grain.c ---------------------------------------------------
+ */
+
+typedef struct quotients {
+    double most,
+        per_unit; /* code_max; codes that one unit in the last place of 1 stands for, as many as it may be off */
+    double least;
+    int bits;
+} quotients;
+
+/* How many codes on either side the number of a code may have been. */
+DP_INLINE double codes_beside(const quotients *q, double code) {
+    const double v = code / q->most;
+    const uint64_t exponent = v > 0 ? (dp_bits64(v) >> 52) - 1022 : 0;
+    const double unit = dp_float64((exponent + 1023 - (uint64_t)q->bits) << 52);
+    return floor(0.5 + q->per_unit * (unit > q->least ? unit : q->least) * q->most);
+}
+
+DP_INLINE double number_error(const ranging *r, const quotients *q, double code, double reading) {
+    const double beside = codes_beside(q, code), first = code - beside, last = code + beside;
+    const double below = first > 0 ? 2 * first - 1 : 0, above = last < q->most ? 2 * last + 1 : 2 * q->most;
+    return error_of(eye_of(r, 2 * code), eye_of(r, r->reversed ? above : below), eye_of(r, r->reversed ? below : above),
+                    reading);
+}
+
+DP_INLINE void numbers_loop(const ranging r, const siding s, const quotients q, const uint32_t *restrict codes,
+                            double reading, size_t count, double *restrict error, int64_t *restrict doubts) {
+    for (size_t i = 0; i < count; i++) {
+        const double code = (double)(int32_t)codes[i], beside = codes_beside(&q, code);
+        const double first = code - beside, last = code + beside;
+        const double near_end = r.reversed ? 2 * last + 1 : 2 * first - 1;
+        const double far_end = r.reversed ? 2 * first - 1 : 2 * last + 1;
+        const double lo = eye_of(&r, near_end), hi = eye_of(&r, far_end), outwards = r.reversed ? 1 : -1;
+        int64_t doubt = !(lo > r.znear && hi < r.zfar && hi - lo > 0x1p-42 * hi && first > 1 && last + 1 < q.most);
+        const double at_lo = side_of(&s, r.reversed, near_end, lo, &doubt);
+        const double at_hi = side_of(&s, r.reversed, far_end, hi, &doubt);
+        const double nearest = r.reversed ? last : first, farthest = r.reversed ? first : last;
+        const double own = number_error(&r, &q, code, reading);
+        const double near = number_error(&r, &q, at_lo > 0 ? nearest + outwards : nearest, reading);
+        const double far = number_error(&r, &q, at_hi < 0 ? farthest - outwards : farthest, reading);
+        const double worse = near > own ? near : own;
+        error[i] = far > worse ? far : worse;
+        doubts[i] = doubt;
+    }
+}
+
+TEXTURE_CLONES static void numbers_standard(const ranging *r, const siding *s, const quotients *q,
+                                            const uint32_t *codes, double reading, size_t count, double *error,
+                                            int64_t *doubts) {
+    numbers_loop((ranging){r->top, r->den, r->znear, r->zfar, r->kappa, false, false},
+                 (siding){s->scale, s->width, s->from, false}, *q, codes, reading, count, error, doubts);
+}
+
+TEXTURE_CLONES static void numbers_reversed(const ranging *r, const siding *s, const quotients *q,
+                                            const uint32_t *codes, double reading, size_t count, double *error,
+                                            int64_t *doubts) {
+    numbers_loop((ranging){r->top, r->den, r->znear, r->zfar, r->kappa, true, false},
+                 (siding){s->scale, s->width, s->from, false}, *q, codes, reading, count, error, doubts);
+}
+
+static bool are_numbers(const dp_setup *setup, const grain *g) {
+    return setup->curve == DP_CURVE_PERSPECTIVE && !isinf(setup->spec.zfar) && g != NULL && g->kind == GRAIN_FLOATS &&
+           g->buffer && setup->spec.format.kind == DP_FORMAT_UNORM && setup->spec.rounding == DP_ROUND_NEAREST;
+}
+
 static bool in_vectors(const dp_setup *setup, const grain *g) {
     return setup->curve == DP_CURVE_PERSPECTIVE && (g == NULL || g->kind == GRAIN_CODES) &&
            setup->spec.rounding == DP_ROUND_NEAREST && setup->spec.format.bits < 32;
@@ -178,10 +243,19 @@ static void one_by_one(const dp_setup *setup, const grain *g, const double *z, c
     }
 }
 
+static void finish_doubts(const dp_setup *setup, const grain *g, const double *z, const uint32_t *codes,
+                          const int64_t *doubts, size_t count, double reading, grain_memo *memo, double *out) {
+    for (size_t i = 0; i < count; i++)
+        if (doubts[i] != 0 || codes[i] == 0 || codes[i] == setup->spec.format.code_max)
+            one_by_one(setup, g, z + i, codes + i, 1, reading, memo, out + i);
+}
+
 void grain_errors_of(const dp_setup *setup, const grain *g, const double *z, size_t count, double reading,
                      grain_memo *memo, double *out) {
     const dp_format *format = &setup->spec.format;
-    const bool vectors = in_vectors(setup, g);
+    const bool vectors = in_vectors(setup, g), numbers = are_numbers(setup, g);
+    const quotients q = {format->code_max, numbers && g->bits > 11 ? 1.5 : 1, numbers ? g->least : 0,
+                         numbers ? g->bits : 0};
     const ranging r = ranging_of(setup);
     const siding s = siding_of(&r);
     dp_batch batch;
@@ -192,6 +266,11 @@ void grain_errors_of(const dp_setup *setup, const grain *g, const double *z, siz
         int64_t doubts[BLOCK];
         around a;
         dp_batch_run(&batch, z + first, codes, some);
+        if (numbers) {
+            (r.reversed ? numbers_reversed : numbers_standard)(&r, &s, &q, codes, reading, some, out + first, doubts);
+            finish_doubts(setup, g, z + first, codes, doubts, some, reading, memo, out + first);
+            continue;
+        }
         if (!vectors) {
             one_by_one(setup, g, z + first, codes, some, reading, memo, out + first);
             continue;
@@ -203,8 +282,6 @@ void grain_errors_of(const dp_setup *setup, const grain *g, const double *z, siz
         (r.infinite   ? errors_infinite
          : r.reversed ? errors_reversed
                       : errors_standard)(&r, &s, &a, reading, some, out + first, doubts);
-        for (size_t i = 0; i < some; i++)
-            if (doubts[i] != 0 || codes[i] == 0 || codes[i] == format->code_max)
-                one_by_one(setup, g, z + first + i, codes + i, 1, reading, NULL, out + first + i);
+        finish_doubts(setup, g, z + first, codes, doubts, some, reading, memo, out + first);
     }
 }
