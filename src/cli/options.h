@@ -167,11 +167,11 @@ typedef struct options {
     const scene_row *scene; /**< null when not given, as all rows and names here */
     named_number parameters[OPTIONS_PARAMETERS_MAX];
     size_t parameter_count;
-    double sky;    /**< window depth */
-    double metric; /**< scene units of 1 in a sample of metric depth; 0 when not given */
-    depths pixels; /**< column and row of each in turn; count is 0 when not given */
-    bool eye, radial, error_map; /**< error_map: in place of the product */
-    const char *error_file;      /**< beside it; or null */
+    double sky;                   /**< window depth */
+    double metric;                /**< scene units of 1 in a sample of metric depth; 0 when not given */
+    depths pixels;                /**< column and row of each in turn; count is 0 when not given */
+    bool eye, radial, error_map;  /**< error_map: in place of the product */
+    const char *error_file;       /**< beside it; or null */
     const position_row *position; /**< null for exact as well */
     const normal_row *normal;
     const effect_row *effect;

@@ -75,7 +75,7 @@ typedef struct texture_product {
     frame_product made;
     frame_product error; /**< of it, for the file of --error-map */
     double settings[TEXTURE_PARAMETERS];
-    char name[PRODUCT_NAME_SIZE]; /**< "normals by high, error" */
+    char name[PRODUCT_NAME_SIZE];     /**< "normals by high, error" */
     const char *unit, *unit_of_error; /**< "scene units", "degrees", "levels of 1/255", "" */
 } texture_product;
 

@@ -41,7 +41,7 @@ typedef struct output {
     const char *path; /**< the name for messages */
     char *target;     /**< what the temporary file is renamed to; null when writing straight */
     char *temporary;
-    int width;        /**< characters in a line of text; 0: as the terminal or the page has it */
+    int width; /**< characters in a line of text; 0: as the terminal or the page has it */
     output_colour colour;
     size_t used; /**< bytes waiting in the buffer */
     char buffer[OUTPUT_BUFFER_SIZE];

@@ -267,7 +267,10 @@ void grain_errors_of(const dp_setup *setup, const grain *g, const double *z, siz
         around a;
         dp_batch_run(&batch, z + first, codes, some);
         if (numbers) {
-            (r.reversed ? numbers_reversed : numbers_standard)(&r, &s, &q, codes, reading, some, out + first, doubts);
+            if (r.reversed)
+                numbers_reversed(&r, &s, &q, codes, reading, some, out + first, doubts);
+            else
+                numbers_standard(&r, &s, &q, codes, reading, some, out + first, doubts);
             finish_doubts(setup, g, z + first, codes, doubts, some, reading, memo, out + first);
             continue;
         }
