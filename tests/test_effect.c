@@ -84,7 +84,25 @@ static long double unit(long double x) {
 
 /* ---- By hand: error in shares of 1, and the end of the usable values --------------------------------------------- */
 
-static const double RISE = -0.4, FOCAL = 1.25, START = 2, END = -60;
+/* A picture of one pixel, whose ray falls by 0.4 in a scene unit; the camera stands at a height of 5, and moved. */
+static const double RISE = -0.4, MOVE = 0.3, HALF = 0.8, START = 7, END = -60, HEIGHT = 5;
+
+static effect_view view_of(const dp_setup *setup) {
+    const double degree = 3.14159265358979323846 / 180;
+    camera_spec spec = camera_spec_default();
+    texture_camera now, last;
+    spec.width = spec.height = 1;
+    spec.fov_y = 2 * atan(HALF) / degree;
+    spec.half_height = HALF;
+    spec.pitch = asin(RISE) / degree;
+    spec.origin[1] = HEIGHT;
+    assert_null(camera_init(&now, setup, &spec));
+    spec.origin[0] = MOVE;
+    assert_null(camera_init(&last, setup, &spec));
+    effect_view view = effect_view_of(&now, &last, 0, 0);
+    view.setup = setup;
+    return view;
+}
 
 typedef struct hand {
     const char *name;
@@ -140,7 +158,8 @@ static long double focus_usable(const camera *c, cell k, long double share) {
 
 /* 1/z changes by more at the near end of a cell. */
 static long double blur_reach(cell k) {
-    return (long double)FOCAL / 2 * fmaxl((k.stored - k.lo) / (k.stored * k.lo), (k.hi - k.stored) / (k.stored * k.hi));
+    return (long double)MOVE / (long double)HALF / 2 *
+           fmaxl((k.stored - k.lo) / (k.stored * k.lo), (k.hi - k.stored) / (k.stored * k.hi));
 }
 
 static long double blur_error(const camera *c, cell k, long double p) {
@@ -174,7 +193,7 @@ static long double fog_usable(const camera *c, cell k, long double share) {
 }
 
 static long double height(long double z) {
-    return ((long double)RISE * z - (long double)START) / ((long double)END - (long double)START);
+    return ((long double)HEIGHT + (long double)RISE * z - (long double)START) / ((long double)END - (long double)START);
 }
 
 static long double height_error(const camera *c, cell k, long double p) {
@@ -204,7 +223,7 @@ static void parameters_of(const effect_row *row, double *p) {
     static const struct {
         const char *name;
         double value;
-    } given[] = {{"rise", RISE}, {"focal", FOCAL}, {"start", START}, {"end", END}};
+    } given[] = {{"start", START}, {"end", END}};
     parameter_defaults(row->parameters, p);
     for (size_t i = 0; i < sizeof given / sizeof given[0]; i++) {
         const int index = parameter_find(row->parameters, given[i].name);
@@ -236,6 +255,7 @@ static void test_by_hand(void **state) {
     for (uint64_t i = 0; i < test_cases(2000, 60000, 1000000); i++) {
         const dp_setup setup = any_setup(&r);
         const camera c = camera_of(&setup);
+        const effect_view view = view_of(&setup);
         const double z = log_depth(&r, &setup);
         const cell k = cell_of(&c, dp_code(&setup, z));
         const hand *h = &hands[rng_below(&r, HAND_COUNT)];
@@ -249,7 +269,7 @@ static void test_by_hand(void **state) {
             t.skipped++;
             continue;
         }
-        const double got = effect_usable(row, &setup, p, z, levels);
+        const double got = effect_usable(row, &view, p, z, levels);
         const bool outside = row->smallest ? usable > (long double)wanted->hi : usable < (long double)wanted->lo;
         if (outside)
             TALLY(&t, isnan(got), "%s z %a: %a usable", row->name, z, got);
@@ -262,9 +282,9 @@ static void test_by_hand(void **state) {
         if (h->usable == water_usable && rng_below(&r, 8) == 0)
             p[row->wanted] = 0;
         const long double error = 255 * h->error(&c, k, p[row->wanted]);
-        TALLY(&t, fabsl((long double)effect_error(row, &setup, p, z) - error) <= slack(k) * fmaxl(error, 1e-3L),
+        TALLY(&t, fabsl((long double)effect_error(row, &view, p, z) - error) <= slack(k) * fmaxl(error, 1e-3L),
               "%s %s z %a, parameter %a: %a levels, %La", row->name, setup.spec.format.name, z, p[row->wanted],
-              effect_error(row, &setup, p, z), error);
+              effect_error(row, &view, p, z), error);
     }
     tally_end(&t);
 }
@@ -277,6 +297,7 @@ static void test_sharp(void **state) {
     for (uint64_t i = 0; i < test_cases(2000, 40000, 1000000); i++) {
         const dp_setup setup = any_setup(&r);
         const camera c = camera_of(&setup);
+        const effect_view view = view_of(&setup);
         const double z = log_depth(&r, &setup);
         const cell k = cell_of(&c, dp_code(&setup, z));
         const hand *h = &hands[rng_below(&r, HAND_COUNT)];
@@ -285,15 +306,15 @@ static void test_sharp(void **state) {
         double p[TEXTURE_PARAMETERS];
         parameters_of(row, p);
         const double levels = rng_log(&r, 0.01, 100);
-        const double usable = effect_usable(row, &setup, p, z, levels);
+        const double usable = effect_usable(row, &view, p, z, levels);
         if (isnan(usable) || usable == wanted->lo || usable == wanted->hi || reach(k) < 1e-9L * k.hi) {
             t.skipped++;
             continue;
         }
         p[row->wanted] = usable;
-        TALLY(&t, effect_error(row, &setup, p, z) <= levels, "%s z %a at %a", row->name, z, usable);
+        TALLY(&t, effect_error(row, &view, p, z) <= levels, "%s z %a at %a", row->name, z, usable);
         p[row->wanted] = nextafter(usable, row->smallest ? 0 : INFINITY);
-        TALLY(&t, effect_error(row, &setup, p, z) > levels, "%s z %a beside %a", row->name, z, usable);
+        TALLY(&t, effect_error(row, &view, p, z) > levels, "%s z %a beside %a", row->name, z, usable);
         const long double off = 2 * slack(k);
         const long double good = (long double)usable * (row->smallest ? 1 + off : 1 - off);
         const long double bad = (long double)usable * (row->smallest ? 1 - off : 1 + off);
@@ -313,6 +334,7 @@ static void test_outputs(void **state) {
     enum { DEPTHS = 16, REFERENCES = 8 };
     const dp_setup setup = setup_of(0.1, 1000, DP_MAPPING_D3D, "unorm16");
     const camera c = camera_of(&setup);
+    const effect_view view = view_of(&setup);
     rng r = rng_make("effects outputs");
     tally t = {.name = "outputs"};
     (void)state;
@@ -325,9 +347,9 @@ static void test_outputs(void **state) {
             if (row->kind == EFFECT_STEP)
                 continue;
             parameters_of(row, p);
-            const double usable = effect_usable(row, &setup, p, (double)k.stored, 1);
+            const double usable = effect_usable(row, &view, p, (double)k.stored, 1);
             p[row->wanted] = isnan(usable) ? 1 : fmin(usable * rng_log(&r, 0.1, 10), row->parameters[row->wanted].hi);
-            const double error = effect_error(row, &setup, p, (double)k.stored);
+            const double error = effect_error(row, &view, p, (double)k.stored);
             for (int a = 0; a < REFERENCES; a++)
                 for (int b = 0; b <= DEPTHS; b++) {
                     const double z = (double)(k.lo + (k.hi - k.lo) * b / DEPTHS);
@@ -335,8 +357,11 @@ static void test_outputs(void **state) {
                                       : a == 1 ? (double)k.lo
                                       : a == 2 ? (double)k.hi
                                                : (double)k.stored * rng_uniform(&r, 0.9, 1.1);
-                    const double seen = row->output(&setup, p, (double)k.stored, at);
-                    worst = fmax(worst, 255 * fabs(row->output(&setup, p, z, at) - seen));
+                    const int level = parameter_find(row->parameters, "level");
+                    if (row->reference != NULL && !row->given) /* the level of the water is at that depth */
+                        p[level] = HEIGHT + RISE * at;
+                    const double seen = row->output(&view, p, (double)k.stored, at);
+                    worst = fmax(worst, 255 * fabs(row->output(&view, p, z, at) - seen));
                 }
             TALLY(&t, fmin(worst, 255) <= error * (1 + 1e-6) + 1e-9, "%s code %u: %a levels, %a stated", row->name,
                   code, worst, error);
@@ -358,6 +383,7 @@ static void test_edge(void **state) {
     for (uint64_t i = 0; i < test_cases(300, 6000, 100000); i++) {
         const dp_setup setup = any_setup(&r);
         const camera c = camera_of(&setup);
+        const effect_view view = view_of(&setup);
         const double z = rng_log(&r, setup.spec.znear, setup.spec.zfar / 1.5);
         const cell k = cell_of(&c, dp_code(&setup, z));
         const double slope = rng_below(&r, 8) == 0 ? 0 : (double)(k.hi - k.lo) * rng_log(&r, 0.05, 20);
@@ -376,7 +402,7 @@ static void test_edge(void **state) {
         }
         const long double plane = (long double)slope / c.f;
         const bool exact = least >= plane && most <= plane;
-        const double usable = effect_usable(row, &setup, p, z, 1);
+        const double usable = effect_usable(row, &view, p, z, 1);
         const long double want = exact ? 0 : fmaxl(plane, most);
         TALLY(&t, want > 1 ? isnan(usable) : fabsl((long double)usable - want) <= 1e-12L + slack(k) * want,
               "%s %s z %a slope %a: from %a, %La", setup.spec.format.name, dp_mapping_get(setup.spec.mapping)->name, z,
@@ -390,8 +416,8 @@ static void test_edge(void **state) {
                 continue;
             p[0] = (double)threshold;
             const bool wrong = plane > threshold ? least <= threshold : most > threshold;
-            TALLY(&t, effect_error(row, &setup, p, z) == (wrong ? 255.0 : 0.0), "z %a slope %a threshold %a: %g", z,
-                  slope, p[0], effect_error(row, &setup, p, z));
+            TALLY(&t, effect_error(row, &view, p, z) == (wrong ? 255.0 : 0.0), "z %a slope %a threshold %a: %g", z,
+                  slope, p[0], effect_error(row, &view, p, z));
         }
     }
     tally_end(&t);
@@ -403,7 +429,7 @@ static void test_rows(void **state) {
     static const char *const names[] = {"intersection", "force-field", "fog",         "scan-line",     "water-line",
                                         "height-fog",   "edge",        "motion-blur", "depth-of-field"};
     /* As depthprec(1) documents them: a command without --parameter is read with these in mind. */
-    static const double wanted[] = {0.1, 1, 1, 0.01, 0, 1, 0.001, 0.1, 10};
+    static const double wanted[] = {0.1, 1, 1, 0.01, 0, 1, 0.001, 1, 10};
     (void)state;
     assert_int_equal(count(), sizeof names / sizeof names[0]);
     for (size_t i = 0; i < count(); i++) {
@@ -421,11 +447,12 @@ static void test_rows(void **state) {
         assert_true(effect_find(names[i])->parameters[effect_find(names[i])->wanted].value == wanted[i]);
         /* What needs z/far says so. */
         const dp_setup infinite = setup_of(0.1, INFINITY, DP_MAPPING_REVERSED, "fp32");
+        const effect_view view = view_of(&infinite);
         double p[TEXTURE_PARAMETERS];
         parameter_defaults(row->parameters, p);
         assert_true(effect_applies(row, &infinite) != row->eye01);
-        assert_true((isnan(effect_error(row, &infinite, p, 10)) != 0) == row->eye01);
-        assert_true(!row->eye01 || isnan(effect_usable(row, &infinite, p, 10, 1)));
+        assert_true((isnan(effect_error(row, &view, p, 10)) != 0) == row->eye01);
+        assert_true(!row->eye01 || isnan(effect_usable(row, &view, p, 10, 1)));
     }
     assert_null(effect_find("bloom"));
     assert_null(effect_get(count()));
@@ -436,40 +463,44 @@ static void test_limits(void **state) {
     const dp_setup infinite = setup_of(0.1, INFINITY, DP_MAPPING_D3D, "unorm24");
     const dp_setup finite = setup_of(0.1, 1000, DP_MAPPING_D3D, "unorm16");
     dp_setup pipeline = finite;
+    effect_view at = view_of(&infinite), near = view_of(&finite), level = view_of(&finite);
     double p[TEXTURE_PARAMETERS];
     (void)state;
     /* The last cell of an infinite far plane has no end: no distance is enough, but 1/z stays where it is. */
     parameter_defaults(effect_find("intersection")->parameters, p);
-    assert_true(effect_error(effect_find("intersection"), &infinite, p, 1e9) == 255);
-    assert_true(isnan(effect_usable(effect_find("intersection"), &infinite, p, 1e9, 1)));
+    assert_true(effect_error(effect_find("intersection"), &at, p, 1e9) == 255);
+    assert_true(isnan(effect_usable(effect_find("intersection"), &at, p, 1e9, 1)));
     parameter_defaults(effect_find("force-field")->parameters, p);
-    assert_true(isnan(effect_usable(effect_find("force-field"), &infinite, p, 1e9, 1)));
+    assert_true(isnan(effect_usable(effect_find("force-field"), &at, p, 1e9, 1)));
     parameter_defaults(effect_find("motion-blur")->parameters, p);
-    assert_true(effect_error(effect_find("motion-blur"), &infinite, p, 1e9) < 1e-4);
+    assert_true(effect_error(effect_find("motion-blur"), &at, p, 1e9) < 1e-4);
     /* Level ground: the height does not depend on the depth. */
     const effect_row *water = effect_find("water-line");
     parameter_defaults(water->parameters, p);
-    assert_true(effect_error(water, &finite, p, 10) == 255);
-    p[parameter_find(water->parameters, "rise")] = 0;
-    assert_true(effect_error(water, &finite, p, 10) == 0 && effect_usable(water, &finite, p, 10, 1) == 0);
-    assert_true(effect_error(water, &infinite, p, 1e9) == 0);
+    assert_true(effect_error(water, &near, p, 10) == 255);
+    level.along[1] = 0;
+    assert_true(effect_error(water, &level, p, 10) == 0 && effect_usable(water, &level, p, 10, 1) == 0);
+    level.setup = &infinite;
+    assert_true(effect_error(water, &level, p, 1e9) == 0);
     /* Where fog has saturated no depth shows. */
     const effect_row *fog = effect_find("fog");
     parameter_defaults(fog->parameters, p);
     p[0] = 100;
-    assert_true(effect_error(fog, &finite, p, 500) == 0);
-    assert_true(effect_usable(fog, &finite, p, 500, 1) < 1);
+    assert_true(effect_error(fog, &near, p, 500) == 0);
+    assert_true(effect_usable(fog, &near, p, 500, 1) < 1);
     /* An orthographic camera that moves moves all alike. */
     dp_spec spec = finite.spec;
     dp_setup ortho;
     spec.ortho = 1;
     assert_int_equal(dp_setup_init(&ortho, &spec), DP_OK);
+    const effect_view moved = view_of(&ortho);
     parameter_defaults(effect_find("motion-blur")->parameters, p);
-    assert_true(effect_error(effect_find("motion-blur"), &ortho, p, 10) == 0);
+    assert_true(effect_error(effect_find("motion-blur"), &moved, p, 10) == 0);
     /* No cells, no error. */
     pipeline.spec.model = DP_MODEL_FP32;
+    const effect_view none = view_of(&pipeline);
     parameter_defaults(fog->parameters, p);
-    assert_true(isnan(effect_error(fog, &pipeline, p, 10)) && isnan(effect_usable(fog, &pipeline, p, 10, 1)));
+    assert_true(isnan(effect_error(fog, &none, p, 10)) && isnan(effect_usable(fog, &none, p, 10, 1)));
 }
 
 int main(void) {

@@ -57,6 +57,7 @@ enum {
 #define POSITIVE(field)              .parse = parse_length, FIELD(double, field)
 #define LENGTH(field, ...)           POSITIVE(field), LIMITS(__VA_ARGS__)
 #define NUMBER(field, ...)           .parse = parse_number, FIELD(double, field), LIMITS(__VA_ARGS__)
+#define ORIGIN(field)                .parse = parse_origin, FIELD(double, field[0])
 #define WHOLE(field, ...)            .parse = parse_whole, SIZED(field), LIMITS(__VA_ARGS__)
 #define SEVERAL(kind, field, lo, hi) .parse = (kind), FIELD(depths, field), LIMITS(lo, hi, NULL)
 #define WORD(field, among)           .parse = parse_word, SIZED(field), .names = &(among)
@@ -197,11 +198,21 @@ const option_row option_rows[OPTION_COUNT] = {
     [OPTION_PITCH] = {"pitch", 0, "DEG", VERB_TEXTURE,
         "the camera's turn upwards", NUMBER(camera.pitch, -90, 90, "degrees"), .standard = "0"},
     [OPTION_ORIGIN] = {"origin", 0, "X,Y,Z", VERB_TEXTURE,
-        "where the camera stands, world coordinates", parse_origin, .standard = "0,0,0"},
+        "where the camera stands, world coordinates", ORIGIN(camera.origin), .standard = "0,0,0"},
+    [OPTION_LAST_FOV] = {"last-fov", 0, "DEG", VERB_TEXTURE,
+        "last frame's vertical field of view, for motion blur", NUMBER(last.fov_y, 0.01, 179, "degrees"),
+        .without = "that of this frame"},
+    [OPTION_LAST_YAW] = {"last-yaw", 0, "DEG", VERB_TEXTURE,
+        "last frame's turn to the right", NUMBER(last.yaw, -360, 360, "degrees"), .without = "that of this frame"},
+    [OPTION_LAST_PITCH] = {"last-pitch", 0, "DEG", VERB_TEXTURE,
+        "last frame's turn upwards", NUMBER(last.pitch, -90, 90, "degrees"), .without = "that of this frame"},
+    [OPTION_LAST_ORIGIN] = {"last-origin", 0, "X,Y,Z", VERB_TEXTURE,
+        "where the camera stood in the last frame", ORIGIN(last.origin), .without = "where it stands"},
     [OPTION_SCENE] = {"scene", 0, "NAME", VERB_TEXTURE,
         "a synthetic scene in place of FILE: @; 'depthprec list scenes' has their parameters", ROW(scene, scenes)},
     [OPTION_SIZE] = {"size", 0, "WxH", VERB_TEXTURE,
-        "with --scene: its pixels", parse_size, .standard = "640x360",
+        "pixels of the picture: with --scene, and with --effect alone where the effect needs positions", parse_size,
+        .standard = "640x360",
         .instead = "; a figure's size is --width and --height"},
     [OPTION_PARAMETER] = {"parameter", 0, "NAME=VALUE", VERB_TEXTURE,
         "of the scene or the effect; as often as needed", .parse = parse_parameter},
@@ -214,7 +225,8 @@ const option_row option_rows[OPTION_COUNT] = {
         LENGTH(metric, METRIC_SCALE_MIN, METRIC_SCALE_MAX, "scene units")},
     [OPTION_PIXEL] = {"pixel", 0, "X,Y[;X,Y...]", VERB_TEXTURE,
         "all about single pixels: code, eye depth and which depths it may be, neighbours, position, normal; 0,0 is the "
-        "top left one", SEVERAL(parse_pixels, pixels, 0, TEXTURE_SIDE_MAX - 1)},
+        "top left one. With --effect alone: where in the picture the depths are",
+        SEVERAL(parse_pixels, pixels, 0, TEXTURE_SIDE_MAX - 1)},
     [OPTION_EYE] = {"eye", 0, NULL, VERB_TEXTURE,
         "product: eye depth", FLAG(eye)},
     [OPTION_RADIAL] = {"radial", 0, NULL, VERB_TEXTURE,

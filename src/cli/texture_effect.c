@@ -17,12 +17,15 @@ static const double ONE_LEVEL = 1;
 
 /* ---- Which effect ------------------------------------------------------------------------------------------------ */
 
-int texture_effect_resolve(const options *o, const effect_row **row, double parameters[TEXTURE_PARAMETERS]) {
+int texture_effect_resolve(const options *o, bool pictured, const effect_row **row,
+                           double parameters[TEXTURE_PARAMETERS]) {
+    const parameter_use unused = pictured ? PARAMETER_TABLE : PARAMETER_IMAGE;
     int status = EXIT_FINE;
     *row = o->effect;
     parameter_defaults((*row)->parameters, parameters);
     for (size_t i = 0; i < o->parameter_count && status == EXIT_FINE; i++)
-        status = texture_parameter_set((*row)->name, (*row)->parameters, &o->parameters[i], parameters);
+        status = texture_parameter_set((*row)->name, (*row)->parameters, &o->parameters[i], unused,
+                                       pictured && (*row)->given ? "reference" : NULL, parameters);
     return status;
 }
 
@@ -44,15 +47,53 @@ typedef struct table {
         const char *name, *unit;
         double value;
     } parameter;
+    camera_spec spec; /* where the effect needs the position: the camera, and the pixel */
+    uint32_t column, line;
+    texture_camera camera, last;
+    effect_view view;
     row row;
     bool begun;
     double usable, z;
 } table;
 
+static bool needs(const table *t, unsigned what) {
+    return (t->effect->needs & what) != 0;
+}
+
+/* The pixel of --pixel, or the middle of the lowest row, which sees the ground. */
+static int make_view(table *t, const dp_setup *setup) {
+    const options *o = t->walk.o;
+    const char *wrong = camera_init(&t->camera, setup, &t->spec);
+    int status = wrong != NULL ? usage_error("texture: %s", wrong) : EXIT_FINE;
+    if (status == EXIT_FINE && needs(t, EFFECT_LAST_FRAME))
+        status = texture_last_camera(o, setup, &t->spec, &t->last);
+    if (status == EXIT_FINE)
+        t->view = effect_view_of(&t->camera, needs(t, EFFECT_LAST_FRAME) ? &t->last : NULL, t->column, t->line);
+    t->view.setup = setup;
+    return status;
+}
+
+static int choose_pixel(table *t, const options *o) {
+    t->spec = o->camera;
+    t->column = t->spec.width / 2;
+    t->line = t->spec.height - 1;
+    if (!option_given(o, OPTION_PIXEL))
+        return EXIT_FINE;
+    const double x = depths_get(&o->pixels, 0), y = depths_get(&o->pixels, 1);
+    if (o->pixels.count != 2)
+        return option_error(OPTION_PIXEL, "must be one pixel with --effect alone, got %zu", o->pixels.count / 2);
+    if (x >= t->spec.width || y >= t->spec.height)
+        return option_error(OPTION_PIXEL, "must lie in the %u x %u pixels, from 0,0 to %u,%u, got %.0f,%.0f",
+                            t->spec.width, t->spec.height, t->spec.width - 1, t->spec.height - 1, x, y);
+    t->column = (uint32_t)x;
+    t->line = (uint32_t)y;
+    return EXIT_FINE;
+}
+
 static void *next_setup(void *of, size_t i) {
     table *t = of;
     t->begun = false;
-    return walk_setup(&t->walk, i) ? t : NULL;
+    return walk_setup(&t->walk, i) && make_view(t, t->walk.setup) == EXIT_FINE ? t : NULL;
 }
 
 static void *next_row(void *of, size_t i) {
@@ -61,8 +102,8 @@ static void *next_row(void *of, size_t i) {
     double z;
     if (!walk_depth(&t->walk, i, &z))
         return NULL;
-    x->levels = effect_error(t->effect, t->walk.setup, t->parameters, z);
-    x->usable = effect_usable(t->effect, t->walk.setup, t->parameters, z, ONE_LEVEL);
+    x->levels = effect_error(t->effect, &t->view, t->parameters, z);
+    x->usable = effect_usable(t->effect, &t->view, t->parameters, z, ONE_LEVEL);
     dp_sample_at(t->walk.setup, z, &x->sample); /* depths_resolve() has seen to it */
     const bool decides = isnan(x->usable) || (t->effect->smallest ? x->usable > t->usable : x->usable < t->usable);
     if (!t->begun || (decides && !isnan(t->usable))) {
@@ -73,11 +114,16 @@ static void *next_row(void *of, size_t i) {
     return x;
 }
 
+/* Those that the table uses. */
 static void *next_parameter(void *of, size_t i) {
     table *t = of;
-    const texture_parameter *p = &t->effect->parameters[i];
-    t->parameter = (struct parameter){p->name, p->unit, t->parameters[i]};
-    return p->name != NULL ? &t->parameter : NULL;
+    const texture_parameter *p = t->effect->parameters;
+    for (size_t k = 0; p[k].name != NULL; k++)
+        if (p[k].use != PARAMETER_IMAGE && i-- == 0) {
+            t->parameter = (struct parameter){p[k].name, p[k].unit, t->parameters[k]};
+            return &t->parameter;
+        }
+    return NULL;
 }
 
 static void say_effect(page *p, void *item) {
@@ -90,6 +136,10 @@ static void say_effect(page *p, void *item) {
     if (t->effect->reference != NULL)
         append(parameters, sizeof parameters, "; %s is where it is worst", t->effect->reference);
     page_text(p, "%s%s", t->name, parameters);
+    if (needs(t, EFFECT_POSITION))
+        page_text(p, "pixel %u,%u of %u x %u, %s %s", t->column, t->line, t->spec.width, t->spec.height,
+                  t->camera.ortho ? "half height" : "field of view",
+                  number_of(t->camera.ortho ? t->spec.half_height : t->spec.fov_y, DIGITS_Z).text);
 }
 
 static void say_usable(page *p, void *item) {
@@ -140,11 +190,17 @@ static int write_table(table *t, int status) {
 
 int texture_effect_table(const options *o) {
     table t = {.walk = {.o = o}};
-    int status = texture_effect_resolve(o, &t.effect, t.parameters);
+    int status = texture_effect_resolve(o, false, &t.effect, t.parameters);
+    if (status == EXIT_FINE)
+        status = texture_camera_check(o);
+    if (status == EXIT_FINE)
+        status = choose_pixel(&t, o);
     if (status == EXIT_FINE && t.effect->eye01 && isinf(o->zfar))
         status = option_error(OPTION_FAR, "must be finite for %s, which uses z/far, got inf", t.effect->name);
     if (status == EXIT_FINE)
         status = walk_start(&t.walk, o);
+    if (status == EXIT_FINE)
+        status = make_view(&t, &t.walk.all.items[0]);
     t.name = t.effect->name;
     t.wanted = &t.effect->parameters[t.effect->wanted];
     t.wanted_name = t.wanted->name;

@@ -110,7 +110,7 @@ static bool rounding_of_product(const texture_source *s, const texture_product *
     frame_summary sum = {.lo = -1, .hi = 1, .count = 1};
     plain.error = false;
     /* Without what it compares with an effect has no product yet; it will be from 0 to 1. */
-    const bool open = p->made.kind == FRAME_EFFECT && p->made.effect->reference != NULL;
+    const bool open = p->made.kind == FRAME_EFFECT && p->made.effect->given && !(p->made.reference > 0);
     *more = 0;
     if (open)
         sum.lo = 0;

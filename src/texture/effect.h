@@ -9,12 +9,15 @@
  * focus. Wherever that is, the error is no larger than when it lies in the cell as well, so there it is put: in the
  * worst of three places, the stored depth and the two ends of the cell.
  *
+ * Each row has its formula twice: exactly, in double, and in binary32, operation by operation, as a shader evaluates it
+ * on the depth that it decodes and the place that it reconstructs.
+ *
  * Depths enter as doubles, each within 2^-50 of itself, which errors inherit.
  */
 #ifndef TEXTURE_EFFECT_H
 #define TEXTURE_EFFECT_H
 
-#include "depthprec/depthprec.h"
+#include "texture/camera.h"
 #include "texture/parameter.h"
 
 /** How the wanted parameter p and the row's quantity v, with v' where it is compared, make the output. */
@@ -25,6 +28,38 @@ typedef enum effect_kind {
     EFFECT_STEP      /**< |v - v'| > p for two pixels */
 } effect_kind;
 
+/** What an effect needs besides the depth of its pixel: bits. */
+enum {
+    EFFECT_POSITION = 1,    /**< the world position of the pixel, so the camera */
+    EFFECT_LAST_FRAME = 2,  /**< last frame's view-projection */
+    EFFECT_SECOND_DEPTH = 4 /**< another depth: of a surface that is drawn, or of other pixels */
+};
+
+/** What a pixel is to an effect, exactly. */
+typedef struct effect_view {
+    const dp_setup *setup;    /**< planes; cells, where none are given */
+    double base[3], along[3]; /**< at eye depth z it shows the place base + along z, world coordinates */
+    double ndc[2];            /**< where it lies in this frame: from -1 to 1, to the right and up */
+    /** Where its place lay in last frame's picture: (from + per z)/(w + w_per z). */
+    struct {
+        double from[2], per[2], w, w_per;
+    } last;
+} effect_view;
+
+/**
+ * The view of a pixel. The camera must live as long, or `setup` be set to one that does.
+ * @param last  last frame's camera; null: it was this one
+ */
+effect_view effect_view_of(const texture_camera *camera, const texture_camera *last, double column, double row);
+
+/** The same in a shader. Of a depth that it only compares with, eye and eye01. */
+typedef struct effect_pixel {
+    float eye, eye01; /**< eye depth; the same over far */
+    float world[3];
+    float ndc[2];
+    const float (*last)[4]; /**< rows x, y and w of last frame's view-projection */
+} effect_pixel;
+
 typedef struct effect_row {
     const char *name; /**< "intersection", "force-field", "fog", "scan-line", "water-line", "height-fog", "edge",
                            "motion-blur", "depth-of-field" */
@@ -33,13 +68,19 @@ typedef struct effect_row {
     int wanted;            /**< the parameter whose usable values are looked for */
     bool smallest;         /**< it is usable from some value up; else from some value down */
     bool eye01;            /**< uses z/far, so far must be finite */
+    unsigned needs;        /**< EFFECT_POSITION and the like */
     const char *reference; /**< what the depth is compared with; null when with nothing */
+    bool given;            /**< the reference is an eye depth that the user gives with an image */
     const char *source;
     effect_kind kind;
-    double (*quantity)(const dp_setup *setup, const double *parameters, double z);
+    /** EFFECT_CLAMPED: v. Monotone in z. */
+    double (*quantity)(const effect_view *view, const double *parameters, double z);
+    /** All others: |v - v'| of two depths; the farther they are from each other the larger. */
+    double (*apart)(const effect_view *view, const double *parameters, double z, double other);
     /** The output, before it is stored in 8 bits, where the effect sees eye depth z; `reference` is the eye depth of
-     *  what it is compared with, if anything. */
-    double (*output)(const dp_setup *setup, const double *parameters, double z, double reference);
+     *  what it is compared with, if that is `given` or another pixel. */
+    double (*output)(const effect_view *view, const double *parameters, double z, double reference);
+    float (*shader)(const effect_pixel *pixel, const float *parameters, const effect_pixel *reference);
 } effect_row;
 
 /** The rows in order; null beyond the last. */
@@ -54,27 +95,22 @@ bool effect_applies(const effect_row *row, const dp_setup *setup);
  * Every quantity is monotone in the depth, so the largest difference lies at an end of the cell. An output of 8 bits
  * cannot be more than 255 levels off. "edge" has the output 0 or 1: its error is 255 where the stored depths of two
  * pixels of a plane, the one at a depth of z's cell and the other `slope` behind it, give another answer than the plane
- * does, and 0 elsewhere.
+ * does, and 0 elsewhere. Of "motion-blur" it is the length of the difference of two velocities.
  *
  * @param parameters  TEXTURE_PARAMETERS numbers, in the order of the row, within their ranges
  * @param z           in [near, far]
  * @return from 0 to 255; NaN where the effect cannot be had, and in the model fp32, which has no cells
  */
-double effect_error(const effect_row *row, const dp_setup *setup, const double *parameters, double z);
+double effect_error(const effect_row *row, const effect_view *view, const double *parameters, double z);
 
 /** What is known of the depth behind a pixel, in place of a cell. */
 typedef struct effect_depths {
     double seen;   /**< what the effect gets */
     double lo, hi; /**< between which it truly lies */
-    double beside; /**< EFFECT_STEP: how far the other pixel's depth can be off, that of a plane `slope` behind */
 } effect_depths;
 
-/**
- * As effect_error(), over these depths. EFFECT_STEP: 255 wherever the two pixels could give another answer than the
- * plane does.
- * @param setup  for its planes alone
- */
-double effect_error_within(const effect_row *row, const dp_setup *setup, const double *parameters,
+/** As effect_error(), over these depths, but not for EFFECT_STEP. */
+double effect_error_within(const effect_row *row, const effect_view *view, const double *parameters,
                            const effect_depths *depths);
 
 /**
@@ -86,6 +122,6 @@ double effect_error_within(const effect_row *row, const dp_setup *setup, const d
  * @param levels      above 0 and below 255
  * @return within the range of the parameter; NaN when no value of the range is usable, and where the error is NaN
  */
-double effect_usable(const effect_row *row, const dp_setup *setup, const double *parameters, double z, double levels);
+double effect_usable(const effect_row *row, const effect_view *view, const double *parameters, double z, double levels);
 
 #endif

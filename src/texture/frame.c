@@ -119,7 +119,7 @@ static bool run_start(run *r, const frame *f, const frame_product *product) {
         return false;
     for (uint32_t i = 0; i < r->stride; i++)
         r->slope_x[i] = (float)camera_slope_x(c, (double)i - NORMAL_REACH);
-    if (product->kind == FRAME_POSITION && product->position != NULL)
+    if ((product->kind == FRAME_POSITION && product->position != NULL) || product->kind == FRAME_EFFECT)
         position_prepare(&r->position, c);
     const dp_path path = dp_path_best();
     return dp_batch_init(&r->eye, &c->setup, DP_TASK_EYE, DP_REAL_FLOAT, DP_WORD_32, path) == DP_OK &&
@@ -159,7 +159,7 @@ static void make_row(const run *r, uint32_t first, uint32_t i) {
                     .out = r->out + (size_t)i * r->width * (size_t)frame_channels(r->product)};
     for (int k = -NORMAL_REACH; k <= NORMAL_REACH; k++)
         in.eyes[k + NORMAL_REACH] = r->eyes + (middle + (size_t)k) * r->stride + NORMAL_REACH;
-    if (r->product->kind == FRAME_POSITION) {
+    if (r->product->kind == FRAME_POSITION || r->product->kind == FRAME_EFFECT) {
         dp_batch_run(&r->depth, in.codes, scratch, r->width);
         in.depth = scratch;
     }
