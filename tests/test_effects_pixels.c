@@ -132,21 +132,75 @@ static double motion_blur(const stage *s, int pixel, double z) {
     return 1.5 * hypot((ndc_x(pixel) - last[0]) / 2, (ndc_y(pixel) - last[1]) / 2);
 }
 
+static double soft_particles(const stage *s, int pixel, double z) {
+    (void)pixel;
+    return unit((z - s->reference) / 4);
+}
+
+/* As deep in the box as the nearest face is: 3 wide, 4 high and 30 deep, turned by 25 degrees. */
+static double decal_inside(const stage *s, int pixel, double z) {
+    const double turn = 25 * RADIAN, middle[3] = {1, -0.5, 18}, size[3] = {3, 4, 30};
+    double world[3], from[3];
+    world_of(s, pixel, z, world);
+    for (int k = 0; k < 3; k++)
+        from[k] = world[k] - middle[k];
+    const double local[3] = {from[0] * cos(turn) - from[2] * sin(turn), from[1],
+                             from[0] * sin(turn) + from[2] * cos(turn)};
+    double inside = INFINITY;
+    for (int k = 0; k < 3; k++)
+        inside = fmin(inside, size[k] / 2 - fabs(local[k]));
+    return inside;
+}
+
+static double decal(const stage *s, int pixel, double z) {
+    return unit(decal_inside(s, pixel, z) / 0.7);
+}
+
+static double hard_decal(const stage *s, int pixel, double z) {
+    return decal_inside(s, pixel, z) >= 0;
+}
+
+static double contact_shadow(const stage *s, int pixel, double z) {
+    (void)pixel;
+    return s->reference - z >= 0 && s->reference - z < 5;
+}
+
+static double shadow(const stage *s, int pixel, double z) {
+    (void)pixel;
+    return s->reference - 2 <= z;
+}
+
+/* Along the ray of the pixel, which is longer than the eye depth. */
+static double water_depth(const stage *s, int pixel, double z) {
+    double half[2];
+    half_of(s, &s->now, half);
+    const double x = half[0] * ndc_x(pixel), y = half[1] * ndc_y(pixel), along = s->ortho ? 1 : sqrt(x * x + y * y + 1);
+    return z > s->reference ? 1 - exp(-0.08 * (z - s->reference) * along) : 0;
+}
+
 static const struct {
     const char *name, *parameters; /* NAME=VALUE, separated by blanks */
     formula *of;
-    bool compares;
-    double wide; /* how much more than the largest difference of outputs an error may state */
+    bool compares, hard; /* hard: 0 or 1 */
+    double wide;         /* how much more than the largest difference of outputs an error may state */
 } effects[] = {
-    {"intersection", "half-width=3", intersection, true, 1},
-    {"force-field", "power=0.3", force_field, true, 1},
-    {"fog", "density=1.7", fog, false, 1},
-    {"scan-line", "half-width=0.07", scan_line, true, 1},
-    {"depth-of-field", "level=4", depth_of_field, true, 1},
-    {"water-line", "band=2.5 level=-1.5", water_line, false, 1},
-    {"water-line", "band=0 level=-1.5", hard_line, false, 1},
-    {"height-fog", "density=0.8 start=4 end=-30", height_fog, false, 1},
-    {"motion-blur", "strength=1.5", motion_blur, false, 50}, /* a difference of velocities, not of their lengths */
+    {"intersection", "half-width=3", intersection, true, false, 1},
+    {"force-field", "power=0.3", force_field, true, false, 1},
+    {"fog", "density=1.7", fog, false, false, 1},
+    {"scan-line", "half-width=0.07", scan_line, true, false, 1},
+    {"depth-of-field", "level=4", depth_of_field, true, false, 1},
+    {"water-line", "band=2.5 level=-1.5", water_line, false, false, 1},
+    {"water-line", "band=0 level=-1.5", hard_line, false, true, 1},
+    {"height-fog", "density=0.8 start=4 end=-30", height_fog, false, false, 1},
+    {"soft-particles", "fade-distance=4", soft_particles, true, false, 1},
+    {"decal", "feather=0.7 yaw=25 x=1 y=-0.5 z=18 width=3 height=4 depth=30", decal, false, false,
+     1000}, /* the face to which a ray runs fastest may not be the nearest */
+    {"decal", "feather=0 yaw=25 x=1 y=-0.5 z=18 width=3 height=4 depth=30", hard_decal, false, true, 1},
+    {"contact-shadow", "thickness=5", contact_shadow, true, true, 1},
+    {"shadow", "bias=2", shadow, true, true, 1},
+    {"water-depth", "density=0.08", water_depth, true, false, 1},
+    {"motion-blur", "strength=1.5", motion_blur, false, false,
+     50}, /* a difference of velocities, not of their lengths */
 };
 enum { EFFECTS = sizeof effects / sizeof effects[0] };
 
@@ -263,7 +317,7 @@ static void test_images(void **state) {
         make(&s, &f, e, true, bound);
         for (int k = 0; k < PIXELS; k++) {
             const double want = effects[e].of(&s, k, eye_of(&s, codes[k]));
-            const bool hard = effects[e].of == hard_line;
+            const bool hard = effects[e].hard;
             double error = 0;
             for (int a = 0; a <= PLACES; a++)
                 error = fmax(error, difference(effects[e].of, &s, k, codes[k], codes[k] - 0.5 + (double)a / PLACES));

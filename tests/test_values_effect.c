@@ -41,6 +41,27 @@ static const struct {
      12,
      {90, 60, 60, 3, 0, 8, {0, 0, 0}},
      {90, 60, 60, 3, 0, 8, {0, 0, 0}}},
+    {{0.3, 900, {"unorm16"}, {"d3d"}, .ortho = 0}, "ambient-occlusion", {0.4, 30, 2, 500, 7}, .view = NULL},
+    {{0.3, 900, {"unorm16", "fp32"}, {"d3d"}, .ortho = 0}, "shadow", {0.4, 30, 2, 500, 7}, .view = NULL},
+    {{0.3, 900, {"unorm16"}, {"reversed"}, .ortho = 0}, "outline", {0.4, 30, 2, 500, 7}, .view = NULL},
+    {{0.3, 900, {"unorm16"}, {"reversed"}, .ortho = 0}, "contact-shadow", {0.4, 30, 2, 500, 7}, .view = NULL},
+    {{0.3, 900, {"unorm16"}, {"d3d"}, .ortho = 0}, "soft-particles", {0.4, 30, 2, 500, 7}, .view = NULL},
+    {{0.3, 900, {"unorm16"}, {"d3d"}, .ortho = 0},
+     "water-depth",
+     {0.4, 30, 2, 500, 7},
+     "--fov 100 --pixel 0,0",
+     0,
+     0,
+     {640, 360, 100, 5, 0, 0, {0, 0, 0}},
+     {640, 360, 100, 5, 0, 0, {0, 0, 0}}},
+    {{0.3, 900, {"unorm16"}, {"d3d"}, .ortho = 0},
+     "decal",
+     {0.4, 30, 2, 500, 7},
+     "--yaw 30",
+     320,
+     359,
+     {640, 360, 60, 5, 30, 0, {0, 0, 0}},
+     {640, 360, 60, 5, 30, 0, {0, 0, 0}}},
     {{0.3, 900, {"unorm16"}, {"d3d"}, .ortho = 0},
      "motion-blur",
      {0.4, 30, 2, 500, 7},
@@ -76,6 +97,8 @@ static void want_effect_rows(values *v, size_t effect, const double *parameters,
         want_number(v, "z_stored", dp_stored(setup, code));
         want_number(v, "interval", dp_cell_of(setup, code).width);
         want_number(v, "levels", effect_error(row, &view, parameters, z[k]));
+        if (row->alone)
+            want_number(v, "share", effect_share(row, &view, parameters, z[k]));
         want_number(v, "usable", usable);
         const bool first = isnan(usable) ? !isnan(decides) : row->smallest ? usable > decides : usable < decides;
         if (k == 0 || (first && !isnan(decides))) {
@@ -94,8 +117,11 @@ static void check_effect(values *v, const char *arguments, const effect_row *row
     const texture_parameter *wanted_one = &row->parameters[row->wanted];
     const char *direction = row->smallest ? "from" : "up to";
     char head[128], label[128];
-    static const text_column shown[] = {{"z", 9},        {"code", 10},  {"z_stored", 9},
-                                        {"interval", 6}, {"levels", 6}, {"usable", 6}};
+    const text_column plain[] = {{"z", 9},        {"code", 10},  {"z_stored", 9},
+                                 {"interval", 6}, {"levels", 6}, {"usable", 6}};
+    const text_column shared[] = {{"z", 9},      {"code", 10}, {"z_stored", 9}, {"interval", 6},
+                                  {"levels", 6}, {"share", 6}, {"usable", 6}};
+    const size_t shown = row->alone ? 7 : 6;
     static const char *const decides[] = {"setups[0].all.usable", "setups[0].all.z", NULL};
     snprintf(head, sizeof head, "%s %s [%s]", wanted_one->name, direction, wanted_one->unit);
     const csv_column columns[] = {SETUP_COLUMNS,
@@ -105,11 +131,13 @@ static void check_effect(values *v, const char *arguments, const effect_row *row
                                   {"z_stored [scene]", "z_stored"},
                                   {"interval [scene]", "interval"},
                                   {"levels [1/255]", "levels"},
+                                  {row->alone ? "share" : head, row->alone ? "share" : "usable"},
                                   {head, "usable"}};
+    const size_t count = sizeof columns / sizeof columns[0] - !row->alone;
     check_json(v, 0, arguments);
-    check_csv(v, 0, arguments, columns, sizeof columns / sizeof columns[0], lines);
+    check_csv(v, 0, arguments, columns, count, lines);
     printed p = print_of("%s --full", arguments);
-    check_text_table(v, p.out, shown, sizeof shown / sizeof shown[0], lines);
+    check_text_table(v, p.out, row->alone ? shared : plain, shown, lines);
     const bool none = isnan(value_at(v, decides[0])->number);
     snprintf(label, sizeof label, none ? "no %s is usable" : "%s %s ", wanted_one->name, direction);
     check_text_numbers(v, p.out, label, 6, decides + none);
@@ -138,7 +166,7 @@ static void test_effects(void **state) {
             const texture_parameter *q = &row->parameters[k];
             if (q->use == PARAMETER_IMAGE)
                 continue;
-            parameters[k] = fmin(q->hi, q->value * 1.25); /* not the default */
+            parameters[k] = fmin(q->hi, q->value * 1.25 + (q->value == 0 ? 0.5 : 0)); /* not the default */
             snprintf(arguments + strlen(arguments), sizeof arguments - strlen(arguments), " --parameter %s=%.17g",
                      q->name, parameters[k]);
             values_under(&v, "parameters[%d].", used_ones++);

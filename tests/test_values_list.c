@@ -16,7 +16,7 @@
 #include "texture/position.h"
 #include "texture/scene.h"
 
-enum { NUMBERS = 16 };
+enum { NUMBERS = 32 };
 
 /** A row as its table has it. */
 typedef struct listed {

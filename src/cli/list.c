@@ -141,7 +141,8 @@ bool list_effect(size_t index, list_item *item) {
         const char *name;
     } needs[] = {{EFFECT_POSITION, "the position"},
                  {EFFECT_LAST_FRAME, "last frame's camera"},
-                 {EFFECT_SECOND_DEPTH, "a second depth"}};
+                 {EFFECT_SECOND_DEPTH, "a second depth"},
+                 {EFFECT_NORMALS, "normals"}};
     const effect_row *row = effect_get(index);
     if (row == NULL)
         return false;

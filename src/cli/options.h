@@ -115,7 +115,7 @@ typedef enum solve_target {
 /** Values of --report. */
 typedef enum report_form { REPORT_TEXT = 0, REPORT_JSON, REPORT_JUNIT } report_form;
 
-enum { OPTIONS_FORMATS_MAX = 64, OPTIONS_PARAMETERS_MAX = 8, OPTIONS_PRESETS_MAX = 16 };
+enum { OPTIONS_FORMATS_MAX = 64, OPTIONS_PARAMETERS_MAX = 16, OPTIONS_PRESETS_MAX = 16 };
 
 /** One --parameter NAME=VALUE; whose it is, and whether there is such a one, is for the command to see. */
 typedef struct named_number {

@@ -33,7 +33,7 @@ int texture_effect_resolve(const options *o, bool pictured, const effect_row **r
 
 typedef struct row {
     dp_sample sample;
-    double levels, usable;
+    double levels, share, usable;
 } row;
 
 /* Below `row`, what is usable at all depths shown, and the depth that decides; NaN when at one of them nothing is. */
@@ -103,6 +103,7 @@ static void *next_row(void *of, size_t i) {
     if (!walk_depth(&t->walk, i, &z))
         return NULL;
     x->levels = effect_error(t->effect, &t->view, t->parameters, z);
+    x->share = effect_share(t->effect, &t->view, t->parameters, z);
     x->usable = effect_usable(t->effect, &t->view, t->parameters, z, ONE_LEVEL);
     dp_sample_at(t->walk.setup, z, &x->sample); /* depths_resolve() has seen to it */
     const bool decides = isnan(x->usable) || (t->effect->smallest ? x->usable > t->usable : x->usable < t->usable);
@@ -136,6 +137,8 @@ static void say_effect(page *p, void *item) {
     if (t->effect->reference != NULL)
         append(parameters, sizeof parameters, "; %s is where it is worst", t->effect->reference);
     page_text(p, "%s%s", t->name, parameters);
+    if (t->effect->alone)
+        page_text(p, "share: of the places of a plane that are wrong");
     if (needs(t, EFFECT_POSITION))
         page_text(p, "pixel %u,%u of %u x %u, %s %s", t->column, t->line, t->spec.width, t->spec.height,
                   t->camera.ortho ? "half height" : "field of view",
@@ -161,6 +164,8 @@ static const column parameter_columns[] = {{FIELD(struct parameter, name, "name"
 static const column all_columns[] = {
     {FIELD(table, usable, "usable", "")}, {FIELD(table, z, "z", "scene")}, {.kind = COLUMN_END}};
 
+enum { WITH_SHARE = 1 };
+
 /* The last column is named by the parameter that is wanted. */
 static int write_table(table *t, int status) {
     char usable[64];
@@ -170,6 +175,7 @@ static int write_table(table *t, int status) {
                            {FIELD(row, sample.stored, "z_stored", "scene"), SHOWN("stored", 15, DIGITS_Z)},
                            {FIELD(row, sample.interval, "interval", "scene"), SHOWN("interval", 13, DIGITS)},
                            {FIELD(row, levels, "levels", "1/255"), SHOWN("levels", 12, DIGITS)},
+                           {FIELD(row, share, "share", ""), SHOWN("share", 12, DIGITS), .when = WITH_SHARE},
                            {FIELD(row, usable, "usable", ""), SHOWN(usable, 17, DIGITS), .only = AS_JSON | AS_TEXT},
                            {FIELD(row, usable, usable, t->wanted->unit), .only = AS_CSV},
                            {.kind = COLUMN_END}};
@@ -184,7 +190,8 @@ static int write_table(table *t, int status) {
                               {FIELD(table, direction, "direction", ""), .only = AS_JSON},
                               {LIST("setups", setup_report, next_setup), .head = say_effect, .notes = say_usable},
                               {.kind = COLUMN_END}};
-    const report_spec spec = {.command = "texture", .columns = columns, .item = t};
+    const unsigned when = t->effect->alone ? WITH_SHARE : 0;
+    const report_spec spec = {.command = "texture", .columns = columns, .item = t, .when = when};
     return walk_write(&t->walk, &spec, status);
 }
 

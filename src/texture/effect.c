@@ -14,7 +14,9 @@ effect_view effect_view_of(const texture_camera *camera, const texture_camera *l
     const texture_camera *then = last != NULL ? last : camera;
     const double x = camera_slope_x(camera, column), y = camera_slope_y(camera, row);
     const double across[3] = {x, y, 0}, ray[3] = {camera->ortho ? 0 : x, camera->ortho ? 0 : y, 1};
-    effect_view view = {.setup = &camera->setup, .ndc = {x / camera->half[0], y / camera->half[1]}};
+    effect_view view = {.setup = &camera->setup,
+                        .stretch = camera_radial(camera, column, row),
+                        .ndc = {x / camera->half[0], y / camera->half[1]}};
     double place[3] = {0}, moved[3];
     camera_turn(camera, ray, view.along);
     if (camera->ortho)
@@ -65,6 +67,14 @@ static double gain_limit(const cell_case *at, const double *p, double share) {
     return share / change(at, p);
 }
 
+static double decay_error(const cell_case *at, const double *p) {
+    return -expm1(-change(at, p) * p[at->row->wanted]);
+}
+
+static double decay_limit(const cell_case *at, const double *p, double share) {
+    return -log1p(-share) / change(at, p);
+}
+
 /*
  * |saturate(p a) - saturate(p b)| of the quantities of the stored depth and of an end; with a > b, a > 0 and c the
  * positive part of b: it grows as p (a - c) up to p = 1/a, where it is 1 - c/a, and falls from there.
@@ -102,38 +112,79 @@ static double clamped_limit(const cell_case *at, const double *p, double share) 
 
 /* ---- A step ------------------------------------------------------------------------------------------------------ */
 
-enum { STEP_SLOPE = 1 };
-
 /*
- * The difference of two stored depths over all places of the first in its cell, the second `slope` behind it: stored
- * depths are monotone, so its ends belong to the ends of the cell. False where the plane leaves the far plane.
+ * Between which differences: of a depth of the cell and the stored one; or of two stored depths over all places of the
+ * first in its cell, the second `slope` behind it. Stored depths are monotone, so its ends belong to the ends of the
+ * cell. False where the plane leaves the far plane.
  */
 static bool differences(const cell_case *at, double slope, double out[2]) {
-    const double zfar = at->view->setup->spec.zfar;
-    if (at->first + slope > zfar)
+    const dp_setup *setup = at->view->setup;
+    if (at->row->alone) {
+        out[0] = at->first - at->cell.stored;
+        out[1] = at->last - at->cell.stored;
+        return true;
+    }
+    if (at->first + slope > setup->spec.zfar)
         return false;
-    const double last = fmin(at->last + slope, zfar);
-    out[0] = (dp_stored(at->view->setup, dp_code(at->view->setup, at->first + slope)) - at->cell.stored) / zfar;
-    out[1] = (dp_stored(at->view->setup, dp_code(at->view->setup, last)) - at->cell.stored) / zfar;
+    const double last = fmin(at->last + slope, setup->spec.zfar);
+    out[0] = dp_stored(setup, dp_code(setup, at->first + slope)) - at->cell.stored;
+    out[1] = dp_stored(setup, dp_code(setup, last)) - at->cell.stored;
+    return true;
+}
+
+/* Below which values of the wanted parameter the output is 1: as it should be, and at least and at most. */
+typedef struct critical_values {
+    double plane, least, most;
+} critical_values;
+
+static bool critical_of(const cell_case *at, const double *p, critical_values *out) {
+    const int index = parameter_find(at->row->parameters, "slope");
+    const double slope = index >= 0 ? p[index] : 0, plane[2] = {slope, slope};
+    double apart[2], some[2];
+    if (!differences(at, slope, apart))
+        return false;
+    at->row->critical(at->view, p, at->cell.stored, plane, some);
+    out->plane = at->row->quiet ? 0 : some[0];
+    at->row->critical(at->view, p, at->cell.stored, apart, some);
+    out->least = some[0];
+    out->most = some[1];
     return true;
 }
 
 static double step_error(const cell_case *at, const double *p) {
-    const double plane = p[STEP_SLOPE] / at->view->setup->spec.zfar;
-    double d[2];
-    if (!differences(at, p[STEP_SLOPE], d))
+    const double wanted = p[at->row->wanted];
+    critical_values c;
+    if (!critical_of(at, p, &c))
         return 0;
-    return plane > p[at->row->wanted] ? d[0] <= p[at->row->wanted] : d[1] > p[at->row->wanted];
+    return wanted < c.plane ? wanted >= c.least : wanted < c.most;
 }
 
-/* Wrong are the thresholds from d[0] to the plane's own difference, and from there to d[1]. */
+/* Wrong are the values from `least` to the plane's own, and from there to `most`. */
 static double step_limit(const cell_case *at, const double *p, double share) {
-    const double plane = p[STEP_SLOPE] / at->view->setup->spec.zfar;
-    double d[2];
+    critical_values c;
     (void)share;
-    if (!differences(at, p[STEP_SLOPE], d) || (d[0] >= plane && d[1] <= plane))
-        return 0;
-    return fmax(plane, d[1]);
+    if (!critical_of(at, p, &c) || (c.least >= c.plane && c.most <= c.plane))
+        return at->row->smallest ? 0 : HUGE_VAL;
+    return at->row->smallest ? fmax(c.plane, c.most) : fmin(c.plane, c.least);
+}
+
+/* The integral of a ramp from 0 to 1. */
+static double ramp_area(double x) {
+    return x <= 0 ? 0 : x < 1 ? x * x / 2 : x - 0.5;
+}
+
+/* Of depths u in the cell and places t in [-1/2, 1/2] of the texel those with u + slope t > bias. */
+double effect_share(const effect_row *row, const effect_view *view, const double *parameters, double z) {
+    const int index = parameter_find(row->parameters, "slope");
+    if (row->kind != EFFECT_STEP || !row->alone || view->setup->spec.model == DP_MODEL_FP32)
+        return (double)NAN;
+    const dp_cell cell = dp_cell_of(view->setup, dp_code(view->setup, z));
+    const double width = cell.hi - cell.lo, slope = index >= 0 ? parameters[index] : 0;
+    const double above = cell.hi - cell.stored - parameters[row->wanted];
+    if (!(width > 0) || isinf(width))
+        return above > 0;
+    const double k = slope / width, c = above / width;
+    return k > 0x1p-20 ? (ramp_area(c + k / 2) - ramp_area(c - k / 2)) / k : fmin(fmax(c, 0), 1);
 }
 
 /* ---- Errors and limits ------------------------------------------------------------------------------------------- */
@@ -142,9 +193,8 @@ static const struct {
     double (*error)(const cell_case *, const double *);
     double (*limit)(const cell_case *, const double *, double share);
 } kinds[] = {
-    [EFFECT_FADE] = {fade_error, fade_limit},
-    [EFFECT_GAIN] = {gain_error, gain_limit},
-    [EFFECT_CLAMPED] = {clamped_error, clamped_limit},
+    [EFFECT_FADE] = {fade_error, fade_limit},          [EFFECT_GAIN] = {gain_error, gain_limit},
+    [EFFECT_CLAMPED] = {clamped_error, clamped_limit}, [EFFECT_DECAY] = {decay_error, decay_limit},
     [EFFECT_STEP] = {step_error, step_limit},
 };
 
@@ -186,9 +236,13 @@ double effect_error(const effect_row *row, const effect_view *view, const double
 
 double effect_error_within(const effect_row *row, const effect_view *view, const double *parameters,
                            const effect_depths *depths) {
-    const cell_case at = {
-        .row = row, .view = view, .cell = {.stored = depths->seen, .lo = depths->lo, .hi = depths->hi}};
-    return has_error(&at) && row->kind != EFFECT_STEP ? error_in(&at, parameters) : (double)NAN;
+    const cell_case at = {.row = row,
+                          .view = view,
+                          .cell = {.stored = depths->seen, .lo = depths->lo, .hi = depths->hi},
+                          .first = depths->lo,
+                          .last = depths->hi};
+    const bool pairs = row->kind == EFFECT_STEP && !row->alone;
+    return has_error(&at) && !pairs ? error_in(&at, parameters) : (double)NAN;
 }
 
 /* The closed form is off by its rounding: goes to the last value that is usable, as effect_error() sees it. */
