@@ -61,8 +61,8 @@ static const effect_row rows[] = {
      .source = DEPTH_TEXTURE "; Roberts 1963",
      .kind = EFFECT_STEP, .taps = EFFECT_DIAGONALS, .critical = edge_critical, .output = edge, .shader = edge_shader},
     {.name = "outline",
-     .note = "|n1 - n4| normal-sensitivity >= 0.1, x and y of packed normals, or |s1 - s4| depth-sensitivity >= 0.1 s1; "
-             "likewise 2 and 3",
+     .note = "|n1 - n4| normal-sensitivity >= 0.1, x and y of packed normals, or |s1 - s4| depth-sensitivity >= 0.1 "
+             "s1; likewise 2 and 3",
      .parameters = {
          [OUTLINE_DEPTH] = {"depth-sensitivity", "of differences of depth, over depth", "1", 1e-12, 1e12, 1,
                             .whole = false},
