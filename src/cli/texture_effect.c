@@ -5,6 +5,7 @@
  */
 #include <math.h>
 #include <stdio.h>
+#include <string.h>
 
 #include "cli/texture.h"
 #include "cli/walk.h"
@@ -164,21 +165,23 @@ static const column parameter_columns[] = {{FIELD(struct parameter, name, "name"
 static const column all_columns[] = {
     {FIELD(table, usable, "usable", "")}, {FIELD(table, z, "z", "scene")}, {.kind = COLUMN_END}};
 
-enum { WITH_SHARE = 1 };
+enum { WITH_SHARE = 1, USABLE_WIDTH = 17 };
 
-/* The last column is named by the parameter that is wanted. */
+/* The last column is named by the parameter that is wanted, where there is room for that. */
 static int write_table(table *t, int status) {
-    char usable[64];
+    char usable[64], shown[64];
     snprintf(usable, sizeof usable, "%s %s", t->wanted_name, t->direction);
-    const column rows[] = {{FIELD(row, sample.z, "z", "scene"), SHOWN("z", 12, DIGITS_Z)},
-                           {FIELD(row, sample.code, "code", ""), SHOWN("code", 11, 0)},
-                           {FIELD(row, sample.stored, "z_stored", "scene"), SHOWN("stored", 15, DIGITS_Z)},
-                           {FIELD(row, sample.interval, "interval", "scene"), SHOWN("interval", 13, DIGITS)},
-                           {FIELD(row, levels, "levels", "1/255"), SHOWN("levels", 12, DIGITS)},
-                           {FIELD(row, share, "share", ""), SHOWN("share", 12, DIGITS), .when = WITH_SHARE},
-                           {FIELD(row, usable, "usable", ""), SHOWN(usable, 17, DIGITS), .only = AS_JSON | AS_TEXT},
-                           {FIELD(row, usable, usable, t->wanted->unit), .only = AS_CSV},
-                           {.kind = COLUMN_END}};
+    snprintf(shown, sizeof shown, "%s %s", strlen(usable) < USABLE_WIDTH ? t->wanted_name : "usable", t->direction);
+    const column rows[] = {
+        {FIELD(row, sample.z, "z", "scene"), SHOWN("z", 12, DIGITS_Z)},
+        {FIELD(row, sample.code, "code", ""), SHOWN("code", 11, 0)},
+        {FIELD(row, sample.stored, "z_stored", "scene"), SHOWN("stored", 15, DIGITS_Z)},
+        {FIELD(row, sample.interval, "interval", "scene"), SHOWN("interval", 13, DIGITS), .spare = 1},
+        {FIELD(row, levels, "levels", "1/255"), SHOWN("levels", 12, DIGITS)},
+        {FIELD(row, share, "share", ""), SHOWN("share", 12, DIGITS), .when = WITH_SHARE},
+        {FIELD(row, usable, "usable", ""), SHOWN(shown, USABLE_WIDTH, DIGITS), .only = AS_JSON | AS_TEXT},
+        {FIELD(row, usable, usable, t->wanted->unit), .only = AS_CSV},
+        {.kind = COLUMN_END}};
     const column setup_report[] = {{PART(table, walk.fields, NULL, setup_columns)},
                                    {FIELD(table, name, "effect", ""), .only = AS_CSV},
                                    {LIST("rows", rows, next_row)},
