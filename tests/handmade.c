@@ -31,6 +31,28 @@ void handmade_npy(handmade *h, int version, const char *header) {
     handmade_text(h, "\n");
 }
 
+void handmade_dds(handmade *h, uint32_t width, uint32_t height, const handmade_dds_of *of) {
+    const uint32_t words[31] = {[0] = 124,
+                                [1] = 0x1007,
+                                [2] = height,
+                                [3] = width,
+                                [18] = 32,
+                                [19] = of->dxgi != 0 ? 4 : of->flags,
+                                [20] = of->dxgi != 0 ? 0x30315844 : of->fourcc,
+                                [21] = of->bits,
+                                [22] = of->masks[0],
+                                [23] = of->masks[1],
+                                [24] = of->masks[2],
+                                [25] = of->masks[3],
+                                [26] = 0x1000};
+    const uint32_t more[5] = {of->dxgi, 3, 0, 1, 0};
+    handmade_text(h, "DDS ");
+    for (int i = 0; i < 31; i++)
+        handmade_number(h, words[i], 4, 1);
+    for (int i = 0; i < 5 && of->dxgi != 0; i++)
+        handmade_number(h, more[i], 4, 1);
+}
+
 /* ISO 3309, the polynomial 0xEDB88320 bit by bit. */
 static uint32_t crc(const unsigned char *at, size_t size) {
     uint32_t sum = UINT32_MAX;

@@ -21,6 +21,15 @@ void handmade_number(handmade *h, uint64_t number, int size, int little);
 /** npy: magic, version, a header padded by one newline; samples follow. */
 void handmade_npy(handmade *h, int version, const char *header);
 
+/** What a DDS says of its pixels. */
+typedef struct handmade_dds_of {
+    uint32_t flags, fourcc, bits, masks[4]; /**< of the pixel format */
+    uint32_t dxgi;                          /**< 0: no second header, else fourcc is DX10 */
+} handmade_dds_of;
+
+/** DDS: magic and headers of one image; pixels follow. */
+void handmade_dds(handmade *h, uint32_t width, uint32_t height, const handmade_dds_of *of);
+
 /** A PNG chunk with its length and checksum. */
 void handmade_chunk(handmade *h, const char *type, const void *data, size_t size);
 /** Signature and IHDR. */

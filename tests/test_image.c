@@ -9,6 +9,7 @@
 #include "handmade.h"
 #include "support.h"
 #include "texture/image.h"
+#include "texture/recognise.h"
 
 static bool parse(const handmade *h, image *out, image_error *error) {
     memset(error, 0x55, sizeof *error);
@@ -100,7 +101,10 @@ static void pfm_of_others(void **state) {
     static const char *const headers[][2] = {{"Pf\n3 2\n1\n", "Pf\n3 2\n-1\n"},
                                              {"Pf 3 2 1.000 ", "Pf\t3\t2\t-1.0e0\t"},
                                              {"Pf\r3\n\n 2\n+1.0\r", "Pf\n3 2 \n -1.0\n"},
-                                             {"PF\n1 2\n1.0\n", "PF\n1 2\n-1.0\n"}};
+                                             {"PF\n1 2\n1.0\n", "PF\n1 2\n-1.0\n"},
+                                             {"Pf\r\n3 2\r\n1.0\r\n", "Pf\r\n3 2\r\n-1.0\r\n"},
+                                             {"Pf\r\n3 2\r\n1.0\n", "Pf\n3 2\n-1.0\r"},
+                                             {"Pf\n# by hand\n3 2 # wide, high\n#\n1\n", "Pf #a#b\r3\v\f2\t-1\v"}};
     for (size_t i = 0; i < sizeof headers / sizeof headers[0]; i++)
         for (int little = 0; little < 2; little++) {
             handmade h = {.size = 0};
@@ -110,6 +114,19 @@ static void pfm_of_others(void **state) {
             const bool colour = headers[i][0][1] == 'F';
             assert_samples(&h, IMAGE_PFM, IMAGE_F32, colour ? 1 : 3, 2, colour ? 3 : 1, rows);
         }
+}
+
+/* A sample may look like the other half of a line end. */
+static void pfm_line_ends(void **state) {
+    (void)state;
+    static const char *const headers[] = {"Pf\r1 1\r-1\r", "Pf\n1 1\n-1\r", "Pf\r\n1 1\r\n-1\r\n", "Pf\r\n1 1\r\n-1\n"};
+    for (size_t i = 0; i < sizeof headers / sizeof headers[0]; i++) {
+        static const uint32_t bits = 0x3E80000A; /* LF is its first byte in the file */
+        handmade h = {.size = 0};
+        handmade_text(&h, headers[i]);
+        handmade_number(&h, bits, 4, 1);
+        assert_samples(&h, IMAGE_PFM, IMAGE_F32, 1, 1, 1, &bits);
+    }
 }
 
 /* The lowest `size` bytes of a number as this machine keeps them. */
@@ -153,6 +170,97 @@ static void npy_of_others(void **state) {
         handmade_npy(&h, 1, spellings[i]);
         handmade_text(&h, "\7\xff");
         assert_samples(&h, IMAGE_NPY, IMAGE_U8, 2, 1, 1, "\7\xff");
+    }
+}
+
+enum { FOURCC = 4, RGB = 0x41, LUMINANCE = 0x20000 };
+
+/* Two pixels of each format, the lowest byte first: what is read of them, and the depth format that the name says. */
+static const struct {
+    handmade_dds_of of;
+    image_type type;
+    uint32_t channels;
+    const char *says;
+    int shift; /* of 24 bits; -1: none */
+} dds_rows[] = {
+    {{.dxgi = 41}, IMAGE_F32, 1, NULL, -1},
+    {{.dxgi = 40}, IMAGE_F32, 1, "fp32", -1},
+    {{.dxgi = 39}, IMAGE_F32, 1, NULL, -1},
+    {{.dxgi = 20}, IMAGE_F32, 2, "fp32", -1},
+    {{.dxgi = 19}, IMAGE_F32, 2, "fp32", -1},
+    {{.dxgi = 21}, IMAGE_F32, 2, "fp32", -1},
+    {{.dxgi = 42}, IMAGE_U32, 1, NULL, -1},
+    {{.dxgi = 44}, IMAGE_U32, 1, "unorm24", 0},
+    {{.dxgi = 45}, IMAGE_U32, 1, "unorm24", 0},
+    {{.dxgi = 46}, IMAGE_U32, 1, "unorm24", 0},
+    {{.dxgi = 53}, IMAGE_U16, 1, NULL, -1},
+    {{.dxgi = 54}, IMAGE_F16, 1, NULL, -1},
+    {{.dxgi = 55}, IMAGE_U16, 1, "unorm16", -1},
+    {{.dxgi = 56}, IMAGE_U16, 1, NULL, -1},
+    {{.dxgi = 57}, IMAGE_U16, 1, NULL, -1},
+    {{.dxgi = 61}, IMAGE_U8, 1, NULL, -1},
+    {{.dxgi = 49}, IMAGE_U8, 2, NULL, -1},
+    {{.dxgi = 28}, IMAGE_U8, 4, NULL, -1},
+    {{FOURCC, 114, 0, {0}, 0}, IMAGE_F32, 1, NULL, -1},
+    {{FOURCC, 111, 0, {0}, 0}, IMAGE_F16, 1, NULL, -1},
+    {{FOURCC, 82, 0, {0}, 0}, IMAGE_F32, 1, "fp32", -1},
+    {{FOURCC, 77, 0, {0}, 0}, IMAGE_U32, 1, "unorm24", 8},
+    {{FOURCC, 75, 0, {0}, 0}, IMAGE_U32, 1, "unorm24", 8},
+    {{FOURCC, 70, 0, {0}, 0}, IMAGE_U16, 1, "unorm16", -1},
+    {{FOURCC, 80, 0, {0}, 0}, IMAGE_U16, 1, "unorm16", -1},
+    {{FOURCC, 81, 0, {0}, 0}, IMAGE_U16, 1, NULL, -1},
+    {{LUMINANCE, 0, 16, {0xFFFF, 0, 0, 0}, 0}, IMAGE_U16, 1, NULL, -1},
+    {{LUMINANCE, 0, 8, {0xFF, 0, 0, 0}, 0}, IMAGE_U8, 1, NULL, -1},
+    {{RGB, 0, 32, {0xFF, 0xFF00, 0xFF0000, 0xFF000000}, 0}, IMAGE_U8, 4, NULL, -1},
+};
+
+static void dds_of_others(void **state) {
+    (void)state;
+    for (size_t i = 0; i < sizeof dds_rows / sizeof dds_rows[0]; i++) {
+        const int size = (int)image_type_size(dds_rows[i].type);
+        const uint64_t count = 2 * dds_rows[i].channels;
+        unsigned char want[2 * 8];
+        handmade h = {.size = 0};
+        handmade_dds(&h, 2, 1, &dds_rows[i].of);
+        for (uint64_t k = 0; k < count; k++) {
+            const uint64_t sample = (k + 1) * 0x3A524361;
+            handmade_number(&h, sample, size, 1);
+            in_memory(want + k * (size_t)size, dds_rows[i].shift >= 0 ? sample >> dds_rows[i].shift & 0xFFFFFF : sample,
+                      size);
+        }
+        assert_samples(&h, IMAGE_DDS, dds_rows[i].type, 2, 1, dds_rows[i].channels, want);
+        image got;
+        image_error error;
+        recognised found;
+        assert_true(parse(&h, &got, &error));
+        if (dds_rows[i].says == NULL)
+            assert_null(got.says);
+        else
+            assert_string_equal(got.says, dds_rows[i].says);
+        recognise(&got, &found);
+        if (dds_rows[i].says != NULL)
+            assert_string_equal(found.format.name, dds_rows[i].says);
+        image_free(&got);
+    }
+}
+
+/* Small codes of 24 bits would be those of 16 bits if the file did not name its format. */
+static void dds_names_its_format(void **state) {
+    (void)state;
+    for (int named = 0; named < 2; named++) {
+        handmade h = {.size = 0};
+        image got;
+        image_error error;
+        recognised found;
+        handmade_dds(&h, 3, 1, &(handmade_dds_of){.dxgi = named ? 46 : 42});
+        for (uint32_t k = 0; k < 3; k++)
+            handmade_number(&h, 7 + k, 4, 1);
+        assert_true(parse(&h, &got, &error));
+        recognise(&got, &found);
+        assert_true(found.depth);
+        assert_int_equal(found.certain, named);
+        assert_string_equal(found.format.name, named ? "unorm24" : "unorm16");
+        image_free(&got);
     }
 }
 
@@ -237,15 +345,15 @@ static void there_and_back(const image *img, image_file file, uint32_t chunk) {
 static void round_trips(void **state) {
     (void)state;
     static const uint32_t sizes[][2] = {{1, 1}, {7, 3}, {1, 300}, {300, 1}, {257, 129}};
-    static const unsigned held[IMAGE_FILE_COUNT] = {[IMAGE_PNG] = 1 << IMAGE_U8 | 1 << IMAGE_U16,
-                                                    [IMAGE_PFM] = 1 << IMAGE_F32,
-                                                    [IMAGE_NPY] = (1 << IMAGE_TYPE_COUNT) - 1};
+    static const unsigned held[IMAGE_WRITTEN_COUNT] = {[IMAGE_PNG] = 1 << IMAGE_U8 | 1 << IMAGE_U16,
+                                                       [IMAGE_PFM] = 1 << IMAGE_F32,
+                                                       [IMAGE_NPY] = (1 << IMAGE_TYPE_COUNT) - 1};
     rng r = rng_make("round trips");
     unsigned char *data = malloc(257 * 129 * 4 * 8);
     assert_non_null(data);
     for (size_t i = 0; i < 257 * 129 * 4 * 8; i++) /* NaN, infinities and -0 are among the floats */
         data[i] = (unsigned char)(i % 64 < 32 ? rng_below(&r, 256) : i % 64 < 48 ? 0xFF : 0x7F + (i & 1));
-    for (int file = 0; file < IMAGE_FILE_COUNT; file++)
+    for (int file = 0; file < IMAGE_WRITTEN_COUNT; file++)
         for (int type = 0; type < IMAGE_TYPE_COUNT; type++)
             for (uint32_t channels = 1; channels <= 4; channels++) {
                 const bool should = (held[file] >> type & 1U) != 0 && (file != IMAGE_PFM || channels % 2 == 1);
@@ -260,6 +368,7 @@ static void round_trips(void **state) {
                 }
             }
     free(data);
+    assert_null(image_writer_open(stdout, IMAGE_DDS, IMAGE_U16, 1, 1, 1)); /* read alone */
     assert_false(image_holds(IMAGE_NPY, IMAGE_U8, 0));
     assert_false(image_holds(IMAGE_NPY, IMAGE_U8, 5));
     assert_false(image_holds(IMAGE_FILE_COUNT, IMAGE_U8, 1));
@@ -301,7 +410,7 @@ static void writers_refuse(void **state) {
     assert_null(image_writer_open(stream, IMAGE_NPY, IMAGE_F32, 0, 1, 1));
     assert_null(image_writer_open(stream, IMAGE_NPY, IMAGE_F32, 1, 65537, 1));
     assert_null(image_writer_open(stream, IMAGE_NPY, IMAGE_F32, 65536, 4097, 1));
-    for (int file = 0; file < IMAGE_FILE_COUNT; file++) {
+    for (int file = 0; file < IMAGE_WRITTEN_COUNT; file++) {
         const image_type type = file == IMAGE_PFM ? IMAGE_F32 : IMAGE_U16;
         image_writer *w = image_writer_open(stream, (image_file)file, type, 2, 3, 1);
         assert_true(image_writer_rows(w, row, 1));
@@ -312,11 +421,11 @@ static void writers_refuse(void **state) {
         assert_false(image_writer_close(w));
     }
     fclose(stream);
-    for (int file = 0; file < IMAGE_FILE_COUNT; file++) {
+    for (int file = 0; file < IMAGE_WRITTEN_COUNT; file++) {
         stream = fopen("/dev/full", "wb");
         assert_non_null(stream);
         setvbuf(stream, NULL, _IONBF, 0);
-        const image img = {1, 1, 1, file == IMAGE_PFM ? IMAGE_F32 : IMAGE_U16, IMAGE_PNG, (void *)row};
+        const image img = {1, 1, 1, file == IMAGE_PFM ? IMAGE_F32 : IMAGE_U16, IMAGE_PNG, (void *)row, NULL};
         assert_false(write_image(stream, &img, (image_file)file, 1));
         fclose(stream);
     }
@@ -343,7 +452,8 @@ static void names(void **state) {
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(png_of_others), cmocka_unit_test(png_chunks),     cmocka_unit_test(pfm_of_others),
-        cmocka_unit_test(npy_of_others), cmocka_unit_test(npy_transposed), cmocka_unit_test(round_trips),
+        cmocka_unit_test(pfm_line_ends), cmocka_unit_test(npy_of_others),  cmocka_unit_test(npy_transposed),
+        cmocka_unit_test(round_trips),   cmocka_unit_test(dds_of_others),  cmocka_unit_test(dds_names_its_format),
         cmocka_unit_test(written_bytes), cmocka_unit_test(writers_refuse), cmocka_unit_test(names),
     };
     return run_tap(tests);

@@ -56,20 +56,19 @@ static void other_files(void **state) {
         const char *sentence;
     } rows[] = {
         {"", 0, "is empty"},
-        {"P", 1, "neither PNG, PFM nor .npy by its first bytes"},
-        {"\x89PNG\r\n\n\n", 8, "neither PNG, PFM nor .npy by its first bytes"},
-        {"hello, depth", 12, "neither PNG, PFM nor .npy by its first bytes"},
-        {"PK\3\4....", 8, "neither PNG, PFM nor .npy, but a zip archive: of an .npz, unpack the .npy"},
-        {"\x76\x2f\x31\x01....", 8, "neither PNG, PFM nor .npy, but OpenEXR: convert its depth channel to PFM"},
-        {"II*\0....", 8, "neither PNG, PFM nor .npy, but TIFF: convert it to PFM, or to PNG of 16 bits"},
-        {"MM\0*....", 8, "neither PNG, PFM nor .npy, but TIFF: convert it to PFM, or to PNG of 16 bits"},
+        {"P", 1, "neither PNG, PFM, npy nor DDS by its first bytes"},
+        {"\x89PNG\r\n\n\n", 8, "neither PNG, PFM, npy nor DDS by its first bytes"},
+        {"hello, depth", 12, "neither PNG, PFM, npy nor DDS by its first bytes"},
+        {"PK\3\4....", 8, "neither PNG, PFM, npy nor DDS, but a zip archive: of an .npz, unpack the .npy"},
+        {"\x76\x2f\x31\x01....", 8, "neither PNG, PFM, npy nor DDS, but OpenEXR: convert its depth channel to PFM"},
+        {"II*\0....", 8, "neither PNG, PFM, npy nor DDS, but TIFF: convert it to PFM, or to PNG of 16 bits"},
+        {"MM\0*....", 8, "neither PNG, PFM, npy nor DDS, but TIFF: convert it to PFM, or to PNG of 16 bits"},
         {"\xff\xd8\xff\xe0....", 8,
-         "neither PNG, PFM nor .npy, but JPEG, which keeps no depths: save PNG of 16 bits, PFM or .npy"},
-        {"P5\n1 1\n", 7, "neither PNG, PFM nor .npy, but PGM: convert it to PNG of 16 bits"},
-        {"P6\n1 1\n", 7, "neither PNG, PFM nor .npy, but PPM: convert it to PNG of 16 bits"},
-        {"DDS ....", 8, "neither PNG, PFM nor .npy, but DDS: save its pixels as .npy"},
-        {"\xabKTX 20\xbb", 8, "neither PNG, PFM nor .npy, but KTX: save its pixels as .npy"},
-        {"#?RADIANCE", 10, "neither PNG, PFM nor .npy, but Radiance HDR: convert it to PFM"},
+         "neither PNG, PFM, npy nor DDS, but JPEG, which keeps no depths: save PNG of 16 bits, PFM or .npy"},
+        {"P5\n1 1\n", 7, "neither PNG, PFM, npy nor DDS, but PGM: convert it to PNG of 16 bits"},
+        {"P6\n1 1\n", 7, "neither PNG, PFM, npy nor DDS, but PPM: convert it to PNG of 16 bits"},
+        {"\xabKTX 20\xbb", 8, "neither PNG, PFM, npy nor DDS, but KTX: save its pixels as .npy"},
+        {"#?RADIANCE", 10, "neither PNG, PFM, npy nor DDS, but Radiance HDR: convert it to PFM"},
     };
     for (size_t i = 0; i < sizeof rows / sizeof rows[0]; i++) {
         handmade h = {.size = 0};
@@ -85,6 +84,8 @@ static void pfm_sentences(void **state) {
         {"Pfx1 1 1\n", "PFM: a blank must follow 'Pf'"},
         {"Pf\n", "cut short within its header"},
         {"Pf\n1 1 -1.0", "cut short within its header"},
+        {"Pf\n# never ends", "cut short within its header"},
+        {"Pf\r\n1 1\r\n-1\rabcd", "PFM: CR LF must follow its scale, as it follows 'Pf'"},
         {"Pf\n-1 1 1\n", "PFM: its width must be a whole number, got '-1'"},
         {"Pf\n1 1x 1\n", "PFM: its height must be a whole number, got '1x'"},
         {"Pf\n1 1\a 1\n", "PFM: its height must be a number"},
@@ -121,6 +122,23 @@ static void pfm_sentences(void **state) {
     }
 }
 
+/* A header without end, as a pipe may have one. */
+static void pfm_endless(void **state) {
+    (void)state;
+    enum { SIZE = 10002 };
+    unsigned char *bytes = malloc(SIZE + 1);
+    image got;
+    image_error error;
+    assert_non_null(bytes);
+    memset(bytes, '#', SIZE + 1);
+    memcpy(bytes, "Pf\n", 3);
+    assert_false(parse(bytes, SIZE + 1, &got, &error));
+    assert_string_equal(error.text, "PFM: its header must have at most 10000 bytes");
+    assert_false(parse(bytes, SIZE - 1, &got, &error));
+    assert_string_equal(error.text, "cut short within its header");
+    free(bytes);
+}
+
 static void npy_sentences(void **state) {
     (void)state;
     static const char *const rows[][2] = {
@@ -146,6 +164,8 @@ static void npy_sentences(void **state) {
         {"{'shape': (3, 4)}", "npy: its header must have descr, fortran_order and shape"},
         {"{'descr': '<i4', 'fortran_order': False, 'shape': (3, 4)}",
          "npy: its samples must be f2, f4, f8, u1, u2 or u4, got '<i4': save a.astype(\"f4\"), or u4 for codes"},
+        {"{'descr': '|b1', 'fortran_order': False, 'shape': (3, 4)}",
+         "npy: its samples are bool, true or false, which is a mask and no depth"},
         {"{'descr': '', 'fortran_order': False, 'shape': (3, 4)}",
          "npy: its samples must be f2, f4, f8, u1, u2 or u4, got '': save a.astype(\"f4\"), or u4 for codes"},
         {"{'descr': '|u2', 'fortran_order': False, 'shape': (3, 4)}",
@@ -182,6 +202,54 @@ static void npy_sentences(void **state) {
     refused(&h, "npy: its header must have at most 10000 bytes, got 65539");
 }
 
+/* A word of the header that is another, and what is said of it. */
+static void dds_sentences(void **state) {
+    (void)state;
+    static const struct {
+        uint32_t dxgi, word, value;
+        const char *sentence;
+    } rows[] = {
+        {0, 1, 108, "DDS: its header must have 124 bytes, got 108"},
+        {0, 4, 65537, "width and height must be from 1 to 65536 pixels, got 65537 x 2"},
+        {0, 5, 9, NULL}, /* the pitch */
+        {0, 3, 3, "cut short: 2 x 3 pixels, 1 channel of f4, take 24 bytes, and 16 follow the header"},
+        {0, 3, 1, "too long: 2 x 1 pixels, 1 channel of f4, take 8 bytes, and 16 follow the header"},
+        {0, 3, 0, "width and height must be from 1 to 65536 pixels, got 2 x 0"},
+        {0, 21, 0x35545844, "DDS: no depth is read from format DXT5: save R32F, R16 or R24X8, or its pixels as .npy"},
+        {0, 21, 36, "DDS: no depth is read from D3D format 36: save R32F, R16 or R24X8, or its pixels as .npy"},
+        {0, 20, 0x40,
+         "DDS: no depth is read from pixels without a name, bits: 0: save R32F, R16 or R24X8, or its pixels as .npy"},
+        {0, 28, 0x200, "DDS: it has several images, a cube, volume or array: save one slice"},
+        {0, 6, 4, NULL}, /* no depth without its flag */
+        {41, 32, 98, "DDS: no depth is read from DXGI format 98: save R32F, R16 or R24X8, or its pixels as .npy"},
+        {41, 33, 4, "DDS: it has several images, a cube, volume or array: save one slice"},
+        {41, 35, 6, "DDS: it has several images, a cube, volume or array: save one slice"},
+        {41, 7, 5, NULL}, /* nor levels without theirs */
+    };
+    for (size_t i = 0; i < sizeof rows / sizeof rows[0]; i++) {
+        handmade h = {.size = 0};
+        handmade_dds(&h, 2, 2, &(handmade_dds_of){.flags = 4, .fourcc = 114, .dxgi = rows[i].dxgi});
+        handmade_bytes(&h, "0123456789abcdef", 16);
+        for (int k = 0; k < 4; k++)
+            h.at[4 * rows[i].word + (uint32_t)k] = (unsigned char)(rows[i].value >> 8 * k);
+        image got;
+        image_error error;
+        if (rows[i].sentence != NULL) {
+            refused(&h, rows[i].sentence);
+            continue;
+        }
+        if (!parse(h.at, h.size, &got, &error))
+            fail_msg("row %zu: %s", i, error.text);
+        image_free(&got);
+    }
+    handmade h = {.size = 0};
+    handmade_dds(&h, 2, 2, &(handmade_dds_of){.flags = 4, .fourcc = 114});
+    handmade_bytes(&h, "0123456789abcdef", 16);
+    h.at[10] |= 0x02; /* the flag of the levels */
+    h.at[28] = 3;     /* and how many */
+    refused(&h, "DDS: it has 3 mip levels: save the largest alone");
+}
+
 static void png_sentences(void **state) {
     (void)state;
     static const unsigned char pixels[16] = {0};
@@ -190,7 +258,7 @@ static void png_sentences(void **state) {
         int bits, colour;
         const char *sentence;
     } rows[] = {
-        {1, 1, 8, 3, "PNG with a palette, whose numbers are names of colours: save it as grey"},
+        {1, 1, 8, 3, "PNG with a palette, not with depths: save it as greyscale"},
         {1, 1, 1, 0, "PNG of 1 bit a sample: save it with 8 or 16"},
         {1, 1, 4, 0, "PNG of 4 bits a sample: save it with 8 or 16"},
         {65537, 1, 8, 0, "width and height must be from 1 to 65536 pixels, got 65537 x 1"},
@@ -240,7 +308,7 @@ static void png_sentences(void **state) {
 
 /* ---- Every byte ---------------------------------------------------------------------------------------------------*/
 
-enum { SMALL = 10 };
+enum { SMALL = 12 };
 
 /* Small files of each kind, all of them right. */
 static size_t small_files(handmade files[SMALL]) {
@@ -261,6 +329,10 @@ static size_t small_files(handmade files[SMALL]) {
         handmade_npy(&files[n], 1 + i, headers[i]);
         handmade_bytes(&files[n++], samples, 24);
     }
+    handmade_dds(&files[n], 3, 2, &(handmade_dds_of){.dxgi = 46});
+    handmade_bytes(&files[n++], samples, 24);
+    handmade_dds(&files[n], 6, 2, &(handmade_dds_of){.flags = 4, .fourcc = 111});
+    handmade_bytes(&files[n++], samples, 24);
     return n;
 }
 
@@ -347,7 +419,7 @@ static void unreadable_paths(void **state) {
     assert_false(error.unreadable);
     assert_string_equal(error.text, "is empty");
     assert_false(image_read("/dev/zero", &got, &error));
-    assert_string_equal(error.text, "neither PNG, PFM nor .npy by its first bytes");
+    assert_string_equal(error.text, "neither PNG, PFM, npy nor DDS by its first bytes");
 }
 
 /* What a child that may not have more than 128 MiB beyond what it has says to a file or a pipe, as stdin. */
@@ -421,10 +493,10 @@ static void huge_claims(void **state) {
 static void large_pipes(void **state) {
     (void)state;
     enum { SIDE = 900, SAMPLES = SIDE * SIDE };
-    char *bytes[IMAGE_FILE_COUNT];
+    char *bytes[IMAGE_WRITTEN_COUNT];
     float *samples = calloc(SAMPLES, sizeof *samples);
     assert_non_null(samples);
-    for (int file = 0; file < IMAGE_FILE_COUNT; file++) {
+    for (int file = 0; file < IMAGE_WRITTEN_COUNT; file++) {
         size_t size = 0;
         FILE *stream = open_memstream(&bytes[file], &size);
         image_writer *w =
@@ -455,10 +527,10 @@ static void large_pipes(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(other_files),      cmocka_unit_test(pfm_sentences),   cmocka_unit_test(npy_sentences),
-        cmocka_unit_test(png_sentences),    cmocka_unit_test(cut_anywhere),    cmocka_unit_test(bits_flipped),
-        cmocka_unit_test(unreadable_paths), cmocka_unit_test(nothing_printed), cmocka_unit_test(huge_claims),
-        cmocka_unit_test(large_pipes),
+        cmocka_unit_test(other_files),     cmocka_unit_test(pfm_sentences), cmocka_unit_test(npy_sentences),
+        cmocka_unit_test(dds_sentences),   cmocka_unit_test(pfm_endless),   cmocka_unit_test(png_sentences),
+        cmocka_unit_test(cut_anywhere),    cmocka_unit_test(bits_flipped),  cmocka_unit_test(unreadable_paths),
+        cmocka_unit_test(nothing_printed), cmocka_unit_test(huge_claims),   cmocka_unit_test(large_pipes),
     };
     return run_tap(tests);
 }

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /*
  * Metric depth, as sensors and simulators write it: read with --metric it is within what the error map says of the
- * depth that was rounded or cut off, for eye depth, places and effects; holes are counted and never averaged.
+ * depth that was rounded or truncated, for eye depth, places and effects; holes are counted and never averaged.
  */
 #include <jansson.h>
 #include <stdbool.h>

@@ -29,7 +29,7 @@ typedef struct square {
 static square *square_of(image_type type) {
     square *s = calloc(1, sizeof *s);
     assert_non_null(s);
-    s->img = (image){SIDE, SIDE, 1, type, IMAGE_NPY, &s->data};
+    s->img = (image){SIDE, SIDE, 1, type, IMAGE_NPY, &s->data, NULL};
     return s;
 }
 
@@ -315,7 +315,7 @@ static void packings(void **state) {
             for (uint32_t i = 0; i < SAMPLES; i++)
                 s->data.u32[i] = ((most << 24) - 0x101 * i) / 256 * 256 + stencil;
             recognise(&s->img, &r);
-            assert_true(!r.depth && r.invalid == SAMPLES && strstr(r.why, "shift them down by 8 first") != NULL);
+            assert_true(!r.depth && r.invalid == SAMPLES && strstr(r.why, "shift right by 8 first") != NULL);
         }
     for (uint32_t i = 0; i < SAMPLES; i++) /* low bytes that differ in a bit */
         s->data.u32[i] = 0x3A000000 + i * 0x180;
@@ -438,8 +438,8 @@ static void directions(void **state) {
         {0.01, 0.99, 900, 0, 1, "sky at 0: likely reversed"},
         {0.01, 0.99, 0, 900, 0, "sky at 1: likely not reversed"},
         {0.01, 0.99, 900, 900, -1, "neither sky nor mass shows a direction"},
-        {0.5, 0.5, SAMPLES, 0, -1, "nothing is drawn that shows a direction"},
-        {0.5, 0.5, 0, SAMPLES, -1, "nothing is drawn that shows a direction"},
+        {0.5, 0.5, SAMPLES, 0, -1, "nothing drawn shows a direction"},
+        {0.5, 0.5, 0, SAMPLES, -1, "nothing drawn shows a direction"},
     };
     square *s = square_of(IMAGE_F32);
     for (size_t k = 0; k < sizeof rows / sizeof rows[0]; k++) {
@@ -466,7 +466,7 @@ static void counted(void **state) {
     double *d = malloc(COUNT * sizeof *d);
     assert_non_null(d);
     for (uint32_t channels = 1; channels <= 3; channels++) {
-        const image img = {WIDTH / channels, HEIGHT, channels, IMAGE_F64, IMAGE_NPY, d};
+        const image img = {WIDTH / channels, HEIGHT, channels, IMAGE_F64, IMAGE_NPY, d, NULL};
         const size_t pixels = (size_t)img.width * HEIGHT;
         size_t zero = 0, one = 0, invalid = 0;
         double lo = 2, hi = -1;
@@ -490,7 +490,7 @@ static void counted(void **state) {
     }
     for (int i = 0; i < COUNT; i++)
         d[i] = (i % 777) / 1000.0;
-    const image img = {WIDTH, HEIGHT, 1, IMAGE_F64, IMAGE_NPY, d};
+    const image img = {WIDTH, HEIGHT, 1, IMAGE_F64, IMAGE_NPY, d, NULL};
     recognised found;
     recognise(&img, &found);
     assert_int_equal(found.distinct, 777);

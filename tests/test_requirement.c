@@ -156,7 +156,7 @@ static const struct {
     {"cameras = { a = { near = 1; far = 2; mapping = \"d3d\"; format = \"fp32\"; log_c = 1.0; }; };" NEEDS(""), 1,
      "log_c: is for the mapping log"},
     {"cameras = { a = { near = 1; far = 2; mapping = \"d3d\"; format = \"fp32\"; model = \"real\"; }; };" NEEDS(""), 1,
-     "model: must be one of exact, staged, fp32, auto"},
+     "model: must be one of exact, staged, float, auto"},
     {"cameras = { a = { near = 1; far = 2; mapping = \"d3d\"; format = \"fp32\"; arith = 3; }; };" NEEDS(""), 1,
      "arith: must be a word"},
     {"cameras = { a = { near = 1; far = 2; mapping = \"d3d\"; format = \"fp32\"; ortho = 1; }; };" NEEDS(""), 1,
@@ -201,11 +201,11 @@ static const struct {
     {CAMERA "requirements = ( { camera = \"a\"; at = 1; error = 1; } );", 2, "needs a name"},
     {CAMERA "requirements = ( { name = \"x\"; camera = \"a\"; at = 1; error = 1; },\n"
             "{ name = \"x\"; camera = \"a\"; at = 1; error = 1; } );",
-     3, "is already there, on line 2"},
+     3, "is already on line 2"},
     {CAMERA NEEDS("at = 1; error = 1; at = 2;"), 2, "duplicate"},
     {CAMERA NEEDS("name = \"q\"; at = 1; error = 1;"), 2, "has no key 'name'"},
     {CAMERA "requirements = {", 2, "syntax error"},
-    {CAMERA NEEDS("range = [0.5, 50]; error = 1;"), 2, "two numbers alike"},
+    {CAMERA NEEDS("range = [0.5, 50]; error = 1;"), 2, "two numbers of one kind"},
     {"@include \"/etc/passwd\"\n", 1, "@include is not allowed"},
     {"\n  @include \"x\"\n", 2, "@include is not allowed"},
 };

@@ -251,7 +251,8 @@ static void check_forms(const json_t *items, const char *what, const char *bound
                      json_string_value(name));
         const char *fields[] = {text_in(o, "name"), text_in(o, "note"), text_in(o, bound), text_in(o, "source"),
                                 aliases};
-        const char *labels[] = {"", "", bound, "source", "also"};
+        const char *shown = strcmp(what, "scenes") == 0 ? "parameters" : bound;
+        const char *labels[] = {"", "", shown, "source", "also"};
         const char *const keys[] = {"name", "note", "bound", "source", "aliases"};
         values_under(&v, "%zu.", i);
         for (k = 0; k < 5; k++) {

@@ -102,6 +102,7 @@ static void want_census(values *v, const zfight_case *c, const dp_setup *setup, 
     (c->sample > 0 ? want_number : want_derived)(v, "seed", (double)c->seed);
     (c->gap > 0 ? want_number : want_derived)(v, "gap", c->gap);
     want_counts(v, c, &r.all);
+    want_derived(v, "guaranteed_there", dp_separation(setup, r.all.longest_z));
     if (counted) {
         want_count(v, "clipped", r.all.clipped);
         want_count(v, "holes", r.holes);
@@ -117,13 +118,14 @@ static void want_census(values *v, const zfight_case *c, const dp_setup *setup, 
 /* The sentence above the first set-up's table. */
 static void check_answer(const values *v, const char *text) {
     static const char *const neighbours[] = {"setups[0].ties_share", "setups[0].swaps_share", NULL};
-    static const char *const longest[] = {"setups[0].longest", "setups[0].longest_z", "setups[0].bound", NULL};
+    static const char *const longest[] = {"setups[0].longest", "setups[0].longest_z", "setups[0].guaranteed_there",
+                                          NULL};
     static const char *const always[] = {"setups[0].first", "setups[0].always_from", NULL};
     static const char *const first[] = {"setups[0].first", NULL};
     const wanted *from = value_find(v, "setups[0].first"), *on = value_find(v, "setups[0].always_from");
     if (from == NULL) {
         check_text_numbers(v, text, "Neighbouring binary32 depths", 3, neighbours);
-        check_text_numbers(v, text, "the longest interval", 6, longest);
+        check_text_numbers(v, text, "longest interval", 6, longest);
         return;
     }
     char label[128];

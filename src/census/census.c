@@ -50,6 +50,16 @@ static size_t last_down_to(const int32_t *least, size_t from, size_t end, int32_
     return from;
 }
 
+/* Whether the guarantee falls on the way to a farther depth, by more than is worth telling. */
+static int falls(double here, double farther) {
+    return farther < 0.9995 * here;
+}
+
+static double bound_of(const census *c, uint32_t bits) {
+    const census_request *r = c->request;
+    return r->bound != NULL ? r->bound(r->setup, (double)dp_float32(bits)) : HUGE_VAL;
+}
+
 /* ---- A segment --------------------------------------------------------------------------------------------------- */
 
 typedef struct sweep {
@@ -61,6 +71,7 @@ typedef struct sweep {
     double steps_known;               /* what is not above it tells nothing new */
     double bound;                     /* the least guaranteed separation in the block at hand */
     double bound_above;               /* at the far end of the block at hand */
+    int falling;                      /* it is less than at the near end */
     int before_known;                 /* whether `before` belongs to the block behind the one at hand */
     int32_t beyond[SEGMENT_RUNS + 1]; /* least key from a run on to the end */
     int32_t peak[SEGMENT_RUNS];       /* greatest key of a run */
@@ -87,7 +98,8 @@ static uint32_t known_steps(const sweep *w) {
     return steps < SEGMENT ? (uint32_t)steps : SEGMENT;
 }
 
-/* Looks at a run's depths. One whose key a nearer depth of the run reaches has the shorter interval: left out. */
+/* Looks at a run's depths. One whose key a nearer depth of the run reaches has the shorter interval: left out, unless
+ * it takes a greater share because the guarantee has fallen. */
 static void look_at_run(sweep *w, uint32_t run) {
     int32_t home[CENSUS_RUN];
     int32_t away[CENSUS_RUN];
@@ -102,7 +114,7 @@ static void look_at_run(sweep *w, uint32_t run) {
         const int32_t v = home[i];
         if (from >= s->count)
             return;
-        if (v <= highest || w->beyond[from / CENSUS_RUN] > v)
+        if ((v <= highest && !w->falling) || w->beyond[from / CENSUS_RUN] > v)
             continue;
         highest = v;
         const uint32_t other = (uint32_t)last_down_to(w->beyond, from / CENSUS_RUN, w->runs - 1, v);
@@ -150,10 +162,8 @@ static uint32_t suspects(sweep *w, uint32_t base) {
 }
 
 static void update_bound(sweep *w, uint32_t first) {
-    const census_request *r = w->c->request;
-    if (r->bound == NULL)
-        return;
-    const double here = r->bound(r->setup, (double)dp_float32(first));
+    const double here = bound_of(w->c, first);
+    w->falling = falls(here, w->bound_above);
     w->bound = here < w->bound_above ? here : w->bound_above;
     w->bound_above = here;
 }
@@ -182,7 +192,7 @@ static void sweep_segment(const census *c, segment *s, double longest, sweep *w)
     w->runs = blocks * CENSUS_RUNS;
     w->step = census_step(s->first);
     w->steps_known = longest / w->step - 1.0;
-    w->bound = w->bound_above = HUGE_VAL;
+    w->bound = w->bound_above = bound_of(c, w->last);
     w->beyond[w->runs] = INT32_MAX;
     for (uint32_t i = 0; i < CENSUS_RUN; i++)
         w->before[i] = INT32_MAX;
@@ -257,8 +267,9 @@ static size_t last_block(const census *c, size_t from, int32_t v) {
     return last_down_to(c->least, from, c->block_count - 1, v);
 }
 
-/* The intervals that begin in a block and end in or behind block `from`; keys up to `highest` were met nearer. */
-static void look_at_block(const census *c, size_t block, size_t from, int64_t highest, census_band *band) {
+/* The intervals that begin in a block and end in or behind block `from`; keys up to `highest` were met nearer, with a
+ * guarantee that was no greater. */
+static void look_at_block(const census *c, size_t block, size_t from, int64_t highest, int falling, census_band *band) {
     int32_t home[CENSUS_BLOCK];
     int32_t away[CENSUS_BLOCK];
     size_t away_block = SIZE_MAX;
@@ -266,7 +277,7 @@ static void look_at_block(const census *c, size_t block, size_t from, int64_t hi
     keys_of_block(c, block, home);
     for (uint32_t i = 0; i < count; i++) {
         const int32_t v = home[i];
-        if (v <= highest || c->least[from] > v)
+        if ((v <= highest && !falling) || c->least[from] > v)
             continue;
         highest = v;
         const size_t other = last_block(c, from, v);
@@ -279,22 +290,19 @@ static void look_at_block(const census *c, size_t block, size_t from, int64_t hi
     }
 }
 
-static int worth_a_look(const census *c, size_t block, size_t from, const census_band *band) {
-    const census_request *r = c->request;
+/* @param least_bound  the smaller guarantee of the block's ends */
+static int worth_a_look(const census *c, size_t block, size_t from, double least_bound, const census_band *band) {
     const double z1 = (double)dp_float32(c->block_first[block]);
     const double most = (double)dp_float32(block_last(c, last_block(c, from, c->greatest[block]))) - z1;
-    if (most >= band->longest)
-        return 1;
     const double halves = census_step(dp_bits32((float)(z1 + most)));
-    return r->bound != NULL &&
-           most + halves >=
-               band->slack * fmin(r->bound(r->setup, z1), r->bound(r->setup, (double)dp_float32(block_last(c, block))));
+    return most >= band->longest || most + halves >= band->slack * least_bound;
 }
 
 /* Intervals from one segment into a later one. Needs `least` to run on to the end. */
 static void bridge(const census *c, census_result *result) {
     int band = -1;
     int64_t highest = INT64_MIN;
+    double highest_bound = 0.0; /* where it was met */
     for (size_t i = 0; i + 1 < c->segment_count; i++) {
         const segment *s = &c->segments[i];
         const size_t from = c->segments[i + 1].block;
@@ -304,11 +312,18 @@ static void bridge(const census *c, census_result *result) {
         }
         for (size_t block = s->block; block < from; block++) {
             const int32_t top = c->greatest[block];
+            if (top < c->least[from])
+                continue;
+            const double here = bound_of(c, c->block_first[block]);
+            const double last = bound_of(c, block_last(c, block));
+            if (falls(highest_bound, fmin(here, last)))
+                highest = INT64_MIN;
             if (top <= highest)
                 continue;
-            if (top >= c->least[from] && worth_a_look(c, block, from, &result->bands[band]))
-                look_at_block(c, block, from, highest, &result->bands[band]);
+            if (worth_a_look(c, block, from, fmin(here, last), &result->bands[band]))
+                look_at_block(c, block, from, highest, falls(here, last), &result->bands[band]);
             highest = top;
+            highest_bound = here;
         }
     }
 }

@@ -30,12 +30,11 @@ static int check_table(const options *o) {
                                         OPTION_ORIGIN, OPTION_SIZE,        OPTION_PIXEL};
     for (size_t i = 0; i < sizeof images / sizeof images[0]; i++)
         if (option_given(o, images[i]))
-            return option_error(images[i], "has no meaning with --effect alone, but with FILE or --scene");
+            return option_error(images[i], "does not apply to --effect alone, only with FILE or --scene");
     for (size_t i = 0; i < sizeof cameras / sizeof cameras[0] && (o->effect->needs & EFFECT_POSITION) == 0; i++)
         if (option_given(o, cameras[i]))
             return option_error(cameras[i],
-                                "has no meaning with %s alone, which needs no position, but with FILE or "
-                                "--scene",
+                                "does not apply to %s alone, which needs no position, only with FILE or --scene",
                                 o->effect->name);
     return EXIT_FINE;
 }
@@ -43,7 +42,7 @@ static int check_table(const options *o) {
 static int make_product(const options *o, const texture_source *source, texture_product *product) {
     int status = texture_product_check(source, product);
     if (status == EXIT_FINE && source->path != NULL && source->found.invalid > 0 && !o->quiet)
-        fprintf(stderr, "depthprec: %s: %zu pixels hold no window depth and are NaN in what is made\n", source->path,
+        fprintf(stderr, "depthprec: %s: %zu pixels hold no window depth and become NaN\n", source->path,
                 source->found.invalid);
     if (status == EXIT_FINE && o->output != NULL)
         status = texture_product_write(o, source, product);

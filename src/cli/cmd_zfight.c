@@ -160,10 +160,10 @@ static void say_neighbours(page *p, const zfight *z) {
               z->walk.o->sample > 0 ? ", drawn at random" : "", number_of(z->whole.ties, 3).text,
               number_of(z->whole.swaps, 3).text);
     if (all->longest > 0.0)
-        page_line(p, "the longest interval: %s at z = %s, of %s guaranteed",
+        page_line(p, "longest interval %s at z = %s, guaranteed there %s",
                   number_in(number_of(all->longest, DIGITS), p->unit).text,
                   number_in(number_of(all->longest_z, DIGITS), p->unit).text,
-                  number_in(number_up(all->bound, DIGITS), p->unit).text);
+                  number_in(number_up(dp_separation(z->walk.setup, all->longest_z), DIGITS), p->unit).text);
 }
 
 static void say_answer(page *p, void *item) {

@@ -11,7 +11,7 @@ int texture_camera_check(const options *o) {
     const bool looks_back = o->effect != NULL && (o->effect->needs & EFFECT_LAST_FRAME) != 0;
     bool any = false;
     if (o->ortho && option_given(o, OPTION_FOV))
-        return option_error(OPTION_FOV, "has no meaning with --ortho; --half-height has");
+        return option_error(OPTION_FOV, "does not apply with --ortho; --half-height does");
     if (!o->ortho && option_given(o, OPTION_HALF_HEIGHT))
         return option_error(OPTION_HALF_HEIGHT, "needs --ortho");
     for (int i = 0; i < LAST_OPTIONS; i++) {
@@ -20,7 +20,7 @@ int texture_camera_check(const options *o) {
             return option_error(last_options[i], "is for effects that need last frame's camera: --effect motion-blur");
     }
     if (o->ortho && option_given(o, OPTION_LAST_FOV))
-        return option_error(OPTION_LAST_FOV, "has no meaning with --ortho");
+        return option_error(OPTION_LAST_FOV, "does not apply with --ortho");
     if (looks_back && !any)
         return option_error(OPTION_EFFECT,
                             "%s needs last frame's camera: --last-origin, --last-yaw, --last-pitch or "

@@ -53,7 +53,7 @@ static int check_files(const options *o) {
         return EXIT_USAGE;
     if (o->form != FORM_TEXT)
         return option_error(o->form == FORM_JSON ? OPTION_JSON : OPTION_CSV,
-                            "is for statistics, which are not made beside a product");
+                            "is for statistics, which a product does not have");
     return EXIT_FINE;
 }
 
@@ -68,12 +68,12 @@ int texture_product_resolve(const options *o, texture_product *p) {
     for (size_t i = 0, found = 0; i < sizeof kinds / sizeof kinds[0] && status == EXIT_FINE; i++)
         if (option_given(o, kinds[i].option)) {
             if (found++ > 0)
-                status = option_error(kinds[i].option, "must not be given together with --%s",
-                                      option_name(kinds[chosen].option));
+                status =
+                    option_error(kinds[i].option, "cannot be combined with --%s", option_name(kinds[chosen].option));
             chosen = i;
         }
     if (status == EXIT_FINE && o->radial && kinds[chosen].kind != FRAME_EYE)
-        status = option_error(OPTION_RADIAL, "has no meaning with --%s", option_name(kinds[chosen].option));
+        status = option_error(OPTION_RADIAL, "does not apply with --%s", option_name(kinds[chosen].option));
     p->made.kind = kinds[chosen].kind;
     p->made.position = o->position;
     p->made.normal = o->normal;

@@ -60,7 +60,7 @@ static int check_together(const options *o) {
     if (file && o->scene != NULL)
         return option_error(OPTION_SCENE, "stands in place of FILE, got '%s' too", o->operands[0]);
     if (!file && o->scene == NULL)
-        return usage_error("texture: needs FILE, a PNG, PFM or npy image, or --scene NAME");
+        return usage_error("texture: needs FILE, a PNG, PFM, npy or DDS image, or --scene NAME");
     if (file && option_given(o, OPTION_SIZE))
         return option_error(OPTION_SIZE, "is for --scene: the image has its own");
     if (file && o->effect == NULL && o->parameter_count > 0)
@@ -70,7 +70,7 @@ static int check_together(const options *o) {
     static const option_id window[] = {OPTION_FORMAT, OPTION_MAPPING, OPTION_LOG_C, OPTION_SKY};
     for (size_t i = 0; o->metric > 0 && i < sizeof window / sizeof window[0]; i++)
         if (option_given(o, window[i]))
-            return option_error(window[i], "has no meaning with --metric, which is no window depth");
+            return option_error(window[i], "does not apply with --metric, which is not window depth");
     return texture_camera_check(o);
 }
 

@@ -8,13 +8,16 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include "core/append.h"
 #include "texture/camera.h"
 #include "texture/image_kind.h"
 
 enum { HEAD_SIZE = 8 };
 
-static const image_kind *const kinds[IMAGE_FILE_COUNT] = {
-    [IMAGE_PNG] = &image_kind_png, [IMAGE_PFM] = &image_kind_pfm, [IMAGE_NPY] = &image_kind_npy};
+static const image_kind *const kinds[IMAGE_FILE_COUNT] = {[IMAGE_PNG] = &image_kind_png,
+                                                          [IMAGE_PFM] = &image_kind_pfm,
+                                                          [IMAGE_NPY] = &image_kind_npy,
+                                                          [IMAGE_DDS] = &image_kind_dds};
 
 /* Files that people have instead, so that they are told what to do and not only what is wrong. */
 static const struct {
@@ -29,7 +32,6 @@ static const struct {
     {"\xff\xd8\xff", 3, "JPEG, which keeps no depths: save PNG of 16 bits, PFM or .npy"},
     {"P5", 2, "PGM: convert it to PNG of 16 bits"},
     {"P6", 2, "PPM: convert it to PNG of 16 bits"},
-    {"DDS ", 4, "DDS: save its pixels as .npy"},
     {"\xabKTX", 4, "KTX: save its pixels as .npy"},
     {"#?RADIANCE", 8, "Radiance HDR: convert it to PFM"},
 };
@@ -40,7 +42,7 @@ const char *image_file_name(image_file file) {
 
 bool image_file_of(const char *path, image_file *out) {
     const size_t length = strlen(path);
-    for (int i = 0; i < IMAGE_FILE_COUNT; i++) {
+    for (int i = 0; i < IMAGE_WRITTEN_COUNT; i++) {
         const size_t size = strlen(kinds[i]->ending);
         if (length > size && strcasecmp(path + length - size, kinds[i]->ending) == 0) {
             *out = (image_file)i;
@@ -57,10 +59,13 @@ static bool begins(const unsigned char *head, size_t size, const char *magic, si
 }
 
 static bool unknown(image_source *source, const unsigned char *head, size_t size) {
+    char known[64] = "neither ";
+    for (int i = 0; i < IMAGE_FILE_COUNT; i++)
+        append(known, sizeof known, "%s%s", i == 0 ? "" : i + 1 < IMAGE_FILE_COUNT ? ", " : " nor ", kinds[i]->name);
     for (size_t i = 0; i < sizeof others / sizeof others[0]; i++)
         if (begins(head, size, others[i].magic, others[i].size))
-            return source_fail(source, "neither PNG, PFM nor .npy, but %s", others[i].what);
-    return source_fail(source, size == 0 ? "is empty" : "neither PNG, PFM nor .npy by its first bytes");
+            return source_fail(source, "%s, but %s", known, others[i].what);
+    return size == 0 ? source_fail(source, "is empty") : source_fail(source, "%s by its first bytes", known);
 }
 
 /* The first bytes are looked at and left to the reader of the kind. */
@@ -144,8 +149,8 @@ bool image_holds(image_file file, image_type type, uint32_t channels) {
 
 image_writer *image_writer_open(FILE *stream, image_file file, image_type type, uint32_t width, uint32_t height,
                                 uint32_t channels) {
-    if (!image_holds(file, type, channels) || width < 1 || height < 1 || width > TEXTURE_SIDE_MAX ||
-        height > TEXTURE_SIDE_MAX || (uint64_t)width * height > TEXTURE_PIXELS_MAX)
+    if ((unsigned)file >= IMAGE_WRITTEN_COUNT || !image_holds(file, type, channels) || width < 1 || height < 1 ||
+        width > TEXTURE_SIDE_MAX || height > TEXTURE_SIDE_MAX || (uint64_t)width * height > TEXTURE_PIXELS_MAX)
         return NULL;
     image_writer *writer = malloc(sizeof *writer);
     if (writer == NULL)

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /**
- * @file image.h  Images of numbers: PNG of 8 or 16 bits, PFM, and .npy of f2, f4, f8, u1, u2, u4.
+ * @file image.h  Images of numbers: PNG of 8 or 16 bits, PFM, and .npy of f2, f4, f8, u1, u2, u4; DDS is read.
  *
  * Files are not trusted: sizes are checked before memory is asked for (TEXTURE_SIDE_MAX, TEXTURE_PIXELS_MAX in
  * camera.h; what a file of known length cannot hold is refused), and what is damaged, cut short, followed by anything
@@ -24,7 +24,15 @@ typedef enum image_type {
     IMAGE_TYPE_COUNT
 } image_type;
 
-typedef enum image_file { IMAGE_PNG = 0, IMAGE_PFM, IMAGE_NPY, IMAGE_FILE_COUNT } image_file;
+/** Those that are written come first. */
+typedef enum image_file {
+    IMAGE_PNG = 0,
+    IMAGE_PFM,
+    IMAGE_NPY,
+    IMAGE_WRITTEN_COUNT,
+    IMAGE_DDS = IMAGE_WRITTEN_COUNT,
+    IMAGE_FILE_COUNT
+} image_file;
 
 enum { IMAGE_ERROR_SIZE = 256, IMAGE_CHANNELS_MAX = 4 };
 
@@ -32,8 +40,9 @@ enum { IMAGE_ERROR_SIZE = 256, IMAGE_CHANNELS_MAX = 4 };
 typedef struct image {
     uint32_t width, height, channels;
     image_type type;
-    image_file file; /**< what it was read from */
-    void *data;      /**< malloc'ed */
+    image_file file;  /**< what it was read from */
+    void *data;       /**< malloc'ed */
+    const char *says; /**< the depth format that the file names, "unorm24"; null when it names none */
 } image;
 
 /** Why an image was refused. */
@@ -46,10 +55,11 @@ typedef struct image_error {
 const char *image_type_name(image_type type);
 size_t image_type_size(image_type type);
 
-/** Which kind of file a name's ending means: ".png", ".pfm", ".npy", in any case. @return false when none of them */
+/** Which kind of file to write a name's ending means: ".png", ".pfm", ".npy", in any case. @return false when none of
+ *  them */
 bool image_file_of(const char *path, image_file *out);
 
-/** "PNG", "PFM", "npy"; null when out of range. */
+/** "PNG", "PFM", "npy", "DDS"; null when out of range. */
 const char *image_file_name(image_file file);
 
 /** Reads a file, "-" being stdin; the kind is told from its first bytes, not from its name. */
@@ -61,7 +71,8 @@ void image_free(image *image);
 /** A writer of one image, row by row, so that a large one needs no memory. */
 typedef struct image_writer image_writer;
 
-/** Which sample types and channels a kind of file holds: PNG u1 u2, 1 to 4; PFM f4, 1 or 3; npy all, 1 to 4. */
+/** Which sample types and channels a kind of file holds: PNG u1 u2, 1 to 4; PFM f4, 1 or 3; npy all, 1 to 4; DDS all
+ *  but f8, 1, 2 or 4. */
 bool image_holds(image_file file, image_type type, uint32_t channels);
 
 /** Writes the header. @return null when out of memory, when the stream failed, or the file cannot hold it; the stream

@@ -73,12 +73,12 @@ typedef struct image_kind {
     bool bottom_up;
     bool (*read)(image_source *source, image *out); /**< the magic is still to be read; on failure data stays for the
                                                          caller to free */
-    bool (*begin)(image_writer *writer);
+    bool (*begin)(image_writer *writer);            /**< null, as the next two: it is not written */
     bool (*rows)(image_writer *writer, const void *rows, uint32_t count);
     bool (*end)(image_writer *writer); /**< null: nothing follows the samples. Always called, to free */
 } image_kind;
 
-extern const image_kind image_kind_png, image_kind_pfm, image_kind_npy;
+extern const image_kind image_kind_png, image_kind_pfm, image_kind_npy, image_kind_dds;
 
 /** Writes the samples alone, the lowest byte first on every machine: `rows` of PFM and npy. */
 bool image_rows_plain(image_writer *writer, const void *rows, uint32_t count);

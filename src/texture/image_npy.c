@@ -145,6 +145,8 @@ static bool read_type(dictionary *d, image_type *type, bool *little) {
         if (strchr("<>=", order) != NULL || (order == '|' && image_type_size(*type) == 1))
             return true;
     }
+    if (strcmp(d->descr, "|b1") == 0)
+        return source_fail(d->source, "npy: its samples are bool, true or false, which is a mask and no depth");
     return source_fail(d->source,
                        "npy: its samples must be f2, f4, f8, u1, u2 or u4, got '%s': save a.astype(\"f4\"), or u4 for "
                        "codes",

@@ -3,6 +3,9 @@
  * PFM: "Pf" (one channel) or "PF" (three), width, height and scale as words, one blank, and binary32 samples, the
  * bottom row first. The sign of the scale says which byte comes first. Its magnitude is 1 here and nothing else,
  * because some programs multiply the samples by it and others do not.
+ *
+ * Between the words may be any blanks, and comments from # to the end of their line. The one blank before the samples
+ * is CR LF where that also follows the first word: the samples themselves may begin with any byte.
  * Source: Paul Debevec's description of the format, http://www.pauldebevec.com/Research/HDR/PFM/
  */
 #include <math.h>
@@ -11,34 +14,56 @@
 
 #include "texture/image_kind.h"
 
-enum { WORD_SIZE = 32 };
+enum { WORD_SIZE = 32, HEADER_MAX = 10000 };
 
-static bool is_blank(char c) {
-    return c == ' ' || c == '\t' || c == '\n' || c == '\r';
+/* The header, a character at a time. */
+typedef struct header {
+    image_source *source;
+    size_t size; /* what was read of it */
+    char last;
+} header;
+
+static bool next(header *h) {
+    if (h->size++ >= HEADER_MAX)
+        return source_fail(h->source, "PFM: its header must have at most %d bytes", HEADER_MAX);
+    return source_header(h->source, &h->last, 1);
 }
 
-/* A word and the one blank behind it; blanks before it are skipped. */
-static bool word(image_source *source, const char *what, char out[WORD_SIZE]) {
-    size_t length = 0;
-    char c;
+static bool is_blank(char c) {
+    return c != '\0' && strchr(" \t\n\v\f\r", c) != NULL;
+}
+
+/* To the first character that is neither blank nor comment. */
+static bool skip(header *h) {
+    bool comment = false;
     do {
-        if (!source_header(source, &c, 1))
+        if (!next(h))
             return false;
-    } while (is_blank(c));
-    while (!is_blank(c)) {
-        if (length + 1 >= WORD_SIZE || c < 0x21 || c > 0x7e)
-            return source_fail(source, "PFM: its %s must be a number", what);
-        out[length++] = c;
-        if (!source_header(source, &c, 1))
+        comment = comment ? h->last != '\n' && h->last != '\r' : h->last == '#';
+    } while (comment || is_blank(h->last));
+    return true;
+}
+
+/* A word and the one blank behind it; what is before it is skipped. */
+static bool word(header *h, const char *what, char out[WORD_SIZE]) {
+    size_t length = 0;
+    if (!skip(h))
+        return false;
+    while (!is_blank(h->last)) {
+        if (length + 1 >= WORD_SIZE || h->last < 0x21 || h->last > 0x7e)
+            return source_fail(h->source, "PFM: its %s must be a number", what);
+        out[length++] = h->last;
+        if (!next(h))
             return false;
     }
     out[length] = '\0';
     return true;
 }
 
-static bool side(image_source *source, const char *what, uint64_t *out) {
+static bool side(header *h, const char *what, uint64_t *out) {
+    image_source *source = h->source;
     char text[WORD_SIZE];
-    if (!word(source, what, text))
+    if (!word(h, what, text))
         return false;
     const size_t length = strlen(text);
     if (strspn(text, "0123456789") != length || length > 18)
@@ -47,15 +72,15 @@ static bool side(image_source *source, const char *what, uint64_t *out) {
     return true;
 }
 
-static bool read_scale(image_source *source, bool *little) {
+static bool read_scale(header *h, bool *little) {
     char text[WORD_SIZE], *end;
-    if (!word(source, "scale", text))
+    if (!word(h, "scale", text))
         return false;
     const double scale = strtod(text, &end);
     *little = scale < 0;
     if (*end == '\0' && fabs(scale) == 1)
         return true;
-    return source_fail(source,
+    return source_fail(h->source,
                        "PFM: its scale must be 1 or -1, got '%s': programs disagree on whether it multiplies the "
                        "samples; write 1 or -1 there once they are what they should be",
                        text);
@@ -74,15 +99,20 @@ static void flip(image *img) {
 }
 
 static bool read_pfm(image_source *source, image *out) {
-    char magic[2], blank;
+    header h = {.source = source};
+    char magic[2];
     uint64_t width = 0, height = 0;
     bool little = true;
-    if (!source_header(source, magic, sizeof magic) || !source_header(source, &blank, 1))
+    if (!source_header(source, magic, sizeof magic) || !next(&h))
         return false;
-    if (!is_blank(blank))
+    if (!is_blank(h.last))
         return source_fail(source, "PFM: a blank must follow '%.2s'", magic);
-    if (!side(source, "width", &width) || !side(source, "height", &height) || !read_scale(source, &little) ||
-        !source_shape(source, out, width, height, magic[1] == 'F' ? 3 : 1, IMAGE_F32) ||
+    const bool returns = h.last == '\r' && source->ready_size > 0 && *source->ready == '\n';
+    if (!side(&h, "width", &width) || !side(&h, "height", &height) || !read_scale(&h, &little))
+        return false;
+    if (returns && h.last == '\r' && (!next(&h) || h.last != '\n'))
+        return source_fail(source, "PFM: CR LF must follow its scale, as it follows '%.2s'", magic);
+    if (!source_shape(source, out, width, height, magic[1] == 'F' ? 3 : 1, IMAGE_F32) ||
         !source_samples(source, out, little))
         return false;
     flip(out);

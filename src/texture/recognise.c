@@ -7,6 +7,7 @@
 
 #include <math.h>
 #include <stdarg.h>
+#include <string.h>
 
 #include "core/append.h"
 #include "core/bits.h"
@@ -90,7 +91,7 @@ static void judge_words(const image *img, finding *f) {
     if (s.widened)
         say(f, "16 bits that repeat 8, fewer than any depth format has");
     else if (s.most > FP16_ONE)
-        say(f, "codes of unorm16 up to %u, fp16 has none above %d; of a finer buffer 16 bits are left", s.most,
+        say(f, "codes of unorm16 up to %u, fp16 has none above %d; a finer buffer has lost all but 16 bits", s.most,
             FP16_ONE);
     else
         say(f, "codes up to %u%s, of unorm16 or of fp16", s.most, s.most == FP16_ONE ? ", which is 1 in fp16" : "");
@@ -109,17 +110,25 @@ static void judge_longs(const image *img, finding *f) {
         say(f, "codes of unorm24 up to %u", s.most);
     } else if ((s.differ & 0xFF) == 0 && s.differ != 0 && !(fp32 && (s.differ & 0x1FFF) == 0)) {
         f->none = true;
-        say(f, "all low bytes are equal: with stencil there and 24 bits of depth above it, shift them down by 8 first");
+        say(f, "all low bytes are equal: if they are stencil below 24 bits of depth, shift right by 8 first");
     } else if (fp32) {
         f->which = LATTICE_FP32;
         say(f, "bits of fp32, none above those of 1");
     } else if (s.differ <= UNORM24_MAX) {
         f->none = true;
-        say(f, "all high bytes are equal: with stencil there and 24 bits of depth below it, take & 0xFFFFFF first");
+        say(f, "all high bytes are equal: if they are stencil above 24 bits of depth, take & 0xFFFFFF first");
     } else {
         f->none = true;
         say(f, "whole numbers up to %u are codes of no named format: bits of fp32 end at %u", s.most, FP32_ONE);
     }
+}
+
+/* The file names its format. */
+static void judge_named(const image *img, finding *f) {
+    f->sure = true;
+    while (f->which < LATTICE_FP32 && strcmp(lattice_name(f->which), img->says) != 0)
+        f->which++;
+    say(f, "%s, as the %s names it", img->says, image_file_name(img->file));
 }
 
 /* ---- Numbers ----------------------------------------------------------------------------------------------------- */
@@ -256,7 +265,7 @@ static const char *direct(const tally *s, recognised *out) {
     const int by_mass = s->inner == 0 ? -1 : 10 * s->low >= 9 * s->inner ? 1 : 10 * s->high >= 9 * s->inner ? 0 : -1;
     out->reversed = -1;
     if (s->inner == 0)
-        return "nothing is drawn that shows a direction";
+        return "nothing drawn shows a direction";
     if (by_sky >= 0 && by_mass >= 0 && by_sky != by_mass)
         return by_mass ? "near 0 but sky at 1: no direction" : "near 1 but sky at 0: no direction";
     out->reversed = by_mass >= 0 ? by_mass : by_sky;
@@ -350,7 +359,10 @@ void recognise(const image *img, recognised *out) {
     tally s = {0};
     dp_format formats[2];
     extent numbers = {0};
-    judges[img->type](img, &f);
+    if (img->says != NULL)
+        judge_named(img, &f);
+    else
+        judges[img->type](img, &f);
     dp_format_parse(lattice_name(f.which), formats);
     *out = (recognised){.format = formats[0],
                         .reversed = -1,
