@@ -44,7 +44,8 @@ static void stage_make(stage *s) {
     view.width = ACROSS;
     view.height = DOWN;
     assert_null(camera_init(&s->camera, &s->setup, &view));
-    s->image = (image){ACROSS, DOWN, 1, IMAGE_U32, IMAGE_NPY, s->codes};
+    s->image =
+        (image){.width = ACROSS, .height = DOWN, .channels = 1, .type = IMAGE_U32, .file = IMAGE_NPY, .data = s->codes};
     s->frame = (frame){.camera = &s->camera, .image = &s->image, .sky = FRAME_SKY, .threads = 1};
 }
 

@@ -302,7 +302,8 @@ static void test_images(void **state) {
     enum { PLACES = 32 };
     static uint32_t codes[PIXELS];
     static float got[PIXELS], bound[PIXELS];
-    const image depths = {ACROSS, DOWN, 1, IMAGE_U32, IMAGE_NPY, codes};
+    const image depths = {
+        .width = ACROSS, .height = DOWN, .channels = 1, .type = IMAGE_U32, .file = IMAGE_NPY, .data = codes};
     rng r = rng_make("effects of images");
     tally t = {.name = "images"};
     (void)state;

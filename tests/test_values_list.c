@@ -170,7 +170,7 @@ static const struct {
 } topics[] = {{"formats", "bound", format},   {"mappings", "bound", mapping}, {"models", "bound", model},
               {"arithmetic", "bound", arith}, {"causes", "bound", cause},     {"presets", "camera", preset_row},
               {"apis", "rule", api},          {"packings", "bound", packing}, {"effects", "parameters", effect},
-              {"figures", "bound", figure},   {"scenes", "parameters", scene},     {"positions", "bound", position},
+              {"figures", "bound", figure},   {"scenes", "bound", scene},     {"positions", "bound", position},
               {"normals", "bound", normal},   {"methods", "bound", method}};
 enum { TOPICS = sizeof topics / sizeof topics[0] };
 
