@@ -28,6 +28,8 @@ typedef struct writing {
     uint32_t *codes;
     progress bar;
     uint64_t done;
+    bool levels; /* the error of an effect, and its pixels: all, and those more than one level off */
+    uint64_t pixels, beyond;
 } writing;
 
 static ssize_t stream_write(void *cookie, const char *bytes, size_t size) {
@@ -93,6 +95,10 @@ static bool take(void *context, uint32_t row, uint32_t count, const float *value
         if (!image_writer_rows(w->writer, w->type == IMAGE_U16 ? w->row : one, 1))
             return false;
     }
+    for (size_t i = 0; i < count * w->row_values && w->levels; i++) {
+        w->pixels += isnan(values[i]) ? 0 : 1;
+        w->beyond += values[i] > 1 ? 1 : 0;
+    }
     progress_step(&w->bar, w->done += count);
     return true;
 }
@@ -110,7 +116,7 @@ static bool rounding_of_product(const texture_source *s, const texture_product *
     frame_summary sum = {.lo = -1, .hi = 1, .count = 1};
     plain.error = false;
     /* Without what it compares with an effect has no product yet; it will be from 0 to 1. */
-    const bool open = p->made.kind == FRAME_EFFECT && p->made.effect->reference != NULL;
+    const bool open = p->made.kind == FRAME_EFFECT && p->made.effect->given && !(p->made.reference > 0);
     *more = 0;
     if (open)
         sum.lo = 0;
@@ -136,7 +142,7 @@ static bool scale_of(const texture_source *s, const texture_product *p, writing 
 }
 
 int texture_product_write(const options *o, const texture_source *s, const texture_product *p) {
-    writing w = {0};
+    writing w = {.levels = p->made.kind == FRAME_EFFECT && p->made.error};
     double hi = 0;
     image_file_of(o->output, &w.file);
     const bool png = w.file == IMAGE_PNG;
@@ -150,6 +156,10 @@ int texture_product_write(const options *o, const texture_source *s, const textu
         fprintf(stderr, "depthprec: %s: 1 is %s, 65535 is %s%s%s, 0 where there is no %s\n", o->output,
                 number_full(w.lo).text, number_full(hi).text, *p->unit != '\0' ? " " : "", p->unit,
                 p->made.error ? "bound" : "value");
+    if (status == EXIT_FINE && w.levels && w.pixels > 0 && !o->quiet)
+        fprintf(stderr, "depthprec: %s: %s %% of the pixels %s off by more than one level\n", o->output,
+                number_of(100.0 * (double)w.beyond / (double)w.pixels, 3).text,
+                s->path != NULL || (p->made.effect->given && !(p->made.reference > 0)) ? "can be" : "are");
     return status;
 }
 
