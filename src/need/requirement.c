@@ -87,8 +87,6 @@ static bool suits(reader *r, const config_setting_t *s, const need *n) {
     if (isinf((float)n->hi))
         return reader_fail(r, s, "ties: needs a range up to 3.4028235e+38, the largest binary32 number, got %.15g",
                            n->hi);
-    if (!(n->lo > 0.0))
-        return reader_fail(r, s, "ties: needs a range of depths above 0, got %.15g", n->lo);
     return true;
 }
 
