@@ -301,7 +301,7 @@ static void npy_transposed(void **state) {
 /* ---- Round trips --------------------------------------------------------------------------------------------------*/
 
 static bool write_image(FILE *stream, const image *img, image_file file, uint32_t chunk) {
-    image_writer *w = image_writer_open(stream, file, img->type, img->width, img->height, img->channels);
+    image_writer *w = image_writer_open(stream, file, img->type, img->width, img->height, img->channels, NULL);
     if (w == NULL)
         return false;
     const size_t row_size = (size_t)img->width * img->channels * image_type_size(img->type);
@@ -368,7 +368,7 @@ static void round_trips(void **state) {
                 }
             }
     free(data);
-    assert_null(image_writer_open(stdout, IMAGE_DDS, IMAGE_U16, 1, 1, 1)); /* read alone */
+    assert_null(image_writer_open(stdout, IMAGE_DDS, IMAGE_U16, 1, 1, 1, NULL)); /* read alone */
     assert_false(image_holds(IMAGE_NPY, IMAGE_U8, 0));
     assert_false(image_holds(IMAGE_NPY, IMAGE_U8, 5));
     assert_false(image_holds(IMAGE_FILE_COUNT, IMAGE_U8, 1));
@@ -405,17 +405,17 @@ static void writers_refuse(void **state) {
     FILE *stream = tmpfile();
     const uint16_t row[4] = {0};
     assert_non_null(stream);
-    assert_null(image_writer_open(stream, IMAGE_PNG, IMAGE_F32, 1, 1, 1));
-    assert_null(image_writer_open(stream, IMAGE_PFM, IMAGE_F32, 1, 1, 2));
-    assert_null(image_writer_open(stream, IMAGE_NPY, IMAGE_F32, 0, 1, 1));
-    assert_null(image_writer_open(stream, IMAGE_NPY, IMAGE_F32, 1, 65537, 1));
-    assert_null(image_writer_open(stream, IMAGE_NPY, IMAGE_F32, 65536, 4097, 1));
+    assert_null(image_writer_open(stream, IMAGE_PNG, IMAGE_F32, 1, 1, 1, NULL));
+    assert_null(image_writer_open(stream, IMAGE_PFM, IMAGE_F32, 1, 1, 2, NULL));
+    assert_null(image_writer_open(stream, IMAGE_NPY, IMAGE_F32, 0, 1, 1, NULL));
+    assert_null(image_writer_open(stream, IMAGE_NPY, IMAGE_F32, 1, 65537, 1, NULL));
+    assert_null(image_writer_open(stream, IMAGE_NPY, IMAGE_F32, 65536, 4097, 1, NULL));
     for (int file = 0; file < IMAGE_WRITTEN_COUNT; file++) {
         const image_type type = file == IMAGE_PFM ? IMAGE_F32 : IMAGE_U16;
-        image_writer *w = image_writer_open(stream, (image_file)file, type, 2, 3, 1);
+        image_writer *w = image_writer_open(stream, (image_file)file, type, 2, 3, 1, NULL);
         assert_true(image_writer_rows(w, row, 1));
         assert_false(image_writer_close(w)); /* rows are missing */
-        w = image_writer_open(stream, (image_file)file, type, 2, 1, 1);
+        w = image_writer_open(stream, (image_file)file, type, 2, 1, 1, NULL);
         assert_true(image_writer_rows(w, row, 1));
         assert_false(image_writer_rows(w, row, 1)); /* too many */
         assert_false(image_writer_close(w));
@@ -425,7 +425,11 @@ static void writers_refuse(void **state) {
         stream = fopen("/dev/full", "wb");
         assert_non_null(stream);
         setvbuf(stream, NULL, _IONBF, 0);
-        const image img = {1, 1, 1, file == IMAGE_PFM ? IMAGE_F32 : IMAGE_U16, IMAGE_PNG, (void *)row, NULL};
+        const image img = {.width = 1,
+                           .height = 1,
+                           .channels = 1,
+                           .type = file == IMAGE_PFM ? IMAGE_F32 : IMAGE_U16,
+                           .data = (void *)row};
         assert_false(write_image(stream, &img, (image_file)file, 1));
         fclose(stream);
     }

@@ -500,7 +500,7 @@ static void large_pipes(void **state) {
         size_t size = 0;
         FILE *stream = open_memstream(&bytes[file], &size);
         image_writer *w =
-            image_writer_open(stream, (image_file)file, file == IMAGE_PNG ? IMAGE_U16 : IMAGE_F32, SIDE, SIDE, 1);
+            image_writer_open(stream, (image_file)file, file == IMAGE_PNG ? IMAGE_U16 : IMAGE_F32, SIDE, SIDE, 1, NULL);
         assert_non_null(w);
         assert_true(image_writer_rows(w, samples, SIDE));
         assert_true(image_writer_close(w));

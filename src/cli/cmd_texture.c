@@ -24,10 +24,10 @@ static int check_alone(const options *o) {
 /* The table of an effect sees depths, not pixels. */
 static int check_table(const options *o) {
     static const option_id pixels[] = {
-        OPTION_FOV,       OPTION_HALF_HEIGHT, OPTION_YAW,   OPTION_PITCH,  OPTION_ORIGIN,   OPTION_SIZE,
-        OPTION_SKY,       OPTION_METRIC,      OPTION_EYE,   OPTION_RADIAL, OPTION_POSITION, OPTION_NORMAL,
-        OPTION_ERROR_MAP, OPTION_FIGURE,      OPTION_THEME, OPTION_WIDTH,  OPTION_HEIGHT,   OPTION_TITLE,
-        OPTION_THREADS,   OPTION_PIXEL,       OPTION_TYPE};
+        OPTION_FOV,       OPTION_HALF_HEIGHT, OPTION_YAW,   OPTION_PITCH,   OPTION_ORIGIN,   OPTION_SIZE,
+        OPTION_SKY,       OPTION_METRIC,      OPTION_EYE,   OPTION_RADIAL,  OPTION_POSITION, OPTION_NORMAL,
+        OPTION_ERROR_MAP, OPTION_FIGURE,      OPTION_THEME, OPTION_WIDTH,   OPTION_HEIGHT,   OPTION_TITLE,
+        OPTION_THREADS,   OPTION_PIXEL,       OPTION_TYPE,  OPTION_PACKING, OPTION_PACK,     OPTION_PACKED_NORMAL};
     for (size_t i = 0; i < sizeof pixels / sizeof pixels[0]; i++)
         if (option_given(o, pixels[i]))
             return option_error(pixels[i], "has no meaning with --effect alone, but with FILE or --scene");
@@ -46,27 +46,33 @@ static int make_product(const options *o, const texture_source *source, texture_
     return status;
 }
 
-int cmd_texture(const options *o) {
+int cmd_texture(const options *given) {
+    options own = *given, *o = &own;
     texture_product product;
-    const bool made = texture_product_wanted(o);
+    const bool packed = o->pack != NULL || o->packed_normal;
+    const bool made = !packed && texture_product_wanted(o);
     if (o->effect != NULL && o->operand_count == 0 && o->scene == NULL) {
         const int status = check_table(o);
         return status == EXIT_FINE ? texture_effect_table(o) : status;
     }
     texture_source source = {0};
-    int status = check_alone(o);
+    int status = packed ? texture_pack_check(o) : check_alone(o);
     if (status == EXIT_FINE && made)
         status = texture_product_resolve(o, &product);
     if (status == EXIT_FINE)
         status = texture_source_open(o, &source);
     if (status == EXIT_FINE && made)
         status = make_product(o, &source, &product);
+    else if (status == EXIT_FINE && o->pack != NULL)
+        status = texture_pack_write(o, &source);
+    else if (status == EXIT_FINE && o->packed_normal)
+        status = texture_packed_normal_write(o, &source);
     else if (status == EXIT_FINE && option_given(o, OPTION_PIXEL))
         status = texture_pixel_write(o, &source);
     else if (status == EXIT_FINE && o->scene != NULL && o->output != NULL && o->form == FORM_TEXT)
         status = texture_depth_write(o, &source);
     else if (status == EXIT_FINE)
         status = texture_report_write(o, &source);
-    image_free(&source.picture);
+    texture_source_close(&source);
     return status;
 }

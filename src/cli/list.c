@@ -13,6 +13,7 @@
 #include "report/number.h"
 #include "texture/effect.h"
 #include "texture/pack.h"
+#include "texture/packing.h"
 #include "texture/position.h"
 #include "texture/scene.h"
 
@@ -135,6 +136,16 @@ static bool list_packing(size_t index, list_item *item) {
     return true;
 }
 
+bool list_packed(size_t index, list_item *item) {
+    const packing *row = packing_get(index);
+    if (row == NULL)
+        return false;
+    *item = (list_item){.name = row->name, .note = row->note, .source = row->source, .row = row};
+    append(item->bound, sizeof item->bound, "depth: at most %.3g%s", 0.5 / row->steps + row->off,
+           row->linear ? " of far" : "");
+    return true;
+}
+
 bool list_effect(size_t index, list_item *item) {
     const effect_row *row = effect_get(index);
     if (row == NULL)
@@ -216,6 +227,8 @@ static const topic topics[] = {
     {"presets", "cameras as engines set them, for --preset", list_preset, "camera"},
     {"apis", "what one unit of depth bias is, for bias --api", list_api, "rule"},
     {"packings", "depth and normals in the channels of a texture, and what their errors are held to", list_packing,
+     "bound"},
+    {"packed", "textures that hold a depth in several channels, for texture --packing and --pack", list_packed,
      "bound"},
     {"effects", "what texture --effect knows: formulas and parameters", list_effect, "parameters"},
     {"figures", "what plot can draw", list_figure, "bound"},

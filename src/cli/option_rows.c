@@ -21,6 +21,7 @@ static const name_list apis = {.words = (const char *const[]){"all", NULL}, .get
 static const name_list scenes = {.get = list_scene};
 static const name_list positions = {.words = (const char *const[]){"exact", NULL}, .get = list_position};
 static const name_list normals = {.get = list_normal};
+static const name_list packed = {.get = list_packed};
 static const name_list effects = {.get = list_effect};
 /* In the order of their enumerators. */
 static const name_list targets = {
@@ -212,6 +213,8 @@ const option_row option_rows[OPTION_COUNT] = {
     [OPTION_METRIC] = {"metric", 0, "SCALE", VERB_TEXTURE,
         "the samples are eye depths in units of SCALE, 0.001 for millimetres; 0, negative numbers, NaN and infinity are holes",
         LENGTH(metric, METRIC_SCALE_MIN, METRIC_SCALE_MAX, "scene units")},
+    [OPTION_PACKING] = {"packing", 0, "NAME", VERB_TEXTURE,
+        "the channels of FILE hold the depth together: @; 'depthprec list packed'", ROW(packing, packed)},
     [OPTION_PIXEL] = {"pixel", 0, "X,Y[;X,Y...]", VERB_TEXTURE,
         "all about single pixels: code, eye depth and which depths it may be, neighbours, position, normal; 0,0 is the "
         "top left one", SEVERAL(parse_pixels, pixels, 0, TEXTURE_SIDE_MAX - 1)},
@@ -223,6 +226,11 @@ const option_row option_rows[OPTION_COUNT] = {
         "product: world positions by @; exact is the truth", ROW(position, positions)},
     [OPTION_NORMAL] = {"normal", 0, "METHOD", VERB_TEXTURE,
         "product: normals by @", ROW(normal, normals)},
+    [OPTION_PACKED_NORMAL] = {"packed-normal", 0, NULL, VERB_TEXTURE,
+        "product: the normals that --packing depth-normals holds beside the depth", FLAG(packed_normal)},
+    [OPTION_PACK] = {"pack", 0, "NAME", VERB_TEXTURE,
+        "write the depths to -o FILE, a PNG or NPY of 8 bits, in several channels: @; with --normal the normals of "
+        "depth-normals are by that method, else projective", ROW(pack, packed)},
     [OPTION_EFFECT] = {"effect", 0, "NAME", VERB_TEXTURE,
         "product: an effect that consumes depth: @; without an image, the values of its parameter that are usable",
         ROW(effect, effects)},

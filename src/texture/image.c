@@ -148,7 +148,7 @@ bool image_holds(image_file file, image_type type, uint32_t channels) {
 }
 
 image_writer *image_writer_open(FILE *stream, image_file file, image_type type, uint32_t width, uint32_t height,
-                                uint32_t channels) {
+                                uint32_t channels, const char *note) {
     if ((unsigned)file >= IMAGE_WRITTEN_COUNT || !image_holds(file, type, channels) || width < 1 || height < 1 ||
         width > TEXTURE_SIDE_MAX || height > TEXTURE_SIDE_MAX || (uint64_t)width * height > TEXTURE_PIXELS_MAX)
         return NULL;
@@ -162,7 +162,8 @@ image_writer *image_writer_open(FILE *stream, image_file file, image_type type, 
                              .height = height,
                              .channels = channels,
                              .row_size = (size_t)width * channels * image_type_size(type),
-                             .rows_left = height};
+                             .rows_left = height,
+                             .note = note};
     if (writer->kind->begin(writer))
         return writer;
     writer->failed = true;

@@ -34,15 +34,20 @@ typedef enum image_file {
     IMAGE_FILE_COUNT
 } image_file;
 
-enum { IMAGE_ERROR_SIZE = 256, IMAGE_CHANNELS_MAX = 4 };
+enum { IMAGE_ERROR_SIZE = 256, IMAGE_CHANNELS_MAX = 4, IMAGE_NOTE_SIZE = 256 };
+
+/** What a PNG says of its colours, and a program that obeys would change in its samples: bits. */
+enum { IMAGE_SRGB = 1, IMAGE_GAMMA = 2, IMAGE_PROFILE = 4 };
 
 /** Rows from the top, channels interleaved, samples in the order of this machine's bytes, no padding. */
 typedef struct image {
     uint32_t width, height, channels;
     image_type type;
-    image_file file;  /**< what it was read from */
-    void *data;       /**< malloc'ed */
-    const char *says; /**< the depth format that the file names, "unorm24"; null when it names none */
+    image_file file;            /**< what it was read from */
+    void *data;                 /**< malloc'ed */
+    const char *says;           /**< the depth format that the file names, "unorm24"; null when it names none */
+    unsigned colours;           /**< IMAGE_SRGB, ... */
+    char note[IMAGE_NOTE_SIZE]; /**< of a PNG that depthprec wrote: the note, else "" */
 } image;
 
 /** Why an image was refused. */
@@ -76,9 +81,10 @@ typedef struct image_writer image_writer;
 bool image_holds(image_file file, image_type type, uint32_t channels);
 
 /** Writes the header. @return null when out of memory, when the stream failed, or the file cannot hold it; the stream
- *  stays the caller's. PNG: 16 bits as a fast compression has them, see image_png.c */
+ *  stays the caller's. PNG: 16 bits as a fast compression has them, see image_png.c
+ *  @param note  shorter than IMAGE_NOTE_SIZE, in a text chunk of a PNG; null: none. Other kinds have no place for it */
 image_writer *image_writer_open(FILE *stream, image_file file, image_type type, uint32_t width, uint32_t height,
-                                uint32_t channels);
+                                uint32_t channels, const char *note);
 
 /** PFM stores the bottom row first: rows must then be given from the bottom. */
 bool image_writer_bottom_up(const image_writer *writer);

@@ -61,6 +61,7 @@ struct image_writer {
     size_t row_size;
     uint32_t rows_left;
     bool failed;
+    const char *note; /**< null: none */
     void *png, *info; /**< of image_png.c */
 };
 
