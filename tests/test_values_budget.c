@@ -228,7 +228,8 @@ static void choice_in(const char *at, const dp_setup *setup, const budget_case *
     const bool enough = choice.model == DP_MODEL_EXACT;
     if (setup->spec.arith != 0)
         snprintf(arith, sizeof arith, " (%s)", dp_arith_get(setup->spec.arith)->name);
-    at = words_in(words_in(at, "  float arithmetic"), arith);
+    const bool added = c->terms.world != 0 || c->terms.linearize || c->terms.interpolation != 0;
+    at = words_in(words_in(at, added ? "  without the added terms float arithmetic" : "  float arithmetic"), arith);
     if (share == 0)
         at = words_in(at, " adds nothing");
     else if (isinf(share))
