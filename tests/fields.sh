@@ -57,6 +57,7 @@ all_named texture --effect intersection --at 10
 all_named texture "$scratch/depth.npy"
 "$DEPTHPREC" texture --scene plane --size 64x36 -F fp32 -m reversed --eye -o "$scratch/metres.npy"
 all_named texture "$scratch/metres.npy" --metric 1
+all_named texture --scene plane --eye -o "$scratch/eye.png"
 "$DEPTHPREC" texture --scene plane --size 64x36 --pack rg -o "$scratch/packed.png"
 all_named texture "$scratch/packed.png"
 finish

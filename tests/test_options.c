@@ -248,6 +248,7 @@ static void test_words(void **state) {
          WORD_AT(colour),
          "auto, always or never",
          {{"auto", OUTPUT_COLOUR_AUTO}, {"always", OUTPUT_COLOUR_ALWAYS}, {"never", OUTPUT_COLOUR_NEVER}}},
+        {"texture", OPTION_NORMAL_FORMAT, WORD_AT(normal_format), "opengl or directx", {{"opengl", 0}, {"directx", 1}}},
         {"texture", OPTION_THEME, WORD_AT(theme), "light, dark or print", {{"light", 0}, {"dark", 1}, {"print", 2}}},
         {"check x",
          OPTION_REPORT,

@@ -21,6 +21,7 @@ static const name_list apis = {.words = (const char *const[]){"all", NULL}, .get
 static const name_list scenes = {.get = list_scene};
 static const name_list positions = {.words = (const char *const[]){"exact", NULL}, .get = list_position};
 static const name_list normals = {.get = list_normal};
+static const name_list normal_formats = {.words = (const char *const[]){"opengl", "directx", NULL}};
 static const name_list packed = {.get = list_packed};
 static const name_list effects = {.get = list_effect};
 /* In the order of their enumerators. */
@@ -226,6 +227,8 @@ const option_row option_rows[OPTION_COUNT] = {
         "product: world positions by @; exact is the truth", ROW(position, positions)},
     [OPTION_NORMAL] = {"normal", 0, "METHOD", VERB_TEXTURE,
         "product: normals by @", ROW(normal, normals)},
+    [OPTION_NORMAL_FORMAT] = {"normal-format", 0, NULL, VERB_TEXTURE,
+        "which way y runs in a PNG of normals: up, or down", WORD(normal_format, normal_formats), .standard = "opengl"},
     [OPTION_PACKED_NORMAL] = {"packed-normal", 0, NULL, VERB_TEXTURE,
         "product: the normals that --packing depth-normals holds beside the depth", FLAG(packed_normal)},
     [OPTION_PACK] = {"pack", 0, "NAME", VERB_TEXTURE,

@@ -78,6 +78,7 @@ typedef enum option_id {
     OPTION_RADIAL,
     OPTION_POSITION,
     OPTION_NORMAL,
+    OPTION_NORMAL_FORMAT,
     OPTION_PACKED_NORMAL,
     OPTION_PACK,
     OPTION_EFFECT,
@@ -175,6 +176,7 @@ typedef struct options {
     double metric; /**< scene units of 1 in a sample of metric depth; 0 when not given */
     depths pixels; /**< column and row of each in turn; count is 0 when not given */
     bool eye, radial, error_map, packed_normal;
+    unsigned normal_format;       /**< of a PNG: 0: y up, 1: y down */
     const packing *packing;       /**< of FILE */
     const packing *pack;          /**< of what is written */
     const position_row *position; /**< null for exact as well */

@@ -148,9 +148,9 @@ static bool begin_png(image_writer *w) {
     png_set_compression_buffer_size(w->png, 1 << 16);
     png_set_IHDR(w->png, w->info, w->width, w->height, w->type == IMAGE_U16 ? 16 : 8, colours[w->channels],
                  PNG_INTERLACE_NONE, PNG_COMPRESSION_TYPE_DEFAULT, PNG_FILTER_TYPE_DEFAULT);
-    png_text text = {.compression = PNG_TEXT_COMPRESSION_NONE, .key = keyword, .text = note};
+    const png_text chunk = {.compression = PNG_TEXT_COMPRESSION_NONE, .key = keyword, .text = note};
     if (w->note != NULL)
-        png_set_text(w->png, w->info, &text, 1);
+        png_set_text(w->png, w->info, &chunk, 1);
     png_write_info(w->png, w->info);
     if (image_little())
         png_set_swap(w->png);
