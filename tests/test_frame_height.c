@@ -53,7 +53,8 @@ static void camera_of(texture_camera *camera, bool ortho) {
 static void test_height(void **state) {
     static uint32_t codes[PIXELS];
     static float got[PIXELS];
-    const image depths = {ACROSS, DOWN, 1, IMAGE_U32, IMAGE_NPY, codes};
+    const image depths = {
+        .width = ACROSS, .height = DOWN, .channels = 1, .type = IMAGE_U32, .file = IMAGE_NPY, .data = codes};
     const effect_row *effect = effect_find("height-fog");
     double at[TEXTURE_PARAMETERS];
     (void)state;

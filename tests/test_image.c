@@ -244,6 +244,26 @@ static void dds_of_others(void **state) {
     }
 }
 
+/* Direct3D's older formats of colours begin with blue. */
+static void dds_blue_first(void **state) {
+    (void)state;
+    static const handmade_dds_of formats[] = {{.dxgi = 87},
+                                              {RGB, 0, 32, {0xFF0000, 0xFF00, 0xFF, 0xFF000000}, 0},
+                                              {RGB & ~1U, 0, 24, {0xFF0000, 0xFF00, 0xFF, 0}, 0}};
+    for (size_t i = 0; i < 3; i++) {
+        const size_t channels = i < 2 ? 4 : 3;
+        static const uint8_t want[2][4] = {{30, 20, 10, 40}, {70, 60, 50, 80}};
+        uint8_t samples[8];
+        handmade h = {.size = 0};
+        handmade_dds(&h, 2, 1, &formats[i]);
+        handmade_bytes(&h, (const uint8_t[]){10, 20, 30, 40}, channels);
+        handmade_bytes(&h, (const uint8_t[]){50, 60, 70, 80}, channels);
+        memcpy(samples, want[0], channels);
+        memcpy(samples + channels, want[1], channels);
+        assert_samples(&h, IMAGE_DDS, IMAGE_U8, 2, 1, (uint32_t)channels, samples);
+    }
+}
+
 /* Small codes of 24 bits would be those of 16 bits if the file did not name its format. */
 static void dds_names_its_format(void **state) {
     (void)state;
@@ -455,10 +475,13 @@ static void names(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(png_of_others), cmocka_unit_test(png_chunks),     cmocka_unit_test(pfm_of_others),
-        cmocka_unit_test(pfm_line_ends), cmocka_unit_test(npy_of_others),  cmocka_unit_test(npy_transposed),
-        cmocka_unit_test(round_trips),   cmocka_unit_test(dds_of_others),  cmocka_unit_test(dds_names_its_format),
-        cmocka_unit_test(written_bytes), cmocka_unit_test(writers_refuse), cmocka_unit_test(names),
+        cmocka_unit_test(png_of_others),  cmocka_unit_test(png_chunks),
+        cmocka_unit_test(pfm_of_others),  cmocka_unit_test(pfm_line_ends),
+        cmocka_unit_test(npy_of_others),  cmocka_unit_test(npy_transposed),
+        cmocka_unit_test(round_trips),    cmocka_unit_test(dds_of_others),
+        cmocka_unit_test(dds_blue_first), cmocka_unit_test(dds_names_its_format),
+        cmocka_unit_test(written_bytes),  cmocka_unit_test(writers_refuse),
+        cmocka_unit_test(names),
     };
     return run_tap(tests);
 }

@@ -426,6 +426,7 @@ static void test_texts(void **state) {
         size_t field;
         bool file;
     } texts[] = {{"texture", OPTION_TITLE, AT(title), false},
+                 {"texture", OPTION_CHANNEL, AT(channel), false},
                  {"table", OPTION_OUTPUT, AT(output), true},
                  {"texture", OPTION_FIGURE, AT(figure), true}};
     tally t = {.name = "texts"};

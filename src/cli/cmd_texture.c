@@ -26,11 +26,11 @@ static int check_alone(const options *o) {
 /* The table of an effect sees depths, not pixels. */
 static int check_table(const options *o) {
     static const option_id pixels[] = {
-        OPTION_FOV,      OPTION_HALF_HEIGHT, OPTION_YAW,           OPTION_PITCH,   OPTION_ORIGIN,
-        OPTION_SIZE,     OPTION_SKY,         OPTION_METRIC,        OPTION_EYE,     OPTION_RADIAL,
-        OPTION_POSITION, OPTION_NORMAL,      OPTION_ERROR_MAP,     OPTION_FIGURE,  OPTION_THEME,
-        OPTION_WIDTH,    OPTION_HEIGHT,      OPTION_TITLE,         OPTION_THREADS, OPTION_PIXEL,
-        OPTION_TYPE,     OPTION_PACKING,     OPTION_NORMAL_FORMAT, OPTION_PACK,    OPTION_PACKED_NORMAL};
+        OPTION_FOV,       OPTION_HALF_HEIGHT,  OPTION_YAW,   OPTION_PITCH,   OPTION_ORIGIN,        OPTION_SIZE,
+        OPTION_SKY,       OPTION_METRIC,       OPTION_EYE,   OPTION_RADIAL,  OPTION_POSITION,      OPTION_NORMAL,
+        OPTION_ERROR_MAP, OPTION_FIGURE,       OPTION_THEME, OPTION_WIDTH,   OPTION_HEIGHT,        OPTION_TITLE,
+        OPTION_THREADS,   OPTION_PIXEL,        OPTION_TYPE,  OPTION_PACKING, OPTION_NORMAL_FORMAT, OPTION_CHANNEL,
+        OPTION_PACK,      OPTION_PACKED_NORMAL};
     for (size_t i = 0; i < sizeof pixels / sizeof pixels[0]; i++)
         if (option_given(o, pixels[i]))
             return option_error(pixels[i], "has no meaning with --effect alone, but with FILE or --scene");

@@ -216,6 +216,8 @@ const option_row option_rows[OPTION_COUNT] = {
         LENGTH(metric, METRIC_SCALE_MIN, METRIC_SCALE_MAX, "scene units")},
     [OPTION_PACKING] = {"packing", 0, "NAME", VERB_TEXTURE,
         "the channels of FILE hold the depth together: @; 'depthprec list packed'", ROW(packing, packed)},
+    [OPTION_CHANNEL] = {"channel", 0, "NAME", VERB_TEXTURE,
+        "the channel of an EXR that is read", TEXT(channel), .without = "Z, R or depth, the first that is there"},
     [OPTION_PIXEL] = {"pixel", 0, "X,Y[;X,Y...]", VERB_TEXTURE,
         "all about single pixels: code, eye depth and which depths it may be, neighbours, position, normal; 0,0 is the "
         "top left one", SEVERAL(parse_pixels, pixels, 0, TEXTURE_SIDE_MAX - 1)},

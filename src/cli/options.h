@@ -73,6 +73,7 @@ typedef enum option_id {
     OPTION_SKY,
     OPTION_METRIC,
     OPTION_PACKING,
+    OPTION_CHANNEL,
     OPTION_PIXEL,
     OPTION_EYE,
     OPTION_RADIAL,
@@ -177,6 +178,7 @@ typedef struct options {
     depths pixels; /**< column and row of each in turn; count is 0 when not given */
     bool eye, radial, error_map, packed_normal;
     unsigned normal_format;       /**< of a PNG: 0: y up, 1: y down */
+    const char *channel;          /**< of FILE, by name; null: that which is depth */
     const packing *packing;       /**< of FILE */
     const packing *pack;          /**< of what is written */
     const position_row *position; /**< null for exact as well */

@@ -70,7 +70,7 @@ static int check_together(const options *o) {
     if (file && o->scene != NULL)
         return option_error(OPTION_SCENE, "stands in place of FILE, got '%s' too", o->operands[0]);
     if (!file && o->scene == NULL)
-        return usage_error("texture: needs FILE, a PNG, PFM, npy or DDS image, or --scene NAME");
+        return usage_error("texture: needs FILE, a PNG, PFM, npy, DDS, EXR or TIFF image, or --scene NAME");
     if (file && option_given(o, OPTION_SIZE))
         return option_error(OPTION_SIZE, "is for --scene: the image has its own");
     if (file && o->effect == NULL && o->parameter_count > 0)
@@ -81,6 +81,8 @@ static int check_together(const options *o) {
         return option_error(OPTION_HALF_HEIGHT, "needs --ortho");
     if (o->metric > 0 && !file)
         return option_error(OPTION_METRIC, "needs FILE");
+    if (o->channel != NULL && !file)
+        return option_error(OPTION_CHANNEL, "needs FILE");
     if (o->packing != NULL && !file)
         return option_error(OPTION_PACKING, "needs FILE");
     if (o->packing != NULL && o->metric > 0)
@@ -177,7 +179,7 @@ void texture_source_close(texture_source *s) {
 static int read_image(options *o, texture_source *s) {
     image_error error;
     s->path = o->operands[0];
-    if (!image_read(s->path, &s->picture, &error)) {
+    if (!image_read_channel(s->path, o->channel, &s->picture, &error)) {
         usage_error("%s: %s", s->path, error.text);
         return error.unreadable ? EXIT_IO : EXIT_USAGE;
     }
