@@ -76,6 +76,31 @@ static void round_down(double value, int digits, char out[32]) {
     fesetround(FE_TONEAREST);
 }
 
+static void check_about(const question *q, const distance_answer *a, tally *about) {
+    enum { DIGITS = 3 };
+    const double cheap = distance_about(&q->setup, q->lo, q->hi, q->limit, DIGITS);
+    char printed[32], wanted[32], text[320];
+    round_down(cheap, DIGITS, printed);
+    round_down(a->value, DIGITS, wanted);
+    TALLY(about,
+          !a->possible ? isnan(cheap)
+                       : (a->throughout ? cheap <= a->value : cheap < a->fails) && strcmp(printed, wanted) == 0,
+          "%s: %.17g, not %.17g", describe(q, text), cheap, a->value);
+}
+
+static void check_densely(const question *q, const distance_answer *a, tally *dense) {
+    char text[320];
+    describe(q, text);
+    for (int k = 0; k <= 256; k++) {
+        const double share = k / 256.0;
+        const double probe =
+            q->setup.spec.znear > 0 ? q->lo * pow(a->value / q->lo, share) : q->lo + (a->value - q->lo) * share;
+        const double z = k == 256 ? a->value : fmin(fmax(probe, q->lo), a->value);
+        const double slack = k == 0 || k == 256 ? 1.0 : slack_of(q);
+        TALLY(dense, at(q, z) <= q->limit * slack, "%s: %.17g at %.17g, up to %.17g", text, at(q, z), z, a->value);
+    }
+}
+
 static void in_model(dp_model model, measure_kind kind, uint64_t cases) {
     rng r = rng_make(kind == MEASURE_ERROR ? "distance error" : dp_model_name(model));
     tally whole = {.name = "the range up to the answer passes as check judges"};
@@ -96,17 +121,8 @@ static void in_model(dp_model model, measure_kind kind, uint64_t cases) {
             tally_fail(&whole, "%s: refused", text);
             continue;
         }
-        if (kind == MEASURE_SEPARATION) {
-            enum { DIGITS = 3 };
-            const double cheap = distance_about(&q.setup, q.lo, q.hi, q.limit, DIGITS);
-            char printed[32], wanted[32];
-            round_down(cheap, DIGITS, printed);
-            round_down(a.value, DIGITS, wanted);
-            TALLY(&about,
-                  !a.possible ? isnan(cheap)
-                              : (a.throughout ? cheap <= a.value : cheap < a.fails) && strcmp(printed, wanted) == 0,
-                  "%s: %.17g, not %.17g", text, cheap, a.value);
-        }
+        if (kind == MEASURE_SEPARATION)
+            check_about(&q, &a, &about);
         if (!a.possible) {
             TALLY(&none, at(&q, q.lo) > q.limit, "%s: %.17g there", text, at(&q, q.lo));
             continue;
@@ -119,14 +135,7 @@ static void in_model(dp_model model, measure_kind kind, uint64_t cases) {
             dp_separation_over(&q.setup, q.lo, a.value, q.limit, &worst);
         TALLY(&whole, worst.bound <= q.limit && error.error <= q.limit && a.reached.passed, "%s: up to %.17g", text,
               a.value);
-        for (int k = 0; k <= 256; k++) {
-            const double share = k / 256.0;
-            const double probe =
-                q.setup.spec.znear > 0 ? q.lo * pow(a.value / q.lo, share) : q.lo + (a.value - q.lo) * share;
-            const double z = k == 256 ? a.value : fmin(fmax(probe, q.lo), a.value);
-            const double slack = k == 0 || k == 256 ? 1.0 : slack_of(&q);
-            TALLY(&dense, at(&q, z) <= q.limit * slack, "%s: %.17g at %.17g, up to %.17g", text, at(&q, z), z, a.value);
-        }
+        check_densely(&q, &a, &dense);
         throughout += (uint64_t)a.throughout;
         if (a.throughout) {
             TALLY(&beyond, a.value == fmin(q.hi, 1e18) && isnan(a.fails), "%s: up to %.17g", text, a.value);

@@ -265,11 +265,72 @@ static void the_same_in_png_and_pdf(void **state) {
     drawn_close(d);
 }
 
+/* ---- Units ------------------------------------------------------------------------------------------------------- */
+
+typedef struct unit_case {
+    const char *arguments, *x, *y, *right, *unit; /* right, unit: null without */
+} unit_case;
+
+/* Where something says what a scene unit is, the axes and the subtitle say it, and JSON beside its own words. */
+static void units_of_lengths(void **state) {
+    static const unit_case cases[] = {
+        {"plot error -F unorm24 -m d3d", "eye depth z (scene units)", "worst |decoded depth \u2212 z| (scene units)",
+         NULL, NULL},
+        {"plot error --preset unreal -F unorm24", "eye depth z (cm)", "worst |decoded depth \u2212 z| (cm)", NULL,
+         "cm"},
+        {"plot interval -n 10cm -f 1km -F unorm24 -m d3d", "eye depth z (m)", "z-fighting interval (m)", NULL, "m"},
+        {"plot distribution --unit ft -F unorm24 -m d3d", "eye depth z (ft)", "codes, fewest (per ft of depth)", NULL,
+         "ft"},
+        {"plot share --unit km -F unorm24 -m d3d", "eye depth z (km)",
+         "codes between z and far (% of all between the planes)", NULL, "km"},
+        {"plot budget --preset unity -F unorm24", "eye depth z (m)", "share of the separation (%)",
+         "guaranteed separation (m)", "m"},
+        {"plot map --preset unity -F unorm24", "near plane (m)", "far plane (m)", "worst z-fighting interval (m)", "m"},
+        {"plot normals --unit in -F unorm24 -m d3d", "eye depth z (in)", "angular error (degrees)", NULL, "in"},
+        {"texture --scene steps -F unorm16 -m d3d --eye --unit m", "column (px)", "row (px)", "eye depth (m)", "m"},
+        {"texture --scene sphere -F unorm16 -m d3d --position rays --unit cm", "column (px)", "row (px)",
+         "coordinate (cm)", "cm"},
+    };
+    (void)state;
+    for (size_t i = 0; i < sizeof cases / sizeof cases[0]; i++) {
+        const unit_case *q = &cases[i];
+        char ending[32];
+        drawn *d = drawn_run(&drawn_light, "%s", q->arguments);
+        assert_string_equal(d->x_caption->text, q->x);
+        assert_string_equal(d->y_caption->text, q->y);
+        if (q->right != NULL)
+            assert_string_equal(d->right_caption->text, q->right);
+        snprintf(ending, sizeof ending, ", lengths in %s", q->unit != NULL ? q->unit : "");
+        assert_int_equal(strstr(d->subtitle, ending) != NULL, q->unit != NULL);
+        svg_free(d->svg);
+        free(d);
+        if (strncmp(q->arguments, "plot", 4) != 0)
+            continue;
+        char *text = drawn_output("%s --json", q->arguments), said[32];
+        snprintf(said, sizeof said, q->unit != NULL ? "\"unit\":\"%s\",\"data\"" : "\"unit\":null,\"data\"", q->unit);
+        assert_non_null(strstr(text, said));
+        free(text);
+    }
+    /* The same numbers, of another unit, are another figure. */
+    char *metres = drawn_output("plot share -F unorm16 --unit m --json");
+    char *feet = drawn_output("plot share -F unorm16 --unit ft --json");
+    assert_int_not_equal(strncmp(strstr(metres, "\"data\""), strstr(feet, "\"data\""), 25), 0);
+    free(metres);
+    free(feet);
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(titles), cmocka_unit_test(metadata),         cmocka_unit_test(sizes),
-        cmocka_unit_test(many),   cmocka_unit_test(models),           cmocka_unit_test(axes_of_every_length),
-        cmocka_unit_test(fitted), cmocka_unit_test(labels_of_points), cmocka_unit_test(the_same_in_png_and_pdf),
+        cmocka_unit_test(titles),
+        cmocka_unit_test(metadata),
+        cmocka_unit_test(sizes),
+        cmocka_unit_test(many),
+        cmocka_unit_test(models),
+        cmocka_unit_test(axes_of_every_length),
+        cmocka_unit_test(fitted),
+        cmocka_unit_test(labels_of_points),
+        cmocka_unit_test(the_same_in_png_and_pdf),
+        cmocka_unit_test(units_of_lengths),
     };
     return run_tap(tests);
 }

@@ -359,6 +359,12 @@ static void a_file(void **state) {
         assert_px(drawn_bar_px(d, pixel), drawn_px(&d->value, pow(300, step / 15.0)), 5);
     }
     drawn_close(d);
+    snprintf(path, sizeof path, "%s/depth.npy", drawn_folder());
+    free(drawn_output("texture --scene steps --size 160x90 -F unorm16 -m d3d --eye -q -o %s", path));
+    d = drawn_run(&drawn_light, "texture %s --metric 1 --unit m --eye", path);
+    assert_string_equal(d->subtitle, "depth.npy, 160 x 90; metric depth, 1 m a unit");
+    assert_string_equal(d->right_caption->text, "eye depth (m)");
+    drawn_close(d);
 }
 
 int main(void) {

@@ -23,7 +23,7 @@ typedef struct need {
 } need;
 
 static const char *const camera_names[] = {"street", "cockpit", "scope"};
-static const char *const headings[] = {"street: unorm24 d3d, exact", "cockpit: fp32 reversed, fp32",
+static const char *const headings[] = {"street: unorm24 d3d, exact", "cockpit: fp32 reversed, float",
                                        "scope: fp32 reversed, exact"};
 static const need needs[] = {
     {"kerb", 0, false, 0.5, 20, 1e-3},  {"paint", 0, false, 5, 500, 2e-2},     {"haze", 0, true, 1, 900, 0.4},
@@ -182,8 +182,8 @@ static void scene_of_requirements(void **state) {
                           cameras_of(scope, "fp32", "reversed")};
     drawn *d = drawn_run(&drawn_light, "plot scene %s", path);
     assert_string_equal(d->title, "What the scene needs and what the cameras give");
-    assert_string_equal(d->x_caption->text, "eye depth z (scene units)");
-    assert_string_equal(d->y_caption->text, "allowed and given (scene units)");
+    assert_string_equal(d->x_caption->text, "eye depth z (m)");
+    assert_string_equal(d->y_caption->text, "allowed and given (m)");
     check_scene_legend(d);
     assert_int_equal(d->panel_count, 3);
     for (size_t i = 0; i < 3; i++) {
@@ -208,12 +208,11 @@ static void scene_of_requirements(void **state) {
         assert_int_equal(drawn_markers(d, p, all, 32), marks[i]);
     }
     assert_true(met > 0 && met < NEEDS && inner > 0);
-    snprintf(subtitle, sizeof subtitle, "street.need: %zu met, %zu missed; a scene unit is 1 m; not shown: 1 of ties",
-             met, NEEDS - met);
+    snprintf(subtitle, sizeof subtitle, "street.need: %zu met, %zu missed; not shown: 1 of ties", met, NEEDS - met);
     assert_string_equal(d->subtitle, subtitle);
     drawn_description_is(d,
                          " street: unorm24 d3d, exact. Shown: separation given; error given; allowed, met; met, where "
-                         "it is worst; allowed, missed; missed, where it is worst. cockpit: fp32 reversed, fp32. "
+                         "it is worst; allowed, missed; missed, where it is worst. cockpit: fp32 reversed, float. "
                          "Shown: separation given; allowed, met; met, where it is worst; allowed, missed; missed, "
                          "where it is worst. scope: fp32 reversed, exact. Shown: separation given; allowed, met; "
                          "met, where it is worst.");

@@ -255,7 +255,7 @@ static void png_sentences(void **state) {
         int bits, colour;
         const char *sentence;
     } rows[] = {
-        {1, 1, 8, 3, "PNG with a palette, whose numbers are names of colours: save it as grey"},
+        {1, 1, 8, 3, "PNG with a palette, not with depths: save it as greyscale"},
         {1, 1, 1, 0, "PNG of 1 bit a sample: save it with 8 or 16"},
         {1, 1, 4, 0, "PNG of 4 bits a sample: save it with 8 or 16"},
         {65537, 1, 8, 0, "width and height must be from 1 to 65536 pixels, got 65537 x 1"},

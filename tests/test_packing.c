@@ -464,16 +464,16 @@ static void refusals(void **state) {
         const char *words[10];
         const char *said;
     } rows[] = {
-        {{in, "--packing", "rg", "-m", "d3d"}, "--mapping: has no meaning with --packing rg, which is no window depth"},
-        {{in, "--packing", "rg", "-F", "fp32"}, "--format: has no meaning with --packing rg"},
-        {{in, "--packing", "rg", "--metric", "1"}, "--metric: has no meaning with --packing"},
+        {{in, "--packing", "rg", "-m", "d3d"}, "--mapping: does not apply with --packing rg, which is not window depth"},
+        {{in, "--packing", "rg", "-F", "fp32"}, "--format: does not apply with --packing rg"},
+        {{in, "--packing", "rg", "--metric", "1"}, "--metric: does not apply with --packing"},
         {{in, "--packing", "depth-normals"}, "the packing depth-normals takes 4 channels, got 3"},
         {{"--scene", "plane", "--packing", "rg"}, "--packing: needs FILE"},
         {{in, "--packing", "rgb24", "--pack", "rg"}, "--pack needs -o FILE"},
         {{in, "--pack", "rg", "-o", "x.pfm"}, "must end in .png or .npy for --pack, got 'x.pfm'"},
-        {{in, "--pack", "rg", "--eye", "-o", out}, "--eye: has no meaning with --pack"},
-        {{in, "--pack", "rg", "--json", "-o", out}, "--json: has no meaning with --pack"},
-        {{in, "--pack", "rg", "--normal", "low", "-o", out}, "--normal: has no meaning with --pack rg"},
+        {{in, "--pack", "rg", "--eye", "-o", out}, "--eye: does not apply with --pack"},
+        {{in, "--pack", "rg", "--json", "-o", out}, "--json: does not apply with --pack"},
+        {{in, "--pack", "rg", "--normal", "low", "-o", out}, "--normal: does not apply with --pack rg"},
         {{in, "--pack", "rg", "--packed-normal", "-o", out}, "must not be given together with --pack"},
         {{"--scene", "plane", "-f", "inf", "--pack", "rg", "-o", out}, "it needs a finite far plane"},
         {{in, "--metric", "1", "--pack", "rgb24", "-o", out}, "rgb24 holds window depth, which"},

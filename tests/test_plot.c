@@ -279,7 +279,7 @@ static void test_scene_of_two_formats(void **state) {
     for (size_t i = 0; i < 2; i++) {
         char title[80];
         const chart_series *s = &c->panels[i].series[0];
-        snprintf(title, sizeof title, "a: %s d3d, fp32", either[i]);
+        snprintf(title, sizeof title, "a: %s d3d, float", either[i]);
         assert_string_equal(c->panels[i].title, title);
         assert_true(s->count > 2);
         for (size_t k = 0; k < s->count; k++) /* the worst of a column; a power of two may double it */

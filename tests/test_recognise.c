@@ -315,7 +315,7 @@ static void packings(void **state) {
             for (uint32_t i = 0; i < SAMPLES; i++)
                 s->data.u32[i] = ((most << 24) - 0x101 * i) / 256 * 256 + stencil;
             recognise(&s->img, &r);
-            assert_true(!r.depth && r.invalid == SAMPLES && strstr(r.why, "shift them down by 8 first") != NULL);
+            assert_true(!r.depth && r.invalid == SAMPLES && strstr(r.why, "shift right by 8 first") != NULL);
         }
     for (uint32_t i = 0; i < SAMPLES; i++) /* low bytes that differ in a bit */
         s->data.u32[i] = 0x3A000000 + i * 0x180;
@@ -438,8 +438,8 @@ static void directions(void **state) {
         {0.01, 0.99, 900, 0, 1, "sky at 0: likely reversed"},
         {0.01, 0.99, 0, 900, 0, "sky at 1: likely not reversed"},
         {0.01, 0.99, 900, 900, -1, "neither sky nor mass shows a direction"},
-        {0.5, 0.5, SAMPLES, 0, -1, "nothing is drawn that shows a direction"},
-        {0.5, 0.5, 0, SAMPLES, -1, "nothing is drawn that shows a direction"},
+        {0.5, 0.5, SAMPLES, 0, -1, "nothing drawn shows a direction"},
+        {0.5, 0.5, 0, SAMPLES, -1, "nothing drawn shows a direction"},
     };
     square *s = square_of(IMAGE_F32);
     for (size_t k = 0; k < sizeof rows / sizeof rows[0]; k++) {

@@ -218,7 +218,7 @@ static const char *advice_in(const char *at, const dp_setup *setup, const budget
     return words_in(at, "\n");
 }
 
-/* "  float arithmetic (mesa) makes this 2.71 times worse at z = 316.228: it takes model float": 3 digits and 6. */
+/* "  float arithmetic (mesa) makes this 2.71 times worse at z = 316.228: model float is needed": 3 digits and 6. */
 static void choice_in(const char *at, const dp_setup *setup, const budget_case *c) {
     dp_choice choice;
     char arith[64] = "";
@@ -243,7 +243,7 @@ static void choice_in(const char *at, const dp_setup *setup, const budget_case *
         at = length_in(words_in(at, " at z = "), c, z, 6, false);
     words_in(at, enough                            ? ": the lattice is enough\n"
                  : choice.model == DP_MODEL_STAGED ? ": model staged is enough\n"
-                                                   : ": it takes model float\n");
+                                                   : ": model float is needed\n");
 }
 
 /* They stand below each table, the only lines that begin with two blanks and a word. */

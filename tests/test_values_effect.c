@@ -18,6 +18,8 @@ static const struct {
     {{0.3, 900, {"unorm16"}, {"d3d"}, .ortho = 0}, "depth-of-field", {0.4, 30, 2, 500, 7}},
     {{0.3, 900, {"unorm24", "fp16"}, {"d3d"}, .ortho = 0}, "fog", {0.4, 30, 2, 500, 7}},
     {{0.3, 900, {"unorm16"}, {"gl"}, .ortho = 0}, "scan-line", {0.4, 30, 2, 500, 7}},
+    {{-10, 50, {"unorm16", "fp32"}, {"d3d"}, .ortho = 1}, "intersection", {-9, -0.5, 0, 3, 40}},
+    {{-10, 50, {"unorm16"}, {"reversed"}, .ortho = 1}, "height-fog", {-9, -0.5, 0.25, 3, 40}},
 };
 
 static void want_effect_rows(values *v, const effect_row *row, const double *parameters, const dp_setup *setup,

@@ -189,7 +189,7 @@ static const struct {
               {"packed", "bound", packed},
               {"effects", "parameters", effect},
               {"figures", "bound", figure},
-              {"scenes", "parameters", scene},
+              {"scenes", "bound", scene},
               {"positions", "bound", position},
               {"normals", "bound", normal},
               {"methods", "bound", method}};
@@ -271,14 +271,17 @@ static void check_forms(const json_t *items, const char *what, const char *bound
                      json_string_value(name));
         const char *fields[] = {text_in(o, "name"), text_in(o, "note"), text_in(o, bound), text_in(o, "source"),
                                 aliases};
-        const char *labels[] = {"", "", bound, "source", "also"};
+        const char *shown = strcmp(what, "scenes") == 0 ? "parameters" : bound;
+        const char *labels[] = {"", "", shown, "source", "also"};
         const char *const keys[] = {"name", "note", "bound", "source", "aliases"};
         values_under(&v, "%zu.", i);
         for (k = 0; k < 5; k++) {
             const char *field = fields[k] != NULL ? fields[k] : "";
             want_text(&v, keys[k], field);
             used += (size_t)snprintf(words + used, sizeof words - used, "%s", *field != '\0' ? labels[k] : "");
-            for (const char *at = field; *at != '\0'; at++)
+            /* The model fp32 is float in text, as a format has its name. */
+            const bool is_other = strcmp(what, "models") == 0 && *aliases != '\0' && (k == 0 || k == 4);
+            for (const char *at = is_other ? fields[4 - k] : field; *at != '\0'; at++)
                 if (!isspace((unsigned char)*at))
                     words[used++] = *at;
         }

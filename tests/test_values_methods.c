@@ -78,7 +78,7 @@ static void check_bench_text(const values *v, const method_family_row *family, c
     static const char *const planes[] = {"near", "far", NULL}, *const limit[] = {"limit_ns", NULL};
     char label[64], at[9][PATH_SIZE];
     check_text_numbers(v, text, family->cases[asked_which].name, 15, planes);
-    check_text_numbers(v, text, "ns: per element, the median; x memory: times the", 3, limit);
+    check_text_numbers(v, text, "ns: per element, the median; x memory: multiple of the", 3, limit);
     for (size_t i = 0; i < count; i++) {
         const char *paths[10] = {NULL};
         snprintf(label, sizeof label, "%s%s%-19s ", timed[i].front ? "*" : "",

@@ -34,7 +34,7 @@ static const preset rows[] = {
      "format",
      "three.js, src/cameras/PerspectiveCamera.js; mrdoob/three.js#30941 (the canvas default is integer)", CHECKED},
     {"three-webgpu", 0.1, 2000.0, DP_MAPPING_D3D, "depth24plus", "units",
-     "WebGPURenderer; depth24plus is unorm24 or fp32 as the browser likes; reversed is an option and takes "
+     "WebGPURenderer; depth24plus is unorm24 or fp32 as the browser chooses; reversed is an option and takes "
      "depth32float",
      "",
      "three.js, src/cameras/PerspectiveCamera.js; mrdoob/three.js#32967, #33184", CHECKED},

@@ -166,7 +166,7 @@ static void say_goal(page *p, const all *a) {
     if (o->gap > 0.0)
         snprintf(goal, sizeof goal, "To come nearer by %s", number_in(number_full(o->gap), unit).text);
     if (o->slope > 0.0)
-        snprintf(slope, sizeof slope, ", slope %s a pixel", number_in(number_full(o->slope), unit).text);
+        snprintf(slope, sizeof slope, ", slope %s per pixel", number_in(number_full(o->slope), unit).text);
     if (a->by_range)
         snprintf(place, sizeof place, " from z = %s to %s", number_in(number_of(range_from(a), DIGITS_Z), unit).text,
                  number_in(number_of(a->hi, DIGITS_Z), unit).text);
@@ -269,10 +269,10 @@ static int write_beside(all *a, int status) {
 int bias_all_write(const options *o) {
     all a = {.by_range = !option_given(o, OPTION_AT), .apis = "all"};
     if (option_given(o, OPTION_UNITS) || option_given(o, OPTION_CLAMP))
-        return option_error(OPTION_API, "must be one API, whose --%s these are, got 'all'",
+        return option_error(OPTION_API, "must be one API with --%s, got 'all'",
                             option_name(option_given(o, OPTION_UNITS) ? OPTION_UNITS : OPTION_CLAMP));
     if (option_given(o, OPTION_AT) && option_given(o, OPTION_RANGE))
-        return option_error(OPTION_RANGE, "must not be given together with --at for all APIs");
+        return option_error(OPTION_RANGE, "cannot be combined with --at for all APIs");
     int status = walk_start(&a.walk, o);
     if (status == EXIT_FINE)
         status = range_resolve(o, &a.lo, &a.hi);

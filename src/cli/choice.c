@@ -88,7 +88,7 @@ choice_words choice_sentence(const choosing *c, const char *unit) {
     snprintf(out.text, sizeof out.text, "%s %s: %s", subject, share > 0.0 ? what : "adds nothing",
              choice->model == DP_MODEL_EXACT    ? "the lattice is enough"
              : choice->model == DP_MODEL_STAGED ? "model staged is enough"
-                                                : "it takes model float");
+                                                : "model float is needed");
     return out;
 }
 

@@ -64,18 +64,19 @@ static void say_inputs(page *p, void *item) {
 
 static void say_marks(page *p, void *item) {
     const benching *b = item;
-    page_line(p, "ns: per element, the median; x memory: times the %.3g ns that moving the same bytes takes", b->limit);
+    page_line(p, "ns: per element, the median; x memory: multiple of the %.3g ns that moving the same bytes takes",
+              b->limit);
     page_line(p, "* Pareto front: no other method is both faster and more exact");
     for (size_t i = 0; i < b->count; i++)
         if (b->results[i].row->timed != NULL)
             page_line(p,
-                      "%s: timed with this processor's estimate; its errors are those of a model, and any processor "
+                      "%s: timed with this processor's estimate; its errors are those of a model, and every processor "
                       "stays within the guarantee of %.3g and the method within its claim",
                       b->results[i].row->name, ESTIMATE_WORST);
     if (b->choice != NULL)
         page_line(p, "> %s is the cheapest whose claim is within the tolerance", b->choice_name);
     else if (!isnan(b->tolerance))
-        page_line(p, "no method claims the tolerance here");
+        page_line(p, "no method claims to be within the tolerance here");
 }
 
 /* Text is for a reader who wants the fastest that is exact enough. */

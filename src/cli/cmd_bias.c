@@ -143,11 +143,12 @@ static void say_needed(page *p, const char *what, double units, const double ran
     else if (isnan(enough[0]))
         page_note(p, what, "no bias is enough from %s to %s", lo.text, hi.text);
     else if (enough[0] == range[0])
-        page_note(p, what, "enough up to z = %s; no bias is from there to %s", to.text, hi.text);
+        page_note(p, what, "enough up to z = %s; from there to %s no bias is", to.text, hi.text);
     else if (enough[1] == range[1])
-        page_note(p, what, "enough from z = %s on; no bias is from %s to there", from.text, lo.text);
+        page_note(p, what, "enough from z = %s on; from %s to there no bias is", from.text, lo.text);
     else
-        page_note(p, what, "enough from z = %s to %s; no bias is from %s to %s", from.text, to.text, lo.text, hi.text);
+        page_note(p, what, "enough from z = %s to %s; elsewhere from %s to %s no bias is", from.text, to.text, lo.text,
+                  hi.text);
 }
 
 static void say_range(page *p, const biasing *b) {
@@ -178,9 +179,9 @@ static void say_notes(page *p, void *item) {
     if (b->limited && !b->inverse)
         page_line(p, "a biased depth that leaves [0, 1] is held at the plane");
     if (isinf(unit.most))
-        page_line(p, "r is the implementation's choice: the one shown is an assumption");
+        page_line(p, "r is the implementation's choice: the value shown is assumed");
     else if (unit.most > unit.least)
-        page_line(p, "r is the implementation's choice: it may be up to twice the one shown");
+        page_line(p, "r is the implementation's choice: up to twice the value shown");
 }
 
 /* ---- Columns ----------------------------------------------------------------------------------------------------- */
@@ -249,7 +250,7 @@ static const column columns[] = {{FIELD(biasing, api, "api", ""), .only = AS_JSO
 static int check_states(const options *o, const bias_api *api) {
     const bool given = option_given(o, OPTION_UNITS);
     if (given && option_given(o, OPTION_GAP))
-        return option_error(OPTION_UNITS, "must not be given together with --gap, which asks for them");
+        return option_error(OPTION_UNITS, "cannot be combined with --gap, which solves for them");
     if (given && api->whole && !(o->units == nearbyint(o->units) && fabs(o->units) <= 0x1.fffffffcp30))
         return option_error(OPTION_UNITS, "must be a whole number from -2147483647 to 2147483647 for %s, got %s",
                             api->name, number_full(o->units).text);

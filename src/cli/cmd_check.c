@@ -86,7 +86,7 @@ int cmd_check(const options *o) {
     long failed = 0;
     output out;
     if (o->report != REPORT_TEXT && o->form != FORM_TEXT)
-        return option_error(OPTION_REPORT, "must not be given together with --json or --csv");
+        return option_error(OPTION_REPORT, "cannot be combined with --json or --csv");
     int status = options_open(o, &out);
     if (status != EXIT_FINE)
         return status;

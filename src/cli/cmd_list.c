@@ -3,7 +3,7 @@
 #include "cli/methods.h"
 #include "report/report.h"
 
-static const topic all_topics = {"topics", "", list_topic, "bound"};
+static const topic all_topics = {"topics", "", list_topic, .bound = "bound"};
 
 /* What is listed, and the thing at hand. */
 typedef struct listing {
@@ -17,7 +17,8 @@ typedef struct listing {
 static void *next_item(void *of, size_t i) {
     listing *l = of;
     list_item *item = &l->item;
-    if (!l->topic->get(i, item))
+    const bool in_text = l->o->form == FORM_TEXT && l->topic->in_text != NULL;
+    if (!(in_text ? l->topic->in_text : l->topic->get)(i, item))
         return NULL;
     if (item->source != NULL && *item->source == '\0')
         item->source = NULL;
@@ -39,7 +40,7 @@ static void say_item(page *p, void *of) {
     const list_item *item = &l->item;
     page_title(p, "%s", item->name);
     page_wrapped(p, "", item->note);
-    page_wrapped(p, l->topic->bound, item->bound);
+    page_wrapped(p, l->topic->shown != NULL ? l->topic->shown : l->topic->bound, item->bound);
     page_wrapped(p, "chosen", l->chosen);
     page_wrapped(p, "source", item->source);
     page_wrapped(p, "also", item->aliases);
@@ -84,7 +85,7 @@ int cmd_list(const options *o) {
     const topic *asked = o->operand_row;
     listing l = {.o = o, .topic = asked != NULL ? asked : &all_topics};
     if (option_given(o, OPTION_TOLERANCE) && l.topic->get != list_method)
-        return option_error(OPTION_TOLERANCE, "has no meaning but in list methods");
+        return option_error(OPTION_TOLERANCE, "applies to list methods only");
     output out;
     int status = options_open(o, &out);
     if (status != EXIT_FINE)

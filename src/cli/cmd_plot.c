@@ -38,11 +38,11 @@ static int resolve_depths(plotting *p) {
     const options *o = p->o;
     if (option_given(o, OPTION_AT)) {
         if ((p->row->takes & FIGURE_AT) == 0)
-            return option_error(OPTION_AT, "has no meaning in the figure %s; --range cuts its axis", p->row->name);
+            return option_error(OPTION_AT, "does not apply to the figure %s; --range limits its axis", p->row->name);
         if (o->at.count != 1)
             return option_error(OPTION_AT, "must be one depth in the figure %s, got %zu", p->row->name, o->at.count);
         if (option_given(o, OPTION_RANGE))
-            return option_error(OPTION_AT, "must not be given together with --range");
+            return option_error(OPTION_AT, "cannot be combined with --range");
         p->request.at = o->at.lo;
     }
     if (!option_given(o, OPTION_RANGE))
@@ -64,7 +64,7 @@ static int check_file_given(const options *o, const figure_row *row) {
         return usage_error("plot %s: needs FILE, a requirement file, see depthprec(5)", row->name);
     for (size_t i = 0; i < sizeof camera / sizeof camera[0]; i++)
         if (option_given(o, camera[i]))
-            return option_error(camera[i], "has no meaning in the figure %s: the file says it", row->name);
+            return option_error(camera[i], "does not apply to the figure %s: the file has it", row->name);
     return EXIT_FINE;
 }
 
@@ -76,7 +76,7 @@ static int check_options(const options *o, const figure_row *row) {
     static const option_id terms[] = {OPTION_INTERPOLATION, OPTION_WORLD, OPTION_COMPOSITION, OPTION_LINEARIZE};
     for (size_t i = 0; i < sizeof terms / sizeof terms[0]; i++)
         if (option_given(o, terms[i]) && (row->takes & FIGURE_TERMS) == 0)
-            return option_error(terms[i], "has no meaning in the figure %s, but in budget", row->name);
+            return option_error(terms[i], "does not apply to the figure %s, only to budget", row->name);
     if (option_given(o, OPTION_COMPOSITION) && !(o->terms.world > 0.0))
         return option_error(OPTION_COMPOSITION, "needs --world: eye depth is given");
     if (option_given(o, OPTION_MODEL) && (row->takes & FIGURE_BINARY32) != 0 && o->model != DP_MODEL_FP32)
@@ -123,12 +123,14 @@ static void subtitle_of(const options *o, const figure_request *request, char *o
         *model = '\0'; /* the names say it */
     const char *rest = strstr(full, ", ");
     const char *one = request->count == 1 ? full : rest != NULL ? rest + 2 : "";
+    const char *unit = options_unit(o);
     if (!isnan(request->at))
         snprintf(out, size, "%s, at depth %s", one, number_full(request->at).text);
     else if (!isnan(request->lo))
         snprintf(out, size, "%s, depths %s to %s", one, number_full(request->lo).text, number_full(request->hi).text);
     else
         snprintf(out, size, "%s", one);
+    append(out, size, "%s%s", unit != NULL ? ", lengths in " : "", unit != NULL ? unit : "");
 }
 
 /* Which family and, where it is timed, in which case; the figure measures that and not the set-ups. */
@@ -141,8 +143,8 @@ static int resolve_methods(plotting *p) {
     int status = check_operand(o->verb, "FAMILY", &families, family, &item);
     if (status == EXIT_FINE)
         status = methods_resolve(o, item.row, &p->asked);
-    snprintf(p->where, sizeof p->where, "near %s, far %s; %s", number_full(o->znear).text, number_full(o->zfar).text,
-             methods_machine(machine, sizeof machine));
+    snprintf(p->where, sizeof p->where, "near %s, far %s; %s", number_in(number_full(o->znear), options_unit(o)).text,
+             number_in(number_full(o->zfar), options_unit(o)).text, methods_machine(machine, sizeof machine));
     p->request.setups = &p->asked.setup;
     p->request.count = 1;
     p->request.family = p->asked.family;
@@ -181,6 +183,7 @@ static int resolve_setups(plotting *p) {
     p->request.count = p->all.count;
     status = choose_models(p);
     name_setups(p);
+    p->chart->unit = options_unit(p->o);
     subtitle_of(p->o, &p->request, p->chart->subtitle, sizeof p->chart->subtitle);
     return status == EXIT_FINE && p->row->family != NULL ? resolve_methods(p) : status;
 }
@@ -231,7 +234,7 @@ typedef struct point {
 /* A chart; below `digest`, the panel, series and point at hand. */
 typedef struct plotted {
     const chart *chart;
-    const char *figure, *title, *subtitle;
+    const char *figure, *title, *subtitle, *unit;
     axis x, y, second, value;
     char digest[17];
     const chart_panel *panel;
@@ -292,6 +295,7 @@ static void write_data(output *out, output_form form, const char *figure, const 
                  .figure = figure,
                  .title = c->title,
                  .subtitle = c->subtitle,
+                 .unit = c->unit,
                  .x = axis_of(&first->x),
                  .y = axis_of(&first->y),
                  .second = axis_of(&first->second),
@@ -315,6 +319,7 @@ static void write_data(output *out, output_form form, const char *figure, const 
     const column columns[] = {{FIELD(plotted, figure, "figure", ""), .only = AS_JSON},
                               {FIELD(plotted, title, "title", ""), .only = AS_JSON},
                               {FIELD(plotted, subtitle, "subtitle", ""), .only = AS_JSON},
+                              {FIELD(plotted, unit, "unit", ""), .only = AS_JSON},
                               {FIELD(plotted, digest, "data", ""), .only = AS_JSON},
                               {PART(plotted, x, "x", axis_columns), .only = AS_JSON},
                               {PART(plotted, y, "y", axis_columns), .only = AS_JSON},

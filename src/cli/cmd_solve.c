@@ -23,7 +23,7 @@ static int check_target(const options *o, solve_report *r) {
     static const option_id givens[] = {OPTION_NEAR, OPTION_FAR, OPTION_FORMAT, OPTION_MAPPING};
     const bool limited = option_given(o, OPTION_SEPARATION) || option_given(o, OPTION_ERROR);
     if (option_given(o, OPTION_SEPARATION) && option_given(o, OPTION_ERROR))
-        return option_error(OPTION_ERROR, "must not be given together with --separation");
+        return option_error(OPTION_ERROR, "cannot be combined with --separation");
     r->kind = option_given(o, OPTION_ERROR) ? MEASURE_ERROR : MEASURE_SEPARATION;
     r->limit = !limited ? (double)NAN : r->kind == MEASURE_ERROR ? o->wanted_error : o->wanted_separation;
     r->target = o->target;
@@ -36,15 +36,15 @@ static int check_target(const options *o, solve_report *r) {
         return usage_error("solve: nothing is left to solve for: leave out --near, --far, --format, --mapping or "
                            "--separation, or name one with --for");
     if (r->target == SOLVE_FOR_SEPARATION && limited)
-        return option_error(OPTION_FOR, "separation is what is solved for, got --%s too",
+        return option_error(OPTION_FOR, "solves for separation: leave out --%s",
                             option_name(r->kind == MEASURE_ERROR ? OPTION_ERROR : OPTION_SEPARATION));
     if (r->target == SOLVE_FOR_DISTANCE && option_given(o, OPTION_AT))
-        return option_error(OPTION_AT, "has no meaning when a distance is asked: --range LO:HI says from where");
+        return option_error(OPTION_AT, "does not apply to --for distance: --range LO:HI says from where");
     if (r->target != SOLVE_FOR_SEPARATION && !limited)
         return option_error(OPTION_SEPARATION, "must be given (or --error), to solve for %s",
                             option_word(OPTION_FOR, r->target));
     if (r->target <= SOLVE_FOR_FAR && option_given(o, givens[r->target - SOLVE_FOR_NEAR]))
-        return option_error(OPTION_FOR, "%s is what is solved for, got --%s too", option_word(OPTION_FOR, r->target),
+        return option_error(OPTION_FOR, "solves for %s: leave out --%s", option_word(OPTION_FOR, r->target),
                             option_word(OPTION_FOR, r->target));
     if (r->kind == MEASURE_ERROR && option_given(o, OPTION_MODEL) && o->model == DP_MODEL_FP32)
         return option_error(OPTION_MODEL, "must be exact or staged for an error, got 'float', which has no cells");
@@ -54,7 +54,7 @@ static int check_target(const options *o, solve_report *r) {
 static int check_depths(const options *o, solve_report *r) {
     const bool range = option_given(o, OPTION_RANGE);
     if (range && o->at.count > 0)
-        return option_error(OPTION_RANGE, "must not be given together with --at");
+        return option_error(OPTION_RANGE, "cannot be combined with --at");
     if (!range && r->target == SOLVE_FOR_DISTANCE) {
         r->lo = o->znear;
         r->hi = is_known(o, OPTION_FAR) ? o->zfar : (double)HUGE_VAL;

@@ -52,9 +52,8 @@ static void *next_method(void *of, size_t i) {
 static void say_family(page *p, void *item) {
     const method_family_row *f = ((const walking *)item)->family;
     page_title(p, "%s: %s; worst %s for far/near from 10 to 1e12", f->name, f->summary, f->measure);
-    page_line(p,
-              "worst: what comes nearest to its claim; claim: what is claimed at that far/near, where 'list methods' "
-              "has the claim at 10000");
+    page_line(p, "worst: the error nearest to its claim; claim: at that far/near, where 'list methods' "
+                 "has the claim at 10000");
 }
 
 static const column step_columns[] = {{FIELD(line, ratio, "ratio", "")},

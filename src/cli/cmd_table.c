@@ -161,7 +161,7 @@ static void say_reach(page *p, void *item) {
     if (*sentence != '\0')
         page_text(p, "Guaranteed to be told apart: surfaces%s.", sentence);
     else
-        page_text(p, "Not even at the near plane are surfaces %s apart sure to be told apart.",
+        page_text(p, "Surfaces %s apart are not guaranteed to be told apart, even at the near plane.",
                   reach_limit_text(REACH_LIMITS - 1, unit).text);
 }
 

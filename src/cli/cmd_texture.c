@@ -33,14 +33,14 @@ static int check_table(const options *o) {
         OPTION_PACK,      OPTION_PACKED_NORMAL};
     for (size_t i = 0; i < sizeof pixels / sizeof pixels[0]; i++)
         if (option_given(o, pixels[i]))
-            return option_error(pixels[i], "has no meaning with --effect alone, but with FILE or --scene");
+            return option_error(pixels[i], "does not apply to --effect alone, only with FILE or --scene");
     return EXIT_FINE;
 }
 
 static int make_product(const options *o, const texture_source *source, texture_product *product) {
     int status = texture_product_check(source, product);
     if (status == EXIT_FINE && source->path != NULL && source->found.invalid > 0 && !o->quiet)
-        fprintf(stderr, "depthprec: %s: %zu pixels hold no window depth and are NaN in what is made\n", source->path,
+        fprintf(stderr, "depthprec: %s: %zu pixels hold no window depth and become NaN\n", source->path,
                 source->found.invalid);
     if (status == EXIT_FINE && o->output != NULL)
         status = texture_product_write(o, source, product);

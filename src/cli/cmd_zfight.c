@@ -160,10 +160,10 @@ static void say_neighbours(page *p, const zfight *z) {
               z->walk.o->sample > 0 ? ", drawn at random" : "", number_of(z->whole.ties, 3).text,
               number_of(z->whole.swaps, 3).text);
     if (all->longest > 0.0)
-        page_line(p, "the longest interval: %s at z = %s, of %s guaranteed",
+        page_line(p, "longest interval %s at z = %s, guaranteed there %s",
                   number_in(number_of(all->longest, DIGITS), p->unit).text,
                   number_in(number_of(all->longest_z, DIGITS), p->unit).text,
-                  number_in(number_up(all->bound, DIGITS), p->unit).text);
+                  number_in(number_up(dp_separation(z->walk.setup, all->longest_z), DIGITS), p->unit).text);
 }
 
 static void say_answer(page *p, void *item) {
@@ -271,8 +271,6 @@ static int check(zfight *z) {
         status = range_resolve(o, &z->lo, &z->hi);
     if (status == EXIT_FINE && isinf(z->hi))
         status = option_error(OPTION_RANGE, "must be given when far is inf: there are too many depths up to infinity");
-    if (status == EXIT_FINE && !(z->lo > 0.0))
-        status = option_error(OPTION_RANGE, "must begin above 0 for zfight, got %s", number_full(z->lo).text);
     if (status == EXIT_FINE && census_count(z->lo, z->hi) < 2)
         status = option_error(OPTION_RANGE, "must hold at least two binary32 depths");
     if (status == EXIT_FINE && o->gap >= z->hi - z->lo)

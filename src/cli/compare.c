@@ -115,7 +115,7 @@ static void say_farthest(page *p, const comparison *c, const char *limit) {
     if (all > NAMED)
         append(names, sizeof names, " and %zu others", all - NAMED);
     if (isnan(best->up_to[MIDDLE]))
-        page_text(p, "None of these is sure to tell surfaces %s apart, not even at the near plane.", limit);
+        page_text(p, "None of these is guaranteed to tell surfaces %s apart, even at the near plane.", limit);
     else if (all == 0)
         page_text(p, "%s goes farthest: it tells surfaces %s apart up to z = %s.", best->name, limit,
                   reach_text(best->zfar, best->up_to[MIDDLE], c->walk->o->unit, text));

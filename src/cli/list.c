@@ -9,6 +9,7 @@
 #include "api/unit.h"
 #include "core/append.h"
 #include "method/method.h"
+#include "need/model.h"
 #include "plot/figure.h"
 #include "report/number.h"
 #include "texture/effect.h"
@@ -44,17 +45,15 @@ bool list_model(size_t index, list_item *item) {
     };
     const char *name = dp_model_name((dp_model)index);
     return index < sizeof notes / sizeof notes[0] &&
-           list_fill(item, (list_item){.name = name != NULL ? name : "auto",
-                                       .aliases = index == DP_MODEL_FP32 ? "float" : NULL,
+           list_fill(item, (list_item){.name = name != NULL ? name : model_word(index),
+                                       .aliases = index == DP_MODEL_FP32 ? model_word(index) : NULL,
                                        .note = notes[index]});
 }
 
 bool list_model_word(size_t index, list_item *item) {
     const bool found = list_model(index, item);
-    if (found && index == DP_MODEL_FP32) {
-        item->name = item->aliases;
-        item->aliases = dp_model_name(DP_MODEL_FP32);
-    }
+    if (found && item->aliases != NULL)
+        *item = (list_item){.name = item->aliases, .aliases = item->name, .note = item->note};
     return found;
 }
 
@@ -218,24 +217,26 @@ bool list_method(size_t index, list_item *item) {
 
 /* What can be listed. */
 static const topic topics[] = {
-    {"formats", "depth formats, and what their rounding is held to", list_format, "bound"},
-    {"mappings", "how an eye depth becomes a window depth", list_mapping, "bound"},
-    {"models", "how much of the arithmetic before the buffer is modelled", list_model, "bound"},
-    {"arithmetic", "variants of binary32 arithmetic, for --arith", list_arith, "bound"},
-    {"transforms", "how world positions become clip coordinates", list_composition, "bound"},
-    {"causes", "what takes a part of the separation", list_cause, "bound"},
-    {"presets", "cameras as engines set them, for --preset", list_preset, "camera"},
-    {"apis", "what one unit of depth bias is, for bias --api", list_api, "rule"},
-    {"packings", "depth and normals in the channels of a texture, and what their errors are held to", list_packing,
-     "bound"},
-    {"packed", "textures that hold a depth in several channels, for texture --packing and --pack", list_packed,
-     "bound"},
-    {"effects", "what texture --effect knows: formulas and parameters", list_effect, "parameters"},
-    {"figures", "what plot can draw", list_figure, "bound"},
-    {"scenes", "synthetic depth images, for texture --scene", list_scene, "parameters"},
-    {"positions", "ways from window depth to a place, for texture --position", list_position, "bound"},
-    {"normals", "normals from depth, for texture --normal", list_normal, "bound"},
-    {"methods", "ways to a quantity, by family: what each claims, for which set-up and far/near", list_method, "bound"},
+    {"formats", "depth formats and the bounds of their rounding", list_format, .bound = "bound"},
+    {"mappings", "how an eye depth becomes a window depth", list_mapping, .bound = "bound"},
+    {"models", "how much of the arithmetic before the buffer is modelled", list_model, .bound = "bound",
+     .in_text = list_model_word},
+    {"arithmetic", "variants of binary32 arithmetic, for --arith", list_arith, .bound = "bound"},
+    {"transforms", "how world positions become clip coordinates", list_composition, .bound = "bound"},
+    {"causes", "the parts of the separation, for budget", list_cause, .bound = "bound"},
+    {"presets", "cameras as engines set them, for --preset", list_preset, .bound = "camera"},
+    {"apis", "what one unit of depth bias is, for bias --api", list_api, .bound = "rule"},
+    {"packings", "depth and normals in the channels of a texture, and their error bounds", list_packing,
+     .bound = "bound"},
+    {"packed", "textures with a depth in several channels, for texture --packing and --pack", list_packed,
+     .bound = "bound"},
+    {"effects", "effects for texture --effect: formulas and parameters", list_effect, .bound = "parameters"},
+    {"figures", "figures, for plot", list_figure, .bound = "bound"},
+    {"scenes", "synthetic depth images, for texture --scene", list_scene, .bound = "bound", .shown = "parameters"},
+    {"positions", "positions from window depth, for texture --position", list_position, .bound = "bound"},
+    {"normals", "normals from depth, for texture --normal", list_normal, .bound = "bound"},
+    {"methods", "ways to a quantity, by family: what each claims, for which set-up and far/near", list_method,
+     .bound = "bound"},
 };
 enum { TOPIC_COUNT = sizeof topics / sizeof topics[0] };
 

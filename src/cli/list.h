@@ -55,7 +55,9 @@ bool list_method(size_t index, list_item *item);
 typedef struct topic {
     const char *name, *note;
     list_get get;
-    const char *bound; /**< what a thing's bound is called */
+    const char *bound; /**< what a thing's bound is called in JSON and CSV */
+    const char *shown; /**< and in text, where that says more; else null */
+    list_get in_text;  /**< where text has other names for the things; else null */
 } topic;
 
 #endif

@@ -82,11 +82,11 @@ bool lookup_wanted(const options *o) {
 static int check(const options *o, const setups *all) {
     static const option_id depths_only[] = {OPTION_AT, OPTION_RANGE, OPTION_TOLERANCE};
     if (option_given(o, OPTION_DEPTH) && option_given(o, OPTION_CODE))
-        return option_error(OPTION_CODE, "must not be given together with --depth");
+        return option_error(OPTION_CODE, "cannot be combined with --depth");
     const option_id asked = option_given(o, OPTION_CODE) ? OPTION_CODE : OPTION_DEPTH;
     for (size_t i = 0; i < sizeof depths_only / sizeof depths_only[0]; i++)
         if (option_given(o, depths_only[i]))
-            return option_error(depths_only[i], "has no meaning with --%s", option_name(asked));
+            return option_error(depths_only[i], "does not apply with --%s", option_name(asked));
     for (size_t i = 0; i < all->count && asked == OPTION_CODE; i++) {
         const dp_format *format = &all->items[i].spec.format;
         if (o->looked_up.hi > (double)format->code_max)

@@ -49,8 +49,8 @@ int methods_resolve(const options *o, const method_family_row *family, methods_a
         }
         append(all, sizeof all, "%s%s", i > 0 ? ", " : "", out->family->cases[i].name);
     }
-    return option_error(option_given(o, OPTION_FORMAT) ? OPTION_FORMAT : OPTION_MAPPING,
-                        "the family %s has %s, and not what was given", out->family->name, all);
+    return option_error(option_given(o, OPTION_FORMAT) ? OPTION_FORMAT : OPTION_MAPPING, "the family %s covers only %s",
+                        out->family->name, all);
 }
 
 const char *methods_machine(char *out, size_t size) {

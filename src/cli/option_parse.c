@@ -266,7 +266,7 @@ int parse_form(options *o, const option_row *row, const char *value) {
     const output_form form = (output_form)row->least;
     (void)value;
     if (o->form != FORM_TEXT && o->form != form)
-        return option_refuse(row, "must not be given together with --%s", form == FORM_JSON ? "csv" : "json");
+        return option_refuse(row, "cannot be combined with --%s", form == FORM_JSON ? "csv" : "json");
     o->form = form;
     return EXIT_FINE;
 }

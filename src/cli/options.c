@@ -86,7 +86,7 @@ static int unknown_option(const options *o, int refused, const char *argument) {
     if (refused != 0 && id_of_value(refused) < OPTION_COUNT)
         return option_error((option_id)id_of_value(refused), "takes no argument, got '%s'", argument);
     if (refused != 0)
-        return usage_error("unknown option '-%c'; 'depthprec help %s' lists what there is", refused, o->verb->name);
+        return usage_error("unknown option '-%c'; 'depthprec help %s' lists its options", refused, o->verb->name);
     const int length = (int)strcspn(argument, "=");
     const char *taken[OPTION_COUNT + 1], *begun[OPTION_COUNT + 1];
     size_t taken_count = 0, begun_count = 0;
@@ -105,8 +105,7 @@ static int unknown_option(const options *o, int refused, const char *argument) {
     append(given, sizeof given, "%.*s", length > 2 ? length - 2 : 0, argument + (length > 2 ? 2 : 0));
     if (*names_nearest(&all, "--", given, text) != '\0')
         return usage_error("unknown option '%.*s'%s", length, argument, text);
-    return usage_error("unknown option '%.*s'; 'depthprec help %s' lists what there is", length, argument,
-                       o->verb->name);
+    return usage_error("unknown option '%.*s'; 'depthprec help %s' lists its options", length, argument, o->verb->name);
 }
 
 static int wrong_command(const options *o, option_id id) {
@@ -201,8 +200,10 @@ static int check_near(const options *o) {
     if (o->znear != 0.0 && !(-o->znear >= row->least && -o->znear <= row->most))
         return option_error(OPTION_NEAR, "must be 0, or a number from %s or its negative, got '%s'",
                             option_limits(row, limits), given.text);
-    if (o->effect != NULL && o->znear < 0.0)
-        return option_error(OPTION_EFFECT, "needs near not less than 0, got '%s'", given.text);
+    if (o->effect != NULL && o->effect->eye01 && o->znear < 0.0)
+        return option_error(OPTION_EFFECT,
+                            "%s sees eye depth as a share of far, which needs near not less than 0, got '%s'",
+                            o->effect->name, given.text);
     return EXIT_FINE;
 }
 
@@ -290,7 +291,8 @@ int options_parse(options *o, int argc, char **argv) {
         o->verb = verb_find(argv[1]);
     if (o->verb == NULL) {
         names_nearest(&(name_list){.get = list_verb}, "", argv[1], text);
-        return usage_error("unknown command '%s'%s", argv[1], *text != '\0' ? text : "; 'depthprec --help' lists them");
+        return usage_error("unknown command '%s'%s", argv[1],
+                           *text != '\0' ? text : "; 'depthprec --help' lists the commands");
     }
     const verb *const asked = named ? o->verb : NULL;
     int status = read_options(o, argc - named, argv + named, asked, true);

@@ -88,7 +88,7 @@ static void say_effect(page *p, void *item) {
         append(parameters, sizeof parameters, ", %s %s", t->parameter.name,
                number_of(t->parameter.value, DIGITS_Z).text);
     if (t->effect->reference != NULL)
-        append(parameters, sizeof parameters, "; %s is where it is worst", t->effect->reference);
+        append(parameters, sizeof parameters, "; %s at its worst", t->effect->reference);
     page_text(p, "%s%s", t->name, parameters);
 }
 
@@ -98,7 +98,7 @@ static void say_usable(page *p, void *item) {
     if (isnan(t->usable))
         page_line(p, "no %s is usable at z = %s", t->wanted_name, z.text);
     else
-        page_line(p, "%s %s %s%s keeps the error at most one level at every depth shown; what decides is z = %s",
+        page_line(p, "%s %s %s%s keeps the error at most one level at every depth shown; z = %s decides",
                   t->wanted_name, t->direction, number_of(t->usable, DIGITS).text, t->effect->smallest ? " up" : "",
                   z.text);
 }

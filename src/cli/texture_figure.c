@@ -7,6 +7,7 @@
 #include "cli/progress.h"
 #include "cli/setups.h"
 #include "cli/texture.h"
+#include "core/append.h"
 #include "plot/notes.h"
 #include "plot/picture.h"
 #include "texture/survey.h"
@@ -40,9 +41,13 @@ static void words_of(const options *o, const texture_source *s, const texture_pr
                  (double)s->camera.width / shown->columns * s->camera.height / shown->rows);
     if (shown->missing > 0)
         snprintf(missing, sizeof missing, "; hatched: no value, %llu pixels", (unsigned long long)shown->missing);
+    const char *unit = options_unit(o);
+    c->unit = unit;
     setup_label(&s->setup, true, label);
     if (o->metric > 0)
-        snprintf(label, sizeof label, "metric depth, %g scene units a unit", o->metric);
+        snprintf(label, sizeof label, "metric depth, %g %s a unit", o->metric, unit != NULL ? unit : "scene units");
+    else if (unit != NULL)
+        append(label, sizeof label, ", lengths in %s", unit);
     snprintf(subtitle, sizeof subtitle, "%s%.100s, %u x %u; %s%s%s", s->path != NULL ? "" : "scene ",
              s->path == NULL ? s->frame.scene->name
              : slash != NULL ? slash + 1

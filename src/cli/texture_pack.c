@@ -18,11 +18,11 @@ int texture_pack_check(const options *o) {
     image_file file;
     for (size_t i = 0; i < sizeof others / sizeof others[0]; i++)
         if (option_given(o, others[i]) && (others[i] != OPTION_PARAMETER || o->scene == NULL))
-            return option_error(others[i], "has no meaning with --%s", name);
+            return option_error(others[i], "does not apply with --%s", name);
     if (o->pack != NULL && o->packed_normal)
         return option_error(OPTION_PACKED_NORMAL, "must not be given together with --pack");
     if (o->normal != NULL && (o->pack == NULL || !o->pack->normals))
-        return option_error(OPTION_NORMAL, "has no meaning with --%s%s%s", name, o->pack != NULL ? " " : "",
+        return option_error(OPTION_NORMAL, "does not apply with --%s%s%s", name, o->pack != NULL ? " " : "",
                             o->pack != NULL ? o->pack->name : "");
     if (o->output == NULL)
         return usage_error("texture: --%s needs -o FILE", name);

@@ -29,7 +29,7 @@ static int resolve_effect(const options *o, texture_product *p) {
     const effect_row *row = p->made.effect;
     const bool needs = row->reference != NULL && row->kind != EFFECT_STEP && !o->error_map;
     if (compared && !needs)
-        return option_error(OPTION_PARAMETER, "reference has no meaning here, %s",
+        return option_error(OPTION_PARAMETER, "reference does not apply here, %s",
                             o->error_map ? "the worst one is taken for the error" : "nothing is compared with it");
     if (needs && !(p->made.reference > 0))
         return option_error(OPTION_PARAMETER, "%s needs reference=Z, %s, a positive eye depth%s", row->name,
@@ -57,7 +57,7 @@ static int check_files(const options *o) {
         return EXIT_USAGE;
     if (o->form == FORM_CSV || (o->form == FORM_JSON && o->output == NULL))
         return option_error(o->form == FORM_JSON ? OPTION_JSON : OPTION_CSV,
-                            "is for statistics, which are not made beside a product%s",
+                            "is for statistics, which a product does not have%s",
                             o->form == FORM_JSON ? "; with -o FILE it says what the numbers in FILE are" : "");
     if (option_given(o, OPTION_NORMAL_FORMAT) && (o->output == NULL || file != IMAGE_PNG || o->error_map))
         return option_error(OPTION_NORMAL_FORMAT, "is for the normals in a PNG");
@@ -75,12 +75,12 @@ int texture_product_resolve(const options *o, texture_product *p) {
     for (size_t i = 0, found = 0; i < sizeof kinds / sizeof kinds[0] && status == EXIT_FINE; i++)
         if (option_given(o, kinds[i].option)) {
             if (found++ > 0)
-                status = option_error(kinds[i].option, "must not be given together with --%s",
-                                      option_name(kinds[chosen].option));
+                status =
+                    option_error(kinds[i].option, "cannot be combined with --%s", option_name(kinds[chosen].option));
             chosen = i;
         }
     if (status == EXIT_FINE && o->radial && kinds[chosen].kind != FRAME_EYE)
-        status = option_error(OPTION_RADIAL, "has no meaning with --%s", option_name(kinds[chosen].option));
+        status = option_error(OPTION_RADIAL, "does not apply with --%s", option_name(kinds[chosen].option));
     p->made.kind = kinds[chosen].kind;
     p->made.position = o->position;
     p->made.normal = o->normal;

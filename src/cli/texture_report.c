@@ -66,9 +66,9 @@ static void *next_parameter(void *of, size_t i) {
 /* How the samples were rounded, where they are coarser than the buffer's codes. */
 static void say_grain(const statistics *r, page *p) {
     const grain *g = &r->source.grain;
-    const char *by = g->rounding == GRAIN_ANY       ? "rounded or cut off"
+    const char *by = g->rounding == GRAIN_ANY       ? "rounded or truncated"
                      : g->rounding == GRAIN_NEAREST ? "rounded to nearest"
-                                                    : "cut off";
+                                                    : "truncated";
     if (g->kind == GRAIN_STEPS)
         page_note(p, "samples", "steps of 1/%s%s, %s: counted in what depths can be off by",
                   number_of(g->steps, 9).text,
@@ -95,7 +95,7 @@ static void say_origins(const statistics *r, page *p) {
               is_image(r) && s->mapping_from == ORIGIN_ASSUMED ? ": --mapping sets it" : "");
     if (is_image(r) && s->direction_from != ORIGIN_GIVEN)
         page_note(p, "direction", "%s %s%s", s->setup.reversed ? "reversed" : "not reversed", r->named.direction_from,
-                  s->found.reversed >= 0 && s->setup.spec.ortho ? ": orthographic images do not tell" : "");
+                  s->found.reversed >= 0 && s->setup.spec.ortho ? ": orthographic images do not show it" : "");
     for (const char *const *what = (const char *const[]){"mapping", "format", NULL}; *what != NULL; what++)
         if (*texture_readings_of(s, *what, readings) != '\0')
             page_note(p, "pixel", "%s", readings);
@@ -107,12 +107,12 @@ static number_text in_scene(const page *p, double length) {
 
 static void say_metric(const statistics *r, page *p) {
     const metric *m = &r->source.metric;
-    page_text(p, "metric depth, a unit of the samples is %s, up to %s", in_scene(p, r->o->metric).text,
+    page_text(p, "metric depth, samples in units of %s, up to %s", in_scene(p, r->o->metric).text,
               in_scene(p, m->zfar).text);
     if (m->step > 0)
-        page_note(p, "samples", "steps of %s, rounded or cut off", in_scene(p, m->step).text);
+        page_note(p, "samples", "steps of %s, rounded or truncated", in_scene(p, m->step).text);
     else
-        page_note(p, "samples", "numbers of %d significant bits, rounded or cut off", r->source.grain.bits);
+        page_note(p, "samples", "numbers of %d significant bits, rounded or truncated", r->source.grain.bits);
 }
 
 static void say_source(statistics *r, page *p) {
@@ -169,11 +169,11 @@ static void say_pairs(const survey_pairs *s, page *p) {
     if (s->ties > 0)
         snprintf(first, sizeof first, ", the first at z = %s", number_in(number_of(s->first_tie, 6), p->unit).text);
     if (!isnan(s->certain_to))
-        snprintf(certain, sizeof certain, "; certain of two codes up to z = %s",
+        snprintf(certain, sizeof certain, "; none can fight up to z = %s",
                  number_in(number_of(s->certain_to, 6), p->unit).text);
-    page_note(p, "pairs", "%llu of surfaces that ought to be told apart: %llu fight, stored as one code%s",
-              (unsigned long long)s->pairs, (unsigned long long)s->ties, first);
-    page_note(p, "", "%llu are nearer than the separation%s", (unsigned long long)s->possible, certain);
+    page_note(p, "pairs", "%llu to be told apart: %llu fight, stored as one code%s", (unsigned long long)s->pairs,
+              (unsigned long long)s->ties, first);
+    page_note(p, "", "%llu are closer than the separation%s", (unsigned long long)s->possible, certain);
 }
 
 static void say_geometry(page *p, void *item) {

@@ -59,7 +59,7 @@ static int check_window(const options *o) {
     static const option_id window[] = {OPTION_FORMAT, OPTION_MAPPING, OPTION_LOG_C, OPTION_SKY};
     for (size_t i = 0; !texture_is_window(o) && i < sizeof window / sizeof window[0]; i++)
         if (option_given(o, window[i]) && (o->metric > 0 || window[i] != OPTION_SKY))
-            return option_error(window[i], "has no meaning with --%s%s, which is no window depth",
+            return option_error(window[i], "does not apply with --%s%s, which is not window depth",
                                 o->metric > 0 ? "metric" : "packing ", o->metric > 0 ? "" : o->packing->name);
     return EXIT_FINE;
 }
@@ -76,7 +76,7 @@ static int check_together(const options *o) {
     if (file && o->effect == NULL && o->parameter_count > 0)
         return option_error(OPTION_PARAMETER, "needs --scene or --effect");
     if (o->ortho && option_given(o, OPTION_FOV))
-        return option_error(OPTION_FOV, "has no meaning with --ortho; --half-height has");
+        return option_error(OPTION_FOV, "does not apply with --ortho; --half-height does");
     if (!o->ortho && option_given(o, OPTION_HALF_HEIGHT))
         return option_error(OPTION_HALF_HEIGHT, "needs --ortho");
     if (o->metric > 0 && !file)
@@ -86,7 +86,7 @@ static int check_together(const options *o) {
     if (o->packing != NULL && !file)
         return option_error(OPTION_PACKING, "needs FILE");
     if (o->packing != NULL && o->metric > 0)
-        return option_error(OPTION_METRIC, "has no meaning with --packing");
+        return option_error(OPTION_METRIC, "does not apply with --packing");
     return check_window(o);
 }
 

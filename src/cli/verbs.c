@@ -24,12 +24,12 @@ const verb verb_rows[] = {
      "  depthprec plot distribution -F unorm4 -n 1 -f 10 -o staircase.png --theme dark\n"
      "  depthprec plot scene engine.need -o scene.svg\n", 2},
     {"zfight", VERB_ZFIGHT, "", 0, 0, NULL,
-     "from where surfaces fight, by visiting every depth",
+     "where surfaces start to fight, by a census of every depth",
      "  depthprec zfight -n 0.1 -f 1000 -F unorm24,fp32 -m d3d,reversed\n"
      "  depthprec zfight -F d24 -m gl --arith mesa --gap 0.01\n"
      "  depthprec zfight -f inf -F fp32 -m reversed --range 0.1:1e9 --sample 1000000\n", 0},
     {"budget", VERB_BUDGET, "", 0, 0, NULL,
-     "which cause takes how much of the separation",
+     "how much of the separation each cause takes",
      "  depthprec budget -n 0.1 -f 1000 -F unorm24 -m d3d\n"
      "  depthprec budget -F fp32 -m reversed --world 5000 --linearize --at 10,100,1000\n", 0},
     {"texture", VERB_TEXTURE, "[FILE]", 0, 1, NULL,
@@ -49,7 +49,7 @@ const verb verb_rows[] = {
      "  depthprec stability linearize\n"
      "  depthprec plot stability interval -o stability.svg\n", 0},
     {"check", VERB_CHECK, "FILE...", 1, 1000, NULL,
-     "do cameras meet the requirements of files? exit 1 if not",
+     "cameras against requirement files; exit 1 if one is missed",
      "  depthprec check engine.need\n"
      "  depthprec check --report junit -o depth.xml engine.need\n"
      "  generate | depthprec check -\n", 1},
@@ -66,7 +66,7 @@ const verb verb_rows[] = {
      "  depthprec bias --api webgpu -F depth24plus -m d3d --gap 0.01 --range 1:100\n"
      "  depthprec bias --preset bevy --api vulkan --units 4 --factor 1 --slope 0.02\n", 0},
     {"list", VERB_LIST, "WHAT", 0, 1, &topics,
-     "formats, mappings, presets, methods: 'list' alone says what",
+     "formats, mappings, presets, methods: 'list' names all",
      "  depthprec list\n"
      "  depthprec list formats\n"
      "  depthprec list mappings --json\n", 0},
@@ -75,7 +75,7 @@ const verb verb_rows[] = {
      "  depthprec help table\n"
      "  depthprec help options\n", 0},
     {"completions", VERB_COMPLETIONS, "SHELL", 1, 1, &shells,
-     "for a shell: commands, options and their words",
+     "a script that completes commands, options and values",
      "  . <(depthprec completions bash)\n", 0},
 };
 /* clang-format on */

@@ -17,7 +17,7 @@ static const dp_mapping_row rows[DP_MAPPING_COUNT] = {
         .name = "gl", .aliases = "no opengl gles webgl rh_no lh_no GL_NEGATIVE_ONE_TO_ONE",
         .curve = DP_CURVE_PERSPECTIVE, .ndc_signed = 1, .far_infinite = 1, .ortho = 1,
         .effort = "",
-        .note = "NDC depth in [-1, 1], then halved and moved to [0, 1], near stored as 0: OpenGL, WebGL",
+        .note = "NDC depth in [-1, 1], then remapped to [0, 1], near stored as 0: OpenGL, WebGL",
         .source = "OpenGL 4.6 core specification 13.8",
     },
     [DP_MAPPING_REVERSED] = {

@@ -3,7 +3,7 @@
 
 /* One row a status; the index is the status. */
 static const char *const sentences[DP_STATUS_COUNT] = {
-    [DP_OK] = "all is well",
+    [DP_OK] = "no error",
     [DP_ERROR_NULL] = "a pointer is null",
     [DP_ERROR_NEAR] = "near must be from 1e-12 to 1e12",
     [DP_ERROR_FAR] = "far must be greater than near and at most 1e18, or inf",
@@ -16,12 +16,12 @@ static const char *const sentences[DP_STATUS_COUNT] = {
                         "E = 2..8, M = 1..23, B = 1..2^E-1",
     [DP_ERROR_MAPPING] = "a mapping must be one of " DP_MAPPING_NAMES,
     [DP_ERROR_ROUNDING] = "rounding must be one of nearest, even, zero",
-    [DP_ERROR_MODEL] = "not a model that this set-up has",
-    [DP_ERROR_ARITH] = "no variant of binary32 arithmetic: see dp_arith_get()",
+    [DP_ERROR_MODEL] = "this set-up does not have that model",
+    [DP_ERROR_ARITH] = "not a variant of binary32 arithmetic: see dp_arith_get()",
     [DP_ERROR_DEPTH] = "a depth must lie in [near, far]",
-    [DP_ERROR_RANGE] = "a range must go from a depth to one not nearer, both in [near, far]",
+    [DP_ERROR_RANGE] = "a range must have its near end first and lie in [near, far]",
     [DP_ERROR_BINARY32] = "a depth in the model float must be at most 3.4028235e+38, the largest binary32 number",
-    [DP_ERROR_BATCH] = "not a task, element type or path that this processor has",
+    [DP_ERROR_BATCH] = "not a task, element type or path, or not one that this processor has",
     [DP_ERROR_ORTHO_NEAR] = "near must be 0, or from 1e-12 to 1e12 of either sign, in an orthographic projection",
     [DP_ERROR_ORTHO_FAR] =
         "far must be greater than near, and 0, or from 1e-12 to 1e18 of either sign, in an orthographic projection",

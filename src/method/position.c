@@ -91,7 +91,7 @@ static double half_claim(double ratio, double a, double b) {
 
 /* clang-format off */
 static const method_row methods[] = {
-    {METHOD_POSITION, "view", "camera + ray z: the ray counted from the image's middle, z without cancellation",
+    {METHOD_POSITION, "view", "camera + ray z: the ray from the image's middle, z without cancellation",
      {FULL(8.9 * UNIT), FULL(8 * UNIT), FULL(8.9 * UNIT)}, METHOD_INFINITE | METHOD_ORTHO, 0.4, "1", 0,
      "depthprec(7)", run, prepare, free, .position = &position_rows[POSITION_VIEW]},
     {METHOD_POSITION, "extents", "(top left + x extent u + y extent v) eye/n with LinearEyeDepth",
@@ -115,7 +115,7 @@ static const size_t method_count = sizeof methods / sizeof methods[0];
 
 const method_family_row position_family = {
     .name = "position",
-    .summary = "place of a pixel from its binary32 window depth; 60 degrees, 16:9",
+    .summary = "position of a pixel from its binary32 window depth; 60 degrees, 16:9",
     .measure = "error over distance",
     .cases = {{"fp32 d3d", "fp32", DP_MAPPING_D3D},
               {"fp32 reversed", "fp32", DP_MAPPING_REVERSED},

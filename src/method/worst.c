@@ -61,7 +61,7 @@ static const method_row methods[] = {
      {FULL(52 * 0x1p-53), FULL(52 * 0x1p-53)}, ANY | METHOD_ABOVE, 500, "pieces", 0,
      "depthprec(7)", .run = certified_run},
     {METHOD_WORST, "sampled-64",
-     "the widest cell of 64 seeded depths: never more than there is; one range in a hundred may miss its claim",
+     "the widest cell of 64 seeded depths: never too wide; one range in a hundred may miss its claim",
      {FORMULA(sampled_claim, 64, 0), FORMULA(sampled_claim, 64, 0)}, ANY | METHOD_BELOW, 5e3, "samples", 0,
      "", .run = few_run},
     {METHOD_WORST, "sampled-4096", "the widest cell of 4096 seeded depths; likewise",

@@ -5,6 +5,7 @@
 
 #include "api/presets.h"
 #include "core/append.h"
+#include "need/model.h"
 #include "need/reader.h"
 
 enum {
@@ -50,10 +51,6 @@ static int word_among(reader *r, const config_setting_t *s, const char *(*name)(
 
 static const char *rounding_name(size_t i) {
     return dp_rounding_name((dp_rounding)i);
-}
-
-static const char *model_name(size_t i) {
-    return i == DP_MODEL_COUNT ? "auto" : dp_model_name((dp_model)i);
 }
 
 static const char *arith_name(size_t i) {
@@ -113,10 +110,11 @@ static bool read_ortho(reader *r, const config_setting_t *s, draft *d) {
     return true;
 }
 
-/* Text calls the model fp32 float. */
+/* By the name of JSON too. */
 static int read_model(reader *r, const config_setting_t *s) {
     const char *text = config_setting_get_string(s);
-    return text != NULL && strcmp(text, "float") == 0 ? DP_MODEL_FP32 : word_among(r, s, model_name);
+    return text != NULL && strcmp(text, dp_model_name(DP_MODEL_FP32)) == 0 ? DP_MODEL_FP32
+                                                                           : word_among(r, s, model_word);
 }
 
 static bool read_words(reader *r, config_setting_t *const *found, draft *d) {

@@ -7,6 +7,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "need/model.h"
 #include "need/reader.h"
 
 static const need_kind_row kinds[NEED_KIND_COUNT] = {
@@ -70,21 +71,19 @@ static bool suits(reader *r, const config_setting_t *s, const need *n) {
     const need_camera *camera = &r->file->cameras[n->camera];
     const dp_spec *spec = &camera->setups[0].spec;
     if (n->kind == NEED_ERROR && spec->model == DP_MODEL_FP32)
-        return reader_fail(r, s, "error: needs the model exact, staged or auto, and the camera '%s' has fp32",
-                           camera->name);
+        return reader_fail(r, s, "error: needs the model exact, staged or auto, and the camera '%s' has %s",
+                           camera->name, model_word(spec->model));
     if (n->kind != NEED_TIES)
         return true;
     if (spec->model != DP_MODEL_FP32 && !camera->automatic)
         return reader_fail(r, s, "ties: needs the model float or auto, and the camera '%s' has %s", camera->name,
-                           dp_model_name(spec->model));
+                           model_word(spec->model));
     if (dp_mapping_get(spec->mapping)->curve != DP_CURVE_PERSPECTIVE)
         return reader_fail(
             r, s, "ties: needs one of the mappings " DP_MAPPING_NAMES_PERSPECTIVE ", and the camera '%s' has %s",
             camera->name, dp_mapping_get(spec->mapping)->name);
     if (!(n->lo < n->hi) || isinf(n->hi))
         return reader_fail(r, s, "ties: needs a range with a finite far end");
-    if (!(n->lo > 0.0))
-        return reader_fail(r, s, "ties: needs a range of depths above 0, got %.15g", n->lo);
     return true;
 }
 
@@ -165,8 +164,7 @@ static bool names_differ(reader *r) {
     bool good = true;
     for (size_t i = 1; i < count && good; i++)
         if (strcmp(sorted[i - 1]->name, sorted[i]->name) == 0) {
-            reader_fail(r, NULL, "requirement '%s': is already there, on line %d", sorted[i]->name,
-                        sorted[i - 1]->line);
+            reader_fail(r, NULL, "requirement '%s': is already on line %d", sorted[i]->name, sorted[i - 1]->line);
             r->error->line = sorted[i]->line;
             good = false;
         }
@@ -238,7 +236,7 @@ static bool is_plain(reader *r, const char *text, size_t size) {
             end = text + size;
         if (memchr(at, '\0', (size_t)(end - at)) != NULL) {
             r->error->line = line;
-            return reader_fail(r, NULL, "holds a null byte: not a text");
+            return reader_fail(r, NULL, "holds a null byte: not text");
         }
         at += strspn(at, " \t\r\f\v");
         if (strncmp(at, include, sizeof include - 1) == 0) {
@@ -266,9 +264,10 @@ bool need_parse(const char *path, const char *text, size_t size, need_file *out,
         error->line = config_error_line(config);
         const char *text_of = config_error_text(config);
         /* libconfig's arrays hold values of one type, and 50 is not of the type of 0.5 */
-        good = reader_fail(&r, NULL, "%s; expected %s", text_of,
-                           strstr(text_of, "element type") != NULL ? "two numbers alike, [0.5, 50.0], or (0.5, 50)"
-                                                                   : "KEY = VALUE; as depthprec(5) describes");
+        good =
+            reader_fail(&r, NULL, "%s; expected %s", text_of,
+                        strstr(text_of, "element type") != NULL ? "two numbers of one kind, [0.5, 50.0], or (0.5, 50)"
+                                                                : "KEY = VALUE; as depthprec(5) describes");
     }
     good = good && read_all(&r, config_root_setting(config));
     if (!good)

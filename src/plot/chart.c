@@ -5,6 +5,7 @@
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
+#include <string.h>
 
 /* A chain of blocks: the link, then the caller's bytes. */
 typedef union block {
@@ -151,6 +152,16 @@ void chart_fit(chart *c) {
     fit(&c->value, value, false);
 }
 
+const char *chart_unit(const chart *c, const chart_axis *axis, char out[CHART_TEXT]) {
+    static const char named[] = "scene unit";
+    const char *at = c->unit != NULL ? strstr(axis->unit, named) : NULL;
+    if (at == NULL)
+        return axis->unit;
+    const char *rest = at + strlen(named);
+    snprintf(out, CHART_TEXT, "%.*s%s%s", (int)(at - axis->unit), axis->unit, c->unit, rest + (*rest == 's'));
+    return out;
+}
+
 static void mix(uint64_t *h, const char *text) {
     do {
         *h = (*h ^ (unsigned char)*text) * UINT64_C(0x100000001B3);
@@ -177,6 +188,8 @@ static void mix_axis(uint64_t *h, const chart_axis *axis) {
 void chart_digest(const chart *c, char out[17]) {
     uint64_t h = UINT64_C(0xCBF29CE484222325);
     mix_axis(&h, &c->value);
+    if (c->unit != NULL)
+        mix(&h, c->unit);
     for (size_t p = 0; p < c->panel_count; p++) {
         const chart_panel *panel = &c->panels[p];
         mix(&h, panel->title);

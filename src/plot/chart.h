@@ -30,7 +30,7 @@ typedef struct chart_axis {
     double lo, hi;     /**< finite, lo < hi, both above 0 on a log axis; lo == hi asks for the extent of the data */
     const char *label; /**< "z-fighting interval" */
     const char *key;   /**< the column's name in CSV and JSON, "interval" */
-    const char *unit;  /**< "scene units", "%"; "" for a pure number */
+    const char *unit;  /**< "scene units", "%"; "" for a pure number; see chart_unit() */
     /** Null, or what the numbers 0, 1, ... below hi stand for: a tick with that name half a step above each. */
     const char *const *names;
 } chart_axis;
@@ -87,6 +87,7 @@ typedef struct chart_panel {
 typedef struct chart {
     char title[CHART_TEXT];
     char subtitle[2 * CHART_TEXT]; /**< what holds for all of it: planes, projection, model */
+    const char *unit;              /**< "m": what a scene unit is; null where nothing says it */
     size_t panel_count;
     chart_panel panels[CHART_PANELS];
     chart_axis value;   /**< the colour scale shared by the maps; label is null when there is none */
@@ -131,6 +132,9 @@ double chart_axis_at(const chart_axis *axis, double t);
 
 /** The share of a value: 0 at lo, 1 at hi; infinite values keep their sign. */
 double chart_axis_share(const chart_axis *axis, double value);
+
+/** The unit that is written beside an axis: with "m" in place of "scene units" where the chart says what one is. */
+const char *chart_unit(const chart *c, const chart_axis *axis, char out[CHART_TEXT]);
 
 /** 64 bits (FNV-1a, "0123456789abcdef") over every name and every number to 30 bits: the same when the figures say so.
  */

@@ -80,9 +80,11 @@ static void keep_shape(grid *g, double shape, double left) {
     g->area.x += fmax(0, (width - g->area.w) / 2 - left / 4);
 }
 
-static void draw_caption(const pencil *p, const chart_axis *axis, canvas_align align, double x, double y, double room) {
-    char text[CHART_TEXT];
-    snprintf(text, sizeof text, "%s%s%s%s", axis->label, *axis->unit ? " (" : "", axis->unit, *axis->unit ? ")" : "");
+static void draw_caption(const pencil *p, const chart *c, const chart_axis *axis, canvas_align align, double x,
+                         double y, double room) {
+    char text[CHART_TEXT], named[CHART_TEXT];
+    const char *unit = chart_unit(c, axis, named);
+    snprintf(text, sizeof text, "%.90s%s%.90s%s", axis->label, *unit ? " (" : "", unit, *unit ? ")" : "");
     words w = words_break(p, text, &p->text, room, 1);
     if (w.count > 0)
         canvas_text(p->c, x, y, w.lines[0], &p->text, align);
@@ -201,10 +203,10 @@ static bool draw_page(const pencil *p, const chart *c, double width, double heig
         c->shape > 0 ? g.area.y + g.area.h + label + TICK_ROOM * s + caption : height - 0.75 * MARGIN * s;
 
     double above = g.area.y - clear, room = width - 2 * MARGIN * s;
-    draw_caption(p, y, CANVAS_LEFT, side, above, bar + scale > 0 ? room * 0.46 : room);
+    draw_caption(p, c, y, CANVAS_LEFT, side, above, bar + scale > 0 ? room * 0.46 : room);
     if (scale > 0)
-        draw_caption(p, second, CANVAS_RIGHT, width - MARGIN * s, above, room * 0.5);
-    draw_caption(p, x, CANVAS_MIDDLE, g.area.x + g.area.w / 2, foot - 0.25 * caption,
+        draw_caption(p, c, second, CANVAS_RIGHT, width - MARGIN * s, above, room * 0.5);
+    draw_caption(p, c, x, CANVAS_MIDDLE, g.area.x + g.area.w / 2, foot - 0.25 * caption,
                  fmin(g.area.w + left, 2 * (width - MARGIN * s - g.area.x - g.area.w / 2)));
     if (bar > 0) {
         canvas_rect strip = {width - MARGIN * s - bar + 2 * SPACE * s - shift, g.area.y + g.heading,
@@ -212,7 +214,7 @@ static bool draw_page(const pencil *p, const chart *c, double width, double heig
         if (c->colours) {
             heat_draw_ball(p, strip);
         } else {
-            draw_caption(p, &c->value, CANVAS_RIGHT, width - MARGIN * s - shift, above, room * 0.5);
+            draw_caption(p, c, &c->value, CANVAS_RIGHT, width - MARGIN * s - shift, above, room * 0.5);
             heat_draw_bar(p, strip, &c->value);
         }
     }

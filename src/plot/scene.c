@@ -9,6 +9,7 @@
 
 #include "core/append.h"
 #include "need/check.h"
+#include "need/model.h"
 #include "plot/envelope.h"
 #include "plot/notes.h"
 
@@ -139,7 +140,7 @@ static void add_panel(scene *s, chart *out, const check_verdict *first) {
     s->request.setups = &setup;
     chart_panel *panel = figure_panel(&s->request, out, y);
     snprintf(panel->title, sizeof panel->title, "%s: %s %s, %s", first->camera->name, spec->format.name,
-             dp_mapping_get(spec->mapping)->name, dp_model_name(spec->model));
+             dp_mapping_get(spec->mapping)->name, model_word(spec->model));
     for (size_t i = 0; i < s->count; i++)
         wanted[s->verdicts[i].asked->kind] |= same_setup(first, &s->verdicts[i]);
     for (int is_error = 0; is_error < 2; is_error++)
@@ -155,8 +156,7 @@ static void write_subtitle(const scene *s, chart *out) {
     char text[sizeof out->subtitle];
     snprintf(text, sizeof text, "%.100s: %zu met, %zu missed", slash != NULL ? slash + 1 : file->path, s->passed,
              s->count - s->passed);
-    if (file->unit[0] != '\0')
-        append(text, sizeof text, "; a scene unit is 1 %s", file->unit);
+    out->unit = file->unit[0] != '\0' ? file->unit : NULL;
     if (s->ties > 0)
         append(text, sizeof text, "; not shown: %zu of ties", s->ties);
     notes_clean(out->subtitle, sizeof out->subtitle, text);

@@ -100,10 +100,7 @@ static double depth_of_field(const dp_setup *setup, const double *p, double z, d
 /* ---- Rows -------------------------------------------------------------------------------------------------------- */
 
 #define RISE                                                                                                           \
-    {                                                                                                                  \
-        "rise", "how much higher the pixel's ray comes with each unit of eye depth", "scene per scene", -1e6, 1e6,     \
-            -0.25, false                                                                                               \
-    }
+    { "rise", "how much the pixel's ray rises per unit of eye depth", "scene per scene", -1e6, 1e6, -0.25, false }
 #define DEPTH_TEXTURE "shaders on Unity's _CameraDepthTexture"
 
 /* clang-format off */
@@ -136,7 +133,7 @@ static const effect_row rows[] = {
      EDGE_THRESHOLD, true, true, "the first pixel's place in its cell", DEPTH_TEXTURE "; Roberts 1963", EFFECT_STEP,
      eye01, edge},
     {"motion-blur", "(current - last NDC)/2 = move focal/(2 z), the world position taken from the depth",
-     {{"move", "sideways way of the camera from the last frame to this", "scene", 1e-12, 1e12, 0.1, false},
+     {{"move", "sideways motion of the camera since the last frame", "scene", 1e-12, 1e12, 0.1, false},
       {"focal", "NDC per unit of slope: 1/tan(fov/2), orthographic 1/half height", "1", 1e-12, 1e12,
        1.7320508075688772, false}},
      BLUR_MOVE, false, false, NULL, DEPTH_TEXTURE "; Rosado 2007, GPU Gems 3, chapter 27", EFFECT_GAIN, velocity,

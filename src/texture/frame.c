@@ -50,12 +50,12 @@ int frame_channels(const frame_product *product) {
 
 const char *frame_refuses(const frame *f, const frame_product *product) {
     if (product->kind == FRAME_POSITION && product->position != NULL && !position_applies(product->position, f->camera))
-        return "this method has no form for the projection and mapping";
+        return "this method does not support this projection and mapping";
     if (product->kind == FRAME_EFFECT && !effect_applies(product->effect, frame_planes(f)))
         return "this effect needs a finite far plane";
     if (product->kind == FRAME_NORMAL && product->error && f->scene == NULL &&
         strcmp(product->normal->name, "projective") != 0)
-        return "the error of this method is not known without the truth of a scene; that of 'projective' has a bound";
+        return "the error of this method is known in a scene only; that of 'projective' has a bound";
     return NULL;
 }
 

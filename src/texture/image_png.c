@@ -70,7 +70,7 @@ static bool read_header(reading *r) {
     png_read_info(r->png, r->info);
     const int bits = png_get_bit_depth(r->png, r->info);
     if (png_get_color_type(r->png, r->info) == PNG_COLOR_TYPE_PALETTE)
-        return source_fail(r->source, "PNG with a palette, whose numbers are names of colours: save it as grey");
+        return source_fail(r->source, "PNG with a palette, not with depths: save it as greyscale");
     if (bits < 8)
         return source_fail(r->source, "PNG of %d bit%s a sample: save it with 8 or 16", bits, bits > 1 ? "s" : "");
     if (!source_shape(r->source, r->out, png_get_image_width(r->png, r->info), png_get_image_height(r->png, r->info),

@@ -93,7 +93,7 @@ static const char *of_numbers(const image *img, double scale, look *l, metric *o
         exponent--; /* the least power of two that is not below */
     const double zfar = ldexp(scale, exponent);
     if (!(zfar >= 1e-9 && zfar <= 1e18))
-        return "its depths end outside of what is possible, 1e-9 to 1e18 scene units";
+        return "its depths leave the possible range, 1e-9 to 1e18 scene units";
     dp_format_parse("fp32", formats);
     const double step = find_step(img, l, exponent);
     *out = (metric){.format = formats[0],

@@ -22,7 +22,7 @@ typedef struct metric {
     double znear, zfar; /**< half the nearest depth or less; the end of the lattice, scene units */
     double step;        /**< scene units between neighbouring samples: integers, or numbers that all are multiples of
                              it; 0: numbers of their own precision */
-    grain grain;        /**< how far the depth can be beside its sample, which was rounded or cut off */
+    grain grain;        /**< how far the depth can be beside its sample, which was rounded or truncated */
 } metric;
 
 /**

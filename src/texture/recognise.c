@@ -91,7 +91,7 @@ static void judge_words(const image *img, finding *f) {
     if (s.widened)
         say(f, "16 bits that repeat 8, fewer than any depth format has");
     else if (s.most > FP16_ONE)
-        say(f, "codes of unorm16 up to %u, fp16 has none above %d; of a finer buffer 16 bits are left", s.most,
+        say(f, "codes of unorm16 up to %u, fp16 has none above %d; a finer buffer has lost all but 16 bits", s.most,
             FP16_ONE);
     else
         say(f, "codes up to %u%s, of unorm16 or of fp16", s.most, s.most == FP16_ONE ? ", which is 1 in fp16" : "");
@@ -110,13 +110,13 @@ static void judge_longs(const image *img, finding *f) {
         say(f, "codes of unorm24 up to %u", s.most);
     } else if ((s.differ & 0xFF) == 0 && s.differ != 0 && !(fp32 && (s.differ & 0x1FFF) == 0)) {
         f->none = true;
-        say(f, "all low bytes are equal: with stencil there and 24 bits of depth above it, shift them down by 8 first");
+        say(f, "all low bytes are equal: if they are stencil below 24 bits of depth, shift right by 8 first");
     } else if (fp32) {
         f->which = LATTICE_FP32;
         say(f, "bits of fp32, none above those of 1");
     } else if (s.differ <= UNORM24_MAX) {
         f->none = true;
-        say(f, "all high bytes are equal: with stencil there and 24 bits of depth below it, take & 0xFFFFFF first");
+        say(f, "all high bytes are equal: if they are stencil above 24 bits of depth, take & 0xFFFFFF first");
     } else {
         f->none = true;
         say(f, "whole numbers up to %u are codes of no named format: bits of fp32 end at %u", s.most, FP32_ONE);
@@ -257,7 +257,8 @@ static void count_all(const image *img, const finding *f, tally *s, recognised *
 
 /* ---- Direction ----------------------------------------------------------------------------------------------------*/
 
-/* The sky is the end that far more samples have, where they are not a few; the mass is where nine of ten others are. */
+/* The sky is the end that far more samples have, where they are not a few; the mass is where nine of ten others are.
+ * What may be the holes of metric depth is no sky. */
 static const char *direct(const tally *s, recognised *out) {
     const size_t sky = out->at_zero > out->at_one ? out->at_zero : out->at_one;
     const size_t other = out->at_zero + out->at_one - sky;
@@ -265,12 +266,12 @@ static const char *direct(const tally *s, recognised *out) {
     const int by_mass = s->inner == 0 ? -1 : 10 * s->low >= 9 * s->inner ? 1 : 10 * s->high >= 9 * s->inner ? 0 : -1;
     out->reversed = -1;
     if (s->inner == 0)
-        return "nothing is drawn that shows a direction";
+        return "nothing drawn shows a direction";
     if (by_sky >= 0 && by_mass >= 0 && by_sky != by_mass)
         return by_mass ? "near 0 but sky at 1: no direction" : "near 1 but sky at 0: no direction";
     out->reversed = by_mass >= 0 ? by_mass : by_sky;
     const size_t inner_values = out->distinct - (out->at_zero > 0) - (out->at_one > 0);
-    out->direction = by_sky >= 0 && by_sky == by_mass && other == 0 && 16 * sky >= out->samples &&
+    out->direction = !out->metric && by_sky >= 0 && by_sky == by_mass && other == 0 && 16 * sky >= out->samples &&
                      sky * inner_values >= 16 * s->inner;
     if (out->reversed < 0)
         return "neither sky nor mass shows a direction";
