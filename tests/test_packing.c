@@ -464,7 +464,8 @@ static void refusals(void **state) {
         const char *words[10];
         const char *said;
     } rows[] = {
-        {{in, "--packing", "rg", "-m", "d3d"}, "--mapping: does not apply with --packing rg, which is not window depth"},
+        {{in, "--packing", "rg", "-m", "d3d"},
+         "--mapping: does not apply with --packing rg, which is not window depth"},
         {{in, "--packing", "rg", "-F", "fp32"}, "--format: does not apply with --packing rg"},
         {{in, "--packing", "rg", "--metric", "1"}, "--metric: does not apply with --packing"},
         {{in, "--packing", "depth-normals"}, "the packing depth-normals takes 4 channels, got 3"},
