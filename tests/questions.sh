@@ -115,7 +115,7 @@ everything() { # the text of README.md and the pages, of help and of every list,
 
 # What the glossary has better words for. A list by hand, because words like "one" are retired in one sense only.
 retired='to be had|drawn from|a limit is|an element|different codes|stands for|stand for|too much:|arithmetic adds
-|nothing is monotone|ariths|to us|hangs on|an octave of'
+|nothing is monotone|ariths|to us|hangs on|an octave of|ought to|in spite of|has no meaning'
 
 free_of() { # free_of WORDS: no text has them, wherever its lines break
     [ -s "$scratch/text/list" ] || return

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The census against a plain one that stores every code, against published counts, and against itself. */
 #include <math.h>
+#include <stdbool.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -25,6 +26,25 @@ static double jumping_bound(const dp_setup *setup, double z) {
     return toy_bound(setup, z) * (dp_bits32((float)z) >> 12 & 1 ? 0.5 : 1.0);
 }
 
+/* Positive on either side of 0. */
+static double tent_bound(const dp_setup *setup, double z) {
+    return 1e-4 * fabs(z) + 1e-7 * (setup->spec.zfar - setup->spec.znear);
+}
+
+/* Does a band begin at a depth? At powers of two, and at 0, where those near 0 are not one band. */
+static int begins(const census_request *r, float z) {
+    int exponent;
+    const double farthest = fmax(-r->lo, r->hi), together = r->lo > 0.0 ? 0.0 : ldexp(1.0, ilogb(farthest) - 10);
+    if (fabs((double)z) < fmax(together, 0x1p-126))
+        return z == 0.0f && together <= 0x1p-126;
+    return fabsf(frexpf(z, &exponent)) == 0.5f && (z < 0.0f || (double)z >= together);
+}
+
+/* Half of the greater step beside a depth: how far a surface may be from the binary32 number that it rounds to. */
+static double half_step(float z) {
+    return 0.5 * fmax((double)nextafterf(z, HUGE_VALF) - (double)z, (double)z - (double)nextafterf(z, -HUGE_VALF));
+}
+
 /* Two arrays: the keys, and the least key from each depth on. Long: the whole census in one place, to be read at once.
  */
 static void plain_census(const census_request *r, census_result *result) {
@@ -36,22 +56,23 @@ static void plain_census(const census_request *r, census_result *result) {
         first = nextafterf(first, INFINITY);
     int64_t *key = malloc(count * sizeof *key);
     int64_t *least = malloc(count * sizeof *least);
+    float *depth = malloc(count * sizeof *depth);
+    assert_non_null(depth);
     assert_non_null(key);
     assert_non_null(least);
     memset(result, 0, sizeof *result);
-    const uint32_t start = dp_bits32(first);
     for (uint64_t i = 0; i < count; i++) {
-        const int64_t code = (int64_t)dp_pipeline_code(&p, dp_float32(start + (uint32_t)i));
+        depth[i] = i == 0 ? first : nextafterf(depth[i - 1], HUGE_VALF);
+        const int64_t code = (int64_t)dp_pipeline_code(&p, depth[i]);
         key[i] = p.reversed ? -code : code;
     }
     for (uint64_t i = count; i-- > 0;)
         least[i] = i + 1 < count && least[i + 1] < key[i] ? least[i + 1] : key[i];
     double drawn_lo = (double)NAN, drawn_hi = (double)NAN;
     for (uint64_t i = 0; i < count; i++) {
-        const float z = dp_float32(start + (uint32_t)i);
-        const int at = ilogbf(z) - ilogbf(first);
-        census_band *b = &result->bands[at];
-        result->band_count = at + 1;
+        const float z = depth[i];
+        result->band_count += i == 0 || begins(r, z);
+        census_band *b = &result->bands[result->band_count - 1];
         if (dp_pipeline_drawn(&p, z)) {
             drawn_lo = isnan(drawn_lo) ? (double)z : drawn_lo;
             drawn_hi = (double)z;
@@ -71,7 +92,7 @@ static void plain_census(const census_request *r, census_result *result) {
             else
                 behind = middle - 1;
         }
-        const double length = (double)dp_float32(start + (uint32_t)j) - (double)z;
+        const double length = (double)depth[j] - (double)z;
         if (length > b->longest) {
             b->longest = length;
             b->longest_z = (double)z;
@@ -79,21 +100,20 @@ static void plain_census(const census_request *r, census_result *result) {
         /* The surfaces that are stored as the two ends may be half a step farther apart at either. */
         if (length == 0.0 || r->bound == NULL)
             continue;
-        const float other = dp_float32(start + (uint32_t)j);
-        const double halves = 0.5 * ((double)nextafterf(z, HUGE_VALF) - (double)z) +
-                              0.5 * ((double)nextafterf(other, HUGE_VALF) - (double)other);
-        b->slack = fmax(b->slack, (length + halves) / r->bound(r->setup, (double)z));
+        const float other = depth[j];
+        b->slack = fmax(b->slack, (length + half_step(z) + half_step(other)) / r->bound(r->setup, (double)z));
     }
     result->near_effective = drawn_lo;
     result->far_effective = drawn_hi;
     uint64_t inside = 0;
     for (uint64_t i = 0; i < count; i++) {
-        const float z = dp_float32(start + (uint32_t)i);
+        const float z = depth[i];
         inside += (double)z >= drawn_lo && (double)z <= drawn_hi && !dp_pipeline_drawn(&p, z);
     }
     result->holes = inside;
     free(key);
     free(least);
+    free(depth);
 }
 
 static int same_band(const census_band *a, const census_band *b) {
@@ -116,7 +136,7 @@ static int same_result(const census_result *a, const census_result *b) {
 }
 
 /* A set-up of any kind that has a pipeline. */
-static dp_setup random_setup(rng *r) {
+static dp_setup random_setup(rng *r, bool either_sign) {
     static const char *const formats[] = {"fp32",    "unorm24", "unorm16", "fp16",     "unorm8",     "unorm20",
                                           "unorm28", "unorm32", "unorm23", "float5.9", "float3.3b5", "float8.20b130"};
     for (;;) {
@@ -130,8 +150,10 @@ static dp_setup random_setup(rng *r) {
         spec.zfar = spec.znear * (1.0 + (chance < 0.5 ? rng_log(r, 1.0, 1e6) : rng_log(r, 1e-4, 100.0)));
         if (chance > 0.9)
             spec.zfar = (double)INFINITY;
+        if (either_sign)
+            rng_planes(r, &spec.znear, &spec.zfar);
         spec.mapping = (dp_mapping)rng_below(r, 4);
-        spec.ortho = rng_below(r, 4) == 0;
+        spec.ortho = either_sign || rng_below(r, 4) == 0;
         spec.rounding = (dp_rounding)rng_below(r, DP_ROUNDING_COUNT);
         spec.arith = rng_below(r, dp_arith_count());
         if (dp_setup_init(&setup, &spec) == DP_OK)
@@ -139,8 +161,26 @@ static dp_setup random_setup(rng *r) {
     }
 }
 
+/* The same where depths may be negative: about 0, across a power of two, or anywhere. */
+static void signed_range(rng *r, const dp_setup *setup, double count, double *lo, double *hi) {
+    const dp_spec *spec = &setup->spec;
+    double from = rng_depth(r, spec->znear, spec->zfar);
+    if (rng_below(r, 2) == 0)
+        from = copysign(ldexp(1.0, ilogb(from)), from);
+    from *= 1.0 - 0x1p-24 * count * rng_unit(r);
+    if (rng_below(r, 4) == 0) /* subnormals, where 0 is near */
+        from = -0x1p-149 * count * rng_unit(r);
+    *lo = fmin(fmax(from, spec->znear), spec->zfar);
+    const double step = (double)nextafterf((float)*lo, -HUGE_VALF) - *lo;
+    *hi = fmin(*lo + fmax(fabs(step), 0x1p-149) * count, spec->zfar);
+}
+
 /* A range of about `count` depths inside the camera's. */
 static void random_range(rng *r, const dp_setup *setup, double count, double *lo, double *hi) {
+    if (setup->spec.znear <= 0.0) {
+        signed_range(r, setup, count, lo, hi);
+        return;
+    }
     const double far_end = isinf(setup->spec.zfar) ? 1e5 * setup->spec.znear : setup->spec.zfar;
     const double part = count / 8388608.0; /* of a binade */
     *lo = rng_below(r, 8) == 0 ? setup->spec.znear : rng_log(r, setup->spec.znear, far_end);
@@ -158,17 +198,19 @@ static void describe(char out[256], const census_request *r) {
              dp_arith_get(s->arith)->name, r->lo, r->hi, (unsigned)r->segment);
 }
 
-static void compare_plain(tally *t, rng *r, uint64_t cases, double count) {
+static void compare_plain(tally *t, rng *r, uint64_t cases, double count, bool either_sign) {
     static double (*const bounds[])(const dp_setup *, double) = {toy_bound, falling_bound, jumping_bound, NULL};
     for (uint64_t n = 0; n < cases; n++) {
-        const dp_setup setup = random_setup(r);
+        const dp_setup setup = random_setup(r, either_sign);
         census_request q = {.setup = &setup, .bound = bounds[rng_below(r, sizeof bounds / sizeof bounds[0])]};
+        if (either_sign && q.bound != NULL)
+            q.bound = tent_bound;
         if (rng_below(r, 4) > 0) /* borders between segments, far more than usual */
             q.segment = (uint32_t)rng_log(r, 1.0, 20000.0);
         static census_result want, got;
         char text[256];
         random_range(r, &setup, count * rng_unit(r), &q.lo, &q.hi);
-        if (census_count(q.lo, q.hi) == 0)
+        if (census_count(q.lo, q.hi) == 0 || census_count(q.lo, q.hi) > 1U << 22)
             continue;
         plain_census(&q, &want);
         assert_int_equal(census_run(&q, &got), CENSUS_DONE);
@@ -184,9 +226,21 @@ static void matches_plain(void **state) {
     (void)state;
     tally t = {.name = "census against plain census"};
     rng r = rng_make("census");
-    compare_plain(&t, &r, test_cases(30, 400, 4000), 200.0);
-    compare_plain(&t, &r, test_cases(20, 300, 3000), 5000.0);
-    compare_plain(&t, &r, test_cases(2, 24, 400), 1.5e6);
+    compare_plain(&t, &r, test_cases(30, 400, 4000), 200.0, false);
+    compare_plain(&t, &r, test_cases(20, 300, 3000), 5000.0, false);
+    compare_plain(&t, &r, test_cases(2, 24, 400), 1.5e6, false);
+    tally_end(&t);
+}
+
+/* Of an orthographic camera, whose depths may be 0 and negative. */
+static void matches_plain_of_either_sign(void **state) {
+    (void)state;
+    tally t = {.name = "census of either sign against plain census"};
+    rng r = rng_make("census of either sign");
+    compare_plain(&t, &r, test_cases(60, 800, 8000), 200.0, true);
+    compare_plain(&t, &r, test_cases(20, 300, 3000), 5000.0, true);
+    compare_plain(&t, &r, test_cases(2, 24, 400), 1.5e6, true);
+    assert_true(t.cases > test_cases(60, 900, 9000));
     tally_end(&t);
 }
 
@@ -202,6 +256,42 @@ static dp_setup setup_of(double znear, double zfar, const char *format, dp_mappi
     assert_int_equal(dp_arith_parse(arith, &spec.arith), DP_OK);
     assert_int_equal(dp_setup_init(&setup, &spec), DP_OK);
     return setup;
+}
+
+static dp_setup ortho_of(double znear, double zfar, const char *format) {
+    dp_spec spec = setup_of(1.0, 2.0, format, DP_MAPPING_D3D, "ieee").spec;
+    dp_setup setup;
+    spec.ortho = true;
+    spec.znear = znear;
+    spec.zfar = zfar;
+    assert_int_equal(dp_setup_init(&setup, &spec), DP_OK);
+    return setup;
+}
+
+/* Depths next to 0 are one band, which has what the bands have that a census of them alone shows. */
+static void near_0_is_one_band(void **state) {
+    (void)state;
+    static census_result whole, part;
+    const dp_setup shadow = ortho_of(-10.0, 500.0, "unorm16"), tiny = ortho_of(0.0, 1e-12, "fp32");
+    const census_sample_request q = {.common = {.setup = &shadow, .lo = -10.0, .hi = 500.0}, .count = 10000};
+    assert_int_equal(census_sample(&q, &whole), CENSUS_DONE);
+    assert_int_equal(whole.band_count, 18);
+    for (int i = 0; i < whole.band_count; i++)
+        assert_true(i == 0 ? whole.bands[i].lo == -10.0 : whole.bands[i].lo == whole.bands[i - 1].hi);
+    assert_true(whole.bands[1].lo == -8.0 && whole.bands[6].lo == -0.25 && whole.bands[6].hi == 0.25);
+    assert_true(whole.bands[7].hi == 0.5 && whole.bands[17].lo == 256.0 && whole.bands[17].hi == 500.0);
+    assert_true(whole.bands[6].pairs > 9000 && whole.all.pairs == 10000);
+
+    census_request all = {.setup = &tiny, .lo = 0.0, .hi = 0x1p-115};
+    assert_int_equal(census_run(&all, &whole), CENSUS_DONE);
+    all.hi = 0x1p-125;
+    assert_int_equal(census_run(&all, &part), CENSUS_DONE);
+    assert_int_equal(whole.band_count, 12);
+    assert_int_equal(part.band_count, 3);
+    assert_true(whole.bands[0].lo == 0.0 && whole.bands[0].hi == 0x1p-125);
+    assert_true(whole.bands[0].pairs == part.all.pairs && whole.bands[0].ties == part.all.ties);
+    assert_true(part.all.ties > 0 && part.all.ties < part.all.pairs && whole.bands[0].swaps == part.all.swaps);
+    assert_true(whole.bands[0].longest == part.all.longest && whole.bands[0].longest_z == part.all.longest_z);
 }
 
 /* Across a power of two: one code on both sides of it, in segments that are shorter than the interval. */
@@ -304,7 +394,7 @@ static void same_levels(void **state) {
     rng r = rng_make("levels");
     const uint64_t cases = test_cases(30, 600, 6000);
     for (uint64_t n = 0; n < cases; n++) {
-        const dp_setup setup = random_setup(&r);
+        const dp_setup setup = random_setup(&r, n % 4 == 0);
         census_request q = {.setup = &setup, .threads = 1};
         static census_result first, other;
         char text[256];
@@ -455,6 +545,8 @@ static void refuses(void **state) {
     assert_int_equal(census_run(&q, &got), CENSUS_RANGE);
     q.hi = 0.05;
     assert_int_equal(census_run(&q, &got), CENSUS_RANGE);
+    q.lo = -(double)INFINITY;
+    assert_int_equal(census_run(&q, &got), CENSUS_RANGE);
     q.lo = 1.00000001; /* no binary32 value between these two */
     q.hi = 1.00000002;
     assert_int_equal(census_run(&q, &got), CENSUS_RANGE);
@@ -471,6 +563,8 @@ static void refuses(void **state) {
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(matches_plain),
+        cmocka_unit_test(matches_plain_of_either_sign),
+        cmocka_unit_test(near_0_is_one_band),
         cmocka_unit_test(matches_plain_where_ties_are_rare),
         cmocka_unit_test(matches_plain_across_bands),
         cmocka_unit_test(names_the_nearest_of_equally_long),

@@ -242,6 +242,14 @@ static void ties_are_counted_when_needed(void **state) {
     j = judge_one(reversed, "range = (0.1, 1e30); ties = 0.5;"); /* more depths than a census is for */
     assert_true(j.counted == 1 && j.verdicts[0].method == CHECK_SAMPLED);
     done(&j);
+    static const char sun[] =
+        "near = -10; far = 50; ortho = true; mapping = \"d3d\"; format = \"unorm16\"; model = \"fp32\";";
+    j = judge_one(sun, "range = [-10, 50]; ties = 0.5;"); /* 0 is in the midst of all binary32 numbers */
+    assert_true(j.counted == 1 && j.verdicts[0].method == CHECK_SAMPLED);
+    done(&j);
+    j = judge_one(sun, "range = [-9, -8]; ties = 0.5;");
+    assert_true(j.counted == 1 && j.verdicts[0].method == CHECK_CENSUS);
+    done(&j);
     share_to_find = 0.0; /* none found, and none allowed */
     j = judge_one(d3d, "range = [1, 2]; ties = 0;");
     assert_true(j.counted == 1 && j.failed == 0 && j.verdicts[0].passed);

@@ -697,6 +697,22 @@ static void test_limits(void **state) {
     const effect_view moved = view_of(&ortho);
     parameter_defaults(effect_find("motion-blur")->parameters, p);
     assert_true(effect_error(effect_find("motion-blur"), &moved, p, 10) == 0);
+    /* Behind an orthographic camera a cell is as wide as before it: 65535 steps of 60/65535. */
+    dp_format found[2];
+    dp_format_parse("unorm16", found);
+    spec.format = found[0];
+    spec.znear = -10;
+    spec.zfar = 50;
+    assert_int_equal(dp_setup_init(&ortho, &spec), DP_OK);
+    const effect_view behind = view_of(&ortho);
+    for (double z = -9.5; z < 50; z += 1.25) {
+        const double half = 30.0 / 65535;
+        parameter_defaults(effect_find("intersection")->parameters, p);
+        assert_relative(effect_error(effect_find("intersection"), &behind, p, z), 255 * half / 0.1, 1e-9);
+        assert_relative(effect_usable(effect_find("intersection"), &behind, p, z, 1), 255 * half, 1e-9);
+        parameter_defaults(effect_find("force-field")->parameters, p);
+        assert_relative(effect_error(effect_find("force-field"), &behind, p, z), 255 * half, 1e-9);
+    }
     /* No cells, no error. */
     pipeline.spec.model = DP_MODEL_FP32;
     const effect_view none = view_of(&pipeline);

@@ -5,6 +5,7 @@
 #include <string.h>
 
 #include "cli/option_rows.h"
+#include "parsed.h"
 #include "support.h"
 
 #define AT(member) offsetof(options, member)
@@ -19,7 +20,7 @@ static double number_at(const options *o, size_t field) {
 
 enum { WORDS_MAX = 16 };
 
-/* A whole command line, words parted by '|'; `line` as parse() has it. */
+/* A whole command line, words parted by '|'; `line` as parsed() has it. */
 static int parse_line(options *o, const char *words, char line[1024]) {
     static char text[512];
     char *argv[WORDS_MAX + 1] = {(char[]){"depthprec"}};
@@ -27,14 +28,7 @@ static int parse_line(options *o, const char *words, char line[1024]) {
     snprintf(text, sizeof text, "%s", words);
     for (char *word = strtok(text, "|"); word != NULL && argc < WORDS_MAX; word = strtok(NULL, "|"))
         argv[argc++] = word;
-    memset(line, 0, 1024);
-    FILE *const terminal = stderr;
-    stderr = fmemopen(line, 1024, "w");
-    const int status = options_parse(o, argc, argv);
-    fclose(stderr);
-    stderr = terminal;
-    line[strcspn(line, "\n")] = '\0';
-    return status;
+    return parsed(o, argc, argv, line);
 }
 
 /* What a line makes of a field, converted by hand. */

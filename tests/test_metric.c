@@ -191,6 +191,9 @@ static void it_is_suspected(void **state) {
     assert_int_equal(truth_run(c.arguments, c.count), 2);
     assert_true(was_said("--metric"));
     picture(&r, &(metric_kind){"millimetres", IMAGE_U16, 0.001, 20, 1}, z);
+    json_t *root = statistics(&c);
+    assert_string_equal(json_string_value(json_object_get(root, "direction_from")), "assumed"); /* no sky, but holes */
+    json_decref(root);
     command quiet = c;
     truth_add(&quiet, "--eye");
     truth_add(&quiet, "-o");

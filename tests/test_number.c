@@ -146,6 +146,8 @@ static void rounded(void **unused) {
         assert_true(up >= value && up <= value + 1.001 * unit);
         assert_true(down <= value && down >= value - 1.001 * unit);
         assert_true(strlen(number_up(value, 4).text) <= strlen("1.234e-123"));
+        assert_true(strtod(number_up(-value, 4).text, NULL) == -down &&
+                    strtod(number_down(-value, 4).text, NULL) == -up);
     }
     static const struct {
         double value;
@@ -156,7 +158,7 @@ static void rounded(void **unused) {
                  {1.25, "1.25", "1.25", "1.25"},
                  {0.0, "0", "0", "0"},
                  {-0.0, "0", "0", "0"},
-                 {-1.2399, "-1.24", "-1.24", "-1.24"},
+                 {-1.2399, "-1.23", "-1.24", "-1.24"},
                  {INFINITY, "inf", "inf", "inf"},
                  {-INFINITY, "-inf", "-inf", "-inf"},
                  {NAN, "-", "-", "-"}};

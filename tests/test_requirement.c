@@ -172,7 +172,6 @@ static const struct {
     {CAMERA NEEDS("range = [1, 2, 3]; separation = 1;"), 2, "range: must be two depths"},
     {CAMERA NEEDS("range = 1; separation = 1;"), 2, "range: must be two depths"},
     {SUN NEEDS("at = -1.5; separation = 1;"), 2, "within near and far of the camera 'a', -1 and 2, got -1.5"},
-    {SUN NEEDS("range = [-1, 2]; ties = 0.5;"), 2, "ties: needs a range of depths above 0, got -1"},
     {SUN NEEDS("at = 1; separation = -1;"), 2, "separation: must be a finite length above 0"},
     {CAMERA NEEDS("at = -1; separation = 1;"), 2, "at: must be a finite length above 0"},
     {CAMERA NEEDS("at = 1; separation = 0;"), 2, "separation: must be a finite length above 0"},

@@ -20,6 +20,7 @@ static const char *const needs =
     "  shader = { near = 0.1; far = 1000; mapping = \"gl-reversed\"; format = \"fp32\"; model = \"fp32\"; };\n"
     "  both = { near = 0.5; far = 900; mapping = \"reversed\"; format = \"depth24plus\"; model = \"auto\"; };\n"
     "  flat = { near = 1; far = 200; mapping = \"gl\"; format = \"unorm16\"; ortho = true; model = \"staged\"; };\n"
+    "  sun = { near = -8; far = 9; mapping = \"d3d\"; format = \"unorm24\"; ortho = true; model = \"fp32\"; };\n"
     "};\n"
     "requirements = (\n"
     "  { name = \"%s\"; camera = \"plain\"; range = (0.5, 321.5); separation = \"50 mm\"; },\n"
@@ -28,6 +29,7 @@ static const char *const needs =
     "  { name = \"many\"; camera = \"shader\"; range = (1.5, 1.52); ties = 0.99; },\n"
     "  { name = \"point\"; camera = \"both\"; at = 77.5; separation = 0.25; },\n"
     "  { name = \"wall\"; camera = \"flat\"; range = (1, 150.5); error = \"3 mm\"; },\n"
+    "  { name = \"shadow\"; camera = \"sun\"; range = (-4.01, -3.99); ties = 0.9; },\n"
     "  { name = \"none\"; camera = \"both\"; range = (3, 4); ties = 0.5; }\n"
     ");\n";
 
@@ -59,7 +61,7 @@ static bool count_ties(void *context, const dp_setup *setup, double lo, double h
         const float b = nextafterf(a, HUGE_VALF);
         wrong += sign * (double)dp_pipeline_code(&p, b) <= sign * (double)dp_pipeline_code(&p, a);
         all++;
-        const double next = exp2(floor(log2((double)a)) + 1);
+        const double next = a < 0 ? -exp2(ceil(log2(-(double)a)) - 1) : exp2(floor(log2((double)a)) + 1);
         if ((double)b < next && (double)nextafterf(b, HUGE_VALF) <= hi)
             continue;
         if (wrong / all > worst) {

@@ -70,6 +70,15 @@ static const struct {
      359,
      {640, 360, 60, 5, 10, 0, {0, 0, 0}},
      {640, 360, 59, 5, 9, 1, {0.1, 0.05, 0}}},
+    {{-10, 50, {"unorm16", "fp32"}, {"d3d"}, .ortho = 1}, "intersection", {-9, -0.5, 0, 3, 40}, .view = NULL},
+    {{-10, 50, {"unorm16"}, {"reversed"}, .ortho = 1},
+     "height-fog",
+     {-9, -0.5, 0.25, 3, 40},
+     "--pitch -20",
+     320,
+     359,
+     {640, 360, 60, 5, 0, -20, {0, 0, 0}},
+     {640, 360, 60, 5, 0, -20, {0, 0, 0}}},
 };
 
 /* The axis of a camera at the origin where the effect needs none. */

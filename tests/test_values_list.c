@@ -259,7 +259,9 @@ static void check_forms(const json_t *items, const char *what, const char *bound
             const char *field = fields[k] != NULL ? fields[k] : "";
             want_text(&v, keys[k], field);
             used += (size_t)snprintf(words + used, sizeof words - used, "%s", *field != '\0' ? labels[k] : "");
-            for (const char *at = field; *at != '\0'; at++)
+            /* The model fp32 is float in text, as a format has its name. */
+            const bool is_other = strcmp(what, "models") == 0 && *aliases != '\0' && (k == 0 || k == 4);
+            for (const char *at = is_other ? fields[4 - k] : field; *at != '\0'; at++)
                 if (!isspace((unsigned char)*at))
                     words[used++] = *at;
         }

@@ -5,9 +5,9 @@
 #include <string.h>
 
 #include "named.h"
-#include "printed.h"
 #include "texture/frame.h"
 #include "texture/image_depths.h"
+#include "views.h"
 
 enum { WIDTH = 40, HEIGHT = 24, PIXELS = 4 };
 
@@ -88,20 +88,6 @@ static void write_image(const char *path, image *out) {
     fwrite(samples, sizeof *samples, WIDTH * HEIGHT, file);
     assert_int_equal(fclose(file), 0);
     *out = (image){.width = WIDTH, .height = HEIGHT, .channels = 1, .type = IMAGE_F32, .data = samples};
-}
-
-static void camera_of(const pixel_case *c, texture_camera *out) {
-    dp_setup setup[CAMERA_SETUPS];
-    camera_spec spec = camera_spec_default();
-    assert_int_equal(camera_setups(&c->camera, setup), 1);
-    spec.width = WIDTH;
-    spec.height = HEIGHT;
-    spec.fov_y = isnan(c->fov) ? spec.fov_y : c->fov;
-    spec.half_height = isnan(c->half_height) ? spec.half_height : c->half_height;
-    spec.yaw = c->yaw;
-    spec.pitch = c->pitch;
-    memcpy(spec.origin, c->origin, sizeof spec.origin);
-    assert_null(camera_init(out, setup, &spec));
 }
 
 static bool keep(void *context, uint32_t row, uint32_t count, const float *made) {
@@ -306,7 +292,7 @@ static void test_pixels(void **state) {
         char arguments[2048];
         line_places lines = {0};
         values v = values_of("texture");
-        camera_of(c, &camera);
+        camera = view_placed(&c->camera, WIDTH, HEIGHT, c->fov, c->half_height, c->yaw, c->pitch, c->origin);
         const size_t used = prepare(c, &f, &shot, parameters, arguments);
         want_all(&v, c, &f, arguments, used, &lines);
         check_json(&v, 0, arguments);

@@ -136,26 +136,24 @@ static dp_setup setup_of(double znear, double zfar, const char *format, dp_mappi
 }
 
 /* A field is the widest cell of a camera with the near and far plane that stand beside it. */
-static void test_map(void **state) {
+/* Near and far of every field, on even steps of the axes; what is known of each against the library. */
+static void check_map(const json_t *root, dp_spec spec, bool any_sign) {
     tally t = {.name = "map"};
-    json_t *root = plot("map -F unorm16 -m d3d -n 0.5 -f 300 --title 'a \"quoted\" ti\\tle'"), *point;
+    json_t *point;
     const json_t *panel = at(root, "panels", 0), *camera = at(panel, "series", 0), *map = at(panel, "series", 1);
-    size_t i, known = 0, nears = 0, fars = 0;
+    const char *scale = any_sign ? "linear" : "log";
+    size_t i, known = 0, nears = 0, fars = 0, behind = 0;
     double last[2] = {0, 0};
-    (void)state;
-    check_axis(root, "x", "near", "near plane", "scene units", "log");
-    check_axis(root, "y", "far", "far plane", "scene units", "log");
+    check_axis(root, "x", "near", "near plane", "scene units", scale);
+    check_axis(root, "y", "far", "far plane", "scene units", scale);
     check_axis(root, "value", "interval", "worst z-fighting interval", "scene units", "log");
     assert_string_equal(text_in(root, "figure"), "map");
-    assert_string_equal(text_in(root, "title"), "a \"quoted\" ti\\tle");
-    assert_string_equal(text_in(root, "subtitle"),
-                        "unorm16 d3d, near 0.5, far 300, perspective, nearest, exact. Hatched: far is not behind near");
     assert_string_equal(text_in(map, "name"), "map");
     assert_string_equal(text_in(camera, "name"), "camera");
-    assert_true(number_in(at(camera, "points", 0), "near") == 0.5 && number_in(at(camera, "points", 0), "far") == 300);
+    const json_t *place = at(camera, "points", 0);
+    assert_true(number_in(place, "near") == spec.znear && number_in(place, "far") == spec.zfar);
     json_array_foreach(json_object_get(map, "points"), i, point) {
         const double znear = number_in(point, "near"), zfar = number_in(point, "far");
-        dp_spec spec = setup_of(0.5, 300, "unorm16", DP_MAPPING_D3D, DP_MODEL_EXACT).spec;
         dp_worst worst = {.interval = NAN};
         dp_setup setup;
         spec.znear = znear;
@@ -166,14 +164,32 @@ static void test_map(void **state) {
         TALLY(&t, got == worst.interval || (isnan(got) && isnan(worst.interval)), "near %g far %g: %g, not %g", znear,
               zfar, got, worst.interval);
         known += isfinite(got) ? 1 : 0;
+        behind += isfinite(got) && znear < 0 ? 1 : 0;
         nears += znear != last[0];
         fars += zfar != last[1];
         last[0] = znear;
         last[1] = zfar;
     }
     TALLY(&t, known > 100 && nears > 2 * fars && fars > 10, "%zu values, %zu and %zu steps", known, nears, fars);
-    json_decref(root);
+    assert_true((behind > 0) == any_sign);
     tally_end(&t);
+}
+
+static void test_map(void **state) {
+    json_t *root = plot("map -F unorm16 -m d3d -n 0.5 -f 300 --title 'a \"quoted\" ti\\tle'");
+    dp_spec spec = setup_of(0.5, 300, "unorm16", DP_MAPPING_D3D, DP_MODEL_EXACT).spec;
+    (void)state;
+    assert_string_equal(text_in(root, "title"), "a \"quoted\" ti\\tle");
+    assert_string_equal(text_in(root, "subtitle"),
+                        "unorm16 d3d, near 0.5, far 300, perspective, nearest, exact. Hatched: far is not behind near");
+    check_map(root, spec, false);
+    json_decref(root);
+    root = plot("map --ortho -F unorm16 -m d3d -n -10 -f 50");
+    spec.ortho = true;
+    spec.znear = -10;
+    spec.zfar = 50;
+    check_map(root, spec, true);
+    json_decref(root);
 }
 
 static const char *cause_of(const json_t *series, int *cause) {

@@ -5,11 +5,11 @@
 #include <string.h>
 
 #include "named.h"
-#include "printed.h"
 #include "texture/decode.h"
 #include "texture/frame.h"
 #include "texture/recognise.h"
 #include "texture/survey.h"
+#include "views.h"
 
 enum { WIDTH = 40, HEIGHT = 24 };
 
@@ -273,20 +273,6 @@ static void check_forms(values *v, const char *arguments, size_t errors, line_pl
     check_text(v, arguments, errors, lines);
 }
 
-static void camera_of(const texture_case *c, texture_camera *out, uint32_t width, uint32_t height) {
-    dp_setup setup[CAMERA_SETUPS];
-    camera_spec spec = camera_spec_default();
-    assert_int_equal(camera_setups(&c->camera, setup), 1);
-    spec.width = width;
-    spec.height = height;
-    spec.fov_y = isnan(c->fov) ? spec.fov_y : c->fov;
-    spec.half_height = isnan(c->half_height) ? spec.half_height : c->half_height;
-    spec.yaw = c->yaw;
-    spec.pitch = c->pitch;
-    memcpy(spec.origin, c->origin, sizeof spec.origin);
-    assert_null(camera_init(out, setup, &spec));
-}
-
 /* The scene's own, but for those of the case; their options behind the others. */
 static void want_parameters(values *v, const texture_case *c, const scene_row *scene, double *parameters,
                             char options[256]) {
@@ -316,7 +302,7 @@ static void test_scenes(void **state) {
         line_places lines = {0};
         values v = values_of("texture");
         v.unit = c->camera.unit;
-        camera_of(c, &camera, WIDTH, HEIGHT);
+        camera = view_placed(&c->camera, WIDTH, HEIGHT, c->fov, c->half_height, c->yaw, c->pitch, c->origin);
         want_parameters(&v, c, scene_find(c->scene), parameters, more);
         const frame f = {.camera = &camera, .scene = scene_find(c->scene), .parameters = parameters, .sky = c->sky};
         values_under(&v, "%s", "");
@@ -577,7 +563,7 @@ static void test_images(void **state) {
         const uint64_t holes = write_image(path, images[i].floats, images[i].damaged, images[i].sky, images[i].spread);
         assert_true(image_read(path, &shot, &error));
         recognise(&shot, &found);
-        camera_of(c, &camera, COLUMNS, ROWS);
+        camera = view_placed(&c->camera, COLUMNS, ROWS, c->fov, c->half_height, c->yaw, c->pitch, c->origin);
         const frame f = {.camera = &camera, .image = &shot, .grain = &images[i].samples, .sky = c->sky};
         want_image(&v, path, &shot, &found);
         want_samples(&v, &images[i].samples, images[i].coarser);

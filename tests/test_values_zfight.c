@@ -43,6 +43,15 @@ static const zfight_case cases[] = {
      5000,
      UINT64_C(8589934597)},
     {{2, 60, {"unorm24"}, {"d3d"}, .implied = true, .model = DP_MODEL_FP32, .ortho = 1}, 3, 50, 4e-6, 3000, 7},
+    /* Behind the camera. */
+    {{-100, 60, {"unorm24"}, {"d3d"}, .implied = true, .model = DP_MODEL_FP32, .ortho = 1}, -8.01, -7.99, 0, 0, 0},
+    {{-100, 60, {"unorm24"}, {"d3d"}, .implied = true, .model = DP_MODEL_FP32, .ortho = 1}, -8.01, -7.99, 8e-6, 0, 0},
+    {{-100, 60, {"unorm16"}, {"reversed"}, .implied = true, .model = DP_MODEL_FP32, .ortho = 1},
+     -100,
+     60,
+     1e-3,
+     900,
+     3},
 };
 
 static void census_of(const zfight_case *c, const dp_setup *setup, census_result *out) {

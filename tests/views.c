@@ -26,6 +26,23 @@ texture_camera view_camera(const char *format, dp_mapping mapping, double znear,
     return camera;
 }
 
+texture_camera view_placed(const camera_case *c, uint32_t width, uint32_t height, double fov, double half_height,
+                           double yaw, double pitch, const double origin[3]) {
+    dp_setup setup[CAMERA_SETUPS];
+    texture_camera camera;
+    camera_spec spec = camera_spec_default();
+    assert_int_equal(camera_setups(c, setup), 1);
+    spec.width = width;
+    spec.height = height;
+    spec.fov_y = isnan(fov) ? spec.fov_y : fov;
+    spec.half_height = isnan(half_height) ? spec.half_height : half_height;
+    spec.yaw = yaw;
+    spec.pitch = pitch;
+    memcpy(spec.origin, origin, sizeof spec.origin);
+    assert_null(camera_init(&camera, setup, &spec));
+    return camera;
+}
+
 void view_slopes(const texture_camera *c, double column, double row, double *sx, double *sy) {
     *sx = (2 * ((column + 0.5) / c->width) - 1) * c->half[0];
     *sy = (2 * (1 - (row + 0.5) / c->height) - 1) * c->half[1];

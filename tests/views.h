@@ -3,12 +3,16 @@
 #ifndef TESTS_VIEWS_H
 #define TESTS_VIEWS_H
 
-#include "support.h"
+#include "printed.h"
 #include "texture/normal.h"
 
 /** A checked camera; `extent` is the field of view in degrees or half the height. */
 texture_camera view_camera(const char *format, dp_mapping mapping, double znear, double zfar, bool ortho,
                            uint32_t width, uint32_t height, double extent);
+
+/** The same for a camera of the tests of printed values, turned and moved; NaN for the default of either extent. */
+texture_camera view_placed(const camera_case *c, uint32_t width, uint32_t height, double fov, double half_height,
+                           double yaw, double pitch, const double origin[3]);
 
 /** The pixel grid from the definition in camera.h. */
 void view_slopes(const texture_camera *c, double column, double row, double *sx, double *sy);

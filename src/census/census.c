@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /*
- * One pass in two levels. The range is cut into segments inside one band, and each is swept from its far end, block
+ * One pass in two levels. The range is cut into segments inside one binade, and each is swept from its far end, block
  * after block. For every run of 64 depths the sweep keeps the greatest key and the least key from it on to the
  * segment's end. Two depths at least D steps apart that are out of order show themselves there, so a run is looked at
  * one by one only when it may hold an interval longer than the longest so far; where D is below a run's length, the
@@ -20,8 +20,8 @@
 enum { SEGMENT = 1 << 18, SEGMENT_RUNS = SEGMENT / CENSUS_RUN };
 
 typedef struct segment {
-    uint32_t first, count;
-    size_t block; /* its first block, in the list of all */
+    uint32_t first, count; /* depths by rank */
+    size_t block;          /* its first block, in the list of all */
     int band;
     census_band found; /* pairs and bounds are not filled in */
 } segment;
@@ -30,7 +30,7 @@ typedef struct census {
     const census_request *request;
     const census_level *level;
     census_plan plan;
-    uint32_t first, last; /* of the whole range */
+    census_range range;
     segment *segments;
     size_t segment_count, block_count;
     uint32_t *block_first;
@@ -55,9 +55,9 @@ static int falls(double here, double farther) {
     return farther < 0.9995 * here;
 }
 
-static double bound_of(const census *c, uint32_t bits) {
+static double bound_of(const census *c, uint32_t rank) {
     const census_request *r = c->request;
-    return r->bound != NULL ? r->bound(r->setup, (double)dp_float32(bits)) : HUGE_VAL;
+    return r->bound != NULL ? r->bound(r->setup, (double)dp_ranked32(rank)) : HUGE_VAL;
 }
 
 /* ---- A segment --------------------------------------------------------------------------------------------------- */
@@ -67,7 +67,8 @@ typedef struct sweep {
     segment *s;
     uint32_t last;                    /* of the segment */
     uint32_t runs;                    /* with those that fill the last block up */
-    double step;                      /* of the band */
+    double step;                      /* of the segment */
+    double halves;                    /* steps that the surfaces may be farther apart than the depths they round to */
     double steps_known;               /* what is not above it tells nothing new */
     double bound;                     /* the least guaranteed separation in the block at hand */
     double bound_above;               /* at the far end of the block at hand */
@@ -84,15 +85,15 @@ static void run_keys(const sweep *w, uint32_t run, int32_t key[CENSUS_RUN]) {
     float z[CENSUS_RUN];
     for (uint32_t i = 0; i < CENSUS_RUN; i++) {
         const uint32_t bits = w->s->first + run * CENSUS_RUN + i;
-        z[i] = dp_float32(bits < w->last ? bits : w->last);
+        z[i] = dp_ranked32(bits < w->last ? bits : w->last);
     }
     w->c->level->keys(&w->c->plan, z, CENSUS_RUN, key);
 }
 
-/* Only intervals of more than this many steps tell anything new. The surfaces themselves are a step more apart. */
+/* Only intervals of more than this many steps tell anything new. */
 static uint32_t known_steps(const sweep *w) {
     double steps = fmax(w->s->found.longest / w->step, w->steps_known);
-    const double by_slack = fmax(w->s->found.slack * w->bound / w->step - 1.0 + 1e-6, 0.0);
+    const double by_slack = fmax(w->s->found.slack * w->bound / w->step - w->halves + 1e-6, 0.0);
     if (by_slack < steps)
         steps = floor(by_slack);
     return steps < SEGMENT ? (uint32_t)steps : SEGMENT;
@@ -128,7 +129,7 @@ static void look_at_run(sweep *w, uint32_t run) {
             end = s->count - 1;
         if (end < from)
             continue;
-        census_note(w->c->request, &s->found, dp_float32(s->first + place), dp_float32(s->first + end));
+        census_note(w->c->request, &s->found, dp_ranked32(s->first + place), dp_ranked32(s->first + end));
         known = known_steps(w);
     }
 }
@@ -175,7 +176,7 @@ static void count_block(sweep *w, const census_sight *sight, uint32_t offset) {
     found->ties += sight->ties - filling;
     found->swaps += sight->swaps;
     found->clipped += sight->clipped;
-    if (filling > 0 && !dp_pipeline_drawn(&w->c->plan.pipeline, dp_float32(w->last)))
+    if (filling > 0 && !dp_pipeline_drawn(&w->c->plan.pipeline, dp_ranked32(w->last)))
         found->clipped -= filling;
 }
 
@@ -191,6 +192,7 @@ static void sweep_segment(const census *c, segment *s, double longest, sweep *w)
     w->last = s->first + s->count - 1;
     w->runs = blocks * CENSUS_RUNS;
     w->step = census_step(s->first);
+    w->halves = 0.5 * (census_ulp(dp_ranked32(s->first)) + census_ulp(dp_ranked32(w->last))) / w->step;
     w->steps_known = longest / w->step - 1.0;
     w->bound = w->bound_above = bound_of(c, w->last);
     w->beyond[w->runs] = INT32_MAX;
@@ -198,8 +200,8 @@ static void sweep_segment(const census *c, segment *s, double longest, sweep *w)
         w->before[i] = INT32_MAX;
     w->before_known = 1;
     s->found = (census_band){.longest_z = (double)NAN, .slack_z = (double)NAN};
-    const int has_next = w->last < c->last;
-    int32_t next = has_next ? census_key(&c->plan, dp_float32(w->last + 1)) : 0;
+    const int has_next = w->last < c->range.last;
+    int32_t next = has_next ? census_key(&c->plan, dp_ranked32(w->last + 1)) : 0;
     for (uint32_t b = blocks; b-- > 0;) {
         census_sight sight;
         c->level->block(&c->plan, s->first + b * CENSUS_BLOCK, w->last, w->key, &sight);
@@ -251,7 +253,7 @@ static double nearest_longest(const census *c, segment *s, sweep *w) {
 /* ---- Across segments --------------------------------------------------------------------------------------------- */
 
 static uint32_t block_last(const census *c, size_t block) {
-    return block + 1 < c->block_count ? c->block_first[block + 1] - 1 : c->last;
+    return block + 1 < c->block_count ? c->block_first[block + 1] - 1 : c->range.last;
 }
 
 static void keys_of_block(const census *c, size_t block, int32_t key[CENSUS_BLOCK]) {
@@ -259,7 +261,7 @@ static void keys_of_block(const census *c, size_t block, int32_t key[CENSUS_BLOC
     const uint32_t first = c->block_first[block];
     const uint32_t last = block_last(c, block);
     for (uint32_t i = 0; i < CENSUS_BLOCK; i++)
-        z[i] = dp_float32(first + i < last ? first + i : last);
+        z[i] = dp_ranked32(first + i < last ? first + i : last);
     c->level->keys(&c->plan, z, CENSUS_BLOCK, key);
 }
 
@@ -286,15 +288,15 @@ static void look_at_block(const census *c, size_t block, size_t from, int64_t hi
         uint32_t end = block_last(c, other) - c->block_first[other];
         while (end > 0 && away[end] > v)
             end--;
-        census_note(c->request, band, dp_float32(c->block_first[block] + i), dp_float32(c->block_first[other] + end));
+        census_note(c->request, band, dp_ranked32(c->block_first[block] + i), dp_ranked32(c->block_first[other] + end));
     }
 }
 
 /* @param least_bound  the smaller guarantee of the block's ends */
 static int worth_a_look(const census *c, size_t block, size_t from, double least_bound, const census_band *band) {
-    const double z1 = (double)dp_float32(c->block_first[block]);
-    const double most = (double)dp_float32(block_last(c, last_block(c, from, c->greatest[block]))) - z1;
-    const double halves = census_step(dp_bits32((float)(z1 + most)));
+    const double z1 = (double)dp_ranked32(c->block_first[block]);
+    const double most = (double)dp_ranked32(block_last(c, last_block(c, from, c->greatest[block]))) - z1;
+    const double halves = fmax(census_ulp((float)z1), census_ulp((float)(z1 + most)));
     return most >= band->longest || most + halves >= band->slack * least_bound;
 }
 
@@ -335,17 +337,17 @@ static size_t cut(census *c, segment *segments) {
     const uint32_t longest = asked > 0 && asked < SEGMENT ? asked : SEGMENT;
     size_t count = 0;
     size_t block = 0;
-    for (uint64_t first = c->first; first <= c->last; count++) {
-        uint64_t end = (first | 0x7FFFFFU) + 1; /* of the band */
-        if (end > (uint64_t)c->last + 1)
-            end = (uint64_t)c->last + 1;
+    for (uint64_t first = c->range.first; first <= c->range.last; count++) {
+        uint64_t end = (first | 0x7FFFFFU) + 1; /* of the binade */
+        if (end > (uint64_t)c->range.last + 1)
+            end = (uint64_t)c->range.last + 1;
         if (end - first > longest)
             end = first + longest;
         if (segments != NULL)
             segments[count] = (segment){.first = (uint32_t)first,
                                         .count = (uint32_t)(end - first),
                                         .block = block,
-                                        .band = census_band_of(c->first, (uint32_t)first)};
+                                        .band = census_band_of(&c->range, (uint32_t)first)};
         block += (end - first + CENSUS_BLOCK - 1) / CENSUS_BLOCK;
         first = end;
     }
@@ -436,7 +438,7 @@ static int locate(census *c, census_result *result) {
 
 census_status census_run(const census_request *request, census_result *result) {
     census c = {.request = request, .level = request->level != NULL ? request->level : census_level_best()};
-    census_status status = census_open(request, &c.plan, result, &c.first, &c.last);
+    census_status status = census_open(request, &c.plan, result, &c.range);
     if (status != CENSUS_DONE)
         return status;
     if (!allocate(&c)) {
@@ -449,7 +451,7 @@ census_status census_run(const census_request *request, census_result *result) {
     } else {
         gather(&c, result);
         status = locate(&c, result) ? CENSUS_DONE : CENSUS_NO_MEMORY;
-        census_close(request, &c.plan, c.first, c.last, result);
+        census_close(request, &c.plan, &c.range, result);
     }
     release(&c);
     return status;

@@ -5,7 +5,9 @@
  * The depths are all binary32 values in [lo, hi]. *Pairs* are neighbours among them; *ties* store equal codes, *swaps*
  * codes in the wrong order; an *interval* is any two depths z1 < z2, neighbours or not, whose codes are not strictly
  * in the right order, and *longest* is the greatest z2 - z1 of all. Nothing is sampled: a result is a fact about the
- * set-up. A band is a binade of z; a pair and an interval belong to the band of their nearer depth.
+ * set-up. A band is a binade of z, of either sign; of a range that reaches 0 or below, what is nearer to 0 than about
+ * 2^-10 of its farther end is one band. A pair and an interval belong to the band of their nearer depth, the lesser
+ * one.
  *
  * Depths outside the clip volume are clamped as a depth clamp does, and counted apart.
  *
@@ -22,7 +24,7 @@ enum { CENSUS_BANDS_MAX = 256 };
 
 /** One band, or all of them together. */
 typedef struct census_band {
-    double lo, hi;        /**< a binade of z cut to the range; hi is the next band's lo */
+    double lo, hi;        /**< of z, cut to the range; hi is the next band's lo */
     uint64_t pairs;       /**< neighbours whose nearer one is in the band */
     uint64_t ties, swaps; /**< of those pairs */
     uint64_t clipped;     /**< depths of the band that clipping would lose */

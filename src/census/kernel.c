@@ -194,8 +194,8 @@ KERNEL void block_keys(const census_plan *plan, uint32_t first, uint32_t last, i
     const uint32_t top = first + CENSUS_BLOCK - 1;
     for (uint32_t row = 0; row < CENSUS_RUN; row++)
         for (uint32_t run = 0; run < CENSUS_RUNS; run++) {
-            const uint32_t bits = top - run * CENSUS_RUN - row;
-            z[row * CENSUS_RUNS + run] = dp_float32(bits < last ? bits : last);
+            const uint32_t rank = top - run * CENSUS_RUN - row;
+            z[row * CENSUS_RUNS + run] = dp_ranked32(rank < last ? rank : last);
         }
     sight->clipped = codes(plan, z, CENSUS_BLOCK, key);
     look(key, sight);

@@ -7,7 +7,7 @@
  *
  * A *key* is a code turned so that a correct buffer has strictly increasing keys with distance: reversed codes are
  * complemented, and the sign bit is flipped so that keys compare as signed numbers, which every instruction set can.
- * Positive binary32 depths are counted by their bit patterns, which are ordered as they are.
+ * Binary32 depths are counted by their ranks, see dp_rank32().
  *
  * A *block* is 1024 neighbouring depths seen as 16 runs of 64. It lies in memory by rows: row r holds the r-th depth,
  * counted from the far end, of all 16 runs, the farthest run first. So neighbours in depth are 16 apart in memory, a
@@ -60,7 +60,7 @@ typedef struct census_level {
     dp_path path; /**< whose instructions it takes */
     /** The keys of `count` depths, at most CENSUS_BLOCK. */
     void (*keys)(const census_plan *plan, const float *z, size_t count, int32_t *key);
-    /** Keys of the block that begins at `first`, by rows; depths behind `last` are taken as `last`. */
+    /** Keys of the block that begins at rank `first`, by rows; depths behind `last` are taken as `last`. */
     void (*block)(const census_plan *plan, uint32_t first, uint32_t last, int32_t *key, census_sight *sight);
     /** reach[p] = the least key among the depths of p's run from p on to the far end, and beyond[run]. */
     void (*reach)(const int32_t *key, const int32_t *beyond, int32_t *reach);

@@ -7,14 +7,17 @@
 #include <omp.h>
 #endif
 
-static int ends_of(double lo, double hi, uint32_t *first, uint32_t *last) {
-    if (!(lo > 0.0 && lo <= hi && hi <= (double)FLT_MAX))
+/* Next to 0 binary32 has more depths than anywhere, and none says more than its neighbours: from 2^-10 of the farther
+ * end on they are one band. */
+static int ends_of(double lo, double hi, census_range *out) {
+    enum { OCTAVES = 10 };
+    if (!(lo <= hi && lo >= -(double)FLT_MAX && hi <= (double)FLT_MAX))
         return 0;
-    const float znear = (float)lo;
-    const float zfar = (float)hi;
-    *first = dp_bits32(znear) + ((double)znear < lo);
-    *last = dp_bits32(zfar) - ((double)zfar > hi);
-    return *first >= 1U << 23 && *first <= *last;
+    out->first = dp_rank32(dp_float_up(lo));
+    out->last = dp_rank32(dp_float_down(hi));
+    const uint32_t farthest = dp_bits32((float)fmax(-lo, hi)) >> 23;
+    out->folded = lo > 0.0 || farthest < OCTAVES ? 0 : farthest - OCTAVES;
+    return out->first <= out->last;
 }
 
 int census_threads(const census_request *request) {
@@ -27,8 +30,8 @@ int census_threads(const census_request *request) {
 }
 
 uint64_t census_count(double lo, double hi) {
-    uint32_t first, last;
-    return ends_of(lo, hi, &first, &last) ? (uint64_t)last - first + 1 : 0;
+    census_range range;
+    return ends_of(lo, hi, &range) ? (uint64_t)range.last - range.first + 1 : 0;
 }
 
 /* A guarantee that reaches beyond far promises nothing there: no two surfaces are farther apart than that. */
@@ -39,27 +42,30 @@ static double bound_at(const census_request *request, double z) {
 /* The guarantee is neither monotone nor smooth: look at it all over the band, and at its last depth. */
 static double greatest_bound(const census_request *request, const census_band *band, int last) {
     enum { LOOKS = 1024 };
-    const double end = last ? band->hi : (double)nextafterf((float)band->hi, 0.0f);
+    const double end = last ? band->hi : (double)nextafterf((float)band->hi, -HUGE_VALF);
     double greatest = bound_at(request, end);
     for (int i = 0; i < LOOKS; i++)
         greatest = fmax(greatest, bound_at(request, band->lo + (end - band->lo) * i / LOOKS));
     return greatest;
 }
 
-census_status census_open(const census_request *request, census_plan *plan, census_result *result, uint32_t *first,
-                          uint32_t *last) {
+census_status census_open(const census_request *request, census_plan *plan, census_result *result,
+                          census_range *range) {
     dp_pipeline pipeline;
     if (dp_pipeline_init(&pipeline, request->setup) != DP_OK)
         return CENSUS_MODEL;
-    if (!ends_of(request->lo, request->hi, first, last))
+    if (!ends_of(request->lo, request->hi, range))
         return CENSUS_RANGE;
     *plan = census_plan_make(&pipeline);
-    *result = (census_result){.band_count = census_band_of(*first, *last) + 1};
+    *result = (census_result){.band_count = census_band_of(range, range->last) + 1};
+    uint32_t binade = range->first >> 23;
     for (int i = 0; i < result->band_count; i++) {
         census_band *band = &result->bands[i];
-        const uint32_t field = (*first >> 23) + (uint32_t)i;
-        band->lo = i == 0 ? request->lo : (double)dp_float32(field << 23);
-        band->hi = i == result->band_count - 1 ? request->hi : 2.0 * (double)dp_float32(field << 23);
+        band->lo = i == 0 ? request->lo : (double)dp_ranked32(binade << 23);
+        do
+            binade++;
+        while (census_band_of(range, binade << 23) == i);
+        band->hi = i == result->band_count - 1 ? request->hi : (double)dp_ranked32(binade << 23);
         band->longest_z = band->slack_z = band->bound = band->first = band->last_apart = (double)NAN;
         if (request->bound != NULL)
             band->bound = greatest_bound(request, band, i == result->band_count - 1);
@@ -69,8 +75,8 @@ census_status census_open(const census_request *request, census_plan *plan, cens
 
 /* Of the guarantee: surfaces are real, and each may be half a step away from the depth that stands for it. */
 static void note_used(const census_request *request, census_band *band, float z1, float z2) {
-    const double half1 = 0.5 * census_step(dp_bits32(z1));
-    const double half2 = 0.5 * census_step(dp_bits32(z2));
+    const double half1 = 0.5 * census_ulp(z1);
+    const double half2 = 0.5 * census_ulp(z2);
     const double bound = request->bound(request->setup, (double)z1);
     const double apart = (double)z2 - (double)z1 + half1 + half2;
     const double slack = bound > 0.0 ? apart / bound : HUGE_VAL; /* no bound at all is a broken one */
@@ -109,13 +115,13 @@ void census_add(census_band *to, const census_band *from) {
     }
 }
 
-/* How many depths lie in first..last and outside [lo, hi]; all, when these are NaN. */
-static uint64_t outside(uint32_t first, uint32_t last, double lo, double hi) {
-    return isnan(lo) ? (uint64_t)last - first + 1
-                     : (uint64_t)(dp_bits32((float)lo) - first) + (last - dp_bits32((float)hi));
+/* How many depths of the range lie outside [lo, hi]; all, when these are NaN. */
+static uint64_t outside(const census_range *range, double lo, double hi) {
+    return isnan(lo) ? (uint64_t)range->last - range->first + 1
+                     : (uint64_t)(dp_rank32((float)lo) - range->first) + (range->last - dp_rank32((float)hi));
 }
 
-void census_close(const census_request *request, const census_plan *plan, uint32_t first, uint32_t last,
+void census_close(const census_request *request, const census_plan *plan, const census_range *range,
                   census_result *result) {
     census_band *all = &result->all;
     *all = (census_band){.lo = request->lo, .hi = request->hi};
@@ -130,11 +136,11 @@ void census_close(const census_request *request, const census_plan *plan, uint32
     /* The planes of a part of the camera's range: the same search between its ends. */
     dp_pipeline part = plan->pipeline;
     float znear, zfar;
-    part.znear = dp_float32(first);
-    part.zfar = dp_float32(last);
+    part.znear = dp_ranked32(range->first);
+    part.zfar = dp_ranked32(range->last);
     dp_pipeline_planes(&part, &znear, &zfar);
     result->near_effective = (double)znear;
     result->far_effective = (double)zfar;
-    const uint64_t lost = outside(first, last, result->near_effective, result->far_effective);
+    const uint64_t lost = outside(range, result->near_effective, result->far_effective);
     result->holes = all->clipped > lost ? all->clipped - lost : 0;
 }

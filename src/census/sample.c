@@ -10,7 +10,7 @@ typedef struct sample {
     const census_sample_request *request;
     const census_level *level;
     census_plan plan;
-    uint32_t first, last;
+    census_range range;
 } sample;
 
 /* Draw i of a seed: the finalizer of splitmix64 over a counter, so that any draw can be made without the others. */
@@ -24,32 +24,33 @@ static uint64_t draw(uint64_t seed, uint64_t i) {
 static uint32_t depth_of_draw(const sample *s, uint64_t i) {
     const census_sample_request *r = s->request;
     if (r->count == 0)
-        return s->first + (uint32_t)i;
-    const uint64_t count = (uint64_t)s->last - s->first + 1; /* below 2^32, so the product of halves cannot overflow */
-    return s->first + (uint32_t)((draw(r->seed, i) >> 32) * count >> 32);
+        return s->range.first + (uint32_t)i;
+    const uint64_t count =
+        (uint64_t)s->range.last - s->range.first + 1; /* below 2^32, so the product of halves cannot overflow */
+    return s->range.first + (uint32_t)((draw(r->seed, i) >> 32) * count >> 32);
 }
 
-static float partner(const sample *s, uint32_t bits) {
+static float partner(const sample *s, uint32_t rank) {
     if (s->request->gap > 0.0)
-        return (float)((double)dp_float32(bits) + s->request->gap);
-    return dp_float32(bits + 1);
+        return (float)((double)dp_ranked32(rank) + s->request->gap);
+    return dp_ranked32(rank + 1);
 }
 
-static int out_of_order(const sample *s, int32_t key, uint32_t bits) {
-    return census_key(&s->plan, dp_float32(bits)) <= key;
+static int out_of_order(const sample *s, int32_t key, uint32_t rank) {
+    return census_key(&s->plan, dp_ranked32(rank)) <= key;
 }
 
 /*
  * Steps away from a depth in doubling strides, keeps the last place out of order, and closes in on the change from
  * there. Codes are not monotone, so a longer interval may be missed, but what is found is one.
  */
-static void walk(const sample *s, uint32_t bits, int32_t key, census_band *band) {
+static void walk(const sample *s, uint32_t rank, int32_t key, census_band *band) {
     uint64_t wrong = 0;
     uint64_t right = 0;
-    const uint64_t room = s->last - bits;
+    const uint64_t room = s->range.last - rank;
     for (int i = 0; i < LADDER; i++) {
         const uint64_t stride = UINT64_C(1) << i < room ? UINT64_C(1) << i : room;
-        if (out_of_order(s, key, bits + (uint32_t)stride)) {
+        if (out_of_order(s, key, rank + (uint32_t)stride)) {
             wrong = stride;
             right = 0;
         } else if (right == 0) {
@@ -62,32 +63,32 @@ static void walk(const sample *s, uint32_t bits, int32_t key, census_band *band)
         right = wrong + 1;
     while (right > wrong + 1) {
         const uint64_t middle = wrong + (right - wrong) / 2;
-        if (out_of_order(s, key, bits + (uint32_t)middle))
+        if (out_of_order(s, key, rank + (uint32_t)middle))
             wrong = middle;
         else
             right = middle;
     }
     if (wrong > 0)
-        census_note(&s->request->common, band, dp_float32(bits), dp_float32(bits + (uint32_t)wrong));
+        census_note(&s->request->common, band, dp_ranked32(rank), dp_ranked32(rank + (uint32_t)wrong));
 }
 
 static void judge(const sample *s, uint64_t from, size_t count, census_band *bands) {
-    uint32_t bits[BATCH];
+    uint32_t rank[BATCH];
     float near_z[BATCH], far_z[BATCH];
     int32_t near_key[BATCH], far_key[BATCH];
-    const float end = dp_float32(s->last);
+    const float end = dp_ranked32(s->range.last);
     for (size_t i = 0; i < count; i++) {
-        bits[i] = depth_of_draw(s, from + i);
-        near_z[i] = dp_float32(bits[i]);
-        const float z = partner(s, bits[i]);
-        far_z[i] = z <= end ? z : 0.0f; /* leaves the range: not a pair */
+        rank[i] = depth_of_draw(s, from + i);
+        near_z[i] = dp_ranked32(rank[i]);
+        const float z = partner(s, rank[i]);
+        far_z[i] = z <= end ? z : NAN; /* leaves the range: not a pair */
     }
     s->level->keys(&s->plan, near_z, count, near_key);
     s->level->keys(&s->plan, far_z, count, far_key);
     for (size_t i = 0; i < count; i++) {
-        if (far_z[i] == 0.0f)
+        if (isnan(far_z[i]))
             continue;
-        census_band *band = &bands[census_band_of(s->first, bits[i])];
+        census_band *band = &bands[census_band_of(&s->range, rank[i])];
         band->pairs++;
         band->ties += far_key[i] == near_key[i];
         band->swaps += far_key[i] < near_key[i];
@@ -96,7 +97,7 @@ static void judge(const sample *s, uint64_t from, size_t count, census_band *ban
         else
             band->first = fmin(band->first, (double)near_z[i]);
         if (s->request->gap <= 0.0)
-            walk(s, bits[i], near_key[i], band);
+            walk(s, rank[i], near_key[i], band);
     }
 }
 
@@ -142,12 +143,12 @@ census_status census_sample(const census_sample_request *request, census_result 
     sample s = {.request = request, .level = r->level != NULL ? r->level : census_level_best()};
     if (!(request->gap >= 0.0) || (request->count == 0 && request->gap <= 0.0))
         return CENSUS_RANGE;
-    const census_status status = census_open(r, &s.plan, result, &s.first, &s.last);
+    const census_status status = census_open(r, &s.plan, result, &s.range);
     if (status != CENSUS_DONE)
         return status;
-    const uint64_t total = request->count > 0 ? request->count : (uint64_t)s.last - s.first + 1;
+    const uint64_t total = request->count > 0 ? request->count : (uint64_t)s.range.last - s.range.first + 1;
     if (judge_all(&s, total, result))
         return CENSUS_STOPPED;
-    census_close(r, &s.plan, s.first, s.last, result);
+    census_close(r, &s.plan, &s.range, result);
     return CENSUS_DONE;
 }

@@ -271,8 +271,6 @@ static int check(zfight *z) {
         status = range_resolve(o, &z->lo, &z->hi);
     if (status == EXIT_FINE && isinf(z->hi))
         status = option_error(OPTION_RANGE, "must be given when far is inf: there are too many depths up to infinity");
-    if (status == EXIT_FINE && !(z->lo > 0.0))
-        status = option_error(OPTION_RANGE, "must begin above 0 for zfight, got %s", number_full(z->lo).text);
     if (status == EXIT_FINE && census_count(z->lo, z->hi) < 2)
         status = option_error(OPTION_RANGE, "must hold at least two binary32 depths");
     if (status == EXIT_FINE && o->gap >= z->hi - z->lo)

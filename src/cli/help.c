@@ -29,8 +29,8 @@ static void list_commands(output *out) {
                (int)strcspn(verb_rows[i].operand, " "), verb_rows[i].operand);
         page_note(&p, label, "%s%s", verb_rows[i].summary, i == 0 ? " (default)" : "");
     }
-    output_text(out, "\n'depthprec help COMMAND' lists its options. Lengths are in scene units, or 10cm.\n"
-                     "Exit: 0 fine, 1 a check failed, 2 bad usage or input, 3 cannot read or write.\n");
+    output_text(out, "\n'depthprec help COMMAND' lists its options. Lengths may have a unit: 10cm.\n"
+                     "Exit: 0 success, 1 a check failed, 2 bad usage or input, 3 cannot read or write.\n");
 }
 
 enum { DESCRIPTION_SIZE = 1024 };

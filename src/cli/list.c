@@ -219,7 +219,8 @@ bool list_method(size_t index, list_item *item) {
 static const topic topics[] = {
     {"formats", "depth formats and the bounds of their rounding", list_format, .bound = "bound"},
     {"mappings", "how an eye depth becomes a window depth", list_mapping, .bound = "bound"},
-    {"models", "how much of the arithmetic before the buffer is modelled", list_model, .bound = "bound"},
+    {"models", "how much of the arithmetic before the buffer is modelled", list_model, .bound = "bound",
+     .in_text = list_model_word},
     {"arithmetic", "variants of binary32 arithmetic, for --arith", list_arith, .bound = "bound"},
     {"transforms", "how world positions become clip coordinates", list_composition, .bound = "bound"},
     {"causes", "the parts of the separation, for budget", list_cause, .bound = "bound"},

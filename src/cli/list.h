@@ -56,6 +56,7 @@ typedef struct topic {
     list_get get;
     const char *bound; /**< what a thing's bound is called in JSON and CSV */
     const char *shown; /**< and in text, where that says more; else null */
+    list_get in_text;  /**< where text has other names for the things; else null */
 } topic;
 
 #endif

@@ -200,8 +200,10 @@ static int check_near(const options *o) {
     if (o->znear != 0.0 && !(-o->znear >= row->least && -o->znear <= row->most))
         return option_error(OPTION_NEAR, "must be 0, or a number from %s or its negative, got '%s'",
                             option_limits(row, limits), given.text);
-    if (o->effect != NULL && o->znear < 0.0)
-        return option_error(OPTION_EFFECT, "needs near not less than 0, got '%s'", given.text);
+    if (o->effect != NULL && o->effect->eye01 && o->znear < 0.0)
+        return option_error(OPTION_EFFECT,
+                            "%s sees eye depth as a share of far, which needs near not less than 0, got '%s'",
+                            o->effect->name, given.text);
     return EXIT_FINE;
 }
 

@@ -49,7 +49,7 @@ const verb verb_rows[] = {
      "  depthprec stability linearize\n"
      "  depthprec plot stability interval -o stability.svg\n", 0},
     {"check", VERB_CHECK, "FILE...", 1, 1000, NULL,
-     "do cameras meet the requirements of files? exit 1 if not",
+     "cameras against requirement files; exit 1 if one is missed",
      "  depthprec check engine.need\n"
      "  depthprec check --report junit -o depth.xml engine.need\n"
      "  generate | depthprec check -\n", 1},

@@ -3,6 +3,7 @@
 
 #include <math.h>
 
+#include "core/bits.h"
 #include "need/judge.h"
 
 /* What the exact lattice refuses by this factor, no arithmetic in front of it can save: see check.h. */
@@ -57,8 +58,11 @@ static void judge_error(const need *n, const need_camera *camera, const dp_setup
         judge_in(n, &setup, v);
 }
 
-/* Whether the guarantee holds between any two neighbours: then nothing ties. Binade by binade, as the step of z. */
+/* Whether the guarantee holds between any two neighbours: then nothing ties. Binade by binade, as the step of z, which
+ * next to 0 is less than any guarantee; depths below 0 are counted. */
 static bool never_ties(const dp_setup *setup, double lo, double hi) {
+    if (lo <= 0.0)
+        return false;
     while (lo < hi) {
         const double power = exp2(floor(log2(lo)));
         const double step = 0x1p-23 * power;
@@ -79,7 +83,7 @@ static bool judge_ties(const check_request *request, const need *n, const dp_set
     v->value = 0.0;
     v->z = (double)NAN;
     if (!never_ties(&v->setup, n->lo, n->hi)) {
-        const double depths = 0x1p23 * (log2(n->hi / n->lo) + 1.0); /* not fewer than there are */
+        const double depths = (double)dp_rank32((float)n->hi) - (double)dp_rank32((float)n->lo);
         v->method = depths > CHECK_CENSUS_MAX ? CHECK_SAMPLED : CHECK_CENSUS;
         if (!request->count(request->context, &v->setup, n->lo, n->hi, v->method == CHECK_SAMPLED, &v->value, &v->z))
             return false;

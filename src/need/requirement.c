@@ -84,8 +84,6 @@ static bool suits(reader *r, const config_setting_t *s, const need *n) {
             camera->name, dp_mapping_get(spec->mapping)->name);
     if (!(n->lo < n->hi) || isinf(n->hi))
         return reader_fail(r, s, "ties: needs a range with a finite far end");
-    if (!(n->lo > 0.0))
-        return reader_fail(r, s, "ties: needs a range of depths above 0, got %.15g", n->lo);
     return true;
 }
 

@@ -19,7 +19,7 @@ static const figure_row rows[] = {
      FIGURE_TERMS | FIGURE_FP32 | FIGURE_BINARY32 | FIGURE_SIGNED, NULL, NULL, budget_build},
     {"map", "Worst z-fighting interval for each near and far plane",
      "near against far, colour = worst z-fighting interval over the range, or the interval at --at Z", CHART_PANELS,
-     FIGURE_AT | FIGURE_TOLERANCE, NULL, NULL, map_build},
+     FIGURE_AT | FIGURE_TOLERANCE | FIGURE_SIGNED, NULL, NULL, map_build},
     {"pareto", "Speed against accuracy",
      "methods of a family, interval by default: ns per element against worst error, log-log, the Pareto front marked",
      CHART_SETUPS, FIGURE_FP32, "interval", NULL, pareto_build},

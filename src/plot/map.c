@@ -66,14 +66,17 @@ static void add_camera(chart *out, chart_panel *panel, const dp_spec *spec) {
 static void add_panel(const figure_request *request, chart *out, size_t i, double shrink) {
     const dp_setup *like = &request->setups[i];
     const dp_spec *spec = &like->spec;
-    bool infinite = isinf(spec->zfar);
+    const bool infinite = isinf(spec->zfar), any_sign = spec->znear <= 0;
+    const chart_scale scale = any_sign ? CHART_LINEAR : CHART_LOG;
+    const double half =
+        (spec->zfar - spec->znear) / 2; /* of what linear axes show: where the planes meet is a corner */
     chart_panel *panel = chart_add_panel(out);
-    panel->x = (chart_axis){.scale = CHART_LOG, .label = "near plane", .key = "near", .unit = "scene units"};
-    panel->x.lo = fmax(spec->znear / around, 1e-12);
-    panel->x.hi = fmin(spec->znear * around, 1e12);
-    panel->y = (chart_axis){.scale = CHART_LOG, .label = "far plane", .key = "far", .unit = "scene units"};
-    panel->y.lo = infinite ? spec->znear * infinite_from : spec->zfar / around;
-    panel->y.hi = fmin(infinite ? spec->znear * infinite_to : spec->zfar * around, 1e18);
+    panel->x = (chart_axis){.scale = scale, .label = "near plane", .key = "near", .unit = "scene units"};
+    panel->x.lo = any_sign ? spec->znear - half : fmax(spec->znear / around, 1e-12);
+    panel->x.hi = any_sign ? spec->znear + half : fmin(spec->znear * around, 1e12);
+    panel->y = (chart_axis){.scale = scale, .label = "far plane", .key = "far", .unit = "scene units"};
+    panel->y.lo = any_sign ? spec->zfar - half : infinite ? spec->znear * infinite_from : spec->zfar / around;
+    panel->y.hi = any_sign ? spec->zfar + half : fmin(infinite ? spec->znear * infinite_to : spec->zfar * around, 1e18);
     if (request->count > 1)
         snprintf(panel->title, sizeof panel->title, "%s", request->names[i]);
     if (!chart_add_map(out, panel, (int)(GRID_COLUMNS * shrink), (int)(GRID_ROWS * shrink)))

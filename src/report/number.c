@@ -173,9 +173,13 @@ number_text number_in(number_text number, const char *unit) {
 }
 
 static number_text bound_of(double value, int digits, bool upward) {
-    const number_text out = number_of(value, digits);
-    if (!isfinite(value) || value <= 0.0)
+    number_text out = number_of(value, digits);
+    if (!isfinite(value) || value == 0.0)
         return out;
+    if (value < 0.0) {
+        snprintf(out.text, sizeof out.text, "-%.*s", NUMBER_SIZE - 2, bound_of(-value, digits, !upward).text);
+        return out;
+    }
     const double shown = strtod(out.text, NULL);
     const double unit = pow(10.0, floor(log10(shown)) - (digits - 1));
     return (upward ? shown < value : shown > value) ? number_of(shown + (upward ? unit : -unit), digits) : out;

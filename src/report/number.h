@@ -54,7 +54,7 @@ number_text number_of(double value, int digits);
 /** A length: the unit behind the number where both are known, "50 m". */
 number_text number_in(number_text number, const char *unit);
 
-/** The same rounded up, or down: what is read back is never below, or above, a positive value. */
+/** The same rounded up, or down: what is read back is never below, or above, the value. */
 number_text number_up(double value, int digits);
 number_text number_down(double value, int digits);
 

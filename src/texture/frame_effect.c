@@ -89,9 +89,11 @@ static effect_pixel pixel_at(const work *w, uint32_t x) {
 /* World positions as image effects get them. */
 static void places(const work *w) {
     const frame_row *in = w->in;
+    const position_row *by = &position_rows[w->camera->ortho ? POSITION_EXTENTS : POSITION_RAYS];
+    if (!position_applies(by, w->camera)) /* a far plane at 0, by which nothing can be divided */
+        by = &position_rows[POSITION_VIEW];
     if ((w->row->needs & EFFECT_POSITION) != 0)
-        position_rows[w->camera->ortho ? POSITION_EXTENTS : POSITION_RAYS].run(
-            in->position, in->row, 0, in->depth, w->camera->width, in->planes[0], in->planes[1], in->planes[2]);
+        by->run(in->position, in->row, 0, in->depth, w->camera->width, in->planes[0], in->planes[1], in->planes[2]);
 }
 
 /* ---- Corners ----------------------------------------------------------------------------------------------------- */

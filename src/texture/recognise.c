@@ -257,7 +257,8 @@ static void count_all(const image *img, const finding *f, tally *s, recognised *
 
 /* ---- Direction ----------------------------------------------------------------------------------------------------*/
 
-/* The sky is the end that far more samples have, where they are not a few; the mass is where nine of ten others are. */
+/* The sky is the end that far more samples have, where they are not a few; the mass is where nine of ten others are.
+ * What may be the holes of metric depth is no sky. */
 static const char *direct(const tally *s, recognised *out) {
     const size_t sky = out->at_zero > out->at_one ? out->at_zero : out->at_one;
     const size_t other = out->at_zero + out->at_one - sky;
@@ -270,7 +271,7 @@ static const char *direct(const tally *s, recognised *out) {
         return by_mass ? "near 0 but sky at 1: no direction" : "near 1 but sky at 0: no direction";
     out->reversed = by_mass >= 0 ? by_mass : by_sky;
     const size_t inner_values = out->distinct - (out->at_zero > 0) - (out->at_one > 0);
-    out->direction = by_sky >= 0 && by_sky == by_mass && other == 0 && 16 * sky >= out->samples &&
+    out->direction = !out->metric && by_sky >= 0 && by_sky == by_mass && other == 0 && 16 * sky >= out->samples &&
                      sky * inner_values >= 16 * s->inner;
     if (out->reversed < 0)
         return "neither sky nor mass shows a direction";

@@ -41,7 +41,7 @@ typedef struct recognised {
     int reversed;       /**< 1 likely reversed, 0 likely not, -1 cannot tell */
     bool direction;     /**< `reversed` is found and not only likely: an end of [0, 1] that a cleared buffer has, in a
                              sixteenth of the samples and 16 times as often as others are on average, none at the
-                             other end, and nine of ten others in the same quarter */
+                             other end, and nine of ten others in the same quarter; never where `metric` */
     bool metric;        /**< more likely metric depth: numbers above 1, or integers like millimetres with holes at 0 */
     size_t samples, invalid; /**< invalid: NaN, infinite or outside [0, 1] */
     size_t holes;            /**< of these NaN or infinite */
