@@ -75,6 +75,12 @@ static const struct {
      "a number from -360 to 360 degrees"},
     {"texture", OPTION_PITCH, AT(camera.pitch), 0, -90, 90, "-90", "90", "-91", "90.5",
      "a number from -90 to 90 degrees"},
+    {"texture", OPTION_LAST_FOV, AT(last.fov_y), 0, 0.01, 179, "0.01", "179", "0", "180",
+     "a number from 0.01 to 179 degrees"},
+    {"texture", OPTION_LAST_YAW, AT(last.yaw), 0, -360, 360, "-360", "360", "-361", "360.5",
+     "a number from -360 to 360 degrees"},
+    {"texture", OPTION_LAST_PITCH, AT(last.pitch), 0, -90, 90, "-90", "90", "-91", "90.5",
+     "a number from -90 to 90 degrees"},
     {"texture", OPTION_SKY, AT(sky), 1e-4, 0, 0.5, "0", "0.5", "-0.1", "0.6", "a number from 0 to 0.5"},
     {"texture", OPTION_METRIC, AT(metric), 0, 1e-9, 1e6, "1e-9", "1e6", "0", "1e7",
      "a number from 1e-9 to 1e6 scene units"},
@@ -468,6 +474,8 @@ static void test_own(void **state) {
     assert_int_equal(parse(&o, "texture", OPTION_ORIGIN, "1,-2,3e4", line), EXIT_FINE);
     assert_true(o.camera.origin[0] == 1 && o.camera.origin[1] == -2 && o.camera.origin[2] == 3e4);
     assert_true(o.camera.width == 640 && o.camera.height == 360);
+    assert_int_equal(parse(&o, "texture", OPTION_LAST_ORIGIN, "5,6,-7", line), EXIT_FINE);
+    assert_true(o.last.origin[0] == 5 && o.last.origin[1] == 6 && o.last.origin[2] == -7 && o.camera.origin[0] == 0);
     assert_int_equal(parse(&o, "texture", OPTION_SIZE, "65536x1", line), EXIT_FINE);
     assert_true(o.camera.width == 65536 && o.camera.height == 1 && o.camera.origin[0] == 0);
     assert_int_equal(parse(&o, "texture", OPTION_PARAMETER, "gap=0.5", line), EXIT_FINE);

@@ -23,17 +23,23 @@ static int check_alone(const options *o) {
     return EXIT_FINE;
 }
 
-/* The table of an effect sees depths, not pixels. */
+/* The table of an effect sees depths, and at most one pixel. */
 static int check_table(const options *o) {
-    static const option_id pixels[] = {
-        OPTION_FOV,       OPTION_HALF_HEIGHT,  OPTION_YAW,   OPTION_PITCH,   OPTION_ORIGIN,        OPTION_SIZE,
-        OPTION_SKY,       OPTION_METRIC,       OPTION_EYE,   OPTION_RADIAL,  OPTION_POSITION,      OPTION_NORMAL,
-        OPTION_ERROR_MAP, OPTION_FIGURE,       OPTION_THEME, OPTION_WIDTH,   OPTION_HEIGHT,        OPTION_TITLE,
-        OPTION_THREADS,   OPTION_PIXEL,        OPTION_TYPE,  OPTION_PACKING, OPTION_NORMAL_FORMAT, OPTION_CHANNEL,
-        OPTION_PACK,      OPTION_PACKED_NORMAL};
-    for (size_t i = 0; i < sizeof pixels / sizeof pixels[0]; i++)
-        if (option_given(o, pixels[i]))
-            return option_error(pixels[i], "does not apply to --effect alone, only with FILE or --scene");
+    static const option_id images[] = {OPTION_SKY,      OPTION_METRIC, OPTION_EYE,          OPTION_RADIAL,
+                                       OPTION_POSITION, OPTION_NORMAL, OPTION_ERROR_MAP,    OPTION_FIGURE,
+                                       OPTION_THEME,    OPTION_WIDTH,  OPTION_HEIGHT,       OPTION_TITLE,
+                                       OPTION_THREADS,  OPTION_TYPE,   OPTION_PACKING,      OPTION_NORMAL_FORMAT,
+                                       OPTION_CHANNEL,  OPTION_PACK,   OPTION_PACKED_NORMAL};
+    static const option_id cameras[] = {OPTION_FOV,    OPTION_HALF_HEIGHT, OPTION_YAW,  OPTION_PITCH,
+                                        OPTION_ORIGIN, OPTION_SIZE,        OPTION_PIXEL};
+    for (size_t i = 0; i < sizeof images / sizeof images[0]; i++)
+        if (option_given(o, images[i]))
+            return option_error(images[i], "does not apply to --effect alone, only with FILE or --scene");
+    for (size_t i = 0; i < sizeof cameras / sizeof cameras[0] && (o->effect->needs & EFFECT_POSITION) == 0; i++)
+        if (option_given(o, cameras[i]))
+            return option_error(cameras[i],
+                                "does not apply to %s alone, which needs no position, only with FILE or --scene",
+                                o->effect->name);
     return EXIT_FINE;
 }
 

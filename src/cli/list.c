@@ -146,16 +146,27 @@ bool list_packed(size_t index, list_item *item) {
 }
 
 bool list_effect(size_t index, list_item *item) {
+    static const struct {
+        unsigned bit;
+        const char *name;
+    } needs[] = {{EFFECT_POSITION, "the position"},
+                 {EFFECT_LAST_FRAME, "last frame's camera"},
+                 {EFFECT_SECOND_DEPTH, "a second depth"},
+                 {EFFECT_NORMALS, "normals"}};
     const effect_row *row = effect_get(index);
     if (row == NULL)
         return false;
     *item = (list_item){.name = row->name, .note = row->note, .source = row->source, .row = row};
     for (int i = 0; row->parameters[i].name != NULL; i++) {
         const texture_parameter *p = &row->parameters[i];
-        append(item->bound, sizeof item->bound, "%s%s %g [%s]", i > 0 ? ", " : "", p->name, p->value, p->unit);
+        append(item->bound, sizeof item->bound, "%s%s %g [%s], %g to %g", i > 0 ? "; " : "", p->name, p->value, p->unit,
+               p->lo, p->hi);
         if (i == row->wanted)
             append(item->bound, sizeof item->bound, " (%s usable)", row->smallest ? "smallest" : "largest");
     }
+    for (size_t i = 0, count = 0; i < sizeof needs / sizeof needs[0]; i++)
+        if ((row->needs & needs[i].bit) != 0)
+            append(item->bound, sizeof item->bound, "%s%s", count++ == 0 ? "; needs " : ", ", needs[i].name);
     return true;
 }
 

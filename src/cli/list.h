@@ -8,7 +8,7 @@
 #include <stdbool.h>
 #include <stddef.h>
 
-enum { LIST_TEXT_SIZE = 192 };
+enum { LIST_TEXT_SIZE = 768 };
 
 /** One listed thing. Texts are static, except `bound`, which is written in place. */
 typedef struct list_item {

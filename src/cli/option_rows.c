@@ -59,6 +59,7 @@ enum {
 #define POSITIVE(field)              .parse = parse_length, FIELD(double, field)
 #define LENGTH(field, ...)           POSITIVE(field), LIMITS(__VA_ARGS__)
 #define NUMBER(field, ...)           .parse = parse_number, FIELD(double, field), LIMITS(__VA_ARGS__)
+#define ORIGIN(field)                .parse = parse_origin, FIELD(double, field[0])
 #define WHOLE(field, ...)            .parse = parse_whole, SIZED(field), LIMITS(__VA_ARGS__)
 #define SEVERAL(kind, field, lo, hi) .parse = (kind), FIELD(depths, field), LIMITS(lo, hi, NULL)
 #define WORD(field, among)           .parse = parse_word, SIZED(field), .names = &(among)
@@ -207,11 +208,21 @@ const option_row option_rows[OPTION_COUNT] = {
     [OPTION_PITCH] = {"pitch", 0, "DEG", VERB_TEXTURE,
         "the camera's turn upwards", NUMBER(camera.pitch, -90, 90, "degrees"), .standard = "0"},
     [OPTION_ORIGIN] = {"origin", 0, "X,Y,Z", VERB_TEXTURE,
-        "the camera's position, world coordinates", parse_origin, .standard = "0,0,0"},
+        "the camera's position, world coordinates", ORIGIN(camera.origin), .standard = "0,0,0"},
+    [OPTION_LAST_FOV] = {"last-fov", 0, "DEG", VERB_TEXTURE,
+        "last frame's vertical field of view, for motion blur", NUMBER(last.fov_y, 0.01, 179, "degrees"),
+        .without = "that of this frame"},
+    [OPTION_LAST_YAW] = {"last-yaw", 0, "DEG", VERB_TEXTURE,
+        "last frame's turn to the right", NUMBER(last.yaw, -360, 360, "degrees"), .without = "that of this frame"},
+    [OPTION_LAST_PITCH] = {"last-pitch", 0, "DEG", VERB_TEXTURE,
+        "last frame's turn upwards", NUMBER(last.pitch, -90, 90, "degrees"), .without = "that of this frame"},
+    [OPTION_LAST_ORIGIN] = {"last-origin", 0, "X,Y,Z", VERB_TEXTURE,
+        "last frame's position", ORIGIN(last.origin), .without = "that of this frame"},
     [OPTION_SCENE] = {"scene", 0, "NAME", VERB_TEXTURE,
         "a synthetic scene in place of FILE: @; 'depthprec list scenes' has their parameters", ROW(scene, scenes)},
     [OPTION_SIZE] = {"size", 0, "WxH", VERB_TEXTURE,
-        "with --scene: the image's pixels", parse_size, .standard = "640x360",
+        "the image's pixels: with --scene, and with --effect alone if that needs the position", parse_size,
+        .standard = "640x360",
         .instead = "; a figure's size is --width and --height"},
     [OPTION_PARAMETER] = {"parameter", 0, "NAME=VALUE", VERB_TEXTURE,
         "a parameter of the scene or the effect; may be repeated", .parse = parse_parameter},
@@ -229,7 +240,8 @@ const option_row option_rows[OPTION_COUNT] = {
         "the channel of an EXR that is read", TEXT(channel), .without = "Z, R or depth, the first that is there"},
     [OPTION_PIXEL] = {"pixel", 0, "X,Y[;X,Y...]", VERB_TEXTURE,
         "describe single pixels: code, eye depth and its range, neighbours, position, normal; 0,0 is the "
-        "top left", SEVERAL(parse_pixels, pixels, 0, TEXTURE_SIDE_MAX - 1)},
+        "top left. With --effect alone: the pixel that sees the depths",
+        SEVERAL(parse_pixels, pixels, 0, TEXTURE_SIDE_MAX - 1)},
     [OPTION_EYE] = {"eye", 0, NULL, VERB_TEXTURE,
         "product: eye depth", FLAG(eye)},
     [OPTION_RADIAL] = {"radial", 0, NULL, VERB_TEXTURE,

@@ -67,6 +67,10 @@ typedef enum option_id {
     OPTION_YAW,
     OPTION_PITCH,
     OPTION_ORIGIN,
+    OPTION_LAST_FOV,
+    OPTION_LAST_YAW,
+    OPTION_LAST_PITCH,
+    OPTION_LAST_ORIGIN,
     OPTION_SCENE,
     OPTION_SIZE,
     OPTION_PARAMETER,
@@ -117,7 +121,7 @@ typedef enum solve_target {
 /** Values of --report. */
 typedef enum report_form { REPORT_TEXT = 0, REPORT_JSON, REPORT_JUNIT } report_form;
 
-enum { OPTIONS_FORMATS_MAX = 64, OPTIONS_PARAMETERS_MAX = 8, OPTIONS_PRESETS_MAX = 16 };
+enum { OPTIONS_FORMATS_MAX = 64, OPTIONS_PARAMETERS_MAX = 16, OPTIONS_PRESETS_MAX = 16 };
 
 /** One --parameter NAME=VALUE; whose it is, and whether there is such a one, is for the command to see. */
 typedef struct named_number {
@@ -170,6 +174,7 @@ typedef struct options {
     int threads; /**< 0 when not given: as many as there are cores */
 
     camera_spec camera;     /**< --size, --fov, --half-height, --yaw, --pitch, --origin */
+    camera_spec last;       /**< --last-fov, --last-yaw, --last-pitch, --last-origin: what was given of them */
     const scene_row *scene; /**< null when not given, as all rows and names here */
     named_number parameters[OPTIONS_PARAMETERS_MAX];
     size_t parameter_count;

@@ -39,8 +39,8 @@ typedef struct texture_source {
     dp_setup planes;      /**< with --metric: what --near and --far say */
     double parameters[TEXTURE_PARAMETERS];
     dp_setup setup;
-    texture_camera camera;
-    frame frame; /**< points into this struct, which must stay where it is */
+    texture_camera camera, last; /**< last frame's: where an effect needs it */
+    frame frame;                 /**< points into this struct, which must stay where it is */
 } texture_source;
 
 /** "given", "found", "assumed". */
@@ -68,8 +68,20 @@ bool texture_coarser(const texture_source *s);
 /** "320,180 is at z = 4.2 as d3d, 0.4 as reversed", of "mapping" or "format"; "" where it has none. @return out */
 const char *texture_readings_of(const texture_source *s, const char *what, char out[READINGS_SIZE]);
 
-/** Sets one --parameter of a scene or an effect, called `whose`. @return EXIT_FINE, or EXIT_USAGE after one line */
-int texture_parameter_set(const char *whose, const texture_parameter *list, const named_number *given, double *out);
+/**
+ * Sets one --parameter of a scene or an effect, called `whose`.
+ * @param unused  parameters of this use count as none: PARAMETER_ALWAYS for none of them
+ * @param more    another name that would be taken, for the list of those that are; or null
+ * @return EXIT_FINE, or EXIT_USAGE after one line that names those it has
+ */
+int texture_parameter_set(const char *whose, const texture_parameter *list, const named_number *given,
+                          parameter_use unused, const char *more, double *out);
+
+/** Options of cameras that have no meaning beside others. @return an exit status, after one line on stderr */
+int texture_camera_check(const options *o);
+
+/** Last frame's camera: as `now`, but for what --last-fov and the like say. @return as texture_camera_check() */
+int texture_last_camera(const options *o, const dp_setup *setup, const camera_spec *now, texture_camera *out);
 
 /** Does the scene of --scene have a parameter of this name? Then parameters not taken are the effect's. */
 bool texture_scene_takes(const options *o, const char *name);
@@ -121,8 +133,10 @@ int texture_report_write(const options *o, const texture_source *source);
 /** What --pixel asks about, likewise. */
 int texture_pixel_write(const options *o, const texture_source *source);
 
-/** The effect that --effect names. @return EXIT_FINE, or EXIT_USAGE after one line on stderr */
-int texture_effect_resolve(const options *o, const effect_row **row, double parameters[TEXTURE_PARAMETERS]);
+/** The effect that --effect names, and its parameters, in an image or not. @return EXIT_FINE, or EXIT_USAGE after one
+ *  line on stderr */
+int texture_effect_resolve(const options *o, bool pictured, const effect_row **row,
+                           double parameters[TEXTURE_PARAMETERS]);
 
 /** --effect without an image: for each set-up and depth, the error in levels and the usable values of the wanted
  *  parameter. @return an exit status */

@@ -16,22 +16,18 @@ static int resolve_effect(const options *o, texture_product *p) {
     bool compared = false;
     rest.parameter_count = 0;
     for (size_t i = 0; i < o->parameter_count; i++) {
-        if (strcmp(o->parameters[i].name, "reference") == 0) {
+        if (o->effect->given && strcmp(o->parameters[i].name, "reference") == 0) {
             p->made.reference = o->parameters[i].value;
             compared = true;
         } else if (!texture_scene_takes(o, o->parameters[i].name)) {
             rest.parameters[rest.parameter_count++] = o->parameters[i];
         }
     }
-    int status = texture_effect_resolve(&rest, &p->made.effect, p->settings);
+    int status = texture_effect_resolve(&rest, true, &p->made.effect, p->settings);
     if (status != EXIT_FINE)
         return status;
     const effect_row *row = p->made.effect;
-    const bool needs = row->reference != NULL && row->kind != EFFECT_STEP && !o->error_map;
-    if (compared && !needs)
-        return option_error(OPTION_PARAMETER, "reference does not apply here, %s",
-                            o->error_map ? "the worst one is taken for the error" : "nothing is compared with it");
-    if (needs && !(p->made.reference > 0))
+    if (row->given && (compared || !o->error_map) && !(p->made.reference > 0))
         return option_error(OPTION_PARAMETER, "%s needs reference=Z, %s, a positive eye depth%s", row->name,
                             row->reference, compared ? "" : "; it was not given");
     return EXIT_FINE;

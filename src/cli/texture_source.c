@@ -22,14 +22,19 @@ bool texture_scene_takes(const options *o, const char *name) {
     return o->scene != NULL && parameter_find(o->scene->parameters, name) >= 0;
 }
 
-int texture_parameter_set(const char *whose, const texture_parameter *list, const named_number *given, double *out) {
-    const char *words[TEXTURE_PARAMETERS + 1];
+int texture_parameter_set(const char *whose, const texture_parameter *list, const named_number *given,
+                          parameter_use unused, const char *more, double *out) {
+    const char *words[TEXTURE_PARAMETERS + 2];
     const name_list known = {.words = words};
     const int index = parameter_find(list, given->name);
     char text[NAMES_SIZE];
-    for (int i = 0; i <= TEXTURE_PARAMETERS; i++)
-        words[i] = list[i].name;
-    if (index < 0)
+    size_t count = 0;
+    for (int i = 0; list[i].name != NULL; i++)
+        if (list[i].use == PARAMETER_ALWAYS || list[i].use != unused)
+            words[count++] = list[i].name;
+    words[count++] = more;
+    words[count] = NULL;
+    if (index < 0 || (list[index].use != PARAMETER_ALWAYS && list[index].use == unused))
         return option_error(OPTION_PARAMETER, "of %s %s", whose, names_refuse(&known, given->name, text));
     const texture_parameter *p = &list[index];
     if (!(given->value >= p->lo && given->value <= p->hi) || (p->whole && given->value != floor(given->value)))
@@ -46,7 +51,8 @@ static int scene_parameters(const options *o, const scene_row *scene, double *ou
     parameter_defaults(scene->parameters, out);
     for (size_t i = 0; i < o->parameter_count && status == EXIT_FINE; i++)
         if (o->effect == NULL || texture_scene_takes(o, o->parameters[i].name))
-            status = texture_parameter_set(scene->name, scene->parameters, &o->parameters[i], out);
+            status =
+                texture_parameter_set(scene->name, scene->parameters, &o->parameters[i], PARAMETER_ALWAYS, NULL, out);
     return status;
 }
 
@@ -75,10 +81,6 @@ static int check_together(const options *o) {
         return option_error(OPTION_SIZE, "is for --scene: the image has its own");
     if (file && o->effect == NULL && o->parameter_count > 0)
         return option_error(OPTION_PARAMETER, "needs --scene or --effect");
-    if (o->ortho && option_given(o, OPTION_FOV))
-        return option_error(OPTION_FOV, "does not apply with --ortho; --half-height does");
-    if (!o->ortho && option_given(o, OPTION_HALF_HEIGHT))
-        return option_error(OPTION_HALF_HEIGHT, "needs --ortho");
     if (o->metric > 0 && !file)
         return option_error(OPTION_METRIC, "needs FILE");
     if (o->channel != NULL && !file)
@@ -87,7 +89,8 @@ static int check_together(const options *o) {
         return option_error(OPTION_PACKING, "needs FILE");
     if (o->packing != NULL && o->metric > 0)
         return option_error(OPTION_METRIC, "does not apply with --packing");
-    return check_window(o);
+    const int status = check_window(o);
+    return status == EXIT_FINE ? texture_camera_check(o) : status;
 }
 
 /* What would change the samples in a program that obeys it. */
@@ -278,7 +281,8 @@ static int make_camera(const options *o, texture_source *s) {
             return usage_error("%s: no metric depth: its depths are too small or too large for --metric", s->path);
         s->camera.setup = s->setup;
     }
-    return EXIT_FINE;
+    const bool moves = o->effect != NULL && (o->effect->needs & EFFECT_LAST_FRAME) != 0;
+    return moves ? texture_last_camera(o, &s->setup, &spec, &s->last) : EXIT_FINE;
 }
 
 int texture_source_open(options *o, texture_source *s) {
@@ -292,6 +296,7 @@ int texture_source_open(options *o, texture_source *s) {
     if (status == EXIT_FINE && s->path != NULL)
         texture_read_on(o, s);
     s->frame = (frame){.camera = &s->camera,
+                       .last = o->effect != NULL && (o->effect->needs & EFFECT_LAST_FRAME) != 0 ? &s->last : NULL,
                        .image = s->path != NULL ? &s->picture : NULL,
                        .scene = o->scene,
                        .parameters = s->parameters,

@@ -92,6 +92,10 @@ bool writing_take(void *context, uint32_t row, uint32_t count, const float *valu
         if (!image_writer_rows(w->writer, w->type == IMAGE_U16 ? w->row : one, 1))
             return false;
     }
+    for (size_t i = 0; i < count * w->row_values && w->levels; i++) {
+        w->pixels += isnan(values[i]) ? 0 : 1;
+        w->beyond += values[i] > 1 ? 1 : 0;
+    }
     progress_step(&w->bar, w->done += count);
     return true;
 }
@@ -114,7 +118,7 @@ static bool rounding_of_product(const texture_source *s, const texture_product *
     frame_summary sum = {.lo = -1, .hi = 1, .count = 1};
     plain.error = false;
     /* Without what it compares with an effect has no product yet; it will be from 0 to 1. */
-    const bool open = p->made.kind == FRAME_EFFECT && p->made.effect->reference != NULL;
+    const bool open = p->made.kind == FRAME_EFFECT && p->made.effect->given && !(p->made.reference > 0);
     *more = 0;
     if (open)
         sum.lo = 0;
@@ -211,7 +215,7 @@ int writing_say(const options *o, const texture_product *p, const writing *w, me
 }
 
 int texture_product_write(const options *o, const texture_source *s, const texture_product *p) {
-    writing w = {.down = o->normal_format != 0};
+    writing w = {.down = o->normal_format != 0, .levels = p->made.kind == FRAME_EFFECT && p->made.error};
     double hi = 0;
     char note[IMAGE_NOTE_SIZE];
     image_file_of(o->output, &w.file);
@@ -224,7 +228,13 @@ int texture_product_write(const options *o, const texture_source *s, const textu
     writing_note(&w, p, &m, note);
     good = good && writing_begin(&w, note) && frame_run(&s->frame, &p->made, writing_bottom_up(&w), writing_take, &w);
     status = writing_close(&w, good);
-    return status == EXIT_FINE ? writing_say(o, p, &w, &m, hi) : status;
+    if (status == EXIT_FINE)
+        status = writing_say(o, p, &w, &m, hi);
+    if (status == EXIT_FINE && w.levels && w.pixels > 0 && !o->quiet)
+        fprintf(stderr, "depthprec: %s: %s %% of the pixels %s off by more than one level\n", o->output,
+                number_of(100.0 * (double)w.beyond / (double)w.pixels, 3).text,
+                s->path != NULL || (p->made.effect->given && !(p->made.reference > 0)) ? "can be" : "are");
+    return status;
 }
 
 /* The samples that hold a format without loss, the first that the kind of file has. */

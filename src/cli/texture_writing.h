@@ -28,6 +28,8 @@ typedef struct writing {
     uint32_t *codes;
     progress bar;
     uint64_t done;
+    bool levels; /* the error of an effect, and its pixels: all, and those more than one level off */
+    uint64_t pixels, beyond;
 } writing;
 
 /** Opens the output and makes room. @return an exit status, after one line on stderr */

@@ -53,6 +53,8 @@ const char *frame_refuses(const frame *f, const frame_product *product) {
         return "this method does not support this projection and mapping";
     if (product->kind == FRAME_EFFECT && !effect_applies(product->effect, frame_planes(f)))
         return "this effect needs a finite far plane";
+    if (product->kind == FRAME_EFFECT && f->scene == NULL && (product->effect->needs & EFFECT_NORMALS) != 0)
+        return "this effect needs normals, which an image of depths does not have, but a scene";
     if (product->kind == FRAME_NORMAL && product->error && f->scene == NULL &&
         strcmp(product->normal->name, "projective") != 0)
         return "the error of this method is known in a scene only; that of 'projective' has a bound";
@@ -119,7 +121,7 @@ static bool run_start(run *r, const frame *f, const frame_product *product) {
         return false;
     for (uint32_t i = 0; i < r->stride; i++)
         r->slope_x[i] = (float)camera_slope_x(c, (double)i - NORMAL_REACH);
-    if (product->kind == FRAME_POSITION && product->position != NULL)
+    if ((product->kind == FRAME_POSITION && product->position != NULL) || product->kind == FRAME_EFFECT)
         position_prepare(&r->position, c);
     const dp_path path = dp_path_best();
     return dp_batch_init(&r->eye, &c->setup, DP_TASK_EYE, DP_REAL_FLOAT, DP_WORD_32, path) == DP_OK &&
@@ -159,7 +161,7 @@ static void make_row(const run *r, uint32_t first, uint32_t i) {
                     .out = r->out + (size_t)i * r->width * (size_t)frame_channels(r->product)};
     for (int k = -NORMAL_REACH; k <= NORMAL_REACH; k++)
         in.eyes[k + NORMAL_REACH] = r->eyes + (middle + (size_t)k) * r->stride + NORMAL_REACH;
-    if (r->product->kind == FRAME_POSITION) {
+    if (r->product->kind == FRAME_POSITION || r->product->kind == FRAME_EFFECT) {
         dp_batch_run(&r->depth, in.codes, scratch, r->width);
         in.depth = scratch;
     }

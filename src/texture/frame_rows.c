@@ -4,11 +4,9 @@
 #include <math.h>
 #include <string.h>
 
-#include "core/bits.h"
 #include "texture/clones.h"
 
 static const double TO_DEGREES = 180 / M_PI;
-static const double LEVELS = 255, ROUNDED = 255 * DP_UNIT; /* an output of 1 in binary32 */
 
 static const texture_camera *camera_of(const frame_row *in) {
     return in->frame->camera;
@@ -21,38 +19,6 @@ static const float *eyes_of(const frame_row *in) {
 /* Length along the pixel's ray of one scene unit of eye depth. */
 static double stretch(const frame_row *in, uint32_t x) {
     return camera_radial(camera_of(in), x, in->row);
-}
-
-/* What the pixel of a scene truly sees; NaN where it is sky, or counts as such. */
-static scene_hit truth(const frame_row *in, uint32_t x) {
-    scene_hit hit;
-    in->frame->scene->hit(camera_of(in), in->frame->parameters, x, in->row, &hit);
-    if (isinf(hit.z) || isnan(eyes_of(in)[x]))
-        hit.z = NAN;
-    return hit;
-}
-
-/* What a code says of the depth. Neighbours often share one. */
-typedef struct ranges {
-    uint32_t code;
-    grain_range range;
-} ranges;
-
-static const grain_range *range_of(const frame_row *in, ranges *last, uint32_t x) {
-    const uint32_t code = in->codes[x];
-    if (code != last->code)
-        *last = (ranges){code, grain_range_of(&camera_of(in)->setup, in->frame->grain, code)};
-    return &last->range;
-}
-
-static ranges nothing_yet(void) {
-    return (ranges){.code = UINT32_MAX};
-}
-
-/* An error map must not be below the error: the nearest binary32 number that is not. A few roundings to double came
-   before. */
-static float upwards(double error) {
-    return dp_float_up(error * (1 + 0x1p-48));
 }
 
 TEXTURE_CLONES static void interleave_planes(const float *restrict x, const float *restrict y, const float *restrict z,
@@ -84,19 +50,19 @@ static void make_eye(const frame_row *in) {
 /* What the product has lost in binary32, and how far what is stored is off: of a scene the latter alone, exactly. */
 static void make_eye_error(const frame_row *in) {
     const dp_setup *setup = &camera_of(in)->setup;
-    ranges last = nothing_yet();
+    frame_ranges last = frame_no_range();
     for (uint32_t x = 0; x < camera_of(in)->width; x++) {
         const double along = in->product->radial ? stretch(in, x) : 1;
         double error = NAN;
         if (in->frame->scene != NULL) {
-            const double z = truth(in, x).z;
+            const double z = frame_truth(in, x).z;
             error = isnan(z) ? (double)NAN : fabs(dp_error(setup, in->codes[x], z)) * along;
         } else if (!isnan(eyes_of(in)[x])) {
             const float eye = eyes_of(in)[x], product = in->product->radial ? (float)((double)eye * along) : eye;
-            error =
-                fabs((double)product - dp_stored(setup, in->codes[x]) * along) + range_of(in, &last, x)->reach * along;
+            error = fabs((double)product - dp_stored(setup, in->codes[x]) * along) +
+                    frame_range_of(in, &last, x)->reach * along;
         }
-        in->out[x] = upwards(error);
+        in->out[x] = frame_upwards(error);
     }
 }
 
@@ -132,20 +98,20 @@ static void make_position(const frame_row *in) {
 
 static void make_position_error(const frame_row *in) {
     const bool known = in->frame->scene != NULL;
-    ranges last = nothing_yet();
+    frame_ranges last = frame_no_range();
     places(in);
     for (uint32_t x = 0; x < camera_of(in)->width; x++) {
         const float world[3] = {in->planes[0][x], in->planes[1][x], in->planes[2][x]};
         double z = NAN, relative[3];
         if (!isnan(eyes_of(in)[x]))
-            z = known ? truth(in, x).z : dp_stored(&camera_of(in)->setup, in->codes[x]);
+            z = known ? frame_truth(in, x).z : dp_stored(&camera_of(in)->setup, in->codes[x]);
         if (isnan(z)) { /* a hole, not an error without bound */
             in->out[x] = NAN;
             continue;
         }
         exact_place(in, x, z, relative);
-        in->out[x] = upwards(position_off(camera_of(in), relative, world) +
-                             (known ? 0 : range_of(in, &last, x)->reach * stretch(in, x)));
+        in->out[x] = frame_upwards(position_off(camera_of(in), relative, world) +
+                                   (known ? 0 : frame_range_of(in, &last, x)->reach * stretch(in, x)));
     }
 }
 
@@ -176,82 +142,12 @@ static void make_normal_error(const frame_row *in) {
         const double found[3] = {in->planes[0][x], in->planes[1][x], in->planes[2][x]};
         double angle = NAN;
         if (!isnan(found[0]) && in->frame->scene != NULL) {
-            const scene_hit hit = truth(in, x);
+            const scene_hit hit = frame_truth(in, x);
             angle = isnan(hit.z) ? (double)NAN : normal_angle(found, hit.normal);
         } else if (!isnan(found[0])) {
             angle = plane_bound(in, x, found);
         }
-        in->out[x] = upwards(angle * TO_DEGREES);
-    }
-}
-
-/* The settings of a row: world height per unit of eye depth is that of its rays. No camera rolls: all rise alike. */
-static void settings_of(const frame_row *in, double at[TEXTURE_PARAMETERS]) {
-    const texture_camera *c = camera_of(in);
-    const int rise = parameter_find(in->product->effect->parameters, "rise");
-    const double ray[3] = {0, c->ortho ? 0 : camera_slope_y(c, in->row), 1};
-    double world[3];
-    memcpy(at, in->product->effect_settings, TEXTURE_PARAMETERS * sizeof *at);
-    camera_turn(c, ray, world);
-    if (rise >= 0)
-        at[rise] = world[1];
-}
-
-/* Two pixels that are compared, as Roberts' edge detector does along both diagonals of a quad. */
-static double step(const frame_row *in, const double *at, uint32_t x) {
-    const float *here = eyes_of(in), *below = in->eyes[NORMAL_REACH + 1];
-    const effect_row *row = in->product->effect;
-    const dp_setup *setup = frame_planes(in->frame);
-    const double a = row->output(setup, at, here[x], below[x + 1]);
-    const double b = row->output(setup, at, here[x + 1], below[x]);
-    return isnan(a) || isnan(b) ? (double)NAN : fmax(a, b);
-}
-
-static void make_effect(const frame_row *in) {
-    const effect_row *row = in->product->effect;
-    double at[TEXTURE_PARAMETERS];
-    settings_of(in, at);
-    for (uint32_t x = 0; x < camera_of(in)->width; x++) {
-        const double z = eyes_of(in)[x];
-        double value = NAN;
-        if (!isnan(z) && row->kind == EFFECT_STEP)
-            value = step(in, at, x);
-        else if (!isnan(z))
-            value = row->output(frame_planes(in->frame), at, z, in->product->reference);
-        in->out[x] = (float)value;
-    }
-}
-
-/* Of an image the depths that it leaves open; of a scene those of the cell. */
-static double effect_error_at(const frame_row *in, ranges *last, const double *at, uint32_t x) {
-    const dp_setup *setup = &camera_of(in)->setup;
-    const effect_row *row = in->product->effect;
-    if (in->frame->scene != NULL)
-        return effect_error(row, setup, at,
-                            fmin(fmax(dp_stored(setup, in->codes[x]), setup->spec.znear), setup->spec.zfar));
-    const grain_range *range = range_of(in, last, x);
-    effect_depths depths = {.seen = (double)eyes_of(in)[x], .lo = range->lo, .hi = range->hi};
-    if (row->kind == EFFECT_STEP) {
-        const double slope = at[parameter_find(row->parameters, "slope")];
-        const double ends[2] = {range->lo + slope, fmin(range->hi + slope, setup->spec.zfar)};
-        for (int i = 0; i < 2; i++)
-            depths.beside = fmax(depths.beside, grain_range_of(setup, in->frame->grain, dp_code(setup, ends[i])).reach);
-    }
-    const double output = row->output(frame_planes(in->frame), at, depths.seen, depths.seen);
-    return effect_error_within(row, frame_planes(in->frame), at, &depths) + ROUNDED * fmax(1, fabs(output));
-}
-
-static void make_effect_error(const frame_row *in) {
-    double at[TEXTURE_PARAMETERS];
-    ranges last = nothing_yet();
-    settings_of(in, at);
-    for (uint32_t x = 0; x < camera_of(in)->width; x++) {
-        if (isnan(eyes_of(in)[x]))
-            in->out[x] = NAN;
-        else if (x > 0 && in->codes[x] == in->codes[x - 1])
-            in->out[x] = in->out[x - 1];
-        else
-            in->out[x] = upwards(fmin(effect_error_at(in, &last, at, x), LEVELS));
+        in->out[x] = frame_upwards(angle * TO_DEGREES);
     }
 }
 
@@ -259,5 +155,5 @@ frame_make *const frame_makers[FRAME_KINDS][2] = {
     [FRAME_EYE] = {make_eye, make_eye_error},
     [FRAME_POSITION] = {make_position, make_position_error},
     [FRAME_NORMAL] = {make_normal, make_normal_error},
-    [FRAME_EFFECT] = {make_effect, make_effect_error},
+    [FRAME_EFFECT] = {frame_effect, frame_effect_error},
 };
