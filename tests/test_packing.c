@@ -456,6 +456,39 @@ static void warnings(void **state) {
     }
 }
 
+/* What a file says of itself is read as options are: what they refuse is refused, and terminals see plain text. */
+static void notes_of_others(void **state) {
+    (void)state;
+    static const struct {
+        const char *text;
+        int status;
+        const char *said;
+    } rows[] = {
+        {"product=depth packing=rgb24 near=0.5 far=40 mapping=reversed", 0, NULL},
+        {"product=depth packing=rgb25 near=0.5 far=40", 2, "--packing: must be"},
+        {"product=depth packing=rgb24 near=-1 far=40", 2, "near must be from 1e-12 to 1e12"},
+        {"product=\033[31mred", 2, "holds ?[31mred, as depthprec wrote them"},
+        {"unknown=1 packing=rgb24 output=/tmp/x ortho=3", 0, NULL},
+    };
+    for (size_t i = 0; i < sizeof rows / sizeof rows[0]; i++) {
+        static const unsigned char pixels[24] = {1, 2, 3, 4, 5, 6, 7, 8, 9};
+        char text[128];
+        const int length = snprintf(text, sizeof text, "depthprec%c%s", 0, rows[i].text);
+        handmade h = {.size = 0}, with = {.size = 0};
+        handmade_png(&h, 4, 2, 8, 2, 0, 3, pixels);
+        handmade_bytes(&with, h.at, 33);
+        handmade_chunk(&with, "tEXt", text, (size_t)length);
+        handmade_bytes(&with, h.at + 33, h.size - 33);
+        FILE *f = fopen(truth_path("in.png"), "wb");
+        assert_int_equal(fwrite(with.at, 1, with.size, f), with.size);
+        fclose(f);
+        assert_int_equal(run((const char *const[]){truth_path("in.png"), "--eye", "-o", truth_path("eye.npy"), NULL}),
+                         rows[i].status);
+        if (rows[i].said != NULL && !was_said(rows[i].said))
+            fail_msg("not said: %s", rows[i].said);
+    }
+}
+
 /* What stands against what; what is not known to be safe is never written. */
 static void refusals(void **state) {
     (void)state;
@@ -494,7 +527,7 @@ int main(void) {
         cmocka_unit_test(resampled),         cmocka_unit_test(wider_samples),
         cmocka_unit_test(premultiplied),     cmocka_unit_test(there_and_back),
         cmocka_unit_test(normals_come_back), cmocka_unit_test(warnings),
-        cmocka_unit_test(refusals),
+        cmocka_unit_test(refusals),          cmocka_unit_test(notes_of_others),
     };
     cmocka_set_message_output(CM_OUTPUT_TAP);
     return cmocka_run_group_tests(tests, truth_folder, truth_folder_end);

@@ -49,20 +49,27 @@ static bool is_linear(const png_byte *data, size_t size) {
     return size == sizeof linear && memcmp(data, linear, sizeof linear) == 0;
 }
 
+/* The text behind the keyword; what is no plain character is none of ours. */
+static void take_note(image *out, const png_byte *text, size_t size) {
+    const size_t length = size < sizeof out->note - 1 ? size : sizeof out->note - 1;
+    for (size_t i = 0; i < length; i++)
+        out->note[i] = (char)(text[i] >= 0x20 && text[i] < 0x7f ? text[i] : '?');
+    out->note[length] = '\0';
+}
+
 /* One of the chunks that are looked at. @return 1: it needs no more care */
 static int look_at(png_structp png, png_unknown_chunkp chunk) {
     image *out = png_get_user_chunk_ptr(png);
     const char *name = (const char *)chunk->name;
+    const size_t key = sizeof KEYWORD;
     if (strcmp(name, "sRGB") == 0)
         out->colours |= IMAGE_SRGB;
     else if (strcmp(name, "iCCP") == 0)
         out->colours |= IMAGE_PROFILE;
     else if (strcmp(name, "gAMA") == 0 && !is_linear(chunk->data, chunk->size))
         out->colours |= IMAGE_GAMMA;
-    else if (strcmp(name, "tEXt") == 0 && chunk->size > sizeof KEYWORD &&
-             memcmp(chunk->data, KEYWORD, sizeof KEYWORD) == 0)
-        snprintf(out->note, sizeof out->note, "%.*s", (int)(chunk->size - sizeof KEYWORD),
-                 (const char *)chunk->data + sizeof KEYWORD);
+    else if (strcmp(name, "tEXt") == 0 && chunk->size > key && memcmp(chunk->data, KEYWORD, key) == 0)
+        take_note(out, chunk->data + key, chunk->size - key);
     return 1;
 }
 
