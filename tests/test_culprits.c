@@ -183,7 +183,7 @@ static const refusal refusals[] = {
     {"texture --scene plane --eye --normal high -o x.npy", "normal", 2},
     {"texture --scene plane --eye -o x.txt", "output", 2},
     {"texture --scene plane --eye --figure x.txt", "figure", 2},
-    {"texture --scene plane --eye --json -o x.npy", "json", 2},
+    {"texture --scene plane --eye --csv -o x.npy", "csv", 2},
     {"texture --scene plane --eye --csv -o x.npy", "csv", 2},
     {"texture --effect fog -f inf", "far", 2},
     {"texture --effect fog --fov 30", "fov", 2},

@@ -249,6 +249,7 @@ static void test_words(void **state) {
          WORD_AT(colour),
          "auto, always or never",
          {{"auto", OUTPUT_COLOUR_AUTO}, {"always", OUTPUT_COLOUR_ALWAYS}, {"never", OUTPUT_COLOUR_NEVER}}},
+        {"texture", OPTION_NORMAL_FORMAT, WORD_AT(normal_format), "opengl or directx", {{"opengl", 0}, {"directx", 1}}},
         {"texture", OPTION_THEME, WORD_AT(theme), "light, dark or print", {{"light", 0}, {"dark", 1}, {"print", 2}}},
         {"check x",
          OPTION_REPORT,
@@ -298,6 +299,8 @@ static void test_rows(void **state) {
         {"texture", OPTION_POSITION, AT(position), "rays", "rays", offsetof(position_row, name), "matirx", "matrix"},
         {"texture", OPTION_POSITION, AT(position), "exact", NULL, 0, "exakt", "exact"},
         {"texture", OPTION_NORMAL, AT(normal), "high-1", "high-1", offsetof(normal_row, name), "meduim", "medium"},
+        {"texture", OPTION_PACKING, AT(packing), "rgb24", "rgb24", offsetof(packing, name), "rgb42", "rgb24"},
+        {"texture", OPTION_PACK, AT(pack), "RG", "rg", offsetof(packing, name), "depth-normal", "depth-normals"},
         {"texture", OPTION_EFFECT, AT(effect), "fog", "fog", offsetof(effect_row, name), "edeg", "edge"},
     };
     tally t = {.name = "rows"};
@@ -395,6 +398,7 @@ static void test_flags(void **state) {
                  {"texture", OPTION_EYE, WORD_AT(eye)},
                  {"texture", OPTION_RADIAL, WORD_AT(radial)},
                  {"texture", OPTION_ERROR_MAP, WORD_AT(error_map)},
+                 {"texture", OPTION_PACKED_NORMAL, WORD_AT(packed_normal)},
                  {"list", OPTION_QUIET, WORD_AT(quiet)},
                  {"table", OPTION_VERBOSE, WORD_AT(verbose)},
                  {"list", OPTION_FULL, WORD_AT(full)},
@@ -423,6 +427,7 @@ static void test_texts(void **state) {
         size_t field;
         bool file;
     } texts[] = {{"texture", OPTION_TITLE, AT(title), false},
+                 {"texture", OPTION_CHANNEL, AT(channel), false},
                  {"table", OPTION_OUTPUT, AT(output), true},
                  {"texture", OPTION_FIGURE, AT(figure), true}};
     tally t = {.name = "texts"};

@@ -74,11 +74,11 @@ static const struct {
     {{-10, 50, {"unorm16"}, {"reversed"}, .ortho = 1},
      "height-fog",
      {-9, -0.5, 0.25, 3, 40},
-     "--pitch -20",
-     320,
-     359,
-     {640, 360, 60, 5, 0, -20, {0, 0, 0}},
-     {640, 360, 60, 5, 0, -20, {0, 0, 0}}},
+     "--half-height 3 --pitch 8 --size 90x60 --pixel 70,12",
+     70,
+     12,
+     {90, 60, 60, 3, 0, 8, {0, 0, 0}},
+     {90, 60, 60, 3, 0, 8, {0, 0, 0}}},
 };
 
 /* The axis of a camera at the origin where the effect needs none. */

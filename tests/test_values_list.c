@@ -13,6 +13,7 @@
 #include "texture/effect.h"
 #include "texture/normal.h"
 #include "texture/pack.h"
+#include "texture/packing.h"
 #include "texture/position.h"
 #include "texture/scene.h"
 
@@ -87,7 +88,7 @@ static bool api(size_t i, listed *l) {
     return r != NULL;
 }
 
-static bool packing(size_t i, listed *l) {
+static bool claimed_packing(size_t i, listed *l) {
     const pack_row *r = pack_get(i);
     if (r == NULL)
         return false;
@@ -131,6 +132,17 @@ static bool scene(size_t i, listed *l) {
     return true;
 }
 
+/* Half a step, and what binary32 adds; with three digits. */
+static bool packed(size_t i, listed *l) {
+    static const double halves[] = {7.81e-06, 7.81e-06, 1.17e-10, 1.16e-10, 2.98e-08, 2.98e-08, 0.00196};
+    const struct packing *r = packing_get(i);
+    if (r != NULL) {
+        *l = (listed){r->name, "", r->note, r->source, {0}, 0};
+        add_number(l, halves[i]);
+    }
+    return r != NULL;
+}
+
 static bool position(size_t i, listed *l) {
     const position_row *r = position_get(i);
     if (r != NULL)
@@ -167,11 +179,21 @@ static bool method(size_t i, listed *l) {
 static const struct {
     const char *what, *bound;
     bool (*get)(size_t, listed *);
-} topics[] = {{"formats", "bound", format},   {"mappings", "bound", mapping}, {"models", "bound", model},
-              {"arithmetic", "bound", arith}, {"causes", "bound", cause},     {"presets", "camera", preset_row},
-              {"apis", "rule", api},          {"packings", "bound", packing}, {"effects", "parameters", effect},
-              {"figures", "bound", figure},   {"scenes", "bound", scene},     {"positions", "bound", position},
-              {"normals", "bound", normal},   {"methods", "bound", method}};
+} topics[] = {{"formats", "bound", format},
+              {"mappings", "bound", mapping},
+              {"models", "bound", model},
+              {"arithmetic", "bound", arith},
+              {"causes", "bound", cause},
+              {"presets", "camera", preset_row},
+              {"apis", "rule", api},
+              {"packings", "bound", claimed_packing},
+              {"packed", "bound", packed},
+              {"effects", "parameters", effect},
+              {"figures", "bound", figure},
+              {"scenes", "bound", scene},
+              {"positions", "bound", position},
+              {"normals", "bound", normal},
+              {"methods", "bound", method}};
 enum { TOPICS = sizeof topics / sizeof topics[0] };
 
 /* ---- Against what is printed ------------------------------------------------------------------------------------- */

@@ -15,6 +15,8 @@ static int check_alone(const options *o) {
         return option_error(OPTION_RADIAL, "needs --eye");
     if (option_given(o, OPTION_AT))
         return option_error(OPTION_AT, "is for the table of --effect without an image");
+    if (option_given(o, OPTION_NORMAL_FORMAT) && o->normal == NULL)
+        return option_error(OPTION_NORMAL_FORMAT, "needs --normal or --packed-normal");
     if (option_given(o, OPTION_PIXEL) && texture_product_wanted(o))
         return option_error(OPTION_PIXEL, "describes single pixels, and makes no image or figure");
     for (size_t i = 0; i < sizeof drawn / sizeof drawn[0]; i++)
@@ -25,9 +27,11 @@ static int check_alone(const options *o) {
 
 /* The table of an effect sees depths, and at most one pixel. */
 static int check_table(const options *o) {
-    static const option_id images[] = {OPTION_SKY,    OPTION_METRIC,    OPTION_EYE,     OPTION_RADIAL, OPTION_POSITION,
-                                       OPTION_NORMAL, OPTION_ERROR_MAP, OPTION_FIGURE,  OPTION_THEME,  OPTION_WIDTH,
-                                       OPTION_HEIGHT, OPTION_TITLE,     OPTION_THREADS, OPTION_TYPE};
+    static const option_id images[] = {OPTION_SKY,      OPTION_METRIC, OPTION_EYE,          OPTION_RADIAL,
+                                       OPTION_POSITION, OPTION_NORMAL, OPTION_ERROR_MAP,    OPTION_FIGURE,
+                                       OPTION_THEME,    OPTION_WIDTH,  OPTION_HEIGHT,       OPTION_TITLE,
+                                       OPTION_THREADS,  OPTION_TYPE,   OPTION_PACKING,      OPTION_NORMAL_FORMAT,
+                                       OPTION_CHANNEL,  OPTION_PACK,   OPTION_PACKED_NORMAL};
     static const option_id cameras[] = {OPTION_FOV,    OPTION_HALF_HEIGHT, OPTION_YAW,  OPTION_PITCH,
                                         OPTION_ORIGIN, OPTION_SIZE,        OPTION_PIXEL};
     for (size_t i = 0; i < sizeof images / sizeof images[0]; i++)
@@ -53,16 +57,18 @@ static int make_product(const options *o, const texture_source *source, texture_
     return status;
 }
 
-int cmd_texture(const options *o) {
+int cmd_texture(const options *given) {
+    options own = *given, *o = &own;
     texture_product product = {0};
+    const bool packed = o->pack != NULL || o->packed_normal;
     const bool described = option_given(o, OPTION_PIXEL) && o->effect != NULL;
-    const bool made = texture_product_wanted(o);
+    const bool made = !packed && texture_product_wanted(o);
     if (o->effect != NULL && o->operand_count == 0 && o->scene == NULL) {
         const int status = check_table(o);
         return status == EXIT_FINE ? texture_effect_table(o) : status;
     }
     texture_source source = {0};
-    int status = check_alone(o);
+    int status = packed ? texture_pack_check(o) : check_alone(o);
     if (status == EXIT_FINE && made)
         status = texture_product_resolve(o, &product);
     else if (status == EXIT_FINE && described)
@@ -71,12 +77,16 @@ int cmd_texture(const options *o) {
         status = texture_source_open(o, &source);
     if (status == EXIT_FINE && made)
         status = make_product(o, &source, &product);
+    else if (status == EXIT_FINE && o->pack != NULL)
+        status = texture_pack_write(o, &source);
+    else if (status == EXIT_FINE && o->packed_normal)
+        status = texture_packed_normal_write(o, &source);
     else if (status == EXIT_FINE && option_given(o, OPTION_PIXEL))
         status = texture_pixel_write(o, &source, described ? &product.made : NULL);
     else if (status == EXIT_FINE && o->scene != NULL && o->output != NULL && o->form == FORM_TEXT)
         status = texture_depth_write(o, &source);
     else if (status == EXIT_FINE)
         status = texture_report_write(o, &source);
-    image_free(&source.picture);
+    texture_source_close(&source);
     return status;
 }

@@ -21,6 +21,8 @@ static const name_list apis = {.words = (const char *const[]){"all", NULL}, .get
 static const name_list scenes = {.get = list_scene};
 static const name_list positions = {.words = (const char *const[]){"exact", NULL}, .get = list_position};
 static const name_list normals = {.get = list_normal};
+static const name_list normal_formats = {.words = (const char *const[]){"opengl", "directx", NULL}};
+static const name_list packed = {.get = list_packed};
 static const name_list effects = {.get = list_effect};
 /* In the order of their enumerators. */
 static const name_list targets = {
@@ -215,7 +217,7 @@ const option_row option_rows[OPTION_COUNT] = {
     [OPTION_LAST_PITCH] = {"last-pitch", 0, "DEG", VERB_TEXTURE,
         "last frame's turn upwards", NUMBER(last.pitch, -90, 90, "degrees"), .without = "that of this frame"},
     [OPTION_LAST_ORIGIN] = {"last-origin", 0, "X,Y,Z", VERB_TEXTURE,
-        "the camera's position in the last frame", ORIGIN(last.origin), .without = "that of this frame"},
+        "last frame's position", ORIGIN(last.origin), .without = "that of this frame"},
     [OPTION_SCENE] = {"scene", 0, "NAME", VERB_TEXTURE,
         "a synthetic scene in place of FILE: @; 'depthprec list scenes' has their parameters", ROW(scene, scenes)},
     [OPTION_SIZE] = {"size", 0, "WxH", VERB_TEXTURE,
@@ -232,6 +234,10 @@ const option_row option_rows[OPTION_COUNT] = {
         "the samples are eye depths in units of SCALE, 0.001 for millimetres; 0, negative numbers, NaN and infinity "
         "are holes",
         LENGTH(metric, METRIC_SCALE_MIN, METRIC_SCALE_MAX, "scene units")},
+    [OPTION_PACKING] = {"packing", 0, "NAME", VERB_TEXTURE,
+        "the channels of FILE hold the depth together: @; 'depthprec list packed'", ROW(packing, packed)},
+    [OPTION_CHANNEL] = {"channel", 0, "NAME", VERB_TEXTURE,
+        "the channel of an EXR that is read", TEXT(channel), .without = "Z, R or depth, the first that is there"},
     [OPTION_PIXEL] = {"pixel", 0, "X,Y[;X,Y...]", VERB_TEXTURE,
         "describe single pixels: code, eye depth and its range, neighbours, position, normal; 0,0 is the "
         "top left. With --effect alone: the pixel that sees the depths",
@@ -244,6 +250,13 @@ const option_row option_rows[OPTION_COUNT] = {
         "product: world positions by @; exact is the truth", ROW(position, positions)},
     [OPTION_NORMAL] = {"normal", 0, "METHOD", VERB_TEXTURE,
         "product: normals by @", ROW(normal, normals)},
+    [OPTION_NORMAL_FORMAT] = {"normal-format", 0, NULL, VERB_TEXTURE,
+        "which way y runs in a PNG of normals: up, or down", WORD(normal_format, normal_formats), .standard = "opengl"},
+    [OPTION_PACKED_NORMAL] = {"packed-normal", 0, NULL, VERB_TEXTURE,
+        "product: the normals that --packing depth-normals holds beside the depth", FLAG(packed_normal)},
+    [OPTION_PACK] = {"pack", 0, "NAME", VERB_TEXTURE,
+        "write the depths to -o FILE, a PNG or NPY of 8 bits, in several channels: @; with --normal the normals of "
+        "depth-normals are by that method, else projective", ROW(pack, packed)},
     [OPTION_EFFECT] = {"effect", 0, "NAME", VERB_TEXTURE,
         "product: an effect that reads depth: @; without an image, the usable values of its parameter",
         ROW(effect, effects)},

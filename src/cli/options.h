@@ -24,6 +24,7 @@
 #include "texture/camera.h"
 #include "texture/effect.h"
 #include "texture/normal.h"
+#include "texture/packing.h"
 #include "texture/position.h"
 #include "texture/scene.h"
 
@@ -75,11 +76,16 @@ typedef enum option_id {
     OPTION_PARAMETER,
     OPTION_SKY,
     OPTION_METRIC,
+    OPTION_PACKING,
+    OPTION_CHANNEL,
     OPTION_PIXEL,
     OPTION_EYE,
     OPTION_RADIAL,
     OPTION_POSITION,
     OPTION_NORMAL,
+    OPTION_NORMAL_FORMAT,
+    OPTION_PACKED_NORMAL,
+    OPTION_PACK,
     OPTION_EFFECT,
     OPTION_ERROR_MAP,
     OPTION_FIGURE,
@@ -175,7 +181,11 @@ typedef struct options {
     double sky;    /**< window depth */
     double metric; /**< scene units of 1 in a sample of metric depth; 0 when not given */
     depths pixels; /**< column and row of each in turn; count is 0 when not given */
-    bool eye, radial, error_map;
+    bool eye, radial, error_map, packed_normal;
+    unsigned normal_format;       /**< of a PNG: 0: y up, 1: y down */
+    const char *channel;          /**< of FILE, by name; null: that which is depth */
+    const packing *packing;       /**< of FILE */
+    const packing *pack;          /**< of what is written */
     const position_row *position; /**< null for exact as well */
     const normal_row *normal;
     const effect_row *effect;

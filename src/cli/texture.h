@@ -30,6 +30,8 @@ typedef struct texture_source {
     image_type type; /**< of the file, where --metric has changed the picture's */
     uint32_t channels;
     metric metric;        /**< with --metric */
+    unpacked unpacked;    /**< with --packing */
+    bool noted;           /**< the file itself says its mapping */
     grain grain;          /**< of an image */
     size_t reading_count; /**< 0 where nothing is assumed that would be read otherwise */
     texture_reading readings[READINGS_MAX];
@@ -44,10 +46,15 @@ typedef struct texture_source {
 /** "given", "found", "assumed". */
 const char *texture_origin_name(texture_origin origin);
 
-/** Reads the image, to be freed by image_free(), or prepares the scene. @return an exit status, after one line on
- * stderr
+/**
+ * Reads the image, or prepares the scene; texture_source_close() frees it. What a file of ours says of itself and was
+ * not given is filled into the options. @return an exit status, after one line on stderr
  */
-int texture_source_open(const options *o, texture_source *out);
+int texture_source_open(options *o, texture_source *out);
+void texture_source_close(texture_source *s);
+
+/** Whether the image holds window depths, which have a format and a mapping. */
+bool texture_is_window(const options *o);
 
 /**
  * Of an image, what it does not say: fills in grain, how the samples were rounded, which is said in `why` of what was
@@ -104,6 +111,16 @@ int texture_product_check(const texture_source *s, texture_product *p);
 
 /** Writes the file of -o. */
 int texture_product_write(const options *o, const texture_source *s, const texture_product *p);
+
+/** Is --pack or --packed-normal asked for? Options that have no meaning beside them are refused. @return an exit status
+ */
+int texture_pack_check(const options *o);
+
+/** Writes the depths to the file of -o as --pack says. */
+int texture_pack_write(const options *o, const texture_source *s);
+
+/** Writes the normals that the image holds beside its depths. */
+int texture_packed_normal_write(const options *o, const texture_source *s);
 
 /** The depth image of a scene, to the file of -o: integers or floats as the format has them. */
 int texture_depth_write(const options *o, const texture_source *s);

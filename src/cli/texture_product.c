@@ -47,7 +47,7 @@ static const struct {
              {FRAME_EFFECT, OPTION_EFFECT, "", "", "levels of 1/255"}};
 
 static int check_files(const options *o) {
-    image_file file;
+    image_file file = IMAGE_FILE_COUNT;
     if (o->output == NULL && o->figure == NULL)
         return usage_error("texture: a product needs -o FILE that ends in .png, .pfm or .npy, or --figure FILE");
     if (o->output != NULL && !image_file_of(o->output, &file))
@@ -55,9 +55,12 @@ static int check_files(const options *o) {
     canvas_format type;
     if (o->figure != NULL && figure_file_type(o, OPTION_FIGURE, o->figure, &type) != EXIT_FINE)
         return EXIT_USAGE;
-    if (o->form != FORM_TEXT)
+    if (o->form == FORM_CSV || (o->form == FORM_JSON && o->output == NULL))
         return option_error(o->form == FORM_JSON ? OPTION_JSON : OPTION_CSV,
-                            "is for statistics, which a product does not have");
+                            "is for statistics, which a product does not have%s",
+                            o->form == FORM_JSON ? "; with -o FILE it says what the numbers in FILE are" : "");
+    if (option_given(o, OPTION_NORMAL_FORMAT) && (o->output == NULL || file != IMAGE_PNG || o->error_map))
+        return option_error(OPTION_NORMAL_FORMAT, "is for the normals in a PNG");
     return EXIT_FINE;
 }
 

@@ -6,31 +6,11 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "cli/progress.h"
-#include "cli/texture.h"
+#include "cli/texture_writing.h"
 #include "report/number.h"
+#include "report/report.h"
 
-enum { GREYS = 65535, STREAM_BUFFER = 1 << 16 };
-
-/* An image on its way into an output, under whose name it appears when it is complete. */
-typedef struct writing {
-    output out;
-    FILE *stream;
-    image_writer *writer;
-    image_file file;
-    size_t row_values;
-    const texture_source *source;
-    void *row;        /* room for a row of the file's samples */
-    double lo, scale; /* of the 16 bits of a PNG */
-    bool upwards;     /* an error must not come back smaller, */
-    double more;      /* and has to hold for the product in 16 bits, which is rounded, too */
-    image_type type;  /* depth images: */
-    uint32_t *codes;
-    progress bar;
-    uint64_t done;
-    bool levels; /* the error of an effect, and its pixels: all, and those more than one level off */
-    uint64_t pixels, beyond;
-} writing;
+enum { STREAM_BUFFER = 1 << 16 };
 
 static ssize_t stream_write(void *cookie, const char *bytes, size_t size) {
     output *out = cookie;
@@ -38,7 +18,7 @@ static ssize_t stream_write(void *cookie, const char *bytes, size_t size) {
     return output_failed(out) ? 0 : (ssize_t)size; /* what a cookie reports as an error */
 }
 
-static int writing_open(const options *o, writing *w, const texture_source *s, image_type type, uint32_t channels) {
+int writing_open(const options *o, writing *w, const texture_source *s, image_type type, uint32_t channels) {
     int status = options_open(o, &w->out);
     if (status != EXIT_FINE)
         return status;
@@ -48,16 +28,21 @@ static int writing_open(const options *o, writing *w, const texture_source *s, i
     w->row = malloc(w->row_values * image_type_size(type));
     w->codes = malloc(s->camera.width * sizeof *w->codes);
     w->stream = fopencookie(&w->out, "w", (cookie_io_functions_t){.write = stream_write});
-    if (w->row != NULL && w->codes != NULL && w->stream != NULL) {
-        setvbuf(w->stream, NULL, _IOFBF, STREAM_BUFFER);
-        w->writer = image_writer_open(w->stream, w->file, type, s->camera.width, s->camera.height, channels);
-    }
+    w->channels = channels;
     w->bar = progress_start("rows", s->camera.height, o->quiet);
     return EXIT_FINE;
 }
 
-/* A file appears only when all of it is there. */
-static int writing_close(writing *w, bool good) {
+bool writing_begin(writing *w, const char *note) {
+    if (w->row == NULL || w->codes == NULL || w->stream == NULL)
+        return false;
+    setvbuf(w->stream, NULL, _IOFBF, STREAM_BUFFER);
+    w->writer = image_writer_open(w->stream, w->file, w->type, w->source->camera.width, w->source->camera.height,
+                                  w->channels, note);
+    return w->writer != NULL;
+}
+
+int writing_close(writing *w, bool good) {
     progress_end(&w->bar);
     if (w->writer != NULL && !image_writer_close(w->writer))
         good = false;
@@ -71,8 +56,18 @@ static int writing_close(writing *w, bool good) {
     return usage_error("texture: no memory");
 }
 
-static bool bottom_up(const writing *w) {
+bool writing_bottom_up(const writing *w) {
     return w->writer != NULL && image_writer_bottom_up(w->writer);
+}
+
+/* 0.5 n + 0.5 with x to the right, y up or down, and z towards the camera, which view space has the other way. */
+static void to_colours(const writing *w, const float *values) {
+    const double signs[3] = {1, w->down ? -1 : 1, -1};
+    uint16_t *out = w->row;
+    for (size_t i = 0; i < w->row_values; i++) {
+        const double share = 0.5 * signs[i % 3] * (double)values[i] + 0.5;
+        out[i] = isnan(values[i]) ? 0 : (uint16_t)rint(fmin(fmax(share, 0), 1) * GREYS);
+    }
 }
 
 /* 0 is kept for pixels that have no value, and for errors without a bound. */
@@ -85,12 +80,14 @@ static void to_greys(const writing *w, const float *values) {
     }
 }
 
-static bool take(void *context, uint32_t row, uint32_t count, const float *values) {
+bool writing_take(void *context, uint32_t row, uint32_t count, const float *values) {
     writing *w = context;
     (void)row;
     for (uint32_t i = 0; i < count; i++) {
-        const float *one = values + (bottom_up(w) ? count - 1 - i : i) * w->row_values;
-        if (w->type == IMAGE_U16)
+        const float *one = values + (writing_bottom_up(w) ? count - 1 - i : i) * w->row_values;
+        if (w->directions)
+            to_colours(w, one);
+        else if (w->type == IMAGE_U16)
             to_greys(w, one);
         if (!image_writer_rows(w->writer, w->type == IMAGE_U16 ? w->row : one, 1))
             return false;
@@ -101,6 +98,11 @@ static bool take(void *context, uint32_t row, uint32_t count, const float *value
     }
     progress_step(&w->bar, w->done += count);
     return true;
+}
+
+/* Eye depth is a multiple of its unit, as sensors and simulators write it; what is nearer than that becomes 1. */
+static bool in_units(const frame_product *made, const frame_summary *sum) {
+    return made->kind == FRAME_EYE && !made->error && !made->radial && sum->count > 0 && sum->lo > 0;
 }
 
 /*
@@ -122,40 +124,112 @@ static bool rounding_of_product(const texture_source *s, const texture_product *
         sum.lo = 0;
     else if (p->made.kind != FRAME_NORMAL && !frame_summarise(&s->frame, &plain, &sum))
         return false;
+    const double unit = in_units(&plain, &sum) ? sum.hi / GREYS : (sum.hi - sum.lo) / (GREYS - 1);
     if (sum.count > 0)
-        *more = factors[p->made.kind] * (sum.hi - sum.lo) / (2.0 * (GREYS - 1)) * (1 + 0x1p-20);
+        *more = factors[p->made.kind] * unit / 2 * (1 + 0x1p-20);
+    if (in_units(&plain, &sum))
+        *more = fmax(*more, (unit - sum.lo) * (1 + 0x1p-20));
     return true;
 }
 
 /* What the samples of a PNG mean; normals have their range by nature, all else that of what was found. */
 static bool scale_of(const texture_source *s, const texture_product *p, writing *w, double *hi) {
     frame_summary sum = {.lo = -1, .hi = 1, .count = 1};
-    if ((p->made.kind != FRAME_NORMAL || p->made.error) && !frame_summarise(&s->frame, &p->made, &sum))
+    w->directions = p->made.kind == FRAME_NORMAL && !p->made.error;
+    if (!w->directions && !frame_summarise(&s->frame, &p->made, &sum))
         return false;
     w->upwards = p->made.error;
     if (p->made.error && !rounding_of_product(s, p, &w->more))
         return false;
-    w->lo = sum.count == 0 ? 0 : p->made.error ? 0 : sum.lo;
+    w->units = in_units(&p->made, &sum);
     *hi = (sum.count == 0 ? 1 : sum.hi) + w->more;
+    w->lo = sum.count == 0 || p->made.error ? 0 : w->units ? *hi / GREYS : sum.lo;
     w->scale = *hi > w->lo ? 1 / (*hi - w->lo) : 0;
     return true;
 }
 
+static const char *const axes[] = {"x right, y up, z towards the camera", "x right, y down, z towards the camera"};
+
+meaning writing_meaning(const options *o, const texture_product *p, const writing *w, double hi) {
+    meaning m = {.file = o->output,
+                 .product = p->name,
+                 .unit = *p->unit != '\0' ? p->unit : NULL,
+                 .type = image_type_name(w->type),
+                 .axes = w->directions ? axes[w->down] : NULL,
+                 .channels = w->channels,
+                 .scale = 1};
+    if (w->file == IMAGE_PNG) {
+        m.scale = w->directions ? 2.0 / GREYS : w->units ? w->lo : (hi - w->lo) / (GREYS - 1);
+        m.offset = w->directions ? -1 : w->units ? 0 : w->lo - m.scale;
+    }
+    return m;
+}
+
+void writing_note(const writing *w, const texture_product *p, const meaning *m, char note[IMAGE_NOTE_SIZE]) {
+    static const char *const names[FRAME_KINDS] = {[FRAME_EYE] = "eye-depths",
+                                                   [FRAME_POSITION] = "positions",
+                                                   [FRAME_NORMAL] = "normals",
+                                                   [FRAME_EFFECT] = "an-effect"};
+    const dp_spec *planes = &frame_planes(&w->source->frame)->spec;
+    if (w->units && m->scale >= METRIC_SCALE_MIN && m->scale <= METRIC_SCALE_MAX)
+        snprintf(note, IMAGE_NOTE_SIZE, "product=depth metric=%s near=%s far=%s%s", number_full(m->scale).text,
+                 number_full(planes->znear).text, number_full(planes->zfar).text, planes->ortho ? " ortho" : "");
+    else
+        snprintf(note, IMAGE_NOTE_SIZE, "product=%s%s offset=%s scale=%s%s",
+                 p->made.radial ? "distances" : names[p->made.kind], p->made.error ? ",-the-error" : "",
+                 number_full(m->offset).text, number_full(m->scale).text,
+                 m->axes == NULL      ? ""
+                 : m->axes == axes[0] ? " y=up"
+                                      : " y=down");
+}
+
+static const column meaning_columns[] = {{FIELD(meaning, file, "file", "")},
+                                         {FIELD(meaning, product, "product", "")},
+                                         {FIELD(meaning, unit, "unit", "")},
+                                         {FIELD(meaning, type, "type", "")},
+                                         {FIELD(meaning, channels, "channels", "")},
+                                         {FIELD(meaning, offset, "offset", "")},
+                                         {FIELD(meaning, scale, "scale", "")},
+                                         {FIELD(meaning, axes, "axes", "")},
+                                         {.kind = COLUMN_END}};
+
+int writing_say(const options *o, const texture_product *p, const writing *w, meaning *m, double hi) {
+    output out;
+    if (o->form == FORM_JSON) {
+        const int status = output_open(&out, NULL);
+        if (status != EXIT_FINE)
+            return status;
+        report_write(&(report_spec){"texture", meaning_columns, m, .label = 14}, &out, FORM_JSON);
+        return output_close(&out);
+    }
+    if (w->file != IMAGE_PNG || o->quiet)
+        return EXIT_FINE;
+    if (w->directions)
+        fprintf(stderr, "depthprec: %s: 0 is -1, 65535 is 1, %s; 0 in all three where there is no value\n", o->output,
+                m->axes);
+    else
+        fprintf(stderr, "depthprec: %s: 1 is %s, 65535 is %s%s%s, 0 where there is no %s\n", o->output,
+                number_full(w->lo).text, number_full(hi).text, *p->unit != '\0' ? " " : "", p->unit,
+                p->made.error ? "bound" : "value");
+    return EXIT_FINE;
+}
+
 int texture_product_write(const options *o, const texture_source *s, const texture_product *p) {
-    writing w = {.levels = p->made.kind == FRAME_EFFECT && p->made.error};
+    writing w = {.down = o->normal_format != 0, .levels = p->made.kind == FRAME_EFFECT && p->made.error};
     double hi = 0;
+    char note[IMAGE_NOTE_SIZE];
     image_file_of(o->output, &w.file);
     const bool png = w.file == IMAGE_PNG;
     int status = writing_open(o, &w, s, png ? IMAGE_U16 : IMAGE_F32, (uint32_t)frame_channels(&p->made));
     if (status != EXIT_FINE)
         return status;
-    const bool good = w.writer != NULL && (!png || scale_of(s, p, &w, &hi)) &&
-                      frame_run(&s->frame, &p->made, bottom_up(&w), take, &w);
+    bool good = !png || scale_of(s, p, &w, &hi);
+    meaning m = writing_meaning(o, p, &w, hi);
+    writing_note(&w, p, &m, note);
+    good = good && writing_begin(&w, note) && frame_run(&s->frame, &p->made, writing_bottom_up(&w), writing_take, &w);
     status = writing_close(&w, good);
-    if (status == EXIT_FINE && png && !o->quiet)
-        fprintf(stderr, "depthprec: %s: 1 is %s, 65535 is %s%s%s, 0 where there is no %s\n", o->output,
-                number_full(w.lo).text, number_full(hi).text, *p->unit != '\0' ? " " : "", p->unit,
-                p->made.error ? "bound" : "value");
+    if (status == EXIT_FINE)
+        status = writing_say(o, p, &w, &m, hi);
     if (status == EXIT_FINE && w.levels && w.pixels > 0 && !o->quiet)
         fprintf(stderr, "depthprec: %s: %s %% of the pixels %s off by more than one level\n", o->output,
                 number_of(100.0 * (double)w.beyond / (double)w.pixels, 3).text,
@@ -210,9 +284,9 @@ int texture_depth_write(const options *o, const texture_source *s) {
     const int status = writing_open(o, &w, s, type, 1);
     if (status != EXIT_FINE)
         return status;
-    bool good = w.writer != NULL;
+    bool good = writing_begin(&w, NULL);
     for (uint32_t i = 0; i < s->camera.height && good; i++) {
-        depth_row(&w, bottom_up(&w) ? s->camera.height - 1 - i : i);
+        depth_row(&w, writing_bottom_up(&w) ? s->camera.height - 1 - i : i);
         good = image_writer_rows(w.writer, w.row, 1);
         progress_step(&w.bar, i + 1);
     }
