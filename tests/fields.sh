@@ -53,6 +53,8 @@ all_named stability encode
 all_named texture --scene decals --size 64x36
 all_named texture --scene decals --size 64x36 --pixel 1,2
 all_named texture --effect intersection --at 10
+all_named texture --effect shadow --at 10
+all_named texture --scene plane --size 64x36 --effect fog --pixel 1,2
 "$DEPTHPREC" texture --scene plane --size 64x36 -F unorm16 -m d3d -o "$scratch/depth.npy"
 all_named texture "$scratch/depth.npy"
 "$DEPTHPREC" texture --scene plane --size 64x36 -F fp32 -m reversed --eye -o "$scratch/metres.npy"

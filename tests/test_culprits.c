@@ -161,6 +161,8 @@ static const refusal refusals[] = {
     {"texture --scene plane --pixel 1,3 --eye -o x.npy", "pixel", 2},
     {"texture --effect fog --pixel 1,3", "pixel", 2},
     {"texture --effect height-fog --pixel 640,3", "pixel", 2},
+    {"texture --scene plane --effect fog --pixel 1,3 --error-map", "error-map", 2},
+    {"texture --scene plane --effect intersection --pixel 1,3", "parameter", 2},
     {"texture --effect height-fog --pixel '1,3;2,2'", "pixel", 2},
     {"texture --effect height-fog --half-height 3", "half-height", 2},
     {"texture --effect height-fog --sky 0.1", "sky", 2},

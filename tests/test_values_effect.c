@@ -74,11 +74,11 @@ static const struct {
     {{-10, 50, {"unorm16"}, {"reversed"}, .ortho = 1},
      "height-fog",
      {-9, -0.5, 0.25, 3, 40},
-     "--half-height 3 --pitch 8 --size 90x60 --pixel 70,12",
-     70,
-     12,
-     {90, 60, 60, 3, 0, 8, {0, 0, 0}},
-     {90, 60, 60, 3, 0, 8, {0, 0, 0}}},
+     "--pitch -20",
+     320,
+     359,
+     {640, 360, 60, 5, 0, -20, {0, 0, 0}},
+     {640, 360, 60, 5, 0, -20, {0, 0, 0}}},
 };
 
 /* The axis of a camera at the origin where the effect needs none. */
@@ -196,7 +196,87 @@ static void test_effects(void **state) {
     }
 }
 
+/* ---- Beside --pixel ---------------------------------------------------------------------------------------------- */
+
+/* A plane that leans back by 40 degrees, 30 away: its depth in a pixel of an image of 64 x 36, seen through 50 degrees.
+ */
+static double plane_at(uint32_t row) {
+    const double degree = 3.14159265358979323846 / 180, up = (1 - 2 * (row + 0.5) / 36) * tan(25 * degree);
+    return 30 / (1 - up * tan(40 * degree));
+}
+
+/* In binary32 and exactly, for what is stored and for the truth. The formulas: at a reference of 29, by height from 9
+ * down, against threshold and neighbours; the camera looks along z from a height of 2. */
+static double by_hand(const char *effect, double z, uint32_t row) {
+    const double degree = 3.14159265358979323846 / 180, up = (1 - 2 * (row + 0.5) / 36) * tan(25 * degree);
+    if (strcmp(effect, "intersection") == 0)
+        return fmin(fabs(29 - z) / 4, 1);
+    if (strcmp(effect, "height-fog") == 0)
+        return fmin(fmax((2 + up * z - 9) / (-50 - 9) * 0.5, 0), 1);
+    return fmin(z / 900 * 3, 1);
+}
+
+static void test_pixels(void **state) {
+    static const struct {
+        const char *name, *parameters;
+    } shown[] = {{"intersection", "--parameter half-width=4 --parameter reference=29"},
+                 {"height-fog", "--parameter density=0.5 --parameter start=9 --parameter end=-50 --origin 5,2,-3"},
+                 {"fog", "--parameter density=3"}};
+    static const uint32_t rows[] = {3, 17, 30};
+    int inside = 0;
+    dp_format formats[2];
+    dp_spec spec = dp_spec_default();
+    dp_setup setup;
+    (void)state;
+    assert_true(dp_format_parse("unorm16", formats) >= 1);
+    spec.format = formats[0];
+    spec.mapping = DP_MAPPING_D3D;
+    spec.znear = 0.3;
+    spec.zfar = 900;
+    assert_int_equal(dp_setup_init(&setup, &spec), DP_OK);
+    for (size_t i = 0; i < sizeof shown / sizeof shown[0]; i++) {
+        const char *name = shown[i].name;
+        printed p = print_of("texture --scene plane --parameter distance=30 --parameter tilt=40 --size 64x36 --fov 50 "
+                             "-n 0.3 -f 900 -F unorm16 -m d3d --effect %s %s --pixel '20,3;20,17;20,30' --json",
+                             name, shown[i].parameters);
+        json_t *root = json_of(p.out), *pixels = json_object_get(root, "pixels");
+        assert_string_equal(json_string_value(json_object_get(root, "effect")), name);
+        assert_int_equal(json_array_size(pixels), 3);
+        for (size_t k = 0; k < 3; k++) {
+            const json_t *o = json_array_get(pixels, k);
+            const double z = plane_at(rows[k]), stored = dp_stored(&setup, dp_code(&setup, z));
+            const double output = json_number_value(json_object_get(o, "output"));
+            const double exact = by_hand(name, stored, rows[k]);
+            assert_scene(json_number_value(json_object_get(o, "exact")), exact, 1e-11);
+            assert_scene(output, exact, 1e-3);
+            assert_scene(json_number_value(json_object_get(o, "levels")),
+                         255 * fabs(output - by_hand(name, z, rows[k])), 1e-5);
+            assert_true(output == (double)(float)output);
+            inside += output > 0 && output < 1;
+        }
+        json_decref(root);
+        printed_free(&p);
+    }
+    assert_true(inside >= 6);
+    /* A silhouette: the corners of this pixel lie on either side of it. */
+    printed p =
+        print_of("texture --scene sphere --size 64x36 -F unorm16 -m d3d --effect edge --pixel '36,18;41,18;60,3' "
+                 "--json");
+    json_t *root = json_of(p.out), *pixels = json_object_get(root, "pixels");
+    int edges = 0;
+    for (size_t k = 0; k < json_array_size(pixels); k++) {
+        const json_t *o = json_array_get(pixels, k);
+        const double output = json_number_value(json_object_get(o, "output"));
+        assert_true(output == json_number_value(json_object_get(o, "exact")));
+        edges += output == 1;
+    }
+    assert_int_equal(edges, 1);
+    json_decref(root);
+    printed_free(&p);
+}
+
 int main(void) {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(test_effects), cmocka_unit_test(check_apart)};
+    const struct CMUnitTest tests[] = {cmocka_unit_test(test_effects), cmocka_unit_test(test_pixels),
+                                       cmocka_unit_test(check_apart)};
     return run_tap(tests);
 }

@@ -7,6 +7,8 @@
 /* Options that need a product, or a figure of one. */
 static int check_alone(const options *o) {
     static const option_id drawn[] = {OPTION_TYPE, OPTION_THEME, OPTION_WIDTH, OPTION_HEIGHT, OPTION_TITLE};
+    if (o->error_map && o->effect != NULL && option_given(o, OPTION_PIXEL))
+        return option_error(OPTION_ERROR_MAP, "does not apply with --pixel, which says the error");
     if (o->error_map && !texture_product_wanted(o))
         return option_error(OPTION_ERROR_MAP, "needs --eye, --position, --normal or --effect");
     if (o->radial && !texture_product_wanted(o))
@@ -57,8 +59,9 @@ static int make_product(const options *o, const texture_source *source, texture_
 
 int cmd_texture(const options *given) {
     options own = *given, *o = &own;
-    texture_product product;
+    texture_product product = {0};
     const bool packed = o->pack != NULL || o->packed_normal;
+    const bool described = option_given(o, OPTION_PIXEL) && o->effect != NULL;
     const bool made = !packed && texture_product_wanted(o);
     if (o->effect != NULL && o->operand_count == 0 && o->scene == NULL) {
         const int status = check_table(o);
@@ -68,6 +71,8 @@ int cmd_texture(const options *given) {
     int status = packed ? texture_pack_check(o) : check_alone(o);
     if (status == EXIT_FINE && made)
         status = texture_product_resolve(o, &product);
+    else if (status == EXIT_FINE && described)
+        status = texture_product_effect(o, &product);
     if (status == EXIT_FINE)
         status = texture_source_open(o, &source);
     if (status == EXIT_FINE && made)
@@ -77,7 +82,7 @@ int cmd_texture(const options *given) {
     else if (status == EXIT_FINE && o->packed_normal)
         status = texture_packed_normal_write(o, &source);
     else if (status == EXIT_FINE && option_given(o, OPTION_PIXEL))
-        status = texture_pixel_write(o, &source);
+        status = texture_pixel_write(o, &source, described ? &product.made : NULL);
     else if (status == EXIT_FINE && o->scene != NULL && o->output != NULL && o->form == FORM_TEXT)
         status = texture_depth_write(o, &source);
     else if (status == EXIT_FINE)

@@ -217,7 +217,7 @@ const option_row option_rows[OPTION_COUNT] = {
     [OPTION_LAST_PITCH] = {"last-pitch", 0, "DEG", VERB_TEXTURE,
         "last frame's turn upwards", NUMBER(last.pitch, -90, 90, "degrees"), .without = "that of this frame"},
     [OPTION_LAST_ORIGIN] = {"last-origin", 0, "X,Y,Z", VERB_TEXTURE,
-        "last frame's position", ORIGIN(last.origin), .without = "that of this frame"},
+        "the camera's position in the last frame", ORIGIN(last.origin), .without = "that of this frame"},
     [OPTION_SCENE] = {"scene", 0, "NAME", VERB_TEXTURE,
         "a synthetic scene in place of FILE: @; 'depthprec list scenes' has their parameters", ROW(scene, scenes)},
     [OPTION_SIZE] = {"size", 0, "WxH", VERB_TEXTURE,

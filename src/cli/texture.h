@@ -97,8 +97,11 @@ typedef struct texture_product {
     const char *unit;             /**< "scene units", "degrees", "levels of 1/255", "" */
 } texture_product;
 
-/** Is one asked for? */
+/** Is one asked for? --pixel describes that of --effect instead. */
 bool texture_product_wanted(const options *o);
+
+/** The effect of --effect, its parameters and reference, as above. */
+int texture_product_effect(const options *o, texture_product *out);
 
 /** Names and combinations, before anything is read. @return an exit status, after one line on stderr */
 int texture_product_resolve(const options *o, texture_product *out);
@@ -130,8 +133,8 @@ int texture_figure_draw(const options *o, const texture_source *s, const texture
 /** The statistics of a depth image: text, JSON, CSV. @return an exit status */
 int texture_report_write(const options *o, const texture_source *source);
 
-/** What --pixel asks about, likewise. */
-int texture_pixel_write(const options *o, const texture_source *source);
+/** What --pixel asks about, likewise; `effect` is the product of --effect beside it, or null. */
+int texture_pixel_write(const options *o, const texture_source *source, const frame_product *effect);
 
 /** The effect that --effect names, and its parameters, in an image or not. @return EXIT_FINE, or EXIT_USAGE after one
  *  line on stderr */

@@ -7,11 +7,13 @@
 #include "core/append.h"
 
 bool texture_product_wanted(const options *o) {
-    return o->eye || option_given(o, OPTION_POSITION) || o->normal != NULL || o->effect != NULL || o->figure != NULL;
+    const bool described = option_given(o, OPTION_PIXEL);
+    return o->eye || option_given(o, OPTION_POSITION) || o->normal != NULL || (o->effect != NULL && !described) ||
+           o->figure != NULL;
 }
 
 /* The parameters that are not the scene's are the effect's, but for the depth that it compares with. */
-static int resolve_effect(const options *o, texture_product *p) {
+int texture_product_effect(const options *o, texture_product *p) {
     options rest = *o;
     bool compared = false;
     rest.parameter_count = 0;
@@ -27,6 +29,8 @@ static int resolve_effect(const options *o, texture_product *p) {
     if (status != EXIT_FINE)
         return status;
     const effect_row *row = p->made.effect;
+    p->made.kind = FRAME_EFFECT;
+    p->made.effect_settings = p->settings;
     if (row->given && (compared || !o->error_map) && !(p->made.reference > 0))
         return option_error(OPTION_PARAMETER, "%s needs reference=Z, %s, a positive eye depth%s", row->name,
                             row->reference, compared ? "" : "; it was not given");
@@ -84,7 +88,7 @@ int texture_product_resolve(const options *o, texture_product *p) {
     p->unit = o->error_map ? kinds[chosen].unit_of_error : kinds[chosen].unit;
     snprintf(p->name, sizeof p->name, "%s%s", kinds[chosen].by, names[p->made.kind]);
     if (status == EXIT_FINE && p->made.kind == FRAME_EFFECT)
-        status = resolve_effect(o, p);
+        status = texture_product_effect(o, p);
     if (status == EXIT_FINE)
         status = check_files(o);
     return status;

@@ -89,9 +89,11 @@ static effect_pixel pixel_at(const work *w, uint32_t x) {
 /* World positions as image effects get them. */
 static void places(const work *w) {
     const frame_row *in = w->in;
+    const position_row *by = &position_rows[w->camera->ortho ? POSITION_EXTENTS : POSITION_RAYS];
+    if (!position_applies(by, w->camera)) /* a far plane at 0, by which nothing can be divided */
+        by = &position_rows[POSITION_VIEW];
     if ((w->row->needs & EFFECT_POSITION) != 0)
-        position_rows[w->camera->ortho ? POSITION_EXTENTS : POSITION_RAYS].run(
-            in->position, in->row, 0, in->depth, w->camera->width, in->planes[0], in->planes[1], in->planes[2]);
+        by->run(in->position, in->row, 0, in->depth, w->camera->width, in->planes[0], in->planes[1], in->planes[2]);
 }
 
 /* ---- Corners ----------------------------------------------------------------------------------------------------- */
@@ -163,6 +165,28 @@ static float corners(const work *w, uint32_t x) {
         const effect_pixel *first = &seen[compared[w->row->taps].first[k]];
         const float one = w->row->shader(first, w->rounded, &seen[compared[w->row->taps].second[k]]);
         all = around ? all + one / CORNERS : fmaxf(all, one);
+    }
+    return all;
+}
+
+/* The same, exact for what is stored. */
+static double exact_corners(const work *w, uint32_t x) {
+    const bool around = w->row->taps == EFFECT_AROUND, normals = (w->row->needs & EFFECT_NORMALS) != 0;
+    tap at[TAPS];
+    double all = 0;
+    if (!taps_of(w, x, at))
+        return (double)NAN;
+    for (int k = 0; k < compared[w->row->taps].count; k++) {
+        const tap *two[2] = {&at[compared[w->row->taps].first[k]], &at[compared[w->row->taps].second[k]]};
+        effect_view view = {.setup = w->planes};
+        double z[2];
+        for (int i = 0; i < 2; i++) {
+            z[i] = dp_stored(&w->camera->setup, two[i]->code);
+            for (int axis = 0; axis < 3 && normals; axis++)
+                view.normals[i][axis] = hit_of(w, two[i]).normal[axis] * (axis == 2 ? -1 : 1);
+        }
+        const double one = w->row->output(&view, w->parameters, z[0], z[1]);
+        all = around ? all + one / CORNERS : fmax(all, one);
     }
     return all;
 }
@@ -277,6 +301,12 @@ static float output_at(const work *w, uint32_t x) {
     return w->row->shader(&pixel, w->rounded, &w->other);
 }
 
+/* Exact for what is stored. */
+static double exact_at(const work *w, const effect_view *view, uint32_t x) {
+    return w->row->output(view, w->parameters, dp_stored(&w->camera->setup, w->in->codes[looks_at(w, x)]),
+                          w->reference);
+}
+
 /* In a scene the truth decides where the effect should have looked. */
 static double true_output(const work *w, const effect_view *view, uint32_t x) {
     const int index = parameter_find(w->row->parameters, "refraction");
@@ -295,8 +325,7 @@ static double error_at(const work *w, frame_ranges *last, uint32_t x) {
         return isnan(frame_truth(w->in, x).z) ? (double)NAN : LEVELS * fabs(seen - true_output(w, &view, x));
     const uint32_t at = looks_at(w, x);
     const double stored = dp_stored(&w->camera->setup, w->in->codes[at]);
-    const double exact = w->row->output(&view, w->parameters, stored, w->reference);
-    return LEVELS * fabs(seen - exact) + range_error(w, &view, stored, frame_range_of(w->in, last, at));
+    return LEVELS * fabs(seen - exact_at(w, &view, x)) + range_error(w, &view, stored, frame_range_of(w->in, last, at));
 }
 
 /* ---- Rows -------------------------------------------------------------------------------------------------------- */
@@ -305,13 +334,13 @@ void frame_effect(const frame_row *in) {
     const work w = work_of(in);
     places(&w);
     for (uint32_t x = 0; x < w.camera->width; x++) {
-        float value = NAN;
-        if (w.row->taps != EFFECT_ALONE)
-            value = corners(&w, x);
-        else if (!isnan(in->eyes[NORMAL_REACH][x])) {
-            value = output_at(&w, x);
-        }
+        const bool alone = w.row->taps == EFFECT_ALONE, none = alone && isnan(in->eyes[NORMAL_REACH][x]);
+        const float value = none ? NAN : alone ? output_at(&w, x) : corners(&w, x);
         in->out[x] = value;
+        if (in->product->lost && !none) {
+            const effect_view view = view_at(&w, x);
+            in->out[x] = (float)((double)value - (alone ? exact_at(&w, &view, x) : exact_corners(&w, x)));
+        }
     }
 }
 
