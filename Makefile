@@ -18,6 +18,8 @@ INSTALL_DATA ?= $(INSTALL) -m 644
 
 # What pkg-config is asked for: by the full program, and by the tests. src/packages.sh knows who has them.
 PKGS_build := cairo gsl libconfig libpng
+# Whose headers are used where they are there, as those of libtiff are; the libraries are opened when a file needs them.
+PKGS_opened := OpenEXR
 PKGS_check := cmocka mpfr gmp jansson libxml-2.0 cairo
 
 # ---- Rooms: a new file in a layer's folder is picked up ----------------------------------------------------------
@@ -108,10 +110,11 @@ $(B)/build.cflags $(B)/check.cflags: $(B)/%.cflags: Makefile
 	@mkdir -p $(@D)
 	@pkg-config --cflags $(PKGS_$*) 2>/dev/null >$@ || \
 	    { sh src/packages.sh --missing $* && pkg-config --print-errors --exists $(PKGS_$*); exit 1; }
+	@for p in $(PKGS_opened); do ! pkg-config --exists $$p || pkg-config --cflags-only-I $$p >>$@; done
 	@echo 'int main(void) { return 0; }' | $(CC) -fopenmp -x c -o $@.probe - 2>/dev/null && echo -fopenmp >>$@; rm -f $@.probe
 	@echo -pthread >>$@
 $(B)/build.libs $(B)/check.libs: $(B)/%.libs: $(B)/%.cflags
-	@pkg-config --libs $(PKGS_$*) >$@ && sed -n '/^-fopenmp/p;/^-pthread/p' $< >>$@
+	@pkg-config --libs $(PKGS_$*) >$@ && echo -ldl >>$@ && sed -n '/^-fopenmp/p;/^-pthread/p' $< >>$@
 
 $(B)/libdepthprec.a: $(CORE_O)
 $(B)/librooms.a: $(filter-out %/main.o,$(ROOMS_O))

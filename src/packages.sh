@@ -21,6 +21,8 @@ build | library cairo                                 | libcairo2-dev         | 
 build | library gsl                                   | libgsl-dev            | gsl-devel          | gsl
 build | library libconfig                             | libconfig-dev         | libconfig-devel    | libconfig
 build | library libpng                                | libpng-dev            | libpng-devel       | libpng
+build | library OpenEXR                               | libopenexr-dev        | openexr-devel      | openexr
+build | library libtiff-4                             | libtiff-dev           | libtiff-devel      | libtiff
 build | file share/fonts/*/*/DejaVuSans.ttf           | fonts-dejavu-core     | dejavu-sans-fonts  | ttf-dejavu
 check | library cmocka                                | libcmocka-dev         | libcmocka-devel    | cmocka
 check | library gmp                                   | libgmp-dev            | gmp-devel          | gmp

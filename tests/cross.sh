@@ -19,7 +19,7 @@ root=$PWD/$B/root
 
 # Those that an instruction, a byte order or a C library could break, and that an emulator ends within a minute.
 tests='batch code depth format mapping setup model separation quotient published rasterizers estimate bias decode effect
-frame_height image image_damage image_depths normal position recognise scene number report requirement options'
+effects_pixels image image_damage image_depths normal position recognise scene number report requirement options'
 
 # ---- The other machine's libraries -------------------------------------------------------------------------------
 
@@ -86,6 +86,7 @@ each normals texture -o product.pfm $scene sphere --normal
 each normals texture -o product.npy $scene sphere --error-map --normal
 each effects texture -o product.png $scene steps --effect
 each effects texture -o product.png $scene steps --parameter reference=10 --effect
+texture -o product.png $scene steps --effect motion-blur --last-origin 1,0.5,-1 --last-yaw 3
 texture -o depth.png -F unorm16 $scene decals
 texture depth.png --eye -o eye.npy
 texture depth.png --json

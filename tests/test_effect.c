@@ -84,7 +84,27 @@ static long double unit(long double x) {
 
 /* ---- By hand: error in shares of 1, and the end of the usable values --------------------------------------------- */
 
-static const double RISE = -0.4, FOCAL = 1.25, START = 2, END = -60;
+/* A picture of one pixel, whose ray falls by 0.4 in a scene unit; the camera stands at a height of 5, and moved. */
+static const double RISE = -0.4, MOVE = 0.3, HALF = 0.8, START = 7, END = -60, HEIGHT = 5;
+
+static const long double AHEAD = 0.916515138991168L; /* sqrt(1 - RISE^2): how fast a ray goes to a facing wall */
+
+static effect_view view_of(const dp_setup *setup) {
+    const double degree = 3.14159265358979323846 / 180;
+    camera_spec spec = camera_spec_default();
+    texture_camera now, last;
+    spec.width = spec.height = 1;
+    spec.fov_y = 2 * atan(HALF) / degree;
+    spec.half_height = HALF;
+    spec.pitch = asin(RISE) / degree;
+    spec.origin[1] = HEIGHT;
+    assert_null(camera_init(&now, setup, &spec));
+    spec.origin[0] = MOVE;
+    assert_null(camera_init(&last, setup, &spec));
+    effect_view view = effect_view_of(&now, &last, 0, 0);
+    view.setup = setup;
+    return view;
+}
 
 typedef struct hand {
     const char *name;
@@ -140,7 +160,8 @@ static long double focus_usable(const camera *c, cell k, long double share) {
 
 /* 1/z changes by more at the near end of a cell. */
 static long double blur_reach(cell k) {
-    return (long double)FOCAL / 2 * fmaxl((k.stored - k.lo) / (k.stored * k.lo), (k.hi - k.stored) / (k.stored * k.hi));
+    return (long double)MOVE / (long double)HALF / 2 *
+           fmaxl((k.stored - k.lo) / (k.stored * k.lo), (k.hi - k.stored) / (k.stored * k.hi));
 }
 
 static long double blur_error(const camera *c, cell k, long double p) {
@@ -174,7 +195,7 @@ static long double fog_usable(const camera *c, cell k, long double share) {
 }
 
 static long double height(long double z) {
-    return ((long double)RISE * z - (long double)START) / ((long double)END - (long double)START);
+    return ((long double)HEIGHT + (long double)RISE * z - (long double)START) / ((long double)END - (long double)START);
 }
 
 static long double height_error(const camera *c, cell k, long double p) {
@@ -188,7 +209,30 @@ static long double height_usable(const camera *c, cell k, long double share) {
                  ramp_usable(height(k.hi), height(k.stored), share));
 }
 
+static long double decal_error(const camera *c, cell k, long double p) {
+    (void)c;
+    return p == 0 ? 1 : unit(reach(k) * AHEAD / p);
+}
+
+static long double decal_usable(const camera *c, cell k, long double share) {
+    (void)c;
+    return reach(k) * AHEAD / share;
+}
+
+static long double decay_error(const camera *c, cell k, long double p) {
+    (void)c;
+    return 1 - expl(-reach(k) * p);
+}
+
+static long double decay_usable(const camera *c, cell k, long double share) {
+    (void)c;
+    return -logl(1 - share) / reach(k);
+}
+
 static const hand hands[] = {
+    {"soft-particles", intersection_error, intersection_usable},
+    {"decal", decal_error, decal_usable},
+    {"water-depth", decay_error, decay_usable},
     {"intersection", intersection_error, intersection_usable},
     {"force-field", force_error, force_usable},
     {"fog", fog_error, fog_usable},
@@ -204,7 +248,7 @@ static void parameters_of(const effect_row *row, double *p) {
     static const struct {
         const char *name;
         double value;
-    } given[] = {{"rise", RISE}, {"focal", FOCAL}, {"start", START}, {"end", END}};
+    } given[] = {{"start", START}, {"end", END}};
     parameter_defaults(row->parameters, p);
     for (size_t i = 0; i < sizeof given / sizeof given[0]; i++) {
         const int index = parameter_find(row->parameters, given[i].name);
@@ -236,6 +280,7 @@ static void test_by_hand(void **state) {
     for (uint64_t i = 0; i < test_cases(2000, 60000, 1000000); i++) {
         const dp_setup setup = any_setup(&r);
         const camera c = camera_of(&setup);
+        const effect_view view = view_of(&setup);
         const double z = log_depth(&r, &setup);
         const cell k = cell_of(&c, dp_code(&setup, z));
         const hand *h = &hands[rng_below(&r, HAND_COUNT)];
@@ -249,7 +294,7 @@ static void test_by_hand(void **state) {
             t.skipped++;
             continue;
         }
-        const double got = effect_usable(row, &setup, p, z, levels);
+        const double got = effect_usable(row, &view, p, z, levels);
         const bool outside = row->smallest ? usable > (long double)wanted->hi : usable < (long double)wanted->lo;
         if (outside)
             TALLY(&t, isnan(got), "%s z %a: %a usable", row->name, z, got);
@@ -259,12 +304,12 @@ static void test_by_hand(void **state) {
                   "%s %s %s z %a, %a levels: %a, %La", row->name, setup.spec.format.name,
                   dp_mapping_get(setup.spec.mapping)->name, z, levels, got, usable);
         p[row->wanted] = (double)fminl(fmaxl(usable * (long double)rng_log(&r, 1e-4, 1e4), wanted->lo), wanted->hi);
-        if (h->usable == water_usable && rng_below(&r, 8) == 0)
+        if ((h->usable == water_usable || h->usable == decal_usable) && rng_below(&r, 8) == 0)
             p[row->wanted] = 0;
         const long double error = 255 * h->error(&c, k, p[row->wanted]);
-        TALLY(&t, fabsl((long double)effect_error(row, &setup, p, z) - error) <= slack(k) * fmaxl(error, 1e-3L),
+        TALLY(&t, fabsl((long double)effect_error(row, &view, p, z) - error) <= slack(k) * fmaxl(error, 1e-3L),
               "%s %s z %a, parameter %a: %a levels, %La", row->name, setup.spec.format.name, z, p[row->wanted],
-              effect_error(row, &setup, p, z), error);
+              effect_error(row, &view, p, z), error);
     }
     tally_end(&t);
 }
@@ -277,6 +322,7 @@ static void test_sharp(void **state) {
     for (uint64_t i = 0; i < test_cases(2000, 40000, 1000000); i++) {
         const dp_setup setup = any_setup(&r);
         const camera c = camera_of(&setup);
+        const effect_view view = view_of(&setup);
         const double z = log_depth(&r, &setup);
         const cell k = cell_of(&c, dp_code(&setup, z));
         const hand *h = &hands[rng_below(&r, HAND_COUNT)];
@@ -285,15 +331,15 @@ static void test_sharp(void **state) {
         double p[TEXTURE_PARAMETERS];
         parameters_of(row, p);
         const double levels = rng_log(&r, 0.01, 100);
-        const double usable = effect_usable(row, &setup, p, z, levels);
+        const double usable = effect_usable(row, &view, p, z, levels);
         if (isnan(usable) || usable == wanted->lo || usable == wanted->hi || reach(k) < 1e-9L * k.hi) {
             t.skipped++;
             continue;
         }
         p[row->wanted] = usable;
-        TALLY(&t, effect_error(row, &setup, p, z) <= levels, "%s z %a at %a", row->name, z, usable);
+        TALLY(&t, effect_error(row, &view, p, z) <= levels, "%s z %a at %a", row->name, z, usable);
         p[row->wanted] = nextafter(usable, row->smallest ? 0 : INFINITY);
-        TALLY(&t, effect_error(row, &setup, p, z) > levels, "%s z %a beside %a", row->name, z, usable);
+        TALLY(&t, effect_error(row, &view, p, z) > levels, "%s z %a beside %a", row->name, z, usable);
         const long double off = 2 * slack(k);
         const long double good = (long double)usable * (row->smallest ? 1 + off : 1 - off);
         const long double bad = (long double)usable * (row->smallest ? 1 - off : 1 + off);
@@ -305,6 +351,14 @@ static void test_sharp(void **state) {
     tally_end(&t);
 }
 
+/* A decal that goes on for ever from a depth of the world on. */
+static void wall_of(const effect_row *row, double from, double *p) {
+    const double size = 1 << 20;
+    p[parameter_find(row->parameters, "width")] = p[parameter_find(row->parameters, "height")] = size;
+    p[parameter_find(row->parameters, "depth")] = size;
+    p[parameter_find(row->parameters, "z")] = from + size / 2;
+}
+
 /*
  * Every code of unorm16 over a range of them: the row's output at many depths of the cell, compared with that at the
  * stored depth, for many places of the reference. Nothing is above the error, and something comes close.
@@ -313,6 +367,7 @@ static void test_outputs(void **state) {
     enum { DEPTHS = 16, REFERENCES = 8 };
     const dp_setup setup = setup_of(0.1, 1000, DP_MAPPING_D3D, "unorm16");
     const camera c = camera_of(&setup);
+    const effect_view view = view_of(&setup);
     rng r = rng_make("effects outputs");
     tally t = {.name = "outputs"};
     (void)state;
@@ -325,9 +380,9 @@ static void test_outputs(void **state) {
             if (row->kind == EFFECT_STEP)
                 continue;
             parameters_of(row, p);
-            const double usable = effect_usable(row, &setup, p, (double)k.stored, 1);
+            const double usable = effect_usable(row, &view, p, (double)k.stored, 1);
             p[row->wanted] = isnan(usable) ? 1 : fmin(usable * rng_log(&r, 0.1, 10), row->parameters[row->wanted].hi);
-            const double error = effect_error(row, &setup, p, (double)k.stored);
+            const double error = effect_error(row, &view, p, (double)k.stored);
             for (int a = 0; a < REFERENCES; a++)
                 for (int b = 0; b <= DEPTHS; b++) {
                     const double z = (double)(k.lo + (k.hi - k.lo) * b / DEPTHS);
@@ -335,8 +390,13 @@ static void test_outputs(void **state) {
                                       : a == 1 ? (double)k.lo
                                       : a == 2 ? (double)k.hi
                                                : (double)k.stored * rng_uniform(&r, 0.9, 1.1);
-                    const double seen = row->output(&setup, p, (double)k.stored, at);
-                    worst = fmax(worst, 255 * fabs(row->output(&setup, p, z, at) - seen));
+                    const int level = parameter_find(row->parameters, "level");
+                    if (strcmp(row->name, "water-line") == 0) /* the water, or a face of the decal, is at that depth */
+                        p[level] = HEIGHT + RISE * at;
+                    if (strcmp(row->name, "decal") == 0)
+                        wall_of(row, (double)AHEAD * at, p);
+                    const double seen = row->output(&view, p, (double)k.stored, at);
+                    worst = fmax(worst, 255 * fabs(row->output(&view, p, z, at) - seen));
                 }
             TALLY(&t, fmin(worst, 255) <= error * (1 + 1e-6) + 1e-9, "%s code %u: %a levels, %a stated", row->name,
                   code, worst, error);
@@ -358,6 +418,7 @@ static void test_edge(void **state) {
     for (uint64_t i = 0; i < test_cases(300, 6000, 100000); i++) {
         const dp_setup setup = any_setup(&r);
         const camera c = camera_of(&setup);
+        const effect_view view = view_of(&setup);
         const double z = rng_log(&r, setup.spec.znear, setup.spec.zfar / 1.5);
         const cell k = cell_of(&c, dp_code(&setup, z));
         const double slope = rng_below(&r, 8) == 0 ? 0 : (double)(k.hi - k.lo) * rng_log(&r, 0.05, 20);
@@ -376,7 +437,7 @@ static void test_edge(void **state) {
         }
         const long double plane = (long double)slope / c.f;
         const bool exact = least >= plane && most <= plane;
-        const double usable = effect_usable(row, &setup, p, z, 1);
+        const double usable = effect_usable(row, &view, p, z, 1);
         const long double want = exact ? 0 : fmaxl(plane, most);
         TALLY(&t, want > 1 ? isnan(usable) : fabsl((long double)usable - want) <= 1e-12L + slack(k) * want,
               "%s %s z %a slope %a: from %a, %La", setup.spec.format.name, dp_mapping_get(setup.spec.mapping)->name, z,
@@ -390,20 +451,186 @@ static void test_edge(void **state) {
                 continue;
             p[0] = (double)threshold;
             const bool wrong = plane > threshold ? least <= threshold : most > threshold;
-            TALLY(&t, effect_error(row, &setup, p, z) == (wrong ? 255.0 : 0.0), "z %a slope %a threshold %a: %g", z,
-                  slope, p[0], effect_error(row, &setup, p, z));
+            TALLY(&t, effect_error(row, &view, p, z) == (wrong ? 255.0 : 0.0), "z %a slope %a threshold %a: %g", z,
+                  slope, p[0], effect_error(row, &view, p, z));
         }
     }
+    tally_end(&t);
+}
+
+/* ---- Other steps ------------------------------------------------------------------------------------------------- */
+
+/* Whether the output on a plane is 1: of two stored depths, `seen` and `apart` behind it; or, of a shadow map, of a
+ * computed depth that lies `apart` behind the stored one. */
+typedef struct step {
+    const char *name, *parameters[2]; /* others than the wanted one and the slope */
+    bool alone, quiet;                /* as in the row */
+    bool (*on)(const camera *c, long double seen, long double apart, long double wanted, const long double *other);
+} step;
+
+static bool outline_on(const camera *c, long double seen, long double apart, long double wanted,
+                       const long double *other) {
+    (void)c, (void)other;
+    return apart / c->f * wanted >= 0.1L * (seen / c->f);
+}
+
+static bool occlusion_on(const camera *c, long double seen, long double apart, long double wanted,
+                         const long double *other) {
+    (void)c, (void)seen;
+    return apart > wanted && apart < other[0];
+}
+
+/* The ray is a step, and what the surface came nearer, behind the surface: is it lost? */
+static bool contact_on(const camera *c, long double seen, long double apart, long double wanted,
+                       const long double *other) {
+    (void)c, (void)seen;
+    return apart + other[0] > wanted;
+}
+
+static const step steps[] = {
+    {"outline", {NULL}, false, false, outline_on},
+    {"ambient-occlusion", {"radius"}, false, true, occlusion_on},
+    {"contact-shadow", {"step"}, false, false, contact_on},
+};
+enum { STEPS = sizeof steps / sizeof steps[0] };
+
+/* At the end of the usable values, a little before and behind it, the answers of first pixels all over the cell. */
+static void test_steps(void **state) {
+    enum { PLACES = 300 };
+    rng r = rng_make("steps");
+    tally t = {.name = "steps"};
+    (void)state;
+    for (uint64_t i = 0; i < test_cases(600, 9000, 200000); i++) {
+        const dp_setup setup = any_setup(&r);
+        const camera c = camera_of(&setup);
+        const effect_view view = view_of(&setup);
+        const double z = rng_log(&r, setup.spec.znear, setup.spec.zfar / 1.5);
+        const cell k = cell_of(&c, dp_code(&setup, z));
+        const step *s = &steps[rng_below(&r, STEPS)];
+        const effect_row *row = effect_find(s->name);
+        const double slope = (double)(k.hi - k.lo) * rng_log(&r, 0.05, 20);
+        long double other[1] = {(long double)(slope * rng_log(&r, 0.01, 0.2))};
+        double p[TEXTURE_PARAMETERS];
+        if (reach(k) < 1e-9L * k.hi || k.hi + (long double)slope > c.f) {
+            t.skipped++;
+            continue;
+        }
+        if (s->on == occlusion_on) /* a radius that no difference comes near */
+            other[0] = 100 * (k.hi - k.lo) + 100 * (long double)slope;
+        parameter_defaults(row->parameters, p);
+        p[parameter_find(row->parameters, "slope")] = slope;
+        if (s->parameters[0] != NULL)
+            p[parameter_find(row->parameters, s->parameters[0])] = (double)other[0];
+        assert_true(row->quiet == s->quiet && row->alone == s->alone);
+        const double usable = effect_usable(row, &view, p, z, 1);
+        const texture_parameter *range = &row->parameters[row->wanted];
+        const double marks[] = {usable, usable * (1 - 1e-6), usable * (1 + 1e-6), usable * 0.5, usable * 2};
+        for (int m = 0; m < 5; m++) {
+            p[row->wanted] = marks[m];
+            if (isnan(usable) || marks[m] < range->lo || marks[m] > range->hi)
+                continue;
+            const bool good = row->smallest ? marks[m] >= usable : marks[m] <= usable;
+            bool wrong = false, near = false;
+            for (int a = 0; a <= PLACES; a++) {
+                const long double share = fminl(fmaxl((long double)a / PLACES, 1e-7L), 1 - 1e-7L);
+                const long double seen = eye_of(&c, code_of(&c, k.lo + (k.hi - k.lo) * share + (long double)slope));
+                const bool should = !s->quiet && s->on(&c, k.stored, slope, marks[m], other);
+                for (int e = -1; e <= 1; e++) { /* answers that rounding in double decides are no answers */
+                    const bool on = s->on(&c, k.stored, (seen - k.stored) * (1 + e * slack(k)) + e * 1e-12L * other[0],
+                                          marks[m], other);
+                    wrong = wrong || (e == 0 && on != should);
+                    near = near || s->on(&c, k.stored, slope + e * 1e-12L * (slope + other[0]), marks[m], other) !=
+                                       s->on(&c, k.stored, slope, marks[m], other);
+                    near = near || on != s->on(&c, k.stored, seen - k.stored, marks[m], other);
+                }
+            }
+            TALLY(&t, near || (effect_error(row, &view, p, z) == 255) == wrong,
+                  "%s z %a slope %a at %a: %g, %d %d %d %s", s->name, z, slope, marks[m],
+                  effect_error(row, &view, p, z), wrong, m, good, setup.spec.format.name);
+            TALLY(&t, near || !good || !wrong, "%s z %a slope %a: %a is not usable", s->name, z, slope, marks[m]);
+            TALLY(&t, near || good || m == 0 || marks[m] < usable * 0.99 || marks[m] > usable * 1.01 || wrong,
+                  "%s z %a slope %a: %a is usable, not only from %a", s->name, z, slope, marks[m], usable);
+        }
+    }
+    tally_end(&t);
+}
+
+/* What reaches over the radius hides nothing; only up to it a bias is asked for. */
+static void test_range_check(void **state) {
+    const dp_setup setup = setup_of(0.1, 1000, DP_MAPPING_D3D, "unorm16");
+    const effect_view view = view_of(&setup);
+    const effect_row *row = effect_find("ambient-occlusion");
+    double p[TEXTURE_PARAMETERS];
+    (void)state;
+    parameter_defaults(row->parameters, p);
+    const int radius = parameter_find(row->parameters, "radius"), slope = parameter_find(row->parameters, "slope");
+    p[slope] = 0.2;
+    p[radius] = 0.01;
+    assert_true(effect_usable(row, &view, p, 30, 1) == 0);
+    p[radius] = 40;
+    const double bias = effect_usable(row, &view, p, 30, 1);
+    assert_true(bias > 0.2 && bias < 0.35);
+    p[radius] = bias - 1e-6; /* some differences reach over it, others do not */
+    assert_true(effect_usable(row, &view, p, 30, 1) == bias - 1e-6);
+}
+
+/* A shadow map's texel saw the middle; the plane's places beside it lie before or behind that. Acne by counting. */
+static void test_shadow(void **state) {
+    enum { PLACES = 400 };
+    const effect_row *row = effect_find("shadow");
+    rng r = rng_make("shadows");
+    tally t = {.name = "shadows"};
+    (void)state;
+    for (uint64_t i = 0; i < test_cases(100, 1500, 20000); i++) {
+        const dp_setup setup = any_setup(&r);
+        const camera c = camera_of(&setup);
+        const effect_view view = view_of(&setup);
+        const double z = log_depth(&r, &setup);
+        const cell k = cell_of(&c, dp_code(&setup, z));
+        if (reach(k) < 1e-9L * k.hi) {
+            t.skipped++;
+            continue;
+        }
+        const double slope = rng_below(&r, 6) == 0 ? 0 : (double)(k.hi - k.lo) * rng_log(&r, 0.1, 10);
+        double p[TEXTURE_PARAMETERS];
+        parameter_defaults(row->parameters, p);
+        p[parameter_find(row->parameters, "slope")] = slope;
+        const long double want = k.hi - k.stored + (long double)slope / 2;
+        const double usable = effect_usable(row, &view, p, z, 1);
+        TALLY(&t, fabsl((long double)usable - want) <= slack(k) * fmaxl(want, reach(k)),
+              "z %a slope %a: from %a, not %La", z, slope, usable, want);
+        p[row->wanted] = (double)want * rng_uniform(&r, 0, 1.2);
+        if (want < 1e-9L * reach(k) || fabs(p[row->wanted] / (double)want - 1) < 1e-6) {
+            t.skipped++;
+            continue;
+        }
+        uint64_t shadowed = 0;
+        for (int a = 0; a < PLACES; a++)
+            for (int b = 0; b < PLACES; b++) {
+                const long double u = k.lo + (k.hi - k.lo) * (a + 0.5L) / PLACES, side = (b + 0.5L) / PLACES - 0.5L;
+                shadowed += u + (long double)slope * side - (long double)p[row->wanted] > k.stored;
+            }
+        const double share = (double)shadowed / PLACES / PLACES, got = effect_share(row, &view, p, z);
+        TALLY(&t, fabs(got - share) <= 0.01, "z %a slope %a bias %a: %g, counted %g", z, slope, p[row->wanted], got,
+              share);
+        TALLY(&t, (effect_error(row, &view, p, z) == 255) == (p[row->wanted] < (double)want), "z %a bias %a: %g", z,
+              p[row->wanted], effect_error(row, &view, p, z));
+        TALLY(&t, (got > 0) == (p[row->wanted] < (double)want), "z %a bias %a of %La: %g", z, p[row->wanted], want,
+              got);
+    }
+    assert_true(isnan(effect_share(effect_find("edge"), NULL, NULL, 1)));
     tally_end(&t);
 }
 
 /* ---- Rows and limits --------------------------------------------------------------------------------------------- */
 
 static void test_rows(void **state) {
-    static const char *const names[] = {"intersection", "force-field", "fog",         "scan-line",     "water-line",
-                                        "height-fog",   "edge",        "motion-blur", "depth-of-field"};
+    static const char *const names[] = {"intersection",   "force-field",    "fog",         "scan-line",
+                                        "water-line",     "height-fog",     "edge",        "motion-blur",
+                                        "depth-of-field", "soft-particles", "decal",       "ambient-occlusion",
+                                        "contact-shadow", "shadow",         "water-depth", "outline"};
     /* As depthprec(1) documents them: a command without --parameter is read with these in mind. */
-    static const double wanted[] = {0.1, 1, 1, 0.01, 0, 1, 0.001, 0.1, 10};
+    static const double wanted[] = {0.1, 1, 1, 0.01, 0, 1, 0.001, 1, 10, 1, 0, 0.01, 0.1, 0.01, 0.5, 1};
     (void)state;
     assert_int_equal(count(), sizeof names / sizeof names[0]);
     for (size_t i = 0; i < count(); i++) {
@@ -421,11 +648,12 @@ static void test_rows(void **state) {
         assert_true(effect_find(names[i])->parameters[effect_find(names[i])->wanted].value == wanted[i]);
         /* What needs z/far says so. */
         const dp_setup infinite = setup_of(0.1, INFINITY, DP_MAPPING_REVERSED, "fp32");
+        const effect_view view = view_of(&infinite);
         double p[TEXTURE_PARAMETERS];
         parameter_defaults(row->parameters, p);
         assert_true(effect_applies(row, &infinite) != row->eye01);
-        assert_true((isnan(effect_error(row, &infinite, p, 10)) != 0) == row->eye01);
-        assert_true(!row->eye01 || isnan(effect_usable(row, &infinite, p, 10, 1)));
+        assert_true((isnan(effect_error(row, &view, p, 10)) != 0) == row->eye01);
+        assert_true(!row->eye01 || isnan(effect_usable(row, &view, p, 10, 1)));
     }
     assert_null(effect_find("bloom"));
     assert_null(effect_get(count()));
@@ -436,36 +664,39 @@ static void test_limits(void **state) {
     const dp_setup infinite = setup_of(0.1, INFINITY, DP_MAPPING_D3D, "unorm24");
     const dp_setup finite = setup_of(0.1, 1000, DP_MAPPING_D3D, "unorm16");
     dp_setup pipeline = finite;
+    effect_view at = view_of(&infinite), near = view_of(&finite), level = view_of(&finite);
     double p[TEXTURE_PARAMETERS];
     (void)state;
     /* The last cell of an infinite far plane has no end: no distance is enough, but 1/z stays where it is. */
     parameter_defaults(effect_find("intersection")->parameters, p);
-    assert_true(effect_error(effect_find("intersection"), &infinite, p, 1e9) == 255);
-    assert_true(isnan(effect_usable(effect_find("intersection"), &infinite, p, 1e9, 1)));
+    assert_true(effect_error(effect_find("intersection"), &at, p, 1e9) == 255);
+    assert_true(isnan(effect_usable(effect_find("intersection"), &at, p, 1e9, 1)));
     parameter_defaults(effect_find("force-field")->parameters, p);
-    assert_true(isnan(effect_usable(effect_find("force-field"), &infinite, p, 1e9, 1)));
+    assert_true(isnan(effect_usable(effect_find("force-field"), &at, p, 1e9, 1)));
     parameter_defaults(effect_find("motion-blur")->parameters, p);
-    assert_true(effect_error(effect_find("motion-blur"), &infinite, p, 1e9) < 1e-4);
+    assert_true(effect_error(effect_find("motion-blur"), &at, p, 1e9) < 1e-4);
     /* Level ground: the height does not depend on the depth. */
     const effect_row *water = effect_find("water-line");
     parameter_defaults(water->parameters, p);
-    assert_true(effect_error(water, &finite, p, 10) == 255);
-    p[parameter_find(water->parameters, "rise")] = 0;
-    assert_true(effect_error(water, &finite, p, 10) == 0 && effect_usable(water, &finite, p, 10, 1) == 0);
-    assert_true(effect_error(water, &infinite, p, 1e9) == 0);
+    assert_true(effect_error(water, &near, p, 10) == 255);
+    level.along[1] = 0;
+    assert_true(effect_error(water, &level, p, 10) == 0 && effect_usable(water, &level, p, 10, 1) == 0);
+    level.setup = &infinite;
+    assert_true(effect_error(water, &level, p, 1e9) == 0);
     /* Where fog has saturated no depth shows. */
     const effect_row *fog = effect_find("fog");
     parameter_defaults(fog->parameters, p);
     p[0] = 100;
-    assert_true(effect_error(fog, &finite, p, 500) == 0);
-    assert_true(effect_usable(fog, &finite, p, 500, 1) < 1);
+    assert_true(effect_error(fog, &near, p, 500) == 0);
+    assert_true(effect_usable(fog, &near, p, 500, 1) < 1);
     /* An orthographic camera that moves moves all alike. */
     dp_spec spec = finite.spec;
     dp_setup ortho;
     spec.ortho = 1;
     assert_int_equal(dp_setup_init(&ortho, &spec), DP_OK);
+    const effect_view moved = view_of(&ortho);
     parameter_defaults(effect_find("motion-blur")->parameters, p);
-    assert_true(effect_error(effect_find("motion-blur"), &ortho, p, 10) == 0);
+    assert_true(effect_error(effect_find("motion-blur"), &moved, p, 10) == 0);
     /* Behind an orthographic camera a cell is as wide as before it: 65535 steps of 60/65535. */
     dp_format found[2];
     dp_format_parse("unorm16", found);
@@ -473,24 +704,27 @@ static void test_limits(void **state) {
     spec.znear = -10;
     spec.zfar = 50;
     assert_int_equal(dp_setup_init(&ortho, &spec), DP_OK);
+    const effect_view behind = view_of(&ortho);
     for (double z = -9.5; z < 50; z += 1.25) {
         const double half = 30.0 / 65535;
         parameter_defaults(effect_find("intersection")->parameters, p);
-        assert_relative(effect_error(effect_find("intersection"), &ortho, p, z), 255 * half / 0.1, 1e-9);
-        assert_relative(effect_usable(effect_find("intersection"), &ortho, p, z, 1), 255 * half, 1e-9);
+        assert_relative(effect_error(effect_find("intersection"), &behind, p, z), 255 * half / 0.1, 1e-9);
+        assert_relative(effect_usable(effect_find("intersection"), &behind, p, z, 1), 255 * half, 1e-9);
         parameter_defaults(effect_find("force-field")->parameters, p);
-        assert_relative(effect_error(effect_find("force-field"), &ortho, p, z), 255 * half, 1e-9);
+        assert_relative(effect_error(effect_find("force-field"), &behind, p, z), 255 * half, 1e-9);
     }
     /* No cells, no error. */
     pipeline.spec.model = DP_MODEL_FP32;
+    const effect_view none = view_of(&pipeline);
     parameter_defaults(fog->parameters, p);
-    assert_true(isnan(effect_error(fog, &pipeline, p, 10)) && isnan(effect_usable(fog, &pipeline, p, 10, 1)));
+    assert_true(isnan(effect_error(fog, &none, p, 10)) && isnan(effect_usable(fog, &none, p, 10, 1)));
 }
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_rows),    cmocka_unit_test(test_by_hand), cmocka_unit_test(test_sharp),
-        cmocka_unit_test(test_outputs), cmocka_unit_test(test_edge),    cmocka_unit_test(test_limits),
+        cmocka_unit_test(test_rows),        cmocka_unit_test(test_by_hand), cmocka_unit_test(test_sharp),
+        cmocka_unit_test(test_outputs),     cmocka_unit_test(test_edge),    cmocka_unit_test(test_steps),
+        cmocka_unit_test(test_range_check), cmocka_unit_test(test_shadow),  cmocka_unit_test(test_limits),
     };
     return run_tap(tests);
 }

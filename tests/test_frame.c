@@ -378,7 +378,7 @@ static void normals_of_coarse_images_are_within_the_predicted(void **state) {
             const double sample = floor(v * steps + (k % 4 < 2 ? 0.5 : 0));
             codes[i] = (uint32_t)floor(sample / steps * setup->spec.format.code_max + 0.5);
         }
-        const image depths = {ACROSS, DOWN, 1, IMAGE_U32, IMAGE_NPY, codes};
+        const image depths = {.width = ACROSS, .height = DOWN, .channels = 1, .type = IMAGE_U32, .data = codes};
         const grain g = {.kind = GRAIN_STEPS, .steps = steps, .buffer = true};
         frame seen = s.frame;
         seen.image = &depths;

@@ -244,6 +244,26 @@ static void dds_of_others(void **state) {
     }
 }
 
+/* Direct3D's older formats of colours begin with blue. */
+static void dds_blue_first(void **state) {
+    (void)state;
+    static const handmade_dds_of formats[] = {{.dxgi = 87},
+                                              {RGB, 0, 32, {0xFF0000, 0xFF00, 0xFF, 0xFF000000}, 0},
+                                              {RGB & ~1U, 0, 24, {0xFF0000, 0xFF00, 0xFF, 0}, 0}};
+    for (size_t i = 0; i < 3; i++) {
+        const size_t channels = i < 2 ? 4 : 3;
+        static const uint8_t want[2][4] = {{30, 20, 10, 40}, {70, 60, 50, 80}};
+        uint8_t samples[8];
+        handmade h = {.size = 0};
+        handmade_dds(&h, 2, 1, &formats[i]);
+        handmade_bytes(&h, (const uint8_t[]){10, 20, 30, 40}, channels);
+        handmade_bytes(&h, (const uint8_t[]){50, 60, 70, 80}, channels);
+        memcpy(samples, want[0], channels);
+        memcpy(samples + channels, want[1], channels);
+        assert_samples(&h, IMAGE_DDS, IMAGE_U8, 2, 1, (uint32_t)channels, samples);
+    }
+}
+
 /* Small codes of 24 bits would be those of 16 bits if the file did not name its format. */
 static void dds_names_its_format(void **state) {
     (void)state;
@@ -301,7 +321,7 @@ static void npy_transposed(void **state) {
 /* ---- Round trips --------------------------------------------------------------------------------------------------*/
 
 static bool write_image(FILE *stream, const image *img, image_file file, uint32_t chunk) {
-    image_writer *w = image_writer_open(stream, file, img->type, img->width, img->height, img->channels);
+    image_writer *w = image_writer_open(stream, file, img->type, img->width, img->height, img->channels, NULL);
     if (w == NULL)
         return false;
     const size_t row_size = (size_t)img->width * img->channels * image_type_size(img->type);
@@ -368,7 +388,7 @@ static void round_trips(void **state) {
                 }
             }
     free(data);
-    assert_null(image_writer_open(stdout, IMAGE_DDS, IMAGE_U16, 1, 1, 1)); /* read alone */
+    assert_null(image_writer_open(stdout, IMAGE_DDS, IMAGE_U16, 1, 1, 1, NULL)); /* read alone */
     assert_false(image_holds(IMAGE_NPY, IMAGE_U8, 0));
     assert_false(image_holds(IMAGE_NPY, IMAGE_U8, 5));
     assert_false(image_holds(IMAGE_FILE_COUNT, IMAGE_U8, 1));
@@ -405,17 +425,17 @@ static void writers_refuse(void **state) {
     FILE *stream = tmpfile();
     const uint16_t row[4] = {0};
     assert_non_null(stream);
-    assert_null(image_writer_open(stream, IMAGE_PNG, IMAGE_F32, 1, 1, 1));
-    assert_null(image_writer_open(stream, IMAGE_PFM, IMAGE_F32, 1, 1, 2));
-    assert_null(image_writer_open(stream, IMAGE_NPY, IMAGE_F32, 0, 1, 1));
-    assert_null(image_writer_open(stream, IMAGE_NPY, IMAGE_F32, 1, 65537, 1));
-    assert_null(image_writer_open(stream, IMAGE_NPY, IMAGE_F32, 65536, 4097, 1));
+    assert_null(image_writer_open(stream, IMAGE_PNG, IMAGE_F32, 1, 1, 1, NULL));
+    assert_null(image_writer_open(stream, IMAGE_PFM, IMAGE_F32, 1, 1, 2, NULL));
+    assert_null(image_writer_open(stream, IMAGE_NPY, IMAGE_F32, 0, 1, 1, NULL));
+    assert_null(image_writer_open(stream, IMAGE_NPY, IMAGE_F32, 1, 65537, 1, NULL));
+    assert_null(image_writer_open(stream, IMAGE_NPY, IMAGE_F32, 65536, 4097, 1, NULL));
     for (int file = 0; file < IMAGE_WRITTEN_COUNT; file++) {
         const image_type type = file == IMAGE_PFM ? IMAGE_F32 : IMAGE_U16;
-        image_writer *w = image_writer_open(stream, (image_file)file, type, 2, 3, 1);
+        image_writer *w = image_writer_open(stream, (image_file)file, type, 2, 3, 1, NULL);
         assert_true(image_writer_rows(w, row, 1));
         assert_false(image_writer_close(w)); /* rows are missing */
-        w = image_writer_open(stream, (image_file)file, type, 2, 1, 1);
+        w = image_writer_open(stream, (image_file)file, type, 2, 1, 1, NULL);
         assert_true(image_writer_rows(w, row, 1));
         assert_false(image_writer_rows(w, row, 1)); /* too many */
         assert_false(image_writer_close(w));
@@ -425,7 +445,11 @@ static void writers_refuse(void **state) {
         stream = fopen("/dev/full", "wb");
         assert_non_null(stream);
         setvbuf(stream, NULL, _IONBF, 0);
-        const image img = {1, 1, 1, file == IMAGE_PFM ? IMAGE_F32 : IMAGE_U16, IMAGE_PNG, (void *)row, NULL};
+        const image img = {.width = 1,
+                           .height = 1,
+                           .channels = 1,
+                           .type = file == IMAGE_PFM ? IMAGE_F32 : IMAGE_U16,
+                           .data = (void *)row};
         assert_false(write_image(stream, &img, (image_file)file, 1));
         fclose(stream);
     }
@@ -451,10 +475,13 @@ static void names(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(png_of_others), cmocka_unit_test(png_chunks),     cmocka_unit_test(pfm_of_others),
-        cmocka_unit_test(pfm_line_ends), cmocka_unit_test(npy_of_others),  cmocka_unit_test(npy_transposed),
-        cmocka_unit_test(round_trips),   cmocka_unit_test(dds_of_others),  cmocka_unit_test(dds_names_its_format),
-        cmocka_unit_test(written_bytes), cmocka_unit_test(writers_refuse), cmocka_unit_test(names),
+        cmocka_unit_test(png_of_others),  cmocka_unit_test(png_chunks),
+        cmocka_unit_test(pfm_of_others),  cmocka_unit_test(pfm_line_ends),
+        cmocka_unit_test(npy_of_others),  cmocka_unit_test(npy_transposed),
+        cmocka_unit_test(round_trips),    cmocka_unit_test(dds_of_others),
+        cmocka_unit_test(dds_blue_first), cmocka_unit_test(dds_names_its_format),
+        cmocka_unit_test(written_bytes),  cmocka_unit_test(writers_refuse),
+        cmocka_unit_test(names),
     };
     return run_tap(tests);
 }

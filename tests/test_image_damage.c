@@ -56,19 +56,16 @@ static void other_files(void **state) {
         const char *sentence;
     } rows[] = {
         {"", 0, "is empty"},
-        {"P", 1, "neither PNG, PFM, npy nor DDS by its first bytes"},
-        {"\x89PNG\r\n\n\n", 8, "neither PNG, PFM, npy nor DDS by its first bytes"},
-        {"hello, depth", 12, "neither PNG, PFM, npy nor DDS by its first bytes"},
-        {"PK\3\4....", 8, "neither PNG, PFM, npy nor DDS, but a zip archive: of an .npz, unpack the .npy"},
-        {"\x76\x2f\x31\x01....", 8, "neither PNG, PFM, npy nor DDS, but OpenEXR: convert its depth channel to PFM"},
-        {"II*\0....", 8, "neither PNG, PFM, npy nor DDS, but TIFF: convert it to PFM, or to PNG of 16 bits"},
-        {"MM\0*....", 8, "neither PNG, PFM, npy nor DDS, but TIFF: convert it to PFM, or to PNG of 16 bits"},
+        {"P", 1, "neither PNG, PFM, npy, DDS, EXR nor TIFF by its first bytes"},
+        {"\x89PNG\r\n\n\n", 8, "neither PNG, PFM, npy, DDS, EXR nor TIFF by its first bytes"},
+        {"hello, depth", 12, "neither PNG, PFM, npy, DDS, EXR nor TIFF by its first bytes"},
+        {"PK\3\4....", 8, "neither PNG, PFM, npy, DDS, EXR nor TIFF, but a zip archive: of an .npz, unpack the .npy"},
         {"\xff\xd8\xff\xe0....", 8,
-         "neither PNG, PFM, npy nor DDS, but JPEG, which keeps no depths: save PNG of 16 bits, PFM or .npy"},
-        {"P5\n1 1\n", 7, "neither PNG, PFM, npy nor DDS, but PGM: convert it to PNG of 16 bits"},
-        {"P6\n1 1\n", 7, "neither PNG, PFM, npy nor DDS, but PPM: convert it to PNG of 16 bits"},
-        {"\xabKTX 20\xbb", 8, "neither PNG, PFM, npy nor DDS, but KTX: save its pixels as .npy"},
-        {"#?RADIANCE", 10, "neither PNG, PFM, npy nor DDS, but Radiance HDR: convert it to PFM"},
+         "neither PNG, PFM, npy, DDS, EXR nor TIFF, but JPEG, which keeps no depths: save PNG of 16 bits, PFM or .npy"},
+        {"P5\n1 1\n", 7, "neither PNG, PFM, npy, DDS, EXR nor TIFF, but PGM: convert it to PNG of 16 bits"},
+        {"P6\n1 1\n", 7, "neither PNG, PFM, npy, DDS, EXR nor TIFF, but PPM: convert it to PNG of 16 bits"},
+        {"\xabKTX 20\xbb", 8, "neither PNG, PFM, npy, DDS, EXR nor TIFF, but KTX: save its pixels as .npy"},
+        {"#?RADIANCE", 10, "neither PNG, PFM, npy, DDS, EXR nor TIFF, but Radiance HDR: convert it to PFM"},
     };
     for (size_t i = 0; i < sizeof rows / sizeof rows[0]; i++) {
         handmade h = {.size = 0};
@@ -419,7 +416,7 @@ static void unreadable_paths(void **state) {
     assert_false(error.unreadable);
     assert_string_equal(error.text, "is empty");
     assert_false(image_read("/dev/zero", &got, &error));
-    assert_string_equal(error.text, "neither PNG, PFM, npy nor DDS by its first bytes");
+    assert_string_equal(error.text, "neither PNG, PFM, npy, DDS, EXR nor TIFF by its first bytes");
 }
 
 /* What a child that may not have more than 128 MiB beyond what it has says to a file or a pipe, as stdin. */
@@ -500,7 +497,7 @@ static void large_pipes(void **state) {
         size_t size = 0;
         FILE *stream = open_memstream(&bytes[file], &size);
         image_writer *w =
-            image_writer_open(stream, (image_file)file, file == IMAGE_PNG ? IMAGE_U16 : IMAGE_F32, SIDE, SIDE, 1);
+            image_writer_open(stream, (image_file)file, file == IMAGE_PNG ? IMAGE_U16 : IMAGE_F32, SIDE, SIDE, 1, NULL);
         assert_non_null(w);
         assert_true(image_writer_rows(w, samples, SIDE));
         assert_true(image_writer_close(w));

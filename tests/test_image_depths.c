@@ -126,7 +126,12 @@ static void every_type_and_format(void **state) {
             else
                 random_bits(&r, data, image_type_size((image_type)type), type == IMAGE_F16 ? 0x3C00 : f.code_max);
             for (uint32_t channels = 1; channels <= 4; channels++) {
-                const image img = {WIDTH / channels, HEIGHT, channels, (image_type)type, IMAGE_NPY, data};
+                const image img = {.width = WIDTH / channels,
+                                   .height = HEIGHT,
+                                   .channels = channels,
+                                   .type = (image_type)type,
+                                   .file = IMAGE_NPY,
+                                   .data = data};
                 assert_int_equal(image_are_codes(&img, &f), codes_expected((image_type)type, &f));
                 for (uint32_t row = 0; row < HEIGHT; row++)
                     compare(&t, &img, &f, row, 0, img.width);
@@ -153,11 +158,13 @@ static void all_words(void **state) {
     for (size_t k = 0; k < FORMATS; k++) {
         const dp_format f = format_of(formats[k]);
         for (int type = IMAGE_U16; type <= IMAGE_F16; type += IMAGE_F16 - IMAGE_U16) {
-            const image img = {2048, 32, 1, (image_type)type, IMAGE_NPY, words};
+            const image img = {
+                .width = 2048, .height = 32, .channels = 1, .type = (image_type)type, .file = IMAGE_NPY, .data = words};
             for (uint32_t row = 0; row < 32; row++)
                 compare(&t, &img, &f, row, 0, 2048);
         }
-        const image img = {256, 1, 1, IMAGE_U8, IMAGE_PNG, bytes};
+        const image img = {
+            .width = 256, .height = 1, .channels = 1, .type = IMAGE_U8, .file = IMAGE_PNG, .data = bytes};
         compare(&t, &img, &f, 0, 0, 256);
     }
     free(words);
@@ -187,9 +194,11 @@ static void codes_return(void **state) {
                 product[i] = product[i] < 1 ? product[i] : 1;
             }
             const image images[] = {
-                {COUNT, 1, 1, IMAGE_U32, IMAGE_NPY, codes},  {COUNT, 1, 1, IMAGE_F64, IMAGE_NPY, wide},
-                {COUNT, 1, 1, IMAGE_F32, IMAGE_NPY, single}, {COUNT, 1, 1, IMAGE_F32, IMAGE_NPY, product},
-                {COUNT, 1, 1, IMAGE_U16, IMAGE_PNG, words},
+                {.width = COUNT, .height = 1, .channels = 1, .type = IMAGE_U32, .file = IMAGE_NPY, .data = codes},
+                {.width = COUNT, .height = 1, .channels = 1, .type = IMAGE_F64, .file = IMAGE_NPY, .data = wide},
+                {.width = COUNT, .height = 1, .channels = 1, .type = IMAGE_F32, .file = IMAGE_NPY, .data = single},
+                {.width = COUNT, .height = 1, .channels = 1, .type = IMAGE_F32, .file = IMAGE_NPY, .data = product},
+                {.width = COUNT, .height = 1, .channels = 1, .type = IMAGE_U16, .file = IMAGE_PNG, .data = words},
             };
             /* Near 1 a step of binary32 is one of unorm24, so that a rounded product there may be its neighbour. */
             for (int j = 0; j < 5 - k; j++) {

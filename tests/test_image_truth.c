@@ -345,7 +345,8 @@ static double scan_line(const camera *c, double z, double reference) {
 }
 static double motion_blur(const camera *c, double z, double reference) {
     (void)reference;
-    return 0.1 * 1.7320508075688772 / 2 / (c->ortho ? 1 : z);
+    const double half = c->ortho ? HALF_HEIGHT : tan(60 * PI / 360);
+    return 0.1 / (half * WIDTH / HEIGHT) / 2 / (c->ortho ? 1 : z);
 }
 static double depth_of_field(const camera *c, double z, double reference) {
     return clamp01(fabs(z - reference) / (double)c->f * 10);
@@ -417,6 +418,10 @@ static double one_effect(tally *t, rng *r, const file_kind *k) {
     if (effects[e].finite && isinf((double)c.f))
         return 0;
     const double at = z[rng_below(r, PIXELS)];
+    if (effects[e].of == motion_blur) {
+        truth_add(&base, "--last-origin");
+        truth_add(&base, "0.1,0,0");
+    }
     compared = base;
     if (effects[e].compares) {
         snprintf(reference, sizeof reference, "reference=%.17g", at);

@@ -78,6 +78,7 @@ static const struct {
     {"texture|x|--metric|1mm", AT(metric), 0.001, "m"},
     {"texture|x|--origin|-1m,0,20cm", AT(camera.origin[0]), -1, "m"},
     {"texture|x|--origin|-1m,0,20cm", AT(camera.origin[2]), 0.2, "m"},
+    {"texture|x|--last-origin|0,0,30cm", AT(last.origin[2]), 0.3, "m"},
 };
 
 static void test_units(void **state) {

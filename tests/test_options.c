@@ -75,6 +75,12 @@ static const struct {
      "a number from -360 to 360 degrees"},
     {"texture", OPTION_PITCH, AT(camera.pitch), 0, -90, 90, "-90", "90", "-91", "90.5",
      "a number from -90 to 90 degrees"},
+    {"texture", OPTION_LAST_FOV, AT(last.fov_y), 0, 0.01, 179, "0.01", "179", "0", "180",
+     "a number from 0.01 to 179 degrees"},
+    {"texture", OPTION_LAST_YAW, AT(last.yaw), 0, -360, 360, "-360", "360", "-361", "360.5",
+     "a number from -360 to 360 degrees"},
+    {"texture", OPTION_LAST_PITCH, AT(last.pitch), 0, -90, 90, "-90", "90", "-91", "90.5",
+     "a number from -90 to 90 degrees"},
     {"texture", OPTION_SKY, AT(sky), 1e-4, 0, 0.5, "0", "0.5", "-0.1", "0.6", "a number from 0 to 0.5"},
     {"texture", OPTION_METRIC, AT(metric), 0, 1e-9, 1e6, "1e-9", "1e6", "0", "1e7",
      "a number from 1e-9 to 1e6 scene units"},
@@ -243,6 +249,7 @@ static void test_words(void **state) {
          WORD_AT(colour),
          "auto, always or never",
          {{"auto", OUTPUT_COLOUR_AUTO}, {"always", OUTPUT_COLOUR_ALWAYS}, {"never", OUTPUT_COLOUR_NEVER}}},
+        {"texture", OPTION_NORMAL_FORMAT, WORD_AT(normal_format), "opengl or directx", {{"opengl", 0}, {"directx", 1}}},
         {"texture", OPTION_THEME, WORD_AT(theme), "light, dark or print", {{"light", 0}, {"dark", 1}, {"print", 2}}},
         {"check x",
          OPTION_REPORT,
@@ -292,6 +299,8 @@ static void test_rows(void **state) {
         {"texture", OPTION_POSITION, AT(position), "rays", "rays", offsetof(position_row, name), "matirx", "matrix"},
         {"texture", OPTION_POSITION, AT(position), "exact", NULL, 0, "exakt", "exact"},
         {"texture", OPTION_NORMAL, AT(normal), "high-1", "high-1", offsetof(normal_row, name), "meduim", "medium"},
+        {"texture", OPTION_PACKING, AT(packing), "rgb24", "rgb24", offsetof(packing, name), "rgb42", "rgb24"},
+        {"texture", OPTION_PACK, AT(pack), "RG", "rg", offsetof(packing, name), "depth-normal", "depth-normals"},
         {"texture", OPTION_EFFECT, AT(effect), "fog", "fog", offsetof(effect_row, name), "edeg", "edge"},
     };
     tally t = {.name = "rows"};
@@ -389,6 +398,7 @@ static void test_flags(void **state) {
                  {"texture", OPTION_EYE, WORD_AT(eye)},
                  {"texture", OPTION_RADIAL, WORD_AT(radial)},
                  {"texture", OPTION_ERROR_MAP, WORD_AT(error_map)},
+                 {"texture", OPTION_PACKED_NORMAL, WORD_AT(packed_normal)},
                  {"list", OPTION_QUIET, WORD_AT(quiet)},
                  {"table", OPTION_VERBOSE, WORD_AT(verbose)},
                  {"list", OPTION_FULL, WORD_AT(full)},
@@ -417,6 +427,7 @@ static void test_texts(void **state) {
         size_t field;
         bool file;
     } texts[] = {{"texture", OPTION_TITLE, AT(title), false},
+                 {"texture", OPTION_CHANNEL, AT(channel), false},
                  {"table", OPTION_OUTPUT, AT(output), true},
                  {"texture", OPTION_FIGURE, AT(figure), true}};
     tally t = {.name = "texts"};
@@ -477,6 +488,8 @@ static void test_own(void **state) {
     assert_int_equal(parse(&o, "texture", OPTION_ORIGIN, "1,-2,3e4", line), EXIT_FINE);
     assert_true(o.camera.origin[0] == 1 && o.camera.origin[1] == -2 && o.camera.origin[2] == 3e4);
     assert_true(o.camera.width == 640 && o.camera.height == 360);
+    assert_int_equal(parse(&o, "texture", OPTION_LAST_ORIGIN, "5,6,-7", line), EXIT_FINE);
+    assert_true(o.last.origin[0] == 5 && o.last.origin[1] == 6 && o.last.origin[2] == -7 && o.camera.origin[0] == 0);
     assert_int_equal(parse(&o, "texture", OPTION_SIZE, "65536x1", line), EXIT_FINE);
     assert_true(o.camera.width == 65536 && o.camera.height == 1 && o.camera.origin[0] == 0);
     assert_int_equal(parse(&o, "texture", OPTION_PARAMETER, "gap=0.5", line), EXIT_FINE);

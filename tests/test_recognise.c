@@ -29,7 +29,7 @@ typedef struct square {
 static square *square_of(image_type type) {
     square *s = calloc(1, sizeof *s);
     assert_non_null(s);
-    s->img = (image){SIDE, SIDE, 1, type, IMAGE_NPY, &s->data, NULL};
+    s->img = (image){.width = SIDE, .height = SIDE, .channels = 1, .type = type, .file = IMAGE_NPY, .data = &s->data};
     return s;
 }
 
@@ -466,7 +466,12 @@ static void counted(void **state) {
     double *d = malloc(COUNT * sizeof *d);
     assert_non_null(d);
     for (uint32_t channels = 1; channels <= 3; channels++) {
-        const image img = {WIDTH / channels, HEIGHT, channels, IMAGE_F64, IMAGE_NPY, d, NULL};
+        const image img = {.width = WIDTH / channels,
+                           .height = HEIGHT,
+                           .channels = channels,
+                           .type = IMAGE_F64,
+                           .file = IMAGE_NPY,
+                           .data = d};
         const size_t pixels = (size_t)img.width * HEIGHT;
         size_t zero = 0, one = 0, invalid = 0;
         double lo = 2, hi = -1;
@@ -490,7 +495,8 @@ static void counted(void **state) {
     }
     for (int i = 0; i < COUNT; i++)
         d[i] = (i % 777) / 1000.0;
-    const image img = {WIDTH, HEIGHT, 1, IMAGE_F64, IMAGE_NPY, d, NULL};
+    const image img = {
+        .width = WIDTH, .height = HEIGHT, .channels = 1, .type = IMAGE_F64, .file = IMAGE_NPY, .data = d};
     recognised found;
     recognise(&img, &found);
     assert_int_equal(found.distinct, 777);

@@ -183,6 +183,9 @@ static const struct {
     {"unit = \"m\";\n" CAMERA NEEDS("at = 1; separation = \"nan m\";"), 3, "must be a length"},
     {"unit = \"parsec\";", 1, "unit: must be nm, um, mm, cm, m, km, in or ft"},
     {CAMERA NEEDS("at = 1; ties = 0.1;"), 2, "ties: needs a range"},
+    {"cameras = { a = { near = 1; far = \"inf\"; mapping = \"reversed\"; format = \"fp32\"; model = \"float\"; }; "
+     "};\n" NEEDS("range = (2, 1.0e39); ties = 0.5;"),
+     2, "ties: needs a range up to 3.4028235e+38, the largest binary32 number, got 1e+39"},
     {"cameras = { a = { near = 1; far = 9; mapping = \"d3d\"; format = \"fp32\"; model = \"exact\"; }; };\n" NEEDS(
          "at = 1; ties = 0.1;"),
      2, "ties: needs the model float or auto"},

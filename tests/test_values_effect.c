@@ -13,30 +13,101 @@ static const struct {
     camera_case camera;
     const char *effect;
     double z[DEPTHS];
+    const char *view; /* options of the cameras, which are those below; null: the effect needs none */
+    uint32_t column, row;
+    camera_spec now, last;
 } effects[] = {
-    {{0.3, 900, {"unorm16", "fp32"}, {"d3d", "reversed"}, .unit = "cm"}, "intersection", {0.4, 30, 2, 500, 7}},
-    {{0.3, 900, {"unorm16"}, {"d3d"}, .ortho = 0}, "depth-of-field", {0.4, 30, 2, 500, 7}},
-    {{0.3, 900, {"unorm24", "fp16"}, {"d3d"}, .ortho = 0}, "fog", {0.4, 30, 2, 500, 7}},
-    {{0.3, 900, {"unorm16"}, {"gl"}, .ortho = 0}, "scan-line", {0.4, 30, 2, 500, 7}},
-    {{-10, 50, {"unorm16", "fp32"}, {"d3d"}, .ortho = 1}, "intersection", {-9, -0.5, 0, 3, 40}},
-    {{-10, 50, {"unorm16"}, {"reversed"}, .ortho = 1}, "height-fog", {-9, -0.5, 0.25, 3, 40}},
+    {{0.3, 900, {"unorm16", "fp32"}, {"d3d", "reversed"}, .unit = "cm"},
+     "intersection",
+     {0.4, 30, 2, 500, 7},
+     .view = NULL},
+    {{0.3, 900, {"unorm16"}, {"d3d"}, .ortho = 0}, "depth-of-field", {0.4, 30, 2, 500, 7}, .view = NULL},
+    {{0.3, 900, {"unorm24", "fp16"}, {"d3d"}, .ortho = 0}, "fog", {0.4, 30, 2, 500, 7}, .view = NULL},
+    {{0.3, 900, {"unorm16"}, {"gl"}, .ortho = 0}, "scan-line", {0.4, 30, 2, 500, 7}, .view = NULL},
+    {{0.3, 900, {"unorm16"}, {"d3d"}, .ortho = 0}, "edge", {0.4, 30, 2, 500, 7}, .view = NULL},
+    {{0.3, 900, {"unorm16"}, {"d3d"}, .ortho = 0},
+     "height-fog",
+     {0.4, 30, 2, 500, 7},
+     "--fov 40 --pitch -3 --yaw 20 --origin 7,9,-2",
+     320,
+     359,
+     {640, 360, 40, 5, 20, -3, {7, 9, -2}},
+     {640, 360, 40, 5, 20, -3, {7, 9, -2}}},
+    {{0.3, 900, {"unorm16"}, {"reversed"}, .ortho = 1},
+     "water-line",
+     {0.4, 30, 2, 500, 7},
+     "--half-height 3 --pitch 8 --size 90x60 --pixel 70,12",
+     70,
+     12,
+     {90, 60, 60, 3, 0, 8, {0, 0, 0}},
+     {90, 60, 60, 3, 0, 8, {0, 0, 0}}},
+    {{0.3, 900, {"unorm16"}, {"d3d"}, .ortho = 0}, "ambient-occlusion", {0.4, 30, 2, 500, 7}, .view = NULL},
+    {{0.3, 900, {"unorm16", "fp32"}, {"d3d"}, .ortho = 0}, "shadow", {0.4, 30, 2, 500, 7}, .view = NULL},
+    {{0.3, 900, {"unorm16"}, {"reversed"}, .ortho = 0}, "outline", {0.4, 30, 2, 500, 7}, .view = NULL},
+    {{0.3, 900, {"unorm16"}, {"reversed"}, .ortho = 0}, "contact-shadow", {0.4, 30, 2, 500, 7}, .view = NULL},
+    {{0.3, 900, {"unorm16"}, {"d3d"}, .ortho = 0}, "soft-particles", {0.4, 30, 2, 500, 7}, .view = NULL},
+    {{0.3, 900, {"unorm16"}, {"d3d"}, .ortho = 0},
+     "water-depth",
+     {0.4, 30, 2, 500, 7},
+     "--fov 100 --pixel 0,0",
+     0,
+     0,
+     {640, 360, 100, 5, 0, 0, {0, 0, 0}},
+     {640, 360, 100, 5, 0, 0, {0, 0, 0}}},
+    {{0.3, 900, {"unorm16"}, {"d3d"}, .ortho = 0},
+     "decal",
+     {0.4, 30, 2, 500, 7},
+     "--yaw 30",
+     320,
+     359,
+     {640, 360, 60, 5, 30, 0, {0, 0, 0}},
+     {640, 360, 60, 5, 30, 0, {0, 0, 0}}},
+    {{0.3, 900, {"unorm16"}, {"d3d"}, .ortho = 0},
+     "motion-blur",
+     {0.4, 30, 2, 500, 7},
+     "--yaw 10 --last-origin 0.1,0.05,0 --last-yaw 9 --last-pitch 1 --last-fov 59",
+     320,
+     359,
+     {640, 360, 60, 5, 10, 0, {0, 0, 0}},
+     {640, 360, 59, 5, 9, 1, {0.1, 0.05, 0}}},
+    {{-10, 50, {"unorm16", "fp32"}, {"d3d"}, .ortho = 1}, "intersection", {-9, -0.5, 0, 3, 40}, .view = NULL},
+    {{-10, 50, {"unorm16"}, {"reversed"}, .ortho = 1},
+     "height-fog",
+     {-9, -0.5, 0.25, 3, 40},
+     "--pitch -20",
+     320,
+     359,
+     {640, 360, 60, 5, 0, -20, {0, 0, 0}},
+     {640, 360, 60, 5, 0, -20, {0, 0, 0}}},
 };
 
-static void want_effect_rows(values *v, const effect_row *row, const double *parameters, const dp_setup *setup,
-                             const double *z, size_t i, line_places *lines) {
+/* The axis of a camera at the origin where the effect needs none. */
+static void want_effect_rows(values *v, size_t effect, const double *parameters, const dp_setup *setup, size_t i,
+                             line_places *lines) {
+    const effect_row *row = effect_find(effects[effect].effect);
+    const double *z = effects[effect].z;
     double decides = NAN, at = NAN;
+    texture_camera now, last;
+    effect_view view = {.setup = setup};
+    if (effects[effect].view != NULL) {
+        assert_null(camera_init(&now, setup, &effects[effect].now));
+        assert_null(camera_init(&last, setup, &effects[effect].last));
+        view = effect_view_of(&now, &last, effects[effect].column, effects[effect].row);
+    }
     values_under(v, "setups[%zu].", i);
     want_setup(v, setup);
     for (int k = 0; k < DEPTHS; k++) {
         char inner[32];
         const uint32_t code = dp_code(setup, z[k]);
-        const double usable = effect_usable(row, setup, parameters, z[k], 1);
+        const double usable = effect_usable(row, &view, parameters, z[k], 1);
         values_under(v, "setups[%zu].rows[%d].", i, k);
         want_number(v, "z", z[k]);
         want_count(v, "code", code);
         want_number(v, "z_stored", dp_stored(setup, code));
         want_number(v, "interval", dp_cell_of(setup, code).width);
-        want_number(v, "levels", effect_error(row, setup, parameters, z[k]));
+        want_number(v, "levels", effect_error(row, &view, parameters, z[k]));
+        if (row->alone)
+            want_number(v, "share", effect_share(row, &view, parameters, z[k]));
         want_number(v, "usable", usable);
         const bool first = isnan(usable) ? !isnan(decides) : row->smallest ? usable > decides : usable < decides;
         if (k == 0 || (first && !isnan(decides))) {
@@ -55,8 +126,11 @@ static void check_effect(values *v, const char *arguments, const effect_row *row
     const texture_parameter *wanted_one = &row->parameters[row->wanted];
     const char *direction = row->smallest ? "from" : "up to";
     char head[128], label[128];
-    static const text_column shown[] = {{"z", 9},        {"code", 10},  {"z_stored", 9},
-                                        {"interval", 6}, {"levels", 6}, {"usable", 6}};
+    const text_column plain[] = {{"z", 9},        {"code", 10},  {"z_stored", 9},
+                                 {"interval", 6}, {"levels", 6}, {"usable", 6}};
+    const text_column shared[] = {{"z", 9},      {"code", 10}, {"z_stored", 9}, {"interval", 6},
+                                  {"levels", 6}, {"share", 6}, {"usable", 6}};
+    const size_t shown = row->alone ? 7 : 6;
     static const char *const decides[] = {"setups[0].all.usable", "setups[0].all.z", NULL};
     snprintf(head, sizeof head, "%s %s [%s]", wanted_one->name, direction, wanted_one->unit);
     const csv_column columns[] = {SETUP_COLUMNS,
@@ -66,11 +140,13 @@ static void check_effect(values *v, const char *arguments, const effect_row *row
                                   {"z_stored [scene]", "z_stored"},
                                   {"interval [scene]", "interval"},
                                   {"levels [1/255]", "levels"},
+                                  {row->alone ? "share" : head, row->alone ? "share" : "usable"},
                                   {head, "usable"}};
+    const size_t count = sizeof columns / sizeof columns[0] - !row->alone;
     check_json(v, 0, arguments);
-    check_csv(v, 0, arguments, columns, sizeof columns / sizeof columns[0], lines);
+    check_csv(v, 0, arguments, columns, count, lines);
     printed p = print_of("%s --full", arguments);
-    check_text_table(v, p.out, shown, sizeof shown / sizeof shown[0], lines);
+    check_text_table(v, p.out, row->alone ? shared : plain, shown, lines);
     const bool none = isnan(value_at(v, decides[0])->number);
     snprintf(label, sizeof label, none ? "no %s is usable" : "%s %s ", wanted_one->name, direction);
     check_text_numbers(v, p.out, label, 6, decides + none);
@@ -89,17 +165,20 @@ static void test_effects(void **state) {
         v.unit = effects[i].camera.unit;
         assert_non_null(row);
         parameter_defaults(row->parameters, parameters);
-        size_t used = (size_t)snprintf(arguments, sizeof arguments, "texture --effect %s %s --at ", row->name,
+        size_t used = (size_t)snprintf(arguments, sizeof arguments, "texture --effect %s %s %s --at ", row->name,
+                                       effects[i].view != NULL ? effects[i].view : "",
                                        camera_options(&effects[i].camera, options));
         for (int k = 0; k < DEPTHS; k++)
             used += (size_t)snprintf(arguments + used, sizeof arguments - used, "%s%.17g", k > 0 ? "," : "",
                                      effects[i].z[k]);
-        for (int k = 0; row->parameters[k].name != NULL; k++) {
+        for (int k = 0, used_ones = 0; row->parameters[k].name != NULL; k++) {
             const texture_parameter *q = &row->parameters[k];
-            parameters[k] = fmin(q->hi, q->value * 1.25); /* not the default */
+            if (q->use == PARAMETER_IMAGE)
+                continue;
+            parameters[k] = fmin(q->hi, q->value * 1.25 + (q->value == 0 ? 0.5 : 0)); /* not the default */
             snprintf(arguments + strlen(arguments), sizeof arguments - strlen(arguments), " --parameter %s=%.17g",
                      q->name, parameters[k]);
-            values_under(&v, "parameters[%d].", k);
+            values_under(&v, "parameters[%d].", used_ones++);
             want_text(&v, "name", q->name);
             want_text(&v, "unit", q->unit);
             want_number(&v, "value", parameters[k]);
@@ -110,14 +189,94 @@ static void test_effects(void **state) {
         want_text(&v, "direction", row->smallest ? "from" : "up to");
         const size_t n = camera_setups(&effects[i].camera, setups);
         for (size_t k = 0; k < n; k++)
-            want_effect_rows(&v, row, parameters, &setups[k], effects[i].z, k, &lines);
+            want_effect_rows(&v, i, parameters, &setups[k], k, &lines);
         check_effect(&v, arguments, row, &lines);
         values_free(&v);
         places_free(&lines);
     }
 }
 
+/* ---- Beside --pixel ---------------------------------------------------------------------------------------------- */
+
+/* A plane that leans back by 40 degrees, 30 away: its depth in a pixel of an image of 64 x 36, seen through 50 degrees.
+ */
+static double plane_at(uint32_t row) {
+    const double degree = 3.14159265358979323846 / 180, up = (1 - 2 * (row + 0.5) / 36) * tan(25 * degree);
+    return 30 / (1 - up * tan(40 * degree));
+}
+
+/* In binary32 and exactly, for what is stored and for the truth. The formulas: at a reference of 29, by height from 9
+ * down, against threshold and neighbours; the camera looks along z from a height of 2. */
+static double by_hand(const char *effect, double z, uint32_t row) {
+    const double degree = 3.14159265358979323846 / 180, up = (1 - 2 * (row + 0.5) / 36) * tan(25 * degree);
+    if (strcmp(effect, "intersection") == 0)
+        return fmin(fabs(29 - z) / 4, 1);
+    if (strcmp(effect, "height-fog") == 0)
+        return fmin(fmax((2 + up * z - 9) / (-50 - 9) * 0.5, 0), 1);
+    return fmin(z / 900 * 3, 1);
+}
+
+static void test_pixels(void **state) {
+    static const struct {
+        const char *name, *parameters;
+    } shown[] = {{"intersection", "--parameter half-width=4 --parameter reference=29"},
+                 {"height-fog", "--parameter density=0.5 --parameter start=9 --parameter end=-50 --origin 5,2,-3"},
+                 {"fog", "--parameter density=3"}};
+    static const uint32_t rows[] = {3, 17, 30};
+    int inside = 0;
+    dp_format formats[2];
+    dp_spec spec = dp_spec_default();
+    dp_setup setup;
+    (void)state;
+    assert_true(dp_format_parse("unorm16", formats) >= 1);
+    spec.format = formats[0];
+    spec.mapping = DP_MAPPING_D3D;
+    spec.znear = 0.3;
+    spec.zfar = 900;
+    assert_int_equal(dp_setup_init(&setup, &spec), DP_OK);
+    for (size_t i = 0; i < sizeof shown / sizeof shown[0]; i++) {
+        const char *name = shown[i].name;
+        printed p = print_of("texture --scene plane --parameter distance=30 --parameter tilt=40 --size 64x36 --fov 50 "
+                             "-n 0.3 -f 900 -F unorm16 -m d3d --effect %s %s --pixel '20,3;20,17;20,30' --json",
+                             name, shown[i].parameters);
+        json_t *root = json_of(p.out), *pixels = json_object_get(root, "pixels");
+        assert_string_equal(json_string_value(json_object_get(root, "effect")), name);
+        assert_int_equal(json_array_size(pixels), 3);
+        for (size_t k = 0; k < 3; k++) {
+            const json_t *o = json_array_get(pixels, k);
+            const double z = plane_at(rows[k]), stored = dp_stored(&setup, dp_code(&setup, z));
+            const double output = json_number_value(json_object_get(o, "output"));
+            const double exact = by_hand(name, stored, rows[k]);
+            assert_scene(json_number_value(json_object_get(o, "exact")), exact, 1e-11);
+            assert_scene(output, exact, 1e-3);
+            assert_scene(json_number_value(json_object_get(o, "levels")),
+                         255 * fabs(output - by_hand(name, z, rows[k])), 1e-5);
+            assert_true(output == (double)(float)output);
+            inside += output > 0 && output < 1;
+        }
+        json_decref(root);
+        printed_free(&p);
+    }
+    assert_true(inside >= 6);
+    /* A silhouette: the corners of this pixel lie on either side of it. */
+    printed p =
+        print_of("texture --scene sphere --size 64x36 -F unorm16 -m d3d --effect edge --pixel '36,18;41,18;60,3' "
+                 "--json");
+    json_t *root = json_of(p.out), *pixels = json_object_get(root, "pixels");
+    int edges = 0;
+    for (size_t k = 0; k < json_array_size(pixels); k++) {
+        const json_t *o = json_array_get(pixels, k);
+        const double output = json_number_value(json_object_get(o, "output"));
+        assert_true(output == json_number_value(json_object_get(o, "exact")));
+        edges += output == 1;
+    }
+    assert_int_equal(edges, 1);
+    json_decref(root);
+    printed_free(&p);
+}
+
 int main(void) {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(test_effects), cmocka_unit_test(check_apart)};
+    const struct CMUnitTest tests[] = {cmocka_unit_test(test_effects), cmocka_unit_test(test_pixels),
+                                       cmocka_unit_test(check_apart)};
     return run_tap(tests);
 }

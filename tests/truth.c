@@ -38,7 +38,7 @@ void truth_store(void *data, image_type type, size_t i, double x) {
 void truth_write(const char *path, image_file file, image_type type, const void *data) {
     FILE *stream = fopen(path, "wb");
     assert_non_null(stream);
-    image_writer *w = image_writer_open(stream, file, type, WIDTH, HEIGHT, 1);
+    image_writer *w = image_writer_open(stream, file, type, WIDTH, HEIGHT, 1, NULL);
     assert_non_null(w);
     assert_true(image_writer_rows(w, data, HEIGHT));
     assert_true(image_writer_close(w));

@@ -7,12 +7,16 @@
 /* Options that need a product, or a figure of one. */
 static int check_alone(const options *o) {
     static const option_id drawn[] = {OPTION_TYPE, OPTION_THEME, OPTION_WIDTH, OPTION_HEIGHT, OPTION_TITLE};
+    if (o->error_map && o->effect != NULL && option_given(o, OPTION_PIXEL))
+        return option_error(OPTION_ERROR_MAP, "does not apply with --pixel, which says the error");
     if (option_given(o, OPTION_ERROR_MAP) && !texture_product_wanted(o))
         return option_error(OPTION_ERROR_MAP, "needs --eye, --position, --normal or --effect");
     if (o->radial && !texture_product_wanted(o))
         return option_error(OPTION_RADIAL, "needs --eye");
     if (option_given(o, OPTION_AT))
         return option_error(OPTION_AT, "is for the table of --effect without an image");
+    if (option_given(o, OPTION_NORMAL_FORMAT) && o->normal == NULL)
+        return option_error(OPTION_NORMAL_FORMAT, "needs --normal or --packed-normal");
     if (option_given(o, OPTION_PIXEL) && texture_product_wanted(o))
         return option_error(OPTION_PIXEL, "describes single pixels, and makes no image or figure");
     for (size_t i = 0; i < sizeof drawn / sizeof drawn[0]; i++)
@@ -21,16 +25,23 @@ static int check_alone(const options *o) {
     return EXIT_FINE;
 }
 
-/* The table of an effect sees depths, not pixels. */
+/* The table of an effect sees depths, and at most one pixel. */
 static int check_table(const options *o) {
-    static const option_id pixels[] = {
-        OPTION_FOV,       OPTION_HALF_HEIGHT, OPTION_YAW,   OPTION_PITCH,  OPTION_ORIGIN,   OPTION_SIZE,
-        OPTION_SKY,       OPTION_METRIC,      OPTION_EYE,   OPTION_RADIAL, OPTION_POSITION, OPTION_NORMAL,
-        OPTION_ERROR_MAP, OPTION_FIGURE,      OPTION_THEME, OPTION_WIDTH,  OPTION_HEIGHT,   OPTION_TITLE,
-        OPTION_THREADS,   OPTION_PIXEL,       OPTION_TYPE};
-    for (size_t i = 0; i < sizeof pixels / sizeof pixels[0]; i++)
-        if (option_given(o, pixels[i]))
-            return option_error(pixels[i], "does not apply to --effect alone, only with FILE or --scene");
+    static const option_id images[] = {OPTION_SKY,      OPTION_METRIC, OPTION_EYE,          OPTION_RADIAL,
+                                       OPTION_POSITION, OPTION_NORMAL, OPTION_ERROR_MAP,    OPTION_FIGURE,
+                                       OPTION_THEME,    OPTION_WIDTH,  OPTION_HEIGHT,       OPTION_TITLE,
+                                       OPTION_THREADS,  OPTION_TYPE,   OPTION_PACKING,      OPTION_NORMAL_FORMAT,
+                                       OPTION_CHANNEL,  OPTION_PACK,   OPTION_PACKED_NORMAL};
+    static const option_id cameras[] = {OPTION_FOV,    OPTION_HALF_HEIGHT, OPTION_YAW,  OPTION_PITCH,
+                                        OPTION_ORIGIN, OPTION_SIZE,        OPTION_PIXEL};
+    for (size_t i = 0; i < sizeof images / sizeof images[0]; i++)
+        if (option_given(o, images[i]))
+            return option_error(images[i], "does not apply to --effect alone, only with FILE or --scene");
+    for (size_t i = 0; i < sizeof cameras / sizeof cameras[0] && (o->effect->needs & EFFECT_POSITION) == 0; i++)
+        if (option_given(o, cameras[i]))
+            return option_error(cameras[i],
+                                "does not apply to %s alone, which needs no position, only with FILE or --scene",
+                                o->effect->name);
     return EXIT_FINE;
 }
 
@@ -46,27 +57,36 @@ static int make_product(const options *o, const texture_source *source, texture_
     return status;
 }
 
-int cmd_texture(const options *o) {
-    texture_product product;
-    const bool made = texture_product_wanted(o);
+int cmd_texture(const options *given) {
+    options own = *given, *o = &own;
+    texture_product product = {0};
+    const bool packed = o->pack != NULL || o->packed_normal;
+    const bool described = option_given(o, OPTION_PIXEL) && o->effect != NULL;
+    const bool made = !packed && texture_product_wanted(o);
     if (o->effect != NULL && o->operand_count == 0 && o->scene == NULL) {
         const int status = check_table(o);
         return status == EXIT_FINE ? texture_effect_table(o) : status;
     }
     texture_source source = {0};
-    int status = check_alone(o);
+    int status = packed ? texture_pack_check(o) : check_alone(o);
     if (status == EXIT_FINE && made)
         status = texture_product_resolve(o, &product);
+    else if (status == EXIT_FINE && described)
+        status = texture_product_effect(o, &product);
     if (status == EXIT_FINE)
         status = texture_source_open(o, &source);
     if (status == EXIT_FINE && made)
         status = make_product(o, &source, &product);
+    else if (status == EXIT_FINE && o->pack != NULL)
+        status = texture_pack_write(o, &source);
+    else if (status == EXIT_FINE && o->packed_normal)
+        status = texture_packed_normal_write(o, &source);
     else if (status == EXIT_FINE && option_given(o, OPTION_PIXEL))
-        status = texture_pixel_write(o, &source);
+        status = texture_pixel_write(o, &source, described ? &product.made : NULL);
     else if (status == EXIT_FINE && o->scene != NULL && o->output != NULL && o->form == FORM_TEXT)
         status = texture_depth_write(o, &source);
     else if (status == EXIT_FINE)
         status = texture_report_write(o, &source);
-    image_free(&source.picture);
+    texture_source_close(&source);
     return status;
 }

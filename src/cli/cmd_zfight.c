@@ -271,6 +271,9 @@ static int check(zfight *z) {
         status = range_resolve(o, &z->lo, &z->hi);
     if (status == EXIT_FINE && isinf(z->hi))
         status = option_error(OPTION_RANGE, "must be given when far is inf: there are too many depths up to infinity");
+    if (status == EXIT_FINE && isinf((float)z->hi))
+        status = option_error(OPTION_RANGE, "must end at 3.4028235e+38, the largest binary32 number, at most, got %s",
+                              number_full(z->hi).text);
     if (status == EXIT_FINE && census_count(z->lo, z->hi) < 2)
         status = option_error(OPTION_RANGE, "must hold at least two binary32 depths");
     if (status == EXIT_FINE && o->gap >= z->hi - z->lo)

@@ -14,6 +14,7 @@
 #include "report/number.h"
 #include "texture/effect.h"
 #include "texture/pack.h"
+#include "texture/packing.h"
 #include "texture/position.h"
 #include "texture/scene.h"
 
@@ -134,17 +135,38 @@ static bool list_packing(size_t index, list_item *item) {
     return true;
 }
 
+bool list_packed(size_t index, list_item *item) {
+    const packing *row = packing_get(index);
+    if (row == NULL)
+        return false;
+    *item = (list_item){.name = row->name, .note = row->note, .source = row->source, .row = row};
+    append(item->bound, sizeof item->bound, "depth: at most %.3g%s", 0.5 / row->steps + row->off,
+           row->linear ? " of far" : "");
+    return true;
+}
+
 bool list_effect(size_t index, list_item *item) {
+    static const struct {
+        unsigned bit;
+        const char *name;
+    } needs[] = {{EFFECT_POSITION, "the position"},
+                 {EFFECT_LAST_FRAME, "last frame's camera"},
+                 {EFFECT_SECOND_DEPTH, "a second depth"},
+                 {EFFECT_NORMALS, "normals"}};
     const effect_row *row = effect_get(index);
     if (row == NULL)
         return false;
     *item = (list_item){.name = row->name, .note = row->note, .source = row->source, .row = row};
     for (int i = 0; row->parameters[i].name != NULL; i++) {
         const texture_parameter *p = &row->parameters[i];
-        append(item->bound, sizeof item->bound, "%s%s %g [%s]", i > 0 ? ", " : "", p->name, p->value, p->unit);
+        append(item->bound, sizeof item->bound, "%s%s %g [%s], %g to %g", i > 0 ? "; " : "", p->name, p->value, p->unit,
+               p->lo, p->hi);
         if (i == row->wanted)
             append(item->bound, sizeof item->bound, " (%s usable)", row->smallest ? "smallest" : "largest");
     }
+    for (size_t i = 0, count = 0; i < sizeof needs / sizeof needs[0]; i++)
+        if ((row->needs & needs[i].bit) != 0)
+            append(item->bound, sizeof item->bound, "%s%s", count++ == 0 ? "; needs " : ", ", needs[i].name);
     return true;
 }
 
@@ -216,6 +238,8 @@ static const topic topics[] = {
     {"presets", "cameras as engines set them, for --preset", list_preset, .bound = "camera"},
     {"apis", "what one unit of depth bias is, for bias --api", list_api, .bound = "rule"},
     {"packings", "depth and normals in the channels of a texture, and their error bounds", list_packing,
+     .bound = "bound"},
+    {"packed", "textures with a depth in several channels, for texture --packing and --pack", list_packed,
      .bound = "bound"},
     {"effects", "effects for texture --effect: formulas and parameters", list_effect, .bound = "parameters"},
     {"figures", "figures, for plot", list_figure, .bound = "bound"},

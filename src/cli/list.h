@@ -8,7 +8,7 @@
 #include <stdbool.h>
 #include <stddef.h>
 
-enum { LIST_TEXT_SIZE = 192 };
+enum { LIST_TEXT_SIZE = 768 };
 
 /** One listed thing. Texts are static, except `bound`, which is written in place. */
 typedef struct list_item {
@@ -48,6 +48,7 @@ bool list_figure(size_t index, list_item *item);
 bool list_scene(size_t index, list_item *item);
 bool list_position(size_t index, list_item *item);
 bool list_normal(size_t index, list_item *item);
+bool list_packed(size_t index, list_item *item);
 bool list_method(size_t index, list_item *item);
 
 /** What can be listed: the row of a list_topic(). */

@@ -101,7 +101,7 @@ int parse_origin(options *o, const option_row *row, const char *value) {
     lengths seen = {.o = o};
     for (int i = 0; i < 3; i++) {
         const size_t length = strcspn(at, ",");
-        double *x = &o->camera.origin[i];
+        double *x = (double *)option_field(o, row) + i;
         if (!read_length(&seen, at, length, NUMBER_FINITE, x) || !(*x >= -1e12 && *x <= 1e12) ||
             (at[length] == '\0') != (i == 2))
             return option_refuse(row, "must be X,Y,Z, each from -1e12 to 1e12, got '%s'%s", value,

@@ -21,6 +21,8 @@ static const name_list apis = {.words = (const char *const[]){"all", NULL}, .get
 static const name_list scenes = {.get = list_scene};
 static const name_list positions = {.words = (const char *const[]){"exact", NULL}, .get = list_position};
 static const name_list normals = {.get = list_normal};
+static const name_list normal_formats = {.words = (const char *const[]){"opengl", "directx", NULL}};
+static const name_list packed = {.get = list_packed};
 static const name_list effects = {.get = list_effect};
 /* In the order of their enumerators. */
 static const name_list targets = {
@@ -57,6 +59,7 @@ enum {
 #define POSITIVE(field)              .parse = parse_length, FIELD(double, field)
 #define LENGTH(field, ...)           POSITIVE(field), LIMITS(__VA_ARGS__)
 #define NUMBER(field, ...)           .parse = parse_number, FIELD(double, field), LIMITS(__VA_ARGS__)
+#define ORIGIN(field)                .parse = parse_origin, FIELD(double, field[0])
 #define WHOLE(field, ...)            .parse = parse_whole, SIZED(field), LIMITS(__VA_ARGS__)
 #define SEVERAL(kind, field, lo, hi) .parse = (kind), FIELD(depths, field), LIMITS(lo, hi, NULL)
 #define WORD(field, among)           .parse = parse_word, SIZED(field), .names = &(among)
@@ -205,11 +208,21 @@ const option_row option_rows[OPTION_COUNT] = {
     [OPTION_PITCH] = {"pitch", 0, "DEG", VERB_TEXTURE,
         "the camera's turn upwards", NUMBER(camera.pitch, -90, 90, "degrees"), .standard = "0"},
     [OPTION_ORIGIN] = {"origin", 0, "X,Y,Z", VERB_TEXTURE,
-        "the camera's position, world coordinates", parse_origin, .standard = "0,0,0"},
+        "the camera's position, world coordinates", ORIGIN(camera.origin), .standard = "0,0,0"},
+    [OPTION_LAST_FOV] = {"last-fov", 0, "DEG", VERB_TEXTURE,
+        "last frame's vertical field of view, for motion blur", NUMBER(last.fov_y, 0.01, 179, "degrees"),
+        .without = "that of this frame"},
+    [OPTION_LAST_YAW] = {"last-yaw", 0, "DEG", VERB_TEXTURE,
+        "last frame's turn to the right", NUMBER(last.yaw, -360, 360, "degrees"), .without = "that of this frame"},
+    [OPTION_LAST_PITCH] = {"last-pitch", 0, "DEG", VERB_TEXTURE,
+        "last frame's turn upwards", NUMBER(last.pitch, -90, 90, "degrees"), .without = "that of this frame"},
+    [OPTION_LAST_ORIGIN] = {"last-origin", 0, "X,Y,Z", VERB_TEXTURE,
+        "the camera's position in the last frame", ORIGIN(last.origin), .without = "that of this frame"},
     [OPTION_SCENE] = {"scene", 0, "NAME", VERB_TEXTURE,
         "a synthetic scene in place of FILE: @; 'depthprec list scenes' has their parameters", ROW(scene, scenes)},
     [OPTION_SIZE] = {"size", 0, "WxH", VERB_TEXTURE,
-        "with --scene: the image's pixels", parse_size, .standard = "640x360",
+        "the image's pixels: with --scene, and with --effect alone if that needs the position", parse_size,
+        .standard = "640x360",
         .instead = "; a figure's size is --width and --height"},
     [OPTION_PARAMETER] = {"parameter", 0, "NAME=VALUE", VERB_TEXTURE,
         "a parameter of the scene or the effect; may be repeated", .parse = parse_parameter},
@@ -221,9 +234,14 @@ const option_row option_rows[OPTION_COUNT] = {
         "the samples are eye depths in units of SCALE, 0.001 for millimetres; 0, negative numbers, NaN and infinity "
         "are holes",
         LENGTH(metric, METRIC_SCALE_MIN, METRIC_SCALE_MAX, "scene units")},
+    [OPTION_PACKING] = {"packing", 0, "NAME", VERB_TEXTURE,
+        "the channels of FILE hold the depth together: @; 'depthprec list packed'", ROW(packing, packed)},
+    [OPTION_CHANNEL] = {"channel", 0, "NAME", VERB_TEXTURE,
+        "the channel of an EXR that is read", TEXT(channel), .without = "Z, R or depth, the first that is there"},
     [OPTION_PIXEL] = {"pixel", 0, "X,Y[;X,Y...]", VERB_TEXTURE,
         "describe single pixels: code, eye depth and its range, neighbours, position, normal; 0,0 is the "
-        "top left", SEVERAL(parse_pixels, pixels, 0, TEXTURE_SIDE_MAX - 1)},
+        "top left. With --effect alone: the pixel that sees the depths",
+        SEVERAL(parse_pixels, pixels, 0, TEXTURE_SIDE_MAX - 1)},
     [OPTION_EYE] = {"eye", 0, NULL, VERB_TEXTURE,
         "product: eye depth", FLAG(eye)},
     [OPTION_RADIAL] = {"radial", 0, NULL, VERB_TEXTURE,
@@ -232,6 +250,13 @@ const option_row option_rows[OPTION_COUNT] = {
         "product: world positions by @; exact is the truth", ROW(position, positions)},
     [OPTION_NORMAL] = {"normal", 0, "METHOD", VERB_TEXTURE,
         "product: normals by @", ROW(normal, normals)},
+    [OPTION_NORMAL_FORMAT] = {"normal-format", 0, NULL, VERB_TEXTURE,
+        "which way y runs in a PNG of normals: up, or down", WORD(normal_format, normal_formats), .standard = "opengl"},
+    [OPTION_PACKED_NORMAL] = {"packed-normal", 0, NULL, VERB_TEXTURE,
+        "product: the normals that --packing depth-normals holds beside the depth", FLAG(packed_normal)},
+    [OPTION_PACK] = {"pack", 0, "NAME", VERB_TEXTURE,
+        "write the depths to -o FILE, a PNG or NPY of 8 bits, in several channels: @; with --normal the normals of "
+        "depth-normals are by that method, else projective", ROW(pack, packed)},
     [OPTION_EFFECT] = {"effect", 0, "NAME", VERB_TEXTURE,
         "product: an effect that reads depth: @; without an image, the usable values of its parameter",
         ROW(effect, effects)},

@@ -24,6 +24,7 @@
 #include "texture/camera.h"
 #include "texture/effect.h"
 #include "texture/normal.h"
+#include "texture/packing.h"
 #include "texture/position.h"
 #include "texture/scene.h"
 
@@ -66,16 +67,25 @@ typedef enum option_id {
     OPTION_YAW,
     OPTION_PITCH,
     OPTION_ORIGIN,
+    OPTION_LAST_FOV,
+    OPTION_LAST_YAW,
+    OPTION_LAST_PITCH,
+    OPTION_LAST_ORIGIN,
     OPTION_SCENE,
     OPTION_SIZE,
     OPTION_PARAMETER,
     OPTION_SKY,
     OPTION_METRIC,
+    OPTION_PACKING,
+    OPTION_CHANNEL,
     OPTION_PIXEL,
     OPTION_EYE,
     OPTION_RADIAL,
     OPTION_POSITION,
     OPTION_NORMAL,
+    OPTION_NORMAL_FORMAT,
+    OPTION_PACKED_NORMAL,
+    OPTION_PACK,
     OPTION_EFFECT,
     OPTION_ERROR_MAP,
     OPTION_FIGURE,
@@ -111,7 +121,7 @@ typedef enum solve_target {
 /** Values of --report. */
 typedef enum report_form { REPORT_TEXT = 0, REPORT_JSON, REPORT_JUNIT } report_form;
 
-enum { OPTIONS_FORMATS_MAX = 64, OPTIONS_PARAMETERS_MAX = 8, OPTIONS_PRESETS_MAX = 16 };
+enum { OPTIONS_FORMATS_MAX = 64, OPTIONS_PARAMETERS_MAX = 16, OPTIONS_PRESETS_MAX = 16 };
 
 /** One --parameter NAME=VALUE; whose it is, and whether there is such a one, is for the command to see. */
 typedef struct named_number {
@@ -164,15 +174,20 @@ typedef struct options {
     int threads; /**< 0 when not given: as many as there are cores */
 
     camera_spec camera;     /**< --size, --fov, --half-height, --yaw, --pitch, --origin */
+    camera_spec last;       /**< --last-fov, --last-yaw, --last-pitch, --last-origin: what was given of them */
     const scene_row *scene; /**< null when not given, as all rows and names here */
     named_number parameters[OPTIONS_PARAMETERS_MAX];
     size_t parameter_count;
-    double sky;                   /**< window depth */
-    double metric;                /**< scene units of 1 in a sample of metric depth; 0 when not given */
-    depths pixels;                /**< column and row of each in turn; count is 0 when not given */
-    bool eye, radial, error_map;  /**< error_map: in place of the product */
-    const char *error_file;       /**< beside it; or null */
-    const position_row *position; /**< null for exact as well */
+    double sky;                                 /**< window depth */
+    double metric;                              /**< scene units of 1 in a sample of metric depth; 0 when not given */
+    depths pixels;                              /**< column and row of each in turn; count is 0 when not given */
+    bool eye, radial, error_map, packed_normal; /**< error_map: in place of the product */
+    const char *error_file;                     /**< beside it; or null */
+    unsigned normal_format;                     /**< of a PNG: 0: y up, 1: y down */
+    const char *channel;                        /**< of FILE, by name; null: that which is depth */
+    const packing *packing;                     /**< of FILE */
+    const packing *pack;                        /**< of what is written */
+    const position_row *position;               /**< null for exact as well */
     const normal_row *normal;
     const effect_row *effect;
     const char *figure; /**< file */

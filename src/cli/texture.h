@@ -30,6 +30,8 @@ typedef struct texture_source {
     image_type type; /**< of the file, where --metric has changed the picture's */
     uint32_t channels;
     metric metric;        /**< with --metric */
+    unpacked unpacked;    /**< with --packing */
+    bool noted;           /**< the file itself says its mapping */
     grain grain;          /**< of an image */
     size_t reading_count; /**< 0 where nothing is assumed that would be read otherwise */
     texture_reading readings[READINGS_MAX];
@@ -37,17 +39,22 @@ typedef struct texture_source {
     dp_setup planes;      /**< with --metric: what --near and --far say */
     double parameters[TEXTURE_PARAMETERS];
     dp_setup setup;
-    texture_camera camera;
-    frame frame; /**< points into this struct, which must stay where it is */
+    texture_camera camera, last; /**< last frame's: where an effect needs it */
+    frame frame;                 /**< points into this struct, which must stay where it is */
 } texture_source;
 
 /** "given", "found", "assumed". */
 const char *texture_origin_name(texture_origin origin);
 
-/** Reads the image, to be freed by image_free(), or prepares the scene. @return an exit status, after one line on
- * stderr
+/**
+ * Reads the image, or prepares the scene; texture_source_close() frees it. What a file of ours says of itself and was
+ * not given is filled into the options. @return an exit status, after one line on stderr
  */
-int texture_source_open(const options *o, texture_source *out);
+int texture_source_open(options *o, texture_source *out);
+void texture_source_close(texture_source *s);
+
+/** Whether the image holds window depths, which have a format and a mapping. */
+bool texture_is_window(const options *o);
 
 /**
  * Of an image, what it does not say: fills in grain, how the samples were rounded, which is said in `why` of what was
@@ -61,8 +68,20 @@ bool texture_coarser(const texture_source *s);
 /** "320,180 is at z = 4.2 as d3d, 0.4 as reversed", of "mapping" or "format"; "" where it has none. @return out */
 const char *texture_readings_of(const texture_source *s, const char *what, char out[READINGS_SIZE]);
 
-/** Sets one --parameter of a scene or an effect, called `whose`. @return EXIT_FINE, or EXIT_USAGE after one line */
-int texture_parameter_set(const char *whose, const texture_parameter *list, const named_number *given, double *out);
+/**
+ * Sets one --parameter of a scene or an effect, called `whose`.
+ * @param unused  parameters of this use count as none: PARAMETER_ALWAYS for none of them
+ * @param more    another name that would be taken, for the list of those that are; or null
+ * @return EXIT_FINE, or EXIT_USAGE after one line that names those it has
+ */
+int texture_parameter_set(const char *whose, const texture_parameter *list, const named_number *given,
+                          parameter_use unused, const char *more, double *out);
+
+/** Options of cameras that have no meaning beside others. @return an exit status, after one line on stderr */
+int texture_camera_check(const options *o);
+
+/** Last frame's camera: as `now`, but for what --last-fov and the like say. @return as texture_camera_check() */
+int texture_last_camera(const options *o, const dp_setup *setup, const camera_spec *now, texture_camera *out);
 
 /** Does the scene of --scene have a parameter of this name? Then parameters not taken are the effect's. */
 bool texture_scene_takes(const options *o, const char *name);
@@ -79,8 +98,11 @@ typedef struct texture_product {
     const char *unit, *unit_of_error; /**< "scene units", "degrees", "levels of 1/255", "" */
 } texture_product;
 
-/** Is one asked for? */
+/** Is one asked for? --pixel describes that of --effect instead. */
 bool texture_product_wanted(const options *o);
+
+/** The effect of --effect, its parameters and reference, as above. */
+int texture_product_effect(const options *o, texture_product *out);
 
 /** Names and combinations, before anything is read. @return an exit status, after one line on stderr */
 int texture_product_resolve(const options *o, texture_product *out);
@@ -90,6 +112,16 @@ int texture_product_check(const options *o, const texture_source *s, texture_pro
 
 /** Writes the file of -o. */
 int texture_product_write(const options *o, const texture_source *s, const texture_product *p);
+
+/** Is --pack or --packed-normal asked for? Options that have no meaning beside them are refused. @return an exit status
+ */
+int texture_pack_check(const options *o);
+
+/** Writes the depths to the file of -o as --pack says. */
+int texture_pack_write(const options *o, const texture_source *s);
+
+/** Writes the normals that the image holds beside its depths. */
+int texture_packed_normal_write(const options *o, const texture_source *s);
 
 /** The depth image of a scene, to the file of -o: integers or floats as the format has them. */
 int texture_depth_write(const options *o, const texture_source *s);
@@ -102,11 +134,13 @@ int texture_figure_draw(const options *o, const texture_source *s, const texture
 /** The statistics of a depth image: text, JSON, CSV. @return an exit status */
 int texture_report_write(const options *o, const texture_source *source);
 
-/** What --pixel asks about, likewise. */
-int texture_pixel_write(const options *o, const texture_source *source);
+/** What --pixel asks about, likewise; `effect` is the product of --effect beside it, or null. */
+int texture_pixel_write(const options *o, const texture_source *source, const frame_product *effect);
 
-/** The effect that --effect names. @return EXIT_FINE, or EXIT_USAGE after one line on stderr */
-int texture_effect_resolve(const options *o, const effect_row **row, double parameters[TEXTURE_PARAMETERS]);
+/** The effect that --effect names, and its parameters, in an image or not. @return EXIT_FINE, or EXIT_USAGE after one
+ *  line on stderr */
+int texture_effect_resolve(const options *o, bool pictured, const effect_row **row,
+                           double parameters[TEXTURE_PARAMETERS]);
 
 /** --effect without an image: for each set-up and depth, the error in levels and the usable values of the wanted
  *  parameter. @return an exit status */

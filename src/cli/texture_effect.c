@@ -5,6 +5,7 @@
  */
 #include <math.h>
 #include <stdio.h>
+#include <string.h>
 
 #include "cli/texture.h"
 #include "cli/walk.h"
@@ -17,12 +18,15 @@ static const double ONE_LEVEL = 1;
 
 /* ---- Which effect ------------------------------------------------------------------------------------------------ */
 
-int texture_effect_resolve(const options *o, const effect_row **row, double parameters[TEXTURE_PARAMETERS]) {
+int texture_effect_resolve(const options *o, bool pictured, const effect_row **row,
+                           double parameters[TEXTURE_PARAMETERS]) {
+    const parameter_use unused = pictured ? PARAMETER_TABLE : PARAMETER_IMAGE;
     int status = EXIT_FINE;
     *row = o->effect;
     parameter_defaults((*row)->parameters, parameters);
     for (size_t i = 0; i < o->parameter_count && status == EXIT_FINE; i++)
-        status = texture_parameter_set((*row)->name, (*row)->parameters, &o->parameters[i], parameters);
+        status = texture_parameter_set((*row)->name, (*row)->parameters, &o->parameters[i], unused,
+                                       pictured && (*row)->given ? "reference" : NULL, parameters);
     return status;
 }
 
@@ -30,7 +34,7 @@ int texture_effect_resolve(const options *o, const effect_row **row, double para
 
 typedef struct row {
     dp_sample sample;
-    double levels, usable;
+    double levels, share, usable;
 } row;
 
 /* Below `row`, what is usable at all depths shown, and the depth that decides; NaN when at one of them nothing is. */
@@ -44,15 +48,53 @@ typedef struct table {
         const char *name, *unit;
         double value;
     } parameter;
+    camera_spec spec; /* where the effect needs the position: the camera, and the pixel */
+    uint32_t column, line;
+    texture_camera camera, last;
+    effect_view view;
     row row;
     bool begun;
     double usable, z;
 } table;
 
+static bool needs(const table *t, unsigned what) {
+    return (t->effect->needs & what) != 0;
+}
+
+/* The pixel of --pixel, or the middle of the lowest row, which sees the ground. */
+static int make_view(table *t, const dp_setup *setup) {
+    const options *o = t->walk.o;
+    const char *wrong = camera_init(&t->camera, setup, &t->spec);
+    int status = wrong != NULL ? usage_error("texture: %s", wrong) : EXIT_FINE;
+    if (status == EXIT_FINE && needs(t, EFFECT_LAST_FRAME))
+        status = texture_last_camera(o, setup, &t->spec, &t->last);
+    if (status == EXIT_FINE)
+        t->view = effect_view_of(&t->camera, needs(t, EFFECT_LAST_FRAME) ? &t->last : NULL, t->column, t->line);
+    t->view.setup = setup;
+    return status;
+}
+
+static int choose_pixel(table *t, const options *o) {
+    t->spec = o->camera;
+    t->column = t->spec.width / 2;
+    t->line = t->spec.height - 1;
+    if (!option_given(o, OPTION_PIXEL))
+        return EXIT_FINE;
+    const double x = depths_get(&o->pixels, 0), y = depths_get(&o->pixels, 1);
+    if (o->pixels.count != 2)
+        return option_error(OPTION_PIXEL, "must be one pixel with --effect alone, got %zu", o->pixels.count / 2);
+    if (x >= t->spec.width || y >= t->spec.height)
+        return option_error(OPTION_PIXEL, "must lie in the %u x %u pixels, from 0,0 to %u,%u, got %.0f,%.0f",
+                            t->spec.width, t->spec.height, t->spec.width - 1, t->spec.height - 1, x, y);
+    t->column = (uint32_t)x;
+    t->line = (uint32_t)y;
+    return EXIT_FINE;
+}
+
 static void *next_setup(void *of, size_t i) {
     table *t = of;
     t->begun = false;
-    return walk_setup(&t->walk, i) ? t : NULL;
+    return walk_setup(&t->walk, i) && make_view(t, t->walk.setup) == EXIT_FINE ? t : NULL;
 }
 
 static void *next_row(void *of, size_t i) {
@@ -61,8 +103,9 @@ static void *next_row(void *of, size_t i) {
     double z;
     if (!walk_depth(&t->walk, i, &z))
         return NULL;
-    x->levels = effect_error(t->effect, t->walk.setup, t->parameters, z);
-    x->usable = effect_usable(t->effect, t->walk.setup, t->parameters, z, ONE_LEVEL);
+    x->levels = effect_error(t->effect, &t->view, t->parameters, z);
+    x->share = effect_share(t->effect, &t->view, t->parameters, z);
+    x->usable = effect_usable(t->effect, &t->view, t->parameters, z, ONE_LEVEL);
     dp_sample_at(t->walk.setup, z, &x->sample); /* depths_resolve() has seen to it */
     const bool decides = isnan(x->usable) || (t->effect->smallest ? x->usable > t->usable : x->usable < t->usable);
     if (!t->begun || (decides && !isnan(t->usable))) {
@@ -73,11 +116,16 @@ static void *next_row(void *of, size_t i) {
     return x;
 }
 
+/* Those that the table uses. */
 static void *next_parameter(void *of, size_t i) {
     table *t = of;
-    const texture_parameter *p = &t->effect->parameters[i];
-    t->parameter = (struct parameter){p->name, p->unit, t->parameters[i]};
-    return p->name != NULL ? &t->parameter : NULL;
+    const texture_parameter *p = t->effect->parameters;
+    for (size_t k = 0; p[k].name != NULL; k++)
+        if (p[k].use != PARAMETER_IMAGE && i-- == 0) {
+            t->parameter = (struct parameter){p[k].name, p[k].unit, t->parameters[k]};
+            return &t->parameter;
+        }
+    return NULL;
 }
 
 static void say_effect(page *p, void *item) {
@@ -90,6 +138,12 @@ static void say_effect(page *p, void *item) {
     if (t->effect->reference != NULL)
         append(parameters, sizeof parameters, "; %s at its worst", t->effect->reference);
     page_text(p, "%s%s", t->name, parameters);
+    if (t->effect->alone)
+        page_text(p, "share: of the places of a plane that are wrong");
+    if (needs(t, EFFECT_POSITION))
+        page_text(p, "pixel %u,%u of %u x %u, %s %s", t->column, t->line, t->spec.width, t->spec.height,
+                  t->camera.ortho ? "half height" : "field of view",
+                  number_of(t->camera.ortho ? t->spec.half_height : t->spec.fov_y, DIGITS_Z).text);
 }
 
 static void say_usable(page *p, void *item) {
@@ -111,18 +165,23 @@ static const column parameter_columns[] = {{FIELD(struct parameter, name, "name"
 static const column all_columns[] = {
     {FIELD(table, usable, "usable", "")}, {FIELD(table, z, "z", "scene")}, {.kind = COLUMN_END}};
 
-/* The last column is named by the parameter that is wanted. */
+enum { WITH_SHARE = 1, USABLE_WIDTH = 17 };
+
+/* The last column is named by the parameter that is wanted, where there is room for that. */
 static int write_table(table *t, int status) {
-    char usable[64];
+    char usable[64], shown[64];
     snprintf(usable, sizeof usable, "%s %s", t->wanted_name, t->direction);
-    const column rows[] = {{FIELD(row, sample.z, "z", "scene"), SHOWN("z", 12, DIGITS_Z)},
-                           {FIELD(row, sample.code, "code", ""), SHOWN("code", 11, 0)},
-                           {FIELD(row, sample.stored, "z_stored", "scene"), SHOWN("stored", 15, DIGITS_Z)},
-                           {FIELD(row, sample.interval, "interval", "scene"), SHOWN("interval", 13, DIGITS)},
-                           {FIELD(row, levels, "levels", "1/255"), SHOWN("levels", 12, DIGITS)},
-                           {FIELD(row, usable, "usable", ""), SHOWN(usable, 17, DIGITS), .only = AS_JSON | AS_TEXT},
-                           {FIELD(row, usable, usable, t->wanted->unit), .only = AS_CSV},
-                           {.kind = COLUMN_END}};
+    snprintf(shown, sizeof shown, "%s %s", strlen(usable) < USABLE_WIDTH ? t->wanted_name : "usable", t->direction);
+    const column rows[] = {
+        {FIELD(row, sample.z, "z", "scene"), SHOWN("z", 12, DIGITS_Z)},
+        {FIELD(row, sample.code, "code", ""), SHOWN("code", 11, 0)},
+        {FIELD(row, sample.stored, "z_stored", "scene"), SHOWN("stored", 15, DIGITS_Z)},
+        {FIELD(row, sample.interval, "interval", "scene"), SHOWN("interval", 13, DIGITS), .spare = 1},
+        {FIELD(row, levels, "levels", "1/255"), SHOWN("levels", 12, DIGITS)},
+        {FIELD(row, share, "share", ""), SHOWN("share", 12, DIGITS), .when = WITH_SHARE},
+        {FIELD(row, usable, "usable", ""), SHOWN(shown, USABLE_WIDTH, DIGITS), .only = AS_JSON | AS_TEXT},
+        {FIELD(row, usable, usable, t->wanted->unit), .only = AS_CSV},
+        {.kind = COLUMN_END}};
     const column setup_report[] = {{PART(table, walk.fields, NULL, setup_columns)},
                                    {FIELD(table, name, "effect", ""), .only = AS_CSV},
                                    {LIST("rows", rows, next_row)},
@@ -134,17 +193,24 @@ static int write_table(table *t, int status) {
                               {FIELD(table, direction, "direction", ""), .only = AS_JSON},
                               {LIST("setups", setup_report, next_setup), .head = say_effect, .notes = say_usable},
                               {.kind = COLUMN_END}};
-    const report_spec spec = {.command = "texture", .columns = columns, .item = t};
+    const unsigned when = t->effect->alone ? WITH_SHARE : 0;
+    const report_spec spec = {.command = "texture", .columns = columns, .item = t, .when = when};
     return walk_write(&t->walk, &spec, status);
 }
 
 int texture_effect_table(const options *o) {
     table t = {.walk = {.o = o}};
-    int status = texture_effect_resolve(o, &t.effect, t.parameters);
+    int status = texture_effect_resolve(o, false, &t.effect, t.parameters);
+    if (status == EXIT_FINE)
+        status = texture_camera_check(o);
+    if (status == EXIT_FINE)
+        status = choose_pixel(&t, o);
     if (status == EXIT_FINE && t.effect->eye01 && isinf(o->zfar))
         status = option_error(OPTION_FAR, "must be finite for %s, which uses z/far, got inf", t.effect->name);
     if (status == EXIT_FINE)
         status = walk_start(&t.walk, o);
+    if (status == EXIT_FINE)
+        status = make_view(&t, &t.walk.all.items[0]);
     t.name = t.effect->name;
     t.wanted = &t.effect->parameters[t.effect->wanted];
     t.wanted_name = t.wanted->name;

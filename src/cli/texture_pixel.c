@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Single pixels: what is stored there, which depths that may be, and what the camera makes of it. */
 #include <math.h>
+#include <stddef.h>
 #include <stdlib.h>
 
 #include "cli/setups.h"
@@ -23,12 +24,16 @@ typedef struct pixel {
     double beside[NEIGHBOURS]; /* eye depths to the left, right, above, below */
     double position[3];        /* world */
     double normal[3];          /* view space, by the method projective */
+    double output, lost;       /* of an effect: in binary32, and what that adds to the exact one, for what is stored */
+    double exact, levels;      /* output less lost; what the output is off by, or can be */
     double normal_off;         /* what that is off by at most, degrees; of a scene truly */
 } pixel;
 
 typedef struct pixels {
     const options *o;
     const texture_source *source;
+    const frame_product *effect; /* null: none */
+    const char *effect_name;
     setup_fields setup;
     const char *source_path, *scene, *format_from, *mapping_from, *direction_from;
     pixel *items, at; /* all, and the one at hand */
@@ -97,14 +102,40 @@ static bool take_normals(void *context, uint32_t row, uint32_t count, const floa
     return true;
 }
 
-static bool take_errors(void *context, uint32_t row, uint32_t count, const float *values) {
-    const pixels *all = context;
-    for (size_t i = 0; i < all->count; i++) {
-        pixel *p = &all->items[i];
+/* One number a pixel, to a field of each. */
+typedef struct taking {
+    const pixels *all;
+    size_t field;
+} taking;
+
+static bool take_numbers(void *context, uint32_t row, uint32_t count, const float *values) {
+    const taking *t = context;
+    for (size_t i = 0; i < t->all->count; i++) {
+        pixel *p = &t->all->items[i];
+        double *number = (double *)(void *)((char *)p + t->field);
         if (p->row >= row && p->row < row + count)
-            p->normal_off = (double)values[(size_t)(p->row - row) * all->source->camera.width + p->column];
+            *number = (double)values[(size_t)(p->row - row) * t->all->source->camera.width + p->column];
     }
     return true;
+}
+
+static bool take(const pixels *all, frame_product product, size_t field) {
+    taking t = {all, field};
+    return frame_run(&all->source->frame, &product, false, take_numbers, &t);
+}
+
+/* What the effect makes of the pixels. */
+static bool find_effect(pixels *all) {
+    frame_product product = *all->effect;
+    bool good = take(all, product, offsetof(pixel, output));
+    product.lost = true;
+    good = good && take(all, product, offsetof(pixel, lost));
+    product.lost = false;
+    product.error = true;
+    good = good && take(all, product, offsetof(pixel, levels));
+    for (size_t i = 0; i < all->count; i++)
+        all->items[i].exact = all->items[i].output - all->items[i].lost;
+    return good;
 }
 
 static bool find(pixels *all) {
@@ -118,9 +149,9 @@ static bool find(pixels *all) {
     }
     bool good = codes != NULL && frame_run(f, &normals, false, take_normals, all);
     normals.error = true;
-    good = good && frame_run(f, &normals, false, take_errors, all);
+    good = good && take(all, normals, offsetof(pixel, normal_off));
     free(codes);
-    return good;
+    return good && (all->effect == NULL || find_effect(all));
 }
 
 /* ---- Text -------------------------------------------------------------------------------------------------------- */
@@ -137,6 +168,13 @@ static void say_normal(page *p, const pixels *all) {
               number_of(x->normal[1], DIGITS).text, number_of(x->normal[2], DIGITS).text);
     page_note(p, "", "off by %s%s degrees%s", known ? "" : "at most ", number_of(x->normal_off, DIGITS).text,
               known ? "" : " where the surface is flat");
+}
+
+static void say_effect(page *p, const pixels *all) {
+    const pixel *x = &all->at;
+    page_note(p, all->effect_name, "%s in binary32, %s exactly", number_of(x->output, DIGITS_Z).text,
+              number_of(x->exact, DIGITS_Z).text);
+    page_note(p, "", "off by %s%s levels", all->scene != NULL ? "" : "at most ", number_of(x->levels, DIGITS).text);
 }
 
 static void say_pixel(page *p, void *item) {
@@ -161,6 +199,8 @@ static void say_pixel(page *p, void *item) {
               number_in(number_of(x->beside[1], digits), p->unit).text,
               number_in(number_of(x->beside[2], digits), p->unit).text,
               number_in(number_of(x->beside[3], digits), p->unit).text);
+    if (all->effect != NULL && !isnan(x->output))
+        say_effect(p, all);
     if (!has_camera(all) || !seen)
         return;
     page_note(p, "position", "%s, %s, %s", number_in(number_of(x->position[0], DIGITS_Z), p->unit).text,
@@ -187,7 +227,7 @@ static void say_head(page *p, void *item) {
 
 /* ---- Columns ----------------------------------------------------------------------------------------------------- */
 
-enum { OF_SCENE = 1, WITH_CAMERA = 2 };
+enum { OF_SCENE = 1, WITH_CAMERA = 2, WITH_EFFECT = 4 };
 
 static void *next_pixel(void *of, size_t i) {
     pixels *all = of;
@@ -231,6 +271,9 @@ static const column pixel_columns[] = {
     {FIELD(pixels, at.normal[1], "normal_y", ""), .only = AS_CSV, .when = WITH_CAMERA},
     {FIELD(pixels, at.normal[2], "normal_z", ""), .only = AS_CSV, .when = WITH_CAMERA},
     {FIELD(pixels, at.normal_off, "normal_error", "degrees"), .when = WITH_CAMERA},
+    {FIELD(pixels, at.output, "output", ""), .when = WITH_EFFECT},
+    {FIELD(pixels, at.exact, "exact", ""), .when = WITH_EFFECT},
+    {FIELD(pixels, at.levels, "levels", "1/255"), .when = WITH_EFFECT},
     {.kind = COLUMN_END}};
 
 static const column columns[] = {{FIELD(pixels, source_path, "file", ""), .only = AS_JSON},
@@ -239,6 +282,7 @@ static const column columns[] = {{FIELD(pixels, source_path, "file", ""), .only 
                                  {FIELD(pixels, format_from, "format_from", ""), .only = AS_JSON},
                                  {FIELD(pixels, mapping_from, "mapping_from", ""), .only = AS_JSON},
                                  {FIELD(pixels, direction_from, "direction_from", ""), .only = AS_JSON},
+                                 {FIELD(pixels, effect_name, "effect", ""), .only = AS_JSON, .when = WITH_EFFECT},
                                  {LIST("pixels", pixel_columns, next_pixel), .head = say_pixel},
                                  {.kind = COLUMN_END}};
 
@@ -254,10 +298,12 @@ static int check_inside(const options *o, const texture_camera *camera) {
     return EXIT_FINE;
 }
 
-int texture_pixel_write(const options *o, const texture_source *source) {
+int texture_pixel_write(const options *o, const texture_source *source, const frame_product *effect) {
     output out;
     pixels all = {.o = o,
                   .source = source,
+                  .effect = effect,
+                  .effect_name = effect != NULL ? effect->effect->name : NULL,
                   .setup = setup_fields_of(&source->setup, options_unit(o)),
                   .source_path = source->path,
                   .scene = source->frame.scene != NULL ? source->frame.scene->name : NULL,
@@ -266,13 +312,17 @@ int texture_pixel_write(const options *o, const texture_source *source) {
                   .direction_from = texture_origin_name(source->direction_from),
                   .count = o->pixels.count / 2};
     int status = check_inside(o, &source->camera);
+    const char *wrong = effect != NULL ? frame_refuses(&source->frame, effect) : NULL;
+    if (status == EXIT_FINE && wrong != NULL)
+        status = usage_error("texture: %s: %s", effect->effect->name, wrong);
     if (status == EXIT_FINE)
         status = options_open(o, &out);
     if (status != EXIT_FINE)
         return status;
     all.items = calloc(all.count, sizeof *all.items);
     if (all.items != NULL && find(&all)) {
-        const unsigned when = (all.scene != NULL ? OF_SCENE : 0) | (has_camera(&all) ? WITH_CAMERA : 0);
+        const unsigned when = (all.scene != NULL ? OF_SCENE : 0) | (has_camera(&all) ? WITH_CAMERA : 0) |
+                              (effect != NULL ? WITH_EFFECT : 0);
         report_write(&(report_spec){"texture", columns, &all, .when = when, .label = 14, .head = say_head}, &out,
                      o->form);
         status = output_close(&out);

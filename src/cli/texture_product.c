@@ -7,31 +7,31 @@
 #include "core/append.h"
 
 bool texture_product_wanted(const options *o) {
-    return o->eye || option_given(o, OPTION_POSITION) || o->normal != NULL || o->effect != NULL || o->figure != NULL;
+    const bool described = option_given(o, OPTION_PIXEL);
+    return o->eye || option_given(o, OPTION_POSITION) || o->normal != NULL || (o->effect != NULL && !described) ||
+           o->figure != NULL;
 }
 
 /* The parameters that are not the scene's are the effect's, but for the depth that it compares with. */
-static int resolve_effect(const options *o, texture_product *p) {
+int texture_product_effect(const options *o, texture_product *p) {
     options rest = *o;
     bool compared = false;
     rest.parameter_count = 0;
     for (size_t i = 0; i < o->parameter_count; i++) {
-        if (strcmp(o->parameters[i].name, "reference") == 0) {
+        if (o->effect->given && strcmp(o->parameters[i].name, "reference") == 0) {
             p->made.reference = o->parameters[i].value;
             compared = true;
         } else if (!texture_scene_takes(o, o->parameters[i].name)) {
             rest.parameters[rest.parameter_count++] = o->parameters[i];
         }
     }
-    int status = texture_effect_resolve(&rest, &p->made.effect, p->settings);
+    int status = texture_effect_resolve(&rest, true, &p->made.effect, p->settings);
     if (status != EXIT_FINE)
         return status;
     const effect_row *row = p->made.effect;
-    const bool needs = row->reference != NULL && row->kind != EFFECT_STEP && !o->error_map;
-    if (compared && !needs)
-        return option_error(OPTION_PARAMETER, "reference does not apply here, %s",
-                            o->error_map ? "the worst one is taken for the error" : "nothing is compared with it");
-    if (needs && !(p->made.reference > 0))
+    p->made.kind = FRAME_EFFECT;
+    p->made.effect_settings = p->settings;
+    if (row->given && (compared || !o->error_map) && !(p->made.reference > 0))
         return option_error(OPTION_PARAMETER, "%s needs reference=Z, %s, a positive eye depth%s", row->name,
                             row->reference, compared ? "" : "; it was not given");
     return EXIT_FINE;
@@ -47,7 +47,7 @@ static const struct {
              {FRAME_EFFECT, OPTION_EFFECT, "", "", "levels of 1/255"}};
 
 static int check_files(const options *o) {
-    image_file file;
+    image_file file = IMAGE_FILE_COUNT;
     if (o->output == NULL && o->figure == NULL)
         return usage_error("texture: a product needs -o FILE that ends in .png, .pfm or .npy, or --figure FILE");
     if (o->output != NULL && !image_file_of(o->output, &file))
@@ -59,9 +59,12 @@ static int check_files(const options *o) {
     canvas_format type;
     if (o->figure != NULL && figure_file_type(o, OPTION_FIGURE, o->figure, &type) != EXIT_FINE)
         return EXIT_USAGE;
-    if (o->form != FORM_TEXT)
+    if (o->form == FORM_CSV || (o->form == FORM_JSON && o->output == NULL))
         return option_error(o->form == FORM_JSON ? OPTION_JSON : OPTION_CSV,
-                            "is for statistics, which a product does not have");
+                            "is for statistics, which a product does not have%s",
+                            o->form == FORM_JSON ? "; with -o FILE it says what the numbers in FILE are" : "");
+    if (option_given(o, OPTION_NORMAL_FORMAT) && (o->output == NULL || file != IMAGE_PNG || o->error_map))
+        return option_error(OPTION_NORMAL_FORMAT, "is for the normals in a PNG");
     return EXIT_FINE;
 }
 
@@ -89,7 +92,7 @@ int texture_product_resolve(const options *o, texture_product *p) {
     p->unit = o->error_map ? kinds[chosen].unit_of_error : kinds[chosen].unit;
     snprintf(p->name, sizeof p->name, "%s%s", kinds[chosen].by, names[p->made.kind]);
     if (status == EXIT_FINE && p->made.kind == FRAME_EFFECT)
-        status = resolve_effect(o, p);
+        status = texture_product_effect(o, p);
     p->error = p->made;
     p->error.error = true;
     p->unit_of_error = kinds[chosen].unit_of_error;

@@ -71,6 +71,8 @@ static void find_grain(const options *o, texture_source *s) {
     s->grain = (grain){.kind = GRAIN_CODES};
     if (o->metric > 0)
         s->grain = s->metric.grain;
+    else if (o->packing != NULL && s->format_from != ORIGIN_GIVEN)
+        s->grain = s->unpacked.grain;
     else if (found > 0 || own > 0)
         s->grain = steps_grain(s, found, own);
     else if (type == IMAGE_F16 && (assumed || !half))

@@ -33,7 +33,7 @@ typedef struct statistics {
     error_line errors[ERRORS_MAX];
     setup_fields setup;
     struct {
-        const char *scene, *truth, *type, *rounded, *format, *format_from, *mapping_from, *direction_from;
+        const char *scene, *truth, *packing, *type, *rounded, *format, *format_from, *mapping_from, *direction_from;
         double metric, step, steps, bits, fov, half_height;
         bool coarser;
         const bool *reversed;
@@ -118,14 +118,18 @@ static void say_metric(const statistics *r, page *p) {
 static void say_source(statistics *r, page *p) {
     const texture_source *s = &r->source;
     char parameters[512] = "";
+    char packed[48] = "";
     p->unit = options_unit(r->o);
+    if (r->o->packing != NULL)
+        snprintf(packed, sizeof packed, ", packed as %s", r->o->packing->name);
+    else if (s->channels > 1)
+        snprintf(packed, sizeof packed, ", the first is read");
     for (size_t i = 0; next_parameter(r, i) != NULL; i++)
         append(parameters, sizeof parameters, "%s %s %s", i > 0 ? "," : ";", r->parameter,
                number_of(r->parameter_value, 6).text);
     if (is_image(r))
-        page_text(p, "%s: %u x %u pixels, %s of %s, %u channel%s", s->path, s->camera.width, s->camera.height,
-                  image_file_name(s->picture.file), r->named.type, s->channels,
-                  s->channels == 1 ? "" : "s, the first is read");
+        page_text(p, "%s: %u x %u pixels, %s of %s, %u channel%s%s", s->path, s->camera.width, s->camera.height,
+                  image_file_name(s->picture.file), r->named.type, s->channels, s->channels == 1 ? "" : "s", packed);
     else
         page_text(p, "scene %s: %u x %u pixels%s", r->named.scene, s->camera.width, s->camera.height, parameters);
     if (r->o->metric > 0) {
@@ -239,6 +243,7 @@ static const column source_columns[] = {{FIELD(statistics, source.path, "file", 
                                         {FIELD(statistics, named.type, "type", ""), .when = OF_IMAGE},
                                         {FIELD(statistics, source.channels, "channels", ""), .when = OF_IMAGE},
                                         {FIELD(statistics, named.metric, "metric", "scene"), .when = OF_IMAGE},
+                                        {FIELD(statistics, named.packing, "packing", ""), .when = OF_IMAGE},
                                         {GROUP("samples", sample_columns), .when = OF_IMAGE},
                                         {GROUP("recognised", recognised_columns), .when = OF_WINDOW},
                                         {.kind = COLUMN_END}};
@@ -327,6 +332,7 @@ static void name_all(statistics *r) {
     r->setup = setup_fields_of(&s->setup, options_unit(r->o));
     r->named.scene = is_image(r) ? NULL : s->frame.scene->name;
     r->named.truth = is_image(r) ? NULL : "scene";
+    r->named.packing = r->o->packing != NULL ? r->o->packing->name : NULL;
     r->named.type = image_type_name(s->type);
     r->named.rounded = g->kind == GRAIN_CODES ? NULL : grain_rounding_name(g->rounding);
     r->named.format = s->found.depth ? s->found.format.name : NULL;

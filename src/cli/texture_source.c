@@ -1,9 +1,11 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include <math.h>
 #include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
 
 #include "cli/names.h"
+#include "cli/option_rows.h"
 #include "cli/setups.h"
 #include "cli/texture.h"
 #include "report/number.h"
@@ -20,14 +22,19 @@ bool texture_scene_takes(const options *o, const char *name) {
     return o->scene != NULL && parameter_find(o->scene->parameters, name) >= 0;
 }
 
-int texture_parameter_set(const char *whose, const texture_parameter *list, const named_number *given, double *out) {
-    const char *words[TEXTURE_PARAMETERS + 1];
+int texture_parameter_set(const char *whose, const texture_parameter *list, const named_number *given,
+                          parameter_use unused, const char *more, double *out) {
+    const char *words[TEXTURE_PARAMETERS + 2];
     const name_list known = {.words = words};
     const int index = parameter_find(list, given->name);
     char text[NAMES_SIZE];
-    for (int i = 0; i <= TEXTURE_PARAMETERS; i++)
-        words[i] = list[i].name;
-    if (index < 0)
+    size_t count = 0;
+    for (int i = 0; list[i].name != NULL; i++)
+        if (list[i].use == PARAMETER_ALWAYS || list[i].use != unused)
+            words[count++] = list[i].name;
+    words[count++] = more;
+    words[count] = NULL;
+    if (index < 0 || (list[index].use != PARAMETER_ALWAYS && list[index].use == unused))
         return option_error(OPTION_PARAMETER, "of %s %s", whose, names_refuse(&known, given->name, text));
     const texture_parameter *p = &list[index];
     if (!(given->value >= p->lo && given->value <= p->hi) || (p->whole && given->value != floor(given->value)))
@@ -44,8 +51,23 @@ static int scene_parameters(const options *o, const scene_row *scene, double *ou
     parameter_defaults(scene->parameters, out);
     for (size_t i = 0; i < o->parameter_count && status == EXIT_FINE; i++)
         if (o->effect == NULL || texture_scene_takes(o, o->parameters[i].name))
-            status = texture_parameter_set(scene->name, scene->parameters, &o->parameters[i], out);
+            status =
+                texture_parameter_set(scene->name, scene->parameters, &o->parameters[i], PARAMETER_ALWAYS, NULL, out);
     return status;
+}
+
+bool texture_is_window(const options *o) {
+    return o->metric == 0 && (o->packing == NULL || !o->packing->linear);
+}
+
+/* Options of window depth: again when a file has said what its samples are. */
+static int check_window(const options *o) {
+    static const option_id window[] = {OPTION_FORMAT, OPTION_MAPPING, OPTION_LOG_C, OPTION_SKY};
+    for (size_t i = 0; !texture_is_window(o) && i < sizeof window / sizeof window[0]; i++)
+        if (option_given(o, window[i]) && (o->metric > 0 || window[i] != OPTION_SKY))
+            return option_error(window[i], "does not apply with --%s%s, which is not window depth",
+                                o->metric > 0 ? "metric" : "packing ", o->metric > 0 ? "" : o->packing->name);
+    return EXIT_FINE;
 }
 
 /* Options that need another one, or have no meaning beside it. */
@@ -54,33 +76,123 @@ static int check_together(const options *o) {
     if (file && o->scene != NULL)
         return option_error(OPTION_SCENE, "stands in place of FILE, got '%s' too", o->operands[0]);
     if (!file && o->scene == NULL)
-        return usage_error("texture: needs FILE, a PNG, PFM, npy or DDS image, or --scene NAME");
+        return usage_error("texture: needs FILE, a PNG, PFM, npy, DDS, EXR or TIFF image, or --scene NAME");
     if (file && option_given(o, OPTION_SIZE))
         return option_error(OPTION_SIZE, "is for --scene: the image has its own");
     if (file && o->effect == NULL && o->parameter_count > 0)
         return option_error(OPTION_PARAMETER, "needs --scene or --effect");
-    if (o->ortho && option_given(o, OPTION_FOV))
-        return option_error(OPTION_FOV, "does not apply with --ortho; --half-height does");
-    if (!o->ortho && option_given(o, OPTION_HALF_HEIGHT))
-        return option_error(OPTION_HALF_HEIGHT, "needs --ortho");
     if (o->metric > 0 && !file)
         return option_error(OPTION_METRIC, "needs FILE");
-    static const option_id window[] = {OPTION_FORMAT, OPTION_MAPPING, OPTION_LOG_C, OPTION_SKY};
-    for (size_t i = 0; o->metric > 0 && i < sizeof window / sizeof window[0]; i++)
-        if (option_given(o, window[i]))
-            return option_error(window[i], "does not apply with --metric, which is not window depth");
+    if (o->channel != NULL && !file)
+        return option_error(OPTION_CHANNEL, "needs FILE");
+    if (o->packing != NULL && !file)
+        return option_error(OPTION_PACKING, "needs FILE");
+    if (o->packing != NULL && o->metric > 0)
+        return option_error(OPTION_METRIC, "does not apply with --packing");
+    const int status = check_window(o);
+    return status == EXIT_FINE ? texture_camera_check(o) : status;
+}
+
+/* What would change the samples in a program that obeys it. */
+static void warn_of_colours(const options *o, const texture_source *s) {
+    static const char *const names[] = {"an sRGB", "a gAMA", "an iCCP"};
+    for (size_t i = 0; i < sizeof names / sizeof names[0] && !o->quiet; i++)
+        if ((s->picture.colours >> i & 1U) != 0)
+            fprintf(stderr, "depthprec: %s: has %s chunk: whoever obeys it changes packed numbers; read as they are\n",
+                    s->path, names[i]);
+    if (s->unpacked.premultiplied && !o->quiet)
+        fprintf(stderr, "depthprec: %s: no channel is above alpha: premultiplied, the depths are wrong then\n",
+                s->path);
+}
+
+/* ---- What a file of ours says of itself -------------------------------------------------------------------------- */
+
+/* Whether a word of the note is an option that nothing on the command line stands against. */
+static bool is_open(const options *o, option_id id) {
+    static const option_id samples[] = {OPTION_PACKING, OPTION_METRIC, OPTION_FORMAT};
+    if (option_given(o, id) || (id != OPTION_PACKING && id != OPTION_METRIC && o->preset_count > 0))
+        return false;
+    for (size_t i = 0; (id == OPTION_PACKING || id == OPTION_METRIC) && i < sizeof samples / sizeof samples[0]; i++)
+        if (option_given(o, samples[i]))
+            return false;
+    return true;
+}
+
+/* Words of the form NAME=VALUE: a product, and options that are read as those of the command line are. */
+static int take_note(options *o, texture_source *s) {
+    static const option_id known[] = {OPTION_PACKING, OPTION_METRIC, OPTION_NEAR,
+                                      OPTION_FAR,     OPTION_ORTHO,  OPTION_MAPPING};
+    char note[IMAGE_NOTE_SIZE], *rest = NULL;
+    const bool asked =
+        option_given(o, OPTION_PACKING) || option_given(o, OPTION_METRIC) || option_given(o, OPTION_FORMAT);
+    bool open[sizeof known / sizeof known[0]];
+    for (size_t i = 0; i < sizeof known / sizeof known[0]; i++)
+        open[i] = is_open(o, known[i]);
+    snprintf(note, sizeof note, "%s", s->picture.note);
+    for (char *word = strtok_r(note, " ", &rest); word != NULL; word = strtok_r(NULL, " ", &rest)) {
+        char *value = strchr(word, '=');
+        if (value != NULL)
+            *value++ = '\0';
+        if (value != NULL && strcmp(word, "product") == 0 && strcmp(value, "depth") != 0 && !asked)
+            return usage_error(
+                "%s: holds %s, as depthprec wrote them, and no depth; --format NAME reads it all the same", s->path,
+                value);
+        for (size_t i = 0; i < sizeof known / sizeof known[0]; i++) {
+            const option_row *row = &option_rows[known[i]];
+            if (!open[i] || strcmp(word, row->name) != 0 || (value == NULL) != (known[i] == OPTION_ORTHO))
+                continue;
+            const int status = row->parse(o, row, value);
+            if (status != EXIT_FINE)
+                return status;
+            o->given[known[i]] = true;
+            s->noted = s->noted || known[i] == OPTION_MAPPING;
+        }
+    }
     return EXIT_FINE;
 }
 
-static int read_image(const options *o, texture_source *s) {
+/* ---- The image --------------------------------------------------------------------------------------------------- */
+
+/* The depths of a packed texture; what else is known of them is the packing's. */
+static int unpack(const options *o, texture_source *s) {
+    const packing *p = o->packing;
+    const bool zero = option_given(o, OPTION_ROUNDING) && o->rounding == DP_ROUND_ZERO;
+    dp_format formats[2];
+    char direction[sizeof s->found.why];
+    if (!packing_convert(p, zero, &s->picture, &s->unpacked))
+        return usage_error("%s: %s", s->path, s->unpacked.wrong);
+    warn_of_colours(o, s);
+    recognise(&s->picture, &s->found);
+    dp_format_parse(p->format, formats);
+    s->found.format = formats[0];
+    s->found.certain = true;
+    s->found.steps = 0;
+    snprintf(direction, sizeof direction, "%s", s->found.why);
+    snprintf(s->found.why, sizeof s->found.why, "packing %s, %s, in steps of 1/%s%s", p->name,
+             p->linear ? "eye depth over far" : "window depth", number_of(p->steps, 10).text,
+             p->linear || strrchr(direction, ';') == NULL ? "" : strrchr(direction, ';'));
+    return EXIT_FINE;
+}
+
+void texture_source_close(texture_source *s) {
+    image_free(&s->picture);
+    free(s->unpacked.normals);
+}
+
+static int read_image(options *o, texture_source *s) {
     image_error error;
     s->path = o->operands[0];
-    if (!image_read(s->path, &s->picture, &error)) {
+    if (!image_read_channel(s->path, o->channel, &s->picture, &error)) {
         usage_error("%s: %s", s->path, error.text);
         return error.unreadable ? EXIT_IO : EXIT_USAGE;
     }
     s->type = s->picture.type;
     s->channels = s->picture.channels;
+    int status = take_note(o, s);
+    if (status == EXIT_FINE)
+        status = check_window(o);
+    if (status != EXIT_FINE || o->packing != NULL)
+        return status != EXIT_FINE ? status : unpack(o, s);
     if (o->metric == 0) {
         recognise(&s->picture, &s->found);
         return EXIT_FINE;
@@ -91,7 +203,7 @@ static int read_image(const options *o, texture_source *s) {
 
 /* What the user gave, which may leave a choice; else what was found, else what is usual. */
 static int choose_format(const options *o, texture_source *s, dp_format *out) {
-    const bool given = option_given(o, OPTION_FORMAT) || o->preset_count > 0;
+    const bool given = texture_is_window(o) && (option_given(o, OPTION_FORMAT) || o->preset_count > 0);
     s->format_from = given ? ORIGIN_GIVEN : s->path != NULL && s->found.certain ? ORIGIN_FOUND : ORIGIN_ASSUMED;
     if (!given && s->path != NULL && !s->found.depth)
         return usage_error("%s: cannot be window depth: %s; --format NAME reads it all the same", s->path,
@@ -111,12 +223,20 @@ static int choose_format(const options *o, texture_source *s, dp_format *out) {
 
 static int choose_mapping(const options *o, texture_source *s, dp_mapping *out) {
     const bool given = option_given(o, OPTION_MAPPING) || o->preset_count > 0;
+    if (!texture_is_window(o)) { /* a packing that says so */
+        *out = DP_MAPPING_LINEAR;
+        s->mapping_from = s->direction_from = ORIGIN_FOUND;
+        return EXIT_FINE;
+    }
     if (given && o->mapping_count > 1)
         return option_error(OPTION_MAPPING, "must be one mapping, got %zu", o->mapping_count);
     /* Nothing in an image tells the curve; what is usual in perspective pictures tells nothing of orthographic ones. */
     const bool told = s->path != NULL && s->found.reversed >= 0 && !o->ortho;
-    s->mapping_from = given ? ORIGIN_GIVEN : ORIGIN_ASSUMED;
-    s->direction_from = given ? ORIGIN_GIVEN : told && s->found.direction ? ORIGIN_FOUND : ORIGIN_ASSUMED;
+    s->mapping_from = s->noted ? ORIGIN_FOUND : given ? ORIGIN_GIVEN : ORIGIN_ASSUMED;
+    s->direction_from = s->noted                     ? ORIGIN_FOUND
+                        : given                      ? ORIGIN_GIVEN
+                        : told && s->found.direction ? ORIGIN_FOUND
+                                                     : ORIGIN_ASSUMED;
     *out = given ? o->mappings[0] : told && s->found.reversed == 1 ? DP_MAPPING_REVERSED : DP_MAPPING_D3D;
     return EXIT_FINE;
 }
@@ -161,10 +281,11 @@ static int make_camera(const options *o, texture_source *s) {
             return usage_error("%s: no metric depth: its depths are too small or too large for --metric", s->path);
         s->camera.setup = s->setup;
     }
-    return EXIT_FINE;
+    const bool moves = o->effect != NULL && (o->effect->needs & EFFECT_LAST_FRAME) != 0;
+    return moves ? texture_last_camera(o, &s->setup, &spec, &s->last) : EXIT_FINE;
 }
 
-int texture_source_open(const options *o, texture_source *s) {
+int texture_source_open(options *o, texture_source *s) {
     int status = check_together(o);
     if (status == EXIT_FINE && o->scene != NULL)
         status = scene_parameters(o, o->scene, s->parameters);
@@ -175,6 +296,7 @@ int texture_source_open(const options *o, texture_source *s) {
     if (status == EXIT_FINE && s->path != NULL)
         texture_read_on(o, s);
     s->frame = (frame){.camera = &s->camera,
+                       .last = o->effect != NULL && (o->effect->needs & EFFECT_LAST_FRAME) != 0 ? &s->last : NULL,
                        .image = s->path != NULL ? &s->picture : NULL,
                        .scene = o->scene,
                        .parameters = s->parameters,

@@ -6,30 +6,12 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "cli/progress.h"
-#include "cli/texture.h"
+#include "cli/texture_writing.h"
+#include "core/append.h"
 #include "report/number.h"
+#include "report/report.h"
 
-enum { GREYS = 65535, STREAM_BUFFER = 1 << 16 };
-
-/* An image on its way into an output, under whose name it appears when it is complete. */
-typedef struct writing {
-    output out;
-    FILE *stream;
-    image_writer *writer;
-    image_file file;
-    size_t row_values;
-    const texture_source *source;
-    void *row;            /* room for a row of the file's samples */
-    double lo, hi, scale; /* of the 16 bits of a PNG */
-    bool upwards;         /* an error must not come back smaller, */
-    double more;          /* and has to hold for the product in 16 bits, which is rounded, too */
-    image_type type;      /* depth images: */
-    uint32_t *codes;
-    bool quiet;
-    progress bar;
-    uint64_t done;
-} writing;
+enum { STREAM_BUFFER = 1 << 16 };
 
 static ssize_t stream_write(void *cookie, const char *bytes, size_t size) {
     output *out = cookie;
@@ -37,7 +19,8 @@ static ssize_t stream_write(void *cookie, const char *bytes, size_t size) {
     return output_failed(out) ? 0 : (ssize_t)size; /* what a cookie reports as an error */
 }
 
-static int writing_open(writing *w, const char *path, const texture_source *s, image_type type, uint32_t channels) {
+int writing_open(const options *o, writing *w, const char *path, const texture_source *s, image_type type,
+                 uint32_t channels) {
     int status = output_open(&w->out, path);
     if (status != EXIT_FINE)
         return status;
@@ -47,12 +30,18 @@ static int writing_open(writing *w, const char *path, const texture_source *s, i
     w->row = malloc(w->row_values * image_type_size(type));
     w->codes = malloc(s->camera.width * sizeof *w->codes);
     w->stream = fopencookie(&w->out, "w", (cookie_io_functions_t){.write = stream_write});
-    if (w->row != NULL && w->codes != NULL && w->stream != NULL) {
-        setvbuf(w->stream, NULL, _IOFBF, STREAM_BUFFER);
-        w->writer = image_writer_open(w->stream, w->file, type, s->camera.width, s->camera.height, channels);
-    }
-    w->bar = progress_start("rows", s->camera.height, w->quiet);
+    w->channels = channels;
+    w->bar = progress_start("rows", s->camera.height, o->quiet || path == o->error_file); /* one bar */
     return EXIT_FINE;
+}
+
+bool writing_begin(writing *w, const char *note) {
+    if (w->row == NULL || w->codes == NULL || w->stream == NULL)
+        return false;
+    setvbuf(w->stream, NULL, _IOFBF, STREAM_BUFFER);
+    w->writer = image_writer_open(w->stream, w->file, w->type, w->source->camera.width, w->source->camera.height,
+                                  w->channels, note);
+    return w->writer != NULL;
 }
 
 /* Whether all of it could be given to the output. */
@@ -67,8 +56,7 @@ static bool writing_end(writing *w, bool good) {
     return good;
 }
 
-/* Files appear only when all of them are there. */
-static int writing_close(writing *w, int count, bool good) {
+int writing_close(writing *w, int count, bool good) {
     int status = EXIT_FINE;
     bool said = false;
     for (int i = 0; i < count; i++)
@@ -84,8 +72,18 @@ static int writing_close(writing *w, int count, bool good) {
     return good || said ? status : usage_error("texture: no memory");
 }
 
-static bool bottom_up(const writing *w) {
+bool writing_bottom_up(const writing *w) {
     return w->writer != NULL && image_writer_bottom_up(w->writer);
+}
+
+/* 0.5 n + 0.5 with x to the right, y up or down, and z towards the camera, which view space has the other way. */
+static void to_colours(const writing *w, const float *values) {
+    const double signs[3] = {1, w->down ? -1 : 1, -1};
+    uint16_t *out = w->row;
+    for (size_t i = 0; i < w->row_values; i++) {
+        const double share = 0.5 * signs[i % 3] * (double)values[i] + 0.5;
+        out[i] = isnan(values[i]) ? 0 : (uint16_t)rint(fmin(fmax(share, 0), 1) * GREYS);
+    }
 }
 
 /* 0 is kept for pixels that have no value, and for errors without a bound. */
@@ -98,18 +96,29 @@ static void to_greys(const writing *w, const float *values) {
     }
 }
 
-static bool take(void *context, uint32_t row, uint32_t count, const float *values) {
+bool writing_take(void *context, uint32_t row, uint32_t count, const float *values) {
     writing *w = context;
     (void)row;
     for (uint32_t i = 0; i < count; i++) {
-        const float *one = values + (bottom_up(w) ? count - 1 - i : i) * w->row_values;
-        if (w->type == IMAGE_U16)
+        const float *one = values + (writing_bottom_up(w) ? count - 1 - i : i) * w->row_values;
+        if (w->directions)
+            to_colours(w, one);
+        else if (w->type == IMAGE_U16)
             to_greys(w, one);
         if (!image_writer_rows(w->writer, w->type == IMAGE_U16 ? w->row : one, 1))
             return false;
     }
+    for (size_t i = 0; i < count * w->row_values && w->levels; i++) {
+        w->pixels += isnan(values[i]) ? 0 : 1;
+        w->beyond += values[i] > 1 ? 1 : 0;
+    }
     progress_step(&w->bar, w->done += count);
     return true;
+}
+
+/* Eye depth is a multiple of its unit, as sensors and simulators write it; what is nearer than that becomes 1. */
+static bool in_units(const frame_product *made, const frame_summary *sum) {
+    return made->kind == FRAME_EYE && !made->error && !made->radial && sum->count > 0 && sum->lo > 0;
 }
 
 /*
@@ -125,14 +134,17 @@ static bool rounding_of_product(const texture_source *s, const frame_product *ma
     frame_summary sum = {.lo = -1, .hi = 1, .count = 1};
     plain.error = false;
     /* Without what it compares with an effect has no product yet; it will be from 0 to 1. */
-    const bool open = made->kind == FRAME_EFFECT && made->effect->reference != NULL;
+    const bool open = made->kind == FRAME_EFFECT && made->effect->given && !(made->reference > 0);
     *more = 0;
     if (open)
         sum.lo = 0;
     else if (made->kind != FRAME_NORMAL && !frame_summarise(&s->frame, &plain, &sum))
         return false;
+    const double unit = in_units(&plain, &sum) ? sum.hi / GREYS : (sum.hi - sum.lo) / (GREYS - 1);
     if (sum.count > 0)
-        *more = factors[made->kind] * (sum.hi - sum.lo) / (2.0 * (GREYS - 1)) * (1 + 0x1p-20);
+        *more = factors[made->kind] * unit / 2 * (1 + 0x1p-20);
+    if (in_units(&plain, &sum))
+        *more = fmax(*more, (unit - sum.lo) * (1 + 0x1p-20));
     return true;
 }
 
@@ -141,48 +153,127 @@ static bool scale_of(const texture_source *s, const frame_product *made, writing
     frame_summary sum = {.lo = -1, .hi = 1, .count = 1};
     if (w->type != IMAGE_U16)
         return true;
-    if ((made->kind != FRAME_NORMAL || made->error) && !frame_summarise(&s->frame, made, &sum))
+    w->directions = made->kind == FRAME_NORMAL && !made->error;
+    if (!w->directions && !frame_summarise(&s->frame, made, &sum))
         return false;
     w->upwards = made->error;
     if (made->error && !rounding_of_product(s, made, &w->more))
         return false;
-    w->lo = sum.count == 0 ? 0 : made->error ? 0 : sum.lo;
+    w->units = in_units(made, &sum);
     w->hi = (sum.count == 0 ? 1 : sum.hi) + w->more;
+    w->lo = sum.count == 0 || made->error ? 0 : w->units ? w->hi / GREYS : sum.lo;
     w->scale = w->hi > w->lo ? 1 / (w->hi - w->lo) : 0;
     return true;
 }
 
-static void say_scale(const options *o, const writing *w, const char *path, const char *unit, bool error) {
-    if (w->type == IMAGE_U16 && !o->quiet)
-        fprintf(stderr, "depthprec: %s: 1 is %s, 65535 is %s%s%s, 0 where there is no %s\n", path,
-                number_full(w->lo).text, number_full(w->hi).text, *unit != '\0' ? " " : "", unit,
-                error ? "bound" : "value");
+static const char *const axes[] = {"x right, y up, z towards the camera", "x right, y down, z towards the camera"};
+
+meaning writing_meaning(const options *o, const texture_product *p, const writing *w, double hi) {
+    meaning m = {.file = o->output,
+                 .product = p->name,
+                 .unit = *p->unit != '\0' ? p->unit : NULL,
+                 .type = image_type_name(w->type),
+                 .axes = w->directions ? axes[w->down] : NULL,
+                 .channels = w->channels,
+                 .scale = 1};
+    if (w->file == IMAGE_PNG) {
+        m.scale = w->directions ? 2.0 / GREYS : w->units ? w->lo : (hi - w->lo) / (GREYS - 1);
+        m.offset = w->directions ? -1 : w->units ? 0 : w->lo - m.scale;
+    }
+    return m;
+}
+
+void writing_note(const writing *w, const texture_product *p, const meaning *m, char note[IMAGE_NOTE_SIZE]) {
+    static const char *const names[FRAME_KINDS] = {[FRAME_EYE] = "eye-depths",
+                                                   [FRAME_POSITION] = "positions",
+                                                   [FRAME_NORMAL] = "normals",
+                                                   [FRAME_EFFECT] = "an-effect"};
+    const dp_spec *planes = &frame_planes(&w->source->frame)->spec;
+    if (w->units && m->scale >= METRIC_SCALE_MIN && m->scale <= METRIC_SCALE_MAX)
+        snprintf(note, IMAGE_NOTE_SIZE, "product=depth metric=%s near=%s far=%s%s", number_full(m->scale).text,
+                 number_full(planes->znear).text, number_full(planes->zfar).text, planes->ortho ? " ortho" : "");
+    else
+        snprintf(note, IMAGE_NOTE_SIZE, "product=%s%s offset=%s scale=%s%s",
+                 p->made.radial ? "distances" : names[p->made.kind], p->made.error ? ",-the-error" : "",
+                 number_full(m->offset).text, number_full(m->scale).text,
+                 m->axes == NULL      ? ""
+                 : m->axes == axes[0] ? " y=up"
+                                      : " y=down");
+}
+
+static const column meaning_columns[] = {{FIELD(meaning, file, "file", "")},
+                                         {FIELD(meaning, product, "product", "")},
+                                         {FIELD(meaning, unit, "unit", "")},
+                                         {FIELD(meaning, type, "type", "")},
+                                         {FIELD(meaning, channels, "channels", "")},
+                                         {FIELD(meaning, offset, "offset", "")},
+                                         {FIELD(meaning, scale, "scale", "")},
+                                         {FIELD(meaning, axes, "axes", "")},
+                                         {.kind = COLUMN_END}};
+
+int writing_say(const options *o, const texture_product *p, const writing *w, meaning *m, double hi) {
+    output out;
+    if (o->form == FORM_JSON) {
+        const int status = output_open(&out, NULL);
+        if (status != EXIT_FINE)
+            return status;
+        report_write(&(report_spec){"texture", meaning_columns, m, .label = 14}, &out, FORM_JSON);
+        return output_close(&out);
+    }
+    if (w->file != IMAGE_PNG || o->quiet)
+        return EXIT_FINE;
+    if (w->directions)
+        fprintf(stderr, "depthprec: %s: 0 is -1, 65535 is 1, %s; 0 in all three where there is no value\n", o->output,
+                m->axes);
+    else
+        fprintf(stderr, "depthprec: %s: 1 is %s, 65535 is %s%s%s, 0 where there is no %s\n", o->output,
+                number_full(w->lo).text, number_full(hi).text, *p->unit != '\0' ? " " : "", p->unit,
+                p->made.error ? "bound" : "value");
+    return EXIT_FINE;
 }
 
 static bool take_both(void *context, uint32_t row, uint32_t count, const float *const *values) {
     writing *w = context;
-    return take(&w[0], row, count, values[0]) && take(&w[1], row, count, values[1]);
+    return writing_take(&w[0], row, count, values[0]) && writing_take(&w[1], row, count, values[1]);
 }
 
 /* In one pass, but where one file begins with the bottom row and the other does not. */
-static bool make_both(const texture_source *s, const frame_product made[2], writing w[2]) {
-    if (bottom_up(&w[0]) == bottom_up(&w[1]))
-        return frame_run_all(&s->frame, made, 2, bottom_up(&w[0]), take_both, w);
-    return frame_run(&s->frame, &made[0], bottom_up(&w[0]), take, &w[0]) &&
-           frame_run(&s->frame, &made[1], bottom_up(&w[1]), take, &w[1]);
+static bool make_all(const texture_source *s, const texture_product *p, writing *w, int count) {
+    const frame_product made[2] = {p[0].made, p[1].made};
+    if (count == 2 && writing_bottom_up(&w[0]) == writing_bottom_up(&w[1]))
+        return frame_run_all(&s->frame, made, 2, writing_bottom_up(&w[0]), take_both, w);
+    return frame_run(&s->frame, &made[0], writing_bottom_up(&w[0]), writing_take, &w[0]) &&
+           (count < 2 || frame_run(&s->frame, &made[1], writing_bottom_up(&w[1]), writing_take, &w[1]));
 }
 
+static void say_levels(const options *o, const texture_source *s, const texture_product *p, const writing *w) {
+    if (w->levels && w->pixels > 0 && !o->quiet)
+        fprintf(stderr, "depthprec: %s: %s %% of the pixels %s off by more than one level\n", o->output,
+                number_of(100.0 * (double)w->beyond / (double)w->pixels, 3).text,
+                s->path != NULL || (p->made.effect->given && !(p->made.reference > 0)) ? "can be" : "are");
+}
+
+/* The product, and beside it the error as a product of its own. */
 int texture_product_write(const options *o, const texture_source *s, const texture_product *p) {
-    writing w[2] = {{.quiet = o->quiet}, {.quiet = true}}; /* one bar */
-    const frame_product made[2] = {p->made, p->error};
-    const char *const paths[2] = {o->output, o->error_file}, *const units[2] = {p->unit, p->unit_of_error};
+    options each[2] = {*o, *o};
+    texture_product product[2] = {*p, *p};
+    writing w[2] = {{.down = o->normal_format != 0}, {.down = false}};
+    meaning m[2];
     const int count = o->error_file != NULL ? 2 : 1;
     int status = EXIT_FINE, opened = 0;
     bool good = true;
+    each[1].output = o->error_file;
+    each[1].form = FORM_TEXT; /* one object of JSON, of the product */
+    product[1].made = p->error;
+    product[1].unit = p->unit_of_error;
+    append(product[1].name, sizeof product[1].name, ", error");
     for (; opened < count && status == EXIT_FINE; opened++) {
-        image_file_of(paths[opened], &w[opened].file);
-        status = writing_open(&w[opened], paths[opened], s, w[opened].file == IMAGE_PNG ? IMAGE_U16 : IMAGE_F32,
-                              (uint32_t)frame_channels(&made[opened]));
+        writing *one = &w[opened];
+        const frame_product *made = &product[opened].made;
+        one->levels = made->kind == FRAME_EFFECT && made->error;
+        image_file_of(each[opened].output, &one->file);
+        status = writing_open(o, one, each[opened].output, s, one->file == IMAGE_PNG ? IMAGE_U16 : IMAGE_F32,
+                              (uint32_t)frame_channels(made));
     }
     if (status != EXIT_FINE && opened == 2) {
         writing_end(&w[0], false);
@@ -190,12 +281,20 @@ int texture_product_write(const options *o, const texture_source *s, const textu
     }
     if (status != EXIT_FINE)
         return status;
-    for (int i = 0; i < count; i++)
-        good = good && w[i].writer != NULL && scale_of(s, &made[i], &w[i]);
-    good = good && (count == 2 ? make_both(s, made, w) : frame_run(&s->frame, &made[0], bottom_up(&w[0]), take, &w[0]));
+    for (int i = 0; i < count; i++) {
+        char note[IMAGE_NOTE_SIZE];
+        good = good && scale_of(s, &product[i].made, &w[i]);
+        m[i] = writing_meaning(&each[i], &product[i], &w[i], w[i].hi);
+        writing_note(&w[i], &product[i], &m[i], note);
+        good = good && writing_begin(&w[i], note);
+    }
+    good = good && make_all(s, product, w, count);
     status = writing_close(w, count, good);
-    for (int i = 0; i < count && status == EXIT_FINE; i++)
-        say_scale(o, &w[i], paths[i], units[i], made[i].error);
+    for (int i = 0; i < count && status == EXIT_FINE; i++) {
+        status = writing_say(&each[i], &product[i], &w[i], &m[i], w[i].hi);
+        if (status == EXIT_FINE)
+            say_levels(&each[i], s, &product[i], &w[i]);
+    }
     return status;
 }
 
@@ -234,7 +333,7 @@ static void depth_row(const writing *w, uint32_t row) {
 
 int texture_depth_write(const options *o, const texture_source *s) {
     image_type type;
-    writing w = {.quiet = o->quiet};
+    writing w = {0};
     if (!image_file_of(o->output, &w.file))
         return option_error(OPTION_OUTPUT,
                             "must end in .png, .pfm or .npy for the scene's depths, got '%s'; --json or --csv writes "
@@ -243,12 +342,12 @@ int texture_depth_write(const options *o, const texture_source *s) {
     if (!depth_type(&s->setup.spec.format, w.file, &type))
         return option_error(OPTION_OUTPUT, "%s does not hold %s: .npy does, got '%s'", image_file_name(w.file),
                             s->setup.spec.format.name, o->output);
-    const int status = writing_open(&w, o->output, s, type, 1);
+    const int status = writing_open(o, &w, o->output, s, type, 1);
     if (status != EXIT_FINE)
         return status;
-    bool good = w.writer != NULL;
+    bool good = writing_begin(&w, NULL);
     for (uint32_t i = 0; i < s->camera.height && good; i++) {
-        depth_row(&w, bottom_up(&w) ? s->camera.height - 1 - i : i);
+        depth_row(&w, writing_bottom_up(&w) ? s->camera.height - 1 - i : i);
         good = image_writer_rows(w.writer, w.row, 1);
         progress_step(&w.bar, i + 1);
     }

@@ -84,6 +84,9 @@ static bool suits(reader *r, const config_setting_t *s, const need *n) {
             camera->name, dp_mapping_get(spec->mapping)->name);
     if (!(n->lo < n->hi) || isinf(n->hi))
         return reader_fail(r, s, "ties: needs a range with a finite far end");
+    if (isinf((float)n->hi))
+        return reader_fail(r, s, "ties: needs a range up to 3.4028235e+38, the largest binary32 number, got %.15g",
+                           n->hi);
     return true;
 }
 

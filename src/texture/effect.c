@@ -4,152 +4,34 @@
 #include <math.h>
 #include <string.h>
 
-/* ---- Quantities and outputs -------------------------------------------------------------------------------------- */
+/* ---- The pixel --------------------------------------------------------------------------------------------------- */
 
-static double saturate(double x) {
-    return fmin(fmax(x, 0), 1); /* 0 for NaN */
+static double dot(const double a[3], const double b[3]) {
+    return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
 }
 
-/* Of two depths beyond all bounds neither is behind the other. */
-static double minus(double a, double b) {
-    return a == b ? 0 : a - b;
-}
-
-static double times(double a, double b) {
-    return a == 0 || b == 0 ? 0 : a * b;
-}
-
-static double eye(const dp_setup *setup, const double *p, double z) {
-    (void)setup, (void)p;
-    return z;
-}
-
-static double eye01(const dp_setup *setup, const double *p, double z) {
-    (void)p;
-    return z / setup->spec.zfar;
-}
-
-static double intersection(const dp_setup *setup, const double *p, double z, double reference) {
-    (void)setup;
-    return saturate(fabs(minus(reference, z)) / p[0]);
-}
-
-static double force_field(const dp_setup *setup, const double *p, double z, double reference) {
-    (void)setup;
-    return (1 - minus(z, reference)) * p[0];
-}
-
-static double fog(const dp_setup *setup, const double *p, double z, double reference) {
-    (void)reference;
-    return saturate(eye01(setup, p, z) * p[0]);
-}
-
-static double scan_line(const dp_setup *setup, const double *p, double z, double reference) {
-    return saturate(fabs(eye01(setup, p, reference) - eye01(setup, p, z)) / p[0]);
-}
-
-enum { WATER_BAND = 0, WATER_RISE };
-
-static double water_height(const dp_setup *setup, const double *p, double z) {
-    (void)setup;
-    return times(p[WATER_RISE], z);
-}
-
-static double water_line(const dp_setup *setup, const double *p, double z, double reference) {
-    (void)setup;
-    const double below = times(p[WATER_RISE], minus(reference, z));
-    return p[WATER_BAND] > 0 ? saturate(below / p[WATER_BAND]) : below > 0;
-}
-
-enum { HEIGHT_DENSITY = 0, HEIGHT_START, HEIGHT_END, HEIGHT_RISE };
-
-/* Where end is start, all is before or behind it. */
-static double height_share(const dp_setup *setup, const double *p, double z) {
-    (void)setup;
-    const double above = minus(times(p[HEIGHT_RISE], z), p[HEIGHT_START]);
-    return above == 0 ? 0 : above / (p[HEIGHT_END] - p[HEIGHT_START]);
-}
-
-static double height_fog(const dp_setup *setup, const double *p, double z, double reference) {
-    (void)reference;
-    return saturate(height_share(setup, p, z) * p[HEIGHT_DENSITY]);
-}
-
-enum { EDGE_THRESHOLD = 0, EDGE_SLOPE };
-
-static double edge(const dp_setup *setup, const double *p, double z, double reference) {
-    return fabs(z - reference) / setup->spec.zfar > p[EDGE_THRESHOLD];
-}
-
-enum { BLUR_MOVE = 0, BLUR_FOCAL };
-
-/* World position minus the move, seen again: NDC changes by focal move/z, and the velocity is half of that. */
-static double velocity(const dp_setup *setup, const double *p, double z) {
-    return p[BLUR_FOCAL] / 2 / (setup->spec.ortho ? 1 : z);
-}
-
-static double motion_blur(const dp_setup *setup, const double *p, double z, double reference) {
-    (void)reference;
-    return velocity(setup, p, z) * p[BLUR_MOVE];
-}
-
-static double depth_of_field(const dp_setup *setup, const double *p, double z, double reference) {
-    return saturate(fabs(eye01(setup, p, z) - eye01(setup, p, reference)) * p[0]);
-}
-
-/* ---- Rows -------------------------------------------------------------------------------------------------------- */
-
-#define RISE                                                                                                           \
-    { "rise", "how much the pixel's ray rises per unit of eye depth", "scene per scene", -1e6, 1e6, -0.25, false }
-#define DEPTH_TEXTURE "shaders on Unity's _CameraDepthTexture"
-
-/* clang-format off */
-static const effect_row rows[] = {
-    {"intersection", "saturate(|eye - scene|/half-width)",
-     {{"half-width", "distance from the surface over which the highlight fades", "scene", 1e-12, 1e12, 0.1, false}},
-     0, true, false, "the eye depth of the surface",
-     DEPTH_TEXTURE "; Lorach 2007, Soft particles", EFFECT_FADE, eye, intersection},
-    {"force-field", "(1 - (scene - eye)) power",
-     {{"power", "how fast the glow falls behind the surface", "1/scene", 1e-12, 1e12, 1, false}},
-     0, false, false, "the eye depth of the surface", DEPTH_TEXTURE, EFFECT_GAIN, eye, force_field},
-    {"fog", "saturate(eye01 density)",
-     {{"density", "how thick the fog is at the far plane", "1", 1e-12, 1e12, 1, false}},
-     0, false, true, NULL, DEPTH_TEXTURE, EFFECT_CLAMPED, eye01, fog},
-    {"scan-line", "saturate(|cur - eye01|/half-width)",
-     {{"half-width", "depth over which the line fades, of far", "eye01", 1e-15, 1, 0.01, false}},
-     0, true, true, "the depth cur of the line", DEPTH_TEXTURE, EFFECT_FADE, eye01, scan_line},
-    {"water-line", "world y < level; with a band, saturate((level - y)/band)",
-     {{"band", "height over which the edge is softened, 0 for a hard one", "scene", 0, 1e12, 0, false}, RISE},
-     WATER_BAND, true, false, "the level of the water", DEPTH_TEXTURE, EFFECT_FADE, water_height, water_line},
-    {"height-fog", "saturate((y - start)/(end - start) density)",
-     {{"density", "how thick the fog is at the height end", "1", 1e-12, 1e12, 1, false},
-      {"start", "height over the camera where fog begins", "scene", -1e12, 1e12, 0, false},
-      {"end", "height over the camera where density is reached", "scene", -1e12, 1e12, -100, false}, RISE},
-     HEIGHT_DENSITY, false, false, NULL, DEPTH_TEXTURE, EFFECT_CLAMPED, height_share, height_fog},
-    {"edge", "|s1 - s4| > threshold, |s2 - s3| > threshold: Roberts' diagonals of eye01",
-     {{"threshold", "difference of two pixels that makes an edge, of far", "eye01", 0, 1, 0.001, false},
-      {"slope", "a plane's change of eye depth from one pixel of a diagonal to the other", "scene", 0, 1e12, 0.1,
-       false}},
-     EDGE_THRESHOLD, true, true, "the first pixel's place in its cell", DEPTH_TEXTURE "; Roberts 1963", EFFECT_STEP,
-     eye01, edge},
-    {"motion-blur", "(current - last NDC)/2 = move focal/(2 z), the world position taken from the depth",
-     {{"move", "sideways motion of the camera since the last frame", "scene", 1e-12, 1e12, 0.1, false},
-      {"focal", "NDC per unit of slope: 1/tan(fov/2), orthographic 1/half height", "1", 1e-12, 1e12,
-       1.7320508075688772, false}},
-     BLUR_MOVE, false, false, NULL, DEPTH_TEXTURE "; Rosado 2007, GPU Gems 3, chapter 27", EFFECT_GAIN, velocity,
-     motion_blur},
-    {"depth-of-field", "saturate(|eye01 - focus| level)",
-     {{"level", "how fast the picture blurs away from the focus", "1", 1e-12, 1e15, 10, false}},
-     0, false, true, "the focus", DEPTH_TEXTURE, EFFECT_GAIN, eye01, depth_of_field},
-};
-/* clang-format on */
-
-const effect_row *effect_get(size_t index) {
-    return index < sizeof rows / sizeof rows[0] ? &rows[index] : NULL;
-}
-
-bool effect_applies(const effect_row *row, const dp_setup *setup) {
-    return !row->eye01 || !isinf(setup->spec.zfar);
+effect_view effect_view_of(const texture_camera *camera, const texture_camera *last, double column, double row) {
+    const texture_camera *then = last != NULL ? last : camera;
+    const double x = camera_slope_x(camera, column), y = camera_slope_y(camera, row);
+    const double across[3] = {x, y, 0}, ray[3] = {camera->ortho ? 0 : x, camera->ortho ? 0 : y, 1};
+    effect_view view = {.setup = &camera->setup,
+                        .stretch = camera_radial(camera, column, row),
+                        .ndc = {x / camera->half[0], y / camera->half[1]}};
+    double place[3] = {0}, moved[3];
+    camera_turn(camera, ray, view.along);
+    if (camera->ortho)
+        camera_turn(camera, across, place);
+    for (int k = 0; k < 3; k++) {
+        moved[k] = place[k] + (camera->origin[k] - then->origin[k]);
+        view.base[k] = place[k] + camera->origin[k];
+    }
+    for (int k = 0; k < 2; k++) {
+        view.last.from[k] = dot(then->axis[k], moved) / then->half[k];
+        view.last.per[k] = dot(then->axis[k], view.along) / then->half[k];
+    }
+    view.last.w = then->ortho ? 1 : dot(then->axis[2], moved);
+    view.last.w_per = then->ortho ? 0 : dot(then->axis[2], view.along);
+    return view;
 }
 
 /* ---- A ramp of the depth ----------------------------------------------------------------------------------------- */
@@ -157,16 +39,15 @@ bool effect_applies(const effect_row *row, const dp_setup *setup) {
 /* The effect at one cell: what errors and limits are taken of. */
 typedef struct cell_case {
     const effect_row *row;
-    const dp_setup *setup;
+    const effect_view *view;
     dp_cell cell;
     double first, last; /* the outermost depths that are stored as the cell's code */
 } cell_case;
 
 /* Of the quantity, from the stored depth to the farther end. Errors are made of it, as outputs would cancel. */
 static double change(const cell_case *at, const double *p) {
-    const double seen = at->row->quantity(at->setup, p, at->cell.stored);
-    return fmax(fabs(minus(at->row->quantity(at->setup, p, at->cell.lo), seen)),
-                fabs(minus(at->row->quantity(at->setup, p, at->cell.hi), seen)));
+    return fmax(at->row->apart(at->view, p, at->cell.lo, at->cell.stored),
+                at->row->apart(at->view, p, at->cell.hi, at->cell.stored));
 }
 
 static double fade_error(const cell_case *at, const double *p) {
@@ -186,6 +67,14 @@ static double gain_limit(const cell_case *at, const double *p, double share) {
     return share / change(at, p);
 }
 
+static double decay_error(const cell_case *at, const double *p) {
+    return -expm1(-change(at, p) * p[at->row->wanted]);
+}
+
+static double decay_limit(const cell_case *at, const double *p, double share) {
+    return -log1p(-share) / change(at, p);
+}
+
 /*
  * |saturate(p a) - saturate(p b)| of the quantities of the stored depth and of an end; with a > b, a > 0 and c the
  * positive part of b: it grows as p (a - c) up to p = 1/a, where it is 1 - c/a, and falls from there.
@@ -195,13 +84,13 @@ typedef struct pair {
 } pair;
 
 static pair pair_at(const cell_case *at, const double *p, double end) {
-    const double a = at->row->quantity(at->setup, p, at->cell.stored);
-    const double b = at->row->quantity(at->setup, p, end);
+    const double a = at->row->quantity(at->view, p, at->cell.stored);
+    const double b = at->row->quantity(at->view, p, end);
     return (pair){fmax(fmax(a, b), 0), fmax(fmin(a, b), 0)};
 }
 
 static double clamped_error_of(pair q, double p) {
-    return p * q.most <= 1 ? p * minus(q.most, q.least) : fmax(1 - p * q.least, 0);
+    return p * q.most <= 1 ? p * (q.most == q.least ? 0 : q.most - q.least) : fmax(1 - p * q.least, 0);
 }
 
 static double clamped_limit_of(pair q, double share) {
@@ -224,35 +113,78 @@ static double clamped_limit(const cell_case *at, const double *p, double share) 
 /* ---- A step ------------------------------------------------------------------------------------------------------ */
 
 /*
- * The difference of two stored depths over all places of the first in its cell, the second `slope` behind it: stored
- * depths are monotone, so its ends belong to the ends of the cell. False where the plane leaves the far plane.
+ * Between which differences: of a depth of the cell and the stored one; or of two stored depths over all places of the
+ * first in its cell, the second `slope` behind it. Stored depths are monotone, so its ends belong to the ends of the
+ * cell. False where the plane leaves the far plane.
  */
 static bool differences(const cell_case *at, double slope, double out[2]) {
-    const double zfar = at->setup->spec.zfar;
-    if (at->first + slope > zfar)
+    const dp_setup *setup = at->view->setup;
+    if (at->row->alone) {
+        out[0] = at->first - at->cell.stored;
+        out[1] = at->last - at->cell.stored;
+        return true;
+    }
+    if (at->first + slope > setup->spec.zfar)
         return false;
-    const double last = fmin(at->last + slope, zfar);
-    out[0] = (dp_stored(at->setup, dp_code(at->setup, at->first + slope)) - at->cell.stored) / zfar;
-    out[1] = (dp_stored(at->setup, dp_code(at->setup, last)) - at->cell.stored) / zfar;
+    const double last = fmin(at->last + slope, setup->spec.zfar);
+    out[0] = dp_stored(setup, dp_code(setup, at->first + slope)) - at->cell.stored;
+    out[1] = dp_stored(setup, dp_code(setup, last)) - at->cell.stored;
+    return true;
+}
+
+/* Below which values of the wanted parameter the output is 1: as it should be, and at least and at most. */
+typedef struct critical_values {
+    double plane, least, most;
+} critical_values;
+
+static bool critical_of(const cell_case *at, const double *p, critical_values *out) {
+    const int index = parameter_find(at->row->parameters, "slope");
+    const double slope = index >= 0 ? p[index] : 0, plane[2] = {slope, slope};
+    double apart[2], some[2];
+    if (!differences(at, slope, apart))
+        return false;
+    at->row->critical(at->view, p, at->cell.stored, plane, some);
+    out->plane = at->row->quiet ? 0 : some[0];
+    at->row->critical(at->view, p, at->cell.stored, apart, some);
+    out->least = some[0];
+    out->most = some[1];
     return true;
 }
 
 static double step_error(const cell_case *at, const double *p) {
-    const double plane = p[EDGE_SLOPE] / at->setup->spec.zfar;
-    double d[2];
-    if (!differences(at, p[EDGE_SLOPE], d))
+    const double wanted = p[at->row->wanted];
+    critical_values c;
+    if (!critical_of(at, p, &c))
         return 0;
-    return plane > p[EDGE_THRESHOLD] ? d[0] <= p[EDGE_THRESHOLD] : d[1] > p[EDGE_THRESHOLD];
+    return wanted < c.plane ? wanted >= c.least : wanted < c.most;
 }
 
-/* Wrong are the thresholds from d[0] to the plane's own difference, and from there to d[1]. */
+/* Wrong are the values from `least` to the plane's own, and from there to `most`. */
 static double step_limit(const cell_case *at, const double *p, double share) {
-    const double plane = p[EDGE_SLOPE] / at->setup->spec.zfar;
-    double d[2];
+    critical_values c;
     (void)share;
-    if (!differences(at, p[EDGE_SLOPE], d) || (d[0] >= plane && d[1] <= plane))
-        return 0;
-    return fmax(plane, d[1]);
+    if (!critical_of(at, p, &c) || (c.least >= c.plane && c.most <= c.plane))
+        return at->row->smallest ? 0 : HUGE_VAL;
+    return at->row->smallest ? fmax(c.plane, c.most) : fmin(c.plane, c.least);
+}
+
+/* The integral of a ramp from 0 to 1. */
+static double ramp_area(double x) {
+    return x <= 0 ? 0 : x < 1 ? x * x / 2 : x - 0.5;
+}
+
+/* Of depths u in the cell and places t in [-1/2, 1/2] of the texel those with u + slope t > bias. */
+double effect_share(const effect_row *row, const effect_view *view, const double *parameters, double z) {
+    const int index = parameter_find(row->parameters, "slope");
+    if (row->kind != EFFECT_STEP || !row->alone || view->setup->spec.model == DP_MODEL_FP32)
+        return (double)NAN;
+    const dp_cell cell = dp_cell_of(view->setup, dp_code(view->setup, z));
+    const double width = cell.hi - cell.lo, slope = index >= 0 ? parameters[index] : 0;
+    const double above = cell.hi - cell.stored - parameters[row->wanted];
+    if (!(width > 0) || isinf(width))
+        return above > 0;
+    const double k = slope / width, c = above / width;
+    return k > 0x1p-20 ? (ramp_area(c + k / 2) - ramp_area(c - k / 2)) / k : fmin(fmax(c, 0), 1);
 }
 
 /* ---- Errors and limits ------------------------------------------------------------------------------------------- */
@@ -261,9 +193,8 @@ static const struct {
     double (*error)(const cell_case *, const double *);
     double (*limit)(const cell_case *, const double *, double share);
 } kinds[] = {
-    [EFFECT_FADE] = {fade_error, fade_limit},
-    [EFFECT_GAIN] = {gain_error, gain_limit},
-    [EFFECT_CLAMPED] = {clamped_error, clamped_limit},
+    [EFFECT_FADE] = {fade_error, fade_limit},          [EFFECT_GAIN] = {gain_error, gain_limit},
+    [EFFECT_CLAMPED] = {clamped_error, clamped_limit}, [EFFECT_DECAY] = {decay_error, decay_limit},
     [EFFECT_STEP] = {step_error, step_limit},
 };
 
@@ -278,8 +209,9 @@ static double inside(const dp_setup *setup, uint32_t code, double end, double z)
     return z;
 }
 
-static cell_case case_at(const effect_row *row, const dp_setup *setup, double z) {
-    cell_case at = {.row = row, .setup = setup};
+static cell_case case_at(const effect_row *row, const effect_view *view, double z) {
+    const dp_setup *setup = view->setup;
+    cell_case at = {.row = row, .view = view};
     const uint32_t code = dp_code(setup, z);
     at.cell = dp_cell_of(setup, code);
     if (row->kind == EFFECT_STEP) {
@@ -290,32 +222,27 @@ static cell_case case_at(const effect_row *row, const dp_setup *setup, double z)
 }
 
 static bool has_error(const cell_case *at) {
-    return effect_applies(at->row, at->setup) && at->setup->spec.model != DP_MODEL_FP32;
+    return effect_applies(at->row, at->view->setup) && at->view->setup->spec.model != DP_MODEL_FP32;
 }
 
 static double error_in(const cell_case *at, const double *parameters) {
     return LEVELS * kinds[at->row->kind].error(at, parameters);
 }
 
-double effect_error(const effect_row *row, const dp_setup *setup, const double *parameters, double z) {
-    const cell_case at = case_at(row, setup, z);
+double effect_error(const effect_row *row, const effect_view *view, const double *parameters, double z) {
+    const cell_case at = case_at(row, view, z);
     return has_error(&at) ? error_in(&at, parameters) : (double)NAN;
 }
 
-double effect_error_within(const effect_row *row, const dp_setup *setup, const double *parameters,
+double effect_error_within(const effect_row *row, const effect_view *view, const double *parameters,
                            const effect_depths *depths) {
     const cell_case at = {.row = row,
-                          .setup = setup,
+                          .view = view,
                           .cell = {.stored = depths->seen, .lo = depths->lo, .hi = depths->hi},
                           .first = depths->lo,
                           .last = depths->hi};
-    if (!has_error(&at))
-        return NAN;
-    if (row->kind != EFFECT_STEP)
-        return error_in(&at, parameters);
-    const double off = depths->beside + fmax(depths->seen - depths->lo, depths->hi - depths->seen);
-    return fabs(parameters[EDGE_SLOPE] - parameters[EDGE_THRESHOLD] * setup->spec.zfar) <= off * (1 + 0x1p-40) ? LEVELS
-                                                                                                               : 0;
+    const bool pairs = row->kind == EFFECT_STEP && !row->alone;
+    return has_error(&at) && !pairs ? error_in(&at, parameters) : (double)NAN;
 }
 
 /* The closed form is off by its rounding: goes to the last value that is usable, as effect_error() sees it. */
@@ -335,8 +262,9 @@ static void to_last_usable(const cell_case *at, double *p, double levels) {
     }
 }
 
-double effect_usable(const effect_row *row, const dp_setup *setup, const double *parameters, double z, double levels) {
-    const cell_case at = case_at(row, setup, z);
+double effect_usable(const effect_row *row, const effect_view *view, const double *parameters, double z,
+                     double levels) {
+    const cell_case at = case_at(row, view, z);
     const texture_parameter *range = &row->parameters[row->wanted];
     double p[TEXTURE_PARAMETERS];
     if (!has_error(&at))

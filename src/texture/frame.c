@@ -57,6 +57,8 @@ const char *frame_refuses(const frame *f, const frame_product *product) {
         return "this method does not support this projection and mapping";
     if (product->kind == FRAME_EFFECT && !effect_applies(product->effect, frame_planes(f)))
         return "this effect needs a finite far plane";
+    if (product->kind == FRAME_EFFECT && f->scene == NULL && (product->effect->needs & EFFECT_NORMALS) != 0)
+        return "this effect needs normals, which an image of depths does not have, but a scene";
     if (product->kind == FRAME_NORMAL && product->error && f->scene == NULL &&
         strcmp(product->normal->name, "projective") != 0)
         return "the error of this method is known in a scene only; that of 'projective' has a bound";
@@ -156,7 +158,7 @@ static bool run_start(run *r, const frame *f) {
     r->margin = NORMAL_REACH;
     for (size_t i = 0; i < r->product_count; i++) {
         r->values += (size_t)frame_channels(&r->products[i]);
-        r->positions = r->positions || r->products[i].kind == FRAME_POSITION;
+        r->positions = r->positions || r->products[i].kind == FRAME_POSITION || r->products[i].kind == FRAME_EFFECT;
         r->bounds = r->bounds || (r->products[i].kind == FRAME_NORMAL && r->products[i].error);
         r->margin = looks_around(&r->products[i]) ? 0 : r->margin;
     }

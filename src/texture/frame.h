@@ -23,6 +23,7 @@
 /** Where the depths come from. */
 typedef struct frame {
     const texture_camera *camera; /**< its set-up in the model exact */
+    const texture_camera *last;   /**< last frame's; null: none is known */
     const image *image;           /**< null for a scene */
     const scene_row *scene;
     const double *parameters; /**< of the scene */
@@ -58,7 +59,7 @@ void frame_codes(const frame *f, uint32_t row, uint32_t *codes);
 
 typedef enum frame_kind { FRAME_EYE = 0, FRAME_POSITION, FRAME_NORMAL, FRAME_EFFECT, FRAME_KINDS } frame_kind;
 
-/** What is made of the depths. Sky and invalid pixels are NaN in all of them. */
+/** What is made of the depths. Sky and invalid pixels are NaN in all of them, but sky has edges: EFFECT_STEP. */
 typedef struct frame_product {
     frame_kind kind;
     /**
@@ -68,17 +69,20 @@ typedef struct frame_product {
      *     eye       |product - z|; image: |product - stored|, and from there to the farther end of its range
      *     position  distance from the true place; image: |method - exact| and the range's reach along the ray
      *     normal    angle to the true normal, degrees; image: the bound of the method "projective" on a plane
-     *     effect    levels of 1/255
+     *     effect    levels of 1/255: from the output in binary32 to the exact one
      *
      * Ranges are those of grain_range_of(). Errors are rounded up to binary32.
      */
     bool error;
-    bool radial;                   /**< FRAME_EYE: distance from the camera in place of eye depth */
+    bool lost;   /**< FRAME_EFFECT: what binary32 has added to the output that is exact for what is stored, instead */
+    bool radial; /**< FRAME_EYE: distance from the camera in place of eye depth */
     const position_row *position;  /**< FRAME_POSITION; null: exact, rounded to binary32 */
     const normal_row *normal;      /**< FRAME_NORMAL */
     const effect_row *effect;      /**< FRAME_EFFECT */
-    const double *effect_settings; /**< its parameters; `rise`, if it has one, is that of each pixel's ray */
-    double reference;              /**< the eye depth it compares with, where it does; EFFECT_STEP takes neighbours */
+    const double *effect_settings; /**< its parameters */
+    /** The eye depth that an effect compares with whose row says `given`; 0: not known, and errors are those of the
+     *  worst one. EFFECT_STEP takes neighbours. */
+    double reference;
 } frame_product;
 
 /** Numbers a pixel: 3 for places and normals, else 1. */

@@ -4,11 +4,9 @@
 #include <math.h>
 #include <string.h>
 
-#include "core/bits.h"
 #include "texture/clones.h"
 
 static const double TO_DEGREES = 180 / M_PI;
-static const double LEVELS = 255, ROUNDED = 255 * DP_UNIT; /* an output of 1 in binary32 */
 
 static const texture_camera *camera_of(const frame_row *in) {
     return in->frame->camera;
@@ -21,38 +19,6 @@ static const float *eyes_of(const frame_row *in) {
 /* Length along the pixel's ray of one scene unit of eye depth. */
 static double stretch(const frame_row *in, uint32_t x) {
     return camera_radial(camera_of(in), x, in->row);
-}
-
-/* What the pixel of a scene truly sees; NaN where it is sky, or counts as such. */
-static scene_hit truth(const frame_row *in, uint32_t x) {
-    scene_hit hit;
-    in->frame->scene->hit(camera_of(in), in->frame->parameters, x, in->row, &hit);
-    if (isinf(hit.z) || isnan(eyes_of(in)[x]))
-        hit.z = NAN;
-    return hit;
-}
-
-/* What a code says of the depth. Neighbours often share one. */
-typedef struct one_range {
-    uint32_t code;
-    grain_range range;
-} one_range;
-
-static const grain_range *range_of(const frame_row *in, one_range *last, uint32_t x) {
-    const uint32_t code = in->codes[x];
-    if (code != last->code)
-        *last = (one_range){code, grain_range_of(&camera_of(in)->setup, in->frame->grain, code)};
-    return &last->range;
-}
-
-static one_range nothing_yet(void) {
-    return (one_range){.code = UINT32_MAX};
-}
-
-/* An error map must not be below the error: the nearest binary32 number that is not. A few roundings to double came
-   before. */
-DP_INLINE float upwards(double error) {
-    return dp_float_up(error * (1 + 0x1p-48));
 }
 
 TEXTURE_CLONES static void interleave_planes(const float *restrict x, const float *restrict y, const float *restrict z,
@@ -104,7 +70,7 @@ TEXTURE_CLONES static void eye_errors(const float *restrict eyes, const grain_ro
     for (size_t i = 0; i < count; i++) {
         const float product = along != NULL ? (float)((double)eyes[i] * along[i]) : eyes[i];
         const double by = along != NULL ? along[i] : 1;
-        const float error = upwards(fabs((double)product - stored[i] * by) + reach[i] * by);
+        const float error = frame_upwards(fabs((double)product - stored[i] * by) + reach[i] * by);
         out[i] = eyes[i] == eyes[i] ? error : (float)NAN;
     }
 }
@@ -118,8 +84,8 @@ static void make_eye_error(const frame_row *in) {
         return;
     }
     for (uint32_t x = 0; x < c->width; x++) {
-        const double along = in->product->radial ? stretch(in, x) : 1, z = truth(in, x).z;
-        in->out[x] = upwards(isnan(z) ? (double)NAN : fabs(dp_error(&c->setup, in->codes[x], z)) * along);
+        const double along = in->product->radial ? stretch(in, x) : 1, z = frame_truth(in, x).z;
+        in->out[x] = frame_upwards(isnan(z) ? (double)NAN : fabs(dp_error(&c->setup, in->codes[x], z)) * along);
     }
 }
 
@@ -183,7 +149,7 @@ TEXTURE_CLONES static void round_up(const float *restrict found, const double *r
                                     float *restrict out, size_t count) {
 #pragma omp simd
     for (size_t i = 0; i < count; i++) {
-        const float rounded = upwards(error[i] * unit);
+        const float rounded = frame_upwards(error[i] * unit);
         out[i] = found[i] == found[i] ? rounded : (float)NAN;
     }
 }
@@ -200,11 +166,11 @@ static void make_position_error(const frame_row *in) {
     }
     for (uint32_t x = 0; x < camera_of(in)->width; x++) {
         const float world[3] = {in->planes[0][x], in->planes[1][x], in->planes[2][x]};
-        const double z = truth(in, x).z;
+        const double z = frame_truth(in, x).z;
         double relative[3];
         exact_place(in, x, z, relative);
         /* a hole, not an error without bound */
-        in->out[x] = isnan(z) ? NAN : upwards(position_off(camera_of(in), relative, world));
+        in->out[x] = isnan(z) ? NAN : frame_upwards(position_off(camera_of(in), relative, world));
     }
 }
 
@@ -237,79 +203,9 @@ static void make_normal_error(const frame_row *in) {
     }
     for (uint32_t x = 0; x < camera_of(in)->width; x++) {
         const double found[3] = {in->planes[0][x], in->planes[1][x], in->planes[2][x]};
-        const scene_hit hit = truth(in, x);
+        const scene_hit hit = frame_truth(in, x);
         const bool known = !isnan(found[0]) && !isnan(hit.z);
-        in->out[x] = upwards(known ? normal_angle(found, hit.normal) * TO_DEGREES : (double)NAN);
-    }
-}
-
-/* The settings of a row: world height per unit of eye depth is that of its rays. No camera rolls: all rise alike. */
-static void settings_of(const frame_row *in, double at[TEXTURE_PARAMETERS]) {
-    const texture_camera *c = camera_of(in);
-    const int rise = parameter_find(in->product->effect->parameters, "rise");
-    const double ray[3] = {0, c->ortho ? 0 : camera_slope_y(c, in->row), 1};
-    double world[3];
-    memcpy(at, in->product->effect_settings, TEXTURE_PARAMETERS * sizeof *at);
-    camera_turn(c, ray, world);
-    if (rise >= 0)
-        at[rise] = world[1];
-}
-
-/* Two pixels that are compared, as Roberts' edge detector does along both diagonals of a quad. */
-static double step(const frame_row *in, const double *at, uint32_t x) {
-    const float *here = eyes_of(in), *below = in->eyes[NORMAL_REACH + 1];
-    const effect_row *row = in->product->effect;
-    const dp_setup *setup = frame_planes(in->frame);
-    const double a = row->output(setup, at, here[x], below[x + 1]);
-    const double b = row->output(setup, at, here[x + 1], below[x]);
-    return isnan(a) || isnan(b) ? (double)NAN : fmax(a, b);
-}
-
-static void make_effect(const frame_row *in) {
-    const effect_row *row = in->product->effect;
-    double at[TEXTURE_PARAMETERS];
-    settings_of(in, at);
-    for (uint32_t x = 0; x < camera_of(in)->width; x++) {
-        const double z = eyes_of(in)[x];
-        double value = NAN;
-        if (!isnan(z) && row->kind == EFFECT_STEP)
-            value = step(in, at, x);
-        else if (!isnan(z))
-            value = row->output(frame_planes(in->frame), at, z, in->product->reference);
-        in->out[x] = (float)value;
-    }
-}
-
-/* Of an image the depths that it leaves open; of a scene those of the cell. */
-static double effect_error_at(const frame_row *in, one_range *last, const double *at, uint32_t x) {
-    const dp_setup *setup = &camera_of(in)->setup;
-    const effect_row *row = in->product->effect;
-    if (in->frame->scene != NULL)
-        return effect_error(row, setup, at,
-                            fmin(fmax(dp_stored(setup, in->codes[x]), setup->spec.znear), setup->spec.zfar));
-    const grain_range *range = range_of(in, last, x);
-    effect_depths depths = {.seen = (double)eyes_of(in)[x], .lo = range->lo, .hi = range->hi};
-    if (row->kind == EFFECT_STEP) {
-        const double slope = at[parameter_find(row->parameters, "slope")];
-        const double ends[2] = {range->lo + slope, fmin(range->hi + slope, setup->spec.zfar)};
-        for (int i = 0; i < 2; i++)
-            depths.beside = fmax(depths.beside, grain_range_of(setup, in->frame->grain, dp_code(setup, ends[i])).reach);
-    }
-    const double output = row->output(frame_planes(in->frame), at, depths.seen, depths.seen);
-    return effect_error_within(row, frame_planes(in->frame), at, &depths) + ROUNDED * fmax(1, fabs(output));
-}
-
-static void make_effect_error(const frame_row *in) {
-    double at[TEXTURE_PARAMETERS];
-    one_range last = nothing_yet();
-    settings_of(in, at);
-    for (uint32_t x = 0; x < camera_of(in)->width; x++) {
-        if (isnan(eyes_of(in)[x]))
-            in->out[x] = NAN;
-        else if (x > 0 && in->codes[x] == in->codes[x - 1])
-            in->out[x] = in->out[x - 1];
-        else
-            in->out[x] = upwards(fmin(effect_error_at(in, &last, at, x), LEVELS));
+        in->out[x] = frame_upwards(known ? normal_angle(found, hit.normal) * TO_DEGREES : (double)NAN);
     }
 }
 
@@ -317,5 +213,5 @@ frame_make *const frame_makers[FRAME_KINDS][2] = {
     [FRAME_EYE] = {make_eye, make_eye_error},
     [FRAME_POSITION] = {make_position, make_position_error},
     [FRAME_NORMAL] = {make_normal, make_normal_error},
-    [FRAME_EFFECT] = {make_effect, make_effect_error},
+    [FRAME_EFFECT] = {frame_effect, frame_effect_error},
 };

@@ -14,10 +14,9 @@
 
 enum { HEAD_SIZE = 8 };
 
-static const image_kind *const kinds[IMAGE_FILE_COUNT] = {[IMAGE_PNG] = &image_kind_png,
-                                                          [IMAGE_PFM] = &image_kind_pfm,
-                                                          [IMAGE_NPY] = &image_kind_npy,
-                                                          [IMAGE_DDS] = &image_kind_dds};
+static const image_kind *const kinds[IMAGE_FILE_COUNT] = {
+    [IMAGE_PNG] = &image_kind_png, [IMAGE_PFM] = &image_kind_pfm, [IMAGE_NPY] = &image_kind_npy,
+    [IMAGE_DDS] = &image_kind_dds, [IMAGE_EXR] = &image_kind_exr, [IMAGE_TIFF] = &image_kind_tiff};
 
 /* Files that people have instead, so that they are told what to do and not only what is wrong. */
 static const struct {
@@ -26,9 +25,6 @@ static const struct {
     const char *what;
 } others[] = {
     {"PK\3\4", 4, "a zip archive: of an .npz, unpack the .npy"},
-    {"\x76\x2f\x31\x01", 4, "OpenEXR: convert its depth channel to PFM"},
-    {"II*\0", 4, "TIFF: convert it to PFM, or to PNG of 16 bits"},
-    {"MM\0*", 4, "TIFF: convert it to PFM, or to PNG of 16 bits"},
     {"\xff\xd8\xff", 3, "JPEG, which keeps no depths: save PNG of 16 bits, PFM or .npy"},
     {"P5", 2, "PGM: convert it to PNG of 16 bits"},
     {"P6", 2, "PPM: convert it to PNG of 16 bits"},
@@ -74,9 +70,13 @@ static bool read_source(image_source *source, image *out) {
     const size_t size = source->ready_size < HEAD_SIZE ? source->ready_size : HEAD_SIZE;
     for (int i = 0; i < IMAGE_FILE_COUNT; i++) {
         const image_kind *kind = kinds[i];
-        if (!begins(head, size, kind->magic[0], kind->magic_size) &&
-            !begins(head, size, kind->magic[1], kind->magic_size))
+        bool is_it = false;
+        for (size_t k = 0; k < sizeof kind->magic / sizeof kind->magic[0]; k++)
+            is_it = is_it || begins(head, size, kind->magic[k], kind->magic_size);
+        if (!is_it)
             continue;
+        if (source->channel != NULL && !kind->named)
+            return source_fail(source, "--channel names one of an EXR; those of %s have no names", kind->name);
         image read = {.file = (image_file)i};
         if (!kind->read(source, &read)) {
             free(read.data);
@@ -116,9 +116,13 @@ static bool measure(image_source *source) {
 }
 
 bool image_read(const char *path, image *out, image_error *error) {
+    return image_read_channel(path, NULL, out, error);
+}
+
+bool image_read_channel(const char *path, const char *channel, image *out, image_error *error) {
     const bool from_stdin = strcmp(path, "-") == 0;
     FILE *stream = from_stdin ? stdin : fopen(path, "rb");
-    image_source source = {.stream = stream, .error = error};
+    image_source source = {.stream = stream, .channel = channel, .error = error};
     if (stream == NULL)
         return unreadable(&source, errno);
     unsigned char head[HEAD_SIZE];
@@ -148,7 +152,7 @@ bool image_holds(image_file file, image_type type, uint32_t channels) {
 }
 
 image_writer *image_writer_open(FILE *stream, image_file file, image_type type, uint32_t width, uint32_t height,
-                                uint32_t channels) {
+                                uint32_t channels, const char *note) {
     if ((unsigned)file >= IMAGE_WRITTEN_COUNT || !image_holds(file, type, channels) || width < 1 || height < 1 ||
         width > TEXTURE_SIDE_MAX || height > TEXTURE_SIDE_MAX || (uint64_t)width * height > TEXTURE_PIXELS_MAX)
         return NULL;
@@ -162,7 +166,8 @@ image_writer *image_writer_open(FILE *stream, image_file file, image_type type, 
                              .height = height,
                              .channels = channels,
                              .row_size = (size_t)width * channels * image_type_size(type),
-                             .rows_left = height};
+                             .rows_left = height,
+                             .note = note};
     if (writer->kind->begin(writer))
         return writer;
     writer->failed = true;

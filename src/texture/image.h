@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /**
- * @file image.h  Images of numbers: PNG of 8 or 16 bits, PFM, and .npy of f2, f4, f8, u1, u2, u4; DDS is read.
+ * @file image.h  Images of numbers: PNG of 8 or 16 bits, PFM, and .npy of f2, f4, f8, u1, u2, u4. DDS,
+ *  EXR and TIFF are read; of an EXR one channel, by a library that must be there then, as for TIFF.
  *
  * Files are not trusted: sizes are checked before memory is asked for (TEXTURE_SIDE_MAX, TEXTURE_PIXELS_MAX in
  * camera.h; what a file of known length cannot hold is refused), and what is damaged, cut short, followed by anything
@@ -31,18 +32,25 @@ typedef enum image_file {
     IMAGE_NPY,
     IMAGE_WRITTEN_COUNT,
     IMAGE_DDS = IMAGE_WRITTEN_COUNT,
+    IMAGE_EXR,
+    IMAGE_TIFF,
     IMAGE_FILE_COUNT
 } image_file;
 
-enum { IMAGE_ERROR_SIZE = 256, IMAGE_CHANNELS_MAX = 4 };
+enum { IMAGE_ERROR_SIZE = 256, IMAGE_CHANNELS_MAX = 4, IMAGE_NOTE_SIZE = 256 };
+
+/** What a PNG says of its colours, and a program that obeys would change in its samples: bits. */
+enum { IMAGE_SRGB = 1, IMAGE_GAMMA = 2, IMAGE_PROFILE = 4 };
 
 /** Rows from the top, channels interleaved, samples in the order of this machine's bytes, no padding. */
 typedef struct image {
     uint32_t width, height, channels;
     image_type type;
-    image_file file;  /**< what it was read from */
-    void *data;       /**< malloc'ed */
-    const char *says; /**< the depth format that the file names, "unorm24"; null when it names none */
+    image_file file;            /**< what it was read from */
+    void *data;                 /**< malloc'ed */
+    const char *says;           /**< the depth format that the file names, "unorm24"; null when it names none */
+    unsigned colours;           /**< IMAGE_SRGB, ... */
+    char note[IMAGE_NOTE_SIZE]; /**< of a PNG that depthprec wrote: the note, else "" */
 } image;
 
 /** Why an image was refused. */
@@ -59,12 +67,14 @@ size_t image_type_size(image_type type);
  *  them */
 bool image_file_of(const char *path, image_file *out);
 
-/** "PNG", "PFM", "npy", "DDS"; null when out of range. */
+/** "PNG", "PFM", "npy", "DDS", "EXR", "TIFF"; null when out of range. */
 const char *image_file_name(image_file file);
 
 /** Reads a file, "-" being stdin; the kind is told from its first bytes, not from its name. */
 bool image_read(const char *path, image *out, image_error *error);
-/** The same from memory. */
+/** The channel of that name, of kinds whose channels have names; null: that which is depth. */
+bool image_read_channel(const char *path, const char *channel, image *out, image_error *error);
+/** The first from memory. */
 bool image_parse(const void *bytes, size_t size, image *out, image_error *error);
 void image_free(image *image);
 
@@ -72,13 +82,14 @@ void image_free(image *image);
 typedef struct image_writer image_writer;
 
 /** Which sample types and channels a kind of file holds: PNG u1 u2, 1 to 4; PFM f4, 1 or 3; npy all, 1 to 4; DDS all
- *  but f8, 1, 2 or 4. */
+ *  but f8, 1 to 4; EXR u4, f2 and f4, 1; TIFF all, 1 to 4. */
 bool image_holds(image_file file, image_type type, uint32_t channels);
 
 /** Writes the header. @return null when out of memory, when the stream failed, or the file cannot hold it; the stream
- *  stays the caller's. PNG: 16 bits as a fast compression has them, see image_png.c */
+ *  stays the caller's. PNG: 16 bits as a fast compression has them, see image_png.c
+ *  @param note  shorter than IMAGE_NOTE_SIZE, in a text chunk of a PNG; null: none. Other kinds have no place for it */
 image_writer *image_writer_open(FILE *stream, image_file file, image_type type, uint32_t width, uint32_t height,
-                                uint32_t channels);
+                                uint32_t channels, const char *note);
 
 /** PFM stores the bottom row first: rows must then be given from the bottom. */
 bool image_writer_bottom_up(const image_writer *writer);

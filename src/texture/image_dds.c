@@ -13,7 +13,10 @@ enum { HEADER_SIZE = 128, MORE_SIZE = 20 };
 enum { HAS_FOURCC = 0x4, HAS_RGB = 0x40, HAS_LUMINANCE = 0x20000 };
 
 /* How a format is told. */
-typedef enum told { BY_DXGI = 0, BY_D3D9, BY_LUMINANCE, BY_RGBA } told;
+typedef enum told { BY_DXGI = 0, BY_D3D9, BY_LUMINANCE, BY_RGB, BY_BGR } told;
+
+/* What becomes of what was read, other than a shift of 24 bits. */
+enum { AS_IT_IS = -1, BLUE_FIRST = -2 };
 
 typedef struct pixels {
     told by;
@@ -21,39 +24,42 @@ typedef struct pixels {
     image_type type;
     uint32_t channels;
     const char *says; /* the depth format, where the name is that of one */
-    int shift;        /* of u4: the code is 24 bits from here; -1: all of it */
+    int shift;        /* of u4: the code is 24 bits from here; or one of the above */
 } pixels;
 
 static const pixels formats[] = {
-    {BY_DXGI, 20, IMAGE_F32, 2, "fp32", -1},    /* D32_FLOAT_S8X24_UINT: the second half is no number */
-    {BY_DXGI, 19, IMAGE_F32, 2, "fp32", -1},    /* R32G8X24_TYPELESS */
-    {BY_DXGI, 21, IMAGE_F32, 2, "fp32", -1},    /* R32_FLOAT_X8X24_TYPELESS */
-    {BY_DXGI, 40, IMAGE_F32, 1, "fp32", -1},    /* D32_FLOAT */
-    {BY_DXGI, 39, IMAGE_F32, 1, NULL, -1},      /* R32_TYPELESS */
-    {BY_DXGI, 41, IMAGE_F32, 1, NULL, -1},      /* R32_FLOAT */
-    {BY_DXGI, 42, IMAGE_U32, 1, NULL, -1},      /* R32_UINT */
-    {BY_DXGI, 44, IMAGE_U32, 1, "unorm24", 0},  /* R24G8_TYPELESS */
-    {BY_DXGI, 45, IMAGE_U32, 1, "unorm24", 0},  /* D24_UNORM_S8_UINT */
-    {BY_DXGI, 46, IMAGE_U32, 1, "unorm24", 0},  /* R24_UNORM_X8_TYPELESS */
-    {BY_DXGI, 55, IMAGE_U16, 1, "unorm16", -1}, /* D16_UNORM */
-    {BY_DXGI, 53, IMAGE_U16, 1, NULL, -1},      /* R16_TYPELESS */
-    {BY_DXGI, 56, IMAGE_U16, 1, NULL, -1},      /* R16_UNORM */
-    {BY_DXGI, 57, IMAGE_U16, 1, NULL, -1},      /* R16_UINT */
-    {BY_DXGI, 54, IMAGE_F16, 1, NULL, -1},      /* R16_FLOAT */
-    {BY_DXGI, 61, IMAGE_U8, 1, NULL, -1},       /* R8_UNORM */
-    {BY_DXGI, 49, IMAGE_U8, 2, NULL, -1},       /* R8G8_UNORM */
-    {BY_DXGI, 28, IMAGE_U8, 4, NULL, -1},       /* R8G8B8A8_UNORM */
-    {BY_D3D9, 114, IMAGE_F32, 1, NULL, -1},     /* R32F */
-    {BY_D3D9, 111, IMAGE_F16, 1, NULL, -1},     /* R16F */
-    {BY_D3D9, 82, IMAGE_F32, 1, "fp32", -1},    /* D32F_LOCKABLE */
-    {BY_D3D9, 77, IMAGE_U32, 1, "unorm24", 8},  /* D24X8 */
-    {BY_D3D9, 75, IMAGE_U32, 1, "unorm24", 8},  /* D24S8 */
-    {BY_D3D9, 70, IMAGE_U16, 1, "unorm16", -1}, /* D16_LOCKABLE */
-    {BY_D3D9, 80, IMAGE_U16, 1, "unorm16", -1}, /* D16 */
-    {BY_D3D9, 81, IMAGE_U16, 1, NULL, -1},      /* L16 */
-    {BY_LUMINANCE, 16, IMAGE_U16, 1, NULL, -1}, /* L16 by its mask */
-    {BY_LUMINANCE, 8, IMAGE_U8, 1, NULL, -1},   /* L8 */
-    {BY_RGBA, 32, IMAGE_U8, 4, NULL, -1},       /* A8B8G8R8: red in the lowest byte */
+    {BY_DXGI, 20, IMAGE_F32, 2, "fp32", AS_IT_IS},    /* D32_FLOAT_S8X24_UINT: the second half is no number */
+    {BY_DXGI, 19, IMAGE_F32, 2, "fp32", AS_IT_IS},    /* R32G8X24_TYPELESS */
+    {BY_DXGI, 21, IMAGE_F32, 2, "fp32", AS_IT_IS},    /* R32_FLOAT_X8X24_TYPELESS */
+    {BY_DXGI, 40, IMAGE_F32, 1, "fp32", AS_IT_IS},    /* D32_FLOAT */
+    {BY_DXGI, 39, IMAGE_F32, 1, NULL, AS_IT_IS},      /* R32_TYPELESS */
+    {BY_DXGI, 41, IMAGE_F32, 1, NULL, AS_IT_IS},      /* R32_FLOAT */
+    {BY_DXGI, 42, IMAGE_U32, 1, NULL, AS_IT_IS},      /* R32_UINT */
+    {BY_DXGI, 44, IMAGE_U32, 1, "unorm24", 0},        /* R24G8_TYPELESS */
+    {BY_DXGI, 45, IMAGE_U32, 1, "unorm24", 0},        /* D24_UNORM_S8_UINT */
+    {BY_DXGI, 46, IMAGE_U32, 1, "unorm24", 0},        /* R24_UNORM_X8_TYPELESS */
+    {BY_DXGI, 55, IMAGE_U16, 1, "unorm16", AS_IT_IS}, /* D16_UNORM */
+    {BY_DXGI, 53, IMAGE_U16, 1, NULL, AS_IT_IS},      /* R16_TYPELESS */
+    {BY_DXGI, 56, IMAGE_U16, 1, NULL, AS_IT_IS},      /* R16_UNORM */
+    {BY_DXGI, 57, IMAGE_U16, 1, NULL, AS_IT_IS},      /* R16_UINT */
+    {BY_DXGI, 54, IMAGE_F16, 1, NULL, AS_IT_IS},      /* R16_FLOAT */
+    {BY_DXGI, 61, IMAGE_U8, 1, NULL, AS_IT_IS},       /* R8_UNORM */
+    {BY_DXGI, 49, IMAGE_U8, 2, NULL, AS_IT_IS},       /* R8G8_UNORM */
+    {BY_DXGI, 28, IMAGE_U8, 4, NULL, AS_IT_IS},       /* R8G8B8A8_UNORM */
+    {BY_D3D9, 114, IMAGE_F32, 1, NULL, AS_IT_IS},     /* R32F */
+    {BY_D3D9, 111, IMAGE_F16, 1, NULL, AS_IT_IS},     /* R16F */
+    {BY_D3D9, 82, IMAGE_F32, 1, "fp32", AS_IT_IS},    /* D32F_LOCKABLE */
+    {BY_D3D9, 77, IMAGE_U32, 1, "unorm24", 8},        /* D24X8 */
+    {BY_D3D9, 75, IMAGE_U32, 1, "unorm24", 8},        /* D24S8 */
+    {BY_D3D9, 70, IMAGE_U16, 1, "unorm16", AS_IT_IS}, /* D16_LOCKABLE */
+    {BY_D3D9, 80, IMAGE_U16, 1, "unorm16", AS_IT_IS}, /* D16 */
+    {BY_D3D9, 81, IMAGE_U16, 1, NULL, AS_IT_IS},      /* L16 */
+    {BY_LUMINANCE, 16, IMAGE_U16, 1, NULL, AS_IT_IS}, /* L16 by its mask */
+    {BY_LUMINANCE, 8, IMAGE_U8, 1, NULL, AS_IT_IS},   /* L8 */
+    {BY_RGB, 32, IMAGE_U8, 4, NULL, AS_IT_IS},        /* A8B8G8R8: red in the lowest byte */
+    {BY_BGR, 32, IMAGE_U8, 4, NULL, BLUE_FIRST},      /* A8R8G8B8 */
+    {BY_BGR, 24, IMAGE_U8, 3, NULL, BLUE_FIRST},      /* R8G8B8 */
+    {BY_DXGI, 87, IMAGE_U8, 4, NULL, BLUE_FIRST},     /* B8G8R8A8_UNORM */
 };
 
 static uint32_t word_at(const unsigned char *header, size_t index) {
@@ -82,15 +88,18 @@ enum {
 static bool find_format(image_source *source, const unsigned char *header, const unsigned char *more,
                         const pixels **out) {
     const uint32_t flags = word_at(header, FORMAT_FLAGS), fourcc = word_at(header, FOURCC);
-    const bool rgba =
-        word_at(header, RED) == 0xFF && word_at(header, GREEN) == 0xFF00 && word_at(header, BLUE) == 0xFF0000;
+    const bool rgb = (flags & HAS_RGB) != 0 && word_at(header, GREEN) == 0xFF00;
+    const bool red_low = rgb && word_at(header, RED) == 0xFF && word_at(header, BLUE) == 0xFF0000;
+    const bool blue_low = rgb && word_at(header, BLUE) == 0xFF && word_at(header, RED) == 0xFF0000;
+    const bool named = more != NULL || (flags & (HAS_FOURCC | HAS_LUMINANCE)) != 0 || red_low || blue_low;
     const told by = more != NULL                   ? BY_DXGI
                     : (flags & HAS_FOURCC) != 0    ? BY_D3D9
                     : (flags & HAS_LUMINANCE) != 0 ? BY_LUMINANCE
-                                                   : BY_RGBA;
+                    : red_low                      ? BY_RGB
+                                                   : BY_BGR;
     const uint32_t code = more != NULL ? word_at(more, 0) : by == BY_D3D9 ? fourcc : word_at(header, BITS);
     for (size_t i = 0; i < sizeof formats / sizeof formats[0]; i++)
-        if (formats[i].by == by && formats[i].code == code && (by != BY_RGBA || ((flags & HAS_RGB) != 0 && rgba))) {
+        if (named && formats[i].by == by && formats[i].code == code) {
             *out = &formats[i];
             return true;
         }
@@ -123,6 +132,16 @@ static void unpack(image *img, int shift) {
         codes[i] = codes[i] >> shift & 0xFFFFFF;
 }
 
+static void swap_red(image *img) {
+    uint8_t *samples = img->data;
+    const size_t count = (size_t)img->width * img->height, channels = img->channels;
+    for (size_t i = 0; i < count; i++) {
+        const uint8_t blue = samples[i * channels];
+        samples[i * channels] = samples[i * channels + 2];
+        samples[i * channels + 2] = blue;
+    }
+}
+
 static bool read_dds(image_source *source, image *out) {
     unsigned char header[HEADER_SIZE], more[MORE_SIZE];
     const pixels *format = NULL;
@@ -138,7 +157,9 @@ static bool read_dds(image_source *source, image *out) {
         !source_samples(source, out, true))
         return false;
     out->says = format->says;
-    if (format->shift >= 0)
+    if (format->shift == BLUE_FIRST)
+        swap_red(out);
+    else if (format->shift != AS_IT_IS)
         unpack(out, format->shift);
     return true;
 }
@@ -149,6 +170,6 @@ const image_kind image_kind_dds = {
     .magic = {"DDS ", NULL},
     .magic_size = 4,
     .types = 1U << IMAGE_U8 | 1U << IMAGE_U16 | 1U << IMAGE_U32 | 1U << IMAGE_F16 | 1U << IMAGE_F32,
-    .channels = 1U << 1 | 1U << 2 | 1U << 4,
+    .channels = 1U << 1 | 1U << 2 | 1U << 3 | 1U << 4,
     .read = read_dds,
 };

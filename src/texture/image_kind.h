@@ -11,9 +11,10 @@
 typedef struct image_source {
     const unsigned char *ready; /**< the memory, or the first bytes of the stream */
     size_t ready_size;
-    FILE *stream;  /**< null: there is only what is ready */
-    bool sized;    /**< the length is known: memory, or a regular file */
-    uint64_t left; /**< sized: bytes not yet read */
+    FILE *stream;        /**< null: there is only what is ready */
+    bool sized;          /**< the length is known: memory, or a regular file */
+    uint64_t left;       /**< sized: bytes not yet read */
+    const char *channel; /**< the name of the one to take; null: that which is depth */
     image_error *error;
 } image_source;
 
@@ -45,6 +46,12 @@ bool source_grow(image_source *source, image *out, size_t *have, size_t need);
 /** Reads all samples, behind which the file must end. @param little  its samples have the lowest byte first */
 bool source_samples(image_source *source, image *out, bool little);
 
+/**
+ * All bytes, malloc'ed, at most 4 GiB, for readers that seek. From then on the image grows as its rows are
+ * read, whatever the length of the source.
+ */
+bool source_all(image_source *source, unsigned char **bytes, size_t *size);
+
 /** Nothing may follow. */
 bool source_ended(image_source *source);
 
@@ -61,13 +68,15 @@ struct image_writer {
     size_t row_size;
     uint32_t rows_left;
     bool failed;
+    const char *note; /**< null: none */
     void *png, *info; /**< of image_png.c */
 };
 
 /** A kind of file. */
 typedef struct image_kind {
     const char *name, *ending;
-    const char *magic[2]; /**< the first bytes, one or the other; null: no other */
+    const char *magic[4]; /**< the first bytes, one or the other; null: no other */
+    bool named;           /**< its channels have names */
     size_t magic_size;
     unsigned types, channels; /**< bit sets of what it holds */
     bool bottom_up;
@@ -78,7 +87,7 @@ typedef struct image_kind {
     bool (*end)(image_writer *writer); /**< null: nothing follows the samples. Always called, to free */
 } image_kind;
 
-extern const image_kind image_kind_png, image_kind_pfm, image_kind_npy, image_kind_dds;
+extern const image_kind image_kind_png, image_kind_pfm, image_kind_npy, image_kind_dds, image_kind_exr, image_kind_tiff;
 
 /** Writes the samples alone, the lowest byte first on every machine: `rows` of PFM and npy. */
 bool image_rows_plain(image_writer *writer, const void *rows, uint32_t count);

@@ -1,13 +1,16 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /*
  * PNG of 8 or 16 bits, grey or colour, with or without alpha and interlacing, by libpng. Samples are taken as they
- * are: what a file says about colours (gamma, profiles, transparency) is stepped over unread.
+ * are: what a file says about colours (gamma, profiles, transparency) is noted at most, and the chunks themselves are
+ * stepped over. What depthprec wrote may say of itself what its samples are, in a text chunk.
  *
  * libpng leaves through longjmp when it fails. So each call into it is made below a setjmp in a function of its own,
  * and all state is in a struct outside it.
  */
 #include <png.h>
 #include <setjmp.h>
+#include <stdio.h>
+#include <string.h>
 
 #include "texture/image_kind.h"
 
@@ -28,6 +31,8 @@ static void damaged(png_structp png, png_const_charp message) {
     png_longjmp(png, 1);
 }
 
+#define KEYWORD "depthprec"
+
 /* ---- Reading ----------------------------------------------------------------------------------------------------- */
 
 typedef struct reading {
@@ -37,6 +42,36 @@ typedef struct reading {
     png_infop info;
     size_t have; /* bytes of out->data */
 } reading;
+
+/* A linear gamma changes nothing. */
+static bool is_linear(const png_byte *data, size_t size) {
+    static const png_byte linear[4] = {0, 1, 0x86, 0xA0}; /* 100000 */
+    return size == sizeof linear && memcmp(data, linear, sizeof linear) == 0;
+}
+
+/* The text behind the keyword; what is no plain character is none of ours. */
+static void take_note(image *out, const png_byte *text, size_t size) {
+    const size_t length = size < sizeof out->note - 1 ? size : sizeof out->note - 1;
+    for (size_t i = 0; i < length; i++)
+        out->note[i] = (char)(text[i] >= 0x20 && text[i] < 0x7f ? text[i] : '?');
+    out->note[length] = '\0';
+}
+
+/* One of the chunks that are looked at. @return 1: it needs no more care */
+static int look_at(png_structp png, png_unknown_chunkp chunk) {
+    image *out = png_get_user_chunk_ptr(png);
+    const char *name = (const char *)chunk->name;
+    const size_t key = sizeof KEYWORD;
+    if (strcmp(name, "sRGB") == 0)
+        out->colours |= IMAGE_SRGB;
+    else if (strcmp(name, "iCCP") == 0)
+        out->colours |= IMAGE_PROFILE;
+    else if (strcmp(name, "gAMA") == 0 && !is_linear(chunk->data, chunk->size))
+        out->colours |= IMAGE_GAMMA;
+    else if (strcmp(name, "tEXt") == 0 && chunk->size > key && memcmp(chunk->data, KEYWORD, key) == 0)
+        take_note(out, chunk->data + key, chunk->size - key);
+    return 1;
+}
 
 static bool read_header(reading *r) {
     png_read_info(r->png, r->info);
@@ -77,12 +112,15 @@ static bool read_rows(reading *r) {
 }
 
 static __attribute__((noinline)) bool read_guarded(reading *r) {
+    static const png_byte looked_at[] = "sRGB\0gAMA\0iCCP\0tEXt"; /* each with a 0 */
     if (setjmp(png_jmpbuf(r->png)) != 0)
         return false;
     png_set_read_fn(r->png, r->source, fill);
     png_set_user_limits(r->png, PNG_UINT_31_MAX, PNG_UINT_31_MAX); /* source_shape() says it better */
     png_set_benign_errors(r->png, 0);                              /* data left over or missing are no warning here */
     png_set_keep_unknown_chunks(r->png, PNG_HANDLE_CHUNK_NEVER, NULL, -1);
+    png_set_keep_unknown_chunks(r->png, PNG_HANDLE_CHUNK_ALWAYS, looked_at, sizeof looked_at / 5);
+    png_set_read_user_chunk_fn(r->png, r->out, look_at);
     return read_header(r) && read_rows(r);
 }
 
@@ -105,6 +143,8 @@ static void broken(png_structp png, png_const_charp message) {
 static bool begin_png(image_writer *w) {
     static const int colours[] = {0, PNG_COLOR_TYPE_GRAY, PNG_COLOR_TYPE_GRAY_ALPHA, PNG_COLOR_TYPE_RGB,
                                   PNG_COLOR_TYPE_RGB_ALPHA};
+    char keyword[] = KEYWORD, note[IMAGE_NOTE_SIZE];
+    snprintf(note, sizeof note, "%s", w->note != NULL ? w->note : "");
     w->png = png_create_write_struct(PNG_LIBPNG_VER_STRING, NULL, broken, ignore);
     w->info = w->png != NULL ? png_create_info_struct(w->png) : NULL;
     if (w->info == NULL || setjmp(png_jmpbuf((png_structp)w->png)) != 0)
@@ -115,6 +155,9 @@ static bool begin_png(image_writer *w) {
     png_set_compression_buffer_size(w->png, 1 << 16);
     png_set_IHDR(w->png, w->info, w->width, w->height, w->type == IMAGE_U16 ? 16 : 8, colours[w->channels],
                  PNG_INTERLACE_NONE, PNG_COMPRESSION_TYPE_DEFAULT, PNG_FILTER_TYPE_DEFAULT);
+    const png_text chunk = {.compression = PNG_TEXT_COMPRESSION_NONE, .key = keyword, .text = note};
+    if (w->note != NULL)
+        png_set_text(w->png, w->info, &chunk, 1);
     png_write_info(w->png, w->info);
     if (image_little())
         png_set_swap(w->png);

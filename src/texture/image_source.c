@@ -139,6 +139,31 @@ bool source_samples(image_source *source, image *out, bool little) {
     return source_ended(source);
 }
 
+bool source_all(image_source *source, unsigned char **bytes, size_t *size) {
+    enum { FIRST = 1 << 20 };
+    const uint64_t most = UINT64_C(1) << 32;
+    size_t room = source->sized && source->left < most ? (size_t)source->left + 1 : FIRST, have = 0;
+    unsigned char *all = NULL;
+    for (bool more = true; more; room *= 2) {
+        unsigned char *grown = have > most ? NULL : realloc(all, room);
+        if (grown == NULL) {
+            free(all);
+            return have > most ? source_fail(source, "is larger than 4 GiB") : source_fail(source, "out of memory");
+        }
+        all = grown;
+        have += source_read(source, all + have, room - have);
+        more = have == room;
+    }
+    if (source->stream != NULL && ferror(source->stream)) {
+        free(all);
+        return source_cut(source, "bytes");
+    }
+    source->sized = false;
+    *bytes = all;
+    *size = have;
+    return true;
+}
+
 bool source_ended(image_source *source) {
     unsigned char more;
     if (source_read(source, &more, 1) == 0)

@@ -7,7 +7,11 @@
 #include <stddef.h>
 #include <string.h>
 
-enum { TEXTURE_PARAMETERS = 4 }; /**< at most in a list, without its end */
+enum { TEXTURE_PARAMETERS = 8 }; /**< at most in a list, without its end */
+
+/** Where a parameter is used: of an effect, its table over depths has no pixels, and its image no plane in their place.
+ */
+typedef enum parameter_use { PARAMETER_ALWAYS = 0, PARAMETER_IMAGE, PARAMETER_TABLE } parameter_use;
 
 typedef struct texture_parameter {
     const char *name; /**< "half-width" */
@@ -16,6 +20,7 @@ typedef struct texture_parameter {
     double lo, hi;    /**< allowed range, ends included */
     double value;     /**< default */
     bool whole;       /**< a whole number */
+    parameter_use use;
 } texture_parameter;
 
 /** The index of a name in a list; -1 when there is none. */

@@ -109,23 +109,23 @@ static bool decals_pair(const double *p, size_t index, scene_pair *out) {
 /* clang-format off */
 const scene_row scene_rows[] = {
     [SCENE_PLANE] = {"plane", "a plane, seen head-on or slanted", plane_hit, NULL, {
-        {"distance", "eye depth in the middle of the image", LENGTH, 10, false},
-        {"tilt", "the upper side leans back; 90 would be a floor", "degrees", -89.9, 89.9, 0, false},
-        {"turn", "the right side leans back", "degrees", -89.9, 89.9, 0, false}}},
+        {"distance", "eye depth in the middle of the image", LENGTH, 10, .whole = false},
+        {"tilt", "the upper side leans back; 90 would be a floor", "degrees", -89.9, 89.9, 0, .whole = false},
+        {"turn", "the right side leans back", "degrees", -89.9, 89.9, 0, .whole = false}}},
     [SCENE_SPHERE] = {"sphere", "a sphere on the view axis, before a wall or the sky", sphere_hit, NULL, {
-        {"distance", "eye depth of the centre, more than the radius", LENGTH, 10, false},
-        {"radius", "of the sphere", LENGTH, 3, false},
-        {"wall", "eye depth of the wall; 0: sky", "scene units", 0, 1e15, 0, false}}},
+        {"distance", "eye depth of the centre, more than the radius", LENGTH, 10, .whole = false},
+        {"radius", "of the sphere", LENGTH, 3, .whole = false},
+        {"wall", "eye depth of the wall; 0: sky", "scene units", 0, 1e15, 0, .whole = false}}},
     [SCENE_STEPS] = {"steps", "upright stairs that face the camera, in equal ratios of depth", steps_hit, steps_pair, {
-        {"from", "eye depth of the leftmost", LENGTH, 1, false},
-        {"to", "eye depth of the rightmost", LENGTH, 300, false},
-        {"count", "how many", "steps", 2, 65536, 16, true}}},
+        {"from", "eye depth of the leftmost", LENGTH, 1, .whole = false},
+        {"to", "eye depth of the rightmost", LENGTH, 300, .whole = false},
+        {"count", "how many", "steps", 2, 65536, 16, .whole = true}}},
     [SCENE_DECALS] = {"decals", "a decal before each tile of a wall, the tiles in equal ratios of depth",
         decals_hit, decals_pair, {
-        {"gap", "from a decal to the wall behind it", LENGTH, 0.01, false},
-        {"from", "eye depth of the first tile, top left", LENGTH, 1, false},
-        {"to", "eye depth of the last tile, bottom right", LENGTH, 300, false},
-        {"count", "in a row, and rows", "decals", 2, 1024, 8, true}}},
+        {"gap", "from a decal to the wall behind it", LENGTH, 0.01, .whole = false},
+        {"from", "eye depth of the first tile, top left", LENGTH, 1, .whole = false},
+        {"to", "eye depth of the last tile, bottom right", LENGTH, 300, .whole = false},
+        {"count", "in a row, and rows", "decals", 2, 1024, 8, .whole = true}}},
 };
 /* clang-format on */
 

@@ -1,0 +1,429 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/*
+ * Effects over images and scenes, each pixel against a formula in double: the camera's rays, the world position and
+ * last frame's projection are those of this file. Images hold random codes; of a scene the truth is a plane's.
+ */
+#include <string.h>
+
+#include "named.h"
+#include "support.h"
+#include "texture/frame.h"
+
+enum { ACROSS = 7, DOWN = 9, PIXELS = ACROSS * DOWN, CODE_MAX = 65535 };
+
+static const double NEAR = 1, FAR = 100, RADIAN = 3.14159265358979323846 / 180;
+
+/* ---- A camera ---------------------------------------------------------------------------------------------------- */
+
+typedef struct eye_point {
+    double fov, half_height, yaw, pitch, origin[3];
+} eye_point;
+
+typedef struct stage {
+    bool ortho, reversed;
+    eye_point now, last;
+    double reference; /* of what compares */
+    dp_setup setup;
+    texture_camera camera, before;
+} stage;
+
+static void axes_of(const eye_point *e, double right[3], double up[3], double forward[3]) {
+    const double y = e->yaw * RADIAN, p = e->pitch * RADIAN;
+    const double all[3][3] = {
+        {cos(y), 0, -sin(y)}, {-sin(p) * sin(y), cos(p), -sin(p) * cos(y)}, {cos(p) * sin(y), sin(p), cos(p) * cos(y)}};
+    memcpy(right, all[0], sizeof all[0]);
+    memcpy(up, all[1], sizeof all[1]);
+    memcpy(forward, all[2], sizeof all[2]);
+}
+
+/* Half the picture's width and height: per unit of eye depth, or in scene units. */
+static void half_of(const stage *s, const eye_point *e, double half[2]) {
+    half[1] = s->ortho ? e->half_height : tan(e->fov / 2 * RADIAN);
+    half[0] = half[1] * ACROSS / DOWN;
+}
+
+static double ndc_x(int pixel) {
+    return 2 * (pixel % ACROSS + 0.5) / ACROSS - 1;
+}
+
+static double ndc_y(int pixel) {
+    return 1 - 2 * (pixel / ACROSS + 0.5) / DOWN; /* the first row is on top */
+}
+
+static void world_of(const stage *s, int pixel, double z, double world[3]) {
+    double right[3], up[3], forward[3], half[2];
+    const double along = s->ortho ? 1 : z;
+    axes_of(&s->now, right, up, forward);
+    half_of(s, &s->now, half);
+    for (int k = 0; k < 3; k++)
+        world[k] = s->now.origin[k] + along * half[0] * ndc_x(pixel) * right[k] +
+                   along * half[1] * ndc_y(pixel) * up[k] + z * forward[k];
+}
+
+static void last_ndc(const stage *s, const double world[3], double ndc[2]) {
+    double right[3], up[3], forward[3], half[2], view[3] = {0, 0, 0};
+    axes_of(&s->last, right, up, forward);
+    half_of(s, &s->last, half);
+    for (int k = 0; k < 3; k++) {
+        const double from = world[k] - s->last.origin[k];
+        view[0] += from * right[k];
+        view[1] += from * up[k];
+        view[2] += from * forward[k];
+    }
+    for (int k = 0; k < 2; k++)
+        ndc[k] = view[k] / half[k] / (s->ortho ? 1 : view[2]);
+}
+
+/* ---- Effects ----------------------------------------------------------------------------------------------------- */
+
+static double unit(double x) {
+    return x < 0 ? 0 : x > 1 ? 1 : x;
+}
+
+typedef double formula(const stage *s, int pixel, double z);
+
+static double intersection(const stage *s, int pixel, double z) {
+    (void)pixel;
+    return unit(fabs(s->reference - z) / 3);
+}
+
+static double force_field(const stage *s, int pixel, double z) {
+    (void)pixel;
+    return (1 - (z - s->reference)) * 0.3;
+}
+
+static double fog(const stage *s, int pixel, double z) {
+    (void)s, (void)pixel;
+    return unit(z / FAR * 1.7);
+}
+
+static double scan_line(const stage *s, int pixel, double z) {
+    (void)pixel;
+    return unit(fabs(s->reference / FAR - z / FAR) / 0.07);
+}
+
+static double depth_of_field(const stage *s, int pixel, double z) {
+    (void)pixel;
+    return unit(fabs(z / FAR - s->reference / FAR) * 4);
+}
+
+static double water_line(const stage *s, int pixel, double z) {
+    double world[3];
+    world_of(s, pixel, z, world);
+    return unit((-1.5 - world[1]) / 2.5);
+}
+
+static double hard_line(const stage *s, int pixel, double z) {
+    double world[3];
+    world_of(s, pixel, z, world);
+    return world[1] < -1.5;
+}
+
+static double height_fog(const stage *s, int pixel, double z) {
+    double world[3];
+    world_of(s, pixel, z, world);
+    return unit((world[1] - 4) / (-30.0 - 4) * 0.8);
+}
+
+static double motion_blur(const stage *s, int pixel, double z) {
+    double world[3], last[2];
+    world_of(s, pixel, z, world);
+    last_ndc(s, world, last);
+    return 1.5 * hypot((ndc_x(pixel) - last[0]) / 2, (ndc_y(pixel) - last[1]) / 2);
+}
+
+static double soft_particles(const stage *s, int pixel, double z) {
+    (void)pixel;
+    return unit((z - s->reference) / 4);
+}
+
+/* As deep in the box as the nearest face is: 3 wide, 4 high and 30 deep, turned by 25 degrees. */
+static double decal_inside(const stage *s, int pixel, double z) {
+    const double turn = 25 * RADIAN, middle[3] = {1, -0.5, 18}, size[3] = {3, 4, 30};
+    double world[3], from[3];
+    world_of(s, pixel, z, world);
+    for (int k = 0; k < 3; k++)
+        from[k] = world[k] - middle[k];
+    const double local[3] = {from[0] * cos(turn) - from[2] * sin(turn), from[1],
+                             from[0] * sin(turn) + from[2] * cos(turn)};
+    double inside = INFINITY;
+    for (int k = 0; k < 3; k++)
+        inside = fmin(inside, size[k] / 2 - fabs(local[k]));
+    return inside;
+}
+
+static double decal(const stage *s, int pixel, double z) {
+    return unit(decal_inside(s, pixel, z) / 0.7);
+}
+
+static double hard_decal(const stage *s, int pixel, double z) {
+    return decal_inside(s, pixel, z) >= 0;
+}
+
+static double contact_shadow(const stage *s, int pixel, double z) {
+    (void)pixel;
+    return s->reference - z >= 0 && s->reference - z < 5;
+}
+
+static double shadow(const stage *s, int pixel, double z) {
+    (void)pixel;
+    return s->reference - 2 <= z;
+}
+
+/* Along the ray of the pixel, which is longer than the eye depth. */
+static double water_depth(const stage *s, int pixel, double z) {
+    double half[2];
+    half_of(s, &s->now, half);
+    const double x = half[0] * ndc_x(pixel), y = half[1] * ndc_y(pixel), along = s->ortho ? 1 : sqrt(x * x + y * y + 1);
+    return z > s->reference ? 1 - exp(-0.08 * (z - s->reference) * along) : 0;
+}
+
+static const struct {
+    const char *name, *parameters; /* NAME=VALUE, separated by blanks */
+    formula *of;
+    bool compares, hard; /* hard: 0 or 1 */
+    double wide;         /* how much more than the largest difference of outputs an error may state */
+} effects[] = {
+    {"intersection", "half-width=3", intersection, true, false, 1},
+    {"force-field", "power=0.3", force_field, true, false, 1},
+    {"fog", "density=1.7", fog, false, false, 1},
+    {"scan-line", "half-width=0.07", scan_line, true, false, 1},
+    {"depth-of-field", "level=4", depth_of_field, true, false, 1},
+    {"water-line", "band=2.5 level=-1.5", water_line, false, false, 1},
+    {"water-line", "band=0 level=-1.5", hard_line, false, true, 1},
+    {"height-fog", "density=0.8 start=4 end=-30", height_fog, false, false, 1},
+    {"soft-particles", "fade-distance=4", soft_particles, true, false, 1},
+    {"decal", "feather=0.7 yaw=25 x=1 y=-0.5 z=18 width=3 height=4 depth=30", decal, false, false,
+     1000}, /* the face to which a ray runs fastest may not be the nearest */
+    {"decal", "feather=0 yaw=25 x=1 y=-0.5 z=18 width=3 height=4 depth=30", hard_decal, false, true, 1},
+    {"contact-shadow", "thickness=5", contact_shadow, true, true, 1},
+    {"shadow", "bias=2", shadow, true, true, 1},
+    {"water-depth", "density=0.08", water_depth, true, false, 1},
+    {"motion-blur", "strength=1.5", motion_blur, false, false,
+     50}, /* a difference of velocities, not of their lengths */
+};
+enum { EFFECTS = sizeof effects / sizeof effects[0] };
+
+static void settings_of(const effect_row *row, const char *text, double out[TEXTURE_PARAMETERS]) {
+    char name[32];
+    double value;
+    int used;
+    parameter_defaults(row->parameters, out);
+    for (; sscanf(text, " %31[a-z0-9-]=%lf%n", name, &value, &used) == 2; text += used) {
+        const int at = parameter_find(row->parameters, name);
+        assert_true(at >= 0);
+        out[at] = value;
+    }
+    assert_true(*text == '\0');
+}
+
+/* ---- Stages ------------------------------------------------------------------------------------------------------ */
+
+static void camera_of(const stage *s, const eye_point *e, texture_camera *out) {
+    camera_spec view = camera_spec_default();
+    view.width = ACROSS;
+    view.height = DOWN;
+    view.fov_y = e->fov;
+    view.half_height = e->half_height;
+    view.yaw = e->yaw;
+    view.pitch = e->pitch;
+    memcpy(view.origin, e->origin, sizeof view.origin);
+    assert_null(camera_init(out, &s->setup, &view));
+}
+
+static void stage_ready(stage *s) {
+    dp_format formats[2];
+    dp_spec spec = dp_spec_default();
+    assert_true(dp_format_parse("unorm16", formats) >= 1);
+    spec.format = formats[0];
+    spec.mapping = s->reversed ? DP_MAPPING_REVERSED : DP_MAPPING_D3D;
+    spec.ortho = s->ortho;
+    spec.znear = NEAR;
+    spec.zfar = FAR;
+    assert_int_equal(dp_setup_init(&s->setup, &spec), DP_OK);
+    camera_of(s, &s->now, &s->camera);
+    camera_of(s, &s->last, &s->before);
+}
+
+static eye_point near_to(rng *r, const eye_point *e, double turn, double way) {
+    eye_point out = *e;
+    out.yaw += rng_uniform(r, -turn, turn);
+    out.pitch += rng_uniform(r, -turn, turn);
+    for (int k = 0; k < 3; k++)
+        out.origin[k] += rng_uniform(r, -way, way);
+    return out;
+}
+
+static void stage_any(rng *r, stage *s) {
+    *s = (stage){.ortho = rng_below(r, 3) == 0, .reversed = rng_below(r, 2) == 0, .reference = rng_uniform(r, 3, 60)};
+    s->now = (eye_point){.fov = rng_uniform(r, 20, 100), .half_height = rng_uniform(r, 2, 20)};
+    s->now = near_to(r, &s->now, 60, 8);
+    s->last = near_to(r, &s->now, 3, 0.3);
+    if (!s->ortho)
+        s->last.fov += rng_uniform(r, -2, 2);
+    stage_ready(s);
+}
+
+static double eye_of(const stage *s, double code) {
+    const double share = code / CODE_MAX, d = s->reversed ? 1 - share : share;
+    return s->ortho ? NEAR + d * (FAR - NEAR) : 1 / ((1 - d) / NEAR + d / FAR);
+}
+
+static bool keep(void *context, uint32_t row, uint32_t count, const float *values) {
+    memcpy((float *)context + (size_t)row * ACROSS, values, (size_t)count * ACROSS * sizeof *values);
+    return true;
+}
+
+static void make(const stage *s, const frame *f, size_t effect, bool error, float out[PIXELS]) {
+    const effect_row *row = effect_find(effects[effect].name);
+    double at[TEXTURE_PARAMETERS];
+    settings_of(row, effects[effect].parameters, at);
+    assert_true(row->given == effects[effect].compares);
+    const frame_product p = {.kind = FRAME_EFFECT,
+                             .effect = row,
+                             .effect_settings = at,
+                             .error = error,
+                             .reference = effects[effect].compares ? s->reference : 0};
+    assert_null(frame_refuses(f, &p));
+    assert_true(frame_run(f, &p, false, keep, out));
+}
+
+/* ---- Images ------------------------------------------------------------------------------------------------------ */
+
+/* Binary32 decodes eye depth within a few units of 2^-24 times far/near; outputs are at most as steep as this. */
+static const double ROUNDED = 3e-5;
+
+static double difference(formula *of, const stage *s, int pixel, double code, double other) {
+    return fabs(of(s, pixel, eye_of(s, code)) - of(s, pixel, eye_of(s, other)));
+}
+
+/* The output is the formula's at the stored depth; the error what the cell's depths make of it, seen at 33 of them. */
+static void test_images(void **state) {
+    enum { PLACES = 32 };
+    static uint32_t codes[PIXELS];
+    static float got[PIXELS], bound[PIXELS];
+    const image depths = {
+        .width = ACROSS, .height = DOWN, .channels = 1, .type = IMAGE_U32, .file = IMAGE_NPY, .data = codes};
+    rng r = rng_make("effects of images");
+    tally t = {.name = "images"};
+    (void)state;
+    for (uint64_t i = 0; i < test_cases(300, 3000, 100000); i++) {
+        const size_t e = (size_t)(i % EFFECTS);
+        stage s;
+        stage_any(&r, &s);
+        const frame f = {.camera = &s.camera, .last = &s.before, .image = &depths, .sky = 0, .threads = 1};
+        for (size_t k = 0; k < PIXELS; k++)
+            codes[k] = 600 + (uint32_t)rng_below(&r, 64000);
+        make(&s, &f, e, false, got);
+        make(&s, &f, e, true, bound);
+        for (int k = 0; k < PIXELS; k++) {
+            const double want = effects[e].of(&s, k, eye_of(&s, codes[k]));
+            const bool hard = effects[e].hard;
+            double error = 0;
+            for (int a = 0; a <= PLACES; a++)
+                error = fmax(error, difference(effects[e].of, &s, k, codes[k], codes[k] - 0.5 + (double)a / PLACES));
+            const double most = 255 * fmin(error * effects[e].wide + ROUNDED, 1);
+            TALLY(&t, fabs((double)got[k] - want) <= (hard ? (double)bound[k] / 255 : ROUNDED),
+                  "%s %s pixel %d code %u: %.9g, not %.9g", effects[e].name, s.ortho ? "ortho" : "", k, codes[k],
+                  (double)got[k], want);
+            TALLY(&t, (double)bound[k] >= 255 * fmin(error, 1) * (1 - 1e-9),
+                  "%s pixel %d code %u: %.9g levels, not %.9g", effects[e].name, k, codes[k], (double)bound[k],
+                  255 * error);
+            TALLY(&t, hard ? bound[k] == 0 || bound[k] == 255 : (double)bound[k] <= most,
+                  "%s pixel %d code %u: %.9g levels, at most %.9g", effects[e].name, k, codes[k], (double)bound[k],
+                  most);
+        }
+    }
+    tally_end(&t);
+}
+
+/* ---- Scenes ------------------------------------------------------------------------------------------------------ */
+
+/* A plane leaning back: its depths are known, and the error is that of the output to theirs. */
+static void test_scenes(void **state) {
+    static float got[PIXELS], off[PIXELS];
+    const double distance = 12, tilt = 50;
+    rng r = rng_make("effects of scenes");
+    tally t = {.name = "scenes"};
+    (void)state;
+    for (uint64_t i = 0; i < test_cases(200, 1000, 30000); i++) {
+        const size_t e = (size_t)(i % EFFECTS);
+        const double parameters[TEXTURE_PARAMETERS] = {distance, tilt, 0};
+        stage s;
+        stage_any(&r, &s);
+        const frame f = {.camera = &s.camera,
+                         .last = &s.before,
+                         .scene = scene_find("plane"),
+                         .parameters = parameters,
+                         .sky = 0,
+                         .threads = 1};
+        double half[2];
+        half_of(&s, &s.now, half);
+        make(&s, &f, e, false, got);
+        make(&s, &f, e, true, off);
+        for (int k = 0; k < PIXELS; k++) {
+            const double up = half[1] * ndc_y(k), lean = tan(tilt * RADIAN);
+            const double z = s.ortho ? distance + up * lean : distance / (1 - up * lean);
+            if (!(z > 0) || z < NEAR || z >= FAR * 0.99) {
+                t.skipped++;
+                continue;
+            }
+            const double want = 255 * fmin(fabs((double)got[k] - effects[e].of(&s, k, z)), 1);
+            TALLY(&t, fabs((double)off[k] - want) <= 1e-5 * fmax(want, 1e-3), "%s pixel %d at z %.9g: %.9g, not %.9g",
+                  effects[e].name, k, z, (double)off[k], want);
+        }
+    }
+    tally_end(&t);
+}
+
+/* ---- Numbers that are known by heart ----------------------------------------------------------------------------- */
+
+/* A move of 0.5 sideways, seen at depth 10 with a field of view of 90 degrees: 0.5/10/2 of a square picture's width. */
+static void test_velocity(void **state) {
+    static const struct {
+        uint32_t width, height;
+        double velocity;
+    } pictures[] = {{100, 100, 0.025}, {160, 90, 0.0140625}};
+    (void)state;
+    for (size_t i = 0; i < 2; i++) {
+        dp_spec spec = dp_spec_default();
+        dp_setup setup;
+        camera_spec view = camera_spec_default();
+        texture_camera now, last;
+        assert_int_equal(dp_setup_init(&setup, &spec), DP_OK);
+        view.width = pictures[i].width;
+        view.height = pictures[i].height;
+        view.fov_y = 90;
+        assert_null(camera_init(&now, &setup, &view));
+        view.origin[0] = 0.5;
+        assert_null(camera_init(&last, &setup, &view));
+        const effect_view seen = effect_view_of(&now, &last, 17, 30);
+        const effect_row *row = effect_find("motion-blur");
+        const double strength[TEXTURE_PARAMETERS] = {1};
+        assert_relative(row->output(&seen, strength, 10, 0), pictures[i].velocity, 1e-12);
+    }
+}
+
+/* Fog over the ground is thicker the lower the camera stands. */
+static void test_camera_height(void **state) {
+    const effect_row *row = effect_find("height-fog");
+    const double heights[] = {0, 50, 200};
+    double p[TEXTURE_PARAMETERS], seen[3];
+    (void)state;
+    settings_of(row, "density=1 start=100 end=-100", p);
+    for (size_t i = 0; i < 3; i++) {
+        stage s = {.now = {.fov = 60, .pitch = -30, .origin = {0, heights[i], 0}}};
+        s.last = s.now;
+        stage_ready(&s);
+        const effect_view view = effect_view_of(&s.camera, NULL, ACROSS / 2, DOWN / 2);
+        seen[i] = row->output(&view, p, 10, 0);
+        assert_relative(seen[i] + 1, unit((heights[i] - 5 - 100) / -200) + 1, 1e-12);
+    }
+    assert_true(seen[0] > seen[1] && seen[1] > seen[2] && seen[2] == 0);
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {cmocka_unit_test(test_images), cmocka_unit_test(test_scenes),
+                                       cmocka_unit_test(test_velocity), cmocka_unit_test(test_camera_height)};
+    return run_tap(tests);
+}

@@ -1,0 +1,557 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Images of other writers: EXR and TIFF put together here, and whatever the tools on this machine make of them. */
+#include <stdbool.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "handmade.h"
+#include "printed.h"
+#include "texture/image.h"
+#include "texture/image_library.h"
+
+enum { ACROSS = 23, DOWN = 11, ALL = ACROSS * DOWN };
+
+/* ---- Samples ------------------------------------------------------------------------------------------------------*/
+
+/* Sample i of a type: codes and numbers that differ, of binary16 small fractions that it has. */
+static uint64_t bits_of(image_type type, size_t i) {
+    const uint32_t code = (uint32_t)(i * 2654435761U >> 3);
+    float real = (float)(i + 1) / (float)(ALL + 7);
+    double wide = (double)(i + 1) / (ALL + 7);
+    uint32_t bits;
+    uint64_t bits64;
+    memcpy(&bits, &real, sizeof bits);
+    memcpy(&bits64, &wide, sizeof bits64);
+    switch (type) {
+    case IMAGE_U8:
+        return code & 0xFF;
+    case IMAGE_U16:
+        return code & 0xFFFF;
+    case IMAGE_U32:
+        return code & 0xFFFFFF;
+    case IMAGE_F16:
+        return 0x3400 + i; /* from 0.25 on */
+    case IMAGE_F32:
+        return bits;
+    default:
+        return bits64;
+    }
+}
+
+static void assert_bits(const image *img, image_type type, size_t channel) {
+    assert_int_equal(img->type, type);
+    assert_int_equal(img->width, ACROSS);
+    assert_int_equal(img->height, DOWN);
+    const size_t size = image_type_size(type);
+    for (size_t i = 0; i < ALL; i++) {
+        uint64_t got = 0;
+        const unsigned char *at = (const unsigned char *)img->data + (i * img->channels + channel) * size;
+        for (size_t k = 0; k < size; k++)
+            got |= (uint64_t)at[__BYTE_ORDER__ == __ORDER_LITTLE_ENDIAN__ ? k : size - 1 - k] << 8 * k;
+        if (got != bits_of(type, i))
+            fail_msg("sample %zu: %llx instead of %llx", i, (unsigned long long)got,
+                     (unsigned long long)bits_of(type, i));
+    }
+}
+
+/* ---- EXR ----------------------------------------------------------------------------------------------------------*/
+
+typedef struct exr_channel {
+    const char *name;
+    image_type type;
+    bool other; /* zeros in place of the samples */
+} exr_channel;
+
+static void attribute(handmade *h, const char *name, const char *type, const handmade *value) {
+    handmade_bytes(h, name, strlen(name) + 1);
+    handmade_bytes(h, type, strlen(type) + 1);
+    handmade_number(h, value->size, 4, 1);
+    handmade_bytes(h, value->at, value->size);
+}
+
+static void number_attribute(handmade *h, const char *name, const char *type, size_t size) {
+    const handmade value = {.size = size};
+    attribute(h, name, type, &value);
+}
+
+static void exr_header(handmade *h, const exr_channel *channels, size_t count, int shown) {
+    handmade list = {.size = 0}, box = {.size = 0}, display = {.size = 0}, one = {.size = 0};
+    for (size_t k = 0; k < count; k++) {
+        handmade_bytes(&list, channels[k].name, strlen(channels[k].name) + 1);
+        handmade_number(&list, channels[k].type == IMAGE_U32 ? 0 : channels[k].type == IMAGE_F16 ? 1 : 2, 4, 1);
+        handmade_number(&list, 0, 4, 1);
+        handmade_number(&list, 1, 4, 1);
+        handmade_number(&list, 1, 4, 1);
+    }
+    handmade_number(&list, 0, 1, 1);
+    for (int k = 0; k < 4; k++) {
+        static const int ends[4] = {-3, 5, ACROSS - 4, DOWN + 4};
+        handmade_number(&box, (uint64_t)ends[k], 4, 1);
+        handmade_number(&display, (uint64_t)(ends[k] + (k == 2 ? shown : 0)), 4, 1);
+    }
+    handmade_number(&one, 0x3F800000, 4, 1);
+    handmade_number(h, 20000630, 4, 1);
+    handmade_number(h, 2, 4, 1);
+    attribute(h, "channels", "chlist", &list);
+    number_attribute(h, "compression", "compression", 1);
+    attribute(h, "dataWindow", "box2i", &box);
+    attribute(h, "displayWindow", "box2i", &display);
+    number_attribute(h, "lineOrder", "lineOrder", 1);
+    attribute(h, "pixelAspectRatio", "float", &one);
+    number_attribute(h, "screenWindowCenter", "v2f", 8);
+    attribute(h, "screenWindowWidth", "float", &one);
+    handmade_number(h, 0, 1, 1);
+}
+
+/* Scanlines without compression; the channels in the order of their names. */
+static void make_exr(handmade *h, const exr_channel *channels, size_t count, int shown) {
+    size_t row = 0;
+    exr_header(h, channels, count, shown);
+    for (size_t k = 0; k < count; k++)
+        row += ACROSS * image_type_size(channels[k].type);
+    for (size_t y = 0, at = h->size + 8 * DOWN; y < DOWN; y++, at += 8 + row)
+        handmade_number(h, at, 8, 1);
+    for (size_t y = 0; y < DOWN; y++) {
+        handmade_number(h, y + 5, 4, 1);
+        handmade_number(h, row, 4, 1);
+        for (size_t k = 0; k < count; k++)
+            for (size_t x = 0; x < ACROSS; x++)
+                handmade_number(h, channels[k].other ? 0 : bits_of(channels[k].type, y * ACROSS + x),
+                                (int)image_type_size(channels[k].type), 1);
+    }
+}
+
+/* Is EXR or TIFF read by this build, on this machine? Otherwise it says so by name. */
+static bool is_read(const char *kind, const handmade *h) {
+    image img;
+    image_error error;
+    if (image_parse(h->at, h->size, &img, &error)) {
+        image_free(&img);
+        return true;
+    }
+    if (strstr(error.text, "Debian's package") == NULL)
+        fail_msg("%s: %s", kind, error.text);
+    print_message("# skipped: %s\n", error.text);
+    return false;
+}
+
+static bool exr_is_read(void) {
+    handmade h = {.size = 0};
+    make_exr(&h, &(exr_channel){"Z", IMAGE_F32, false}, 1, 0);
+    return is_read("EXR", &h);
+}
+
+static const char *write_file(const char *name, const handmade *h) {
+    const char *path = scratch_file(name);
+    FILE *f = fopen(path, "wb");
+    assert_non_null(f);
+    assert_int_equal(fwrite(h->at, 1, h->size, f), h->size);
+    fclose(f);
+    return path;
+}
+
+static void exr_channels(void **state) {
+    (void)state;
+    static const struct {
+        exr_channel channels[3];
+        size_t count;
+        const char *asked;
+        image_type type;
+        const char *sentence;
+    } rows[] = {
+        {{{"A", IMAGE_F16, true}, {"R", IMAGE_F16, true}, {"Z", IMAGE_F32, false}}, 3, NULL, IMAGE_F32, NULL},
+        {{{"B", IMAGE_F16, true}, {"G", IMAGE_F16, true}, {"R", IMAGE_F16, false}}, 3, NULL, IMAGE_F16, NULL},
+        {{{"A", IMAGE_F32, true}, {"depth", IMAGE_U32, false}}, 2, NULL, IMAGE_U32, NULL},
+        {{{"R", IMAGE_F32, false}, {"depth", IMAGE_U32, true}}, 2, NULL, IMAGE_F32, NULL},
+        {{{"A", IMAGE_F32, true}, {"z", IMAGE_F32, false}}, 2, NULL, IMAGE_F32, NULL},
+        {{{"V.Depth.Z", IMAGE_F32, false}, {"V.RGB.R", IMAGE_F16, true}}, 2, NULL, IMAGE_F32, NULL},
+        {{{"Y", IMAGE_F16, false}}, 1, NULL, IMAGE_F16, NULL},
+        {{{"Q", IMAGE_F16, false}, {"Z", IMAGE_F32, true}}, 2, "Q", IMAGE_F16, NULL},
+        {{{"X", IMAGE_F32, true}, {"Y", IMAGE_F32, true}},
+         2,
+         NULL,
+         IMAGE_F32,
+         "EXR: has no channel Z, R or depth, but X, Y: --channel NAME takes one"},
+        {{{"X", IMAGE_F32, true}, {"Z", IMAGE_F32, true}}, 2, "z", IMAGE_F32, "EXR: has no channel z, but X, Z"},
+    };
+    if (!exr_is_read())
+        skip();
+    for (size_t i = 0; i < sizeof rows / sizeof rows[0]; i++) {
+        handmade h = {.size = 0};
+        image img;
+        image_error error = {.text = ""};
+        make_exr(&h, rows[i].channels, rows[i].count, 0);
+        const bool good = image_read_channel(write_file("c.exr", &h), rows[i].asked, &img, &error);
+        if (good != (rows[i].sentence == NULL))
+            fail_msg("row %zu: %s", i, good ? "accepted" : error.text);
+        if (!good) {
+            assert_string_equal(error.text, rows[i].sentence);
+            continue;
+        }
+        assert_int_equal(img.file, IMAGE_EXR);
+        assert_int_equal(img.channels, 1);
+        assert_bits(&img, rows[i].type, 0);
+        image_free(&img);
+    }
+    handmade h = {.size = 0};
+    image img;
+    image_error error;
+    make_exr(&h, &(exr_channel){"Z", IMAGE_F32, false}, 1, 2);
+    assert_false(image_parse(h.at, h.size, &img, &error));
+    assert_string_equal(error.text, "EXR: its data window -3,5 to 19,15 is not its display window: save it whole");
+}
+
+/* ---- TIFF ---------------------------------------------------------------------------------------------------------*/
+
+typedef struct tiff_of {
+    image_type type;
+    uint32_t channels, photometric, orientation, planar, format, bits, directories; /* 0: as the type has them */
+    bool big;
+} tiff_of;
+
+/* One strip. */
+static void make_tiff(handmade *h, const tiff_of *of) {
+    const int size = (int)image_type_size(of->type), little = !of->big;
+    const uint32_t channels = of->channels > 0 ? of->channels : 1;
+    const uint32_t bits = of->bits > 0 ? of->bits : 8 * (uint32_t)size;
+    const uint32_t format = of->format > 0 ? of->format : of->type >= IMAGE_F16 ? 3 : 1;
+    const uint32_t bytes = ALL * channels * (uint32_t)size;
+    const uint32_t entries[][3] = {/* tag, type, value */
+                                   {256, 3, ACROSS},
+                                   {257, 3, DOWN},
+                                   {258, 3, bits},
+                                   {259, 3, 1},
+                                   {262, 3, of->photometric > 0 ? of->photometric - 1 : 1},
+                                   {273, 4, 8},
+                                   {274, 3, of->orientation > 0 ? of->orientation : 1},
+                                   {277, 3, channels},
+                                   {278, 3, DOWN},
+                                   {279, 4, bytes},
+                                   {284, 3, 1},
+                                   {339, 3, format}};
+    enum { ENTRIES = sizeof entries / sizeof entries[0] };
+    handmade_text(h, of->big ? "MM" : "II");
+    handmade_number(h, 42, 2, little);
+    handmade_number(h, 8 + bytes, 4, little);
+    for (size_t i = 0; i < ALL; i++)
+        for (uint32_t k = 0; k < channels; k++)
+            handmade_number(h, bits_of(of->type, i) + k, size, little);
+    for (uint32_t d = 0; d <= of->directories; d++) {
+        handmade_number(h, ENTRIES, 2, little);
+        for (size_t i = 0; i < ENTRIES; i++) {
+            const bool several = channels > 2 && (entries[i][0] == 258 || entries[i][0] == 339);
+            handmade_number(h, entries[i][0], 2, little);
+            handmade_number(h, entries[i][1], 2, little);
+            handmade_number(h, several ? 2 : 1, 4, little); /* of more only two fit here, and two are enough */
+            if (entries[i][1] == 4) {
+                handmade_number(h, entries[i][2], 4, little);
+            } else {
+                handmade_number(h, entries[i][2], 2, little);
+                handmade_number(h, several ? entries[i][2] : 0, 2, little);
+            }
+        }
+        handmade_number(h, d < of->directories ? h->size + 4 : 0, 4, little);
+    }
+}
+
+static bool tiff_is_read(void) {
+    handmade h = {.size = 0};
+    make_tiff(&h, &(tiff_of){.type = IMAGE_U16});
+    return is_read("TIFF", &h);
+}
+
+static void tiff_types(void **state) {
+    (void)state;
+    if (!tiff_is_read())
+        skip();
+    for (int type = 0; type < IMAGE_TYPE_COUNT; type++)
+        for (int big = 0; big < 2; big++)
+            for (uint32_t channels = 1; channels <= 2; channels++) {
+                handmade h = {.size = 0};
+                image img;
+                image_error error;
+                if (ALL * channels * image_type_size((image_type)type) > HANDMADE_SIZE - 300)
+                    continue;
+                make_tiff(&h, &(tiff_of){.type = (image_type)type, .channels = channels, .big = big != 0});
+                if (!image_parse(h.at, h.size, &img, &error))
+                    fail_msg("%s: %s", image_type_name((image_type)type), error.text);
+                assert_int_equal(img.file, IMAGE_TIFF);
+                assert_int_equal(img.channels, channels);
+                assert_bits(&img, (image_type)type, 0);
+                image_free(&img);
+            }
+}
+
+static void tiff_sentences(void **state) {
+    (void)state;
+    static const struct {
+        tiff_of of;
+        const char *sentence;
+    } rows[] = {
+        {{.photometric = 1}, "TIFF: its 0 is white: save it with 0 as black"},
+        {{.photometric = 9}, "TIFF: it is neither grey nor RGB, but of photometric interpretation 8"},
+        {{.orientation = 4}, "TIFF: its first row is not the top one, or not from the left: orientation 4"},
+        {{.format = 2},
+         "TIFF: its samples must be whole numbers of 8, 16 or 32 bits or floats of 16, 32 or 64, got 8 bits of "
+         "format 2"},
+        {{.bits = 4},
+         "TIFF: its samples must be whole numbers of 8, 16 or 32 bits or floats of 16, 32 or 64, got 4 bits of "
+         "format 1"},
+        {{.directories = 1}, "TIFF: it has several images: a file must hold one image and nothing else"},
+    };
+    if (!tiff_is_read())
+        skip();
+    for (size_t i = 0; i < sizeof rows / sizeof rows[0]; i++) {
+        handmade h = {.size = 0};
+        image img = {.data = NULL};
+        image_error error;
+        make_tiff(&h, &rows[i].of);
+        if (image_parse(h.at, h.size, &img, &error))
+            fail_msg("accepted instead of: %s", rows[i].sentence);
+        assert_string_equal(error.text, rows[i].sentence);
+        assert_false(error.unreadable);
+    }
+}
+
+/* ---- Damage -------------------------------------------------------------------------------------------------------*/
+
+static void is_image_or_sentence(tally *t, const handmade *h, const char *what, size_t at) {
+    image img = {.data = NULL};
+    image_error error;
+    memset(&error, 0x55, sizeof error);
+    unsigned char *copy = malloc(h->size + 1); /* a copy of its own, so that a sanitizer sees more */
+    assert_non_null(copy);
+    memcpy(copy, h->at, h->size);
+    if (image_parse(copy, h->size, &img, &error)) {
+        TALLY(t, img.width <= 65536 && img.height <= 65536 && img.data != NULL, "%s %zu: an image", what, at);
+        image_free(&img);
+    } else {
+        const char *end = memchr(error.text, '\0', sizeof error.text);
+        TALLY(t, end != NULL && end > error.text && img.data == NULL, "%s %zu: no sentence", what, at);
+    }
+    free(copy);
+}
+
+/* Cut anywhere in front of its last sample it is refused; with any byte wrong an image comes of it, or a sentence. */
+static void damaged_files(void **state) {
+    (void)state;
+    tally t = {.name = "damaged files"};
+    handmade files[2] = {{.size = 0}, {.size = 0}};
+    const bool there[2] = {exr_is_read(), tiff_is_read()};
+    const size_t step = test_cases(41, 3, 1);
+    make_exr(&files[0], &(exr_channel){"Z", IMAGE_F32, false}, 1, 0);
+    make_tiff(&files[1], &(tiff_of){.type = IMAGE_U16});
+    for (int f = 0; f < 2; f++)
+        for (size_t at = 4; there[f] && at < files[f].size - 4;
+             at += step) { /* behind a TIFF is the next one's place */
+            handmade cut = files[f], wrong = files[f];
+            image img;
+            image_error error;
+            cut.size = at;
+            const bool good = image_parse(cut.at, cut.size, &img, &error);
+            TALLY(&t, !good, "file %d cut to %zu bytes: accepted", f, at);
+            if (good)
+                image_free(&img);
+            wrong.at[at] ^= (unsigned char)(1U << at % 8);
+            is_image_or_sentence(&t, &wrong, "a bit of byte", at);
+            wrong.at[at] = 0xFF;
+            is_image_or_sentence(&t, &wrong, "byte", at);
+        }
+    if (t.cases > 0)
+        tally_end(&t);
+    else
+        skip();
+}
+
+static void missing_libraries(void **state) {
+    (void)state;
+    static const char *const symbols[] = {"exit", "no_such_function_of_it", NULL};
+    const image_library absent = {"EXR", {"libnothing-of-that-name.so.7", NULL}, "libnothing7", symbols};
+    const image_library present = {"EXR", {"libnothing-of-that-name.so.7", "libc.so.6", NULL}, "libc6", symbols};
+    image_error error;
+    image_source source = {.error = &error};
+    image_function *found[2];
+    assert_false(image_library_open(&absent, &source, found));
+    assert_string_equal(error.text,
+                        "EXR is read by a library that is not there, libnothing-of-that-name.so.7: Debian's "
+                        "package libnothing7 has it");
+    assert_false(image_library_open(&present, &source, found));
+    assert_string_equal(error.text, "EXR: libnothing-of-that-name.so.7 has no no_such_function_of_it");
+}
+
+/* ---- Tools --------------------------------------------------------------------------------------------------------*/
+
+/* A command makes `out` of what lies in the folder: a.exr of floats and h.exr of halves, a.tif and a.raw of u2, f.tif
+ * of floats, a.png of 16 bits, b.png of 8. */
+typedef struct tool_row {
+    const char *tool, *command, *out;
+    image_type type;
+} tool_row;
+
+static const tool_row tools[] = {
+    {"exrmaketiled", "exrmaketiled -z none -t 8 8 a.exr out.exr", "out.exr", IMAGE_F32},
+    {"exrmaketiled", "exrmaketiled -z rle -t 16 4 a.exr out.exr", "out.exr", IMAGE_F32},
+    {"exrmaketiled", "exrmaketiled -z zip -t 64 64 a.exr out.exr", "out.exr", IMAGE_F32},
+    {"exrmaketiled", "exrmaketiled -z piz -t 7 5 a.exr out.exr", "out.exr", IMAGE_F32},
+    {"exrmaketiled", "exrmaketiled -z zip -m -t 8 8 a.exr out.exr", "out.exr", IMAGE_F32},
+    {"exrmaketiled", "exrmaketiled -z pxr24 -t 8 8 h.exr out.exr", "out.exr", IMAGE_F16},
+    {"exrmaketiled", "exrmaketiled -z piz -t 8 8 h.exr out.exr", "out.exr", IMAGE_F16},
+    {"exrmultipart", "exrmultipart -combine -i y.exr a.exr -o out.exr -override 1", "out.exr", IMAGE_F32},
+    {"tiffcp", "tiffcp -c none a.tif out.tif", "out.tif", IMAGE_U16},
+    {"tiffcp", "tiffcp -c lzw a.tif out.tif", "out.tif", IMAGE_U16},
+    {"tiffcp", "tiffcp -c zip -r 2 a.tif out.tif", "out.tif", IMAGE_U16},
+    {"tiffcp", "tiffcp -c packbits a.tif out.tif", "out.tif", IMAGE_U16},
+    {"tiffcp", "tiffcp -c lzw:2 a.tif out.tif", "out.tif", IMAGE_U16},
+    {"tiffcp", "tiffcp -c zip:3 f.tif out.tif", "out.tif", IMAGE_F32},
+    {"tiffcp", "tiffcp -t -w 16 -l 16 a.tif out.tif", "out.tif", IMAGE_U16},
+    {"tiffcp", "tiffcp -t -w 16 -l 16 -c zip f.tif out.tif", "out.tif", IMAGE_F32},
+    {"tiffcp", "tiffcp -B a.tif out.tif", "out.tif", IMAGE_U16},
+    {"tiffcp", "tiffcp -8 -r 3 a.tif out.tif", "out.tif", IMAGE_U16},
+    {"raw2tiff", "raw2tiff -w 23 -l 11 -d short -p minisblack a.raw out.tif", "out.tif", IMAGE_U16},
+    {"convert", "convert a.png -depth 16 -compress none out.tif", "out.tif", IMAGE_U16},
+    {"convert", "convert a.png -depth 16 -compress zip out.tif", "out.tif", IMAGE_U16},
+    {"convert", "convert a.tif -depth 16 -define png:color-type=0 out.png", "out.png", IMAGE_U16},
+    {"convert", "convert b.png -depth 8 -define dds:compression=none -define dds:mipmaps=0 out.dds", "out.dds",
+     IMAGE_U8},
+};
+
+static bool has(const char *tool) {
+    char command[128];
+    snprintf(command, sizeof command, "command -v %s >/dev/null 2>&1", tool);
+    return system(command) == 0;
+}
+
+static void in_folder(char folder[256]) {
+    snprintf(folder, 256, "%s", scratch_file("x"));
+    *strrchr(folder, '/') = '\0';
+}
+
+static void prepare(void) {
+    handmade exr = {.size = 0}, half = {.size = 0}, other = {.size = 0}, tiff = {.size = 0}, real = {.size = 0};
+    handmade raw = {.size = 0}, wide = {.size = 0}, narrow = {.size = 0}, pixels = {.size = 0}, bytes = {.size = 0};
+    make_exr(&exr, &(exr_channel){"Z", IMAGE_F32, false}, 1, 0);
+    make_exr(&half, (const exr_channel[]){{"G", IMAGE_F16, true}, {"R", IMAGE_F16, false}}, 2, 0);
+    make_exr(&other, &(exr_channel){"Y", IMAGE_F16, true}, 1, 0);
+    make_tiff(&tiff, &(tiff_of){.type = IMAGE_U16});
+    make_tiff(&real, &(tiff_of){.type = IMAGE_F32});
+    for (size_t i = 0; i < ALL; i++) {
+        handmade_number(&raw, bits_of(IMAGE_U16, i), 2, __BYTE_ORDER__ == __ORDER_LITTLE_ENDIAN__);
+        handmade_number(&pixels, bits_of(IMAGE_U16, i), 2, 0);
+        handmade_number(&bytes, bits_of(IMAGE_U8, i), 1, 0);
+    }
+    handmade_png(&wide, ACROSS, DOWN, 16, 0, 0, 2, pixels.at);
+    handmade_png(&narrow, ACROSS, DOWN, 8, 0, 0, 1, bytes.at);
+    write_file("a.exr", &exr);
+    write_file("h.exr", &half);
+    write_file("y.exr", &other);
+    write_file("a.tif", &tiff);
+    write_file("f.tif", &real);
+    write_file("a.raw", &raw);
+    write_file("a.png", &wide);
+    write_file("b.png", &narrow);
+}
+
+/* One image of each writer that is there, read back to the bit. */
+static void made_by_tools(void **state) {
+    (void)state;
+    char folder[256], command[1024];
+    const bool exr = exr_is_read(), tiff = tiff_is_read();
+    const char *skipped = "";
+    in_folder(folder);
+    prepare();
+    for (const tool_row *row = tools; row < tools + sizeof tools / sizeof tools[0]; row++) {
+        image img;
+        image_error error;
+        const char *ending = strrchr(row->out, '.');
+        if (!has(row->tool) || (!exr && strcmp(ending, ".exr") == 0) || (!tiff && strcmp(ending, ".tif") == 0)) {
+            if (strcmp(skipped, row->tool) != 0)
+                print_message("# skipped: what %s writes\n", row->tool);
+            skipped = row->tool;
+            continue;
+        }
+        snprintf(command, sizeof command, "cd '%s' && rm -f out.* && %s >tool.log 2>&1", folder, row->command);
+        if (system(command) != 0)
+            fail_msg("%s", row->command);
+        if (!image_read(scratch_file(row->out), &img, &error))
+            fail_msg("%s: %s", row->command, error.text);
+        assert_bits(&img, row->type, 0);
+        image_free(&img);
+    }
+}
+
+/* What NumPy writes in each version, order and type that is read; a mask is refused by name. */
+static void made_by_numpy(void **state) {
+    (void)state;
+    static const char script[] = "import numpy as n\n"
+                                 "a = n.arange(1, 254).reshape(11, 23)\n"
+                                 "w = lambda f, a, v: n.lib.format.write_array(open(f, 'wb'), a, version=(v, 0))\n"
+                                 "for v in 1, 2, 3:\n"
+                                 "    w('v%d.npy' % v, (a / n.float32(260)).astype('f4'), v)\n"
+                                 "    w('t%d.npy' % v, n.asfortranarray((a / n.float32(260)).astype('>f4')), v)\n"
+                                 "n.save('m.npy', a > 9)\n";
+    char folder[256], command[512];
+    in_folder(folder);
+    handmade text = {.size = 0};
+    handmade_text(&text, script);
+    write_file("n.py", &text);
+    snprintf(command, sizeof command, "cd '%s' && { python3 n.py || /usr/bin/python3 n.py; } >tool.log 2>&1", folder);
+    if (system(command) != 0) {
+        print_message("# skipped: what NumPy writes\n");
+        skip();
+    }
+    for (int v = 1; v <= 3; v++)
+        for (int fortran = 0; fortran < 2; fortran++) {
+            char name[16];
+            image img;
+            image_error error;
+            snprintf(name, sizeof name, "%c%d.npy", fortran ? 't' : 'v', v);
+            if (!image_read(scratch_file(name), &img, &error))
+                fail_msg("%s: %s", name, error.text);
+            assert_int_equal(img.type, IMAGE_F32);
+            for (int i = 0; i < ALL; i++)
+                assert_true(((const float *)img.data)[i] == (float)(i + 1) / 260.0F);
+            image_free(&img);
+        }
+    image img;
+    image_error error;
+    assert_false(image_read(scratch_file("m.npy"), &img, &error));
+    assert_string_equal(error.text, "npy: its samples are bool, true or false, which is a mask and no depth");
+}
+
+/* The program by itself: a channel by name, and none where there are no names. */
+static void by_the_program(void **state) {
+    (void)state;
+    handmade h = {.size = 0};
+    char path[256];
+    if (!exr_is_read())
+        skip();
+    make_exr(&h, (const exr_channel[]){{"Q", IMAGE_F32, false}, {"Z", IMAGE_F32, true}}, 2, 0);
+    snprintf(path, sizeof path, "%s", write_file("q.exr", &h));
+    printed p = print_of("texture %s --channel Q -q", path);
+    assert_int_equal(p.status, 0);
+    assert_non_null(strstr(p.out, "23 x 11 pixels, EXR of f4, 1 channel"));
+    printed_free(&p);
+    p = print_of("texture %s --channel X -q", path);
+    assert_int_equal(p.status, 2);
+    assert_non_null(strstr(p.errors, "EXR: has no channel X, but Q, Z"));
+    printed_free(&p);
+    prepare();
+    p = print_of("texture %s --channel Z", scratch_file("a.png"));
+    assert_int_equal(p.status, 2);
+    assert_non_null(strstr(p.errors, "--channel names one of an EXR; those of PNG have no names"));
+    printed_free(&p);
+    p = print_of("texture --scene plane --channel Z");
+    assert_int_equal(p.status, 2);
+    assert_non_null(strstr(p.errors, "--channel: needs FILE"));
+    printed_free(&p);
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(exr_channels),  cmocka_unit_test(tiff_types),        cmocka_unit_test(tiff_sentences),
+        cmocka_unit_test(damaged_files), cmocka_unit_test(missing_libraries), cmocka_unit_test(made_by_tools),
+        cmocka_unit_test(made_by_numpy), cmocka_unit_test(by_the_program),
+    };
+    return run_tap(tests);
+}

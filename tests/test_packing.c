@@ -1,0 +1,534 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Packed textures: every code there and back, shaders of others within what is claimed, what was resampled, and the
+ * program's own files. */
+#include <math.h>
+#include <stdbool.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+
+#include "handmade.h"
+#include "support.h"
+#include "texture/packing.h"
+#include "truth.h"
+
+static const packing *row_of(const char *name) {
+    size_t i = 0;
+    while (packing_get(i) != NULL && strcmp(packing_get(i)->name, name) != 0)
+        i++;
+    assert_non_null(packing_get(i));
+    return packing_get(i);
+}
+
+/* ---- Every code ---------------------------------------------------------------------------------------------------*/
+
+/* What each texel stands for, written apart from the table. */
+static long double rg(const uint8_t *t) {
+    return t[0] / 255.0L + t[1] / 65025.0L;
+}
+static long double of_depth_normals(const uint8_t *t) {
+    return rg(t + 2);
+}
+static long double three_new(const uint8_t *t) { /* unpackRGBAToDepth: dot(v, (255/256)(1, 2^-8, 2^-16), 2^-24) */
+    return t[0] / 256.0L + t[1] / 65536.0L + t[2] / 16777216.0L + t[3] / 255.0L / 16777216.0L;
+}
+static long double three_old(const uint8_t *t) { /* 255/256 / (2^24, 2^16, 2^8, 1) of channels over 255 */
+    return t[3] / 256.0L + t[2] / 65536.0L + t[1] / 16777216.0L + t[0] / 4294967296.0L;
+}
+static long double big(const uint8_t *t) {
+    return (t[0] * 65536 + t[1] * 256 + t[2]) / 16777215.0L;
+}
+static long double small(const uint8_t *t) {
+    return (t[2] * 65536 + t[1] * 256 + t[0]) / 16777215.0L;
+}
+static long double byte(const uint8_t *t) {
+    return t[0] / 255.0L;
+}
+
+typedef struct stands_for {
+    const char *name;
+    int first, count; /* the channels that count */
+    long double (*depth)(const uint8_t *texel);
+    bool twice; /* some numbers have two texels: x, 255 and x + 1, 0 */
+} stands_for;
+
+static const stands_for all[] = {
+    {"depth-normals", 2, 2, of_depth_normals, true},
+    {"rg", 0, 2, rg, true},
+    {"rgba", 0, 4, three_new, true},
+    {"rgba-r166", 0, 4, three_old, false},
+    {"rgb24", 0, 3, big, false},
+    {"rgb24-le", 0, 3, small, false},
+    {"r8-linear01", 0, 1, byte, false},
+};
+enum { ALL = sizeof all / sizeof all[0] };
+
+static void look_at(tally *t, const stands_for *s, const packing *p, const uint8_t texel[4]) {
+    uint8_t back[4] = {texel[0], texel[1], texel[2], texel[3]};
+    const long double want = fminl(s->depth(texel), 1);
+    const uint64_t number = packing_number(p, texel);
+    const double got = packing_depth(p, number);
+    TALLY(t, fabsl(got - want) <= 0x1p-53L * want, "%s %d,%d,%d,%d: %.17g instead of %.20Lg", s->name, texel[0],
+          texel[1], texel[2], texel[3], got, want);
+    packing_texel(p, packing_nearest(p, got), back);
+    const bool same = memcmp(back, texel, 4) == 0;
+    TALLY(t, same || (s->twice && fabsl(fminl(s->depth(back), 1) - want) <= 0x1p-60L * want),
+          "%s %d,%d,%d,%d came back as %d,%d,%d,%d", s->name, texel[0], texel[1], texel[2], texel[3], back[0], back[1],
+          back[2], back[3]);
+}
+
+/* All texels of up to three bytes; of four, all of the two middle ones beside both ends and some of the others. */
+static void every_code(void **state) {
+    (void)state;
+    tally t = {.name = "every code"};
+    rng r = rng_make("every code");
+    for (size_t i = 0; i < ALL; i++) {
+        const packing *p = row_of(all[i].name);
+        const int bytes = all[i].count < 3 ? all[i].count : 3;
+        const uint64_t step = test_cases(bytes < 3 ? 1 : 251, 1, 1);
+        for (uint64_t code = 0; code < UINT64_C(1) << 8 * bytes; code += step) {
+            uint8_t texel[4] = {9, 9, 9, 9};
+            for (int k = 0; k < bytes; k++)
+                texel[all[i].first + k] = (uint8_t)(code >> 8 * k);
+            if (all[i].count == 4)
+                texel[3] = (uint8_t)(code % 4 < 2 ? 255 * (code % 4) : rng_below(&r, 256));
+            look_at(&t, &all[i], p, texel);
+        }
+    }
+    tally_end(&t);
+}
+
+/* The same through images and the numbers that come of them. */
+static void every_code_in_images(void **state) {
+    (void)state;
+    enum { SIDE = 256 };
+    for (size_t i = 0; i < ALL; i++) {
+        const packing *p = row_of(all[i].name);
+        image img = {.width = SIDE, .height = SIDE, .channels = p->channels, .type = IMAGE_U8};
+        uint8_t *given = malloc(SIDE * SIDE * 4);
+        unpacked out;
+        img.data = malloc(SIDE * SIDE * p->channels);
+        assert_true(given != NULL && img.data != NULL);
+        for (size_t k = 0; k < SIDE * SIDE; k++) {
+            const uint64_t code = all[i].count < 3 ? k : (k * 65537 + k / 3) & 0xFFFFFFFF;
+            memset(given + 4 * k, (int)(k % 251), 4);
+            for (int c = 0; c < all[i].count; c++)
+                given[4 * k + (size_t)(all[i].first + c)] = (uint8_t)(code >> 8 * c);
+            memcpy((uint8_t *)img.data + k * p->channels, given + 4 * k, p->channels);
+        }
+        if (!packing_convert(p, false, &img, &out))
+            fail_msg("%s: %s", p->name, out.wrong);
+        assert_int_equal(img.channels, 1);
+        tally t = {.name = all[i].name};
+        for (size_t k = 0; k < SIDE * SIDE; k++) {
+            const double d =
+                img.type == IMAGE_F32 ? (double)((const float *)img.data)[k] : ((const double *)img.data)[k];
+            const long double want = fminl(all[i].depth(given + 4 * k), 1);
+            TALLY(&t, fabsl(d - want) <= (img.type == IMAGE_F32 ? 0x1p-24L : 0x1p-53L) * want, "pixel %zu", k);
+            TALLY(&t, packing_nearest(p, d) == (uint64_t)rintl(want * (long double)p->steps), "pixel %zu back", k);
+            if (p->normals)
+                TALLY(&t, memcmp(out.normals + 2 * k, given + 4 * k, 2) == 0, "normal %zu", k);
+        }
+        assert_true(p->normals == (out.normals != NULL));
+        tally_end(&t);
+        image_free(&img);
+        free(out.normals);
+        free(given);
+    }
+}
+
+/* ---- Shaders of others --------------------------------------------------------------------------------------------*/
+
+static float fraction(float x) {
+    return x - floorf(x);
+}
+static uint8_t stored(float x) { /* what a render target makes of it */
+    return (uint8_t)floor(fmin(fmax((double)x, 0), 1) * 255 + 0.5);
+}
+
+static void shader_rg(float v, uint8_t *t) { /* EncodeFloatRG */
+    const float y = fraction(255.0F * v);
+    t[0] = stored(v - y * (1.0F / 255.0F));
+    t[1] = stored(y);
+}
+static void shader_depth_normals(float v, uint8_t *t) {
+    shader_rg(v, t + 2);
+    t[0] = t[1] = 128;
+}
+static void shader_rgba(float v, uint8_t *t) { /* r167 */
+    const float scaled = v * 16777216.0F, a = fraction(scaled), r24 = floorf(scaled) / 256.0F, b = fraction(r24);
+    const float r16 = floorf(r24) / 256.0F, g = fraction(r16), up = 256.0F / 255.0F;
+    t[0] = stored(floorf(r16) * (1.0F / 255.0F));
+    t[1] = stored(g * up);
+    t[2] = stored(b * up);
+    t[3] = stored(a);
+}
+static void shader_rgba_r166(float v, uint8_t *t) {
+    float r[4] = {fraction(v * 16777216.0F), fraction(v * 65536.0F), fraction(v * 256.0F), v};
+    for (int k = 3; k > 0; k--)
+        r[k] -= r[k - 1] * (1.0F / 256.0F);
+    for (int k = 0; k < 4; k++)
+        t[k] = stored(r[k] * (256.0F / 255.0F));
+}
+static void shader_byte(float v, uint8_t *t) {
+    t[0] = stored(v);
+}
+
+/* What a shader made of a depth decodes to it within half a step and what the row says that binary32 adds. */
+static void shaders_of_others(void **state) {
+    (void)state;
+    static const struct {
+        const char *name;
+        void (*run)(float v, uint8_t *texel);
+    } shaders[] = {{"rg", shader_rg},
+                   {"depth-normals", shader_depth_normals},
+                   {"rgba", shader_rgba},
+                   {"rgba-r166", shader_rgba_r166},
+                   {"r8-linear01", shader_byte}};
+    tally t = {.name = "shaders of others"};
+    rng r = rng_make("shaders of others");
+    const uint64_t cases = test_cases(2000, 300000, 5000000);
+    for (size_t i = 0; i < sizeof shaders / sizeof shaders[0]; i++) {
+        const packing *p = row_of(shaders[i].name);
+        const double most = 0.5 / p->steps + p->off;
+        double worst = 0;
+        for (uint64_t k = 0; k < cases; k++) {
+            const float v = (float)(k % 2 == 0 ? rng_unit(&r) : 1 - rng_log(&r, 1e-8, 1)) * (1 - 0x1p-24F);
+            uint8_t texel[4] = {0};
+            shaders[i].run(v, texel);
+            const double off = fabs(packing_depth(p, packing_number(p, texel)) - (double)v);
+            worst = fmax(worst, off);
+            TALLY(&t, off <= most + 0x1p-53, "%s of %.9g: off by %.4g, at most %.4g", p->name, (double)v, off, most);
+        }
+        print_message("# %s: %.3f of the bound is used\n", p->name, worst / most);
+        assert_true(worst >= 0.5 * most);
+    }
+    tally_end(&t);
+}
+
+/* Unity's DecodeViewNormalStereo, and what is seen head-on. */
+static void packed_normals(void **state) {
+    (void)state;
+    tally t = {.name = "packed normals"};
+    for (int x = 0; x < 256; x++)
+        for (int y = 0; y < 256; y++) {
+            const uint8_t texel[2] = {(uint8_t)x, (uint8_t)y};
+            const double vx = x / 255.0 * 2 * 1.7777 - 1.7777, vy = y / 255.0 * 2 * 1.7777 - 1.7777;
+            const double g = 2 / (vx * vx + vy * vy + 1);
+            double n[3];
+            uint8_t back[2];
+            packing_normal(texel, n);
+            TALLY(&t, fabs(n[0] - g * vx) + fabs(n[1] - g * vy) + fabs(n[2] - (g - 1)) < 1e-14, "%d,%d", x, y);
+            packing_normal_texel(n, back);
+            TALLY(&t, memcmp(back, texel, 2) == 0, "%d,%d came back as %d,%d", x, y, back[0], back[1]);
+        }
+    tally_end(&t);
+}
+
+/* ---- Samples that are none ----------------------------------------------------------------------------------------*/
+
+enum { SIDE = 64 };
+
+/* A slope through many coarse codes, or noise; packed as rg. */
+static void draw(uint8_t *texels, int side, bool noise, double slope) {
+    const packing *p = row_of("rg");
+    rng r = rng_make("a slope");
+    for (int y = 0; y < side; y++)
+        for (int x = 0; x < side; x++) {
+            const double v = noise ? rng_unit(&r) : 0.1 + (x + 0.37 * y) * slope;
+            packing_texel(p, packing_nearest(p, v), texels + 2 * (y * side + x));
+        }
+}
+
+static bool accepted(const uint8_t *texels, uint32_t side, unpacked *out) {
+    image img = {.width = side, .height = side, .channels = 2, .type = IMAGE_U8, .data = malloc(2 * side * side)};
+    memcpy(img.data, texels, 2 * side * side);
+    const bool good = packing_convert(row_of("rg"), false, &img, out);
+    assert_true(good || (img.type == IMAGE_U8 && memcmp(img.data, texels, 2 * side * side) == 0));
+    image_free(&img);
+    return good;
+}
+
+static void resampled(void **state) {
+    (void)state;
+    static const double slopes[] = {1e-5, 1e-4, 3e-4, 7e-4, 1e-3};
+    uint8_t given[SIDE * SIDE * 2], larger[4 * SIDE * SIDE * 2], smaller[SIDE * SIDE / 2], doubled[4 * SIDE * SIDE * 2];
+    unpacked out;
+    for (size_t i = 0; i < sizeof slopes / sizeof slopes[0]; i++) {
+        draw(given, SIDE, false, slopes[i]);
+        for (int y = 0; y < 2 * SIDE; y++)
+            for (int x = 0; x < 2 * SIDE; x++)
+                for (int k = 0; k < 2; k++) {
+                    const int x0 = x / 2, x1 = x0 + x % 2 < SIDE ? x0 + x % 2 : x0;
+                    const int y0 = y / 2, y1 = y0 + y % 2 < SIDE ? y0 + y % 2 : y0;
+                    const int sum = given[2 * (y0 * SIDE + x0) + k] + given[2 * (y0 * SIDE + x1) + k] +
+                                    given[2 * (y1 * SIDE + x0) + k] + given[2 * (y1 * SIDE + x1) + k];
+                    larger[2 * (y * 2 * SIDE + x) + k] = (uint8_t)((sum + 2) / 4);
+                    doubled[2 * (y * 2 * SIDE + x) + k] = given[2 * (y0 * SIDE + x0) + k];
+                    if (x % 2 == 0 && y % 2 == 0 && x < 2 * SIDE - 2 && y < 2 * SIDE - 2 && x / 2 % 2 == 0 &&
+                        y / 2 % 2 == 0)
+                        smaller[2 * (y / 4 * (SIDE / 2) + x / 4) + k] =
+                            (uint8_t)((given[2 * (y0 * SIDE + x0) + k] + given[2 * (y0 * SIDE + x0 + 1) + k] +
+                                       given[2 * ((y0 + 1) * SIDE + x0) + k] +
+                                       given[2 * ((y0 + 1) * SIDE + x0 + 1) + k] + 2) /
+                                      4);
+                }
+        assert_true(accepted(given, SIDE, &out));
+        assert_true(accepted(doubled, 2 * SIDE, &out)); /* by nearest neighbours */
+        if (slopes[i] < 3e-4)
+            continue; /* too few steps of the coarse channel to tell */
+        assert_false(accepted(larger, 2 * SIDE, &out));
+        assert_non_null(strstr(out.wrong, "was resampled"));
+        if (slopes[i] < 7e-4)
+            assert_false(accepted(smaller, SIDE / 2, &out));
+    }
+    draw(given, SIDE, true, 0);
+    assert_true(accepted(given, SIDE, &out));
+}
+
+static void wider_samples(void **state) {
+    (void)state;
+    static const image_type types[] = {IMAGE_U16, IMAGE_F32, IMAGE_F64};
+    for (size_t i = 0; i < sizeof types / sizeof types[0]; i++)
+        for (int between = 0; between < 2; between++) {
+            unpacked out;
+            image img = {.width = 2, .height = 2, .channels = 2, .type = types[i]};
+            img.data = calloc(8, 8);
+            for (size_t k = 0; k < 8; k++) {
+                const double code = 31.0 * (double)k + (between && k == 6 ? 0.01 : 0);
+                truth_store(img.data, types[i], k, types[i] == IMAGE_U16 ? rint(code * 257) : code / 255);
+            }
+            assert_int_equal(packing_convert(row_of("rg"), false, &img, &out), !between);
+            if (between)
+                assert_string_equal(
+                    out.wrong, "pixel 1,1 lies between the codes of 8 bits: it was resampled, or is not of 8 bits");
+            else
+                for (size_t k = 0; k < 4; k++)
+                    assert_true(fabs((double)((const float *)img.data)[k] -
+                                     (62.0 * (double)k * 255 + 62.0 * (double)k + 31) / 65025) < 1e-7);
+            image_free(&img);
+        }
+    image img = {.width = 1, .height = 1, .channels = 2, .type = IMAGE_U8, .data = calloc(8, 1)};
+    unpacked out;
+    assert_false(packing_convert(row_of("rgb24"), false, &img, &out));
+    assert_string_equal(out.wrong, "the packing rgb24 takes 3 channels, got 2");
+    img.type = IMAGE_U32;
+    assert_false(packing_convert(row_of("rg"), false, &img, &out));
+    assert_string_equal(out.wrong,
+                        "the packing rg takes samples of u1, or of u2, f4 or f8 that were of 8 bits, got u4");
+    image_free(&img);
+}
+
+static void premultiplied(void **state) {
+    (void)state;
+    rng r = rng_make("premultiplied");
+    for (int times = 0; times < 2; times++) {
+        image img = {.width = 32, .height = 32, .channels = 4, .type = IMAGE_U8, .data = malloc(4096)};
+        uint8_t *texels = img.data;
+        unpacked out;
+        for (size_t k = 0; k < 4096; k++)
+            texels[k] = (uint8_t)rng_below(&r, 256);
+        for (size_t k = 0; k < 4096 && times == 1; k++)
+            texels[k] = k % 4 == 3 ? texels[k] : (uint8_t)(texels[k] * texels[k / 4 * 4 + 3] / 255);
+        assert_true(packing_convert(row_of("rgba"), false, &img, &out));
+        assert_int_equal(out.premultiplied, times);
+        image_free(&img);
+    }
+}
+
+/* ---- The program --------------------------------------------------------------------------------------------------*/
+
+static bool holds(const char *file, const char *text) {
+    char said[4096] = "";
+    FILE *f = fopen(truth_path(file), "r");
+    assert_non_null(f);
+    said[fread(said, 1, sizeof said - 1, f)] = '\0';
+    fclose(f);
+    return strstr(said, text) != NULL;
+}
+
+static bool was_said(const char *text) {
+    return holds("said", text);
+}
+
+static int run(const char *const *words) {
+    size_t count = 0;
+    while (words[count] != NULL)
+        count++;
+    return truth_run(words, count);
+}
+
+static void same_files(const char *a, const char *b) {
+    image one, other;
+    image_error error;
+    assert_true(image_read(truth_path(a), &one, &error));
+    assert_true(image_read(truth_path(b), &other, &error));
+    assert_int_equal(one.channels, other.channels);
+    assert_memory_equal(one.data, other.data, (size_t)PIXELS * one.channels);
+    assert_string_equal(one.note, other.note);
+    image_free(&one);
+    image_free(&other);
+}
+
+/* A ramp of depths is packed, read back without an option within what the error map says, and packed again. */
+static void there_and_back(void **state) {
+    (void)state;
+    float depths[PIXELS], eyes[PIXELS], errors[PIXELS];
+    double truth[PIXELS];
+    for (int i = 0; i < PIXELS; i++) {
+        depths[i] = (float)i / PIXELS * 0.9F + 0.05F;
+        truth[i] = 1 / (1 / 0.5 - (double)depths[i] * (1 / 0.5 - 1 / 40.0));
+    }
+    truth_write(truth_path("in.npy"), IMAGE_NPY, IMAGE_F32, depths);
+    for (size_t i = 0; i < ALL; i++) {
+        const char *in = truth_path("in.npy"), *png = truth_path("in.png"), *again = truth_path("eye.png");
+        assert_int_equal(run((const char *const[]){in, "-n", "0.5", "-f", "40", "-F", "fp32", "-m", "d3d", "--pack",
+                                                   all[i].name, "-o", png, NULL}),
+                         0);
+        const command base = {.arguments = {png, "-q"}, .count = 2};
+        char field[48];
+        snprintf(field, sizeof field, "\"packing\":\"%s\"", all[i].name);
+        assert_int_equal(run((const char *const[]){png, "-q", "--json", "-o", truth_path("said.json"), NULL}), 0);
+        assert_true(holds("said.json", field));
+        truth_product(&base, "eye.npy", "--eye", NULL, false);
+        truth_product(&base, "map.npy", "--eye", NULL, true);
+        truth_floats("eye.npy", 1, eyes);
+        truth_floats("map.npy", 1, errors);
+        tally t = {.name = all[i].name};
+        for (int k = 0; k < PIXELS; k++)
+            TALLY(&t, fabs((double)eyes[k] - truth[k]) <= (double)errors[k] && errors[k] < 0.5F * eyes[k],
+                  "pixel %d: %.9g instead of %.9g, at most %.3g off", k, (double)eyes[k], truth[k], (double)errors[k]);
+        tally_end(&t);
+        assert_int_equal(run((const char *const[]){png, "-q", "--pack", all[i].name, "-o", again, NULL}), 0);
+        same_files("in.png", "eye.png");
+    }
+}
+
+/* The packed normals of a wall that is seen head-on: towards the camera, which is against the view axis. */
+static void normals_come_back(void **state) {
+    (void)state;
+    float normals[3 * PIXELS];
+    const char *png = truth_path("in.png"), *npy = truth_path("place.npy");
+    assert_int_equal(
+        run((const char *const[]){"--scene", "plane", "--size", "24x10", "-n", "1", "-f", "20", "--fov", "40",
+                                  "--parameter", "tilt=30", "--pack", "depth-normals", "-o", png, NULL}),
+        0);
+    assert_int_equal(run((const char *const[]){png, "--packed-normal", "-o", npy, NULL}), 0);
+    truth_floats("place.npy", 3, normals);
+    double want[3];
+    packing_normal((const uint8_t[]){128, 128}, want);
+    for (int i = 0; i < PIXELS; i++) {
+        const double n[3] = {(double)normals[3 * i], (double)normals[3 * i + 1], (double)normals[3 * i + 2]};
+        assert_true(fabs(n[0] * n[0] + n[1] * n[1] + n[2] * n[2] - 1) < 1e-6);
+        assert_true(n[2] < -0.8 && n[2] > -0.92); /* tilted by 30 degrees */
+    }
+    assert_int_equal(run((const char *const[]){truth_path("in.npy"), "--packed-normal", "-o", npy, NULL}), 2);
+    assert_true(was_said("--packed-normal: needs FILE with --packing depth-normals"));
+}
+
+static void warnings(void **state) {
+    (void)state;
+    static const struct {
+        const char *chunk, *data;
+        size_t size;
+        const char *said;
+    } rows[] = {{"sRGB", "\0", 1, "has an sRGB chunk"},
+                {"gAMA", "\0\0\xb1\x8f", 4, "has a gAMA chunk"},
+                {"gAMA", "\0\1\x86\xa0", 4, NULL}, /* 1 */
+                {"iCCP", "x\0\0whatever", 11, "has an iCCP chunk"},
+                {"tEXt", "Author\0me", 9, NULL}};
+    for (size_t i = 0; i < sizeof rows / sizeof rows[0]; i++) {
+        static const unsigned char pixels[24] = {1, 2, 3, 4, 5, 6, 7, 8, 9};
+        handmade h = {.size = 0}, with = {.size = 0};
+        handmade_png(&h, 4, 2, 8, 2, 0, 3, pixels);
+        handmade_bytes(&with, h.at, 33);
+        handmade_chunk(&with, rows[i].chunk, rows[i].data, rows[i].size);
+        handmade_bytes(&with, h.at + 33, h.size - 33);
+        FILE *f = fopen(truth_path("in.png"), "wb");
+        assert_int_equal(fwrite(with.at, 1, with.size, f), with.size);
+        fclose(f);
+        assert_int_equal(run((const char *const[]){truth_path("in.png"), "--packing", "rgb24", "-m", "d3d", "--eye",
+                                                   "-o", truth_path("eye.npy"), NULL}),
+                         0);
+        assert_int_equal(was_said("chunk"), rows[i].said != NULL);
+        assert_true(rows[i].said == NULL || was_said(rows[i].said));
+    }
+}
+
+/* What a file says of itself is read as options are: what they refuse is refused, and terminals see plain text. */
+static void notes_of_others(void **state) {
+    (void)state;
+    static const struct {
+        const char *text;
+        int status;
+        const char *said;
+    } rows[] = {
+        {"product=depth packing=rgb24 near=0.5 far=40 mapping=reversed", 0, NULL},
+        {"product=depth packing=rgb25 near=0.5 far=40", 2, "--packing: must be"},
+        {"product=depth packing=rgb24 near=-1 far=40", 2, "near must be from 1e-12 to 1e12"},
+        {"product=\033[31mred", 2, "holds ?[31mred, as depthprec wrote them"},
+        {"unknown=1 packing=rgb24 output=/tmp/x ortho=3", 0, NULL},
+    };
+    for (size_t i = 0; i < sizeof rows / sizeof rows[0]; i++) {
+        static const unsigned char pixels[24] = {1, 2, 3, 4, 5, 6, 7, 8, 9};
+        char text[128];
+        const int length = snprintf(text, sizeof text, "depthprec%c%s", 0, rows[i].text);
+        handmade h = {.size = 0}, with = {.size = 0};
+        handmade_png(&h, 4, 2, 8, 2, 0, 3, pixels);
+        handmade_bytes(&with, h.at, 33);
+        handmade_chunk(&with, "tEXt", text, (size_t)length);
+        handmade_bytes(&with, h.at + 33, h.size - 33);
+        FILE *f = fopen(truth_path("in.png"), "wb");
+        assert_int_equal(fwrite(with.at, 1, with.size, f), with.size);
+        fclose(f);
+        assert_int_equal(run((const char *const[]){truth_path("in.png"), "--eye", "-o", truth_path("eye.npy"), NULL}),
+                         rows[i].status);
+        if (rows[i].said != NULL && !was_said(rows[i].said))
+            fail_msg("not said: %s", rows[i].said);
+    }
+}
+
+/* What stands against what; what is not known to be safe is never written. */
+static void refusals(void **state) {
+    (void)state;
+    const char *in = truth_path("in.png"), *out = truth_path("map.png");
+    const struct {
+        const char *words[10];
+        const char *said;
+    } rows[] = {
+        {{in, "--packing", "rg", "-m", "d3d"},
+         "--mapping: does not apply with --packing rg, which is not window depth"},
+        {{in, "--packing", "rg", "-F", "fp32"}, "--format: does not apply with --packing rg"},
+        {{in, "--packing", "rg", "--metric", "1"}, "--metric: does not apply with --packing"},
+        {{in, "--packing", "depth-normals"}, "the packing depth-normals takes 4 channels, got 3"},
+        {{"--scene", "plane", "--packing", "rg"}, "--packing: needs FILE"},
+        {{in, "--packing", "rgb24", "--pack", "rg"}, "--pack needs -o FILE"},
+        {{in, "--pack", "rg", "-o", "x.pfm"}, "must end in .png or .npy for --pack, got 'x.pfm'"},
+        {{in, "--pack", "rg", "--eye", "-o", out}, "--eye: does not apply with --pack"},
+        {{in, "--pack", "rg", "--json", "-o", out}, "--json: does not apply with --pack"},
+        {{in, "--pack", "rg", "--normal", "low", "-o", out}, "--normal: does not apply with --pack rg"},
+        {{in, "--pack", "rg", "--packed-normal", "-o", out}, "must not be given together with --pack"},
+        {{"--scene", "plane", "-f", "inf", "--pack", "rg", "-o", out}, "it needs a finite far plane"},
+        {{in, "--metric", "1", "--pack", "rgb24", "-o", out}, "rgb24 holds window depth, which"},
+    };
+    for (size_t i = 0; i < sizeof rows / sizeof rows[0]; i++) {
+        assert_int_equal(run(rows[i].words), 2);
+        if (!was_said(rows[i].said))
+            fail_msg("not said: %s", rows[i].said);
+        assert_int_not_equal(access(out, F_OK), 0);
+    }
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(every_code),        cmocka_unit_test(every_code_in_images),
+        cmocka_unit_test(shaders_of_others), cmocka_unit_test(packed_normals),
+        cmocka_unit_test(resampled),         cmocka_unit_test(wider_samples),
+        cmocka_unit_test(premultiplied),     cmocka_unit_test(there_and_back),
+        cmocka_unit_test(normals_come_back), cmocka_unit_test(warnings),
+        cmocka_unit_test(refusals),          cmocka_unit_test(notes_of_others),
+    };
+    cmocka_set_message_output(CM_OUTPUT_TAP);
+    return cmocka_run_group_tests(tests, truth_folder, truth_folder_end);
+}

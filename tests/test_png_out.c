@@ -1,0 +1,223 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* What the numbers in a PNG mean: by convention, by the JSON beside it, and by what the file says of itself. */
+#include <math.h>
+#include <stdbool.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "printed.h"
+#include "texture/image.h"
+
+/* A sphere that stands before the sky, turned away from the axes. */
+#define SCENE "texture --scene sphere --size 48x30 -n 0.5 -f 90 -F fp32 -m d3d --fov 50 --yaw 8 --pitch -3"
+
+/* Reads both files; as many samples as there are. */
+static size_t pair_of(const char *png, const char *npy, image *codes, image *numbers) {
+    image_error error;
+    assert_true(image_read(scratch_file(png), codes, &error));
+    assert_true(image_read(scratch_file(npy), numbers, &error));
+    assert_int_equal(codes->type, IMAGE_U16);
+    assert_int_equal(codes->file, IMAGE_PNG);
+    assert_int_equal(numbers->type, IMAGE_F32);
+    assert_int_equal(codes->channels, numbers->channels);
+    return (size_t)codes->width * codes->height * codes->channels;
+}
+
+static printed made(const char *options, const char *file, const char *more) {
+    char path[256];
+    snprintf(path, sizeof path, "%s", scratch_file(file)); /* which is static */
+    printed p = print_of("%s %s -o %s %s", SCENE, options, path, more);
+    if (p.status != 0)
+        fail_msg("%s: %s", options, p.errors);
+    return p;
+}
+
+static void make(const char *options, const char *file, const char *more) {
+    printed p = made(options, file, more);
+    printed_free(&p);
+}
+
+/* Normals of engines: 0.5 n + 0.5, y up or down, z towards the camera; the numbers look along the view axis. */
+static void normals(void **state) {
+    (void)state;
+    static const char *const formats[] = {"", "--normal-format opengl", "--normal-format directx"};
+    make("--normal high", "n.npy", "");
+    for (int f = 0; f < 3; f++) {
+        image codes, numbers;
+        tally t = {.name = formats[f]};
+        uint64_t none = 0, blue = 0;
+        make("--normal high", "n.png", formats[f]);
+        const size_t count = pair_of("n.png", "n.npy", &codes, &numbers);
+        for (size_t i = 0; i < count; i++) {
+            const double n = (double)((const float *)numbers.data)[i];
+            const double sign = i % 3 == 2 || (i % 3 == 1 && f == 2) ? -1 : 1;
+            const uint16_t code = ((const uint16_t *)codes.data)[i];
+            none += isnan(n) ? 1 : 0;
+            TALLY(&t, isnan(n) ? code == 0 : fabs(code / 65535.0 - (0.5 * sign * n + 0.5)) <= 0.5000001 / 65535,
+                  "sample %zu: %u of %.9g", i, code, n);
+            blue += i % 3 == 2 && !isnan(n) && code > 32768;
+        }
+        assert_true(none > 0 && 3 * blue == count - none); /* all face the camera, and are blue */
+        assert_string_equal(strstr(codes.note, " y="), f == 2 ? " y=down" : " y=up");
+        tally_end(&t);
+        image_free(&codes);
+        image_free(&numbers);
+    }
+}
+
+/* Of any product a sample means offset + scale x sample; the JSON has both, and the file itself. */
+static void meanings(void **state) {
+    (void)state;
+    static const struct {
+        const char *options, *product, *unit, *says;
+        bool up; /* an error, which is rounded up */
+    } rows[] = {
+        {"--eye", "eye depth", "scene units", "product=depth", false},
+        {"--eye --radial", "distance from the camera", "scene units", "product=distances", false},
+        {"--eye --error-map", "eye depth, error", "scene units", "product=eye-depths,-the-error", true},
+        {"--position rays", "positions by rays", "scene units", "product=positions", false},
+        {"--normal high", "normals by high", NULL, "product=normals", false},
+        {"--normal high --error-map", "normals by high, error", "degrees", "product=normals,-the-error", true},
+        {"--effect fog --parameter density=3", "fog", NULL, "product=an-effect", false},
+    };
+    for (size_t i = 0; i < sizeof rows / sizeof rows[0]; i++) {
+        image codes, numbers;
+        tally t = {.name = rows[i].options};
+        make(rows[i].options, "p.npy", "");
+        printed p = made(rows[i].options, "p.png", "--json");
+        json_t *root = json_of(p.out);
+        const double offset = json_number_value(json_object_get(root, "offset"));
+        const double scale = json_number_value(json_object_get(root, "scale"));
+        const size_t count = pair_of("p.png", "p.npy", &codes, &numbers);
+        assert_string_equal(json_string_value(json_object_get(root, "file")), scratch_file("p.png"));
+        assert_string_equal(json_string_value(json_object_get(root, "product")), rows[i].product);
+        assert_string_equal(json_string_value(json_object_get(root, "type")), "u2");
+        assert_int_equal(json_integer_value(json_object_get(root, "channels")), codes.channels);
+        if (rows[i].unit != NULL)
+            assert_string_equal(json_string_value(json_object_get(root, "unit")), rows[i].unit);
+        else
+            assert_true(json_is_null(json_object_get(root, "unit")));
+        assert_int_equal(strncmp(codes.note, rows[i].says, strlen(rows[i].says)), 0);
+        const char *said = strstr(codes.note, "scale=");
+        if (said != NULL) {
+            assert_true(strtod(said + 6, NULL) == scale);
+            assert_true(strtod(strstr(codes.note, "offset=") + 7, NULL) == offset);
+        } else {
+            assert_true(strtod(strstr(codes.note, "metric=") + 7, NULL) == scale && offset == 0);
+        }
+        for (size_t k = 0; k < count; k++) {
+            const double want = (double)((const float *)numbers.data)[k];
+            const double flip = strncmp(rows[i].options, "--normal", 8) == 0 && !rows[i].up && k % 3 == 2 ? -1 : 1;
+            const uint16_t code = ((const uint16_t *)codes.data)[k];
+            const double got = flip * (offset + scale * code), slack = 0.5 * scale * (1 + 1e-6) + 1e-12;
+            if (isnan(want))
+                TALLY(&t, code == 0, "sample %zu of none: %u", k, code);
+            else if (rows[i].up)
+                TALLY(&t, got >= want * (1 - 1e-12), "sample %zu: %.9g of %.9g", k, got, want);
+            else
+                TALLY(&t, fabs(got - want) <= slack, "sample %zu: %.9g of %.9g", k, got, want);
+        }
+        tally_end(&t);
+        image_free(&codes);
+        image_free(&numbers);
+        json_decref(root);
+        printed_free(&p);
+    }
+}
+
+/* A file of numbers has no scale. */
+static void numbers_as_they_are(void **state) {
+    (void)state;
+    printed p = made("--position exact", "p.npy", "--json");
+    json_t *root = json_of(p.out);
+    assert_string_equal(json_string_value(json_object_get(root, "type")), "f4");
+    assert_true(json_number_value(json_object_get(root, "offset")) == 0);
+    assert_true(json_number_value(json_object_get(root, "scale")) == 1);
+    assert_true(json_is_null(json_object_get(root, "axes")));
+    json_decref(root);
+    printed_free(&p);
+}
+
+/* Eye depths come back without an option, as depths of the same planes, and to the same file. */
+static void eye_depths_come_back(void **state) {
+    (void)state;
+    image codes, numbers;
+    tally t = {.name = "eye depths"};
+    char first[256], again[256], back[256];
+    snprintf(first, sizeof first, "%s", scratch_file("e.png"));
+    snprintf(again, sizeof again, "%s", scratch_file("again.png"));
+    snprintf(back, sizeof back, "%s", scratch_file("back.npy"));
+    make("--eye", "e.png", "");
+    make("--eye", "e.npy", "");
+    printed p = print_of("texture %s --eye -o %s", first, back);
+    if (p.status != 0)
+        fail_msg("%s", p.errors);
+    printed_free(&p);
+    p = print_of("texture %s --eye -o %s", first, again);
+    assert_int_equal(p.status, 0);
+    printed_free(&p);
+    p = print_of("texture %s -q --eye --error-map -o %s", first, scratch_file("map.npy"));
+    assert_int_equal(p.status, 0);
+    printed_free(&p);
+    image map, depths;
+    image_error error;
+    const size_t count = pair_of("e.png", "e.npy", &codes, &numbers);
+    assert_true(image_read(back, &depths, &error));
+    assert_true(image_read(scratch_file("map.npy"), &map, &error));
+    for (size_t i = 0; i < count; i++) {
+        const float z = ((const float *)numbers.data)[i], got = ((const float *)depths.data)[i];
+        const float most = ((const float *)map.data)[i];
+        TALLY(&t, isnan(z) ? isnan(got) && isnan(most) : fabsf(got - z) <= most && most < 1e-3F * z,
+              "pixel %zu: %.9g of %.9g", i, (double)got, (double)z);
+    }
+    tally_end(&t);
+    image other;
+    assert_true(image_read(again, &other, &error));
+    assert_memory_equal(other.data, codes.data, count * 2);
+    assert_string_equal(other.note, codes.note);
+    image *const all[] = {&codes, &numbers, &map, &depths, &other};
+    for (size_t i = 0; i < sizeof all / sizeof all[0]; i++)
+        image_free(all[i]);
+}
+
+/* What is no depth says so, unless somebody insists. */
+static void no_depths(void **state) {
+    (void)state;
+    static const char *const products[][2] = {{"--position exact", "positions"},
+                                              {"--normal low", "normals"},
+                                              {"--eye --radial", "distances"},
+                                              {"--effect fog", "an-effect"}};
+    for (size_t i = 0; i < sizeof products / sizeof products[0]; i++) {
+        char want[128];
+        make(products[i][0], "x.png", "-q");
+        printed p = print_of("texture %s", scratch_file("x.png"));
+        snprintf(want, sizeof want,
+                 "holds %s, as depthprec wrote them, and no depth; --format NAME reads it all the same",
+                 products[i][1]);
+        assert_int_equal(p.status, 2);
+        assert_non_null(strstr(p.errors, want));
+        printed_free(&p);
+        p = print_of("texture %s -F unorm16 -m d3d", scratch_file("x.png"));
+        assert_int_equal(p.status, 0);
+        printed_free(&p);
+    }
+    printed p = print_of("%s --eye -o %s --normal-format directx", SCENE, scratch_file("x.png"));
+    assert_int_equal(p.status, 2);
+    assert_non_null(strstr(p.errors, "--normal-format: needs --normal or --packed-normal"));
+    printed_free(&p);
+    p = print_of("%s --normal low -o %s --normal-format directx", SCENE, scratch_file("x.npy"));
+    assert_int_equal(p.status, 2);
+    assert_non_null(strstr(p.errors, "--normal-format: is for the normals in a PNG"));
+    printed_free(&p);
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(normals),
+        cmocka_unit_test(meanings),
+        cmocka_unit_test(numbers_as_they_are),
+        cmocka_unit_test(eye_depths_come_back),
+        cmocka_unit_test(no_depths),
+    };
+    return run_tap(tests);
+}
