@@ -53,7 +53,7 @@ for figure in distribution share error interval budget map normals; do
         grep -q "^<title id=\"title\">." "$1" && grep -q "^<desc id=\"desc\">.*near 0.1, far 1000" "$1" &&
         grep -qx "command: depthprec plot '$figure' -F unorm24,fp32 -m reversed" "$1"' - "$scratch/1.svg"
     check "$figure.pdf is a PDF without a date" sh -c 'head -c 5 "$1" | grep -q "%PDF-" && ! grep -aq CreationDate "$1"' - "$scratch/1.pdf"
-    check "$figure.png: the command" sh -c 'head -c 4096 "$1" | grep -aq "depthprec plot '$figure' -F"' - "$scratch/1.png"
+    check "$figure.png: the command" sh -c 'head -c 4096 "$1" | tr "\0" " " | grep -aq "iTXtSource *depthprec plot '$figure' -F"' - "$scratch/1.png"
     check "$figure: as CSV" sh -c '
         "$1" plot '$figure' --csv -F unorm16 >"$2" && head -n 1 "$2" | grep -q "^panel,series,"' - "$DEPTHPREC" "$scratch/csv"
     check "$figure: as JSON" sh -c '
