@@ -18,6 +18,7 @@ static void want_head(values *v, const json_t *root, const char *figure, const c
     values_under(v, "%s", "");
     want_text(v, "figure", figure);
     want_text(v, "title", title);
+    want_text(v, "unit", NULL);
     want_text(v, "data", json_string_value(json_object_get(root, "data")));
     want_text(v, "subtitle", json_string_value(json_object_get(root, "subtitle")));
 }

@@ -21,7 +21,7 @@ typedef struct packing {
     bool linear;        /**< eye depth over far; else window depth */
     bool normals;       /**< stereographic in the first two channels */
     const char *format; /**< whose codes come nearest to the numbers: "fp32" where no format has them */
-    double off;         /**< what the shader's binary32 arithmetic adds to half a step, a share of 1 */
+    double off;         /**< what the shader's binary32 arithmetic loses beside half a step, a share of 1 */
     double cut; /**< what truncated channels may lose, a share of 1, because x - y/255 came out just below a code */
 } packing;
 
