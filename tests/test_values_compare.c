@@ -176,6 +176,26 @@ static void test_comparison(void **state) {
     tally_end(&t);
 }
 
+/* Where the unit is known, the same separations are named in units of their own. */
+static void test_units(void **state) {
+    static const char *const bare[] = {"0.001", "0.01", "0.1"}, *const named[] = {"1 mm", "1 cm", "10 cm"};
+    static const char *const options[] = {"", "--unit m"};
+    (void)state;
+    for (int k = 0; k < LIMITS; k++) {
+        double up_to[2];
+        for (size_t i = 0; i < 2; i++) {
+            char begin[64];
+            printed p = print_of("table --full -n 0.1 -f 1000 -F unorm24 -m d3d %s", options[i]);
+            snprintf(begin, sizeof begin, "%s apart up to z = ", i == 0 ? bare[k] : named[k]);
+            const char *at = strstr(p.out, begin);
+            assert_non_null(at);
+            up_to[i] = strtod(at + strlen(begin), NULL);
+            printed_free(&p);
+        }
+        assert_true(up_to[1] == up_to[0]);
+    }
+}
+
 /* "Guaranteed to be told apart: surfaces 0.001 apart up to z = 31.9, ...": of one set-up. */
 static void test_one(void **state) {
     static const camera one[] = {{"-F unorm24 -m d3d", 0.1, 1000, 0, 0, {0}, 1},
@@ -210,6 +230,7 @@ static void test_one(void **state) {
 }
 
 int main(void) {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(test_comparison), cmocka_unit_test(test_one)};
+    const struct CMUnitTest tests[] = {cmocka_unit_test(test_comparison),
+                                       cmocka_unit_test(test_units),\n cmocka_unit_test(test_one)};
     return run_tap(tests);
 }
