@@ -230,7 +230,7 @@ static void test_one(void **state) {
 }
 
 int main(void) {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(test_comparison),
-                                       cmocka_unit_test(test_units),\n cmocka_unit_test(test_one)};
+    const struct CMUnitTest tests[] = {cmocka_unit_test(test_comparison), cmocka_unit_test(test_units),
+                                       cmocka_unit_test(test_one)};
     return run_tap(tests);
 }
