@@ -166,6 +166,11 @@ static char *bench_row(char *row, char name[64], double *error) {
     return end + 1;
 }
 
+/* Where a label would leave the frame it is moved back to its side. */
+static bool at_the_frame(const drawn_panel *p, svg_box label) {
+    return fabs(label.x1 - p->frame.x1) < 2 || fabs(label.x0 - p->frame.x0) < 2;
+}
+
 /* Times change from run to run, errors do not: each name has its point at its error, marked as its place deserves. */
 static void pareto_of_the_program(void **state) {
     (void)state;
@@ -198,7 +203,8 @@ static void pareto_of_the_program(void **state) {
         bool found = false;
         for (size_t i = 0; i < count; i++) {
             const double gap = words->at.x > all[i].x ? words->at.x - all[i].x : all[i].x - words->box.x1;
-            found = found || (fabs(gap - 8) < 1.8 && fabs(all[i].y - drawn_px(&p->y, fmax(error, exact))) < 1.5);
+            const bool beside = fabs(gap - 8) < 1.8 || at_the_frame(p, words->box);
+            found = found || (beside && fabs(all[i].y - drawn_px(&p->y, fmax(error, exact))) < 1.5);
         }
         if (!found)
             fail_msg("'%s' stands at no point with the error %g", name, error);
