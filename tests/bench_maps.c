@@ -161,7 +161,7 @@ static void compare_under_load(int threads) {
 /* Hills with steps between them, and noise. */
 static void fill(void) {
     FILE *const file = fopen("in.npy", "wb");
-    image_writer *w = file != NULL ? image_writer_open(file, IMAGE_NPY, IMAGE_U32, WIDTH, HEIGHT, 1) : NULL;
+    image_writer *w = file != NULL ? image_writer_open(file, IMAGE_NPY, IMAGE_U32, WIDTH, HEIGHT, 1, NULL) : NULL;
     static uint32_t row[WIDTH];
     uint32_t noise = 1;
     for (uint32_t y = 0; y < HEIGHT && w != NULL; y++) {
