@@ -269,6 +269,23 @@ static dp_setup ortho_of(double znear, double zfar, const char *format) {
 }
 
 /* Depths next to 0 are one band, which has what the bands have that a census of them alone shows. */
+static double stepped_bound(const dp_setup *setup, double z) {
+    (void)setup;
+    return z < -4.0 ? 1.0 : 2.0;
+}
+
+/* A band ends before the power of two, also below 0, where that is nearer to 0. */
+static void a_band_has_its_own_guarantee(void **state) {
+    (void)state;
+    static census_result found;
+    const dp_setup shadow = ortho_of(-10.0, 500.0, "unorm16");
+    const census_sample_request q = {.common = {.setup = &shadow, .lo = -8.0, .hi = -2.0, .bound = stepped_bound},
+                                     .count = 100};
+    assert_int_equal(census_sample(&q, &found), CENSUS_DONE);
+    assert_true(found.bands[0].lo == -8.0 && found.bands[0].hi == -4.0 && found.bands[0].bound == 1.0);
+    assert_true(found.bands[1].bound == 2.0 && found.all.bound == 2.0);
+}
+
 static void near_0_is_one_band(void **state) {
     (void)state;
     static census_result whole, part;
@@ -565,6 +582,7 @@ int main(void) {
         cmocka_unit_test(matches_plain),
         cmocka_unit_test(matches_plain_of_either_sign),
         cmocka_unit_test(near_0_is_one_band),
+        cmocka_unit_test(a_band_has_its_own_guarantee),
         cmocka_unit_test(matches_plain_where_ties_are_rare),
         cmocka_unit_test(matches_plain_across_bands),
         cmocka_unit_test(names_the_nearest_of_equally_long),
