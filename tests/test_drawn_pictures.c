@@ -93,6 +93,17 @@ static const picture_case cases[] = {
      false,
      false,
      3},
+    {"--scene plane --parameter distance=30 --parameter turn=6 --size 640x240 -F unorm16 -m d3d --effect "
+     "soft-particles "
+     "--parameter reference=27 --parameter fade-distance=18",
+     "Soft-particles, fade-distance 18",
+     "scene plane, 640 x 240; unorm16 d3d, near 0.1, far 1000, perspective, nearest, exact",
+     "soft-particles",
+     {""},
+     false,
+     false,
+     false,
+     1},
     {"--scene sphere --position matrix --yaw 20 --origin 3,1,-2",
      "Positions by matrix",
      "scene sphere, 640 x 360; unorm24 d3d, near 0.1, far 1000, perspective, nearest, exact",
@@ -230,7 +241,8 @@ static void check_ball(const drawn *d) {
 }
 
 static void check_bar(const drawn *d, const picture_case *q, const numbers *n) {
-    double lo = INFINITY, hi = -INFINITY;
+    const bool shares = strstr(q->arguments, "soft-particles") != NULL; /* its scale is that of all fades */
+    double lo = shares ? 0 : INFINITY, hi = shares ? 1 : -INFINITY;
     assert_string_equal(d->right_caption->text, q->value);
     drawn_bar_is_viridis(d);
     for (size_t i = 0; i < (size_t)n->width * (size_t)n->height * (size_t)n->channels; i++)

@@ -10,6 +10,7 @@
 #include "core/append.h"
 #include "plot/notes.h"
 #include "plot/picture.h"
+#include "report/number.h"
 #include "texture/survey.h"
 
 enum { WIDTH = 800, BESIDE = 150, ABOVE = 130, HEIGHT_MIN = 240, HEIGHT_MAX = 1200 };
@@ -33,6 +34,11 @@ static void words_of(const options *o, const texture_source *s, const texture_pr
                                                           subtitle[sizeof c->subtitle];
     const char *slash = s->path != NULL ? strrchr(s->path, '/') : NULL;
     snprintf(title, sizeof title, "%s", p->name);
+    if (p->made.kind == FRAME_EFFECT) {
+        const int wanted = p->made.effect->wanted;
+        append(title, sizeof title, ", %s %s", p->made.effect->parameters[wanted].name,
+               number_full(p->made.effect_settings[wanted]).text);
+    }
     if (title[0] >= 'a' && title[0] <= 'z')
         title[0] = (char)(title[0] - 'a' + 'A');
     if (shown->columns < (int)s->camera.width)
@@ -85,6 +91,7 @@ int texture_figure_draw(const options *o, const texture_source *s, const texture
                            .channels = frame_channels(&p->made),
                            .directions = directions,
                            .magnitudes = is_error,
+                           .shares = p->made.kind == FRAME_EFFECT && !is_error && p->made.effect->kind != EFFECT_GAIN,
                            .label = is_error                         ? "error"
                                     : p->made.kind == FRAME_POSITION ? "coordinate"
                                                                      : p->name,

@@ -108,6 +108,10 @@ static chart_axis scale_of(const picture *in) {
     } else if (in->magnitudes) {
         lo = fmax(lo, deepest * hi);
     }
+    if (in->shares) {
+        lo = fmin(lo, 0);
+        hi = fmax(hi, 1);
+    }
     if (lo > 0 && hi > wide * lo)
         axis.scale = CHART_LOG;
     else if (in->magnitudes)

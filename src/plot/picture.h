@@ -15,6 +15,7 @@ typedef struct picture {
     bool directions;   /**< channels are a direction: one panel in colours */
     bool magnitudes;   /**< errors: a field is the largest of its pixels and not the one in its middle; a
                             logarithmic colour scale reaches four decades down, and what is less is dark */
+    bool shares;       /**< from 0 to 1 by nature: so is the colour scale, whatever part of it there is */
     const char *label; /**< "eye depth", for the colour bar */
     const char *unit;
     const char *const *names; /**< three panels: what each is */
