@@ -194,8 +194,6 @@ const option_row option_rows[OPTION_COUNT] = {
         "draw N pairs at random", WHOLE(sample, 1, 1e12, NULL), .without = "visit every depth"},
     [OPTION_SEED] = {"seed", 0, "S", COUNTED, /* JSON holds it exactly */
         "seed of --sample: the same pairs for the same seed", WHOLE(seed, 0, 0x1p53, NULL), .standard = "0"},
-    [OPTION_THREADS] = {"threads", 0, "N", SPREAD,
-        "use at most N threads; results do not change", WHOLE(threads, 1, 1024, NULL), .without = "all cores"},
     [OPTION_FOV] = {"fov", 0, "DEG", VERB_TEXTURE,
         "vertical field of view", NUMBER(camera.fov_y, 0.01, 179, "degrees"), .standard = "60",
         .group = "The depth texture"},
@@ -291,6 +289,8 @@ const option_row option_rows[OPTION_COUNT] = {
                        "says; the numbers of --json and --csv go there too, or to stdout"),
                    BUT(VERB_TEXTURE, NULL, "stdout", "write the product to FILE: PNG, PFM or NPY by its ending; else "
                        "what is printed")}},
+    [OPTION_THREADS] = {"threads", 0, "N", SPREAD,
+        "use at most N threads; results do not change", WHOLE(threads, 1, 1024, NULL), .without = "all cores"},
     [OPTION_QUIET] = {"quiet", 'q', NULL, WRITTEN,
         "no messages and no progress, only data and errors", FLAG(quiet),
         .except = {BUT(VERB_CHECK, NULL, NULL, "print only failures")}},
