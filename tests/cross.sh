@@ -120,7 +120,7 @@ everything() { # everything FOLDER PROGRAM...: what the commands print and write
 
 scratch=$(mktemp -d) || exit 1
 trap 'rm -rf "$scratch"' EXIT
-for kind in ariths transforms scenes positions normals effects; do
+for kind in $(echo "$commands" | sed -n 's/^each \([a-z]*\) .*/\1/p' | sort -u); do
     build/depthprec list $kind --csv >"$scratch/$kind" || exit 1
 done
 EMULATOR="qemu-$machine -L $root" OMP_NUM_THREADS=1 DEPTHPREC_QUICK=1
