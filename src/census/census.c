@@ -143,7 +143,7 @@ static uint32_t suspects(sweep *w, uint32_t base) {
         const uint32_t other = run + ahead < w->runs ? run + ahead : w->runs;
         mask |= (uint32_t)(w->beyond[other] <= w->peak[run]) << i;
     }
-    if (mask == 0 || known + 1 >= CENSUS_RUN) {
+    if (known + 1 >= CENSUS_RUN) { /* else each run suspects itself */
         for (uint32_t i = 0; i < CENSUS_RUN; i++)
             w->before[i] = INT32_MIN; /* not looked at: anything may be there */
         return mask;
