@@ -152,6 +152,8 @@ static void products_of_one_pass_are_those_of_many(void **state) {
     }
     for (int threads = 1; threads <= 3; threads++) {
         s.frame.threads = threads;
+        for (size_t i = 0; i < w.count; i++)
+            memset(w.each[i].values, 0, w.each[i].row_values * HEIGHT * sizeof(float));
         assert_true(frame_run_all(&s.frame, all, w.count, threads == 2, collect_all, &w));
         for (size_t i = 0; i < w.count; i++) {
             float *want = make(&s.frame, &all[i], false);
