@@ -357,6 +357,54 @@ static void true_errors_are_within_the_predicted(void **state) {
     tally_end(&t);
 }
 
+/* What the errors of an image are made of: what binary32 lost, and how far the sample's range reaches along the ray. */
+static void errors_of_images_equal_plain_pixels(void **state) {
+    enum { ACROSS = 97, DOWN = 61, EYE = 0, RADIAL, PLACE, THINGS };
+    (void)state;
+    tally t = {.name = "plain errors"};
+    for (int k = 0; k < 4; k++) {
+        stage s;
+        stage_set(&s, "plane", "unorm16", k < 2 ? "d3d" : "reversed", 100, k % 2 == 1, ACROSS, DOWN);
+        s.parameters[1] = 20;
+        const texture_camera *c = &s.camera;
+        image depths = image_of(&s);
+        frame seen = s.frame;
+        seen.image = &depths;
+        seen.scene = NULL;
+        float *made[THINGS], *error[THINGS];
+        for (int i = 0; i < THINGS; i++) {
+            frame_product p = {.kind = i == PLACE ? FRAME_POSITION : FRAME_EYE, .radial = i == RADIAL};
+            p.position = i == PLACE ? position_find("view") : NULL;
+            made[i] = make(&seen, &p, false);
+            p.error = true;
+            error[i] = make(&seen, &p, false);
+        }
+        for (uint32_t i = 0; i < ACROSS * DOWN; i++) {
+            const uint32_t x = i % ACROSS, y = i / ACROSS, code = ((const uint32_t *)depths.data)[i];
+            if (isnan(made[EYE][i]))
+                continue;
+            const double z = dp_stored(&c->setup, code), along = camera_radial(c, x, y);
+            const double reach = grain_range_of(&c->setup, NULL, code).reach;
+            double view[3], relative[3];
+            camera_view(c, x, y, z, view);
+            camera_turn(c, view, relative);
+            const double want[THINGS] = {fabs((double)made[EYE][i] - z) + reach,
+                                         fabs((double)made[RADIAL][i] - z * along) + reach * along,
+                                         position_off(c, relative, made[PLACE] + 3 * i) + reach * along};
+            for (int p = 0; p < THINGS; p++)
+                TALLY(&t, (double)error[p][i] >= want[p] && (double)error[p][i] <= want[p] * (1 + 0x1p-22),
+                      "camera %d, product %d at %u, %u: %.9g, not %.9g", k, p, x, y, (double)error[p][i], want[p]);
+        }
+        for (int i = 0; i < THINGS; i++) {
+            free(made[i]);
+            free(error[i]);
+        }
+        free(depths.data);
+    }
+    assert_true(t.cases > 10000);
+    tally_end(&t);
+}
+
 /* The same where the image has 8 or 12 bits, cut off or rounded: its normals are those of the samples alone. */
 static void normals_of_coarse_images_are_within_the_predicted(void **state) {
     (void)state;
@@ -532,6 +580,7 @@ int main(void) {
         cmocka_unit_test(frames_equal_plain_pixels),
         cmocka_unit_test(normals_do_not_know_of_strips),
         cmocka_unit_test(true_errors_are_within_the_predicted),
+        cmocka_unit_test(errors_of_images_equal_plain_pixels),
         cmocka_unit_test(normals_of_coarse_images_are_within_the_predicted),
         cmocka_unit_test(an_image_gives_the_same_as_its_scene),
         cmocka_unit_test(an_edge_on_either_diagonal_is_one),
