@@ -573,6 +573,29 @@ static void the_smallest_images_and_a_stop(void **state) {
     assert_int_equal(strips, 2);
 }
 
+/* Samples of binary16 that are off by 2^-24: one is the far plane's own, one may be infinitely far, one is near. */
+static void summaries_leave_out_sky_and_what_has_no_bound(void **state) {
+    static uint32_t codes[] = {0, 1, 0x3800};
+    const image depths = {.width = 3, .height = 1, .channels = 1, .type = IMAGE_U32, .data = codes};
+    const grain g = {.kind = GRAIN_FLOATS, .bits = 11, .margin = 0x1p-24, .least = 0x1p-24};
+    const frame_product error = {.kind = FRAME_EYE, .error = true};
+    frame_summary sum;
+    stage s;
+    (void)state;
+    stage_set(&s, "plane", "fp16", "reversed", INFINITY, false, 3, 1);
+    s.frame.scene = NULL;
+    s.frame.image = &depths;
+    s.frame.grain = &g;
+    s.frame.sky = 0;
+    assert_true(frame_summarise(&s.frame, &error, &sum));
+    assert_int_equal(sum.count, 1);
+    assert_int_equal(sum.infinite, 1);
+    assert_int_equal(sum.hi_column, 2);
+    assert_true(frame_summarise_decoding(&s.frame, decode_find("linear-eye"), &sum));
+    assert_int_equal(sum.count, 2);
+    assert_int_equal(sum.infinite, 0);
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(bits_do_not_depend_on_threads_or_direction),
@@ -586,6 +609,7 @@ int main(void) {
         cmocka_unit_test(an_edge_on_either_diagonal_is_one),
         cmocka_unit_test(the_smallest_images_and_a_stop),
         cmocka_unit_test(summaries_are_those_of_sorted_numbers),
+        cmocka_unit_test(summaries_leave_out_sky_and_what_has_no_bound),
     };
     return run_tap(tests);
 }
