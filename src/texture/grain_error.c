@@ -250,7 +250,10 @@ void grain_errors_of(const dp_setup *setup, const grain *g, const double *z, siz
         dp_batch_run(&batch, z + first, codes, some);
         if (vectors) {
             around a;
-            (format->kind == DP_FORMAT_UNORM ? around_unorm : around_float)(format, codes, some, &a);
+            if (format->kind == DP_FORMAT_UNORM)
+                around_unorm(format, codes, some, &a);
+            else
+                around_float(format, codes, some, &a);
             errors_in_vectors(&r, &s, &a, reading, some, out + first, doubts);
         } else if (numbers) {
             numbers_in_vectors(&r, &s, &q, codes, reading, some, out + first, doubts);
