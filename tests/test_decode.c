@@ -323,6 +323,30 @@ static void loops_have_no_edges(void **state) {
         }
 }
 
+static void many_are_what_each_is(void **state) {
+    enum { SETUPS = 300, COUNT = 67 };
+    rng r = rng_make("decode many");
+    (void)state;
+    for (int k = 0; k < SETUPS; k++) {
+        const dp_spec spec = random_spec(&r);
+        dp_setup setup;
+        if (dp_setup_init(&setup, &spec) != DP_OK)
+            continue;
+        float d[COUNT];
+        double got[COUNT];
+        for (size_t i = 0; i < COUNT; i++)
+            d[i] = (float)random_window(&r);
+        for (int q = 0; q < DECODE_QUANTITIES; q++) {
+            decode_exact_run(&setup, (decode_quantity)q, d, got, COUNT);
+            for (size_t i = 0; i < COUNT; i++) {
+                const double want = decode_exact(&setup, (decode_quantity)q, (double)d[i]);
+                if (!(got[i] == want || (isnan(got[i]) && isnan(want))))
+                    fail_msg("quantity %d at %.9g: %.17g, alone %.17g", q, (double)d[i], got[i], want);
+            }
+        }
+    }
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(exact_is_exact),
@@ -333,6 +357,7 @@ int main(void) {
         cmocka_unit_test(parameters_are_those_of_engines),
         cmocka_unit_test(rows_apply_where_they_say),
         cmocka_unit_test(loops_have_no_edges),
+        cmocka_unit_test(many_are_what_each_is),
     };
     return run_tap(tests);
 }

@@ -152,6 +152,8 @@ static void products_of_one_pass_are_those_of_many(void **state) {
     }
     for (int threads = 1; threads <= 3; threads++) {
         s.frame.threads = threads;
+        for (size_t i = 0; i < w.count; i++)
+            memset(w.each[i].values, 0, w.each[i].row_values * HEIGHT * sizeof(float));
         assert_true(frame_run_all(&s.frame, all, w.count, threads == 2, collect_all, &w));
         for (size_t i = 0; i < w.count; i++) {
             float *want = make(&s.frame, &all[i], false);
@@ -355,6 +357,54 @@ static void true_errors_are_within_the_predicted(void **state) {
     tally_end(&t);
 }
 
+/* What the errors of an image are made of: what binary32 lost, and how far the sample's range reaches along the ray. */
+static void errors_of_images_equal_plain_pixels(void **state) {
+    enum { ACROSS = 97, DOWN = 61, EYE = 0, RADIAL, PLACE, THINGS };
+    (void)state;
+    tally t = {.name = "plain errors"};
+    for (int k = 0; k < 4; k++) {
+        stage s;
+        stage_set(&s, "plane", "unorm16", k < 2 ? "d3d" : "reversed", 100, k % 2 == 1, ACROSS, DOWN);
+        s.parameters[1] = 20;
+        const texture_camera *c = &s.camera;
+        image depths = image_of(&s);
+        frame seen = s.frame;
+        seen.image = &depths;
+        seen.scene = NULL;
+        float *made[THINGS], *error[THINGS];
+        for (int i = 0; i < THINGS; i++) {
+            frame_product p = {.kind = i == PLACE ? FRAME_POSITION : FRAME_EYE, .radial = i == RADIAL};
+            p.position = i == PLACE ? position_find("view") : NULL;
+            made[i] = make(&seen, &p, false);
+            p.error = true;
+            error[i] = make(&seen, &p, false);
+        }
+        for (uint32_t i = 0; i < ACROSS * DOWN; i++) {
+            const uint32_t x = i % ACROSS, y = i / ACROSS, code = ((const uint32_t *)depths.data)[i];
+            if (isnan(made[EYE][i]))
+                continue;
+            const double z = dp_stored(&c->setup, code), along = camera_radial(c, x, y);
+            const double reach = grain_range_of(&c->setup, NULL, code).reach;
+            double view[3], relative[3];
+            camera_view(c, x, y, z, view);
+            camera_turn(c, view, relative);
+            const double want[THINGS] = {fabs((double)made[EYE][i] - z) + reach,
+                                         fabs((double)made[RADIAL][i] - z * along) + reach * along,
+                                         position_off(c, relative, made[PLACE] + 3 * i) + reach * along};
+            for (int p = 0; p < THINGS; p++)
+                TALLY(&t, (double)error[p][i] >= want[p] && (double)error[p][i] <= want[p] * (1 + 0x1p-22),
+                      "camera %d, product %d at %u, %u: %.9g, not %.9g", k, p, x, y, (double)error[p][i], want[p]);
+        }
+        for (int i = 0; i < THINGS; i++) {
+            free(made[i]);
+            free(error[i]);
+        }
+        free(depths.data);
+    }
+    assert_true(t.cases > 10000);
+    tally_end(&t);
+}
+
 /* The same where the image has 8 or 12 bits, cut off or rounded: its normals are those of the samples alone. */
 static void normals_of_coarse_images_are_within_the_predicted(void **state) {
     (void)state;
@@ -523,6 +573,29 @@ static void the_smallest_images_and_a_stop(void **state) {
     assert_int_equal(strips, 2);
 }
 
+/* Samples of binary16 that are off by 2^-24: one is the far plane's own, one may be infinitely far, one is near. */
+static void summaries_leave_out_sky_and_what_has_no_bound(void **state) {
+    static uint32_t codes[] = {0, 1, 0x3800};
+    const image depths = {.width = 3, .height = 1, .channels = 1, .type = IMAGE_U32, .data = codes};
+    const grain g = {.kind = GRAIN_FLOATS, .bits = 11, .margin = 0x1p-24, .least = 0x1p-24};
+    const frame_product error = {.kind = FRAME_EYE, .error = true};
+    frame_summary sum;
+    stage s;
+    (void)state;
+    stage_set(&s, "plane", "fp16", "reversed", INFINITY, false, 3, 1);
+    s.frame.scene = NULL;
+    s.frame.image = &depths;
+    s.frame.grain = &g;
+    s.frame.sky = 0;
+    assert_true(frame_summarise(&s.frame, &error, &sum));
+    assert_int_equal(sum.count, 1);
+    assert_int_equal(sum.infinite, 1);
+    assert_int_equal(sum.hi_column, 2);
+    assert_true(frame_summarise_decoding(&s.frame, decode_find("linear-eye"), &sum));
+    assert_int_equal(sum.count, 2);
+    assert_int_equal(sum.infinite, 0);
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(bits_do_not_depend_on_threads_or_direction),
@@ -530,11 +603,13 @@ int main(void) {
         cmocka_unit_test(frames_equal_plain_pixels),
         cmocka_unit_test(normals_do_not_know_of_strips),
         cmocka_unit_test(true_errors_are_within_the_predicted),
+        cmocka_unit_test(errors_of_images_equal_plain_pixels),
         cmocka_unit_test(normals_of_coarse_images_are_within_the_predicted),
         cmocka_unit_test(an_image_gives_the_same_as_its_scene),
         cmocka_unit_test(an_edge_on_either_diagonal_is_one),
         cmocka_unit_test(the_smallest_images_and_a_stop),
         cmocka_unit_test(summaries_are_those_of_sorted_numbers),
+        cmocka_unit_test(summaries_leave_out_sky_and_what_has_no_bound),
     };
     return run_tap(tests);
 }

@@ -338,11 +338,47 @@ static void spheres_and_their_outline(void **state) {
     print_message("\n");
 }
 
+/* Also at borders, where a neighbour beyond the image says nothing. */
+static void bounds_of_a_row_are_those_of_its_pixels(void **state) {
+    enum { MOST = 700 };
+    static const uint32_t sizes[][2] = {{1, 1}, {7, 3}, {257, 2}, {MOST, 3}};
+    static float normal[3][MOST];
+    static double z[MOST], got[MOST];
+    rng r = rng_make("rows of planes");
+    size_t finite = 0;
+    (void)state;
+    for (size_t k = 0; k < 8; k++) {
+        const bool ortho = k % 2 == 1;
+        const texture_camera c = view_camera("unorm24", k % 4 < 2 ? DP_MAPPING_D3D : DP_MAPPING_REVERSED, 0.1, 100,
+                                             ortho, sizes[k / 2][0], sizes[k / 2][1], ortho ? 5 : 60);
+        for (uint32_t row = 0; row < c.height; row++) {
+            for (uint32_t x = 0; x < c.width; x++) {
+                z[x] = rng_log(&r, 0.1, 100);
+                normal[0][x] = (float)rng_uniform(&r, -1, 1);
+                normal[1][x] = (float)rng_uniform(&r, -1, 1);
+                normal[2][x] = (float)-rng_uniform(&r, 0.01, 1);
+            }
+            const normal_planes in = {&c, row, {normal[0], normal[1], normal[2]}, z, NULL};
+            normal_planes_bounds(&in, NULL, 0x1p-24, got);
+            for (uint32_t x = 0; x < c.width; x++) {
+                const double n[3] = {(double)normal[0][x], (double)normal[1][x], (double)normal[2][x]};
+                const normal_plane plane = normal_plane_at(&c, x, row, z[x], n);
+                const double error = normal_plane_error_of(&c, NULL, x, row, &plane, 0x1p-24);
+                const double want = isinf(error) ? (double)NAN : normal_plane_bound(&c, x, row, &plane, error);
+                if (!(want == got[x] || (isnan(want) && isnan(got[x]))))
+                    fail_msg("pixel %u, %u of %u x %u: %.17g, alone %.17g", x, row, c.width, c.height, got[x], want);
+                finite += isnan(want) ? 0 : 1;
+            }
+        }
+    }
+    assert_true(finite > 1000);
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(planes_are_within_the_bound),       cmocka_unit_test(the_bound_is_that_of_the_worst_errors),
         cmocka_unit_test(the_hardest_planes_need_each_term), cmocka_unit_test(measures_count_what_they_say),
-        cmocka_unit_test(spheres_and_their_outline),
+        cmocka_unit_test(spheres_and_their_outline),         cmocka_unit_test(bounds_of_a_row_are_those_of_its_pixels),
     };
     return run_tap(tests);
 }

@@ -73,12 +73,11 @@ typedef struct sweep {
     double bound;                     /* the least guaranteed separation in the block at hand */
     double bound_above;               /* at the far end of the block at hand */
     int falling;                      /* it is less than at the near end */
-    int before_known;                 /* whether `before` belongs to the block behind the one at hand */
     int32_t beyond[SEGMENT_RUNS + 1]; /* least key from a run on to the end */
     int32_t peak[SEGMENT_RUNS];       /* greatest key of a run */
     int32_t key[CENSUS_BLOCK] __attribute__((aligned(64)));
     int32_t reach[CENSUS_BLOCK] __attribute__((aligned(64)));
-    int32_t before[CENSUS_RUN];
+    int32_t before[CENSUS_RUN]; /* from the block behind the one at hand */
 } sweep;
 
 static void run_keys(const sweep *w, uint32_t run, int32_t key[CENSUS_RUN]) {
@@ -144,21 +143,18 @@ static uint32_t suspects(sweep *w, uint32_t base) {
         const uint32_t other = run + ahead < w->runs ? run + ahead : w->runs;
         mask |= (uint32_t)(w->beyond[other] <= w->peak[run]) << i;
     }
-    if (mask == 0 || known + 1 >= CENSUS_RUN) {
-        w->before_known = 0;
+    if (known + 1 >= CENSUS_RUN) { /* else each run suspects itself */
+        for (uint32_t i = 0; i < CENSUS_RUN; i++)
+            w->before[i] = INT32_MIN; /* not looked at: anything may be there */
         return mask;
     }
     int32_t beyond[CENSUS_RUNS];
     for (uint32_t i = 0; i < CENSUS_RUNS; i++)
         beyond[i] = w->beyond[base + CENSUS_RUNS - i];
     w->c->level->reach(w->key, beyond, w->reach);
-    if (!w->before_known)
-        for (uint32_t i = 0; i < CENSUS_RUN; i++)
-            w->before[i] = INT32_MIN; /* anything may be there */
     mask &= w->c->level->far_disorder(w->key, w->reach, w->before, known + 1);
     for (uint32_t i = 0; i < CENSUS_RUN; i++)
         w->before[i] = w->reach[i * CENSUS_RUNS + CENSUS_RUNS - 1];
-    w->before_known = 1;
     return mask;
 }
 
@@ -198,7 +194,6 @@ static void sweep_segment(const census *c, segment *s, double longest, sweep *w)
     w->beyond[w->runs] = INT32_MAX;
     for (uint32_t i = 0; i < CENSUS_RUN; i++)
         w->before[i] = INT32_MAX;
-    w->before_known = 1;
     s->found = (census_band){.longest_z = (double)NAN, .slack_z = (double)NAN};
     const int has_next = w->last < c->range.last;
     int32_t next = has_next ? census_key(&c->plan, dp_ranked32(w->last + 1)) : 0;
@@ -335,8 +330,7 @@ static void bridge(const census *c, census_result *result) {
 static size_t cut(census *c, segment *segments) {
     const uint32_t asked = c->request->segment;
     const uint32_t longest = asked > 0 && asked < SEGMENT ? asked : SEGMENT;
-    size_t count = 0;
-    size_t block = 0;
+    size_t count = 0, block = 0;
     for (uint64_t first = c->range.first; first <= c->range.last; count++) {
         uint64_t end = (first | 0x7FFFFFU) + 1; /* of the binade */
         if (end > (uint64_t)c->range.last + 1)
@@ -361,7 +355,10 @@ static int allocate(census *c) {
     c->block_first = malloc(c->block_count * sizeof *c->block_first);
     c->least = malloc(c->block_count * sizeof *c->least);
     c->greatest = malloc(c->block_count * sizeof *c->greatest);
-    return c->segments != NULL && c->block_first != NULL && c->least != NULL && c->greatest != NULL;
+    const int good = c->segments != NULL && c->block_first != NULL && c->least != NULL && c->greatest != NULL;
+    if (good)
+        cut(c, c->segments);
+    return good;
 }
 
 static void release(census *c) {
@@ -419,21 +416,18 @@ static void gather(census *c, census_result *result) {
 }
 
 /* Where a band's longest interval is inside a segment, the first such segment knows the nearest. */
-static int locate(census *c, census_result *result) {
-    sweep *w = malloc(sizeof *w);
+static void locate(census *c, census_result *result) {
+    sweep w;
     int band = -1;
-    for (size_t i = 0; w != NULL && i < c->segment_count; i++) {
+    for (size_t i = 0; i < c->segment_count; i++) {
         segment *s = &c->segments[i];
         census_band *b = &result->bands[s->band];
         if (s->band == band || b->longest <= 0.0 || s->found.longest < b->longest)
             continue;
         band = s->band;
-        const double z = nearest_longest(c, s, w);
+        const double z = nearest_longest(c, s, &w);
         b->longest_z = b->longest_z < z ? b->longest_z : z;
     }
-    const int good = w != NULL;
-    free(w);
-    return good;
 }
 
 census_status census_run(const census_request *request, census_result *result) {
@@ -442,15 +436,12 @@ census_status census_run(const census_request *request, census_result *result) {
     if (status != CENSUS_DONE)
         return status;
     if (!allocate(&c)) {
-        release(&c);
-        return CENSUS_NO_MEMORY;
-    }
-    cut(&c, c.segments);
-    if (sweep_all(&c)) {
+        status = CENSUS_NO_MEMORY;
+    } else if (sweep_all(&c)) {
         status = CENSUS_STOPPED;
     } else {
         gather(&c, result);
-        status = locate(&c, result) ? CENSUS_DONE : CENSUS_NO_MEMORY;
+        locate(&c, result);
         census_close(request, &c.plan, &c.range, result);
     }
     release(&c);

@@ -71,14 +71,18 @@ static void search(ruler *r, int digits) {
     }
 }
 
+static ruler ruler_of(measure_kind kind, const dp_setup *setup, double lo, double hi, double limit) {
+    return (ruler){.kind = kind,
+                   .setup = setup,
+                   .limit = limit,
+                   .whole = setup->spec.model == DP_MODEL_FP32,
+                   .lo = lo,
+                   .holds = lo,
+                   .fails = fmin(hi, farthest)};
+}
+
 double distance_about(const dp_setup *setup, double lo, double hi, double limit, int digits) {
-    ruler r = {.kind = MEASURE_SEPARATION,
-               .setup = setup,
-               .limit = limit,
-               .whole = setup->spec.model == DP_MODEL_FP32,
-               .lo = lo,
-               .holds = lo,
-               .fails = fmin(hi, farthest)};
+    ruler r = ruler_of(MEASURE_SEPARATION, setup, lo, hi, limit);
     if (!(dp_separation(setup, lo) <= limit))
         return (double)NAN;
     search(&r, digits);
@@ -105,14 +109,8 @@ dp_status distance_solve(measure_kind kind, const dp_setup *setup, double lo, do
         return DP_ERROR_MODEL;
     if (!(limit > 0.0 && lo >= setup->spec.znear && lo <= hi && hi <= setup->spec.zfar) || lo > farthest)
         return DP_ERROR_RANGE;
-    const double end = fmin(hi, farthest);
-    ruler r = {.kind = kind,
-               .setup = setup,
-               .limit = limit,
-               .whole = setup->spec.model == DP_MODEL_FP32,
-               .lo = lo,
-               .holds = lo,
-               .fails = end};
+    ruler r = ruler_of(kind, setup, lo, hi, limit);
+    const double end = r.fails;
     *out = (distance_answer){.value = lo, .fails = lo};
     out->reached = judge(kind, setup, lo, lo, limit);
     out->possible = out->reached.passed;

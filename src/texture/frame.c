@@ -9,13 +9,12 @@
 #include "texture/image_depths.h"
 #include "texture/strips.h"
 
-/* Of a thread that lost its core for a few milliseconds the others are ahead by as many strips as there are slots. */
 enum {
     STRIP_PIXELS = 1 << 17,
     STRIP_ROWS_MIN = 8,
     AROUND = 2 * NORMAL_REACH,
-    SLOTS_A_THREAD = 4,
-    ROOM = 40 << 20 /* bytes, for all strips at hand */
+    SLOTS_A_THREAD = 4, /* so far the others get ahead of a thread that loses its core for a few milliseconds */
+    ROOM = 40 << 20     /* bytes, for all strips at hand */
 };
 
 uint32_t frame_sky_rank(const frame *f) {

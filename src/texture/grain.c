@@ -148,25 +148,16 @@ DP_INLINE void ranges_loop(const ranging r, const numerators *restrict n, size_t
     }
 }
 
-/* With what does not change as constants, each loop becomes vectors. */
-TEXTURE_CLONES static void ranges_finite(const ranging *r, const numerators *n, size_t count, double *stored,
-                                         double *lo, double *hi, double *reach) {
-    if (r->reversed)
-        ranges_loop((ranging){r->top, r->den, r->znear, r->zfar, r->kappa, true, false}, n, count, stored, lo, hi,
-                    reach);
+TEXTURE_CLONES static void ranges_in_vectors(const ranging *r, const numerators *n, size_t count, double *stored,
+                                             double *lo, double *hi, double *reach) {
+    if (r->infinite && r->reversed)
+        ranges_loop(ranging_like(r, true, true), n, count, stored, lo, hi, reach);
+    else if (r->infinite)
+        ranges_loop(ranging_like(r, false, true), n, count, stored, lo, hi, reach);
+    else if (r->reversed)
+        ranges_loop(ranging_like(r, true, false), n, count, stored, lo, hi, reach);
     else
-        ranges_loop((ranging){r->top, r->den, r->znear, r->zfar, r->kappa, false, false}, n, count, stored, lo, hi,
-                    reach);
-}
-
-TEXTURE_CLONES static void ranges_infinite(const ranging *r, const numerators *n, size_t count, double *stored,
-                                           double *lo, double *hi, double *reach) {
-    if (r->reversed)
-        ranges_loop((ranging){r->top, r->den, r->znear, r->zfar, r->kappa, true, true}, n, count, stored, lo, hi,
-                    reach);
-    else
-        ranges_loop((ranging){r->top, r->den, r->znear, r->zfar, r->kappa, false, true}, n, count, stored, lo, hi,
-                    reach);
+        ranges_loop(ranging_like(r, false, false), n, count, stored, lo, hi, reach);
 }
 
 /* Each code by itself, rounded to nearest. */
@@ -229,25 +220,15 @@ static void one_by_one(const dp_setup *setup, const grain *g, const uint32_t *co
 
 void grain_ranges_of(const dp_setup *setup, const grain *g, const uint32_t *codes, size_t count,
                      const grain_rows *out) {
-    const dp_spec *spec = &setup->spec;
-    const bool infinite = isinf(spec->zfar) != 0;
     if (setup->curve != DP_CURVE_PERSPECTIVE || !is_of_codes(g)) {
         one_by_one(setup, g, codes, count, out);
         return;
     }
-    const double den = dp_point_den(&spec->format);
-    const ranging r = {(infinite ? spec->znear : spec->znear * spec->zfar) * den,
-                       den,
-                       spec->znear,
-                       spec->zfar,
-                       setup->kappa,
-                       setup->reversed != 0,
-                       infinite};
+    const ranging r = ranging_of(setup);
     numerators n;
     for (size_t i = 0; i < count; i += GRAIN_ROW) {
         const size_t some = count - i < GRAIN_ROW ? count - i : GRAIN_ROW;
         numerators_of(setup, g, codes + i, some, &n);
-        (infinite ? ranges_infinite : ranges_finite)(&r, &n, some, out->stored + i, out->lo + i, out->hi + i,
-                                                     out->reach + i);
+        ranges_in_vectors(&r, &n, some, out->stored + i, out->lo + i, out->hi + i, out->reach + i);
     }
 }

@@ -35,16 +35,15 @@ double grain_error_of(const dp_setup *setup, const grain *g, double z, double re
  */
 typedef struct siding {
     dp_pair scale, width; /* p den, f - n; without a far plane 1 */
-    double from;          /* q */
-    bool alone;           /* 1 in the place of q - z */
+    double from;          /* q; without a far plane and reversed 1 stands in the place of q - z */
 } siding;
 
 static siding siding_of(const ranging *r) {
     const dp_pair one = {1, 0};
     if (r->infinite)
-        return (siding){dp_two_product(r->reversed ? r->znear : 1, r->den), one, r->znear, r->reversed};
+        return (siding){dp_two_product(r->reversed ? r->znear : 1, r->den), one, r->znear};
     return (siding){dp_two_product(r->reversed ? r->znear : r->zfar, r->den), dp_two_sum(r->zfar, -r->znear),
-                    r->reversed ? r->zfar : r->znear, false};
+                    r->reversed ? r->zfar : r->znear};
 }
 
 DP_INLINE dp_pair pair_sum(double a, double b) {
@@ -58,11 +57,11 @@ DP_INLINE dp_pair pair_product(dp_pair a, dp_pair b) {
 }
 
 /* Positive: the boundary lies behind z. *doubt: no sign, or one that may be wrong. */
-DP_INLINE double side_of(const siding *s, bool reversed, double num, double z, int64_t *doubt) {
+DP_INLINE double side_of(const siding *s, const ranging *r, double num, double z, int64_t *doubt) {
     const dp_pair away = pair_sum(s->from, -z), one = {1, 0};
-    const dp_pair a = pair_product(s->scale, s->alone ? one : away);
+    const dp_pair a = pair_product(s->scale, r->infinite && r->reversed ? one : away);
     const dp_pair b = pair_product(pair_product((dp_pair){z, 0}, (dp_pair){num, 0}), s->width);
-    const double sign = reversed ? -1 : 1;
+    const double sign = r->reversed ? -1 : 1;
     const dp_pair sum = pair_sum(a.hi, sign * b.hi);
     const double side = sum.hi + (sum.lo + (a.lo + sign * b.lo));
     *doubt |= !(fabs(side) > 0x1p-98 * (fabs(b.hi) + fabs(s->scale.hi) * z));
@@ -114,7 +113,7 @@ TEXTURE_CLONES static void around_float(const dp_format *format, const uint32_t 
 
 /* The code's own error, and those of its neighbours where the ends of its range, rounded, are theirs. In doubt where
  * that cannot be told: at the ends of window depth, and where cells are hardly wider than the roundings. */
-DP_INLINE void errors_loop(const ranging r, const siding s, const around *restrict a, double reading, size_t count,
+DP_INLINE void errors_loop(const ranging r, const siding *s, const around *restrict a, double reading, size_t count,
                            double *restrict error, int64_t *restrict doubts) {
     const int before = r.reversed ? 2 : 0, behind = 2 - before, lowest = r.reversed ? 3 : 0, step = r.reversed ? -1 : 1;
     for (size_t i = 0; i < count; i++) {
@@ -125,43 +124,32 @@ DP_INLINE void errors_loop(const ranging r, const siding s, const around *restri
         const double near = error_of(eye_of(&r, a->code[before][i]), end0, lo, reading);
         const double far = error_of(eye_of(&r, a->code[behind][i]), hi, end3, reading);
         int64_t doubt = !(lo > r.znear && hi < r.zfar && hi - lo > 0x1p-45 * hi && a->code[0][i] >= 0);
-        const double at_lo = side_of(&s, r.reversed, a->boundary[lowest + step][i], lo, &doubt);
-        const double at_hi = side_of(&s, r.reversed, a->boundary[lowest + 2 * step][i], hi, &doubt);
+        const double at_lo = side_of(s, &r, a->boundary[lowest + step][i], lo, &doubt);
+        const double at_hi = side_of(s, &r, a->boundary[lowest + 2 * step][i], hi, &doubt);
         const double worse = at_lo > 0 && near > own ? near : own;
         error[i] = at_hi < 0 && far > worse ? far : worse;
         doubts[i] = doubt;
     }
 }
 
-TEXTURE_CLONES static void errors_standard(const ranging *r, const siding *s, const around *a, double reading,
-                                           size_t count, double *error, int64_t *doubts) {
-    errors_loop((ranging){r->top, r->den, r->znear, r->zfar, r->kappa, false, false},
-                (siding){s->scale, s->width, s->from, false}, a, reading, count, error, doubts);
-}
-
-TEXTURE_CLONES static void errors_reversed(const ranging *r, const siding *s, const around *a, double reading,
-                                           size_t count, double *error, int64_t *doubts) {
-    errors_loop((ranging){r->top, r->den, r->znear, r->zfar, r->kappa, true, false},
-                (siding){s->scale, s->width, s->from, false}, a, reading, count, error, doubts);
-}
-
-TEXTURE_CLONES static void errors_infinite(const ranging *r, const siding *s, const around *a, double reading,
-                                           size_t count, double *error, int64_t *doubts) {
-    if (r->reversed)
-        errors_loop((ranging){r->top, r->den, r->znear, r->zfar, r->kappa, true, true},
-                    (siding){s->scale, s->width, s->from, true}, a, reading, count, error, doubts);
+TEXTURE_CLONES static void errors_in_vectors(const ranging *r, const siding *s, const around *a, double reading,
+                                             size_t count, double *error, int64_t *doubts) {
+    if (r->infinite && r->reversed)
+        errors_loop(ranging_like(r, true, true), s, a, reading, count, error, doubts);
+    else if (r->infinite)
+        errors_loop(ranging_like(r, false, true), s, a, reading, count, error, doubts);
+    else if (r->reversed)
+        errors_loop(ranging_like(r, true, false), s, a, reading, count, error, doubts);
     else
-        errors_loop((ranging){r->top, r->den, r->znear, r->zfar, r->kappa, false, true},
-                    (siding){s->scale, s->width, s->from, false}, a, reading, count, error, doubts);
+        errors_loop(ranging_like(r, false, false), s, a, reading, count, error, doubts);
 }
 
-/* ---- Numbers that were codes of UNORM: see codes_of() of grain.c ---------------------------------------------------
- */
+/* ---- Numbers that were codes of UNORM: see codes_of() of grain.c ------------------------------------------------- */
 
 typedef struct quotients {
-    double most,
-        per_unit; /* code_max; codes that one unit in the last place of 1 stands for, as many as it may be off */
-    double least;
+    double most;  /* code_max */
+    double units; /* in the last place, by which a number may be off */
+    double least; /* subnormal */
     int bits;
 } quotients;
 
@@ -170,7 +158,7 @@ DP_INLINE double codes_beside(const quotients *q, double code) {
     const double v = code / q->most;
     const uint64_t exponent = v > 0 ? (dp_bits64(v) >> 52) - 1022 : 0;
     const double unit = dp_float64((exponent + 1023 - (uint64_t)q->bits) << 52);
-    return floor(0.5 + q->per_unit * (unit > q->least ? unit : q->least) * q->most);
+    return floor(0.5 + q->units * (unit > q->least ? unit : q->least) * q->most);
 }
 
 DP_INLINE double number_error(const ranging *r, const quotients *q, double code, double reading) {
@@ -180,39 +168,34 @@ DP_INLINE double number_error(const ranging *r, const quotients *q, double code,
                     reading);
 }
 
-DP_INLINE void numbers_loop(const ranging r, const siding s, const quotients q, const uint32_t *restrict codes,
+DP_INLINE void numbers_loop(const ranging r, const siding *s, const quotients *q, const uint32_t *restrict codes,
                             double reading, size_t count, double *restrict error, int64_t *restrict doubts) {
     for (size_t i = 0; i < count; i++) {
-        const double code = (double)(int32_t)codes[i], beside = codes_beside(&q, code);
+        const double code = (double)(int32_t)codes[i], beside = codes_beside(q, code);
         const double first = code - beside, last = code + beside;
         const double near_end = r.reversed ? 2 * last + 1 : 2 * first - 1;
         const double far_end = r.reversed ? 2 * first - 1 : 2 * last + 1;
         const double lo = eye_of(&r, near_end), hi = eye_of(&r, far_end), outwards = r.reversed ? 1 : -1;
-        int64_t doubt = !(lo > r.znear && hi < r.zfar && hi - lo > 0x1p-42 * hi && first > 1 && last + 1 < q.most);
-        const double at_lo = side_of(&s, r.reversed, near_end, lo, &doubt);
-        const double at_hi = side_of(&s, r.reversed, far_end, hi, &doubt);
+        int64_t doubt = !(lo > r.znear && hi < r.zfar && hi - lo > 0x1p-42 * hi && first > 1 && last + 1 < q->most);
+        const double at_lo = side_of(s, &r, near_end, lo, &doubt);
+        const double at_hi = side_of(s, &r, far_end, hi, &doubt);
         const double nearest = r.reversed ? last : first, farthest = r.reversed ? first : last;
-        const double own = number_error(&r, &q, code, reading);
-        const double near = number_error(&r, &q, at_lo > 0 ? nearest + outwards : nearest, reading);
-        const double far = number_error(&r, &q, at_hi < 0 ? farthest - outwards : farthest, reading);
+        const double own = number_error(&r, q, code, reading);
+        const double near = number_error(&r, q, at_lo > 0 ? nearest + outwards : nearest, reading);
+        const double far = number_error(&r, q, at_hi < 0 ? farthest - outwards : farthest, reading);
         const double worse = near > own ? near : own;
         error[i] = far > worse ? far : worse;
         doubts[i] = doubt;
     }
 }
 
-TEXTURE_CLONES static void numbers_standard(const ranging *r, const siding *s, const quotients *q,
-                                            const uint32_t *codes, double reading, size_t count, double *error,
-                                            int64_t *doubts) {
-    numbers_loop((ranging){r->top, r->den, r->znear, r->zfar, r->kappa, false, false},
-                 (siding){s->scale, s->width, s->from, false}, *q, codes, reading, count, error, doubts);
-}
-
-TEXTURE_CLONES static void numbers_reversed(const ranging *r, const siding *s, const quotients *q,
-                                            const uint32_t *codes, double reading, size_t count, double *error,
-                                            int64_t *doubts) {
-    numbers_loop((ranging){r->top, r->den, r->znear, r->zfar, r->kappa, true, false},
-                 (siding){s->scale, s->width, s->from, false}, *q, codes, reading, count, error, doubts);
+TEXTURE_CLONES static void numbers_in_vectors(const ranging *r, const siding *s, const quotients *q,
+                                              const uint32_t *codes, double reading, size_t count, double *error,
+                                              int64_t *doubts) {
+    if (r->reversed)
+        numbers_loop(ranging_like(r, true, false), s, q, codes, reading, count, error, doubts);
+    else
+        numbers_loop(ranging_like(r, false, false), s, q, codes, reading, count, error, doubts);
 }
 
 static bool are_numbers(const dp_setup *setup, const grain *g) {
@@ -264,27 +247,20 @@ void grain_errors_of(const dp_setup *setup, const grain *g, const double *z, siz
         const size_t some = count - first < BLOCK ? count - first : BLOCK;
         uint32_t codes[BLOCK];
         int64_t doubts[BLOCK];
-        around a;
         dp_batch_run(&batch, z + first, codes, some);
-        if (numbers) {
-            if (r.reversed)
-                numbers_reversed(&r, &s, &q, codes, reading, some, out + first, doubts);
+        if (vectors) {
+            around a;
+            if (format->kind == DP_FORMAT_UNORM)
+                around_unorm(format, codes, some, &a);
             else
-                numbers_standard(&r, &s, &q, codes, reading, some, out + first, doubts);
-            finish_doubts(setup, g, z + first, codes, doubts, some, reading, memo, out + first);
-            continue;
-        }
-        if (!vectors) {
+                around_float(format, codes, some, &a);
+            errors_in_vectors(&r, &s, &a, reading, some, out + first, doubts);
+        } else if (numbers) {
+            numbers_in_vectors(&r, &s, &q, codes, reading, some, out + first, doubts);
+        } else {
             one_by_one(setup, g, z + first, codes, some, reading, memo, out + first);
             continue;
         }
-        if (format->kind == DP_FORMAT_UNORM)
-            around_unorm(format, codes, some, &a);
-        else
-            around_float(format, codes, some, &a);
-        (r.infinite   ? errors_infinite
-         : r.reversed ? errors_reversed
-                      : errors_standard)(&r, &s, &a, reading, some, out + first, doubts);
         finish_doubts(setup, g, z + first, codes, doubts, some, reading, memo, out + first);
     }
 }

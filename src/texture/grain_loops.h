@@ -18,6 +18,11 @@ static inline ranging ranging_of(const dp_setup *setup) {
     return (ranging){top * den, den, spec->znear, spec->zfar, setup->kappa, setup->reversed != 0, infinite};
 }
 
+/* With what does not change in a loop as constants: so it becomes vectors. */
+DP_INLINE ranging ranging_like(const ranging *r, bool reversed, bool infinite) {
+    return (ranging){r->top, r->den, r->znear, r->zfar, r->kappa, reversed, infinite};
+}
+
 DP_INLINE double eye_of(const ranging *r, double num) {
     const double comp = r->den - num, to_near = r->reversed ? num : comp, to_far = r->reversed ? comp : num;
     return r->top / (r->infinite ? to_near : r->zfar * to_near + r->znear * to_far);

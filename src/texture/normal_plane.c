@@ -9,19 +9,27 @@
 
 enum { NORMAL_BLOCK = 256 };
 
-static double dot(const double a[3], const double b[3]) {
+DP_INLINE double dot(const double a[3], const double b[3]) {
     return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
 }
 
-double normal_angle(const double a[3], const double b[3]) {
+/* Of the rhombus whose sides are the unit vectors: half the angle between these is that of its diagonals' lengths. */
+DP_INLINE void diagonals(const double a[3], const double b[3], double *apart, double *along) {
     const double la = sqrt(dot(a, a)), lb = sqrt(dot(b, b));
-    double sum = 0, difference = 0; /* of the unit vectors: sides of a rhombus, whose angle is that of its diagonals */
+    double sum = 0, difference = 0;
     for (int i = 0; i < 3; i++) {
         const double ua = a[i] / la, ub = b[i] / lb;
         sum += (ua + ub) * (ua + ub);
         difference += (ua - ub) * (ua - ub);
     }
-    return 2 * atan2(sqrt(difference), sqrt(sum));
+    *apart = sqrt(difference);
+    *along = sqrt(sum);
+}
+
+double normal_angle(const double a[3], const double b[3]) {
+    double apart, along;
+    diagonals(a, b, &apart, &along);
+    return 2 * atan2(apart, along);
 }
 
 /* What multiplies the eye depth and what does not: a pixel's place is direction z + place. */
@@ -141,8 +149,7 @@ typedef struct bounding {
     double exact[3];     /* the vector that the method would find without errors: away from the camera, or towards an
                             orthographic one */
     double x, y;         /* the pixel's ray, 0 where they are orthographic */
-    double apart, along; /* half the angle's sides, of the corner that is farthest */
-    double angle, more;  /* that angle; the share that roundings turn a vector between by, at most */
+    double apart, along; /* diagonals(), of the corner that is farthest */
     bool turned;         /* could the errors turn the plane round? */
 } bounding;
 
@@ -153,13 +160,9 @@ static const double corners[][3] = {{-1, 0, 0},   {1, 1, 1},  {-1, -1, 0}, {1, 0
                                     {1, 1, -1},   {1, 0, -1}, {-1, 0, 1},  {-1, -1, 1}, {1, -1, -1}, {-1, 1, 1}};
 enum { CORNERS = sizeof corners / sizeof corners[0] };
 
-DP_INLINE double dot3(const double a[3], const double b[3]) {
-    return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
-}
-
 DP_INLINE double square_of_cross(const double a[3], const double b[3]) {
     const double c[3] = {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
-    return dot3(c, c);
+    return dot(c, c);
 }
 
 /* The corner whose vector is farthest from the exact one, by the square of its tangent. */
@@ -172,22 +175,14 @@ DP_INLINE void find_farthest(bounding *out, bool ortho, double per_x, double per
         const double own = corners[i][0] * error, to_a = corners[i][1] * a, to_b = corners[i][2] * b;
         const double found[3] = {exact[0] + to_a, exact[1] + to_b,
                                  exact[2] + (ortho ? 0 : own - out->x * to_a - out->y * to_b)};
-        const double along = dot3(exact, found), tangent = square_of_cross(exact, found) / (along * along);
+        const double along = dot(exact, found), tangent = square_of_cross(exact, found) / (along * along);
         const bool farther = tangent > worst;
         turned |= !(along > 0);
         worst = farther ? tangent : worst;
         for (int k = 0; k < 3; k++)
             farthest[k] = farther ? found[k] : farthest[k];
     }
-    const double la = sqrt(dot3(exact, exact)), lb = sqrt(dot3(farthest, farthest));
-    double sum = 0, difference = 0; /* as normal_angle() */
-    for (int k = 0; k < 3; k++) {
-        const double ua = exact[k] / la, ub = farthest[k] / lb;
-        sum += (ua + ub) * (ua + ub);
-        difference += (ua - ub) * (ua - ub);
-    }
-    out->apart = sqrt(difference);
-    out->along = sqrt(sum);
+    diagonals(exact, farthest, &out->apart, &out->along);
     out->turned = turned;
 }
 
@@ -203,12 +198,12 @@ DP_INLINE double half_ulp(double x) { /* dp_half_ulp(), which is not compiled fo
 DP_INLINE double rounding(const bounding *p, bool ortho, double beside) {
     const double *exact = p->exact, direction[3] = {p->x, p->y, 1};
     const double a = exact[0], b = exact[1], x = p->x * a, y = p->y * b;
-    const double size = sqrt(dot3(exact, exact));
+    const double size = sqrt(dot(exact, exact));
     /* difference, 1 over the step and the product with it; in perspective also the product with a depth */
     const double each = ortho ? 3 : 4;
     /* the sum of the slopes' products and the product of depths: no case is known that shows the second without the
      * first; slopes and their products; the last sum */
-    const double inner = fabs(x + y) + fabs(dot3(exact, direction));
+    const double inner = fabs(x + y) + fabs(dot(exact, direction));
     const double own = 2 * (fabs(x) + fabs(y)) + inner + fabs(exact[2]);
     double last[3], most = 0;
     for (int i = 0; i < 3; i++)
@@ -226,8 +221,9 @@ DP_INLINE double rounding(const bounding *p, bool ortho, double beside) {
 
 /* Arrays of a block: gathered from and scattered to the struct above, so that a loop over them becomes vectors. */
 typedef struct bound_block {
-    double exact[3][NORMAL_BLOCK], x[NORMAL_BLOCK], y, apart[NORMAL_BLOCK], along[NORMAL_BLOCK], angle[NORMAL_BLOCK],
-        more[NORMAL_BLOCK];
+    double exact[3][NORMAL_BLOCK], x[NORMAL_BLOCK], y, apart[NORMAL_BLOCK], along[NORMAL_BLOCK];
+    double angle[NORMAL_BLOCK]; /* to that corner */
+    double more[NORMAL_BLOCK];  /* the share that roundings turn a vector between by, at most */
     int64_t turned[NORMAL_BLOCK];
 } bound_block;
 
@@ -317,7 +313,7 @@ TEXTURE_CLONES static void gather(const normal_planes *in, size_t first, size_t 
         for (int k = 0; k < 3; k++)
             p->normal[k][i] = n[k] = (double)in->normal[k][first + i];
         const double view[3] = {camera_slope_x(&c, (double)(int32_t)(first + i)) * scale, y * scale, z};
-        p->offset[i] = dot3(n, view);
+        p->offset[i] = dot(n, view);
     }
 }
 
