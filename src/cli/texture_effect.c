@@ -80,15 +80,11 @@ static int choose_pixel(table *t, const options *o) {
     t->line = t->spec.height - 1;
     if (!option_given(o, OPTION_PIXEL))
         return EXIT_FINE;
-    const double x = depths_get(&o->pixels, 0), y = depths_get(&o->pixels, 1);
     if (o->pixels.count != 2)
         return option_error(OPTION_PIXEL, "must be one pixel with --effect alone, got %zu", o->pixels.count / 2);
-    if (x >= t->spec.width || y >= t->spec.height)
-        return option_error(OPTION_PIXEL, "must lie in the %u x %u pixels, from 0,0 to %u,%u, got %.0f,%.0f",
-                            t->spec.width, t->spec.height, t->spec.width - 1, t->spec.height - 1, x, y);
-    t->column = (uint32_t)x;
-    t->line = (uint32_t)y;
-    return EXIT_FINE;
+    t->column = (uint32_t)depths_get(&o->pixels, 0);
+    t->line = (uint32_t)depths_get(&o->pixels, 1);
+    return texture_pixels_check(o, t->spec.width, t->spec.height);
 }
 
 static void *next_setup(void *of, size_t i) {

@@ -288,12 +288,12 @@ static const column columns[] = {{FIELD(pixels, source_path, "file", ""), .only 
 
 /* ---- The command ------------------------------------------------------------------------------------------------- */
 
-static int check_inside(const options *o, const texture_camera *camera) {
+int texture_pixels_check(const options *o, uint32_t width, uint32_t height) {
     for (size_t i = 0; i < o->pixels.count; i += 2) {
         const double x = depths_get(&o->pixels, i), y = depths_get(&o->pixels, i + 1);
-        if (x >= camera->width || y >= camera->height)
-            return option_error(OPTION_PIXEL, "must lie in the %u x %u pixels, from 0,0 to %u,%u, got %.0f,%.0f",
-                                camera->width, camera->height, camera->width - 1, camera->height - 1, x, y);
+        if (x >= width || y >= height)
+            return option_error(OPTION_PIXEL, "must lie in the %u x %u pixels, from 0,0 to %u,%u, got %.0f,%.0f", width,
+                                height, width - 1, height - 1, x, y);
     }
     return EXIT_FINE;
 }
@@ -311,7 +311,7 @@ int texture_pixel_write(const options *o, const texture_source *source, const fr
                   .mapping_from = texture_origin_name(source->mapping_from),
                   .direction_from = texture_origin_name(source->direction_from),
                   .count = o->pixels.count / 2};
-    int status = check_inside(o, &source->camera);
+    int status = texture_pixels_check(o, source->camera.width, source->camera.height);
     const char *wrong = effect != NULL ? frame_refuses(&source->frame, effect) : NULL;
     if (status == EXIT_FINE && wrong != NULL)
         status = usage_error("texture: %s: %s", effect->effect->name, wrong);

@@ -280,14 +280,19 @@ static double range_error(const work *w, const effect_view *view, double stored,
     return error;
 }
 
+/* The pixel that `refraction` names, as far as the picture goes. */
+static uint32_t aside_of(const work *w, uint32_t x) {
+    const int index = parameter_find(w->row->parameters, "refraction");
+    const int64_t at = x + (index >= 0 ? (int64_t)w->parameters[index] : 0), width = w->camera->width;
+    return (uint32_t)(at < 0 ? 0 : at < width ? at : width - 1);
+}
+
 /* Where the effect looks: beside the pixel if it refracts, unless what is there lies before the surface, or is none. */
 static uint32_t looks_at(const work *w, uint32_t x) {
-    const int index = parameter_find(w->row->parameters, "refraction");
-    const int64_t aside = index >= 0 ? (int64_t)w->parameters[index] : 0, width = w->camera->width;
-    const int64_t at = x + aside < 0 ? 0 : x + aside < width ? x + aside : width - 1;
-    if (aside == 0 || isnan(w->in->eyes[NORMAL_REACH][at]))
+    const uint32_t at = aside_of(w, x);
+    if (at == x || isnan(w->in->eyes[NORMAL_REACH][at]))
         return x;
-    return seen_as(w, w->in->depth[at]).eye >= w->other.eye ? (uint32_t)at : x;
+    return seen_as(w, w->in->depth[at]).eye >= w->other.eye ? at : x;
 }
 
 static float output_at(const work *w, uint32_t x) {
@@ -309,11 +314,9 @@ static double exact_at(const work *w, const effect_view *view, uint32_t x) {
 
 /* In a scene the truth decides where the effect should have looked. */
 static double true_output(const work *w, const effect_view *view, uint32_t x) {
-    const int index = parameter_find(w->row->parameters, "refraction");
-    const int64_t aside = index >= 0 ? (int64_t)w->parameters[index] : 0, width = w->camera->width;
-    const int64_t at = x + aside < 0 ? 0 : x + aside < width ? x + aside : width - 1;
-    const double own = frame_truth(w->in, x).z, beside = aside == 0 ? own : frame_truth(w->in, (uint32_t)at).z;
-    return w->row->output(view, w->parameters, beside >= w->reference || aside == 0 ? beside : own, w->reference);
+    const uint32_t at = aside_of(w, x);
+    const double own = frame_truth(w->in, x).z, beside = at == x ? own : frame_truth(w->in, at).z;
+    return w->row->output(view, w->parameters, beside >= w->reference ? beside : own, w->reference);
 }
 
 static double error_at(const work *w, frame_ranges *last, uint32_t x) {
