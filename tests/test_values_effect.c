@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Every value in the table of an effect, texture --effect without an image. */
 #include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
 
 #include "named.h"
@@ -125,6 +126,12 @@ static void check_effect(values *v, const char *arguments, const effect_row *row
     const bool none = isnan(value_at(v, decides[0])->number);
     snprintf(label, sizeof label, none ? "no %s is usable" : "%s %s ", wanted_one->name, direction);
     check_text_numbers(v, p.out, label, 6, decides + none);
+    if (!none) { /* usable as it is printed */
+        const char *at = strstr(p.out, label);
+        assert_non_null(at);
+        const double said = strtod(at + strlen(label), NULL), usable = value_at(v, decides[0])->number;
+        assert_true(row->smallest ? said >= usable : said <= usable);
+    }
     printed_free(&p);
 }
 

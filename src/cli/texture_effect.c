@@ -142,15 +142,16 @@ static void say_effect(page *p, void *item) {
                   number_of(t->camera.ortho ? t->spec.half_height : t->spec.fov_y, DIGITS_Z).text);
 }
 
+/* It is usable as it is printed. */
 static void say_usable(page *p, void *item) {
     const table *t = item;
+    const number_text usable = (t->effect->smallest ? number_up : number_down)(t->usable, DIGITS);
     const number_text z = number_of(t->z, DIGITS_Z);
     if (isnan(t->usable))
         page_line(p, "no %s is usable at z = %s", t->wanted_name, z.text);
     else
         page_line(p, "%s %s %s%s keeps the error at most one level at every depth shown; z = %s decides",
-                  t->wanted_name, t->direction, number_of(t->usable, DIGITS).text, t->effect->smallest ? " up" : "",
-                  z.text);
+                  t->wanted_name, t->direction, usable.text, t->effect->smallest ? " up" : "", z.text);
 }
 
 static const column parameter_columns[] = {{FIELD(struct parameter, name, "name", "")},
@@ -175,7 +176,8 @@ static int write_table(table *t, int status) {
         {FIELD(row, sample.interval, "interval", "scene"), SHOWN("interval", 13, DIGITS), .spare = 1},
         {FIELD(row, levels, "levels", "1/255"), SHOWN("levels", 12, DIGITS)},
         {FIELD(row, share, "share", ""), SHOWN("share", 12, DIGITS), .when = WITH_SHARE},
-        {FIELD(row, usable, "usable", ""), SHOWN(shown, USABLE_WIDTH, DIGITS), .only = AS_JSON | AS_TEXT},
+        {FIELD(row, usable, "usable", ""), SHOWN(shown, USABLE_WIDTH, DIGITS), .only = AS_JSON | AS_TEXT,
+         .upward = t->effect->smallest, .downward = !t->effect->smallest},
         {FIELD(row, usable, usable, t->wanted->unit), .only = AS_CSV},
         {.kind = COLUMN_END}};
     const column setup_report[] = {{PART(table, walk.fields, NULL, setup_columns)},
