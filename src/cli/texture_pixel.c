@@ -161,20 +161,26 @@ static bool has_camera(const pixels *all) {
     return all->source->path == NULL || option_given(all->o, OPTION_FOV) || option_given(all->o, OPTION_HALF_HEIGHT);
 }
 
+/* Of a scene how much it is, of an image at most. */
+static void say_off(page *p, const pixels *all, double by, const char *unit) {
+    if (all->scene != NULL)
+        page_note(p, "", "off by %s %s", number_of(by, DIGITS).text, unit);
+    else
+        page_note(p, "", "off by at most %s %s", number_up(by, DIGITS).text, unit);
+}
+
 static void say_normal(page *p, const pixels *all) {
     const pixel *x = &all->at;
-    const bool known = all->scene != NULL;
     page_note(p, "normal", "%s, %s, %s in view space", number_of(x->normal[0], DIGITS).text,
               number_of(x->normal[1], DIGITS).text, number_of(x->normal[2], DIGITS).text);
-    page_note(p, "", "off by %s%s degrees%s", known ? "" : "at most ", number_of(x->normal_off, DIGITS).text,
-              known ? "" : " where the surface is flat");
+    say_off(p, all, x->normal_off, all->scene != NULL ? "degrees" : "degrees where the surface is flat");
 }
 
 static void say_effect(page *p, const pixels *all) {
     const pixel *x = &all->at;
     page_note(p, all->effect_name, "%s in binary32, %s exactly", number_of(x->output, DIGITS_Z).text,
               number_of(x->exact, DIGITS_Z).text);
-    page_note(p, "", "off by %s%s levels", all->scene != NULL ? "" : "at most ", number_of(x->levels, DIGITS).text);
+    say_off(p, all, x->levels, "levels");
 }
 
 static void say_pixel(page *p, void *item) {
