@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Effects over a row of pixels: in binary32 as a shader evaluates them, and how far that can be off. */
 #include <math.h>
+#include <string.h>
 
 #include "core/bits.h"
 #include "texture/frame_rows.h"
@@ -182,8 +183,8 @@ static double exact_corners(const work *w, uint32_t x) {
         double z[2];
         for (int i = 0; i < 2; i++) {
             z[i] = dp_stored(&w->camera->setup, two[i]->code);
-            for (int axis = 0; axis < 3 && normals; axis++)
-                view.normals[i][axis] = hit_of(w, two[i]).normal[axis] * (axis == 2 ? -1 : 1);
+            if (normals)
+                memcpy(view.normals[i], hit_of(w, two[i]).normal, sizeof view.normals[i]);
         }
         const double one = w->row->output(&view, w->parameters, z[0], z[1]);
         all = around ? all + one / CORNERS : fmax(all, one);
@@ -215,8 +216,7 @@ static void outputs_of(const work *w, const tap *a, const tap *b, double out[2])
     const scene_hit hits[2] = {hit_of(w, a), hit_of(w, b)};
     effect_view view = {.setup = w->planes};
     for (int i = 0; i < 2; i++)
-        for (int k = 0; k < 3; k++)
-            view.normals[i][k] = hits[i].normal[k] * (k == 2 ? -1 : 1);
+        memcpy(view.normals[i], hits[i].normal, sizeof view.normals[i]);
     out[0] = out[1] = w->row->output(&view, w->parameters, hits[0].z, hits[1].z);
 }
 
