@@ -125,11 +125,16 @@ static void check_effect(values *v, const char *arguments, const effect_row *row
     check_text_table(v, p.out, row->alone ? shared : plain, shown, lines);
     const bool none = isnan(value_at(v, decides[0])->number);
     snprintf(label, sizeof label, none ? "no %s is usable" : "%s %s ", wanted_one->name, direction);
-    check_text_numbers(v, p.out, label, 6, decides + none);
-    if (!none) { /* usable as it is printed */
-        const char *at = strstr(p.out, label);
-        assert_non_null(at);
-        const double said = strtod(at + strlen(label), NULL), usable = value_at(v, decides[0])->number;
+    if (none)
+        check_text_numbers(v, p.out, label, 6, decides + 1);
+    else { /* usable as it is printed; at the end of the range no depth decides */
+        static const char *const alone[] = {"setups[0].all.usable", NULL};
+        const double usable = value_at(v, alone[0])->number;
+        const bool all = usable == (row->smallest ? wanted_one->lo : wanted_one->hi);
+        check_text_numbers(v, p.out, label, 6, all ? alone : decides);
+        const char *at = strstr(p.out, label), *word = strstr(at, " decides");
+        const double said = strtod(at + strlen(label), NULL);
+        assert_true(all == (word == NULL || word > at + strcspn(at, "\n")));
         assert_true(row->smallest ? said >= usable : said <= usable);
     }
     printed_free(&p);

@@ -142,16 +142,19 @@ static void say_effect(page *p, void *item) {
                   number_of(t->camera.ortho ? t->spec.half_height : t->spec.fov_y, DIGITS_Z).text);
 }
 
-/* It is usable as it is printed. */
+/* It is usable as it is printed. At the end of the range no depth decides. */
 static void say_usable(page *p, void *item) {
     const table *t = item;
     const number_text usable = (t->effect->smallest ? number_up : number_down)(t->usable, DIGITS);
     const number_text z = number_of(t->z, DIGITS_Z);
+    char decides[64] = "";
+    if (t->usable != (t->effect->smallest ? t->wanted->lo : t->wanted->hi))
+        snprintf(decides, sizeof decides, "; z = %s decides", z.text);
     if (isnan(t->usable))
         page_line(p, "no %s is usable at z = %s", t->wanted_name, z.text);
     else
-        page_line(p, "%s %s %s%s keeps the error at most one level at every depth shown; z = %s decides",
-                  t->wanted_name, t->direction, usable.text, t->effect->smallest ? " up" : "", z.text);
+        page_line(p, "%s %s %s%s keeps the error at most one level at every depth shown%s", t->wanted_name,
+                  t->direction, usable.text, t->effect->smallest ? " up" : "", decides);
 }
 
 static const column parameter_columns[] = {{FIELD(struct parameter, name, "name", "")},
