@@ -241,8 +241,9 @@ static double corners_error(const work *w, uint32_t x) {
 
 /* Where what it is compared with is not known, it lies where the error is largest. What binary32 adds is then bounded:
  * a few roundings of an output of 1, and one of each depth. */
-static double worst_error(const work *w, const effect_view *view, float eye, const grain_range *range) {
-    const effect_depths depths = {.seen = (double)eye, .lo = range->lo, .hi = range->hi};
+static double worst_error(const work *w, const effect_view *view, const effect_pixel *pixel, const grain_range *range) {
+    const double seen = w->row->eye01 ? (double)pixel->eye01 * w->planes->spec.zfar : (double)pixel->eye;
+    const effect_depths depths = {.seen = seen, .lo = range->lo, .hi = range->hi};
     const double p = w->parameters[w->row->wanted], error = effect_error_within(w->row, view, w->parameters, &depths);
     if (w->row->apart == NULL)
         return isnan(error) ? LEVELS : error;
@@ -321,8 +322,10 @@ static double true_output(const work *w, const effect_view *view, uint32_t x) {
 
 static double error_at(const work *w, frame_ranges *last, uint32_t x) {
     const effect_view view = view_at(w, x);
-    if (w->row->given && isnan(w->reference))
-        return worst_error(w, &view, pixel_at(w, x).eye, frame_range_of(w->in, last, x));
+    if (w->row->given && isnan(w->reference)) {
+        const effect_pixel pixel = pixel_at(w, x);
+        return worst_error(w, &view, &pixel, frame_range_of(w->in, last, x));
+    }
     const double seen = (double)output_at(w, x);
     if (w->in->frame->scene != NULL)
         return isnan(frame_truth(w->in, x).z) ? (double)NAN : LEVELS * fabs(seen - true_output(w, &view, x));
