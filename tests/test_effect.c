@@ -718,11 +718,31 @@ static void test_limits(void **state) {
     assert_true(isnan(effect_error(fog, &none, p, 10)) && isnan(effect_usable(fog, &none, p, 10, 1)));
 }
 
+static void test_step_limits(void **state) {
+    const dp_setup finite = setup_of(0.1, 1000, DP_MAPPING_D3D, "unorm16");
+    const effect_view near = view_of(&finite);
+    const effect_row *edge = effect_find("edge"), *shadow = effect_find("shadow");
+    double p[TEXTURE_PARAMETERS];
+    (void)state;
+    /* A plane whose second pixel lies beyond the far plane is not seen there. */
+    parameter_defaults(edge->parameters, p);
+    p[edge->wanted] = 0.15;
+    p[parameter_find(edge->parameters, "slope")] = 200;
+    assert_true(effect_error(edge, &near, p, 900) == 0 && effect_usable(edge, &near, p, 900, 1) == 0);
+    /* As many places are in the shadow of a plane that hardly leans as of one that faces the light. */
+    parameter_defaults(shadow->parameters, p);
+    const double facing = effect_share(shadow, &near, p, 30);
+    p[parameter_find(shadow->parameters, "slope")] = 1e-14;
+    assert_true(facing > 0.1 && facing < 0.9);
+    assert_relative(effect_share(shadow, &near, p, 30), facing, 1e-9);
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_rows),        cmocka_unit_test(test_by_hand), cmocka_unit_test(test_sharp),
         cmocka_unit_test(test_outputs),     cmocka_unit_test(test_edge),    cmocka_unit_test(test_steps),
         cmocka_unit_test(test_range_check), cmocka_unit_test(test_shadow),  cmocka_unit_test(test_limits),
+        cmocka_unit_test(test_step_limits),
     };
     return run_tap(tests);
 }
