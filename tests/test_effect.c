@@ -264,8 +264,22 @@ static dp_setup any_setup(rng *r) {
     return setup_of(znear, znear * rng_log(r, 50, 1e4), mappings[rng_below(r, 3)], formats[rng_below(r, 3)]);
 }
 
-static double log_depth(rng *r, const dp_setup *setup) {
-    return rng_log(r, setup->spec.znear, setup->spec.zfar);
+/* A depth of some set-up, and its cell. */
+typedef struct place {
+    dp_setup setup;
+    camera c;
+    effect_view view;
+    double z;
+    cell k;
+} place;
+
+static void any_place(rng *r, double before_far, place *out) {
+    out->setup = any_setup(r);
+    out->c = camera_of(&out->setup);
+    out->view = view_of(&out->setup);
+    out->z = rng_log(r, out->setup.spec.znear, out->setup.spec.zfar / before_far);
+    out->k = cell_of(&out->c, dp_code(&out->setup, out->z));
+    assert_true(reach(out->k) > 1e-8L * out->k.hi); /* so that its ends in double say much of it */
 }
 
 /* Cells are ends of depths in double, so what is left of them after a subtraction has their rounding. */
@@ -278,38 +292,32 @@ static void test_by_hand(void **state) {
     tally t = {.name = "by hand"};
     (void)state;
     for (uint64_t i = 0; i < test_cases(2000, 60000, 1000000); i++) {
-        const dp_setup setup = any_setup(&r);
-        const camera c = camera_of(&setup);
-        const effect_view view = view_of(&setup);
-        const double z = log_depth(&r, &setup);
-        const cell k = cell_of(&c, dp_code(&setup, z));
+        place at;
+        any_place(&r, 1, &at);
         const hand *h = &hands[rng_below(&r, HAND_COUNT)];
         const effect_row *row = effect_find(h->name);
         const texture_parameter *wanted = &row->parameters[row->wanted];
         double p[TEXTURE_PARAMETERS];
         parameters_of(row, p);
         const double levels = rng_log(&r, 0.01, 100);
-        const long double usable = h->usable(&c, k, (long double)levels / 255);
-        if (reach(k) < 1e-9L * k.hi) {
-            t.skipped++;
-            continue;
-        }
-        const double got = effect_usable(row, &view, p, z, levels);
+        const long double usable = h->usable(&at.c, at.k, (long double)levels / 255);
+        const double got = effect_usable(row, &at.view, p, at.z, levels);
         const bool outside = row->smallest ? usable > (long double)wanted->hi : usable < (long double)wanted->lo;
         if (outside)
-            TALLY(&t, isnan(got), "%s z %a: %a usable", row->name, z, got);
+            TALLY(&t, isnan(got), "%s z %a: %a usable", row->name, at.z, got);
         else
             TALLY(&t,
-                  fabsl((long double)got - fminl(fmaxl(usable, wanted->lo), wanted->hi)) <= slack(k) * (long double)got,
-                  "%s %s %s z %a, %a levels: %a, %La", row->name, setup.spec.format.name,
-                  dp_mapping_get(setup.spec.mapping)->name, z, levels, got, usable);
+                  fabsl((long double)got - fminl(fmaxl(usable, wanted->lo), wanted->hi)) <=
+                      slack(at.k) * (long double)got,
+                  "%s %s %s z %a, %a levels: %a, %La", row->name, at.setup.spec.format.name,
+                  dp_mapping_get(at.setup.spec.mapping)->name, at.z, levels, got, usable);
         p[row->wanted] = (double)fminl(fmaxl(usable * (long double)rng_log(&r, 1e-4, 1e4), wanted->lo), wanted->hi);
         if ((h->usable == water_usable || h->usable == decal_usable) && rng_below(&r, 8) == 0)
             p[row->wanted] = 0;
-        const long double error = 255 * h->error(&c, k, p[row->wanted]);
-        TALLY(&t, fabsl((long double)effect_error(row, &view, p, z) - error) <= slack(k) * fmaxl(error, 1e-3L),
-              "%s %s z %a, parameter %a: %a levels, %La", row->name, setup.spec.format.name, z, p[row->wanted],
-              effect_error(row, &view, p, z), error);
+        const long double error = 255 * h->error(&at.c, at.k, p[row->wanted]);
+        TALLY(&t, fabsl((long double)effect_error(row, &at.view, p, at.z) - error) <= slack(at.k) * fmaxl(error, 1e-3L),
+              "%s %s z %a, parameter %a: %a levels, %La", row->name, at.setup.spec.format.name, at.z, p[row->wanted],
+              effect_error(row, &at.view, p, at.z), error);
     }
     tally_end(&t);
 }
@@ -320,33 +328,33 @@ static void test_sharp(void **state) {
     tally t = {.name = "sharp"};
     (void)state;
     for (uint64_t i = 0; i < test_cases(2000, 40000, 1000000); i++) {
-        const dp_setup setup = any_setup(&r);
-        const camera c = camera_of(&setup);
-        const effect_view view = view_of(&setup);
-        const double z = log_depth(&r, &setup);
-        const cell k = cell_of(&c, dp_code(&setup, z));
+        place at;
+        any_place(&r, 1, &at);
         const hand *h = &hands[rng_below(&r, HAND_COUNT)];
         const effect_row *row = effect_find(h->name);
         const texture_parameter *wanted = &row->parameters[row->wanted];
         double p[TEXTURE_PARAMETERS];
         parameters_of(row, p);
         const double levels = rng_log(&r, 0.01, 100);
-        const double usable = effect_usable(row, &view, p, z, levels);
-        if (isnan(usable) || usable == wanted->lo || usable == wanted->hi || reach(k) < 1e-9L * k.hi) {
+        const double usable = effect_usable(row, &at.view, p, at.z, levels);
+        if (isnan(usable) || usable == wanted->lo || usable == wanted->hi) {
             t.skipped++;
             continue;
         }
         p[row->wanted] = usable;
-        TALLY(&t, effect_error(row, &view, p, z) <= levels, "%s z %a at %a", row->name, z, usable);
+        TALLY(&t, effect_error(row, &at.view, p, at.z) <= levels, "%s z %a at %a", row->name, at.z, usable);
         p[row->wanted] = nextafter(usable, row->smallest ? 0 : INFINITY);
-        TALLY(&t, effect_error(row, &view, p, z) > levels, "%s z %a beside %a", row->name, z, usable);
-        const long double off = 2 * slack(k);
+        TALLY(&t, effect_error(row, &at.view, p, at.z) > levels, "%s z %a beside %a", row->name, at.z, usable);
+        const long double off = 2 * slack(at.k);
         const long double good = (long double)usable * (row->smallest ? 1 + off : 1 - off);
         const long double bad = (long double)usable * (row->smallest ? 1 - off : 1 + off);
-        TALLY(&t, 255 * h->error(&c, k, good) <= (long double)levels, "%s z %a: %a is too much", row->name, z, usable);
-        TALLY(&t, 255 * h->error(&c, k, bad) > (long double)levels, "%s z %a: %a is not all", row->name, z, usable);
+        TALLY(&t, 255 * h->error(&at.c, at.k, good) <= (long double)levels, "%s z %a: %a is too much", row->name, at.z,
+              usable);
+        TALLY(&t, 255 * h->error(&at.c, at.k, bad) > (long double)levels, "%s z %a: %a is not all", row->name, at.z,
+              usable);
         const long double inner = good * (long double)(row->smallest ? rng_log(&r, 1, 1e6) : rng_log(&r, 1e-6, 1));
-        TALLY(&t, 255 * h->error(&c, k, inner) <= (long double)levels, "%s z %a: not %La", row->name, z, inner);
+        TALLY(&t, 255 * h->error(&at.c, at.k, inner) <= (long double)levels, "%s z %a: not %La", row->name, at.z,
+              inner);
     }
     tally_end(&t);
 }
@@ -416,32 +424,29 @@ static void test_edge(void **state) {
     tally t = {.name = "edges"};
     (void)state;
     for (uint64_t i = 0; i < test_cases(300, 6000, 100000); i++) {
-        const dp_setup setup = any_setup(&r);
-        const camera c = camera_of(&setup);
-        const effect_view view = view_of(&setup);
-        const double z = rng_log(&r, setup.spec.znear, setup.spec.zfar / 1.5);
-        const cell k = cell_of(&c, dp_code(&setup, z));
-        const double slope = rng_below(&r, 8) == 0 ? 0 : (double)(k.hi - k.lo) * rng_log(&r, 0.05, 20);
+        place at;
+        any_place(&r, 1.5, &at);
+        const double slope = rng_below(&r, 8) == 0 ? 0 : (double)(at.k.hi - at.k.lo) * rng_log(&r, 0.05, 20);
         double p[TEXTURE_PARAMETERS] = {0, slope};
-        if (reach(k) < 1e-9L * k.hi || k.hi + (long double)slope > c.f) {
+        if (at.k.hi + (long double)slope > at.c.f) {
             t.skipped++;
             continue;
         }
         long double least = (long double)INFINITY, most = 0;
         for (int a = 0; a <= PLACES; a++) { /* just inside the cell, and all over it */
             const long double share = fminl(fmaxl((long double)a / PLACES, 1e-7L), 1 - 1e-7L);
-            const long double z1 = k.lo + (k.hi - k.lo) * share;
-            const long double seen = eye_of(&c, code_of(&c, z1 + (long double)slope)) - k.stored;
-            least = fminl(least, seen / c.f);
-            most = fmaxl(most, seen / c.f);
+            const long double z1 = at.k.lo + (at.k.hi - at.k.lo) * share;
+            const long double seen = eye_of(&at.c, code_of(&at.c, z1 + (long double)slope)) - at.k.stored;
+            least = fminl(least, seen / at.c.f);
+            most = fmaxl(most, seen / at.c.f);
         }
-        const long double plane = (long double)slope / c.f;
+        const long double plane = (long double)slope / at.c.f;
         const bool exact = least >= plane && most <= plane;
-        const double usable = effect_usable(row, &view, p, z, 1);
+        const double usable = effect_usable(row, &at.view, p, at.z, 1);
         const long double want = exact ? 0 : fmaxl(plane, most);
-        TALLY(&t, want > 1 ? isnan(usable) : fabsl((long double)usable - want) <= 1e-12L + slack(k) * want,
-              "%s %s z %a slope %a: from %a, %La", setup.spec.format.name, dp_mapping_get(setup.spec.mapping)->name, z,
-              slope, usable, want);
+        TALLY(&t, want > 1 ? isnan(usable) : fabsl((long double)usable - want) <= 1e-12L + slack(at.k) * want,
+              "%s %s z %a slope %a: from %a, %La", at.setup.spec.format.name,
+              dp_mapping_get(at.setup.spec.mapping)->name, at.z, slope, usable, want);
         /* Thresholds on all sides of the three that matter. */
         const long double marks[] = {least, plane, most};
         for (int a = 0; a < 6; a++) {
@@ -451,8 +456,8 @@ static void test_edge(void **state) {
                 continue;
             p[0] = (double)threshold;
             const bool wrong = plane > threshold ? least <= threshold : most > threshold;
-            TALLY(&t, effect_error(row, &view, p, z) == (wrong ? 255.0 : 0.0), "z %a slope %a threshold %a: %g", z,
-                  slope, p[0], effect_error(row, &view, p, z));
+            TALLY(&t, effect_error(row, &at.view, p, at.z) == (wrong ? 255.0 : 0.0), "z %a slope %a threshold %a: %g",
+                  at.z, slope, p[0], effect_error(row, &at.view, p, at.z));
         }
     }
     tally_end(&t);
@@ -501,28 +506,25 @@ static void test_steps(void **state) {
     tally t = {.name = "steps"};
     (void)state;
     for (uint64_t i = 0; i < test_cases(600, 9000, 200000); i++) {
-        const dp_setup setup = any_setup(&r);
-        const camera c = camera_of(&setup);
-        const effect_view view = view_of(&setup);
-        const double z = rng_log(&r, setup.spec.znear, setup.spec.zfar / 1.5);
-        const cell k = cell_of(&c, dp_code(&setup, z));
+        place at;
+        any_place(&r, 1.5, &at);
         const step *s = &steps[rng_below(&r, STEPS)];
         const effect_row *row = effect_find(s->name);
-        const double slope = (double)(k.hi - k.lo) * rng_log(&r, 0.05, 20);
+        const double slope = (double)(at.k.hi - at.k.lo) * rng_log(&r, 0.05, 20);
         long double other[1] = {(long double)(slope * rng_log(&r, 0.01, 0.2))};
         double p[TEXTURE_PARAMETERS];
-        if (reach(k) < 1e-9L * k.hi || k.hi + (long double)slope > c.f) {
+        if (at.k.hi + (long double)slope > at.c.f) {
             t.skipped++;
             continue;
         }
         if (s->on == occlusion_on) /* a radius that no difference comes near */
-            other[0] = 100 * (k.hi - k.lo) + 100 * (long double)slope;
+            other[0] = 100 * (at.k.hi - at.k.lo) + 100 * (long double)slope;
         parameter_defaults(row->parameters, p);
         p[parameter_find(row->parameters, "slope")] = slope;
         if (s->parameters[0] != NULL)
             p[parameter_find(row->parameters, s->parameters[0])] = (double)other[0];
         assert_true(row->quiet == s->quiet && row->alone == s->alone);
-        const double usable = effect_usable(row, &view, p, z, 1);
+        const double usable = effect_usable(row, &at.view, p, at.z, 1);
         const texture_parameter *range = &row->parameters[row->wanted];
         const double marks[] = {usable, usable * (1 - 1e-6), usable * (1 + 1e-6), usable * 0.5, usable * 2};
         for (int m = 0; m < 5; m++) {
@@ -533,23 +535,25 @@ static void test_steps(void **state) {
             bool wrong = false, near = false;
             for (int a = 0; a <= PLACES; a++) {
                 const long double share = fminl(fmaxl((long double)a / PLACES, 1e-7L), 1 - 1e-7L);
-                const long double seen = eye_of(&c, code_of(&c, k.lo + (k.hi - k.lo) * share + (long double)slope));
-                const bool should = !s->quiet && s->on(&c, k.stored, slope, marks[m], other);
+                const long double seen =
+                    eye_of(&at.c, code_of(&at.c, at.k.lo + (at.k.hi - at.k.lo) * share + (long double)slope));
+                const bool should = !s->quiet && s->on(&at.c, at.k.stored, slope, marks[m], other);
                 for (int e = -1; e <= 1; e++) { /* answers that rounding in double decides are no answers */
-                    const bool on = s->on(&c, k.stored, (seen - k.stored) * (1 + e * slack(k)) + e * 1e-12L * other[0],
-                                          marks[m], other);
+                    const bool on =
+                        s->on(&at.c, at.k.stored, (seen - at.k.stored) * (1 + e * slack(at.k)) + e * 1e-12L * other[0],
+                              marks[m], other);
                     wrong = wrong || (e == 0 && on != should);
-                    near = near || s->on(&c, k.stored, slope + e * 1e-12L * (slope + other[0]), marks[m], other) !=
-                                       s->on(&c, k.stored, slope, marks[m], other);
-                    near = near || on != s->on(&c, k.stored, seen - k.stored, marks[m], other);
+                    near = near || s->on(&at.c, at.k.stored, slope + e * 1e-12L * (slope + other[0]), marks[m],
+                                         other) != s->on(&at.c, at.k.stored, slope, marks[m], other);
+                    near = near || on != s->on(&at.c, at.k.stored, seen - at.k.stored, marks[m], other);
                 }
             }
-            TALLY(&t, near || (effect_error(row, &view, p, z) == 255) == wrong,
-                  "%s z %a slope %a at %a: %g, %d %d %d %s", s->name, z, slope, marks[m],
-                  effect_error(row, &view, p, z), wrong, m, good, setup.spec.format.name);
-            TALLY(&t, near || !good || !wrong, "%s z %a slope %a: %a is not usable", s->name, z, slope, marks[m]);
+            TALLY(&t, near || (effect_error(row, &at.view, p, at.z) == 255) == wrong,
+                  "%s z %a slope %a at %a: %g, %d %d %d %s", s->name, at.z, slope, marks[m],
+                  effect_error(row, &at.view, p, at.z), wrong, m, good, at.setup.spec.format.name);
+            TALLY(&t, near || !good || !wrong, "%s z %a slope %a: %a is not usable", s->name, at.z, slope, marks[m]);
             TALLY(&t, near || good || m == 0 || marks[m] < usable * 0.99 || marks[m] > usable * 1.01 || wrong,
-                  "%s z %a slope %a: %a is usable, not only from %a", s->name, z, slope, marks[m], usable);
+                  "%s z %a slope %a: %a is usable, not only from %a", s->name, at.z, slope, marks[m], usable);
         }
     }
     tally_end(&t);
@@ -582,40 +586,34 @@ static void test_shadow(void **state) {
     tally t = {.name = "shadows"};
     (void)state;
     for (uint64_t i = 0; i < test_cases(100, 1500, 20000); i++) {
-        const dp_setup setup = any_setup(&r);
-        const camera c = camera_of(&setup);
-        const effect_view view = view_of(&setup);
-        const double z = log_depth(&r, &setup);
-        const cell k = cell_of(&c, dp_code(&setup, z));
-        if (reach(k) < 1e-9L * k.hi) {
-            t.skipped++;
-            continue;
-        }
-        const double slope = rng_below(&r, 6) == 0 ? 0 : (double)(k.hi - k.lo) * rng_log(&r, 0.1, 10);
+        place at;
+        any_place(&r, 1, &at);
+        const double slope = rng_below(&r, 6) == 0 ? 0 : (double)(at.k.hi - at.k.lo) * rng_log(&r, 0.1, 10);
         double p[TEXTURE_PARAMETERS];
         parameter_defaults(row->parameters, p);
         p[parameter_find(row->parameters, "slope")] = slope;
-        const long double want = k.hi - k.stored + (long double)slope / 2;
-        const double usable = effect_usable(row, &view, p, z, 1);
-        TALLY(&t, fabsl((long double)usable - want) <= slack(k) * fmaxl(want, reach(k)),
-              "z %a slope %a: from %a, not %La", z, slope, usable, want);
+        const long double want = at.k.hi - at.k.stored + (long double)slope / 2;
+        const double usable = effect_usable(row, &at.view, p, at.z, 1);
+        TALLY(&t, fabsl((long double)usable - want) <= slack(at.k) * fmaxl(want, reach(at.k)),
+              "z %a slope %a: from %a, not %La", at.z, slope, usable, want);
         p[row->wanted] = (double)want * rng_uniform(&r, 0, 1.2);
-        if (want < 1e-9L * reach(k) || fabs(p[row->wanted] / (double)want - 1) < 1e-6) {
+        if (want < 1e-9L * reach(at.k) || fabs(p[row->wanted] / (double)want - 1) < 1e-6) {
             t.skipped++;
             continue;
         }
         uint64_t shadowed = 0;
         for (int a = 0; a < PLACES; a++)
             for (int b = 0; b < PLACES; b++) {
-                const long double u = k.lo + (k.hi - k.lo) * (a + 0.5L) / PLACES, side = (b + 0.5L) / PLACES - 0.5L;
-                shadowed += u + (long double)slope * side - (long double)p[row->wanted] > k.stored;
+                const long double u = at.k.lo + (at.k.hi - at.k.lo) * (a + 0.5L) / PLACES,
+                                  side = (b + 0.5L) / PLACES - 0.5L;
+                shadowed += u + (long double)slope * side - (long double)p[row->wanted] > at.k.stored;
             }
-        const double share = (double)shadowed / PLACES / PLACES, got = effect_share(row, &view, p, z);
-        TALLY(&t, fabs(got - share) <= 0.01, "z %a slope %a bias %a: %g, counted %g", z, slope, p[row->wanted], got,
+        const double share = (double)shadowed / PLACES / PLACES, got = effect_share(row, &at.view, p, at.z);
+        TALLY(&t, fabs(got - share) <= 0.01, "z %a slope %a bias %a: %g, counted %g", at.z, slope, p[row->wanted], got,
               share);
-        TALLY(&t, (effect_error(row, &view, p, z) == 255) == (p[row->wanted] < (double)want), "z %a bias %a: %g", z,
-              p[row->wanted], effect_error(row, &view, p, z));
-        TALLY(&t, (got > 0) == (p[row->wanted] < (double)want), "z %a bias %a of %La: %g", z, p[row->wanted], want,
+        TALLY(&t, (effect_error(row, &at.view, p, at.z) == 255) == (p[row->wanted] < (double)want), "z %a bias %a: %g",
+              at.z, p[row->wanted], effect_error(row, &at.view, p, at.z));
+        TALLY(&t, (got > 0) == (p[row->wanted] < (double)want), "z %a bias %a of %La: %g", at.z, p[row->wanted], want,
               got);
     }
     assert_true(isnan(effect_share(effect_find("edge"), NULL, NULL, 1)));
@@ -720,11 +718,31 @@ static void test_limits(void **state) {
     assert_true(isnan(effect_error(fog, &none, p, 10)) && isnan(effect_usable(fog, &none, p, 10, 1)));
 }
 
+static void test_step_limits(void **state) {
+    const dp_setup finite = setup_of(0.1, 1000, DP_MAPPING_D3D, "unorm16");
+    const effect_view near = view_of(&finite);
+    const effect_row *edge = effect_find("edge"), *shadow = effect_find("shadow");
+    double p[TEXTURE_PARAMETERS];
+    (void)state;
+    /* A plane whose second pixel lies beyond the far plane is not seen there. */
+    parameter_defaults(edge->parameters, p);
+    p[edge->wanted] = 0.15;
+    p[parameter_find(edge->parameters, "slope")] = 200;
+    assert_true(effect_error(edge, &near, p, 900) == 0 && effect_usable(edge, &near, p, 900, 1) == 0);
+    /* As many places are in the shadow of a plane that hardly leans as of one that faces the light. */
+    parameter_defaults(shadow->parameters, p);
+    const double facing = effect_share(shadow, &near, p, 30);
+    p[parameter_find(shadow->parameters, "slope")] = 1e-14;
+    assert_true(facing > 0.1 && facing < 0.9);
+    assert_relative(effect_share(shadow, &near, p, 30), facing, 1e-9);
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_rows),        cmocka_unit_test(test_by_hand), cmocka_unit_test(test_sharp),
         cmocka_unit_test(test_outputs),     cmocka_unit_test(test_edge),    cmocka_unit_test(test_steps),
         cmocka_unit_test(test_range_check), cmocka_unit_test(test_shadow),  cmocka_unit_test(test_limits),
+        cmocka_unit_test(test_step_limits),
     };
     return run_tap(tests);
 }

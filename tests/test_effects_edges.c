@@ -307,9 +307,47 @@ static void test_refraction(void **state) {
     assert_true(shifted > PIXELS / 2);
 }
 
+/* A sphere, most of it under water: the truth says where it is seen through, and how far off that is. */
+static void test_refracted_scene(void **state) {
+    static float got[PIXELS], off[PIXELS];
+    const double surface = 4.2, density = 0.3, distance = 8, radius = 4, half = tan(30 * M_PI / 180);
+    const double parameters[TEXTURE_PARAMETERS] = {distance, radius, 0};
+    double at[TEXTURE_PARAMETERS], z[PIXELS], ray[PIXELS];
+    stage s;
+    int shifted = 0;
+    (void)state;
+    stage_make(&s);
+    s.frame.image = NULL;
+    s.frame.scene = scene_find("sphere");
+    s.frame.parameters = parameters;
+    for (int k = 0; k < PIXELS; k++) {
+        const double x = (2 * (k % ACROSS + 0.5) / ACROSS - 1) * half * ACROSS / DOWN;
+        const double y = (1 - 2 * (k / ACROSS + 0.5) / DOWN) * half, a = x * x + y * y + 1;
+        z[k] = (distance - sqrt(distance * distance - a * (distance * distance - radius * radius))) / a;
+        ray[k] = sqrt(a);
+    }
+    parameter_defaults(effect_find("water-depth")->parameters, at);
+    set("water-depth", at, "density", density);
+    set("water-depth", at, "refraction", 3);
+    make(&s, "water-depth", at, surface, false, got);
+    make(&s, "water-depth", at, surface, true, off);
+    for (int k = 0; k < PIXELS; k++) {
+        if (isnan(z[k])) {
+            assert_true(isnan(off[k]));
+            continue;
+        }
+        const int there = z[beside(k, 3, 0)] >= surface ? beside(k, 3, 0) : k;
+        const double want = 1 - exp(-density * fmax(z[there] - surface, 0) * ray[k]);
+        assert_true(fabs((double)off[k] - 255 * fabs((double)got[k] - want)) <= 1e-6);
+        assert_scene((double)got[k], want, 1e-3);
+        shifted += there != k;
+    }
+    assert_true(shifted > 20);
+}
+
 int main(void) {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(test_edges), cmocka_unit_test(test_sky),
-                                       cmocka_unit_test(test_occlusion), cmocka_unit_test(test_outlines),
-                                       cmocka_unit_test(test_refraction)};
+    const struct CMUnitTest tests[] = {cmocka_unit_test(test_edges),      cmocka_unit_test(test_sky),
+                                       cmocka_unit_test(test_occlusion),  cmocka_unit_test(test_outlines),
+                                       cmocka_unit_test(test_refraction), cmocka_unit_test(test_refracted_scene)};
     return run_tap(tests);
 }

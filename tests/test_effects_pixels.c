@@ -337,6 +337,48 @@ static void test_images(void **state) {
     tally_end(&t);
 }
 
+/* Where what an effect compares with is not given, the error holds for any place of it, the cell's ends among them, and
+ * is no more than it takes. */
+static void test_worst(void **state) {
+    enum { PLACES = 32, REFERENCES = 3 };
+    static uint32_t codes[PIXELS];
+    static float got[PIXELS], worst[PIXELS];
+    const image depths = {
+        .width = ACROSS, .height = DOWN, .channels = 1, .type = IMAGE_U32, .file = IMAGE_NPY, .data = codes};
+    rng r = rng_make("effects of images, at their worst");
+    tally t = {.name = "worst"};
+    (void)state;
+    for (uint64_t i = 0; i < test_cases(300, 3000, 100000); i++) {
+        const size_t e = (size_t)(i % EFFECTS);
+        double most[PIXELS] = {0};
+        stage s;
+        if (!effects[e].compares || effects[e].hard)
+            continue;
+        stage_any(&r, &s);
+        const frame f = {.camera = &s.camera, .last = &s.before, .image = &depths, .sky = 0, .threads = 1};
+        const uint32_t code = 600 + (uint32_t)rng_below(&r, 64000);
+        for (size_t k = 0; k < PIXELS; k++)
+            codes[k] = code;
+        s.reference = 0;
+        make(&s, &f, e, true, worst);
+        for (int a = 0; a < REFERENCES; a++) {
+            s.reference = eye_of(&s, code + (a - 1) * 0.5);
+            make(&s, &f, e, false, got);
+            for (int k = 0; k < PIXELS; k++)
+                for (int b = 0; b <= PLACES; b++)
+                    most[k] = fmax(most[k], fabs((double)got[k] -
+                                                 effects[e].of(&s, k, eye_of(&s, code - 0.5 + (double)b / PLACES))));
+        }
+        for (int k = 0; k < PIXELS; k++) {
+            const double least = 255 * fmin(most[k], 1);
+            TALLY(&t, (double)worst[k] >= least && (double)worst[k] <= 255 * fmin(most[k] + ROUNDED, 1),
+                  "%s %s pixel %d code %u: %.9g levels, not %.9g", effects[e].name, s.ortho ? "ortho" : "", k, code,
+                  (double)worst[k], least);
+        }
+    }
+    tally_end(&t);
+}
+
 /* ---- Scenes ------------------------------------------------------------------------------------------------------ */
 
 /* A plane leaning back: its depths are known, and the error is that of the output to theirs. */
@@ -423,7 +465,8 @@ static void test_camera_height(void **state) {
 }
 
 int main(void) {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(test_images), cmocka_unit_test(test_scenes),
-                                       cmocka_unit_test(test_velocity), cmocka_unit_test(test_camera_height)};
+    const struct CMUnitTest tests[] = {cmocka_unit_test(test_images), cmocka_unit_test(test_worst),
+                                       cmocka_unit_test(test_scenes), cmocka_unit_test(test_velocity),
+                                       cmocka_unit_test(test_camera_height)};
     return run_tap(tests);
 }

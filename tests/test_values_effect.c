@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Every value in the table of an effect, texture --effect without an image. */
 #include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
 
 #include "named.h"
@@ -9,77 +10,51 @@
 
 enum { DEPTHS = 5 };
 
+static const double AHEAD[DEPTHS] = {0.4, 30, 2, 500, 7}, AROUND[DEPTHS] = {-9, -0.5, 0, 3, 40};
+
+#define PERSPECTIVE(mapping, ...)                                                                                      \
+    { 0.3, 900, {__VA_ARGS__}, {mapping}, .ortho = 0 }
+#define BEHIND(mapping, ...)                                                                                           \
+    { -10, 50, {__VA_ARGS__}, {mapping}, .ortho = 1 }
+
+/* clang-format off */
 static const struct {
-    camera_case camera;
     const char *effect;
-    double z[DEPTHS];
+    camera_case camera;
+    const double *z;
     const char *view; /* options of the cameras, which are those below; null: the effect needs none */
     uint32_t column, row;
-    camera_spec now, last;
+    camera_spec now, last; /* of no width: as now */
 } effects[] = {
-    {{0.3, 900, {"unorm16", "fp32"}, {"d3d", "reversed"}, .unit = "cm"},
-     "intersection",
-     {0.4, 30, 2, 500, 7},
-     .view = NULL},
-    {{0.3, 900, {"unorm16"}, {"d3d"}, .ortho = 0}, "depth-of-field", {0.4, 30, 2, 500, 7}, .view = NULL},
-    {{0.3, 900, {"unorm24", "fp16"}, {"d3d"}, .ortho = 0}, "fog", {0.4, 30, 2, 500, 7}, .view = NULL},
-    {{0.3, 900, {"unorm16"}, {"gl"}, .ortho = 0}, "scan-line", {0.4, 30, 2, 500, 7}, .view = NULL},
-    {{0.3, 900, {"unorm16"}, {"d3d"}, .ortho = 0}, "edge", {0.4, 30, 2, 500, 7}, .view = NULL},
-    {{0.3, 900, {"unorm16"}, {"d3d"}, .ortho = 0},
-     "height-fog",
-     {0.4, 30, 2, 500, 7},
-     "--fov 40 --pitch -3 --yaw 20 --origin 7,9,-2",
-     320,
-     359,
-     {640, 360, 40, 5, 20, -3, {7, 9, -2}},
-     {640, 360, 40, 5, 20, -3, {7, 9, -2}}},
-    {{0.3, 900, {"unorm16"}, {"reversed"}, .ortho = 1},
-     "water-line",
-     {0.4, 30, 2, 500, 7},
-     "--half-height 3 --pitch 8 --size 90x60 --pixel 70,12",
-     70,
-     12,
-     {90, 60, 60, 3, 0, 8, {0, 0, 0}},
-     {90, 60, 60, 3, 0, 8, {0, 0, 0}}},
-    {{0.3, 900, {"unorm16"}, {"d3d"}, .ortho = 0}, "ambient-occlusion", {0.4, 30, 2, 500, 7}, .view = NULL},
-    {{0.3, 900, {"unorm16", "fp32"}, {"d3d"}, .ortho = 0}, "shadow", {0.4, 30, 2, 500, 7}, .view = NULL},
-    {{0.3, 900, {"unorm16"}, {"reversed"}, .ortho = 0}, "outline", {0.4, 30, 2, 500, 7}, .view = NULL},
-    {{0.3, 900, {"unorm16"}, {"reversed"}, .ortho = 0}, "contact-shadow", {0.4, 30, 2, 500, 7}, .view = NULL},
-    {{0.3, 900, {"unorm16"}, {"d3d"}, .ortho = 0}, "soft-particles", {0.4, 30, 2, 500, 7}, .view = NULL},
-    {{0.3, 900, {"unorm16"}, {"d3d"}, .ortho = 0},
-     "water-depth",
-     {0.4, 30, 2, 500, 7},
-     "--fov 100 --pixel 0,0",
-     0,
-     0,
-     {640, 360, 100, 5, 0, 0, {0, 0, 0}},
-     {640, 360, 100, 5, 0, 0, {0, 0, 0}}},
-    {{0.3, 900, {"unorm16"}, {"d3d"}, .ortho = 0},
-     "decal",
-     {0.4, 30, 2, 500, 7},
-     "--yaw 30",
-     320,
-     359,
-     {640, 360, 60, 5, 30, 0, {0, 0, 0}},
-     {640, 360, 60, 5, 30, 0, {0, 0, 0}}},
-    {{0.3, 900, {"unorm16"}, {"d3d"}, .ortho = 0},
-     "motion-blur",
-     {0.4, 30, 2, 500, 7},
-     "--yaw 10 --last-origin 0.1,0.05,0 --last-yaw 9 --last-pitch 1 --last-fov 59",
-     320,
-     359,
-     {640, 360, 60, 5, 10, 0, {0, 0, 0}},
-     {640, 360, 59, 5, 9, 1, {0.1, 0.05, 0}}},
-    {{-10, 50, {"unorm16", "fp32"}, {"d3d"}, .ortho = 1}, "intersection", {-9, -0.5, 0, 3, 40}, .view = NULL},
-    {{-10, 50, {"unorm16"}, {"reversed"}, .ortho = 1},
-     "height-fog",
-     {-9, -0.5, 0.25, 3, 40},
-     "--pitch -20",
-     320,
-     359,
-     {640, 360, 60, 5, 0, -20, {0, 0, 0}},
-     {640, 360, 60, 5, 0, -20, {0, 0, 0}}},
+    {.effect = "intersection", .z = AHEAD,
+     .camera = {0.3, 900, {"unorm16", "fp32"}, {"d3d", "reversed"}, .unit = "cm"}},
+    {.effect = "depth-of-field", .camera = PERSPECTIVE("d3d", "unorm16"), .z = AHEAD},
+    {.effect = "fog", .camera = PERSPECTIVE("d3d", "unorm24", "fp16"), .z = AHEAD},
+    {.effect = "scan-line", .camera = PERSPECTIVE("gl", "unorm16"), .z = AHEAD},
+    {.effect = "edge", .camera = PERSPECTIVE("d3d", "unorm16"), .z = AHEAD},
+    {.effect = "height-fog", .camera = PERSPECTIVE("d3d", "unorm16"), .z = AHEAD,
+     .view = "--fov 40 --pitch -3 --yaw 20 --origin 7,9,-2", .column = 320, .row = 359,
+     .now = {640, 360, 40, 5, 20, -3, {7, 9, -2}}},
+    {.effect = "water-line", .camera = {0.3, 900, {"unorm16"}, {"reversed"}, .ortho = 1}, .z = AHEAD,
+     .view = "--half-height 3 --pitch 8 --size 90x60 --pixel 70,12", .column = 70, .row = 12,
+     .now = {90, 60, 60, 3, 0, 8, {0, 0, 0}}},
+    {.effect = "ambient-occlusion", .camera = PERSPECTIVE("d3d", "unorm16"), .z = AHEAD},
+    {.effect = "shadow", .camera = PERSPECTIVE("d3d", "unorm16", "fp32"), .z = AHEAD},
+    {.effect = "outline", .camera = PERSPECTIVE("reversed", "unorm16"), .z = AHEAD},
+    {.effect = "contact-shadow", .camera = PERSPECTIVE("reversed", "unorm16"), .z = AHEAD},
+    {.effect = "soft-particles", .camera = PERSPECTIVE("d3d", "unorm16"), .z = AHEAD},
+    {.effect = "water-depth", .camera = PERSPECTIVE("d3d", "unorm16"), .z = AHEAD,
+     .view = "--fov 100 --pixel 0,0", .now = {640, 360, 100, 5, 0, 0, {0, 0, 0}}},
+    {.effect = "decal", .camera = PERSPECTIVE("d3d", "unorm16"), .z = AHEAD,
+     .view = "--yaw 30", .column = 320, .row = 359, .now = {640, 360, 60, 5, 30, 0, {0, 0, 0}}},
+    {.effect = "motion-blur", .camera = PERSPECTIVE("d3d", "unorm16"), .z = AHEAD,
+     .view = "--yaw 10 --last-origin 0.1,0.05,0 --last-yaw 9 --last-pitch 1 --last-fov 59", .column = 320, .row = 359,
+     .now = {640, 360, 60, 5, 10, 0, {0, 0, 0}}, .last = {640, 360, 59, 5, 9, 1, {0.1, 0.05, 0}}},
+    {.effect = "intersection", .camera = BEHIND("d3d", "unorm16", "fp32"), .z = AROUND},
+    {.effect = "height-fog", .camera = BEHIND("reversed", "unorm16"), .z = AROUND,
+     .view = "--pitch -20", .column = 320, .row = 359, .now = {640, 360, 60, 5, 0, -20, {0, 0, 0}}},
 };
+/* clang-format on */
 
 /* The axis of a camera at the origin where the effect needs none. */
 static void want_effect_rows(values *v, size_t effect, const double *parameters, const dp_setup *setup, size_t i,
@@ -91,7 +66,8 @@ static void want_effect_rows(values *v, size_t effect, const double *parameters,
     effect_view view = {.setup = setup};
     if (effects[effect].view != NULL) {
         assert_null(camera_init(&now, setup, &effects[effect].now));
-        assert_null(camera_init(&last, setup, &effects[effect].last));
+        const bool moved = effects[effect].last.width > 0;
+        assert_null(camera_init(&last, setup, moved ? &effects[effect].last : &effects[effect].now));
         view = effect_view_of(&now, &last, effects[effect].column, effects[effect].row);
     }
     values_under(v, "setups[%zu].", i);
@@ -149,7 +125,18 @@ static void check_effect(values *v, const char *arguments, const effect_row *row
     check_text_table(v, p.out, row->alone ? shared : plain, shown, lines);
     const bool none = isnan(value_at(v, decides[0])->number);
     snprintf(label, sizeof label, none ? "no %s is usable" : "%s %s ", wanted_one->name, direction);
-    check_text_numbers(v, p.out, label, 6, decides + none);
+    if (none)
+        check_text_numbers(v, p.out, label, 6, decides + 1);
+    else { /* usable as it is printed; at the end of the range no depth decides */
+        static const char *const alone[] = {"setups[0].all.usable", NULL};
+        const double usable = value_at(v, alone[0])->number;
+        const bool all = usable == (row->smallest ? wanted_one->lo : wanted_one->hi);
+        check_text_numbers(v, p.out, label, 6, all ? alone : decides);
+        const char *at = strstr(p.out, label), *word = strstr(at, " decides");
+        const double said = strtod(at + strlen(label), NULL);
+        assert_true(all == (word == NULL || word > at + strcspn(at, "\n")));
+        assert_true(row->smallest ? said >= usable : said <= usable);
+    }
     printed_free(&p);
 }
 

@@ -134,6 +134,9 @@ int texture_figure_draw(const options *o, const texture_source *s, const texture
 /** The statistics of a depth image: text, JSON, CSV. @return an exit status */
 int texture_report_write(const options *o, const texture_source *source);
 
+/** Whether the pixels of --pixel lie in so many. @return an exit status, after one line on stderr */
+int texture_pixels_check(const options *o, uint32_t width, uint32_t height);
+
 /** What --pixel asks about, likewise; `effect` is the product of --effect beside it, or null. */
 int texture_pixel_write(const options *o, const texture_source *source, const frame_product *effect);
 

@@ -80,15 +80,11 @@ static int choose_pixel(table *t, const options *o) {
     t->line = t->spec.height - 1;
     if (!option_given(o, OPTION_PIXEL))
         return EXIT_FINE;
-    const double x = depths_get(&o->pixels, 0), y = depths_get(&o->pixels, 1);
     if (o->pixels.count != 2)
         return option_error(OPTION_PIXEL, "must be one pixel with --effect alone, got %zu", o->pixels.count / 2);
-    if (x >= t->spec.width || y >= t->spec.height)
-        return option_error(OPTION_PIXEL, "must lie in the %u x %u pixels, from 0,0 to %u,%u, got %.0f,%.0f",
-                            t->spec.width, t->spec.height, t->spec.width - 1, t->spec.height - 1, x, y);
-    t->column = (uint32_t)x;
-    t->line = (uint32_t)y;
-    return EXIT_FINE;
+    t->column = (uint32_t)depths_get(&o->pixels, 0);
+    t->line = (uint32_t)depths_get(&o->pixels, 1);
+    return texture_pixels_check(o, t->spec.width, t->spec.height);
 }
 
 static void *next_setup(void *of, size_t i) {
@@ -146,15 +142,19 @@ static void say_effect(page *p, void *item) {
                   number_of(t->camera.ortho ? t->spec.half_height : t->spec.fov_y, DIGITS_Z).text);
 }
 
+/* It is usable as it is printed. At the end of the range no depth decides. */
 static void say_usable(page *p, void *item) {
     const table *t = item;
+    const number_text usable = (t->effect->smallest ? number_up : number_down)(t->usable, DIGITS);
     const number_text z = number_of(t->z, DIGITS_Z);
+    char decides[64] = "";
+    if (t->usable != (t->effect->smallest ? t->wanted->lo : t->wanted->hi))
+        snprintf(decides, sizeof decides, "; z = %s decides", z.text);
     if (isnan(t->usable))
         page_line(p, "no %s is usable at z = %s", t->wanted_name, z.text);
     else
-        page_line(p, "%s %s %s%s keeps the error at most one level at every depth shown; z = %s decides",
-                  t->wanted_name, t->direction, number_of(t->usable, DIGITS).text, t->effect->smallest ? " up" : "",
-                  z.text);
+        page_line(p, "%s %s %s%s keeps the error at most one level at every depth shown%s", t->wanted_name,
+                  t->direction, usable.text, t->effect->smallest ? " up" : "", decides);
 }
 
 static const column parameter_columns[] = {{FIELD(struct parameter, name, "name", "")},
@@ -179,7 +179,8 @@ static int write_table(table *t, int status) {
         {FIELD(row, sample.interval, "interval", "scene"), SHOWN("interval", 13, DIGITS), .spare = 1},
         {FIELD(row, levels, "levels", "1/255"), SHOWN("levels", 12, DIGITS)},
         {FIELD(row, share, "share", ""), SHOWN("share", 12, DIGITS), .when = WITH_SHARE},
-        {FIELD(row, usable, "usable", ""), SHOWN(shown, USABLE_WIDTH, DIGITS), .only = AS_JSON | AS_TEXT},
+        {FIELD(row, usable, "usable", ""), SHOWN(shown, USABLE_WIDTH, DIGITS), .only = AS_JSON | AS_TEXT,
+         .upward = t->effect->smallest, .downward = !t->effect->smallest},
         {FIELD(row, usable, usable, t->wanted->unit), .only = AS_CSV},
         {.kind = COLUMN_END}};
     const column setup_report[] = {{PART(table, walk.fields, NULL, setup_columns)},

@@ -161,20 +161,26 @@ static bool has_camera(const pixels *all) {
     return all->source->path == NULL || option_given(all->o, OPTION_FOV) || option_given(all->o, OPTION_HALF_HEIGHT);
 }
 
+/* Of a scene how much it is, of an image at most. */
+static void say_off(page *p, const pixels *all, double by, const char *unit) {
+    if (all->scene != NULL)
+        page_note(p, "", "off by %s %s", number_of(by, DIGITS).text, unit);
+    else
+        page_note(p, "", "off by at most %s %s", number_up(by, DIGITS).text, unit);
+}
+
 static void say_normal(page *p, const pixels *all) {
     const pixel *x = &all->at;
-    const bool known = all->scene != NULL;
     page_note(p, "normal", "%s, %s, %s in view space", number_of(x->normal[0], DIGITS).text,
               number_of(x->normal[1], DIGITS).text, number_of(x->normal[2], DIGITS).text);
-    page_note(p, "", "off by %s%s degrees%s", known ? "" : "at most ", number_of(x->normal_off, DIGITS).text,
-              known ? "" : " where the surface is flat");
+    say_off(p, all, x->normal_off, all->scene != NULL ? "degrees" : "degrees where the surface is flat");
 }
 
 static void say_effect(page *p, const pixels *all) {
     const pixel *x = &all->at;
     page_note(p, all->effect_name, "%s in binary32, %s exactly", number_of(x->output, DIGITS_Z).text,
               number_of(x->exact, DIGITS_Z).text);
-    page_note(p, "", "off by %s%s levels", all->scene != NULL ? "" : "at most ", number_of(x->levels, DIGITS).text);
+    say_off(p, all, x->levels, "levels");
 }
 
 static void say_pixel(page *p, void *item) {
@@ -288,12 +294,12 @@ static const column columns[] = {{FIELD(pixels, source_path, "file", ""), .only 
 
 /* ---- The command ------------------------------------------------------------------------------------------------- */
 
-static int check_inside(const options *o, const texture_camera *camera) {
+int texture_pixels_check(const options *o, uint32_t width, uint32_t height) {
     for (size_t i = 0; i < o->pixels.count; i += 2) {
         const double x = depths_get(&o->pixels, i), y = depths_get(&o->pixels, i + 1);
-        if (x >= camera->width || y >= camera->height)
-            return option_error(OPTION_PIXEL, "must lie in the %u x %u pixels, from 0,0 to %u,%u, got %.0f,%.0f",
-                                camera->width, camera->height, camera->width - 1, camera->height - 1, x, y);
+        if (x >= width || y >= height)
+            return option_error(OPTION_PIXEL, "must lie in the %u x %u pixels, from 0,0 to %u,%u, got %.0f,%.0f", width,
+                                height, width - 1, height - 1, x, y);
     }
     return EXIT_FINE;
 }
@@ -311,7 +317,7 @@ int texture_pixel_write(const options *o, const texture_source *source, const fr
                   .mapping_from = texture_origin_name(source->mapping_from),
                   .direction_from = texture_origin_name(source->direction_from),
                   .count = o->pixels.count / 2};
-    int status = check_inside(o, &source->camera);
+    int status = texture_pixels_check(o, source->camera.width, source->camera.height);
     const char *wrong = effect != NULL ? frame_refuses(&source->frame, effect) : NULL;
     if (status == EXIT_FINE && wrong != NULL)
         status = usage_error("texture: %s: %s", effect->effect->name, wrong);

@@ -89,9 +89,7 @@ typedef void effect_critical(const effect_view *view, const double *parameters, 
                              double out[2]);
 
 typedef struct effect_row {
-    const char *name; /**< "intersection", "force-field", "fog", "scan-line", "water-line", "height-fog", "edge",
-                           "outline", "motion-blur", "depth-of-field", "soft-particles", "decal", "ambient-occlusion",
-                           "contact-shadow", "shadow", "water-depth" */
+    const char *name; /**< "intersection", "fog", ... */
     const char *note; /**< the formula */
     texture_parameter parameters[TEXTURE_PARAMETERS + 1];
     int wanted;            /**< the parameter whose usable values are looked for */

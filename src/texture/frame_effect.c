@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Effects over a row of pixels: in binary32 as a shader evaluates them, and how far that can be off. */
 #include <math.h>
+#include <string.h>
 
 #include "core/bits.h"
 #include "texture/frame_rows.h"
@@ -182,8 +183,8 @@ static double exact_corners(const work *w, uint32_t x) {
         double z[2];
         for (int i = 0; i < 2; i++) {
             z[i] = dp_stored(&w->camera->setup, two[i]->code);
-            for (int axis = 0; axis < 3 && normals; axis++)
-                view.normals[i][axis] = hit_of(w, two[i]).normal[axis] * (axis == 2 ? -1 : 1);
+            if (normals)
+                memcpy(view.normals[i], hit_of(w, two[i]).normal, sizeof view.normals[i]);
         }
         const double one = w->row->output(&view, w->parameters, z[0], z[1]);
         all = around ? all + one / CORNERS : fmax(all, one);
@@ -215,8 +216,7 @@ static void outputs_of(const work *w, const tap *a, const tap *b, double out[2])
     const scene_hit hits[2] = {hit_of(w, a), hit_of(w, b)};
     effect_view view = {.setup = w->planes};
     for (int i = 0; i < 2; i++)
-        for (int k = 0; k < 3; k++)
-            view.normals[i][k] = hits[i].normal[k] * (k == 2 ? -1 : 1);
+        memcpy(view.normals[i], hits[i].normal, sizeof view.normals[i]);
     out[0] = out[1] = w->row->output(&view, w->parameters, hits[0].z, hits[1].z);
 }
 
@@ -241,8 +241,9 @@ static double corners_error(const work *w, uint32_t x) {
 
 /* Where what it is compared with is not known, it lies where the error is largest. What binary32 adds is then bounded:
  * a few roundings of an output of 1, and one of each depth. */
-static double worst_error(const work *w, const effect_view *view, float eye, const grain_range *range) {
-    const effect_depths depths = {.seen = (double)eye, .lo = range->lo, .hi = range->hi};
+static double worst_error(const work *w, const effect_view *view, const effect_pixel *pixel, const grain_range *range) {
+    const double seen = w->row->eye01 ? (double)pixel->eye01 * w->planes->spec.zfar : (double)pixel->eye;
+    const effect_depths depths = {.seen = seen, .lo = range->lo, .hi = range->hi};
     const double p = w->parameters[w->row->wanted], error = effect_error_within(w->row, view, w->parameters, &depths);
     if (w->row->apart == NULL)
         return isnan(error) ? LEVELS : error;
@@ -280,14 +281,19 @@ static double range_error(const work *w, const effect_view *view, double stored,
     return error;
 }
 
+/* The pixel that `refraction` names, as far as the picture goes. */
+static uint32_t aside_of(const work *w, uint32_t x) {
+    const int index = parameter_find(w->row->parameters, "refraction");
+    const int64_t at = x + (index >= 0 ? (int64_t)w->parameters[index] : 0), width = w->camera->width;
+    return (uint32_t)(at < 0 ? 0 : at < width ? at : width - 1);
+}
+
 /* Where the effect looks: beside the pixel if it refracts, unless what is there lies before the surface, or is none. */
 static uint32_t looks_at(const work *w, uint32_t x) {
-    const int index = parameter_find(w->row->parameters, "refraction");
-    const int64_t aside = index >= 0 ? (int64_t)w->parameters[index] : 0, width = w->camera->width;
-    const int64_t at = x + aside < 0 ? 0 : x + aside < width ? x + aside : width - 1;
-    if (aside == 0 || isnan(w->in->eyes[NORMAL_REACH][at]))
+    const uint32_t at = aside_of(w, x);
+    if (at == x || isnan(w->in->eyes[NORMAL_REACH][at]))
         return x;
-    return seen_as(w, w->in->depth[at]).eye >= w->other.eye ? (uint32_t)at : x;
+    return seen_as(w, w->in->depth[at]).eye >= w->other.eye ? at : x;
 }
 
 static float output_at(const work *w, uint32_t x) {
@@ -309,17 +315,17 @@ static double exact_at(const work *w, const effect_view *view, uint32_t x) {
 
 /* In a scene the truth decides where the effect should have looked. */
 static double true_output(const work *w, const effect_view *view, uint32_t x) {
-    const int index = parameter_find(w->row->parameters, "refraction");
-    const int64_t aside = index >= 0 ? (int64_t)w->parameters[index] : 0, width = w->camera->width;
-    const int64_t at = x + aside < 0 ? 0 : x + aside < width ? x + aside : width - 1;
-    const double own = frame_truth(w->in, x).z, beside = aside == 0 ? own : frame_truth(w->in, (uint32_t)at).z;
-    return w->row->output(view, w->parameters, beside >= w->reference || aside == 0 ? beside : own, w->reference);
+    const uint32_t at = aside_of(w, x);
+    const double own = frame_truth(w->in, x).z, beside = at == x ? own : frame_truth(w->in, at).z;
+    return w->row->output(view, w->parameters, beside >= w->reference ? beside : own, w->reference);
 }
 
 static double error_at(const work *w, frame_ranges *last, uint32_t x) {
     const effect_view view = view_at(w, x);
-    if (w->row->given && isnan(w->reference))
-        return worst_error(w, &view, pixel_at(w, x).eye, frame_range_of(w->in, last, x));
+    if (w->row->given && isnan(w->reference)) {
+        const effect_pixel pixel = pixel_at(w, x);
+        return worst_error(w, &view, &pixel, frame_range_of(w->in, last, x));
+    }
     const double seen = (double)output_at(w, x);
     if (w->in->frame->scene != NULL)
         return isnan(frame_truth(w->in, x).z) ? (double)NAN : LEVELS * fabs(seen - true_output(w, &view, x));
