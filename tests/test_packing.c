@@ -470,6 +470,34 @@ static void there_and_back(void **state) {
     }
 }
 
+/* Where nothing is drawn lies the far plane, which is said. */
+static void holes(void **state) {
+    (void)state;
+    static const struct {
+        const char *packing, *mapping;
+        uint8_t far[3];
+    } rows[] = {{"rgb24", "d3d", {255, 255, 255}}, {"rgb24", "reversed", {0, 0, 0}}, {"rg", "reversed", {255, 0}}};
+    float depths[PIXELS];
+    for (int i = 0; i < PIXELS; i++)
+        depths[i] = i < 2 ? (float)NAN : 0.5F;
+    truth_write(truth_path("in.npy"), IMAGE_NPY, IMAGE_F32, depths);
+    for (size_t i = 0; i < sizeof rows / sizeof rows[0]; i++) {
+        image img;
+        image_error error;
+        assert_int_equal(
+            run((const char *const[]){truth_path("in.npy"), "-n", "1", "-f", "40", "-F", "fp32", "-m", rows[i].mapping,
+                                      "--pack", rows[i].packing, "-o", truth_path("eye.npy"), NULL}),
+            0);
+        assert_true(was_said("eye.npy: 2 pixels hold no depth and are written as the far plane"));
+        assert_true(image_read(truth_path("eye.npy"), &img, &error));
+        const uint8_t *texels = img.data;
+        assert_memory_equal(texels, rows[i].far, img.channels);
+        assert_memory_equal(texels + img.channels, rows[i].far, img.channels);
+        assert_memory_not_equal(texels + 2 * (size_t)img.channels, rows[i].far, img.channels);
+        image_free(&img);
+    }
+}
+
 /* The packed normals of a wall that is seen head-on: towards the camera, which is against the view axis. */
 static void normals_come_back(void **state) {
     (void)state;
@@ -593,7 +621,7 @@ int main(void) {
         cmocka_unit_test(premultiplied),     cmocka_unit_test(there_and_back),
         cmocka_unit_test(normals_come_back), cmocka_unit_test(warnings),
         cmocka_unit_test(refusals),          cmocka_unit_test(notes_of_others),
-        cmocka_unit_test(ranges_of_others),
+        cmocka_unit_test(ranges_of_others),  cmocka_unit_test(holes),
     };
     cmocka_set_message_output(CM_OUTPUT_TAP);
     return cmocka_run_group_tests(tests, truth_folder, truth_folder_end);
