@@ -98,10 +98,11 @@ static void warn_of_colours(const options *o, const texture_source *s) {
     static const char *const names[] = {"an sRGB", "a gAMA", "an iCCP"};
     for (size_t i = 0; i < sizeof names / sizeof names[0] && !o->quiet; i++)
         if ((s->picture.colours >> i & 1U) != 0)
-            fprintf(stderr, "depthprec: %s: has %s chunk: whoever obeys it changes packed numbers; read as they are\n",
+            fprintf(stderr,
+                    "depthprec: %s: has %s chunk: a program that applies it changes packed depths; ignored here\n",
                     s->path, names[i]);
     if (s->unpacked.premultiplied && !o->quiet)
-        fprintf(stderr, "depthprec: %s: no channel is above alpha: premultiplied, the depths are wrong then\n",
+        fprintf(stderr, "depthprec: %s: no channel is above alpha: if they were premultiplied, the depths are wrong\n",
                 s->path);
 }
 
