@@ -215,7 +215,8 @@ static void dds_sentences(void **state) {
         {0, 21, 0x35545844, "DDS: no depth is read from format DXT5: save R32F, R16 or R24X8, or its pixels as .npy"},
         {0, 21, 36, "DDS: no depth is read from D3D format 36: save R32F, R16 or R24X8, or its pixels as .npy"},
         {0, 20, 0x40,
-         "DDS: no depth is read from pixels without a name, bits: 0: save R32F, R16 or R24X8, or its pixels as .npy"},
+         "DDS: no depth is read from pixels of 0 bits with these masks: save R32F, R16 or R24X8, or its pixels as "
+         ".npy"},
         {0, 28, 0x200, "DDS: it has several images, a cube, volume or array: save one slice"},
         {0, 6, 4, NULL}, /* no depth without its flag */
         {41, 32, 98, "DDS: no depth is read from DXGI format 98: save R32F, R16 or R24X8, or its pixels as .npy"},

@@ -206,41 +206,45 @@ static void exr_channels(void **state) {
 
 typedef struct tiff_of {
     image_type type;
-    uint32_t channels, photometric, orientation, planar, format, bits, directories; /* 0: as the type has them */
-    bool big;
+    uint32_t channels, photometric, orientation, format, bits, directories; /* 0: as the type has them */
+    bool big, apart; /* apart: two channels, one behind the other */
 } tiff_of;
 
-/* One strip. */
+/* One strip, or one for each channel. */
 static void make_tiff(handmade *h, const tiff_of *of) {
     const int size = (int)image_type_size(of->type), little = !of->big;
     const uint32_t channels = of->channels > 0 ? of->channels : 1;
     const uint32_t bits = of->bits > 0 ? of->bits : 8 * (uint32_t)size;
     const uint32_t format = of->format > 0 ? of->format : of->type >= IMAGE_F16 ? 3 : 1;
-    const uint32_t bytes = ALL * channels * (uint32_t)size;
+    const uint32_t bytes = ALL * channels * (uint32_t)size, part = of->apart ? bytes / 2 : bytes;
     const uint32_t entries[][3] = {/* tag, type, value */
                                    {256, 3, ACROSS},
                                    {257, 3, DOWN},
                                    {258, 3, bits},
                                    {259, 3, 1},
                                    {262, 3, of->photometric > 0 ? of->photometric - 1 : 1},
-                                   {273, 4, 8},
+                                   {273, of->apart ? 3 : 4, 8},
                                    {274, 3, of->orientation > 0 ? of->orientation : 1},
                                    {277, 3, channels},
                                    {278, 3, DOWN},
-                                   {279, 4, bytes},
-                                   {284, 3, 1},
+                                   {279, of->apart ? 3 : 4, part},
+                                   {284, 3, of->apart ? 2 : 1},
                                    {339, 3, format}};
     enum { ENTRIES = sizeof entries / sizeof entries[0] };
     handmade_text(h, of->big ? "MM" : "II");
     handmade_number(h, 42, 2, little);
     handmade_number(h, 8 + bytes, 4, little);
-    for (size_t i = 0; i < ALL; i++)
-        for (uint32_t k = 0; k < channels; k++)
-            handmade_number(h, bits_of(of->type, i) + k, size, little);
+    for (size_t i = 0; i < (size_t)ALL * channels; i++)
+        if (of->apart)
+            handmade_number(h, bits_of(of->type, i % ALL) + i / ALL, size, little);
+        else
+            handmade_number(h, bits_of(of->type, i / channels) + i % channels, size, little);
     for (uint32_t d = 0; d <= of->directories; d++) {
         handmade_number(h, ENTRIES, 2, little);
         for (size_t i = 0; i < ENTRIES; i++) {
-            const bool several = channels > 2 && (entries[i][0] == 258 || entries[i][0] == 339);
+            const bool of_strips = entries[i][0] == 273 || entries[i][0] == 279;
+            const bool several =
+                (of->apart && of_strips) || (channels > 2 && (entries[i][0] == 258 || entries[i][0] == 339));
             handmade_number(h, entries[i][0], 2, little);
             handmade_number(h, entries[i][1], 2, little);
             handmade_number(h, several ? 2 : 1, 4, little); /* of more only two fit here, and two are enough */
@@ -248,7 +252,7 @@ static void make_tiff(handmade *h, const tiff_of *of) {
                 handmade_number(h, entries[i][2], 4, little);
             } else {
                 handmade_number(h, entries[i][2], 2, little);
-                handmade_number(h, several ? entries[i][2] : 0, 2, little);
+                handmade_number(h, several ? entries[i][2] + (entries[i][0] == 273 ? part : 0) : 0, 2, little);
             }
         }
         handmade_number(h, d < of->directories ? h->size + 4 : 0, 4, little);
@@ -281,6 +285,22 @@ static void tiff_types(void **state) {
                 assert_bits(&img, (image_type)type, 0);
                 image_free(&img);
             }
+}
+
+/* Of channels that lie apart the first is read. */
+static void tiff_apart(void **state) {
+    (void)state;
+    handmade h = {.size = 0};
+    image img;
+    image_error error;
+    if (!tiff_is_read())
+        skip();
+    make_tiff(&h, &(tiff_of){.type = IMAGE_U16, .channels = 2, .apart = true});
+    if (!image_parse(h.at, h.size, &img, &error))
+        fail_msg("%s", error.text);
+    assert_int_equal(img.channels, 1);
+    assert_bits(&img, IMAGE_U16, 0);
+    image_free(&img);
 }
 
 static void tiff_sentences(void **state) {
@@ -549,9 +569,9 @@ static void by_the_program(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(exr_channels),  cmocka_unit_test(tiff_types),        cmocka_unit_test(tiff_sentences),
-        cmocka_unit_test(damaged_files), cmocka_unit_test(missing_libraries), cmocka_unit_test(made_by_tools),
-        cmocka_unit_test(made_by_numpy), cmocka_unit_test(by_the_program),
+        cmocka_unit_test(exr_channels),   cmocka_unit_test(tiff_types),    cmocka_unit_test(tiff_apart),
+        cmocka_unit_test(tiff_sentences), cmocka_unit_test(damaged_files), cmocka_unit_test(missing_libraries),
+        cmocka_unit_test(made_by_tools),  cmocka_unit_test(made_by_numpy), cmocka_unit_test(by_the_program),
     };
     return run_tap(tests);
 }

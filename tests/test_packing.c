@@ -10,6 +10,7 @@
 
 #include "handmade.h"
 #include "support.h"
+#include "texture/image_depths.h"
 #include "texture/packing.h"
 #include "truth.h"
 
@@ -143,8 +144,14 @@ static void every_code_in_images(void **state) {
 static float fraction(float x) {
     return x - floorf(x);
 }
-static uint8_t stored(float x) { /* what a render target makes of it */
-    return (uint8_t)floor(fmin(fmax((double)x, 0), 1) * 255 + 0.5);
+static bool truncates;
+static uint8_t stored(float x) { /* what a render target makes of it, or one that truncates */
+    return (uint8_t)floor(fmin(fmax((double)x, 0), 1) * 255 + (truncates ? 0 : 0.5));
+}
+
+/* What a shader multiplies the coarse channel by: a quotient, which may be off by an ulp. Truncation shows that. */
+static float coarse(float x) {
+    return truncates ? nextafterf(x, 0) : x;
 }
 
 static void shader_rg(float v, uint8_t *t) { /* EncodeFloatRG */
@@ -159,7 +166,7 @@ static void shader_depth_normals(float v, uint8_t *t) {
 static void shader_rgba(float v, uint8_t *t) { /* r167 */
     const float scaled = v * 16777216.0F, a = fraction(scaled), r24 = floorf(scaled) / 256.0F, b = fraction(r24);
     const float r16 = floorf(r24) / 256.0F, g = fraction(r16), up = 256.0F / 255.0F;
-    t[0] = stored(floorf(r16) * (1.0F / 255.0F));
+    t[0] = stored(floorf(r16) * coarse(1.0F / 255.0F));
     t[1] = stored(g * up);
     t[2] = stored(b * up);
     t[3] = stored(a);
@@ -169,23 +176,28 @@ static void shader_rgba_r166(float v, uint8_t *t) {
     for (int k = 3; k > 0; k--)
         r[k] -= r[k - 1] * (1.0F / 256.0F);
     for (int k = 0; k < 4; k++)
-        t[k] = stored(r[k] * (256.0F / 255.0F));
+        t[k] = stored(r[k] * (k == 3 ? coarse(256.0F / 255.0F) : 256.0F / 255.0F));
 }
 static void shader_byte(float v, uint8_t *t) {
     t[0] = stored(v);
 }
 
+static const struct {
+    const char *name;
+    void (*run)(float v, uint8_t *texel);
+} shaders[] = {{"rg", shader_rg},
+               {"depth-normals", shader_depth_normals},
+               {"rgba", shader_rgba},
+               {"rgba-r166", shader_rgba_r166},
+               {"r8-linear01", shader_byte}};
+
+static float any_depth(rng *r, uint64_t k) {
+    return (float)(k % 2 == 0 ? rng_unit(r) : 1 - rng_log(r, 1e-8, 1)) * (1 - 0x1p-24F);
+}
+
 /* What a shader made of a depth decodes to it within half a step and what the row says that binary32 adds. */
 static void shaders_of_others(void **state) {
     (void)state;
-    static const struct {
-        const char *name;
-        void (*run)(float v, uint8_t *texel);
-    } shaders[] = {{"rg", shader_rg},
-                   {"depth-normals", shader_depth_normals},
-                   {"rgba", shader_rgba},
-                   {"rgba-r166", shader_rgba_r166},
-                   {"r8-linear01", shader_byte}};
     tally t = {.name = "shaders of others"};
     rng r = rng_make("shaders of others");
     const uint64_t cases = test_cases(2000, 300000, 5000000);
@@ -194,7 +206,7 @@ static void shaders_of_others(void **state) {
         const double most = 0.5 / p->steps + p->off;
         double worst = 0;
         for (uint64_t k = 0; k < cases; k++) {
-            const float v = (float)(k % 2 == 0 ? rng_unit(&r) : 1 - rng_log(&r, 1e-8, 1)) * (1 - 0x1p-24F);
+            const float v = any_depth(&r, k);
             uint8_t texel[4] = {0};
             shaders[i].run(v, texel);
             const double off = fabs(packing_depth(p, packing_number(p, texel)) - (double)v);
@@ -204,6 +216,59 @@ static void shaders_of_others(void **state) {
         print_message("# %s: %.3f of the bound is used\n", p->name, worst / most);
         assert_true(worst >= 0.5 * most);
     }
+    tally_end(&t);
+}
+
+/* The depths that the only pixel of an image may have, less 1: between 1 and 2 orthographic depth is 1 + d. */
+static grain_range depths_behind(const packing *p, const uint8_t *texel, double *depth) {
+    image img = {.width = 1, .height = 1, .channels = p->channels, .type = IMAGE_U8, .data = malloc(p->channels)};
+    dp_format formats[2];
+    dp_setup setup;
+    dp_spec spec = dp_spec_default();
+    unpacked out;
+    uint32_t code;
+    memcpy(img.data, texel, p->channels);
+    assert_true(packing_convert(p, truncates, &img, &out));
+    dp_format_parse(p->format, formats);
+    spec.format = formats[0];
+    spec.ortho = true;
+    spec.znear = 1;
+    spec.zfar = 2;
+    assert_int_equal(dp_setup_init(&setup, &spec), DP_OK);
+    image_codes(&img, &formats[0], 0, 0, 1, &code);
+    *depth = packing_depth(p, packing_number(p, texel));
+    grain_range range = grain_range_of(&setup, &out.grain, code);
+    range.lo -= 1;
+    range.hi -= 1;
+    image_free(&img);
+    free(out.normals);
+    return range;
+}
+
+/* The depth that a shader packed lies in the range that its texel is given, which is not twice too wide. */
+static void ranges_of_others(void **state) {
+    (void)state;
+    tally t = {.name = "ranges of others"};
+    rng r = rng_make("ranges of others");
+    const uint64_t cases = test_cases(2000, 100000, 1000000);
+    for (size_t i = 0; i < 2 * sizeof shaders / sizeof shaders[0]; i++) {
+        const packing *p = row_of(shaders[i / 2].name);
+        double used = 0;
+        truncates = i % 2 == 1;
+        for (uint64_t k = 0; k < cases; k++) {
+            const double v = (double)any_depth(&r, k);
+            uint8_t texel[4] = {0};
+            double depth;
+            shaders[i / 2].run((float)v, texel);
+            const grain_range range = depths_behind(p, texel, &depth);
+            used = fmax(used, v > depth ? (v - depth) / (range.hi - depth) : (depth - v) / (depth - range.lo));
+            TALLY(&t, v >= range.lo - 0x1p-42 && v <= range.hi + 0x1p-42, "%s%s of %.9g: %.12g to %.12g", p->name,
+                  truncates ? ", truncated" : "", v, range.lo, range.hi);
+        }
+        print_message("# %s%s: %.3f of the range is used\n", p->name, truncates ? ", truncated" : "", used);
+        assert_true(used >= 0.5);
+    }
+    truncates = false;
     tally_end(&t);
 }
 
@@ -405,6 +470,34 @@ static void there_and_back(void **state) {
     }
 }
 
+/* Where nothing is drawn lies the far plane, which is said. */
+static void holes(void **state) {
+    (void)state;
+    static const struct {
+        const char *packing, *mapping;
+        uint8_t far[3];
+    } rows[] = {{"rgb24", "d3d", {255, 255, 255}}, {"rgb24", "reversed", {0, 0, 0}}, {"rg", "reversed", {255, 0}}};
+    float depths[PIXELS];
+    for (int i = 0; i < PIXELS; i++)
+        depths[i] = i < 2 ? (float)NAN : 0.5F;
+    truth_write(truth_path("in.npy"), IMAGE_NPY, IMAGE_F32, depths);
+    for (size_t i = 0; i < sizeof rows / sizeof rows[0]; i++) {
+        image img;
+        image_error error;
+        assert_int_equal(
+            run((const char *const[]){truth_path("in.npy"), "-n", "1", "-f", "40", "-F", "fp32", "-m", rows[i].mapping,
+                                      "--pack", rows[i].packing, "-o", truth_path("eye.npy"), NULL}),
+            0);
+        assert_true(was_said("eye.npy: 2 pixels hold no depth and are written as the far plane"));
+        assert_true(image_read(truth_path("eye.npy"), &img, &error));
+        const uint8_t *texels = img.data;
+        assert_memory_equal(texels, rows[i].far, img.channels);
+        assert_memory_equal(texels + img.channels, rows[i].far, img.channels);
+        assert_memory_not_equal(texels + 2 * (size_t)img.channels, rows[i].far, img.channels);
+        image_free(&img);
+    }
+}
+
 /* The packed normals of a wall that is seen head-on: towards the camera, which is against the view axis. */
 static void normals_come_back(void **state) {
     (void)state;
@@ -528,6 +621,7 @@ int main(void) {
         cmocka_unit_test(premultiplied),     cmocka_unit_test(there_and_back),
         cmocka_unit_test(normals_come_back), cmocka_unit_test(warnings),
         cmocka_unit_test(refusals),          cmocka_unit_test(notes_of_others),
+        cmocka_unit_test(ranges_of_others),  cmocka_unit_test(holes),
     };
     cmocka_set_message_output(CM_OUTPUT_TAP);
     return cmocka_run_group_tests(tests, truth_folder, truth_folder_end);

@@ -88,7 +88,7 @@ static bool api(size_t i, listed *l) {
     return r != NULL;
 }
 
-static bool claimed_packing(size_t i, listed *l) {
+static bool encoding(size_t i, listed *l) {
     const pack_row *r = pack_get(i);
     if (r == NULL)
         return false;
@@ -133,7 +133,7 @@ static bool scene(size_t i, listed *l) {
 }
 
 /* Half a step, and what binary32 adds; with three digits. */
-static bool packed(size_t i, listed *l) {
+static bool packing_row(size_t i, listed *l) {
     static const double halves[] = {7.81e-06, 7.81e-06, 1.17e-10, 1.16e-10, 2.98e-08, 2.98e-08, 0.00196};
     const struct packing *r = packing_get(i);
     if (r != NULL) {
@@ -186,8 +186,8 @@ static const struct {
               {"causes", "bound", cause},
               {"presets", "camera", preset_row},
               {"apis", "rule", api},
-              {"packings", "bound", claimed_packing},
-              {"packed", "bound", packed},
+              {"encodings", "bound", encoding},
+              {"packings", "bound", packing_row},
               {"effects", "parameters", effect},
               {"figures", "bound", figure},
               {"scenes", "bound", scene},

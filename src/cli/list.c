@@ -122,7 +122,7 @@ bool list_api(size_t index, list_item *item) {
     return true;
 }
 
-static bool list_packing(size_t index, list_item *item) {
+static bool list_encoding(size_t index, list_item *item) {
     const pack_row *row = pack_get(index);
     if (row == NULL)
         return false;
@@ -135,7 +135,7 @@ static bool list_packing(size_t index, list_item *item) {
     return true;
 }
 
-bool list_packed(size_t index, list_item *item) {
+bool list_packing(size_t index, list_item *item) {
     const packing *row = packing_get(index);
     if (row == NULL)
         return false;
@@ -237,9 +237,9 @@ static const topic topics[] = {
     {"causes", "the parts of the separation, for budget", list_cause, .bound = "bound"},
     {"presets", "cameras as engines set them, for --preset", list_preset, .bound = "camera"},
     {"apis", "what one unit of depth bias is, for bias --api", list_api, .bound = "rule"},
-    {"packings", "depth and normals in the channels of a texture, and their error bounds", list_packing,
+    {"encodings", "depth and normals in the channels of a texture, and their error bounds", list_encoding,
      .bound = "bound"},
-    {"packed", "textures with a depth in several channels, for texture --packing and --pack", list_packed,
+    {"packings", "textures with a depth in several channels, for texture --packing and --pack", list_packing,
      .bound = "bound"},
     {"effects", "effects for texture --effect: formulas and parameters", list_effect, .bound = "parameters"},
     {"figures", "figures, for plot", list_figure, .bound = "bound"},

@@ -48,7 +48,7 @@ bool list_figure(size_t index, list_item *item);
 bool list_scene(size_t index, list_item *item);
 bool list_position(size_t index, list_item *item);
 bool list_normal(size_t index, list_item *item);
-bool list_packed(size_t index, list_item *item);
+bool list_packing(size_t index, list_item *item);
 bool list_method(size_t index, list_item *item);
 
 /** What can be listed: the row of a list_topic(). */

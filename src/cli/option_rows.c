@@ -22,7 +22,7 @@ static const name_list scenes = {.get = list_scene};
 static const name_list positions = {.words = (const char *const[]){"exact", NULL}, .get = list_position};
 static const name_list normals = {.get = list_normal};
 static const name_list normal_formats = {.words = (const char *const[]){"opengl", "directx", NULL}};
-static const name_list packed = {.get = list_packed};
+static const name_list packings = {.get = list_packing};
 static const name_list effects = {.get = list_effect};
 /* In the order of their enumerators. */
 static const name_list targets = {
@@ -233,7 +233,7 @@ const option_row option_rows[OPTION_COUNT] = {
         "are holes",
         LENGTH(metric, METRIC_SCALE_MIN, METRIC_SCALE_MAX, "scene units")},
     [OPTION_PACKING] = {"packing", 0, "NAME", VERB_TEXTURE,
-        "the channels of FILE hold the depth together: @; 'depthprec list packed'", ROW(packing, packed)},
+        "the channels of FILE hold the depth together: @; 'depthprec list packings'", ROW(packing, packings)},
     [OPTION_CHANNEL] = {"channel", 0, "NAME", VERB_TEXTURE,
         "the channel of an EXR that is read", TEXT(channel), .without = "Z, R or depth, the first that is there"},
     [OPTION_PIXEL] = {"pixel", 0, "X,Y[;X,Y...]", VERB_TEXTURE,
@@ -254,7 +254,7 @@ const option_row option_rows[OPTION_COUNT] = {
         "product: the normals that --packing depth-normals holds beside the depth", FLAG(packed_normal)},
     [OPTION_PACK] = {"pack", 0, "NAME", VERB_TEXTURE,
         "write the depths to -o FILE, a PNG or NPY of 8 bits, in several channels: @; with --normal the normals of "
-        "depth-normals are by that method, else projective", ROW(pack, packed)},
+        "depth-normals are by that method, else projective", ROW(pack, packings)},
     [OPTION_EFFECT] = {"effect", 0, "NAME", VERB_TEXTURE,
         "product: an effect that reads depth: @; without an image, the usable values of its parameter",
         ROW(effect, effects)},

@@ -39,7 +39,7 @@ typedef struct packing_on {
     double *depths;
     uint8_t *texels;
     uint64_t holes;
-    bool kept; /* the normals that the image has */
+    const uint8_t *normals; /* those that the image has, to be written as they are; else null */
 } packing_on;
 
 static void depths_of(const texture_source *s, uint32_t row, uint32_t *codes, double *d) {
@@ -70,10 +70,10 @@ static bool take_packed(void *context, uint32_t row, uint32_t count, const float
         depths_of(on->w.source, row + i, on->w.codes, on->depths);
         for (uint32_t x = 0; x < width; x++) {
             uint8_t *texel = on->texels + (size_t)x * p->channels;
-            const float *n = values + 3 * ((size_t)i * width + x);
-            if (p->normals && on->w.source->unpacked.normals != NULL && on->kept) {
-                memcpy(texel, on->w.source->unpacked.normals + 2 * ((size_t)(row + i) * width + x), 2);
+            if (p->normals && on->normals != NULL) {
+                memcpy(texel, on->normals + 2 * ((size_t)(row + i) * width + x), 2);
             } else if (p->normals) {
+                const float *n = values + 3 * ((size_t)i * width + x);
                 const bool drawn = !isnan(n[0]);
                 packing_normal_texel(drawn ? (const double[]){n[0], n[1], -n[2]} : (const double[]){0, 0, 1}, texel);
             }
@@ -96,7 +96,7 @@ static void note_of_packing(const options *o, const texture_source *s, char note
 }
 
 int texture_pack_write(const options *o, const texture_source *s) {
-    packing_on on = {.p = o->pack, .kept = o->normal == NULL};
+    packing_on on = {.p = o->pack, .normals = o->normal == NULL ? s->unpacked.normals : NULL};
     frame_product product = {.kind = o->pack->normals ? FRAME_NORMAL : FRAME_EYE,
                              .normal = o->normal != NULL ? o->normal : normal_get(NORMAL_PROJECTIVE)};
     char note[IMAGE_NOTE_SIZE];

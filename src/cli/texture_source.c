@@ -98,24 +98,25 @@ static void warn_of_colours(const options *o, const texture_source *s) {
     static const char *const names[] = {"an sRGB", "a gAMA", "an iCCP"};
     for (size_t i = 0; i < sizeof names / sizeof names[0] && !o->quiet; i++)
         if ((s->picture.colours >> i & 1U) != 0)
-            fprintf(stderr, "depthprec: %s: has %s chunk: whoever obeys it changes packed numbers; read as they are\n",
+            fprintf(stderr,
+                    "depthprec: %s: has %s chunk: a program that applies it changes packed depths; ignored here\n",
                     s->path, names[i]);
     if (s->unpacked.premultiplied && !o->quiet)
-        fprintf(stderr, "depthprec: %s: no channel is above alpha: premultiplied, the depths are wrong then\n",
+        fprintf(stderr, "depthprec: %s: no channel is above alpha: if they were premultiplied, the depths are wrong\n",
                 s->path);
 }
 
 /* ---- What a file of ours says of itself -------------------------------------------------------------------------- */
 
+/* Whether the command line says what the samples are. */
+static bool is_asked(const options *o) {
+    return option_given(o, OPTION_PACKING) || option_given(o, OPTION_METRIC) || option_given(o, OPTION_FORMAT);
+}
+
 /* Whether a word of the note is an option that nothing on the command line stands against. */
 static bool is_open(const options *o, option_id id) {
-    static const option_id samples[] = {OPTION_PACKING, OPTION_METRIC, OPTION_FORMAT};
-    if (option_given(o, id) || (id != OPTION_PACKING && id != OPTION_METRIC && o->preset_count > 0))
-        return false;
-    for (size_t i = 0; (id == OPTION_PACKING || id == OPTION_METRIC) && i < sizeof samples / sizeof samples[0]; i++)
-        if (option_given(o, samples[i]))
-            return false;
-    return true;
+    const bool of_samples = id == OPTION_PACKING || id == OPTION_METRIC;
+    return !option_given(o, id) && !(of_samples ? is_asked(o) : o->preset_count > 0);
 }
 
 /* Words of the form NAME=VALUE: a product, and options that are read as those of the command line are. */
@@ -123,8 +124,7 @@ static int take_note(options *o, texture_source *s) {
     static const option_id known[] = {OPTION_PACKING, OPTION_METRIC, OPTION_NEAR,
                                       OPTION_FAR,     OPTION_ORTHO,  OPTION_MAPPING};
     char note[IMAGE_NOTE_SIZE], *rest = NULL;
-    const bool asked =
-        option_given(o, OPTION_PACKING) || option_given(o, OPTION_METRIC) || option_given(o, OPTION_FORMAT);
+    const bool asked = is_asked(o);
     bool open[sizeof known / sizeof known[0]];
     for (size_t i = 0; i < sizeof known / sizeof known[0]; i++)
         open[i] = is_open(o, known[i]);
@@ -158,7 +158,6 @@ static int unpack(const options *o, texture_source *s) {
     const packing *p = o->packing;
     const bool zero = option_given(o, OPTION_ROUNDING) && o->rounding == DP_ROUND_ZERO;
     dp_format formats[2];
-    char direction[sizeof s->found.why];
     if (!packing_convert(p, zero, &s->picture, &s->unpacked))
         return usage_error("%s: %s", s->path, s->unpacked.wrong);
     warn_of_colours(o, s);
@@ -167,10 +166,10 @@ static int unpack(const options *o, texture_source *s) {
     s->found.format = formats[0];
     s->found.certain = true;
     s->found.steps = 0;
-    snprintf(direction, sizeof direction, "%s", s->found.why);
-    snprintf(s->found.why, sizeof s->found.why, "packing %s, %s, in steps of 1/%s%s", p->name,
+    const char *toward = p->linear ? NULL : s->found.toward;
+    snprintf(s->found.why, sizeof s->found.why, "packing %s, %s, in steps of 1/%s%s%s", p->name,
              p->linear ? "eye depth over far" : "window depth", number_of(p->steps, 10).text,
-             p->linear || strrchr(direction, ';') == NULL ? "" : strrchr(direction, ';'));
+             toward != NULL ? "; " : "", toward != NULL ? toward : "");
     return EXIT_FINE;
 }
 

@@ -13,7 +13,7 @@ enum { HEADER_SIZE = 128, MORE_SIZE = 20 };
 enum { HAS_FOURCC = 0x4, HAS_RGB = 0x40, HAS_LUMINANCE = 0x20000 };
 
 /* How a format is told. */
-typedef enum told { BY_DXGI = 0, BY_D3D9, BY_LUMINANCE, BY_RGB, BY_BGR } told;
+typedef enum told { BY_DXGI = 0, BY_D3D9, BY_LUMINANCE, BY_RGB, BY_BGR, BY_NOTHING } told;
 
 /* What becomes of what was read, other than a shift of 24 bits. */
 enum { AS_IT_IS = -1, BLUE_FIRST = -2 };
@@ -91,15 +91,15 @@ static bool find_format(image_source *source, const unsigned char *header, const
     const bool rgb = (flags & HAS_RGB) != 0 && word_at(header, GREEN) == 0xFF00;
     const bool red_low = rgb && word_at(header, RED) == 0xFF && word_at(header, BLUE) == 0xFF0000;
     const bool blue_low = rgb && word_at(header, BLUE) == 0xFF && word_at(header, RED) == 0xFF0000;
-    const bool named = more != NULL || (flags & (HAS_FOURCC | HAS_LUMINANCE)) != 0 || red_low || blue_low;
     const told by = more != NULL                   ? BY_DXGI
                     : (flags & HAS_FOURCC) != 0    ? BY_D3D9
                     : (flags & HAS_LUMINANCE) != 0 ? BY_LUMINANCE
                     : red_low                      ? BY_RGB
-                                                   : BY_BGR;
+                    : blue_low                     ? BY_BGR
+                                                   : BY_NOTHING;
     const uint32_t code = more != NULL ? word_at(more, 0) : by == BY_D3D9 ? fourcc : word_at(header, BITS);
     for (size_t i = 0; i < sizeof formats / sizeof formats[0]; i++)
-        if (named && formats[i].by == by && formats[i].code == code) {
+        if (formats[i].by == by && formats[i].code == code) {
             *out = &formats[i];
             return true;
         }
@@ -109,8 +109,9 @@ static bool find_format(image_source *source, const unsigned char *header, const
     if (by == BY_D3D9 && code > 0xFFFFFF)
         return source_fail(source, "DDS: no depth is read from format %.4s: %s", (const char *)header + 4 * FOURCC,
                            advice);
-    return source_fail(source, "DDS: no depth is read from %s %u: %s",
-                       by == BY_D3D9 ? "D3D format" : "pixels without a name, bits:", code, advice);
+    if (by == BY_D3D9)
+        return source_fail(source, "DDS: no depth is read from D3D format %u: %s", code, advice);
+    return source_fail(source, "DDS: no depth is read from pixels of %u bits with these masks: %s", code, advice);
 }
 
 static bool check_shape(image_source *source, const unsigned char *header, const unsigned char *more) {

@@ -381,18 +381,17 @@ void recognise(const image *img, recognised *out) {
     }
     out->distinct = s.seen.count;
     out->depth = out->invalid == out->holes && out->holes < out->samples;
-    const char *direction = NULL;
     if (out->depth) {
         weigh(&f, &s, out);
         find_steps(img, &f, &s, out);
         suspect(img, &s, out);
-        direction = direct(&s, out);
+        out->toward = direct(&s, out);
     } else if (!f.none) {
         explain(img, &f, &numbers, out);
     }
     distinct_free(&s.seen);
     if (out->lo > out->hi)
         out->lo = out->hi = (double)NAN;
-    snprintf(out->why, sizeof out->why, "%s%s%s", f.reason, direction != NULL ? "; " : "",
-             direction != NULL ? direction : "");
+    snprintf(out->why, sizeof out->why, "%s%s%s", f.reason, out->toward != NULL ? "; " : "",
+             out->toward != NULL ? out->toward : "");
 }
