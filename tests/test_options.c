@@ -397,6 +397,8 @@ static void test_flags(void **state) {
                  {"budget", OPTION_LINEARIZE, WORD_AT(terms.linearize)},
                  {"texture", OPTION_EYE, WORD_AT(eye)},
                  {"texture", OPTION_RADIAL, WORD_AT(radial)},
+                 {"texture", OPTION_LINEAR01, WORD_AT(linear01)},
+                 {"texture", OPTION_RAW, WORD_AT(raw)},
                  {"texture", OPTION_ERROR_MAP, WORD_AT(error_map)},
                  {"texture", OPTION_PACKED_NORMAL, WORD_AT(packed_normal)},
                  {"list", OPTION_QUIET, WORD_AT(quiet)},

@@ -8,8 +8,8 @@
 
 bool texture_product_wanted(const options *o) {
     const bool described = option_given(o, OPTION_PIXEL);
-    return o->eye || option_given(o, OPTION_POSITION) || o->normal != NULL || (o->effect != NULL && !described) ||
-           o->figure != NULL;
+    return o->eye || o->linear01 || o->raw || option_given(o, OPTION_POSITION) || o->normal != NULL ||
+           (o->effect != NULL && !described) || o->figure != NULL;
 }
 
 /* The parameters that are not the scene's are the effect's, but for the depth that it compares with. */
@@ -42,6 +42,8 @@ static const struct {
     option_id option;
     const char *by, *unit, *unit_of_error;
 } kinds[] = {{FRAME_EYE, OPTION_EYE, "", "scene units", "scene units"},
+             {FRAME_LINEAR01, OPTION_LINEAR01, "", "", ""},
+             {FRAME_RAW, OPTION_RAW, "", "", ""},
              {FRAME_POSITION, OPTION_POSITION, "positions by ", "scene units", "scene units"},
              {FRAME_NORMAL, OPTION_NORMAL, "normals by ", "", "degrees"},
              {FRAME_EFFECT, OPTION_EFFECT, "", "", "levels of 1/255"}};
@@ -71,6 +73,8 @@ static int check_files(const options *o) {
 int texture_product_resolve(const options *o, texture_product *p) {
     size_t chosen = 0; /* eye depth, where --figure is all that was said */
     const char *const names[] = {[FRAME_EYE] = o->radial ? "distance from the camera" : "eye depth",
+                                 [FRAME_LINEAR01] = "eye depth over far",
+                                 [FRAME_RAW] = "window depth",
                                  [FRAME_POSITION] = o->position != NULL ? o->position->name : "exact",
                                  [FRAME_NORMAL] = o->normal != NULL ? o->normal->name : "",
                                  [FRAME_EFFECT] = o->effect != NULL ? o->effect->name : ""};
@@ -104,6 +108,8 @@ int texture_product_resolve(const options *o, texture_product *p) {
 int texture_product_check(const options *o, const texture_source *s, texture_product *p) {
     static const char *const truths[][2] = {
         [FRAME_EYE] = {"half of each cell", "error"},
+        [FRAME_LINEAR01] = {"half of each cell", "error"},
+        [FRAME_RAW] = {"half of each cell", "error"},
         [FRAME_POSITION] = {"largest possible error", "error"},
         [FRAME_NORMAL] = {"bound of the error on planes", "error"},
         [FRAME_EFFECT] = {"largest possible error", "largest possible error"},

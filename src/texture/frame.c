@@ -54,6 +54,10 @@ int frame_channels(const frame_product *product) {
 const char *frame_refuses(const frame *f, const frame_product *product) {
     if (product->kind == FRAME_POSITION && product->position != NULL && !position_applies(product->position, f->camera))
         return "this method does not support this projection and mapping";
+    if (product->kind == FRAME_LINEAR01 && isinf(frame_planes(f)->spec.zfar))
+        return "this needs a finite far plane";
+    if (product->kind == FRAME_RAW && f->metric)
+        return "metric depth is not window depth";
     if (product->kind == FRAME_EFFECT && !effect_applies(product->effect, frame_planes(f)))
         return "this effect needs a finite far plane";
     if (product->kind == FRAME_EFFECT && f->scene == NULL && (product->effect->needs & EFFECT_NORMALS) != 0)
@@ -78,7 +82,7 @@ typedef struct run {
     const frame_product *products;
     size_t product_count, values; /* of all products in a pixel */
     uint32_t width, height, stride, sky, strip, count, margin;
-    bool bottom_up, positions, bounds; /* bounds: of normals */
+    bool bottom_up, depths, bounds; /* window depths; bounds of normals */
     dp_batch eye, depth;
     position_state position;
     float *slope_x, *out; /* out: a strip in each slot, product by product */
@@ -147,6 +151,10 @@ static bool looks_around(const frame_product *product) {
     return product->kind == FRAME_NORMAL || product->kind == FRAME_EFFECT;
 }
 
+static bool sees_window(frame_kind kind) {
+    return kind == FRAME_RAW || kind == FRAME_POSITION || kind == FRAME_EFFECT;
+}
+
 static bool run_start(run *r, const frame *f) {
     const texture_camera *c = f->camera;
     r->f = f;
@@ -157,7 +165,7 @@ static bool run_start(run *r, const frame *f) {
     r->margin = NORMAL_REACH;
     for (size_t i = 0; i < r->product_count; i++) {
         r->values += (size_t)frame_channels(&r->products[i]);
-        r->positions = r->positions || r->products[i].kind == FRAME_POSITION || r->products[i].kind == FRAME_EFFECT;
+        r->depths = r->depths || sees_window(r->products[i].kind);
         r->bounds = r->bounds || (r->products[i].kind == FRAME_NORMAL && r->products[i].error);
         r->margin = looks_around(&r->products[i]) ? 0 : r->margin;
     }
@@ -166,7 +174,7 @@ static bool run_start(run *r, const frame *f) {
         return false;
     for (uint32_t i = 0; i < r->stride; i++)
         r->slope_x[i] = (float)camera_slope_x(c, (double)i - NORMAL_REACH);
-    if (r->positions)
+    if (r->depths)
         position_prepare(&r->position, c);
     const dp_path path = dp_path_best();
     return dp_batch_init(&r->eye, &c->setup, DP_TASK_EYE, DP_REAL_FLOAT, DP_WORD_32, path) == DP_OK &&
@@ -214,7 +222,7 @@ static void make_row(const run *r, const desk *d, uint32_t first, uint32_t i, si
                     .numbers = d->numbers};
     for (int k = -NORMAL_REACH; k <= NORMAL_REACH; k++)
         in.eyes[k + NORMAL_REACH] = d->eyes + (middle + (size_t)k) * r->stride + NORMAL_REACH;
-    if (r->positions) {
+    if (r->depths) {
         dp_batch_run(&r->depth, in.codes, d->scratch, width);
         in.depth = d->scratch;
     }

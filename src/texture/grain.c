@@ -109,17 +109,31 @@ static bool is_of_codes(const grain *g) {
     return g == NULL || g->kind == GRAIN_CODES || g->buffer;
 }
 
+/* The window depths that became a code. */
+static void ends_of(const dp_setup *setup, const grain *g, uint32_t code, dp_point *below, dp_point *above) {
+    if (is_of_codes(g)) {
+        boundaries(setup, g, code, below, above);
+        return;
+    }
+    const double v = dp_format_value(&setup->spec.format, code);
+    const span s = g->kind == GRAIN_STEPS ? steps_span(g, v) : floats_span(g, v);
+    *below = dp_point_make(fmax(s.lo, 0), s.den);
+    *above = dp_point_make(fmin(s.hi, s.den), s.den);
+}
+
+double grain_window_reach(const dp_setup *setup, const grain *g, uint32_t code) {
+    const dp_point own = dp_point_of_code(&setup->spec.format, code);
+    dp_point below, above;
+    ends_of(setup, g, code, &below, &above);
+    const double to_below = is_of_codes(g) ? own.num - below.num : own.num / own.den * below.den - below.num;
+    const double to_above = is_of_codes(g) ? above.num - own.num : above.num - own.num / own.den * above.den;
+    return fmax(to_below / below.den, to_above / above.den) * OUTWARD;
+}
+
 grain_range grain_range_of(const dp_setup *setup, const grain *g, uint32_t code) {
     const dp_point own = dp_point_of_code(&setup->spec.format, code);
     dp_point below, above;
-    if (is_of_codes(g)) {
-        boundaries(setup, g, code, &below, &above);
-    } else {
-        const double v = dp_format_value(&setup->spec.format, code);
-        const span s = g->kind == GRAIN_STEPS ? steps_span(g, v) : floats_span(g, v);
-        below = dp_point_make(fmax(s.lo, 0), s.den);
-        above = dp_point_make(fmin(s.hi, s.den), s.den);
-    }
+    ends_of(setup, g, code, &below, &above);
     const dp_point to_near = setup->reversed ? above : below, to_far = setup->reversed ? below : above;
     return (grain_range){
         .lo = dp_curve_eye(setup, to_near),

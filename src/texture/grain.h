@@ -54,6 +54,9 @@ typedef struct grain_range {
  */
 grain_range grain_range_of(const dp_setup *setup, const grain *g, uint32_t code);
 
+/** How far a window depth can be from what such a code gives back. */
+double grain_window_reach(const dp_setup *setup, const grain *g, uint32_t code);
+
 /** Room for what many codes say, an array each. */
 typedef struct grain_rows {
     double *stored; /**< as dp_stored() */
