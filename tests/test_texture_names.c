@@ -20,8 +20,9 @@ static const struct {
     {"--normal high --error-map", "Normals by high, error", NULL, ""},
     {"--normal projective --error-map", "Normals by projective, error",
      "Normals by projective, bound of the error on planes", ""},
-    {"--effect fog", "Fog", "Fog", ""},
-    {"--effect fog --error-map", "Fog, largest possible error", "Fog, largest possible error", ""},
+    {"--effect fog", "Fog, density 1", "Fog, density 1", ""},
+    {"--effect fog --error-map", "Fog, largest possible error, density 1", "Fog, largest possible error, density 1",
+     ""},
 };
 
 static void check_title(tally *t, const char *source, const char *options, const char *title, const char *panels) {
