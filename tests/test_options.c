@@ -128,7 +128,8 @@ static void test_lengths(void **state) {
         size_t field;
     } lengths[] = {{"solve", OPTION_SEPARATION, AT(wanted_separation)},
                    {"solve", OPTION_ERROR, AT(wanted_error)},
-                   {"bias", OPTION_GAP, AT(gap)}};
+                   {"bias", OPTION_GAP, AT(gap)},
+                   {"texture", OPTION_OVERLAY, AT(overlay)}};
     tally t = {.name = "lengths"};
     (void)state;
     for (size_t i = 0; i < sizeof lengths / sizeof lengths[0]; i++) {

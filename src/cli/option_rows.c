@@ -268,6 +268,9 @@ const option_row option_rows[OPTION_COUNT] = {
     [OPTION_FIGURE] = {"figure", 0, "FILE", VERB_TEXTURE,
         "draw the product: SVG, PDF or PNG; up to 256 surfaces of a scene that share a code with what is behind are "
         "marked", FILE_NAME(figure)},
+    [OPTION_OVERLAY] = {"overlay", 0, "E", VERB_TEXTURE,
+        "with --figure: depth in grey, and in colour where eye depth is, or can be, off by more than E scene units",
+        POSITIVE(overlay)},
     [OPTION_TYPE] = {"type", 0, NULL, DRAWN,
         "type of the figure, for stdout or a file name that does not end in one", WORD(type, types),
         .standard = "svg", .group = "The figure"},

@@ -90,6 +90,7 @@ typedef enum option_id {
     OPTION_EFFECT,
     OPTION_ERROR_MAP,
     OPTION_FIGURE,
+    OPTION_OVERLAY,
     OPTION_TYPE,
     OPTION_THEME,
     OPTION_WIDTH,
@@ -194,6 +195,7 @@ typedef struct options {
     const normal_row *normal;
     const effect_row *effect;
     const char *figure; /**< file */
+    double overlay;     /**< errors above it are shown, scene units; 0 when not given */
 
     unsigned type;     /**< --type: a canvas_format, where the name of a file does not say it */
     unsigned theme;    /**< index of theme_get() */

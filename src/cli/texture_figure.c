@@ -17,6 +17,9 @@ enum { WIDTH = 800, BESIDE = 150, ABOVE = 130, HEIGHT_MIN = 240, HEIGHT_MAX = 12
 
 typedef struct drawing {
     picture shown;
+    picture error; /* with --overlay: of eye depth */
+    double above;
+    uint64_t known, beyond; /* pixels whose error is known, and those above */
     progress bar;
     uint64_t done;
 } drawing;
@@ -26,6 +29,41 @@ static bool take(void *context, uint32_t row, uint32_t count, const float *value
     picture_take(&d->shown, row, count, values);
     progress_step(&d->bar, d->done += count);
     return true;
+}
+
+static bool take_both(void *context, uint32_t row, uint32_t count, const float *const *values) {
+    drawing *d = context;
+    picture_take(&d->error, row, count, values[1]);
+    for (size_t i = 0; i < (size_t)count * d->error.width; i++) {
+        d->known += isnan(values[1][i]) ? 0 : 1;
+        d->beyond += (double)values[1][i] > d->above ? 1 : 0;
+    }
+    return take(context, row, count, values[0]);
+}
+
+/* The product, and with --overlay the error of eye depth beside it. */
+static bool run(const options *o, const texture_source *s, const texture_product *p, drawing *d) {
+    const frame_product both[] = {p->made, {.kind = FRAME_EYE, .error = true, .radial = p->made.radial}};
+    d->bar = progress_start("rows", s->camera.height, o->quiet);
+    const bool good = o->overlay > 0 ? frame_run_all(&s->frame, both, 2, false, take_both, d)
+                                     : frame_run(&s->frame, &p->made, false, take, d);
+    progress_end(&d->bar);
+    return good;
+}
+
+/* What is grey, and what is in colour. */
+static void build(const options *o, drawing *d, chart *c) {
+    if (!(o->overlay > 0)) {
+        picture_build(&d->shown, c);
+        return;
+    }
+    picture_build(&d->error, c);
+    picture_lay_under(&d->shown, c);
+    const double share = d->known > 0 ? 100 * (double)d->beyond / (double)d->known : 0;
+    append(c->subtitle, sizeof c->subtitle,
+           "; grey from %s, light, to %s, dark%s; %s %% of the pixels with a depth are in colour",
+           number_of(c->ground.lo, 4).text, number_of(c->ground.hi, 4).text,
+           c->ground.scale == CHART_LOG ? ", logarithmic" : "", number_of(share, 3).text);
 }
 
 static void words_of(const options *o, const texture_source *s, const texture_product *p, const picture *shown,
@@ -39,6 +77,11 @@ static void words_of(const options *o, const texture_source *s, const texture_pr
         append(title, sizeof title, ", %s %s", p->made.effect->parameters[wanted].name,
                number_full(p->made.effect_settings[wanted]).text);
     }
+    const char *unit = options_unit(o);
+    if (o->overlay > 0)
+        append(title, sizeof title, ", in colour where %s %s off by more than %s", p->made.radial ? "it" : "eye depth",
+               s->path != NULL ? "can be" : "is",
+               number_in(number_full(o->overlay), unit != NULL ? unit : "scene units").text);
     if (title[0] >= 'a' && title[0] <= 'z')
         title[0] = (char)(title[0] - 'a' + 'A');
     if (shown->columns < (int)s->camera.width)
@@ -47,7 +90,6 @@ static void words_of(const options *o, const texture_source *s, const texture_pr
                  (double)s->camera.width / shown->columns * s->camera.height / shown->rows);
     if (shown->missing > 0)
         snprintf(missing, sizeof missing, "; hatched: no value, %llu pixels", (unsigned long long)shown->missing);
-    const char *unit = options_unit(o);
     c->unit = unit;
     setup_label(&s->setup, true, label);
     if (o->metric > 0)
@@ -96,21 +138,27 @@ int texture_figure_draw(const options *o, const texture_source *s, const texture
                                     : p->made.kind == FRAME_POSITION ? "coordinate"
                                                                      : p->name,
                            .unit = p->unit,
-                           .names = stacked ? axes : NULL}};
+                           .names = stacked ? axes : NULL},
+                 .error = {.width = s->camera.width,
+                           .height = s->camera.height,
+                           .channels = 1,
+                           .magnitudes = true,
+                           .above = o->overlay,
+                           .label = p->made.radial ? "error of the distance" : "error of eye depth",
+                           .unit = "scene units"},
+                 .above = o->overlay};
     output out;
     const int status = output_open(&out, o->figure);
     if (status != EXIT_FINE)
         return status;
     chart *c = chart_new();
-    bool good = c != NULL && picture_open(&d.shown, width > WIDTH ? width : WIDTH, c);
-    if (good) {
-        d.bar = progress_start("rows", s->camera.height, o->quiet);
-        good = frame_run(&s->frame, &p->made, false, take, &d);
-        progress_end(&d.bar);
-    }
+    bool good = c != NULL && picture_open(&d.shown, width > WIDTH ? width : WIDTH, c) &&
+                (!(o->overlay > 0) || picture_open(&d.error, width > WIDTH ? width : WIDTH, c));
+    if (good)
+        good = run(o, s, p, &d);
     if (good) {
         words_of(o, s, p, &d.shown, c);
-        picture_build(&d.shown, c);
+        build(o, &d, c);
         mark_ties(&s->frame, c);
         good = !chart_failed(c) && figure_file_write(o, o->figure, c, width, height_of(o, s, width, stacked), &out);
     }

@@ -90,6 +90,9 @@ int texture_product_resolve(const options *o, texture_product *p) {
     if (status == EXIT_FINE && o->radial && kinds[chosen].kind != FRAME_EYE)
         status = option_error(OPTION_RADIAL, "does not apply with --%s", option_name(kinds[chosen].option));
     p->made.kind = kinds[chosen].kind;
+    if (status == EXIT_FINE && o->overlay > 0 && (o->error_map || p->made.kind >= FRAME_POSITION))
+        status = option_error(OPTION_OVERLAY, "does not apply with --%s, only with --eye, --linear01 and --raw",
+                              option_name(o->error_map ? OPTION_ERROR_MAP : kinds[chosen].option));
     p->made.position = o->position;
     p->made.normal = o->normal;
     p->made.effect_settings = p->settings;
