@@ -91,6 +91,7 @@ typedef enum option_id {
     OPTION_ERROR_MAP,
     OPTION_FIGURE,
     OPTION_OVERLAY,
+    OPTION_HISTOGRAM,
     OPTION_TYPE,
     OPTION_THEME,
     OPTION_WIDTH,
@@ -194,8 +195,8 @@ typedef struct options {
     const position_row *position;               /**< null for exact as well */
     const normal_row *normal;
     const effect_row *effect;
-    const char *figure; /**< file */
-    double overlay;     /**< errors above it are shown, scene units; 0 when not given */
+    const char *figure, *histogram; /**< files */
+    double overlay;                 /**< errors above it are shown, scene units; 0 when not given */
 
     unsigned type;     /**< --type: a canvas_format, where the name of a file does not say it */
     unsigned theme;    /**< index of theme_get() */

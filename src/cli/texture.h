@@ -129,6 +129,9 @@ int texture_depth_write(const options *o, const texture_source *s);
 /** Draws the file of --figure. */
 int texture_figure_draw(const options *o, const texture_source *s, const texture_product *p);
 
+/** Draws the file of --histogram. */
+int texture_histogram_draw(const options *o, const texture_source *s);
+
 /* ---- Reports ----------------------------------------------------------------------------------------------------- */
 
 /** The statistics of a depth image: text, JSON, CSV. @return an exit status */
