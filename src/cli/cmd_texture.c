@@ -17,7 +17,7 @@ static int check_alone(const options *o) {
         return option_error(OPTION_RADIAL, "needs --eye");
     if (option_given(o, OPTION_AT))
         return option_error(OPTION_AT, "is for the table of --effect without an image");
-    if (option_given(o, OPTION_NORMAL_FORMAT) && o->normal == NULL)
+    if (option_given(o, OPTION_NORMAL_FORMAT) && (o->normal == NULL || texture_normals_compared(o)))
         return option_error(OPTION_NORMAL_FORMAT, "needs --normal or --packed-normal");
     if (option_given(o, OPTION_PIXEL) && texture_product_wanted(o))
         return option_error(OPTION_PIXEL, "describes single pixels, and makes no image or figure");
@@ -82,6 +82,8 @@ int cmd_texture(const options *given) {
         status = texture_product_effect(o, &product);
     if (status == EXIT_FINE)
         status = texture_source_open(o, &source);
+    if (status == EXIT_FINE && (made || described))
+        status = texture_effect_normals(o, &source);
     if (status == EXIT_FINE && made)
         status = make_product(o, &source, &product);
     else if (status == EXIT_FINE && o->pack != NULL)

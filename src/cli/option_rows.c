@@ -251,7 +251,7 @@ const option_row option_rows[OPTION_COUNT] = {
     [OPTION_POSITION] = {"position", 0, "METHOD", VERB_TEXTURE,
         "product: world positions by @; exact is the truth", ROW(position, positions)},
     [OPTION_NORMAL] = {"normal", 0, "METHOD", VERB_TEXTURE,
-        "product: normals by @", ROW(normal, normals)},
+        "product: normals by @; with --effect outline those that it compares", ROW(normal, normals)},
     [OPTION_NORMAL_FORMAT] = {"normal-format", 0, NULL, VERB_TEXTURE,
         "which way y runs in a PNG of normals: up, or down", WORD(normal_format, normal_formats), .standard = "opengl"},
     [OPTION_PACKED_NORMAL] = {"packed-normal", 0, NULL, VERB_TEXTURE,

@@ -40,6 +40,7 @@ typedef struct texture_source {
     double parameters[TEXTURE_PARAMETERS];
     dp_setup setup;
     texture_camera camera, last; /**< last frame's: where an effect needs it */
+    frame_normals normals;       /**< where an effect needs them that no scene has */
     frame frame;                 /**< points into this struct, which must stay where it is */
 } texture_source;
 
@@ -100,6 +101,13 @@ typedef struct texture_product {
 
 /** Is one asked for? --pixel describes that of --effect instead. */
 bool texture_product_wanted(const options *o);
+
+/** Whether --normal says by which normals an effect compares, in place of a product. */
+bool texture_normals_compared(const options *o);
+
+/** The normals of an effect that needs some: of --normal, those of the packing, else by projective.
+ *  @return an exit status, after one line on stderr */
+int texture_effect_normals(const options *o, texture_source *s);
 
 /** The effect of --effect, its parameters and reference, as above. */
 int texture_product_effect(const options *o, texture_product *out);

@@ -5,11 +5,29 @@
 #include "cli/figure_file.h"
 #include "cli/texture.h"
 #include "core/append.h"
+#include "texture/frame_normals.h"
+
+bool texture_normals_compared(const options *o) {
+    return o->normal != NULL && o->effect != NULL && (o->effect->needs & EFFECT_NORMALS) != 0;
+}
 
 bool texture_product_wanted(const options *o) {
     const bool described = option_given(o, OPTION_PIXEL);
-    return o->eye || o->linear01 || o->raw || option_given(o, OPTION_POSITION) || o->normal != NULL ||
-           (o->effect != NULL && !described) || o->figure != NULL;
+    return o->eye || o->linear01 || o->raw || option_given(o, OPTION_POSITION) ||
+           (o->normal != NULL && !texture_normals_compared(o)) || (o->effect != NULL && !described) ||
+           o->figure != NULL;
+}
+
+int texture_effect_normals(const options *o, texture_source *s) {
+    if (o->effect == NULL || (o->effect->needs & EFFECT_NORMALS) == 0 || (s->path == NULL && o->normal == NULL))
+        return EXIT_FINE;
+    if (o->normal == NULL && s->unpacked.normals != NULL)
+        s->normals =
+            (frame_normals){.texels = s->unpacked.normals, .truncated = s->unpacked.grain.rounding == GRAIN_ZERO};
+    else if (!frame_normals_make(&s->frame, o->normal != NULL ? o->normal : normal_get(NORMAL_PROJECTIVE), &s->normals))
+        return usage_error("texture: no memory");
+    s->frame.normals = &s->normals;
+    return EXIT_FINE;
 }
 
 /* The parameters that are not the scene's are the effect's, but for the depth that it compares with. */
@@ -81,7 +99,7 @@ int texture_product_resolve(const options *o, texture_product *p) {
     *p = (texture_product){.made = {.error = o->error_map, .radial = o->radial}};
     int status = EXIT_FINE;
     for (size_t i = 0, found = 0; i < sizeof kinds / sizeof kinds[0] && status == EXIT_FINE; i++)
-        if (option_given(o, kinds[i].option)) {
+        if (option_given(o, kinds[i].option) && !(kinds[i].kind == FRAME_NORMAL && texture_normals_compared(o))) {
             if (found++ > 0)
                 status =
                     option_error(kinds[i].option, "cannot be combined with --%s", option_name(kinds[chosen].option));

@@ -9,6 +9,7 @@
 #include "cli/setups.h"
 #include "cli/texture.h"
 #include "report/number.h"
+#include "texture/frame_normals.h"
 
 /* UINT32_MAX stands for "no depth" among codes. */
 enum { BITS_MAX = 31 };
@@ -176,6 +177,7 @@ static int unpack(const options *o, texture_source *s) {
 void texture_source_close(texture_source *s) {
     image_free(&s->picture);
     free(s->unpacked.normals);
+    frame_normals_free(&s->normals);
 }
 
 static int read_image(options *o, texture_source *s) {

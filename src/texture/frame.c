@@ -60,8 +60,11 @@ const char *frame_refuses(const frame *f, const frame_product *product) {
         return "metric depth is not window depth";
     if (product->kind == FRAME_EFFECT && !effect_applies(product->effect, frame_planes(f)))
         return "this effect needs a finite far plane";
-    if (product->kind == FRAME_EFFECT && f->scene == NULL && (product->effect->needs & EFFECT_NORMALS) != 0)
+    const bool normals = product->kind == FRAME_EFFECT && (product->effect->needs & EFFECT_NORMALS) != 0;
+    if (normals && f->scene == NULL && f->normals == NULL)
         return "this effect needs normals, which an image of depths does not have, but a scene";
+    if (normals && f->scene == NULL && product->error && f->normals->unbounded)
+        return "its error is known for packed normals, and for those by 'projective', which have a bound";
     if (product->kind == FRAME_NORMAL && product->error && f->scene == NULL &&
         strcmp(product->normal->name, "projective") != 0)
         return "the error of this method is known in a scene only; that of 'projective' has a bound";

@@ -21,6 +21,15 @@
 /** Window depths this close to the far plane's are sky: nothing was drawn there. Unity's shaders use it. */
 #define FRAME_SKY 1e-4
 
+/** Normals beside the depths: see frame_normals.h. */
+typedef struct frame_normals {
+    const uint8_t *texels; /**< two channels a pixel, as packing_normal() reads them */
+    bool truncated;        /**< channels were cut off; else they are the nearest */
+    uint8_t *own;          /**< what is behind `texels`, where that was made */
+    float *off;            /**< how far each was off before it was packed, degrees; null: not at all, or not known */
+    bool unbounded;        /**< not known */
+} frame_normals;
+
 /** Where the depths come from. */
 typedef struct frame {
     const texture_camera *camera; /**< its set-up in the model exact */
@@ -31,8 +40,9 @@ typedef struct frame {
     const grain *grain;       /**< of an image: how it was rounded; null: its samples are codes */
     bool metric;              /**< the samples are eye depths, none of them sky; the camera's set-up is their lattice */
     const dp_setup *planes;   /**< metric: the planes that effects use; else null: the camera's */
-    double sky;               /**< window depths this close to the far plane's are sky, [0, 0.5] */
-    int threads;              /**< 0: as many as there are cores */
+    const frame_normals *normals; /**< for effects; null: those of the scene, or none */
+    double sky;                   /**< window depths this close to the far plane's are sky, [0, 0.5] */
+    int threads;                  /**< 0: as many as there are cores */
 } frame;
 
 /**

@@ -44,19 +44,18 @@ static void rg32_decode(const pack_row *row, const uint32_t codes[], double *out
 
 /* ---- Normals ----------------------------------------------------------------------------------------------------- */
 
-static const double STEREO = 1.7777; /* kScale of EncodeViewNormalStereo */
-
 static void stereo_encode(const pack_row *row, const double *in, uint32_t codes[]) {
     const double most = (double)((1U << row->bits) - 1);
     for (int i = 0; i < 2; i++) {
-        const double e = in[i] / (in[2] + 1) / STEREO * 0.5 + 0.5;
+        const double e = in[i] / (in[2] + 1) / PACK_STEREO_SCALE * 0.5 + 0.5;
         codes[i] = (uint32_t)floor(fmin(fmax(e, 0), 1) * most + 0.5);
     }
 }
 
 static void stereo_decode(const pack_row *row, const uint32_t codes[], double *out) {
     const double most = (double)((1U << row->bits) - 1);
-    const double x = 2 * STEREO * codes[0] / most - STEREO, y = 2 * STEREO * codes[1] / most - STEREO;
+    const double x = 2 * PACK_STEREO_SCALE * codes[0] / most - PACK_STEREO_SCALE,
+                 y = 2 * PACK_STEREO_SCALE * codes[1] / most - PACK_STEREO_SCALE;
     const double g = 2 / (x * x + y * y + 1);
     out[0] = g * x;
     out[1] = g * y;

@@ -110,6 +110,15 @@ void packing_normal_texel(const double normal[3], uint8_t *texel) {
         texel[i] = (uint8_t)codes[i];
 }
 
+/* A texel stands for a square of the stereographic plane. That map is conformal: 2/(1 + |v|^2) of a way there. */
+double packing_normal_reach(const uint8_t *texel, bool truncated) {
+    const double diagonal = M_SQRT2 * PACK_STEREO_SCALE / BYTE * (truncated ? 2 : 1);
+    double normal[3];
+    packing_normal(texel, normal);
+    const double least = fmax(hypot(normal[0], normal[1]) / (normal[2] + 1) - diagonal, 0);
+    return M_SQRT2 * diagonal * 2 / (1 + least * least);
+}
+
 /* ---- Images ------------------------------------------------------------------------------------------------------ */
 
 static bool refuse(unpacked *out, const char *format, ...) __attribute__((format(printf, 2, 3)));
