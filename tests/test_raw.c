@@ -217,10 +217,29 @@ static void scenes_are_off_by_what_they_are(void **state) {
     tally_end(&t);
 }
 
+/* Metric depth over a far plane that is given. */
+static void metric_depth_over_far(void **state) {
+    (void)state;
+    char source[600], path[512];
+    double samples[PIXELS];
+    image share;
+    tally t = {.name = "metric"};
+    rng r = rng_make("metric");
+    snprintf(path, sizeof path, "%s", scratch_file("in.npy"));
+    write_samples(&buffers[0], &r, samples, path);
+    snprintf(source, sizeof source, "%s --metric 0.01 -f 800", path);
+    const float *got = product_of(source, "--linear01", &share);
+    for (int i = 1; i < PIXELS; i++)
+        TALLY(&t, fabs((double)got[i] - samples[i] / 80000) <= 0x1p-22 * (double)got[i], "%d: %.9g", i, (double)got[i]);
+    image_free(&share);
+    tally_end(&t);
+}
+
 static void refusals(void **state) {
     (void)state;
     static const char *const rows[][2] = {
         {"--metric 0.01 --raw", "depthprec: --raw: does not apply with --metric, which is not window depth\n"},
+        {"--metric 0.01 --linear01", "depthprec: --linear01: needs --far with --metric, which has none\n"},
         {"--packing depth-normals --raw",
          "depthprec: --raw: does not apply with --packing depth-normals, which is not window depth\n"},
         {"-m d3d -f inf --linear01", "depthprec: texture: eye depth over far: this needs a finite far plane\n"},
@@ -245,6 +264,7 @@ int main(void) {
         cmocka_unit_test(images_are_off_by_half_a_cell),
         cmocka_unit_test(samples_coarser_than_the_buffer_count),
         cmocka_unit_test(scenes_are_off_by_what_they_are),
+        cmocka_unit_test(metric_depth_over_far),
         cmocka_unit_test(refusals),
     };
     return run_tap(tests);

@@ -54,6 +54,9 @@ const char *texture_origin_name(texture_origin origin);
 int texture_source_open(options *o, texture_source *out);
 void texture_source_close(texture_source *s);
 
+/** Whether something says where far is, which metric depth does not need. */
+bool texture_far_known(const options *o);
+
 /** Whether the image holds window depths, which have a format and a mapping. */
 bool texture_is_window(const options *o);
 

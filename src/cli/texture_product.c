@@ -135,6 +135,8 @@ int texture_product_check(const options *o, const texture_source *s, texture_pro
         [FRAME_NORMAL] = {"bound of the error on planes", "error"},
         [FRAME_EFFECT] = {"largest possible error", "largest possible error"},
     };
+    if (p->made.kind == FRAME_LINEAR01 && !texture_far_known(o))
+        return option_error(OPTION_LINEAR01, "needs --far with --metric, which has none");
     const char *wrong = frame_refuses(&s->frame, o->error_file != NULL ? &p->error : &p->made);
     if (wrong != NULL)
         return usage_error("texture: %s: %s", p->name, wrong);

@@ -57,6 +57,10 @@ static int scene_parameters(const options *o, const scene_row *scene, double *ou
     return status;
 }
 
+bool texture_far_known(const options *o) {
+    return o->metric == 0 || option_given(o, OPTION_FAR) || o->preset_count > 0;
+}
+
 bool texture_is_window(const options *o) {
     return o->metric == 0 && (o->packing == NULL || !o->packing->linear);
 }
