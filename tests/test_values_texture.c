@@ -266,6 +266,18 @@ static const csv_column band_columns[] = {
     {"codes", "codes"}, {"available", "available"},      {"gap [scene]", "gap"}, {"gap_z [scene]", "gap_z"},
     {"steps", "steps"}, {"interval [scene]", "interval"}};
 
+/* What 99 % do not exceed, and what none does: not less than it is. Unbounded errors and decodings have no such. */
+static void check_upwards(const values *v, const char *line, char at[][PATH_SIZE]) {
+    for (int k = 0; k < 3; k++) {
+        char word[64];
+        int used = 0;
+        assert_int_equal(sscanf(line, " %63s%n", word, &used), 1);
+        line += used;
+        if (k > 0 && strcmp(word, "-") != 0)
+            assert_true(strtod(word, NULL) >= value_at(v, at[k])->number);
+    }
+}
+
 static void check_text(const values *v, const char *arguments, size_t errors, const line_places *lines) {
     static const text_column bands[] = {{"lo", 6},     {"hi", 6},           {"pixels", 10},
                                         {"codes", 10}, {"available", 10},   {"gap", 6},
@@ -299,6 +311,7 @@ static void check_text(const values *v, const char *arguments, size_t errors, co
         for (size_t k = 0; k < 5; k++)
             snprintf(at[k], PATH_SIZE, "errors[%zu].%s", i, fields[k]);
         check_text_numbers(v, p.out, label, 4, paths);
+        check_upwards(v, strstr(p.out, label) + strlen(label), at);
     }
     printed_free(&p);
 }

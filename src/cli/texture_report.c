@@ -181,7 +181,7 @@ static void say_pairs(const survey_pairs *s, page *p) {
         snprintf(first, sizeof first, ", the first at z = %s", number_in(number_of(s->first_tie, 6), p->unit).text);
     if (!isnan(s->certain_to))
         snprintf(certain, sizeof certain, "; none can fight up to z = %s",
-                 number_in(number_of(s->certain_to, 6), p->unit).text);
+                 number_in(number_down(s->certain_to, 6), p->unit).text);
     page_note(p, "pairs", "%llu to be told apart: %llu fight, stored as one code%s", (unsigned long long)s->pairs,
               (unsigned long long)s->ties, first);
     page_note(p, "", "%llu are closer than the separation%s", (unsigned long long)s->possible, certain);
@@ -323,8 +323,8 @@ static const column error_columns[] = {{FIELD(error_line, name, "name", "")},
                                        {FIELD(error_line, sum.infinite, "unbounded", "")},
                                        {FIELD(error_line, masked, "masked", "")},
                                        {FIELD(error_line, sum.mean, "mean", ""), SHOWN("mean", 11, 4)},
-                                       {FIELD(error_line, sum.p99, "p99", ""), SHOWN("99 %", 10, 4)},
-                                       {FIELD(error_line, sum.hi, "max", ""), SHOWN("at most", 10, 4)},
+                                       {FIELD(error_line, sum.p99, "p99", ""), SHOWN("99 %", 10, 4), .upward = true},
+                                       {FIELD(error_line, sum.hi, "max", ""), SHOWN("at most", 10, 4), .upward = true},
                                        {FIELD(error_line, sum.hi_column, "column", "")},
                                        {FIELD(error_line, sum.hi_row, "row", "")},
                                        {TEXT_FIELD(error_line, at, "at pixel", -1, 0)},
