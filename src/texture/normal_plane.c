@@ -205,7 +205,7 @@ DP_INLINE void find_farthest(bool ortho, double alpha, double beta, double y, si
         const double of_b[3] = {-beta * (e2 + y * e1), beta * (y * e0), beta * e0};
         const double on_own = own * e2, on_a = alpha * (e0 - x * e2), on_b = beta * (e1 - y * e2);
         const double length = e0 * e0 + e1 * e1 + e2 * e2;
-        double apart = -1, along = 1;
+        double apart = 0, along = 1;
         int64_t turned = 0;
 #pragma GCC unroll 9
         for (int k = 0; k < CORNERS; k++) {
