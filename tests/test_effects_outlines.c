@@ -198,7 +198,7 @@ static void test_outlines_by_depth(void **state) {
         s.codes[k] = k % ACROSS < 6 ? CODE_MAX : code_of(3 / (1 + lean * x));
     }
     for (int m = 0; m < NORMAL_METHODS; m++) {
-        assert_true(frame_normals_make(&s.frame, normal_get((size_t)m), &normals));
+        assert_true(frame_normals_make(&s.frame, normal_get((size_t)m), true, &normals));
         s.frame.normals = &normals;
         stage_effect(&s, "outline", at, 0, false, got);
         const frame_product p = {
@@ -226,7 +226,8 @@ static void test_outlines_by_depth(void **state) {
 
 /* Normals that face the camera, off by so many degrees before they were packed: towards a corner, and away from it. */
 static void test_outlines_of_doubtful_normals(void **state) {
-    static float got[PIXELS], off[PIXELS], degrees[PIXELS];
+    static float got[PIXELS], off[PIXELS];
+    static uint16_t degrees[PIXELS];
     static uint8_t texels[2 * PIXELS];
     const frame_normals normals = {.texels = texels, .off = degrees};
     double at[TEXTURE_PARAMETERS];
@@ -239,7 +240,7 @@ static void test_outlines_of_doubtful_normals(void **state) {
     for (int k = 0; k < PIXELS; k++) {
         s.codes[k] = code_of(10);
         texels[2 * k] = texels[2 * k + 1] = 127;
-        degrees[k] = k < PIXELS / 2 ? 2 : 5; /* 2 sqrt(2) sin 5 is 0.247, above 0.2 */
+        degrees[k] = (k < PIXELS / 2 ? 2 : 5) * FRAME_NORMAL_DEGREE; /* 2 sqrt(2) sin 5 is 0.247, above 0.2 */
     }
     stage_effect(&s, "outline", at, 0, false, got);
     stage_effect(&s, "outline", at, 0, true, off);

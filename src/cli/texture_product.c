@@ -24,7 +24,8 @@ int texture_effect_normals(const options *o, texture_source *s) {
     if (o->normal == NULL && s->unpacked.normals != NULL)
         s->normals =
             (frame_normals){.texels = s->unpacked.normals, .truncated = s->unpacked.grain.rounding == GRAIN_ZERO};
-    else if (!frame_normals_make(&s->frame, o->normal != NULL ? o->normal : normal_get(NORMAL_PROJECTIVE), &s->normals))
+    else if (!frame_normals_make(&s->frame, o->normal != NULL ? o->normal : normal_get(NORMAL_PROJECTIVE),
+                                 option_given(o, OPTION_ERROR_MAP) || option_given(o, OPTION_PIXEL), &s->normals))
         return usage_error("texture: no memory");
     s->frame.normals = &s->normals;
     return EXIT_FINE;

@@ -86,7 +86,7 @@ typedef struct run {
     size_t product_count, values; /* of all products in a pixel */
     uint32_t width, height, stride, sky, strip, count, margin;
     bool bottom_up, depths, bounds; /* window depths; bounds of normals */
-    dp_batch eye, depth;
+    dp_batch eye, depth, stored;
     position_state position;
     float *slope_x, *out; /* out: a strip in each slot, product by product */
     desk *desks;
@@ -181,7 +181,8 @@ static bool run_start(run *r, const frame *f) {
         position_prepare(&r->position, c);
     const dp_path path = dp_path_best();
     return dp_batch_init(&r->eye, &c->setup, DP_TASK_EYE, DP_REAL_FLOAT, DP_WORD_32, path) == DP_OK &&
-           dp_batch_init(&r->depth, &c->setup, DP_TASK_DECODE, DP_REAL_FLOAT, DP_WORD_32, path) == DP_OK;
+           dp_batch_init(&r->depth, &c->setup, DP_TASK_DECODE, DP_REAL_FLOAT, DP_WORD_32, path) == DP_OK &&
+           dp_batch_init(&r->stored, &c->setup, DP_TASK_EYE, DP_REAL_DOUBLE, DP_WORD_32, path) == DP_OK;
 }
 
 /* Row i of the strip that begins at row `first`, margins counted: its codes and eye depths. Beyond the image is NaN. */
@@ -213,6 +214,13 @@ static float *rows_of(const run *r, size_t slot, size_t product) {
     return r->out + (slot * r->values + before) * pixels;
 }
 
+/* Of places and normals, which are kept until the next product is made. */
+static bool is_error_of(const frame_product *product, const frame_product *last) {
+    return product->error && !last->error && product->kind == last->kind &&
+           (product->kind == FRAME_POSITION || product->kind == FRAME_NORMAL) && product->position == last->position &&
+           product->normal == last->normal;
+}
+
 static void make_row(const run *r, const desk *d, uint32_t first, uint32_t i, size_t slot) {
     const size_t middle = (size_t)i + NORMAL_REACH, width = r->width;
     frame_row in = {.frame = r->f,
@@ -221,6 +229,7 @@ static void make_row(const run *r, const desk *d, uint32_t first, uint32_t i, si
                     .row = first + i,
                     .codes = d->codes + middle * width,
                     .planes = {d->scratch + width, d->scratch + 2 * width, d->scratch + 3 * width},
+                    .stored = &r->stored,
                     .memo = d->memo,
                     .numbers = d->numbers};
     for (int k = -NORMAL_REACH; k <= NORMAL_REACH; k++)
@@ -231,6 +240,7 @@ static void make_row(const run *r, const desk *d, uint32_t first, uint32_t i, si
     }
     for (size_t k = 0; k < r->product_count; k++) {
         const frame_product *product = &r->products[k];
+        in.found = k > 0 && is_error_of(product, &r->products[k - 1]);
         in.product = product;
         in.out = rows_of(r, slot, k) + (size_t)i * width * (size_t)frame_channels(product);
         frame_makers[product->kind][product->error](&in);

@@ -21,12 +21,15 @@
 /** Window depths this close to the far plane's are sky: nothing was drawn there. Unity's shaders use it. */
 #define FRAME_SKY 1e-4
 
+enum { FRAME_NORMAL_DEGREE = 256 };
+
 /** Normals beside the depths: see frame_normals.h. */
 typedef struct frame_normals {
     const uint8_t *texels; /**< two channels a pixel, as packing_normal() reads them */
     bool truncated;        /**< channels were cut off; else they are the nearest */
     uint8_t *own;          /**< what is behind `texels`, where that was made */
-    float *off;            /**< how far each was off before it was packed, degrees; null: not at all, or not known */
+    uint16_t *off;         /**< how far each was off at most before it was packed, of FRAME_NORMAL_DEGREE a degree;
+                                null: not at all, or not known */
     bool unbounded;        /**< not known */
 } frame_normals;
 

@@ -21,14 +21,16 @@ static bool take(void *context, uint32_t row, uint32_t count, const float *const
         const float *n = values[1] + 3 * i;
         const bool found = !isnan(n[0]);
         packing_normal_texel(found ? (const double[]){n[0], n[1], -n[2]} : to_camera, m->out->own + 2 * (first + i));
-        if (m->out->off != NULL)
-            m->out->off[first + i] = isnan(values[0][i]) ? 0 : found && !isnan(values[2][i]) ? values[2][i] : 180;
+        if (m->out->off == NULL)
+            continue;
+        const double off = isnan(values[0][i]) ? 0 : found && !isnan(values[2][i]) ? (double)values[2][i] : 180;
+        m->out->off[first + i] = (uint16_t)ceil(off * FRAME_NORMAL_DEGREE);
     }
     return true;
 }
 
-bool frame_normals_make(const frame *f, const normal_row *method, frame_normals *out) {
-    const bool bounded = f->scene == NULL && strcmp(method->name, "projective") == 0;
+bool frame_normals_make(const frame *f, const normal_row *method, bool error, frame_normals *out) {
+    const bool bounded = error && f->scene == NULL && strcmp(method->name, "projective") == 0;
     const size_t pixels = (size_t)f->camera->width * f->camera->height;
     const frame_product products[] = {{.kind = FRAME_EYE},
                                       {.kind = FRAME_NORMAL, .normal = method},

@@ -165,6 +165,8 @@ static void exact_place(const frame_row *in, uint32_t x, double z, double relati
 
 static void places(const frame_row *in) {
     const texture_camera *c = camera_of(in);
+    if (in->found)
+        return;
     if (in->product->position != NULL) {
         in->product->position->run(in->position, in->row, 0, in->depth, c->width, in->planes[0], in->planes[1],
                                    in->planes[2]);
@@ -242,6 +244,8 @@ static void make_position_error(const frame_row *in) {
 }
 
 static void normals(const frame_row *in) {
+    if (in->found)
+        return;
     normal_rows rows = {.camera = camera_of(in), .row = in->row, .count = camera_of(in)->width, .slope_x = in->slope_x};
     memcpy(rows.rows, in->eyes, sizeof rows.rows);
     in->product->normal->run(&rows, in->planes[0], in->planes[1], in->planes[2]);
@@ -255,9 +259,9 @@ static void make_normal(const frame_row *in) {
 /* Of an image the bound for a plane through the pixel's place with the normal that was found. */
 static void normal_bounds(const frame_row *in) {
     const texture_camera *c = camera_of(in);
-    const grain_rows ranges = ranges_in(in);
-    double *bounds = in->numbers + 4 * (size_t)c->width;
-    const normal_planes planes = {c, in->row, {in->planes[0], in->planes[1], in->planes[2]}, ranges.stored, in->memo};
+    double *const z = in->numbers, *const bounds = z + c->width;
+    const normal_planes planes = {c, in->row, {in->planes[0], in->planes[1], in->planes[2]}, z, in->memo};
+    dp_batch_run(in->stored, in->codes, z, c->width);
     normal_planes_bounds(&planes, in->frame->grain, DP_BATCH_EYE_ERROR, bounds);
     round_up(in->planes[0], bounds, TO_DEGREES, in->out, c->width);
 }

@@ -21,6 +21,8 @@ typedef struct frame_row {
     const float *depth;                      /**< window depth; of FRAME_RAW, FRAME_POSITION and FRAME_EFFECT only */
     const float *eyes[2 * NORMAL_REACH + 1]; /**< eye depths of this row and its neighbours, as in normal_rows */
     float *planes[3];                        /**< room for three times the width */
+    bool found;                              /**< the planes hold this product, whose error is wanted */
+    const dp_batch *stored;                  /**< codes to eye depths in double */
     grain_memo *memo;                        /**< of a thread's own */
     double *numbers;                         /**< room for FRAME_NUMBERS times the width */
     float *out;

@@ -134,6 +134,8 @@ static void both_decode(const pack_row *row, const uint32_t codes[], double *out
 #define UNITY   "UnityCG.cginc of Unity's built-in shaders, "
 #define CIGOLLE "Cigolle et al. 2014, A survey of efficient representations for independent unit vectors"
 
+enum { STEREO_8 = 4 };
+
 /* clang-format off */
 static const pack_row rows[] = {
     {.name = "rg-depth", .kind = PACK_DEPTH, .channels = 2, .bits = 8,
@@ -154,7 +156,7 @@ static const pack_row rows[] = {
              "and the coarse channel then loses one",
      .depth = {1.058e-3, 3.938e-3}, .source = UNITY "EncodeFloatRG, DecodeFloatRG",
      .encode = rg32_encode, .decode = rg32_decode},
-    {.name = "stereo-8", .kind = PACK_NORMAL, .layout = PACK_STEREO, .channels = 2, .bits = 8,
+    [STEREO_8] = {.name = "stereo-8", .kind = PACK_NORMAL, .layout = PACK_STEREO, .channels = 2, .bits = 8,
      .note = "stereographic: n.xy/(n.z + 1)/1.7777 in two UNORM channels. Worst at the pole, which falls between codes",
      .normal = {0.459, 1.130}, .source = UNITY "EncodeViewNormalStereo, DecodeViewNormalStereo",
      .encode = stereo_encode, .decode = stereo_decode},
@@ -185,4 +187,8 @@ static const pack_row rows[] = {
 
 const pack_row *pack_get(size_t index) {
     return index < sizeof rows / sizeof rows[0] ? &rows[index] : NULL;
+}
+
+const pack_row *pack_stereo(void) {
+    return &rows[STEREO_8];
 }

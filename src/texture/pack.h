@@ -53,4 +53,7 @@ typedef struct pack_row {
 /** The rows in order; null beyond the last. */
 const pack_row *pack_get(size_t index);
 
+/** The row "stereo-8". */
+const pack_row *pack_stereo(void);
+
 #endif

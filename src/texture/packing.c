@@ -90,22 +90,14 @@ void packing_texel(const packing *p, uint64_t number, uint8_t *texel) {
     }
 }
 
-/* The row of pack.h for their normals. */
-static const pack_row *stereo(void) {
-    size_t i = 0;
-    while (strcmp(pack_get(i)->name, "stereo-8") != 0)
-        i++;
-    return pack_get(i);
-}
-
 void packing_normal(const uint8_t *texel, double normal[3]) {
     const uint32_t codes[2] = {texel[0], texel[1]};
-    stereo()->decode(stereo(), codes, normal);
+    pack_stereo()->decode(pack_stereo(), codes, normal);
 }
 
 void packing_normal_texel(const double normal[3], uint8_t *texel) {
     uint32_t codes[2];
-    stereo()->encode(stereo(), normal, codes);
+    pack_stereo()->encode(pack_stereo(), normal, codes);
     for (int i = 0; i < 2; i++)
         texel[i] = (uint8_t)codes[i];
 }
