@@ -54,6 +54,9 @@ const char *texture_origin_name(texture_origin origin);
 int texture_source_open(options *o, texture_source *out);
 void texture_source_close(texture_source *s);
 
+/** Whether something says where far is, which metric depth does not need. */
+bool texture_far_known(const options *o);
+
 /** Whether the image holds window depths, which have a format and a mapping. */
 bool texture_is_window(const options *o);
 
@@ -136,6 +139,9 @@ int texture_depth_write(const options *o, const texture_source *s);
 
 /** Draws the file of --figure. */
 int texture_figure_draw(const options *o, const texture_source *s, const texture_product *p);
+
+/** Draws the file of --histogram. */
+int texture_histogram_draw(const options *o, const texture_source *s);
 
 /* ---- Reports ----------------------------------------------------------------------------------------------------- */
 

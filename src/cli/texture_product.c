@@ -13,8 +13,9 @@ bool texture_normals_compared(const options *o) {
 
 bool texture_product_wanted(const options *o) {
     const bool described = option_given(o, OPTION_PIXEL);
-    return o->eye || option_given(o, OPTION_POSITION) || (o->normal != NULL && !texture_normals_compared(o)) ||
-           (o->effect != NULL && !described) || o->figure != NULL;
+    return o->eye || o->linear01 || o->raw || option_given(o, OPTION_POSITION) ||
+           (o->normal != NULL && !texture_normals_compared(o)) || (o->effect != NULL && !described) ||
+           o->figure != NULL;
 }
 
 int texture_effect_normals(const options *o, texture_source *s) {
@@ -60,6 +61,8 @@ static const struct {
     option_id option;
     const char *by, *unit, *unit_of_error;
 } kinds[] = {{FRAME_EYE, OPTION_EYE, "", "scene units", "scene units"},
+             {FRAME_LINEAR01, OPTION_LINEAR01, "", "", ""},
+             {FRAME_RAW, OPTION_RAW, "", "", ""},
              {FRAME_POSITION, OPTION_POSITION, "positions by ", "scene units", "scene units"},
              {FRAME_NORMAL, OPTION_NORMAL, "normals by ", "", "degrees"},
              {FRAME_EFFECT, OPTION_EFFECT, "", "", "levels of 1/255"}};
@@ -89,6 +92,8 @@ static int check_files(const options *o) {
 int texture_product_resolve(const options *o, texture_product *p) {
     size_t chosen = 0; /* eye depth, where --figure is all that was said */
     const char *const names[] = {[FRAME_EYE] = o->radial ? "distance from the camera" : "eye depth",
+                                 [FRAME_LINEAR01] = "eye depth over far",
+                                 [FRAME_RAW] = "window depth",
                                  [FRAME_POSITION] = o->position != NULL ? o->position->name : "exact",
                                  [FRAME_NORMAL] = o->normal != NULL ? o->normal->name : "",
                                  [FRAME_EFFECT] = o->effect != NULL ? o->effect->name : ""};
@@ -104,6 +109,9 @@ int texture_product_resolve(const options *o, texture_product *p) {
     if (status == EXIT_FINE && o->radial && kinds[chosen].kind != FRAME_EYE)
         status = option_error(OPTION_RADIAL, "does not apply with --%s", option_name(kinds[chosen].option));
     p->made.kind = kinds[chosen].kind;
+    if (status == EXIT_FINE && o->overlay > 0 && (o->error_map || p->made.kind >= FRAME_POSITION))
+        status = option_error(OPTION_OVERLAY, "does not apply with --%s, only with --eye, --linear01 and --raw",
+                              option_name(o->error_map ? OPTION_ERROR_MAP : kinds[chosen].option));
     p->made.position = o->position;
     p->made.normal = o->normal;
     p->made.effect_settings = p->settings;
@@ -122,10 +130,14 @@ int texture_product_resolve(const options *o, texture_product *p) {
 int texture_product_check(const options *o, const texture_source *s, texture_product *p) {
     static const char *const truths[][2] = {
         [FRAME_EYE] = {"half of each cell", "error"},
+        [FRAME_LINEAR01] = {"half of each cell", "error"},
+        [FRAME_RAW] = {"half of each cell", "error"},
         [FRAME_POSITION] = {"largest possible error", "error"},
         [FRAME_NORMAL] = {"bound of the error on planes", "error"},
         [FRAME_EFFECT] = {"largest possible error", "largest possible error"},
     };
+    if (p->made.kind == FRAME_LINEAR01 && !texture_far_known(o))
+        return option_error(OPTION_LINEAR01, "needs --far with --metric, which has none");
     const char *wrong = frame_refuses(&s->frame, o->error_file != NULL ? &p->error : &p->made);
     if (wrong != NULL)
         return usage_error("texture: %s: %s", p->name, wrong);

@@ -71,9 +71,18 @@ int frame_threads(const frame *f);
 /** The codes of a row; UINT32_MAX where the image has no depth. */
 void frame_codes(const frame *f, uint32_t row, uint32_t *codes);
 
-typedef enum frame_kind { FRAME_EYE = 0, FRAME_POSITION, FRAME_NORMAL, FRAME_EFFECT, FRAME_KINDS } frame_kind;
+typedef enum frame_kind {
+    FRAME_EYE = 0,
+    FRAME_LINEAR01, /**< eye depth over far, as Unity's Linear01Depth; far is that of frame_planes() */
+    FRAME_RAW,      /**< window depth */
+    FRAME_POSITION,
+    FRAME_NORMAL,
+    FRAME_EFFECT,
+    FRAME_KINDS
+} frame_kind;
 
-/** What is made of the depths. Sky and invalid pixels are NaN in all of them, but sky has edges: EFFECT_STEP. */
+/** What is made of the depths. Sky and invalid pixels are NaN in all of them, but sky has edges, EFFECT_STEP, and a
+ *  window depth. */
 typedef struct frame_product {
     frame_kind kind;
     /**
@@ -81,6 +90,9 @@ typedef struct frame_product {
      * whose truth is not known, what it can be off:
      *
      *     eye       |product - z|; image: |product - stored|, and from there to the farther end of its range
+     *     linear01  the same over far
+     *     raw       |product - d(z)|; image: |product - value of the code|, and from there to the farther end of the
+     *               window depths that became it, which is half a cell where samples are codes
      *     position  distance from the true place; image: |method - exact| and the range's reach along the ray
      *     normal    angle to the true normal, degrees; image: the bound of the method "projective" on a plane
      *     effect    levels of 1/255: from the output in binary32 to the exact one
