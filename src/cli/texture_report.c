@@ -94,6 +94,9 @@ static void say_origins(const statistics *r, page *p) {
     const bool other = is_image(r) && s->found.depth && strcmp(s->found.format.name, name) != 0;
     if (is_image(r))
         page_note(p, "recognised", "%s", s->found.why);
+    if (is_image(r) && s->picture.lossy != NULL)
+        page_note(p, "compression", "%s, which may have changed the depths: no error here counts that",
+                  s->picture.lossy);
     page_note(p, "format", "%s %s%s%s", name, r->named.format_from,
               other ? ": the nearest codes are taken of what looks like " : "", other ? s->found.format.name : "");
     if (is_image(r))
@@ -255,6 +258,7 @@ static const column source_columns[] = {{FIELD(statistics, source.path, "file", 
                                         {FIELD(statistics, source.channels, "channels", ""), .when = OF_IMAGE},
                                         {FIELD(statistics, named.metric, "metric", "scene"), .when = OF_IMAGE},
                                         {FIELD(statistics, named.packing, "packing", ""), .when = OF_IMAGE},
+                                        {FIELD(statistics, source.picture.lossy, "lossy", ""), .when = OF_IMAGE},
                                         {GROUP("samples", sample_columns), .when = OF_IMAGE},
                                         {GROUP("recognised", recognised_columns), .when = OF_WINDOW},
                                         {.kind = COLUMN_END}};
