@@ -54,13 +54,14 @@ static bool draw_pixels(const pencil *p, canvas_rect f, const chart_map *m, cons
     uint32_t *pixels = calloc(count, sizeof *pixels);
     if (pixels == NULL)
         return false;
-    for (int row = 0; row < m->rows; row++)
-        for (int column = 0; column < m->columns; column++) {
-            double v = *chart_field(m, row, column);
-            if (!isnan(v))
-                pixels[(size_t)(m->rows - 1 - row) * (size_t)m->columns + (size_t)column] =
-                    theme_pixel(colour_of(c, v));
-        }
+#pragma omp parallel for schedule(static)
+    for (int row = 0; row < m->rows; row++) {
+        const double *from = chart_field(m, row, 0);
+        uint32_t *to = pixels + (size_t)(m->rows - 1 - row) * (size_t)m->columns;
+        for (int column = 0; column < m->columns; column++)
+            if (!isnan(from[column]))
+                to[column] = theme_pixel(colour_of(c, from[column]));
+    }
     canvas_image(p->c, f, m->columns, m->rows, pixels);
     free(pixels);
     return true;
