@@ -11,7 +11,7 @@
 #include "report/report.h"
 #include "texture/survey.h"
 
-enum { ERRORS_MAX = 32 };
+enum { ERRORS_MAX = 32, DIGITS_32 = 9 }; /* that tell binary32 numbers apart */
 
 /* How far a product is off over all pixels; see frame_product. */
 typedef struct error_line {
@@ -22,12 +22,18 @@ typedef struct error_line {
     char at[64]; /* the pixel, and the unit */
 } error_line;
 
+/* As the shader sees them: binary32. */
+typedef struct shader_params {
+    double x, y, z, w;
+} shader_params;
+
 /* The statistics; what does not exist is null or NaN. Below `named`, the items of lists at hand. */
 typedef struct statistics {
     const options *o;
     texture_source source;
     survey survey;
     survey_pairs pairs;
+    shader_params zbuffer;
     double condition; /* of the view-projection matrix, 2-norm; NaN where the mapping has none */
     size_t error_count;
     error_line errors[ERRORS_MAX];
@@ -38,6 +44,7 @@ typedef struct statistics {
         bool coarser;
         const bool *reversed;
         const survey_pairs *pairs;
+        const shader_params *zbuffer;
         uint64_t hidden;
     } named;
     const char *parameter;
@@ -117,6 +124,7 @@ static void say_metric(const statistics *r, page *p) {
 
 static void say_source(statistics *r, page *p) {
     const texture_source *s = &r->source;
+    const shader_params *z = r->named.zbuffer;
     char parameters[512] = "";
     char packed[48] = "";
     p->unit = options_unit(r->o);
@@ -138,6 +146,9 @@ static void say_source(statistics *r, page *p) {
         setup_title(p, &s->setup, &r->setup);
         say_origins(r, p);
     }
+    if (z != NULL)
+        page_note(p, "in Unity", "_ZBufferParams %s, %s, %s, %s", number_of(z->x, DIGITS_32).text,
+                  number_of(z->y, DIGITS_32).text, number_of(z->z, DIGITS_32).text, number_of(z->w, DIGITS_32).text);
 }
 
 static number_text share(uint64_t part, uint64_t all) {
@@ -248,6 +259,12 @@ static const column source_columns[] = {{FIELD(statistics, source.path, "file", 
                                         {GROUP("recognised", recognised_columns), .when = OF_WINDOW},
                                         {.kind = COLUMN_END}};
 
+static const column zbuffer_columns[] = {{FIELD(shader_params, x, "x", "")},
+                                         {FIELD(shader_params, y, "y", "")},
+                                         {FIELD(shader_params, z, "z", "1/scene")},
+                                         {FIELD(shader_params, w, "w", "1/scene")},
+                                         {.kind = COLUMN_END}};
+
 static const column reading_columns[] = {
     {FIELD(statistics, reading.what, "what", "")},    {FIELD(statistics, reading.name, "name", "")},
     {FIELD(statistics, source.column, "column", "")}, {FIELD(statistics, source.row, "row", "")},
@@ -259,19 +276,21 @@ static const column sky_columns[] = {{FIELD(statistics, survey.sky, "pixels", ""
                                      {FIELD(statistics, named.hidden, "hidden", ""), .when = OF_SCENE},
                                      {.kind = COLUMN_END}};
 
-static const column found_columns[] = {{FIELD(statistics, named.format_from, "format_from", "")},
-                                       {FIELD(statistics, named.mapping_from, "mapping_from", "")},
-                                       {FIELD(statistics, named.direction_from, "direction_from", "")},
-                                       {LIST("readings", reading_columns, next_reading)},
-                                       {FIELD(statistics, named.fov, "fov", "degrees")},
-                                       {FIELD(statistics, named.half_height, "half_height", "scene")},
-                                       {FIELD(statistics, survey.pixels, "pixels", "")},
-                                       {FIELD(statistics, survey.invalid, "invalid", "")},
-                                       {GROUP("sky", sky_columns)},
-                                       {FIELD(statistics, survey.lo, "lo", "scene")},
-                                       {FIELD(statistics, survey.hi, "hi", "scene")},
-                                       {FIELD(statistics, survey.codes, "codes", "")},
-                                       {.kind = COLUMN_END}};
+static const column found_columns[] = {
+    {FIELD(statistics, named.format_from, "format_from", "")},
+    {FIELD(statistics, named.mapping_from, "mapping_from", "")},
+    {FIELD(statistics, named.direction_from, "direction_from", "")},
+    {LIST("readings", reading_columns, next_reading)},
+    {PART(statistics, named.zbuffer, "zbuffer_params", zbuffer_columns), .pointed = true},
+    {FIELD(statistics, named.fov, "fov", "degrees")},
+    {FIELD(statistics, named.half_height, "half_height", "scene")},
+    {FIELD(statistics, survey.pixels, "pixels", "")},
+    {FIELD(statistics, survey.invalid, "invalid", "")},
+    {GROUP("sky", sky_columns)},
+    {FIELD(statistics, survey.lo, "lo", "scene")},
+    {FIELD(statistics, survey.hi, "hi", "scene")},
+    {FIELD(statistics, survey.codes, "codes", "")},
+    {.kind = COLUMN_END}};
 
 /* CSV calls the ends of a band otherwise. */
 static const column band_columns[] = {
@@ -322,6 +341,13 @@ static const column columns[] = {
     {LIST("errors", error_columns, next_error), .only = AS_JSON | AS_TEXT, .indent = 2},
     {.kind = COLUMN_END}};
 
+/* Where Linear01Depth is defined, all four are: not without a far plane. */
+static void name_zbuffer(statistics *r) {
+    const zbuffer_params p = zbuffer_params_of(&r->source.setup);
+    r->zbuffer = (shader_params){(double)p.x, (double)p.y, (double)p.z, (double)p.w};
+    r->named.zbuffer = decode_applies(&decode_rows[DECODE_LINEAR_01], &r->source.setup) ? &r->zbuffer : NULL;
+}
+
 /* What is said of the source by names, and of its options. */
 static void name_all(statistics *r) {
     static const bool answers[] = {false, true};
@@ -347,6 +373,7 @@ static void name_all(statistics *r) {
     r->named.half_height = s->camera.ortho ? r->o->camera.half_height : none;
     r->named.coarser = !is_metric && texture_coarser(s);
     r->named.reversed = s->found.direction ? &answers[s->found.reversed == 1] : NULL;
+    name_zbuffer(r);
     r->named.hidden = r->survey.sky - r->survey.true_sky;
 }
 
