@@ -429,6 +429,7 @@ static void test_texts(void **state) {
     } texts[] = {{"texture", OPTION_TITLE, AT(title), false},
                  {"texture", OPTION_CHANNEL, AT(channel), false},
                  {"table", OPTION_OUTPUT, AT(output), true},
+                 {"texture", OPTION_MATRIX, AT(matrix), true},
                  {"texture", OPTION_FIGURE, AT(figure), true}};
     tally t = {.name = "texts"};
     (void)state;
