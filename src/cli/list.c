@@ -11,6 +11,7 @@
 #include "method/method.h"
 #include "need/model.h"
 #include "plot/figure.h"
+#include "raster/raster.h"
 #include "report/number.h"
 #include "texture/effect.h"
 #include "texture/pack.h"
@@ -119,6 +120,27 @@ bool list_api(size_t index, list_item *item) {
     *item =
         (list_item){.name = row->name, .aliases = row->aliases, .note = row->note, .source = row->source, .row = row};
     snprintf(item->bound, sizeof item->bound, "unorm: r = %s; fp32: r = %s", rules[row->unorm], rules[row->real]);
+    return true;
+}
+
+bool list_rasterizer(size_t index, list_item *item) {
+    static const char *const anchors[] = {
+        [RASTER_ANCHOR_ORIGIN] = "; plane of depth anchored at the target's origin",
+        [RASTER_ANCHOR_VERTEX] = "; plane of depth anchored at the vertex of the largest w",
+    };
+    static const char *const clippings[] = {
+        [RASTER_CLIP_PIECES] = "; clipped: new vertices, each piece with its own plane",
+        [RASTER_CLIP_KEEPS] = "; clipped: the plane of the unclipped vertices",
+    };
+    const raster_row *row = raster_get(index);
+    if (row == NULL)
+        return false;
+    *item = (list_item){.name = row->name, .note = row->note, .source = row->source, .row = row};
+    append(item->bound, sizeof item->bound, "%s%d subpixel bits", row->at_least ? "at least " : "", row->subpixel_bits);
+    if (row->model == NULL)
+        return true;
+    append(item->bound, sizeof item->bound, ", depth %s%s%s; %s", row->plane_bits > 0 ? "snapped too" : "not snapped",
+           anchors[row->anchor], clippings[row->clipping], row->operations);
     return true;
 }
 
@@ -237,6 +259,8 @@ static const topic topics[] = {
     {"causes", "the parts of the separation, for budget", list_cause, .bound = "bound"},
     {"presets", "cameras as engines set them, for --preset", list_preset, .bound = "camera"},
     {"apis", "what one unit of depth bias is, for bias --api", list_api, .bound = "rule"},
+    {"rasterizers", "how rasterizers snap vertices and step depth across triangles", list_rasterizer,
+     .bound = "arithmetic"},
     {"encodings", "depth and normals in the channels of a texture, and their error bounds", list_encoding,
      .bound = "bound"},
     {"packings", "textures with a depth in several channels, for texture --packing and --pack", list_packing,

@@ -51,6 +51,7 @@ typedef struct texture_source {
     texture_matrix matrix;
     dp_setup setup;
     texture_camera camera, last; /**< last frame's: where an effect needs it */
+    frame_normals normals;       /**< where an effect needs them that no scene has */
     frame frame;                 /**< points into this struct, which must stay where it is */
 } texture_source;
 
@@ -63,6 +64,9 @@ const char *texture_origin_name(texture_origin origin);
  */
 int texture_source_open(options *o, texture_source *out);
 void texture_source_close(texture_source *s);
+
+/** Whether something says where far is, which metric depth does not need. */
+bool texture_far_known(const options *o);
 
 /** Whether the image holds window depths, which have a format and a mapping. */
 bool texture_is_window(const options *o);
@@ -121,6 +125,13 @@ typedef struct texture_product {
 /** Is one asked for? --pixel describes that of --effect instead. */
 bool texture_product_wanted(const options *o);
 
+/** Whether --normal says by which normals an effect compares, in place of a product. */
+bool texture_normals_compared(const options *o);
+
+/** The normals of an effect that needs some: of --normal, those of the packing, else by projective.
+ *  @return an exit status, after one line on stderr */
+int texture_effect_normals(const options *o, texture_source *s);
+
 /** The effect of --effect, its parameters and reference, as above. */
 int texture_product_effect(const options *o, texture_product *out);
 
@@ -148,6 +159,9 @@ int texture_depth_write(const options *o, const texture_source *s);
 
 /** Draws the file of --figure. */
 int texture_figure_draw(const options *o, const texture_source *s, const texture_product *p);
+
+/** Draws the file of --histogram. */
+int texture_histogram_draw(const options *o, const texture_source *s);
 
 /* ---- Reports ----------------------------------------------------------------------------------------------------- */
 

@@ -10,10 +10,11 @@
 #include "texture/image_depths.h"
 
 int texture_pack_check(const options *o) {
-    static const option_id others[] = {OPTION_EYE,       OPTION_RADIAL, OPTION_POSITION,  OPTION_EFFECT,
-                                       OPTION_ERROR_MAP, OPTION_FIGURE, OPTION_PIXEL,     OPTION_AT,
-                                       OPTION_JSON,      OPTION_CSV,    OPTION_PARAMETER, OPTION_TYPE,
-                                       OPTION_THEME,     OPTION_WIDTH,  OPTION_HEIGHT,    OPTION_TITLE};
+    static const option_id others[] = {OPTION_EYE,      OPTION_RADIAL,    OPTION_LINEAR01,  OPTION_RAW,
+                                       OPTION_POSITION, OPTION_EFFECT,    OPTION_ERROR_MAP, OPTION_FIGURE,
+                                       OPTION_OVERLAY,  OPTION_HISTOGRAM, OPTION_PIXEL,     OPTION_AT,
+                                       OPTION_JSON,     OPTION_CSV,       OPTION_PARAMETER, OPTION_TYPE,
+                                       OPTION_THEME,    OPTION_WIDTH,     OPTION_HEIGHT,    OPTION_TITLE};
     const char *name = option_name(o->pack != NULL ? OPTION_PACK : OPTION_PACKED_NORMAL);
     image_file file;
     for (size_t i = 0; i < sizeof others / sizeof others[0]; i++)

@@ -11,7 +11,7 @@
 #include "report/report.h"
 #include "texture/survey.h"
 
-enum { ERRORS_MAX = 32 };
+enum { ERRORS_MAX = 32, DIGITS_32 = 9 }; /* that tell binary32 numbers apart */
 
 /* How far a product is off over all pixels; see frame_product. */
 typedef struct error_line {
@@ -22,12 +22,18 @@ typedef struct error_line {
     char at[64]; /* the pixel, and the unit */
 } error_line;
 
+/* As the shader sees them: binary32. */
+typedef struct shader_params {
+    double x, y, z, w;
+} shader_params;
+
 /* The statistics; what does not exist is null or NaN. Below `named`, the items of lists at hand. */
 typedef struct statistics {
     const options *o;
     texture_source source;
     survey survey;
     survey_pairs pairs;
+    shader_params zbuffer;
     double condition; /* of the view-projection matrix, 2-norm; NaN where the mapping has none */
     size_t error_count;
     error_line errors[ERRORS_MAX];
@@ -38,6 +44,7 @@ typedef struct statistics {
         bool coarser;
         const bool *reversed;
         const survey_pairs *pairs;
+        const shader_params *zbuffer;
         uint64_t hidden;
     } named;
     const char *parameter;
@@ -117,6 +124,7 @@ static void say_metric(const statistics *r, page *p) {
 
 static void say_source(statistics *r, page *p) {
     const texture_source *s = &r->source;
+    const shader_params *z = r->named.zbuffer;
     char parameters[512] = "";
     char packed[48] = "";
     p->unit = options_unit(r->o);
@@ -140,6 +148,9 @@ static void say_source(statistics *r, page *p) {
             texture_matrix_say(&s->matrix, p);
         say_origins(r, p);
     }
+    if (z != NULL)
+        page_note(p, "in Unity", "_ZBufferParams %s, %s, %s, %s", number_of(z->x, DIGITS_32).text,
+                  number_of(z->y, DIGITS_32).text, number_of(z->z, DIGITS_32).text, number_of(z->w, DIGITS_32).text);
 }
 
 static number_text share(uint64_t part, uint64_t all) {
@@ -255,6 +266,12 @@ static const column source_columns[] = {{FIELD(statistics, source.path, "file", 
                                         {GROUP("recognised", recognised_columns), .when = OF_WINDOW},
                                         {.kind = COLUMN_END}};
 
+static const column zbuffer_columns[] = {{FIELD(shader_params, x, "x", "")},
+                                         {FIELD(shader_params, y, "y", "")},
+                                         {FIELD(shader_params, z, "z", "1/scene")},
+                                         {FIELD(shader_params, w, "w", "1/scene")},
+                                         {.kind = COLUMN_END}};
+
 static const column reading_columns[] = {
     {FIELD(statistics, reading.what, "what", "")},    {FIELD(statistics, reading.name, "name", "")},
     {FIELD(statistics, source.column, "column", "")}, {FIELD(statistics, source.row, "row", "")},
@@ -271,6 +288,7 @@ static const column found_columns[] = {
     {FIELD(statistics, named.mapping_from, "mapping_from", "")},
     {FIELD(statistics, named.direction_from, "direction_from", "")},
     {LIST("readings", reading_columns, next_reading)},
+    {PART(statistics, named.zbuffer, "zbuffer_params", zbuffer_columns), .pointed = true},
     {FIELD(statistics, named.fov, "fov", "degrees")},
     {FIELD(statistics, named.half_height, "half_height", "scene")},
     {PART(statistics, source.matrix, "matrix", texture_matrix_columns), .when = OF_MATRIX},
@@ -331,6 +349,14 @@ static const column columns[] = {
     {LIST("errors", error_columns, next_error), .only = AS_JSON | AS_TEXT, .indent = 2},
     {.kind = COLUMN_END}};
 
+/* Where Linear01Depth is defined, all four are: not without a far plane. */
+static void name_zbuffer(statistics *r) {
+    const zbuffer_params p = zbuffer_params_of(&r->source.setup);
+    r->zbuffer = (shader_params){(double)p.x, (double)p.y, (double)p.z, (double)p.w};
+    const bool shared = !r->source.camera.oblique.on; /* by all pixels */
+    r->named.zbuffer = shared && decode_applies(&decode_rows[DECODE_LINEAR_01], &r->source.setup) ? &r->zbuffer : NULL;
+}
+
 /* What is said of the source by names, and of its options. */
 static void name_all(statistics *r) {
     static const bool answers[] = {false, true};
@@ -356,6 +382,7 @@ static void name_all(statistics *r) {
     r->named.half_height = s->camera.ortho ? s->camera.half[1] : none;
     r->named.coarser = !is_metric && texture_coarser(s);
     r->named.reversed = s->found.direction ? &answers[s->found.reversed == 1] : NULL;
+    name_zbuffer(r);
     r->named.hidden = r->survey.sky - r->survey.true_sky;
 }
 

@@ -9,6 +9,7 @@
 #include "cli/setups.h"
 #include "cli/texture.h"
 #include "report/number.h"
+#include "texture/frame_normals.h"
 
 /* UINT32_MAX stands for "no depth" among codes. */
 enum { BITS_MAX = 31 };
@@ -56,13 +57,17 @@ static int scene_parameters(const options *o, const scene_row *scene, double *ou
     return status;
 }
 
+bool texture_far_known(const options *o) {
+    return o->metric == 0 || option_given(o, OPTION_FAR) || o->preset_count > 0;
+}
+
 bool texture_is_window(const options *o) {
     return o->metric == 0 && (o->packing == NULL || !o->packing->linear);
 }
 
 /* Options of window depth: again when a file has said what its samples are. */
 static int check_window(const options *o) {
-    static const option_id window[] = {OPTION_FORMAT, OPTION_MAPPING, OPTION_LOG_C, OPTION_SKY};
+    static const option_id window[] = {OPTION_FORMAT, OPTION_MAPPING, OPTION_LOG_C, OPTION_RAW, OPTION_SKY};
     for (size_t i = 0; !texture_is_window(o) && i < sizeof window / sizeof window[0]; i++)
         if (option_given(o, window[i]) && (o->metric > 0 || window[i] != OPTION_SKY))
             return option_error(window[i], "does not apply with --%s%s, which is not window depth",
@@ -176,6 +181,7 @@ static int unpack(const options *o, texture_source *s) {
 void texture_source_close(texture_source *s) {
     image_free(&s->picture);
     free(s->unpacked.normals);
+    frame_normals_free(&s->normals);
 }
 
 static int read_image(options *o, texture_source *s) {

@@ -127,6 +127,8 @@ static bool in_units(const frame_product *made, const frame_summary *sum) {
  */
 static bool rounding_of_product(const texture_source *s, const frame_product *made, double *more) {
     static const double factors[FRAME_KINDS] = {[FRAME_EYE] = 1,
+                                                [FRAME_LINEAR01] = 1,
+                                                [FRAME_RAW] = 1,
                                                 [FRAME_POSITION] = 1.7320508075688774,
                                                 [FRAME_NORMAL] = 1.74 * 57.29577951308233,
                                                 [FRAME_EFFECT] = 255};
@@ -184,10 +186,10 @@ meaning writing_meaning(const options *o, const texture_product *p, const writin
 }
 
 void writing_note(const writing *w, const texture_product *p, const meaning *m, char note[IMAGE_NOTE_SIZE]) {
-    static const char *const names[FRAME_KINDS] = {[FRAME_EYE] = "eye-depths",
-                                                   [FRAME_POSITION] = "positions",
-                                                   [FRAME_NORMAL] = "normals",
-                                                   [FRAME_EFFECT] = "an-effect"};
+    static const char *const names[FRAME_KINDS] = {
+        [FRAME_EYE] = "eye-depths",    [FRAME_LINEAR01] = "eye-depths-over-far",
+        [FRAME_RAW] = "window-depths", [FRAME_POSITION] = "positions",
+        [FRAME_NORMAL] = "normals",    [FRAME_EFFECT] = "an-effect"};
     const dp_spec *planes = &frame_planes(&w->source->frame)->spec;
     if (w->units && m->scale >= METRIC_SCALE_MIN && m->scale <= METRIC_SCALE_MAX)
         snprintf(note, IMAGE_NOTE_SIZE, "product=depth metric=%s near=%s far=%s%s", number_full(m->scale).text,

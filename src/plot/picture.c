@@ -65,6 +65,8 @@ void picture_take(picture *p, uint32_t row, uint32_t count, const float *values)
 
 static double field(const picture *in, int row, int column, int channel) {
     const float *at = in->values + ((size_t)row * (size_t)in->columns + (size_t)column) * (size_t)in->channels;
+    if (in->above > 0 && !((double)at[0] > in->above))
+        return NAN;
     if (!in->directions)
         return (double)at[channel];
     return isnan(at[0]) ? (double)NAN : heat_direction((double)at[0], (double)at[1], (double)at[2]);
@@ -108,13 +110,17 @@ static chart_axis scale_of(const picture *in) {
     } else if (in->magnitudes) {
         lo = fmax(lo, deepest * hi);
     }
+    if (in->above > 0) {
+        lo = in->above;
+        hi = fmax(hi, 2 * lo);
+    }
     if (in->shares) {
         lo = fmin(lo, 0);
         hi = fmax(hi, 1);
     }
     if (lo > 0 && hi > wide * lo)
         axis.scale = CHART_LOG;
-    else if (in->magnitudes)
+    else if (in->magnitudes && !(in->above > 0))
         lo = 0;
     if (lo == hi) {
         lo -= fmax(fabs(lo), 1e-30) / 2;
@@ -133,6 +139,15 @@ void picture_build(const picture *in, chart *out) {
     const int panels = in->directions ? 1 : in->channels;
     for (int i = 0; i < panels; i++)
         add_panel(in, out, i);
+}
+
+void picture_lay_under(const picture *ground, chart *out) {
+    chart_map *m = &out->panels[0].map;
+    m->under = chart_memory(out, (size_t)m->columns * (size_t)m->rows, sizeof *m->under);
+    out->ground = scale_of(ground);
+    for (int row = 0; row < m->rows && m->under != NULL; row++)
+        for (int column = 0; column < m->columns; column++)
+            m->under[(m->rows - 1 - row) * m->columns + column] = field(ground, row, column, 0);
 }
 
 void picture_mark(chart *out, size_t count, const double (*at)[2], const char *name) {
