@@ -164,7 +164,8 @@ void picture_lay_under(const picture *ground, chart *out) {
     out->ground = scale_of(ground);
     for (int row = 0; row < m->rows && m->under != NULL; row++)
         for (int column = 0; column < m->columns; column++)
-            m->under[(m->rows - 1 - row) * m->columns + column] = field(ground, row, column, 0);
+            m->under[(m->rows - 1 - row) * m->columns + column] =
+                (double)ground->values[(size_t)row * (size_t)ground->columns + (size_t)column];
 }
 
 void picture_mark(chart *out, size_t count, const double (*at)[2], const char *name) {
