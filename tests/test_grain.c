@@ -79,6 +79,77 @@ static void compare_errors(const dp_setup *setup, const grain *g, const double z
     }
 }
 
+/* The cell of a depth by itself: half of it in 1/z or z, and what reading adds; differences of quotients lose 2^-50. */
+static void compare_closed_form(const dp_setup *setup, const grain *g, const double z[COUNT], size_t *exact) {
+    const dp_spec *spec = &setup->spec;
+    grain_bound bound;
+    if (!grain_bound_init(&bound, setup, g, 0x1p-23))
+        return;
+    for (size_t i = 0; i < COUNT; i++) {
+        const uint32_t code = dp_code(setup, z[i]);
+        const grain_range range = grain_range_of(setup, g, code);
+        const double own = grain_range_error(setup, dp_stored(setup, code), range.lo, range.hi, 0x1p-23);
+        const double at = spec->ortho ? z[i] : 1 / z[i], got = grain_bound_of(&bound, at, at);
+        /* A range at the end of window depth is cut off there; one beside a power of 2 counts as of the wider side. */
+        if (!(got >= own - 0x1p-50 * fabs(at)) ||
+            (code > 8 && spec->format.code_max - code > 8 && !(got <= 3.01 * own)))
+            fail_msg("%s %s at %.17g: at most %.17g, its cell %.17g", spec->format.name,
+                     dp_mapping_get(spec->mapping)->name, z[i], got, own);
+        *exact += got <= own * (1 + 0x1p-18);
+        exact[1]++;
+    }
+    const double least = spec->ortho ? spec->znear : 1 / spec->zfar, most = spec->ortho ? spec->zfar : 1 / spec->znear;
+    assert_true(isinf(grain_bound_of(&bound, least, most * 1.001)));
+    assert_true(isinf(grain_bound_of(&bound, least - 0.001 * most, most)));
+    assert_true(isfinite(grain_bound_of(&bound, least, most)));
+    assert_true(isinf(grain_bound_of(&bound, least, (double)NAN)) && isinf(grain_bound_of(&bound, (double)NAN, most)));
+}
+
+/* Between two depths at least as much as at each of them and halfway. */
+static void compare_between(const dp_setup *setup, const grain *g, rng *r) {
+    const dp_spec *spec = &setup->spec;
+    const double least = spec->ortho ? spec->znear : 1 / spec->zfar, most = spec->ortho ? spec->zfar : 1 / spec->znear;
+    grain_bound bound;
+    for (int i = 0; i < 200 && grain_bound_init(&bound, setup, g, 0x1p-23); i++) {
+        const double a = rng_uniform(r, least, most), b = rng_uniform(r, least, most);
+        const double lo = fmin(a, b), hi = fmax(a, b), all = grain_bound_of(&bound, lo, hi);
+        for (int k = 0; k <= 2; k++) {
+            const double at = fmin(lo + (hi - lo) * k / 2, hi);
+            assert_true(all >= grain_bound_of(&bound, at, at));
+        }
+    }
+}
+
+static void the_closed_form_has_each_cell(void **state) {
+    rng r = rng_make("closed form");
+    size_t exact[2] = {0, 0}; /* of all */
+    uint32_t codes[COUNT];
+    double z[COUNT];
+    (void)state;
+    for (size_t f = 0; f < dp_format_count(); f++)
+        for (int m = 0; m < DP_MAPPING_COUNT; m++)
+            for (int variant = 0; variant < 8; variant++) {
+                dp_spec spec = dp_spec_default();
+                dp_setup setup;
+                spec.format = dp_format_get(f)->format;
+                spec.mapping = (dp_mapping)m;
+                spec.ortho = variant & 1;
+                spec.znear = variant & 4 ? 0.1 : spec.ortho ? -20 : 3;
+                spec.zfar = variant & 2 ? (double)INFINITY : 1000;
+                spec.rounding = variant & 4 ? DP_ROUND_ZERO : DP_ROUND_NEAREST;
+                if (dp_setup_init(&setup, &spec) != DP_OK)
+                    continue;
+                fill_codes(&r, spec.format.code_max, codes);
+                fill_depths(&r, &setup, codes, z);
+                for (size_t g = 0; g <= GRAINS; g++) {
+                    compare_closed_form(&setup, g < GRAINS ? &grains[g] : NULL, z, exact);
+                    compare_between(&setup, g < GRAINS ? &grains[g] : NULL, &r);
+                }
+            }
+    print_message("# %zu of %zu are the cell's own\n", exact[0], exact[1]);
+    assert_true(exact[1] > 100000 && exact[0] * 20 > exact[1] * 17);
+}
+
 static void many_codes_say_what_each_says(void **state) {
     rng r = rng_make("grain");
     (void)state;
@@ -109,6 +180,7 @@ static void many_codes_say_what_each_says(void **state) {
 }
 
 int main(void) {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(many_codes_say_what_each_says)};
+    const struct CMUnitTest tests[] = {cmocka_unit_test(many_codes_say_what_each_says),
+                                       cmocka_unit_test(the_closed_form_has_each_cell)};
     return run_tap(tests);
 }

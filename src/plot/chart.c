@@ -174,7 +174,7 @@ static void mix_numbers(uint64_t *h, const double *values, size_t count) {
         double mantissa = isfinite(values[i]) ? frexp(values[i], &exponent)
                           : isnan(values[i])  ? 2
                                               : copysign(3, values[i]);
-        uint64_t word = (uint64_t)llrint(ldexp(mantissa, 30)) << 16 ^ (uint64_t)(exponent & 0xFFFF);
+        uint64_t word = (uint64_t)llrint(mantissa * 0x1p30) << 16 ^ (uint64_t)(exponent & 0xFFFF);
         for (int byte = 0; byte < 8; byte++)
             *h = (*h ^ (word >> 8 * byte & 255)) * UINT64_C(0x100000001B3);
     }
@@ -205,6 +205,8 @@ void chart_digest(const chart *c, char out[17]) {
         mix_numbers(&h, panel->map.x, (size_t)panel->map.columns);
         mix_numbers(&h, panel->map.y, (size_t)panel->map.rows);
         mix_numbers(&h, panel->map.value, (size_t)panel->map.columns * (size_t)panel->map.rows);
+        if (panel->map.under != NULL)
+            mix_numbers(&h, panel->map.under, (size_t)panel->map.columns * (size_t)panel->map.rows);
     }
     snprintf(out, 17, "%016" PRIx64, h);
 }

@@ -5,13 +5,8 @@
 
 #include "core/engine.h"
 #include "texture/clones.h"
-#include "texture/grain_loops.h"
 
 enum { GRAIN_ROW = 256 };
-
-/* Outweighs what is lost in window depths that were computed in double, a few units of 2^-53 of cells that are at least
- * 2^-25 of their depth, and all roundings here. */
-static const double OUTWARD = 1 + 0x1p-20;
 
 const char *grain_rounding_name(grain_rounding rounding) {
     static const char *const names[] = {"unknown", "nearest", "zero"};
@@ -27,7 +22,7 @@ typedef struct span {
 static double unit_of(const grain *g, double v) {
     int exponent;
     frexp(v, &exponent);
-    return fmax(ldexp(1, exponent - g->bits), g->least);
+    return v > 0 ? fmax(ldexp(1, exponent - g->bits), g->least) : g->least;
 }
 
 /* Steps that were rounded to numbers may have been the next ones. */
@@ -109,26 +104,80 @@ static bool is_of_codes(const grain *g) {
     return g == NULL || g->kind == GRAIN_CODES || g->buffer;
 }
 
-grain_range grain_range_of(const dp_setup *setup, const grain *g, uint32_t code) {
+/* The window depths that became a code. */
+static void ends_of(const dp_setup *setup, const grain *g, uint32_t code, dp_point *below, dp_point *above) {
+    if (is_of_codes(g)) {
+        boundaries(setup, g, code, below, above);
+        return;
+    }
+    const double v = dp_format_value(&setup->spec.format, code);
+    const span s = g->kind == GRAIN_STEPS ? steps_span(g, v) : floats_span(g, v);
+    *below = dp_point_make(fmax(s.lo, 0), s.den);
+    *above = dp_point_make(fmin(s.hi, s.den), s.den);
+}
+
+double grain_window_reach(const dp_setup *setup, const grain *g, uint32_t code) {
     const dp_point own = dp_point_of_code(&setup->spec.format, code);
     dp_point below, above;
-    if (is_of_codes(g)) {
-        boundaries(setup, g, code, &below, &above);
-    } else {
-        const double v = dp_format_value(&setup->spec.format, code);
-        const span s = g->kind == GRAIN_STEPS ? steps_span(g, v) : floats_span(g, v);
-        below = dp_point_make(fmax(s.lo, 0), s.den);
-        above = dp_point_make(fmin(s.hi, s.den), s.den);
-    }
-    const dp_point to_near = setup->reversed ? above : below, to_far = setup->reversed ? below : above;
+    ends_of(setup, g, code, &below, &above);
+    const double to_below = is_of_codes(g) ? own.num - below.num : own.num / own.den * below.den - below.num;
+    const double to_above = is_of_codes(g) ? above.num - own.num : above.num - own.num / own.den * above.den;
+    return fmax(to_below / below.den, to_above / above.den) * GRAIN_OUTWARD;
+}
+
+grain_points grain_points_of(const dp_setup *setup, const grain *g, uint32_t code) {
+    dp_point below, above;
+    ends_of(setup, g, code, &below, &above);
+    return (grain_points){dp_point_of_code(&setup->spec.format, code), setup->reversed ? above : below,
+                          setup->reversed ? below : above};
+}
+
+grain_range grain_range_of(const dp_setup *setup, const grain *g, uint32_t code) {
+    const grain_points p = grain_points_of(setup, g, code);
     return (grain_range){
-        .lo = dp_curve_eye(setup, to_near),
-        .hi = dp_curve_eye(setup, to_far),
-        .reach = fmax(dp_curve_span(setup, to_near, own), dp_curve_span(setup, own, to_far)) * OUTWARD,
+        .lo = dp_curve_eye(setup, p.to_near),
+        .hi = dp_curve_eye(setup, p.to_far),
+        .reach = fmax(dp_curve_span(setup, p.to_near, p.own), dp_curve_span(setup, p.own, p.to_far)) * GRAIN_OUTWARD,
     };
 }
 
 /* ---- Many at a time ---------------------------------------------------------------------------------------------- */
+
+/* Perspective set-ups alone: the operations of dp_curve_eye() and dp_curve_span(), in their order. */
+typedef struct ranging {
+    double top, den, znear, zfar, kappa; /* top: of the quotient that is the eye depth */
+    bool reversed, infinite;
+} ranging;
+
+static inline ranging ranging_of(const dp_setup *setup) {
+    const dp_spec *spec = &setup->spec;
+    const bool infinite = isinf(spec->zfar) != 0;
+    const double den = dp_point_den(&spec->format), top = infinite ? spec->znear : spec->znear * spec->zfar;
+    return (ranging){top * den, den, spec->znear, spec->zfar, setup->kappa, setup->reversed != 0, infinite};
+}
+
+/* With what does not change in a loop as constants: so it becomes vectors. */
+DP_INLINE ranging ranging_like(const ranging *r, bool reversed, bool infinite) {
+    return (ranging){r->top, r->den, r->znear, r->zfar, r->kappa, reversed, infinite};
+}
+
+DP_INLINE double eye_of(const ranging *r, double num) {
+    const double comp = r->den - num, to_near = r->reversed ? num : comp, to_far = r->reversed ? comp : num;
+    return r->top / (r->infinite ? to_near : r->zfar * to_near + r->znear * to_far);
+}
+
+DP_INLINE double span_of(const ranging *r, double a, double b, double eyes) {
+    const double step = fabs(b - a) / r->den;
+    return step == 0 ? 0 : eyes * (step * r->kappa);
+}
+
+/* Of a binary floating-point format, as dp_float_value(). */
+DP_INLINE double float_value(uint32_t code, int mantissa, int bias) {
+    const uint32_t field = code >> mantissa, fraction = code & ((1U << mantissa) - 1U);
+    const uint32_t whole = field == 0 ? fraction : fraction | 1U << mantissa;
+    const uint64_t exponent = (uint64_t)((field == 0 ? 1U : field) + 1023U - (uint32_t)(bias + mantissa));
+    return (double)(int32_t)whole * dp_float64(exponent << 52);
+}
 
 /* Numerators of a code, of the boundary below the first code and of that above the last. */
 typedef struct numerators {
@@ -144,7 +193,7 @@ DP_INLINE void ranges_loop(const ranging r, const numerators *restrict n, size_t
         stored[i] = at;
         lo[i] = near;
         hi[i] = far;
-        reach[i] = (before > behind ? before : behind) * OUTWARD;
+        reach[i] = (before > behind ? before : behind) * GRAIN_OUTWARD;
     }
 }
 

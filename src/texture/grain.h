@@ -14,8 +14,10 @@
 #ifndef TEXTURE_GRAIN_H
 #define TEXTURE_GRAIN_H
 
+#include <math.h>
 #include <stdbool.h>
 
+#include "core/engine.h"
 #include "depthprec/depthprec.h"
 
 typedef enum grain_kind {
@@ -47,12 +49,26 @@ typedef struct grain_range {
     double reach;  /**< from the depth that the code gives back to the farther end; never below that */
 } grain_range;
 
+/** Outweighs what is lost in window depths that were computed in double, a few units of 2^-53 of cells that are at
+ * least 2^-25 of their depth, and all roundings of ranges. */
+#define GRAIN_OUTWARD (1 + 0x1p-20)
+
+/** Window depths: that of a code, and the ends of what its pixel may have had. */
+typedef struct grain_points {
+    dp_point own, to_near, to_far;
+} grain_points;
+
+grain_points grain_points_of(const dp_setup *setup, const grain *g, uint32_t code);
+
 /**
  * The eye depths that a pixel may have whose sample became `code`, the nearest one. Null: GRAIN_CODES.
  * @param setup  of the model exact
  * @param code   at most code_max
  */
 grain_range grain_range_of(const dp_setup *setup, const grain *g, uint32_t code);
+
+/** How far a window depth can be from what such a code gives back. */
+double grain_window_reach(const dp_setup *setup, const grain *g, uint32_t code);
 
 /** Room for what many codes say, an array each. */
 typedef struct grain_rows {
@@ -72,6 +88,32 @@ double grain_range_error(const dp_setup *setup, double stored, double lo, double
  * @param reading  relative error of reading it back, which comes on top
  */
 double grain_error_of(const dp_setup *setup, const grain *g, double z, double reading);
+
+/**
+ * The same in closed form, and of all depths between two: half the widest cell that a depth between them may lie in,
+ * outwards by 2^-20 of it, and what reading adds. Of "quantity": 1/z, or z where the set-up is orthographic.
+ */
+enum { GRAIN_BINADES = 128 };
+typedef struct grain_bound {
+    double zero, per;     /* the quantity at window depth 0; window depth that one unit of it makes, of either sign */
+    double least, most;   /* quantities of the planes */
+    double stretch, more; /* a sample's number may exceed window depth by so much: relative, absolute */
+    double reading;
+    double half[GRAIN_BINADES]; /* a cell's half, of numbers from 2^-k up; the last: of all below, too */
+} grain_bound;
+
+/** @return false where there is no such form: then grain_errors_of() */
+bool grain_bound_init(grain_bound *out, const dp_setup *setup, const grain *g, double reading);
+
+/** Of quantities from lo to hi; INFINITY where they are not between the planes. */
+DP_INLINE double grain_bound_of(const grain_bound *b, double lo, double hi) {
+    const double at_lo = (lo - b->zero) * b->per, at_hi = (hi - b->zero) * b->per;
+    const double depth = at_lo > at_hi ? at_lo : at_hi, number = depth * b->stretch + b->more;
+    const uint64_t field = dp_bits64(number > 0x1p-127 ? number : 0x1p-127) >> 52;
+    const double half = b->half[field < 1023 ? 1023 - field : 0];
+    const double size_lo = fabs(lo), size_hi = fabs(hi), size = size_lo > size_hi ? size_lo : size_hi;
+    return lo >= b->least && hi <= b->most ? half + b->reading * (size + half) : (double)INFINITY;
+}
 
 /** Errors of codes that were met, of one set-up, grain and reading. Zeros to begin with. */
 enum { GRAIN_MEMO = 1 << 14 };

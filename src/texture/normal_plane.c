@@ -91,11 +91,6 @@ double normal_plane_error(const texture_camera *camera, uint32_t column, uint32_
     return worst_error(camera, cell_error, NULL, column, row, plane, reading);
 }
 
-double normal_plane_error_of(const texture_camera *camera, const grain *g, uint32_t column, uint32_t row,
-                             const normal_plane *plane, double reading) {
-    return worst_error(camera, grain_error, g, column, row, plane, reading);
-}
-
 /* The planes of a row: a neighbour of each pixel at a time. */
 typedef struct plane_block {
     double normal[3][NORMAL_BLOCK], offset[NORMAL_BLOCK];
@@ -142,48 +137,113 @@ static void block_errors(const normal_planes *p, const grain *g, const plane_blo
     }
 }
 
+/* ---- Planes in blocks -------------------------------------------------------------------------------------------- */
+
+/* What a block's bounds are made of, an array each, so that loops over it become vectors. */
+typedef struct bound_block {
+    double exact[3][NORMAL_BLOCK]; /* the vector that the method would find without errors: away from the camera, or
+                                      towards an orthographic one */
+    double x[NORMAL_BLOCK], y;     /* the pixels' rays, 0 where they are orthographic */
+    double z[NORMAL_BLOCK];        /* orthographic: the plane's depth */
+    double error[NORMAL_BLOCK];
+    double apart[NORMAL_BLOCK], along[NORMAL_BLOCK]; /* of the corner that is farthest: its angle's sine and cosine */
+    int64_t turned[NORMAL_BLOCK];                    /* could the errors turn the plane round? */
+} bound_block;
+
+DP_INLINE void begin(const texture_camera *camera, bool ortho, const plane_block *restrict p, double column, double row,
+                     size_t count, bound_block *restrict b) {
+    const texture_camera c = *camera;
+    const double y = camera_slope_y(&c, row);
+    b->y = ortho ? 0 : y;
+    for (size_t i = 0; i < count; i++) {
+        const double x = camera_slope_x(&c, column + (double)(int32_t)i);
+        const double by = 1 / (ortho ? -p->normal[2][i] : p->offset[i]);
+        for (int k = 0; k < 3; k++)
+            b->exact[k][i] = p->normal[k][i] * by;
+        b->x[i] = ortho ? 0 : x;
+        b->z[i] = b->exact[0][i] * x + b->exact[1][i] * y - p->offset[i] * by;
+    }
+}
+
+/* Along a row 1/z, or z where the camera is orthographic, changes by as much from pixel to pixel. */
+DP_INLINE void errors_in_closed_form(const texture_camera *camera, bool ortho, const grain_bound *bound, double column,
+                                     double row, size_t count, bound_block *restrict b) {
+    const double width = camera->width, step_x = 2 * camera->half[0] / width;
+    const double step_y = 2 * camera->half[1] / camera->height, y = b->y;
+    const double above = row > 0 ? step_y : 0, below = row + 1 < camera->height ? step_y : 0;
+    for (size_t i = 0; i < count; i++) {
+        const double at = column + (double)(int32_t)i, ahead = b->exact[1][i] * above, behind = -b->exact[1][i] * below;
+        const double left = -b->exact[0][i] * (at > 0 ? step_x : 0);
+        const double right = b->exact[0][i] * (at + 1 < width ? step_x : 0);
+        const double least_x = left < right ? left : right, most_x = left < right ? right : left;
+        const double least_y = ahead < behind ? ahead : behind, most_y = ahead < behind ? behind : ahead;
+        const double own = ortho ? b->z[i] : b->exact[0][i] * b->x[i] + b->exact[1][i] * y + b->exact[2][i];
+        b->error[i] = grain_bound_of(bound, own + (least_x < least_y ? least_x : least_y),
+                                     own + (most_x > most_y ? most_x : most_y));
+    }
+}
+
 /* ---- The bound -------------------------------------------------------------------------------------------------- */
 
-/* A pixel of a plane, and what its bound is made of. */
-typedef struct bounding {
-    double exact[3];     /* the vector that the method would find without errors: away from the camera, or towards an
-                            orthographic one */
-    double x, y;         /* the pixel's ray, 0 where they are orthographic */
-    double apart, along; /* diagonals(), of the corner that is farthest */
-    bool turned;         /* could the errors turn the plane round? */
-} bounding;
-
 /* The errors of the vector (a, b, c), orthographic (a, b, -1), that errors of the three depths make: the corners of the
- * cube of errors, for each choice of sides. Signs of the pixel's error, of a and of b, each once. */
-static const double corners[][3] = {{-1, 0, 0},   {1, 1, 1},  {-1, -1, 0}, {1, 0, 1},   {-1, 0, -1}, {1, 1, 0},
-                                    {-1, -1, -1}, {1, 0, 0},  {1, -1, 1},  {-1, 1, 0},  {1, -1, 0},  {-1, 1, -1},
-                                    {1, 1, -1},   {1, 0, -1}, {-1, 0, 1},  {-1, -1, 1}, {1, -1, -1}, {-1, 1, 1}};
+ * cube of errors, for each choice of sides. Signs of a and of b where the pixel's own is positive; the other corners
+ * are opposite to these. */
+static const double corners[][2] = {{0, 0}, {1, 0}, {-1, 0}, {0, 1}, {0, -1}, {1, 1}, {1, -1}, {-1, 1}, {-1, -1}};
 enum { CORNERS = sizeof corners / sizeof corners[0] };
+
+/*
+ * The corner whose vector is farthest from the exact one e. A corner adds E d to it, E being the error, with
+ * d = own + s alpha + t beta; so the tangent of the angle is E |e x d| / (e . e +- E e . d), which is the larger of
+ * the two where e . d counts against it. Fractions are compared without dividing.
+ */
+DP_INLINE void find_farthest(bool ortho, double alpha, double beta, double y, size_t count, bound_block *restrict b) {
+    const double own = ortho ? 0 : 1;
+    for (size_t i = 0; i < count; i++) {
+        const double e0 = b->exact[0][i], e1 = b->exact[1][i], e2 = b->exact[2][i], x = b->x[i], error = b->error[i];
+        const double of_own[3] = {own * e1, -own * e0, 0};
+        const double of_a[3] = {-alpha * (x * e1), alpha * (e2 + x * e0), -alpha * e1};
+        const double of_b[3] = {-beta * (e2 + y * e1), beta * (y * e0), beta * e0};
+        const double on_own = own * e2, on_a = alpha * (e0 - x * e2), on_b = beta * (e1 - y * e2);
+        const double length = e0 * e0 + e1 * e1 + e2 * e2;
+        double apart = 0, along = 1;
+        int64_t turned = 0;
+#pragma GCC unroll 9
+        for (int k = 0; k < CORNERS; k++) {
+            const double s = corners[k][0], t = corners[k][1];
+            const double c0 = of_own[0] + s * of_a[0] + t * of_b[0], c1 = of_own[1] + s * of_a[1] + t * of_b[1];
+            const double c2 = s * of_a[2] + t * of_b[2], square = c0 * c0 + c1 * c1 + c2 * c2;
+            const double left = length - error * fabs(on_own + s * on_a + t * on_b);
+            const bool farther = square * (along * along) > apart * (left * left);
+            turned |= !(left > 0);
+            apart = farther ? square : apart;
+            along = farther ? left : along;
+        }
+        b->apart[i] = error * sqrt(apart);
+        b->along[i] = along;
+        b->turned[i] = turned;
+    }
+}
+
+/* The angle whose tangent is sine/cosine, which are not negative, within 1e-15. The polynomial meets
+ * (atan(u) - u)/u^3 at the nodes of Chebyshev for u^2 up to 0.1716, the square of tan(pi/8), within 8e-18/u^2. */
+DP_INLINE double angle_of(double sine, double cosine) {
+    static const double c[] = {-0x1.5555555555555p-2, 0x1.9999999999349p-3, -0x1.2492492436016p-3, 0x1.c71c71852a359p-4,
+                               -0x1.745d0b25982f3p-4, 0x1.3b1262bf324fdp-4, -0x1.10fa73c8057afp-4, 0x1.dfe60585956a5p-5,
+                               -0x1.a09838b71a7cfp-5, 0x1.415ebcba15fd3p-5, -0x1.3a27dd63af0a7p-6};
+    const bool flat = sine<0.41421356 * cosine, steep = sine> 2.41421357 * cosine;
+    const double above = flat ? sine : steep ? -cosine : sine - cosine;
+    const double below = flat ? cosine : steep ? sine : sine + cosine;
+    const double u = above / below, z = u * u;
+    double sum = c[10];
+#pragma GCC unroll 10
+    for (int k = 9; k >= 0; k--)
+        sum = sum * z + c[k];
+    return (flat ? 0 : steep ? M_PI / 2 : M_PI / 4) + (u + u * z * sum);
+}
 
 DP_INLINE double square_of_cross(const double a[3], const double b[3]) {
     const double c[3] = {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
     return dot(c, c);
-}
-
-/* The corner whose vector is farthest from the exact one, by the square of its tangent. */
-DP_INLINE void find_farthest(bounding *out, bool ortho, double per_x, double per_y, double error) {
-    const double a = 2 * error * per_x, b = 2 * error * per_y, *exact = out->exact;
-    double worst = -1, farthest[3] = {0, 0, 0};
-    bool turned = false;
-#pragma GCC unroll 18
-    for (int i = 0; i < CORNERS; i++) {
-        const double own = corners[i][0] * error, to_a = corners[i][1] * a, to_b = corners[i][2] * b;
-        const double found[3] = {exact[0] + to_a, exact[1] + to_b,
-                                 exact[2] + (ortho ? 0 : own - out->x * to_a - out->y * to_b)};
-        const double along = dot(exact, found), tangent = square_of_cross(exact, found) / (along * along);
-        const bool farther = tangent > worst;
-        turned |= !(along > 0);
-        worst = farther ? tangent : worst;
-        for (int k = 0; k < 3; k++)
-            farthest[k] = farther ? found[k] : farthest[k];
-    }
-    diagonals(exact, farthest, &out->apart, &out->along);
-    out->turned = turned;
 }
 
 DP_INLINE double half_ulp(double x) { /* dp_half_ulp(), which is not compiled for another instruction set */
@@ -195,10 +255,9 @@ DP_INLINE double half_ulp(double x) { /* dp_half_ulp(), which is not compiled fo
  * turn it most where all are whole. Those of a and b pass into c; those of c have one direction and count together.
  * A component of the unit vector, at most `beside` from the exact one, is rounded by half a unit in its last place.
  */
-DP_INLINE double rounding(const bounding *p, bool ortho, double beside) {
-    const double *exact = p->exact, direction[3] = {p->x, p->y, 1};
-    const double a = exact[0], b = exact[1], x = p->x * a, y = p->y * b;
-    const double size = sqrt(dot(exact, exact));
+DP_INLINE double rounding(const double exact[3], double ray_x, double ray_y, bool ortho, double beside) {
+    const double direction[3] = {ray_x, ray_y, 1}, a = exact[0], b = exact[1], x = ray_x * a, y = ray_y * b;
+    const double size = sqrt(dot(exact, exact)), share = 1 / size;
     /* difference, 1 over the step and the product with it; in perspective also the product with a depth */
     const double each = ortho ? 3 : 4;
     /* the sum of the slopes' products and the product of depths: no case is known that shows the second without the
@@ -207,7 +266,7 @@ DP_INLINE double rounding(const bounding *p, bool ortho, double beside) {
     const double own = 2 * (fabs(x) + fabs(y)) + inner + fabs(exact[2]);
     double last[3], most = 0;
     for (int i = 0; i < 3; i++)
-        last[i] = half_ulp(fabs(exact[i]) / size + beside) / DP_UNIT * size;
+        last[i] = half_ulp(fabs(exact[i]) * share + beside) * (size / DP_UNIT);
 #pragma GCC unroll 16
     for (int i = 0; i < 16; i++) {
         const double to_a = i & 1 ? each : -each, to_b = i & 2 ? each : -each;
@@ -219,87 +278,78 @@ DP_INLINE double rounding(const bounding *p, bool ortho, double beside) {
     return sqrt(most) / (size * size);
 }
 
-/* Arrays of a block: gathered from and scattered to the struct above, so that a loop over them becomes vectors. */
-typedef struct bound_block {
-    double exact[3][NORMAL_BLOCK], x[NORMAL_BLOCK], y, apart[NORMAL_BLOCK], along[NORMAL_BLOCK];
-    double angle[NORMAL_BLOCK]; /* to that corner */
-    double more[NORMAL_BLOCK];  /* the share that roundings turn a vector between by, at most */
-    int64_t turned[NORMAL_BLOCK];
-} bound_block;
-
-DP_INLINE void begin_bounds(const texture_camera *camera, bool ortho, const plane_block *restrict p, double column,
-                            double row, const double *restrict error, size_t count, bound_block *restrict b) {
-    const texture_camera c = *camera;
-    const double per_x = c.width / (2 * c.half[0]), per_y = c.height / (2 * c.half[1]);
-    const double y = ortho ? 0 : camera_slope_y(&c, row);
-    b->y = y;
+/*
+ * Vectors less than a right angle from another form a convex cone: the corners speak for all between. The roundings are
+ * those of a vector between, which turn it by at most the share `more` of the angle more.
+ */
+DP_INLINE void finish(bool ortho, double y, const bound_block *restrict b, size_t count, double *restrict bound) {
     for (size_t i = 0; i < count; i++) {
-        const double by = ortho ? -p->normal[2][i] : p->offset[i];
-        bounding one = {.x = ortho ? 0 : camera_slope_x(&c, column + (double)(int32_t)i), .y = y};
-        for (int k = 0; k < 3; k++)
-            b->exact[k][i] = one.exact[k] = p->normal[k][i] / by;
-        find_farthest(&one, ortho, per_x, per_y, error[i]);
-        b->x[i] = one.x;
-        b->apart[i] = one.apart;
-        b->along[i] = one.along;
-        b->turned[i] = one.turned;
-    }
-}
-
-DP_INLINE void end_bounds(bool ortho, const bound_block *restrict b, const double *restrict error, size_t count,
-                          double *restrict bound) {
-    for (size_t i = 0; i < count; i++) {
-        const bounding one = {.exact = {b->exact[0][i], b->exact[1][i], b->exact[2][i]}, .x = b->x[i], .y = b->y};
-        const double worst = b->angle[i], more = b->more[i];
-        const double all = (worst + DP_UNIT * rounding(&one, ortho, worst + more)) / (1 - more) + 1e-14; /* in double */
-        const bool known = error[i] < (double)INFINITY && b->turned[i] == 0 && worst < M_PI / 2 && more < 0.5;
+        const double exact[3] = {b->exact[0][i], b->exact[1][i], b->exact[2][i]}, x = b->x[i];
+        const double worst = angle_of(b->apart[i], b->along[i]), more = 24 * DP_UNIT * (1 + sqrt(x * x + y * y));
+        const double rounded = DP_UNIT * rounding(exact, x, y, ortho, worst + more);
+        const double all = (worst + rounded) / (1 - more) + 1e-14; /* in double */
+        const bool known = b->error[i] < (double)INFINITY && b->turned[i] == 0 && worst < M_PI / 2 && more < 0.5;
         bound[i] = known && all < M_PI ? all : M_PI;
     }
 }
 
-TEXTURE_CLONES static void begin_perspective(const texture_camera *camera, const plane_block *p, double column,
-                                             double row, const double *error, size_t count, bound_block *b) {
-    begin_bounds(camera, false, p, column, row, error, count, b);
-}
-
-TEXTURE_CLONES static void begin_ortho(const texture_camera *camera, const plane_block *p, double column, double row,
-                                       const double *error, size_t count, bound_block *b) {
-    begin_bounds(camera, true, p, column, row, error, count, b);
-}
-
-TEXTURE_CLONES static void end_perspective(const bound_block *b, const double *error, size_t count, double *bound) {
-    end_bounds(false, b, error, count, bound);
-}
-
-TEXTURE_CLONES static void end_ortho(const bound_block *b, const double *error, size_t count, double *bound) {
-    end_bounds(true, b, error, count, bound);
-}
-
-static void block_bounds(const texture_camera *camera, const plane_block *p, double column, double row,
-                         const double *error, size_t count, double *bound) {
+/* From errors that are known, or, where these are null, that a closed form has. */
+DP_INLINE void bounds_of(const texture_camera *camera, bool ortho, const grain_bound *form, const double *error,
+                         const plane_block *p, double column, double row, size_t count, double *bound) {
     bound_block b;
-    if (camera->ortho)
-        begin_ortho(camera, p, column, row, error, count, &b);
+    begin(camera, ortho, p, column, row, count, &b);
+    if (error != NULL)
+        memcpy(b.error, error, count * sizeof *error);
     else
-        begin_perspective(camera, p, column, row, error, count, &b);
-    for (size_t i = 0; i < count; i++) {
-        b.angle[i] = 2 * atan2(b.apart[i], b.along[i]);
-        /* Vectors less than a right angle from another form a convex cone: the corners speak for all between. The
-         * roundings are those of a vector between, which turn it by at most this share of the angle more. */
-        b.more[i] = 24 * DP_UNIT * (1 + hypot(b.x[i], b.y));
-    }
-    (camera->ortho ? end_ortho : end_perspective)(&b, error, count, bound);
+        errors_in_closed_form(camera, ortho, form, column, row, count, &b);
+    find_farthest(ortho, camera->width / camera->half[0], camera->height / camera->half[1], b.y, count, &b);
+    finish(ortho, b.y, &b, count, bound);
+    for (size_t i = 0; i < count; i++)
+        bound[i] = b.error[i] < (double)INFINITY ? bound[i] : (double)NAN;
+}
+
+TEXTURE_CLONES static void bounds_perspective(const texture_camera *camera, const grain_bound *form,
+                                              const double *error, const plane_block *p, double column, double row,
+                                              size_t count, double *bound) {
+    bounds_of(camera, false, form, error, p, column, row, count, bound);
+}
+
+TEXTURE_CLONES static void bounds_ortho(const texture_camera *camera, const grain_bound *form, const double *error,
+                                        const plane_block *p, double column, double row, size_t count, double *bound) {
+    bounds_of(camera, true, form, error, p, column, row, count, bound);
+}
+
+static void block_bounds(const texture_camera *camera, const grain_bound *form, const double *error,
+                         const plane_block *p, double column, double row, size_t count, double *bound) {
+    (camera->ortho ? bounds_ortho : bounds_perspective)(camera, form, error, p, column, row, count, bound);
+}
+
+static plane_block block_of(const normal_plane *plane) {
+    plane_block p;
+    for (int k = 0; k < 3; k++)
+        p.normal[k][0] = plane->normal[k];
+    p.offset[0] = plane->offset;
+    return p;
 }
 
 double normal_plane_bound(const texture_camera *camera, uint32_t column, uint32_t row, const normal_plane *plane,
                           double error) {
-    plane_block p;
+    const plane_block p = block_of(plane);
     double bound;
-    for (int k = 0; k < 3; k++)
-        p.normal[k][0] = plane->normal[k];
-    p.offset[0] = plane->offset;
-    block_bounds(camera, &p, column, row, &error, 1, &bound);
-    return bound;
+    block_bounds(camera, NULL, &error, &p, column, row, 1, &bound);
+    return isnan(bound) ? M_PI : bound;
+}
+
+double normal_plane_error_of(const texture_camera *camera, const grain *g, uint32_t column, uint32_t row,
+                             const normal_plane *plane, double reading) {
+    grain_bound form;
+    if (!grain_bound_init(&form, &camera->setup, g, reading))
+        return worst_error(camera, grain_error, g, column, row, plane, reading);
+    const plane_block p = block_of(plane);
+    bound_block b;
+    begin(camera, camera->ortho, &p, column, row, 1, &b);
+    errors_in_closed_form(camera, camera->ortho, &form, column, row, 1, &b);
+    return b.error[0];
 }
 
 /* ---- A row of planes --------------------------------------------------------------------------------------------- */
@@ -319,13 +369,14 @@ TEXTURE_CLONES static void gather(const normal_planes *in, size_t first, size_t 
 
 void normal_planes_bounds(const normal_planes *in, const grain *g, double reading, double *bounds) {
     plane_block p;
+    grain_bound form;
     double error[NORMAL_BLOCK];
+    const bool known = grain_bound_init(&form, &in->camera->setup, g, reading);
     for (size_t first = 0; first < in->camera->width; first += NORMAL_BLOCK) {
         const size_t rest = in->camera->width - first, count = rest < NORMAL_BLOCK ? rest : NORMAL_BLOCK;
         gather(in, first, count, &p);
-        block_errors(in, g, &p, first, count, reading, error);
-        block_bounds(in->camera, &p, (double)first, in->row, error, count, bounds + first);
-        for (size_t i = 0; i < count; i++)
-            bounds[first + i] = isinf(error[i]) ? (double)NAN : bounds[first + i];
+        if (!known)
+            block_errors(in, g, &p, first, count, reading, error);
+        block_bounds(in->camera, &form, known ? NULL : error, &p, (double)first, in->row, count, bounds + first);
     }
 }
