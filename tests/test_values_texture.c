@@ -419,6 +419,7 @@ static void want_image(values *v, const char *path, const image *shot, const rec
     want_text(v, "type", image_type_name(shot->type));
     want_count(v, "channels", 1);
     want_text(v, "packing", NULL); /* test_packing has it otherwise */
+    want_text(v, "lossy", NULL);   /* and test_image_compressed this */
     values_under(v, "recognised.");
     want_text(v, "format", found->depth ? found->format.name : NULL);
     want_bool(v, "certain", found->certain);

@@ -101,6 +101,8 @@ int texture_pack_write(const options *o, const texture_source *s) {
     frame_product product = {.kind = o->pack->normals ? FRAME_NORMAL : FRAME_EYE,
                              .normal = o->normal != NULL ? o->normal : normal_get(NORMAL_PROJECTIVE)};
     char note[IMAGE_NOTE_SIZE];
+    if (s->camera.oblique.on)
+        return option_error(OPTION_PACK, "needs planes that all pixels share, which %s does not have", s->matrix.path);
     if (!o->pack->linear && !texture_is_window(o))
         return option_error(OPTION_PACK, "%s holds window depth, which %s is not", o->pack->name, s->path);
     if (o->pack->linear && isinf(frame_planes(&s->frame)->spec.zfar))

@@ -17,8 +17,8 @@ static raster_vertex cut(const raster_vertex *inside, const raster_vertex *outsi
         (d_outside * inside->z - d_inside * outside->z) * d, (d_outside * inside->w - d_inside * outside->w) * d};
 }
 
-static const raster_clip_rule rule = {
-    {raster_near, raster_far, raster_left, raster_right, raster_top, raster_bottom}, cut, .touching = false};
+static const raster_clip_rule rule = {{RASTER_NEAR, RASTER_FAR, RASTER_LEFT, RASTER_RIGHT, RASTER_TOP, RASTER_BOTTOM},
+                                      cut};
 
 static float reciprocal(float w) {
     return w != 0.0F ? 1.0F / w : 1.0F;
@@ -77,7 +77,7 @@ raster_status raster_swiftshader_draw(const raster_target *target, const raster_
     raster_corner corner[RASTER_CORNERS] = {{vertex[0], 0}, {vertex[1], 1}, {vertex[2], 2}};
     raster_piece *piece = &drawn->piece[0];
     unsigned all;
-    const unsigned outside = raster_outside(&rule, vertex, &all);
+    const unsigned outside = raster_outside(vertex, &all);
     piece->corners = all != 0 ? 0 : outside == 0 ? 3 : raster_clip(&rule, vertex, outside, corner);
     piece->bits = SNAP_BITS;
     if (piece->corners == 0)
