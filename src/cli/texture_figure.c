@@ -102,7 +102,8 @@ int texture_figure_draw(const options *o, const texture_source *s, const texture
     if (status != EXIT_FINE)
         return status;
     chart *c = chart_new();
-    bool good = c != NULL && picture_open(&d.shown, width > WIDTH ? width : WIDTH, c);
+    const int fields = stacked ? width / 3 : width; /* no more than a panel has room for */
+    bool good = c != NULL && picture_open(&d.shown, fields > WIDTH ? fields : WIDTH, c);
     if (good) {
         d.bar = progress_start("rows", s->camera.height, o->quiet);
         good = frame_run(&s->frame, &p->made, false, take, &d);
