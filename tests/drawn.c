@@ -360,8 +360,12 @@ drawn *drawn_run(const drawn_theme *look, const char *format, ...) {
     va_end(list);
     snprintf(path, sizeof path, "%s/drawn.svg", drawn_folder());
     const size_t used = strlen(arguments);
+    const bool named = strstr(arguments, " --histogram") != NULL; /* as its last word */
     snprintf(arguments + used, sizeof arguments - used, " %s %s",
-             strncmp(arguments, "texture", 7) == 0 ? "-q --figure" : "-o", path);
+             named                                   ? ""
+             : strncmp(arguments, "texture", 7) == 0 ? "-q --figure"
+                                                     : "-o",
+             path);
     free(output_of(arguments));
     FILE *in = fopen(path, "rb");
     assert_non_null(in);

@@ -88,7 +88,8 @@ typedef struct drawn {
     drawn_scale value;   /**< and its scale */
 } drawn;
 
-/** Draws with the built program, `depthprec ARGUMENTS`, and reads. Figures of 800 x 500 px or what they are. */
+/** Draws with the built program, `depthprec ARGUMENTS`, and reads. Figures of 800 x 500 px or what they are; of
+ *  texture that of --figure, or that of --histogram where it is the last argument. */
 drawn *drawn_run(const drawn_theme *look, const char *format, ...) __attribute__((format(printf, 2, 3)));
 
 /** Draws a chart of the test's own and reads; it keeps the chart. */

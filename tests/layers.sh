@@ -10,12 +10,13 @@ include/depthprec | depthprec
 src/core          | depthprec core
 src/api           | depthprec core api
 src/census        | depthprec core census
+src/raster        | depthprec core raster
 src/texture       | depthprec core texture
 src/method        | depthprec core texture census method
 src/need          | depthprec core api need
 src/report        | depthprec report
-src/plot          | depthprec core api census texture method need plot
-src/cli           | depthprec core api census texture method need report plot cli
+src/plot          | depthprec core api census raster texture method need plot
+src/cli           | depthprec core api census raster texture method need report plot cli
 '
 
 strangers() { # strangers FOLDER LAYER...: prints the quoted includes that name another layer, or none
@@ -58,7 +59,7 @@ check "GSL is not in the library" empty includes gsl/ include src/core
 outside='mem(cpy|move|set|cmp|chr)|str(len|n?cmp|n?cpy|n?cat|r?chr|spn|cspn|pbrk|str|tod|toull?|toll?)'
 outside="$outside|(sqrt|fabs|floor|ceil|trunc|rint|nearbyint|round|lrint|llrint|fma|fmin|fmax|fmod|frexp|ldexp|scalbn)f?"
 outside="$outside|(ilogb|logb|exp|exp2|expm1|log|log2|log10|log1p|pow|cbrt|hypot|nextafter|copysign|remainder)f?"
-outside="$outside|(sin|cos|tan|asin|acos|atan|atan2)f?|fe[gs]etround"
+outside="$outside|(sin|cos|sincos|tan|asin|acos|atan|atan2)f?|fe[gs]etround"
 outside="$outside|__stack_chk_fail|__cpu_model|__cpu_indicator_init|__(popcount|clz|ctz)[a-z0-9]*"
 outside="$outside|__cxa_finalize|__gmon_start__|_ITM_(de)?registerTMCloneTable"
 foreign() {

@@ -80,7 +80,7 @@ static float *make(const frame *f, const frame_product *p, bool bottom_up) {
 }
 
 /* One of each. */
-enum { PRODUCTS = 10 };
+enum { PRODUCTS = 14 };
 static double settings[TEXTURE_PARAMETERS];
 
 static size_t products(frame_product out[PRODUCTS]) {
@@ -90,6 +90,10 @@ static size_t products(frame_product out[PRODUCTS]) {
         {.kind = FRAME_EYE},
         {.kind = FRAME_EYE, .radial = true},
         {.kind = FRAME_EYE, .error = true},
+        {.kind = FRAME_LINEAR01},
+        {.kind = FRAME_LINEAR01, .error = true},
+        {.kind = FRAME_RAW},
+        {.kind = FRAME_RAW, .error = true},
         {.kind = FRAME_POSITION},
         {.kind = FRAME_POSITION, .position = position_find("matrix")},
         {.kind = FRAME_POSITION, .position = position_find("view"), .error = true},

@@ -51,6 +51,8 @@ static void files_are_those_written_alone(void **state) {
         const char *what, *method, *both, *product, *map, *alone;
     } cases[] = {
         {"--eye", NULL, "both.npy", "product.npy", "map.npy", "alone.npy"},
+        {"--linear01", NULL, "both.png", "product.png", "map.npy", "alone.npy"},
+        {"--raw", NULL, "both.npy", "product.npy", "map.png", "alone.png"},
         {"--normal", "projective", "both.png", "product.png", "map.png", "alone.png"},
         {"--position", "view", "both.pfm", "product.pfm", "map.npy", "alone.npy"},
         {"--position", "matrix", "both.npy", "product.npy", "map.pfm", "alone.pfm"},

@@ -128,7 +128,8 @@ static void test_lengths(void **state) {
         size_t field;
     } lengths[] = {{"solve", OPTION_SEPARATION, AT(wanted_separation)},
                    {"solve", OPTION_ERROR, AT(wanted_error)},
-                   {"bias", OPTION_GAP, AT(gap)}};
+                   {"bias", OPTION_GAP, AT(gap)},
+                   {"texture", OPTION_OVERLAY, AT(overlay)}};
     tally t = {.name = "lengths"};
     (void)state;
     for (size_t i = 0; i < sizeof lengths / sizeof lengths[0]; i++) {
@@ -397,6 +398,8 @@ static void test_flags(void **state) {
                  {"budget", OPTION_LINEARIZE, WORD_AT(terms.linearize)},
                  {"texture", OPTION_EYE, WORD_AT(eye)},
                  {"texture", OPTION_RADIAL, WORD_AT(radial)},
+                 {"texture", OPTION_LINEAR01, WORD_AT(linear01)},
+                 {"texture", OPTION_RAW, WORD_AT(raw)},
                  {"texture", OPTION_ERROR_MAP, WORD_AT(error_map)},
                  {"texture", OPTION_PACKED_NORMAL, WORD_AT(packed_normal)},
                  {"list", OPTION_QUIET, WORD_AT(quiet)},
@@ -426,10 +429,9 @@ static void test_texts(void **state) {
         option_id id;
         size_t field;
         bool file;
-    } texts[] = {{"texture", OPTION_TITLE, AT(title), false},
-                 {"texture", OPTION_CHANNEL, AT(channel), false},
-                 {"table", OPTION_OUTPUT, AT(output), true},
-                 {"texture", OPTION_FIGURE, AT(figure), true}};
+    } texts[] = {{"texture", OPTION_TITLE, AT(title), false},  {"texture", OPTION_CHANNEL, AT(channel), false},
+                 {"table", OPTION_OUTPUT, AT(output), true},   {"texture", OPTION_MATRIX, AT(matrix), true},
+                 {"texture", OPTION_FIGURE, AT(figure), true}, {"texture", OPTION_HISTOGRAM, AT(histogram), true}};
     tally t = {.name = "texts"};
     (void)state;
     for (size_t i = 0; i < sizeof texts / sizeof texts[0]; i++) {

@@ -250,7 +250,7 @@ static void ranges_of_others(void **state) {
     (void)state;
     tally t = {.name = "ranges of others"};
     rng r = rng_make("ranges of others");
-    const uint64_t cases = test_cases(2000, 100000, 1000000);
+    const uint64_t cases = test_cases(50000, 100000, 1000000);
     for (size_t i = 0; i < 2 * sizeof shaders / sizeof shaders[0]; i++) {
         const packing *p = row_of(shaders[i / 2].name);
         double used = 0;

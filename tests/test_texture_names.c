@@ -13,6 +13,10 @@ static const struct {
     {"--eye", "Eye depth", "Eye depth", ""},
     {"--eye --radial", "Distance from the camera", "Distance from the camera", ""},
     {"--eye --error-map", "Eye depth, error", "Eye depth, half of each cell", ""},
+    {"--linear01", "Eye depth over far", "Eye depth over far", ""},
+    {"--linear01 --error-map", "Eye depth over far, error", "Eye depth over far, half of each cell", ""},
+    {"--raw", "Window depth", "Window depth", ""},
+    {"--raw --error-map", "Window depth, error", "Window depth, half of each cell", ""},
     {"--position rays", "Positions by rays", "Positions by rays", " x (world). y (world). z (world)."},
     {"--position exact", "Positions by exact", "Positions by exact", " x (world). y (world). z (world)."},
     {"--position rays --error-map", "Positions by rays, error", "Positions by rays, largest possible error", ""},
@@ -20,8 +24,9 @@ static const struct {
     {"--normal high --error-map", "Normals by high, error", NULL, ""},
     {"--normal projective --error-map", "Normals by projective, error",
      "Normals by projective, bound of the error on planes", ""},
-    {"--effect fog", "Fog", "Fog", ""},
-    {"--effect fog --error-map", "Fog, largest possible error", "Fog, largest possible error", ""},
+    {"--effect fog", "Fog, density 1", "Fog, density 1", ""},
+    {"--effect fog --error-map", "Fog, largest possible error, density 1", "Fog, largest possible error, density 1",
+     ""},
 };
 
 static void check_title(tally *t, const char *source, const char *options, const char *title, const char *panels) {

@@ -10,6 +10,7 @@
 #include "method/choose.h"
 #include "plot/figure.h"
 #include "printed.h"
+#include "raster/raster.h"
 #include "texture/effect.h"
 #include "texture/normal.h"
 #include "texture/pack.h"
@@ -88,6 +89,13 @@ static bool api(size_t i, listed *l) {
     return r != NULL;
 }
 
+static bool rasterizer(size_t i, listed *l) {
+    const raster_row *r = raster_get(i);
+    if (r != NULL)
+        *l = (listed){r->name, "", r->note, r->source, {r->subpixel_bits}, 1};
+    return r != NULL;
+}
+
 static bool encoding(size_t i, listed *l) {
     const pack_row *r = pack_get(i);
     if (r == NULL)
@@ -132,9 +140,9 @@ static bool scene(size_t i, listed *l) {
     return true;
 }
 
-/* Half a step, and what binary32 adds; with three digits. */
+/* Half a step, and what binary32 adds; with three digits, rounded up. */
 static bool packing_row(size_t i, listed *l) {
-    static const double halves[] = {7.81e-06, 7.81e-06, 1.17e-10, 1.16e-10, 2.98e-08, 2.98e-08, 0.00196};
+    static const double halves[] = {7.81e-06, 7.81e-06, 1.17e-10, 1.17e-10, 2.99e-08, 2.99e-08, 0.00197};
     const struct packing *r = packing_get(i);
     if (r != NULL) {
         *l = (listed){r->name, "", r->note, r->source, {0}, 0};
@@ -186,6 +194,7 @@ static const struct {
               {"causes", "bound", cause},
               {"presets", "camera", preset_row},
               {"apis", "rule", api},
+              {"rasterizers", "arithmetic", rasterizer},
               {"encodings", "bound", encoding},
               {"packings", "bound", packing_row},
               {"effects", "parameters", effect},
@@ -247,6 +256,25 @@ static void check_item(const json_t *o, const listed *l, const char *bound) {
     if (json_object_get(o, bound) == NULL)
         fail_msg("%s has no %s", l->name, bound);
     check_numbers(text_in(o, bound), l);
+}
+
+/* A rasterizer that is measured says where its plane is anchored and what clipping does; a specification does not. */
+static void check_rasterizers(const json_t *items) {
+    static const char *const anchors[] = {"", "anchored at the target's origin",
+                                          "anchored at the vertex of the largest w"};
+    static const char *const clippings[] = {"", "each piece with its own plane", "the plane of the unclipped vertices"};
+    for (size_t i = 0; i < raster_count(); i++) {
+        const raster_row *r = raster_get(i);
+        const char *text = text_in(json_array_get(items, i), "arithmetic");
+        assert_int_equal(strncmp(text, "at least ", 9) == 0, r->at_least);
+        assert_int_equal(strstr(text, "; d = ") != NULL || strstr(text, "; as llvmpipe") != NULL, r->model != NULL);
+        if (r->model == NULL)
+            continue;
+        assert_int_equal(strstr(text, "depth not snapped") != NULL, r->plane_bits == 0);
+        assert_non_null(strstr(text, anchors[r->anchor]));
+        assert_non_null(strstr(text, clippings[r->clipping]));
+        assert_non_null(strstr(text, r->operations));
+    }
 }
 
 /* CSV has the same cells; the text has the same words, whatever its lines. */
@@ -314,6 +342,8 @@ static void test_topics(void **state) {
         for (; topics[t].get(count, &l); count++)
             check_item(json_array_get(items, count), &l, topics[t].bound);
         assert_int_equal(json_array_size(items), count);
+        if (topics[t].get == rasterizer)
+            check_rasterizers(items);
         check_forms(items, topics[t].what, topics[t].bound);
         json_decref(root);
         printed_free(&p);

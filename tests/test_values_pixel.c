@@ -134,6 +134,21 @@ static void want_place(values *v, const pixel_case *c, const frame *f, const uin
         values_under(v, "pixels[%zu].normal.", i);
         want_number(v, axis, (double)normals[3 * index + (size_t)k]);
     }
+    /* The ray's length for a unit of eye depth; the depth's error lies along it. */
+    const double along = camera_radial(f->camera, at[0], at[1]);
+    if (seen && !f->camera->ortho)
+        assert_relative(z * along, sqrt(view[0] * view[0] + view[1] * view[1] + z * z), 1e-12);
+    uint32_t code;
+    eye_at(f, (int)at[0], (int)at[1], &code);
+    scene_hit hit = {.z = NAN};
+    if (f->scene != NULL)
+        f->scene->hit(f->camera, f->parameters, at[0], at[1], &hit);
+    const double off = !seen              ? NAN
+                       : f->scene != NULL ? fabs(dp_error(&f->camera->setup, code, hit.z))
+                                          : grain_range_of(&f->camera->setup, f->grain, code).reach;
+    values_under(v, "pixels[%zu].", i);
+    want_number(v, "distance", seen ? z * along : NAN);
+    want_number(v, "position_error", off * along);
     values_under(v, "pixels[%zu].", i);
     want_number(v, "normal_error", (double)errors[index]);
 }
@@ -156,6 +171,7 @@ static void want_pixel(values *v, const pixel_case *c, const frame *f, size_t i)
     want_number(v, "lo", r.lo);
     want_number(v, "hi", r.hi);
     want_number(v, "interval", r.hi - r.lo);
+    want_number(v, "linear01", z / setup->spec.zfar);
     if (f->scene != NULL) {
         scene_hit hit;
         f->scene->hit(f->camera, f->parameters, at[0], at[1], &hit);
@@ -180,9 +196,11 @@ static void check_text(const values *v, const char *arguments, const pixel_case 
             int digits;
             const char *fields[5];
         } lines[] = {{"code  ", 9, {"code", "depth"}},
+                     {"linear01  ", 9, {"linear01"}},
                      {"may be  ", 5, {"lo", "hi", "interval"}},
                      {"truth  ", 6, {"truth", "error"}},
                      {"position  ", 9, {"position.x", "position.y", "position.z"}},
+                     {"distance  ", 6, {"distance", "position_error"}},
                      {"normal  ", 6, {"normal.x", "normal.y", "normal.z"}},
                      {"off by", 6, {"normal_error"}}};
         char title[32];
@@ -201,7 +219,7 @@ static void check_text(const values *v, const char *arguments, const pixel_case 
             const wanted *first = value_find(v, paths[0]);
             const bool sky =
                 strcmp(value_at(v, (snprintf(title, sizeof title, "pixels[%zu].state", i), title))->text, "depth") != 0;
-            if (first != NULL && !isnan(first->number) && !(k >= 3 && sky))
+            if (first != NULL && !isnan(first->number) && !(k >= 4 && sky))
                 check_text_numbers(v, section, lines[k].label, lines[k].digits, all);
         }
         free(section);
@@ -258,6 +276,7 @@ static void check_columns(const values *v, const pixel_case *c, const char *argu
                                          {"lo [scene]", "lo"},
                                          {"hi [scene]", "hi"},
                                          {"interval [scene]", "interval"},
+                                         {"linear01", "linear01"},
                                          {"truth [scene]", "truth"},
                                          {"error [scene]", "error"},
                                          {"left [scene]", "left"},
@@ -267,6 +286,8 @@ static void check_columns(const values *v, const pixel_case *c, const char *argu
                                          {"position_x [scene]", "position.x"},
                                          {"position_y [scene]", "position.y"},
                                          {"position_z [scene]", "position.z"},
+                                         {"position_error [scene]", "position_error"},
+                                         {"distance [scene]", "distance"},
                                          {"normal_x", "normal.x"},
                                          {"normal_y", "normal.y"},
                                          {"normal_z", "normal.z"},
@@ -274,7 +295,7 @@ static void check_columns(const values *v, const pixel_case *c, const char *argu
     csv_column present[sizeof columns / sizeof columns[0]];
     size_t count = 0;
     for (size_t k = 0; k < sizeof columns / sizeof columns[0]; k++) {
-        const bool truth = k == 16 || k == 17, place = k >= 22;
+        const bool truth = k == 17 || k == 18, place = k >= 23;
         if ((!truth || c->scene != NULL) && (!place || c->direction_from == NULL))
             present[count++] = columns[k];
     }

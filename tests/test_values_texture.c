@@ -50,6 +50,19 @@ static const texture_case scenes[] = {
      {0, 0, 0},
      1e-4,
      {{"distance", 9}, {"tilt", 82}}},
+    {{0.3, INFINITY, {"fp32"}, {"reversed"}, .ortho = 0},
+     "sphere",
+     "",
+     "given",
+     "given",
+     "given",
+     60,
+     NAN,
+     0,
+     0,
+     {0, 0, 0},
+     1e-4,
+     {{"radius", 4}}},
     {{1, 60, {"fp16"}, {"gl"}, .ortho = 1},
      "sphere",
      "--half-height 3",
@@ -215,9 +228,28 @@ static void want_pairs(values *v, const frame *f) {
     want_number(v, "certain_to", p.certain_to);
 }
 
+/* By hand, and rounded to binary32; null where Unity has no such helper. */
+static void want_zbuffer(values *v, const dp_setup *setup) {
+    const dp_mapping mapping = setup->spec.mapping;
+    const long double n = (long double)setup->spec.znear, f = (long double)setup->spec.zfar;
+    const bool reversed = mapping == DP_MAPPING_REVERSED || mapping == DP_MAPPING_GL_REVERSED;
+    if (setup->spec.ortho || isinf(setup->spec.zfar) || mapping == DP_MAPPING_LINEAR || mapping == DP_MAPPING_LOG) {
+        want_text(v, "zbuffer_params", NULL);
+        return;
+    }
+    const long double x = reversed ? f / n - 1 : 1 - f / n, y = reversed ? 1 : f / n;
+    values_under(v, "zbuffer_params.");
+    want_number(v, "x", (double)(float)x);
+    want_number(v, "y", (double)(float)y);
+    want_number(v, "z", (double)(float)(x / f));
+    want_number(v, "w", (double)(float)(y / f));
+    values_under(v, "%s", "");
+}
+
 static void want_camera(values *v, const texture_case *c, const frame *f) {
     values_under(v, "%s", "");
     want_setup(v, &f->camera->setup);
+    want_zbuffer(v, &f->camera->setup);
     want_count(v, "width", f->camera->width);
     want_count(v, "height", f->camera->height);
     want_text(v, "format_from", c->format_from);
@@ -234,12 +266,26 @@ static const csv_column band_columns[] = {
     {"codes", "codes"}, {"available", "available"},      {"gap [scene]", "gap"}, {"gap_z [scene]", "gap_z"},
     {"steps", "steps"}, {"interval [scene]", "interval"}};
 
+/* What 99 % do not exceed, and what none does: not less than it is. Unbounded errors and decodings have no such. */
+static void check_upwards(const values *v, const char *line, char at[][PATH_SIZE]) {
+    for (int k = 0; k < 3; k++) {
+        char word[64];
+        int used = 0;
+        assert_int_equal(sscanf(line, " %63s%n", word, &used), 1);
+        line += used;
+        if (k > 0 && strcmp(word, "-") != 0)
+            assert_true(strtod(word, NULL) >= value_at(v, at[k])->number);
+    }
+}
+
 static void check_text(const values *v, const char *arguments, size_t errors, const line_places *lines) {
     static const text_column bands[] = {{"lo", 6},     {"hi", 6},           {"pixels", 10},
                                         {"codes", 10}, {"available", 10},   {"gap", 6},
                                         {"gap_z", 6},  {"steps_shown", 10}, {"interval", 6}};
     static const char *const sky[] = {"sky.pixels", "sky_share", "sky.from", "sky.limit", NULL};
     static const char *const depths[] = {"lo", "hi", "codes", NULL}, *const condition[] = {"condition", NULL};
+    static const char *const zbuffer[] = {"zbuffer_params.x", "zbuffer_params.y", "zbuffer_params.z",
+                                          "zbuffer_params.w", NULL};
     static const char *const pairs[] = {"pairs.count", "pairs.ties", "pairs.first_tie", NULL};
     static const char *const certain[] = {"pairs.possible", "pairs.certain_to", NULL};
     static const char *const fields[] = {"mean", "p99", "max", "column", "row"};
@@ -248,6 +294,10 @@ static void check_text(const values *v, const char *arguments, size_t errors, co
     check_text_numbers(v, p.out, "depths  ", 8, depths);
     check_text_table(v, p.out, bands, sizeof bands / sizeof bands[0], lines);
     check_text_numbers(v, p.out, "condition  ", 4, condition);
+    if (value_find(v, zbuffer[0]) != NULL)
+        check_text_numbers(v, p.out, "in Unity  ", 9, zbuffer);
+    else
+        assert_null(strstr(p.out, "_ZBufferParams"));
     if (strstr(p.out, "  pairs  ") != NULL) {
         const char *rest = strstr(strstr(p.out, "  pairs  "), "\n");
         check_text_numbers(v, p.out, "pairs  ", 6, pairs);
@@ -261,6 +311,7 @@ static void check_text(const values *v, const char *arguments, size_t errors, co
         for (size_t k = 0; k < 5; k++)
             snprintf(at[k], PATH_SIZE, "errors[%zu].%s", i, fields[k]);
         check_text_numbers(v, p.out, label, 4, paths);
+        check_upwards(v, strstr(p.out, label) + strlen(label), at);
     }
     printed_free(&p);
 }
@@ -365,6 +416,7 @@ static void want_image(values *v, const char *path, const image *shot, const rec
     want_text(v, "type", image_type_name(shot->type));
     want_count(v, "channels", 1);
     want_text(v, "packing", NULL); /* test_packing has it otherwise */
+    want_text(v, "lossy", NULL);   /* and test_image_compressed this */
     values_under(v, "recognised.");
     want_text(v, "format", found->depth ? found->format.name : NULL);
     want_bool(v, "certain", found->certain);

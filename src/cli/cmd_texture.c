@@ -6,32 +6,39 @@
 
 /* Options that need a product, or a figure of one. */
 static int check_alone(const options *o) {
-    static const option_id drawn[] = {OPTION_TYPE, OPTION_THEME, OPTION_WIDTH, OPTION_HEIGHT, OPTION_TITLE};
+    static const option_id drawn[] = {OPTION_OVERLAY, OPTION_TYPE,   OPTION_THEME,
+                                      OPTION_WIDTH,   OPTION_HEIGHT, OPTION_TITLE};
+    static const option_id others[] = {OPTION_PIXEL, OPTION_OUTPUT, OPTION_JSON, OPTION_CSV};
     if (o->error_map && o->effect != NULL && option_given(o, OPTION_PIXEL))
         return option_error(OPTION_ERROR_MAP, "does not apply with --pixel, which says the error");
     if (option_given(o, OPTION_ERROR_MAP) && !texture_product_wanted(o))
-        return option_error(OPTION_ERROR_MAP, "needs --eye, --position, --normal or --effect");
+        return option_error(OPTION_ERROR_MAP, "needs --eye, --linear01, --raw, --position, --normal or --effect");
     if (o->radial && !texture_product_wanted(o))
         return option_error(OPTION_RADIAL, "needs --eye");
     if (option_given(o, OPTION_AT))
         return option_error(OPTION_AT, "is for the table of --effect without an image");
-    if (option_given(o, OPTION_NORMAL_FORMAT) && o->normal == NULL)
+    if (option_given(o, OPTION_NORMAL_FORMAT) && (o->normal == NULL || texture_normals_compared(o)))
         return option_error(OPTION_NORMAL_FORMAT, "needs --normal or --packed-normal");
     if (option_given(o, OPTION_PIXEL) && texture_product_wanted(o))
         return option_error(OPTION_PIXEL, "describes single pixels, and makes no image or figure");
     for (size_t i = 0; i < sizeof drawn / sizeof drawn[0]; i++)
-        if (option_given(o, drawn[i]) && o->figure == NULL)
-            return option_error(drawn[i], "needs --figure");
+        if (option_given(o, drawn[i]) && o->figure == NULL && (o->histogram == NULL || drawn[i] == OPTION_OVERLAY))
+            return option_error(drawn[i], "needs --figure%s", drawn[i] == OPTION_OVERLAY ? "" : " or --histogram");
+    for (size_t i = 0; i < sizeof others / sizeof others[0]; i++)
+        if (option_given(o, others[i]) && o->histogram != NULL)
+            return option_error(OPTION_HISTOGRAM, "does not apply with --%s", option_name(others[i]));
+    if (option_given(o, OPTION_HISTOGRAM) && texture_product_wanted(o))
+        return option_error(OPTION_HISTOGRAM, "is drawn of the depths, not of a product");
     return EXIT_FINE;
 }
 
 /* The table of an effect sees depths, and at most one pixel. */
 static int check_table(const options *o) {
-    static const option_id images[] = {OPTION_SKY,      OPTION_METRIC, OPTION_EYE,          OPTION_RADIAL,
-                                       OPTION_POSITION, OPTION_NORMAL, OPTION_ERROR_MAP,    OPTION_FIGURE,
-                                       OPTION_THEME,    OPTION_WIDTH,  OPTION_HEIGHT,       OPTION_TITLE,
-                                       OPTION_THREADS,  OPTION_TYPE,   OPTION_PACKING,      OPTION_NORMAL_FORMAT,
-                                       OPTION_CHANNEL,  OPTION_PACK,   OPTION_PACKED_NORMAL};
+    static const option_id images[] = {
+        OPTION_SKY,      OPTION_METRIC, OPTION_EYE,           OPTION_RADIAL,  OPTION_LINEAR01,  OPTION_RAW,
+        OPTION_POSITION, OPTION_NORMAL, OPTION_ERROR_MAP,     OPTION_FIGURE,  OPTION_THEME,     OPTION_WIDTH,
+        OPTION_HEIGHT,   OPTION_TITLE,  OPTION_THREADS,       OPTION_TYPE,    OPTION_PACKING,   OPTION_NORMAL_FORMAT,
+        OPTION_CHANNEL,  OPTION_PACK,   OPTION_PACKED_NORMAL, OPTION_OVERLAY, OPTION_HISTOGRAM, OPTION_MATRIX};
     static const option_id cameras[] = {OPTION_FOV,    OPTION_HALF_HEIGHT, OPTION_YAW,  OPTION_PITCH,
                                         OPTION_ORIGIN, OPTION_SIZE,        OPTION_PIXEL};
     for (size_t i = 0; i < sizeof images / sizeof images[0]; i++)
@@ -75,6 +82,8 @@ int cmd_texture(const options *given) {
         status = texture_product_effect(o, &product);
     if (status == EXIT_FINE)
         status = texture_source_open(o, &source);
+    if (status == EXIT_FINE && (made || described))
+        status = texture_effect_normals(o, &source);
     if (status == EXIT_FINE && made)
         status = make_product(o, &source, &product);
     else if (status == EXIT_FINE && o->pack != NULL)
@@ -83,6 +92,8 @@ int cmd_texture(const options *given) {
         status = texture_packed_normal_write(o, &source);
     else if (status == EXIT_FINE && option_given(o, OPTION_PIXEL))
         status = texture_pixel_write(o, &source, described ? &product.made : NULL);
+    else if (status == EXIT_FINE && o->histogram != NULL)
+        status = texture_histogram_draw(o, &source);
     else if (status == EXIT_FINE && o->scene != NULL && o->output != NULL && o->form == FORM_TEXT)
         status = texture_depth_write(o, &source);
     else if (status == EXIT_FINE)

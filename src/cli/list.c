@@ -11,6 +11,7 @@
 #include "method/method.h"
 #include "need/model.h"
 #include "plot/figure.h"
+#include "raster/raster.h"
 #include "report/number.h"
 #include "texture/effect.h"
 #include "texture/pack.h"
@@ -78,6 +79,8 @@ static bool list_cause(size_t index, list_item *item) {
         [DP_CAUSE_COMPOSITION] = "world positions through view and projection, with --world and --composition",
         [DP_CAUSE_PROJECTION] = "A z + B in binary32, and the remap if there is one",
         [DP_CAUSE_NDC] = "the divide and the viewport",
+        [DP_CAUSE_SNAPPING] = "vertices of slanted triangles moved to the subpixel grid, with --viewport",
+        [DP_CAUSE_SETUP] = "the plane of a slanted triangle set up and evaluated in binary32, with --viewport",
         [DP_CAUSE_INTERPOLATION] = "across a triangle, as given with --interpolation",
         [DP_CAUSE_FORMAT] = "the step of the format and the conversion into it",
         [DP_CAUSE_LINEARIZATION] = "reading eye depth back in a binary32 shader, with --linearize",
@@ -122,6 +125,27 @@ bool list_api(size_t index, list_item *item) {
     return true;
 }
 
+bool list_rasterizer(size_t index, list_item *item) {
+    static const char *const anchors[] = {
+        [RASTER_ANCHOR_ORIGIN] = "; plane of depth anchored at the target's origin",
+        [RASTER_ANCHOR_VERTEX] = "; plane of depth anchored at the vertex of the largest w",
+    };
+    static const char *const clippings[] = {
+        [RASTER_CLIP_PIECES] = "; clipped: new vertices, each piece with its own plane",
+        [RASTER_CLIP_KEEPS] = "; clipped: the plane of the unclipped vertices",
+    };
+    const raster_row *row = raster_get(index);
+    if (row == NULL)
+        return false;
+    *item = (list_item){.name = row->name, .note = row->note, .source = row->source, .row = row};
+    append(item->bound, sizeof item->bound, "%s%d subpixel bits", row->at_least ? "at least " : "", row->subpixel_bits);
+    if (row->model == NULL)
+        return true;
+    append(item->bound, sizeof item->bound, ", depth %s%s%s; %s", row->plane_bits > 0 ? "snapped too" : "not snapped",
+           anchors[row->anchor], clippings[row->clipping], row->operations);
+    return true;
+}
+
 static bool list_encoding(size_t index, list_item *item) {
     const pack_row *row = pack_get(index);
     if (row == NULL)
@@ -140,7 +164,7 @@ bool list_packing(size_t index, list_item *item) {
     if (row == NULL)
         return false;
     *item = (list_item){.name = row->name, .note = row->note, .source = row->source, .row = row};
-    append(item->bound, sizeof item->bound, "depth: at most %.3g%s", 0.5 / row->steps + row->off,
+    append(item->bound, sizeof item->bound, "depth: at most %s%s", number_up(0.5 / row->steps + row->off, 3).text,
            row->linear ? " of far" : "");
     return true;
 }
@@ -237,6 +261,8 @@ static const topic topics[] = {
     {"causes", "the parts of the separation, for budget", list_cause, .bound = "bound"},
     {"presets", "cameras as engines set them, for --preset", list_preset, .bound = "camera"},
     {"apis", "what one unit of depth bias is, for bias --api", list_api, .bound = "rule"},
+    {"rasterizers", "how rasterizers snap vertices and step depth across triangles", list_rasterizer,
+     .bound = "arithmetic"},
     {"encodings", "depth and normals in the channels of a texture, and their error bounds", list_encoding,
      .bound = "bound"},
     {"packings", "textures with a depth in several channels, for texture --packing and --pack", list_packing,

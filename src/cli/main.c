@@ -36,7 +36,10 @@ static int refuse_overwriting(const options *o) {
     const struct {
         option_id id;
         const char *path;
-    } written[] = {{OPTION_OUTPUT, o->output}, {OPTION_FIGURE, o->figure}, {OPTION_ERROR_MAP, o->error_file}};
+    } written[] = {{OPTION_OUTPUT, o->output},
+                   {OPTION_FIGURE, o->figure},
+                   {OPTION_ERROR_MAP, o->error_file},
+                   {OPTION_HISTOGRAM, o->histogram}};
     for (size_t i = 0; i < sizeof written / sizeof written[0]; i++) {
         const char *path = written[i].path;
         if (path == NULL || strcmp(path, "-") == 0)

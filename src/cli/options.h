@@ -63,6 +63,7 @@ typedef enum option_id {
     OPTION_SEED,
     OPTION_FOV,
     OPTION_HALF_HEIGHT,
+    OPTION_MATRIX,
     OPTION_YAW,
     OPTION_PITCH,
     OPTION_ORIGIN,
@@ -80,6 +81,8 @@ typedef enum option_id {
     OPTION_PIXEL,
     OPTION_EYE,
     OPTION_RADIAL,
+    OPTION_LINEAR01,
+    OPTION_RAW,
     OPTION_POSITION,
     OPTION_NORMAL,
     OPTION_NORMAL_FORMAT,
@@ -88,6 +91,8 @@ typedef enum option_id {
     OPTION_EFFECT,
     OPTION_ERROR_MAP,
     OPTION_FIGURE,
+    OPTION_OVERLAY,
+    OPTION_HISTOGRAM,
     OPTION_TYPE,
     OPTION_THEME,
     OPTION_WIDTH,
@@ -174,13 +179,15 @@ typedef struct options {
     int threads; /**< 0 when not given: as many as there are cores */
 
     camera_spec camera;     /**< --size, --fov, --half-height, --yaw, --pitch, --origin */
+    const char *matrix;     /**< file of a projection matrix, which then says the planes and the field of view */
     camera_spec last;       /**< --last-fov, --last-yaw, --last-pitch, --last-origin: what was given of them */
     const scene_row *scene; /**< null when not given, as all rows and names here */
     named_number parameters[OPTIONS_PARAMETERS_MAX];
     size_t parameter_count;
-    double sky;                                 /**< window depth */
-    double metric;                              /**< scene units of 1 in a sample of metric depth; 0 when not given */
-    depths pixels;                              /**< column and row of each in turn; count is 0 when not given */
+    double sky;    /**< window depth */
+    double metric; /**< scene units of 1 in a sample of metric depth; 0 when not given */
+    depths pixels; /**< column and row of each in turn; count is 0 when not given */
+    bool linear01, raw;
     bool eye, radial, error_map, packed_normal; /**< error_map: in place of the product */
     const char *error_file;                     /**< beside it; or null */
     unsigned normal_format;                     /**< of a PNG: 0: y up, 1: y down */
@@ -190,7 +197,8 @@ typedef struct options {
     const position_row *position;               /**< null for exact as well */
     const normal_row *normal;
     const effect_row *effect;
-    const char *figure; /**< file */
+    const char *figure, *histogram; /**< files */
+    double overlay;                 /**< errors above it are shown, scene units; 0 when not given */
 
     unsigned type;     /**< --type: a canvas_format, where the name of a file does not say it */
     unsigned theme;    /**< index of theme_get() */

@@ -4,6 +4,7 @@
 #define CLI_TEXTURE_H
 
 #include "cli/options.h"
+#include "report/report.h"
 #include "texture/frame.h"
 #include "texture/metric.h"
 #include "texture/recognise.h"
@@ -22,6 +23,15 @@ typedef struct texture_reading {
 
 enum { READINGS_MAX = 8, READINGS_SIZE = 512 };
 
+/** The projection matrix of --matrix. */
+typedef struct texture_matrix {
+    const char *path; /**< null: none */
+    projection taken;
+    double fov[2];     /**< degrees, across and up; NaN where it is orthographic */
+    double edges[4];   /**< left, right, bottom, top: slopes, or scene units where it is orthographic */
+    const char *looks; /**< "+z", "-z" */
+} texture_matrix;
+
 typedef struct texture_source {
     const char *path; /**< null for a scene */
     image picture;
@@ -38,8 +48,10 @@ typedef struct texture_source {
     uint32_t column, row; /**< the pixel of the readings */
     dp_setup planes;      /**< with --metric: what --near and --far say */
     double parameters[TEXTURE_PARAMETERS];
+    texture_matrix matrix;
     dp_setup setup;
     texture_camera camera, last; /**< last frame's: where an effect needs it */
+    frame_normals normals;       /**< where an effect needs them that no scene has */
     frame frame;                 /**< points into this struct, which must stay where it is */
 } texture_source;
 
@@ -52,6 +64,9 @@ const char *texture_origin_name(texture_origin origin);
  */
 int texture_source_open(options *o, texture_source *out);
 void texture_source_close(texture_source *s);
+
+/** Whether something says where far is, which metric depth does not need. */
+bool texture_far_known(const options *o);
 
 /** Whether the image holds window depths, which have a format and a mapping. */
 bool texture_is_window(const options *o);
@@ -83,6 +98,15 @@ int texture_camera_check(const options *o);
 /** Last frame's camera: as `now`, but for what --last-fov and the like say. @return as texture_camera_check() */
 int texture_last_camera(const options *o, const dp_setup *setup, const camera_spec *now, texture_camera *out);
 
+/** Reads the file of --matrix into s->matrix, and what it says of planes and mapping into `with`, whose format is
+ * there.
+ *  @return an exit status, after one line on stderr */
+int texture_matrix_open(const options *o, texture_source *s, options *with);
+
+/** For a report: its lines, and its columns, of a texture_matrix. */
+void texture_matrix_say(const texture_matrix *t, page *p);
+extern const column texture_matrix_columns[];
+
 /** Does the scene of --scene have a parameter of this name? Then parameters not taken are the effect's. */
 bool texture_scene_takes(const options *o, const char *name);
 
@@ -100,6 +124,13 @@ typedef struct texture_product {
 
 /** Is one asked for? --pixel describes that of --effect instead. */
 bool texture_product_wanted(const options *o);
+
+/** Whether --normal says by which normals an effect compares, in place of a product. */
+bool texture_normals_compared(const options *o);
+
+/** The normals of an effect that needs some: of --normal, those of the packing, else by projective.
+ *  @return an exit status, after one line on stderr */
+int texture_effect_normals(const options *o, texture_source *s);
 
 /** The effect of --effect, its parameters and reference, as above. */
 int texture_product_effect(const options *o, texture_product *out);
@@ -128,6 +159,9 @@ int texture_depth_write(const options *o, const texture_source *s);
 
 /** Draws the file of --figure. */
 int texture_figure_draw(const options *o, const texture_source *s, const texture_product *p);
+
+/** Draws the file of --histogram. */
+int texture_histogram_draw(const options *o, const texture_source *s);
 
 /* ---- Reports ----------------------------------------------------------------------------------------------------- */
 

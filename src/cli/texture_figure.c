@@ -8,15 +8,19 @@
 #include "cli/setups.h"
 #include "cli/texture.h"
 #include "core/append.h"
+#include "plot/histogram.h"
 #include "plot/notes.h"
 #include "plot/picture.h"
 #include "report/number.h"
 #include "texture/survey.h"
 
-enum { WIDTH = 800, BESIDE = 150, ABOVE = 130, HEIGHT_MIN = 240, HEIGHT_MAX = 1200 };
+enum { WIDTH = 800, HISTOGRAM_HEIGHT = 500, BESIDE = 150, ABOVE = 130, HEIGHT_MIN = 240, HEIGHT_MAX = 1200 };
 
 typedef struct drawing {
     picture shown;
+    picture error; /* with --overlay: of eye depth */
+    double above;
+    uint64_t known, beyond; /* pixels whose error is known, and those above */
     progress bar;
     uint64_t done;
 } drawing;
@@ -28,39 +32,83 @@ static bool take(void *context, uint32_t row, uint32_t count, const float *value
     return true;
 }
 
-static void words_of(const options *o, const texture_source *s, const texture_product *p, const picture *shown,
-                     chart *c) {
-    char label[SETUP_LABEL_SIZE], title[sizeof c->title], reduced[96] = "", missing[64] = "",
-                                                          subtitle[sizeof c->subtitle];
-    const char *slash = s->path != NULL ? strrchr(s->path, '/') : NULL;
-    snprintf(title, sizeof title, "%s", p->name);
-    if (p->made.kind == FRAME_EFFECT) {
-        const int wanted = p->made.effect->wanted;
-        append(title, sizeof title, ", %s %s", p->made.effect->parameters[wanted].name,
-               number_full(p->made.effect_settings[wanted]).text);
+static bool take_both(void *context, uint32_t row, uint32_t count, const float *const *values) {
+    drawing *d = context;
+    picture_take(&d->error, row, count, values[1]);
+    for (size_t i = 0; i < (size_t)count * d->error.width; i++) {
+        d->known += isnan(values[1][i]) ? 0 : 1;
+        d->beyond += (double)values[1][i] > d->above ? 1 : 0;
     }
-    if (title[0] >= 'a' && title[0] <= 'z')
-        title[0] = (char)(title[0] - 'a' + 'A');
-    if (shown->columns < (int)s->camera.width)
-        snprintf(reduced, sizeof reduced,
-                 shown->magnitudes ? "; a point is the largest of %.3g pixels" : "; one of %.3g pixels",
-                 (double)s->camera.width / shown->columns * s->camera.height / shown->rows);
-    if (shown->missing > 0)
-        snprintf(missing, sizeof missing, "; hatched: no value, %llu pixels", (unsigned long long)shown->missing);
-    const char *unit = options_unit(o);
+    return take(context, row, count, values[0]);
+}
+
+/* The product, and with --overlay the error of eye depth beside it. */
+static bool run(const options *o, const texture_source *s, const texture_product *p, drawing *d) {
+    const frame_product both[] = {p->made, {.kind = FRAME_EYE, .error = true, .radial = p->made.radial}};
+    d->bar = progress_start("rows", s->camera.height, o->quiet);
+    const bool good = o->overlay > 0 ? frame_run_all(&s->frame, both, 2, false, take_both, d)
+                                     : frame_run(&s->frame, &p->made, false, take, d);
+    progress_end(&d->bar);
+    return good;
+}
+
+/* What is grey, and what is in colour. */
+static void build(const options *o, drawing *d, chart *c) {
+    if (!(o->overlay > 0)) {
+        picture_build(&d->shown, c);
+        return;
+    }
+    picture_build(&d->error, c);
+    picture_lay_under(&d->shown, c);
+    const double share = d->known > 0 ? 100 * (double)d->beyond / (double)d->known : 0;
+    append(c->subtitle, sizeof c->subtitle,
+           "; grey from %s, light, to %s, dark%s; %s %% of the pixels with a depth are in colour",
+           number_of(c->ground.lo, 4).text, number_of(c->ground.hi, 4).text,
+           c->ground.scale == CHART_LOG ? ", logarithmic" : "", number_of(share, 3).text);
+}
+
+/* Title and subtitle: what holds for all of a source, and more. */
+static void words_of(const options *o, const texture_source *s, const char *title, const char *more, chart *c) {
+    char label[SETUP_LABEL_SIZE], subtitle[sizeof c->subtitle];
+    const char *slash = s->path != NULL ? strrchr(s->path, '/') : NULL, *unit = options_unit(o);
     c->unit = unit;
     setup_label(&s->setup, true, label);
     if (o->metric > 0)
         snprintf(label, sizeof label, "metric depth, %g %s a unit", o->metric, unit != NULL ? unit : "scene units");
     else if (unit != NULL)
         append(label, sizeof label, ", lengths in %s", unit);
-    snprintf(subtitle, sizeof subtitle, "%s%.100s, %u x %u; %s%s%s", s->path != NULL ? "" : "scene ",
+    snprintf(subtitle, sizeof subtitle, "%s%.100s, %u x %u; %s%s", s->path != NULL ? "" : "scene ",
              s->path == NULL ? s->frame.scene->name
              : slash != NULL ? slash + 1
                              : s->path,
-             s->camera.width, s->camera.height, label, reduced, missing);
+             s->camera.width, s->camera.height, label, more);
     notes_clean(c->title, sizeof c->title, o->title != NULL ? o->title : title);
     notes_clean(c->subtitle, sizeof c->subtitle, subtitle);
+}
+
+static void describe(const options *o, const texture_source *s, const texture_product *p, const picture *shown,
+                     chart *c) {
+    char title[sizeof c->title], more[160] = "";
+    const char *unit = options_unit(o);
+    snprintf(title, sizeof title, "%s", p->name);
+    if (p->made.kind == FRAME_EFFECT) {
+        const int wanted = p->made.effect->wanted;
+        append(title, sizeof title, ", %s %s", p->made.effect->parameters[wanted].name,
+               number_full(p->made.effect_settings[wanted]).text);
+    }
+    if (o->overlay > 0)
+        append(title, sizeof title, ", in colour where %s %s off by more than %s", p->made.radial ? "it" : "eye depth",
+               s->path != NULL ? "can be" : "is",
+               number_in(number_full(o->overlay), unit != NULL ? unit : "scene units").text);
+    if (title[0] >= 'a' && title[0] <= 'z')
+        title[0] = (char)(title[0] - 'a' + 'A');
+    if (shown->columns < (int)s->camera.width)
+        append(more, sizeof more,
+               shown->magnitudes ? "; a point is the largest of %.3g pixels" : "; one of %.3g pixels",
+               (double)s->camera.width / shown->columns * s->camera.height / shown->rows);
+    if (shown->missing > 0)
+        append(more, sizeof more, "; hatched: no value, %llu pixels", (unsigned long long)shown->missing);
+    words_of(o, s, title, more, c);
 }
 
 /* Surfaces of a scene that fight; more than can be told apart are not marked. */
@@ -96,22 +144,28 @@ int texture_figure_draw(const options *o, const texture_source *s, const texture
                                     : p->made.kind == FRAME_POSITION ? "coordinate"
                                                                      : p->name,
                            .unit = p->unit,
-                           .names = stacked ? axes : NULL}};
+                           .names = stacked ? axes : NULL},
+                 .error = {.width = s->camera.width,
+                           .height = s->camera.height,
+                           .channels = 1,
+                           .magnitudes = true,
+                           .above = o->overlay,
+                           .label = p->made.radial ? "error of the distance" : "error of eye depth",
+                           .unit = "scene units"},
+                 .above = o->overlay};
     output out;
     const int status = output_open(&out, o->figure);
     if (status != EXIT_FINE)
         return status;
     chart *c = chart_new();
-    const int fields = stacked ? width / 3 : width; /* no more than a panel has room for */
-    bool good = c != NULL && picture_open(&d.shown, fields > WIDTH ? fields : WIDTH, c);
+    const int room = stacked ? width / 3 : width, fields = room > WIDTH ? room : WIDTH; /* as a panel has room for */
+    bool good =
+        c != NULL && picture_open(&d.shown, fields, c) && (!(o->overlay > 0) || picture_open(&d.error, fields, c));
+    if (good)
+        good = run(o, s, p, &d);
     if (good) {
-        d.bar = progress_start("rows", s->camera.height, o->quiet);
-        good = frame_run(&s->frame, &p->made, false, take, &d);
-        progress_end(&d.bar);
-    }
-    if (good) {
-        words_of(o, s, p, &d.shown, c);
-        picture_build(&d.shown, c);
+        describe(o, s, p, &d.shown, c);
+        build(o, &d, c);
         mark_ties(&s->frame, c);
         good = !chart_failed(c) && figure_file_write(o, o->figure, c, width, height_of(o, s, width, stacked), &out);
     }
@@ -120,4 +174,35 @@ int texture_figure_draw(const options *o, const texture_source *s, const texture
         return output_close(&out);
     output_abandon(&out);
     return usage_error("texture: no memory for the figure");
+}
+
+int texture_histogram_draw(const options *o, const texture_source *s) {
+    const uint64_t pixels = (uint64_t)s->camera.width * s->camera.height;
+    uint64_t counted = 0;
+    char more[96] = "";
+    output out;
+    canvas_format type;
+    if (s->camera.oblique.on)
+        return option_error(OPTION_HISTOGRAM, "needs planes that all pixels share, which %s does not have",
+                            s->matrix.path);
+    int status = figure_file_type(o, OPTION_HISTOGRAM, o->histogram, &type);
+    if (status == EXIT_FINE)
+        status = output_open(&out, o->histogram);
+    if (status != EXIT_FINE)
+        return status;
+    chart *c = chart_new();
+    bool good = c != NULL && histogram_build(&s->frame, o->metric == 0, c, &counted);
+    if (good && counted > 0) {
+        if (counted < pixels)
+            snprintf(more, sizeof more, "; %llu pixels of sky or holes are left out",
+                     (unsigned long long)(pixels - counted));
+        words_of(o, s, "Pixels over eye depth", more, c);
+        good = figure_file_write(o, o->histogram, c, o->width > 0 ? o->width : WIDTH,
+                                 o->height > 0 ? o->height : HISTOGRAM_HEIGHT, &out);
+    }
+    chart_free(c);
+    if (good && counted > 0)
+        return output_close(&out);
+    output_abandon(&out);
+    return good ? usage_error("texture: no pixel has a depth") : usage_error("texture: no memory for the figure");
 }

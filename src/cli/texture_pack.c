@@ -10,10 +10,11 @@
 #include "texture/image_depths.h"
 
 int texture_pack_check(const options *o) {
-    static const option_id others[] = {OPTION_EYE,       OPTION_RADIAL, OPTION_POSITION,  OPTION_EFFECT,
-                                       OPTION_ERROR_MAP, OPTION_FIGURE, OPTION_PIXEL,     OPTION_AT,
-                                       OPTION_JSON,      OPTION_CSV,    OPTION_PARAMETER, OPTION_TYPE,
-                                       OPTION_THEME,     OPTION_WIDTH,  OPTION_HEIGHT,    OPTION_TITLE};
+    static const option_id others[] = {OPTION_EYE,      OPTION_RADIAL,    OPTION_LINEAR01,  OPTION_RAW,
+                                       OPTION_POSITION, OPTION_EFFECT,    OPTION_ERROR_MAP, OPTION_FIGURE,
+                                       OPTION_OVERLAY,  OPTION_HISTOGRAM, OPTION_PIXEL,     OPTION_AT,
+                                       OPTION_JSON,     OPTION_CSV,       OPTION_PARAMETER, OPTION_TYPE,
+                                       OPTION_THEME,    OPTION_WIDTH,     OPTION_HEIGHT,    OPTION_TITLE};
     const char *name = option_name(o->pack != NULL ? OPTION_PACK : OPTION_PACKED_NORMAL);
     image_file file;
     for (size_t i = 0; i < sizeof others / sizeof others[0]; i++)
@@ -100,6 +101,8 @@ int texture_pack_write(const options *o, const texture_source *s) {
     frame_product product = {.kind = o->pack->normals ? FRAME_NORMAL : FRAME_EYE,
                              .normal = o->normal != NULL ? o->normal : normal_get(NORMAL_PROJECTIVE)};
     char note[IMAGE_NOTE_SIZE];
+    if (s->camera.oblique.on)
+        return option_error(OPTION_PACK, "needs planes that all pixels share, which %s does not have", s->matrix.path);
     if (!o->pack->linear && !texture_is_window(o))
         return option_error(OPTION_PACK, "%s holds window depth, which %s is not", o->pack->name, s->path);
     if (o->pack->linear && isinf(frame_planes(&s->frame)->spec.zfar))
@@ -135,7 +138,7 @@ int texture_packed_normal_write(const options *o, const texture_source *s) {
     if (status != EXIT_FINE)
         return status;
     float *row = malloc(3 * (size_t)width * sizeof *row);
-    meaning m = writing_meaning(o, &p, &w, 1);
+    meaning m = writing_meaning(o, &p, &w);
     writing_note(&w, &p, &m, note);
     bool good = writing_begin(&w, note) && row != NULL;
     for (uint32_t i = 0; i < height && good; i++) {
@@ -151,5 +154,5 @@ int texture_packed_normal_write(const options *o, const texture_source *s) {
     }
     free(row);
     status = writing_close(&w, 1, good);
-    return status == EXIT_FINE ? writing_say(o, &p, &w, &m, 1) : status;
+    return status == EXIT_FINE ? writing_say(o, &p, &w, &m) : status;
 }

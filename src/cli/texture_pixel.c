@@ -9,6 +9,7 @@
 #include "report/number.h"
 #include "report/report.h"
 #include "texture/image_depths.h"
+#include "texture/oblique.h"
 
 enum { DIGITS = 6, DIGITS_DEPTH = 10, DIGITS_Z = 9, DIGITS_MOST = 15, NEIGHBOURS = 4 };
 
@@ -20,9 +21,12 @@ typedef struct pixel {
     double z;           /* what the code gives back */
     grain_range range;
     double interval;
+    double linear01;           /* z over far */
+    double distance;           /* from the camera */
     double truth, error;       /* of a scene */
     double beside[NEIGHBOURS]; /* eye depths to the left, right, above, below */
-    double position[3];        /* world */
+    double position[3];        /* world, of what is stored */
+    double position_off;       /* what that is off by, along the ray; of an image at most */
     double normal[3];          /* view space, by the method projective */
     double output, lost;       /* of an effect: in binary32, and what that adds to the exact one, for what is stored */
     double exact, levels;      /* output less lost; what the output is off by, or can be */
@@ -59,7 +63,7 @@ static double depth_at(const frame *f, const pixel *p, uint32_t code) {
     return d;
 }
 
-static void look(const texture_source *s, pixel *p, uint32_t *codes) {
+static void look(const options *o, const texture_source *s, pixel *p, uint32_t *codes) {
     static const int steps[NEIGHBOURS][2] = {{-1, 0}, {1, 0}, {0, -1}, {0, 1}};
     const frame *f = &s->frame;
     const dp_setup *setup = &s->camera.setup;
@@ -71,20 +75,26 @@ static void look(const texture_source *s, pixel *p, uint32_t *codes) {
     p->state = hole ? "hole" : sky ? "sky" : "depth";
     p->depth = depth_at(f, p, code);
     p->code = hole ? none : (double)code;
-    p->z = hole ? none : dp_stored(setup, code);
-    p->range = hole ? (grain_range){none, none, none} : grain_range_of(setup, f->grain, code);
+    p->z = hole ? none : pixel_stored(&s->camera, p->column, p->row, code);
+    p->range = hole ? (grain_range){none, none, none} : pixel_range_of(&s->camera, f->grain, p->column, p->row, code);
     p->interval = p->range.hi - p->range.lo;
     if (f->scene != NULL)
         f->scene->hit(&s->camera, f->parameters, p->column, p->row, &hit);
+    const double far = texture_far_known(o) ? frame_planes(f)->spec.zfar : (double)INFINITY;
+    const double along = camera_radial(&s->camera, p->column, p->row);
+    p->linear01 = isinf(far) || s->camera.oblique.on ? none : p->z / far;
+    p->distance = sky ? none : p->z * along;
     p->truth = isinf(hit.z) ? none : hit.z;
     p->error = isinf(hit.z) || hole ? none : dp_error(setup, code, hit.z);
+    p->position_off = sky ? none : along * (f->scene != NULL ? fabs(p->error) : p->range.reach);
     camera_view(&s->camera, p->column, p->row, p->z, view);
     camera_turn(&s->camera, view, relative);
     for (int k = 0; k < 3; k++)
         p->position[k] = sky ? none : s->camera.origin[k] + relative[k];
     for (int k = 0; k < NEIGHBOURS; k++) {
-        const uint32_t beside = code_at(f, codes, (int64_t)p->column + steps[k][0], (int64_t)p->row + steps[k][1]);
-        p->beside[k] = beside == UINT32_MAX ? none : dp_stored(setup, beside);
+        const int64_t x = (int64_t)p->column + steps[k][0], y = (int64_t)p->row + steps[k][1];
+        const uint32_t beside = code_at(f, codes, x, y);
+        p->beside[k] = beside == UINT32_MAX ? none : pixel_stored(&s->camera, (uint32_t)x, (uint32_t)y, beside);
     }
 }
 
@@ -145,11 +155,14 @@ static bool find(pixels *all) {
     for (size_t i = 0; codes != NULL && i < all->count; i++) {
         all->items[i].column = (uint32_t)depths_get(&all->o->pixels, 2 * i);
         all->items[i].row = (uint32_t)depths_get(&all->o->pixels, 2 * i + 1);
-        look(all->source, &all->items[i], codes);
+        look(all->o, all->source, &all->items[i], codes);
     }
     bool good = codes != NULL && frame_run(f, &normals, false, take_normals, all);
     normals.error = true;
-    good = good && take(all, normals, offsetof(pixel, normal_off));
+    if (frame_refuses(f, &normals) == NULL)
+        good = good && take(all, normals, offsetof(pixel, normal_off));
+    for (size_t i = 0; i < all->count && frame_refuses(f, &normals) != NULL; i++)
+        all->items[i].normal_off = (double)NAN;
     free(codes);
     return good && (all->effect == NULL || find_effect(all));
 }
@@ -158,11 +171,14 @@ static bool find(pixels *all) {
 
 /* Where the camera is known: of an image it is what the user says it was. */
 static bool has_camera(const pixels *all) {
-    return all->source->path == NULL || option_given(all->o, OPTION_FOV) || option_given(all->o, OPTION_HALF_HEIGHT);
+    return all->source->path == NULL || all->o->matrix != NULL || option_given(all->o, OPTION_FOV) ||
+           option_given(all->o, OPTION_HALF_HEIGHT);
 }
 
 /* Of a scene how much it is, of an image at most. */
 static void say_off(page *p, const pixels *all, double by, const char *unit) {
+    if (isnan(by))
+        return;
     if (all->scene != NULL)
         page_note(p, "", "off by %s %s", number_of(by, DIGITS).text, unit);
     else
@@ -194,6 +210,8 @@ static void say_pixel(page *p, void *item) {
         return;
     page_note(p, "code", "%s%s%s", number_of(x->code, DIGITS_DEPTH).text, isnan(x->depth) ? "" : ", window depth ",
               isnan(x->depth) ? "" : number_of(x->depth, DIGITS_DEPTH).text);
+    if (!isnan(x->linear01))
+        page_note(p, "linear01", "%s, eye depth over far", number_of(x->linear01, DIGITS_Z).text);
     page_note(p, "may be", "%s to %s, an interval of %s", number_in(number_of(x->range.lo, digits), p->unit).text,
               number_in(number_of(x->range.hi, digits), p->unit).text,
               number_in(number_of(x->interval, DIGITS), p->unit).text);
@@ -212,6 +230,9 @@ static void say_pixel(page *p, void *item) {
     page_note(p, "position", "%s, %s, %s", number_in(number_of(x->position[0], DIGITS_Z), p->unit).text,
               number_in(number_of(x->position[1], DIGITS_Z), p->unit).text,
               number_in(number_of(x->position[2], DIGITS_Z), p->unit).text);
+    page_note(p, "distance", "%s from the camera, off by%s %s along the ray",
+              number_in(number_of(x->distance, DIGITS_Z), p->unit).text, all->scene != NULL ? "" : " at most",
+              number_in((all->scene != NULL ? number_of : number_up)(x->position_off, DIGITS), p->unit).text);
     if (!isnan(x->normal[0]))
         say_normal(p, all);
 }
@@ -262,6 +283,7 @@ static const column pixel_columns[] = {
     {FIELD(pixels, at.range.lo, "lo", "scene")},
     {FIELD(pixels, at.range.hi, "hi", "scene")},
     {FIELD(pixels, at.interval, "interval", "scene")},
+    {FIELD(pixels, at.linear01, "linear01", "")},
     {FIELD(pixels, at.truth, "truth", "scene"), .when = OF_SCENE},
     {FIELD(pixels, at.error, "error", "scene"), .when = OF_SCENE},
     {FIELD(pixels, at.beside[0], "left", "scene")},
@@ -269,10 +291,14 @@ static const column pixel_columns[] = {
     {FIELD(pixels, at.beside[2], "above", "scene")},
     {FIELD(pixels, at.beside[3], "below", "scene")},
     {GROUP("position", vector_columns[0]), .only = AS_JSON, .when = WITH_CAMERA},
+    {FIELD(pixels, at.position_off, "position_error", "scene"), .only = AS_JSON, .when = WITH_CAMERA},
+    {FIELD(pixels, at.distance, "distance", "scene"), .only = AS_JSON, .when = WITH_CAMERA},
     {GROUP("normal", vector_columns[1]), .only = AS_JSON, .when = WITH_CAMERA},
     {FIELD(pixels, at.position[0], "position_x", "scene"), .only = AS_CSV, .when = WITH_CAMERA},
     {FIELD(pixels, at.position[1], "position_y", "scene"), .only = AS_CSV, .when = WITH_CAMERA},
     {FIELD(pixels, at.position[2], "position_z", "scene"), .only = AS_CSV, .when = WITH_CAMERA},
+    {FIELD(pixels, at.position_off, "position_error", "scene"), .only = AS_CSV, .when = WITH_CAMERA},
+    {FIELD(pixels, at.distance, "distance", "scene"), .only = AS_CSV, .when = WITH_CAMERA},
     {FIELD(pixels, at.normal[0], "normal_x", ""), .only = AS_CSV, .when = WITH_CAMERA},
     {FIELD(pixels, at.normal[1], "normal_y", ""), .only = AS_CSV, .when = WITH_CAMERA},
     {FIELD(pixels, at.normal[2], "normal_z", ""), .only = AS_CSV, .when = WITH_CAMERA},

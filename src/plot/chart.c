@@ -205,6 +205,8 @@ void chart_digest(const chart *c, char out[17]) {
         mix_numbers(&h, panel->map.x, (size_t)panel->map.columns);
         mix_numbers(&h, panel->map.y, (size_t)panel->map.rows);
         mix_numbers(&h, panel->map.value, (size_t)panel->map.columns * (size_t)panel->map.rows);
+        if (panel->map.under != NULL)
+            mix_numbers(&h, panel->map.under, (size_t)panel->map.columns * (size_t)panel->map.rows);
     }
     snprintf(out, 17, "%016" PRIx64, h);
 }

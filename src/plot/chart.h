@@ -72,6 +72,7 @@ typedef struct chart_map {
     int columns, rows;
     double *x, *y; /**< centres, evenly spaced on the panel's axes */
     double *value;
+    double *under; /**< null, or of as many fields what shows in grey where there is no value; NaN is left empty */
     size_t by_way; /**< how many were computed by another way than the exact engine */
 } chart_map;
 
@@ -91,6 +92,7 @@ typedef struct chart {
     size_t panel_count;
     chart_panel panels[CHART_PANELS];
     chart_axis value;   /**< the colour scale shared by the maps; label is null when there is none */
+    chart_axis ground;  /**< the grey scale of what lies under a map: lo is light */
     bool contours;      /**< lines at the decades of the maps */
     size_t curves;      /**< how many were refined, */
     size_t evaluations; /**< how often something was computed for them, */

@@ -8,9 +8,14 @@
 
 enum { BAR_STEPS = 256 };
 
+/* Neither a value nor anything under it. */
+static bool is_hole(const chart_map *m, size_t i) {
+    return isnan(m->value[i]) && (m->under == NULL || isnan(m->under[i]));
+}
+
 bool heat_has_holes(const chart_map *m) {
     for (size_t i = 0; i < (size_t)m->columns * (size_t)m->rows; i++)
-        if (isnan(m->value[i]))
+        if (is_hole(m, i))
             return true;
     return false;
 }
@@ -25,8 +30,17 @@ static void draw_hatch(const pencil *p, canvas_rect f) {
     canvas_path_end(p->c, &pen);
 }
 
-/* The colour of a value that is there. */
-static canvas_colour colour_of(const chart *c, double v) {
+/* From light to a dark that no colour of the scale is. */
+static canvas_colour grey_of(const chart_axis *ground, double v) {
+    const double level = 0.95 - 0.6 * fmin(fmax(chart_axis_share(ground, v), 0), 1);
+    return (canvas_colour){level, level, level, 1};
+}
+
+/* The colour of a field that is no hole. */
+static canvas_colour colour_of(const chart *c, const chart_map *m, size_t i) {
+    const double v = m->value[i];
+    if (isnan(v))
+        return grey_of(&c->ground, m->under[i]);
     const uint32_t rgb = c->colours ? (uint32_t)v : 0;
     return c->colours ? (canvas_colour){(rgb >> 16 & 255) / 255.0, (rgb >> 8 & 255) / 255.0, (rgb & 255) / 255.0, 1}
                       : theme_viridis(chart_axis_share(&c->value, v));
@@ -37,10 +51,10 @@ static void draw_fields(const pencil *p, canvas_rect f, const chart_map *m, cons
     const double w = f.w / m->columns, h = f.h / m->rows, seam = 0.5;
     for (int row = m->rows - 1; row >= 0; row--)
         for (int column = 0; column < m->columns; column++) {
-            double v = *chart_field(m, row, column);
-            if (!isnan(v))
+            const size_t i = (size_t)row * (size_t)m->columns + (size_t)column;
+            if (!is_hole(m, i))
                 canvas_fill(p->c, (canvas_rect){f.x + column * w, f.y + f.h - (row + 1) * h, w + seam, h + seam},
-                            colour_of(c, v));
+                            colour_of(c, m, i));
         }
 }
 
@@ -56,11 +70,11 @@ static bool draw_pixels(const pencil *p, canvas_rect f, const chart_map *m, cons
         return false;
 #pragma omp parallel for schedule(static)
     for (int row = 0; row < m->rows; row++) {
-        const double *from = chart_field(m, row, 0);
+        const size_t from = (size_t)row * (size_t)m->columns;
         uint32_t *to = pixels + (size_t)(m->rows - 1 - row) * (size_t)m->columns;
         for (int column = 0; column < m->columns; column++)
-            if (!isnan(from[column]))
-                to[column] = theme_pixel(colour_of(c, from[column]));
+            if (!is_hole(m, from + (size_t)column))
+                to[column] = theme_pixel(colour_of(c, m, from + (size_t)column));
     }
     canvas_image(p->c, f, m->columns, m->rows, pixels);
     free(pixels);

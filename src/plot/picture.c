@@ -77,9 +77,23 @@ void picture_take(picture *p, uint32_t row, uint32_t count, const float *values)
 }
 
 static double field(const picture *in, const float *at, int channel) {
+    if (in->above > 0 && !((double)at[0] > in->above))
+        return NAN;
     if (!in->directions)
         return (double)at[channel];
     return isnan(at[0]) ? (double)NAN : heat_direction((double)at[0], (double)at[1], (double)at[2]);
+}
+
+/* A map's rows begin at the bottom. */
+static void fill_fields(const picture *in, int channel, double *out) {
+    const size_t channels = (size_t)in->channels, row_values = (size_t)in->columns * channels;
+#pragma omp parallel for schedule(static)
+    for (int row = 0; row < in->rows; row++) {
+        double *to = out + (size_t)(in->rows - 1 - row) * (size_t)in->columns;
+        const float *from = in->values + (size_t)row * row_values;
+        for (int column = 0; column < in->columns; column++)
+            to[column] = field(in, from + (size_t)column * channels, channel);
+    }
 }
 
 static void add_panel(const picture *in, chart *out, int channel) {
@@ -90,14 +104,7 @@ static void add_panel(const picture *in, chart *out, int channel) {
         snprintf(panel->title, sizeof panel->title, "%s", in->names[channel]);
     if (!chart_add_map(out, panel, in->columns, in->rows))
         return;
-    const size_t channels = (size_t)in->channels, row_values = (size_t)in->columns * channels;
-#pragma omp parallel for schedule(static)
-    for (int row = 0; row < in->rows; row++) {
-        double *to = chart_field(&panel->map, in->rows - 1 - row, 0);
-        const float *from = in->values + (size_t)row * row_values;
-        for (int column = 0; column < in->columns; column++)
-            to[column] = field(in, from + (size_t)column * channels, channel);
-    }
+    fill_fields(in, channel, panel->map.value);
 }
 
 /* The least and greatest finite number; of magnitudes the least above 0. */
@@ -125,13 +132,17 @@ static chart_axis scale_of(const picture *in) {
     } else if (in->magnitudes) {
         lo = fmax(lo, deepest * hi);
     }
+    if (in->above > 0) {
+        lo = in->above;
+        hi = fmax(hi, 2 * lo);
+    }
     if (in->shares) {
         lo = fmin(lo, 0);
         hi = fmax(hi, 1);
     }
     if (lo > 0 && hi > wide * lo)
         axis.scale = CHART_LOG;
-    else if (in->magnitudes)
+    else if (in->magnitudes && !(in->above > 0))
         lo = 0;
     if (lo == hi) {
         lo -= fmax(fabs(lo), 1e-30) / 2;
@@ -150,6 +161,14 @@ void picture_build(const picture *in, chart *out) {
     const int panels = in->directions ? 1 : in->channels;
     for (int i = 0; i < panels; i++)
         add_panel(in, out, i);
+}
+
+void picture_lay_under(const picture *ground, chart *out) {
+    chart_map *m = &out->panels[0].map;
+    m->under = chart_memory(out, (size_t)m->columns * (size_t)m->rows, sizeof *m->under);
+    out->ground = scale_of(ground);
+    if (m->under != NULL)
+        fill_fields(ground, 0, m->under);
 }
 
 void picture_mark(chart *out, size_t count, const double (*at)[2], const char *name) {

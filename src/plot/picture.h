@@ -15,6 +15,7 @@ typedef struct picture {
     bool directions;   /**< channels are a direction: one panel in colours */
     bool magnitudes;   /**< errors: a field is the largest of its pixels and not the one in its middle; a
                             logarithmic colour scale reaches four decades down, and what is less is dark */
+    double above;      /**< with `magnitudes`: what is not above it is left out, and the colour scale begins there */
     bool shares;       /**< from 0 to 1 by nature: so is the colour scale, whatever part of it there is */
     const char *label; /**< "eye depth", for the colour bar */
     const char *unit;
@@ -33,6 +34,9 @@ void picture_take(picture *p, uint32_t row, uint32_t count, const float *values)
 
 /** Marks places of the built chart, px from the left and upper edge, under a name for the legend. */
 void picture_mark(chart *out, size_t count, const double (*at)[2], const char *name);
+
+/** Shows another picture of one channel, of the same size, in grey under the built chart, where that has no value. */
+void picture_lay_under(const picture *ground, chart *out);
 
 /** Fills in an empty chart whose title and subtitle are set. chart_failed() tells of memory. */
 void picture_build(const picture *in, chart *out);

@@ -7,6 +7,7 @@
 
 #include "texture/frame_rows.h"
 #include "texture/image_depths.h"
+#include "texture/oblique.h"
 #include "texture/strips.h"
 
 enum {
@@ -51,13 +52,37 @@ int frame_channels(const frame_product *product) {
     return vector && !product->error ? 3 : 1;
 }
 
+/* What is made from planes that all pixels share, or for a view axis in the middle of the picture. */
+static const char *camera_refuses(const frame *f, const frame_product *product) {
+    const bool oblique = f->camera->oblique.on, centred = camera_is_centred(f->camera);
+    if (product->kind == FRAME_POSITION && product->position != NULL && !centred)
+        return "this method is for a frustum that is centred, without an oblique plane; 'exact' is for each";
+    if (product->kind == FRAME_EFFECT && (oblique || (!centred && (product->effect->needs & EFFECT_POSITION) != 0)))
+        return "this effect is for a frustum that is centred, without an oblique plane";
+    if (product->kind == FRAME_LINEAR01 && oblique)
+        return "this is for a far plane that all pixels share";
+    if (product->kind == FRAME_NORMAL && product->error && oblique)
+        return "the error of normals is not known where pixels have planes of their own";
+    return NULL;
+}
+
 const char *frame_refuses(const frame *f, const frame_product *product) {
+    const char *refused = camera_refuses(f, product);
+    if (refused != NULL)
+        return refused;
     if (product->kind == FRAME_POSITION && product->position != NULL && !position_applies(product->position, f->camera))
         return "this method does not support this projection and mapping";
+    if (product->kind == FRAME_LINEAR01 && isinf(frame_planes(f)->spec.zfar))
+        return "this needs a finite far plane";
+    if (product->kind == FRAME_RAW && f->metric)
+        return "metric depth is not window depth";
     if (product->kind == FRAME_EFFECT && !effect_applies(product->effect, frame_planes(f)))
         return "this effect needs a finite far plane";
-    if (product->kind == FRAME_EFFECT && f->scene == NULL && (product->effect->needs & EFFECT_NORMALS) != 0)
+    const bool normals = product->kind == FRAME_EFFECT && (product->effect->needs & EFFECT_NORMALS) != 0;
+    if (normals && f->scene == NULL && f->normals == NULL)
         return "this effect needs normals, which an image of depths does not have, but a scene";
+    if (normals && f->scene == NULL && product->error && f->normals->unbounded)
+        return "its error is known for packed normals, and for those by 'projective', which have a bound";
     if (product->kind == FRAME_NORMAL && product->error && f->scene == NULL &&
         strcmp(product->normal->name, "projective") != 0)
         return "the error of this method is known in a scene only; that of 'projective' has a bound";
@@ -78,7 +103,7 @@ typedef struct run {
     const frame_product *products;
     size_t product_count, values; /* of all products in a pixel */
     uint32_t width, height, stride, sky, strip, count, margin;
-    bool bottom_up, positions, bounds; /* bounds: of normals */
+    bool bottom_up, depths, bounds; /* window depths; bounds of normals */
     dp_batch eye, depth, stored;
     position_state position;
     float *slope_x, *out; /* out: a strip in each slot, product by product */
@@ -147,6 +172,10 @@ static bool looks_around(const frame_product *product) {
     return product->kind == FRAME_NORMAL || product->kind == FRAME_EFFECT;
 }
 
+static bool sees_window(frame_kind kind) {
+    return kind == FRAME_RAW || kind == FRAME_POSITION || kind == FRAME_EFFECT;
+}
+
 static bool run_start(run *r, const frame *f) {
     const texture_camera *c = f->camera;
     r->f = f;
@@ -157,7 +186,7 @@ static bool run_start(run *r, const frame *f) {
     r->margin = NORMAL_REACH;
     for (size_t i = 0; i < r->product_count; i++) {
         r->values += (size_t)frame_channels(&r->products[i]);
-        r->positions = r->positions || r->products[i].kind == FRAME_POSITION || r->products[i].kind == FRAME_EFFECT;
+        r->depths = r->depths || sees_window(r->products[i].kind);
         r->bounds = r->bounds || (r->products[i].kind == FRAME_NORMAL && r->products[i].error);
         r->margin = looks_around(&r->products[i]) ? 0 : r->margin;
     }
@@ -166,7 +195,7 @@ static bool run_start(run *r, const frame *f) {
         return false;
     for (uint32_t i = 0; i < r->stride; i++)
         r->slope_x[i] = (float)camera_slope_x(c, (double)i - NORMAL_REACH);
-    if (r->positions)
+    if (r->depths)
         position_prepare(&r->position, c);
     const dp_path path = dp_path_best();
     return dp_batch_init(&r->eye, &c->setup, DP_TASK_EYE, DP_REAL_FLOAT, DP_WORD_32, path) == DP_OK &&
@@ -184,7 +213,10 @@ static void decode_row_of(const run *r, const desk *d, uint32_t first, uint32_t 
     const bool inside = row >= 0 && row < r->height;
     if (inside) {
         frame_codes(r->f, (uint32_t)row, codes);
-        dp_batch_run(&r->eye, codes, eyes, r->width);
+        if (r->f->camera->oblique.on)
+            pixel_eyes(r->f->camera, (uint32_t)row, codes, eyes);
+        else
+            dp_batch_run(&r->eye, codes, eyes, r->width);
     }
     for (uint32_t x = 0; x < r->width; x++) {
         const uint32_t rank = flip != 0 ? flip - codes[x] : codes[x];
@@ -223,7 +255,7 @@ static void make_row(const run *r, const desk *d, uint32_t first, uint32_t i, si
                     .numbers = d->numbers};
     for (int k = -NORMAL_REACH; k <= NORMAL_REACH; k++)
         in.eyes[k + NORMAL_REACH] = d->eyes + (middle + (size_t)k) * r->stride + NORMAL_REACH;
-    if (r->positions) {
+    if (r->depths) {
         dp_batch_run(&r->depth, in.codes, d->scratch, width);
         in.depth = d->scratch;
     }

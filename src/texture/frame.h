@@ -21,6 +21,18 @@
 /** Window depths this close to the far plane's are sky: nothing was drawn there. Unity's shaders use it. */
 #define FRAME_SKY 1e-4
 
+enum { FRAME_NORMAL_DEGREE = 256 };
+
+/** Normals beside the depths: see frame_normals.h. */
+typedef struct frame_normals {
+    const uint8_t *texels; /**< two channels a pixel, as packing_normal() reads them */
+    bool truncated;        /**< channels were cut off; else they are the nearest */
+    uint8_t *own;          /**< what is behind `texels`, where that was made */
+    uint16_t *off;         /**< how far each was off at most before it was packed, of FRAME_NORMAL_DEGREE a degree;
+                                null: not at all, or not known */
+    bool unbounded;        /**< not known */
+} frame_normals;
+
 /** Where the depths come from. */
 typedef struct frame {
     const texture_camera *camera; /**< its set-up in the model exact */
@@ -31,8 +43,9 @@ typedef struct frame {
     const grain *grain;       /**< of an image: how it was rounded; null: its samples are codes */
     bool metric;              /**< the samples are eye depths, none of them sky; the camera's set-up is their lattice */
     const dp_setup *planes;   /**< metric: the planes that effects use; else null: the camera's */
-    double sky;               /**< window depths this close to the far plane's are sky, [0, 0.5] */
-    int threads;              /**< 0: as many as there are cores */
+    const frame_normals *normals; /**< for effects; null: those of the scene, or none */
+    double sky;                   /**< window depths this close to the far plane's are sky, [0, 0.5] */
+    int threads;                  /**< 0: as many as there are cores */
 } frame;
 
 /**
@@ -58,9 +71,18 @@ int frame_threads(const frame *f);
 /** The codes of a row; UINT32_MAX where the image has no depth. */
 void frame_codes(const frame *f, uint32_t row, uint32_t *codes);
 
-typedef enum frame_kind { FRAME_EYE = 0, FRAME_POSITION, FRAME_NORMAL, FRAME_EFFECT, FRAME_KINDS } frame_kind;
+typedef enum frame_kind {
+    FRAME_EYE = 0,
+    FRAME_LINEAR01, /**< eye depth over far, as Unity's Linear01Depth; far is that of frame_planes() */
+    FRAME_RAW,      /**< window depth */
+    FRAME_POSITION,
+    FRAME_NORMAL,
+    FRAME_EFFECT,
+    FRAME_KINDS
+} frame_kind;
 
-/** What is made of the depths. Sky and invalid pixels are NaN in all of them, but sky has edges: EFFECT_STEP. */
+/** What is made of the depths. Sky and invalid pixels are NaN in all of them, but sky has edges, EFFECT_STEP, and a
+ *  window depth. */
 typedef struct frame_product {
     frame_kind kind;
     /**
@@ -68,6 +90,9 @@ typedef struct frame_product {
      * whose truth is not known, what it can be off:
      *
      *     eye       |product - z|; image: |product - stored|, and from there to the farther end of its range
+     *     linear01  the same over far
+     *     raw       |product - d(z)|; image: |product - value of the code|, and from there to the farther end of the
+     *               window depths that became it, which is half a cell where samples are codes
      *     position  distance from the true place; image: |method - exact| and the range's reach along the ray
      *     normal    angle to the true normal, degrees; image: the bound of the method "projective" on a plane
      *     effect    levels of 1/255: from the output in binary32 to the exact one

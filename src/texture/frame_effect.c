@@ -5,7 +5,7 @@
 
 #include "core/bits.h"
 #include "texture/frame_rows.h"
-#include "texture/pack.h"
+#include "texture/packing.h"
 
 static const double LEVELS = 255;
 
@@ -23,16 +23,7 @@ typedef struct work {
     bool decodes; /* eye01 by a decoding of its own; else eye depth times inverse_far */
     float inverse_far;
     float last[3][4];
-    const pack_row *packing; /* of normals */
 } work;
-
-/* The packing of _CameraDepthNormalsTexture. */
-static const pack_row *stereo(void) {
-    size_t i = 0;
-    while (pack_get(i)->kind != PACK_NORMAL || pack_get(i)->layout != PACK_STEREO)
-        i++;
-    return pack_get(i);
-}
 
 static work work_of(const frame_row *in) {
     const frame_product *product = in->product;
@@ -50,7 +41,6 @@ static work work_of(const frame_row *in) {
               .eye = decode_usual(&c->setup)->constants(&c->setup),
               .eye01 = decode_rows[DECODE_LINEAR_01].constants(&c->setup),
               .decodes = !in->frame->metric && decode_applies(&decode_rows[DECODE_LINEAR_01], &c->setup),
-              .packing = stereo(),
               .inverse_far = (float)(1 / planes->spec.zfar)};
     position_matrix(then, m);
     for (int i = 0; i < 12; i++)
@@ -139,15 +129,21 @@ static scene_hit hit_of(const work *w, const tap *at) {
     return hit;
 }
 
+static size_t pixel_of(const work *w, const tap *at) {
+    return (size_t)at->row * w->camera->width + at->column;
+}
+
 /* As the texture of depths and normals has it: z towards the camera, in two channels of 8 bits. */
-static void packed_normal(const pack_row *row, const double normal[3], float out[3]) {
-    const double to_camera[3] = {normal[0], normal[1], fmax(-normal[2], 0)};
-    uint32_t codes[PACK_CHANNELS_MAX];
-    double back[3];
-    row->encode(row, to_camera, codes);
-    row->decode(row, codes, back);
-    for (int k = 0; k < 3; k++)
-        out[k] = (float)back[k];
+static void packed_normal(const work *w, const tap *at, double out[3]) {
+    uint8_t texel[2];
+    const uint8_t *packed = texel;
+    if (w->in->frame->normals != NULL) {
+        packed = w->in->frame->normals->texels + 2 * pixel_of(w, at);
+    } else {
+        const scene_hit hit = hit_of(w, at);
+        packing_normal_texel((const double[]){hit.normal[0], hit.normal[1], fmax(-hit.normal[2], 0)}, texel);
+    }
+    packing_normal(packed, out);
 }
 
 static float corners(const work *w, uint32_t x) {
@@ -159,8 +155,11 @@ static float corners(const work *w, uint32_t x) {
         return NAN;
     for (int i = 0; i < TAPS; i++) {
         seen[i] = seen_as(w, (float)dp_format_value(&w->camera->setup.spec.format, at[i].code));
+        double normal[3] = {0, 0, 0};
         if ((w->row->needs & EFFECT_NORMALS) != 0)
-            packed_normal(w->packing, hit_of(w, &at[i]).normal, seen[i].normal);
+            packed_normal(w, &at[i], normal);
+        for (int k = 0; k < 3; k++)
+            seen[i].normal[k] = (float)normal[k];
     }
     for (int k = 0; k < compared[w->row->taps].count; k++) {
         const effect_pixel *first = &seen[compared[w->row->taps].first[k]];
@@ -183,7 +182,9 @@ static double exact_corners(const work *w, uint32_t x) {
         double z[2];
         for (int i = 0; i < 2; i++) {
             z[i] = dp_stored(&w->camera->setup, two[i]->code);
-            if (normals)
+            if (normals && w->in->frame->normals != NULL)
+                packed_normal(w, two[i], view.normals[i]);
+            else if (normals)
                 memcpy(view.normals[i], hit_of(w, two[i]).normal, sizeof view.normals[i]);
         }
         const double one = w->row->output(&view, w->parameters, z[0], z[1]);
@@ -192,20 +193,48 @@ static double exact_corners(const work *w, uint32_t x) {
     return all;
 }
 
-/* Whether an output can be, and must be, 1 when two depths lie where their samples allow: it is so for differences
- * between two limits. */
+/* How far |x| + |y| of a normal may be off: what packing it lost, and what it was off before. */
+static double normal_reach(const work *w, const tap *at) {
+    const frame_normals *normals = w->in->frame->normals;
+    const size_t pixel = pixel_of(w, at);
+    const double off = normals->off != NULL ? normals->off[pixel] * M_PI / 180 / FRAME_NORMAL_DEGREE : 0;
+    return packing_normal_reach(normals->texels + 2 * pixel, normals->truncated) + M_SQRT2 * 2 * sin(off / 2);
+}
+
+/* What of |x| + |y| between two normals an image leaves open, as views whose normals differ by the least and the most.
+ */
+static void views_between(const work *w, const tap *a, const tap *b, effect_view views[2]) {
+    double one[3], two[3];
+    views[0] = views[1] = (effect_view){.setup = w->planes};
+    if ((w->row->needs & EFFECT_NORMALS) == 0)
+        return;
+    packed_normal(w, a, one);
+    packed_normal(w, b, two);
+    const double turned = fabs(one[0] - two[0]) + fabs(one[1] - two[1]);
+    const double reach = normal_reach(w, a) + normal_reach(w, b);
+    views[0].normals[0][0] = fmax(turned - reach, 0);
+    views[1].normals[0][0] = turned + reach;
+}
+
+/* Whether an output can be, and must be, 1 when two depths lie where their samples allow: it depends on how far apart
+ * they are, which is decided at the ends, or where they are the same. */
 static void outputs_between(const work *w, const tap *a, const tap *b, double out[2]) {
     const grain_range one = grain_range_of(&w->camera->setup, w->in->frame->grain, a->code);
     const grain_range two = grain_range_of(&w->camera->setup, w->in->frame->grain, b->code);
     const bool around = w->row->taps == EFFECT_AROUND;
-    const double low = around ? one.lo - two.hi : fmax(fmax(one.lo - two.hi, two.lo - one.hi), 0);
-    const double high = around ? one.hi - two.lo : fmax(one.hi - two.lo, two.hi - one.lo);
-    const effect_view view = {.setup = w->planes};
-    const double at_low = w->row->output(&view, w->parameters, low, 0);
-    const double at_high = w->row->output(&view, w->parameters, high, 0);
-    const bool inside = around && low <= w->parameters[w->row->wanted] && high > w->parameters[w->row->wanted];
-    out[0] = fmin(at_low, at_high);
-    out[1] = inside ? 1 : fmax(at_low, at_high);
+    const double same = fmax(one.lo, two.lo), wanted = w->parameters[w->row->wanted];
+    const double pairs[3][2] = {{one.lo, two.hi}, {one.hi, two.lo}, {same, same}};
+    const int count = same <= fmin(one.hi, two.hi) ? 3 : 2;
+    effect_view views[2];
+    views_between(w, a, b, views);
+    out[0] = 1;
+    out[1] = around && one.lo - two.hi <= wanted && one.hi - two.lo > wanted; /* it is 1 right above */
+    for (int k = 0; k < count; k++)
+        for (int i = 0; i < 2; i++) {
+            const double output = w->row->output(&views[i], w->parameters, pairs[k][0], pairs[k][1]);
+            out[0] = fmin(out[0], output);
+            out[1] = fmax(out[1], output);
+        }
 }
 
 static void outputs_of(const work *w, const tap *a, const tap *b, double out[2]) {

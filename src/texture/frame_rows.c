@@ -5,6 +5,7 @@
 #include <string.h>
 
 #include "texture/clones.h"
+#include "texture/oblique.h"
 
 static const double TO_DEGREES = 180 / M_PI;
 
@@ -47,11 +48,26 @@ static void make_eye(const frame_row *in) {
         in->out[x] = (float)((double)in->out[x] * stretch(in, x));
 }
 
+static double far_of(const frame_row *in) {
+    return frame_planes(in->frame)->spec.zfar;
+}
+
+static void make_linear01(const frame_row *in) {
+    const double far = far_of(in);
+    for (uint32_t x = 0; x < camera_of(in)->width; x++)
+        in->out[x] = (float)((double)eyes_of(in)[x] / far);
+}
+
+static void make_raw(const frame_row *in) {
+    for (uint32_t x = 0; x < camera_of(in)->width; x++)
+        in->out[x] = in->codes[x] == UINT32_MAX ? NAN : in->depth[x];
+}
+
 /* What the codes of a row stand for, in the room for numbers; the rest of that is free. */
 static grain_rows ranges_in(const frame_row *in) {
     const size_t width = camera_of(in)->width;
     const grain_rows out = {in->numbers, in->numbers + width, in->numbers + 2 * width, in->numbers + 3 * width};
-    grain_ranges_of(&camera_of(in)->setup, in->frame->grain, in->codes, width, &out);
+    pixel_ranges_of(camera_of(in), in->frame->grain, 0, in->row, in->codes, width, &out);
     return out;
 }
 
@@ -75,17 +91,69 @@ TEXTURE_CLONES static void eye_errors(const float *restrict eyes, const grain_ro
     }
 }
 
+TEXTURE_CLONES static void linear01_errors(const float *restrict eyes, const grain_rows *ranges, double far,
+                                           float *restrict out, size_t count) {
+    const double *stored = ranges->stored, *reach = ranges->reach;
+#pragma omp simd
+    for (size_t i = 0; i < count; i++) {
+        const double product = (double)(float)((double)eyes[i] / far), roundings = 0x1p-52 * fabs(stored[i]);
+        const float error = frame_upwards((fabs(product * far - stored[i]) + roundings + reach[i]) / far);
+        out[i] = eyes[i] == eyes[i] ? error : (float)NAN;
+    }
+}
+
+/* Of a scene: how far what is stored is off, times a factor. */
+static void stored_errors(const frame_row *in, double factor) {
+    const texture_camera *c = camera_of(in);
+    for (uint32_t x = 0; x < c->width; x++) {
+        const double along = in->product->radial ? stretch(in, x) : factor, z = frame_truth(in, x).z;
+        in->out[x] = frame_upwards(isnan(z) ? (double)NAN : fabs(dp_error(&c->setup, in->codes[x], z)) * along);
+    }
+}
+
 /* What the product has lost in binary32, and how far what is stored is off: of a scene the latter alone, exactly. */
 static void make_eye_error(const frame_row *in) {
-    const texture_camera *c = camera_of(in);
-    if (in->frame->scene == NULL) {
-        const grain_rows ranges = ranges_in(in);
-        eye_errors(eyes_of(in), &ranges, in->product->radial ? along_in(in) : NULL, in->out, c->width);
+    if (in->frame->scene != NULL) {
+        stored_errors(in, 1);
         return;
     }
-    for (uint32_t x = 0; x < c->width; x++) {
-        const double along = in->product->radial ? stretch(in, x) : 1, z = frame_truth(in, x).z;
-        in->out[x] = frame_upwards(isnan(z) ? (double)NAN : fabs(dp_error(&c->setup, in->codes[x], z)) * along);
+    const grain_rows ranges = ranges_in(in);
+    eye_errors(eyes_of(in), &ranges, in->product->radial ? along_in(in) : NULL, in->out, camera_of(in)->width);
+}
+
+static void make_linear01_error(const frame_row *in) {
+    if (in->frame->scene != NULL) {
+        stored_errors(in, 1 / far_of(in));
+        return;
+    }
+    const grain_rows ranges = ranges_in(in);
+    linear01_errors(eyes_of(in), &ranges, far_of(in), in->out, camera_of(in)->width);
+}
+
+/* The window depth of what a scene shows; depths are clamped, as in the buffer. */
+static double true_window(const frame_row *in, uint32_t x) {
+    const dp_setup *setup = &camera_of(in)->setup;
+    scene_hit hit;
+    in->frame->scene->hit(camera_of(in), in->frame->parameters, x, in->row, &hit);
+    if (!(hit.z < setup->spec.zfar))
+        return setup->reversed ? 0 : 1;
+    return dp_window(setup, fmax(hit.z, setup->spec.znear));
+}
+
+/* dp_window() is good to 2^-50. */
+static void make_raw_error(const frame_row *in) {
+    const dp_setup *setup = &camera_of(in)->setup;
+    for (uint32_t x = 0; x < camera_of(in)->width; x++) {
+        const uint32_t code = in->codes[x];
+        double error = NAN;
+        if (code != UINT32_MAX && in->frame->scene != NULL) {
+            const double d = true_window(in, x), slack = d < 1 ? d * 0x1p-50 : 0;
+            error = fabs((double)in->depth[x] - d) + slack;
+        } else if (code != UINT32_MAX) {
+            const double stored = dp_format_value(&setup->spec.format, code);
+            error = fabs((double)in->depth[x] - stored) + grain_window_reach(setup, in->frame->grain, code);
+        }
+        in->out[x] = frame_upwards(error);
     }
 }
 
@@ -110,7 +178,7 @@ static void places(const frame_row *in) {
     for (uint32_t x = 0; x < c->width; x++) {
         double relative[3] = {NAN, NAN, NAN};
         if (!isnan(eyes_of(in)[x]))
-            exact_place(in, x, dp_stored(&c->setup, in->codes[x]), relative);
+            exact_place(in, x, pixel_stored(c, x, in->row, in->codes[x]), relative);
         for (int k = 0; k < 3; k++)
             in->planes[k][x] = (float)(c->origin[k] + relative[k]);
     }
@@ -214,8 +282,7 @@ static void make_normal_error(const frame_row *in) {
 }
 
 frame_make *const frame_makers[FRAME_KINDS][2] = {
-    [FRAME_EYE] = {make_eye, make_eye_error},
-    [FRAME_POSITION] = {make_position, make_position_error},
-    [FRAME_NORMAL] = {make_normal, make_normal_error},
-    [FRAME_EFFECT] = {frame_effect, frame_effect_error},
+    [FRAME_EYE] = {make_eye, make_eye_error},          [FRAME_LINEAR01] = {make_linear01, make_linear01_error},
+    [FRAME_RAW] = {make_raw, make_raw_error},          [FRAME_POSITION] = {make_position, make_position_error},
+    [FRAME_NORMAL] = {make_normal, make_normal_error}, [FRAME_EFFECT] = {frame_effect, frame_effect_error},
 };

@@ -18,7 +18,7 @@ typedef struct frame_row {
     const float *slope_x; /**< of column 0, with the same margins as the eye depths */
     uint32_t row;
     const uint32_t *codes;                   /**< rows beside it, as far as the image goes, lie a width apart */
-    const float *depth;                      /**< window depth, of FRAME_POSITION and FRAME_EFFECT only */
+    const float *depth;                      /**< window depth; of FRAME_RAW, FRAME_POSITION and FRAME_EFFECT only */
     const float *eyes[2 * NORMAL_REACH + 1]; /**< eye depths of this row and its neighbours, as in normal_rows */
     float *planes[3];                        /**< room for three times the width */
     bool found;                              /**< the planes hold this product, whose error is wanted */

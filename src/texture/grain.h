@@ -17,7 +17,7 @@
 #include <math.h>
 #include <stdbool.h>
 
-#include "core/bits.h"
+#include "core/engine.h"
 #include "depthprec/depthprec.h"
 
 typedef enum grain_kind {
@@ -49,12 +49,26 @@ typedef struct grain_range {
     double reach;  /**< from the depth that the code gives back to the farther end; never below that */
 } grain_range;
 
+/** Outweighs what is lost in window depths that were computed in double, a few units of 2^-53 of cells that are at
+ * least 2^-25 of their depth, and all roundings of ranges. */
+#define GRAIN_OUTWARD (1 + 0x1p-20)
+
+/** Window depths: that of a code, and the ends of what its pixel may have had. */
+typedef struct grain_points {
+    dp_point own, to_near, to_far;
+} grain_points;
+
+grain_points grain_points_of(const dp_setup *setup, const grain *g, uint32_t code);
+
 /**
  * The eye depths that a pixel may have whose sample became `code`, the nearest one. Null: GRAIN_CODES.
  * @param setup  of the model exact
  * @param code   at most code_max
  */
 grain_range grain_range_of(const dp_setup *setup, const grain *g, uint32_t code);
+
+/** How far a window depth can be from what such a code gives back. */
+double grain_window_reach(const dp_setup *setup, const grain *g, uint32_t code);
 
 /** Room for what many codes say, an array each. */
 typedef struct grain_rows {
@@ -77,7 +91,7 @@ double grain_error_of(const dp_setup *setup, const grain *g, double z, double re
 
 /**
  * The same in closed form, and of all depths between two: half the widest cell that a depth between them may lie in,
- * outwards by 2^-20 of it, and what reading adds. Of "quantity": 1/z, or z where the set-up is orthographic.
+ * times GRAIN_OUTWARD, and what reading adds. Of "quantity": 1/z, or z where the set-up is orthographic.
  */
 enum { GRAIN_BINADES = 128 };
 typedef struct grain_bound {

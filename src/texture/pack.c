@@ -44,19 +44,18 @@ static void rg32_decode(const pack_row *row, const uint32_t codes[], double *out
 
 /* ---- Normals ----------------------------------------------------------------------------------------------------- */
 
-static const double STEREO = 1.7777; /* kScale of EncodeViewNormalStereo */
-
 static void stereo_encode(const pack_row *row, const double *in, uint32_t codes[]) {
     const double most = (double)((1U << row->bits) - 1);
     for (int i = 0; i < 2; i++) {
-        const double e = in[i] / (in[2] + 1) / STEREO * 0.5 + 0.5;
+        const double e = in[i] / (in[2] + 1) / PACK_STEREO_SCALE * 0.5 + 0.5;
         codes[i] = (uint32_t)floor(fmin(fmax(e, 0), 1) * most + 0.5);
     }
 }
 
 static void stereo_decode(const pack_row *row, const uint32_t codes[], double *out) {
     const double most = (double)((1U << row->bits) - 1);
-    const double x = 2 * STEREO * codes[0] / most - STEREO, y = 2 * STEREO * codes[1] / most - STEREO;
+    const double x = 2 * PACK_STEREO_SCALE * codes[0] / most - PACK_STEREO_SCALE,
+                 y = 2 * PACK_STEREO_SCALE * codes[1] / most - PACK_STEREO_SCALE;
     const double g = 2 / (x * x + y * y + 1);
     out[0] = g * x;
     out[1] = g * y;
@@ -135,6 +134,8 @@ static void both_decode(const pack_row *row, const uint32_t codes[], double *out
 #define UNITY   "UnityCG.cginc of Unity's built-in shaders, "
 #define CIGOLLE "Cigolle et al. 2014, A survey of efficient representations for independent unit vectors"
 
+enum { STEREO_8 = 4 };
+
 /* clang-format off */
 static const pack_row rows[] = {
     {.name = "rg-depth", .kind = PACK_DEPTH, .channels = 2, .bits = 8,
@@ -155,7 +156,7 @@ static const pack_row rows[] = {
              "and the coarse channel then loses one",
      .depth = {1.058e-3, 3.938e-3}, .source = UNITY "EncodeFloatRG, DecodeFloatRG",
      .encode = rg32_encode, .decode = rg32_decode},
-    {.name = "stereo-8", .kind = PACK_NORMAL, .layout = PACK_STEREO, .channels = 2, .bits = 8,
+    [STEREO_8] = {.name = "stereo-8", .kind = PACK_NORMAL, .layout = PACK_STEREO, .channels = 2, .bits = 8,
      .note = "stereographic: n.xy/(n.z + 1)/1.7777 in two UNORM channels. Worst at the pole, which falls between codes",
      .normal = {0.459, 1.130}, .source = UNITY "EncodeViewNormalStereo, DecodeViewNormalStereo",
      .encode = stereo_encode, .decode = stereo_decode},
@@ -186,4 +187,8 @@ static const pack_row rows[] = {
 
 const pack_row *pack_get(size_t index) {
     return index < sizeof rows / sizeof rows[0] ? &rows[index] : NULL;
+}
+
+const pack_row *pack_stereo(void) {
+    return &rows[STEREO_8];
 }

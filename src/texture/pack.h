@@ -15,6 +15,9 @@
 
 typedef enum pack_kind { PACK_DEPTH = 0, PACK_NORMAL, PACK_DEPTH_NORMAL, PACK_KINDS } pack_kind;
 
+/** kScale of EncodeViewNormalStereo: channels from 0 to 1 span this far to both sides of the pole. */
+#define PACK_STEREO_SCALE 1.7777
+
 /** How normals, or depths where there are none, are laid out. */
 typedef enum pack_layout { PACK_RG = 0, PACK_STEREO, PACK_OCT, PACK_XYZ, PACK_LAYOUTS } pack_layout;
 
@@ -49,5 +52,8 @@ typedef struct pack_row {
 
 /** The rows in order; null beyond the last. */
 const pack_row *pack_get(size_t index);
+
+/** The row "stereo-8". */
+const pack_row *pack_stereo(void);
 
 #endif

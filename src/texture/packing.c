@@ -90,24 +90,25 @@ void packing_texel(const packing *p, uint64_t number, uint8_t *texel) {
     }
 }
 
-/* The row of pack.h for their normals. */
-static const pack_row *stereo(void) {
-    size_t i = 0;
-    while (strcmp(pack_get(i)->name, "stereo-8") != 0)
-        i++;
-    return pack_get(i);
-}
-
 void packing_normal(const uint8_t *texel, double normal[3]) {
     const uint32_t codes[2] = {texel[0], texel[1]};
-    stereo()->decode(stereo(), codes, normal);
+    pack_stereo()->decode(pack_stereo(), codes, normal);
 }
 
 void packing_normal_texel(const double normal[3], uint8_t *texel) {
     uint32_t codes[2];
-    stereo()->encode(stereo(), normal, codes);
+    pack_stereo()->encode(pack_stereo(), normal, codes);
     for (int i = 0; i < 2; i++)
         texel[i] = (uint8_t)codes[i];
+}
+
+/* A texel holds a square of the stereographic plane. That map is conformal: 2/(1 + |v|^2) of a way there. */
+double packing_normal_reach(const uint8_t *texel, bool truncated) {
+    const double diagonal = M_SQRT2 * PACK_STEREO_SCALE / BYTE * (truncated ? 2 : 1);
+    double normal[3];
+    packing_normal(texel, normal);
+    const double least = fmax(hypot(normal[0], normal[1]) / (normal[2] + 1) - diagonal, 0);
+    return M_SQRT2 * diagonal * 2 / (1 + least * least);
 }
 
 /* ---- Images ------------------------------------------------------------------------------------------------------ */

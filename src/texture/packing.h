@@ -42,6 +42,12 @@ void packing_texel(const packing *p, uint64_t number, uint8_t *texel);
 void packing_normal(const uint8_t *texel, double normal[3]);
 void packing_normal_texel(const double normal[3], uint8_t *texel);
 
+/**
+ * How far |x| + |y| of a normal that faces the camera may be from that of its texel, derived in depthprec(7).
+ * @param truncated  channels were cut off; else they are the nearest
+ */
+double packing_normal_reach(const uint8_t *texel, bool truncated);
+
 /** What became of an image besides its depths. */
 typedef struct unpacked {
     grain grain;                  /**< the packing's own rounding: to nearest, as render targets store */

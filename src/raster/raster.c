@@ -1,0 +1,159 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* The rasterizers, a row each, and the way into them. */
+#include "raster/raster.h"
+
+#include <math.h>
+#include <string.h>
+
+#include "raster/model.h"
+
+static const raster_model llvmpipe = {
+    .draw = raster_mesa_draw,
+    .piece = raster_llvmpipe_piece,
+    .fused = true,
+    .last_leads = true,
+    .span = raster_snapped_span,
+    .depths = raster_llvmpipe_depths,
+    .unorm = raster_unorm_even,
+};
+
+static const raster_model lavapipe = {
+    .draw = raster_mesa_draw,
+    .piece = raster_llvmpipe_piece,
+    .fused = true,
+    .span = raster_snapped_span,
+    .depths = raster_llvmpipe_depths,
+    .unorm = raster_unorm_even,
+};
+
+static const raster_model softpipe = {
+    .draw = raster_mesa_draw,
+    .piece = raster_softpipe_piece,
+    .last_leads = true,
+    .span = raster_softpipe_span,
+    .depths = raster_softpipe_depths,
+    .unorm = raster_unorm_zero,
+    .stepped = raster_softpipe_stepped,
+};
+
+static const raster_model swiftshader = {
+    .draw = raster_swiftshader_draw,
+    .span = raster_snapped_span,
+    .depths = raster_swiftshader_depths,
+    .unorm = raster_unorm_even,
+    .no_unorm24 = true,
+};
+
+#define MESA_SOURCE "stored codes of Mesa 22.3.6, slanted triangles, CPU with FMA; in fp32 25.0.7 stores the same"
+
+/* clang-format off */
+static const raster_row rows[] = {
+    {"llvmpipe", 8, false, 0, RASTER_ANCHOR_ORIGIN, RASTER_CLIP_PIECES,
+     "d = fma(B, y, fma(A, x, C)), clamped; unorm to nearest even",
+     "Mesa's OpenGL in software: coverage on 1/256 pixel, the plane of the unsnapped vertices",
+     MESA_SOURCE, &llvmpipe},
+    {"lavapipe", 8, false, 0, RASTER_ANCHOR_ORIGIN, RASTER_CLIP_PIECES,
+     "as llvmpipe; clockwise triangles and pieces in another order of vertices",
+     "Mesa's Vulkan in software",
+     MESA_SOURCE, &lavapipe},
+    {"softpipe", 4, false, 0, RASTER_ANCHOR_ORIGIN, RASTER_CLIP_PIECES,
+     "d = C + A x + B y of a quad's corner, + A, + B, not clamped; unorm truncated; unorm16 in steps of trunc(65535 A)",
+     "Mesa's reference rasterizer: nothing is snapped, whatever it reports",
+     MESA_SOURCE, &softpipe},
+    {"swiftshader", 4, false, 4, RASTER_ANCHOR_VERTEX, RASTER_CLIP_KEEPS,
+     "d = (Z0 + (y - Y0) B) + (x - X0) A, clamped; unorm to nearest even",
+     "Vulkan in software, as Chromium has it: coverage and plane on 1/16 pixel",
+     "stored codes of SwiftShader 5.0.0 (Chromium 156), slanted triangles", &swiftshader},
+    {"spec-d3d", 8, false, 8, RASTER_ANCHOR_ANY, RASTER_CLIP_ANY, "",
+     "what Direct3D asks for: vertices on exactly 1/256 pixel",
+     "D3D 11.3 functional specification 3.4.1", NULL},
+    {"spec-vulkan", 4, true, 4, RASTER_ANCHOR_ANY, RASTER_CLIP_ANY, "",
+     "what Vulkan asks for: at least 4 bits, see subPixelPrecisionBits",
+     "Vulkan specification, Required Limits", NULL},
+    {"spec-gl", 4, true, 4, RASTER_ANCHOR_ANY, RASTER_CLIP_ANY, "",
+     "what OpenGL asks for: at least 4 bits, see GL_SUBPIXEL_BITS",
+     "OpenGL 4.6 core profile, table of implementation dependent values", NULL},
+};
+/* clang-format on */
+
+enum { ROW_COUNT = sizeof rows / sizeof rows[0] };
+
+size_t raster_count(void) {
+    return ROW_COUNT;
+}
+
+const raster_row *raster_get(size_t index) {
+    return index < ROW_COUNT ? &rows[index] : NULL;
+}
+
+const char *raster_status_text(raster_status status) {
+    static const char *const texts[RASTER_STATUS_COUNT] = {
+        [RASTER_OK] = "drawn",
+        [RASTER_EMPTY] = "nothing of the triangle is drawn",
+        [RASTER_MODEL] = "not a rasterizer whose arithmetic is known",
+        [RASTER_TARGET] = "width and height must be from 1 to 16384, and the path one that this processor has",
+        [RASTER_FORMAT] = "the rasterizer's format must be fp32, unorm24 or unorm16; swiftshader has no unorm24",
+        [RASTER_VERTEX] = "vertices must be finite",
+        [RASTER_RANGE] = "the triangle leaves the range of binary32",
+    };
+    return (unsigned)status < RASTER_STATUS_COUNT ? texts[status] : "not a status";
+}
+
+static bool has_format(const raster_model *model, const dp_format *format) {
+    if (format == NULL)
+        return false;
+    if (format->kind == DP_FORMAT_FLOAT)
+        return strcmp(format->name, "fp32") == 0;
+    return format->bits == 16 || (format->bits == 24 && !model->no_unorm24);
+}
+
+raster_status raster_target_init(raster_target *target, size_t row, int width, int height, const dp_format *format,
+                                 dp_path path) {
+    const raster_row *found = raster_get(row);
+    if (found == NULL || found->model == NULL)
+        return RASTER_MODEL;
+    if (width < 1 || width > RASTER_SIZE_MAX || height < 1 || height > RASTER_SIZE_MAX || !dp_path_available(path))
+        return RASTER_TARGET;
+    if (!has_format(found->model, format))
+        return RASTER_FORMAT;
+    const float scale = format->kind == DP_FORMAT_FLOAT ? 0.0F : (float)format->code_max;
+    *target = (raster_target){found, width, height, *format, path, scale};
+    return RASTER_OK;
+}
+
+raster_status raster_set_up(const raster_target *target, const raster_vertex vertex[3], raster_triangle *drawn) {
+    drawn->count = 0;
+    for (int i = 0; i < 3; i++)
+        if (!isfinite(vertex[i].x) || !isfinite(vertex[i].y) || !isfinite(vertex[i].z) || !isfinite(vertex[i].w))
+            return RASTER_VERTEX;
+    const raster_status status = target->row->model->draw(target, vertex, drawn);
+    if (status != RASTER_OK)
+        drawn->count = 0;
+    return status;
+}
+
+bool raster_span(const raster_target *target, const raster_piece *piece, int y, int *from, int *to) {
+    return target->row->model->span(target, piece, y, from, to);
+}
+
+void raster_depths(const raster_target *target, const raster_piece *piece, int y, int from, int to, float *depth) {
+    target->row->model->depths[target->path](&piece->plane, y, from, to, depth);
+}
+
+void raster_codes(const raster_target *target, const raster_piece *piece, int y, int from, int to, uint32_t *code) {
+    enum { SOME = 256 };
+    const raster_model *model = target->row->model;
+    float depth[SOME];
+    if (target->format.bits == 16 && model->stepped != NULL) {
+        model->stepped(target, piece, y, from, to, code);
+        return;
+    }
+    for (int x = from, count; x < to; x += count, code += count) {
+        count = to - x < SOME ? to - x : SOME;
+        raster_depths(target, piece, y, x, x + count, depth);
+        if (target->format.kind == DP_FORMAT_FLOAT)
+            memcpy(code, depth, (size_t)count * sizeof *code);
+        else
+            model->unorm(depth, count, target->scale, code);
+    }
+}

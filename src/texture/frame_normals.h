@@ -1,0 +1,17 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/** @file frame_normals.h  Normals beside the depths of a frame, as _CameraDepthNormalsTexture has them: packed. */
+#ifndef TEXTURE_FRAME_NORMALS_H
+#define TEXTURE_FRAME_NORMALS_H
+
+#include "texture/frame.h"
+
+/**
+ * Makes the normals of a frame from its depths, and packs them. Sky, and what has none, faces the camera. How far they
+ * may be off is known in an image of the method "projective", which has a bound on planes.
+ * @param error  that is asked for
+ * @return false when out of memory
+ */
+bool frame_normals_make(const frame *f, const normal_row *method, bool error, frame_normals *out);
+void frame_normals_free(frame_normals *n);
+
+#endif

@@ -1,0 +1,136 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* texture --histogram, as drawn, against the eye depths that the program writes and the codes of the format. */
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "drawn.h"
+#include "support.h"
+#include "texture/image.h"
+
+enum { BINS = 96 };
+
+static const struct {
+    const char *arguments, *subtitle; /* subtitle: how it ends */
+    long double n, f;
+    int bits; /* of UNORM d3d or reversed; 0: no line of codes is checked */
+    bool reversed, log;
+} cases[] = {
+    {"--scene decals -F unorm16 -m d3d --size 160x90", "nearest, exact", 0.1L, 1000, 16, false, true},
+    {"--scene plane --parameter turn=40 --parameter tilt=60 -F unorm24 -m reversed -n 0.5 -f 400 --size 150x80 --theme "
+     "dark",
+     " pixels of sky or holes are left out", 0.5L, 400, 24, true, true},
+    {"--scene sphere -F unorm16 -m d3d --size 200x120", " pixels of sky or holes are left out", 0.1L, 1000, 16, false,
+     false},
+    {"--scene steps --parameter count=3 -F fp32 -m reversed -f inf --size 96x8", "nearest, exact", 0.1L, INFINITY, 0,
+     true, true},
+};
+
+static image depths_of(const char *arguments) {
+    char path[320], plain[256];
+    image out;
+    image_error error;
+    snprintf(plain, sizeof plain, "%s", arguments);
+    char *dark = strstr(plain, " --theme dark");
+    if (dark != NULL)
+        *dark = '\0';
+    snprintf(path, sizeof path, "%s/eye.npy", drawn_folder());
+    free(drawn_output("texture %s --eye -q -o %s", plain, path));
+    assert_true(image_read(path, &out, &error));
+    return out;
+}
+
+static long double edge_of(const double ends[2], bool is_log, int i) {
+    const long double lo = (long double)ends[0], hi = (long double)ends[1], t = (long double)i / BINS;
+    return is_log ? lo * powl(hi / lo, t) : lo + (hi - lo) * t;
+}
+
+/* The code of a depth. */
+static double code_of(size_t k, long double z) {
+    const long double n = cases[k].n, f = cases[k].f, d = f * (z - n) / (z * (f - n));
+    return (double)floorl((cases[k].reversed ? 1 - d : d) * (long double)((1UL << cases[k].bits) - 1) + 0.5L);
+}
+
+/* A flat piece of the line at the height of the count; none above the axis where that is 0. */
+static void check_step(const drawn_panel *p, const svg_mark *line, double from, double to, double count) {
+    const double x0 = drawn_px(&p->x, from), x1 = drawn_px(&p->x, to), third = (x1 - x0) / 3;
+    double top, bottom;
+    assert_true(drawn_reach(line, x0 + third, x1 - third, &top, &bottom));
+    if (count == 0) {
+        assert_true(top >= p->frame.y1 - 1);
+        return;
+    }
+    assert_px(top, drawn_px(&p->y, count), 1);
+    assert_px(bottom, drawn_px(&p->y, count), 1);
+}
+
+static void check_case(size_t k) {
+    const drawn_theme *look = strstr(cases[k].arguments, "dark") != NULL ? &drawn_dark : &drawn_light;
+    char end[80] = "";
+    double counts[BINS] = {0}, ends[2] = {INFINITY, -INFINITY};
+    const image depths = depths_of(cases[k].arguments);
+    const float *z = depths.data;
+    size_t without = 0;
+    drawn *d = drawn_run(look, "texture %s -q --histogram", cases[k].arguments);
+    for (size_t i = 0; i < (size_t)depths.width * depths.height; i++) {
+        without += isnan(z[i]) ? 1 : 0;
+        ends[0] = isnan(z[i]) ? ends[0] : fmin(ends[0], (double)z[i]);
+        ends[1] = isnan(z[i]) ? ends[1] : fmax(ends[1], (double)z[i]);
+    }
+    for (size_t i = 0; i < (size_t)depths.width * depths.height; i++)
+        if (!isnan(z[i])) {
+            int bin = 0;
+            while (bin + 1 < BINS && (long double)z[i] >= edge_of(ends, cases[k].log, bin + 1))
+                bin++;
+            counts[bin]++;
+        }
+    if (without > 0)
+        snprintf(end, sizeof end, "; %zu", without);
+    assert_string_equal(d->title, "Pixels over eye depth");
+    const size_t tail = strlen(cases[k].subtitle) + strlen(end);
+    assert_true(strlen(d->subtitle) > tail && strncmp(d->subtitle + strlen(d->subtitle) - tail, end, strlen(end)) == 0);
+    assert_string_equal(d->subtitle + strlen(d->subtitle) - strlen(cases[k].subtitle), cases[k].subtitle);
+    assert_string_equal(d->x_caption->text, "eye depth (scene units)");
+    assert_string_equal(d->y_caption->text, "count in each of 96 bins");
+    drawn_legend_is(d, 2, (const char *const[]){"pixels", "codes available"});
+    const drawn_panel *p = &d->panels[0];
+    const svg_mark *pixels = drawn_curve(d, p, &d->entries[0]), *codes = drawn_curve(d, p, &d->entries[1]);
+    assert_int_equal(p->x.log, cases[k].log);
+    assert_true(p->y.log);
+    assert_px(drawn_px(&p->x, ends[0]), p->frame.x0, 1.5);
+    assert_px(drawn_px(&p->x, ends[1]), p->frame.x1, 1.5);
+    for (int i = 0; i < BINS; i++) {
+        const long double from = edge_of(ends, cases[k].log, i), to = edge_of(ends, cases[k].log, i + 1);
+        check_step(p, pixels, (double)from, (double)to, counts[i]);
+        if (cases[k].bits > 0)
+            check_step(p, codes, (double)from, (double)to, fabs(code_of(k, to) - code_of(k, from)));
+    }
+    free(depths.data);
+    drawn_close(d);
+}
+
+static void steps_are_counts(void **state) {
+    (void)state;
+    for (size_t k = 0; k < sizeof cases / sizeof cases[0]; k++)
+        check_case(k);
+}
+
+/* Metric depth holds no codes of a buffer. */
+static void metric_depth(void **state) {
+    (void)state;
+    char path[320];
+    snprintf(path, sizeof path, "%s/metres.npy", drawn_folder());
+    free(drawn_output("texture --scene steps --parameter to=290 --size 96x8 -F fp32 -m reversed --eye -q -o %s", path));
+    drawn *d = drawn_run(&drawn_light, "texture %s --metric 1 --unit m --title 'In metres' -q --histogram", path);
+    assert_string_equal(d->title, "In metres");
+    assert_string_equal(d->subtitle, "metres.npy, 96 x 8; metric depth, 1 m a unit");
+    assert_string_equal(d->x_caption->text, "eye depth (m)");
+    drawn_legend_is(d, 1, (const char *const[]){"pixels"});
+    drawn_close(d);
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {cmocka_unit_test(steps_are_counts), cmocka_unit_test(metric_depth)};
+    return run_tap(tests);
+}
