@@ -62,7 +62,8 @@ static const raster_row rows[] = {
      MESA_SOURCE, &softpipe},
     {"swiftshader", 4, false, 4, DP_ANCHOR_VERTEX, RASTER_CLIP_KEEPS,
      "d = (Z0 + (y - Y0) B) + (x - X0) A, clamped; unorm to nearest even",
-     "Vulkan in software, as Chromium has it: coverage and plane on 1/16 pixel, from the vertex of the largest w",
+     "Vulkan in software, as Chromium has it: coverage and plane on 1/16 pixel, from the vertex of "
+     "the largest w; beyond 6.7e7 pixels its 32-bit positions wrap",
      "stored codes of SwiftShader 5.0.0 (Chromium 156), slanted triangles", &swiftshader},
     {"spec-d3d", 8, false, 8, DP_ANCHOR_COUNT, RASTER_CLIP_ANY, "",
      "what Direct3D asks for: vertices on exactly 1/256 pixel",
