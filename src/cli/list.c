@@ -164,7 +164,7 @@ bool list_packing(size_t index, list_item *item) {
     if (row == NULL)
         return false;
     *item = (list_item){.name = row->name, .note = row->note, .source = row->source, .row = row};
-    append(item->bound, sizeof item->bound, "depth: at most %.3g%s", 0.5 / row->steps + row->off,
+    append(item->bound, sizeof item->bound, "depth: at most %s%s", number_up(0.5 / row->steps + row->off, 3).text,
            row->linear ? " of far" : "");
     return true;
 }

@@ -215,6 +215,10 @@ const option_row option_rows[OPTION_COUNT] = {
     [OPTION_HALF_HEIGHT] = {"half-height", 0, "H", VERB_TEXTURE,
         "with --ortho: half the height of the view", LENGTH(camera.half_height, 1e-12, 1e12, "scene units"),
         .standard = "5", .group = "The depth texture"},
+    [OPTION_MATRIX] = {"matrix", 0, "FILE", VERB_TEXTURE,
+        "a projection matrix, 16 numbers row by row, for column vectors: says the planes and the field of view, which "
+        "need not be centred; its near plane may be oblique; NDC depth is as --mapping has it",
+        FILE_NAME(matrix), .without = "--near, --far and --fov say it"},
     [OPTION_YAW] = {"yaw", 0, "DEG", VERB_TEXTURE,
         "the camera's turn to the right", NUMBER(camera.yaw, -360, 360, "degrees"), .standard = "0",
         .without = "along world z"},

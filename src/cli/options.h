@@ -68,6 +68,7 @@ typedef enum option_id {
     OPTION_SAMPLE,
     OPTION_SEED,
     OPTION_HALF_HEIGHT,
+    OPTION_MATRIX,
     OPTION_YAW,
     OPTION_PITCH,
     OPTION_ORIGIN,
@@ -186,6 +187,7 @@ typedef struct options {
     int threads; /**< 0 when not given: as many as there are cores */
 
     camera_spec camera;     /**< --size, --fov, --half-height, --yaw, --pitch, --origin */
+    const char *matrix;     /**< file of a projection matrix, which then says the planes and the field of view */
     camera_spec last;       /**< --last-fov, --last-yaw, --last-pitch, --last-origin: what was given of them */
     const scene_row *scene; /**< null when not given, as all rows and names here */
     named_number parameters[OPTIONS_PARAMETERS_MAX];

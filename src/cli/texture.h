@@ -4,6 +4,7 @@
 #define CLI_TEXTURE_H
 
 #include "cli/options.h"
+#include "report/report.h"
 #include "texture/frame.h"
 #include "texture/metric.h"
 #include "texture/recognise.h"
@@ -22,6 +23,15 @@ typedef struct texture_reading {
 
 enum { READINGS_MAX = 8, READINGS_SIZE = 512 };
 
+/** The projection matrix of --matrix. */
+typedef struct texture_matrix {
+    const char *path; /**< null: none */
+    projection taken;
+    double fov[2];     /**< degrees, across and up; NaN where it is orthographic */
+    double edges[4];   /**< left, right, bottom, top: slopes, or scene units where it is orthographic */
+    const char *looks; /**< "+z", "-z" */
+} texture_matrix;
+
 typedef struct texture_source {
     const char *path; /**< null for a scene */
     image picture;
@@ -38,6 +48,7 @@ typedef struct texture_source {
     uint32_t column, row; /**< the pixel of the readings */
     dp_setup planes;      /**< with --metric: what --near and --far say */
     double parameters[TEXTURE_PARAMETERS];
+    texture_matrix matrix;
     dp_setup setup;
     texture_camera camera, last; /**< last frame's: where an effect needs it */
     frame_normals normals;       /**< where an effect needs them that no scene has */
@@ -86,6 +97,15 @@ int texture_camera_check(const options *o);
 
 /** Last frame's camera: as `now`, but for what --last-fov and the like say. @return as texture_camera_check() */
 int texture_last_camera(const options *o, const dp_setup *setup, const camera_spec *now, texture_camera *out);
+
+/** Reads the file of --matrix into s->matrix, and what it says of planes and mapping into `with`, whose format is
+ * there.
+ *  @return an exit status, after one line on stderr */
+int texture_matrix_open(const options *o, texture_source *s, options *with);
+
+/** For a report: its lines, and its columns, of a texture_matrix. */
+void texture_matrix_say(const texture_matrix *t, page *p);
+extern const column texture_matrix_columns[];
 
 /** Does the scene of --scene have a parameter of this name? Then parameters not taken are the effect's. */
 bool texture_scene_takes(const options *o, const char *name);

@@ -101,6 +101,8 @@ int texture_pack_write(const options *o, const texture_source *s) {
     frame_product product = {.kind = o->pack->normals ? FRAME_NORMAL : FRAME_EYE,
                              .normal = o->normal != NULL ? o->normal : normal_get(NORMAL_PROJECTIVE)};
     char note[IMAGE_NOTE_SIZE];
+    if (s->camera.oblique.on)
+        return option_error(OPTION_PACK, "needs planes that all pixels share, which %s does not have", s->matrix.path);
     if (!o->pack->linear && !texture_is_window(o))
         return option_error(OPTION_PACK, "%s holds window depth, which %s is not", o->pack->name, s->path);
     if (o->pack->linear && isinf(frame_planes(&s->frame)->spec.zfar))
@@ -136,7 +138,7 @@ int texture_packed_normal_write(const options *o, const texture_source *s) {
     if (status != EXIT_FINE)
         return status;
     float *row = malloc(3 * (size_t)width * sizeof *row);
-    meaning m = writing_meaning(o, &p, &w, 1);
+    meaning m = writing_meaning(o, &p, &w);
     writing_note(&w, &p, &m, note);
     bool good = writing_begin(&w, note) && row != NULL;
     for (uint32_t i = 0; i < height && good; i++) {
@@ -152,5 +154,5 @@ int texture_packed_normal_write(const options *o, const texture_source *s) {
     }
     free(row);
     status = writing_close(&w, 1, good);
-    return status == EXIT_FINE ? writing_say(o, &p, &w, &m, 1) : status;
+    return status == EXIT_FINE ? writing_say(o, &p, &w, &m) : status;
 }

@@ -9,6 +9,7 @@
 #include "report/number.h"
 #include "report/report.h"
 #include "texture/image_depths.h"
+#include "texture/oblique.h"
 
 enum { DIGITS = 6, DIGITS_DEPTH = 10, DIGITS_Z = 9, DIGITS_MOST = 15, NEIGHBOURS = 4 };
 
@@ -74,14 +75,14 @@ static void look(const options *o, const texture_source *s, pixel *p, uint32_t *
     p->state = hole ? "hole" : sky ? "sky" : "depth";
     p->depth = depth_at(f, p, code);
     p->code = hole ? none : (double)code;
-    p->z = hole ? none : dp_stored(setup, code);
-    p->range = hole ? (grain_range){none, none, none} : grain_range_of(setup, f->grain, code);
+    p->z = hole ? none : pixel_stored(&s->camera, p->column, p->row, code);
+    p->range = hole ? (grain_range){none, none, none} : pixel_range_of(&s->camera, f->grain, p->column, p->row, code);
     p->interval = p->range.hi - p->range.lo;
     if (f->scene != NULL)
         f->scene->hit(&s->camera, f->parameters, p->column, p->row, &hit);
     const double far = texture_far_known(o) ? frame_planes(f)->spec.zfar : (double)INFINITY;
     const double along = camera_radial(&s->camera, p->column, p->row);
-    p->linear01 = isinf(far) ? none : p->z / far;
+    p->linear01 = isinf(far) || s->camera.oblique.on ? none : p->z / far;
     p->distance = sky ? none : p->z * along;
     p->truth = isinf(hit.z) ? none : hit.z;
     p->error = isinf(hit.z) || hole ? none : dp_error(setup, code, hit.z);
@@ -91,8 +92,9 @@ static void look(const options *o, const texture_source *s, pixel *p, uint32_t *
     for (int k = 0; k < 3; k++)
         p->position[k] = sky ? none : s->camera.origin[k] + relative[k];
     for (int k = 0; k < NEIGHBOURS; k++) {
-        const uint32_t beside = code_at(f, codes, (int64_t)p->column + steps[k][0], (int64_t)p->row + steps[k][1]);
-        p->beside[k] = beside == UINT32_MAX ? none : dp_stored(setup, beside);
+        const int64_t x = (int64_t)p->column + steps[k][0], y = (int64_t)p->row + steps[k][1];
+        const uint32_t beside = code_at(f, codes, x, y);
+        p->beside[k] = beside == UINT32_MAX ? none : pixel_stored(&s->camera, (uint32_t)x, (uint32_t)y, beside);
     }
 }
 
@@ -157,7 +159,10 @@ static bool find(pixels *all) {
     }
     bool good = codes != NULL && frame_run(f, &normals, false, take_normals, all);
     normals.error = true;
-    good = good && take(all, normals, offsetof(pixel, normal_off));
+    if (frame_refuses(f, &normals) == NULL)
+        good = good && take(all, normals, offsetof(pixel, normal_off));
+    for (size_t i = 0; i < all->count && frame_refuses(f, &normals) != NULL; i++)
+        all->items[i].normal_off = (double)NAN;
     free(codes);
     return good && (all->effect == NULL || find_effect(all));
 }
@@ -166,11 +171,14 @@ static bool find(pixels *all) {
 
 /* Where the camera is known: of an image it is what the user says it was. */
 static bool has_camera(const pixels *all) {
-    return all->source->path == NULL || option_given(all->o, OPTION_FOV) || option_given(all->o, OPTION_HALF_HEIGHT);
+    return all->source->path == NULL || all->o->matrix != NULL || option_given(all->o, OPTION_FOV) ||
+           option_given(all->o, OPTION_HALF_HEIGHT);
 }
 
 /* Of a scene how much it is, of an image at most. */
 static void say_off(page *p, const pixels *all, double by, const char *unit) {
+    if (isnan(by))
+        return;
     if (all->scene != NULL)
         page_note(p, "", "off by %s %s", number_of(by, DIGITS).text, unit);
     else

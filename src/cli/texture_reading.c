@@ -167,9 +167,10 @@ static void find_readings(const options *o, texture_source *s) {
     s->reading_count = 0;
     if (o->metric > 0 || !find_pixel(s, &d))
         return;
-    if (s->mapping_from == ORIGIN_ASSUMED)
+    if (s->mapping_from == ORIGIN_ASSUMED && o->matrix == NULL)
         mappings_of(s, d);
-    if (s->format_from == ORIGIN_ASSUMED && (s->picture.type == IMAGE_U16 || s->picture.type == IMAGE_U32))
+    if (s->format_from == ORIGIN_ASSUMED && !s->camera.oblique.on &&
+        (s->picture.type == IMAGE_U16 || s->picture.type == IMAGE_U32))
         formats_of(s);
 }
 

@@ -94,6 +94,9 @@ static void say_origins(const statistics *r, page *p) {
     const bool other = is_image(r) && s->found.depth && strcmp(s->found.format.name, name) != 0;
     if (is_image(r))
         page_note(p, "recognised", "%s", s->found.why);
+    if (is_image(r) && s->picture.lossy != NULL)
+        page_note(p, "compression", "%s, which may have changed the depths: no error here counts that",
+                  s->picture.lossy);
     page_note(p, "format", "%s %s%s%s", name, r->named.format_from,
               other ? ": the nearest codes are taken of what looks like " : "", other ? s->found.format.name : "");
     if (is_image(r))
@@ -144,6 +147,8 @@ static void say_source(statistics *r, page *p) {
         say_metric(r, p);
     } else {
         setup_title(p, &s->setup, &r->setup);
+        if (s->matrix.path != NULL)
+            texture_matrix_say(&s->matrix, p);
         say_origins(r, p);
     }
     if (z != NULL)
@@ -158,8 +163,12 @@ static number_text share(uint64_t part, uint64_t all) {
 static void say_head(page *p, void *item) {
     statistics *r = item;
     const survey *v = &r->survey;
+    const texture_camera *s = &r->source.camera;
     say_source(r, p);
-    if (r->o->metric == 0)
+    if (s->oblique.on)
+        page_note(p, "sky", "%llu pixels, %s %%, within %s of the far end of window depth", (unsigned long long)v->sky,
+                  share(v->sky, v->pixels).text, number_of(r->o->sky, 3).text);
+    else if (r->o->metric == 0)
         page_note(p, "sky", "%llu pixels, %s %%; depths from %s on are within %s of far and count as sky",
                   (unsigned long long)v->sky, share(v->sky, v->pixels).text,
                   number_in(number_of(v->sky_from, 6), p->unit).text, number_of(r->o->sky, 3).text);
@@ -168,7 +177,7 @@ static void say_head(page *p, void *item) {
     if (v->invalid > 0)
         page_note(p, "holes", "%llu pixels, %s %%, hold no depth", (unsigned long long)v->invalid,
                   share(v->invalid, v->pixels).text);
-    if (v->band_count == 0)
+    if (isnan(v->lo))
         page_note(p, "depths", "none");
     else
         page_note(p, "depths", "%s to %s, %llu distinct code%s", number_in(number_of(v->lo, 8), p->unit).text,
@@ -181,7 +190,7 @@ static void say_pairs(const survey_pairs *s, page *p) {
         snprintf(first, sizeof first, ", the first at z = %s", number_in(number_of(s->first_tie, 6), p->unit).text);
     if (!isnan(s->certain_to))
         snprintf(certain, sizeof certain, "; none can fight up to z = %s",
-                 number_in(number_of(s->certain_to, 6), p->unit).text);
+                 number_in(number_down(s->certain_to, 6), p->unit).text);
     page_note(p, "pairs", "%llu to be told apart: %llu fight, stored as one code%s", (unsigned long long)s->pairs,
               (unsigned long long)s->ties, first);
     page_note(p, "", "%llu are closer than the separation%s", (unsigned long long)s->possible, certain);
@@ -225,10 +234,11 @@ static void *next_error(void *of, size_t i) {
 }
 
 /* Window depth is what an image holds without --metric. */
-enum { OF_SCENE = 1, OF_IMAGE = 2, OF_WINDOW = 4 };
+enum { OF_SCENE = 1, OF_IMAGE = 2, OF_WINDOW = 4, OF_MATRIX = 8 };
 
 static unsigned conditions(const statistics *r) {
-    return !is_image(r) ? OF_SCENE : r->o->metric == 0 ? OF_IMAGE | OF_WINDOW : OF_IMAGE;
+    const unsigned source = !is_image(r) ? OF_SCENE : r->o->metric == 0 ? OF_IMAGE | OF_WINDOW : OF_IMAGE;
+    return source | (r->source.matrix.path != NULL ? OF_MATRIX : 0);
 }
 
 static const column parameter_columns[] = {{FIELD(statistics, parameter, "name", "")},
@@ -255,6 +265,7 @@ static const column source_columns[] = {{FIELD(statistics, source.path, "file", 
                                         {FIELD(statistics, source.channels, "channels", ""), .when = OF_IMAGE},
                                         {FIELD(statistics, named.metric, "metric", "scene"), .when = OF_IMAGE},
                                         {FIELD(statistics, named.packing, "packing", ""), .when = OF_IMAGE},
+                                        {FIELD(statistics, source.picture.lossy, "lossy", ""), .when = OF_IMAGE},
                                         {GROUP("samples", sample_columns), .when = OF_IMAGE},
                                         {GROUP("recognised", recognised_columns), .when = OF_WINDOW},
                                         {.kind = COLUMN_END}};
@@ -284,6 +295,7 @@ static const column found_columns[] = {
     {PART(statistics, named.zbuffer, "zbuffer_params", zbuffer_columns), .pointed = true},
     {FIELD(statistics, named.fov, "fov", "degrees")},
     {FIELD(statistics, named.half_height, "half_height", "scene")},
+    {PART(statistics, source.matrix, "matrix", texture_matrix_columns), .when = OF_MATRIX},
     {FIELD(statistics, survey.pixels, "pixels", "")},
     {FIELD(statistics, survey.invalid, "invalid", "")},
     {GROUP("sky", sky_columns)},
@@ -323,8 +335,8 @@ static const column error_columns[] = {{FIELD(error_line, name, "name", "")},
                                        {FIELD(error_line, sum.infinite, "unbounded", "")},
                                        {FIELD(error_line, masked, "masked", "")},
                                        {FIELD(error_line, sum.mean, "mean", ""), SHOWN("mean", 11, 4)},
-                                       {FIELD(error_line, sum.p99, "p99", ""), SHOWN("99 %", 10, 4)},
-                                       {FIELD(error_line, sum.hi, "max", ""), SHOWN("at most", 10, 4)},
+                                       {FIELD(error_line, sum.p99, "p99", ""), SHOWN("99 %", 10, 4), .upward = true},
+                                       {FIELD(error_line, sum.hi, "max", ""), SHOWN("at most", 10, 4), .upward = true},
                                        {FIELD(error_line, sum.hi_column, "column", "")},
                                        {FIELD(error_line, sum.hi_row, "row", "")},
                                        {TEXT_FIELD(error_line, at, "at pixel", -1, 0)},
@@ -345,7 +357,8 @@ static const column columns[] = {
 static void name_zbuffer(statistics *r) {
     const zbuffer_params p = zbuffer_params_of(&r->source.setup);
     r->zbuffer = (shader_params){(double)p.x, (double)p.y, (double)p.z, (double)p.w};
-    r->named.zbuffer = decode_applies(&decode_rows[DECODE_LINEAR_01], &r->source.setup) ? &r->zbuffer : NULL;
+    const bool shared = !r->source.camera.oblique.on; /* by all pixels */
+    r->named.zbuffer = shared && decode_applies(&decode_rows[DECODE_LINEAR_01], &r->source.setup) ? &r->zbuffer : NULL;
 }
 
 /* What is said of the source by names, and of its options. */
@@ -369,8 +382,8 @@ static void name_all(statistics *r) {
     r->named.step = is_metric && s->metric.step > 0 ? s->metric.step : none;
     r->named.steps = !is_metric && has_steps ? g->steps : none;
     r->named.bits = g->kind == GRAIN_FLOATS ? g->bits : none;
-    r->named.fov = s->camera.ortho ? none : r->o->camera.fov_y;
-    r->named.half_height = s->camera.ortho ? r->o->camera.half_height : none;
+    r->named.fov = s->camera.ortho ? none : s->matrix.path != NULL ? s->matrix.fov[1] : r->o->camera.fov_y;
+    r->named.half_height = s->camera.ortho ? s->camera.half[1] : none;
     r->named.coarser = !is_metric && texture_coarser(s);
     r->named.reversed = s->found.direction ? &answers[s->found.reversed == 1] : NULL;
     name_zbuffer(r);
@@ -395,7 +408,8 @@ static bool add_error(statistics *r, const frame_product *product) {
 }
 
 static bool add_decoding(statistics *r, const decode_row *row) {
-    if (r->error_count == ERRORS_MAX || r->source.frame.metric || !decode_applies(row, &r->source.setup))
+    if (r->error_count == ERRORS_MAX || r->source.frame.metric || r->source.camera.oblique.on ||
+        !decode_applies(row, &r->source.setup))
         return true;
     error_line *e = &r->errors[r->error_count++];
     snprintf(e->name, sizeof e->name, "decode %s", row->name);
@@ -431,7 +445,10 @@ static bool measure(statistics *r) {
 
 int texture_report_write(const options *o, const texture_source *source) {
     output out;
-    statistics r = {.o = o, .source = *source, .condition = position_condition(&source->camera)};
+    statistics r = {.o = o,
+                    .source = *source,
+                    .condition =
+                        camera_is_centred(&source->camera) ? position_condition(&source->camera) : (double)NAN};
     const int status = options_open(o, &out);
     if (status != EXIT_FINE)
         return status;

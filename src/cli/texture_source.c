@@ -113,6 +113,15 @@ static void warn_of_colours(const options *o, const texture_source *s) {
 
 /* ---- What a file of ours says of itself -------------------------------------------------------------------------- */
 
+/* What a codec has changed is known to nobody, so no error has it. */
+static void warn_of_compression(const options *o, const texture_source *s) {
+    if (s->picture.lossy != NULL && !o->quiet)
+        fprintf(stderr,
+                "depthprec: %s: its compression, %s, may have changed the depths, which no error here counts; save it "
+                "without loss\n",
+                s->path, s->picture.lossy);
+}
+
 /* Whether the command line says what the samples are. */
 static bool is_asked(const options *o) {
     return option_given(o, OPTION_PACKING) || option_given(o, OPTION_METRIC) || option_given(o, OPTION_FORMAT);
@@ -121,7 +130,7 @@ static bool is_asked(const options *o) {
 /* Whether a word of the note is an option that nothing on the command line stands against. */
 static bool is_open(const options *o, option_id id) {
     const bool of_samples = id == OPTION_PACKING || id == OPTION_METRIC;
-    return !option_given(o, id) && !(of_samples ? is_asked(o) : o->preset_count > 0);
+    return !option_given(o, id) && !(of_samples ? is_asked(o) : o->preset_count > 0 || o->matrix != NULL);
 }
 
 /* Words of the form NAME=VALUE: a product, and options that are read as those of the command line are. */
@@ -193,6 +202,7 @@ static int read_image(options *o, texture_source *s) {
     }
     s->type = s->picture.type;
     s->channels = s->picture.channels;
+    warn_of_compression(o, s);
     int status = take_note(o, s);
     if (status == EXIT_FINE)
         status = check_window(o);
@@ -249,9 +259,12 @@ static int choose_mapping(const options *o, texture_source *s, dp_mapping *out) 
 static int make_setup(const options *o, texture_source *s, dp_setup *out) {
     options one = *o;
     setups all = {0};
+    if (o->matrix != NULL && o->packing != NULL && o->packing->linear)
+        return option_error(OPTION_MATRIX, "is for window depth, and %s holds eye depth: --fov says its camera",
+                            s->path);
     int status = o->metric > 0 ? EXIT_FINE : choose_format(o, s, &one.formats[0]);
-    if (status == EXIT_FINE && o->metric == 0)
-        status = choose_mapping(o, s, &one.mappings[0]);
+    if (status == EXIT_FINE && (o->metric == 0 || o->matrix != NULL))
+        status = o->matrix != NULL ? texture_matrix_open(o, s, &one) : choose_mapping(o, s, &one.mappings[0]);
     one.format_count = one.mapping_count = 1;
     if (status == EXIT_FINE)
         status = setups_make(&one, &all);
@@ -273,6 +286,7 @@ static int make_camera(const options *o, texture_source *s) {
     }
     if (status != EXIT_FINE)
         return status;
+    spec.matrix = s->matrix.path != NULL ? &s->matrix.taken : NULL;
     const char *wrong = camera_init(&s->camera, is_metric ? &s->planes : &s->setup, &spec);
     if (wrong != NULL)
         return usage_error("texture: %s", wrong);

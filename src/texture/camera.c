@@ -19,9 +19,9 @@ static const char *wrong(const camera_spec *s, bool ortho) {
         return "width and height must be from 1 to 65536 pixels";
     if ((uint64_t)s->width * s->height > TEXTURE_PIXELS_MAX)
         return "an image must have at most 268435456 pixels";
-    if (!ortho && !within(s->fov_y, 0.01, 179))
+    if (s->matrix == NULL && !ortho && !within(s->fov_y, 0.01, 179))
         return "the vertical field of view must be from 0.01 to 179 degrees";
-    if (ortho && !within(s->half_height, 1e-12, 1e12))
+    if (s->matrix == NULL && ortho && !within(s->half_height, 1e-12, 1e12))
         return "half the height of an orthographic view must be from 1e-12 to 1e12";
     if (!within(s->yaw, -360, 360) || !within(s->pitch, -90, 90))
         return "yaw must be from -360 to 360 degrees, pitch from -90 to 90";
@@ -30,6 +30,34 @@ static const char *wrong(const camera_spec *s, bool ortho) {
             return "the camera's coordinates must be from -1e12 to 1e12";
     return NULL;
 }
+
+/* ---- Planes of each pixel, in twice the digits ------------------------------------------------------------------- */
+
+static dp_pair quotient(dp_pair a, double b) {
+    const double hi = a.hi / b;
+    return dp_quick_two_sum(hi, (fma(-hi, b, a.hi) + a.lo) / b);
+}
+
+static dp_pair product(dp_pair a, double b) {
+    const dp_pair hi = dp_two_product(a.hi, b);
+    return dp_quick_two_sum(hi.hi, hi.lo + a.lo * b);
+}
+
+static dp_pair sum(dp_pair a, dp_pair b) {
+    const dp_pair hi = dp_two_sum(a.hi, b.hi), lo = dp_two_sum(a.lo, b.lo),
+                  most = dp_quick_two_sum(hi.hi, hi.lo + lo.hi);
+    return dp_quick_two_sum(most.hi, most.lo + lo.lo);
+}
+
+/* With the slopes put in: a half (NDC - centre), NDC = (2i + 1 - width)/width. */
+static camera_oblique oblique_of(const projection *p, uint32_t width, uint32_t height) {
+    const dp_pair x = quotient((dp_pair){p->tilt[0], 0}, p->scale[0]),
+                  y = quotient((dp_pair){p->tilt[1], 0}, p->scale[1]);
+    const dp_pair moved = sum(product(x, -p->centre[0]), product(y, -p->centre[1]));
+    return (camera_oblique){p->oblique, p->pull, quotient(x, width), quotient(y, height), sum(p->base, moved)};
+}
+
+/* ---- The camera -------------------------------------------------------------------------------------------------- */
 
 const char *camera_init(texture_camera *camera, const dp_setup *setup, const camera_spec *spec) {
     const bool ortho = setup->spec.ortho != 0;
@@ -48,5 +76,13 @@ const char *camera_init(texture_camera *camera, const dp_setup *setup, const cam
         .axis = {{cy, 0, -sy}, {-sp * sy, cp, -sp * cy}, {cp * sy, sp, cp * cy}},
         .origin = {spec->origin[0], spec->origin[1], spec->origin[2]},
     };
+    if (spec->matrix != NULL) {
+        const projection *p = spec->matrix;
+        for (int k = 0; k < 2; k++) {
+            camera->half[k] = p->half[k];
+            camera->centre[k] = p->centre[k];
+        }
+        camera->oblique = oblique_of(p, spec->width, spec->height);
+    }
     return NULL;
 }

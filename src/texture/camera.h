@@ -7,9 +7,11 @@
  * v = 1 - (j + 1/2)/height from the bottom edge: row 0 is the top one. With the half extents (hx, hy), which are
  * tangents of half the field of view (perspective) or scene units (orthographic):
  *
- *     perspective    (x, y, z) = (sx z, sy z, z)     sx = (2u - 1) hx,  sy = (2v - 1) hy
+ *     perspective    (x, y, z) = (sx z, sy z, z)     sx = (2u - 1 - cx) hx,  sy = (2v - 1 - cy) hy
  *     orthographic   (x, y, z) = (sx, sy, z)
  *     world          origin + x right + y up + z forward
+ *
+ * (cx, cy) is where the view axis meets the picture, 0 but for the frustums of some matrices: see projection.h.
  */
 #ifndef TEXTURE_CAMERA_H
 #define TEXTURE_CAMERA_H
@@ -19,6 +21,7 @@
 
 #include "core/bits.h"
 #include "depthprec/depthprec.h"
+#include "texture/projection.h"
 
 /** Pixels of an image: at most this many on a side, and 2^28 in all. */
 #define TEXTURE_SIDE_MAX   65536u
@@ -27,21 +30,32 @@
 /** What is asked for. Start from camera_spec_default(). */
 typedef struct camera_spec {
     uint32_t width, height;
-    double fov_y;       /**< perspective: vertical field of view in degrees, in [0.01, 179] */
-    double half_height; /**< orthographic: half the height of the view, scene units, in [1e-12, 1e12] */
-    double yaw, pitch;  /**< degrees: to the right, then up; 0, 0 looks along the world's z axis */
-    double origin[3];   /**< where the camera stands, world coordinates, each at most 1e12 in magnitude */
+    double fov_y;             /**< perspective: vertical field of view in degrees, in [0.01, 179] */
+    double half_height;       /**< orthographic: half the height of the view, scene units, in [1e-12, 1e12] */
+    double yaw, pitch;        /**< degrees: to the right, then up; 0, 0 looks along the world's z axis */
+    double origin[3];         /**< where the camera stands, world coordinates, each at most 1e12 in magnitude */
+    const projection *matrix; /**< says what fov_y and half_height would; or null */
 } camera_spec;
 
 /** 60 degrees, half height 5, looking along z from the origin; width and height 0: to be filled in. */
 camera_spec camera_spec_default(void);
+
+/** Where each pixel has planes of its own: its window depth is column (2i + 1 - width) + row (height - 1 - 2j) + base
+ *  + pull/z. */
+typedef struct camera_oblique {
+    bool on;
+    double pull;
+    dp_pair column, row, base;
+} camera_oblique;
 
 /** A checked camera. The fields are for reading. */
 typedef struct texture_camera {
     dp_setup setup; /**< planes, projection, mapping, format */
     uint32_t width, height;
     bool ortho;
-    double half[2];    /**< hx, hy */
+    double half[2];   /**< hx, hy */
+    double centre[2]; /**< cx, cy */
+    camera_oblique oblique;
     double axis[3][3]; /**< right, up, forward: world coordinates, orthonormal */
     double origin[3];
 } texture_camera;
@@ -49,12 +63,18 @@ typedef struct texture_camera {
 /** @return null, or what is wrong: one sentence that names the field, what is allowed and what was given */
 const char *camera_init(texture_camera *camera, const dp_setup *setup, const camera_spec *spec);
 
-/** sx of column i and sy of row j: see above. Within 2 units of 2^-53 relative at whole columns and rows. */
+/** Whether the frustum is centred and its planes are those of the set-up. */
+static inline bool camera_is_centred(const texture_camera *c) {
+    return c->centre[0] == 0 && c->centre[1] == 0 && !c->oblique.on;
+}
+
+/** sx of column i and sy of row j: see above. Within 2 units of 2^-53 relative at whole columns and rows; where the
+ *  frustum is not centred 4 units of the larger of hx and hx cx, hy and hy cy. */
 DP_INLINE double camera_slope_x(const texture_camera *c, double column) {
-    return (2 * column + 1 - c->width) / c->width * c->half[0];
+    return ((2 * column + 1 - c->width) / c->width - c->centre[0]) * c->half[0];
 }
 DP_INLINE double camera_slope_y(const texture_camera *c, double row) {
-    return (c->height - 2 * row - 1) / c->height * c->half[1];
+    return ((c->height - 2 * row - 1) / c->height - c->centre[1]) * c->half[1];
 }
 
 /** The view-space place of a pixel at eye depth z, in double: the reference of everything that is faster. */

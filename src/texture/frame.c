@@ -7,6 +7,7 @@
 
 #include "texture/frame_rows.h"
 #include "texture/image_depths.h"
+#include "texture/oblique.h"
 #include "texture/strips.h"
 
 enum {
@@ -51,7 +52,24 @@ int frame_channels(const frame_product *product) {
     return vector && !product->error ? 3 : 1;
 }
 
+/* What is made from planes that all pixels share, or for a view axis in the middle of the picture. */
+static const char *camera_refuses(const frame *f, const frame_product *product) {
+    const bool oblique = f->camera->oblique.on, centred = camera_is_centred(f->camera);
+    if (product->kind == FRAME_POSITION && product->position != NULL && !centred)
+        return "this method is for a frustum that is centred, without an oblique plane; 'exact' is for each";
+    if (product->kind == FRAME_EFFECT && (oblique || (!centred && (product->effect->needs & EFFECT_POSITION) != 0)))
+        return "this effect is for a frustum that is centred, without an oblique plane";
+    if (product->kind == FRAME_LINEAR01 && oblique)
+        return "this is for a far plane that all pixels share";
+    if (product->kind == FRAME_NORMAL && product->error && oblique)
+        return "the error of normals is not known where pixels have planes of their own";
+    return NULL;
+}
+
 const char *frame_refuses(const frame *f, const frame_product *product) {
+    const char *refused = camera_refuses(f, product);
+    if (refused != NULL)
+        return refused;
     if (product->kind == FRAME_POSITION && product->position != NULL && !position_applies(product->position, f->camera))
         return "this method does not support this projection and mapping";
     if (product->kind == FRAME_LINEAR01 && isinf(frame_planes(f)->spec.zfar))
@@ -195,7 +213,10 @@ static void decode_row_of(const run *r, const desk *d, uint32_t first, uint32_t 
     const bool inside = row >= 0 && row < r->height;
     if (inside) {
         frame_codes(r->f, (uint32_t)row, codes);
-        dp_batch_run(&r->eye, codes, eyes, r->width);
+        if (r->f->camera->oblique.on)
+            pixel_eyes(r->f->camera, (uint32_t)row, codes, eyes);
+        else
+            dp_batch_run(&r->eye, codes, eyes, r->width);
     }
     for (uint32_t x = 0; x < r->width; x++) {
         const uint32_t rank = flip != 0 ? flip - codes[x] : codes[x];

@@ -5,6 +5,7 @@
 #include <string.h>
 
 #include "texture/clones.h"
+#include "texture/oblique.h"
 
 static const double TO_DEGREES = 180 / M_PI;
 
@@ -66,7 +67,7 @@ static void make_raw(const frame_row *in) {
 static grain_rows ranges_in(const frame_row *in) {
     const size_t width = camera_of(in)->width;
     const grain_rows out = {in->numbers, in->numbers + width, in->numbers + 2 * width, in->numbers + 3 * width};
-    grain_ranges_of(&camera_of(in)->setup, in->frame->grain, in->codes, width, &out);
+    pixel_ranges_of(camera_of(in), in->frame->grain, 0, in->row, in->codes, width, &out);
     return out;
 }
 
@@ -177,7 +178,7 @@ static void places(const frame_row *in) {
     for (uint32_t x = 0; x < c->width; x++) {
         double relative[3] = {NAN, NAN, NAN};
         if (!isnan(eyes_of(in)[x]))
-            exact_place(in, x, dp_stored(&c->setup, in->codes[x]), relative);
+            exact_place(in, x, pixel_stored(c, x, in->row, in->codes[x]), relative);
         for (int k = 0; k < 3; k++)
             in->planes[k][x] = (float)(c->origin[k] + relative[k]);
     }

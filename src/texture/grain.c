@@ -8,10 +8,6 @@
 
 enum { GRAIN_ROW = 256 };
 
-/* Outweighs what is lost in window depths that were computed in double, a few units of 2^-53 of cells that are at least
- * 2^-25 of their depth, and all roundings here. */
-static const double OUTWARD = 1 + 0x1p-20;
-
 const char *grain_rounding_name(grain_rounding rounding) {
     static const char *const names[] = {"unknown", "nearest", "zero"};
     return names[rounding];
@@ -126,18 +122,22 @@ double grain_window_reach(const dp_setup *setup, const grain *g, uint32_t code) 
     ends_of(setup, g, code, &below, &above);
     const double to_below = is_of_codes(g) ? own.num - below.num : own.num / own.den * below.den - below.num;
     const double to_above = is_of_codes(g) ? above.num - own.num : above.num - own.num / own.den * above.den;
-    return fmax(to_below / below.den, to_above / above.den) * OUTWARD;
+    return fmax(to_below / below.den, to_above / above.den) * GRAIN_OUTWARD;
+}
+
+grain_points grain_points_of(const dp_setup *setup, const grain *g, uint32_t code) {
+    dp_point below, above;
+    ends_of(setup, g, code, &below, &above);
+    return (grain_points){dp_point_of_code(&setup->spec.format, code), setup->reversed ? above : below,
+                          setup->reversed ? below : above};
 }
 
 grain_range grain_range_of(const dp_setup *setup, const grain *g, uint32_t code) {
-    const dp_point own = dp_point_of_code(&setup->spec.format, code);
-    dp_point below, above;
-    ends_of(setup, g, code, &below, &above);
-    const dp_point to_near = setup->reversed ? above : below, to_far = setup->reversed ? below : above;
+    const grain_points p = grain_points_of(setup, g, code);
     return (grain_range){
-        .lo = dp_curve_eye(setup, to_near),
-        .hi = dp_curve_eye(setup, to_far),
-        .reach = fmax(dp_curve_span(setup, to_near, own), dp_curve_span(setup, own, to_far)) * OUTWARD,
+        .lo = dp_curve_eye(setup, p.to_near),
+        .hi = dp_curve_eye(setup, p.to_far),
+        .reach = fmax(dp_curve_span(setup, p.to_near, p.own), dp_curve_span(setup, p.own, p.to_far)) * GRAIN_OUTWARD,
     };
 }
 
@@ -193,7 +193,7 @@ DP_INLINE void ranges_loop(const ranging r, const numerators *restrict n, size_t
         stored[i] = at;
         lo[i] = near;
         hi[i] = far;
-        reach[i] = (before > behind ? before : behind) * OUTWARD;
+        reach[i] = (before > behind ? before : behind) * GRAIN_OUTWARD;
     }
 }
 

@@ -17,7 +17,7 @@
 #include <math.h>
 #include <stdbool.h>
 
-#include "core/bits.h"
+#include "core/engine.h"
 #include "depthprec/depthprec.h"
 
 typedef enum grain_kind {
@@ -48,6 +48,17 @@ typedef struct grain_range {
     double lo, hi; /**< within 2^-44 relative; hi may be INFINITY */
     double reach;  /**< from the depth that the code gives back to the farther end; never below that */
 } grain_range;
+
+/** Outweighs what is lost in window depths that were computed in double, a few units of 2^-53 of cells that are at
+ * least 2^-25 of their depth, and all roundings of ranges. */
+#define GRAIN_OUTWARD (1 + 0x1p-20)
+
+/** Window depths: that of a code, and the ends of what its pixel may have had. */
+typedef struct grain_points {
+    dp_point own, to_near, to_far;
+} grain_points;
+
+grain_points grain_points_of(const dp_setup *setup, const grain *g, uint32_t code);
 
 /**
  * The eye depths that a pixel may have whose sample became `code`, the nearest one. Null: GRAIN_CODES.

@@ -5,6 +5,7 @@
 #include <stdlib.h>
 
 #include "core/engine.h"
+#include "texture/oblique.h"
 #include "texture/strips.h"
 
 /* Bands by rank: band i holds the ranks from start[i] up to start[i + 1]. */
@@ -253,6 +254,31 @@ static bool finish(const surveying *s, survey *out) {
     return true;
 }
 
+/* Where a code has another depth in each pixel there are no bands of codes. */
+static bool visit_oblique(surveying *s, survey *out) {
+    const texture_camera *camera = s->f->camera;
+    uint32_t *codes = malloc((size_t)camera->width * sizeof *codes);
+    for (uint32_t row = 0; row < camera->height && codes != NULL; row++) {
+        frame_codes(s->f, row, codes);
+        for (uint32_t x = 0; x < camera->width; x++) {
+            const bool hole = codes[x] == UINT32_MAX;
+            const bool sky = !hole && frame_rank(s->setup, codes[x]) >= s->sky;
+            const double z = hole || sky ? (double)INFINITY : pixel_stored(camera, x, row, codes[x]);
+            out->sky += sky;
+            out->invalid += isinf(z) && !sky;
+            if (isinf(z))
+                continue;
+            mark(s->used, frame_rank(s->setup, codes[x]));
+            out->lo = fmin(out->lo, z);
+            out->hi = fmax(out->hi, z);
+        }
+    }
+    for (uint32_t rank = next_used(s, 0, s->sky); rank < s->sky; rank = next_used(s, rank + 1, s->sky))
+        out->codes++;
+    free(codes);
+    return codes != NULL;
+}
+
 bool survey_make(const frame *f, survey *out) {
     const dp_setup *setup = &f->camera->setup;
     surveying s = {.f = f, .setup = setup, .sky = frame_sky_rank(f)};
@@ -260,6 +286,12 @@ bool survey_make(const frame *f, survey *out) {
     s.used = calloc((size_t)(setup->spec.format.code_max >> 6) + 2, sizeof *s.used);
     if (s.used == NULL)
         return false;
+    *out = (survey){.pixels = (uint64_t)f->camera->width * f->camera->height, .lo = NAN, .hi = NAN, .sky_from = NAN};
+    if (f->camera->oblique.on) {
+        const bool visited = visit_oblique(&s, out);
+        free(s.used);
+        return visited;
+    }
     make_bands(&s, sky_from);
     bool good = visit(&s);
     *out = (survey){.pixels = (uint64_t)f->camera->width * f->camera->height,

@@ -30,7 +30,9 @@ typedef struct survey {
 } survey;
 
 /**
- * Visits all pixels. Bands end at 1, 2 and 5 times powers of ten, or at powers of ten where those would be too many.
+ * Visits all pixels. Of a camera whose planes differ from pixel to pixel there are no bands, and `sky_from` is NaN;
+ * what lies beyond infinity is invalid. Bands end at 1, 2 and 5 times powers of ten, or at powers of ten where those
+ * would be too many.
  *
  * Memory: a bit for each code of the format, of which only what is used is touched (fp32: 127 MiB of addresses).
  * @return false when out of memory

@@ -1,0 +1,524 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/*
+ * --matrix: depth images whose projection is any matrix. Matrices are put together here, oblique near planes by the
+ * formula for clip planes, written to files, and every pixel is judged in rationals by what the file says: eye depth,
+ * range, place, and the map of errors.
+ */
+#include <stdbool.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "oracle.h"
+#include "printed.h"
+#include "texture/image.h"
+
+enum { ACROSS = 7, DOWN = 5, ALL = ACROSS * DOWN };
+
+typedef struct view_case {
+    double m[16];
+    bool is_signed, reversed, backwards, down, oblique; /* down: NDC has y down */
+    double znear, zfar;                                 /* of the frustum before its near plane was moved */
+    double half[2], centre[2];
+    dp_format format;
+    const char *mapping;
+    uint32_t codes[ALL];
+    char path[256], shot[256];
+} view_case;
+
+/* ---- Matrices ---------------------------------------------------------------------------------------------------- */
+
+/* In view space with z ahead; the columns of z change their sign for a camera that looks along -z. */
+static void make_frustum(rng *r, view_case *c) {
+    const bool infinite = rng_below(r, 4) == 0, centred = rng_below(r, 3) == 0;
+    c->is_signed = rng_below(r, 2) == 0;
+    c->reversed = rng_below(r, 2) == 0;
+    c->backwards = rng_below(r, 2) == 0;
+    c->down = rng_below(r, 3) == 0;
+    c->znear = rng_log(r, 0.01, 2);
+    c->zfar = infinite ? INFINITY : c->znear * rng_log(r, 3, 1e5);
+    c->oblique = infinite && rng_below(r, 2) == 0;
+    c->mapping = c->is_signed ? (c->reversed ? "gl-reversed" : "gl") : c->reversed ? "reversed" : "d3d";
+    for (int k = 0; k < 2; k++) {
+        c->half[k] = rng_log(r, 0.1, 3);
+        c->centre[k] = centred ? 0 : rng_uniform(r, -1.5, 1.5);
+    }
+    const double n = c->znear, f = c->zfar, low = c->is_signed ? -1 : 0;
+    const double at_near = c->reversed ? 1 : low, at_end = c->reversed ? low : 1;
+    /* a share short of that, the far plane lies beyond infinity */
+    const double at_far = c->oblique ? at_end + 1e-3 * (at_near - at_end) : at_end;
+    /* NDC depth s + t/z from its ends */
+    const double s = infinite ? at_far : (f * at_far - n * at_near) / (f - n), t = (at_near - s) * n;
+    const double m[16] = {
+        1 / c->half[0], 0, c->centre[0], 0, 0, 1 / c->half[1], c->centre[1], 0, 0, 0, s, t, 0, 0, 1, 0};
+    memcpy(c->m, m, sizeof m);
+}
+
+/* The row of z that puts the near plane at p . (x, y, z, 1) = 0 and the far plane through the farthest corner. */
+static void make_oblique(rng *r, view_case *c) {
+    const double lean[2] = {rng_uniform(r, -0.6, 0.6), rng_uniform(r, -0.6, 0.6)};
+    const double at = c->znear * rng_log(r, 1, 20), far = fmin(c->zfar, 1e4 * c->znear);
+    const double plane[4] = {lean[0] / c->half[0], lean[1] / c->half[1], 1, -at};
+    double corner[4] = {0, 0, far, 1}, on_plane = 0;
+    for (int k = 0; k < 2; k++)
+        corner[k] = ((plane[k] > 0 ? 1 : -1) - c->centre[k]) * c->half[k] * far;
+    for (int k = 0; k < 4; k++)
+        on_plane += plane[k] * corner[k];
+    /* near: NDC `low`, or 1 where reversed; far: the other; NDC w = from w + scale plane */
+    if (!(on_plane > 0.01 * far)) /* the frustum's far corner lies before the plane */
+        return;
+    const double low = c->is_signed ? -1 : 0, from = c->reversed ? 1 : low, to = c->reversed ? low : 1;
+    const double scale = (to - from) * far / on_plane;
+    for (int k = 0; k < 4; k++)
+        c->m[8 + k] = scale * plane[k] + (k == 2 ? from : 0);
+    c->oblique = true;
+}
+
+static void write_matrix(rng *r, view_case *c) {
+    static const char *const between[] = {" ", ", ", "\t", " ,\n", "\n# said of it: 1 2 3\n"};
+    for (int i = 0; i < 4 && c->backwards; i++)
+        c->m[4 * i + 2] = -c->m[4 * i + 2];
+    for (int i = 4; i < 8 && c->down; i++)
+        c->m[i] = -c->m[i];
+    snprintf(c->path, sizeof c->path, "%s", scratch_file("matrix.txt"));
+    FILE *out = fopen(c->path, "w");
+    assert_non_null(out);
+    fprintf(out, "# a projection\r\n");
+    for (int i = 0; i < 16; i++)
+        fprintf(out, "%.17g%s", c->m[i], between[rng_below(r, sizeof between / sizeof between[0])]);
+    fclose(out);
+}
+
+/* ---- In rationals ------------------------------------------------------------------------------------------------ */
+
+typedef struct ray {
+    mpq_t slope[2], k, e; /* window depth is k + e/z */
+    double most;          /* the largest term of k */
+} ray;
+
+static void ray_init(ray *out, const view_case *c, int column, int row) {
+    mpq_t x, y;
+    mpq_inits(out->slope[0], out->slope[1], out->k, out->e, x, y, NULL);
+    mpq_set_d(out->k, c->backwards ? -c->m[10] : c->m[10]);
+    out->most = fabs(c->m[10]) + c->is_signed;
+    for (int k = 0; k < 2; k++) { /* the slope that becomes the NDC of the pixel's middle */
+        mpq_set_si(out->slope[k], k == 0 ? 2 * column + 1 - ACROSS : DOWN - 1 - 2 * row, k == 0 ? ACROSS : DOWN);
+        mpq_canonicalize(out->slope[k]);
+        if (k == 1 && c->down)
+            mpq_neg(out->slope[k], out->slope[k]);
+        mpq_set_d(x, c->backwards ? -c->m[4 * k + 2] : c->m[4 * k + 2]);
+        mpq_sub(out->slope[k], out->slope[k], x);
+        mpq_set_d(x, c->m[4 * k + k]);
+        mpq_div(out->slope[k], out->slope[k], x);
+        mpq_set_d(y, c->m[8 + k]);
+        mpq_mul(y, y, out->slope[k]);
+        mpq_add(out->k, out->k, y);
+        out->most = fmax(out->most, fabs(c->m[8 + k] / c->m[4 * k + k]) * (1 + fabs(c->m[4 * k + 2])));
+    }
+    mpq_set_d(out->e, c->m[11]);
+    if (c->is_signed) {
+        mpq_set_si(x, 1, 1);
+        mpq_add(out->k, out->k, x);
+        mpq_div_2exp(out->k, out->k, 1);
+        mpq_div_2exp(out->e, out->e, 1);
+    }
+    mpq_clears(x, y, NULL);
+}
+
+static void ray_clear(ray *r) {
+    mpq_clears(r->slope[0], r->slope[1], r->k, r->e, NULL);
+}
+
+/* @return false where nothing lies at that window depth */
+static bool ray_eye(const ray *r, mpq_t z, const mpq_t d) {
+    mpq_sub(z, d, r->k);
+    if (mpq_sgn(z) == 0 || mpq_sgn(z) != mpq_sgn(r->e))
+        return false;
+    mpq_div(z, r->e, z);
+    return true;
+}
+
+/* ---- Images ------------------------------------------------------------------------------------------------------ */
+
+/* A code that somebody sees, mostly, or any. */
+static uint32_t code_for(rng *r, const view_case *c, const ray *at) {
+    const double z = c->znear * rng_log(r, 1, 1e4), d = mpq_get_d(at->k) + mpq_get_d(at->e) / z;
+    const bool seen = d > 0 && d < 1 && rng_below(r, 8) != 0;
+    return seen ? oracle_encode(&c->format, DP_ROUND_NEAREST, d) : 1 + (uint32_t)rng_below(r, c->format.code_max - 1);
+}
+
+static void save_shot(view_case *c) {
+    char header[128];
+    const bool single = c->format.kind == DP_FORMAT_FLOAT;
+    snprintf(c->shot, sizeof c->shot, "%s", scratch_file("shot.npy"));
+    FILE *out = fopen(c->shot, "wb");
+    assert_non_null(out);
+    snprintf(header, sizeof header, "{'descr': '%s', 'fortran_order': False, 'shape': (%d, %d), }",
+             single ? "<f4" : "<u4", DOWN, ACROSS);
+    fwrite("\x93NUMPY\x01\x00\x76\x00", 1, 10, out);
+    fprintf(out, "%-117s\n", header);
+    for (int i = 0; i < 4 * ALL; i++) /* bits of binary32 are its codes */
+        fputc((int)(c->codes[i / 4] >> (8 * (i % 4)) & 255), out);
+    fclose(out);
+}
+
+static void write_shot(rng *r, view_case *c) {
+    for (int i = 0; i < ALL; i++) {
+        ray one;
+        ray_init(&one, c, i % ACROSS, i / ACROSS);
+        c->codes[i] = code_for(r, c, &one);
+        ray_clear(&one);
+    }
+    save_shot(c);
+}
+
+static void make_case(rng *r, view_case *c) {
+    *c = (view_case){0};
+    make_frustum(r, c);
+    if (rng_below(r, 4) != 0)
+        make_oblique(r, c);
+    write_matrix(r, c);
+    c->format = rng_below(r, 2) == 0 ? oracle_unorm(24) : oracle_float(8, 23, 127);
+    c->format.name[0] = '\0';
+    strcpy(c->format.name, c->format.kind == DP_FORMAT_UNORM ? "unorm24" : "fp32");
+    write_shot(r, c);
+}
+
+/* ---- What is printed --------------------------------------------------------------------------------------------- */
+
+static double number_at(json_t *object, const char *field) {
+    json_t *value = json_object_get(object, field);
+    assert_non_null(value);
+    return json_is_null(value) ? INFINITY : json_number_value(value);
+}
+
+typedef struct eyes {
+    mpq_t own, lo, hi;
+    bool has_own, has_lo, has_hi;
+} eyes;
+
+static void eyes_of(const view_case *c, const ray *r, uint32_t code, eyes *e) {
+    mpq_t d;
+    mpq_inits(d, e->own, e->lo, e->hi, NULL);
+    oracle_value(d, &c->format, code);
+    e->has_own = ray_eye(r, e->own, d);
+    oracle_boundary(d, &c->format, DP_ROUND_NEAREST, c->reversed ? code + 1 : code);
+    e->has_lo = ray_eye(r, e->lo, d);
+    oracle_boundary(d, &c->format, DP_ROUND_NEAREST, c->reversed ? code : code + 1);
+    e->has_hi = ray_eye(r, e->hi, d);
+    mpq_clear(d);
+}
+
+static void eyes_clear(eyes *e) {
+    mpq_clears(e->own, e->lo, e->hi, NULL);
+}
+
+/* The bound is promised where k leaves digits. */
+static bool is_clear(const ray *r, const mpq_t z) {
+    return fabs(mpq_get_d(r->e) / mpq_get_d(z)) > 0x1p-44 * r->most;
+}
+
+static void judge(tally *t, const view_case *c, const ray *r, const mpq_t z, bool is, double got, double bound,
+                  const char *what) {
+    if (is && !is_clear(r, z))
+        t->skipped++;
+    else
+        TALLY(t, is ? oracle_relative(got, z) <= bound : isinf(got), "%s by %s: %.17g, not %.17g", what, c->mapping,
+              got, is ? mpq_get_d(z) : INFINITY);
+}
+
+static void judge_place(tally *t, const ray *r, json_t *pixel, const mpq_t z) {
+    static const char *const names[] = {"x", "y"};
+    json_t *place = json_object_get(pixel, "position");
+    const double far = mpq_get_d(z) * hypot(hypot(mpq_get_d(r->slope[0]), mpq_get_d(r->slope[1])), 1);
+    mpq_t x;
+    mpq_init(x);
+    for (int k = 0; k < 2; k++) {
+        mpq_mul(x, r->slope[k], z);
+        const double got = number_at(place, names[k]);
+        TALLY(t, oracle_distance(got, x) <= 1e-14 * far, "%s: %.17g, not %.17g", names[k], got, mpq_get_d(x));
+    }
+    mpq_clear(x);
+}
+
+static void judge_pixels(tally *t, const view_case *c, json_t *root) {
+    json_t *pixels = json_object_get(root, "pixels");
+    assert_int_equal(json_array_size(pixels), ALL);
+    for (int i = 0; i < ALL; i++) {
+        json_t *pixel = json_array_get(pixels, (size_t)i);
+        ray r;
+        eyes e;
+        ray_init(&r, c, i % ACROSS, i / ACROSS);
+        eyes_of(c, &r, c->codes[i], &e);
+        judge(t, c, &r, e.own, e.has_own, number_at(pixel, "z"), 0x1p-50, "z");
+        judge(t, c, &r, e.lo, e.has_lo, number_at(pixel, "lo"), 0x1p-44, "lo");
+        judge(t, c, &r, e.hi, e.has_hi, number_at(pixel, "hi"), 0x1p-44, "hi");
+        if (e.has_own)
+            judge_place(t, &r, pixel, e.own);
+        eyes_clear(&e);
+        ray_clear(&r);
+    }
+}
+
+static void pixels(void **state) {
+    rng r = rng_make("matrix pixels");
+    tally t = {.name = "pixels of matrices"};
+    char list[ALL * 4 + 1] = "";
+    (void)state;
+    for (int i = 0; i < ALL; i++)
+        snprintf(list + strlen(list), sizeof list - strlen(list), "%s%d,%d", i > 0 ? ";" : "", i % ACROSS, i / ACROSS);
+    for (uint64_t n = test_cases(10, 150, 2000); n > 0; n--) {
+        view_case c;
+        char arguments[4096];
+        make_case(&r, &c);
+        snprintf(arguments, sizeof arguments, "texture '%s' -q --sky 0 --matrix '%s' -F %s -m %s --pixel '%s'", c.shot,
+                 c.path, c.format.name, c.mapping, list);
+        char *out = output_of(0, arguments, "--json");
+        json_t *root = json_of(out);
+        judge_pixels(&t, &c, root);
+        json_decref(root);
+        free(out);
+    }
+    assert_true(t.skipped < t.cases / 10);
+    tally_end(&t);
+}
+
+/* ---- Products ---------------------------------------------------------------------------------------------------- */
+
+static image numbers_of(const view_case *c, const char *product) {
+    char path[256];
+    image_error error;
+    image out;
+    snprintf(path, sizeof path, "%s", scratch_file("product.npy"));
+    printed p = print_of("texture '%s' -q --sky 0 --matrix '%s' -F %s -m %s %s -o '%s'", c->shot, c->path,
+                         c->format.name, c->mapping, product, path);
+    if (p.status != 0)
+        fail_msg("%s: %s", product, p.errors);
+    printed_free(&p);
+    assert_true(image_read(path, &out, &error));
+    return out;
+}
+
+/* The largest error that is possible, from the product: in eye depth. */
+static double farthest(const eyes *e, double got) {
+    return !e->has_hi ? INFINITY : fmax(oracle_distance(got, e->lo), oracle_distance(got, e->hi));
+}
+
+static void judge_products(tally *t, const view_case *c) {
+    image eye = numbers_of(c, "--eye"), eye_off = numbers_of(c, "--eye --error-map");
+    image place = numbers_of(c, "--position exact"), place_off = numbers_of(c, "--position exact --error-map");
+    for (size_t i = 0; i < ALL; i++) {
+        ray r;
+        eyes e;
+        ray_init(&r, c, (int)i % ACROSS, (int)i / ACROSS);
+        eyes_of(c, &r, c->codes[i], &e);
+        const double got = (double)((float *)eye.data)[i], off = (double)((float *)eye_off.data)[i];
+        const double ahead = (double)((float *)place.data)[3 * i + 2], by = (double)((float *)place_off.data)[i];
+        const double stretch = hypot(hypot(mpq_get_d(r.slope[0]), mpq_get_d(r.slope[1])), 1);
+        if (!e.has_own) {
+            TALLY(t, isnan(got) && isnan(off) && isnan(ahead) && isnan(by), "eye depth %g beyond infinity", got);
+        } else if (!is_clear(&r, e.own) || (e.has_hi && !is_clear(&r, e.hi))) {
+            t->skipped++;
+        } else {
+            const double z = mpq_get_d(e.own), most = farthest(&e, got);
+            TALLY(t, oracle_distance(got, e.own) <= z * (c->oblique ? 0x1.0001p-24 : DP_BATCH_EYE_ERROR),
+                  "eye depth %.9g, not %.17g", got, z);
+            TALLY(t, oracle_distance(ahead, e.own) <= z * 0x1.0001p-24, "z %.9g, not %.17g", ahead, z);
+            /* planes that were rounded to double, where cells are finer than that */
+            const double lost = c->oblique ? 0 : z * 0x1p-50;
+            TALLY(t, off >= most - lost && off <= (most + z * 0x1p-22) * (1 + 0x1p-18), "off by %.9g, not %.9g", off,
+                  most);
+            TALLY(t, by >= (most - z * 0x1p-23) * stretch && by <= (most + z * 0x1p-21) * stretch * (1 + 0x1p-18),
+                  "place off by %.9g, not %.9g", by, most * stretch);
+        }
+        eyes_clear(&e);
+        ray_clear(&r);
+    }
+    image_free(&eye);
+    image_free(&eye_off);
+    image_free(&place);
+    image_free(&place_off);
+}
+
+static void products(void **state) {
+    rng r = rng_make("matrix products");
+    tally t = {.name = "products of matrices"};
+    (void)state;
+    for (uint64_t n = test_cases(5, 60, 500); n > 0; n--) {
+        view_case c;
+        make_case(&r, &c);
+        judge_products(&t, &c);
+    }
+    tally_end(&t);
+}
+
+/* ---- Statistics -------------------------------------------------------------------------------------------------- */
+
+static void statistics(void **state) {
+    rng r = rng_make("matrix statistics");
+    tally t = {.name = "statistics of matrices"};
+    (void)state;
+    for (uint64_t n = test_cases(5, 60, 500); n > 0; n--) {
+        view_case c;
+        char arguments[1024];
+        double least = INFINITY, most = 0, count = 0;
+        make_case(&r, &c);
+        snprintf(arguments, sizeof arguments, "texture '%s' -q --sky 0 --matrix '%s' -F %s -m %s", c.shot, c.path,
+                 c.format.name, c.mapping);
+        for (int i = 0; i < ALL; i++) {
+            ray one;
+            eyes e;
+            ray_init(&one, &c, i % ACROSS, i / ACROSS);
+            eyes_of(&c, &one, c.codes[i], &e);
+            least = e.has_own ? fmin(least, mpq_get_d(e.own)) : least;
+            most = e.has_own ? fmax(most, mpq_get_d(e.own)) : most;
+            count += !e.has_own;
+            eyes_clear(&e);
+            ray_clear(&one);
+        }
+        char *out = output_of(0, arguments, "--json");
+        json_t *root = json_of(out), *matrix = json_object_get(root, "matrix");
+        const double edges[4] = {(-1 - c.centre[0]) * c.half[0], (1 - c.centre[0]) * c.half[0],
+                                 (-1 - c.centre[1]) * c.half[1], (1 - c.centre[1]) * c.half[1]};
+        static const char *const names[] = {"left", "right", "bottom", "top"};
+        for (int i = 0; i < 4; i++)
+            TALLY(&t, fabs(number_at(matrix, names[i]) - edges[i]) <= 1e-14 * (1 + fabs(edges[i])), "%s", names[i]);
+        const double degree = 3.14159265358979323846 / 180;
+        for (int k = 0; k < 2; k++)
+            TALLY(&t,
+                  fabs(number_at(matrix, k == 0 ? "fov_x" : "fov_y") -
+                       (atan(edges[2 * k + 1]) - atan(edges[2 * k])) / degree) <= 1e-11,
+                  "field of view %d", k);
+        TALLY(&t, fabs(number_at(root, "fov") - number_at(matrix, "fov_y")) == 0, "fov");
+        TALLY(&t, strcmp(json_string_value(json_object_get(matrix, "looks_along")), c.backwards ? "-z" : "+z") == 0,
+              "which way it looks");
+        if (!c.oblique) {
+            TALLY(&t, fabs(number_at(root, "near") / c.znear - 1) < 1e-9, "near %.9g", c.znear);
+            TALLY(&t, isinf(c.zfar) || fabs(number_at(root, "far") / c.zfar - 1) < 1e-5, "far %.9g", c.zfar);
+        } else {
+            TALLY(&t, json_is_true(json_object_get(matrix, "oblique")), "oblique");
+            TALLY(&t, number_at(root, "near") <= least * (1 + 1e-6), "near %.9g", number_at(root, "near"));
+            TALLY(&t, number_at(root, "invalid") == count, "%g beyond infinity, not %g", number_at(root, "invalid"),
+                  count);
+        }
+        TALLY(&t, fabs(number_at(root, "lo") / least - 1) < 1e-9 && fabs(number_at(root, "hi") / most - 1) < 1e-5,
+              "from %.9g to %.9g, not %.9g to %.9g", number_at(root, "lo"), number_at(root, "hi"), least, most);
+        json_decref(root);
+        free(out);
+    }
+    tally_end(&t);
+}
+
+/* ---- Normals ----------------------------------------------------------------------------------------------------- */
+
+/* A plane seen through frustums that are not centred. Of an oblique one there is no bound: here its error is small. */
+static void normals(void **state) {
+    rng r = rng_make("matrix normals");
+    tally t = {.name = "normals of matrices"};
+    (void)state;
+    for (uint64_t n = test_cases(5, 60, 500); n > 0; n--) {
+        view_case c;
+        bool whole = true;
+        const double lean[3] = {rng_uniform(&r, -0.3, 0.3), rng_uniform(&r, -0.3, 0.3), 1};
+        make_case(&r, &c);
+        const double at = c.znear * rng_log(&r, 2, 20);
+        for (int i = 0; i < ALL; i++) {
+            ray one;
+            ray_init(&one, &c, i % ACROSS, i / ACROSS);
+            const double z = at / (lean[0] * mpq_get_d(one.slope[0]) + lean[1] * mpq_get_d(one.slope[1]) + 1);
+            const double d = mpq_get_d(one.k) + mpq_get_d(one.e) / z;
+            whole = whole && z > 0 && d > 0.001 && d < 0.999;
+            c.codes[i] = oracle_encode(&c.format, DP_ROUND_NEAREST, d);
+            ray_clear(&one);
+        }
+        if (!whole)
+            continue;
+        save_shot(&c);
+        image found = numbers_of(&c, "--normal projective"), off = {0};
+        if (!c.oblique)
+            off = numbers_of(&c, "--normal projective --error-map");
+        for (size_t i = 0; i < ALL; i++) {
+            const float *v = (float *)found.data + 3 * i;
+            const double size = hypot(hypot(lean[0], lean[1]), 1);
+            const double along = -((double)v[0] * lean[0] + (double)v[1] * lean[1] + (double)v[2]) / size;
+            const double angle = along < 1 ? acos(along) * 57.29577951308232 : 0;
+            const double most = c.oblique ? 2 : (double)((float *)off.data)[i];
+            TALLY(&t, isnan(most) || angle <= most + 0.06, "normal off by %.9g degrees, not %.9g", angle, most);
+        }
+        image_free(&found);
+        if (!c.oblique)
+            image_free(&off);
+    }
+    tally_end(&t);
+}
+
+/* ---- Beside the options that say the same -------------------------------------------------------------------------
+ */
+
+/* Entries and planes are exact here, so the bytes are the same; also of a view that looks down -z, or has y down. */
+static void same_camera(void **state) {
+    static const struct {
+        const char *entries, *options, *mapping;
+    } same[] = {
+        {"1 0 0 0  0 2 0 0  0 0 2 -2  0 0 1 0", "-n 1 -f 2 --fov 53.13010235415598", "d3d"},
+        {"1 0 0 0  0 2 0 0  0 0 -1 2  0 0 1 0", "-n 1 -f 2 --fov 53.13010235415598", "reversed"},
+        {"1 0 0 0  0 -2 0 0  0 0 0 0.5  0 0 -1 0", "-n 0.5 -f inf --fov 53.13010235415598", "reversed"},
+        {"1 0 0 0  0 2 0 0  0 0 -3 -4  0 0 -1 0", "-n 1 -f 2 --fov 53.13010235415598", "gl"},
+        {"1 0 0 0  0 2 0 0  0 0 0.125 0.25  0 0 0 1", "--ortho -n -2 -f 6 --half-height 0.5", "d3d"},
+        {"1 0 0 0  0 2 0 0  0 0 -0.125 0.25  0 0 0 1", "--ortho -n -2 -f 6 --half-height 0.5", "d3d"},
+        {"1 0 0 0  0 2 0 0  0 0 0.125 0.75  0 0 0 1", "--ortho -n -2 -f 6 --half-height 0.5", "reversed"},
+        {"1 0 0 0  0 2 0 0  0 0 -0.25 -0.5  0 0 0 1", "--ortho -n -2 -f 6 --half-height 0.5", "gl"},
+    };
+    static const char *const products[] = {"--eye",
+                                           "--eye --error-map",
+                                           "--position exact",
+                                           "--position matrix",
+                                           "--normal projective",
+                                           "--normal projective --error-map"};
+    tally t = {.name = "matrices beside options"};
+    char path[256], shot[256], one[256], other[256];
+    (void)state;
+    snprintf(path, sizeof path, "%s", scratch_file("matrix.txt"));
+    snprintf(shot, sizeof shot, "%s", scratch_file("shot.npy"));
+    snprintf(one, sizeof one, "%s", scratch_file("one.pfm"));
+    snprintf(other, sizeof other, "%s", scratch_file("other.pfm"));
+    for (size_t i = 0; i < sizeof same / sizeof same[0]; i++) {
+        FILE *out = fopen(path, "w");
+        assert_non_null(out);
+        fputs(same[i].entries, out);
+        fclose(out);
+        printed made = print_of("texture --scene plane --parameter distance=1.5 --parameter tilt=20 --size 16x8 "
+                                "-F unorm24 -m %s %s -o '%s'",
+                                same[i].mapping, same[i].options, shot);
+        TALLY(&t, made.status == 0, "%s", made.errors);
+        printed_free(&made);
+        for (size_t k = 0; k < sizeof products / sizeof products[0]; k++) {
+            const char *const common = "texture '%s' -q -F unorm24 -m %s %s %s %s -o '%s'";
+            printed a = print_of(common, shot, same[i].mapping, "--matrix", path, products[k], one);
+            printed b = print_of(common, shot, same[i].mapping, same[i].options, "", products[k], other);
+            TALLY(&t, a.status == 0 && b.status == 0, "%s %s: %s%s", same[i].entries, products[k], a.errors, b.errors);
+            printed_free(&a);
+            printed_free(&b);
+            image p, q;
+            image_error error;
+            assert_true(image_read(one, &p, &error) && image_read(other, &q, &error));
+            const size_t size = (size_t)p.width * p.height * p.channels * sizeof(float);
+            bool near = p.channels == q.channels;
+            for (size_t at = 0; at < size / sizeof(float) && near; at++) { /* half the height is a rounded tangent */
+                const double x = (double)((float *)p.data)[at], y = (double)((float *)q.data)[at];
+                near = (isnan(x) && isnan(y)) || fabs(x - y) <= 2e-7 * (1e-6 + fabs(y)) || x == y;
+            }
+            TALLY(&t, near, "%s: %s is not as by %s", same[i].entries, products[k], same[i].options);
+            image_free(&p);
+            image_free(&q);
+        }
+    }
+    tally_end(&t);
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {cmocka_unit_test(pixels), cmocka_unit_test(products),
+                                       cmocka_unit_test(statistics), cmocka_unit_test(normals),
+                                       cmocka_unit_test(same_camera)};
+    return run_tap(tests);
+}
