@@ -60,6 +60,8 @@ all_named texture "$scratch/depth.npy"
 "$DEPTHPREC" texture --scene plane --size 64x36 -F fp32 -m reversed --eye -o "$scratch/metres.npy"
 all_named texture "$scratch/metres.npy" --metric 1
 all_named texture --scene plane --eye -o "$scratch/eye.png"
+all_named texture --scene plane --eye -o "$scratch/eye.png" --error-map="$scratch/map.png"
+all_named texture --scene plane --size 64x36 --histogram "$scratch/histogram.svg"
 "$DEPTHPREC" texture --scene plane --size 64x36 --pack rg -o "$scratch/packed.png"
 all_named texture "$scratch/packed.png"
 finish

@@ -59,7 +59,7 @@ check "GSL is not in the library" empty includes gsl/ include src/core
 outside='mem(cpy|move|set|cmp|chr)|str(len|n?cmp|n?cpy|n?cat|r?chr|spn|cspn|pbrk|str|tod|toull?|toll?)'
 outside="$outside|(sqrt|fabs|floor|ceil|trunc|rint|nearbyint|round|lrint|llrint|fma|fmin|fmax|fmod|frexp|ldexp|scalbn)f?"
 outside="$outside|(ilogb|logb|exp|exp2|expm1|log|log2|log10|log1p|pow|cbrt|hypot|nextafter|copysign|remainder)f?"
-outside="$outside|(sin|cos|tan|asin|acos|atan|atan2)f?|fe[gs]etround"
+outside="$outside|(sin|cos|sincos|tan|asin|acos|atan|atan2)f?|fe[gs]etround"
 outside="$outside|__stack_chk_fail|__cpu_model|__cpu_indicator_init|__(popcount|clz|ctz)[a-z0-9]*"
 outside="$outside|__cxa_finalize|__gmon_start__|_ITM_(de)?registerTMCloneTable"
 foreign() {

@@ -183,7 +183,7 @@ static const refusal refusals[] = {
     {"texture --scene plane --histogram x.txt", "histogram", 2},
     {"texture --scene plane --histogram x.svg --pixel 1,1", "histogram", 2},
     {"texture --scene plane --histogram x.svg -o x.npy", "histogram", 2},
-    {"texture --scene plane --histogram x.svg --json", "histogram", 2},
+    {"texture --scene plane --histogram - --json", "histogram", 2},
     {"texture --scene plane --histogram x.svg --eye --figure y.svg", "histogram", 2},
     {"texture --scene plane --histogram x.svg -o x.svg", "histogram", 2},
     {"texture --scene plane --pack rg -o x.png --histogram x.svg", "histogram", 2},

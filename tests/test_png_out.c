@@ -141,6 +141,44 @@ static void numbers_as_they_are(void **state) {
     printed_free(&p);
 }
 
+/* Beside the product's meaning stands that of its error map. */
+static void maps_beside(void **state) {
+    (void)state;
+    for (int normals = 0; normals < 2; normals++) {
+        char map[256];
+        image codes;
+        image_error error;
+        snprintf(map, sizeof map, "%s", scratch_file("map.png"));
+        printed p = print_of("%s %s --error-map=%s -o %s --json", SCENE, normals ? "--normal high" : "--eye", map,
+                             scratch_file("p.png"));
+        assert_int_equal(p.status, 0);
+        assert_string_equal(p.errors, "");
+        json_t *root = json_of(p.out);
+        const json_t *beside = json_object_get(root, "error_map");
+        assert_string_equal(json_string_value(json_object_get(root, "product")),
+                            normals ? "normals by high" : "eye depth");
+        assert_string_equal(json_string_value(json_object_get(beside, "file")), map);
+        assert_string_equal(json_string_value(json_object_get(beside, "product")),
+                            normals ? "normals by high, error" : "eye depth, error");
+        assert_string_equal(json_string_value(json_object_get(beside, "unit")), normals ? "degrees" : "scene units");
+        assert_string_equal(json_string_value(json_object_get(beside, "type")), "u2");
+        assert_int_equal(json_integer_value(json_object_get(beside, "channels")), 1);
+        assert_true(image_read(map, &codes, &error));
+        assert_true(strtod(strstr(codes.note, "scale=") + 6, NULL) ==
+                    json_number_value(json_object_get(beside, "scale")));
+        assert_true(strtod(strstr(codes.note, "offset=") + 7, NULL) ==
+                    json_number_value(json_object_get(beside, "offset")));
+        image_free(&codes);
+        json_decref(root);
+        printed_free(&p);
+    }
+    printed p = made("--eye", "p.png", "--json");
+    json_t *root = json_of(p.out);
+    assert_true(json_is_null(json_object_get(root, "error_map")));
+    json_decref(root);
+    printed_free(&p);
+}
+
 /* Eye depths come back without an option, as depths of the same planes, and to the same file. */
 static void eye_depths_come_back(void **state) {
     (void)state;
@@ -219,6 +257,7 @@ int main(void) {
         cmocka_unit_test(normals),
         cmocka_unit_test(meanings),
         cmocka_unit_test(numbers_as_they_are),
+        cmocka_unit_test(maps_beside),
         cmocka_unit_test(eye_depths_come_back),
         cmocka_unit_test(no_depths),
     };

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Rasterizers beyond what was recorded of them: other targets, every path, bad input. */
 #include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
 
 #include "raster_named.h"
@@ -188,6 +189,71 @@ static void every_path(void **state) {
     tally_end(&depths);
 }
 
+/*
+ * Sums that lie next to the middle of two binary32 numbers, closer than double can tell: m x = 2^37 + r with a small r,
+ * so a x = 2^-25 + r 2^-62 beside c = 1/2, whose numbers are 2^-24 apart. Of the row, and of the column.
+ */
+static void next_to_ties(void **state) {
+    tally depths = {.name = "depths next to ties"};
+    const raster_target target = target_of("llvmpipe", "fp32", RASTER_SIZE_MAX, RASTER_SIZE_MAX, DP_PATH_BASELINE);
+    (void)state;
+    for (int x = 8193; x < RASTER_SIZE_MAX; x += 2)
+        for (int side = -1; side <= 1; side += 2) {
+            const int64_t m = (INT64_C(1) << 37) / x + (side > 0);
+            const int64_t r = m * x - (INT64_C(1) << 37);
+            if (llabs(r) >= 256)
+                continue;
+            const float slope = (float)ldexp((double)m, -62);
+            const raster_piece pieces[] = {{.plane = {slope, 0, 0.5F, 0, 0}},
+                                           {.plane = {0, slope, 0.5F, 0, 0}},
+                                           {.plane = {slope, 0, 0.5F + 0x1p-24F, 0, 0}},
+                                           {.plane = {0, slope, 0.5F + 0x1p-24F, 0, 0}}};
+            for (int i = 0; i < 4; i++) {
+                const bool along_x = i % 2 == 0;
+                const float want = operations(target.row, &pieces[i].plane, along_x ? x : 0, along_x ? 0 : x);
+                float depth;
+                raster_depths(&target, &pieces[i], along_x ? 0 : x, along_x ? x : 0, along_x ? x + 1 : 1, &depth);
+                TALLY(&depths, depth == want, "slope %a at %d: %a, not %a", (double)slope, x, (double)depth,
+                      (double)want);
+            }
+        }
+    tally_end(&depths);
+}
+
+/* The plane of llvmpipe where half the target is no power of two, so that its fused positions differ from others. */
+static void fused_positions(void **state) {
+    tally planes = {.name = "planes"};
+    rng r = rng_make("fused positions");
+    unsigned long differ = 0;
+    (void)state;
+    for (int n = 0; n < 2000; n++) {
+        const raster_target target = target_of("llvmpipe", "fp32", 1914, 1083, dp_path_best());
+        raster_vertex v[3];
+        raster_triangle drawn;
+        float x[3], y[3], z[3];
+        for (int k = 0; k < 3; k++)
+            v[k] = random_vertex(&r, rng_uniform(&r, -1, 1), rng_uniform(&r, -1, 1));
+        if (raster_set_up(&target, v, &drawn) != RASTER_OK)
+            continue;
+        for (int k = 0; k < 3; k++) {
+            const float w = 1.0F / v[k].w, at = v[k].x * w;
+            x[k] = fmaf(at, 957.0F, 957.0F);
+            y[k] = fmaf(v[k].y * w, 541.5F, 541.5F);
+            z[k] = v[k].z * w;
+            differ += x[k] != at * 957.0F + 957.0F;
+        }
+        if ((double)(x[0] - x[1]) * (double)(y[2] - y[0]) < (double)(y[0] - y[1]) * (double)(x[2] - x[0]))
+            continue; /* clockwise */
+        const float o = 1.0F / ((x[0] - x[1]) * (y[2] - y[0]) - (y[0] - y[1]) * (x[2] - x[0]));
+        const float a = (z[0] - z[1]) * ((y[2] - y[0]) * o) - (z[2] - z[0]) * ((y[0] - y[1]) * o);
+        const float b = (z[2] - z[0]) * ((x[0] - x[1]) * o) - (z[0] - z[1]) * ((x[2] - x[0]) * o);
+        TALLY(&planes, drawn.piece[0].plane.a == a && drawn.piece[0].plane.b == b, "%a %a, not %a %a",
+              (double)drawn.piece[0].plane.a, (double)drawn.piece[0].plane.b, (double)a, (double)b);
+    }
+    assert_true(differ > 100);
+    tally_end(&planes);
+}
+
 /* ---- What cannot be drawn ---------------------------------------------------------------------------------------- */
 
 enum { SIZE = 512 };
@@ -347,8 +413,14 @@ static void far_off(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(other_targets),           cmocka_unit_test(every_path), cmocka_unit_test(what_cannot_be_drawn),
-        cmocka_unit_test(what_cannot_be_a_target), cmocka_unit_test(any_bits),   cmocka_unit_test(far_off),
+        cmocka_unit_test(other_targets),
+        cmocka_unit_test(every_path),
+        cmocka_unit_test(next_to_ties),
+        cmocka_unit_test(fused_positions),
+        cmocka_unit_test(what_cannot_be_drawn),
+        cmocka_unit_test(what_cannot_be_a_target),
+        cmocka_unit_test(any_bits),
+        cmocka_unit_test(far_off),
     };
     return run_tap(tests);
 }

@@ -38,7 +38,7 @@ static const struct {
     {.effect = "water-line", .camera = {0.3, 900, {"unorm16"}, {"reversed"}, .ortho = 1}, .z = AHEAD,
      .view = "--half-height 3 --pitch 8 --size 90x60 --pixel 70,12", .column = 70, .row = 12,
      .now = {90, 60, 60, 3, 0, 8, {0, 0, 0}}},
-    {.effect = "ambient-occlusion", .camera = PERSPECTIVE("d3d", "unorm16"), .z = AHEAD},
+    {.effect = "ambient-occlusion", .camera = PERSPECTIVE("linear", "unorm16"), .z = AHEAD},
     {.effect = "shadow", .camera = PERSPECTIVE("d3d", "unorm16", "fp32"), .z = AHEAD},
     {.effect = "outline", .camera = PERSPECTIVE("reversed", "unorm16"), .z = AHEAD},
     {.effect = "contact-shadow", .camera = PERSPECTIVE("reversed", "unorm16"), .z = AHEAD},
@@ -61,7 +61,7 @@ static void want_effect_rows(values *v, size_t effect, const double *parameters,
                              line_places *lines) {
     const effect_row *row = effect_find(effects[effect].effect);
     const double *z = effects[effect].z;
-    double decides = NAN, at = NAN;
+    double decides = NAN, at = NAN, least = NAN, least_at = NAN;
     texture_camera now, last;
     effect_view view = {.setup = setup};
     if (effects[effect].view != NULL) {
@@ -85,6 +85,12 @@ static void want_effect_rows(values *v, size_t effect, const double *parameters,
         if (row->alone)
             want_number(v, "share", effect_share(row, &view, parameters, z[k]));
         want_number(v, "usable", usable);
+        if (row->ceiling > 0) {
+            const double radius = effect_ceiling(row, &view, parameters, z[k]);
+            want_number(v, "usable_radius", radius);
+            least_at = k == 0 || radius < least ? z[k] : least_at;
+            least = k == 0 ? radius : fmin(least, radius);
+        }
         const bool first = isnan(usable) ? !isnan(decides) : row->smallest ? usable > decides : usable < decides;
         if (k == 0 || (first && !isnan(decides))) {
             decides = usable;
@@ -96,6 +102,10 @@ static void want_effect_rows(values *v, size_t effect, const double *parameters,
     values_under(v, "setups[%zu].all.", i);
     want_number(v, "usable", decides);
     want_number(v, "z", at);
+    if (row->ceiling > 0) {
+        want_number(v, "usable_radius", least);
+        want_number(v, "radius_z", least_at);
+    }
 }
 
 static void check_effect(values *v, const char *arguments, const effect_row *row, const line_places *lines) {
@@ -106,23 +116,26 @@ static void check_effect(values *v, const char *arguments, const effect_row *row
                                  {"interval", 6}, {"levels", 6}, {"usable", 6}};
     const text_column shared[] = {{"z", 9},      {"code", 10}, {"z_stored", 9}, {"interval", 6},
                                   {"levels", 6}, {"share", 6}, {"usable", 6}};
-    const size_t shown = row->alone ? 7 : 6;
+    const text_column ranged[] = {{"z", 9},      {"code", 10},  {"z_stored", 9},     {"interval", 6},
+                                  {"levels", 6}, {"usable", 6}, {"usable_radius", 6}};
+    const size_t shown = row->alone || row->ceiling > 0 ? 7 : 6;
     static const char *const decides[] = {"setups[0].all.usable", "setups[0].all.z", NULL};
     snprintf(head, sizeof head, "%s %s [%s]", wanted_one->name, direction, wanted_one->unit);
-    const csv_column columns[] = {SETUP_COLUMNS,
-                                  {"effect", "/effect"},
-                                  {"z [scene]", "z"},
-                                  {"code", "code"},
-                                  {"z_stored [scene]", "z_stored"},
-                                  {"interval [scene]", "interval"},
-                                  {"levels [1/255]", "levels"},
-                                  {row->alone ? "share" : head, row->alone ? "share" : "usable"},
-                                  {head, "usable"}};
-    const size_t count = sizeof columns / sizeof columns[0] - !row->alone;
+    const csv_column columns[] = {
+        SETUP_COLUMNS,
+        {"effect", "/effect"},
+        {"z [scene]", "z"},
+        {"code", "code"},
+        {"z_stored [scene]", "z_stored"},
+        {"interval [scene]", "interval"},
+        {"levels [1/255]", "levels"},
+        {row->alone ? "share" : head, row->alone ? "share" : "usable"},
+        {row->ceiling > 0 ? "usable_radius [scene]" : head, row->ceiling > 0 ? "usable_radius" : "usable"}};
+    const size_t count = sizeof columns / sizeof columns[0] - (!row->alone && row->ceiling == 0);
     check_json(v, 0, arguments);
     check_csv(v, 0, arguments, columns, count, lines);
     printed p = print_of("%s --full", arguments);
-    check_text_table(v, p.out, row->alone ? shared : plain, shown, lines);
+    check_text_table(v, p.out, row->alone ? shared : row->ceiling > 0 ? ranged : plain, shown, lines);
     const bool none = isnan(value_at(v, decides[0])->number);
     snprintf(label, sizeof label, none ? "no %s is usable" : "%s %s ", wanted_one->name, direction);
     if (none)
@@ -132,10 +145,18 @@ static void check_effect(values *v, const char *arguments, const effect_row *row
         const double usable = value_at(v, alone[0])->number;
         const bool all = usable == (row->smallest ? wanted_one->lo : wanted_one->hi);
         check_text_numbers(v, p.out, label, 6, all ? alone : decides);
-        const char *at = strstr(p.out, label), *word = strstr(at, " decides");
+        char line[sizeof label + 3];
+        snprintf(line, sizeof line, "\n  %s", label);
+        const char *at = strstr(p.out, line) + 3, *word = strstr(at, " decides");
         const double said = strtod(at + strlen(label), NULL);
         assert_true(all == (word == NULL || word > at + strcspn(at, "\n")));
         assert_true(row->smallest ? said >= usable : said <= usable);
+    }
+    if (row->ceiling > 0) {
+        static const char *const radius[] = {"parameters[0].value", "setups[0].all.usable_radius",
+                                             "setups[0].all.radius_z", NULL};
+        check_text_numbers(v, p.out, "with bias ", 6, radius);
+        assert_true(strtod(strstr(p.out, " a radius up to ") + 16, NULL) <= value_at(v, radius[1])->number);
     }
     printed_free(&p);
 }

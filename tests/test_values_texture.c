@@ -266,6 +266,18 @@ static const csv_column band_columns[] = {
     {"codes", "codes"}, {"available", "available"},      {"gap [scene]", "gap"}, {"gap_z [scene]", "gap_z"},
     {"steps", "steps"}, {"interval [scene]", "interval"}};
 
+/* What 99 % do not exceed, and what none does: not less than it is. Unbounded errors and decodings have no such. */
+static void check_upwards(const values *v, const char *line, char at[][PATH_SIZE]) {
+    for (int k = 0; k < 3; k++) {
+        char word[64];
+        int used = 0;
+        assert_int_equal(sscanf(line, " %63s%n", word, &used), 1);
+        line += used;
+        if (k > 0 && strcmp(word, "-") != 0)
+            assert_true(strtod(word, NULL) >= value_at(v, at[k])->number);
+    }
+}
+
 static void check_text(const values *v, const char *arguments, size_t errors, const line_places *lines) {
     static const text_column bands[] = {{"lo", 6},     {"hi", 6},           {"pixels", 10},
                                         {"codes", 10}, {"available", 10},   {"gap", 6},
@@ -290,6 +302,9 @@ static void check_text(const values *v, const char *arguments, size_t errors, co
         const char *rest = strstr(strstr(p.out, "  pairs  "), "\n");
         check_text_numbers(v, p.out, "pairs  ", 6, pairs);
         check_text_numbers(v, rest + 1, "", 6, certain);
+        const char *words = strstr(rest, "up to z ="); /* where pairs cannot fight: not farther than it is */
+        if (words != NULL)
+            assert_true(strtod(words + strlen("up to z ="), NULL) <= value_at(v, "pairs.certain_to")->number);
     }
     for (size_t i = 0; i < errors; i++) {
         char at[5][PATH_SIZE], label[64];
@@ -299,6 +314,7 @@ static void check_text(const values *v, const char *arguments, size_t errors, co
         for (size_t k = 0; k < 5; k++)
             snprintf(at[k], PATH_SIZE, "errors[%zu].%s", i, fields[k]);
         check_text_numbers(v, p.out, label, 4, paths);
+        check_upwards(v, strstr(p.out, label) + strlen(label), at);
     }
     printed_free(&p);
 }
@@ -403,6 +419,7 @@ static void want_image(values *v, const char *path, const image *shot, const rec
     want_text(v, "type", image_type_name(shot->type));
     want_count(v, "channels", 1);
     want_text(v, "packing", NULL); /* test_packing has it otherwise */
+    want_text(v, "lossy", NULL);   /* and test_image_compressed this */
     values_under(v, "recognised.");
     want_text(v, "format", found->depth ? found->format.name : NULL);
     want_bool(v, "certain", found->certain);

@@ -27,6 +27,7 @@
 #include "depthprec/pipeline.h"
 #include "depthprec/setup.h"
 #include "depthprec/status.h"
+#include "depthprec/triangles.h"
 
 #define DP_VERSION_MAJOR 0
 #define DP_VERSION_MINOR 1

@@ -79,6 +79,8 @@ static bool list_cause(size_t index, list_item *item) {
         [DP_CAUSE_COMPOSITION] = "world positions through view and projection, with --world and --composition",
         [DP_CAUSE_PROJECTION] = "A z + B in binary32, and the remap if there is one",
         [DP_CAUSE_NDC] = "the divide and the viewport",
+        [DP_CAUSE_SNAPPING] = "vertices of slanted triangles moved to the subpixel grid, with --viewport",
+        [DP_CAUSE_SETUP] = "the plane of a slanted triangle set up and evaluated in binary32, with --viewport",
         [DP_CAUSE_INTERPOLATION] = "across a triangle, as given with --interpolation",
         [DP_CAUSE_FORMAT] = "the step of the format and the conversion into it",
         [DP_CAUSE_LINEARIZATION] = "reading eye depth back in a binary32 shader, with --linearize",
@@ -162,7 +164,7 @@ bool list_packing(size_t index, list_item *item) {
     if (row == NULL)
         return false;
     *item = (list_item){.name = row->name, .note = row->note, .source = row->source, .row = row};
-    append(item->bound, sizeof item->bound, "depth: at most %.3g%s", 0.5 / row->steps + row->off,
+    append(item->bound, sizeof item->bound, "depth: at most %s%s", number_up(0.5 / row->steps + row->off, 3).text,
            row->linear ? " of far" : "");
     return true;
 }

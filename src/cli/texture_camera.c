@@ -2,13 +2,29 @@
 /* The cameras of a depth texture: this frame's and, for effects that look back, last frame's. */
 #include <string.h>
 
+#include "cli/names.h"
 #include "cli/texture.h"
+#include "core/append.h"
 
 static const option_id last_options[] = {OPTION_LAST_ORIGIN, OPTION_LAST_YAW, OPTION_LAST_PITCH, OPTION_LAST_FOV};
 enum { LAST_OPTIONS = sizeof last_options / sizeof last_options[0] };
 
+static bool needs_last_frame(const effect_row *row) {
+    return row != NULL && (row->needs & EFFECT_LAST_FRAME) != 0;
+}
+
+/* "--effect motion-blur": those that look back. */
+static const char *names_of_those(char out[NAMES_SIZE]) {
+    out[0] = '\0';
+    for (size_t i = 0; effect_get(i) != NULL; i++)
+        if (needs_last_frame(effect_get(i)))
+            append(out, NAMES_SIZE, "%s%s", out[0] == '\0' ? "--effect " : " or ", effect_get(i)->name);
+    return out;
+}
+
 int texture_camera_check(const options *o) {
-    const bool looks_back = o->effect != NULL && (o->effect->needs & EFFECT_LAST_FRAME) != 0;
+    const bool looks_back = needs_last_frame(o->effect);
+    char names[NAMES_SIZE];
     bool any = false;
     if (o->ortho && option_given(o, OPTION_FOV))
         return option_error(OPTION_FOV, "does not apply with --ortho; --half-height does");
@@ -17,7 +33,8 @@ int texture_camera_check(const options *o) {
     for (int i = 0; i < LAST_OPTIONS; i++) {
         any = any || option_given(o, last_options[i]);
         if (option_given(o, last_options[i]) && !looks_back)
-            return option_error(last_options[i], "is for effects that need last frame's camera: --effect motion-blur");
+            return option_error(last_options[i], "is for effects that need last frame's camera: %s",
+                                names_of_those(names));
     }
     if (o->ortho && option_given(o, OPTION_LAST_FOV))
         return option_error(OPTION_LAST_FOV, "does not apply with --ortho");

@@ -34,7 +34,7 @@ int texture_effect_resolve(const options *o, bool pictured, const effect_row **r
 
 typedef struct row {
     dp_sample sample;
-    double levels, share, usable;
+    double levels, share, usable, ceiling;
 } row;
 
 /* Below `row`, what is usable at all depths shown, and the depth that decides; NaN when at one of them nothing is. */
@@ -54,7 +54,7 @@ typedef struct table {
     effect_view view;
     row row;
     bool begun;
-    double usable, z;
+    double usable, z, ceiling, ceiling_z;
 } table;
 
 static bool needs(const table *t, unsigned what) {
@@ -102,11 +102,16 @@ static void *next_row(void *of, size_t i) {
     x->levels = effect_error(t->effect, &t->view, t->parameters, z);
     x->share = effect_share(t->effect, &t->view, t->parameters, z);
     x->usable = effect_usable(t->effect, &t->view, t->parameters, z, ONE_LEVEL);
+    x->ceiling = effect_ceiling(t->effect, &t->view, t->parameters, z);
     dp_sample_at(t->walk.setup, z, &x->sample); /* depths_resolve() has seen to it */
     const bool decides = isnan(x->usable) || (t->effect->smallest ? x->usable > t->usable : x->usable < t->usable);
     if (!t->begun || (decides && !isnan(t->usable))) {
         t->usable = x->usable;
         t->z = x->sample.z;
+    }
+    if (!t->begun || ((isnan(x->ceiling) || x->ceiling < t->ceiling) && !isnan(t->ceiling))) {
+        t->ceiling = x->ceiling;
+        t->ceiling_z = x->sample.z;
     }
     t->begun = true;
     return x;
@@ -142,6 +147,20 @@ static void say_effect(page *p, void *item) {
                   number_of(t->camera.ortho ? t->spec.half_height : t->spec.fov_y, DIGITS_Z).text);
 }
 
+/* Of another parameter, with the wanted one as it is. */
+static void say_ceiling(page *p, const table *t) {
+    const texture_parameter *other = &t->effect->parameters[t->effect->ceiling];
+    const number_text wanted = number_of(t->parameters[t->effect->wanted], DIGITS_Z),
+                      z = number_of(t->ceiling_z, DIGITS_Z);
+    if (isnan(t->ceiling))
+        page_line(p, "with %s %s no %s does at z = %s", t->wanted_name, wanted.text, other->name, z.text);
+    else if (t->ceiling == other->hi)
+        page_line(p, "with %s %s every %s does", t->wanted_name, wanted.text, other->name);
+    else
+        page_line(p, "with %s %s a %s up to %s does, too, and no larger one; z = %s decides", t->wanted_name,
+                  wanted.text, other->name, number_down(t->ceiling, DIGITS).text, z.text);
+}
+
 /* It is usable as it is printed. At the end of the range no depth decides. */
 static void say_usable(page *p, void *item) {
     const table *t = item;
@@ -155,6 +174,8 @@ static void say_usable(page *p, void *item) {
     else
         page_line(p, "%s %s %s%s keeps the error at most one level at every depth shown%s", t->wanted_name,
                   t->direction, usable.text, t->effect->smallest ? " up" : "", decides);
+    if (t->effect->ceiling > 0)
+        say_ceiling(p, t);
 }
 
 static const column parameter_columns[] = {{FIELD(struct parameter, name, "name", "")},
@@ -162,10 +183,13 @@ static const column parameter_columns[] = {{FIELD(struct parameter, name, "name"
                                            {FIELD(struct parameter, value, "value", "")},
                                            {.kind = COLUMN_END}};
 
-static const column all_columns[] = {
-    {FIELD(table, usable, "usable", "")}, {FIELD(table, z, "z", "scene")}, {.kind = COLUMN_END}};
+enum { WITH_SHARE = 1, WITH_RADIUS = 2, USABLE_WIDTH = 17 };
 
-enum { WITH_SHARE = 1, USABLE_WIDTH = 17 };
+static const column all_columns[] = {{FIELD(table, usable, "usable", "")},
+                                     {FIELD(table, z, "z", "scene")},
+                                     {FIELD(table, ceiling, "usable_radius", "scene"), .when = WITH_RADIUS},
+                                     {FIELD(table, ceiling_z, "radius_z", "scene"), .when = WITH_RADIUS},
+                                     {.kind = COLUMN_END}};
 
 /* The last column is named by the parameter that is wanted, where there is room for that. */
 static int write_table(table *t, int status) {
@@ -182,6 +206,8 @@ static int write_table(table *t, int status) {
         {FIELD(row, usable, "usable", ""), SHOWN(shown, USABLE_WIDTH, DIGITS), .only = AS_JSON | AS_TEXT,
          .upward = t->effect->smallest, .downward = !t->effect->smallest},
         {FIELD(row, usable, usable, t->wanted->unit), .only = AS_CSV},
+        {FIELD(row, ceiling, "usable_radius", "scene"), SHOWN("radius up to", 13, DIGITS), .when = WITH_RADIUS,
+         .downward = true},
         {.kind = COLUMN_END}};
     const column setup_report[] = {{PART(table, walk.fields, NULL, setup_columns)},
                                    {FIELD(table, name, "effect", ""), .only = AS_CSV},
@@ -194,7 +220,7 @@ static int write_table(table *t, int status) {
                               {FIELD(table, direction, "direction", ""), .only = AS_JSON},
                               {LIST("setups", setup_report, next_setup), .head = say_effect, .notes = say_usable},
                               {.kind = COLUMN_END}};
-    const unsigned when = t->effect->alone ? WITH_SHARE : 0;
+    const unsigned when = (t->effect->alone ? WITH_SHARE : 0) | (t->effect->ceiling > 0 ? WITH_RADIUS : 0);
     const report_spec spec = {.command = "texture", .columns = columns, .item = t, .when = when};
     return walk_write(&t->walk, &spec, status);
 }

@@ -138,7 +138,7 @@ int texture_packed_normal_write(const options *o, const texture_source *s) {
     if (status != EXIT_FINE)
         return status;
     float *row = malloc(3 * (size_t)width * sizeof *row);
-    meaning m = writing_meaning(o, &p, &w, 1);
+    meaning m = writing_meaning(o, &p, &w);
     writing_note(&w, &p, &m, note);
     bool good = writing_begin(&w, note) && row != NULL;
     for (uint32_t i = 0; i < height && good; i++) {
@@ -154,5 +154,5 @@ int texture_packed_normal_write(const options *o, const texture_source *s) {
     }
     free(row);
     status = writing_close(&w, 1, good);
-    return status == EXIT_FINE ? writing_say(o, &p, &w, &m, 1) : status;
+    return status == EXIT_FINE ? writing_say(o, &p, &w, &m) : status;
 }

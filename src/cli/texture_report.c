@@ -94,6 +94,9 @@ static void say_origins(const statistics *r, page *p) {
     const bool other = is_image(r) && s->found.depth && strcmp(s->found.format.name, name) != 0;
     if (is_image(r))
         page_note(p, "recognised", "%s", s->found.why);
+    if (is_image(r) && s->picture.lossy != NULL)
+        page_note(p, "compression", "%s, which may have changed the depths: no error here counts that",
+                  s->picture.lossy);
     page_note(p, "format", "%s %s%s%s", name, r->named.format_from,
               other ? ": the nearest codes are taken of what looks like " : "", other ? s->found.format.name : "");
     if (is_image(r))
@@ -187,7 +190,7 @@ static void say_pairs(const survey_pairs *s, page *p) {
         snprintf(first, sizeof first, ", the first at z = %s", number_in(number_of(s->first_tie, 6), p->unit).text);
     if (!isnan(s->certain_to))
         snprintf(certain, sizeof certain, "; none can fight up to z = %s",
-                 number_in(number_of(s->certain_to, 6), p->unit).text);
+                 number_in(number_down(s->certain_to, 6), p->unit).text);
     page_note(p, "pairs", "%llu to be told apart: %llu fight, stored as one code%s", (unsigned long long)s->pairs,
               (unsigned long long)s->ties, first);
     page_note(p, "", "%llu are closer than the separation%s", (unsigned long long)s->possible, certain);
@@ -262,6 +265,7 @@ static const column source_columns[] = {{FIELD(statistics, source.path, "file", 
                                         {FIELD(statistics, source.channels, "channels", ""), .when = OF_IMAGE},
                                         {FIELD(statistics, named.metric, "metric", "scene"), .when = OF_IMAGE},
                                         {FIELD(statistics, named.packing, "packing", ""), .when = OF_IMAGE},
+                                        {FIELD(statistics, source.picture.lossy, "lossy", ""), .when = OF_IMAGE},
                                         {GROUP("samples", sample_columns), .when = OF_IMAGE},
                                         {GROUP("recognised", recognised_columns), .when = OF_WINDOW},
                                         {.kind = COLUMN_END}};
@@ -331,8 +335,8 @@ static const column error_columns[] = {{FIELD(error_line, name, "name", "")},
                                        {FIELD(error_line, sum.infinite, "unbounded", "")},
                                        {FIELD(error_line, masked, "masked", "")},
                                        {FIELD(error_line, sum.mean, "mean", ""), SHOWN("mean", 11, 4)},
-                                       {FIELD(error_line, sum.p99, "p99", ""), SHOWN("99 %", 10, 4)},
-                                       {FIELD(error_line, sum.hi, "max", ""), SHOWN("at most", 10, 4)},
+                                       {FIELD(error_line, sum.p99, "p99", ""), SHOWN("99 %", 10, 4), .upward = true},
+                                       {FIELD(error_line, sum.hi, "max", ""), SHOWN("at most", 10, 4), .upward = true},
                                        {FIELD(error_line, sum.hi_column, "column", "")},
                                        {FIELD(error_line, sum.hi_row, "row", "")},
                                        {TEXT_FIELD(error_line, at, "at pixel", -1, 0)},

@@ -113,6 +113,15 @@ static void warn_of_colours(const options *o, const texture_source *s) {
 
 /* ---- What a file of ours says of itself -------------------------------------------------------------------------- */
 
+/* What a codec has changed is known to nobody, so no error has it. */
+static void warn_of_compression(const options *o, const texture_source *s) {
+    if (s->picture.lossy != NULL && !o->quiet)
+        fprintf(stderr,
+                "depthprec: %s: its compression, %s, may have changed the depths, which no error here counts; save it "
+                "without loss\n",
+                s->path, s->picture.lossy);
+}
+
 /* Whether the command line says what the samples are. */
 static bool is_asked(const options *o) {
     return option_given(o, OPTION_PACKING) || option_given(o, OPTION_METRIC) || option_given(o, OPTION_FORMAT);
@@ -193,6 +202,7 @@ static int read_image(options *o, texture_source *s) {
     }
     s->type = s->picture.type;
     s->channels = s->picture.channels;
+    warn_of_compression(o, s);
     int status = take_note(o, s);
     if (status == EXIT_FINE)
         status = check_window(o);

@@ -170,7 +170,7 @@ static bool scale_of(const texture_source *s, const frame_product *made, writing
 
 static const char *const axes[] = {"x right, y up, z towards the camera", "x right, y down, z towards the camera"};
 
-meaning writing_meaning(const options *o, const texture_product *p, const writing *w, double hi) {
+meaning writing_meaning(const options *o, const texture_product *p, const writing *w) {
     meaning m = {.file = o->output,
                  .product = p->name,
                  .unit = *p->unit != '\0' ? p->unit : NULL,
@@ -179,7 +179,7 @@ meaning writing_meaning(const options *o, const texture_product *p, const writin
                  .channels = w->channels,
                  .scale = 1};
     if (w->file == IMAGE_PNG) {
-        m.scale = w->directions ? 2.0 / GREYS : w->units ? w->lo : (hi - w->lo) / (GREYS - 1);
+        m.scale = w->directions ? 2.0 / GREYS : w->units ? w->lo : (w->hi - w->lo) / (GREYS - 1);
         m.offset = w->directions ? -1 : w->units ? 0 : w->lo - m.scale;
     }
     return m;
@@ -203,6 +203,12 @@ void writing_note(const writing *w, const texture_product *p, const meaning *m, 
                                       : " y=down");
 }
 
+static const column map_columns[] = {
+    {FIELD(meaning, file, "file", "")},         {FIELD(meaning, product, "product", "")},
+    {FIELD(meaning, unit, "unit", "")},         {FIELD(meaning, type, "type", "")},
+    {FIELD(meaning, channels, "channels", "")}, {FIELD(meaning, offset, "offset", "")},
+    {FIELD(meaning, scale, "scale", "")},       {.kind = COLUMN_END}};
+
 static const column meaning_columns[] = {{FIELD(meaning, file, "file", "")},
                                          {FIELD(meaning, product, "product", "")},
                                          {FIELD(meaning, unit, "unit", "")},
@@ -211,9 +217,10 @@ static const column meaning_columns[] = {{FIELD(meaning, file, "file", "")},
                                          {FIELD(meaning, offset, "offset", "")},
                                          {FIELD(meaning, scale, "scale", "")},
                                          {FIELD(meaning, axes, "axes", "")},
+                                         {PART(meaning, error_map, "error_map", map_columns), .pointed = true},
                                          {.kind = COLUMN_END}};
 
-int writing_say(const options *o, const texture_product *p, const writing *w, meaning *m, double hi) {
+int writing_say(const options *o, const texture_product *p, const writing *w, meaning *m) {
     output out;
     if (o->form == FORM_JSON) {
         const int status = output_open(&out, NULL);
@@ -229,7 +236,7 @@ int writing_say(const options *o, const texture_product *p, const writing *w, me
                 m->axes);
     else
         fprintf(stderr, "depthprec: %s: 1 is %s, 65535 is %s%s%s, 0 where there is no %s\n", o->output,
-                number_full(w->lo).text, number_full(hi).text, *p->unit != '\0' ? " " : "", p->unit,
+                number_full(w->lo).text, number_full(w->hi).text, *p->unit != '\0' ? " " : "", p->unit,
                 p->made.error ? "bound" : "value");
     return EXIT_FINE;
 }
@@ -265,7 +272,6 @@ int texture_product_write(const options *o, const texture_source *s, const textu
     int status = EXIT_FINE, opened = 0;
     bool good = true;
     each[1].output = o->error_file;
-    each[1].form = FORM_TEXT; /* one object of JSON, of the product */
     product[1].made = p->error;
     product[1].unit = p->unit_of_error;
     append(product[1].name, sizeof product[1].name, ", error");
@@ -286,14 +292,16 @@ int texture_product_write(const options *o, const texture_source *s, const textu
     for (int i = 0; i < count; i++) {
         char note[IMAGE_NOTE_SIZE];
         good = good && scale_of(s, &product[i].made, &w[i]);
-        m[i] = writing_meaning(&each[i], &product[i], &w[i], w[i].hi);
+        m[i] = writing_meaning(&each[i], &product[i], &w[i]);
         writing_note(&w[i], &product[i], &m[i], note);
         good = good && writing_begin(&w[i], note);
     }
     good = good && make_all(s, product, w, count);
     status = writing_close(w, count, good);
     for (int i = 0; i < count && status == EXIT_FINE; i++) {
-        status = writing_say(&each[i], &product[i], &w[i], &m[i], w[i].hi);
+        m[0].error_map = count > 1 ? &m[1] : NULL;
+        if (i == 0 || o->form != FORM_JSON) /* one object of JSON */
+            status = writing_say(&each[i], &product[i], &w[i], &m[i]);
         if (status == EXIT_FINE)
             say_levels(&each[i], s, &product[i], &w[i]);
     }

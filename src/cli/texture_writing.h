@@ -53,14 +53,15 @@ typedef struct meaning {
     const char *file, *product, *unit, *type, *axes;
     uint32_t channels;
     double offset, scale;
+    const struct meaning *error_map; /**< of the error map beside it; null: there is none */
 } meaning;
 
-meaning writing_meaning(const options *o, const texture_product *p, const writing *w, double hi);
+meaning writing_meaning(const options *o, const texture_product *p, const writing *w);
 
 /** For the file itself. Eye depths are read back by it. */
 void writing_note(const writing *w, const texture_product *p, const meaning *m, char note[IMAGE_NOTE_SIZE]);
 
 /** What the numbers in the file are: JSON on stdout; or, of a PNG, a line on stderr. @return an exit status */
-int writing_say(const options *o, const texture_product *p, const writing *w, meaning *m, double hi);
+int writing_say(const options *o, const texture_product *p, const writing *w, meaning *m);
 
 #endif

@@ -7,6 +7,7 @@
 #include "core/engine.h"
 #include "core/extremes.h"
 #include "core/rounding.h"
+#include "core/triangles.h"
 #include "depthprec/depth.h"
 
 /* Outward by more than the rounding of this file's own arithmetic. */
@@ -17,6 +18,8 @@ static const char *const names[DP_CAUSE_COUNT] = {
     [DP_CAUSE_COMPOSITION] = "composition",
     [DP_CAUSE_PROJECTION] = "projection",
     [DP_CAUSE_NDC] = "ndc",
+    [DP_CAUSE_SNAPPING] = "snapping",
+    [DP_CAUSE_SETUP] = "set-up",
     [DP_CAUSE_INTERPOLATION] = "interpolation",
     [DP_CAUSE_FORMAT] = "format",
     [DP_CAUSE_LINEARIZATION] = "linearization",
@@ -113,15 +116,36 @@ static void add_composition(const dp_setup *setup, const dp_chain *c, double z, 
     out->window = p->ortho ? slope : slope / z * (isinf(separation) ? 1.0 : separation / (z + separation));
 }
 
+/* Slanted triangles; the nearer one may be read back anywhere between its vertices. */
+static void add_triangles(const dp_setup *setup, const dp_chain *c, double z, const dp_budget_terms *terms,
+                          double asked[DP_CAUSE_COUNT], dp_budget *out) {
+    const double nearest = dp_triangles_depths(c, z, terms->triangles).lo;
+    if (terms->linearize)
+        asked[DP_CAUSE_LINEARIZATION] =
+            larger(asked[DP_CAUSE_LINEARIZATION], 2.0 * linearization_error(setup, c, nearest));
+    dp_triangles_add(c, z, terms->triangles, asked, out);
+}
+
+/* What of the terms has no budget. */
+static dp_status check_terms(const dp_setup *setup, const dp_budget_terms *terms) {
+    if (terms == NULL)
+        return DP_OK;
+    if (dp_composition_get(terms->composition) == NULL)
+        return DP_ERROR_MODEL;
+    if (terms->triangles == NULL)
+        return DP_OK;
+    return setup->spec.ortho || terms->world > 0.0 ? DP_ERROR_TRIANGLES : dp_triangles_check(terms->triangles);
+}
+
 dp_status dp_budget_at(const dp_setup *setup, double z, const dp_budget_terms *terms, dp_budget *out) {
     if (setup == NULL || out == NULL)
         return DP_ERROR_NULL;
     if (!(z >= setup->spec.znear && z <= setup->spec.zfar))
         return DP_ERROR_DEPTH;
-    if (terms != NULL && dp_composition_get(terms->composition) == NULL)
-        return DP_ERROR_MODEL;
     dp_pipeline pipeline;
-    const dp_status status = dp_pipeline_init(&pipeline, setup);
+    dp_status status = check_terms(setup, terms);
+    if (status == DP_OK)
+        status = dp_pipeline_init(&pipeline, setup);
     if (status != DP_OK)
         return status;
     const double z1 = (double)(float)z;
@@ -153,6 +177,8 @@ dp_status dp_budget_at(const dp_setup *setup, double z, const dp_budget_terms *t
     out->cause[DP_CAUSE_FORMAT] += out->separation > pipeline_needs ? out->separation - pipeline_needs : 0.0;
     if (terms != NULL && terms->world > 0.0)
         add_composition(setup, &c, z, terms, extra, out);
+    if (terms != NULL && terms->triangles != NULL)
+        add_triangles(setup, &c, z, terms, part, out);
     return DP_OK;
 }
 

@@ -32,8 +32,8 @@ static int codes_are_distinct(const dp_pipeline *p, double low, double high) {
     return codes == ((double)last - (double)first) / step;
 }
 
-/* The longest distance of two binary32 window depths of [low, high] that are stored as one code; clamped, none is 1. */
-static double format_loss(const dp_pipeline *p, double low, double high) {
+/* Clamped, no window depth is 1. */
+double dp_format_loss(const dp_pipeline *p, double low, double high) {
     const dp_format *format = &p->format;
     const double top = smaller(high, 1.0 - DP_UNIT_BELOW_ONE);
     const double bottom = smaller(larger(low, 0.0), top);
@@ -128,7 +128,7 @@ static dp_demand demand_of(const dp_chain *c, const dp_steps *s1, dp_span first,
     const double g1 = dp_chain_window(c, first.lo);
     const double g2 = dp_chain_window(c, second.hi);
     const double error = larger(s1->full, s2.full);
-    const double format = format_loss(&c->pipeline, smaller(g1, g2) - error, larger(g1, g2) + error);
+    const double format = dp_format_loss(&c->pipeline, smaller(g1, g2) - error, larger(g1, g2) + error);
     const double rest = format + extra;
     const double window = before_rounding(s1->viewport, s2.viewport, rest);
     const double quotient = before_rounding(s1->quotient, s2.quotient, window);
@@ -152,7 +152,7 @@ static dp_demand demand_beyond(const dp_chain *c, const dp_steps *s1, dp_span fi
     const double g1 = dp_chain_window(c, first.lo);
     const double g2 = dp_chain_window(c, c->reach.hi);
     const double error = larger(s1->full, s2.full);
-    const double format = format_loss(&c->pipeline, smaller(g1, g2) - error, larger(g1, g2) + error);
+    const double format = dp_format_loss(&c->pipeline, smaller(g1, g2) - error, larger(g1, g2) + error);
     dp_demand d = {.projection =
                        s1->full - s1->inverse.error - s1->quotient.error - s1->viewport.error + s2.product.error,
                    .format = format,

@@ -21,4 +21,7 @@ typedef struct dp_demand {
  */
 double dp_demand_longest(const dp_chain *chain, dp_span first, double extra, dp_demand *out);
 
+/* The longest distance of two binary32 window depths of [low, high] that are stored as one code. */
+double dp_format_loss(const dp_pipeline *pipeline, double low, double high);
+
 #endif

@@ -10,16 +10,17 @@
 
 /* From the axis upwards: first what no arithmetic could do without. */
 static const dp_cause stack[DP_CAUSE_COUNT] = {
-    DP_CAUSE_FORMAT,      DP_CAUSE_EYE,           DP_CAUSE_NDC,           DP_CAUSE_PROJECTION,
-    DP_CAUSE_COMPOSITION, DP_CAUSE_INTERPOLATION, DP_CAUSE_LINEARIZATION,
+    DP_CAUSE_FORMAT,        DP_CAUSE_EYE,           DP_CAUSE_NDC,      DP_CAUSE_PROJECTION, DP_CAUSE_COMPOSITION,
+    DP_CAUSE_INTERPOLATION, DP_CAUSE_LINEARIZATION, DP_CAUSE_SNAPPING, DP_CAUSE_SETUP,
 };
 
 /* A cause that nobody asked to count takes no part anywhere. */
 static bool counts(const dp_budget_terms *terms, dp_cause cause) {
-    return cause == DP_CAUSE_COMPOSITION     ? terms->world > 0
-           : cause == DP_CAUSE_INTERPOLATION ? terms->interpolation > 0
-           : cause == DP_CAUSE_LINEARIZATION ? terms->linearize != 0
-                                             : true;
+    return cause == DP_CAUSE_SNAPPING || cause == DP_CAUSE_SETUP ? terms->triangles != NULL
+           : cause == DP_CAUSE_COMPOSITION                       ? terms->world > 0
+           : cause == DP_CAUSE_INTERPOLATION                     ? terms->interpolation > 0
+           : cause == DP_CAUSE_LINEARIZATION                     ? terms->linearize != 0
+                                                                 : true;
 }
 
 /* The bands that take part, from the axis upwards, and behind them the separation. */

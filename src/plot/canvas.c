@@ -10,6 +10,8 @@
 #include <strings.h>
 #include <time.h>
 
+#include "plot/pixels.h"
+
 /* Points per px in a PDF: CSS has 96 px to the inch, PDF 72 points. */
 #define POINTS_PER_PX 0.75
 #define FONT_FAMILY   "DejaVu Sans"
@@ -81,28 +83,36 @@ canvas *canvas_new(canvas_format format, int width, int height, const notes *wor
     return c;
 }
 
+static bool write_png(canvas *c) {
+    cairo_surface_flush(c->surface);
+    const pixels p = {.at = (const uint32_t *)(const void *)cairo_image_surface_get_data(c->surface),
+                      .stride = (size_t)cairo_image_surface_get_stride(c->surface) / sizeof(uint32_t),
+                      .width = cairo_image_surface_get_width(c->surface),
+                      .height = cairo_image_surface_get_height(c->surface)};
+    return pixels_write_png(c->stream, &p, &c->words);
+}
+
 bool canvas_finish(canvas *c, canvas_bytes *out) {
     cairo_status_t drawn = cairo_status(c->cr);
     cairo_destroy(c->cr);
-    if (drawn == CAIRO_STATUS_SUCCESS && c->format == CANVAS_PNG)
-        drawn = cairo_surface_write_to_png_stream(c->surface, append, c->stream);
+    if (drawn == CAIRO_STATUS_SUCCESS && c->format == CANVAS_PNG && !write_png(c))
+        drawn = CAIRO_STATUS_WRITE_ERROR;
     cairo_surface_finish(c->surface);
     if (drawn == CAIRO_STATUS_SUCCESS)
         drawn = cairo_surface_status(c->surface);
     cairo_surface_destroy(c->surface);
     bool good = fclose(c->stream) == 0 && drawn == CAIRO_STATUS_SUCCESS;
-    *out = (canvas_bytes){NULL, 0};
-    FILE *whole = good ? open_memstream(&out->at, &out->size) : NULL;
-    good = whole != NULL;
-    if (good && c->format == CANVAS_SVG)
-        notes_write_svg(whole, c->bytes.at, c->bytes.size, &c->words);
-    else if (good && c->format == CANVAS_PNG)
-        notes_write_png(whole, c->bytes.at, c->bytes.size, &c->words);
-    else if (good)
-        fwrite(c->bytes.at, 1, c->bytes.size, whole);
-    if (good)
-        good = (ferror(whole) | fclose(whole)) == 0;
-    free(c->bytes.at);
+    *out = good ? c->bytes : (canvas_bytes){NULL, 0};
+    if (good && c->format == CANVAS_SVG) {
+        FILE *whole = open_memstream(&out->at, &out->size);
+        good = whole != NULL;
+        if (good) {
+            notes_write_svg(whole, c->bytes.at, c->bytes.size, &c->words);
+            good = (ferror(whole) | fclose(whole)) == 0;
+        }
+    }
+    if (c->bytes.at != out->at)
+        free(c->bytes.at);
     free(c);
     return good;
 }
@@ -205,16 +215,35 @@ void canvas_text(canvas *c, double x, double y, const char *text, const canvas_f
     cairo_new_path(c->cr);
 }
 
-void canvas_image(canvas *c, canvas_rect area, int columns, int rows, const uint32_t *pixels) {
-    cairo_surface_t *image = cairo_image_surface_create(CAIRO_FORMAT_ARGB32, columns, rows);
+/* An SVG holds the picture as PNG: cairo takes one that is there. */
+static void attach_png(cairo_surface_t *image, const pixels *p) {
+    char *bytes = NULL;
+    size_t size = 0;
+    FILE *stream = open_memstream(&bytes, &size);
+    const bool good = stream != NULL && pixels_write_png(stream, p, NULL);
+    if (stream != NULL && fclose(stream) == 0 && good &&
+        cairo_surface_set_mime_data(image, CAIRO_MIME_TYPE_PNG, (const unsigned char *)bytes, size, free, bytes) ==
+            CAIRO_STATUS_SUCCESS)
+        return;
+    free(bytes); /* then cairo writes its own */
+}
+
+void canvas_image(canvas *c, canvas_rect area, int columns, int rows, const uint32_t *at) {
+    pixels p = {.at = at, .stride = (size_t)columns, .width = columns, .height = rows};
+    for (size_t i = 0; i < (size_t)columns * (size_t)rows && !p.holes; i++)
+        p.holes = at[i] >> 24 == 0;
+    cairo_surface_t *image =
+        cairo_image_surface_create(p.holes ? CAIRO_FORMAT_ARGB32 : CAIRO_FORMAT_RGB24, columns, rows);
     unsigned char *data = cairo_image_surface_get_data(image);
     if (data != NULL) {
         cairo_surface_flush(image);
         for (int row = 0; row < rows; row++)
-            memcpy(data + (ptrdiff_t)row * cairo_image_surface_get_stride(image), pixels + (ptrdiff_t)row * columns,
-                   (size_t)columns * sizeof *pixels);
+            memcpy(data + (ptrdiff_t)row * cairo_image_surface_get_stride(image), at + (ptrdiff_t)row * columns,
+                   (size_t)columns * sizeof *at);
         cairo_surface_mark_dirty(image);
     }
+    if (c->format == CANVAS_SVG)
+        attach_png(image, &p);
     cairo_save(c->cr);
     cairo_translate(c->cr, area.x, area.y);
     cairo_scale(c->cr, area.w / columns, area.h / rows);

@@ -174,7 +174,7 @@ static void mix_numbers(uint64_t *h, const double *values, size_t count) {
         double mantissa = isfinite(values[i]) ? frexp(values[i], &exponent)
                           : isnan(values[i])  ? 2
                                               : copysign(3, values[i]);
-        uint64_t word = (uint64_t)llrint(ldexp(mantissa, 30)) << 16 ^ (uint64_t)(exponent & 0xFFFF);
+        uint64_t word = (uint64_t)llrint(mantissa * 0x1p30) << 16 ^ (uint64_t)(exponent & 0xFFFF);
         for (int byte = 0; byte < 8; byte++)
             *h = (*h ^ (word >> 8 * byte & 255)) * UINT64_C(0x100000001B3);
     }

@@ -68,13 +68,14 @@ static bool draw_pixels(const pencil *p, canvas_rect f, const chart_map *m, cons
     uint32_t *pixels = calloc(count, sizeof *pixels);
     if (pixels == NULL)
         return false;
-    for (int row = 0; row < m->rows; row++)
-        for (int column = 0; column < m->columns; column++) {
-            const size_t i = (size_t)row * (size_t)m->columns + (size_t)column;
-            if (!is_hole(m, i))
-                pixels[(size_t)(m->rows - 1 - row) * (size_t)m->columns + (size_t)column] =
-                    theme_pixel(colour_of(c, m, i));
-        }
+#pragma omp parallel for schedule(static)
+    for (int row = 0; row < m->rows; row++) {
+        const size_t from = (size_t)row * (size_t)m->columns;
+        uint32_t *to = pixels + (size_t)(m->rows - 1 - row) * (size_t)m->columns;
+        for (int column = 0; column < m->columns; column++)
+            if (!is_hole(m, from + (size_t)column))
+                to[column] = theme_pixel(colour_of(c, m, from + (size_t)column));
+    }
     canvas_image(p->c, f, m->columns, m->rows, pixels);
     free(pixels);
     return true;

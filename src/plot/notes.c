@@ -1,7 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "plot/notes.h"
 
-#include <stdint.h>
 #include <string.h>
 
 static void escaped(FILE *out, const char *s) {
@@ -36,42 +35,6 @@ void notes_write_svg(FILE *out, const char *svg, size_t size, const notes *words
     element(out, "<metadata>\ncommand: ", words->command, "\n");
     element(out, "data: ", words->data, "\n</metadata>");
     fwrite(svg + tag + 1, 1, size - tag - 1, out);
-}
-
-static void big_endian(FILE *out, uint32_t v) {
-    for (int shift = 24; shift >= 0; shift -= 8)
-        fputc((int)(v >> shift & 255), out);
-}
-
-/* Bytes of a chunk with its CRC (ISO 3309), bit by bit: a few hundred bytes do not need a table. */
-static void summed(FILE *out, const char *bytes, size_t size, uint32_t *crc) {
-    fwrite(bytes, 1, size, out);
-    for (size_t i = 0; i < size; i++) {
-        *crc ^= (unsigned char)bytes[i];
-        for (int bit = 0; bit < 8; bit++)
-            *crc = (*crc & 1) != 0 ? 0xEDB88320u ^ *crc >> 1 : *crc >> 1;
-    }
-}
-
-static void chunk(FILE *out, const char *keyword, const char *content) {
-    uint32_t crc = 0xFFFFFFFFu;
-    /* keyword, null, no compression (two bytes), no language, no translated keyword, then UTF-8 */
-    big_endian(out, (uint32_t)(strlen(keyword) + 5 + strlen(content)));
-    summed(out, "iTXt", 4, &crc);
-    summed(out, keyword, strlen(keyword) + 1, &crc);
-    summed(out, "\0\0\0\0", 4, &crc);
-    summed(out, content, strlen(content), &crc);
-    big_endian(out, ~crc);
-}
-
-void notes_write_png(FILE *out, const char *png, size_t size, const notes *words) {
-    enum { HEAD = 8 + 25 }; /* the signature and the IHDR chunk, always of these sizes */
-    fwrite(png, 1, HEAD, out);
-    chunk(out, "Title", words->title);
-    chunk(out, "Description", words->description);
-    chunk(out, "Source", words->command);
-    chunk(out, "Comment", words->data);
-    fwrite(png + HEAD, 1, size - HEAD, out);
 }
 
 /* Length of the valid UTF-8 character at s (no overlong forms, no surrogates), 0 when there is none. */

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/** @file notes.h  The words that cairo does not write: title, description and command into a finished SVG or PNG. */
+/** @file notes.h  The words that cairo does not write: title, description and command into a finished SVG. */
 #ifndef PLOT_NOTES_H
 #define PLOT_NOTES_H
 
@@ -16,9 +16,6 @@ typedef struct notes {
 
 /** Writes an SVG with <title>, <desc> and <metadata> as the first children of its root, and its role and label. */
 void notes_write_svg(FILE *out, const char *svg, size_t size, const notes *words);
-
-/** Writes a PNG with iTXt chunks behind the header. */
-void notes_write_png(FILE *out, const char *png, size_t size, const notes *words);
 
 /** Copies text into out as valid UTF-8 without control characters; what is neither becomes '?'. @return out */
 char *notes_clean(char *out, size_t size, const char *text);

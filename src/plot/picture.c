@@ -3,6 +3,7 @@
 
 #include <math.h>
 #include <stdio.h>
+#include <string.h>
 
 #include "plot/heat.h"
 
@@ -42,6 +43,12 @@ bool picture_open(picture *p, int most, chart *memory) {
     return p->values != NULL;
 }
 
+/* A number rather than NaN. */
+static void keep_largest(float *field, float value) {
+    if (!(value <= *field) && !isnan(value))
+        *field = value;
+}
+
 static void take_row(picture *p, uint32_t row, const float *values) {
     const size_t channels = (size_t)p->channels;
     int j = (int)((uint64_t)row * (uint64_t)p->rows / p->height);
@@ -49,12 +56,18 @@ static void take_row(picture *p, uint32_t row, const float *values) {
         j++;
     const span rows = looks_at(p, p->height, p->rows, j);
     float *field = p->values + (size_t)j * (size_t)p->columns * channels;
+    uint32_t missing = 0;
     for (size_t x = 0; x < p->width; x++)
-        p->missing += isnan(values[x * channels]) ? 1 : 0;
+        missing += isnan(values[x * channels]) ? 1 : 0;
+    p->missing += missing;
+    if (p->columns == (int)p->width && p->rows == (int)p->height) {
+        memcpy(field, values, p->width * channels * sizeof *field);
+        return;
+    }
     for (int i = 0; i < p->columns && row >= rows.first && row < rows.end; i++, field += channels) {
         const span columns = looks_at(p, p->width, p->columns, i);
         for (size_t k = columns.first * channels; k < columns.end * channels; k++)
-            field[k % channels] = fmaxf(field[k % channels], values[k]); /* a number rather than NaN */
+            keep_largest(&field[k % channels], values[k]);
     }
 }
 
@@ -63,8 +76,7 @@ void picture_take(picture *p, uint32_t row, uint32_t count, const float *values)
         take_row(p, row + i, values + (size_t)i * p->width * (size_t)p->channels);
 }
 
-static double field(const picture *in, int row, int column, int channel) {
-    const float *at = in->values + ((size_t)row * (size_t)in->columns + (size_t)column) * (size_t)in->channels;
+static double field(const picture *in, const float *at, int channel) {
     if (in->above > 0 && !((double)at[0] > in->above))
         return NAN;
     if (!in->directions)
@@ -80,9 +92,14 @@ static void add_panel(const picture *in, chart *out, int channel) {
         snprintf(panel->title, sizeof panel->title, "%s", in->names[channel]);
     if (!chart_add_map(out, panel, in->columns, in->rows))
         return;
-    for (int row = 0; row < in->rows; row++)
+    const size_t channels = (size_t)in->channels, row_values = (size_t)in->columns * channels;
+#pragma omp parallel for schedule(static)
+    for (int row = 0; row < in->rows; row++) {
+        double *to = chart_field(&panel->map, in->rows - 1 - row, 0);
+        const float *from = in->values + (size_t)row * row_values;
         for (int column = 0; column < in->columns; column++)
-            *chart_field(&panel->map, in->rows - 1 - row, column) = field(in, row, column, channel);
+            to[column] = field(in, from + (size_t)column * channels, channel);
+    }
 }
 
 /* The least and greatest finite number; of magnitudes the least above 0. */
@@ -94,8 +111,8 @@ static void extent(const picture *in, double *lo, double *hi) {
         const double value = (double)in->values[i];
         if (!isfinite(value) || (in->magnitudes && value == 0))
             continue;
-        *lo = fmin(*lo, value);
-        *hi = fmax(*hi, value);
+        *lo = value < *lo ? value : *lo;
+        *hi = value > *hi ? value : *hi;
     }
 }
 
@@ -147,7 +164,8 @@ void picture_lay_under(const picture *ground, chart *out) {
     out->ground = scale_of(ground);
     for (int row = 0; row < m->rows && m->under != NULL; row++)
         for (int column = 0; column < m->columns; column++)
-            m->under[(m->rows - 1 - row) * m->columns + column] = field(ground, row, column, 0);
+            m->under[(m->rows - 1 - row) * m->columns + column] =
+                (double)ground->values[(size_t)row * (size_t)ground->columns + (size_t)column];
 }
 
 void picture_mark(chart *out, size_t count, const double (*at)[2], const char *name) {

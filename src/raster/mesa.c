@@ -26,8 +26,8 @@ static raster_vertex cut(const raster_vertex *inside, const raster_vertex *outsi
                            between(t, from->w, to->w)};
 }
 
-static const raster_clip_rule rule = {
-    {raster_right, raster_left, raster_top, raster_bottom, raster_near, raster_far}, cut, .touching = true};
+static const raster_clip_rule rule = {{RASTER_RIGHT, RASTER_LEFT, RASTER_TOP, RASTER_BOTTOM, RASTER_NEAR, RASTER_FAR},
+                                      cut};
 
 /* New vertices are made by the clipper, which has no fma. */
 static raster_point window(const raster_target *target, const raster_vertex *v, bool fused) {
@@ -49,7 +49,7 @@ raster_status raster_mesa_draw(const raster_target *target, const raster_vertex 
     raster_corner corner[RASTER_CORNERS] = {{vertex[0], 0}, {vertex[1], 1}, {vertex[2], 2}};
     raster_point point[RASTER_CORNERS];
     unsigned all;
-    const unsigned outside = raster_outside(&rule, vertex, &all);
+    const unsigned outside = raster_outside(vertex, &all);
     const int count = all != 0 ? 0 : outside == 0 ? 3 : raster_clip(&rule, vertex, outside, corner);
     for (int i = 0; i < count; i++) {
         point[i] = window(target, &corner[i].at, model->fused && corner[i].given >= 0);

@@ -67,8 +67,9 @@ DP_INLINE float raster_fma(float a, float b, float c) {
     const double moved = sum - product;
     const double lost = (product - (sum - moved)) + ((double)c - moved);
     const uint64_t bits = dp_bits64(sum);
-    const uint64_t even = ~bits & (lost != 0.0 ? 1U : 0U);
-    return (float)dp_float64((lost > 0.0) == (sum > 0.0) ? bits + even : bits - even);
+    if (lost == 0.0 || (bits & 1U) != 0)
+        return (float)sum;
+    return (float)dp_float64((lost > 0.0) == (sum > 0.0) ? bits + 1U : bits - 1U);
 #endif
 }
 

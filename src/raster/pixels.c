@@ -40,35 +40,54 @@ DP_INLINE float swiftshader(const raster_plane *p, float x, float y, int odd_x, 
     return unit(p->c + (y - p->y) * p->b + (x - p->x) * p->a);
 }
 
-/* The loop of one rasterizer for one instruction set. */
-#define LOOP(TARGET, PIXEL, NAME, FMA32)                                                                               \
-    TARGET static void NAME##_block(const raster_plane *p, int y, int x, float *depth) {                               \
-        const raster_plane plane = *p;                                                                                 \
-        for (int i = 0; i < BLOCK; i++)                                                                                \
-            depth[i] = PIXEL(&plane, (float)(x + i), (float)y, (x + i) & 1, y & 1, FMA32);                             \
-    }                                                                                                                  \
+/* The loop of one rasterizer for one instruction set. Narrow spans are a block whose rest is left out. */
+#define SPAN(TARGET, NAME, BLOCK_OF)                                                                                   \
     TARGET static void NAME(const raster_plane *p, int y, int from, int to, float *depth) {                            \
+        const raster_plane plane = *p;                                                                                 \
         if (to - from < BLOCK) {                                                                                       \
-            float block[BLOCK];                                                                                        \
-            NAME##_block(p, y, from, block);                                                                           \
-            for (int i = 0; i < to - from; i++)                                                                        \
-                depth[i] = block[i];                                                                                   \
+            BLOCK_OF(&plane, y, from, to - from, depth);                                                               \
             return;                                                                                                    \
         }                                                                                                              \
         for (int x = from; x < to; x += BLOCK) {                                                                       \
             x = x < to - BLOCK ? x : to - BLOCK;                                                                       \
-            NAME##_block(p, y, x, depth + (x - from));                                                                 \
+            BLOCK_OF(&plane, y, x, BLOCK, depth + (x - from));                                                         \
         }                                                                                                              \
     }
-#define LOOPS(TARGET, PATH, FMA32)                                                                                     \
-    LOOP(TARGET, llvmpipe, llvmpipe_##PATH, FMA32)                                                                     \
-    LOOP(TARGET, softpipe, softpipe_##PATH, FMA32)                                                                     \
-    LOOP(TARGET, swiftshader, swiftshader_##PATH, FMA32)
+#define LOOP(TARGET, PIXEL, NAME, FMA32)                                                                               \
+    DP_INLINE void NAME##_block(const raster_plane *p, int y, int x, int count, float *depth) {                        \
+        for (int i = 0; i < BLOCK; i++)                                                                                \
+            if (i < count)                                                                                             \
+                depth[i] = PIXEL(p, (float)(x + i), (float)y, (x + i) & 1, y & 1, FMA32);                              \
+    }                                                                                                                  \
+    SPAN(TARGET, NAME, NAME##_block)
 
-LOOPS(, baseline, raster_fma)
+/* Without the instruction: where double holds all sums exactly it rounds them as the fused operation does. */
+DP_INLINE float by_double(float a, float b, float c) {
+    return (float)((double)a * (double)b + (double)c);
+}
+LOOP(, llvmpipe, llvmpipe_quick, by_double)
+LOOP(, llvmpipe, llvmpipe_careful, raster_fma)
+
+static float least_of(float least, float x) {
+    return x != 0.0F && fabsf(x) < least ? fabsf(x) : least;
+}
+
+/* All sums are multiples of 2^-24 of the least term, and at most the sum of the greatest: 53 bits hold them. */
+static void llvmpipe_baseline(const raster_plane *p, int y, int from, int to, float *depth) {
+    const float least = least_of(least_of(least_of(FLT_MAX, p->a), p->b), p->c);
+    const float most = fabsf(p->a) * (float)to + fabsf(p->b) * (float)y + fabsf(p->c);
+    (most < least * 0x1p27F ? llvmpipe_quick : llvmpipe_careful)(p, y, from, to, depth);
+}
+LOOP(, softpipe, softpipe_baseline, by_hardware)
+LOOP(, swiftshader, swiftshader_baseline, by_hardware)
+
 #if defined(__x86_64__) && defined(__GNUC__)
-LOOPS(__attribute__((target("avx2,fma"))), avx2, by_hardware)
-LOOPS(__attribute__((target("avx512f,avx512bw,avx512dq,avx512vl,fma"))), avx512, by_hardware)
+#define PATHS(TARGET, PATH)                                                                                            \
+    LOOP(TARGET, llvmpipe, llvmpipe_##PATH, by_hardware)                                                               \
+    LOOP(TARGET, softpipe, softpipe_##PATH, by_hardware)                                                               \
+    LOOP(TARGET, swiftshader, swiftshader_##PATH, by_hardware)
+PATHS(__attribute__((target("avx2,fma"))), avx2)
+PATHS(__attribute__((target("avx512f,avx512bw,avx512dq,avx512vl,fma"))), avx512)
 #define TABLE(ROW)                                                                                                     \
     raster_depth_loop *const raster_##ROW##_depths[DP_PATH_COUNT] = {ROW##_baseline, ROW##_avx2, ROW##_avx512};
 #else

@@ -3,6 +3,8 @@
  * Coverage of convex polygons whose corners lie on a grid: exact in integers. A row holds the pixels from the left edge
  * on, it included, to the right one, it excluded; rows likewise from the top: the top-left rule.
  */
+#include <stdlib.h>
+
 #include "raster/model.h"
 
 /* The least integer that is not below n / d, d > 0. */
@@ -29,23 +31,19 @@ bool raster_snapped_rows(const raster_target *target, raster_piece *piece) {
 }
 
 bool raster_snapped_span(const raster_target *target, const raster_piece *piece, int y, int *from, int *to) {
-    const int64_t row = (int64_t)y << piece->bits;
+    const int64_t row = (int64_t)y * (1 << piece->bits);
     int64_t left = INT64_MAX;
     int64_t right = INT64_MIN;
     if (y < piece->y0 || y >= piece->y1)
         return false;
-    for (int i = 0; i < piece->corners; i++) {
-        const int j = i + 1 < piece->corners ? i + 1 : 0;
-        const int lower = piece->y[i] < piece->y[j] ? i : j;
-        const int upper = lower == i ? j : i;
-        if (piece->y[lower] > row || piece->y[upper] <= row)
-            continue;
-        const int64_t high = (int64_t)piece->y[upper] - piece->y[lower];
-        const int64_t wide = (int64_t)piece->x[upper] - piece->x[lower];
-        const int64_t x =
-            ceiling((int64_t)piece->x[lower] * high + wide * (row - piece->y[lower]), high << piece->bits);
-        left = x < left ? x : left;
-        right = x > right ? x : right;
+    for (int i = 0, j = piece->corners - 1; i < piece->corners; j = i++) {
+        const int64_t high = (int64_t)piece->y[j] - piece->y[i];
+        const int64_t wide = (int64_t)piece->x[j] - piece->x[i];
+        const int64_t along = piece->x[i] * high + wide * (row - piece->y[i]);
+        const bool crosses = (piece->y[i] <= row) != (piece->y[j] <= row);
+        const int64_t x = ceiling(high < 0 ? -along : along, crosses ? llabs(high) << piece->bits : 1);
+        left = crosses && x < left ? x : left;
+        right = crosses && x > right ? x : right;
     }
     *from = within(left, target->width);
     *to = within(right, target->width);

@@ -7,6 +7,7 @@
 
 enum { SNAP_BITS = 4, SNAP = 1 << SNAP_BITS };
 
+static const int32_t corner_max = 1 << 24; /* of a clipped one, far beyond any target */
 static const float least_int = -0x1p31F;
 static const float greatest_int = 0x1.fffffep30F; /* the greatest binary32 number that is an int32_t */
 
@@ -17,8 +18,8 @@ static raster_vertex cut(const raster_vertex *inside, const raster_vertex *outsi
         (d_outside * inside->z - d_inside * outside->z) * d, (d_outside * inside->w - d_inside * outside->w) * d};
 }
 
-static const raster_clip_rule rule = {
-    {raster_near, raster_far, raster_left, raster_right, raster_top, raster_bottom}, cut, .touching = false};
+static const raster_clip_rule rule = {{RASTER_NEAR, RASTER_FAR, RASTER_LEFT, RASTER_RIGHT, RASTER_TOP, RASTER_BOTTOM},
+                                      cut};
 
 static float reciprocal(float w) {
     return w != 0.0F ? 1.0F / w : 1.0F;
@@ -77,7 +78,7 @@ raster_status raster_swiftshader_draw(const raster_target *target, const raster_
     raster_corner corner[RASTER_CORNERS] = {{vertex[0], 0}, {vertex[1], 1}, {vertex[2], 2}};
     raster_piece *piece = &drawn->piece[0];
     unsigned all;
-    const unsigned outside = raster_outside(&rule, vertex, &all);
+    const unsigned outside = raster_outside(vertex, &all);
     piece->corners = all != 0 ? 0 : outside == 0 ? 3 : raster_clip(&rule, vertex, outside, corner);
     piece->bits = SNAP_BITS;
     if (piece->corners == 0)
@@ -87,6 +88,9 @@ raster_status raster_swiftshader_draw(const raster_target *target, const raster_
         const float r = reciprocal(at->w);
         piece->x[i] = snapped(at->x, r, target->width);
         piece->y[i] = snapped(at->y, r, target->height);
+        if (piece->x[i] < -corner_max || piece->x[i] > corner_max || piece->y[i] < -corner_max ||
+            piece->y[i] > corner_max)
+            return RASTER_RANGE;
     }
     if (!set_plane(target, vertex, &piece->plane) || !raster_snapped_rows(target, piece))
         return RASTER_EMPTY;

@@ -132,17 +132,44 @@ static bool differences(const cell_case *at, double slope, double out[2]) {
     return true;
 }
 
+static double difference_at(const cell_case *at, double z) {
+    return dp_stored(at->view->setup, dp_code(at->view->setup, z)) - at->cell.stored;
+}
+
+/* The differences on either side of a value: the last below it, or up to it where that is `included`, and the first
+ * beyond. NaN where there is none. */
+static void differences_beside(const cell_case *at, double slope, double value, bool included, double out[2]) {
+    const double past = included ? nextafter(value, HUGE_VAL) : value;
+    double lo = at->first + slope, hi = fmin(at->last + slope, at->view->setup->spec.zfar);
+    out[0] = difference_at(at, hi) < past ? difference_at(at, hi) : (double)NAN;
+    out[1] = difference_at(at, lo) < past ? (double)NAN : difference_at(at, lo);
+    if (!isnan(out[0]) || !isnan(out[1]))
+        return;
+    for (double middle = lo + (hi - lo) / 2; middle > lo && middle < hi; middle = lo + (hi - lo) / 2)
+        *(difference_at(at, middle) < past ? &lo : &hi) = middle;
+    out[0] = difference_at(at, lo);
+    out[1] = difference_at(at, hi);
+}
+
 /* Below which values of the wanted parameter the output is 1: as it should be, and at least and at most. */
 typedef struct critical_values {
     double plane, least, most;
 } critical_values;
 
-static bool critical_of(const cell_case *at, const double *p, critical_values *out) {
+static double slope_of(const cell_case *at, const double *p) {
     const int index = parameter_find(at->row->parameters, "slope");
-    const double slope = index >= 0 ? p[index] : 0, plane[2] = {slope, slope};
-    double apart[2], some[2];
+    return index >= 0 ? p[index] : 0;
+}
+
+static bool critical_of(const cell_case *at, const double *p, critical_values *out) {
+    const double slope = slope_of(at, p), plane[2] = {slope, slope};
+    double apart[2], some[2], below[2];
     if (!differences(at, slope, apart))
         return false;
+    if (at->row->ceiling > 0) {
+        differences_beside(at, slope, p[at->row->ceiling], false, below);
+        apart[1] = below[0]; /* NaN where the first is beyond the ceiling, too */
+    }
     at->row->critical(at->view, p, at->cell.stored, plane, some);
     out->plane = at->row->quiet ? 0 : some[0];
     at->row->critical(at->view, p, at->cell.stored, apart, some);
@@ -277,4 +304,19 @@ double effect_usable(const effect_row *row, const effect_view *view, const doubl
     if (row->smallest)
         return *wanted <= range->hi ? fmax(*wanted, range->lo) : (double)NAN;
     return *wanted >= range->lo ? fmin(*wanted, range->hi) : (double)NAN;
+}
+
+double effect_ceiling(const effect_row *row, const effect_view *view, const double *parameters, double z) {
+    const cell_case at = case_at(row, view, z);
+    const texture_parameter *range = &row->parameters[row->ceiling];
+    const double slope = slope_of(&at, parameters);
+    double apart[2];
+    if (row->ceiling == 0 || !has_error(&at))
+        return (double)NAN;
+    if (!differences(&at, slope, apart))
+        return range->hi;
+    differences_beside(&at, slope, parameters[row->wanted], true, apart);
+    if (isnan(apart[1]))
+        return range->hi;
+    return apart[1] >= range->lo ? fmin(apart[1], range->hi) : (double)NAN;
 }

@@ -94,6 +94,7 @@ typedef struct effect_row {
     texture_parameter parameters[TEXTURE_PARAMETERS + 1];
     int wanted;            /**< the parameter whose usable values are looked for */
     bool smallest;         /**< it is usable from some value up; else from some value down */
+    int ceiling;           /**< EFFECT_STEP: another parameter, beyond which differences count for nothing; 0: none */
     bool eye01;            /**< uses z/far, so far must be finite */
     unsigned needs;        /**< EFFECT_POSITION and the like */
     const char *reference; /**< what the depth is compared with; null when with nothing */
@@ -151,6 +152,11 @@ double effect_error_within(const effect_row *row, const effect_view *view, const
  * @return within the range of the parameter; NaN when no value of the range is usable, and where the error is NaN
  */
 double effect_usable(const effect_row *row, const effect_view *view, const double *parameters, double z, double levels);
+
+/** The largest value of the parameter `ceiling` with which no place of a plane, at a depth of z's cell, gets another
+ *  answer than it should, the others being what they are: every smaller one has none either. NaN for other rows, in the
+ *  model fp32, and where there is none. */
+double effect_ceiling(const effect_row *row, const effect_view *view, const double *parameters, double z);
 
 /** EFFECT_STEP that is `alone`: the share of the places of a plane, all over z's cell and all over a texel, that get
  *  another answer than they should; eye depths in the cell count alike. NaN for other rows. */

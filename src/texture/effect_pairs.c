@@ -53,11 +53,11 @@ float occlusion_shader(const effect_pixel *pixel, const float *p, const effect_p
     return before > p[OCCLUSION_BIAS] && before < p[OCCLUSION_RADIUS] ? 1.0f : 0.0f;
 }
 
-/* Up to the radius, where the differences reach beyond it. */
+/* The last difference is the last below the radius. */
 void occlusion_critical(const effect_view *view, const double *p, double seen, const double apart[2], double out[2]) {
     (void)view, (void)seen;
     out[0] = 0;
-    out[1] = apart[0] < p[OCCLUSION_RADIUS] ? fmin(apart[1], p[OCCLUSION_RADIUS]) : 0;
+    out[1] = apart[0] < p[OCCLUSION_RADIUS] ? apart[1] : 0;
 }
 
 /* ---- Shadows ----------------------------------------------------------------------------------------------------- */

@@ -111,7 +111,7 @@ static const effect_row rows[] = {
          [OCCLUSION_RADIUS] = {"radius", "range: what is farther away hides nothing", "scene", 1e-12, 1e12, 0.5,
                                .whole = false},
          SLOPE, SAMPLE_DISTANCE},
-     .wanted = OCCLUSION_BIAS, .smallest = true, .needs = EFFECT_SECOND_DEPTH,
+     .wanted = OCCLUSION_BIAS, .ceiling = OCCLUSION_RADIUS, .smallest = true, .needs = EFFECT_SECOND_DEPTH,
      .reference = "the sample's place in its cell",
      .source = "Mittring 2007, Finding next gen: CryEngine 2; range checks as in LearnOpenGL, SSAO",
      .kind = EFFECT_STEP, .taps = EFFECT_AROUND, .quiet = true, .critical = occlusion_critical, .output = occlusion,

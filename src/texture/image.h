@@ -50,6 +50,7 @@ typedef struct image {
     void *data;                 /**< malloc'ed */
     const char *says;           /**< the depth format that the file names, "unorm24"; null when it names none */
     unsigned colours;           /**< IMAGE_SRGB, ... */
+    const char *lossy;          /**< the compression, where it may have changed samples: "PXR24"; else null */
     char note[IMAGE_NOTE_SIZE]; /**< of a PNG that depthprec wrote: the note, else "" */
 } image;
 

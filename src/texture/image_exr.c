@@ -30,6 +30,7 @@
     X(exr_get_channels)                                                                                                \
     X(exr_get_data_window)                                                                                             \
     X(exr_get_display_window)                                                                                          \
+    X(exr_get_compression)                                                                                             \
     X(exr_get_scanlines_per_chunk)                                                                                     \
     X(exr_get_tile_descriptor)                                                                                         \
     X(exr_read_scanline_chunk_info)                                                                                    \
@@ -172,6 +173,36 @@ static bool find_channel(reading *r) {
            find_like(r, "Z", LIKE_LAST) || find_like(r, NULL, LIKE_SAME) || no_channel(r);
 }
 
+/* DWA knows colours by name, and takes what has other names as it is. */
+static bool is_colour(const char *channel) {
+    static const char *const colours[] = {"R", "G", "B", "Y", "RY", "BY"};
+    const char *dot = strrchr(channel, '.'), *last = dot != NULL ? dot + 1 : channel;
+    for (size_t i = 0; i < sizeof colours / sizeof colours[0]; i++)
+        if (strcasecmp(last, colours[i]) == 0)
+            return true;
+    return false;
+}
+
+/* Null where it gives back what it was given, as all do for whole numbers. */
+static const char *lossy_name(const reading *r, exr_pixel_type_t type) {
+    exr_compression_t how = EXR_COMPRESSION_NONE;
+    r->call.exr_get_compression(r->file, r->part, &how);
+    switch ((int)how) {
+    case EXR_COMPRESSION_PXR24: /* which cuts floats to 24 bits */
+        return type == EXR_PIXEL_FLOAT ? "PXR24" : NULL;
+    case EXR_COMPRESSION_B44: /* halves alone */
+        return type == EXR_PIXEL_HALF ? "B44" : NULL;
+    case EXR_COMPRESSION_B44A:
+        return type == EXR_PIXEL_HALF ? "B44A" : NULL;
+    case EXR_COMPRESSION_DWAA:
+        return type != EXR_PIXEL_UINT && is_colour(r->channel) ? "DWAA" : NULL;
+    case EXR_COMPRESSION_DWAB:
+        return type != EXR_PIXEL_UINT && is_colour(r->channel) ? "DWAB" : NULL;
+    default:
+        return how < EXR_COMPRESSION_PXR24 ? NULL : "an unknown one";
+    }
+}
+
 static bool find_shape(reading *r) {
     static const image_type types[] = {
         [EXR_PIXEL_UINT] = IMAGE_U32, [EXR_PIXEL_HALF] = IMAGE_F16, [EXR_PIXEL_FLOAT] = IMAGE_F32};
@@ -196,8 +227,11 @@ static bool find_shape(reading *r) {
         return source_fail(r->source, "EXR: channel %.40s has not a sample for every pixel", r->channel);
     if ((unsigned)entry->pixel_type > EXR_PIXEL_FLOAT)
         return source_fail(r->source, "EXR: channel %.40s is neither half, float nor uint", r->channel);
-    return source_shape(r->source, r->out, (uint64_t)((int64_t)w->max.x - w->min.x + 1),
-                        (uint64_t)((int64_t)w->max.y - w->min.y + 1), 1, types[entry->pixel_type]);
+    const char *lossy = lossy_name(r, entry->pixel_type);
+    const bool good = source_shape(r->source, r->out, (uint64_t)((int64_t)w->max.x - w->min.x + 1),
+                                   (uint64_t)((int64_t)w->max.y - w->min.y + 1), 1, types[entry->pixel_type]);
+    r->out->lossy = lossy;
+    return good;
 }
 
 /* ---- Samples ------------------------------------------------------------------------------------------------------*/

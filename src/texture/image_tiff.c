@@ -126,6 +126,29 @@ static bool find_shape(reading *r, bool *apart) {
     return find_type(r, &type) && source_shape(r->source, r->out, width, height, *apart ? 1 : channels, type);
 }
 
+/* Null where it gives back what it was given. LERC and WebP may do so, too, which nothing in the file says. */
+static const char *lossy_name(const reading *r) {
+    static const uint32_t exact[] = {COMPRESSION_NONE,          COMPRESSION_LZW,     COMPRESSION_PACKBITS,
+                                     COMPRESSION_ADOBE_DEFLATE, COMPRESSION_DEFLATE, COMPRESSION_LZMA,
+                                     COMPRESSION_ZSTD};
+    static const struct {
+        uint32_t how;
+        const char *name;
+    } lossy[] = {{COMPRESSION_JPEG, "JPEG"},
+                 {COMPRESSION_OJPEG, "JPEG"},
+                 {COMPRESSION_LERC, "LERC"},
+                 {COMPRESSION_WEBP, "WebP"},
+                 {COMPRESSION_PIXARLOG, "PixarLog"}};
+    const uint32_t how = number(r, TIFFTAG_COMPRESSION);
+    for (size_t i = 0; i < sizeof exact / sizeof exact[0]; i++)
+        if (how == exact[i])
+            return NULL;
+    for (size_t i = 0; i < sizeof lossy / sizeof lossy[0]; i++)
+        if (how == lossy[i].how)
+            return lossy[i].name;
+    return "an unknown one";
+}
+
 static bool damaged(reading *r, uint64_t row) {
     return source_fail(r->source, "damaged TIFF: row %llu cannot be read", (unsigned long long)row);
 }
@@ -184,7 +207,10 @@ static bool read_file(reading *r) {
                                      NULL);
     if (r->file == NULL)
         return source_fail(r->source, "damaged TIFF: its first directory cannot be read");
-    if (!find_shape(r, &apart) || !(r->call.TIFFIsTiled(r->file) ? read_tiles(r) : read_strips(r)))
+    if (!find_shape(r, &apart))
+        return false;
+    r->out->lossy = lossy_name(r);
+    if (!(r->call.TIFFIsTiled(r->file) ? read_tiles(r) : read_strips(r)))
         return false;
     return r->call.TIFFReadDirectory(r->file) != 1 ||
            source_fail(r->source, "TIFF: it has several images: a file must hold one image and nothing else");

@@ -102,7 +102,7 @@ void packing_normal_texel(const double normal[3], uint8_t *texel) {
         texel[i] = (uint8_t)codes[i];
 }
 
-/* A texel stands for a square of the stereographic plane. That map is conformal: 2/(1 + |v|^2) of a way there. */
+/* A texel holds a square of the stereographic plane. That map is conformal: 2/(1 + |v|^2) of a way there. */
 double packing_normal_reach(const uint8_t *texel, bool truncated) {
     const double diagonal = M_SQRT2 * PACK_STEREO_SCALE / BYTE * (truncated ? 2 : 1);
     double normal[3];

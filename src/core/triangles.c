@@ -1,0 +1,202 @@
+/* SPDX-License-Identifier: MIT */
+#include "core/triangles.h"
+
+#include "core/demand.h"
+#include "core/extremes.h"
+#include "core/rounding.h"
+
+static const double degree = 0x1.1df46a2529d39p-6;
+
+/* Outward by more than the rounding of this file's own arithmetic; and roundings of what is rounded already. */
+static const double outward = 1.0 + 0x1p-40;
+static const double second_order = 1.0 + 0x1p-10;
+
+/* What is flushed to zero below 2^-126 on the way, of triangles of any size; and the least window depth beside it. */
+static const double underflow = 0x1p-90;
+static const double least_window = 0x1p-60;
+
+/* clang-format off */
+static const dp_anchor_row anchors[DP_ANCHOR_COUNT] = {
+    [DP_ANCHOR_VERTEX] = {"vertex", {.value = 2, .box = 11, .range = 2, .origin = 0},
+                          "anchored at a vertex, which is on the subpixel grid"},
+    [DP_ANCHOR_ORIGIN] = {"origin", {.value = 3, .box = 10, .range = 2, .origin = 5},
+                          "anchored at the target's corner, two fused operations a pixel"},
+    [DP_ANCHOR_ORIGIN_UNFUSED] = {"origin-unfused", {.value = 3, .box = 10, .range = 2, .origin = 6},
+                                  "the same, by multiply and add"},
+    [DP_ANCHOR_ORIGIN_STEPPED] = {"origin-stepped", {.value = 5, .box = 8, .range = 2, .origin = 6},
+                                  "the same at every other pixel, stepped between them"},
+};
+/* clang-format on */
+
+const dp_anchor_row *dp_anchor_get(dp_anchor anchor) {
+    return (unsigned)anchor < DP_ANCHOR_COUNT ? &anchors[anchor] : NULL;
+}
+
+dp_triangles dp_triangles_default(void) {
+    return (dp_triangles){.width = 1920,
+                          .height = 1080,
+                          .fov_y = 60.0,
+                          .subpixel = 8,
+                          .plane = anchors[DP_ANCHOR_VERTEX].plane,
+                          .slant_lo = 0.0,
+                          .slant_hi = 90.0,
+                          .depth = 2.0,
+                          .pixels = 512.0,
+                          .slim = 16.0};
+}
+
+static double half_tangent(double degrees) {
+    return tan(0.5 * degrees * degree);
+}
+
+double dp_fov_vertical(double fov_x, int width, int height) {
+    return 2.0 * atan(half_tangent(fov_x) * height / width) / degree;
+}
+
+static int within(double x, double lo, double hi) {
+    return x >= lo && x <= hi;
+}
+
+dp_status dp_triangles_check(const dp_triangles *t) {
+    static const double most = 1e6;
+    if (t == NULL)
+        return DP_ERROR_NULL;
+    const dp_plane_error *p = &t->plane;
+    const int plane =
+        within(p->value, 0, most) && within(p->box, 0, most) && within(p->range, 0, most) && within(p->origin, 0, most);
+    const int view = within(t->width, 1, 32768) && within(t->height, 1, 32768) && within(t->fov_y, 0.01, 179) &&
+                     within(t->subpixel, 0, 8);
+    const int slant = within(t->slant_lo, 0, 90) && within(t->slant_hi, t->slant_lo, 90);
+    const int class = within(t->depth, 1, 1e6) && within(t->pixels, 1, 65536) && within(t->slim, 2, 1024);
+    return plane && view && slant && class ? DP_OK : DP_ERROR_TRIANGLES;
+}
+
+/* ---- What both triangles lose ------------------------------------------------------------------------------------ */
+
+dp_span dp_triangles_depths(const dp_chain *c, double z, const dp_triangles *t) {
+    const double lo = larger(z / t->depth, c->reach.lo);
+    const double hi = smaller(z * t->depth, c->reach.hi);
+    return (dp_span){(double)(float)lo, (double)(float)larger(lo, hi)};
+}
+
+/* A vertex's own errors: binade by binade of z, in each as they are at worst. */
+typedef struct own_error {
+    double projection, ndc;
+} own_error;
+
+static own_error own_error_over(const dp_chain *c, dp_span r) {
+    own_error worst = {0};
+    double lo = r.lo, hi;
+    do {
+        hi = smaller(2.0 * dp_power2(dp_exponent(lo)) * (1.0 - DP_UNIT), r.hi);
+        const dp_steps s = dp_chain_steps(c, (dp_span){lo, hi});
+        const double ndc = s.inverse.error + s.quotient.error + s.viewport.error;
+        worst.projection = larger(worst.projection, s.full - ndc);
+        worst.ndc = larger(worst.ndc, ndc);
+        lo = (double)nextafterf((float)hi, HUGE_VALF);
+    } while (hi < r.hi);
+    return worst;
+}
+
+/* Window depth of both, by cause; and by how many pixels each plane is displaced on top of snapping. */
+typedef struct loss {
+    double cause[DP_CAUSE_COUNT];
+    double dx, dy;
+} loss;
+
+/*
+ * The range of a triangle's window depths follows from the depths of the class or, `by_slope`, from the plane's slope
+ * and the width of the box: then it acts as if the plane were displaced.
+ */
+static loss loss_of(const dp_chain *c, double z, const dp_triangles *t, const double asked[DP_CAUSE_COUNT],
+                    int by_slope) {
+    const dp_span at = dp_triangles_depths(c, z, t);
+    const own_error own = own_error_over(c, at);
+    const double full = own.projection + own.ndc;
+    const double g1 = dp_chain_window(c, at.lo);
+    const double g2 = dp_chain_window(c, at.hi);
+    const double most = smaller(larger(g1, g2) + full, 1.0);
+    const double far_x = t->width + t->pixels;
+    const double far_y = t->height + t->pixels;
+    const double box = 0.5 + 0.5 * hypot(t->slim, 1.0);
+    const double gradients = 1.0 + t->plane.origin * DP_UNIT * (far_x + far_y);
+    const double per_range = (t->plane.box * box + t->plane.range) * gradients * second_order;
+    const double range = (by_slope ? 0.0 : fabs(g1 - g2)) + 2.0 * full;
+    const double setup = DP_UNIT * (t->plane.value * most * second_order + per_range * range) + underflow;
+    const double slope = by_slope ? per_range * t->pixels : 0.0;
+    const double room = full + setup;
+    loss out = {.dx = 3.0 * t->width + 6.0 * t->pixels + t->plane.origin * far_x + slope,
+                .dy = 3.0 * t->height + 6.0 * t->pixels + t->plane.origin * far_y + slope};
+    out.dx *= DP_UNIT * second_order;
+    out.dy *= DP_UNIT * second_order;
+    out.cause[DP_CAUSE_PROJECTION] = 2.0 * own.projection;
+    out.cause[DP_CAUSE_NDC] = 2.0 * own.ndc + c->below + c->above;
+    out.cause[DP_CAUSE_SETUP] = 2.0 * setup;
+    out.cause[DP_CAUSE_INTERPOLATION] = asked[DP_CAUSE_INTERPOLATION];
+    out.cause[DP_CAUSE_FORMAT] = dp_format_loss(&c->pipeline, smaller(g1, g2) - room, larger(g1, g2) + room);
+    out.cause[DP_CAUSE_LINEARIZATION] = asked[DP_CAUSE_LINEARIZATION];
+    return out;
+}
+
+/* ---- The worst slant --------------------------------------------------------------------------------------------- */
+
+/* Scene units a pixel at z = 1; and how far beside the axis rays lie at z = 1, those of pixels and of vertices. */
+typedef struct view {
+    double pixel, ray, vertex_ray;
+} view;
+
+static view view_of(const dp_triangles *t) {
+    const double y = half_tangent(t->fov_y);
+    const double pixel = 2.0 * y / t->height;
+    const double x = 0.5 * pixel * t->width;
+    const double off = pixel * t->pixels;
+    return (view){pixel, hypot(x, y), hypot(x + off, y + off)};
+}
+
+/*
+ * The budget at the slant where it is largest: a sum of a sine and a cosine rises up to one angle and falls behind it.
+ * INFINITY where nothing in front of z is certain.
+ */
+static dp_budget at_worst(const dp_chain *c, double z, const dp_triangles *t, const loss *of) {
+    const view v = view_of(t);
+    const double slope = c->half * fabs(c->b);
+    double window = 0.0;
+    for (int i = 0; i < DP_CAUSE_COUNT; i++)
+        window += of->cause[i];
+    const double facing = window * z * z / slope;
+    const double snap = t->subpixel > 0 ? dp_power2(-t->subpixel - 1) : 0.0;
+    const double eye = 2.0 * DP_UNIT * second_order * z;
+    const double per_sine = 2.0 * v.pixel * z * hypot(snap + of->dx, snap + of->dy) + eye * v.vertex_ray;
+    const double best = atan2(per_sine + facing * v.ray, eye + facing);
+    const double angle = smaller(larger(best, t->slant_lo * degree), t->slant_hi * degree);
+    const double sine = sin(angle);
+    const double cosine = cos(angle);
+    const double along = sine * v.ray + cosine; /* of the normal, along the ray */
+    dp_budget b = {.separation = (sine * per_sine + cosine * eye + along * facing) * outward};
+    double rest = b.separation;
+    for (int i = 0; i < DP_CAUSE_COUNT; i++)
+        b.cause[i] = along * of->cause[i] * z * z / slope;
+    b.cause[DP_CAUSE_EYE] = eye * (sine * v.vertex_ray + cosine);
+    b.cause[DP_CAUSE_SNAPPING] = 2.0 * v.pixel * z * hypot(snap, snap) * sine;
+    b.cause[DP_CAUSE_SETUP] = 0.0;
+    for (int i = 0; i < DP_CAUSE_COUNT; i++)
+        rest -= b.cause[i];
+    b.cause[DP_CAUSE_SETUP] = larger(rest, 0.0);
+    b.window = b.separation * slope / (along * z * z);
+    if (!(b.separation < along * z) || slope < least_window * z * t->depth)
+        b.separation = HUGE_VAL;
+    return b;
+}
+
+void dp_triangles_add(const dp_chain *c, double z, const dp_triangles *t, const double asked[DP_CAUSE_COUNT],
+                      dp_budget *out) {
+    if (t->slant_hi == 0.0)
+        return;
+    const loss by_class = loss_of(c, z, t, asked, 0);
+    const loss by_slope = loss_of(c, z, t, asked, 1);
+    const dp_budget first = at_worst(c, z, t, &by_class);
+    const dp_budget second = at_worst(c, z, t, &by_slope);
+    const dp_budget *lesser = second.separation < first.separation ? &second : &first;
+    if (lesser->separation > out->separation)
+        *out = *lesser;
+}
