@@ -255,8 +255,8 @@ const normal_row normal_methods[] = {
     [NORMAL_PROJECTIVE] = {"projective",
      "the pixels next to it, lines in 1/z, and the normal from the differences of 1/z: exact on planes",
      1, 2, "depthprec(7)", projective_run, projective_sides},
-    [NORMAL_LOW_HALF] = {"low-half", "low of places in binary16, as half3 is; so is the normal", 1, 1, urp,
-     low_half_run, low_half_sides},
+    [NORMAL_LOW_HALF] = {"low-half", "low of places in binary16, as half3 is; so is the normal",
+     1, 1, urp, low_half_run, low_half_sides},
     [NORMAL_MEDIUM_HALF] = {"medium-half", "medium likewise", 2, 2, urp, medium_half_run, medium_half_sides},
     [NORMAL_HIGH_HALF] = {"high-half", "high likewise", 2, 4, urp, high_half_run, high_half_sides},
 };
