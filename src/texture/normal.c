@@ -247,8 +247,10 @@ static const char urp[] = "Universal RP, SSAO.hlsl, ReconstructNormal";
 /* clang-format off */
 const normal_row normal_methods[] = {
     [NORMAL_LOW] = {"low", "the 2 x 2 quad of the pixel, as ddx and ddy", 1, 1, urp, low_run, low_sides, false},
-    [NORMAL_MEDIUM] = {"medium", "on each axis the farther of the pixels 2 away", 2, 2, urp, medium_run, medium_sides, false},
-    [NORMAL_MEDIUM_1] = {"medium-1", "the same with the pixels next to it", 1, 1, "", medium_1_run, medium_1_sides, false},
+    [NORMAL_MEDIUM] = {"medium", "on each axis the farther of the pixels 2 away",
+     2, 2, urp, medium_run, medium_sides, false},
+    [NORMAL_MEDIUM_1] = {"medium-1", "the same with the pixels next to it",
+     1, 1, "", medium_1_run, medium_1_sides, false},
     [NORMAL_HIGH] = {"high", "on each axis the side, 2 pixels away, whose line through two pixels meets the depth best",
      2, 4, urp, high_run, high_sides, false},
     [NORMAL_HIGH_1] = {"high-1", "the same with the pixels next to it", 1, 2, "", high_1_run, high_1_sides, false},
