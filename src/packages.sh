@@ -21,6 +21,7 @@ build | library cairo                                 | libcairo2-dev         | 
 build | library gsl                                   | libgsl-dev            | gsl-devel          | gsl
 build | library libconfig                             | libconfig-dev         | libconfig-devel    | libconfig
 build | library libpng                                | libpng-dev            | libpng-devel       | libpng
+build | library zlib                                  | zlib1g-dev            | zlib-devel         | zlib
 build | library OpenEXR                               | libopenexr-dev        | openexr-devel      | openexr
 build | library libtiff-4                             | libtiff-dev           | libtiff-devel      | libtiff
 build | file share/fonts/*/*/DejaVuSans.ttf           | fonts-dejavu-core     | dejavu-sans-fonts  | ttf-dejavu

@@ -39,6 +39,7 @@ static const way ways[] = {
     {"normals", "--normal projective -o out.npy", 3, 0},
     {"  and their errors", "--normal projective -o out.npy --error-map=error.npy", 4, 0.8},
     {"statistics", "-o out.txt", 0, 0.5},
+    {"a figure of 3840 px", "--figure out.png --width 3840", 0, 1},
 };
 enum { WAYS = sizeof ways / sizeof ways[0] };
 
@@ -178,7 +179,7 @@ static void fill(void) {
 }
 
 static void clean(void) {
-    static const char *const names[] = {"in.npy", "out.npy", "error.npy", "out.txt"};
+    static const char *const names[] = {"in.npy", "out.npy", "error.npy", "out.txt", "out.png"};
     for (size_t i = 0; i < sizeof names / sizeof names[0]; i++)
         unlink(names[i]);
     if (chdir("/") == 0)

@@ -159,8 +159,9 @@ int texture_figure_draw(const options *o, const texture_source *s, const texture
     if (status != EXIT_FINE)
         return status;
     chart *c = chart_new();
-    bool good = c != NULL && picture_open(&d.shown, width > WIDTH ? width : WIDTH, c) &&
-                (!(o->overlay > 0) || picture_open(&d.error, width > WIDTH ? width : WIDTH, c));
+    const int room = stacked ? width / 3 : width, fields = room > WIDTH ? room : WIDTH; /* as a panel has room for */
+    bool good =
+        c != NULL && picture_open(&d.shown, fields, c) && (!(o->overlay > 0) || picture_open(&d.error, fields, c));
     if (good)
         good = run(o, s, p, &d);
     if (good) {

@@ -84,6 +84,18 @@ static double field(const picture *in, const float *at, int channel) {
     return isnan(at[0]) ? (double)NAN : heat_direction((double)at[0], (double)at[1], (double)at[2]);
 }
 
+/* A map's rows begin at the bottom. */
+static void fill_fields(const picture *in, int channel, double *out) {
+    const size_t channels = (size_t)in->channels, row_values = (size_t)in->columns * channels;
+#pragma omp parallel for schedule(static)
+    for (int row = 0; row < in->rows; row++) {
+        double *to = out + (size_t)(in->rows - 1 - row) * (size_t)in->columns;
+        const float *from = in->values + (size_t)row * row_values;
+        for (int column = 0; column < in->columns; column++)
+            to[column] = field(in, from + (size_t)column * channels, channel);
+    }
+}
+
 static void add_panel(const picture *in, chart *out, int channel) {
     chart_panel *panel = chart_add_panel(out);
     panel->x = (chart_axis){.hi = in->width, .label = "column", .key = "column", .unit = "px"};
@@ -92,14 +104,7 @@ static void add_panel(const picture *in, chart *out, int channel) {
         snprintf(panel->title, sizeof panel->title, "%s", in->names[channel]);
     if (!chart_add_map(out, panel, in->columns, in->rows))
         return;
-    const size_t channels = (size_t)in->channels, row_values = (size_t)in->columns * channels;
-#pragma omp parallel for schedule(static)
-    for (int row = 0; row < in->rows; row++) {
-        double *to = chart_field(&panel->map, in->rows - 1 - row, 0);
-        const float *from = in->values + (size_t)row * row_values;
-        for (int column = 0; column < in->columns; column++)
-            to[column] = field(in, from + (size_t)column * channels, channel);
-    }
+    fill_fields(in, channel, panel->map.value);
 }
 
 /* The least and greatest finite number; of magnitudes the least above 0. */
@@ -162,10 +167,8 @@ void picture_lay_under(const picture *ground, chart *out) {
     chart_map *m = &out->panels[0].map;
     m->under = chart_memory(out, (size_t)m->columns * (size_t)m->rows, sizeof *m->under);
     out->ground = scale_of(ground);
-    for (int row = 0; row < m->rows && m->under != NULL; row++)
-        for (int column = 0; column < m->columns; column++)
-            m->under[(m->rows - 1 - row) * m->columns + column] =
-                (double)ground->values[(size_t)row * (size_t)ground->columns + (size_t)column];
+    if (m->under != NULL)
+        fill_fields(ground, 0, m->under);
 }
 
 void picture_mark(chart *out, size_t count, const double (*at)[2], const char *name) {

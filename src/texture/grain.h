@@ -91,7 +91,7 @@ double grain_error_of(const dp_setup *setup, const grain *g, double z, double re
 
 /**
  * The same in closed form, and of all depths between two: half the widest cell that a depth between them may lie in,
- * outwards by 2^-20 of it, and what reading adds. Of "quantity": 1/z, or z where the set-up is orthographic.
+ * times GRAIN_OUTWARD, and what reading adds. Of "quantity": 1/z, or z where the set-up is orthographic.
  */
 enum { GRAIN_BINADES = 128 };
 typedef struct grain_bound {

@@ -69,7 +69,7 @@ bool grain_bound_init(grain_bound *out, const dp_setup *setup, const grain *g, d
         out->more += 2 * (1.5 / spec->format.code_max + units_of(g) * g->least);
     }
     for (int k = 0; k < GRAIN_BINADES; k++)
-        out->half[k] = half_of(spec, numbers ? g : NULL, k) * setup->kappa * (1 + 0x1p-20);
+        out->half[k] = half_of(spec, numbers ? g : NULL, k) * setup->kappa * GRAIN_OUTWARD;
     return true;
 }
 
