@@ -89,6 +89,8 @@ each effects texture -o product.png $scene steps --parameter reference=10 --effe
 texture -o product.png $scene steps --effect motion-blur --last-origin 1,0.5,-1 --last-yaw 3
 texture -o depth.png -F unorm16 $scene decals
 texture depth.png --normal projective -o product.npy --error-map=product.pfm
+texture depth.png --linear01 -o product.npy --error-map=product.pfm
+texture depth.png --raw -o product.npy --error-map=product.pfm
 texture depth.png --eye -o eye.npy
 texture depth.png --json
 texture eye.npy --metric 1 --json

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* texture --histogram, as drawn, against the eye depths that the program writes and the codes of the format. */
+#include <jansson.h>
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -65,6 +66,26 @@ static void check_step(const drawn_panel *p, const svg_mark *line, double from, 
     assert_px(bottom, drawn_px(&p->y, count), 1);
 }
 
+/* The numbers beside the figure: a step from one edge to the next for each bin. */
+static void check_numbers(size_t k, const double ends[2], const double counts[BINS]) {
+    char *text = drawn_output("texture %s -q --json --histogram %s/beside.svg", cases[k].arguments, drawn_folder());
+    json_t *root = json_loads(text, JSON_REJECT_DUPLICATES, NULL);
+    assert_non_null(root);
+    assert_string_equal(json_string_value(json_object_get(root, "figure")), "histogram");
+    const json_t *series = json_object_get(json_array_get(json_object_get(root, "panels"), 0), "series");
+    const json_t *points = json_object_get(json_array_get(series, 0), "points");
+    assert_int_equal(json_array_size(series), 2);
+    assert_int_equal(json_array_size(points), 2 * BINS);
+    for (int i = 0; i < 2 * BINS; i++) {
+        const json_t *point = json_array_get(points, (size_t)i);
+        assert_true(json_number_value(json_object_get(point, "count")) == counts[i / 2]);
+        assert_relative(json_number_value(json_object_get(point, "z")),
+                        (double)edge_of(ends, cases[k].log, (i + 1) / 2), 1e-12);
+    }
+    json_decref(root);
+    free(text);
+}
+
 static void check_case(size_t k) {
     const drawn_theme *look = strstr(cases[k].arguments, "dark") != NULL ? &drawn_dark : &drawn_light;
     char end[80] = "";
@@ -106,6 +127,7 @@ static void check_case(size_t k) {
         if (cases[k].bits > 0)
             check_step(p, codes, (double)from, (double)to, fabs(code_of(k, to) - code_of(k, from)));
     }
+    check_numbers(k, ends, counts);
     free(depths.data);
     drawn_close(d);
 }

@@ -252,7 +252,7 @@ static void measures_count_what_they_say(void **state) {
     const scene_row scene = {.name = "stepped", .hit = stepped};
     const double parameters[4] = {4, 1.0, 0.1, 0.9993};
     texture_camera c = view_camera("unorm24", DP_MAPPING_D3D, 0.3, 3000, false, 60, 40, 60);
-    normal_measured by[6];
+    normal_measured by[NORMAL_METHODS];
     for (size_t m = 0; normal_get(m) != NULL; m++) {
         const normal_row *method = normal_get(m);
         normal_measured *got = &by[m];
@@ -324,11 +324,11 @@ static void spheres_and_their_outline(void **state) {
     const scene_row scene = {.name = "ball", .hit = ball};
     const double parameters[4] = {10, 3, 14};
     texture_camera c = view_camera("fp32", DP_MAPPING_REVERSED, 0.1, 1000, false, 256, 256, 45);
-    normal_measured by[6];
+    normal_measured by[NORMAL_METHODS];
     for (size_t m = 0; normal_get(m) != NULL; m++)
         assert_true(normal_measure(normal_get(m), &c, &scene, parameters, 0, 256, &by[m]));
     for (size_t m = 0; normal_get(m) != NULL; m++)
-        assert_true(by[m].inside.mean < 0.05 && by[m].inside.count > 55000);
+        assert_true(by[m].inside.mean < (m < NORMAL_LOW_HALF ? 0.05 : 0.3) && by[m].inside.count > 55000);
     assert_true(by[0].wrong > 300 && by[1].wrong > 300 && by[3].wrong * 20 < by[2].wrong);
     assert_true(by[5].wrong * 20 < by[2].wrong && by[5].edges.mean * 5 < by[2].edges.mean);
     print_message("# wrong sides:");

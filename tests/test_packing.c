@@ -149,8 +149,8 @@ static uint8_t stored(float x) { /* what a render target makes of it, or one tha
     return (uint8_t)floor(fmin(fmax((double)x, 0), 1) * 255 + (truncates ? 0 : 0.5));
 }
 
-/* What a shader multiplies the coarse channel by: a quotient, which may be off by an ulp. Truncation shows that. */
-static float coarse(float x) {
+/* What a shader multiplies channels by: a quotient, which may be off by an ulp. Truncation shows that. */
+static float quotient(float x) {
     return truncates ? nextafterf(x, 0) : x;
 }
 
@@ -165,8 +165,9 @@ static void shader_depth_normals(float v, uint8_t *t) {
 }
 static void shader_rgba(float v, uint8_t *t) { /* r167 */
     const float scaled = v * 16777216.0F, a = fraction(scaled), r24 = floorf(scaled) / 256.0F, b = fraction(r24);
-    const float r16 = floorf(r24) / 256.0F, g = fraction(r16), up = 256.0F / 255.0F;
-    t[0] = stored(floorf(r16) * coarse(1.0F / 255.0F));
+    const float r16 = floorf(r24) / 256.0F, g = fraction(r16);
+    const float up = quotient(256.0F / 255.0F);
+    t[0] = stored(floorf(r16) * quotient(1.0F / 255.0F));
     t[1] = stored(g * up);
     t[2] = stored(b * up);
     t[3] = stored(a);
@@ -176,7 +177,7 @@ static void shader_rgba_r166(float v, uint8_t *t) {
     for (int k = 3; k > 0; k--)
         r[k] -= r[k - 1] * (1.0F / 256.0F);
     for (int k = 0; k < 4; k++)
-        t[k] = stored(r[k] * (k == 3 ? coarse(256.0F / 255.0F) : 256.0F / 255.0F));
+        t[k] = stored(r[k] * quotient(256.0F / 255.0F));
 }
 static void shader_byte(float v, uint8_t *t) {
     t[0] = stored(v);
@@ -269,6 +270,29 @@ static void ranges_of_others(void **state) {
         assert_true(used >= 0.5);
     }
     truncates = false;
+    tally_end(&t);
+}
+
+/* More than 24 bits are more than a binary32 number holds, and some programs pack with all of them: the range of a
+ * texel has its depth and half a step to both sides, and two units in the last place of 1 at most besides. */
+static void ranges_of_all_bits(void **state) {
+    static const char *const names[] = {"rgba", "rgba-r166"};
+    tally t = {.name = "ranges of all bits"};
+    rng r = rng_make("ranges of all bits");
+    (void)state;
+    for (uint64_t i = 0; i < test_cases(2000, 100000, 1000000); i++) {
+        const packing *p = row_of(names[i % 2]);
+        uint8_t texel[4];
+        double depth;
+        for (int k = 0; k < 4; k++)
+            texel[k] = (uint8_t)rng_below(&r, 255);
+        const grain_range range = depths_behind(p, texel, &depth);
+        const double half = 0.5 / p->steps;
+        TALLY(&t, range.lo <= depth - half + 0x1p-42 && range.hi >= depth + half - 0x1p-42,
+              "%s of %.12g: %.12g to %.12g", p->name, depth, range.lo, range.hi);
+        TALLY(&t, range.lo >= depth - half - 0x1.01p-23 && range.hi <= depth + half + 0x1.01p-23,
+              "%s of %.12g: as wide as %.12g to %.12g", p->name, depth, range.lo, range.hi);
+    }
     tally_end(&t);
 }
 
@@ -615,13 +639,21 @@ static void refusals(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(every_code),        cmocka_unit_test(every_code_in_images),
-        cmocka_unit_test(shaders_of_others), cmocka_unit_test(packed_normals),
-        cmocka_unit_test(resampled),         cmocka_unit_test(wider_samples),
-        cmocka_unit_test(premultiplied),     cmocka_unit_test(there_and_back),
-        cmocka_unit_test(normals_come_back), cmocka_unit_test(warnings),
-        cmocka_unit_test(refusals),          cmocka_unit_test(notes_of_others),
-        cmocka_unit_test(ranges_of_others),  cmocka_unit_test(holes),
+        cmocka_unit_test(every_code),
+        cmocka_unit_test(every_code_in_images),
+        cmocka_unit_test(shaders_of_others),
+        cmocka_unit_test(packed_normals),
+        cmocka_unit_test(resampled),
+        cmocka_unit_test(wider_samples),
+        cmocka_unit_test(premultiplied),
+        cmocka_unit_test(there_and_back),
+        cmocka_unit_test(normals_come_back),
+        cmocka_unit_test(warnings),
+        cmocka_unit_test(refusals),
+        cmocka_unit_test(notes_of_others),
+        cmocka_unit_test(ranges_of_others),
+        cmocka_unit_test(ranges_of_all_bits),
+        cmocka_unit_test(holes),
     };
     cmocka_set_message_output(CM_OUTPUT_TAP);
     return cmocka_run_group_tests(tests, truth_folder, truth_folder_end);

@@ -103,7 +103,7 @@ static void end(const seen *s) {
 
 #define SEEN                                                                                                           \
     {                                                                                                                  \
-        .codes = {.name = "codes"}, .covered = {.name = "covered pixels"}, .uncovered = { "pixels left out" }          \
+        .codes = {.name = "codes"}, .covered = {.name = "covered pixels"}, .uncovered = {.name = "pixels left out" }   \
     }
 
 /* ---- The part of the recording that lies here -------------------------------------------------------------------- */

@@ -304,6 +304,9 @@ static void check_text(const values *v, const char *arguments, size_t errors, co
         const char *rest = strstr(strstr(p.out, "  pairs  "), "\n");
         check_text_numbers(v, p.out, "pairs  ", 6, pairs);
         check_text_numbers(v, rest + 1, "", 6, certain);
+        const char *words = strstr(rest, "up to z ="); /* where pairs cannot fight: not farther than it is */
+        if (words != NULL)
+            assert_true(strtod(words + strlen("up to z ="), NULL) <= value_at(v, "pairs.certain_to")->number);
     }
     for (size_t i = 0; i < errors; i++) {
         char at[5][PATH_SIZE], label[64];

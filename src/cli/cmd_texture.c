@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* texture: a depth image, or a synthetic scene in its place. */
 #include <stdio.h>
+#include <string.h>
 
 #include "cli/texture.h"
 
@@ -8,7 +9,6 @@
 static int check_alone(const options *o) {
     static const option_id drawn[] = {OPTION_OVERLAY, OPTION_TYPE,   OPTION_THEME,
                                       OPTION_WIDTH,   OPTION_HEIGHT, OPTION_TITLE};
-    static const option_id others[] = {OPTION_PIXEL, OPTION_OUTPUT, OPTION_JSON, OPTION_CSV};
     if (o->error_map && o->effect != NULL && option_given(o, OPTION_PIXEL))
         return option_error(OPTION_ERROR_MAP, "does not apply with --pixel, which says the error");
     if (option_given(o, OPTION_ERROR_MAP) && !texture_product_wanted(o))
@@ -24,9 +24,13 @@ static int check_alone(const options *o) {
     for (size_t i = 0; i < sizeof drawn / sizeof drawn[0]; i++)
         if (option_given(o, drawn[i]) && o->figure == NULL && (o->histogram == NULL || drawn[i] == OPTION_OVERLAY))
             return option_error(drawn[i], "needs --figure%s", drawn[i] == OPTION_OVERLAY ? "" : " or --histogram");
-    for (size_t i = 0; i < sizeof others / sizeof others[0]; i++)
-        if (option_given(o, others[i]) && o->histogram != NULL)
-            return option_error(OPTION_HISTOGRAM, "does not apply with --%s", option_name(others[i]));
+    if (option_given(o, OPTION_HISTOGRAM) && option_given(o, OPTION_PIXEL))
+        return option_error(OPTION_HISTOGRAM, "does not apply with --pixel");
+    if (option_given(o, OPTION_HISTOGRAM) && o->output != NULL && o->form == FORM_TEXT)
+        return option_error(OPTION_HISTOGRAM,
+                            "does not apply with --output, which its numbers go to with --json or --csv");
+    if (option_given(o, OPTION_HISTOGRAM) && o->form != FORM_TEXT && strcmp(o->histogram, "-") == 0)
+        return option_error(OPTION_HISTOGRAM, "must be a file with --json and --csv, got '-'");
     if (option_given(o, OPTION_HISTOGRAM) && texture_product_wanted(o))
         return option_error(OPTION_HISTOGRAM, "is drawn of the depths, not of a product");
     return EXIT_FINE;

@@ -3,6 +3,7 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "cli/figure_data.h"
 #include "cli/figure_file.h"
 #include "cli/progress.h"
 #include "cli/setups.h"
@@ -176,6 +177,28 @@ int texture_figure_draw(const options *o, const texture_source *s, const texture
     return usage_error("texture: no memory for the figure");
 }
 
+/* The figure and, with --json or --csv, its numbers. */
+static int write_histogram(const options *o, const chart *c, output *out) {
+    output numbers;
+    int status = EXIT_FINE;
+    if (!figure_file_write(o, o->histogram, c, o->width > 0 ? o->width : WIDTH,
+                           o->height > 0 ? o->height : HISTOGRAM_HEIGHT, out)) {
+        output_abandon(out);
+        return usage_error("texture: no memory for the figure");
+    }
+    if (o->form != FORM_TEXT) {
+        status = options_open(o, &numbers);
+        if (status == EXIT_FINE) {
+            figure_data_write(&numbers, o->form, "texture", "histogram", c);
+            status = output_close(&numbers);
+        }
+    }
+    if (status == EXIT_FINE)
+        return output_close(out);
+    output_abandon(out);
+    return status;
+}
+
 int texture_histogram_draw(const options *o, const texture_source *s) {
     const uint64_t pixels = (uint64_t)s->camera.width * s->camera.height;
     uint64_t counted = 0;
@@ -191,18 +214,17 @@ int texture_histogram_draw(const options *o, const texture_source *s) {
     if (status != EXIT_FINE)
         return status;
     chart *c = chart_new();
-    bool good = c != NULL && histogram_build(&s->frame, o->metric == 0, c, &counted);
+    const bool good = c != NULL && histogram_build(&s->frame, o->metric == 0, c, &counted);
     if (good && counted > 0) {
         if (counted < pixels)
             snprintf(more, sizeof more, "; %llu pixels of sky or holes are left out",
                      (unsigned long long)(pixels - counted));
         words_of(o, s, "Pixels over eye depth", more, c);
-        good = figure_file_write(o, o->histogram, c, o->width > 0 ? o->width : WIDTH,
-                                 o->height > 0 ? o->height : HISTOGRAM_HEIGHT, &out);
+        status = write_histogram(o, c, &out);
+    } else {
+        output_abandon(&out);
+        status = usage_error(good ? "texture: no pixel has a depth" : "texture: no memory for the figure");
     }
     chart_free(c);
-    if (good && counted > 0)
-        return output_close(&out);
-    output_abandon(&out);
-    return good ? usage_error("texture: no pixel has a depth") : usage_error("texture: no memory for the figure");
+    return status;
 }

@@ -31,7 +31,7 @@ bool raster_snapped_rows(const raster_target *target, raster_piece *piece) {
 }
 
 bool raster_snapped_span(const raster_target *target, const raster_piece *piece, int y, int *from, int *to) {
-    const int64_t row = (int64_t)y << piece->bits;
+    const int64_t row = (int64_t)y * (1 << piece->bits);
     int64_t left = INT64_MAX;
     int64_t right = INT64_MIN;
     if (y < piece->y0 || y >= piece->y1)

@@ -7,6 +7,7 @@
 
 enum { SNAP_BITS = 4, SNAP = 1 << SNAP_BITS };
 
+static const int32_t corner_max = 1 << 24; /* of a clipped one, far beyond any target */
 static const float least_int = -0x1p31F;
 static const float greatest_int = 0x1.fffffep30F; /* the greatest binary32 number that is an int32_t */
 
@@ -87,6 +88,9 @@ raster_status raster_swiftshader_draw(const raster_target *target, const raster_
         const float r = reciprocal(at->w);
         piece->x[i] = snapped(at->x, r, target->width);
         piece->y[i] = snapped(at->y, r, target->height);
+        if (piece->x[i] < -corner_max || piece->x[i] > corner_max || piece->y[i] < -corner_max ||
+            piece->y[i] > corner_max)
+            return RASTER_RANGE;
     }
     if (!set_plane(target, vertex, &piece->plane) || !raster_snapped_rows(target, piece))
         return RASTER_EMPTY;

@@ -76,6 +76,8 @@ typedef struct effect_pixel {
 typedef double effect_apart(const effect_view *view, const double *parameters, double z, double other);
 /** EFFECT_CLAMPED: v, monotone in z. EFFECT_FADE: null, or v - v', which may be concave in place of monotone. */
 typedef double effect_quantity(const effect_view *view, const double *parameters, double z);
+/** The largest v - v' of the depths from lo to hi. */
+typedef double effect_most(const effect_view *view, const double *parameters, double lo, double hi);
 /** The output, before it is stored in 8 bits, where the effect sees eye depth z; `reference` is the eye depth of what
  *  it is compared with, if that is `given` or another pixel. */
 typedef double effect_output(const effect_view *view, const double *parameters, double z, double reference);
@@ -106,6 +108,7 @@ typedef struct effect_row {
                      stored depths of two pixels of a plane, the one `slope` behind the other */
     bool quiet; /**< EFFECT_STEP: on a plane the output should be 0; else what it would be without rounding */
     effect_quantity *quantity;
+    effect_most *most;         /**< EFFECT_FADE with a quantity */
     effect_apart *apart;       /**< null for EFFECT_CLAMPED and EFFECT_STEP */
     effect_critical *critical; /**< EFFECT_STEP */
     effect_output *output;

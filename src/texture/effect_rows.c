@@ -103,7 +103,8 @@ static const effect_row rows[] = {
          [DECAL_DEPTH] = {"depth", "of the box", "scene", 1e-9, 1e12, 1, .use = PARAMETER_IMAGE}},
      .wanted = DECAL_FEATHER, .smallest = true, .needs = EFFECT_POSITION, .reference = "a face of the box",
      .source = "Persson, Volume decals, GPU Pro 2, 2011; URP's DBuffer and screen-space decals",
-     .kind = EFFECT_FADE, .apart = decal_apart, .quantity = decal_inside, .output = decal, .shader = decal_shader},
+     .kind = EFFECT_FADE, .apart = decal_apart, .quantity = decal_inside, .most = decal_most,
+     .output = decal, .shader = decal_shader},
     {.name = "ambient-occlusion",
      .note = "bias < z - z_sample < radius: what hides a part of the sky, checked for range; of four samples",
      .parameters = {

@@ -44,6 +44,7 @@ enum { DECAL_FEATHER = 0, DECAL_YAW, DECAL_X, DECAL_Y, DECAL_Z, DECAL_WIDTH, DEC
 
 effect_apart height_apart, velocity_apart, decal_apart;
 effect_quantity height_share, decal_inside;
+effect_most decal_most;
 effect_output water_line, height_fog, velocity, decal;
 effect_shader water_line_shader, height_fog_shader, velocity_shader, decal_shader;
 

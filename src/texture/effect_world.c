@@ -115,6 +115,29 @@ double decal_inside(const effect_view *view, const double *p, double z) {
     return inside;
 }
 
+/* That is the least of six linear functions, each the way to a face, so it is largest at an end or where one that rises
+ * meets one that falls: the lowest such place. */
+double decal_most(const effect_view *view, const double *p, double lo, double hi) {
+    double m[3][4], from[6], per[6], peak = (double)NAN, lowest = HUGE_VAL;
+    decal_matrix(p, m);
+    for (int k = 0; k < 6; k++) {
+        const double *row = m[k / 2], side = (k % 2 == 0 ? 1 : -1) * p[DECAL_WIDTH + k / 2];
+        const double *b = view->base, *a = view->along;
+        from[k] = p[DECAL_WIDTH + k / 2] / 2 + side * (row[0] * b[0] + row[1] * b[1] + row[2] * b[2] + row[3]);
+        per[k] = side * (row[0] * a[0] + row[1] * a[1] + row[2] * a[2]);
+    }
+    for (int i = 0; i < 6; i++)
+        for (int j = 0; j < 6; j++) {
+            const double z = (from[j] - from[i]) / (per[i] - per[j]);
+            if (per[i] > 0 && per[j] < 0 && from[i] + per[i] * z < lowest) {
+                lowest = from[i] + per[i] * z;
+                peak = z;
+            }
+        }
+    const double ends = fmax(decal_inside(view, p, lo), decal_inside(view, p, hi));
+    return peak > lo && peak < hi ? fmax(ends, decal_inside(view, p, peak)) : ends;
+}
+
 /* Towards or away from a face, on the axis on which the pixel's ray runs fastest. */
 double decal_apart(const effect_view *view, const double *p, double z, double other) {
     double m[3][4], fastest = 0;

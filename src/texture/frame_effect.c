@@ -280,14 +280,12 @@ static double worst_error(const work *w, const effect_view *view, const effect_p
     return error + LEVELS * DP_UNIT * (8 + 4 * (w->row->kind == EFFECT_FADE ? depth / p : depth * p));
 }
 
-/* A ramp of a concave quantity, least at an end of the range, that rises by at most so much. */
+/* A ramp of a concave quantity, which is least at an end of the range. */
 static double ramp_error(const work *w, const effect_view *view, double stored, const grain_range *range) {
-    const double p = w->parameters[w->row->wanted], at = w->row->quantity(view, w->parameters, stored);
-    const double change = fmax(w->row->apart(view, w->parameters, stored, range->lo),
-                               w->row->apart(view, w->parameters, stored, range->hi));
+    const double p = w->parameters[w->row->wanted];
     const double ends[3] = {
-        fmin(w->row->quantity(view, w->parameters, range->lo), w->row->quantity(view, w->parameters, range->hi)), at,
-        at + change};
+        fmin(w->row->quantity(view, w->parameters, range->lo), w->row->quantity(view, w->parameters, range->hi)),
+        w->row->quantity(view, w->parameters, stored), w->row->most(view, w->parameters, range->lo, range->hi)};
     double outputs[3];
     for (int i = 0; i < 3; i++)
         outputs[i] = p > 0 ? fmin(fmax(ends[i] / p, 0), 1) : ends[i] >= 0;

@@ -9,6 +9,7 @@
 
 #include "core/bits.h"
 #include "texture/clones.h"
+#include "texture/half.h"
 
 /* Selection: compilers make jumps of conditions as it suits them, and then no vectors; masks stay what they are */
 
@@ -89,6 +90,13 @@ typedef struct corner {
 
 typedef vector (*corner_rule)(const corner *c);
 
+/* How a number is kept. */
+typedef float (*float_rule)(float x);
+
+DP_INLINE float single_of(float x) {
+    return x;
+}
+
 DP_INLINE float unit_at(const corner *c, int lift) {
     const int32_t z = bits_of(c->z), h = bits_of(c->h), v = bits_of(c->v); /* ordered as what they stand for */
     const int32_t zh = z > h ? z : h;
@@ -102,6 +110,24 @@ DP_INLINE vector corner_cross(const corner *c) {
     const vector a = {c->sx_h * h - px, c->sy * h - py, h - z}, b = {c->sx * v - px, c->sy_v * v - py, v - z};
     const vector n = {a.z * b.y - a.y * b.z, a.x * b.z - a.z * b.x, a.y * b.x - a.x * b.y};
     return (vector){negate(c->opposed, n.x), negate(c->opposed, n.y), negate(c->opposed, n.z)};
+}
+
+/* The same of places in binary16, so narrow that nothing overflows; a place is at the depth times the slopes, or at the
+ * slopes where `z`, `h` and `v` are 1. */
+DP_INLINE vector half_cross(const corner *c, float z, float h, float v) {
+    const float p[3] = {half_of(c->sx * z), half_of(c->sy * z), half_of(c->z)};
+    const vector a = {half_of(c->sx_h * h) - p[0], half_of(c->sy * h) - p[1], half_of(c->h) - p[2]};
+    const vector b = {half_of(c->sx * v) - p[0], half_of(c->sy_v * v) - p[1], half_of(c->v) - p[2]};
+    const vector n = {a.z * b.y - a.y * b.z, a.x * b.z - a.z * b.x, a.y * b.x - a.x * b.y};
+    return (vector){negate(c->opposed, n.x), negate(c->opposed, n.y), negate(c->opposed, n.z)};
+}
+
+DP_INLINE vector corner_half(const corner *c) {
+    return half_cross(c, c->z, c->h, c->v);
+}
+
+DP_INLINE vector corner_half_ortho(const corner *c) {
+    return half_cross(c, 1, 1, 1);
 }
 
 /* On a plane 1/z = a sx + b sy + c, and (a, b, c) is its normal; here times z h v, so that nothing is divided, and z -
@@ -144,7 +170,7 @@ DP_INLINE mask side_at(const line *l, uint32_t i, mask within, side_rule rule) {
 }
 
 DP_INLINE void normals(const normal_rows *in, float *restrict nx, float *restrict ny, float *restrict nz, int step,
-                       side_rule side, corner_rule rule) {
+                       side_rule side, corner_rule rule, float_rule kept) {
     const texture_camera *camera = in->camera;
     const line x = across(in, step), y = upwards(in, step);
     const float *s = in->slope_x, *s_left = s - step, *s_right = s + step;
@@ -170,9 +196,9 @@ DP_INLINE void normals(const normal_rows *in, float *restrict nx, float *restric
                           .opposed = left ^ below};
         const vector n = rule(&c);
         const float unit = 1.0f / sqrtf(n.x * n.x + n.y * n.y + n.z * n.z);
-        nx[i] = n.x * unit;
-        ny[i] = n.y * unit;
-        nz[i] = n.z * unit;
+        nx[i] = kept(n.x * unit);
+        ny[i] = kept(n.y * unit);
+        nz[i] = kept(n.z * unit);
     }
 }
 
@@ -186,12 +212,12 @@ DP_INLINE void sides_of(const normal_rows *in, uint8_t *sides, int step, side_ru
 }
 
 /* Along an orthographic camera's plane z itself is straight: the extrapolation of `high` is then exact. */
-#define METHOD(name, step, side, ortho_side, rule)                                                                     \
+#define METHOD(name, step, side, ortho_side, rule, ortho_rule, kept)                                                   \
     TEXTURE_CLONES static void name##_perspective(const normal_rows *in, float *nx, float *ny, float *nz) {            \
-        normals(in, nx, ny, nz, step, side, rule);                                                                     \
+        normals(in, nx, ny, nz, step, side, rule, kept);                                                               \
     }                                                                                                                  \
     TEXTURE_CLONES static void name##_ortho(const normal_rows *in, float *nx, float *ny, float *nz) {                  \
-        normals(in, nx, ny, nz, step, ortho_side, corner_ortho);                                                       \
+        normals(in, nx, ny, nz, step, ortho_side, ortho_rule, kept);                                                   \
     }                                                                                                                  \
     static void name##_run(const normal_rows *in, float *nx, float *ny, float *nz) {                                   \
         (in->camera->ortho ? name##_ortho : name##_perspective)(in, nx, ny, nz);                                       \
@@ -203,12 +229,18 @@ DP_INLINE void sides_of(const normal_rows *in, uint8_t *sides, int step, side_ru
             sides_of(in, sides, step, side);                                                                           \
     }
 
-METHOD(low, 1, side_quad, side_quad, corner_cross)
-METHOD(medium, 2, side_farther, side_farther, corner_cross)
-METHOD(medium_1, 1, side_farther, side_farther, corner_cross)
-METHOD(high, 2, side_straight, side_straight, corner_cross)
-METHOD(high_1, 1, side_straight, side_straight, corner_cross)
-METHOD(projective, 1, side_projective, side_straight, corner_projective)
+#define SINGLE(name, step, side) METHOD(name, step, side, side, corner_cross, corner_ortho, single_of)
+#define HALF(name, step, side)   METHOD(name, step, side, side, corner_half, corner_half_ortho, half_of)
+
+SINGLE(low, 1, side_quad)
+SINGLE(medium, 2, side_farther)
+SINGLE(medium_1, 1, side_farther)
+SINGLE(high, 2, side_straight)
+SINGLE(high_1, 1, side_straight)
+METHOD(projective, 1, side_projective, side_straight, corner_projective, corner_ortho, single_of)
+HALF(low_half, 1, side_quad)
+HALF(medium_half, 2, side_farther)
+HALF(high_half, 2, side_straight)
 
 static const char urp[] = "Universal RP, SSAO.hlsl, ReconstructNormal";
 
@@ -223,6 +255,10 @@ const normal_row normal_methods[] = {
     [NORMAL_PROJECTIVE] = {"projective",
      "the pixels next to it, lines in 1/z, and the normal from the differences of 1/z: exact on planes",
      1, 2, "depthprec(7)", projective_run, projective_sides},
+    [NORMAL_LOW_HALF] = {"low-half", "low of places in binary16, as half3 is; so is the normal", 1, 1, urp,
+     low_half_run, low_half_sides},
+    [NORMAL_MEDIUM_HALF] = {"medium-half", "medium likewise", 2, 2, urp, medium_half_run, medium_half_sides},
+    [NORMAL_HIGH_HALF] = {"high-half", "high likewise", 2, 4, urp, high_half_run, high_half_sides},
 };
 /* clang-format on */
 

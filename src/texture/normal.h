@@ -30,18 +30,30 @@ typedef struct normal_rows {
 enum { NORMAL_LEFT = 1, NORMAL_BELOW = 2 };
 
 typedef struct normal_row {
-    const char *name; /**< "low", "medium", "high", "medium-1", "high-1", "projective" */
+    const char *name; /**< "low", "medium", "high", "medium-1", "high-1", "projective", "low-half", ... */
     const char *note;
     int step;  /**< pixels to the neighbours */
     int reach; /**< pixels that are looked at in each direction */
     const char *source;
-    /** View-space unit normals that face the camera, `count` in each plane. The same bits on every processor. */
+    /** View-space unit normals that face the camera, `count` in each plane. The same bits on every processor. Those in
+     *  binary16 are of places in binary16, along the camera's axes: NaN where these coincide or are beyond 65504. */
     void (*run)(const normal_rows *in, float *nx, float *ny, float *nz);
     /** The neighbours that run() takes. */
     void (*sides)(const normal_rows *in, uint8_t *sides);
 } normal_row;
 
-enum { NORMAL_LOW = 0, NORMAL_MEDIUM, NORMAL_MEDIUM_1, NORMAL_HIGH, NORMAL_HIGH_1, NORMAL_PROJECTIVE, NORMAL_METHODS };
+enum {
+    NORMAL_LOW = 0,
+    NORMAL_MEDIUM,
+    NORMAL_MEDIUM_1,
+    NORMAL_HIGH,
+    NORMAL_HIGH_1,
+    NORMAL_PROJECTIVE,
+    NORMAL_LOW_HALF,
+    NORMAL_MEDIUM_HALF,
+    NORMAL_HIGH_HALF,
+    NORMAL_METHODS
+};
 extern const normal_row normal_methods[NORMAL_METHODS];
 
 const normal_row *normal_get(size_t index); /**< null beyond the last */

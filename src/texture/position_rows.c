@@ -2,6 +2,7 @@
 /* The rows: binary32 loops over the pixels of a line. */
 #include "core/bits.h"
 #include "texture/clones.h"
+#include "texture/half.h"
 #include "texture/position.h"
 
 /* What stays the same along a line of pixels, and where the planes go. */
@@ -83,16 +84,6 @@ static void rays_run(const position_state *s, uint32_t row, uint32_t column, con
 }
 
 /* ---- Top left and extents ---------------------------------------------------------------------------------------- */
-
-/* To binary16 and back: nearest, ties to even; beyond 65504 infinite from 65520 on. */
-DP_INLINE float half_of(float a) {
-    const uint32_t sign = dp_bits32(a) & 0x80000000u, bits = dp_bits32(a) ^ sign;
-    const uint32_t rounded = (bits + 0xfffu + (bits >> 13 & 1u)) & ~0x1fffu;
-    const uint32_t normal = bits >= 0x477ff000u ? 0x7f800000u : rounded;
-    const float tiny = (dp_float32(bits) + 0.5f) - 0.5f; /* multiples of 2^-24 */
-    const float half = dp_float32((bits < 0x38800000u ? dp_bits32(tiny) : normal) | sign);
-    return a == a ? half : a;
-}
 
 /* What a component becomes: view-relative first, in binary16 where the row says so, then moved to the world. */
 #define EXTENTS(name, rounded)                                                                                         \
