@@ -266,9 +266,16 @@ static void an_image_gives_the_same_as_its_scene(void **state) {
         assert_true(isnan(least[i]) ? isnan(bound[i]) : fabsf(bound[i] - least[i]) <= 0.2F);
     free(least);
     free(bound);
-    const frame_product unknown = {.kind = FRAME_NORMAL, .normal = normal_find("high"), .error = true};
-    assert_non_null(frame_refuses(&seen, &unknown));
-    assert_null(frame_refuses(&s.frame, &unknown));
+    /* Normals have a bound on planes, which here is kept nearly everywhere: but where decals begin. */
+    const frame_product angles = {.kind = FRAME_NORMAL, .normal = normal_find("high"), .error = true};
+    assert_null(frame_refuses(&seen, &angles));
+    float *truly = make(&s.frame, &angles, false), *most = make(&seen, &angles, false);
+    size_t kept = 0;
+    for (size_t i = 0; i < (size_t)320 * 180; i++)
+        kept += (isnan(truly[i]) ? isnan(most[i]) : truly[i] <= most[i]) ? 1 : 0;
+    assert_true(kept > (size_t)320 * 180 * 95 / 100);
+    free(truly);
+    free(most);
     free(depths.data);
 }
 

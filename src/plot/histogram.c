@@ -4,6 +4,8 @@
 #include <math.h>
 #include <stdio.h>
 
+#include "depthprec/batch.h"
+
 enum { BINS = 96 };
 
 /* Depths farther apart than this are shown in equal ratios. */
@@ -26,25 +28,52 @@ static chart_axis axis_of(const frame_summary *s) {
     return x;
 }
 
+/* The farthest depth ends the last bin; what lies outside of all has numbers of its own. */
+static int bin_of(const chart_axis *x, double z) {
+    if (!(z >= x->lo && z <= x->hi))
+        return z < x->lo ? -1 : BINS;
+    const int bin = (int)floor(chart_axis_share(x, z) * BINS);
+    return bin < BINS ? bin : BINS - 1;
+}
+
 static bool take(void *context, uint32_t row, uint32_t count, const float *values) {
     bins *b = context;
     (void)row;
     for (size_t i = 0; i < (size_t)count * b->width; i++)
-        if (isfinite(values[i])) {
-            const int bin = (int)floor(chart_axis_share(&b->x, (double)values[i]) * BINS);
-            b->pixels[bin < 0 ? 0 : bin < BINS ? bin : BINS - 1]++; /* the farthest depth ends the last one */
-        }
+        if (isfinite(values[i]))
+            b->pixels[bin_of(&b->x, (double)values[i])]++;
     return true;
 }
 
-/* From the first code at or behind one end to that at the other. */
-static void count_codes(const dp_setup *setup, bins *b) {
-    uint32_t before = dp_code(setup, b->x.lo);
-    for (int i = 0; i < BINS; i++) {
-        const uint32_t end = dp_code(setup, chart_axis_at(&b->x, (i + 1.0) / BINS));
-        b->codes[i] = fabs((double)end - (double)before);
-        before = end;
+/* The first rank in a bin or behind it. */
+static uint32_t rank_from(const dp_batch *eye, const dp_setup *setup, const chart_axis *x, int bin, uint32_t end) {
+    uint32_t first = 0;
+    while (first < end) {
+        const uint32_t middle = first + (end - first) / 2, code = frame_code(setup, middle);
+        float z;
+        dp_batch_run(eye, &code, &z, 1);
+        if (bin_of(x, (double)z) < bin)
+            first = middle + 1;
+        else
+            end = middle;
     }
+    return first;
+}
+
+/* A code counts where a pixel that holds it does: by the same eye depth. */
+static bool count_codes(const frame *f, bins *b) {
+    const dp_setup *setup = &f->camera->setup;
+    const uint32_t sky = frame_sky_rank(f);
+    dp_batch eye;
+    if (dp_batch_init(&eye, setup, DP_TASK_EYE, DP_REAL_FLOAT, DP_WORD_32, dp_path_best()) != DP_OK)
+        return false;
+    uint32_t first = rank_from(&eye, setup, &b->x, 0, sky);
+    for (int i = 0; i < BINS; i++) {
+        const uint32_t end = rank_from(&eye, setup, &b->x, i + 1, sky);
+        b->codes[i] = (double)(end - first);
+        first = end;
+    }
+    return true;
 }
 
 /* A step for each bin; 0 lies below all that a logarithmic axis shows. */
@@ -73,8 +102,8 @@ bool histogram_build(const frame *f, bool codes, chart *out, uint64_t *counted) 
     b.x = axis_of(&sum);
     if (!frame_run(f, &eye, false, take, &b))
         return false;
-    if (codes)
-        count_codes(&f->camera->setup, &b);
+    if (codes && !count_codes(f, &b))
+        return false;
     for (int i = 0; i < BINS; i++)
         most = fmax(most, fmax(b.pixels[i], b.codes[i]));
     chart_panel *panel = chart_add_panel(out);

@@ -5,6 +5,7 @@
 #include <string.h>
 
 #include "texture/clones.h"
+#include "texture/normal_corner.h"
 #include "texture/oblique.h"
 
 static const double TO_DEGREES = 180 / M_PI;
@@ -257,6 +258,34 @@ static void make_normal(const frame_row *in) {
     interleave(in);
 }
 
+/* The pixel of a tap, and what its code stands for. */
+static normal_tap tap_of(const frame_row *in, uint32_t x, int dx, int dy) {
+    const texture_camera *c = camera_of(in);
+    const uint32_t column = (uint32_t)((int64_t)x + dx), row = (uint32_t)((int64_t)in->row + dy);
+    const uint32_t code = in->codes[(int64_t)dy * c->width + column];
+    const double stored = pixel_stored(c, column, row, code);
+    return (normal_tap){column, row, stored, pixel_range_of(c, in->frame->grain, column, row, code).reach};
+}
+
+/* Of an image the bound for a plane through the three pixels that were taken. */
+static void corner_bounds(const frame_row *in) {
+    const texture_camera *c = camera_of(in);
+    const normal_row *method = in->product->normal;
+    uint8_t *const sides = (uint8_t *)in->numbers;
+    normal_rows rows = {.camera = c, .row = in->row, .count = c->width, .slope_x = in->slope_x};
+    memcpy(rows.rows, in->eyes, sizeof rows.rows);
+    method->sides(&rows, sides);
+    for (uint32_t x = 0; x < c->width; x++) {
+        in->out[x] = NAN;
+        if (isnan(in->planes[0][x]))
+            continue;
+        const int dx = (sides[x] & NORMAL_LEFT) != 0 ? -method->step : method->step;
+        const int dy = (sides[x] & NORMAL_BELOW) != 0 ? method->step : -method->step;
+        const normal_tap taps[3] = {tap_of(in, x, 0, 0), tap_of(in, x, dx, 0), tap_of(in, x, 0, dy)};
+        in->out[x] = frame_upwards(normal_corner_bound(c, method, taps, DP_BATCH_EYE_ERROR) * TO_DEGREES);
+    }
+}
+
 /* Of an image the bound for a plane through the pixel's place with the normal that was found. */
 static void normal_bounds(const frame_row *in) {
     const texture_camera *c = camera_of(in);
@@ -270,7 +299,7 @@ static void normal_bounds(const frame_row *in) {
 static void make_normal_error(const frame_row *in) {
     normals(in);
     if (in->frame->scene == NULL) {
-        normal_bounds(in);
+        (in->product->normal == normal_get(NORMAL_PROJECTIVE) ? normal_bounds : corner_bounds)(in);
         return;
     }
     for (uint32_t x = 0; x < camera_of(in)->width; x++) {
