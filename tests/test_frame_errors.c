@@ -1,7 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* What an image cannot know a scene does: its true errors stay within the image's, which are those of plain pixels. */
 #include <stdlib.h>
-#include <string.h>
 
 #include "named.h"
 #include "scene_stage.h"

@@ -1,7 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Statistics of frames: those of a plain count. */
 #include <stdlib.h>
-#include <string.h>
 
 #include "named.h"
 #include "scene_stage.h"

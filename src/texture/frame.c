@@ -81,8 +81,6 @@ const char *frame_refuses(const frame *f, const frame_product *product) {
     const bool normals = product->kind == FRAME_EFFECT && (product->effect->needs & EFFECT_NORMALS) != 0;
     if (normals && f->scene == NULL && f->normals == NULL)
         return "this effect needs normals, which an image of depths does not have, but a scene";
-    if (normals && f->scene == NULL && product->error && f->normals->unbounded)
-        return "its error is known for packed normals, and for those by 'projective', which have a bound";
     return NULL;
 }
 
