@@ -269,7 +269,7 @@ static void an_image_gives_the_same_as_its_scene(void **state) {
     /* Normals have a bound on planes, which here is kept nearly everywhere: but where decals begin. */
     const frame_product angles = {.kind = FRAME_NORMAL, .normal = normal_find("high"), .error = true};
     assert_null(frame_refuses(&seen, &angles));
-    float *truly = make(&s.frame, &angles, false), *most = make(&seen, &angles, false);
+    float *truly = frame_made(&s.frame, &angles, false), *most = frame_made(&seen, &angles, false);
     size_t kept = 0;
     for (size_t i = 0; i < (size_t)320 * 180; i++)
         kept += (isnan(truly[i]) ? isnan(most[i]) : truly[i] <= most[i]) ? 1 : 0;
