@@ -258,19 +258,28 @@ static void make_normal(const frame_row *in) {
     interleave(in);
 }
 
-/* The pixel of a tap, and what its code stands for. */
-static normal_tap tap_of(const frame_row *in, uint32_t x, int dx, int dy) {
+/* What the codes of the row and of those a step above and below stand for: all that taps need. lo and hi are used up.
+ */
+static void ranges_around(const frame_row *in, int step, grain_rows out[3]) {
     const texture_camera *c = camera_of(in);
-    const uint32_t column = (uint32_t)((int64_t)x + dx), row = (uint32_t)((int64_t)in->row + dy);
-    const uint32_t code = in->codes[(int64_t)dy * c->width + column];
-    const double stored = pixel_stored(c, column, row, code);
-    return (normal_tap){column, row, stored, pixel_range_of(c, in->frame->grain, column, row, code).reach};
+    const size_t width = c->width;
+    for (int k = 0; k < 3; k++) {
+        const int64_t row = (int64_t)in->row + (k - 1) * step;
+        double *const own = in->numbers + (2 + 2 * (size_t)k) * width;
+        out[k] = (grain_rows){own, in->numbers, in->numbers + width, own + width};
+        if (row >= 0 && row < c->height)
+            pixel_ranges_of(c, in->frame->grain, 0, (uint32_t)row, in->codes + (k - 1) * step * (int64_t)width, width,
+                            &out[k]);
+    }
 }
 
 /* Of an image the bound for a plane through the three pixels that were taken. */
 static void corner_bounds(const frame_row *in) {
     const texture_camera *c = camera_of(in);
     const normal_row *method = in->product->normal;
+    const int step = method->step;
+    grain_rows around[3];
+    ranges_around(in, step, around);
     uint8_t *const sides = (uint8_t *)in->numbers;
     normal_rows rows = {.camera = c, .row = in->row, .count = c->width, .slope_x = in->slope_x};
     memcpy(rows.rows, in->eyes, sizeof rows.rows);
@@ -279,9 +288,14 @@ static void corner_bounds(const frame_row *in) {
         in->out[x] = NAN;
         if (isnan(in->planes[0][x]))
             continue;
-        const int dx = (sides[x] & NORMAL_LEFT) != 0 ? -method->step : method->step;
-        const int dy = (sides[x] & NORMAL_BELOW) != 0 ? method->step : -method->step;
-        const normal_tap taps[3] = {tap_of(in, x, 0, 0), tap_of(in, x, dx, 0), tap_of(in, x, 0, dy)};
+        const int64_t beside = (sides[x] & NORMAL_LEFT) != 0 ? (int64_t)x - step : (int64_t)x + step;
+        const bool below = (sides[x] & NORMAL_BELOW) != 0;
+        const grain_rows *own = &around[1], *other = &around[below ? 2 : 0];
+        const normal_tap taps[3] = {
+            {x, in->row, own->stored[x], own->reach[x]},
+            {(double)beside, in->row, own->stored[beside], own->reach[beside]},
+            {x, (double)in->row + (below ? step : -step), other->stored[x], other->reach[x]},
+        };
         in->out[x] = frame_upwards(normal_corner_bound(c, method, taps, DP_BATCH_EYE_ERROR) * TO_DEGREES);
     }
 }
