@@ -151,7 +151,7 @@ static void steps_are_counts(void **state) {
         check_case(k);
 }
 
-/* Metric depth holds no codes of a buffer. */
+/* Metric depth and packed eye depth hold no codes of a buffer. */
 static void metric_depth(void **state) {
     (void)state;
     char path[320];
@@ -161,6 +161,11 @@ static void metric_depth(void **state) {
     assert_string_equal(d->title, "In metres");
     assert_string_equal(d->subtitle, "metres.npy, 96 x 8; metric depth, 1 m a unit");
     assert_string_equal(d->x_caption->text, "eye depth (m)");
+    drawn_legend_is(d, 1, (const char *const[]){"pixels"});
+    drawn_close(d);
+    snprintf(path, sizeof path, "%s/packed.png", drawn_folder());
+    free(drawn_output("texture --scene sphere --size 96x8 --pack rg -q -o %s", path));
+    d = drawn_run(&drawn_light, "texture %s --packing rg -q --histogram", path);
     drawn_legend_is(d, 1, (const char *const[]){"pixels"});
     drawn_close(d);
 }

@@ -147,7 +147,21 @@ static void a_file(void **state) {
     drawn_close(d);
 }
 
+/* Then no depth is grey, and none of no pixels are in colour. */
+static void nothing_but_sky(void **state) {
+    (void)state;
+    drawn *d = drawn_run(&drawn_light, "texture --scene plane --parameter distance=2000 --size 8x8 --overlay 1");
+    assert_null(strstr(d->subtitle, "grey"));
+    assert_null(strstr(d->subtitle, "%"));
+    drawn_close(d);
+    d = drawn_run(&drawn_light, "texture --scene plane --parameter distance=2000 --size 8x8 --raw --overlay 1");
+    assert_non_null(strstr(d->subtitle, "; grey from "));
+    assert_null(strstr(d->subtitle, "%"));
+    drawn_close(d);
+}
+
 int main(void) {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(colours_are_errors_above_the_limit), cmocka_unit_test(a_file)};
+    const struct CMUnitTest tests[] = {cmocka_unit_test(colours_are_errors_above_the_limit), cmocka_unit_test(a_file),
+                                       cmocka_unit_test(nothing_but_sky)};
     return run_tap(tests);
 }

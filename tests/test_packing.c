@@ -611,7 +611,7 @@ static void refusals(void **state) {
     (void)state;
     const char *in = truth_path("in.png"), *out = truth_path("map.png");
     const struct {
-        const char *words[10];
+        const char *words[12];
         const char *said;
     } rows[] = {
         {{in, "--packing", "rg", "-m", "d3d"},
@@ -627,6 +627,8 @@ static void refusals(void **state) {
         {{in, "--pack", "rg", "--normal", "low", "-o", out}, "--normal: does not apply with --pack rg"},
         {{in, "--pack", "rg", "--packed-normal", "-o", out}, "must not be given together with --pack"},
         {{"--scene", "plane", "-f", "inf", "--pack", "rg", "-o", out}, "it needs a finite far plane"},
+        {{"--scene", "plane", "--ortho", "-n", "-5", "-f", "9", "--pack", "rg", "-o", out},
+         "it needs near not less than 0"},
         {{in, "--metric", "1", "--pack", "rgb24", "-o", out}, "rgb24 holds window depth, which"},
     };
     for (size_t i = 0; i < sizeof rows / sizeof rows[0]; i++) {

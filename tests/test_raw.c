@@ -243,6 +243,8 @@ static void refusals(void **state) {
         {"--packing depth-normals --raw",
          "depthprec: --raw: does not apply with --packing depth-normals, which is not window depth\n"},
         {"-m d3d -f inf --linear01", "depthprec: texture: eye depth over far: this needs a finite far plane\n"},
+        {"-m d3d --ortho -n -3 -f 0 --linear01",
+         "depthprec: texture: eye depth over far: this needs far greater than 0\n"},
         {"-m d3d --raw --linear01", "depthprec: --raw: cannot be combined with --linear01\n"},
         {"-m d3d --radial --linear01", "depthprec: --radial: does not apply with --linear01\n"},
         {"-m d3d --pack rg --raw", "depthprec: --raw: does not apply with --pack\n"}};
@@ -251,6 +253,10 @@ static void refusals(void **state) {
     rng r = rng_make("refusals");
     snprintf(path, sizeof path, "%s", scratch_file("in.npy"));
     write_samples(&buffers[0], &r, samples, path);
+    printed pixel = print_of("texture %s -m d3d --ortho -n -3 -f 0 -q --pixel 3,3", path);
+    assert_non_null(strstr(pixel.out, "window depth"));
+    assert_null(strstr(pixel.out, "linear01"));
+    printed_free(&pixel);
     for (size_t i = 0; i < sizeof rows / sizeof rows[0]; i++) {
         printed p = print_of("texture %s %s -q -o %s", path, rows[i][0], scratch_file("out.npy"));
         assert_int_equal(p.status, 2);

@@ -325,7 +325,26 @@ static void test_pixels(void **state) {
     }
 }
 
+/* Normals by other methods than "projective" have no bound, so what compares them has none either. */
+static void test_unbounded_outlines(void **state) {
+    (void)state;
+    char path[512];
+    image shot;
+    snprintf(path, sizeof path, "%s", scratch_file("slope.npy"));
+    write_image(path, &shot);
+    for (int bounded = 0; bounded < 2; bounded++) {
+        printed p = print_of("texture %s -F fp32 -m reversed -q --effect outline --normal %s --pixel 6,5", path,
+                             bounded ? "projective" : "low");
+        assert_int_equal(p.status, 0);
+        assert_non_null(strstr(p.out, " in binary32, "));
+        assert_int_equal(strstr(p.out, " levels\n") != NULL, bounded);
+        printed_free(&p);
+    }
+    free(shot.data);
+}
+
 int main(void) {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(test_pixels), cmocka_unit_test(check_apart)};
+    const struct CMUnitTest tests[] = {cmocka_unit_test(test_pixels), cmocka_unit_test(test_unbounded_outlines),
+                                       cmocka_unit_test(check_apart)};
     return run_tap(tests);
 }

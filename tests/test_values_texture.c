@@ -637,8 +637,20 @@ static void test_images(void **state) {
     }
 }
 
+/* Then nothing is off, by no number and at no pixel. */
+static void test_nothing_but_sky(void **state) {
+    (void)state;
+    printed p = print_of("texture --scene plane --parameter distance=2000 --size 8x8 -q");
+    assert_int_equal(p.status, 0);
+    assert_null(strstr(p.out, "inf"));
+    assert_null(strstr(p.out, "0,0"));
+    assert_non_null(strstr(p.out, "\n  eye depth                       -         -         -  - (scene units)\n"));
+    printed_free(&p);
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
+        cmocka_unit_test(test_nothing_but_sky),
         cmocka_unit_test(test_scenes),
         cmocka_unit_test(test_images),
         cmocka_unit_test(check_apart),

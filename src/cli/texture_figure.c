@@ -61,11 +61,12 @@ static void build(const options *o, drawing *d, chart *c) {
     }
     picture_build(&d->error, c);
     picture_lay_under(&d->shown, c);
-    const double share = d->known > 0 ? 100 * (double)d->beyond / (double)d->known : 0;
-    append(c->subtitle, sizeof c->subtitle,
-           "; grey from %s, light, to %s, dark%s; %s %% of the pixels with a depth are in colour",
-           number_of(c->ground.lo, 4).text, number_of(c->ground.hi, 4).text,
-           c->ground.scale == CHART_LOG ? ", logarithmic" : "", number_of(share, 3).text);
+    if (d->shown.missing < (uint64_t)d->shown.width * d->shown.height)
+        append(c->subtitle, sizeof c->subtitle, "; grey from %s, light, to %s, dark%s", number_of(c->ground.lo, 4).text,
+               number_of(c->ground.hi, 4).text, c->ground.scale == CHART_LOG ? ", logarithmic" : "");
+    if (d->known > 0)
+        append(c->subtitle, sizeof c->subtitle, "; %s %% of the pixels with a depth are in colour",
+               number_of(100 * (double)d->beyond / (double)d->known, 3).text);
 }
 
 /* Title and subtitle: what holds for all of a source, and more. */
@@ -214,7 +215,7 @@ int texture_histogram_draw(const options *o, const texture_source *s) {
     if (status != EXIT_FINE)
         return status;
     chart *c = chart_new();
-    const bool good = c != NULL && histogram_build(&s->frame, o->metric == 0, c, &counted);
+    const bool good = c != NULL && histogram_build(&s->frame, texture_is_window(o), c, &counted);
     if (good && counted > 0) {
         if (counted < pixels)
             snprintf(more, sizeof more, "; %llu pixels of sky or holes are left out",

@@ -100,13 +100,15 @@ int texture_pack_write(const options *o, const texture_source *s) {
     packing_on on = {.p = o->pack, .normals = o->normal == NULL ? s->unpacked.normals : NULL};
     frame_product product = {.kind = o->pack->normals ? FRAME_NORMAL : FRAME_EYE,
                              .normal = o->normal != NULL ? o->normal : normal_get(NORMAL_PROJECTIVE)};
+    const dp_spec *planes = &frame_planes(&s->frame)->spec;
     char note[IMAGE_NOTE_SIZE];
     if (s->camera.oblique.on)
         return option_error(OPTION_PACK, "needs planes that all pixels share, which %s does not have", s->matrix.path);
     if (!o->pack->linear && !texture_is_window(o))
         return option_error(OPTION_PACK, "%s holds window depth, which %s is not", o->pack->name, s->path);
-    if (o->pack->linear && isinf(frame_planes(&s->frame)->spec.zfar))
-        return option_error(OPTION_PACK, "%s holds eye depth over far: it needs a finite far plane", o->pack->name);
+    if (o->pack->linear && (isinf(planes->zfar) || planes->znear < 0))
+        return option_error(OPTION_PACK, "%s holds eye depth over far: it needs %s", o->pack->name,
+                            planes->znear < 0 ? "near not less than 0" : "a finite far plane");
     note_of_packing(o, s, note);
     image_file_of(o->output, &on.w.file);
     const int status = writing_open(o, &on.w, o->output, s, IMAGE_U8, o->pack->channels);

@@ -80,9 +80,10 @@ static void look(const options *o, const texture_source *s, pixel *p, uint32_t *
     p->interval = p->range.hi - p->range.lo;
     if (f->scene != NULL)
         f->scene->hit(&s->camera, f->parameters, p->column, p->row, &hit);
-    const double far = texture_far_known(o) ? frame_planes(f)->spec.zfar : (double)INFINITY;
+    const frame_product share = {.kind = FRAME_LINEAR01};
+    const bool has_share = texture_far_known(o) && frame_refuses(f, &share) == NULL;
     const double along = camera_radial(&s->camera, p->column, p->row);
-    p->linear01 = isinf(far) || s->camera.oblique.on ? none : p->z / far;
+    p->linear01 = has_share ? p->z / frame_planes(f)->spec.zfar : none;
     p->distance = sky ? none : p->z * along;
     p->truth = isinf(hit.z) ? none : hit.z;
     p->error = isinf(hit.z) || hole ? none : dp_error(setup, code, hit.z);
@@ -134,6 +135,16 @@ static bool take(const pixels *all, frame_product product, size_t field) {
     return frame_run(&all->source->frame, &product, false, take_numbers, &t);
 }
 
+/* NaN where it is not known. */
+static bool take_error(const pixels *all, frame_product product, size_t field) {
+    product.error = true;
+    if (frame_refuses(&all->source->frame, &product) == NULL)
+        return take(all, product, field);
+    for (size_t i = 0; i < all->count; i++)
+        *(double *)(void *)((char *)&all->items[i] + field) = (double)NAN;
+    return true;
+}
+
 /* What the effect makes of the pixels. */
 static bool find_effect(pixels *all) {
     frame_product product = *all->effect;
@@ -141,8 +152,7 @@ static bool find_effect(pixels *all) {
     product.lost = true;
     good = good && take(all, product, offsetof(pixel, lost));
     product.lost = false;
-    product.error = true;
-    good = good && take(all, product, offsetof(pixel, levels));
+    good = good && take_error(all, product, offsetof(pixel, levels));
     for (size_t i = 0; i < all->count; i++)
         all->items[i].exact = all->items[i].output - all->items[i].lost;
     return good;
@@ -157,12 +167,8 @@ static bool find(pixels *all) {
         all->items[i].row = (uint32_t)depths_get(&all->o->pixels, 2 * i + 1);
         look(all->o, all->source, &all->items[i], codes);
     }
-    bool good = codes != NULL && frame_run(f, &normals, false, take_normals, all);
-    normals.error = true;
-    if (frame_refuses(f, &normals) == NULL)
-        good = good && take(all, normals, offsetof(pixel, normal_off));
-    for (size_t i = 0; i < all->count && frame_refuses(f, &normals) != NULL; i++)
-        all->items[i].normal_off = (double)NAN;
+    const bool good = codes != NULL && frame_run(f, &normals, false, take_normals, all) &&
+                      take_error(all, normals, offsetof(pixel, normal_off));
     free(codes);
     return good && (all->effect == NULL || find_effect(all));
 }

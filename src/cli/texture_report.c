@@ -229,7 +229,10 @@ static void *next_error(void *of, size_t i) {
     if (i == r->error_count)
         return NULL;
     e->masked = r->survey.pixels - e->sum.count - e->sum.infinite;
-    snprintf(e->at, sizeof e->at, "%u,%u (%s)", e->sum.hi_column, e->sum.hi_row, e->unit);
+    if (e->sum.count > 0)
+        snprintf(e->at, sizeof e->at, "%u,%u (%s)", e->sum.hi_column, e->sum.hi_row, e->unit);
+    else
+        snprintf(e->at, sizeof e->at, "- (%s)", e->unit);
     return e;
 }
 

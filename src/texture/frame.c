@@ -74,6 +74,8 @@ const char *frame_refuses(const frame *f, const frame_product *product) {
         return "this method does not support this projection and mapping";
     if (product->kind == FRAME_LINEAR01 && isinf(frame_planes(f)->spec.zfar))
         return "this needs a finite far plane";
+    if (product->kind == FRAME_LINEAR01 && frame_planes(f)->spec.zfar <= 0)
+        return "this needs far greater than 0";
     if (product->kind == FRAME_RAW && f->metric)
         return "metric depth is not window depth";
     if (product->kind == FRAME_EFFECT && !effect_applies(product->effect, frame_planes(f)))

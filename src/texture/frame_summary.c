@@ -74,7 +74,8 @@ bool frame_summarise(const frame *f, const frame_product *product, frame_summary
     if (good && out->count > 0) {
         out->mean = s.sum / (double)out->count;
         out->p99 = quantile(&s, 0.99);
-    }
+    } else
+        out->lo = out->hi = NAN;
     free(s.bins);
     return good;
 }
