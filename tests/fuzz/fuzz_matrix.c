@@ -1,7 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /*
- * Projection matrices as anybody might mangle them: each is refused with a sentence, or its planes, scales and slopes
- * are numbers that a camera can have. Nine bytes an entry, for bytes alone seldom make a row that says 0 0 1 0.
+ * Projection matrices as anybody might mangle them: each is refused with a sentence, or its scales and slopes are
+ * numbers that a camera can have; whether its planes are, the library's door says. Nine bytes an entry, for bytes alone
+ * seldom make a row that says 0 0 1 0.
  */
 #include <math.h>
 #include <stdint.h>
@@ -29,7 +30,7 @@ static double entry(const uint8_t *from) {
 static void use(const projection *p) {
     for (int k = 0; k < 2; k++)
         demand(p->scale[k] > 0 && isfinite(p->half[k]) && isfinite(p->centre[k]) && isfinite(p->tilt[k]));
-    demand(p->znear < p->zfar && isfinite(p->znear) && (p->ortho || p->znear > 0) && !(p->ortho && p->oblique));
+    demand(isfinite(p->znear) && (p->ortho ? isfinite(p->zfar) : p->znear > 0) && !(p->ortho && p->oblique));
     demand(p->oblique || (p->tilt[0] == 0 && p->tilt[1] == 0));
 }
 
