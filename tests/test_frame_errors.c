@@ -147,8 +147,38 @@ static void normals_of_coarse_images_are_within_the_predicted(void **state) {
     tally_end(&t);
 }
 
+/* The method low looks at its quad alone: what lies in the quads above and below changes neither normal nor bound. */
+static void the_bound_of_low_is_of_its_quad(void **state) {
+    enum { SIDE = 6, COUNT = SIDE * SIDE };
+    (void)state;
+    scene_stage s;
+    scene_stage_set(&s, "plane", "unorm16", "d3d", 1000, false, SIDE, SIDE);
+    const frame_product error = {.kind = FRAME_NORMAL, .normal = normal_find("low"), .error = true};
+    float *bounds[3];
+    s.frame.scene = NULL;
+    for (int k = 0; k < 3; k++) {
+        uint16_t codes[COUNT];
+        const double rows[SIDE / 2] = {10, k == 0 ? 10 : 90, k == 2 ? 60 : 10};
+        for (int i = 0; i < COUNT; i++)
+            codes[i] = (uint16_t)dp_code(&s.camera.setup, rows[i / SIDE / 2]);
+        const image depths = {
+            .width = SIDE, .height = SIDE, .channels = 1, .type = IMAGE_U16, .file = IMAGE_NPY, .data = codes};
+        s.frame.image = &depths;
+        bounds[k] = frame_made(&s.frame, &error, false);
+    }
+    for (int i = 0; i < COUNT; i++) {
+        const int quad = i / SIDE / 2;
+        assert_true(bounds[0][i] > 0 && bounds[0][i] < 90);
+        assert_true((bounds[1][i] == bounds[0][i]) == (quad != 1));
+        assert_true((bounds[2][i] == bounds[1][i]) == (quad != 2));
+    }
+    for (int k = 0; k < 3; k++)
+        free(bounds[k]);
+}
+
 int main(void) {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(true_errors_are_within_the_predicted),
+    const struct CMUnitTest tests[] = {cmocka_unit_test(the_bound_of_low_is_of_its_quad),
+                                       cmocka_unit_test(true_errors_are_within_the_predicted),
                                        cmocka_unit_test(errors_of_images_equal_plain_pixels),
                                        cmocka_unit_test(normals_of_coarse_images_are_within_the_predicted)};
     return run_tap(tests);
