@@ -21,7 +21,7 @@ static const struct {
     {"--position exact", "Positions by exact", "Positions by exact", " x (world). y (world). z (world)."},
     {"--position rays --error-map", "Positions by rays, error", "Positions by rays, largest possible error", ""},
     {"--normal high", "Normals by high", "Normals by high", ""},
-    {"--normal high --error-map", "Normals by high, error", NULL, ""},
+    {"--normal high --error-map", "Normals by high, error", "Normals by high, bound of the error on planes", ""},
     {"--normal projective --error-map", "Normals by projective, error",
      "Normals by projective, bound of the error on planes", ""},
     {"--effect fog", "Fog, density 1", "Fog, density 1", ""},
