@@ -22,7 +22,7 @@ typedef struct pixel {
     grain_range range;
     double interval;
     double linear01;           /* z over far */
-    double distance;           /* from the camera */
+    double distance;           /* from the camera, orthographic: from its plane */
     double truth, error;       /* of a scene */
     double beside[NEIGHBOURS]; /* eye depths to the left, right, above, below */
     double position[3];        /* world, of what is stored */
@@ -236,8 +236,9 @@ static void say_pixel(page *p, void *item) {
     page_note(p, "position", "%s, %s, %s", number_in(number_of(x->position[0], DIGITS_Z), p->unit).text,
               number_in(number_of(x->position[1], DIGITS_Z), p->unit).text,
               number_in(number_of(x->position[2], DIGITS_Z), p->unit).text);
-    page_note(p, "distance", "%s from the camera, off by%s %s along the ray",
-              number_in(number_of(x->distance, DIGITS_Z), p->unit).text, all->scene != NULL ? "" : " at most",
+    page_note(p, "distance", "%s from the camera%s, off by%s %s along the ray",
+              number_in(number_of(x->distance, DIGITS_Z), p->unit).text, all->source->camera.ortho ? "'s plane" : "",
+              all->scene != NULL ? "" : " at most",
               number_in((all->scene != NULL ? number_of : number_up)(x->position_off, DIGITS), p->unit).text);
     if (!isnan(x->normal[0]))
         say_normal(p, all);
