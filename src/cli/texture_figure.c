@@ -104,9 +104,11 @@ static void describe(const options *o, const texture_source *s, const texture_pr
                number_in(number_full(o->overlay), unit != NULL ? unit : "scene units").text);
     if (title[0] >= 'a' && title[0] <= 'z')
         title[0] = (char)(title[0] - 'a' + 'A');
-    if (shown->columns < (int)s->camera.width)
+    if (shown->columns < (int)s->camera.width || shown->rows < (int)s->camera.height)
         append(more, sizeof more,
-               shown->magnitudes ? "; a point is the largest of %.3g pixels" : "; one of %.3g pixels",
+               shown->magnitudes ? "; a point is the largest of %.3g pixels"
+               : o->overlay > 0  ? "; a colour is the largest error of %.3g pixels"
+                                 : "; one of %.3g pixels",
                (double)s->camera.width / shown->columns * s->camera.height / shown->rows);
     if (shown->missing > 0)
         append(more, sizeof more, "; hatched: no value, %llu pixels", (unsigned long long)shown->missing);
