@@ -37,6 +37,8 @@ for what in formats mappings presets apis rasterizers encodings packings effects
 all_named zfight -n 1 -f 1.5 -F unorm16
 all_named zfight -n 1 -f 1.5 -F unorm16 --sample 100 --gap 0.01
 all_named budget --at 10
+all_named budget --at 10 --viewport 640x480
+all_named table --at 10 --viewport 640x480
 worst=1 all_named check tests/needs/village.need
 all_named solve -f 1000 -F unorm24 -m d3d --separation 0.01 --at 100
 all_named solve -f 1000 -F unorm24 -m d3d --error 0.01 --at 100

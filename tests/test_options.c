@@ -16,15 +16,18 @@ static bool tried[OPTION_COUNT];
 
 /* One option behind a command, and its operand; `line` is what was said on stderr, without its line feed. */
 static int parse(options *o, const char *command, option_id id, const char *value, char line[1024]) {
-    char words[32], name[64], given[128];
+    char words[32], name[64], given[128], viewport[] = "--viewport=64x48";
+    const bool slants = id == OPTION_HFOV || id == OPTION_SUBPIXEL || id == OPTION_SLANT || id == OPTION_TRIANGLE;
     snprintf(words, sizeof words, "%s", command);
     snprintf(name, sizeof name, "--%s", option_name(id));
     snprintf(given, sizeof given, "%s", value != NULL ? value : "");
     char *const operand = strchr(words, ' ');
-    char *argv[6] = {(char[]){"depthprec"}, words, name};
+    char *argv[7] = {(char[]){"depthprec"}, words, name};
     int argc = 3;
     if (value != NULL)
         argv[argc++] = given;
+    if (slants)
+        argv[argc++] = viewport;
     if (operand != NULL) {
         argv[argc++] = operand + 1;
         *operand = '\0';
@@ -69,6 +72,7 @@ static const struct {
      "a number from 0 to 1e12 scene units per pixel"},
     {"texture", OPTION_FOV, AT(camera.fov_y), 60, 0.01, 179, "0.01", "179", "0", "180",
      "a number from 0.01 to 179 degrees"},
+    {"budget", OPTION_HFOV, AT(fov_x), 0, 0.01, 179, "0.01", "179", "0", "180", "a number from 0.01 to 179 degrees"},
     {"texture", OPTION_HALF_HEIGHT, AT(camera.half_height), 5, 1e-12, 1e12, "1e-12", "1e12", "0", "1e13",
      "a number from 1e-12 to 1e12 scene units"},
     {"texture", OPTION_YAW, AT(camera.yaw), 0, -360, 360, "-360", "360", "-361", "360.5",
@@ -157,6 +161,7 @@ static void test_whole(void **state) {
          "a whole number from 0 to 9007199254740992"},
         {"check", OPTION_THREADS, 1, 1024, "1", "1024", "0", "1025", "a whole number from 1 to 1024"},
         {"texture", OPTION_WIDTH, 320, 8192, "320", "8192", "319", "8193", "a whole number from 320 to 8192 pixels"},
+        {"budget", OPTION_SUBPIXEL, 1, 8, "1", "8", "0", "9", "a whole number from 1 to 8 bits"},
         {"texture", OPTION_HEIGHT, 200, 8192, "200", "8192", "199", "8193", "a whole number from 200 to 8192 pixels"},
     };
     tally t = {.name = "whole"};
@@ -170,7 +175,8 @@ static void test_whole(void **state) {
             options o;
             parse(&o, wholes[i].command, wholes[i].id, k == 0 ? wholes[i].least_text : wholes[i].most_text, line);
             const uint64_t fields[] = {
-                [0] = o.sample, o.seed, (uint64_t)o.threads, (uint64_t)o.width, (uint64_t)o.height};
+                [0] = o.sample,    o.seed, (uint64_t)o.threads, (uint64_t)o.width, (uint64_t)o.triangles.subpixel,
+                (uint64_t)o.height};
             TALLY(&t, fields[i] == (k == 0 ? wholes[i].least : wholes[i].most), "--%s: %llu, %s",
                   option_name(wholes[i].id), (unsigned long long)fields[i], line);
             options_release(&o);
@@ -504,6 +510,42 @@ static void test_own(void **state) {
     assert_true(strcmp(o.verb->name, "help") == 0 && strcmp(((const verb *)o.operand_row)->name, "plot") == 0);
 }
 
+/* View, grid and class, and the vertical angle that follows. */
+static void test_slanted(void **state) {
+    static const char *const viewports[] = {"0x5", "5x0", "32769x1", "1x32769", "5", "5x", "x5", "5x5x5", "-1x5", ""};
+    static const char *const slants[] = {"5", "5:4", "-1:5", "0:91", ":", "x:5", "5:x", ""};
+    static const char *const classes[] = {"",         "depth",     "depth=0.5",  "depth=1e7",
+                                          "pixels=0", "slim=1.9",  "slim=1025",  "width=5",
+                                          "depth=2,", "depth=nan", "pixels=1e6", "depth=2;slim=4"};
+    tally t = {.name = "slanted"};
+    char line[1024] = "";
+    options o;
+    (void)state;
+    assert_int_equal(parse(&o, "table", OPTION_VIEWPORT, "32768x7", line), EXIT_FINE);
+    assert_true(o.triangles.width == 32768 && o.triangles.height == 7 && o.triangles.subpixel == 8);
+    assert_true(o.triangles.fov_y == 60 && o.triangles.slant_lo == 0 && o.triangles.slant_hi == 90);
+    assert_true(o.triangles.depth == 2 && o.triangles.pixels == 512 && o.triangles.slim == 16);
+    assert_ptr_equal(o.terms.triangles, &o.triangles);
+    assert_int_equal(parse(&o, "table", OPTION_SLANT, "0.5:80", line), EXIT_FINE);
+    assert_true(o.triangles.slant_lo == 0.5 && o.triangles.slant_hi == 80);
+    assert_int_equal(parse(&o, "table", OPTION_TRIANGLE, "slim=4,depth=3,pixels=20", line), EXIT_FINE);
+    assert_true(o.triangles.depth == 3 && o.triangles.pixels == 20 && o.triangles.slim == 4);
+    assert_int_equal(parse(&o, "table", OPTION_TRIANGLE, "pixels=20", line), EXIT_FINE);
+    assert_true(o.triangles.depth == 2 && o.triangles.pixels == 20 && o.triangles.slim == 16);
+    assert_int_equal(parse(&o, "budget", OPTION_HFOV, "90", line), EXIT_FINE);
+    assert_relative(o.triangles.fov_y, 2 * atan(0.75) * 180 / 3.14159265358979323846, 1e-14);
+    assert_int_equal(parse(&o, "budget", OPTION_QUIET, NULL, line), EXIT_FINE);
+    assert_null(o.terms.triangles);
+    for (size_t i = 0; i < sizeof viewports / sizeof viewports[0]; i++)
+        refused(&t, "table", OPTION_VIEWPORT, viewports[i], "WIDTHxHEIGHT, each from 1 to 32768 pixels");
+    for (size_t i = 0; i < sizeof slants / sizeof slants[0]; i++)
+        refused(&t, "table", OPTION_SLANT, slants[i], "LO:HI, from 0 to 90 degrees");
+    for (size_t i = 0; i < sizeof classes / sizeof classes[0]; i++)
+        refused(&t, "table", OPTION_TRIANGLE, classes[i],
+                "depth=K from 1 to 1e6, pixels=P from 1 to 65536 and slim=Q from 2 to 1024, separated by commas");
+    tally_end(&t);
+}
+
 /* 65 formats are refused: nothing that was asked for is left out. */
 static void test_formats(void **state) {
     char all[2048] = "unorm1";
@@ -541,12 +583,12 @@ static void test_all(void **state) {
 }
 
 int main(void) {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(test_numbers), cmocka_unit_test(test_lengths),
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(test_numbers), cmocka_unit_test(test_lengths),
 
-                                       cmocka_unit_test(test_whole),   cmocka_unit_test(test_words),
-                                       cmocka_unit_test(test_rows),    cmocka_unit_test(test_flags),
-                                       cmocka_unit_test(test_texts),   cmocka_unit_test(test_optional),
-                                       cmocka_unit_test(test_own),     cmocka_unit_test(test_formats),
-                                       cmocka_unit_test(test_lists),   cmocka_unit_test(test_all)};
+        cmocka_unit_test(test_whole),   cmocka_unit_test(test_words),   cmocka_unit_test(test_rows),
+        cmocka_unit_test(test_flags),   cmocka_unit_test(test_texts),   cmocka_unit_test(test_optional),
+        cmocka_unit_test(test_own),     cmocka_unit_test(test_slanted), cmocka_unit_test(test_formats),
+        cmocka_unit_test(test_lists),   cmocka_unit_test(test_all)};
     return run_tap(tests);
 }

@@ -147,7 +147,7 @@ static void test_refusals(void **state) {
     REFUSED(width, 0);
     REFUSED(height, 32769);
     REFUSED(fov_y, 0.0);
-    REFUSED(fov_y, 180.0);
+    REFUSED(fov_y, 179.95);
     REFUSED(fov_y, NAN);
     REFUSED(subpixel, -1);
     REFUSED(subpixel, 9);

@@ -91,9 +91,15 @@ static bool api(size_t i, listed *l) {
 
 static bool rasterizer(size_t i, listed *l) {
     const raster_row *r = raster_get(i);
-    if (r != NULL)
-        *l = (listed){r->name, "", r->note, r->source, {r->subpixel_bits}, 1};
-    return r != NULL;
+    if (r == NULL)
+        return false;
+    *l = (listed){r->name, "", r->note, r->source, {r->subpixel_bits}, 1};
+    const dp_anchor_row *anchor = dp_anchor_get(r->anchor);
+    const double terms[] = {anchor == NULL ? 0 : anchor->plane.value, anchor == NULL ? 0 : anchor->plane.box,
+                            anchor == NULL ? 0 : anchor->plane.range, anchor == NULL ? 0 : anchor->plane.origin};
+    for (int k = 0; anchor != NULL && k < 4; k++)
+        add_number(l, terms[k]);
+    return true;
 }
 
 static bool encoding(size_t i, listed *l) {
@@ -260,8 +266,6 @@ static void check_item(const json_t *o, const listed *l, const char *bound) {
 
 /* A rasterizer that is measured says where its plane is anchored and what clipping does; a specification does not. */
 static void check_rasterizers(const json_t *items) {
-    static const char *const anchors[] = {"", "anchored at the target's origin",
-                                          "anchored at the vertex of the largest w"};
     static const char *const clippings[] = {"", "each piece with its own plane", "the plane of the unclipped vertices"};
     for (size_t i = 0; i < raster_count(); i++) {
         const raster_row *r = raster_get(i);
@@ -271,7 +275,9 @@ static void check_rasterizers(const json_t *items) {
         if (r->model == NULL)
             continue;
         assert_int_equal(strstr(text, "depth not snapped") != NULL, r->plane_bits == 0);
-        assert_non_null(strstr(text, anchors[r->anchor]));
+        char anchor[64];
+        snprintf(anchor, sizeof anchor, "; anchor %s: ", dp_anchor_get(r->anchor)->name);
+        assert_non_null(strstr(text, anchor));
         assert_non_null(strstr(text, clippings[r->clipping]));
         assert_non_null(strstr(text, r->operations));
     }

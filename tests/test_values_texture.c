@@ -118,6 +118,7 @@ static size_t want_decoding(values *v, const frame *f, size_t i, const decode_ro
     if (!decode_applies(row, setup))
         return i;
     for (uint32_t y = 0; y < f->camera->height; y++) {
+        double sum = 0; /* of a row: the order of the sums is part of their last digits */
         frame_codes(f, y, codes);
         for (uint32_t x = 0; x < f->camera->width; x++) {
             if (codes[x] == UINT32_MAX || frame_rank(setup, codes[x]) >= frame_sky_rank(f))
@@ -132,13 +133,14 @@ static size_t want_decoding(values *v, const frame *f, size_t i, const decode_ro
                 continue;
             }
             s.count++;
-            s.mean += off;
+            sum += off;
             if (off > s.hi) {
                 s.hi = off;
                 s.hi_column = x;
                 s.hi_row = y;
             }
         }
+        s.mean += sum;
     }
     s.mean /= (double)s.count;
     snprintf(name, sizeof name, "decode %s", row->name);

@@ -8,6 +8,7 @@
 
 #include "cli/choice.h"
 #include "cli/remedy.h"
+#include "cli/slant.h"
 #include "cli/walk.h"
 #include "report/number.h"
 
@@ -16,6 +17,7 @@ enum { DIGITS_PART = 2, DIGITS = 4, DIGITS_MORE = 6, DIGITS_Z = 9 };
 typedef struct row {
     double z;
     dp_budget parts;
+    double facing;                               /* the separation of surfaces that face the camera */
     char cause[DP_CAUSE_COUNT][NUMBER_SIZE + 8]; /* "0.00149  50 %" */
 } row;
 
@@ -43,12 +45,12 @@ typedef struct budget {
     choice_fields chosen;
 } budget;
 
-enum { WITH_WORLD = 1, WITH_INTERPOLATION = 2, WITH_LINEARIZE = 4 };
+enum { WITH_WORLD = 1, WITH_INTERPOLATION = 2, WITH_LINEARIZE = 4, WITH_TRIANGLES = 8 };
 
 /* The terms that are asked for. */
 static unsigned conditions(const budget *b) {
     return (b->terms.world > 0.0 ? WITH_WORLD : 0) | (b->terms.interpolation > 0.0 ? WITH_INTERPOLATION : 0) |
-           (b->linearize ? WITH_LINEARIZE : 0);
+           (b->linearize ? WITH_LINEARIZE : 0) | (b->terms.triangles != NULL ? WITH_TRIANGLES : 0);
 }
 
 /* ---- What is reported -------------------------------------------------------------------------------------------- */
@@ -103,6 +105,14 @@ static void *next_row(void *of, size_t index) {
         return NULL;
     }
     dp_budget_at(b->walk.setup, r->z, &b->terms, &r->parts); /* cannot fail: depths_resolve() has seen to it */
+    r->facing = r->parts.separation;
+    if (b->terms.triangles != NULL) {
+        dp_budget_terms facing = b->terms;
+        dp_budget other = {0};
+        facing.triangles = NULL;
+        dp_budget_at(b->walk.setup, r->z, &facing, &other);
+        r->facing = other.separation;
+    }
     for (int i = 0; i < DP_CAUSE_COUNT && b->walk.o->form == FORM_TEXT; i++)
         write_cause(r, i);
     note(b, r);
@@ -125,6 +135,7 @@ static void say_setup(page *p, void *item) {
     walk_title(p, item);
     if (b->composition != NULL)
         page_title(p, "world %s, composition %s", number_in(number_full(b->terms.world), p->unit).text, b->composition);
+    slant_title(p, b->terms.triangles);
 }
 
 static void say_worst(page *p, const worst *w) {
@@ -146,8 +157,9 @@ static void say_worst(page *p, const worst *w) {
 static void say_notes(page *p, void *item) {
     const budget *b = item;
     if (!isnan(b->hopeless))
-        page_line(p, "at z = %s no separation is guaranteed: everything farther may share its code",
-                  number_in(number_of(b->hopeless, DIGITS_MORE), p->unit).text);
+        page_line(p, "at z = %s no separation is guaranteed: everything %s may share its code",
+                  number_in(number_of(b->hopeless, DIGITS_MORE), p->unit).text,
+                  b->terms.triangles != NULL ? "nearer" : "farther");
     if (b->worst != NULL)
         say_worst(p, b->worst);
     page_line(p, "%s%s", conditions(b) != 0 ? "without the added terms " : "",
@@ -161,10 +173,16 @@ static void say_notes(page *p, void *item) {
     {FIELD(row, parts.cause[id], name, "scene")}, {                                                                    \
         TEXT_FIELD(row, cause[id], name, 14, 0), .when = (needed), .spare = (its_spare)                                \
     }
+#define SLANT_CAUSE(id, name)                                                                                          \
+    {FIELD(row, parts.cause[id], name, "scene"), .when = WITH_TRIANGLES}, {                                            \
+        TEXT_FIELD(row, cause[id], name, 14, 0), .when = WITH_TRIANGLES                                                \
+    }
 static const column cause_columns[] = {CAUSE(DP_CAUSE_EYE, "eye", 0, 3),
                                        CAUSE(DP_CAUSE_COMPOSITION, "composition", WITH_WORLD, 0),
                                        CAUSE(DP_CAUSE_PROJECTION, "projection", 0, 4),
                                        CAUSE(DP_CAUSE_NDC, "ndc", 0, 1),
+                                       SLANT_CAUSE(DP_CAUSE_SNAPPING, "snapping"),
+                                       SLANT_CAUSE(DP_CAUSE_SETUP, "set-up"),
                                        CAUSE(DP_CAUSE_INTERPOLATION, "interpolation", WITH_INTERPOLATION, 0),
                                        CAUSE(DP_CAUSE_FORMAT, "format", 0, 2),
                                        CAUSE(DP_CAUSE_LINEARIZATION, "linearization", WITH_LINEARIZE, 0),
@@ -173,6 +191,8 @@ static const column cause_columns[] = {CAUSE(DP_CAUSE_EYE, "eye", 0, 3),
 static const column row_columns[] = {
     {FIELD(row, z, "z", "scene"), SHOWN("z", 11, DIGITS_Z)},
     {FIELD(row, parts.separation, "separation", "scene"), SHOWN("guaranteed", 12, DIGITS_MORE), .upward = true},
+    {FIELD(row, facing, "guarantee_facing", "scene"), .when = WITH_TRIANGLES},
+    {FIELD(row, parts.separation, "guarantee_slanted", "scene"), .when = WITH_TRIANGLES},
     {FIELD(row, parts.window, "window", "")},
     {GROUP("causes", cause_columns)},
     {.kind = COLUMN_END}};
@@ -199,9 +219,11 @@ static const column term_columns[] = {{FIELD(budget, terms.interpolation, "inter
                                       {FIELD(budget, linearize, "linearize", "")},
                                       {.kind = COLUMN_END}};
 
-static const column columns[] = {{GROUP("terms", term_columns), .only = AS_JSON},
-                                 {LIST("setups", setup_report, next_setup), .head = say_setup, .notes = say_notes},
-                                 {.kind = COLUMN_END}};
+static const column columns[] = {
+    {GROUP("terms", term_columns), .only = AS_JSON},
+    {PART(budget, terms.triangles, "triangles", slant_columns), .only = AS_JSON, .pointed = true, .optional = true},
+    {LIST("setups", setup_report, next_setup), .head = say_setup, .notes = say_notes},
+    {.kind = COLUMN_END}};
 
 int cmd_budget(const options *o) {
     budget b = {.terms = o->terms, .linearize = o->terms.linearize != 0};

@@ -10,6 +10,7 @@
 #include "cli/compare.h"
 #include "cli/lookup.h"
 #include "cli/reach.h"
+#include "cli/slant.h"
 #include "cli/walk.h"
 #include "core/append.h"
 #include "method/ways.h"
@@ -30,6 +31,7 @@ enum {
 typedef struct row {
     dp_sample sample;
     double binary32;            /* the guaranteed separation; NaN where there is no such pipeline */
+    double slanted;             /* the guaranteed one at any slant that is asked for */
     double lattice, guaranteed; /* the separation in the model exact, and in the fullest that there is */
     int depth_digits, stored_digits, cell_digits;
 } row;
@@ -50,7 +52,8 @@ typedef struct table {
     dp_worst worst_case;
     const dp_worst *worst; /* null in a model without cells */
     guarantee over_range;
-    const guarantee *guarantee; /* null where there is none, or none is asked for */
+    const dp_triangles *triangles; /* null: surfaces face the camera */
+    const guarantee *guarantee;    /* null where there is none, or none is asked for */
     clipping planes;
     const clipping *drawn; /* null where there is no pipeline */
     choosing choice;
@@ -79,6 +82,15 @@ static double separation_in(const dp_setup *other, const dp_setup *setup, const 
     return other->spec.model == setup->spec.model ? here->separation : dp_separation(other, here->z);
 }
 
+/* NaN where there is no pipeline, or no slant is asked for. */
+static double slanted_at(const table *t, double z) {
+    dp_budget b = {.separation = (double)NAN};
+    const dp_budget_terms terms = {.triangles = t->triangles};
+    if (t->triangles != NULL && t->full.spec.model == DP_MODEL_FP32)
+        dp_budget_at(&t->full, z, &terms, &b);
+    return b.separation;
+}
+
 static void set_digits(row *r) {
     const dp_sample *s = &r->sample;
     /* A depth just short of 1 should not look like the far plane's. */
@@ -100,6 +112,7 @@ static void *next_row(void *of, size_t i) {
     r->lattice = separation_in(&t->exact, t->walk.setup, &r->sample);
     r->guaranteed = separation_in(&t->full, t->walk.setup, &r->sample);
     r->binary32 = t->full.spec.model == DP_MODEL_FP32 ? r->guaranteed : (double)NAN;
+    r->slanted = slanted_at(t, z);
     if (t->interval.row != NULL)
         r->sample.interval = way_interval(&t->interval, t->walk.setup, z);
     if (t->walk.o->form == FORM_TEXT)
@@ -148,6 +161,7 @@ static void say_reach(page *p, void *item) {
     char text[REACH_TEXT_SIZE], sentence[REACH_TEXT_SIZE] = "";
     const unit_row *unit = t->walk.here.unit;
     walk_title(p, item);
+    slant_title(p, t->triangles);
     if (t->walk.all.count > 1)
         return;
     double up_to[REACH_LIMITS];
@@ -159,7 +173,8 @@ static void say_reach(page *p, void *item) {
                    reach_limit_text(i, unit).text, up_to[i] < t->full.spec.zfar ? "z = " : "",
                    reach_text(t->full.spec.zfar, up_to[i], unit, text));
     if (*sentence != '\0')
-        page_text(p, "Guaranteed to be told apart: surfaces%s.", sentence);
+        page_text(p, "Guaranteed to be told apart%s: surfaces%s.", t->triangles != NULL ? ", facing the camera" : "",
+                  sentence);
     else
         page_text(p, "Surfaces %s apart are not guaranteed to be told apart, even at the near plane.",
                   reach_limit_text(REACH_LIMITS - 1, unit).text);
@@ -223,7 +238,7 @@ static void say_notes(page *p, void *item) {
 
 /* ---- Columns ----------------------------------------------------------------------------------------------------- */
 
-enum { WITH_TOLERANCE = 1, WITH_ARITH = 2, VERBOSE = 4, WITH_PRESETS = 8 };
+enum { WITH_TOLERANCE = 1, WITH_ARITH = 2, VERBOSE = 4, WITH_PRESETS = 8, WITH_TRIANGLES = 16 };
 
 static const column row_columns[] = {
     {FIELD(row, sample.z, "z", "scene"), SHOWN("z", 11, DIGITS_Z)},
@@ -242,6 +257,9 @@ static const column row_columns[] = {
      .only = AS_TEXT | AS_JSON},
     {FIELD(row, guaranteed, "guaranteed", "scene"), SHOWN("guaranteed", 11, DIGITS_SHORT), .upward = true,
      .only = AS_TEXT | AS_JSON},
+    {FIELD(row, guaranteed, "guarantee_facing", "scene"), .when = WITH_TRIANGLES},
+    {FIELD(row, slanted, "guarantee_slanted", "scene"), SHOWN("any slant", 11, DIGITS_SHORT), .upward = true,
+     .when = WITH_TRIANGLES},
     {TEXT_FIELD(row, sample.lo, "cell from", 18, 0), .digits_at = offsetof(row, cell_digits), .when = VERBOSE},
     {TEXT_FIELD(row, sample.hi, "to", 18, 0), .digits_at = offsetof(row, cell_digits), .when = VERBOSE},
     {.kind = COLUMN_END}};
@@ -285,13 +303,16 @@ static const column setup_report[] = {
     {PART(table, chosen, "auto", choice_columns), .only = AS_JSON},
     {.kind = COLUMN_END}};
 
-static const column columns[] = {{LIST("setups", setup_report, next_setup), .head = say_reach, .notes = say_notes},
-                                 {.kind = COLUMN_END}};
+static const column columns[] = {
+    {PART(table, triangles, "triangles", slant_columns), .only = AS_JSON, .pointed = true, .optional = true},
+    {LIST("setups", setup_report, next_setup), .head = say_reach, .notes = say_notes},
+    {.kind = COLUMN_END}};
 
 /* What a table of these set-ups has: the variant of arithmetic only where some set-up has that model. */
 static unsigned conditions(const table *t) {
     unsigned when = (option_given(t->walk.o, OPTION_TOLERANCE) ? WITH_TOLERANCE : 0) |
-                    (t->walk.o->verbose ? VERBOSE : 0) | (t->walk.o->preset_count > 1 ? WITH_PRESETS : 0);
+                    (t->walk.o->verbose ? VERBOSE : 0) | (t->walk.o->preset_count > 1 ? WITH_PRESETS : 0) |
+                    (t->triangles != NULL ? WITH_TRIANGLES : 0);
     for (size_t i = 0; i < t->walk.all.count; i++)
         if (t->walk.all.items[i].spec.model == DP_MODEL_FP32)
             when |= WITH_ARITH;
@@ -301,7 +322,7 @@ static unsigned conditions(const table *t) {
 int cmd_table(const options *o) {
     if (lookup_wanted(o))
         return lookup_write(o);
-    table t = {0};
+    table t = {.triangles = o->terms.triangles};
     int status = walk_start(&t.walk, o);
     for (size_t i = 0; status == EXIT_FINE && walk_setup(&t.walk, i); i++) {
         status = range_resolve(&t.walk.here, &t.lo, &t.hi);

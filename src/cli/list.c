@@ -126,13 +126,9 @@ bool list_api(size_t index, list_item *item) {
 }
 
 bool list_rasterizer(size_t index, list_item *item) {
-    static const char *const anchors[] = {
-        [RASTER_ANCHOR_ORIGIN] = "; plane of depth anchored at the target's origin",
-        [RASTER_ANCHOR_VERTEX] = "; plane of depth anchored at the vertex of the largest w",
-    };
     static const char *const clippings[] = {
-        [RASTER_CLIP_PIECES] = "; clipped: new vertices, each piece with its own plane",
-        [RASTER_CLIP_KEEPS] = "; clipped: the plane of the unclipped vertices",
+        [RASTER_CLIP_PIECES] = "new vertices, each piece with its own plane",
+        [RASTER_CLIP_KEEPS] = "the plane of the unclipped vertices",
     };
     const raster_row *row = raster_get(index);
     if (row == NULL)
@@ -141,8 +137,12 @@ bool list_rasterizer(size_t index, list_item *item) {
     append(item->bound, sizeof item->bound, "%s%d subpixel bits", row->at_least ? "at least " : "", row->subpixel_bits);
     if (row->model == NULL)
         return true;
-    append(item->bound, sizeof item->bound, ", depth %s%s%s; %s", row->plane_bits > 0 ? "snapped too" : "not snapped",
-           anchors[row->anchor], clippings[row->clipping], row->operations);
+    const dp_anchor_row *anchor = dp_anchor_get(row->anchor);
+    const dp_plane_error *e = &anchor->plane;
+    append(item->bound, sizeof item->bound,
+           ", depth %s; anchor %s: value %g, box %g, range %g, origin %g; clipped: %s; %s",
+           row->plane_bits > 0 ? "snapped too" : "not snapped", anchor->name, e->value, e->box, e->range, e->origin,
+           clippings[row->clipping], row->operations);
     return true;
 }
 

@@ -80,7 +80,7 @@ bool lookup_wanted(const options *o) {
 
 /* What is asked is no depth of the scene, and a code must be one of each format. */
 static int check(const options *o, const setups *all) {
-    static const option_id depths_only[] = {OPTION_AT, OPTION_RANGE, OPTION_TOLERANCE};
+    static const option_id depths_only[] = {OPTION_AT, OPTION_RANGE, OPTION_TOLERANCE, OPTION_VIEWPORT};
     if (option_given(o, OPTION_DEPTH) && option_given(o, OPTION_CODE))
         return option_error(OPTION_CODE, "cannot be combined with --depth");
     const option_id asked = option_given(o, OPTION_CODE) ? OPTION_CODE : OPTION_DEPTH;

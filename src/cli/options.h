@@ -53,6 +53,12 @@ typedef enum option_id {
     OPTION_WORLD,
     OPTION_COMPOSITION,
     OPTION_LINEARIZE,
+    OPTION_FOV,
+    OPTION_HFOV,
+    OPTION_VIEWPORT,
+    OPTION_SUBPIXEL,
+    OPTION_SLANT,
+    OPTION_TRIANGLE,
     OPTION_API,
     OPTION_UNITS,
     OPTION_FACTOR,
@@ -61,7 +67,6 @@ typedef enum option_id {
     OPTION_GAP,
     OPTION_SAMPLE,
     OPTION_SEED,
-    OPTION_FOV,
     OPTION_HALF_HEIGHT,
     OPTION_MATRIX,
     OPTION_YAW,
@@ -163,7 +168,10 @@ typedef struct options {
     solve_target target;                    /**< --for */
     double wanted_separation, wanted_error; /**< positive, scene units; 0 when not given */
 
-    dp_budget_terms terms; /**< --interpolation, --world, --composition, --linearize; zero when not given */
+    dp_budget_terms terms;  /**< --interpolation, --world, --composition, --linearize; zero when not given. With
+                                 --viewport its triangles point to those of the options that were read */
+    dp_triangles triangles; /**< --viewport, --fov, --hfov, --subpixel, --slant, --triangle */
+    double fov_x;           /**< --hfov, degrees */
 
     const unit_row *unit; /**< what a scene unit is; null where nothing says it: lengths are converted already */
     const preset *presets[OPTIONS_PRESETS_MAX]; /**< --preset, in the order given, each once */

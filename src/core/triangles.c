@@ -64,7 +64,7 @@ dp_status dp_triangles_check(const dp_triangles *t) {
     const dp_plane_error *p = &t->plane;
     const int plane =
         within(p->value, 0, most) && within(p->box, 0, most) && within(p->range, 0, most) && within(p->origin, 0, most);
-    const int view = within(t->width, 1, 32768) && within(t->height, 1, 32768) && within(t->fov_y, 0.01, 179) &&
+    const int view = within(t->width, 1, 32768) && within(t->height, 1, 32768) && within(t->fov_y, 0.001, 179.9) &&
                      within(t->subpixel, 0, 8);
     const int slant = within(t->slant_lo, 0, 90) && within(t->slant_hi, t->slant_lo, 90);
     const int class = within(t->depth, 1, 1e6) && within(t->pixels, 1, 65536) && within(t->slim, 2, 1024);

@@ -5,7 +5,6 @@
  */
 #include <float.h>
 #include <math.h>
-#include <string.h>
 
 #include "raster/model.h"
 
@@ -41,25 +40,23 @@ DP_INLINE float swiftshader(const raster_plane *p, float x, float y, int odd_x, 
 }
 
 /* The loop of one rasterizer for one instruction set. Narrow spans are a block whose rest is left out. */
-#define SPAN(TARGET, NAME, BLOCK_OF)                                                                                   \
-    TARGET static void NAME(const raster_plane *p, int y, int from, int to, float *depth) {                            \
-        const raster_plane plane = *p;                                                                                 \
-        if (to - from < BLOCK) {                                                                                       \
-            BLOCK_OF(&plane, y, from, to - from, depth);                                                               \
-            return;                                                                                                    \
-        }                                                                                                              \
-        for (int x = from; x < to; x += BLOCK) {                                                                       \
-            x = x < to - BLOCK ? x : to - BLOCK;                                                                       \
-            BLOCK_OF(&plane, y, x, BLOCK, depth + (x - from));                                                         \
-        }                                                                                                              \
-    }
 #define LOOP(TARGET, PIXEL, NAME, FMA32)                                                                               \
     DP_INLINE void NAME##_block(const raster_plane *p, int y, int x, int count, float *depth) {                        \
         for (int i = 0; i < BLOCK; i++)                                                                                \
             if (i < count)                                                                                             \
                 depth[i] = PIXEL(p, (float)(x + i), (float)y, (x + i) & 1, y & 1, FMA32);                              \
     }                                                                                                                  \
-    SPAN(TARGET, NAME, NAME##_block)
+    TARGET static void NAME(const raster_plane *p, int y, int from, int to, float *depth) {                            \
+        const raster_plane plane = *p;                                                                                 \
+        if (to - from < BLOCK) {                                                                                       \
+            NAME##_block(&plane, y, from, to - from, depth);                                                           \
+            return;                                                                                                    \
+        }                                                                                                              \
+        for (int x = from; x < to; x += BLOCK) {                                                                       \
+            x = x < to - BLOCK ? x : to - BLOCK;                                                                       \
+            NAME##_block(&plane, y, x, BLOCK, depth + (x - from));                                                     \
+        }                                                                                                              \
+    }
 
 /* Without the instruction: where double holds all sums exactly it rounds them as the fused operation does. */
 DP_INLINE float by_double(float a, float b, float c) {

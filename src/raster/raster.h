@@ -27,6 +27,7 @@
 
 #include "depthprec/batch.h"
 #include "depthprec/format.h"
+#include "depthprec/triangles.h"
 
 enum {
     RASTER_SIZE_MAX = 16384, /**< largest width and height of a target, pixels */
@@ -49,13 +50,6 @@ typedef enum raster_status {
 /** One sentence without a full stop; any value is accepted. */
 const char *raster_status_text(raster_status status);
 
-/** Where the plane of depth is anchored. Far from it, the plane's rounded slopes cost most. */
-typedef enum raster_anchor {
-    RASTER_ANCHOR_ANY = 0, /**< the implementation's choice */
-    RASTER_ANCHOR_ORIGIN,  /**< the target's corner */
-    RASTER_ANCHOR_VERTEX   /**< the vertex of the largest w */
-} raster_anchor;
-
 /** What becomes of the plane of depth when the triangle is clipped. */
 typedef enum raster_clipping {
     RASTER_CLIP_ANY = 0, /**< the implementation's choice */
@@ -69,7 +63,7 @@ typedef struct raster_row {
     int subpixel_bits; /**< of coverage, as reported; of a specification: the least that it allows */
     bool at_least;     /**< the implementation may have more */
     int plane_bits;    /**< subpixel bits of the plane of depth; 0: its vertices are not snapped */
-    raster_anchor anchor;
+    dp_anchor anchor;  /**< and with it the most that the set-up adds; of a specification DP_ANCHOR_COUNT, free */
     raster_clipping clipping;
     const char *operations; /**< of the depth of a pixel */
     const char *note;

@@ -176,13 +176,12 @@ static double exact_power(const dp_setup *setup, double d) {
     return power + lo * (power + 1);
 }
 
-/* By the shares of the near and of the far end. */
-DP_INLINE double perspective_exact(const dp_setup *setup, decode_quantity quantity, double near_hi, double near_lo,
-                                   double far_hi, double far_lo) {
+/* By the shares of the near and of the far end, rounded: no term has another sign, so none is lost. */
+DP_INLINE double perspective_exact(const dp_setup *setup, decode_quantity quantity, double near, double far) {
     const double n = setup->spec.znear, f = setup->spec.zfar;
     const bool infinite = isinf(f) != 0;
-    const double below = infinite ? near_hi + near_lo : f * near_hi + n * far_hi + (f * near_lo + n * far_lo);
-    const double above = quantity == DECODE_EYE ? (infinite ? n : n * f) : quantity == DECODE_01 ? n : n * far_hi;
+    const double below = infinite ? near : f * near + n * far;
+    const double above = quantity == DECODE_EYE ? (infinite ? n : n * f) : quantity == DECODE_01 ? n : n * far;
     return above / below;
 }
 
@@ -210,7 +209,7 @@ double decode_exact(const dp_setup *setup, decode_quantity quantity, double d) {
         const double z = setup->astride ? dp_curve_eye(setup, dp_point_make(d, 1)) : sum; /* which cancels about 0 */
         return quantity == DECODE_EYE ? z : quantity == DECODE_01 ? z / f : far_hi + far_lo;
     }
-    return perspective_exact(setup, quantity, near_hi, near_lo, far_hi, far_lo);
+    return perspective_exact(setup, quantity, near_hi, far_hi);
 }
 
 /* What decode_exact() does in perspective, for all that is alike in a loop. */
@@ -218,9 +217,8 @@ DP_INLINE void perspective_loop(const dp_setup *setup, decode_quantity quantity,
                                 double *restrict out, size_t count) {
     const dp_setup s = *setup;
     for (size_t i = 0; i < count; i++) {
-        const double at = (double)d[i], rest = 1 - at, lost = (1 - rest) - at;
-        out[i] = perspective_exact(&s, quantity, reversed ? at : rest, reversed ? 0 : lost, reversed ? rest : at,
-                                   reversed ? lost : 0);
+        const double at = (double)d[i], rest = 1 - at;
+        out[i] = perspective_exact(&s, quantity, reversed ? at : rest, reversed ? rest : at);
     }
 }
 

@@ -81,7 +81,8 @@ void decode_run(const decode_row *row, const dp_setup *setup, const float *d, fl
 /**
  * The quantity exactly, rounded to double: the reference. `d`, in [0, 1], is taken as it is, and so are the planes.
  *
- * Bound: 2^-50 relative. 1 - d is carried as an unevaluated sum of two doubles, so nothing cancels at either end.
+ * Bound: 2^-50 relative. In perspective all terms have one sign; else 1 - d is carried as an unevaluated sum of
+ * two doubles, so nothing cancels at either end.
  * Special cases: INFINITY for the eye depth at an infinite far plane.
  */
 double decode_exact(const dp_setup *setup, decode_quantity quantity, double d);

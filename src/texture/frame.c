@@ -61,8 +61,8 @@ static const char *camera_refuses(const frame *f, const frame_product *product) 
         return "this effect is for a frustum that is centred, without an oblique plane";
     if (product->kind == FRAME_LINEAR01 && oblique)
         return "this is for a far plane that all pixels share";
-    if (product->kind == FRAME_NORMAL && product->error && oblique)
-        return "the error of normals is not known where pixels have planes of their own";
+    if (product->kind == FRAME_NORMAL && product->error && oblique && product->normal == normal_get(NORMAL_PROJECTIVE))
+        return "its bound is for planes that all pixels share; the other methods have one";
     return NULL;
 }
 
@@ -83,11 +83,6 @@ const char *frame_refuses(const frame *f, const frame_product *product) {
     const bool normals = product->kind == FRAME_EFFECT && (product->effect->needs & EFFECT_NORMALS) != 0;
     if (normals && f->scene == NULL && f->normals == NULL)
         return "this effect needs normals, which an image of depths does not have, but a scene";
-    if (normals && f->scene == NULL && product->error && f->normals->unbounded)
-        return "its error is known for packed normals, and for those by 'projective', which have a bound";
-    if (product->kind == FRAME_NORMAL && product->error && f->scene == NULL &&
-        strcmp(product->normal->name, "projective") != 0)
-        return "the error of this method is known in a scene only; that of 'projective' has a bound";
     return NULL;
 }
 

@@ -30,7 +30,6 @@ typedef struct frame_normals {
     uint8_t *own;          /**< what is behind `texels`, where that was made */
     uint16_t *off;         /**< how far each was off at most before it was packed, of FRAME_NORMAL_DEGREE a degree;
                                 null: not at all, or not known */
-    bool unbounded;        /**< not known */
 } frame_normals;
 
 /** Where the depths come from. */

@@ -3,7 +3,6 @@
 
 #include <math.h>
 #include <stdlib.h>
-#include <string.h>
 
 #include "texture/packing.h"
 
@@ -30,13 +29,12 @@ static bool take(void *context, uint32_t row, uint32_t count, const float *const
 }
 
 bool frame_normals_make(const frame *f, const normal_row *method, bool error, frame_normals *out) {
-    const bool bounded = error && f->scene == NULL && strcmp(method->name, "projective") == 0;
+    const bool bounded = error && f->scene == NULL;
     const size_t pixels = (size_t)f->camera->width * f->camera->height;
     const frame_product products[] = {{.kind = FRAME_EYE},
                                       {.kind = FRAME_NORMAL, .normal = method},
                                       {.kind = FRAME_NORMAL, .normal = method, .error = true}};
-    *out = (frame_normals){
-        .own = malloc(2 * pixels), .off = bounded ? malloc(pixels * sizeof *out->off) : NULL, .unbounded = !bounded};
+    *out = (frame_normals){.own = malloc(2 * pixels), .off = bounded ? malloc(pixels * sizeof *out->off) : NULL};
     out->texels = out->own;
     making m = {out, f->camera->width};
     return out->own != NULL && (!bounded || out->off != NULL) &&

@@ -6,9 +6,8 @@
 #include "texture/frame.h"
 
 /**
- * Makes the normals of a frame from its depths, and packs them. Sky, and what has none, faces the camera. How far they
- * may be off is known in an image of the method "projective", which has a bound on planes.
- * @param error  that is asked for
+ * Makes the normals of a frame from its depths, and packs them. Sky, and what has none, faces the camera.
+ * @param error  how far they may be off in an image is asked for: the bound of the method on planes
  * @return false when out of memory
  */
 bool frame_normals_make(const frame *f, const normal_row *method, bool error, frame_normals *out);

@@ -5,6 +5,7 @@
 #include <string.h>
 
 #include "texture/clones.h"
+#include "texture/normal_corner.h"
 #include "texture/oblique.h"
 
 static const double TO_DEGREES = 180 / M_PI;
@@ -257,6 +258,48 @@ static void make_normal(const frame_row *in) {
     interleave(in);
 }
 
+/* What the codes of the row and of those a step above and below stand for: all that taps need. lo and hi are used up.
+ */
+static void ranges_around(const frame_row *in, int step, grain_rows out[3]) {
+    const texture_camera *c = camera_of(in);
+    const size_t width = c->width;
+    for (int k = 0; k < 3; k++) {
+        const int64_t row = (int64_t)in->row + (k - 1) * step;
+        double *const own = in->numbers + (2 + 2 * (size_t)k) * width;
+        out[k] = (grain_rows){own, in->numbers, in->numbers + width, own + width};
+        if (row >= 0 && row < c->height)
+            pixel_ranges_of(c, in->frame->grain, 0, (uint32_t)row, in->codes + (k - 1) * step * (int64_t)width, width,
+                            &out[k]);
+    }
+}
+
+/* Of an image the bound for a plane through the three pixels that were taken. */
+static void corner_bounds(const frame_row *in) {
+    const texture_camera *c = camera_of(in);
+    const normal_row *method = in->product->normal;
+    const int step = method->step;
+    grain_rows around[3];
+    ranges_around(in, step, around);
+    uint8_t *const sides = (uint8_t *)in->numbers;
+    normal_rows rows = {.camera = c, .row = in->row, .count = c->width, .slope_x = in->slope_x};
+    memcpy(rows.rows, in->eyes, sizeof rows.rows);
+    method->sides(&rows, sides);
+    for (uint32_t x = 0; x < c->width; x++) {
+        in->out[x] = NAN;
+        if (isnan(in->planes[0][x]))
+            continue;
+        const int64_t beside = (sides[x] & NORMAL_LEFT) != 0 ? (int64_t)x - step : (int64_t)x + step;
+        const bool below = (sides[x] & NORMAL_BELOW) != 0;
+        const grain_rows *own = &around[1], *other = &around[below ? 2 : 0];
+        const normal_tap taps[3] = {
+            {x, in->row, own->stored[x], own->reach[x]},
+            {(double)beside, in->row, own->stored[beside], own->reach[beside]},
+            {x, (double)in->row + (below ? step : -step), other->stored[x], other->reach[x]},
+        };
+        in->out[x] = frame_upwards(normal_corner_bound(c, method, taps, DP_BATCH_EYE_ERROR) * TO_DEGREES);
+    }
+}
+
 /* Of an image the bound for a plane through the pixel's place with the normal that was found. */
 static void normal_bounds(const frame_row *in) {
     const texture_camera *c = camera_of(in);
@@ -270,7 +313,7 @@ static void normal_bounds(const frame_row *in) {
 static void make_normal_error(const frame_row *in) {
     normals(in);
     if (in->frame->scene == NULL) {
-        normal_bounds(in);
+        (in->product->normal == normal_get(NORMAL_PROJECTIVE) ? normal_bounds : corner_bounds)(in);
         return;
     }
     for (uint32_t x = 0; x < camera_of(in)->width; x++) {

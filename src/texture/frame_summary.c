@@ -91,11 +91,15 @@ typedef struct decoding {
     dp_batch window;
     uint32_t width, sky;
     double sum;
-    double *off; /* in each slot ROWS rows; NaN where nothing is decoded */
+    struct row_summary {
+        frame_summary found;
+        double sum;
+    } * rows; /* ROWS in each slot */
     struct {
         uint32_t *codes;
         float *d, *got;
-    } * desks; /* of a thread */
+        double *off; /* NaN where nothing is decoded */
+    } * desks;       /* of a thread */
 } decoding;
 
 TEXTURE_CLONES static void relative(const float *restrict got, const uint32_t *restrict codes, uint32_t flip,
@@ -109,28 +113,50 @@ TEXTURE_CLONES static void relative(const float *restrict got, const uint32_t *r
     }
 }
 
+static struct row_summary summary_of(const double *off, uint32_t width, uint32_t row) {
+    frame_summary found = {.lo = INFINITY};
+    double sum = 0;
+    for (uint32_t x = 0; x < width; x++)
+        if (!isnan(off[x]) && add(&found, off[x], x, row))
+            sum += off[x];
+    return (struct row_summary){found, sum};
+}
+
 static void decode_strip(void *context, size_t index, size_t slot, int thread) {
     const decoding *s = context;
     const dp_setup *setup = &s->f->camera->setup;
     uint32_t *const codes = s->desks[thread].codes;
     float *const d = s->desks[thread].d, *const got = s->desks[thread].got;
-    double *off = s->off + slot * ROWS * s->width;
-    for (uint32_t y = (uint32_t)index * ROWS; y < s->f->camera->height && y / ROWS == index; y++, off += s->width) {
+    double *const off = s->desks[thread].off;
+    for (uint32_t y = (uint32_t)index * ROWS; y < s->f->camera->height && y / ROWS == index; y++) {
         frame_codes(s->f, y, codes);
         dp_batch_run(&s->window, codes, d, s->width);
         decode_run(s->row, setup, d, got, s->width);
         decode_exact_run(setup, s->row->quantity, d, off, s->width);
         relative(got, codes, setup->reversed ? setup->spec.format.code_max : 0, s->sky, off, s->width);
+        s->rows[slot * ROWS + y % ROWS] = summary_of(off, s->width, y);
     }
 }
 
+/* Rows come from the top: sums are the same in every run. */
 static bool add_strip(void *context, size_t index, size_t slot) {
     decoding *s = context;
-    const double *off = s->off + slot * ROWS * s->width;
-    for (uint32_t y = (uint32_t)index * ROWS; y < s->f->camera->height && y / ROWS == index; y++, off += s->width)
-        for (uint32_t x = 0; x < s->width; x++)
-            if (!isnan(off[x]) && add(s->out, off[x], x, y))
-                s->sum += off[x];
+    frame_summary *out = s->out;
+    for (uint32_t y = (uint32_t)index * ROWS; y < s->f->camera->height && y / ROWS == index; y++) {
+        const struct row_summary *row = &s->rows[slot * ROWS + y % ROWS];
+        const frame_summary *found = &row->found;
+        out->infinite += found->infinite;
+        if (found->count == 0)
+            continue;
+        if (out->count == 0 || found->hi > out->hi) {
+            out->hi = found->hi;
+            out->hi_column = found->hi_column;
+            out->hi_row = found->hi_row;
+        }
+        out->lo = fmin(out->lo, found->lo);
+        out->count += found->count;
+        s->sum += row->sum;
+    }
     return true;
 }
 
@@ -138,16 +164,17 @@ bool frame_summarise_decoding(const frame *f, const decode_row *row, frame_summa
     const int threads = frame_threads(f);
     const size_t width = f->camera->width, slots = 4 * (size_t)threads;
     decoding s = {.f = f, .row = row, .out = out, .width = f->camera->width, .sky = frame_sky_rank(f)};
-    s.off = malloc(slots * ROWS * width * sizeof *s.off);
+    s.rows = malloc(slots * ROWS * sizeof *s.rows);
     s.desks = calloc((size_t)threads, sizeof *s.desks);
     bool good =
-        s.off != NULL && s.desks != NULL &&
+        s.rows != NULL && s.desks != NULL &&
         dp_batch_init(&s.window, &f->camera->setup, DP_TASK_DECODE, DP_REAL_FLOAT, DP_WORD_32, dp_path_best()) == DP_OK;
     for (int i = 0; i < threads && good; i++) {
         s.desks[i].codes = malloc(width * sizeof *s.desks[i].codes);
         s.desks[i].d = malloc(width * sizeof *s.desks[i].d);
         s.desks[i].got = malloc(width * sizeof *s.desks[i].got);
-        good = s.desks[i].codes != NULL && s.desks[i].d != NULL && s.desks[i].got != NULL;
+        s.desks[i].off = malloc(width * sizeof *s.desks[i].off);
+        good = s.desks[i].codes != NULL && s.desks[i].d != NULL && s.desks[i].got != NULL && s.desks[i].off != NULL;
     }
     *out = (frame_summary){.lo = INFINITY, .hi = NAN, .p99 = NAN};
     const size_t count = (f->camera->height + ROWS - 1) / ROWS;
@@ -157,8 +184,9 @@ bool frame_summarise_decoding(const frame *f, const decode_row *row, frame_summa
         free(s.desks[i].codes);
         free(s.desks[i].d);
         free(s.desks[i].got);
+        free(s.desks[i].off);
     }
     free(s.desks);
-    free(s.off);
+    free(s.rows);
     return good;
 }

@@ -40,6 +40,7 @@ typedef struct normal_row {
     void (*run)(const normal_rows *in, float *nx, float *ny, float *nz);
     /** The neighbours that run() takes. */
     void (*sides)(const normal_rows *in, uint8_t *sides);
+    bool half; /**< places and normals in binary16 */
 } normal_row;
 
 enum {

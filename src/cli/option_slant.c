@@ -1,0 +1,73 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Options of slanted triangles. */
+#include <string.h>
+
+#include "cli/option_rows.h"
+#include "report/number.h"
+
+enum { VIEWPORT_MAX = 32768 };
+
+int parse_viewport(options *o, const option_row *row, const char *value) {
+    const size_t split = strcspn(value, "x");
+    char width[16] = "";
+    unsigned long w, h;
+    if (split < sizeof width)
+        memcpy(width, value, split);
+    if (value[split] == '\0' || !number_parse_count(width, VIEWPORT_MAX, &w) ||
+        !number_parse_count(value + split + 1, VIEWPORT_MAX, &h) || w < 1 || h < 1)
+        return option_refuse(row, "must be WIDTHxHEIGHT, each from 1 to %d pixels, got '%s'", VIEWPORT_MAX, value);
+    o->triangles.width = (int)w;
+    o->triangles.height = (int)h;
+    return EXIT_FINE;
+}
+
+int parse_slant(options *o, const option_row *row, const char *value) {
+    const size_t split = strcspn(value, ":");
+    double lo, hi;
+    if (value[split] == '\0' || !number_parse_part(value, split, NUMBER_FINITE, &lo) ||
+        !number_parse(value + split + 1, NUMBER_FINITE, &hi) || !(lo >= 0.0 && lo <= hi && hi <= 90.0))
+        return option_refuse(row, "must be LO:HI, from 0 to 90 degrees, got '%s'", value);
+    o->triangles.slant_lo = lo;
+    o->triangles.slant_hi = hi;
+    return EXIT_FINE;
+}
+
+static const struct {
+    const char *name;
+    size_t place;
+    double least, most;
+} class_rows[] = {{"depth", offsetof(dp_triangles, depth), 1.0, 1e6},
+                  {"pixels", offsetof(dp_triangles, pixels), 1.0, 65536.0},
+                  {"slim", offsetof(dp_triangles, slim), 2.0, 1024.0}};
+
+enum { CLASS_ROWS = sizeof class_rows / sizeof class_rows[0] };
+
+/* One NAME=NUMBER, of `length`. */
+static bool read_class(dp_triangles *t, const char *text, size_t length) {
+    for (size_t i = 0; i < CLASS_ROWS; i++) {
+        const size_t name = strlen(class_rows[i].name);
+        double number;
+        if (length <= name || strncmp(text, class_rows[i].name, name) != 0 || text[name] != '=')
+            continue;
+        if (!number_parse_part(text + name + 1, length - name - 1, NUMBER_FINITE, &number) ||
+            !(number >= class_rows[i].least && number <= class_rows[i].most))
+            return false;
+        memcpy((char *)t + class_rows[i].place, &number, sizeof number);
+        return true;
+    }
+    return false;
+}
+
+int parse_triangle(options *o, const option_row *row, const char *value) {
+    for (const char *at = value;; at++) {
+        const size_t length = strcspn(at, ",");
+        if (!read_class(&o->triangles, at, length))
+            return option_refuse(row,
+                                 "must be depth=K from 1 to 1e6, pixels=P from 1 to 65536 and slim=Q from 2 to 1024, "
+                                 "separated by commas, got '%s'",
+                                 value);
+        at += length;
+        if (*at == '\0')
+            return EXIT_FINE;
+    }
+}

@@ -1,0 +1,141 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* What table and budget print of slanted triangles, against the library; options spelled out here by hand. */
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "printed.h"
+
+enum { DEPTHS = 4 };
+
+typedef struct slant_case {
+    const char *camera, *options;
+    double znear, zfar;
+    dp_mapping mapping;
+    double z[DEPTHS];
+    dp_triangles triangles; /* without `plane` */
+} slant_case;
+
+static const slant_case cases[] = {
+    {"-n 0.25 -f inf -F fp32 -m reversed",
+     "--viewport 1920x1080 --fov 40",
+     0.25,
+     INFINITY,
+     DP_MAPPING_REVERSED,
+     {0.25, 3, 700, 5e4},
+     {1920, 1080, 40, 8, {0, 0, 0, 0}, 0, 90, 2, 512, 16}},
+    {"-n 0.5 -f 300 -F fp32 -m d3d",
+     "--viewport 640x360 --subpixel 4 --slant 10:45.5 --triangle slim=4,pixels=100,depth=1.5",
+     0.5,
+     300,
+     DP_MAPPING_D3D,
+     {0.5, 2, 30, 299},
+     {640, 360, 60, 4, {0, 0, 0, 0}, 10, 45.5, 1.5, 100, 4}},
+};
+
+static dp_budget budget_of(const slant_case *c, double z, bool slanted) {
+    dp_spec spec = dp_spec_default();
+    dp_setup setup;
+    dp_budget b;
+    dp_triangles t = c->triangles;
+    const dp_budget_terms terms = {.triangles = slanted ? &t : NULL};
+    t.plane = dp_anchor_get(DP_ANCHOR_VERTEX)->plane;
+    spec.znear = c->znear;
+    spec.zfar = c->zfar;
+    spec.mapping = c->mapping;
+    assert_int_equal(dp_setup_init(&setup, &spec), DP_OK);
+    assert_int_equal(dp_budget_at(&setup, z, &terms, &b), DP_OK);
+    return b;
+}
+
+static double at(const json_t *object, const char *key) {
+    const json_t *value = json_object_get(object, key);
+    if (value == NULL)
+        fail_msg("no '%s'", key);
+    return json_is_null(value) ? INFINITY : json_number_value(value);
+}
+
+static void check_triangles(const json_t *root, const dp_triangles *t) {
+    const json_t *got = json_object_get(root, "triangles");
+    assert_true(at(got, "width") == t->width && at(got, "height") == t->height && at(got, "fov") == t->fov_y);
+    assert_true(at(got, "subpixel") == t->subpixel && at(got, "slant_lo") == t->slant_lo);
+    assert_true(at(got, "slant_hi") == t->slant_hi && at(got, "depth") == t->depth);
+    assert_true(at(got, "pixels") == t->pixels && at(got, "slim") == t->slim);
+}
+
+static const json_t *row_of(const json_t *root, size_t k) {
+    const json_t *setup = json_array_get(json_object_get(root, "setups"), 0);
+    return json_array_get(json_object_get(setup, "rows"), k);
+}
+
+/* The field of a line of CSV that stands below a name. */
+static double csv_at(const char *text, const char *name, int line) {
+    int column = 0;
+    const char *head = text, *found = strstr(text, name);
+    assert_non_null(found);
+    for (; head < found; head++)
+        column += *head == ',';
+    for (; line >= 0; line--)
+        text = strchr(text, '\n') + 1;
+    for (; column > 0; column--)
+        text = strchr(text, ',') + 1;
+    return *text == ',' ? INFINITY : strtod(text, NULL);
+}
+
+static void check_rows(const slant_case *c, const char *command) {
+    char arguments[512];
+    const bool table = strcmp(command, "table") == 0;
+    snprintf(arguments, sizeof arguments, "%s %s %s --at %.17g,%.17g,%.17g,%.17g", command, c->camera, c->options,
+             c->z[0], c->z[1], c->z[2], c->z[3]);
+    printed json = print_of("%s --json", arguments), csv = print_of("%s --csv", arguments);
+    json_t *root = json_of(json.out);
+    check_triangles(root, &c->triangles);
+    for (int k = 0; k < DEPTHS; k++) {
+        const json_t *row = row_of(root, (size_t)k), *causes = json_object_get(row, "causes");
+        const dp_budget facing = budget_of(c, c->z[k], false), slanted = budget_of(c, c->z[k], true);
+        assert_true(at(row, "guarantee_facing") == facing.separation);
+        assert_true(at(row, "guarantee_slanted") == slanted.separation);
+        assert_true(at(row, table ? "guaranteed" : "separation") == (table ? facing : slanted).separation);
+        assert_true(csv_at(csv.out, "guarantee_facing [scene]", k) == facing.separation);
+        assert_true(csv_at(csv.out, "guarantee_slanted [scene]", k) == slanted.separation);
+        for (int i = 0; i < DP_CAUSE_COUNT && !table && isfinite(slanted.separation); i++)
+            assert_true(at(causes, dp_cause_name((dp_cause)i)) == slanted.cause[i]);
+        if (!table && isfinite(slanted.separation))
+            assert_true(csv_at(csv.out, "set-up [scene]", k) == slanted.cause[DP_CAUSE_SETUP] &&
+                        csv_at(csv.out, "snapping [scene]", k) == slanted.cause[DP_CAUSE_SNAPPING]);
+    }
+    json_decref(root);
+    printed_free(&json);
+    printed_free(&csv);
+}
+
+static void test_rows(void **state) {
+    (void)state;
+    for (size_t i = 0; i < sizeof cases / sizeof cases[0]; i++) {
+        check_rows(&cases[i], "table");
+        check_rows(&cases[i], "budget");
+    }
+}
+
+/* Of text the last column of a table is that at any slant, rounded up. */
+static void test_text(void **state) {
+    const slant_case *c = &cases[0];
+    printed p = print_of("table %s %s --at 700", c->camera, c->options);
+    const char *head = strstr(p.out, " guaranteed  any slant\n");
+    (void)state;
+    assert_non_null(head);
+    const char *line = strchr(head, '\n') + 1, *end = strchr(line, '\n');
+    while (end[-1] != ' ')
+        end--;
+    const double got = strtod(end, NULL), want = budget_of(c, 700, true).separation;
+    assert_true(got >= want && got <= want * (1 + 1e-4));
+    assert_non_null(strstr(p.out, "viewport 1920x1080, fov 40, 8 subpixel bits, slant 0 to 90 degrees\n"));
+    assert_non_null(strstr(p.out, "triangles from z/2 to 2 z, at most 512 pixels, no slimmer than 1:16\n"));
+    assert_non_null(strstr(p.out, "told apart, facing the camera: surfaces"));
+    printed_free(&p);
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {cmocka_unit_test(test_rows), cmocka_unit_test(test_text)};
+    return run_tap(tests);
+}
