@@ -54,16 +54,22 @@ static long double depth_of(size_t k, long double code) {
     return n * f / (f - (cases[k].reversed ? 1 - d : d) * (f - n));
 }
 
-/* Codes that a depth is stored as, from one on and before another; the outermost are depths of pixels, in binary32. */
-static double codes_between(size_t k, const double ends[2], long double from, long double to) {
-    from = from <= (long double)ends[0] ? from * (1 - 4e-7L) : from;
-    to = to >= (long double)ends[1] ? to * (1 + 4e-7L) : to;
-    double count = 0;
+/* Codes between the edges of each bin; the outermost edges are depths of pixels, in binary32. */
+static void count_codes(size_t k, const double ends[2], double counts[BINS]) {
+    long double edges[BINS + 1];
+    for (int i = 0; i <= BINS; i++) {
+        edges[i] = edge_of(ends, cases[k].log, i) * (i == 0 ? 1 - 4e-7L : i == BINS ? 1 + 4e-7L : 1);
+        counts[i % BINS] = 0;
+    }
+    int bin = 0;
     for (unsigned long code = 0; code < 1UL << cases[k].bits; code++) {
         const long double z = depth_of(k, (long double)code);
-        count += z >= from && z < to;
+        while (bin < BINS - 1 && z >= edges[bin + 1])
+            bin++;
+        while (bin > 0 && z < edges[bin])
+            bin--;
+        counts[bin] += z >= edges[bin] && z < edges[bin + 1];
     }
-    return count;
 }
 
 /* A flat piece of the line at the height of the count; none above the axis where that is 0. */
@@ -102,7 +108,7 @@ static void check_numbers(size_t k, const double ends[2], const double counts[BI
 static void check_case(size_t k) {
     const drawn_theme *look = strstr(cases[k].arguments, "dark") != NULL ? &drawn_dark : &drawn_light;
     char end[80] = "";
-    double counts[BINS] = {0}, ends[2] = {INFINITY, -INFINITY};
+    double counts[BINS] = {0}, available[BINS], ends[2] = {INFINITY, -INFINITY};
     const image depths = depths_of(cases[k].arguments);
     const float *z = depths.data;
     size_t without = 0;
@@ -134,11 +140,13 @@ static void check_case(size_t k) {
     assert_true(p->y.log);
     assert_px(drawn_px(&p->x, ends[0]), p->frame.x0, 1.5);
     assert_px(drawn_px(&p->x, ends[1]), p->frame.x1, 1.5);
+    if (cases[k].bits > 0)
+        count_codes(k, ends, available);
     for (int i = 0; i < BINS; i++) {
         const long double from = edge_of(ends, cases[k].log, i), to = edge_of(ends, cases[k].log, i + 1);
         check_step(p, pixels, (double)from, (double)to, counts[i]);
         if (cases[k].bits > 0)
-            check_step(p, codes, (double)from, (double)to, codes_between(k, ends, from, to));
+            check_step(p, codes, (double)from, (double)to, available[i]);
     }
     check_numbers(k, ends, counts);
     free(depths.data);

@@ -160,8 +160,22 @@ static void nothing_but_sky(void **state) {
     drawn_close(d);
 }
 
+/* A colour is then the largest of several, also where no two are side by side. */
+static void more_pixels_than_points(void **state) {
+    (void)state;
+    const char *const sizes[][2] = {{"--size 1600x20 --overlay 1", "; a colour is the largest error of 4 pixels"},
+                                    {"--size 1x3200 --overlay 1", "; a colour is the largest error of 4 pixels"},
+                                    {"--size 1x3200 --error-map --eye", "; a point is the largest of 4 pixels"}};
+    for (size_t i = 0; i < sizeof sizes / sizeof sizes[0]; i++) {
+        char *text = drawn_output("texture --scene plane %s -q --figure -", sizes[i][0]);
+        if (strstr(text, sizes[i][1]) == NULL)
+            fail_msg("%s: not said: %s", sizes[i][0], sizes[i][1]);
+        free(text);
+    }
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {cmocka_unit_test(colours_are_errors_above_the_limit), cmocka_unit_test(a_file),
-                                       cmocka_unit_test(nothing_but_sky)};
+                                       cmocka_unit_test(nothing_but_sky), cmocka_unit_test(more_pixels_than_points)};
     return run_tap(tests);
 }

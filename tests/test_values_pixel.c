@@ -343,8 +343,23 @@ static void test_unbounded_outlines(void **state) {
     free(shot.data);
 }
 
+/* Orthographic rays start in a plane. */
+static void test_distance(void **state) {
+    static const char *const rows[][2] = {
+        {"", "distance      12.2899012 from the camera, off by "},
+        {"--ortho -n 0", "distance      9.99999046 from the camera's plane, off by "}};
+    (void)state;
+    for (int i = 0; i < 2; i++) {
+        /* 10 sqrt(1 + 2 (7/8 tan 30)^2) = 12.289901, and a code that is off by 1.57e-7 */
+        printed p = print_of("texture --scene plane --size 8x8 -F fp32 -m reversed %s --pixel 0,0", rows[i][0]);
+        if (strstr(p.out, rows[i][1]) == NULL)
+            fail_msg("not said: %s\n%s", rows[i][1], p.out);
+        printed_free(&p);
+    }
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {cmocka_unit_test(test_pixels), cmocka_unit_test(test_unbounded_outlines),
-                                       cmocka_unit_test(check_apart)};
+                                       cmocka_unit_test(test_distance), cmocka_unit_test(check_apart)};
     return run_tap(tests);
 }

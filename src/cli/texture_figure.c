@@ -19,9 +19,8 @@ enum { WIDTH = 800, HISTOGRAM_HEIGHT = 500, BESIDE = 150, ABOVE = 130, HEIGHT_MI
 
 typedef struct drawing {
     picture shown;
-    picture error; /* with --overlay: of eye depth */
-    double above;
-    uint64_t known, beyond; /* pixels whose error is known, and those above */
+    picture error;          /* with --overlay: of eye depth */
+    uint64_t known, beyond; /* pixels whose error is known, and those of them in colour */
     progress bar;
     uint64_t done;
 } drawing;
@@ -38,7 +37,7 @@ static bool take_both(void *context, uint32_t row, uint32_t count, const float *
     picture_take(&d->error, row, count, values[1]);
     for (size_t i = 0; i < (size_t)count * d->error.width; i++) {
         d->known += isnan(values[1][i]) ? 0 : 1;
-        d->beyond += (double)values[1][i] > d->above ? 1 : 0;
+        d->beyond += (double)values[1][i] > d->error.above ? 1 : 0;
     }
     return take(context, row, count, values[0]);
 }
@@ -104,9 +103,11 @@ static void describe(const options *o, const texture_source *s, const texture_pr
                number_in(number_full(o->overlay), unit != NULL ? unit : "scene units").text);
     if (title[0] >= 'a' && title[0] <= 'z')
         title[0] = (char)(title[0] - 'a' + 'A');
-    if (shown->columns < (int)s->camera.width)
+    if (shown->columns < (int)s->camera.width || shown->rows < (int)s->camera.height)
         append(more, sizeof more,
-               shown->magnitudes ? "; a point is the largest of %.3g pixels" : "; one of %.3g pixels",
+               shown->magnitudes ? "; a point is the largest of %.3g pixels"
+               : o->overlay > 0  ? "; a colour is the largest error of %.3g pixels"
+                                 : "; one of %.3g pixels",
                (double)s->camera.width / shown->columns * s->camera.height / shown->rows);
     if (shown->missing > 0)
         append(more, sizeof more, "; hatched: no value, %llu pixels", (unsigned long long)shown->missing);
@@ -153,8 +154,7 @@ int texture_figure_draw(const options *o, const texture_source *s, const texture
                            .magnitudes = true,
                            .above = o->overlay,
                            .label = p->made.radial ? "error of the distance" : "error of eye depth",
-                           .unit = "scene units"},
-                 .above = o->overlay};
+                           .unit = "scene units"}};
     output out;
     const int status = output_open(&out, o->figure);
     if (status != EXIT_FINE)

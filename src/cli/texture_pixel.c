@@ -22,7 +22,7 @@ typedef struct pixel {
     grain_range range;
     double interval;
     double linear01;           /* z over far */
-    double distance;           /* from the camera */
+    double distance;           /* from the camera, orthographic: from its plane */
     double truth, error;       /* of a scene */
     double beside[NEIGHBOURS]; /* eye depths to the left, right, above, below */
     double position[3];        /* world, of what is stored */
@@ -99,39 +99,28 @@ static void look(const options *o, const texture_source *s, pixel *p, uint32_t *
     }
 }
 
-/* The normals of a strip at the pixels, or by how much they are off. */
-static bool take_normals(void *context, uint32_t row, uint32_t count, const float *values) {
-    const pixels *all = context;
-    for (size_t i = 0; i < all->count; i++) {
-        pixel *p = &all->items[i];
-        if (p->row < row || p->row >= row + count)
-            continue;
-        const float *at = values + 3 * ((size_t)(p->row - row) * all->source->camera.width + p->column);
-        for (int k = 0; k < 3; k++)
-            p->normal[k] = (double)at[k];
-    }
-    return true;
-}
-
-/* One number a pixel, to a field of each. */
+/* The numbers of a product to a field of each pixel. */
 typedef struct taking {
     const pixels *all;
-    size_t field;
+    size_t field, channels;
 } taking;
 
 static bool take_numbers(void *context, uint32_t row, uint32_t count, const float *values) {
     const taking *t = context;
     for (size_t i = 0; i < t->all->count; i++) {
         pixel *p = &t->all->items[i];
-        double *number = (double *)(void *)((char *)p + t->field);
-        if (p->row >= row && p->row < row + count)
-            *number = (double)values[(size_t)(p->row - row) * t->all->source->camera.width + p->column];
+        double *numbers = (double *)(void *)((char *)p + t->field);
+        if (p->row < row || p->row >= row + count)
+            continue;
+        const size_t at = (size_t)(p->row - row) * t->all->source->camera.width + p->column;
+        for (size_t k = 0; k < t->channels; k++)
+            numbers[k] = (double)values[at * t->channels + k];
     }
     return true;
 }
 
 static bool take(const pixels *all, frame_product product, size_t field) {
-    taking t = {all, field};
+    taking t = {all, field, (size_t)frame_channels(&product)};
     return frame_run(&all->source->frame, &product, false, take_numbers, &t);
 }
 
@@ -159,15 +148,14 @@ static bool find_effect(pixels *all) {
 }
 
 static bool find(pixels *all) {
-    frame_product normals = {.kind = FRAME_NORMAL, .normal = normal_get(NORMAL_PROJECTIVE)};
-    const frame *f = &all->source->frame;
+    const frame_product normals = {.kind = FRAME_NORMAL, .normal = normal_get(NORMAL_PROJECTIVE)};
     uint32_t *codes = malloc(all->source->camera.width * sizeof *codes);
     for (size_t i = 0; codes != NULL && i < all->count; i++) {
         all->items[i].column = (uint32_t)depths_get(&all->o->pixels, 2 * i);
         all->items[i].row = (uint32_t)depths_get(&all->o->pixels, 2 * i + 1);
         look(all->o, all->source, &all->items[i], codes);
     }
-    const bool good = codes != NULL && frame_run(f, &normals, false, take_normals, all) &&
+    const bool good = codes != NULL && take(all, normals, offsetof(pixel, normal)) &&
                       take_error(all, normals, offsetof(pixel, normal_off));
     free(codes);
     return good && (all->effect == NULL || find_effect(all));
@@ -236,8 +224,9 @@ static void say_pixel(page *p, void *item) {
     page_note(p, "position", "%s, %s, %s", number_in(number_of(x->position[0], DIGITS_Z), p->unit).text,
               number_in(number_of(x->position[1], DIGITS_Z), p->unit).text,
               number_in(number_of(x->position[2], DIGITS_Z), p->unit).text);
-    page_note(p, "distance", "%s from the camera, off by%s %s along the ray",
-              number_in(number_of(x->distance, DIGITS_Z), p->unit).text, all->scene != NULL ? "" : " at most",
+    page_note(p, "distance", "%s from the camera%s, off by%s %s along the ray",
+              number_in(number_of(x->distance, DIGITS_Z), p->unit).text, all->source->camera.ortho ? "'s plane" : "",
+              all->scene != NULL ? "" : " at most",
               number_in((all->scene != NULL ? number_of : number_up)(x->position_off, DIGITS), p->unit).text);
     if (!isnan(x->normal[0]))
         say_normal(p, all);

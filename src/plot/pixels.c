@@ -121,7 +121,9 @@ bool pixels_write_png(FILE *out, const pixels *p, const notes *words) {
     static const unsigned char start[2] = {0x78, 0x5E}; /* deflate, a window of 32 KiB, a fast level */
     const int rows = (int)(BAND / row_size(p)) + 1, count = (p->height + rows - 1) / rows;
     band *bands = calloc((size_t)count, sizeof *bands);
-    bool good = bands != NULL && write_head(out, p, words);
+    bool good = write_head(out, p, words);
+    if (bands == NULL)
+        return false;
 #pragma omp parallel for schedule(dynamic) reduction(&& : good) if (count > 1)
     for (int i = 0; i < count; i++) {
         const int first = i * rows, rest = p->height - first;
@@ -138,7 +140,7 @@ bool pixels_write_png(FILE *out, const pixels *p, const notes *words) {
     big_endian(end, sum);
     chunk(out, "IDAT", end, sizeof end);
     chunk(out, "IEND", NULL, 0);
-    for (int i = 0; i < count && bands != NULL; i++)
+    for (int i = 0; i < count; i++)
         free(bands[i].bytes);
     free(bands);
     return good && !ferror(out);

@@ -27,24 +27,24 @@ static bool check_form(const double m[16], char why[PROJECTION_WHY]) {
                           ? "the fourth row must be 0 0 1 0, 0 0 -1 0 or 0 0 0 1, as the fourth column is: transpose it"
                           : "the fourth row must be 0 0 1 0, 0 0 -1 0 or, orthographic, 0 0 0 1",
                       m + W);
-    if (m[X] == 0 || m[Y + 1] == 0 || m[Z + (ortho ? 2 : 3)] == 0)
-        return refuse(why,
-                      m[X] == 0       ? "is singular: x of the first row must not be 0"
-                      : m[Y + 1] == 0 ? "is singular: y of the second row must not be 0"
-                      : ortho         ? "is singular: z of the third row must not be 0, or depth is constant"
-                                      : "is singular: 1 of the third row must not be 0, or depth does not depend "
-                                        "on z",
-                      m + (m[X] == 0       ? X
-                           : m[Y + 1] == 0 ? Y
-                                           : Z));
+    const struct {
+        int row, column;
+        const char *wrong;
+    } entries[] = {{X, 0, "is singular: x of the first row must not be 0"},
+                   {Y, 1, "is singular: y of the second row must not be 0"},
+                   {Z, 2, "is singular: z of the third row must not be 0, or depth is constant"},
+                   {Z, 3, "is singular: the last of the third row must not be 0, or depth does not depend on z"}};
+    for (int i = 0; i < 4; i++)
+        if (m[entries[i].row + entries[i].column] == 0 && entries[i].column != (ortho ? 3 : 2))
+            return refuse(why, entries[i].wrong, m + entries[i].row);
     if (m[X] < 0)
         return refuse(why, "x of the first row must be positive: a mirrored picture has another handedness", m + X);
     if (m[X + 1] != 0 || m[X + (ortho ? 2 : 3)] != 0)
-        return refuse(why, ortho ? "the first row must be x 0 0 1" : "the first row must be x 0 z 0", m + X);
+        return refuse(why, ortho ? "the first row must be x 0 0 t" : "the first row must be x 0 z 0", m + X);
     if (m[Y] != 0 || m[Y + (ortho ? 2 : 3)] != 0)
-        return refuse(why, ortho ? "the second row must be 0 y 0 1" : "the second row must be 0 y z 0", m + Y);
+        return refuse(why, ortho ? "the second row must be 0 y 0 t" : "the second row must be 0 y z 0", m + Y);
     if (ortho && (m[Z] != 0 || m[Z + 1] != 0))
-        return refuse(why, "an orthographic third row must be 0 0 z 1: oblique planes need a perspective", m + Z);
+        return refuse(why, "an orthographic third row must be 0 0 z t: oblique planes need a perspective", m + Z);
     return true;
 }
 
