@@ -325,21 +325,25 @@ static void test_pixels(void **state) {
     }
 }
 
-/* Normals by other methods than "projective" have no bound, so what compares them has none either. */
-static void test_unbounded_outlines(void **state) {
+/* Outlines have a bound by normals of any method; the normal has none where pixels have planes of their own. */
+static void test_bounds(void **state) {
     (void)state;
-    char path[512];
+    char path[512], matrix[512];
     image shot;
     snprintf(path, sizeof path, "%s", scratch_file("slope.npy"));
+    snprintf(matrix, sizeof matrix, "%s", scratch_file("oblique.txt"));
     write_image(path, &shot);
-    for (int bounded = 0; bounded < 2; bounded++) {
-        printed p = print_of("texture %s -F fp32 -m reversed -q --effect outline --normal %s --pixel 6,5", path,
-                             bounded ? "projective" : "low");
-        assert_int_equal(p.status, 0);
-        assert_non_null(strstr(p.out, " in binary32, "));
-        assert_int_equal(strstr(p.out, " levels\n") != NULL, bounded);
-        printed_free(&p);
-    }
+    FILE *file = fopen(matrix, "w");
+    assert_non_null(file);
+    fputs("1 0 0 0  0 1 0 0  0.1 0 -0.0001 0.1  0 0 -1 0\n", file);
+    assert_int_equal(fclose(file), 0);
+    printed p = print_of("texture %s -F fp32 -m reversed -q --effect outline --normal low --pixel 6,5", path);
+    assert_non_null(strstr(p.out, " levels\n"));
+    printed_free(&p);
+    p = print_of("texture %s -F fp32 -m reversed -q --matrix %s --pixel 6,5", path, matrix);
+    assert_non_null(strstr(p.out, " in view space\n"));
+    assert_null(strstr(p.out, " degrees"));
+    printed_free(&p);
     free(shot.data);
 }
 
@@ -359,7 +363,7 @@ static void test_distance(void **state) {
 }
 
 int main(void) {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(test_pixels), cmocka_unit_test(test_unbounded_outlines),
+    const struct CMUnitTest tests[] = {cmocka_unit_test(test_pixels), cmocka_unit_test(test_bounds),
                                        cmocka_unit_test(test_distance), cmocka_unit_test(check_apart)};
     return run_tap(tests);
 }
