@@ -4,205 +4,9 @@
 #include <string.h>
 
 #include "cli/progress.h"
-#include "cli/setups.h"
-#include "cli/texture.h"
-#include "core/append.h"
+#include "cli/texture_statistics.h"
 #include "report/number.h"
 #include "report/report.h"
-#include "texture/survey.h"
-
-enum { ERRORS_MAX = 32, DIGITS_32 = 9 }; /* that tell binary32 numbers apart */
-
-/* How far a product is off over all pixels; see frame_product. */
-typedef struct error_line {
-    char name[48]; /* "eye depth", "normal high" */
-    const char *unit;
-    frame_summary sum;
-    uint64_t masked;
-    char at[64]; /* the pixel, and the unit */
-} error_line;
-
-/* As the shader sees them: binary32. */
-typedef struct shader_params {
-    double x, y, z, w;
-} shader_params;
-
-/* The statistics; what does not exist is null or NaN. Below `named`, the items of lists at hand. */
-typedef struct statistics {
-    const options *o;
-    texture_source source;
-    survey survey;
-    survey_pairs pairs;
-    shader_params zbuffer;
-    double condition; /* of the view-projection matrix, 2-norm; NaN where the mapping has none */
-    size_t error_count;
-    error_line errors[ERRORS_MAX];
-    setup_fields setup;
-    struct {
-        const char *scene, *truth, *packing, *type, *rounded, *format, *format_from, *mapping_from, *direction_from;
-        double metric, step, steps, bits, fov, half_height;
-        bool coarser;
-        const bool *reversed;
-        const survey_pairs *pairs;
-        const shader_params *zbuffer;
-        uint64_t hidden;
-    } named;
-    const char *parameter;
-    double parameter_value;
-    texture_reading reading;
-    survey_band band;
-    double band_steps;
-} statistics;
-
-static bool is_image(const statistics *r) {
-    return r->source.path != NULL;
-}
-
-/* ---- Text -------------------------------------------------------------------------------------------------------- */
-
-static void *next_parameter(void *of, size_t i) {
-    statistics *r = of;
-    const scene_row *scene = r->source.frame.scene;
-    if (is_image(r) || scene->parameters[i].name == NULL)
-        return NULL;
-    r->parameter = scene->parameters[i].name;
-    r->parameter_value = r->source.parameters[i];
-    return r;
-}
-
-/* How the samples were rounded, where they are coarser than the buffer's codes. */
-static void say_grain(const statistics *r, page *p) {
-    const grain *g = &r->source.grain;
-    const char *by = g->rounding == GRAIN_ANY       ? "rounded or truncated"
-                     : g->rounding == GRAIN_NEAREST ? "rounded to nearest"
-                                                    : "truncated";
-    if (g->kind == GRAIN_STEPS)
-        page_note(p, "samples", "steps of 1/%s%s, %s: counted in what depths can be off by",
-                  number_of(g->steps, 9).text,
-                  r->named.coarser                        ? ", coarser than the format"
-                  : r->source.format_from == ORIGIN_GIVEN ? ""
-                                                          : ", of a buffer that may be finer",
-                  by);
-    else if (g->kind == GRAIN_FLOATS && g->bits == 11)
-        page_note(p, "samples", "of %d significant bits, %s: counted in what depths can be off by", g->bits, by);
-}
-
-static void say_origins(const statistics *r, page *p) {
-    const texture_source *s = &r->source;
-    const char *name = s->setup.spec.format.name;
-    char readings[READINGS_SIZE];
-    const bool other = is_image(r) && s->found.depth && strcmp(s->found.format.name, name) != 0;
-    if (is_image(r))
-        page_note(p, "recognised", "%s", s->found.why);
-    if (is_image(r) && s->picture.lossy != NULL)
-        page_note(p, "compression", "%s, which may have changed the depths: no error here counts that",
-                  s->picture.lossy);
-    page_note(p, "format", "%s %s%s%s", name, r->named.format_from,
-              other ? ": the nearest codes are taken of what looks like " : "", other ? s->found.format.name : "");
-    if (is_image(r))
-        say_grain(r, p);
-    page_note(p, "mapping", "%s %s%s", r->setup.mapping, r->named.mapping_from,
-              is_image(r) && s->mapping_from == ORIGIN_ASSUMED ? ": --mapping sets it" : "");
-    if (is_image(r) && s->direction_from != ORIGIN_GIVEN)
-        page_note(p, "direction", "%s %s%s", s->setup.reversed ? "reversed" : "not reversed", r->named.direction_from,
-                  s->found.reversed >= 0 && s->setup.spec.ortho ? ": orthographic images do not show it" : "");
-    for (const char *const *what = (const char *const[]){"mapping", "format", NULL}; *what != NULL; what++)
-        if (*texture_readings_of(s, *what, readings) != '\0')
-            page_note(p, "pixel", "%s", readings);
-}
-
-static number_text in_scene(const page *p, double length) {
-    return number_in(number_of(length, 6), p->unit != NULL ? p->unit : "scene units");
-}
-
-static void say_metric(const statistics *r, page *p) {
-    const metric *m = &r->source.metric;
-    page_text(p, "metric depth, samples in units of %s, up to %s", in_scene(p, r->o->metric).text,
-              in_scene(p, m->zfar).text);
-    if (m->step > 0)
-        page_note(p, "samples", "steps of %s, rounded or truncated", in_scene(p, m->step).text);
-    else
-        page_note(p, "samples", "numbers of %d significant bits, rounded or truncated", r->source.grain.bits);
-}
-
-static void say_source(statistics *r, page *p) {
-    const texture_source *s = &r->source;
-    const shader_params *z = r->named.zbuffer;
-    char parameters[512] = "";
-    char packed[48] = "";
-    p->unit = options_unit(r->o);
-    if (r->o->packing != NULL)
-        snprintf(packed, sizeof packed, ", packed as %s", r->o->packing->name);
-    else if (s->channels > 1)
-        snprintf(packed, sizeof packed, ", the first is read");
-    for (size_t i = 0; next_parameter(r, i) != NULL; i++)
-        append(parameters, sizeof parameters, "%s %s %s", i > 0 ? "," : ";", r->parameter,
-               number_of(r->parameter_value, 6).text);
-    if (is_image(r))
-        page_text(p, "%s: %u x %u pixels, %s of %s, %u channel%s%s", s->path, s->camera.width, s->camera.height,
-                  image_file_name(s->picture.file), r->named.type, s->channels, s->channels == 1 ? "" : "s", packed);
-    else
-        page_text(p, "scene %s: %u x %u pixels%s", r->named.scene, s->camera.width, s->camera.height, parameters);
-    if (r->o->metric > 0) {
-        say_metric(r, p);
-    } else {
-        setup_title(p, &s->setup, &r->setup);
-        if (s->matrix.path != NULL)
-            texture_matrix_say(&s->matrix, p);
-        say_origins(r, p);
-    }
-    if (z != NULL)
-        page_note(p, "in Unity", "_ZBufferParams %s, %s, %s, %s", number_of(z->x, DIGITS_32).text,
-                  number_of(z->y, DIGITS_32).text, number_of(z->z, DIGITS_32).text, number_of(z->w, DIGITS_32).text);
-}
-
-static number_text share(uint64_t part, uint64_t all) {
-    return number_of(all > 0 ? 100.0 * (double)part / (double)all : 0, 3);
-}
-
-static void say_head(page *p, void *item) {
-    statistics *r = item;
-    const survey *v = &r->survey;
-    const texture_camera *s = &r->source.camera;
-    say_source(r, p);
-    if (s->oblique.on)
-        page_note(p, "sky", "%llu pixels, %s %%, within %s of the far end of window depth", (unsigned long long)v->sky,
-                  share(v->sky, v->pixels).text, number_of(r->o->sky, 3).text);
-    else if (r->o->metric == 0)
-        page_note(p, "sky", "%llu pixels, %s %%; depths from %s on are within %s of far and count as sky",
-                  (unsigned long long)v->sky, share(v->sky, v->pixels).text,
-                  number_in(number_of(v->sky_from, 6), p->unit).text, number_of(r->o->sky, 3).text);
-    if (!is_image(r) && r->named.hidden > 0)
-        page_note(p, "hidden", "%llu pixels of the scene count as sky", (unsigned long long)r->named.hidden);
-    if (v->invalid > 0)
-        page_note(p, "holes", "%llu pixels, %s %%, hold no depth", (unsigned long long)v->invalid,
-                  share(v->invalid, v->pixels).text);
-    if (isnan(v->lo))
-        page_note(p, "depths", "none");
-    else
-        page_note(p, "depths", "%s to %s, %llu distinct code%s", number_in(number_of(v->lo, 8), p->unit).text,
-                  number_in(number_of(v->hi, 8), p->unit).text, (unsigned long long)v->codes, v->codes == 1 ? "" : "s");
-}
-
-static void say_pairs(const survey_pairs *s, page *p) {
-    char first[NUMBER_SIZE + 32] = "", certain[NUMBER_SIZE + 48] = "";
-    if (s->ties > 0)
-        snprintf(first, sizeof first, ", the first at z = %s", number_in(number_of(s->first_tie, 6), p->unit).text);
-    if (!isnan(s->certain_to))
-        snprintf(certain, sizeof certain, "; none can fight up to z = %s",
-                 number_in(number_down(s->certain_to, 6), p->unit).text);
-    page_note(p, "pairs", "%llu to be told apart: %llu fight, stored as one code%s", (unsigned long long)s->pairs,
-              (unsigned long long)s->ties, first);
-    page_note(p, "", "%llu are closer than the separation%s", (unsigned long long)s->possible, certain);
-}
-
-static void say_geometry(page *p, void *item) {
-    const statistics *r = item;
-    if (r->named.pairs != NULL)
-        say_pairs(&r->pairs, p);
-    if (!isnan(r->condition))
-        page_note(p, "condition", "%s, of the view-projection matrix", number_of(r->condition, 4).text);
-}
 
 /* ---- Columns ----------------------------------------------------------------------------------------------------- */
 
@@ -240,7 +44,7 @@ static void *next_error(void *of, size_t i) {
 enum { OF_SCENE = 1, OF_IMAGE = 2, OF_WINDOW = 4, OF_MATRIX = 8 };
 
 static unsigned conditions(const statistics *r) {
-    const unsigned source = !is_image(r) ? OF_SCENE : r->o->metric == 0 ? OF_IMAGE | OF_WINDOW : OF_IMAGE;
+    const unsigned source = !statistics_of_image(r) ? OF_SCENE : r->o->metric == 0 ? OF_IMAGE | OF_WINDOW : OF_IMAGE;
     return source | (r->source.matrix.path != NULL ? OF_MATRIX : 0);
 }
 
@@ -261,7 +65,7 @@ static const column recognised_columns[] = {{FIELD(statistics, named.format, "fo
 
 static const column source_columns[] = {{FIELD(statistics, source.path, "file", "")},
                                         {FIELD(statistics, named.scene, "scene", "")},
-                                        {LIST("parameters", parameter_columns, next_parameter)},
+                                        {LIST("parameters", parameter_columns, statistics_next_parameter)},
                                         {FIELD(statistics, source.camera.width, "width", "")},
                                         {FIELD(statistics, source.camera.height, "height", "")},
                                         {FIELD(statistics, named.type, "type", ""), .when = OF_IMAGE},
@@ -349,7 +153,7 @@ static const column columns[] = {
     {GROUP(NULL, source_columns), .only = AS_JSON},
     {PART(statistics, setup, NULL, setup_columns)},
     {GROUP(NULL, found_columns), .only = AS_JSON},
-    {LIST("bands", band_columns, next_band), .notes = say_geometry},
+    {LIST("bands", band_columns, next_band), .notes = statistics_say_geometry},
     {PART(statistics, named.pairs, "pairs", pair_columns), .only = AS_JSON, .pointed = true},
     {FIELD(statistics, condition, "condition", ""), .only = AS_JSON},
     {FIELD(statistics, named.truth, "truth", ""), .only = AS_JSON},
@@ -372,8 +176,8 @@ static void name_all(statistics *r) {
     const bool is_metric = r->o->metric > 0, has_steps = g->kind == GRAIN_STEPS;
     const double none = (double)NAN;
     r->setup = setup_fields_of(&s->setup, options_unit(r->o));
-    r->named.scene = is_image(r) ? NULL : s->frame.scene->name;
-    r->named.truth = is_image(r) ? NULL : "scene";
+    r->named.scene = statistics_of_image(r) ? NULL : s->frame.scene->name;
+    r->named.truth = statistics_of_image(r) ? NULL : "scene";
     r->named.packing = r->o->packing != NULL ? r->o->packing->name : NULL;
     r->named.type = image_type_name(s->type);
     r->named.rounded = g->kind == GRAIN_CODES ? NULL : grain_rounding_name(g->rounding);
@@ -424,9 +228,9 @@ static bool add_decoding(statistics *r, const decode_row *row) {
 static size_t products_of(const statistics *r, frame_product out[ERRORS_MAX]) {
     size_t count = 0;
     out[count++] = (frame_product){.kind = FRAME_EYE, .error = true};
-    for (size_t i = 0; !is_image(r) && position_get(i) != NULL; i++)
+    for (size_t i = 0; !statistics_of_image(r) && position_get(i) != NULL; i++)
         out[count++] = (frame_product){.kind = FRAME_POSITION, .error = true, .position = position_get(i)};
-    for (size_t i = 0; !is_image(r) && normal_get(i) != NULL; i++)
+    for (size_t i = 0; !statistics_of_image(r) && normal_get(i) != NULL; i++)
         out[count++] = (frame_product){.kind = FRAME_NORMAL, .error = true, .normal = normal_get(i)};
     return count;
 }
@@ -461,7 +265,8 @@ int texture_report_write(const options *o, const texture_source *source) {
     }
     r.named.pairs = survey_pairs_make(&source->frame, &r.pairs) ? &r.pairs : NULL;
     name_all(&r);
-    report_write(&(report_spec){"texture", columns, &r, .when = conditions(&r), .label = 14, .head = say_head}, &out,
-                 o->form);
+    report_write(
+        &(report_spec){"texture", columns, &r, .when = conditions(&r), .label = 14, .head = statistics_say_head}, &out,
+        o->form);
     return output_close(&out);
 }
