@@ -100,7 +100,7 @@ static void test_range(void **state) {
     tally t = {.name = "range checks"};
     uint64_t every = 0, between = 0, some = 0;
     (void)state;
-    for (uint64_t i = 0; i < test_cases(2000, 40000, 400000); i++) {
+    for (uint64_t i = 0; i < test_cases(8000, 40000, 400000); i++) {
         const camera c = any_camera(&r);
         const effect_view view = {.setup = &c.setup};
         const long double steps =
