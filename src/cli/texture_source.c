@@ -81,9 +81,7 @@ static int check_together(const options *o) {
     if (file && o->scene != NULL)
         return option_error(OPTION_SCENE, "stands in place of FILE, got '%s' too", o->operands[0]);
     if (!file && o->scene == NULL)
-        return usage_error("texture: needs FILE, a PNG, PFM, npy, DDS, EXR or TIFF image, or --scene NAME");
-    if (file && option_given(o, OPTION_SIZE))
-        return option_error(OPTION_SIZE, "is for --scene: the image has its own");
+        return usage_error("texture: needs FILE, a PNG, PFM, npy, DDS, EXR, TIFF or raw image, or --scene NAME");
     if (file && o->effect == NULL && o->parameter_count > 0)
         return option_error(OPTION_PARAMETER, "needs --scene or --effect");
     if (o->metric > 0 && !file)
@@ -196,10 +194,20 @@ void texture_source_close(texture_source *s) {
 static int read_image(options *o, texture_source *s) {
     image_error error;
     s->path = o->operands[0];
-    if (!image_read_channel(s->path, o->channel, &s->picture, &error)) {
+    image_asked asked = {.channel = o->channel};
+    if (option_given(o, OPTION_SIZE)) {
+        asked.width = o->camera.width;
+        asked.height = o->camera.height;
+    }
+    if (!image_read_as(s->path, &asked, &s->picture, &error)) {
         usage_error("%s: %s", s->path, error.text);
         return error.unreadable ? EXIT_IO : EXIT_USAGE;
     }
+    if (asked.width > 0 && s->picture.file != IMAGE_RAW)
+        return option_error(OPTION_SIZE, "is for --scene and raw files: %s has its own", s->path);
+    if (s->picture.size_assumed && !o->quiet)
+        fprintf(stderr, "depthprec: %s: %u x %u pixels are assumed, by its length; --size sets them\n", s->path,
+                s->picture.width, s->picture.height);
     s->type = s->picture.type;
     s->channels = s->picture.channels;
     warn_of_compression(o, s);

@@ -16,7 +16,8 @@ enum { HEAD_SIZE = 8 };
 
 static const image_kind *const kinds[IMAGE_FILE_COUNT] = {
     [IMAGE_PNG] = &image_kind_png, [IMAGE_PFM] = &image_kind_pfm, [IMAGE_NPY] = &image_kind_npy,
-    [IMAGE_DDS] = &image_kind_dds, [IMAGE_EXR] = &image_kind_exr, [IMAGE_TIFF] = &image_kind_tiff};
+    [IMAGE_DDS] = &image_kind_dds, [IMAGE_EXR] = &image_kind_exr, [IMAGE_TIFF] = &image_kind_tiff,
+    [IMAGE_RAW] = &image_kind_raw};
 
 /* Files that people have instead, so that they are told what to do and not only what is wrong. */
 static const struct {
@@ -36,15 +37,17 @@ const char *image_file_name(image_file file) {
     return (unsigned)file < IMAGE_FILE_COUNT ? kinds[file]->name : NULL;
 }
 
+static bool ends(const char *path, const char *ending) {
+    const size_t length = strlen(path), size = strlen(ending);
+    return length > size && strcasecmp(path + length - size, ending) == 0;
+}
+
 bool image_file_of(const char *path, image_file *out) {
-    const size_t length = strlen(path);
-    for (int i = 0; i < IMAGE_WRITTEN_COUNT; i++) {
-        const size_t size = strlen(kinds[i]->ending);
-        if (length > size && strcasecmp(path + length - size, kinds[i]->ending) == 0) {
+    for (int i = 0; i < IMAGE_WRITTEN_COUNT; i++)
+        if (ends(path, kinds[i]->ending)) {
             *out = (image_file)i;
             return true;
         }
-    }
     return false;
 }
 
@@ -56,35 +59,34 @@ static bool begins(const unsigned char *head, size_t size, const char *magic, si
 
 static bool unknown(image_source *source, const unsigned char *head, size_t size) {
     char known[64] = "neither ";
-    for (int i = 0; i < IMAGE_FILE_COUNT; i++)
-        append(known, sizeof known, "%s%s", i == 0 ? "" : i + 1 < IMAGE_FILE_COUNT ? ", " : " nor ", kinds[i]->name);
+    for (int i = 0; i < IMAGE_RAW; i++)
+        append(known, sizeof known, "%s%s", i == 0 ? "" : i + 1 < IMAGE_RAW ? ", " : " nor ", kinds[i]->name);
     for (size_t i = 0; i < sizeof others / sizeof others[0]; i++)
         if (begins(head, size, others[i].magic, others[i].size))
             return source_fail(source, "%s, but %s", known, others[i].what);
     return size == 0 ? source_fail(source, "is empty") : source_fail(source, "%s by its first bytes", known);
 }
 
+static bool read_kind(image_source *source, image_file file, image *out) {
+    image read = {.file = file};
+    if (source->asked.channel != NULL && !kinds[file]->named)
+        return source_fail(source, "--channel names one of an EXR; those of %s have no names", kinds[file]->name);
+    if (!kinds[file]->read(source, &read)) {
+        free(read.data);
+        return false;
+    }
+    *out = read;
+    return true;
+}
+
 /* The first bytes are looked at and left to the reader of the kind. */
 static bool read_source(image_source *source, image *out) {
     const unsigned char *head = source->ready;
     const size_t size = source->ready_size < HEAD_SIZE ? source->ready_size : HEAD_SIZE;
-    for (int i = 0; i < IMAGE_FILE_COUNT; i++) {
-        const image_kind *kind = kinds[i];
-        bool is_it = false;
-        for (size_t k = 0; k < sizeof kind->magic / sizeof kind->magic[0]; k++)
-            is_it = is_it || begins(head, size, kind->magic[k], kind->magic_size);
-        if (!is_it)
-            continue;
-        if (source->channel != NULL && !kind->named)
-            return source_fail(source, "--channel names one of an EXR; those of %s have no names", kind->name);
-        image read = {.file = (image_file)i};
-        if (!kind->read(source, &read)) {
-            free(read.data);
-            return false;
-        }
-        *out = read;
-        return true;
-    }
+    for (int i = 0; i < IMAGE_FILE_COUNT; i++)
+        for (size_t k = 0; k < sizeof kinds[i]->magic / sizeof kinds[i]->magic[0]; k++)
+            if (begins(head, size, kinds[i]->magic[k], kinds[i]->magic_size))
+                return read_kind(source, (image_file)i, out);
     return unknown(source, head, size);
 }
 
@@ -116,13 +118,13 @@ static bool measure(image_source *source) {
 }
 
 bool image_read(const char *path, image *out, image_error *error) {
-    return image_read_channel(path, NULL, out, error);
+    return image_read_as(path, &(image_asked){.channel = NULL}, out, error);
 }
 
-bool image_read_channel(const char *path, const char *channel, image *out, image_error *error) {
+bool image_read_as(const char *path, const image_asked *asked, image *out, image_error *error) {
     const bool from_stdin = strcmp(path, "-") == 0;
     FILE *stream = from_stdin ? stdin : fopen(path, "rb");
-    image_source source = {.stream = stream, .channel = channel, .error = error};
+    image_source source = {.stream = stream, .asked = *asked, .error = error};
     if (stream == NULL)
         return unreadable(&source, errno);
     unsigned char head[HEAD_SIZE];
@@ -131,7 +133,9 @@ bool image_read_channel(const char *path, const char *channel, image *out, image
         errno = 0;
         source.ready = head;
         source.ready_size = fread(head, 1, sizeof head, stream);
-        good = ferror(stream) ? unreadable(&source, errno) : read_source(&source, out);
+        good = ferror(stream)                             ? unreadable(&source, errno)
+               : ends(path, ".raw") || ends(path, ".bin") ? read_kind(&source, IMAGE_RAW, out)
+                                                          : read_source(&source, out);
     }
     if (!from_stdin)
         fclose(stream);

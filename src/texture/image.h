@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /**
  * @file image.h  Images of numbers: PNG of 8 or 16 bits, PFM, and .npy of f2, f4, f8, u1, u2, u4. DDS,
- *  EXR and TIFF are read; of an EXR one channel, by a library that must be there then, as for TIFF.
+ *  EXR, TIFF and raw are read; of an EXR one channel, by a library that must be there then, as for TIFF.
  *
  * Files are not trusted: sizes are checked before memory is asked for (TEXTURE_SIDE_MAX, TEXTURE_PIXELS_MAX in
  * camera.h; what a file of known length cannot hold is refused), and what is damaged, cut short, followed by anything
@@ -34,6 +34,7 @@ typedef enum image_file {
     IMAGE_DDS = IMAGE_WRITTEN_COUNT,
     IMAGE_EXR,
     IMAGE_TIFF,
+    IMAGE_RAW,
     IMAGE_FILE_COUNT
 } image_file;
 
@@ -50,6 +51,7 @@ typedef struct image {
     void *data;                 /**< malloc'ed */
     const char *says;           /**< the depth format that the file names, "unorm24"; null when it names none */
     unsigned colours;           /**< IMAGE_SRGB, ... */
+    bool size_assumed;          /**< of a raw one: by its length alone */
     const char *lossy;          /**< the compression, where it may have changed samples: "PXR24"; else null */
     char note[IMAGE_NOTE_SIZE]; /**< of a PNG that depthprec wrote: the note, else "" */
 } image;
@@ -68,14 +70,21 @@ size_t image_type_size(image_type type);
  *  them */
 bool image_file_of(const char *path, image_file *out);
 
-/** "PNG", "PFM", "npy", "DDS", "EXR", "TIFF"; null when out of range. */
+/** "PNG", "PFM", "npy", "DDS", "EXR", "TIFF", "raw"; null when out of range. */
 const char *image_file_name(image_file file);
 
-/** Reads a file, "-" being stdin; the kind is told from its first bytes, not from its name. */
+/** What a file may leave open. */
+typedef struct image_asked {
+    const char *channel;    /**< of kinds whose channels have names; null: that which is depth */
+    uint32_t width, height; /**< pixels, of a raw one; 0: the usual picture of its length */
+} image_asked;
+
+/** Reads a file, "-" being stdin; the kind is told from its first bytes, but a name that ends in .raw or .bin says that
+ *  there is nothing but samples. */
 bool image_read(const char *path, image *out, image_error *error);
-/** The channel of that name, of kinds whose channels have names; null: that which is depth. */
-bool image_read_channel(const char *path, const char *channel, image *out, image_error *error);
-/** The first from memory. */
+/** The same, with what the file may leave open. */
+bool image_read_as(const char *path, const image_asked *asked, image *out, image_error *error);
+/** The first from memory, never raw. */
 bool image_parse(const void *bytes, size_t size, image *out, image_error *error);
 void image_free(image *image);
 
@@ -83,7 +92,7 @@ void image_free(image *image);
 typedef struct image_writer image_writer;
 
 /** Which sample types and channels a kind of file holds: PNG u1 u2, 1 to 4; PFM f4, 1 or 3; npy all, 1 to 4; DDS all
- *  but f8, 1 to 4; EXR u4, f2 and f4, 1; TIFF all, 1 to 4. */
+ *  but f8, 1 to 4; EXR u4, f2 and f4, 1; TIFF all, 1 to 4; raw u2, u4 and f4, 1, or 2 with a stencil. */
 bool image_holds(image_file file, image_type type, uint32_t channels);
 
 /** Writes the header. @return null when out of memory, when the stream failed, or the file cannot hold it; the stream

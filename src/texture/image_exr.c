@@ -160,13 +160,13 @@ static bool no_channel(reading *r) {
     }
     if (flat == 0)
         return source_fail(r->source, "EXR: it is deep, with any number of samples a pixel: flatten it");
-    if (r->source->channel != NULL)
-        return source_fail(r->source, "EXR: has no channel %.40s, but %s", r->source->channel, names);
+    if (r->source->asked.channel != NULL)
+        return source_fail(r->source, "EXR: has no channel %.40s, but %s", r->source->asked.channel, names);
     return source_fail(r->source, "EXR: has no channel Z, R or depth, but %s: --channel NAME takes one", names);
 }
 
 static bool find_channel(reading *r) {
-    const char *asked = r->source->channel;
+    const char *asked = r->source->asked.channel;
     if (asked != NULL)
         return find_like(r, asked, LIKE_SAME) || no_channel(r);
     return find_like(r, "Z", LIKE_CASE) || find_like(r, "R", LIKE_CASE) || find_like(r, "depth", LIKE_CASE) ||

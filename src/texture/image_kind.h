@@ -11,10 +11,10 @@
 typedef struct image_source {
     const unsigned char *ready; /**< the memory, or the first bytes of the stream */
     size_t ready_size;
-    FILE *stream;        /**< null: there is only what is ready */
-    bool sized;          /**< the length is known: memory, or a regular file */
-    uint64_t left;       /**< sized: bytes not yet read */
-    const char *channel; /**< the name of the one to take; null: that which is depth */
+    FILE *stream;  /**< null: there is only what is ready */
+    bool sized;    /**< the length is known: memory, or a regular file */
+    uint64_t left; /**< sized: bytes not yet read */
+    image_asked asked;
     image_error *error;
 } image_source;
 
@@ -75,7 +75,7 @@ struct image_writer {
 /** A kind of file. */
 typedef struct image_kind {
     const char *name, *ending;
-    const char *magic[4]; /**< the first bytes, one or the other; null: no other */
+    const char *magic[4]; /**< the first bytes, one or the other; null: no other, of raw none */
     bool named;           /**< its channels have names */
     size_t magic_size;
     unsigned types, channels; /**< bit sets of what it holds */
@@ -87,7 +87,8 @@ typedef struct image_kind {
     bool (*end)(image_writer *writer); /**< null: nothing follows the samples. Always called, to free */
 } image_kind;
 
-extern const image_kind image_kind_png, image_kind_pfm, image_kind_npy, image_kind_dds, image_kind_exr, image_kind_tiff;
+extern const image_kind image_kind_png, image_kind_pfm, image_kind_npy, image_kind_dds, image_kind_exr, image_kind_tiff,
+    image_kind_raw;
 
 /** Writes the samples alone, the lowest byte first on every machine: `rows` of PFM and npy. */
 bool image_rows_plain(image_writer *writer, const void *rows, uint32_t count);
