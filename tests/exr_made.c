@@ -27,17 +27,7 @@
     X(exr_encoding_run)                                                                                                \
     X(exr_encoding_destroy)                                                                                            \
     X(exr_get_default_error_message)
-#define MEMBER(name) __typeof__(name) *name;
-#define NAME(name)   #name,
-
-typedef union functions {
-    struct {
-        FUNCTIONS(MEMBER)
-    };
-    image_function *all[32];
-} functions;
-
-static const char *const symbols[] = {FUNCTIONS(NAME) NULL};
+IMAGE_LIBRARY_FUNCTIONS(FUNCTIONS)
 
 /* That of the headers, as image_exr.c has it. */
 #if OPENEXR_VERSION_MINOR == 1

@@ -40,17 +40,7 @@
     X(exr_decoding_choose_default_routines)                                                                            \
     X(exr_decoding_run)                                                                                                \
     X(exr_decoding_destroy)
-#define MEMBER(name) __typeof__(name) *name;
-#define NAME(name)   #name,
-
-typedef union functions {
-    struct {
-        FUNCTIONS(MEMBER)
-    };
-    image_function *all[32];
-} functions;
-
-static const char *const symbols[] = {FUNCTIONS(NAME) NULL};
+IMAGE_LIBRARY_FUNCTIONS(FUNCTIONS)
 
 /* Versions 3.M have the number 29 + M in the names of their files and packages. */
 #if OPENEXR_VERSION_MINOR == 1
