@@ -3,8 +3,10 @@
  * Outlines, which compare normals too: a scene's own, those that came with an image, and those made of its depths. Each
  * pixel is judged by formulas of this file.
  */
+#include <stdlib.h>
 #include <string.h>
 
+#include "scene_stage.h"
 #include "stage.h"
 #include "texture/frame_normals.h"
 
@@ -204,6 +206,12 @@ static void test_outlines_by_depth(void **state) {
         s.frame.normals = &normals;
         stage_effect(&s, "outline", at, 0, false, got);
         stage_effect(&s, "outline", at, 0, true, off);
+        const frame_product bound = {.kind = FRAME_NORMAL, .normal = normal_get((size_t)m), .error = true};
+        float *most = frame_made(&s.frame, &bound, false);
+        for (int k = 0; k < PIXELS; k++)
+            assert_true(isnan(most[k]) || (normals.off[k] >= (double)most[k] * FRAME_NORMAL_DEGREE &&
+                                           normals.off[k] < (double)most[k] * FRAME_NORMAL_DEGREE + 1));
+        free(most);
         for (int k = 0; k < PIXELS; k++) {
             const int x = k % ACROSS;
             double n[2];
