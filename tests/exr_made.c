@@ -7,8 +7,7 @@
 
 #if __has_include(<openexr.h>)
 
-#include <openexr.h>
-
+#include "texture/image_exr.h"
 #include "texture/image_library.h"
 
 #define FUNCTIONS(X)                                                                                                   \
@@ -27,29 +26,9 @@
     X(exr_encoding_run)                                                                                                \
     X(exr_encoding_destroy)                                                                                            \
     X(exr_get_default_error_message)
-#define MEMBER(name) __typeof__(name) *name;
-#define NAME(name)   #name,
+IMAGE_LIBRARY_FUNCTIONS(FUNCTIONS)
 
-typedef union functions {
-    struct {
-        FUNCTIONS(MEMBER)
-    };
-    image_function *all[32];
-} functions;
-
-static const char *const symbols[] = {FUNCTIONS(NAME) NULL};
-
-/* That of the headers, as image_exr.c has it. */
-#if OPENEXR_VERSION_MINOR == 1
-#define FILE_NAME "libOpenEXRCore-3_1.so.30"
-#elif OPENEXR_VERSION_MINOR == 2
-#define FILE_NAME "libOpenEXRCore-3_2.so.31"
-#elif OPENEXR_VERSION_MINOR == 3
-#define FILE_NAME "libOpenEXRCore-3_3.so.32"
-#else
-#define FILE_NAME "libOpenEXRCore-3_4.so.33"
-#endif
-static const image_library library = {"EXR", {FILE_NAME, NULL}, "libopenexr", symbols};
+static const image_library library = {"EXR", {IMAGE_EXR_FILE, NULL}, IMAGE_EXR_PACKAGE, symbols};
 
 static exr_result_t write_chunk(const functions *call, exr_context_t file, const exr_made *of, int x, int y) {
     const size_t size = image_type_size(of->type), row = (size_t)of->width * size;

@@ -14,6 +14,12 @@ uint32_t code_of(double z) {
     return (uint32_t)((z - STAGE_NEAR) / z * STAGE_FAR / (STAGE_FAR - STAGE_NEAR) * CODE_MAX + 0.5);
 }
 
+void stage_slopes(int pixel, double out[2]) {
+    const double half = tan(30 * M_PI / 180);
+    out[0] = (2 * (pixel % ACROSS + 0.5) / ACROSS - 1) * half * ACROSS / DOWN;
+    out[1] = (1 - 2 * (pixel / ACROSS + 0.5) / DOWN) * half;
+}
+
 void stage_make(stage *s) {
     dp_format formats[2];
     dp_spec spec = dp_spec_default();

@@ -24,6 +24,9 @@ typedef struct stage {
 double eye_of(double code);
 uint32_t code_of(double z);
 
+/** x/z and y/z of a pixel. */
+void stage_slopes(int pixel, double out[2]);
+
 /** A field of view of 60 degrees, standard depth, codes that are 0. */
 void stage_make(stage *s);
 /** A few depths side by side, sky among them, and a hole. */

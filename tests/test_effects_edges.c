@@ -135,7 +135,7 @@ static void test_occlusion(void **state) {
 /* Water at 20 looks three pixels to the right, unless what is there stands before the water. */
 static void test_refraction(void **state) {
     static float got[PIXELS], off[PIXELS];
-    const double surface = 20, density = 0.05, half = tan(30 * M_PI / 180);
+    const double surface = 20, density = 0.05;
     stage s;
     double at[TEXTURE_PARAMETERS];
     int shifted = 0;
@@ -150,8 +150,9 @@ static void test_refraction(void **state) {
     stage_effect(&s, "water-depth", at, surface, true, off);
     for (int k = 0; k < PIXELS; k++) {
         const int there = s.codes[beside(k, 3, 0)] == code_of(8) ? k : beside(k, 3, 0);
-        const double x = (2 * (k % ACROSS + 0.5) / ACROSS - 1) * half * ACROSS / DOWN;
-        const double y = (1 - 2 * (k / ACROSS + 0.5) / DOWN) * half, ray = sqrt(x * x + y * y + 1);
+        double slope[2];
+        stage_slopes(k, slope);
+        const double ray = sqrt(slope[0] * slope[0] + slope[1] * slope[1] + 1);
         const double z = eye_of(s.codes[there]), hi = eye_of(s.codes[there] + 0.5);
         const double want = 1 - exp(-density * fmax(z - surface, 0) * ray);
         const double change = fabs(1 - exp(-density * fmax(hi - surface, 0) * ray) - want);
@@ -165,7 +166,7 @@ static void test_refraction(void **state) {
 /* A sphere, most of it under water: the truth says where it is seen through, and how far off that is. */
 static void test_refracted_scene(void **state) {
     static float got[PIXELS], off[PIXELS];
-    const double surface = 4.2, density = 0.3, distance = 8, radius = 4, half = tan(30 * M_PI / 180);
+    const double surface = 4.2, density = 0.3, distance = 8, radius = 4;
     const double parameters[TEXTURE_PARAMETERS] = {distance, radius, 0};
     double at[TEXTURE_PARAMETERS], z[PIXELS], ray[PIXELS];
     stage s;
@@ -176,8 +177,9 @@ static void test_refracted_scene(void **state) {
     s.frame.scene = scene_find("sphere");
     s.frame.parameters = parameters;
     for (int k = 0; k < PIXELS; k++) {
-        const double x = (2 * (k % ACROSS + 0.5) / ACROSS - 1) * half * ACROSS / DOWN;
-        const double y = (1 - 2 * (k / ACROSS + 0.5) / DOWN) * half, a = x * x + y * y + 1;
+        double slope[2];
+        stage_slopes(k, slope);
+        const double a = slope[0] * slope[0] + slope[1] * slope[1] + 1;
         z[k] = (distance - sqrt(distance * distance - a * (distance * distance - radius * radius))) / a;
         ray[k] = sqrt(a);
     }

@@ -3,8 +3,10 @@
  * Outlines, which compare normals too: a scene's own, those that came with an image, and those made of its depths. Each
  * pixel is judged by formulas of this file.
  */
+#include <stdlib.h>
 #include <string.h>
 
+#include "scene_stage.h"
 #include "stage.h"
 #include "texture/frame_normals.h"
 
@@ -25,8 +27,9 @@ static void test_outlines(void **state) {
     s.frame.scene = scene_find("sphere");
     s.frame.parameters = parameters;
     for (int k = 0; k < PIXELS; k++) {
-        const double half = tan(30 * M_PI / 180), x = (2 * (k % ACROSS + 0.5) / ACROSS - 1) * half * ACROSS / DOWN;
-        const double y = (1 - 2 * (k / ACROSS + 0.5) / DOWN) * half, a = x * x + y * y + 1;
+        double slope[2];
+        stage_slopes(k, slope);
+        const double x = slope[0], y = slope[1], a = x * x + y * y + 1;
         const double root = distance * distance - a * (distance * distance - radius * radius);
         z[k] = root < 0 ? STAGE_FAR : (distance - sqrt(root)) / a;
         normal[k][0] = root < 0 ? 0 : x * z[k] / radius;
@@ -185,7 +188,7 @@ static void test_outlines_of_images(void **state) {
 /* Normals that are made of the depths: of a plane that leans all are alike but at the sky, which faces the camera. */
 static void test_outlines_by_depth(void **state) {
     static float got[PIXELS], off[PIXELS];
-    const double lean = 0.6, half = tan(30 * M_PI / 180);
+    const double lean = 0.6;
     double at[TEXTURE_PARAMETERS];
     frame_normals normals;
     stage s;
@@ -194,14 +197,21 @@ static void test_outlines_by_depth(void **state) {
     parameter_defaults(effect_find("outline")->parameters, at);
     stage_set("outline", at, "depth-sensitivity", 1e-6);
     for (int k = 0; k < PIXELS; k++) {
-        const double x = (2 * (k % ACROSS + 0.5) / ACROSS - 1) * half * ACROSS / DOWN;
-        s.codes[k] = k % ACROSS < 6 ? CODE_MAX : code_of(3 / (1 + lean * x));
+        double slope[2];
+        stage_slopes(k, slope);
+        s.codes[k] = k % ACROSS < 6 ? CODE_MAX : code_of(3 / (1 + lean * slope[0]));
     }
     for (int m = 0; m < NORMAL_METHODS; m++) {
         assert_true(frame_normals_make(&s.frame, normal_get((size_t)m), true, &normals));
         s.frame.normals = &normals;
         stage_effect(&s, "outline", at, 0, false, got);
         stage_effect(&s, "outline", at, 0, true, off);
+        const frame_product bound = {.kind = FRAME_NORMAL, .normal = normal_get((size_t)m), .error = true};
+        float *most = frame_made(&s.frame, &bound, false);
+        for (int k = 0; k < PIXELS; k++)
+            assert_true(isnan(most[k]) || (normals.off[k] >= (double)most[k] * FRAME_NORMAL_DEGREE &&
+                                           normals.off[k] < (double)most[k] * FRAME_NORMAL_DEGREE + 1));
+        free(most);
         for (int k = 0; k < PIXELS; k++) {
             const int x = k % ACROSS;
             double n[2];

@@ -8,35 +8,16 @@
 
 #include "named.h"
 #include "oracle.h"
+#include "scene_stage.h"
 #include "support.h"
 #include "texture/survey.h"
 
 enum { WIDTH = 640, HEIGHT = 360, PIXELS = WIDTH * HEIGHT };
 
-typedef struct stage {
-    texture_camera camera;
-    double parameters[TEXTURE_PARAMETERS];
-    frame frame;
-} stage;
-
-static void stage_set(stage *s, const char *scene, const char *format, const char *mapping, double znear, double zfar) {
-    dp_format formats[2];
-    dp_spec spec = dp_spec_default();
-    dp_setup setup;
-    camera_spec view = camera_spec_default();
-    assert_true(dp_format_parse(format, formats) >= 1);
-    assert_int_equal(dp_mapping_parse(mapping, &spec.mapping), DP_OK);
-    spec.format = formats[0];
-    spec.ortho = znear <= 0;
-    spec.znear = znear;
-    spec.zfar = zfar;
-    assert_int_equal(dp_setup_init(&setup, &spec), DP_OK);
-    view.width = WIDTH;
-    view.height = HEIGHT;
-    assert_null(camera_init(&s->camera, &setup, &view));
-    parameter_defaults(scene_find(scene)->parameters, s->parameters);
-    s->frame = (frame){
-        .camera = &s->camera, .scene = scene_find(scene), .parameters = s->parameters, .sky = FRAME_SKY, .threads = 2};
+static void stage_set(scene_stage *s, const char *scene, const char *format, const char *mapping, double znear,
+                      double zfar) {
+    scene_stage_between(s, scene, format, mapping, znear, zfar, znear <= 0, WIDTH, HEIGHT);
+    s->frame.threads = 2;
 }
 
 static const struct {
@@ -60,7 +41,7 @@ static void sky_begins_where_the_threshold_is(void **state) {
     (void)state;
     for (size_t k = 0; k < SETUPS; k++)
         for (size_t i = 0; i < 6; i++) {
-            stage s;
+            scene_stage s;
             stage_set(&s, "plane", setups[k].format, setups[k].mapping, setups[k].znear, setups[k].zfar);
             s.frame.sky = limits[i];
             const dp_setup *setup = &s.camera.setup;
@@ -102,7 +83,7 @@ static double gap_of(oracle *o, const dp_setup *setup, uint32_t near, uint32_t f
 }
 
 /* The codes that a band can have, one by one; of a format with too many, those that were counted. */
-static uint64_t there(const stage *s, const survey_band *band) {
+static uint64_t there(const scene_stage *s, const survey_band *band) {
     const dp_setup *setup = &s->camera.setup;
     const bool first = band->lo == setup->spec.znear; /* with what is stored nearer than the near plane */
     uint64_t codes = 0;
@@ -115,7 +96,7 @@ static uint64_t there(const stage *s, const survey_band *band) {
     return codes;
 }
 
-static void check_bands(const stage *s, const survey *v, const uint32_t *ranks, size_t count) {
+static void check_bands(const scene_stage *s, const survey *v, const uint32_t *ranks, size_t count) {
     const dp_setup *setup = &s->camera.setup;
     oracle o;
     uint64_t pixels = 0, codes = 0;
@@ -165,7 +146,7 @@ static void counts_are_those_of_sorted_codes(void **state) {
     assert_non_null(codes);
     for (size_t k = 0; k < SETUPS; k++)
         for (size_t c = 0; c < 3; c++) {
-            stage s;
+            scene_stage s;
             survey v, alone;
             size_t count = 0, true_sky = 0;
             stage_set(&s, scenes[c], setups[k].format, setups[k].mapping, setups[k].znear, setups[k].zfar);
@@ -212,7 +193,7 @@ static void decals_fight_as_the_oracle_says(void **state) {
     uint64_t fought = 0, stood = 0;
     for (size_t k = 0; k < SETUPS; k++)
         for (size_t g = 0; g < 5; g++) {
-            stage s;
+            scene_stage s;
             survey_pairs found;
             uint64_t ties = 0, seen = 0, tiles = 0;
             double first = NAN;
@@ -259,7 +240,7 @@ static void decals_fight_as_the_oracle_says(void **state) {
 
 static void scenes_without_pairs_say_so(void **state) {
     (void)state;
-    stage s;
+    scene_stage s;
     survey_pairs found;
     stage_set(&s, "sphere", "fp32", "d3d", 0.1, 1000);
     assert_false(survey_pairs_make(&s.frame, &found));

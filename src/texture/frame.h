@@ -93,7 +93,8 @@ typedef struct frame_product {
      *     raw       |product - d(z)|; image: |product - value of the code|, and from there to the farther end of the
      *               window depths that became it, which is half a cell where samples are codes
      *     position  distance from the true place; image: |method - exact| and the range's reach along the ray
-     *     normal    angle to the true normal, degrees; image: the bound of the method "projective" on a plane
+     *     normal    angle to the true normal, degrees; image: the method's bound, of "projective" on a plane, of the
+     *               others for a plane through the three places, see normal_corner.h
      *     effect    levels of 1/255: from the output in binary32 to the exact one
      *
      * Ranges are those of grain_range_of(). Errors are rounded up to binary32.

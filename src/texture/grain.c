@@ -56,8 +56,12 @@ static span floats_span(const grain *g, double v) {
  * that: within 1.5 units, and the code was taken that is nearest to it. Binary16 was made of something finer, perhaps
  * cut off.
  */
-static double quotient_codes(const grain *g, const dp_format *format, double v) {
-    return floor(0.5 + (g->bits > 11 ? 1.5 : 1) * unit_of(g, v) * format->code_max);
+double grain_quotient_units(const grain *g) {
+    return g->bits > 11 ? 1.5 : 1;
+}
+
+double grain_quotient_codes(const grain *g, const dp_format *format, double v) {
+    return floor(0.5 + grain_quotient_units(g) * unit_of(g, v) * format->code_max);
 }
 
 /* The outermost codes whose numbers are in the span. */
@@ -80,7 +84,7 @@ static void codes_of(const dp_setup *setup, const grain *g, uint32_t code, uint3
     if (g == NULL || g->kind == GRAIN_CODES)
         return;
     if (g->kind == GRAIN_FLOATS && format->kind == DP_FORMAT_UNORM) {
-        const double around = quotient_codes(g, format, v);
+        const double around = grain_quotient_codes(g, format, v);
         *first = code > around ? code - (uint32_t)around : 0;
         *last = code + around < format->code_max ? code + (uint32_t)around : format->code_max;
     } else {

@@ -43,6 +43,11 @@ typedef struct grain {
 /** "unknown", "nearest", "zero". */
 const char *grain_rounding_name(grain_rounding rounding);
 
+/** GRAIN_FLOATS of a buffer of UNORM: within how many units in the last place a code came back as a number, and how
+ * many codes on either side a number may so have been. */
+double grain_quotient_units(const grain *g);
+double grain_quotient_codes(const grain *g, const dp_format *format, double v);
+
 /** Eye depths, scene units. */
 typedef struct grain_range {
     double lo, hi; /**< within 2^-44 relative; hi may be INFINITY */

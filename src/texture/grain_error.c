@@ -25,23 +25,13 @@ double grain_error_of(const dp_setup *setup, const grain *g, double z, double re
 
 /* ---- In closed form ---------------------------------------------------------------------------------------------- */
 
-/* Numbers that were codes of UNORM came back within so many units in the last place: see codes_of() of grain.c. */
-static double units_of(const grain *g) {
-    return g->bits > 11 ? 1.5 : 1;
-}
-
-/* How many codes on either side a number from 2^-k up may have been. */
-static double codes_beside(const grain *g, double code_max, int k) {
-    return floor(0.5 + units_of(g) * fmax(ldexp(1, 1 - k - g->bits), g->least) * code_max);
-}
-
 /* Half a cell of window depths from 2^-k up. */
 static double half_of(const dp_spec *spec, const grain *g, int k) {
     const dp_format *format = &spec->format;
     const double own = spec->rounding == DP_ROUND_ZERO ? 1 : 0.5;
     if (format->kind == DP_FORMAT_FLOAT)
         return own * ldexp(1, (k < format->bias ? -k : 1 - format->bias) - format->mantissa_bits);
-    return (own + (g != NULL ? codes_beside(g, format->code_max, k) : 0)) / format->code_max;
+    return (own + (g != NULL ? grain_quotient_codes(g, format, ldexp(1, -k)) : 0)) / format->code_max;
 }
 
 bool grain_bound_init(grain_bound *out, const dp_setup *setup, const grain *g, double reading) {
@@ -64,9 +54,9 @@ bool grain_bound_init(grain_bound *out, const dp_setup *setup, const grain *g, d
                          .more = slack * fabs(zero / width)};
     if (spec->format.kind == DP_FORMAT_FLOAT)
         out->stretch += ldexp(1, -1 - spec->format.mantissa_bits);
-    if (numbers) { /* v <= depth + (1 + 1/2)/M + what codes_beside() has, of which v 2^(1 - bits) is a part */
-        out->stretch += 2 * units_of(g) * ldexp(1, 1 - g->bits);
-        out->more += 2 * (1.5 / spec->format.code_max + units_of(g) * g->least);
+    if (numbers) { /* v <= depth + (1 + 1/2)/M + what grain_quotient_codes() has, of which v 2^(1 - bits) is a part */
+        out->stretch += 2 * grain_quotient_units(g) * ldexp(1, 1 - g->bits);
+        out->more += 2 * (1.5 / spec->format.code_max + grain_quotient_units(g) * g->least);
     }
     for (int k = 0; k < GRAIN_BINADES; k++)
         out->half[k] = half_of(spec, numbers ? g : NULL, k) * setup->kappa * GRAIN_OUTWARD;

@@ -12,11 +12,10 @@
 #include <strings.h>
 
 #include "core/append.h"
+#include "texture/image_exr.h"
 #include "texture/image_kind.h"
 
 #if __has_include(<openexr.h>)
-
-#include <openexr.h>
 
 #include "texture/image_library.h"
 
@@ -40,33 +39,9 @@
     X(exr_decoding_choose_default_routines)                                                                            \
     X(exr_decoding_run)                                                                                                \
     X(exr_decoding_destroy)
-#define MEMBER(name) __typeof__(name) *name;
-#define NAME(name)   #name,
+IMAGE_LIBRARY_FUNCTIONS(FUNCTIONS)
 
-typedef union functions {
-    struct {
-        FUNCTIONS(MEMBER)
-    };
-    image_function *all[32];
-} functions;
-
-static const char *const symbols[] = {FUNCTIONS(NAME) NULL};
-
-/* Versions 3.M have the number 29 + M in the names of their files and packages. */
-#if OPENEXR_VERSION_MINOR == 1
-#define NUMBER "3_1.so.30"
-#define SUFFIX "3-1-30"
-#elif OPENEXR_VERSION_MINOR == 2
-#define NUMBER "3_2.so.31"
-#define SUFFIX "3-2-31"
-#elif OPENEXR_VERSION_MINOR == 3
-#define NUMBER "3_3.so.32"
-#define SUFFIX "3-3-32"
-#else
-#define NUMBER "3_4.so.33"
-#define SUFFIX "3-4-33"
-#endif
-static const image_library openexr = {"EXR", {"libOpenEXRCore-" NUMBER, NULL}, "libopenexr-" SUFFIX, symbols};
+static const image_library openexr = {"EXR", {IMAGE_EXR_FILE, NULL}, IMAGE_EXR_PACKAGE, symbols};
 
 /* Everything of a file. */
 typedef struct reading {

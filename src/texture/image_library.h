@@ -18,6 +18,19 @@ typedef struct image_library {
 /** A function of some library. */
 typedef void image_function(void);
 
+/** From a list of at most 32 functions, LIST(X) with X(name) for each: `functions`, to call them by name, and
+ * `symbols`, their names in the same order. */
+#define IMAGE_LIBRARY_FUNCTIONS(LIST)                                                                                  \
+    typedef union functions {                                                                                          \
+        struct {                                                                                                       \
+            LIST(IMAGE_LIBRARY_MEMBER)                                                                                 \
+        };                                                                                                             \
+        image_function *all[32];                                                                                       \
+    } functions;                                                                                                       \
+    static const char *const symbols[] = {LIST(IMAGE_LIBRARY_NAME) NULL};
+#define IMAGE_LIBRARY_MEMBER(name) __typeof__(name) *name;
+#define IMAGE_LIBRARY_NAME(name)   #name,
+
 /** Opens the library, which then stays open, and finds its symbols. @return false after the sentence */
 bool image_library_open(const image_library *library, image_source *source, image_function *functions[]);
 

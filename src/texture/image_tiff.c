@@ -29,17 +29,7 @@
     X(TIFFTileSize64)                                                                                                  \
     X(TIFFReadTile)                                                                                                    \
     X(TIFFReadDirectory)
-#define MEMBER(name) __typeof__(name) *name;
-#define NAME(name)   #name,
-
-typedef union functions {
-    struct {
-        FUNCTIONS(MEMBER)
-    };
-    image_function *all[16];
-} functions;
-
-static const char *const symbols[] = {FUNCTIONS(NAME) NULL};
+IMAGE_LIBRARY_FUNCTIONS(FUNCTIONS)
 static const image_library libtiff = {"TIFF", {"libtiff.so.6", "libtiff.so.5", NULL}, "libtiff6", symbols};
 
 /* Everything of a file. */

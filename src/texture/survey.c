@@ -231,7 +231,6 @@ static void finish_one(void *context, size_t index, size_t slot, int thread) {
 
 static bool finish(const surveying *s, survey *out) {
     size_t first = s->bands.count, last = 0;
-    out->lo = out->hi = NAN;
     for (size_t i = 0; i < s->bands.count; i++)
         if (s->pixels[i] > 0) {
             first = first < i ? first : i;
@@ -294,11 +293,10 @@ bool survey_make(const frame *f, survey *out) {
     }
     make_bands(&s, sky_from);
     bool good = visit(&s);
-    *out = (survey){.pixels = (uint64_t)f->camera->width * f->camera->height,
-                    .sky = s.sky_pixels,
-                    .true_sky = s.true_sky,
-                    .invalid = s.invalid,
-                    .sky_from = sky_from};
+    out->sky = s.sky_pixels;
+    out->true_sky = s.true_sky;
+    out->invalid = s.invalid;
+    out->sky_from = sky_from;
     good = good && finish(&s, out);
     free(s.used);
     return good;
