@@ -34,6 +34,22 @@ uint32_t drawn_map_pixel(const svg_mark *image, svg_point place) {
     return image->pixels[(size_t)row * (size_t)image->columns + (size_t)column];
 }
 
+uint32_t drawn_map_shown(const drawn *d, const drawn_panel *p, svg_point place) {
+    uint32_t found = 0;
+    for (size_t i = 1; i < d->svg->count; i++) {
+        const svg_mark *m = &d->svg->marks[i];
+        if (place.x < m->box.x0 || place.x > m->box.x1 || place.y < m->box.y0 || place.y > m->box.y1 ||
+            !svg_inside(m->box, p->frame, 2))
+            continue;
+        if (m->kind == SVG_IMAGE)
+            found = drawn_map_pixel(m, place);
+        else if (m->kind == SVG_PATH && m->fill.a == 1 && svg_rgb(m->fill) != d->theme->empty &&
+                 svg_rgb(m->fill) != d->theme->background) /* a hollow mark */
+            found = 0xFF000000u | svg_rgb(m->fill);
+    }
+    return found;
+}
+
 static int distance(uint32_t a, uint32_t b) {
     int sum = 0;
     for (int shift = 0; shift <= 16; shift += 8)

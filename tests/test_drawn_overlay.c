@@ -40,23 +40,6 @@ static image numbers_of(const char *arguments, const char *product) {
     return out;
 }
 
-/* The colour that shows at a place: of the image, or of the last field painted over it. 0 where none is. */
-static uint32_t shown_at(const drawn *d, const drawn_panel *p, svg_point place) {
-    uint32_t found = 0;
-    for (size_t i = 1; i < d->svg->count; i++) {
-        const svg_mark *m = &d->svg->marks[i];
-        if (place.x < m->box.x0 || place.x > m->box.x1 || place.y < m->box.y0 || place.y > m->box.y1 ||
-            !svg_inside(m->box, p->frame, 2))
-            continue;
-        if (m->kind == SVG_IMAGE)
-            found = drawn_map_pixel(m, place);
-        else if (m->kind == SVG_PATH && m->fill.a == 1 && svg_rgb(m->fill) != d->theme->empty &&
-                 svg_rgb(m->fill) != d->theme->background) /* a hollow mark */
-            found = 0xFF000000u | svg_rgb(m->fill);
-    }
-    return found;
-}
-
 /* From light to dark, over the depths of the picture. */
 static void check_grey(const char *what, uint32_t pixel, double v, const double ends[2], bool is_log) {
     const double t = is_log ? log(v / ends[0]) / log(ends[1] / ends[0]) : (v - ends[0]) / (ends[1] - ends[0]);
@@ -74,11 +57,11 @@ static void check_overlay(size_t k) {
     char *dark = strstr(plain, " --theme dark");
     if (dark != NULL)
         *dark = '\0';
-    const image shown = numbers_of(plain, "");
+    image shown = numbers_of(plain, "");
     char *product = strstr(plain, strstr(plain, "--raw") != NULL ? "--raw" : "--linear01");
     if (product != NULL)
         memcpy(product, "--eye           ", strlen(product));
-    const image error = numbers_of(plain, "--error-map");
+    image error = numbers_of(plain, "--error-map");
     const float *value = shown.data, *off = error.data;
     const int width = (int)shown.width, height = (int)shown.height;
     double ends[2] = {INFINITY, -INFINITY}, most = 0, known = 0, beyond = 0;
@@ -111,7 +94,7 @@ static void check_overlay(size_t k) {
     for (int i = 0; i < width * height; i += 7) {
         const svg_point place = {b.x0 + (b.x1 - b.x0) * (i % width + 0.5) / width,
                                  b.y0 + (b.y1 - b.y0) * (i / width + 0.5) / height, false};
-        const uint32_t pixel = shown_at(d, p, place);
+        const uint32_t pixel = drawn_map_shown(d, p, place);
         if (isnan(value[i])) {
             assert_int_equal(pixel >> 24, 0);
             seen[0]++;
@@ -124,8 +107,8 @@ static void check_overlay(size_t k) {
         }
     }
     assert_true(seen[2] > 20 && (k == 3) == (seen[1] == 0) && (k == 1) == (seen[0] > 0));
-    free(shown.data);
-    free(error.data);
+    image_free(&shown);
+    image_free(&error);
     drawn_close(d);
 }
 

@@ -133,23 +133,6 @@ static const picture_case cases[] = {
      1},
 };
 
-/* The colour that shows at a place: of the image, or of the last field painted over it. 0 where none is. */
-static uint32_t shown_at(const drawn *d, const drawn_panel *p, svg_point place) {
-    uint32_t found = 0;
-    for (size_t i = 1; i < d->svg->count; i++) {
-        const svg_mark *m = &d->svg->marks[i];
-        if (place.x < m->box.x0 || place.x > m->box.x1 || place.y < m->box.y0 || place.y > m->box.y1 ||
-            !svg_inside(m->box, p->frame, 2))
-            continue;
-        if (m->kind == SVG_IMAGE)
-            found = drawn_map_pixel(m, place);
-        else if (m->kind == SVG_PATH && m->fill.a == 1 && svg_rgb(m->fill) != d->theme->empty &&
-                 svg_rgb(m->fill) != d->theme->background) /* a hollow mark */
-            found = 0xFF000000u | svg_rgb(m->fill);
-    }
-    return found;
-}
-
 /* x red, y green, towards us blue. */
 static uint32_t direction(const numbers *n, int column, int row) {
     const double x = (double)value_at(n, column, row, 0), y = (double)value_at(n, column, row, 1);
@@ -190,7 +173,7 @@ static void check_panel(const drawn *d, const drawn_panel *p, const picture_case
         const int column = (int)rng_below(&r, (uint64_t)columns), row = (int)rng_below(&r, (uint64_t)rows);
         const svg_point place = {b.x0 + (b.x1 - b.x0) * (column + 0.5) / columns,
                                  b.y0 + (b.y1 - b.y0) * (row + 0.5) / rows, false};
-        const uint32_t pixel = shown_at(d, p, place);
+        const uint32_t pixel = drawn_map_shown(d, p, place);
         const double v = field_value(q, n, column, row, channel);
         if (isnan(v)) {
             assert_int_equal(pixel >> 24, 0);

@@ -229,18 +229,25 @@ int parse_tolerance(options *o, const option_row *row, const char *value) {
     return EXIT_FINE;
 }
 
-int parse_size(options *o, const option_row *row, const char *value) {
-    char width[16];
-    unsigned long w, h;
+int option_read_sides(const option_row *row, const char *value, unsigned most, unsigned long sides[2]) {
     const size_t length = strcspn(value, "x");
+    char width[16];
     snprintf(width, sizeof width, "%.*s", (int)length, value);
-    if (length >= sizeof width || value[length] == '\0' || !number_parse_count(width, TEXTURE_SIDE_MAX, &w) ||
-        !number_parse_count(value + length + 1, TEXTURE_SIDE_MAX, &h) || w < 1 || h < 1)
-        return option_refuse(row, "must be WIDTHxHEIGHT, each from 1 to %u pixels, got '%s'", TEXTURE_SIDE_MAX, value);
-    if ((uint64_t)w * h > TEXTURE_PIXELS_MAX)
+    if (length >= sizeof width || value[length] == '\0' || !number_parse_count(width, most, &sides[0]) ||
+        !number_parse_count(value + length + 1, most, &sides[1]) || sides[0] < 1 || sides[1] < 1)
+        return option_refuse(row, "must be WIDTHxHEIGHT, each from 1 to %u pixels, got '%s'", most, value);
+    return EXIT_FINE;
+}
+
+int parse_size(options *o, const option_row *row, const char *value) {
+    unsigned long sides[2];
+    const int status = option_read_sides(row, value, TEXTURE_SIDE_MAX, sides);
+    if (status != EXIT_FINE)
+        return status;
+    if ((uint64_t)sides[0] * sides[1] > TEXTURE_PIXELS_MAX)
         return option_refuse(row, "must be at most %u pixels in all, got '%s'", (unsigned)TEXTURE_PIXELS_MAX, value);
-    o->camera.width = (uint32_t)w;
-    o->camera.height = (uint32_t)h;
+    o->camera.width = (uint32_t)sides[0];
+    o->camera.height = (uint32_t)sides[1];
     return EXIT_FINE;
 }
 

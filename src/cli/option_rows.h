@@ -63,6 +63,9 @@ const struct option_exception *option_exception_of(const option_row *row, const 
 /** As option_error(), which knows the rows; the rows know the kinds that call this. @return EXIT_USAGE */
 int option_refuse(const option_row *row, const char *format, ...) __attribute__((format(printf, 2, 3)));
 
+/** Reads WIDTHxHEIGHT, each from 1 to `most`. @return an exit status, after one line on stderr */
+int option_read_sides(const option_row *row, const char *value, unsigned most, unsigned long sides[2]);
+
 /** The field of a row. */
 void *option_field(options *o, const option_row *row);
 

@@ -8,16 +8,12 @@
 enum { VIEWPORT_MAX = 32768 };
 
 int parse_viewport(options *o, const option_row *row, const char *value) {
-    const size_t split = strcspn(value, "x");
-    char width[16] = "";
-    unsigned long w, h;
-    if (split < sizeof width)
-        memcpy(width, value, split);
-    if (value[split] == '\0' || !number_parse_count(width, VIEWPORT_MAX, &w) ||
-        !number_parse_count(value + split + 1, VIEWPORT_MAX, &h) || w < 1 || h < 1)
-        return option_refuse(row, "must be WIDTHxHEIGHT, each from 1 to %d pixels, got '%s'", VIEWPORT_MAX, value);
-    o->triangles.width = (int)w;
-    o->triangles.height = (int)h;
+    unsigned long sides[2];
+    const int status = option_read_sides(row, value, VIEWPORT_MAX, sides);
+    if (status != EXIT_FINE)
+        return status;
+    o->triangles.width = (int)sides[0];
+    o->triangles.height = (int)sides[1];
     return EXIT_FINE;
 }
 
