@@ -46,14 +46,17 @@ static void read_triangle(seen *s, const char *kind, char *const word[WORDS]) {
         r->status[i] = raster_set_up(&s->target[i], r->vertex, &r->drawn[i]);
 }
 
-/* Where a pixel is covered, the code of the last piece that covers it. */
+/* Where a pixel is covered, the code of the last piece that covers it: by itself, and in its row. */
 static bool pixel_of(const raster_target *target, const raster_triangle *drawn, int x, int y, uint32_t *code) {
     bool covered = false;
     for (int i = 0; i < drawn->count; i++) {
+        uint32_t row[SIZE];
         int from, to;
         if (!raster_span(target, &drawn->piece[i], y, &from, &to) || x < from || x >= to)
             continue;
+        raster_codes(target, &drawn->piece[i], y, from, to, row);
         raster_codes(target, &drawn->piece[i], y, x, x + 1, code);
+        assert_int_equal(*code, row[x - from]);
         covered = true;
     }
     return covered;
