@@ -10,24 +10,29 @@ static const double pi = 3.14159265358979323846;
 
 /* ---- Numbers ----------------------------------------------------------------------------------------------------- */
 
-static double snapping_at(double fov_x, int width, int bits, double z) {
-    const dp_spec reversed = {.znear = 0.1,
+/* Reversed, without a far plane: window depth is near/z. */
+static dp_budget reversed_at(double znear, const dp_triangles *t, double z) {
+    const dp_spec reversed = {.znear = znear,
                               .zfar = INFINITY,
                               .mapping = DP_MAPPING_REVERSED,
                               .format = dp_spec_default().format,
                               .model = DP_MODEL_FP32};
+    const dp_budget_terms terms = {.triangles = t};
     dp_setup setup;
-    dp_triangles t = dp_triangles_default();
     dp_budget b;
+    assert_int_equal(dp_setup_init(&setup, &reversed), DP_OK);
+    assert_int_equal(dp_budget_at(&setup, z, &terms, &b), DP_OK);
+    return b;
+}
+
+static double snapping_at(double fov_x, int width, int bits, double z) {
+    dp_triangles t = dp_triangles_default();
     t.width = width;
     t.height = width * 9 / 16;
     t.fov_y = dp_fov_vertical(fov_x, t.width, t.height);
     t.subpixel = bits;
     t.slant_lo = 90.0;
-    const dp_budget_terms terms = {.triangles = &t};
-    assert_int_equal(dp_setup_init(&setup, &reversed), DP_OK);
-    assert_int_equal(dp_budget_at(&setup, z, &terms, &b), DP_OK);
-    return b.cause[DP_CAUSE_SNAPPING];
+    return reversed_at(0.1, &t, z).cause[DP_CAUSE_SNAPPING];
 }
 
 /* Numbers of the page, to their last digit. */
@@ -41,6 +46,61 @@ static void known_numbers(void **state) {
     assert_scene(snapping_at(90.0, 1920, 8, 5000.0), 28.8e-3, 0.5e-4);
     assert_relative(dp_fov_vertical(90.0, 1920, 1080), 2.0 * atan(0.5625) * 180.0 / pi, 1e-14);
     assert_relative(dp_fov_vertical(60.0, 500, 500), 60.0, 1e-14);
+}
+
+/* Constants of the page: c1, c2, that of R alone, c3. */
+static const double derived[DP_ANCHOR_COUNT][4] = {{2, 11, 2, 0}, {3, 10, 2, 5}, {3, 10, 2, 6}, {5, 8, 2, 6}};
+
+/* The set-up's part by the formulas of the page, R by the class or by the slope; without terms of second order. */
+static double setup_of(const dp_triangles *t, const double c[4], double z, bool by_slope) {
+    const double eps = 0x1p-24, tau = 2.0 * tan(t->fov_y * pi / 360.0) / t->height;
+    const double sine = sin(t->slant_lo * pi / 180.0), cosine = cos(t->slant_lo * pi / 180.0);
+    const double seen = cosine + sine * 0.5 * tau * hypot(t->width, t->height);
+    const double far_x = t->width + t->pixels, far_y = t->height + t->pixels;
+    const double l = 0.5 * (1.0 + sqrt(t->slim * t->slim + 1.0));
+    const double per_range = (c[1] * l + c[2]) * (1.0 + c[3] * eps * (far_x + far_y));
+    const double slope = by_slope ? per_range * t->pixels : 0.0;
+    const double tx = 3.0 * t->width + 6.0 * t->pixels + c[3] * far_x + slope;
+    const double ty = 3.0 * t->height + 6.0 * t->pixels + c[3] * far_y + slope;
+    const double range = by_slope ? 0.0 : t->depth - 1.0 / t->depth; /* in units of near/z, as is M */
+    return 2.0 * eps * z * (tau * sine * hypot(tx, ty) + seen * (c[0] * t->depth + per_range * range));
+}
+
+/* Where each constant in turn takes most of it: never below the page, above it by second order alone. */
+static void known_setup(void **state) {
+    static const struct {
+        int width, height;
+        double fov_y, slant, depth, pixels, slim;
+    } views[] = {{1920, 1080, 60, 30, 2, 512, 16},    {64, 48, 0.5, 10, 1.0001, 2, 2},  {640, 32768, 90, 89, 1.5, 4, 2},
+                 {300, 200, 40, 60, 4, 1000, 900},    {300, 200, 40, 60, 900, 3, 100},  {32768, 300, 3, 80, 1.01, 1, 4},
+                 {100, 80, 120, 90, 1.001, 30000, 2}, {333, 777, 20, 45, 1000, 1, 1000}};
+    tally all = {.name = "eye and set-up"};
+    (void)state;
+    for (size_t i = 0; i < sizeof views / sizeof views[0]; i++)
+        for (int anchor = 0; anchor < DP_ANCHOR_COUNT; anchor++) {
+            const double z = 3.0, slant = views[i].slant * pi / 180.0;
+            const dp_triangles t = {.width = views[i].width,
+                                    .height = views[i].height,
+                                    .fov_y = views[i].fov_y,
+                                    .plane = dp_anchor_get((dp_anchor)anchor)->plane,
+                                    .slant_lo = views[i].slant,
+                                    .slant_hi = views[i].slant,
+                                    .depth = views[i].depth,
+                                    .pixels = views[i].pixels,
+                                    .slim = views[i].slim};
+            const dp_budget b = reversed_at(0x1p-20, &t, z);
+            const double tau = 2.0 * tan(t.fov_y * pi / 360.0) / t.height;
+            const double ray = tau * hypot(0.5 * t.width + t.pixels, 0.5 * t.height + t.pixels);
+            const double eye = 2.0 * 0x1p-24 * z * (cos(slant) + sin(slant) * ray);
+            const double setup = fmin(setup_of(&t, derived[anchor], z, false), setup_of(&t, derived[anchor], z, true));
+            const double is = b.cause[DP_CAUSE_SETUP], eye_is = b.cause[DP_CAUSE_EYE];
+            TALLY(&all, eye_is >= eye && eye_is <= 1.001 * eye, "view %zu: the eye takes %.9g, not %.9g", i, eye_is,
+                  eye);
+            TALLY(&all, is >= setup * (1.0 - 1e-9) && is <= 1.002 * setup,
+                  "view %zu, %s: the set-up takes %.9g, not %.9g", i, dp_anchor_get((dp_anchor)anchor)->name, is,
+                  setup);
+        }
+    tally_end(&all);
 }
 
 /* ---- The class --------------------------------------------------------------------------------------------------- */
@@ -177,6 +237,7 @@ static void test_refusals(void **state) {
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(known_numbers),
+        cmocka_unit_test(known_setup),
         cmocka_unit_test(test_order),
         cmocka_unit_test(test_refusals),
     };

@@ -49,7 +49,10 @@ typedef struct dp_anchor_row {
     const char *note;
 } dp_anchor_row;
 
-/** The row of an anchor; null when out of range. Anchored at the origin: for boxes at least a pixel wide and high. */
+/**
+ * The row of an anchor; null when out of range. Anchored at a vertex: for vertices on a grid, `subpixel` 1 to 8; at the
+ * origin: for boxes at least a pixel wide and high.
+ */
 DP_API const dp_anchor_row *dp_anchor_get(dp_anchor anchor);
 
 /** What is known of view, rasterizer and triangles. Start from dp_triangles_default() and change what differs. */

@@ -31,25 +31,23 @@ int parse_slant(options *o, const option_row *row, const char *value) {
 static const struct {
     const char *name;
     size_t place;
-    double least, most;
-} class_rows[] = {{"depth", offsetof(dp_triangles, depth), 1.0, 1e6},
-                  {"pixels", offsetof(dp_triangles, pixels), 1.0, 65536.0},
-                  {"slim", offsetof(dp_triangles, slim), 2.0, 1024.0}};
+} class_rows[] = {{"depth", offsetof(dp_triangles, depth)},
+                  {"pixels", offsetof(dp_triangles, pixels)},
+                  {"slim", offsetof(dp_triangles, slim)}};
 
 enum { CLASS_ROWS = sizeof class_rows / sizeof class_rows[0] };
 
-/* One NAME=NUMBER, of `length`. */
+/* One NAME=NUMBER, of `length`, in the range that the library gives it. */
 static bool read_class(dp_triangles *t, const char *text, size_t length) {
     for (size_t i = 0; i < CLASS_ROWS; i++) {
         const size_t name = strlen(class_rows[i].name);
         double number;
         if (length <= name || strncmp(text, class_rows[i].name, name) != 0 || text[name] != '=')
             continue;
-        if (!number_parse_part(text + name + 1, length - name - 1, NUMBER_FINITE, &number) ||
-            !(number >= class_rows[i].least && number <= class_rows[i].most))
+        if (!number_parse_part(text + name + 1, length - name - 1, NUMBER_FINITE, &number))
             return false;
         memcpy((char *)t + class_rows[i].place, &number, sizeof number);
-        return true;
+        return dp_triangles_check(t) == DP_OK;
     }
     return false;
 }
