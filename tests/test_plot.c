@@ -312,6 +312,23 @@ static void test_digest(void **state) {
     chart_free(c);
 }
 
+/* What is grey is drawn, too. */
+static void test_digest_under(void **state) {
+    (void)state;
+    double under[4] = {1, 2, 3, 4};
+    char before[17], after[17];
+    chart *c = chart_new();
+    chart_panel *panel = chart_add_panel(c);
+    panel->x = panel->y = (chart_axis){.hi = 2};
+    assert_true(chart_add_map(c, panel, 2, 2));
+    panel->map.under = under;
+    chart_digest(c, before);
+    under[3] = 5;
+    chart_digest(c, after);
+    assert_string_not_equal(after, before);
+    chart_free(c);
+}
+
 /* ---- the parts ---- */
 
 static void test_ticks(void **state) {
@@ -471,6 +488,7 @@ int main(void) {
         cmocka_unit_test(test_every_figure_draws),
         cmocka_unit_test(test_scene_of_two_formats),
         cmocka_unit_test(test_digest),
+        cmocka_unit_test(test_digest_under),
         cmocka_unit_test(test_ticks),
         cmocka_unit_test(test_tick_words),
         cmocka_unit_test(test_trace),

@@ -298,8 +298,8 @@ int texture_product_write(const options *o, const texture_source *s, const textu
     }
     good = good && make_all(s, product, w, count);
     status = writing_close(w, count, good);
+    m[0].error_map = count > 1 ? &m[1] : NULL;
     for (int i = 0; i < count && status == EXIT_FINE; i++) {
-        m[0].error_map = count > 1 ? &m[1] : NULL;
         if (i == 0 || o->form != FORM_JSON) /* one object of JSON */
             status = writing_say(&each[i], &product[i], &w[i], &m[i]);
         if (status == EXIT_FINE)
