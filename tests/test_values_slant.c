@@ -31,6 +31,13 @@ static const slant_case cases[] = {
      DP_MAPPING_D3D,
      {0.5, 2, 30, 299},
      {640, 360, 60, 4, {0, 0, 0, 0}, 10, 45.5, 1.5, 100, 4}},
+    {"-n 0.001 -f 1e6 -F fp32 -m d3d",
+     "--viewport 100x100",
+     0.001,
+     1e6,
+     DP_MAPPING_D3D,
+     {0.5, 30, 1e4, 1e5},
+     {100, 100, 60, 8, {0, 0, 0, 0}, 0, 90, 2, 512, 16}},
 };
 
 static dp_budget budget_of(const slant_case *c, double z, bool slanted) {
@@ -135,7 +142,18 @@ static void test_text(void **state) {
     printed_free(&p);
 }
 
+/* Where nothing is certain, it is what lies in front of the farther surface that is not. */
+static void test_hopeless(void **state) {
+    const slant_case *c = &cases[2];
+    printed p = print_of("budget %s %s --at 30,1e4,1e5", c->camera, c->options);
+    (void)state;
+    assert_true(isfinite(budget_of(c, 30, true).separation) && isinf(budget_of(c, 1e4, true).separation));
+    assert_non_null(strstr(p.out, "at z = 10000 no separation is guaranteed: everything nearer may share its code\n"));
+    printed_free(&p);
+}
+
 int main(void) {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(test_rows), cmocka_unit_test(test_text)};
+    const struct CMUnitTest tests[] = {cmocka_unit_test(test_rows), cmocka_unit_test(test_text),
+                                       cmocka_unit_test(test_hopeless)};
     return run_tap(tests);
 }
