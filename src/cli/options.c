@@ -178,6 +178,8 @@ void options_of(const options *o, size_t camera, options *out) {
 static int complete_slant(options *o) {
     static const option_id beside[] = {OPTION_FOV, OPTION_HFOV, OPTION_SUBPIXEL, OPTION_SLANT, OPTION_TRIANGLE};
     dp_triangles *t = &o->triangles;
+    if (!option_given(o, OPTION_VIEWPORT))
+        t->width = 0;
     if ((o->verb->bit & option_rows[OPTION_VIEWPORT].commands) == 0)
         return EXIT_FINE;
     for (size_t i = 0; i < sizeof beside / sizeof beside[0]; i++)
@@ -195,7 +197,6 @@ static int complete_slant(options *o) {
     if (dp_triangles_check(t) != DP_OK) /* all else is in its range */
         return option_error(OPTION_HFOV, "makes a vertical angle of %s degrees, which must be from 0.001 to 179.9",
                             number_of(t->fov_y, 6).text);
-    o->terms.triangles = t;
     return EXIT_FINE;
 }
 
