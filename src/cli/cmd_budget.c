@@ -35,8 +35,9 @@ typedef struct worst {
 typedef struct budget {
     walk walk;
     dp_budget_terms terms;
-    const dp_triangles *triangles; /* null: surfaces face the camera */
-    const char *composition;       /* how positions are composed; null where eye depth is given */
+    slant_fields slant;
+    const slant_fields *slanted; /* null: surfaces face the camera */
+    const char *composition;     /* how positions are composed; null where eye depth is given */
     bool linearize;
     dp_setup facing; /* without the triangles */
     row row, largest;
@@ -52,7 +53,7 @@ enum { WITH_WORLD = 1, WITH_INTERPOLATION = 2, WITH_LINEARIZE = 4, WITH_TRIANGLE
 /* The terms that are asked for. */
 static unsigned conditions(const budget *b) {
     return (b->terms.world > 0.0 ? WITH_WORLD : 0) | (b->terms.interpolation > 0.0 ? WITH_INTERPOLATION : 0) |
-           (b->linearize ? WITH_LINEARIZE : 0) | (b->triangles != NULL ? WITH_TRIANGLES : 0);
+           (b->linearize ? WITH_LINEARIZE : 0) | (b->slanted != NULL ? WITH_TRIANGLES : 0);
 }
 
 /* ---- What is reported -------------------------------------------------------------------------------------------- */
@@ -108,7 +109,7 @@ static void *next_row(void *of, size_t index) {
     }
     dp_budget_at(b->walk.setup, r->z, &b->terms, &r->parts); /* cannot fail: depths_resolve() has seen to it */
     r->facing = r->parts.separation;
-    if (b->triangles != NULL) {
+    if (b->slanted != NULL) {
         dp_budget facing = {0};
         dp_budget_at(&b->facing, r->z, &b->terms, &facing);
         r->facing = facing.separation;
@@ -136,7 +137,7 @@ static void say_setup(page *p, void *item) {
     walk_title(p, item);
     if (b->composition != NULL)
         page_title(p, "world %s, composition %s", number_in(number_full(b->terms.world), p->unit).text, b->composition);
-    slant_title(p, b->triangles, b->walk.setup);
+    slant_title(p, b->walk.o, b->walk.setup);
 }
 
 static void say_worst(page *p, const worst *w) {
@@ -160,7 +161,7 @@ static void say_notes(page *p, void *item) {
     if (!isnan(b->hopeless))
         page_line(p, "at z = %s no separation is guaranteed: everything %s may share its code",
                   number_in(number_of(b->hopeless, DIGITS_MORE), p->unit).text,
-                  b->triangles != NULL ? "nearer" : "farther");
+                  b->slanted != NULL ? "nearer" : "farther");
     if (b->worst != NULL)
         say_worst(p, b->worst);
     page_line(p, "%s%s", conditions(b) != 0 ? "without the added terms " : "",
@@ -222,16 +223,15 @@ static const column term_columns[] = {{FIELD(budget, terms.interpolation, "inter
 
 static const column columns[] = {
     {GROUP("terms", term_columns), .only = AS_JSON},
-    {PART(budget, triangles, "triangles", slant_columns), .only = AS_JSON, .pointed = true, .optional = true},
+    {PART(budget, slanted, "triangles", slant_columns), .only = AS_JSON, .pointed = true, .optional = true},
     {LIST("setups", setup_report, next_setup), .head = say_setup, .notes = say_notes},
     {.kind = COLUMN_END}};
 
 int cmd_budget(const options *o) {
-    budget b = {.terms = o->terms,
-                .triangles = o->triangles.width > 0 ? &o->triangles : NULL,
-                .linearize = o->terms.linearize != 0};
+    budget b = {.terms = o->terms, .linearize = o->terms.linearize != 0};
     options in_binary32 = *o;
     in_binary32.model = DP_MODEL_FP32;
+    b.slanted = slant_fields_of(o, &b.slant);
     if (o->terms.world > 0.0)
         b.composition = dp_composition_get(o->terms.composition)->name;
     else if (option_given(o, OPTION_COMPOSITION))

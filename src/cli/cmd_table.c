@@ -53,7 +53,8 @@ typedef struct table {
     dp_worst worst_case;
     const dp_worst *worst; /* null in a model without cells */
     guarantee over_range;
-    const dp_triangles *triangles; /* null: surfaces face the camera */
+    slant_fields slant;
+    const slant_fields *triangles; /* null: surfaces face the camera */
     const guarantee *guarantee;    /* null where there is none, or none is asked for */
     clipping planes;
     const clipping *drawn; /* null where there is no pipeline */
@@ -160,7 +161,7 @@ static void say_reach(page *p, void *item) {
     char text[REACH_TEXT_SIZE], sentence[REACH_TEXT_SIZE] = "";
     const unit_row *unit = t->walk.here.unit;
     walk_title(p, item);
-    slant_title(p, t->triangles, &t->full);
+    slant_title(p, &t->walk.here, &t->full);
     if (t->walk.all.count > 1)
         return;
     double up_to[REACH_LIMITS];
@@ -321,7 +322,8 @@ static unsigned conditions(const table *t) {
 int cmd_table(const options *o) {
     if (lookup_wanted(o))
         return lookup_write(o);
-    table t = {.triangles = o->triangles.width > 0 ? &o->triangles : NULL};
+    table t = {0};
+    t.triangles = slant_fields_of(o, &t.slant);
     int status = walk_start(&t.walk, o);
     for (size_t i = 0; status == EXIT_FINE && walk_setup(&t.walk, i); i++) {
         status = range_resolve(&t.walk.here, &t.lo, &t.hi);
