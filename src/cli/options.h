@@ -242,6 +242,10 @@ static inline size_t options_cameras(const options *o) {
  */
 void options_of(const options *o, size_t camera, options *out);
 
+/** The vertical field of view, degrees, as --fov or --hfov says it of so many pixels. @return EXIT_FINE, or EXIT_USAGE
+ * after one line on stderr */
+int view_vertical(const options *o, int width, int height, double *fov_y);
+
 /** Opens what --output names, as wide as --full makes it, as --color wants it dressed. @return EXIT_FINE, or EXIT_IO
  * after one line on stderr */
 int options_open(const options *o, output *out);
