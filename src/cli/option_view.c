@@ -45,6 +45,8 @@ int view_vertical(const options *o, int width, int height, double *fov_y) {
 int slant_complete(options *o) {
     static const option_id beside[] = {OPTION_FOV,      OPTION_HFOV,  OPTION_RASTER,
                                        OPTION_SUBPIXEL, OPTION_SLANT, OPTION_TRIANGLE};
+    if (!option_given(o, OPTION_VIEWPORT))
+        o->triangles.width = 0;
     if ((o->verb->bit & option_rows[OPTION_VIEWPORT].commands) == 0)
         return EXIT_FINE;
     for (size_t i = 0; i < sizeof beside / sizeof beside[0]; i++)
@@ -59,6 +61,5 @@ int slant_complete(options *o) {
     int status = view_vertical(o, o->triangles.width, o->triangles.height, &o->triangles.fov_y);
     if (status == EXIT_FINE)
         status = take_raster(o);
-    o->terms.triangles = &o->triangles;
     return status;
 }
