@@ -36,8 +36,8 @@ typedef struct budget {
     walk walk;
     dp_budget_terms terms;
     slant_fields slant;
-    const slant_fields *slanted; /* null: surfaces face the camera */
-    const char *composition;     /* how positions are composed; null where eye depth is given */
+    const slant_fields *triangles; /* null: surfaces face the camera */
+    const char *composition;       /* how positions are composed; null where eye depth is given */
     bool linearize;
     dp_setup facing; /* without the triangles */
     row row, largest;
@@ -223,7 +223,7 @@ static const column term_columns[] = {{FIELD(budget, terms.interpolation, "inter
 
 static const column columns[] = {
     {GROUP("terms", term_columns), .only = AS_JSON},
-    {PART(budget, slanted, "triangles", slant_columns), .only = AS_JSON, .pointed = true, .optional = true},
+    {PART(budget, triangles, "triangles", slant_columns), .only = AS_JSON, .pointed = true, .optional = true},
     {LIST("setups", setup_report, next_setup), .head = say_setup, .notes = say_notes},
     {.kind = COLUMN_END}};
 
@@ -231,7 +231,7 @@ int cmd_budget(const options *o) {
     budget b = {.terms = o->terms, .linearize = o->terms.linearize != 0};
     options in_binary32 = *o;
     in_binary32.model = DP_MODEL_FP32;
-    b.slanted = slant_fields_of(o, &b.slant);
+    b.triangles = slant_fields_of(o, &b.slant);
     if (o->terms.world > 0.0)
         b.composition = dp_composition_get(o->terms.composition)->name;
     else if (option_given(o, OPTION_COMPOSITION))

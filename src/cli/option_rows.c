@@ -104,8 +104,9 @@ const option_row option_rows[OPTION_COUNT] = {
         "orthographic projection; not with linear and log", FLAG(ortho), .without = "perspective",
         .except = {BUT(VERB_ZFIGHT | VERB_BUDGET, NULL, "perspective", "orthographic projection")}},
     [OPTION_PRESET] = {"preset", 0, "NAME[,NAME...]", CAMERA | TAKEN,
-        "an engine's near, far, mapping and format, for those that are not given: @; table compares "
-        "several; see 'depthprec list presets'", .parse = parse_presets, .names = &presets},
+        "an engine's near, far, mapping and format, for those that are not given, and with --viewport its field of "
+        "view and rasterizer: @; table compares several; see 'depthprec list presets'",
+        .parse = parse_presets, .names = &presets},
     [OPTION_UNIT] = {"unit", 0, NULL, PLACED | TAKEN,
         "what a scene unit is; presets are converted to it; any length may carry a unit: 10cm",
         .parse = parse_unit, .names = &units, .without = "that of the preset, or m where a length has a unit",

@@ -69,6 +69,9 @@ int option_read_sides(const option_row *row, const char *value, unsigned most, u
 /** What the options of slanted triangles say together; without --viewport surfaces face the camera. @return as above */
 int slant_complete(options *o);
 
+/** With --viewport: a preset's field of view and rasterizer, where none were given. */
+void slant_take_preset(options *o, const preset *p);
+
 /** The field of a row. */
 void *option_field(options *o, const option_row *row);
 

@@ -16,12 +16,6 @@ static int take_raster(options *o) {
     if (given && asked < row->plane_bits)
         return option_refuse(&option_rows[OPTION_SUBPIXEL], "must be at least %d with --raster %s, got %d",
                              row->plane_bits, row->name, asked);
-    for (size_t i = 0; i < o->format_count; i++)
-        if (!raster_bounded(row, &o->formats[i]))
-            return option_refuse(&option_rows[OPTION_RASTER],
-                                 "%s steps the codes of %s from pixel to pixel, which has no bound: name other formats "
-                                 "with --format",
-                                 row->name, o->formats[i].name);
     raster_describe(row, t);
     if (given)
         t->subpixel = asked;
@@ -58,6 +52,20 @@ int slant_complete(options *o) {
         return option_refuse(&option_rows[OPTION_VIEWPORT], "does not apply with --ortho");
     if (o->terms.world > 0.0)
         return option_refuse(&option_rows[OPTION_VIEWPORT], "cannot be combined with --world");
-    const int status = view_vertical(o, o->triangles.width, o->triangles.height, &o->triangles.fov_y);
-    return status == EXIT_FINE ? take_raster(o) : status;
+    int status = view_vertical(o, o->triangles.width, o->triangles.height, &o->triangles.fov_y);
+    if (status == EXIT_FINE)
+        status = take_raster(o);
+    return status;
+}
+
+void slant_take_preset(options *o, const preset *p) {
+    dp_triangles *t = &o->triangles;
+    if (t->width == 0)
+        return;
+    if (!option_given(o, OPTION_FOV) && !option_given(o, OPTION_HFOV))
+        t->fov_y = preset_fov_y(p, t->width, t->height);
+    if (option_given(o, OPTION_RASTER) || option_given(o, OPTION_SUBPIXEL))
+        return;
+    o->raster = raster_find(p->raster);
+    raster_describe(o->raster, t);
 }

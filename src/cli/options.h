@@ -171,8 +171,8 @@ typedef struct options {
     double wanted_separation, wanted_error; /**< positive, scene units; 0 when not given */
 
     dp_budget_terms terms;    /**< --interpolation, --world, --composition, --linearize; zero when not given */
-    dp_triangles triangles;   /**< --viewport, --fov, --hfov, --raster, --subpixel, --slant, --triangle; width 0 without
-                                   the first */
+    dp_triangles triangles;   /**< --viewport, --fov, --hfov, --raster, --subpixel, --slant, --triangle; width 0
+                                   without the first */
     double fov_x;             /**< --hfov, degrees */
     const raster_row *raster; /**< --raster; null when not given */
 
