@@ -17,7 +17,8 @@ static bool tried[OPTION_COUNT];
 /* One option behind a command, and its operand; `line` is what was said on stderr, without its line feed. */
 static int parse(options *o, const char *command, option_id id, const char *value, char line[1024]) {
     char words[32], name[64], given[128], viewport[] = "--viewport=64x48";
-    const bool slants = id == OPTION_HFOV || id == OPTION_SUBPIXEL || id == OPTION_SLANT || id == OPTION_TRIANGLE;
+    const bool slants = id == OPTION_HFOV || id == OPTION_RASTER || id == OPTION_SUBPIXEL || id == OPTION_SLANT ||
+                        id == OPTION_TRIANGLE;
     snprintf(words, sizeof words, "%s", command);
     snprintf(name, sizeof name, "--%s", option_name(id));
     snprintf(given, sizeof given, "%s", value != NULL ? value : "");
@@ -302,6 +303,8 @@ static void test_rows(void **state) {
         {"bias", OPTION_API, AT(api), "Vulkan", "vulkan", offsetof(bias_api, name), "wegbpu", "webgpu"},
         {"bias", OPTION_API, AT(api), "all", NULL, 0, "metall", "metal"},
         {"bias", OPTION_API, AT(api), "d3d12", "d3d11", offsetof(bias_api, name), "d3d14", "d3d11"},
+        {"table", OPTION_RASTER, AT(raster), "LLVMpipe", "llvmpipe", offsetof(raster_row, name), "lavapip", "lavapipe"},
+        {"budget", OPTION_RASTER, AT(raster), "spec-gl", "spec-gl", offsetof(raster_row, name), "spec-d3", "spec-d3d"},
         {"texture", OPTION_SCENE, AT(scene), "steps", "steps", offsetof(scene_row, name), "decal", "decals"},
         {"texture", OPTION_POSITION, AT(position), "rays", "rays", offsetof(position_row, name), "matirx", "matrix"},
         {"texture", OPTION_POSITION, AT(position), "exact", NULL, 0, "exakt", "exact"},

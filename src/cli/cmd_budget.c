@@ -35,7 +35,9 @@ typedef struct worst {
 typedef struct budget {
     walk walk;
     dp_budget_terms terms;
-    const char *composition; /* how positions are composed; null where eye depth is given */
+    slant_fields slant;
+    const slant_fields *slanted; /* null: surfaces face the camera */
+    const char *composition;     /* how positions are composed; null where eye depth is given */
     bool linearize;
     row row, largest;
     double hopeless; /* the nearest depth where no separation is certain; NaN when there is none such */
@@ -135,7 +137,7 @@ static void say_setup(page *p, void *item) {
     walk_title(p, item);
     if (b->composition != NULL)
         page_title(p, "world %s, composition %s", number_in(number_full(b->terms.world), p->unit).text, b->composition);
-    slant_title(p, b->terms.triangles, b->walk.setup);
+    slant_title(p, b->walk.o, b->walk.setup);
 }
 
 static void say_worst(page *p, const worst *w) {
@@ -221,7 +223,7 @@ static const column term_columns[] = {{FIELD(budget, terms.interpolation, "inter
 
 static const column columns[] = {
     {GROUP("terms", term_columns), .only = AS_JSON},
-    {PART(budget, terms.triangles, "triangles", slant_columns), .only = AS_JSON, .pointed = true, .optional = true},
+    {PART(budget, slanted, "triangles", slant_columns), .only = AS_JSON, .pointed = true, .optional = true},
     {LIST("setups", setup_report, next_setup), .head = say_setup, .notes = say_notes},
     {.kind = COLUMN_END}};
 
@@ -229,6 +231,7 @@ int cmd_budget(const options *o) {
     budget b = {.terms = o->terms, .linearize = o->terms.linearize != 0};
     options in_binary32 = *o;
     in_binary32.model = DP_MODEL_FP32;
+    b.slanted = slant_fields_of(o, &b.slant);
     if (o->terms.world > 0.0)
         b.composition = dp_composition_get(o->terms.composition)->name;
     else if (option_given(o, OPTION_COMPOSITION))

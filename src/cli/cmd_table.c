@@ -53,7 +53,9 @@ typedef struct table {
     const dp_worst *worst; /* null in a model without cells */
     guarantee over_range;
     const dp_triangles *triangles; /* null: surfaces face the camera */
-    const guarantee *guarantee;    /* null where there is none, or none is asked for */
+    slant_fields slant;
+    const slant_fields *slanted;
+    const guarantee *guarantee; /* null where there is none, or none is asked for */
     clipping planes;
     const clipping *drawn; /* null where there is no pipeline */
     choosing choice;
@@ -161,7 +163,7 @@ static void say_reach(page *p, void *item) {
     char text[REACH_TEXT_SIZE], sentence[REACH_TEXT_SIZE] = "";
     const unit_row *unit = t->walk.here.unit;
     walk_title(p, item);
-    slant_title(p, t->triangles, &t->full);
+    slant_title(p, &t->walk.here, &t->full);
     if (t->walk.all.count > 1)
         return;
     double up_to[REACH_LIMITS];
@@ -304,7 +306,7 @@ static const column setup_report[] = {
     {.kind = COLUMN_END}};
 
 static const column columns[] = {
-    {PART(table, triangles, "triangles", slant_columns), .only = AS_JSON, .pointed = true, .optional = true},
+    {PART(table, slanted, "triangles", slant_columns), .only = AS_JSON, .pointed = true, .optional = true},
     {LIST("setups", setup_report, next_setup), .head = say_reach, .notes = say_notes},
     {.kind = COLUMN_END}};
 
@@ -323,6 +325,7 @@ int cmd_table(const options *o) {
     if (lookup_wanted(o))
         return lookup_write(o);
     table t = {.triangles = o->terms.triangles};
+    t.slanted = slant_fields_of(o, &t.slant);
     int status = walk_start(&t.walk, o);
     for (size_t i = 0; status == EXIT_FINE && walk_setup(&t.walk, i); i++) {
         status = range_resolve(&t.walk.here, &t.lo, &t.hi);
