@@ -37,8 +37,7 @@ static void place_vertex(const draw_mesh *mesh, int i, int k, double window[2]) 
         window[axis] = mesh->corner[axis] + u * mesh->side[0][axis] + v * mesh->side[1][axis];
 }
 
-/* The corners of a cell that its triangle `half` has. */
-static void corners_of(const draw_mesh *mesh, int i, int k, int half, double window[3][2]) {
+void draw_mesh_corners(const draw_mesh *mesh, int i, int k, int half, double window[3][2]) {
     static const signed char corners[2][2][3][2] = {{{{0, 0}, {1, 0}, {0, 1}}, {{1, 1}, {0, 1}, {1, 0}}},
                                                     {{{0, 0}, {1, 0}, {1, 1}}, {{1, 1}, {0, 1}, {0, 0}}}};
     const uint64_t diagonal = mixed(~mesh->seed + ((uint64_t)i << 32 | (uint64_t)k)) & 1U;
@@ -117,7 +116,7 @@ int draw_mesh_plane(draw_buffer *buffer, const draw_camera *camera, const draw_p
         for (int k = 0; k < mesh->cells[1]; k++)
             for (int half = 0; half < 2; half++) {
                 double window[3][2];
-                corners_of(mesh, i, k, half, window);
+                draw_mesh_corners(mesh, i, k, half, window);
                 drawn += draw_part(buffer, camera, plane, (const double(*)[2])window, class, who);
             }
     return drawn;

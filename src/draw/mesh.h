@@ -19,6 +19,9 @@ typedef struct draw_mesh {
     uint64_t seed; /**< of the vertices' moves and of the diagonals */
 } draw_mesh;
 
+/** The window coordinates of one of the two triangles of a cell: half 0 or 1. */
+void draw_mesh_corners(const draw_mesh *mesh, int i, int k, int half, double window[3][2]);
+
 /**
  * Draws a plane as the mesh's triangles, but for those that lie outside a class of triangles, have a vertex outside
  * the view, or are too near edge-on to have a depth.
