@@ -366,6 +366,16 @@ static bool draw_planes(rng *r, scene *s) {
     return along(s, s->px, s->py) > 1e-6;
 }
 
+static dp_budget budget_of(const scene *s, const dp_triangles *class) {
+    dp_spec spec = s->setup.spec;
+    dp_setup setup;
+    dp_budget b;
+    spec.triangles = *class;
+    assert_int_equal(dp_setup_init(&setup, &spec), DP_OK);
+    assert_int_equal(dp_budget_at(&setup, s->z, NULL, &b), DP_OK);
+    return b;
+}
+
 typedef struct outcome {
     bool judged, ordered;
     double class; /* how much longer the separation of the default class is, any slant */
@@ -376,13 +386,11 @@ static outcome judge(scene *s) {
     outcome o = {0};
     const double seen = along(s, s->px, s->py);
     double c[2] = {s->z * seen, s->z * seen};
-    const dp_budget_terms terms = {.triangles = &s->class};
-    dp_budget b;
     fit_class(s, c);
     if (!(s->class.depth < 1e3) || dp_triangles_check(&s->class) != DP_OK)
         return o;
     s->class.depth *= 1.05;
-    assert_int_equal(dp_budget_at(&s->setup, s->z, &terms, &b), DP_OK);
+    const dp_budget b = budget_of(s, &s->class);
     c[0] = s->z * seen - s->share * b.separation;
     const double class = s->class.depth;
     if (!(c[0] > 0.0))
@@ -394,14 +402,12 @@ static outcome judge(scene *s) {
     o.ordered = in_order(s, c, &o.judged);
     const dp_triangles standard = dp_triangles_default();
     dp_triangles any = s->class;
-    dp_budget wide;
     any.slant_lo = 0.0;
     any.slant_hi = 90.0;
     any.depth = fmax(any.depth, standard.depth);
     any.pixels = fmax(any.pixels, standard.pixels);
     any.slim = fmax(any.slim, standard.slim);
-    assert_int_equal(dp_budget_at(&s->setup, s->z, &(dp_budget_terms){.triangles = &any}, &wide), DP_OK);
-    o.class = wide.separation / b.separation;
+    o.class = budget_of(s, &any).separation / b.separation;
     return o;
 }
 
@@ -473,14 +479,12 @@ static void test_snapping(void **state) {
     (void)state;
     for (uint64_t i = test_cases(20000, 400000, 20000000); i > 0; i--) {
         scene s = {.kind = 0};
-        dp_budget b;
         draw_camera(&r, &s, "fp32");
-        const dp_budget_terms terms = {.triangles = &s.class};
         s.share = rng_below(&r, 2) == 0 ? 1.0 + 1e-6 : rng_uniform(&r, 0.5, 1.0);
         if (!draw_planes(&r, &s))
             continue;
         s.class.depth = 1.0;
-        assert_int_equal(dp_budget_at(&s.setup, s.z, &terms, &b), DP_OK);
+        const dp_budget b = budget_of(&s, &s.class);
         const double c = s.z * along(&s, s.px, s.py), nearer = c - s.share * b.cause[DP_CAUSE_SNAPPING];
         double first, second;
         if (b.cause[DP_CAUSE_SNAPPING] == 0.0 || !(nearer > 0.0) || !moved_inverse(&s, nearer, 0, &first) ||

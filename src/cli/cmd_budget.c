@@ -39,6 +39,7 @@ typedef struct budget {
     const slant_fields *slanted; /* null: surfaces face the camera */
     const char *composition;     /* how positions are composed; null where eye depth is given */
     bool linearize;
+    dp_setup facing; /* without the triangles */
     row row, largest;
     double hopeless; /* the nearest depth where no separation is certain; NaN when there is none such */
     worst found;
@@ -52,7 +53,7 @@ enum { WITH_WORLD = 1, WITH_INTERPOLATION = 2, WITH_LINEARIZE = 4, WITH_TRIANGLE
 /* The terms that are asked for. */
 static unsigned conditions(const budget *b) {
     return (b->terms.world > 0.0 ? WITH_WORLD : 0) | (b->terms.interpolation > 0.0 ? WITH_INTERPOLATION : 0) |
-           (b->linearize ? WITH_LINEARIZE : 0) | (b->terms.triangles != NULL ? WITH_TRIANGLES : 0);
+           (b->linearize ? WITH_LINEARIZE : 0) | (b->slanted != NULL ? WITH_TRIANGLES : 0);
 }
 
 /* ---- What is reported -------------------------------------------------------------------------------------------- */
@@ -108,12 +109,10 @@ static void *next_row(void *of, size_t index) {
     }
     dp_budget_at(b->walk.setup, r->z, &b->terms, &r->parts); /* cannot fail: depths_resolve() has seen to it */
     r->facing = r->parts.separation;
-    if (b->terms.triangles != NULL) {
-        dp_budget_terms facing = b->terms;
-        dp_budget other = {0};
-        facing.triangles = NULL;
-        dp_budget_at(b->walk.setup, r->z, &facing, &other);
-        r->facing = other.separation;
+    if (b->slanted != NULL) {
+        dp_budget facing = {0};
+        dp_budget_at(&b->facing, r->z, &b->terms, &facing);
+        r->facing = facing.separation;
     }
     for (int i = 0; i < DP_CAUSE_COUNT && b->walk.o->form == FORM_TEXT; i++)
         write_cause(r, i);
@@ -125,7 +124,8 @@ static void *next_setup(void *of, size_t i) {
     budget *b = of;
     if (!walk_setup(&b->walk, i))
         return NULL;
-    b->choice = choosing_start(b->walk.setup, b->walk.o->tolerance);
+    b->facing = dp_setup_facing(b->walk.setup);
+    b->choice = choosing_start(&b->facing, b->walk.o->tolerance);
     b->hopeless = b->largest.z = b->largest.parts.separation = (double)NAN;
     return b;
 }
@@ -161,7 +161,7 @@ static void say_notes(page *p, void *item) {
     if (!isnan(b->hopeless))
         page_line(p, "at z = %s no separation is guaranteed: everything %s may share its code",
                   number_in(number_of(b->hopeless, DIGITS_MORE), p->unit).text,
-                  b->terms.triangles != NULL ? "nearer" : "farther");
+                  b->slanted != NULL ? "nearer" : "farther");
     if (b->worst != NULL)
         say_worst(p, b->worst);
     page_line(p, "%s%s", conditions(b) != 0 ? "without the added terms " : "",

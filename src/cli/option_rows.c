@@ -174,7 +174,7 @@ const option_row option_rows[OPTION_COUNT] = {
         "also count the loss of reading eye depth back in a binary32 shader", FLAG(terms.linearize)},
     [OPTION_FOV] = {"fov", 0, "DEG", SLANTED | VERB_TEXTURE,
         "vertical field of view", NUMBER(camera.fov_y, 0.01, 179, "degrees"), .standard = "60", .group = "The view"},
-    [OPTION_HFOV] = {"hfov", 0, "DEG", SLANTED,
+    [OPTION_HFOV] = {"hfov", 0, "DEG", SLANTED | VERB_TEXTURE,
         "horizontal field of view, in place of --fov", NUMBER(fov_x, 0.01, 179, "degrees"), .without = "as --fov says"},
     [OPTION_VIEWPORT] = {"viewport", 0, "WxH", SLANTED,
         "count what a rasterizer does to slanted triangles in a viewport of these pixels; z is then the depth of the "

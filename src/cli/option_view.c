@@ -28,22 +28,25 @@ static int take_raster(options *o) {
     return EXIT_FINE;
 }
 
-/* The vertical field of view. */
-static int take_view(options *o) {
-    dp_triangles *t = &o->triangles;
-    if (option_given(o, OPTION_FOV) && option_given(o, OPTION_HFOV))
-        return option_refuse(&option_rows[OPTION_HFOV], "cannot be combined with --fov");
-    t->fov_y = option_given(o, OPTION_HFOV) ? dp_fov_vertical(o->fov_x, t->width, t->height) : o->camera.fov_y;
-    if (dp_triangles_check(t) != DP_OK) /* all else is in its range */
-        return option_refuse(&option_rows[OPTION_HFOV],
-                             "makes a vertical angle of %s degrees, which must be from 0.001 to 179.9",
-                             number_of(t->fov_y, 6).text);
+int view_vertical(const options *o, int width, int height, double *fov_y) {
+    const option_row *row = &option_rows[OPTION_HFOV];
+    *fov_y = o->camera.fov_y;
+    if (!option_given(o, OPTION_HFOV))
+        return EXIT_FINE;
+    if (option_given(o, OPTION_FOV))
+        return option_refuse(row, "cannot be combined with --fov");
+    *fov_y = dp_fov_vertical(o->fov_x, width, height);
+    if (!(*fov_y >= 0.001 && *fov_y <= 179.9)) /* as dp_triangles has it */
+        return option_refuse(row, "makes a vertical angle of %s degrees, which must be from 0.001 to 179.9",
+                             number_of(*fov_y, 6).text);
     return EXIT_FINE;
 }
 
 int slant_complete(options *o) {
     static const option_id beside[] = {OPTION_FOV,      OPTION_HFOV,  OPTION_RASTER,
                                        OPTION_SUBPIXEL, OPTION_SLANT, OPTION_TRIANGLE};
+    if (!option_given(o, OPTION_VIEWPORT))
+        o->triangles.width = 0;
     if ((o->verb->bit & option_rows[OPTION_VIEWPORT].commands) == 0)
         return EXIT_FINE;
     for (size_t i = 0; i < sizeof beside / sizeof beside[0]; i++)
@@ -55,9 +58,6 @@ int slant_complete(options *o) {
         return option_refuse(&option_rows[OPTION_VIEWPORT], "does not apply with --ortho");
     if (o->terms.world > 0.0)
         return option_refuse(&option_rows[OPTION_VIEWPORT], "cannot be combined with --world");
-    int status = take_view(o);
-    if (status == EXIT_FINE)
-        status = take_raster(o);
-    o->terms.triangles = &o->triangles;
-    return status;
+    const int status = view_vertical(o, o->triangles.width, o->triangles.height, &o->triangles.fov_y);
+    return status == EXIT_FINE ? take_raster(o) : status;
 }

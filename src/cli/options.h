@@ -170,9 +170,9 @@ typedef struct options {
     solve_target target;                    /**< --for */
     double wanted_separation, wanted_error; /**< positive, scene units; 0 when not given */
 
-    dp_budget_terms terms;    /**< --interpolation, --world, --composition, --linearize; zero when not given. With
-                                   --viewport its triangles point to those of the options that were read */
-    dp_triangles triangles;   /**< --viewport, --fov, --hfov, --raster, --subpixel, --slant, --triangle */
+    dp_budget_terms terms;    /**< --interpolation, --world, --composition, --linearize; zero when not given */
+    dp_triangles triangles;   /**< --viewport, --fov, --hfov, --raster, --subpixel, --slant, --triangle; width 0 without
+                                   the first */
     double fov_x;             /**< --hfov, degrees */
     const raster_row *raster; /**< --raster; null when not given */
 
@@ -241,6 +241,10 @@ static inline size_t options_cameras(const options *o) {
  * --unit was not given; as they are where there are not several.
  */
 void options_of(const options *o, size_t camera, options *out);
+
+/** The vertical field of view, degrees, as --fov or --hfov says it of so many pixels. @return EXIT_FINE, or EXIT_USAGE
+ * after one line on stderr */
+int view_vertical(const options *o, int width, int height, double *fov_y);
 
 /** Opens what --output names, as wide as --full makes it, as --color wants it dressed. @return EXIT_FINE, or EXIT_IO
  * after one line on stderr */

@@ -20,9 +20,9 @@ static void say_rasterizer(page *p, const raster_row *row, int bits) {
 }
 
 void slant_title(page *p, const options *o, const dp_setup *setup) {
-    const dp_triangles *t = o->terms.triangles;
+    const dp_triangles *t = &o->triangles;
     char bits[32] = "";
-    if (t == NULL)
+    if (t->width == 0)
         return;
     if (setup->spec.model != DP_MODEL_FP32) {
         page_title(p, "%s is not affine on the screen: no guarantee at a slant",
@@ -40,9 +40,9 @@ void slant_title(page *p, const options *o, const dp_setup *setup) {
 }
 
 const slant_fields *slant_fields_of(const options *o, slant_fields *out) {
-    if (o->terms.triangles == NULL)
+    if (o->triangles.width == 0)
         return NULL;
-    *out = (slant_fields){*o->terms.triangles, o->raster != NULL ? o->raster->name : NULL};
+    *out = (slant_fields){o->triangles, o->raster != NULL ? o->raster->name : NULL};
     return out;
 }
 
