@@ -13,27 +13,19 @@ enum { WIDTH = 160, HEIGHT = 90, SURFACES = 3, TRIANGLES = 6 };
 
 typedef struct scene {
     dp_setup setup;
-    dp_triangles view;
     draw_camera camera;
     float p00, p11, a, b; /* of the test's own matrix */
     bool remap;
 } scene;
 
-static size_t index_of(const char *name) {
-    size_t row = 0;
-    while (row < raster_count() && strcmp(raster_get(row)->name, name) != 0)
-        row++;
-    return row;
-}
-
 /* The entries as depthprec(7) has them. */
 static void own_matrix(scene *s) {
-    const double n = s->setup.spec.znear, f = s->setup.spec.zfar, y = tan(s->view.fov_y * pi / 360.0);
+    const double n = s->setup.spec.znear, f = s->setup.spec.zfar, y = tan(s->setup.spec.triangles.fov_y * pi / 360.0);
     const dp_mapping m = s->setup.spec.mapping;
     const bool reversed = m == DP_MAPPING_REVERSED || m == DP_MAPPING_GL_REVERSED;
     s->remap = m == DP_MAPPING_GL || m == DP_MAPPING_GL_REVERSED;
     s->p11 = (float)(1.0 / y);
-    s->p00 = (float)(s->view.height / (y * s->view.width));
+    s->p00 = (float)(s->setup.spec.triangles.height / (y * s->setup.spec.triangles.width));
     if (s->remap) {
         s->a = (float)((reversed ? -1.0 : 1.0) * (f + n) / (f - n));
         s->b = (float)((reversed ? 2.0 : -2.0) * n * f / (f - n));
@@ -46,20 +38,21 @@ static void own_matrix(scene *s) {
 static raster_status try_scene(scene *s, const char *raster, const char *format, dp_mapping mapping) {
     dp_spec spec = dp_spec_default();
     dp_format found[2];
-    const size_t row = index_of(raster);
-    *s = (scene){.view = dp_triangles_default()};
-    s->view.width = WIDTH;
-    s->view.height = HEIGHT;
+    const raster_row *row = raster_find(raster);
+    *s = (scene){.remap = false};
+    spec.triangles = dp_triangles_default();
+    spec.triangles.width = WIDTH;
+    spec.triangles.height = HEIGHT;
     assert_int_equal(dp_format_parse(format, found), 1);
     spec.format = found[0];
     spec.mapping = mapping;
     spec.model = DP_MODEL_FP32;
     spec.zfar = 50.0;
-    if (!draw_arith(raster_get(row), dp_mapping_get(mapping)->ndc_signed, &spec.arith))
+    if (!draw_arith(row, dp_mapping_get(mapping)->ndc_signed, &spec.arith))
         return RASTER_MODEL;
     assert_int_equal(dp_setup_init(&s->setup, &spec), DP_OK);
     own_matrix(s);
-    return draw_camera_init(&s->camera, row, &s->setup, &s->view);
+    return draw_camera_init(&s->camera, row, &s->setup);
 }
 
 /* ---- Every pixel by itself --------------------------------------------------------------------------------------- */
@@ -176,7 +169,7 @@ static void rays(void **state) {
     for (int i = 0; i < 1000; i++) {
         const double window[2] = {rng_uniform(&r, 0.0, WIDTH), rng_uniform(&r, 0.0, HEIGHT)};
         const draw_plane plane = {{rng_uniform(&r, -1, 1), rng_uniform(&r, -1, 1), rng_uniform(&r, -1, 1)}, 1.0};
-        const double y = tan(s.view.fov_y * pi / 360.0);
+        const double y = tan(s.setup.spec.triangles.fov_y * pi / 360.0);
         const double x = y * WIDTH / HEIGHT;
         const double want[3] = {x * (window[0] / (WIDTH / 2.0) - 1.0), y * (window[1] / (HEIGHT / 2.0) - 1.0), 1.0};
         double ray[3], sum = 0.0;
@@ -238,7 +231,7 @@ static void meshes(void **state) {
                           {{wide, rng_uniform(&r, -1, 1)}, {rng_uniform(&r, -1, 1), high}},
                           {4, 4},
                           rng_next(&r)};
-        dp_triangles class = s.view;
+        dp_triangles class = s.setup.spec.triangles;
         class.pixels = rng_log(&r, 3.0, 60.0);
         class.slim = rng_log(&r, 2.0, 30.0);
         class.depth = 1.0 + rng_log(&r, 0.01, 10.0);

@@ -22,17 +22,21 @@ bool draw_arith(const raster_row *row, bool ndc_signed, dp_arith *out) {
     return false;
 }
 
-raster_status draw_camera_init(draw_camera *camera, size_t row, const dp_setup *setup, const dp_triangles *triangles) {
-    const double half = tan(triangles->fov_y * M_PI / 360.0);
-    const raster_status status = raster_target_init(&camera->target, row, triangles->width, triangles->height,
-                                                    &setup->spec.format, dp_path_best());
+raster_status draw_camera_init(draw_camera *camera, const raster_row *row, const dp_setup *setup) {
+    const dp_triangles *view = &setup->spec.triangles;
+    const double half = tan(view->fov_y * M_PI / 360.0);
+    size_t index = 0;
+    while (raster_get(index) != NULL && raster_get(index) != row)
+        index++;
+    const raster_status status =
+        raster_target_init(&camera->target, index, view->width, view->height, &setup->spec.format, dp_path_best());
     if (status != RASTER_OK)
         return status;
     if (setup->spec.ortho || dp_pipeline_init(&camera->pipeline, setup) != DP_OK ||
         (camera->pipeline.ndc_signed && !camera->pipeline.arith->remap))
         return RASTER_MODEL;
     camera->p11 = (float)(1.0 / half);
-    camera->p00 = (float)(triangles->height / (half * triangles->width));
+    camera->p00 = (float)(view->height / (half * view->width));
     return RASTER_OK;
 }
 

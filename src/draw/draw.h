@@ -4,9 +4,8 @@
  *
  *     draw_camera camera;
  *     draw_buffer buffer;
- *     if (draw_camera_init(&camera, row, &setup, &triangles) == RASTER_OK && draw_buffer_open(&buffer, 320 * 200)) {
- *         draw_buffer_clear(&buffer, (draw_area){800, 440, 320, 200});
- *         draw_triangle(&buffer, &camera, wall, 1);
+ *     if (draw_camera_init(&camera, raster_find("llvmpipe"), &setup) == RASTER_OK && draw_buffer_open(&buffer, 64000))
+ * { draw_buffer_clear(&buffer, (draw_area){800, 440, 320, 200}); draw_triangle(&buffer, &camera, wall, 1);
  *         draw_triangle(&buffer, &camera, decal, 2);
  *         ... buffer.winner[i], buffer.seen[i] ...
  *         draw_buffer_close(&buffer);
@@ -62,12 +61,11 @@ bool draw_arith(const raster_row *row, bool ndc_signed, dp_arith *out);
 
 /**
  * A camera of square pixels.
- * @param row        index of the rasterizer
- * @param setup      a perspective in the arithmetic of draw_arith()
- * @param triangles  the viewport and the vertical field of view
+ * @param row    one of raster_get()
+ * @param setup  a perspective in the arithmetic of draw_arith(); its triangles say the viewport and the field of view
  * @return RASTER_OK, or as raster_target_init(); RASTER_MODEL also where the set-up is no such one
  */
-raster_status draw_camera_init(draw_camera *camera, size_t row, const dp_setup *setup, const dp_triangles *triangles);
+raster_status draw_camera_init(draw_camera *camera, const raster_row *row, const dp_setup *setup);
 
 /** The ray through a place of the window: its eye coordinates at depth 1. */
 void draw_ray(const draw_camera *camera, const double window[2], double ray[3]);

@@ -28,18 +28,17 @@ typedef struct pair {
 /* ---- A pair at random -------------------------------------------------------------------------------------------- */
 
 static double guaranteed_at(const draw_fight_request *r, double slant, double z) {
-    dp_triangles at_slant = *r->triangles;
+    dp_setup at_slant = *r->setup;
     dp_budget budget;
-    at_slant.slant_lo = at_slant.slant_hi = slant;
-    const dp_budget_terms terms = {.triangles = &at_slant};
-    return dp_budget_at(r->setup, z, &terms, &budget) == DP_OK ? budget.separation : (double)INFINITY;
+    at_slant.spec.triangles.slant_lo = at_slant.spec.triangles.slant_hi = slant;
+    return dp_budget_at(&at_slant, z, NULL, &budget) == DP_OK ? budget.separation : (double)INFINITY;
 }
 
 /* Cells from two pixels to half the widest triangle, up to half as slim as the class lets them be, turned; the pixel
  * lies anywhere in the cell in the middle. */
 static draw_mesh random_mesh(const draw_fight_request *r, const double window[2], uint64_t *state) {
-    const double wide = draw_log_uniform(state, 2.0, fmax(0.5 * r->triangles->pixels, 3.0));
-    const double high = fmax(wide / draw_log_uniform(state, 1.0, 0.5 * r->triangles->slim), 1.0);
+    const double wide = draw_log_uniform(state, 2.0, fmax(0.5 * r->setup->spec.triangles.pixels, 3.0));
+    const double high = fmax(wide / draw_log_uniform(state, 1.0, 0.5 * r->setup->spec.triangles.slim), 1.0);
     const double turn = 2.0 * M_PI * draw_uniform(state);
     const double u = CELLS / 2 + draw_uniform(state), v = CELLS / 2 + draw_uniform(state);
     draw_mesh mesh = {.side = {{wide * cos(turn), wide * sin(turn)}, {-high * sin(turn), high * cos(turn)}},
@@ -81,7 +80,7 @@ static double nearest_of(const draw_camera *camera, const pair *p, double lo) {
 
 /* False where the plane is not seen at the pixel, or nothing in front of it is certain. */
 static bool random_pair(const draw_fight_request *r, const draw_fight_band *band, uint64_t *state, pair *out) {
-    const dp_triangles *t = r->triangles;
+    const dp_triangles *t = &r->setup->spec.triangles;
     const int x = (int)(draw_random(state) % (uint64_t)r->camera->target.width);
     const int y = (int)(draw_random(state) % (uint64_t)r->camera->target.height);
     const double window[2] = {x + 0.5, y + 0.5};
@@ -133,7 +132,7 @@ static void draw_pair(const draw_fight_request *r, draw_buffer *b, const pair *p
     const double separation = share * p->guaranteed;
     const double left = 1.0 - separation / p->plane.distance;
     draw_plane nearer = p->plane;
-    dp_triangles class = *r->triangles;
+    dp_triangles class = r->setup->spec.triangles;
     if (!(left > 0.0))
         return;
     draw_buffer_clear(b, p->area);

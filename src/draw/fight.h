@@ -34,11 +34,11 @@ typedef enum draw_fight_status { DRAW_FIGHT_DONE = 0, DRAW_FIGHT_STOPPED, DRAW_F
 
 typedef struct draw_fight_request {
     const draw_camera *camera;
-    const dp_setup *setup;         /**< that of the camera */
-    const dp_triangles *triangles; /**< the rasterizer's grid and plane, the class, the slants that are drawn */
-    double azimuth;                /**< of the normal on the screen, degrees from right to up; NaN: any */
-    double lo, hi;                 /**< eye depths within [near, far], 0 < lo < hi, hi finite */
-    uint64_t count;                /**< pairs of meshes; each band has the same number, at least one */
+    const dp_setup *setup; /**< that of the camera: its triangles have the rasterizer's grid and plane, their class, and
+                              the slants that are drawn */
+    double azimuth;        /**< of the normal on the screen, degrees from right to up; NaN: any */
+    double lo, hi;         /**< eye depths within [near, far], 0 < lo < hi, hi finite */
+    uint64_t count;        /**< pairs of meshes; each band has the same number, at least one */
     uint64_t seed;
     int threads; /**< 0: as many as OpenMP would take */
     /** Told now and then, by one thread at a time, how many pairs are done; nonzero stops it. May be null. */
