@@ -9,7 +9,7 @@
 #include "draw/mesh.h"
 
 enum { FARTHER = 1, NEARER = 2, BOTH = 3 };
-enum { CHUNK = 32 /* pairs that share what was found */, CELLS = 6, REACH = 64 /* pixels from the middle */ };
+enum { CHUNK = 32 /* pairs that share what was found */, CELLS = 4, REACH = 64 /* pixels from the middle */ };
 
 /* Shares of the guarantee: where the walk ends at the latest, and from one to the next. Planes nearer to edge-on than
  * the last have no depth. */
@@ -180,6 +180,18 @@ static int bands_of(const draw_fight_request *r, draw_fight_band *bands) {
         lo = bands[count].hi;
     }
     return count;
+}
+
+draw_fight_band draw_fight_worst(const draw_fight_result *result) {
+    const int last = result->band_count - 1;
+    draw_fight_band worst = band_of(result->bands[0].lo, result->bands[last].hi);
+    for (int i = 0; i <= last; i++) {
+        draw_fight_band here = result->bands[i];
+        here.lo = worst.lo;
+        here.hi = worst.hi;
+        add(&worst, &here);
+    }
+    return worst;
 }
 
 static uint64_t rounded_up(uint64_t count, uint64_t by) {

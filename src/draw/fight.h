@@ -46,7 +46,10 @@ typedef struct draw_fight_request {
     void *context;
 } draw_fight_request;
 
-/** How many pairs will be drawn. */
+/** All bands as one. */
+draw_fight_band draw_fight_worst(const draw_fight_result *result);
+
+/** How many pairs will be drawn: of the request lo, hi and count are read. */
 uint64_t draw_fight_count(const draw_fight_request *request);
 
 /** Runs it: the same result for any number of threads. On anything but DRAW_FIGHT_DONE *result holds nothing of use. */
