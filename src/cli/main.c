@@ -19,6 +19,7 @@ static const struct {
     {VERB_CHECK, cmd_check},
     {VERB_SOLVE, cmd_solve},
     {VERB_BIAS, cmd_bias},
+    {VERB_SHADOW, cmd_shadow},
     {VERB_LIST, cmd_list},
     {VERB_HELP, cmd_help},
     {VERB_COMPLETIONS, cmd_completions},

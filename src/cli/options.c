@@ -178,7 +178,8 @@ void options_of(const options *o, size_t camera, options *out) {
 static int complete_slant(options *o) {
     static const option_id beside[] = {OPTION_FOV, OPTION_HFOV, OPTION_SUBPIXEL, OPTION_SLANT, OPTION_TRIANGLE};
     dp_triangles *t = &o->triangles;
-    if ((o->verb->bit & option_rows[OPTION_VIEWPORT].commands) == 0)
+    if ((o->verb->bit & option_rows[OPTION_VIEWPORT].commands) == 0 || o->verb->bit == VERB_SHADOW ||
+        o->verb->bit == VERB_PLOT) /* there the viewport says how wide the view is */
         return EXIT_FINE;
     for (size_t i = 0; i < sizeof beside / sizeof beside[0]; i++)
         if (option_given(o, beside[i]) && !option_given(o, OPTION_VIEWPORT))
