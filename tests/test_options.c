@@ -76,8 +76,7 @@ static const struct {
     {"texture", OPTION_HALF_HEIGHT, AT(camera.half_height), 5, 1e-12, 1e12, "1e-12", "1e12", "0", "1e13",
      "a number from 1e-12 to 1e12 scene units"},
     {"shadow", OPTION_LAMBDA, AT(lambda), 0.5, 0, 1, "0", "1", "-0.1", "1.1", "a number from 0 to 1"},
-    {"shadow", OPTION_ANGLE, AT(angle), 75, 0, 89.9, "0", "89.9", "-1", "89.91",
-     "a number from 0 to 89.9 degrees"},
+    {"shadow", OPTION_ANGLE, AT(angle), 75, 0, 89.9, "0", "89.9", "-1", "89.91", "a number from 0 to 89.9 degrees"},
     {"shadow", OPTION_CASTERS, AT(casters), 100, 0, 1e12, "0", "1e12", "-1", "2e12",
      "a number from 0 to 1e12 scene units"},
     {"texture", OPTION_YAW, AT(camera.yaw), 0, -360, 360, "-360", "360", "-361", "360.5",
@@ -182,8 +181,8 @@ static void test_whole(void **state) {
             options o;
             parse(&o, wholes[i].command, wholes[i].id, k == 0 ? wholes[i].least_text : wholes[i].most_text, line);
             const uint64_t fields[] = {
-                [0] = o.sample,    o.seed, (uint64_t)o.threads, (uint64_t)o.width, (uint64_t)o.triangles.subpixel,
-                o.cascades,        o.kernel, (uint64_t)o.height};
+                [0] = o.sample, o.seed,   (uint64_t)o.threads, (uint64_t)o.width, (uint64_t)o.triangles.subpixel,
+                o.cascades,     o.kernel, (uint64_t)o.height};
             TALLY(&t, fields[i] == (k == 0 ? wholes[i].least : wholes[i].most), "--%s: %llu, %s",
                   option_name(wholes[i].id), (unsigned long long)fields[i], line);
             options_release(&o);
@@ -617,7 +616,7 @@ int main(void) {
 
         cmocka_unit_test(test_whole),   cmocka_unit_test(test_words),   cmocka_unit_test(test_rows),
         cmocka_unit_test(test_flags),   cmocka_unit_test(test_texts),   cmocka_unit_test(test_optional),
-        cmocka_unit_test(test_own),     cmocka_unit_test(test_boxes),   cmocka_unit_test(test_slanted), cmocka_unit_test(test_formats),
-        cmocka_unit_test(test_lists),   cmocka_unit_test(test_all)};
+        cmocka_unit_test(test_own),     cmocka_unit_test(test_boxes),   cmocka_unit_test(test_slanted),
+        cmocka_unit_test(test_formats), cmocka_unit_test(test_lists),   cmocka_unit_test(test_all)};
     return run_tap(tests);
 }

@@ -234,9 +234,8 @@ int option_read_sides(const option_row *row, const char *value, unsigned most, b
     const char *const height = square ? value : value + length + 1;
     char width[16];
     snprintf(width, sizeof width, "%.*s", (int)length, value);
-    if (length >= sizeof width || (value[length] == '\0' && !square) ||
-        !number_parse_count(width, most, &sides[0]) || !number_parse_count(height, most, &sides[1]) || sides[0] < 1 ||
-        sides[1] < 1)
+    if (length >= sizeof width || (value[length] == '\0' && !square) || !number_parse_count(width, most, &sides[0]) ||
+        !number_parse_count(height, most, &sides[1]) || sides[0] < 1 || sides[1] < 1)
         return option_refuse(row, "must be %sWIDTHxHEIGHT, each from 1 to %u pixels, got '%s'", square ? "N or " : "",
                              most, value);
     return EXIT_FINE;

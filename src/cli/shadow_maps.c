@@ -77,17 +77,25 @@ static shadow_split split_of(const options *o) {
 }
 
 /* What the options could not see one by one. */
-static int refused(const options *o, shadow_status status) {
-    const bool box = option_given(o, OPTION_LIGHT_BOX);
-    const char *text = shadow_status_text(status);
+static int refused(const options *o, const shadow_split *view, shadow_status status) {
+    const uint32_t side = o->camera.width < o->camera.height ? o->camera.width : o->camera.height;
+    const option_id wide = option_given(o, OPTION_VIEWPORT) ? OPTION_VIEWPORT : OPTION_HFOV;
     if (status == SHADOW_RECEIVERS)
-        return option_error(OPTION_RANGE, "%s: from 0 to %s, got '%s:%s'", text, number_full(o->light_box[2]).text,
-                            number_full(o->range_lo).text, number_full(o->range_hi).text);
-    if (status == SHADOW_CASCADES && !(o->zfar <= 1e12))
-        return option_error(OPTION_FAR, "must be at most 1e12 with cascades, got '%s'", number_full(o->zfar).text);
+        return option_error(OPTION_RANGE, "must lie in the box, from 0 to %s, got '%s:%s'",
+                            number_full(o->light_box[2]).text, number_full(o->range_lo).text,
+                            number_full(o->range_hi).text);
+    if (status == SHADOW_CASCADES && !(o->zfar > o->znear && o->zfar <= 1e12))
+        return option_error(OPTION_FAR, "must be greater than near and at most 1e12, got '%s'",
+                            number_full(o->zfar).text);
     if (status == SHADOW_CASCADES)
-        return option_error(option_given(o, OPTION_VIEWPORT) ? OPTION_VIEWPORT : OPTION_HFOV, "%s", text);
-    return option_error(box ? OPTION_LIGHT_BOX : OPTION_FAR, "%s", text);
+        return option_error(wide,
+                            "makes a view %s degrees high and %s times as wide: must be from 0.001 to 179.9 degrees "
+                            "and from 0.001 to 1000 times",
+                            number_of(view->fov_y, 4).text, number_of(view->aspect, 4).text);
+    if (status == SHADOW_BOX && side <= 4 * o->kernel)
+        return option_error(OPTION_SIZE, "must be larger than four times the filter of %ux%u, got '%ux%u'", o->kernel,
+                            o->kernel, o->camera.width, o->camera.height);
+    return option_error(OPTION_FAR, "makes a map too large or too small: %s", shadow_status_text(status));
 }
 
 int shadow_maps_make(const options *o, const dp_format *format, dp_mapping mapping, shadow_maps *out) {
@@ -106,5 +114,5 @@ int shadow_maps_make(const options *o, const dp_format *format, dp_mapping mappi
     out->items[0].light = light;
     for (size_t i = 0; i < out->count && !box && made == SHADOW_OK; i++)
         made = shadow_cascade_of(&out->view, &light, (int)i, &out->items[i]);
-    return made == SHADOW_OK ? EXIT_FINE : refused(o, made);
+    return made == SHADOW_OK ? EXIT_FINE : refused(o, &out->view, made);
 }
