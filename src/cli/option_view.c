@@ -60,7 +60,8 @@ int slant_complete(options *o) {
     const bool slanted = option_given(o, OPTION_VIEWPORT) || o->drawn;
     if (!slanted)
         o->triangles.width = 0;
-    if ((o->verb->bit & option_rows[OPTION_VIEWPORT].commands) == 0)
+    if ((o->verb->bit & option_rows[OPTION_VIEWPORT].commands) == 0 || o->verb->bit == VERB_SHADOW ||
+        o->verb->bit == VERB_PLOT) /* there the viewport says how wide the view is */
         return EXIT_FINE;
     for (size_t i = 0; i < sizeof beside / sizeof beside[0]; i++)
         if (option_given(o, beside[i]) && !slanted)
