@@ -133,13 +133,19 @@ bool slanted_fit(slanted *s, const double c[2]) {
     return t->depth < 1e3 && dp_triangles_check(t) == DP_OK;
 }
 
+bool slanted_budget(const slanted *s, const dp_triangles *class, dp_budget *out) {
+    dp_spec spec = s->setup.spec;
+    dp_setup setup;
+    spec.triangles = *class;
+    return dp_setup_init(&setup, &spec) == DP_OK && dp_budget_at(&setup, s->z, NULL, out) == DP_OK;
+}
+
 bool slanted_apart(slanted *s, double share, dp_budget *guarantee, double *nearer) {
-    const dp_budget_terms terms = {.triangles = &s->class};
     double c[2] = {s->c, s->c};
     if (!slanted_fit(s, c))
         return false;
     const double class = s->class.depth *= 1.05;
-    if (dp_budget_at(&s->setup, s->z, &terms, guarantee) != DP_OK)
+    if (!slanted_budget(s, &s->class, guarantee))
         return false;
     *nearer = c[0] = s->c - share * guarantee->separation;
     if (!(c[0] > 0.0) || !slanted_fit(s, c) || s->class.depth > class)

@@ -47,7 +47,10 @@ double slanted_along(const slanted *s, double x, double y);
  * @return false when they are in no class
  */
 bool slanted_fit(slanted *s, const double c[2]);
-/** The same for planes a share of the guarantee at z apart: that, and the distance of the nearer plane. */
+/** The guarantee at depth z for triangles of a class. */
+bool slanted_budget(const slanted *s, const dp_triangles *class, dp_budget *out);
+
+/** The class of planes a share of the guarantee at z apart; that, and the distance of the nearer plane. */
 bool slanted_apart(slanted *s, double share, dp_budget *guarantee, double *nearer);
 
 /** Clip coordinates of a triangle whose plane is c away; false when a vertex is not from near to far. */

@@ -226,7 +226,7 @@ static outcome judge(slanted *s, evaluation *value, double share) {
     any.depth = fmax(any.depth, standard.depth);
     any.pixels = fmax(any.pixels, standard.pixels);
     any.slim = fmax(any.slim, standard.slim);
-    assert_int_equal(dp_budget_at(&s->setup, s->z, &(dp_budget_terms){.triangles = &any}, &wide), DP_OK);
+    assert_true(slanted_budget(s, &any, &wide));
     o.class = wide.separation / b.separation;
     return o;
 }
@@ -295,8 +295,7 @@ static double wrong_share(rng *r, slanted *s, evaluation *value, double beaten) 
     for (double share = beaten * 1.02; slanted_apart(s, share, &b, &nearer); share = fmax(share, largest) * 1.05) {
         if (!climb(r, s, value, 0, nearer, &code[0]) || !climb(r, s, value, 1, s->c, &code[1]) || ordered(s, code))
             break;
-        if (!slanted_fit(s, (const double[2]){nearer, s->c}) ||
-            dp_budget_at(&s->setup, s->z, &(dp_budget_terms){.triangles = &s->class}, &now) != DP_OK)
+        if (!slanted_fit(s, (const double[2]){nearer, s->c}) || !slanted_budget(s, &s->class, &now))
             break;
         largest = (s->c - nearer) / now.separation;
     }
@@ -350,12 +349,11 @@ static void test_snapping(void **state) {
         slanted s;
         dp_budget b;
         assert_true(slanted_draw_camera(&r, &s, &kinds[0].of, "fp32"));
-        const dp_budget_terms terms = {.triangles = &s.class};
         const double share = rng_below(&r, 2) == 0 ? 1.0 + 1e-6 : rng_uniform(&r, 0.5, 1.0);
         if (!slanted_draw_planes(&r, &s))
             continue;
         s.class.depth = 1.0;
-        assert_int_equal(dp_budget_at(&s.setup, s.z, &terms, &b), DP_OK);
+        assert_true(slanted_budget(&s, &s.class, &b));
         const double c = s.c, nearer = c - share * b.cause[DP_CAUSE_SNAPPING];
         double first, second;
         if (b.cause[DP_CAUSE_SNAPPING] == 0.0 || !(nearer > 0.0) || !moved_inverse(&s, nearer, 0, &first) ||

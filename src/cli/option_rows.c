@@ -18,6 +18,7 @@ static const name_list models = {.get = list_model_word};
 static const name_list ariths = {.get = list_arith};
 static const name_list compositions = {.get = list_composition};
 static const name_list apis = {.words = (const char *const[]){"all", NULL}, .get = list_api};
+static const name_list rasters = {.get = list_rasterizer};
 static const name_list scenes = {.get = list_scene};
 static const name_list positions = {.words = (const char *const[]){"exact", NULL}, .get = list_position};
 static const name_list normals = {.get = list_normal};
@@ -179,8 +180,13 @@ const option_row option_rows[OPTION_COUNT] = {
         "count what a rasterizer does to slanted triangles in a viewport of these pixels; z is then the depth of the "
         "farther surface, and the separation is along the normal",
         .parse = parse_viewport, .without = "surfaces face the camera"},
+    [OPTION_RASTER] = {"raster", 0, "NAME", SLANTED,
+        "the rasterizer, its subpixel grid and how it sets up depth: @; of the specifications the worst that they "
+        "allow; see 'depthprec list rasterizers'", ROW(raster, rasters),
+        .without = "--subpixel, and a plane anchored at a vertex"},
     [OPTION_SUBPIXEL] = {"subpixel", 0, "BITS", SLANTED,
-        "bits of the grid to which a rasterizer moves vertices; Direct3D has 8, Vulkan and OpenGL at least 4",
+        "instead: bits of the grid to which vertices move; Direct3D has 8, Vulkan and OpenGL at least 4; with "
+        "spec-vulkan and spec-gl how many more there are",
         WHOLE(triangles.subpixel, 1, 8, "bits"), .standard = "8"},
     [OPTION_SLANT] = {"slant", 0, "LO:HI", SLANTED,
         "angles of the surfaces' normal to the view axis, degrees; 0 faces the camera, 90 is edge-on",

@@ -66,6 +66,9 @@ int option_refuse(const option_row *row, const char *format, ...) __attribute__(
 /** Reads WIDTHxHEIGHT, each from 1 to `most`. @return an exit status, after one line on stderr */
 int option_read_sides(const option_row *row, const char *value, unsigned most, unsigned long sides[2]);
 
+/** What the options of slanted triangles say together; without --viewport surfaces face the camera. @return as above */
+int slant_complete(options *o);
+
 /** The field of a row. */
 void *option_field(options *o, const option_row *row);
 

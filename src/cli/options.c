@@ -174,31 +174,6 @@ void options_of(const options *o, size_t camera, options *out) {
     take_preset(out, p);
 }
 
-/* Slanted triangles: without --viewport surfaces face the camera. Then the vertical field of view. */
-static int complete_slant(options *o) {
-    static const option_id beside[] = {OPTION_FOV, OPTION_HFOV, OPTION_SUBPIXEL, OPTION_SLANT, OPTION_TRIANGLE};
-    dp_triangles *t = &o->triangles;
-    if ((o->verb->bit & option_rows[OPTION_VIEWPORT].commands) == 0)
-        return EXIT_FINE;
-    for (size_t i = 0; i < sizeof beside / sizeof beside[0]; i++)
-        if (option_given(o, beside[i]) && !option_given(o, OPTION_VIEWPORT))
-            return option_error(beside[i], "needs --viewport: surfaces face the camera");
-    if (!option_given(o, OPTION_VIEWPORT))
-        return EXIT_FINE;
-    if (option_given(o, OPTION_FOV) && option_given(o, OPTION_HFOV))
-        return option_error(OPTION_HFOV, "cannot be combined with --fov");
-    if (o->ortho)
-        return option_error(OPTION_VIEWPORT, "does not apply with --ortho");
-    if (o->terms.world > 0.0)
-        return option_error(OPTION_VIEWPORT, "cannot be combined with --world");
-    t->fov_y = option_given(o, OPTION_HFOV) ? dp_fov_vertical(o->fov_x, t->width, t->height) : o->camera.fov_y;
-    if (dp_triangles_check(t) != DP_OK) /* all else is in its range */
-        return option_error(OPTION_HFOV, "makes a vertical angle of %s degrees, which must be from 0.001 to 179.9",
-                            number_of(t->fov_y, 6).text);
-    o->terms.triangles = t;
-    return EXIT_FINE;
-}
-
 /* What follows from other options. */
 static int complete(options *o) {
     o->model_auto = o->model == DP_MODEL_COUNT;
@@ -212,7 +187,7 @@ static int complete(options *o) {
         return option_error(OPTION_PRESET, "must be one preset for %s, got %zu", o->verb->name, o->preset_count);
     if (o->preset_count == 1)
         take_preset(o, o->presets[0]);
-    return complete_slant(o);
+    return slant_complete(o);
 }
 
 /* An orthographic camera may begin at its place or behind it. */

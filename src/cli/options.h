@@ -20,6 +20,7 @@
 #include "cli/errors.h"
 #include "cli/verbs.h"
 #include "depthprec/depthprec.h"
+#include "raster/raster.h"
 #include "report/output.h"
 #include "texture/camera.h"
 #include "texture/effect.h"
@@ -56,6 +57,7 @@ typedef enum option_id {
     OPTION_FOV,
     OPTION_HFOV,
     OPTION_VIEWPORT,
+    OPTION_RASTER,
     OPTION_SUBPIXEL,
     OPTION_SLANT,
     OPTION_TRIANGLE,
@@ -168,10 +170,11 @@ typedef struct options {
     solve_target target;                    /**< --for */
     double wanted_separation, wanted_error; /**< positive, scene units; 0 when not given */
 
-    dp_budget_terms terms;  /**< --interpolation, --world, --composition, --linearize; zero when not given. With
-                                 --viewport its triangles point to those of the options that were read */
-    dp_triangles triangles; /**< --viewport, --fov, --hfov, --subpixel, --slant, --triangle */
-    double fov_x;           /**< --hfov, degrees */
+    dp_budget_terms terms;    /**< --interpolation, --world, --composition, --linearize; zero when not given */
+    dp_triangles triangles;   /**< --viewport, --fov, --hfov, --raster, --subpixel, --slant, --triangle; width 0 without
+                                   the first */
+    double fov_x;             /**< --hfov, degrees */
+    const raster_row *raster; /**< --raster; null when not given */
 
     const unit_row *unit; /**< what a scene unit is; null where nothing says it: lengths are converted already */
     const preset *presets[OPTIONS_PRESETS_MAX]; /**< --preset, in the order given, each once */

@@ -34,7 +34,8 @@ static int add_setups(const options *o, size_t camera, setups *out) {
                     .rounding = o->rounding,
                     .model = o->model,
                     .arith = o->arith,
-                    .log_c = o->log_c};
+                    .log_c = o->log_c,
+                    .triangles = o->triangles};
     for (size_t f = 0; f < o->format_count; f++)
         for (size_t m = 0; m < o->mapping_count; m++) {
             spec.format = o->formats[f];
