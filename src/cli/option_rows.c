@@ -105,7 +105,8 @@ const option_row option_rows[OPTION_COUNT] = {
         .except = {BUT(VERB_TEXTURE, NULL, "as the image has it; d3d with --scene; all with --effect alone", NULL),
                    BUT(VERB_BENCH, NULL, "that of the family's first case", NULL),
                    BUT(VERB_SOLVE, NULL, "solved for where near, far and format are given, else all", NULL),
-                   BUT(VERB_SHADOW, "d3d", NULL, "mappings: " DP_MAPPING_NAMES_PERSPECTIVE "; all are d3d and reversed"),
+                   BUT(VERB_SHADOW, "d3d", NULL, "mappings: " DP_MAPPING_NAMES_PERSPECTIVE
+                       "; all are d3d and reversed"),
                    BUT(VERB_ZFIGHT | VERB_BUDGET, "all", NULL,
                        "mappings: " DP_MAPPING_NAMES_PERSPECTIVE
                        "; all are d3d and reversed")}},
