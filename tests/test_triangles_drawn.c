@@ -16,7 +16,7 @@
 
 enum { ROWS = 4096, PARTS = 32 };
 
-static const char *const formats[] = {"fp32", "unorm24", "unorm16"};
+static const char *const stored_as[] = {"fp32", "unorm24", "unorm16"};
 
 /* Their arithmetic: what becomes of a vertex, and of a depth that is stored. */
 static const struct {
@@ -144,15 +144,15 @@ static void test_drawn(void **state) {
     uint64_t pixels = 0;
     (void)state;
     for (size_t row = 0; row < sizeof drawn_by / sizeof drawn_by[0]; row++)
-        for (size_t f = 0; f < sizeof formats / sizeof formats[0]; f++) {
+        for (size_t f = 0; f < sizeof stored_as / sizeof stored_as[0]; f++) {
             outcome part[PARTS], all = {.pixels = {.name = drawn_by[row].name}};
             assert_string_equal(raster_get(row)->name, drawn_by[row].name);
-            if (!has_format(drawn_by[row].name, formats[f]))
+            if (!has_format(drawn_by[row].name, stored_as[f]))
                 continue;
 #pragma omp parallel for schedule(dynamic)
             for (int i = 0; i < PARTS; i++) {
                 part[i] = (outcome){.pixels = {.name = drawn_by[row].name}};
-                judge_part(row, formats[f], i, wanted / PARTS, &part[i]);
+                judge_part(row, stored_as[f], i, wanted / PARTS, &part[i]);
             }
             for (int i = 0; i < PARTS; i++) {
                 all.pixels.cases += part[i].pixels.cases;
@@ -163,7 +163,7 @@ static void test_drawn(void **state) {
                 all.wrong = fmax(all.wrong, part[i].wrong);
             }
             print_message("# %s %s: %llu pixels of %llu pairs; wrong ones up to %.2f of the guarantee\n",
-                          drawn_by[row].name, formats[f], (unsigned long long)all.pixels.cases,
+                          drawn_by[row].name, stored_as[f], (unsigned long long)all.pixels.cases,
                           (unsigned long long)all.pairs, all.wrong);
             tally_end(&all.pixels);
             assert_true(all.wrong > 0.02);
