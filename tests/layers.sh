@@ -13,7 +13,7 @@ src/census        | depthprec core census
 src/raster        | depthprec core raster
 src/texture       | depthprec core texture
 src/method        | depthprec core texture census method
-src/need          | depthprec core api need
+src/need          | depthprec core api raster need
 src/report        | depthprec report
 src/plot          | depthprec core api census raster texture method need plot
 src/cli           | depthprec core api census raster texture method need report plot cli
