@@ -213,6 +213,53 @@ static void test_rasterizer(void **state) {
     }
 }
 
+/* A preset's view and rasterizer hold with a viewport, and where they are not given. */
+static void test_presets(void **state) {
+    static const struct {
+        const char *options, *raster;
+        double fov;
+        int bits;
+    } asked[] = {{"--preset godot-forward", "spec-vulkan", 75, 4},
+                 {"--preset unity-gl", "spec-gl", 60, 4},
+                 {"--preset godot-forward --fov 40", "spec-vulkan", 40, 4},
+                 {"--preset godot-forward --raster spec-d3d", "spec-d3d", 75, 8},
+                 {"--preset godot-forward --raster spec-vulkan --subpixel 6", "spec-vulkan", 75, 6},
+                 {"--preset godot-forward --subpixel 6", NULL, 75, 6}};
+    (void)state;
+    for (size_t i = 0; i < sizeof asked / sizeof asked[0]; i++) {
+        printed p = print_of("table --viewport 1920x1080 --at 10 --json %s", asked[i].options);
+        json_t *root = json_of(p.out), *got = json_object_get(root, "triangles");
+        const json_t *named = json_object_get(got, "raster");
+        assert_true(at(got, "fov") == asked[i].fov && at(got, "subpixel") == asked[i].bits);
+        assert_true(asked[i].raster == NULL ? json_is_null(named)
+                                            : strcmp(json_string_value(named), asked[i].raster) == 0);
+        json_decref(root);
+        printed_free(&p);
+    }
+    printed p = print_of("table --preset godot-forward --at 10 --json");
+    assert_null(strstr(p.out, "triangles"));
+    printed_free(&p);
+    /* Of several each has its own. */
+    p = print_of("table --preset bevy,three --viewport 800x800 --at 10m --json");
+    json_t *root = json_of(p.out);
+    assert_null(json_object_get(root, "triangles"));
+    for (size_t i = 0; i < 2; i++) {
+        const json_t *setup = json_array_get(json_object_get(root, "setups"), i);
+        const json_t *got = json_object_get(setup, "triangles");
+        const slant_case bevy = {.znear = 0.1,
+                                 .zfar = INFINITY,
+                                 .mapping = DP_MAPPING_REVERSED,
+                                 .triangles = {800, 800, 45, 4, {5, 11, 2, 6}, 0, 90, 2, 512, 16}};
+        assert_true(at(got, "fov") == (i == 0 ? 45 : 50));
+        assert_string_equal(json_string_value(json_object_get(got, "raster")), i == 0 ? "spec-vulkan" : "spec-gl");
+        if (i == 0)
+            assert_true(at(json_array_get(json_object_get(setup, "rows"), 0), "guarantee_slanted") ==
+                        budget_of(&bevy, 10, true).separation);
+    }
+    json_decref(root);
+    printed_free(&p);
+}
+
 /* Where nothing is certain, it is what lies in front of the farther surface that is not. */
 static void test_hopeless(void **state) {
     const slant_case *c = &cases[2];
@@ -225,6 +272,7 @@ static void test_hopeless(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {cmocka_unit_test(test_rows), cmocka_unit_test(test_text),
-                                       cmocka_unit_test(test_rasterizer), cmocka_unit_test(test_hopeless)};
+                                       cmocka_unit_test(test_rasterizer), cmocka_unit_test(test_presets),
+                                       cmocka_unit_test(test_hopeless)};
     return run_tap(tests);
 }

@@ -134,6 +134,7 @@ static void *next_setup(void *of, size_t i) {
         return NULL;
     const dp_setup *setup = &t->setup;
     const options *o = t->walk.o;
+    t->triangles = slant_fields_of(&t->walk.here, &t->slant);
     t->setup = dp_setup_facing(t->walk.setup);
     t->slanted = reach_model(t->walk.setup);
     range_resolve(&t->walk.here, &t->lo, &t->hi);
@@ -238,7 +239,7 @@ static void say_notes(page *p, void *item) {
 
 /* ---- Columns ----------------------------------------------------------------------------------------------------- */
 
-enum { WITH_TOLERANCE = 1, WITH_ARITH = 2, VERBOSE = 4, WITH_PRESETS = 8, WITH_TRIANGLES = 16 };
+enum { WITH_TOLERANCE = 1, WITH_ARITH = 2, VERBOSE = 4, WITH_PRESETS = 8, WITH_TRIANGLES = 16, ONE_CAMERA = 32 };
 
 static const column row_columns[] = {
     {FIELD(row, sample.z, "z", "scene"), SHOWN("z", 11, DIGITS_Z)},
@@ -290,6 +291,8 @@ static const column drawn_columns[] = {{FIELD(clipping, znear, "near_effective",
 
 static const column setup_report[] = {
     {PART(table, walk.fields, NULL, setup_columns)},
+    {PART(table, triangles, "triangles", slant_columns), .only = AS_JSON, .pointed = true, .optional = true,
+     .when = WITH_PRESETS},
     {FIELD(table, walk.fields.arith, "arith", ""), .only = AS_CSV, .when = WITH_ARITH},
     {FIELD(table, interval.name, "method", ""), .only = AS_JSON, .when = WITH_TOLERANCE},
     {FIELD(table, interval.claim, "claim", ""), .only = AS_JSON, .when = WITH_TOLERANCE},
@@ -303,15 +306,15 @@ static const column setup_report[] = {
     {PART(table, chosen, "auto", choice_columns), .only = AS_JSON},
     {.kind = COLUMN_END}};
 
-static const column columns[] = {
-    {PART(table, triangles, "triangles", slant_columns), .only = AS_JSON, .pointed = true, .optional = true},
-    {LIST("setups", setup_report, next_setup), .head = say_reach, .notes = say_notes},
-    {.kind = COLUMN_END}};
+static const column columns[] = {{PART(table, triangles, "triangles", slant_columns), .only = AS_JSON, .pointed = true,
+                                  .optional = true, .when = ONE_CAMERA},
+                                 {LIST("setups", setup_report, next_setup), .head = say_reach, .notes = say_notes},
+                                 {.kind = COLUMN_END}};
 
 /* What a table of these set-ups has: the variant of arithmetic only where some set-up has that model. */
 static unsigned conditions(const table *t) {
     unsigned when = (option_given(t->walk.o, OPTION_TOLERANCE) ? WITH_TOLERANCE : 0) |
-                    (t->walk.o->verbose ? VERBOSE : 0) | (t->walk.o->preset_count > 1 ? WITH_PRESETS : 0) |
+                    (t->walk.o->verbose ? VERBOSE : 0) | (t->walk.o->preset_count > 1 ? WITH_PRESETS : ONE_CAMERA) |
                     (t->triangles != NULL ? WITH_TRIANGLES : 0);
     for (size_t i = 0; i < t->walk.all.count; i++)
         if (t->walk.all.items[i].spec.model == DP_MODEL_FP32)

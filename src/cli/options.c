@@ -33,7 +33,7 @@ int option_error(option_id id, const char *format, ...) {
 }
 
 static void set_defaults(options *o) {
-    *o = (options){.target = SOLVE_FOR_ANY, .triangles = dp_triangles_default()};
+    *o = (options){.target = SOLVE_FOR_ANY, .triangles = dp_triangles_default(), .azimuth = (double)NAN};
     for (int id = 0; id < OPTION_COUNT; id++)
         if (option_rows[id].standard != NULL)
             option_rows[id].parse(o, &option_rows[id], option_rows[id].standard);
@@ -154,6 +154,7 @@ static void take_preset(options *o, const preset *p) {
         parse_formats(o, &option_rows[OPTION_FORMAT], p->format);
     if (!option_given(o, OPTION_MAPPING))
         parse_mappings(o, &option_rows[OPTION_MAPPING], dp_mapping_get(p->mapping)->name);
+    slant_take_preset(o, p);
 }
 
 void options_of(const options *o, size_t camera, options *out) {
@@ -185,9 +186,10 @@ static int complete(options *o) {
                                 o->presets[i]->unit);
     if (o->preset_count > 1 && o->verb->bit != VERB_TABLE)
         return option_error(OPTION_PRESET, "must be one preset for %s, got %zu", o->verb->name, o->preset_count);
+    const int status = slant_complete(o);
     if (o->preset_count == 1)
         take_preset(o, o->presets[0]);
-    return slant_complete(o);
+    return status;
 }
 
 /* An orthographic camera may begin at its place or behind it. */
