@@ -37,7 +37,8 @@ static const name_list reports = {.words = (const char *const[]){"text", "json",
 enum {
     MODELLED = VERB_TABLE | VERB_PLOT,
     BUDGETED = VERB_BUDGET | VERB_PLOT,
-    SLANTED = VERB_TABLE | VERB_BUDGET,
+    SLANTED = VERB_TABLE | VERB_BUDGET | VERB_ZFIGHT,
+    DRAWS = VERB_ZFIGHT,
     ASKED = MODELLED | VERB_BUDGET,
     CAMERA = ASKED | VERB_ZFIGHT,
     PLACED = CAMERA | VERB_BENCH,
@@ -180,11 +181,14 @@ const option_row option_rows[OPTION_COUNT] = {
     [OPTION_VIEWPORT] = {"viewport", 0, "WxH", SLANTED,
         "count what a rasterizer does to slanted triangles in a viewport of these pixels; z is then the depth of the "
         "farther surface, and the separation is along the normal",
-        .parse = parse_viewport, .without = "surfaces face the camera"},
+        .parse = parse_viewport, .without = "surfaces face the camera",
+        .except = {BUT(VERB_ZFIGHT, "1920x1080", NULL, "with --triangles: the pixels of the viewport")}},
     [OPTION_RASTER] = {"raster", 0, "NAME", SLANTED,
         "the rasterizer, its subpixel grid and how it sets up depth: @; of the specifications the worst that they "
         "allow; see 'depthprec list rasterizers'", ROW(raster, rasters),
-        .without = "--subpixel, and a plane anchored at a vertex"},
+        .without = "--subpixel, and a plane anchored at a vertex",
+        .except = {BUT(VERB_ZFIGHT, "llvmpipe", NULL, "with --triangles: the rasterizer that draws: llvmpipe, lavapipe, "
+                       "softpipe or swiftshader")}},
     [OPTION_SUBPIXEL] = {"subpixel", 0, "BITS", SLANTED,
         "instead: bits of the grid to which vertices move; Direct3D has 8, Vulkan and OpenGL at least 4; with "
         "spec-vulkan and spec-gl how many more there are",
@@ -192,6 +196,10 @@ const option_row option_rows[OPTION_COUNT] = {
     [OPTION_SLANT] = {"slant", 0, "LO:HI", SLANTED,
         "angles of the surfaces' normal to the view axis, degrees; 0 faces the camera, 90 is edge-on",
         .parse = parse_slant, .standard = "0:90"},
+    [OPTION_PLANE] = {"plane", 0, "SLANT,AZIMUTH", DRAWS,
+        "in place of --slant: the angle of the planes' normal to the view axis and where it points on the screen, "
+        "degrees, 0 to the right and 90 up",
+        .parse = parse_plane, .without = "any azimuth"},
     [OPTION_TRIANGLE] = {"triangle", 0, "depth=K,pixels=P,slim=Q", SLANTED,
         "the triangles: vertices at depths from z/K to K z, at most P pixels wide and high, no slimmer than 1:Q",
         .parse = parse_triangle, .standard = "depth=2,pixels=512,slim=16"},
@@ -219,6 +227,9 @@ const option_row option_rows[OPTION_COUNT] = {
         "draw N pairs at random", WHOLE(sample, 1, 1e12, NULL), .without = "visit every depth"},
     [OPTION_SEED] = {"seed", 0, "S", COUNTED, /* JSON holds it exactly */
         "seed of --sample: the same pairs for the same seed", WHOLE(seed, 0, 0x1p53, NULL), .standard = "0"},
+    [OPTION_TRIANGLES] = {"triangles", 0, NULL, VERB_ZFIGHT,
+        "draw pairs of slanted planes as random triangles: how near they come before a pixel is wrong, against what "
+        "is guaranteed", FLAG(drawn)},
     [OPTION_HALF_HEIGHT] = {"half-height", 0, "H", VERB_TEXTURE,
         "with --ortho: half the height of the view", LENGTH(camera.half_height, 1e-12, 1e12, "scene units"),
         .standard = "5", .group = "The depth texture"},

@@ -36,26 +36,48 @@ int view_vertical(const options *o, int width, int height, double *fov_y) {
     return EXIT_FINE;
 }
 
+/* What draws: a rasterizer whose arithmetic is known, and of the formats those that it has. */
+static int take_drawn(options *o) {
+    size_t kept = 0;
+    if (o->raster == NULL)
+        o->raster = raster_find("llvmpipe");
+    if (o->raster->model == NULL)
+        return option_refuse(&option_rows[OPTION_RASTER], "must be one whose arithmetic is known, got '%s'",
+                             o->raster->name);
+    for (size_t i = 0; i < o->format_count; i++)
+        if (raster_draws(o->raster, &o->formats[i]))
+            o->formats[kept++] = o->formats[i];
+        else if (option_given(o, OPTION_FORMAT))
+            return option_refuse(&option_rows[OPTION_FORMAT], "must be one that %s has and that can be bounded, got %s",
+                                 o->raster->name, o->formats[i].name);
+    o->format_count = kept;
+    return EXIT_FINE;
+}
+
 int slant_complete(options *o) {
-    static const option_id beside[] = {OPTION_FOV,      OPTION_HFOV,  OPTION_RASTER,
-                                       OPTION_SUBPIXEL, OPTION_SLANT, OPTION_TRIANGLE};
-    if (!option_given(o, OPTION_VIEWPORT))
+    static const option_id beside[] = {OPTION_FOV,   OPTION_HFOV,  OPTION_RASTER,  OPTION_SUBPIXEL,
+                                       OPTION_SLANT, OPTION_PLANE, OPTION_TRIANGLE};
+    const bool slanted = option_given(o, OPTION_VIEWPORT) || o->drawn;
+    if (!slanted)
         o->triangles.width = 0;
     if ((o->verb->bit & option_rows[OPTION_VIEWPORT].commands) == 0)
         return EXIT_FINE;
     for (size_t i = 0; i < sizeof beside / sizeof beside[0]; i++)
-        if (option_given(o, beside[i]) && !option_given(o, OPTION_VIEWPORT))
+        if (option_given(o, beside[i]) && !slanted)
             return option_refuse(&option_rows[beside[i]], "needs --viewport: surfaces face the camera");
-    if (!option_given(o, OPTION_VIEWPORT))
+    if (!slanted)
         return EXIT_FINE;
+    if (option_given(o, OPTION_SLANT) && option_given(o, OPTION_PLANE))
+        return option_refuse(&option_rows[OPTION_PLANE], "cannot be combined with --slant");
     if (o->ortho)
-        return option_refuse(&option_rows[OPTION_VIEWPORT], "does not apply with --ortho");
+        return option_refuse(&option_rows[o->drawn ? OPTION_TRIANGLES : OPTION_VIEWPORT],
+                             "does not apply with --ortho");
     if (o->terms.world > 0.0)
         return option_refuse(&option_rows[OPTION_VIEWPORT], "cannot be combined with --world");
-    int status = view_vertical(o, o->triangles.width, o->triangles.height, &o->triangles.fov_y);
+    int status = o->drawn ? take_drawn(o) : EXIT_FINE;
     if (status == EXIT_FINE)
-        status = take_raster(o);
-    return status;
+        status = view_vertical(o, o->triangles.width, o->triangles.height, &o->triangles.fov_y);
+    return status == EXIT_FINE ? take_raster(o) : status;
 }
 
 void slant_take_preset(options *o, const preset *p) {

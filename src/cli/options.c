@@ -33,7 +33,7 @@ int option_error(option_id id, const char *format, ...) {
 }
 
 static void set_defaults(options *o) {
-    *o = (options){.target = SOLVE_FOR_ANY, .triangles = dp_triangles_default()};
+    *o = (options){.target = SOLVE_FOR_ANY, .triangles = dp_triangles_default(), .azimuth = (double)NAN};
     for (int id = 0; id < OPTION_COUNT; id++)
         if (option_rows[id].standard != NULL)
             option_rows[id].parse(o, &option_rows[id], option_rows[id].standard);

@@ -60,6 +60,7 @@ typedef enum option_id {
     OPTION_RASTER,
     OPTION_SUBPIXEL,
     OPTION_SLANT,
+    OPTION_PLANE,
     OPTION_TRIANGLE,
     OPTION_API,
     OPTION_UNITS,
@@ -69,6 +70,7 @@ typedef enum option_id {
     OPTION_GAP,
     OPTION_SAMPLE,
     OPTION_SEED,
+    OPTION_TRIANGLES,
     OPTION_HALF_HEIGHT,
     OPTION_MATRIX,
     OPTION_YAW,
@@ -174,6 +176,7 @@ typedef struct options {
     dp_triangles triangles;   /**< --viewport, --fov, --hfov, --raster, --subpixel, --slant, --triangle; width 0
                                    without the first */
     double fov_x;             /**< --hfov, degrees */
+    double azimuth;           /**< --plane, degrees from right to up; NaN when not given */
     const raster_row *raster; /**< --raster; null when not given */
 
     const unit_row *unit; /**< what a scene unit is; null where nothing says it: lengths are converted already */
@@ -187,6 +190,7 @@ typedef struct options {
     double gap;      /**< scene units; 0 when not given */
     uint64_t sample; /**< pairs to draw; 0 when not given */
     uint64_t seed;
+    bool drawn;  /**< --triangles: the surfaces are drawn */
     int threads; /**< 0 when not given: as many as there are cores */
 
     camera_spec camera;     /**< --size, --fov, --half-height, --yaw, --pitch, --origin */

@@ -133,6 +133,10 @@ static bool has_format(const raster_model *model, const dp_format *format) {
     return format->bits == 16 || (format->bits == 24 && !model->no_unorm24);
 }
 
+bool raster_draws(const raster_row *row, const dp_format *format) {
+    return row->model != NULL && has_format(row->model, format) && raster_bounded(row, format);
+}
+
 raster_status raster_target_init(raster_target *target, size_t row, int width, int height, const dp_format *format,
                                  dp_path path) {
     const raster_row *found = raster_get(row);

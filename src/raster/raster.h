@@ -84,6 +84,9 @@ const raster_row *raster_find(const char *name);
  */
 void raster_describe(const raster_row *row, dp_triangles *triangles);
 
+/** Whether it draws into the format, with codes within the bound of triangles.h; false of specifications. */
+bool raster_draws(const raster_row *row, const dp_format *format);
+
 /** Whether codes of the format are within the bound of triangles.h: those that softpipe steps, unorm16, are not. */
 bool raster_bounded(const raster_row *row, const dp_format *format);
 
