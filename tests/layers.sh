@@ -11,12 +11,13 @@ src/core          | depthprec core
 src/api           | depthprec core api
 src/census        | depthprec core census
 src/raster        | depthprec core raster
+src/vertex        | depthprec core vertex
 src/texture       | depthprec core texture
 src/method        | depthprec core texture census method
 src/need          | depthprec core api need
 src/report        | depthprec report
 src/plot          | depthprec core api census raster texture method need plot
-src/cli           | depthprec core api census raster texture method need report plot cli
+src/cli           | depthprec core api census raster vertex texture method need report plot cli
 '
 
 strangers() { # strangers FOLDER LAYER...: prints the quoted includes that name another layer, or none

@@ -27,6 +27,7 @@
 #include "texture/packing.h"
 #include "texture/position.h"
 #include "texture/scene.h"
+#include "vertex/compare.h"
 
 /** The options, in the order in which help lists them. The index of an option's row is its id. */
 typedef enum option_id {
@@ -67,6 +68,9 @@ typedef enum option_id {
     OPTION_GAP,
     OPTION_SAMPLE,
     OPTION_SEED,
+    OPTION_AGAINST,
+    OPTION_PROGRAM,
+    OPTION_VERTICES,
     OPTION_HALF_HEIGHT,
     OPTION_MATRIX,
     OPTION_YAW,
@@ -184,7 +188,11 @@ typedef struct options {
     double gap;      /**< scene units; 0 when not given */
     uint64_t sample; /**< pairs to draw; 0 when not given */
     uint64_t seed;
-    int threads; /**< 0 when not given: as many as there are cores */
+    const vertex_program *against[VERTEX_OTHERS]; /**< in the order given, each once */
+    size_t against_count;                         /**< 0: --against was not given */
+    const vertex_program *program;                /**< what they are compared with */
+    unsigned vertices;                            /**< how they are drawn: a vertex_spread */
+    int threads;                                  /**< 0 when not given: as many as there are cores */
 
     camera_spec camera;     /**< --size, --fov, --half-height, --yaw, --pitch, --origin */
     const char *matrix;     /**< file of a projection matrix, which then says the planes and the field of view */
