@@ -150,7 +150,7 @@ static stored store(const dp_pipeline *p, vertex_clip clip) {
 
 static vertex_gap gap_of(const dp_pipeline *p, double a, double b) {
     const double greater = fmax(a, b), lesser = fmin(a, b);
-    return (vertex_gap){greater - lesser + dp_half_ulp(greater), p->reversed ? lesser : greater};
+    return (vertex_gap){greater - lesser, p->reversed ? lesser : greater};
 }
 
 static void compare_one(const vertex_request *r, const dp_pipeline *p, uint64_t i, tally *tallies) {

@@ -43,7 +43,7 @@ typedef struct vertex_request {
 
 /** A vertex that the programs part, by the bias that brings one in front of the other, or level with it. */
 typedef struct vertex_gap {
-    double bias;  /**< window depth: their difference, and half a step of binary32 for the rounding of the sum */
+    double bias; /**< their difference in window depth: both are binary32, so the sum is not rounded back past either */
     double depth; /**< window depth of the pass that is farther, which is the one that needs it */
 } vertex_gap;
 
