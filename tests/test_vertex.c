@@ -309,7 +309,7 @@ static void test_differences(void **state) {
         const dp_setup setup = setup_of(rows[k].mapping, rows[k].format, 0.1, 1000, 0);
         vertex_request r = {.setup = &setup,
                             .spread = rows[k].spread,
-                            .lo = 0.2,
+                            .lo = 0.1,
                             .hi = 900,
                             .world = rows[k].world,
                             .count = draws,
