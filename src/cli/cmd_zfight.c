@@ -8,6 +8,7 @@
 #include "cli/stop.h"
 #include "cli/walk.h"
 #include "cli/zfight_triangles.h"
+#include "cli/zfight_against.h"
 #include "report/number.h"
 
 /* A band, or all of them together, and what of it does not exist as NaN. */
@@ -256,10 +257,14 @@ static void warn(const zfight *z) {
 }
 
 static int check(zfight *z) {
+    static const option_id of_programs[] = {OPTION_PROGRAM, OPTION_VERTICES, OPTION_WORLD};
     const options *o = z->walk.o;
     for (option_id id = OPTION_FOV; id <= OPTION_TRIANGLE; id++)
         if (option_given(o, id))
             return option_error(id, "needs --triangles");
+    for (size_t i = 0; i < sizeof of_programs / sizeof of_programs[0]; i++)
+        if (option_given(o, of_programs[i]))
+            return option_error(of_programs[i], "needs --against");
     if (option_given(o, OPTION_SEED) && o->sample == 0)
         return option_error(OPTION_SEED, "needs --sample");
     options fp32 = *o;
@@ -297,6 +302,8 @@ static int run(zfight *z) {
 int cmd_zfight(const options *o) {
     if (o->drawn)
         return zfight_triangles(o);
+    if (o->against_count > 0)
+        return zfight_against(o);
     zfight z = {.walk.o = o, .method = o->sample > 0 ? "sample" : "census", .seed = o->seed, .gap = o->gap};
     int status = check(&z);
     if (status == EXIT_FINE) {
