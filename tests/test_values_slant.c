@@ -260,6 +260,33 @@ static void test_presets(void **state) {
     printed_free(&p);
 }
 
+/* Over a range, of both. */
+static void test_range(void **state) {
+    const slant_case *c = &cases[0];
+    printed p = print_of("table %s %s --at 700 --range 3:5e4 --json", c->camera, c->options);
+    json_t *root = json_of(p.out);
+    const json_t *setup = json_array_get(json_object_get(root, "setups"), 0);
+    (void)state;
+    for (int slanted = 0; slanted < 2; slanted++) {
+        const json_t *got = json_object_get(setup, slanted ? "worst_separation_slanted" : "worst_separation");
+        dp_spec spec = dp_spec_default();
+        dp_setup full;
+        dp_separation_worst worst;
+        spec.znear = c->znear;
+        spec.zfar = c->zfar;
+        spec.mapping = c->mapping;
+        spec.model = DP_MODEL_FP32;
+        if (slanted)
+            spec.triangles = c->triangles;
+        assert_int_equal(dp_setup_init(&full, &spec), DP_OK);
+        assert_int_equal(dp_separation_over(&full, 3, 5e4, 0, &worst), DP_OK);
+        assert_true(at(got, "bound") == worst.bound && at(got, "separation") == worst.separation);
+        assert_true(at(got, "z") == worst.z && at(got, "lo") == 3 && at(got, "hi") == 5e4);
+    }
+    json_decref(root);
+    printed_free(&p);
+}
+
 /* Where nothing is certain, it is what lies in front of the farther surface that is not. */
 static void test_hopeless(void **state) {
     const slant_case *c = &cases[2];
@@ -271,8 +298,8 @@ static void test_hopeless(void **state) {
 }
 
 int main(void) {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(test_rows), cmocka_unit_test(test_text),
+    const struct CMUnitTest tests[] = {cmocka_unit_test(test_rows),       cmocka_unit_test(test_text),
                                        cmocka_unit_test(test_rasterizer), cmocka_unit_test(test_presets),
-                                       cmocka_unit_test(test_hopeless)};
+                                       cmocka_unit_test(test_range),      cmocka_unit_test(test_hopeless)};
     return run_tap(tests);
 }
