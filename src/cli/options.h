@@ -62,6 +62,12 @@ typedef enum option_id {
     OPTION_SLANT,
     OPTION_PLANE,
     OPTION_TRIANGLE,
+    OPTION_CASCADES,
+    OPTION_LAMBDA,
+    OPTION_LIGHT_BOX,
+    OPTION_CASTERS,
+    OPTION_KERNEL,
+    OPTION_ANGLE,
     OPTION_API,
     OPTION_UNITS,
     OPTION_FACTOR,
@@ -192,6 +198,13 @@ typedef struct options {
     uint64_t seed;
     bool drawn;  /**< --triangles: the surfaces are drawn */
     int threads; /**< 0 when not given: as many as there are cores */
+
+    unsigned cascades;   /**< of a shadow map */
+    double lambda;       /**< of their split: 0 even, 1 logarithmic */
+    double light_box[3]; /**< width, height, depth, scene units; 0 when not given */
+    double casters;      /**< scene units */
+    unsigned kernel;     /**< the filter reads so many texels in either direction */
+    double angle;        /**< of a receiver's normal to the light, degrees */
 
     camera_spec camera;     /**< --size, --fov, --half-height, --yaw, --pitch, --origin */
     const char *matrix;     /**< file of a projection matrix, which then says the planes and the field of view */
