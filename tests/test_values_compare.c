@@ -25,7 +25,7 @@ typedef struct camera {
 } camera;
 
 static const dp_triangles hd = {1920, 1080, 60, 8, {2, 11, 2, 0}, 0, 90, 2, 512, 16};
-static const dp_triangles mesa = {640, 480, 40, 0, {3, 10, 2, 5}, 10, 80, 2, 512, 16};
+static const dp_triangles mesa = {640, 480, 40, 0, {3, 10, 2, 4}, 10, 80, 2, 512, 16};
 
 static const camera cameras[] = {
     {"", 0.1, 1000, 0, 5, {0.1, 1, 10, 100, 1000}, 8, NULL},
