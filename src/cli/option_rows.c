@@ -201,7 +201,9 @@ const option_row option_rows[OPTION_COUNT] = {
         "count what a rasterizer does to slanted triangles in a viewport of these pixels; z is then the depth of the "
         "farther surface, and the separation is along the normal",
         .parse = parse_viewport, .without = "surfaces face the camera",
-        .except = {BUT(VERB_ZFIGHT, "1920x1080", NULL, "with --triangles: the pixels of the viewport"),
+        .except = {BUT(VERB_ZFIGHT, NULL, "1920x1080 with --triangles, else surfaces face the camera",
+                       "the pixels of the viewport; without --triangles what is guaranteed at any slant stands beside "
+                       "the census"),
                    BUT(SHADOWED, "1920x1080", NULL, "pixels of the view, which say how wide it is")}},
     [OPTION_RASTER] = {"raster", 0, "NAME", SLANTED,
         "the rasterizer, its subpixel grid and how it sets up depth: @; of the specifications the worst that they "
