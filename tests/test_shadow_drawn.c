@@ -136,9 +136,34 @@ static bool reads(const stage *s, float t, int size, int texel) {
     return at <= s->light.kernel;
 }
 
+/* What an API adds for the units and the factor that it takes; the greatest depth of the primitive decides their worth.
+ */
+static float added_by(const stage *s, const shadow_state *state, const bias_api *api, float slope) {
+    const dp_format *format = &s->light.setup.spec.format;
+    const bool is_float = format->kind == DP_FORMAT_FLOAT;
+    const bias_rule rule = is_float ? api->real : api->unorm;
+    float deepest = 0.0F;
+    int e;
+    for (int i = 0; i < 3; i++) {
+        double place[3];
+        float clip[3];
+        to_world(s, s->caster[i], place);
+        transform(s, (const float[3]){(float)place[0], (float)place[1], (float)place[2]}, clip);
+        deepest = fmaxf(deepest, clip[2]);
+    }
+    (void)frexpf(deepest, &e);
+    const float unit = rule == BIAS_ONE        ? 1.0F
+                       : rule == BIAS_EXPONENT ? ldexpf(1.0F, e - 24)
+                       : rule == BIAS_MANTISSA ? 0x1p-24F
+                       : rule == BIAS_CODE     ? (float)(1.0 / (double)format->code_max)
+                                               : ldexpf(1.0F, -format->bits);
+    const float constant = (float)state->units * unit;
+    return state->factor > 0.0 ? constant + (float)state->factor * slope : constant;
+}
+
 /* Whether the point is lit with a share of a bias; *judged where its lookup reads the texel. */
-static bool lit(const stage *s, shadow_way way, double share, const spot *point, float depth, float slope,
-                bool *judged) {
+static bool lit(const stage *s, shadow_way way, double share, const bias_api *api, const spot *point, float depth,
+                float slope, bool *judged) {
     const shadow_bias *bias = &s->need.bias[way];
     double place[3];
     float p[3], clip[3];
@@ -160,7 +185,13 @@ static bool lit(const stage *s, shadow_way way, double share, const spot *point,
     float o = rounded_up(share * bias->window);
     if (way == SHADOW_SLOPE)
         o = o + rounded_up(share * bias->factor) * slope;
-    const bool shader = s->in_shader && way != SHADOW_SLOPE;
+    if (api != NULL) {
+        const shadow_state state = shadow_state_of(&s->light, bias, api);
+        if (isinf(state.units))
+            return true; /* said to be impossible */
+        o = added_by(s, &state, api, slope);
+    }
+    const bool shader = s->in_shader && way != SHADOW_SLOPE && api == NULL;
     const float value = stored_value(s, shader ? depth : depth + sign * o);
     const float reference = shader ? clip[2] - sign * o : clip[2];
     return s->light.setup.reversed ? reference >= value : reference <= value;
@@ -424,13 +455,13 @@ typedef struct outcome {
 } outcome;
 
 static bool lit_at(const rng *r, stage *s, const plan *p, const double off[2], shadow_way way, double share,
-                   bool *judged) {
+                   const bias_api *api, bool *judged) {
     const double sine = sin(s->light.triangles.slant_hi * pi / 180.0);
     rng same = *r;
     spot point;
     float depth, slope;
     *judged = set(&same, s, p, off, share * s->need.bias[way].offset * sine, &point) && draw(s, &depth, &slope);
-    return *judged && lit(s, way, share, &point, depth, slope, judged);
+    return *judged && lit(s, way, share, api, &point, depth, slope, judged);
 }
 
 /* One point: lit with the bias itself; and the largest share with which it is dark. */
@@ -441,15 +472,17 @@ static void judge(rng *r, stage *s, const plan *p, double least, tally *t, outco
         bool judged;
         if (!isfinite(s->need.bias[way].factor))
             continue;
+        const bias_api *api = bias_api_get(rng_below(r, 12)); /* or none */
         aim(r, s, down, off);
-        const bool light = lit_at(r, s, p, off, way, 1.0, &judged);
+        const bool light = lit_at(r, s, p, off, way, 1.0, api, &judged);
         if (judged)
-            TALLY(t, light, "%s %s %s: %d texels, kernel %g, %d bits, slant %.17g, box %g x %g, share %g", s->name,
-                  s->light.setup.spec.format.name, shadow_way_name(way), s->target.width, s->light.kernel,
-                  s->light.subtexel, s->light.triangles.slant_hi, s->light.width, s->f - s->n, s->need.bias[way].share);
+            TALLY(t, light, "%s %s %s %s: %d texels, kernel %g, %d bits, slant %.17g, box %g x %g, share %g", s->name,
+                  s->light.setup.spec.format.name, shadow_way_name(way), api != NULL ? api->name : "", s->target.width,
+                  s->light.kernel, s->light.subtexel, s->light.triangles.slant_hi, s->light.width, s->f - s->n,
+                  s->need.bias[way].share);
         for (int i = 0; judged && i < 8; i++) {
             const double share = i == 0 ? least : 0.5 * (lo + hi);
-            *(lit_at(r, s, p, off, way, share, &judged) ? &hi : &lo) = share;
+            *(lit_at(r, s, p, off, way, share, NULL, &judged) ? &hi : &lo) = share;
         }
         if (judged) {
             o->judged[way]++;
@@ -486,6 +519,8 @@ static bool fits(rng *r, stage *s, const plan *p) {
     for (int way = 0; way < SHADOW_WAY_COUNT; way++)
         if (isfinite(s->need.bias[way].factor) && !(p->z + 2.0 * s->need.bias[way].gap_light <= s->f))
             return false;
+    s->light.receiver_lo = fmax(p->z - s->need.bias[SHADOW_CONSTANT].gap_light, s->n);
+    s->light.receiver_hi = p->z + 1e-3 * (s->f - s->n) + s->need.bias[SHADOW_CONSTANT].gap_light;
     return true;
 }
 
