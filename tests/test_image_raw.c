@@ -122,36 +122,7 @@ static void what_is_refused(void **state) {
     }
 }
 
-/* A file that has a header has its own size, and one without says that its size is assumed. */
-static void what_is_said(void **state) {
-    char path[512];
-    (void)state;
-    snprintf(path, sizeof path, "%s", write_raw("said.raw", 640 * 480, 4, code_24));
-    printed p = print_of("texture %s -m d3d", path);
-    assert_int_equal(p.status, 0);
-    assert_non_null(strstr(p.errors, "640 x 480 pixels are assumed, by its length; --size sets them"));
-    assert_non_null(strstr(p.out, "640 x 480 pixels, raw of u4"));
-    printed_free(&p);
-    p = print_of("texture %s -m d3d --size 480x640", path);
-    assert_int_equal(p.status, 0);
-    assert_null(strstr(p.errors, "assumed"));
-    assert_non_null(strstr(p.out, "480 x 640 pixels, raw of u4"));
-    printed_free(&p);
-    p = print_of("texture %s -m d3d --channel Z", path);
-    assert_int_equal(p.status, 2);
-    assert_non_null(strstr(p.errors, "those of raw have no names"));
-    printed_free(&p);
-    snprintf(path, sizeof path, "%s", scratch_file("own.npy"));
-    p = print_of("texture --scene plane --size 8x8 -o %s", path);
-    printed_free(&p);
-    p = print_of("texture %s --size 8x8", path);
-    assert_int_equal(p.status, 2);
-    assert_non_null(strstr(p.errors, "--size: is for --scene and raw files"));
-    printed_free(&p);
-}
-
 int main(void) {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(what_is_read), cmocka_unit_test(what_is_refused),
-                                       cmocka_unit_test(what_is_said)};
+    const struct CMUnitTest tests[] = {cmocka_unit_test(what_is_read), cmocka_unit_test(what_is_refused)};
     return run_tap(tests);
 }

@@ -68,15 +68,33 @@ static int check_file_given(const options *o, const figure_row *row) {
     return EXIT_FINE;
 }
 
+/* Options of some figures alone. */
+static const struct {
+    option_id id;
+    unsigned takes;
+    const char *figure;
+} only[] = {{OPTION_INTERPOLATION, FIGURE_TERMS, "budget"}, {OPTION_WORLD, FIGURE_TERMS, "budget"},
+            {OPTION_COMPOSITION, FIGURE_TERMS, "budget"},   {OPTION_LINEARIZE, FIGURE_TERMS, "budget"},
+            {OPTION_FOV, FIGURE_SHADOW, "shadow"},          {OPTION_HFOV, FIGURE_SHADOW, "shadow"},
+            {OPTION_VIEWPORT, FIGURE_SHADOW, "shadow"},     {OPTION_SUBPIXEL, FIGURE_SHADOW, "shadow"},
+            {OPTION_TRIANGLE, FIGURE_SHADOW, "shadow"},     {OPTION_CASCADES, FIGURE_SHADOW, "shadow"},
+            {OPTION_LAMBDA, FIGURE_SHADOW, "shadow"},       {OPTION_LIGHT_BOX, FIGURE_SHADOW, "shadow"},
+            {OPTION_KERNEL, FIGURE_SHADOW, "shadow"},       {OPTION_ANGLE, FIGURE_SHADOW, "shadow"},
+            {OPTION_SIZE, FIGURE_SHADOW, "shadow"}};
+
+static int check_only(const options *o, const figure_row *row) {
+    for (size_t i = 0; i < sizeof only / sizeof only[0]; i++)
+        if (option_given(o, only[i].id) && (row->takes & only[i].takes) == 0)
+            return option_error(only[i].id, "does not apply to the figure %s, only to %s%s", row->name, only[i].figure,
+                                only[i].id == OPTION_SIZE ? "; a figure's size is --width and --height" : "");
+    return EXIT_FINE;
+}
+
 /* Options that this figure has no use for. */
 static int check_options(const options *o, const figure_row *row) {
     if (o->znear <= 0.0 && (row->takes & FIGURE_SIGNED) == 0)
         return option_error(OPTION_NEAR, "must be greater than 0 in the figure %s, got '%s'", row->name,
                             number_full(o->znear).text);
-    static const option_id terms[] = {OPTION_INTERPOLATION, OPTION_WORLD, OPTION_COMPOSITION, OPTION_LINEARIZE};
-    for (size_t i = 0; i < sizeof terms / sizeof terms[0]; i++)
-        if (option_given(o, terms[i]) && (row->takes & FIGURE_TERMS) == 0)
-            return option_error(terms[i], "does not apply to the figure %s, only to budget", row->name);
     if (option_given(o, OPTION_COMPOSITION) && !(o->terms.world > 0.0))
         return option_error(OPTION_COMPOSITION, "needs --world: eye depth is given");
     if (option_given(o, OPTION_MODEL) && (row->takes & FIGURE_BINARY32) != 0 && o->model != DP_MODEL_FP32)
@@ -271,6 +289,8 @@ int cmd_plot(const options *o) {
     int status = check_output(o);
     if (status == EXIT_FINE)
         status = check_file_given(o, p.row);
+    if (status == EXIT_FINE)
+        status = check_only(o, p.row);
     if (status != EXIT_FINE)
         return status;
     p.chart = chart_new();

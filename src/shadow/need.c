@@ -182,6 +182,8 @@ shadow_state shadow_state_of(const shadow_light *light, const shadow_bias *bias,
     shadow_bias set = *bias;
     set.window = state.units * (isfinite(high.most) ? high.most : high.least);
     set.factor = state.factor;
+    double same;
     shadow_gap_at(light, &set, light->triangles.slant_hi, &state.gap_light, &state.gap_normal);
+    shadow_gap_at(light, &set, 0.0, &state.gap_facing, &same);
     return state;
 }

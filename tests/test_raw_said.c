@@ -1,0 +1,46 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* What the command says of pixels without a header. What it makes of their bytes: test_image_raw. */
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "printed.h"
+#include "support.h"
+
+/* A file that has a header has its own size, and one without says that its size is assumed. */
+static void what_is_said(void **state) {
+    static const char pixels[640 * 480 * 4];
+    char path[512];
+    (void)state;
+    snprintf(path, sizeof path, "%s", scratch_file("said.raw"));
+    FILE *out = fopen(path, "wb");
+    assert_non_null(out);
+    assert_int_equal(fwrite(pixels, 1, sizeof pixels, out), sizeof pixels);
+    assert_int_equal(fclose(out), 0);
+    printed p = print_of("texture %s -m d3d", path);
+    assert_int_equal(p.status, 0);
+    assert_non_null(strstr(p.errors, "640 x 480 pixels are assumed, by its length; --size sets them"));
+    assert_non_null(strstr(p.out, "640 x 480 pixels, raw of u4"));
+    printed_free(&p);
+    p = print_of("texture %s -m d3d --size 480x640", path);
+    assert_int_equal(p.status, 0);
+    assert_null(strstr(p.errors, "assumed"));
+    assert_non_null(strstr(p.out, "480 x 640 pixels, raw of u4"));
+    printed_free(&p);
+    p = print_of("texture %s -m d3d --channel Z", path);
+    assert_int_equal(p.status, 2);
+    assert_non_null(strstr(p.errors, "those of raw have no names"));
+    printed_free(&p);
+    snprintf(path, sizeof path, "%s", scratch_file("own.npy"));
+    p = print_of("texture --scene plane --size 8x8 -o %s", path);
+    printed_free(&p);
+    p = print_of("texture %s --size 8x8", path);
+    assert_int_equal(p.status, 2);
+    assert_non_null(strstr(p.errors, "--size: is for --scene and raw files"));
+    printed_free(&p);
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {cmocka_unit_test(what_is_said)};
+    return run_tap(tests);
+}
