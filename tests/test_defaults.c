@@ -21,6 +21,7 @@ static const struct {
     {VERB_SOLVE, "solve -F d24 -m d3d --separation 0.01 --at 50"},
     {VERB_BIAS, "bias --units -1"},
     {VERB_STABILITY, "stability encode"},
+    {VERB_SHADOW, "shadow"},
     {VERB_LIST, "list scenes"},
 };
 
@@ -43,6 +44,7 @@ static const struct {
     {VERB_TEXTURE, OPTION_HALF_HEIGHT, NULL, "--ortho"},
     {VERB_TEXTURE, OPTION_SIZE, "texture --scene plane", ""},
     {VERB_BIAS, OPTION_CLAMP, NULL, "--api vulkan"},
+    {VERB_PLOT, OPTION_API, "plot shadow --csv", ""},
     {VERB_BIAS, OPTION_API, "bias -F fp32", ""},
     {VERB_TABLE, OPTION_MODEL, "table -F d24 -m d3d", ""},
     {VERB_TABLE, OPTION_ARITH, NULL, "--model float"},

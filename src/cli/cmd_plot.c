@@ -10,6 +10,7 @@
 #include "cli/figure_file.h"
 #include "cli/list.h"
 #include "cli/methods.h"
+#include "cli/shadow_maps.h"
 #include "core/append.h"
 #include "plot/figure.h"
 #include "plot/notes.h"
@@ -30,6 +31,7 @@ typedef struct plotting {
     methods_asked asked;
     char where[256]; /* of what is timed */
     need_file file;
+    shadow_maps maps;
     chart *chart;
 } plotting;
 
@@ -212,6 +214,26 @@ static int resolve_file(plotting *p) {
     return status == EXIT_FINE ? check_read(p->o->operands[1], &p->file) : status;
 }
 
+/* Shadow maps bring their own cameras. */
+static int resolve_shadow(plotting *p) {
+    const options o = shadow_options(p->o);
+    const unsigned n = o.kernel;
+    if (o.format_count * o.mapping_count != 1)
+        return usage_error("plot %s: shows one format in one mapping, got %zu: name one with --format and --mapping",
+                           p->row->name, o.format_count * o.mapping_count);
+    const int status = shadow_maps_make(&o, &o.formats[0], o.mappings[0], &p->maps);
+    p->request.maps = p->maps.items;
+    p->request.map_count = p->maps.count;
+    p->chart->unit = options_unit(&o);
+    snprintf(p->chart->subtitle, sizeof p->chart->subtitle, "%s %s, %u x %u texels, filter of %u x %u",
+             o.formats[0].name, dp_mapping_get(o.mappings[0])->name, o.camera.width, o.camera.height, n, n);
+    if (p->maps.count > 1)
+        append(p->chart->subtitle, sizeof p->chart->subtitle,
+               "; cascades with the depths of the view and the texel%s%s", p->chart->unit != NULL ? " in " : "",
+               p->chart->unit != NULL ? p->chart->unit : "");
+    return status;
+}
+
 /* Which curves, or how many fields of a map, were computed by other methods than the exact engine. */
 static void say_methods(const chart_panel *panel) {
     const chart_map *m = &panel->map;
@@ -297,7 +319,9 @@ int cmd_plot(const options *o) {
     if (p.chart == NULL)
         return usage_error("plot: no memory");
     notes_clean(p.chart->title, sizeof p.chart->title, o->title != NULL ? o->title : "");
-    status = (p.row->takes & FIGURE_FILE) != 0 ? resolve_file(&p) : resolve_setups(&p);
+    status = (p.row->takes & FIGURE_FILE) != 0     ? resolve_file(&p)
+             : (p.row->takes & FIGURE_SHADOW) != 0 ? resolve_shadow(&p)
+                                                   : resolve_setups(&p);
     if (status == EXIT_FINE)
         status = write_figure(&p);
     chart_free(p.chart);

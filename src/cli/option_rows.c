@@ -219,7 +219,7 @@ const option_row option_rows[OPTION_COUNT] = {
     [OPTION_ANGLE] = {"angle", 0, "DEG", SHADOWED,
         "receivers up to this angle between their normal and the light are free of acne",
         NUMBER(angle, 0, SHADOW_SLANT_MAX, "degrees"), .standard = "75"},
-    [OPTION_API] = {"api", 0, "NAME", VERB_BIAS | SHADOWED,
+    [OPTION_API] = {"api", 0, "NAME", VERB_BIAS | VERB_SHADOW,
         "the API whose rule applies: @; all compares them, each with the call to write",
         ROW(api, apis), .standard = "d3d11",
         .group = "The bias"},
