@@ -17,7 +17,8 @@ static bool tried[OPTION_COUNT];
 /* One option behind a command, and its operand; `line` is what was said on stderr, without its line feed. */
 static int parse(options *o, const char *command, option_id id, const char *value, char line[1024]) {
     char words[32], name[64], given[128], viewport[] = "--viewport=64x48";
-    const bool slants = id == OPTION_HFOV || id == OPTION_SUBPIXEL || id == OPTION_SLANT || id == OPTION_TRIANGLE;
+    const bool slants = id == OPTION_HFOV || id == OPTION_RASTER || id == OPTION_SUBPIXEL || id == OPTION_SLANT ||
+                        id == OPTION_TRIANGLE;
     snprintf(words, sizeof words, "%s", command);
     snprintf(name, sizeof name, "--%s", option_name(id));
     snprintf(given, sizeof given, "%s", value != NULL ? value : "");
@@ -308,6 +309,8 @@ static void test_rows(void **state) {
         {"bias", OPTION_API, AT(api), "Vulkan", "vulkan", offsetof(bias_api, name), "wegbpu", "webgpu"},
         {"bias", OPTION_API, AT(api), "all", NULL, 0, "metall", "metal"},
         {"bias", OPTION_API, AT(api), "d3d12", "d3d11", offsetof(bias_api, name), "d3d14", "d3d11"},
+        {"table", OPTION_RASTER, AT(raster), "LLVMpipe", "llvmpipe", offsetof(raster_row, name), "lavapip", "lavapipe"},
+        {"budget", OPTION_RASTER, AT(raster), "spec-gl", "spec-gl", offsetof(raster_row, name), "spec-d3", "spec-d3d"},
         {"texture", OPTION_SCENE, AT(scene), "steps", "steps", offsetof(scene_row, name), "decal", "decals"},
         {"texture", OPTION_POSITION, AT(position), "rays", "rays", offsetof(position_row, name), "matirx", "matrix"},
         {"texture", OPTION_POSITION, AT(position), "exact", NULL, 0, "exakt", "exact"},
@@ -553,7 +556,6 @@ static void test_slanted(void **state) {
     assert_true(o.triangles.width == 32768 && o.triangles.height == 7 && o.triangles.subpixel == 8);
     assert_true(o.triangles.fov_y == 60 && o.triangles.slant_lo == 0 && o.triangles.slant_hi == 90);
     assert_true(o.triangles.depth == 2 && o.triangles.pixels == 512 && o.triangles.slim == 16);
-    assert_ptr_equal(o.terms.triangles, &o.triangles);
     assert_int_equal(parse(&o, "table", OPTION_SLANT, "0.5:80", line), EXIT_FINE);
     assert_true(o.triangles.slant_lo == 0.5 && o.triangles.slant_hi == 80);
     assert_int_equal(parse(&o, "table", OPTION_TRIANGLE, "slim=4,depth=3,pixels=20", line), EXIT_FINE);
@@ -563,7 +565,7 @@ static void test_slanted(void **state) {
     assert_int_equal(parse(&o, "budget", OPTION_HFOV, "90", line), EXIT_FINE);
     assert_relative(o.triangles.fov_y, 2 * atan(0.75) * 180 / 3.14159265358979323846, 1e-14);
     assert_int_equal(parse(&o, "budget", OPTION_QUIET, NULL, line), EXIT_FINE);
-    assert_null(o.terms.triangles);
+    assert_int_equal(o.triangles.width, 0);
     for (size_t i = 0; i < sizeof viewports / sizeof viewports[0]; i++)
         refused(&t, "table", OPTION_VIEWPORT, viewports[i], "WIDTHxHEIGHT, each from 1 to 32768 pixels");
     for (size_t i = 0; i < sizeof slants / sizeof slants[0]; i++)

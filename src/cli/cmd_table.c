@@ -46,13 +46,15 @@ typedef struct guarantee {
 typedef struct table {
     walk walk;
     double lo, hi;
-    way interval; /* without a row, the exact cell */
-    dp_setup exact, full;
+    way interval;                /* without a row, the exact cell */
+    dp_setup setup, exact, full; /* of surfaces that face the camera: as asked for, and in two models */
+    dp_setup slanted;            /* `full` with triangles */
     row row;
     dp_worst worst_case;
     const dp_worst *worst; /* null in a model without cells */
     guarantee over_range;
-    const dp_triangles *triangles; /* null: surfaces face the camera */
+    slant_fields slant;
+    const slant_fields *triangles; /* null: surfaces face the camera */
     const guarantee *guarantee;    /* null where there is none, or none is asked for */
     clipping planes;
     const clipping *drawn; /* null where there is no pipeline */
@@ -84,11 +86,7 @@ static double separation_in(const dp_setup *other, const dp_setup *setup, const 
 
 /* NaN where there is no pipeline, or no slant is asked for. */
 static double slanted_at(const table *t, double z) {
-    dp_budget b = {.separation = (double)NAN};
-    const dp_budget_terms terms = {.triangles = t->triangles};
-    if (t->triangles != NULL && t->full.spec.model == DP_MODEL_FP32)
-        dp_budget_at(&t->full, z, &terms, &b);
-    return b.separation;
+    return t->triangles != NULL && t->full.spec.model == DP_MODEL_FP32 ? dp_separation(&t->slanted, z) : (double)NAN;
 }
 
 static void set_digits(row *r) {
@@ -108,13 +106,13 @@ static void *next_row(void *of, size_t i) {
         choice_fields_of(&t->choice, &t->chosen);
         return NULL;
     }
-    dp_sample_at(t->walk.setup, z, &r->sample); /* cannot fail: depths_resolve() has seen to it */
-    r->lattice = separation_in(&t->exact, t->walk.setup, &r->sample);
-    r->guaranteed = separation_in(&t->full, t->walk.setup, &r->sample);
+    dp_sample_at(&t->setup, z, &r->sample); /* cannot fail: depths_resolve() has seen to it */
+    r->lattice = separation_in(&t->exact, &t->setup, &r->sample);
+    r->guaranteed = separation_in(&t->full, &t->setup, &r->sample);
     r->binary32 = t->full.spec.model == DP_MODEL_FP32 ? r->guaranteed : (double)NAN;
     r->slanted = slanted_at(t, z);
     if (t->interval.row != NULL)
-        r->sample.interval = way_interval(&t->interval, t->walk.setup, z);
+        r->sample.interval = way_interval(&t->interval, &t->setup, z);
     if (t->walk.o->form == FORM_TEXT)
         set_digits(r);
     if (t->walk.o->form != FORM_CSV)
@@ -134,8 +132,11 @@ static void *next_setup(void *of, size_t i) {
     table *t = of;
     if (!walk_setup(&t->walk, i))
         return NULL;
-    const dp_setup *setup = t->walk.setup;
+    const dp_setup *setup = &t->setup;
     const options *o = t->walk.o;
+    t->triangles = slant_fields_of(&t->walk.here, &t->slant);
+    t->setup = dp_setup_facing(t->walk.setup);
+    t->slanted = reach_model(t->walk.setup);
     range_resolve(&t->walk.here, &t->lo, &t->hi);
     t->exact = reach_in(setup, DP_MODEL_EXACT);
     t->full = reach_model(setup);
@@ -161,7 +162,7 @@ static void say_reach(page *p, void *item) {
     char text[REACH_TEXT_SIZE], sentence[REACH_TEXT_SIZE] = "";
     const unit_row *unit = t->walk.here.unit;
     walk_title(p, item);
-    slant_title(p, t->triangles, &t->full);
+    slant_title(p, &t->walk.here, &t->full);
     if (t->walk.all.count > 1)
         return;
     double up_to[REACH_LIMITS];
@@ -238,7 +239,7 @@ static void say_notes(page *p, void *item) {
 
 /* ---- Columns ----------------------------------------------------------------------------------------------------- */
 
-enum { WITH_TOLERANCE = 1, WITH_ARITH = 2, VERBOSE = 4, WITH_PRESETS = 8, WITH_TRIANGLES = 16 };
+enum { WITH_TOLERANCE = 1, WITH_ARITH = 2, VERBOSE = 4, WITH_PRESETS = 8, WITH_TRIANGLES = 16, ONE_CAMERA = 32 };
 
 static const column row_columns[] = {
     {FIELD(row, sample.z, "z", "scene"), SHOWN("z", 11, DIGITS_Z)},
@@ -290,6 +291,8 @@ static const column drawn_columns[] = {{FIELD(clipping, znear, "near_effective",
 
 static const column setup_report[] = {
     {PART(table, walk.fields, NULL, setup_columns)},
+    {PART(table, triangles, "triangles", slant_columns), .only = AS_JSON, .pointed = true, .optional = true,
+     .when = WITH_PRESETS},
     {FIELD(table, walk.fields.arith, "arith", ""), .only = AS_CSV, .when = WITH_ARITH},
     {FIELD(table, interval.name, "method", ""), .only = AS_JSON, .when = WITH_TOLERANCE},
     {FIELD(table, interval.claim, "claim", ""), .only = AS_JSON, .when = WITH_TOLERANCE},
@@ -303,15 +306,15 @@ static const column setup_report[] = {
     {PART(table, chosen, "auto", choice_columns), .only = AS_JSON},
     {.kind = COLUMN_END}};
 
-static const column columns[] = {
-    {PART(table, triangles, "triangles", slant_columns), .only = AS_JSON, .pointed = true, .optional = true},
-    {LIST("setups", setup_report, next_setup), .head = say_reach, .notes = say_notes},
-    {.kind = COLUMN_END}};
+static const column columns[] = {{PART(table, triangles, "triangles", slant_columns), .only = AS_JSON, .pointed = true,
+                                  .optional = true, .when = ONE_CAMERA},
+                                 {LIST("setups", setup_report, next_setup), .head = say_reach, .notes = say_notes},
+                                 {.kind = COLUMN_END}};
 
 /* What a table of these set-ups has: the variant of arithmetic only where some set-up has that model. */
 static unsigned conditions(const table *t) {
     unsigned when = (option_given(t->walk.o, OPTION_TOLERANCE) ? WITH_TOLERANCE : 0) |
-                    (t->walk.o->verbose ? VERBOSE : 0) | (t->walk.o->preset_count > 1 ? WITH_PRESETS : 0) |
+                    (t->walk.o->verbose ? VERBOSE : 0) | (t->walk.o->preset_count > 1 ? WITH_PRESETS : ONE_CAMERA) |
                     (t->triangles != NULL ? WITH_TRIANGLES : 0);
     for (size_t i = 0; i < t->walk.all.count; i++)
         if (t->walk.all.items[i].spec.model == DP_MODEL_FP32)
@@ -322,7 +325,8 @@ static unsigned conditions(const table *t) {
 int cmd_table(const options *o) {
     if (lookup_wanted(o))
         return lookup_write(o);
-    table t = {.triangles = o->terms.triangles};
+    table t = {0};
+    t.triangles = slant_fields_of(o, &t.slant);
     int status = walk_start(&t.walk, o);
     for (size_t i = 0; status == EXIT_FINE && walk_setup(&t.walk, i); i++) {
         status = range_resolve(&t.walk.here, &t.lo, &t.hi);

@@ -1,12 +1,13 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* zfight: what fights in the binary32 pipeline, by visiting every depth or, where asked, by a seeded sample. */
 #include <math.h>
-#include <signal.h>
 #include <stdio.h>
 #include <stdlib.h>
 
 #include "census/census.h"
+#include "cli/stop.h"
 #include "cli/walk.h"
+#include "cli/zfight_triangles.h"
 #include "report/number.h"
 
 /* A band, or all of them together, and what of it does not exist as NaN. */
@@ -33,16 +34,10 @@ typedef struct zfight {
 
 /* ---- Work, and how it is interrupted ----------------------------------------------------------------------------- */
 
-static volatile sig_atomic_t interrupted;
-
-static void interrupt(int number) {
-    interrupted = number;
-}
-
 static int tick(void *context, uint64_t done) {
     zfight *z = context;
     progress_step(&z->walk.progress, z->before + done);
-    return interrupted != 0;
+    return stop_asked();
 }
 
 static uint64_t visits(const zfight *z) {
@@ -262,6 +257,9 @@ static void warn(const zfight *z) {
 
 static int check(zfight *z) {
     const options *o = z->walk.o;
+    for (option_id id = OPTION_FOV; id <= OPTION_TRIANGLE; id++)
+        if (option_given(o, id))
+            return option_error(id, "needs --triangles");
     if (option_given(o, OPTION_SEED) && o->sample == 0)
         return option_error(OPTION_SEED, "needs --sample");
     options fp32 = *o;
@@ -282,20 +280,11 @@ static int check(zfight *z) {
 }
 
 static int run(zfight *z) {
-    struct sigaction action = {.sa_handler = interrupt};
-    struct sigaction before;
-    sigemptyset(&action.sa_mask);
-    if (sigaction(SIGINT, NULL, &before) == 0 && before.sa_handler != SIG_IGN)
-        sigaction(SIGINT, &action, NULL);
+    stop_watch();
     z->walk.progress = progress_start("depths", z->walk.all.count * visits(z), z->walk.o->quiet);
     int status = work_all(z);
     progress_end(&z->walk.progress);
-    if (interrupted) {
-        output_abandon(&z->walk.out);
-        fprintf(stderr, "depthprec: interrupted: nothing was written\n");
-        signal(SIGINT, SIG_DFL); /* the shell should see what ended us */
-        raise(SIGINT);
-    }
+    stop_end(&z->walk.out);
     if (status != EXIT_FINE) {
         output_abandon(&z->walk.out);
         return status;
@@ -306,6 +295,8 @@ static int run(zfight *z) {
 }
 
 int cmd_zfight(const options *o) {
+    if (o->drawn)
+        return zfight_triangles(o);
     zfight z = {.walk.o = o, .method = o->sample > 0 ? "sample" : "census", .seed = o->seed, .gap = o->gap};
     int status = check(&z);
     if (status == EXIT_FINE) {

@@ -90,14 +90,17 @@ static bool list_cause(size_t index, list_item *item) {
 }
 
 bool list_preset(size_t index, list_item *item) {
+    static const char *const axes[] = {
+        [PRESET_VERTICAL] = "vertical", [PRESET_HORIZONTAL] = "horizontal", [PRESET_LARGER] = "of the larger side"};
     const preset *row = preset_get(index);
     if (row == NULL)
         return false;
     *item = (list_item){.name = row->name, .note = row->note, .source = row->source, .row = row};
     const bool confirmed = row->unconfirmed[0] == '\0';
-    snprintf(item->bound, sizeof item->bound, "near %s, far %s, %s, %s, scene in %s; checked %s, %s%s",
+    snprintf(item->bound, sizeof item->bound, "near %s, far %s, %s, %s, fov %s %s, %s, scene in %s; checked %s, %s%s",
              number_full(row->znear).text, number_full(row->zfar).text, dp_mapping_get(row->mapping)->name, row->format,
-             row->unit, row->checked, confirmed ? "confirmed" : "not confirmed: ", row->unconfirmed);
+             number_full(row->fov).text, axes[row->axis], row->raster, row->unit, row->checked,
+             confirmed ? "confirmed" : "not confirmed: ", row->unconfirmed);
     return true;
 }
 

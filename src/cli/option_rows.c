@@ -19,6 +19,7 @@ static const name_list models = {.get = list_model_word};
 static const name_list ariths = {.get = list_arith};
 static const name_list compositions = {.get = list_composition};
 static const name_list apis = {.words = (const char *const[]){"all", NULL}, .get = list_api};
+static const name_list rasters = {.get = list_rasterizer};
 static const name_list scenes = {.get = list_scene};
 static const name_list positions = {.words = (const char *const[]){"exact", NULL}, .get = list_position};
 static const name_list normals = {.get = list_normal};
@@ -37,7 +38,8 @@ static const name_list reports = {.words = (const char *const[]){"text", "json",
 enum {
     MODELLED = VERB_TABLE | VERB_PLOT,
     BUDGETED = VERB_BUDGET | VERB_PLOT,
-    SLANTED = VERB_TABLE | VERB_BUDGET,
+    SLANTED = VERB_TABLE | VERB_BUDGET | VERB_ZFIGHT,
+    DRAWS = VERB_ZFIGHT,
     SHADOWED = VERB_SHADOW | VERB_PLOT,
     VIEWED = SLANTED | SHADOWED,
     ASKED = MODELLED | VERB_BUDGET,
@@ -103,17 +105,20 @@ const option_row option_rows[OPTION_COUNT] = {
         .except = {BUT(VERB_TEXTURE, NULL, "as the image has it; d3d with --scene; all with --effect alone", NULL),
                    BUT(VERB_BENCH, NULL, "that of the family's first case", NULL),
                    BUT(VERB_SOLVE, NULL, "solved for where near, far and format are given, else all", NULL),
-                   BUT(VERB_SHADOW, "d3d", NULL, "mappings: " DP_MAPPING_NAMES_PERSPECTIVE "; all are d3d and reversed"),
+                   BUT(VERB_SHADOW, "d3d", NULL, "mappings: " DP_MAPPING_NAMES_PERSPECTIVE
+                       "; all are d3d and reversed"),
                    BUT(VERB_ZFIGHT | VERB_BUDGET, "all", NULL,
-                       "mappings: " DP_MAPPING_NAMES_PERSPECTIVE "; all are d3d and reversed")}},
+                       "mappings: " DP_MAPPING_NAMES_PERSPECTIVE
+                       "; all are d3d and reversed")}},
     [OPTION_LOG_C] = {"log-c", 0, "C", MODELLED | TAKEN,
         "constant of the log mapping", NUMBER(log_c, 1e-12, 1e12, NULL), .standard = "1"},
     [OPTION_ORTHO] = {"ortho", 0, NULL, CAMERA | TAKEN,
         "orthographic projection; not with linear and log", FLAG(ortho), .without = "perspective",
         .except = {BUT(VERB_ZFIGHT | VERB_BUDGET, NULL, "perspective", "orthographic projection")}},
     [OPTION_PRESET] = {"preset", 0, "NAME[,NAME...]", CAMERA | TAKEN,
-        "an engine's near, far, mapping and format, for those that are not given: @; table compares "
-        "several; see 'depthprec list presets'", .parse = parse_presets, .names = &presets},
+        "an engine's near, far, mapping and format, for those that are not given, and with --viewport its field of "
+        "view and rasterizer: @; table compares several; see 'depthprec list presets'",
+        .parse = parse_presets, .names = &presets},
     [OPTION_UNIT] = {"unit", 0, NULL, PLACED | MAPPED,
         "what a scene unit is; presets are converted to it; any length may carry a unit: 10cm",
         .parse = parse_unit, .names = &units, .without = "that of the preset, or m where a length has a unit",
@@ -186,19 +191,31 @@ const option_row option_rows[OPTION_COUNT] = {
         "also count the loss of reading eye depth back in a binary32 shader", FLAG(terms.linearize)},
     [OPTION_FOV] = {"fov", 0, "DEG", VIEWED | VERB_TEXTURE,
         "vertical field of view", NUMBER(camera.fov_y, 0.01, 179, "degrees"), .standard = "60", .group = "The view"},
-    [OPTION_HFOV] = {"hfov", 0, "DEG", VIEWED,
+    [OPTION_HFOV] = {"hfov", 0, "DEG", VIEWED | VERB_TEXTURE,
         "horizontal field of view, in place of --fov", NUMBER(fov_x, 0.01, 179, "degrees"), .without = "as --fov says"},
     [OPTION_VIEWPORT] = {"viewport", 0, "WxH", VIEWED,
         "count what a rasterizer does to slanted triangles in a viewport of these pixels; z is then the depth of the "
         "farther surface, and the separation is along the normal",
         .parse = parse_viewport, .without = "surfaces face the camera",
-        .except = {BUT(SHADOWED, "1920x1080", NULL, "pixels of the view, which say how wide it is")}},
+        .except = {BUT(VERB_ZFIGHT, "1920x1080", NULL, "with --triangles: the pixels of the viewport"),
+                   BUT(SHADOWED, "1920x1080", NULL, "pixels of the view, which say how wide it is")}},
+    [OPTION_RASTER] = {"raster", 0, "NAME", SLANTED,
+        "the rasterizer, its subpixel grid and how it sets up depth: @; of the specifications the worst that they "
+        "allow; see 'depthprec list rasterizers'", ROW(raster, rasters),
+        .without = "--subpixel, and a plane anchored at a vertex",
+        .except = {BUT(VERB_ZFIGHT, "llvmpipe", NULL, "with --triangles: the rasterizer that "
+                       "draws: llvmpipe, lavapipe, softpipe or swiftshader")}},
     [OPTION_SUBPIXEL] = {"subpixel", 0, "BITS", VIEWED,
-        "bits of the grid to which a rasterizer moves vertices; Direct3D has 8, Vulkan and OpenGL at least 4",
+        "instead: bits of the grid to which vertices move; Direct3D has 8, Vulkan and OpenGL at least 4; with "
+        "spec-vulkan and spec-gl how many more there are",
         WHOLE(triangles.subpixel, 1, 8, "bits"), .standard = "8"},
     [OPTION_SLANT] = {"slant", 0, "LO:HI", SLANTED,
         "angles of the surfaces' normal to the view axis, degrees; 0 faces the camera, 90 is edge-on",
         .parse = parse_slant, .standard = "0:90"},
+    [OPTION_PLANE] = {"plane", 0, "SLANT,AZIMUTH", DRAWS,
+        "in place of --slant: the angle of the planes' normal to the view axis and where it points on the screen, "
+        "degrees, 0 to the right and 90 up",
+        .parse = parse_plane, .without = "any azimuth"},
     [OPTION_TRIANGLE] = {"triangle", 0, "depth=K,pixels=P,slim=Q", VIEWED,
         "the triangles: vertices at depths from z/K to K z, at most P pixels wide and high, no slimmer than 1:Q",
         .parse = parse_triangle, .standard = "depth=2,pixels=512,slim=16"},
@@ -243,6 +260,9 @@ const option_row option_rows[OPTION_COUNT] = {
         "draw N pairs at random", WHOLE(sample, 1, 1e12, NULL), .without = "visit every depth"},
     [OPTION_SEED] = {"seed", 0, "S", COUNTED, /* JSON holds it exactly */
         "seed of --sample: the same pairs for the same seed", WHOLE(seed, 0, 0x1p53, NULL), .standard = "0"},
+    [OPTION_TRIANGLES] = {"triangles", 0, NULL, VERB_ZFIGHT,
+        "draw pairs of slanted planes as random triangles: how near they come before a pixel is wrong, against what "
+        "is guaranteed", FLAG(drawn)},
     [OPTION_HALF_HEIGHT] = {"half-height", 0, "H", VERB_TEXTURE,
         "with --ortho: half the height of the view", LENGTH(camera.half_height, 1e-12, 1e12, "scene units"),
         .standard = "5", .group = "The depth texture"},
