@@ -229,7 +229,7 @@ static int resolve_shadow(plotting *p) {
              o.formats[0].name, dp_mapping_get(o.mappings[0])->name, o.camera.width, o.camera.height, n, n);
     if (p->maps.count > 1)
         append(p->chart->subtitle, sizeof p->chart->subtitle,
-               "; cascades with the depths of the view and the texel%s%s", p->chart->unit != NULL ? " in " : "",
+               "; depths of the view and texels%s%s", p->chart->unit != NULL ? " in " : "",
                p->chart->unit != NULL ? p->chart->unit : "");
     return status;
 }

@@ -78,7 +78,7 @@ static void add_panel(chart *out, const figure_request *request, size_t i) {
                             .unit = "degrees"};
     panel->y = (chart_axis){.scale = CHART_LOG, .label = "along the light", .key = "length", .unit = "scene units"};
     if (request->map_count > 1)
-        snprintf(panel->title, sizeof panel->title, "%zu: %.3g to %.3g, texel %.3g", i + 1, c->from, c->to,
+        snprintf(panel->title, sizeof panel->title, "Cascade %zu: %.3g to %.3g, texel %.3g", i + 1, c->from, c->to,
                  m.need.texel);
     for (int k = 0; k < SHADOW_WAY_COUNT; k++)
         if (isfinite(gap_at(&m, k, panel->x.hi)))
