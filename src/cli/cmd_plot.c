@@ -75,14 +75,15 @@ static const struct {
     option_id id;
     unsigned takes;
     const char *figure;
-} only[] = {{OPTION_INTERPOLATION, FIGURE_TERMS, "budget"}, {OPTION_WORLD, FIGURE_TERMS, "budget"},
-            {OPTION_COMPOSITION, FIGURE_TERMS, "budget"},   {OPTION_LINEARIZE, FIGURE_TERMS, "budget"},
-            {OPTION_FOV, FIGURE_SHADOW, "shadow"},          {OPTION_HFOV, FIGURE_SHADOW, "shadow"},
-            {OPTION_VIEWPORT, FIGURE_SHADOW, "shadow"},     {OPTION_SUBPIXEL, FIGURE_SHADOW, "shadow"},
-            {OPTION_TRIANGLE, FIGURE_SHADOW, "shadow"},     {OPTION_CASCADES, FIGURE_SHADOW, "shadow"},
-            {OPTION_LAMBDA, FIGURE_SHADOW, "shadow"},       {OPTION_LIGHT_BOX, FIGURE_SHADOW, "shadow"},
-            {OPTION_KERNEL, FIGURE_SHADOW, "shadow"},       {OPTION_ANGLE, FIGURE_SHADOW, "shadow"},
-            {OPTION_SIZE, FIGURE_SHADOW, "shadow"}};
+} only[] = {
+    {OPTION_INTERPOLATION, FIGURE_TERMS, "budget"}, {OPTION_WORLD, FIGURE_TERMS | FIGURE_SHADOW, "budget and shadow"},
+    {OPTION_COMPOSITION, FIGURE_TERMS, "budget"},   {OPTION_LINEARIZE, FIGURE_TERMS, "budget"},
+    {OPTION_FOV, FIGURE_SHADOW, "shadow"},          {OPTION_HFOV, FIGURE_SHADOW, "shadow"},
+    {OPTION_VIEWPORT, FIGURE_SHADOW, "shadow"},     {OPTION_SUBPIXEL, FIGURE_SHADOW, "shadow"},
+    {OPTION_RASTER, FIGURE_SHADOW, "shadow"},       {OPTION_TRIANGLE, FIGURE_SHADOW, "shadow"},
+    {OPTION_CASCADES, FIGURE_SHADOW, "shadow"},     {OPTION_LAMBDA, FIGURE_SHADOW, "shadow"},
+    {OPTION_LIGHT_BOX, FIGURE_SHADOW, "shadow"},    {OPTION_KERNEL, FIGURE_SHADOW, "shadow"},
+    {OPTION_ANGLE, FIGURE_SHADOW, "shadow"},        {OPTION_SIZE, FIGURE_SHADOW, "shadow"}};
 
 static int check_only(const options *o, const figure_row *row) {
     for (size_t i = 0; i < sizeof only / sizeof only[0]; i++)
@@ -216,8 +217,13 @@ static int resolve_file(plotting *p) {
 
 /* Shadow maps bring their own cameras. */
 static int resolve_shadow(plotting *p) {
+    static const option_id others[] = {OPTION_ORTHO, OPTION_PRESET, OPTION_ROUNDING,  OPTION_MODEL,
+                                       OPTION_ARITH, OPTION_LOG_C,  OPTION_TOLERANCE, OPTION_AT};
     const options o = shadow_options(p->o);
     const unsigned n = o.kernel;
+    for (size_t i = 0; i < sizeof others / sizeof others[0]; i++)
+        if (option_given(&o, others[i]))
+            return option_error(others[i], "does not apply to the figure %s", p->row->name);
     if (o.format_count * o.mapping_count != 1)
         return usage_error("plot %s: shows one format in one mapping, got %zu: name one with --format and --mapping",
                            p->row->name, o.format_count * o.mapping_count);
@@ -228,9 +234,8 @@ static int resolve_shadow(plotting *p) {
     snprintf(p->chart->subtitle, sizeof p->chart->subtitle, "%s %s, %u x %u texels, filter of %u x %u",
              o.formats[0].name, dp_mapping_get(o.mappings[0])->name, o.camera.width, o.camera.height, n, n);
     if (p->maps.count > 1)
-        append(p->chart->subtitle, sizeof p->chart->subtitle,
-               "; depths of the view and texels%s%s", p->chart->unit != NULL ? " in " : "",
-               p->chart->unit != NULL ? p->chart->unit : "");
+        append(p->chart->subtitle, sizeof p->chart->subtitle, "; depths of the view and texels%s%s",
+               p->chart->unit != NULL ? " in " : "", p->chart->unit != NULL ? p->chart->unit : "");
     return status;
 }
 

@@ -199,7 +199,7 @@ const option_row option_rows[OPTION_COUNT] = {
         .parse = parse_viewport, .without = "surfaces face the camera",
         .except = {BUT(VERB_ZFIGHT, "1920x1080", NULL, "with --triangles: the pixels of the viewport"),
                    BUT(SHADOWED, "1920x1080", NULL, "pixels of the view, which say how wide it is")}},
-    [OPTION_RASTER] = {"raster", 0, "NAME", SLANTED,
+    [OPTION_RASTER] = {"raster", 0, "NAME", VIEWED,
         "the rasterizer, its subpixel grid and how it sets up depth: @; of the specifications the worst that they "
         "allow; see 'depthprec list rasterizers'", ROW(raster, rasters),
         .without = "--subpixel, and a plane anchored at a vertex",
