@@ -62,15 +62,16 @@ static way way_of(const shadow_light *light, const shadow_need *need, int k, con
     const shadow_bias *b = &need->bias[k];
     const shadow_state state = shadow_state_of(light, b, api);
     const int sign = shadow_sign(light);
+    const bool none = !isfinite(b->factor) || !isfinite(state.units);
     return (way){.window = b->window,
-                 .units = signed_or_none(isfinite(b->factor) ? state.units : b->factor, sign),
+                 .units = none ? (double)NAN : signed_or_none(state.units, sign),
                  .factor = signed_or_none(b->factor, sign),
                  .offset = b->offset,
                  .texels = b->offset / need->texel,
-                 .gap = state.gap_light,
-                 .gap_normal = state.gap_normal,
-                 .gap_facing = state.gap_facing,
-                 .share = b->share};
+                 .gap = none ? (double)NAN : state.gap_light,
+                 .gap_normal = none ? (double)NAN : state.gap_normal,
+                 .gap_facing = none ? (double)NAN : state.gap_facing,
+                 .share = isfinite(b->factor) ? b->share : (double)NAN};
 }
 
 /* The number farther from 0; none where either is none. */
@@ -87,7 +88,7 @@ static way widest(const way *a, const way *b) {
                  .gap = wider(a->gap, b->gap),
                  .gap_normal = wider(a->gap_normal, b->gap_normal),
                  .gap_facing = wider(a->gap_facing, b->gap_facing),
-                 .share = fmin(a->share, b->share)};
+                 .share = isnan(a->share) || isnan(b->share) ? (double)NAN : fmin(a->share, b->share)};
 }
 
 /* Four digits that are enough, or all of a whole number. */
@@ -214,8 +215,8 @@ static void say_maps(page *p, void *item) {
         page_title(p, "box %s x %s, %s deep along the light", number_full(o->light_box[0]).text,
                    number_full(o->light_box[1]).text, number_full(o->light_box[2]).text);
     }
-    page_title(p, "%d subpixel bits, triangles from 1 to %s texels, no slimmer than 1:%s", t->subpixel,
-               number_full(t->pixels).text, number_full(t->slim).text);
+    page_title(p, "%d subpixel bit%s, triangles from 1 to %s texels, no slimmer than 1:%s", t->subpixel,
+               t->subpixel == 1 ? "" : "s", number_full(t->pixels).text, number_full(t->slim).text);
 }
 
 /* One API: what to write. All: what follows is a table of them. */
@@ -224,7 +225,7 @@ static void say_answer(page *p, void *item) {
     const char *where = s->maps.count > 1 ? " in any cascade" : "";
     say_maps(p, item);
     if (s->api == NULL) {
-        page_text(p, "No acne%s with the constant bias, or the next two, or the last two:", where);
+        page_text(p, "No acne%s with the constant U, with F and its U, or with the offset and its U:", where);
         return;
     }
     const whole w = whole_of(s, s->api);
@@ -289,6 +290,10 @@ static void say_notes(page *p, void *item) {
     page_note(p, "needed", "%s %%, %s %% and %s %% of these by slope times filter radius alone",
               number_down(100.0 * w.way[0].share, 2).text, number_down(100.0 * w.way[1].share, 2).text,
               number_down(100.0 * w.way[2].share, 2).text);
+    if (isnan(w.way[SHADOW_CONSTANT].units) && real)
+        page_note(p, "units",
+                  "are worth nothing at window depth 0 of a float format: --range LO:HI says where surfaces "
+                  "are lit");
     if (wide > 1.5)
         page_note(p, "units", "%s: the gap is up to %s times what is needed",
                   real ? "grow with the depth in a float format" : "may be worth more than is assumed",

@@ -102,7 +102,8 @@ int shadow_maps_make(const options *o, const dp_format *format, dp_mapping mappi
     if (status != EXIT_FINE)
         return status;
     if (dp_mapping_get(mapping)->curve != DP_CURVE_PERSPECTIVE)
-        return option_error(OPTION_MAPPING, "must be %s of a shadow map, got '%s'", DP_MAPPING_NAMES_PERSPECTIVE,
+        return option_error(OPTION_MAPPING,
+                            "must be one of the mappings " DP_MAPPING_NAMES_PERSPECTIVE " for a shadow map, got '%s'",
                             dp_mapping_get(mapping)->name);
     const shadow_light light = light_of(o, format, mapping);
     if (!box)
