@@ -263,6 +263,11 @@ static void test_words(void **state) {
          WORD_AT(colour),
          "auto, always or never",
          {{"auto", OUTPUT_COLOUR_AUTO}, {"always", OUTPUT_COLOUR_ALWAYS}, {"never", OUTPUT_COLOUR_NEVER}}},
+        {"zfight",
+         OPTION_VERTICES,
+         WORD_AT(vertices),
+         "eye-log or box",
+         {{"eye-log", VERTEX_EYE_LOG}, {"box", VERTEX_BOX}}},
         {"texture", OPTION_NORMAL_FORMAT, WORD_AT(normal_format), "opengl or directx", {{"opengl", 0}, {"directx", 1}}},
         {"texture", OPTION_THEME, WORD_AT(theme), "light, dark or print", {{"light", 0}, {"dark", 1}, {"print", 2}}},
         {"check x",
@@ -311,6 +316,7 @@ static void test_rows(void **state) {
         {"bias", OPTION_API, AT(api), "d3d12", "d3d11", offsetof(bias_api, name), "d3d14", "d3d11"},
         {"table", OPTION_RASTER, AT(raster), "LLVMpipe", "llvmpipe", offsetof(raster_row, name), "lavapip", "lavapipe"},
         {"budget", OPTION_RASTER, AT(raster), "spec-gl", "spec-gl", offsetof(raster_row, name), "spec-d3", "spec-d3d"},
+        {"zfight", OPTION_PROGRAM, AT(program), "FMA", "fma", offsetof(vertex_program, name), "seperate", "separate"},
         {"texture", OPTION_SCENE, AT(scene), "steps", "steps", offsetof(scene_row, name), "decal", "decals"},
         {"texture", OPTION_POSITION, AT(position), "rays", "rays", offsetof(position_row, name), "matirx", "matrix"},
         {"texture", OPTION_POSITION, AT(position), "exact", NULL, 0, "exakt", "exact"},
@@ -336,7 +342,8 @@ static void test_rows(void **state) {
         TALLY(&t, strstr(line, meant) != NULL, "%s: %s", meant, line);
         parse(&o, rows[i].command, OPTION_QUIET, NULL, line);
         memcpy(&row, (const char *)&o + rows[i].field, sizeof row);
-        TALLY(&t, (row != NULL) == (rows[i].id == OPTION_API), "--%s: default", option_name(rows[i].id));
+        TALLY(&t, (row != NULL) == (rows[i].id == OPTION_API || rows[i].id == OPTION_PROGRAM), "--%s: default",
+              option_name(rows[i].id));
     }
     tally_end(&t);
 }
@@ -509,6 +516,11 @@ static void test_own(void **state) {
     assert_string_equal(o.formats[2].name, "fp32");
     assert_int_equal(parse(&o, "table", OPTION_MAPPING, "log,all,gl", line), EXIT_FINE);
     assert_true(o.mapping_count == 4 && o.mappings[0] == DP_MAPPING_LOG && o.mappings[3] == DP_MAPPING_GL);
+    assert_int_equal(parse(&o, "zfight", OPTION_AGAINST, "fma,ONCE,fma", line), EXIT_FINE);
+    assert_true(o.against_count == 2 && strcmp(o.against[0]->name, "fma") == 0 && o.against[1] == o.program);
+    assert_int_equal(parse(&o, "zfight", OPTION_AGAINST, "pairs,all", line), EXIT_FINE);
+    assert_true(strcmp(o.against[0]->name, "pairs") == 0 && o.against[1] == vertex_program_get(0));
+    assert_true(vertex_program_get(o.against_count - 1) != NULL && vertex_program_get(o.against_count) == NULL);
     assert_int_equal(parse(&o, "table", OPTION_TOLERANCE, "3%", line), EXIT_FINE);
     assert_true(near_to(o.tolerance, 0.03));
     assert_int_equal(parse(&o, "table", OPTION_AT, "3,1,2", line), EXIT_FINE);

@@ -218,6 +218,24 @@ int parse_presets(options *o, const option_row *row, const char *value) {
     return parse_names(o, row, value, add_preset);
 }
 
+static int add_program(options *o, const option_row *row, const char *name) {
+    list_item found;
+    if (!names_find(row->names, name, NULL, &found))
+        return unknown_name(row, name);
+    for (size_t i = 0; found.row == NULL && vertex_program_get(i) != NULL; i++)
+        add_program(o, row, vertex_program_get(i)->name);
+    for (size_t i = 0; i < o->against_count; i++)
+        if (o->against[i] == found.row)
+            return EXIT_FINE;
+    if (found.row != NULL)
+        o->against[o->against_count++] = found.row; /* there is room for every row */
+    return EXIT_FINE;
+}
+
+int parse_against(options *o, const option_row *row, const char *value) {
+    return parse_names(o, row, value, add_program);
+}
+
 /* A share, or a percentage with its sign. */
 int parse_tolerance(options *o, const option_row *row, const char *value) {
     const size_t length = strlen(value);

@@ -20,6 +20,9 @@ static const name_list ariths = {.get = list_arith};
 static const name_list compositions = {.get = list_composition};
 static const name_list apis = {.words = (const char *const[]){"all", NULL}, .get = list_api};
 static const name_list rasters = {.get = list_rasterizer};
+static const name_list programs = {.get = list_program};
+static const name_list programs_or_all = {.words = (const char *const[]){"all", NULL}, .get = list_program};
+static const name_list spreads = {.get = list_vertices};
 static const name_list scenes = {.get = list_scene};
 static const name_list positions = {.words = (const char *const[]){"exact", NULL}, .get = list_position};
 static const name_list normals = {.get = list_normal};
@@ -178,11 +181,12 @@ const option_row option_rows[OPTION_COUNT] = {
     [OPTION_INTERPOLATION] = {"interpolation", 0, "E", BUDGETED,
         "error of a window depth interpolated across a triangle",
         NUMBER(terms.interpolation, 0, 0x1p24, "units of 2^-24"), .standard = "0", .group = "The budget"},
-    [OPTION_WORLD] = {"world", 0, "R", BUDGETED | VERB_SHADOW,
+    [OPTION_WORLD] = {"world", 0, "R", BUDGETED | VERB_SHADOW | VERB_ZFIGHT,
         "start from world positions; no coordinate of theirs or of the camera exceeds R",
         LENGTH(terms.world, 0, 1e18, "scene units"), .standard = "0", .without = "eye depth is given",
         .except = {BUT(VERB_SHADOW, "0", "positions about the middle of the light's box",
-                       "no coordinate of positions exceeds R")}},
+                       "no coordinate of positions exceeds R"),
+                   BUT(VERB_ZFIGHT, "100", NULL, "with --against: no coordinate of a camera exceeds R")}},
     [OPTION_COMPOSITION] = {"composition", 0, NULL, BUDGETED,
         "how they become clip coordinates: by one binary32 matrix of view and projection, multiplied in double and "
         "rounded, or in binary32; or after the camera's position is subtracted in double",
@@ -197,7 +201,9 @@ const option_row option_rows[OPTION_COUNT] = {
         "count what a rasterizer does to slanted triangles in a viewport of these pixels; z is then the depth of the "
         "farther surface, and the separation is along the normal",
         .parse = parse_viewport, .without = "surfaces face the camera",
-        .except = {BUT(VERB_ZFIGHT, "1920x1080", NULL, "with --triangles: the pixels of the viewport"),
+        .except = {BUT(VERB_ZFIGHT, NULL, "1920x1080 with --triangles, else surfaces face the camera",
+                       "the pixels of the viewport; without --triangles what is guaranteed at any slant stands beside "
+                       "the census"),
                    BUT(SHADOWED, "1920x1080", NULL, "pixels of the view, which say how wide it is")}},
     [OPTION_RASTER] = {"raster", 0, "NAME", VIEWED,
         "the rasterizer, its subpixel grid and how it sets up depth: @; of the specifications the worst that they "
@@ -257,12 +263,22 @@ const option_row option_rows[OPTION_COUNT] = {
         .except = {BUT(VERB_BIAS, NULL, "told apart", "how much nearer a layer must come, in scene units")},
         .group = "Pairs of surfaces"},
     [OPTION_SAMPLE] = {"sample", 0, "N", COUNTED,
-        "draw N pairs at random", WHOLE(sample, 1, 1e12, NULL), .without = "visit every depth"},
+        "draw N pairs at random", WHOLE(sample, 1, 1e12, NULL),
+        .without = "visit every depth; 1000000 vertices with --against"},
     [OPTION_SEED] = {"seed", 0, "S", COUNTED, /* JSON holds it exactly */
         "seed of --sample: the same pairs for the same seed", WHOLE(seed, 0, 0x1p53, NULL), .standard = "0"},
     [OPTION_TRIANGLES] = {"triangles", 0, NULL, VERB_ZFIGHT,
         "draw pairs of slanted planes as random triangles: how near they come before a pixel is wrong, against what "
         "is guaranteed", FLAG(drawn)},
+    [OPTION_AGAINST] = {"against", 0, "PROGRAM[,PROGRAM...]|all", VERB_ZFIGHT,
+        "send the same vertices through two vertex programs, --program and each of these: @; how many codes differ, "
+        "and what bias makes up for it", .parse = parse_against, .names = &programs_or_all,
+        .group = "Two vertex programs"},
+    [OPTION_PROGRAM] = {"program", 0, "PROGRAM", VERB_ZFIGHT,
+        "what they are compared with", ROW(program, programs), .standard = "once"},
+    [OPTION_VERTICES] = {"vertices", 0, NULL, VERB_ZFIGHT,
+        "how vertices are drawn: eye depth log-uniform over --range, in a round view of 90 degrees; or uniform in the "
+        "box of --world", WORD(vertices, spreads), .standard = "eye-log"},
     [OPTION_HALF_HEIGHT] = {"half-height", 0, "H", VERB_TEXTURE,
         "with --ortho: half the height of the view", LENGTH(camera.half_height, 1e-12, 1e12, "scene units"),
         .standard = "5", .group = "The depth texture"},

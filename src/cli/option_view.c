@@ -88,7 +88,7 @@ void slant_take_preset(options *o, const preset *p) {
         return;
     if (!option_given(o, OPTION_FOV) && !option_given(o, OPTION_HFOV))
         t->fov_y = preset_fov_y(p, t->width, t->height);
-    if (option_given(o, OPTION_RASTER) || option_given(o, OPTION_SUBPIXEL))
+    if (o->drawn || option_given(o, OPTION_RASTER) || option_given(o, OPTION_SUBPIXEL))
         return;
     o->raster = raster_find(p->raster);
     raster_describe(o->raster, t);
