@@ -205,7 +205,7 @@ const option_row option_rows[OPTION_COUNT] = {
                        "the pixels of the viewport; without --triangles what is guaranteed at any slant stands beside "
                        "the census"),
                    BUT(SHADOWED, "1920x1080", NULL, "pixels of the view, which say how wide it is")}},
-    [OPTION_RASTER] = {"raster", 0, "NAME", SLANTED,
+    [OPTION_RASTER] = {"raster", 0, "NAME", VIEWED,
         "the rasterizer, its subpixel grid and how it sets up depth: @; of the specifications the worst that they "
         "allow; see 'depthprec list rasterizers'", ROW(raster, rasters),
         .without = "--subpixel, and a plane anchored at a vertex",
@@ -242,7 +242,7 @@ const option_row option_rows[OPTION_COUNT] = {
     [OPTION_ANGLE] = {"angle", 0, "DEG", SHADOWED,
         "receivers up to this angle between their normal and the light are free of acne",
         NUMBER(angle, 0, SHADOW_SLANT_MAX, "degrees"), .standard = "75"},
-    [OPTION_API] = {"api", 0, "NAME", VERB_BIAS | SHADOWED,
+    [OPTION_API] = {"api", 0, "NAME", VERB_BIAS | VERB_SHADOW,
         "the API whose rule applies: @; all compares them, each with the call to write",
         ROW(api, apis), .standard = "d3d11",
         .group = "The bias"},
