@@ -162,7 +162,7 @@ static void say_reach(page *p, void *item) {
     char text[REACH_TEXT_SIZE], sentence[REACH_TEXT_SIZE] = "";
     const unit_row *unit = t->walk.here.unit;
     walk_title(p, item);
-    slant_title(p, &t->walk.here, &t->full);
+    slant_say(p, page_title, &t->walk.here, &t->full);
     if (t->walk.all.count > 1)
         return;
     double up_to[REACH_LIMITS];

@@ -37,7 +37,7 @@ static const name_list reports = {.words = (const char *const[]){"text", "json",
 enum {
     MODELLED = VERB_TABLE | VERB_PLOT,
     BUDGETED = VERB_BUDGET | VERB_PLOT,
-    SLANTED = VERB_TABLE | VERB_BUDGET | VERB_ZFIGHT,
+    SLANTED = VERB_TABLE | VERB_BUDGET | VERB_SOLVE | VERB_ZFIGHT,
     DRAWS = VERB_ZFIGHT,
     ASKED = MODELLED | VERB_BUDGET,
     CAMERA = ASKED | VERB_ZFIGHT,
