@@ -47,11 +47,11 @@ static bool read_chunks(gltf *g, file_bytes *json) {
     return json->at != NULL || model_fail(g->source, "glTF: its first chunk is not JSON");
 }
 
-static bool starts_as_json(const file_bytes *file) {
-    const unsigned char *at = file->at;
-    at += file->size >= 3 && memcmp(at, "\xef\xbb\xbf", 3) == 0 ? 3 : 0;
-    at += strspn((const char *)at, " \t\r\n");
-    return *at == '{';
+/* Some editors put a mark of the order of bytes in front. */
+static bool find_json(file_bytes *file) {
+    if (file->size >= 3 && memcmp(file->at, "\xef\xbb\xbf", 3) == 0)
+        *file = (file_bytes){file->at + 3, file->size - 3};
+    return file->at[strspn((const char *)file->at, " \t\r\n")] == '{';
 }
 
 /* ---- What is asked of a reader ----------------------------------------------------------------------------------- */
@@ -428,7 +428,7 @@ bool model_read_gltf(model_source *s) {
     if (s->file.size >= 4 && memcmp(s->file.at, "glTF", 4) == 0) {
         if (!read_chunks(&g, &json))
             return false;
-    } else if (!starts_as_json(&s->file)) {
+    } else if (!find_json(&json)) {
         return model_fail(s, "is neither glTF 2.0 (.glb, .gltf) nor, by its name, OBJ");
     }
     json_t *root = json_loadb((const char *)json.at, json.size, 0, &error);

@@ -254,6 +254,7 @@ bool gltf_open(gltf *g, long index, int components, bool is_whole, gltf_accessor
         return model_fail(g->source, "glTF: accessor %ld has %ld elements, more than the file has bytes", index, count);
     *out = (gltf_accessor){.count = (size_t)count,
                            .components = components,
+                           .base.component = component,
                            .normalized = json_is_true(json_object_get(row, "normalized"))};
     if (json_object_get(row, "bufferView") != NULL && !run(g, row, component, out->count, components, &out->base))
         return false;

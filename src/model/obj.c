@@ -32,7 +32,6 @@ typedef struct obj_reader {
     model_source *source;
     char *line; /* the one being read, cut off at its end */
     size_t number;
-    locale_t numbers; /* a point in any locale */
     obj_names names;
     void *surfaces; /* a tree of obj_surface */
     obj_surface *current;
@@ -60,9 +59,9 @@ static char *skip(char *at) {
     return at;
 }
 
-static bool read_number(obj_reader *r, char **at, double *out) {
+static bool read_number(char **at, double *out) {
     char *from = skip(*at);
-    *out = strtod_l(from, at, r->numbers);
+    *out = strtod(from, at);
     return *at != from && isfinite(*out) && (is_blank(**at) || **at == '\0');
 }
 
@@ -81,7 +80,7 @@ static bool read_vertex(obj_reader *r, char *at) {
     model *m = r->source->out;
     double p[3];
     for (int k = 0; k < 3; k++)
-        if (!read_number(r, &at, &p[k]))
+        if (!read_number(&at, &p[k]))
             return fail(r, "a vertex needs three finite numbers");
     if (!source_vertices(r->source, 1))
         return false;
@@ -212,12 +211,12 @@ static bool blend(obj_reader *r) {
 
 static bool read_dissolve(obj_reader *r, char *at) {
     double opaque;
-    return !read_number(r, &at, &opaque) || opaque >= 1.0 || blend(r);
+    return !read_number(&at, &opaque) || opaque >= 1.0 || blend(r);
 }
 
 static bool read_transparency(obj_reader *r, char *at) {
     double clear;
-    return !read_number(r, &at, &clear) || clear <= 0.0 || blend(r);
+    return !read_number(&at, &clear) || clear <= 0.0 || blend(r);
 }
 
 static const struct {
@@ -271,10 +270,12 @@ static bool read_lines(obj_reader *r, char *text) {
 }
 
 bool model_read_obj(model_source *s) {
-    obj_reader r = {.source = s, .names = {"", "", ""}, .numbers = newlocale(LC_NUMERIC_MASK, "C", (locale_t)0)};
-    if (strlen((const char *)s->file.at) != s->file.size)
-        return model_fail(s, "is not OBJ: it holds a null character");
-    bool read = r.numbers != (locale_t)0 && read_lines(&r, (char *)s->file.at);
+    obj_reader r = {.source = s, .names = {"", "", ""}};
+    const locale_t point = newlocale(LC_NUMERIC_MASK, "C", (locale_t)0); /* in any locale */
+    const locale_t before = uselocale(point);
+    bool read =
+        strlen((const char *)s->file.at) == s->file.size || model_fail(s, "is not OBJ: it holds a null character");
+    read = read && point != (locale_t)0 && read_lines(&r, (char *)s->file.at);
     if (read && s->out->triangles == 0)
         read = model_fail(s, "is not OBJ, or has no triangles");
     while (r.surfaces != NULL) {
@@ -287,7 +288,8 @@ bool model_read_obj(model_source *s) {
         free(b);
     }
     free(r.corner);
-    if (r.numbers != (locale_t)0)
-        freelocale(r.numbers);
+    uselocale(before);
+    if (point != (locale_t)0)
+        freelocale(point);
     return read;
 }

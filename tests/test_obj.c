@@ -1,0 +1,203 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/*
+ * OBJ: what triangles and surfaces a file holds, from files put together here; polygons by their area; each damage has
+ * its sentence.
+ */
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "model/model.h"
+#include "printed.h"
+#include "support.h"
+
+typedef struct text {
+    char at[1 << 16];
+} text;
+
+__attribute__((format(printf, 2, 3))) static void add(text *t, const char *format, ...) {
+    const size_t used = strlen(t->at);
+    va_list arguments;
+    va_start(arguments, format);
+    const int size = vsnprintf(t->at + used, sizeof t->at - used, format, arguments);
+    va_end(arguments);
+    assert_true(size >= 0 && (size_t)size < sizeof t->at - used);
+}
+
+static bool read_text(const char *from, bool obj, model_transforms kind, model *m, model_error *error) {
+    const model_asked asked = {.transforms = kind};
+    return model_parse(from, strlen(from), obj, NULL, &asked, m, error);
+}
+
+static void must_read(const char *from, bool obj, model *m) {
+    model_error error;
+    if (!read_text(from, obj, MODEL_EXACT, m, &error))
+        fail_msg("%s", error.text);
+}
+
+static void must_refuse(const char *from, bool obj, const char *sentence) {
+    model m;
+    model_error error;
+    assert_false(read_text(from, obj, MODEL_EXACT, &m, &error));
+    assert_string_equal(error.text, sentence);
+    assert_false(error.unreadable);
+}
+
+/* ---- OBJ --------------------------------------------------------------------------------------------------------- */
+
+#define SQUARE "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\n"
+
+static void obj_faces(void **state) {
+    static const struct {
+        const char *text;
+        uint32_t count, corner[4][3];
+    } rows[] = {
+        {SQUARE "f 1 2 3\n", 1, {{0, 1, 2}}},
+        {SQUARE "f 1/7 2//8 3/7/8 4\n", 2, {{0, 1, 2}, {0, 2, 3}}},
+        {SQUARE "f -4 -3 -1\nv 5 5 5\nf -1 1 2", 2, {{0, 1, 3}, {4, 0, 1}}},
+        {"\tv 0 0 0 \r\nv 1e0 .0 -0 # a comment\r\n#f 1 1 1\nv 1 1 \\\n 0\nf 1 2 \\\n 3 #", 1, {{0, 1, 2}}},
+        {"v 0 0 0 0.5 0.5 0.5\nv 1 0 0\nv 1 1 0\nvn 0 0 1\nvt 0 0\ns off\nf 3 2 1", 1, {{2, 1, 0}}},
+        /* an arrow whose third corner points inwards */
+        {"v 0 0 2\nv 4 -4 2\nv 1 0 2\nv 4 4 2\nf 1 2 3 4", 2, {{3, 0, 2}, {0, 1, 2}}},
+    };
+    (void)state;
+    for (size_t i = 0; i < sizeof rows / sizeof rows[0]; i++) {
+        model m;
+        must_read(rows[i].text, true, &m);
+        assert_int_equal(m.triangles, rows[i].count);
+        for (size_t k = 0; k < m.triangles; k++) {
+            bool found = false; /* from whichever corner on */
+            for (size_t j = 0; j < rows[i].count; j++)
+                for (int turn = 0; turn < 3; turn++)
+                    found = found || (m.triangle[k][0] == rows[i].corner[j][turn] &&
+                                      m.triangle[k][1] == rows[i].corner[j][(turn + 1) % 3] &&
+                                      m.triangle[k][2] == rows[i].corner[j][(turn + 2) % 3]);
+            assert_true(found);
+        }
+        model_free(&m);
+    }
+}
+
+static void obj_numbers(void **state) {
+    model m;
+    (void)state;
+    must_read("v 0.1 -2.5e-3 1e22\nv 0 0 0\nv 16777217 4.9e-324 -0\nf 1 2 3", true, &m);
+    assert_true(m.position[0][0] == 0.1 && m.position[0][1] == -2.5e-3 && m.position[0][2] == 1e22);
+    assert_true(m.position[2][0] == 16777217.0 && m.position[2][1] == 4.9e-324 && m.position[2][2] == 0.0);
+    model_free(&m);
+}
+
+static void obj_surfaces(void **state) {
+    model m;
+    (void)state;
+    must_read(SQUARE "f 1 2 3\no house\nusemtl brick wall \nf 1 2 4\ng roof\nf 1 3 4\nusemtl glass\nf 2 3 4\n"
+                     "usemtl brick wall\nf 1 2 3\nl 1 2\np 1\n",
+              true, &m);
+    assert_int_equal(m.triangles, 5);
+    assert_int_equal(m.surfaces, 4);
+    assert_int_equal(m.notes.lines, 2);
+    assert_int_equal(m.of[4], m.of[2]);
+    const model_surface *s = &m.surface[m.of[1]];
+    assert_string_equal(s->node, "house");
+    assert_string_equal(s->mesh, "");
+    assert_string_equal(s->material, "brick wall");
+    s = &m.surface[m.of[2]];
+    assert_string_equal(s->mesh, "roof");
+    assert_false(s->two_sided || s->blended);
+    model_free(&m);
+}
+
+static void obj_materials(void **state) {
+    const model_asked asked = {0};
+    model m;
+    model_error error;
+    char path[512];
+    (void)state;
+    snprintf(path, sizeof path, "%s", scratch_file("m.mtl"));
+    FILE *out = fopen(path, "w");
+    assert_non_null(out);
+    fputs("newmtl solid\nd 1.0\nnewmtl glass\nd 0.5\nnewmtl smoke\nTr 0.2\nnewmtl wall\nTr 0\nmtllib m.mtl\nv 1 2\n",
+          out);
+    assert_int_equal(fclose(out), 0);
+    snprintf(path, sizeof path, "%s", scratch_file("m.obj"));
+    out = fopen(path, "w");
+    assert_non_null(out);
+    fputs("mtllib m.mtl\nmtllib gone.mtl\n" SQUARE
+          "usemtl solid\nf 1 2 3\nusemtl glass\nf 1 2 3\nusemtl smoke\nf 1 2 3\n"
+          "usemtl wall\nf 1 2 3\n",
+          out);
+    assert_int_equal(fclose(out), 0);
+    assert_true(model_read(path, &asked, &m, &error));
+    assert_int_equal(m.surfaces, 4);
+    for (uint32_t i = 0; i < 4; i++)
+        assert_int_equal(m.surface[i].blended, i == 1 || i == 2);
+    model_free(&m);
+}
+
+static void obj_refused(void **state) {
+    static const struct {
+        const char *text, *sentence;
+    } rows[] = {
+        {"", "is not OBJ, or has no triangles"},
+        {SQUARE "\nf 1 2\n", "line 6: a face needs three corners"},
+        {SQUARE "f 1 2 5\n", "line 5: a face names a vertex that is not there"},
+        {SQUARE "f 1 2 0\n", "line 5: a face names a vertex that is not there"},
+        {SQUARE "f 1 2 -5\n", "line 5: a face names a vertex that is not there"},
+        {SQUARE "f 1 2 99999999999999999999\n", "line 5: a face names a vertex that is not there"},
+        {SQUARE "f 1 2 -9223372036854775808\n", "line 5: a face names a vertex that is not there"},
+        {"v 1 2\n", "line 1: a vertex needs three finite numbers"},
+        {"v 1 2 nan\n", "line 1: a vertex needs three finite numbers"},
+        {"v 1 2 1e999\n", "line 1: a vertex needs three finite numbers"},
+        {"v 1 2 3.1+e2\n", "line 1: a vertex needs three finite numbers"},
+        {"v 1 2 0,5\n", "line 1: a vertex needs three finite numbers"},
+    };
+    (void)state;
+    for (size_t i = 0; i < sizeof rows / sizeof rows[0]; i++)
+        must_refuse(rows[i].text, true, rows[i].sentence);
+}
+
+/* Any polygon seen whole from its middle, in any plane: the triangles turn as it does and cover its area. */
+static void polygons(void **state) {
+    rng r = rng_make("polygons");
+    (void)state;
+    for (int run = 0; run < (int)test_cases(200, 5000, 100000); run++) {
+        static text t;
+        const int corners = 5 + (int)rng_below(&r, 20);
+        double area = 0.0, x[32], y[32];
+        t.at[0] = '\0';
+        for (int i = 0; i < corners; i++) {
+            const double angle = (i + 0.8 * rng_unit(&r)) * 6.283185307179586 / corners;
+            const double radius = rng_uniform(&r, 0.2, 1.0);
+            x[i] = radius * cos(angle);
+            y[i] = radius * sin(angle);
+            const double p[3] = {x[i], y[i], 0.25 * x[i] - 0.5 * y[i]};
+            const uint64_t axis = (uint64_t)run % 3;
+            add(&t, "v %.17g %.17g %.17g\n", p[axis], p[(axis + 1) % 3], p[(axis + 2) % 3]);
+        }
+        add(&t, "f");
+        for (int i = 0; i < corners; i++) {
+            add(&t, " %d", i + 1);
+            area += 0.5 * (x[i] * y[(i + 1) % corners] - y[i] * x[(i + 1) % corners]);
+        }
+        model m;
+        must_read(t.at, true, &m);
+        assert_int_equal(m.triangles, corners - 2);
+        for (size_t k = 0; k < m.triangles; k++) {
+            const uint32_t *c = m.triangle[k];
+            const double of =
+                0.5 * ((x[c[1]] - x[c[0]]) * (y[c[2]] - y[c[0]]) - (y[c[1]] - y[c[0]]) * (x[c[2]] - x[c[0]]));
+            assert_true(of >= 0.0);
+            area -= of;
+        }
+        assert_true(fabs(area) < 1e-14);
+        model_free(&m);
+    }
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(obj_faces),     cmocka_unit_test(obj_numbers), cmocka_unit_test(obj_surfaces),
+        cmocka_unit_test(obj_materials), cmocka_unit_test(obj_refused), cmocka_unit_test(polygons),
+    };
+    return run_tap(tests);
+}
