@@ -19,6 +19,7 @@ rows='
 build | command pkg-config                            | pkg-config            | pkgconf-pkg-config | pkgconf
 build | library cairo                                 | libcairo2-dev         | cairo-devel        | cairo
 build | library gsl                                   | libgsl-dev            | gsl-devel          | gsl
+build | library jansson                               | libjansson-dev        | jansson-devel      | jansson
 build | library libconfig                             | libconfig-dev         | libconfig-devel    | libconfig
 build | library libpng                                | libpng-dev            | libpng-devel       | libpng
 build | library zlib                                  | zlib1g-dev            | zlib-devel         | zlib
@@ -28,7 +29,6 @@ build | file share/fonts/*/*/DejaVuSans.ttf           | fonts-dejavu-core     | 
 check | library cmocka                                | libcmocka-dev         | libcmocka-devel    | cmocka
 check | library gmp                                   | libgmp-dev            | gmp-devel          | gmp
 check | library mpfr                                  | libmpfr-dev           | mpfr-devel         | mpfr
-check | library jansson                               | libjansson-dev        | jansson-devel      | jansson
 check | library libxml-2.0                            | libxml2-dev           | libxml2-devel      | libxml2
 check | command mandoc                                | mandoc                | mandoc             | mandoc
 check | command rsvg-convert                          | librsvg2-bin          | librsvg2-tools     | librsvg

@@ -17,9 +17,11 @@ src/shadow        | depthprec core api shadow
 src/texture       | depthprec core texture
 src/method        | depthprec core texture census method
 src/need          | depthprec core api raster need
+src/model         | core model
+src/scene         | depthprec core model need scene
 src/report        | depthprec report
-src/plot          | depthprec core api census raster draw shadow texture method need plot
-src/cli           | depthprec core api census raster vertex draw shadow texture method need report plot cli
+src/plot          | depthprec core api census raster draw shadow texture method need model scene plot
+src/cli           | depthprec core api census raster vertex draw shadow texture method need model scene report plot cli
 '
 
 strangers() { # strangers FOLDER LAYER...: prints the quoted includes that name another layer, or none
@@ -43,7 +45,7 @@ cairo_elsewhere() {
 
 core_inside() {
     includes core/ src >"$scratch/core" && grep -q '^src/core/' "$scratch/core" || return
-    lines -vE '^src/core/|"core/(append|bits|engine)\.h"' "$scratch/core"
+    lines -vE '^src/core/|"core/(append|bits|engine|expansion)\.h"' "$scratch/core"
 }
 
 echo "$layers" >"$scratch/layers"
@@ -53,7 +55,7 @@ while IFS='|' read -r folder allowed; do
     check "$folder includes only: ${allowed# }" empty strangers "$folder" $allowed
 done <"$scratch/layers"
 check "every folder of src has its row" empty sh -c 'for d in src/*/; do grep -q "^${d%/} " "$1" || echo "$d"; done' - "$scratch/layers"
-check "of the core's own headers other rooms include append.h, bits.h and engine.h alone" empty core_inside
+check "of the core's own headers other rooms include append.h, bits.h, engine.h and expansion.h alone" empty core_inside
 check "cairo is included in src/plot/canvas.c alone" empty cairo_elsewhere
 check "GSL is not in the library" empty includes gsl/ include src/core
 
