@@ -45,7 +45,7 @@ bool model_fail(model_source *s, const char *format, ...) {
     return false;
 }
 
-bool source_grow(model_source *s, void **array, size_t *room, size_t count, size_t more, size_t size) {
+bool model_grow(model_source *s, void **array, size_t *room, size_t count, size_t more, size_t size) {
     if (more <= *room - count)
         return true;
     size_t wanted = *room + *room / 2;
@@ -62,7 +62,7 @@ bool source_vertices(model_source *s, size_t more) {
     model *m = s->out;
     if (more > MODEL_TRIANGLES_MAX - m->vertices)
         return model_fail(s, "has more than %d vertices", MODEL_TRIANGLES_MAX);
-    return source_grow(s, (void **)&m->position, &s->room[0], m->vertices, more, sizeof *m->position);
+    return model_grow(s, (void **)&m->position, &s->room[0], m->vertices, more, sizeof *m->position);
 }
 
 bool source_triangle(model_source *s, const uint32_t corner[3], uint32_t surface) {
@@ -72,8 +72,8 @@ bool source_triangle(model_source *s, const uint32_t corner[3], uint32_t surface
             return model_fail(s, "a triangle has vertex %lu of %zu", (unsigned long)corner[k], m->vertices);
     if (m->triangles == MODEL_TRIANGLES_MAX)
         return model_fail(s, "has more than %d triangles", MODEL_TRIANGLES_MAX);
-    if (!source_grow(s, (void **)&m->triangle, &s->room[1], m->triangles, 1, sizeof *m->triangle) ||
-        !source_grow(s, (void **)&m->of, &s->room[2], m->triangles, 1, sizeof *m->of))
+    if (!model_grow(s, (void **)&m->triangle, &s->room[1], m->triangles, 1, sizeof *m->triangle) ||
+        !model_grow(s, (void **)&m->of, &s->room[2], m->triangles, 1, sizeof *m->of))
         return false;
     memcpy(m->triangle[m->triangles], corner, sizeof *m->triangle);
     m->of[m->triangles++] = surface;
@@ -86,7 +86,7 @@ bool source_surface(model_source *s, const model_surface *row, uint32_t *index) 
         return false;
     if (m->surfaces == MODEL_TRIANGLES_MAX)
         return model_fail(s, "has more than %d surfaces", MODEL_TRIANGLES_MAX);
-    if (!source_grow(s, (void **)&m->surface, &s->room[3], m->surfaces, 1, sizeof *m->surface))
+    if (!model_grow(s, (void **)&m->surface, &s->room[3], m->surfaces, 1, sizeof *m->surface))
         return false;
     *index = (uint32_t)m->surfaces;
     m->surface[m->surfaces++] = *row;
@@ -95,7 +95,7 @@ bool source_surface(model_source *s, const model_surface *row, uint32_t *index) 
 
 bool source_camera(model_source *s, const model_camera *row) {
     model *m = s->out;
-    if (row->name == NULL || !source_grow(s, (void **)&m->camera, &s->room[4], m->cameras, 1, sizeof *m->camera))
+    if (row->name == NULL || !model_grow(s, (void **)&m->camera, &s->room[4], m->cameras, 1, sizeof *m->camera))
         return false;
     m->camera[m->cameras++] = *row;
     return true;

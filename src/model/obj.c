@@ -137,7 +137,7 @@ static bool read_corner(obj_reader *r, char **at) {
         return fail(r, "a face names a vertex that is not there");
     while (*end != '\0' && !is_blank(*end))
         end++;
-    if (!source_grow(r->source, (void **)&r->corner, &r->room, r->corners, 1, sizeof *r->corner))
+    if (!model_grow(r->source, (void **)&r->corner, &r->room, r->corners, 1, sizeof *r->corner))
         return false;
     r->corner[r->corners++] = (uint32_t)(number < 0 ? vertices - (size_t)-number : (size_t)number - 1);
     *at = skip(end);

@@ -30,7 +30,7 @@ bool source_beside(model_source *s, const char *name, file_bytes *out);
 bool source_file(const char *path, file_bytes *out, model_error *error);
 
 /* Makes room for `more` elements behind the `count` of an array. */
-bool source_grow(model_source *s, void **array, size_t *room, size_t count, size_t more, size_t size);
+bool model_grow(model_source *s, void **array, size_t *room, size_t count, size_t more, size_t size);
 
 /* Keeps a name; control characters become '?'. Null when there is no memory. */
 const char *source_name(model_source *s, const char *name);
