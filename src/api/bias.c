@@ -201,6 +201,11 @@ double bias_round_up(const bias_api *api, const dp_format *format, double units)
     return rounded <= units_most ? rounded : (double)INFINITY;
 }
 
+double bias_units(const bias_api *api, const dp_format *format, double d, double window) {
+    const double outward = api->binary32 ? 0x1p-22 : 0x1p-48;
+    return bias_round_up(api, format, (1.0 + outward) * window / bias_unit_at(api, format, d).least);
+}
+
 /* bias_needed() at z for a primitive whose greatest window depth has the exponent e. */
 static double needed_with(const dp_setup *setup, const bias_goal *goal, double z, int e) {
     const dp_format *format = &setup->spec.format;

@@ -130,6 +130,12 @@ typedef struct bias_goal {
  */
 double bias_needed(const dp_setup *setup, const bias_goal *goal, double z);
 
+/**
+ * The fewest units that make an offset of at least `window`, not negative, of a primitive whose greatest window depth
+ * is d: a magnitude, rounded as bias_needed() rounds. @return INFINITY when 2^31 units are not enough
+ */
+double bias_units(const bias_api *api, const dp_format *format, double d, double window);
+
 /** The greatest bias_needed() over a range, a certified bound, and the depth that needs it. lo < hi in [near, far]. */
 double bias_needed_over(const dp_setup *setup, const bias_goal *goal, double lo, double hi, double *worst);
 

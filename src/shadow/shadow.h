@@ -155,6 +155,7 @@ typedef struct shadow_state {
     double factor;    /**< magnitude */
     double gap_light; /**< as of the bias, with the units that it came to, where they are worth most */
     double gap_normal;
+    double gap_facing; /**< either, of surfaces that face the light */
 } shadow_state;
 
 /**
