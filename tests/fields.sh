@@ -36,6 +36,7 @@ all_named plot scene tests/needs/village.need
 for what in formats mappings presets apis rasterizers encodings packings effects scenes positions normals figures; do all_named list $what; done
 all_named zfight -n 1 -f 1.5 -F unorm16
 all_named zfight -n 1 -f 1.5 -F unorm16 --sample 100 --gap 0.01
+all_named zfight -n 1 -f 1.5 -F unorm16 --triangles --sample 10
 all_named budget --at 10
 all_named budget --at 10 --viewport 640x480
 all_named table --at 10 --viewport 640x480

@@ -188,7 +188,7 @@ const option_row option_rows[OPTION_COUNT] = {
         .without = "--subpixel, and a plane anchored at a vertex",
         .except = {BUT(VERB_ZFIGHT, "llvmpipe", NULL, "with --triangles: the rasterizer that draws: llvmpipe, lavapipe, "
                        "softpipe or swiftshader")}},
-    [OPTION_SUBPIXEL] = {"subpixel", 0, "BITS", SLANTED,
+    [OPTION_SUBPIXEL] = {"subpixel", 0, "BITS", SLANTED & ~VERB_ZFIGHT,
         "instead: bits of the grid to which vertices move; Direct3D has 8, Vulkan and OpenGL at least 4; with "
         "spec-vulkan and spec-gl how many more there are",
         WHOLE(triangles.subpixel, 1, 8, "bits"), .standard = "8"},
@@ -223,7 +223,7 @@ const option_row option_rows[OPTION_COUNT] = {
         .except = {BUT(VERB_BIAS, NULL, "told apart", "how much nearer a layer must come, in scene units")},
         .group = "Pairs of surfaces"},
     [OPTION_SAMPLE] = {"sample", 0, "N", COUNTED,
-        "draw N pairs at random", WHOLE(sample, 1, 1e12, NULL), .without = "visit every depth"},
+        "draw N pairs at random", WHOLE(sample, 1, 1e12, NULL), .without = "visit every depth; about 500 pairs of planes with --triangles"},
     [OPTION_SEED] = {"seed", 0, "S", COUNTED, /* JSON holds it exactly */
         "seed of --sample: the same pairs for the same seed", WHOLE(seed, 0, 0x1p53, NULL), .standard = "0"},
     [OPTION_TRIANGLES] = {"triangles", 0, NULL, VERB_ZFIGHT,
