@@ -49,7 +49,7 @@ static void known_numbers(void **state) {
 }
 
 /* Constants of the page: c1, c2, that of R alone, c3. */
-static const double derived[DP_ANCHOR_COUNT][4] = {{2, 11, 2, 0}, {3, 10, 2, 5}, {3, 10, 2, 6}, {5, 8, 2, 6}};
+static const double derived[DP_ANCHOR_COUNT][4] = {{2, 11, 2, 0}, {3, 10, 2, 4}, {3, 10, 2, 5}, {5, 8, 2, 5}};
 
 /* The set-up's part by the formulas of the page, R by the class or by the slope; without terms of second order. */
 static double setup_of(const dp_triangles *t, const double c[4], double z, bool by_slope) {

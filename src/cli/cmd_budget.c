@@ -36,8 +36,8 @@ typedef struct budget {
     walk walk;
     dp_budget_terms terms;
     slant_fields slant;
-    const slant_fields *slanted; /* null: surfaces face the camera */
-    const char *composition;     /* how positions are composed; null where eye depth is given */
+    const slant_fields *triangles; /* null: surfaces face the camera */
+    const char *composition;       /* how positions are composed; null where eye depth is given */
     bool linearize;
     dp_setup facing; /* without the triangles */
     row row, largest;
@@ -53,7 +53,7 @@ enum { WITH_WORLD = 1, WITH_INTERPOLATION = 2, WITH_LINEARIZE = 4, WITH_TRIANGLE
 /* The terms that are asked for. */
 static unsigned conditions(const budget *b) {
     return (b->terms.world > 0.0 ? WITH_WORLD : 0) | (b->terms.interpolation > 0.0 ? WITH_INTERPOLATION : 0) |
-           (b->linearize ? WITH_LINEARIZE : 0) | (b->slanted != NULL ? WITH_TRIANGLES : 0);
+           (b->linearize ? WITH_LINEARIZE : 0) | (b->triangles != NULL ? WITH_TRIANGLES : 0);
 }
 
 /* ---- What is reported -------------------------------------------------------------------------------------------- */
@@ -109,7 +109,7 @@ static void *next_row(void *of, size_t index) {
     }
     dp_budget_at(b->walk.setup, r->z, &b->terms, &r->parts); /* cannot fail: depths_resolve() has seen to it */
     r->facing = r->parts.separation;
-    if (b->slanted != NULL) {
+    if (b->triangles != NULL) {
         dp_budget facing = {0};
         dp_budget_at(&b->facing, r->z, &b->terms, &facing);
         r->facing = facing.separation;
@@ -161,7 +161,7 @@ static void say_notes(page *p, void *item) {
     if (!isnan(b->hopeless))
         page_line(p, "at z = %s no separation is guaranteed: everything %s may share its code",
                   number_in(number_of(b->hopeless, DIGITS_MORE), p->unit).text,
-                  b->slanted != NULL ? "nearer" : "farther");
+                  b->triangles != NULL ? "nearer" : "farther");
     if (b->worst != NULL)
         say_worst(p, b->worst);
     page_line(p, "%s%s", conditions(b) != 0 ? "without the added terms " : "",
@@ -223,7 +223,7 @@ static const column term_columns[] = {{FIELD(budget, terms.interpolation, "inter
 
 static const column columns[] = {
     {GROUP("terms", term_columns), .only = AS_JSON},
-    {PART(budget, slanted, "triangles", slant_columns), .only = AS_JSON, .pointed = true, .optional = true},
+    {PART(budget, triangles, "triangles", slant_columns), .only = AS_JSON, .pointed = true, .optional = true},
     {LIST("setups", setup_report, next_setup), .head = say_setup, .notes = say_notes},
     {.kind = COLUMN_END}};
 
@@ -231,7 +231,7 @@ int cmd_budget(const options *o) {
     budget b = {.terms = o->terms, .linearize = o->terms.linearize != 0};
     options in_binary32 = *o;
     in_binary32.model = DP_MODEL_FP32;
-    b.slanted = slant_fields_of(o, &b.slant);
+    b.triangles = slant_fields_of(o, &b.slant);
     if (o->terms.world > 0.0)
         b.composition = dp_composition_get(o->terms.composition)->name;
     else if (option_given(o, OPTION_COMPOSITION))

@@ -16,12 +16,6 @@ static int take_raster(options *o) {
     if (given && asked < row->plane_bits)
         return option_refuse(&option_rows[OPTION_SUBPIXEL], "must be at least %d with --raster %s, got %d",
                              row->plane_bits, row->name, asked);
-    for (size_t i = 0; i < o->format_count; i++)
-        if (!raster_bounded(row, &o->formats[i]))
-            return option_refuse(&option_rows[OPTION_RASTER],
-                                 "%s steps the codes of %s from pixel to pixel, which has no bound: name other formats "
-                                 "with --format",
-                                 row->name, o->formats[i].name);
     raster_describe(row, t);
     if (given)
         t->subpixel = asked;
@@ -69,6 +63,8 @@ int slant_complete(options *o) {
         o->triangles.width = 0;
     if ((o->verb->bit & option_rows[OPTION_VIEWPORT].commands) == 0)
         return EXIT_FINE;
+    if ((o->verb->bit & (VERB_SHADOW | VERB_PLOT)) != 0) /* a shadow map's viewport says how wide the view is */
+        return take_raster(o);
     for (size_t i = 0; i < sizeof beside / sizeof beside[0]; i++)
         if (option_given(o, beside[i]) && !slanted)
             return option_refuse(&option_rows[beside[i]], "needs --viewport: surfaces face the camera");
@@ -85,4 +81,16 @@ int slant_complete(options *o) {
     if (status == EXIT_FINE)
         status = view_vertical(o, o->triangles.width, o->triangles.height, &o->triangles.fov_y);
     return status == EXIT_FINE ? take_raster(o) : status;
+}
+
+void slant_take_preset(options *o, const preset *p) {
+    dp_triangles *t = &o->triangles;
+    if (t->width == 0)
+        return;
+    if (!option_given(o, OPTION_FOV) && !option_given(o, OPTION_HFOV))
+        t->fov_y = preset_fov_y(p, t->width, t->height);
+    if (o->drawn || option_given(o, OPTION_RASTER) || option_given(o, OPTION_SUBPIXEL))
+        return;
+    o->raster = raster_find(p->raster);
+    raster_describe(o->raster, t);
 }

@@ -154,6 +154,7 @@ static void take_preset(options *o, const preset *p) {
         parse_formats(o, &option_rows[OPTION_FORMAT], p->format);
     if (!option_given(o, OPTION_MAPPING))
         parse_mappings(o, &option_rows[OPTION_MAPPING], dp_mapping_get(p->mapping)->name);
+    slant_take_preset(o, p);
 }
 
 void options_of(const options *o, size_t camera, options *out) {
@@ -185,9 +186,10 @@ static int complete(options *o) {
                                 o->presets[i]->unit);
     if (o->preset_count > 1 && o->verb->bit != VERB_TABLE)
         return option_error(OPTION_PRESET, "must be one preset for %s, got %zu", o->verb->name, o->preset_count);
+    const int status = slant_complete(o);
     if (o->preset_count == 1)
         take_preset(o, o->presets[0]);
-    return slant_complete(o);
+    return status;
 }
 
 /* An orthographic camera may begin at its place or behind it. */

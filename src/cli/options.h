@@ -28,6 +28,7 @@
 #include "texture/packing.h"
 #include "texture/position.h"
 #include "texture/scene.h"
+#include "vertex/compare.h"
 
 /** The options, in the order in which help lists them. The index of an option's row is its id. */
 typedef enum option_id {
@@ -62,6 +63,12 @@ typedef enum option_id {
     OPTION_SLANT,
     OPTION_PLANE,
     OPTION_TRIANGLE,
+    OPTION_CASCADES,
+    OPTION_LAMBDA,
+    OPTION_LIGHT_BOX,
+    OPTION_CASTERS,
+    OPTION_KERNEL,
+    OPTION_ANGLE,
     OPTION_API,
     OPTION_UNITS,
     OPTION_FACTOR,
@@ -71,6 +78,9 @@ typedef enum option_id {
     OPTION_SAMPLE,
     OPTION_SEED,
     OPTION_TRIANGLES,
+    OPTION_AGAINST,
+    OPTION_PROGRAM,
+    OPTION_VERTICES,
     OPTION_HALF_HEIGHT,
     OPTION_MATRIX,
     OPTION_YAW,
@@ -173,8 +183,8 @@ typedef struct options {
     double wanted_separation, wanted_error; /**< positive, scene units; 0 when not given */
 
     dp_budget_terms terms;    /**< --interpolation, --world, --composition, --linearize; zero when not given */
-    dp_triangles triangles;   /**< --viewport, --fov, --hfov, --raster, --subpixel, --slant, --triangle; width 0 without
-                                   the first */
+    dp_triangles triangles;   /**< --viewport, --fov, --hfov, --raster, --subpixel, --slant, --triangle; width 0
+                                   without the first */
     double fov_x;             /**< --hfov, degrees */
     double azimuth;           /**< --plane, degrees from right to up; NaN when not given */
     const raster_row *raster; /**< --raster; null when not given */
@@ -190,8 +200,19 @@ typedef struct options {
     double gap;      /**< scene units; 0 when not given */
     uint64_t sample; /**< pairs to draw; 0 when not given */
     uint64_t seed;
-    bool drawn;  /**< --triangles: the surfaces are drawn */
-    int threads; /**< 0 when not given: as many as there are cores */
+    const vertex_program *against[VERTEX_OTHERS]; /**< in the order given, each once */
+    size_t against_count;                         /**< 0: --against was not given */
+    const vertex_program *program;                /**< what they are compared with */
+    unsigned vertices;                            /**< how they are drawn: a vertex_spread */
+    bool drawn;                                   /**< --triangles: the surfaces are drawn */
+    int threads;                                  /**< 0 when not given: as many as there are cores */
+
+    unsigned cascades;   /**< of a shadow map */
+    double lambda;       /**< of their split: 0 even, 1 logarithmic */
+    double light_box[3]; /**< width, height, depth, scene units; 0 when not given */
+    double casters;      /**< scene units */
+    unsigned kernel;     /**< the filter reads so many texels in either direction */
+    double angle;        /**< of a receiver's normal to the light, degrees */
 
     camera_spec camera;     /**< --size, --fov, --half-height, --yaw, --pitch, --origin */
     const char *matrix;     /**< file of a projection matrix, which then says the planes and the field of view */

@@ -40,6 +40,11 @@ static int add_setups(const options *o, size_t camera, setups *out) {
         for (size_t m = 0; m < o->mapping_count; m++) {
             spec.format = o->formats[f];
             spec.mapping = o->mappings[m];
+            if (o->raster != NULL && !raster_bounded(o->raster, &spec.format))
+                return option_error(OPTION_RASTER,
+                                    "%s steps the codes of %s from pixel to pixel, which has no bound: name other "
+                                    "formats with --format",
+                                    o->raster->name, spec.format.name);
             out->cameras[out->count] = camera;
             const dp_status status = dp_setup_init(&out->items[out->count++], &spec);
             if (status != DP_OK)

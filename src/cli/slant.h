@@ -17,7 +17,10 @@ extern const column slant_columns[];
 /** Of options that have a viewport; null of others. @return out */
 const slant_fields *slant_fields_of(const options *o, slant_fields *out);
 
-/** What text says above a set-up: view, grid and class, or why there is no guarantee; nothing without a viewport. */
+/**
+ * What text says above a set-up, or above several where it is null: view, grid and class, or why there is no guarantee;
+ * nothing without a viewport.
+ */
 void slant_title(page *p, const options *o, const dp_setup *setup);
 
 #endif

@@ -134,12 +134,13 @@ static const column setup_report[] = {{PART(drawn, walk.fields, NULL, setup_colu
                                       {FIELD(drawn, azimuth, "azimuth", "degrees"), .only = AS_JSON},
                                       {FIELD(drawn, lo, "lo", "scene"), .only = AS_JSON},
                                       {FIELD(drawn, hi, "hi", "scene"), .only = AS_JSON},
-                                      {PART(drawn, slant, "triangles", slant_columns), .only = AS_JSON},
                                       {PART(drawn, whole, NULL, found_columns), .only = AS_JSON},
                                       {LIST("bands", band_columns, next_band)},
                                       {.kind = COLUMN_END}};
 
-static const column columns[] = {{LIST("setups", setup_report, next_setup), .head = say_answer}, {.kind = COLUMN_END}};
+static const column columns[] = {{PART(drawn, slant, "triangles", slant_columns), .only = AS_JSON},
+                                 {LIST("setups", setup_report, next_setup), .head = say_answer},
+                                 {.kind = COLUMN_END}};
 
 /* ---- The command ------------------------------------------------------------------------------------------------- */
 

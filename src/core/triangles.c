@@ -19,11 +19,11 @@ static const double least_window = 0x1p-60;
 static const dp_anchor_row anchors[DP_ANCHOR_COUNT] = {
     [DP_ANCHOR_VERTEX] = {"vertex", {.value = 2, .box = 11, .range = 2, .origin = 0},
                           "anchored at a vertex, which is on the subpixel grid"},
-    [DP_ANCHOR_ORIGIN] = {"origin", {.value = 3, .box = 10, .range = 2, .origin = 5},
+    [DP_ANCHOR_ORIGIN] = {"origin", {.value = 3, .box = 10, .range = 2, .origin = 4},
                           "anchored at the target's corner, two fused operations a pixel"},
-    [DP_ANCHOR_ORIGIN_UNFUSED] = {"origin-unfused", {.value = 3, .box = 10, .range = 2, .origin = 6},
+    [DP_ANCHOR_ORIGIN_UNFUSED] = {"origin-unfused", {.value = 3, .box = 10, .range = 2, .origin = 5},
                                   "the same, by multiply and add"},
-    [DP_ANCHOR_ORIGIN_STEPPED] = {"origin-stepped", {.value = 5, .box = 8, .range = 2, .origin = 6},
+    [DP_ANCHOR_ORIGIN_STEPPED] = {"origin-stepped", {.value = 5, .box = 8, .range = 2, .origin = 5},
                                   "the same at every other pixel, stepped between them"},
 };
 /* clang-format on */
