@@ -8,8 +8,8 @@
 #include "cli/slant.h"
 #include "cli/stop.h"
 #include "cli/walk.h"
-#include "cli/zfight_triangles.h"
 #include "cli/zfight_against.h"
+#include "cli/zfight_triangles.h"
 #include "report/number.h"
 
 /* A band, or all of them together, and what of it does not exist as NaN. */

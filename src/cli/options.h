@@ -200,7 +200,7 @@ typedef struct options {
     double gap;      /**< scene units; 0 when not given */
     uint64_t sample; /**< pairs to draw; 0 when not given */
     uint64_t seed;
-    bool drawn;  /**< --triangles: the surfaces are drawn */
+    bool drawn;                                   /**< --triangles: the surfaces are drawn */
     const vertex_program *against[VERTEX_OTHERS]; /**< in the order given, each once */
     size_t against_count;                         /**< 0: --against was not given */
     const vertex_program *program;                /**< what they are compared with */
