@@ -11,15 +11,15 @@ src/core          | depthprec core
 src/api           | depthprec core api
 src/census        | depthprec core census
 src/raster        | depthprec core raster
+src/vertex        | depthprec core vertex
 src/draw          | depthprec core raster draw
 src/shadow        | depthprec core api shadow
-src/vertex        | depthprec core vertex
 src/texture       | depthprec core texture
 src/method        | depthprec core texture census method
 src/need          | depthprec core api raster need
 src/report        | depthprec report
 src/plot          | depthprec core api census raster draw shadow texture method need plot
-src/cli           | depthprec core api census raster draw shadow vertex texture method need report plot cli
+src/cli           | depthprec core api census raster vertex draw shadow texture method need report plot cli
 '
 
 strangers() { # strangers FOLDER LAYER...: prints the quoted includes that name another layer, or none

@@ -67,6 +67,17 @@ static void test_read(void **state) {
     assert_true(parse(plain, "viewport = [1600, 900]; hfov = 90; subpixel = 8;", "at = 1; separation = 1;", &f, &e));
     assert_relative(f.cameras[0].setups[0].spec.triangles.fov_y, 2.0 * atan(0.5625) * 180.0 / acos(-1.0), 1e-14);
     need_release(&f);
+    /* A preset says what is not given: unreal has 90 degrees horizontally and what Vulkan promises. */
+    assert_true(parse("preset = \"unreal\";", "viewport = [1600, 900];", "at = 99; separation = 1;", &f, &e));
+    const dp_triangles *of_preset = &f.cameras[0].setups[0].spec.triangles;
+    assert_relative(of_preset->fov_y, 2.0 * atan(0.5625) * 180.0 / acos(-1.0), 1e-14);
+    assert_true(of_preset->subpixel == 4 && strcmp(f.cameras[0].raster->name, "spec-vulkan") == 0);
+    need_release(&f);
+    assert_true(parse("preset = \"unreal\";", "viewport = [1600, 900]; fov = 30; subpixel = 6;",
+                      "at = 99; separation = 1;", &f, &e));
+    of_preset = &f.cameras[0].setups[0].spec.triangles;
+    assert_true(of_preset->fov_y == 30 && of_preset->subpixel == 6 && f.cameras[0].raster == NULL);
+    need_release(&f);
     assert_true(parse(plain, "", "at = 1; separation = 1;", &f, &e));
     assert_int_equal(f.cameras[0].setups[0].spec.triangles.width, 0);
     need_release(&f);

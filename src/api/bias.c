@@ -201,14 +201,9 @@ double bias_round_up(const bias_api *api, const dp_format *format, double units)
     return rounded <= units_most ? rounded : (double)INFINITY;
 }
 
-/* The fewest units whose offset, as it is rounded, is at least `window`, with `rounded` of it and more computed. */
-static double units_for(const bias_api *api, const dp_format *format, double r, double window, double rounded) {
-    const double outward = api->binary32 ? 0x1p-22 : 0x1p-48;
-    return bias_round_up(api, format, fmax((window + rounded * outward) / r, 0.0));
-}
-
 double bias_units(const bias_api *api, const dp_format *format, double d, double window) {
-    return units_for(api, format, bias_unit_at(api, format, d).least, window, window);
+    const double outward = api->binary32 ? 0x1p-22 : 0x1p-48;
+    return bias_round_up(api, format, (1.0 + outward) * window / bias_unit_at(api, format, d).least);
 }
 
 /* bias_needed() at z for a primitive whose greatest window depth has the exponent e. */
@@ -220,8 +215,9 @@ static double needed_with(const dp_setup *setup, const bias_goal *goal, double z
     const double gap = window_of_gap(setup, z, goal->gap);
     const double window = fmax(step, gap) - goal->factor * m;
     /* Covers the roundings above and, where o itself is rounded to binary32, those; a single step is exact. */
-    const double rounded = gap <= step && m == 0.0 ? 0.0 : fmax(step, gap) + fabs(goal->factor) * m;
-    return units_for(goal->api, format, r, window, rounded);
+    const double outward = gap <= step && m == 0.0 ? 0.0 : goal->api->binary32 ? 0x1p-22 : 0x1p-48;
+    return bias_round_up(goal->api, format,
+                         fmax((window + (fmax(step, gap) + fabs(goal->factor) * m) * outward) / r, 0.0));
 }
 
 double bias_needed(const dp_setup *setup, const bias_goal *goal, double z) {

@@ -179,7 +179,7 @@ static void say_reach(page *p, void *item) {
     const table *t = item;
     const unit_row *unit = t->walk.here.unit;
     walk_title(p, item);
-    slant_title(p, &t->walk.here, &t->full);
+    slant_say(p, page_title, &t->walk.here, &t->full);
     if (t->walk.all.count > 1)
         return;
     say_reach_of(p, &t->full, unit, t->triangles != NULL ? ", facing the camera" : "");

@@ -180,7 +180,7 @@ static void say_neighbours(page *p, const zfight *z) {
 static void say_answer(page *p, void *item) {
     const zfight *z = item;
     walk_title(p, item);
-    slant_title(p, z->walk.o, z->walk.setup);
+    slant_say(p, page_title, z->walk.o, z->walk.setup);
     (z->gap > 0.0 ? say_gap : say_neighbours)(p, z);
 }
 
@@ -280,13 +280,7 @@ static void warn(const zfight *z) {
 }
 
 static int check(zfight *z) {
-    static const option_id of_programs[] = {OPTION_PROGRAM, OPTION_VERTICES, OPTION_WORLD};
     const options *o = z->walk.o;
-    if (option_given(o, OPTION_PLANE))
-        return option_error(OPTION_PLANE, "needs --triangles");
-    for (size_t i = 0; i < sizeof of_programs / sizeof of_programs[0]; i++)
-        if (option_given(o, of_programs[i]))
-            return option_error(of_programs[i], "needs --against");
     if (option_given(o, OPTION_SEED) && o->sample == 0)
         return option_error(OPTION_SEED, "needs --sample");
     options fp32 = *o;
@@ -321,11 +315,29 @@ static int run(zfight *z) {
     return output_close(&z->walk.out);
 }
 
+/* Options that only one kind of question has. */
+static int check_question(const options *o) {
+    static const option_id of_programs[] = {OPTION_PROGRAM, OPTION_VERTICES, OPTION_WORLD};
+    const bool against = option_given(o, OPTION_AGAINST), triangles = option_given(o, OPTION_TRIANGLES);
+    for (size_t i = 0; i < sizeof of_programs / sizeof of_programs[0]; i++)
+        if (option_given(o, of_programs[i]) && !against)
+            return option_error(of_programs[i], "needs --against");
+    for (option_id id = OPTION_FOV; id <= OPTION_TRIANGLE; id++)
+        if (option_given(o, id) && against)
+            return option_error(id, "cannot be combined with --against");
+    if (option_given(o, OPTION_PLANE) && !triangles)
+        return option_error(OPTION_PLANE, "needs --triangles");
+    return against && triangles ? option_error(OPTION_AGAINST, "cannot be combined with --triangles") : EXIT_FINE;
+}
+
 int cmd_zfight(const options *o) {
-    if (o->drawn)
-        return zfight_triangles(o);
+    const int refused = check_question(o);
+    if (refused != EXIT_FINE)
+        return refused;
     if (o->against_count > 0)
         return zfight_against(o);
+    if (o->drawn)
+        return zfight_triangles(o);
     zfight z = {.walk.o = o, .method = o->sample > 0 ? "sample" : "census", .seed = o->seed, .gap = o->gap};
     z.triangles = slant_fields_of(o, &z.slant);
     int status = check(&z);

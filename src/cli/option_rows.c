@@ -19,10 +19,10 @@ static const name_list models = {.get = list_model_word};
 static const name_list ariths = {.get = list_arith};
 static const name_list compositions = {.get = list_composition};
 static const name_list apis = {.words = (const char *const[]){"all", NULL}, .get = list_api};
-static const name_list rasters = {.get = list_rasterizer};
 static const name_list programs = {.get = list_program};
 static const name_list programs_or_all = {.words = (const char *const[]){"all", NULL}, .get = list_program};
 static const name_list spreads = {.get = list_vertices};
+static const name_list rasters = {.get = list_rasterizer};
 static const name_list scenes = {.get = list_scene};
 static const name_list positions = {.words = (const char *const[]){"exact", NULL}, .get = list_position};
 static const name_list normals = {.get = list_normal};
@@ -41,7 +41,7 @@ static const name_list reports = {.words = (const char *const[]){"text", "json",
 enum {
     MODELLED = VERB_TABLE | VERB_PLOT,
     BUDGETED = VERB_BUDGET | VERB_PLOT,
-    SLANTED = VERB_TABLE | VERB_BUDGET | VERB_ZFIGHT,
+    SLANTED = VERB_TABLE | VERB_BUDGET | VERB_SOLVE | VERB_ZFIGHT,
     DRAWS = VERB_ZFIGHT,
     SHADOWED = VERB_SHADOW | VERB_PLOT,
     VIEWED = SLANTED | SHADOWED,

@@ -200,11 +200,11 @@ typedef struct options {
     double gap;      /**< scene units; 0 when not given */
     uint64_t sample; /**< pairs to draw; 0 when not given */
     uint64_t seed;
-    bool drawn;                                   /**< --triangles: the surfaces are drawn */
     const vertex_program *against[VERTEX_OTHERS]; /**< in the order given, each once */
     size_t against_count;                         /**< 0: --against was not given */
     const vertex_program *program;                /**< what they are compared with */
     unsigned vertices;                            /**< how they are drawn: a vertex_spread */
+    bool drawn;                                   /**< --triangles: the surfaces are drawn */
     int threads;                                  /**< 0 when not given: as many as there are cores */
 
     unsigned cascades;   /**< of a shadow map */
