@@ -75,7 +75,9 @@ static void check_panel(const drawn *d, const drawn_panel *p, const shadow_light
     for (int k = 0; k < CURVES; k++) {
         const drawn_entry *e = drawn_legend(d, curves[k].name);
         const curve c = {*light, k};
-        drawn_follows(p, &p->y, drawn_curve(d, p, e), true_length, &c, 60, 2);
+        const svg_mark *line = drawn_curve(d, p, e);
+        drawn_follows(p, &p->y, line, true_length, &c, 60, 2);
+        assert_px(line->box.x1, p->frame.x1, 1);
         drawn_style_is(d, e, k < SHADOW_WAY_COUNT ? -1 : k - SHADOW_WAY_COUNT, k < SHADOW_WAY_COUNT ? k : 0,
                        k < SHADOW_WAY_COUNT ? DRAWN_NONE : (drawn_shape)(DRAWN_DISC + k - SHADOW_WAY_COUNT), false);
     }
