@@ -55,6 +55,9 @@ all_named bias --at 10 --units 1
 all_named bias --range 1:10 --gap 0.01
 all_named bias --api all --at 10
 all_named bias --api all --range 1:10
+all_named shadow -f 50 --api all
+all_named shadow --light-box 5x5x5 --range 1:4
+all_named plot shadow
 all_named bench worst --tolerance 0.1
 all_named stability encode
 all_named texture --scene decals --size 64x36
