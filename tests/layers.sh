@@ -16,7 +16,7 @@ src/draw          | depthprec core raster draw
 src/shadow        | depthprec core api shadow
 src/texture       | depthprec core texture
 src/method        | depthprec core texture census method
-src/need          | depthprec core api need
+src/need          | depthprec core api raster need
 src/report        | depthprec report
 src/plot          | depthprec core api census raster draw shadow texture method need plot
 src/cli           | depthprec core api census raster vertex draw shadow texture method need report plot cli

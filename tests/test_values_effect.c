@@ -43,8 +43,8 @@ static const struct {
     {.effect = "outline", .camera = PERSPECTIVE("reversed", "unorm16"), .z = AHEAD},
     {.effect = "contact-shadow", .camera = PERSPECTIVE("reversed", "unorm16"), .z = AHEAD},
     {.effect = "soft-particles", .camera = PERSPECTIVE("d3d", "unorm16"), .z = AHEAD},
-    /* 58.7 degrees: 2 atan(9/16) */
     {.effect = "water-depth", .camera = PERSPECTIVE("d3d", "unorm16"), .z = AHEAD,
+     /* 2 atan(9/16) */
      .view = "--hfov 90 --pixel 0,0", .now = {640, 360, 58.71550708558254, 5, 0, 0, {0, 0, 0}, NULL}},
     {.effect = "decal", .camera = PERSPECTIVE("d3d", "unorm16"), .z = AHEAD,
      .view = "--yaw 30", .column = 320, .row = 359, .now = {640, 360, 60, 5, 30, 0, {0, 0, 0}, NULL}},

@@ -249,12 +249,82 @@ static void test_presets(void **state) {
         const slant_case bevy = {.znear = 0.1,
                                  .zfar = INFINITY,
                                  .mapping = DP_MAPPING_REVERSED,
-                                 .triangles = {800, 800, 45, 4, {5, 11, 2, 6}, 0, 90, 2, 512, 16}};
+                                 .triangles = {800, 800, 45, 4, {5, 11, 2, 5}, 0, 90, 2, 512, 16}};
         assert_true(at(got, "fov") == (i == 0 ? 45 : 50));
         assert_string_equal(json_string_value(json_object_get(got, "raster")), i == 0 ? "spec-vulkan" : "spec-gl");
         if (i == 0)
             assert_true(at(json_array_get(json_object_get(setup, "rows"), 0), "guarantee_slanted") ==
                         budget_of(&bevy, 10, true).separation);
+    }
+    json_decref(root);
+    printed_free(&p);
+}
+
+/* A census stays what it is; beside each band stands what holds at any slant all over it. */
+static void test_zfight(void **state) {
+    const slant_case *c = &cases[0];
+    static const char *const same[] = {"pairs", "ties", "swaps", "longest", "longest_z", "bound", "used"};
+    const char *const common = "zfight %s --range 5.5:9 --json %s";
+    printed with = print_of(common, c->camera, c->options), without = print_of(common, c->camera, "");
+    printed csv = print_of("zfight %s --range 5.5:9 --csv %s", c->camera, c->options);
+    json_t *roots[] = {json_of(with.out), json_of(without.out)};
+    const json_t *setups[2], *bands[2];
+    dp_spec spec = dp_spec_default();
+    dp_setup slanted;
+    (void)state;
+    spec.znear = c->znear;
+    spec.zfar = c->zfar;
+    spec.mapping = c->mapping;
+    spec.model = DP_MODEL_FP32;
+    spec.triangles = c->triangles;
+    assert_int_equal(dp_setup_init(&slanted, &spec), DP_OK);
+    check_triangles(roots[0], &c->triangles, c->raster);
+    for (int k = 0; k < 2; k++) {
+        setups[k] = json_array_get(json_object_get(roots[k], "setups"), 0);
+        bands[k] = json_object_get(setups[k], "bands");
+    }
+    assert_int_equal(json_array_size(bands[0]), 2);
+    for (size_t b = 0; b < 3; b++) { /* the last: all of them */
+        const json_t *got = b < 2 ? json_array_get(bands[0], b) : setups[0];
+        const json_t *other = b < 2 ? json_array_get(bands[1], b) : setups[1];
+        dp_separation_worst worst;
+        assert_int_equal(dp_separation_over(&slanted, b == 1 ? 8 : 5.5, b == 0 ? 8 : 9, 0, &worst), DP_OK);
+        assert_true(at(got, "guarantee_slanted") == worst.bound);
+        assert_true(at(got, "guarantee_facing") == at(got, "bound"));
+        assert_true(b == 2 || csv_at(csv.out, "guarantee_slanted [scene]", (int)b) == worst.bound);
+        for (size_t i = 0; i < sizeof same / sizeof same[0]; i++)
+            assert_true(at(got, same[i]) == at(other, same[i]));
+    }
+    assert_non_null(strstr(with.out, "\"raster\":null"));
+    for (int k = 0; k < 2; k++)
+        json_decref(roots[k]);
+    printed_free(&with);
+    printed_free(&without);
+    printed_free(&csv);
+}
+
+/* Over a range, of both. */
+static void test_range(void **state) {
+    const slant_case *c = &cases[0];
+    printed p = print_of("table %s %s --at 700 --range 3:5e4 --json", c->camera, c->options);
+    json_t *root = json_of(p.out);
+    const json_t *setup = json_array_get(json_object_get(root, "setups"), 0);
+    (void)state;
+    for (int slanted = 0; slanted < 2; slanted++) {
+        const json_t *got = json_object_get(setup, slanted ? "worst_separation_slanted" : "worst_separation");
+        dp_spec spec = dp_spec_default();
+        dp_setup full;
+        dp_separation_worst worst;
+        spec.znear = c->znear;
+        spec.zfar = c->zfar;
+        spec.mapping = c->mapping;
+        spec.model = DP_MODEL_FP32;
+        if (slanted)
+            spec.triangles = c->triangles;
+        assert_int_equal(dp_setup_init(&full, &spec), DP_OK);
+        assert_int_equal(dp_separation_over(&full, 3, 5e4, 0, &worst), DP_OK);
+        assert_true(at(got, "bound") == worst.bound && at(got, "separation") == worst.separation);
+        assert_true(at(got, "z") == worst.z && at(got, "lo") == 3 && at(got, "hi") == 5e4);
     }
     json_decref(root);
     printed_free(&p);
@@ -271,8 +341,9 @@ static void test_hopeless(void **state) {
 }
 
 int main(void) {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(test_rows), cmocka_unit_test(test_text),
+    const struct CMUnitTest tests[] = {cmocka_unit_test(test_rows),       cmocka_unit_test(test_text),
                                        cmocka_unit_test(test_rasterizer), cmocka_unit_test(test_presets),
+                                       cmocka_unit_test(test_range),      cmocka_unit_test(test_zfight),
                                        cmocka_unit_test(test_hopeless)};
     return run_tap(tests);
 }

@@ -19,7 +19,6 @@ enum { DIGITS_GAP = 3, DIGITS = 4, DIGITS_Z = 6, UNITS_SIZE = NUMBER_SIZE + 2 };
 typedef struct way {
     double window, units, factor, offset, texels; /* units and factor with their sign; NaN: no such number is enough */
     double gap, gap_normal, gap_facing, share;
-    bool limited;
     char units_text[UNITS_SIZE], factor_text[UNITS_SIZE]; /* on the safe side */
     char call[BIAS_CALL_SIZE];
 } way;
@@ -30,13 +29,14 @@ typedef struct row {
     double width, height, depth, texel;
     double cause[SHADOW_CAUSE_COUNT]; /* scene units along the light, at the greatest slant */
     way way[SHADOW_WAY_COUNT];
+    bool limited; /* a gap reaches beyond the far plane */
     const char *api;
 } row;
 
 /* What is enough in all maps of a set-up, for one API. */
 typedef struct whole {
     const char *api;
-    bool hidden; /* a gap is as deep as its map */
+    bool hidden, limited; /* in a map a gap is as deep as the box, or reaches beyond the far plane */
     way way[SHADOW_WAY_COUNT];
 } whole;
 
@@ -62,16 +62,16 @@ static way way_of(const shadow_light *light, const shadow_need *need, int k, con
     const shadow_bias *b = &need->bias[k];
     const shadow_state state = shadow_state_of(light, b, api);
     const int sign = shadow_sign(light);
+    const bool none = !isfinite(b->factor) || !isfinite(state.units);
     return (way){.window = b->window,
-                 .units = signed_or_none(isfinite(b->factor) ? state.units : b->factor, sign),
+                 .units = none ? (double)NAN : signed_or_none(state.units, sign),
                  .factor = signed_or_none(b->factor, sign),
                  .offset = b->offset,
                  .texels = b->offset / need->texel,
-                 .gap = state.gap_light,
-                 .gap_normal = state.gap_normal,
-                 .gap_facing = state.gap_facing,
-                 .share = b->share,
-                 .limited = b->limited};
+                 .gap = none ? (double)NAN : state.gap_light,
+                 .gap_normal = none ? (double)NAN : state.gap_normal,
+                 .gap_facing = none ? (double)NAN : state.gap_facing,
+                 .share = isfinite(b->factor) ? b->share : (double)NAN};
 }
 
 /* The number farther from 0; none where either is none. */
@@ -88,8 +88,7 @@ static way widest(const way *a, const way *b) {
                  .gap = wider(a->gap, b->gap),
                  .gap_normal = wider(a->gap_normal, b->gap_normal),
                  .gap_facing = wider(a->gap_facing, b->gap_facing),
-                 .share = fmin(a->share, b->share),
-                 .limited = a->limited || b->limited};
+                 .share = isnan(a->share) || isnan(b->share) ? (double)NAN : fmin(a->share, b->share)};
 }
 
 /* Four digits that are enough, or all of a whole number. */
@@ -131,6 +130,7 @@ static row row_of(const shadow *s, size_t i, const bias_api *api) {
     for (int k = 0; k < SHADOW_WAY_COUNT; k++) {
         r.way[k] = way_of(light, &need, k, api);
         write_way(&r.way[k], k, api);
+        r.limited = r.limited || need.bias[k].limited;
     }
     return r;
 }
@@ -139,10 +139,11 @@ static whole whole_of(const shadow *s, const bias_api *api) {
     whole w = {.api = api->name};
     for (size_t i = 0; i < s->maps.count; i++) {
         const row r = row_of(s, i, api);
-        for (int k = 0; k < SHADOW_WAY_COUNT; k++)
+        w.limited = w.limited || r.limited;
+        for (int k = 0; k < SHADOW_WAY_COUNT; k++) {
             w.way[k] = i == 0 ? r.way[k] : widest(&w.way[k], &r.way[k]);
-        for (int k = 0; k < SHADOW_WAY_COUNT; k++)
             w.hidden = w.hidden || r.way[k].gap >= r.depth;
+        }
     }
     for (int k = 0; k < SHADOW_WAY_COUNT; k++)
         write_way(&w.way[k], k, api);
@@ -214,8 +215,8 @@ static void say_maps(page *p, void *item) {
         page_title(p, "box %s x %s, %s deep along the light", number_full(o->light_box[0]).text,
                    number_full(o->light_box[1]).text, number_full(o->light_box[2]).text);
     }
-    page_title(p, "%d subpixel bits, triangles from 1 to %s texels, no slimmer than 1:%s", t->subpixel,
-               number_full(t->pixels).text, number_full(t->slim).text);
+    page_title(p, "%d subpixel bit%s, triangles from 1 to %s texels, no slimmer than 1:%s", t->subpixel,
+               t->subpixel == 1 ? "" : "s", number_full(t->pixels).text, number_full(t->slim).text);
 }
 
 /* One API: what to write. All: what follows is a table of them. */
@@ -224,7 +225,7 @@ static void say_answer(page *p, void *item) {
     const char *where = s->maps.count > 1 ? " in any cascade" : "";
     say_maps(p, item);
     if (s->api == NULL) {
-        page_text(p, "No acne%s with the constant bias, or the next two, or the last two:", where);
+        page_text(p, "No acne%s with the constant U, with F and its U, or with the offset and its U:", where);
         return;
     }
     const whole w = whole_of(s, s->api);
@@ -289,13 +290,17 @@ static void say_notes(page *p, void *item) {
     page_note(p, "needed", "%s %%, %s %% and %s %% of these by slope times filter radius alone",
               number_down(100.0 * w.way[0].share, 2).text, number_down(100.0 * w.way[1].share, 2).text,
               number_down(100.0 * w.way[2].share, 2).text);
+    if (isnan(w.way[SHADOW_CONSTANT].units) && real)
+        page_note(p, "units",
+                  "are worth nothing at window depth 0 of a float format: --range LO:HI says where surfaces "
+                  "are lit");
     if (wide > 1.5)
         page_note(p, "units", "%s: the gap is up to %s times what is needed",
                   real ? "grow with the depth in a float format" : "may be worth more than is assumed",
                   number_up(wide, 2).text);
     if (w.hidden)
         page_note(p, "far plane", "a bias is as deep as the box: nothing is in shadow");
-    else if (option_given(&s->o, OPTION_RANGE) && w.way[0].limited)
+    else if (option_given(&s->o, OPTION_RANGE) && w.limited)
         page_note(p, "far plane", "a gap reaches beyond it: casters there cast no shadow");
 }
 
@@ -315,9 +320,11 @@ enum { ONE_API = 1, ALL_APIS = 2, SPLIT = 4 };
 #define NUMBERS(name, k)                                                                                               \
     {FIELD(row, way[k].window, name "_bias", "")}, {FIELD(row, way[k].units, name "_units", "")},                      \
         {FIELD(row, way[k].gap, name "_gap", "scene")}, {FIELD(row, way[k].gap_normal, name "_gap_normal", "scene")},  \
-        {FIELD(row, way[k].gap_facing, name "_gap_facing", "scene")}, {FIELD(row, way[k].share, name "_share", "")}, { \
-        FIELD(row, way[k].limited, name "_limited", "")                                                                \
+    {                                                                                                                  \
+        FIELD(row, way[k].share, name "_share", "")                                                                    \
     }
+#define FACING(name, k)                                                                                                \
+    { FIELD(row, way[k].gap_facing, name "_gap_facing", "scene") }
 
 static const column cause_columns[] = {{FIELD(row, cause[SHADOW_CAUSE_TEXEL], "texel", "scene")},
                                        {FIELD(row, cause[SHADOW_CAUSE_KERNEL], "kernel", "scene")},
@@ -341,9 +348,12 @@ static const column row_columns[] = {
     NUMBERS("constant", SHADOW_CONSTANT),
     {FIELD(row, way[SHADOW_SLOPE].factor, "slope_factor", "")},
     NUMBERS("slope", SHADOW_SLOPE),
+    FACING("slope", SHADOW_SLOPE),
     {FIELD(row, way[SHADOW_NORMAL].offset, "normal_offset", "scene")},
     {FIELD(row, way[SHADOW_NORMAL].texels, "normal_texels", "")},
     NUMBERS("normal", SHADOW_NORMAL),
+    FACING("normal", SHADOW_NORMAL),
+    {FIELD(row, limited, "limited", "")},
     {TEXT_FIELD(row, way[SHADOW_CONSTANT].units_text, "units", 10, 0)},
     {TEXT_FIELD(row, way[SHADOW_CONSTANT].gap, "gap", 8, DIGITS_GAP), .upward = true, .brief = true},
     {TEXT_FIELD(row, way[SHADOW_SLOPE].factor_text, "factor", 8, 0)},

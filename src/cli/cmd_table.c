@@ -54,10 +54,10 @@ typedef struct table {
     row row;
     dp_worst worst_case;
     const dp_worst *worst; /* null in a model without cells */
-    guarantee over_range;
+    guarantee over_range, slanted_over_range;
     slant_fields slant;
-    const slant_fields *triangles; /* null: surfaces face the camera */
-    const guarantee *guarantee;    /* null where there is none, or none is asked for */
+    const slant_fields *triangles;                  /* null: surfaces face the camera */
+    const guarantee *guarantee, *guarantee_slanted; /* null where there is none, or none is asked for */
     clipping planes;
     const clipping *drawn; /* null where there is no pipeline */
     per_vertex_worst written;
@@ -125,10 +125,9 @@ static void *next_row(void *of, size_t i) {
     return r;
 }
 
-static const guarantee *guarantee_over(table *t) {
-    guarantee *g = &t->over_range;
-    g->model = dp_model_name(t->full.spec.model);
-    return option_given(t->walk.o, OPTION_RANGE) && dp_separation_over(&t->full, t->lo, t->hi, 0.0, &g->worst) == DP_OK
+static const guarantee *guarantee_over(const table *t, const dp_setup *full, guarantee *g) {
+    g->model = dp_model_name(full->spec.model);
+    return option_given(t->walk.o, OPTION_RANGE) && dp_separation_over(full, t->lo, t->hi, 0.0, &g->worst) == DP_OK
                ? g
                : NULL;
 }
@@ -154,7 +153,9 @@ static void *next_setup(void *of, size_t i) {
     t->worst_case = (dp_worst){0};
     dp_worst_over(setup, t->lo, t->hi, &t->worst_case);
     t->worst = isnan(t->worst_case.error) ? NULL : &t->worst_case;
-    t->guarantee = guarantee_over(t);
+    t->guarantee = guarantee_over(t, &t->full, &t->over_range);
+    const bool has_slanted = t->triangles != NULL && t->slanted.spec.model == DP_MODEL_FP32;
+    t->guarantee_slanted = has_slanted ? guarantee_over(t, &t->slanted, &t->slanted_over_range) : NULL;
     t->planes = clipping_of(setup);
     t->drawn = setup->spec.model == DP_MODEL_FP32 ? &t->planes : NULL;
     return t;
@@ -163,28 +164,33 @@ static void *next_setup(void *of, size_t i) {
 /* ---- Text -------------------------------------------------------------------------------------------------------- */
 
 /* The answer first: how far one can trust the set-up. */
-static void say_reach(page *p, void *item) {
-    const table *t = item;
+static void say_reach_of(page *p, const dp_setup *full, const unit_row *unit, const char *which) {
     char text[REACH_TEXT_SIZE], sentence[REACH_TEXT_SIZE] = "";
-    const unit_row *unit = t->walk.here.unit;
-    walk_title(p, item);
-    slant_title(p, &t->walk.here, &t->full);
-    if (t->walk.all.count > 1)
-        return;
     double up_to[REACH_LIMITS];
-    reach_of(&t->full, unit, up_to);
+    reach_of(full, unit, up_to);
     /* What is wider than a separation that holds everywhere goes without saying. */
-    for (size_t i = 0; i < REACH_LIMITS && (i == 0 || !(up_to[i - 1] >= t->full.spec.zfar)); i++)
+    for (size_t i = 0; i < REACH_LIMITS && (i == 0 || !(up_to[i - 1] >= full->spec.zfar)); i++)
         if (!isnan(up_to[i]))
             append(sentence, sizeof sentence, "%s %s apart up to %s%s", *sentence != '\0' ? "," : "",
-                   reach_limit_text(i, unit).text, up_to[i] < t->full.spec.zfar ? "z = " : "",
-                   reach_text(t->full.spec.zfar, up_to[i], unit, text));
+                   reach_limit_text(i, unit).text, up_to[i] < full->spec.zfar ? "z = " : "",
+                   reach_text(full->spec.zfar, up_to[i], unit, text));
     if (*sentence != '\0')
-        page_text(p, "Guaranteed to be told apart%s: surfaces%s.", t->triangles != NULL ? ", facing the camera" : "",
-                  sentence);
+        page_text(p, "Guaranteed to be told apart%s: surfaces%s.", which, sentence);
     else
-        page_text(p, "Surfaces %s apart are not guaranteed to be told apart, even at the near plane.",
-                  reach_limit_text(REACH_LIMITS - 1, unit).text);
+        page_text(p, "Surfaces %s apart are not guaranteed to be told apart%s, even at the near plane.",
+                  reach_limit_text(REACH_LIMITS - 1, unit).text, which);
+}
+
+static void say_reach(page *p, void *item) {
+    const table *t = item;
+    const unit_row *unit = t->walk.here.unit;
+    walk_title(p, item);
+    slant_say(p, page_title, &t->walk.here, &t->full);
+    if (t->walk.all.count > 1)
+        return;
+    say_reach_of(p, &t->full, unit, t->triangles != NULL ? ", facing the camera" : "");
+    if (t->triangles != NULL && t->slanted.spec.model == DP_MODEL_FP32)
+        say_reach_of(p, &t->slanted, unit, ", at any slant");
 }
 
 static void say_worst(page *p, const dp_worst *w) {
@@ -228,15 +234,18 @@ static void say_way(page *p, const way *w, double tolerance) {
                   number_of(w->claim, 3).text);
 }
 
+static void say_guarantee(page *p, const guarantee *g, const char *label, const char *what) {
+    if (g != NULL)
+        page_note(p, label, "%s at z = %s, %s", number_in(number_up(g->worst.bound, DIGITS_FEW), p->unit).text,
+                  number_in(number_of(g->worst.z, DIGITS_USUAL), p->unit).text, what);
+}
+
 static void say_notes(page *p, void *item) {
     const table *t = item;
-    const guarantee *g = t->guarantee;
     say_worst(p, t->worst);
-    if (g != NULL)
-        page_note(p, "worst separation", "%s at z = %s, %s",
-                  number_in(number_up(g->worst.bound, DIGITS_FEW), p->unit).text,
-                  number_in(number_of(g->worst.z, DIGITS_USUAL), p->unit).text,
+    say_guarantee(p, t->guarantee, "worst separation",
                   t->full.spec.model == DP_MODEL_FP32 ? "guaranteed in binary32 (model float)" : "in the model staged");
+    say_guarantee(p, t->guarantee_slanted, "at any slant", "of the farther surface");
     say_drawn(p, &t->planes);
     per_vertex_say(p, &t->written, t->slant.triangles.depth);
     page_line(p, "%s", choice_sentence(&t->choice, p->unit).text);
@@ -320,6 +329,8 @@ static const column setup_report[] = {
     {FIELD(table, walk.fields.unit, "unit", ""), .only = AS_CSV, .when = WITH_PRESETS},
     {PART(table, worst, "worst", worst_columns), .only = AS_JSON, .pointed = true},
     {PART(table, guarantee, "worst_separation", guarantee_columns), .only = AS_JSON, .pointed = true, .optional = true},
+    {PART(table, guarantee_slanted, "worst_separation_slanted", guarantee_columns), .only = AS_JSON, .pointed = true,
+     .optional = true},
     {PART(table, drawn, NULL, drawn_columns), .only = AS_JSON, .pointed = true},
     {PART(table, chosen, "auto", choice_columns), .only = AS_JSON},
     {.kind = COLUMN_END}};

@@ -41,7 +41,7 @@ static const name_list reports = {.words = (const char *const[]){"text", "json",
 enum {
     MODELLED = VERB_TABLE | VERB_PLOT,
     BUDGETED = VERB_BUDGET | VERB_PLOT,
-    SLANTED = VERB_TABLE | VERB_BUDGET | VERB_ZFIGHT,
+    SLANTED = VERB_TABLE | VERB_BUDGET | VERB_SOLVE | VERB_ZFIGHT,
     DRAWS = VERB_ZFIGHT,
     SHADOWED = VERB_SHADOW | VERB_PLOT,
     VIEWED = SLANTED | SHADOWED,
@@ -201,9 +201,11 @@ const option_row option_rows[OPTION_COUNT] = {
         "count what a rasterizer does to slanted triangles in a viewport of these pixels; z is then the depth of the "
         "farther surface, and the separation is along the normal",
         .parse = parse_viewport, .without = "surfaces face the camera",
-        .except = {BUT(VERB_ZFIGHT, "1920x1080", NULL, "with --triangles: the pixels of the viewport"),
+        .except = {BUT(VERB_ZFIGHT, NULL, "1920x1080 with --triangles, else surfaces face the camera",
+                       "the pixels of the viewport; without --triangles what is guaranteed at any slant stands beside "
+                       "the census"),
                    BUT(SHADOWED, "1920x1080", NULL, "pixels of the view, which say how wide it is")}},
-    [OPTION_RASTER] = {"raster", 0, "NAME", SLANTED,
+    [OPTION_RASTER] = {"raster", 0, "NAME", VIEWED,
         "the rasterizer, its subpixel grid and how it sets up depth: @; of the specifications the worst that they "
         "allow; see 'depthprec list rasterizers'", ROW(raster, rasters),
         .without = "--subpixel, and a plane anchored at a vertex",
@@ -240,7 +242,7 @@ const option_row option_rows[OPTION_COUNT] = {
     [OPTION_ANGLE] = {"angle", 0, "DEG", SHADOWED,
         "receivers up to this angle between their normal and the light are free of acne",
         NUMBER(angle, 0, SHADOW_SLANT_MAX, "degrees"), .standard = "75"},
-    [OPTION_API] = {"api", 0, "NAME", VERB_BIAS | SHADOWED,
+    [OPTION_API] = {"api", 0, "NAME", VERB_BIAS | VERB_SHADOW,
         "the API whose rule applies: @; all compares them, each with the call to write",
         ROW(api, apis), .standard = "d3d11",
         .group = "The bias"},

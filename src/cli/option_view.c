@@ -58,12 +58,12 @@ int slant_complete(options *o) {
     static const option_id beside[] = {OPTION_FOV,   OPTION_HFOV,  OPTION_RASTER,  OPTION_SUBPIXEL,
                                        OPTION_SLANT, OPTION_PLANE, OPTION_TRIANGLE};
     const bool slanted = option_given(o, OPTION_VIEWPORT) || o->drawn;
-    if (o->verb->bit == VERB_SHADOW) /* there the viewport says how wide the view is */
-        return EXIT_FINE;
     if (!slanted)
         o->triangles.width = 0;
-    if ((o->verb->bit & option_rows[OPTION_VIEWPORT].commands) == 0 || o->verb->bit == VERB_PLOT)
+    if ((o->verb->bit & option_rows[OPTION_VIEWPORT].commands) == 0)
         return EXIT_FINE;
+    if ((o->verb->bit & (VERB_SHADOW | VERB_PLOT)) != 0) /* a shadow map's viewport says how wide the view is */
+        return take_raster(o);
     for (size_t i = 0; i < sizeof beside / sizeof beside[0]; i++)
         if (option_given(o, beside[i]) && !slanted)
             return option_refuse(&option_rows[beside[i]], "needs --viewport: surfaces face the camera");
@@ -88,7 +88,7 @@ void slant_take_preset(options *o, const preset *p) {
         return;
     if (!option_given(o, OPTION_FOV) && !option_given(o, OPTION_HFOV))
         t->fov_y = preset_fov_y(p, t->width, t->height);
-    if (option_given(o, OPTION_RASTER) || option_given(o, OPTION_SUBPIXEL))
+    if (o->drawn || option_given(o, OPTION_RASTER) || option_given(o, OPTION_SUBPIXEL))
         return;
     o->raster = raster_find(p->raster);
     raster_describe(o->raster, t);

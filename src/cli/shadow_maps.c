@@ -16,6 +16,8 @@ options shadow_options(const options *o) {
         parse_mappings(&out, &option_rows[OPTION_MAPPING], "d3d");
     if (!option_given(o, OPTION_SIZE))
         out.camera.width = out.camera.height = SIDE;
+    if (!option_given(o, OPTION_VIEWPORT))
+        out.triangles.width = dp_triangles_default().width;
     return out;
 }
 
@@ -29,8 +31,6 @@ static int check_together(const options *o) {
             return option_error(view[i], "does not apply with --light-box, which is one map without a view");
     if (option_given(o, OPTION_RANGE) && !box)
         return option_error(OPTION_RANGE, "needs --light-box: the depths of cascades follow from the view");
-    if (option_given(o, OPTION_FOV) && option_given(o, OPTION_HFOV))
-        return option_error(OPTION_HFOV, "cannot be combined with --fov");
     if (o->camera.width > SIDE_MAX || o->camera.height > SIDE_MAX)
         return option_error(OPTION_SIZE, "must be at most %d texels a side, got '%ux%u'", SIDE_MAX, o->camera.width,
                             o->camera.height);
@@ -63,23 +63,22 @@ static shadow_light light_of(const options *o, const dp_format *format, dp_mappi
     return light;
 }
 
-static shadow_split split_of(const options *o) {
+static int split_of(const options *o, shadow_split *out) {
     const dp_triangles *t = &o->triangles;
     shadow_split s = shadow_split_default();
     s.znear = o->znear;
     s.zfar = o->zfar;
-    s.fov_y = option_given(o, OPTION_HFOV) ? dp_fov_vertical(o->fov_x, t->width, t->height) : o->camera.fov_y;
     s.aspect = (double)t->width / t->height;
     s.count = (int)o->cascades;
     s.lambda = o->lambda;
     s.casters = o->casters;
-    return s;
+    *out = s;
+    return view_vertical(o, t->width, t->height, &out->fov_y);
 }
 
 /* What the options could not see one by one. */
-static int refused(const options *o, const shadow_split *view, shadow_status status) {
+static int refused(const options *o, shadow_status status) {
     const uint32_t side = o->camera.width < o->camera.height ? o->camera.width : o->camera.height;
-    const option_id wide = option_given(o, OPTION_VIEWPORT) ? OPTION_VIEWPORT : OPTION_HFOV;
     if (status == SHADOW_RECEIVERS)
         return option_error(OPTION_RANGE, "must lie in the box, from 0 to %s, got '%s:%s'",
                             number_full(o->light_box[2]).text, number_full(o->range_lo).text,
@@ -88,10 +87,8 @@ static int refused(const options *o, const shadow_split *view, shadow_status sta
         return option_error(OPTION_FAR, "must be greater than near and at most 1e12, got '%s'",
                             number_full(o->zfar).text);
     if (status == SHADOW_CASCADES)
-        return option_error(wide,
-                            "makes a view %s degrees high and %s times as wide: must be from 0.001 to 179.9 degrees "
-                            "and from 0.001 to 1000 times",
-                            number_of(view->fov_y, 4).text, number_of(view->aspect, 4).text);
+        return option_error(OPTION_VIEWPORT, "must be from 0.001 to 1000 times as wide as high, got '%dx%d'",
+                            o->triangles.width, o->triangles.height);
     if (status == SHADOW_BOX && side <= 4 * o->kernel)
         return option_error(OPTION_SIZE, "must be larger than four times the filter of %ux%u, got '%ux%u'", o->kernel,
                             o->kernel, o->camera.width, o->camera.height);
@@ -105,14 +102,17 @@ int shadow_maps_make(const options *o, const dp_format *format, dp_mapping mappi
     if (status != EXIT_FINE)
         return status;
     if (dp_mapping_get(mapping)->curve != DP_CURVE_PERSPECTIVE)
-        return option_error(OPTION_MAPPING, "must be %s of a shadow map, got '%s'", DP_MAPPING_NAMES_PERSPECTIVE,
+        return option_error(OPTION_MAPPING,
+                            "must be one of the mappings " DP_MAPPING_NAMES_PERSPECTIVE " for a shadow map, got '%s'",
                             dp_mapping_get(mapping)->name);
     const shadow_light light = light_of(o, format, mapping);
     if (!box)
-        out->view = split_of(o);
+        status = split_of(o, &out->view);
+    if (status != EXIT_FINE)
+        return status;
     shadow_status made = shadow_light_check(&light);
     out->items[0].light = light;
     for (size_t i = 0; i < out->count && !box && made == SHADOW_OK; i++)
         made = shadow_cascade_of(&out->view, &light, (int)i, &out->items[i]);
-    return made == SHADOW_OK ? EXIT_FINE : refused(o, &out->view, made);
+    return made == SHADOW_OK ? EXIT_FINE : refused(o, made);
 }

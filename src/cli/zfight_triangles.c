@@ -93,7 +93,7 @@ static void say_answer(page *p, void *item) {
     const drawn *d = item;
     const draw_fight_band *w = &d->whole;
     walk_title(p, item);
-    slant_title(p, d->walk.o, d->walk.setup);
+    slant_say(p, page_title, d->walk.o, d->walk.setup);
     if (w->pixels == 0)
         page_text(p, "No pixel shows two planes: nothing is certain there, or none lie so near the camera.");
     else if (isnan(w->used))

@@ -13,6 +13,9 @@ static const double outward = 1.0 + 0x1p-20;
 /* What a sine that a shader takes of a cosine may be off by. */
 static const double sine_error = 0x1p-10;
 
+/* Of texture coordinates: Direct3D allows 0.6 of a step. */
+static const double rounded_step = 0.6;
+
 static double degrees(double angle) {
     return angle * (3.14159265358979323846 / 180.0);
 }
@@ -34,17 +37,18 @@ typedef struct ground {
 
 static ground ground_of(const shadow_light *light) {
     const dp_triangles *t = &light->triangles;
-    const double root3 = sqrt(3.0);
     ground g = {.depth = light->setup.kappa, .reach = t->pixels};
     g.texel_x = light->width / t->width;
     g.texel_y = light->height / t->height;
     g.diagonal = hypot(g.texel_x, g.texel_y);
     g.size = fmax(t->width, t->height);
-    const double own = 0.5 * fmax(fmax(light->width, light->height), g.depth);
-    const double world = root3 * (light->world > 0.0 ? light->world : own);
-    g.place = eps * world;
-    g.turned = 8.0 * eps * world;
-    g.turned_depth = 4.0 * eps * (2.0 * world / g.depth + 0.5) + eps;
+    /* The length of positions, and of those to the middle of the box, which the matrix takes off. */
+    const double position =
+        light->world > 0.0 ? sqrt(3.0) * light->world : 0.5 * hypot(hypot(light->width, light->height), g.depth);
+    const double middle = light->world > 0.0 ? position : 0.0;
+    g.place = eps * position;
+    g.turned = 4.0 * eps * (position + middle);
+    g.turned_depth = 4.0 * eps * ((position + middle) / g.depth + 0.5) + eps;
     g.vertex = g.turned / fmin(g.texel_x, g.texel_y) + eps * (2.0 * g.size + 4.0 * g.reach);
     g.box = 0.5 * (1.0 + hypot(t->slim, 1.0));
     return g;
@@ -72,7 +76,7 @@ static void parts_of(const shadow_light *light, const ground *g, shadow_part par
     part[SHADOW_CAUSE_TEXEL] = (shadow_part){0.5, 0.0};
     part[SHADOW_CAUSE_KERNEL] = (shadow_part){light->kernel - 0.5, 0.0};
     part[SHADOW_CAUSE_LOOKUP] =
-        (shadow_part){(light->subtexel > 0 ? ldexp(1.0, -light->subtexel) : 0.0) + 2.0 * eps * g->size, 0.0};
+        (shadow_part){(light->subtexel > 0 ? ldexp(rounded_step, -light->subtexel) : 0.0) + 2.0 * eps * g->size, 0.0};
     part[SHADOW_CAUSE_SNAPPING] = (shadow_part){t->subpixel > 0 ? ldexp(1.0, -t->subpixel - 1) : 0.0, 0.0};
     part[SHADOW_CAUSE_SETUP] = (shadow_part){eps * (p->origin * far_off + (box + p->range) * g->reach), eps * p->value};
     part[SHADOW_CAUSE_POSITION] =
