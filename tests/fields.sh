@@ -42,6 +42,7 @@ all_named zfight -n 1 -f 1.5 -F unorm16 -m d3d --viewport 640x480
 all_named budget --at 10
 all_named budget --at 10 --viewport 640x480
 all_named table --at 10 --viewport 640x480
+all_named table -m log --at 10 --viewport 640x480
 worst=1 all_named check tests/needs/village.need
 worst=1 all_named check tests/needs/slopes.need
 all_named solve -f 1000 -F unorm24 -m d3d --separation 0.01 --at 100
