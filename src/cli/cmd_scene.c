@@ -50,11 +50,10 @@ typedef struct scene {
 
 static const char *const filter_words[FINDER_FILTERS] = {
     [FINDER_FACING] = "facing", [FINDER_BLENDED] = "blended", [FINDER_THIN] = "thin", [FINDER_HIDDEN] = "hidden"};
-static const char *const filter_notes[FINDER_FILTERS] = {
-    [FINDER_FACING] = "that are never seen from one side",
-    [FINDER_BLENDED] = "with a blended material",
-    [FINDER_THIN] = "that touch along an edge",
-    [FINDER_HIDDEN] = "inside closed bodies"};
+static const char *const filter_notes[FINDER_FILTERS] = {[FINDER_FACING] = "that are never seen from one side",
+                                                         [FINDER_BLENDED] = "with a blended material",
+                                                         [FINDER_THIN] = "that touch along an edge",
+                                                         [FINDER_HIDDEN] = "inside closed bodies"};
 
 bool list_filter(size_t index, list_item *item) {
     return index < FINDER_FILTERS &&
@@ -178,17 +177,18 @@ static int judge(scene *s) {
         const finder_finding *f = &s->found.finding[i];
         const bool again = i > 0 && f->gap_min == f[-1].gap_min && f->gap_max == f[-1].gap_max;
         finding *out = &s->findings[i];
-        *out = (finding){.of = f,
-                         .a = name_of(&s->model.surface[f->a]),
-                         .b = name_of(&s->model.surface[f->b]),
-                         .gap_min = f->gap_min,
-                         .gap_max = f->gap_max,
-                         .area = f->area,
-                         .x = f->place[0],
-                         .y = f->place[1],
-                         .z = f->place[2],
-                         .pairs = f->pairs,
-                         .verdict = again ? out[-1].verdict : scene_judge(&s->setup, f->gap_min, f->gap_max, s->within)};
+        *out =
+            (finding){.of = f,
+                      .a = name_of(&s->model.surface[f->a]),
+                      .b = name_of(&s->model.surface[f->b]),
+                      .gap_min = f->gap_min,
+                      .gap_max = f->gap_max,
+                      .area = f->area,
+                      .x = f->place[0],
+                      .y = f->place[1],
+                      .z = f->place[2],
+                      .pairs = f->pairs,
+                      .verdict = again ? out[-1].verdict : scene_judge(&s->setup, f->gap_min, f->gap_max, s->within)};
         out->fights = !(out->verdict.certain_to >= s->within);
         s->passed = s->passed && !out->fights;
     }
@@ -219,11 +219,13 @@ static void say_head(page *p, void *of) {
     setup_title(p, &s->setup, &s->fields);
     slant_say(p, page_title, &s->o, &s->setup);
     if (n->skinned + n->morphed + n->animated > 0)
-        page_title(p, "in the rest pose: %zu skinned and %zu morphed meshes, %zu animated nodes", n->skinned, n->morphed,
-                   n->animated);
+        page_title(p, "in the rest pose: %zu skinned and %zu morphed meshes, %zu animated nodes", n->skinned,
+                   n->morphed, n->animated);
     page_text(p, "%zu pair%s of surfaces lie within %s of each other; %s", s->found.findings,
               s->found.findings == 1 ? "" : "s", length(p, s->gap).text,
-              s->found.findings == 0 ? "none can fight." : s->passed ? "none fights" : "they fight:");
+              s->found.findings == 0 ? "none can fight."
+              : s->passed            ? "none fights"
+                                     : "they fight:");
 }
 
 static void say_finding(page *p, const finding *f, size_t number) {
@@ -237,10 +239,11 @@ static void say_finding(page *p, const finding *f, size_t number) {
         snprintf(certain, sizeof certain, "certain up to %s",
                  number_in(number_brief(number_down(v->certain_to, DIGITS)), p->unit).text);
     if (!isnan(v->ties_from))
-        snprintf(ties, sizeof ties, ", ties from %s", number_in(number_brief(number_up(v->ties_from, DIGITS)), p->unit).text);
-    page_note(p, "", "%s%s; %s to %s apart, area %s%s%s", certain, ties, number_brief(number_of(f->gap_min, DIGITS)).text,
-              length(p, f->gap_max).text, number_of(f->area, DIGITS).text, p->unit != NULL ? " " : "",
-              p->unit != NULL ? p->unit : "");
+        snprintf(ties, sizeof ties, ", ties from %s",
+                 number_in(number_brief(number_up(v->ties_from, DIGITS)), p->unit).text);
+    page_note(p, "", "%s%s; %s to %s apart, area %s%s%s", certain, ties,
+              number_brief(number_of(f->gap_min, DIGITS)).text, length(p, f->gap_max).text,
+              number_of(f->area, DIGITS).text, p->unit != NULL ? " " : "", p->unit != NULL ? p->unit : "");
     (void)v;
 }
 
@@ -288,12 +291,10 @@ static const column finding_columns[] = {{PART(finding, a, "a", named_columns)},
                                          {FIELD(finding, fights, "fights", "")},
                                          {.kind = COLUMN_END}};
 
-static const column left_columns[] = {{FIELD(scene, left_out[FINDER_FACING], "facing", "")},
-                                      {FIELD(scene, left_out[FINDER_BLENDED], "blended", "")},
-                                      {FIELD(scene, left_out[FINDER_THIN], "thin", "")},
-                                      {FIELD(scene, left_out[FINDER_HIDDEN], "hidden", "")},
-                                      {FIELD(scene, degenerate, "degenerate", "")},
-                                      {.kind = COLUMN_END}};
+static const column left_columns[] = {
+    {FIELD(scene, left_out[FINDER_FACING], "facing", "")}, {FIELD(scene, left_out[FINDER_BLENDED], "blended", "")},
+    {FIELD(scene, left_out[FINDER_THIN], "thin", "")},     {FIELD(scene, left_out[FINDER_HIDDEN], "hidden", "")},
+    {FIELD(scene, degenerate, "degenerate", "")},          {.kind = COLUMN_END}};
 
 static const column columns[] = {
     {FIELD(scene, file, "file", ""), .only = AS_JSON},

@@ -236,6 +236,31 @@ int parse_against(options *o, const option_row *row, const char *value) {
     return parse_names(o, row, value, add_program);
 }
 
+static int add_filter(options *o, const option_row *row, const char *name) {
+    size_t i = 0;
+    list_item item;
+    if (strcmp(name, "all") == 0)
+        o->filters_off = ~0U;
+    while (list_filter(i, &item) && strcmp(item.name, name) != 0)
+        i++;
+    o->filters_off |= 1U << i;
+    return list_filter(i, &item) || strcmp(name, "all") == 0 ? EXIT_FINE : unknown_name(row, name);
+}
+
+int parse_also(options *o, const option_row *row, const char *value) {
+    o->filters_off = 0;
+    return parse_names(o, row, value, add_filter);
+}
+
+/* Surfaces of a model may be in one place. */
+int parse_gap(options *o, const option_row *row, const char *value) {
+    double gap;
+    if (o->verb->bit != VERB_SCENE || !number_parse(value, NUMBER_FINITE, &gap) || gap != 0.0)
+        return parse_length(o, row, value);
+    o->gap = 0.0;
+    return EXIT_FINE;
+}
+
 /* A share, or a percentage with its sign. */
 int parse_tolerance(options *o, const option_row *row, const char *value) {
     const size_t length = strlen(value);

@@ -23,6 +23,8 @@ static const name_list programs = {.get = list_program};
 static const name_list programs_or_all = {.words = (const char *const[]){"all", NULL}, .get = list_program};
 static const name_list spreads = {.get = list_vertices};
 static const name_list rasters = {.get = list_rasterizer};
+static const name_list filters_or_all = {.words = (const char *const[]){"all", NULL}, .get = list_filter};
+static const name_list transforms = {.words = (const char *const[]){"exact", "binary32", NULL}};
 static const name_list scenes = {.get = list_scene};
 static const name_list positions = {.words = (const char *const[]){"exact", NULL}, .get = list_position};
 static const name_list normals = {.get = list_normal};
@@ -41,7 +43,7 @@ static const name_list reports = {.words = (const char *const[]){"text", "json",
 enum {
     MODELLED = VERB_TABLE | VERB_PLOT,
     BUDGETED = VERB_BUDGET | VERB_PLOT,
-    SLANTED = VERB_TABLE | VERB_BUDGET | VERB_SOLVE | VERB_ZFIGHT,
+    SLANTED = VERB_TABLE | VERB_BUDGET | VERB_SOLVE | VERB_ZFIGHT | VERB_SCENE,
     DRAWS = VERB_ZFIGHT,
     SHADOWED = VERB_SHADOW | VERB_PLOT,
     VIEWED = SLANTED | SHADOWED,
@@ -49,9 +51,10 @@ enum {
     CAMERA = ASKED | VERB_ZFIGHT,
     PLACED = CAMERA | VERB_BENCH,
     TAKEN = VERB_TEXTURE | VERB_BIAS | VERB_SOLVE,
-    MAPPED = TAKEN | VERB_SHADOW,
+    PLACING = TAKEN | VERB_SCENE,
+    MAPPED = PLACING | VERB_SHADOW,
     COUNTED = VERB_ZFIGHT,
-    SPREAD = COUNTED | VERB_CHECK | VERB_TEXTURE,
+    SPREAD = COUNTED | VERB_CHECK | VERB_TEXTURE | VERB_SCENE,
     DRAWN = VERB_PLOT | VERB_TEXTURE,
     WRITTEN = PLACED | MAPPED | VERB_STABILITY | VERB_LIST | VERB_CHECK,
     EVERY = ~0
@@ -100,7 +103,7 @@ const option_row option_rows[OPTION_COUNT] = {
         .except = {BUT(VERB_TEXTURE, NULL, "as the image has it; unorm24 with --scene; all with --effect alone", NULL),
                    BUT(VERB_BENCH, NULL, "that of the family's first case", NULL),
                    BUT(VERB_BIAS, "fp32,unorm16,unorm24", "the depth buffers", NULL),
-                   BUT(VERB_SHADOW, "fp32", NULL, NULL),
+                   BUT(VERB_SHADOW | VERB_SCENE, "fp32", NULL, NULL),
                    BUT(VERB_SOLVE, NULL, "solved for where near and far are given, else all", NULL)}},
     [OPTION_MAPPING] = {"mapping", 'm', "NAME[,NAME...]|all", PLACED | MAPPED,
         "mappings: @; all means d3d and reversed",
@@ -110,15 +113,16 @@ const option_row option_rows[OPTION_COUNT] = {
                    BUT(VERB_SOLVE, NULL, "solved for where near, far and format are given, else all", NULL),
                    BUT(VERB_SHADOW, "d3d", NULL, "mappings: " DP_MAPPING_NAMES_PERSPECTIVE
                        "; all are d3d and reversed"),
+                   BUT(VERB_SCENE, "reversed", NULL, NULL),
                    BUT(VERB_ZFIGHT | VERB_BUDGET, "all", NULL,
                        "mappings: " DP_MAPPING_NAMES_PERSPECTIVE
                        "; all are d3d and reversed")}},
-    [OPTION_LOG_C] = {"log-c", 0, "C", MODELLED | TAKEN,
+    [OPTION_LOG_C] = {"log-c", 0, "C", MODELLED | PLACING,
         "constant of the log mapping", NUMBER(log_c, 1e-12, 1e12, NULL), .standard = "1"},
     [OPTION_ORTHO] = {"ortho", 0, NULL, CAMERA | TAKEN,
         "orthographic projection; not with linear and log", FLAG(ortho), .without = "perspective",
         .except = {BUT(VERB_ZFIGHT | VERB_BUDGET, NULL, "perspective", "orthographic projection")}},
-    [OPTION_PRESET] = {"preset", 0, "NAME[,NAME...]", CAMERA | TAKEN,
+    [OPTION_PRESET] = {"preset", 0, "NAME[,NAME...]", CAMERA | PLACING,
         "an engine's near, far, mapping and format, for those that are not given, and with --viewport its field of "
         "view and rasterizer: @; table compares several; see 'depthprec list presets'",
         .parse = parse_presets, .names = &presets},
@@ -127,7 +131,7 @@ const option_row option_rows[OPTION_COUNT] = {
         .parse = parse_unit, .names = &units, .without = "that of the preset, or m where a length has a unit",
         .except = {BUT(VERB_BENCH, NULL, "m where a length has a unit",
                        "what a scene unit is; any length may carry a unit: 10cm")}},
-    [OPTION_ROUNDING] = {"rounding", 0, NULL, CAMERA | TAKEN,
+    [OPTION_ROUNDING] = {"rounding", 0, NULL, CAMERA | PLACING,
         "how a depth between two codes is rounded: ties upwards in unorm formats and to even in floats, as the APIs "
         "demand; ties to even in both; or towards 0", WORD(rounding, roundings), .standard = "nearest",
         .group = "The arithmetic"},
@@ -137,7 +141,7 @@ const option_row option_rows[OPTION_COUNT] = {
         .except = {BUT(VERB_SOLVE, "float", "the guarantee; staged for an error, and for linear and log", NULL),
                    BUT(VERB_PLOT, "exact", "float in figures of its pipeline", NULL),
                    BUT(VERB_TABLE, "exact", "of several set-ups the fullest that each has", NULL)}},
-    [OPTION_ARITH] = {"arith", 0, "NAME", CAMERA | VERB_SOLVE,
+    [OPTION_ARITH] = {"arith", 0, "NAME", CAMERA | VERB_SOLVE | VERB_SCENE,
         "the binary32 arithmetic: @", WORD(arith, ariths), .standard = "ieee"},
     [OPTION_TOLERANCE] = {"tolerance", 0, "SHARE", ASKED | VERB_BENCH | VERB_LIST,
         "the error allowed, 0.05 or 5%: a model is enough if it neglects no more of the separation; and the "
@@ -239,9 +243,10 @@ const option_row option_rows[OPTION_COUNT] = {
     [OPTION_KERNEL] = {"kernel", 0, "N", SHADOWED,
         "the filter reads NxN texels: 1 nearest, 2 bilinear, 3 and more percentage-closer filtering",
         WHOLE(kernel, 1, 64, "texels"), .standard = "3"},
-    [OPTION_ANGLE] = {"angle", 0, "DEG", SHADOWED,
+    [OPTION_ANGLE] = {"angle", 0, "DEG", SHADOWED | VERB_SCENE,
         "receivers up to this angle between their normal and the light are free of acne",
-        NUMBER(angle, 0, SHADOW_SLANT_MAX, "degrees"), .standard = "75"},
+        NUMBER(angle, 0, SHADOW_SLANT_MAX, "degrees"), .standard = "75",
+        .except = {BUT(VERB_SCENE, "1", NULL, "surfaces whose planes meet at no more than this angle")}},
     [OPTION_API] = {"api", 0, "NAME", VERB_BIAS | VERB_SHADOW,
         "the API whose rule applies: @; all compares them, each with the call to write",
         ROW(api, apis), .standard = "d3d11",
@@ -258,9 +263,12 @@ const option_row option_rows[OPTION_COUNT] = {
     [OPTION_SLOPE] = {"slope", 0, "S", VERB_BIAS,
         "eye depth changes by S from one pixel to the next", LENGTH(slope, 0, 1e12, "scene units per pixel"),
         .standard = "0", .without = "facing the camera"},
-    [OPTION_GAP] = {"gap", 0, "G", COUNTED | VERB_BIAS,
-        "where surfaces G scene units apart tie and swap", POSITIVE(gap), .without = "neighbouring binary32 depths",
-        .except = {BUT(VERB_BIAS, NULL, "told apart", "how much nearer a layer must come, in scene units")},
+    [OPTION_GAP] = {"gap", 0, "G", COUNTED | VERB_BIAS | VERB_SCENE,
+        "where surfaces G scene units apart tie and swap", .parse = parse_gap, FIELD(double, gap),
+        .without = "neighbouring binary32 depths",
+        .except = {BUT(VERB_SCENE, NULL, "what is not told apart within the model's extent, at most 1 % of it",
+                       "surfaces at most G scene units apart; 0: exactly in one plane"),
+                   BUT(VERB_BIAS, NULL, "told apart", "how much nearer a layer must come, in scene units")},
         .group = "Pairs of surfaces"},
     [OPTION_SAMPLE] = {"sample", 0, "N", COUNTED,
         "draw N pairs at random", WHOLE(sample, 1, 1e12, NULL),
@@ -280,6 +288,14 @@ const option_row option_rows[OPTION_COUNT] = {
     [OPTION_VERTICES] = {"vertices", 0, NULL, VERB_ZFIGHT,
         "how vertices are drawn: eye depth log-uniform over --range, in a round view of 90 degrees; or uniform in the "
         "box of --world", WORD(vertices, spreads), .standard = "eye-log"},
+    [OPTION_WITHIN] = {"within", 0, "Z", VERB_SCENE,
+        "exit 1 where surfaces can fight nearer than this depth; and the distance that mends it", POSITIVE(within),
+        .without = "the model's extent"},
+    [OPTION_ALSO] = {"also", 0, "NAME[,NAME...]|all", VERB_SCENE,
+        "pairs of triangles that are else left out: @", .parse = parse_also, .names = &filters_or_all},
+    [OPTION_TRANSFORMS] = {"transforms", 0, NULL, VERB_SCENE,
+        "how nodes are placed: exactly, or rounded at each step as an engine does",
+        WORD(transforms, transforms), .standard = "exact"},
     [OPTION_HALF_HEIGHT] = {"half-height", 0, "H", VERB_TEXTURE,
         "with --ortho: half the height of the view", LENGTH(camera.half_height, 1e-12, 1e12, "scene units"),
         .standard = "5", .group = "The depth texture"},

@@ -81,6 +81,9 @@ typedef enum option_id {
     OPTION_AGAINST,
     OPTION_PROGRAM,
     OPTION_VERTICES,
+    OPTION_WITHIN,
+    OPTION_ALSO,
+    OPTION_TRANSFORMS,
     OPTION_HALF_HEIGHT,
     OPTION_MATRIX,
     OPTION_YAW,
@@ -197,8 +200,11 @@ typedef struct options {
     double clamp;         /**< of a bias, window depth; 0 is none */
     double slope;         /**< scene units per pixel, not negative */
 
-    double gap;      /**< scene units; 0 when not given */
-    uint64_t sample; /**< pairs to draw; 0 when not given */
+    double gap;           /**< scene units; 0 when not given */
+    double within;        /**< eye depth; 0 when not given */
+    unsigned transforms;  /**< of a model's nodes: a model_transforms */
+    unsigned filters_off; /**< of a model's pairs: 1 << finder_filter, or-ed */
+    uint64_t sample;      /**< pairs to draw; 0 when not given */
     uint64_t seed;
     const vertex_program *against[VERTEX_OTHERS]; /**< in the order given, each once */
     size_t against_count;                         /**< 0: --against was not given */

@@ -27,7 +27,8 @@ enum {
     VERB_STABILITY = 1u << 10,
     VERB_TEXTURE = 1u << 11,
     VERB_COMPLETIONS = 1u << 12,
-    VERB_SHADOW = 1u << 13
+    VERB_SHADOW = 1u << 13,
+    VERB_SCENE = 1u << 14
 };
 
 typedef struct verb {
@@ -49,6 +50,7 @@ int cmd_table(const struct options *o);
 int cmd_budget(const struct options *o);
 int cmd_bias(const struct options *o);
 int cmd_shadow(const struct options *o);
+int cmd_scene(const struct options *o);
 int cmd_list(const struct options *o);
 int cmd_plot(const struct options *o);
 int cmd_zfight(const struct options *o);
