@@ -10,7 +10,9 @@
  *
  * Whether triangles overlap, and whether they lie in one plane, is decided exactly for the coordinates of the model
  * (up to FINDER_COORDINATE_MAX, and none but 0 below its inverse). The angle is decided to 1e-9 degrees; a gap above 0
- * is measured to 1e-12 of the model's extent, an area to 1e-12 of its square, and one that rounds to 0 counts as thin.
+ * is measured to 1e-12 of the model's extent, an area to 1e-12 of its square. Two planes that cross at an angle of t
+ * radians are a gap apart along a line that is certain to 1e-15 / t of the extent, and so is an area that ends there.
+ * An area that rounds to 0 counts as thin, asked for or not.
  *
  * Pairs that nobody can see are left out and counted, by filters that can be switched off. The rest is grouped by the
  * two surfaces that the triangles belong to: a *finding*. The result does not depend on the number of threads.
