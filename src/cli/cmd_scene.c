@@ -17,17 +17,22 @@
 #include "scene/find.h"
 #include "scene/judge.h"
 
-enum { DIGITS = 4, SHOWN_MOST = 20, STEPS = 1000, LABEL = 10, PLACE_SIZE = 3 * NUMBER_SIZE };
+enum { DIGITS = 4, SHOWN_MOST = 20, STEPS = 1000, LABEL = 4, NAME_SIZE = 128, LINE_SIZE = 256 };
 
 /* A surface as a report names it; null where the file has no name. */
 typedef struct named {
     const char *node, *mesh, *material;
 } named;
 
+typedef struct place {
+    double x, y, z;
+} place;
+
 typedef struct finding {
     const finder_finding *of;
     named a, b;
-    double gap_min, gap_max, area, x, y, z;
+    double gap_min, gap_max, area;
+    place place;
     scene_verdict verdict;
     uint64_t pairs;
     bool fights; /* nearer than --within asks */
@@ -184,9 +189,7 @@ static int judge(scene *s) {
                       .gap_min = f->gap_min,
                       .gap_max = f->gap_max,
                       .area = f->area,
-                      .x = f->place[0],
-                      .y = f->place[1],
-                      .z = f->place[2],
+                      .place = {f->place[0], f->place[1], f->place[2]},
                       .pairs = f->pairs,
                       .verdict = again ? out[-1].verdict : scene_judge(&s->setup, f->gap_min, f->gap_max, s->within)};
         out->fights = !(out->verdict.certain_to >= s->within);
@@ -202,17 +205,26 @@ static number_text length(const page *p, double value) {
     return number_in(number_brief(number_of(value, DIGITS)), p->unit);
 }
 
-static const char *called(const named *n, char out[128]) {
+static const char *called(const named *n, char out[NAME_SIZE]) {
     out[0] = '\0';
-    append(out, 128, "'%.40s'", n->node != NULL ? n->node : n->mesh != NULL ? n->mesh : "(no name)");
+    append(out, NAME_SIZE, "'%.40s'", n->node != NULL ? n->node : n->mesh != NULL ? n->mesh : "(no name)");
     if (n->material != NULL)
-        append(out, 128, " (%.40s)", n->material);
+        append(out, NAME_SIZE, " (%.40s)", n->material);
     return out;
+}
+
+/* How many fight before the far plane; they come first. */
+static size_t fighting(const scene *s) {
+    size_t n = 0;
+    while (n < s->found.findings && !(s->findings[n].verdict.certain_to >= s->setup.spec.zfar))
+        n++;
+    return n;
 }
 
 static void say_head(page *p, void *of) {
     const scene *s = of;
     const model_notes *n = &s->model.notes;
+    const size_t count = s->found.findings, fights = fighting(s);
     p->unit = s->unit;
     page_title(p, "%s: %zu triangles, %zu surfaces, %s across", s->file, s->model.triangles, s->model.surfaces,
                length(p, s->extent).text);
@@ -221,47 +233,57 @@ static void say_head(page *p, void *of) {
     if (n->skinned + n->morphed + n->animated > 0)
         page_title(p, "in the rest pose: %zu skinned and %zu morphed meshes, %zu animated nodes", n->skinned,
                    n->morphed, n->animated);
-    page_text(p, "%zu pair%s of surfaces lie within %s of each other; %s", s->found.findings,
-              s->found.findings == 1 ? "" : "s", length(p, s->gap).text,
-              s->found.findings == 0 ? "none can fight."
-              : s->passed            ? "none fights"
-                                     : "they fight:");
+    page_text(p, "%zu pair%s of surfaces lie%s within %s of each other: %zu can fight before the far plane.", count,
+              count == 1 ? "" : "s", count == 1 ? "s" : "", length(p, s->gap).text, fights);
+    if (option_given(&s->o, OPTION_WITHIN))
+        page_text(p, "%s%s%s  %s nearer than %s.", s->passed ? p->good : p->bad, s->passed ? "pass" : "FAIL", p->plain,
+                  s->passed ? "none fights" : "surfaces can fight", length(p, s->within).text);
 }
 
-static void say_finding(page *p, const finding *f, size_t number) {
-    char a[128], b[128], label[16];
+static number_text safe_length(const page *p, double value, bool upward) {
+    return number_in(number_brief(upward ? number_up(value, DIGITS) : number_down(value, DIGITS)), p->unit);
+}
+
+static void say_finding(page *p, const scene *s, size_t i) {
+    const finding *f = &s->findings[i];
     const scene_verdict *v = &f->verdict;
-    snprintf(label, sizeof label, "%zu", number);
-    page_note(p, label, "%s and %s, near %s %s %s", called(&f->a, a), called(&f->b, b), number_of(f->x, DIGITS).text,
-              number_of(f->y, DIGITS).text, number_of(f->z, DIGITS).text);
-    char certain[64] = "certain nowhere", ties[64] = "";
-    if (!isnan(v->certain_to))
-        snprintf(certain, sizeof certain, "certain up to %s",
-                 number_in(number_brief(number_down(v->certain_to, DIGITS)), p->unit).text);
+    char a[NAME_SIZE], b[NAME_SIZE], label[16], text[LINE_SIZE] = "";
+    snprintf(label, sizeof label, "%zu", i + 1);
+    page_note(p, label, "%s and %s", called(&f->a, a), called(&f->b, b));
+    if (isnan(v->certain_to))
+        append(text, sizeof text, "certain nowhere");
+    else
+        append(text, sizeof text, "certain up to %s", safe_length(p, v->certain_to, false).text);
     if (!isnan(v->ties_from))
-        snprintf(ties, sizeof ties, ", ties from %s",
-                 number_in(number_brief(number_up(v->ties_from, DIGITS)), p->unit).text);
-    page_note(p, "", "%s%s; %s to %s apart, area %s%s%s", certain, ties,
-              number_brief(number_of(f->gap_min, DIGITS)).text, length(p, f->gap_max).text,
-              number_of(f->area, DIGITS).text, p->unit != NULL ? " " : "", p->unit != NULL ? p->unit : "");
-    (void)v;
+        append(text, sizeof text, ", ties from %s", safe_length(p, v->ties_from, true).text);
+    append(text, sizeof text, "; ");
+    if (f->gap_min != f->gap_max)
+        append(text, sizeof text, "%s to ", number_brief(number_of(f->gap_min, DIGITS)).text);
+    append(text, sizeof text, "%s apart", length(p, f->gap_max).text);
+    page_note(p, "", "%s", text);
+    page_note(p, "", "area %s, near %s %s %s", number_brief(number_of(f->area, DIGITS)).text,
+              number_of(f->place.x, DIGITS).text, number_of(f->place.y, DIGITS).text,
+              number_of(f->place.z, DIGITS).text);
+    if (v->lift > 0.0 && isfinite(v->lift))
+        page_note(p, "", "%s more between them are enough up to %s", safe_length(p, v->lift, true).text,
+                  length(p, s->within).text);
 }
 
 static void say_notes(page *p, void *of) {
     const scene *s = of;
-    size_t shown = s->found.findings < SHOWN_MOST ? s->found.findings : SHOWN_MOST;
+    const size_t fights = fighting(s), shown = fights < SHOWN_MOST ? fights : SHOWN_MOST;
     for (size_t i = 0; i < shown; i++)
-        say_finding(p, &s->findings[i], i + 1);
-    if (s->found.findings > shown)
-        page_text(p, "%zu more: --json and --csv have all.", s->found.findings - shown);
+        say_finding(p, s, i);
+    if (fights > shown)
+        page_text(p, "%zu more: --json and --csv have all.", fights - shown);
     for (int k = 0; k < FINDER_FILTERS; k++)
         if (s->found.left_out[k] > 0)
-            page_note(p, "left out", "%zu pairs of triangles %s: --also %s", s->found.left_out[k], filter_notes[k],
+            page_line(p, "left out: %zu pairs of triangles %s (--also %s)", s->found.left_out[k], filter_notes[k],
                       filter_words[k]);
     if (s->found.degenerate > 0)
-        page_note(p, "left out", "%zu triangles without area", s->found.degenerate);
+        page_line(p, "left out: %zu triangles without area", s->found.degenerate);
     if (s->found.cut)
-        page_note(p, "cut short", "too many triangles lie in one place: not all pairs were looked at");
+        page_line(p, "cut short: too many triangles lie in one place, and not all pairs were looked at");
 }
 
 /* ---- Data -------------------------------------------------------------------------------------------------------- */
@@ -276,14 +298,23 @@ static const column named_columns[] = {{FIELD(named, node, "node", "")},
                                        {FIELD(named, material, "material", "")},
                                        {.kind = COLUMN_END}};
 
-static const column finding_columns[] = {{PART(finding, a, "a", named_columns)},
-                                         {PART(finding, b, "b", named_columns)},
+static const column place_columns[] = {{FIELD(place, x, "x", "scene")},
+                                       {FIELD(place, y, "y", "scene")},
+                                       {FIELD(place, z, "z", "scene")},
+                                       {.kind = COLUMN_END}};
+
+static const column finding_columns[] = {{PART(finding, a, "a", named_columns), .only = AS_JSON},
+                                         {PART(finding, b, "b", named_columns), .only = AS_JSON},
+                                         {FIELD(finding, a.node, "a_node", ""), .only = AS_CSV},
+                                         {FIELD(finding, a.mesh, "a_mesh", ""), .only = AS_CSV},
+                                         {FIELD(finding, a.material, "a_material", ""), .only = AS_CSV},
+                                         {FIELD(finding, b.node, "b_node", ""), .only = AS_CSV},
+                                         {FIELD(finding, b.mesh, "b_mesh", ""), .only = AS_CSV},
+                                         {FIELD(finding, b.material, "b_material", ""), .only = AS_CSV},
                                          {FIELD(finding, gap_min, "gap_min", "scene")},
                                          {FIELD(finding, gap_max, "gap_max", "scene")},
                                          {FIELD(finding, area, "area", "scene^2")},
-                                         {FIELD(finding, x, "x", "scene")},
-                                         {FIELD(finding, y, "y", "scene")},
-                                         {FIELD(finding, z, "z", "scene")},
+                                         {PART(finding, place, "place", place_columns)},
                                          {FIELD(finding, pairs, "pairs", "")},
                                          {FIELD(finding, verdict.certain_to, "certain_to", "scene")},
                                          {FIELD(finding, verdict.ties_from, "ties_from", "scene")},
@@ -310,7 +341,7 @@ static const column columns[] = {
     {FIELD(scene, passed, "passed", ""), .only = AS_JSON},
     {FIELD(scene, found.cut, "cut", ""), .only = AS_JSON},
     {GROUP("left_out", left_columns), .only = AS_JSON},
-    {LIST("findings", finding_columns, next_finding)},
+    {LIST("findings", finding_columns, next_finding), .only = AS_JSON | AS_CSV},
     {.kind = COLUMN_END}};
 
 /* ---- The command ------------------------------------------------------------------------------------------------- */

@@ -50,13 +50,13 @@ static piece piece_to(const dp_setup *setup, uint32_t farthest, uint32_t first) 
     return p;
 }
 
-static double ties_from(const dp_setup *setup, double most) {
+static double ties_from(const dp_setup *setup, double most, double within) {
     dp_spec spec = setup->spec;
     dp_setup exact;
     spec.model = DP_MODEL_EXACT;
     if (dp_setup_init(&exact, &spec) != DP_OK)
         return (double)NAN;
-    const uint32_t near_end = exact.code_near, far_end = exact.code_far;
+    const uint32_t near_end = exact.code_near, far_end = dp_code(&exact, within);
     if ((near_end > far_end ? near_end - far_end : far_end - near_end) < 3)
         return (double)NAN;
     const uint32_t first = towards(near_end, far_end, 1), last = towards(far_end, near_end, 1);
@@ -77,7 +77,7 @@ static double ties_from(const dp_setup *setup, double most) {
 scene_verdict scene_judge(const dp_setup *setup, double least, double most, double within) {
     const double znear = setup->spec.znear, zfar = setup->spec.zfar;
     dp_separation_worst worst = {.bound = HUGE_VAL};
-    scene_verdict v = {.certain_to = (double)NAN, .ties_from = ties_from(setup, most)};
+    scene_verdict v = {.certain_to = (double)NAN, .ties_from = ties_from(setup, most, within)};
     if (least > 0.0)
         v.certain_to = distance_about(setup, znear, zfar, least, DIGITS);
     dp_separation_over(setup, znear, within, 0.0, &worst); /* the caller has checked the range */
