@@ -20,7 +20,7 @@ enum { COLUMNS = 120, ROWS = 90 };        /* pixels that are shown, at most */
 static const double radius = 0.6, stripe = 0.25, cells[] = {37.0, 23.0};
 
 /* The share of the decal that is to be wrong on the left, and where halving the gap for that ends. */
-static const double wanted = 0.25, least_share = 0x1p-14;
+static const double wanted = 0.1, least_share = 0x1p-14;
 
 typedef struct stage {
     const dp_setup *setup;
@@ -77,7 +77,7 @@ static int at_most(int x, int most) {
 static void set_stage(stage *s, const figure_request *request) {
     const double slant = request->slant * M_PI / 180.0, azimuth = request->azimuth * M_PI / 180.0;
     const int width = s->camera.target.width, height = s->camera.target.height;
-    const int columns = at_most(COLUMNS, width), rows = at_most(ROWS, height);
+    const int columns = at_most(COLUMNS, (width + 1) / 2), rows = at_most(ROWS, (height + 1) / 2);
     s->z = isnan(request->at) ? sqrt(s->setup->spec.znear * fmin(s->setup->spec.zfar, 1e6 * s->setup->spec.znear))
                               : request->at;
     s->wall = (draw_plane){{sin(slant) * cos(azimuth), sin(slant) * sin(azimuth), cos(slant)}, s->z * cos(slant)};
@@ -96,11 +96,12 @@ static void set_stage(stage *s, const figure_request *request) {
 static void draw_surface(stage *s, double distance, unsigned who) {
     const draw_area *a = &s->buffer.area;
     const dp_triangles *class = &s->setup->spec.triangles;
-    const double side = fmin(cells[who - WALL], class->pixels / 2.0);
+    const double room = fmin(s->camera.target.width, s->camera.target.height) / 10.0;
+    const double side = fmin(cells[who - WALL], fmin(class->pixels / 2.0, room));
     const draw_plane plane = {{s->wall.normal[0], s->wall.normal[1], s->wall.normal[2]}, distance};
     const draw_mesh mesh = {{a->x - 2.0 * side, a->y - 2.0 * side},
                             {{side, 0.0}, {0.0, side}},
-                            {(int)(a->width / side) + 5, (int)(a->height / side) + 5},
+                            {(int)(a->width / side) + 4, (int)(a->height / side) + 4},
                             who};
     draw_mesh_plane(&s->buffer, &s->camera, &plane, &mesh, class, who);
 }
@@ -132,15 +133,17 @@ static shot draw(stage *s, double share, chart_map *m) {
     return out;
 }
 
-/* The largest of the halved gaps with which enough of the decal is wrong. */
+/* The largest of the halved gaps with which enough of the decal is wrong, or the most of it. */
 static double share_of_fight(stage *s) {
-    double share = 0.5;
-    for (shot one = draw(s, share, NULL); share > least_share; one = draw(s, share, NULL)) {
+    shot worst = {.share = 0.5};
+    for (double share = 0.5; share > least_share; share /= 2.0) {
+        const shot one = draw(s, share, NULL);
+        if (one.wrong > worst.wrong)
+            worst = one;
         if ((double)one.wrong >= wanted * (double)one.covered)
             break;
-        share /= 2.0;
     }
-    return share;
+    return worst.share;
 }
 
 /* ---- The chart --------------------------------------------------------------------------------------------------- */
