@@ -25,7 +25,8 @@ typedef struct shadow_case {
     double angle;
     int subpixel;
     double pixels, slim, world;
-    double box[3], lo, hi; /* 0: the view; what is lit */
+    double curvature, facet; /* 0: planes */
+    double box[3], lo, hi;   /* 0: the view; what is lit */
     double znear, zfar, fov, aspect, lambda, casters;
     int cascades;
     const char *unit;
@@ -54,7 +55,7 @@ static const shadow_case cases[] = {
      .casters = 40,
      .cascades = 3},
     {.options = "--light-box 30mx20mx50m --size 512x256 -F d16 -m gl --range 5m:48.65m --api gl --subpixel 4 "
-                "--triangle pixels=64,slim=8 --kernel 3 --angle 60 --world 1km",
+                "--triangle pixels=64,slim=8 --kernel 3 --angle 60 --world 1km --curvature 2m --facet 5cm",
      .formats = {"unorm16"},
      .mappings = {DP_MAPPING_GL},
      .format_count = 1,
@@ -68,6 +69,8 @@ static const shadow_case cases[] = {
      .pixels = 64,
      .slim = 8,
      .world = 1000,
+     .curvature = 2,
+     .facet = 0.05,
      .box = {30, 20, 50},
      .lo = 5,
      .hi = 48.65,
@@ -135,6 +138,9 @@ static shadow_light light_of(const shadow_case *c, const char *format, dp_mappin
     light.triangles.slant_hi = c->angle;
     light.kernel = c->kernel / 2.0;
     light.world = c->world;
+    if (c->curvature > 0)
+        light.radius = c->curvature;
+    light.facet = c->facet;
     light.receiver_lo = c->lo;
     light.receiver_hi = c->box[2] > 0 ? c->hi : 1;
     if (c->box[2] > 0) {
@@ -291,6 +297,8 @@ static void want_head(values *v, const shadow_case *c) {
     want_number(v, "pixels", c->pixels);
     want_number(v, "slim", c->slim);
     want_number(v, "world", c->world);
+    want_number(v, "curvature", c->curvature > 0 ? c->curvature : NAN);
+    want_number(v, "facet", c->facet);
     if (c->box[2] > 0) {
         want_text(v, "view", NULL);
         return;

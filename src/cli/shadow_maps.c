@@ -18,6 +18,8 @@ options shadow_options(const options *o) {
         out.camera.width = out.camera.height = SIDE;
     if (!option_given(o, OPTION_VIEWPORT))
         out.triangles.width = dp_triangles_default().width;
+    if (!option_given(o, OPTION_CURVATURE))
+        out.curvature = (double)NAN;
     return out;
 }
 
@@ -29,6 +31,8 @@ static int check_together(const options *o) {
     for (size_t i = 0; i < sizeof view / sizeof view[0] && box; i++)
         if (option_given(o, view[i]))
             return option_error(view[i], "does not apply with --light-box, which is one map without a view");
+    if (option_given(o, OPTION_FACET) && !option_given(o, OPTION_CURVATURE))
+        return option_error(OPTION_FACET, "needs --curvature: planes are the same however they are drawn");
     if (option_given(o, OPTION_RANGE) && !box)
         return option_error(OPTION_RANGE, "needs --light-box: the depths of cascades follow from the view");
     if (o->camera.width > SIDE_MAX || o->camera.height > SIDE_MAX)
@@ -49,6 +53,9 @@ static shadow_light light_of(const options *o, const dp_format *format, dp_mappi
     light.triangles.slant_hi = o->angle;
     light.kernel = 0.5 * o->kernel;
     light.world = o->terms.world;
+    if (option_given(o, OPTION_CURVATURE))
+        light.radius = o->curvature;
+    light.facet = o->facet;
     light.receiver_lo = 0.0;
     light.receiver_hi = spec.zfar;
     if (box) {
