@@ -92,7 +92,7 @@ static void one_box(void **state) {
                              "plot shadow --light-box 30mx20mx80m -F d16 --size 1024 --kernel 5 --angle 70 --theme %s",
                              looks[i]->name);
         assert_int_equal(d->panel_count, 1);
-        assert_string_equal(d->subtitle, "unorm16 d3d, 1024 x 1024 texels, filter of 5 x 5");
+        assert_string_equal(d->subtitle, "unorm16 d3d, 1024 x 1024 texels, filter of 5 x 5; box 30 x 20 x 80");
         assert_int_equal(d->entry_count, CURVES);
         check_panel(d, &d->panels[0], &light);
         drawn_close(d);
@@ -107,6 +107,7 @@ static void cascades(void **state) {
                                 "--casters 30 --size 512");
     (void)state;
     assert_int_equal(d->panel_count, 3);
+    assert_string_equal(d->subtitle, "fp32 d3d, 512 x 512 texels, filter of 3 x 3; view near 0.5, far 60");
     for (int i = 0; i < 3; i++) {
         shadow_cascade c;
         char heading[96];

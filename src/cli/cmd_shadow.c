@@ -175,9 +175,9 @@ static void say_notes(page *p, void *item) {
     page_note(p, "needed", "%s, %s and %s of these by slope times filter radius alone",
               percent_text(w.way[0].share).text, percent_text(w.way[1].share).text, percent_text(w.way[2].share).text);
     if (isnan(w.way[SHADOW_CONSTANT].units) && real)
-        page_note(p, "units",
-                  "are worth nothing at window depth 0 of a float format: --range LO:HI says where surfaces "
-                  "are lit");
+        page_note(p, "units", "are worth nothing at window depth 0 of a float format: %s",
+                  s->view != NULL ? "--casters keeps surfaces away from it"
+                                  : "--range LO:HI says where surfaces are lit");
     if (wide > 1.5)
         page_note(p, "units", "%s: the gap is up to %s times what is needed",
                   real ? "grow with the depth in a float format" : "may be worth more than is assumed",
