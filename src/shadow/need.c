@@ -121,7 +121,7 @@ void shadow_gap_at(const shadow_light *light, const shadow_bias *bias, double sl
                    double *along_normal) {
     const ground g = ground_of(light);
     const double slope = tan(degrees(slant));
-    const double scaled = bias->factor > 0.0 ? bias->factor * slope * fmax(g.texel_x, g.texel_y) : 0.0;
+    const double scaled = isinf(bias->factor) ? bias->factor : bias->factor * slope * fmax(g.texel_x, g.texel_y);
     *along_light = bias->window * g.depth + scaled + bias->offset * slope;
     *along_normal = *along_light * cos(degrees(slant));
 }
@@ -130,7 +130,7 @@ void shadow_gap_at(const shadow_light *light, const shadow_bias *bias, double sl
 static double share_of(const shadow_light *light, const ground *g, const shadow_bias *bias, double slope) {
     const double larger = fmax(g->texel_x, g->texel_y);
     const double m = slope * larger * larger / g->diagonal;
-    const double scaled = bias->factor > 0.0 ? bias->factor * m : 0.0;
+    const double scaled = isinf(bias->factor) ? bias->factor : bias->factor * m;
     return light->kernel * slope * g->diagonal / (bias->window * g->depth + scaled + bias->offset * slope);
 }
 
