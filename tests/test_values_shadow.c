@@ -496,7 +496,11 @@ static void check_text(const values *v, const shadow_case *c) {
             else
                 assert_int_equal(strncmp(at, call->text, first), 0);
         }
-        if (split) {
+        if (!split) {
+            char texel[64];
+            snprintf(texel, sizeof texel, ", texel %.4g\n", fmax(c->box[0] / c->width, c->box[1] / c->height));
+            assert_non_null(strstr(p.out, texel));
+        } else {
             at = strstr(at, " cascade       from         to      texel        box      depth\n");
             assert_non_null(at);
             for (size_t i = 0; i < map_count(c); i++)

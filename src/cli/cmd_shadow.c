@@ -87,8 +87,9 @@ static void say_maps(page *p, void *item) {
         page_title(p, "%d cascade%s, lambda %s, casters up to %s before", v->count, v->count == 1 ? "" : "s",
                    number_full(v->lambda).text, number_full(v->casters).text);
     } else {
-        page_title(p, "box %s x %s, %s deep along the light", number_full(o->light_box[0]).text,
-                   number_full(o->light_box[1]).text, number_full(o->light_box[2]).text);
+        const double texel = fmax(o->light_box[0] / o->camera.width, o->light_box[1] / o->camera.height);
+        page_title(p, "box %s x %s, %s deep along the light, texel %s", number_full(o->light_box[0]).text,
+                   number_full(o->light_box[1]).text, number_full(o->light_box[2]).text, number_of(texel, DIGITS).text);
     }
     page_title(p, "%d subpixel bit%s, triangles from 1 to %s texels, no slimmer than 1:%s", t->subpixel,
                t->subpixel == 1 ? "" : "s", number_full(t->pixels).text, number_full(t->slim).text);
