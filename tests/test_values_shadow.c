@@ -26,7 +26,8 @@ typedef struct shadow_case {
     int subpixel;
     double pixels, slim, world;
     double curvature, facet; /* 0: planes */
-    double box[3], lo, hi;   /* 0: the view; what is lit */
+    const char *raster, *arith;
+    double box[3], lo, hi; /* 0: the view; what is lit */
     double znear, zfar, fov, aspect, lambda, casters;
     int cascades;
     const char *unit;
@@ -109,6 +110,24 @@ static const shadow_case cases[] = {
      .slim = 16,
      .box = {8, 8, 64},
      .hi = 64},
+    {.options =
+         "--light-box 10x10x40 --size 1024 -F d24 --raster softpipe --range 10:30 --kernel 1 --angle 3 --api metal",
+     .formats = {"unorm24"},
+     .mappings = {DP_MAPPING_D3D},
+     .format_count = 1,
+     .mapping_count = 1,
+     .api = "metal",
+     .width = 1024,
+     .height = 1024,
+     .kernel = 1,
+     .angle = 3,
+     .pixels = 512,
+     .slim = 16,
+     .raster = "softpipe",
+     .arith = "softpipe",
+     .box = {10, 10, 40},
+     .lo = 10,
+     .hi = 30},
 };
 
 enum { CASES = sizeof cases / sizeof cases[0] };
@@ -129,10 +148,14 @@ static shadow_light light_of(const shadow_case *c, const char *format, dp_mappin
     spec.zfar = c->box[2] > 0 ? c->box[2] : 1;
     spec.format = found[0];
     spec.mapping = mapping;
+    if (c->raster != NULL)
+        assert_int_equal(dp_arith_parse(c->arith, &spec.arith), DP_OK);
     assert_int_equal(dp_setup_init(&light.setup, &spec), DP_OK);
     light.triangles.width = c->width;
     light.triangles.height = c->height;
     light.triangles.subpixel = c->subpixel;
+    if (c->raster != NULL)
+        light.triangles.plane = dp_anchor_get(DP_ANCHOR_ORIGIN_STEPPED)->plane;
     light.triangles.pixels = c->pixels;
     light.triangles.slim = c->slim;
     light.triangles.slant_hi = c->angle;

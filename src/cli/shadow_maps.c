@@ -4,6 +4,7 @@
 #include <math.h>
 
 #include "cli/option_rows.h"
+#include "cli/setups.h"
 #include "report/number.h"
 
 enum { SIDE = 2048, SIDE_MAX = 32768 };
@@ -44,7 +45,9 @@ static int check_together(const options *o) {
 /* What all maps share; of a box, also its sides and planes. */
 static shadow_light light_of(const options *o, const dp_format *format, dp_mapping mapping) {
     const bool box = option_given(o, OPTION_LIGHT_BOX);
-    const dp_spec spec = {.zfar = box ? o->light_box[2] : 1.0, .ortho = true, .format = *format, .mapping = mapping};
+    dp_spec spec = {.zfar = box ? o->light_box[2] : 1.0, .ortho = true, .format = *format, .mapping = mapping};
+    if (o->raster != NULL && o->raster->arith != NULL)
+        dp_arith_parse(o->raster->arith, &spec.arith);
     shadow_light light = shadow_light_default();
     light.triangles = o->triangles;
     light.triangles.width = (int)o->camera.width;
@@ -105,6 +108,8 @@ static int refused(const options *o, shadow_status status) {
 int shadow_maps_make(const options *o, const dp_format *format, dp_mapping mapping, shadow_maps *out) {
     const bool box = option_given(o, OPTION_LIGHT_BOX);
     int status = check_together(o);
+    if (status == EXIT_FINE)
+        status = setup_undrawn(o, format);
     *out = (shadow_maps){.count = box ? 1 : o->cascades};
     if (status != EXIT_FINE)
         return status;
