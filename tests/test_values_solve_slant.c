@@ -12,7 +12,7 @@
 
 #define VIEW "--viewport 1280x720 --fov 55 --subpixel 6 --slant 10:80 --triangle depth=1.5,pixels=300,slim=8"
 
-static const dp_triangles view = {1280, 720, 55, 6, {2, 11, 2, 0}, 10, 80, 1.5, 300, 8};
+static const dp_triangles view = {1280, 720, 55, 6, {0, 0, 0, 0}, 10, 80, 1.5, 300, 8}; /* anchored at a vertex */
 
 typedef struct solve_case {
     const char *arguments, *target;
@@ -52,8 +52,10 @@ static dp_setup setup_of(const json_t *o, bool slanted, const char *unknown, dou
     assert_string_equal(json_string_value(json_object_get(o, "model")), "fp32");
     spec.format = format[0];
     spec.model = DP_MODEL_FP32;
-    if (slanted)
+    if (slanted) {
         spec.triangles = view;
+        spec.triangles.plane = dp_anchor_get(DP_ANCHOR_VERTEX)->plane;
+    }
     assert_int_equal(dp_setup_init(&setup, &spec), DP_OK);
     return setup;
 }
