@@ -9,7 +9,8 @@ page=$(mktemp)
 trap 'rm -f "$list" "$page"' EXIT
 
 # A heading starts its line, an option is two blanks off or six, and what is said of it goes on far from the margin.
-"$1" help options | awk '
+"$1" help options >"$page" # a program that fails leaves the manual as it is
+awk '
     function text(line) { # a hyphen that is a dash of an option or a sign, and no line that looks like a macro
         gsub(/-/, "\\-", line)
         while (match(line, /\. [A-Z]/)) # a sentence begins a line
@@ -35,8 +36,7 @@ trap 'rm -f "$list" "$page"' EXIT
     { sub(/^ */, "") }
     /^Taken by/ { print ".br" }
     { text($0) }
-    END { print ".El" }' >"$list"
-[ -s "$list" ]
+    END { print ".El" }' "$page" >"$list"
 awk -v list="$list" '
     /^\.Sh FORMATS/ { while ((getline line <list) > 0) print line; print; skip = 0; inside = 0; next }
     /^\.Sh OPTIONS/ { inside = 1 }
