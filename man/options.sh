@@ -4,12 +4,13 @@
 #   sh man/options.sh build/depthprec man/depthprec.1
 set -eu
 
+rows=$(mktemp)
 list=$(mktemp)
 page=$(mktemp)
-trap 'rm -f "$list" "$page"' EXIT
+trap 'rm -f "$rows" "$list" "$page"' EXIT
 
 # A heading starts its line, an option is two blanks off or six, and what is said of it goes on far from the margin.
-"$1" help options >"$page" # a program that fails leaves the manual as it is
+"$1" help options >"$rows" # a program that is not there ends this, and the page stays
 awk '
     function text(line) { # a hyphen that is a dash of an option or a sign, and no line that looks like a macro
         gsub(/-/, "\\-", line)
@@ -36,7 +37,8 @@ awk '
     { sub(/^ */, "") }
     /^Taken by/ { print ".br" }
     { text($0) }
-    END { print ".El" }' "$page" >"$list"
+    END { print ".El" }' "$rows" >"$list"
+[ -s "$list" ]
 awk -v list="$list" '
     /^\.Sh FORMATS/ { while ((getline line <list) > 0) print line; print; skip = 0; inside = 0; next }
     /^\.Sh OPTIONS/ { inside = 1 }
