@@ -29,6 +29,7 @@ typedef struct stage {
     double n, f;                  /* planes */
     int px, py;                   /* the texel */
     double caster[3][3];          /* the triangle about it, in the light's space: x, y, depth */
+    double raised;                /* how far before it the triangle stands, along the light: then it casts a shadow */
 } stage;
 
 /* A place where the surface is looked at, and the surface there: unit normal towards the light. */
@@ -109,7 +110,7 @@ static bool draw(const stage *s, float *depth, float *slope) {
     for (int i = 0; i < 3; i++) {
         double place[3];
         float clip[3];
-        to_world(s, s->caster[i], place);
+        to_world(s, (const double[3]){s->caster[i][0], s->caster[i][1], s->caster[i][2] - s->raised}, place);
         const float p[3] = {(float)place[0], (float)place[1], (float)place[2]};
         transform(s, p, clip);
         v[i] = (raster_vertex){clip[0], clip[1], clip[2], 1.0F};
@@ -464,8 +465,20 @@ static bool lit_at(const rng *r, stage *s, const plan *p, const double off[2], s
     return *judged && lit(s, way, share, api, &point, depth, slope, judged);
 }
 
+/* Beyond the gap and what is needed, a parallel caster's shadow is certain: texels are read at the far side here. */
+static void judge_caster(const rng *r, stage *s, const plan *p, const double off[2], shadow_way way, tally *t) {
+    const double away[2] = {-off[0], -off[1]};
+    bool judged;
+    s->raised = (s->need.bias[way].gap_light + s->need.bias[SHADOW_CONSTANT].window * (s->f - s->n)) * (1.0 + 1e-6);
+    const bool light = lit_at(r, s, p, away, way, 1.0, NULL, &judged);
+    s->raised = 0.0;
+    if (judged)
+        TALLY(t, !light, "%s %s %s: %d texels, kernel %g, slant %.17g", s->name, s->light.setup.spec.format.name,
+              shadow_way_name(way), s->target.width, s->light.kernel, s->light.triangles.slant_hi);
+}
+
 /* One point: lit with the bias itself; and the largest share with which it is dark. */
-static void judge(rng *r, stage *s, const plan *p, double least, tally *t, outcome *o) {
+static void judge(rng *r, stage *s, const plan *p, double least, tally t[2], outcome *o) {
     const double down[2] = {cos(p->azimuth), sin(p->azimuth)};
     for (shadow_way way = 0; way < SHADOW_WAY_COUNT; way++) {
         double off[2], lo = 0.0, hi = 1.0;
@@ -480,6 +493,8 @@ static void judge(rng *r, stage *s, const plan *p, double least, tally *t, outco
                   s->light.setup.spec.format.name, shadow_way_name(way), api != NULL ? api->name : "", s->target.width,
                   s->light.kernel, s->light.subtexel, s->light.triangles.slant_hi, s->light.width, s->f - s->n,
                   s->need.bias[way].share);
+        if (!p->sphere)
+            judge_caster(r, s, p, off, way, &t[1]);
         for (int i = 0; judged && i < 8; i++) {
             const double share = i == 0 ? least : 0.5 * (lo + hi);
             *(lit_at(r, s, p, off, way, share, NULL, &judged) ? &hi : &lo) = share;
@@ -548,7 +563,7 @@ static bool is_used(const stage *s, const plan *p, const outcome *o, shadow_way 
 }
 
 /* One light: points on its surface, and more of them until some is dark with `least` of each bias that is tight. */
-static outcome judge_light(rng *r, stage *s, const plan *p, double least, tally *t) {
+static outcome judge_light(rng *r, stage *s, const plan *p, double least, tally t[2]) {
     outcome o = {0};
     for (int i = 0; i < MOST; i++) {
         bool all = i >= TRIED;
@@ -564,7 +579,8 @@ static outcome judge_light(rng *r, stage *s, const plan *p, double least, tally 
 
 static void test_surfaces(bool sphere) {
     const double least = sphere ? 0.9 : 0.95;
-    tally t = {.name = "points lit at the bias"}, tight = {.name = "points dark just below it"};
+    tally t[] = {{.name = "points lit at the bias"}, {.name = "points dark beyond the gap"}};
+    tally tight = {.name = "points dark just below the bias"};
     rng r = rng_make(sphere ? "shadows on spheres" : "shadows on planes");
     for (int kind = 0; kind < KINDS; kind++)
         for (int format = 0; format < FORMATS; format++) {
@@ -577,7 +593,7 @@ static void test_surfaces(bool sphere) {
                 draw_plan(&r, &s, &p, sphere);
                 if (!fits(&r, &s, &p))
                     continue;
-                const outcome o = judge_light(&r, &s, &p, least, &t);
+                const outcome o = judge_light(&r, &s, &p, least, t);
                 if (o.judged[SHADOW_CONSTANT] < TRIED / 2)
                     continue;
                 lights++;
@@ -598,7 +614,9 @@ static void test_surfaces(bool sphere) {
                               used[0] / (double)lights, used[1] / (double)lights, used[2] / (double)lights);
         }
     print_message("# %llu biases within %.0f %%\n", (unsigned long long)tight.cases, 100.0 * (1.0 - least));
-    tally_end(&t);
+    tally_end(&t[0]);
+    if (!sphere)
+        tally_end(&t[1]);
     tally_end(&tight);
 }
 
