@@ -119,9 +119,14 @@ static const struct {
              {"lavapipe", "mesa", DP_ANCHOR_ORIGIN},
              {"softpipe", "softpipe", DP_ANCHOR_ORIGIN_STEPPED},
              {"swiftshader", "mesa", DP_ANCHOR_VERTEX}};
-static const char *const formats[] = {"fp32", "unorm24", "unorm16"};
+static const char *const format_names[] = {"fp32", "unorm24", "unorm16"};
 
-enum { KINDS = sizeof kinds / sizeof kinds[0], FORMATS = sizeof formats / sizeof formats[0], TRIED = 24, MOST = 600 };
+enum {
+    KINDS = sizeof kinds / sizeof kinds[0],
+    FORMATS = sizeof format_names / sizeof format_names[0],
+    TRIED = 24,
+    MOST = 600
+};
 
 /* SwiftShader has no D24; the 16-bit codes of softpipe are stepped, and promise nothing. */
 static bool has_format(int kind, int format) {
@@ -134,11 +139,11 @@ static void draw_light(rng *r, shadow_stage *s, int kind, int format, bool wide)
     dp_spec spec = dp_spec_default();
     dp_format found[2];
     const int size = (int)rng_log(r, 64.0, 4096.0);
-    assert_int_equal(dp_format_parse(formats[format], found), 1);
+    assert_int_equal(dp_format_parse(format_names[format], found), 1);
     assert_int_equal(dp_arith_parse(kinds[kind].arith, &spec.arith), DP_OK);
     s->name = kinds[kind].name;
     s->light = shadow_light_default();
-    s->target = target_of(s->name, formats[format], size, size, dp_path_best());
+    s->target = target_of(s->name, format_names[format], size, size, dp_path_best());
     s->light.width = s->light.height = rng_log(r, 0.1, 1000.0);
     spec.format = found[0];
     spec.mapping = rng_below(r, 2) ? DP_MAPPING_REVERSED : DP_MAPPING_D3D;
@@ -422,15 +427,16 @@ static void test_surfaces(bool sphere) {
                     if (o.judged[way] >= o.points / 2 && is_tight(&s, &p, way))
                         TALLY(&tight, is_used(&s, &p, &o, way, least),
                               "%s %s %s: used %.3f, share %.3f; %d texels, kernel %g, %d bits, slant %.17g", s.name,
-                              formats[format], shadow_way_name(way), o.used[way], s.need.bias[way].share,
+                              format_names[format], shadow_way_name(way), o.used[way], s.need.bias[way].share,
                               s.target.width, s.light.kernel, s.light.subtexel, s.light.triangles.slant_hi);
                 }
             }
             if (lights > 0)
                 print_message("# %s %s: %llu lights, %llu points; of the bias is used, constant %.2f, slope-scaled "
                               "%.2f, normal offset %.2f\n",
-                              kinds[kind].name, formats[format], (unsigned long long)lights, (unsigned long long)points,
-                              used[0] / (double)lights, used[1] / (double)lights, used[2] / (double)lights);
+                              kinds[kind].name, format_names[format], (unsigned long long)lights,
+                              (unsigned long long)points, used[0] / (double)lights, used[1] / (double)lights,
+                              used[2] / (double)lights);
         }
     print_message("# %llu biases within %.0f %%\n", (unsigned long long)tight.cases, 100.0 * (1.0 - least));
     tally_end(&t[0]);
