@@ -41,8 +41,8 @@ static const name_list reports = {.words = (const char *const[]){"text", "json",
 enum {
     MODELLED = VERB_TABLE | VERB_PLOT,
     BUDGETED = VERB_BUDGET | VERB_PLOT,
-    SLANTED = VERB_TABLE | VERB_BUDGET | VERB_SOLVE | VERB_ZFIGHT | VERB_DISOCCLUSION,
-    DRAWS = VERB_ZFIGHT,
+    SLANTED = VERB_TABLE | VERB_BUDGET | VERB_SOLVE | VERB_ZFIGHT | VERB_BIAS | VERB_DISOCCLUSION,
+    DRAWS = VERB_ZFIGHT | VERB_PLOT,
     SHADOWED = VERB_SHADOW | VERB_PLOT,
     VIEWED = SLANTED | SHADOWED,
     ASKED = MODELLED | VERB_BUDGET,
@@ -223,7 +223,9 @@ const option_row option_rows[OPTION_COUNT] = {
     [OPTION_PLANE] = {"plane", 0, "SLANT,AZIMUTH", DRAWS,
         "in place of --slant: the angle of the planes' normal to the view axis and where it points on the screen, "
         "degrees, 0 to the right and 90 up",
-        .parse = parse_plane, .without = "any azimuth"},
+        .parse = parse_plane, .without = "any azimuth",
+        .except = {BUT(VERB_PLOT, "60,45", NULL, "the angle of the planes' normal to the view axis and where it points on "
+                       "the screen, degrees, 0 to the right and 90 up")}},
     [OPTION_TRIANGLE] = {"triangle", 0, "depth=K,pixels=P,slim=Q", VIEWED,
         "the triangles: vertices at depths from z/K to K z, at most P pixels wide and high, no slimmer than 1:Q",
         .parse = parse_triangle, .standard = "depth=2,pixels=512,slim=16"},

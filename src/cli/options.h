@@ -271,6 +271,10 @@ void options_of(const options *o, size_t camera, options *out);
  * after one line on stderr */
 int view_vertical(const options *o, int width, int height, double *fov_y);
 
+/** View and rasterizer of what is drawn: 1920x1080 where no --viewport was given, llvmpipe where no --raster, and of
+ * the formats those that it has. @return EXIT_FINE, or EXIT_USAGE after one line on stderr */
+int view_drawn(options *o);
+
 /** Opens what --output names, as wide as --full makes it, as --color wants it dressed. @return EXIT_FINE, or EXIT_IO
  * after one line on stderr */
 int options_open(const options *o, output *out);
