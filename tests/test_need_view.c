@@ -20,32 +20,44 @@ static bool parse(const char *camera, const char *view, const char *wanted, need
 
 /* ---- What is read ------------------------------------------------------------------------------------------------ */
 
-#define ANCHORED                                                                                                       \
-    { 2, 11, 2, 0 }
-
 static const struct {
     const char *view, *raster;
+    dp_anchor anchor; /* DP_ANCHOR_COUNT: each term as where it is largest */
     dp_triangles triangles;
 } views[] = {
-    {"viewport = [1920, 1080]; fov = 40.5; subpixel = 6;", NULL, {1920, 1080, 40.5, 6, ANCHORED, 0, 90, 2, 512, 16}},
+    {"viewport = [1920, 1080]; fov = 40.5; subpixel = 6;",
+     NULL,
+     DP_ANCHOR_VERTEX,
+     {1920, 1080, 40.5, 6, {0, 0, 0, 0}, 0, 90, 2, 512, 16}},
     {"viewport = (32768, 1.0); fov = 60; subpixel = 1; slant = [10, 45]; triangle = { depth = 1.5; };",
      NULL,
-     {32768, 1, 60, 1, ANCHORED, 10, 45, 1.5, 512, 16}},
+     DP_ANCHOR_VERTEX,
+     {32768, 1, 60, 1, {0, 0, 0, 0}, 10, 45, 1.5, 512, 16}},
     {"viewport = [640, 480]; fov = 90; raster = \"LLVMpipe\"; slant = (0, 0.5);",
      "llvmpipe",
-     {640, 480, 90, 0, {3, 10, 2, 5}, 0, 0.5, 2, 512, 16}},
+     DP_ANCHOR_ORIGIN,
+     {640, 480, 90, 0, {0, 0, 0, 0}, 0, 0.5, 2, 512, 16}},
     {"viewport = [640, 480]; fov = 90; raster = \"spec-vulkan\"; triangle = { slim = 4; pixels = 20.5; };",
      "spec-vulkan",
-     {640, 480, 90, 4, {5, 11, 2, 6}, 0, 90, 2, 20.5, 4}},
+     DP_ANCHOR_COUNT,
+     {640, 480, 90, 4, {0, 0, 0, 0}, 0, 90, 2, 20.5, 4}},
     {"viewport = [640, 480]; fov = 90; raster = \"spec-gl\"; subpixel = 8;",
      "spec-gl",
-     {640, 480, 90, 8, {5, 11, 2, 6}, 0, 90, 2, 512, 16}},
+     DP_ANCHOR_COUNT,
+     {640, 480, 90, 8, {0, 0, 0, 0}, 0, 90, 2, 512, 16}},
 };
 
-static bool same(const dp_triangles *a, const dp_triangles *b) {
-    const dp_plane_error *p = &a->plane, *q = &b->plane;
+static bool same(const dp_triangles *a, const dp_triangles *b, dp_anchor anchor) {
+    dp_plane_error q = {0};
+    for (int i = 0; i < DP_ANCHOR_COUNT; i++) {
+        const dp_plane_error *row = &dp_anchor_get((dp_anchor)i)->plane;
+        if (anchor == DP_ANCHOR_COUNT || anchor == (dp_anchor)i)
+            q = (dp_plane_error){fmax(q.value, row->value), fmax(q.box, row->box), fmax(q.range, row->range),
+                                 fmax(q.origin, row->origin)};
+    }
+    const dp_plane_error *p = &a->plane;
     return a->width == b->width && a->height == b->height && a->fov_y == b->fov_y && a->subpixel == b->subpixel &&
-           p->value == q->value && p->box == q->box && p->range == q->range && p->origin == q->origin &&
+           p->value == q.value && p->box == q.box && p->range == q.range && p->origin == q.origin &&
            a->slant_lo == b->slant_lo && a->slant_hi == b->slant_hi && a->depth == b->depth && a->pixels == b->pixels &&
            a->slim == b->slim;
 }
@@ -59,13 +71,25 @@ static void test_read(void **state) {
         if (!parse(plain, views[i].view, "at = 1; separation = 1;", &f, &e))
             fail_msg("%s: %s", views[i].view, e.text);
         const raster_row *raster = f.cameras[0].raster;
-        TALLY(&t, same(&f.cameras[0].setups[0].spec.triangles, &views[i].triangles), "%s", views[i].view);
+        TALLY(&t, same(&f.cameras[0].setups[0].spec.triangles, &views[i].triangles, views[i].anchor), "%s",
+              views[i].view);
         TALLY(&t, views[i].raster == NULL ? raster == NULL : strcmp(raster->name, views[i].raster) == 0, "%s",
               views[i].view);
         need_release(&f);
     }
     assert_true(parse(plain, "viewport = [1600, 900]; hfov = 90; subpixel = 8;", "at = 1; separation = 1;", &f, &e));
     assert_relative(f.cameras[0].setups[0].spec.triangles.fov_y, 2.0 * atan(0.5625) * 180.0 / acos(-1.0), 1e-14);
+    need_release(&f);
+    /* A preset says what is not given: unreal has 90 degrees horizontally and what Vulkan promises. */
+    assert_true(parse("preset = \"unreal\";", "viewport = [1600, 900];", "at = 99; separation = 1;", &f, &e));
+    const dp_triangles *of_preset = &f.cameras[0].setups[0].spec.triangles;
+    assert_relative(of_preset->fov_y, 2.0 * atan(0.5625) * 180.0 / acos(-1.0), 1e-14);
+    assert_true(of_preset->subpixel == 4 && strcmp(f.cameras[0].raster->name, "spec-vulkan") == 0);
+    need_release(&f);
+    assert_true(parse("preset = \"unreal\";", "viewport = [1600, 900]; fov = 30; subpixel = 6;",
+                      "at = 99; separation = 1;", &f, &e));
+    of_preset = &f.cameras[0].setups[0].spec.triangles;
+    assert_true(of_preset->fov_y == 30 && of_preset->subpixel == 6 && f.cameras[0].raster == NULL);
     need_release(&f);
     assert_true(parse(plain, "", "at = 1; separation = 1;", &f, &e));
     assert_int_equal(f.cameras[0].setups[0].spec.triangles.width, 0);

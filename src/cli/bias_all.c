@@ -196,7 +196,7 @@ static void say_setup(page *p, void *item) {
     const all *a = item;
     const dp_setup full = reach_model(a->walk.setup);
     walk_title(p, item);
-    slant_title(p, &a->walk.here, &full);
+    slant_say(p, page_title, &a->walk.here, &full);
     say_goal(p, a);
 }
 

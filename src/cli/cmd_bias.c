@@ -136,7 +136,7 @@ static void say_states(page *p, void *item) {
     const biasing *b = item;
     const bias_state *s = &b->state;
     walk_title(p, item);
-    slant_title(p, b->walk.o, &b->slanted);
+    slant_say(p, page_title, b->walk.o, &b->slanted);
     output_text(p->out, s->api->name);
     if (!b->inverse)
         output_format(p->out, ", units %s", number_full(s->units).text);

@@ -220,7 +220,6 @@ static int resolve_shadow(plotting *p) {
     static const option_id others[] = {OPTION_ORTHO, OPTION_PRESET, OPTION_ROUNDING,  OPTION_MODEL,
                                        OPTION_ARITH, OPTION_LOG_C,  OPTION_TOLERANCE, OPTION_AT};
     const options o = shadow_options(p->o);
-    const unsigned n = o.kernel;
     for (size_t i = 0; i < sizeof others / sizeof others[0]; i++)
         if (option_given(&o, others[i]))
             return option_error(others[i], "does not apply to the figure %s", p->row->name);
@@ -231,11 +230,15 @@ static int resolve_shadow(plotting *p) {
     p->request.maps = p->maps.items;
     p->request.map_count = p->maps.count;
     p->chart->unit = options_unit(&o);
-    snprintf(p->chart->subtitle, sizeof p->chart->subtitle, "%s %s, %u x %u texels, filter of %u x %u",
-             o.formats[0].name, dp_mapping_get(o.mappings[0])->name, o.camera.width, o.camera.height, n, n);
-    if (p->maps.count > 1)
-        append(p->chart->subtitle, sizeof p->chart->subtitle, "; depths of the view and texels%s%s",
-               p->chart->unit != NULL ? " in " : "", p->chart->unit != NULL ? p->chart->unit : "");
+    char *const subtitle = p->chart->subtitle;
+    const size_t size = sizeof p->chart->subtitle;
+    snprintf(subtitle, size, "%s %s, %u x %u texels, filter of %u x %u; ", o.formats[0].name,
+             dp_mapping_get(o.mappings[0])->name, o.camera.width, o.camera.height, o.kernel, o.kernel);
+    if (p->maps.view.count > 0)
+        append(subtitle, size, "view near %s, far %s", number_full(o.znear).text, number_full(o.zfar).text);
+    else
+        append(subtitle, size, "box %s x %s x %s", number_full(o.light_box[0]).text, number_full(o.light_box[1]).text,
+               number_full(o.light_box[2]).text);
     return status;
 }
 

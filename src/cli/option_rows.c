@@ -41,7 +41,7 @@ static const name_list reports = {.words = (const char *const[]){"text", "json",
 enum {
     MODELLED = VERB_TABLE | VERB_PLOT,
     BUDGETED = VERB_BUDGET | VERB_PLOT,
-    SLANTED = VERB_BIAS | VERB_TABLE | VERB_BUDGET | VERB_ZFIGHT,
+    SLANTED = VERB_TABLE | VERB_BUDGET | VERB_BIAS | VERB_SOLVE | VERB_ZFIGHT,
     DRAWS = VERB_ZFIGHT,
     SHADOWED = VERB_SHADOW | VERB_PLOT,
     VIEWED = SLANTED | SHADOWED,
@@ -264,7 +264,8 @@ const option_row option_rows[OPTION_COUNT] = {
         .group = "Pairs of surfaces"},
     [OPTION_SAMPLE] = {"sample", 0, "N", COUNTED,
         "draw N pairs at random", WHOLE(sample, 1, 1e12, NULL),
-        .without = "visit every depth; 1000000 vertices with --against"},
+        .without = "visit every depth; about 500 pairs of planes with --triangles, 1000000 vertices "
+                    "with --against"},
     [OPTION_SEED] = {"seed", 0, "S", COUNTED, /* JSON holds it exactly */
         "seed of --sample: the same pairs for the same seed", WHOLE(seed, 0, 0x1p53, NULL), .standard = "0"},
     [OPTION_TRIANGLES] = {"triangles", 0, NULL, VERB_ZFIGHT,

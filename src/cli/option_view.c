@@ -42,7 +42,8 @@ static int take_drawn(options *o) {
     if (o->raster == NULL)
         o->raster = raster_find("llvmpipe");
     if (o->raster->model == NULL)
-        return option_refuse(&option_rows[OPTION_RASTER], "must be one whose arithmetic is known, got '%s'",
+        return option_refuse(&option_rows[OPTION_RASTER],
+                             "must be one that draws: llvmpipe, lavapipe, softpipe or swiftshader, got '%s'",
                              o->raster->name);
     for (size_t i = 0; i < o->format_count; i++)
         if (raster_draws(o->raster, &o->formats[i]))

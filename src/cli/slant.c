@@ -9,38 +9,37 @@
 enum { DIGITS = 4 };
 
 /* Its grid and how it sets up depth. */
-static void say_rasterizer(page *p, const raster_row *row, int bits) {
+static void say_rasterizer(page *p, slant_line *line, const raster_row *row, int bits) {
     const dp_anchor_row *anchor = dp_anchor_get(row->anchor);
     char grid[64];
     if (bits == 0)
         snprintf(grid, sizeof grid, "depth from unsnapped vertices");
     else
         snprintf(grid, sizeof grid, "%s%d subpixel bits", row->at_least ? "at least " : "", bits);
-    page_title(p, "%s: %s, %s%s", row->name, grid, anchor != NULL ? "anchor " : "any anchor: the worst is counted",
-               anchor != NULL ? anchor->name : "");
+    line(p, "%s: %s, %s%s", row->name, grid, anchor != NULL ? "anchor " : "any anchor: the worst is counted",
+         anchor != NULL ? anchor->name : "");
 }
 
-void slant_title(page *p, const options *o, const dp_setup *setup) {
+void slant_say(page *p, slant_line *line, const options *o, const dp_setup *setup) {
     const dp_triangles *t = &o->triangles;
     const bool theirs = setup == NULL && o->preset_count > 1; /* each has its own view and rasterizer */
     char view[64] = "";
     if (t->width == 0)
         return;
     if (setup != NULL && setup->spec.model != DP_MODEL_FP32) {
-        page_title(p, "%s is not affine on the screen: no guarantee at a slant",
-                   dp_mapping_get(setup->spec.mapping)->name);
+        line(p, "%s is not affine on the screen: no guarantee at a slant", dp_mapping_get(setup->spec.mapping)->name);
         return;
     }
     if (!theirs)
         append(view, sizeof view, " fov %s,", number_of(t->fov_y, DIGITS).text);
     if (!theirs && o->raster == NULL)
         append(view, sizeof view, " %d subpixel bits,", t->subpixel);
-    page_title(p, "viewport %dx%d,%s slant %s to %s degrees", t->width, t->height, view, number_full(t->slant_lo).text,
-               number_full(t->slant_hi).text);
+    line(p, "viewport %dx%d,%s slant %s to %s degrees", t->width, t->height, view, number_full(t->slant_lo).text,
+         number_full(t->slant_hi).text);
     if (!theirs && o->raster != NULL)
-        say_rasterizer(p, o->raster, t->subpixel);
-    page_title(p, "triangles from z/%s to %s z, at most %s pixels, no slimmer than 1:%s", number_full(t->depth).text,
-               number_full(t->depth).text, number_full(t->pixels).text, number_full(t->slim).text);
+        say_rasterizer(p, line, o->raster, t->subpixel);
+    line(p, "triangles from z/%s to %s z, at most %s pixels, no slimmer than 1:%s", number_full(t->depth).text,
+         number_full(t->depth).text, number_full(t->pixels).text, number_full(t->slim).text);
 }
 
 const slant_fields *slant_fields_of(const options *o, slant_fields *out) {

@@ -17,10 +17,13 @@ extern const column slant_columns[];
 /** Of options that have a viewport; null of others. @return out */
 const slant_fields *slant_fields_of(const options *o, slant_fields *out);
 
+/** page_title() or page_line(). */
+typedef void slant_line(page *p, const char *format, ...) __attribute__((format(printf, 2, 3)));
+
 /**
  * What text says above a set-up, or above several where it is null: view, grid and class, or why there is no guarantee;
  * nothing without a viewport.
  */
-void slant_title(page *p, const options *o, const dp_setup *setup);
+void slant_say(page *p, slant_line *line, const options *o, const dp_setup *setup);
 
 #endif

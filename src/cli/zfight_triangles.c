@@ -93,17 +93,20 @@ static void say_answer(page *p, void *item) {
     const drawn *d = item;
     const draw_fight_band *w = &d->whole;
     walk_title(p, item);
-    slant_title(p, d->walk.o, d->walk.setup);
+    slant_say(p, page_title, d->walk.o, d->walk.setup);
     if (w->pixels == 0)
-        page_text(p, "No pixel shows two planes: nothing is certain there, or none lie so near the camera.");
+        page_text(p, "Nothing was drawn: no two planes are certain to be told apart in this range.");
     else if (isnan(w->used))
         page_text(p, "No pixel was wrong.");
     else
-        page_text(p, "A pixel was wrong up to %s of the guarantee: planes %s apart at z = %s.",
-                  number_of(w->used, SHARE_DIGITS).text, number_in(number_of(w->separation, DIGITS), p->unit).text,
-                  number_in(number_of(w->z, DIGITS), p->unit).text);
+        page_text(p, "A pixel was wrong up to %s of the guarantee.", number_of(w->used, DIGITS).text);
+    if (!isnan(w->used))
+        page_line(p, "there, at z = %s: planes %s apart, guaranteed %s",
+                  number_in(number_of(w->z, DIGITS), p->unit).text,
+                  number_in(number_of(w->separation, DIGITS), p->unit).text,
+                  number_in(number_up(w->guaranteed, DIGITS), p->unit).text);
     page_line(p, "(wrong: the farther plane is seen; %s pairs of planes drawn, seed %s)",
-              number_of((double)d->pairs, DIGITS).text, number_of((double)d->seed, DIGITS).text);
+              number_full((double)d->pairs).text, number_full((double)d->seed).text);
 }
 
 static const column found_columns[] = {
@@ -131,12 +134,13 @@ static const column setup_report[] = {{PART(drawn, walk.fields, NULL, setup_colu
                                       {FIELD(drawn, azimuth, "azimuth", "degrees"), .only = AS_JSON},
                                       {FIELD(drawn, lo, "lo", "scene"), .only = AS_JSON},
                                       {FIELD(drawn, hi, "hi", "scene"), .only = AS_JSON},
-                                      {PART(drawn, slant, "triangles", slant_columns), .only = AS_JSON},
                                       {PART(drawn, whole, NULL, found_columns), .only = AS_JSON},
                                       {LIST("bands", band_columns, next_band)},
                                       {.kind = COLUMN_END}};
 
-static const column columns[] = {{LIST("setups", setup_report, next_setup), .head = say_answer}, {.kind = COLUMN_END}};
+static const column columns[] = {{PART(drawn, slant, "triangles", slant_columns), .only = AS_JSON},
+                                 {LIST("setups", setup_report, next_setup), .head = say_answer},
+                                 {.kind = COLUMN_END}};
 
 /* ---- The command ------------------------------------------------------------------------------------------------- */
 

@@ -3,7 +3,6 @@
 #include <math.h>
 #include <string.h>
 
-#include "api/presets.h"
 #include "core/append.h"
 #include "need/model.h"
 #include "need/reader.h"
@@ -31,6 +30,7 @@ typedef struct draft {
     dp_format formats[NEED_SETUPS_MAX];
     size_t format_count;
     bool automatic;
+    const preset *preset; /* null: none */
 } draft;
 
 /* A word among names; its index, or -1 after an error that lists them. */
@@ -68,6 +68,7 @@ static bool read_preset(reader *r, const config_setting_t *s, draft *d) {
         return false;
     const preset *row = preset_get((size_t)index);
     const unit_row *unit = unit_find(row->unit);
+    d->preset = row;
     /* Where the file says what its scene unit is, a preset in metres is converted into it. */
     d->spec.znear = unit_convert(row->znear, unit, r->unit);
     d->spec.zfar = unit_convert(row->zfar, unit, r->unit);
@@ -191,6 +192,6 @@ bool reader_camera(reader *r, config_setting_t *group, need_camera *out) {
         return reader_fail(r, found[KEY_LOG_C], "log_c: must be a number per scene unit, got %s",
                            reader_shown(r, found[KEY_LOG_C]));
     out->automatic = d.automatic;
-    return good && reader_view(r, found + KEY_VIEW, &d.spec, out, &d.spec.triangles) &&
+    return good && reader_view(r, found + KEY_VIEW, d.preset, out, &d.spec) &&
            raster_suits(r, found[KEY_VIEW + VIEW_RASTER], &d, out) && make_setups(r, group, &d, out);
 }

@@ -5,6 +5,7 @@
 
 #include <libconfig.h>
 
+#include "api/presets.h"
 #include "api/unit.h"
 #include "need/requirement.h"
 
@@ -44,9 +45,9 @@ bool reader_share(reader *r, const config_setting_t *s, const char *key, double 
 enum { VIEW_VIEWPORT, VIEW_FOV, VIEW_HFOV, VIEW_RASTER, VIEW_SUBPIXEL, VIEW_SLANT, VIEW_TRIANGLE, VIEW_COUNT };
 #define VIEW_KEYS "viewport", "fov", "hfov", "raster", "subpixel", "slant", "triangle"
 
-/* Those that were found, of a camera with this specification: *out as it was where none was. */
-bool reader_view(reader *r, config_setting_t *const found[VIEW_COUNT], const dp_spec *spec, need_camera *camera,
-                 dp_triangles *out);
+/* The triangles of a specification, by those that were found; what of them is not, a preset may say, or null. */
+bool reader_view(reader *r, config_setting_t *const found[VIEW_COUNT], const preset *of, need_camera *camera,
+                 dp_spec *spec);
 
 bool reader_camera(reader *r, config_setting_t *group, need_camera *out);
 

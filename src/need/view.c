@@ -122,21 +122,36 @@ static bool suits(reader *r, const config_setting_t *s, const need_camera *camer
     return true;
 }
 
-bool reader_view(reader *r, config_setting_t *const found[VIEW_COUNT], const dp_spec *spec, need_camera *out,
-                 dp_triangles *t) {
+/* The view and the rasterizer that a preset has, where nothing else is said. */
+static bool complete(reader *r, config_setting_t *const found[VIEW_COUNT], const preset *of, need_camera *out,
+                     dp_triangles *t) {
+    const bool angle = found[VIEW_FOV] != NULL || found[VIEW_HFOV] != NULL;
+    const bool grid = found[VIEW_RASTER] != NULL || found[VIEW_SUBPIXEL] != NULL;
+    if (of == NULL && !angle)
+        return reader_fail(r, found[VIEW_VIEWPORT], "viewport: needs fov or hfov");
+    if (of == NULL && !grid)
+        return reader_fail(r, found[VIEW_VIEWPORT], "viewport: needs raster or subpixel");
+    if (!angle)
+        t->fov_y = preset_fov_y(of, t->width, t->height);
+    if (!grid) {
+        out->raster = raster_find(of->raster);
+        raster_describe(out->raster, t);
+    }
+    return true;
+}
+
+bool reader_view(reader *r, config_setting_t *const found[VIEW_COUNT], const preset *of, need_camera *out,
+                 dp_spec *spec) {
     static const char *const names[VIEW_COUNT + 1] = {VIEW_KEYS, NULL};
     static bool (*const readers[VIEW_COUNT])(reader *, config_setting_t *, dp_triangles *) = {
         [VIEW_VIEWPORT] = read_viewport, [VIEW_FOV] = read_fov,           [VIEW_HFOV] = read_hfov,
         [VIEW_SLANT] = read_slant,       [VIEW_SUBPIXEL] = read_subpixel, [VIEW_TRIANGLE] = read_class};
+    dp_triangles *t = &spec->triangles;
     for (int k = 0; k < VIEW_COUNT && found[VIEW_VIEWPORT] == NULL; k++)
         if (found[k] != NULL)
             return reader_fail(r, found[k], "%s: needs a viewport: surfaces face the camera", names[k]);
     if (found[VIEW_VIEWPORT] == NULL)
         return true;
-    if (found[VIEW_FOV] == NULL && found[VIEW_HFOV] == NULL)
-        return reader_fail(r, found[VIEW_VIEWPORT], "viewport: needs fov or hfov");
-    if (found[VIEW_RASTER] == NULL && found[VIEW_SUBPIXEL] == NULL)
-        return reader_fail(r, found[VIEW_VIEWPORT], "viewport: needs raster or subpixel");
     if (found[VIEW_FOV] != NULL && found[VIEW_HFOV] != NULL)
         return reader_fail(r, found[VIEW_HFOV], "'fov' and 'hfov' must not both be given");
     *t = dp_triangles_default();
@@ -145,5 +160,5 @@ bool reader_view(reader *r, config_setting_t *const found[VIEW_COUNT], const dp_
             return false;
     if (found[VIEW_RASTER] != NULL && !read_raster(r, found[VIEW_RASTER], found[VIEW_SUBPIXEL], out, t))
         return false;
-    return suits(r, found[VIEW_VIEWPORT], out, spec);
+    return complete(r, found, of, out, t) && suits(r, found[VIEW_VIEWPORT], out, spec);
 }
