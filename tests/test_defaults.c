@@ -51,6 +51,7 @@ static const struct {
     {VERB_TEXTURE, OPTION_HALF_HEIGHT, NULL, "--ortho"},
     {VERB_TEXTURE, OPTION_SIZE, "texture --scene plane", ""},
     {VERB_BIAS, OPTION_CLAMP, NULL, "--api vulkan"},
+    {VERB_SHADOW, OPTION_FACET, NULL, "--curvature 5"},
     {VERB_PLOT, OPTION_FOV, "plot shadow --csv", ""},
     {VERB_PLOT, OPTION_VIEWPORT, "plot shadow --csv", ""},
     {VERB_PLOT, OPTION_SUBPIXEL, "plot shadow --csv", ""},

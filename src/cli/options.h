@@ -69,6 +69,8 @@ typedef enum option_id {
     OPTION_CASTERS,
     OPTION_KERNEL,
     OPTION_ANGLE,
+    OPTION_CURVATURE,
+    OPTION_FACET,
     OPTION_API,
     OPTION_UNITS,
     OPTION_FACTOR,
@@ -213,6 +215,8 @@ typedef struct options {
     double casters;      /**< scene units */
     unsigned kernel;     /**< the filter reads so many texels in either direction */
     double angle;        /**< of a receiver's normal to the light, degrees */
+    double curvature;    /**< radius of curvature of receivers, scene units; read where it is given */
+    double facet;        /**< of the circles about their triangles, scene units */
 
     camera_spec camera;     /**< --size, --fov, --half-height, --yaw, --pitch, --origin */
     const char *matrix;     /**< file of a projection matrix, which then says the planes and the field of view */
