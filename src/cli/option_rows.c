@@ -43,16 +43,16 @@ static const name_list reports = {.words = (const char *const[]){"text", "json",
 enum {
     MODELLED = VERB_TABLE | VERB_PLOT,
     BUDGETED = VERB_BUDGET | VERB_PLOT,
-    SLANTED = VERB_TABLE | VERB_BUDGET | VERB_SOLVE | VERB_ZFIGHT | VERB_BIAS | VERB_SCENE,
+    SLANTED = VERB_TABLE | VERB_BUDGET | VERB_SOLVE | VERB_ZFIGHT | VERB_BIAS | VERB_DISOCCLUSION |
+              VERB_SCENE,
     DRAWS = VERB_ZFIGHT | VERB_PLOT,
     SHADOWED = VERB_SHADOW | VERB_PLOT,
     VIEWED = SLANTED | SHADOWED,
     ASKED = MODELLED | VERB_BUDGET,
-    CAMERA = ASKED | VERB_ZFIGHT,
+    CAMERA = ASKED | VERB_ZFIGHT | VERB_DISOCCLUSION | VERB_SCENE,
     PLACED = CAMERA | VERB_BENCH,
     TAKEN = VERB_TEXTURE | VERB_BIAS | VERB_SOLVE,
-    PLACING = TAKEN | VERB_SCENE,
-    MAPPED = PLACING | VERB_SHADOW,
+    MAPPED = TAKEN | VERB_SHADOW,
     COUNTED = VERB_ZFIGHT,
     SPREAD = COUNTED | VERB_CHECK | VERB_TEXTURE | VERB_SCENE,
     DRAWN = VERB_PLOT | VERB_TEXTURE,
@@ -114,15 +114,15 @@ const option_row option_rows[OPTION_COUNT] = {
                    BUT(VERB_SHADOW, "d3d", NULL, "mappings: " DP_MAPPING_NAMES_PERSPECTIVE
                        "; all are d3d and reversed"),
                    BUT(VERB_SCENE, "reversed", NULL, NULL),
-                   BUT(VERB_ZFIGHT | VERB_BUDGET, "all", NULL,
+                   BUT(VERB_ZFIGHT | VERB_BUDGET | VERB_DISOCCLUSION, "all", NULL,
                        "mappings: " DP_MAPPING_NAMES_PERSPECTIVE
                        "; all are d3d and reversed")}},
-    [OPTION_LOG_C] = {"log-c", 0, "C", MODELLED | PLACING,
+    [OPTION_LOG_C] = {"log-c", 0, "C", MODELLED | TAKEN | VERB_SCENE,
         "constant of the log mapping", NUMBER(log_c, 1e-12, 1e12, NULL), .standard = "1"},
-    [OPTION_ORTHO] = {"ortho", 0, NULL, CAMERA | TAKEN,
+    [OPTION_ORTHO] = {"ortho", 0, NULL, (CAMERA & ~(VERB_DISOCCLUSION | VERB_SCENE)) | TAKEN,
         "orthographic projection; not with linear and log", FLAG(ortho), .without = "perspective",
         .except = {BUT(VERB_ZFIGHT | VERB_BUDGET, NULL, "perspective", "orthographic projection")}},
-    [OPTION_PRESET] = {"preset", 0, "NAME[,NAME...]", CAMERA | PLACING,
+    [OPTION_PRESET] = {"preset", 0, "NAME[,NAME...]", CAMERA | TAKEN,
         "an engine's near, far, mapping and format, for those that are not given, and with --viewport its field of "
         "view and rasterizer: @; table compares several; see 'depthprec list presets'",
         .parse = parse_presets, .names = &presets},
@@ -131,7 +131,7 @@ const option_row option_rows[OPTION_COUNT] = {
         .parse = parse_unit, .names = &units, .without = "that of the preset, or m where a length has a unit",
         .except = {BUT(VERB_BENCH, NULL, "m where a length has a unit",
                        "what a scene unit is; any length may carry a unit: 10cm")}},
-    [OPTION_ROUNDING] = {"rounding", 0, NULL, CAMERA | PLACING,
+    [OPTION_ROUNDING] = {"rounding", 0, NULL, CAMERA | TAKEN,
         "how a depth between two codes is rounded: ties upwards in unorm formats and to even in floats, as the APIs "
         "demand; ties to even in both; or towards 0", WORD(rounding, roundings), .standard = "nearest",
         .group = "The arithmetic"},
@@ -141,7 +141,7 @@ const option_row option_rows[OPTION_COUNT] = {
         .except = {BUT(VERB_SOLVE, "float", "the guarantee; staged for an error, and for linear and log", NULL),
                    BUT(VERB_PLOT, "exact", "float in figures of its pipeline", NULL),
                    BUT(VERB_TABLE, "exact", "of several set-ups the fullest that each has", NULL)}},
-    [OPTION_ARITH] = {"arith", 0, "NAME", CAMERA | VERB_SOLVE | VERB_SCENE,
+    [OPTION_ARITH] = {"arith", 0, "NAME", CAMERA | VERB_SOLVE,
         "the binary32 arithmetic: @", WORD(arith, ariths), .standard = "ieee"},
     [OPTION_TOLERANCE] = {"tolerance", 0, "SHARE", ASKED | VERB_BENCH | VERB_LIST,
         "the error allowed, 0.05 or 5%: a model is enough if it neglects no more of the separation; and the "
@@ -153,10 +153,11 @@ const option_row option_rows[OPTION_COUNT] = {
                    BUT(VERB_BENCH, NULL, "none", "the cheapest method that claims no more than 0.05, or 5%, is marked"),
                    BUT(VERB_LIST, NULL, NULL, "list methods: the cases for which each is the cheapest that claims no "
                        "more than 0.05, or 5%")}},
-    [OPTION_AT] = {"at", 0, "Z[,Z...]|LO:HI:log|lin:COUNT", ASKED | TAKEN,
+    [OPTION_AT] = {"at", 0, "Z[,Z...]|LO:HI:log|lin:COUNT", ASKED | TAKEN | VERB_DISOCCLUSION,
         "the depths asked about, at most 1000000, within [near, far]", parse_at,
         .without = "nine, log-spaced from near to far, or to 1e6 times near; evenly where near is not above 0",
-        .except = {BUT(VERB_SOLVE, NULL, NULL, "the depth asked about"),
+        .except = {BUT(VERB_DISOCCLUSION, NULL, "the middle of near and far, logarithmically", NULL),
+                   BUT(VERB_SOLVE, NULL, NULL, "the depth asked about"),
                    BUT(VERB_PLOT, NULL, NULL, "the depth asked about, in figures of a single one"),
                    BUT(VERB_TABLE, NULL, "nine, log-spaced from near to far, or to 1e6 times near; evenly where near "
                        "is not above 0; of several set-ups powers of ten", NULL)},
@@ -208,6 +209,7 @@ const option_row option_rows[OPTION_COUNT] = {
         .except = {BUT(VERB_ZFIGHT, NULL, "1920x1080 with --triangles, else surfaces face the camera",
                        "the pixels of the viewport; without --triangles what is guaranteed at any slant stands beside "
                        "the census"),
+                   BUT(VERB_DISOCCLUSION, "1920x1080", NULL, "pixels of the view"),
                    BUT(SHADOWED, "1920x1080", NULL, "pixels of the view, which say how wide it is")}},
     [OPTION_RASTER] = {"raster", 0, "NAME", VIEWED,
         "the rasterizer, its subpixel grid and how it sets up depth: @; of the specifications the worst that they "
@@ -226,8 +228,8 @@ const option_row option_rows[OPTION_COUNT] = {
         "in place of --slant: the angle of the planes' normal to the view axis and where it points on the screen, "
         "degrees, 0 to the right and 90 up",
         .parse = parse_plane, .without = "any azimuth",
-        .except = {BUT(VERB_PLOT, "60,45", NULL, "the angle of the planes' normal to the view axis and where it points on "
-                       "the screen, degrees, 0 to the right and 90 up")}},
+        .except = {BUT(VERB_PLOT, "60,45", NULL, "the angle of the planes' normal to the view axis and where it points "
+                       "on the screen, degrees, 0 to the right and 90 up")}},
     [OPTION_TRIANGLE] = {"triangle", 0, "depth=K,pixels=P,slim=Q", VIEWED,
         "the triangles: vertices at depths from z/K to K z, at most P pixels wide and high, no slimmer than 1:Q",
         .parse = parse_triangle, .standard = "depth=2,pixels=512,slim=16"},
