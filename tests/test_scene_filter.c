@@ -184,39 +184,39 @@ static void test_findings(void **state) {
     scene_made_surface(&made, "tilted", "");
     scene_made_quad(&made, (const double[3]){1, 5, -0.015625}, (const double[3]){2, 0, 0.03125},
                     (const double[3]){0, 1, 0});
-                f.finding[i].area);
-                /* floor and rug; floor and tilted, which lies across it; from low all are too far */
-                assert_int_equal(f.findings, 2);
-                const finder_finding *rug = &f.finding[0];
-                const finder_finding *tilted = &f.finding[1];
-                assert_int_equal(rug->a, 0);
-                assert_int_equal(rug->b, 2);
-                assert_true(rug->gap_min == 0.0 && rug->gap_max == 0.0);
-                assert_scene(rug->area, 4.0, 1e-12);
-                assert_int_equal(rug->pairs, 2);
-                assert_true(rug->place[2] == 0.0 && rug->place[0] > 5 && rug->place[0] < 7 && rug->place[1] > 1 &&
-                            rug->place[1] < 3);
-                assert_true(rug->normal[0] == 0.0 && rug->normal[1] == 0.0 && rug->normal[2] == 1.0);
-                const double box[2][3] = {{5, 1, 0}, {7, 3, 0}};
-                for (int k = 0; k < 3; k++) {
-                    assert_scene(rug->lo[k], box[0][k], 1e-12);
-                    assert_scene(rug->hi[k], box[1][k], 1e-12);
-                }
-                assert_int_equal(tilted->b, 3);
-                assert_true(tilted->gap_min == 0.0);
-                assert_scene(tilted->gap_max, 0.015625, 1e-4); /* along a normal that is turned by less than 1 degree */
-                assert_true(f.pair[tilted->first].gap_lo < 0.0 || f.pair[tilted->first].gap_hi > 0.0);
-                for (size_t i = 0; i < f.findings; i++)
-                    for (size_t p = f.finding[i].first; p < f.finding[i].first + f.finding[i].pairs; p++) {
-                        double corner[FINDER_CORNERS][3];
-                        const int corners = finder_corners(&made.m, f.pair[p].triangle, 0.1, corner);
-                        assert_true(corners >= 3);
-                        assert_true(p == f.finding[i].first || f.pair[p].area <= f.pair[p - 1].area);
-                        for (int c = 0; c < corners; c++)
-                            for (int k = 0; k < 3; k++)
-                                assert_true(corner[c][k] >= f.finding[i].lo[k] && corner[c][k] <= f.finding[i].hi[k]);
-                    }
-                finder_free(&f);
+    finder_found f = find((finder_asked){.gap = 0.1});
+    /* floor and rug; floor and tilted, which lies across it; from low all are too far */
+    assert_int_equal(f.findings, 2);
+    const finder_finding *rug = &f.finding[0];
+    const finder_finding *tilted = &f.finding[1];
+    assert_int_equal(rug->a, 0);
+    assert_int_equal(rug->b, 2);
+    assert_true(rug->gap_min == 0.0 && rug->gap_max == 0.0);
+    assert_scene(rug->area, 4.0, 1e-12);
+    assert_int_equal(rug->pairs, 2);
+    assert_true(rug->place[2] == 0.0 && rug->place[0] > 5 && rug->place[0] < 7 && rug->place[1] > 1 &&
+                rug->place[1] < 3);
+    assert_true(rug->normal[0] == 0.0 && rug->normal[1] == 0.0 && rug->normal[2] == 1.0);
+    const double box[2][3] = {{5, 1, 0}, {7, 3, 0}};
+    for (int k = 0; k < 3; k++) {
+        assert_scene(rug->lo[k], box[0][k], 1e-12);
+        assert_scene(rug->hi[k], box[1][k], 1e-12);
+    }
+    assert_int_equal(tilted->b, 3);
+    assert_true(tilted->gap_min == 0.0);
+    assert_scene(tilted->gap_max, 0.015625, 1e-4); /* along a normal that is turned by less than 1 degree */
+    assert_true(f.pair[tilted->first].gap_lo < 0.0 || f.pair[tilted->first].gap_hi > 0.0);
+    for (size_t i = 0; i < f.findings; i++)
+        for (size_t p = f.finding[i].first; p < f.finding[i].first + f.finding[i].pairs; p++) {
+            double corner[FINDER_CORNERS][3];
+            const int corners = finder_corners(&made.m, f.pair[p].triangle, 0.1, corner);
+            assert_true(corners >= 3);
+            assert_true(p == f.finding[i].first || f.pair[p].area <= f.pair[p - 1].area);
+            for (int c = 0; c < corners; c++)
+                for (int k = 0; k < 3; k++)
+                    assert_true(corner[c][k] >= f.finding[i].lo[k] && corner[c][k] <= f.finding[i].hi[k]);
+        }
+    finder_free(&f);
 }
 
 /* The second surface's distance is positive in front of the first, and the smallest gap comes first. */
