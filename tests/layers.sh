@@ -11,14 +11,17 @@ src/core          | depthprec core
 src/api           | depthprec core api
 src/census        | depthprec core census
 src/raster        | depthprec core raster
+src/vertex        | depthprec core vertex
+src/draw          | depthprec core raster draw
+src/shadow        | depthprec core api shadow
 src/texture       | depthprec core texture
 src/method        | depthprec core texture census method
-src/need          | depthprec core api need
-src/model         | model
-src/scene         | core model scene
+src/need          | depthprec core api raster need
+src/model         | core model
+src/scene         | depthprec core model need scene
 src/report        | depthprec report
-src/plot          | depthprec core api census raster texture method need plot
-src/cli           | depthprec core api census raster texture method need model scene report plot cli
+src/plot          | depthprec core api census raster draw shadow texture method need model scene plot
+src/cli           | depthprec core api census raster vertex draw shadow texture method need model scene report plot cli
 '
 
 strangers() { # strangers FOLDER LAYER...: prints the quoted includes that name another layer, or none

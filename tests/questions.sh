@@ -97,6 +97,12 @@ check "13. by so much more than the lattice" agrees 'makes this' \
 check "14. two engines at 100 m" answers 0 'depthprec table --preset unity,unreal --at 100m' 'unreal fp32 reversed'
 # 100 m in binary32 are in steps of 2^-17; both cameras are good to a few of these
 check "14. two to four steps of binary32" agrees 'unreal fp32 reversed' '2 * 2 ^ -17' '4 * 2 ^ -17'
+# A texel is 40/2048 wide; the filter reads up to 1.5 of them away on each axis, on a slope of tan 75.
+check "15. the bias of a shadow map" answers 0 \
+    'depthprec shadow --light-box 40mx40mx100m -F d16 --api d3d11' 'DepthBias'
+check "15. slope times filter radius, and little more" agrees 'constant D3D11_RASTERIZER_DESC.DepthBias =' \
+    '1.5 * sqrt(2) * 40 / 2048 * 3.732 / 100 * 65536' '1.03 * 1.5 * sqrt(2) * 40 / 2048 * 3.732 / 100 * 65536'
+check "15. a normal offset of the filter's diagonal" agrees 'normal offset' '1.5 * sqrt(2)' '1.03 * 1.5 * sqrt(2)'
 
 # ---- Words and widths ----
 

@@ -13,76 +13,71 @@
 #define MESH                                                                                                           \
     "\"nodes\":[{\"mesh\":0}],\"meshes\":[{\"name\":\"box\",\"primitives\":[{\"attributes\":{\"POSITION\":0}}]}]"
 
+static const struct {
+    const char *json, *sentence;
+} damaged[] = {
+    {"", "is neither glTF 2.0 (.glb, .gltf) nor, by its name, OBJ"},
+    {"[1]", "is neither glTF 2.0 (.glb, .gltf) nor, by its name, OBJ"},
+    {"{", "glTF: line 1 of its JSON: string or '}' expected near end of file"},
+    {"{}", "glTF: is version '', and 2 is read"},
+    {"{\"asset\":{\"version\":\"1.0\"}}", "glTF: is version '1.0', and 2 is read"},
+    {ASSET "\"nodes\":[]}", "glTF: has no triangles"},
+    {ASSET "\"extensionsRequired\":[\"KHR_draco_mesh_compression\"]}",
+     "glTF: needs KHR_draco_mesh_compression, which is not read: unpack its meshes first, with a glTF tool"},
+    {ASSET "\"extensionsRequired\":[\"X_y\"]}", "glTF: needs X_y, which is not read"},
+    {ASSET "\"nodes\":[{\"children\":[1]},{\"children\":[0]}],\"scenes\":[{\"nodes\":[0]}]}",
+     "glTF: the scene has a root that is none"},
+    {ASSET "\"nodes\":[{\"children\":[1,1]},{}]}", "glTF: node 1 has two parents"},
+    {ASSET "\"nodes\":[{\"children\":[2]},{}]}", "glTF: node 0 has a child that is not there"},
+    {ASSET "\"nodes\":[{}],\"scenes\":[{\"nodes\":[0,0]}]}", "glTF: the scene has a root that is none"},
+    {ASSET "\"nodes\":[{\"mesh\":0}]}", "glTF: mesh is 0, and there are 0"},
+    {ASSET "\"nodes\":[{\"mesh\":-1}]}", "glTF: mesh must be a whole number"},
+    {ASSET "\"nodes\":[{\"mesh\":0.5}]}", "glTF: mesh must be a whole number"},
+    {ASSET "\"nodes\":[{\"scale\":[1,2]}]}", "glTF: scale of a node must be 3 numbers"},
+    {ASSET "\"nodes\":[{\"scale\":[1e308,1e308,1]},{\"scale\":[1e308,1,1],\"rotation\":[1e200,0,0,1]}]}",
+     "glTF: the place of a node is not finite"},
+    {ASSET MESH ",\"accessors\":[{\"componentType\":5126,\"count\":1000000000,\"type\":\"VEC3\"}]}",
+     "glTF: accessor 0 has 1000000000 elements, more than the file has bytes"},
+    {ASSET MESH ",\"accessors\":[{\"componentType\":5126,\"count\":1e300,\"type\":\"VEC3\"}]}",
+     "glTF: count must be a whole number"},
+    {ASSET MESH ",\"accessors\":[{\"componentType\":5124,\"count\":1,\"type\":\"VEC3\"}]}",
+     "glTF: componentType 5124 cannot be one"},
+    {ASSET MESH ",\"accessors\":[{\"componentType\":5126,\"count\":1,\"type\":\"VEC2\"}]}",
+     "glTF: accessor 0 must be VEC3"},
+    {ASSET MESH ",\"accessors\":[{\"bufferView\":0,\"componentType\":5126,\"count\":2,\"type\":\"VEC3\"}]," VIEWS "}",
+     "glTF: an accessor of 2 elements reaches beyond bufferView 0"},
+    {ASSET MESH ",\"accessors\":[{\"bufferView\":0,\"byteOffset\":4,\"componentType\":5126,\"count\":1,\"type\":"
+                "\"VEC3\"}]," VIEWS "}",
+     "glTF: an accessor of 1 elements reaches beyond bufferView 0"},
+    {ASSET MESH ",\"accessors\":[{\"bufferView\":0,\"componentType\":5126,\"count\":1,\"type\":\"VEC3\"}],"
+                "\"bufferViews\":[{\"buffer\":0,\"byteOffset\":1,\"byteLength\":12}],\"buffers\":[{\"byteLength\":12,"
+                "\"uri\":\"data:;base64,AAAAAAAAAAAAAAAA\"}]}",
+     "glTF: bufferView 0 reaches beyond its buffer"},
+    {ASSET "\"buffers\":[{\"byteLength\":13,\"uri\":\"data:;base64,AAAAAAAAAAAAAAAA\"}]}",
+     "glTF: cut short: buffer 0 has 12 bytes of 13"},
+    {ASSET "\"buffers\":[{\"byteLength\":1}]}", "glTF: cut short: buffer 0 has 0 bytes of 1"},
+    {ASSET "\"buffers\":[{\"byteLength\":1,\"uri\":\"data:;base64,A*\"}]}",
+     "glTF: the base64 of a buffer has a character that is none"},
+    {ASSET "\"buffers\":[{\"byteLength\":1,\"uri\":\"data:,A\"}]}", "glTF: buffer 0 has a data URI that is not base64"},
+    {ASSET "\"buffers\":[{\"byteLength\":1,\"uri\":\"a.bin\"}]}", "names the file 'a.bin', which cannot be beside it"},
+    {ASSET MESH
+     ",\"accessors\":[{\"bufferView\":0,\"componentType\":5126,\"count\":1,\"type\":\"VEC3\",\"sparse\":"
+     "{\"count\":2,\"indices\":{\"bufferView\":0,\"componentType\":5121},\"values\":{\"bufferView\":0}}}]," VIEWS "}",
+     "glTF: an accessor of 2 elements reaches beyond bufferView 0"},
+    {ASSET MESH
+     ",\"accessors\":[{\"bufferView\":0,\"componentType\":5121,\"count\":2,\"type\":\"VEC3\",\"sparse\":"
+     "{\"count\":2,\"indices\":{\"bufferView\":0,\"componentType\":5121},\"values\":{\"bufferView\":0}}}]," VIEWS "}",
+     "glTF: the indices of a sparse accessor must rise and be below 2"},
+};
+
 static void refused(void **state) {
-    static const struct {
-        const char *json, *sentence;
-    } rows[] = {
-        {"", "is neither glTF 2.0 (.glb, .gltf) nor, by its name, OBJ"},
-        {"[1]", "is neither glTF 2.0 (.glb, .gltf) nor, by its name, OBJ"},
-        {"{", "glTF: line 1 of its JSON: string or '}' expected near end of file"},
-        {"{}", "glTF: is version '', and 2 is read"},
-        {"{\"asset\":{\"version\":\"1.0\"}}", "glTF: is version '1.0', and 2 is read"},
-        {ASSET "\"nodes\":[]}", "glTF: has no triangles"},
-        {ASSET "\"extensionsRequired\":[\"KHR_draco_mesh_compression\"]}",
-         "glTF: needs KHR_draco_mesh_compression, which is not read: unpack its meshes first, with a glTF tool"},
-        {ASSET "\"extensionsRequired\":[\"X_y\"]}", "glTF: needs X_y, which is not read"},
-        {ASSET "\"nodes\":[{\"children\":[1]},{\"children\":[0]}],\"scenes\":[{\"nodes\":[0]}]}",
-         "glTF: the scene has a root that is none"},
-        {ASSET "\"nodes\":[{\"children\":[1,1]},{}]}", "glTF: node 1 has two parents"},
-        {ASSET "\"nodes\":[{\"children\":[2]},{}]}", "glTF: node 0 has a child that is not there"},
-        {ASSET "\"nodes\":[{}],\"scenes\":[{\"nodes\":[0,0]}]}", "glTF: the scene has a root that is none"},
-        {ASSET "\"nodes\":[{\"mesh\":0}]}", "glTF: mesh is 0, and there are 0"},
-        {ASSET "\"nodes\":[{\"mesh\":-1}]}", "glTF: mesh must be a whole number"},
-        {ASSET "\"nodes\":[{\"mesh\":0.5}]}", "glTF: mesh must be a whole number"},
-        {ASSET "\"nodes\":[{\"scale\":[1,2]}]}", "glTF: scale of a node must be 3 numbers"},
-        {ASSET "\"nodes\":[{\"scale\":[1e308,1e308,1]},{\"scale\":[1e308,1,1],\"rotation\":[1e200,0,0,1]}]}",
-         "glTF: the place of a node is not finite"},
-        {ASSET MESH ",\"accessors\":[{\"componentType\":5126,\"count\":1000000000,\"type\":\"VEC3\"}]}",
-         "glTF: accessor 0 has 1000000000 elements, more than the file has bytes"},
-        {ASSET MESH ",\"accessors\":[{\"componentType\":5126,\"count\":1e300,\"type\":\"VEC3\"}]}",
-         "glTF: count must be a whole number"},
-        {ASSET MESH ",\"accessors\":[{\"componentType\":5124,\"count\":1,\"type\":\"VEC3\"}]}",
-         "glTF: componentType 5124 cannot be one"},
-        {ASSET MESH ",\"accessors\":[{\"componentType\":5126,\"count\":1,\"type\":\"VEC2\"}]}",
-         "glTF: accessor 0 must be VEC3"},
-        {ASSET MESH ",\"accessors\":[{\"bufferView\":0,\"componentType\":5126,\"count\":2,\"type\":\"VEC3\"}]," VIEWS
-                    "}",
-         "glTF: an accessor of 2 elements reaches beyond bufferView 0"},
-        {ASSET MESH ",\"accessors\":[{\"bufferView\":0,\"byteOffset\":4,\"componentType\":5126,\"count\":1,\"type\":"
-                    "\"VEC3\"}]," VIEWS "}",
-         "glTF: an accessor of 1 elements reaches beyond bufferView 0"},
-        {ASSET MESH
-         ",\"accessors\":[{\"bufferView\":0,\"componentType\":5126,\"count\":1,\"type\":\"VEC3\"}],"
-         "\"bufferViews\":[{\"buffer\":0,\"byteOffset\":1,\"byteLength\":12}],\"buffers\":[{\"byteLength\":12,"
-         "\"uri\":\"data:;base64,AAAAAAAAAAAAAAAA\"}]}",
-         "glTF: bufferView 0 reaches beyond its buffer"},
-        {ASSET "\"buffers\":[{\"byteLength\":13,\"uri\":\"data:;base64,AAAAAAAAAAAAAAAA\"}]}",
-         "glTF: cut short: buffer 0 has 12 bytes of 13"},
-        {ASSET "\"buffers\":[{\"byteLength\":1}]}", "glTF: cut short: buffer 0 has 0 bytes of 1"},
-        {ASSET "\"buffers\":[{\"byteLength\":1,\"uri\":\"data:;base64,A*\"}]}",
-         "glTF: the base64 of a buffer has a character that is none"},
-        {ASSET "\"buffers\":[{\"byteLength\":1,\"uri\":\"data:,A\"}]}",
-         "glTF: buffer 0 has a data URI that is not base64"},
-        {ASSET "\"buffers\":[{\"byteLength\":1,\"uri\":\"a.bin\"}]}",
-         "names the file 'a.bin', which cannot be beside it"},
-        {ASSET MESH
-         ",\"accessors\":[{\"bufferView\":0,\"componentType\":5126,\"count\":1,\"type\":\"VEC3\",\"sparse\":"
-         "{\"count\":2,\"indices\":{\"bufferView\":0,\"componentType\":5121},\"values\":{\"bufferView\":0}}}]," VIEWS
-         "}",
-         "glTF: an accessor of 2 elements reaches beyond bufferView 0"},
-        {ASSET MESH
-         ",\"accessors\":[{\"bufferView\":0,\"componentType\":5121,\"count\":2,\"type\":\"VEC3\",\"sparse\":"
-         "{\"count\":2,\"indices\":{\"bufferView\":0,\"componentType\":5121},\"values\":{\"bufferView\":0}}}]," VIEWS
-         "}",
-         "glTF: the indices of a sparse accessor must rise and be below 2"},
-    };
     (void)state;
-    for (size_t i = 0; i < sizeof rows / sizeof rows[0]; i++) {
+    for (size_t i = 0; i < sizeof damaged / sizeof damaged[0]; i++) {
         const model_asked asked = {0};
         model m;
         model_error error;
-        assert_false(model_parse(rows[i].json, strlen(rows[i].json), false, NULL, &asked, &m, &error));
-        assert_string_equal(error.text, rows[i].sentence);
+        assert_false(model_parse(damaged[i].json, strlen(damaged[i].json), false, NULL, &asked, &m, &error));
+        assert_string_equal(error.text, damaged[i].sentence);
     }
 }
 

@@ -17,7 +17,8 @@ static bool tried[OPTION_COUNT];
 /* One option behind a command, and its operand; `line` is what was said on stderr, without its line feed. */
 static int parse(options *o, const char *command, option_id id, const char *value, char line[1024]) {
     char words[32], name[64], given[128], viewport[] = "--viewport=64x48";
-    const bool slants = id == OPTION_HFOV || id == OPTION_SUBPIXEL || id == OPTION_SLANT || id == OPTION_TRIANGLE;
+    const bool slants = id == OPTION_HFOV || id == OPTION_RASTER || id == OPTION_SUBPIXEL || id == OPTION_SLANT ||
+                        id == OPTION_TRIANGLE || id == OPTION_PLANE;
     snprintf(words, sizeof words, "%s", command);
     snprintf(name, sizeof name, "--%s", option_name(id));
     snprintf(given, sizeof given, "%s", value != NULL ? value : "");
@@ -75,6 +76,10 @@ static const struct {
     {"budget", OPTION_HFOV, AT(fov_x), 0, 0.01, 179, "0.01", "179", "0", "180", "a number from 0.01 to 179 degrees"},
     {"texture", OPTION_HALF_HEIGHT, AT(camera.half_height), 5, 1e-12, 1e12, "1e-12", "1e12", "0", "1e13",
      "a number from 1e-12 to 1e12 scene units"},
+    {"shadow", OPTION_LAMBDA, AT(lambda), 0.5, 0, 1, "0", "1", "-0.1", "1.1", "a number from 0 to 1"},
+    {"shadow", OPTION_ANGLE, AT(angle), 75, 0, 89.9, "0", "89.9", "-1", "89.91", "a number from 0 to 89.9 degrees"},
+    {"shadow", OPTION_CASTERS, AT(casters), 100, 0, 1e12, "0", "1e12", "-1", "2e12",
+     "a number from 0 to 1e12 scene units"},
     {"texture", OPTION_YAW, AT(camera.yaw), 0, -360, 360, "-360", "360", "-361", "360.5",
      "a number from -360 to 360 degrees"},
     {"texture", OPTION_PITCH, AT(camera.pitch), 0, -90, 90, "-90", "90", "-91", "90.5",
@@ -162,6 +167,8 @@ static void test_whole(void **state) {
         {"check", OPTION_THREADS, 1, 1024, "1", "1024", "0", "1025", "a whole number from 1 to 1024"},
         {"texture", OPTION_WIDTH, 320, 8192, "320", "8192", "319", "8193", "a whole number from 320 to 8192 pixels"},
         {"budget", OPTION_SUBPIXEL, 1, 8, "1", "8", "0", "9", "a whole number from 1 to 8 bits"},
+        {"shadow", OPTION_CASCADES, 1, 8, "1", "8", "0", "9", "a whole number from 1 to 8"},
+        {"shadow", OPTION_KERNEL, 1, 64, "1", "64", "0", "65", "a whole number from 1 to 64 texels"},
         {"texture", OPTION_HEIGHT, 200, 8192, "200", "8192", "199", "8193", "a whole number from 200 to 8192 pixels"},
     };
     tally t = {.name = "whole"};
@@ -175,8 +182,8 @@ static void test_whole(void **state) {
             options o;
             parse(&o, wholes[i].command, wholes[i].id, k == 0 ? wholes[i].least_text : wholes[i].most_text, line);
             const uint64_t fields[] = {
-                [0] = o.sample,    o.seed, (uint64_t)o.threads, (uint64_t)o.width, (uint64_t)o.triangles.subpixel,
-                (uint64_t)o.height};
+                [0] = o.sample, o.seed,   (uint64_t)o.threads, (uint64_t)o.width, (uint64_t)o.triangles.subpixel,
+                o.cascades,     o.kernel, (uint64_t)o.height};
             TALLY(&t, fields[i] == (k == 0 ? wholes[i].least : wholes[i].most), "--%s: %llu, %s",
                   option_name(wholes[i].id), (unsigned long long)fields[i], line);
             options_release(&o);
@@ -256,6 +263,11 @@ static void test_words(void **state) {
          WORD_AT(colour),
          "auto, always or never",
          {{"auto", OUTPUT_COLOUR_AUTO}, {"always", OUTPUT_COLOUR_ALWAYS}, {"never", OUTPUT_COLOUR_NEVER}}},
+        {"zfight",
+         OPTION_VERTICES,
+         WORD_AT(vertices),
+         "eye-log or box",
+         {{"eye-log", VERTEX_EYE_LOG}, {"box", VERTEX_BOX}}},
         {"texture", OPTION_NORMAL_FORMAT, WORD_AT(normal_format), "opengl or directx", {{"opengl", 0}, {"directx", 1}}},
         {"texture", OPTION_THEME, WORD_AT(theme), "light, dark or print", {{"light", 0}, {"dark", 1}, {"print", 2}}},
         {"check x",
@@ -302,6 +314,9 @@ static void test_rows(void **state) {
         {"bias", OPTION_API, AT(api), "Vulkan", "vulkan", offsetof(bias_api, name), "wegbpu", "webgpu"},
         {"bias", OPTION_API, AT(api), "all", NULL, 0, "metall", "metal"},
         {"bias", OPTION_API, AT(api), "d3d12", "d3d11", offsetof(bias_api, name), "d3d14", "d3d11"},
+        {"zfight", OPTION_PROGRAM, AT(program), "FMA", "fma", offsetof(vertex_program, name), "seperate", "separate"},
+        {"table", OPTION_RASTER, AT(raster), "LLVMpipe", "llvmpipe", offsetof(raster_row, name), "lavapip", "lavapipe"},
+        {"budget", OPTION_RASTER, AT(raster), "spec-gl", "spec-gl", offsetof(raster_row, name), "spec-d3", "spec-d3d"},
         {"texture", OPTION_SCENE, AT(scene), "steps", "steps", offsetof(scene_row, name), "decal", "decals"},
         {"texture", OPTION_POSITION, AT(position), "rays", "rays", offsetof(position_row, name), "matirx", "matrix"},
         {"texture", OPTION_POSITION, AT(position), "exact", NULL, 0, "exakt", "exact"},
@@ -327,7 +342,8 @@ static void test_rows(void **state) {
         TALLY(&t, strstr(line, meant) != NULL, "%s: %s", meant, line);
         parse(&o, rows[i].command, OPTION_QUIET, NULL, line);
         memcpy(&row, (const char *)&o + rows[i].field, sizeof row);
-        TALLY(&t, (row != NULL) == (rows[i].id == OPTION_API), "--%s: default", option_name(rows[i].id));
+        TALLY(&t, (row != NULL) == (rows[i].id == OPTION_API || rows[i].id == OPTION_PROGRAM), "--%s: default",
+              option_name(rows[i].id));
     }
     tally_end(&t);
 }
@@ -402,6 +418,7 @@ static void test_flags(void **state) {
         size_t field, size;
     } flags[] = {{"table", OPTION_ORTHO, WORD_AT(ortho)},
                  {"budget", OPTION_LINEARIZE, WORD_AT(terms.linearize)},
+                 {"zfight", OPTION_TRIANGLES, WORD_AT(drawn)},
                  {"texture", OPTION_EYE, WORD_AT(eye)},
                  {"texture", OPTION_RADIAL, WORD_AT(radial)},
                  {"texture", OPTION_LINEAR01, WORD_AT(linear01)},
@@ -475,6 +492,20 @@ static bool near_to(double a, double b) {
     return fabs(a - b) <= 1e-15 * fabs(b);
 }
 
+static void test_boxes(void **state) {
+    static const char *const boxes[] = {"", "1", "1x2", "1x2x3x4", "0x1x1", "1x-1x1", "1x1xinf", "2e12x1x1", "x1x1"};
+    static const char *const sizes[] = {"", "0", "70000", "8x", "x8", "8x0", "1.5"};
+    tally t = {.name = "boxes"};
+    (void)state;
+    for (size_t i = 0; i < sizeof boxes / sizeof boxes[0]; i++)
+        refused(&t, "shadow", OPTION_LIGHT_BOX, boxes[i], "WxHxD, each from 1e-12 to 1e12");
+    for (size_t i = 0; i < sizeof sizes / sizeof sizes[0]; i++)
+        refused(&t, "shadow", OPTION_SIZE, sizes[i],
+                strchr(sizes[i], 'x') != NULL ? "WIDTHxHEIGHT, each from 1 to 65536 pixels"
+                                              : "N or WIDTHxHEIGHT, each from 1 to 65536 pixels");
+    tally_end(&t);
+}
+
 static void test_own(void **state) {
     char line[1024] = "";
     options o;
@@ -486,6 +517,11 @@ static void test_own(void **state) {
     assert_string_equal(o.formats[2].name, "fp32");
     assert_int_equal(parse(&o, "table", OPTION_MAPPING, "log,all,gl", line), EXIT_FINE);
     assert_true(o.mapping_count == 4 && o.mappings[0] == DP_MAPPING_LOG && o.mappings[3] == DP_MAPPING_GL);
+    assert_int_equal(parse(&o, "zfight", OPTION_AGAINST, "fma,ONCE,fma", line), EXIT_FINE);
+    assert_true(o.against_count == 2 && strcmp(o.against[0]->name, "fma") == 0 && o.against[1] == o.program);
+    assert_int_equal(parse(&o, "zfight", OPTION_AGAINST, "pairs,all", line), EXIT_FINE);
+    assert_true(strcmp(o.against[0]->name, "pairs") == 0 && o.against[1] == vertex_program_get(0));
+    assert_true(vertex_program_get(o.against_count - 1) != NULL && vertex_program_get(o.against_count) == NULL);
     assert_int_equal(parse(&o, "table", OPTION_TOLERANCE, "3%", line), EXIT_FINE);
     assert_true(near_to(o.tolerance, 0.03));
     assert_int_equal(parse(&o, "table", OPTION_AT, "3,1,2", line), EXIT_FINE);
@@ -500,6 +536,14 @@ static void test_own(void **state) {
     assert_true(o.last.origin[0] == 5 && o.last.origin[1] == 6 && o.last.origin[2] == -7 && o.camera.origin[0] == 0);
     assert_int_equal(parse(&o, "texture", OPTION_SIZE, "65536x1", line), EXIT_FINE);
     assert_true(o.camera.width == 65536 && o.camera.height == 1 && o.camera.origin[0] == 0);
+    assert_int_equal(parse(&o, "shadow", OPTION_SIZE, "1024", line), EXIT_FINE);
+    assert_true(o.camera.width == 1024 && o.camera.height == 1024 && o.light_box[0] == 0);
+    assert_int_equal(parse(&o, "shadow", OPTION_SIZE, "512x256", line), EXIT_FINE);
+    assert_true(o.camera.width == 512 && o.camera.height == 256);
+    assert_int_equal(parse(&o, "shadow", OPTION_LIGHT_BOX, "10x20.5x1e3", line), EXIT_FINE);
+    assert_true(o.light_box[0] == 10 && o.light_box[1] == 20.5 && o.light_box[2] == 1e3);
+    assert_int_equal(parse(&o, "shadow", OPTION_LIGHT_BOX, "10mx50cmx1km", line), EXIT_FINE);
+    assert_true(o.light_box[0] == 10 && o.light_box[1] == 0.5 && o.light_box[2] == 1000);
     assert_int_equal(parse(&o, "texture", OPTION_PARAMETER, "gap=0.5", line), EXIT_FINE);
     assert_true(o.parameter_count == 1 && o.parameters[0].value == 0.5);
     assert_int_equal(parse(&o, "table", OPTION_UNIT, "cm", line), EXIT_FINE);
@@ -514,6 +558,7 @@ static void test_own(void **state) {
 static void test_slanted(void **state) {
     static const char *const viewports[] = {"0x5", "5x0", "32769x1", "1x32769", "5", "5x", "x5", "5x5x5", "-1x5", ""};
     static const char *const slants[] = {"5", "5:4", "-1:5", "0:91", ":", "x:5", "5:x", ""};
+    static const char *const planes[] = {"5", "91,0", "-1,0", "5,361", "5,-361", "5:0", "x,0", "5,", ""};
     static const char *const classes[] = {"",         "depth",     "depth=0.5",  "depth=1e7",
                                           "pixels=0", "slim=1.9",  "slim=1025",  "width=5",
                                           "depth=2,", "depth=nan", "pixels=1e6", "depth=2;slim=4"};
@@ -525,9 +570,13 @@ static void test_slanted(void **state) {
     assert_true(o.triangles.width == 32768 && o.triangles.height == 7 && o.triangles.subpixel == 8);
     assert_true(o.triangles.fov_y == 60 && o.triangles.slant_lo == 0 && o.triangles.slant_hi == 90);
     assert_true(o.triangles.depth == 2 && o.triangles.pixels == 512 && o.triangles.slim == 16);
-    assert_ptr_equal(o.terms.triangles, &o.triangles);
     assert_int_equal(parse(&o, "table", OPTION_SLANT, "0.5:80", line), EXIT_FINE);
     assert_true(o.triangles.slant_lo == 0.5 && o.triangles.slant_hi == 80);
+    assert_int_equal(parse(&o, "zfight", OPTION_PLANE, "30.5,-360", line), EXIT_FINE);
+    assert_true(o.triangles.slant_lo == 30.5 && o.triangles.slant_hi == 30.5 && o.azimuth == -360);
+    assert_int_equal(parse(&o, "zfight", OPTION_TRIANGLES, NULL, line), EXIT_FINE);
+    assert_true(isnan(o.azimuth) && o.triangles.width == 1920 && o.triangles.height == 1080 && o.format_count == 3);
+    assert_string_equal(o.raster->name, "llvmpipe");
     assert_int_equal(parse(&o, "table", OPTION_TRIANGLE, "slim=4,depth=3,pixels=20", line), EXIT_FINE);
     assert_true(o.triangles.depth == 3 && o.triangles.pixels == 20 && o.triangles.slim == 4);
     assert_int_equal(parse(&o, "table", OPTION_TRIANGLE, "pixels=20", line), EXIT_FINE);
@@ -535,11 +584,13 @@ static void test_slanted(void **state) {
     assert_int_equal(parse(&o, "budget", OPTION_HFOV, "90", line), EXIT_FINE);
     assert_relative(o.triangles.fov_y, 2 * atan(0.75) * 180 / 3.14159265358979323846, 1e-14);
     assert_int_equal(parse(&o, "budget", OPTION_QUIET, NULL, line), EXIT_FINE);
-    assert_null(o.terms.triangles);
+    assert_int_equal(o.triangles.width, 0);
     for (size_t i = 0; i < sizeof viewports / sizeof viewports[0]; i++)
         refused(&t, "table", OPTION_VIEWPORT, viewports[i], "WIDTHxHEIGHT, each from 1 to 32768 pixels");
     for (size_t i = 0; i < sizeof slants / sizeof slants[0]; i++)
         refused(&t, "table", OPTION_SLANT, slants[i], "LO:HI, from 0 to 90 degrees");
+    for (size_t i = 0; i < sizeof planes / sizeof planes[0]; i++)
+        refused(&t, "zfight", OPTION_PLANE, planes[i], "SLANT,AZIMUTH, from 0 to 90 and from -360 to 360 degrees");
     for (size_t i = 0; i < sizeof classes / sizeof classes[0]; i++)
         refused(&t, "table", OPTION_TRIANGLE, classes[i],
                 "depth=K from 1 to 1e6, pixels=P from 1 to 65536 and slim=Q from 2 to 1024, separated by commas");
@@ -588,7 +639,7 @@ int main(void) {
 
         cmocka_unit_test(test_whole),   cmocka_unit_test(test_words),   cmocka_unit_test(test_rows),
         cmocka_unit_test(test_flags),   cmocka_unit_test(test_texts),   cmocka_unit_test(test_optional),
-        cmocka_unit_test(test_own),     cmocka_unit_test(test_slanted), cmocka_unit_test(test_formats),
-        cmocka_unit_test(test_lists),   cmocka_unit_test(test_all)};
+        cmocka_unit_test(test_own),     cmocka_unit_test(test_boxes),   cmocka_unit_test(test_slanted),
+        cmocka_unit_test(test_formats), cmocka_unit_test(test_lists),   cmocka_unit_test(test_all)};
     return run_tap(tests);
 }

@@ -6,6 +6,7 @@
 #include "api/presets.h"
 #include "cli/names.h"
 #include "named.h"
+#include "raster/raster.h"
 #include "support.h"
 
 static size_t count(void) {
@@ -36,6 +37,7 @@ static void test_rows(void **state) {
         assert_true(preset_find(row->name) == row); /* no name twice */
         for (const char *c = row->name; *c != '\0'; c++)
             assert_true(islower((unsigned char)*c) || isdigit((unsigned char)*c) || *c == '-');
+        assert_true(raster_find(row->raster) != NULL && row->fov > 0 && row->fov < 180);
         assert_true(row->unit[0] != '\0' && row->note[0] != '\0' && row->source[0] != '\0');
         assert_int_equal(strlen(row->checked), 10);
         assert_true(strspn(row->checked, "0123456789-") == 10 && row->checked[4] == '-' && row->checked[7] == '-');
@@ -56,7 +58,7 @@ static void test_rows(void **state) {
 
 /* What is not confirmed is named by the columns that a row has. */
 static void test_unconfirmed(void **state) {
-    static const char *const columns[] = {"near", "far", "mapping", "format"};
+    static const char *const columns[] = {"near", "far", "mapping", "format", "fov"};
     (void)state;
     for (size_t i = 0; i < count(); i++) {
         char text[64];
@@ -64,7 +66,7 @@ static void test_unconfirmed(void **state) {
         strcpy(text, preset_get(i)->unconfirmed);
         for (char *word = strtok(text, ", "); word != NULL; word = strtok(NULL, ", ")) {
             int known = 0;
-            for (size_t c = 0; c < 4; c++)
+            for (size_t c = 0; c < 5; c++)
                 known |= strcmp(word, columns[c]) == 0;
             assert_true(known);
         }
@@ -85,12 +87,23 @@ static void test_known_values(void **state) {
     assert_string_equal(formats[0].name, "unorm24");
 }
 
+/* Vertical, horizontal, and of the larger side. */
+static void test_view(void **state) {
+    (void)state;
+    assert_true(preset_fov_y(preset_find("godot-forward"), 1920, 1080) == 75);
+    assert_true(preset_fov_y(preset_find("bevy"), 100, 300) == 45);
+    assert_relative(preset_fov_y(preset_find("unreal"), 1920, 1080), 58.71550708558254, 1e-14);
+    assert_relative(preset_fov_y(preset_find("unreal"), 300, 400), 106.26020470831196, 1e-14);
+    assert_true(preset_fov_y(preset_find("cesium"), 1080, 1920) == 60);
+    assert_relative(preset_fov_y(preset_find("cesium"), 2000, 1000), 32.20422750397203, 1e-14);
+    assert_string_equal(preset_find("three")->raster, "spec-gl");
+    assert_string_equal(preset_find("unity")->raster, "spec-vulkan");
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_required),
-        cmocka_unit_test(test_rows),
-        cmocka_unit_test(test_unconfirmed),
-        cmocka_unit_test(test_known_values),
+        cmocka_unit_test(test_required),     cmocka_unit_test(test_rows), cmocka_unit_test(test_unconfirmed),
+        cmocka_unit_test(test_known_values), cmocka_unit_test(test_view),
     };
     return run_tap(tests);
 }

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Slanted triangles as terms of a budget: the numbers of depthprec(7), how classes nest, and what is refused. */
+/* Slanted triangles in a set-up: the numbers of depthprec(7), how classes nest, and what is refused. */
 #include <math.h>
 #include <stdbool.h>
 
@@ -16,12 +16,12 @@ static dp_budget reversed_at(double znear, const dp_triangles *t, double z) {
                               .zfar = INFINITY,
                               .mapping = DP_MAPPING_REVERSED,
                               .format = dp_spec_default().format,
-                              .model = DP_MODEL_FP32};
-    const dp_budget_terms terms = {.triangles = t};
+                              .model = DP_MODEL_FP32,
+                              .triangles = *t};
     dp_setup setup;
     dp_budget b;
     assert_int_equal(dp_setup_init(&setup, &reversed), DP_OK);
-    assert_int_equal(dp_budget_at(&setup, z, &terms, &b), DP_OK);
+    assert_int_equal(dp_budget_at(&setup, z, NULL, &b), DP_OK);
     return b;
 }
 
@@ -49,7 +49,7 @@ static void known_numbers(void **state) {
 }
 
 /* Constants of the page: c1, c2, that of R alone, c3. */
-static const double derived[DP_ANCHOR_COUNT][4] = {{2, 11, 2, 0}, {3, 10, 2, 5}, {3, 10, 2, 6}, {5, 8, 2, 6}};
+static const double derived[DP_ANCHOR_COUNT][4] = {{2, 11, 2, 0}, {3, 10, 2, 4}, {3, 10, 2, 5}, {5, 8, 2, 5}};
 
 /* The set-up's part by the formulas of the page, R by the class or by the slope; without terms of second order. */
 static double setup_of(const dp_triangles *t, const double c[4], double z, bool by_slope) {
@@ -113,6 +113,7 @@ static dp_setup random_setup(rng *r) {
     spec.zfar = rng_below(r, 3) == 0 ? INFINITY : spec.znear * rng_log(r, 10.0, 1e6);
     spec.format = dp_format_get(rng_below(r, dp_format_count()))->format;
     spec.arith = rng_below(r, dp_arith_count());
+    spec.model = DP_MODEL_FP32;
     assert_int_equal(dp_setup_init(&setup, &spec), DP_OK);
     return setup;
 }
@@ -127,9 +128,16 @@ static dp_triangles random_view(rng *r) {
     return t;
 }
 
-static double separation_of(const dp_setup *setup, double z, const dp_triangles *t, dp_budget *out) {
-    const dp_budget_terms terms = {.triangles = t};
-    assert_int_equal(dp_budget_at(setup, z, &terms, out), DP_OK);
+/* In the model float it is also the separation. */
+static double separation_of(const dp_setup *facing, double z, const dp_triangles *t, dp_budget *out) {
+    dp_spec spec = facing->spec;
+    dp_setup setup;
+    spec.triangles = *t;
+    assert_int_equal(dp_setup_init(&setup, &spec), DP_OK);
+    assert_int_equal(dp_budget_at(&setup, z, NULL, out), DP_OK);
+    assert_true(dp_separation(&setup, z) == out->separation);
+    const dp_setup again = dp_setup_facing(&setup);
+    assert_true(dp_separation(&again, z) == dp_separation(facing, z));
     return out->separation;
 }
 
@@ -181,11 +189,70 @@ static void test_order(void **state) {
     tally_end(&t);
 }
 
-static void refused(const dp_setup *setup, dp_triangles t) {
-    const dp_budget_terms terms = {.triangles = &t};
-    dp_budget b;
+/* ---- A range ----------------------------------------------------------------------------------------------------- */
+
+/* What a range has to tell apart at its far end at least, by the page: snapping at the steepest slant alone. */
+static double least_of(const dp_triangles *t, double z) {
+    const double tau = 2.0 * tan(t->fov_y * pi / 360.0) / t->height;
+    const double grid = t->subpixel > 0 ? ldexp(1.0, -t->subpixel - 1) : 0.0;
+    return 2.0 * tau * z * grid * sqrt(2.0) * sin(t->slant_hi * pi / 180.0);
+}
+
+/* A depth of a range: anywhere, or some binary32 numbers beside a power of two, where errors jump. */
+static double depth_within(rng *r, double lo, double hi) {
+    const double z = rng_log(r, lo, hi);
+    const double edge = ldexp(1.0, ilogb(z)) * (1.0 + ldexp((double)rng_below(r, 9) - 4.0, -23));
+    return rng_below(r, 2) == 0 && edge >= lo && edge <= hi ? edge : z;
+}
+
+/* The bound over a range holds at its depths, and is no more than 2^-10 above one that is reached. */
+static void test_range(void **state) {
+    tally all = {.name = "range holds at its depths"}, tight = {.name = "range is reached"};
+    rng r = rng_make("slanted ranges");
+    uint64_t finite = 0;
+    (void)state;
+    for (uint64_t i = test_cases(60, 1000, 20000); i > 0; i--) {
+        dp_spec spec = random_setup(&r).spec;
+        dp_separation_worst w, limited;
+        dp_setup setup;
+        spec.triangles = random_view(&r);
+        spec.triangles.slant_lo = rng_below(&r, 2) == 0 ? 0.0 : rng_uniform(&r, 0.0, 80.0);
+        spec.triangles.slant_hi = rng_uniform(&r, spec.triangles.slant_lo, 90.0);
+        spec.triangles.depth = rng_log(&r, 1.001, 100.0);
+        assert_int_equal(dp_setup_init(&setup, &spec), DP_OK);
+        const dp_setup facing = dp_setup_facing(&setup);
+        const double last = fmin(spec.zfar, spec.znear * 1e6), lo = rng_log(&r, spec.znear, last);
+        const double hi = fmin(lo * rng_log(&r, 1.0, rng_below(&r, 2) == 0 ? 1.01 : 1e4), last);
+        assert_int_equal(dp_separation_over(&setup, lo, hi, 0.0, &w), DP_OK);
+        TALLY(&tight, w.bound >= w.separation && w.separation == dp_separation(&setup, w.z) && w.z >= lo && w.z <= hi,
+              "%.17g of %.17g at %.17g", w.separation, w.bound, w.z);
+        TALLY(&tight, isinf(w.bound) ? isinf(w.separation) : w.bound <= w.separation * (1.0 + 0x1.1p-10),
+              "%.17g is no bound of %.17g, %.17g to %.17g", w.bound, w.separation, lo, hi);
+        TALLY(&all, w.bound >= least_of(&spec.triangles, hi), "%.17g at %.17g", w.bound, hi);
+        finite += isfinite(w.bound);
+        for (int k = 0; k < 50; k++) {
+            const double z = depth_within(&r, lo, hi), s = dp_separation(&setup, z),
+                         of_point = dp_separation(&facing, z);
+            const double most = s > of_point ? w.bound * (1.0 + 1e-12) : 2.0 * w.bound; /* of points see bounds.h */
+            TALLY(&all, s <= most, "%.17g at %.17g, bound %.17g over %.17g to %.17g", s, z, w.bound, lo, hi);
+        }
+        if (isinf(w.bound) || w.bound == w.separation)
+            continue;
+        const double limit = w.separation + 0.5 * (w.bound - w.separation);
+        assert_int_equal(dp_separation_over(&setup, lo, hi, limit, &limited), DP_OK);
+        TALLY(&tight, limited.bound <= limit || limited.separation > limit, "%.17g and %.17g about %.17g",
+              limited.separation, limited.bound, limit);
+    }
+    assert_true(finite > all.cases / 200);
+    tally_end(&all);
+    tally_end(&tight);
+}
+
+static void refused(dp_spec spec, dp_triangles t) {
+    dp_setup setup;
     assert_int_equal(dp_triangles_check(&t), DP_ERROR_TRIANGLES);
-    assert_int_equal(dp_budget_at(setup, 1.0, &terms, &b), DP_ERROR_TRIANGLES);
+    spec.triangles = t;
+    assert_int_equal(dp_setup_init(&setup, &spec), t.width == 0 ? DP_OK : DP_ERROR_TRIANGLES); /* 0: they face it */
 }
 
 static void test_refusals(void **state) {
@@ -193,7 +260,7 @@ static void test_refusals(void **state) {
     dp_setup setup;
     dp_budget b;
     const dp_triangles good = dp_triangles_default();
-    dp_budget_terms terms = {.triangles = &good, .world = 1.0};
+    const dp_budget_terms terms = {.world = 1.0};
     (void)state;
     assert_int_equal(dp_setup_init(&setup, &spec), DP_OK);
     assert_int_equal(dp_triangles_check(&good), DP_OK);
@@ -202,9 +269,10 @@ static void test_refusals(void **state) {
     do {                                                                                                               \
         dp_triangles bad = good;                                                                                       \
         bad.field = (value);                                                                                           \
-        refused(&setup, bad);                                                                                          \
+        refused(spec, bad);                                                                                            \
     } while (0)
     REFUSED(width, 0);
+    REFUSED(width, -1);
     REFUSED(height, 32769);
     REFUSED(fov_y, 0.0);
     REFUSED(fov_y, 179.95);
@@ -223,11 +291,12 @@ static void test_refusals(void **state) {
     REFUSED(pixels, 0.5);
     REFUSED(slim, 1.5);
     REFUSED(slim, 1025.0);
-    assert_int_equal(dp_budget_at(&setup, 1.0, &terms, &b), DP_ERROR_TRIANGLES);
-    spec.ortho = 1;
-    terms.world = 0.0;
+    assert_int_equal(dp_budget_at(&setup, 1.0, &terms, &b), DP_OK);
+    spec.triangles = good;
     assert_int_equal(dp_setup_init(&setup, &spec), DP_OK);
     assert_int_equal(dp_budget_at(&setup, 1.0, &terms, &b), DP_ERROR_TRIANGLES);
+    spec.ortho = 1;
+    assert_int_equal(dp_setup_init(&setup, &spec), DP_ERROR_TRIANGLES);
     static const char *const names[] = {"vertex", "origin", "origin-unfused", "origin-stepped"};
     assert_null(dp_anchor_get(DP_ANCHOR_COUNT));
     for (int i = 0; i < DP_ANCHOR_COUNT; i++)
@@ -236,10 +305,8 @@ static void test_refusals(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(known_numbers),
-        cmocka_unit_test(known_setup),
-        cmocka_unit_test(test_order),
-        cmocka_unit_test(test_refusals),
+        cmocka_unit_test(known_numbers), cmocka_unit_test(known_setup),   cmocka_unit_test(test_order),
+        cmocka_unit_test(test_range),    cmocka_unit_test(test_refusals),
     };
     return run_tap(tests);
 }

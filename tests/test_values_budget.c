@@ -53,9 +53,9 @@ static const char *composition_of(const budget_case *c) {
     return c->terms.world > 0 ? names[c->terms.composition] : NULL;
 }
 
-/* Those of triangles are there only where these are asked for. */
-static bool has_cause(const budget_case *c, int cause) {
-    return c->terms.triangles != NULL || (cause != DP_CAUSE_SNAPPING && cause != DP_CAUSE_SETUP);
+/* Those of triangles are there only where these are asked for: see test_values_slant. */
+static bool has_cause(int cause) {
+    return cause != DP_CAUSE_SNAPPING && cause != DP_CAUSE_SETUP;
 }
 
 static const char *cause_path(int cause) {
@@ -64,14 +64,14 @@ static const char *cause_path(int cause) {
     return path;
 }
 
-static void want_budget_row(values *v, const budget_case *c, const dp_budget *b, double z) {
+static void want_budget_row(values *v, const dp_budget *b, double z) {
     const bool some = isfinite(b->separation);
     want_number(v, "z", z);
     want_number(v, "separation", b->separation);
     want_number(v, "window", b->window);
     for (int i = 0; i < DP_CAUSE_COUNT; i++) {
         char derived[96];
-        if (!has_cause(c, i))
+        if (!has_cause(i))
             continue;
         want_number(v, cause_path(i), b->cause[i]);
         snprintf(derived, sizeof derived, "part.%s", dp_cause_name((dp_cause)i));
@@ -116,7 +116,7 @@ static void want_budget(values *v, const budget_case *c, const dp_setup *setup, 
         dp_budget b;
         assert_int_equal(dp_budget_at(setup, c->z[k], &c->terms, &b), DP_OK);
         values_under(v, "setups[%zu].rows[%d].", i, k);
-        want_budget_row(v, c, &b, c->z[k]);
+        want_budget_row(v, &b, c->z[k]);
         snprintf(inner, sizeof inner, "rows[%d].", k);
         place_add(lines, inner, "setups[%zu].", i);
     }
@@ -132,7 +132,7 @@ static size_t budget_text_columns(const budget_case *c, char text[2 * DP_CAUSE_C
     out[count++] = (text_column){"z", 9};
     out[count++] = (text_column){"separation", 6};
     for (int i = 0; i < DP_CAUSE_COUNT; i++) {
-        if (!has_cause(c, i) || (i == DP_CAUSE_COMPOSITION && c->terms.world == 0) ||
+        if (!has_cause(i) || (i == DP_CAUSE_COMPOSITION && c->terms.world == 0) ||
             (i == DP_CAUSE_LINEARIZATION && !c->terms.linearize) ||
             (i == DP_CAUSE_INTERPOLATION && c->terms.interpolation == 0))
             continue;
@@ -144,7 +144,7 @@ static size_t budget_text_columns(const budget_case *c, char text[2 * DP_CAUSE_C
     return count;
 }
 
-static size_t budget_columns(const budget_case *c, char text[2 * DP_CAUSE_COUNT][64], csv_column *out) {
+static size_t budget_columns(char text[2 * DP_CAUSE_COUNT][64], csv_column *out) {
     static const csv_column before[] = {SETUP_COLUMNS,
                                         {"arith", "^arith"},
                                         {"z [scene]", "z"},
@@ -153,7 +153,7 @@ static size_t budget_columns(const budget_case *c, char text[2 * DP_CAUSE_COUNT]
     size_t count = sizeof before / sizeof before[0];
     memcpy(out, before, sizeof before);
     for (int i = 0; i < DP_CAUSE_COUNT; i++) {
-        if (!has_cause(c, i))
+        if (!has_cause(i))
             continue;
         snprintf(text[2 * i], 64, "%s [scene]", dp_cause_name((dp_cause)i));
         snprintf(text[2 * i + 1], 64, "%s", cause_path(i));
@@ -290,7 +290,7 @@ static void test_budget(void **state) {
         for (size_t k = 0; k < n; k++)
             want_budget(&v, c, &setups[k], k, &lines);
         check_json(&v, 0, arguments);
-        check_csv(&v, 0, arguments, columns, budget_columns(c, heads, columns), &lines);
+        check_csv(&v, 0, arguments, columns, budget_columns(heads, columns), &lines);
         printed p = print_of("%s --full", arguments);
         check_text_table(&v, p.out, shown, budget_text_columns(c, texts, shown), &lines);
         check_sentences(p.out, c, setups, n);

@@ -20,6 +20,8 @@ static const char *const needs =
     "  shader = { near = 0.1; far = 1000; mapping = \"gl-reversed\"; format = \"fp32\"; model = \"fp32\"; };\n"
     "  both = { near = 0.5; far = 900; mapping = \"reversed\"; format = \"depth24plus\"; model = \"auto\"; };\n"
     "  flat = { near = 1; far = 200; mapping = \"gl\"; format = \"unorm16\"; ortho = true; model = \"staged\"; };\n"
+    "  view = { near = 0.25; far = 900; mapping = \"d3d\"; format = \"fp32\"; viewport = [640, 360]; hfov = 75.5; "
+    "raster = \"spec-vulkan\"; subpixel = 7; slant = [5, 65]; triangle = { depth = 1.5; pixels = 99; slim = 6; }; };\n"
     "  sun = { near = -8; far = 9; mapping = \"d3d\"; format = \"unorm24\"; ortho = true; model = \"fp32\"; };\n"
     "};\n"
     "requirements = (\n"
@@ -28,6 +30,8 @@ static const char *const needs =
     "  { name = \"ties\"; camera = \"shader\"; range = (0.4925, 0.5075); ties = \"20 %%\"; },\n"
     "  { name = \"many\"; camera = \"shader\"; range = (1.5, 1.52); ties = 0.99; },\n"
     "  { name = \"point\"; camera = \"both\"; at = 77.5; separation = 0.25; },\n"
+    "  { name = \"slope\"; camera = \"view\"; range = (2, 60.5); separation = 0.75; },\n"
+    "  { name = \"smooth\"; camera = \"view\"; at = 60.5; error = 0.75; },\n"
     "  { name = \"wall\"; camera = \"flat\"; range = (1, 150.5); error = \"3 mm\"; },\n"
     "  { name = \"shadow\"; camera = \"sun\"; range = (-4.01, -3.99); ties = 0.9; },\n"
     "  { name = \"none\"; camera = \"both\"; range = (3, 4); ties = 0.5; }\n"
@@ -94,6 +98,26 @@ static double code_of(const check_verdict *verdict) {
     return worst.error_code;
 }
 
+/* The one requirement of slanted surfaces. */
+static bool is_slope(const check_verdict *v) {
+    return strcmp(v->asked->name, "slope") == 0;
+}
+
+/* As the file has it. */
+static void want_view(values *v, size_t i) {
+    values_under(v, "requirements[%zu].triangles.", i);
+    want_count(v, "width", 640);
+    want_count(v, "height", 360);
+    want_number(v, "fov", dp_fov_vertical(75.5, 640, 360));
+    want_text(v, "raster", "spec-vulkan");
+    want_count(v, "subpixel", 7);
+    want_number(v, "slant_lo", 5);
+    want_number(v, "slant_hi", 65);
+    want_number(v, "depth", 1.5);
+    want_number(v, "pixels", 99);
+    want_number(v, "slim", 6);
+}
+
 static void want_verdict(values *v, const char *path, const char *text, const check_verdict *verdict, size_t i) {
     char key[256];
     const bool named = strcmp(verdict->asked->name, name) == 0;
@@ -116,7 +140,10 @@ static void want_verdict(values *v, const char *path, const char *text, const ch
     want_number(v, "code", code_of(verdict));
     want_text(v, "method", check_method_name(verdict->method));
     want_bool(v, "passed", verdict->value <= verdict->asked->limit);
+    want_text(v, "surfaces", is_slope(verdict) ? "any slant" : "facing");
     want_derived(v, "count", 1);
+    if (is_slope(verdict))
+        want_view(v, i);
 }
 
 /* Judged here; @return how many failed */
@@ -139,7 +166,7 @@ static void label_of(const dp_setup *setup, char out[64]) {
     snprintf(out, 64, "%s %s", setup->spec.format.name, dp_mapping_get(setup->spec.mapping)->name);
 }
 
-/* "FAIL  FILE:LINE: NAME: camera CAMERA, SET-UP (MODEL): separation 0.1 m at 5 m (code 1), allowed 0.05 m" */
+/* "FAIL  FILE:LINE: NAME: camera CAMERA, SET-UP (MODEL): separation 0.1 m at 5 m (code 1), facing, allowed 0.05 m" */
 /* The model fp32 is called float where a reader could take it for the format. */
 static const char *model_in_text(const check_verdict *d) {
     return d->setup.spec.model == DP_MODEL_FP32 ? "float" : dp_model_name(d->setup.spec.model);
@@ -165,6 +192,9 @@ static void check_text(const values *v, const char *text, const need_file *file,
                 snprintf(at[n++], PATH_SIZE, "requirements[%zu].%s", i, (kind->is_length ? of_depth : of_range)[k]);
         paths[two ? 2 : 4] = NULL;
         check_text_numbers(v, text, label, 6, paths);
+        snprintf(at[0], PATH_SIZE, ", %s, allowed ", is_slope(d) ? "any slant" : "facing");
+        const char *said = strstr(strstr(text, label), at[0]), *end = strchr(strstr(text, label), '\n');
+        assert_true((said != NULL && said < end) == (d->asked->kind == NEED_SEPARATION));
     }
     snprintf(label, sizeof label, "%s: %ld passed, %ld failed\n", file->path, (long)check_count(file) - failed, failed);
     assert_non_null(strstr(text, label));
@@ -201,9 +231,10 @@ static void check_junit(const char *path, const char *text, const need_file *fil
         const char *sentence = strstr(text, line);
         assert_non_null(sentence);
         snprintf(line, sizeof line, "%.*s", (int)strcspn(sentence + strlen(line), "\n"), sentence + strlen(line));
-        size_t used = (size_t)snprintf(
-            expected, sizeof expected, "    <testcase classname=\"%s\" name=\"%s (%s)\" file=\"%s\" line=\"%d\"",
-            d->camera->name, escaped(d->asked->name, name_there), setup, path, d->asked->line);
+        size_t used = (size_t)snprintf(expected, sizeof expected,
+                                       "    <testcase classname=\"%s\" name=\"%s (%s%s)\" file=\"%s\" line=\"%d\"",
+                                       d->camera->name, escaped(d->asked->name, name_there), setup,
+                                       is_slope(d) ? ", any slant" : "", path, d->asked->line);
         if (d->passed)
             snprintf(expected + used, sizeof expected - used, "/>\n");
         else
@@ -217,9 +248,10 @@ static void check_junit(const char *path, const char *text, const need_file *fil
 
 static void test_check(void **state) {
     static const csv_column columns[] = {
-        {"file", "file"},   {"line", "line"},   {"name", "name"},     {"camera", "camera"}, SETUP_COLUMNS,
-        {"kind", "kind"},   {"unit", "unit"},   {"lo [scene]", "lo"}, {"hi [scene]", "hi"}, {"limit", "limit"},
-        {"value", "value"}, {"z [scene]", "z"}, {"code", "code"},     {"method", "method"}, {"passed", "passed"}};
+        {"file", "file"},     {"line", "line"},     {"name", "name"},     {"camera", "camera"},
+        SETUP_COLUMNS,        {"kind", "kind"},     {"unit", "unit"},     {"lo [scene]", "lo"},
+        {"hi [scene]", "hi"}, {"limit", "limit"},   {"value", "value"},   {"z [scene]", "z"},
+        {"code", "code"},     {"method", "method"}, {"passed", "passed"}, {"surfaces", "surfaces"}};
     char path[512], arguments[640], text[4096];
     need_file file;
     check_verdict *verdicts;

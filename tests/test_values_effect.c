@@ -44,7 +44,8 @@ static const struct {
     {.effect = "contact-shadow", .camera = PERSPECTIVE("reversed", "unorm16"), .z = AHEAD},
     {.effect = "soft-particles", .camera = PERSPECTIVE("d3d", "unorm16"), .z = AHEAD},
     {.effect = "water-depth", .camera = PERSPECTIVE("d3d", "unorm16"), .z = AHEAD,
-     .view = "--fov 100 --pixel 0,0", .now = {640, 360, 100, 5, 0, 0, {0, 0, 0}, NULL}},
+     /* 2 atan(9/16) */
+     .view = "--hfov 90 --pixel 0,0", .now = {640, 360, 58.71550708558254, 5, 0, 0, {0, 0, 0}, NULL}},
     {.effect = "decal", .camera = PERSPECTIVE("d3d", "unorm16"), .z = AHEAD,
      .view = "--yaw 30", .column = 320, .row = 359, .now = {640, 360, 60, 5, 30, 0, {0, 0, 0}, NULL}},
     {.effect = "motion-blur", .camera = PERSPECTIVE("d3d", "unorm16"), .z = AHEAD,

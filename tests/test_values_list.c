@@ -78,7 +78,12 @@ static bool cause(size_t i, listed *l) {
 static bool preset_row(size_t i, listed *l) {
     const preset *r = preset_get(i);
     if (r != NULL)
-        *l = (listed){r->name, "", r->note, r->source, {r->znear, r->zfar}, isinf(r->zfar) ? 1 : 2};
+        *l = (listed){r->name,
+                      "",
+                      r->note,
+                      r->source,
+                      {r->znear, isinf(r->zfar) ? r->fov : r->zfar, r->fov},
+                      isinf(r->zfar) ? 2 : 3};
     return r != NULL;
 }
 

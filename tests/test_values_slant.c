@@ -13,7 +13,8 @@ typedef struct slant_case {
     double znear, zfar;
     dp_mapping mapping;
     double z[DEPTHS];
-    dp_triangles triangles; /* without `plane` */
+    dp_triangles triangles;
+    const char *raster; /* null: none is named */
 } slant_case;
 
 static const slant_case cases[] = {
@@ -23,21 +24,72 @@ static const slant_case cases[] = {
      INFINITY,
      DP_MAPPING_REVERSED,
      {0.25, 3, 700, 5e4},
-     {1920, 1080, 40, 8, {0, 0, 0, 0}, 0, 90, 2, 512, 16}},
+     {1920, 1080, 40, 8, {2, 11, 2, 0}, 0, 90, 2, 512, 16},
+     NULL},
     {"-n 0.5 -f 300 -F fp32 -m d3d",
      "--viewport 640x360 --subpixel 4 --slant 10:45.5 --triangle slim=4,pixels=100,depth=1.5",
      0.5,
      300,
      DP_MAPPING_D3D,
      {0.5, 2, 30, 299},
-     {640, 360, 60, 4, {0, 0, 0, 0}, 10, 45.5, 1.5, 100, 4}},
+     {640, 360, 60, 4, {2, 11, 2, 0}, 10, 45.5, 1.5, 100, 4},
+     NULL},
     {"-n 0.001 -f 1e6 -F fp32 -m d3d",
      "--viewport 100x100",
      0.001,
      1e6,
      DP_MAPPING_D3D,
      {0.5, 30, 1e4, 1e5},
-     {100, 100, 60, 8, {0, 0, 0, 0}, 0, 90, 2, 512, 16}},
+     {100, 100, 60, 8, {2, 11, 2, 0}, 0, 90, 2, 512, 16},
+     NULL},
+    {"-n 0.1 -f inf -F fp32 -m reversed",
+     "--viewport 800x600 --raster llvmpipe",
+     0.1,
+     INFINITY,
+     DP_MAPPING_REVERSED,
+     {0.1, 1, 70, 5e4},
+     {800, 600, 60, 0, {3, 10, 2, 4}, 0, 90, 2, 512, 16},
+     "llvmpipe"},
+    {"-n 0.1 -f 500 -F fp32 -m reversed",
+     "--viewport 800x600 --raster softpipe",
+     0.1,
+     500,
+     DP_MAPPING_REVERSED,
+     {0.1, 1, 70, 400},
+     {800, 600, 60, 0, {5, 8, 2, 5}, 0, 90, 2, 512, 16},
+     "softpipe"},
+    {"-n 0.1 -f 500 -F fp32 -m reversed",
+     "--viewport 800x600 --raster SwiftShader",
+     0.1,
+     500,
+     DP_MAPPING_REVERSED,
+     {0.1, 1, 70, 400},
+     {800, 600, 60, 4, {2, 11, 2, 0}, 0, 90, 2, 512, 16},
+     "swiftshader"},
+    {"-n 0.1 -f 500 -F fp32 -m d3d",
+     "--viewport 800x600 --raster spec-d3d",
+     0.1,
+     500,
+     DP_MAPPING_D3D,
+     {0.1, 1, 70, 400},
+     {800, 600, 60, 8, {5, 11, 2, 5}, 0, 90, 2, 512, 16},
+     "spec-d3d"},
+    {"-n 0.1 -f 500 -F fp32 -m reversed",
+     "--viewport 800x600 --raster spec-vulkan --subpixel 6",
+     0.1,
+     500,
+     DP_MAPPING_REVERSED,
+     {0.1, 1, 70, 400},
+     {800, 600, 60, 6, {5, 11, 2, 5}, 0, 90, 2, 512, 16},
+     "spec-vulkan"},
+    {"-n 0.1 -f 500 -F fp32 -m reversed",
+     "--viewport 800x600 --raster spec-gl",
+     0.1,
+     500,
+     DP_MAPPING_REVERSED,
+     {0.1, 1, 70, 400},
+     {800, 600, 60, 4, {5, 11, 2, 5}, 0, 90, 2, 512, 16},
+     "spec-gl"},
 };
 
 static dp_budget budget_of(const slant_case *c, double z, bool slanted) {
@@ -45,13 +97,13 @@ static dp_budget budget_of(const slant_case *c, double z, bool slanted) {
     dp_setup setup;
     dp_budget b;
     dp_triangles t = c->triangles;
-    const dp_budget_terms terms = {.triangles = slanted ? &t : NULL};
-    t.plane = dp_anchor_get(DP_ANCHOR_VERTEX)->plane;
     spec.znear = c->znear;
     spec.zfar = c->zfar;
     spec.mapping = c->mapping;
+    if (slanted)
+        spec.triangles = t;
     assert_int_equal(dp_setup_init(&setup, &spec), DP_OK);
-    assert_int_equal(dp_budget_at(&setup, z, &terms, &b), DP_OK);
+    assert_int_equal(dp_budget_at(&setup, z, NULL, &b), DP_OK);
     return b;
 }
 
@@ -62,8 +114,9 @@ static double at(const json_t *object, const char *key) {
     return json_is_null(value) ? INFINITY : json_number_value(value);
 }
 
-static void check_triangles(const json_t *root, const dp_triangles *t) {
-    const json_t *got = json_object_get(root, "triangles");
+static void check_triangles(const json_t *root, const dp_triangles *t, const char *raster) {
+    const json_t *got = json_object_get(root, "triangles"), *named = json_object_get(got, "raster");
+    assert_true(raster == NULL ? json_is_null(named) : strcmp(json_string_value(named), raster) == 0);
     assert_true(at(got, "width") == t->width && at(got, "height") == t->height && at(got, "fov") == t->fov_y);
     assert_true(at(got, "subpixel") == t->subpixel && at(got, "slant_lo") == t->slant_lo);
     assert_true(at(got, "slant_hi") == t->slant_hi && at(got, "depth") == t->depth);
@@ -96,7 +149,7 @@ static void check_rows(const slant_case *c, const char *command) {
              c->z[0], c->z[1], c->z[2], c->z[3]);
     printed json = print_of("%s --json", arguments), csv = print_of("%s --csv", arguments);
     json_t *root = json_of(json.out);
-    check_triangles(root, &c->triangles);
+    check_triangles(root, &c->triangles, c->raster);
     for (int k = 0; k < DEPTHS; k++) {
         const json_t *row = row_of(root, (size_t)k), *causes = json_object_get(row, "causes");
         const dp_budget facing = budget_of(c, c->z[k], false), slanted = budget_of(c, c->z[k], true);
@@ -142,6 +195,141 @@ static void test_text(void **state) {
     printed_free(&p);
 }
 
+/* Who draws, on which grid, and how depth is set up. */
+static void test_rasterizer(void **state) {
+    static const struct {
+        const char *options, *line;
+    } said[] = {
+        {"--raster llvmpipe", "llvmpipe: depth from unsnapped vertices, anchor origin\n"},
+        {"--raster swiftshader", "swiftshader: 4 subpixel bits, anchor vertex\n"},
+        {"--raster spec-d3d", "spec-d3d: 8 subpixel bits, any anchor: the worst is counted\n"},
+        {"--raster spec-gl --subpixel 5", "spec-gl: at least 5 subpixel bits, any anchor: the worst is counted\n"}};
+    (void)state;
+    for (size_t i = 0; i < sizeof said / sizeof said[0]; i++) {
+        printed p = print_of("budget -F fp32 -m reversed --viewport 640x480 --at 10 %s", said[i].options);
+        assert_non_null(strstr(p.out, "viewport 640x480, fov 60, slant 0 to 90 degrees\n"));
+        assert_non_null(strstr(p.out, said[i].line));
+        printed_free(&p);
+    }
+}
+
+/* A preset's view and rasterizer hold with a viewport, and where they are not given. */
+static void test_presets(void **state) {
+    static const struct {
+        const char *options, *raster;
+        double fov;
+        int bits;
+    } asked[] = {{"--preset godot-forward", "spec-vulkan", 75, 4},
+                 {"--preset unity-gl", "spec-gl", 60, 4},
+                 {"--preset godot-forward --fov 40", "spec-vulkan", 40, 4},
+                 {"--preset godot-forward --raster spec-d3d", "spec-d3d", 75, 8},
+                 {"--preset godot-forward --raster spec-vulkan --subpixel 6", "spec-vulkan", 75, 6},
+                 {"--preset godot-forward --subpixel 6", NULL, 75, 6}};
+    (void)state;
+    for (size_t i = 0; i < sizeof asked / sizeof asked[0]; i++) {
+        printed p = print_of("table --viewport 1920x1080 --at 10 --json %s", asked[i].options);
+        json_t *root = json_of(p.out), *got = json_object_get(root, "triangles");
+        const json_t *named = json_object_get(got, "raster");
+        assert_true(at(got, "fov") == asked[i].fov && at(got, "subpixel") == asked[i].bits);
+        assert_true(asked[i].raster == NULL ? json_is_null(named)
+                                            : strcmp(json_string_value(named), asked[i].raster) == 0);
+        json_decref(root);
+        printed_free(&p);
+    }
+    printed p = print_of("table --preset godot-forward --at 10 --json");
+    assert_null(strstr(p.out, "triangles"));
+    printed_free(&p);
+    /* Of several each has its own. */
+    p = print_of("table --preset bevy,three --viewport 800x800 --at 10m --json");
+    json_t *root = json_of(p.out);
+    assert_null(json_object_get(root, "triangles"));
+    for (size_t i = 0; i < 2; i++) {
+        const json_t *setup = json_array_get(json_object_get(root, "setups"), i);
+        const json_t *got = json_object_get(setup, "triangles");
+        const slant_case bevy = {.znear = 0.1,
+                                 .zfar = INFINITY,
+                                 .mapping = DP_MAPPING_REVERSED,
+                                 .triangles = {800, 800, 45, 4, {5, 11, 2, 5}, 0, 90, 2, 512, 16}};
+        assert_true(at(got, "fov") == (i == 0 ? 45 : 50));
+        assert_string_equal(json_string_value(json_object_get(got, "raster")), i == 0 ? "spec-vulkan" : "spec-gl");
+        if (i == 0)
+            assert_true(at(json_array_get(json_object_get(setup, "rows"), 0), "guarantee_slanted") ==
+                        budget_of(&bevy, 10, true).separation);
+    }
+    json_decref(root);
+    printed_free(&p);
+}
+
+/* A census stays what it is; beside each band stands what holds at any slant all over it. */
+static void test_zfight(void **state) {
+    const slant_case *c = &cases[0];
+    static const char *const same[] = {"pairs", "ties", "swaps", "longest", "longest_z", "bound", "used"};
+    const char *const common = "zfight %s --range 5.5:9 --json %s";
+    printed with = print_of(common, c->camera, c->options), without = print_of(common, c->camera, "");
+    printed csv = print_of("zfight %s --range 5.5:9 --csv %s", c->camera, c->options);
+    json_t *roots[] = {json_of(with.out), json_of(without.out)};
+    const json_t *setups[2], *bands[2];
+    dp_spec spec = dp_spec_default();
+    dp_setup slanted;
+    (void)state;
+    spec.znear = c->znear;
+    spec.zfar = c->zfar;
+    spec.mapping = c->mapping;
+    spec.model = DP_MODEL_FP32;
+    spec.triangles = c->triangles;
+    assert_int_equal(dp_setup_init(&slanted, &spec), DP_OK);
+    check_triangles(roots[0], &c->triangles, c->raster);
+    for (int k = 0; k < 2; k++) {
+        setups[k] = json_array_get(json_object_get(roots[k], "setups"), 0);
+        bands[k] = json_object_get(setups[k], "bands");
+    }
+    assert_int_equal(json_array_size(bands[0]), 2);
+    for (size_t b = 0; b < 3; b++) { /* the last: all of them */
+        const json_t *got = b < 2 ? json_array_get(bands[0], b) : setups[0];
+        const json_t *other = b < 2 ? json_array_get(bands[1], b) : setups[1];
+        dp_separation_worst worst;
+        assert_int_equal(dp_separation_over(&slanted, b == 1 ? 8 : 5.5, b == 0 ? 8 : 9, 0, &worst), DP_OK);
+        assert_true(at(got, "guarantee_slanted") == worst.bound);
+        assert_true(at(got, "guarantee_facing") == at(got, "bound"));
+        assert_true(b == 2 || csv_at(csv.out, "guarantee_slanted [scene]", (int)b) == worst.bound);
+        for (size_t i = 0; i < sizeof same / sizeof same[0]; i++)
+            assert_true(at(got, same[i]) == at(other, same[i]));
+    }
+    assert_non_null(strstr(with.out, "\"raster\":null"));
+    for (int k = 0; k < 2; k++)
+        json_decref(roots[k]);
+    printed_free(&with);
+    printed_free(&without);
+    printed_free(&csv);
+}
+
+/* Over a range, of both. */
+static void test_range(void **state) {
+    const slant_case *c = &cases[0];
+    printed p = print_of("table %s %s --at 700 --range 3:5e4 --json", c->camera, c->options);
+    json_t *root = json_of(p.out);
+    const json_t *setup = json_array_get(json_object_get(root, "setups"), 0);
+    (void)state;
+    for (int slanted = 0; slanted < 2; slanted++) {
+        const json_t *got = json_object_get(setup, slanted ? "worst_separation_slanted" : "worst_separation");
+        dp_spec spec = dp_spec_default();
+        dp_setup full;
+        dp_separation_worst worst;
+        spec.znear = c->znear;
+        spec.zfar = c->zfar;
+        spec.mapping = c->mapping;
+        spec.model = DP_MODEL_FP32;
+        if (slanted)
+            spec.triangles = c->triangles;
+        assert_int_equal(dp_setup_init(&full, &spec), DP_OK);
+        assert_int_equal(dp_separation_over(&full, 3, 5e4, 0, &worst), DP_OK);
+        assert_true(at(got, "bound") == worst.bound && at(got, "separation") == worst.separation);
+        assert_true(at(got, "z") == worst.z && at(got, "lo") == 3 && at(got, "hi") == 5e4);
+    }
+    json_decref(root);
+    printed_free(&p);
+}
+
 /* Where nothing is certain, it is what lies in front of the farther surface that is not. */
 static void test_hopeless(void **state) {
     const slant_case *c = &cases[2];
@@ -153,7 +341,9 @@ static void test_hopeless(void **state) {
 }
 
 int main(void) {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(test_rows), cmocka_unit_test(test_text),
+    const struct CMUnitTest tests[] = {cmocka_unit_test(test_rows),       cmocka_unit_test(test_text),
+                                       cmocka_unit_test(test_rasterizer), cmocka_unit_test(test_presets),
+                                       cmocka_unit_test(test_range),      cmocka_unit_test(test_zfight),
                                        cmocka_unit_test(test_hopeless)};
     return run_tap(tests);
 }

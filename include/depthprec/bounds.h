@@ -50,7 +50,8 @@ DP_API dp_status dp_worst_over(const dp_setup *setup, double lo, double hi, dp_w
 /** The largest separation over a range. */
 typedef struct dp_separation_worst {
     double lo, hi;     /**< the range asked about */
-    double bound;      /**< holds at every depth of the range: what lies farther behind any of them is told apart */
+    double bound;      /**< holds at every depth of the range: what lies farther behind any of them is told apart, and
+                          with triangles what lies farther in front of any of them, along the normal */
     double separation; /**< dp_separation() at z, at most `bound` */
     double z;          /**< the depth where the largest one was found; where several tie, one of them */
 } dp_separation_worst;
@@ -70,7 +71,8 @@ typedef struct dp_separation_worst {
  * Bound: `bound` is never below the truth; `exact`: at most 1e-12 relative above it, else as above unless 2^16
  * evaluations are not enough. In `fp32` it is a guarantee of its own, found with the error analysis of dp_budget_at()
  * over parts of the range. dp_separation() at a single depth is another one and may be above it: by 4 % and one step of
- * binary32, and where d is within 2^-20 of a power of two, relatively, by less than the bound itself.
+ * binary32, and where d is within 2^-20 of a power of two, relatively, by less than the bound itself; not where slanted
+ * triangles decide.
  */
 DP_API dp_status dp_separation_over(const dp_setup *setup, double lo, double hi, double limit,
                                     dp_separation_worst *out);

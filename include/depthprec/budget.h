@@ -7,7 +7,7 @@
  * depthprec(7) derives each term. Never below the separation of DP_MODEL_EXACT.
  *
  * This speaks of depths computed at a point, and so of surfaces that face the camera. Across a slanted triangle a
- * rasterizer interpolates: what is promised there needs `triangles`, see triangles.h, or its error as `interpolation`.
+ * rasterizer interpolates: what is promised there needs the set-up's `triangles`, or its error as `interpolation`.
  */
 #ifndef DEPTHPREC_BUDGET_H
 #define DEPTHPREC_BUDGET_H
@@ -17,7 +17,6 @@
 
 #include "depthprec/setup.h"
 #include "depthprec/status.h"
-#include "depthprec/triangles.h"
 
 DP_BEGIN
 
@@ -56,8 +55,7 @@ typedef struct dp_budget_terms {
     double interpolation; /**< error of an interpolated window depth, in units of 2^-24 of d; at least 0 */
     double world;         /**< largest |coordinate| of world positions and camera, scene units; 0: eye depth is given */
     int linearize;        /**< nonzero: the depth is read back by 1/(z d + w) in binary32 */
-    dp_composition composition;    /**< of view and projection; read where `world` is positive */
-    const dp_triangles *triangles; /**< the surfaces slant as this says, see triangles.h; null: they face the camera */
+    dp_composition composition; /**< of view and projection; read where `world` is positive */
 } dp_budget_terms;
 
 /** A separation and its parts. */
@@ -77,11 +75,12 @@ DP_API const char *dp_cause_name(dp_cause cause);
  * @param z      eye depth in [near, far]; rounded to binary32 as a shader has it
  * @param terms  null for none
  * @return DP_OK, DP_ERROR_NULL, DP_ERROR_DEPTH, DP_ERROR_BINARY32 where z rounds to infinity, or DP_ERROR_MODEL for
- *         linear and log, which have no pipeline, and for a composition out of range; DP_ERROR_TRIANGLES for
- *         triangles out of range, under an orthographic projection, or together with `world`
+ *         linear and log, which have no pipeline, and for a composition out of range; DP_ERROR_TRIANGLES for `world`
+ *         where the set-up has triangles
  *
- * With terms->triangles z is the eye depth of the farther plane and the separation is along the normal. It is never
- * less than without them, and the same where slant_hi is 0; INFINITY where nothing in front of z is certain.
+ * Where the set-up has triangles z is the eye depth of the farther plane and the separation is along the normal. It is
+ * never less than that of dp_setup_facing(), and the same where slant_hi is 0; INFINITY where nothing in front of z is
+ * certain.
  *
  * With terms->world, of two surfaces that the same matrix transforms and that one pixel sees, at real places in the
  * world box: on one ray from the camera within 60 degrees of its axis, or parallel to the axis if orthographic (with

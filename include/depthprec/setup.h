@@ -11,6 +11,7 @@
 #include "depthprec/format.h"
 #include "depthprec/mapping.h"
 #include "depthprec/status.h"
+#include "depthprec/triangles.h"
 
 DP_BEGIN
 
@@ -33,11 +34,13 @@ typedef struct dp_spec {
     dp_format format;
     dp_rounding rounding;
     dp_model model;
-    dp_arith arith; /**< the arithmetic of DP_MODEL_FP32 and of dp_pipeline_init() */
-    double log_c;   /**< constant C of the logarithmic mapping, in [1e-12, 1e12]; read for log only */
+    dp_arith arith;         /**< the arithmetic of DP_MODEL_FP32 and of dp_pipeline_init() */
+    double log_c;           /**< constant C of the logarithmic mapping, in [1e-12, 1e12]; read for log only */
+    dp_triangles triangles; /**< surfaces slant as this says, under a perspective: what DP_MODEL_FP32 guarantees then is
+                               in triangles.h, and z is the depth of the farther one. Width 0: they face the camera */
 } dp_spec;
 
-/** near 0.1, far 1000, perspective, d3d, fp32, nearest, exact, C = 1. */
+/** near 0.1, far 1000, perspective, d3d, fp32, nearest, exact, C = 1, surfaces that face the camera. */
 DP_API dp_spec dp_spec_default(void);
 
 /** A checked set-up. Everything after `spec` is derived from it by dp_setup_init() and private to the library. */
@@ -61,6 +64,9 @@ typedef struct dp_setup {
  * @return DP_OK, or what is wrong with it; *setup is then left as it was
  */
 DP_API dp_status dp_setup_init(dp_setup *setup, const dp_spec *spec);
+
+/** The same set-up for surfaces that face the camera. */
+DP_API dp_setup dp_setup_facing(const dp_setup *setup);
 
 /** "exact", ...; null when out of range. */
 DP_API const char *dp_model_name(dp_model model);

@@ -194,10 +194,16 @@ static double certain_step(const bias_goal *goal, const dp_format *format, int e
     return (is_binary32 ? step : is_unorm ? step + half : 2.0 * step + half) + apart;
 }
 
-static double round_up(const bias_api *api, const dp_format *format, double units) {
+double bias_round_up(const bias_api *api, const dp_format *format, double units) {
     const bias_rule rule = format->kind == DP_FORMAT_FLOAT ? api->real : api->unorm;
     const double counted = rule == BIAS_ONE ? units : ceil(units);
-    return api->whole ? counted : (double)dp_float_up(counted);
+    const double rounded = api->whole ? counted : (double)dp_float_up(counted);
+    return rounded <= units_most ? rounded : (double)INFINITY;
+}
+
+double bias_units(const bias_api *api, const dp_format *format, double d, double window) {
+    const double outward = api->binary32 ? 0x1p-22 : 0x1p-48;
+    return bias_round_up(api, format, (1.0 + outward) * window / bias_unit_at(api, format, d).least);
 }
 
 /* bias_needed() at z for a primitive whose greatest window depth has the exponent e. */
@@ -210,9 +216,8 @@ static double needed_with(const dp_setup *setup, const bias_goal *goal, double z
     const double window = fmax(step, gap) - goal->factor * m;
     /* Covers the roundings above and, where o itself is rounded to binary32, those; a single step is exact. */
     const double outward = gap <= step && m == 0.0 ? 0.0 : goal->api->binary32 ? 0x1p-22 : 0x1p-48;
-    const double units =
-        round_up(goal->api, format, fmax((window + (fmax(step, gap) + fabs(goal->factor) * m) * outward) / r, 0.0));
-    return units <= units_most ? units : (double)INFINITY;
+    return bias_round_up(goal->api, format,
+                         fmax((window + (fmax(step, gap) + fabs(goal->factor) * m) * outward) / r, 0.0));
 }
 
 double bias_needed(const dp_setup *setup, const bias_goal *goal, double z) {

@@ -85,6 +85,12 @@ double bias_offset(const bias_state *state, double r, double m);
 /** m of a surface at z whose eye depth changes by `slope` scene units from one pixel to the next. z in [near, far]. */
 double bias_window_slope(const dp_setup *setup, double z, double slope);
 
+/**
+ * The least number that a program can set and that is not below `units`: whole where the API counts in r, and a
+ * binary32 number where it takes a float. INFINITY beyond 2^31 units.
+ */
+double bias_round_up(const bias_api *api, const dp_format *format, double units);
+
 /** What a bias does to a depth. */
 typedef struct bias_effect {
     double z;       /**< eye depth, scene units */
@@ -123,6 +129,12 @@ typedef struct bias_goal {
  * @return INFINITY when the gap leads past the near plane or r is so small that 2^31 units are not enough
  */
 double bias_needed(const dp_setup *setup, const bias_goal *goal, double z);
+
+/**
+ * The fewest units that make an offset of at least `window`, not negative, of a primitive whose greatest window depth
+ * is d: a magnitude, rounded as bias_needed() rounds. @return INFINITY when 2^31 units are not enough
+ */
+double bias_units(const bias_api *api, const dp_format *format, double d, double window);
 
 /** The greatest bias_needed() over a range, a certified bound, and the depth that needs it. lo < hi in [near, far]. */
 double bias_needed_over(const dp_setup *setup, const bias_goal *goal, double lo, double hi, double *worst);

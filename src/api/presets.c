@@ -2,57 +2,64 @@
 #include "api/presets.h"
 
 #include <math.h>
+#include <stdbool.h>
 
 #define CHECKED "2026-11-21"
 
 /* clang-format off */
 static const preset rows[] = {
-    {"unity", 0.3, 1000.0, DP_MAPPING_REVERSED, "fp32", "m",
+    {"unity", 0.3, 1000.0, DP_MAPPING_REVERSED, "fp32", "m", 60, PRESET_VERTICAL, "spec-vulkan",
      "Direct3D, Metal, Vulkan and consoles; 16-bit and D24 on devices without D32",
-     "near, far",
-     "Unity manual, SL-PlatformDifferences (direction) and URP 14 UniversalRenderer (D32_SFloat_S8_UInt); near and far "
-     "as scene files write them", CHECKED},
-    {"unity-gl", 0.3, 1000.0, DP_MAPPING_GL, "unorm24", "m",
+     "near, far, fov",
+     "Unity manual, SL-PlatformDifferences (direction) and URP 14 UniversalRenderer (D32_SFloat_S8_UInt); near, far "
+     "and fov as scene files write them", CHECKED},
+    {"unity-gl", 0.3, 1000.0, DP_MAPPING_GL, "unorm24", "m", 60, PRESET_VERTICAL, "spec-gl",
      "OpenGL and OpenGL ES: not reversed, NDC depth in [-1, 1]",
-     "near, far, format",
+     "near, far, format, fov",
      "Unity manual, SL-PlatformDifferences: \"other platforms: traditional direction\"", CHECKED},
-    {"unreal", 10.0, (double)INFINITY, DP_MAPPING_REVERSED, "fp32", "cm",
+    {"unreal", 10.0, (double)INFINITY, DP_MAPPING_REVERSED, "fp32", "cm", 90, PRESET_HORIZONTAL, "spec-vulkan",
      "scene units are centimetres: near is 10 cm; NearClipPlane in DefaultEngine.ini replaces it",
-     "near, far, mapping, format",
+     "near, far, mapping, format, fov",
      "GNearClippingPlane in CoreGlobals.cpp, as others quote it: the engine's source is not public", CHECKED},
-    {"godot-forward", 0.05, 4000.0, DP_MAPPING_REVERSED, "fp32", "m",
+    {"godot-forward", 0.05, 4000.0, DP_MAPPING_REVERSED, "fp32", "m", 75, PRESET_VERTICAL, "spec-vulkan",
      "Forward+ since 4.3: prefers D32_SFLOAT_S8_UINT",
      "",
      "Camera3D class reference; RenderSceneBuffersRD::get_depth_format; godotengine.org/article/introducing-reverse-z",
      CHECKED},
-    {"godot-mobile", 0.05, 4000.0, DP_MAPPING_REVERSED, "unorm24", "m",
+    {"godot-mobile", 0.05, 4000.0, DP_MAPPING_REVERSED, "unorm24", "m", 75, PRESET_VERTICAL, "spec-vulkan",
      "the mobile renderer prefers D24_UNORM_S8_UINT, where reversing gains nothing in the lattice",
      "",
      "Camera3D class reference; RenderSceneBuffersRD::get_depth_format with p_storage false", CHECKED},
-    {"three", 0.1, 2000.0, DP_MAPPING_GL, "unorm24", "units",
+    {"three", 0.1, 2000.0, DP_MAPPING_GL, "unorm24", "units", 50, PRESET_VERTICAL, "spec-gl",
      "WebGLRenderer; logarithmic and reversed depth are options; browsers give the canvas 24 bits",
      "format",
      "three.js, src/cameras/PerspectiveCamera.js; mrdoob/three.js#30941 (the canvas default is integer)", CHECKED},
-    {"three-webgpu", 0.1, 2000.0, DP_MAPPING_D3D, "depth24plus", "units",
+    {"three-webgpu", 0.1, 2000.0, DP_MAPPING_D3D, "depth24plus", "units", 50, PRESET_VERTICAL, "spec-vulkan",
      "WebGPURenderer; depth24plus is unorm24 or fp32 as the browser chooses; reversed is an option and takes "
      "depth32float",
      "",
      "three.js, src/cameras/PerspectiveCamera.js; mrdoob/three.js#32967, #33184", CHECKED},
-    {"bevy", 0.1, (double)INFINITY, DP_MAPPING_REVERSED, "fp32", "m",
+    {"bevy", 0.1, (double)INFINITY, DP_MAPPING_REVERSED, "fp32", "m", 45, PRESET_VERTICAL, "spec-vulkan",
      "infinite reversed projection; the camera's far of 1000 only culls",
      "",
      "bevy_camera/src/projection.rs (perspective_infinite_reverse_rh); CORE_3D_DEPTH_FORMAT", CHECKED},
-    {"cesium", 1.0, 5e8, DP_MAPPING_LOG, "unorm24", "m",
+    {"cesium", 1.0, 5e8, DP_MAPPING_LOG, "unorm24", "m", 60, PRESET_LARGER, "spec-gl",
      "writes log(z - near + 1)/log(far - near + 1): log with C = 1 differs from it only within a few metres of near; "
      "ratios beyond 1e9 take several frusta",
      "format",
-     "CesiumJS, PerspectiveFrustum.js (near, far), writeLogDepth.glsl", CHECKED},
-    {"mujoco", 0.01, 50.0, DP_MAPPING_REVERSED, "fp32", "extents",
+     "CesiumJS, PerspectiveFrustum.js (near, far), Camera.js (fov, of the larger side), writeLogDepth.glsl", CHECKED},
+    {"mujoco", 0.01, 50.0, DP_MAPPING_REVERSED, "fp32", "extents", 45, PRESET_VERTICAL, "spec-gl",
      "one scene unit is the model's extent: multiply by it; offscreen buffers",
      "near, far",
-     "MuJoCo, mjVisual.map (znear, zfar); google-deepmind/mujoco#978 (reversed, 32-bit float)", CHECKED},
+     "MuJoCo, mjVisual.map (znear, zfar), mj_defaultVisual (fovy); google-deepmind/mujoco#978 (reversed, 32-bit float)",
+     CHECKED},
 };
 /* clang-format on */
+
+double preset_fov_y(const preset *p, int width, int height) {
+    const bool vertical = p->axis == PRESET_VERTICAL || (p->axis == PRESET_LARGER && width <= height);
+    return vertical ? p->fov : dp_fov_vertical(p->fov, width, height);
+}
 
 const preset *preset_get(size_t index) {
     return index < sizeof rows / sizeof rows[0] ? &rows[index] : NULL;

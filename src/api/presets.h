@@ -10,6 +10,9 @@
 
 #include "depthprec/depthprec.h"
 
+/** Which angle an engine's field of view is. */
+typedef enum preset_axis { PRESET_VERTICAL = 0, PRESET_HORIZONTAL, PRESET_LARGER } preset_axis;
+
 typedef struct preset {
     const char *name;
     double znear; /**< in `unit` */
@@ -17,13 +20,19 @@ typedef struct preset {
     dp_mapping mapping;
     const char *format;      /**< a name for dp_format_parse(): depth24plus stands for two formats */
     const char *unit;        /**< what the scene is measured in, "m", "cm", "units" when it is left open */
+    double fov;              /**< degrees */
+    preset_axis axis;        /**< of `fov` */
+    const char *raster;      /**< a name of `list rasterizers`: what the APIs it runs on promise at least */
     const char *note;        /**< one line */
-    const char *unconfirmed; /**< the values without a source of first hand, "near, far"; "" when there are none */
+    const char *unconfirmed; /**< the values without a source of first hand, "near, fov"; "" when there are none */
     const char *source;
     const char *checked; /**< the day on which source and values were compared, ISO 8601 */
 } preset;
 
 /** The rows in order; null for an index that is not below their number. */
 const preset *preset_get(size_t index);
+
+/** The vertical field of view in a viewport, degrees. */
+double preset_fov_y(const preset *p, int width, int height);
 
 #endif

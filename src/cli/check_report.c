@@ -7,6 +7,7 @@
 #include <unistd.h>
 
 #include "cli/setups.h"
+#include "cli/slant.h"
 #include "core/append.h"
 #include "plot/notes.h"
 #include "report/number.h"
@@ -27,7 +28,11 @@ static void put(char *out, const char *before, const check_file *f, double value
     append(out, SENTENCE_SIZE, "%s %s%s%s", before, number.text, has_unit ? " " : "", has_unit ? f->file.unit : "");
 }
 
-/* "separation 0.00149 m at 50 m (code 123), allowed 0.001 m"; what is promised is rounded up */
+static const char *surfaces(const check_verdict *v) {
+    return check_is_slanted(v) ? "any slant" : "facing";
+}
+
+/* "separation 0.00149 m at 50 m (code 123), facing, allowed 0.001 m"; what is promised is rounded up */
 static const char *sentence(const check_file *f, const check_verdict *v, char out[SENTENCE_SIZE]) {
     const need_kind_row *kind = need_kind_get(v->asked->kind);
     out[0] = '\0';
@@ -40,6 +45,8 @@ static const char *sentence(const check_file *f, const check_verdict *v, char ou
     }
     if (kind->is_length && has_code(v))
         append(out, SENTENCE_SIZE, " (code %u)", v->code);
+    if (v->asked->kind == NEED_SEPARATION)
+        append(out, SENTENCE_SIZE, ", %s", surfaces(v));
     put(out, ", allowed", f, v->asked->limit, kind->is_length, false);
     return out;
 }
@@ -90,7 +97,8 @@ static void xml_attribute(output *out, const char *name, const char *value) {
 static void junit_case(output *out, const check_file *f, const check_verdict *v) {
     char text[SENTENCE_SIZE], label[SETUP_LABEL_SIZE], line[16];
     snprintf(line, sizeof line, "%d", v->asked->line);
-    snprintf(text, sizeof text, "%s (%s)", v->asked->name, setup_label(&v->setup, false, label));
+    snprintf(text, sizeof text, "%s (%s%s)", v->asked->name, setup_label(&v->setup, false, label),
+             check_is_slanted(v) ? ", any slant" : "");
     output_text(out, "    <testcase");
     xml_attribute(out, "classname", v->camera->name);
     xml_attribute(out, "name", text);
@@ -129,6 +137,9 @@ typedef struct verdict {
     need asked;
     check_verdict found;
     setup_fields setup;
+    slant_fields slant;
+    const slant_fields *triangles; /* null where surfaces face the camera */
+    const char *surfaces;
     double code; /* NaN where there is none */
 } verdict;
 
@@ -147,35 +158,42 @@ static void *next_verdict(void *of, size_t i) {
     if (f == all->files + all->count)
         return NULL;
     const check_verdict *v = &f->verdicts[i];
-    all->verdict = (verdict){.file = f->file.path,
-                             .name = v->asked->name,
-                             .camera = v->camera->name,
-                             .kind = need_kind_get(v->asked->kind)->name,
-                             .unit = f->file.unit[0] != '\0' ? f->file.unit : NULL,
-                             .method = check_method_name(v->method),
-                             .asked = *v->asked,
-                             .setup = setup_fields_of(&v->setup, f->file.unit[0] != '\0' ? f->file.unit : NULL),
-                             .found = *v,
-                             .code = has_code(v) ? v->code : (double)NAN};
+    all->verdict =
+        (verdict){.file = f->file.path,
+                  .name = v->asked->name,
+                  .camera = v->camera->name,
+                  .kind = need_kind_get(v->asked->kind)->name,
+                  .unit = f->file.unit[0] != '\0' ? f->file.unit : NULL,
+                  .method = check_method_name(v->method),
+                  .asked = *v->asked,
+                  .setup = setup_fields_of(&v->setup, f->file.unit[0] != '\0' ? f->file.unit : NULL),
+                  .found = *v,
+                  .slant = {v->setup.spec.triangles, v->camera->raster != NULL ? v->camera->raster->name : NULL},
+                  .surfaces = surfaces(v),
+                  .code = has_code(v) ? v->code : (double)NAN};
+    all->verdict.triangles = check_is_slanted(v) ? &all->verdict.slant : NULL;
     return &all->verdict;
 }
 
-static const column verdict_columns[] = {{FIELD(verdict, file, "file", "")},
-                                         {FIELD(verdict, asked.line, "line", "")},
-                                         {FIELD(verdict, name, "name", "")},
-                                         {FIELD(verdict, camera, "camera", "")},
-                                         {PART(verdict, setup, "setup", setup_columns)},
-                                         {FIELD(verdict, kind, "kind", "")},
-                                         {FIELD(verdict, unit, "unit", "")},
-                                         {FIELD(verdict, asked.lo, "lo", "scene")},
-                                         {FIELD(verdict, asked.hi, "hi", "scene")},
-                                         {FIELD(verdict, asked.limit, "limit", "")},
-                                         {FIELD(verdict, found.value, "value", "")},
-                                         {FIELD(verdict, found.z, "z", "scene")},
-                                         {FIELD(verdict, code, "code", "")},
-                                         {FIELD(verdict, method, "method", "")},
-                                         {FIELD(verdict, found.passed, "passed", "")},
-                                         {.kind = COLUMN_END}};
+static const column verdict_columns[] = {
+    {FIELD(verdict, file, "file", "")},
+    {FIELD(verdict, asked.line, "line", "")},
+    {FIELD(verdict, name, "name", "")},
+    {FIELD(verdict, camera, "camera", "")},
+    {PART(verdict, setup, "setup", setup_columns)},
+    {FIELD(verdict, kind, "kind", "")},
+    {FIELD(verdict, unit, "unit", "")},
+    {FIELD(verdict, asked.lo, "lo", "scene")},
+    {FIELD(verdict, asked.hi, "hi", "scene")},
+    {FIELD(verdict, asked.limit, "limit", "")},
+    {FIELD(verdict, found.value, "value", "")},
+    {FIELD(verdict, found.z, "z", "scene")},
+    {FIELD(verdict, code, "code", "")},
+    {FIELD(verdict, method, "method", "")},
+    {FIELD(verdict, found.passed, "passed", "")},
+    {FIELD(verdict, surfaces, "surfaces", "")},
+    {PART(verdict, triangles, "triangles", slant_columns), .only = AS_JSON, .pointed = true, .optional = true},
+    {.kind = COLUMN_END}};
 
 static const column columns[] = {{FIELD(verdicts, passed, "passed", ""), .only = AS_JSON},
                                  {LIST("requirements", verdict_columns, next_verdict)},

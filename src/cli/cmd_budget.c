@@ -35,8 +35,11 @@ typedef struct worst {
 typedef struct budget {
     walk walk;
     dp_budget_terms terms;
-    const char *composition; /* how positions are composed; null where eye depth is given */
+    slant_fields slant;
+    const slant_fields *triangles; /* null: surfaces face the camera */
+    const char *composition;       /* how positions are composed; null where eye depth is given */
     bool linearize;
+    dp_setup facing; /* without the triangles */
     row row, largest;
     double hopeless; /* the nearest depth where no separation is certain; NaN when there is none such */
     worst found;
@@ -50,7 +53,7 @@ enum { WITH_WORLD = 1, WITH_INTERPOLATION = 2, WITH_LINEARIZE = 4, WITH_TRIANGLE
 /* The terms that are asked for. */
 static unsigned conditions(const budget *b) {
     return (b->terms.world > 0.0 ? WITH_WORLD : 0) | (b->terms.interpolation > 0.0 ? WITH_INTERPOLATION : 0) |
-           (b->linearize ? WITH_LINEARIZE : 0) | (b->terms.triangles != NULL ? WITH_TRIANGLES : 0);
+           (b->linearize ? WITH_LINEARIZE : 0) | (b->triangles != NULL ? WITH_TRIANGLES : 0);
 }
 
 /* ---- What is reported -------------------------------------------------------------------------------------------- */
@@ -106,12 +109,10 @@ static void *next_row(void *of, size_t index) {
     }
     dp_budget_at(b->walk.setup, r->z, &b->terms, &r->parts); /* cannot fail: depths_resolve() has seen to it */
     r->facing = r->parts.separation;
-    if (b->terms.triangles != NULL) {
-        dp_budget_terms facing = b->terms;
-        dp_budget other = {0};
-        facing.triangles = NULL;
-        dp_budget_at(b->walk.setup, r->z, &facing, &other);
-        r->facing = other.separation;
+    if (b->triangles != NULL) {
+        dp_budget facing = {0};
+        dp_budget_at(&b->facing, r->z, &b->terms, &facing);
+        r->facing = facing.separation;
     }
     for (int i = 0; i < DP_CAUSE_COUNT && b->walk.o->form == FORM_TEXT; i++)
         write_cause(r, i);
@@ -123,7 +124,8 @@ static void *next_setup(void *of, size_t i) {
     budget *b = of;
     if (!walk_setup(&b->walk, i))
         return NULL;
-    b->choice = choosing_start(b->walk.setup, b->walk.o->tolerance);
+    b->facing = dp_setup_facing(b->walk.setup);
+    b->choice = choosing_start(&b->facing, b->walk.o->tolerance);
     b->hopeless = b->largest.z = b->largest.parts.separation = (double)NAN;
     return b;
 }
@@ -135,7 +137,7 @@ static void say_setup(page *p, void *item) {
     walk_title(p, item);
     if (b->composition != NULL)
         page_title(p, "world %s, composition %s", number_in(number_full(b->terms.world), p->unit).text, b->composition);
-    slant_title(p, b->terms.triangles, b->walk.setup);
+    slant_say(p, page_title, b->walk.o, b->walk.setup);
 }
 
 static void say_worst(page *p, const worst *w) {
@@ -159,7 +161,7 @@ static void say_notes(page *p, void *item) {
     if (!isnan(b->hopeless))
         page_line(p, "at z = %s no separation is guaranteed: everything %s may share its code",
                   number_in(number_of(b->hopeless, DIGITS_MORE), p->unit).text,
-                  b->terms.triangles != NULL ? "nearer" : "farther");
+                  b->triangles != NULL ? "nearer" : "farther");
     if (b->worst != NULL)
         say_worst(p, b->worst);
     page_line(p, "%s%s", conditions(b) != 0 ? "without the added terms " : "",
@@ -221,7 +223,7 @@ static const column term_columns[] = {{FIELD(budget, terms.interpolation, "inter
 
 static const column columns[] = {
     {GROUP("terms", term_columns), .only = AS_JSON},
-    {PART(budget, terms.triangles, "triangles", slant_columns), .only = AS_JSON, .pointed = true, .optional = true},
+    {PART(budget, triangles, "triangles", slant_columns), .only = AS_JSON, .pointed = true, .optional = true},
     {LIST("setups", setup_report, next_setup), .head = say_setup, .notes = say_notes},
     {.kind = COLUMN_END}};
 
@@ -229,6 +231,7 @@ int cmd_budget(const options *o) {
     budget b = {.terms = o->terms, .linearize = o->terms.linearize != 0};
     options in_binary32 = *o;
     in_binary32.model = DP_MODEL_FP32;
+    b.triangles = slant_fields_of(o, &b.slant);
     if (o->terms.world > 0.0)
         b.composition = dp_composition_get(o->terms.composition)->name;
     else if (option_given(o, OPTION_COMPOSITION))

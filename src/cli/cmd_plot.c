@@ -10,6 +10,7 @@
 #include "cli/figure_file.h"
 #include "cli/list.h"
 #include "cli/methods.h"
+#include "cli/shadow_maps.h"
 #include "core/append.h"
 #include "plot/figure.h"
 #include "plot/notes.h"
@@ -30,6 +31,7 @@ typedef struct plotting {
     methods_asked asked;
     char where[256]; /* of what is timed */
     need_file file;
+    shadow_maps maps;
     chart *chart;
 } plotting;
 
@@ -68,15 +70,34 @@ static int check_file_given(const options *o, const figure_row *row) {
     return EXIT_FINE;
 }
 
+/* Options of some figures alone. */
+static const struct {
+    option_id id;
+    unsigned takes;
+    const char *figure;
+} only[] = {
+    {OPTION_INTERPOLATION, FIGURE_TERMS, "budget"}, {OPTION_WORLD, FIGURE_TERMS | FIGURE_SHADOW, "budget and shadow"},
+    {OPTION_COMPOSITION, FIGURE_TERMS, "budget"},   {OPTION_LINEARIZE, FIGURE_TERMS, "budget"},
+    {OPTION_FOV, FIGURE_SHADOW, "shadow"},          {OPTION_HFOV, FIGURE_SHADOW, "shadow"},
+    {OPTION_VIEWPORT, FIGURE_SHADOW, "shadow"},     {OPTION_SUBPIXEL, FIGURE_SHADOW, "shadow"},
+    {OPTION_RASTER, FIGURE_SHADOW, "shadow"},       {OPTION_TRIANGLE, FIGURE_SHADOW, "shadow"},
+    {OPTION_CASCADES, FIGURE_SHADOW, "shadow"},     {OPTION_LAMBDA, FIGURE_SHADOW, "shadow"},
+    {OPTION_LIGHT_BOX, FIGURE_SHADOW, "shadow"},    {OPTION_KERNEL, FIGURE_SHADOW, "shadow"},
+    {OPTION_ANGLE, FIGURE_SHADOW, "shadow"},        {OPTION_SIZE, FIGURE_SHADOW, "shadow"}};
+
+static int check_only(const options *o, const figure_row *row) {
+    for (size_t i = 0; i < sizeof only / sizeof only[0]; i++)
+        if (option_given(o, only[i].id) && (row->takes & only[i].takes) == 0)
+            return option_error(only[i].id, "does not apply to the figure %s, only to %s%s", row->name, only[i].figure,
+                                only[i].id == OPTION_SIZE ? "; a figure's size is --width and --height" : "");
+    return EXIT_FINE;
+}
+
 /* Options that this figure has no use for. */
 static int check_options(const options *o, const figure_row *row) {
     if (o->znear <= 0.0 && (row->takes & FIGURE_SIGNED) == 0)
         return option_error(OPTION_NEAR, "must be greater than 0 in the figure %s, got '%s'", row->name,
                             number_full(o->znear).text);
-    static const option_id terms[] = {OPTION_INTERPOLATION, OPTION_WORLD, OPTION_COMPOSITION, OPTION_LINEARIZE};
-    for (size_t i = 0; i < sizeof terms / sizeof terms[0]; i++)
-        if (option_given(o, terms[i]) && (row->takes & FIGURE_TERMS) == 0)
-            return option_error(terms[i], "does not apply to the figure %s, only to budget", row->name);
     if (option_given(o, OPTION_COMPOSITION) && !(o->terms.world > 0.0))
         return option_error(OPTION_COMPOSITION, "needs --world: eye depth is given");
     if (option_given(o, OPTION_MODEL) && (row->takes & FIGURE_BINARY32) != 0 && o->model != DP_MODEL_FP32)
@@ -194,6 +215,33 @@ static int resolve_file(plotting *p) {
     return status == EXIT_FINE ? check_read(p->o->operands[1], &p->file) : status;
 }
 
+/* Shadow maps bring their own cameras. */
+static int resolve_shadow(plotting *p) {
+    static const option_id others[] = {OPTION_ORTHO, OPTION_PRESET, OPTION_ROUNDING,  OPTION_MODEL,
+                                       OPTION_ARITH, OPTION_LOG_C,  OPTION_TOLERANCE, OPTION_AT};
+    const options o = shadow_options(p->o);
+    for (size_t i = 0; i < sizeof others / sizeof others[0]; i++)
+        if (option_given(&o, others[i]))
+            return option_error(others[i], "does not apply to the figure %s", p->row->name);
+    if (o.format_count * o.mapping_count != 1)
+        return usage_error("plot %s: shows one format in one mapping, got %zu: name one with --format and --mapping",
+                           p->row->name, o.format_count * o.mapping_count);
+    const int status = shadow_maps_make(&o, &o.formats[0], o.mappings[0], &p->maps);
+    p->request.maps = p->maps.items;
+    p->request.map_count = p->maps.count;
+    p->chart->unit = options_unit(&o);
+    char *const subtitle = p->chart->subtitle;
+    const size_t size = sizeof p->chart->subtitle;
+    snprintf(subtitle, size, "%s %s, %u x %u texels, filter of %u x %u; ", o.formats[0].name,
+             dp_mapping_get(o.mappings[0])->name, o.camera.width, o.camera.height, o.kernel, o.kernel);
+    if (p->maps.view.count > 0)
+        append(subtitle, size, "view near %s, far %s", number_full(o.znear).text, number_full(o.zfar).text);
+    else
+        append(subtitle, size, "box %s x %s x %s", number_full(o.light_box[0]).text, number_full(o.light_box[1]).text,
+               number_full(o.light_box[2]).text);
+    return status;
+}
+
 /* Which curves, or how many fields of a map, were computed by other methods than the exact engine. */
 static void say_methods(const chart_panel *panel) {
     const chart_map *m = &panel->map;
@@ -271,13 +319,17 @@ int cmd_plot(const options *o) {
     int status = check_output(o);
     if (status == EXIT_FINE)
         status = check_file_given(o, p.row);
+    if (status == EXIT_FINE)
+        status = check_only(o, p.row);
     if (status != EXIT_FINE)
         return status;
     p.chart = chart_new();
     if (p.chart == NULL)
         return usage_error("plot: no memory");
     notes_clean(p.chart->title, sizeof p.chart->title, o->title != NULL ? o->title : "");
-    status = (p.row->takes & FIGURE_FILE) != 0 ? resolve_file(&p) : resolve_setups(&p);
+    status = (p.row->takes & FIGURE_FILE) != 0     ? resolve_file(&p)
+             : (p.row->takes & FIGURE_SHADOW) != 0 ? resolve_shadow(&p)
+                                                   : resolve_setups(&p);
     if (status == EXIT_FINE)
         status = write_figure(&p);
     chart_free(p.chart);

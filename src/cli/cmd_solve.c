@@ -15,8 +15,28 @@
 
 /* ---- What is asked ----------------------------------------------------------------------------------------------- */
 
+static bool has_pipeline(dp_mapping mapping) {
+    return dp_mapping_get(mapping)->curve == DP_CURVE_PERSPECTIVE;
+}
+
 static bool is_known(const options *o, option_id id) {
     return option_given(o, id) || o->preset_count > 0;
+}
+
+/* At a slant there is a guarantee of separations, and only of what is affine on the screen. */
+static int check_slanted(const options *o, const solve_report *r) {
+    if (r->kind == MEASURE_ERROR)
+        return option_error(OPTION_ERROR, "is that of a depth at a point, and cannot be combined with --viewport");
+    if (option_given(o, OPTION_MODEL) && !o->model_auto && o->model != DP_MODEL_FP32)
+        return option_error(OPTION_MODEL, "must be float or auto with --viewport, got '%s', which knows no slant",
+                            option_word(OPTION_MODEL, o->model));
+    for (size_t m = 0; m < o->mapping_count; m++)
+        if (!has_pipeline(o->mappings[m]))
+            return option_error(OPTION_MAPPING,
+                                "must be one of " DP_MAPPING_NAMES_PERSPECTIVE " with --viewport, got %s, which is not "
+                                "affine on the screen",
+                                dp_mapping_get(o->mappings[m])->name);
+    return EXIT_FINE;
 }
 
 static int check_target(const options *o, solve_report *r) {
@@ -48,7 +68,7 @@ static int check_target(const options *o, solve_report *r) {
                             option_word(OPTION_FOR, r->target));
     if (r->kind == MEASURE_ERROR && option_given(o, OPTION_MODEL) && o->model == DP_MODEL_FP32)
         return option_error(OPTION_MODEL, "must be exact or staged for an error, got 'float', which has no cells");
-    return EXIT_FINE;
+    return o->triangles.width > 0 ? check_slanted(o, r) : EXIT_FINE;
 }
 
 static int check_depths(const options *o, solve_report *r) {
@@ -84,10 +104,6 @@ static int check_depths(const options *o, solve_report *r) {
 
 static bool asks_for_choice(solve_target target) {
     return target == SOLVE_FOR_FORMAT || target == SOLVE_FOR_MAPPING;
-}
-
-static bool has_pipeline(dp_mapping mapping) {
-    return dp_mapping_get(mapping)->curve == DP_CURVE_PERSPECTIVE;
 }
 
 /* The model asked for, or the fullest that there is: what a user can trust. */
@@ -185,7 +201,8 @@ static dp_spec spec_of(const options *o) {
                      .ortho = o->ortho,
                      .rounding = o->rounding,
                      .arith = o->arith,
-                     .log_c = o->log_c};
+                     .log_c = o->log_c,
+                     .triangles = o->triangles};
 }
 
 static int refused(const solve_report *r, const solve_candidate *c, dp_status status) {
@@ -209,12 +226,21 @@ static int add_asked(solve_report *r, solve_result *result) {
             spec.format = o->formats[f];
             spec.mapping = o->mappings[m];
             spec.model = model_of(r, spec.mapping, is_known(o, OPTION_MAPPING));
+            if (setup_undrawn(o, &spec.format) != EXIT_FINE)
+                return EXIT_USAGE;
             solve_candidate *c = add(r, &spec, true);
             const dp_status status = try_candidate(r, c, result);
             if (status != DP_OK)
                 return refused(r, c, status);
         }
     return EXIT_FINE;
+}
+
+/* Whether there is a guarantee of what is asked about. */
+static bool is_covered(const solve_report *r, const dp_spec *spec) {
+    const raster_row *raster = r->o->raster;
+    return spec->triangles.width == 0 ||
+           (has_pipeline(spec->mapping) && (raster == NULL || raster_bounded(raster, &spec->format)));
 }
 
 /* What else there is: the real depth buffers with the mappings that an engine can choose. */
@@ -226,7 +252,8 @@ static void add_others(solve_report *r, solve_result *result) {
             spec.format = dp_format_get(f)->format;
             spec.mapping = mappings[m];
             spec.model = model_of(r, spec.mapping, false);
-            if (listed(r, &spec) || (spec.mapping == DP_MAPPING_D3D && r->o->mappings[0] == DP_MAPPING_GL))
+            if (listed(r, &spec) || !is_covered(r, &spec) ||
+                (spec.mapping == DP_MAPPING_D3D && r->o->mappings[0] == DP_MAPPING_GL))
                 continue;
             if (try_candidate(r, add(r, &spec, false), result) != DP_OK)
                 r->count--;

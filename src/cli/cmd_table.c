@@ -9,6 +9,7 @@
 #include "cli/choice.h"
 #include "cli/compare.h"
 #include "cli/lookup.h"
+#include "cli/per_vertex.h"
 #include "cli/reach.h"
 #include "cli/slant.h"
 #include "cli/walk.h"
@@ -32,6 +33,7 @@ typedef struct row {
     dp_sample sample;
     double binary32;            /* the guaranteed separation; NaN where there is no such pipeline */
     double slanted;             /* the guaranteed one at any slant that is asked for */
+    per_vertex written;         /* what depth written per vertex is off by in such triangles */
     double lattice, guaranteed; /* the separation in the model exact, and in the fullest that there is */
     int depth_digits, stored_digits, cell_digits;
 } row;
@@ -46,16 +48,19 @@ typedef struct guarantee {
 typedef struct table {
     walk walk;
     double lo, hi;
-    way interval; /* without a row, the exact cell */
-    dp_setup exact, full;
+    way interval;                /* without a row, the exact cell */
+    dp_setup setup, exact, full; /* of surfaces that face the camera: as asked for, and in two models */
+    dp_setup slanted;            /* `full` with triangles */
     row row;
     dp_worst worst_case;
     const dp_worst *worst; /* null in a model without cells */
-    guarantee over_range;
-    const dp_triangles *triangles; /* null: surfaces face the camera */
-    const guarantee *guarantee;    /* null where there is none, or none is asked for */
+    guarantee over_range, slanted_over_range;
+    slant_fields slant;
+    const slant_fields *triangles;                  /* null: surfaces face the camera */
+    const guarantee *guarantee, *guarantee_slanted; /* null where there is none, or none is asked for */
     clipping planes;
     const clipping *drawn; /* null where there is no pipeline */
+    per_vertex_worst written;
     choosing choice;
     choice_fields chosen;
 } table;
@@ -84,11 +89,7 @@ static double separation_in(const dp_setup *other, const dp_setup *setup, const 
 
 /* NaN where there is no pipeline, or no slant is asked for. */
 static double slanted_at(const table *t, double z) {
-    dp_budget b = {.separation = (double)NAN};
-    const dp_budget_terms terms = {.triangles = t->triangles};
-    if (t->triangles != NULL && t->full.spec.model == DP_MODEL_FP32)
-        dp_budget_at(&t->full, z, &terms, &b);
-    return b.separation;
+    return t->triangles != NULL && t->full.spec.model == DP_MODEL_FP32 ? dp_separation(&t->slanted, z) : (double)NAN;
 }
 
 static void set_digits(row *r) {
@@ -108,13 +109,15 @@ static void *next_row(void *of, size_t i) {
         choice_fields_of(&t->choice, &t->chosen);
         return NULL;
     }
-    dp_sample_at(t->walk.setup, z, &r->sample); /* cannot fail: depths_resolve() has seen to it */
-    r->lattice = separation_in(&t->exact, t->walk.setup, &r->sample);
-    r->guaranteed = separation_in(&t->full, t->walk.setup, &r->sample);
+    dp_sample_at(&t->setup, z, &r->sample); /* cannot fail: depths_resolve() has seen to it */
+    r->lattice = separation_in(&t->exact, &t->setup, &r->sample);
+    r->guaranteed = separation_in(&t->full, &t->setup, &r->sample);
     r->binary32 = t->full.spec.model == DP_MODEL_FP32 ? r->guaranteed : (double)NAN;
     r->slanted = slanted_at(t, z);
+    r->written = per_vertex_at(&t->setup, z, t->slant.triangles.depth, r->guaranteed); /* no depth of 0 is one */
+    per_vertex_add(&t->written, &r->written, z);
     if (t->interval.row != NULL)
-        r->sample.interval = way_interval(&t->interval, t->walk.setup, z);
+        r->sample.interval = way_interval(&t->interval, &t->setup, z);
     if (t->walk.o->form == FORM_TEXT)
         set_digits(r);
     if (t->walk.o->form != FORM_CSV)
@@ -122,10 +125,9 @@ static void *next_row(void *of, size_t i) {
     return r;
 }
 
-static const guarantee *guarantee_over(table *t) {
-    guarantee *g = &t->over_range;
-    g->model = dp_model_name(t->full.spec.model);
-    return option_given(t->walk.o, OPTION_RANGE) && dp_separation_over(&t->full, t->lo, t->hi, 0.0, &g->worst) == DP_OK
+static const guarantee *guarantee_over(const table *t, const dp_setup *full, guarantee *g) {
+    g->model = dp_model_name(full->spec.model);
+    return option_given(t->walk.o, OPTION_RANGE) && dp_separation_over(full, t->lo, t->hi, 0.0, &g->worst) == DP_OK
                ? g
                : NULL;
 }
@@ -134,11 +136,15 @@ static void *next_setup(void *of, size_t i) {
     table *t = of;
     if (!walk_setup(&t->walk, i))
         return NULL;
-    const dp_setup *setup = t->walk.setup;
+    const dp_setup *setup = &t->setup;
     const options *o = t->walk.o;
+    t->triangles = slant_fields_of(&t->walk.here, &t->slant);
+    t->setup = dp_setup_facing(t->walk.setup);
+    t->slanted = reach_model(t->walk.setup);
     range_resolve(&t->walk.here, &t->lo, &t->hi);
     t->exact = reach_in(setup, DP_MODEL_EXACT);
     t->full = reach_model(setup);
+    t->written = per_vertex_none();
     t->choice = choosing_start(setup, o->tolerance);
     if (option_given(o, OPTION_TOLERANCE))
         t->interval = way_choose(setup, o->tolerance, has_cut_cells(t, setup));
@@ -147,7 +153,9 @@ static void *next_setup(void *of, size_t i) {
     t->worst_case = (dp_worst){0};
     dp_worst_over(setup, t->lo, t->hi, &t->worst_case);
     t->worst = isnan(t->worst_case.error) ? NULL : &t->worst_case;
-    t->guarantee = guarantee_over(t);
+    t->guarantee = guarantee_over(t, &t->full, &t->over_range);
+    const bool has_slanted = t->triangles != NULL && t->slanted.spec.model == DP_MODEL_FP32;
+    t->guarantee_slanted = has_slanted ? guarantee_over(t, &t->slanted, &t->slanted_over_range) : NULL;
     t->planes = clipping_of(setup);
     t->drawn = setup->spec.model == DP_MODEL_FP32 ? &t->planes : NULL;
     return t;
@@ -156,28 +164,33 @@ static void *next_setup(void *of, size_t i) {
 /* ---- Text -------------------------------------------------------------------------------------------------------- */
 
 /* The answer first: how far one can trust the set-up. */
-static void say_reach(page *p, void *item) {
-    const table *t = item;
+static void say_reach_of(page *p, const dp_setup *full, const unit_row *unit, const char *which) {
     char text[REACH_TEXT_SIZE], sentence[REACH_TEXT_SIZE] = "";
-    const unit_row *unit = t->walk.here.unit;
-    walk_title(p, item);
-    slant_title(p, t->triangles, &t->full);
-    if (t->walk.all.count > 1)
-        return;
     double up_to[REACH_LIMITS];
-    reach_of(&t->full, unit, up_to);
+    reach_of(full, unit, up_to);
     /* What is wider than a separation that holds everywhere goes without saying. */
-    for (size_t i = 0; i < REACH_LIMITS && (i == 0 || !(up_to[i - 1] >= t->full.spec.zfar)); i++)
+    for (size_t i = 0; i < REACH_LIMITS && (i == 0 || !(up_to[i - 1] >= full->spec.zfar)); i++)
         if (!isnan(up_to[i]))
             append(sentence, sizeof sentence, "%s %s apart up to %s%s", *sentence != '\0' ? "," : "",
-                   reach_limit_text(i, unit).text, up_to[i] < t->full.spec.zfar ? "z = " : "",
-                   reach_text(t->full.spec.zfar, up_to[i], unit, text));
+                   reach_limit_text(i, unit).text, up_to[i] < full->spec.zfar ? "z = " : "",
+                   reach_text(full->spec.zfar, up_to[i], unit, text));
     if (*sentence != '\0')
-        page_text(p, "Guaranteed to be told apart%s: surfaces%s.", t->triangles != NULL ? ", facing the camera" : "",
-                  sentence);
+        page_text(p, "Guaranteed to be told apart%s: surfaces%s.", which, sentence);
     else
-        page_text(p, "Surfaces %s apart are not guaranteed to be told apart, even at the near plane.",
-                  reach_limit_text(REACH_LIMITS - 1, unit).text);
+        page_text(p, "Surfaces %s apart are not guaranteed to be told apart%s, even at the near plane.",
+                  reach_limit_text(REACH_LIMITS - 1, unit).text, which);
+}
+
+static void say_reach(page *p, void *item) {
+    const table *t = item;
+    const unit_row *unit = t->walk.here.unit;
+    walk_title(p, item);
+    slant_say(p, page_title, &t->walk.here, &t->full);
+    if (t->walk.all.count > 1)
+        return;
+    say_reach_of(p, &t->full, unit, t->triangles != NULL ? ", facing the camera" : "");
+    if (t->triangles != NULL && t->slanted.spec.model == DP_MODEL_FP32)
+        say_reach_of(p, &t->slanted, unit, ", at any slant");
 }
 
 static void say_worst(page *p, const dp_worst *w) {
@@ -221,16 +234,20 @@ static void say_way(page *p, const way *w, double tolerance) {
                   number_of(w->claim, 3).text);
 }
 
+static void say_guarantee(page *p, const guarantee *g, const char *label, const char *what) {
+    if (g != NULL)
+        page_note(p, label, "%s at z = %s, %s", number_in(number_up(g->worst.bound, DIGITS_FEW), p->unit).text,
+                  number_in(number_of(g->worst.z, DIGITS_USUAL), p->unit).text, what);
+}
+
 static void say_notes(page *p, void *item) {
     const table *t = item;
-    const guarantee *g = t->guarantee;
     say_worst(p, t->worst);
-    if (g != NULL)
-        page_note(p, "worst separation", "%s at z = %s, %s",
-                  number_in(number_up(g->worst.bound, DIGITS_FEW), p->unit).text,
-                  number_in(number_of(g->worst.z, DIGITS_USUAL), p->unit).text,
+    say_guarantee(p, t->guarantee, "worst separation",
                   t->full.spec.model == DP_MODEL_FP32 ? "guaranteed in binary32 (model float)" : "in the model staged");
+    say_guarantee(p, t->guarantee_slanted, "at any slant", "of the farther surface");
     say_drawn(p, &t->planes);
+    per_vertex_say(p, &t->written, t->slant.triangles.depth);
     page_line(p, "%s", choice_sentence(&t->choice, p->unit).text);
     if (option_given(t->walk.o, OPTION_TOLERANCE))
         say_way(p, &t->interval, t->walk.o->tolerance);
@@ -238,7 +255,15 @@ static void say_notes(page *p, void *item) {
 
 /* ---- Columns ----------------------------------------------------------------------------------------------------- */
 
-enum { WITH_TOLERANCE = 1, WITH_ARITH = 2, VERBOSE = 4, WITH_PRESETS = 8, WITH_TRIANGLES = 16 };
+enum {
+    WITH_TOLERANCE = 1,
+    WITH_ARITH = 2,
+    VERBOSE = 4,
+    WITH_PRESETS = 8,
+    WITH_TRIANGLES = 16,
+    ONE_CAMERA = 32,
+    PER_VERTEX = 64
+};
 
 static const column row_columns[] = {
     {FIELD(row, sample.z, "z", "scene"), SHOWN("z", 11, DIGITS_Z)},
@@ -260,6 +285,9 @@ static const column row_columns[] = {
     {FIELD(row, guaranteed, "guarantee_facing", "scene"), .when = WITH_TRIANGLES},
     {FIELD(row, slanted, "guarantee_slanted", "scene"), SHOWN("any slant", 11, DIGITS_SHORT), .upward = true,
      .when = WITH_TRIANGLES},
+    {FIELD(row, written.error, "per_vertex", "scene"), SHOWN("per vertex", 11, DIGITS_SHORT), .upward = true,
+     .when = WITH_TRIANGLES | PER_VERTEX},
+    {FIELD(row, written.depth, "per_vertex_depth", ""), .when = WITH_TRIANGLES | PER_VERTEX},
     {TEXT_FIELD(row, sample.lo, "cell from", 18, 0), .digits_at = offsetof(row, cell_digits), .when = VERBOSE},
     {TEXT_FIELD(row, sample.hi, "to", 18, 0), .digits_at = offsetof(row, cell_digits), .when = VERBOSE},
     {.kind = COLUMN_END}};
@@ -290,6 +318,8 @@ static const column drawn_columns[] = {{FIELD(clipping, znear, "near_effective",
 
 static const column setup_report[] = {
     {PART(table, walk.fields, NULL, setup_columns)},
+    {PART(table, triangles, "triangles", slant_columns), .only = AS_JSON, .pointed = true, .optional = true,
+     .when = WITH_PRESETS},
     {FIELD(table, walk.fields.arith, "arith", ""), .only = AS_CSV, .when = WITH_ARITH},
     {FIELD(table, interval.name, "method", ""), .only = AS_JSON, .when = WITH_TOLERANCE},
     {FIELD(table, interval.claim, "claim", ""), .only = AS_JSON, .when = WITH_TOLERANCE},
@@ -299,30 +329,34 @@ static const column setup_report[] = {
     {FIELD(table, walk.fields.unit, "unit", ""), .only = AS_CSV, .when = WITH_PRESETS},
     {PART(table, worst, "worst", worst_columns), .only = AS_JSON, .pointed = true},
     {PART(table, guarantee, "worst_separation", guarantee_columns), .only = AS_JSON, .pointed = true, .optional = true},
+    {PART(table, guarantee_slanted, "worst_separation_slanted", guarantee_columns), .only = AS_JSON, .pointed = true,
+     .optional = true},
     {PART(table, drawn, NULL, drawn_columns), .only = AS_JSON, .pointed = true},
     {PART(table, chosen, "auto", choice_columns), .only = AS_JSON},
     {.kind = COLUMN_END}};
 
-static const column columns[] = {
-    {PART(table, triangles, "triangles", slant_columns), .only = AS_JSON, .pointed = true, .optional = true},
-    {LIST("setups", setup_report, next_setup), .head = say_reach, .notes = say_notes},
-    {.kind = COLUMN_END}};
+static const column columns[] = {{PART(table, triangles, "triangles", slant_columns), .only = AS_JSON, .pointed = true,
+                                  .optional = true, .when = ONE_CAMERA},
+                                 {LIST("setups", setup_report, next_setup), .head = say_reach, .notes = say_notes},
+                                 {.kind = COLUMN_END}};
 
 /* What a table of these set-ups has: the variant of arithmetic only where some set-up has that model. */
 static unsigned conditions(const table *t) {
     unsigned when = (option_given(t->walk.o, OPTION_TOLERANCE) ? WITH_TOLERANCE : 0) |
-                    (t->walk.o->verbose ? VERBOSE : 0) | (t->walk.o->preset_count > 1 ? WITH_PRESETS : 0) |
+                    (t->walk.o->verbose ? VERBOSE : 0) | (t->walk.o->preset_count > 1 ? WITH_PRESETS : ONE_CAMERA) |
                     (t->triangles != NULL ? WITH_TRIANGLES : 0);
-    for (size_t i = 0; i < t->walk.all.count; i++)
-        if (t->walk.all.items[i].spec.model == DP_MODEL_FP32)
-            when |= WITH_ARITH;
+    for (size_t i = 0; i < t->walk.all.count; i++) {
+        when |= t->walk.all.items[i].spec.model == DP_MODEL_FP32 ? WITH_ARITH : 0;
+        when |= per_vertex_matters(&t->walk.all.items[i]) ? PER_VERTEX : 0;
+    }
     return when;
 }
 
 int cmd_table(const options *o) {
     if (lookup_wanted(o))
         return lookup_write(o);
-    table t = {.triangles = o->terms.triangles};
+    table t = {0};
+    t.triangles = slant_fields_of(o, &t.slant);
     int status = walk_start(&t.walk, o);
     for (size_t i = 0; status == EXIT_FINE && walk_setup(&t.walk, i); i++) {
         status = range_resolve(&t.walk.here, &t.lo, &t.hi);

@@ -1,12 +1,15 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* zfight: what fights in the binary32 pipeline, by visiting every depth or, where asked, by a seeded sample. */
 #include <math.h>
-#include <signal.h>
 #include <stdio.h>
 #include <stdlib.h>
 
 #include "census/census.h"
+#include "cli/slant.h"
+#include "cli/stop.h"
 #include "cli/walk.h"
+#include "cli/zfight_against.h"
+#include "cli/zfight_triangles.h"
 #include "report/number.h"
 
 /* A band, or all of them together, and what of it does not exist as NaN. */
@@ -14,6 +17,7 @@ typedef struct band {
     census_band counts;
     double ties, swaps; /* percent of the pairs */
     double longest, used, clipped;
+    double slanted;         /* what is guaranteed at any slant that is asked for */
     char from[NUMBER_SIZE]; /* of text: "all" below the bands */
 } band;
 
@@ -26,6 +30,9 @@ typedef struct zfight {
     double gap, lo, hi;
     double always;   /* of the result: from there on every pair fights; NaN: from nowhere on */
     uint64_t before; /* depths of the set-ups that are finished */
+    slant_fields slant;
+    const slant_fields *triangles; /* null: surfaces face the camera */
+    dp_setup facing;               /* the one at hand, of such surfaces */
     const census_result *result;
     band whole, band;
     int band_index;
@@ -33,16 +40,10 @@ typedef struct zfight {
 
 /* ---- Work, and how it is interrupted ----------------------------------------------------------------------------- */
 
-static volatile sig_atomic_t interrupted;
-
-static void interrupt(int number) {
-    interrupted = number;
-}
-
 static int tick(void *context, uint64_t done) {
     zfight *z = context;
     progress_step(&z->walk.progress, z->before + done);
-    return interrupted != 0;
+    return stop_asked();
 }
 
 static uint64_t visits(const zfight *z) {
@@ -67,7 +68,8 @@ static census_status work(zfight *z, const dp_setup *setup, census_result *resul
 
 static int work_all(zfight *z) {
     for (size_t i = 0; i < z->walk.all.count; i++) {
-        const census_status status = work(z, &z->walk.all.items[i], &z->results[i]);
+        z->facing = dp_setup_facing(&z->walk.all.items[i]);
+        const census_status status = work(z, &z->facing, &z->results[i]);
         if (status == CENSUS_NO_MEMORY)
             return usage_error("no memory for the census");
         if (status != CENSUS_DONE) /* interrupted: what else there is was refused before */
@@ -90,13 +92,21 @@ static bool is_empty(const census_band *b) {
     return b->pairs == 0;
 }
 
+static double slanted_over(const zfight *z, double lo, double hi) {
+    dp_separation_worst worst = {.bound = (double)NAN};
+    if (z->triangles != NULL)
+        dp_separation_over(z->walk.setup, fmax(lo, z->lo), fmin(hi, z->hi), 0.0, &worst);
+    return worst.bound;
+}
+
 static band band_of(const zfight *z, const census_band *b) {
     band out = {.counts = *b,
                 .ties = percent(b->ties, b->pairs),
                 .swaps = percent(b->swaps, b->pairs),
                 .longest = b->longest,
                 .used = b->slack,
-                .clipped = (double)b->clipped};
+                .clipped = (double)b->clipped,
+                .slanted = slanted_over(z, b->lo, b->hi)};
     if (z->walk.o->gap > 0.0)
         out.longest = out.used = (double)NAN;
     if (z->walk.o->gap > 0.0 || z->walk.o->sample > 0) /* a sample would only count those that it drew */
@@ -131,6 +141,7 @@ static void *next_setup(void *of, size_t i) {
     zfight *z = of;
     if (!walk_setup(&z->walk, i))
         return NULL;
+    z->facing = dp_setup_facing(z->walk.setup);
     z->result = &z->results[i];
     z->whole = band_of(z, &z->result->all);
     z->always = always_from(z);
@@ -163,18 +174,21 @@ static void say_neighbours(page *p, const zfight *z) {
         page_line(p, "longest interval %s at z = %s, guaranteed there %s",
                   number_in(number_of(all->longest, DIGITS), p->unit).text,
                   number_in(number_of(all->longest_z, DIGITS), p->unit).text,
-                  number_in(number_up(dp_separation(z->walk.setup, all->longest_z), DIGITS), p->unit).text);
+                  number_in(number_up(dp_separation(&z->facing, all->longest_z), DIGITS), p->unit).text);
 }
 
 static void say_answer(page *p, void *item) {
     const zfight *z = item;
     walk_title(p, item);
+    slant_say(p, page_title, z->walk.o, z->walk.setup);
     (z->gap > 0.0 ? say_gap : say_neighbours)(p, z);
 }
 
 static void say_planes(page *p, void *item) {
     const zfight *z = item;
     const census_result *r = z->result;
+    if (z->triangles != NULL)
+        page_line(p, "the pairs face the camera; --triangles draws slanted ones");
     if (isnan(r->near_effective))
         page_line(p, "clipping loses everything");
     else
@@ -183,11 +197,11 @@ static void say_planes(page *p, void *item) {
                   number_in(number_of(r->far_effective, PLANE_DIGITS), p->unit).text);
 }
 
-enum { WITH_INTERVALS = 1, WITH_CLIPPED = 2, WITH_SAMPLE = 4, WITH_GAP = 8 };
+enum { WITH_INTERVALS = 1, WITH_CLIPPED = 2, WITH_SAMPLE = 4, WITH_GAP = 8, WITH_TRIANGLES = 16 };
 
 static unsigned conditions(const options *o) {
     return (o->gap > 0.0 ? WITH_GAP : WITH_INTERVALS) | (o->sample > 0 ? WITH_SAMPLE : 0) |
-           (o->sample == 0 && o->gap <= 0.0 ? WITH_CLIPPED : 0);
+           (o->sample == 0 && o->gap <= 0.0 ? WITH_CLIPPED : 0) | (o->triangles.width > 0 ? WITH_TRIANGLES : 0);
 }
 
 static const column count_columns[] = {
@@ -201,8 +215,11 @@ static const column count_columns[] = {
     {TEXT_FIELD(band, longest, "longest", 12, DIGITS), .when = WITH_INTERVALS},
     {TEXT_FIELD(band, counts.longest_z, "at", 10, DIGITS), .when = WITH_INTERVALS},
     {FIELD(band, counts.bound, "bound", "scene"), SHOWN("guaranteed", 12, DIGITS), .upward = true},
+    {FIELD(band, counts.bound, "guarantee_facing", "scene"), .when = WITH_TRIANGLES},
+    {FIELD(band, slanted, "guarantee_slanted", "scene"), SHOWN("any slant", 12, DIGITS), .upward = true,
+     .when = WITH_TRIANGLES},
     {FIELD(band, used, "used", "")},
-    {TEXT_FIELD(band, used, "used", 8, 3), .fixed = true, .when = WITH_INTERVALS},
+    {TEXT_FIELD(band, used, "used", 8, 3), .fixed = true, .when = WITH_INTERVALS, .spare = 1},
     {.kind = COLUMN_END}};
 
 static const column band_columns[] = {{FIELD(band, counts.lo, "lo", "scene")},
@@ -240,8 +257,10 @@ static const column setup_report[] = {
     {PART(zfight, result, NULL, plane_columns), .only = AS_CSV, .pointed = true},
     {.kind = COLUMN_END}};
 
-static const column columns[] = {{LIST("setups", setup_report, next_setup), .head = say_answer, .notes = say_planes},
-                                 {.kind = COLUMN_END}};
+static const column columns[] = {
+    {PART(zfight, triangles, "triangles", slant_columns), .only = AS_JSON, .pointed = true, .optional = true},
+    {LIST("setups", setup_report, next_setup), .head = say_answer, .notes = say_planes},
+    {.kind = COLUMN_END}};
 
 /* ---- The command ------------------------------------------------------------------------------------------------- */
 
@@ -282,20 +301,11 @@ static int check(zfight *z) {
 }
 
 static int run(zfight *z) {
-    struct sigaction action = {.sa_handler = interrupt};
-    struct sigaction before;
-    sigemptyset(&action.sa_mask);
-    if (sigaction(SIGINT, NULL, &before) == 0 && before.sa_handler != SIG_IGN)
-        sigaction(SIGINT, &action, NULL);
+    stop_watch();
     z->walk.progress = progress_start("depths", z->walk.all.count * visits(z), z->walk.o->quiet);
     int status = work_all(z);
     progress_end(&z->walk.progress);
-    if (interrupted) {
-        output_abandon(&z->walk.out);
-        fprintf(stderr, "depthprec: interrupted: nothing was written\n");
-        signal(SIGINT, SIG_DFL); /* the shell should see what ended us */
-        raise(SIGINT);
-    }
+    stop_end(&z->walk.out);
     if (status != EXIT_FINE) {
         output_abandon(&z->walk.out);
         return status;
@@ -305,8 +315,31 @@ static int run(zfight *z) {
     return output_close(&z->walk.out);
 }
 
+/* Options that only one kind of question has. */
+static int check_question(const options *o) {
+    static const option_id of_programs[] = {OPTION_PROGRAM, OPTION_VERTICES, OPTION_WORLD};
+    const bool against = option_given(o, OPTION_AGAINST), triangles = option_given(o, OPTION_TRIANGLES);
+    for (size_t i = 0; i < sizeof of_programs / sizeof of_programs[0]; i++)
+        if (option_given(o, of_programs[i]) && !against)
+            return option_error(of_programs[i], "needs --against");
+    for (option_id id = OPTION_FOV; id <= OPTION_TRIANGLE; id++)
+        if (option_given(o, id) && against)
+            return option_error(id, "cannot be combined with --against");
+    if (option_given(o, OPTION_PLANE) && !triangles)
+        return option_error(OPTION_PLANE, "needs --triangles");
+    return against && triangles ? option_error(OPTION_AGAINST, "cannot be combined with --triangles") : EXIT_FINE;
+}
+
 int cmd_zfight(const options *o) {
+    const int refused = check_question(o);
+    if (refused != EXIT_FINE)
+        return refused;
+    if (o->against_count > 0)
+        return zfight_against(o);
+    if (o->drawn)
+        return zfight_triangles(o);
     zfight z = {.walk.o = o, .method = o->sample > 0 ? "sample" : "census", .seed = o->seed, .gap = o->gap};
+    z.triangles = slant_fields_of(o, &z.slant);
     int status = check(&z);
     if (status == EXIT_FINE) {
         z.results = calloc(z.walk.all.count, sizeof *z.results);

@@ -12,6 +12,7 @@
 
 #include "api/cost.h"
 #include "cli/reach.h"
+#include "cli/slant.h"
 #include "core/append.h"
 #include "report/number.h"
 
@@ -22,7 +23,8 @@ enum {
     MIDDLE = REACH_MIDDLE,
     NAMED = 3,
     DIGITS_BOUND = 2,
-    DIGITS_Z = 6
+    DIGITS_Z = 6,
+    DIGITS_FOV = 4
 };
 enum { NAME_WIDTH = 20, COLUMN_WIDTH = 7, BYTES_WIDTH = 3 };
 
@@ -31,7 +33,9 @@ typedef struct compared {
     const dp_setup *setup;
     size_t camera;
     const unit_row *unit; /* of the set-up; null where nothing says it */
-    double znear, zfar;
+    double znear, zfar, fov_y;
+    char raster[32];
+    bool unbounded; /* slanted surfaces, under a mapping that has no guarantee for them */
     cost cost;
     char name[SETUP_LABEL_SIZE];
     double separation[DEPTHS]; /* NaN where the depth is not in the range of the set-up */
@@ -55,13 +59,13 @@ static void measure(const comparison *c, compared *r) {
     const dp_setup full = reach_model(r->setup);
     for (size_t i = 0; i < c->depth_count; i++) {
         const double z = unit_convert(c->depths[i], unit, r->unit);
-        r->separation[i] = z >= full.spec.znear && z <= full.spec.zfar
+        r->separation[i] = z >= full.spec.znear && z <= full.spec.zfar && !r->unbounded
                                ? unit_convert(dp_separation(&full, z), r->unit, unit)
                                : (double)NAN;
     }
     reach_of(&full, r->unit, r->up_to);
     for (size_t i = 0; i < LIMITS; i++)
-        r->up_to[i] = unit_convert(r->up_to[i], r->unit, unit);
+        r->up_to[i] = r->unbounded ? (double)NAN : unit_convert(r->up_to[i], r->unit, unit);
 }
 
 /* As far as it goes, then as close as it comes, then as cheap as it is. */
@@ -104,8 +108,13 @@ static bool to_the_end(const compared *r) {
     return r->up_to[MIDDLE] >= r->zfar;
 }
 
+static const char *at_a_slant(const comparison *c) {
+    return c->walk->o->triangles.width > 0 ? " at any slant" : "";
+}
+
 static void say_farthest(page *p, const comparison *c, const char *limit) {
     const compared *best = c->rows;
+    const char *const slant = at_a_slant(c);
     char names[256] = "", text[REACH_TEXT_SIZE];
     size_t all = 0;
     while (all < c->walk->all.count && to_the_end(&c->rows[all]))
@@ -115,12 +124,13 @@ static void say_farthest(page *p, const comparison *c, const char *limit) {
     if (all > NAMED)
         append(names, sizeof names, " and %zu others", all - NAMED);
     if (isnan(best->up_to[MIDDLE]))
-        page_text(p, "None of these is guaranteed to tell surfaces %s apart, even at the near plane.", limit);
+        page_text(p, "None of these is guaranteed to tell surfaces %s apart%s, even at the near plane.", limit, slant);
     else if (all == 0)
-        page_text(p, "%s goes farthest: it tells surfaces %s apart up to z = %s.", best->name, limit,
+        page_text(p, "%s goes farthest: it tells surfaces %s apart%s up to z = %s.", best->name, limit, slant,
                   reach_text(best->zfar, best->up_to[MIDDLE], c->walk->o->unit, text));
     else
-        page_text(p, "%s tell%s surfaces %s apart all the way to the far plane.", names, all == 1 ? "s" : "", limit);
+        page_text(p, "%s tell%s surfaces %s apart%s all the way to the far plane.", names, all == 1 ? "s" : "", limit,
+                  slant);
 }
 
 /* The row of the same format, reversed with the same range of NDC depth; null where there is none. */
@@ -155,6 +165,7 @@ static void say_reversing(page *p, const comparison *c, const char *limit) {
 static void say_notes(page *p, void *item) {
     const comparison *c = item;
     const number_text limit = reach_limit_text(MIDDLE, c->walk->o->unit);
+    const bool slanted = c->walk->o->triangles.width > 0;
     bool staged = false;
     output_char(p->out, '\n');
     say_farthest(p, c, limit.text);
@@ -162,7 +173,9 @@ static void say_notes(page *p, void *item) {
     for (size_t i = 0; i < c->walk->all.count; i++)
         staged = staged || dp_mapping_get(c->rows[i].setup->spec.mapping)->curve != DP_CURVE_PERSPECTIVE;
     if (staged)
-        page_text(p, "linear and log are judged without the arithmetic of their shader (model staged).");
+        page_text(p, "%s",
+                  slanted ? "linear and log are not affine on the screen: no guarantee at a slant."
+                          : "linear and log are judged without the arithmetic of their shader (model staged).");
     for (size_t i = 0; i < c->walk->all.count; i++)
         if (c->rows[i].cost.buffer == 0) {
             page_text(p, "No API has %s as a depth buffer.", c->rows[i].setup->spec.format.name);
@@ -180,14 +193,19 @@ static void say_cameras(page *p, const comparison *c) {
     if (o->preset_count < 2) {
         page_title(p, "near %s, far %s, %s%s", number_full(o->znear).text, number_full(o->zfar).text,
                    o->ortho ? "orthographic" : "perspective", unit);
+        slant_say(p, page_title, o, NULL);
         return;
     }
     page_title(p, "%zu presets, %s%s", o->preset_count, o->ortho ? "orthographic" : "perspective", unit);
+    slant_say(p, page_title, o, NULL);
     for (size_t k = 0; k < o->preset_count; k++)
         for (size_t i = 0; i < c->walk->all.count; i++)
             if (c->rows[i].camera == k) {
                 append(planes, sizeof planes, "%s%s near %s, far %s", k > 0 ? "; " : "", o->presets[k]->name,
                        number_full(c->rows[i].znear).text, number_full(c->rows[i].zfar).text);
+                if (o->triangles.width > 0)
+                    append(planes, sizeof planes, ", fov %s, %s", number_of(c->rows[i].fov_y, DIGITS_FOV).text,
+                           c->rows[i].raster);
                 break;
             }
     page_text(p, "%s", planes);
@@ -195,13 +213,16 @@ static void say_cameras(page *p, const comparison *c) {
 
 static void say_head(page *p, void *item) {
     static const char *const above_limits[LIMITS + 1] = {"", "to z", "apart up to z", "told apart up to z"};
+    static const char *const above_depths[2][3] = {{"guaranteed separation at z", "guaranteed at z", "guaranteed"},
+                                                   {"guaranteed at any slant, z", "any slant, at z", "any slant"}};
     const comparison *c = item;
     const int width = COLUMN_WIDTH * (int)c->depth_count, limits = c->limit_end - c->limit_begin;
     p->unit = options_unit(c->walk->o);
     say_cameras(p, c);
-    output_format(p->out, "%s%-*s%*s%*s%s\n", p->soft, c->name_width, width > 20 ? "" : "guaranteed", width,
-                  width > 27   ? "guaranteed separation at z"
-                  : width > 20 ? "guaranteed at z"
+    const char *const *words = above_depths[c->walk->o->triangles.width > 0];
+    output_format(p->out, "%s%-*s%*s%*s%s\n", p->soft, c->name_width, width > 20 ? "" : words[2], width,
+                  width > 27   ? words[0]
+                  : width > 20 ? words[1]
                                : "at z",
                   COLUMN_WIDTH * limits, above_limits[limits], p->plain);
 }
@@ -249,22 +270,31 @@ static void write(comparison *c) {
 bool compare_suits(const walk *w) {
     const options *o = w->o;
     return o->form == FORM_TEXT && w->all.count > 1 && !o->full && !o->verbose && !option_given(o, OPTION_MODEL) &&
-           !option_given(o, OPTION_RANGE) && !option_given(o, OPTION_VIEWPORT) && !option_given(o, OPTION_TOLERANCE) &&
+           !option_given(o, OPTION_RANGE) && !option_given(o, OPTION_TOLERANCE) &&
            (!option_given(o, OPTION_AT) || w->at.count <= DEPTHS);
 }
 
 static void add(comparison *c, size_t i) {
     compared *r = &c->rows[i];
     const options *o = c->walk->o;
+    const bool slanted = o->triangles.width > 0;
     walk_setup(c->walk, i);
+    const dp_mapping mapping = c->walk->setup->spec.mapping;
     const char *engine = c->walk->fields.preset;
     *r = (compared){.setup = c->walk->setup,
                     .camera = c->walk->all.cameras[i],
                     .unit = c->walk->here.unit,
                     .znear = unit_convert(c->walk->setup->spec.znear, c->walk->here.unit, o->unit),
                     .zfar = unit_convert(c->walk->setup->spec.zfar, c->walk->here.unit, o->unit),
-                    .cost = cost_of(&c->walk->setup->spec.format, c->walk->setup->spec.mapping)};
+                    .fov_y = c->walk->here.triangles.fov_y,
+                    .unbounded = slanted && dp_mapping_get(mapping)->curve != DP_CURVE_PERSPECTIVE,
+                    .cost = cost_of(&c->walk->setup->spec.format, mapping)};
     char label[SETUP_LABEL_SIZE];
+    const raster_row *raster = c->walk->here.raster;
+    if (raster != NULL)
+        snprintf(r->raster, sizeof r->raster, "%s", raster->name);
+    else
+        snprintf(r->raster, sizeof r->raster, "%d subpixel bits", c->walk->here.triangles.subpixel);
     snprintf(r->name, sizeof r->name, "%s%s%s", engine != NULL ? engine : "", engine != NULL ? " " : "",
              setup_label(r->setup, false, label));
     r->bytes = (uint64_t)r->cost.bytes;

@@ -18,6 +18,7 @@
 #include "texture/packing.h"
 #include "texture/position.h"
 #include "texture/scene.h"
+#include "vertex/compare.h"
 
 bool list_format(size_t index, list_item *item) {
     const dp_format_row *row = dp_format_get(index);
@@ -90,14 +91,17 @@ static bool list_cause(size_t index, list_item *item) {
 }
 
 bool list_preset(size_t index, list_item *item) {
+    static const char *const axes[] = {
+        [PRESET_VERTICAL] = "vertical", [PRESET_HORIZONTAL] = "horizontal", [PRESET_LARGER] = "of the larger side"};
     const preset *row = preset_get(index);
     if (row == NULL)
         return false;
     *item = (list_item){.name = row->name, .note = row->note, .source = row->source, .row = row};
     const bool confirmed = row->unconfirmed[0] == '\0';
-    snprintf(item->bound, sizeof item->bound, "near %s, far %s, %s, %s, scene in %s; checked %s, %s%s",
+    snprintf(item->bound, sizeof item->bound, "near %s, far %s, %s, %s, fov %s %s, %s, scene in %s; checked %s, %s%s",
              number_full(row->znear).text, number_full(row->zfar).text, dp_mapping_get(row->mapping)->name, row->format,
-             row->unit, row->checked, confirmed ? "confirmed" : "not confirmed: ", row->unconfirmed);
+             number_full(row->fov).text, axes[row->axis], row->raster, row->unit, row->checked,
+             confirmed ? "confirmed" : "not confirmed: ", row->unconfirmed);
     return true;
 }
 
@@ -144,6 +148,17 @@ bool list_rasterizer(size_t index, list_item *item) {
            row->plane_bits > 0 ? "snapped too" : "not snapped", anchor->name, e->value, e->box, e->range, e->origin,
            clippings[row->clipping], row->operations);
     return true;
+}
+
+bool list_program(size_t index, list_item *item) {
+    const vertex_program *row = vertex_program_get(index);
+    return row != NULL &&
+           list_fill(item, (list_item){.name = row->name, .note = row->note, .source = row->source, .row = row});
+}
+
+bool list_vertices(size_t index, list_item *item) {
+    const char *name = vertex_spread_name((vertex_spread)index);
+    return name != NULL && list_fill(item, (list_item){.name = name, .note = vertex_spread_note((vertex_spread)index)});
 }
 
 static bool list_encoding(size_t index, list_item *item) {
@@ -263,6 +278,7 @@ static const topic topics[] = {
     {"apis", "what one unit of depth bias is, for bias --api", list_api, .bound = "rule"},
     {"rasterizers", "how rasterizers snap vertices and step depth across triangles", list_rasterizer,
      .bound = "arithmetic"},
+    {"programs", "how a vertex program makes clip coordinates, for zfight --against", list_program, .bound = "bound"},
     {"encodings", "depth and normals in the channels of a texture, and their error bounds", list_encoding,
      .bound = "bound"},
     {"packings", "textures with a depth in several channels, for texture --packing and --pack", list_packing,

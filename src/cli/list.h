@@ -43,6 +43,9 @@ bool list_preset(size_t index, list_item *item);
 bool list_unit(size_t index, list_item *item); /**< of name alone */
 bool list_api(size_t index, list_item *item);
 bool list_rasterizer(size_t index, list_item *item);
+bool list_program(size_t index, list_item *item);
+bool list_vertices(size_t index, list_item *item);
+bool list_filter(size_t index, list_item *item);
 bool list_effect(size_t index, list_item *item);
 bool list_topic(size_t index, list_item *item);
 bool list_figure(size_t index, list_item *item);

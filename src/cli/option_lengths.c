@@ -96,19 +96,28 @@ int parse_far(options *o, const option_row *row, const char *value) {
     return EXIT_FINE;
 }
 
-int parse_origin(options *o, const option_row *row, const char *value) {
+/* Three lengths with a sign in between. */
+static int parse_triple(options *o, const option_row *row, const char *value, const char *sign, double least,
+                        double *out) {
     const char *at = value;
     lengths seen = {.o = o};
     for (int i = 0; i < 3; i++) {
-        const size_t length = strcspn(at, ",");
-        double *x = (double *)option_field(o, row) + i;
-        if (!read_length(&seen, at, length, NUMBER_FINITE, x) || !(*x >= -1e12 && *x <= 1e12) ||
+        const size_t length = strcspn(at, sign);
+        if (!read_length(&seen, at, length, NUMBER_FINITE, &out[i]) || !(out[i] >= least && out[i] <= 1e12) ||
             (at[length] == '\0') != (i == 2))
-            return option_refuse(row, "must be X,Y,Z, each from -1e12 to 1e12, got '%s'%s", value,
-                                 unit_hint(value, strlen(value)));
+            return option_refuse(row, "must be %s, each from %s to 1e12, got '%s'%s", row->argument,
+                                 least > 0.0 ? "1e-12" : "-1e12", value, unit_hint(value, strlen(value)));
         at += length + 1;
     }
     return check_mixed(&seen, row, value);
+}
+
+int parse_origin(options *o, const option_row *row, const char *value) {
+    return parse_triple(o, row, value, ",", -1e12, option_field(o, row));
+}
+
+int parse_light_box(options *o, const option_row *row, const char *value) {
+    return parse_triple(o, row, value, "x", 1e-12, o->light_box);
 }
 
 /* ---- Depths ------------------------------------------------------------------------------------------------------ */

@@ -218,6 +218,49 @@ int parse_presets(options *o, const option_row *row, const char *value) {
     return parse_names(o, row, value, add_preset);
 }
 
+static int add_program(options *o, const option_row *row, const char *name) {
+    list_item found;
+    if (!names_find(row->names, name, NULL, &found))
+        return unknown_name(row, name);
+    for (size_t i = 0; found.row == NULL && vertex_program_get(i) != NULL; i++)
+        add_program(o, row, vertex_program_get(i)->name);
+    for (size_t i = 0; i < o->against_count; i++)
+        if (o->against[i] == found.row)
+            return EXIT_FINE;
+    if (found.row != NULL)
+        o->against[o->against_count++] = found.row; /* there is room for every row */
+    return EXIT_FINE;
+}
+
+int parse_against(options *o, const option_row *row, const char *value) {
+    return parse_names(o, row, value, add_program);
+}
+
+static int add_filter(options *o, const option_row *row, const char *name) {
+    size_t i = 0;
+    list_item item;
+    if (strcmp(name, "all") == 0)
+        o->filters_off = ~0U;
+    while (list_filter(i, &item) && strcmp(item.name, name) != 0)
+        i++;
+    o->filters_off |= 1U << i;
+    return list_filter(i, &item) || strcmp(name, "all") == 0 ? EXIT_FINE : unknown_name(row, name);
+}
+
+int parse_also(options *o, const option_row *row, const char *value) {
+    o->filters_off = 0;
+    return parse_names(o, row, value, add_filter);
+}
+
+/* Surfaces of a model may be in one place. */
+int parse_gap(options *o, const option_row *row, const char *value) {
+    double gap;
+    if (o->verb->bit != VERB_SCENE || !number_parse(value, NUMBER_FINITE, &gap) || gap != 0.0)
+        return parse_length(o, row, value);
+    o->gap = 0.0;
+    return EXIT_FINE;
+}
+
 /* A share, or a percentage with its sign. */
 int parse_tolerance(options *o, const option_row *row, const char *value) {
     const size_t length = strlen(value);
@@ -229,19 +272,22 @@ int parse_tolerance(options *o, const option_row *row, const char *value) {
     return EXIT_FINE;
 }
 
-int option_read_sides(const option_row *row, const char *value, unsigned most, unsigned long sides[2]) {
+int option_read_sides(const option_row *row, const char *value, unsigned most, bool square, unsigned long sides[2]) {
     const size_t length = strcspn(value, "x");
+    const char *const height = square ? value : value + length + 1;
     char width[16];
     snprintf(width, sizeof width, "%.*s", (int)length, value);
-    if (length >= sizeof width || value[length] == '\0' || !number_parse_count(width, most, &sides[0]) ||
-        !number_parse_count(value + length + 1, most, &sides[1]) || sides[0] < 1 || sides[1] < 1)
-        return option_refuse(row, "must be WIDTHxHEIGHT, each from 1 to %u pixels, got '%s'", most, value);
+    if (length >= sizeof width || (value[length] == '\0' && !square) || !number_parse_count(width, most, &sides[0]) ||
+        !number_parse_count(height, most, &sides[1]) || sides[0] < 1 || sides[1] < 1)
+        return option_refuse(row, "must be %sWIDTHxHEIGHT, each from 1 to %u pixels, got '%s'", square ? "N or " : "",
+                             most, value);
     return EXIT_FINE;
 }
 
 int parse_size(options *o, const option_row *row, const char *value) {
     unsigned long sides[2];
-    const int status = option_read_sides(row, value, TEXTURE_SIDE_MAX, sides);
+    const bool square = strchr(value, 'x') == NULL && o->verb->bit != VERB_TEXTURE;
+    const int status = option_read_sides(row, value, TEXTURE_SIDE_MAX, square, sides);
     if (status != EXIT_FINE)
         return status;
     if ((uint64_t)sides[0] * sides[1] > TEXTURE_PIXELS_MAX)

@@ -2,6 +2,7 @@
 #include "cli/option_rows.h"
 
 #include "plot/draw.h"
+#include "shadow/shadow.h"
 #include "texture/metric.h"
 
 /* What an option can be called by name. */
@@ -18,6 +19,12 @@ static const name_list models = {.get = list_model_word};
 static const name_list ariths = {.get = list_arith};
 static const name_list compositions = {.get = list_composition};
 static const name_list apis = {.words = (const char *const[]){"all", NULL}, .get = list_api};
+static const name_list programs = {.get = list_program};
+static const name_list programs_or_all = {.words = (const char *const[]){"all", NULL}, .get = list_program};
+static const name_list spreads = {.get = list_vertices};
+static const name_list rasters = {.get = list_rasterizer};
+static const name_list filters_or_all = {.words = (const char *const[]){"all", NULL}, .get = list_filter};
+static const name_list transforms = {.words = (const char *const[]){"exact", "binary32", NULL}};
 static const name_list scenes = {.get = list_scene};
 static const name_list positions = {.words = (const char *const[]){"exact", NULL}, .get = list_position};
 static const name_list normals = {.get = list_normal};
@@ -36,15 +43,20 @@ static const name_list reports = {.words = (const char *const[]){"text", "json",
 enum {
     MODELLED = VERB_TABLE | VERB_PLOT,
     BUDGETED = VERB_BUDGET | VERB_PLOT,
-    SLANTED = VERB_TABLE | VERB_BUDGET,
+    SLANTED = VERB_TABLE | VERB_BUDGET | VERB_SOLVE | VERB_ZFIGHT | VERB_SCENE,
+    DRAWS = VERB_ZFIGHT,
+    SHADOWED = VERB_SHADOW | VERB_PLOT,
+    VIEWED = SLANTED | SHADOWED,
     ASKED = MODELLED | VERB_BUDGET,
     CAMERA = ASKED | VERB_ZFIGHT,
     PLACED = CAMERA | VERB_BENCH,
     TAKEN = VERB_TEXTURE | VERB_BIAS | VERB_SOLVE,
+    PLACING = TAKEN | VERB_SCENE,
+    MAPPED = PLACING | VERB_SHADOW,
     COUNTED = VERB_ZFIGHT,
-    SPREAD = COUNTED | VERB_CHECK | VERB_TEXTURE,
+    SPREAD = COUNTED | VERB_CHECK | VERB_TEXTURE | VERB_SCENE,
     DRAWN = VERB_PLOT | VERB_TEXTURE,
-    WRITTEN = PLACED | TAKEN | VERB_STABILITY | VERB_LIST | VERB_CHECK,
+    WRITTEN = PLACED | MAPPED | VERB_STABILITY | VERB_LIST | VERB_CHECK,
     EVERY = ~0
 };
 
@@ -72,45 +84,54 @@ enum {
 
 /* clang-format off */
 const option_row option_rows[OPTION_COUNT] = {
-    [OPTION_NEAR] = {"near", 'n', "Z", PLACED | TAKEN,
+    [OPTION_NEAR] = {"near", 'n', "Z", PLACED | MAPPED,
         "near plane; with --ortho also 0 or negative", .parse = parse_near, FIELD(double, znear),
         LIMITS(1e-12, 1e12, "scene units"), .standard = "0.1",
         .except = {BUT(VERB_SOLVE, NULL, "what is solved for, or 0.1 where --for names another", NULL),
-                   BUT(VERB_BENCH, "0.1", NULL, "near plane")},
+                   BUT(VERB_BENCH, "0.1", NULL, "near plane"),
+                   BUT(VERB_SHADOW, "0.1", NULL, "near plane of the view")},
         .group = "The camera"},
-    [OPTION_FAR] = {"far", 'f', "Z|inf", PLACED | TAKEN,
+    [OPTION_FAR] = {"far", 'f', "Z|inf", PLACED | MAPPED,
         "far plane, up to 1e18 scene units and at least 1e-6 of near beyond it, or inf",
         parse_far, .standard = "1000",
-        .except = {BUT(VERB_SOLVE, NULL, "inf; solved for where only near is given", NULL)}},
-    [OPTION_FORMAT] = {"format", 'F', "NAME[,NAME...]|all", PLACED | TAKEN,
+        .except = {BUT(VERB_SOLVE, NULL, "inf; solved for where only near is given", NULL),
+                   BUT(VERB_SHADOW, "1000", NULL, "how far the view sees shadows, up to 1e18 scene units and at least "
+                       "1e-6 of near beyond it")}},
+    [OPTION_FORMAT] = {"format", 'F', "NAME[,NAME...]|all", PLACED | MAPPED,
         "depth formats: @, names as the APIs write them, unormN, floatE.M[bB]; all means those of "
         "'depthprec list formats'", parse_formats, .names = &formats, .standard = "all",
         .except = {BUT(VERB_TEXTURE, NULL, "as the image has it; unorm24 with --scene; all with --effect alone", NULL),
                    BUT(VERB_BENCH, NULL, "that of the family's first case", NULL),
                    BUT(VERB_BIAS, "fp32,unorm16,unorm24", "the depth buffers", NULL),
+                   BUT(VERB_SHADOW | VERB_SCENE, "fp32", NULL, NULL),
                    BUT(VERB_SOLVE, NULL, "solved for where near and far are given, else all", NULL)}},
-    [OPTION_MAPPING] = {"mapping", 'm', "NAME[,NAME...]|all", PLACED | TAKEN,
+    [OPTION_MAPPING] = {"mapping", 'm', "NAME[,NAME...]|all", PLACED | MAPPED,
         "mappings: @; all means d3d and reversed",
         parse_mappings, .names = &mappings, .standard = "all",
         .except = {BUT(VERB_TEXTURE, NULL, "as the image has it; d3d with --scene; all with --effect alone", NULL),
                    BUT(VERB_BENCH, NULL, "that of the family's first case", NULL),
                    BUT(VERB_SOLVE, NULL, "solved for where near, far and format are given, else all", NULL),
+                   BUT(VERB_SHADOW, "d3d", NULL, "mappings: " DP_MAPPING_NAMES_PERSPECTIVE
+                       "; all are d3d and reversed"),
+                   BUT(VERB_SCENE, "reversed", NULL, NULL),
                    BUT(VERB_ZFIGHT | VERB_BUDGET, "all", NULL,
-                       "mappings: " DP_MAPPING_NAMES_PERSPECTIVE "; all are d3d and reversed")}},
-    [OPTION_LOG_C] = {"log-c", 0, "C", MODELLED | TAKEN,
+                       "mappings: " DP_MAPPING_NAMES_PERSPECTIVE
+                       "; all are d3d and reversed")}},
+    [OPTION_LOG_C] = {"log-c", 0, "C", MODELLED | PLACING,
         "constant of the log mapping", NUMBER(log_c, 1e-12, 1e12, NULL), .standard = "1"},
     [OPTION_ORTHO] = {"ortho", 0, NULL, CAMERA | TAKEN,
         "orthographic projection; not with linear and log", FLAG(ortho), .without = "perspective",
         .except = {BUT(VERB_ZFIGHT | VERB_BUDGET, NULL, "perspective", "orthographic projection")}},
-    [OPTION_PRESET] = {"preset", 0, "NAME[,NAME...]", CAMERA | TAKEN,
-        "an engine's near, far, mapping and format, for those that are not given: @; table compares "
-        "several; see 'depthprec list presets'", .parse = parse_presets, .names = &presets},
-    [OPTION_UNIT] = {"unit", 0, NULL, PLACED | TAKEN,
+    [OPTION_PRESET] = {"preset", 0, "NAME[,NAME...]", CAMERA | PLACING,
+        "an engine's near, far, mapping and format, for those that are not given, and with --viewport its field of "
+        "view and rasterizer: @; table compares several; see 'depthprec list presets'",
+        .parse = parse_presets, .names = &presets},
+    [OPTION_UNIT] = {"unit", 0, NULL, PLACED | MAPPED,
         "what a scene unit is; presets are converted to it; any length may carry a unit: 10cm",
         .parse = parse_unit, .names = &units, .without = "that of the preset, or m where a length has a unit",
         .except = {BUT(VERB_BENCH, NULL, "m where a length has a unit",
                        "what a scene unit is; any length may carry a unit: 10cm")}},
-    [OPTION_ROUNDING] = {"rounding", 0, NULL, CAMERA | TAKEN,
+    [OPTION_ROUNDING] = {"rounding", 0, NULL, CAMERA | PLACING,
         "how a depth between two codes is rounded: ties upwards in unorm formats and to even in floats, as the APIs "
         "demand; ties to even in both; or towards 0", WORD(rounding, roundings), .standard = "nearest",
         .group = "The arithmetic"},
@@ -120,7 +141,7 @@ const option_row option_rows[OPTION_COUNT] = {
         .except = {BUT(VERB_SOLVE, "float", "the guarantee; staged for an error, and for linear and log", NULL),
                    BUT(VERB_PLOT, "exact", "float in figures of its pipeline", NULL),
                    BUT(VERB_TABLE, "exact", "of several set-ups the fullest that each has", NULL)}},
-    [OPTION_ARITH] = {"arith", 0, "NAME", CAMERA | VERB_SOLVE,
+    [OPTION_ARITH] = {"arith", 0, "NAME", CAMERA | VERB_SOLVE | VERB_SCENE,
         "the binary32 arithmetic: @", WORD(arith, ariths), .standard = "ieee"},
     [OPTION_TOLERANCE] = {"tolerance", 0, "SHARE", ASKED | VERB_BENCH | VERB_LIST,
         "the error allowed, 0.05 or 5%: a model is enough if it neglects no more of the separation; and the "
@@ -140,9 +161,11 @@ const option_row option_rows[OPTION_COUNT] = {
                    BUT(VERB_TABLE, NULL, "nine, log-spaced from near to far, or to 1e6 times near; evenly where near "
                        "is not above 0; of several set-ups powers of ten", NULL)},
         .group = "The depths"},
-    [OPTION_RANGE] = {"range", 0, "LO:HI", MODELLED | VERB_ZFIGHT | VERB_BIAS | VERB_SOLVE,
+    [OPTION_RANGE] = {"range", 0, "LO:HI", MODELLED | VERB_ZFIGHT | VERB_BIAS | VERB_SOLVE | VERB_SHADOW,
         "the depths over which worst cases are taken", parse_range, .without = "near to far",
         .except = {BUT(VERB_SOLVE, NULL, "near to far for a distance, else --at", "the depths at which it must hold"),
+                   BUT(VERB_SHADOW, NULL, "all of the box", "with --light-box: how far along the light what is lit "
+                       "lies, from the front of the box"),
                    BUT(VERB_ZFIGHT, NULL, "near to far; needed where far is inf", "the depths that are visited"),
                    BUT(VERB_PLOT, NULL, "near to far, or to 1e6 times near", "the depths that are shown")}},
     [OPTION_DEPTH] = {"depth", 0, "D[,D...]", VERB_TABLE,
@@ -162,33 +185,69 @@ const option_row option_rows[OPTION_COUNT] = {
     [OPTION_INTERPOLATION] = {"interpolation", 0, "E", BUDGETED,
         "error of a window depth interpolated across a triangle",
         NUMBER(terms.interpolation, 0, 0x1p24, "units of 2^-24"), .standard = "0", .group = "The budget"},
-    [OPTION_WORLD] = {"world", 0, "R", BUDGETED,
+    [OPTION_WORLD] = {"world", 0, "R", BUDGETED | VERB_SHADOW | VERB_ZFIGHT,
         "start from world positions; no coordinate of theirs or of the camera exceeds R",
-        LENGTH(terms.world, 0, 1e18, "scene units"), .standard = "0", .without = "eye depth is given"},
+        LENGTH(terms.world, 0, 1e18, "scene units"), .standard = "0", .without = "eye depth is given",
+        .except = {BUT(VERB_SHADOW, "0", "positions about the middle of the light's box",
+                       "no coordinate of positions exceeds R"),
+                   BUT(VERB_ZFIGHT, "100", NULL, "with --against: no coordinate of a camera exceeds R")}},
     [OPTION_COMPOSITION] = {"composition", 0, NULL, BUDGETED,
         "how they become clip coordinates: by one binary32 matrix of view and projection, multiplied in double and "
         "rounded, or in binary32; or after the camera's position is subtracted in double",
         WORD(terms.composition, compositions), .standard = "once"},
     [OPTION_LINEARIZE] = {"linearize", 0, NULL, BUDGETED,
         "also count the loss of reading eye depth back in a binary32 shader", FLAG(terms.linearize)},
-    [OPTION_FOV] = {"fov", 0, "DEG", SLANTED | VERB_TEXTURE,
+    [OPTION_FOV] = {"fov", 0, "DEG", VIEWED | VERB_TEXTURE,
         "vertical field of view", NUMBER(camera.fov_y, 0.01, 179, "degrees"), .standard = "60", .group = "The view"},
-    [OPTION_HFOV] = {"hfov", 0, "DEG", SLANTED,
+    [OPTION_HFOV] = {"hfov", 0, "DEG", VIEWED | VERB_TEXTURE,
         "horizontal field of view, in place of --fov", NUMBER(fov_x, 0.01, 179, "degrees"), .without = "as --fov says"},
-    [OPTION_VIEWPORT] = {"viewport", 0, "WxH", SLANTED,
+    [OPTION_VIEWPORT] = {"viewport", 0, "WxH", VIEWED,
         "count what a rasterizer does to slanted triangles in a viewport of these pixels; z is then the depth of the "
         "farther surface, and the separation is along the normal",
-        .parse = parse_viewport, .without = "surfaces face the camera"},
-    [OPTION_SUBPIXEL] = {"subpixel", 0, "BITS", SLANTED,
-        "bits of the grid to which a rasterizer moves vertices; Direct3D has 8, Vulkan and OpenGL at least 4",
+        .parse = parse_viewport, .without = "surfaces face the camera",
+        .except = {BUT(VERB_ZFIGHT, NULL, "1920x1080 with --triangles, else surfaces face the camera",
+                       "the pixels of the viewport; without --triangles what is guaranteed at any slant stands beside "
+                       "the census"),
+                   BUT(SHADOWED, "1920x1080", NULL, "pixels of the view, which say how wide it is")}},
+    [OPTION_RASTER] = {"raster", 0, "NAME", VIEWED,
+        "the rasterizer, its subpixel grid and how it sets up depth: @; of the specifications the worst that they "
+        "allow; see 'depthprec list rasterizers'", ROW(raster, rasters),
+        .without = "--subpixel, and a plane anchored at a vertex",
+        .except = {BUT(VERB_ZFIGHT, "llvmpipe", NULL, "with --triangles: the rasterizer that "
+                       "draws: llvmpipe, lavapipe, softpipe or swiftshader")}},
+    [OPTION_SUBPIXEL] = {"subpixel", 0, "BITS", VIEWED,
+        "instead: bits of the grid to which vertices move; Direct3D has 8, Vulkan and OpenGL at least 4; with "
+        "spec-vulkan and spec-gl how many more there are",
         WHOLE(triangles.subpixel, 1, 8, "bits"), .standard = "8"},
     [OPTION_SLANT] = {"slant", 0, "LO:HI", SLANTED,
         "angles of the surfaces' normal to the view axis, degrees; 0 faces the camera, 90 is edge-on",
         .parse = parse_slant, .standard = "0:90"},
-    [OPTION_TRIANGLE] = {"triangle", 0, "depth=K,pixels=P,slim=Q", SLANTED,
+    [OPTION_PLANE] = {"plane", 0, "SLANT,AZIMUTH", DRAWS,
+        "in place of --slant: the angle of the planes' normal to the view axis and where it points on the screen, "
+        "degrees, 0 to the right and 90 up",
+        .parse = parse_plane, .without = "any azimuth"},
+    [OPTION_TRIANGLE] = {"triangle", 0, "depth=K,pixels=P,slim=Q", VIEWED,
         "the triangles: vertices at depths from z/K to K z, at most P pixels wide and high, no slimmer than 1:Q",
         .parse = parse_triangle, .standard = "depth=2,pixels=512,slim=16"},
-    [OPTION_API] = {"api", 0, "NAME", VERB_BIAS,
+    [OPTION_CASCADES] = {"cascades", 0, "N", SHADOWED,
+        "shadow maps that share the view from near to far", WHOLE(cascades, 1, 8, NULL), .standard = "4",
+        .group = "The shadow map"},
+    [OPTION_LAMBDA] = {"lambda", 0, "L", SHADOWED,
+        "how they split it: 0 evenly, 1 logarithmically", NUMBER(lambda, 0, 1, NULL), .standard = "0.5"},
+    [OPTION_LIGHT_BOX] = {"light-box", 0, "WxHxD", SHADOWED,
+        "one shadow map of a box that wide, high and, along the light, deep", .parse = parse_light_box,
+        .without = "cascades of the view"},
+    [OPTION_CASTERS] = {"casters", 0, "Z", SHADOWED,
+        "how far before a cascade, towards the light, things cast shadows on it",
+        LENGTH(casters, 0, 1e12, "scene units"), .standard = "100"},
+    [OPTION_KERNEL] = {"kernel", 0, "N", SHADOWED,
+        "the filter reads NxN texels: 1 nearest, 2 bilinear, 3 and more percentage-closer filtering",
+        WHOLE(kernel, 1, 64, "texels"), .standard = "3"},
+    [OPTION_ANGLE] = {"angle", 0, "DEG", SHADOWED | VERB_SCENE,
+        "receivers up to this angle between their normal and the light are free of acne",
+        NUMBER(angle, 0, SHADOW_SLANT_MAX, "degrees"), .standard = "75",
+        .except = {BUT(VERB_SCENE, "1", NULL, "surfaces whose planes meet at no more than this angle")}},
+    [OPTION_API] = {"api", 0, "NAME", VERB_BIAS | VERB_SHADOW,
         "the API whose rule applies: @; all compares them, each with the call to write",
         ROW(api, apis), .standard = "d3d11",
         .group = "The bias"},
@@ -204,14 +263,39 @@ const option_row option_rows[OPTION_COUNT] = {
     [OPTION_SLOPE] = {"slope", 0, "S", VERB_BIAS,
         "eye depth changes by S from one pixel to the next", LENGTH(slope, 0, 1e12, "scene units per pixel"),
         .standard = "0", .without = "facing the camera"},
-    [OPTION_GAP] = {"gap", 0, "G", COUNTED | VERB_BIAS,
-        "where surfaces G scene units apart tie and swap", POSITIVE(gap), .without = "neighbouring binary32 depths",
-        .except = {BUT(VERB_BIAS, NULL, "told apart", "how much nearer a layer must come, in scene units")},
+    [OPTION_GAP] = {"gap", 0, "G", COUNTED | VERB_BIAS | VERB_SCENE,
+        "where surfaces G scene units apart tie and swap", .parse = parse_gap, FIELD(double, gap),
+        .without = "neighbouring binary32 depths",
+        .except = {BUT(VERB_SCENE, NULL, "what is not told apart within the model's extent, at most 1 % of it",
+                       "surfaces at most G scene units apart; 0: exactly in one plane"),
+                   BUT(VERB_BIAS, NULL, "told apart", "how much nearer a layer must come, in scene units")},
         .group = "Pairs of surfaces"},
     [OPTION_SAMPLE] = {"sample", 0, "N", COUNTED,
-        "draw N pairs at random", WHOLE(sample, 1, 1e12, NULL), .without = "visit every depth"},
+        "draw N pairs at random", WHOLE(sample, 1, 1e12, NULL),
+        .without = "visit every depth; about 500 pairs of planes with --triangles, 1000000 vertices "
+                    "with --against"},
     [OPTION_SEED] = {"seed", 0, "S", COUNTED, /* JSON holds it exactly */
         "seed of --sample: the same pairs for the same seed", WHOLE(seed, 0, 0x1p53, NULL), .standard = "0"},
+    [OPTION_TRIANGLES] = {"triangles", 0, NULL, VERB_ZFIGHT,
+        "draw pairs of slanted planes as random triangles: how near they come before a pixel is wrong, against what "
+        "is guaranteed", FLAG(drawn)},
+    [OPTION_AGAINST] = {"against", 0, "PROGRAM[,PROGRAM...]|all", VERB_ZFIGHT,
+        "send the same vertices through two vertex programs, --program and each of these: @; how many codes differ, "
+        "and what bias makes up for it", .parse = parse_against, .names = &programs_or_all,
+        .group = "Two vertex programs"},
+    [OPTION_PROGRAM] = {"program", 0, "PROGRAM", VERB_ZFIGHT,
+        "what they are compared with", ROW(program, programs), .standard = "once"},
+    [OPTION_VERTICES] = {"vertices", 0, NULL, VERB_ZFIGHT,
+        "how vertices are drawn: eye depth log-uniform over --range, in a round view of 90 degrees; or uniform in the "
+        "box of --world", WORD(vertices, spreads), .standard = "eye-log"},
+    [OPTION_WITHIN] = {"within", 0, "Z", VERB_SCENE,
+        "exit 1 where surfaces can fight nearer than this depth; and the distance that mends it", POSITIVE(within),
+        .without = "the model's extent"},
+    [OPTION_ALSO] = {"also", 0, "NAME[,NAME...]|all", VERB_SCENE,
+        "pairs of triangles that are else left out: @", .parse = parse_also, .names = &filters_or_all},
+    [OPTION_TRANSFORMS] = {"transforms", 0, NULL, VERB_SCENE,
+        "how nodes are placed: exactly, or rounded at each step as an engine does",
+        WORD(transforms, transforms), .standard = "exact"},
     [OPTION_HALF_HEIGHT] = {"half-height", 0, "H", VERB_TEXTURE,
         "with --ortho: half the height of the view", LENGTH(camera.half_height, 1e-12, 1e12, "scene units"),
         .standard = "5", .group = "The depth texture"},
@@ -237,10 +321,10 @@ const option_row option_rows[OPTION_COUNT] = {
         "the camera's position in the last frame", ORIGIN(last.origin), .without = "that of this frame"},
     [OPTION_SCENE] = {"scene", 0, "NAME", VERB_TEXTURE,
         "a synthetic scene in place of FILE: @; 'depthprec list scenes' has their parameters", ROW(scene, scenes)},
-    [OPTION_SIZE] = {"size", 0, "WxH", VERB_TEXTURE,
+    [OPTION_SIZE] = {"size", 0, "WxH|N", VERB_TEXTURE | SHADOWED,
         "the image's pixels: with --scene, with a raw FILE, and with --effect alone if that needs the position",
         parse_size,
-        .standard = "640x360",
+        .standard = "640x360", .except = {BUT(SHADOWED, "2048x2048", NULL, "texels of each shadow map; N is NxN")},
         .instead = "; a figure's size is --width and --height"},
     [OPTION_PARAMETER] = {"parameter", 0, "NAME=VALUE", VERB_TEXTURE,
         "a parameter of the scene or the effect; may be repeated", .parse = parse_parameter},

@@ -13,7 +13,7 @@
 
 struct option_row;
 
-enum { OPTION_EXCEPTIONS = 5 };
+enum { OPTION_EXCEPTIONS = 6 };
 
 /** Reads an argument of the option of that row. @return EXIT_FINE, or EXIT_USAGE after one line on stderr */
 typedef int option_parser(options *o, const struct option_row *row, const char *value);
@@ -63,8 +63,15 @@ const struct option_exception *option_exception_of(const option_row *row, const 
 /** As option_error(), which knows the rows; the rows know the kinds that call this. @return EXIT_USAGE */
 int option_refuse(const option_row *row, const char *format, ...) __attribute__((format(printf, 2, 3)));
 
-/** Reads WIDTHxHEIGHT, each from 1 to `most`. @return an exit status, after one line on stderr */
-int option_read_sides(const option_row *row, const char *value, unsigned most, unsigned long sides[2]);
+/** Reads WIDTHxHEIGHT, each from 1 to `most`, or N for both where `square`. @return an exit status, after one line on
+ *  stderr */
+int option_read_sides(const option_row *row, const char *value, unsigned most, bool square, unsigned long sides[2]);
+
+/** What the options of slanted triangles say together; without --viewport surfaces face the camera. @return as above */
+int slant_complete(options *o);
+
+/** With --viewport: a preset's field of view and rasterizer, where none were given. */
+void slant_take_preset(options *o, const preset *p);
 
 /** The field of a row. */
 void *option_field(options *o, const option_row *row);
@@ -87,7 +94,7 @@ option_parser parse_pixels; /**< the same, pairs of them with a semicolon in bet
 
 option_parser parse_unit, parse_presets, parse_near, parse_far, parse_formats, parse_mappings, parse_tolerance,
     parse_at, parse_range, parse_origin, parse_error_map;
-option_parser parse_size, parse_parameter, parse_form;
-option_parser parse_viewport, parse_slant, parse_triangle;
+option_parser parse_size, parse_parameter, parse_form, parse_against, parse_gap, parse_also;
+option_parser parse_viewport, parse_slant, parse_plane, parse_triangle, parse_light_box;
 
 #endif

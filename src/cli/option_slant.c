@@ -9,7 +9,7 @@ enum { VIEWPORT_MAX = 32768 };
 
 int parse_viewport(options *o, const option_row *row, const char *value) {
     unsigned long sides[2];
-    const int status = option_read_sides(row, value, VIEWPORT_MAX, sides);
+    const int status = option_read_sides(row, value, VIEWPORT_MAX, false, sides);
     if (status != EXIT_FINE)
         return status;
     o->triangles.width = (int)sides[0];
@@ -25,6 +25,18 @@ int parse_slant(options *o, const option_row *row, const char *value) {
         return option_refuse(row, "must be LO:HI, from 0 to 90 degrees, got '%s'", value);
     o->triangles.slant_lo = lo;
     o->triangles.slant_hi = hi;
+    return EXIT_FINE;
+}
+
+int parse_plane(options *o, const option_row *row, const char *value) {
+    const size_t split = strcspn(value, ",");
+    double slant, azimuth;
+    if (value[split] == '\0' || !number_parse_part(value, split, NUMBER_FINITE, &slant) ||
+        !number_parse(value + split + 1, NUMBER_FINITE, &azimuth) || !(slant >= 0.0 && slant <= 90.0) ||
+        !(azimuth >= -360.0 && azimuth <= 360.0))
+        return option_refuse(row, "must be SLANT,AZIMUTH, from 0 to 90 and from -360 to 360 degrees, got '%s'", value);
+    o->triangles.slant_lo = o->triangles.slant_hi = slant;
+    o->azimuth = azimuth;
     return EXIT_FINE;
 }
 

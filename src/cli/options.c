@@ -33,7 +33,7 @@ int option_error(option_id id, const char *format, ...) {
 }
 
 static void set_defaults(options *o) {
-    *o = (options){.target = SOLVE_FOR_ANY, .triangles = dp_triangles_default()};
+    *o = (options){.target = SOLVE_FOR_ANY, .triangles = dp_triangles_default(), .azimuth = (double)NAN};
     for (int id = 0; id < OPTION_COUNT; id++)
         if (option_rows[id].standard != NULL)
             option_rows[id].parse(o, &option_rows[id], option_rows[id].standard);
@@ -154,6 +154,7 @@ static void take_preset(options *o, const preset *p) {
         parse_formats(o, &option_rows[OPTION_FORMAT], p->format);
     if (!option_given(o, OPTION_MAPPING))
         parse_mappings(o, &option_rows[OPTION_MAPPING], dp_mapping_get(p->mapping)->name);
+    slant_take_preset(o, p);
 }
 
 void options_of(const options *o, size_t camera, options *out) {
@@ -174,31 +175,6 @@ void options_of(const options *o, size_t camera, options *out) {
     take_preset(out, p);
 }
 
-/* Slanted triangles: without --viewport surfaces face the camera. Then the vertical field of view. */
-static int complete_slant(options *o) {
-    static const option_id beside[] = {OPTION_FOV, OPTION_HFOV, OPTION_SUBPIXEL, OPTION_SLANT, OPTION_TRIANGLE};
-    dp_triangles *t = &o->triangles;
-    if ((o->verb->bit & option_rows[OPTION_VIEWPORT].commands) == 0)
-        return EXIT_FINE;
-    for (size_t i = 0; i < sizeof beside / sizeof beside[0]; i++)
-        if (option_given(o, beside[i]) && !option_given(o, OPTION_VIEWPORT))
-            return option_error(beside[i], "needs --viewport: surfaces face the camera");
-    if (!option_given(o, OPTION_VIEWPORT))
-        return EXIT_FINE;
-    if (option_given(o, OPTION_FOV) && option_given(o, OPTION_HFOV))
-        return option_error(OPTION_HFOV, "cannot be combined with --fov");
-    if (o->ortho)
-        return option_error(OPTION_VIEWPORT, "does not apply with --ortho");
-    if (o->terms.world > 0.0)
-        return option_error(OPTION_VIEWPORT, "cannot be combined with --world");
-    t->fov_y = option_given(o, OPTION_HFOV) ? dp_fov_vertical(o->fov_x, t->width, t->height) : o->camera.fov_y;
-    if (dp_triangles_check(t) != DP_OK) /* all else is in its range */
-        return option_error(OPTION_HFOV, "makes a vertical angle of %s degrees, which must be from 0.001 to 179.9",
-                            number_of(t->fov_y, 6).text);
-    o->terms.triangles = t;
-    return EXIT_FINE;
-}
-
 /* What follows from other options. */
 static int complete(options *o) {
     o->model_auto = o->model == DP_MODEL_COUNT;
@@ -210,9 +186,10 @@ static int complete(options *o) {
                                 o->presets[i]->unit);
     if (o->preset_count > 1 && o->verb->bit != VERB_TABLE)
         return option_error(OPTION_PRESET, "must be one preset for %s, got %zu", o->verb->name, o->preset_count);
+    const int status = slant_complete(o);
     if (o->preset_count == 1)
         take_preset(o, o->presets[0]);
-    return complete_slant(o);
+    return status;
 }
 
 /* An orthographic camera may begin at its place or behind it. */

@@ -20,6 +20,7 @@
 #include "cli/errors.h"
 #include "cli/verbs.h"
 #include "depthprec/depthprec.h"
+#include "raster/raster.h"
 #include "report/output.h"
 #include "texture/camera.h"
 #include "texture/effect.h"
@@ -27,6 +28,7 @@
 #include "texture/packing.h"
 #include "texture/position.h"
 #include "texture/scene.h"
+#include "vertex/compare.h"
 
 /** The options, in the order in which help lists them. The index of an option's row is its id. */
 typedef enum option_id {
@@ -56,9 +58,17 @@ typedef enum option_id {
     OPTION_FOV,
     OPTION_HFOV,
     OPTION_VIEWPORT,
+    OPTION_RASTER,
     OPTION_SUBPIXEL,
     OPTION_SLANT,
+    OPTION_PLANE,
     OPTION_TRIANGLE,
+    OPTION_CASCADES,
+    OPTION_LAMBDA,
+    OPTION_LIGHT_BOX,
+    OPTION_CASTERS,
+    OPTION_KERNEL,
+    OPTION_ANGLE,
     OPTION_API,
     OPTION_UNITS,
     OPTION_FACTOR,
@@ -67,6 +77,13 @@ typedef enum option_id {
     OPTION_GAP,
     OPTION_SAMPLE,
     OPTION_SEED,
+    OPTION_TRIANGLES,
+    OPTION_AGAINST,
+    OPTION_PROGRAM,
+    OPTION_VERTICES,
+    OPTION_WITHIN,
+    OPTION_ALSO,
+    OPTION_TRANSFORMS,
     OPTION_HALF_HEIGHT,
     OPTION_MATRIX,
     OPTION_YAW,
@@ -168,10 +185,12 @@ typedef struct options {
     solve_target target;                    /**< --for */
     double wanted_separation, wanted_error; /**< positive, scene units; 0 when not given */
 
-    dp_budget_terms terms;  /**< --interpolation, --world, --composition, --linearize; zero when not given. With
-                                 --viewport its triangles point to those of the options that were read */
-    dp_triangles triangles; /**< --viewport, --fov, --hfov, --subpixel, --slant, --triangle */
-    double fov_x;           /**< --hfov, degrees */
+    dp_budget_terms terms;    /**< --interpolation, --world, --composition, --linearize; zero when not given */
+    dp_triangles triangles;   /**< --viewport, --fov, --hfov, --raster, --subpixel, --slant, --triangle; width 0
+                                   without the first */
+    double fov_x;             /**< --hfov, degrees */
+    double azimuth;           /**< --plane, degrees from right to up; NaN when not given */
+    const raster_row *raster; /**< --raster; null when not given */
 
     const unit_row *unit; /**< what a scene unit is; null where nothing says it: lengths are converted already */
     const preset *presets[OPTIONS_PRESETS_MAX]; /**< --preset, in the order given, each once */
@@ -181,10 +200,25 @@ typedef struct options {
     double clamp;         /**< of a bias, window depth; 0 is none */
     double slope;         /**< scene units per pixel, not negative */
 
-    double gap;      /**< scene units; 0 when not given */
-    uint64_t sample; /**< pairs to draw; 0 when not given */
+    double gap;           /**< scene units; 0 when not given */
+    double within;        /**< eye depth; 0 when not given */
+    unsigned transforms;  /**< of a model's nodes: a model_transforms */
+    unsigned filters_off; /**< of a model's pairs: 1 << finder_filter, or-ed */
+    uint64_t sample;      /**< pairs to draw; 0 when not given */
     uint64_t seed;
-    int threads; /**< 0 when not given: as many as there are cores */
+    const vertex_program *against[VERTEX_OTHERS]; /**< in the order given, each once */
+    size_t against_count;                         /**< 0: --against was not given */
+    const vertex_program *program;                /**< what they are compared with */
+    unsigned vertices;                            /**< how they are drawn: a vertex_spread */
+    bool drawn;                                   /**< --triangles: the surfaces are drawn */
+    int threads;                                  /**< 0 when not given: as many as there are cores */
+
+    unsigned cascades;   /**< of a shadow map */
+    double lambda;       /**< of their split: 0 even, 1 logarithmic */
+    double light_box[3]; /**< width, height, depth, scene units; 0 when not given */
+    double casters;      /**< scene units */
+    unsigned kernel;     /**< the filter reads so many texels in either direction */
+    double angle;        /**< of a receiver's normal to the light, degrees */
 
     camera_spec camera;     /**< --size, --fov, --half-height, --yaw, --pitch, --origin */
     const char *matrix;     /**< file of a projection matrix, which then says the planes and the field of view */
@@ -238,6 +272,10 @@ static inline size_t options_cameras(const options *o) {
  * --unit was not given; as they are where there are not several.
  */
 void options_of(const options *o, size_t camera, options *out);
+
+/** The vertical field of view, degrees, as --fov or --hfov says it of so many pixels. @return EXIT_FINE, or EXIT_USAGE
+ * after one line on stderr */
+int view_vertical(const options *o, int width, int height, double *fov_y);
 
 /** Opens what --output names, as wide as --full makes it, as --color wants it dressed. @return EXIT_FINE, or EXIT_IO
  * after one line on stderr */

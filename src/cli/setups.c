@@ -27,6 +27,15 @@ int setup_refused(const options *o, const dp_spec *spec, dp_status status) {
                         number_full(spec->zfar).text);
 }
 
+int setup_undrawn(const options *o, const dp_format *format) {
+    if (o->raster == NULL || raster_bounded(o->raster, format))
+        return EXIT_FINE;
+    return option_error(OPTION_RASTER,
+                        "%s steps the codes of %s from pixel to pixel, which has no bound: name other formats with "
+                        "--format",
+                        o->raster->name, format->name);
+}
+
 static int add_setups(const options *o, size_t camera, setups *out) {
     dp_spec spec = {.znear = o->znear,
                     .zfar = o->zfar,
@@ -34,11 +43,14 @@ static int add_setups(const options *o, size_t camera, setups *out) {
                     .rounding = o->rounding,
                     .model = o->model,
                     .arith = o->arith,
-                    .log_c = o->log_c};
+                    .log_c = o->log_c,
+                    .triangles = o->triangles};
     for (size_t f = 0; f < o->format_count; f++)
         for (size_t m = 0; m < o->mapping_count; m++) {
             spec.format = o->formats[f];
             spec.mapping = o->mappings[m];
+            if (setup_undrawn(o, &spec.format) != EXIT_FINE)
+                return EXIT_USAGE;
             out->cameras[out->count] = camera;
             const dp_status status = dp_setup_init(&out->items[out->count++], &spec);
             if (status != DP_OK)

@@ -28,6 +28,9 @@ void setups_release(setups *s);
  */
 int setup_refused(const options *o, const dp_spec *spec, dp_status status);
 
+/** The same where the rasterizer that was named draws a format without a bound. @return EXIT_FINE or EXIT_USAGE */
+int setup_undrawn(const options *o, const dp_format *format);
+
 /** The room that setup_label() needs, with the terminating null. */
 enum { SETUP_LABEL_SIZE = 160 };
 

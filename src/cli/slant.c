@@ -1,32 +1,62 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "cli/slant.h"
 
+#include <stdio.h>
+
+#include "core/append.h"
 #include "report/number.h"
 
 enum { DIGITS = 4 };
 
-void slant_title(page *p, const dp_triangles *t, const dp_setup *setup) {
-    if (t == NULL)
-        return;
-    if (setup->spec.model != DP_MODEL_FP32) {
-        page_title(p, "%s is not affine on the screen: no guarantee at a slant",
-                   dp_mapping_get(setup->spec.mapping)->name);
-        return;
-    }
-    page_title(p, "viewport %dx%d, fov %s, %d subpixel bits, slant %s to %s degrees", t->width, t->height,
-               number_of(t->fov_y, DIGITS).text, t->subpixel, number_full(t->slant_lo).text,
-               number_full(t->slant_hi).text);
-    page_title(p, "triangles from z/%s to %s z, at most %s pixels, no slimmer than 1:%s", number_full(t->depth).text,
-               number_full(t->depth).text, number_full(t->pixels).text, number_full(t->slim).text);
+/* Its grid and how it sets up depth. */
+static void say_rasterizer(page *p, slant_line *line, const raster_row *row, int bits) {
+    const dp_anchor_row *anchor = dp_anchor_get(row->anchor);
+    char grid[64];
+    if (bits == 0)
+        snprintf(grid, sizeof grid, "depth from unsnapped vertices");
+    else
+        snprintf(grid, sizeof grid, "%s%d subpixel bits", row->at_least ? "at least " : "", bits);
+    line(p, "%s: %s, %s%s", row->name, grid, anchor != NULL ? "anchor " : "any anchor: the worst is counted",
+         anchor != NULL ? anchor->name : "");
 }
 
-const column slant_columns[] = {{FIELD(dp_triangles, width, "width", "")},
-                                {FIELD(dp_triangles, height, "height", "")},
-                                {FIELD(dp_triangles, fov_y, "fov", "degrees")},
-                                {FIELD(dp_triangles, subpixel, "subpixel", "")},
-                                {FIELD(dp_triangles, slant_lo, "slant_lo", "degrees")},
-                                {FIELD(dp_triangles, slant_hi, "slant_hi", "degrees")},
-                                {FIELD(dp_triangles, depth, "depth", "")},
-                                {FIELD(dp_triangles, pixels, "pixels", "")},
-                                {FIELD(dp_triangles, slim, "slim", "")},
+void slant_say(page *p, slant_line *line, const options *o, const dp_setup *setup) {
+    const dp_triangles *t = &o->triangles;
+    const bool theirs = setup == NULL && o->preset_count > 1; /* each has its own view and rasterizer */
+    char view[64] = "";
+    if (t->width == 0)
+        return;
+    if (setup != NULL && setup->spec.model != DP_MODEL_FP32) {
+        line(p, "%s is not affine on the screen: no guarantee at a slant", dp_mapping_get(setup->spec.mapping)->name);
+        return;
+    }
+    if (!theirs)
+        append(view, sizeof view, " fov %s,", number_of(t->fov_y, DIGITS).text);
+    if (!theirs && o->raster == NULL)
+        append(view, sizeof view, " %d subpixel bits,", t->subpixel);
+    line(p, "viewport %dx%d,%s slant %s to %s degrees", t->width, t->height, view, number_full(t->slant_lo).text,
+         number_full(t->slant_hi).text);
+    if (!theirs && o->raster != NULL)
+        say_rasterizer(p, line, o->raster, t->subpixel);
+    line(p, "triangles from z/%s to %s z, at most %s pixels, no slimmer than 1:%s", number_full(t->depth).text,
+         number_full(t->depth).text, number_full(t->pixels).text, number_full(t->slim).text);
+}
+
+const slant_fields *slant_fields_of(const options *o, slant_fields *out) {
+    if (o->triangles.width == 0)
+        return NULL;
+    *out = (slant_fields){o->triangles, o->raster != NULL ? o->raster->name : NULL};
+    return out;
+}
+
+const column slant_columns[] = {{FIELD(slant_fields, triangles.width, "width", "")},
+                                {FIELD(slant_fields, triangles.height, "height", "")},
+                                {FIELD(slant_fields, triangles.fov_y, "fov", "degrees")},
+                                {FIELD(slant_fields, raster, "raster", "")},
+                                {FIELD(slant_fields, triangles.subpixel, "subpixel", "")},
+                                {FIELD(slant_fields, triangles.slant_lo, "slant_lo", "degrees")},
+                                {FIELD(slant_fields, triangles.slant_hi, "slant_hi", "degrees")},
+                                {FIELD(slant_fields, triangles.depth, "depth", "")},
+                                {FIELD(slant_fields, triangles.pixels, "pixels", "")},
+                                {FIELD(slant_fields, triangles.slim, "slim", "")},
                                 {.kind = COLUMN_END}};

@@ -3,13 +3,27 @@
 #ifndef CLI_SLANT_H
 #define CLI_SLANT_H
 
-#include "depthprec/depthprec.h"
+#include "cli/options.h"
 #include "report/report.h"
 
-/** What text says above a set-up: view, grid and class, or why there is no guarantee; nothing of null. */
-void slant_title(page *p, const dp_triangles *triangles, const dp_setup *setup);
+/** What JSON says of them. */
+typedef struct slant_fields {
+    dp_triangles triangles;
+    const char *raster; /**< null when none was named */
+} slant_fields;
 
-/** Of a dp_triangles, in JSON. */
 extern const column slant_columns[];
+
+/** Of options that have a viewport; null of others. @return out */
+const slant_fields *slant_fields_of(const options *o, slant_fields *out);
+
+/** page_title() or page_line(). */
+typedef void slant_line(page *p, const char *format, ...) __attribute__((format(printf, 2, 3)));
+
+/**
+ * What text says above a set-up, or above several where it is null: view, grid and class, or why there is no guarantee;
+ * nothing without a viewport.
+ */
+void slant_say(page *p, slant_line *line, const options *o, const dp_setup *setup);
 
 #endif

@@ -4,6 +4,7 @@
 #include <string.h>
 
 #include "cli/setups.h"
+#include "cli/slant.h"
 #include "cli/solve_report.h"
 
 /* What was found about a candidate; parts that are not asked for or do not exist are null. */
@@ -11,7 +12,7 @@ typedef struct candidate {
     solve_candidate found;
     setup_fields setup;
     const char *model; /* as text calls it: a format is called fp32, too */
-    double separation_fp32;
+    double separation_fp32, slanted;
     const plane_answer *plane;                /* where one was found */
     const double *lattice_near, *lattice_far; /* where it was solved for */
     double distance, lattice_distance;        /* NaN where it does not hold at all */
@@ -23,7 +24,9 @@ typedef struct candidate {
 typedef struct solving {
     solve_report report;
     const char *target, *measure;
-    dp_setup setup; /* of the candidate: the answer, or the one at hand */
+    slant_fields slant;
+    const slant_fields *triangles; /* null: surfaces face the camera */
+    dp_setup setup;                /* of the candidate: the answer, or the one at hand */
     candidate candidate;
 } solving;
 
@@ -31,7 +34,8 @@ static void take_candidate(solving *s, const solve_candidate *c) {
     candidate *x = &s->candidate;
     const bool solved = c->solved && c->possible;
     *x = (candidate){.found = *c,
-                     .separation_fp32 = solve_in_binary32(&s->report, c),
+                     .separation_fp32 = solve_in_binary32(&s->report, c, false),
+                     .slanted = solve_in_binary32(&s->report, c, true),
                      .distance = c->possible ? c->distance.value : (double)NAN,
                      .lattice_distance = c->lattice.possible ? c->lattice.value : (double)NAN,
                      .steady = solved ? c->plane.steady : (double)NAN};
@@ -137,7 +141,7 @@ static void *next_line(void *of, size_t i) {
 
 /* ---- Columns ----------------------------------------------------------------------------------------------------- */
 
-enum { OF_SEPARATION = 1, OF_OTHERS = 2, OF_DISTANCE = 4 };
+enum { OF_SEPARATION = 1, OF_OTHERS = 2, OF_DISTANCE = 4, WITH_TRIANGLES = 8 };
 
 static const column plane_columns[] = {{FIELD(plane_answer, until, "until", "scene")},
                                        {FIELD(plane_answer, steady, "steady", "scene")},
@@ -150,22 +154,25 @@ static const column plane_columns[] = {{FIELD(plane_answer, until, "until", "sce
 static const column island_columns[] = {
     {FIELD(solve_island, lo, "lo", "scene")}, {FIELD(solve_island, hi, "hi", "scene")}, {.kind = COLUMN_END}};
 
-static const column line_columns[] = {{FIELD(solving, candidate.role, "role", "")},
-                                      {PART(solving, candidate.setup, NULL, setup_columns)},
-                                      {FIELD(solving, target, "for", "")},
-                                      {FIELD(solving, candidate.found.possible, "possible", "")},
-                                      {FIELD(solving, measure, "measure", "")},
-                                      {FIELD(solving, report.limit, "limit", "scene")},
-                                      {FIELD(solving, candidate.found.reached.value, "value", "scene")},
-                                      {FIELD(solving, candidate.found.reached.z, "z", "scene")},
-                                      {FIELD(solving, candidate.from, "from", "scene")},
-                                      {FIELD(solving, candidate.to, "to", "scene")},
-                                      {FIELD(solving, candidate.found.price.bytes, "bytes", "")},
-                                      {FIELD(solving, candidate.found.price.available, "available", "")},
-                                      {FIELD(solving, candidate.steady, "steady", "scene")},
-                                      {FIELD(solving, candidate.found.lattice.value, "lattice", "scene")},
-                                      {FIELD(solving, candidate.found.lattice.reached.value, "lattice value", "scene")},
-                                      {.kind = COLUMN_END}};
+static const column line_columns[] = {
+    {FIELD(solving, candidate.role, "role", "")},
+    {PART(solving, candidate.setup, NULL, setup_columns)},
+    {FIELD(solving, target, "for", "")},
+    {FIELD(solving, candidate.found.possible, "possible", "")},
+    {FIELD(solving, measure, "measure", "")},
+    {FIELD(solving, report.limit, "limit", "scene")},
+    {FIELD(solving, candidate.found.reached.value, "value", "scene")},
+    {FIELD(solving, candidate.found.reached.z, "z", "scene")},
+    {FIELD(solving, candidate.from, "from", "scene")},
+    {FIELD(solving, candidate.to, "to", "scene")},
+    {FIELD(solving, candidate.found.price.bytes, "bytes", "")},
+    {FIELD(solving, candidate.found.price.available, "available", "")},
+    {FIELD(solving, candidate.steady, "steady", "scene")},
+    {FIELD(solving, candidate.found.lattice.value, "lattice", "scene")},
+    {FIELD(solving, candidate.found.lattice.reached.value, "lattice value", "scene")},
+    {FIELD(solving, candidate.separation_fp32, "guarantee_facing", "scene"), .when = WITH_TRIANGLES},
+    {FIELD(solving, candidate.slanted, "guarantee_slanted", "scene"), .when = WITH_TRIANGLES},
+    {.kind = COLUMN_END}};
 
 static const column again_columns[] = {
     {FIELD(distance_span, lo, "lo", "scene")}, {FIELD(distance_span, hi, "hi", "scene")}, {.kind = COLUMN_END}};
@@ -179,7 +186,8 @@ void solve_report_write(const solve_report *r, output *out) {
     static const char *const heads[] = {"least near", "largest far", "near", "near", "", "distance"};
     solving s = {.report = *r, .target = option_word(OPTION_FOR, r->target), .measure = solve_measure_name(r)};
     const unsigned when = (r->target == SOLVE_FOR_SEPARATION ? OF_SEPARATION : OF_OTHERS) |
-                          (r->target == SOLVE_FOR_DISTANCE ? OF_DISTANCE : 0);
+                          (r->target == SOLVE_FOR_DISTANCE ? OF_DISTANCE : 0) |
+                          (r->o->triangles.width > 0 ? WITH_TRIANGLES : 0);
     const column lattice[] = {{FIELD(candidate, found.lattice.possible, "possible", "")},
                               {FIELD(candidate, lattice_near, "near", "scene"), .optional = true},
                               {FIELD(candidate, lattice_far, "far", "scene"), .optional = true},
@@ -192,6 +200,8 @@ void solve_report_write(const solve_report *r, output *out) {
                             {FIELD(candidate, found.reached.value, s.measure, "scene")},
                             {FIELD(candidate, found.reached.z, "z", "scene")},
                             {FIELD(candidate, separation_fp32, "separation_fp32", "scene")},
+                            {FIELD(candidate, separation_fp32, "guarantee_facing", "scene"), .when = WITH_TRIANGLES},
+                            {FIELD(candidate, slanted, "guarantee_slanted", "scene"), .when = WITH_TRIANGLES},
                             {PART(candidate, plane, NULL, plane_columns), .pointed = true},
                             {FIELD(candidate, distance, "distance", "scene"), .when = OF_DISTANCE},
                             {FIELD(candidate, found.distance.throughout, "throughout", ""), .when = OF_DISTANCE},
@@ -220,6 +230,7 @@ void solve_report_write(const solve_report *r, output *out) {
         {FIELD(solving, report.lo, "lo", "scene"), .only = AS_JSON},
         {FIELD(solving, report.hi, "hi", "scene"), .only = AS_JSON},
         {FIELD(solving, candidate.found.possible, "possible", ""), .only = AS_JSON},
+        {PART(solving, triangles, "triangles", slant_columns), .only = AS_JSON, .pointed = true, .optional = true},
         {PART(solving, candidate, "answer", about), .only = AS_JSON},
         {PART(solving, report.fight, "fight", fight_columns), .only = AS_JSON, .when = OF_DISTANCE},
         {LIST("again", again_columns, next_again), .only = AS_JSON, .when = OF_DISTANCE},
@@ -229,6 +240,7 @@ void solve_report_write(const solve_report *r, output *out) {
         {LIST(NULL, line_columns, next_line), .only = AS_CSV},
         {.kind = COLUMN_END}};
     const report_spec spec = {"solve", columns, &s, .when = when, .label = 15, .head = solve_report_answer};
+    s.triangles = slant_fields_of(r->o, &s.slant);
     take_candidate(&s, &r->items[0]);
     report_write(&spec, out, r->o->form);
 }

@@ -5,6 +5,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "cli/slant.h"
 #include "cli/solve_report.h"
 #include "core/append.h"
 
@@ -12,10 +13,13 @@ const char *solve_measure_name(const solve_report *r) {
     return r->kind == MEASURE_ERROR ? "error" : "separation";
 }
 
-double solve_in_binary32(const solve_report *r, const solve_candidate *c) {
+double solve_in_binary32(const solve_report *r, const solve_candidate *c, bool slanted) {
+    dp_spec spec = c->spec;
     dp_setup setup;
     dp_budget budget;
-    return r->kind == MEASURE_SEPARATION && dp_setup_init(&setup, &c->spec) == DP_OK &&
+    if (!slanted)
+        spec.triangles.width = 0;
+    return r->kind == MEASURE_SEPARATION && dp_setup_init(&setup, &spec) == DP_OK &&
                    dp_budget_at(&setup, c->reached.z, NULL, &budget) == DP_OK
                ? budget.separation
                : (double)NAN;
@@ -27,6 +31,10 @@ enum { DIGITS_MOST = 17, UNITS = 8, ISLANDS_SHOWN = 6, PHRASE_SIZE = 256 };
 typedef struct phrase {
     char text[PHRASE_SIZE];
 } phrase;
+
+static bool is_slanted(const solve_report *r) {
+    return r->o->triangles.width > 0;
+}
 
 static bool is_near(const solve_candidate *c) {
     return c->unknown == SOLVE_NEAR;
@@ -98,7 +106,8 @@ static phrase goal_phrase(const solve_report *r, double value, const char *endin
     if (r->kind == MEASURE_ERROR)
         snprintf(out.text, PHRASE_SIZE, "keep%s the error within %s ", ending, text.text);
     else
-        snprintf(out.text, PHRASE_SIZE, "tell%s surfaces %s apart ", ending, text.text);
+        snprintf(out.text, PHRASE_SIZE, "tell%s surfaces%s %s apart ", ending, is_slanted(r) ? " at any slant" : "",
+                 text.text);
     if (r->lo < r->hi)
         append(out.text, PHRASE_SIZE, "from z = %s to %s", whole(r, r->lo).text, whole(r, r->hi).text);
     else
@@ -136,9 +145,9 @@ static void sentence_of_distance(const solve_report *r, const solve_candidate *c
         [DP_MODEL_FP32] = {"is not guaranteed", "is guaranteed"},
     };
     const distance_answer *d = &c->distance;
-    output_format(out, "%s%s: %s %s %s", c->possible ? "" : "Impossible: ", given_phrase(r, c).text,
+    output_format(out, "%s%s: %s %s%s %s", c->possible ? "" : "Impossible: ", given_phrase(r, c).text,
                   r->kind == MEASURE_ERROR ? "an error within" : "a separation of", whole(r, r->limit).text,
-                  manners[c->spec.model][c->possible]);
+                  is_slanted(r) ? " at any slant" : "", manners[c->spec.model][c->possible]);
     if (c->possible)
         output_format(out, " from z = %s up to z = %s", whole(r, r->lo).text,
                       (d->throughout ? whole(r, d->value) : bound(r, d->value, false)).text);
@@ -260,12 +269,12 @@ static void say_model(const solve_report *r, const solve_candidate *c, page *p) 
     else if (c->spec.model == DP_MODEL_STAGED && chosen)
         more = r->kind == MEASURE_ERROR ? "; model float has no cells, so no error"
                                         : "; model float does not cover this mapping";
-    page_note(p, "model", "%s%s", words[c->spec.model], more);
+    page_note(p, "model", "%s%s%s", words[c->spec.model], more, is_slanted(r) ? ", at any slant" : "");
 }
 
 /* The lattice beside a fuller model, and the guarantee beside the lattice. */
 static void say_beside(const solve_report *r, const solve_candidate *c, page *p) {
-    const double binary32 = solve_in_binary32(r, c);
+    const double binary32 = solve_in_binary32(r, c, false);
     if (r->target == SOLVE_FOR_DISTANCE)
         return;
     if (c->spec.model != DP_MODEL_EXACT) {
@@ -315,6 +324,9 @@ void solve_report_answer(page *p, void *item) {
         snprintf(wanted, sizeof wanted, ", wanted %s", digits(r, r->limit).text);
     page_note(p, solve_measure_name(r), "%s at z = %s%s", up(r, c->reached.value).text, digits(r, c->reached.z).text,
               wanted);
+    if (is_slanted(r))
+        page_note(p, "facing", "%s there", up(r, solve_in_binary32(r, c, false)).text);
     say_model(r, c, p);
     say_beside(r, c, p);
+    slant_say(p, page_line, r->o, &(dp_setup){.spec = c->spec});
 }

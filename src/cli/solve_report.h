@@ -85,7 +85,10 @@ static inline double solve_plane_of(const solve_candidate *c) {
     return c->unknown == SOLVE_NEAR ? c->spec.znear : c->spec.zfar;
 }
 
-/** The guarantee of binary32 arithmetic at the depth that is worst; NaN where it has no pipeline, or is not asked. */
-double solve_in_binary32(const solve_report *r, const solve_candidate *c);
+/**
+ * The guarantee of binary32 arithmetic at the depth that is worst, for surfaces that face the camera or at any slant;
+ * NaN where it has no pipeline, or is not asked.
+ */
+double solve_in_binary32(const solve_report *r, const solve_candidate *c, bool slanted);
 
 #endif

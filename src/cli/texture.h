@@ -49,6 +49,7 @@ typedef struct texture_source {
     dp_setup planes;      /**< with --metric: what --near and --far say */
     double parameters[TEXTURE_PARAMETERS];
     texture_matrix matrix;
+    double fov_y; /**< degrees; read where there is no matrix, and no orthographic camera */
     dp_setup setup;
     texture_camera camera, last; /**< last frame's: where an effect needs it */
     frame_normals normals;       /**< where an effect needs them that no scene has */

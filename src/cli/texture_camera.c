@@ -26,8 +26,9 @@ int texture_camera_check(const options *o) {
     const bool looks_back = needs_last_frame(o->effect);
     char names[NAMES_SIZE];
     bool any = false;
-    if (o->ortho && option_given(o, OPTION_FOV))
-        return option_error(OPTION_FOV, "does not apply with --ortho; --half-height does");
+    for (option_id id = OPTION_FOV; id <= OPTION_HFOV; id++)
+        if (o->ortho && option_given(o, id))
+            return option_error(id, "does not apply with --ortho; --half-height does");
     if (!o->ortho && option_given(o, OPTION_HALF_HEIGHT))
         return option_error(OPTION_HALF_HEIGHT, "needs --ortho");
     for (int i = 0; i < LAST_OPTIONS; i++) {

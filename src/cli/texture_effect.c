@@ -78,8 +78,9 @@ static int choose_pixel(table *t, const options *o) {
     t->spec = o->camera;
     t->column = t->spec.width / 2;
     t->line = t->spec.height - 1;
-    if (!option_given(o, OPTION_PIXEL))
-        return EXIT_FINE;
+    const int status = view_vertical(o, (int)t->spec.width, (int)t->spec.height, &t->spec.fov_y);
+    if (status != EXIT_FINE || !option_given(o, OPTION_PIXEL))
+        return status;
     if (o->pixels.count != 2)
         return option_error(OPTION_PIXEL, "must be one pixel with --effect alone, got %zu", o->pixels.count / 2);
     t->column = (uint32_t)depths_get(&o->pixels, 0);

@@ -188,7 +188,7 @@ static void name_all(statistics *r) {
     r->named.step = is_metric && s->metric.step > 0 ? s->metric.step : none;
     r->named.steps = !is_metric && has_steps ? g->steps : none;
     r->named.bits = g->kind == GRAIN_FLOATS ? g->bits : none;
-    r->named.fov = s->camera.ortho ? none : s->matrix.path != NULL ? s->matrix.fov[1] : r->o->camera.fov_y;
+    r->named.fov = s->camera.ortho ? none : s->matrix.path != NULL ? s->matrix.fov[1] : s->fov_y;
     r->named.half_height = s->camera.ortho ? s->camera.half[1] : none;
     r->named.coarser = !is_metric && texture_coarser(s);
     r->named.reversed = s->found.direction ? &answers[s->found.reversed == 1] : NULL;

@@ -292,8 +292,11 @@ static int make_camera(const options *o, texture_source *s) {
         spec.width = s->picture.width;
         spec.height = s->picture.height;
     }
+    if (status == EXIT_FINE)
+        status = view_vertical(o, (int)spec.width, (int)spec.height, &spec.fov_y);
     if (status != EXIT_FINE)
         return status;
+    s->fov_y = spec.fov_y;
     spec.matrix = s->matrix.path != NULL ? &s->matrix.taken : NULL;
     const char *wrong = camera_init(&s->camera, is_metric ? &s->planes : &s->setup, &spec);
     if (wrong != NULL)

@@ -65,6 +65,17 @@ const verb verb_rows[] = {
      "  depthprec bias --api all --gap 0.02 --at 300\n"
      "  depthprec bias --api webgpu -F depth24plus -m d3d --gap 0.01 --range 1:100\n"
      "  depthprec bias --preset bevy --api vulkan --units 4 --factor 1 --slope 0.02\n", 0},
+    {"shadow", VERB_SHADOW, "", 0, 0, NULL,
+     "shadow maps: the bias without acne, and the gap that it opens",
+     "  depthprec shadow -n 0.1 -f 150 --size 2048 --unit m\n"
+     "  depthprec shadow --light-box 40x40x200 -F d16 --kernel 5 --angle 70 --api gl\n"
+     "  depthprec shadow -f 300 --cascades 3 --lambda 0.8 --api all\n"
+     "  depthprec plot shadow -f 150 -o shadow.svg\n", 0},
+    {"scene", VERB_SCENE, "MODEL", 1, 1, NULL,
+     "a model: which surfaces fight, from where on",
+     "  depthprec scene house.glb -n 0.1 -f 500 --unit m\n"
+     "  depthprec scene house.glb --viewport 1920x1080 --within 50\n"
+     "  depthprec scene city.obj -F d24 -m d3d --gap 0.001 --json\n", 1},
     {"list", VERB_LIST, "WHAT", 0, 1, &topics,
      "formats, mappings, presets, methods: 'list' names all",
      "  depthprec list\n"

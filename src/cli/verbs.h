@@ -26,7 +26,9 @@ enum {
     VERB_BENCH = 1u << 9,
     VERB_STABILITY = 1u << 10,
     VERB_TEXTURE = 1u << 11,
-    VERB_COMPLETIONS = 1u << 12
+    VERB_COMPLETIONS = 1u << 12,
+    VERB_SHADOW = 1u << 13,
+    VERB_SCENE = 1u << 14
 };
 
 typedef struct verb {
@@ -47,6 +49,8 @@ extern const size_t verb_count;
 int cmd_table(const struct options *o);
 int cmd_budget(const struct options *o);
 int cmd_bias(const struct options *o);
+int cmd_shadow(const struct options *o);
+int cmd_scene(const struct options *o);
 int cmd_list(const struct options *o);
 int cmd_plot(const struct options *o);
 int cmd_zfight(const struct options *o);

@@ -117,13 +117,15 @@ static void add_composition(const dp_setup *setup, const dp_chain *c, double z, 
 }
 
 /* Slanted triangles; the nearer one may be read back anywhere between its vertices. */
-static void add_triangles(const dp_setup *setup, const dp_chain *c, double z, const dp_budget_terms *terms,
-                          double asked[DP_CAUSE_COUNT], dp_budget *out) {
-    const double nearest = dp_triangles_depths(c, z, terms->triangles).lo;
-    if (terms->linearize)
+static void add_triangles(const dp_setup *setup, const dp_chain *c, double z, double asked[DP_CAUSE_COUNT],
+                          dp_budget *out) {
+    const dp_triangles *t = &setup->spec.triangles;
+    const dp_span at = {z, z};
+    const double nearest = dp_triangles_depths(c, at, t).lo;
+    if (asked[DP_CAUSE_LINEARIZATION] > 0.0)
         asked[DP_CAUSE_LINEARIZATION] =
             larger(asked[DP_CAUSE_LINEARIZATION], 2.0 * linearization_error(setup, c, nearest));
-    dp_triangles_add(c, z, terms->triangles, asked, out);
+    dp_triangles_add(c, at, t, asked, out);
 }
 
 /* What of the terms has no budget. */
@@ -132,9 +134,7 @@ static dp_status check_terms(const dp_setup *setup, const dp_budget_terms *terms
         return DP_OK;
     if (dp_composition_get(terms->composition) == NULL)
         return DP_ERROR_MODEL;
-    if (terms->triangles == NULL)
-        return DP_OK;
-    return setup->spec.ortho || terms->world > 0.0 ? DP_ERROR_TRIANGLES : dp_triangles_check(terms->triangles);
+    return terms->world > 0.0 && setup->spec.triangles.width != 0 ? DP_ERROR_TRIANGLES : DP_OK;
 }
 
 dp_status dp_budget_at(const dp_setup *setup, double z, const dp_budget_terms *terms, dp_budget *out) {
@@ -177,8 +177,8 @@ dp_status dp_budget_at(const dp_setup *setup, double z, const dp_budget_terms *t
     out->cause[DP_CAUSE_FORMAT] += out->separation > pipeline_needs ? out->separation - pipeline_needs : 0.0;
     if (terms != NULL && terms->world > 0.0)
         add_composition(setup, &c, z, terms, extra, out);
-    if (terms != NULL && terms->triangles != NULL)
-        add_triangles(setup, &c, z, terms, part, out);
+    if (setup->spec.triangles.width != 0)
+        add_triangles(setup, &c, z, part, out);
     return DP_OK;
 }
 
@@ -199,7 +199,12 @@ double dp_budget_bound(const dp_setup *setup, float nearest, float farthest) {
     const double step = 2.0 * dp_half_ulp(nearest_to_0);
     const double whole = longest < 0x1p45 * step ? floor(longest / step) * step : longest;
     const double nearest_size = fabs(run.lo); /* the larger one of a negative run */
-    return (dp_eye_rounding(larger(nearest_size, run.hi), larger(nearest_size, run.hi + whole)) + whole) * outward;
+    const double eye = dp_eye_rounding(larger(nearest_size, run.hi), larger(nearest_size, run.hi + whole));
+    static const double asked[DP_CAUSE_COUNT] = {0};
+    dp_budget b = {.separation = (eye + whole) * outward};
+    if (setup->spec.triangles.width != 0)
+        dp_triangles_add(&c, run, &setup->spec.triangles, asked, &b);
+    return b.separation;
 }
 
 dp_status dp_code_range(const dp_setup *setup, double z, uint32_t *lowest, uint32_t *highest) {

@@ -74,8 +74,12 @@ float dp_pipeline_clip(const dp_pipeline *p, float z) {
     return dp_clip_remap(p, dp_clip_project(p, z), clip_w(p, z));
 }
 
+float dp_pipeline_divide(const dp_pipeline *p, float z, float w) {
+    return dp_clip_window(p, dp_clip_remap(p, z, w), w);
+}
+
 float dp_pipeline_window(const dp_pipeline *p, float z) {
-    return dp_clip_window(p, dp_pipeline_clip(p, z), clip_w(p, z));
+    return dp_pipeline_divide(p, dp_clip_project(p, z), clip_w(p, z));
 }
 
 uint32_t dp_pipeline_convert(const dp_pipeline *p, float window) {

@@ -64,11 +64,19 @@ static dp_status check(const dp_spec *spec) {
         {!isinf(spec->zfar) || (row->far_infinite && !spec->ortho), DP_ERROR_INFINITE},
         {spec->model != DP_MODEL_FP32 || row->curve == DP_CURVE_PERSPECTIVE, DP_ERROR_MODEL},
         {row->curve != DP_CURVE_LOG || within(spec->log_c, 1e-12, 1e12), DP_ERROR_LOG_C},
+        {spec->triangles.width == 0 || (!spec->ortho && dp_triangles_check(&spec->triangles) == DP_OK),
+         DP_ERROR_TRIANGLES},
     };
     for (size_t i = 0; i < sizeof rules / sizeof rules[0]; i++)
         if (!rules[i].good)
             return rules[i].status;
     return DP_OK;
+}
+
+dp_setup dp_setup_facing(const dp_setup *setup) {
+    dp_setup facing = *setup;
+    facing.spec.triangles.width = 0;
+    return facing;
 }
 
 dp_status dp_setup_init(dp_setup *setup, const dp_spec *spec) {

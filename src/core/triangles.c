@@ -19,11 +19,11 @@ static const double least_window = 0x1p-60;
 static const dp_anchor_row anchors[DP_ANCHOR_COUNT] = {
     [DP_ANCHOR_VERTEX] = {"vertex", {.value = 2, .box = 11, .range = 2, .origin = 0},
                           "anchored at a vertex, which is on the subpixel grid"},
-    [DP_ANCHOR_ORIGIN] = {"origin", {.value = 3, .box = 10, .range = 2, .origin = 5},
+    [DP_ANCHOR_ORIGIN] = {"origin", {.value = 3, .box = 10, .range = 2, .origin = 4},
                           "anchored at the target's corner, two fused operations a pixel"},
-    [DP_ANCHOR_ORIGIN_UNFUSED] = {"origin-unfused", {.value = 3, .box = 10, .range = 2, .origin = 6},
+    [DP_ANCHOR_ORIGIN_UNFUSED] = {"origin-unfused", {.value = 3, .box = 10, .range = 2, .origin = 5},
                                   "the same, by multiply and add"},
-    [DP_ANCHOR_ORIGIN_STEPPED] = {"origin-stepped", {.value = 5, .box = 8, .range = 2, .origin = 6},
+    [DP_ANCHOR_ORIGIN_STEPPED] = {"origin-stepped", {.value = 5, .box = 8, .range = 2, .origin = 5},
                                   "the same at every other pixel, stepped between them"},
 };
 /* clang-format on */
@@ -73,9 +73,9 @@ dp_status dp_triangles_check(const dp_triangles *t) {
 
 /* ---- What both triangles lose ------------------------------------------------------------------------------------ */
 
-dp_span dp_triangles_depths(const dp_chain *c, double z, const dp_triangles *t) {
-    const double lo = larger(z / t->depth, c->reach.lo);
-    const double hi = smaller(z * t->depth, c->reach.hi);
+dp_span dp_triangles_depths(const dp_chain *c, dp_span run, const dp_triangles *t) {
+    const double lo = larger(run.lo / t->depth, c->reach.lo);
+    const double hi = smaller(run.hi * t->depth, c->reach.hi);
     return (dp_span){(double)(float)lo, (double)(float)larger(lo, hi)};
 }
 
@@ -108,9 +108,9 @@ typedef struct loss {
  * The range of a triangle's window depths follows from the depths of the class or, `by_slope`, from the plane's slope
  * and the width of the box: then it acts as if the plane were displaced.
  */
-static loss loss_of(const dp_chain *c, double z, const dp_triangles *t, const double asked[DP_CAUSE_COUNT],
+static loss loss_of(const dp_chain *c, dp_span run, const dp_triangles *t, const double asked[DP_CAUSE_COUNT],
                     int by_slope) {
-    const dp_span at = dp_triangles_depths(c, z, t);
+    const dp_span at = dp_triangles_depths(c, run, t);
     const own_error own = own_error_over(c, at);
     const double full = own.projection + own.ndc;
     const double g1 = dp_chain_window(c, at.lo);
@@ -153,12 +153,18 @@ static view view_of(const dp_triangles *t) {
     return (view){pixel, hypot(x, y), hypot(x + off, y + off)};
 }
 
+/* The angle of those asked for at which `per_sine` sin + `per_cosine` cos, neither negative, is largest. */
+static double worst_slant(const dp_triangles *t, double per_sine, double per_cosine) {
+    return smaller(larger(atan2(per_sine, per_cosine), t->slant_lo * degree), t->slant_hi * degree);
+}
+
 /*
- * The budget at the slant where it is largest: a sum of a sine and a cosine rises up to one angle and falls behind it.
- * INFINITY where nothing in front of z is certain.
+ * The budget at the slant where it is largest, and at the farthest depth of the run: each term grows with depth.
+ * INFINITY where nothing in front of the nearest one is certain, whatever its slant: such a surface is behind the eye.
  */
-static dp_budget at_worst(const dp_chain *c, double z, const dp_triangles *t, const loss *of) {
+static dp_budget at_worst(const dp_chain *c, dp_span run, const dp_triangles *t, const loss *of) {
     const view v = view_of(t);
+    const double z = run.hi;
     const double slope = c->half * fabs(c->b);
     double window = 0.0;
     for (int i = 0; i < DP_CAUSE_COUNT; i++)
@@ -167,8 +173,8 @@ static dp_budget at_worst(const dp_chain *c, double z, const dp_triangles *t, co
     const double snap = t->subpixel > 0 ? dp_power2(-t->subpixel - 1) : 0.0;
     const double eye = 2.0 * DP_UNIT * second_order * z;
     const double per_sine = 2.0 * v.pixel * z * hypot(snap + of->dx, snap + of->dy) + eye * v.vertex_ray;
-    const double best = atan2(per_sine + facing * v.ray, eye + facing);
-    const double angle = smaller(larger(best, t->slant_lo * degree), t->slant_hi * degree);
+    const double angle = worst_slant(t, per_sine + facing * v.ray, eye + facing);
+    const double longest = worst_slant(t, v.ray, 1.0);
     const double sine = sin(angle);
     const double cosine = cos(angle);
     const double along = sine * v.ray + cosine; /* of the normal, along the ray */
@@ -183,19 +189,19 @@ static dp_budget at_worst(const dp_chain *c, double z, const dp_triangles *t, co
         rest -= b.cause[i];
     b.cause[DP_CAUSE_SETUP] = larger(rest, 0.0);
     b.window = b.separation * slope / (along * z * z);
-    if (!(b.separation < along * z) || slope < least_window * z * t->depth)
+    if (!(b.separation < (sin(longest) * v.ray + cos(longest)) * run.lo) || slope < least_window * z * t->depth)
         b.separation = HUGE_VAL;
     return b;
 }
 
-void dp_triangles_add(const dp_chain *c, double z, const dp_triangles *t, const double asked[DP_CAUSE_COUNT],
+void dp_triangles_add(const dp_chain *c, dp_span run, const dp_triangles *t, const double asked[DP_CAUSE_COUNT],
                       dp_budget *out) {
     if (t->slant_hi == 0.0)
         return;
-    const loss by_class = loss_of(c, z, t, asked, 0);
-    const loss by_slope = loss_of(c, z, t, asked, 1);
-    const dp_budget first = at_worst(c, z, t, &by_class);
-    const dp_budget second = at_worst(c, z, t, &by_slope);
+    const loss by_class = loss_of(c, run, t, asked, 0);
+    const loss by_slope = loss_of(c, run, t, asked, 1);
+    const dp_budget first = at_worst(c, run, t, &by_class);
+    const dp_budget second = at_worst(c, run, t, &by_slope);
     const dp_budget *lesser = second.separation < first.separation ? &second : &first;
     if (lesser->separation > out->separation)
         *out = *lesser;

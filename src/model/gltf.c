@@ -88,7 +88,7 @@ static bool check_required(gltf *g) {
 /* The vertices of a piece, where its node puts them. */
 static bool place(const placed *p, const gltf_accessor *positions) {
     model *m = p->g->source->out;
-    if (!source_vertices(p->g->source, positions->count))
+    if (!model_room(p->g->source, positions->count))
         return false;
     for (size_t i = 0; i < positions->count; i++) {
         double from[4], *to = m->position[m->vertices];
@@ -128,7 +128,7 @@ static bool join(const placed *p, long mode, size_t first, size_t vertices, cons
                                   vertices);
             corner[mirrored && k > 0 ? 3 - k : k] = (uint32_t)(first + (size_t)index[0]);
         }
-        if (!source_triangle(p->g->source, corner, surface))
+        if (!model_add_triangle(p->g->source, corner, surface))
             return false;
     }
     return true;
@@ -147,7 +147,7 @@ static bool add_surface(const placed *p, const json_t *primitive, uint32_t *surf
                                 .material = gltf_name(g, GLTF_MATERIAL, material),
                                 .two_sided = json_is_true(json_object_get(row, "doubleSided")),
                                 .blended = alpha != NULL && strcmp(alpha, "BLEND") == 0};
-    return source_surface(g->source, &made, surface);
+    return model_add_surface(g->source, &made, surface);
 }
 
 static bool add_primitive(const placed *p, const json_t *primitive) {
@@ -241,7 +241,7 @@ static bool add_camera(gltf *g, long node, long index, const transform *world) {
     transform_axis(world, 1, camera.up);
     for (int k = 0; k < 3; k++)
         camera.ahead[k] = -camera.ahead[k];
-    return source_camera(g->source, &camera);
+    return model_add_camera(g->source, &camera);
 }
 
 /* ---- Nodes ------------------------------------------------------------------------------------------------------- */

@@ -47,7 +47,7 @@ const char *gltf_name(gltf *g, gltf_named kind, long index) {
     const char **kept = &g->names[kind][index];
     const json_t *row = json_array_get(gltf_rows(g, named[kind]), (size_t)index);
     if (*kept == NULL)
-        *kept = source_name(g->source, json_string_value(json_object_get(row, "name")));
+        *kept = model_keep_name(g->source, json_string_value(json_object_get(row, "name")));
     return *kept;
 }
 
@@ -112,7 +112,7 @@ static bool load(gltf *g, const json_t *row, size_t i) {
         if (name == NULL)
             return model_fail(g->source, "there is no memory for it");
         unescape(name);
-        const bool read = source_beside(g->source, name, out);
+        const bool read = model_file_beside(g->source, name, out);
         free(name);
         if (!read)
             return false;

@@ -71,7 +71,7 @@ static const char *rest(obj_reader *r, char *at) {
     size_t length = strlen(at);
     while (length > 0 && is_blank(at[length - 1]))
         at[--length] = '\0';
-    return source_name(r->source, at);
+    return model_keep_name(r->source, at);
 }
 
 /* ---- Vertices and faces ------------------------------------------------------------------------------------------ */
@@ -82,7 +82,7 @@ static bool read_vertex(obj_reader *r, char *at) {
     for (int k = 0; k < 3; k++)
         if (!read_number(&at, &p[k]))
             return fail(r, "a vertex needs three finite numbers");
-    if (!source_vertices(r->source, 1))
+    if (!model_room(r->source, 1))
         return false;
     memcpy(m->position[m->vertices++], p, sizeof p);
     return true;
@@ -119,7 +119,7 @@ static bool find_surface(obj_reader *r) {
     obj_surface *made = malloc(sizeof *made);
     if (made != NULL) {
         *made = wanted;
-        if (source_surface(r->source, &row, &made->index) && tsearch(made, &r->surfaces, compare) != NULL) {
+        if (model_add_surface(r->source, &row, &made->index) && tsearch(made, &r->surfaces, compare) != NULL) {
             r->current = made;
             return true;
         }
@@ -185,7 +185,7 @@ static bool read_library(obj_reader *r, char *at) {
     if (name == NULL)
         return false;
     r->source->error = &error;
-    const bool there = source_beside(r->source, name, &file);
+    const bool there = model_file_beside(r->source, name, &file);
     r->source->error = kept;
     if (!there)
         return true;

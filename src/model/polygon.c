@@ -57,7 +57,7 @@ static bool is_convex(const view *v, const uint32_t *corner, size_t corners) {
 static bool fan(model_source *s, const uint32_t *corner, size_t corners, uint32_t surface) {
     for (size_t i = 2; i < corners; i++) {
         const uint32_t t[3] = {corner[0], corner[i - 1], corner[i]};
-        if (!source_triangle(s, t, surface))
+        if (!model_add_triangle(s, t, surface))
             return false;
     }
     return true;
@@ -78,7 +78,7 @@ bool polygon_cut(model_source *s, uint32_t *corner, size_t corners, uint32_t sur
             continue;
         }
         const uint32_t t[3] = {corner[(i + corners - 1) % corners], corner[i], corner[(i + 1) % corners]};
-        if (!source_triangle(s, t, surface))
+        if (!model_add_triangle(s, t, surface))
             return false;
         memmove(corner + i, corner + i + 1, (corners - i - 1) * sizeof *corner);
         corners--;

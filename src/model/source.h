@@ -24,22 +24,22 @@ typedef struct model_source {
 __attribute__((format(printf, 2, 3))) bool model_fail(model_source *s, const char *format, ...);
 
 /* Reads a file that lies beside the model; a name that leads elsewhere is refused. free() what is in *out. */
-bool source_beside(model_source *s, const char *name, file_bytes *out);
+bool model_file_beside(model_source *s, const char *name, file_bytes *out);
 
 /* Reads a file; "-" is stdin. */
-bool source_file(const char *path, file_bytes *out, model_error *error);
+bool model_file_read(const char *path, file_bytes *out, model_error *error);
 
 /* Makes room for `more` elements behind the `count` of an array. */
 bool model_grow(model_source *s, void **array, size_t *room, size_t count, size_t more, size_t size);
 
 /* Keeps a name; control characters become '?'. Null when there is no memory. */
-const char *source_name(model_source *s, const char *name);
+const char *model_keep_name(model_source *s, const char *name);
 
 /* Each adds to the model. A vertex must be finite, a triangle's corners vertices. */
-bool source_vertices(model_source *s, size_t more); /* room for them; *s->out counts them when they are filled in */
-bool source_triangle(model_source *s, const uint32_t corner[3], uint32_t surface);
-bool source_surface(model_source *s, const model_surface *row, uint32_t *index);
-bool source_camera(model_source *s, const model_camera *row);
+bool model_room(model_source *s, size_t more); /* room for them; *s->out counts them when they are filled in */
+bool model_add_triangle(model_source *s, const uint32_t corner[3], uint32_t surface);
+bool model_add_surface(model_source *s, const model_surface *row, uint32_t *index);
+bool model_add_camera(model_source *s, const model_camera *row);
 
 /* The kinds. */
 bool model_read_gltf(model_source *s);

@@ -3,7 +3,6 @@
 #include <math.h>
 #include <string.h>
 
-#include "api/presets.h"
 #include "core/append.h"
 #include "need/model.h"
 #include "need/reader.h"
@@ -19,17 +18,19 @@ enum {
     KEY_MODEL,
     KEY_ARITH,
     KEY_LOG_C,
-    KEY_COUNT
+    KEY_VIEW,
+    KEY_COUNT = KEY_VIEW + VIEW_COUNT
 };
 
-static const char *const keys[KEY_COUNT + 1] = {"preset",   "near",  "far",   "mapping", "format", "ortho",
-                                                "rounding", "model", "arith", "log_c",   NULL};
+static const char *const keys[KEY_COUNT + 1] = {"preset",   "near",  "far",   "mapping", "format",  "ortho",
+                                                "rounding", "model", "arith", "log_c",   VIEW_KEYS, NULL};
 
 typedef struct draft {
     dp_spec spec;
     dp_format formats[NEED_SETUPS_MAX];
     size_t format_count;
     bool automatic;
+    const preset *preset; /* null: none */
 } draft;
 
 /* A word among names; its index, or -1 after an error that lists them. */
@@ -67,6 +68,7 @@ static bool read_preset(reader *r, const config_setting_t *s, draft *d) {
         return false;
     const preset *row = preset_get((size_t)index);
     const unit_row *unit = unit_find(row->unit);
+    d->preset = row;
     /* Where the file says what its scene unit is, a preset in metres is converted into it. */
     d->spec.znear = unit_convert(row->znear, unit, r->unit);
     d->spec.zfar = unit_convert(row->zfar, unit, r->unit);
@@ -131,8 +133,16 @@ static bool read_words(reader *r, config_setting_t *const *found, draft *d) {
     return true;
 }
 
+/* What softpipe steps has no bound. */
+static bool raster_suits(reader *r, const config_setting_t *s, const draft *d, const need_camera *camera) {
+    for (size_t i = 0; i < d->format_count && camera->raster != NULL; i++)
+        if (!raster_bounded(camera->raster, &d->formats[i]))
+            return reader_fail(r, s, "raster: %s steps the codes of %s from pixel to pixel, which has no bound",
+                               camera->raster->name, d->formats[i].name);
+    return true;
+}
+
 static bool make_setups(reader *r, const config_setting_t *group, const draft *d, need_camera *out) {
-    out->automatic = d->automatic;
     out->count = d->format_count;
     for (size_t i = 0; i < d->format_count; i++) {
         dp_spec spec = d->spec;
@@ -181,5 +191,7 @@ bool reader_camera(reader *r, config_setting_t *group, need_camera *out) {
     if (good && found[KEY_LOG_C] != NULL && config_setting_type(found[KEY_LOG_C]) == CONFIG_TYPE_STRING)
         return reader_fail(r, found[KEY_LOG_C], "log_c: must be a number per scene unit, got %s",
                            reader_shown(r, found[KEY_LOG_C]));
-    return good && make_setups(r, group, &d, out);
+    out->automatic = d.automatic;
+    return good && reader_view(r, found + KEY_VIEW, d.preset, out, &d.spec) &&
+           raster_suits(r, found[KEY_VIEW + VIEW_RASTER], &d, out) && make_setups(r, group, &d, out);
 }

@@ -17,6 +17,10 @@ const char *check_method_name(check_method method) {
     return (unsigned)method < CHECK_METHOD_COUNT ? names[method] : NULL;
 }
 
+bool check_is_slanted(const check_verdict *v) {
+    return v->asked->kind == NEED_SEPARATION && v->setup.spec.triangles.width > 0;
+}
+
 static bool with_model(const dp_setup *setup, dp_model model, dp_setup *out) {
     dp_spec spec = setup->spec;
     spec.model = model;
@@ -78,7 +82,8 @@ static bool never_ties(const dp_setup *setup, double lo, double hi) {
 
 static bool judge_ties(const check_request *request, const need *n, const dp_setup *asked, check_verdict *v) {
     if (!with_model(asked, DP_MODEL_FP32, &v->setup))
-        return false; /* need_read() has refused it */
+        return false;                      /* need_read() has refused it */
+    v->setup = dp_setup_facing(&v->setup); /* of depths at a point */
     v->method = CHECK_GUARANTEE;
     v->value = 0.0;
     v->z = (double)NAN;

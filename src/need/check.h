@@ -4,7 +4,8 @@
  *
  *     separation  the largest dp_separation() at the depths asked about. Model fp32: the guaranteed separation; exact
  *                 first, which passes nothing but refuses what no arithmetic can save. Model auto: the lattice alone
- *                 where it refuses, else the guaranteed separation.
+ *                 where it refuses, else the guaranteed separation. That of slanted surfaces where the camera says
+ *                 what draws them; the other two are of depths at a point.
  *     error       dp_worst_over(), or the error at a single depth
  *     ties        none for certain where the guarantee is below one binary32 step of z; else counted, depth by depth,
  *                 or drawn at random where the range holds more than CHECK_CENSUS_MAX depths
@@ -36,6 +37,10 @@ typedef struct check_verdict {
     uint32_t code; /**< stored there; of no meaning where z is NaN or infinite */
     bool passed;
 } check_verdict;
+
+/** Whether surfaces at any slant that the camera names are meant, z the farther one; else those that face the camera.
+ */
+bool check_is_slanted(const check_verdict *verdict);
 
 /** A few words, "guaranteed separation"; null when out of range. */
 const char *check_method_name(check_method method);

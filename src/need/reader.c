@@ -165,6 +165,13 @@ bool reader_length(reader *r, const config_setting_t *s, const char *key, unsign
     return true;
 }
 
+bool reader_number_within(const config_setting_t *s, double least, double most, double *out) {
+    if (!is_number(s))
+        return false;
+    *out = number_of(s);
+    return *out >= least && *out <= most;
+}
+
 bool reader_share(reader *r, const config_setting_t *s, const char *key, double *out) {
     const char *rest = "";
     bool good = is_number(s);

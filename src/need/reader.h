@@ -5,6 +5,7 @@
 
 #include <libconfig.h>
 
+#include "api/presets.h"
 #include "api/unit.h"
 #include "need/requirement.h"
 
@@ -35,7 +36,19 @@ bool reader_string(reader *r, const config_setting_t *s, const char **out);
 bool reader_name(reader *r, const config_setting_t *s, const char *name); /* fit for a line of a report */
 bool reader_unit(reader *r, const config_setting_t *s);
 bool reader_length(reader *r, const config_setting_t *s, const char *key, unsigned allowed, double *out);
+/* A number from `least` to `most`, in no unit; says nothing where it is not. */
+bool reader_number_within(const config_setting_t *s, double least, double most, double *out);
+
 bool reader_share(reader *r, const config_setting_t *s, const char *key, double *out);
+
+/* The keys of slanted triangles, in the order in which they are read. */
+enum { VIEW_VIEWPORT, VIEW_FOV, VIEW_HFOV, VIEW_RASTER, VIEW_SUBPIXEL, VIEW_SLANT, VIEW_TRIANGLE, VIEW_COUNT };
+#define VIEW_KEYS "viewport", "fov", "hfov", "raster", "subpixel", "slant", "triangle"
+
+/* The triangles of a specification, by those that were found; what of them is not, a preset may say, or null. */
+bool reader_view(reader *r, config_setting_t *const found[VIEW_COUNT], const preset *of, need_camera *camera,
+                 dp_spec *spec);
+
 bool reader_camera(reader *r, config_setting_t *group, need_camera *out);
 
 #endif

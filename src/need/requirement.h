@@ -15,6 +15,7 @@
 #include <stdbool.h>
 
 #include "depthprec/depthprec.h"
+#include "raster/raster.h"
 
 /** What a requirement limits; the index of its row in need_kind_get(). */
 typedef enum need_kind {
@@ -40,6 +41,7 @@ typedef struct need_camera {
     size_t count;                     /**< 1; 2 where the format (depth24plus) may be either of two */
     dp_setup setups[NEED_SETUPS_MAX]; /**< in the model asked for; exact where `automatic` */
     bool automatic;                   /**< model "auto": the simplest model that can decide */
+    const raster_row *raster; /**< whose grid and set-up the set-ups' triangles have; null where none is named */
 } need_camera;
 
 /** Lengths are in scene units. */

@@ -15,8 +15,8 @@ static const dp_cause stack[DP_CAUSE_COUNT] = {
 };
 
 /* A cause that nobody asked to count takes no part anywhere. */
-static bool counts(const dp_budget_terms *terms, dp_cause cause) {
-    return cause == DP_CAUSE_SNAPPING || cause == DP_CAUSE_SETUP ? terms->triangles != NULL
+static bool counts(const dp_setup *setup, const dp_budget_terms *terms, dp_cause cause) {
+    return cause == DP_CAUSE_SNAPPING || cause == DP_CAUSE_SETUP ? setup->spec.triangles.width > 0
            : cause == DP_CAUSE_COMPOSITION                       ? terms->world > 0
            : cause == DP_CAUSE_INTERPOLATION                     ? terms->interpolation > 0
            : cause == DP_CAUSE_LINEARIZATION                     ? terms->linearize != 0
@@ -75,7 +75,7 @@ static void add_panel(const figure_request *request, chart *out, size_t i) {
         snprintf(panel->title, sizeof panel->title, "%s", request->names[i]);
     refine_request q = envelope_request(request, split.setup, out, panel, sample, &split);
     for (int layer = 0; layer < DP_CAUSE_COUNT; layer++)
-        if (counts(&request->terms, stack[layer])) {
+        if (counts(split.setup, &request->terms, stack[layer])) {
             q.axis[split.count] = panel->y;
             split.layer[split.count++] = layer;
         }

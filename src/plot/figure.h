@@ -17,14 +17,17 @@
 
 /** What is asked for. */
 typedef struct figure_request {
-    const dp_setup *setups; /**< all with the same planes and projection; at least one, but for figures of a file */
+    const dp_setup *setups; /**< all with the same planes and projection; at least one, but for figures of a file or of
+                               shadow maps */
     size_t count;
-    const char *const *names;        /**< "unorm24 d3d" of each, for legends */
-    double lo, hi;                   /**< eye depths to show; both NaN when the user left it to the figure */
-    double at;                       /**< a single depth for the figures that take one, else NaN */
-    dp_budget_terms terms;           /**< what is added to the pipeline, for the figures that take it */
-    double tolerance;                /**< of intervals by cheaper ways; 0: none; NaN: what the picture cannot show */
-    uint64_t census;                 /**< most depths that a census may visit for the figure; 0: none is made */
+    const char *const *names;          /**< "unorm24 d3d" of each, for legends */
+    double lo, hi;                     /**< eye depths to show; both NaN when the user left it to the figure */
+    double at;                         /**< a single depth for the figures that take one, else NaN */
+    dp_budget_terms terms;             /**< what is added to the pipeline, for the figures that take it */
+    double tolerance;                  /**< of intervals by cheaper ways; 0: none; NaN: what the picture cannot show */
+    uint64_t census;                   /**< most depths that a census may visit for the figure; 0: none is made */
+    const struct shadow_cascade *maps; /**< for the figures of shadow maps, map_count of them, at most CHART_PANELS */
+    size_t map_count;
     const struct need_file *file;    /**< for the figures that take a file, else null */
     const method_family_row *family; /**< for the figures that show methods, else null */
     size_t which;                    /**< its case, where times are measured, */
@@ -41,6 +44,7 @@ enum {
     FIGURE_TOLERANCE = 1 << 4, /**< other ways to the interval than the exact cell */
     FIGURE_SIGNED = 1 << 6,    /**< depths of 0 and less: a camera with near <= 0 */
     FIGURE_FILE = 1 << 5,      /**< a requirement file, which brings its own set-ups, with planes of their own */
+    FIGURE_SHADOW = 1 << 7,    /**< shadow maps, whose cameras are not that of the view */
 };
 
 /**
@@ -76,7 +80,7 @@ void figure_range(const figure_request *request, double *lo, double *hi);
 chart_panel *figure_panel(const figure_request *request, chart *out, chart_axis y);
 
 figure_build distribution_build, share_build, error_build, interval_build, budget_build, scene_build, map_build,
-    pareto_build, stability_build, normals_build;
+    pareto_build, stability_build, normals_build, shadow_build;
 
 /** Figures whose measuring takes long or differs from run to run, drawn of what was measured. */
 const char *pareto_draw(const method_family_row *family, const bench_result *results, size_t count, chart *out);

@@ -4,6 +4,7 @@
 
 #include <math.h>
 #include <string.h>
+#include <strings.h>
 
 #include "raster/model.h"
 
@@ -87,6 +88,30 @@ const raster_row *raster_get(size_t index) {
     return index < ROW_COUNT ? &rows[index] : NULL;
 }
 
+const raster_row *raster_find(const char *name) {
+    for (size_t i = 0; i < ROW_COUNT; i++)
+        if (strcasecmp(rows[i].name, name) == 0)
+            return &rows[i];
+    return NULL;
+}
+
+void raster_describe(const raster_row *row, dp_triangles *triangles) {
+    dp_plane_error worst = {0};
+    for (int i = 0; i < DP_ANCHOR_COUNT; i++) {
+        const dp_plane_error *here = &dp_anchor_get((dp_anchor)i)->plane;
+        if (row->anchor != DP_ANCHOR_COUNT && row->anchor != (dp_anchor)i)
+            continue;
+        worst = (dp_plane_error){fmax(worst.value, here->value), fmax(worst.box, here->box),
+                                 fmax(worst.range, here->range), fmax(worst.origin, here->origin)};
+    }
+    triangles->subpixel = row->plane_bits;
+    triangles->plane = worst;
+}
+
+bool raster_bounded(const raster_row *row, const dp_format *format) {
+    return row->model == NULL || row->model->stepped == NULL || format->kind == DP_FORMAT_FLOAT || format->bits != 16;
+}
+
 const char *raster_status_text(raster_status status) {
     static const char *const texts[RASTER_STATUS_COUNT] = {
         [RASTER_OK] = "drawn",
@@ -106,6 +131,10 @@ static bool has_format(const raster_model *model, const dp_format *format) {
     if (format->kind == DP_FORMAT_FLOAT)
         return strcmp(format->name, "fp32") == 0;
     return format->bits == 16 || (format->bits == 24 && !model->no_unorm24);
+}
+
+bool raster_draws(const raster_row *row, const dp_format *format) {
+    return row->model != NULL && has_format(row->model, format) && raster_bounded(row, format);
 }
 
 raster_status raster_target_init(raster_target *target, size_t row, int width, int height, const dp_format *format,
@@ -145,7 +174,7 @@ void raster_codes(const raster_target *target, const raster_piece *piece, int y,
     enum { SOME = 256 };
     const raster_model *model = target->row->model;
     float depth[SOME];
-    if (target->format.bits == 16 && model->stepped != NULL) {
+    if (!raster_bounded(target->row, &target->format)) {
         model->stepped(target, piece, y, from, to, code);
         return;
     }

@@ -75,6 +75,21 @@ typedef struct raster_row {
 size_t raster_count(void);
 const raster_row *raster_get(size_t index);
 
+/** The row of a name in either case; null where there is none. */
+const raster_row *raster_find(const char *name);
+
+/**
+ * Fills in `subpixel` and `plane`, what is known of a rasterizer: of a row whose anchor is free each term is that of
+ * the anchor where it is largest, and of one that says "at least" the grid is the coarsest that it allows.
+ */
+void raster_describe(const raster_row *row, dp_triangles *triangles);
+
+/** Whether it draws into the format, with codes within the bound of triangles.h; false of specifications. */
+bool raster_draws(const raster_row *row, const dp_format *format);
+
+/** Whether codes of the format are within the bound of triangles.h: those that softpipe steps, unorm16, are not. */
+bool raster_bounded(const raster_row *row, const dp_format *format);
+
 /** Clip coordinates. */
 typedef struct raster_vertex {
     float x, y, z, w;

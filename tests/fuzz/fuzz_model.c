@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Models as anybody might mangle them: glTF, or OBJ where the first byte is odd; read whole or refused with a sentence. */
+/* Models as anybody might mangle them, glTF, or OBJ where the first byte is odd: read whole or refused. */
 #include <math.h>
 #include <stdint.h>
 #include <stdlib.h>

@@ -1,0 +1,96 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* What the options of slanted triangles say together: view, rasterizer, and that they are asked about at all. */
+#include "cli/option_rows.h"
+#include "report/number.h"
+
+/* The rasterizer's grid and set-up; --subpixel is instead of it, or says how fine a grid is that has no fixed bits. */
+static int take_raster(options *o) {
+    const raster_row *row = o->raster;
+    dp_triangles *t = &o->triangles;
+    const int asked = t->subpixel;
+    const bool given = option_given(o, OPTION_SUBPIXEL);
+    if (row == NULL)
+        return EXIT_FINE;
+    if (given && !row->at_least)
+        return option_refuse(&option_rows[OPTION_SUBPIXEL], "cannot be combined with --raster %s", row->name);
+    if (given && asked < row->plane_bits)
+        return option_refuse(&option_rows[OPTION_SUBPIXEL], "must be at least %d with --raster %s, got %d",
+                             row->plane_bits, row->name, asked);
+    raster_describe(row, t);
+    if (given)
+        t->subpixel = asked;
+    return EXIT_FINE;
+}
+
+int view_vertical(const options *o, int width, int height, double *fov_y) {
+    const option_row *row = &option_rows[OPTION_HFOV];
+    *fov_y = o->camera.fov_y;
+    if (!option_given(o, OPTION_HFOV))
+        return EXIT_FINE;
+    if (option_given(o, OPTION_FOV))
+        return option_refuse(row, "cannot be combined with --fov");
+    *fov_y = dp_fov_vertical(o->fov_x, width, height);
+    if (!(*fov_y >= 0.001 && *fov_y <= 179.9)) /* as dp_triangles has it */
+        return option_refuse(row, "makes a vertical angle of %s degrees, which must be from 0.001 to 179.9",
+                             number_of(*fov_y, 6).text);
+    return EXIT_FINE;
+}
+
+/* What draws: a rasterizer whose arithmetic is known, and of the formats those that it has. */
+static int take_drawn(options *o) {
+    size_t kept = 0;
+    if (o->raster == NULL)
+        o->raster = raster_find("llvmpipe");
+    if (o->raster->model == NULL)
+        return option_refuse(&option_rows[OPTION_RASTER],
+                             "must be one that draws: llvmpipe, lavapipe, softpipe or swiftshader, got '%s'",
+                             o->raster->name);
+    for (size_t i = 0; i < o->format_count; i++)
+        if (raster_draws(o->raster, &o->formats[i]))
+            o->formats[kept++] = o->formats[i];
+        else if (option_given(o, OPTION_FORMAT))
+            return option_refuse(&option_rows[OPTION_FORMAT], "must be one that %s has and that can be bounded, got %s",
+                                 o->raster->name, o->formats[i].name);
+    o->format_count = kept;
+    return EXIT_FINE;
+}
+
+int slant_complete(options *o) {
+    static const option_id beside[] = {OPTION_FOV,   OPTION_HFOV,  OPTION_RASTER,  OPTION_SUBPIXEL,
+                                       OPTION_SLANT, OPTION_PLANE, OPTION_TRIANGLE};
+    const bool slanted = option_given(o, OPTION_VIEWPORT) || o->drawn;
+    if (!slanted)
+        o->triangles.width = 0;
+    if ((o->verb->bit & option_rows[OPTION_VIEWPORT].commands) == 0)
+        return EXIT_FINE;
+    if ((o->verb->bit & (VERB_SHADOW | VERB_PLOT)) != 0) /* a shadow map's viewport says how wide the view is */
+        return take_raster(o);
+    for (size_t i = 0; i < sizeof beside / sizeof beside[0]; i++)
+        if (option_given(o, beside[i]) && !slanted)
+            return option_refuse(&option_rows[beside[i]], "needs --viewport: surfaces face the camera");
+    if (!slanted)
+        return EXIT_FINE;
+    if (option_given(o, OPTION_SLANT) && option_given(o, OPTION_PLANE))
+        return option_refuse(&option_rows[OPTION_PLANE], "cannot be combined with --slant");
+    if (o->ortho)
+        return option_refuse(&option_rows[o->drawn ? OPTION_TRIANGLES : OPTION_VIEWPORT],
+                             "does not apply with --ortho");
+    if (o->terms.world > 0.0)
+        return option_refuse(&option_rows[OPTION_VIEWPORT], "cannot be combined with --world");
+    int status = o->drawn ? take_drawn(o) : EXIT_FINE;
+    if (status == EXIT_FINE)
+        status = view_vertical(o, o->triangles.width, o->triangles.height, &o->triangles.fov_y);
+    return status == EXIT_FINE ? take_raster(o) : status;
+}
+
+void slant_take_preset(options *o, const preset *p) {
+    dp_triangles *t = &o->triangles;
+    if (t->width == 0)
+        return;
+    if (!option_given(o, OPTION_FOV) && !option_given(o, OPTION_HFOV))
+        t->fov_y = preset_fov_y(p, t->width, t->height);
+    if (o->drawn || option_given(o, OPTION_RASTER) || option_given(o, OPTION_SUBPIXEL))
+        return;
+    o->raster = raster_find(p->raster);
+    raster_describe(o->raster, t);
+}

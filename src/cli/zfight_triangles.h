@@ -1,0 +1,11 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/** @file zfight_triangles.h  zfight --triangles: pairs of slanted planes, drawn by the model of a rasterizer. */
+#ifndef CLI_ZFIGHT_TRIANGLES_H
+#define CLI_ZFIGHT_TRIANGLES_H
+
+#include "cli/options.h"
+
+/** @return an exit status, after one line on stderr where it is not fine */
+int zfight_triangles(const options *o);
+
+#endif

@@ -1,0 +1,63 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/** @file slanted.h  Random cameras and pairs of parallel planes, a triangle of each, drawn about the same pixel. */
+#ifndef TESTS_SLANTED_H
+#define TESTS_SLANTED_H
+
+#include <stdbool.h>
+
+#include "depthprec/depthprec.h"
+#include "raster/raster.h"
+#include "support.h"
+
+/** What draws them. */
+typedef struct slanted_kind {
+    const char *name;
+    dp_anchor anchor; /**< none: an error of one rounding */
+    int bits[2];      /**< of the grid, one or the other; negative: vertices are not snapped */
+    const char *arith;
+} slanted_kind;
+
+typedef struct slanted_camera {
+    float p00, p11, a, b;
+    int width, height, bits;
+    bool reciprocal;
+} slanted_camera;
+
+typedef struct slanted {
+    const slanted_kind *kind;
+    dp_setup setup;
+    slanted_camera camera;
+    dp_triangles class;  /**< of the two triangles themselves */
+    double n[3], px, py; /**< normal and pixel */
+    double c, z;         /**< of the farther plane: distance along the normal, and depth where the order is asked */
+    double at[2][3][2];  /**< where vertices are seen: of the nearer plane, of the farther one */
+    raster_clipping cut; /**< what becomes of triangles that sides of the screen cut; any: there are none */
+} slanted;
+
+/** Draws camera, format and viewport; false when the format's name is none. */
+bool slanted_draw_camera(rng *r, slanted *s, const slanted_kind *kind, const char *format);
+/** Draws normal, pixel, depth and the places of vertices; false when the farther plane is not seen there. */
+bool slanted_draw_planes(rng *r, slanted *s);
+
+/** Depth times this is the plane's distance along its normal: the normal along the ray of a place on the screen. */
+double slanted_along(const slanted *s, double x, double y);
+
+/**
+ * Makes the class that of the triangles, the planes being c[0] and c[1] away along the normal.
+ *
+ * @return false when they are in no class
+ */
+bool slanted_fit(slanted *s, const double c[2]);
+/** The guarantee at depth z for triangles of a class. */
+bool slanted_budget(const slanted *s, const dp_triangles *class, dp_budget *out);
+
+/** The class of planes a share of the guarantee at z apart; that, and the distance of the nearer plane. */
+bool slanted_apart(slanted *s, double share, dp_budget *guarantee, double *nearer);
+
+/** Clip coordinates of a triangle whose plane is c away; false when a vertex is not from near to far. */
+bool slanted_clip(const slanted *s, int which, double c, raster_vertex clip[3]);
+/** Whether all vertices are in the frustum, so that no rasterizer clips; or only from near to far. */
+bool slanted_inside(const raster_vertex v[3]);
+bool slanted_in_depth(const raster_vertex v[3]);
+
+#endif

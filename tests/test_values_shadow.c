@@ -1,0 +1,560 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Every number that shadow prints, against the room shadow with a light of the test's own; the split and the sphere of
+ * a cascade by closed forms. */
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "cli/bias_all.h"
+#include "named.h"
+#include "printed.h"
+#include "shadow/shadow.h"
+
+static const char *const ways[SHADOW_WAY_COUNT] = {"constant", "slope", "normal"};
+
+enum { FORMATS = 2, MAPPINGS = 2, APIS = 9 };
+
+typedef struct shadow_case {
+    const char *options;
+    const char *formats[FORMATS];
+    dp_mapping mappings[MAPPINGS];
+    size_t format_count, mapping_count;
+    const char *api; /* null for all */
+    int width, height;
+    int kernel;
+    double angle;
+    int subpixel;
+    double pixels, slim, world;
+    double box[3], lo, hi; /* 0: the view; what is lit */
+    double znear, zfar, fov, aspect, lambda, casters;
+    int cascades;
+    const char *unit;
+} shadow_case;
+
+static const shadow_case cases[] = {
+    {.options = "-n 0.25 -f 90 --cascades 3 --lambda 0.7 --fov 50 --viewport 800x600 --casters 40 --size 1024 "
+                "--kernel 5 --angle 70 -F fp32,unorm24 -m d3d,reversed",
+     .formats = {"fp32", "unorm24"},
+     .mappings = {DP_MAPPING_D3D, DP_MAPPING_REVERSED},
+     .format_count = 2,
+     .mapping_count = 2,
+     .api = "d3d11",
+     .width = 1024,
+     .height = 1024,
+     .kernel = 5,
+     .angle = 70,
+     .subpixel = 8,
+     .pixels = 512,
+     .slim = 16,
+     .znear = 0.25,
+     .zfar = 90,
+     .fov = 50,
+     .aspect = 800.0 / 600,
+     .lambda = 0.7,
+     .casters = 40,
+     .cascades = 3},
+    {.options = "--light-box 30mx20mx50m --size 512x256 -F d16 -m gl --range 5m:48.65m --api gl --subpixel 4 "
+                "--triangle pixels=64,slim=8 --kernel 3 --angle 60 --world 1km",
+     .formats = {"unorm16"},
+     .mappings = {DP_MAPPING_GL},
+     .format_count = 1,
+     .mapping_count = 1,
+     .api = "gl",
+     .width = 512,
+     .height = 256,
+     .kernel = 3,
+     .angle = 60,
+     .subpixel = 4,
+     .pixels = 64,
+     .slim = 8,
+     .world = 1000,
+     .box = {30, 20, 50},
+     .lo = 5,
+     .hi = 48.65,
+     .unit = "m"},
+    {.options = "-f 300 --cascades 2 --hfov 100 --api all", /* the rest as help has it */
+     .formats = {"fp32"},
+     .mappings = {DP_MAPPING_D3D},
+     .format_count = 1,
+     .mapping_count = 1,
+     .width = 2048,
+     .height = 2048,
+     .kernel = 3,
+     .angle = 75,
+     .subpixel = 8,
+     .pixels = 512,
+     .slim = 16,
+     .znear = 0.1,
+     .zfar = 300,
+     .fov = 0,
+     .aspect = 1920.0 / 1080,
+     .lambda = 0.5,
+     .casters = 100,
+     .cascades = 2},
+    {.options = "--light-box 8x8x64 --api vulkan-float -m reversed --subpixel 1 --kernel 1 --angle 30", /* no factor */
+     .formats = {"fp32"},
+     .mappings = {DP_MAPPING_REVERSED},
+     .format_count = 1,
+     .mapping_count = 1,
+     .api = "vulkan-float",
+     .width = 2048,
+     .height = 2048,
+     .kernel = 1,
+     .angle = 30,
+     .subpixel = 1,
+     .pixels = 512,
+     .slim = 16,
+     .box = {8, 8, 64},
+     .hi = 64},
+};
+
+enum { CASES = sizeof cases / sizeof cases[0] };
+
+/* ---- The maps ---------------------------------------------------------------------------------------------------- */
+
+static double radians(double degrees) {
+    return degrees * (3.14159265358979323846 / 180);
+}
+
+static shadow_light light_of(const shadow_case *c, const char *format, dp_mapping mapping) {
+    shadow_light light = shadow_light_default();
+    dp_spec spec = dp_spec_default();
+    dp_format found[2];
+    assert_int_equal(dp_format_parse(format, found), 1);
+    spec.ortho = 1;
+    spec.znear = 0;
+    spec.zfar = c->box[2] > 0 ? c->box[2] : 1;
+    spec.format = found[0];
+    spec.mapping = mapping;
+    assert_int_equal(dp_setup_init(&light.setup, &spec), DP_OK);
+    light.triangles.width = c->width;
+    light.triangles.height = c->height;
+    light.triangles.subpixel = c->subpixel;
+    light.triangles.pixels = c->pixels;
+    light.triangles.slim = c->slim;
+    light.triangles.slant_hi = c->angle;
+    light.kernel = c->kernel / 2.0;
+    light.world = c->world;
+    light.receiver_lo = c->lo;
+    light.receiver_hi = c->box[2] > 0 ? c->hi : 1;
+    if (c->box[2] > 0) {
+        light.width = c->box[0];
+        light.height = c->box[1];
+    }
+    return light;
+}
+
+static double fov_of(const shadow_case *c) {
+    return c->fov > 0 ? c->fov : dp_fov_vertical(100, 1920, 1080);
+}
+
+/* Where cascade i begins, by the practical split scheme. */
+static double split_at(const shadow_case *c, int i) {
+    const double part = (double)i / c->cascades;
+    const double even = c->znear + (c->zfar - c->znear) * part, log = c->znear * pow(c->zfar / c->znear, part);
+    return c->lambda * log + (1 - c->lambda) * even;
+}
+
+/* The sphere about the corners of a frustum: through those of both ends, or about the far ones alone. */
+static double radius_of(const shadow_case *c, double from, double to) {
+    const double k = tan(radians(fov_of(c)) / 2) * sqrt(1 + c->aspect * c->aspect);
+    if (k * k >= (to - from) / (to + from))
+        return to * k;
+    const double width = to - from, k2 = k * k;
+    return 0.5 * sqrt(width * width + 2 * (to * to + from * from) * k2 + (to + from) * (to + from) * k2 * k2);
+}
+
+/* Of a box the light alone. */
+static shadow_cascade map_of(const shadow_case *c, const char *format, dp_mapping mapping, int i) {
+    const shadow_light model = light_of(c, format, mapping);
+    const shadow_split split = {c->znear, c->zfar, fov_of(c), c->aspect, c->cascades, c->lambda, c->casters, true};
+    shadow_cascade made = {.light = model};
+    if (c->box[2] > 0) {
+        assert_int_equal(shadow_light_check(&model), SHADOW_OK);
+        return made;
+    }
+    assert_int_equal(shadow_cascade_of(&split, &model, i, &made), SHADOW_OK);
+    assert_relative(made.from, split_at(c, i), 1e-13);
+    assert_relative(made.to, split_at(c, i + 1), 1e-13);
+    assert_relative(made.radius, radius_of(c, made.from, made.to), 1e-13);
+    return made;
+}
+
+/* ---- What is wanted ---------------------------------------------------------------------------------------------- */
+
+static size_t map_count(const shadow_case *c) {
+    return c->box[2] > 0 ? 1 : (size_t)c->cascades;
+}
+
+static double with_sign(const shadow_light *light, double magnitude) {
+    const bool reversed = light->setup.spec.mapping == DP_MAPPING_REVERSED;
+    return !isfinite(magnitude) ? NAN : reversed && magnitude != 0 ? -magnitude : magnitude;
+}
+
+static double units_of(const shadow_light *light, const shadow_need *need, int way, const bias_api *api) {
+    return isinf(need->bias[way].factor) ? NAN : with_sign(light, shadow_state_of(light, &need->bias[way], api).units);
+}
+
+static void want_way(values *v, const char *way, const char *field, double number) {
+    char name[64];
+    snprintf(name, sizeof name, "%s_%s", way, field);
+    want_number(v, name, number);
+}
+
+static void want_ways(values *v, const shadow_light *light, const shadow_need *need, const bias_api *api) {
+    bool limited = false;
+    for (int k = 0; k < SHADOW_WAY_COUNT; k++) {
+        const shadow_bias *b = &need->bias[k];
+        const shadow_state state = shadow_state_of(light, b, api);
+        want_way(v, ways[k], "bias", b->window);
+        want_way(v, ways[k], "units", units_of(light, need, k, api));
+        const bool none = isnan(units_of(light, need, k, api));
+        want_way(v, ways[k], "gap", none ? NAN : state.gap_light);
+        want_way(v, ways[k], "gap_normal", none ? NAN : state.gap_normal);
+        want_way(v, ways[k], "share", isinf(b->factor) ? NAN : b->share);
+        if (k != SHADOW_CONSTANT)
+            want_way(v, ways[k], "gap_facing", none ? NAN : state.gap_facing);
+        limited = limited || b->limited;
+    }
+    want_bool(v, "limited", limited);
+    want_number(v, "slope_factor", with_sign(light, need->bias[SHADOW_SLOPE].factor));
+    want_number(v, "normal_offset", need->bias[SHADOW_NORMAL].offset);
+    want_number(v, "normal_texels", need->bias[SHADOW_NORMAL].offset / fmax(need->texel_x, need->texel_y));
+}
+
+static void want_row(values *v, const shadow_case *c, const shadow_cascade *map, int cascade, const bias_api *api) {
+    const shadow_light *light = &map->light;
+    const double depth = light->setup.spec.zfar - light->setup.spec.znear;
+    shadow_need need;
+    shadow_need_of(light, &need);
+    want_text(v, "api", api->name);
+    if (c->box[2] == 0) {
+        want_count(v, "cascade", (uint64_t)cascade + 1);
+        want_number(v, "from", map->from);
+        want_number(v, "to", map->to);
+        want_number(v, "radius", map->radius);
+    }
+    want_number(v, "width", light->width);
+    want_number(v, "height", light->height);
+    want_number(v, "depth", depth);
+    want_number(v, "texel_size", fmax(light->width / c->width, light->height / c->height));
+    want_ways(v, light, &need, api);
+    values_under(v, "%scauses.", v->prefix);
+    for (int k = 0; k < SHADOW_CAUSE_COUNT; k++)
+        want_number(v, shadow_cause_name((shadow_cause)k), shadow_part_at(light, &need.part[k], c->angle) * depth);
+}
+
+/* Four digits of a positive number, or one a little larger. */
+static double up4(double x) {
+    const double unit = pow(10, floor(log10(x)) - 3);
+    char text[32];
+    snprintf(text, sizeof text, "%.4g", ceil(x / unit - 1e-9) * unit);
+    return strtod(text, NULL);
+}
+
+/* The largest of all cascades; calls as bias writes them, which test_values_bias_all has. */
+static void want_answer(values *v, const shadow_case *c, const char *format, dp_mapping mapping, const bias_api *api) {
+    double units[SHADOW_WAY_COUNT] = {0}, factor = 0, texels = 0;
+    want_text(v, "api", api->name);
+    for (size_t i = 0; i < map_count(c); i++) {
+        const shadow_light light = map_of(c, format, mapping, (int)i).light;
+        shadow_need need;
+        shadow_need_of(&light, &need);
+        texels = fmax(texels, need.bias[SHADOW_NORMAL].offset / need.texel);
+        factor = fmax(factor, need.bias[SHADOW_SLOPE].factor);
+        for (int k = 0; k < SHADOW_WAY_COUNT; k++)
+            units[k] = isfinite(units[k]) ? fmax(units[k], fabs(units_of(&light, &need, k, api))) : NAN;
+        if (isinf(factor))
+            units[SHADOW_SLOPE] = NAN;
+    }
+    const double sign = mapping == DP_MAPPING_REVERSED ? -1 : 1;
+    for (int k = 0; k < SHADOW_WAY_COUNT; k++) {
+        char name[64], call[256] = "";
+        want_way(v, ways[k], "units", sign * units[k]);
+        if (k == SHADOW_NORMAL)
+            snprintf(call, sizeof call, "%.4g texels, ", up4(texels));
+        strcat(call, bias_call(api, sign * units[k], k == SHADOW_SLOPE ? sign * up4(factor) : 0).text);
+        snprintf(name, sizeof name, "%s_call", ways[k]);
+        want_text(v, name, isnan(units[k]) ? NULL : call);
+    }
+    want_number(v, "slope_factor", isinf(factor) ? NAN : sign * factor);
+    want_number(v, "normal_texels", texels);
+}
+
+static void want_head(values *v, const shadow_case *c) {
+    want_text(v, "api", c->api != NULL ? c->api : "all");
+    want_number(v, "size.width", c->width);
+    want_number(v, "size.height", c->height);
+    want_number(v, "kernel", c->kernel);
+    want_number(v, "angle", c->angle);
+    want_number(v, "subpixel", c->subpixel);
+    want_number(v, "pixels", c->pixels);
+    want_number(v, "slim", c->slim);
+    want_number(v, "world", c->world);
+    if (c->box[2] > 0) {
+        want_text(v, "view", NULL);
+        return;
+    }
+    want_number(v, "view.near", c->znear);
+    want_number(v, "view.far", c->zfar);
+    want_number(v, "view.fov", fov_of(c));
+    want_number(v, "view.aspect", c->aspect);
+    want_number(v, "view.cascades", c->cascades);
+    want_number(v, "view.lambda", c->lambda);
+    want_number(v, "view.casters", c->casters);
+}
+
+static const bias_api *api_of(const shadow_case *c, size_t i) {
+    return c->api != NULL ? bias_api_find(c->api) : bias_api_get(i);
+}
+
+static void want_setup_of(values *v, const shadow_case *c, size_t k, line_places *lines) {
+    const char *format = c->formats[k / c->mapping_count];
+    const dp_mapping mapping = c->mappings[k % c->mapping_count];
+    const size_t apis = c->api != NULL ? 1 : APIS;
+    values_under(v, "setups[%zu].", k);
+    want_text(v, "format", format);
+    want_text(v, "mapping", dp_mapping_get(mapping)->name);
+    want_text(v, "unit", c->unit);
+    for (size_t i = 0; i < apis; i++) {
+        values_under(v, "setups[%zu].answers[%zu].", k, i);
+        want_answer(v, c, format, mapping, api_of(c, i));
+    }
+    for (size_t i = 0; i < map_count(c) * apis; i++) {
+        const shadow_cascade map = map_of(c, format, mapping, (int)(i / apis));
+        char inner[32];
+        values_under(v, "setups[%zu].rows[%zu].", k, i);
+        want_row(v, c, &map, (int)(i / apis), api_of(c, i % apis));
+        snprintf(inner, sizeof inner, "rows[%zu].", i);
+        place_add(lines, inner, "setups[%zu].", k);
+    }
+}
+
+/* ---- Text -------------------------------------------------------------------------------------------------------- */
+
+/* Four digits, of a gap three. */
+static bool enough(double shown, double value, const char *field) {
+    const double step = strstr(field, "gap") != NULL ? 0.0101 : 0.00101;
+    return fabs(shown) >= fabs(value) * (1 - 1e-12) && fabs(shown) <= fabs(value) * (1 + step);
+}
+
+static double number_at(const values *v, size_t setup, size_t row, const char *field) {
+    char path[PATH_SIZE];
+    snprintf(path, sizeof path, "setups[%zu].rows[%zu].%s", setup, row, field);
+    return value_at(v, path)->number;
+}
+
+/* The row of eight numbers below "units     gap". */
+static void check_bias_line(const values *v, const char *line, size_t setup, size_t row, bool split) {
+    static const char *const fields[] = {"constant_units", "constant_gap",  "slope_factor", "slope_units",
+                                         "slope_gap",      "normal_texels", "normal_units", "normal_gap"};
+    char *end;
+    if (split) {
+        assert_int_equal(strtol(line, &end, 10), (long)row + 1);
+        line = end;
+    }
+    for (size_t k = 0; k < sizeof fields / sizeof fields[0]; k++) {
+        const double want = number_at(v, setup, row, fields[k]);
+        line += strspn(line, " ");
+        if (!isfinite(want)) {
+            assert_int_equal(*line, '-');
+            line += strcspn(line, " \n");
+            continue;
+        }
+        const double shown = strtod(line, &end);
+        if (end == line || !enough(shown, want, fields[k]) || (shown < 0) != (want < 0))
+            fail_msg("%s %.17g in '%.80s'", fields[k], want, line);
+        line = end;
+    }
+}
+
+static void check_place_line(const values *v, const char *line, size_t setup, size_t row) {
+    static const char *const fields[] = {"from", "to", "texel_size", "width", "depth"};
+    char *end;
+    assert_int_equal(strtol(line, &end, 10), (long)row + 1);
+    for (size_t k = 0; k < sizeof fields / sizeof fields[0]; k++)
+        assert_relative(strtod(end, &end), number_at(v, setup, row, fields[k]), k < 2 ? 5e-6 : 5e-4);
+}
+
+static const char *line_behind(const char *text, int lines) {
+    for (; lines > 0; lines--)
+        text = strchr(text, '\n') + 1;
+    return text;
+}
+
+/* What stands behind a label, its lines joined. */
+static void note_of(const char *at, const char *label, char out[512]) {
+    size_t used = 0;
+    const char *line = strstr(at, label);
+    assert_non_null(line);
+    line += strlen(label);
+    do {
+        line += strspn(line, " ");
+        const size_t length = strcspn(line, "\n");
+        assert_true(used + length + 2 < 512);
+        memcpy(out + used, line, length);
+        used += length;
+        out[used++] = ' ';
+        line += length + 1;
+    } while (strncmp(line, "                ", 16) == 0);
+    out[used] = '\0';
+}
+
+/* The first three in a text; NaN for a dash. */
+static void three_numbers(const char *text, double out[3]) {
+    for (int k = 0; k < 3; k++) {
+        char *end;
+        text += strcspn(text, "0123456789-");
+        out[k] = *text == '-' ? NAN : strtod(text, &end);
+        text = *text == '-' ? text + 1 : end;
+    }
+}
+
+/* Shares are those of the map that has the least of the constant bias; gaps the largest. */
+static void check_notes(const values *v, const shadow_case *c, const char *at, size_t setup) {
+    static const char *const shares[] = {"constant_share", "slope_share", "normal_share"};
+    static const char *const gaps[] = {"constant_gap", "slope_gap_facing", "normal_gap_facing"};
+    double share[3] = {INFINITY, INFINITY, INFINITY}, gap[3] = {0}, sum = 0;
+    double shown[3];
+    char text[512], path[64];
+    size_t least = 0;
+    for (size_t i = 0; i < map_count(c); i++)
+        for (int k = 0; k < 3; k++) {
+            const double value = number_at(v, setup, i, shares[k]);
+            least = k == 0 && value < share[0] ? i : least;
+            share[k] = fmin(share[k], value);
+            gap[k] = fmax(gap[k], number_at(v, setup, i, gaps[k]));
+        }
+    for (int k = 0; k < SHADOW_CAUSE_COUNT; k++) {
+        snprintf(path, sizeof path, "causes.%s", shadow_cause_name((shadow_cause)k));
+        sum += number_at(v, setup, least, path);
+    }
+    note_of(at, "\n  causes ", text);
+    if (map_count(c) > 1)
+        assert_int_equal(strtol(strstr(text, "cascade ") + 8, NULL, 10), (long)least + 1);
+    for (int k = 0; k < SHADOW_CAUSE_COUNT; k++) {
+        const char *const name = shadow_cause_name((shadow_cause)k), *const found = strstr(text, name);
+        snprintf(path, sizeof path, "causes.%s", name);
+        const double percent = 100 * number_at(v, setup, least, path) / sum;
+        assert_int_equal(found != NULL, percent >= 0.05);
+        if (found != NULL)
+            assert_relative(strtod(found + strlen(name), NULL), percent, 0.006);
+    }
+    note_of(at, "\n  needed ", text);
+    three_numbers(text, shown);
+    for (int k = 0; k < 3; k++)
+        assert_true(isinf(share[k]) ? isnan(shown[k]) : shown[k] <= 100 * share[k] && shown[k] > 90 * share[k]);
+    note_of(at, "\n  gap ", text);
+    three_numbers(text, shown);
+    for (int k = 0; k < 3; k++)
+        assert_true(gap[k] == 0 ? isnan(shown[k]) : enough(shown[k], gap[k], "gap"));
+}
+
+/* A line for each API with what is enough in all maps. */
+static void check_apis(const values *v, const shadow_case *c) {
+    static const char *const fields[] = {"constant_units", "slope_factor", "slope_units", "normal_texels",
+                                         "normal_units"};
+    printed p = print_of("shadow %s", c->options);
+    const char *at = strstr(p.out, "\napi ");
+    for (size_t i = 0; i < APIS; i++) {
+        assert_non_null(at);
+        at = strchr(at + 1, '\n');
+        const char *const name = bias_api_get(i)->name;
+        assert_int_equal(strncmp(at + 1, name, strlen(name)), 0);
+        char *end = (char *)at + 1 + strlen(name);
+        for (size_t k = 0; k < sizeof fields / sizeof fields[0]; k++) {
+            char path[PATH_SIZE];
+            snprintf(path, sizeof path, "setups[0].answers[%zu].%s", i, fields[k]);
+            assert_true(enough(strtod(end, &end), value_at(v, path)->number, fields[k]));
+        }
+    }
+    printed_free(&p);
+}
+
+static void check_text(const values *v, const shadow_case *c) {
+    printed p = print_of("shadow %s", c->options);
+    const bool split = c->box[2] == 0;
+    const char *at = p.out;
+    assert_int_equal(p.status, 0);
+    for (size_t k = 0; k < c->format_count * c->mapping_count; k++) {
+        for (int way = 0; way < SHADOW_WAY_COUNT; way++) {
+            char path[PATH_SIZE];
+            snprintf(path, sizeof path, "setups[%zu].answers[0].%s_call", k, ways[way]);
+            const wanted *call = value_at(v, path);
+            const size_t first = strcspn(call->text, ","); /* the line may break behind it */
+            at = strstr(at, shadow_way_name((shadow_way)way)) + 14;
+            if (call->is_null)
+                assert_int_equal(strncmp(at, "no bias is enough\n", 18), 0);
+            else
+                assert_int_equal(strncmp(at, call->text, first), 0);
+        }
+        if (split) {
+            at = strstr(at, " cascade       from         to      texel        box      depth\n");
+            assert_non_null(at);
+            for (size_t i = 0; i < map_count(c); i++)
+                check_place_line(v, line_behind(at, (int)i + 1), k, i);
+        }
+        at = strstr(at, "units     gap  factor    units     gap  offset    units     gap\n");
+        assert_non_null(at);
+        for (size_t i = 0; i < map_count(c); i++)
+            check_bias_line(v, line_behind(at, (int)i + 1), k, i, split);
+        check_notes(v, c, at, k);
+    }
+    printed_free(&p);
+}
+
+/* ---- Tests ------------------------------------------------------------------------------------------------------- */
+
+#define WAY(name)                                                                                                      \
+    {name "_bias", name "_bias"}, {name "_units", name "_units"}, {name "_gap [scene]", name "_gap"},                  \
+        {name "_gap_normal [scene]", name "_gap_normal"}, {                                                            \
+        name "_share", name "_share"                                                                                   \
+    }
+#define FACING(name)                                                                                                   \
+    { name "_gap_facing [scene]", name "_gap_facing" }
+#define CAUSES                                                                                                         \
+    {"texel [scene]", "causes.texel"}, {"kernel [scene]", "causes.kernel"}, {"lookup [scene]", "causes.lookup"},       \
+        {"snapping [scene]", "causes.snapping"}, {"set-up [scene]", "causes.set-up"},                                  \
+        {"position [scene]", "causes.position"}, {                                                                     \
+        "format [scene]", "causes.format"                                                                              \
+    }
+#define MAP                                                                                                            \
+    {"width [scene]", "width"}, {"height [scene]", "height"}, {"depth [scene]", "depth"},                              \
+        {"texel_size [scene]", "texel_size"}, WAY("constant"), {"slope_factor", "slope_factor"}, WAY("slope"),         \
+        FACING("slope"), {"normal_offset [scene]", "normal_offset"}, {"normal_texels", "normal_texels"},               \
+        WAY("normal"), FACING("normal"), {"limited", "limited"}, CAUSES
+
+static void test_all(void **state) {
+    static const csv_column box[] = {{"format", "^format"}, {"mapping", "^mapping"}, {"api", "api"}, MAP};
+    static const csv_column split[] = {{"format", "^format"},
+                                       {"mapping", "^mapping"},
+                                       {"api", "api"},
+                                       {"cascade", "cascade"},
+                                       {"from [scene]", "from"},
+                                       {"to [scene]", "to"},
+                                       {"radius [scene]", "radius"},
+                                       MAP};
+    (void)state;
+    for (size_t i = 0; i < CASES; i++) {
+        const shadow_case *c = &cases[i];
+        const bool is_box = c->box[2] > 0;
+        values v = values_of("shadow");
+        line_places lines = {0};
+        char arguments[512];
+        snprintf(arguments, sizeof arguments, "shadow %s", c->options);
+        want_head(&v, c);
+        for (size_t k = 0; k < c->format_count * c->mapping_count; k++)
+            want_setup_of(&v, c, k, &lines);
+        check_json(&v, 0, arguments);
+        check_csv(&v, 0, arguments, is_box ? box : split,
+                  is_box ? sizeof box / sizeof box[0] : sizeof split / sizeof split[0], &lines);
+        (c->api != NULL ? check_text : check_apis)(&v, c);
+        values_free(&v);
+        places_free(&lines);
+    }
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {cmocka_unit_test(test_all), cmocka_unit_test(check_apart)};
+    return run_tap(tests);
+}
