@@ -121,6 +121,14 @@ static void test_hidden(void **state) {
     expect(exactly, 1, FINDER_HIDDEN, 0);
 }
 
+static void turn_round(size_t from) {
+    for (size_t t = from; t < made.m.triangles; t++) {
+        const uint32_t kept = made.triangle[t][0];
+        made.triangle[t][0] = made.triangle[t][1];
+        made.triangle[t][1] = kept;
+    }
+}
+
 /* What is no body, or none that hides. */
 static void test_not_hidden(void **state) {
     (void)state;
@@ -138,15 +146,15 @@ static void test_not_hidden(void **state) {
     }
     rug_at(5);
     chest(4.5, -0.5);
-    for (size_t t = 4; t < made.m.triangles; t++) { /* a room, seen from within */
-        const uint32_t kept = made.triangle[t][0];
-        made.triangle[t][0] = made.triangle[t][1];
-        made.triangle[t][1] = kept;
-    }
+    turn_round(4); /* a room, seen from within */
     expect(exactly, 1, FINDER_HIDDEN, 0);
     scene_made_surface(&made, "box", ""); /* in the room */
     scene_made_box(&made, (const double[3]){4.75, 0.75, -0.25}, (const double[3]){6.25, 2.25, 0.25});
     expect(exactly, 0, FINDER_HIDDEN, 2);
+    rug_at(5);
+    chest(4.5, 0.25);
+    turn_round(4); /* a room above: its walls look away, and one sees the rug through them */
+    expect(exactly, 1, FINDER_HIDDEN, 0);
 }
 
 /* Floor and rug are seen from both sides: a body in front hides them where another one stands behind. */
@@ -236,8 +244,28 @@ static void test_order(void **state) {
     finder_free(&f);
 }
 
-/* ---- Bounds
- * ---------------------------------------------------------------------------------------------------------- */
+/* The lesser surface is a, whose triangles come first in a pair, wherever they are in the model. */
+static void test_surfaces(void **state) {
+    (void)state;
+    scene_made_begin(&made);
+    floor_at("above", 0.25);
+    floor_at("floor", 0.0);
+    for (int t = 0; t < 4; t++)
+        made.of[t] = t < 2;
+    finder_found f = find((finder_asked){.gap = 0.3});
+    assert_int_equal(f.findings, 1);
+    assert_int_equal(f.finding[0].a, 0);
+    assert_int_equal(f.finding[0].b, 1);
+    assert_int_equal(f.pairs, 2);
+    for (size_t i = 0; i < f.pairs; i++) {
+        assert_true(f.pair[i].triangle[0] >= 2 && f.pair[i].triangle[1] < 2);
+        assert_scene(f.pair[i].gap_lo, 0.25, 1e-12);
+        assert_scene(f.pair[i].place[2], 0.0, 1e-12);
+    }
+    finder_free(&f);
+}
+
+/* ---- Bounds ------------------------------------------------------------------------------------------------------ */
 
 static void test_refused(void **state) {
     (void)state;
@@ -319,10 +347,11 @@ static void test_progress(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_facing),     cmocka_unit_test(test_blended),    cmocka_unit_test(test_thin),
-        cmocka_unit_test(test_hidden),     cmocka_unit_test(test_not_hidden), cmocka_unit_test(test_hidden_behind),
-        cmocka_unit_test(test_findings),   cmocka_unit_test(test_order),      cmocka_unit_test(test_refused),
-        cmocka_unit_test(test_degenerate), cmocka_unit_test(test_cut),        cmocka_unit_test(test_progress),
+        cmocka_unit_test(test_facing),   cmocka_unit_test(test_blended),    cmocka_unit_test(test_thin),
+        cmocka_unit_test(test_hidden),   cmocka_unit_test(test_not_hidden), cmocka_unit_test(test_hidden_behind),
+        cmocka_unit_test(test_findings), cmocka_unit_test(test_order),      cmocka_unit_test(test_surfaces),
+        cmocka_unit_test(test_refused),  cmocka_unit_test(test_degenerate), cmocka_unit_test(test_cut),
+        cmocka_unit_test(test_progress),
     };
     return run_tap(tests);
 }

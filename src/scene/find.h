@@ -92,7 +92,7 @@ typedef struct finder_found {
     size_t degenerate;               /**< triangles without area, which take no part */
     /**
      * The search was cut short: pairs_max pairs are kept, or too many triangles lie in one place: more work than some
-     * 2^22 + 64 n pairs of triangles looked at closely. What was found by then is right; left_out counts that part.
+     * 2^21 + 32 n pairs of triangles looked at closely. What was found by then is right; left_out counts that part.
      */
     bool cut;
 } finder_found;
