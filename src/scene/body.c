@@ -1,21 +1,21 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "scene/body.h"
 
+#include <stdbool.h>
 #include <stdlib.h>
 #include <string.h>
 
-static const uint32_t none = UINT32_MAX;
-
 typedef struct edge {
-    uint32_t from, to; /* the lesser first; from == none: free */
+    uint32_t from, to; /* the lesser first; from == BODY_NONE: free */
     int32_t balance;   /* how much oftener it is run through this way than the other */
     uint32_t triangle; /* one that has it */
 } edge;
 
 typedef struct bodies {
     const model *m;
-    uint32_t *piece;  /* of each surface; none: it hides nothing */
-    uint32_t *corner; /* of each corner of each triangle: the first that has this place in this piece */
+    uint32_t *piece;  /* of each surface; BODY_NONE: it hides nothing */
+    uint32_t *corner; /* of each corner of each triangle: the first that has this place in this piece; in the
+ end the numbers */
     uint32_t *place;  /* hashed: corners */
     edge *edge;       /* hashed */
     size_t mask;      /* the hashed ones' size less 1 */
@@ -35,7 +35,7 @@ static void set_pieces(bodies *b) {
     for (size_t i = 0; i < b->m->surfaces; i++) {
         if (i > 0 && (strcmp(s[i].node, s[i - 1].node) != 0 || strcmp(s[i].mesh, s[i - 1].mesh) != 0))
             piece++;
-        b->piece[i] = s[i].blended || s[i].two_sided ? none : piece;
+        b->piece[i] = s[i].blended || s[i].two_sided ? BODY_NONE : piece;
     }
 }
 
@@ -60,19 +60,19 @@ static void set_corner(bodies *b, uint32_t corner) {
     const double *p = position(b, corner);
     const uint32_t piece = b->piece[b->m->of[corner / 3]];
     size_t at = hash_of(b, corner, piece) & b->mask;
-    for (; b->place[at] != none; at = (at + 1) & b->mask) {
+    for (; b->place[at] != BODY_NONE; at = (at + 1) & b->mask) {
         const double *q = position(b, b->place[at]);
         if (p[0] == q[0] && p[1] == q[1] && p[2] == q[2] && b->piece[b->m->of[b->place[at] / 3]] == piece)
             break;
     }
-    if (b->place[at] == none)
+    if (b->place[at] == BODY_NONE)
         b->place[at] = corner;
     b->corner[corner] = b->place[at];
 }
 
 static edge *edge_at(const bodies *b, uint32_t from, uint32_t to) {
     size_t at = mixed((uint64_t)from << 32 | to) & b->mask;
-    while (b->edge[at].from != none && (b->edge[at].from != from || b->edge[at].to != to))
+    while (b->edge[at].from != BODY_NONE && (b->edge[at].from != from || b->edge[at].to != to))
         at = (at + 1) & b->mask;
     return &b->edge[at];
 }
@@ -90,7 +90,7 @@ static void join(bodies *b, uint32_t triangle) {
         if (from == to)
             continue;
         edge *e = from < to ? edge_at(b, from, to) : edge_at(b, to, from);
-        if (e->from == none)
+        if (e->from == BODY_NONE)
             *e = (edge){from < to ? from : to, from < to ? to : from, 0, triangle};
         e->balance += from < to ? 1 : -1;
         b->parent[root(b->parent, triangle)] = root(b->parent, e->triangle);
@@ -98,7 +98,7 @@ static void join(bodies *b, uint32_t triangle) {
 }
 
 static bool hides(const bodies *b, uint32_t triangle) {
-    return b->piece[b->m->of[triangle]] != none;
+    return b->piece[b->m->of[triangle]] != BODY_NONE;
 }
 
 static bool find_corners(bodies *b, uint32_t triangles) {
@@ -127,39 +127,37 @@ static bool find_edges(bodies *b, uint32_t triangles) {
     return true;
 }
 
-static void set_closed(bodies *b, uint32_t triangles, uint8_t *closed) {
+/* Turns each triangle's parent into its body's number: the root's own, which is marked where an edge is left over. */
+static void set_numbers(bodies *b, uint32_t triangles) {
     for (uint32_t t = 0; t < triangles; t++)
-        closed[t] = hides(b, t);
+        b->corner[t] = root(b->parent, t);
     for (size_t at = 0; at <= b->mask; at++)
-        if (b->edge[at].from != none && b->edge[at].balance != 0)
-            closed[root(b->parent, b->edge[at].triangle)] = 0;
+        if (b->edge[at].from != BODY_NONE && b->edge[at].balance != 0)
+            b->parent[b->corner[b->edge[at].triangle]] = BODY_NONE;
     for (uint32_t t = 0; t < triangles; t++)
-        closed[t] = closed[t] && closed[root(b->parent, t)];
+        b->corner[t] = hides(b, t) ? b->parent[b->corner[t]] : BODY_NONE;
 }
 
-uint8_t *body_closed(const model *m) {
+uint32_t *body_numbers(const model *m) {
     const uint32_t triangles = (uint32_t)m->triangles;
     bodies b = {.m = m, .mask = 1};
     while (b.mask < 4 * (size_t)triangles)
         b.mask = 2 * b.mask + 1;
-    uint8_t *closed = malloc(triangles);
     b.piece = malloc(m->surfaces * sizeof *b.piece);
     b.corner = malloc(3 * (size_t)triangles * sizeof *b.corner);
     b.parent = malloc((size_t)triangles * sizeof *b.parent);
-    bool done = closed != NULL && b.piece != NULL && b.corner != NULL && b.parent != NULL;
+    bool done = b.piece != NULL && b.corner != NULL && b.parent != NULL;
     if (done)
         set_pieces(&b);
     done = done && find_corners(&b, triangles) && find_edges(&b, triangles);
     if (done)
-        set_closed(&b, triangles, closed);
-    else {
-        free(closed);
-        closed = NULL;
-    }
+        set_numbers(&b, triangles);
     free(b.piece);
-    free(b.corner);
     free(b.place);
     free(b.edge);
     free(b.parent);
-    return closed;
+    if (done)
+        return b.corner;
+    free(b.corner);
+    return NULL;
 }

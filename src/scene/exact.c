@@ -206,7 +206,7 @@ static int turn_in_pairs(const exact_view *view, exact_triangle t) {
         const dp_pair b = pair_cross(view->b, k);
         const dp_pair n = pair_sum(pair_cross(view->a, k), (dp_pair){view->sign * b.hi, view->sign * b.lo});
         sum = pair_sum(sum, pair_product(n, pair_cross(t, k)));
-        size += (cross_component(view->a, k).size + cross_component(view->b, k).size) * cross_component(t, k).size;
+        size += view->sizes[k] * cross_component(t, k).size;
     }
     return sign_beyond(sum.hi, size, PAIRED);
 }
@@ -227,17 +227,28 @@ static int turn_exactly(const exact_view *view, exact_triangle t) {
     return sign_of_expansion(&sum);
 }
 
+void exact_look(exact_view *view, exact_triangle a, exact_triangle b, double sign) {
+    memcpy(view->a, a, sizeof view->a);
+    memcpy(view->b, b, sizeof view->b);
+    view->sign = sign;
+    view->plane = false;
+    for (int k = 0; k < 3; k++) {
+        const bounded x = cross_component(a, k);
+        const bounded y = cross_component(b, k);
+        view->along[k] = x.value + sign * y.value;
+        view->sizes[k] = x.size + y.size;
+    }
+}
+
 int exact_turn_quick(const exact_view *view, const double p[3], const double q[3], const double r[3]) {
     if (same(r, p) || same(r, q))
         return 0;
     const double *const t[3] = {p, q, r};
     bounded sum = {0.0, 0.0};
     for (int k = 0; k < 3; k++) {
-        const bounded a = cross_component(view->a, k);
-        const bounded b = cross_component(view->b, k);
         const bounded c = cross_component(t, k);
-        sum.value += (a.value + view->sign * b.value) * c.value;
-        sum.size += (a.size + b.size) * c.size;
+        sum.value += view->along[k] * c.value;
+        sum.size += view->sizes[k] * c.size;
     }
     return sign_beyond(sum.value, sum.size, ROUNDED);
 }

@@ -23,9 +23,13 @@ int exact_above(exact_triangle t, const double p[3]);
 /* Two triangles and the direction along which they are looked at: normal of a + sign normal of b, which is not 0. */
 typedef struct exact_view {
     const double *a[3], *b[3];
-    double sign; /* 1 or -1 */
-    bool plane;  /* both lie in one plane, exactly */
+    double sign;               /* 1 or -1 */
+    bool plane;                /* both lie in one plane, exactly */
+    double along[3], sizes[3]; /* the direction in double, and what bounds its error */
 } exact_view;
+
+/* `plane` is false, to be set by the caller. */
+void exact_look(exact_view *view, exact_triangle a, exact_triangle b, double sign);
 
 /*
  * Whether p, q, r turn counter-clockwise, seen with the direction towards the eye: 1; 0: they are in line; -1. The

@@ -76,11 +76,11 @@ static bool is_hidden(const hidden_among *among, const finder_pair *p, double ga
 /* Leaves out what is hidden; the pairs that stay keep their order. */
 static finder_status leave_hidden_out(search *s) {
     finder_found *f = &s->found;
-    uint8_t *closed = body_closed(s->m);
+    uint32_t *body = body_numbers(s->m);
     uint8_t *hidden = malloc(f->pairs);
-    const hidden_among among = {s->m, &s->t, s->origin, closed, s->asked->gap + AGAINST * s->extent};
+    const hidden_among among = {s->m, &s->t, s->origin, body, s->asked->gap + AGAINST * s->extent};
     bool stopped = false;
-    finder_status status = closed != NULL && hidden != NULL ? FINDER_DONE : FINDER_NO_MEMORY;
+    finder_status status = body != NULL && hidden != NULL ? FINDER_DONE : FINDER_NO_MEMORY;
     for (size_t first = 0; first < f->pairs && status == FINDER_DONE; first += TELL) {
         const size_t end = first + TELL < f->pairs ? first + TELL : f->pairs;
 #pragma omp parallel for schedule(dynamic, 16) num_threads(s->threads)
@@ -97,7 +97,7 @@ static finder_status leave_hidden_out(search *s) {
         f->left_out[FINDER_HIDDEN] = f->pairs - kept;
         f->pairs = kept;
     }
-    free(closed);
+    free(body);
     free(hidden);
     return status;
 }

@@ -51,6 +51,14 @@ typedef enum finder_filter {
     FINDER_FILTERS
 } finder_filter;
 
+typedef struct finder_filter_row {
+    const char *name; /**< "facing" */
+    const char *note; /**< of pairs: "that are never seen from one side" */
+} finder_filter_row;
+
+/** Index: finder_filter; null when out of range. */
+const finder_filter_row *finder_filter_get(size_t filter);
+
 typedef struct finder_asked {
     double gap;       /**< scene units, from 0, finite */
     double angle;     /**< degrees, from 0 to FINDER_ANGLE_MAX */
@@ -92,7 +100,7 @@ typedef struct finder_found {
     size_t degenerate;               /**< triangles without area, which take no part */
     /**
      * The search was cut short: pairs_max pairs are kept, or too many triangles lie in one place: more work than some
-     * 2^22 + 64 n pairs of triangles looked at closely. What was found by then is right; left_out counts that part.
+     * 2^21 + 32 n pairs of triangles looked at closely. What was found by then is right; left_out counts that part.
      */
     bool cut;
 } finder_found;

@@ -3,6 +3,8 @@
 
 #include <math.h>
 
+#include "scene/body.h"
+
 #define INWARD 0x1p-10
 /* A ray this near to an edge or a corner, relative to what the number is made of, may be on either side of it. */
 #define GRAZING 1e-12
@@ -15,9 +17,10 @@ typedef struct ray {
     const hidden_among *among;
     double start[3], along[3];
     double nearest; /* what it meets first, in lengths of `along` */
-    bool within;    /* that is the inside of a closed body */
-    bool grazes;    /* it comes too near to an edge */
-    int left;       /* how much oftener it leaves closed bodies than it enters them */
+    uint32_t body;  /* whose inside that is; BODY_NONE: of none */
+    bool counting;  /* a second time: how much oftener it leaves this body than it enters it */
+    int left;
+    bool grazes; /* it comes too near to an edge */
 } ray;
 
 static double triple(const double x[3], const double y[3], const double z[3]) {
@@ -51,11 +54,11 @@ static void meet(ray *r, uint32_t triangle) {
         r->grazes = true;
         return;
     }
-    const bool closed = r->among->closed[triangle] != 0;
-    r->left += closed ? (facing > 0.0 ? 1 : -1) : 0;
-    if (at < r->nearest) {
+    if (r->counting)
+        r->left += r->among->body[triangle] != r->body ? 0 : facing > 0.0 ? 1 : -1;
+    else if (at < r->nearest) {
         r->nearest = at;
-        r->within = closed && facing > 0.0;
+        r->body = facing > 0.0 ? r->among->body[triangle] : BODY_NONE;
     }
 }
 
@@ -68,17 +71,28 @@ static bool visit(void *context, uint32_t leaf) {
     return !r->grazes;
 }
 
+/* Whether the ray can tell, and *within: that it starts inside a body. */
+static bool tell(ray *r, bool *within) {
+    double from[3];
+    for (int i = 0; i < 3; i++)
+        from[i] = r->start[i] - r->among->origin[i];
+    if (!tree_ray(r->among->t, from, r->along, visit, r))
+        return false;
+    r->counting = true;
+    *within = r->body != BODY_NONE && tree_ray(r->among->t, from, r->along, visit, r) && r->left > 0;
+    return true;
+}
+
 static bool inside(const hidden_among *among, const double point[3], const double normal[3]) {
     for (size_t k = 0; k < sizeof tilts / sizeof tilts[0]; k++) {
-        ray r = {.among = among, .nearest = INFINITY};
-        double from[3];
+        ray r = {.among = among, .nearest = INFINITY, .body = BODY_NONE};
+        bool within;
         for (int i = 0; i < 3; i++) {
             r.start[i] = point[i] + among->before * normal[i];
             r.along[i] = normal[i] + tilts[k][i];
-            from[i] = r.start[i] - among->origin[i];
         }
-        if (tree_ray(among->t, from, r.along, visit, &r))
-            return r.within && r.left > 0;
+        if (tell(&r, &within))
+            return within;
     }
     return false;
 }

@@ -1,13 +1,14 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /*
  * Whether closed bodies hide an overlap: from every point of it that is tried, a little before its surfaces, a ray
- * first meets the inside of a closed body (body.h), and leaves such bodies oftener than it enters them. Tried are the
+ * first meets the inside of a closed body (body.h), and leaves this body oftener than it enters it. Tried are the
  * corners, moved inward by 2^-10, the middles of the sides and the centroid; "a little" is the gap asked for, so that a
  * body that lies against the overlap hides it, too.
  *
  * What hides nothing: a body with a hole in it, or whose neighbours' corners are not at the same coordinates, bodies of
- * blended or two-sided materials, and rooms whose walls face inward. What is hidden wrongly: an overlap that shows
- * itself only between the points tried, behind a hollow of the body, and one seen by a camera inside a body.
+ * blended or two-sided materials, and walls that face into their room. What is hidden wrongly: an overlap that shows
+ * itself only between the points tried, in a hollow of the body or through a masked part of its texture, and one seen
+ * by a camera inside a body.
  */
 #ifndef SCENE_HIDDEN_H
 #define SCENE_HIDDEN_H
@@ -21,10 +22,10 @@
 
 typedef struct hidden_among {
     const model *m;
-    const tree *t;         /* its items are triangles */
-    const double *origin;  /* of its boxes */
-    const uint8_t *closed; /* body_closed() */
-    double before;         /* scene units: how far before the surfaces the rays start */
+    const tree *t;        /* its items are triangles */
+    const double *origin; /* of its boxes */
+    const uint32_t *body; /* body_numbers() */
+    double before;        /* scene units: how far before the surfaces the rays start */
 } hidden_among;
 
 /* Seen from the front of the overlap's first triangle, else from behind it. */

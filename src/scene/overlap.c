@@ -75,9 +75,6 @@ static bool beyond(exact_triangle a, const double na[3], exact_triangle b, doubl
 
 /* The normals, their angle and the view; false: the angle is too large. */
 static bool look(frame *f, exact_triangle a, exact_triangle b, double sine) {
-    memcpy(f->view.a, a, sizeof f->view.a);
-    memcpy(f->view.b, b, sizeof f->view.b);
-    f->view.plane = false;
     exact_normal(a, f->na);
     exact_normal(b, f->nb);
     double la = normalize(f->na);
@@ -90,9 +87,9 @@ static bool look(frame *f, exact_triangle a, exact_triangle b, double sine) {
         const double c = f->na[i] * f->nb[j] - f->na[j] * f->nb[i];
         cross += c * c;
     }
-    f->view.sign = dot(f->na, f->nb) < 0.0 ? -1.0 : 1.0;
     if (sqrt(cross) > sine + SINE_SLACK)
         return false;
+    exact_look(&f->view, a, b, dot(f->na, f->nb) < 0.0 ? -1.0 : 1.0);
     la /= longer;
     lb /= longer;
     for (int k = 0; k < 3; k++)

@@ -13,8 +13,8 @@ enum { CHUNK = 256, ROUND_MAX = 16 };
 
 /* Work, in comparisons of two boxes: that of looking at two triangles, of a model all in one place and of each triangle
  * more before it is too much, and after which progress is told. */
-enum { WORK_LOOK = 64, WORK_EACH = 64 * WORK_LOOK, WORK_TELL = 1 << 24 };
-#define WORK_MAX ((uint64_t)1 << 28)
+enum { WORK_LOOK = 64, WORK_EACH = 32 * WORK_LOOK, WORK_TELL = 1 << 24 };
+#define WORK_MAX ((uint64_t)1 << 27)
 
 /* Of the float normals' product, six roundings. */
 #define FLOAT_SLACK 1e-6F
