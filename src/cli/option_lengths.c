@@ -81,6 +81,15 @@ int parse_length(options *o, const option_row *row, const char *value) {
     return EXIT_FINE;
 }
 
+/* Surfaces of a model may be in one place. */
+int parse_gap(options *o, const option_row *row, const char *value) {
+    double gap;
+    if (o->verb->bit != VERB_SCENE || !number_parse(value, NUMBER_FINITE, &gap) || gap != 0.0)
+        return parse_length(o, row, value);
+    o->gap = 0.0;
+    return EXIT_FINE;
+}
+
 /* What is not positive needs --ortho, which may come later: check_near() of options.c. */
 int parse_near(options *o, const option_row *row, const char *value) {
     if (!read_length(&(lengths){.o = o}, value, strlen(value), NUMBER_FINITE, &o->znear) || o->znear > 0.0)

@@ -252,15 +252,6 @@ int parse_also(options *o, const option_row *row, const char *value) {
     return parse_names(o, row, value, add_filter);
 }
 
-/* Surfaces of a model may be in one place. */
-int parse_gap(options *o, const option_row *row, const char *value) {
-    double gap;
-    if (o->verb->bit != VERB_SCENE || !number_parse(value, NUMBER_FINITE, &gap) || gap != 0.0)
-        return parse_length(o, row, value);
-    o->gap = 0.0;
-    return EXIT_FINE;
-}
-
 /* A share, or a percentage with its sign. */
 int parse_tolerance(options *o, const option_row *row, const char *value) {
     const size_t length = strlen(value);
