@@ -53,18 +53,6 @@ typedef struct scene {
     bool passed;
 } scene;
 
-static const char *const filter_words[FINDER_FILTERS] = {
-    [FINDER_FACING] = "facing", [FINDER_BLENDED] = "blended", [FINDER_THIN] = "thin", [FINDER_HIDDEN] = "hidden"};
-static const char *const filter_notes[FINDER_FILTERS] = {[FINDER_FACING] = "that are never seen from one side",
-                                                         [FINDER_BLENDED] = "with a blended material",
-                                                         [FINDER_THIN] = "that touch along an edge",
-                                                         [FINDER_HIDDEN] = "inside closed bodies"};
-
-bool list_filter(size_t index, list_item *item) {
-    return index < FINDER_FILTERS &&
-           list_fill(item, (list_item){.name = filter_words[index], .note = filter_notes[index], .row = NULL});
-}
-
 /* ---- Reading and finding ----------------------------------------------------------------------------------------- */
 
 static options scene_options(const options *given) {
@@ -276,10 +264,10 @@ static void say_notes(page *p, void *of) {
         say_finding(p, s, i);
     if (fights > shown)
         page_text(p, "%zu more: --json and --csv have all.", fights - shown);
-    for (int k = 0; k < FINDER_FILTERS; k++)
+    for (size_t k = 0; k < FINDER_FILTERS; k++)
         if (s->found.left_out[k] > 0)
-            page_line(p, "left out: %zu pairs of triangles %s (--also %s)", s->found.left_out[k], filter_notes[k],
-                      filter_words[k]);
+            page_line(p, "left out: %zu pairs of triangles %s (--also %s)", s->found.left_out[k],
+                      finder_filter_get(k)->note, finder_filter_get(k)->name);
     if (s->found.degenerate > 0)
         page_line(p, "left out: %zu triangles without area", s->found.degenerate);
     if (s->found.cut)

@@ -13,6 +13,7 @@
 #include "plot/figure.h"
 #include "raster/raster.h"
 #include "report/number.h"
+#include "scene/find.h"
 #include "texture/effect.h"
 #include "texture/pack.h"
 #include "texture/packing.h"
@@ -148,6 +149,11 @@ bool list_rasterizer(size_t index, list_item *item) {
            row->plane_bits > 0 ? "snapped too" : "not snapped", anchor->name, e->value, e->box, e->range, e->origin,
            clippings[row->clipping], row->operations);
     return true;
+}
+
+bool list_filter(size_t index, list_item *item) {
+    const finder_filter_row *row = finder_filter_get(index);
+    return row != NULL && list_fill(item, (list_item){.name = row->name, .note = row->note, .row = row});
 }
 
 bool list_program(size_t index, list_item *item) {

@@ -13,6 +13,7 @@ static const struct {
     {VERB_BUDGET, cmd_budget},       {VERB_TEXTURE, cmd_texture}, {VERB_BENCH, cmd_bench},
     {VERB_STABILITY, cmd_stability}, {VERB_CHECK, cmd_check},     {VERB_SOLVE, cmd_solve},
     {VERB_BIAS, cmd_bias},           {VERB_SHADOW, cmd_shadow},   {VERB_SCENE, cmd_scene},
+    {VERB_DISOCCLUSION, cmd_disocclusion},
     {VERB_LIST, cmd_list},           {VERB_HELP, cmd_help},       {VERB_COMPLETIONS, cmd_completions},
 };
 

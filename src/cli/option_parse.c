@@ -8,6 +8,7 @@
 #include "api/unit.h"
 #include "core/append.h"
 #include "report/number.h"
+#include "scene/find.h"
 
 const char *option_argument(const option_row *row, char out[OPTION_TEXT_SIZE]) {
     out[0] = '\0';
@@ -237,14 +238,13 @@ int parse_against(options *o, const option_row *row, const char *value) {
 }
 
 static int add_filter(options *o, const option_row *row, const char *name) {
-    size_t i = 0;
-    list_item item;
-    if (strcmp(name, "all") == 0)
-        o->filters_off = ~0U;
-    while (list_filter(i, &item) && strcmp(item.name, name) != 0)
-        i++;
-    o->filters_off |= 1U << i;
-    return list_filter(i, &item) || strcmp(name, "all") == 0 ? EXIT_FINE : unknown_name(row, name);
+    list_item found;
+    if (!names_find(row->names, name, NULL, &found))
+        return unknown_name(row, name);
+    for (size_t i = 0; finder_filter_get(i) != NULL; i++)
+        if (found.row == NULL || found.row == finder_filter_get(i))
+            o->filters_off |= 1U << i;
+    return EXIT_FINE;
 }
 
 int parse_also(options *o, const option_row *row, const char *value) {

@@ -76,6 +76,10 @@ const verb verb_rows[] = {
      "  depthprec scene house.glb -n 0.1 -f 500 --unit m\n"
      "  depthprec scene house.glb --viewport 1920x1080 --within 50\n"
      "  depthprec scene city.obj -F d24 -m d3d --gap 0.001 --json\n", 1},
+    {"disocclusion", VERB_DISOCCLUSION, "", 0, 0, NULL,
+     "how far apart two samples are surely of two surfaces",
+     "  depthprec disocclusion -n 0.1 -f inf -m reversed --hfov 90\n"
+     "  depthprec disocclusion --preset bevy --at 1,10,100\n", 0},
     {"list", VERB_LIST, "WHAT", 0, 1, &topics,
      "formats, mappings, presets, methods: 'list' names all",
      "  depthprec list\n"

@@ -28,7 +28,8 @@ enum {
     VERB_TEXTURE = 1u << 11,
     VERB_COMPLETIONS = 1u << 12,
     VERB_SHADOW = 1u << 13,
-    VERB_SCENE = 1u << 14
+    VERB_DISOCCLUSION = 1u << 14,
+    VERB_SCENE = 1u << 15
 };
 
 typedef struct verb {
@@ -59,6 +60,7 @@ int cmd_stability(const struct options *o);
 int cmd_check(const struct options *o);
 int cmd_solve(const struct options *o);
 int cmd_texture(const struct options *o);
+int cmd_disocclusion(const struct options *o);
 int cmd_help(const struct options *o);
 int cmd_completions(const struct options *o);
 

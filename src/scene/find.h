@@ -52,6 +52,14 @@ typedef enum finder_filter {
     FINDER_FILTERS
 } finder_filter;
 
+typedef struct finder_filter_row {
+    const char *name; /**< "facing" */
+    const char *note; /**< of pairs: "that are never seen from one side" */
+} finder_filter_row;
+
+/** Index: finder_filter; null when out of range. */
+const finder_filter_row *finder_filter_get(size_t filter);
+
 typedef struct finder_asked {
     double gap;       /**< scene units, from 0, finite */
     double angle;     /**< degrees, from 0 to FINDER_ANGLE_MAX */
