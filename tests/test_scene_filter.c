@@ -117,6 +117,11 @@ static void test_hidden(void **state) {
     expect((finder_asked){.gap = 0.01, .off = 1U << FINDER_FACING}, 2, FINDER_HIDDEN, 2);
     expect(exactly, 1, FINDER_HIDDEN, 0);
     rug_at(5);
+    chest(4.5, 0.25); /* within the gap, but one sees below it */
+    finder_found f = find((finder_asked){.gap = 0.5});
+    assert_int_equal(f.findings, 1);
+    finder_free(&f);
+    rug_at(5);
     chest(5.5, -0.5); /* half of it looks out */
     expect(exactly, 1, FINDER_HIDDEN, 0);
 }

@@ -18,7 +18,8 @@
  * Pairs that nobody can see are left out and counted, by filters that can be switched off. The rest is grouped by the
  * two surfaces that the triangles belong to: a *finding*. The result does not depend on the number of threads.
  *
- * Cost: O(n log n) for n triangles of which each is near few; about 110 bytes a triangle, and 56 a pair.
+ * Cost: O(n log n) for n triangles of which each is near few; at most 110 bytes a triangle, 220 where there are pairs
+ * that bodies might hide, and 56 a pair.
  */
 #ifndef SCENE_FIND_H
 #define SCENE_FIND_H
