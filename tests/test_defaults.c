@@ -32,6 +32,7 @@ static const struct {
     const char *line; /* in place of the command's; null: that */
     const char *more;
 } besides[] = {
+    {VERB_PLOT, OPTION_PLANE, "plot fight --csv", ""},
     {VERB_PLOT, OPTION_INTERPOLATION, "plot budget -F d24 -m d3d --csv", ""},
     {VERB_PLOT, OPTION_WORLD, "plot budget -F d24 -m d3d --csv", ""},
     {VERB_PLOT, OPTION_COMPOSITION, "plot budget -F d24 -m d3d --csv", "--world 100"},
