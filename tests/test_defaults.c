@@ -22,6 +22,7 @@ static const struct {
     {VERB_BIAS, "bias --units -1"},
     {VERB_STABILITY, "stability encode"},
     {VERB_SHADOW, "shadow"},
+    {VERB_DISOCCLUSION, "disocclusion"},
     {VERB_LIST, "list scenes"},
 };
 
@@ -32,6 +33,7 @@ static const struct {
     const char *line; /* in place of the command's; null: that */
     const char *more;
 } besides[] = {
+    {VERB_PLOT, OPTION_PLANE, "plot fight --csv", ""},
     {VERB_PLOT, OPTION_INTERPOLATION, "plot budget -F d24 -m d3d --csv", ""},
     {VERB_PLOT, OPTION_WORLD, "plot budget -F d24 -m d3d --csv", ""},
     {VERB_PLOT, OPTION_COMPOSITION, "plot budget -F d24 -m d3d --csv", "--world 100"},
