@@ -22,6 +22,7 @@ static const struct {
     {VERB_BIAS, "bias --units -1"},
     {VERB_STABILITY, "stability encode"},
     {VERB_SHADOW, "shadow"},
+    {VERB_DISOCCLUSION, "disocclusion"},
     {VERB_LIST, "list scenes"},
 };
 
