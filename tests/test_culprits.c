@@ -183,7 +183,6 @@ static const refusal refusals[] = {
     {"table --viewport 64x48 --fov 50 --hfov 50", "hfov", 2},
     {"table --viewport 1x32768 --hfov 179", "hfov", 2},
     {"table --viewport 64x48 --ortho", "viewport", 2},
-    {"budget --viewport 64x48 --world 5", "viewport", 2},
     {"table --viewport 64x48 --depth 0.5", "viewport", 2},
     {"zfight --slant 0:5", "slant", 2},
     {"plot fight --csv --at 2000", "at", 2},
