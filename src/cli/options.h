@@ -271,6 +271,9 @@ void options_of(const options *o, size_t camera, options *out);
  * after one line on stderr */
 int view_vertical(const options *o, int width, int height, double *fov_y);
 
+/** Checks --viewport with the options beside it, and takes the field of view. @return as view_vertical() */
+int slant_view(options *o);
+
 /** Opens what --output names, as wide as --full makes it, as --color wants it dressed. @return EXIT_FINE, or EXIT_IO
  * after one line on stderr */
 int options_open(const options *o, output *out);

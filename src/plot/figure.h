@@ -44,6 +44,7 @@ enum {
     FIGURE_TOLERANCE = 1 << 4, /**< other ways to the interval than the exact cell */
     FIGURE_SIGNED = 1 << 6,    /**< depths of 0 and less: a camera with near <= 0 */
     FIGURE_FILE = 1 << 5,      /**< a requirement file, which brings its own set-ups, with planes of their own */
+    FIGURE_SLANTED = 1 << 8,   /**< set-ups with triangles */
     FIGURE_SHADOW = 1 << 7,    /**< shadow maps, whose cameras are not that of the view */
 };
 
