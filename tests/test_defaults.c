@@ -22,6 +22,7 @@ static const struct {
     {VERB_BIAS, "bias --units -1"},
     {VERB_STABILITY, "stability encode"},
     {VERB_SHADOW, "shadow"},
+    {VERB_DISOCCLUSION, "disocclusion"},
     {VERB_LIST, "list scenes"},
 };
 
@@ -32,6 +33,7 @@ static const struct {
     const char *line; /* in place of the command's; null: that */
     const char *more;
 } besides[] = {
+    {VERB_PLOT, OPTION_PLANE, "plot fight --csv", ""},
     {VERB_PLOT, OPTION_INTERPOLATION, "plot budget -F d24 -m d3d --csv", ""},
     {VERB_PLOT, OPTION_WORLD, "plot budget -F d24 -m d3d --csv", ""},
     {VERB_PLOT, OPTION_COMPOSITION, "plot budget -F d24 -m d3d --csv", "--world 100"},
@@ -56,6 +58,7 @@ static const struct {
     {VERB_BIAS, OPTION_TRIANGLE, "bias --at 10", "--viewport 640x480"},
     {VERB_BIAS, OPTION_CLAMP, NULL, "--api vulkan"},
     {VERB_PLOT, OPTION_SLANT, "plot budget -F d24 -m d3d --csv", "--viewport 640x480"},
+    {VERB_SHADOW, OPTION_FACET, NULL, "--curvature 5"},
     {VERB_PLOT, OPTION_FOV, "plot shadow --csv", ""},
     {VERB_PLOT, OPTION_SUBPIXEL, "plot shadow --csv", ""},
     {VERB_PLOT, OPTION_TRIANGLE, "plot shadow --csv", ""},

@@ -249,8 +249,9 @@ static void fused_positions(void **state) {
             z[k] = v[k].z * w;
             differ += x[k] != at * 957.0F + 957.0F;
         }
-        if ((double)(x[0] - x[1]) * (double)(y[2] - y[0]) < (double)(y[0] - y[1]) * (double)(x[2] - x[0]))
-            continue; /* clockwise */
+        const double left = (double)(x[0] - x[1]) * (double)(y[2] - y[0]);
+        if (left - (double)(y[0] - y[1]) * (double)(x[2] - x[0]) < 10.0)
+            continue; /* clockwise, or it may be so when it is snapped */
         const float o = 1.0F / ((x[0] - x[1]) * (y[2] - y[0]) - (y[0] - y[1]) * (x[2] - x[0]));
         const float a = (z[0] - z[1]) * ((y[2] - y[0]) * o) - (z[2] - z[0]) * ((y[0] - y[1]) * o);
         const float b = (z[2] - z[0]) * ((x[0] - x[1]) * o) - (z[0] - z[1]) * ((x[2] - x[0]) * o);

@@ -201,8 +201,8 @@ static void judge_all(const raster_target *target, const raster_vertex v[3], jud
 }
 
 /*
- * Near 1, far 10: one or two vertices behind the eye, each in turn, both ways round. SwiftShader snaps those too. Few
- * pixels are in triangles like needles, or in such pieces of Mesa's, of which no bound is that small.
+ * Near 1, far 10: one or two vertices behind the eye or before near, each in turn, both ways round. SwiftShader snaps
+ * those too. Few pixels are in triangles like needles, or in such pieces of Mesa's, of which no bound is that small.
  */
 static void behind_the_eye(void **state) {
     rng r = rng_make("behind the eye");
@@ -213,13 +213,13 @@ static void behind_the_eye(void **state) {
         for (uint64_t n = test_cases(12, 60, 6000); n > 0; n--) {
             raster_vertex v[3];
             for (uint64_t k = 0; k < 3; k++) {
-                const double z = (n / 3 % 2 == 0) == (k == n % 3) ? rng_uniform(&r, -6, -1) : rng_uniform(&r, 2, 9);
-                v[k] = (raster_vertex){(float)rng_uniform(&r, -6, 6), (float)rng_uniform(&r, -6, 6),
-                                       (float)((z - 1) * 10 / 9), (float)z};
+                const double z = (n / 3 % 2 == 0) == (k == n % 3) ? rng_uniform(&r, -4, 1) : rng_uniform(&r, 2, 9);
+                const double x = z * rng_uniform(&r, -1.5, 1.5), y = z * rng_uniform(&r, -1.5, 1.5);
+                v[k] = (raster_vertex){(float)x, (float)y, (float)((z - 1) * 10 / 9), (float)z};
             }
             judge_all(&target, v, &j);
         }
-        if (j.covered < j.pixels / 50 || j.misplaced > j.pixels / 100000 || j.off > j.covered / 10000)
+        if (j.covered < j.pixels / 200 || j.misplaced > 20 + j.pixels / 100000 || j.off > 50 + j.covered / 1000)
             fail_msg("%s: of %lu pixels %lu are covered, %lu of them off, and %lu misplaced", target.row->name,
                      j.pixels, j.covered, j.off, j.misplaced);
     }

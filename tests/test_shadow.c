@@ -179,9 +179,12 @@ static void test_biases(void **state) {
                     const double turn = k == 41 ? atan2(l.ty, l.tx) : k == 40 ? atan2(l.tx, l.ty) : 0.5 * pi * k / 39;
                     const double turned = way == SHADOW_CONSTANT ? 4 * eps : 0;
                     const double across = tan(slant + turned) * (fabs(cos(turn)) * l.tx + fabs(sin(turn)) * l.ty);
-                    const double wanted = need.texels * across / l.depth + need.window +
-                                          (way == SHADOW_SLOPE ? curved + 2 * vertex / light.small * b->factor : 0) +
-                                          (way == SHADOW_NORMAL ? off / 1024 / l.depth : 0);
+                    const double most =
+                        need.texels * l.diagonal * tan(greatest + 4 * eps) / l.depth; /* whatever m is */
+                    const double wanted =
+                        need.texels * across / l.depth + need.window +
+                        (way == SHADOW_SLOPE ? fmin(curved + 2 * vertex / light.small * b->factor, most) : 0) +
+                        (way == SHADOW_NORMAL ? off / 1024 / l.depth : 0);
                     const double has = lifted(&light, &l, b, slant, turn, lost);
                     TALLY(&enough, has >= wanted, "%s: %.17g for %.17g", shadow_way_name(way), has, wanted);
                     tightest = fmin(tightest, has / wanted - 1);

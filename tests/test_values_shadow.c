@@ -25,6 +25,8 @@ typedef struct shadow_case {
     double angle;
     int subpixel;
     double pixels, slim, world;
+    double curvature, facet; /* 0: planes */
+    const char *raster, *arith;
     double box[3], lo, hi; /* 0: the view; what is lit */
     double znear, zfar, fov, aspect, lambda, casters;
     int cascades;
@@ -54,7 +56,7 @@ static const shadow_case cases[] = {
      .casters = 40,
      .cascades = 3},
     {.options = "--light-box 30mx20mx50m --size 512x256 -F d16 -m gl --range 5m:48.65m --api gl --subpixel 4 "
-                "--triangle pixels=64,slim=8 --kernel 3 --angle 60 --world 1km",
+                "--triangle pixels=64,slim=8 --kernel 3 --angle 60 --world 1km --curvature 2m --facet 5cm",
      .formats = {"unorm16"},
      .mappings = {DP_MAPPING_GL},
      .format_count = 1,
@@ -68,6 +70,8 @@ static const shadow_case cases[] = {
      .pixels = 64,
      .slim = 8,
      .world = 1000,
+     .curvature = 2,
+     .facet = 0.05,
      .box = {30, 20, 50},
      .lo = 5,
      .hi = 48.65,
@@ -106,6 +110,24 @@ static const shadow_case cases[] = {
      .slim = 16,
      .box = {8, 8, 64},
      .hi = 64},
+    {.options =
+         "--light-box 10x10x40 --size 1024 -F d24 --raster softpipe --range 10:30 --kernel 1 --angle 3 --api metal",
+     .formats = {"unorm24"},
+     .mappings = {DP_MAPPING_D3D},
+     .format_count = 1,
+     .mapping_count = 1,
+     .api = "metal",
+     .width = 1024,
+     .height = 1024,
+     .kernel = 1,
+     .angle = 3,
+     .pixels = 512,
+     .slim = 16,
+     .raster = "softpipe",
+     .arith = "softpipe",
+     .box = {10, 10, 40},
+     .lo = 10,
+     .hi = 30},
 };
 
 enum { CASES = sizeof cases / sizeof cases[0] };
@@ -126,15 +148,22 @@ static shadow_light light_of(const shadow_case *c, const char *format, dp_mappin
     spec.zfar = c->box[2] > 0 ? c->box[2] : 1;
     spec.format = found[0];
     spec.mapping = mapping;
+    if (c->raster != NULL)
+        assert_int_equal(dp_arith_parse(c->arith, &spec.arith), DP_OK);
     assert_int_equal(dp_setup_init(&light.setup, &spec), DP_OK);
     light.triangles.width = c->width;
     light.triangles.height = c->height;
     light.triangles.subpixel = c->subpixel;
+    if (c->raster != NULL)
+        light.triangles.plane = dp_anchor_get(DP_ANCHOR_ORIGIN_STEPPED)->plane;
     light.triangles.pixels = c->pixels;
     light.triangles.slim = c->slim;
     light.triangles.slant_hi = c->angle;
     light.kernel = c->kernel / 2.0;
     light.world = c->world;
+    if (c->curvature > 0)
+        light.radius = c->curvature;
+    light.facet = c->facet;
     light.receiver_lo = c->lo;
     light.receiver_hi = c->box[2] > 0 ? c->hi : 1;
     if (c->box[2] > 0) {
@@ -291,6 +320,8 @@ static void want_head(values *v, const shadow_case *c) {
     want_number(v, "pixels", c->pixels);
     want_number(v, "slim", c->slim);
     want_number(v, "world", c->world);
+    want_number(v, "curvature", c->curvature > 0 ? c->curvature : NAN);
+    want_number(v, "facet", c->facet);
     if (c->box[2] > 0) {
         want_text(v, "view", NULL);
         return;
@@ -488,7 +519,11 @@ static void check_text(const values *v, const shadow_case *c) {
             else
                 assert_int_equal(strncmp(at, call->text, first), 0);
         }
-        if (split) {
+        if (!split) {
+            char texel[64];
+            snprintf(texel, sizeof texel, ", texel %.4g\n", fmax(c->box[0] / c->width, c->box[1] / c->height));
+            assert_non_null(strstr(p.out, texel));
+        } else {
             at = strstr(at, " cascade       from         to      texel        box      depth\n");
             assert_non_null(at);
             for (size_t i = 0; i < map_count(c); i++)

@@ -6,6 +6,7 @@
 
 #include "cli/check_report.h"
 #include "cli/choice.h"
+#include "cli/drawn.h"
 #include "cli/figure_data.h"
 #include "cli/figure_file.h"
 #include "cli/list.h"
@@ -17,6 +18,9 @@
 #include "report/number.h"
 
 enum { WIDTH = 800, HEIGHT = 500 };
+
+/* Of the plane that is drawn, degrees. */
+static const double standard_slant = 60.0, standard_azimuth = 45.0;
 
 /* Depths that a figure waits for, about a quarter of a second a set-up. */
 static const uint64_t census_depths = UINT64_C(1) << 28;
@@ -70,8 +74,8 @@ static int check_file_given(const options *o, const figure_row *row) {
     return EXIT_FINE;
 }
 
-#define VIEWED         (FIGURE_SLANTED | FIGURE_SHADOW)
-#define VIEWED_FIGURES "budget, interval and shadow"
+#define VIEWED         (FIGURE_SLANTED | FIGURE_DRAWN | FIGURE_SHADOW)
+#define VIEWED_FIGURES "budget, fight, interval and shadow"
 
 /* Options of some figures alone. */
 static const struct {
@@ -85,10 +89,11 @@ static const struct {
             {OPTION_FOV, VIEWED, VIEWED_FIGURES},
             {OPTION_HFOV, VIEWED, VIEWED_FIGURES},
             {OPTION_VIEWPORT, VIEWED, VIEWED_FIGURES},
-            {OPTION_SUBPIXEL, VIEWED, VIEWED_FIGURES},
             {OPTION_RASTER, VIEWED, VIEWED_FIGURES},
             {OPTION_TRIANGLE, VIEWED, VIEWED_FIGURES},
+            {OPTION_SUBPIXEL, FIGURE_SLANTED | FIGURE_SHADOW, "budget, interval and shadow"},
             {OPTION_SLANT, FIGURE_SLANTED, "budget and interval"},
+            {OPTION_PLANE, FIGURE_DRAWN, "fight"},
             {OPTION_CASCADES, FIGURE_SHADOW, "shadow"},
             {OPTION_LAMBDA, FIGURE_SHADOW, "shadow"},
             {OPTION_LIGHT_BOX, FIGURE_SHADOW, "shadow"},
@@ -114,7 +119,8 @@ static int check_options(const options *o, const figure_row *row) {
     if (option_given(o, OPTION_MODEL) && (row->takes & FIGURE_BINARY32) != 0 && o->model != DP_MODEL_FP32)
         return option_error(OPTION_MODEL, "must be float in the figure %s, got '%s'", row->name,
                             option_word(OPTION_MODEL, o->model_auto ? DP_MODEL_COUNT : o->model));
-    if (option_given(o, OPTION_VIEWPORT) && (row->takes & FIGURE_BINARY32) == 0 && o->model != DP_MODEL_FP32)
+    if (option_given(o, OPTION_VIEWPORT) && (row->takes & FIGURE_SLANTED) != 0 && (row->takes & FIGURE_BINARY32) == 0 &&
+        o->model != DP_MODEL_FP32)
         return option_error(OPTION_VIEWPORT, "needs --model float in the figure %s", row->name);
     if (option_given(o, OPTION_TOLERANCE) && !o->model_auto && (row->takes & FIGURE_TOLERANCE) == 0)
         return option_error(OPTION_TOLERANCE, "needs --model auto in the figure %s", row->name);
@@ -191,36 +197,59 @@ static int resolve_methods(plotting *p) {
     return status;
 }
 
-/* Where none are named and all would be too many: those that the figure shows then. */
-static void choose_formats(options *o, const figure_row *row) {
+/* Where none are named and all would be too many: those that the figure shows then, and of a single set-up the first
+ * mapping. */
+static void choose_setups(options *o, const figure_row *row) {
     const size_t all = o->format_count;
-    if (row->formats == NULL || option_given(o, OPTION_FORMAT) || all * o->mapping_count <= row->setups_max)
+    if (row->formats == NULL)
         return;
-    o->format_count = 0;
-    for (size_t i = 0; i < all; i++)
-        if (strstr(row->formats, o->formats[i].name) != NULL)
-            o->formats[o->format_count++] = o->formats[i];
+    if (!option_given(o, OPTION_FORMAT) && all * o->mapping_count > row->setups_max) {
+        o->format_count = 0;
+        for (size_t i = 0; i < all; i++)
+            if (strstr(row->formats, o->formats[i].name) != NULL)
+                o->formats[o->format_count++] = o->formats[i];
+        o->format_count += o->format_count == 0; /* a rasterizer that has none of them */
+    }
+    if (row->setups_max == 1 && !option_given(o, OPTION_MAPPING))
+        o->mapping_count = 1;
+}
+
+/* What a rasterizer draws is at one depth between the planes. */
+static int resolve_drawn(const plotting *p, options *o) {
+    depths at;
+    int status = view_drawn(o);
+    if (status == EXIT_FINE && option_given(o, OPTION_AT))
+        status = depths_resolve(p->o, 1, &at);
+    if (status == EXIT_FINE && option_given(o, OPTION_RANGE))
+        status = option_error(OPTION_RANGE, "does not apply to the figure %s; --at says its depth", p->row->name);
+    return status;
 }
 
 static int resolve_setups(plotting *p) {
     options in_model = *p->o;
-    choose_formats(&in_model, p->row);
+    const bool drawn = (p->row->takes & FIGURE_DRAWN) != 0;
+    int status = check_options(p->o, p->row);
+    if (status == EXIT_FINE && drawn)
+        status = resolve_drawn(p, &in_model);
+    choose_setups(&in_model, p->row);
     if ((p->row->takes & FIGURE_BINARY32) != 0)
         in_model.model = DP_MODEL_FP32;
-    int status = check_options(p->o, p->row);
     if (status == EXIT_FINE)
-        status = slant_view(&in_model);
+        status = (p->row->takes & FIGURE_SLANTED) != 0 ? slant_view(&in_model) : EXIT_FINE;
     if (status == EXIT_FINE)
-        status = setups_make(&in_model, &p->all);
+        status = (drawn ? drawn_setups : setups_make)(&in_model, &p->all);
     if (status == EXIT_FINE)
         status = resolve_depths(p);
     if (status == EXIT_FINE && p->all.count > p->row->setups_max)
-        status = usage_error("plot %s: shows at most %zu set-ups, got %zu: name fewer with --format or --mapping",
-                             p->row->name, p->row->setups_max, p->all.count);
+        status = usage_error("plot %s: shows at most %zu set-up%s, got %zu: name fewer with --format or --mapping",
+                             p->row->name, p->row->setups_max, p->row->setups_max == 1 ? "" : "s", p->all.count);
     if (status != EXIT_FINE)
         return status;
     p->request.setups = p->all.items;
     p->request.count = p->all.count;
+    p->request.raster = in_model.raster;
+    p->request.slant = option_given(p->o, OPTION_PLANE) ? p->o->triangles.slant_lo : standard_slant;
+    p->request.azimuth = option_given(p->o, OPTION_PLANE) ? p->o->azimuth : standard_azimuth;
     status = choose_models(p);
     name_setups(p);
     p->chart->unit = options_unit(p->o);

@@ -87,11 +87,15 @@ static void say_maps(page *p, void *item) {
         page_title(p, "%d cascade%s, lambda %s, casters up to %s before", v->count, v->count == 1 ? "" : "s",
                    number_full(v->lambda).text, number_full(v->casters).text);
     } else {
-        page_title(p, "box %s x %s, %s deep along the light", number_full(o->light_box[0]).text,
-                   number_full(o->light_box[1]).text, number_full(o->light_box[2]).text);
+        const double texel = fmax(o->light_box[0] / o->camera.width, o->light_box[1] / o->camera.height);
+        page_title(p, "box %s x %s, %s deep along the light, texel %s", number_full(o->light_box[0]).text,
+                   number_full(o->light_box[1]).text, number_full(o->light_box[2]).text, number_of(texel, DIGITS).text);
     }
     page_title(p, "%d subpixel bit%s, triangles from 1 to %s texels, no slimmer than 1:%s", t->subpixel,
                t->subpixel == 1 ? "" : "s", number_full(t->pixels).text, number_full(t->slim).text);
+    if (option_given(o, OPTION_CURVATURE))
+        page_title(p, "receivers bend away with a radius of at least %s, triangles in circles of %s",
+                   number_full(o->curvature).text, number_full(o->facet).text);
 }
 
 /* One API: what to write. All: what follows is a table of them. */
@@ -301,6 +305,8 @@ static const column columns[] = {{FIELD(shadow, api_name, "api", ""), .only = AS
                                  {FIELD(shadow, o.triangles.pixels, "pixels", ""), .only = AS_JSON},
                                  {FIELD(shadow, o.triangles.slim, "slim", ""), .only = AS_JSON},
                                  {FIELD(shadow, o.terms.world, "world", "scene"), .only = AS_JSON},
+                                 {FIELD(shadow, o.curvature, "curvature", "scene"), .only = AS_JSON},
+                                 {FIELD(shadow, o.facet, "facet", "scene"), .only = AS_JSON},
                                  {PART(shadow, view, "view", view_columns), .only = AS_JSON, .pointed = true},
                                  {LIST("setups", setup_report, next_setup), .head = say_answer},
                                  {.kind = COLUMN_END}};

@@ -52,7 +52,19 @@ static int take_drawn(options *o) {
             return option_refuse(&option_rows[OPTION_FORMAT], "must be one that %s has and that can be bounded, got %s",
                                  o->raster->name, o->formats[i].name);
     o->format_count = kept;
-    return EXIT_FINE;
+    return take_raster(o);
+}
+
+int view_drawn(options *o) {
+    if (o->ortho)
+        return option_refuse(&option_rows[OPTION_ORTHO], "does not apply to what is drawn");
+    if (!option_given(o, OPTION_VIEWPORT)) {
+        const dp_triangles standard = dp_triangles_default();
+        o->triangles.width = standard.width;
+        o->triangles.height = standard.height;
+    }
+    const int status = view_vertical(o, o->triangles.width, o->triangles.height, &o->triangles.fov_y);
+    return status == EXIT_FINE ? take_drawn(o) : status;
 }
 
 int slant_view(options *o) {
@@ -76,16 +88,16 @@ int slant_view(options *o) {
 }
 
 int slant_complete(options *o) {
-    if (!option_given(o, OPTION_VIEWPORT) && !o->drawn)
+    if (!option_given(o, OPTION_VIEWPORT) && !o->drawn && o->verb->bit != VERB_DISOCCLUSION)
         o->triangles.width = 0;
     if ((o->verb->bit & option_rows[OPTION_VIEWPORT].commands) == 0)
         return EXIT_FINE;
     if ((o->verb->bit & (VERB_SHADOW | VERB_PLOT)) != 0) /* a shadow map's viewport says how wide the view is */
         return take_raster(o);
-    int status = o->drawn ? take_drawn(o) : EXIT_FINE;
-    if (status == EXIT_FINE)
-        status = slant_view(o);
-    return status == EXIT_FINE ? take_raster(o) : status;
+    const int status = slant_view(o);
+    if (status != EXIT_FINE)
+        return status;
+    return o->drawn ? take_drawn(o) : take_raster(o);
 }
 
 void slant_take_preset(options *o, const preset *p) {

@@ -153,9 +153,8 @@ void shadow_need_of(const shadow_light *light, shadow_need *need) {
     const double steepest = tan(degrees(slant) + turned_light);
     b[SHADOW_CONSTANT] = (shadow_bias){.window = across * steepest / g.depth * outward + rest};
     const double factor = factor_of(light, &g, need->texels, &absolute);
-    b[SHADOW_SLOPE] = (shadow_bias){.window = rest + need->curvature, .factor = factor};
-    if (isfinite(factor))
-        b[SHADOW_SLOPE].window += factor * absolute * outward;
+    const double small = isfinite(factor) ? factor * absolute * outward : 0.0;
+    b[SHADOW_SLOPE] = (shadow_bias){.window = fmin(rest + need->curvature + small, b->window), .factor = factor};
     b[SHADOW_NORMAL] = (shadow_bias){.window = rest + across * sine_error / g.depth, .offset = across * outward};
     for (int way = 0; way < SHADOW_WAY_COUNT; way++) {
         double same;
