@@ -178,6 +178,28 @@ static void test_rows(void **state) {
     }
 }
 
+/* What the subpixel grid costs at the worst slant, per depth, as published for these views; 28.8 mm at 5 km. */
+static void test_published(void **state) {
+    static const struct {
+        const char *view;
+        double per_depth;
+    } published[] = {
+        {"--viewport 1920x1080 --hfov 90", 5.75e-6},     {"--viewport 1920x1080 --hfov 90 --subpixel 4", 9.2e-5},
+        {"--viewport 1920x1080 --hfov 60", 3.32e-6},     {"--viewport 1920x1080 --hfov 60 --subpixel 4", 5.3e-5},
+        {"--viewport 3840x2160 --hfov 90", 5.75e-6 / 2}, {"--viewport 3840x2160 --hfov 60 --subpixel 4", 5.3e-5 / 2}};
+    (void)state;
+    for (size_t i = 0; i < sizeof published / sizeof published[0]; i++) {
+        printed p = print_of("budget -n 0.1 -f inf -F fp32 -m reversed --slant 89.999:90 --at 5000 --json %s",
+                             published[i].view);
+        json_t *root = json_of(p.out);
+        const double got = at(json_object_get(row_of(root, 0), "causes"), "snapping");
+        assert_relative(got / 5000, published[i].per_depth, 0.004);
+        assert_true(i > 0 || fabs(got - 0.0288) < 0.0001);
+        json_decref(root);
+        printed_free(&p);
+    }
+}
+
 /* Of text the last column of a table is that at any slant, rounded up. */
 static void test_text(void **state) {
     const slant_case *c = &cases[0];
@@ -429,9 +451,10 @@ static void test_hopeless(void **state) {
 }
 
 int main(void) {
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_rows),    cmocka_unit_test(test_text),  cmocka_unit_test(test_rasterizer),
-        cmocka_unit_test(test_presets), cmocka_unit_test(test_range), cmocka_unit_test(test_zfight),
-        cmocka_unit_test(test_bias),    cmocka_unit_test(test_plot),  cmocka_unit_test(test_hopeless)};
+    const struct CMUnitTest tests[] = {cmocka_unit_test(test_rows),       cmocka_unit_test(test_text),
+                                       cmocka_unit_test(test_rasterizer), cmocka_unit_test(test_presets),
+                                       cmocka_unit_test(test_range),      cmocka_unit_test(test_zfight),
+                                       cmocka_unit_test(test_bias),       cmocka_unit_test(test_plot),
+                                       cmocka_unit_test(test_published),  cmocka_unit_test(test_hopeless)};
     return run_tap(tests);
 }
