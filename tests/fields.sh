@@ -52,6 +52,7 @@ all_named solve --for distance -n 0.1 -f 1000 -F unorm24 -m d3d --separation 0.0
 all_named solve --for distance -n 0.1 -f 1000 -F fp16 -m reversed --separation 0.01
 all_named table --at 10 --range 5:50
 all_named table --depth 0.5
+all_named disocclusion
 all_named bias --at 10 --units 1
 all_named bias --range 1:10 --gap 0.01
 all_named bias --at 10 --viewport 640x480

@@ -70,7 +70,7 @@ int view_drawn(options *o) {
 int slant_complete(options *o) {
     static const option_id beside[] = {OPTION_FOV,   OPTION_HFOV,  OPTION_RASTER,  OPTION_SUBPIXEL,
                                        OPTION_SLANT, OPTION_PLANE, OPTION_TRIANGLE};
-    const bool slanted = option_given(o, OPTION_VIEWPORT) || o->drawn;
+    const bool slanted = option_given(o, OPTION_VIEWPORT) || o->drawn || o->verb->bit == VERB_DISOCCLUSION;
     if (!slanted)
         o->triangles.width = 0;
     if ((o->verb->bit & option_rows[OPTION_VIEWPORT].commands) == 0)
