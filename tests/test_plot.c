@@ -241,6 +241,11 @@ static void test_every_figure_draws(void **state) {
         const char *family = figure_get(i)->family;
         asked a;
         ask(&a, 0.1, i % 2 == 0 ? 1000 : (double)INFINITY);
+        if ((figure_get(i)->takes & FIGURE_DRAWN) != 0)
+            a.setups[0].spec.triangles = dp_triangles_default();
+        a.request.raster = raster_find("llvmpipe");
+        a.request.slant = 60;
+        a.request.azimuth = 45;
         ask_add(&a, "unorm24", DP_MAPPING_D3D);
         ask_add(&a, "unorm24", DP_MAPPING_REVERSED);
         a.request.file = &file;

@@ -219,7 +219,7 @@ static void behind_the_eye(void **state) {
             }
             judge_all(&target, v, &j);
         }
-        if (j.covered < j.pixels / 200 || j.misplaced > 20 + j.pixels / 100000 || j.off > 10 + j.covered / 1000)
+        if (j.covered < j.pixels / 200 || j.misplaced > 20 + j.pixels / 100000 || j.off > 50 + j.covered / 1000)
             fail_msg("%s: of %lu pixels %lu are covered, %lu of them off, and %lu misplaced", target.row->name,
                      j.pixels, j.covered, j.off, j.misplaced);
     }

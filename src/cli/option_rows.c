@@ -224,8 +224,8 @@ const option_row option_rows[OPTION_COUNT] = {
         "in place of --slant: the angle of the planes' normal to the view axis and where it points on the screen, "
         "degrees, 0 to the right and 90 up",
         .parse = parse_plane, .without = "any azimuth",
-        .except = {BUT(VERB_PLOT, "60,45", NULL, "the angle of the planes' normal to the view axis and where it points on "
-                       "the screen, degrees, 0 to the right and 90 up")}},
+        .except = {BUT(VERB_PLOT, "60,45", NULL, "the angle of the planes' normal to the view axis and where it points "
+                       "on the screen, degrees, 0 to the right and 90 up")}},
     [OPTION_TRIANGLE] = {"triangle", 0, "depth=K,pixels=P,slim=Q", VIEWED,
         "the triangles: vertices at depths from z/K to K z, at most P pixels wide and high, no slimmer than 1:Q",
         .parse = parse_triangle, .standard = "depth=2,pixels=512,slim=16"},

@@ -27,8 +27,8 @@ typedef struct pair {
 
 /* ---- A pair at random -------------------------------------------------------------------------------------------- */
 
-static double guaranteed_at(const draw_fight_request *r, double slant, double z) {
-    dp_setup at_slant = *r->setup;
+double draw_guaranteed(const dp_setup *setup, double slant, double z) {
+    dp_setup at_slant = *setup;
     dp_budget budget;
     at_slant.spec.triangles.slant_lo = at_slant.spec.triangles.slant_hi = slant;
     return dp_budget_at(&at_slant, z, NULL, &budget) == DP_OK ? budget.separation : (double)INFINITY;
@@ -96,8 +96,8 @@ static bool random_pair(const draw_fight_request *r, const draw_fight_band *band
     out->plane.distance = z * facing;
     if (!(facing > least_facing))
         return false;
-    out->guaranteed = guaranteed_at(r, out->slant, z);
-    out->lead = out->guaranteed / guaranteed_at(r, out->slant, nearest_of(r->camera, out, band->lo));
+    out->guaranteed = draw_guaranteed(r->setup, out->slant, z);
+    out->lead = out->guaranteed / draw_guaranteed(r->setup, out->slant, nearest_of(r->camera, out, band->lo));
     out->start = 1.0 - (1.0 - each) * draw_uniform(state);
     return isfinite(out->guaranteed);
 }
@@ -143,7 +143,7 @@ static void draw_pair(const draw_fight_request *r, draw_buffer *b, const pair *p
     const double z = nearest_wrong(r, b, &p->plane, band);
     if (isinf(z))
         return;
-    const double guaranteed = guaranteed_at(r, p->slant, z);
+    const double guaranteed = draw_guaranteed(r->setup, p->slant, z);
     if (!(separation / guaranteed <= band->used))
         *band = (draw_fight_band){band->lo, band->hi, band->pixels, separation,
                                   z,        p->slant, guaranteed,   separation / guaranteed};

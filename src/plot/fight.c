@@ -8,6 +8,7 @@
 #include <stdio.h>
 
 #include "core/append.h"
+#include "draw/fight.h"
 #include "draw/mesh.h"
 #include "plot/figure.h"
 
@@ -51,13 +52,6 @@ static void place_at(const stage *s, double x, double y, double at[2]) {
         at[k] = z * (s->along[k][0] * ray[0] + s->along[k][1] * ray[1] + s->along[k][2] * ray[2]);
 }
 
-static double guaranteed_at(const stage *s, double slant, double z) {
-    dp_setup at_slant = *s->setup;
-    dp_budget budget;
-    at_slant.spec.triangles.slant_lo = at_slant.spec.triangles.slant_hi = slant;
-    return dp_budget_at(&at_slant, z, NULL, &budget) == DP_OK ? budget.separation : (double)INFINITY;
-}
-
 /* At the corners of what is shown: the most. */
 static double guaranteed_over(const stage *s, double slant) {
     const draw_area *a = &s->buffer.area;
@@ -65,7 +59,7 @@ static double guaranteed_over(const stage *s, double slant) {
     for (int corner = 0; corner < 4; corner++) {
         const double window[2] = {a->x + (corner & 1) * a->width, a->y + (corner >> 1) * a->height};
         const double z = s->wall.distance / draw_facing(&s->camera, &s->wall, window);
-        most = fmax(most, z > 0.0 ? guaranteed_at(s, slant, z) : (double)INFINITY);
+        most = fmax(most, z > 0.0 ? draw_guaranteed(s->setup, slant, z) : (double)INFINITY);
     }
     return most;
 }
