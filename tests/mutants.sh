@@ -15,7 +15,7 @@ rows() { # rows: number, room, file, tests, old text, new text, what is seen, li
     awk -v OFS="$mark" '
         function complain(what) { print "stale", "", $0, "", "", "", what, NR }
         /^#/ || /^$/ { next }
-        /^[a-z]+: / { sub(/:$/, "", $1); room = $1; $1 = ""; near[room] = substr($0, 2); next }
+        /^[a-z]+: / { room = $1; sub(/:$/, "", room); near[room] = $0; sub(/^[a-z]+: */, "", near[room]); next }
         /^(src|include)\// {
             if (part != 0 && part != 4) complain("the row above is cut short")
             split($0, field, / *\| */)

@@ -8,7 +8,7 @@
 
 #include "model/model.h"
 
-enum { SCENE_MADE = 512 };
+enum { SCENE_MADE = 8192 };
 
 typedef struct scene_made {
     double position[3 * SCENE_MADE][3];

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "scene_truth.h"
 
+#include <math.h>
 #include <stdlib.h>
 
 #include <gmp.h>
@@ -211,6 +212,11 @@ static bool look(view *s, double cosine2) {
     return true;
 }
 
+/* Seen along the normal. */
+static double area_across(const view *s, num twice) {
+    return 0.5 * fabs(mpq_get_d(over(times(twice, s->n.at[s->w]), root(dot(s->n, s->n)))));
+}
+
 static void fill(const view *s, const polygon *p, const num centroid[2], num twice, scene_truth *out) {
     const num length = root(dot(s->n, s->n));
     out->lo = out->hi = mpq_get_d(times(p->at[0].above, length));
@@ -219,8 +225,7 @@ static void fill(const view *s, const polygon *p, const num centroid[2], num twi
         out->lo = h < out->lo ? h : out->lo;
         out->hi = h > out->hi ? h : out->hi;
     }
-    const double slope = mpq_get_d(over(s->n.at[s->w], length));
-    out->area = 0.5 * mpq_get_d(twice) * (slope < 0.0 ? -slope : slope);
+    out->area = area_across(s, twice);
     const num t = height(s, s->na, s->a[0], centroid[0], centroid[1]);
     out->place[s->u] = mpq_get_d(plus(centroid[0], times(t, s->n.at[s->u])));
     out->place[s->v] = mpq_get_d(plus(centroid[1], times(t, s->n.at[s->v])));
@@ -254,7 +259,8 @@ scene_truth scene_truth_of(const double a[3][3], const double b[3][3], double ga
     }
     num centroid[2] = {of(0.0), of(0.0)};
     p = clipped(p, other);
-    out.overlap = mpq_sgn(area(&p, centroid)) > 0;
+    out.whole = area_across(&s, area(&p, centroid));
+    out.overlap = out.whole > 0.0;
     out.touch = p.count > 0 && !out.overlap;
     p = within(p, over(of(gap), root(dot(s.n, s.n))));
     const num twice = area(&p, centroid);

@@ -14,6 +14,7 @@ typedef struct scene_truth {
     bool touch;      /**< within the angle, and they have points in common, seen along the normal, but no area */
     bool plane;      /**< in one plane */
     bool pair;
+    double whole;                  /**< area of the overlap, whatever the distance */
     double lo, hi, area, place[3]; /**< of a pair, each rounded at the end */
 } scene_truth;
 

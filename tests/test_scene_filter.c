@@ -117,6 +117,11 @@ static void test_hidden(void **state) {
     expect((finder_asked){.gap = 0.01, .off = 1U << FINDER_FACING}, 2, FINDER_HIDDEN, 2);
     expect(exactly, 1, FINDER_HIDDEN, 0);
     rug_at(5);
+    chest(4.5, 0.25); /* within the gap, but one sees below it */
+    finder_found f = find((finder_asked){.gap = 0.5});
+    assert_int_equal(f.findings, 1);
+    finder_free(&f);
+    rug_at(5);
     chest(5.5, -0.5); /* half of it looks out */
     expect(exactly, 1, FINDER_HIDDEN, 0);
 }
@@ -322,6 +327,39 @@ static void test_cut(void **state) {
     }
 }
 
+/* Two floors of 2 x 40 x 40 triangles in one place, each pair of equal ones once, which takes several chunks of work.
+ */
+static void test_threads(void **state) {
+    (void)state;
+    enum { SIDE = 40, PAIRS = 2 * SIDE * SIDE };
+    static const size_t most[] = {0, 1000};
+    scene_made_begin(&made);
+    for (int layer = 0; layer < 2; layer++)
+        for (int i = 0; i < SIDE; i++) {
+            scene_made_surface(&made, "row", "");
+            for (int j = 0; j < SIDE; j++)
+                scene_made_quad(&made, (const double[3]){i, j, 0}, (const double[3]){1, 0, 0},
+                                (const double[3]){0, 1, 0});
+        }
+    for (int k = 0; k < 2; k++) {
+        finder_found f[2];
+        for (int t = 0; t < 2; t++) {
+            const finder_asked asked = {.angle = 1.0, .threads = 1 + t, .pairs_max = most[k]};
+            assert_int_equal(finder_find(&made.m, &asked, &f[t]), FINDER_DONE);
+        }
+        assert_int_equal(f[0].cut, k == 1);
+        assert_int_equal(f[0].pairs, k == 0 ? PAIRS : 1000);
+        assert_true(k == 1 || f[0].findings == SIDE);
+        assert_int_equal(f[0].findings, f[1].findings);
+        assert_memory_equal(f[0].pair, f[1].pair, f[0].pairs * sizeof *f[0].pair);
+        assert_memory_equal(f[0].finding, f[1].finding, f[0].findings * sizeof *f[0].finding);
+        for (size_t i = 0; i < f[0].pairs; i++)
+            assert_int_equal(f[0].pair[i].triangle[1] - f[0].pair[i].triangle[0], PAIRS);
+        for (int t = 0; t < 2; t++)
+            finder_free(&f[t]);
+    }
+}
+
 static int stop(void *context, double share) {
     assert_true(share >= 0.0 && share <= 1.0);
     return --*(int *)context < 0;
@@ -351,7 +389,7 @@ int main(void) {
         cmocka_unit_test(test_hidden),   cmocka_unit_test(test_not_hidden), cmocka_unit_test(test_hidden_behind),
         cmocka_unit_test(test_findings), cmocka_unit_test(test_order),      cmocka_unit_test(test_surfaces),
         cmocka_unit_test(test_refused),  cmocka_unit_test(test_degenerate), cmocka_unit_test(test_cut),
-        cmocka_unit_test(test_progress),
+        cmocka_unit_test(test_threads),  cmocka_unit_test(test_progress),
     };
     return run_tap(tests);
 }

@@ -100,6 +100,7 @@ static void random_model(scene_made *made, rng *r, size_t map) {
             scene_made_surface(made, i == 0 ? "a" : "b", "");
         pieces[rng_below(r, sizeof pieces / sizeof pieces[0])](made, r);
     }
+    scene_made_triangle(made, made->position[0], made->position[1], made->position[1]);
     if (rng_below(r, 3) == 0 && made->m.triangles < 20)
         any_copy(made, r);
     transform(made, r, map);
@@ -124,11 +125,14 @@ static const finder_pair *found_pair(const finder_found *f, uint32_t a, uint32_t
     return NULL;
 }
 
-/* Planes that cross are a gap apart where their slope says, and that is the less certain the smaller it is. */
+/* Planes that cross are a gap apart where their slope says, and that is the less certain the smaller it is. Nor is it
+ * certain where a sliver has its corners. */
 static void same_pair(tally *t, const scene_truth *want, const finder_pair *got, double extent) {
     const double length = 1e-12 * extent;
     const double edge = want->plane ? 0.0 : extent * 1e-15 * extent / (want->hi - want->lo + length);
-    TALLY(t, fabs(got->gap_lo - want->lo) <= length && fabs(got->gap_hi - want->hi) <= length,
+    const double sliver = 1e-15 * extent * extent / want->area;
+    const double height = length + sliver * (want->hi - want->lo);
+    TALLY(t, fabs(got->gap_lo - want->lo) <= height && fabs(got->gap_hi - want->hi) <= height,
           "gap [%.17g, %.17g], want [%.17g, %.17g], extent %g", got->gap_lo, got->gap_hi, want->lo, want->hi, extent);
     TALLY(t, fabs(got->area - want->area) <= (length + edge) * extent, "area %.17g, want %.17g, gap [%g, %g]",
           got->area, want->area, want->lo, want->hi);
@@ -136,7 +140,7 @@ static void same_pair(tally *t, const scene_truth *want, const finder_pair *got,
           got->gap_hi);
     for (int k = 0; k < 3; k++) {
         const double rounded = 0x1p-51 * fabs(want->place[k]);
-        TALLY(t, fabs(got->place[k] - want->place[k]) <= 1e-10 * extent + 1e3 * edge + rounded,
+        TALLY(t, fabs(got->place[k] - want->place[k]) <= (1e-10 + sliver) * extent + 1e3 * edge + rounded,
               "place[%d] %.17g, want %.17g", k, got->place[k], want->place[k]);
     }
 }
@@ -146,6 +150,7 @@ static void same_pairs(tally *t, const scene_made *made, const finder_asked *ask
     finder_found f;
     size_t pairs = 0;
     size_t thins = 0;
+    size_t maybe_thin = 0;
     assert_int_equal(finder_find(m, asked, &f), FINDER_DONE);
     for (uint32_t i = 0; i < m->triangles; i++)
         for (uint32_t j = i + 1; j < m->triangles; j++) {
@@ -156,10 +161,12 @@ static void same_pairs(tally *t, const scene_made *made, const finder_asked *ask
             const scene_truth want = scene_truth_of(a, b, asked->gap, cosine2);
             const finder_pair *got = found_pair(&f, i, j);
             /* what rounding left of edges that met */
-            const bool thin = got == NULL && want.pair && want.area <= 1e-14 * f.extent * f.extent;
+            const bool thin = got == NULL && want.pair && want.area <= 0x1p-45 * f.extent * f.extent;
             TALLY(t, thin || (got != NULL) == want.pair, "triangles %u and %u of %zu, gap %g: %s, area %g", (unsigned)i,
                   (unsigned)j, m->triangles, asked->gap, got != NULL ? "found, but none" : "not found", want.area);
             thins += thin;
+            /* too far apart, or not: nobody can tell in double */
+            maybe_thin += want.overlap && !want.pair && want.whole <= 0x1p-45 * f.extent * f.extent;
             if (got != NULL && want.pair)
                 same_pair(t, &want, got, f.extent);
             pairs += want.pair;
@@ -170,15 +177,18 @@ static void same_pairs(tally *t, const scene_made *made, const finder_asked *ask
             seen->degenerate += want.degenerate;
         }
     TALLY(t, f.pairs + thins == pairs && !f.cut, "%zu pairs, want %zu", f.pairs, pairs - thins);
-    TALLY(t, f.left_out[FINDER_THIN] == thins, "%zu thin, want %zu", f.left_out[FINDER_THIN], thins);
+    /* of a sliver it is as uncertain whether it is nearer than next to nothing */
+    const size_t thin = f.left_out[FINDER_THIN];
+    const bool unsure = asked->gap > 0.0 && asked->gap < 1e-9;
+    TALLY(t, (thin >= thins || unsure) && thin <= thins + maybe_thin, "%zu thin, want %zu", thin, thins);
     seen->thin += thins;
     finder_free(&f);
 }
 
 static void test_all_pairs(void **state) {
     (void)state;
-    /* 45 degrees are on the lattice, and within; 1 degree is not */
-    static const double angles[][2] = {{1.0, 0.99969541350954785}, {45.0, 0.5}, {30.0, 0.75}};
+    /* 45 degrees are on the lattice, and within, where nothing rounds; the others are not */
+    static const double angles[][2] = {{1.0, 0.99969541350954785}, {47.0, 0.46512176312793729}, {45.0, 0.5}};
     static const double gaps[] = {0.0, 1e-12, 0.0007, 0.1, 1.3};
     rng r = rng_make("scene pairs");
     tally t = {.name = "pairs of triangles"};
@@ -188,7 +198,7 @@ static void test_all_pairs(void **state) {
     assert_non_null(made);
     for (uint64_t i = 0; i < models; i++) {
         random_model(made, &r, i % MAPS);
-        const double *angle = angles[rng_below(&r, 3)];
+        const double *angle = angles[rng_below(&r, i % MAPS == MAPS - 1 ? 2 : 3)];
         const finder_asked asked = {.gap = gaps[i / MAPS % 5], .angle = angle[0], .off = all_off, .threads = 2};
         same_pairs(&t, made, &asked, angle[1], &seen);
     }

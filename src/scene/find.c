@@ -78,7 +78,7 @@ static finder_status leave_hidden_out(search *s) {
     finder_found *f = &s->found;
     uint32_t *body = body_numbers(s->m);
     uint8_t *hidden = malloc(f->pairs);
-    const hidden_among among = {s->m, &s->t, s->origin, body, s->asked->gap + AGAINST * s->extent};
+    const hidden_among among = {s->m, &s->t, s->origin, body, s->asked->gap, AGAINST * s->extent};
     bool stopped = false;
     finder_status status = body != NULL && hidden != NULL ? FINDER_DONE : FINDER_NO_MEMORY;
     for (size_t first = 0; first < f->pairs && status == FINDER_DONE; first += TELL) {

@@ -12,12 +12,14 @@
  * (up to FINDER_COORDINATE_MAX, and none but 0 below its inverse). The angle is decided to 1e-9 degrees; a gap above 0
  * is measured to 1e-12 of the model's extent, an area to 1e-12 of its square. Two planes that cross at an angle of t
  * radians are a gap apart along a line that is certain to 1e-15 / t of the extent, and so is an area that ends there.
- * An area that rounds to 0 counts as thin, asked for or not.
+ * An overlap whose area is below 2^-46 of the product of both triangles' longest sides counts as thin, asked for or
+ * not: that is what rounding makes of edges that meet. Of one hardly larger the gap and the place are less certain.
  *
  * Pairs that nobody can see are left out and counted, by filters that can be switched off. The rest is grouped by the
  * two surfaces that the triangles belong to: a *finding*. The result does not depend on the number of threads.
  *
- * Cost: O(n log n) for n triangles of which each is near few; about 110 bytes a triangle, and 56 a pair.
+ * Cost: O(n log n) for n triangles of which each is near few; at most 110 bytes a triangle, 220 where there are pairs
+ * that bodies might hide, and 56 a pair.
  */
 #ifndef SCENE_FIND_H
 #define SCENE_FIND_H

@@ -6,6 +6,7 @@
 #include "scene/body.h"
 
 #define INWARD 0x1p-10
+#define SLIT   0x1p-10
 /* A ray this near to an edge or a corner, relative to what the number is made of, may be on either side of it. */
 #define GRAZING 1e-12
 
@@ -88,7 +89,7 @@ static bool inside(const hidden_among *among, const double point[3], const doubl
         ray r = {.among = among, .nearest = INFINITY, .body = BODY_NONE};
         bool within;
         for (int i = 0; i < 3; i++) {
-            r.start[i] = point[i] + among->before * normal[i];
+            r.start[i] = point[i];
             r.along[i] = normal[i] + tilts[k][i];
         }
         if (tell(&r, &within))
@@ -109,7 +110,8 @@ static void point_of(const overlap *o, int number, double out[3]) {
 
 bool hidden_from(const hidden_among *among, const overlap *o, bool front) {
     const double side = front ? 1.0 : -1.0;
-    const double ahead = fmax(front ? o->hi : -o->lo, 0.0);
+    const double slit = fmin(among->gap, SLIT * o->area / o->width) + among->against;
+    const double ahead = fmax(front ? o->hi : -o->lo, 0.0) + slit;
     const double normal[3] = {side * o->normal[0], side * o->normal[1], side * o->normal[2]};
     for (int number = 0; number < 1 + 2 * o->corners; number++) {
         double p[3];

@@ -2,8 +2,9 @@
 /*
  * Whether closed bodies hide an overlap: from every point of it that is tried, a little before its surfaces, a ray
  * first meets the inside of a closed body (body.h), and leaves this body oftener than it enters it. Tried are the
- * corners, moved inward by 2^-10, the middles of the sides and the centroid; "a little" is the gap asked for, so that a
- * body that lies against the overlap hides it, too.
+ * corners, moved inward by 2^-10, the middles of the sides and the centroid. "A little" is the gap asked for, but at
+ * most 2^-10 of the overlap's longest diagonal: a body that lies against the overlap hides it, too, although a slit as
+ * flat as that may show it.
  *
  * What hides nothing: a body with a hole in it, or whose neighbours' corners are not at the same coordinates, bodies of
  * blended or two-sided materials, and walls that face into their room. What is hidden wrongly: an overlap that shows
@@ -25,7 +26,8 @@ typedef struct hidden_among {
     const tree *t;        /* its items are triangles */
     const double *origin; /* of its boxes */
     const uint32_t *body; /* body_numbers() */
-    double before;        /* scene units: how far before the surfaces the rays start */
+    double gap;           /* scene units: asked for */
+    double against;       /* how far before the surfaces the rays start at least */
 } hidden_among;
 
 /* Seen from the front of the overlap's first triangle, else from behind it. */

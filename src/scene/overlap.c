@@ -7,6 +7,8 @@
 
 /* 1e-9 degrees: normals are good to 2^-42. */
 #define SINE_SLACK 1.7e-11
+/* An area, relative to the product of both triangles' longest sides: what rounding of their corners may make of 0. */
+#define AREA_SLACK 0x1p-46
 /* Of a distance, relative to the coordinates that it is made of: normals again, and a few roundings. */
 #define HEIGHT_SLACK 0x1p-38
 
@@ -216,6 +218,16 @@ static void lift(const frame *f, point p, double out[3]) {
     out[f->w] = f->view.a[0][f->w] + t * f->n[f->w];
 }
 
+static double longest_side(exact_triangle t) {
+    double longest = 0.0;
+    for (int i = 0; i < 3; i++) {
+        double d[3];
+        difference(t[(i + 1) % 3], t[i], d);
+        longest = fmax(longest, dot(d, d));
+    }
+    return sqrt(longest);
+}
+
 static void set_corners(const frame *f, const polygon *p, overlap *out) {
     double longest = 0.0;
     out->lo = INFINITY;
@@ -258,6 +270,8 @@ bool overlap_find(exact_triangle a, exact_triangle b, double gap, double sine, o
     *out = (overlap){.opposite = f.view.sign < 0.0};
     out->area = p.corners < 3 ? 0.0 : 0.5 * area_of(&p, &centroid) * fabs(f.n[f.w]);
     memcpy(out->normal, f.na, sizeof out->normal);
+    if (out->area <= AREA_SLACK * longest_side(a) * longest_side(b))
+        out->area = 0.0;
     lift(&f, centroid, out->place);
     set_corners(&f, &p, out);
     return true;
