@@ -4,12 +4,14 @@
 #   sh man/options.sh build/depthprec man/depthprec.1
 set -eu
 
+rows=$(mktemp)
 list=$(mktemp)
 page=$(mktemp)
-trap 'rm -f "$list" "$page"' EXIT
+trap 'rm -f "$rows" "$list" "$page"' EXIT
 
 # A heading starts its line, an option is two blanks off or six, and what is said of it goes on far from the margin.
-"$1" help options | awk '
+"$1" help options >"$rows" # a program that is not there ends this, and the page stays
+awk '
     function text(line) { # a hyphen that is a dash of an option or a sign, and no line that looks like a macro
         gsub(/-/, "\\-", line)
         while (match(line, /\. [A-Z]/)) # a sentence begins a line
@@ -35,7 +37,7 @@ trap 'rm -f "$list" "$page"' EXIT
     { sub(/^ */, "") }
     /^Taken by/ { print ".br" }
     { text($0) }
-    END { print ".El" }' >"$list"
+    END { print ".El" }' "$rows" >"$list"
 [ -s "$list" ]
 awk -v list="$list" '
     /^\.Sh FORMATS/ { while ((getline line <list) > 0) print line; print; skip = 0; inside = 0; next }

@@ -36,11 +36,13 @@ all_named plot scene tests/needs/village.need
 for what in formats mappings presets apis rasterizers programs encodings packings effects scenes positions normals figures; do all_named list $what; done
 all_named zfight -n 1 -f 1.5 -F unorm16
 all_named zfight -n 1 -f 1.5 -F unorm16 --sample 100 --gap 0.01
+all_named zfight -n 1 -f 1.5 -F unorm16 -m d3d --triangles --sample 10
 all_named zfight --against fma --sample 100
 all_named zfight -n 1 -f 1.5 -F unorm16 -m d3d --viewport 640x480
 all_named budget --at 10
 all_named budget --at 10 --viewport 640x480
 all_named table --at 10 --viewport 640x480
+all_named table -m log --at 10 --viewport 640x480
 worst=1 all_named check tests/needs/village.need
 worst=1 all_named check tests/needs/slopes.need
 all_named solve -f 1000 -F unorm24 -m d3d --separation 0.01 --at 100
@@ -50,10 +52,16 @@ all_named solve --for distance -n 0.1 -f 1000 -F unorm24 -m d3d --separation 0.0
 all_named solve --for distance -n 0.1 -f 1000 -F fp16 -m reversed --separation 0.01
 all_named table --at 10 --range 5:50
 all_named table --depth 0.5
+all_named disocclusion
 all_named bias --at 10 --units 1
 all_named bias --range 1:10 --gap 0.01
+all_named bias --at 10 --viewport 640x480
+all_named bias --api all --at 10 --viewport 640x480
 all_named bias --api all --at 10
 all_named bias --api all --range 1:10
+all_named shadow -f 50 --api all
+all_named shadow --light-box 5x5x5 --range 1:4
+all_named plot shadow
 all_named bench worst --tolerance 0.1
 all_named stability encode
 all_named texture --scene decals --size 64x36

@@ -15,6 +15,7 @@ bool slanted_draw_camera(rng *r, slanted *s, const slanted_kind *kind, const cha
         return false;
     s->kind = kind;
     s->world.terms = (dp_budget_terms){0};
+    s->cut = RASTER_CLIP_ANY;
     spec.format = found[0];
     spec.mapping = reversed ? DP_MAPPING_REVERSED : DP_MAPPING_D3D;
     spec.znear = rng_log(r, 0.01, 10.0);
@@ -103,36 +104,91 @@ bool slanted_draw_planes(rng *r, slanted *s) {
 
 /* ---- Their class, and how far they are apart --------------------------------------------------------------------- */
 
-/* Grows pixels and slimness to those of a triangle. */
-static void fit_shape(dp_triangles *t, const double v[3][2]) {
-    double lo[2] = {INFINITY, INFINITY}, hi[2] = {-INFINITY, -INFINITY}, longest = 0.0;
-    const double area = fabs((v[1][0] - v[0][0]) * (v[2][1] - v[0][1]) - (v[2][0] - v[0][0]) * (v[1][1] - v[0][1]));
-    for (int i = 0; i < 3; i++) {
-        const double *next = v[(i + 1) % 3];
-        longest = fmax(longest, hypot(next[0] - v[i][0], next[1] - v[i][1]));
-        for (int axis = 0; axis < 2; axis++) {
-            lo[axis] = fmin(lo[axis], v[i][axis]);
-            hi[axis] = fmax(hi[axis], v[i][axis]);
+typedef struct spot {
+    double x, y;
+} spot;
+
+/* Cuts a polygon at a side of the screen: where `keep` less `along` times a spot is negative. */
+static int cut_at(spot along, double keep, const spot *in, int count, spot *out) {
+    int made = 0;
+    for (int i = 0; i < count; i++) {
+        const spot a = in[i], b = in[(i + 1) % count];
+        const double inside = keep - along.x * a.x - along.y * a.y, next = keep - along.x * b.x - along.y * b.y;
+        const double t = inside / (inside - next);
+        if (inside >= 0.0)
+            out[made++] = a;
+        if ((inside >= 0.0) != (next >= 0.0))
+            out[made++] = (spot){a.x + t * (b.x - a.x), a.y + t * (b.y - a.y)};
+    }
+    return made;
+}
+
+/* The polygon that is left of a triangle on the screen, in Mesa's order; *sides is how many cut it. */
+static int left_of(const slanted *s, int which, spot polygon[RASTER_CORNERS], int *sides) {
+    const double width = s->camera.width, height = s->camera.height;
+    const struct {
+        spot along;
+        double keep;
+    } side[] = {{{1, 0}, width}, {{-1, 0}, 0}, {{0, 1}, height}, {{0, -1}, 0}};
+    int count = 3;
+    *sides = 0;
+    for (int i = 0; i < 3; i++)
+        polygon[i] = (spot){s->at[which][i][0], s->at[which][i][1]};
+    for (int k = 0; k < 4 && s->cut == RASTER_CLIP_PIECES; k++) {
+        spot before[RASTER_CORNERS];
+        bool outside = false;
+        for (int i = 0; i < count; i++) {
+            before[i] = polygon[i];
+            outside = outside || side[k].along.x * before[i].x + side[k].along.y * before[i].y > side[k].keep;
         }
+        count = outside ? cut_at(side[k].along, side[k].keep, before, count, polygon) : count;
+        *sides += outside;
+    }
+    return count;
+}
+
+/* The class of one triangle of the screen: its box and how slim it is. */
+static void fit_piece(dp_triangles *t, const spot v[3]) {
+    const double area = fabs((v[1].x - v[0].x) * (v[2].y - v[0].y) - (v[2].x - v[0].x) * (v[1].y - v[0].y));
+    const double wide = fmax(fmax(v[0].x, v[1].x), v[2].x) - fmin(fmin(v[0].x, v[1].x), v[2].x);
+    const double high = fmax(fmax(v[0].y, v[1].y), v[2].y) - fmin(fmin(v[0].y, v[1].y), v[2].y);
+    double longest = 0.0;
+    for (int i = 0; i < 3; i++) {
+        const spot *next = &v[(i + 1) % 3];
+        longest = fmax(longest, hypot(next->x - v[i].x, next->y - v[i].y));
     }
     /* a grid step more on each side: what counts is where the vertices are moved to */
-    t->pixels = fmax(t->pixels, fmax(hi[0] - lo[0], hi[1] - lo[1]) + 0.25);
-    t->slim = area > 0.0 ? fmax(t->slim, longest * longest / area * (1.0 + 0.5 / sqrt(area))) : INFINITY;
+    t->pixels = fmax(t->pixels, fmax(wide, high) + 0.25);
+    const bool narrow = t->plane.origin > 0.0 && (wide < 1.0 || high < 1.0);
+    t->slim = narrow || !(area > 0.0) ? INFINITY : fmax(t->slim, longest * longest / area * (1.0 + 0.5 / sqrt(area)));
 }
 
 static void fit_one(slanted *s, int which, double c) {
     dp_triangles *t = &s->class;
-    const double(*v)[2] = (const double(*)[2])s->at[which];
-    fit_shape(t, v);
+    spot polygon[RASTER_CORNERS];
+    int sides;
+    const int count = left_of(s, which, polygon, &sides);
     for (int i = 0; i < 3; i++) {
-        const double z = c / slanted_along(s, v[i][0], v[i][1]);
+        const double z = c / slanted_along(s, s->at[which][i][0], s->at[which][i][1]);
         t->depth = fmax(t->depth, z > 0.0 ? fmax(z / s->z, s->z / z) : INFINITY);
     }
+    for (int i = 2; i < count; i++)
+        fit_piece(t, (const spot[3]){polygon[0], polygon[i - 1], polygon[i]});
+    if (sides == 0)
+        return;
+    /* vertices beside the screen, of a triangle that is this wide */
+    const dp_plane_error *e = &dp_anchor_get(s->kind->anchor)->plane;
+    for (int i = 0; i < 3; i++)
+        for (int k = 0; k < 3; k++)
+            for (int axis = 0; axis < 2; axis++)
+                t->pixels = fmax(t->pixels, fabs(s->at[which][i][axis] - s->at[which][k][axis]) + 0.25);
+    t->plane.value = fmax(t->plane.value, e->value + 6.0 * sides);
+    t->plane.origin = fmax(t->plane.origin, e->origin + 3.0 * sides);
 }
 
 bool slanted_in_class(const slanted *s, const double at[3][2]) {
     dp_triangles drawn = s->class;
-    fit_shape(&drawn, at);
+    fit_piece(&drawn, (const spot[3]){{at[0][0], at[0][1]}, {at[1][0], at[1][1]}, {at[2][0], at[2][1]}});
     return drawn.pixels == s->class.pixels && drawn.slim == s->class.slim;
 }
 
@@ -141,6 +197,8 @@ bool slanted_fit(slanted *s, const double c[2]) {
     t->pixels = 1.0;
     t->slim = 2.0;
     t->depth = 1.0;
+    if (s->cut == RASTER_CLIP_PIECES)
+        t->plane = dp_anchor_get(s->kind->anchor)->plane;
     for (int k = 0; k < 2; k++)
         fit_one(s, k, c[k]);
     t->depth *= 1.0 + 1e-6;
@@ -315,8 +373,15 @@ bool slanted_clip(const slanted *s, int which, double c, raster_vertex clip[3]) 
 }
 
 bool slanted_inside(const raster_vertex v[3]) {
+    bool inside = slanted_in_depth(v);
+    for (int i = 0; i < 3; i++)
+        inside = inside && fabsf(v[i].x) <= v[i].w && fabsf(v[i].y) <= v[i].w;
+    return inside;
+}
+
+bool slanted_in_depth(const raster_vertex v[3]) {
     bool inside = true;
     for (int i = 0; i < 3; i++)
-        inside = inside && fabsf(v[i].x) <= v[i].w && fabsf(v[i].y) <= v[i].w && v[i].z >= 0.0F && v[i].z <= v[i].w;
+        inside = inside && v[i].z >= 0.0F && v[i].z <= v[i].w;
     return inside;
 }

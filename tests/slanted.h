@@ -43,6 +43,7 @@ typedef struct slanted {
     double n[3], px, py; /**< normal and pixel */
     double c, z;         /**< of the farther plane: distance along the normal, and depth where the order is asked */
     double at[2][3][2];  /**< where vertices are seen: of the nearer plane, of the farther one */
+    raster_clipping cut; /**< what becomes of triangles that sides of the screen cut; any: there are none */
 } slanted;
 
 /** Draws camera, format and viewport; false when the format's name is none. */
@@ -74,7 +75,8 @@ bool slanted_apart(slanted *s, double share, dp_budget *guarantee, double *neare
 
 /** Clip coordinates of a triangle whose plane is c away; false when a vertex is not from near to far. */
 bool slanted_clip(const slanted *s, int which, double c, raster_vertex clip[3]);
-/** Whether all vertices are in the frustum, so that no rasterizer clips. */
+/** Whether all vertices are in the frustum, so that no rasterizer clips; or only from near to far. */
 bool slanted_inside(const raster_vertex v[3]);
+bool slanted_in_depth(const raster_vertex v[3]);
 
 #endif

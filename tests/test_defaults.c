@@ -22,6 +22,7 @@ static const struct {
     {VERB_BIAS, "bias --units -1"},
     {VERB_STABILITY, "stability encode"},
     {VERB_SHADOW, "shadow"},
+    {VERB_DISOCCLUSION, "disocclusion"},
     {VERB_LIST, "list scenes"},
 };
 
@@ -32,21 +33,27 @@ static const struct {
     const char *line; /* in place of the command's; null: that */
     const char *more;
 } besides[] = {
+    {VERB_PLOT, OPTION_PLANE, "plot fight --csv", ""},
     {VERB_PLOT, OPTION_INTERPOLATION, "plot budget -F d24 -m d3d --csv", ""},
     {VERB_PLOT, OPTION_WORLD, "plot budget -F d24 -m d3d --csv", ""},
     {VERB_PLOT, OPTION_COMPOSITION, "plot budget -F d24 -m d3d --csv", "--world 100"},
     {VERB_BUDGET, OPTION_COMPOSITION, NULL, "--world 100"},
     {VERB_TABLE | VERB_BUDGET | VERB_SOLVE, OPTION_FOV, NULL, "--viewport 640x480"},
-    {VERB_TABLE | VERB_BUDGET | VERB_SOLVE, OPTION_SUBPIXEL, NULL, "--viewport 640x480"},
+    {VERB_TABLE | VERB_BUDGET | VERB_SOLVE | VERB_ZFIGHT, OPTION_SUBPIXEL, NULL, "--viewport 640x480"},
     {VERB_TABLE | VERB_BUDGET | VERB_SOLVE, OPTION_SLANT, NULL, "--viewport 640x480"},
     {VERB_TABLE | VERB_BUDGET | VERB_SOLVE, OPTION_TRIANGLE, NULL, "--viewport 640x480"},
     {VERB_ZFIGHT, OPTION_SEED, NULL, "--sample 1000"},
+    {VERB_ZFIGHT, OPTION_FOV, "zfight -F fp32 -m d3d --triangles --sample 20", ""},
+    {VERB_ZFIGHT, OPTION_RASTER, "zfight -F fp32 -m d3d --triangles --sample 20", ""},
+    {VERB_ZFIGHT, OPTION_SLANT, "zfight -F fp32 -m d3d --triangles --sample 20", ""},
+    {VERB_ZFIGHT, OPTION_TRIANGLE, "zfight -F fp32 -m d3d --triangles --sample 20", ""},
     {VERB_ZFIGHT, OPTION_WORLD, "zfight -F d24 -m d3d", "--against fma --sample 1000"},
     {VERB_ZFIGHT, OPTION_PROGRAM, "zfight -F d24 -m d3d", "--against fma --sample 1000"},
     {VERB_ZFIGHT, OPTION_VERTICES, "zfight -F d24 -m d3d", "--against fma --sample 1000"},
     {VERB_TEXTURE, OPTION_HALF_HEIGHT, NULL, "--ortho"},
     {VERB_TEXTURE, OPTION_SIZE, "texture --scene plane", ""},
     {VERB_BIAS, OPTION_CLAMP, NULL, "--api vulkan"},
+    {VERB_SHADOW, OPTION_FACET, NULL, "--curvature 5"},
     {VERB_PLOT, OPTION_FOV, "plot shadow --csv", ""},
     {VERB_PLOT, OPTION_VIEWPORT, "plot shadow --csv", ""},
     {VERB_PLOT, OPTION_SUBPIXEL, "plot shadow --csv", ""},

@@ -18,7 +18,7 @@ static bool tried[OPTION_COUNT];
 static int parse(options *o, const char *command, option_id id, const char *value, char line[1024]) {
     char words[32], name[64], given[128], viewport[] = "--viewport=64x48";
     const bool slants = id == OPTION_HFOV || id == OPTION_RASTER || id == OPTION_SUBPIXEL || id == OPTION_SLANT ||
-                        id == OPTION_TRIANGLE;
+                        id == OPTION_TRIANGLE || id == OPTION_PLANE;
     snprintf(words, sizeof words, "%s", command);
     snprintf(name, sizeof name, "--%s", option_name(id));
     snprintf(given, sizeof given, "%s", value != NULL ? value : "");
@@ -78,6 +78,9 @@ static const struct {
      "a number from 1e-12 to 1e12 scene units"},
     {"shadow", OPTION_LAMBDA, AT(lambda), 0.5, 0, 1, "0", "1", "-0.1", "1.1", "a number from 0 to 1"},
     {"shadow", OPTION_ANGLE, AT(angle), 75, 0, 89.9, "0", "89.9", "-1", "89.91", "a number from 0 to 89.9 degrees"},
+    {"shadow", OPTION_CURVATURE, AT(curvature), 0, 1e-12, 1e18, "1e-12", "1e18", "0", "2e18",
+     "a number from 1e-12 to 1e18 scene units"},
+    {"shadow", OPTION_FACET, AT(facet), 0, 0, 1e18, "0", "1e18", "-1", "2e18", "a number from 0 to 1e18 scene units"},
     {"shadow", OPTION_CASTERS, AT(casters), 100, 0, 1e12, "0", "1e12", "-1", "2e12",
      "a number from 0 to 1e12 scene units"},
     {"texture", OPTION_YAW, AT(camera.yaw), 0, -360, 360, "-360", "360", "-361", "360.5",
@@ -418,6 +421,7 @@ static void test_flags(void **state) {
         size_t field, size;
     } flags[] = {{"table", OPTION_ORTHO, WORD_AT(ortho)},
                  {"budget", OPTION_LINEARIZE, WORD_AT(terms.linearize)},
+                 {"zfight", OPTION_TRIANGLES, WORD_AT(drawn)},
                  {"texture", OPTION_EYE, WORD_AT(eye)},
                  {"texture", OPTION_RADIAL, WORD_AT(radial)},
                  {"texture", OPTION_LINEAR01, WORD_AT(linear01)},
@@ -557,6 +561,7 @@ static void test_own(void **state) {
 static void test_slanted(void **state) {
     static const char *const viewports[] = {"0x5", "5x0", "32769x1", "1x32769", "5", "5x", "x5", "5x5x5", "-1x5", ""};
     static const char *const slants[] = {"5", "5:4", "-1:5", "0:91", ":", "x:5", "5:x", ""};
+    static const char *const planes[] = {"5", "91,0", "-1,0", "5,361", "5,-361", "5:0", "x,0", "5,", ""};
     static const char *const classes[] = {"",         "depth",     "depth=0.5",  "depth=1e7",
                                           "pixels=0", "slim=1.9",  "slim=1025",  "width=5",
                                           "depth=2,", "depth=nan", "pixels=1e6", "depth=2;slim=4"};
@@ -570,6 +575,11 @@ static void test_slanted(void **state) {
     assert_true(o.triangles.depth == 2 && o.triangles.pixels == 512 && o.triangles.slim == 16);
     assert_int_equal(parse(&o, "table", OPTION_SLANT, "0.5:80", line), EXIT_FINE);
     assert_true(o.triangles.slant_lo == 0.5 && o.triangles.slant_hi == 80);
+    assert_int_equal(parse(&o, "zfight", OPTION_PLANE, "30.5,-360", line), EXIT_FINE);
+    assert_true(o.triangles.slant_lo == 30.5 && o.triangles.slant_hi == 30.5 && o.azimuth == -360);
+    assert_int_equal(parse(&o, "zfight", OPTION_TRIANGLES, NULL, line), EXIT_FINE);
+    assert_true(isnan(o.azimuth) && o.triangles.width == 1920 && o.triangles.height == 1080 && o.format_count == 3);
+    assert_string_equal(o.raster->name, "llvmpipe");
     assert_int_equal(parse(&o, "table", OPTION_TRIANGLE, "slim=4,depth=3,pixels=20", line), EXIT_FINE);
     assert_true(o.triangles.depth == 3 && o.triangles.pixels == 20 && o.triangles.slim == 4);
     assert_int_equal(parse(&o, "table", OPTION_TRIANGLE, "pixels=20", line), EXIT_FINE);
@@ -582,6 +592,8 @@ static void test_slanted(void **state) {
         refused(&t, "table", OPTION_VIEWPORT, viewports[i], "WIDTHxHEIGHT, each from 1 to 32768 pixels");
     for (size_t i = 0; i < sizeof slants / sizeof slants[0]; i++)
         refused(&t, "table", OPTION_SLANT, slants[i], "LO:HI, from 0 to 90 degrees");
+    for (size_t i = 0; i < sizeof planes / sizeof planes[0]; i++)
+        refused(&t, "zfight", OPTION_PLANE, planes[i], "SLANT,AZIMUTH, from 0 to 90 and from -360 to 360 degrees");
     for (size_t i = 0; i < sizeof classes / sizeof classes[0]; i++)
         refused(&t, "table", OPTION_TRIANGLE, classes[i],
                 "depth=K from 1 to 1e6, pixels=P from 1 to 65536 and slim=Q from 2 to 1024, separated by commas");

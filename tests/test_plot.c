@@ -14,6 +14,7 @@
 #include "plot/ticks.h"
 #include "plot/trace.h"
 #include "plot/words.h"
+#include "shadow/shadow.h"
 #include "support.h"
 
 /* For the leak sanitizer: what fontconfig read stays in memory until the program ends. */
@@ -229,15 +230,27 @@ static void test_every_figure_draws(void **state) {
     static const int sizes[][2] = {{800, 500}, {DRAW_WIDTH_MIN, DRAW_HEIGHT_MIN}, {1700, 300}};
     need_file file;
     need_error error;
+    const shadow_split split = shadow_split_default();
+    const shadow_light light = shadow_light_default();
+    shadow_cascade maps[2];
+    for (int i = 0; i < 2; i++)
+        assert_int_equal(shadow_cascade_of(&split, &light, i, &maps[i]), SHADOW_OK);
     method_start();
     assert_true(need_parse("needs", needs, sizeof needs - 1, &file, &error));
     for (size_t i = 0; figure_get(i) != NULL; i++) {
         const char *family = figure_get(i)->family;
         asked a;
         ask(&a, 0.1, i % 2 == 0 ? 1000 : (double)INFINITY);
+        if ((figure_get(i)->takes & FIGURE_DRAWN) != 0)
+            a.setups[0].spec.triangles = dp_triangles_default();
+        a.request.raster = raster_find("llvmpipe");
+        a.request.slant = 60;
+        a.request.azimuth = 45;
         ask_add(&a, "unorm24", DP_MAPPING_D3D);
         ask_add(&a, "unorm24", DP_MAPPING_REVERSED);
         a.request.file = &file;
+        a.request.maps = maps;
+        a.request.map_count = 2;
         a.request.family = family != NULL ? method_family_find(family) : NULL;
         chart *c = build(&a, figure_get(i)->name);
         for (size_t t = 0; theme_get(t) != NULL; t++)

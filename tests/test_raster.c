@@ -126,7 +126,7 @@ static void visit(const vector_row *row, void *context) {
     }
     assert_int_equal(row->count, 2 + COLUMNS);
     for (int i = 0; i < COLUMNS; i++)
-        cell[i] = strcmp(row->field[2 + i], "=") == 0 ? cell[i - 1] : row->field[2 + i];
+        cell[i] = i > 0 && strcmp(row->field[2 + i], "=") == 0 ? cell[i - 1] : row->field[2 + i];
     read_pixel(s, where, atoi(row->field[0]), atoi(row->field[1]), cell);
 }
 

@@ -177,10 +177,14 @@ static void test_biases(void **state) {
                 for (int k = 0; k <= 41; k++) {
                     const double slant = greatest * i / 40;
                     const double turn = k == 41 ? atan2(l.ty, l.tx) : k == 40 ? atan2(l.tx, l.ty) : 0.5 * pi * k / 39;
-                    const double across = tan(slant) * (fabs(cos(turn)) * l.tx + fabs(sin(turn)) * l.ty);
-                    const double wanted = need.texels * across / l.depth + need.window +
-                                          (way == SHADOW_SLOPE ? curved + 2 * vertex / light.small * b->factor : 0) +
-                                          (way == SHADOW_NORMAL ? off / 1024 / l.depth : 0);
+                    const double turned = way == SHADOW_CONSTANT ? 4 * eps : 0;
+                    const double across = tan(slant + turned) * (fabs(cos(turn)) * l.tx + fabs(sin(turn)) * l.ty);
+                    const double most =
+                        need.texels * l.diagonal * tan(greatest + 4 * eps) / l.depth; /* whatever m is */
+                    const double wanted =
+                        need.texels * across / l.depth + need.window +
+                        (way == SHADOW_SLOPE ? fmin(curved + 2 * vertex / light.small * b->factor, most) : 0) +
+                        (way == SHADOW_NORMAL ? off / 1024 / l.depth : 0);
                     const double has = lifted(&light, &l, b, slant, turn, lost);
                     TALLY(&enough, has >= wanted, "%s: %.17g for %.17g", shadow_way_name(way), has, wanted);
                     tightest = fmin(tightest, has / wanted - 1);
@@ -283,6 +287,8 @@ static void test_states(void **state) {
             TALLY(&gaps,
                   fabs(s.gap_light / wide - 1) < 1e-6 && s.factor >= b->factor && s.factor <= b->factor * (1 + 1e-6),
                   "%s: %g not %g", api->name, s.gap_light, wide);
+            TALLY(&gaps, fabs(s.gap_facing - wide + (b->gap_light - b->window * depth)) <= 1e-6 * wide, "%s facing: %g",
+                  api->name, s.gap_facing);
             assert_relative(s.gap_normal, s.gap_light * cos(light.triangles.slant_hi * pi / 180), 1e-12);
         }
     }
@@ -375,6 +381,46 @@ static void test_cascades(void **state) {
 
 /* ---- At the door ------------------------------------------------------------------------------------------------- */
 
+/* The ends of all ranges: numbers, or INFINITY where there is no such bias. */
+static void test_extremes(void **state) {
+    rng r = rng_make("shadow extremes");
+    (void)state;
+    for (uint64_t n = test_cases(200, 5000, 100000); n > 0; n--) {
+        shadow_light light = random_light(&r);
+        shadow_need need;
+        shadow_cascade c;
+        const bool high[] = {rng_below(&r, 2), rng_below(&r, 2), rng_below(&r, 2), rng_below(&r, 2), rng_below(&r, 2)};
+        light.width = high[0] ? 1e12 : 1e-12;
+        light.height = high[1] ? 1e12 : 1e-12;
+        light.small = high[2] ? 65536 : 0x1p-8;
+        light.world = high[3] ? 1e18 : 0;
+        light.facet = high[4] ? 1e18 : 0;
+        light.kernel = high[rng_below(&r, 5)] ? 64 : 0.5;
+        light.triangles.slant_hi = high[rng_below(&r, 5)] ? SHADOW_SLANT_MAX : 0;
+        light.triangles.slim = high[rng_below(&r, 5)] ? 1024 : 2;
+        assert_int_equal(shadow_light_check(&light), SHADOW_OK);
+        const shadow_split s = {.znear = high[0] ? 1 : 1e-12,
+                                .zfar = high[1] ? 1e12 : 1.001,
+                                .fov_y = high[2] ? 179.9 : 0.001,
+                                .aspect = high[3] ? 1000 : 0.001,
+                                .count = SHADOW_CASCADES_MAX,
+                                .lambda = high[4],
+                                .casters = high[3] ? 1e12 : 0};
+        if (shadow_cascade_of(&s, &light, (int)rng_below(&r, SHADOW_CASCADES_MAX), &c) == SHADOW_OK && rng_below(&r, 2))
+            light = c.light;
+        shadow_need_of(&light, &need);
+        for (int way = 0; way < SHADOW_WAY_COUNT; way++) {
+            const shadow_bias *b = &need.bias[way];
+            assert_true(b->window >= 0 && b->factor >= 0 && b->offset >= 0 && b->share >= 0 && b->share <= 1);
+            assert_true(b->gap_light >= b->gap_normal && b->gap_normal >= 0 && b->gap_facing >= 0);
+            for (size_t i = 0; bias_api_get(i) != NULL; i++) {
+                const shadow_state got = shadow_state_of(&light, b, bias_api_get(i));
+                assert_true(got.units >= 0 && got.factor >= 0 && got.gap_light >= 0 && got.gap_facing >= 0);
+            }
+        }
+    }
+}
+
 #define WRONG(what, field, value)                                                                                      \
     {                                                                                                                  \
         shadow_light light = shadow_light_default();                                                                   \
@@ -443,7 +489,7 @@ int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_parts),   cmocka_unit_test(test_biases),   cmocka_unit_test(test_gaps),
         cmocka_unit_test(test_states),  cmocka_unit_test(test_hopeless), cmocka_unit_test(test_cascades),
-        cmocka_unit_test(test_refused),
+        cmocka_unit_test(test_refused), cmocka_unit_test(test_extremes),
     };
     return run_tap(tests);
 }

@@ -4,198 +4,17 @@
  * in the world; planes at random slants, and spheres made of triangles. A point of the surface is put where a texel is
  * read that was drawn as far away as can be; its place is rounded, moved along the normal, transformed and looked up in
  * binary32. With the bias said to be enough it is lit. With 95 % of it (spheres 90 %) some point is not, wherever slope
- * times filter radius is 90 % of the bias or more; elsewhere the share of it that is used is printed.
+ * times filter radius is 90 % of the bias or more; elsewhere the share of it that is used is printed. Behind a caster
+ * beyond the gap and what is needed it is dark.
  */
-#include <float.h>
 #include <stdbool.h>
 #include <stdio.h>
 #include <string.h>
 
 #include "raster_named.h"
-#include "shadow/shadow.h"
+#include "shadow_stage.h"
 
 static const double pi = 3.14159265358979323846;
-
-/* ---- A light ----------------------------------------------------------------------------------------------------- */
-
-typedef struct stage {
-    shadow_light light;
-    shadow_need need;
-    raster_target target;
-    const char *name;
-    double axis[3][3], middle[3]; /* the light's right, up and forward; the box's middle in the world */
-    float matrix[3][4];           /* clip x, y, z of a place */
-    bool fused, in_shader;        /* products and sums; the bias taken off the point's depth */
-    double n, f;                  /* planes */
-    int px, py;                   /* the texel */
-    double caster[3][3];          /* the triangle about it, in the light's space: x, y, depth */
-} stage;
-
-/* A place where the surface is looked at, and the surface there: unit normal towards the light. */
-typedef struct spot {
-    double at[3], normal[3];
-} spot;
-
-static void turn(rng *r, double axis[3][3]) {
-    const double a = rng_uniform(r, 0, 2 * pi), b = rng_uniform(r, -pi / 2, pi / 2), c = rng_uniform(r, 0, 2 * pi);
-    const double u[3] = {cos(a) * cos(b), sin(a) * cos(b), sin(b)}, v[3] = {-sin(a), cos(a), 0};
-    const double w[3] = {-cos(a) * sin(b), -sin(a) * sin(b), cos(b)};
-    for (int i = 0; i < 3; i++) {
-        axis[0][i] = cos(c) * v[i] + sin(c) * w[i];
-        axis[1][i] = cos(c) * w[i] - sin(c) * v[i];
-        axis[2][i] = u[i];
-    }
-}
-
-static void to_world(const stage *s, const double p[3], double out[3]) {
-    const double along = p[2] - 0.5 * (s->n + s->f);
-    for (int i = 0; i < 3; i++)
-        out[i] = s->middle[i] + s->axis[0][i] * p[0] + s->axis[1][i] * p[1] + s->axis[2][i] * along;
-}
-
-static void make_matrix(stage *s) {
-    const double sign = s->light.setup.reversed ? -1.0 : 1.0;
-    const double scale[3] = {2.0 / s->light.width, 2.0 / s->light.height, sign / (s->f - s->n)};
-    for (int row = 0; row < 3; row++) {
-        double moved = 0;
-        for (int i = 0; i < 3; i++) {
-            s->matrix[row][i] = (float)(s->axis[row][i] * scale[row]);
-            moved -= s->axis[row][i] * s->middle[i] * scale[row];
-        }
-        s->matrix[row][3] = (float)(row == 2 ? moved + 0.5 : moved);
-    }
-}
-
-/* Clip coordinates of a place as a shader has it. */
-static void transform(const stage *s, const float p[3], float clip[3]) {
-    for (int row = 0; row < 3; row++) {
-        const float *m = s->matrix[row];
-        float sum = m[0] * p[0];
-        for (int i = 1; i < 3; i++) {
-            const float product = m[i] * p[i];
-            sum = s->fused ? fmaf(m[i], p[i], sum) : sum + product;
-        }
-        clip[row] = sum + m[3];
-    }
-}
-
-static void light_space(const stage *s, double u, double v, double *x, double *y) {
-    *x = (u / s->target.width - 0.5) * s->light.width;
-    *y = (v / s->target.height - 0.5) * s->light.height;
-}
-
-/* ---- The map ----------------------------------------------------------------------------------------------------- */
-
-static float stored_value(const stage *s, float d) {
-    const dp_format *format = &s->light.setup.spec.format;
-    const float in = d < 0.0F ? 0.0F : d > 1.0F ? 1.0F : d;
-    if (format->kind == DP_FORMAT_FLOAT)
-        return in;
-    const float product = in * (float)format->code_max;
-    const float code = strcmp(s->name, "softpipe") == 0 ? truncf(product) : rintf(product);
-    return (float)((double)code / (double)format->code_max);
-}
-
-static float rounded_up(double x) {
-    const float near = (float)x;
-    return (double)near < x ? nextafterf(near, FLT_MAX) : near;
-}
-
-/* Depth and slope of the texel before any bias; false where the triangle does not cover it, or is clipped. */
-static bool draw(const stage *s, float *depth, float *slope) {
-    raster_vertex v[3];
-    raster_triangle drawn;
-    int from, to;
-    for (int i = 0; i < 3; i++) {
-        double place[3];
-        float clip[3];
-        to_world(s, s->caster[i], place);
-        const float p[3] = {(float)place[0], (float)place[1], (float)place[2]};
-        transform(s, p, clip);
-        v[i] = (raster_vertex){clip[0], clip[1], clip[2], 1.0F};
-        if (fabsf(clip[0]) > 1.0F || fabsf(clip[1]) > 1.0F || clip[2] < 0.0F || clip[2] > 1.0F)
-            return false;
-    }
-    if (raster_set_up(&s->target, v, &drawn) != RASTER_OK || drawn.count != 1 ||
-        !raster_span(&s->target, &drawn.piece[0], s->py, &from, &to) || s->px < from || s->px >= to)
-        return false;
-    raster_depths(&s->target, &drawn.piece[0], s->py, s->px, s->px + 1, depth);
-    *slope = fmaxf(fabsf(drawn.piece[0].plane.a), fabsf(drawn.piece[0].plane.b));
-    return true;
-}
-
-/*
- * Whether a lookup at texture coordinate t reads the texel, with a rounding and an edge that favour it as far as
- * texture units may: 0.6 of a step, and either of two texels at a border.
- */
-static bool reads(const stage *s, float t, int size, int texel) {
-    const int bits = s->light.subtexel;
-    const double off = (double)(t * (float)size) - (texel + 0.5);
-    const double steps = ldexp(fabs(off), bits);
-    const double at = bits > 0 ? ldexp(rint(steps - 0.1), -bits) : fabs(off);
-    return at <= s->light.kernel;
-}
-
-/* What an API adds for the units and the factor that it takes; the greatest depth of the primitive decides their worth.
- */
-static float added_by(const stage *s, const shadow_state *state, const bias_api *api, float slope) {
-    const dp_format *format = &s->light.setup.spec.format;
-    const bool is_float = format->kind == DP_FORMAT_FLOAT;
-    const bias_rule rule = is_float ? api->real : api->unorm;
-    float deepest = 0.0F;
-    int e;
-    for (int i = 0; i < 3; i++) {
-        double place[3];
-        float clip[3];
-        to_world(s, s->caster[i], place);
-        transform(s, (const float[3]){(float)place[0], (float)place[1], (float)place[2]}, clip);
-        deepest = fmaxf(deepest, clip[2]);
-    }
-    (void)frexpf(deepest, &e);
-    const float unit = rule == BIAS_ONE        ? 1.0F
-                       : rule == BIAS_EXPONENT ? ldexpf(1.0F, e - 24)
-                       : rule == BIAS_MANTISSA ? 0x1p-24F
-                       : rule == BIAS_CODE     ? (float)(1.0 / (double)format->code_max)
-                                               : ldexpf(1.0F, -format->bits);
-    const float constant = (float)state->units * unit;
-    return state->factor > 0.0 ? constant + (float)state->factor * slope : constant;
-}
-
-/* Whether the point is lit with a share of a bias; *judged where its lookup reads the texel. */
-static bool lit(const stage *s, shadow_way way, double share, const bias_api *api, const spot *point, float depth,
-                float slope, bool *judged) {
-    const shadow_bias *bias = &s->need.bias[way];
-    double place[3];
-    float p[3], clip[3];
-    const double cosine = -point->normal[2], sine = sqrt(1.0 - cosine * cosine);
-    const float off = (float)(share * bias->offset * sine);
-    double normal[3] = {0};
-    for (int i = 0; i < 3; i++)
-        for (int k = 0; k < 3; k++)
-            normal[i] += s->axis[k][i] * point->normal[k];
-    to_world(s, point->at, place);
-    for (int i = 0; i < 3; i++) {
-        const float rounded = (float)place[i], moved = off * (float)normal[i];
-        p[i] = way == SHADOW_NORMAL ? rounded + moved : rounded;
-    }
-    transform(s, p, clip);
-    *judged = reads(s, clip[0] * 0.5F + 0.5F, s->target.width, s->px) &&
-              reads(s, clip[1] * 0.5F + 0.5F, s->target.height, s->py);
-    const float sign = (float)shadow_sign(&s->light);
-    float o = rounded_up(share * bias->window);
-    if (way == SHADOW_SLOPE)
-        o = o + rounded_up(share * bias->factor) * slope;
-    if (api != NULL) {
-        const shadow_state state = shadow_state_of(&s->light, bias, api);
-        if (isinf(state.units))
-            return true; /* said to be impossible */
-        o = added_by(s, &state, api, slope);
-    }
-    const bool shader = s->in_shader && way != SHADOW_SLOPE && api == NULL;
-    const float value = stored_value(s, shader ? depth : depth + sign * o);
-    const float reference = shader ? clip[2] - sign * o : clip[2];
-    return s->light.setup.reversed ? reference >= value : reference <= value;
-}
 
 /* ---- Surfaces ---------------------------------------------------------------------------------------------------- */
 
@@ -214,7 +33,7 @@ static double plane_at(const plan *p, const double at[3], double x, double y) {
 }
 
 /* A triangle of the plane about the texel; its vertices where the grid moves them away from the light's depth. */
-static void place_plane(rng *r, stage *s, const plan *p, const double centre[3]) {
+static void place_plane(rng *r, shadow_stage *s, const plan *p, const double centre[3]) {
     const int bits = s->light.triangles.subpixel;
     const bool badly = bits > 0 && rng_below(r, 4) != 0;
     const double du = rng_uniform(r, -0.2, 0.2) * p->size, dv = rng_uniform(r, -0.2, 0.2) * p->size;
@@ -227,7 +46,7 @@ static void place_plane(rng *r, stage *s, const plan *p, const double centre[3])
         if (badly)
             for (int k = 0; k < 2; k++)
                 at[k] = ldexp(rint(ldexp(at[k], bits)) + (way[k] > 0 ? -0.48 : 0.48), -bits);
-        light_space(s, at[0], at[1], &s->caster[i][0], &s->caster[i][1]);
+        shadow_stage_place(s, at[0], at[1], &s->caster[i][0], &s->caster[i][1]);
         s->caster[i][2] = plane_at(p, centre, s->caster[i][0], s->caster[i][1]);
     }
 }
@@ -300,9 +119,14 @@ static const struct {
              {"lavapipe", "mesa", DP_ANCHOR_ORIGIN},
              {"softpipe", "softpipe", DP_ANCHOR_ORIGIN_STEPPED},
              {"swiftshader", "mesa", DP_ANCHOR_VERTEX}};
-static const char *const formats[] = {"fp32", "unorm24", "unorm16"};
+static const char *const format_names[] = {"fp32", "unorm24", "unorm16"};
 
-enum { KINDS = sizeof kinds / sizeof kinds[0], FORMATS = sizeof formats / sizeof formats[0], TRIED = 24, MOST = 600 };
+enum {
+    KINDS = sizeof kinds / sizeof kinds[0],
+    FORMATS = sizeof format_names / sizeof format_names[0],
+    TRIED = 24,
+    MOST = 600
+};
 
 /* SwiftShader has no D24; the 16-bit codes of softpipe are stepped, and promise nothing. */
 static bool has_format(int kind, int format) {
@@ -310,16 +134,16 @@ static bool has_format(int kind, int format) {
            !(format == 2 && strcmp(kinds[kind].name, "softpipe") == 0);
 }
 
-static void draw_light(rng *r, stage *s, int kind, int format, bool wide) {
+static void draw_light(rng *r, shadow_stage *s, int kind, int format, bool wide) {
     static const double kernels[] = {0.5, 0.5, 1.0, 1.5, 2.0, 3.5};
     dp_spec spec = dp_spec_default();
     dp_format found[2];
     const int size = (int)rng_log(r, 64.0, 4096.0);
-    assert_int_equal(dp_format_parse(formats[format], found), 1);
+    assert_int_equal(dp_format_parse(format_names[format], found), 1);
     assert_int_equal(dp_arith_parse(kinds[kind].arith, &spec.arith), DP_OK);
     s->name = kinds[kind].name;
     s->light = shadow_light_default();
-    s->target = target_of(s->name, formats[format], size, size, dp_path_best());
+    s->target = target_of(s->name, format_names[format], size, size, dp_path_best());
     s->light.width = s->light.height = rng_log(r, 0.1, 1000.0);
     spec.format = found[0];
     spec.mapping = rng_below(r, 2) ? DP_MAPPING_REVERSED : DP_MAPPING_D3D;
@@ -338,7 +162,7 @@ static void draw_light(rng *r, stage *s, int kind, int format, bool wide) {
     s->light.receiver_hi = s->f;
     s->fused = rng_below(r, 2);
     s->in_shader = rng_below(r, 3) == 0;
-    turn(r, s->axis);
+    shadow_stage_turn(r, s->axis);
     const double half = 0.5 * hypot(hypot(s->light.width, s->light.height), s->f - s->n);
     const double world = wide ? s->light.width * rng_log(r, 1.0, 300.0) : 0.0;
     for (int i = 0; i < 3; i++) {
@@ -346,11 +170,11 @@ static void draw_light(rng *r, stage *s, int kind, int format, bool wide) {
         if (wide)
             s->light.world = fmax(s->light.world, fabs(s->middle[i]) + half);
     }
-    make_matrix(s);
+    shadow_stage_matrix(s);
 }
 
 /* The class is that of the triangle, as the grid moves it. False where there is none. */
-static bool fit_class(stage *s) {
+static bool fit_class(shadow_stage *s) {
     dp_triangles *t = &s->light.triangles;
     double at[3][2], lo[2] = {INFINITY, INFINITY}, hi[2] = {-INFINITY, -INFINITY}, longest = 0.0;
     for (int i = 0; i < 3; i++) {
@@ -373,7 +197,7 @@ static bool fit_class(stage *s) {
     return t->slim <= 1024.0 && s->light.small >= 0x1p-8;
 }
 
-static void draw_plan(rng *r, stage *s, plan *p, bool sphere) {
+static void draw_plan(rng *r, shadow_stage *s, plan *p, bool sphere) {
     *p = (plan){.sphere = sphere};
     p->slope = tan((rng_below(r, 3) == 0 ? rng_uniform(r, 60.0, 85.0) : rng_uniform(r, 1.0, 80.0)) * pi / 180.0);
     p->azimuth = rng_below(r, 4) != 0 ? pi / 4.0 * (double)(2 * rng_below(r, 4) + 1) : rng_uniform(r, -pi, pi);
@@ -395,7 +219,7 @@ static void draw_plan(rng *r, stage *s, plan *p, bool sphere) {
 /* ---- Trials ------------------------------------------------------------------------------------------------------ */
 
 /* Where the point is looked up, texels from the texel's centre: at the side where it lies deepest, or anywhere. */
-static void aim(rng *r, const stage *s, const double down[2], double off[2]) {
+static void aim(rng *r, const shadow_stage *s, const double down[2], double off[2]) {
     const double step = s->light.subtexel > 0 ? ldexp(1.0, -s->light.subtexel) : 0.0;
     const bool edge = rng_below(r, 8) != 0;
     const double inside = rng_below(r, 2) ? 0.0 : rng_unit(r) * 0.03;
@@ -406,15 +230,15 @@ static void aim(rng *r, const stage *s, const double down[2], double off[2]) {
 }
 
 /* The surface at the texel and at the point that is looked up there with an offset of `moved` along the normal. */
-static bool set(rng *r, stage *s, const plan *p, const double off[2], double moved, spot *point) {
+static bool set(rng *r, shadow_stage *s, const plan *p, const double off[2], double moved, shadow_spot *point) {
     double x, y, w[3], v[3][3];
     const double z = p->z + rng_unit(r) * 1e-3 * (s->f - s->n); /* anywhere between two codes */
-    light_space(s, s->px + 0.5 + off[0], s->py + 0.5 + off[1], &x, &y);
+    shadow_stage_place(s, s->px + 0.5 + off[0], s->py + 0.5 + off[1], &x, &y);
     if (!p->sphere) {
         const double q = hypot(1.0, p->slope);
         const double normal[3] = {p->slope * cos(p->azimuth) / q, p->slope * sin(p->azimuth) / q, -1.0 / q};
         double centre[3] = {0, 0, z};
-        light_space(s, s->px + 0.5, s->py + 0.5, &centre[0], &centre[1]);
+        shadow_stage_place(s, s->px + 0.5, s->py + 0.5, &centre[0], &centre[1]);
         memcpy(point->normal, normal, sizeof normal);
         point->at[0] = x - moved * normal[0];
         point->at[1] = y - moved * normal[1];
@@ -435,7 +259,7 @@ static bool set(rng *r, stage *s, const plan *p, const double off[2], double mov
     centre[2] = z - point->at[2];
     for (int i = 0; i < 3; i++)
         point->at[i] += centre[i];
-    light_space(s, s->px + 0.5, s->py + 0.5, &x, &y);
+    shadow_stage_place(s, s->px + 0.5, s->py + 0.5, &x, &y);
     return find_facet(p, centre, x, y, s->caster) && weights((const double(*)[3])s->caster, x, y, w);
 }
 
@@ -454,18 +278,31 @@ typedef struct outcome {
     uint64_t judged[SHADOW_WAY_COUNT], points;
 } outcome;
 
-static bool lit_at(const rng *r, stage *s, const plan *p, const double off[2], shadow_way way, double share,
+static bool lit_at(const rng *r, shadow_stage *s, const plan *p, const double off[2], shadow_way way, double share,
                    const bias_api *api, bool *judged) {
     const double sine = sin(s->light.triangles.slant_hi * pi / 180.0);
     rng same = *r;
-    spot point;
+    shadow_spot point;
     float depth, slope;
-    *judged = set(&same, s, p, off, share * s->need.bias[way].offset * sine, &point) && draw(s, &depth, &slope);
-    return *judged && lit(s, way, share, api, &point, depth, slope, judged);
+    *judged =
+        set(&same, s, p, off, share * s->need.bias[way].offset * sine, &point) && shadow_stage_draw(s, &depth, &slope);
+    return *judged && shadow_stage_lit(s, way, share, api, &point, depth, slope, judged);
+}
+
+/* Beyond the gap and what is needed, a parallel caster's shadow is certain: texels are read at the far side here. */
+static void judge_caster(const rng *r, shadow_stage *s, const plan *p, const double off[2], shadow_way way, tally *t) {
+    const double away[2] = {-off[0], -off[1]};
+    bool judged;
+    s->raised = (s->need.bias[way].gap_light + s->need.bias[SHADOW_CONSTANT].window * (s->f - s->n)) * (1.0 + 1e-6);
+    const bool light = lit_at(r, s, p, away, way, 1.0, NULL, &judged);
+    s->raised = 0.0;
+    if (judged)
+        TALLY(t, !light, "%s %s %s: %d texels, kernel %g, slant %.17g", s->name, s->light.setup.spec.format.name,
+              shadow_way_name(way), s->target.width, s->light.kernel, s->light.triangles.slant_hi);
 }
 
 /* One point: lit with the bias itself; and the largest share with which it is dark. */
-static void judge(rng *r, stage *s, const plan *p, double least, tally *t, outcome *o) {
+static void judge(rng *r, shadow_stage *s, const plan *p, double least, tally t[2], outcome *o) {
     const double down[2] = {cos(p->azimuth), sin(p->azimuth)};
     for (shadow_way way = 0; way < SHADOW_WAY_COUNT; way++) {
         double off[2], lo = 0.0, hi = 1.0;
@@ -480,6 +317,8 @@ static void judge(rng *r, stage *s, const plan *p, double least, tally *t, outco
                   s->light.setup.spec.format.name, shadow_way_name(way), api != NULL ? api->name : "", s->target.width,
                   s->light.kernel, s->light.subtexel, s->light.triangles.slant_hi, s->light.width, s->f - s->n,
                   s->need.bias[way].share);
+        if (!p->sphere)
+            judge_caster(r, s, p, off, way, &t[1]);
         for (int i = 0; judged && i < 8; i++) {
             const double share = i == 0 ? least : 0.5 * (lo + hi);
             *(lit_at(r, s, p, off, way, share, NULL, &judged) ? &hi : &lo) = share;
@@ -493,14 +332,14 @@ static void judge(rng *r, stage *s, const plan *p, double least, tally *t, outco
 }
 
 /* The class is that of the triangles drawn; false where the light's box is too small for the bias. */
-static bool fits(rng *r, stage *s, const plan *p) {
+static bool fits(rng *r, shadow_stage *s, const plan *p) {
     s->light.triangles.pixels = 1.0;
     s->light.triangles.slim = 2.0;
     s->light.small = 65536.0;
     for (int i = 0; i < TRIED; i++) {
         const double down[2] = {cos(p->azimuth), sin(p->azimuth)};
         double off[2];
-        spot point;
+        shadow_spot point;
         aim(r, s, down, off);
         if (set(r, s, p, off, 0.0, &point) && !fit_class(s))
             return false;
@@ -529,7 +368,7 @@ static bool fits(rng *r, stage *s, const plan *p) {
  * random points can hardly reach, worst roundings of positions, planes and sines, and triangles worst for their slope,
  * 3 %. With a constant bias a sphere falls behind its tangent: little, too.
  */
-static bool is_tight(const stage *s, const plan *p, shadow_way way) {
+static bool is_tight(const shadow_stage *s, const plan *p, shadow_way way) {
     const shadow_need *need = &s->need;
     const double slant = s->light.triangles.slant_hi, slope = need->slope;
     const double across = s->light.kernel * hypot(need->texel_x, need->texel_y);
@@ -543,12 +382,12 @@ static bool is_tight(const stage *s, const plan *p, shadow_way way) {
            (loose + beside) * (s->f - s->n) / (across * slope) + small <= 0.03;
 }
 
-static bool is_used(const stage *s, const plan *p, const outcome *o, shadow_way way, double least) {
+static bool is_used(const shadow_stage *s, const plan *p, const outcome *o, shadow_way way, double least) {
     return o->used[way] >= least || !is_tight(s, p, way);
 }
 
 /* One light: points on its surface, and more of them until some is dark with `least` of each bias that is tight. */
-static outcome judge_light(rng *r, stage *s, const plan *p, double least, tally *t) {
+static outcome judge_light(rng *r, shadow_stage *s, const plan *p, double least, tally t[2]) {
     outcome o = {0};
     for (int i = 0; i < MOST; i++) {
         bool all = i >= TRIED;
@@ -564,20 +403,21 @@ static outcome judge_light(rng *r, stage *s, const plan *p, double least, tally 
 
 static void test_surfaces(bool sphere) {
     const double least = sphere ? 0.9 : 0.95;
-    tally t = {.name = "points lit at the bias"}, tight = {.name = "points dark just below it"};
+    tally t[] = {{.name = "points lit at the bias"}, {.name = "points dark beyond the gap"}};
+    tally tight = {.name = "points dark just below the bias"};
     rng r = rng_make(sphere ? "shadows on spheres" : "shadows on planes");
     for (int kind = 0; kind < KINDS; kind++)
         for (int format = 0; format < FORMATS; format++) {
             double used[SHADOW_WAY_COUNT] = {0};
             uint64_t lights = 0, points = 0;
             for (uint64_t n = has_format(kind, format) ? test_cases(6, 100, 20000) : 0; n > 0; n--) {
-                stage s = {0};
+                shadow_stage s = {0};
                 plan p;
                 draw_light(&r, &s, kind, format, rng_below(&r, 2));
                 draw_plan(&r, &s, &p, sphere);
                 if (!fits(&r, &s, &p))
                     continue;
-                const outcome o = judge_light(&r, &s, &p, least, &t);
+                const outcome o = judge_light(&r, &s, &p, least, t);
                 if (o.judged[SHADOW_CONSTANT] < TRIED / 2)
                     continue;
                 lights++;
@@ -587,18 +427,21 @@ static void test_surfaces(bool sphere) {
                     if (o.judged[way] >= o.points / 2 && is_tight(&s, &p, way))
                         TALLY(&tight, is_used(&s, &p, &o, way, least),
                               "%s %s %s: used %.3f, share %.3f; %d texels, kernel %g, %d bits, slant %.17g", s.name,
-                              formats[format], shadow_way_name(way), o.used[way], s.need.bias[way].share,
+                              format_names[format], shadow_way_name(way), o.used[way], s.need.bias[way].share,
                               s.target.width, s.light.kernel, s.light.subtexel, s.light.triangles.slant_hi);
                 }
             }
             if (lights > 0)
                 print_message("# %s %s: %llu lights, %llu points; of the bias is used, constant %.2f, slope-scaled "
                               "%.2f, normal offset %.2f\n",
-                              kinds[kind].name, formats[format], (unsigned long long)lights, (unsigned long long)points,
-                              used[0] / (double)lights, used[1] / (double)lights, used[2] / (double)lights);
+                              kinds[kind].name, format_names[format], (unsigned long long)lights,
+                              (unsigned long long)points, used[0] / (double)lights, used[1] / (double)lights,
+                              used[2] / (double)lights);
         }
     print_message("# %llu biases within %.0f %%\n", (unsigned long long)tight.cases, 100.0 * (1.0 - least));
-    tally_end(&t);
+    tally_end(&t[0]);
+    if (!sphere)
+        tally_end(&t[1]);
     tally_end(&tight);
 }
 

@@ -297,7 +297,7 @@ static void test_range(void **state) {
         TALLY(&tight, isinf(w.bound) ? isinf(w.separation) : w.bound <= w.separation * (1.0 + 0x1.1p-10),
               "%.17g is no bound of %.17g, %.17g to %.17g", w.bound, w.separation, lo, hi);
         TALLY(&all, w.bound >= least_of(&spec.triangles, hi), "%.17g at %.17g", w.bound, hi);
-        finite += isfinite(w.bound);
+        finite += isfinite(w.bound) ? 1 : 0;
         for (int k = 0; k < 50; k++) {
             const double z = depth_within(&r, lo, hi), s = dp_separation(&setup, z),
                          of_point = dp_separation(&facing, z);

@@ -25,6 +25,8 @@ typedef struct shadow_case {
     double angle;
     int subpixel;
     double pixels, slim, world;
+    double curvature, facet; /* 0: planes */
+    const char *raster, *arith;
     double box[3], lo, hi; /* 0: the view; what is lit */
     double znear, zfar, fov, aspect, lambda, casters;
     int cascades;
@@ -54,7 +56,7 @@ static const shadow_case cases[] = {
      .casters = 40,
      .cascades = 3},
     {.options = "--light-box 30mx20mx50m --size 512x256 -F d16 -m gl --range 5m:48.65m --api gl --subpixel 4 "
-                "--triangle pixels=64,slim=8 --kernel 3 --angle 60 --world 1km",
+                "--triangle pixels=64,slim=8 --kernel 3 --angle 60 --world 1km --curvature 2m --facet 5cm",
      .formats = {"unorm16"},
      .mappings = {DP_MAPPING_GL},
      .format_count = 1,
@@ -68,6 +70,8 @@ static const shadow_case cases[] = {
      .pixels = 64,
      .slim = 8,
      .world = 1000,
+     .curvature = 2,
+     .facet = 0.05,
      .box = {30, 20, 50},
      .lo = 5,
      .hi = 48.65,
@@ -106,6 +110,24 @@ static const shadow_case cases[] = {
      .slim = 16,
      .box = {8, 8, 64},
      .hi = 64},
+    {.options =
+         "--light-box 10x10x40 --size 1024 -F d24 --raster softpipe --range 10:30 --kernel 1 --angle 3 --api metal",
+     .formats = {"unorm24"},
+     .mappings = {DP_MAPPING_D3D},
+     .format_count = 1,
+     .mapping_count = 1,
+     .api = "metal",
+     .width = 1024,
+     .height = 1024,
+     .kernel = 1,
+     .angle = 3,
+     .pixels = 512,
+     .slim = 16,
+     .raster = "softpipe",
+     .arith = "softpipe",
+     .box = {10, 10, 40},
+     .lo = 10,
+     .hi = 30},
 };
 
 enum { CASES = sizeof cases / sizeof cases[0] };
@@ -126,15 +148,22 @@ static shadow_light light_of(const shadow_case *c, const char *format, dp_mappin
     spec.zfar = c->box[2] > 0 ? c->box[2] : 1;
     spec.format = found[0];
     spec.mapping = mapping;
+    if (c->raster != NULL)
+        assert_int_equal(dp_arith_parse(c->arith, &spec.arith), DP_OK);
     assert_int_equal(dp_setup_init(&light.setup, &spec), DP_OK);
     light.triangles.width = c->width;
     light.triangles.height = c->height;
     light.triangles.subpixel = c->subpixel;
+    if (c->raster != NULL)
+        light.triangles.plane = dp_anchor_get(DP_ANCHOR_ORIGIN_STEPPED)->plane;
     light.triangles.pixels = c->pixels;
     light.triangles.slim = c->slim;
     light.triangles.slant_hi = c->angle;
     light.kernel = c->kernel / 2.0;
     light.world = c->world;
+    if (c->curvature > 0)
+        light.radius = c->curvature;
+    light.facet = c->facet;
     light.receiver_lo = c->lo;
     light.receiver_hi = c->box[2] > 0 ? c->hi : 1;
     if (c->box[2] > 0) {
@@ -291,6 +320,8 @@ static void want_head(values *v, const shadow_case *c) {
     want_number(v, "pixels", c->pixels);
     want_number(v, "slim", c->slim);
     want_number(v, "world", c->world);
+    want_number(v, "curvature", c->curvature > 0 ? c->curvature : NAN);
+    want_number(v, "facet", c->facet);
     if (c->box[2] > 0) {
         want_text(v, "view", NULL);
         return;
@@ -382,6 +413,95 @@ static const char *line_behind(const char *text, int lines) {
     return text;
 }
 
+/* What stands behind a label, its lines joined. */
+static void note_of(const char *at, const char *label, char out[512]) {
+    size_t used = 0;
+    const char *line = strstr(at, label);
+    assert_non_null(line);
+    line += strlen(label);
+    do {
+        line += strspn(line, " ");
+        const size_t length = strcspn(line, "\n");
+        assert_true(used + length + 2 < 512);
+        memcpy(out + used, line, length);
+        used += length;
+        out[used++] = ' ';
+        line += length + 1;
+    } while (strncmp(line, "                ", 16) == 0);
+    out[used] = '\0';
+}
+
+/* The first three in a text; NaN for a dash. */
+static void three_numbers(const char *text, double out[3]) {
+    for (int k = 0; k < 3; k++) {
+        char *end;
+        text += strcspn(text, "0123456789-");
+        out[k] = *text == '-' ? NAN : strtod(text, &end);
+        text = *text == '-' ? text + 1 : end;
+    }
+}
+
+/* Shares are those of the map that has the least of the constant bias; gaps the largest. */
+static void check_notes(const values *v, const shadow_case *c, const char *at, size_t setup) {
+    static const char *const shares[] = {"constant_share", "slope_share", "normal_share"};
+    static const char *const gaps[] = {"constant_gap", "slope_gap_facing", "normal_gap_facing"};
+    double share[3] = {INFINITY, INFINITY, INFINITY}, gap[3] = {0}, sum = 0;
+    double shown[3];
+    char text[512], path[64];
+    size_t least = 0;
+    for (size_t i = 0; i < map_count(c); i++)
+        for (int k = 0; k < 3; k++) {
+            const double value = number_at(v, setup, i, shares[k]);
+            least = k == 0 && value < share[0] ? i : least;
+            share[k] = fmin(share[k], value);
+            gap[k] = fmax(gap[k], number_at(v, setup, i, gaps[k]));
+        }
+    for (int k = 0; k < SHADOW_CAUSE_COUNT; k++) {
+        snprintf(path, sizeof path, "causes.%s", shadow_cause_name((shadow_cause)k));
+        sum += number_at(v, setup, least, path);
+    }
+    note_of(at, "\n  causes ", text);
+    if (map_count(c) > 1)
+        assert_int_equal(strtol(strstr(text, "cascade ") + 8, NULL, 10), (long)least + 1);
+    for (int k = 0; k < SHADOW_CAUSE_COUNT; k++) {
+        const char *const name = shadow_cause_name((shadow_cause)k), *const found = strstr(text, name);
+        snprintf(path, sizeof path, "causes.%s", name);
+        const double percent = 100 * number_at(v, setup, least, path) / sum;
+        assert_int_equal(found != NULL, percent >= 0.05);
+        if (found != NULL)
+            assert_relative(strtod(found + strlen(name), NULL), percent, 0.006);
+    }
+    note_of(at, "\n  needed ", text);
+    three_numbers(text, shown);
+    for (int k = 0; k < 3; k++)
+        assert_true(isinf(share[k]) ? isnan(shown[k]) : shown[k] <= 100 * share[k] && shown[k] > 90 * share[k]);
+    note_of(at, "\n  gap ", text);
+    three_numbers(text, shown);
+    for (int k = 0; k < 3; k++)
+        assert_true(gap[k] == 0 ? isnan(shown[k]) : enough(shown[k], gap[k], "gap"));
+}
+
+/* A line for each API with what is enough in all maps. */
+static void check_apis(const values *v, const shadow_case *c) {
+    static const char *const fields[] = {"constant_units", "slope_factor", "slope_units", "normal_texels",
+                                         "normal_units"};
+    printed p = print_of("shadow %s", c->options);
+    const char *at = strstr(p.out, "\napi ");
+    for (size_t i = 0; i < APIS; i++) {
+        assert_non_null(at);
+        at = strchr(at + 1, '\n');
+        const char *const name = bias_api_get(i)->name;
+        assert_int_equal(strncmp(at + 1, name, strlen(name)), 0);
+        char *end = (char *)at + 1 + strlen(name);
+        for (size_t k = 0; k < sizeof fields / sizeof fields[0]; k++) {
+            char path[PATH_SIZE];
+            snprintf(path, sizeof path, "setups[0].answers[%zu].%s", i, fields[k]);
+            assert_true(enough(strtod(end, &end), value_at(v, path)->number, fields[k]));
+        }
+    }
+    printed_free(&p);
+}
+
 static void check_text(const values *v, const shadow_case *c) {
     printed p = print_of("shadow %s", c->options);
     const bool split = c->box[2] == 0;
@@ -399,7 +519,11 @@ static void check_text(const values *v, const shadow_case *c) {
             else
                 assert_int_equal(strncmp(at, call->text, first), 0);
         }
-        if (split) {
+        if (!split) {
+            char texel[64];
+            snprintf(texel, sizeof texel, ", texel %.4g\n", fmax(c->box[0] / c->width, c->box[1] / c->height));
+            assert_non_null(strstr(p.out, texel));
+        } else {
             at = strstr(at, " cascade       from         to      texel        box      depth\n");
             assert_non_null(at);
             for (size_t i = 0; i < map_count(c); i++)
@@ -409,6 +533,7 @@ static void check_text(const values *v, const shadow_case *c) {
         assert_non_null(at);
         for (size_t i = 0; i < map_count(c); i++)
             check_bias_line(v, line_behind(at, (int)i + 1), k, i, split);
+        check_notes(v, c, at, k);
     }
     printed_free(&p);
 }
@@ -458,8 +583,7 @@ static void test_all(void **state) {
         check_json(&v, 0, arguments);
         check_csv(&v, 0, arguments, is_box ? box : split,
                   is_box ? sizeof box / sizeof box[0] : sizeof split / sizeof split[0], &lines);
-        if (c->api != NULL)
-            check_text(&v, c);
+        (c->api != NULL ? check_text : check_apis)(&v, c);
         values_free(&v);
         places_free(&lines);
     }

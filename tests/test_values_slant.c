@@ -4,6 +4,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "api/bias.h"
 #include "printed.h"
 
 enum { DEPTHS = 4 };
@@ -297,6 +298,66 @@ static void test_presets(void **state) {
     printed_free(&p);
 }
 
+/* The bias of one plane drawn twice: the least factor, or the one given, and the units with it. */
+static void check_bias(const slant_case *c, const char *options, double slope, double given) {
+    static const char *const apis[] = {"d3d11", "vulkan-unorm"};
+    for (size_t a = 0; a < 2; a++) {
+        const char *const common = "bias %s %s %s --api %s --at %.17g %s";
+        printed json = print_of(common, c->camera, c->options, options, apis[a], c->z[2], "--json");
+        printed csv = print_of(common, c->camera, c->options, options, apis[a], c->z[2], "--csv");
+        printed all = print_of(common, c->camera, c->options, options, "all", c->z[2], "--json");
+        json_t *root = json_of(json.out), *every = json_of(all.out);
+        const json_t *setup = json_array_get(json_object_get(root, "setups"), 0), *row = row_of(root, 0);
+        bias_goal goal = {.slope = slope};
+        dp_spec spec = dp_spec_default();
+        dp_setup slanted;
+        size_t i = 0;
+        while (strcmp(bias_api_get(i)->name, apis[a]) != 0)
+            i++;
+        goal.api = bias_api_get(i);
+        spec.znear = c->znear;
+        spec.zfar = c->zfar;
+        spec.mapping = c->mapping;
+        spec.triangles = c->triangles;
+        assert_int_equal(dp_setup_init(&slanted, &spec), DP_OK);
+        goal.factor = isnan(given) ? bias_factor_least(&slanted) : given;
+        const double sign = c->mapping == DP_MAPPING_REVERSED ? 1 : -1;
+        const double units = sign * bias_needed(&slanted, &goal, c->z[2]);
+        check_triangles(root, &c->triangles, c->raster);
+        check_triangles(every, &c->triangles, c->raster);
+        assert_true(isnan(given) ? json_is_null(json_object_get(root, "factor")) : at(root, "factor") == sign * given);
+        assert_true(at(setup, "factor") == sign * goal.factor && at(row, "units_apart") == units);
+        assert_true(at(row, "guarantee_facing") == budget_of(c, c->z[2], false).separation);
+        assert_true(at(row, "guarantee_slanted") == budget_of(c, c->z[2], true).separation);
+        assert_true(csv_at(csv.out, "units_apart", 0) == units && csv_at(csv.out, "factor", 0) == sign * goal.factor);
+        assert_true(csv_at(csv.out, "guarantee_slanted [scene]", 0) == budget_of(c, c->z[2], true).separation);
+        assert_true(at(row_of(every, i), "units") == units && at(row_of(every, i), "factor") == sign * goal.factor);
+        json_decref(root);
+        json_decref(every);
+        printed_free(&json);
+        printed_free(&csv);
+        printed_free(&all);
+    }
+}
+
+static void test_bias(void **state) {
+    (void)state;
+    check_bias(&cases[0], "", 0, NAN);
+    check_bias(&cases[0], "--slope 0.5", 0.5, 0);
+    check_bias(&cases[1], "", 0, NAN);
+    check_bias(&cases[1], "--factor -0.5", 0, 0.5);
+    check_bias(&cases[3], "--slope 0.01 --factor 0.25", 0.01, 0.25);
+    /* What no units are enough for. */
+    printed p = print_of("bias %s %s --factor 0.001 --at 3", cases[0].camera, cases[0].options);
+    assert_non_null(strstr(p.out, "no bias is enough from"));
+    assert_non_null(strstr(p.out, "no units are enough with a factor below 0.0"));
+    printed_free(&p);
+    p = print_of("bias %s %s --at 3 --api gl", cases[0].camera, cases[0].options);
+    assert_non_null(strstr(p.out, "gl, factor 0.0"));
+    assert_non_null(strstr(p.out, "viewport 1920x1080, fov 40, 8 subpixel bits, slant 0 to 90 degrees\n"));
+    printed_free(&p);
+}
+
 /* A census stays what it is; beside each band stands what holds at any slant all over it. */
 static void test_zfight(void **state) {
     const slant_case *c = &cases[0];
@@ -378,9 +439,9 @@ static void test_hopeless(void **state) {
 }
 
 int main(void) {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(test_rows),    cmocka_unit_test(test_world),
-                                       cmocka_unit_test(test_text),    cmocka_unit_test(test_rasterizer),
-                                       cmocka_unit_test(test_presets), cmocka_unit_test(test_range),
-                                       cmocka_unit_test(test_zfight),  cmocka_unit_test(test_hopeless)};
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(test_rows),       cmocka_unit_test(test_world),   cmocka_unit_test(test_text),
+        cmocka_unit_test(test_rasterizer), cmocka_unit_test(test_presets), cmocka_unit_test(test_range),
+        cmocka_unit_test(test_zfight),     cmocka_unit_test(test_bias),    cmocka_unit_test(test_hopeless)};
     return run_tap(tests);
 }

@@ -92,6 +92,27 @@ DP_API const char *dp_cause_name(dp_cause cause);
 DP_API dp_status dp_budget_at(const dp_setup *setup, double z, const dp_budget_terms *terms, dp_budget *out);
 
 /**
+ * By how much the window depths of one plane differ at a pixel when it is drawn twice, as different triangles: decals,
+ * two levels of detail. With m the greater change of the plane's window depth from one pixel to the next, on x
+ * or y, they are at most window + pixels m apart, before the format rounds them. Of triangles at least a pixel high a
+ * rasterizer's own m, which scales a bias, is at least (1 - lost) m - lost_window.
+ */
+typedef struct dp_coplanar {
+    double window, pixels;
+    double lost, lost_window;
+} dp_coplanar;
+
+/**
+ * That of planes at any slant, whatever the set-up's triangles say, at every eye depth of a range. depthprec(7), "Two
+ * tessellations of one plane", derives it.
+ *
+ * @param lo, hi  within [near, far]; hi may be INFINITY
+ * @return DP_OK, DP_ERROR_NULL, DP_ERROR_DEPTH, DP_ERROR_TRIANGLES where the set-up has none, or DP_ERROR_MODEL for
+ *         linear and log; *out is then left as it was
+ */
+DP_API dp_status dp_coplanar_over(const dp_setup *setup, double lo, double hi, dp_coplanar *out);
+
+/**
  * The codes that the pipeline may store at a depth, given only the set-up's matrix entries and the error bound of its
  * arithmetic: what another implementation of the same operations, in whatever order of rounding, must fall into.
  *

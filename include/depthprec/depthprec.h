@@ -28,6 +28,7 @@
 #include "depthprec/setup.h"
 #include "depthprec/status.h"
 #include "depthprec/triangles.h"
+#include "depthprec/vertices.h"
 
 #define DP_VERSION_MAJOR 0
 #define DP_VERSION_MINOR 1

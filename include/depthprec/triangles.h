@@ -11,8 +11,9 @@
  * angle of slant_lo to slant_hi to the view axis; in a pixel inside a triangle of each, z is the eye depth of the
  * farther plane. If they are `separation` or more apart along n, their codes are strictly in order there. That holds up
  * to edge-on. It covers a perspective with square pixels, eye space given in real numbers and rounded to binary32, and
- * triangles that are not clipped; clipped ones too where the rasterizer keeps the plane of the unclipped vertices and
- * those lie within [near, far].
+ * triangles that are not clipped. Clipped ones too, whose vertices lie within [near, far], where the rasterizer keeps
+ * the plane of the unclipped vertices; and where it makes new ones, as Mesa does, at `n` sides of the screen, if 6 n is
+ * added to plane.value and 3 n to plane.origin, and each piece is in the class, at least a pixel wide and high.
  */
 #ifndef DEPTHPREC_TRIANGLES_H
 #define DEPTHPREC_TRIANGLES_H

@@ -220,7 +220,90 @@ static double needed_with(const dp_setup *setup, const bias_goal *goal, double z
                          fmax((window + (fmax(step, gap) + fabs(goal->factor) * m) * outward) / r, 0.0));
 }
 
+double bias_factor_least(const dp_setup *setup) {
+    static const double spare = 1.0 + 0x1p-9; /* for the roundings of products and sums, see needed_slanted() */
+    dp_coplanar apart = {0};
+    if (setup->spec.triangles.width == 0)
+        return 0.0;
+    if (dp_coplanar_over(setup, setup->spec.znear, setup->spec.znear, &apart) != DP_OK || !(apart.lost < 0.5))
+        return (double)INFINITY;
+    return ceil(apart.pixels / (1.0 - apart.lost) * spare * 0x1p12) * 0x1p-12;
+}
+
+/* What the slope adds to what is needed, in window depth: at m, or at any. */
+static double taken_by_slope(const bias_goal *goal, const dp_coplanar *apart, double m) {
+    if (goal->slope == 0.0)
+        return goal->factor * apart->lost_window;
+    return (apart->pixels - goal->factor) * m + fabs(goal->factor) * (apart->lost * m + apart->lost_window);
+}
+
+/*
+ * bias_needed() for one plane drawn twice, at every depth of a range. A primitive's greatest depth is at least the
+ * pixel's, which is displaced: r is that of the binade below where it is near the end of one, and the step that of the
+ * binade above. At any slant a displacement by more than `beyond` of the depth is paid for by what the factor has to
+ * spare, 2^-9 of it.
+ */
+static double needed_slanted(const dp_setup *setup, const bias_goal *goal, double lo, double hi, double *worst) {
+    const dp_format *format = &setup->spec.format;
+    const double ends[2] = {lo, hi};
+    const double d_lo = fmin(dp_window(setup, lo), dp_window(setup, hi));
+    const double d_hi = fmax(dp_window(setup, lo), dp_window(setup, hi));
+    const double steepest = fmax(bias_window_slope(setup, lo, goal->slope), bias_window_slope(setup, hi, goal->slope));
+    dp_coplanar apart;
+    if (dp_coplanar_over(setup, lo, hi, &apart) != DP_OK ||
+        (goal->slope == 0.0 && goal->factor < bias_factor_least(setup)))
+        return (double)INFINITY;
+    const double off = apart.window + apart.pixels * steepest;
+    const int here = exponent_of(format, fmin(d_hi + off, 1.0));
+    const double least_step = certain_step(goal, format, here, unit_of(goal->api, format, here), 0.0);
+    const double beyond = goal->slope == 0.0 ? fmin(256.0 * (least_step + apart.window) / d_lo, 1.0) : 0.0;
+    const double r = unit_of(goal->api, format, exponent_of(format, fmax(d_lo * (1.0 - beyond) - off, 0.0)));
+    const int above = exponent_of(format, fmin(d_hi * (1.0 + beyond) + off, 1.0));
+    const double step = certain_step(goal, format, above, r, 0.0) + apart.window;
+    double needed = -1.0;
+    for (int i = 0; i < 2; i++) {
+        const double m = bias_window_slope(setup, ends[i], goal->slope);
+        const double window = fmax(step, window_of_gap(setup, ends[i], goal->gap)) + taken_by_slope(goal, &apart, m);
+        const double outward = 0x1p-20 * (fabs(window) + (apart.pixels + fabs(goal->factor)) * m);
+        const double units = bias_round_up(goal->api, format, fmax((window + outward) / r, 0.0));
+        if (units > needed) {
+            needed = units;
+            *worst = ends[i];
+        }
+    }
+    return needed;
+}
+
+/* Binade by binade of d, from the camera outwards, each in three parts: only those at its ends are near another one. */
+static double needed_over_slanted(const dp_setup *setup, const bias_goal *goal, double lo, double hi, double *worst) {
+    static const double parts[4] = {1.0, 1.0 + 0x1p-6, 2.0 - 0x1p-5, 2.0};
+    const dp_format *format = &setup->spec.format;
+    const double d_lo = dp_window(setup, lo), d_hi = dp_window(setup, hi);
+    const int first = exponent_of(format, fmin(d_lo, d_hi));
+    const int last = exponent_of(format, fmax(d_lo, d_hi));
+    double most = -1.0;
+    for (int i = 0; i < 3 * (last - first + 1); i++) {
+        const int at = setup->reversed ? 3 * (last - first + 1) - 1 - i : i;
+        double ends[2], z;
+        for (int end = 0; end < 2; end++) {
+            const double d = fmin(ldexp(parts[at % 3 + end], first + at / 3), 1.0);
+            ends[end] = fmin(fmax(dp_eye(setup, d, 1.0 - d), lo), hi);
+        }
+        if (at == 0) /* depths below the least exponent's */
+            ends[0] = d_lo < d_hi ? lo : hi;
+        const double needed = needed_slanted(setup, goal, fmin(ends[0], ends[1]), fmax(ends[0], ends[1]), &z);
+        if (needed > most) {
+            most = needed;
+            *worst = z;
+        }
+    }
+    return most;
+}
+
 double bias_needed(const dp_setup *setup, const bias_goal *goal, double z) {
+    double worst;
+    if (setup->spec.triangles.width > 0)
+        return needed_slanted(setup, goal, z, z, &worst);
     return needed_with(setup, goal, z, exponent_of(&setup->spec.format, dp_window(setup, z)));
 }
 
@@ -229,6 +312,8 @@ double bias_needed(const dp_setup *setup, const bias_goal *goal, double z) {
  * was 0 before it rises: the greatest is at an end of the range or of a binade of d, seen from either side.
  */
 double bias_needed_over(const dp_setup *setup, const bias_goal *goal, double lo, double hi, double *worst) {
+    if (setup->spec.triangles.width > 0)
+        return needed_over_slanted(setup, goal, lo, hi, worst);
     const dp_format *format = &setup->spec.format;
     const double d_lo = dp_window(setup, lo);
     const double d_hi = isinf(hi) ? (setup->reversed ? 0.0 : 1.0) : dp_window(setup, hi);

@@ -146,6 +146,16 @@ double bias_needed_over(const dp_setup *setup, const bias_goal *goal, double lo,
  */
 void bias_enough_over(const dp_setup *setup, const bias_goal *goal, double lo, double hi, double *from, double *to);
 
+/**
+ * Where the set-up has triangles the layers are one plane drawn twice, as different ones of the class, see
+ * dp_coplanar_over(): then what they need is told by bias_needed() and the like. With a slope it is for planes whose
+ * depth changes by so much from one pixel to the next, or less. Without, it is for planes at any slant, and only this
+ * factor or a larger one makes units enough; triangles are at least a pixel high.
+ *
+ * @return a binary32 number; 0 without triangles, INFINITY where no factor is enough
+ */
+double bias_factor_least(const dp_setup *setup);
+
 /** The sign of units and factor that brings a layer nearer to the camera: -1, or 1 for reversed mappings. */
 int bias_sign(const dp_setup *setup);
 

@@ -10,6 +10,8 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "cli/reach.h"
+#include "cli/slant.h"
 #include "cli/walk.h"
 #include "core/append.h"
 #include "report/number.h"
@@ -48,10 +50,19 @@ bias_call_text bias_call(const bias_api *api, double units, double factor) {
     return call_of(api, units_text(units).text, factor);
 }
 
+int bias_check_slant(const options *o) {
+    for (size_t i = 0; i < o->mapping_count && o->triangles.width > 0; i++)
+        if (dp_mapping_get(o->mappings[i])->curve != DP_CURVE_PERSPECTIVE)
+            return option_error(OPTION_VIEWPORT, "does not apply with %s, which is not affine on the screen",
+                                dp_mapping_get(o->mappings[i])->name);
+    return EXIT_FINE;
+}
+
 typedef struct row {
     const char *api, *label;
     double z, lo, hi; /* the depth, or the range */
     bias_unit r;      /* at the depth; NaN over a range */
+    double factor;
     double units, units_z, from, to;
     char call[BIAS_CALL_SIZE], said[BIAS_CALL_SIZE]; /* said: the call, or why there is none */
     char beside[BESIDE][NUMBER_SIZE];                /* the units of each set-up, short */
@@ -64,12 +75,17 @@ typedef struct all {
     row row;
     const char *apis;
     bool fails; /* somewhere no bias is enough */
+    double slope, gap;
+    double factor; /* as asked; NaN where each set-up has its own */
+    slant_fields slant;
+    const slant_fields *triangles; /* null: surfaces face the camera */
 } all;
 
 /* ---- What is needed ---------------------------------------------------------------------------------------------- */
 
 static bias_goal goal_of(const options *o, const bias_api *api, const dp_setup *setup) {
-    return (bias_goal){.api = api, .factor = o->factor * bias_sign(setup), .slope = o->slope, .gap = o->gap};
+    const double factor = bias_chooses_factor(o) ? bias_factor_least(setup) : o->factor * bias_sign(setup);
+    return (bias_goal){.api = api, .factor = factor, .slope = o->slope, .gap = o->gap};
 }
 
 /* Where the gap leads to the near plane, at least. */
@@ -94,6 +110,7 @@ static void measure(const all *a, const bias_api *api, const dp_setup *setup, do
     const options *o = &a->walk.here;
     const bias_goal goal = goal_of(o, api, setup);
     *r = (row){.api = api->name, .label = api->name, .z = z, .lo = (double)NAN, .hi = (double)NAN, .units_z = z};
+    r->factor = goal.factor * bias_sign(setup) + 0.0; /* no -0 */
     if (!a->by_range) {
         r->r = bias_unit_at(api, &setup->spec.format, dp_window(setup, z));
         r->units = bias_signed(setup, bias_needed(setup, &goal, z));
@@ -106,7 +123,7 @@ static void measure(const all *a, const bias_api *api, const dp_setup *setup, do
         bias_enough_over(setup, &goal, r->lo, r->hi, &r->from, &r->to);
     }
     if (!isnan(r->units))
-        memcpy(r->call, bias_call(api, r->units, o->factor).text, sizeof r->call);
+        memcpy(r->call, bias_call(api, r->units, r->factor).text, sizeof r->call);
     say_result(r);
 }
 
@@ -176,8 +193,11 @@ static void say_goal(page *p, const all *a) {
 }
 
 static void say_setup(page *p, void *item) {
+    const all *a = item;
+    const dp_setup full = reach_model(a->walk.setup);
     walk_title(p, item);
-    say_goal(p, item);
+    slant_say(p, page_title, &a->walk.here, &full);
+    say_goal(p, a);
 }
 
 static void say_choice(page *p, const dp_format *format) {
@@ -186,7 +206,10 @@ static void say_choice(page *p, const dp_format *format) {
 }
 
 static void say_notes(page *p, void *item) {
-    say_choice(p, &((const all *)item)->walk.setup->spec.format);
+    const all *a = item;
+    if (a->triangles != NULL)
+        page_line(p, "%s", BIAS_DRAWN_TWICE);
+    say_choice(p, &a->walk.setup->spec.format);
 }
 
 /* Formats above mappings, and below what is written in place of U. */
@@ -218,7 +241,7 @@ static void say_calls(page *p, void *item) {
 
 /* ---- Columns ----------------------------------------------------------------------------------------------------- */
 
-enum { OF_DEPTHS = 1, OF_RANGE = 2, OF_SEVERAL = 4 };
+enum { OF_DEPTHS = 1, OF_RANGE = 2, OF_SEVERAL = 4, WITH_TRIANGLES = 8 };
 
 static const column row_columns[] = {{FIELD(row, api, "api", ""), .only = AS_JSON | AS_CSV},
                                      {FIELD(row, z, "z", "scene"), .when = OF_DEPTHS},
@@ -229,6 +252,7 @@ static const column row_columns[] = {{FIELD(row, api, "api", ""), .only = AS_JSO
                                      {FIELD(row, r.least, "r", ""), .when = OF_DEPTHS},
                                      {FIELD(row, r.most, "r_most", ""), .when = OF_DEPTHS},
                                      {FIELD(row, units, "units", "")},
+                                     {FIELD(row, factor, "factor", ""), .when = WITH_TRIANGLES},
                                      {FIELD(row, units_z, "units_z", "scene"), .when = OF_RANGE},
                                      {FIELD(row, from, "from", "scene"), .when = OF_RANGE},
                                      {FIELD(row, to, "to", "scene"), .when = OF_RANGE},
@@ -240,15 +264,14 @@ static const column setup_report[] = {{PART(all, walk.fields, NULL, setup_column
                                       {LIST("rows", row_columns, next_row), .notes = say_notes},
                                       {.kind = COLUMN_END}};
 
-static const column top_columns[] = {{FIELD(options, slope, "slope", "")},
-                                     {FIELD(options, factor, "factor", "")},
-                                     {FIELD(options, gap, "gap", "scene")},
-                                     {.kind = COLUMN_END}};
-
-static const column columns[] = {{FIELD(all, apis, "api", ""), .only = AS_JSON},
-                                 {PART(all, walk.o, NULL, top_columns), .only = AS_JSON, .pointed = true},
-                                 {LIST("setups", setup_report, next_setup), .head = say_setup},
-                                 {.kind = COLUMN_END}};
+static const column columns[] = {
+    {FIELD(all, apis, "api", ""), .only = AS_JSON},
+    {FIELD(all, slope, "slope", ""), .only = AS_JSON},
+    {FIELD(all, factor, "factor", ""), .only = AS_JSON},
+    {FIELD(all, gap, "gap", "scene"), .only = AS_JSON},
+    {PART(all, triangles, "triangles", slant_columns), .only = AS_JSON, .pointed = true, .optional = true},
+    {LIST("setups", setup_report, next_setup), .head = say_setup},
+    {.kind = COLUMN_END}};
 
 static int write_beside(all *a, int status) {
     column rows[BESIDE + 2] = {{TEXT_FIELD(row, api, "", -13, 0)}};
@@ -267,7 +290,9 @@ static int write_beside(all *a, int status) {
 /* ---- The command ------------------------------------------------------------------------------------------------- */
 
 int bias_all_write(const options *o) {
-    all a = {.by_range = !option_given(o, OPTION_AT), .apis = "all"};
+    all a = {.by_range = !option_given(o, OPTION_AT), .apis = "all", .slope = o->slope, .gap = o->gap};
+    a.triangles = slant_fields_of(o, &a.slant);
+    a.factor = bias_chooses_factor(o) ? (double)NAN : o->factor;
     if (option_given(o, OPTION_UNITS) || option_given(o, OPTION_CLAMP))
         return option_error(OPTION_API, "must be one API with --%s, got 'all'",
                             option_name(option_given(o, OPTION_UNITS) ? OPTION_UNITS : OPTION_CLAMP));
@@ -277,8 +302,9 @@ int bias_all_write(const options *o) {
     if (status == EXIT_FINE)
         status = range_resolve(o, &a.lo, &a.hi);
     const bool beside = o->form == FORM_TEXT && !o->full && a.walk.all.count > 1 && a.walk.all.count <= BESIDE &&
-                        (a.by_range || a.walk.at.count == 1);
-    const unsigned when = (a.by_range ? OF_RANGE : OF_DEPTHS) | (!a.by_range && a.walk.at.count > 1 ? OF_SEVERAL : 0);
+                        (a.by_range || a.walk.at.count == 1) && a.triangles == NULL;
+    const unsigned when = (a.by_range ? OF_RANGE : OF_DEPTHS) | (!a.by_range && a.walk.at.count > 1 ? OF_SEVERAL : 0) |
+                          (a.triangles != NULL ? WITH_TRIANGLES : 0);
     if (beside)
         return write_beside(&a, status);
     return walk_write(&a.walk, &(report_spec){"bias", columns, &a, .when = when, .label = 14}, status);

@@ -17,6 +17,17 @@ bias_call_text bias_call(const bias_api *api, double units, double factor);
 /** What bias_needed() gives, with the sign that brings a layer nearer; NaN where none is enough. */
 double bias_signed(const dp_setup *setup, double units);
 
+/** With a viewport: what text says that is told apart. */
+#define BIAS_DRAWN_TWICE "told apart: one plane drawn as different triangles, each at least a pixel high"
+
+/** Whether each set-up's factor is the least that is enough at any slant: a viewport, and neither factor nor slope. */
+static inline bool bias_chooses_factor(const options *o) {
+    return o->triangles.width > 0 && !option_given(o, OPTION_FACTOR) && !option_given(o, OPTION_SLOPE);
+}
+
+/** Refuses what no bias can be about: a viewport with a mapping that is not affine. @return an exit status */
+int bias_check_slant(const options *o);
+
 /** Writes it for the depths of --at, or the range. @return an exit status */
 int bias_all_write(const options *o);
 

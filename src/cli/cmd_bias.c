@@ -8,18 +8,21 @@
 
 #include "api/bias.h"
 #include "cli/bias_all.h"
+#include "cli/reach.h"
+#include "cli/slant.h"
 #include "cli/walk.h"
 #include "report/number.h"
 
-enum { DIGITS = 6, DIGITS_Z = 9 };
+enum { DIGITS = 6, DIGITS_Z = 9, DIGITS_SHORT = 4 };
 
 /* What the bias does, or what one unit does and how many are enough. */
 typedef struct row {
-    bias_effect effect; /* of the bias given, or of one unit that brings a layer nearer */
-    double one_unit;    /* what one unit moves; NaN where it is held at a plane */
-    double apart;       /* inverse: the units that tell layers apart, with their sign; NaN when none do */
-    double gap;         /* inverse: the units that bring a layer nearer by the gap */
-    const char *held;   /* text: where the biased depth is held at a plane */
+    bias_effect effect;     /* of the bias given, or of one unit that brings a layer nearer */
+    double one_unit;        /* what one unit moves; NaN where it is held at a plane */
+    double apart;           /* inverse: the units that tell layers apart, with their sign; NaN when none do */
+    double gap;             /* inverse: the units that bring a layer nearer by the gap */
+    const char *held;       /* text: where the biased depth is held at a plane */
+    double facing, slanted; /* the separations that need no bias */
 } row;
 
 /* Inverse: the same over the range. */
@@ -36,8 +39,13 @@ typedef struct biasing {
     const char *api;
     bias_state state;
     bias_goal goal;
-    bool inverse;      /* no bias was given: one is asked for */
-    double units, gap; /* as asked; NaN where the other one is */
+    bool inverse; /* no bias was given: one is asked for */
+    bool chosen;  /* the factor is the least that is enough at any slant */
+    slant_fields slant;
+    const slant_fields *triangles; /* null: surfaces face the camera */
+    dp_setup facing, slanted;      /* in the model fp32 */
+    double units, gap;             /* as asked; NaN where the other one is */
+    double factor;                 /* as asked; NaN where each set-up has its own */
     double range_lo, range_hi;
     row row;
     needs needs;
@@ -69,6 +77,10 @@ static void *next_row(void *of, size_t i) {
         state.factor = 0.0;
         r->apart = bias_signed(setup, bias_needed(setup, &apart, z));
         r->gap = bias_signed(setup, bias_needed(setup, &gap, z));
+    }
+    if (b->triangles != NULL) {
+        r->facing = dp_separation(&b->facing, z);
+        r->slanted = dp_separation(&b->slanted, z);
     }
     r->effect = bias_at(setup, &state, b->goal.slope, z);
     r->one_unit = r->effect.limited ? (double)NAN : fabs(r->effect.shift);
@@ -107,6 +119,12 @@ static void *next_setup(void *of, size_t i) {
     if (!walk_setup(&b->walk, i))
         return NULL;
     b->limited = false;
+    if (b->triangles != NULL) {
+        b->slanted = reach_in(b->walk.setup, DP_MODEL_FP32);
+        b->facing = dp_setup_facing(&b->slanted);
+    }
+    if (b->chosen)
+        b->state.factor = bias_sign(b->walk.setup) * bias_factor_least(b->walk.setup);
     if (b->inverse && b->walk.o->form != FORM_CSV)
         b->needs = over_range(b);
     return b;
@@ -118,6 +136,7 @@ static void say_states(page *p, void *item) {
     const biasing *b = item;
     const bias_state *s = &b->state;
     walk_title(p, item);
+    slant_say(p, page_title, b->walk.o, &b->slanted);
     output_text(p->out, s->api->name);
     if (!b->inverse)
         output_format(p->out, ", units %s", number_full(s->units).text);
@@ -176,6 +195,12 @@ static void say_notes(page *p, void *item) {
         say_range(p, b);
     else
         page_line(p, "a %s bias brings a layer nearer", bias_sign(b->walk.setup) < 0 ? "negative" : "positive");
+    if (b->triangles != NULL)
+        page_line(p, "%s", BIAS_DRAWN_TWICE);
+    const double least = bias_factor_least(b->walk.setup); /* 0 without triangles */
+    if (b->inverse && b->goal.slope == 0.0 && b->state.factor * bias_sign(b->walk.setup) < least)
+        page_line(p, "at any slant no units are enough with a factor below %s; --slope says how steep they are",
+                  number_full(least).text);
     if (b->limited && !b->inverse)
         page_line(p, "a biased depth that leaves [0, 1] is held at the plane");
     if (isinf(unit.most))
@@ -187,11 +212,12 @@ static void say_notes(page *p, void *item) {
 /* ---- Columns ----------------------------------------------------------------------------------------------------- */
 
 /* Either the effect of a bias is asked, or the bias that is needed. */
-enum { EFFECT = 1, INVERSE = 2, WITH_GAP = 4, WITH_SLOPE = 8, VERBOSE = 16 };
+enum { EFFECT = 1, INVERSE = 2, WITH_GAP = 4, WITH_SLOPE = 8, VERBOSE = 16, WITH_TRIANGLES = 32 };
 
 static unsigned conditions(const biasing *b) {
     return (b->inverse ? INVERSE : EFFECT) | (b->goal.gap > 0.0 ? WITH_GAP : 0) |
-           (b->goal.slope > 0.0 ? WITH_SLOPE : 0) | (b->walk.o->verbose ? VERBOSE : 0);
+           (b->goal.slope > 0.0 ? WITH_SLOPE : 0) | (b->walk.o->verbose ? VERBOSE : 0) |
+           (b->triangles != NULL ? WITH_TRIANGLES : 0);
 }
 
 static const column row_columns[] = {
@@ -205,6 +231,10 @@ static const column row_columns[] = {
     {FIELD(row, gap, "units_gap", ""), .only = AS_CSV, .when = INVERSE},
     {FIELD(row, gap, "units_gap", ""), SHOWN("the gap", 17, DIGITS_Z), .only = AS_JSON | AS_TEXT,
      .when = INVERSE | WITH_GAP},
+    {FIELD(row, facing, "guarantee_facing", "scene"), SHOWN("facing", 11, DIGITS_SHORT), .upward = true,
+     .when = WITH_TRIANGLES},
+    {FIELD(row, slanted, "guarantee_slanted", "scene"), SHOWN("any slant", 11, DIGITS_SHORT), .upward = true,
+     .when = WITH_TRIANGLES},
     {FIELD(row, effect.offset, "bias", ""), SHOWN("bias", 12, DIGITS), .when = EFFECT, .spare = 1},
     {FIELD(row, effect.depth, "depth", ""), .when = EFFECT},
     {FIELD(row, effect.code, "code", ""), SHOWN("code", 11, 0), .when = EFFECT},
@@ -232,23 +262,28 @@ static const column needs_columns[] = {{FIELD(needs, lo, "lo", "scene")},
 
 static const column setup_report[] = {{PART(biasing, walk.fields, NULL, setup_columns)},
                                       {FIELD(biasing, api, "api", ""), .only = AS_CSV},
+                                      {FIELD(biasing, state.factor, "factor", ""), .when = WITH_TRIANGLES},
                                       {LIST("rows", row_columns, next_row)},
                                       {PART(biasing, needs, "range", needs_columns), .only = AS_JSON, .when = INVERSE},
                                       {.kind = COLUMN_END}};
 
-static const column columns[] = {{FIELD(biasing, api, "api", ""), .only = AS_JSON},
-                                 {FIELD(biasing, units, "units", ""), .only = AS_JSON},
-                                 {FIELD(biasing, state.factor, "factor", ""), .only = AS_JSON},
-                                 {FIELD(biasing, state.clamp, "clamp", ""), .only = AS_JSON},
-                                 {FIELD(biasing, goal.slope, "slope", ""), .only = AS_JSON},
-                                 {FIELD(biasing, gap, "gap", "scene"), .only = AS_JSON},
-                                 {LIST("setups", setup_report, next_setup), .head = say_states, .notes = say_notes},
-                                 {.kind = COLUMN_END}};
+static const column columns[] = {
+    {FIELD(biasing, api, "api", ""), .only = AS_JSON},
+    {FIELD(biasing, units, "units", ""), .only = AS_JSON},
+    {FIELD(biasing, factor, "factor", ""), .only = AS_JSON},
+    {FIELD(biasing, state.clamp, "clamp", ""), .only = AS_JSON},
+    {FIELD(biasing, goal.slope, "slope", ""), .only = AS_JSON},
+    {FIELD(biasing, gap, "gap", "scene"), .only = AS_JSON},
+    {PART(biasing, triangles, "triangles", slant_columns), .only = AS_JSON, .pointed = true, .optional = true},
+    {LIST("setups", setup_report, next_setup), .head = say_states, .notes = say_notes},
+    {.kind = COLUMN_END}};
 
 /* ---- The command ------------------------------------------------------------------------------------------------- */
 
 static int check_states(const options *o, const bias_api *api) {
     const bool given = option_given(o, OPTION_UNITS);
+    if (given && option_given(o, OPTION_VIEWPORT))
+        return option_error(OPTION_VIEWPORT, "cannot be combined with --units: it says how many are enough");
     if (given && option_given(o, OPTION_GAP))
         return option_error(OPTION_UNITS, "cannot be combined with --gap, which solves for them");
     if (given && api->whole && !(o->units == nearbyint(o->units) && fabs(o->units) <= 0x1.fffffffcp30))
@@ -275,14 +310,18 @@ int cmd_bias(const options *given) {
     const bias_api *api = o.api;
     if (!option_given(&o, OPTION_FORMAT) && o.preset_count == 0)
         drop_fp16(&o);
-    if (api == NULL)
-        return bias_all_write(&o);
+    const int affine = bias_check_slant(&o);
+    if (affine != EXIT_FINE || api == NULL)
+        return affine != EXIT_FINE ? affine : bias_all_write(&o);
     biasing b = {.state = {api, o.units, o.factor, o.clamp},
                  .goal = {.api = api, .slope = o.slope, .gap = o.gap},
                  .inverse = !option_given(&o, OPTION_UNITS),
                  .api = api->name};
     b.units = b.inverse ? (double)NAN : o.units;
     b.gap = b.inverse ? o.gap : (double)NAN;
+    b.triangles = slant_fields_of(&o, &b.slant);
+    b.chosen = bias_chooses_factor(&o);
+    b.factor = b.chosen ? (double)NAN : o.factor;
     int status = check_states(&o, api);
     if (status != EXIT_FINE)
         return status;

@@ -137,7 +137,7 @@ static void say_setup(page *p, void *item) {
     walk_title(p, item);
     if (b->composition != NULL)
         page_title(p, "world %s, composition %s", number_in(number_full(b->terms.world), p->unit).text, b->composition);
-    slant_title(p, b->walk.o, b->walk.setup);
+    slant_say(p, page_title, b->walk.o, b->walk.setup);
 }
 
 static void say_worst(page *p, const worst *w) {

@@ -6,6 +6,7 @@
 
 #include "cli/check_report.h"
 #include "cli/choice.h"
+#include "cli/drawn.h"
 #include "cli/figure_data.h"
 #include "cli/figure_file.h"
 #include "cli/list.h"
@@ -17,6 +18,9 @@
 #include "report/number.h"
 
 enum { WIDTH = 800, HEIGHT = 500 };
+
+/* Of the plane that is drawn, degrees. */
+static const double standard_slant = 60.0, standard_azimuth = 45.0;
 
 /* Depths that a figure waits for, about a quarter of a second a set-up. */
 static const uint64_t census_depths = UINT64_C(1) << 28;
@@ -75,15 +79,23 @@ static const struct {
     option_id id;
     unsigned takes;
     const char *figure;
-} only[] = {
-    {OPTION_INTERPOLATION, FIGURE_TERMS, "budget"}, {OPTION_WORLD, FIGURE_TERMS | FIGURE_SHADOW, "budget and shadow"},
-    {OPTION_COMPOSITION, FIGURE_TERMS, "budget"},   {OPTION_LINEARIZE, FIGURE_TERMS, "budget"},
-    {OPTION_FOV, FIGURE_SHADOW, "shadow"},          {OPTION_HFOV, FIGURE_SHADOW, "shadow"},
-    {OPTION_VIEWPORT, FIGURE_SHADOW, "shadow"},     {OPTION_SUBPIXEL, FIGURE_SHADOW, "shadow"},
-    {OPTION_RASTER, FIGURE_SHADOW, "shadow"},       {OPTION_TRIANGLE, FIGURE_SHADOW, "shadow"},
-    {OPTION_CASCADES, FIGURE_SHADOW, "shadow"},     {OPTION_LAMBDA, FIGURE_SHADOW, "shadow"},
-    {OPTION_LIGHT_BOX, FIGURE_SHADOW, "shadow"},    {OPTION_KERNEL, FIGURE_SHADOW, "shadow"},
-    {OPTION_ANGLE, FIGURE_SHADOW, "shadow"},        {OPTION_SIZE, FIGURE_SHADOW, "shadow"}};
+} only[] = {{OPTION_INTERPOLATION, FIGURE_TERMS, "budget"},
+            {OPTION_WORLD, FIGURE_TERMS | FIGURE_SHADOW, "budget and shadow"},
+            {OPTION_COMPOSITION, FIGURE_TERMS, "budget"},
+            {OPTION_LINEARIZE, FIGURE_TERMS, "budget"},
+            {OPTION_FOV, FIGURE_SHADOW | FIGURE_DRAWN, "fight and shadow"},
+            {OPTION_HFOV, FIGURE_SHADOW | FIGURE_DRAWN, "fight and shadow"},
+            {OPTION_VIEWPORT, FIGURE_SHADOW | FIGURE_DRAWN, "fight and shadow"},
+            {OPTION_SUBPIXEL, FIGURE_SHADOW, "shadow"},
+            {OPTION_RASTER, FIGURE_SHADOW | FIGURE_DRAWN, "fight and shadow"},
+            {OPTION_TRIANGLE, FIGURE_SHADOW | FIGURE_DRAWN, "fight and shadow"},
+            {OPTION_PLANE, FIGURE_DRAWN, "fight"},
+            {OPTION_CASCADES, FIGURE_SHADOW, "shadow"},
+            {OPTION_LAMBDA, FIGURE_SHADOW, "shadow"},
+            {OPTION_LIGHT_BOX, FIGURE_SHADOW, "shadow"},
+            {OPTION_KERNEL, FIGURE_SHADOW, "shadow"},
+            {OPTION_ANGLE, FIGURE_SHADOW, "shadow"},
+            {OPTION_SIZE, FIGURE_SHADOW, "shadow"}};
 
 static int check_only(const options *o, const figure_row *row) {
     for (size_t i = 0; i < sizeof only / sizeof only[0]; i++)
@@ -174,34 +186,57 @@ static int resolve_methods(plotting *p) {
     return status;
 }
 
-/* Where none are named and all would be too many: those that the figure shows then. */
-static void choose_formats(options *o, const figure_row *row) {
+/* Where none are named and all would be too many: those that the figure shows then, and of a single set-up the first
+ * mapping. */
+static void choose_setups(options *o, const figure_row *row) {
     const size_t all = o->format_count;
-    if (row->formats == NULL || option_given(o, OPTION_FORMAT) || all * o->mapping_count <= row->setups_max)
+    if (row->formats == NULL)
         return;
-    o->format_count = 0;
-    for (size_t i = 0; i < all; i++)
-        if (strstr(row->formats, o->formats[i].name) != NULL)
-            o->formats[o->format_count++] = o->formats[i];
+    if (!option_given(o, OPTION_FORMAT) && all * o->mapping_count > row->setups_max) {
+        o->format_count = 0;
+        for (size_t i = 0; i < all; i++)
+            if (strstr(row->formats, o->formats[i].name) != NULL)
+                o->formats[o->format_count++] = o->formats[i];
+        o->format_count += o->format_count == 0; /* a rasterizer that has none of them */
+    }
+    if (row->setups_max == 1 && !option_given(o, OPTION_MAPPING))
+        o->mapping_count = 1;
+}
+
+/* What a rasterizer draws is at one depth between the planes. */
+static int resolve_drawn(const plotting *p, options *o) {
+    depths at;
+    int status = view_drawn(o);
+    if (status == EXIT_FINE && option_given(o, OPTION_AT))
+        status = depths_resolve(p->o, 1, &at);
+    if (status == EXIT_FINE && option_given(o, OPTION_RANGE))
+        status = option_error(OPTION_RANGE, "does not apply to the figure %s; --at says its depth", p->row->name);
+    return status;
 }
 
 static int resolve_setups(plotting *p) {
     options in_model = *p->o;
-    choose_formats(&in_model, p->row);
+    const bool drawn = (p->row->takes & FIGURE_DRAWN) != 0;
+    int status = check_options(p->o, p->row);
+    if (status == EXIT_FINE && drawn)
+        status = resolve_drawn(p, &in_model);
+    choose_setups(&in_model, p->row);
     if ((p->row->takes & FIGURE_BINARY32) != 0)
         in_model.model = DP_MODEL_FP32;
-    int status = check_options(p->o, p->row);
     if (status == EXIT_FINE)
-        status = setups_make(&in_model, &p->all);
+        status = (drawn ? drawn_setups : setups_make)(&in_model, &p->all);
     if (status == EXIT_FINE)
         status = resolve_depths(p);
     if (status == EXIT_FINE && p->all.count > p->row->setups_max)
-        status = usage_error("plot %s: shows at most %zu set-ups, got %zu: name fewer with --format or --mapping",
-                             p->row->name, p->row->setups_max, p->all.count);
+        status = usage_error("plot %s: shows at most %zu set-up%s, got %zu: name fewer with --format or --mapping",
+                             p->row->name, p->row->setups_max, p->row->setups_max == 1 ? "" : "s", p->all.count);
     if (status != EXIT_FINE)
         return status;
     p->request.setups = p->all.items;
     p->request.count = p->all.count;
+    p->request.raster = in_model.raster;
+    p->request.slant = option_given(p->o, OPTION_PLANE) ? p->o->triangles.slant_lo : standard_slant;
+    p->request.azimuth = option_given(p->o, OPTION_PLANE) ? p->o->azimuth : standard_azimuth;
     status = choose_models(p);
     name_setups(p);
     p->chart->unit = options_unit(p->o);
@@ -220,7 +255,6 @@ static int resolve_shadow(plotting *p) {
     static const option_id others[] = {OPTION_ORTHO, OPTION_PRESET, OPTION_ROUNDING,  OPTION_MODEL,
                                        OPTION_ARITH, OPTION_LOG_C,  OPTION_TOLERANCE, OPTION_AT};
     const options o = shadow_options(p->o);
-    const unsigned n = o.kernel;
     for (size_t i = 0; i < sizeof others / sizeof others[0]; i++)
         if (option_given(&o, others[i]))
             return option_error(others[i], "does not apply to the figure %s", p->row->name);
@@ -231,11 +265,15 @@ static int resolve_shadow(plotting *p) {
     p->request.maps = p->maps.items;
     p->request.map_count = p->maps.count;
     p->chart->unit = options_unit(&o);
-    snprintf(p->chart->subtitle, sizeof p->chart->subtitle, "%s %s, %u x %u texels, filter of %u x %u",
-             o.formats[0].name, dp_mapping_get(o.mappings[0])->name, o.camera.width, o.camera.height, n, n);
-    if (p->maps.count > 1)
-        append(p->chart->subtitle, sizeof p->chart->subtitle, "; depths of the view and texels%s%s",
-               p->chart->unit != NULL ? " in " : "", p->chart->unit != NULL ? p->chart->unit : "");
+    char *const subtitle = p->chart->subtitle;
+    const size_t size = sizeof p->chart->subtitle;
+    snprintf(subtitle, size, "%s %s, %u x %u texels, filter of %u x %u; ", o.formats[0].name,
+             dp_mapping_get(o.mappings[0])->name, o.camera.width, o.camera.height, o.kernel, o.kernel);
+    if (p->maps.view.count > 0)
+        append(subtitle, size, "view near %s, far %s", number_full(o.znear).text, number_full(o.zfar).text);
+    else
+        append(subtitle, size, "box %s x %s x %s", number_full(o.light_box[0]).text, number_full(o.light_box[1]).text,
+               number_full(o.light_box[2]).text);
     return status;
 }
 

@@ -5,40 +5,13 @@
  */
 #include <math.h>
 #include <stdio.h>
-#include <stdlib.h>
 
-#include "cli/bias_all.h"
-#include "cli/shadow_maps.h"
+#include "cli/shadow_rows.h"
 #include "core/append.h"
 #include "report/number.h"
 #include "report/report.h"
 
-enum { DIGITS_GAP = 3, DIGITS = 4, DIGITS_Z = 6, UNITS_SIZE = NUMBER_SIZE + 2 };
-
-/* One of the three biases of a map, as an API takes it. */
-typedef struct way {
-    double window, units, factor, offset, texels; /* units and factor with their sign; NaN: no such number is enough */
-    double gap, gap_normal, gap_facing, share;
-    char units_text[UNITS_SIZE], factor_text[UNITS_SIZE]; /* on the safe side */
-    char call[BIAS_CALL_SIZE];
-} way;
-
-typedef struct row {
-    int cascade; /* from 1 */
-    double from, to, radius;
-    double width, height, depth, texel;
-    double cause[SHADOW_CAUSE_COUNT]; /* scene units along the light, at the greatest slant */
-    way way[SHADOW_WAY_COUNT];
-    bool limited; /* a gap reaches beyond the far plane */
-    const char *api;
-} row;
-
-/* What is enough in all maps of a set-up, for one API. */
-typedef struct whole {
-    const char *api;
-    bool hidden, limited; /* in a map a gap is as deep as the box, or reaches beyond the far plane */
-    way way[SHADOW_WAY_COUNT];
-} whole;
+enum { DIGITS_GAP = 3, DIGITS = 4, DIGITS_Z = 6 };
 
 typedef struct shadow {
     options o;           /* with what stands for options that were not given */
@@ -48,107 +21,9 @@ typedef struct shadow {
     size_t setup_count;
     const char *format, *mapping;
     shadow_maps maps;
-    row row;
-    whole whole;
+    shadow_row row;
+    shadow_whole whole;
 } shadow;
-
-/* ---- What is needed ---------------------------------------------------------------------------------------------- */
-
-static double signed_or_none(double magnitude, int sign) {
-    return isfinite(magnitude) ? magnitude * sign + 0.0 : (double)NAN; /* no -0 */
-}
-
-static way way_of(const shadow_light *light, const shadow_need *need, int k, const bias_api *api) {
-    const shadow_bias *b = &need->bias[k];
-    const shadow_state state = shadow_state_of(light, b, api);
-    const int sign = shadow_sign(light);
-    const bool none = !isfinite(b->factor) || !isfinite(state.units);
-    return (way){.window = b->window,
-                 .units = none ? (double)NAN : signed_or_none(state.units, sign),
-                 .factor = signed_or_none(b->factor, sign),
-                 .offset = b->offset,
-                 .texels = b->offset / need->texel,
-                 .gap = none ? (double)NAN : state.gap_light,
-                 .gap_normal = none ? (double)NAN : state.gap_normal,
-                 .gap_facing = none ? (double)NAN : state.gap_facing,
-                 .share = isfinite(b->factor) ? b->share : (double)NAN};
-}
-
-/* The number farther from 0; none where either is none. */
-static double wider(double a, double b) {
-    return isnan(a) || isnan(b) ? (double)NAN : fabs(a) >= fabs(b) ? a : b;
-}
-
-static way widest(const way *a, const way *b) {
-    return (way){.window = wider(a->window, b->window),
-                 .units = wider(a->units, b->units),
-                 .factor = wider(a->factor, b->factor),
-                 .offset = wider(a->offset, b->offset),
-                 .texels = wider(a->texels, b->texels),
-                 .gap = wider(a->gap, b->gap),
-                 .gap_normal = wider(a->gap_normal, b->gap_normal),
-                 .gap_facing = wider(a->gap_facing, b->gap_facing),
-                 .share = isnan(a->share) || isnan(b->share) ? (double)NAN : fmin(a->share, b->share)};
-}
-
-/* Four digits that are enough, or all of a whole number. */
-static void write_enough(double value, bool all_digits, char out[UNITS_SIZE]) {
-    const number_text text = all_digits ? number_full(fabs(value)) : number_brief(number_up(fabs(value), DIGITS));
-    snprintf(out, UNITS_SIZE, "%s%s", value < 0.0 ? "-" : "", isnan(value) ? "-" : text.text);
-}
-
-/* "2.5 texels" is a length that each cascade has in scene units of its own. */
-static void write_way(way *w, int k, const bias_api *api) {
-    write_enough(w->units, w->units == nearbyint(w->units) && fabs(w->units) < 1e9, w->units_text);
-    write_enough(w->factor, false, w->factor_text);
-    w->call[0] = '\0';
-    if (isnan(w->units))
-        return;
-    if (k == SHADOW_NORMAL)
-        snprintf(w->call, sizeof w->call, "%s texels, ", number_brief(number_up(w->texels, DIGITS)).text);
-    append(w->call, sizeof w->call, "%s", bias_call(api, w->units, strtod(w->factor_text, NULL)).text);
-}
-
-static row row_of(const shadow *s, size_t i, const bias_api *api) {
-    const shadow_cascade *c = &s->maps.items[i];
-    const shadow_light *light = &c->light;
-    const bool split = s->maps.view.count > 0;
-    const double depth = light->setup.spec.zfar - light->setup.spec.znear;
-    shadow_need need;
-    shadow_need_of(light, &need);
-    row r = {.cascade = (int)i + 1,
-             .from = split ? c->from : (double)NAN,
-             .to = split ? c->to : (double)NAN,
-             .radius = split ? c->radius : (double)NAN,
-             .width = light->width,
-             .height = light->height,
-             .depth = depth,
-             .texel = need.texel,
-             .api = api->name};
-    for (int k = 0; k < SHADOW_CAUSE_COUNT; k++)
-        r.cause[k] = shadow_part_at(light, &need.part[k], light->triangles.slant_hi) * depth;
-    for (int k = 0; k < SHADOW_WAY_COUNT; k++) {
-        r.way[k] = way_of(light, &need, k, api);
-        write_way(&r.way[k], k, api);
-        r.limited = r.limited || need.bias[k].limited;
-    }
-    return r;
-}
-
-static whole whole_of(const shadow *s, const bias_api *api) {
-    whole w = {.api = api->name};
-    for (size_t i = 0; i < s->maps.count; i++) {
-        const row r = row_of(s, i, api);
-        w.limited = w.limited || r.limited;
-        for (int k = 0; k < SHADOW_WAY_COUNT; k++) {
-            w.way[k] = i == 0 ? r.way[k] : widest(&w.way[k], &r.way[k]);
-            w.hidden = w.hidden || r.way[k].gap >= r.depth;
-        }
-    }
-    for (int k = 0; k < SHADOW_WAY_COUNT; k++)
-        write_way(&w.way[k], k, api);
-    return w;
-}
 
 /* ---- Lists ------------------------------------------------------------------------------------------------------- */
 
@@ -169,7 +44,7 @@ static void *next_row(void *of, size_t i) {
     const size_t apis = api_count(s);
     if (i / apis >= s->maps.count)
         return NULL;
-    s->row = row_of(s, i / apis, api_of(s, i % apis));
+    s->row = shadow_row_of(&s->maps, i / apis, api_of(s, i % apis));
     return &s->row;
 }
 
@@ -178,7 +53,7 @@ static void *next_whole(void *of, size_t i) {
     const bias_api *api = api_of(s, i);
     if (api == NULL)
         return NULL;
-    s->whole = whole_of(s, api);
+    s->whole = shadow_whole_of(&s->maps, api);
     return &s->whole;
 }
 
@@ -212,11 +87,15 @@ static void say_maps(page *p, void *item) {
         page_title(p, "%d cascade%s, lambda %s, casters up to %s before", v->count, v->count == 1 ? "" : "s",
                    number_full(v->lambda).text, number_full(v->casters).text);
     } else {
-        page_title(p, "box %s x %s, %s deep along the light", number_full(o->light_box[0]).text,
-                   number_full(o->light_box[1]).text, number_full(o->light_box[2]).text);
+        const double texel = fmax(o->light_box[0] / o->camera.width, o->light_box[1] / o->camera.height);
+        page_title(p, "box %s x %s, %s deep along the light, texel %s", number_full(o->light_box[0]).text,
+                   number_full(o->light_box[1]).text, number_full(o->light_box[2]).text, number_of(texel, DIGITS).text);
     }
     page_title(p, "%d subpixel bit%s, triangles from 1 to %s texels, no slimmer than 1:%s", t->subpixel,
                t->subpixel == 1 ? "" : "s", number_full(t->pixels).text, number_full(t->slim).text);
+    if (option_given(o, OPTION_CURVATURE))
+        page_title(p, "receivers bend away with a radius of at least %s, triangles in circles of %s",
+                   number_full(o->curvature).text, number_full(o->facet).text);
 }
 
 /* One API: what to write. All: what follows is a table of them. */
@@ -228,7 +107,7 @@ static void say_answer(page *p, void *item) {
         page_text(p, "No acne%s with the constant U, with F and its U, or with the offset and its U:", where);
         return;
     }
-    const whole w = whole_of(s, s->api);
+    const shadow_whole w = shadow_whole_of(&s->maps, s->api);
     page_text(p, "No acne%s with any one of these:", where);
     for (int k = 0; k < SHADOW_WAY_COUNT; k++)
         page_note(p, shadow_way_name(k), "%s", isnan(w.way[k].units) ? "no bias is enough" : w.way[k].call);
@@ -248,9 +127,9 @@ static void say_heads(page *p, void *item) {
 /* Of the map where the least share of the constant bias is needed by any reckoning. */
 static void say_causes(page *p, const shadow *s) {
     char text[256] = "";
-    row least = row_of(s, 0, api_of(s, 0));
+    shadow_row least = shadow_row_of(&s->maps, 0, api_of(s, 0));
     for (size_t i = 1; i < s->maps.count; i++) {
-        const row r = row_of(s, i, api_of(s, 0));
+        const shadow_row r = shadow_row_of(&s->maps, i, api_of(s, 0));
         if (r.way[SHADOW_CONSTANT].share < least.way[SHADOW_CONSTANT].share)
             least = r;
     }
@@ -271,15 +150,22 @@ static void say_causes(page *p, const shadow *s) {
 static double worth(const shadow *s) {
     double most = 1.0;
     for (size_t i = 0; i < s->maps.count; i++) {
-        const row r = row_of(s, i, s->api);
+        const shadow_row r = shadow_row_of(&s->maps, i, s->api);
         most = fmax(most, r.way[SHADOW_CONSTANT].gap / (r.way[SHADOW_CONSTANT].window * r.depth));
     }
     return most;
 }
 
+static number_text percent_text(double share) {
+    number_text out = number_down(100.0 * share, 2);
+    if (!isnan(share))
+        append(out.text, sizeof out.text, " %%");
+    return out;
+}
+
 static void say_notes(page *p, void *item) {
     const shadow *s = item;
-    const whole w = whole_of(s, s->api);
+    const shadow_whole w = shadow_whole_of(&s->maps, s->api);
     const bool real = s->maps.items[0].light.setup.spec.format.kind == DP_FORMAT_FLOAT;
     const double wide = worth(s);
     page_note(p, "gap", "from a caster to its shadow, along the light, at most; %s, %s and %s where surfaces face it",
@@ -287,13 +173,12 @@ static void say_notes(page *p, void *item) {
               number_up(w.way[2].gap_facing, DIGITS_GAP).text);
     page_note(p, "offset", "texels, times the sine of the angle, along the surface's normal");
     say_causes(p, s);
-    page_note(p, "needed", "%s %%, %s %% and %s %% of these by slope times filter radius alone",
-              number_down(100.0 * w.way[0].share, 2).text, number_down(100.0 * w.way[1].share, 2).text,
-              number_down(100.0 * w.way[2].share, 2).text);
+    page_note(p, "needed", "%s, %s and %s of these by slope times filter radius alone",
+              percent_text(w.way[0].share).text, percent_text(w.way[1].share).text, percent_text(w.way[2].share).text);
     if (isnan(w.way[SHADOW_CONSTANT].units) && real)
-        page_note(p, "units",
-                  "are worth nothing at window depth 0 of a float format: --range LO:HI says where surfaces "
-                  "are lit");
+        page_note(p, "units", "are worth nothing at window depth 0 of a float format: %s",
+                  s->view != NULL ? "--casters keeps surfaces away from it"
+                                  : "--range LO:HI says where surfaces are lit");
     if (wide > 1.5)
         page_note(p, "units", "%s: the gap is up to %s times what is needed",
                   real ? "grow with the depth in a float format" : "may be worth more than is assumed",
@@ -318,78 +203,78 @@ enum { ONE_API = 1, ALL_APIS = 2, SPLIT = 4 };
 
 /* Of a way of a row: what JSON and CSV have, behind the name of the way. */
 #define NUMBERS(name, k)                                                                                               \
-    {FIELD(row, way[k].window, name "_bias", "")}, {FIELD(row, way[k].units, name "_units", "")},                      \
-        {FIELD(row, way[k].gap, name "_gap", "scene")}, {FIELD(row, way[k].gap_normal, name "_gap_normal", "scene")},  \
-    {                                                                                                                  \
-        FIELD(row, way[k].share, name "_share", "")                                                                    \
+    {FIELD(shadow_row, way[k].window, name "_bias", "")}, {FIELD(shadow_row, way[k].units, name "_units", "")},        \
+        {FIELD(shadow_row, way[k].gap, name "_gap", "scene")},                                                         \
+        {FIELD(shadow_row, way[k].gap_normal, name "_gap_normal", "scene")}, {                                         \
+        FIELD(shadow_row, way[k].share, name "_share", "")                                                             \
     }
 #define FACING(name, k)                                                                                                \
-    { FIELD(row, way[k].gap_facing, name "_gap_facing", "scene") }
+    { FIELD(shadow_row, way[k].gap_facing, name "_gap_facing", "scene") }
 
-static const column cause_columns[] = {{FIELD(row, cause[SHADOW_CAUSE_TEXEL], "texel", "scene")},
-                                       {FIELD(row, cause[SHADOW_CAUSE_KERNEL], "kernel", "scene")},
-                                       {FIELD(row, cause[SHADOW_CAUSE_LOOKUP], "lookup", "scene")},
-                                       {FIELD(row, cause[SHADOW_CAUSE_SNAPPING], "snapping", "scene")},
-                                       {FIELD(row, cause[SHADOW_CAUSE_SETUP], "set-up", "scene")},
-                                       {FIELD(row, cause[SHADOW_CAUSE_POSITION], "position", "scene")},
-                                       {FIELD(row, cause[SHADOW_CAUSE_FORMAT], "format", "scene")},
+static const column cause_columns[] = {{FIELD(shadow_row, cause[SHADOW_CAUSE_TEXEL], "texel", "scene")},
+                                       {FIELD(shadow_row, cause[SHADOW_CAUSE_KERNEL], "kernel", "scene")},
+                                       {FIELD(shadow_row, cause[SHADOW_CAUSE_LOOKUP], "lookup", "scene")},
+                                       {FIELD(shadow_row, cause[SHADOW_CAUSE_SNAPPING], "snapping", "scene")},
+                                       {FIELD(shadow_row, cause[SHADOW_CAUSE_SETUP], "set-up", "scene")},
+                                       {FIELD(shadow_row, cause[SHADOW_CAUSE_POSITION], "position", "scene")},
+                                       {FIELD(shadow_row, cause[SHADOW_CAUSE_FORMAT], "format", "scene")},
                                        {.kind = COLUMN_END}};
 
 static const column row_columns[] = {
-    {FIELD(row, api, "api", "")},
-    {FIELD(row, cascade, "cascade", ""), SHOWN("cascade", 8, 0), .when = SPLIT},
-    {FIELD(row, from, "from", "scene"), .when = SPLIT},
-    {FIELD(row, to, "to", "scene"), .when = SPLIT},
-    {FIELD(row, radius, "radius", "scene"), .when = SPLIT},
-    {FIELD(row, width, "width", "scene")},
-    {FIELD(row, height, "height", "scene")},
-    {FIELD(row, depth, "depth", "scene")},
-    {FIELD(row, texel, "texel_size", "scene")},
+    {FIELD(shadow_row, api, "api", "")},
+    {FIELD(shadow_row, cascade, "cascade", ""), SHOWN("cascade", 8, 0), .when = SPLIT},
+    {FIELD(shadow_row, from, "from", "scene"), .when = SPLIT},
+    {FIELD(shadow_row, to, "to", "scene"), .when = SPLIT},
+    {FIELD(shadow_row, radius, "radius", "scene"), .when = SPLIT},
+    {FIELD(shadow_row, width, "width", "scene")},
+    {FIELD(shadow_row, height, "height", "scene")},
+    {FIELD(shadow_row, depth, "depth", "scene")},
+    {FIELD(shadow_row, texel, "texel_size", "scene")},
     NUMBERS("constant", SHADOW_CONSTANT),
-    {FIELD(row, way[SHADOW_SLOPE].factor, "slope_factor", "")},
+    {FIELD(shadow_row, way[SHADOW_SLOPE].factor, "slope_factor", "")},
     NUMBERS("slope", SHADOW_SLOPE),
     FACING("slope", SHADOW_SLOPE),
-    {FIELD(row, way[SHADOW_NORMAL].offset, "normal_offset", "scene")},
-    {FIELD(row, way[SHADOW_NORMAL].texels, "normal_texels", "")},
+    {FIELD(shadow_row, way[SHADOW_NORMAL].offset, "normal_offset", "scene")},
+    {FIELD(shadow_row, way[SHADOW_NORMAL].texels, "normal_texels", "")},
     NUMBERS("normal", SHADOW_NORMAL),
     FACING("normal", SHADOW_NORMAL),
-    {FIELD(row, limited, "limited", "")},
-    {TEXT_FIELD(row, way[SHADOW_CONSTANT].units_text, "units", 10, 0)},
-    {TEXT_FIELD(row, way[SHADOW_CONSTANT].gap, "gap", 8, DIGITS_GAP), .upward = true, .brief = true},
-    {TEXT_FIELD(row, way[SHADOW_SLOPE].factor_text, "factor", 8, 0)},
-    {TEXT_FIELD(row, way[SHADOW_SLOPE].units_text, "units", 9, 0)},
-    {TEXT_FIELD(row, way[SHADOW_SLOPE].gap, "gap", 8, DIGITS_GAP), .upward = true, .brief = true},
-    {TEXT_FIELD(row, way[SHADOW_NORMAL].texels, "offset", 8, DIGITS), .upward = true, .brief = true},
-    {TEXT_FIELD(row, way[SHADOW_NORMAL].units_text, "units", 9, 0)},
-    {TEXT_FIELD(row, way[SHADOW_NORMAL].gap, "gap", 8, DIGITS_GAP), .upward = true, .brief = true},
+    {FIELD(shadow_row, limited, "limited", "")},
+    {TEXT_FIELD(shadow_row, way[SHADOW_CONSTANT].units_text, "units", 10, 0)},
+    {TEXT_FIELD(shadow_row, way[SHADOW_CONSTANT].gap, "gap", 8, DIGITS_GAP), .upward = true, .brief = true},
+    {TEXT_FIELD(shadow_row, way[SHADOW_SLOPE].factor_text, "factor", 8, 0)},
+    {TEXT_FIELD(shadow_row, way[SHADOW_SLOPE].units_text, "units", 9, 0)},
+    {TEXT_FIELD(shadow_row, way[SHADOW_SLOPE].gap, "gap", 8, DIGITS_GAP), .upward = true, .brief = true},
+    {TEXT_FIELD(shadow_row, way[SHADOW_NORMAL].texels, "offset", 8, DIGITS), .upward = true, .brief = true},
+    {TEXT_FIELD(shadow_row, way[SHADOW_NORMAL].units_text, "units", 9, 0)},
+    {TEXT_FIELD(shadow_row, way[SHADOW_NORMAL].gap, "gap", 8, DIGITS_GAP), .upward = true, .brief = true},
     {GROUP("causes", cause_columns)},
     {.kind = COLUMN_END}};
 
-static const column place_columns[] = {{TEXT_FIELD(row, cascade, "cascade", 8, 0)},
-                                       {TEXT_FIELD(row, from, "from", 11, DIGITS_Z)},
-                                       {TEXT_FIELD(row, to, "to", 11, DIGITS_Z)},
-                                       {TEXT_FIELD(row, texel, "texel", 11, DIGITS)},
-                                       {TEXT_FIELD(row, width, "box", 11, DIGITS)},
-                                       {TEXT_FIELD(row, depth, "depth", 11, DIGITS)},
+static const column place_columns[] = {{TEXT_FIELD(shadow_row, cascade, "cascade", 8, 0)},
+                                       {TEXT_FIELD(shadow_row, from, "from", 11, DIGITS_Z)},
+                                       {TEXT_FIELD(shadow_row, to, "to", 11, DIGITS_Z)},
+                                       {TEXT_FIELD(shadow_row, texel, "texel", 11, DIGITS)},
+                                       {TEXT_FIELD(shadow_row, width, "box", 11, DIGITS)},
+                                       {TEXT_FIELD(shadow_row, depth, "depth", 11, DIGITS)},
                                        {.kind = COLUMN_END}};
 
 #define ANSWER(name, k)                                                                                                \
-    {FIELD(whole, way[k].units, name "_units", "")}, {                                                                 \
-        FIELD(whole, way[k].call, name "_call", "")                                                                    \
+    {FIELD(shadow_whole, way[k].units, name "_units", "")}, {                                                          \
+        FIELD(shadow_whole, way[k].call, name "_call", "")                                                             \
     }
 
 static const column whole_columns[] = {
-    {FIELD(whole, api, "api", ""), SHOWN("api", -14, 0)},
+    {FIELD(shadow_whole, api, "api", ""), SHOWN("api", -14, 0)},
     ANSWER("constant", SHADOW_CONSTANT),
-    {FIELD(whole, way[SHADOW_SLOPE].factor, "slope_factor", "")},
+    {FIELD(shadow_whole, way[SHADOW_SLOPE].factor, "slope_factor", "")},
     ANSWER("slope", SHADOW_SLOPE),
-    {FIELD(whole, way[SHADOW_NORMAL].texels, "normal_texels", "")},
+    {FIELD(shadow_whole, way[SHADOW_NORMAL].texels, "normal_texels", "")},
     ANSWER("normal", SHADOW_NORMAL),
-    {TEXT_FIELD(whole, way[SHADOW_CONSTANT].units_text, "constant U", 12, 0)},
-    {TEXT_FIELD(whole, way[SHADOW_SLOPE].factor_text, "slope F", 10, 0)},
-    {TEXT_FIELD(whole, way[SHADOW_SLOPE].units_text, "with U", 12, 0)},
-    {TEXT_FIELD(whole, way[SHADOW_NORMAL].texels, "offset", 10, DIGITS), .upward = true, .brief = true},
-    {TEXT_FIELD(whole, way[SHADOW_NORMAL].units_text, "with U", 12, 0)},
+    {TEXT_FIELD(shadow_whole, way[SHADOW_CONSTANT].units_text, "constant U", 12, 0)},
+    {TEXT_FIELD(shadow_whole, way[SHADOW_SLOPE].factor_text, "slope F", 10, 0)},
+    {TEXT_FIELD(shadow_whole, way[SHADOW_SLOPE].units_text, "with U", 12, 0)},
+    {TEXT_FIELD(shadow_whole, way[SHADOW_NORMAL].texels, "offset", 10, DIGITS), .upward = true, .brief = true},
+    {TEXT_FIELD(shadow_whole, way[SHADOW_NORMAL].units_text, "with U", 12, 0)},
     {.kind = COLUMN_END}};
 
 static const column setup_report[] = {
@@ -420,6 +305,8 @@ static const column columns[] = {{FIELD(shadow, api_name, "api", ""), .only = AS
                                  {FIELD(shadow, o.triangles.pixels, "pixels", ""), .only = AS_JSON},
                                  {FIELD(shadow, o.triangles.slim, "slim", ""), .only = AS_JSON},
                                  {FIELD(shadow, o.terms.world, "world", "scene"), .only = AS_JSON},
+                                 {FIELD(shadow, o.curvature, "curvature", "scene"), .only = AS_JSON},
+                                 {FIELD(shadow, o.facet, "facet", "scene"), .only = AS_JSON},
                                  {PART(shadow, view, "view", view_columns), .only = AS_JSON, .pointed = true},
                                  {LIST("setups", setup_report, next_setup), .head = say_answer},
                                  {.kind = COLUMN_END}};

@@ -9,6 +9,7 @@
 #include "cli/choice.h"
 #include "cli/compare.h"
 #include "cli/lookup.h"
+#include "cli/per_vertex.h"
 #include "cli/reach.h"
 #include "cli/slant.h"
 #include "cli/walk.h"
@@ -32,6 +33,7 @@ typedef struct row {
     dp_sample sample;
     double binary32;            /* the guaranteed separation; NaN where there is no such pipeline */
     double slanted;             /* the guaranteed one at any slant that is asked for */
+    per_vertex written;         /* what depth written per vertex is off by in such triangles */
     double lattice, guaranteed; /* the separation in the model exact, and in the fullest that there is */
     int depth_digits, stored_digits, cell_digits;
 } row;
@@ -58,6 +60,7 @@ typedef struct table {
     const guarantee *guarantee, *guarantee_slanted; /* null where there is none, or none is asked for */
     clipping planes;
     const clipping *drawn; /* null where there is no pipeline */
+    per_vertex_worst written;
     choosing choice;
     choice_fields chosen;
 } table;
@@ -111,6 +114,8 @@ static void *next_row(void *of, size_t i) {
     r->guaranteed = separation_in(&t->full, &t->setup, &r->sample);
     r->binary32 = t->full.spec.model == DP_MODEL_FP32 ? r->guaranteed : (double)NAN;
     r->slanted = slanted_at(t, z);
+    r->written = per_vertex_at(&t->setup, z, t->slant.triangles.depth, r->guaranteed); /* no depth of 0 is one */
+    per_vertex_add(&t->written, &r->written, z);
     if (t->interval.row != NULL)
         r->sample.interval = way_interval(&t->interval, &t->setup, z);
     if (t->walk.o->form == FORM_TEXT)
@@ -139,6 +144,7 @@ static void *next_setup(void *of, size_t i) {
     range_resolve(&t->walk.here, &t->lo, &t->hi);
     t->exact = reach_in(setup, DP_MODEL_EXACT);
     t->full = reach_model(setup);
+    t->written = per_vertex_none();
     t->choice = choosing_start(setup, o->tolerance);
     if (option_given(o, OPTION_TOLERANCE))
         t->interval = way_choose(setup, o->tolerance, has_cut_cells(t, setup));
@@ -179,7 +185,7 @@ static void say_reach(page *p, void *item) {
     const table *t = item;
     const unit_row *unit = t->walk.here.unit;
     walk_title(p, item);
-    slant_title(p, &t->walk.here, &t->full);
+    slant_say(p, page_title, &t->walk.here, &t->full);
     if (t->walk.all.count > 1)
         return;
     say_reach_of(p, &t->full, unit, t->triangles != NULL ? ", facing the camera" : "");
@@ -241,6 +247,7 @@ static void say_notes(page *p, void *item) {
                   t->full.spec.model == DP_MODEL_FP32 ? "guaranteed in binary32 (model float)" : "in the model staged");
     say_guarantee(p, t->guarantee_slanted, "at any slant", "of the farther surface");
     say_drawn(p, &t->planes);
+    per_vertex_say(p, &t->written, t->slant.triangles.depth);
     page_line(p, "%s", choice_sentence(&t->choice, p->unit).text);
     if (option_given(t->walk.o, OPTION_TOLERANCE))
         say_way(p, &t->interval, t->walk.o->tolerance);
@@ -248,7 +255,15 @@ static void say_notes(page *p, void *item) {
 
 /* ---- Columns ----------------------------------------------------------------------------------------------------- */
 
-enum { WITH_TOLERANCE = 1, WITH_ARITH = 2, VERBOSE = 4, WITH_PRESETS = 8, WITH_TRIANGLES = 16, ONE_CAMERA = 32 };
+enum {
+    WITH_TOLERANCE = 1,
+    WITH_ARITH = 2,
+    VERBOSE = 4,
+    WITH_PRESETS = 8,
+    WITH_TRIANGLES = 16,
+    ONE_CAMERA = 32,
+    PER_VERTEX = 64
+};
 
 static const column row_columns[] = {
     {FIELD(row, sample.z, "z", "scene"), SHOWN("z", 11, DIGITS_Z)},
@@ -270,6 +285,9 @@ static const column row_columns[] = {
     {FIELD(row, guaranteed, "guarantee_facing", "scene"), .when = WITH_TRIANGLES},
     {FIELD(row, slanted, "guarantee_slanted", "scene"), SHOWN("any slant", 11, DIGITS_SHORT), .upward = true,
      .when = WITH_TRIANGLES},
+    {FIELD(row, written.error, "per_vertex", "scene"), SHOWN("per vertex", 11, DIGITS_SHORT), .upward = true,
+     .when = WITH_TRIANGLES | PER_VERTEX},
+    {FIELD(row, written.depth, "per_vertex_depth", ""), .when = WITH_TRIANGLES | PER_VERTEX},
     {TEXT_FIELD(row, sample.lo, "cell from", 18, 0), .digits_at = offsetof(row, cell_digits), .when = VERBOSE},
     {TEXT_FIELD(row, sample.hi, "to", 18, 0), .digits_at = offsetof(row, cell_digits), .when = VERBOSE},
     {.kind = COLUMN_END}};
@@ -327,9 +345,10 @@ static unsigned conditions(const table *t) {
     unsigned when = (option_given(t->walk.o, OPTION_TOLERANCE) ? WITH_TOLERANCE : 0) |
                     (t->walk.o->verbose ? VERBOSE : 0) | (t->walk.o->preset_count > 1 ? WITH_PRESETS : ONE_CAMERA) |
                     (t->triangles != NULL ? WITH_TRIANGLES : 0);
-    for (size_t i = 0; i < t->walk.all.count; i++)
-        if (t->walk.all.items[i].spec.model == DP_MODEL_FP32)
-            when |= WITH_ARITH;
+    for (size_t i = 0; i < t->walk.all.count; i++) {
+        when |= t->walk.all.items[i].spec.model == DP_MODEL_FP32 ? WITH_ARITH : 0;
+        when |= per_vertex_matters(&t->walk.all.items[i]) ? PER_VERTEX : 0;
+    }
     return when;
 }
 

@@ -180,7 +180,7 @@ static void say_neighbours(page *p, const zfight *z) {
 static void say_answer(page *p, void *item) {
     const zfight *z = item;
     walk_title(p, item);
-    slant_title(p, z->walk.o, z->walk.setup);
+    slant_say(p, page_title, z->walk.o, z->walk.setup);
     (z->gap > 0.0 ? say_gap : say_neighbours)(p, z);
 }
 

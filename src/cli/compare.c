@@ -193,11 +193,11 @@ static void say_cameras(page *p, const comparison *c) {
     if (o->preset_count < 2) {
         page_title(p, "near %s, far %s, %s%s", number_full(o->znear).text, number_full(o->zfar).text,
                    o->ortho ? "orthographic" : "perspective", unit);
-        slant_title(p, o, NULL);
+        slant_say(p, page_title, o, NULL);
         return;
     }
     page_title(p, "%zu presets, %s%s", o->preset_count, o->ortho ? "orthographic" : "perspective", unit);
-    slant_title(p, o, NULL);
+    slant_say(p, page_title, o, NULL);
     for (size_t k = 0; k < o->preset_count; k++)
         for (size_t i = 0; i < c->walk->all.count; i++)
             if (c->rows[i].camera == k) {

@@ -41,12 +41,12 @@ static const name_list reports = {.words = (const char *const[]){"text", "json",
 enum {
     MODELLED = VERB_TABLE | VERB_PLOT,
     BUDGETED = VERB_BUDGET | VERB_PLOT,
-    SLANTED = VERB_TABLE | VERB_BUDGET | VERB_SOLVE | VERB_ZFIGHT,
-    DRAWS = VERB_ZFIGHT,
+    SLANTED = VERB_TABLE | VERB_BUDGET | VERB_SOLVE | VERB_ZFIGHT | VERB_BIAS | VERB_DISOCCLUSION,
+    DRAWS = VERB_ZFIGHT | VERB_PLOT,
     SHADOWED = VERB_SHADOW | VERB_PLOT,
     VIEWED = SLANTED | SHADOWED,
     ASKED = MODELLED | VERB_BUDGET,
-    CAMERA = ASKED | VERB_ZFIGHT,
+    CAMERA = ASKED | VERB_ZFIGHT | VERB_DISOCCLUSION,
     PLACED = CAMERA | VERB_BENCH,
     TAKEN = VERB_TEXTURE | VERB_BIAS | VERB_SOLVE,
     MAPPED = TAKEN | VERB_SHADOW,
@@ -110,12 +110,12 @@ const option_row option_rows[OPTION_COUNT] = {
                    BUT(VERB_SOLVE, NULL, "solved for where near, far and format are given, else all", NULL),
                    BUT(VERB_SHADOW, "d3d", NULL, "mappings: " DP_MAPPING_NAMES_PERSPECTIVE
                        "; all are d3d and reversed"),
-                   BUT(VERB_ZFIGHT | VERB_BUDGET, "all", NULL,
+                   BUT(VERB_ZFIGHT | VERB_BUDGET | VERB_DISOCCLUSION, "all", NULL,
                        "mappings: " DP_MAPPING_NAMES_PERSPECTIVE
                        "; all are d3d and reversed")}},
     [OPTION_LOG_C] = {"log-c", 0, "C", MODELLED | TAKEN,
         "constant of the log mapping", NUMBER(log_c, 1e-12, 1e12, NULL), .standard = "1"},
-    [OPTION_ORTHO] = {"ortho", 0, NULL, CAMERA | TAKEN,
+    [OPTION_ORTHO] = {"ortho", 0, NULL, (CAMERA & ~VERB_DISOCCLUSION) | TAKEN,
         "orthographic projection; not with linear and log", FLAG(ortho), .without = "perspective",
         .except = {BUT(VERB_ZFIGHT | VERB_BUDGET, NULL, "perspective", "orthographic projection")}},
     [OPTION_PRESET] = {"preset", 0, "NAME[,NAME...]", CAMERA | TAKEN,
@@ -149,10 +149,11 @@ const option_row option_rows[OPTION_COUNT] = {
                    BUT(VERB_BENCH, NULL, "none", "the cheapest method that claims no more than 0.05, or 5%, is marked"),
                    BUT(VERB_LIST, NULL, NULL, "list methods: the cases for which each is the cheapest that claims no "
                        "more than 0.05, or 5%")}},
-    [OPTION_AT] = {"at", 0, "Z[,Z...]|LO:HI:log|lin:COUNT", ASKED | TAKEN,
+    [OPTION_AT] = {"at", 0, "Z[,Z...]|LO:HI:log|lin:COUNT", ASKED | TAKEN | VERB_DISOCCLUSION,
         "the depths asked about, at most 1000000, within [near, far]", parse_at,
         .without = "nine, log-spaced from near to far, or to 1e6 times near; evenly where near is not above 0",
-        .except = {BUT(VERB_SOLVE, NULL, NULL, "the depth asked about"),
+        .except = {BUT(VERB_DISOCCLUSION, NULL, "the middle of near and far, logarithmically", NULL),
+                   BUT(VERB_SOLVE, NULL, NULL, "the depth asked about"),
                    BUT(VERB_PLOT, NULL, NULL, "the depth asked about, in figures of a single one"),
                    BUT(VERB_TABLE, NULL, "nine, log-spaced from near to far, or to 1e6 times near; evenly where near "
                        "is not above 0; of several set-ups powers of ten", NULL)},
@@ -204,6 +205,7 @@ const option_row option_rows[OPTION_COUNT] = {
         .except = {BUT(VERB_ZFIGHT, NULL, "1920x1080 with --triangles, else surfaces face the camera",
                        "the pixels of the viewport; without --triangles what is guaranteed at any slant stands beside "
                        "the census"),
+                   BUT(VERB_DISOCCLUSION, "1920x1080", NULL, "pixels of the view"),
                    BUT(SHADOWED, "1920x1080", NULL, "pixels of the view, which say how wide it is")}},
     [OPTION_RASTER] = {"raster", 0, "NAME", VIEWED,
         "the rasterizer, its subpixel grid and how it sets up depth: @; of the specifications the worst that they "
@@ -221,7 +223,9 @@ const option_row option_rows[OPTION_COUNT] = {
     [OPTION_PLANE] = {"plane", 0, "SLANT,AZIMUTH", DRAWS,
         "in place of --slant: the angle of the planes' normal to the view axis and where it points on the screen, "
         "degrees, 0 to the right and 90 up",
-        .parse = parse_plane, .without = "any azimuth"},
+        .parse = parse_plane, .without = "any azimuth",
+        .except = {BUT(VERB_PLOT, "60,45", NULL, "the angle of the planes' normal to the view axis and where it points "
+                       "on the screen, degrees, 0 to the right and 90 up")}},
     [OPTION_TRIANGLE] = {"triangle", 0, "depth=K,pixels=P,slim=Q", VIEWED,
         "the triangles: vertices at depths from z/K to K z, at most P pixels wide and high, no slimmer than 1:Q",
         .parse = parse_triangle, .standard = "depth=2,pixels=512,slim=16"},
@@ -242,6 +246,13 @@ const option_row option_rows[OPTION_COUNT] = {
     [OPTION_ANGLE] = {"angle", 0, "DEG", SHADOWED,
         "receivers up to this angle between their normal and the light are free of acne",
         NUMBER(angle, 0, SHADOW_SLANT_MAX, "degrees"), .standard = "75"},
+    [OPTION_CURVATURE] = {"curvature", 0, "Z", VERB_SHADOW,
+        "receivers bend away from the light, with a radius of at least Z",
+        LENGTH(curvature, 1e-12, 1e18, "scene units"),
+        .without = "planes"},
+    [OPTION_FACET] = {"facet", 0, "Z", VERB_SHADOW,
+        "with --curvature: they are drawn as triangles that fit into circles of radius Z",
+        LENGTH(facet, 0, 1e18, "scene units"), .standard = "0"},
     [OPTION_API] = {"api", 0, "NAME", VERB_BIAS | VERB_SHADOW,
         "the API whose rule applies: @; all compares them, each with the call to write",
         ROW(api, apis), .standard = "d3d11",
@@ -264,7 +275,8 @@ const option_row option_rows[OPTION_COUNT] = {
         .group = "Pairs of surfaces"},
     [OPTION_SAMPLE] = {"sample", 0, "N", COUNTED,
         "draw N pairs at random", WHOLE(sample, 1, 1e12, NULL),
-        .without = "visit every depth; 1000000 vertices with --against"},
+        .without = "visit every depth; about 500 pairs of planes with --triangles, 1000000 vertices "
+                    "with --against"},
     [OPTION_SEED] = {"seed", 0, "S", COUNTED, /* JSON holds it exactly */
         "seed of --sample: the same pairs for the same seed", WHOLE(seed, 0, 0x1p53, NULL), .standard = "0"},
     [OPTION_TRIANGLES] = {"triangles", 0, NULL, VERB_ZFIGHT,

@@ -42,7 +42,8 @@ static int take_drawn(options *o) {
     if (o->raster == NULL)
         o->raster = raster_find("llvmpipe");
     if (o->raster->model == NULL)
-        return option_refuse(&option_rows[OPTION_RASTER], "must be one whose arithmetic is known, got '%s'",
+        return option_refuse(&option_rows[OPTION_RASTER],
+                             "must be one that draws: llvmpipe, lavapipe, softpipe or swiftshader, got '%s'",
                              o->raster->name);
     for (size_t i = 0; i < o->format_count; i++)
         if (raster_draws(o->raster, &o->formats[i]))
@@ -51,13 +52,25 @@ static int take_drawn(options *o) {
             return option_refuse(&option_rows[OPTION_FORMAT], "must be one that %s has and that can be bounded, got %s",
                                  o->raster->name, o->formats[i].name);
     o->format_count = kept;
-    return EXIT_FINE;
+    return take_raster(o);
+}
+
+int view_drawn(options *o) {
+    if (o->ortho)
+        return option_refuse(&option_rows[OPTION_ORTHO], "does not apply to what is drawn");
+    if (!option_given(o, OPTION_VIEWPORT)) {
+        const dp_triangles standard = dp_triangles_default();
+        o->triangles.width = standard.width;
+        o->triangles.height = standard.height;
+    }
+    const int status = view_vertical(o, o->triangles.width, o->triangles.height, &o->triangles.fov_y);
+    return status == EXIT_FINE ? take_drawn(o) : status;
 }
 
 int slant_complete(options *o) {
     static const option_id beside[] = {OPTION_FOV,   OPTION_HFOV,  OPTION_RASTER,  OPTION_SUBPIXEL,
                                        OPTION_SLANT, OPTION_PLANE, OPTION_TRIANGLE};
-    const bool slanted = option_given(o, OPTION_VIEWPORT) || o->drawn;
+    const bool slanted = option_given(o, OPTION_VIEWPORT) || o->drawn || o->verb->bit == VERB_DISOCCLUSION;
     if (!slanted)
         o->triangles.width = 0;
     if ((o->verb->bit & option_rows[OPTION_VIEWPORT].commands) == 0)
@@ -74,10 +87,10 @@ int slant_complete(options *o) {
     if (o->ortho)
         return option_refuse(&option_rows[o->drawn ? OPTION_TRIANGLES : OPTION_VIEWPORT],
                              "does not apply with --ortho");
-    int status = o->drawn ? take_drawn(o) : EXIT_FINE;
-    if (status == EXIT_FINE)
-        status = view_vertical(o, o->triangles.width, o->triangles.height, &o->triangles.fov_y);
-    return status == EXIT_FINE ? take_raster(o) : status;
+    const int status = view_vertical(o, o->triangles.width, o->triangles.height, &o->triangles.fov_y);
+    if (status != EXIT_FINE)
+        return status;
+    return o->drawn ? take_drawn(o) : take_raster(o);
 }
 
 void slant_take_preset(options *o, const preset *p) {

@@ -69,6 +69,8 @@ typedef enum option_id {
     OPTION_CASTERS,
     OPTION_KERNEL,
     OPTION_ANGLE,
+    OPTION_CURVATURE,
+    OPTION_FACET,
     OPTION_API,
     OPTION_UNITS,
     OPTION_FACTOR,
@@ -213,6 +215,8 @@ typedef struct options {
     double casters;      /**< scene units */
     unsigned kernel;     /**< the filter reads so many texels in either direction */
     double angle;        /**< of a receiver's normal to the light, degrees */
+    double curvature;    /**< radius of curvature of receivers, scene units; read where it is given */
+    double facet;        /**< of the circles about their triangles, scene units */
 
     camera_spec camera;     /**< --size, --fov, --half-height, --yaw, --pitch, --origin */
     const char *matrix;     /**< file of a projection matrix, which then says the planes and the field of view */
@@ -270,6 +274,10 @@ void options_of(const options *o, size_t camera, options *out);
 /** The vertical field of view, degrees, as --fov or --hfov says it of so many pixels. @return EXIT_FINE, or EXIT_USAGE
  * after one line on stderr */
 int view_vertical(const options *o, int width, int height, double *fov_y);
+
+/** View and rasterizer of what is drawn: 1920x1080 where no --viewport was given, llvmpipe where no --raster, and of
+ * the formats those that it has. @return EXIT_FINE, or EXIT_USAGE after one line on stderr */
+int view_drawn(options *o);
 
 /** Opens what --output names, as wide as --full makes it, as --color wants it dressed. @return EXIT_FINE, or EXIT_IO
  * after one line on stderr */

@@ -4,6 +4,7 @@
 #include <math.h>
 
 #include "cli/option_rows.h"
+#include "cli/setups.h"
 #include "report/number.h"
 
 enum { SIDE = 2048, SIDE_MAX = 32768 };
@@ -18,6 +19,8 @@ options shadow_options(const options *o) {
         out.camera.width = out.camera.height = SIDE;
     if (!option_given(o, OPTION_VIEWPORT))
         out.triangles.width = dp_triangles_default().width;
+    if (!option_given(o, OPTION_CURVATURE))
+        out.curvature = (double)NAN;
     return out;
 }
 
@@ -29,6 +32,8 @@ static int check_together(const options *o) {
     for (size_t i = 0; i < sizeof view / sizeof view[0] && box; i++)
         if (option_given(o, view[i]))
             return option_error(view[i], "does not apply with --light-box, which is one map without a view");
+    if (option_given(o, OPTION_FACET) && !option_given(o, OPTION_CURVATURE))
+        return option_error(OPTION_FACET, "needs --curvature: planes are the same however they are drawn");
     if (option_given(o, OPTION_RANGE) && !box)
         return option_error(OPTION_RANGE, "needs --light-box: the depths of cascades follow from the view");
     if (o->camera.width > SIDE_MAX || o->camera.height > SIDE_MAX)
@@ -40,7 +45,9 @@ static int check_together(const options *o) {
 /* What all maps share; of a box, also its sides and planes. */
 static shadow_light light_of(const options *o, const dp_format *format, dp_mapping mapping) {
     const bool box = option_given(o, OPTION_LIGHT_BOX);
-    const dp_spec spec = {.zfar = box ? o->light_box[2] : 1.0, .ortho = true, .format = *format, .mapping = mapping};
+    dp_spec spec = {.zfar = box ? o->light_box[2] : 1.0, .ortho = true, .format = *format, .mapping = mapping};
+    if (o->raster != NULL && o->raster->arith != NULL)
+        dp_arith_parse(o->raster->arith, &spec.arith);
     shadow_light light = shadow_light_default();
     light.triangles = o->triangles;
     light.triangles.width = (int)o->camera.width;
@@ -49,6 +56,9 @@ static shadow_light light_of(const options *o, const dp_format *format, dp_mappi
     light.triangles.slant_hi = o->angle;
     light.kernel = 0.5 * o->kernel;
     light.world = o->terms.world;
+    if (option_given(o, OPTION_CURVATURE))
+        light.radius = o->curvature;
+    light.facet = o->facet;
     light.receiver_lo = 0.0;
     light.receiver_hi = spec.zfar;
     if (box) {
@@ -98,6 +108,8 @@ static int refused(const options *o, shadow_status status) {
 int shadow_maps_make(const options *o, const dp_format *format, dp_mapping mapping, shadow_maps *out) {
     const bool box = option_given(o, OPTION_LIGHT_BOX);
     int status = check_together(o);
+    if (status == EXIT_FINE)
+        status = setup_undrawn(o, format);
     *out = (shadow_maps){.count = box ? 1 : o->cascades};
     if (status != EXIT_FINE)
         return status;

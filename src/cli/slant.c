@@ -42,10 +42,6 @@ void slant_say(page *p, slant_line *line, const options *o, const dp_setup *setu
          number_full(t->depth).text, number_full(t->pixels).text, number_full(t->slim).text);
 }
 
-void slant_title(page *p, const options *o, const dp_setup *setup) {
-    slant_say(p, page_title, o, setup);
-}
-
 const slant_fields *slant_fields_of(const options *o, slant_fields *out) {
     if (o->triangles.width == 0)
         return NULL;

@@ -21,12 +21,9 @@ const slant_fields *slant_fields_of(const options *o, slant_fields *out);
 typedef void slant_line(page *p, const char *format, ...) __attribute__((format(printf, 2, 3)));
 
 /**
- * What text says of a set-up, or of several where it is null: view, grid and class, or why there is no guarantee;
+ * What text says above a set-up, or above several where it is null: view, grid and class, or why there is no guarantee;
  * nothing without a viewport.
  */
 void slant_say(page *p, slant_line *line, const options *o, const dp_setup *setup);
-
-/** The same above set-ups. */
-void slant_title(page *p, const options *o, const dp_setup *setup);
 
 #endif

@@ -71,6 +71,10 @@ const verb verb_rows[] = {
      "  depthprec shadow --light-box 40x40x200 -F d16 --kernel 5 --angle 70 --api gl\n"
      "  depthprec shadow -f 300 --cascades 3 --lambda 0.8 --api all\n"
      "  depthprec plot shadow -f 150 -o shadow.svg\n", 0},
+    {"disocclusion", VERB_DISOCCLUSION, "", 0, 0, NULL,
+     "how far apart two samples are surely of two surfaces",
+     "  depthprec disocclusion -n 0.1 -f inf -m reversed --hfov 90\n"
+     "  depthprec disocclusion --preset bevy --at 1,10,100\n", 0},
     {"list", VERB_LIST, "WHAT", 0, 1, &topics,
      "formats, mappings, presets, methods: 'list' names all",
      "  depthprec list\n"

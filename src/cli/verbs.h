@@ -27,7 +27,8 @@ enum {
     VERB_STABILITY = 1u << 10,
     VERB_TEXTURE = 1u << 11,
     VERB_COMPLETIONS = 1u << 12,
-    VERB_SHADOW = 1u << 13
+    VERB_SHADOW = 1u << 13,
+    VERB_DISOCCLUSION = 1u << 14
 };
 
 typedef struct verb {
@@ -57,6 +58,7 @@ int cmd_stability(const struct options *o);
 int cmd_check(const struct options *o);
 int cmd_solve(const struct options *o);
 int cmd_texture(const struct options *o);
+int cmd_disocclusion(const struct options *o);
 int cmd_help(const struct options *o);
 int cmd_completions(const struct options *o);
 

@@ -5,6 +5,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 
+#include "cli/drawn.h"
 #include "cli/slant.h"
 #include "cli/stop.h"
 #include "cli/walk.h"
@@ -93,17 +94,20 @@ static void say_answer(page *p, void *item) {
     const drawn *d = item;
     const draw_fight_band *w = &d->whole;
     walk_title(p, item);
-    slant_title(p, d->walk.o, d->walk.setup);
+    slant_say(p, page_title, d->walk.o, d->walk.setup);
     if (w->pixels == 0)
-        page_text(p, "No pixel shows two planes: nothing is certain there, or none lie so near the camera.");
+        page_text(p, "Nothing was drawn: no separation is certain in this range, or no triangle of the class fits.");
     else if (isnan(w->used))
         page_text(p, "No pixel was wrong.");
     else
-        page_text(p, "A pixel was wrong up to %s of the guarantee: planes %s apart at z = %s.",
-                  number_of(w->used, SHARE_DIGITS).text, number_in(number_of(w->separation, DIGITS), p->unit).text,
-                  number_in(number_of(w->z, DIGITS), p->unit).text);
+        page_text(p, "A pixel was wrong up to %s of the guarantee.", number_of(w->used, DIGITS).text);
+    if (!isnan(w->used))
+        page_line(p, "there, at z = %s: planes %s apart, guaranteed %s",
+                  number_in(number_of(w->z, DIGITS), p->unit).text,
+                  number_in(number_of(w->separation, DIGITS), p->unit).text,
+                  number_in(number_up(w->guaranteed, DIGITS), p->unit).text);
     page_line(p, "(wrong: the farther plane is seen; %s pairs of planes drawn, seed %s)",
-              number_of((double)d->pairs, DIGITS).text, number_of((double)d->seed, DIGITS).text);
+              number_full((double)d->pairs).text, number_full((double)d->seed).text);
 }
 
 static const column found_columns[] = {
@@ -131,41 +135,21 @@ static const column setup_report[] = {{PART(drawn, walk.fields, NULL, setup_colu
                                       {FIELD(drawn, azimuth, "azimuth", "degrees"), .only = AS_JSON},
                                       {FIELD(drawn, lo, "lo", "scene"), .only = AS_JSON},
                                       {FIELD(drawn, hi, "hi", "scene"), .only = AS_JSON},
-                                      {PART(drawn, slant, "triangles", slant_columns), .only = AS_JSON},
                                       {PART(drawn, whole, NULL, found_columns), .only = AS_JSON},
                                       {LIST("bands", band_columns, next_band)},
                                       {.kind = COLUMN_END}};
 
-static const column columns[] = {{LIST("setups", setup_report, next_setup), .head = say_answer}, {.kind = COLUMN_END}};
+static const column columns[] = {{PART(drawn, slant, "triangles", slant_columns), .only = AS_JSON},
+                                 {LIST("setups", setup_report, next_setup), .head = say_answer},
+                                 {.kind = COLUMN_END}};
 
 /* ---- The command ------------------------------------------------------------------------------------------------- */
 
-/* In the rasterizer's own arithmetic. */
-static int make_setups(drawn *d, options *in_model) {
-    in_model->model = DP_MODEL_FP32;
-    int status = setups_make(in_model, &d->walk.all);
-    for (size_t i = 0; status == EXIT_FINE && i < d->walk.all.count; i++) {
-        dp_spec spec = d->walk.all.items[i].spec;
-        const dp_mapping_row *mapping = dp_mapping_get(spec.mapping);
-        if (!draw_arith(in_model->raster, mapping->ndc_signed, &spec.arith))
-            return option_error(OPTION_MAPPING, "must be d3d or reversed with --raster %s, got %s",
-                                in_model->raster->name, mapping->name);
-        dp_setup_init(&d->walk.all.items[i], &spec);
-    }
-    return status;
-}
-
 static int check(drawn *d) {
-    static const option_id others[] = {OPTION_GAP, OPTION_ARITH, OPTION_ROUNDING};
     const options *o = d->walk.o;
-    options in_model = *o;
-    for (size_t i = 0; i < sizeof others / sizeof others[0]; i++)
-        if (option_given(o, others[i]))
-            return option_error(others[i], "does not apply with --triangles: the rasterizer has its own arithmetic");
-    if (o->triangles.width > RASTER_SIZE_MAX || o->triangles.height > RASTER_SIZE_MAX)
-        return option_error(OPTION_VIEWPORT, "must be at most %dx%d with --triangles, got %dx%d", RASTER_SIZE_MAX,
-                            RASTER_SIZE_MAX, o->triangles.width, o->triangles.height);
-    int status = make_setups(d, &in_model);
+    if (option_given(o, OPTION_GAP))
+        return option_error(OPTION_GAP, "does not apply with --triangles, which looks for the gap");
+    int status = drawn_setups(o, &d->walk.all);
     if (status == EXIT_FINE)
         status = range_resolve(o, &d->lo, &d->hi);
     if (status == EXIT_FINE && isinf(d->hi))

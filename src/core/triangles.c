@@ -175,6 +175,11 @@ dp_composed_view dp_triangles_view(const dp_triangles *t) {
                               .ray = {v.vertex_x, v.vertex_y}};
 }
 
+/* By how much a coordinate of a vertex moves, pixels. */
+static double snapping(const dp_triangles *t) {
+    return t->subpixel > 0 ? dp_power2(-t->subpixel - 1) : 0.0;
+}
+
 /* The angle of those asked for at which `per_sine` sin + `per_cosine` cos, neither negative, is largest. */
 static double worst_slant(const dp_triangles *t, double per_sine, double per_cosine) {
     return smaller(larger(atan2(per_sine, per_cosine), t->slant_lo * degree), t->slant_hi * degree);
@@ -194,7 +199,7 @@ static dp_budget at_worst(const dp_chain *c, dp_span run, const dp_triangles *t,
     for (int i = 0; i < DP_CAUSE_COUNT; i++)
         window += of->cause[i];
     const double facing = (window * z * z / slope + 2.0 * moved->tilt * z) / (1.0 - moved->shared);
-    const double snap = t->subpixel > 0 ? dp_power2(-t->subpixel - 1) : 0.0;
+    const double snap = snapping(t);
     const double eye = 2.0 * DP_UNIT * second_order * z;
     const double per_sine = 2.0 * v.pixel * z * hypot(snap + of->dx, snap + of->dy) + eye * v.vertex_ray +
                             both * hypot(moved->across[0], moved->across[1]);
@@ -239,4 +244,35 @@ void dp_triangles_add(const dp_chain *c, dp_span run, const dp_triangles *t, con
     const dp_budget *lesser = second.separation < first.separation ? &second : &first;
     if (lesser->separation > out->separation)
         *out = *lesser;
+}
+
+/* ---- One plane, two drawings ------------------------------------------------------------------------------------- */
+
+dp_status dp_coplanar_over(const dp_setup *setup, double lo, double hi, dp_coplanar *out) {
+    static const double none[DP_CAUSE_COUNT] = {0};
+    dp_pipeline pipeline;
+    if (setup == NULL || out == NULL)
+        return DP_ERROR_NULL;
+    const dp_triangles *t = &setup->spec.triangles;
+    if (t->width == 0)
+        return DP_ERROR_TRIANGLES;
+    if (!(lo >= setup->spec.znear && lo <= hi && hi <= setup->spec.zfar))
+        return DP_ERROR_DEPTH;
+    const dp_status status = dp_pipeline_init(&pipeline, setup);
+    if (status != DP_OK)
+        return status;
+    const dp_chain c = dp_chain_make(setup, &pipeline);
+    const dp_span run = {larger(smaller(lo, c.reach.hi), c.reach.lo), larger(smaller(hi, c.reach.hi), c.reach.lo)};
+    const loss of = loss_of(&c, depths_of(&c, run, t), t, none, 0.0, 1);
+    const double eye = DP_UNIT * c.half * fabs(c.b) / run.lo;
+    const double own = 0.5 * (of.cause[DP_CAUSE_PROJECTION] + of.cause[DP_CAUSE_NDC] + of.cause[DP_CAUSE_SETUP]) + eye;
+    const double snap = snapping(t);
+    const double beside = DP_UNIT * (t->width + t->height + 2.0 * t->pixels);
+    const double moved = 2.0 * snap + of.dx + of.dy + beside;
+    const double box = 0.5 + 0.5 * hypot(t->slim, 1.0);
+    out->window = 2.0 * own * second_order;
+    out->pixels = 2.0 * moved * second_order;
+    out->lost = (2.0 * moved + DP_UNIT * (6.0 * box * t->slim + 2.0 * box + 2.0)) * second_order;
+    out->lost_window = out->window;
+    return DP_OK;
 }

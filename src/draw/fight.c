@@ -27,8 +27,8 @@ typedef struct pair {
 
 /* ---- A pair at random -------------------------------------------------------------------------------------------- */
 
-static double guaranteed_at(const draw_fight_request *r, double slant, double z) {
-    dp_setup at_slant = *r->setup;
+double draw_guaranteed(const dp_setup *setup, double slant, double z) {
+    dp_setup at_slant = *setup;
     dp_budget budget;
     at_slant.spec.triangles.slant_lo = at_slant.spec.triangles.slant_hi = slant;
     return dp_budget_at(&at_slant, z, NULL, &budget) == DP_OK ? budget.separation : (double)INFINITY;
@@ -96,8 +96,8 @@ static bool random_pair(const draw_fight_request *r, const draw_fight_band *band
     out->plane.distance = z * facing;
     if (!(facing > least_facing))
         return false;
-    out->guaranteed = guaranteed_at(r, out->slant, z);
-    out->lead = out->guaranteed / guaranteed_at(r, out->slant, nearest_of(r->camera, out, band->lo));
+    out->guaranteed = draw_guaranteed(r->setup, out->slant, z);
+    out->lead = out->guaranteed / draw_guaranteed(r->setup, out->slant, nearest_of(r->camera, out, band->lo));
     out->start = 1.0 - (1.0 - each) * draw_uniform(state);
     return isfinite(out->guaranteed);
 }
@@ -143,7 +143,7 @@ static void draw_pair(const draw_fight_request *r, draw_buffer *b, const pair *p
     const double z = nearest_wrong(r, b, &p->plane, band);
     if (isinf(z))
         return;
-    const double guaranteed = guaranteed_at(r, p->slant, z);
+    const double guaranteed = draw_guaranteed(r->setup, p->slant, z);
     if (!(separation / guaranteed <= band->used))
         *band = (draw_fight_band){band->lo, band->hi, band->pixels, separation,
                                   z,        p->slant, guaranteed,   separation / guaranteed};
@@ -236,38 +236,51 @@ static int threads_of(const draw_fight_request *r) {
 #endif
 }
 
+/* What the threads share. */
+typedef struct progress {
+    uint64_t next, done; /* chunks that were begun, pairs that are done */
+    int stop, failed;
+} progress;
+
+/* The next chunk; at least `count` where there is none, or no more is wanted. */
+static uint64_t next_chunk(progress *p, uint64_t count) {
+    uint64_t chunk;
+    int stop;
+#pragma omp atomic read
+    stop = p->stop;
+    if (stop)
+        return count;
+#pragma omp atomic capture
+    chunk = p->next++;
+    return chunk;
+}
+
 draw_fight_status draw_fight(const draw_fight_request *request, draw_fight_result *result) {
     const draw_fight_request *r = request;
     enum { ROOM = (2 * REACH + 1) * (2 * REACH + 1) };
     result->band_count = bands_of(r, result->bands);
     const uint64_t bands = (uint64_t)result->band_count, each_band = rounded_up(r->count, bands);
-    const uint64_t chunks = rounded_up(each_band, CHUNK);
-    uint64_t done = 0;
-    int stop = 0, failed = 0;
+    const uint64_t chunks = rounded_up(each_band, CHUNK) * bands;
+    progress p = {0};
 #pragma omp parallel num_threads(threads_of(r))
     {
         draw_buffer buffer;
-        if (!draw_buffer_open(&buffer, ROOM)) {
-#pragma omp atomic write
-            failed = 1;
-        }
-#pragma omp for schedule(dynamic)
-        for (uint64_t i = 0; i < chunks * bands; i++) {
-            int stopped;
-#pragma omp atomic read
-            stopped = stop;
-            if (stopped || buffer.key == NULL)
-                continue;
+        const bool ready = draw_buffer_open(&buffer, ROOM);
+        for (uint64_t i = ready ? next_chunk(&p, chunks) : chunks; i < chunks; i = next_chunk(&p, chunks)) {
             draw_fight_band *band = &result->bands[i % bands];
             const uint64_t from = i / bands * CHUNK, to = from + CHUNK < each_band ? from + CHUNK : each_band;
             const draw_fight_band found = work(r, &buffer, band, (int)(i % bands), from, to);
 #pragma omp critical(draw_fight_done)
-            if (finish(r, band, &found, &done, to - from)) {
+            if (finish(r, band, &found, &p.done, to - from)) {
 #pragma omp atomic write
-                stop = 1;
+                p.stop = 1;
             }
+        }
+        if (!ready) {
+#pragma omp atomic write
+            p.failed = 1;
         }
         draw_buffer_close(&buffer);
     }
-    return failed ? DRAW_FIGHT_NO_MEMORY : stop ? DRAW_FIGHT_STOPPED : DRAW_FIGHT_DONE;
+    return p.failed ? DRAW_FIGHT_NO_MEMORY : p.stop ? DRAW_FIGHT_STOPPED : DRAW_FIGHT_DONE;
 }

@@ -46,6 +46,9 @@ typedef struct draw_fight_request {
     void *context;
 } draw_fight_request;
 
+/** What is guaranteed of planes at a slant, degrees, where the farther one is z away; INFINITY where nothing is. */
+double draw_guaranteed(const dp_setup *setup, double slant, double z);
+
 /** All bands as one. */
 draw_fight_band draw_fight_worst(const draw_fight_result *result);
 

@@ -99,6 +99,7 @@ typedef struct chart {
     size_t places;      /**< and how often it would have been with one point a pixel column: see refine.h */
     double shape;       /**< width over height that the panels keep; 0 when they fill the page */
     bool colours;       /**< the values of the maps are 0xRRGGBB; directions, see heat.h */
+    bool classes;       /**< they are indices of the panel's series, areas, whose tints they have; no colour bar */
 } chart;
 
 /** An empty chart; null when out of memory. */

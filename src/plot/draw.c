@@ -185,7 +185,8 @@ static bool draw_page(const pencil *p, const chart *c, double width, double heig
     double x_label = axes_widest_label(p, x, axes_room_x(p, g.area.w / g.columns)), right = x_label / 2;
     g.gap_x = fmax(PANEL_GAP * s, x_label + SPACE * s); /* two neighbours' end labels meet there */
     g.gap_y = PANEL_GAP * s;
-    double bar = c->value.label != NULL
+    double bar = c->classes ? 0
+                 : c->value.label != NULL
                      ? SPACE * 2 * s + BAR_WIDTH * s + TICK_ROOM * s + axes_widest_label(p, &c->value, labels)
                  : c->colours ? SPACE * 2 * s + BALL_WIDTH * s
                               : 0;

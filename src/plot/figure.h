@@ -14,6 +14,7 @@
 #include "method/bench.h"
 #include "method/stability.h"
 #include "plot/chart.h"
+#include "raster/raster.h"
 
 /** What is asked for. */
 typedef struct figure_request {
@@ -28,6 +29,8 @@ typedef struct figure_request {
     uint64_t census;                   /**< most depths that a census may visit for the figure; 0: none is made */
     const struct shadow_cascade *maps; /**< for the figures of shadow maps, map_count of them, at most CHART_PANELS */
     size_t map_count;
+    const raster_row *raster;        /**< for the figures that draw */
+    double slant, azimuth;           /**< the normal of what they draw, see draw/fight.h; degrees */
     const struct need_file *file;    /**< for the figures that take a file, else null */
     const method_family_row *family; /**< for the figures that show methods, else null */
     size_t which;                    /**< its case, where times are measured, */
@@ -44,6 +47,7 @@ enum {
     FIGURE_TOLERANCE = 1 << 4, /**< other ways to the interval than the exact cell */
     FIGURE_SIGNED = 1 << 6,    /**< depths of 0 and less: a camera with near <= 0 */
     FIGURE_FILE = 1 << 5,      /**< a requirement file, which brings its own set-ups, with planes of their own */
+    FIGURE_DRAWN = 1 << 8,     /**< what a rasterizer draws: the set-ups have a view, and its arithmetic */
     FIGURE_SHADOW = 1 << 7,    /**< shadow maps, whose cameras are not that of the view */
 };
 
@@ -80,7 +84,7 @@ void figure_range(const figure_request *request, double *lo, double *hi);
 chart_panel *figure_panel(const figure_request *request, chart *out, chart_axis y);
 
 figure_build distribution_build, share_build, error_build, interval_build, budget_build, scene_build, map_build,
-    pareto_build, stability_build, normals_build, shadow_build;
+    pareto_build, stability_build, normals_build, shadow_build, fight_build;
 
 /** Figures whose measuring takes long or differs from run to run, drawn of what was measured. */
 const char *pareto_draw(const method_family_row *family, const bench_result *results, size_t count, chart *out);

@@ -32,6 +32,10 @@ static const figure_row rows[] = {
     {"shadow", "Shadow maps: the bias that is needed and the gap that opens",
      "the bias that a surface needs at each angle to the light, cause by cause, and the gap that each of three opens",
      1, FIGURE_SHADOW, NULL, NULL, shadow_build},
+    {"fight", "Z-fighting as a rasterizer draws it",
+     "a wall and a decal before it, pixel by pixel, as slanted triangles: nearer than is guaranteed, and as far as "
+     "that",
+     1, FIGURE_AT | FIGURE_FP32 | FIGURE_BINARY32 | FIGURE_DRAWN, NULL, "unorm24", fight_build},
     {"scene", "What the scene needs and what the cameras give",
      "a requirement file: the separation (or error) that each requirement allows against what its set-up gives",
      CHART_PANELS, FIGURE_FILE, NULL, NULL, scene_build},

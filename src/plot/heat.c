@@ -4,6 +4,7 @@
 #include <math.h>
 #include <stdlib.h>
 
+#include "plot/area.h"
 #include "plot/ticks.h"
 
 enum { BAR_STEPS = 256 };
@@ -37,8 +38,11 @@ static canvas_colour grey_of(const chart_axis *ground, double v) {
 }
 
 /* The colour of a field that is no hole. */
-static canvas_colour colour_of(const chart *c, const chart_map *m, size_t i) {
+static canvas_colour colour_of(const pencil *p, const chart *c, const chart_panel *panel, size_t i) {
+    const chart_map *m = &panel->map;
     const double v = m->value[i];
+    if (c->classes)
+        return area_tint(p->theme, panel->series[(size_t)v].style.colour);
     if (isnan(v))
         return grey_of(&c->ground, m->under[i]);
     const uint32_t rgb = c->colours ? (uint32_t)v : 0;
@@ -47,36 +51,39 @@ static canvas_colour colour_of(const chart *c, const chart_map *m, size_t i) {
 }
 
 /* Few fields: each a rectangle, for an image as small as that is blurred by those who show it. */
-static void draw_fields(const pencil *p, canvas_rect f, const chart_map *m, const chart *c) {
+static void draw_fields(const pencil *p, canvas_rect f, const chart *c, const chart_panel *panel) {
+    const chart_map *m = &panel->map;
     const double w = f.w / m->columns, h = f.h / m->rows, seam = 0.5;
     for (int row = m->rows - 1; row >= 0; row--)
         for (int column = 0; column < m->columns; column++) {
             const size_t i = (size_t)row * (size_t)m->columns + (size_t)column;
             if (!is_hole(m, i))
                 canvas_fill(p->c, (canvas_rect){f.x + column * w, f.y + f.h - (row + 1) * h, w + seam, h + seam},
-                            colour_of(c, m, i));
+                            colour_of(p, c, panel, i));
         }
 }
 
-static bool draw_pixels(const pencil *p, canvas_rect f, const chart_map *m, const chart *c) {
-    enum { FEW = 4096 };
-    size_t count = (size_t)m->columns * (size_t)m->rows;
-    if (count < FEW) {
-        draw_fields(p, f, m, c);
+/* Fields that stand for pixels of a screen are several pixels of the image each, and so stay sharp. */
+static bool draw_pixels(const pencil *p, canvas_rect f, const chart *c, const chart_panel *panel) {
+    enum { FEW = 4096, SHARP = 4 };
+    const chart_map *m = &panel->map;
+    const int each = c->classes ? SHARP : 1, columns = m->columns * each, rows = m->rows * each;
+    if (m->columns * m->rows < FEW) {
+        draw_fields(p, f, c, panel);
         return true;
     }
-    uint32_t *pixels = calloc(count, sizeof *pixels);
+    uint32_t *pixels = calloc((size_t)columns * (size_t)rows, sizeof *pixels);
     if (pixels == NULL)
         return false;
 #pragma omp parallel for schedule(static)
-    for (int row = 0; row < m->rows; row++) {
-        const size_t from = (size_t)row * (size_t)m->columns;
-        uint32_t *to = pixels + (size_t)(m->rows - 1 - row) * (size_t)m->columns;
-        for (int column = 0; column < m->columns; column++)
-            if (!is_hole(m, from + (size_t)column))
-                to[column] = theme_pixel(colour_of(c, m, from + (size_t)column));
+    for (int row = 0; row < rows; row++) {
+        const size_t from = (size_t)(row / each) * (size_t)m->columns;
+        uint32_t *to = pixels + (size_t)(rows - 1 - row) * (size_t)columns;
+        for (int column = 0; column < columns; column++)
+            if (!is_hole(m, from + (size_t)(column / each)))
+                to[column] = theme_pixel(colour_of(p, c, panel, from + (size_t)(column / each)));
     }
-    canvas_image(p->c, f, m->columns, m->rows, pixels);
+    canvas_image(p->c, f, columns, rows, pixels);
     free(pixels);
     return true;
 }
@@ -193,7 +200,7 @@ bool heat_draw(const pencil *p, const axes *a, const chart_panel *panel, const c
     const chart_map *m = &panel->map;
     if (heat_has_holes(m))
         draw_hatch(p, a->frame);
-    if (!draw_pixels(p, a->frame, m, c))
+    if (!draw_pixels(p, a->frame, c, panel))
         return false;
     if (!c->contours)
         return true;

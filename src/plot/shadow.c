@@ -80,11 +80,11 @@ static void add_panel(chart *out, const figure_request *request, size_t i) {
     if (request->map_count > 1)
         snprintf(panel->title, sizeof panel->title, "Cascade %zu: %.3g to %.3g, texel %.3g", i + 1, c->from, c->to,
                  m.need.texel);
+    for (int k = 0; k < GROUPS; k++)
+        add(out, panel, &m, group_at, k, (chart_style){k, 0, k, false}, "", groups[k].name);
     for (int k = 0; k < SHADOW_WAY_COUNT; k++)
         if (isfinite(gap_at(&m, k, panel->x.hi)))
             add(out, panel, &m, gap_at, k, (chart_style){-1, k, -1, false}, "gap, ", shadow_way_name((shadow_way)k));
-    for (int k = 0; k < GROUPS; k++)
-        add(out, panel, &m, group_at, k, (chart_style){k, 0, k, false}, "", groups[k].name);
 }
 
 const char *shadow_build(const figure_request *request, chart *out) {

@@ -46,13 +46,14 @@ static bool in_window(const raster_point *p) {
 
 raster_status raster_mesa_draw(const raster_target *target, const raster_vertex vertex[3], raster_triangle *drawn) {
     const raster_model *model = target->row->model;
-    raster_corner corner[RASTER_CORNERS] = {{vertex[0], 0}, {vertex[1], 1}, {vertex[2], 2}};
+    raster_corner corner[RASTER_CORNERS];
     raster_point point[RASTER_CORNERS];
     unsigned all;
     const unsigned outside = raster_outside(vertex, &all);
     const int count = all != 0 ? 0 : outside == 0 ? 3 : raster_clip(&rule, vertex, outside, corner);
     for (int i = 0; i < count; i++) {
-        point[i] = window(target, &corner[i].at, model->fused && corner[i].given >= 0);
+        const bool given = outside == 0 || corner[i].given >= 0;
+        point[i] = window(target, outside == 0 ? &vertex[i] : &corner[i].at, model->fused && given);
         if (!in_window(&point[i]))
             return RASTER_RANGE;
     }

@@ -69,6 +69,8 @@ typedef struct raster_row {
     const char *note;
     const char *source;
     const struct raster_model *model; /**< null of a specification */
+    const char *arith;                /**< the arithmetic of its vertices and conversions, for dp_arith_parse(); null of
+                                           a specification */
 } raster_row;
 
 /** The rows; index below raster_count(), else null. */

@@ -37,13 +37,15 @@ bool raster_snapped_span(const raster_target *target, const raster_piece *piece,
     if (y < piece->y0 || y >= piece->y1)
         return false;
     for (int i = 0, j = piece->corners - 1; i < piece->corners; j = i++) {
+        const bool crosses = (piece->y[i] <= row) != (piece->y[j] <= row);
+        if (!crosses)
+            continue;
         const int64_t high = (int64_t)piece->y[j] - piece->y[i];
         const int64_t wide = (int64_t)piece->x[j] - piece->x[i];
         const int64_t along = piece->x[i] * high + wide * (row - piece->y[i]);
-        const bool crosses = (piece->y[i] <= row) != (piece->y[j] <= row);
-        const int64_t x = ceiling(high < 0 ? -along : along, crosses ? llabs(high) << piece->bits : 1);
-        left = crosses && x < left ? x : left;
-        right = crosses && x > right ? x : right;
+        const int64_t x = ceiling(high < 0 ? -along : along, llabs(high) << piece->bits);
+        left = x < left ? x : left;
+        right = x > right ? x : right;
     }
     *from = within(left, target->width);
     *to = within(right, target->width);

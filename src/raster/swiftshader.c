@@ -75,7 +75,7 @@ static bool set_plane(const raster_target *target, const raster_vertex v[3], ras
 
 raster_status raster_swiftshader_draw(const raster_target *target, const raster_vertex vertex[3],
                                       raster_triangle *drawn) {
-    raster_corner corner[RASTER_CORNERS] = {{vertex[0], 0}, {vertex[1], 1}, {vertex[2], 2}};
+    raster_corner corner[RASTER_CORNERS];
     raster_piece *piece = &drawn->piece[0];
     unsigned all;
     const unsigned outside = raster_outside(vertex, &all);
@@ -84,7 +84,7 @@ raster_status raster_swiftshader_draw(const raster_target *target, const raster_
     if (piece->corners == 0)
         return RASTER_EMPTY;
     for (int i = 0; i < piece->corners; i++) {
-        const raster_vertex *at = &corner[i].at;
+        const raster_vertex *at = outside == 0 ? &vertex[i] : &corner[i].at;
         const float r = reciprocal(at->w);
         piece->x[i] = snapped(at->x, r, target->width);
         piece->y[i] = snapped(at->y, r, target->height);

@@ -20,7 +20,7 @@ static bool within(double x, double lo, double hi) {
 }
 
 shadow_status shadow_split_check(const shadow_split *s) {
-    const bool planes = s->znear > 0.0 && s->znear < s->zfar && s->zfar <= 1e12;
+    const bool planes = s->znear >= 1e-12 && s->znear < s->zfar && s->zfar <= 1e12;
     const bool view = within(s->fov_y, 0.001, 179.9) && within(s->aspect, 0.001, 1000.0);
     const bool parts = within(s->count, 1, SHADOW_CASCADES_MAX) && within(s->lambda, 0.0, 1.0);
     return planes && view && parts && within(s->casters, 0.0, 1e12) ? SHADOW_OK : SHADOW_CASCADES;

@@ -7,8 +7,11 @@
 
 static const double eps = 0x1p-24;
 
-/* Covers terms of second order, the light's matrix rounded once for all, and this file's own rounding. */
+/* Covers terms of second order and this file's own rounding. */
 static const double outward = 1.0 + 0x1p-20;
+
+/* How far the rounding of the light's matrix turns the light, radians. */
+static const double turned_light = 4.0 * 0x1p-24;
 
 /* What a sine that a shader takes of a cosine may be off by. */
 static const double sine_error = 0x1p-10;
@@ -118,7 +121,7 @@ void shadow_gap_at(const shadow_light *light, const shadow_bias *bias, double sl
                    double *along_normal) {
     const ground g = ground_of(light);
     const double slope = tan(degrees(slant));
-    const double scaled = bias->factor > 0.0 ? bias->factor * slope * fmax(g.texel_x, g.texel_y) : 0.0;
+    const double scaled = isinf(bias->factor) ? bias->factor : bias->factor * slope * fmax(g.texel_x, g.texel_y);
     *along_light = bias->window * g.depth + scaled + bias->offset * slope;
     *along_normal = *along_light * cos(degrees(slant));
 }
@@ -127,7 +130,7 @@ void shadow_gap_at(const shadow_light *light, const shadow_bias *bias, double sl
 static double share_of(const shadow_light *light, const ground *g, const shadow_bias *bias, double slope) {
     const double larger = fmax(g->texel_x, g->texel_y);
     const double m = slope * larger * larger / g->diagonal;
-    const double scaled = bias->factor > 0.0 ? bias->factor * m : 0.0;
+    const double scaled = isinf(bias->factor) ? bias->factor : bias->factor * m;
     return light->kernel * slope * g->diagonal / (bias->window * g->depth + scaled + bias->offset * slope);
 }
 
@@ -147,11 +150,11 @@ void shadow_need_of(const shadow_light *light, shadow_need *need) {
     need->curvature = curvature_of(light, &g, need->slope, need->texels) * outward;
     need->offset_only = largest_wave(across * (1.0 + sine_error), rest * g.depth, degrees(slant)) * outward;
     shadow_bias *b = need->bias;
-    b[SHADOW_CONSTANT] = (shadow_bias){.window = across * need->slope / g.depth * outward + rest};
+    const double steepest = tan(degrees(slant) + turned_light);
+    b[SHADOW_CONSTANT] = (shadow_bias){.window = across * steepest / g.depth * outward + rest};
     const double factor = factor_of(light, &g, need->texels, &absolute);
-    b[SHADOW_SLOPE] = (shadow_bias){.window = rest + need->curvature, .factor = factor};
-    if (isfinite(factor))
-        b[SHADOW_SLOPE].window += factor * absolute * outward;
+    const double small = isfinite(factor) ? factor * absolute * outward : 0.0;
+    b[SHADOW_SLOPE] = (shadow_bias){.window = fmin(rest + need->curvature + small, b->window), .factor = factor};
     b[SHADOW_NORMAL] = (shadow_bias){.window = rest + across * sine_error / g.depth, .offset = across * outward};
     for (int way = 0; way < SHADOW_WAY_COUNT; way++) {
         double same;

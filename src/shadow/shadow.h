@@ -67,7 +67,8 @@ typedef struct shadow_light {
     double world;           /**< the largest |coordinate| of positions; 0: positions are given about the box's middle */
     double position;        /**< how far the shader's position of a point may be off the surface, scene units, besides
                                  the rounding to binary32; 0: not at all */
-    double radius;          /**< the smallest radius of curvature of surfaces, scene units; INFINITY: planes */
+    double radius;          /**< the smallest radius of curvature of surfaces, which bend away from the light as spheres
+                                 do, scene units; INFINITY: planes */
     double facet;       /**< curved surfaces are drawn as triangles in circles of at most this radius, scene units */
     double receiver_lo; /**< surfaces that are lit lie from here to receiver_hi along the light, within its planes */
     double receiver_hi;
@@ -115,8 +116,8 @@ typedef struct shadow_bias {
     double gap_light;  /**< the widest gap along the light that it opens at the greatest slant, scene units */
     double gap_normal; /**< the same along the normal */
     double gap_facing; /**< either, of surfaces that face the light */
-    double share;      /**< of the least bias that these surfaces need by any reckoning, slope times filter radius, at
-                            the greatest slant: how far the bias could be from the least one */
+    double share;      /**< slope times filter radius over the bias, at the greatest slant and the azimuth that needs
+                            most: no bias below that share of this one is enough */
     bool limited;      /**< the gap reaches beyond the planes behind receiver_hi: depths there are clamped */
 } shadow_bias;
 
@@ -140,8 +141,9 @@ void shadow_need_of(const shadow_light *light, shadow_need *need);
 double shadow_part_at(const shadow_light *light, const shadow_part *part, double slant);
 
 /**
- * The gaps that a bias opens at a slant from 0 to the greatest, degrees, at the azimuth where it is widest: a thin
- * caster parallel to the surface and no farther off it may cast no shadow on it.
+ * How far a bias moves a surface towards the light, at a slant from 0 to the greatest, degrees, at the azimuth where
+ * that is most. A thin caster parallel to the surface and closer to it casts no shadow on it, or but in places; one
+ * that is farther by as much as the constant bias is certain to. INFINITY where the factor is.
  */
 void shadow_gap_at(const shadow_light *light, const shadow_bias *bias, double slant, double *along_light,
                    double *along_normal);
@@ -171,7 +173,7 @@ enum { SHADOW_CASCADES_MAX = 16 };
 
 /** A view frustum, and how it is split. */
 typedef struct shadow_split {
-    double znear, zfar;   /**< eye depths of the view that have shadows, 0 < znear < zfar <= 1e12 */
+    double znear, zfar;   /**< eye depths of the view that have shadows, 1e-12 <= znear < zfar <= 1e12 */
     double fov_y, aspect; /**< vertical angle, degrees, 0.001 to 179.9; width over height, 0.001 to 1000 */
     int count;            /**< cascades, 1 to SHADOW_CASCADES_MAX */
     double lambda;        /**< 0 uniform to 1 logarithmic */

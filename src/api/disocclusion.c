@@ -1,0 +1,40 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "api/disocclusion.h"
+
+#include <math.h>
+
+static const double factor = 1.37e-5, degree = 0.017453292519943295;
+
+/* Tangents of the half angles. */
+static double half_height(const disocclusion_view *v) {
+    return tan(0.5 * degree * v->fov_y);
+}
+
+static double half_width(const disocclusion_view *v) {
+    return half_height(v) * v->width / v->height;
+}
+
+static double by_tangent(const disocclusion_view *v) {
+    return factor * half_width(v) * 0.5 * v->width;
+}
+
+static double by_diagonal(const disocclusion_view *v) {
+    const double corner = hypot(1.0, hypot(half_width(v), half_height(v))); /* over the ray in the middle */
+    return factor * corner * hypot(v->width, v->height);
+}
+
+/* clang-format off */
+static const disocclusion_row rows[DISOCCLUSION_ROWS] = {
+    {"tangent", "1.37e-5 z tan(hfov/2) W/2", by_tangent,
+     "half the width in pixels times the tangent of half the horizontal angle; marked: only reversed, infinite",
+     "FidelityFX Super Resolution 2.0 and 2.1, depth clip; attributed there to Akeley and Su 2006"},
+    {"diagonal", "1.37e-5 z |corner|/|centre| length(W, H)", by_diagonal,
+     "the diagonal in pixels times the length of the ray in the corner over that in the middle; marked: only reversed, "
+     "infinite",
+     "FidelityFX Super Resolution 2.2 and 3, depth clip; attributed there to Akeley and Su 2006"},
+};
+/* clang-format on */
+
+const disocclusion_row *disocclusion_get(size_t index) {
+    return index < DISOCCLUSION_ROWS ? &rows[index] : NULL;
+}

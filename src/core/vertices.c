@@ -1,0 +1,68 @@
+/* SPDX-License-Identifier: MIT */
+/* depthprec(7), "Logarithmic depth at vertices", derives both errors: a chord over 1/z lies above a convex function. */
+#include "depthprec/vertices.h"
+
+#include <math.h>
+
+#include "core/extremes.h"
+
+static const double most_depth = 1e6, least_beyond = 0x1p-48;
+
+/* What is left of the sum of two terms of opposite signs, and what rounding it may have lost. */
+static double rounded_up(double nearer, double farther) {
+    return larger(nearer + farther + 0x1p-50 * (fabs(nearer) + fabs(farther)), 0.0);
+}
+
+static dp_vertex_error error_of(const dp_setup *setup, double z, double depth) {
+    const double z1 = larger(z / depth, setup->spec.znear);
+    const double z2 = smaller(z * depth, setup->spec.zfar);
+    const double before = z - z1, behind = z2 - z;
+    dp_vertex_error e = {0};
+    if (setup->curve == DP_CURVE_PERSPECTIVE || setup->spec.ortho || !(before > 0.0 && behind > 0.0))
+        return e;
+    const double part = behind * (before / (z * (z2 - z1))); /* the weights are part z1/before and part z2/behind */
+    if (setup->curve == DP_CURVE_LINEAR) {
+        e.eye = rounded_up(before * (behind / z), 0.0) + 0x1p-51 * (before + behind); /* of z/depth and z depth */
+        e.window = e.eye / setup->kappa * (1.0 + 0x1p-50);
+    } else {
+        const double c = setup->spec.log_c, scale = c / (c * z + 1.0);
+        const double chord =
+            rounded_up(part * z1 / before * log1p(-scale * before), part * z2 / behind * log1p(scale * behind));
+        e.eye = expm1(chord) / scale * (1.0 + 0x1p-50);
+        e.window = chord / setup->kappa * (1.0 + 0x1p-50);
+    }
+    return e;
+}
+
+static int is_inside(const dp_setup *setup, double z) {
+    return z >= setup->spec.znear && z <= setup->spec.zfar && isfinite(z);
+}
+
+dp_status dp_vertex_error_at(const dp_setup *setup, double z, double depth, dp_vertex_error *out) {
+    if (setup == NULL || out == NULL)
+        return DP_ERROR_NULL;
+    if (!is_inside(setup, z))
+        return DP_ERROR_DEPTH;
+    if (!(depth >= 1.0 && depth <= most_depth))
+        return DP_ERROR_TRIANGLES;
+    *out = error_of(setup, z, depth);
+    return DP_OK;
+}
+
+/* The error rises with the depth, so what it is beyond 1 is halved on a logarithmic scale. */
+dp_status dp_vertex_depth_at(const dp_setup *setup, double z, double eye, double *depth) {
+    enum { STEPS = 64 };
+    if (setup == NULL || depth == NULL)
+        return DP_ERROR_NULL;
+    if (!is_inside(setup, z) || !(eye >= 0.0))
+        return DP_ERROR_DEPTH;
+    double good = 0.0, bad = most_depth - 1.0;
+    if (error_of(setup, z, most_depth).eye <= eye)
+        good = bad;
+    for (int i = 0; i < STEPS && good < bad; i++) {
+        const double middle = sqrt(larger(good, least_beyond)) * sqrt(bad);
+        *(error_of(setup, z, 1.0 + middle).eye <= eye ? &good : &bad) = middle;
+    }
+    *depth = 1.0 + good;
+    return DP_OK;
+}

@@ -1,0 +1,126 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* The figure of shadow maps, as drawn, against the room shadow: gaps and causes of each map at each angle. */
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+#include "drawn.h"
+#include "shadow/shadow.h"
+#include "support.h"
+
+/* In the order of the legend; which causes stand together is written down here. */
+static const struct {
+    const char *name;
+    bool gap;
+    int which[4]; /* the way; or the causes, up to -1 */
+} curves[] = {
+    {"gap, constant", true, {SHADOW_CONSTANT}},
+    {"gap, slope-scaled", true, {SHADOW_SLOPE}},
+    {"gap, normal offset", true, {SHADOW_NORMAL}},
+    {"texel, kernel, lookup", false, {SHADOW_CAUSE_TEXEL, SHADOW_CAUSE_KERNEL, SHADOW_CAUSE_LOOKUP, -1}},
+    {"snapping, set-up", false, {SHADOW_CAUSE_SNAPPING, SHADOW_CAUSE_SETUP, -1}},
+    {"position", false, {SHADOW_CAUSE_POSITION, -1}},
+    {"format", false, {SHADOW_CAUSE_FORMAT, -1}},
+};
+
+enum { CURVES = sizeof curves / sizeof curves[0] };
+
+typedef struct curve {
+    shadow_light light;
+    int index;
+} curve;
+
+static double value_at(const curve *c, double angle) {
+    const double depth = c->light.setup.spec.zfar - c->light.setup.spec.znear;
+    double along_light, along_normal, sum = 0;
+    shadow_need need;
+    shadow_need_of(&c->light, &need);
+    if (curves[c->index].gap) {
+        shadow_gap_at(&c->light, &need.bias[curves[c->index].which[0]], angle, &along_light, &along_normal);
+        return along_light;
+    }
+    for (const int *cause = curves[c->index].which; *cause >= 0; cause++)
+        sum += shadow_part_at(&c->light, &need.part[*cause], angle) * depth;
+    return sum;
+}
+
+static bool true_length(const void *context, double from, double to, double *lo, double *hi) {
+    const double a = value_at(context, fmax(from, 0)), b = value_at(context, to);
+    *lo = fmin(a, b);
+    *hi = fmax(a, b);
+    return from >= 1; /* at 0 some are 0, which a log axis has not */
+}
+
+static shadow_light light_of(const char *format, int side, double kernel, double angle) {
+    shadow_light light = shadow_light_default();
+    dp_spec spec = light.setup.spec;
+    dp_format found[2];
+    assert_int_equal(dp_format_parse(format, found), 1);
+    spec.format = found[0];
+    spec.zfar = 80;
+    assert_int_equal(dp_setup_init(&light.setup, &spec), DP_OK);
+    light.width = 30;
+    light.height = 20;
+    light.triangles.width = light.triangles.height = side;
+    light.triangles.slant_hi = angle;
+    light.kernel = kernel;
+    light.receiver_hi = 80;
+    return light;
+}
+
+static void check_panel(const drawn *d, const drawn_panel *p, const shadow_light *light) {
+    assert_true(!p->x.log && p->y.log);
+    assert_px(drawn_px(&p->x, 0), p->frame.x0, 1);
+    assert_px(drawn_px(&p->x, light->triangles.slant_hi), p->frame.x1, 1);
+    for (int k = 0; k < CURVES; k++) {
+        const drawn_entry *e = drawn_legend(d, curves[k].name);
+        const curve c = {*light, k};
+        const svg_mark *line = drawn_curve(d, p, e);
+        drawn_follows(p, &p->y, line, true_length, &c, 60, 2);
+        assert_px(line->box.x1, p->frame.x1, 1);
+        drawn_style_is(d, e, k < SHADOW_WAY_COUNT ? -1 : k - SHADOW_WAY_COUNT, k < SHADOW_WAY_COUNT ? k : 0,
+                       k < SHADOW_WAY_COUNT ? DRAWN_NONE : (drawn_shape)(DRAWN_DISC + k - SHADOW_WAY_COUNT), false);
+    }
+}
+
+static void one_box(void **state) {
+    const drawn_theme *const looks[] = {&drawn_light, &drawn_dark};
+    const shadow_light light = light_of("unorm16", 1024, 2.5, 70);
+    (void)state;
+    for (size_t i = 0; i < 2; i++) {
+        drawn *d = drawn_run(looks[i],
+                             "plot shadow --light-box 30mx20mx80m -F d16 --size 1024 --kernel 5 --angle 70 --theme %s",
+                             looks[i]->name);
+        assert_int_equal(d->panel_count, 1);
+        assert_string_equal(d->subtitle, "unorm16 d3d, 1024 x 1024 texels, filter of 5 x 5; box 30 x 20 x 80");
+        assert_int_equal(d->entry_count, CURVES);
+        check_panel(d, &d->panels[0], &light);
+        drawn_close(d);
+    }
+}
+
+static void cascades(void **state) {
+    const shadow_split split = {0.5, 60, 40, 2, 3, 0.25, 30, true};
+    const shadow_light model = light_of("fp32", 512, 1.5, 75);
+    drawn *d =
+        drawn_run(&drawn_light, "plot shadow -n 0.5 -f 60 --fov 40 --viewport 640x320 --cascades 3 --lambda 0.25 "
+                                "--casters 30 --size 512");
+    (void)state;
+    assert_int_equal(d->panel_count, 3);
+    assert_string_equal(d->subtitle, "fp32 d3d, 512 x 512 texels, filter of 3 x 3; view near 0.5, far 60");
+    for (int i = 0; i < 3; i++) {
+        shadow_cascade c;
+        char heading[96];
+        assert_int_equal(shadow_cascade_of(&split, &model, i, &c), SHADOW_OK);
+        snprintf(heading, sizeof heading, "Cascade %d: %.3g to %.3g, texel %.3g", i + 1, c.from, c.to,
+                 c.light.width / 512);
+        assert_string_equal(d->panels[i].heading, heading);
+        check_panel(d, &d->panels[i], &c.light);
+    }
+    drawn_close(d);
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {cmocka_unit_test(one_box), cmocka_unit_test(cascades)};
+    return run_tap(tests);
+}
