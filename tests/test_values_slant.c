@@ -178,6 +178,43 @@ static void test_rows(void **state) {
     }
 }
 
+/* With world positions: each guarantee has its own composition, and what it adds is that cause. */
+static void test_world(void **state) {
+    static const char *const names[] = {"once", "products", "relative"};
+    const slant_case *c = &cases[0];
+    dp_spec spec = dp_spec_default();
+    dp_setup slanted;
+    (void)state;
+    spec.znear = c->znear;
+    spec.zfar = c->zfar;
+    spec.mapping = c->mapping;
+    spec.triangles = c->triangles;
+    assert_int_equal(dp_setup_init(&slanted, &spec), DP_OK);
+    const dp_setup facing = dp_setup_facing(&slanted);
+    for (int i = 0; i < DP_COMPOSITION_COUNT; i++) {
+        const dp_budget_terms terms = {.world = 20000, .composition = (dp_composition)i};
+        const double z = 700;
+        dp_budget of_slanted, of_facing, without;
+        printed p =
+            print_of("budget %s %s --at 700 --world 20000 --composition %s --json", c->camera, c->options, names[i]);
+        json_t *root = json_of(p.out);
+        const json_t *row = row_of(root, 0);
+        const double part = at(json_object_get(row, "causes"), "composition");
+        assert_int_equal(dp_budget_at(&slanted, z, &terms, &of_slanted), DP_OK);
+        assert_int_equal(dp_budget_at(&facing, z, &terms, &of_facing), DP_OK);
+        assert_int_equal(dp_budget_at(&slanted, z, NULL, &without), DP_OK);
+        assert_true(at(row, "guarantee_slanted") == of_slanted.separation);
+        assert_true(at(row, "guarantee_facing") == of_facing.separation);
+        assert_true(of_slanted.separation > of_facing.separation && of_slanted.separation > without.separation);
+        assert_relative(part, of_slanted.separation - without.separation, 1e-9);
+        /* At least what positions alone do, edge-on, as the page has them: once more for the nearer plane. */
+        if (i != DP_COMPOSITION_RELATIVE)
+            assert_true(part >= 3 * sqrt(3) * 0x1p-10);
+        json_decref(root);
+        printed_free(&p);
+    }
+}
+
 /* What the subpixel grid costs at the worst slant, per depth, as published for these views; 28.8 mm at 5 km. */
 static void test_published(void **state) {
     static const struct {
@@ -451,10 +488,10 @@ static void test_hopeless(void **state) {
 }
 
 int main(void) {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(test_rows),       cmocka_unit_test(test_text),
-                                       cmocka_unit_test(test_rasterizer), cmocka_unit_test(test_presets),
-                                       cmocka_unit_test(test_range),      cmocka_unit_test(test_zfight),
-                                       cmocka_unit_test(test_bias),       cmocka_unit_test(test_plot),
-                                       cmocka_unit_test(test_published),  cmocka_unit_test(test_hopeless)};
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(test_rows),    cmocka_unit_test(test_text),    cmocka_unit_test(test_rasterizer),
+        cmocka_unit_test(test_presets), cmocka_unit_test(test_range),   cmocka_unit_test(test_zfight),
+        cmocka_unit_test(test_bias),    cmocka_unit_test(test_plot),    cmocka_unit_test(test_published),
+        cmocka_unit_test(test_world),   cmocka_unit_test(test_hopeless)};
     return run_tap(tests);
 }

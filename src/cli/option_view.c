@@ -82,8 +82,6 @@ int slant_view(options *o) {
     if (o->ortho)
         return option_refuse(&option_rows[o->drawn ? OPTION_TRIANGLES : OPTION_VIEWPORT],
                              "does not apply with --ortho");
-    if (o->terms.world > 0.0)
-        return option_refuse(&option_rows[OPTION_VIEWPORT], "cannot be combined with --world");
     return by_preset ? EXIT_FINE : view_vertical(o, o->triangles.width, o->triangles.height, &o->triangles.fov_y);
 }
 
