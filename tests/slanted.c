@@ -15,6 +15,7 @@ bool slanted_draw_camera(rng *r, slanted *s, const slanted_kind *kind, const cha
         return false;
     s->kind = kind;
     s->cut = RASTER_CLIP_ANY;
+    s->world.terms = (dp_budget_terms){0};
     spec.format = found[0];
     spec.mapping = reversed ? DP_MAPPING_REVERSED : DP_MAPPING_D3D;
     spec.znear = rng_log(r, 0.01, 10.0);
@@ -185,6 +186,12 @@ static void fit_one(slanted *s, int which, double c) {
     t->plane.origin = fmax(t->plane.origin, e->origin + 3.0 * sides);
 }
 
+bool slanted_in_class(const slanted *s, const double at[3][2]) {
+    dp_triangles drawn = s->class;
+    fit_piece(&drawn, (const spot[3]){{at[0][0], at[0][1]}, {at[1][0], at[1][1]}, {at[2][0], at[2][1]}});
+    return drawn.pixels == s->class.pixels && drawn.slim == s->class.slim;
+}
+
 bool slanted_fit(slanted *s, const double c[2]) {
     dp_triangles *t = &s->class;
     t->pixels = 1.0;
@@ -195,6 +202,10 @@ bool slanted_fit(slanted *s, const double c[2]) {
     for (int k = 0; k < 2; k++)
         fit_one(s, k, c[k]);
     t->depth *= 1.0 + 1e-6;
+    if (s->world.terms.world > 0.0) { /* where it is drawn its vertices are elsewhere: see slanted_in_class() */
+        t->pixels *= 1.2;
+        t->slim = fmin(1.5 * t->slim, 1024.0);
+    }
     return t->depth < 1e3 && dp_triangles_check(t) == DP_OK;
 }
 
@@ -202,7 +213,7 @@ bool slanted_budget(const slanted *s, const dp_triangles *class, dp_budget *out)
     dp_spec spec = s->setup.spec;
     dp_setup setup;
     spec.triangles = *class;
-    return dp_setup_init(&setup, &spec) == DP_OK && dp_budget_at(&setup, s->z, NULL, out) == DP_OK;
+    return dp_setup_init(&setup, &spec) == DP_OK && dp_budget_at(&setup, s->z, &s->world.terms, out) == DP_OK;
 }
 
 bool slanted_apart(slanted *s, double share, dp_budget *guarantee, double *nearer) {
@@ -219,6 +230,118 @@ bool slanted_apart(slanted *s, double share, dp_budget *guarantee, double *neare
     return true;
 }
 
+/* ---- Where they are in the world --------------------------------------------------------------------------------- */
+
+/* The rows of a rotation, the last one along the view axis. */
+static void draw_rotation(rng *r, double v[3][3]) {
+    double length;
+    do {
+        length = 0.0;
+        for (int k = 0; k < 6; k++)
+            v[1 + k / 3][k % 3] = rng_uniform(r, -1.0, 1.0);
+        for (int k = 0; k < 3; k++)
+            length += v[2][k] * v[2][k];
+        const double dot = v[1][0] * v[2][0] + v[1][1] * v[2][1] + v[1][2] * v[2][2];
+        for (int k = 0; k < 3; k++)
+            v[1][k] -= dot / length * v[2][k];
+        for (int k = 0; k < 3; k++)
+            v[0][k] = v[1][(k + 1) % 3] * v[2][(k + 2) % 3] - v[1][(k + 2) % 3] * v[2][(k + 1) % 3];
+    } while (length < 0.1 || v[0][0] * v[0][0] + v[0][1] * v[0][1] + v[0][2] * v[0][2] < 0.01);
+    for (int i = 0; i < 3; i++) {
+        const double by = 1.0 / sqrt(v[i][0] * v[i][0] + v[i][1] * v[i][1] + v[i][2] * v[i][2]);
+        for (int k = 0; k < 3; k++)
+            v[i][k] *= by;
+    }
+}
+
+/* Entry k of the row of an axis: its direction, or what the camera's place makes of it. */
+static void compose(slanted *s, const double v[3][3]) {
+    const slanted_camera *c = &s->camera;
+    slanted_world *w = &s->world;
+    const float scale[2] = {c->p00, c->p11};
+    const dp_composition how = w->terms.composition;
+    const double n = s->setup.spec.znear, f = s->setup.spec.zfar;
+    const double a = s->setup.reversed ? (isinf(f) ? 0.0 : -n / (f - n)) : isinf(f) ? 1.0 : f / (f - n);
+    const double b = (s->setup.reversed ? 1.0 : -1.0) * (isinf(f) ? n : n * f / (f - n));
+    for (int axis = 0; axis < 3; axis++) {
+        double view[4] = {v[axis][0], v[axis][1], v[axis][2], 0.0};
+        for (int k = 0; k < 3 && how != DP_COMPOSITION_RELATIVE; k++)
+            view[3] -= v[axis][k] * w->eye[k];
+        for (int k = 0; k < 4; k++) {
+            const float entry = (float)view[k], product = c->a * entry;
+            if (axis < 2)
+                w->row[axis][k] =
+                    how == DP_COMPOSITION_PRODUCTS ? scale[axis] * entry : (float)((double)scale[axis] * view[k]);
+            else if (how == DP_COMPOSITION_PRODUCTS)
+                w->row[2][k] = k < 3 ? product : product + c->b;
+            else
+                w->row[2][k] = (float)(a * view[k] + (k < 3 ? 0.0 : b));
+            if (axis == 2)
+                w->row[3][k] = entry;
+        }
+    }
+}
+
+void slanted_draw_world(rng *r, slanted *s) {
+    slanted_world *w = &s->world;
+    double v[3][3];
+    w->terms.world = s->z * rng_log(r, 1.0, 1e5);
+    w->terms.composition = (dp_composition)rng_below(r, DP_COMPOSITION_COUNT);
+    w->paired = rng_below(r, 2) == 0;
+    w->fused = dp_arith_get(s->setup.spec.arith)->fused;
+    for (int k = 0; k < 4; k++)
+        w->order[k] = k;
+    for (int k = 3; k > 0; k--) {
+        const int other = (int)rng_below(r, (uint64_t)k + 1), kept = w->order[k];
+        w->order[k] = w->order[other];
+        w->order[other] = kept;
+    }
+    for (int k = 0; k < 3; k++)
+        w->eye[k] = rng_uniform(r, -1.0, 1.0) * w->terms.world;
+    draw_rotation(r, v);
+    compose(s, (const double(*)[3])v);
+}
+
+static float multiply_add(bool fused, float x, float y, float sum) {
+    const float product = x * y;
+    return fused ? fmaf(x, y, sum) : product + sum;
+}
+
+static float row_times(const slanted_world *w, int row, const float p[4]) {
+    const int *o = w->order;
+    const float *m = w->row[row];
+    const float first = multiply_add(w->fused, m[o[1]], p[o[1]], m[o[0]] * p[o[0]]);
+    if (w->paired)
+        return first + multiply_add(w->fused, m[o[3]], p[o[3]], m[o[2]] * p[o[2]]);
+    return multiply_add(w->fused, m[o[3]], p[o[3]], multiply_add(w->fused, m[o[2]], p[o[2]], first));
+}
+
+/* The place that the rounded rows of clip x, y and w send to these: by Cramer's rule. False: outside the world. */
+static bool place_of(const slanted_world *w, const double at[3], float place[4]) {
+    static const int rows[] = {0, 1, 3};
+    long double m[3][3], rest[3], p[3];
+    for (int i = 0; i < 3; i++) {
+        for (int k = 0; k < 3; k++)
+            m[i][k] = (long double)w->row[rows[i]][k];
+        rest[i] = (long double)at[i] - (long double)w->row[rows[i]][3];
+    }
+    long double all = 0.0L;
+    for (int k = 0; k < 3; k++)
+        all += m[0][k] * (m[1][(k + 1) % 3] * m[2][(k + 2) % 3] - m[1][(k + 2) % 3] * m[2][(k + 1) % 3]);
+    for (int k = 0; k < 3; k++) {
+        const int x = (k + 1) % 3, y = (k + 2) % 3;
+        p[k] = (rest[0] * (m[1][x] * m[2][y] - m[1][y] * m[2][x]) - rest[1] * (m[0][x] * m[2][y] - m[0][y] * m[2][x]) +
+                rest[2] * (m[0][x] * m[1][y] - m[0][y] * m[1][x])) /
+               all;
+        const bool relative = w->terms.composition == DP_COMPOSITION_RELATIVE;
+        if (!(fabs((double)p[k] + (relative ? w->eye[k] : 0.0)) <= w->terms.world))
+            return false;
+        place[k] = (float)p[k];
+    }
+    place[3] = 1.0F;
+    return true;
+}
+
 /* ---- What is drawn of them --------------------------------------------------------------------------------------- */
 
 /* Real places, rounded to binary32 and transformed. */
@@ -231,6 +354,17 @@ bool slanted_clip(const slanted *s, int which, double c, raster_vertex clip[3]) 
         if (!(z >= s->setup.spec.znear && z <= s->setup.spec.zfar))
             return false;
         ray_of(s, at[0], at[1], ray);
+        if (s->world.terms.world > 0.0) {
+            const double to[3] = {ray[0] * z * (double)of->p00, ray[1] * z * (double)of->p11, z};
+            float p[4];
+            if (!place_of(&s->world, to, p))
+                return false;
+            clip[i] = (raster_vertex){row_times(&s->world, 0, p), row_times(&s->world, 1, p),
+                                      row_times(&s->world, 2, p), row_times(&s->world, 3, p)};
+            if (!(clip[i].w > 0.0F))
+                return false;
+            continue;
+        }
         const float place[3] = {(float)(ray[0] * z), (float)(ray[1] * z), (float)z};
         const float product = of->a * place[2];
         clip[i] = (raster_vertex){of->p00 * place[0], of->p11 * place[1], product + of->b, place[2]};

@@ -23,8 +23,20 @@ typedef struct slanted_camera {
     bool reciprocal;
 } slanted_camera;
 
+/** View and projection as they reach the vertices: rows of clip x, y, z and w, rounded; where there is no world,
+ * unused.
+ */
+typedef struct slanted_world {
+    dp_budget_terms terms; /**< world 0: eye space is given */
+    float row[4][4];
+    double eye[3];
+    int order[4];
+    bool paired, fused;
+} slanted_world;
+
 typedef struct slanted {
     const slanted_kind *kind;
+    slanted_world world;
     dp_setup setup;
     slanted_camera camera;
     dp_triangles class;  /**< of the two triangles themselves */
@@ -39,6 +51,11 @@ bool slanted_draw_camera(rng *r, slanted *s, const slanted_kind *kind, const cha
 /** Draws normal, pixel, depth and the places of vertices; false when the farther plane is not seen there. */
 bool slanted_draw_planes(rng *r, slanted *s);
 
+/**
+ * Draws a camera in a world about the planes. Depths and planes are then those that the rounded matrix makes of places.
+ */
+void slanted_draw_world(rng *r, slanted *s);
+
 /** Depth times this is the plane's distance along its normal: the normal along the ray of a place on the screen. */
 double slanted_along(const slanted *s, double x, double y);
 
@@ -48,7 +65,9 @@ double slanted_along(const slanted *s, double x, double y);
  * @return false when they are in no class
  */
 bool slanted_fit(slanted *s, const double c[2]);
-/** The guarantee at depth z for triangles of a class. */
+/** Whether a triangle on the screen is no wider, higher and slimmer than the class says. */
+bool slanted_in_class(const slanted *s, const double at[3][2]);
+/** The guarantee at depth z for triangles of a class, in its world. */
 bool slanted_budget(const slanted *s, const dp_triangles *class, dp_budget *out);
 
 /** The class of planes a share of the guarantee at z apart; that, and the distance of the nearer plane. */

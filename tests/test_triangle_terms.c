@@ -103,6 +103,74 @@ static void known_setup(void **state) {
     tally_end(&all);
 }
 
+/* ---- In a world -------------------------------------------------------------------------------------------------- */
+
+/* The most that rounding a number up to x changes it by. */
+static double half_step(double x) {
+    return ldexp(1.0, ilogb(x) - 24);
+}
+
+/* Infinite far, positions relative to the camera: what the composition takes of triangles, or (null) facing. */
+static double composition_of(dp_mapping mapping, double znear, const dp_triangles *t, double z) {
+    dp_spec spec = dp_spec_default();
+    dp_setup setup;
+    dp_budget b;
+    const dp_budget_terms terms = {.world = 100.0, .composition = DP_COMPOSITION_RELATIVE};
+    spec.znear = znear;
+    spec.zfar = INFINITY;
+    spec.mapping = mapping;
+    if (t != NULL)
+        spec.triangles = *t;
+    assert_int_equal(dp_setup_init(&setup, &spec), DP_OK);
+    assert_int_equal(dp_budget_at(&setup, z, &terms, &b), DP_OK);
+    return b.cause[DP_CAUSE_COMPOSITION];
+}
+
+/* By the formulas of the page: positions at most `lean` z long, without a constant two sums, with it three. */
+static void known_world(void **state) {
+    static const struct {
+        dp_mapping mapping;
+        int width, height;
+        double fov_y, slant, pixels;
+    } views[] = {{DP_MAPPING_REVERSED, 1920, 1080, 60, 30, 512}, {DP_MAPPING_REVERSED, 1920, 1080, 60, 90, 512},
+                 {DP_MAPPING_REVERSED, 640, 800, 90, 5, 2000},   {DP_MAPPING_D3D, 1920, 1080, 60, 30, 512},
+                 {DP_MAPPING_D3D, 640, 800, 90, 80, 20},         {DP_MAPPING_REVERSED, 3000, 100, 5, 89, 10}};
+    const double eps = 0x1p-24, z = 3.0, k = 1.7, znear = 0.0625;
+    tally all = {.name = "composition"};
+    (void)state;
+    for (size_t i = 0; i < sizeof views / sizeof views[0]; i++) {
+        dp_triangles t = dp_triangles_default();
+        t.width = views[i].width;
+        t.height = views[i].height;
+        t.fov_y = views[i].fov_y;
+        t.slant_lo = t.slant_hi = views[i].slant;
+        t.pixels = views[i].pixels;
+        t.depth = k;
+        const double sine = sin(t.slant_lo * pi / 180.0), cosine = cos(t.slant_lo * pi / 180.0);
+        const double tau = 2.0 * tan(t.fov_y * pi / 360.0) / t.height, at = k * z;
+        const double ray[2] = {tau * (0.5 * t.width + t.pixels), tau * (0.5 * t.height + t.pixels)};
+        const double factor[2] = {2.0 / (tau * t.width), 2.0 / (tau * t.height)};
+        const double length = fmax(2.0, hypot(1.0, hypot(ray[0], ray[1]))) * at, position = eps * length;
+        const double half = 0.5 * (length + at), w = eps * length + half_step(half) + half_step(at);
+        double across[2];
+        for (int axis = 0; axis < 2; axis++) {
+            const double f = factor[axis], x = ray[axis] * at;
+            across[axis] = eps * length + (half_step(0.5 * f * (length + x)) + half_step(f * x)) / f;
+        }
+        double want = (1.0 + k) * (position + sine * hypot(across[0], across[1]) + cosine * w);
+        if (views[i].mapping == DP_MAPPING_D3D) /* clip z is off by more than w */
+            want += 2.0 * z * (cosine + sine * tau * 0.5 * hypot(t.width, t.height)) / znear *
+                    (2.0 * half_step(half + znear) + half_step(at) + half_step(half) + half_step(at));
+        const double is = composition_of(views[i].mapping, znear, &t, z);
+        TALLY(&all, is >= want * (1.0 - 1e-6) && is <= 1.003 * want, "view %zu: %.9g, not %.9g", i, is, want);
+    }
+    /* Facing, within 60 degrees of the axis: both depths' own, in place of what rounding them takes. */
+    const double own = 4.0 * eps * z + half_step(1.5 * z) + half_step(z), want = 2.0 * own - 2.0 * half_step(z);
+    const double is = composition_of(DP_MAPPING_REVERSED, znear, NULL, z);
+    TALLY(&all, is >= want && is <= 1.03 * want, "facing: %.9g, not %.9g", is, want);
+    tally_end(&all);
+}
+
 /* ---- The class --------------------------------------------------------------------------------------------------- */
 
 static dp_setup random_setup(rng *r) {
@@ -294,7 +362,7 @@ static void test_refusals(void **state) {
     assert_int_equal(dp_budget_at(&setup, 1.0, &terms, &b), DP_OK);
     spec.triangles = good;
     assert_int_equal(dp_setup_init(&setup, &spec), DP_OK);
-    assert_int_equal(dp_budget_at(&setup, 1.0, &terms, &b), DP_ERROR_TRIANGLES);
+    assert_int_equal(dp_budget_at(&setup, 1.0, &terms, &b), DP_OK);
     spec.ortho = 1;
     assert_int_equal(dp_setup_init(&setup, &spec), DP_ERROR_TRIANGLES);
     static const char *const names[] = {"vertex", "origin", "origin-unfused", "origin-stepped"};
@@ -305,8 +373,8 @@ static void test_refusals(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(known_numbers), cmocka_unit_test(known_setup),   cmocka_unit_test(test_order),
-        cmocka_unit_test(test_range),    cmocka_unit_test(test_refusals),
+        cmocka_unit_test(known_numbers), cmocka_unit_test(known_setup), cmocka_unit_test(known_world),
+        cmocka_unit_test(test_order),    cmocka_unit_test(test_range),  cmocka_unit_test(test_refusals),
     };
     return run_tap(tests);
 }

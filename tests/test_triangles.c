@@ -107,9 +107,13 @@ static bool stored(const slanted *s, plane_order *value, int which, double c, do
     corner v[3];
     if (!slanted_clip(s, which, c, clip))
         return false;
-    for (int i = 0; i < 3; i++)
+    double at[3][2];
+    for (int i = 0; i < 3; i++) {
         v[i] = projected(&s->camera, clip[i]);
-    if (!holds(v, s->px, s->py))
+        at[i][0] = (double)v[i].x;
+        at[i][1] = (double)v[i].y;
+    }
+    if (!holds(v, s->px, s->py) || (s->world.terms.world > 0.0 && !slanted_in_class(s, at)))
         return false;
     if (value == NULL)
         return modelled(s, clip, code);
@@ -243,6 +247,51 @@ static void test_used(void **state) {
     tally_end(&t);
 }
 
+/* ---- World positions --------------------------------------------------------------------------------------------- */
+
+/* Whether the composition takes most of the guarantee. */
+static bool is_composed(slanted *s) {
+    dp_budget b;
+    double nearer;
+    return slanted_apart(s, 1.0, &b, &nearer) && b.cause[DP_CAUSE_COMPOSITION] > 0.5 * b.separation;
+}
+
+/*
+ * The same with vertices somewhere in a world, through matrices that are rounded: both random and climbing. What is
+ * used of it is that of pairs whose guarantee the composition takes most of.
+ */
+static void test_world(void **state) {
+    tally t = {.name = "world positions"};
+    (void)state;
+    for (int kind = 0; kind < KINDS && kinds[kind].value != NULL; kind++) {
+        rng r = rng_make(kinds[kind].of.name);
+        double used[DP_COMPOSITION_COUNT] = {0.01, 0.01, 0.01};
+        uint64_t judged = 0;
+        for (uint64_t i = test_cases(1000, 8000, 1000000); i > 0; i--) {
+            slanted s;
+            bool right;
+            assert_true(slanted_draw_camera(&r, &s, &kinds[kind].of, rng_below(&r, 2) == 0 ? "fp32" : "unorm24"));
+            const double share = rng_below(&r, 2) == 0 ? 1.0 : rng_log(&r, 1.0, 10.0);
+            if (!slanted_draw_planes(&r, &s))
+                continue;
+            slanted_draw_world(&r, &s);
+            double *most = &used[s.world.terms.composition];
+            if (i % 10 == 0 && s.setup.spec.format.kind == DP_FORMAT_FLOAT && is_composed(&s))
+                *most = fmax(*most, wrong_share(&r, &s, kinds[kind].value, *most));
+            if (!judge(&s, kinds[kind].value, share, &right))
+                continue;
+            judged++;
+            TALLY(&t, right, "%s: share %.17g at z %.17g, world %g", kinds[kind].of.name, share, s.z,
+                  s.world.terms.world);
+        }
+        print_message("# %s: %llu pairs; wrong ones up to %.3f, %.3f and %.3f of the guarantee\n", kinds[kind].of.name,
+                      (unsigned long long)judged, used[0], used[1], used[2]);
+        for (int k = 0; k < DP_COMPOSITION_COUNT; k++)
+            TALLY(&t, used[k] <= 1.0, "%s: wrong at %.3f", kinds[kind].of.name, used[k]);
+    }
+    tally_end(&t);
+}
+
 /* ---- Snapping alone ---------------------------------------------------------------------------------------------- */
 
 /* 1/z at the pixel of the plane through vertices that were moved, without rounding. */
@@ -295,6 +344,7 @@ int main(void) {
         cmocka_unit_test(test_snapping),
         cmocka_unit_test(test_guarantee),
         cmocka_unit_test(test_used),
+        cmocka_unit_test(test_world),
     };
     return run_tap(tests);
 }

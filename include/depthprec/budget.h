@@ -75,8 +75,7 @@ DP_API const char *dp_cause_name(dp_cause cause);
  * @param z      eye depth in [near, far]; rounded to binary32 as a shader has it
  * @param terms  null for none
  * @return DP_OK, DP_ERROR_NULL, DP_ERROR_DEPTH, DP_ERROR_BINARY32 where z rounds to infinity, or DP_ERROR_MODEL for
- *         linear and log, which have no pipeline, and for a composition out of range; DP_ERROR_TRIANGLES for `world`
- *         where the set-up has triangles
+ *         linear and log, which have no pipeline, and for a composition out of range
  *
  * Where the set-up has triangles z is the eye depth of the farther plane and the separation is along the normal. It is
  * never less than that of dp_setup_facing(), and the same where slant_hi is 0; INFINITY where nothing in front of z is
@@ -84,7 +83,9 @@ DP_API const char *dp_cause_name(dp_cause cause);
  *
  * With terms->world, of two surfaces that the same matrix transforms and that one pixel sees, at real places in the
  * world box: on one ray from the camera within 60 degrees of its axis, or parallel to the axis if orthographic (with
- * the camera-relative composition, no farther beside it than the plane of larger magnitude).
+ * the camera-relative composition, no farther beside it than the plane of larger magnitude). Where the set-up has
+ * triangles: of two planes that are parallel in the world, all vertices in the world box; depths and the class are then
+ * as the rounded matrix makes them, pixels and slimness as they are drawn, and the cone is that of the class.
  *
  * Bound: never violated by the pipeline of pipeline.h with depth clamp. Cost: some 300 operations.
  */

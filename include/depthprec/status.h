@@ -40,7 +40,7 @@ typedef enum dp_status {
     DP_ERROR_BATCH,      /**< not a task, element type or path, or a path that is not available */
     DP_ERROR_ORTHO_NEAR, /**< near of an orthographic projection is neither 0 nor from 1e-12 to 1e12 in magnitude */
     DP_ERROR_ORTHO_FAR,  /**< its far is not greater than near, or neither 0 nor from 1e-12 to 1e18 in magnitude */
-    DP_ERROR_TRIANGLES,  /**< triangles out of range, or where they cannot be counted */
+    DP_ERROR_TRIANGLES,  /**< triangles out of range, or under an orthographic projection */
     DP_STATUS_COUNT
 } dp_status;
 

@@ -83,20 +83,54 @@ static double composed_separation(const dp_setup *setup, const dp_chain *c, cons
     return clamped ? dp_composition_separation(m, z, plain, 1) : s;
 }
 
-/* World positions: the separation then, and what it is more is the composition's part. */
-static void add_composition(const dp_setup *setup, const dp_chain *c, double z, const dp_budget_terms *terms,
-                            double extra, dp_budget *out) {
+static dp_composing composing_of(const dp_setup *setup, const dp_chain *c, const dp_budget_terms *terms) {
     const dp_pipeline *p = &c->pipeline;
-    const dp_composing in = {.composition = terms->composition,
-                             .world = terms->world,
-                             .a = c->a,
-                             .b = c->b,
-                             .zfar = setup->spec.zfar,
-                             .reach = larger(fabs(setup->spec.znear), fabs(setup->spec.zfar)),
-                             .ortho = p->ortho,
-                             .any_sign = setup->spec.znear <= 0.0,
-                             .fused = p->arith->fused,
-                             .remap = p->ndc_signed && p->arith->remap};
+    return (dp_composing){.composition = terms->composition,
+                          .world = terms->world,
+                          .a = c->a,
+                          .b = c->b,
+                          .zfar = setup->spec.zfar,
+                          .reach = larger(fabs(setup->spec.znear), fabs(setup->spec.zfar)),
+                          .lean = 2.0,
+                          .ortho = p->ortho,
+                          .any_sign = setup->spec.znear <= 0.0,
+                          .fused = p->arith->fused,
+                          .remap = p->ndc_signed && p->arith->remap};
+}
+
+/* What a composition does to the vertices of pixels at a depth. */
+static dp_composed_vertex composed_vertex(const dp_setup *setup, const dp_chain *c, double z,
+                                          const dp_budget_terms *terms) {
+    const dp_triangles *t = &setup->spec.triangles;
+    const dp_composed_view view = dp_triangles_view(t);
+    dp_composing in = composing_of(setup, c, terms);
+    in.lean = larger(in.lean, hypot(1.0, hypot(view.ray[0], view.ray[1])));
+    const double farthest = dp_triangles_depths(c, (dp_span){z, z}, t, NULL).hi;
+    const dp_composed_vertex v = dp_composition_vertex(&in, &view, farthest);
+    return dp_composition_vertex(&in, &view, farthest + 2.0 * (v.position + v.along)); /* as it is when moved */
+}
+
+/* Slanted triangles, moved as said (null: not at all); the nearer one may be read back anywhere between its vertices.
+ */
+static void add_triangles(const dp_setup *setup, const dp_chain *c, double z, const double asked[DP_CAUSE_COUNT],
+                          const dp_composed_vertex *moved, dp_budget *out) {
+    const dp_triangles *t = &setup->spec.triangles;
+    const dp_span at = {z, z};
+    const double nearest = dp_triangles_depths(c, at, t, moved).lo;
+    double part[DP_CAUSE_COUNT] = {0};
+    part[DP_CAUSE_INTERPOLATION] = asked[DP_CAUSE_INTERPOLATION];
+    part[DP_CAUSE_LINEARIZATION] = asked[DP_CAUSE_LINEARIZATION];
+    if (part[DP_CAUSE_LINEARIZATION] > 0.0 && nearest > 0.0)
+        part[DP_CAUSE_LINEARIZATION] =
+            larger(part[DP_CAUSE_LINEARIZATION], 2.0 * linearization_error(setup, c, nearest));
+    dp_triangles_add(c, at, t, part, moved, out);
+}
+
+/* World positions: what their separation is more than without, that of `plain`, is the composition's part. */
+static void add_composition(const dp_setup *setup, const dp_chain *c, double z, const dp_budget_terms *terms,
+                            const double asked[DP_CAUSE_COUNT], const dp_budget *plain, dp_budget *out) {
+    const dp_composing in = composing_of(setup, c, terms);
+    const double extra = asked[DP_CAUSE_INTERPOLATION] + asked[DP_CAUSE_LINEARIZATION];
     /* As below: first a separation from all that is behind, then from what is nearer than that. */
     double separation = HUGE_VAL;
     double until = HUGE_VAL;
@@ -109,32 +143,22 @@ static void add_composition(const dp_setup *setup, const dp_chain *c, double z, 
         until = smaller(z + separation, setup->spec.zfar);
     }
     separation = larger(separation, out->separation);
-    const double part = separation - out->separation;
-    out->cause[DP_CAUSE_COMPOSITION] = part > 0.0 ? part : 0.0; /* infinity less infinity too */
+    const double slope = c->half * (c->pipeline.ortho ? fabs(c->a) * separation : fabs(c->b));
+    out->window = c->pipeline.ortho ? slope : slope / z * (isinf(separation) ? 1.0 : separation / (z + separation));
     out->separation = separation;
-    const double slope = c->half * (p->ortho ? fabs(c->a) * separation : fabs(c->b));
-    out->window = p->ortho ? slope : slope / z * (isinf(separation) ? 1.0 : separation / (z + separation));
-}
-
-/* Slanted triangles; the nearer one may be read back anywhere between its vertices. */
-static void add_triangles(const dp_setup *setup, const dp_chain *c, double z, double asked[DP_CAUSE_COUNT],
-                          dp_budget *out) {
-    const dp_triangles *t = &setup->spec.triangles;
-    const dp_span at = {z, z};
-    const double nearest = dp_triangles_depths(c, at, t).lo;
-    if (asked[DP_CAUSE_LINEARIZATION] > 0.0)
-        asked[DP_CAUSE_LINEARIZATION] =
-            larger(asked[DP_CAUSE_LINEARIZATION], 2.0 * linearization_error(setup, c, nearest));
-    dp_triangles_add(c, at, t, asked, out);
+    if (setup->spec.triangles.width != 0) {
+        const dp_composed_vertex moved = composed_vertex(setup, c, z, terms);
+        add_triangles(setup, c, z, asked, &moved, out);
+    }
+    const double part = out->separation - plain->separation;
+    for (int i = 0; i < DP_CAUSE_COUNT; i++)
+        out->cause[i] = plain->cause[i];
+    out->cause[DP_CAUSE_COMPOSITION] = part > 0.0 ? part : 0.0; /* infinity less infinity too */
 }
 
 /* What of the terms has no budget. */
-static dp_status check_terms(const dp_setup *setup, const dp_budget_terms *terms) {
-    if (terms == NULL)
-        return DP_OK;
-    if (dp_composition_get(terms->composition) == NULL)
-        return DP_ERROR_MODEL;
-    return terms->world > 0.0 && setup->spec.triangles.width != 0 ? DP_ERROR_TRIANGLES : DP_OK;
+static dp_status check_terms(const dp_budget_terms *terms) {
+    return terms != NULL && dp_composition_get(terms->composition) == NULL ? DP_ERROR_MODEL : DP_OK;
 }
 
 dp_status dp_budget_at(const dp_setup *setup, double z, const dp_budget_terms *terms, dp_budget *out) {
@@ -143,7 +167,7 @@ dp_status dp_budget_at(const dp_setup *setup, double z, const dp_budget_terms *t
     if (!(z >= setup->spec.znear && z <= setup->spec.zfar))
         return DP_ERROR_DEPTH;
     dp_pipeline pipeline;
-    dp_status status = check_terms(setup, terms);
+    dp_status status = check_terms(terms);
     if (status == DP_OK)
         status = dp_pipeline_init(&pipeline, setup);
     if (status != DP_OK)
@@ -175,10 +199,13 @@ dp_status dp_budget_at(const dp_setup *setup, double z, const dp_budget_terms *t
         out->cause[i] = part[i] > 0.0 ? longest * outward * (part[i] / d.window) : 0.0;
     out->cause[DP_CAUSE_EYE] = eye * outward;
     out->cause[DP_CAUSE_FORMAT] += out->separation > pipeline_needs ? out->separation - pipeline_needs : 0.0;
-    if (terms != NULL && terms->world > 0.0)
-        add_composition(setup, &c, z, terms, extra, out);
+    dp_budget plain = *out;
     if (setup->spec.triangles.width != 0)
-        add_triangles(setup, &c, z, part, out);
+        add_triangles(setup, &c, z, part, NULL, &plain);
+    if (terms != NULL && terms->world > 0.0)
+        add_composition(setup, &c, z, terms, part, &plain, out);
+    else
+        *out = plain;
     return DP_OK;
 }
 
@@ -203,7 +230,7 @@ double dp_budget_bound(const dp_setup *setup, float nearest, float farthest) {
     static const double asked[DP_CAUSE_COUNT] = {0};
     dp_budget b = {.separation = (eye + whole) * outward};
     if (setup->spec.triangles.width != 0)
-        dp_triangles_add(&c, run, &setup->spec.triangles, asked, &b);
+        dp_triangles_add(&c, run, &setup->spec.triangles, asked, NULL, &b);
     return b.separation;
 }
 

@@ -19,9 +19,6 @@ static const double root6 = 2.44948975;
 /* Terms of second order, and what rounded terms of a sum are larger than real ones. */
 static const double outward = 1.0 + 0x1p-16;
 
-/* Surfaces are seen within 60 degrees of the axis: none farther from the camera than this times its eye depth. */
-static const double slant = 2.0;
-
 static const dp_composition_row rows[DP_COMPOSITION_COUNT] = {
     [DP_COMPOSITION_ONCE] = {"once",
                              "view and projection in one matrix, formed in double and rounded once to binary32"},
@@ -77,18 +74,22 @@ static dp_row_off world_row(const dp_composing *in, double scale, double b, doub
     last_sum(&r, in, scale, b, z, until);
     r.entries = smaller(root3 * DP_UNIT * scale, 3.0 * half_ulp(scale)) * w;
     r.constant = half_ulp(root3 * most + b);
-    r.turn = DP_UNIT * scale * slant;
+    r.turn = DP_UNIT * scale * in->lean;
     return r;
+}
+
+/* How far from the camera surfaces are up to the eye depth `at`. */
+static double length_of(const dp_composing *in, double at) {
+    return in->ortho ? smaller(root2 * in->reach, 2.0 * root3 * in->world) : in->lean * at;
 }
 
 /*
  * A row of a matrix without translation, over positions no farther than `length` from the camera. Some of three
  * products that sum up to z are at most (length + z)/2. Without a constant there is one sum fewer.
  */
-static dp_row_off relative_row(const dp_composing *in, double scale, double b, double z, double until) {
+static dp_row_off relative_row(const dp_composing *in, double scale, double b, double z, double until, double length) {
     const double at = isinf(until) ? z : until;
-    const double per_z = in->ortho ? 0.0 : slant;
-    const double length = in->ortho ? smaller(root2 * in->reach, 2.0 * root3 * in->world) : slant * at;
+    const double per_z = in->ortho ? 0.0 : in->lean;
     const double in_double = 0x1p-53 * (root3 * in->world + length);
     const int sums = b > 0.0 ? 2 : 1;
     const double part = 0.5 * scale * (length + at) + b;
@@ -97,7 +98,7 @@ static dp_row_off relative_row(const dp_composing *in, double scale, double b, d
     r.grow = isinf(until) ? DP_UNIT * scale * (2.0 * per_z + sums * 0.5 * (per_z + 1.0)) : 0.0;
     last_sum(&r, in, scale, b, z, until);
     r.entries = DP_UNIT * scale * length;
-    r.turn = DP_UNIT * scale * slant;
+    r.turn = DP_UNIT * scale * in->lean;
     return r;
 }
 
@@ -108,7 +109,8 @@ static dp_row_off clip_row(const dp_composing *in, double z, double until) {
     if (scale == 0.0)
         return (dp_row_off){0};
     const int relative = in->composition == DP_COMPOSITION_RELATIVE;
-    dp_row_off r = relative ? relative_row(in, scale, b, z, until) : world_row(in, scale, b, z, until);
+    const double length = length_of(in, isinf(until) ? z : until);
+    dp_row_off r = relative ? relative_row(in, scale, b, z, until, length) : world_row(in, scale, b, z, until);
     const int products = in->composition == DP_COMPOSITION_PRODUCTS;
     if (products && is_power2(scale))
         r.entries = r.turn = 0.0;
@@ -128,9 +130,10 @@ static dp_row_off w_row(const dp_composing *in, double z, double until) {
     if (in->ortho)
         return (dp_row_off){0};
     const int relative = in->composition == DP_COMPOSITION_RELATIVE;
-    dp_row_off r = relative ? relative_row(in, 1.0, 0.0, z, until) : world_row(in, 1.0, 0.0, z, until);
-    r.entries = relative ? 0.5 * root3 * DP_UNIT * slant * z : 1.5 * DP_UNIT * in->world;
-    r.turn = 0.5 * root3 * DP_UNIT * slant;
+    const double length = length_of(in, isinf(until) ? z : until);
+    dp_row_off r = relative ? relative_row(in, 1.0, 0.0, z, until, length) : world_row(in, 1.0, 0.0, z, until);
+    r.entries = relative ? 0.5 * root3 * DP_UNIT * in->lean * z : 1.5 * DP_UNIT * in->world;
+    r.turn = 0.5 * root3 * DP_UNIT * in->lean;
     return r;
 }
 
@@ -193,4 +196,22 @@ double dp_composition_separation(const dp_composed *m, double z, double plain, i
     const double slope = 1.0 - m->loss - m->loss_tilt * (plain + stretched);
     const double need = eye + tilt * stretched + (1.0 + most_tilt + tilt) * plain;
     return slope > 0.0 ? need / slope * outward : HUGE_VAL;
+}
+
+dp_composed_vertex dp_composition_vertex(const dp_composing *in, const dp_composed_view *view, double farthest) {
+    const int relative = in->composition == DP_COMPOSITION_RELATIVE;
+    const dp_composed m = dp_composition_at(in, farthest, farthest);
+    dp_composed_vertex v = {.position = m.w.position * (relative ? 1.0 : outward),
+                            .along = m.w.products + m.w.sums,
+                            .tilt = m.own_tilt,
+                            .shared = m.shared_tilt,
+                            .turn = 4.0 * DP_UNIT};
+    for (int i = 0; i < 2; i++) {
+        const double scale = view->scale[i];
+        const double most = view->ray[i] * farthest;
+        const dp_row_off r = relative ? relative_row(in, scale, 0.0, most, most, length_of(in, farthest))
+                                      : world_row(in, scale, 0.0, most, most);
+        v.across[i] = (r.products + r.sums) / scale;
+    }
+    return v;
 }

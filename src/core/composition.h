@@ -19,6 +19,7 @@ typedef struct dp_composing {
     double a, b;  /* the projection's entries in binary32: clip z = a z + b */
     double zfar;  /* may be INFINITY */
     double reach; /* the larger of |near| and |far| */
+    double lean;  /* no surface is farther from the camera than this times its eye depth, at least 2: 60 degrees */
     int ortho;    /* clip w is 1 */
     int any_sign; /* there are depths of 0 or less: a z and b may have one sign */
     int fused;    /* products but the first are fused into the sums */
@@ -58,5 +59,22 @@ dp_composed dp_composition_at(const dp_composing *in, double z, double until);
  * @return scene units, at least `plain`; INFINITY where there is none
  */
 double dp_composition_separation(const dp_composed *m, double z, double plain, int clamped);
+
+/* The rows of clip x and y: their factors, and how far beside the axis the rays of vertices lie at z = 1. */
+typedef struct dp_composed_view {
+    double scale[2], ray[2];
+} dp_composed_view;
+
+/* What a vertex up to some depth is off by, beside what the matrix does to all. */
+typedef struct dp_composed_vertex {
+    double position;  /* in any direction, scene units: its place in the world */
+    double across[2]; /* along x and y, scene units */
+    double along;     /* along the axis */
+    double tilt;      /* share of the eye depth */
+    double shared;    /* the same, by the entries of the matrix: all depths are stretched alike */
+    double turn;      /* by which the distance of two planes may change, a share of it */
+} dp_composed_vertex;
+
+dp_composed_vertex dp_composition_vertex(const dp_composing *in, const dp_composed_view *view, double farthest);
 
 #endif

@@ -25,7 +25,7 @@ static const char *const sentences[DP_STATUS_COUNT] = {
     [DP_ERROR_ORTHO_NEAR] = "near must be 0, or from 1e-12 to 1e12 of either sign, in an orthographic projection",
     [DP_ERROR_ORTHO_FAR] =
         "far must be greater than near, and 0, or from 1e-12 to 1e18 of either sign, in an orthographic projection",
-    [DP_ERROR_TRIANGLES] = "triangles need a perspective, no world positions, and fields in their ranges",
+    [DP_ERROR_TRIANGLES] = "triangles need a perspective, and fields in their ranges",
 };
 
 const char *dp_status_text(dp_status status) {

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 #include "core/triangles.h"
 
+#include "core/bits.h"
 #include "core/demand.h"
 #include "core/extremes.h"
 #include "core/rounding.h"
@@ -73,10 +74,24 @@ dp_status dp_triangles_check(const dp_triangles *t) {
 
 /* ---- What both triangles lose ------------------------------------------------------------------------------------ */
 
-dp_span dp_triangles_depths(const dp_chain *c, dp_span run, const dp_triangles *t) {
+/* The depths at which vertices lie. */
+static dp_span depths_of(const dp_chain *c, dp_span run, const dp_triangles *t) {
     const double lo = larger(run.lo / t->depth, c->reach.lo);
     const double hi = smaller(run.hi * t->depth, c->reach.hi);
     return (dp_span){(double)(float)lo, (double)(float)larger(lo, hi)};
+}
+
+dp_span dp_triangles_depths(const dp_chain *c, dp_span run, const dp_triangles *t, const dp_composed_vertex *moved) {
+    dp_span at = depths_of(c, run, t);
+    if (moved == NULL)
+        return at;
+    const double off = moved->position + moved->along;
+    const double tilt = moved->tilt + moved->shared;
+    if (!(off < at.lo && tilt < 1.0))
+        return (dp_span){0.0, at.hi};
+    at.lo = (double)dp_float_down((at.lo - off) / (1.0 + tilt));
+    at.hi = (double)dp_float_up(smaller((at.hi + off) / (1.0 - tilt), 0x1p127));
+    return at;
 }
 
 /* A vertex's own errors: binade by binade of z, in each as they are at worst. */
@@ -106,11 +121,11 @@ typedef struct loss {
 
 /*
  * The range of a triangle's window depths follows from the depths of the class or, `by_slope`, from the plane's slope
- * and the width of the box: then it acts as if the plane were displaced.
+ * and the width of the box: then it acts as if the plane were displaced. `stray` is what a composition moves a vertex
+ * by in window depth.
  */
-static loss loss_of(const dp_chain *c, dp_span run, const dp_triangles *t, const double asked[DP_CAUSE_COUNT],
-                    int by_slope) {
-    const dp_span at = dp_triangles_depths(c, run, t);
+static loss loss_of(const dp_chain *c, dp_span at, const dp_triangles *t, const double asked[DP_CAUSE_COUNT],
+                    double stray, int by_slope) {
     const own_error own = own_error_over(c, at);
     const double full = own.projection + own.ndc;
     const double g1 = dp_chain_window(c, at.lo);
@@ -121,10 +136,10 @@ static loss loss_of(const dp_chain *c, dp_span run, const dp_triangles *t, const
     const double box = 0.5 + 0.5 * hypot(t->slim, 1.0);
     const double gradients = 1.0 + t->plane.origin * DP_UNIT * (far_x + far_y);
     const double per_range = (t->plane.box * box + t->plane.range) * gradients * second_order;
-    const double range = (by_slope ? 0.0 : fabs(g1 - g2)) + 2.0 * full;
+    const double range = (by_slope ? 0.0 : fabs(g1 - g2)) + 2.0 * (full + stray);
     const double setup = DP_UNIT * (t->plane.value * most * second_order + per_range * range) + underflow;
     const double slope = by_slope ? per_range * t->pixels : 0.0;
-    const double room = full + setup;
+    const double room = full + stray + setup;
     loss out = {.dx = 3.0 * t->width + 6.0 * t->pixels + t->plane.origin * far_x + slope,
                 .dy = 3.0 * t->height + 6.0 * t->pixels + t->plane.origin * far_y + slope};
     out.dx *= DP_UNIT * second_order;
@@ -143,6 +158,7 @@ static loss loss_of(const dp_chain *c, dp_span run, const dp_triangles *t, const
 /* Scene units a pixel at z = 1; and how far beside the axis rays lie at z = 1, those of pixels and of vertices. */
 typedef struct view {
     double pixel, ray, vertex_ray;
+    double vertex_x, vertex_y; /* the latter on each axis */
 } view;
 
 static view view_of(const dp_triangles *t) {
@@ -150,7 +166,13 @@ static view view_of(const dp_triangles *t) {
     const double pixel = 2.0 * y / t->height;
     const double x = 0.5 * pixel * t->width;
     const double off = pixel * t->pixels;
-    return (view){pixel, hypot(x, y), hypot(x + off, y + off)};
+    return (view){pixel, hypot(x, y), hypot(x + off, y + off), x + off, y + off};
+}
+
+dp_composed_view dp_triangles_view(const dp_triangles *t) {
+    const view v = view_of(t);
+    return (dp_composed_view){.scale = {2.0 / (v.pixel * t->width), 2.0 / (v.pixel * t->height)},
+                              .ray = {v.vertex_x, v.vertex_y}};
 }
 
 /* By how much a coordinate of a vertex moves, pixels. */
@@ -167,23 +189,28 @@ static double worst_slant(const dp_triangles *t, double per_sine, double per_cos
  * The budget at the slant where it is largest, and at the farthest depth of the run: each term grows with depth.
  * INFINITY where nothing in front of the nearest one is certain, whatever its slant: such a surface is behind the eye.
  */
-static dp_budget at_worst(const dp_chain *c, dp_span run, const dp_triangles *t, const loss *of) {
+static dp_budget at_worst(const dp_chain *c, dp_span run, const dp_triangles *t, const loss *of,
+                          const dp_composed_vertex *moved) {
     const view v = view_of(t);
+    const double both = (1.0 + t->depth) * second_order; /* of a vertex moved: that of the nearer plane counts for k */
     const double z = run.hi;
     const double slope = c->half * fabs(c->b);
     double window = 0.0;
     for (int i = 0; i < DP_CAUSE_COUNT; i++)
         window += of->cause[i];
-    const double facing = window * z * z / slope;
+    const double facing = (window * z * z / slope + 2.0 * moved->tilt * z) / (1.0 - moved->shared);
     const double snap = snapping(t);
     const double eye = 2.0 * DP_UNIT * second_order * z;
-    const double per_sine = 2.0 * v.pixel * z * hypot(snap + of->dx, snap + of->dy) + eye * v.vertex_ray;
-    const double angle = worst_slant(t, per_sine + facing * v.ray, eye + facing);
+    const double per_sine = 2.0 * v.pixel * z * hypot(snap + of->dx, snap + of->dy) + eye * v.vertex_ray +
+                            both * hypot(moved->across[0], moved->across[1]);
+    const double per_cosine = eye + both * moved->along;
+    const double angle = worst_slant(t, per_sine + facing * v.ray, per_cosine + facing);
     const double longest = worst_slant(t, v.ray, 1.0);
     const double sine = sin(angle);
     const double cosine = cos(angle);
     const double along = sine * v.ray + cosine; /* of the normal, along the ray */
-    dp_budget b = {.separation = (sine * per_sine + cosine * eye + along * facing) * outward};
+    const double sum = sine * per_sine + cosine * per_cosine + along * facing + both * moved->position;
+    dp_budget b = {.separation = sum / (1.0 - moved->turn) * outward};
     double rest = b.separation;
     for (int i = 0; i < DP_CAUSE_COUNT; i++)
         b.cause[i] = along * of->cause[i] * z * z / slope;
@@ -200,13 +227,20 @@ static dp_budget at_worst(const dp_chain *c, dp_span run, const dp_triangles *t,
 }
 
 void dp_triangles_add(const dp_chain *c, dp_span run, const dp_triangles *t, const double asked[DP_CAUSE_COUNT],
-                      dp_budget *out) {
+                      const dp_composed_vertex *moved, dp_budget *out) {
+    static const dp_composed_vertex none = {0};
+    const dp_span at = dp_triangles_depths(c, run, t, moved);
     if (t->slant_hi == 0.0)
         return;
-    const loss by_class = loss_of(c, run, t, asked, 0);
-    const loss by_slope = loss_of(c, run, t, asked, 1);
-    const dp_budget first = at_worst(c, run, t, &by_class);
-    const dp_budget second = at_worst(c, run, t, &by_slope);
+    if (!(at.lo > 0.0)) {
+        *out = (dp_budget){.separation = HUGE_VAL, .window = 1.0};
+        return;
+    }
+    const double stray = fabs(dp_chain_window(c, at.lo) - dp_chain_window(c, depths_of(c, run, t).lo));
+    const loss by_class = loss_of(c, at, t, asked, stray, 0);
+    const loss by_slope = loss_of(c, at, t, asked, stray, 1);
+    const dp_budget first = at_worst(c, run, t, &by_class, moved != NULL ? moved : &none);
+    const dp_budget second = at_worst(c, run, t, &by_slope, moved != NULL ? moved : &none);
     const dp_budget *lesser = second.separation < first.separation ? &second : &first;
     if (lesser->separation > out->separation)
         *out = *lesser;
@@ -229,7 +263,7 @@ dp_status dp_coplanar_over(const dp_setup *setup, double lo, double hi, dp_copla
         return status;
     const dp_chain c = dp_chain_make(setup, &pipeline);
     const dp_span run = {larger(smaller(lo, c.reach.hi), c.reach.lo), larger(smaller(hi, c.reach.hi), c.reach.lo)};
-    const loss of = loss_of(&c, run, t, none, 1);
+    const loss of = loss_of(&c, depths_of(&c, run, t), t, none, 0.0, 1);
     const double eye = DP_UNIT * c.half * fabs(c.b) / run.lo;
     const double own = 0.5 * (of.cause[DP_CAUSE_PROJECTION] + of.cause[DP_CAUSE_NDC] + of.cause[DP_CAUSE_SETUP]) + eye;
     const double snap = snapping(t);
