@@ -1,0 +1,240 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* scene: what is printed of models put together here, against what they are and against the library. */
+#include <jansson.h>
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "depthprec/depthprec.h"
+#include "printed.h"
+#include "support.h"
+
+/*
+ * A road, paint 1/64 above it and a sign 1/1024 before a wall; the wall's back has a poster of its own that faces away;
+ * glass on the road is blended in materials that are not there, so it counts.
+ */
+static const char model[] =
+    "o road\nusemtl tar\nv -8 0 -8\nv 8 0 -8\nv 8 0 8\nv -8 0 8\nf 4 3 2 1\n"
+    "o paint\nusemtl white\nv -1 0.015625 -4\nv 1 0.015625 -4\nv 1 0.015625 4\nv -1 0.015625 4\n"
+    "f 8 7 6 5\n"
+    "o wall\nusemtl brick\nv 20 0 0\nv 24 0 0\nv 24 4 0\nv 20 4 0\nf 9 10 11 12\n"
+    "o sign\nusemtl tin\nv 21 1 0.0009765625\nv 22 1 0.0009765625\nv 22 3 0.0009765625\n"
+    "v 21 3 0.0009765625\nf 13 14 15 16\n"
+    "o back\nusemtl paper\nv 20 0 -0.0009765625\nv 24 0 -0.0009765625\n"
+    "v 24 4 -0.0009765625\nv 20 4 -0.0009765625\nf 20 19 18 17\n";
+
+static const char *written(void) {
+    const char *path = scratch_file("street.obj");
+    FILE *out = fopen(path, "w");
+    assert_non_null(out);
+    fputs(model, out);
+    assert_int_equal(fclose(out), 0);
+    return path;
+}
+
+static double number(const json_t *object, const char *key) {
+    const json_t *value = json_object_get(object, key);
+    assert_true(json_is_number(value));
+    return json_number_value(value);
+}
+
+static const char *word(const json_t *object, const char *part, const char *key) {
+    const char *text = json_string_value(json_object_get(json_object_get(object, part), key));
+    assert_non_null(text);
+    return text;
+}
+
+static json_t *object_of(const char *options, int status) {
+    printed p = print_of("scene %s %s --json", written(), options);
+    json_error_t error;
+    if (p.status != status)
+        fail_msg("%s: status %d: %s", options, p.status, p.errors);
+    json_t *root = json_loads(p.out, 0, &error);
+    assert_non_null(root);
+    printed_free(&p);
+    return root;
+}
+
+static dp_setup setup_of(const char *format, dp_mapping mapping, bool slanted) {
+    dp_spec spec = dp_spec_default();
+    dp_format found[2];
+    dp_setup setup;
+    assert_int_equal(dp_format_parse(format, found), 1);
+    spec.format = found[0];
+    spec.mapping = mapping;
+    spec.model = DP_MODEL_FP32;
+    if (slanted)
+        spec.triangles = dp_triangles_default();
+    assert_int_equal(dp_setup_init(&setup, &spec), DP_OK);
+    return setup;
+}
+
+static void findings(void **state) {
+    static const struct {
+        const char *options, *format;
+        dp_mapping mapping;
+        bool slanted;
+        double within;
+    } rows[] = {
+        {"--gap 0.02", "fp32", DP_MAPPING_REVERSED, false, 0},
+        {"--gap 0.02 -F d24 -m d3d --within 50", "unorm24", DP_MAPPING_D3D, false, 50},
+        {"--gap 0.02 --viewport 1920x1080 --within 200", "fp32", DP_MAPPING_REVERSED, true, 200},
+    };
+    static const struct {
+        const char *a, *b, *material;
+        double gap, area, lo[3], hi[3];
+    } pairs[] = {{"wall", "sign", "tin", 0x1p-10, 2, {21, 1, 0}, {22, 3, 0}},
+                 {"road", "paint", "white", 0x1p-6, 16, {-1, 0, -4}, {1, 0, 4}}};
+    (void)state;
+    for (size_t i = 0; i < sizeof rows / sizeof rows[0]; i++) {
+        const dp_setup setup = setup_of(rows[i].format, rows[i].mapping, rows[i].slanted);
+        const double extent = sqrt(32.0 * 32 + 16 * 16 + 4 * 4);
+        const double within = rows[i].within > 0 ? rows[i].within : extent;
+        json_t *root = object_of(rows[i].options, rows[i].within > 0 ? 1 : 0);
+        const json_t *list = json_object_get(root, "findings");
+        assert_int_equal(json_array_size(list), 2);
+        assert_relative(number(root, "extent"), extent, 1e-15);
+        assert_relative(number(root, "within"), within, 1e-15);
+        assert_true(number(root, "model_triangles") == 10 && number(root, "model_surfaces") == 5);
+        assert_true(number(root, "gap") == 0.02 && number(root, "angle") == 1);
+        /* wall and sign stand before the back side: four pairs of triangles with each */
+        assert_true(number(json_object_get(root, "left_out"), "facing") >= 4);
+        bool passed = true;
+        double last = 0.0;
+        unsigned seen = 0;
+        for (size_t n = 0; n < 2; n++) {
+            const json_t *f = json_array_get(list, n);
+            const size_t k = strcmp(word(f, "a", "node"), "wall") == 0 ? 0 : 1;
+            seen |= 1U << k;
+            assert_true(number(f, "certain_to") >= last); /* the nearest fight first */
+            last = number(f, "certain_to");
+            const json_t *place = json_object_get(f, "place");
+            dp_separation_worst worst;
+            assert_string_equal(word(f, "a", "node"), pairs[k].a);
+            assert_string_equal(word(f, "b", "node"), pairs[k].b);
+            assert_string_equal(word(f, "b", "material"), pairs[k].material);
+            assert_true(number(f, "gap_min") == pairs[k].gap && number(f, "gap_max") == pairs[k].gap);
+            assert_relative(number(f, "area"), pairs[k].area, 1e-12);
+            for (int axis = 0; axis < 3; axis++) {
+                const double at = number(place, (const char *const[]){"x", "y", "z"}[axis]);
+                assert_true(at >= pairs[k].lo[axis] && at <= pairs[k].hi[axis]);
+            }
+            const double certain = number(f, "certain_to");
+            assert_int_equal(dp_separation_over(&setup, 0.1, certain, pairs[k].gap, &worst), DP_OK);
+            assert_true(worst.bound <= pairs[k].gap);
+            if (certain < 999) {
+                dp_separation_over(&setup, 0.1, certain * (1 + 2e-5), pairs[k].gap, &worst);
+                assert_true(worst.bound > pairs[k].gap);
+            }
+            dp_separation_over(&setup, 0.1, within, 0, &worst);
+            assert_relative(number(f, "lift"), fmax(worst.bound - pairs[k].gap, 0.0), 1e-12);
+            assert_int_equal(json_is_true(json_object_get(f, "fights")), certain < within);
+            passed = passed && certain >= within;
+        }
+        assert_int_equal(seen, 3);
+        assert_int_equal(json_is_true(json_object_get(root, "passed")), passed);
+        json_decref(root);
+    }
+}
+
+/* Filters that are off bring back what they left out; a gap of 0 asks for one plane alone; a narrow angle for
+ * parallels. */
+static void what_is_asked(void **state) {
+    static const struct {
+        const char *options;
+        size_t findings;
+        double facing;
+    } rows[] = {{"--gap 0.001", 1, -1},
+                {"--gap 0", 0, 0},
+                {"--gap 0.02 --also facing", 4, 0},
+                {"--gap 0.02 --also all", 4, 0},
+                {"--gap 0.02 --also thin,facing --angle 0", 4, 0},
+                {"--gap 0.02 --transforms binary32 --threads 1", 2, -1}};
+    (void)state;
+    for (size_t i = 0; i < sizeof rows / sizeof rows[0]; i++) {
+        json_t *root = object_of(rows[i].options, 0);
+        assert_int_equal(json_array_size(json_object_get(root, "findings")), rows[i].findings);
+        if (rows[i].facing >= 0)
+            assert_true(number(json_object_get(root, "left_out"), "facing") == rows[i].facing);
+        json_decref(root);
+    }
+}
+
+/* The text has the same numbers, rounded to the safe side; CSV those of JSON. */
+static void other_forms(void **state) {
+    json_t *root = object_of("--gap 0.02 -F d24 -m d3d --within 50 --unit m", 1);
+    const json_t *f = json_array_get(json_object_get(root, "findings"), 0);
+    char want[256];
+    (void)state;
+    printed p = print_of("scene %s --gap 0.02 -F d24 -m d3d --within 50 --unit m", written());
+    assert_int_equal(p.status, 1);
+    assert_non_null(strstr(p.out, "10 triangles, 5 surfaces, 36 m across"));
+    assert_non_null(strstr(p.out, "2 pairs of surfaces lie within 0.02 m of each other: 2 can fight"));
+    assert_non_null(strstr(p.out, "FAIL  surfaces can fight nearer than 50 m."));
+    assert_non_null(strstr(p.out, "  1   'wall' (brick) and 'sign' (tin)\n"));
+    snprintf(want, sizeof want, "certain up to %.4g m, ties from %.4g m; 9.766e-4 m apart",
+             floor(number(f, "certain_to") * 100) / 100, ceil(number(f, "ties_from") * 100) / 100);
+    if (strstr(p.out, want) == NULL)
+        fail_msg("'%s' is not in %s", want, p.out);
+    assert_non_null(strstr(p.out, "area 2, near "));
+    printed_free(&p);
+    p = print_of("scene %s --gap 0.02 -F d24 -m d3d --within 50 --unit m --csv", written());
+    char *line = strtok(p.out, "\r\n");
+    assert_non_null(strstr(line, "a_node,a_mesh,a_material,b_node,b_mesh,b_material,gap_min [scene],gap_max [scene]"));
+    line = strtok(NULL, "\r\n");
+    snprintf(want, sizeof want, "wall,,brick,sign,,tin,0.0009765625,0.0009765625,2,");
+    assert_memory_equal(line, want, strlen(want));
+    snprintf(want, sizeof want, ",%.17g,%.17g,%.17g,true", number(f, "certain_to"), number(f, "ties_from"),
+             number(f, "lift"));
+    for (const char *at = strchr(line + 50, ','); at != NULL; at = strchr(at + 1, ',')) {
+        double a, b, c;
+        char rest[8];
+        if (sscanf(at, ",%lf,%lf,%lf,%7s", &a, &b, &c, rest) == 4 && strcmp(rest, "true") == 0) {
+            assert_true(a == number(f, "certain_to") && b == number(f, "ties_from") && c == number(f, "lift"));
+            line = NULL;
+            break;
+        }
+    }
+    assert_null(line);
+    printed_free(&p);
+    json_decref(root);
+}
+
+static void refused(void **state) {
+    static const struct {
+        const char *arguments;
+        int status;
+        const char *said;
+    } rows[] = {
+        {"scene", 2, "scene: needs MODEL"},
+        {"scene none.obj", 3, "none.obj: No such file or directory"},
+        {"scene /dev/null", 2, "/dev/null: is neither glTF 2.0 (.glb, .gltf) nor, by its name, OBJ"},
+        {"scene %s -F d24,fp32", 2, "--format: and --mapping must name one camera here, got 2"},
+        {"scene %s --gap -1", 2, "--gap: must be"},
+        {"scene %s --within 2000", 2, "--within: must lie between near and far, got '2000'"},
+        {"scene %s --also fcing", 2, "--also: must be"},
+        {"scene %s --ortho", 2, "--ortho: is not an option of scene"},
+    };
+    char path[512];
+    (void)state;
+    snprintf(path, sizeof path, "%s", written());
+    for (size_t i = 0; i < sizeof rows / sizeof rows[0]; i++) {
+        char line[1024];
+        const char *at = strstr(rows[i].arguments, "%s");
+        if (at != NULL)
+            snprintf(line, sizeof line, "%.*s%s%s", (int)(at - rows[i].arguments), rows[i].arguments, path, at + 2);
+        else
+            snprintf(line, sizeof line, "%s", rows[i].arguments);
+        printed p = print_of("%s", line);
+        if (p.status != rows[i].status || strstr(p.errors, rows[i].said) == NULL)
+            fail_msg("%s: %d: %s", line, p.status, p.errors);
+        printed_free(&p);
+    }
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {cmocka_unit_test(findings), cmocka_unit_test(what_is_asked),
+                                       cmocka_unit_test(other_forms), cmocka_unit_test(refused)};
+    return run_tap(tests);
+}
