@@ -240,6 +240,7 @@ static int threads_of(const draw_fight_request *r) {
 typedef struct progress {
     uint64_t next, done; /* chunks that were begun, pairs that are done */
     int stop, failed;
+    int threads;
 } progress;
 
 /* The next chunk; at least `count` where there is none, or no more is wanted. */
@@ -261,8 +262,8 @@ draw_fight_status draw_fight(const draw_fight_request *request, draw_fight_resul
     result->band_count = bands_of(r, result->bands);
     const uint64_t bands = (uint64_t)result->band_count, each_band = rounded_up(r->count, bands);
     const uint64_t chunks = rounded_up(each_band, CHUNK) * bands;
-    progress p = {0};
-#pragma omp parallel num_threads(threads_of(r))
+    progress p = {.threads = threads_of(r)};
+#pragma omp parallel num_threads(p.threads)
     {
         draw_buffer buffer;
         const bool ready = draw_buffer_open(&buffer, ROOM);
