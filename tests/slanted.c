@@ -160,7 +160,7 @@ static void fit_piece(dp_triangles *t, const spot v[3]) {
     /* a grid step more on each side: what counts is where the vertices are moved to */
     t->pixels = fmax(t->pixels, fmax(wide, high) + 0.25);
     const bool narrow = t->plane.origin > 0.0 && (wide < 1.0 || high < 1.0);
-    t->slim = narrow ? INFINITY : fmax(t->slim, longest * longest / area * (1.0 + 0.5 / sqrt(area)));
+    t->slim = narrow || !(area > 0.0) ? INFINITY : fmax(t->slim, longest * longest / area * (1.0 + 0.5 / sqrt(area)));
 }
 
 static void fit_one(slanted *s, int which, double c) {

@@ -26,12 +26,10 @@ static double by_diagonal(const disocclusion_view *v) {
 /* clang-format off */
 static const disocclusion_row rows[DISOCCLUSION_ROWS] = {
     {"tangent", "1.37e-5 z tan(hfov/2) W/2", by_tangent,
-     "half the width in pixels times the tangent of half the horizontal angle; marked: only reversed, infinite",
-     "FidelityFX Super Resolution 2.0 and 2.1, depth clip; attributed there to Akeley and Su 2006"},
+     "FidelityFX Super Resolution 2.0 and 2.1, depth clip, marked as for reversed infinite depth alone; attributed "
+     "there to Akeley and Su 2006"},
     {"diagonal", "1.37e-5 z |corner|/|centre| length(W, H)", by_diagonal,
-     "the diagonal in pixels times the length of the ray in the corner over that in the middle; marked: only reversed, "
-     "infinite",
-     "FidelityFX Super Resolution 2.2 and 3, depth clip; attributed there to Akeley and Su 2006"},
+     "FidelityFX Super Resolution 2.2 and 3, depth clip"},
 };
 /* clang-format on */
 

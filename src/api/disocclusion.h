@@ -21,7 +21,6 @@ typedef struct disocclusion_row {
     const char *name;
     const char *formula;                            /**< of the separation, scene units */
     double (*share)(const disocclusion_view *view); /**< the separation over the eye depth */
-    const char *note;
     const char *source;
 } disocclusion_row;
 

@@ -120,13 +120,12 @@ typedef struct loss {
 } loss;
 
 /*
- * The range of a triangle's window depths follows from the depths of the class or, `by_slope`, from the plane's slope
- * and the width of the box: then it acts as if the plane were displaced. `stray` is what a composition moves a vertex
- * by in window depth.
+ * Of vertices at these depths. The range of a triangle's window depths follows from the depths of the class or,
+ * `by_slope`, from the plane's slope and the width of the box: then it acts as if the plane were displaced. `stray` is
+ * what a composition moves a vertex by in window depth.
  */
-static loss loss_of(const dp_chain *c, dp_span at, const dp_triangles *t, const double asked[DP_CAUSE_COUNT],
-                    double stray, int by_slope) {
-    const own_error own = own_error_over(c, at);
+static loss loss_of(const dp_chain *c, dp_span at, own_error own, const dp_triangles *t,
+                    const double asked[DP_CAUSE_COUNT], double stray, int by_slope) {
     const double full = own.projection + own.ndc;
     const double g1 = dp_chain_window(c, at.lo);
     const double g2 = dp_chain_window(c, at.hi);
@@ -237,8 +236,9 @@ void dp_triangles_add(const dp_chain *c, dp_span run, const dp_triangles *t, con
         return;
     }
     const double stray = fabs(dp_chain_window(c, at.lo) - dp_chain_window(c, depths_of(c, run, t).lo));
-    const loss by_class = loss_of(c, at, t, asked, stray, 0);
-    const loss by_slope = loss_of(c, at, t, asked, stray, 1);
+    const own_error own = own_error_over(c, at);
+    const loss by_class = loss_of(c, at, own, t, asked, stray, 0);
+    const loss by_slope = loss_of(c, at, own, t, asked, stray, 1);
     const dp_budget first = at_worst(c, run, t, &by_class, moved != NULL ? moved : &none);
     const dp_budget second = at_worst(c, run, t, &by_slope, moved != NULL ? moved : &none);
     const dp_budget *lesser = second.separation < first.separation ? &second : &first;
@@ -263,14 +263,15 @@ dp_status dp_coplanar_over(const dp_setup *setup, double lo, double hi, dp_copla
         return status;
     const dp_chain c = dp_chain_make(setup, &pipeline);
     const dp_span run = {larger(smaller(lo, c.reach.hi), c.reach.lo), larger(smaller(hi, c.reach.hi), c.reach.lo)};
-    const loss of = loss_of(&c, depths_of(&c, run, t), t, none, 0.0, 1);
+    const dp_span at = depths_of(&c, run, t);
+    const loss of = loss_of(&c, at, own_error_over(&c, at), t, none, 0.0, 1);
     const double eye = DP_UNIT * c.half * fabs(c.b) / run.lo;
-    const double own = 0.5 * (of.cause[DP_CAUSE_PROJECTION] + of.cause[DP_CAUSE_NDC] + of.cause[DP_CAUSE_SETUP]) + eye;
+    const double off = 0.5 * (of.cause[DP_CAUSE_PROJECTION] + of.cause[DP_CAUSE_NDC] + of.cause[DP_CAUSE_SETUP]) + eye;
     const double snap = snapping(t);
     const double beside = DP_UNIT * (t->width + t->height + 2.0 * t->pixels);
     const double moved = 2.0 * snap + of.dx + of.dy + beside;
     const double box = 0.5 + 0.5 * hypot(t->slim, 1.0);
-    out->window = 2.0 * own * second_order;
+    out->window = 2.0 * off * second_order;
     out->pixels = 2.0 * moved * second_order;
     out->lost = (2.0 * moved + DP_UNIT * (6.0 * box * t->slim + 2.0 * box + 2.0)) * second_order;
     out->lost_window = out->window;

@@ -45,12 +45,12 @@ static void sample(const void *context, double from, double to, refine_sample *o
     out->flicker[s->count] = INFINITY;
 }
 
-/* There are eight colours: what the set-up of triangles takes has that of the composition, which is never beside it. */
+/* There are eight colours: what the set-up of triangles takes has that of an interpolation, for which it stands. */
 static int colour_of(int layer) {
-    int composition = 0;
-    while (stack[composition] != DP_CAUSE_COMPOSITION)
-        composition++;
-    return stack[layer] == DP_CAUSE_SETUP ? composition : layer;
+    int interpolation = 0;
+    while (stack[interpolation] != DP_CAUSE_INTERPOLATION)
+        interpolation++;
+    return stack[layer] == DP_CAUSE_SETUP ? interpolation : layer;
 }
 
 static void add_bands(chart *out, chart_panel *panel, const stacked *split, const refine *r) {
