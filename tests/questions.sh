@@ -104,6 +104,16 @@ check "15. slope times filter radius, and little more" agrees 'constant D3D11_RA
     '1.5 * sqrt(2) * 40 / 2048 * 3.732 / 100 * 65536' '1.03 * 1.5 * sqrt(2) * 40 / 2048 * 3.732 / 100 * 65536'
 check "15. a normal offset of the filter's diagonal" agrees 'normal offset' '1.5 * sqrt(2)' '1.03 * 1.5 * sqrt(2)'
 
+# Snapping alone costs 2 sqrt(2) of half a step of the grid in both surfaces, a pixel being 2 tan(30)/1080 wide at z = 1.
+check "16. what is told apart at any slant" answers 0 \
+    'depthprec table -n 0.1 -f inf -F fp32 -m reversed --at 5km --viewport 1920x1080' 'at any slant: surfaces 1 mm apart'
+check "16. less far than snapping alone allows" agrees 'at any slant: surfaces 1 mm apart up to z =' \
+    '0.1 * 0.001 * 512 * 1080 / (4 * sqrt(2) * 0.57735)' '0.001 * 512 * 1080 / (4 * sqrt(2) * 0.57735)'
+# Twice two vertices on two axes, half a step each, and the set-up.
+check "17. the bias of decals on any slope" answers 0 \
+    'depthprec bias -n 0.1 -F d24 -m d3d --viewport 1920x1080' 'SlopeScaledDepthBias = -0.0224609375'
+check "17. the slope's is at least that of snapping" agrees 'SlopeScaledDepthBias =' '-4 / 128' '-4 / 512'
+
 # ---- Words and widths ----
 
 everything() { # the text of README.md and the pages, of help and of every list, to the folder text

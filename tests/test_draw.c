@@ -85,9 +85,10 @@ static void stored(const scene *s, const double place[3][3], double (*depth)[WID
 static void random_triangle(rng *r, const scene *s, double place[3][3]) {
     const double size = rng_log(r, 2.0, 400.0);
     const double x = rng_uniform(r, 0.0, WIDTH), y = rng_uniform(r, 0.0, HEIGHT);
+    const bool faces = rng_below(r, 3) == 0; /* of one code then, wherever it is */
     for (int i = 0; i < 3; i++) {
         const double window[2] = {x + rng_uniform(r, -size, size), y + rng_uniform(r, -size, size)};
-        const double z = rng_below(r, 8) == 0 ? 5.0 : rng_log(r, 0.08, 60.0);
+        const double z = faces || rng_below(r, 8) == 0 ? 5.0 : rng_log(r, 0.08, 60.0);
         draw_ray(&s->camera, window, place[i]);
         for (int axis = 0; axis < 3; axis++)
             place[i][axis] *= z;

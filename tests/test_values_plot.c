@@ -200,14 +200,12 @@ static const char *cause_of(const json_t *series, int *cause) {
 }
 
 /* Each band is the share of the cause that it is named after; the line is the separation, on the second axis. */
-static void test_budget(void **state) {
-    tally t = {.name = "budget"};
-    const dp_setup setup = setup_of(0.5, 300, "fp32", DP_MAPPING_D3D, DP_MODEL_FP32);
-    const dp_budget_terms terms = {.interpolation = 2, .world = 50, .linearize = 1};
-    json_t *root = plot("budget -F fp32 -m d3d -n 0.5 -f 300 --interpolation 2 --world 50 --linearize"), *series,
-           *point;
+static void check_budget(const char *options, const dp_setup *setup, const dp_budget_terms *terms, size_t causes) {
+    tally t = {.name = options};
+    char command[256];
+    snprintf(command, sizeof command, "budget -F fp32 -m d3d -n 0.5 -f 300 %s", options);
+    json_t *root = plot(command), *series, *point;
     size_t s, i, seen = 0;
-    (void)state;
     check_axis(root, "x", "z", "eye depth z", "scene units", "log");
     check_axis(root, "y", "share", "share of the separation", "%", "linear");
     check_axis(root, "second", "separation", "guaranteed separation", "scene units", "log");
@@ -220,16 +218,26 @@ static void test_budget(void **state) {
         json_array_foreach(json_object_get(series, "points"), i, point) {
             dp_budget b;
             const double z = number_in(point, "z"), got = number_in(point, is_band ? "share" : "separation");
-            assert_int_equal(dp_budget_at(&setup, z, &terms, &b), DP_OK);
+            assert_int_equal(dp_budget_at(setup, z, terms, &b), DP_OK);
             const double want = !is_band ? b.separation : 100 * b.cause[cause] / b.separation;
             /* A curve is an envelope over a pixel column: it may lie a little above what is at its point. */
             TALLY(&t, isnan(got) ? isinf(b.separation) : fabs(got - want) <= 0.05 * fabs(want) + 0.5 * is_band,
                   "%s at %g: %g, not %g", text_in(series, "name"), z, got, want);
         }
     }
-    TALLY(&t, seen == DP_CAUSE_COUNT - 2, "%zu causes", seen); /* no triangles */
+    TALLY(&t, seen == causes, "%zu causes", seen);
     json_decref(root);
     tally_end(&t);
+}
+
+static void test_budget(void **state) {
+    dp_setup setup = setup_of(0.5, 300, "fp32", DP_MAPPING_D3D, DP_MODEL_FP32);
+    const dp_budget_terms terms = {.interpolation = 2, .world = 50, .linearize = 1};
+    (void)state;
+    check_budget("--interpolation 2 --world 50 --linearize", &setup, &terms, DP_CAUSE_COUNT - 2);
+    setup.spec.triangles = (dp_triangles){640, 480, 50, 0, {3, 10, 2, 4}, 20, 90, 2, 100, 16};
+    check_budget("--viewport 640x480 --fov 50 --raster llvmpipe --slant 20:90 --triangle pixels=100", &setup,
+                 &(dp_budget_terms){0}, DP_CAUSE_COUNT - 3);
 }
 
 /* An envelope is above the value at each point, and not above the worst between its neighbours. */

@@ -215,6 +215,28 @@ static void test_world(void **state) {
     }
 }
 
+/* What the subpixel grid costs at the worst slant, per depth, as published for these views; 28.8 mm at 5 km. */
+static void test_published(void **state) {
+    static const struct {
+        const char *view;
+        double per_depth;
+    } published[] = {
+        {"--viewport 1920x1080 --hfov 90", 5.75e-6},     {"--viewport 1920x1080 --hfov 90 --subpixel 4", 9.2e-5},
+        {"--viewport 1920x1080 --hfov 60", 3.32e-6},     {"--viewport 1920x1080 --hfov 60 --subpixel 4", 5.3e-5},
+        {"--viewport 3840x2160 --hfov 90", 5.75e-6 / 2}, {"--viewport 3840x2160 --hfov 60 --subpixel 4", 5.3e-5 / 2}};
+    (void)state;
+    for (size_t i = 0; i < sizeof published / sizeof published[0]; i++) {
+        printed p = print_of("budget -n 0.1 -f inf -F fp32 -m reversed --slant 89.999:90 --at 5000 --json %s",
+                             published[i].view);
+        json_t *root = json_of(p.out);
+        const double got = at(json_object_get(row_of(root, 0), "causes"), "snapping");
+        assert_relative(got / 5000, published[i].per_depth, 0.004);
+        assert_true(i > 0 || fabs(got - 0.0288) < 0.0001);
+        json_decref(root);
+        printed_free(&p);
+    }
+}
+
 /* Of text the last column of a table is that at any slant, rounded up. */
 static void test_text(void **state) {
     const slant_case *c = &cases[0];
@@ -358,6 +380,33 @@ static void test_bias(void **state) {
     printed_free(&p);
 }
 
+/* The figure has both: each point is that of a pixel column, and no less than what is guaranteed there. */
+static void test_plot(void **state) {
+    const slant_case *c = &cases[0];
+    printed p = print_of("plot interval --model float %s %s --range 1:1e4 --json", c->camera, c->options);
+    json_t *root = json_of(p.out), *series, *point;
+    const json_t *panel = json_array_get(json_object_get(root, "panels"), 0);
+    size_t s, i, points[2] = {0};
+    (void)state;
+    json_array_foreach(json_object_get(panel, "series"), s, series) {
+        const char *name = json_string_value(json_object_get(series, "name"));
+        const bool slanted = strcmp(name, "fp32 reversed, any slant") == 0;
+        if (!slanted && strcmp(name, "fp32 reversed") != 0)
+            continue;
+        json_array_foreach(json_object_get(series, "points"), i, point) {
+            const double z = at(point, "z"), got = at(point, "interval");
+            assert_true(got >= budget_of(c, z, slanted).separation * 0.98);
+            assert_true(got <= budget_of(c, fmin(z * 1.05, 1e4), slanted).separation * (slanted ? 1.02 : 2.05));
+            points[slanted]++;
+        }
+    }
+    assert_true(points[0] > 5 && points[1] >= 2);
+    assert_non_null(strstr(json_string_value(json_object_get(root, "subtitle")),
+                           ", 1920x1080, fov 40, 8 subpixel bits, slant 0 to 90"));
+    json_decref(root);
+    printed_free(&p);
+}
+
 /* A census stays what it is; beside each band stands what holds at any slant all over it. */
 static void test_zfight(void **state) {
     const slant_case *c = &cases[0];
@@ -440,8 +489,9 @@ static void test_hopeless(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_rows),       cmocka_unit_test(test_world),   cmocka_unit_test(test_text),
-        cmocka_unit_test(test_rasterizer), cmocka_unit_test(test_presets), cmocka_unit_test(test_range),
-        cmocka_unit_test(test_zfight),     cmocka_unit_test(test_bias),    cmocka_unit_test(test_hopeless)};
+        cmocka_unit_test(test_rows),    cmocka_unit_test(test_text),    cmocka_unit_test(test_rasterizer),
+        cmocka_unit_test(test_presets), cmocka_unit_test(test_range),   cmocka_unit_test(test_zfight),
+        cmocka_unit_test(test_bias),    cmocka_unit_test(test_plot),    cmocka_unit_test(test_published),
+        cmocka_unit_test(test_world),   cmocka_unit_test(test_hopeless)};
     return run_tap(tests);
 }

@@ -11,9 +11,12 @@
  * angle of slant_lo to slant_hi to the view axis; in a pixel inside a triangle of each, z is the eye depth of the
  * farther plane. If they are `separation` or more apart along n, their codes are strictly in order there. That holds up
  * to edge-on. It covers a perspective with square pixels, eye space given in real numbers and rounded to binary32, and
- * triangles that are not clipped. Clipped ones too, whose vertices lie within [near, far], where the rasterizer keeps
- * the plane of the unclipped vertices; and where it makes new ones, as Mesa does, at `n` sides of the screen, if 6 n is
- * added to plane.value and 3 n to plane.origin, and each piece is in the class, at least a pixel wide and high.
+ * triangles that are not clipped.
+ *
+ * It covers clipped triangles too, if their vertices lie within [near, far]. Where the rasterizer keeps the plane of
+ * the unclipped vertices, as it stands. Where it makes new vertices, as Mesa does, with 6 more in plane.value and 3
+ * more in plane.origin for each side of the screen that cuts; each piece has to be in the class, a pixel wide and high
+ * or more.
  */
 #ifndef DEPTHPREC_TRIANGLES_H
 #define DEPTHPREC_TRIANGLES_H

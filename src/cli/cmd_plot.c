@@ -74,6 +74,9 @@ static int check_file_given(const options *o, const figure_row *row) {
     return EXIT_FINE;
 }
 
+#define VIEWED         (FIGURE_SLANTED | FIGURE_DRAWN | FIGURE_SHADOW)
+#define VIEWED_FIGURES "budget, fight, interval and shadow"
+
 /* Options of some figures alone. */
 static const struct {
     option_id id;
@@ -83,12 +86,13 @@ static const struct {
             {OPTION_WORLD, FIGURE_TERMS | FIGURE_SHADOW, "budget and shadow"},
             {OPTION_COMPOSITION, FIGURE_TERMS, "budget"},
             {OPTION_LINEARIZE, FIGURE_TERMS, "budget"},
-            {OPTION_FOV, FIGURE_SHADOW | FIGURE_DRAWN, "fight and shadow"},
-            {OPTION_HFOV, FIGURE_SHADOW | FIGURE_DRAWN, "fight and shadow"},
-            {OPTION_VIEWPORT, FIGURE_SHADOW | FIGURE_DRAWN, "fight and shadow"},
-            {OPTION_SUBPIXEL, FIGURE_SHADOW, "shadow"},
-            {OPTION_RASTER, FIGURE_SHADOW | FIGURE_DRAWN, "fight and shadow"},
-            {OPTION_TRIANGLE, FIGURE_SHADOW | FIGURE_DRAWN, "fight and shadow"},
+            {OPTION_FOV, VIEWED, VIEWED_FIGURES},
+            {OPTION_HFOV, VIEWED, VIEWED_FIGURES},
+            {OPTION_VIEWPORT, VIEWED, VIEWED_FIGURES},
+            {OPTION_RASTER, VIEWED, VIEWED_FIGURES},
+            {OPTION_TRIANGLE, VIEWED, VIEWED_FIGURES},
+            {OPTION_SUBPIXEL, FIGURE_SLANTED | FIGURE_SHADOW, "budget, interval and shadow"},
+            {OPTION_SLANT, FIGURE_SLANTED, "budget and interval"},
             {OPTION_PLANE, FIGURE_DRAWN, "fight"},
             {OPTION_CASCADES, FIGURE_SHADOW, "shadow"},
             {OPTION_LAMBDA, FIGURE_SHADOW, "shadow"},
@@ -115,6 +119,9 @@ static int check_options(const options *o, const figure_row *row) {
     if (option_given(o, OPTION_MODEL) && (row->takes & FIGURE_BINARY32) != 0 && o->model != DP_MODEL_FP32)
         return option_error(OPTION_MODEL, "must be float in the figure %s, got '%s'", row->name,
                             option_word(OPTION_MODEL, o->model_auto ? DP_MODEL_COUNT : o->model));
+    if (option_given(o, OPTION_VIEWPORT) && (row->takes & FIGURE_SLANTED) != 0 && (row->takes & FIGURE_BINARY32) == 0 &&
+        o->model != DP_MODEL_FP32)
+        return option_error(OPTION_VIEWPORT, "needs --model float in the figure %s", row->name);
     if (option_given(o, OPTION_TOLERANCE) && !o->model_auto && (row->takes & FIGURE_TOLERANCE) == 0)
         return option_error(OPTION_TOLERANCE, "needs --model auto in the figure %s", row->name);
     return EXIT_FINE;
@@ -163,6 +170,10 @@ static void subtitle_of(const options *o, const figure_request *request, char *o
         snprintf(out, size, "%s, depths %s to %s", one, number_full(request->lo).text, number_full(request->hi).text);
     else
         snprintf(out, size, "%s", one);
+    const dp_triangles *t = &request->setups[0].spec.triangles;
+    if (t->width > 0)
+        append(out, size, ", %dx%d, fov %s, %d subpixel bits, slant %s to %s", t->width, t->height,
+               number_of(t->fov_y, 4).text, t->subpixel, number_full(t->slant_lo).text, number_full(t->slant_hi).text);
     append(out, size, "%s%s", unit != NULL ? ", lengths in " : "", unit != NULL ? unit : "");
 }
 
@@ -223,6 +234,8 @@ static int resolve_setups(plotting *p) {
     choose_setups(&in_model, p->row);
     if ((p->row->takes & FIGURE_BINARY32) != 0)
         in_model.model = DP_MODEL_FP32;
+    if (status == EXIT_FINE)
+        status = (p->row->takes & FIGURE_SLANTED) != 0 ? slant_view(&in_model) : EXIT_FINE;
     if (status == EXIT_FINE)
         status = (drawn ? drawn_setups : setups_make)(&in_model, &p->all);
     if (status == EXIT_FINE)

@@ -206,7 +206,9 @@ const option_row option_rows[OPTION_COUNT] = {
                        "the pixels of the viewport; without --triangles what is guaranteed at any slant stands beside "
                        "the census"),
                    BUT(VERB_DISOCCLUSION, "1920x1080", NULL, "pixels of the view"),
-                   BUT(SHADOWED, "1920x1080", NULL, "pixels of the view, which say how wide it is")}},
+                   BUT(VERB_SHADOW, "1920x1080", NULL, "pixels of the view, which say how wide it is"),
+                   BUT(VERB_PLOT, NULL, "1920x1080 in fight and shadow, else surfaces face the camera",
+                       "the pixels of the viewport; budget and interval then count slanted triangles")}},
     [OPTION_RASTER] = {"raster", 0, "NAME", VIEWED,
         "the rasterizer, its subpixel grid and how it sets up depth: @; of the specifications the worst that they "
         "allow; see 'depthprec list rasterizers'", ROW(raster, rasters),
@@ -217,7 +219,7 @@ const option_row option_rows[OPTION_COUNT] = {
         "instead: bits of the grid to which vertices move; Direct3D has 8, Vulkan and OpenGL at least 4; with "
         "spec-vulkan and spec-gl how many more there are",
         WHOLE(triangles.subpixel, 1, 8, "bits"), .standard = "8"},
-    [OPTION_SLANT] = {"slant", 0, "LO:HI", SLANTED,
+    [OPTION_SLANT] = {"slant", 0, "LO:HI", SLANTED | VERB_PLOT,
         "angles of the surfaces' normal to the view axis, degrees; 0 faces the camera, 90 is edge-on",
         .parse = parse_slant, .standard = "0:90"},
     [OPTION_PLANE] = {"plane", 0, "SLANT,AZIMUTH", DRAWS,

@@ -67,16 +67,11 @@ int view_drawn(options *o) {
     return status == EXIT_FINE ? take_drawn(o) : status;
 }
 
-int slant_complete(options *o) {
+int slant_view(options *o) {
     static const option_id beside[] = {OPTION_FOV,   OPTION_HFOV,  OPTION_RASTER,  OPTION_SUBPIXEL,
                                        OPTION_SLANT, OPTION_PLANE, OPTION_TRIANGLE};
-    const bool slanted = option_given(o, OPTION_VIEWPORT) || o->drawn || o->verb->bit == VERB_DISOCCLUSION;
-    if (!slanted)
-        o->triangles.width = 0;
-    if ((o->verb->bit & option_rows[OPTION_VIEWPORT].commands) == 0)
-        return EXIT_FINE;
-    if ((o->verb->bit & (VERB_SHADOW | VERB_PLOT)) != 0) /* a shadow map's viewport says how wide the view is */
-        return take_raster(o);
+    const bool slanted = o->triangles.width > 0;
+    const bool by_preset = o->preset_count == 1 && !option_given(o, OPTION_FOV) && !option_given(o, OPTION_HFOV);
     for (size_t i = 0; i < sizeof beside / sizeof beside[0]; i++)
         if (option_given(o, beside[i]) && !slanted)
             return option_refuse(&option_rows[beside[i]], "needs --viewport: surfaces face the camera");
@@ -87,7 +82,17 @@ int slant_complete(options *o) {
     if (o->ortho)
         return option_refuse(&option_rows[o->drawn ? OPTION_TRIANGLES : OPTION_VIEWPORT],
                              "does not apply with --ortho");
-    const int status = view_vertical(o, o->triangles.width, o->triangles.height, &o->triangles.fov_y);
+    return by_preset ? EXIT_FINE : view_vertical(o, o->triangles.width, o->triangles.height, &o->triangles.fov_y);
+}
+
+int slant_complete(options *o) {
+    if (!option_given(o, OPTION_VIEWPORT) && !o->drawn && o->verb->bit != VERB_DISOCCLUSION)
+        o->triangles.width = 0;
+    if ((o->verb->bit & option_rows[OPTION_VIEWPORT].commands) == 0)
+        return EXIT_FINE;
+    if ((o->verb->bit & (VERB_SHADOW | VERB_PLOT)) != 0) /* a shadow map's viewport says how wide the view is */
+        return take_raster(o);
+    const int status = slant_view(o);
     if (status != EXIT_FINE)
         return status;
     return o->drawn ? take_drawn(o) : take_raster(o);

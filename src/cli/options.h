@@ -275,6 +275,9 @@ void options_of(const options *o, size_t camera, options *out);
  * after one line on stderr */
 int view_vertical(const options *o, int width, int height, double *fov_y);
 
+/** Checks --viewport with the options beside it, and takes the field of view. @return as view_vertical() */
+int slant_view(options *o);
+
 /** View and rasterizer of what is drawn: 1920x1080 where no --viewport was given, llvmpipe where no --raster, and of
  * the formats those that it has. @return EXIT_FINE, or EXIT_USAGE after one line on stderr */
 int view_drawn(options *o);

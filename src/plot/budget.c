@@ -45,12 +45,20 @@ static void sample(const void *context, double from, double to, refine_sample *o
     out->flicker[s->count] = INFINITY;
 }
 
+/* There are eight colours: what the set-up of triangles takes has that of the composition, which is never beside it. */
+static int colour_of(int layer) {
+    int composition = 0;
+    while (stack[composition] != DP_CAUSE_COMPOSITION)
+        composition++;
+    return stack[layer] == DP_CAUSE_SETUP ? composition : layer;
+}
+
 static void add_bands(chart *out, chart_panel *panel, const stacked *split, const refine *r) {
     for (int k = 0; k < split->count; k++) {
         chart_series *band = envelope_line(out, panel, CHART_AREA, r, k);
         if (band == NULL)
             return;
-        band->style.colour = split->layer[k];
+        band->style.colour = colour_of(split->layer[k]);
         snprintf(band->name, sizeof band->name, "%s", dp_cause_name(stack[split->layer[k]]));
     }
     for (int k = split->count - 1; k > 0; k--) /* from rims to thicknesses */

@@ -48,6 +48,7 @@ enum {
     FIGURE_SIGNED = 1 << 6,    /**< depths of 0 and less: a camera with near <= 0 */
     FIGURE_FILE = 1 << 5,      /**< a requirement file, which brings its own set-ups, with planes of their own */
     FIGURE_DRAWN = 1 << 8,     /**< what a rasterizer draws: the set-ups have a view, and its arithmetic */
+    FIGURE_SLANTED = 1 << 9,   /**< set-ups with triangles */
     FIGURE_SHADOW = 1 << 7,    /**< shadow maps, whose cameras are not that of the view */
 };
 

@@ -76,8 +76,8 @@ static found *count_all(const figure_request *request, const chart_axis *x, char
 }
 
 static void add_separation(const figure_request *request, chart *out, chart_panel *panel, size_t i, const found *f) {
-    const dp_setup *setup = &request->setups[i];
-    refine_request q = envelope_request(request, setup, out, panel, envelope_separation, setup);
+    const dp_setup setup = dp_setup_facing(&request->setups[i]);
+    refine_request q = envelope_request(request, &setup, out, panel, envelope_separation, &setup);
     q.slices = true;
     chart_series *s = envelope_curve(out, panel, &q);
     if (s == NULL)
@@ -86,6 +86,23 @@ static void add_separation(const figure_request *request, chart *out, chart_pane
     if (f != NULL && f->count > 0)
         s->style.marker = -1; /* its points have it */
     snprintf(s->name, sizeof s->name, "%s", request->names[i]);
+}
+
+/* In the colour of the facing one, above it, and with a stroke that no facing one has. */
+static void add_slanted(const figure_request *request, chart *out, chart_panel *panel, size_t i) {
+    const dp_setup *setup = &request->setups[i];
+    refine_request q = envelope_request(request, setup, out, panel, envelope_separation, setup);
+    q.slices = true;
+    chart_series *s = setup->spec.triangles.width > 0 ? envelope_curve(out, panel, &q) : NULL;
+    if (s == NULL)
+        return;
+    int strokes = 0;
+    for (size_t k = 0; k < request->count; k++)
+        strokes = figure_style(request, k).stroke >= strokes ? figure_style(request, k).stroke + 1 : strokes;
+    s->style = figure_style(request, i);
+    s->style.stroke += strokes;
+    s->style.marker = -1;
+    snprintf(s->name, sizeof s->name, "%s, any slant", request->names[i]);
 }
 
 /* The longest intervals that there are, each where it begins: none of them lies above the guarantee. */
@@ -116,6 +133,7 @@ const char *interval_build(const figure_request *request, chart *out) {
         if (is_fp32(request, i)) {
             into_background(&panel->series[i]);
             add_separation(request, out, panel, i, counted != NULL ? &counted[i] : NULL);
+            add_slanted(request, out, panel, i);
         }
     for (size_t i = 0; i < request->count && counted != NULL; i++)
         add_census(request, out, panel, i, &counted[i]);

@@ -139,8 +139,9 @@ static void add_panel(scene *s, chart *out, const check_verdict *first) {
     bool wanted[NEED_KIND_COUNT] = {false};
     s->request.setups = &setup;
     chart_panel *panel = figure_panel(&s->request, out, y);
-    snprintf(panel->title, sizeof panel->title, "%s: %s %s, %s", first->camera->name, spec->format.name,
-             dp_mapping_get(spec->mapping)->name, model_word(spec->model));
+    snprintf(panel->title, sizeof panel->title, "%s: %s %s, %s%s", first->camera->name, spec->format.name,
+             dp_mapping_get(spec->mapping)->name, model_word(spec->model),
+             spec->triangles.width > 0 ? ", any slant" : "");
     for (size_t i = 0; i < s->count; i++)
         wanted[s->verdicts[i].asked->kind] |= same_setup(first, &s->verdicts[i]);
     for (int is_error = 0; is_error < 2; is_error++)

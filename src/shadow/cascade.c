@@ -64,22 +64,31 @@ static shadow_status fit(const shadow_split *s, const shadow_light *model, shado
     return shadow_light_check(&c->light);
 }
 
-shadow_status shadow_cascade_of(const shadow_split *split, const shadow_light *model, int index, shadow_cascade *out) {
+static double widest_gap(const shadow_light *light) {
     shadow_need need;
+    double gap = 0.0;
+    shadow_need_of(light, &need);
+    for (int way = 0; way < SHADOW_WAY_COUNT; way++)
+        if (isfinite(need.bias[way].gap_light))
+            gap = fmax(gap, need.bias[way].gap_light);
+    return gap;
+}
+
+shadow_status shadow_cascade_of(const shadow_split *split, const shadow_light *model, int index, shadow_cascade *out) {
+    enum { ROUNDS = 4 };
     shadow_status status = shadow_split_check(split);
     if (status != SHADOW_OK || index < 0 || index >= split->count)
         return SHADOW_CASCADES;
     shadow_cascade c = {.from = split_at(split, index), .to = split_at(split, index + 1)};
     bound(split, &c);
     status = fit(split, model, &c, 0.0);
-    if (status != SHADOW_OK)
-        return status;
-    shadow_need_of(&c.light, &need);
-    double behind = 0.0;
-    for (int way = 0; way < SHADOW_WAY_COUNT; way++)
-        if (isfinite(need.bias[way].gap_light))
-            behind = fmax(behind, need.bias[way].gap_light);
-    status = fit(split, model, &c, 1.25 * behind);
+    /* A deeper box rounds more, which opens a wider gap: a little, but where small triangles leave hardly any slope. */
+    for (int i = 0; i < ROUNDS && status == SHADOW_OK; i++) {
+        const double gap = widest_gap(&c.light);
+        if (c.light.receiver_hi + gap <= c.light.setup.spec.zfar)
+            break;
+        status = fit(split, model, &c, 1.25 * gap);
+    }
     if (status == SHADOW_OK)
         *out = c;
     return status;
