@@ -14,13 +14,8 @@ bool slanted_draw_camera(rng *r, slanted *s, const slanted_kind *kind, const cha
     if (dp_format_parse(format, found) != 1 || dp_arith_parse(kind->arith, &spec.arith) != DP_OK)
         return false;
     s->kind = kind;
-<<<<<<< HEAD
     s->cut = RASTER_CLIP_ANY;
     s->world.terms = (dp_budget_terms){0};
-=======
-    s->world.terms = (dp_budget_terms){0};
-    s->cut = RASTER_CLIP_ANY;
->>>>>>> a14
     spec.format = found[0];
     spec.mapping = reversed ? DP_MAPPING_REVERSED : DP_MAPPING_D3D;
     spec.znear = rng_log(r, 0.01, 10.0);
