@@ -26,8 +26,8 @@ static double by_diagonal(const disocclusion_view *v) {
 /* clang-format off */
 static const disocclusion_row rows[DISOCCLUSION_ROWS] = {
     {"tangent", "1.37e-5 z tan(hfov/2) W/2", by_tangent,
-     "FidelityFX Super Resolution 2, first releases, depth clip, marked as for reversed infinite depth alone; attributed "
-     "there to Akeley and Su 2006"},
+     "FidelityFX Super Resolution 2, first releases, depth clip, marked as for reversed infinite depth alone; "
+     "attributed there to Akeley and Su 2006"},
     {"diagonal", "1.37e-5 z |corner|/|centre| length(W, H)", by_diagonal,
      "FidelityFX Super Resolution 2, later releases, and 3, depth clip"},
 };

@@ -38,16 +38,16 @@ static void fill_in(bias_call_text *out, const char *form, const char *units, co
     }
 }
 
-static bias_call_text call_of(const bias_api *api, const char *units, double factor) {
+static bias_call_text call_of(const bias_api *api, const char *units, const char *factor) {
     bias_call_text out = {""};
-    fill_in(&out, api->call, units, number_full(factor).text);
-    if (factor != 0.0)
-        fill_in(&out, api->sloped, units, number_full(factor).text);
+    fill_in(&out, api->call, units, factor);
+    if (strcmp(factor, "0") != 0)
+        fill_in(&out, api->sloped, units, factor);
     return out;
 }
 
 bias_call_text bias_call(const bias_api *api, double units, double factor) {
-    return call_of(api, units_text(units).text, factor);
+    return call_of(api, units_text(units).text, number_full(factor).text);
 }
 
 int bias_check_slant(const options *o) {
@@ -106,6 +106,14 @@ static void say_result(row *r) {
         append(r->said, sizeof r->said, "enough only from z = %s to %s", from.text, to.text);
 }
 
+/* In nine digits or, on the safe side, in fewer. */
+static void write_short(double units, char out[NUMBER_SIZE]) {
+    const bool whole = units == nearbyint(units) && fabs(units) < 1e9;
+    const number_text text = whole ? number_full(fabs(units)) : number_up(fabs(units), DIGITS_SHORT);
+    out[0] = '\0';
+    append(out, NUMBER_SIZE, "%s%s", units < 0.0 ? "-" : "", text.text);
+}
+
 static void measure(const all *a, const bias_api *api, const dp_setup *setup, double z, row *r) {
     const options *o = &a->walk.here;
     const bias_goal goal = goal_of(o, api, setup);
@@ -125,6 +133,10 @@ static void measure(const all *a, const bias_api *api, const dp_setup *setup, do
     if (!isnan(r->units))
         memcpy(r->call, bias_call(api, r->units, r->factor).text, sizeof r->call);
     say_result(r);
+    char shown[NUMBER_SIZE];
+    write_short(r->units, shown);
+    if (bias_chooses_factor(o) && !isnan(r->units)) /* the factor is long, and the same for all */
+        snprintf(r->said, sizeof r->said, "%s", call_of(api, shown, "F").text);
 }
 
 static size_t api_count(void) {
@@ -143,14 +155,6 @@ static void *next_row(void *of, size_t i) {
         return NULL;
     measure(a, api, a->walk.setup, a->by_range ? (double)NAN : depths_get(&a->walk.at, i / apis), &a->row);
     return &a->row;
-}
-
-/* In nine digits or, on the safe side, in fewer. */
-static void write_short(double units, char out[NUMBER_SIZE]) {
-    const bool whole = units == nearbyint(units) && fabs(units) < 1e9;
-    const number_text text = whole ? number_full(fabs(units)) : number_up(fabs(units), DIGITS_SHORT);
-    out[0] = '\0';
-    append(out, NUMBER_SIZE, "%s%s", units < 0.0 ? "-" : "", text.text);
 }
 
 /* The same for all set-ups at once. */
@@ -207,6 +211,8 @@ static void say_choice(page *p, const dp_format *format) {
 
 static void say_notes(page *p, void *item) {
     const all *a = item;
+    if (bias_chooses_factor(&a->walk.here))
+        page_line(p, "F, the factor of the slope, is %s", number_full(a->row.factor).text);
     if (a->triangles != NULL)
         page_line(p, "%s", BIAS_DRAWN_TWICE);
     say_choice(p, &a->walk.setup->spec.format);
@@ -236,7 +242,8 @@ static void say_calls(page *p, void *item) {
         }
     output_char(p->out, '\n');
     for (size_t i = 0; bias_api_get(i) != NULL; i++)
-        page_note(p, bias_api_get(i)->name, "%s", call_of(bias_api_get(i), "U", a->walk.o->factor).text);
+        page_note(p, bias_api_get(i)->name, "%s",
+                  call_of(bias_api_get(i), "U", number_full(a->walk.o->factor).text).text);
 }
 
 /* ---- Columns ----------------------------------------------------------------------------------------------------- */

@@ -171,7 +171,7 @@ static void subtitle_of(const options *o, const figure_request *request, char *o
     else
         snprintf(out, size, "%s", one);
     const dp_triangles *t = &request->setups[0].spec.triangles;
-    if (t->width > 0)
+    if (t->width > 0 && request->raster == NULL) /* a figure that draws says it itself */
         append(out, size, ", %dx%d, fov %s, %d subpixel bits, slant %s to %s", t->width, t->height,
                number_of(t->fov_y, 4).text, t->subpixel, number_full(t->slant_lo).text, number_full(t->slant_hi).text);
     append(out, size, "%s%s", unit != NULL ? ", lengths in " : "", unit != NULL ? unit : "");
@@ -247,7 +247,7 @@ static int resolve_setups(plotting *p) {
         return status;
     p->request.setups = p->all.items;
     p->request.count = p->all.count;
-    p->request.raster = in_model.raster;
+    p->request.raster = drawn ? in_model.raster : NULL;
     p->request.slant = option_given(p->o, OPTION_PLANE) ? p->o->triangles.slant_lo : standard_slant;
     p->request.azimuth = option_given(p->o, OPTION_PLANE) ? p->o->azimuth : standard_azimuth;
     status = choose_models(p);

@@ -213,7 +213,7 @@ static const column count_columns[] = {
     {FIELD(band, longest, "longest", "scene")},
     {FIELD(band, counts.longest_z, "longest_z", "scene")},
     {TEXT_FIELD(band, longest, "longest", 12, DIGITS), .when = WITH_INTERVALS},
-    {TEXT_FIELD(band, counts.longest_z, "at", 10, DIGITS), .when = WITH_INTERVALS},
+    {TEXT_FIELD(band, counts.longest_z, "at", 10, DIGITS), .when = WITH_INTERVALS, .spare = 1},
     {FIELD(band, counts.bound, "bound", "scene"), SHOWN("guaranteed", 12, DIGITS), .upward = true},
     {FIELD(band, counts.bound, "guarantee_facing", "scene"), .when = WITH_TRIANGLES},
     {FIELD(band, slanted, "guarantee_slanted", "scene"), SHOWN("any slant", 12, DIGITS), .upward = true,

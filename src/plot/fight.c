@@ -197,9 +197,11 @@ const char *fight_build(const figure_request *request, chart *out) {
     }
     const char *wrong = build(request, &s, out);
     draw_buffer_close(&s.buffer);
+    if (wrong != NULL)
+        return wrong;
     if (isnan(request->at))
         append(out->subtitle, sizeof out->subtitle, ", at depth %.4g", s.z);
     append(out->subtitle, sizeof out->subtitle, "; %s at %d x %d, field of view %.4g\u00b0, slant %.4g\u00b0",
            request->raster->name, view->width, view->height, view->fov_y, request->slant);
-    return wrong;
+    return NULL;
 }
