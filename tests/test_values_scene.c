@@ -70,6 +70,38 @@ static dp_setup setup_of(const char *format, dp_mapping mapping, bool slanted) {
     return setup;
 }
 
+static const struct {
+    const char *a, *b, *material;
+    double gap, area, lo[3], hi[3];
+} pairs[] = {{"wall", "sign", "tin", 0x1p-10, 2, {21, 1, 0}, {22, 3, 0}},
+             {"road", "paint", "white", 0x1p-6, 16, {-1, 0, -4}, {1, 0, 4}}};
+
+/* One finding: whether it is certain up to `within`. */
+static bool check_finding(const json_t *f, size_t k, const dp_setup *setup, double within) {
+    const json_t *place = json_object_get(f, "place");
+    dp_separation_worst worst;
+    assert_string_equal(word(f, "a", "node"), pairs[k].a);
+    assert_string_equal(word(f, "b", "node"), pairs[k].b);
+    assert_string_equal(word(f, "b", "material"), pairs[k].material);
+    assert_true(number(f, "gap_min") == pairs[k].gap && number(f, "gap_max") == pairs[k].gap);
+    assert_relative(number(f, "area"), pairs[k].area, 1e-12);
+    for (int axis = 0; axis < 3; axis++) {
+        const double at = number(place, (const char *const[]){"x", "y", "z"}[axis]);
+        assert_true(at >= pairs[k].lo[axis] && at <= pairs[k].hi[axis]);
+    }
+    const double certain = number(f, "certain_to");
+    assert_int_equal(dp_separation_over(setup, 0.1, certain, pairs[k].gap, &worst), DP_OK);
+    assert_true(worst.bound <= pairs[k].gap);
+    if (certain < 999) {
+        dp_separation_over(setup, 0.1, certain * (1 + 2e-5), pairs[k].gap, &worst);
+        assert_true(worst.bound > pairs[k].gap);
+    }
+    dp_separation_over(setup, 0.1, within, 0, &worst);
+    assert_relative(number(f, "lift"), fmax(worst.bound - pairs[k].gap, 0.0), 1e-12);
+    assert_int_equal(json_is_true(json_object_get(f, "fights")), certain < within);
+    return certain >= within;
+}
+
 static void findings(void **state) {
     static const struct {
         const char *options, *format;
@@ -81,11 +113,6 @@ static void findings(void **state) {
         {"--gap 0.02 -F d24 -m d3d --within 50", "unorm24", DP_MAPPING_D3D, false, 50},
         {"--gap 0.02 --viewport 1920x1080 --within 200", "fp32", DP_MAPPING_REVERSED, true, 200},
     };
-    static const struct {
-        const char *a, *b, *material;
-        double gap, area, lo[3], hi[3];
-    } pairs[] = {{"wall", "sign", "tin", 0x1p-10, 2, {21, 1, 0}, {22, 3, 0}},
-                 {"road", "paint", "white", 0x1p-6, 16, {-1, 0, -4}, {1, 0, 4}}};
     (void)state;
     for (size_t i = 0; i < sizeof rows / sizeof rows[0]; i++) {
         const dp_setup setup = setup_of(rows[i].format, rows[i].mapping, rows[i].slanted);
@@ -109,28 +136,7 @@ static void findings(void **state) {
             seen |= 1U << k;
             assert_true(number(f, "certain_to") >= last); /* the nearest fight first */
             last = number(f, "certain_to");
-            const json_t *place = json_object_get(f, "place");
-            dp_separation_worst worst;
-            assert_string_equal(word(f, "a", "node"), pairs[k].a);
-            assert_string_equal(word(f, "b", "node"), pairs[k].b);
-            assert_string_equal(word(f, "b", "material"), pairs[k].material);
-            assert_true(number(f, "gap_min") == pairs[k].gap && number(f, "gap_max") == pairs[k].gap);
-            assert_relative(number(f, "area"), pairs[k].area, 1e-12);
-            for (int axis = 0; axis < 3; axis++) {
-                const double at = number(place, (const char *const[]){"x", "y", "z"}[axis]);
-                assert_true(at >= pairs[k].lo[axis] && at <= pairs[k].hi[axis]);
-            }
-            const double certain = number(f, "certain_to");
-            assert_int_equal(dp_separation_over(&setup, 0.1, certain, pairs[k].gap, &worst), DP_OK);
-            assert_true(worst.bound <= pairs[k].gap);
-            if (certain < 999) {
-                dp_separation_over(&setup, 0.1, certain * (1 + 2e-5), pairs[k].gap, &worst);
-                assert_true(worst.bound > pairs[k].gap);
-            }
-            dp_separation_over(&setup, 0.1, within, 0, &worst);
-            assert_relative(number(f, "lift"), fmax(worst.bound - pairs[k].gap, 0.0), 1e-12);
-            assert_int_equal(json_is_true(json_object_get(f, "fights")), certain < within);
-            passed = passed && certain >= within;
+            passed = check_finding(f, k, &setup, within) && passed;
         }
         assert_int_equal(seen, 3);
         assert_int_equal(json_is_true(json_object_get(root, "passed")), passed);
