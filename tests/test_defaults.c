@@ -23,6 +23,7 @@ static const struct {
     {VERB_STABILITY, "stability encode"},
     {VERB_SHADOW, "shadow"},
     {VERB_DISOCCLUSION, "disocclusion"},
+    {VERB_SCENE, "scene tests/models/street.obj --gap 0.02"},
     {VERB_LIST, "list scenes"},
 };
 
@@ -38,10 +39,10 @@ static const struct {
     {VERB_PLOT, OPTION_WORLD, "plot budget -F d24 -m d3d --csv", ""},
     {VERB_PLOT, OPTION_COMPOSITION, "plot budget -F d24 -m d3d --csv", "--world 100"},
     {VERB_BUDGET, OPTION_COMPOSITION, NULL, "--world 100"},
-    {VERB_TABLE | VERB_BUDGET | VERB_SOLVE | VERB_ZFIGHT, OPTION_FOV, NULL, "--viewport 640x480"},
-    {VERB_TABLE | VERB_BUDGET | VERB_SOLVE | VERB_ZFIGHT, OPTION_SUBPIXEL, NULL, "--viewport 640x480"},
-    {VERB_TABLE | VERB_BUDGET | VERB_SOLVE | VERB_ZFIGHT, OPTION_SLANT, NULL, "--viewport 640x480"},
-    {VERB_TABLE | VERB_BUDGET | VERB_SOLVE | VERB_ZFIGHT, OPTION_TRIANGLE, NULL, "--viewport 640x480"},
+    {VERB_TABLE | VERB_BUDGET | VERB_SOLVE | VERB_ZFIGHT | VERB_SCENE, OPTION_FOV, NULL, "--viewport 640x480"},
+    {VERB_TABLE | VERB_BUDGET | VERB_SOLVE | VERB_ZFIGHT | VERB_SCENE, OPTION_SUBPIXEL, NULL, "--viewport 640x480"},
+    {VERB_TABLE | VERB_BUDGET | VERB_SOLVE | VERB_ZFIGHT | VERB_SCENE, OPTION_SLANT, NULL, "--viewport 640x480"},
+    {VERB_TABLE | VERB_BUDGET | VERB_SOLVE | VERB_ZFIGHT | VERB_SCENE, OPTION_TRIANGLE, NULL, "--viewport 640x480"},
     {VERB_ZFIGHT, OPTION_SEED, NULL, "--sample 1000"},
     {VERB_ZFIGHT, OPTION_FOV, "zfight -F fp32 -m d3d --triangles --sample 20", ""},
     {VERB_ZFIGHT, OPTION_RASTER, "zfight -F fp32 -m d3d --triangles --sample 20", ""},
@@ -72,7 +73,7 @@ static const struct {
     {VERB_TABLE, OPTION_MODEL, "table -F d24 -m d3d", ""},
     {VERB_TABLE, OPTION_ARITH, NULL, "--model float"},
     {VERB_PLOT, OPTION_ARITH, "plot interval -F d24 -m d3d --csv", "--model float"},
-    {VERB_TABLE | VERB_PLOT | VERB_TEXTURE | VERB_BIAS, OPTION_LOG_C, NULL, "-m log"},
+    {VERB_TABLE | VERB_PLOT | VERB_TEXTURE | VERB_BIAS | VERB_SCENE, OPTION_LOG_C, NULL, "-m log"},
     {VERB_SOLVE, OPTION_LOG_C, "solve -f 1000 -F d24 -m log --separation 0.01 --at 50", ""},
 };
 

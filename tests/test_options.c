@@ -10,6 +10,7 @@
 
 #include "cli/option_rows.h"
 #include "parsed.h"
+#include "scene/find.h"
 #include "support.h"
 
 static bool tried[OPTION_COUNT];
@@ -141,6 +142,7 @@ static void test_lengths(void **state) {
     } lengths[] = {{"solve", OPTION_SEPARATION, AT(wanted_separation)},
                    {"solve", OPTION_ERROR, AT(wanted_error)},
                    {"bias", OPTION_GAP, AT(gap)},
+                   {"scene m.obj", OPTION_WITHIN, AT(within)},
                    {"texture", OPTION_OVERLAY, AT(overlay)}};
     tally t = {.name = "lengths"};
     (void)state;
@@ -266,6 +268,7 @@ static void test_words(void **state) {
          WORD_AT(colour),
          "auto, always or never",
          {{"auto", OUTPUT_COLOUR_AUTO}, {"always", OUTPUT_COLOUR_ALWAYS}, {"never", OUTPUT_COLOUR_NEVER}}},
+        {"scene m.obj", OPTION_TRANSFORMS, WORD_AT(transforms), "exact or binary32", {{"exact", 0}, {"binary32", 1}}},
         {"zfight",
          OPTION_VERTICES,
          WORD_AT(vertices),
@@ -525,6 +528,13 @@ static void test_own(void **state) {
     assert_int_equal(parse(&o, "zfight", OPTION_AGAINST, "pairs,all", line), EXIT_FINE);
     assert_true(strcmp(o.against[0]->name, "pairs") == 0 && o.against[1] == vertex_program_get(0));
     assert_true(vertex_program_get(o.against_count - 1) != NULL && vertex_program_get(o.against_count) == NULL);
+    assert_int_equal(parse(&o, "scene m.obj", OPTION_ALSO, "Thin,facing", line), EXIT_FINE);
+    assert_int_equal(o.filters_off, 1U << FINDER_THIN | 1U << FINDER_FACING);
+    assert_int_equal(parse(&o, "scene m.obj", OPTION_ALSO, "all", line), EXIT_FINE);
+    assert_int_equal(o.filters_off, (1U << FINDER_FILTERS) - 1);
+    assert_int_equal(parse(&o, "scene m.obj", OPTION_GAP, "0", line), EXIT_FINE);
+    assert_true(o.gap == 0.0 && option_given(&o, OPTION_GAP));
+    assert_int_equal(parse(&o, "zfight", OPTION_GAP, "0", line), EXIT_USAGE);
     assert_int_equal(parse(&o, "table", OPTION_TOLERANCE, "3%", line), EXIT_FINE);
     assert_true(near_to(o.tolerance, 0.03));
     assert_int_equal(parse(&o, "table", OPTION_AT, "3,1,2", line), EXIT_FINE);

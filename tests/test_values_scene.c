@@ -10,28 +10,7 @@
 #include "printed.h"
 #include "support.h"
 
-/*
- * A road, paint 1/64 above it and a sign 1/1024 before a wall; the wall's back has a poster of its own that faces away;
- * glass on the road is blended in materials that are not there, so it counts.
- */
-static const char model[] =
-    "o road\nusemtl tar\nv -8 0 -8\nv 8 0 -8\nv 8 0 8\nv -8 0 8\nf 4 3 2 1\n"
-    "o paint\nusemtl white\nv -1 0.015625 -4\nv 1 0.015625 -4\nv 1 0.015625 4\nv -1 0.015625 4\n"
-    "f 8 7 6 5\n"
-    "o wall\nusemtl brick\nv 20 0 0\nv 24 0 0\nv 24 4 0\nv 20 4 0\nf 9 10 11 12\n"
-    "o sign\nusemtl tin\nv 21 1 0.0009765625\nv 22 1 0.0009765625\nv 22 3 0.0009765625\n"
-    "v 21 3 0.0009765625\nf 13 14 15 16\n"
-    "o back\nusemtl paper\nv 20 0 -0.0009765625\nv 24 0 -0.0009765625\n"
-    "v 24 4 -0.0009765625\nv 20 4 -0.0009765625\nf 20 19 18 17\n";
-
-static const char *written(void) {
-    const char *path = scratch_file("street.obj");
-    FILE *out = fopen(path, "w");
-    assert_non_null(out);
-    fputs(model, out);
-    assert_int_equal(fclose(out), 0);
-    return path;
-}
+#define STREET "tests/models/street.obj"
 
 static double number(const json_t *object, const char *key) {
     const json_t *value = json_object_get(object, key);
@@ -46,7 +25,7 @@ static const char *word(const json_t *object, const char *part, const char *key)
 }
 
 static json_t *object_of(const char *options, int status) {
-    printed p = print_of("scene %s %s --json", written(), options);
+    printed p = print_of("scene %s %s --json", STREET, options);
     json_error_t error;
     if (p.status != status)
         fail_msg("%s: status %d: %s", options, p.status, p.errors);
@@ -173,7 +152,7 @@ static void other_forms(void **state) {
     const json_t *f = json_array_get(json_object_get(root, "findings"), 0);
     char want[256];
     (void)state;
-    printed p = print_of("scene %s --gap 0.02 -F d24 -m d3d --within 50 --unit m", written());
+    printed p = print_of("scene %s --gap 0.02 -F d24 -m d3d --within 50 --unit m", STREET);
     assert_int_equal(p.status, 1);
     assert_non_null(strstr(p.out, "10 triangles, 5 surfaces, 36 m across"));
     assert_non_null(strstr(p.out, "2 pairs of surfaces lie within 0.02 m of each other: 2 can fight"));
@@ -185,7 +164,7 @@ static void other_forms(void **state) {
         fail_msg("'%s' is not in %s", want, p.out);
     assert_non_null(strstr(p.out, "area 2, near "));
     printed_free(&p);
-    p = print_of("scene %s --gap 0.02 -F d24 -m d3d --within 50 --unit m --csv", written());
+    p = print_of("scene %s --gap 0.02 -F d24 -m d3d --within 50 --unit m --csv", STREET);
     char *line = strtok(p.out, "\r\n");
     assert_non_null(strstr(line, "a_node,a_mesh,a_material,b_node,b_mesh,b_material,gap_min [scene],gap_max [scene]"));
     line = strtok(NULL, "\r\n");
@@ -222,14 +201,12 @@ static void refused(void **state) {
         {"scene %s --also fcing", 2, "--also: must be"},
         {"scene %s --ortho", 2, "--ortho: is not an option of scene"},
     };
-    char path[512];
     (void)state;
-    snprintf(path, sizeof path, "%s", written());
     for (size_t i = 0; i < sizeof rows / sizeof rows[0]; i++) {
         char line[1024];
         const char *at = strstr(rows[i].arguments, "%s");
         if (at != NULL)
-            snprintf(line, sizeof line, "%.*s%s%s", (int)(at - rows[i].arguments), rows[i].arguments, path, at + 2);
+            snprintf(line, sizeof line, "%.*s%s%s", (int)(at - rows[i].arguments), rows[i].arguments, STREET, at + 2);
         else
             snprintf(line, sizeof line, "%s", rows[i].arguments);
         printed p = print_of("%s", line);

@@ -221,8 +221,11 @@ static void say_head(page *p, void *of) {
     if (n->skinned + n->morphed + n->animated > 0)
         page_title(p, "in the rest pose: %zu skinned and %zu morphed meshes, %zu animated nodes", n->skinned,
                    n->morphed, n->animated);
-    page_text(p, "%zu pair%s of surfaces lie%s within %s of each other: %zu can fight before the far plane.", count,
-              count == 1 ? "" : "s", count == 1 ? "s" : "", length(p, s->gap).text, fights);
+    if (count == 0)
+        page_text(p, "No surfaces lie within %s of each other.", length(p, s->gap).text);
+    else
+        page_text(p, "%zu pair%s of surfaces lie%s within %s of each other: %zu can fight before the far plane.", count,
+                  count == 1 ? "" : "s", count == 1 ? "s" : "", length(p, s->gap).text, fights);
     if (option_given(&s->o, OPTION_WITHIN))
         page_text(p, "%s%s%s  %s nearer than %s.", s->passed ? p->good : p->bad, s->passed ? "pass" : "FAIL", p->plain,
                   s->passed ? "none fights" : "surfaces can fight", length(p, s->within).text);
