@@ -111,7 +111,7 @@ rendered() { # rendered TOOL PAGE: its lines that are too wide on a terminal of 
 }
 
 for page in README.md man/*.[0-9]; do
-    rm -rf "$scratch/run" && mkdir "$scratch/run"
+    rm -rf "$scratch/run" && mkdir "$scratch/run" && ln -s "$PWD/tests" "$scratch/run/tests" # models that examples read
     split "$page"
     number=1
     while [ -e "$scratch/run/$number.sh" ]; do
