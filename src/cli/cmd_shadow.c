@@ -110,7 +110,7 @@ static void say_answer(page *p, void *item) {
     const shadow_whole w = shadow_whole_of(&s->maps, s->api);
     page_text(p, "No acne%s with any one of these:", where);
     for (int k = 0; k < SHADOW_WAY_COUNT; k++)
-        page_note(p, shadow_way_name(k), "%s", isnan(w.way[k].units) ? "no bias is enough" : w.way[k].call);
+        page_note(p, shadow_way_name((shadow_way)k), "%s", isnan(w.way[k].units) ? "no bias is enough" : w.way[k].call);
 }
 
 static void say_blank(page *p, void *item) {
@@ -138,7 +138,7 @@ static void say_causes(page *p, const shadow *s) {
         sum += least.cause[k];
     for (int k = 0; k < SHADOW_CAUSE_COUNT; k++)
         if (least.cause[k] >= 0.0005 * sum)
-            append(text, sizeof text, "%s%s %s %%", text[0] != '\0' ? ", " : "", shadow_cause_name(k),
+            append(text, sizeof text, "%s%s %s %%", text[0] != '\0' ? ", " : "", shadow_cause_name((shadow_cause)k),
                    number_of(100.0 * least.cause[k] / sum, 3).text);
     if (s->maps.count > 1)
         page_note(p, "causes", "cascade %d: %s", least.cascade, text);

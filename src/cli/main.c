@@ -9,12 +9,22 @@ static const struct {
     unsigned bit;
     int (*run)(const options *);
 } commands[] = {
-    {VERB_TABLE, cmd_table},         {VERB_PLOT, cmd_plot},       {VERB_ZFIGHT, cmd_zfight},
-    {VERB_BUDGET, cmd_budget},       {VERB_TEXTURE, cmd_texture}, {VERB_BENCH, cmd_bench},
-    {VERB_STABILITY, cmd_stability}, {VERB_CHECK, cmd_check},     {VERB_SOLVE, cmd_solve},
-    {VERB_BIAS, cmd_bias},           {VERB_SHADOW, cmd_shadow},   {VERB_SCENE, cmd_scene},
+    {VERB_TABLE, cmd_table},
+    {VERB_PLOT, cmd_plot},
+    {VERB_ZFIGHT, cmd_zfight},
+    {VERB_BUDGET, cmd_budget},
+    {VERB_TEXTURE, cmd_texture},
+    {VERB_BENCH, cmd_bench},
+    {VERB_STABILITY, cmd_stability},
+    {VERB_CHECK, cmd_check},
+    {VERB_SOLVE, cmd_solve},
+    {VERB_BIAS, cmd_bias},
+    {VERB_SHADOW, cmd_shadow},
+    {VERB_SCENE, cmd_scene},
     {VERB_DISOCCLUSION, cmd_disocclusion},
-    {VERB_LIST, cmd_list},           {VERB_HELP, cmd_help},       {VERB_COMPLETIONS, cmd_completions},
+    {VERB_LIST, cmd_list},
+    {VERB_HELP, cmd_help},
+    {VERB_COMPLETIONS, cmd_completions},
 };
 
 static int run(const options *o) {

@@ -16,8 +16,8 @@ const char *shadow_status_text(shadow_status status) {
         [SHADOW_ROUND] = "the radius of curvature must be positive, the size of facets from 0 to 1e18",
         [SHADOW_RECEIVERS] = "lit surfaces must lie between the light's planes, the nearer first",
         [SHADOW_CASCADES] =
-            "near must be from 1e-12 to below far, far at most 1e12, the vertical angle from 0.001 to 179.9 degrees, "
-            "width over height from 0.001 to 1000, cascades 1 to 16, lambda 0 to 1, casters from 0 to 1e12",
+            ("near must be from 1e-12 to below far, far at most 1e12, the vertical angle from 0.001 to 179.9 degrees, "
+             "width over height from 0.001 to 1000, cascades 1 to 16, lambda 0 to 1, casters from 0 to 1e12"),
     };
     return (unsigned)status < SHADOW_STATUS_COUNT ? texts[status] : "not a status";
 }
