@@ -320,7 +320,7 @@ static void test_rows(void **state) {
         {"bias", OPTION_API, AT(api), "Vulkan", "vulkan", offsetof(bias_api, name), "wegbpu", "webgpu"},
         {"bias", OPTION_API, AT(api), "all", NULL, 0, "metall", "metal"},
         {"bias", OPTION_API, AT(api), "d3d12", "d3d11", offsetof(bias_api, name), "d3d14", "d3d11"},
-        {"zfight", OPTION_PROGRAM, AT(program), "FMA", "fma", offsetof(vertex_program, name), "seperate", "separate"},
+        {"zfight", OPTION_PROGRAM, AT(program), "FMA", "fma", offsetof(vertex_program, name), "separatr", "separate"},
         {"table", OPTION_RASTER, AT(raster), "LLVMpipe", "llvmpipe", offsetof(raster_row, name), "lavapip", "lavapipe"},
         {"budget", OPTION_RASTER, AT(raster), "spec-gl", "spec-gl", offsetof(raster_row, name), "spec-d3", "spec-d3d"},
         {"texture", OPTION_SCENE, AT(scene), "steps", "steps", offsetof(scene_row, name), "decal", "decals"},
