@@ -7,6 +7,7 @@
  *     DEPTHPREC_QUICK  nonempty: far fewer cases (for sanitizers)
  *     DEPTHPREC_FULL   nonempty: all cases, minutes
  *     DEPTHPREC_VECTORS  folder of the vector files, tests/vectors if not set
+ *     DEPTHPREC_RECORDING  folder of what rasterizers stored, tests/recording if not set
  */
 #ifndef TESTS_SUPPORT_H
 #define TESTS_SUPPORT_H
