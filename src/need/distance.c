@@ -58,11 +58,30 @@ static bool is_settled(double holds, double fails, int digits) {
     return floor(holds / unit) == ceil(fails / unit) - 1.0;
 }
 
+/*
+ * The ends by depths one by one, which are cheap, then one judgement of all before: where the separation rises with
+ * depth nothing else is left to judge.
+ */
+static void aim(ruler *r, int digits) {
+    ruler by_depths = *r;
+    for (int i = 0; i < STEPS && !is_settled(by_depths.holds, by_depths.fails, digits); i++) {
+        const double middle = between(&by_depths);
+        if (isnan(middle))
+            break;
+        *(dp_separation(r->setup, middle) > r->limit ? &by_depths.fails : &by_depths.holds) = middle;
+    }
+    r->fails = by_depths.fails;
+    if (by_depths.holds > r->holds)
+        extend(r, by_depths.holds);
+}
+
 /* Until the ends are neighbours, or agree in so many digits if that is not 0. */
 static void search(ruler *r, int digits) {
     const double end = r->fails;
     if (r->lo < end)
         extend(r, end);
+    if (digits > 0 && r->holds < r->fails)
+        aim(r, digits);
     for (int i = 0; i < STEPS && r->holds < end && !(digits > 0 && is_settled(r->holds, r->fails, digits)); i++) {
         const double middle = between(r);
         if (isnan(middle))
