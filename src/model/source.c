@@ -119,7 +119,7 @@ static bool unreadable(model_error *error) {
 }
 
 static bool read_stream(FILE *in, file_bytes *out) {
-    enum { FIRST = 1 << 16 };
+    enum { FIRST = 1 << 16, LARGEST = 1 << 30 }; /* bytes: what has no end must have one */
     size_t room = 0;
     *out = (file_bytes){0};
     for (;;) {
@@ -132,14 +132,14 @@ static bool read_stream(FILE *in, file_bytes *out) {
         }
         const size_t got = fread(out->at + out->size, 1, room - 1 - out->size, in);
         out->size += got;
-        if (got == 0)
+        if (got == 0 || out->size > LARGEST)
             break;
     }
     if (out->at != NULL && !ferror(in) && feof(in)) {
         out->at[out->size] = '\0';
         return true;
     }
-    const int reason = ferror(in) && errno != 0 ? errno : ENOMEM;
+    const int reason = out->size > LARGEST ? EFBIG : ferror(in) && errno != 0 ? errno : ENOMEM;
     free(out->at);
     *out = (file_bytes){0};
     errno = reason;
