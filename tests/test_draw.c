@@ -72,14 +72,18 @@ static void stored(const scene *s, const double place[3][3], double (*depth)[WID
     if (raster_set_up(&s->camera.target, v, &drawn) != RASTER_OK)
         return;
     for (int i = 0; i < drawn.count; i++)
-        for (int y = 0, from, to; y < HEIGHT; y++)
-            for (int x = raster_span(&s->camera.target, &drawn.piece[i], y, &from, &to) ? from : WIDTH; x < to; x++) {
+        for (int y = 0; y < HEIGHT; y++) {
+            int from, to;
+            if (!raster_span(&s->camera.target, &drawn.piece[i], y, &from, &to))
+                continue;
+            for (int x = from; x < to; x++) {
                 uint32_t code;
                 float value;
                 raster_codes(&s->camera.target, &drawn.piece[i], y, x, x + 1, &code);
                 memcpy(&value, &code, sizeof value);
                 depth[y][x] = s->setup.spec.format.kind == DP_FORMAT_FLOAT ? (double)value : (double)code;
             }
+        }
 }
 
 static void random_triangle(rng *r, const scene *s, double place[3][3]) {
