@@ -181,13 +181,15 @@ static const column fight_columns[] = {{FIELD(solve_fight, first, "first", "scen
                                        {FIELD(solve_fight, searched, "searched_to", "scene")},
                                        {.kind = COLUMN_END}};
 
+static unsigned conditions(const solve_report *r) {
+    return (r->target == SOLVE_FOR_SEPARATION ? OF_SEPARATION : OF_OTHERS) |
+           (r->target == SOLVE_FOR_DISTANCE ? OF_DISTANCE : 0) | (r->o->triangles.width > 0 ? WITH_TRIANGLES : 0);
+}
+
 /* What is measured names a column, and what is solved for another. */
 void solve_report_write(const solve_report *r, output *out) {
     static const char *const heads[] = {"least near", "largest far", "near", "near", "", "distance"};
     solving s = {.report = *r, .target = option_word(OPTION_FOR, r->target), .measure = solve_measure_name(r)};
-    const unsigned when = (r->target == SOLVE_FOR_SEPARATION ? OF_SEPARATION : OF_OTHERS) |
-                          (r->target == SOLVE_FOR_DISTANCE ? OF_DISTANCE : 0) |
-                          (r->o->triangles.width > 0 ? WITH_TRIANGLES : 0);
     const column lattice[] = {{FIELD(candidate, found.lattice.possible, "possible", "")},
                               {FIELD(candidate, lattice_near, "near", "scene"), .optional = true},
                               {FIELD(candidate, lattice_far, "far", "scene"), .optional = true},
@@ -239,7 +241,7 @@ void solve_report_write(const solve_report *r, output *out) {
         {LIST(NULL, beside, next_alternative), .only = AS_TEXT, .indent = 2, .head = say_others, .notes = say_cautions},
         {LIST(NULL, line_columns, next_line), .only = AS_CSV},
         {.kind = COLUMN_END}};
-    const report_spec spec = {"solve", columns, &s, .when = when, .label = 15, .head = solve_report_answer};
+    const report_spec spec = {"solve", columns, &s, .when = conditions(r), .label = 15, .head = solve_report_answer};
     s.triangles = slant_fields_of(r->o, &s.slant);
     take_candidate(&s, &r->items[0]);
     report_write(&spec, out, r->o->form);
