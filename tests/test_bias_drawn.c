@@ -213,6 +213,13 @@ static void test_terms(void **state) {
     spec.triangles.subpixel = 1;
     assert_int_equal(dp_setup_init(&setup, &spec), DP_OK);
     assert_true(isinf(bias_factor_least(&setup)));
+    for (size_t i = 0; bias_api_get(i) != NULL; i++) {
+        const bias_goal goal = {.api = bias_api_get(i), .factor = bias_factor_least(&setup)};
+        double worst = -1;
+        assert_true(isinf(bias_needed(&setup, &goal, z)));
+        assert_true(isinf(bias_needed_over(&setup, &goal, z, 2 * z, &worst)));
+        assert_true(worst >= z && worst <= 2 * z);
+    }
 }
 
 /* What is enough over a range is enough at each depth of it, and not many times what some depth needs. */

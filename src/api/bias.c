@@ -250,8 +250,9 @@ static double needed_slanted(const dp_setup *setup, const bias_goal *goal, doubl
     const double d_hi = fmax(dp_window(setup, lo), dp_window(setup, hi));
     const double steepest = fmax(bias_window_slope(setup, lo, goal->slope), bias_window_slope(setup, hi, goal->slope));
     dp_coplanar apart;
+    *worst = lo;
     if (dp_coplanar_over(setup, lo, hi, &apart) != DP_OK ||
-        (goal->slope == 0.0 && goal->factor < bias_factor_least(setup)))
+        (goal->slope == 0.0 && (isinf(goal->factor) || goal->factor < bias_factor_least(setup))))
         return (double)INFINITY;
     const double off = apart.window + apart.pixels * steepest;
     const int here = exponent_of(format, fmin(d_hi + off, 1.0));

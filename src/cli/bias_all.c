@@ -211,7 +211,9 @@ static void say_choice(page *p, const dp_format *format) {
 
 static void say_notes(page *p, void *item) {
     const all *a = item;
-    if (bias_chooses_factor(&a->walk.here))
+    if (bias_chooses_factor(&a->walk.here) && isinf(a->row.factor))
+        page_line(p, "%s", BIAS_NO_FACTOR);
+    else if (bias_chooses_factor(&a->walk.here))
         page_line(p, "F, the factor of the slope, is %s", number_full(a->row.factor).text);
     if (a->triangles != NULL)
         page_line(p, "%s", BIAS_DRAWN_TWICE);

@@ -20,6 +20,9 @@ double bias_signed(const dp_setup *setup, double units);
 /** With a viewport: what text says that is told apart. */
 #define BIAS_DRAWN_TWICE "told apart: one plane drawn as different triangles, each at least a pixel high"
 
+/** Where the least factor that is enough at any slant is INFINITY. */
+#define BIAS_NO_FACTOR "at any slant no factor is enough; --slope says how steep they are"
+
 /** Whether each set-up's factor is the least that is enough at any slant: a viewport, and neither factor nor slope. */
 static inline bool bias_chooses_factor(const options *o) {
     return o->triangles.width > 0 && !option_given(o, OPTION_FACTOR) && !option_given(o, OPTION_SLOPE);

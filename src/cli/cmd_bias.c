@@ -140,7 +140,7 @@ static void say_states(page *p, void *item) {
     output_text(p->out, s->api->name);
     if (!b->inverse)
         output_format(p->out, ", units %s", number_full(s->units).text);
-    if (s->factor != 0.0)
+    if (s->factor != 0.0 && isfinite(s->factor))
         output_format(p->out, ", factor %s", number_full(s->factor).text);
     if (!b->inverse && s->clamp != 0.0)
         output_format(p->out, ", clamp %s", number_full(s->clamp).text);
@@ -198,7 +198,9 @@ static void say_notes(page *p, void *item) {
     if (b->triangles != NULL)
         page_line(p, "%s", BIAS_DRAWN_TWICE);
     const double least = bias_factor_least(b->walk.setup); /* 0 without triangles */
-    if (b->inverse && b->goal.slope == 0.0 && b->state.factor * bias_sign(b->walk.setup) < least)
+    if (b->inverse && b->goal.slope == 0.0 && isinf(least))
+        page_line(p, "%s", BIAS_NO_FACTOR);
+    else if (b->inverse && b->goal.slope == 0.0 && b->state.factor * bias_sign(b->walk.setup) < least)
         page_line(p, "at any slant no units are enough with a factor below %s; --slope says how steep they are",
                   number_full(least).text);
     if (b->limited && !b->inverse)
