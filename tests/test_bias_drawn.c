@@ -195,6 +195,15 @@ static void test_terms(void **state) {
     assert_true(got.lost_window == got.window);
     assert_true(bias_factor_least(&setup) >= got.pixels / (1 - got.lost));
     assert_true(bias_factor_least(&setup) <= got.pixels / (1 - got.lost) * 1.002 + 0x1p-12);
+    /* Of slim triangles the arithmetic of the gradients takes more than the grid. */
+    dp_coplanar slim;
+    spec.triangles.slim = 1000;
+    assert_int_equal(dp_setup_init(&setup, &spec), DP_OK);
+    assert_int_equal(dp_coplanar_over(&setup, z, z, &slim), DP_OK);
+    const double long_box = 0.5 + 0.5 * hypot(1000, 1);
+    assert_relative(slim.lost - slim.pixels, eps * (6 * long_box * 1000 + 2 * long_box + 2), 0.004);
+    spec.triangles.slim = 16;
+    assert_int_equal(dp_setup_init(&setup, &spec), DP_OK);
     /* Of a range what holds all over it. */
     assert_int_equal(dp_coplanar_over(&setup, 7, INFINITY, &wide), DP_OK);
     assert_true(wide.window > 5 * got.window && wide.window < 7 * got.window && wide.pixels == got.pixels);

@@ -103,6 +103,30 @@ static void known_setup(void **state) {
     tally_end(&all);
 }
 
+/* Read back reversed and without a far plane a depth is off by 5 eps of itself: the nearer surface may be at z/k. */
+static void test_read_back(void **state) {
+    dp_spec spec = dp_spec_default();
+    (void)state;
+    for (double k = 1.5; k < 40.0; k *= 2.0) {
+        const double eps = 0x1p-24, z = 3.0, slant = 50.0;
+        dp_triangles t = dp_triangles_default();
+        dp_setup setup;
+        dp_budget b;
+        t.slant_lo = t.slant_hi = slant;
+        t.depth = k;
+        spec.mapping = DP_MAPPING_REVERSED;
+        spec.znear = 0x1p-20;
+        spec.zfar = INFINITY;
+        spec.triangles = t;
+        assert_int_equal(dp_setup_init(&setup, &spec), DP_OK);
+        assert_int_equal(dp_budget_at(&setup, z, &(dp_budget_terms){.linearize = 1}, &b), DP_OK);
+        const double ray = tan(t.fov_y * pi / 360.0) / t.height * hypot(t.width, t.height);
+        const double seen = cos(slant * pi / 180.0) + sin(slant * pi / 180.0) * ray;
+        assert_true(b.cause[DP_CAUSE_LINEARIZATION] >= (1.0 + k) * 5.0 * eps * z * seen);
+        assert_true(b.cause[DP_CAUSE_LINEARIZATION] <= 2.0 * k * 5.0 * eps * z * seen * 1.001);
+    }
+}
+
 /* ---- In a world -------------------------------------------------------------------------------------------------- */
 
 /* The most that rounding a number up to x changes it by. */
@@ -373,8 +397,9 @@ static void test_refusals(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(known_numbers), cmocka_unit_test(known_setup), cmocka_unit_test(known_world),
-        cmocka_unit_test(test_order),    cmocka_unit_test(test_range),  cmocka_unit_test(test_refusals),
+        cmocka_unit_test(known_numbers), cmocka_unit_test(known_setup), cmocka_unit_test(test_read_back),
+        cmocka_unit_test(known_world),   cmocka_unit_test(test_order),  cmocka_unit_test(test_range),
+        cmocka_unit_test(test_refusals),
     };
     return run_tap(tests);
 }
