@@ -272,6 +272,8 @@ static vertex_difference count_by_one(const vertex_request *r, const vertex_prog
             d.most_z = v.z;
         }
         d.differ += size > 0;
+        if (size > 0)
+            d.widest.bias = fmax(d.widest.bias, fabs((double)two.first - (double)two.second));
         all[d.vertices] = two;
         codes[d.vertices++] = size;
     }
@@ -331,6 +333,7 @@ static void test_differences(void **state) {
               "row %zu: most %u at %g", k, d->most, d->most_z);
         TALLY(&t, d->percentile >= is.percentile && d->percentile <= is.percentile * (1.0 + 0x1p-11),
               "row %zu: 99 %% within %u, not %u", k, d->percentile, is.percentile);
+        TALLY(&t, d->widest.bias == is.widest.bias, "row %zu: bias %g, not %g", k, d->widest.bias, is.widest.bias);
         TALLY(&t, (is.differ == 0) == (r.base == r.other[1]), "row %zu: none differs", k);
         check_bias(&t, &setup, d, all, is.vertices);
     }

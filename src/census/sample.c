@@ -3,6 +3,7 @@
 #include <string.h>
 
 #include "census/range.h"
+#include "core/bits.h"
 
 enum { BATCH = CENSUS_BLOCK, LADDER = 31 };
 
@@ -13,21 +14,13 @@ typedef struct sample {
     census_range range;
 } sample;
 
-/* Draw i of a seed: the finalizer of splitmix64 over a counter, so that any draw can be made without the others. */
-static uint64_t draw(uint64_t seed, uint64_t i) {
-    uint64_t x = seed + (i + 1) * UINT64_C(0x9E3779B97F4A7C15);
-    x = (x ^ x >> 30) * UINT64_C(0xBF58476D1CE4E5B9);
-    x = (x ^ x >> 27) * UINT64_C(0x94D049BB133111EB);
-    return x ^ x >> 31;
-}
-
 static uint32_t depth_of_draw(const sample *s, uint64_t i) {
     const census_sample_request *r = s->request;
     if (r->count == 0)
         return s->range.first + (uint32_t)i;
     const uint64_t count =
         (uint64_t)s->range.last - s->range.first + 1; /* below 2^32, so the product of halves cannot overflow */
-    return s->range.first + (uint32_t)((draw(r->seed, i) >> 32) * count >> 32);
+    return s->range.first + (uint32_t)((dp_draw64(r->seed, i) >> 32) * count >> 32);
 }
 
 static float partner(const sample *s, uint32_t rank) {

@@ -14,7 +14,7 @@
 
 enum { DIGITS = 6 };
 static const uint64_t drawn_by_default = 1000000;
-static const double world_by_default = 100.0;
+static const double world_by_default = 100.0, most_z = 1e38;
 
 /* What an API takes to make up for a difference; NaN where nothing is enough. */
 typedef struct api_bias {
@@ -55,6 +55,9 @@ static int check(against *a) {
         status = range_resolve(o, &r->lo, &r->hi);
     if (status == EXIT_FINE && isinf(r->hi))
         status = option_error(OPTION_RANGE, "must be given when far is inf: eye depths of vertices lie in it");
+    if (status == EXIT_FINE && r->hi > most_z)
+        status = option_error(OPTION_RANGE, "must end at 1e38 at most, so that positions are binary32 numbers, got %s",
+                              number_full(r->hi).text);
     if (status == EXIT_FINE && r->spread == VERTEX_EYE_LOG && !(r->lo > 0.0))
         status = option_error(OPTION_VERTICES, "must be box where depths of 0 or less are drawn, got '%s'",
                               vertex_spread_name(r->spread));

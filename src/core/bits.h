@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: MIT */
-/* Floating-point numbers as their bits, for the rooms above too: positive ones are ordered as these are. */
+/* For the rooms above too: floating-point numbers as their bits, positive ones being ordered as these are; and bits at
+ * random. */
 #ifndef CORE_BITS_H
 #define CORE_BITS_H
 
@@ -56,6 +57,23 @@ DP_INLINE double dp_float64(uint64_t bits) {
     double x;
     memcpy(&x, &bits, sizeof x);
     return x;
+}
+
+/* The finalizer of splitmix64: random bits, the same on every machine. */
+DP_INLINE uint64_t dp_mixed64(uint64_t x) {
+    x = (x ^ x >> 30) * UINT64_C(0xBF58476D1CE4E5B9);
+    x = (x ^ x >> 27) * UINT64_C(0x94D049BB133111EB);
+    return x ^ x >> 31;
+}
+
+/* Draw i of a seed: splitmix64 over a counter, so that any draw can be made without the others. */
+DP_INLINE uint64_t dp_draw64(uint64_t seed, uint64_t i) {
+    return dp_mixed64(seed + (i + 1) * UINT64_C(0x9E3779B97F4A7C15));
+}
+
+/* One of [0, 1). */
+DP_INLINE double dp_uniform(uint64_t random) {
+    return (double)(random >> 11) * 0x1p-53;
 }
 
 #endif

@@ -4,12 +4,13 @@
  *
  *     draw_camera camera;
  *     draw_buffer buffer;
- *     if (draw_camera_init(&camera, raster_find("llvmpipe"), &setup) == RASTER_OK && draw_buffer_open(&buffer, 64000))
- * { draw_buffer_clear(&buffer, (draw_area){800, 440, 320, 200}); draw_triangle(&buffer, &camera, wall, 1);
- *         draw_triangle(&buffer, &camera, decal, 2);
- *         ... buffer.winner[i], buffer.seen[i] ...
- *         draw_buffer_close(&buffer);
- *     }
+ *     if (draw_camera_init(&camera, raster_find("llvmpipe"), &setup) != RASTER_OK || !draw_buffer_open(&buffer, 64000))
+ *         return false;
+ *     draw_buffer_clear(&buffer, (draw_area){800, 440, 320, 200});
+ *     draw_triangle(&buffer, &camera, wall, 1);
+ *     draw_triangle(&buffer, &camera, decal, 2);
+ *     ... buffer.winner[i], buffer.seen[i] ...
+ *     draw_buffer_close(&buffer);
  *
  * Eye space: x to the right, y up, z along the view axis, in scene units; each coordinate is rounded to binary32, then
  * transformed by a matrix of binary32 entries. Window y runs upwards too; pixel (x, y) has its centre half a pixel on.

@@ -4,8 +4,8 @@
  *
  * Two parallel planes are drawn about a random pixel, each as a mesh of its own random triangles of the class, the
  * farther one first. A pixel that both cover is wrong where the farther one is seen. The separation is walked down
- * from the guarantee, by halves, as long as that finds a wrong pixel nearer to it. What is found is drawn: a lower
- * bound of what the rasterizer needs.
+ * from the guarantee, a fifth at a time, as long as that finds a wrong pixel nearer to it. What is found is drawn: a
+ * lower bound of what the rasterizer needs.
  */
 #ifndef DRAW_FIGHT_H
 #define DRAW_FIGHT_H

@@ -3,23 +3,19 @@
 
 #include <math.h>
 
+#include "core/bits.h"
+
 /* How far the subpixel grid moves a vertex at most, pixels; and a pixel's centre beyond an edge. */
 static const double moved = 0.0625;
 
 /* ---- Random numbers ---------------------------------------------------------------------------------------------- */
 
-static uint64_t mixed(uint64_t x) {
-    x = (x ^ x >> 30) * UINT64_C(0xBF58476D1CE4E5B9);
-    x = (x ^ x >> 27) * UINT64_C(0x94D049BB133111EB);
-    return x ^ x >> 31;
-}
-
 uint64_t draw_random(uint64_t *state) {
-    return mixed(*state += UINT64_C(0x9E3779B97F4A7C15));
+    return dp_mixed64(*state += UINT64_C(0x9E3779B97F4A7C15));
 }
 
 double draw_uniform(uint64_t *state) {
-    return (double)(draw_random(state) >> 11) * 0x1p-53;
+    return dp_uniform(draw_random(state));
 }
 
 double draw_log_uniform(uint64_t *state, double lo, double hi) {
@@ -30,7 +26,7 @@ double draw_log_uniform(uint64_t *state, double lo, double hi) {
 
 /* Less than a quarter of a side along each leaves every triangle the way round that it has in the grid. */
 static void place_vertex(const draw_mesh *mesh, int i, int k, double window[2]) {
-    const uint64_t random = mixed(mesh->seed + ((uint64_t)i << 32 | (uint64_t)k));
+    const uint64_t random = dp_mixed64(mesh->seed + ((uint64_t)i << 32 | (uint64_t)k));
     const double u = i + 0.5 * ((double)(random >> 32) * 0x1p-32 - 0.5);
     const double v = k + 0.5 * ((double)(random & 0xFFFFFFFFU) * 0x1p-32 - 0.5);
     for (int axis = 0; axis < 2; axis++)
@@ -40,7 +36,7 @@ static void place_vertex(const draw_mesh *mesh, int i, int k, double window[2]) 
 void draw_mesh_corners(const draw_mesh *mesh, int i, int k, int half, double window[3][2]) {
     static const signed char corners[2][2][3][2] = {{{{0, 0}, {1, 0}, {0, 1}}, {{1, 1}, {0, 1}, {1, 0}}},
                                                     {{{0, 0}, {1, 0}, {1, 1}}, {{1, 1}, {0, 1}, {0, 0}}}};
-    const uint64_t diagonal = mixed(~mesh->seed + ((uint64_t)i << 32 | (uint64_t)k)) & 1U;
+    const uint64_t diagonal = dp_mixed64(~mesh->seed + ((uint64_t)i << 32 | (uint64_t)k)) & 1U;
     for (int corner = 0; corner < 3; corner++) {
         const signed char *off = corners[diagonal][half][corner];
         place_vertex(mesh, i + off[0], k + off[1], window[corner]);

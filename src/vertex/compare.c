@@ -9,6 +9,7 @@
 #include <omp.h>
 #endif
 
+#include "core/bits.h"
 #include "core/engine.h"
 
 /* ---- Vertices ---------------------------------------------------------------------------------------------------- */
@@ -31,12 +32,8 @@ const char *vertex_spread_note(vertex_spread spread) {
 /* The numbers that a vertex takes, each uniform in [0, 1). */
 enum { CAMERA_X, CAMERA_Y, CAMERA_Z, TURN, TILT, ACROSS, AROUND, DEPTH, DRAWS };
 
-/* The finalizer of splitmix64 over a counter, so that any vertex can be drawn without the others. */
 static double draw(uint64_t seed, uint64_t i, int which) {
-    uint64_t x = seed + (i * DRAWS + (uint64_t)which + 1) * UINT64_C(0x9E3779B97F4A7C15);
-    x = (x ^ x >> 30) * UINT64_C(0xBF58476D1CE4E5B9);
-    x = (x ^ x >> 27) * UINT64_C(0x94D049BB133111EB);
-    return (double)((x ^ x >> 31) >> 11) * 0x1p-53;
+    return dp_uniform(dp_draw64(seed, i * DRAWS + (uint64_t)which));
 }
 
 static const double tau = 6.283185307179586;
@@ -167,7 +164,7 @@ static void compare_one(const vertex_request *r, const dp_pipeline *p, uint64_t 
         d->vertices++;
         d->differ += codes > 0;
         take_most(d, codes, v.z);
-        if (first.depth != second.depth)
+        if (codes > 0)
             take_gap(&p->format, d, gap_of(p, first.depth, second.depth));
     }
 }
