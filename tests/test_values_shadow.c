@@ -92,6 +92,11 @@ static const shadow_case given[] = {
      .box = {10, 10, 40},
      .lo = 10,
      .hi = 30},
+    {.options = "--light-box 40x40x0.2 -F d16", /* flatter than a gap is long */
+     .formats = {"unorm16"},
+     .api = "d3d11",
+     .box = {40, 40, 0.2},
+     .hi = 0.2},
 };
 
 enum { CASES = sizeof given / sizeof given[0] };
@@ -474,6 +479,38 @@ static void check_notes(const values *v, const shadow_case *c, const char *at, s
         assert_true(gap[k] == 0 ? isnan(shown[k]) : enough(shown[k], gap[k], "gap"));
 }
 
+/* What is said of this set-up alone, in one line. */
+static void joined(const char *at, char out[4096]) {
+    const char *const next = strstr(at, "\nNo acne");
+    size_t used = 0;
+    for (const char *end = next != NULL ? next : at + strlen(at); at < end && used + 1 < 4096; at++)
+        if (strchr(" \n", *at) == NULL || (used > 0 && out[used - 1] != ' '))
+            out[used++] = *at == '\n' ? ' ' : *at;
+    out[used] = '\0';
+}
+
+/* Where gaps are wider than is needed, and as deep as the box. */
+static void check_remarks(const values *v, const shadow_case *c, const char *at, size_t setup) {
+    static const char *const gaps[] = {"constant_gap", "slope_gap", "normal_gap"};
+    double wide = 1;
+    bool hidden = false;
+    char text[4096];
+    for (size_t i = 0; i < map_count(c); i++) {
+        const double depth = number_at(v, setup, i, "depth");
+        wide = fmax(wide, number_at(v, setup, i, gaps[0]) / (number_at(v, setup, i, "constant_bias") * depth));
+        for (int k = 0; k < 3; k++)
+            hidden = hidden || number_at(v, setup, i, gaps[k]) >= depth;
+    }
+    joined(at, text);
+    assert_int_equal(strstr(text, "nothing is in shadow") != NULL, hidden);
+    const char *const times = strstr(text, "the gap is up to ");
+    assert_int_equal(times != NULL, wide > 1.5);
+    if (times != NULL) {
+        const double shown = strtod(times + 17, NULL);
+        assert_true(shown >= wide && shown <= 1.101 * wide); /* two digits */
+    }
+}
+
 /* A line for each API with what is enough in all maps. */
 static void check_apis(const values *v, const shadow_case *c) {
     static const char *const fields[] = {"constant_units", "slope_factor", "slope_units", "normal_texels",
@@ -527,6 +564,7 @@ static void check_text(const values *v, const shadow_case *c) {
         for (size_t i = 0; i < map_count(c); i++)
             check_bias_line(v, line_behind(at, (int)i + 1), k, i, split);
         check_notes(v, c, at, k);
+        check_remarks(v, c, at, k);
     }
     printed_free(&p);
 }
