@@ -14,40 +14,37 @@ static const char *const ways[SHADOW_WAY_COUNT] = {"constant", "slope", "normal"
 
 enum { FORMATS = 2, MAPPINGS = 2, APIS = 9 };
 
+/* What is left out is as the help has it, see filled(). */
 typedef struct shadow_case {
     const char *options;
-    const char *formats[FORMATS];
+    const char *formats[FORMATS]; /* null behind the last */
     dp_mapping mappings[MAPPINGS];
-    size_t format_count, mapping_count;
+    size_t mapping_count;
     const char *api; /* null for all */
     int width, height;
     int kernel;
     double angle;
     int subpixel;
     double pixels, slim, world;
-    double curvature, facet; /* 0: planes */
-    const char *raster, *arith;
-    double box[3], lo, hi; /* 0: the view; what is lit */
+    double curvature, facet;    /* 0: planes */
+    const char *raster, *arith; /* with a raster a subpixel of 0 is none */
+    double box[3], lo, hi;      /* 0: the view; what is lit */
     double znear, zfar, fov, aspect, lambda, casters;
     int cascades;
     const char *unit;
 } shadow_case;
 
-static const shadow_case cases[] = {
+static const shadow_case given[] = {
     {.options = "-n 0.25 -f 90 --cascades 3 --lambda 0.7 --fov 50 --viewport 800x600 --casters 40 --size 1024 "
                 "--kernel 5 --angle 70 -F fp32,unorm24 -m d3d,reversed",
      .formats = {"fp32", "unorm24"},
      .mappings = {DP_MAPPING_D3D, DP_MAPPING_REVERSED},
-     .format_count = 2,
      .mapping_count = 2,
      .api = "d3d11",
      .width = 1024,
      .height = 1024,
      .kernel = 5,
      .angle = 70,
-     .subpixel = 8,
-     .pixels = 512,
-     .slim = 16,
      .znear = 0.25,
      .zfar = 90,
      .fov = 50,
@@ -59,12 +56,9 @@ static const shadow_case cases[] = {
                 "--triangle pixels=64,slim=8 --kernel 3 --angle 60 --world 1km --curvature 2m --facet 5cm",
      .formats = {"unorm16"},
      .mappings = {DP_MAPPING_GL},
-     .format_count = 1,
-     .mapping_count = 1,
      .api = "gl",
      .width = 512,
      .height = 256,
-     .kernel = 3,
      .angle = 60,
      .subpixel = 4,
      .pixels = 64,
@@ -76,61 +70,65 @@ static const shadow_case cases[] = {
      .lo = 5,
      .hi = 48.65,
      .unit = "m"},
-    {.options = "-f 300 --cascades 2 --hfov 100 --api all", /* the rest as help has it */
-     .formats = {"fp32"},
-     .mappings = {DP_MAPPING_D3D},
-     .format_count = 1,
-     .mapping_count = 1,
-     .width = 2048,
-     .height = 2048,
-     .kernel = 3,
-     .angle = 75,
-     .subpixel = 8,
-     .pixels = 512,
-     .slim = 16,
-     .znear = 0.1,
-     .zfar = 300,
-     .fov = 0,
-     .aspect = 1920.0 / 1080,
-     .lambda = 0.5,
-     .casters = 100,
-     .cascades = 2},
+    {.options = "-f 300 --cascades 2 --hfov 100 --api all", .zfar = 300, .cascades = 2},
     {.options = "--light-box 8x8x64 --api vulkan-float -m reversed --subpixel 1 --kernel 1 --angle 30", /* no factor */
-     .formats = {"fp32"},
      .mappings = {DP_MAPPING_REVERSED},
-     .format_count = 1,
-     .mapping_count = 1,
      .api = "vulkan-float",
-     .width = 2048,
-     .height = 2048,
      .kernel = 1,
      .angle = 30,
      .subpixel = 1,
-     .pixels = 512,
-     .slim = 16,
      .box = {8, 8, 64},
      .hi = 64},
     {.options =
          "--light-box 10x10x40 --size 1024 -F d24 --raster softpipe --range 10:30 --kernel 1 --angle 3 --api metal",
      .formats = {"unorm24"},
-     .mappings = {DP_MAPPING_D3D},
-     .format_count = 1,
-     .mapping_count = 1,
      .api = "metal",
      .width = 1024,
      .height = 1024,
      .kernel = 1,
      .angle = 3,
-     .pixels = 512,
-     .slim = 16,
      .raster = "softpipe",
      .arith = "softpipe",
      .box = {10, 10, 40},
      .lo = 10,
      .hi = 30},
+    {.options = "--light-box 40x40x0.2 -F d16", /* flatter than a gap is long */
+     .formats = {"unorm16"},
+     .api = "d3d11",
+     .box = {40, 40, 0.2},
+     .hi = 0.2},
 };
 
-enum { CASES = sizeof cases / sizeof cases[0] };
+enum { CASES = sizeof given / sizeof given[0] };
+
+static double other(double number, double missing) {
+    return number != 0 ? number : missing;
+}
+
+static shadow_case filled(shadow_case c) {
+    if (c.formats[0] == NULL)
+        c.formats[0] = "fp32";
+    c.mapping_count = c.mapping_count > 0 ? c.mapping_count : 1;
+    c.width = (int)other(c.width, 2048);
+    c.height = (int)other(c.height, 2048);
+    c.kernel = (int)other(c.kernel, 3);
+    c.angle = other(c.angle, 75);
+    c.subpixel = c.raster != NULL ? c.subpixel : (int)other(c.subpixel, 8);
+    c.pixels = other(c.pixels, 512);
+    c.slim = other(c.slim, 16);
+    c.znear = other(c.znear, 0.1);
+    c.aspect = other(c.aspect, 1920.0 / 1080);
+    c.lambda = other(c.lambda, 0.5);
+    c.casters = other(c.casters, 100);
+    return c;
+}
+
+static size_t setup_count(const shadow_case *c) {
+    size_t formats = 0;
+    while (formats < FORMATS && c->formats[formats] != NULL)
+        formats++;
+    return formats * c->mapping_count;
+}
 
 /* ---- The maps ---------------------------------------------------------------------------------------------------- */
 
@@ -243,7 +241,7 @@ static void want_ways(values *v, const shadow_light *light, const shadow_need *n
         want_way(v, ways[k], "share", isinf(b->factor) ? NAN : b->share);
         if (k != SHADOW_CONSTANT)
             want_way(v, ways[k], "gap_facing", none ? NAN : state.gap_facing);
-        limited = limited || b->limited;
+        limited = limited || b->limited || (!none && light->receiver_hi + state.gap_light > light->setup.spec.zfar);
     }
     want_bool(v, "limited", limited);
     want_number(v, "slope_factor", with_sign(light, need->bias[SHADOW_SLOPE].factor));
@@ -481,6 +479,38 @@ static void check_notes(const values *v, const shadow_case *c, const char *at, s
         assert_true(gap[k] == 0 ? isnan(shown[k]) : enough(shown[k], gap[k], "gap"));
 }
 
+/* What is said of this set-up alone, in one line. */
+static void joined(const char *at, char out[4096]) {
+    const char *const next = strstr(at, "\nNo acne");
+    size_t used = 0;
+    for (const char *end = next != NULL ? next : at + strlen(at); at < end && used + 1 < 4096; at++)
+        if (strchr(" \n", *at) == NULL || (used > 0 && out[used - 1] != ' '))
+            out[used++] = *at == '\n' ? ' ' : *at;
+    out[used] = '\0';
+}
+
+/* Where gaps are wider than is needed, and as deep as the box. */
+static void check_remarks(const values *v, const shadow_case *c, const char *at, size_t setup) {
+    static const char *const gaps[] = {"constant_gap", "slope_gap", "normal_gap"};
+    double wide = 1;
+    bool hidden = false;
+    char text[4096];
+    for (size_t i = 0; i < map_count(c); i++) {
+        const double depth = number_at(v, setup, i, "depth");
+        wide = fmax(wide, number_at(v, setup, i, gaps[0]) / (number_at(v, setup, i, "constant_bias") * depth));
+        for (int k = 0; k < 3; k++)
+            hidden = hidden || number_at(v, setup, i, gaps[k]) >= depth;
+    }
+    joined(at, text);
+    assert_int_equal(strstr(text, "nothing is in shadow") != NULL, hidden);
+    const char *const times = strstr(text, "the gap is up to ");
+    assert_int_equal(times != NULL, wide > 1.5);
+    if (times != NULL) {
+        const double shown = strtod(times + 17, NULL);
+        assert_true(shown >= wide && shown <= 1.101 * wide); /* two digits */
+    }
+}
+
 /* A line for each API with what is enough in all maps. */
 static void check_apis(const values *v, const shadow_case *c) {
     static const char *const fields[] = {"constant_units", "slope_factor", "slope_units", "normal_texels",
@@ -507,7 +537,7 @@ static void check_text(const values *v, const shadow_case *c) {
     const bool split = c->box[2] == 0;
     const char *at = p.out;
     assert_int_equal(p.status, 0);
-    for (size_t k = 0; k < c->format_count * c->mapping_count; k++) {
+    for (size_t k = 0; k < setup_count(c); k++) {
         for (int way = 0; way < SHADOW_WAY_COUNT; way++) {
             char path[PATH_SIZE];
             snprintf(path, sizeof path, "setups[%zu].answers[0].%s_call", k, ways[way]);
@@ -534,6 +564,7 @@ static void check_text(const values *v, const shadow_case *c) {
         for (size_t i = 0; i < map_count(c); i++)
             check_bias_line(v, line_behind(at, (int)i + 1), k, i, split);
         check_notes(v, c, at, k);
+        check_remarks(v, c, at, k);
     }
     printed_free(&p);
 }
@@ -571,14 +602,14 @@ static void test_all(void **state) {
                                        MAP};
     (void)state;
     for (size_t i = 0; i < CASES; i++) {
-        const shadow_case *c = &cases[i];
+        const shadow_case all = filled(given[i]), *const c = &all;
         const bool is_box = c->box[2] > 0;
         values v = values_of("shadow");
         line_places lines = {0};
         char arguments[512];
         snprintf(arguments, sizeof arguments, "shadow %s", c->options);
         want_head(&v, c);
-        for (size_t k = 0; k < c->format_count * c->mapping_count; k++)
+        for (size_t k = 0; k < setup_count(c); k++)
             want_setup_of(&v, c, k, &lines);
         check_json(&v, 0, arguments);
         check_csv(&v, 0, arguments, is_box ? box : split,

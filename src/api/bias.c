@@ -194,7 +194,8 @@ static double certain_step(const bias_goal *goal, const dp_format *format, int e
     return (is_binary32 ? step : is_unorm ? step + half : 2.0 * step + half) + apart;
 }
 
-double bias_round_up(const bias_api *api, const dp_format *format, double units) {
+/* The least that a program can set: whole where the API counts in r, a binary32 number where it takes a float. */
+static double round_up(const bias_api *api, const dp_format *format, double units) {
     const bias_rule rule = format->kind == DP_FORMAT_FLOAT ? api->real : api->unorm;
     const double counted = rule == BIAS_ONE ? units : ceil(units);
     const double rounded = api->whole ? counted : (double)dp_float_up(counted);
@@ -203,7 +204,7 @@ double bias_round_up(const bias_api *api, const dp_format *format, double units)
 
 double bias_units(const bias_api *api, const dp_format *format, double d, double window) {
     const double outward = api->binary32 ? 0x1p-22 : 0x1p-48;
-    return bias_round_up(api, format, (1.0 + outward) * window / bias_unit_at(api, format, d).least);
+    return round_up(api, format, (1.0 + outward) * window / bias_unit_at(api, format, d).least);
 }
 
 /* bias_needed() at z for a primitive whose greatest window depth has the exponent e. */
@@ -216,8 +217,7 @@ static double needed_with(const dp_setup *setup, const bias_goal *goal, double z
     const double window = fmax(step, gap) - goal->factor * m;
     /* Covers the roundings above and, where o itself is rounded to binary32, those; a single step is exact. */
     const double outward = gap <= step && m == 0.0 ? 0.0 : goal->api->binary32 ? 0x1p-22 : 0x1p-48;
-    return bias_round_up(goal->api, format,
-                         fmax((window + (fmax(step, gap) + fabs(goal->factor) * m) * outward) / r, 0.0));
+    return round_up(goal->api, format, fmax((window + (fmax(step, gap) + fabs(goal->factor) * m) * outward) / r, 0.0));
 }
 
 double bias_factor_least(const dp_setup *setup) {
@@ -266,7 +266,7 @@ static double needed_slanted(const dp_setup *setup, const bias_goal *goal, doubl
         const double m = bias_window_slope(setup, ends[i], goal->slope);
         const double window = fmax(step, window_of_gap(setup, ends[i], goal->gap)) + taken_by_slope(goal, &apart, m);
         const double outward = 0x1p-20 * (fabs(window) + (apart.pixels + fabs(goal->factor)) * m);
-        const double units = bias_round_up(goal->api, format, fmax((window + outward) / r, 0.0));
+        const double units = round_up(goal->api, format, fmax((window + outward) / r, 0.0));
         if (units > needed) {
             needed = units;
             *worst = ends[i];

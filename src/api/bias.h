@@ -85,12 +85,6 @@ double bias_offset(const bias_state *state, double r, double m);
 /** m of a surface at z whose eye depth changes by `slope` scene units from one pixel to the next. z in [near, far]. */
 double bias_window_slope(const dp_setup *setup, double z, double slope);
 
-/**
- * The least number that a program can set and that is not below `units`: whole where the API counts in r, and a
- * binary32 number where it takes a float. INFINITY beyond 2^31 units.
- */
-double bias_round_up(const bias_api *api, const dp_format *format, double units);
-
 /** What a bias does to a depth. */
 typedef struct bias_effect {
     double z;       /**< eye depth, scene units */

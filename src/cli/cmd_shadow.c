@@ -326,8 +326,7 @@ int cmd_shadow(const options *given) {
         status = options_open(o, &out);
     if (status != EXIT_FINE)
         return status;
-    const shadow_split view = s.maps.view;
-    s.view = view.count > 0 ? &view : NULL;
+    s.view = s.maps.view.count > 0 ? &s.maps.view : NULL;
     const unsigned when = (s.api != NULL ? ONE_API : ALL_APIS) | (s.view != NULL ? SPLIT : 0);
     report_write(&(report_spec){"shadow", columns, &s, .when = when, .label = 14}, &out, o->form);
     return output_close(&out);

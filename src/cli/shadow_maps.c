@@ -89,6 +89,7 @@ static int split_of(const options *o, shadow_split *out) {
 /* What the options could not see one by one. */
 static int refused(const options *o, shadow_status status) {
     const uint32_t side = o->camera.width < o->camera.height ? o->camera.width : o->camera.height;
+    const uint32_t least = (5 * o->kernel + 6) / 2 + 1; /* a texel wider than both margins of a cascade */
     if (status == SHADOW_RECEIVERS)
         return option_error(OPTION_RANGE, "must lie in the box, from 0 to %s, got '%s:%s'",
                             number_full(o->light_box[2]).text, number_full(o->range_lo).text,
@@ -99,9 +100,9 @@ static int refused(const options *o, shadow_status status) {
     if (status == SHADOW_CASCADES)
         return option_error(OPTION_VIEWPORT, "must be from 0.001 to 1000 times as wide as high, got '%dx%d'",
                             o->triangles.width, o->triangles.height);
-    if (status == SHADOW_BOX && side <= 4 * o->kernel)
-        return option_error(OPTION_SIZE, "must be larger than four times the filter of %ux%u, got '%ux%u'", o->kernel,
-                            o->kernel, o->camera.width, o->camera.height);
+    if (status == SHADOW_BOX && side < least)
+        return option_error(OPTION_SIZE, "must be at least %u texels a side for a filter of %ux%u, got '%ux%u'", least,
+                            o->kernel, o->kernel, o->camera.width, o->camera.height);
     return option_error(OPTION_FAR, "makes a map too large or too small: %s", shadow_status_text(status));
 }
 

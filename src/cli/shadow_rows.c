@@ -85,7 +85,8 @@ shadow_row shadow_row_of(const shadow_maps *maps, size_t i, const bias_api *api)
     for (int k = 0; k < SHADOW_WAY_COUNT; k++) {
         r.way[k] = set_of(light, &need, k, api);
         write_set(&r.way[k], k, api);
-        r.limited = r.limited || need.bias[k].limited;
+        r.limited = r.limited || need.bias[k].limited ||
+                    light->receiver_hi + r.way[k].gap > light->setup.spec.zfar; /* units may be worth more */
     }
     return r;
 }

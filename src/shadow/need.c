@@ -172,16 +172,14 @@ int shadow_sign(const shadow_light *light) {
 }
 
 shadow_state shadow_state_of(const shadow_light *light, const shadow_bias *bias, const bias_api *api) {
-    static const double product = 1.0 + 0x1p-22; /* units times r, in binary32 */
     const dp_setup *setup = &light->setup;
     const dp_format *format = &setup->spec.format;
     const double ends[2] = {dp_window(setup, light->receiver_lo), dp_window(setup, light->receiver_hi)};
     /* A texel is drawn beside the point, where the depth is smaller by what the bias has to cover. */
     const double least = fmin(ends[0], ends[1]) - bias->gap_light / setup->kappa;
-    const bias_unit low = bias_unit_at(api, format, fmax(least, 0.0));
     const bias_unit high = bias_unit_at(api, format, fmax(ends[0], ends[1]));
-    shadow_state state = {.units = bias_round_up(api, format, bias->window * product / low.least)};
-    state.factor = (double)dp_float_up(bias->factor);
+    shadow_state state = {.units = bias_units(api, format, fmax(least, 0.0), bias->window),
+                          .factor = (double)dp_float_up(bias->factor)};
     shadow_bias set = *bias;
     set.window = state.units * (isfinite(high.most) ? high.most : high.least);
     set.factor = state.factor;
