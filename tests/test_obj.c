@@ -107,6 +107,17 @@ static void obj_surfaces(void **state) {
     model_free(&m);
 }
 
+/* Names are UTF-8: of a Latin-1 umlaut, a cut off character and a control character a question mark is left. */
+static void obj_names(void **state) {
+    model m;
+    (void)state;
+    must_read(SQUARE "o T\xc3\xbcr \xe6\x88\xb8\ng T\xfcr\nusemtl a\x01\xe6\x88\nf 1 2 3\n", true, &m);
+    assert_string_equal(m.surface[0].node, "T\xc3\xbcr \xe6\x88\xb8");
+    assert_string_equal(m.surface[0].mesh, "T?r");
+    assert_string_equal(m.surface[0].material, "a???");
+    model_free(&m);
+}
+
 static void obj_materials(void **state) {
     const model_asked asked = {0};
     model m;
@@ -196,8 +207,9 @@ static void polygons(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(obj_faces),     cmocka_unit_test(obj_numbers), cmocka_unit_test(obj_surfaces),
-        cmocka_unit_test(obj_materials), cmocka_unit_test(obj_refused), cmocka_unit_test(polygons),
+        cmocka_unit_test(obj_faces), cmocka_unit_test(obj_numbers),   cmocka_unit_test(obj_surfaces),
+        cmocka_unit_test(obj_names), cmocka_unit_test(obj_materials), cmocka_unit_test(obj_refused),
+        cmocka_unit_test(polygons),
     };
     return run_tap(tests);
 }

@@ -186,6 +186,23 @@ static void other_forms(void **state) {
     json_decref(root);
 }
 
+/* A vertex that no triangle uses reaches nowhere: neither the extent nor what follows from it changes. */
+static void stray_vertex(void **state) {
+    const char *path = scratch_file("stray.obj");
+    FILE *out = fopen(path, "w");
+    (void)state;
+    assert_non_null(out);
+    fputs("v 0 0 0\nv 3 0 0\nv 0 4 0\nv 1e6 1e6 1e6\nf 1 2 3\n", out);
+    assert_int_equal(fclose(out), 0);
+    printed p = print_of("scene %s --json", path);
+    json_t *root = json_loads(p.out, 0, NULL);
+    assert_int_equal(p.status, 0);
+    assert_non_null(root);
+    assert_true(number(root, "extent") == 5 && number(root, "within") == 5);
+    json_decref(root);
+    printed_free(&p);
+}
+
 static void refused(void **state) {
     static const struct {
         const char *arguments;
@@ -198,6 +215,8 @@ static void refused(void **state) {
         {"scene %s -F d24,fp32", 2, "--format: and --mapping must name one camera here, got 2"},
         {"scene %s --gap -1", 2, "--gap: must be"},
         {"scene %s --within 2000", 2, "--within: must lie between near and far, got '2000'"},
+        {"scene %s --gap 1e51", 2, "--gap: must be at most 1e+50 here, got '1e+51'"},
+        {"scene %s --angle 89.5", 2, "--angle: must be at most 89 degrees here, got '89.5'"},
         {"scene %s --also fcing", 2, "--also: must be"},
         {"scene %s --ortho", 2, "--ortho: is not an option of scene"},
     };
@@ -218,6 +237,7 @@ static void refused(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {cmocka_unit_test(findings), cmocka_unit_test(what_is_asked),
-                                       cmocka_unit_test(other_forms), cmocka_unit_test(refused)};
+                                       cmocka_unit_test(other_forms), cmocka_unit_test(stray_vertex),
+                                       cmocka_unit_test(refused)};
     return run_tap(tests);
 }

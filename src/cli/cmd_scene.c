@@ -69,8 +69,12 @@ static options scene_options(const options *given) {
 /* One camera: its fullest model. */
 static int take_setup(scene *s) {
     setups all;
-    if (s->o.ortho)
-        return option_error(OPTION_ORTHO, "does not apply to a model's surfaces");
+    if (option_given(&s->o, OPTION_GAP) && s->o.gap > FINDER_COORDINATE_MAX)
+        return option_error(OPTION_GAP, "must be at most %g here, got '%s'", FINDER_COORDINATE_MAX,
+                            number_full(s->o.gap).text);
+    if (s->o.angle > FINDER_ANGLE_MAX)
+        return option_error(OPTION_ANGLE, "must be at most %g degrees here, got '%s'", FINDER_ANGLE_MAX,
+                            number_full(s->o.angle).text);
     const int status = setups_make(&s->o, &all);
     if (status != EXIT_FINE)
         return status;
@@ -92,13 +96,15 @@ static int read_model(scene *s) {
     return error.unreadable ? EXIT_IO : status;
 }
 
+/* Of the triangles: a file may have vertices that none of them uses. */
 static double extent_of(const model *m) {
     double sum = 0.0;
     for (int k = 0; k < 3; k++) {
         double lo = HUGE_VAL, hi = -HUGE_VAL;
-        for (size_t i = 0; i < m->vertices; i++) {
-            lo = fmin(lo, m->position[i][k]);
-            hi = fmax(hi, m->position[i][k]);
+        for (size_t i = 0; i < 3 * m->triangles; i++) {
+            const double x = m->position[m->triangle[i / 3][i % 3]][k];
+            lo = fmin(lo, x);
+            hi = fmax(hi, x);
         }
         sum = hypot(sum, hi - lo);
     }
@@ -213,6 +219,9 @@ static void say_head(page *p, void *of) {
     const scene *s = of;
     const model_notes *n = &s->model.notes;
     const size_t count = s->found.findings, fights = fighting(s);
+    char how_many[24] = "none";
+    if (fights > 0)
+        snprintf(how_many, sizeof how_many, "%zu", fights);
     p->unit = s->unit;
     page_title(p, "%s: %zu triangles, %zu surfaces, %s across", s->file, s->model.triangles, s->model.surfaces,
                length(p, s->extent).text);
@@ -224,8 +233,8 @@ static void say_head(page *p, void *of) {
     if (count == 0)
         page_text(p, "No surfaces lie within %s of each other.", length(p, s->gap).text);
     else
-        page_text(p, "%zu pair%s of surfaces lie%s within %s of each other: %zu can fight before the far plane.", count,
-                  count == 1 ? "" : "s", count == 1 ? "s" : "", length(p, s->gap).text, fights);
+        page_text(p, "%zu pair%s of surfaces lie%s within %s of each other: %s can fight before the far plane.", count,
+                  count == 1 ? "" : "s", count == 1 ? "s" : "", length(p, s->gap).text, how_many);
     if (option_given(&s->o, OPTION_WITHIN))
         page_text(p, "%s%s%s  %s nearer than %s.", s->passed ? p->good : p->bad, s->passed ? "pass" : "FAIL", p->plain,
                   s->passed ? "none fights" : "surfaces can fight", length(p, s->within).text);

@@ -17,4 +17,24 @@ __attribute__((format(printf, 3, 4))) static inline void append(char *out, size_
     va_end(arguments);
 }
 
+/* Length of the valid UTF-8 character at `text` (no overlong forms, surrogates or controls), 0 when there is none. */
+static inline size_t text_character(const char *text) {
+    const unsigned char *s = (const unsigned char *)text;
+    if (s[0] >= 0x20 && s[0] < 0x7F)
+        return 1;
+    size_t length = s[0] >= 0xC2 && s[0] < 0xE0   ? 2
+                    : s[0] >= 0xE0 && s[0] < 0xF0 ? 3
+                    : s[0] >= 0xF0 && s[0] < 0xF5 ? 4
+                                                  : 0;
+    for (size_t i = 1; i < length; i++)
+        if ((s[i] & 0xC0) != 0x80)
+            return 0;
+    if (length == 2 && s[0] == 0xC2 && s[1] < 0xA0)
+        return 0; /* control characters */
+    if ((s[0] == 0xE0 && s[1] < 0xA0) || (s[0] == 0xED && s[1] > 0x9F) || (s[0] == 0xF0 && s[1] < 0x90) ||
+        (s[0] == 0xF4 && s[1] > 0x8F))
+        return 0;
+    return length;
+}
+
 #endif

@@ -7,6 +7,8 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "core/append.h"
+
 /* ---- Names: a chain of blocks that stay where they are ----------------------------------------------------------- */
 
 typedef struct model_names {
@@ -23,8 +25,14 @@ const char *model_keep_name(model_source *s, const char *name) {
         model_fail(s, "there is no memory for its names");
         return NULL;
     }
-    for (size_t i = 0; i < size; i++)
-        block->text[i] = name[i] != '\0' && ((unsigned char)name[i] < 0x20 || name[i] == 0x7f) ? '?' : name[i];
+    char *to = block->text;
+    while (*name != '\0') {
+        const size_t length = text_character(name);
+        memcpy(to, length > 0 ? name : "?", length > 0 ? length : 1);
+        to += length > 0 ? length : 1;
+        name += length > 0 ? length : 1;
+    }
+    *to = '\0';
     block->next = s->out->names;
     s->out->names = block;
     return block->text;

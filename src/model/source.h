@@ -32,7 +32,7 @@ bool model_file_read(const char *path, file_bytes *out, model_error *error);
 /* Makes room for `more` elements behind the `count` of an array. */
 bool model_grow(model_source *s, void **array, size_t *room, size_t count, size_t more, size_t size);
 
-/* Keeps a name; control characters become '?'. Null when there is no memory. */
+/* Keeps a name; what is no UTF-8, and control characters become '?'. Null when there is no memory. */
 const char *model_keep_name(model_source *s, const char *name);
 
 /* Each adds to the model. A vertex must be finite, a triangle's corners vertices. */

@@ -181,44 +181,40 @@ static uint32_t last_leaf(const tree *t, uint32_t node) {
     return ((node + 1) << down) - 1 - t->leaves;
 }
 
-bool tree_query(const tree *t, const tree_box *box, uint32_t from, tree_visit *visit, void *context) {
-    uint32_t stack[DEPTH_MAX];
-    int depth = 0;
-    stack[depth++] = 1;
-    while (depth > 0) {
-        const uint32_t k = stack[--depth];
-        if (!tree_meet(&t->node[k], box) || last_leaf(t, k) < from)
-            continue;
-        if (k < t->leaves) {
-            stack[depth++] = 2 * k + 1;
-            stack[depth++] = 2 * k;
-        } else if (!visit(context, k - t->leaves))
-            return false;
-    }
-    return true;
+/* A box and the first leaf that is wanted, or a ray. */
+typedef struct question {
+    const tree_box *box;
+    uint32_t from;
+    const double *start;
+    double inverse[3];
+} question;
+
+static bool box_meets(const tree *t, uint32_t node, const question *q) {
+    return tree_meet(&t->node[node], q->box) && last_leaf(t, node) >= q->from;
 }
 
 /* 1e-6 of slack: the start and the quotients are rounded, and the boxes do not care. */
-static bool ray_meets(const tree_box *box, const double start[3], const double inverse[3]) {
+static bool ray_meets(const tree *t, uint32_t node, const question *q) {
+    const tree_box *box = &t->node[node];
     double enter = 0.0;
     double leave = INFINITY;
     for (int k = 0; k < 3; k++) {
-        const double x = ((double)box->lo[k] - start[k]) * inverse[k];
-        const double y = ((double)box->hi[k] - start[k]) * inverse[k];
+        const double x = ((double)box->lo[k] - q->start[k]) * q->inverse[k];
+        const double y = ((double)box->hi[k] - q->start[k]) * q->inverse[k];
         enter = fmax(enter, fmin(x, y));
         leave = fmin(leave, fmax(x, y));
     }
     return enter <= leave * (1.0 + 1e-6);
 }
 
-bool tree_ray(const tree *t, const double start[3], const double along[3], tree_visit *visit, void *context) {
+static inline bool walk(const tree *t, bool (*meets)(const tree *, uint32_t, const question *), const question *q,
+                        tree_visit *visit, void *context) {
     uint32_t stack[DEPTH_MAX];
     int depth = 0;
-    const double inverse[3] = {1.0 / along[0], 1.0 / along[1], 1.0 / along[2]};
     stack[depth++] = 1;
     while (depth > 0) {
         const uint32_t k = stack[--depth];
-        if (!ray_meets(&t->node[k], start, inverse))
+        if (!meets(t, k, q))
             continue;
         if (k < t->leaves) {
             stack[depth++] = 2 * k + 1;
@@ -227,4 +223,13 @@ bool tree_ray(const tree *t, const double start[3], const double along[3], tree_
             return false;
     }
     return true;
+}
+
+bool tree_query(const tree *t, const tree_box *box, uint32_t from, tree_visit *visit, void *context) {
+    return walk(t, box_meets, &(question){.box = box, .from = from}, visit, context);
+}
+
+bool tree_ray(const tree *t, const double start[3], const double along[3], tree_visit *visit, void *context) {
+    const question q = {.start = start, .inverse = {1.0 / along[0], 1.0 / along[1], 1.0 / along[2]}};
+    return walk(t, ray_meets, &q, visit, context);
 }
