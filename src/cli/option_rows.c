@@ -216,8 +216,9 @@ const option_row option_rows[OPTION_COUNT] = {
         "the rasterizer, its subpixel grid and how it sets up depth: @; of the specifications the worst that they "
         "allow; see 'depthprec list rasterizers'", ROW(raster, rasters),
         .without = "--subpixel, and a plane anchored at a vertex",
-        .except = {BUT(VERB_ZFIGHT, "llvmpipe", NULL, "with --triangles: the rasterizer that "
-                       "draws: llvmpipe, lavapipe, softpipe or swiftshader")}},
+        .except = {BUT(VERB_ZFIGHT, "llvmpipe", "with --triangles", "the rasterizer or specification, as in "
+                       "'depthprec list rasterizers'; with --triangles one that draws: llvmpipe, lavapipe, softpipe "
+                       "or swiftshader")}},
     [OPTION_SUBPIXEL] = {"subpixel", 0, "BITS", VIEWED,
         "instead: bits of the grid to which vertices move; Direct3D has 8, Vulkan and OpenGL at least 4; with "
         "spec-vulkan and spec-gl how many more there are",
