@@ -94,8 +94,8 @@ const option_row option_rows[OPTION_COUNT] = {
         "far plane, up to 1e18 scene units and at least 1e-6 of near beyond it, or inf",
         parse_far, .standard = "1000",
         .except = {BUT(VERB_SOLVE, NULL, "inf; solved for where only near is given", NULL),
-                   BUT(VERB_SHADOW, "1000", NULL, "how far the view sees shadows, up to 1e18 scene units and at least "
-                       "1e-6 of near beyond it")}},
+                   BUT(VERB_SHADOW, "1000", NULL, "how far the view sees shadows, greater than near and at most 1e12 "
+                       "scene units")}},
     [OPTION_FORMAT] = {"format", 'F', "NAME[,NAME...]|all", PLACED | MAPPED,
         "depth formats: @, names as the APIs write them, unormN, floatE.M[bB]; all means those of "
         "'depthprec list formats'", parse_formats, .names = &formats, .standard = "all",
