@@ -27,55 +27,51 @@ static const struct {
     {VERB_LIST, "list scenes"},
 };
 
-/* Where an option matters only beside another, or in another line. */
+/* Where options matter only beside another, or in another line. */
+#define IDS(...)                                                                                                       \
+    (const option_id[]) {                                                                                              \
+        __VA_ARGS__, OPTION_COUNT                                                                                      \
+    }
 static const struct {
     unsigned verbs;
-    option_id id;
+    const option_id *ids;
     const char *line; /* in place of the command's; null: that */
     const char *more;
 } besides[] = {
-    {VERB_PLOT, OPTION_PLANE, "plot fight --csv", ""},
-    {VERB_PLOT, OPTION_INTERPOLATION, "plot budget -F d24 -m d3d --csv", ""},
-    {VERB_PLOT, OPTION_WORLD, "plot budget -F d24 -m d3d --csv", ""},
-    {VERB_PLOT, OPTION_COMPOSITION, "plot budget -F d24 -m d3d --csv", "--world 100"},
-    {VERB_BUDGET, OPTION_COMPOSITION, NULL, "--world 100"},
-    {VERB_TABLE | VERB_BUDGET | VERB_SOLVE | VERB_ZFIGHT | VERB_SCENE, OPTION_FOV, NULL, "--viewport 640x480"},
-    {VERB_TABLE | VERB_BUDGET | VERB_SOLVE | VERB_ZFIGHT | VERB_SCENE, OPTION_SUBPIXEL, NULL, "--viewport 640x480"},
-    {VERB_TABLE | VERB_BUDGET | VERB_SOLVE | VERB_ZFIGHT | VERB_SCENE, OPTION_SLANT, NULL, "--viewport 640x480"},
-    {VERB_TABLE | VERB_BUDGET | VERB_SOLVE | VERB_ZFIGHT | VERB_SCENE, OPTION_TRIANGLE, NULL, "--viewport 640x480"},
-    {VERB_ZFIGHT, OPTION_SEED, NULL, "--sample 1000"},
-    {VERB_ZFIGHT, OPTION_FOV, "zfight -F fp32 -m d3d --triangles --sample 20", ""},
-    {VERB_ZFIGHT, OPTION_RASTER, "zfight -F fp32 -m d3d --triangles --sample 20", ""},
-    {VERB_ZFIGHT, OPTION_SLANT, "zfight -F fp32 -m d3d --triangles --sample 20", ""},
-    {VERB_ZFIGHT, OPTION_TRIANGLE, "zfight -F fp32 -m d3d --triangles --sample 20", ""},
-    {VERB_ZFIGHT, OPTION_WORLD, "zfight -F d24 -m d3d", "--against fma --sample 1000"},
-    {VERB_ZFIGHT, OPTION_PROGRAM, "zfight -F d24 -m d3d", "--against fma --sample 1000"},
-    {VERB_ZFIGHT, OPTION_VERTICES, "zfight -F d24 -m d3d", "--against fma --sample 1000"},
-    {VERB_TEXTURE, OPTION_HALF_HEIGHT, NULL, "--ortho"},
-    {VERB_TEXTURE, OPTION_SIZE, "texture --scene plane", ""},
-    {VERB_BIAS, OPTION_FOV, "bias --at 10", "--viewport 640x480"},
-    {VERB_BIAS, OPTION_SUBPIXEL, "bias --at 10", "--viewport 640x480"},
-    {VERB_BIAS, OPTION_SLANT, "bias --at 10", "--viewport 640x480"},
-    {VERB_BIAS, OPTION_TRIANGLE, "bias --at 10", "--viewport 640x480"},
-    {VERB_BIAS, OPTION_CLAMP, NULL, "--api vulkan"},
-    {VERB_PLOT, OPTION_SLANT, "plot budget -F d24 -m d3d --csv", "--viewport 640x480"},
-    {VERB_SHADOW, OPTION_FACET, NULL, "--curvature 5"},
-    {VERB_PLOT, OPTION_FOV, "plot shadow --csv", ""},
-    {VERB_PLOT, OPTION_SUBPIXEL, "plot shadow --csv", ""},
-    {VERB_PLOT, OPTION_TRIANGLE, "plot shadow --csv", ""},
-    {VERB_PLOT, OPTION_CASCADES, "plot shadow --csv", ""},
-    {VERB_PLOT, OPTION_LAMBDA, "plot shadow --csv", ""},
-    {VERB_PLOT, OPTION_CASTERS, "plot shadow --csv", ""},
-    {VERB_PLOT, OPTION_KERNEL, "plot shadow --csv", ""},
-    {VERB_PLOT, OPTION_ANGLE, "plot shadow --csv", ""},
-    {VERB_PLOT, OPTION_SIZE, "plot shadow --csv", ""},
-    {VERB_BIAS, OPTION_API, "bias -F fp32", ""},
-    {VERB_TABLE, OPTION_MODEL, "table -F d24 -m d3d", ""},
-    {VERB_TABLE, OPTION_ARITH, NULL, "--model float"},
-    {VERB_PLOT, OPTION_ARITH, "plot interval -F d24 -m d3d --csv", "--model float"},
-    {VERB_TABLE | VERB_PLOT | VERB_TEXTURE | VERB_BIAS | VERB_SCENE, OPTION_LOG_C, NULL, "-m log"},
-    {VERB_SOLVE, OPTION_LOG_C, "solve -f 1000 -F d24 -m log --separation 0.01 --at 50", ""},
+    {VERB_PLOT, IDS(OPTION_PLANE), "plot fight --csv", ""},
+    {VERB_PLOT, IDS(OPTION_INTERPOLATION, OPTION_WORLD), "plot budget -F d24 -m d3d --csv", ""},
+    {VERB_PLOT, IDS(OPTION_COMPOSITION), "plot budget -F d24 -m d3d --csv", "--world 100"},
+    {VERB_PLOT, IDS(OPTION_SLANT), "plot budget -F d24 -m d3d --csv", "--viewport 640x480"},
+    {VERB_PLOT,
+     IDS(OPTION_FOV, OPTION_SUBPIXEL, OPTION_TRIANGLE, OPTION_CASCADES, OPTION_LAMBDA, OPTION_CASTERS, OPTION_KERNEL,
+         OPTION_ANGLE, OPTION_SIZE),
+     "plot shadow --csv", ""},
+    {VERB_PLOT, IDS(OPTION_ARITH), "plot interval -F d24 -m d3d --csv", "--model float"},
+    {VERB_BUDGET, IDS(OPTION_COMPOSITION), NULL, "--world 100"},
+    {VERB_TABLE | VERB_BUDGET | VERB_SOLVE | VERB_ZFIGHT | VERB_SCENE,
+     IDS(OPTION_FOV, OPTION_SUBPIXEL, OPTION_SLANT, OPTION_TRIANGLE), NULL, "--viewport 640x480"},
+    {VERB_ZFIGHT, IDS(OPTION_FOV, OPTION_RASTER, OPTION_SLANT, OPTION_TRIANGLE),
+     "zfight -F fp32 -m d3d --triangles --sample 20", ""},
+    {VERB_ZFIGHT, IDS(OPTION_WORLD, OPTION_PROGRAM, OPTION_VERTICES), "zfight -F d24 -m d3d",
+     "--against fma --sample 1000"},
+    {VERB_ZFIGHT, IDS(OPTION_SEED), NULL, "--sample 1000"},
+    {VERB_BIAS, IDS(OPTION_FOV, OPTION_SUBPIXEL, OPTION_SLANT, OPTION_TRIANGLE), "bias --at 10", "--viewport 640x480"},
+    {VERB_BIAS, IDS(OPTION_CLAMP), NULL, "--api vulkan"},
+    {VERB_BIAS, IDS(OPTION_API), "bias -F fp32", ""},
+    {VERB_SHADOW, IDS(OPTION_FACET), NULL, "--curvature 5"},
+    {VERB_TEXTURE, IDS(OPTION_HALF_HEIGHT), NULL, "--ortho"},
+    {VERB_TEXTURE, IDS(OPTION_SIZE), "texture --scene plane", ""},
+    {VERB_TABLE, IDS(OPTION_MODEL), "table -F d24 -m d3d", ""},
+    {VERB_TABLE, IDS(OPTION_ARITH), NULL, "--model float"},
+    {VERB_TABLE | VERB_PLOT | VERB_TEXTURE | VERB_BIAS | VERB_SCENE, IDS(OPTION_LOG_C), NULL, "-m log"},
+    {VERB_SOLVE, IDS(OPTION_LOG_C), "solve -f 1000 -F d24 -m log --separation 0.01 --at 50", ""},
 };
+
+static bool among(const option_id *ids, option_id id) {
+    while (*ids != OPTION_COUNT && *ids != id)
+        ids++;
+    return *ids == id;
+}
 
 static void line_of(const verb *v, option_id id, char out[256]) {
     const char *line = NULL, *more = "";
@@ -83,7 +79,7 @@ static void line_of(const verb *v, option_id id, char out[256]) {
         if (lines[i].verb == v->bit)
             line = lines[i].line;
     for (size_t i = 0; i < sizeof besides / sizeof besides[0]; i++)
-        if ((besides[i].verbs & v->bit) != 0 && besides[i].id == id) {
+        if ((besides[i].verbs & v->bit) != 0 && among(besides[i].ids, id)) {
             line = besides[i].line != NULL ? besides[i].line : line;
             more = besides[i].more;
         }

@@ -572,9 +572,19 @@ static void test_slanted(void **state) {
     static const char *const viewports[] = {"0x5", "5x0", "32769x1", "1x32769", "5", "5x", "x5", "5x5x5", "-1x5", ""};
     static const char *const slants[] = {"5", "5:4", "-1:5", "0:91", ":", "x:5", "5:x", ""};
     static const char *const planes[] = {"5", "91,0", "-1,0", "5,361", "5,-361", "5:0", "x,0", "5,", ""};
-    static const char *const classes[] = {"",         "depth",     "depth=0.5",  "depth=1e7",
-                                          "pixels=0", "slim=1.9",  "slim=1025",  "width=5",
-                                          "depth=2,", "depth=nan", "pixels=1e6", "depth=2;slim=4"};
+    static const char *const classes[] = {"",
+                                          "depth",
+                                          "depth=0.5",
+                                          "depth=1e7",
+                                          "pixels=0",
+                                          "slim=1.9",
+                                          "slim=1025",
+                                          "width=5",
+                                          "depth=2,",
+                                          "depth=nan",
+                                          "pixels=1e6",
+                                          "depth=2;slim=4",
+                                          "depth=2,slim=4,depth=3"};
     tally t = {.name = "slanted"};
     char line[1024] = "";
     options o;
@@ -606,7 +616,9 @@ static void test_slanted(void **state) {
         refused(&t, "zfight", OPTION_PLANE, planes[i], "SLANT,AZIMUTH, from 0 to 90 and from -360 to 360 degrees");
     for (size_t i = 0; i < sizeof classes / sizeof classes[0]; i++)
         refused(&t, "table", OPTION_TRIANGLE, classes[i],
-                "depth=K from 1 to 1e6, pixels=P from 1 to 65536 and slim=Q from 2 to 1024, separated by commas");
+                "depth=K from 1 to 1e6, pixels=P from 1 to 65536 and slim=Q from 2 to 1024, each at most once, "
+                "separated by "
+                "commas");
     tally_end(&t);
 }
 

@@ -94,8 +94,8 @@ const option_row option_rows[OPTION_COUNT] = {
         "far plane, up to 1e18 scene units and at least 1e-6 of near beyond it, or inf",
         parse_far, .standard = "1000",
         .except = {BUT(VERB_SOLVE, NULL, "inf; solved for where only near is given", NULL),
-                   BUT(VERB_SHADOW, "1000", NULL, "how far the view sees shadows, up to 1e18 scene units and at least "
-                       "1e-6 of near beyond it")}},
+                   BUT(VERB_SHADOW, "1000", NULL, "how far the view sees shadows, greater than near and at most 1e12 "
+                       "scene units")}},
     [OPTION_FORMAT] = {"format", 'F', "NAME[,NAME...]|all", PLACED | MAPPED,
         "depth formats: @, names as the APIs write them, unormN, floatE.M[bB]; all means those of "
         "'depthprec list formats'", parse_formats, .names = &formats, .standard = "all",
@@ -216,8 +216,9 @@ const option_row option_rows[OPTION_COUNT] = {
         "the rasterizer, its subpixel grid and how it sets up depth: @; of the specifications the worst that they "
         "allow; see 'depthprec list rasterizers'", ROW(raster, rasters),
         .without = "--subpixel, and a plane anchored at a vertex",
-        .except = {BUT(VERB_ZFIGHT, "llvmpipe", NULL, "with --triangles: the rasterizer that "
-                       "draws: llvmpipe, lavapipe, softpipe or swiftshader")}},
+        .except = {BUT(VERB_ZFIGHT, "llvmpipe", "with --triangles", "the rasterizer or specification, as in "
+                       "'depthprec list rasterizers'; with --triangles one that draws: llvmpipe, lavapipe, softpipe "
+                       "or swiftshader")}},
     [OPTION_SUBPIXEL] = {"subpixel", 0, "BITS", VIEWED,
         "instead: bits of the grid to which vertices move; Direct3D has 8, Vulkan and OpenGL at least 4; with "
         "spec-vulkan and spec-gl how many more there are",

@@ -49,15 +49,16 @@ static const struct {
 
 enum { CLASS_ROWS = sizeof class_rows / sizeof class_rows[0] };
 
-/* One NAME=NUMBER, of `length`, in the range that the library gives it. */
-static bool read_class(dp_triangles *t, const char *text, size_t length) {
+/* One NAME=NUMBER, of `length`, in the range that the library gives it, of a name that is not yet among `seen`. */
+static bool read_class(dp_triangles *t, const char *text, size_t length, bool seen[CLASS_ROWS]) {
     for (size_t i = 0; i < CLASS_ROWS; i++) {
         const size_t name = strlen(class_rows[i].name);
         double number;
         if (length <= name || strncmp(text, class_rows[i].name, name) != 0 || text[name] != '=')
             continue;
-        if (!number_parse_part(text + name + 1, length - name - 1, NUMBER_FINITE, &number))
+        if (seen[i] || !number_parse_part(text + name + 1, length - name - 1, NUMBER_FINITE, &number))
             return false;
+        seen[i] = true;
         memcpy((char *)t + class_rows[i].place, &number, sizeof number);
         return dp_triangles_check(t) == DP_OK;
     }
@@ -65,12 +66,13 @@ static bool read_class(dp_triangles *t, const char *text, size_t length) {
 }
 
 int parse_triangle(options *o, const option_row *row, const char *value) {
+    bool seen[CLASS_ROWS] = {false};
     for (const char *at = value;; at++) {
         const size_t length = strcspn(at, ",");
-        if (!read_class(&o->triangles, at, length))
+        if (!read_class(&o->triangles, at, length, seen))
             return option_refuse(row,
                                  "must be depth=K from 1 to 1e6, pixels=P from 1 to 65536 and slim=Q from 2 to 1024, "
-                                 "separated by commas, got '%s'",
+                                 "each at most once, separated by commas, got '%s'",
                                  value);
         at += length;
         if (*at == '\0')

@@ -15,6 +15,7 @@ const verb verb_rows[] = {
      "codes, errors, and how far surfaces are told apart",
      "  depthprec table -n 0.1 -f 1000 -F unorm24 -m d3d,reversed\n"
      "  depthprec table -n 0.1 -f inf -F fp32 -m reversed --at 1,10,100,1000\n"
+     "  depthprec table -n 0.1 -f inf -F fp32 -m reversed --viewport 1920x1080\n"
      "  depthprec table -F unorm24 -m d3d --depth 0.9987\n"
      "  depthprec table -F d32f --at 1:1000:log:10000 --csv -o depths.csv\n", 0},
     {"plot", VERB_PLOT, "FIGURE [FILE|FAMILY]", 1, 2, &figures,
@@ -22,16 +23,20 @@ const verb verb_rows[] = {
      "  depthprec plot error -F all -m d3d,reversed -o error.svg\n"
      "  depthprec plot error -F fp32 -m d3d,reversed -o - --type png >error.png\n"
      "  depthprec plot distribution -F unorm4 -n 1 -f 10 -o staircase.png --theme dark\n"
+     "  depthprec plot fight -F fp32 -m reversed --at 500 -o fight.svg\n"
      "  depthprec plot scene engine.need -o scene.svg\n", 2},
     {"zfight", VERB_ZFIGHT, "", 0, 0, NULL,
      "where surfaces start to fight, by a census of every depth",
      "  depthprec zfight -n 0.1 -f 1000 -F unorm24,fp32 -m d3d,reversed\n"
      "  depthprec zfight -F d24 -m gl --arith mesa --gap 0.01\n"
-     "  depthprec zfight -f inf -F fp32 -m reversed --range 0.1:1e9 --sample 1000000\n", 0},
+     "  depthprec zfight -f inf -F fp32 -m reversed --range 0.1:1e9 --sample 1000000\n"
+     "  depthprec zfight --triangles -F fp32 -m reversed --range 16:64\n"
+     "  depthprec zfight --against separate,fma -F fp32 -m reversed\n", 0},
     {"budget", VERB_BUDGET, "", 0, 0, NULL,
      "how much of the separation each cause takes",
      "  depthprec budget -n 0.1 -f 1000 -F unorm24 -m d3d\n"
-     "  depthprec budget -F fp32 -m reversed --world 5000 --linearize --at 10,100,1000\n", 0},
+     "  depthprec budget -F fp32 -m reversed --world 5000 --linearize --at 10,100,1000\n"
+     "  depthprec budget -F fp32 -m reversed --viewport 1920x1080 --raster spec-d3d\n", 0},
     {"texture", VERB_TEXTURE, "[FILE]", 0, 1, NULL,
      "a depth image: depths, positions, normals, effects, errors",
      "  depthprec texture depth.png -n 0.3 -f 1000\n"
@@ -66,7 +71,7 @@ const verb verb_rows[] = {
      "  depthprec bias --api webgpu -F depth24plus -m d3d --gap 0.01 --range 1:100\n"
      "  depthprec bias --preset bevy --api vulkan --units 4 --factor 1 --slope 0.02\n", 0},
     {"shadow", VERB_SHADOW, "", 0, 0, NULL,
-     "shadow maps: the bias without acne, and the gap that it opens",
+     "shadow maps: the bias without acne, and its gap",
      "  depthprec shadow -n 0.1 -f 150 --size 2048 --unit m\n"
      "  depthprec shadow --light-box 40x40x200 -F d16 --kernel 5 --angle 70 --api gl\n"
      "  depthprec shadow -f 300 --cascades 3 --lambda 0.8 --api all\n"
