@@ -166,10 +166,11 @@ static int check_panel(const drawn *d, const drawn_panel *p, const dp_setup *set
 }
 
 /* Every cause that is asked for, and no other, has its place and a colour of its own. */
-static void check_legend(const drawn *d, const dp_budget_terms *terms) {
-    static const char *const upwards[] = {"format",      "eye",           "ndc",          "projection",
-                                          "composition", "interpolation", "linearization"};
-    const bool wanted[] = {true, true, true, true, terms->world > 0, terms->interpolation > 0, terms->linearize != 0};
+static void check_legend(const drawn *d, const dp_budget_terms *terms, bool slanted) {
+    static const char *const upwards[] = {"format",        "eye",           "ndc",      "projection", "composition",
+                                          "interpolation", "linearization", "snapping", "set-up"};
+    const bool wanted[] = {
+        true, true, true, true, terms->world > 0, terms->interpolation > 0, terms->linearize != 0, slanted, slanted};
     double last_at = -1;
     unsigned colours = 0;
     for (size_t i = 0; i + 1 < d->entry_count; i++) {
@@ -195,9 +196,11 @@ static void check_legend(const drawn *d, const dp_budget_terms *terms) {
 }
 
 static void check_figure(const drawn_theme *look, const char *formats, const char *mappings, const char *arguments,
-                         const dp_budget_terms *terms) {
+                         const dp_budget_terms *terms, bool slanted) {
     dp_spec spec = drawn_camera(0.1, 1000);
     spec.model = DP_MODEL_FP32;
+    if (slanted)
+        spec.triangles = dp_triangles_default();
     cameras c = cameras_of(spec, formats, mappings);
     char shown[2048] = "";
     int names = 0;
@@ -208,7 +211,7 @@ static void check_figure(const drawn_theme *look, const char *formats, const cha
     assert_string_equal(d->y_caption->text, "share of the separation (%)");
     assert_string_equal(d->right_caption->text, "guaranteed separation (scene units)");
     assert_int_equal(d->panel_count, c.count);
-    check_legend(d, terms);
+    check_legend(d, terms, slanted);
     for (size_t i = 0; i < c.count; i++) {
         const size_t before = strlen(shown);
         assert_string_equal(d->panels[i].heading, c.count > 1 ? c.names[i] : "");
@@ -229,12 +232,16 @@ static void bands_are_the_causes(void **state) {
     (void)state;
     const dp_budget_terms none = {0}, all = {.world = 10, .interpolation = 2, .linearize = 1};
     const dp_budget_terms world = {.world = 10}, interpolation = {.interpolation = 2}, linearize = {.linearize = 1};
-    check_figure(&drawn_light, "unorm24,fp32", "d3d,reversed", "", &none);
-    check_figure(&drawn_dark, "unorm16", "gl", "--theme dark", &none);
-    check_figure(&drawn_light, "unorm24", "gl", "--world 10 --interpolation 2 --linearize", &all);
-    check_figure(&drawn_light, "unorm16", "gl", "--world 10", &world);
-    check_figure(&drawn_light, "unorm16", "gl", "--interpolation 2", &interpolation);
-    check_figure(&drawn_light, "unorm16", "gl", "--linearize", &linearize);
+    const dp_budget_terms read_back = {.interpolation = 2, .linearize = 1};
+    check_figure(&drawn_light, "unorm24,fp32", "d3d,reversed", "", &none, false);
+    check_figure(&drawn_dark, "unorm16", "gl", "--theme dark", &none, false);
+    check_figure(&drawn_light, "unorm24", "gl", "--world 10 --interpolation 2 --linearize", &all, false);
+    check_figure(&drawn_light, "unorm16", "gl", "--world 10", &world, false);
+    check_figure(&drawn_light, "unorm16", "gl", "--interpolation 2", &interpolation, false);
+    check_figure(&drawn_light, "unorm16", "gl", "--linearize", &linearize, false);
+    check_figure(&drawn_light, "fp32", "reversed", "--viewport 1920x1080", &none, true);
+    check_figure(&drawn_light, "fp32", "reversed", "--viewport 1920x1080 --interpolation 2 --linearize", &read_back,
+                 true);
 }
 
 /* A line through the middle of a band: the name goes to the wider side of it. */

@@ -31,6 +31,8 @@ typedef struct stacked {
     int layer[DP_CAUSE_COUNT];
 } stacked;
 
+_Static_assert((int)DP_CAUSE_COUNT < (int)REFINE_VALUES, "all causes and the separation are sampled at once");
+
 static void sample(const void *context, double from, double to, refine_sample *out) {
     const stacked *s = context;
     dp_budget b = {.separation = NAN};
@@ -45,12 +47,17 @@ static void sample(const void *context, double from, double to, refine_sample *o
     out->flicker[s->count] = INFINITY;
 }
 
-/* There are eight colours: what the set-up of triangles takes has that of an interpolation, for which it stands. */
-static int colour_of(int layer) {
-    int interpolation = 0;
-    while (stack[interpolation] != DP_CAUSE_INTERPOLATION)
-        interpolation++;
-    return stack[layer] == DP_CAUSE_SETUP ? interpolation : layer;
+/*
+ * There are eight colours: the set-up of triangles, on top, has that of a cause that is not counted, first of an
+ * interpolation, for which it stands; where all are counted that of the band at the bottom.
+ */
+static int colour_of(const stacked *s, int layer) {
+    static const dp_cause lenders[] = {DP_CAUSE_INTERPOLATION, DP_CAUSE_COMPOSITION, DP_CAUSE_LINEARIZATION};
+    for (size_t i = 0; i < sizeof lenders / sizeof lenders[0] && stack[layer] == DP_CAUSE_SETUP; i++)
+        for (int k = 0; k < DP_CAUSE_COUNT && !counts(s->setup, s->terms, lenders[i]); k++)
+            if (stack[k] == lenders[i])
+                return k;
+    return layer;
 }
 
 static void add_bands(chart *out, chart_panel *panel, const stacked *split, const refine *r) {
@@ -58,7 +65,7 @@ static void add_bands(chart *out, chart_panel *panel, const stacked *split, cons
         chart_series *band = envelope_line(out, panel, CHART_AREA, r, k);
         if (band == NULL)
             return;
-        band->style.colour = colour_of(split->layer[k]);
+        band->style.colour = colour_of(split, split->layer[k]);
         snprintf(band->name, sizeof band->name, "%s", dp_cause_name(stack[split->layer[k]]));
     }
     for (int k = split->count - 1; k > 0; k--) /* from rims to thicknesses */
