@@ -97,6 +97,15 @@ static const shadow_case given[] = {
      .api = "d3d11",
      .box = {40, 40, 0.2},
      .hi = 0.2},
+    {.options = "--light-box 1e9x1e9x0.001 --api vulkan-float", /* 2^31 units are not enough */
+     .api = "vulkan-float",
+     .box = {1e9, 1e9, 0.001},
+     .hi = 0.001},
+    {.options = "--light-box 1e9x1e9x0.001 --range 0.0005:0.001 --api gl",
+     .api = "gl",
+     .box = {1e9, 1e9, 0.001},
+     .lo = 0.0005,
+     .hi = 0.001},
 };
 
 enum { CASES = sizeof given / sizeof given[0] };
@@ -289,8 +298,10 @@ static void want_answer(values *v, const shadow_case *c, const char *format, dp_
         shadow_need_of(&light, &need);
         texels = fmax(texels, need.bias[SHADOW_NORMAL].offset / need.texel);
         factor = fmax(factor, need.bias[SHADOW_SLOPE].factor);
-        for (int k = 0; k < SHADOW_WAY_COUNT; k++)
-            units[k] = isfinite(units[k]) ? fmax(units[k], fabs(units_of(&light, &need, k, api))) : NAN;
+        for (int k = 0; k < SHADOW_WAY_COUNT; k++) {
+            const double one = units_of(&light, &need, k, api);
+            units[k] = isnan(units[k]) || isnan(one) ? NAN : fmax(units[k], fabs(one));
+        }
         if (isinf(factor))
             units[SHADOW_SLOPE] = NAN;
     }
@@ -493,16 +504,22 @@ static void joined(const char *at, char out[4096]) {
 static void check_remarks(const values *v, const shadow_case *c, const char *at, size_t setup) {
     static const char *const gaps[] = {"constant_gap", "slope_gap", "normal_gap"};
     double wide = 1;
-    bool hidden = false;
+    bool hidden = false, none = false,
+         beyond = false; /* no units of the constant bias; for it is deeper than the box */
     char text[4096];
     for (size_t i = 0; i < map_count(c); i++) {
         const double depth = number_at(v, setup, i, "depth");
-        wide = fmax(wide, number_at(v, setup, i, gaps[0]) / (number_at(v, setup, i, "constant_bias") * depth));
+        const double bias = number_at(v, setup, i, "constant_bias");
+        none = none || isnan(number_at(v, setup, i, "constant_units"));
+        beyond = beyond || bias >= 1;
+        wide = fmax(wide, number_at(v, setup, i, gaps[0]) / (bias * depth));
         for (int k = 0; k < 3; k++)
-            hidden = hidden || number_at(v, setup, i, gaps[k]) >= depth;
+            hidden = hidden || beyond || number_at(v, setup, i, gaps[k]) >= depth;
     }
     joined(at, text);
     assert_int_equal(strstr(text, "nothing is in shadow") != NULL, hidden);
+    const bool grows = strncmp(c->api, "vulkan-", 7) != 0 && strcmp(c->formats[setup / c->mapping_count], "fp32") == 0;
+    assert_int_equal(strstr(text, "worth nothing at window depth 0") != NULL, none && !beyond && grows);
     const char *const times = strstr(text, "the gap is up to ");
     assert_int_equal(times != NULL, wide > 1.5);
     if (times != NULL) {

@@ -175,7 +175,7 @@ static void say_notes(page *p, void *item) {
     say_causes(p, s);
     page_note(p, "needed", "%s, %s and %s of these by slope times filter radius alone",
               percent_text(w.way[0].share).text, percent_text(w.way[1].share).text, percent_text(w.way[2].share).text);
-    if (isnan(w.way[SHADOW_CONSTANT].units) && real)
+    if (isnan(w.way[SHADOW_CONSTANT].units) && w.way[SHADOW_CONSTANT].window < 1.0 && real)
         page_note(p, "units", "are worth nothing at window depth 0 of a float format: %s",
                   s->view != NULL ? "--casters keeps surfaces away from it"
                                   : "--range LO:HI says where surfaces are lit");

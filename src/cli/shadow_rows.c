@@ -98,7 +98,7 @@ shadow_whole shadow_whole_of(const shadow_maps *maps, const bias_api *api) {
         w.limited = w.limited || r.limited;
         for (int k = 0; k < SHADOW_WAY_COUNT; k++) {
             w.way[k] = i == 0 ? r.way[k] : widest(&w.way[k], &r.way[k]);
-            w.hidden = w.hidden || r.way[k].gap >= r.depth;
+            w.hidden = w.hidden || r.way[k].gap >= r.depth || r.way[k].window >= 1.0; /* no units, no gap */
         }
     }
     for (int k = 0; k < SHADOW_WAY_COUNT; k++)
