@@ -300,6 +300,7 @@ static void test_differences(void **state) {
         {DP_MAPPING_D3D, "unorm24", "fma", "separate-fma", VERTEX_EYE_LOG, 100},
         {DP_MAPPING_REVERSED, "unorm24", "products", "right", VERTEX_BOX, 700},
         {DP_MAPPING_D3D, "unorm16", "separate", "pairs", VERTEX_BOX, 5000},
+        {DP_MAPPING_D3D, "unorm16", "once", "fma", VERTEX_EYE_LOG, 0},
         {DP_MAPPING_D3D, "fp32", "right", "right", VERTEX_EYE_LOG, 100},
     };
     tally t = {.name = "differences"};
