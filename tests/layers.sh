@@ -20,7 +20,7 @@ src/need          | depthprec core api raster need
 src/model         | core model
 src/scene         | depthprec core model need scene
 src/report        | depthprec report
-src/plot          | depthprec core api census raster draw shadow texture method need model scene plot
+src/plot          | depthprec core api census raster draw shadow texture method need plot
 src/cli           | depthprec core api census raster vertex draw shadow texture method need model scene report plot cli
 '
 

@@ -164,6 +164,12 @@ static void other_forms(void **state) {
         fail_msg("'%s' is not in %s", want, p.out);
     assert_non_null(strstr(p.out, "area 2, near "));
     printed_free(&p);
+    p = print_of("scene %s --gap 0.02 --within 20", STREET);
+    assert_int_equal(p.status, 0);
+    assert_non_null(strstr(p.out, "of each other: none can fight before the far"));
+    assert_non_null(strstr(p.out, "pass  none fights nearer than 20."));
+    assert_null(strstr(p.out, "'wall'"));
+    printed_free(&p);
     p = print_of("scene %s --gap 0.02 -F d24 -m d3d --within 50 --unit m --csv", STREET);
     char *line = strtok(p.out, "\r\n");
     assert_non_null(strstr(line, "a_node,a_mesh,a_material,b_node,b_mesh,b_material,gap_min [scene],gap_max [scene]"));

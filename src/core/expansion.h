@@ -33,6 +33,19 @@ static inline dp_pair dp_two_product(double a, double b) {
     return (dp_pair){p, fma(a, b, -p)};
 }
 
+/* Of pairs, good to 2^-102; a sum relative to its terms' magnitudes. */
+static inline dp_pair dp_pair_sum(dp_pair a, dp_pair b) {
+    const dp_pair high = dp_two_sum(a.hi, b.hi);
+    const dp_pair low = dp_two_sum(a.lo, b.lo);
+    const dp_pair once = dp_quick_two_sum(high.hi, high.lo + low.hi);
+    return dp_quick_two_sum(once.hi, once.lo + low.lo);
+}
+
+static inline dp_pair dp_pair_product(dp_pair a, dp_pair b) {
+    const dp_pair p = dp_two_product(a.hi, b.hi);
+    return dp_quick_two_sum(p.hi, p.lo + (a.hi * b.lo + a.lo * b.hi));
+}
+
 /*
  * p a (x1 - x2) + q b (y1 - y2), evaluated exactly and rounded once at the end: the sign is right, zero means zero,
  * and the value is good to 2^-50 relative. Arguments up to 1e60, and no two of them so small that the last bit of a

@@ -4,18 +4,6 @@
 /* log(2) to 107 bits */
 static const dp_pair log_two = {0x1.62e42fefa39efp-1, 0x1.abc9e3b39803fp-56};
 
-static dp_pair pair_add(dp_pair a, dp_pair b) {
-    dp_pair s = dp_two_sum(a.hi, b.hi);
-    dp_pair t = dp_two_sum(a.lo, b.lo);
-    s = dp_quick_two_sum(s.hi, s.lo + t.hi);
-    return dp_quick_two_sum(s.hi, s.lo + t.lo);
-}
-
-static dp_pair pair_multiply(dp_pair a, dp_pair b) {
-    dp_pair p = dp_two_product(a.hi, b.hi);
-    return dp_quick_two_sum(p.hi, p.lo + (a.hi * b.lo + a.lo * b.hi));
-}
-
 static dp_pair pair_scale(dp_pair a, double b) {
     dp_pair p = dp_two_product(a.hi, b);
     return dp_quick_two_sum(p.hi, fma(a.lo, b, p.lo));
@@ -30,17 +18,17 @@ static dp_pair pair_divide(dp_pair a, double b) {
 /* exp(x) 2^-k - 1 with k = round(x / log 2): Taylor for x/512, then nine doublings of e^x - 1, which lose nothing. */
 static dp_pair exp_reduced(double x, int *k) {
     *k = (int)rint(x / log_two.hi);
-    dp_pair r = pair_add((dp_pair){x, 0.0}, pair_scale(log_two, -*k));
+    dp_pair r = dp_pair_sum((dp_pair){x, 0.0}, pair_scale(log_two, -*k));
     r = pair_scale(r, 0x1p-9);
     dp_pair sum = {1.0 / 10.0, 0.0}; /* the eleventh term is below 2^-120 of the first */
     for (int n = 9; n >= 1; n--) {
-        sum = pair_multiply(r, sum);
-        sum = pair_add(sum, (dp_pair){1.0, 0.0});
+        sum = dp_pair_product(r, sum);
+        sum = dp_pair_sum(sum, (dp_pair){1.0, 0.0});
         sum = n > 1 ? pair_divide(sum, n) : sum;
     }
-    sum = pair_multiply(r, sum);
+    sum = dp_pair_product(r, sum);
     for (int i = 0; i < 9; i++)
-        sum = pair_add(pair_scale(sum, 2.0), pair_multiply(sum, sum));
+        sum = dp_pair_sum(pair_scale(sum, 2.0), dp_pair_product(sum, sum));
     return sum;
 }
 
@@ -48,11 +36,11 @@ static dp_pair exp_reduced(double x, int *k) {
 static dp_pair log1p_series(dp_pair u) {
     dp_pair sum = {0.0, 0.0};
     for (int n = 12; n >= 1; n--) {
-        sum = pair_multiply(sum, u);
+        sum = dp_pair_product(sum, u);
         dp_pair term = pair_divide((dp_pair){n % 2 ? 1.0 : -1.0, 0.0}, n);
-        sum = pair_add(sum, term);
+        sum = dp_pair_sum(sum, term);
     }
-    return pair_multiply(sum, u);
+    return dp_pair_product(sum, u);
 }
 
 dp_pair dp_log1p_product(double c, double z) {
@@ -60,20 +48,20 @@ dp_pair dp_log1p_product(double c, double z) {
     if (u.hi < 0x1p-10)
         return log1p_series(u);
     /* One Newton step from the double y: log(x) = y + log(x e^-y), and x e^-y is within 2^-50 of 1. */
-    dp_pair x = pair_add(u, (dp_pair){1.0, 0.0});
+    dp_pair x = dp_pair_sum(u, (dp_pair){1.0, 0.0});
     double y = log(x.hi);
     int k;
     dp_pair e = exp_reduced(-y, &k);
-    e = pair_add(e, (dp_pair){1.0, 0.0});
-    dp_pair ratio = pair_multiply(x, e);
+    e = dp_pair_sum(e, (dp_pair){1.0, 0.0});
+    dp_pair ratio = dp_pair_product(x, e);
     ratio = (dp_pair){ldexp(ratio.hi, k), ldexp(ratio.lo, k)};
-    dp_pair t = pair_add(ratio, (dp_pair){-1.0, 0.0});
-    t = pair_add(t, (dp_pair){-0.5 * t.hi * t.hi, 0.0});
-    return pair_add((dp_pair){y, 0.0}, t);
+    dp_pair t = dp_pair_sum(ratio, (dp_pair){-1.0, 0.0});
+    t = dp_pair_sum(t, (dp_pair){-0.5 * t.hi * t.hi, 0.0});
+    return dp_pair_sum((dp_pair){y, 0.0}, t);
 }
 
 double dp_scaled_difference(double num, double den, dp_pair a, dp_pair b) {
     dp_pair d = pair_divide(pair_scale(a, num), den);
-    d = pair_add(d, (dp_pair){-b.hi, -b.lo});
+    d = dp_pair_sum(d, (dp_pair){-b.hi, -b.lo});
     return d.hi + d.lo;
 }

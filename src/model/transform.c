@@ -11,17 +11,13 @@ static dp_pair number(model_transforms kind, double x) {
 static dp_pair plus(model_transforms kind, dp_pair a, dp_pair b) {
     if (kind == MODEL_BINARY32)
         return number(kind, a.hi + b.hi);
-    const dp_pair s = dp_two_sum(a.hi, b.hi);
-    const dp_pair t = dp_two_sum(a.lo, b.lo);
-    const dp_pair u = dp_quick_two_sum(s.hi, s.lo + t.hi);
-    return dp_quick_two_sum(u.hi, u.lo + t.lo);
+    return dp_pair_sum(a, b);
 }
 
 static dp_pair times(model_transforms kind, dp_pair a, dp_pair b) {
     if (kind == MODEL_BINARY32)
         return number(kind, a.hi * b.hi);
-    const dp_pair p = dp_two_product(a.hi, b.hi);
-    return dp_quick_two_sum(p.hi, p.lo + (a.hi * b.lo + a.lo * b.hi));
+    return dp_pair_product(a, b);
 }
 
 static dp_pair negative(dp_pair a) {

@@ -44,24 +44,12 @@ static bounded cross_component(exact_triangle t, int k) {
 /* ---- In pairs of doubles ------------------------------------------------------------------------------------------
  */
 
-static dp_pair pair_sum(dp_pair x, dp_pair y) {
-    const dp_pair high = dp_two_sum(x.hi, y.hi);
-    const dp_pair low = dp_two_sum(x.lo, y.lo);
-    const dp_pair once = dp_quick_two_sum(high.hi, high.lo + low.hi);
-    return dp_quick_two_sum(once.hi, once.lo + low.lo);
-}
-
-static dp_pair pair_product(dp_pair x, dp_pair y) {
-    const dp_pair p = dp_two_product(x.hi, y.hi);
-    return dp_quick_two_sum(p.hi, p.lo + (x.hi * y.lo + x.lo * y.hi));
-}
-
 static dp_pair pair_cross(exact_triangle t, int k) {
     const int i = (k + 1) % 3;
     const int j = (k + 2) % 3;
-    const dp_pair l = pair_product(dp_two_sum(t[1][i], -t[0][i]), dp_two_sum(t[2][j], -t[0][j]));
-    const dp_pair r = pair_product(dp_two_sum(t[1][j], -t[0][j]), dp_two_sum(t[2][i], -t[0][i]));
-    return pair_sum(l, (dp_pair){-r.hi, -r.lo});
+    const dp_pair l = dp_pair_product(dp_two_sum(t[1][i], -t[0][i]), dp_two_sum(t[2][j], -t[0][j]));
+    const dp_pair r = dp_pair_product(dp_two_sum(t[1][j], -t[0][j]), dp_two_sum(t[2][i], -t[0][i]));
+    return dp_pair_sum(l, (dp_pair){-r.hi, -r.lo});
 }
 
 /* ---- Expansions: components that do not overlap, in increasing magnitude, without zeros ----------------------------
@@ -176,7 +164,7 @@ int exact_above(exact_triangle t, const double p[3]) {
         return quick;
     dp_pair pairs = {0.0, 0.0};
     for (int k = 0; k < 3; k++)
-        pairs = pair_sum(pairs, pair_product(pair_cross(t, k), dp_two_sum(p[k], -t[0][k])));
+        pairs = dp_pair_sum(pairs, dp_pair_product(pair_cross(t, k), dp_two_sum(p[k], -t[0][k])));
     const int paired = sign_beyond(pairs.hi, sum.size, PAIRED);
     return paired != EXACT_UNSURE ? paired : above_exactly(t, p);
 }
@@ -204,8 +192,8 @@ static int turn_in_pairs(const exact_view *view, exact_triangle t) {
     double size = 0.0;
     for (int k = 0; k < 3; k++) {
         const dp_pair b = pair_cross(view->b, k);
-        const dp_pair n = pair_sum(pair_cross(view->a, k), (dp_pair){view->sign * b.hi, view->sign * b.lo});
-        sum = pair_sum(sum, pair_product(n, pair_cross(t, k)));
+        const dp_pair n = dp_pair_sum(pair_cross(view->a, k), (dp_pair){view->sign * b.hi, view->sign * b.lo});
+        sum = dp_pair_sum(sum, dp_pair_product(n, pair_cross(t, k)));
         size += view->sizes[k] * cross_component(t, k).size;
     }
     return sign_beyond(sum.hi, size, PAIRED);

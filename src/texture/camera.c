@@ -43,18 +43,12 @@ static dp_pair product(dp_pair a, double b) {
     return dp_quick_two_sum(hi.hi, hi.lo + a.lo * b);
 }
 
-static dp_pair sum(dp_pair a, dp_pair b) {
-    const dp_pair hi = dp_two_sum(a.hi, b.hi), lo = dp_two_sum(a.lo, b.lo),
-                  most = dp_quick_two_sum(hi.hi, hi.lo + lo.hi);
-    return dp_quick_two_sum(most.hi, most.lo + lo.lo);
-}
-
 /* With the slopes put in: a half (NDC - centre), NDC = (2i + 1 - width)/width. */
 static camera_oblique oblique_of(const projection *p, uint32_t width, uint32_t height) {
     const dp_pair x = quotient((dp_pair){p->tilt[0], 0}, p->scale[0]),
                   y = quotient((dp_pair){p->tilt[1], 0}, p->scale[1]);
-    const dp_pair moved = sum(product(x, -p->centre[0]), product(y, -p->centre[1]));
-    return (camera_oblique){p->oblique, p->pull, quotient(x, width), quotient(y, height), sum(p->base, moved)};
+    const dp_pair moved = dp_pair_sum(product(x, -p->centre[0]), product(y, -p->centre[1]));
+    return (camera_oblique){p->oblique, p->pull, quotient(x, width), quotient(y, height), dp_pair_sum(p->base, moved)};
 }
 
 /* ---- The camera -------------------------------------------------------------------------------------------------- */
