@@ -223,7 +223,8 @@ static void say_head(page *p, void *of) {
     if (fights > 0)
         snprintf(how_many, sizeof how_many, "%zu", fights);
     p->unit = s->unit;
-    page_title(p, "%s: %zu triangles, %zu surfaces, %s across", s->file, s->model.triangles, s->model.surfaces,
+    page_title(p, "%s: %zu triangle%s, %zu surface%s, %s across", s->file, s->model.triangles,
+               s->model.triangles == 1 ? "" : "s", s->model.surfaces, s->model.surfaces == 1 ? "" : "s",
                length(p, s->extent).text);
     setup_title(p, &s->setup, &s->fields);
     slant_say(p, page_title, &s->o, &s->setup);

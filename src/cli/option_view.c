@@ -12,7 +12,7 @@ static int take_raster(options *o) {
     if (row == NULL)
         return EXIT_FINE;
     if (given && !row->at_least)
-        return option_refuse(&option_rows[OPTION_SUBPIXEL], "cannot be combined with --raster %s", row->name);
+        return option_refuse(&option_rows[OPTION_SUBPIXEL], "does not apply: %s has its own grid", row->name);
     if (given && asked < row->plane_bits)
         return option_refuse(&option_rows[OPTION_SUBPIXEL], "must be at least %d with --raster %s, got %d",
                              row->plane_bits, row->name, asked);

@@ -137,10 +137,11 @@ static void say_answer(page *p, void *item) {
     const vertex_request *r = &a->request;
     const vertex_difference worst = worst_of(a);
     walk_title(p, item);
-    page_title(p, "%llu vertices from z = %s to %s: %s; camera within +-%s; seed %llu",
-               (unsigned long long)worst.vertices, number_in(number_full(r->lo), p->unit).text,
-               number_in(number_full(r->hi), p->unit).text, vertex_spread_note(r->spread),
-               number_in(number_full(r->world), p->unit).text, (unsigned long long)r->seed);
+    page_title(p, "%llu vert%s from z = %s to %s: %s; camera within +-%s; seed %llu",
+               (unsigned long long)worst.vertices, worst.vertices == 1 ? "ex" : "ices",
+               number_in(number_full(r->lo), p->unit).text, number_in(number_full(r->hi), p->unit).text,
+               vertex_spread_note(r->spread), number_in(number_full(r->world), p->unit).text,
+               (unsigned long long)r->seed);
     if (worst.vertices == 0)
         page_text(p, "No vertex that was drawn lies within the range.");
     else if (worst.differ == 0)
