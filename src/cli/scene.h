@@ -1,0 +1,54 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/** @file scene.h  What the parts of the command `scene` share: what was asked, found and judged. */
+#ifndef CLI_SCENE_H
+#define CLI_SCENE_H
+
+#include <stdbool.h>
+#include <stdint.h>
+
+#include "cli/options.h"
+#include "cli/setups.h"
+#include "cli/slant.h"
+#include "model/model.h"
+#include "report/report.h"
+#include "scene/find.h"
+#include "scene/judge.h"
+
+/* A surface as a report names it; null where the file has no name. */
+typedef struct scene_named {
+    const char *node, *mesh, *material;
+} scene_named;
+
+typedef struct scene_place {
+    double x, y, z;
+} scene_place;
+
+typedef struct scene_finding {
+    const finder_finding *of;
+    scene_named a, b;
+    double gap_min, gap_max, area;
+    scene_place place;
+    scene_verdict verdict;
+    uint64_t pairs;
+    bool fights; /* nearer than --within asks */
+} scene_finding;
+
+typedef struct scene {
+    options o; /* with what stands for options that were not given */
+    dp_setup setup;
+    setup_fields fields;
+    slant_fields slant;
+    const slant_fields *triangles; /* null: surfaces face the camera */
+    model model;
+    finder_found found;
+    scene_finding *findings;
+    const char *file, *unit, *transforms;
+    double gap, angle, within, extent;
+    uint64_t triangle_count, surface_count, finding_count, left_out[FINDER_FILTERS], degenerate;
+    bool passed;
+} scene;
+
+/** The report: head and notes of the text, columns of JSON and CSV. */
+report_spec scene_report(scene *s);
+
+#endif

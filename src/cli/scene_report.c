@@ -1,0 +1,177 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* What `scene` prints: the findings as text, JSON and CSV. */
+#include "cli/scene.h"
+
+#include <math.h>
+#include <stdio.h>
+
+#include "core/append.h"
+#include "report/number.h"
+#include "report/page.h"
+
+enum { DIGITS = 4, SHOWN_MOST = 20, LABEL = 4, NAME_SIZE = 128, LINE_SIZE = 256 };
+
+/* ---- Text -------------------------------------------------------------------------------------------------------- */
+
+static number_text length(const page *p, double value) {
+    return number_in(number_brief(number_of(value, DIGITS)), p->unit);
+}
+
+static const char *called(const scene_named *n, char out[NAME_SIZE]) {
+    out[0] = '\0';
+    append(out, NAME_SIZE, "'%.40s'", n->node != NULL ? n->node : n->mesh != NULL ? n->mesh : "(no name)");
+    if (n->material != NULL)
+        append(out, NAME_SIZE, " (%.40s)", n->material);
+    return out;
+}
+
+/* How many fight before the far plane; they come first. */
+static size_t fighting(const scene *s) {
+    size_t n = 0;
+    while (n < s->found.findings && !(s->findings[n].verdict.certain_to >= s->setup.spec.zfar))
+        n++;
+    return n;
+}
+
+static void say_head(page *p, void *of) {
+    const scene *s = of;
+    const model_notes *n = &s->model.notes;
+    const size_t count = s->found.findings, fights = fighting(s);
+    char how_many[24] = "none";
+    if (fights > 0)
+        snprintf(how_many, sizeof how_many, "%zu", fights);
+    p->unit = s->unit;
+    page_title(p, "%s: %zu triangle%s, %zu surface%s, %s across", s->file, s->model.triangles,
+               s->model.triangles == 1 ? "" : "s", s->model.surfaces, s->model.surfaces == 1 ? "" : "s",
+               length(p, s->extent).text);
+    setup_title(p, &s->setup, &s->fields);
+    slant_say(p, page_title, &s->o, &s->setup);
+    if (n->skinned + n->morphed + n->animated > 0)
+        page_title(p, "in the rest pose: %zu skinned and %zu morphed meshes, %zu animated nodes", n->skinned,
+                   n->morphed, n->animated);
+    if (count == 0)
+        page_text(p, "No surfaces lie within %s of each other.", length(p, s->gap).text);
+    else
+        page_text(p, "%zu pair%s of surfaces lie%s within %s of each other: %s can fight before the far plane.", count,
+                  count == 1 ? "" : "s", count == 1 ? "s" : "", length(p, s->gap).text, how_many);
+    if (option_given(&s->o, OPTION_WITHIN))
+        page_text(p, "%s%s%s  %s nearer than %s.", s->passed ? p->good : p->bad, s->passed ? "pass" : "FAIL", p->plain,
+                  s->passed ? "none fights" : "surfaces can fight", length(p, s->within).text);
+}
+
+static number_text safe_length(const page *p, double value, bool upward) {
+    return number_in(number_brief(upward ? number_up(value, DIGITS) : number_down(value, DIGITS)), p->unit);
+}
+
+static void say_finding(page *p, const scene *s, size_t i) {
+    const scene_finding *f = &s->findings[i];
+    const scene_verdict *v = &f->verdict;
+    char a[NAME_SIZE], b[NAME_SIZE], label[16], text[LINE_SIZE] = "";
+    snprintf(label, sizeof label, "%zu", i + 1);
+    page_note(p, label, "%s and %s", called(&f->a, a), called(&f->b, b));
+    if (isnan(v->certain_to))
+        append(text, sizeof text, "certain nowhere");
+    else
+        append(text, sizeof text, "certain up to %s", safe_length(p, v->certain_to, false).text);
+    if (!isnan(v->ties_from))
+        append(text, sizeof text, ", ties from %s", safe_length(p, v->ties_from, true).text);
+    append(text, sizeof text, "; ");
+    if (f->gap_min != f->gap_max)
+        append(text, sizeof text, "%s to ", number_brief(number_of(f->gap_min, DIGITS)).text);
+    append(text, sizeof text, "%s apart", length(p, f->gap_max).text);
+    page_note(p, "", "%s", text);
+    page_note(p, "", "area %s, near %s %s %s", number_brief(number_of(f->area, DIGITS)).text,
+              number_of(f->place.x, DIGITS).text, number_of(f->place.y, DIGITS).text,
+              number_of(f->place.z, DIGITS).text);
+    if (v->lift > 0.0 && isfinite(v->lift))
+        page_note(p, "", "%s more between them are enough up to %s", safe_length(p, v->lift, true).text,
+                  length(p, s->within).text);
+}
+
+static void say_notes(page *p, void *of) {
+    const scene *s = of;
+    const size_t fights = fighting(s), shown = fights < SHOWN_MOST ? fights : SHOWN_MOST;
+    for (size_t i = 0; i < shown; i++)
+        say_finding(p, s, i);
+    if (fights > shown)
+        page_text(p, "%zu more: --json and --csv have all.", fights - shown);
+    for (size_t k = 0; k < FINDER_FILTERS; k++)
+        if (s->found.left_out[k] > 0)
+            page_line(p, "left out: %zu pairs of triangles %s (--also %s)", s->found.left_out[k],
+                      finder_filter_get(k)->note, finder_filter_get(k)->name);
+    if (s->found.degenerate > 0)
+        page_line(p, "left out: %zu triangles without area", s->found.degenerate);
+    if (s->found.cut)
+        page_line(p, "cut short: too many triangles lie in one place, and not all pairs were looked at");
+}
+
+/* ---- Data -------------------------------------------------------------------------------------------------------- */
+
+static void *next_finding(void *of, size_t i) {
+    scene *s = of;
+    return i < s->found.findings ? &s->findings[i] : NULL;
+}
+
+static const column named_columns[] = {{FIELD(scene_named, node, "node", "")},
+                                       {FIELD(scene_named, mesh, "mesh", "")},
+                                       {FIELD(scene_named, material, "material", "")},
+                                       {.kind = COLUMN_END}};
+
+static const column place_columns[] = {{FIELD(scene_place, x, "x", "scene")},
+                                       {FIELD(scene_place, y, "y", "scene")},
+                                       {FIELD(scene_place, z, "z", "scene")},
+                                       {.kind = COLUMN_END}};
+
+static const column finding_columns[] = {{PART(scene_finding, a, "a", named_columns), .only = AS_JSON},
+                                         {PART(scene_finding, b, "b", named_columns), .only = AS_JSON},
+                                         {FIELD(scene_finding, a.node, "a_node", ""), .only = AS_CSV},
+                                         {FIELD(scene_finding, a.mesh, "a_mesh", ""), .only = AS_CSV},
+                                         {FIELD(scene_finding, a.material, "a_material", ""), .only = AS_CSV},
+                                         {FIELD(scene_finding, b.node, "b_node", ""), .only = AS_CSV},
+                                         {FIELD(scene_finding, b.mesh, "b_mesh", ""), .only = AS_CSV},
+                                         {FIELD(scene_finding, b.material, "b_material", ""), .only = AS_CSV},
+                                         {FIELD(scene_finding, gap_min, "gap_min", "scene")},
+                                         {FIELD(scene_finding, gap_max, "gap_max", "scene")},
+                                         {FIELD(scene_finding, area, "area", "scene^2")},
+                                         {PART(scene_finding, place, "place", place_columns)},
+                                         {FIELD(scene_finding, pairs, "pairs", "")},
+                                         {FIELD(scene_finding, verdict.certain_to, "certain_to", "scene")},
+                                         {FIELD(scene_finding, verdict.ties_from, "ties_from", "scene")},
+                                         {FIELD(scene_finding, verdict.lift, "lift", "scene")},
+                                         {FIELD(scene_finding, fights, "fights", "")},
+                                         {.kind = COLUMN_END}};
+
+static const column left_columns[] = {
+    {FIELD(scene, left_out[FINDER_FACING], "facing", "")}, {FIELD(scene, left_out[FINDER_BLENDED], "blended", "")},
+    {FIELD(scene, left_out[FINDER_THIN], "thin", "")},     {FIELD(scene, left_out[FINDER_HIDDEN], "hidden", "")},
+    {FIELD(scene, degenerate, "degenerate", "")},          {.kind = COLUMN_END}};
+
+static const column columns[] = {
+    {FIELD(scene, file, "file", ""), .only = AS_JSON},
+    {PART(scene, fields, "setup", setup_columns), .only = AS_JSON},
+    {PART(scene, triangles, "triangles", slant_columns), .only = AS_JSON, .pointed = true, .optional = true},
+    {FIELD(scene, triangle_count, "model_triangles", ""), .only = AS_JSON},
+    {FIELD(scene, surface_count, "model_surfaces", ""), .only = AS_JSON},
+    {FIELD(scene, extent, "extent", "scene"), .only = AS_JSON},
+    {FIELD(scene, transforms, "transforms", ""), .only = AS_JSON},
+    {FIELD(scene, gap, "gap", "scene"), .only = AS_JSON},
+    {FIELD(scene, angle, "angle", "degrees"), .only = AS_JSON},
+    {FIELD(scene, within, "within", "scene"), .only = AS_JSON},
+    {FIELD(scene, passed, "passed", ""), .only = AS_JSON},
+    {FIELD(scene, found.cut, "cut", ""), .only = AS_JSON},
+    {GROUP("left_out", left_columns), .only = AS_JSON},
+    {LIST("findings", finding_columns, next_finding), .only = AS_JSON | AS_CSV},
+    {.kind = COLUMN_END}};
+
+static void count(scene *s) {
+    s->triangle_count = s->model.triangles;
+    s->surface_count = s->model.surfaces;
+    s->degenerate = s->found.degenerate;
+    for (int k = 0; k < FINDER_FILTERS; k++)
+        s->left_out[k] = s->found.left_out[k];
+}
+
+report_spec scene_report(scene *s) {
+    count(s);
+    return (report_spec){"scene", columns, s, .label = LABEL, .head = say_head, .notes = say_notes};
+}
