@@ -25,6 +25,10 @@ static void cross(const vector a, const vector b, vector out) {
     memcpy(out, v, sizeof v);
 }
 
+static const double *corner_of(const model *m, size_t i) {
+    return m->position[m->triangle[i / 3][i % 3]];
+}
+
 /* ---- Triangles --------------------------------------------------------------------------------------------------- */
 
 /* A triangle in eye space, and what a ray (x, y, 1) meets of it. */
@@ -163,7 +167,7 @@ static double reach_of(const render_asked *asked) {
     double most = 0.0;
     for (size_t i = 0; i < 3 * asked->m->triangles; i++)
         for (int k = 0; k < 3; k++)
-            most = fmax(most, fabs(asked->m->position[asked->m->triangle[i / 3][i % 3]][k]));
+            most = fmax(most, fabs(corner_of(asked->m, i)[k]));
     for (int k = 0; k < 3; k++)
         most = fmax(most, fabs(asked->view.eye[k]));
     return most;
@@ -218,13 +222,13 @@ static uint32_t grey(double share) {
 
 /* Of a triangle that was drawn. */
 static uint32_t shade(const rendering *r, uint32_t t) {
-    static const vector light = {0.4, 0.65, -0.65}; /* in eye space: above, to the right, and behind the camera */
+    static const vector light = {0.25, 0.5, -0.8}; /* in eye space: above the camera, to its right */
     static const double levels[] = {1.0, 0.84, 0.92, 0.76};
     seen what;
     if (!look_at(r, t, &what))
         return grey(0.0);
     const double facing = -dot(what.inverse, light) / (what.length * sqrt(dot(light, light)));
-    return grey((0.35 + 0.6 * fmax(facing, 0.0)) * levels[r->asked->m->of[t] % 4]);
+    return grey((0.4 + 0.55 * fmax(facing, 0.0)) * levels[r->asked->m->of[t] % 4]);
 }
 
 void render_colours(const render_asked *asked, const render_picture *p, uint32_t *pixel) {
@@ -251,46 +255,64 @@ static void unit(vector v) {
         v[k] /= length;
 }
 
-/* From the middle of the box to a corner of it, and a length that nothing is farther from the middle. */
-static double middle_of(const model *m, vector middle) {
-    vector lo = {HUGE_VAL, HUGE_VAL, HUGE_VAL}, hi = {-HUGE_VAL, -HUGE_VAL, -HUGE_VAL}, half;
-    for (size_t i = 0; i < 3 * m->triangles; i++)
-        for (int k = 0; k < 3; k++) {
-            lo[k] = fmin(lo[k], m->position[m->triangle[i / 3][i % 3]][k]);
-            hi[k] = fmax(hi[k], m->position[m->triangle[i / 3][i % 3]][k]);
-        }
+static void middle_of(const model *m, vector middle) {
     for (int k = 0; k < 3; k++) {
-        middle[k] = m->triangles > 0 ? lo[k] / 2.0 + hi[k] / 2.0 : 0.0;
-        half[k] = m->triangles > 0 ? hi[k] / 2.0 - lo[k] / 2.0 : 1.0;
+        double lo = HUGE_VAL, hi = -HUGE_VAL;
+        for (size_t i = 0; i < 3 * m->triangles; i++) {
+            lo = fmin(lo, corner_of(m, i)[k]);
+            hi = fmax(hi, corner_of(m, i)[k]);
+        }
+        middle[k] = lo <= hi ? lo / 2.0 + hi / 2.0 : 0.0;
     }
-    return fmax(sqrt(dot(half, half)), 1e-6);
 }
 
-render_view render_overview(const model *m, const draw_camera *camera, size_t count, const double (*towards)[3]) {
+/* How far from the middle the eye must be for all to be in sight. */
+static double distance_for(const model *m, const draw_camera *camera, const render_view *view, const vector middle) {
+    vector right;
+    double most = 0.0;
+    cross(view->ahead, view->up, right);
+    for (size_t i = 0; i < 3 * m->triangles; i++) {
+        const double *p = corner_of(m, i);
+        const vector from = {p[0] - middle[0], p[1] - middle[1], p[2] - middle[2]};
+        const double beside =
+            fmax(fabs(dot(from, right)) * (double)camera->p00, fabs(dot(from, view->up)) * (double)camera->p11);
+        most = fmax(most, beside - dot(from, view->ahead));
+    }
+    return fmax(1.05 * most, 1e-6);
+}
+
+/* The corner from which the most of the wanted directions is seen. */
+static const double *best_corner(size_t count, const double (*towards)[3]) {
     static const vector corners[] = {{1, 0.7, 1}, {-1, 0.7, 1}, {1, 0.7, -1}, {-1, 0.7, -1}};
-    static const vector upwards = {0, 1, 0};
-    const double half = atan(1.0 / fmax((double)camera->p00, (double)camera->p11)); /* of the narrower angle */
-    render_view view;
-    vector middle, from = {0};
-    double most = -1.0;
-    const double away = middle_of(m, middle) / sin(half);
+    const double *best = corners[0];
+    double most = 0.0;
     for (int c = 0; c < 4; c++) {
         double sum = 0.0;
         for (size_t i = 0; i < count; i++)
             sum += fmax(dot(towards[i], corners[c]), 0.0);
         if (sum > most) {
             most = sum;
-            memcpy(from, corners[c], sizeof from);
+            best = corners[c];
         }
     }
-    unit(from);
-    for (int k = 0; k < 3; k++) {
-        view.eye[k] = middle[k] + away * from[k];
+    return best;
+}
+
+render_view render_overview(const model *m, const draw_camera *camera, size_t count, const double (*towards)[3]) {
+    static const vector upwards = {0, 1, 0};
+    const double *from = best_corner(count, towards);
+    render_view view;
+    vector middle;
+    middle_of(m, middle);
+    for (int k = 0; k < 3; k++)
         view.ahead[k] = -from[k];
-    }
+    unit(view.ahead);
     const double up = dot(upwards, view.ahead);
     for (int k = 0; k < 3; k++)
         view.up[k] = upwards[k] - up * view.ahead[k];
     unit(view.up);
+    const double away = distance_for(m, camera, &view, middle);
+    for (int k = 0; k < 3; k++)
+        view.eye[k] = middle[k] - away * view.ahead[k];
     return view;
 }
