@@ -28,6 +28,26 @@ static options scene_options(const options *given) {
     return o;
 }
 
+/* What is written goes into a file each, and none of them is the model. */
+static int check_files(const scene *s) {
+    const options *o = &s->o;
+    const struct {
+        option_id id;
+        const char *path;
+    } files[] = {{OPTION_OUTPUT, o->output}, {OPTION_RENDER, o->render}, {OPTION_ANNOTATE, o->annotate}};
+    for (size_t i = 0; i < sizeof files / sizeof files[0]; i++) {
+        if (files[i].path == NULL)
+            continue;
+        if (output_same_file(files[i].path, s->file))
+            return option_error(files[i].id, "must be another file than the model, got '%s'", files[i].path);
+        for (size_t k = 0; k < i; k++)
+            if (files[k].path != NULL && output_same_file(files[i].path, files[k].path))
+                return option_error(files[i].id, "must be another file than --%s, got '%s'",
+                                    option_rows[files[k].id].name, files[i].path);
+    }
+    return EXIT_FINE;
+}
+
 /* One camera: its fullest model. */
 static int take_setup(scene *s) {
     setups all;
@@ -170,7 +190,9 @@ int cmd_scene(const options *given) {
     s.angle = s.o.angle;
     s.transforms = option_word(OPTION_TRANSFORMS, s.o.transforms);
     s.triangles = slant_fields_of(&s.o, &s.slant);
-    int status = take_setup(&s);
+    int status = check_files(&s);
+    if (status == EXIT_FINE)
+        status = take_setup(&s);
     if (status == EXIT_FINE)
         status = scene_render_check(&s);
     if (status == EXIT_FINE)
@@ -187,6 +209,9 @@ int cmd_scene(const options *given) {
         status = judge(&s);
     if (status == EXIT_FINE && s.o.render != NULL)
         status = scene_render(&s);
+    stop_end(&out);
+    if (status == EXIT_FINE && s.o.annotate != NULL)
+        status = scene_annotate(&s);
     stop_end(&out);
     if (status == EXIT_FINE) {
         const report_spec spec = scene_report(&s);
