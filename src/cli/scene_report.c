@@ -63,6 +63,20 @@ static number_text safe_length(const page *p, double value, bool upward) {
     return number_in(number_brief(upward ? number_up(value, DIGITS) : number_down(value, DIGITS)), p->unit);
 }
 
+/* A gap is measured to 1e-12 of the extent: below that it is none. */
+static void say_gap(const page *p, const scene *s, const scene_finding *f, char text[LINE_SIZE]) {
+    const double none = 1e-12 * s->extent;
+    const number_text lo = length(p, f->gap_min > none ? f->gap_min : 0.0);
+    const number_text hi = length(p, f->gap_max > none ? f->gap_max : 0.0);
+    if (f->gap_max <= none) {
+        append(text, LINE_SIZE, "in one plane");
+        return;
+    }
+    if (strcmp(lo.text, hi.text) != 0)
+        append(text, LINE_SIZE, "%s to ", number_brief(number_of(f->gap_min > none ? f->gap_min : 0.0, DIGITS)).text);
+    append(text, LINE_SIZE, "%s apart", hi.text);
+}
+
 static void say_finding(page *p, const scene *s, size_t i) {
     const scene_finding *f = &s->findings[i];
     const scene_verdict *v = &f->verdict;
@@ -76,9 +90,7 @@ static void say_finding(page *p, const scene *s, size_t i) {
     if (!isnan(v->ties_from))
         append(text, sizeof text, ", ties from %s", safe_length(p, v->ties_from, true).text);
     append(text, sizeof text, "; ");
-    if (f->gap_min != f->gap_max)
-        append(text, sizeof text, "%s to ", number_brief(number_of(f->gap_min, DIGITS)).text);
-    append(text, sizeof text, "%s apart", length(p, f->gap_max).text);
+    say_gap(p, s, f, text);
     page_note(p, "", "%s", text);
     page_note(p, "", "area %s, near %s %s %s", number_brief(number_of(f->area, DIGITS)).text,
               number_of(f->place.x, DIGITS).text, number_of(f->place.y, DIGITS).text,
