@@ -60,6 +60,15 @@ typedef struct scene {
     bool passed;
 } scene;
 
+/** Takes what was asked of the model in a file. @return EXIT_FINE, or EXIT_USAGE after one line on stderr */
+int scene_begin(scene *s, const options *given, const char *file);
+
+/** Reads, searches and judges it; `out` is for an interrupt to abandon. @return EXIT_FINE, or another after one line */
+int scene_look(scene *s, output *out);
+
+/** Frees what was read and found. */
+void scene_end(scene *s);
+
 /** The report: head and notes of the text, columns of JSON and CSV. */
 report_spec scene_report(scene *s);
 
