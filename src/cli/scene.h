@@ -69,6 +69,9 @@ int scene_look(scene *s, output *out);
 /** Frees what was read and found. */
 void scene_end(scene *s);
 
+/** How many of the findings can fight before the far plane; they come first. */
+size_t scene_fighting(const scene *s);
+
 /** The report: head and notes of the text, columns of JSON and CSV. */
 report_spec scene_report(scene *s);
 
