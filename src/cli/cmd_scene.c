@@ -158,17 +158,27 @@ static int judge(scene *s) {
 
 /* ---- The command ------------------------------------------------------------------------------------------------- */
 
-int scene_begin(scene *s, const options *given, const char *file) {
-    *s = (scene){.o = scene_options(given), .file = file, .unit = options_unit(given)};
-    s->angle = s->o.angle;
-    s->transforms = option_word(OPTION_TRANSFORMS, s->o.transforms);
+/* The camera, for all that asks of it. */
+static int take_camera(scene *s) {
     s->triangles = slant_fields_of(&s->o, &s->slant);
     const int status = take_setup(s);
     return status == EXIT_FINE ? scene_render_check(s) : status;
 }
 
+int scene_begin(scene *s, const options *given, const char *file) {
+    *s = (scene){.o = scene_options(given), .file = file, .unit = options_unit(given)};
+    s->angle = s->o.angle;
+    s->transforms = option_word(OPTION_TRANSFORMS, s->o.transforms);
+    const int status = scene_eyes_check(&s->o);
+    return status == EXIT_FINE && s->o.model_camera == NULL ? take_camera(s) : status;
+}
+
 int scene_look(scene *s, output *out) {
     int status = read_model(s);
+    if (status == EXIT_FINE)
+        status = scene_eyes_take(s);
+    if (status == EXIT_FINE && s->o.model_camera != NULL)
+        status = take_camera(s);
     if (status == EXIT_FINE)
         status = take_limits(s);
     if (status == EXIT_FINE)
@@ -179,6 +189,7 @@ int scene_look(scene *s, output *out) {
 
 void scene_end(scene *s) {
     free(s->findings);
+    free(s->eyes.eye);
     finder_free(&s->found);
     model_free(&s->model);
 }

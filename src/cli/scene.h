@@ -11,6 +11,7 @@
 #include "cli/slant.h"
 #include "model/model.h"
 #include "report/report.h"
+#include "scene/eye.h"
 #include "scene/find.h"
 #include "scene/judge.h"
 
@@ -43,6 +44,12 @@ typedef struct scene_rendered {
     uint64_t wrong_pixels, wrong_found; /* those of findings */
 } scene_rendered;
 
+/* The eyes from which a model is judged. */
+typedef struct scene_eyes {
+    scene_eye *eye; /* in the order of the file */
+    size_t count;   /* 0: from every place */
+} scene_eyes;
+
 typedef struct scene {
     options o; /* with what stands for options that were not given */
     dp_setup setup;
@@ -50,6 +57,7 @@ typedef struct scene {
     slant_fields slant;
     const slant_fields *triangles; /* null: surfaces face the camera */
     model model;
+    scene_eyes eyes; /* known when the model has been read */
     finder_found found;
     scene_finding *findings;
     const char *file, *unit, *transforms;
@@ -71,6 +79,15 @@ void scene_end(scene *s);
 
 /** How many of the findings can fight before the far plane; they come first. */
 size_t scene_fighting(const scene *s);
+
+/** Whether --from, --look, --path and --camera go together. @return EXIT_FINE, or EXIT_USAGE after one line */
+int scene_eyes_check(const options *o);
+
+/**
+ * Takes the eyes that they ask for, and of a camera of the model its planes and field of view where they were not
+ * given; to be freed. @return EXIT_FINE, or another after one line
+ */
+int scene_eyes_take(scene *s);
 
 /** The report: head and notes of the text, columns of JSON and CSV. */
 report_spec scene_report(scene *s);
