@@ -26,7 +26,7 @@ west wall      | house | box  | plaster  | -5.85 1.8 0     |        | 0.3 3 7.7
 east wall      | house | box  | plaster  | 5.85 1.8 0      |        | 0.3 3 7.7
 west gable     | house | tri  | plaster  | -6 3.3 0        | west   | 8.3 3.1 1
 east gable     | house | tri  | plaster  | 6 3.3 0         | east   | 8.3 3.1 1
-door           | house | box  | oak      | -3 1.4 4.05     |        | 1 2 0.2   | 0 0 1
+door           | house | box  | oak      | -3 1.3 4.05     |        | 1 2 0.2   | 0 0 1
 shutters       | house | quad | oak      | 0 1.75 4.1515   |        | 0.5 1.25 1 | 0 0 1
 windows        | house | quad | glass    | 0 2.85 4.153    |        | 0.5 0.5 1
 signs          | house |      |          | 0 0 4.15        |        | 0.01 0.01 0.01
@@ -56,7 +56,9 @@ front door     | house | camera |        | -3 1.7 9        |        | 1 1 1
 ROWS
 }
 
-rows | LC_ALL=C awk -F ' *[|] *' -v lifts="$(printf '%s\n' "$@")" '
+lifts=$(printf '%s\n' "$@")
+export lifts
+rows | LC_ALL=C awk -F ' *[|] *' '
     function join(a, b) { return a == "" ? b : a ",\n  " b }
     function triple(text) { gsub(/ /, ", ", text); return "[" text "]" }
     function list(name, text) { return ",\n" "\"" name "\": [\n  " text "\n]" }
@@ -142,7 +144,7 @@ rows | LC_ALL=C awk -F ' *[|] *' -v lifts="$(printf '%s\n' "$@")" '
         material("steel", "0.5, 0.5, 0.55, 1"); material("wood", "0.55, 0.4, 0.25, 1", ", \"doubleSided\": true")
         material("leaves", "0.15, 0.4, 0.1, 1", ", \"doubleSided\": true")
 
-        n = split(lifts, given, "\n")
+        n = split(ENVIRON["lifts"], given, "\n")
         for (i = 1; i <= n; i++) if (given[i] != "") {
             which = length_of = given[i]
             sub(/=.*/, "", which); sub(/.*=/, "", length_of)
