@@ -146,6 +146,7 @@ static int judge(scene *s) {
                                .area = f->area,
                                .place = {f->place[0], f->place[1], f->place[2]},
                                .pairs = f->pairs,
+                               .wrong_pixels = (double)NAN,
                                .verdict =
                                    again ? out[-1].verdict : scene_judge(&s->setup, f->gap_min, f->gap_max, s->within)};
         out->fights = !(out->verdict.certain_to >= s->within);
@@ -171,6 +172,8 @@ int cmd_scene(const options *given) {
     s.triangles = slant_fields_of(&s.o, &s.slant);
     int status = take_setup(&s);
     if (status == EXIT_FINE)
+        status = scene_render_check(&s);
+    if (status == EXIT_FINE)
         status = options_open(&s.o, &out);
     if (status != EXIT_FINE)
         return status;
@@ -182,6 +185,9 @@ int cmd_scene(const options *given) {
     stop_end(&out);
     if (status == EXIT_FINE)
         status = judge(&s);
+    if (status == EXIT_FINE && s.o.render != NULL)
+        status = scene_render(&s);
+    stop_end(&out);
     if (status == EXIT_FINE) {
         const report_spec spec = scene_report(&s);
         report_write(&spec, &out, s.o.form);

@@ -86,6 +86,7 @@ typedef enum option_id {
     OPTION_WITHIN,
     OPTION_ALSO,
     OPTION_TRANSFORMS,
+    OPTION_RENDER,
     OPTION_HALF_HEIGHT,
     OPTION_MATRIX,
     OPTION_YAW,
@@ -206,6 +207,7 @@ typedef struct options {
     double within;        /**< eye depth; 0 when not given */
     unsigned transforms;  /**< of a model's nodes: a model_transforms */
     unsigned filters_off; /**< of a model's pairs: 1 << finder_filter, or-ed */
+    const char *render;   /**< file of a picture; null when not given */
     uint64_t sample;      /**< pairs to draw; 0 when not given */
     uint64_t seed;
     const vertex_program *against[VERTEX_OTHERS]; /**< in the order given, each once */

@@ -30,8 +30,18 @@ typedef struct scene_finding {
     scene_place place;
     scene_verdict verdict;
     uint64_t pairs;
-    bool fights; /* nearer than --within asks */
+    bool fights;         /* nearer than --within asks */
+    double wrong_pixels; /* of --render, else NaN */
 } scene_finding;
+
+/* What --render drew. */
+typedef struct scene_rendered {
+    const char *file, *raster;
+    int width, height;
+    double fov_y;
+    scene_place eye, ahead;
+    uint64_t wrong_pixels, wrong_found; /* those of findings */
+} scene_rendered;
 
 typedef struct scene {
     options o; /* with what stands for options that were not given */
@@ -43,6 +53,8 @@ typedef struct scene {
     finder_found found;
     scene_finding *findings;
     const char *file, *unit, *transforms;
+    scene_rendered rendered;
+    const scene_rendered *picture; /* null without --render */
     double gap, angle, within, extent;
     uint64_t triangle_count, surface_count, finding_count, left_out[FINDER_FILTERS], degenerate;
     bool passed;
@@ -50,5 +62,11 @@ typedef struct scene {
 
 /** The report: head and notes of the text, columns of JSON and CSV. */
 report_spec scene_report(scene *s);
+
+/** Whether --render can be done; where it was not given, too. @return EXIT_FINE, or EXIT_USAGE after one line */
+int scene_render_check(scene *s);
+
+/** Draws the model into the file of --render, and counts. @return EXIT_FINE, also where it was interrupted */
+int scene_render(scene *s);
 
 #endif

@@ -95,9 +95,22 @@ static void say_finding(page *p, const scene *s, size_t i) {
     page_note(p, "", "area %s, near %s %s %s", number_brief(number_of(f->area, DIGITS)).text,
               number_of(f->place.x, DIGITS).text, number_of(f->place.y, DIGITS).text,
               number_of(f->place.z, DIGITS).text);
+    if (f->wrong_pixels > 0.0)
+        page_note(p, "", "%.0f pixels wrong in %s", f->wrong_pixels, s->rendered.file);
     if (v->lift > 0.0 && isfinite(v->lift))
         page_note(p, "", "%s more between them are enough up to %s", safe_length(p, v->lift, true).text,
                   length(p, s->within).text);
+}
+
+static void say_picture(page *p, const scene *s) {
+    const scene_rendered *r = s->picture;
+    char others[64] = "";
+    if (r->wrong_found < r->wrong_pixels)
+        snprintf(others, sizeof others, ", %llu of them of no pair above",
+                 (unsigned long long)(r->wrong_pixels - r->wrong_found));
+    page_text(p, "%s: %d x %d pixels as %s draws them, %llu wrong%s; from %s %s %s.", r->file, r->width, r->height,
+              r->raster, (unsigned long long)r->wrong_pixels, others, number_of(r->eye.x, DIGITS).text,
+              number_of(r->eye.y, DIGITS).text, number_of(r->eye.z, DIGITS).text);
 }
 
 static void say_notes(page *p, void *of) {
@@ -107,6 +120,8 @@ static void say_notes(page *p, void *of) {
         say_finding(p, s, i);
     if (fights > shown)
         page_text(p, "%zu more: --json and --csv have all.", fights - shown);
+    if (s->picture != NULL)
+        say_picture(p, s);
     for (size_t k = 0; k < FINDER_FILTERS; k++)
         if (s->found.left_out[k] > 0)
             page_line(p, "left out: %zu pairs of triangles %s (--also %s)", s->found.left_out[k],
@@ -151,12 +166,24 @@ static const column finding_columns[] = {{PART(scene_finding, a, "a", named_colu
                                          {FIELD(scene_finding, verdict.ties_from, "ties_from", "scene")},
                                          {FIELD(scene_finding, verdict.lift, "lift", "scene")},
                                          {FIELD(scene_finding, fights, "fights", "")},
+                                         {FIELD(scene_finding, wrong_pixels, "wrong_pixels", ""), .optional = true},
                                          {.kind = COLUMN_END}};
 
 static const column left_columns[] = {
     {FIELD(scene, left_out[FINDER_FACING], "facing", "")}, {FIELD(scene, left_out[FINDER_BLENDED], "blended", "")},
     {FIELD(scene, left_out[FINDER_THIN], "thin", "")},     {FIELD(scene, left_out[FINDER_HIDDEN], "hidden", "")},
     {FIELD(scene, degenerate, "degenerate", "")},          {.kind = COLUMN_END}};
+
+static const column render_columns[] = {{FIELD(scene_rendered, file, "file", "")},
+                                        {FIELD(scene_rendered, raster, "raster", "")},
+                                        {FIELD(scene_rendered, width, "width", "pixels")},
+                                        {FIELD(scene_rendered, height, "height", "pixels")},
+                                        {FIELD(scene_rendered, fov_y, "fov", "degrees")},
+                                        {PART(scene_rendered, eye, "eye", place_columns)},
+                                        {PART(scene_rendered, ahead, "ahead", place_columns)},
+                                        {FIELD(scene_rendered, wrong_pixels, "wrong_pixels", "")},
+                                        {FIELD(scene_rendered, wrong_found, "wrong_found", "")},
+                                        {.kind = COLUMN_END}};
 
 static const column columns[] = {
     {FIELD(scene, file, "file", ""), .only = AS_JSON},
@@ -172,12 +199,14 @@ static const column columns[] = {
     {FIELD(scene, passed, "passed", ""), .only = AS_JSON},
     {FIELD(scene, found.cut, "cut", ""), .only = AS_JSON},
     {GROUP("left_out", left_columns), .only = AS_JSON},
+    {PART(scene, picture, "render", render_columns), .only = AS_JSON, .pointed = true, .optional = true},
     {LIST("findings", finding_columns, next_finding), .only = AS_JSON | AS_CSV},
     {.kind = COLUMN_END}};
 
 static void count(scene *s) {
     s->triangle_count = s->model.triangles;
     s->surface_count = s->model.surfaces;
+    s->picture = s->o.render != NULL ? &s->rendered : NULL;
     s->degenerate = s->found.degenerate;
     for (int k = 0; k < FINDER_FILTERS; k++)
         s->left_out[k] = s->found.left_out[k];
