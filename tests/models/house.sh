@@ -3,7 +3,8 @@
 # Prints a house in glTF 2.0, with surfaces that fight and surfaces that only look as if they did:
 #     sh tests/models/house.sh [NODE=LENGTH...] >house.gltf
 # moves nodes out of what they lie on, by a length in metres. tests/models/house.gltf is what it prints without.
-# tests/test_values_house.c has the list of the fights, and of what must not be taken for one.
+# house-lifted.gltf what it prints with the lengths that depthprec scene asks for. tests/test_values_house.c has the
+# list of the fights, and of what must not be taken for one.
 set -eu
 
 # node | parent | mesh | material | place | turn | size | a metre outward, in the parent's lengths
@@ -106,8 +107,8 @@ rows | LC_ALL=C awk -F ' *[|] *' '
         shape[name] = "\"primitives\": [{\"attributes\": {\"POSITION\": " p "}, \"indices\": " indices(order)
     }
     function material(name, colour, more) {
-        materials = join(materials, "{\"name\": \"" name "\", \"pbrMetallicRoughness\": {\"baseColorFactor\": [" colour \
-            "]}" more "}")
+        materials = join(materials, "{\"name\": \"" name "\", \"pbrMetallicRoughness\": {" \
+            "\"baseColorFactor\": [" colour "]}" more "}")
         material_of[name] = material_count++
     }
 
@@ -193,11 +194,13 @@ rows | LC_ALL=C awk -F ' *[|] *' '
         size = bytes
         while (holds) byte(0)
         print "{\"asset\": {\"version\": \"2.0\"},"
-        print "\"extensionsUsed\": [\"EXT_mesh_gpu_instancing\"], \"extensionsRequired\": [\"EXT_mesh_gpu_instancing\"],"
+        extension = ": [\"EXT_mesh_gpu_instancing\"],"
+        print "\"extensionsUsed\"" extension "\n\"extensionsRequired\"" extension
         printf "%s", "\"scene\": 0, \"scenes\": [{\"name\": \"house\", \"nodes\": [" roots "]}]"
         printf "%s", list("nodes", nodes) list("meshes", meshes) list("materials", materials)
         printf "%s", ",\n\"cameras\": [{\"name\": \"lens\", \"type\": \"perspective\", \"perspective\": " \
             "{\"yfov\": 0.4, \"znear\": 0.05, \"zfar\": 1000}}]"
         printf "%s", list("accessors", accessors) list("bufferViews", views)
-        print ",\n\"buffers\": [{\"byteLength\": " size ", \"uri\": \"data:application/octet-stream;base64," buffer "\"}]}"
+        print ",\n\"buffers\": [{\"byteLength\": " size ","
+        print "  \"uri\": \"data:application/octet-stream;base64," buffer "\"}]}"
     }'
