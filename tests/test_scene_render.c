@@ -76,12 +76,12 @@ static void meet(const double eye[3], const long double ray[3], const double (*c
 }
 
 /* The view's axes as rows: right, up, ahead. */
-static void axes_of(const render_view *v, long double axis[3][3]) {
+static void axes_of(const scene_eye *v, long double axis[3][3]) {
     for (int k = 0; k < 3; k++) {
+        axis[0][k] = (long double)v->right[k];
         axis[1][k] = (long double)v->up[k];
         axis[2][k] = (long double)v->ahead[k];
     }
-    cross(axis[2], axis[1], axis[0]);
 }
 
 /* Whether the triangle is drawn at all, by its front side in the world; then each pixel of it. */
@@ -89,11 +89,11 @@ static bool draw_one(const stage *s, const render_asked *asked, uint32_t t, draw
     const model *m = asked->m;
     long double axis[3][3], side[2][3], normal[3], from[3];
     double corner[3][3], place[3][3];
-    axes_of(&asked->view, axis);
+    axes_of(&asked->eye, axis);
     for (int i = 0; i < 3; i++) {
         memcpy(corner[i], m->position[m->triangle[t][i]], sizeof corner[i]);
         for (int k = 0; k < 3; k++)
-            from[k] = (long double)corner[i][k] - (long double)asked->view.eye[k];
+            from[k] = (long double)corner[i][k] - (long double)asked->eye.place[k];
         for (int k = 0; k < 3; k++)
             place[i][k] = (double)dot(axis[k], from);
     }
@@ -115,7 +115,7 @@ static hit hits[TRIANGLES][HEIGHT * WIDTH];
 static void draw_truth(const stage *s, const render_asked *asked) {
     draw_buffer b;
     long double axis[3][3];
-    axes_of(&asked->view, axis);
+    axes_of(&asked->eye, axis);
     assert_true(draw_buffer_open(&b, (size_t)WIDTH * HEIGHT));
     for (uint32_t t = 0; t < asked->m->triangles; t++) {
         double corner[3][3];
@@ -131,7 +131,7 @@ static void draw_truth(const stage *s, const render_asked *asked) {
             for (int k = 0; k < 3; k++)
                 ray[k] = x * axis[0][k] + y * axis[1][k] + axis[2][k];
             if (h->drawn)
-                meet(asked->view.eye, ray, (const double(*)[3])corner, h);
+                meet(asked->eye.place, ray, (const double(*)[3])corner, h);
         }
     }
     draw_buffer_close(&b);
@@ -245,9 +245,12 @@ static void test_truth(void **state) {
         render_asked asked = {.m = &made.m, .camera = &s.camera, .blended = rng_below(&r, 2) == 0};
         render_picture p;
         fill(&r);
-        turn(&r, asked.view.ahead, asked.view.up);
+        turn(&r, asked.eye.ahead, asked.eye.up);
         for (int axis = 0; axis < 3; axis++)
-            asked.view.eye[axis] = rng_uniform(&r, -3.0, 3.0) - rng_uniform(&r, 0.0, 20.0) * asked.view.ahead[axis];
+            asked.eye.right[axis] = asked.eye.ahead[(axis + 1) % 3] * asked.eye.up[(axis + 2) % 3] -
+                                    asked.eye.ahead[(axis + 2) % 3] * asked.eye.up[(axis + 1) % 3];
+        for (int axis = 0; axis < 3; axis++)
+            asked.eye.place[axis] = rng_uniform(&r, -3.0, 3.0) - rng_uniform(&r, 0.0, 20.0) * asked.eye.ahead[axis];
         assert_int_equal(render_draw(&asked, &p), RENDER_DONE);
         draw_truth(&s, &asked);
         compare(&p, made.m.triangles, &t, &wrong);
@@ -259,12 +262,12 @@ static void test_truth(void **state) {
 
 /* ---- A decal ----------------------------------------------------------------------------------------------------- */
 
-static render_view ahead_from(double z) {
-    return (render_view){.eye = {0, 0, z}, .ahead = {0, 0, -1}, .up = {0, 1, 0}};
+static scene_eye ahead_from(double z) {
+    return (scene_eye){.place = {0, 0, z}, .right = {1, 0, 0}, .up = {0, 1, 0}, .ahead = {0, 0, -1}};
 }
 
 static size_t wrong_from(const stage *s, double z) {
-    const render_asked asked = {.m = &made.m, .camera = &s->camera, .view = ahead_from(z)};
+    const render_asked asked = {.m = &made.m, .camera = &s->camera, .eye = ahead_from(z)};
     render_picture p;
     assert_int_equal(render_draw(&asked, &p), RENDER_DONE);
     const size_t wrong = p.wrong;
@@ -303,7 +306,7 @@ static void test_decal(void **state) {
 /* A wall that fills the lower half, seen from its front, its back, as glass. */
 static size_t shown_of(bool back, bool two_sided, bool blended, bool also, uint32_t *pixel) {
     const stage s = stage_of("llvmpipe", "fp32", DP_MAPPING_REVERSED, 0.1, 100);
-    render_asked asked = {.m = &made.m, .camera = &s.camera, .view = ahead_from(2.0), .blended = also};
+    render_asked asked = {.m = &made.m, .camera = &s.camera, .eye = ahead_from(2.0), .blended = also};
     render_picture p;
     size_t count = 0;
     scene_made_begin(&made);
@@ -352,7 +355,7 @@ static void test_overview(void **state) {
         const double towards[2][3] = {{rng_uniform(&r, -9, 9), 0.0, rng_uniform(&r, -9, 9)}, {0.1, 1.0, 0.1}};
         long double axis[3][3], most = 0.0L, from[3];
         fill(&r);
-        const render_view v = render_overview(&made.m, &s.camera, 2, towards);
+        const scene_eye v = render_overview(&made.m, &s.camera, 2, towards);
         axes_of(&v, axis);
         for (int a = 0; a < 3; a++)
             for (int b = 0; b < 3; b++)
@@ -361,7 +364,7 @@ static void test_overview(void **state) {
         assert_true(v.ahead[0] * towards[0][0] + v.ahead[2] * towards[0][2] < 0.0);
         for (size_t c = 0; c < made.m.vertices; c++) {
             for (int k = 0; k < 3; k++)
-                from[k] = (long double)made.m.position[c][k] - (long double)v.eye[k];
+                from[k] = (long double)made.m.position[c][k] - (long double)v.place[k];
             const long double z = dot(axis[2], from);
             assert_true(z > 0.0L);
             most = fmaxl(most, fabsl(dot(axis[0], from)) / z * (long double)s.camera.p00);
@@ -381,7 +384,7 @@ static void test_refused(void **state) {
     const stage s = stage_of("llvmpipe", "fp32", DP_MAPPING_REVERSED, 0.1, 100);
     int left = 0;
     render_asked asked = {
-        .m = &made.m, .camera = &s.camera, .view = ahead_from(2.0), .progress = after, .context = &left};
+        .m = &made.m, .camera = &s.camera, .eye = ahead_from(2.0), .progress = after, .context = &left};
     render_picture p;
     (void)state;
     scene_made_begin(&made);
@@ -397,7 +400,7 @@ static void test_refused(void **state) {
     asked.progress = NULL;
     for (int k = 0; k < 2; k++) {
         made.m.position[1][0] = k == 0 ? 2e30 : 1.0;
-        asked.view.eye[2] = k == 0 ? 2.0 : -2e30;
+        asked.eye.place[2] = k == 0 ? 2.0 : -2e30;
         assert_int_equal(render_draw(&asked, &p), RENDER_RANGE);
     }
 }

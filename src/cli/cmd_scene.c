@@ -158,33 +158,51 @@ static int judge(scene *s) {
 
 /* ---- The command ------------------------------------------------------------------------------------------------- */
 
-static void release(scene *s) {
+/* The camera, for all that asks of it. */
+static int take_camera(scene *s) {
+    s->triangles = slant_fields_of(&s->o, &s->slant);
+    const int status = take_setup(s);
+    return status == EXIT_FINE ? scene_render_check(s) : status;
+}
+
+int scene_begin(scene *s, const options *given, const char *file) {
+    *s = (scene){.o = scene_options(given), .file = file, .unit = options_unit(given)};
+    s->angle = s->o.angle;
+    s->transforms = option_word(OPTION_TRANSFORMS, s->o.transforms);
+    const int status = scene_eyes_check(&s->o);
+    return status == EXIT_FINE && s->o.model_camera == NULL ? take_camera(s) : status;
+}
+
+int scene_look(scene *s, output *out) {
+    int status = read_model(s);
+    if (status == EXIT_FINE)
+        status = scene_eyes_take(s);
+    if (status == EXIT_FINE && s->o.model_camera != NULL)
+        status = take_camera(s);
+    if (status == EXIT_FINE)
+        status = take_limits(s);
+    if (status == EXIT_FINE)
+        status = find(s);
+    stop_end(out);
+    return status == EXIT_FINE ? judge(s) : status;
+}
+
+void scene_end(scene *s) {
     free(s->findings);
+    free(s->eyes.eye);
     finder_free(&s->found);
     model_free(&s->model);
 }
 
 int cmd_scene(const options *given) {
     output out;
-    scene s = {.o = scene_options(given), .file = given->operands[0], .unit = options_unit(given)};
-    s.angle = s.o.angle;
-    s.transforms = option_word(OPTION_TRANSFORMS, s.o.transforms);
-    s.triangles = slant_fields_of(&s.o, &s.slant);
-    int status = take_setup(&s);
-    if (status == EXIT_FINE)
-        status = scene_render_check(&s);
+    scene s;
+    int status = scene_begin(&s, given, given->operands[0]);
     if (status == EXIT_FINE)
         status = options_open(&s.o, &out);
     if (status != EXIT_FINE)
         return status;
-    status = read_model(&s);
-    if (status == EXIT_FINE)
-        status = take_limits(&s);
-    if (status == EXIT_FINE)
-        status = find(&s);
-    stop_end(&out);
-    if (status == EXIT_FINE)
-        status = judge(&s);
+    status = scene_look(&s, &out);
     if (status == EXIT_FINE && s.o.render != NULL)
         status = scene_render(&s);
     stop_end(&out);
@@ -197,6 +215,6 @@ int cmd_scene(const options *given) {
     }
     if (status == EXIT_FINE && option_given(&s.o, OPTION_WITHIN) && !s.passed)
         status = EXIT_FAILED;
-    release(&s);
+    scene_end(&s);
     return status;
 }

@@ -86,8 +86,14 @@ int slant_view(options *o) {
     return by_preset ? EXIT_FINE : view_vertical(o, o->triangles.width, o->triangles.height, &o->triangles.fov_y);
 }
 
+/* From an eye in a model surfaces slant. */
+static bool is_slanted(const options *o) {
+    return option_given(o, OPTION_VIEWPORT) || o->drawn || o->verb->bit == VERB_DISOCCLUSION ||
+           option_given(o, OPTION_FROM) || option_given(o, OPTION_PATH) || option_given(o, OPTION_CAMERA);
+}
+
 int slant_complete(options *o) {
-    if (!option_given(o, OPTION_VIEWPORT) && !o->drawn && o->verb->bit != VERB_DISOCCLUSION)
+    if (!is_slanted(o))
         o->triangles.width = 0;
     if ((o->verb->bit & option_rows[OPTION_VIEWPORT].commands) == 0)
         return EXIT_FINE;

@@ -11,6 +11,7 @@
 #include "cli/slant.h"
 #include "model/model.h"
 #include "report/report.h"
+#include "scene/eye.h"
 #include "scene/find.h"
 #include "scene/judge.h"
 
@@ -43,6 +44,12 @@ typedef struct scene_rendered {
     uint64_t wrong_pixels, wrong_found; /* those of findings */
 } scene_rendered;
 
+/* The eyes from which a model is judged. */
+typedef struct scene_eyes {
+    scene_eye *eye; /* in the order of the file */
+    size_t count;   /* 0: from every place */
+} scene_eyes;
+
 typedef struct scene {
     options o; /* with what stands for options that were not given */
     dp_setup setup;
@@ -50,6 +57,7 @@ typedef struct scene {
     slant_fields slant;
     const slant_fields *triangles; /* null: surfaces face the camera */
     model model;
+    scene_eyes eyes; /* known when the model has been read */
     finder_found found;
     scene_finding *findings;
     const char *file, *unit, *transforms;
@@ -59,6 +67,24 @@ typedef struct scene {
     uint64_t triangle_count, surface_count, finding_count, left_out[FINDER_FILTERS], degenerate;
     bool passed;
 } scene;
+
+/** Takes what was asked of the model in a file. @return EXIT_FINE, or EXIT_USAGE after one line on stderr */
+int scene_begin(scene *s, const options *given, const char *file);
+
+/** Reads, searches and judges it; `out` is for an interrupt to abandon. @return EXIT_FINE, or another after one line */
+int scene_look(scene *s, output *out);
+
+/** Frees what was read and found. */
+void scene_end(scene *s);
+
+/** Whether --from, --look, --path and --camera go together. @return EXIT_FINE, or EXIT_USAGE after one line */
+int scene_eyes_check(const options *o);
+
+/**
+ * Takes the eyes that they ask for, and of a camera of the model its planes and field of view where they were not
+ * given; to be freed. @return EXIT_FINE, or another after one line
+ */
+int scene_eyes_take(scene *s);
 
 /** The report: head and notes of the text, columns of JSON and CSV. */
 report_spec scene_report(scene *s);

@@ -54,7 +54,7 @@ int scene_render_check(scene *s) {
 }
 
 /* All of the model, from where the worst of the findings are seen. */
-static bool overview(const scene *s, const draw_camera *camera, render_view *view) {
+static bool overview(const scene *s, const draw_camera *camera, scene_eye *eye) {
     const size_t count = s->found.findings;
     double(*towards)[3] = malloc((count + 1) * sizeof *towards);
     if (towards == NULL)
@@ -62,7 +62,7 @@ static bool overview(const scene *s, const draw_camera *camera, render_view *vie
     for (size_t i = 0; i < count; i++)
         for (int k = 0; k < 3; k++)
             towards[i][k] = s->findings[i].of->normal[k] * s->findings[i].area;
-    *view = render_overview(&s->model, camera, count, (const double(*)[3])towards);
+    *eye = render_overview(&s->model, camera, count, (const double(*)[3])towards);
     free(towards);
     return true;
 }
@@ -141,9 +141,9 @@ int scene_render(scene *s) {
                           .progress = advance,
                           .context = &bar,
                           .blended = (s->o.filters_off & 1U << FINDER_BLENDED) != 0};
-    const bool good = overview(s, &camera, &asked.view);
-    s->rendered.eye = (scene_place){asked.view.eye[0], asked.view.eye[1], asked.view.eye[2]};
-    s->rendered.ahead = (scene_place){asked.view.ahead[0], asked.view.ahead[1], asked.view.ahead[2]};
+    const bool good = overview(s, &camera, &asked.eye);
+    s->rendered.eye = (scene_place){asked.eye.place[0], asked.eye.place[1], asked.eye.place[2]};
+    s->rendered.ahead = (scene_place){asked.eye.ahead[0], asked.eye.ahead[1], asked.eye.ahead[2]};
     const render_status drawn = good ? render_draw(&asked, &p) : RENDER_NO_MEMORY;
     progress_end(&bar);
     if (drawn == RENDER_STOPPED)

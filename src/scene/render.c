@@ -42,7 +42,6 @@ typedef struct seen {
 typedef struct rendering {
     const render_asked *asked;
     render_picture *out;
-    vector right;
     double reach;     /* the largest coordinate */
     uint32_t *stored; /* what the depth test compares */
     double *depth;    /* 1 over that of what is shown; infinite: nothing is nearer */
@@ -53,16 +52,10 @@ typedef struct rendering {
 /* False where it is not drawn: it shows its back, or its edge. */
 static bool look_at(const rendering *r, uint32_t t, seen *out) {
     const model *m = r->asked->m;
-    const render_view *view = &r->asked->view;
     const model_surface *surface = &m->surface[m->of[t]];
     vector side[2], normal;
-    for (int i = 0; i < 3; i++) {
-        const double *p = m->position[m->triangle[t][i]];
-        const vector from = {p[0] - view->eye[0], p[1] - view->eye[1], p[2] - view->eye[2]};
-        out->place[i][0] = dot(r->right, from);
-        out->place[i][1] = dot(view->up, from);
-        out->place[i][2] = dot(view->ahead, from);
-    }
+    for (int i = 0; i < 3; i++)
+        scene_eye_sees(&r->asked->eye, m->position[m->triangle[t][i]], out->place[i]);
     for (int k = 0; k < 3; k++) {
         side[0][k] = out->place[1][k] - out->place[0][k];
         side[1][k] = out->place[2][k] - out->place[0][k];
@@ -169,7 +162,7 @@ static double reach_of(const render_asked *asked) {
         for (int k = 0; k < 3; k++)
             most = fmax(most, fabs(corner_of(asked->m, i)[k]));
     for (int k = 0; k < 3; k++)
-        most = fmax(most, fabs(asked->view.eye[k]));
+        most = fmax(most, fabs(asked->eye.place[k]));
     return most;
 }
 
@@ -194,7 +187,6 @@ render_status render_draw(const render_asked *asked, render_picture *out) {
     rendering r = {.asked = asked, .out = out, .reach = reach_of(asked)};
     if (count > RENDER_PIXELS_MAX || !(r.reach <= RENDER_REACH))
         return RENDER_RANGE;
-    cross(asked->view.ahead, asked->view.up, r.right);
     *out = (render_picture){.width = target->width,
                             .height = target->height,
                             .shown = malloc(count * sizeof *out->shown),
@@ -235,7 +227,6 @@ void render_colours(const render_asked *asked, const render_picture *p, uint32_t
     static const uint32_t red = 0xFFFF0000U, sky = 0xFFE9EFF6U;
     rendering r = {.asked = asked};
     uint32_t last = RENDER_NOTHING, colour = sky;
-    cross(asked->view.ahead, asked->view.up, r.right);
     for (int row = 0; row < p->height; row++)
         for (int x = 0; x < p->width; x++) {
             const size_t at = (size_t)(p->height - 1 - row) * (size_t)p->width + (size_t)x;
@@ -249,12 +240,6 @@ void render_colours(const render_asked *asked, const render_picture *p, uint32_t
 
 /* ---- A view of all ----------------------------------------------------------------------------------------------- */
 
-static void unit(vector v) {
-    const double length = sqrt(dot(v, v));
-    for (int k = 0; k < 3; k++)
-        v[k] /= length;
-}
-
 static void middle_of(const model *m, vector middle) {
     for (int k = 0; k < 3; k++) {
         double lo = HUGE_VAL, hi = -HUGE_VAL;
@@ -266,17 +251,14 @@ static void middle_of(const model *m, vector middle) {
     }
 }
 
-/* How far from the middle the eye must be for all to be in sight. */
-static double distance_for(const model *m, const draw_camera *camera, const render_view *view, const vector middle) {
-    vector right;
+/* How far from the middle, where it stands, the eye must be for all to be in sight. */
+static double distance_for(const model *m, const draw_camera *camera, const scene_eye *eye) {
     double most = 0.0;
-    cross(view->ahead, view->up, right);
     for (size_t i = 0; i < 3 * m->triangles; i++) {
-        const double *p = corner_of(m, i);
-        const vector from = {p[0] - middle[0], p[1] - middle[1], p[2] - middle[2]};
-        const double beside =
-            fmax(fabs(dot(from, right)) * (double)camera->p00, fabs(dot(from, view->up)) * (double)camera->p11);
-        most = fmax(most, beside - dot(from, view->ahead));
+        vector from;
+        scene_eye_sees(eye, corner_of(m, i), from);
+        const double beside = fmax(fabs(from[0]) * (double)camera->p00, fabs(from[1]) * (double)camera->p11);
+        most = fmax(most, beside - from[2]);
     }
     return fmax(1.05 * most, 1e-6);
 }
@@ -298,21 +280,15 @@ static const double *best_corner(size_t count, const double (*towards)[3]) {
     return best;
 }
 
-render_view render_overview(const model *m, const draw_camera *camera, size_t count, const double (*towards)[3]) {
-    static const vector upwards = {0, 1, 0};
+scene_eye render_overview(const model *m, const draw_camera *camera, size_t count, const double (*towards)[3]) {
+    static const vector up = {0, 1, 0}, origin = {0};
     const double *from = best_corner(count, towards);
-    render_view view;
-    vector middle;
-    middle_of(m, middle);
+    const vector ahead = {-from[0], -from[1], -from[2]};
+    scene_eye eye;
+    scene_eye_look(origin, ahead, up, &eye);
+    middle_of(m, eye.place);
+    const double away = distance_for(m, camera, &eye);
     for (int k = 0; k < 3; k++)
-        view.ahead[k] = -from[k];
-    unit(view.ahead);
-    const double up = dot(upwards, view.ahead);
-    for (int k = 0; k < 3; k++)
-        view.up[k] = upwards[k] - up * view.ahead[k];
-    unit(view.up);
-    const double away = distance_for(m, camera, &view, middle);
-    for (int k = 0; k < 3; k++)
-        view.eye[k] = middle[k] - away * view.ahead[k];
-    return view;
+        eye.place[k] -= away * eye.ahead[k];
+    return eye;
 }

@@ -28,20 +28,16 @@
 
 #include "draw/draw.h"
 #include "model/model.h"
+#include "scene/eye.h"
 
 enum { RENDER_PIXELS_MAX = 1 << 25 };
 #define RENDER_NOTHING UINT32_MAX
 #define RENDER_REACH   1e30 /**< scene units: no coordinate may be greater */
 
-/** Where the camera stands and looks: two directions of length 1 at right angles. */
-typedef struct render_view {
-    double eye[3], ahead[3], up[3];
-} render_view;
-
 typedef struct render_asked {
     const model *m;
     const draw_camera *camera; /**< of at most RENDER_PIXELS_MAX pixels */
-    render_view view;
+    scene_eye eye;
     bool blended; /**< blended materials are drawn, too, as if they were opaque */
     /** Told now and then the share that is done; nonzero stops. May be null. */
     int (*progress)(void *context, double share);
@@ -78,6 +74,6 @@ void render_colours(const render_asked *asked, const render_picture *p, uint32_t
  * asks for: of the corner from which the most of the wanted directions is seen.
  * @param towards  directions, each as long as it weighs; may be null where count is 0
  */
-render_view render_overview(const model *m, const draw_camera *camera, size_t count, const double (*towards)[3]);
+scene_eye render_overview(const model *m, const draw_camera *camera, size_t count, const double (*towards)[3]);
 
 #endif
