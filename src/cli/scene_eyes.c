@@ -257,7 +257,8 @@ int scene_eyes_judge(scene *s) {
         scene_finding *f = &s->findings[i];
         f->sight = scene_sight_worst(&asked, f->of, room + (size_t)omp_get_thread_num() * s->eyes.count);
         f->fights = f->sight.fights_from < nearer_than;
-        f->line = s->o.path != NULL && !isnan(f->sight.seen_from) ? (double)s->eyes.eye[f->sight.eye].line : (double)NAN;
+        f->line =
+            s->o.path != NULL && !isnan(f->sight.seen_from) ? (double)s->eyes.eye[f->sight.eye].line : (double)NAN;
 #pragma omp critical(scene_progress)
         progress_step(&bar, ++done);
     }
