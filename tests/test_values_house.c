@@ -12,6 +12,7 @@
 
 #define CAMERA "-n 0.05 -F d24 -m d3d --viewport 1280x720 --fov 23 --within 60 --json"
 #define HOUSE  "tests/models/house.gltf"
+#define LIFTED "tests/models/house-lifted.gltf"
 
 /* By the rows of house.sh: which node lies on which, how far above it, and how much of it. */
 static const struct {
@@ -38,18 +39,178 @@ static const struct {
 };
 enum { FIGHTS = sizeof fights / sizeof fights[0] };
 
-/* What is as near, and nobody sees: with the filter that knows it. Null: nothing finds it, asked for or not. */
+/* What is as near, and fights nowhere, with the filter that knows it; null: two that only meet at an edge. */
 static const struct {
     const char *filter, *a, *b;
 } harmless[] = {
-    {"facing", "skirt west", "skirt east"},  /* back to back */
-    {"facing", "terrace", "handrail"},       /* not there at all: see below */
-    {"facing", "slab", "front wall"},        /* stands on it */
-    {"facing", "chimney", "chimney cap"},    /* lies on it */
-    {"facing", "wing body", "wing roof"},    /* lies on it, mirrored */
-    {"blended", "front wall", "windows"},    /* glass */
-    {"hidden", "beam", "conduit"},           /* within the pillar */
-    {NULL, "garden west", "garden east"},    /* an edge beside an edge */
-    {NULL, "west wall", "west gable"},       /* an edge on an edge */
-    {NULL, "railing", "railing"},            /* five posts */
+    {"facing", "skirt west", "skirt east"}, /* back to back */
+    {"facing", "slab", "front wall"},       /* stands on it */
+    {"facing", "chimney", "chimney cap"},   /* lies on it */
+    {"facing", "railing", "handrail"},      /* lies on all of them, flush with their fronts */
+    {"facing", "wing body", "wing roof"},   /* lies on it, mirrored */
+    {"blended", "front wall", "windows"},   /* glass */
+    {"hidden", "beam", "conduit"},          /* flush, within the pillar */
+    {NULL, "garden west", "garden east"},   {NULL, "west wall", "west gable"},
 };
+enum { HARMLESS = sizeof harmless / sizeof harmless[0] };
+
+static double number(const json_t *object, const char *key) {
+    const json_t *value = json_object_get(object, key);
+    assert_true(json_is_number(value));
+    return json_number_value(value);
+}
+
+static const char *node_of(const json_t *finding, const char *part) {
+    const char *text = json_string_value(json_object_get(json_object_get(finding, part), "node"));
+    assert_non_null(text);
+    return text;
+}
+
+static json_t *judged(const char *path, const char *options, int status) {
+    printed p = print_of("scene %s " CAMERA " %s", path, options);
+    if (p.status != status)
+        fail_msg("%s %s: status %d: %s", path, options, p.status, p.errors);
+    json_t *root = json_of(p.out);
+    printed_free(&p);
+    return root;
+}
+
+/* The one finding of two nodes, in the order of the file; null where there is none. */
+static const json_t *finding_of(const json_t *root, const char *a, const char *b) {
+    const json_t *list = json_object_get(root, "findings"), *found = NULL;
+    for (size_t i = 0; i < json_array_size(list); i++) {
+        const json_t *f = json_array_get(list, i);
+        if (strcmp(node_of(f, "a"), a) != 0 || strcmp(node_of(f, "b"), b) != 0)
+            continue;
+        assert_null(found);
+        found = f;
+    }
+    return found;
+}
+
+/* What the script prints: as `name`, in the folder of this run. */
+static const char *make_house(const char *name, const char *lifts) {
+    const char *path = scratch_file(name);
+    char line[4096];
+    snprintf(line, sizeof line, "sh tests/models/house.sh %s >%s", lifts, path);
+    assert_int_equal(system(line), 0);
+    return path;
+}
+
+/* A model that is read everywhere else is the one that the script makes; RECORD=1 writes it. */
+static void same_text(const char *path, const char *made) {
+    char line[1024];
+    snprintf(line, sizeof line, "%s %s %s", getenv("RECORD") != NULL ? "cp" : "cmp", made, path);
+    assert_int_equal(system(line), 0);
+}
+
+static void made(void **state) {
+    (void)state;
+    same_text(HOUSE, make_house("made.gltf", ""));
+    assert_int_not_equal(system("sh tests/models/house.sh chimney=1 >/dev/null 2>&1"), 0);
+    assert_int_not_equal(system("sh tests/models/house.sh dor=1 >/dev/null 2>&1"), 0);
+}
+
+/* Just these, with their gaps and areas, however the transforms are rounded: in binary32 to a few of its steps. */
+static void known(void **state) {
+    static const struct {
+        const char *options;
+        double step; /* of the extent */
+    } rows[] = {{"", 1e-12}, {"--threads 1", 1e-12}, {"--transforms binary32", 0x1p-22}};
+    (void)state;
+    for (size_t r = 0; r < sizeof rows / sizeof rows[0]; r++) {
+        json_t *root = judged(HOUSE, rows[r].options, 1);
+        const double extent = number(root, "extent"), off = rows[r].step * extent;
+        assert_int_equal(json_array_size(json_object_get(root, "findings")), FIGHTS);
+        assert_true(extent > 80 && extent < 120); /* of the terrain, mostly */
+        for (size_t i = 0; i < FIGHTS; i++) {
+            const json_t *f = finding_of(root, fights[i].below, fights[i].above);
+            if (f == NULL)
+                fail_msg("%s: '%s' and '%s' are not found", rows[r].options, fights[i].below, fights[i].above);
+            assert_scene(number(f, "gap_min"), fights[i].gap, off);
+            assert_scene(number(f, "gap_max"), fights[i].gap, off);
+            assert_scene(number(f, "area"), fights[i].area, off * extent);
+            assert_true(json_is_true(json_object_get(f, "fights")));
+        }
+        json_decref(root);
+    }
+}
+
+/* What is harmless is there, within the gap, and left out by the filter that is meant. */
+static void left_out(void **state) {
+    (void)state;
+    for (size_t i = 0; i < HARMLESS; i++) {
+        char options[64] = "";
+        if (harmless[i].filter != NULL)
+            snprintf(options, sizeof options, "--also %s", harmless[i].filter);
+        json_t *root = judged(HOUSE, options, 1);
+        const json_t *f = finding_of(root, harmless[i].a, harmless[i].b);
+        if ((f != NULL) != (harmless[i].filter != NULL))
+            fail_msg("'%s' and '%s' with '%s'", harmless[i].a, harmless[i].b, options);
+        json_decref(root);
+    }
+}
+
+/* The lifts that are said, rounded up to tenths of a millimetre, as arguments of the script. */
+static void lifts_of(const json_t *root, char *out, size_t size) {
+    size_t used = 0;
+    for (size_t i = 0; i < FIGHTS; i++) {
+        const json_t *f = finding_of(root, fights[i].below, fights[i].above);
+        assert_non_null(f);
+        if (fights[i].lifted == NULL)
+            continue;
+        used += (size_t)snprintf(out + used, size - used, " '%s=%.4f'", fights[i].lifted,
+                                 ceil(number(f, "lift") * 1e4) / 1e4);
+        assert_true(used < size);
+    }
+}
+
+/* Moved as far as is said nothing is found that near, and what is found farther off passes; by less it fights. */
+static void mended(void **state) {
+    char lifts[2048];
+    json_t *root = judged(HOUSE, "", 1);
+    const double need = number(finding_of(root, "front wall", "door"), "lift");
+    (void)state;
+    lifts_of(root, lifts, sizeof lifts);
+    json_decref(root);
+    same_text(LIFTED, make_house("lifted.gltf", lifts));
+    root = judged(LIFTED, "", 0);
+    assert_int_equal(json_array_size(json_object_get(root, "findings")), 0);
+    assert_true(json_is_true(json_object_get(root, "passed")));
+    json_decref(root);
+    root = judged(LIFTED, "--gap 0.06", 0);
+    for (size_t i = 0; i < FIGHTS; i++) {
+        const json_t *f = finding_of(root, fights[i].below, fights[i].above);
+        if (fights[i].lifted == NULL)
+            continue;
+        assert_non_null(f);
+        assert_true(number(f, "gap_min") >= need && number(f, "gap_max") < need + 1.1e-4);
+        assert_true(json_is_false(json_object_get(f, "fights")) && number(f, "certain_to") >= 60);
+    }
+    json_decref(root);
+    strcat(lifts, " tiles=0.044"); /* the last one counts */
+    root = judged(make_house("less.gltf", lifts), "", 1);
+    assert_int_equal(json_array_size(json_object_get(root, "findings")), 1);
+    assert_non_null(finding_of(root, "terrace", "tiles"));
+    json_decref(root);
+}
+
+/* In words: the rounding of the transforms makes no gap where there is none, nor two of one. */
+static void in_words(void **state) {
+    printed p = print_of("scene " HOUSE " -n 0.05 -F d24 -m d3d --viewport 1280x720 --fov 23 --within 60 --unit m");
+    (void)state;
+    const char *door = strstr(p.out, "'front wall' (plaster) and 'door' (oak)");
+    const char *poster = strstr(p.out, "'front wall' (plaster) and 'poster' (paper)");
+    assert_non_null(door);
+    assert_non_null(poster);
+    const char *one_plane = strstr(door, "in one plane\n"), *gap = strstr(poster, "; 0.001 m apart\n");
+    assert_true(one_plane != NULL && one_plane < strstr(door, "area"));
+    assert_true(gap != NULL && gap < strstr(poster, "area"));
+    printed_free(&p);
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {cmocka_unit_test(made), cmocka_unit_test(known), cmocka_unit_test(left_out),
+                                       cmocka_unit_test(mended), cmocka_unit_test(in_words)};
+    return run_tap(tests);
+}

@@ -325,6 +325,8 @@ const option_row option_rows[OPTION_COUNT] = {
     [OPTION_RENDER] = {"render", 0, "FILE", VERB_SCENE,
         "draw what the camera sees, as --raster draws it, with the pixels in red that show the wrong surface: PNG",
         FILE_NAME(render)},
+    [OPTION_ANNOTATE] = {"annotate", 0, "FILE", VERB_SCENE,
+        "write the model as .glb, with the triangles that fight in materials of their own", FILE_NAME(annotate)},
     [OPTION_HALF_HEIGHT] = {"half-height", 0, "H", VERB_TEXTURE,
         "with --ortho: half the height of the view", LENGTH(camera.half_height, 1e-12, 1e12, "scene units"),
         .standard = "5", .group = "The depth texture"},

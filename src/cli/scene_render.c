@@ -48,8 +48,6 @@ int scene_render_check(scene *s) {
     draw_camera camera;
     if (s->o.render == NULL)
         return EXIT_FINE;
-    if (s->o.output != NULL && output_same_file(s->o.output, s->o.render))
-        return option_error(OPTION_RENDER, "must be another file than --output, got '%s'", s->o.render);
     if (s->o.path != NULL)
         return option_error(OPTION_RENDER, "cannot be combined with --path: a picture has one eye");
     return take_camera(s, &camera);

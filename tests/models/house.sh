@@ -3,7 +3,8 @@
 # Prints a house in glTF 2.0, with surfaces that fight and surfaces that only look as if they did:
 #     sh tests/models/house.sh [NODE=LENGTH...] >house.gltf
 # moves nodes out of what they lie on, by a length in metres. tests/models/house.gltf is what it prints without.
-# tests/test_values_house.c has the list of the fights, and of what must not be taken for one.
+# house-lifted.gltf what it prints with the lengths that depthprec scene asks for. tests/test_values_house.c has the
+# list of the fights, and of what must not be taken for one.
 set -eu
 
 # node | parent | mesh | material | place | turn | size | a metre outward, in the parent's lengths
@@ -26,7 +27,7 @@ west wall      | house | box  | plaster  | -5.85 1.8 0     |        | 0.3 3 7.7
 east wall      | house | box  | plaster  | 5.85 1.8 0      |        | 0.3 3 7.7
 west gable     | house | tri  | plaster  | -6 3.3 0        | west   | 8.3 3.1 1
 east gable     | house | tri  | plaster  | 6 3.3 0         | east   | 8.3 3.1 1
-door           | house | box  | oak      | -3 1.4 4.05     |        | 1 2 0.2   | 0 0 1
+door           | house | box  | oak      | -3 1.3 4.05     |        | 1 2 0.2   | 0 0 1
 shutters       | house | quad | oak      | 0 1.75 4.1515   |        | 0.5 1.25 1 | 0 0 1
 windows        | house | quad | glass    | 0 2.85 4.153    |        | 0.5 0.5 1
 signs          | house |      |          | 0 0 4.15        |        | 0.01 0.01 0.01
@@ -56,7 +57,9 @@ front door     | house | camera |        | -3 1.7 9        |        | 1 1 1
 ROWS
 }
 
-rows | LC_ALL=C awk -F ' *[|] *' -v lifts="$(printf '%s\n' "$@")" '
+lifts=$(printf '%s\n' "$@")
+export lifts
+rows | LC_ALL=C awk -F ' *[|] *' '
     function join(a, b) { return a == "" ? b : a ",\n  " b }
     function triple(text) { gsub(/ /, ", ", text); return "[" text "]" }
     function list(name, text) { return ",\n" "\"" name "\": [\n  " text "\n]" }
@@ -104,8 +107,8 @@ rows | LC_ALL=C awk -F ' *[|] *' -v lifts="$(printf '%s\n' "$@")" '
         shape[name] = "\"primitives\": [{\"attributes\": {\"POSITION\": " p "}, \"indices\": " indices(order)
     }
     function material(name, colour, more) {
-        materials = join(materials, "{\"name\": \"" name "\", \"pbrMetallicRoughness\": {\"baseColorFactor\": [" colour \
-            "]}" more "}")
+        materials = join(materials, "{\"name\": \"" name "\", \"pbrMetallicRoughness\": {" \
+            "\"baseColorFactor\": [" colour "]}" more "}")
         material_of[name] = material_count++
     }
 
@@ -142,7 +145,7 @@ rows | LC_ALL=C awk -F ' *[|] *' -v lifts="$(printf '%s\n' "$@")" '
         material("steel", "0.5, 0.5, 0.55, 1"); material("wood", "0.55, 0.4, 0.25, 1", ", \"doubleSided\": true")
         material("leaves", "0.15, 0.4, 0.1, 1", ", \"doubleSided\": true")
 
-        n = split(lifts, given, "\n")
+        n = split(ENVIRON["lifts"], given, "\n")
         for (i = 1; i <= n; i++) if (given[i] != "") {
             which = length_of = given[i]
             sub(/=.*/, "", which); sub(/.*=/, "", length_of)
@@ -191,11 +194,13 @@ rows | LC_ALL=C awk -F ' *[|] *' -v lifts="$(printf '%s\n' "$@")" '
         size = bytes
         while (holds) byte(0)
         print "{\"asset\": {\"version\": \"2.0\"},"
-        print "\"extensionsUsed\": [\"EXT_mesh_gpu_instancing\"], \"extensionsRequired\": [\"EXT_mesh_gpu_instancing\"],"
+        extension = ": [\"EXT_mesh_gpu_instancing\"],"
+        print "\"extensionsUsed\"" extension "\n\"extensionsRequired\"" extension
         printf "%s", "\"scene\": 0, \"scenes\": [{\"name\": \"house\", \"nodes\": [" roots "]}]"
         printf "%s", list("nodes", nodes) list("meshes", meshes) list("materials", materials)
         printf "%s", ",\n\"cameras\": [{\"name\": \"lens\", \"type\": \"perspective\", \"perspective\": " \
             "{\"yfov\": 0.4, \"znear\": 0.05, \"zfar\": 1000}}]"
         printf "%s", list("accessors", accessors) list("bufferViews", views)
-        print ",\n\"buffers\": [{\"byteLength\": " size ", \"uri\": \"data:application/octet-stream;base64," buffer "\"}]}"
+        print ",\n\"buffers\": [{\"byteLength\": " size ","
+        print "  \"uri\": \"data:application/octet-stream;base64," buffer "\"}]}"
     }'
