@@ -53,9 +53,14 @@ int scene_render_check(scene *s) {
     return take_camera(s, &camera);
 }
 
-/* All of the model, from where the worst of the findings are seen. */
-static bool overview(const scene *s, const draw_camera *camera, scene_eye *eye) {
+/* From the first of the eyes that were asked for; without one all of the model, from where most of what fights is seen.
+ */
+static bool take_eye(const scene *s, const draw_camera *camera, scene_eye *eye) {
     const size_t count = s->found.findings;
+    if (s->eyes.count > 0) {
+        *eye = s->eyes.eye[0];
+        return true;
+    }
     double(*towards)[3] = malloc((count + 1) * sizeof *towards);
     if (towards == NULL)
         return false;
@@ -141,7 +146,7 @@ int scene_render(scene *s) {
                           .progress = advance,
                           .context = &bar,
                           .blended = (s->o.filters_off & 1U << FINDER_BLENDED) != 0};
-    const bool good = overview(s, &camera, &asked.eye);
+    const bool good = take_eye(s, &camera, &asked.eye);
     s->rendered.eye = (scene_place){asked.eye.place[0], asked.eye.place[1], asked.eye.place[2]};
     s->rendered.ahead = (scene_place){asked.eye.ahead[0], asked.eye.ahead[1], asked.eye.ahead[2]};
     const render_status drawn = good ? render_draw(&asked, &p) : RENDER_NO_MEMORY;
