@@ -28,6 +28,26 @@ static options scene_options(const options *given) {
     return o;
 }
 
+/* What is written goes into a file each, and none of them is the model. */
+static int check_files(const scene *s) {
+    const options *o = &s->o;
+    const struct {
+        option_id id;
+        const char *path;
+    } files[] = {{OPTION_OUTPUT, o->output}, {OPTION_RENDER, o->render}, {OPTION_ANNOTATE, o->annotate}};
+    for (size_t i = 0; i < sizeof files / sizeof files[0]; i++) {
+        if (files[i].path == NULL)
+            continue;
+        if (output_same_file(files[i].path, s->file))
+            return option_error(files[i].id, "must be another file than the model, got '%s'", files[i].path);
+        for (size_t k = 0; k < i; k++)
+            if (files[k].path != NULL && output_same_file(files[i].path, files[k].path))
+                return option_error(files[i].id, "must be another file than --%s, got '%s'",
+                                    option_rows[files[k].id].name, files[i].path);
+    }
+    return EXIT_FINE;
+}
+
 /* One camera: its fullest model. */
 static int take_setup(scene *s) {
     setups all;
@@ -199,12 +219,17 @@ int cmd_scene(const options *given) {
     scene s;
     int status = scene_begin(&s, given, given->operands[0]);
     if (status == EXIT_FINE)
+        status = check_files(&s);
+    if (status == EXIT_FINE)
         status = options_open(&s.o, &out);
     if (status != EXIT_FINE)
         return status;
     status = scene_look(&s, &out);
     if (status == EXIT_FINE && s.o.render != NULL)
         status = scene_render(&s);
+    stop_end(&out);
+    if (status == EXIT_FINE && s.o.annotate != NULL)
+        status = scene_annotate(&s);
     stop_end(&out);
     if (status == EXIT_FINE) {
         const report_spec spec = scene_report(&s);

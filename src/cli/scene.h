@@ -77,6 +77,9 @@ int scene_look(scene *s, output *out);
 /** Frees what was read and found. */
 void scene_end(scene *s);
 
+/** How many of the findings can fight before the far plane; they come first. */
+size_t scene_fighting(const scene *s);
+
 /** Whether --from, --look, --path and --camera go together. @return EXIT_FINE, or EXIT_USAGE after one line */
 int scene_eyes_check(const options *o);
 
@@ -94,5 +97,8 @@ int scene_render_check(scene *s);
 
 /** Draws the model into the file of --render, and counts. @return EXIT_FINE, also where it was interrupted */
 int scene_render(scene *s);
+
+/** Writes the model into the file of --annotate. @return EXIT_FINE, or an exit status after one line */
+int scene_annotate(scene *s);
 
 #endif

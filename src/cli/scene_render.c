@@ -48,19 +48,18 @@ int scene_render_check(scene *s) {
     draw_camera camera;
     if (s->o.render == NULL)
         return EXIT_FINE;
-    if (s->o.output != NULL && output_same_file(s->o.output, s->o.render))
-        return option_error(OPTION_RENDER, "must be another file than --output, got '%s'", s->o.render);
+    if (s->o.path != NULL)
+        return option_error(OPTION_RENDER, "cannot be combined with --path: a picture has one eye");
     return take_camera(s, &camera);
 }
 
-/* From the first of the eyes that were asked for; without one all of the model, from where most of what fights is seen.
- */
+/* The eye that was asked for; else all of the model, from where the worst of the findings are seen. */
 static bool take_eye(const scene *s, const draw_camera *camera, scene_eye *eye) {
-    const size_t count = s->found.findings;
     if (s->eyes.count > 0) {
         *eye = s->eyes.eye[0];
         return true;
     }
+    const size_t count = s->found.findings;
     double(*towards)[3] = malloc((count + 1) * sizeof *towards);
     if (towards == NULL)
         return false;

@@ -25,8 +25,7 @@ static const char *called(const scene_named *n, char out[NAME_SIZE]) {
     return out;
 }
 
-/* How many fight before the far plane; they come first. */
-static size_t fighting(const scene *s) {
+size_t scene_fighting(const scene *s) {
     size_t n = 0;
     while (n < s->found.findings && !(s->findings[n].verdict.certain_to >= s->setup.spec.zfar))
         n++;
@@ -36,7 +35,7 @@ static size_t fighting(const scene *s) {
 static void say_head(page *p, void *of) {
     const scene *s = of;
     const model_notes *n = &s->model.notes;
-    const size_t count = s->found.findings, fights = fighting(s);
+    const size_t count = s->found.findings, fights = scene_fighting(s);
     char how_many[24] = "none";
     if (fights > 0)
         snprintf(how_many, sizeof how_many, "%zu", fights);
@@ -115,7 +114,7 @@ static void say_picture(page *p, const scene *s) {
 
 static void say_notes(page *p, void *of) {
     const scene *s = of;
-    const size_t fights = fighting(s), shown = fights < SHOWN_MOST ? fights : SHOWN_MOST;
+    const size_t fights = scene_fighting(s), shown = fights < SHOWN_MOST ? fights : SHOWN_MOST;
     for (size_t i = 0; i < shown; i++)
         say_finding(p, s, i);
     if (fights > shown)
