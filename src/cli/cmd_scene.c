@@ -137,13 +137,25 @@ static scene_named name_of(const model_surface *m) {
                          m->material[0] != '\0' ? m->material : NULL};
 }
 
-/* The nearest fight first, NaN before all; then the largest. */
+/* The first of them that differs decides: from an eye, what fights there, what is not covered, what is seen. */
+typedef struct urgency {
+    double key[4];
+} urgency;
+
+static urgency urgency_of(const scene_finding *f) {
+    const scene_sight *e = &f->sight;
+    return (urgency){{isnan(e->fights_from) ? HUGE_VAL : e->fights_from, e->covered ? 1.0 : 0.0,
+                      isnan(e->seen_from) ? HUGE_VAL : 0.0,
+                      isnan(f->verdict.certain_to) ? -1.0 : f->verdict.certain_to}};
+}
+
+/* The nearest fight first, certain nowhere before all; then the largest. */
 static int compare(const void *one, const void *other) {
     const scene_finding *a = one, *b = other;
-    const double za = isnan(a->verdict.certain_to) ? -1.0 : a->verdict.certain_to;
-    const double zb = isnan(b->verdict.certain_to) ? -1.0 : b->verdict.certain_to;
-    if (za != zb)
-        return za < zb ? -1 : 1;
+    const urgency u = urgency_of(a), v = urgency_of(b);
+    for (int k = 0; k < 4; k++)
+        if (u.key[k] != v.key[k])
+            return u.key[k] < v.key[k] ? -1 : 1;
     if (a->area != b->area)
         return a->area > b->area ? -1 : 1;
     return a->of < b->of ? -1 : 1;
@@ -153,7 +165,6 @@ static int judge(scene *s) {
     s->findings = calloc(s->found.findings + 1, sizeof *s->findings);
     if (s->findings == NULL)
         return usage_error("%s: no memory for %zu findings", s->file, s->found.findings);
-    s->passed = true;
     for (size_t i = 0; i < s->found.findings; i++) {
         const finder_finding *f = &s->found.finding[i];
         const bool again = i > 0 && f->gap_min == f[-1].gap_min && f->gap_max == f[-1].gap_max;
@@ -167,13 +178,18 @@ static int judge(scene *s) {
                                .place = {f->place[0], f->place[1], f->place[2]},
                                .pairs = f->pairs,
                                .wrong_pixels = (double)NAN,
+                               .sight = {.covered = true},
+                               .line = (double)NAN,
                                .verdict =
                                    again ? out[-1].verdict : scene_judge(&s->setup, f->gap_min, f->gap_max, s->within)};
         out->fights = !(out->verdict.certain_to >= s->within);
-        s->passed = s->passed && !out->fights;
     }
+    const int status = s->eyes.count > 0 ? scene_eyes_judge(s) : EXIT_FINE;
+    s->passed = true;
+    for (size_t i = 0; i < s->found.findings; i++)
+        s->passed = s->passed && !s->findings[i].fights;
     qsort(s->findings, s->found.findings, sizeof *s->findings, compare);
-    return EXIT_FINE;
+    return status;
 }
 
 /* ---- The command ------------------------------------------------------------------------------------------------- */

@@ -14,6 +14,7 @@
 #include "scene/eye.h"
 #include "scene/find.h"
 #include "scene/judge.h"
+#include "scene/sight.h"
 
 /* A surface as a report names it; null where the file has no name. */
 typedef struct scene_named {
@@ -31,6 +32,8 @@ typedef struct scene_finding {
     scene_place place;
     scene_verdict verdict;
     uint64_t pairs;
+    scene_sight sight;   /* from the worst of the eyes */
+    double line;         /* of the file of eyes, else NaN */
     bool fights;         /* nearer than --within asks */
     double wrong_pixels; /* of --render, else NaN */
 } scene_finding;
@@ -48,6 +51,9 @@ typedef struct scene_rendered {
 typedef struct scene_eyes {
     scene_eye *eye; /* in the order of the file */
     size_t count;   /* 0: from every place */
+    const char *camera, *path;
+    uint64_t places;
+    scene_place from, ahead; /* of one eye; NaN of several */
 } scene_eyes;
 
 typedef struct scene {
@@ -77,7 +83,7 @@ int scene_look(scene *s, output *out);
 /** Frees what was read and found. */
 void scene_end(scene *s);
 
-/** How many of the findings can fight before the far plane; they come first. */
+/** How many of the findings can fight before the far plane, from an eye there; they come first. */
 size_t scene_fighting(const scene *s);
 
 /** Whether --from, --look, --path and --camera go together. @return EXIT_FINE, or EXIT_USAGE after one line */
@@ -88,6 +94,9 @@ int scene_eyes_check(const options *o);
  * given; to be freed. @return EXIT_FINE, or another after one line
  */
 int scene_eyes_take(scene *s);
+
+/** Judges the findings from them. @return EXIT_FINE, also where it was interrupted, or EXIT_USAGE after one line */
+int scene_eyes_judge(scene *s);
 
 /** The report: head and notes of the text, columns of JSON and CSV. */
 report_spec scene_report(scene *s);

@@ -2,11 +2,14 @@
 /* The eyes of `scene`: --from and --look, a file of them, or a camera of the model. */
 #include <errno.h>
 #include <math.h>
+#include <omp.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
+#include "cli/progress.h"
 #include "cli/scene.h"
+#include "cli/stop.h"
 #include "report/number.h"
 
 enum {
@@ -207,9 +210,59 @@ int scene_eyes_check(const options *o) {
     return EXIT_FINE;
 }
 
+/* For the report. */
+static void describe(scene *s) {
+    const double nan = (double)NAN;
+    scene_eyes *e = &s->eyes;
+    e->places = e->count;
+    e->path = s->o.path;
+    e->camera = s->o.model_camera;
+    e->from = e->ahead = (scene_place){nan, nan, nan};
+    if (e->count != 1)
+        return;
+    e->from = (scene_place){e->eye->place[0], e->eye->place[1], e->eye->place[2]};
+    e->ahead = (scene_place){e->eye->ahead[0], e->eye->ahead[1], e->eye->ahead[2]};
+}
+
 int scene_eyes_take(scene *s) {
-    return option_given(&s->o, OPTION_FROM)   ? take_look(s)
-           : option_given(&s->o, OPTION_PATH) ? take_path(s)
-           : s->o.model_camera != NULL        ? take_camera(s)
-                                              : EXIT_FINE;
+    const int status = option_given(&s->o, OPTION_FROM)   ? take_look(s)
+                       : option_given(&s->o, OPTION_PATH) ? take_path(s)
+                       : s->o.model_camera != NULL        ? take_camera(s)
+                                                          : EXIT_FINE;
+    if (status == EXIT_FINE)
+        describe(s);
+    return status;
+}
+
+/* ---- Judging ----------------------------------------------------------------------------------------------------- */
+
+int scene_eyes_judge(scene *s) {
+    const sight_asked asked = {.m = &s->model,
+                               .found = &s->found,
+                               .setup = &s->setup,
+                               .gap = s->gap,
+                               .any_side = (s->o.filters_off >> FINDER_FACING & 1U) != 0,
+                               .eye = s->eyes.eye,
+                               .eyes = s->eyes.count,
+                               .stop = stop_asked};
+    const double nearer_than = option_given(&s->o, OPTION_WITHIN) ? s->within : HUGE_VAL;
+    const int threads = s->o.threads > 0 ? s->o.threads : omp_get_max_threads();
+    scene_sight *room = malloc((size_t)threads * s->eyes.count * sizeof *room);
+    progress bar = progress_start("findings judged", s->found.findings, s->o.quiet);
+    uint64_t done = 0;
+    if (room == NULL)
+        return usage_error("%s: no memory to judge it from %zu eyes", s->file, s->eyes.count);
+#pragma omp parallel for schedule(dynamic) num_threads(threads)
+    for (size_t i = 0; i < s->found.findings; i++) {
+        scene_finding *f = &s->findings[i];
+        f->sight = scene_sight_worst(&asked, f->of, room + (size_t)omp_get_thread_num() * s->eyes.count);
+        f->fights = f->sight.fights_from < nearer_than;
+        f->line =
+            s->o.path != NULL && !isnan(f->sight.seen_from) ? (double)s->eyes.eye[f->sight.eye].line : (double)NAN;
+#pragma omp critical(scene_progress)
+        progress_step(&bar, ++done);
+    }
+    progress_end(&bar);
+    free(room);
+    return EXIT_FINE;
 }

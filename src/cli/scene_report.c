@@ -27,9 +27,44 @@ static const char *called(const scene_named *n, char out[NAME_SIZE]) {
 
 size_t scene_fighting(const scene *s) {
     size_t n = 0;
-    while (n < s->found.findings && !(s->findings[n].verdict.certain_to >= s->setup.spec.zfar))
+    while (n < s->found.findings && (s->eyes.count > 0 ? !isnan(s->findings[n].sight.fights_from)
+                                                       : !(s->findings[n].verdict.certain_to >= s->setup.spec.zfar)))
         n++;
     return n;
+}
+
+/* From an eye, how many more are told apart only if their triangles are cut; they come next. */
+static size_t uncovered(const scene *s) {
+    const size_t fights = scene_fighting(s);
+    size_t n = fights;
+    while (n < s->found.findings && !s->findings[n].sight.covered)
+        n++;
+    return n - fights;
+}
+
+static void say_eyes(page *p, const scene *s) {
+    const scene_eyes *e = &s->eyes;
+    if (e->count == 0)
+        return;
+    if (e->count > 1)
+        page_title(p, "from the worst of the %zu eyes of %s", e->count, e->path);
+    else
+        page_title(p, "from %s%s%s%s %s %s, looking along %s %s %s", e->camera != NULL ? "camera '" : "",
+                   e->camera != NULL ? e->camera : "", e->camera != NULL ? "' at " : "",
+                   number_of(e->from.x, DIGITS).text, number_of(e->from.y, DIGITS).text,
+                   number_of(e->from.z, DIGITS).text, number_of(e->ahead.x, DIGITS).text,
+                   number_of(e->ahead.y, DIGITS).text, number_of(e->ahead.z, DIGITS).text);
+}
+
+static void say_seen(page *p, const scene *s) {
+    const size_t count = s->found.findings, fights = scene_fighting(s), cut = uncovered(s);
+    size_t seen = 0;
+    for (size_t i = 0; i < count; i++)
+        seen += isnan(s->findings[i].sight.seen_from) ? 0 : 1;
+    page_text(p, "%zu pair%s of surfaces lie%s within %s of each other: %zu seen, %zu can fight.", count,
+              count == 1 ? "" : "s", count == 1 ? "s" : "", length(p, s->gap).text, seen, fights);
+    if (cut > 0)
+        page_text(p, "%zu more %s told apart only if cut into the triangles above.", cut, cut == 1 ? "is" : "are");
 }
 
 static void say_head(page *p, void *of) {
@@ -45,11 +80,14 @@ static void say_head(page *p, void *of) {
                length(p, s->extent).text);
     setup_title(p, &s->setup, &s->fields);
     slant_say(p, page_title, &s->o, &s->setup);
+    say_eyes(p, s);
     if (n->skinned + n->morphed + n->animated > 0)
         page_title(p, "in the rest pose: %zu skinned and %zu morphed meshes, %zu animated nodes", n->skinned,
                    n->morphed, n->animated);
     if (count == 0)
         page_text(p, "No surfaces lie within %s of each other.", length(p, s->gap).text);
+    else if (s->eyes.count > 0)
+        say_seen(p, s);
     else
         page_text(p, "%zu pair%s of surfaces lie%s within %s of each other: %s can fight before the far plane.", count,
                   count == 1 ? "" : "s", count == 1 ? "s" : "", length(p, s->gap).text, how_many);
@@ -76,12 +114,31 @@ static void say_gap(const page *p, const scene *s, const scene_finding *f, char 
     append(text, LINE_SIZE, "%s apart", hi.text);
 }
 
+/* "seen from 3 m to 9 m: can fight from 5 m on". */
+static void say_sight(page *p, const scene_finding *f) {
+    const scene_sight *e = &f->sight;
+    char text[LINE_SIZE] = "";
+    append(text, LINE_SIZE, "seen from %s to %s: ", safe_length(p, e->seen_from, false).text,
+           safe_length(p, e->seen_to, true).text);
+    if (isnan(e->fights_from))
+        append(text, LINE_SIZE, "told apart only if cut into the triangles above");
+    else if (e->fights_from > e->seen_from)
+        append(text, LINE_SIZE, "can fight from %s on", safe_length(p, e->fights_from, false).text);
+    else
+        append(text, LINE_SIZE, "can fight");
+    if (!isnan(f->line))
+        append(text, LINE_SIZE, "; worst at line %.0f", f->line);
+    page_note(p, "", "%s", text);
+}
+
 static void say_finding(page *p, const scene *s, size_t i) {
     const scene_finding *f = &s->findings[i];
     const scene_verdict *v = &f->verdict;
     char a[NAME_SIZE], b[NAME_SIZE], label[16], text[LINE_SIZE] = "";
     snprintf(label, sizeof label, "%zu", i + 1);
     page_note(p, label, "%s and %s", called(&f->a, a), called(&f->b, b));
+    if (s->eyes.count > 0)
+        say_sight(p, f);
     if (isnan(v->certain_to))
         append(text, sizeof text, "certain nowhere");
     else
@@ -114,7 +171,8 @@ static void say_picture(page *p, const scene *s) {
 
 static void say_notes(page *p, void *of) {
     const scene *s = of;
-    const size_t fights = scene_fighting(s), shown = fights < SHOWN_MOST ? fights : SHOWN_MOST;
+    const size_t fights = scene_fighting(s) + (s->eyes.count > 0 ? uncovered(s) : 0);
+    const size_t shown = fights < SHOWN_MOST ? fights : SHOWN_MOST;
     for (size_t i = 0; i < shown; i++)
         say_finding(p, s, i);
     if (fights > shown)
@@ -148,25 +206,39 @@ static const column place_columns[] = {{FIELD(scene_place, x, "x", "scene")},
                                        {FIELD(scene_place, z, "z", "scene")},
                                        {.kind = COLUMN_END}};
 
-static const column finding_columns[] = {{PART(scene_finding, a, "a", named_columns), .only = AS_JSON},
-                                         {PART(scene_finding, b, "b", named_columns), .only = AS_JSON},
-                                         {FIELD(scene_finding, a.node, "a_node", ""), .only = AS_CSV},
-                                         {FIELD(scene_finding, a.mesh, "a_mesh", ""), .only = AS_CSV},
-                                         {FIELD(scene_finding, a.material, "a_material", ""), .only = AS_CSV},
-                                         {FIELD(scene_finding, b.node, "b_node", ""), .only = AS_CSV},
-                                         {FIELD(scene_finding, b.mesh, "b_mesh", ""), .only = AS_CSV},
-                                         {FIELD(scene_finding, b.material, "b_material", ""), .only = AS_CSV},
-                                         {FIELD(scene_finding, gap_min, "gap_min", "scene")},
-                                         {FIELD(scene_finding, gap_max, "gap_max", "scene")},
-                                         {FIELD(scene_finding, area, "area", "scene^2")},
-                                         {PART(scene_finding, place, "place", place_columns)},
-                                         {FIELD(scene_finding, pairs, "pairs", "")},
-                                         {FIELD(scene_finding, verdict.certain_to, "certain_to", "scene")},
-                                         {FIELD(scene_finding, verdict.ties_from, "ties_from", "scene")},
-                                         {FIELD(scene_finding, verdict.lift, "lift", "scene")},
-                                         {FIELD(scene_finding, fights, "fights", "")},
-                                         {FIELD(scene_finding, wrong_pixels, "wrong_pixels", ""), .optional = true},
-                                         {.kind = COLUMN_END}};
+/* Conditions. */
+enum { FROM_EYES = 1 };
+
+static const column eyes_columns[] = {
+    {FIELD(scene_eyes, camera, "camera", "")},         {FIELD(scene_eyes, path, "path", "")},
+    {FIELD(scene_eyes, places, "places", "")},         {PART(scene_eyes, from, "from", place_columns)},
+    {PART(scene_eyes, ahead, "ahead", place_columns)}, {.kind = COLUMN_END}};
+
+static const column finding_columns[] = {
+    {PART(scene_finding, a, "a", named_columns), .only = AS_JSON},
+    {PART(scene_finding, b, "b", named_columns), .only = AS_JSON},
+    {FIELD(scene_finding, a.node, "a_node", ""), .only = AS_CSV},
+    {FIELD(scene_finding, a.mesh, "a_mesh", ""), .only = AS_CSV},
+    {FIELD(scene_finding, a.material, "a_material", ""), .only = AS_CSV},
+    {FIELD(scene_finding, b.node, "b_node", ""), .only = AS_CSV},
+    {FIELD(scene_finding, b.mesh, "b_mesh", ""), .only = AS_CSV},
+    {FIELD(scene_finding, b.material, "b_material", ""), .only = AS_CSV},
+    {FIELD(scene_finding, gap_min, "gap_min", "scene")},
+    {FIELD(scene_finding, gap_max, "gap_max", "scene")},
+    {FIELD(scene_finding, area, "area", "scene^2")},
+    {PART(scene_finding, place, "place", place_columns)},
+    {FIELD(scene_finding, pairs, "pairs", "")},
+    {FIELD(scene_finding, verdict.certain_to, "certain_to", "scene")},
+    {FIELD(scene_finding, verdict.ties_from, "ties_from", "scene")},
+    {FIELD(scene_finding, verdict.lift, "lift", "scene")},
+    {FIELD(scene_finding, fights, "fights", "")},
+    {FIELD(scene_finding, sight.seen_from, "seen_from", "scene"), .when = FROM_EYES},
+    {FIELD(scene_finding, sight.seen_to, "seen_to", "scene"), .when = FROM_EYES},
+    {FIELD(scene_finding, sight.fights_from, "fights_from", "scene"), .when = FROM_EYES},
+    {FIELD(scene_finding, sight.covered, "covered", ""), .when = FROM_EYES},
+    {FIELD(scene_finding, line, "line", ""), .when = FROM_EYES},
+    {FIELD(scene_finding, wrong_pixels, "wrong_pixels", ""), .optional = true},
+    {.kind = COLUMN_END}};
 
 static const column left_columns[] = {
     {FIELD(scene, left_out[FINDER_FACING], "facing", "")}, {FIELD(scene, left_out[FINDER_BLENDED], "blended", "")},
@@ -195,6 +267,7 @@ static const column columns[] = {
     {FIELD(scene, gap, "gap", "scene"), .only = AS_JSON},
     {FIELD(scene, angle, "angle", "degrees"), .only = AS_JSON},
     {FIELD(scene, within, "within", "scene"), .only = AS_JSON},
+    {PART(scene, eyes, "eyes", eyes_columns), .only = AS_JSON, .when = FROM_EYES},
     {FIELD(scene, passed, "passed", ""), .only = AS_JSON},
     {FIELD(scene, found.cut, "cut", ""), .only = AS_JSON},
     {GROUP("left_out", left_columns), .only = AS_JSON},
@@ -213,5 +286,6 @@ static void count(scene *s) {
 
 report_spec scene_report(scene *s) {
     count(s);
-    return (report_spec){"scene", columns, s, .label = LABEL, .head = say_head, .notes = say_notes};
+    return (report_spec){"scene",          columns,           s, s->eyes.count > 0 ? FROM_EYES : 0, .label = LABEL,
+                         .head = say_head, .notes = say_notes};
 }
