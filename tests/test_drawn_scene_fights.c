@@ -132,7 +132,7 @@ static void check(const char *file, const drawn_theme *look, const side sides[2]
     assert_int_equal(d->panel_count, 2);
     assert_string_equal(d->x_caption->text, x);
     assert_string_equal(d->y_caption->text, y);
-    assert_string_equal(d->right_caption->text, "certain up to (m)");
+    assert_string_equal(d->right_caption->text, "can fight from (m)");
     drawn_bar_is_viridis(d);
     assert_true(d->panels[0].x.b > 0 && d->panels[1].y.b < 0); /* px grow downwards */
     assert_true((d->panels[0].y.b > 0) == (*x == 'x'));
@@ -170,7 +170,7 @@ static void test_numbers(void **state) {
     (void)state;
     depths_of(STREET, certain, place);
     char *line = strtok(csv, "\r\n");
-    assert_string_equal(line, "panel,series,across [scene units],up [scene units],certain_to [scene units]");
+    assert_string_equal(line, "panel,series,across [scene units],up [scene units],fights_from [scene units]");
     for (line = strtok(NULL, "\r\n"); line != NULL; line = strtok(NULL, "\r\n")) {
         const bool above = strstr(line, "From above") != NULL;
         const char *rest = strstr(line, ",map,");

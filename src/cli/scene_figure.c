@@ -21,19 +21,26 @@ int scene_figure_begin(scene *s, const options *o) {
     return status == EXIT_FINE ? scene_begin(s, &view, o->operands[1]) : status;
 }
 
-static void describe(const scene *s, size_t count, chart *c) {
+/* The depth from which a pair can fight; NaN: at every one. */
+static double fights_from(const scene *s, const scene_finding *f) {
+    return s->eyes.count > 0 ? f->sight.fights_from : f->verdict.certain_to;
+}
+
+static void describe(const scene *s, const fights_asked *a, chart *c) {
     char label[SETUP_LABEL_SIZE], subtitle[sizeof c->subtitle];
     const char *slash = strrchr(s->file, '/');
     snprintf(subtitle, sizeof subtitle, "%.60s: ", slash != NULL ? slash + 1 : s->file);
-    if (count == 0)
+    if (a->count == 0)
         append(subtitle, sizeof subtitle, "no surfaces can fight before the far plane");
     else
-        append(subtitle, sizeof subtitle, "%zu pair%s of surfaces can fight before the far plane", count,
-               count == 1 ? "" : "s");
-    if (count > 0 && isnan(s->findings[0].verdict.certain_to))
-        append(subtitle, sizeof subtitle, ", the darkest are certain nowhere");
+        append(subtitle, sizeof subtitle, "%zu pair%s of surfaces can fight before the far plane", a->count,
+               a->count == 1 ? "" : "s");
+    if (a->count > 0 && isnan(a->item[0].from))
+        append(subtitle, sizeof subtitle, ", the darkest at every depth");
     append(subtitle, sizeof subtitle, "; %s", setup_label(&s->setup, true, label));
-    if (s->setup.spec.triangles.width > 0)
+    if (s->eyes.count > 0)
+        append(subtitle, sizeof subtitle, ", seen from %s", s->eyes.count > 1 ? "the worst of the eyes" : "the eye");
+    else if (s->setup.spec.triangles.width > 0)
         append(subtitle, sizeof subtitle, ", any slant at %d x %d", s->setup.spec.triangles.width,
                s->setup.spec.triangles.height);
     if (s->unit != NULL)
@@ -43,20 +50,16 @@ static void describe(const scene *s, size_t count, chart *c) {
 
 bool scene_figure_take(const scene *s, fights_asked *out, chart *c) {
     fights_item *items = chart_memory(c, s->found.findings + 1, sizeof *items);
-    *out = (fights_asked){.m = &s->model,
-                          .found = &s->found,
-                          .item = items,
-                          .gap = s->gap,
-                          .znear = s->setup.spec.znear,
-                          .zfar = s->setup.spec.zfar};
+    *out = (fights_asked){
+        .m = &s->model, .found = &s->found, .item = items, .gap = s->gap, .eye = s->eyes.eye, .eyes = s->eyes.count};
     if (items == NULL)
         return false;
     while (out->count < scene_fighting(s)) {
         const scene_finding *f = &s->findings[out->count];
-        items[out->count++] = (fights_item){f->of, f->verdict.certain_to};
+        items[out->count++] = (fights_item){f->of, fights_from(s, f)};
     }
     c->unit = s->unit;
-    describe(s, out->count, c);
+    describe(s, out, c);
     return true;
 }
 

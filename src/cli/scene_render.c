@@ -144,6 +144,7 @@ int scene_render(scene *s) {
                           .camera = &camera,
                           .progress = advance,
                           .context = &bar,
+                          .any_side = (s->o.filters_off & 1U << FINDER_FACING) != 0,
                           .blended = (s->o.filters_off & 1U << FINDER_BLENDED) != 0};
     const bool good = take_eye(s, &camera, &asked.eye);
     s->rendered.eye = (scene_place){asked.eye.place[0], asked.eye.place[1], asked.eye.place[2]};

@@ -11,7 +11,7 @@
 
 #include "plot/figure.h"
 
-enum { NUMBERED = 9, FIELDS_LEAST = 64, FIELDS_MOST = 2048 };
+enum { NUMBERED = 9, EYES_MOST = 256, FIELDS_LEAST = 64, FIELDS_MOST = 2048 };
 
 /* Of the width, around the model; and what shape a panel has at most, width over height. */
 static const double margin = 0.04, widest = 8.0, narrowest = 0.6;
@@ -115,20 +115,17 @@ static void draw_model(const fights_asked *a, const view *v, const box *all, con
     }
 }
 
-static double shown(const fights_asked *a, size_t i) {
-    return isnan(a->item[i].certain_to) ? a->znear : a->item[i].certain_to;
-}
-
-static void draw_overlaps(const fights_asked *a, const view *v, const sheet *s) {
+/* What fights at every depth has the lower end of the scale. */
+static void draw_overlaps(const fights_asked *a, const view *v, const sheet *s, double lowest) {
     for (size_t i = 0; i < a->count; i++) {
         const finder_finding *f = a->item[i].finding;
+        const double from = isnan(a->item[i].from) ? lowest : a->item[i].from;
         for (size_t k = f->first; k < f->first + f->pairs; k++) {
             double corner[FINDER_CORNERS][3];
             const int corners = finder_corners(a->m, a->found->pair[k].triangle, a->gap, corner);
             for (int c = 2; c < corners; c++) {
-                const spot fan[3] = {spot_of(s->panel, v, corner[0], shown(a, i)),
-                                     spot_of(s->panel, v, corner[c - 1], shown(a, i)),
-                                     spot_of(s->panel, v, corner[c], shown(a, i))};
+                const spot fan[3] = {spot_of(s->panel, v, corner[0], from), spot_of(s->panel, v, corner[c - 1], from),
+                                     spot_of(s->panel, v, corner[c], from)};
                 put_triangle(s, fan);
             }
         }
@@ -148,6 +145,18 @@ static void add_numbers(const fights_asked *a, const view *v, chart *out, chart_
         s->x[i] = a->item[i].finding->place[v->across];
         s->y[i] = a->item[i].finding->place[v->up];
         snprintf(s->labels[i], sizeof s->labels[i], "%zu", i + 1);
+    }
+}
+
+static void add_eyes(const fights_asked *a, const view *v, chart *out, chart_panel *panel) {
+    chart_series *s = a->eyes > 0 && a->eyes <= EYES_MOST ? chart_add_series(out, panel, CHART_POINTS, a->eyes) : NULL;
+    if (s == NULL)
+        return;
+    s->style = (chart_style){.colour = 1, .marker = 3};
+    snprintf(s->name, sizeof s->name, "%s", a->eyes > 1 ? "the eyes" : "the eye");
+    for (size_t i = 0; i < a->eyes; i++) {
+        s->x[i] = a->eye[i].place[v->across];
+        s->y[i] = a->eye[i].place[v->up];
     }
 }
 
@@ -182,41 +191,48 @@ static void add_view(const figure_request *r, const view *v, const box *all, dou
     if (panel->map.value == NULL || panel->map.under == NULL)
         return;
     draw_model(a, v, all, &(sheet){panel, panel->map.under});
-    draw_overlaps(a, v, &(sheet){panel, panel->map.value});
+    draw_overlaps(a, v, &(sheet){panel, panel->map.value}, out->value.lo);
     add_numbers(a, v, out, panel);
+    add_eyes(a, v, out, panel);
 }
 
 /* ---- The chart --------------------------------------------------------------------------------------------------- */
 
-static box box_of(const model *m) {
-    box b;
+static void reach(box *b, const double place[3]) {
     for (int k = 0; k < 3; k++) {
-        b.lo[k] = HUGE_VAL;
-        b.hi[k] = -HUGE_VAL;
-        for (size_t i = 0; i < 3 * m->triangles; i++) {
-            b.lo[k] = fmin(b.lo[k], m->position[m->triangle[i / 3][i % 3]][k]);
-            b.hi[k] = fmax(b.hi[k], m->position[m->triangle[i / 3][i % 3]][k]);
-        }
+        b->lo[k] = fmin(b->lo[k], place[k]);
+        b->hi[k] = fmax(b->hi[k], place[k]);
     }
+}
+
+/* Of the model and the eyes. */
+static box box_of(const fights_asked *a) {
+    box b = {{HUGE_VAL, HUGE_VAL, HUGE_VAL}, {-HUGE_VAL, -HUGE_VAL, -HUGE_VAL}};
+    for (size_t i = 0; i < 3 * a->m->triangles; i++)
+        reach(&b, a->m->position[a->m->triangle[i / 3][i % 3]]);
+    for (size_t i = 0; i < a->eyes && a->eyes <= EYES_MOST; i++)
+        reach(&b, a->eye[i].place);
     return b;
 }
 
-/* From the nearest fight to the farthest, less those that are certain nowhere, which have the darkest colour; without
- * the bright end, which is hard to tell from the model. */
+/* From the nearest fight to the farthest, without the bright end, which is hard to tell from the model. */
 static chart_axis depths_of(const fights_asked *a) {
-    chart_axis axis = {.label = "certain up to", .key = "certain_to", .unit = "scene units", .scale = CHART_LOG};
-    size_t first = 0;
-    while (first < a->count && isnan(a->item[first].certain_to))
-        first++;
-    axis.lo = first < a->count ? a->item[first].certain_to : a->znear;
-    axis.hi = first < a->count ? fmax(a->item[a->count - 1].certain_to, 2.0 * axis.lo) : fmin(a->zfar, 10.0 * a->znear);
+    chart_axis axis = {.label = "can fight from", .key = "fights_from", .unit = "scene units", .scale = CHART_LOG};
+    axis.lo = (double)INFINITY;
+    for (size_t i = 0; i < a->count; i++) {
+        axis.lo = fmin(axis.lo, a->item[i].from); /* without NaN */
+        axis.hi = fmax(axis.hi, a->item[i].from);
+    }
+    if (!(axis.lo <= axis.hi)) /* nothing to show, or nothing that is ever certain */
+        axis.lo = axis.hi = 1.0;
+    axis.hi = fmax(axis.hi, 2.0 * axis.lo);
     axis.hi *= pow(axis.hi / axis.lo, 0.2);
     return axis;
 }
 
 const char *fights_build(const figure_request *request, chart *out) {
     const fights_asked *a = request->fights;
-    const box all = box_of(a->m);
+    const box all = box_of(a);
     double size[3], height[2];
     if (a->m->triangles == 0)
         return "plot scene-fights: the model has no triangles";

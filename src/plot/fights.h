@@ -3,12 +3,13 @@
 #ifndef PLOT_FIGHTS_H
 #define PLOT_FIGHTS_H
 
+#include "scene/eye.h"
 #include "scene/find.h"
 
-/** Two surfaces that can fight before the far plane. */
+/** Two surfaces that can fight. */
 typedef struct fights_item {
     const finder_finding *finding;
-    double certain_to; /**< eye depth up to which they are told apart, scene units; NaN where not even at near */
+    double from; /**< eye depth from which they can fight, scene units; NaN where at every one */
 } fights_item;
 
 typedef struct fights_asked {
@@ -16,8 +17,9 @@ typedef struct fights_asked {
     const finder_found *found;
     const fights_item *item; /**< the nearest fight first */
     size_t count;
-    double gap;         /**< of the search, scene units */
-    double znear, zfar; /**< of the camera; the latter may be INFINITY */
+    double gap;           /**< of the search, scene units */
+    const scene_eye *eye; /**< from which they are judged */
+    size_t eyes;          /**< 0: from everywhere */
 } fights_asked;
 
 #endif

@@ -37,7 +37,7 @@ static const figure_row rows[] = {
      "that",
      1, FIGURE_AT | FIGURE_FP32 | FIGURE_BINARY32 | FIGURE_DRAWN, NULL, "unorm24", fight_build},
     {"scene-fights", "Which surfaces of the model fight, and from where on",
-     "a model from above and from the side: where surfaces overlap, colour = depth up to which they are told apart", 1,
+     "a model from above and from the side: where surfaces overlap, colour = depth from which they can fight", 1,
      FIGURE_MODEL, NULL, NULL, fights_build},
     {"scene", "What the scene needs and what the cameras give",
      "a requirement file: the separation (or error) that each requirement allows against what its set-up gives",
