@@ -304,9 +304,10 @@ static void test_decal(void **state) {
 /* ---- What is drawn, colours, views ------------------------------------------------------------------------------- */
 
 /* A wall that fills the lower half, seen from its front, its back, as glass. */
-static size_t shown_of(bool back, bool two_sided, bool blended, bool also, uint32_t *pixel) {
+static size_t shown_of(bool back, bool two_sided, bool any_side, bool blended, bool also, uint32_t *pixel) {
     const stage s = stage_of("llvmpipe", "fp32", DP_MAPPING_REVERSED, 0.1, 100);
-    render_asked asked = {.m = &made.m, .camera = &s.camera, .eye = ahead_from(2.0), .blended = also};
+    render_asked asked = {
+        .m = &made.m, .camera = &s.camera, .eye = ahead_from(2.0), .any_side = any_side, .blended = also};
     render_picture p;
     size_t count = 0;
     scene_made_begin(&made);
@@ -331,11 +332,12 @@ static void test_drawn(void **state) {
     static uint32_t pixel[HEIGHT * WIDTH];
     const size_t half = WIDTH * HEIGHT / 2;
     (void)state;
-    assert_int_equal(shown_of(false, false, false, false, NULL), half);
-    assert_int_equal(shown_of(true, false, false, false, NULL), 0);
-    assert_int_equal(shown_of(true, true, false, false, NULL), half);
-    assert_int_equal(shown_of(false, false, true, false, NULL), 0);
-    assert_int_equal(shown_of(false, false, true, true, pixel), half);
+    assert_int_equal(shown_of(false, false, false, false, false, NULL), half);
+    assert_int_equal(shown_of(true, false, false, false, false, NULL), 0);
+    assert_int_equal(shown_of(true, true, false, false, false, NULL), half);
+    assert_int_equal(shown_of(true, false, true, false, false, NULL), half);
+    assert_int_equal(shown_of(false, false, false, true, false, NULL), 0);
+    assert_int_equal(shown_of(false, false, false, true, true, pixel), half);
     const uint32_t wall = pixel[HEIGHT * WIDTH - 1];
     for (int i = 0; i < HEIGHT * WIDTH; i++) {
         const bool red = i == (HEIGHT - 1) * WIDTH;

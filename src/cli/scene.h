@@ -83,6 +83,9 @@ int scene_look(scene *s, output *out);
 /** Frees what was read and found. */
 void scene_end(scene *s);
 
+/** How many of the findings can fight before the far plane, from an eye there; they come first. */
+size_t scene_fighting(const scene *s);
+
 /** Whether --from, --look, --path and --camera go together. @return EXIT_FINE, or EXIT_USAGE after one line */
 int scene_eyes_check(const options *o);
 

@@ -48,11 +48,17 @@ int scene_render_check(scene *s) {
     draw_camera camera;
     if (s->o.render == NULL)
         return EXIT_FINE;
+    if (s->o.path != NULL)
+        return option_error(OPTION_RENDER, "cannot be combined with --path: a picture has one eye");
     return take_camera(s, &camera);
 }
 
-/* All of the model, from where the worst of the findings are seen. */
-static bool overview(const scene *s, const draw_camera *camera, scene_eye *eye) {
+/* The eye that was asked for; else all of the model, from where the worst of the findings are seen. */
+static bool take_eye(const scene *s, const draw_camera *camera, scene_eye *eye) {
+    if (s->eyes.count > 0) {
+        *eye = s->eyes.eye[0];
+        return true;
+    }
     const size_t count = s->found.findings;
     double(*towards)[3] = malloc((count + 1) * sizeof *towards);
     if (towards == NULL)
@@ -138,8 +144,9 @@ int scene_render(scene *s) {
                           .camera = &camera,
                           .progress = advance,
                           .context = &bar,
+                          .any_side = (s->o.filters_off & 1U << FINDER_FACING) != 0,
                           .blended = (s->o.filters_off & 1U << FINDER_BLENDED) != 0};
-    const bool good = overview(s, &camera, &asked.eye);
+    const bool good = take_eye(s, &camera, &asked.eye);
     s->rendered.eye = (scene_place){asked.eye.place[0], asked.eye.place[1], asked.eye.place[2]};
     s->rendered.ahead = (scene_place){asked.eye.ahead[0], asked.eye.ahead[1], asked.eye.ahead[2]};
     const render_status drawn = good ? render_draw(&asked, &p) : RENDER_NO_MEMORY;

@@ -25,8 +25,7 @@ static const char *called(const scene_named *n, char out[NAME_SIZE]) {
     return out;
 }
 
-/* How many fight before the far plane, from an eye there; they come first. */
-static size_t fighting(const scene *s) {
+size_t scene_fighting(const scene *s) {
     size_t n = 0;
     while (n < s->found.findings && (s->eyes.count > 0 ? !isnan(s->findings[n].sight.fights_from)
                                                        : !(s->findings[n].verdict.certain_to >= s->setup.spec.zfar)))
@@ -36,7 +35,7 @@ static size_t fighting(const scene *s) {
 
 /* From an eye, how many more are told apart only if their triangles are cut; they come next. */
 static size_t uncovered(const scene *s) {
-    const size_t fights = fighting(s);
+    const size_t fights = scene_fighting(s);
     size_t n = fights;
     while (n < s->found.findings && !s->findings[n].sight.covered)
         n++;
@@ -58,7 +57,7 @@ static void say_eyes(page *p, const scene *s) {
 }
 
 static void say_seen(page *p, const scene *s) {
-    const size_t count = s->found.findings, fights = fighting(s), cut = uncovered(s);
+    const size_t count = s->found.findings, fights = scene_fighting(s), cut = uncovered(s);
     size_t seen = 0;
     for (size_t i = 0; i < count; i++)
         seen += isnan(s->findings[i].sight.seen_from) ? 0 : 1;
@@ -71,7 +70,7 @@ static void say_seen(page *p, const scene *s) {
 static void say_head(page *p, void *of) {
     const scene *s = of;
     const model_notes *n = &s->model.notes;
-    const size_t count = s->found.findings, fights = fighting(s);
+    const size_t count = s->found.findings, fights = scene_fighting(s);
     char how_many[24] = "none";
     if (fights > 0)
         snprintf(how_many, sizeof how_many, "%zu", fights);
@@ -172,7 +171,7 @@ static void say_picture(page *p, const scene *s) {
 
 static void say_notes(page *p, void *of) {
     const scene *s = of;
-    const size_t fights = fighting(s) + (s->eyes.count > 0 ? uncovered(s) : 0);
+    const size_t fights = scene_fighting(s) + (s->eyes.count > 0 ? uncovered(s) : 0);
     const size_t shown = fights < SHOWN_MOST ? fights : SHOWN_MOST;
     for (size_t i = 0; i < shown; i++)
         say_finding(p, s, i);

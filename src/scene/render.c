@@ -62,7 +62,8 @@ static bool look_at(const rendering *r, uint32_t t, seen *out) {
     }
     cross(side[0], side[1], normal);
     const double volume = dot(normal, out->place[0]); /* eye space is left-handed: above 0 from the front */
-    if (!(fabs(volume) > 0.0) || (volume < 0.0 && !surface->two_sided) || (surface->blended && !r->asked->blended))
+    if (!(fabs(volume) > 0.0) || (volume < 0.0 && !surface->two_sided && !r->asked->any_side) ||
+        (surface->blended && !r->asked->blended))
         return false;
     for (int i = 0; i < 3; i++) {
         cross(out->place[i], out->place[(i + 1) % 3], out->edge[i]);

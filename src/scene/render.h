@@ -38,7 +38,8 @@ typedef struct render_asked {
     const model *m;
     const draw_camera *camera; /**< of at most RENDER_PIXELS_MAX pixels */
     scene_eye eye;
-    bool blended; /**< blended materials are drawn, too, as if they were opaque */
+    bool any_side; /**< triangles are drawn whichever way they face */
+    bool blended;  /**< blended materials are drawn, too, as if they were opaque */
     /** Told now and then the share that is done; nonzero stops. May be null. */
     int (*progress)(void *context, double share);
     void *context;
