@@ -181,6 +181,14 @@ static bool draw_panel(const pencil *p, const chart *c, const grid *g, int index
     return true;
 }
 
+/* Of the tick labels on the left of all panels. */
+static double widest_y(const pencil *p, const chart *c, int labels) {
+    double widest = 0;
+    for (size_t i = 0; i < c->panel_count; i++)
+        widest = fmax(widest, axes_widest_label(p, &c->panels[i].y, labels));
+    return widest;
+}
+
 static bool draw_page(const pencil *p, const chart *c, double width, double height) {
     const chart_axis *x = &c->panels[0].x, *y = &c->panels[0].y, *second = &c->panels[0].second;
     double s = p->scale, caption = words_height(&p->text), label = words_height(&p->small);
@@ -199,9 +207,7 @@ static bool draw_page(const pencil *p, const chart *c, double width, double heig
 
     /* Tick labels stand to the left of the panels, and half of the last one to their right. */
     const int labels = axes_room_y(p, g.area.h / g.rows - g.heading);
-    double left = 0;
-    for (size_t i = 0; i < c->panel_count; i++)
-        left = fmax(left, axes_widest_label(p, &c->panels[i].y, labels) + TICK_ROOM * s);
+    double left = widest_y(p, c, labels) + TICK_ROOM * s;
     double x_label = axes_widest_label(p, x, axes_room_x(p, g.area.w / g.columns)), right = x_label / 2;
     g.gap_x = fmax(PANEL_GAP * s, x_label + SPACE * s); /* two neighbours' end labels meet there */
     g.gap_y = PANEL_GAP * s;
