@@ -81,27 +81,43 @@ static int read_model(scene *s) {
     return error.unreadable ? EXIT_IO : status;
 }
 
+typedef struct box {
+    double lo[3], hi[3];
+} box;
+
 /* Of the triangles: a file may have vertices that none of them uses. */
-static double extent_of(const model *m) {
-    double sum = 0.0;
-    for (int k = 0; k < 3; k++) {
-        double lo = HUGE_VAL, hi = -HUGE_VAL;
-        for (size_t i = 0; i < 3 * m->triangles; i++) {
-            const double x = m->position[m->triangle[i / 3][i % 3]][k];
-            lo = fmin(lo, x);
-            hi = fmax(hi, x);
+static box box_of(const model *m) {
+    box b = {{HUGE_VAL, HUGE_VAL, HUGE_VAL}, {-HUGE_VAL, -HUGE_VAL, -HUGE_VAL}};
+    for (size_t i = 0; i < 3 * m->triangles; i++) {
+        const double *x = m->position[m->triangle[i / 3][i % 3]];
+        for (int k = 0; k < 3; k++) {
+            b.lo[k] = fmin(b.lo[k], x[k]);
+            b.hi[k] = fmax(b.hi[k], x[k]);
         }
-        sum = hypot(sum, hi - lo);
     }
-    return sum;
+    return b;
+}
+
+/* As far as the model reaches, of every eye that was asked for; without one, across. */
+static double farthest(const scene *s, const box *b) {
+    double reach = s->eyes.count > 0 ? 0.0 : s->extent;
+    for (size_t i = 0; i < 8 * s->eyes.count; i++) {
+        const double corner[3] = {i & 1 ? b->hi[0] : b->lo[0], i & 2 ? b->hi[1] : b->lo[1],
+                                  i & 4 ? b->hi[2] : b->lo[2]};
+        double seen[3];
+        scene_eye_sees(&s->eyes.eye[i / 8], corner, seen);
+        reach = fmax(reach, seen[2]);
+    }
+    return reach;
 }
 
 /* What was not said: as far as the model reaches, and the largest distance that is not told apart there. */
 static int take_limits(scene *s) {
     const double znear = s->setup.spec.znear, zfar = s->setup.spec.zfar;
+    const box b = box_of(&s->model);
     dp_separation_worst worst = {.bound = HUGE_VAL};
-    s->extent = extent_of(&s->model);
-    s->within = option_given(&s->o, OPTION_WITHIN) ? s->o.within : fmin(fmax(s->extent, 2.0 * znear), zfar);
+    s->extent = hypot(hypot(b.hi[0] - b.lo[0], b.hi[1] - b.lo[1]), b.hi[2] - b.lo[2]);
+    s->within = option_given(&s->o, OPTION_WITHIN) ? s->o.within : fmin(fmax(farthest(s, &b), 2.0 * znear), zfar);
     if (!(s->within >= znear && s->within <= zfar))
         return option_error(OPTION_WITHIN, "must lie between near and far, got '%s'", number_full(s->within).text);
     dp_separation_over(&s->setup, znear, s->within, 0.0, &worst);

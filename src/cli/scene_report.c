@@ -166,7 +166,7 @@ static void say_finding(page *p, const scene *s, size_t i) {
               number_of(f->place.x, DIGITS).text, number_of(f->place.y, DIGITS).text,
               number_of(f->place.z, DIGITS).text);
     if (f->wrong_pixels > 0.0)
-        page_note(p, "", "%.0f pixels wrong in %s", f->wrong_pixels, s->rendered.file);
+        page_note(p, "", "%.0f pixel%s wrong", f->wrong_pixels, f->wrong_pixels == 1.0 ? "" : "s");
     if (v->lift > 0.0 && isfinite(v->lift))
         page_note(p, "", "%s more between them are enough up to %s", safe_length(p, v->lift, true).text,
                   length(p, s->within).text);
