@@ -12,6 +12,7 @@
 #include "cli/slant.h"
 #include "cli/stop.h"
 #include "core/append.h"
+#include "core/elementary.h"
 #include "model/model.h"
 #include "report/number.h"
 #include "scene/find.h"
@@ -106,7 +107,7 @@ static double extent_of(const model *m) {
             lo = fmin(lo, x);
             hi = fmax(hi, x);
         }
-        sum = hypot(sum, hi - lo);
+        sum = dp_hypot(sum, hi - lo);
     }
     return sum;
 }
