@@ -259,6 +259,27 @@ static void pictures(void **state) {
     json_decref(root);
 }
 
+/* From an eye that is farther off than the model is large, what is not said reaches as far as the eye sees: each lift
+ * is for the farthest place. */
+static void far_off(void **state) {
+    printed p = print_of("scene " HOUSE " -F d24 -m d3d --from 0,50,400 --look 0,0,0 --json");
+    json_t *root = json_of(p.out), *list = json_object_get(root, "findings");
+    const double within = number(root, "within");
+    size_t fighting = 0;
+    (void)state;
+    assert_true(within > 400 && within < 450); /* the terrain ends at z = -21 */
+    for (size_t i = 0; i < json_array_size(list); i++) {
+        const json_t *f = json_array_get(list, i);
+        if (!json_is_number(json_object_get(f, "fights_from")))
+            continue;
+        fighting++;
+        assert_true(number(f, "seen_to") <= within && number(f, "lift") > 0);
+    }
+    assert_true(fighting > FIGHTS);
+    json_decref(root);
+    printed_free(&p);
+}
+
 /* In words: the rounding of the transforms makes no gap where there is none, nor two of one. */
 static void in_words(void **state) {
     printed p = print_of("scene " HOUSE " -n 0.05 -F d24 -m d3d --viewport 960x540 --fov 23 --within 60 --unit m");
@@ -274,8 +295,8 @@ static void in_words(void **state) {
 }
 
 int main(void) {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(made),     cmocka_unit_test(known),
-                                       cmocka_unit_test(left_out), cmocka_unit_test(mended),
-                                       cmocka_unit_test(pictures), cmocka_unit_test(in_words)};
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(made),     cmocka_unit_test(known),   cmocka_unit_test(left_out), cmocka_unit_test(mended),
+        cmocka_unit_test(pictures), cmocka_unit_test(far_off), cmocka_unit_test(in_words)};
     return run_tap(tests);
 }
