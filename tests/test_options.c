@@ -458,11 +458,15 @@ static void test_texts(void **state) {
         option_id id;
         size_t field;
         bool file;
-    } texts[] = {
-        {"texture", OPTION_TITLE, AT(title), false},      {"texture", OPTION_CHANNEL, AT(channel), false},
-        {"table", OPTION_OUTPUT, AT(output), true},       {"texture", OPTION_MATRIX, AT(matrix), true},
-        {"texture", OPTION_FIGURE, AT(figure), true},     {"texture", OPTION_HISTOGRAM, AT(histogram), true},
-        {"scene m.obj", OPTION_RENDER, AT(render), true}, {"scene m.obj", OPTION_ANNOTATE, AT(annotate), true}};
+    } texts[] = {{"texture", OPTION_TITLE, AT(title), false},
+                 {"texture", OPTION_CHANNEL, AT(channel), false},
+                 {"table", OPTION_OUTPUT, AT(output), true},
+                 {"texture", OPTION_MATRIX, AT(matrix), true},
+                 {"texture", OPTION_FIGURE, AT(figure), true},
+                 {"texture", OPTION_HISTOGRAM, AT(histogram), true},
+                 {"scene m.obj", OPTION_RENDER, AT(render), true},
+                 {"scene m.obj", OPTION_ANNOTATE, AT(annotate), true},
+                 {"scene m.obj", OPTION_EMIT_NEED, AT(emit_need), true}};
     tally t = {.name = "texts"};
     (void)state;
     for (size_t i = 0; i < sizeof texts / sizeof texts[0]; i++) {

@@ -34,7 +34,10 @@ static int check_files(const scene *s) {
     const struct {
         option_id id;
         const char *path;
-    } files[] = {{OPTION_OUTPUT, o->output}, {OPTION_RENDER, o->render}, {OPTION_ANNOTATE, o->annotate}};
+    } files[] = {{OPTION_OUTPUT, o->output},
+                 {OPTION_RENDER, o->render},
+                 {OPTION_ANNOTATE, o->annotate},
+                 {OPTION_EMIT_NEED, o->emit_need}};
     for (size_t i = 0; i < sizeof files / sizeof files[0]; i++) {
         if (files[i].path == NULL)
             continue;
@@ -236,7 +239,10 @@ int scene_look(scene *s, output *out) {
     if (status == EXIT_FINE)
         status = find(s);
     stop_end(out);
-    return status == EXIT_FINE ? judge(s) : status;
+    if (status == EXIT_FINE)
+        status = judge(s);
+    scene_bias_take(s);
+    return status;
 }
 
 void scene_end(scene *s) {
@@ -246,30 +252,62 @@ void scene_end(scene *s) {
     model_free(&s->model);
 }
 
+/* What is asked of this command alone. */
+static int check_asked(const scene *s) {
+    const options *o = &s->o;
+    if (o->report != REPORT_TEXT && o->form != FORM_TEXT)
+        return option_error(OPTION_REPORT, "cannot be combined with --json or --csv");
+    if (o->report == REPORT_JUNIT && !option_given(o, OPTION_WITHIN))
+        return option_error(OPTION_REPORT, "junit needs --within: what fights nearer fails");
+    if (o->emit_need != NULL && option_given(o, OPTION_GAP) && o->gap == 0.0)
+        return option_error(OPTION_EMIT_NEED, "needs a --gap above 0: no camera tells one plane apart");
+    if (o->api == NULL)
+        return option_error(OPTION_API, "must name one here, got 'all'");
+    return check_files(s);
+}
+
+/* The files beside the report, each after the one before, so that an interrupt leaves whole ones alone. */
+static int write_files(scene *s, output *out) {
+    const struct {
+        const char *path;
+        int (*write)(scene *s);
+    } files[] = {{s->o.render, scene_render}, {s->o.annotate, scene_annotate}, {s->o.emit_need, scene_need}};
+    int status = EXIT_FINE;
+    for (size_t i = 0; i < sizeof files / sizeof files[0] && status == EXIT_FINE; i++) {
+        if (files[i].path != NULL)
+            status = files[i].write(s);
+        stop_end(out);
+    }
+    return status;
+}
+
+static int write_report(scene *s, output *out) {
+    if (s->o.report == REPORT_JUNIT) {
+        scene_junit(s, out);
+    } else {
+        const report_spec spec = scene_report(s);
+        report_write(&spec, out, s->o.report == REPORT_JSON ? FORM_JSON : s->o.form);
+    }
+    return output_close(out);
+}
+
 int cmd_scene(const options *given) {
     output out;
     scene s;
     int status = scene_begin(&s, given, given->operands[0]);
     if (status == EXIT_FINE)
-        status = check_files(&s);
+        status = check_asked(&s);
     if (status == EXIT_FINE)
         status = options_open(&s.o, &out);
     if (status != EXIT_FINE)
         return status;
     status = scene_look(&s, &out);
-    if (status == EXIT_FINE && s.o.render != NULL)
-        status = scene_render(&s);
-    stop_end(&out);
-    if (status == EXIT_FINE && s.o.annotate != NULL)
-        status = scene_annotate(&s);
-    stop_end(&out);
-    if (status == EXIT_FINE) {
-        const report_spec spec = scene_report(&s);
-        report_write(&spec, &out, s.o.form);
-        status = output_close(&out);
-    } else {
+    if (status == EXIT_FINE)
+        status = write_files(&s, &out);
+    if (status == EXIT_FINE)
+        status = write_report(&s, &out);
+    else
         output_abandon(&out);
-    }
     if (status == EXIT_FINE && option_given(&s.o, OPTION_WITHIN) && !s.passed)
         status = EXIT_FAILED;
     scene_end(&s);
