@@ -201,7 +201,7 @@ static void path(void **state) {
     json_decref(root);
     printed p = print_of("%s", line);
     assert_non_null(strstr(p.out, "from the worst of the 4 eyes of "));
-    assert_non_null(strstr(p.out, ": can fight; worst at line 5\n"));
+    assert_non_null(strstr(p.out, ": can fight, worst at line 5; "));
     printed_free(&p);
 }
 
