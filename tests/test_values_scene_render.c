@@ -72,7 +72,7 @@ static void counts(void **state) {
         assert_true(number(render, "wrong_found") == (double)seen.red);
         p = print_of("scene %s%s %s --render %s", STREET, DRAWN, rows[i].options, path);
         for (size_t n = 0; n < 2; n++) {
-            snprintf(want, sizeof want, "      %.0f pixels wrong in ", number(json_array_get(list, n), "wrong_pixels"));
+            snprintf(want, sizeof want, "      %.0f pixels wrong\n", number(json_array_get(list, n), "wrong_pixels"));
             assert_non_null(strstr(p.out, want));
         }
         snprintf(want, sizeof want, "%zu wrong", seen.red);
@@ -90,6 +90,8 @@ static void refused(void **state) {
         const char *said;
     } rows[] = {
         {"--render ''", 2, "--render: must be a file name, got ''"},
+        {"--render x.jpg", 2, "--render: must end in .png, got 'x.jpg'"},
+        {"--render -", 2, "--render: must end in .png, got '-'"},
         {"--render none/x.png", 3, "cannot write 'none/x.png': No such file or directory"},
         {"--render x.png -F fp16", 2, "--format: must be one that llvmpipe has and that can be bounded, got fp16"},
         {"--render x.png -m gl --raster softpipe", 2, "--mapping: must be d3d or reversed with --raster softpipe"},

@@ -11,6 +11,7 @@
 #include "cli/scene.h"
 #include "cli/setups.h"
 #include "cli/stop.h"
+#include "core/elementary.h"
 #include "report/number.h"
 
 enum { STEPS = 1000 };
@@ -34,7 +35,10 @@ static int check_files(const scene *s) {
     const struct {
         option_id id;
         const char *path;
-    } files[] = {{OPTION_OUTPUT, o->output}, {OPTION_RENDER, o->render}, {OPTION_ANNOTATE, o->annotate}};
+    } files[] = {{OPTION_OUTPUT, o->output},
+                 {OPTION_RENDER, o->render},
+                 {OPTION_ANNOTATE, o->annotate},
+                 {OPTION_EMIT_NEED, o->emit_need}};
     for (size_t i = 0; i < sizeof files / sizeof files[0]; i++) {
         if (files[i].path == NULL)
             continue;
@@ -78,27 +82,43 @@ static int read_model(scene *s) {
     return error.unreadable ? EXIT_IO : status;
 }
 
+typedef struct box {
+    double lo[3], hi[3];
+} box;
+
 /* Of the triangles: a file may have vertices that none of them uses. */
-static double extent_of(const model *m) {
-    double sum = 0.0;
-    for (int k = 0; k < 3; k++) {
-        double lo = HUGE_VAL, hi = -HUGE_VAL;
-        for (size_t i = 0; i < 3 * m->triangles; i++) {
-            const double x = m->position[m->triangle[i / 3][i % 3]][k];
-            lo = fmin(lo, x);
-            hi = fmax(hi, x);
+static box box_of(const model *m) {
+    box b = {{HUGE_VAL, HUGE_VAL, HUGE_VAL}, {-HUGE_VAL, -HUGE_VAL, -HUGE_VAL}};
+    for (size_t i = 0; i < 3 * m->triangles; i++) {
+        const double *x = m->position[m->triangle[i / 3][i % 3]];
+        for (int k = 0; k < 3; k++) {
+            b.lo[k] = fmin(b.lo[k], x[k]);
+            b.hi[k] = fmax(b.hi[k], x[k]);
         }
-        sum = hypot(sum, hi - lo);
     }
-    return sum;
+    return b;
+}
+
+/* As far as the model reaches, of every eye that was asked for; without one, across. */
+static double farthest(const scene *s, const box *b) {
+    double reach = s->eyes.count > 0 ? 0.0 : s->extent;
+    for (size_t i = 0; i < 8 * s->eyes.count; i++) {
+        const double corner[3] = {i & 1 ? b->hi[0] : b->lo[0], i & 2 ? b->hi[1] : b->lo[1],
+                                  i & 4 ? b->hi[2] : b->lo[2]};
+        double seen[3];
+        scene_eye_sees(&s->eyes.eye[i / 8], corner, seen);
+        reach = fmax(reach, seen[2]);
+    }
+    return reach;
 }
 
 /* What was not said: as far as the model reaches, and the largest distance that is not told apart there. */
 static int take_limits(scene *s) {
     const double znear = s->setup.spec.znear, zfar = s->setup.spec.zfar;
+    const box b = box_of(&s->model);
     dp_separation_worst worst = {.bound = HUGE_VAL};
-    s->extent = extent_of(&s->model);
-    s->within = option_given(&s->o, OPTION_WITHIN) ? s->o.within : fmin(fmax(s->extent, 2.0 * znear), zfar);
+    s->extent = dp_hypot(dp_hypot(b.hi[0] - b.lo[0], b.hi[1] - b.lo[1]), b.hi[2] - b.lo[2]);
+    s->within = option_given(&s->o, OPTION_WITHIN) ? s->o.within : fmin(fmax(farthest(s, &b), 2.0 * znear), zfar);
     if (!(s->within >= znear && s->within <= zfar))
         return option_error(OPTION_WITHIN, "must lie between near and far, got '%s'", number_full(s->within).text);
     dp_separation_over(&s->setup, znear, s->within, 0.0, &worst);
@@ -220,7 +240,10 @@ int scene_look(scene *s, output *out) {
     if (status == EXIT_FINE)
         status = find(s);
     stop_end(out);
-    return status == EXIT_FINE ? judge(s) : status;
+    if (status == EXIT_FINE)
+        status = judge(s);
+    scene_bias_take(s);
+    return status;
 }
 
 void scene_end(scene *s) {
@@ -230,30 +253,62 @@ void scene_end(scene *s) {
     model_free(&s->model);
 }
 
+/* What is asked of this command alone. */
+static int check_asked(const scene *s) {
+    const options *o = &s->o;
+    if (o->report != REPORT_TEXT && o->form != FORM_TEXT)
+        return option_error(OPTION_REPORT, "cannot be combined with --json or --csv");
+    if (o->report == REPORT_JUNIT && !option_given(o, OPTION_WITHIN))
+        return option_error(OPTION_REPORT, "junit needs --within: what fights nearer fails");
+    if (o->emit_need != NULL && option_given(o, OPTION_GAP) && o->gap == 0.0)
+        return option_error(OPTION_EMIT_NEED, "needs a --gap above 0: no camera tells one plane apart");
+    if (o->api == NULL)
+        return option_error(OPTION_API, "must name one here, got 'all'");
+    return check_files(s);
+}
+
+/* The files beside the report, each after the one before, so that an interrupt leaves whole ones alone. */
+static int write_files(scene *s, output *out) {
+    const struct {
+        const char *path;
+        int (*write)(scene *s);
+    } files[] = {{s->o.render, scene_render}, {s->o.annotate, scene_annotate}, {s->o.emit_need, scene_need}};
+    int status = EXIT_FINE;
+    for (size_t i = 0; i < sizeof files / sizeof files[0] && status == EXIT_FINE; i++) {
+        if (files[i].path != NULL)
+            status = files[i].write(s);
+        stop_end(out);
+    }
+    return status;
+}
+
+static int write_report(scene *s, output *out) {
+    if (s->o.report == REPORT_JUNIT) {
+        scene_junit(s, out);
+    } else {
+        const report_spec spec = scene_report(s);
+        report_write(&spec, out, s->o.report == REPORT_JSON ? FORM_JSON : s->o.form);
+    }
+    return output_close(out);
+}
+
 int cmd_scene(const options *given) {
     output out;
     scene s;
     int status = scene_begin(&s, given, given->operands[0]);
     if (status == EXIT_FINE)
-        status = check_files(&s);
+        status = check_asked(&s);
     if (status == EXIT_FINE)
         status = options_open(&s.o, &out);
     if (status != EXIT_FINE)
         return status;
     status = scene_look(&s, &out);
-    if (status == EXIT_FINE && s.o.render != NULL)
-        status = scene_render(&s);
-    stop_end(&out);
-    if (status == EXIT_FINE && s.o.annotate != NULL)
-        status = scene_annotate(&s);
-    stop_end(&out);
-    if (status == EXIT_FINE) {
-        const report_spec spec = scene_report(&s);
-        report_write(&spec, &out, s.o.form);
-        status = output_close(&out);
-    } else {
+    if (status == EXIT_FINE)
+        status = write_files(&s, &out);
+    if (status == EXIT_FINE)
+        status = write_report(&s, &out);
+    else
         output_abandon(&out);
-    }
     if (status == EXIT_FINE && option_given(&s.o, OPTION_WITHIN) && !s.passed)
         status = EXIT_FAILED;
     scene_end(&s);

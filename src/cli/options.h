@@ -92,6 +92,7 @@ typedef enum option_id {
     OPTION_TRANSFORMS,
     OPTION_RENDER,
     OPTION_ANNOTATE,
+    OPTION_EMIT_NEED,
     OPTION_HALF_HEIGHT,
     OPTION_MATRIX,
     OPTION_YAW,
@@ -217,6 +218,7 @@ typedef struct options {
     unsigned filters_off;     /**< of a model's pairs: 1 << finder_filter, or-ed */
     const char *render;       /**< file of a picture; null when not given */
     const char *annotate;     /**< file of a model; null when not given */
+    const char *emit_need;    /**< file of requirements; null when not given */
     uint64_t sample;          /**< pairs to draw; 0 when not given */
     uint64_t seed;
     const vertex_program *against[VERTEX_OTHERS]; /**< in the order given, each once */

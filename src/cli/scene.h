@@ -47,6 +47,12 @@ typedef struct scene_rendered {
     uint64_t wrong_pixels, wrong_found; /* those of findings */
 } scene_rendered;
 
+/* What a program adds to one of two surfaces; NaN where no bias is enough. */
+typedef struct scene_bias {
+    const char *api;
+    double units, factor;
+} scene_bias;
+
 /* The eyes from which a model is judged. */
 typedef struct scene_eyes {
     scene_eye *eye; /* in the order of the file */
@@ -67,6 +73,7 @@ typedef struct scene {
     finder_found found;
     scene_finding *findings;
     const char *file, *unit, *transforms;
+    scene_bias bias;
     scene_rendered rendered;
     const scene_rendered *picture; /* null without --render */
     double gap, angle, within, extent;
@@ -97,6 +104,24 @@ int scene_eyes_take(scene *s);
 
 /** Judges the findings from them. @return EXIT_FINE, also where it was interrupted, or EXIT_USAGE after one line */
 int scene_eyes_judge(scene *s);
+
+/** Distances are measured to this share of the model's extent: what is less is none. */
+#define SCENE_NO_GAP 1e-12
+
+/** Finds the bias of --api that brings one of two coplanar surfaces before the other up to `within`. */
+void scene_bias_take(scene *s);
+
+/** The two surfaces, "'wall' (brick) and 'sign' (tin)". @return out */
+char *scene_surfaces(const scene_finding *f, char *out, size_t size);
+
+/** How far they are certain, and how far apart, as text has it. @return out */
+char *scene_sentence(const scene *s, const scene_finding *f, char *out, size_t size);
+
+/** Writes the findings as JUnit XML: those fail that fight nearer than --within. */
+void scene_junit(const scene *s, output *out);
+
+/** Writes the file of --emit-need. @return EXIT_FINE, or EXIT_IO after one line */
+int scene_need(scene *s);
 
 /** The report: head and notes of the text, columns of JSON and CSV. */
 report_spec scene_report(scene *s);

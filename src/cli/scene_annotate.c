@@ -14,10 +14,8 @@ static const gltf_mark marks[] = {[NEARER - 1] = {"depthprec: fights", {0.8, 0.0
 
 /* The findings come with the nearest fight first, so the first mark of a triangle stands. */
 static void mark_triangles(const scene *s, unsigned char *mark) {
-    for (size_t i = 0; i < s->found.findings; i++) {
+    for (size_t i = 0; i < scene_fighting(s); i++) {
         const scene_finding *f = &s->findings[i];
-        if (f->verdict.certain_to >= s->setup.spec.zfar)
-            continue;
         for (size_t k = f->of->first; k < f->of->first + f->of->pairs; k++)
             for (int side = 0; side < 2; side++) {
                 unsigned char *at = &mark[s->found.pair[k].triangle[side]];

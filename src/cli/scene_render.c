@@ -8,6 +8,7 @@
 #include "cli/progress.h"
 #include "cli/scene.h"
 #include "cli/stop.h"
+#include "plot/canvas.h"
 #include "plot/pixels.h"
 #include "report/number.h"
 #include "scene/render.h"
@@ -48,6 +49,8 @@ int scene_render_check(scene *s) {
     draw_camera camera;
     if (s->o.render == NULL)
         return EXIT_FINE;
+    if (canvas_format_of(s->o.render) != CANVAS_PNG)
+        return option_error(OPTION_RENDER, "must end in .png, got '%s'", s->o.render);
     if (s->o.path != NULL)
         return option_error(OPTION_RENDER, "cannot be combined with --path: a picture has one eye");
     return take_camera(s, &camera);

@@ -5,11 +5,12 @@
 #include <math.h>
 #include <stdio.h>
 
+#include "cli/bias_all.h"
 #include "core/append.h"
 #include "report/number.h"
 #include "report/page.h"
 
-enum { DIGITS = 4, SHOWN_MOST = 20, LABEL = 4, NAME_SIZE = 128, LINE_SIZE = 256 };
+enum { DIGITS = 4, SHOWN_MOST = 20, LABEL = 4, NAME_SIZE = 128, LINE_SIZE = 2 * NAME_SIZE + 8 };
 
 /* ---- Text -------------------------------------------------------------------------------------------------------- */
 
@@ -22,6 +23,12 @@ static const char *called(const scene_named *n, char out[NAME_SIZE]) {
     append(out, NAME_SIZE, "'%.40s'", n->node != NULL ? n->node : n->mesh != NULL ? n->mesh : "(no name)");
     if (n->material != NULL)
         append(out, NAME_SIZE, " (%.40s)", n->material);
+    return out;
+}
+
+char *scene_surfaces(const scene_finding *f, char *out, size_t size) {
+    char a[NAME_SIZE], b[NAME_SIZE];
+    snprintf(out, size, "%s and %s", called(&f->a, a), called(&f->b, b));
     return out;
 }
 
@@ -101,17 +108,17 @@ static number_text safe_length(const page *p, double value, bool upward) {
 }
 
 /* A gap is measured to 1e-12 of the extent: below that it is none. */
-static void say_gap(const page *p, const scene *s, const scene_finding *f, char text[LINE_SIZE]) {
-    const double none = 1e-12 * s->extent;
+static void add_gap(const page *p, const scene *s, const scene_finding *f, char *text, size_t size) {
+    const double none = SCENE_NO_GAP * s->extent;
     const number_text lo = length(p, f->gap_min > none ? f->gap_min : 0.0);
     const number_text hi = length(p, f->gap_max > none ? f->gap_max : 0.0);
     if (f->gap_max <= none) {
-        append(text, LINE_SIZE, "in one plane");
+        append(text, size, "in one plane");
         return;
     }
     if (strcmp(lo.text, hi.text) != 0)
-        append(text, LINE_SIZE, "%s to ", number_brief(number_of(f->gap_min > none ? f->gap_min : 0.0, DIGITS)).text);
-    append(text, LINE_SIZE, "%s apart", hi.text);
+        append(text, size, "%s to ", number_brief(number_of(f->gap_min > none ? f->gap_min : 0.0, DIGITS)).text);
+    append(text, size, "%s apart", hi.text);
 }
 
 /* "seen from 3 m to 9 m: can fight from 5 m on". */
@@ -131,31 +138,58 @@ static void say_sight(page *p, const scene_finding *f) {
     page_note(p, "", "%s", text);
 }
 
+char *scene_sentence(const scene *s, const scene_finding *f, char *out, size_t size) {
+    const page p = {.unit = s->unit};
+    const scene_verdict *v = &f->verdict;
+    out[0] = '\0';
+    if (isnan(v->certain_to))
+        append(out, size, "certain nowhere");
+    else
+        append(out, size, "certain up to %s", safe_length(&p, v->certain_to, false).text);
+    if (!isnan(v->ties_from))
+        append(out, size, ", ties from %s", safe_length(&p, v->ties_from, true).text);
+    append(out, size, "; ");
+    add_gap(&p, s, f, out, size);
+    return out;
+}
+
 static void say_finding(page *p, const scene *s, size_t i) {
     const scene_finding *f = &s->findings[i];
     const scene_verdict *v = &f->verdict;
-    char a[NAME_SIZE], b[NAME_SIZE], label[16], text[LINE_SIZE] = "";
+    char label[16], text[LINE_SIZE];
     snprintf(label, sizeof label, "%zu", i + 1);
-    page_note(p, label, "%s and %s", called(&f->a, a), called(&f->b, b));
+    page_note(p, label, "%s", scene_surfaces(f, text, sizeof text));
     if (s->eyes.count > 0)
         say_sight(p, f);
-    if (isnan(v->certain_to))
-        append(text, sizeof text, "certain nowhere");
-    else
-        append(text, sizeof text, "certain up to %s", safe_length(p, v->certain_to, false).text);
-    if (!isnan(v->ties_from))
-        append(text, sizeof text, ", ties from %s", safe_length(p, v->ties_from, true).text);
-    append(text, sizeof text, "; ");
-    say_gap(p, s, f, text);
-    page_note(p, "", "%s", text);
+    page_note(p, "", "%s", scene_sentence(s, f, text, sizeof text));
     page_note(p, "", "area %s, near %s %s %s", number_brief(number_of(f->area, DIGITS)).text,
               number_of(f->place.x, DIGITS).text, number_of(f->place.y, DIGITS).text,
               number_of(f->place.z, DIGITS).text);
     if (f->wrong_pixels > 0.0)
-        page_note(p, "", "%.0f pixels wrong in %s", f->wrong_pixels, s->rendered.file);
+        page_note(p, "", "%.0f pixel%s wrong", f->wrong_pixels, f->wrong_pixels == 1.0 ? "" : "s");
     if (v->lift > 0.0 && isfinite(v->lift))
         page_note(p, "", "%s more between them are enough up to %s", safe_length(p, v->lift, true).text,
                   length(p, s->within).text);
+}
+
+void scene_bias_take(scene *s) {
+    const dp_setup *setup = &s->setup;
+    const double least = bias_factor_least(setup), znear = setup->spec.znear;
+    const bias_goal goal = {.api = s->o.api, .factor = least};
+    double units = HUGE_VAL, z;
+    if (isfinite(least) && s->within > znear)
+        units = bias_needed_over(setup, &goal, znear, s->within, &z);
+    units = bias_signed(setup, units);
+    s->bias = (scene_bias){s->o.api->name, units, isnan(units) ? units : least * bias_sign(setup)};
+}
+
+static void say_bias(page *p, const scene *s) {
+    if (isnan(s->bias.units))
+        page_text(p, "No bias of %s brings one of two surfaces in front up to %s.", s->bias.api,
+                  length(p, s->within).text);
+    else
+        page_text(p, "Or, for what is drawn second: %s; enough up to %s.",
+                  bias_call(s->o.api, s->bias.units, s->bias.factor).text, length(p, s->within).text);
 }
 
 static void say_picture(page *p, const scene *s) {
@@ -177,6 +211,8 @@ static void say_notes(page *p, void *of) {
         say_finding(p, s, i);
     if (fights > shown)
         page_text(p, "%zu more: --json and --csv have all.", fights - shown);
+    if (scene_fighting(s) > 0)
+        say_bias(p, s);
     if (s->picture != NULL)
         say_picture(p, s);
     for (size_t k = 0; k < FINDER_FILTERS; k++)
@@ -205,6 +241,11 @@ static const column place_columns[] = {{FIELD(scene_place, x, "x", "scene")},
                                        {FIELD(scene_place, y, "y", "scene")},
                                        {FIELD(scene_place, z, "z", "scene")},
                                        {.kind = COLUMN_END}};
+
+static const column bias_columns[] = {{FIELD(scene_bias, api, "api", "")},
+                                      {FIELD(scene_bias, units, "units", "")},
+                                      {FIELD(scene_bias, factor, "factor", "")},
+                                      {.kind = COLUMN_END}};
 
 /* Conditions. */
 enum { FROM_EYES = 1 };
@@ -270,6 +311,7 @@ static const column columns[] = {
     {PART(scene, eyes, "eyes", eyes_columns), .only = AS_JSON, .when = FROM_EYES},
     {FIELD(scene, passed, "passed", ""), .only = AS_JSON},
     {FIELD(scene, found.cut, "cut", ""), .only = AS_JSON},
+    {PART(scene, bias, "bias", bias_columns), .only = AS_JSON},
     {GROUP("left_out", left_columns), .only = AS_JSON},
     {PART(scene, picture, "render", render_columns), .only = AS_JSON, .pointed = true, .optional = true},
     {LIST("findings", finding_columns, next_finding), .only = AS_JSON | AS_CSV},

@@ -12,12 +12,12 @@ rows() {
     cat <<'ROWS'
 land           |       |      |          | 0 0 0           | slope  | 1 1 1
 terrain street | land  | quad | asphalt  | 0 0 23          | up     | 80 30 1
-garden west    | land  | quad | grass    | -20 0.005 -6    | up     | 40 30 1   | 0 1 0
-garden east    | land  | quad | grass    | 20 0.005 -6     | up     | 40 30 1   | 0 1 0
-skirt west     | land  | quad | earth    | 0 -0.495 -6     | east   | 30 1 1
-skirt east     | land  | quad | earth    | 0 -0.495 -6     | west   | 30 1 1
-road           | land  | quad | tar      | 0 0.004 20      | up     | 80 6 1    | 0 1 0
-marking        | road  | quad | paint    | 0 0 0.002       |        | 1 0.05 1  | 0 0 1
+garden west    | land  | quad | grass    | -20 0.001 -6    | up     | 40 30 1   | 0 1 0
+garden east    | land  | quad | grass    | 20 0.001 -6     | up     | 40 30 1   | 0 1 0
+skirt west     | land  | quad | earth    | 0 -0.499 -6     | east   | 30 1 1
+skirt east     | land  | quad | earth    | 0 -0.499 -6     | west   | 30 1 1
+road           | land  | quad | tar      | 0 0.002 20      | up     | 80 6 1    | 0 1 0
+marking        | road  | quad | paint    | 0 0 0.001       |        | 1 0.05 1  | 0 0 1
 house          |       |      |          | 0 0 0           | turned | 1 1 1
 slab           | house | box  | concrete | 0 -0.1 0        |        | 13 0.8 9
 parquet        | house | quad | oak      | 0 0.302 0       | up     | 11 7 1    | 0 1 0
@@ -36,11 +36,11 @@ frame          | signs | quad | tin      | 300 170 0.2     |        | 120 90 1  
 picture        | frame | quad | paper    | 0 0 0.1         |        | 0.8 0.8 1 | 0 0 100
 roof front     | house | box  | slate    | 0 4.8 2.4       | fall   | 13 0.2 6
 roof back      | house | box  | slate    | 0 4.8 -2.4      | rise   | 12.5 0.2 6
-solar          | roof front | quad | silicon | 0.2 0.52 0  | up     | 0.4 0.5 1 | 0 5 0
+solar          | roof front | quad | silicon | 0.2 0.5075 0 | up     | 0.4 0.5 1 | 0 5 0
 chimney        | house | box  | brick    | 3 6.4 -1.5      |        | 0.8 2.4 0.8
 chimney cap    | house | box  | concrete | 3 7.7 -1.5      |        | 0.8 0.2 0.8
 terrace        | house | box  | concrete | 1 -0.15 6.25    |        | 6 0.7 3.5
-tiles          | house | quad | stone    | 1 0.203 6.25    | up     | 5.5 3 1   | 0 1 0
+tiles          | house | quad | stone    | 1 0.201 6.25    | up     | 5.5 3 1   | 0 1 0
 railing        | house | box  | steel    | 0 0.6 7.95      |        | 0.1 1 0.1 | 0 0 1
 handrail       | house | box  | steel    | 1 1.15 7.95     |        | 5.1 0.1 0.1
 pillar         | house | box  | plaster  | -1.6 1.75 7     |        | 0.4 3.1 0.4
@@ -51,8 +51,8 @@ wing body      | wing  | box  | plaster  | 0 1.05 0        |        | 6 3.1 6
 wing roof      | wing  | box  | slate    | 0 2.7 0         |        | 6.4 0.2 6.4
 wing poster    | wing  | quad | paper    | 1 1.4 3.00125   |        | 1.5 1 1   | 0 0 1
 fence          |       | quad | wood     | -13 0.6 6       | turned | 6 1.2 1
-ivy            | fence | quad | leaves   | 0.1 0 -0.005    | back   | 0.5 0.9 1 | 0 0 -1
-street         |       | camera |        | -25 10.5 60     | look   | 1 1 1
+ivy            | fence | quad | leaves   | 0.1 0 -0.001    | back   | 0.5 0.9 1 | 0 0 -1
+street         |       | camera |        | -20 17 50       | look   | 1 1 1
 front door     | house | camera |        | -3 1.7 9        |        | 1 1 1
 ROWS
 }
@@ -132,7 +132,7 @@ rows | LC_ALL=C awk -F ' *[|] *' '
         turn["turned"] = "0 -0.19611613513818404 0 0.9805806756909201"
         turn["fall"] = "0.31622776601683794 0 0 0.9486832980505138"
         turn["rise"] = "-0.31622776601683794 0 0 0.9486832980505138"
-        turn["look"] = "-0.06636761149347296 -0.20472489136601105 -0.013914541250086702 0.9764678410176272"
+        turn["look"] = "-0.1478471048258852 -0.22269734714993414 -0.034190026264881407 0.96300475973433908"
 
         material("asphalt", "0.45, 0.45, 0.42, 1"); material("grass", "0.35, 0.5, 0.25, 1")
         material("earth", "0.35, 0.25, 0.15, 1"); material("tar", "0.2, 0.2, 0.22, 1")
@@ -199,7 +199,7 @@ rows | LC_ALL=C awk -F ' *[|] *' '
         printf "%s", "\"scene\": 0, \"scenes\": [{\"name\": \"house\", \"nodes\": [" roots "]}]"
         printf "%s", list("nodes", nodes) list("meshes", meshes) list("materials", materials)
         printf "%s", ",\n\"cameras\": [{\"name\": \"lens\", \"type\": \"perspective\", \"perspective\": " \
-            "{\"yfov\": 0.4, \"znear\": 0.05, \"zfar\": 1000}}]"
+            "{\"yfov\": 0.36, \"znear\": 0.05, \"zfar\": 1000}}]"
         printf "%s", list("accessors", accessors) list("bufferViews", views)
         print ",\n\"buffers\": [{\"byteLength\": " size ","
         print "  \"uri\": \"data:application/octet-stream;base64," buffer "\"}]}"
