@@ -11,6 +11,7 @@
 #include "cli/scene.h"
 #include "cli/setups.h"
 #include "cli/stop.h"
+#include "core/elementary.h"
 #include "report/number.h"
 
 enum { STEPS = 1000 };
@@ -116,7 +117,7 @@ static int take_limits(scene *s) {
     const double znear = s->setup.spec.znear, zfar = s->setup.spec.zfar;
     const box b = box_of(&s->model);
     dp_separation_worst worst = {.bound = HUGE_VAL};
-    s->extent = hypot(hypot(b.hi[0] - b.lo[0], b.hi[1] - b.lo[1]), b.hi[2] - b.lo[2]);
+    s->extent = dp_hypot(dp_hypot(b.hi[0] - b.lo[0], b.hi[1] - b.lo[1]), b.hi[2] - b.lo[2]);
     s->within = option_given(&s->o, OPTION_WITHIN) ? s->o.within : fmin(fmax(farthest(s, &b), 2.0 * znear), zfar);
     if (!(s->within >= znear && s->within <= zfar))
         return option_error(OPTION_WITHIN, "must lie between near and far, got '%s'", number_full(s->within).text);

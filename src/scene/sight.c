@@ -4,6 +4,7 @@
 #include <math.h>
 #include <string.h>
 
+#include "core/elementary.h"
 #include "depthprec/bounds.h"
 #include "need/distance.h"
 #include "scene/exact.h"
@@ -26,7 +27,7 @@ typedef struct view {
 } view;
 
 static view view_of(const dp_triangles *t) {
-    const double up = tan(0.5 * t->fov_y / degrees);
+    const double up = dp_tan(0.5 * t->fov_y / degrees);
     return (view){up * t->width / t->height, up};
 }
 
@@ -100,7 +101,7 @@ static pair pair_of(const sight_asked *asked, const finder_pair *of) {
         for (int k = 0; k < 3; k++)
             p.vertex[i][k] = m->position[m->triangle[of->triangle[i]][k]];
         exact_normal(p.vertex[i], p.normal[i]);
-        const double length = hypot(hypot(p.normal[i][0], p.normal[i][1]), p.normal[i][2]);
+        const double length = dp_hypot(dp_hypot(p.normal[i][0], p.normal[i][1]), p.normal[i][2]);
         for (int k = 0; k < 3; k++)
             p.normal[i][k] /= length;
         p.two_sided[i] = asked->any_side || m->surface[m->of[of->triangle[i]]].two_sided;
@@ -117,7 +118,7 @@ static bool is_drawn(const pair *p, int i, const scene_eye *eye) {
             from[k] = eye->place[k] - p->corner[c][k];
             above[k] = eye->place[k] - p->vertex[i][0][k];
         }
-        if (dot(above, p->normal[i]) >= -turned * hypot(hypot(from[0], from[1]), from[2]))
+        if (dot(above, p->normal[i]) >= -turned * dp_hypot(dp_hypot(from[0], from[1]), from[2]))
             return true;
     }
     return false;
@@ -167,12 +168,13 @@ static bool include(const pair *p, int i, const dp_setup *setup, const scene_eye
     for (int k = 0; k < 3; k++) {
         const double *next = window[(k + 1) % 3];
         const double x = fabs(next[0] - window[k][0]), y = fabs(next[1] - window[k][1]);
-        longest = fmax(longest, hypot(x, y));
+        longest = fmax(longest, dp_hypot(x, y));
         widest = fmax(widest, fmax(x, y));
     }
     const double area = fabs((window[1][0] - window[0][0]) * (window[2][1] - window[0][1]) -
                              (window[2][0] - window[0][0]) * (window[1][1] - window[0][1]));
-    const double slant = acos(fmin(fabs(dot(p->normal[i], eye->ahead)), 1.0)) * degrees;
+    const double upright = fmin(fabs(dot(p->normal[i], eye->ahead)), 1.0);
+    const double slant = dp_atan2(sqrt(1.0 - upright * upright), upright) * degrees;
     t->pixels = fmax(t->pixels, widest + 4.0 * moved);
     t->slim = fmax(t->slim, longest * longest / area * (1.0 + 8.0 * moved / sqrt(area)));
     t->slant_lo = fmin(t->slant_lo, fmax(slant - 0.001, 0.0));
