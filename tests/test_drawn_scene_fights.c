@@ -23,11 +23,12 @@ typedef struct part {
 } part;
 
 static const part parts[] = {
-    {{-1, 0, -4}, {1, 0, 4}, 1},
-    {{21, 1, 0}, {22, 3, 0}, 0},
-    {{-8, 0, -8}, {8, 0.0156, 8}, -1},
-    {{20, 0, -0.001}, {24, 4, 0.001}, -1},
+    {{-1, 0, -4}, {1, 0, 4}, 1},           {{21, 1, 0}, {22, 3, 0}, 0},   {{-8, 0, -8}, {8, 0.0156, 8}, -1},
+    {{20, 0, -0.001}, {24, 4, 0.001}, -1}, {{-6, 3, -2}, {-4, 3, 2}, -1}, /* a table on the road, of the street that is
+                                                                             turned */
 };
+
+enum { PARTS = sizeof parts / sizeof parts[0] };
 
 /* The same, by a quarter about y: x is -z, and z is x. */
 static const char *turned_street(void) {
@@ -43,6 +44,7 @@ static const char *turned_street(void) {
         else
             fputs(line, out);
     }
+    fputs("o table\nv 2 3 -6\nv 2 3 -4\nv -2 3 -4\nv -2 3 -6\nf -1 -2 -3 -4\n", out);
     fclose(in);
     assert_int_equal(fclose(out), 0);
     return path;
@@ -78,6 +80,7 @@ typedef struct side {
     int across, up;
     double sign; /* of what is upwards */
     const char *heading;
+    int count; /* of parts */
 } side;
 
 static void check_side(const drawn *d, const drawn_panel *p, const side *v, const double certain[2]) {
@@ -93,7 +96,7 @@ static void check_side(const drawn *d, const drawn_panel *p, const side *v, cons
             double best = -HUGE_VAL;
             int fight = -2;
             bool edge = false;
-            for (size_t i = 0; i < sizeof parts / sizeof parts[0]; i++) {
+            for (int i = 0; i < v->count; i++) {
                 const double in = within(&parts[i], v->across, v->up, x, y, 1.5 * field);
                 edge = edge || fabs(in) < 3.0 * field;
                 if (in > 0.0 && fight == -2)
@@ -114,6 +117,14 @@ static void check_side(const drawn *d, const drawn_panel *p, const side *v, cons
         }
     assert_true(seen[0] > 100 && seen[1] > 20 && seen[2] > 20);
     tally_end(&t);
+}
+
+/* The table is nearer to the one who looks down than the road, and lighter. */
+static void check_table(const drawn *d, const drawn_panel *p) {
+    const uint32_t table = drawn_map_shown(d, p, (svg_point){drawn_px(&p->x, -5), drawn_px(&p->y, 0), false});
+    const uint32_t road = drawn_map_shown(d, p, (svg_point){drawn_px(&p->x, -5), drawn_px(&p->y, 6), false});
+    assert_true(is_grey(table) && is_grey(road));
+    assert_in_range((table & 255) - (road & 255), 20, 100);
 }
 
 static void check(const char *file, const drawn_theme *look, const side sides[2], const char *x, const char *y) {
@@ -142,6 +153,8 @@ static void check(const char *file, const drawn_theme *look, const side sides[2]
         const int across = turned ? 2 : 0, up = k == 1 ? 1 : 2 - across;
         drawn_marker markers[4];
         check_side(d, p, &sides[k], certain);
+        if (turned && k == 0)
+            check_table(d, p);
         assert_int_equal(drawn_markers(d, p, markers, 4), 2);
         for (int i = 0; i < 2; i++) {
             const svg_point at = {drawn_px(&p->x, place[i][across]), drawn_px(&p->y, place[i][up]), false};
@@ -153,10 +166,10 @@ static void check(const char *file, const drawn_theme *look, const side sides[2]
 }
 
 static void test_views(void **state) {
-    static const side along_x[2] = {{0, 2, 1, "From above: x to the right, z downwards"},
-                                    {0, 1, 1, "From the front: x to the right, y upwards"}};
-    static const side along_z[2] = {{0, 2, -1, "From above: z to the right, x upwards"},
-                                    {0, 1, 1, "From the side: z to the right, y upwards"}};
+    static const side along_x[2] = {{0, 2, 1, "From above: x to the right, z downwards", PARTS - 1},
+                                    {0, 1, 1, "From the front: x to the right, y upwards", PARTS - 1}};
+    static const side along_z[2] = {{0, 2, -1, "From above: z to the right, x upwards", PARTS},
+                                    {0, 1, 1, "From the side: z to the right, y upwards", PARTS}};
     (void)state;
     check(STREET, &drawn_light, along_x, "x (m)", "z above, y below (m)");
     check(turned_street(), &drawn_dark, along_z, "z (m)", "x above, y below (m)");

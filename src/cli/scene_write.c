@@ -168,7 +168,7 @@ int scene_need(scene *s) {
         if (!looked_at(s, f, &lo, &hi))
             continue;
         if (!(f->gap_min > SCENE_NO_GAP * s->extent)) {
-            put_comment(&out, f, " lie in one plane: no camera tells them apart");
+            put_comment(&out, f, " touch: there no camera tells them apart");
             continue;
         }
         put_comment(&out, f, "");

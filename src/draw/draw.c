@@ -6,6 +6,7 @@
 #include <string.h>
 
 #include "core/bits.h"
+#include "core/elementary.h"
 
 /* ---- The camera -------------------------------------------------------------------------------------------------- */
 
@@ -24,7 +25,7 @@ bool draw_arith(const raster_row *row, bool ndc_signed, dp_arith *out) {
 
 raster_status draw_camera_init(draw_camera *camera, const raster_row *row, const dp_setup *setup) {
     const dp_triangles *view = &setup->spec.triangles;
-    const double half = tan(view->fov_y * M_PI / 360.0);
+    const double half = dp_tan(view->fov_y * M_PI / 360.0);
     size_t index = 0;
     while (raster_get(index) != NULL && raster_get(index) != row)
         index++;

@@ -1,12 +1,12 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "model/model.h"
 
-#include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 #include <strings.h>
 
+#include "core/elementary.h"
 #include "model/source.h"
 
 static bool no_memory(model_error *error) {
@@ -71,5 +71,5 @@ model_box model_box_of(const model *m) {
 }
 
 double model_box_diagonal(const model_box *box) {
-    return hypot(hypot(box->hi[0] - box->lo[0], box->hi[1] - box->lo[1]), box->hi[2] - box->lo[2]);
+    return dp_hypot(dp_hypot(box->hi[0] - box->lo[0], box->hi[1] - box->lo[1]), box->hi[2] - box->lo[2]);
 }

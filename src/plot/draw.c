@@ -6,6 +6,7 @@
 #include <stdlib.h>
 
 #include "core/append.h"
+#include "core/elementary.h"
 #include "plot/area.h"
 #include "plot/heat.h"
 #include "plot/legend.h"
@@ -40,7 +41,7 @@ static int columns_for(size_t count, canvas_rect area) {
     for (int columns = 1; columns <= (int)count; columns++) {
         int rows = ((int)count + columns - 1) / columns;
         double empty = columns * rows - (double)count;
-        double score = fabs(log(area.w / columns / (area.h / rows) / PANEL_SHAPE)) + 0.25 * empty;
+        double score = fabs(dp_log(area.w / columns / (area.h / rows) / PANEL_SHAPE)) + 0.25 * empty;
         if (score < best_score) {
             best_score = score;
             best = columns;

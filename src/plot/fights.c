@@ -9,6 +9,7 @@
 #include <math.h>
 #include <stdio.h>
 
+#include "core/elementary.h"
 #include "plot/figure.h"
 
 enum { NUMBERED = 9, EYES_MOST = 256, FIELDS_LEAST = 64, FIELDS_MOST = 2048 };
@@ -226,7 +227,7 @@ static chart_axis depths_of(const fights_asked *a) {
     if (!(axis.lo <= axis.hi)) /* nothing to show, or nothing that is ever certain */
         axis.lo = axis.hi = 1.0;
     axis.hi = fmax(axis.hi, 2.0 * axis.lo);
-    axis.hi *= pow(axis.hi / axis.lo, 0.2);
+    axis.hi *= dp_pow(axis.hi / axis.lo, 0.2);
     return axis;
 }
 

@@ -3,6 +3,8 @@
 
 #include <math.h>
 
+#include "core/elementary.h"
+
 static double dot(const double a[3], const double b[3]) {
     return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
 }
@@ -14,7 +16,7 @@ static void cross(const double a[3], const double b[3], double out[3]) {
 
 /* False: there is no length to speak of. */
 static bool make_unit(double v[3]) {
-    const double length = hypot(hypot(v[0], v[1]), v[2]);
+    const double length = dp_hypot(dp_hypot(v[0], v[1]), v[2]);
     for (int k = 0; k < 3; k++)
         v[k] /= length;
     return isfinite(length) && length > 0.0;
@@ -37,7 +39,7 @@ static void stand(const double place[3], const double ahead[3], const double up[
     scene_eye eye = {.line = 0};
     make_unit(upward);
     cross(ahead, upward, eye.right);
-    if (!(hypot(hypot(eye.right[0], eye.right[1]), eye.right[2]) > 1e-6)) {
+    if (!(dp_hypot(dp_hypot(eye.right[0], eye.right[1]), eye.right[2]) > 1e-6)) {
         farthest_axis(ahead, upward);
         cross(ahead, upward, eye.right);
     }

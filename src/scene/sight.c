@@ -4,6 +4,8 @@
 #include <math.h>
 #include <string.h>
 
+#include "core/elementary.h"
+#include "depthprec/bounds.h"
 #include "need/distance.h"
 #include "scene/exact.h"
 
@@ -25,7 +27,7 @@ typedef struct view {
 } view;
 
 static view view_of(const dp_triangles *t) {
-    const double up = tan(0.5 * t->fov_y / degrees);
+    const double up = dp_tan(0.5 * t->fov_y / degrees);
     return (view){up * t->width / t->height, up};
 }
 
@@ -99,7 +101,7 @@ static pair pair_of(const sight_asked *asked, const finder_pair *of) {
         for (int k = 0; k < 3; k++)
             p.vertex[i][k] = m->position[m->triangle[of->triangle[i]][k]];
         exact_normal(p.vertex[i], p.normal[i]);
-        const double length = hypot(hypot(p.normal[i][0], p.normal[i][1]), p.normal[i][2]);
+        const double length = dp_hypot(dp_hypot(p.normal[i][0], p.normal[i][1]), p.normal[i][2]);
         for (int k = 0; k < 3; k++)
             p.normal[i][k] /= length;
         p.two_sided[i] = asked->any_side || m->surface[m->of[of->triangle[i]]].two_sided;
@@ -116,7 +118,7 @@ static bool is_drawn(const pair *p, int i, const scene_eye *eye) {
             from[k] = eye->place[k] - p->corner[c][k];
             above[k] = eye->place[k] - p->vertex[i][0][k];
         }
-        if (dot(above, p->normal[i]) >= -turned * hypot(hypot(from[0], from[1]), from[2]))
+        if (dot(above, p->normal[i]) >= -turned * dp_hypot(dp_hypot(from[0], from[1]), from[2]))
             return true;
     }
     return false;
@@ -166,12 +168,13 @@ static bool include(const pair *p, int i, const dp_setup *setup, const scene_eye
     for (int k = 0; k < 3; k++) {
         const double *next = window[(k + 1) % 3];
         const double x = fabs(next[0] - window[k][0]), y = fabs(next[1] - window[k][1]);
-        longest = fmax(longest, hypot(x, y));
+        longest = fmax(longest, dp_hypot(x, y));
         widest = fmax(widest, fmax(x, y));
     }
     const double area = fabs((window[1][0] - window[0][0]) * (window[2][1] - window[0][1]) -
                              (window[2][0] - window[0][0]) * (window[1][1] - window[0][1]));
-    const double slant = acos(fmin(fabs(dot(p->normal[i], eye->ahead)), 1.0)) * degrees;
+    const double upright = fmin(fabs(dot(p->normal[i], eye->ahead)), 1.0);
+    const double slant = dp_atan2(sqrt(1.0 - upright * upright), upright) * degrees;
     t->pixels = fmax(t->pixels, widest + 4.0 * moved);
     t->slim = fmax(t->slim, longest * longest / area * (1.0 + 8.0 * moved / sqrt(area)));
     t->slant_lo = fmin(t->slant_lo, fmax(slant - 0.001, 0.0));
@@ -192,12 +195,24 @@ static bool setup_of(const pair *p, const dp_setup *setup, const scene_eye *eye,
            dp_setup_init(out, &spec) == DP_OK;
 }
 
+/* What is lacking, at the depths that are seen and asked for. */
+static double lift_of(const dp_setup *setup, const scene_sight *seen, double within, double least) {
+    const double to = within > 0.0 ? fmin(seen->seen_to, within) : seen->seen_to;
+    dp_separation_worst worst = {.bound = HUGE_VAL};
+    if (to < seen->seen_from)
+        return 0.0;
+    dp_separation_over(setup, seen->seen_from, to, 0.0, &worst);
+    return fmax(worst.bound - least, 0.0);
+}
+
 /* Where it is not guaranteed, at the depths that are seen. */
-static void judge_pair(const pair *p, const dp_setup *setup, const scene_eye *eye, scene_sight *seen) {
+static void judge_pair(const pair *p, const sight_asked *asked, const scene_eye *eye, scene_sight *seen) {
+    const dp_setup *setup = asked->setup;
     const double lo = p->of->gap_lo, hi = p->of->gap_hi;
     const double least = lo <= 0.0 && hi >= 0.0 ? 0.0 : fmin(fabs(lo), fabs(hi));
     dp_setup own;
     seen->covered = setup_of(p, setup, eye, seen, &own);
+    seen->lift = lift_of(seen->covered ? &own : setup, seen, asked->within, least);
     if (least == 0.0) {
         seen->covered = true; /* no guarantee could be missed */
         seen->fights_from = seen->seen_from;
@@ -220,6 +235,7 @@ static void add(scene_sight *to, const scene_sight *from) {
     to->seen_from = fmin(to->seen_from, from->seen_from);
     to->seen_to = fmax(to->seen_to, from->seen_to);
     to->fights_from = fmin(to->fights_from, from->fights_from);
+    to->lift = fmax(to->lift, from->lift);
     to->covered = to->covered && from->covered;
 }
 
@@ -234,19 +250,23 @@ static bool is_worse(const scene_sight *a, const scene_sight *b) {
 scene_sight scene_sight_worst(const sight_asked *asked, const finder_finding *f, scene_sight *sight) {
     const double nan = (double)NAN;
     for (size_t e = 0; e < asked->eyes; e++)
-        sight[e] = (scene_sight){nan, nan, nan, true, e};
+        sight[e] = (scene_sight){nan, nan, nan, 0.0, true, e};
     for (size_t i = 0; i < f->pairs && !(asked->stop != NULL && asked->stop()); i++) {
         const pair p = pair_of(asked, &asked->found->pair[f->first + i]);
         for (size_t e = 0; e < asked->eyes; e++) {
             scene_sight seen;
             if (!see_pair(&p, asked->setup, &asked->eye[e], &seen))
                 continue;
-            judge_pair(&p, asked->setup, &asked->eye[e], &seen);
+            judge_pair(&p, asked, &asked->eye[e], &seen);
             add(&sight[e], &seen);
         }
     }
     size_t worst = 0;
-    for (size_t e = 1; e < asked->eyes; e++)
+    double lift = sight[0].lift;
+    for (size_t e = 1; e < asked->eyes; e++) {
         worst = is_worse(&sight[e], &sight[worst]) ? e : worst;
+        lift = fmax(lift, sight[e].lift);
+    }
+    sight[worst].lift = lift;
     return sight[worst];
 }
