@@ -5,6 +5,7 @@
 #include <string.h>
 
 #include "core/elementary.h"
+#include "depthprec/bounds.h"
 #include "need/distance.h"
 #include "scene/exact.h"
 
@@ -194,12 +195,24 @@ static bool setup_of(const pair *p, const dp_setup *setup, const scene_eye *eye,
            dp_setup_init(out, &spec) == DP_OK;
 }
 
+/* What is lacking, at the depths that are seen and asked for. */
+static double lift_of(const dp_setup *setup, const scene_sight *seen, double within, double least) {
+    const double to = within > 0.0 ? fmin(seen->seen_to, within) : seen->seen_to;
+    dp_separation_worst worst = {.bound = HUGE_VAL};
+    if (to < seen->seen_from)
+        return 0.0;
+    dp_separation_over(setup, seen->seen_from, to, 0.0, &worst);
+    return fmax(worst.bound - least, 0.0);
+}
+
 /* Where it is not guaranteed, at the depths that are seen. */
-static void judge_pair(const pair *p, const dp_setup *setup, const scene_eye *eye, scene_sight *seen) {
+static void judge_pair(const pair *p, const sight_asked *asked, const scene_eye *eye, scene_sight *seen) {
+    const dp_setup *setup = asked->setup;
     const double lo = p->of->gap_lo, hi = p->of->gap_hi;
     const double least = lo <= 0.0 && hi >= 0.0 ? 0.0 : fmin(fabs(lo), fabs(hi));
     dp_setup own;
     seen->covered = setup_of(p, setup, eye, seen, &own);
+    seen->lift = lift_of(seen->covered ? &own : setup, seen, asked->within, least);
     if (least == 0.0) {
         seen->covered = true; /* no guarantee could be missed */
         seen->fights_from = seen->seen_from;
@@ -222,6 +235,7 @@ static void add(scene_sight *to, const scene_sight *from) {
     to->seen_from = fmin(to->seen_from, from->seen_from);
     to->seen_to = fmax(to->seen_to, from->seen_to);
     to->fights_from = fmin(to->fights_from, from->fights_from);
+    to->lift = fmax(to->lift, from->lift);
     to->covered = to->covered && from->covered;
 }
 
@@ -236,19 +250,23 @@ static bool is_worse(const scene_sight *a, const scene_sight *b) {
 scene_sight scene_sight_worst(const sight_asked *asked, const finder_finding *f, scene_sight *sight) {
     const double nan = (double)NAN;
     for (size_t e = 0; e < asked->eyes; e++)
-        sight[e] = (scene_sight){nan, nan, nan, true, e};
+        sight[e] = (scene_sight){nan, nan, nan, 0.0, true, e};
     for (size_t i = 0; i < f->pairs && !(asked->stop != NULL && asked->stop()); i++) {
         const pair p = pair_of(asked, &asked->found->pair[f->first + i]);
         for (size_t e = 0; e < asked->eyes; e++) {
             scene_sight seen;
             if (!see_pair(&p, asked->setup, &asked->eye[e], &seen))
                 continue;
-            judge_pair(&p, asked->setup, &asked->eye[e], &seen);
+            judge_pair(&p, asked, &asked->eye[e], &seen);
             add(&sight[e], &seen);
         }
     }
     size_t worst = 0;
-    for (size_t e = 1; e < asked->eyes; e++)
+    double lift = sight[0].lift;
+    for (size_t e = 1; e < asked->eyes; e++) {
         worst = is_worse(&sight[e], &sight[worst]) ? e : worst;
+        lift = fmax(lift, sight[e].lift);
+    }
+    sight[worst].lift = lift;
     return sight[worst];
 }
