@@ -34,7 +34,7 @@ FUZZ := $(wildcard tests/fuzz/fuzz_*.c)
 WEB := $(wildcard tests/web/*.c)
 MAN := $(wildcard man/*.[1-9])
 TOOLS := tests/run.sh tests/tap.sh tests/coverage.sh tests/cross.sh tests/linked.sh
-SCRIPTS := $(wildcard src/*.sh tests/*.sh plots/*.sh man/*.sh .ci/*.sh)
+SCRIPTS := $(wildcard src/*.sh tests/*.sh tests/models/*.sh plots/*.sh man/*.sh .ci/*.sh)
 ALL_C := $(CORE) $(ROOMS) $(TESTS) $(BENCHES) $(SUPPORT) $(FUZZ) $(WEB)
 ALL_H := $(HEADERS) $(wildcard src/*/*.h tests/*.h tests/*/*.h)
 

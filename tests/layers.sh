@@ -18,9 +18,9 @@ src/texture       | depthprec core texture
 src/method        | depthprec core texture census method
 src/need          | depthprec core api raster need
 src/model         | core model
-src/scene         | depthprec core model need scene
+src/scene         | depthprec core raster model draw need scene
 src/report        | depthprec core report
-src/plot          | depthprec core api census raster draw shadow texture method need plot
+src/plot          | depthprec core api census raster draw shadow texture method need model scene plot
 src/cli           | depthprec core api census raster vertex draw shadow texture method need model scene report plot cli
 '
 

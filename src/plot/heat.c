@@ -199,7 +199,7 @@ bool heat_draw(const pencil *p, const axes *a, const chart_panel *panel, const c
     boxes taken = {0};
     const double half = 8 * p->scale;
     const chart_map *m = &panel->map;
-    if (heat_has_holes(m))
+    if (!c->bare && heat_has_holes(m))
         draw_hatch(p, a->frame);
     if (!draw_pixels(p, a->frame, c, panel))
         return false;
