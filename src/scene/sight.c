@@ -5,6 +5,7 @@
 #include <string.h>
 
 #include "core/elementary.h"
+#include "depthprec/bounds.h"
 #include "need/distance.h"
 #include "scene/exact.h"
 
@@ -117,7 +118,8 @@ static bool is_drawn(const pair *p, int i, const scene_eye *eye) {
             from[k] = eye->place[k] - p->corner[c][k];
             above[k] = eye->place[k] - p->vertex[i][0][k];
         }
-        if (dot(above, p->normal[i]) >= -turned * dp_hypot(dp_hypot(from[0], from[1]), from[2]))
+        const double height = dot(above, p->normal[i]);
+        if (height >= 0.0 || height * height <= turned * turned * dot(from, from))
             return true;
     }
     return false;
@@ -126,7 +128,7 @@ static bool is_drawn(const pair *p, int i, const scene_eye *eye) {
 /* The depths of the overlap in view, on both surfaces. */
 static bool see_pair(const pair *p, const dp_setup *setup, const scene_eye *eye, scene_sight *out) {
     const double off[3] = {0.0, p->of->gap_lo, p->of->gap_hi};
-    *out = (scene_sight){.seen_from = HUGE_VAL, .seen_to = -HUGE_VAL, .fights_from = (double)NAN};
+    *out = (scene_sight){.seen_from = HUGE_VAL, .seen_to = -HUGE_VAL, .fights_from = (double)NAN, .covered = true};
     if (!is_drawn(p, 0, eye) || !is_drawn(p, 1, eye))
         return false;
     for (int s = 0; s < 3; s++) {
@@ -198,14 +200,18 @@ static bool setup_of(const pair *p, const dp_setup *setup, const scene_eye *eye,
 static void judge_pair(const pair *p, const dp_setup *setup, const scene_eye *eye, scene_sight *seen) {
     const double lo = p->of->gap_lo, hi = p->of->gap_hi;
     const double least = lo <= 0.0 && hi >= 0.0 ? 0.0 : fmin(fabs(lo), fabs(hi));
+    dp_separation_worst worst = {.bound = HUGE_VAL};
     dp_setup own;
-    seen->covered = setup_of(p, setup, eye, seen, &own);
     if (least == 0.0) {
-        seen->covered = true; /* no guarantee could be missed */
         seen->fights_from = seen->seen_from;
         return;
     }
-    const double to = distance_about(seen->covered ? &own : setup, seen->seen_from, seen->seen_to, least, DIGITS);
+    seen->covered = setup_of(p, setup, eye, seen, &own);
+    const dp_setup *by = seen->covered ? &own : setup;
+    dp_separation_over(by, seen->seen_from, seen->seen_to, least, &worst);
+    if (worst.bound <= least)
+        return;
+    const double to = distance_about(by, seen->seen_from, seen->seen_to, least, DIGITS);
     if (isnan(to))
         seen->fights_from = seen->seen_from;
     else if (to < seen->seen_to)
@@ -235,6 +241,7 @@ static bool is_worse(const scene_sight *a, const scene_sight *b) {
 
 scene_sight scene_sight_worst(const sight_asked *asked, const finder_finding *f, scene_sight *sight) {
     const double nan = (double)NAN;
+    double nearest = HUGE_VAL; /* that any fights */
     for (size_t e = 0; e < asked->eyes; e++)
         sight[e] = (scene_sight){nan, nan, nan, true, e};
     for (size_t i = 0; i < f->pairs && !(asked->stop != NULL && asked->stop()); i++) {
@@ -243,12 +250,15 @@ scene_sight scene_sight_worst(const sight_asked *asked, const finder_finding *f,
             scene_sight seen;
             if (!see_pair(&p, asked->setup, &asked->eye[e], &seen))
                 continue;
-            judge_pair(&p, asked->setup, &asked->eye[e], &seen);
+            if (seen.seen_from <= nearest) /* else it is not what is worst */
+                judge_pair(&p, asked->setup, &asked->eye[e], &seen);
+            nearest = fmin(nearest, seen.fights_from);
             add(&sight[e], &seen);
         }
     }
     size_t worst = 0;
     for (size_t e = 1; e < asked->eyes; e++)
         worst = is_worse(&sight[e], &sight[worst]) ? e : worst;
+    sight[worst].covered = sight[worst].covered || !isnan(sight[worst].fights_from);
     return sight[worst];
 }

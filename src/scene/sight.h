@@ -11,7 +11,7 @@
  * The guarantee is that of the very triangles: dp_triangles with their own slants, depths, pixels and slimness as this
  * eye has them. Where there is none, because a vertex lies before near or beyond far, or the triangle is slimmer or
  * larger than the library takes, or a side of the view cuts it and the rasterizer's depth is anchored at the window's
- * origin, the class of the set-up stands for them, and the sight is not *covered*.
+ * origin, the class of the set-up stands for them; what is told apart that way alone is not *covered*.
  *
  * What is judged are pixels whose ray meets both surfaces within the overlap. Beside its edge a ray may meet the one
  * and, behind it, more of the other.
@@ -31,7 +31,7 @@ typedef struct scene_sight {
     double seen_from, seen_to; /**< of the overlaps in view; NaN where none is */
     double fights_from;        /**< the least depth at which they can fight: nearer, all that is seen is told apart;
                                     NaN where all is */
-    bool covered;              /**< by the guarantee of the triangles themselves; true where nothing is seen */
+    bool covered;              /**< false: all is told apart, but some of it only in triangles of the class */
     size_t eye;                /**< its index */
 } scene_sight;
 
