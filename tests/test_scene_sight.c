@@ -413,6 +413,7 @@ static void worst_eye(void **state) {
     scene_made_surface(&made, "sheet", "");
     scene_made_quad(&made, sheet[0], sheet[1], sheet[2]);
     assert_true(find(0.01, &found));
+    double lift = 0;
     for (size_t i = 0; i < 4; i++) {
         const double from[3] = {0, 0, rows[i].z}, at[3] = {0, 0, rows[i].look};
         assert_true(scene_eye_look(from, at, (const double[]){0, 1, 0}, &eye[i]));
@@ -422,10 +423,12 @@ static void worst_eye(void **state) {
                         ? isnan(got.seen_from) && isnan(got.seen_to)
                         : fabs(got.seen_from - rows[i].from) < 1e-9 && fabs(got.seen_to - rows[i].to) < 1e-9);
         assert_true(got.covered);
+        lift = fmax(lift, got.lift);
     }
     const sight_asked four = asked_of(&setup, &found, 0.01, eye, 4), last = asked_of(&setup, &found, 0.01, eye + 2, 2);
     const scene_sight got = scene_sight_worst(&four, found.finding, room);
     assert_true(got.eye == 1 && got.fights_from == got.seen_from && fabs(got.seen_to - 12) < 1e-9);
+    assert_true(got.lift > 0 && got.lift == lift);
     assert_true(isnan(scene_sight_worst(&last, found.finding, room).seen_from));
     /* of two-sided surfaces the back is seen, too, and so it is when sides do not count */
     sight_asked behind = asked_of(&setup, &found, 0.01, eye + 2, 1);

@@ -259,6 +259,36 @@ static void pictures(void **state) {
     json_decref(root);
 }
 
+/* The same from an eye: by `share` of what it asks for, which of a surface over two others is the most of both. */
+static int status_from_street(double share) {
+    printed p = print_of("scene " HOUSE " -F d24 -m d3d --camera street --within 60 --json");
+    char lifts[2048];
+    size_t used = 0;
+    json_t *root = json_of(p.out);
+    assert_int_equal(p.status, 1);
+    printed_free(&p);
+    for (size_t i = 0; i < FIGHTS; i++) {
+        double lift = 0;
+        for (size_t k = 0; k < FIGHTS; k++)
+            if (strcmp(fights[k].above, fights[i].above) == 0)
+                lift = fmax(lift, number(finding_of(root, fights[k].below, fights[k].above), "lift"));
+        used += (size_t)snprintf(lifts + used, sizeof lifts - used, " '%s=%.6f'", fights[i].above, share * lift);
+        assert_true(used < sizeof lifts);
+    }
+    json_decref(root);
+    p = print_of("scene %s -F d24 -m d3d --camera street --within 60", make_house("street.gltf", lifts));
+    const int status = p.status;
+    printed_free(&p);
+    return status;
+}
+
+/* What is moved is seen from elsewhere, by some thousandths. */
+static void mended_from_street(void **state) {
+    (void)state;
+    assert_int_equal(status_from_street(1.01), 0);
+    assert_int_equal(status_from_street(0.9), 1);
+}
+
 /* From an eye that is farther off than the model is large, what is not said reaches as far as the eye sees: each lift
  * is for the farthest place. */
 static void far_off(void **state) {
@@ -295,8 +325,9 @@ static void in_words(void **state) {
 }
 
 int main(void) {
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(made),     cmocka_unit_test(known),   cmocka_unit_test(left_out), cmocka_unit_test(mended),
-        cmocka_unit_test(pictures), cmocka_unit_test(far_off), cmocka_unit_test(in_words)};
+    const struct CMUnitTest tests[] = {cmocka_unit_test(made),     cmocka_unit_test(known),
+                                       cmocka_unit_test(left_out), cmocka_unit_test(mended),
+                                       cmocka_unit_test(pictures), cmocka_unit_test(mended_from_street),
+                                       cmocka_unit_test(far_off),  cmocka_unit_test(in_words)};
     return run_tap(tests);
 }

@@ -240,6 +240,7 @@ int scene_eyes_judge(scene *s) {
     const sight_asked asked = {.m = &s->model,
                                .found = &s->found,
                                .setup = &s->setup,
+                               .within = s->within,
                                .gap = s->gap,
                                .any_side = (s->o.filters_off >> FINDER_FACING & 1U) != 0,
                                .eye = s->eyes.eye,
@@ -257,6 +258,7 @@ int scene_eyes_judge(scene *s) {
         scene_finding *f = &s->findings[i];
         f->sight = scene_sight_worst(&asked, f->of, room + (size_t)omp_get_thread_num() * s->eyes.count);
         f->fights = f->sight.fights_from < nearer_than;
+        f->verdict.lift = f->sight.lift;
         f->line =
             s->o.path != NULL && !isnan(f->sight.seen_from) ? (double)s->eyes.eye[f->sight.eye].line : (double)NAN;
 #pragma omp critical(scene_progress)

@@ -122,32 +122,36 @@ static void add_gap(const page *p, const scene *s, const scene_finding *f, char 
 }
 
 /* "seen from 3 m to 9 m: can fight from 5 m on". */
-static void say_sight(page *p, const scene_finding *f) {
+static void add_sight(const page *p, const scene_finding *f, char *out, size_t size) {
     const scene_sight *e = &f->sight;
-    char text[LINE_SIZE] = "";
-    append(text, LINE_SIZE, "seen from %s to %s: ", safe_length(p, e->seen_from, false).text,
+    append(out, size, "seen from %s to %s: ", safe_length(p, e->seen_from, false).text,
            safe_length(p, e->seen_to, true).text);
     if (isnan(e->fights_from))
-        append(text, LINE_SIZE, "told apart only if cut into the triangles above");
+        append(out, size, "told apart only if cut into the triangles above");
     else if (e->fights_from > e->seen_from)
-        append(text, LINE_SIZE, "can fight from %s on", safe_length(p, e->fights_from, false).text);
+        append(out, size, "can fight from %s on", safe_length(p, e->fights_from, false).text);
     else
-        append(text, LINE_SIZE, "can fight");
+        append(out, size, "can fight");
     if (!isnan(f->line))
-        append(text, LINE_SIZE, "; worst at line %.0f", f->line);
-    page_note(p, "", "%s", text);
+        append(out, size, ", worst at line %.0f", f->line);
+}
+
+static void add_verdict(const page *p, const scene_verdict *v, char *out, size_t size) {
+    if (isnan(v->certain_to))
+        append(out, size, "certain nowhere");
+    else
+        append(out, size, "certain up to %s", safe_length(p, v->certain_to, false).text);
+    if (!isnan(v->ties_from))
+        append(out, size, ", ties from %s", safe_length(p, v->ties_from, true).text);
 }
 
 char *scene_sentence(const scene *s, const scene_finding *f, char *out, size_t size) {
     const page p = {.unit = s->unit};
-    const scene_verdict *v = &f->verdict;
     out[0] = '\0';
-    if (isnan(v->certain_to))
-        append(out, size, "certain nowhere");
+    if (s->eyes.count > 0)
+        add_sight(&p, f, out, size);
     else
-        append(out, size, "certain up to %s", safe_length(&p, v->certain_to, false).text);
-    if (!isnan(v->ties_from))
-        append(out, size, ", ties from %s", safe_length(&p, v->ties_from, true).text);
+        add_verdict(&p, &f->verdict, out, size);
     append(out, size, "; ");
     add_gap(&p, s, f, out, size);
     return out;
@@ -159,8 +163,6 @@ static void say_finding(page *p, const scene *s, size_t i) {
     char label[16], text[LINE_SIZE];
     snprintf(label, sizeof label, "%zu", i + 1);
     page_note(p, label, "%s", scene_surfaces(f, text, sizeof text));
-    if (s->eyes.count > 0)
-        say_sight(p, f);
     page_note(p, "", "%s", scene_sentence(s, f, text, sizeof text));
     page_note(p, "", "area %s, near %s %s %s", number_brief(number_of(f->area, DIGITS)).text,
               number_of(f->place.x, DIGITS).text, number_of(f->place.y, DIGITS).text,
@@ -194,13 +196,15 @@ static void say_bias(page *p, const scene *s) {
 
 static void say_picture(page *p, const scene *s) {
     const scene_rendered *r = s->picture;
-    char others[64] = "";
+    char others[64] = "", from[128] = "";
     if (r->wrong_found < r->wrong_pixels)
         snprintf(others, sizeof others, ", %llu of them of no pair above",
                  (unsigned long long)(r->wrong_pixels - r->wrong_found));
-    page_text(p, "%s: %d x %d pixels as %s draws them, %llu wrong%s; from %s %s %s.", r->file, r->width, r->height,
-              r->raster, (unsigned long long)r->wrong_pixels, others, number_of(r->eye.x, DIGITS).text,
-              number_of(r->eye.y, DIGITS).text, number_of(r->eye.z, DIGITS).text);
+    if (s->eyes.count == 0) /* else it stands above */
+        snprintf(from, sizeof from, "; from %s %s %s", number_of(r->eye.x, DIGITS).text,
+                 number_of(r->eye.y, DIGITS).text, number_of(r->eye.z, DIGITS).text);
+    page_text(p, "%s: %d x %d pixels as %s draws them, %llu wrong%s%s.", r->file, r->width, r->height, r->raster,
+              (unsigned long long)r->wrong_pixels, others, from);
 }
 
 static void say_notes(page *p, void *of) {

@@ -196,22 +196,30 @@ static bool setup_of(const pair *p, const dp_setup *setup, const scene_eye *eye,
            dp_setup_init(out, &spec) == DP_OK;
 }
 
+/* What is lacking, at the depths that are seen and asked for. */
+static double lift_of(const dp_setup *setup, const scene_sight *seen, double within, double least) {
+    const double to = within > 0.0 ? fmin(seen->seen_to, within) : seen->seen_to;
+    dp_separation_worst worst = {.bound = HUGE_VAL};
+    if (to < seen->seen_from)
+        return 0.0;
+    dp_separation_over(setup, seen->seen_from, to, 0.0, &worst);
+    return fmax(worst.bound - least, 0.0);
+}
+
 /* Where it is not guaranteed, at the depths that are seen. */
-static void judge_pair(const pair *p, const dp_setup *setup, const scene_eye *eye, scene_sight *seen) {
+static void judge_pair(const pair *p, const sight_asked *asked, const scene_eye *eye, scene_sight *seen) {
     const double lo = p->of->gap_lo, hi = p->of->gap_hi;
     const double least = lo <= 0.0 && hi >= 0.0 ? 0.0 : fmin(fabs(lo), fabs(hi));
     dp_separation_worst worst = {.bound = HUGE_VAL};
     dp_setup own;
-    if (least == 0.0) {
-        seen->fights_from = seen->seen_from;
-        return;
-    }
-    seen->covered = setup_of(p, setup, eye, seen, &own);
-    const dp_setup *by = seen->covered ? &own : setup;
-    dp_separation_over(by, seen->seen_from, seen->seen_to, least, &worst);
+    seen->covered = setup_of(p, asked->setup, eye, seen, &own);
+    const dp_setup *by = seen->covered ? &own : asked->setup;
+    if (least > 0.0) /* most are: the limit makes it cheap */
+        dp_separation_over(by, seen->seen_from, seen->seen_to, least, &worst);
     if (worst.bound <= least)
         return;
-    const double to = distance_about(by, seen->seen_from, seen->seen_to, least, DIGITS);
+    seen->lift = lift_of(by, seen, asked->within, least);
+    const double to = least > 0.0 ? distance_about(by, seen->seen_from, seen->seen_to, least, DIGITS) : (double)NAN;
     if (isnan(to))
         seen->fights_from = seen->seen_from;
     else if (to < seen->seen_to)
@@ -228,6 +236,7 @@ static void add(scene_sight *to, const scene_sight *from) {
     to->seen_from = fmin(to->seen_from, from->seen_from);
     to->seen_to = fmax(to->seen_to, from->seen_to);
     to->fights_from = fmin(to->fights_from, from->fights_from);
+    to->lift = fmax(to->lift, from->lift);
     to->covered = to->covered && from->covered;
 }
 
@@ -241,24 +250,25 @@ static bool is_worse(const scene_sight *a, const scene_sight *b) {
 
 scene_sight scene_sight_worst(const sight_asked *asked, const finder_finding *f, scene_sight *sight) {
     const double nan = (double)NAN;
-    double nearest = HUGE_VAL; /* that any fights */
     for (size_t e = 0; e < asked->eyes; e++)
-        sight[e] = (scene_sight){nan, nan, nan, true, e};
+        sight[e] = (scene_sight){nan, nan, nan, 0.0, true, e};
     for (size_t i = 0; i < f->pairs && !(asked->stop != NULL && asked->stop()); i++) {
         const pair p = pair_of(asked, &asked->found->pair[f->first + i]);
         for (size_t e = 0; e < asked->eyes; e++) {
             scene_sight seen;
             if (!see_pair(&p, asked->setup, &asked->eye[e], &seen))
                 continue;
-            if (seen.seen_from <= nearest) /* else it is not what is worst */
-                judge_pair(&p, asked->setup, &asked->eye[e], &seen);
-            nearest = fmin(nearest, seen.fights_from);
+            judge_pair(&p, asked, &asked->eye[e], &seen);
             add(&sight[e], &seen);
         }
     }
     size_t worst = 0;
-    for (size_t e = 1; e < asked->eyes; e++)
+    double lift = sight[0].lift;
+    for (size_t e = 1; e < asked->eyes; e++) {
         worst = is_worse(&sight[e], &sight[worst]) ? e : worst;
+        lift = fmax(lift, sight[e].lift);
+    }
+    sight[worst].lift = lift;
     sight[worst].covered = sight[worst].covered || !isnan(sight[worst].fights_from);
     return sight[worst];
 }

@@ -31,6 +31,8 @@ typedef struct scene_sight {
     double seen_from, seen_to; /**< of the overlaps in view; NaN where none is */
     double fights_from;        /**< the least depth at which they can fight: nearer, all that is seen is told apart;
                                     NaN where all is */
+    double lift;               /**< what would have to be added to their distance so that all that is seen nearer than
+                                    asked is told apart; 0 where it is; INFINITY where no distance is enough */
     bool covered;              /**< false: all is told apart, but some of it only in triangles of the class */
     size_t eye;                /**< its index */
 } scene_sight;
@@ -39,6 +41,7 @@ typedef struct sight_asked {
     const model *m;
     const finder_found *found;
     const dp_setup *setup; /**< a perspective whose triangles say the view, width not 0 */
+    double within;         /**< eye depth up to which a lift is wanted; 0: as far as they are seen */
     double gap;            /**< of the search, see finder_corners() */
     bool any_side;         /**< triangles are drawn whichever way they face */
     const scene_eye *eye;
@@ -48,7 +51,7 @@ typedef struct sight_asked {
 
 /**
  * Judges a finding from the eye from which it is worst: where it fights nearest; else where it is not covered; else
- * where it is seen from nearest. Of several that are alike the first.
+ * where it is seen from nearest. Of several that are alike the first. The lift is enough for all eyes.
  * @param sight  room for asked->eyes, to work in
  */
 scene_sight scene_sight_worst(const sight_asked *asked, const finder_finding *f, scene_sight *sight);
