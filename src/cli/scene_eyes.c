@@ -124,7 +124,7 @@ static int read_line(scene *s, const char *text, size_t length, size_t line) {
     for (size_t at = 0; at < length && text[at] != '#';) {
         size_t word = 0;
         char shown[SHOWN + 4];
-        double extra;
+        double extra = 0.0;
         if (is_between(text[at])) {
             at++;
             continue;

@@ -44,7 +44,7 @@ static void keep(polygon *p, const double at[3]) {
 /* What of a polygon lies where n . p >= c. */
 static void cut(polygon *p, const double n[3], double c) {
     const polygon from = *p;
-    double side[POLYGON];
+    double side[POLYGON] = {0};
     for (int i = 0; i < from.corners; i++)
         side[i] = n[0] * from.at[i][0] + n[1] * from.at[i][1] + n[2] * from.at[i][2] - c;
     p->corners = 0;
