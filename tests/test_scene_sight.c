@@ -282,7 +282,7 @@ static bool class_of(const dp_setup *setup, const scene_eye *eye, double lo, dou
         }
         const double half = (edge[0] + edge[1] + edge[2]) / 2;
         const double area = sqrt(fmax(half * (half - edge[0]) * (half - edge[1]) * (half - edge[2]), 0));
-        slim = fmax(slim, most * most / (2 * area));
+        slim = fmax(slim, most * most / (2 * area) * (by > 1 ? 1 + 0.6 / sqrt(2 * area) : 1)); /* its grid */
         cross(u, v, n);
         const double angle = acos(fabs(n[2]) / hypot(hypot(n[0], n[1]), n[2])) / degree;
         slant[0] = fmin(slant[0], angle);
