@@ -63,6 +63,11 @@ static void say_eyes(page *p, const scene *s) {
                    number_of(e->ahead.y, DIGITS).text, number_of(e->ahead.z, DIGITS).text);
 }
 
+/* Of what is not covered; a mapping that is not affine on the screen has no guarantee of slanted triangles. */
+static const char *condition_of(const scene *s) {
+    return s->setup.spec.model == DP_MODEL_FP32 ? "if cut into the triangles above" : "facing the camera";
+}
+
 static void say_seen(page *p, const scene *s) {
     const size_t count = s->found.findings, fights = scene_fighting(s), cut = uncovered(s);
     size_t seen = 0;
@@ -71,7 +76,7 @@ static void say_seen(page *p, const scene *s) {
     page_text(p, "%zu pair%s of surfaces lie%s within %s of each other: %zu seen, %zu can fight.", count,
               count == 1 ? "" : "s", count == 1 ? "s" : "", length(p, s->gap).text, seen, fights);
     if (cut > 0)
-        page_text(p, "%zu more %s told apart only if cut into the triangles above.", cut, cut == 1 ? "is" : "are");
+        page_text(p, "%zu more %s told apart only %s.", cut, cut == 1 ? "is" : "are", condition_of(s));
 }
 
 static void say_head(page *p, void *of) {
@@ -122,12 +127,12 @@ static void add_gap(const page *p, const scene *s, const scene_finding *f, char 
 }
 
 /* "seen from 3 m to 9 m: can fight from 5 m on". */
-static void add_sight(const page *p, const scene_finding *f, char *out, size_t size) {
+static void add_sight(const page *p, const scene *s, const scene_finding *f, char *out, size_t size) {
     const scene_sight *e = &f->sight;
     append(out, size, "seen from %s to %s: ", safe_length(p, e->seen_from, false).text,
            safe_length(p, e->seen_to, true).text);
     if (isnan(e->fights_from))
-        append(out, size, "told apart only if cut into the triangles above");
+        append(out, size, "told apart only %s", condition_of(s));
     else if (e->fights_from > e->seen_from)
         append(out, size, "can fight from %s on", safe_length(p, e->fights_from, false).text);
     else
@@ -149,7 +154,7 @@ char *scene_sentence(const scene *s, const scene_finding *f, char *out, size_t s
     const page p = {.unit = s->unit};
     out[0] = '\0';
     if (s->eyes.count > 0)
-        add_sight(&p, f, out, size);
+        add_sight(&p, s, f, out, size);
     else
         add_verdict(&p, &f->verdict, out, size);
     append(out, size, "; ");
