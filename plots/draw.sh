@@ -7,10 +7,12 @@ folder=${2:-plots}
 shift $(($# < 2 ? $# : 2))
 grep -v '^#' "$(dirname "$0")/recipes" | while read -r name arguments; do
     case " $* " in '  ' | *" $name "*) ;; *) continue ;; esac
-    echo "  PLOT    $folder/$name.svg"
+    case $arguments in 'render '*) ending=png ;; *) ending=svg ;; esac
+    echo "  PLOT    $folder/$name.$ending"
     # A recipe is words without quotes or patterns.
     # shellcheck disable=SC2086
     case $arguments in
+    'render '*) "$program" scene ${arguments#render } --render "$folder/$name.png" --json >/dev/null ;;
     'texture '*) "$program" $arguments --figure "$folder/$name.svg" ;;
     *) "$program" plot $arguments -o "$folder/$name.svg" ;;
     esac

@@ -18,9 +18,9 @@ src/texture       | depthprec core texture
 src/method        | depthprec core texture census method
 src/need          | depthprec core api raster need
 src/model         | core model
-src/scene         | depthprec core model need scene
-src/report        | depthprec report
-src/plot          | depthprec core api census raster draw shadow texture method need plot
+src/scene         | depthprec core raster model draw need scene
+src/report        | depthprec core report
+src/plot          | depthprec core api census raster draw shadow texture method need model scene plot
 src/cli           | depthprec core api census raster vertex draw shadow texture method need model scene report plot cli
 '
 
@@ -45,7 +45,7 @@ cairo_elsewhere() {
 
 core_inside() {
     includes core/ src >"$scratch/core" && grep -q '^src/core/' "$scratch/core" || return
-    lines -vE '^src/core/|"core/(append|bits|engine|expansion)\.h"' "$scratch/core"
+    lines -vE '^src/core/|"core/(append|bits|elementary|engine|expansion)\.h"' "$scratch/core"
 }
 
 echo "$layers" >"$scratch/layers"
@@ -55,16 +55,28 @@ while IFS='|' read -r folder allowed; do
     check "$folder includes only: ${allowed# }" empty strangers "$folder" $allowed
 done <"$scratch/layers"
 check "every folder of src has its row" empty sh -c 'for d in src/*/; do grep -q "^${d%/} " "$1" || echo "$d"; done' - "$scratch/layers"
-check "of the core's own headers other rooms include append.h, bits.h, engine.h and expansion.h alone" empty core_inside
+check "of the core's own headers other rooms include append.h, bits.h, elementary.h, engine.h and expansion.h alone" empty core_inside
 check "cairo is included in src/plot/canvas.c alone" empty cairo_elsewhere
 check "GSL is not in the library" empty includes gsl/ include src/core
 
-# What the library may take from outside itself: the C library's memory and string functions, libm, and what
-# compilers add by themselves.
+# Of libm, what has one answer; for the others there is core/elementary.h.
+exact='(sqrt|fabs|floor|ceil|trunc|rint|nearbyint|l?lrint|l?l?round|fma|fmin|fmax|fmod|remainder|modf|frexp|ldexp)f?'
+exact="$exact|(scalbn|ilogb|logb|nextafter|copysign)f?"
+inexact() {
+    libm=$(${CC:-cc} -print-file-name=libm.so.6)
+    nm -D --defined-only "$libm" >"$scratch/symbols" && grep -q ' log1p' "$scratch/symbols" || return
+    sed 's/^.* //; s/@.*//' "$scratch/symbols" | sort -u >"$scratch/libm"
+    for source in src/*/*.c; do echo "$B/obj/${source%.c}.o"; done >"$scratch/objects"
+    xargs nm -A -u <"$scratch/objects" >"$scratch/open" && grep -q ' fmax$' "$scratch/open" || return
+    awk 'NR == FNR { libm[$1] = 1; next } $NF in libm { sub(/:.*/, "", $1); print $NF, $1 }' "$scratch/libm" "$scratch/open" |
+        lines -vE "^($exact) "
+}
+check "of libm only functions whose every bit is given: none that differs between C libraries" empty inexact
+
+# What the library may take from outside itself: the C library's memory and string functions, these, and what compilers
+# add by themselves.
 outside='mem(cpy|move|set|cmp|chr)|str(len|n?cmp|n?cpy|n?cat|r?chr|spn|cspn|pbrk|str|tod|toull?|toll?)'
-outside="$outside|(sqrt|fabs|floor|ceil|trunc|rint|nearbyint|round|lrint|llrint|fma|fmin|fmax|fmod|frexp|ldexp|scalbn)f?"
-outside="$outside|(ilogb|logb|exp|exp2|expm1|log|log2|log10|log1p|pow|cbrt|hypot|nextafter|copysign|remainder)f?"
-outside="$outside|(sin|cos|sincos|tan|asin|acos|atan|atan2)f?|fe[gs]etround"
+outside="$outside|$exact|fe[gs]etround"
 outside="$outside|__stack_chk_fail|__cpu_model|__cpu_indicator_init|__(popcount|clz|ctz)[a-z0-9]*"
 outside="$outside|__cxa_finalize|__gmon_start__|_ITM_(de)?registerTMCloneTable"
 foreign() {

@@ -5,7 +5,7 @@
 export LSAN_OPTIONS="suppressions=$PWD/tests/lsan.supp:print_suppressions=0"
 
 facts() { sed -n '/^<title /p; /^<desc /p; /^<metadata>/,/^<.metadata>/p' "$1"; } # what an SVG says of itself, the command, the digest of its numbers
-recipes() { sed -n 's/^\([a-z][^ ]*\) .*/\1/p' plots/recipes; }
+recipes() { sed -n '/^[a-z][^ ]*  *render /!s/^\([a-z][^ ]*\) .*/\1/p' plots/recipes; } # figures; pictures are in test_values_house.c
 same_facts() { facts "$1" >"$scratch/a" && grep -q '^data: ' "$scratch/a" && facts "$2" | diff "$scratch/a" -; }
 processor() { sed -n 's/^model name[^:]*: //p' /proc/cpuinfo | sed q; } # nothing where the kernel does not say
 names_where() { # names_where FIGURE WORDS: in the description's sentence of the camera
@@ -32,6 +32,9 @@ for drawn in $(recipes); do
         check "plots/$drawn.svg shows the words and numbers of today" same_facts "plots/$drawn.svg" "$scratch/drawn/$drawn.svg" ;;
     esac
     check "plots/README.md shows $drawn" grep -q "]($drawn.svg)" plots/README.md
+done
+for drawn in $(sed -n 's/^\([a-z][^ ]*\)  *render .*/\1/p' plots/recipes); do
+    check "plots/README.md shows $drawn" grep -q "]($drawn.png)" plots/README.md
 done
 has_recipe() { recipes | grep -qx "$1"; }
 for drawn in plots/*.svg; do

@@ -46,6 +46,7 @@ static const struct {
      IDS(OPTION_FOV, OPTION_SUBPIXEL, OPTION_TRIANGLE, OPTION_CASCADES, OPTION_LAMBDA, OPTION_CASTERS, OPTION_KERNEL,
          OPTION_ANGLE, OPTION_SIZE),
      "plot shadow --csv", ""},
+    {VERB_PLOT, IDS(OPTION_TRANSFORMS), "plot scene-fights tests/models/street.obj --gap 0.02 --csv", ""},
     {VERB_PLOT, IDS(OPTION_ARITH), "plot interval -F d24 -m d3d --csv", "--model float"},
     {VERB_BUDGET, IDS(OPTION_COMPOSITION), NULL, "--world 100"},
     {VERB_TABLE | VERB_BUDGET | VERB_SOLVE | VERB_ZFIGHT | VERB_SCENE,

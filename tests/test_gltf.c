@@ -380,6 +380,7 @@ static void instances(void **state) {
         assert_memory_equal(m.position[3 * i + 2], want[i], sizeof want[i]);
     assert_int_equal(m.triangle[1][1], 4);
     assert_int_equal(m.triangle[2][1], 8); /* mirrored */
+    assert_int_equal(m.surfaces, 1);       /* one node: one surface */
     model_free(&m);
 }
 

@@ -458,9 +458,17 @@ static void test_texts(void **state) {
         option_id id;
         size_t field;
         bool file;
-    } texts[] = {{"texture", OPTION_TITLE, AT(title), false},  {"texture", OPTION_CHANNEL, AT(channel), false},
-                 {"table", OPTION_OUTPUT, AT(output), true},   {"texture", OPTION_MATRIX, AT(matrix), true},
-                 {"texture", OPTION_FIGURE, AT(figure), true}, {"texture", OPTION_HISTOGRAM, AT(histogram), true}};
+    } texts[] = {{"texture", OPTION_TITLE, AT(title), false},
+                 {"texture", OPTION_CHANNEL, AT(channel), false},
+                 {"table", OPTION_OUTPUT, AT(output), true},
+                 {"texture", OPTION_MATRIX, AT(matrix), true},
+                 {"texture", OPTION_FIGURE, AT(figure), true},
+                 {"texture", OPTION_HISTOGRAM, AT(histogram), true},
+                 {"scene m.obj", OPTION_RENDER, AT(render), true},
+                 {"scene m.obj", OPTION_PATH, AT(path), true},
+                 {"scene m.obj", OPTION_CAMERA, AT(model_camera), true},
+                 {"scene m.obj", OPTION_ANNOTATE, AT(annotate), true},
+                 {"scene m.obj", OPTION_EMIT_NEED, AT(emit_need), true}};
     tally t = {.name = "texts"};
     (void)state;
     for (size_t i = 0; i < sizeof texts / sizeof texts[0]; i++) {
@@ -532,6 +540,10 @@ static void test_own(void **state) {
     assert_int_equal(o.filters_off, 1U << FINDER_THIN | 1U << FINDER_FACING);
     assert_int_equal(parse(&o, "scene m.obj", OPTION_ALSO, "all", line), EXIT_FINE);
     assert_int_equal(o.filters_off, (1U << FINDER_FILTERS) - 1);
+    assert_int_equal(parse(&o, "scene m.obj", OPTION_FROM, "1,-2,3e4", line), EXIT_FINE);
+    assert_true(o.from[0] == 1 && o.from[1] == -2 && o.from[2] == 3e4 && o.look[0] == 0 && o.triangles.width == 1920);
+    assert_int_equal(parse(&o, "scene m.obj", OPTION_LOOK, "-5m,60cm,7m", line), EXIT_FINE);
+    assert_true(o.look[0] == -5 && o.look[1] == 0.6 && o.look[2] == 7 && o.from[0] == 0 && o.triangles.width == 0);
     assert_int_equal(parse(&o, "scene m.obj", OPTION_GAP, "0", line), EXIT_FINE);
     assert_true(o.gap == 0.0 && option_given(&o, OPTION_GAP));
     assert_int_equal(parse(&o, "zfight", OPTION_GAP, "0", line), EXIT_USAGE);

@@ -9,11 +9,13 @@
 #include "named.h"
 #include "need/requirement.h"
 #include "plot/draw.h"
+#include "plot/fights.h"
 #include "plot/figure.h"
 #include "plot/notes.h"
 #include "plot/ticks.h"
 #include "plot/trace.h"
 #include "plot/words.h"
+#include "scene_made.h"
 #include "shadow/shadow.h"
 #include "support.h"
 
@@ -233,8 +235,18 @@ static void test_every_figure_draws(void **state) {
     const shadow_split split = shadow_split_default();
     const shadow_light light = shadow_light_default();
     shadow_cascade maps[2];
+    static scene_made made;
+    finder_found found;
     for (int i = 0; i < 2; i++)
         assert_int_equal(shadow_cascade_of(&split, &light, i, &maps[i]), SHADOW_OK);
+    scene_made_begin(&made);
+    scene_made_surface(&made, "floor", "");
+    for (int i = 0; i < 2; i++)
+        scene_made_quad(&made, (const double[3]){0, 0, 0}, (const double[3]){8 - 4 * i, 0, 0},
+                        (const double[3]){0, 0, 8});
+    assert_int_equal(finder_find(&made.m, &(finder_asked){.gap = 1}, &found), FINDER_DONE);
+    const fights_item item = {found.finding, 10};
+    const fights_asked fights = {.m = &made.m, .found = &found, .item = &item, .count = 1, .gap = 1};
     method_start();
     assert_true(need_parse("needs", needs, sizeof needs - 1, &file, &error));
     for (size_t i = 0; figure_get(i) != NULL; i++) {
@@ -251,6 +263,7 @@ static void test_every_figure_draws(void **state) {
         a.request.file = &file;
         a.request.maps = maps;
         a.request.map_count = 2;
+        a.request.fights = &fights;
         a.request.family = family != NULL ? method_family_find(family) : NULL;
         chart *c = build(&a, figure_get(i)->name);
         for (size_t t = 0; theme_get(t) != NULL; t++)
@@ -268,6 +281,7 @@ static void test_every_figure_draws(void **state) {
             }
         chart_free(c);
     }
+    finder_free(&found);
     need_release(&file);
 }
 

@@ -181,7 +181,7 @@ static void other_forms(void **state) {
     for (const char *at = strchr(line + 50, ','); at != NULL; at = strchr(at + 1, ',')) {
         double a, b, c;
         char rest[8];
-        if (sscanf(at, ",%lf,%lf,%lf,%7s", &a, &b, &c, rest) == 4 && strcmp(rest, "true") == 0) {
+        if (sscanf(at, ",%lf,%lf,%lf,%7[a-z]", &a, &b, &c, rest) == 4 && strcmp(rest, "true") == 0) {
             assert_true(a == number(f, "certain_to") && b == number(f, "ties_from") && c == number(f, "lift"));
             line = NULL;
             break;

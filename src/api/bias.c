@@ -4,6 +4,7 @@
 #include <math.h>
 
 #include "core/bits.h"
+#include "core/elementary.h"
 
 /* clang-format off */
 static const bias_api rows[] = {
@@ -135,7 +136,7 @@ static double shift_of(const dp_setup *setup, double z, double t) {
     /* perspective: 1/z' = 1/z - t kappa */
     return setup->curve == DP_CURVE_PERSPECTIVE ? t * setup->kappa * z * (z / (1.0 - t * setup->kappa * z))
            : setup->curve == DP_CURVE_LINEAR    ? t * setup->kappa
-                                                : (c * z + 1.0) / c * expm1(t * setup->kappa);
+                                                : (c * z + 1.0) / c * dp_expm1(t * setup->kappa);
 }
 
 /* The window distance from z to z - gap; INFINITY when that lies before the near plane. */
@@ -148,7 +149,7 @@ static double window_of_gap(const dp_setup *setup, double z, double gap) {
         return (double)INFINITY;
     return setup->curve == DP_CURVE_PERSPECTIVE ? gap / (setup->kappa * z * to)
            : setup->curve == DP_CURVE_LINEAR    ? gap / setup->kappa
-                                                : -log1p(-c * gap / (c * z + 1.0)) / setup->kappa;
+                                                : -dp_log1p(-c * gap / (c * z + 1.0)) / setup->kappa;
 }
 
 bias_effect bias_at(const dp_setup *setup, const bias_state *state, double slope, double z) {
@@ -365,7 +366,7 @@ void bias_enough_over(const dp_setup *setup, const bias_goal *goal, double lo, d
     const double last = isinf(hi) ? 0x1p64 * lo : hi; /* an infinite far is that of a perspective: lo is positive */
     double start = isfinite(bias_needed(setup, goal, lo)) ? lo : hi;
     for (int i = 1; i < TRIED && !isfinite(bias_needed(setup, goal, start)); i++)
-        start = lo > 0.0 ? lo * pow(last / lo, (double)i / TRIED) : lo + (last - lo) * i / TRIED;
+        start = lo > 0.0 ? lo * dp_pow(last / lo, (double)i / TRIED) : lo + (last - lo) * i / TRIED;
     *from = *to = (double)NAN;
     if (!isfinite(bias_needed(setup, goal, start)))
         return;

@@ -3,11 +3,13 @@
 
 #include <math.h>
 
+#include "core/elementary.h"
+
 static const double factor = 1.37e-5, degree = 0.017453292519943295;
 
 /* Tangents of the half angles. */
 static double half_height(const disocclusion_view *v) {
-    return tan(0.5 * degree * v->fov_y);
+    return dp_tan(0.5 * degree * v->fov_y);
 }
 
 static double half_width(const disocclusion_view *v) {
@@ -19,8 +21,8 @@ static double by_tangent(const disocclusion_view *v) {
 }
 
 static double by_diagonal(const disocclusion_view *v) {
-    const double corner = hypot(1.0, hypot(half_width(v), half_height(v))); /* over the ray in the middle */
-    return factor * corner * hypot(v->width, v->height);
+    const double corner = dp_hypot(1.0, dp_hypot(half_width(v), half_height(v))); /* over the ray in the middle */
+    return factor * corner * dp_hypot(v->width, v->height);
 }
 
 /* clang-format off */

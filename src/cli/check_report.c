@@ -6,10 +6,10 @@
 #include <string.h>
 #include <unistd.h>
 
+#include "cli/junit.h"
 #include "cli/setups.h"
 #include "cli/slant.h"
 #include "core/append.h"
-#include "plot/notes.h"
 #include "report/number.h"
 #include "report/report.h"
 
@@ -74,59 +74,29 @@ static void write_text(const options *o, bool failures, output *out, const check
 
 /* ---- JUnit ------------------------------------------------------------------------------------------------------- */
 
-static void xml(output *out, const char *text) {
-    char clean[1024];
-    notes_clean(clean, sizeof clean, text);
-    for (const char *c = clean; *c != '\0'; c++) {
-        static const char special[] = "&<>\"";
-        static const char *const names[] = {"&amp;", "&lt;", "&gt;", "&quot;"};
-        const char *found = strchr(special, *c);
-        if (found != NULL)
-            output_text(out, names[found - special]);
-        else
-            output_char(out, *c);
-    }
-}
-
-static void xml_attribute(output *out, const char *name, const char *value) {
-    output_format(out, " %s=\"", name);
-    xml(out, value);
-    output_char(out, '"');
-}
-
-static void junit_case(output *out, const check_file *f, const check_verdict *v) {
-    char text[SENTENCE_SIZE], label[SETUP_LABEL_SIZE], line[16];
+static void say_case(output *out, const check_file *f, const check_verdict *v) {
+    char text[SENTENCE_SIZE], name[SENTENCE_SIZE], label[SETUP_LABEL_SIZE], full[SETUP_LABEL_SIZE], line[16];
     snprintf(line, sizeof line, "%d", v->asked->line);
-    snprintf(text, sizeof text, "%s (%s%s)", v->asked->name, setup_label(&v->setup, false, label),
+    snprintf(name, sizeof name, "%s (%s%s)", v->asked->name, setup_label(&v->setup, false, label),
              check_is_slanted(v) ? ", any slant" : "");
-    output_text(out, "    <testcase");
-    xml_attribute(out, "classname", v->camera->name);
-    xml_attribute(out, "name", text);
-    xml_attribute(out, "file", f->file.path);
-    xml_attribute(out, "line", line);
-    if (v->passed) {
-        output_text(out, "/>\n");
-        return;
-    }
-    output_text(out, ">\n      <failure");
-    xml_attribute(out, "type", need_kind_get(v->asked->kind)->name);
-    xml_attribute(out, "message", sentence(f, v, text));
-    output_char(out, '>');
-    xml(out, setup_label(&v->setup, true, label));
-    output_text(out, "</failure>\n    </testcase>\n");
+    junit_case(out, &(junit_row){.classname = v->camera->name,
+                                 .name = name,
+                                 .file = f->file.path,
+                                 .line = line,
+                                 .type = v->passed ? NULL : need_kind_get(v->asked->kind)->name,
+                                 .message = v->passed ? NULL : sentence(f, v, text),
+                                 .detail = setup_label(&v->setup, true, full)});
 }
 
 static void write_junit(output *out, const check_file *files, size_t count) {
-    output_text(out, "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<testsuites name=\"depthprec check\">\n");
+    junit_begin(out, "depthprec check");
     for (size_t i = 0; i < count; i++) {
-        output_text(out, "  <testsuite");
-        xml_attribute(out, "name", files[i].file.path);
-        output_format(out, " tests=\"%zu\" failures=\"%ld\" errors=\"0\">\n", files[i].count, files[i].failed);
+        junit_suite(out, files[i].file.path, files[i].count, (size_t)files[i].failed);
         for (size_t k = 0; k < files[i].count; k++)
-            junit_case(out, &files[i], &files[i].verdicts[k]);
-        output_text(out, "  </testsuite>\n");
+            say_case(out, &files[i], &files[i].verdicts[k]);
+        junit_suite_end(out);
     }
-    output_text(out, "</testsuites>\n");
+    junit_end(out);
 }
 
 /* ---- JSON and CSV ------------------------------------------------------------------------------------------------ */

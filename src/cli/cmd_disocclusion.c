@@ -9,6 +9,7 @@
 #include "cli/reach.h"
 #include "cli/slant.h"
 #include "cli/walk.h"
+#include "core/elementary.h"
 #include "report/number.h"
 
 enum { DIGITS = 4, DIGITS_Z = 9, DIGITS_TIMES = 3 };
@@ -50,7 +51,7 @@ static constant shipped_at(const disocclusion *d, size_t i, double z) {
 
 /* Edge-on and along the diagonal, where no slant pays more for it, whatever format, mapping and depth: depthprec(7). */
 static double grid_of(const dp_triangles *t) {
-    const double tau = 2.0 * tan(0.5 * t->fov_y * degree) / t->height;
+    const double tau = 2.0 * dp_tan(0.5 * t->fov_y * degree) / t->height;
     return t->subpixel > 0 ? 2.0 * sqrt(2.0) * tau * ldexp(0.5, -t->subpixel) : 0.0;
 }
 

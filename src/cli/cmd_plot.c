@@ -11,6 +11,7 @@
 #include "cli/figure_file.h"
 #include "cli/list.h"
 #include "cli/methods.h"
+#include "cli/scene_figure.h"
 #include "cli/shadow_maps.h"
 #include "core/append.h"
 #include "plot/figure.h"
@@ -36,6 +37,8 @@ typedef struct plotting {
     char where[256]; /* of what is timed */
     need_file file;
     shadow_maps maps;
+    scene model;
+    fights_asked fights;
     chart *chart;
 } plotting;
 
@@ -62,6 +65,8 @@ static int resolve_depths(plotting *p) {
 static int check_file_given(const options *o, const figure_row *row) {
     static const option_id camera[] = {OPTION_NEAR,  OPTION_FAR,   OPTION_FORMAT, OPTION_MAPPING,  OPTION_ORTHO,
                                        OPTION_MODEL, OPTION_ARITH, OPTION_LOG_C,  OPTION_ROUNDING, OPTION_PRESET};
+    if ((row->takes & FIGURE_MODEL) != 0)
+        return o->operand_count > 1 ? EXIT_FINE : usage_error("plot %s: needs MODEL, a file as of scene", row->name);
     if ((row->takes & FIGURE_FILE) == 0)
         return o->operand_count == 1 || row->family != NULL
                    ? EXIT_FINE
@@ -74,8 +79,9 @@ static int check_file_given(const options *o, const figure_row *row) {
     return EXIT_FINE;
 }
 
-#define VIEWED         (FIGURE_SLANTED | FIGURE_DRAWN | FIGURE_SHADOW)
-#define VIEWED_FIGURES "budget, fight, interval and shadow"
+#define SLANTED        (FIGURE_SLANTED | FIGURE_MODEL)
+#define VIEWED         (SLANTED | FIGURE_DRAWN | FIGURE_SHADOW)
+#define VIEWED_FIGURES "budget, fight, interval, scene-fights and shadow"
 
 /* Options of some figures alone. */
 static const struct {
@@ -91,14 +97,23 @@ static const struct {
             {OPTION_VIEWPORT, VIEWED, VIEWED_FIGURES},
             {OPTION_RASTER, VIEWED, VIEWED_FIGURES},
             {OPTION_TRIANGLE, VIEWED, VIEWED_FIGURES},
-            {OPTION_SUBPIXEL, FIGURE_SLANTED | FIGURE_SHADOW, "budget, interval and shadow"},
-            {OPTION_SLANT, FIGURE_SLANTED, "budget and interval"},
+            {OPTION_SUBPIXEL, SLANTED | FIGURE_SHADOW, "budget, interval, scene-fights and shadow"},
+            {OPTION_SLANT, SLANTED, "budget, interval and scene-fights"},
             {OPTION_PLANE, FIGURE_DRAWN, "fight"},
             {OPTION_CASCADES, FIGURE_SHADOW, "shadow"},
             {OPTION_LAMBDA, FIGURE_SHADOW, "shadow"},
             {OPTION_LIGHT_BOX, FIGURE_SHADOW, "shadow"},
             {OPTION_KERNEL, FIGURE_SHADOW, "shadow"},
-            {OPTION_ANGLE, FIGURE_SHADOW, "shadow"},
+            {OPTION_ANGLE, FIGURE_SHADOW | FIGURE_MODEL, "scene-fights and shadow"},
+            {OPTION_GAP, FIGURE_MODEL, "scene-fights"},
+            {OPTION_WITHIN, FIGURE_MODEL, "scene-fights"},
+            {OPTION_ALSO, FIGURE_MODEL, "scene-fights"},
+            {OPTION_TRANSFORMS, FIGURE_MODEL, "scene-fights"},
+            {OPTION_FROM, FIGURE_MODEL, "scene-fights"},
+            {OPTION_LOOK, FIGURE_MODEL, "scene-fights"},
+            {OPTION_PATH, FIGURE_MODEL, "scene-fights"},
+            {OPTION_CAMERA, FIGURE_MODEL, "scene-fights"},
+            {OPTION_THREADS, FIGURE_MODEL, "scene-fights"},
             {OPTION_SIZE, FIGURE_SHADOW, "shadow"}};
 
 static int check_only(const options *o, const figure_row *row) {
@@ -158,9 +173,9 @@ static void name_setups(plotting *p) {
 static void subtitle_of(const options *o, const figure_request *request, char *out, size_t size) {
     char full[SETUP_LABEL_SIZE];
     setup_label(&request->setups[0], true, full);
-    char *model = strrchr(full, ',');
-    if (o->model_auto && request->count > 1 && model != NULL)
-        *model = '\0'; /* the names say it */
+    char *last = strrchr(full, ',');
+    if (o->model_auto && request->count > 1 && last != NULL)
+        *last = '\0'; /* the names say it */
     const char *rest = strstr(full, ", ");
     const char *one = request->count == 1 ? full : rest != NULL ? rest + 2 : "";
     const char *unit = options_unit(o);
@@ -318,13 +333,33 @@ static void say_evaluations(const figure_row *row, const chart *c) {
 
 /* ---- The command ------------------------------------------------------------------------------------------------- */
 
-static int write_figure(const plotting *p) {
+/* Reads and searches the model, which may take long. */
+static int look_at_model(plotting *p, output *out) {
+    const int status = scene_look(&p->model, out);
+    p->request.fights = &p->fights;
+    if (status == EXIT_FINE && !scene_figure_take(&p->model, &p->fights, p->chart))
+        return usage_error("plot: no memory");
+    return status;
+}
+
+static int height_of(const plotting *p) {
+    const bool own = p->request.fights != NULL && p->o->height == 0;
+    return own ? scene_figure_height(p->chart, p->request.columns) : p->request.rows;
+}
+
+static int write_figure(plotting *p) {
     const options *o = p->o;
     chart *c = p->chart;
     output out;
     int status = options_open(o, &out);
     if (status != EXIT_FINE)
         return status;
+    if ((p->row->takes & FIGURE_MODEL) != 0)
+        status = look_at_model(p, &out);
+    if (status != EXIT_FINE) {
+        output_abandon(&out);
+        return status;
+    }
     const char *wrong = p->row->build(&p->request, c);
     if (wrong != NULL) {
         output_abandon(&out);
@@ -334,7 +369,7 @@ static int write_figure(const plotting *p) {
         snprintf(c->title, sizeof c->title, "%s", p->row->title);
     bool good = !chart_failed(c);
     if (good && o->form == FORM_TEXT)
-        good = figure_file_write(o, o->output, c, p->request.columns, p->request.rows, &out);
+        good = figure_file_write(o, o->output, c, p->request.columns, height_of(p), &out);
     else if (good)
         figure_data_write(&out, o->form, "plot", p->row->name, c);
     if (good && o->verbose)
@@ -376,11 +411,13 @@ int cmd_plot(const options *o) {
         return usage_error("plot: no memory");
     notes_clean(p.chart->title, sizeof p.chart->title, o->title != NULL ? o->title : "");
     status = (p.row->takes & FIGURE_FILE) != 0     ? resolve_file(&p)
+             : (p.row->takes & FIGURE_MODEL) != 0  ? scene_figure_begin(&p.model, o)
              : (p.row->takes & FIGURE_SHADOW) != 0 ? resolve_shadow(&p)
                                                    : resolve_setups(&p);
     if (status == EXIT_FINE)
         status = write_figure(&p);
     chart_free(p.chart);
+    scene_end(&p.model);
     setups_release(&p.all);
     need_release(&p.file);
     return status;

@@ -11,6 +11,7 @@
 #include "cli/scene.h"
 #include "cli/setups.h"
 #include "cli/stop.h"
+#include "core/elementary.h"
 #include "report/number.h"
 
 enum { STEPS = 1000 };
@@ -26,6 +27,29 @@ static options scene_options(const options *given) {
     if (!option_given(given, OPTION_ANGLE))
         o.angle = FINDER_ANGLE;
     return o;
+}
+
+/* What is written goes into a file each, and none of them is the model. */
+static int check_files(const scene *s) {
+    const options *o = &s->o;
+    const struct {
+        option_id id;
+        const char *path;
+    } files[] = {{OPTION_OUTPUT, o->output},
+                 {OPTION_RENDER, o->render},
+                 {OPTION_ANNOTATE, o->annotate},
+                 {OPTION_EMIT_NEED, o->emit_need}};
+    for (size_t i = 0; i < sizeof files / sizeof files[0]; i++) {
+        if (files[i].path == NULL)
+            continue;
+        if (output_same_file(files[i].path, s->file))
+            return option_error(files[i].id, "must be another file than the model, got '%s'", files[i].path);
+        for (size_t k = 0; k < i; k++)
+            if (files[k].path != NULL && output_same_file(files[i].path, files[k].path))
+                return option_error(files[i].id, "must be another file than --%s, got '%s'",
+                                    option_rows[files[k].id].name, files[i].path);
+    }
+    return EXIT_FINE;
 }
 
 /* One camera: its fullest model. */
@@ -58,27 +82,43 @@ static int read_model(scene *s) {
     return error.unreadable ? EXIT_IO : status;
 }
 
+typedef struct box {
+    double lo[3], hi[3];
+} box;
+
 /* Of the triangles: a file may have vertices that none of them uses. */
-static double extent_of(const model *m) {
-    double sum = 0.0;
-    for (int k = 0; k < 3; k++) {
-        double lo = HUGE_VAL, hi = -HUGE_VAL;
-        for (size_t i = 0; i < 3 * m->triangles; i++) {
-            const double x = m->position[m->triangle[i / 3][i % 3]][k];
-            lo = fmin(lo, x);
-            hi = fmax(hi, x);
+static box box_of(const model *m) {
+    box b = {{HUGE_VAL, HUGE_VAL, HUGE_VAL}, {-HUGE_VAL, -HUGE_VAL, -HUGE_VAL}};
+    for (size_t i = 0; i < 3 * m->triangles; i++) {
+        const double *x = m->position[m->triangle[i / 3][i % 3]];
+        for (int k = 0; k < 3; k++) {
+            b.lo[k] = fmin(b.lo[k], x[k]);
+            b.hi[k] = fmax(b.hi[k], x[k]);
         }
-        sum = hypot(sum, hi - lo);
     }
-    return sum;
+    return b;
+}
+
+/* As far as the model reaches, of every eye that was asked for; without one, across. */
+static double farthest(const scene *s, const box *b) {
+    double reach = s->eyes.count > 0 ? 0.0 : s->extent;
+    for (size_t i = 0; i < 8 * s->eyes.count; i++) {
+        const double corner[3] = {i & 1 ? b->hi[0] : b->lo[0], i & 2 ? b->hi[1] : b->lo[1],
+                                  i & 4 ? b->hi[2] : b->lo[2]};
+        double seen[3];
+        scene_eye_sees(&s->eyes.eye[i / 8], corner, seen);
+        reach = fmax(reach, seen[2]);
+    }
+    return reach;
 }
 
 /* What was not said: as far as the model reaches, and the largest distance that is not told apart there. */
 static int take_limits(scene *s) {
     const double znear = s->setup.spec.znear, zfar = s->setup.spec.zfar;
+    const box b = box_of(&s->model);
     dp_separation_worst worst = {.bound = HUGE_VAL};
-    s->extent = extent_of(&s->model);
-    s->within = option_given(&s->o, OPTION_WITHIN) ? s->o.within : fmin(fmax(s->extent, 2.0 * znear), zfar);
+    s->extent = dp_hypot(dp_hypot(b.hi[0] - b.lo[0], b.hi[1] - b.lo[1]), b.hi[2] - b.lo[2]);
+    s->within = option_given(&s->o, OPTION_WITHIN) ? s->o.within : fmin(fmax(farthest(s, &b), 2.0 * znear), zfar);
     if (!(s->within >= znear && s->within <= zfar))
         return option_error(OPTION_WITHIN, "must lie between near and far, got '%s'", number_full(s->within).text);
     dp_separation_over(&s->setup, znear, s->within, 0.0, &worst);
@@ -117,13 +157,25 @@ static scene_named name_of(const model_surface *m) {
                          m->material[0] != '\0' ? m->material : NULL};
 }
 
-/* The nearest fight first, NaN before all; then the largest. */
+/* The first of them that differs decides: from an eye, what fights there, what is not covered, what is seen. */
+typedef struct urgency {
+    double key[4];
+} urgency;
+
+static urgency urgency_of(const scene_finding *f) {
+    const scene_sight *e = &f->sight;
+    return (urgency){{isnan(e->fights_from) ? HUGE_VAL : e->fights_from, e->covered ? 1.0 : 0.0,
+                      isnan(e->seen_from) ? HUGE_VAL : 0.0,
+                      isnan(f->verdict.certain_to) ? -1.0 : f->verdict.certain_to}};
+}
+
+/* The nearest fight first, certain nowhere before all; then the largest. */
 static int compare(const void *one, const void *other) {
     const scene_finding *a = one, *b = other;
-    const double za = isnan(a->verdict.certain_to) ? -1.0 : a->verdict.certain_to;
-    const double zb = isnan(b->verdict.certain_to) ? -1.0 : b->verdict.certain_to;
-    if (za != zb)
-        return za < zb ? -1 : 1;
+    const urgency u = urgency_of(a), v = urgency_of(b);
+    for (int k = 0; k < 4; k++)
+        if (u.key[k] != v.key[k])
+            return u.key[k] < v.key[k] ? -1 : 1;
     if (a->area != b->area)
         return a->area > b->area ? -1 : 1;
     return a->of < b->of ? -1 : 1;
@@ -133,7 +185,6 @@ static int judge(scene *s) {
     s->findings = calloc(s->found.findings + 1, sizeof *s->findings);
     if (s->findings == NULL)
         return usage_error("%s: no memory for %zu findings", s->file, s->found.findings);
-    s->passed = true;
     for (size_t i = 0; i < s->found.findings; i++) {
         const finder_finding *f = &s->found.finding[i];
         const bool again = i > 0 && f->gap_min == f[-1].gap_min && f->gap_max == f[-1].gap_max;
@@ -146,51 +197,120 @@ static int judge(scene *s) {
                                .area = f->area,
                                .place = {f->place[0], f->place[1], f->place[2]},
                                .pairs = f->pairs,
+                               .wrong_pixels = (double)NAN,
+                               .sight = {.covered = true},
+                               .line = (double)NAN,
                                .verdict =
                                    again ? out[-1].verdict : scene_judge(&s->setup, f->gap_min, f->gap_max, s->within)};
         out->fights = !(out->verdict.certain_to >= s->within);
-        s->passed = s->passed && !out->fights;
     }
+    const int status = s->eyes.count > 0 ? scene_eyes_judge(s) : EXIT_FINE;
+    s->passed = true;
+    for (size_t i = 0; i < s->found.findings; i++)
+        s->passed = s->passed && !s->findings[i].fights;
     qsort(s->findings, s->found.findings, sizeof *s->findings, compare);
-    return EXIT_FINE;
+    return status;
 }
 
 /* ---- The command ------------------------------------------------------------------------------------------------- */
 
-static void release(scene *s) {
+/* The camera, for all that asks of it. */
+static int take_camera(scene *s) {
+    s->triangles = slant_fields_of(&s->o, &s->slant);
+    const int status = take_setup(s);
+    return status == EXIT_FINE ? scene_render_check(s) : status;
+}
+
+int scene_begin(scene *s, const options *given, const char *file) {
+    *s = (scene){.o = scene_options(given), .file = file, .unit = options_unit(given)};
+    s->angle = s->o.angle;
+    s->transforms = option_word(OPTION_TRANSFORMS, s->o.transforms);
+    const int status = scene_eyes_check(&s->o);
+    return status == EXIT_FINE && s->o.model_camera == NULL ? take_camera(s) : status;
+}
+
+int scene_look(scene *s, output *out) {
+    int status = read_model(s);
+    if (status == EXIT_FINE)
+        status = scene_eyes_take(s);
+    if (status == EXIT_FINE && s->o.model_camera != NULL)
+        status = take_camera(s);
+    if (status == EXIT_FINE)
+        status = take_limits(s);
+    if (status == EXIT_FINE)
+        status = find(s);
+    stop_end(out);
+    if (status == EXIT_FINE)
+        status = judge(s);
+    scene_bias_take(s);
+    return status;
+}
+
+void scene_end(scene *s) {
     free(s->findings);
+    free(s->eyes.eye);
     finder_free(&s->found);
     model_free(&s->model);
 }
 
+/* What is asked of this command alone. */
+static int check_asked(const scene *s) {
+    const options *o = &s->o;
+    if (o->report != REPORT_TEXT && o->form != FORM_TEXT)
+        return option_error(OPTION_REPORT, "cannot be combined with --json or --csv");
+    if (o->report == REPORT_JUNIT && !option_given(o, OPTION_WITHIN))
+        return option_error(OPTION_REPORT, "junit needs --within: what fights nearer fails");
+    if (o->emit_need != NULL && option_given(o, OPTION_GAP) && o->gap == 0.0)
+        return option_error(OPTION_EMIT_NEED, "needs a --gap above 0: no camera tells one plane apart");
+    if (o->api == NULL)
+        return option_error(OPTION_API, "must name one here, got 'all'");
+    return check_files(s);
+}
+
+/* The files beside the report, each after the one before, so that an interrupt leaves whole ones alone. */
+static int write_files(scene *s, output *out) {
+    const struct {
+        const char *path;
+        int (*write)(scene *s);
+    } files[] = {{s->o.render, scene_render}, {s->o.annotate, scene_annotate}, {s->o.emit_need, scene_need}};
+    int status = EXIT_FINE;
+    for (size_t i = 0; i < sizeof files / sizeof files[0] && status == EXIT_FINE; i++) {
+        if (files[i].path != NULL)
+            status = files[i].write(s);
+        stop_end(out);
+    }
+    return status;
+}
+
+static int write_report(scene *s, output *out) {
+    if (s->o.report == REPORT_JUNIT) {
+        scene_junit(s, out);
+    } else {
+        const report_spec spec = scene_report(s);
+        report_write(&spec, out, s->o.report == REPORT_JSON ? FORM_JSON : s->o.form);
+    }
+    return output_close(out);
+}
+
 int cmd_scene(const options *given) {
     output out;
-    scene s = {.o = scene_options(given), .file = given->operands[0], .unit = options_unit(given)};
-    s.angle = s.o.angle;
-    s.transforms = option_word(OPTION_TRANSFORMS, s.o.transforms);
-    s.triangles = slant_fields_of(&s.o, &s.slant);
-    int status = take_setup(&s);
+    scene s;
+    int status = scene_begin(&s, given, given->operands[0]);
+    if (status == EXIT_FINE)
+        status = check_asked(&s);
     if (status == EXIT_FINE)
         status = options_open(&s.o, &out);
     if (status != EXIT_FINE)
         return status;
-    status = read_model(&s);
+    status = scene_look(&s, &out);
     if (status == EXIT_FINE)
-        status = take_limits(&s);
+        status = write_files(&s, &out);
     if (status == EXIT_FINE)
-        status = find(&s);
-    stop_end(&out);
-    if (status == EXIT_FINE)
-        status = judge(&s);
-    if (status == EXIT_FINE) {
-        const report_spec spec = scene_report(&s);
-        report_write(&spec, &out, s.o.form);
-        status = output_close(&out);
-    } else {
+        status = write_report(&s, &out);
+    else
         output_abandon(&out);
-    }
     if (status == EXIT_FINE && option_given(&s.o, OPTION_WITHIN) && !s.passed)
         status = EXIT_FAILED;
-    release(&s);
+    scene_end(&s);
     return status;
 }

@@ -14,6 +14,7 @@
 #include "cli/reach.h"
 #include "cli/slant.h"
 #include "core/append.h"
+#include "core/elementary.h"
 #include "report/number.h"
 
 enum {
@@ -94,10 +95,10 @@ static void choose_depths(comparison *c) {
             c->depths[c->depth_count] = depths_get(&o->at, c->depth_count);
         return;
     }
-    const int first = (int)ceil(log10(near) - 1e-9), last = (int)floor(log10(far) + 1e-9);
+    const int first = (int)ceil(dp_log10(near) - 1e-9), last = (int)floor(dp_log10(far) + 1e-9);
     const int most = o->preset_count > 1 ? DEPTHS_OF_PRESETS : DEPTHS, step = (last - first) / most + 1;
     for (int e = last - (last - first) / step * step; e <= last && c->depth_count < DEPTHS; e += step)
-        c->depths[c->depth_count++] = fmin(fmax(pow(10.0, e), near), far);
+        c->depths[c->depth_count++] = fmin(fmax(dp_pow(10.0, e), near), far);
     if (c->depth_count == 0)
         c->depths[c->depth_count++] = far;
 }

@@ -4,6 +4,7 @@
 #include <math.h>
 
 #include "cli/options.h"
+#include "core/elementary.h"
 #include "report/number.h"
 
 static const double infinite_far_ratio = 1e6; /* the default depths end at this many nears when far is infinite */
@@ -18,7 +19,7 @@ double depths_get(const depths *d, size_t i) {
     if (i + 1 >= d->count)
         return d->hi;
     double share = (double)i / (double)(d->count - 1);
-    double z = d->kind == DEPTHS_LOG ? d->lo * pow(d->hi / d->lo, share) : d->lo + (d->hi - d->lo) * share;
+    double z = d->kind == DEPTHS_LOG ? d->lo * dp_pow(d->hi / d->lo, share) : d->lo + (d->hi - d->lo) * share;
     return fmin(fmax(z, d->lo), d->hi);
 }
 

@@ -1,6 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "cli/figure_data.h"
 
+#include <math.h>
+
 #include "report/report.h"
 
 typedef struct axis {
@@ -22,6 +24,7 @@ typedef struct plotted {
     const char *panel_title, *name, *method;
     const chart_series *series; /* null: the map */
     point point;
+    size_t field; /* of a map that lies on another */
 } plotted;
 
 static axis axis_of(const chart_axis *a) {
@@ -48,11 +51,22 @@ static void *next_series(void *of, size_t i) {
     return p;
 }
 
-static void *next_point(void *of, size_t i) {
+/* Of a map that lies on another, the next field that has a value. */
+static size_t next_field(plotted *p, size_t i) {
+    const chart_map *m = &p->panel->map;
+    if (p->series != NULL || m->under == NULL)
+        return i;
+    p->field = i == 0 ? 0 : p->field + 1;
+    while (p->field < (size_t)m->columns * (size_t)m->rows && isnan(m->value[p->field]))
+        p->field++;
+    return p->field;
+}
+
+static void *next_point(void *of, size_t at) {
     plotted *p = of;
     const chart_series *s = p->series;
     const chart_map *m = &p->panel->map;
-    const size_t columns = (size_t)m->columns;
+    const size_t columns = (size_t)m->columns, i = next_field(p, at);
     if (i == (s != NULL ? s->count : columns * (size_t)m->rows))
         return NULL;
     if (s == NULL)

@@ -70,9 +70,10 @@ int view_drawn(options *o) {
 int slant_view(options *o) {
     static const option_id beside[] = {OPTION_FOV,   OPTION_HFOV,  OPTION_RASTER,  OPTION_SUBPIXEL,
                                        OPTION_SLANT, OPTION_PLANE, OPTION_TRIANGLE};
+    enum { OF_PICTURES = 3 }; /* the first of them, which a picture takes, too: see view_drawn() */
     const bool slanted = o->triangles.width > 0;
     const bool by_preset = o->preset_count == 1 && !option_given(o, OPTION_FOV) && !option_given(o, OPTION_HFOV);
-    for (size_t i = 0; i < sizeof beside / sizeof beside[0]; i++)
+    for (size_t i = o->render != NULL ? OF_PICTURES : 0; i < sizeof beside / sizeof beside[0]; i++)
         if (option_given(o, beside[i]) && !slanted)
             return option_refuse(&option_rows[beside[i]], "needs --viewport: surfaces face the camera");
     if (!slanted)
@@ -85,8 +86,14 @@ int slant_view(options *o) {
     return by_preset ? EXIT_FINE : view_vertical(o, o->triangles.width, o->triangles.height, &o->triangles.fov_y);
 }
 
+/* From an eye in a model surfaces slant. */
+static bool is_slanted(const options *o) {
+    return option_given(o, OPTION_VIEWPORT) || o->drawn || o->verb->bit == VERB_DISOCCLUSION ||
+           option_given(o, OPTION_FROM) || option_given(o, OPTION_PATH) || option_given(o, OPTION_CAMERA);
+}
+
 int slant_complete(options *o) {
-    if (!option_given(o, OPTION_VIEWPORT) && !o->drawn && o->verb->bit != VERB_DISOCCLUSION)
+    if (!is_slanted(o))
         o->triangles.width = 0;
     if ((o->verb->bit & option_rows[OPTION_VIEWPORT].commands) == 0)
         return EXIT_FINE;

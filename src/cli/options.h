@@ -85,7 +85,14 @@ typedef enum option_id {
     OPTION_VERTICES,
     OPTION_WITHIN,
     OPTION_ALSO,
+    OPTION_FROM,
+    OPTION_LOOK,
+    OPTION_PATH,
+    OPTION_CAMERA,
     OPTION_TRANSFORMS,
+    OPTION_RENDER,
+    OPTION_ANNOTATE,
+    OPTION_EMIT_NEED,
     OPTION_HALF_HEIGHT,
     OPTION_MATRIX,
     OPTION_YAW,
@@ -202,11 +209,17 @@ typedef struct options {
     double clamp;         /**< of a bias, window depth; 0 is none */
     double slope;         /**< scene units per pixel, not negative */
 
-    double gap;           /**< scene units; 0 when not given */
-    double within;        /**< eye depth; 0 when not given */
-    unsigned transforms;  /**< of a model's nodes: a model_transforms */
-    unsigned filters_off; /**< of a model's pairs: 1 << finder_filter, or-ed */
-    uint64_t sample;      /**< pairs to draw; 0 when not given */
+    double gap;               /**< scene units; 0 when not given */
+    double within;            /**< eye depth; 0 when not given */
+    double from[3], look[3];  /**< places in a model: of an eye, and what it looks at */
+    const char *path;         /**< file of such places; or null */
+    const char *model_camera; /**< a camera of the model, by name; or null */
+    unsigned transforms;      /**< of a model's nodes: a model_transforms */
+    unsigned filters_off;     /**< of a model's pairs: 1 << finder_filter, or-ed */
+    const char *render;       /**< file of a picture; null when not given */
+    const char *annotate;     /**< file of a model; null when not given */
+    const char *emit_need;    /**< file of requirements; null when not given */
+    uint64_t sample;          /**< pairs to draw; 0 when not given */
     uint64_t seed;
     const vertex_program *against[VERTEX_OTHERS]; /**< in the order given, each once */
     size_t against_count;                         /**< 0: --against was not given */

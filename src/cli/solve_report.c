@@ -8,6 +8,7 @@
 #include "cli/slant.h"
 #include "cli/solve_report.h"
 #include "core/append.h"
+#include "core/elementary.h"
 
 const char *solve_measure_name(const solve_report *r) {
     return r->kind == MEASURE_ERROR ? "error" : "separation";
@@ -76,7 +77,7 @@ static bool plane_is_good(const solve_report *r, const solve_candidate *c, doubl
 number_text solve_safe_digits(const solve_report *r, const solve_candidate *c, double value, double until) {
     const double sign = until >= value ? 1.0 : -1.0;
     for (int digits = SOLVE_DIGITS; digits <= DIGITS_MOST && isfinite(value); digits++) {
-        const double unit = pow(10.0, floor(log10(value)) - (digits - 1));
+        const double unit = dp_pow(10.0, floor(dp_log10(value)) - (digits - 1));
         for (int i = 0; i < UNITS; i++) {
             const number_text out = number_of(value + sign * i * unit, digits);
             const double shown = strtod(out.text, NULL);

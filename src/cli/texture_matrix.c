@@ -6,6 +6,7 @@
 #include <string.h>
 
 #include "cli/texture.h"
+#include "core/elementary.h"
 #include "report/number.h"
 
 enum { ENTRIES = 16, FILE_MOST = 1 << 16, SHOWN = 24 };
@@ -97,7 +98,7 @@ static void name_edges(texture_matrix *t) {
     for (int i = 0; i < 4; i++)
         t->edges[i] = ((i % 2 != 0 ? 1 : -1) - p->centre[i / 2]) * p->half[i / 2];
     for (int k = 0; k < 2; k++)
-        t->fov[k] = p->ortho ? (double)NAN : (atan(t->edges[2 * k + 1]) - atan(t->edges[2 * k])) / DEGREE;
+        t->fov[k] = p->ortho ? (double)NAN : (dp_atan(t->edges[2 * k + 1]) - dp_atan(t->edges[2 * k])) / DEGREE;
 }
 
 int texture_matrix_open(const options *o, texture_source *s, options *with) {

@@ -24,7 +24,8 @@ const verb verb_rows[] = {
      "  depthprec plot error -F fp32 -m d3d,reversed -o - --type png >error.png\n"
      "  depthprec plot distribution -F unorm4 -n 1 -f 10 -o staircase.png --theme dark\n"
      "  depthprec plot fight -F fp32 -m reversed --at 500 -o fight.svg\n"
-     "  depthprec plot scene engine.need -o scene.svg\n", 2},
+     "  depthprec plot scene engine.need -o scene.svg\n"
+     "  depthprec plot scene-fights house.glb -F d24 -m d3d -o fights.svg\n", 2},
     {"zfight", VERB_ZFIGHT, "", 0, 0, NULL,
      "where surfaces start to fight, by a census of every depth",
      "  depthprec zfight -n 0.1 -f 1000 -F unorm24,fp32 -m d3d,reversed\n"
@@ -80,6 +81,7 @@ const verb verb_rows[] = {
      "a model: which surfaces fight, from where on",
      "  depthprec scene house.glb -n 0.1 -f 500 --unit m\n"
      "  depthprec scene house.glb --viewport 1920x1080 --within 50\n"
+     "  depthprec scene house.glb --from 0,2,30 --look 0,2,0 --render seen.png\n"
      "  depthprec scene city.obj -F d24 -m d3d --gap 0.001 --json\n", 1},
     {"disocclusion", VERB_DISOCCLUSION, "", 0, 0, NULL,
      "how far apart two samples are surely of two surfaces",

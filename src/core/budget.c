@@ -4,6 +4,7 @@
 #include "core/composition.h"
 #include "core/curve.h"
 #include "core/demand.h"
+#include "core/elementary.h"
 #include "core/engine.h"
 #include "core/extremes.h"
 #include "core/rounding.h"
@@ -104,7 +105,7 @@ static dp_composed_vertex composed_vertex(const dp_setup *setup, const dp_chain 
     const dp_triangles *t = &setup->spec.triangles;
     const dp_composed_view view = dp_triangles_view(t);
     dp_composing in = composing_of(setup, c, terms);
-    in.lean = larger(in.lean, hypot(1.0, hypot(view.ray[0], view.ray[1])));
+    in.lean = larger(in.lean, dp_hypot(1.0, dp_hypot(view.ray[0], view.ray[1])));
     const double farthest = dp_triangles_depths(c, (dp_span){z, z}, t, NULL).hi;
     const dp_composed_vertex v = dp_composition_vertex(&in, &view, farthest);
     return dp_composition_vertex(&in, &view, farthest + 2.0 * (v.position + v.along)); /* as it is when moved */

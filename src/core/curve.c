@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 #include "core/curve.h"
 
+#include "core/elementary.h"
 #include "core/expansion.h"
 #include "core/logarithm.h"
 
@@ -26,7 +27,7 @@ double dp_curve_eye(const dp_setup *setup, dp_point p) {
         const double to_far = setup->reversed ? p.comp : p.num;
         return (setup->anchor * to_near + f * to_far) / p.den;
     }
-    return expm1(p.num / p.den * setup->kappa) / setup->spec.log_c;
+    return dp_expm1(p.num / p.den * setup->kappa) / setup->spec.log_c;
 }
 
 double dp_curve_gap(const dp_setup *setup, dp_point p, double z) {
@@ -36,7 +37,7 @@ double dp_curve_gap(const dp_setup *setup, dp_point p, double z) {
     if (setup->curve == DP_CURVE_LOG) {
         const double c = setup->spec.log_c;
         const dp_pair top = {setup->log_hi, setup->log_lo};
-        return (z + 1.0 / c) * expm1(dp_scaled_difference(p.num, p.den, top, dp_log1p_product(c, z)));
+        return (z + 1.0 / c) * dp_expm1(dp_scaled_difference(p.num, p.den, top, dp_log1p_product(c, z)));
     }
     if (setup->curve == DP_CURVE_LINEAR) {
         const double a = setup->anchor;
@@ -72,14 +73,14 @@ double dp_curve_span(const dp_setup *setup, dp_point a, dp_point b) {
         return step == 0.0 ? 0.0 : dp_curve_eye(setup, a) * dp_curve_eye(setup, b) * (step * setup->kappa);
     if (setup->curve == DP_CURVE_LINEAR)
         return step * setup->kappa;
-    return (dp_curve_eye(setup, a) + 1.0 / setup->spec.log_c) * expm1(step * setup->kappa);
+    return (dp_curve_eye(setup, a) + 1.0 / setup->spec.log_c) * dp_expm1(step * setup->kappa);
 }
 
 double dp_curve_reach(const dp_setup *setup, double z, double step) {
     const double change = step * setup->kappa;
     return setup->curve == DP_CURVE_PERSPECTIVE ? z * z * change
            : setup->curve == DP_CURVE_LINEAR    ? change
-                                                : (z + 1.0 / setup->spec.log_c) * expm1(change);
+                                                : (z + 1.0 / setup->spec.log_c) * dp_expm1(change);
 }
 
 double dp_curve_ahead(const dp_setup *setup, double num, double den, double z) {

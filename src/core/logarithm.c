@@ -1,6 +1,8 @@
 /* SPDX-License-Identifier: MIT */
 #include "core/logarithm.h"
 
+#include "core/elementary.h"
+
 /* log(2) to 107 bits */
 static const dp_pair log_two = {0x1.62e42fefa39efp-1, 0x1.abc9e3b39803fp-56};
 
@@ -49,7 +51,7 @@ dp_pair dp_log1p_product(double c, double z) {
         return log1p_series(u);
     /* One Newton step from the double y: log(x) = y + log(x e^-y), and x e^-y is within 2^-50 of 1. */
     dp_pair x = dp_pair_sum(u, (dp_pair){1.0, 0.0});
-    double y = log(x.hi);
+    double y = dp_log(x.hi);
     int k;
     dp_pair e = exp_reduced(-y, &k);
     e = dp_pair_sum(e, (dp_pair){1.0, 0.0});

@@ -3,6 +3,7 @@
 
 #include "core/bits.h"
 #include "core/demand.h"
+#include "core/elementary.h"
 #include "core/extremes.h"
 #include "core/rounding.h"
 
@@ -47,11 +48,11 @@ dp_triangles dp_triangles_default(void) {
 }
 
 static double half_tangent(double degrees) {
-    return tan(0.5 * degrees * degree);
+    return dp_tan(0.5 * degrees * degree);
 }
 
 double dp_fov_vertical(double fov_x, int width, int height) {
-    return 2.0 * atan(half_tangent(fov_x) * height / width) / degree;
+    return 2.0 * dp_atan(half_tangent(fov_x) * height / width) / degree;
 }
 
 static int within(double x, double lo, double hi) {
@@ -132,7 +133,7 @@ static loss loss_of(const dp_chain *c, dp_span at, own_error own, const dp_trian
     const double most = smaller(larger(g1, g2) + full, 1.0);
     const double far_x = t->width + t->pixels;
     const double far_y = t->height + t->pixels;
-    const double box = 0.5 + 0.5 * hypot(t->slim, 1.0);
+    const double box = 0.5 + 0.5 * dp_hypot(t->slim, 1.0);
     const double gradients = 1.0 + t->plane.origin * DP_UNIT * (far_x + far_y);
     const double per_range = (t->plane.box * box + t->plane.range) * gradients * second_order;
     const double range = (by_slope ? 0.0 : fabs(g1 - g2)) + 2.0 * (full + stray);
@@ -165,7 +166,7 @@ static view view_of(const dp_triangles *t) {
     const double pixel = 2.0 * y / t->height;
     const double x = 0.5 * pixel * t->width;
     const double off = pixel * t->pixels;
-    return (view){pixel, hypot(x, y), hypot(x + off, y + off), x + off, y + off};
+    return (view){pixel, dp_hypot(x, y), dp_hypot(x + off, y + off), x + off, y + off};
 }
 
 dp_composed_view dp_triangles_view(const dp_triangles *t) {
@@ -181,7 +182,7 @@ static double snapping(const dp_triangles *t) {
 
 /* The angle of those asked for at which `per_sine` sin + `per_cosine` cos, neither negative, is largest. */
 static double worst_slant(const dp_triangles *t, double per_sine, double per_cosine) {
-    return smaller(larger(atan2(per_sine, per_cosine), t->slant_lo * degree), t->slant_hi * degree);
+    return smaller(larger(dp_atan2(per_sine, per_cosine), t->slant_lo * degree), t->slant_hi * degree);
 }
 
 /*
@@ -200,13 +201,13 @@ static dp_budget at_worst(const dp_chain *c, dp_span run, const dp_triangles *t,
     const double facing = (window * z * z / slope + 2.0 * moved->tilt * z) / (1.0 - moved->shared);
     const double snap = snapping(t);
     const double eye = 2.0 * DP_UNIT * second_order * z;
-    const double per_sine = 2.0 * v.pixel * z * hypot(snap + of->dx, snap + of->dy) + eye * v.vertex_ray +
-                            both * hypot(moved->across[0], moved->across[1]);
+    const double per_sine = 2.0 * v.pixel * z * dp_hypot(snap + of->dx, snap + of->dy) + eye * v.vertex_ray +
+                            both * dp_hypot(moved->across[0], moved->across[1]);
     const double per_cosine = eye + both * moved->along;
     const double angle = worst_slant(t, per_sine + facing * v.ray, per_cosine + facing);
     const double longest = worst_slant(t, v.ray, 1.0);
-    const double sine = sin(angle);
-    const double cosine = cos(angle);
+    const double sine = dp_sin(angle);
+    const double cosine = dp_cos(angle);
     const double along = sine * v.ray + cosine; /* of the normal, along the ray */
     const double sum = sine * per_sine + cosine * per_cosine + along * facing + both * moved->position;
     dp_budget b = {.separation = sum / (1.0 - moved->turn) * outward};
@@ -214,13 +215,13 @@ static dp_budget at_worst(const dp_chain *c, dp_span run, const dp_triangles *t,
     for (int i = 0; i < DP_CAUSE_COUNT; i++)
         b.cause[i] = along * of->cause[i] * z * z / slope;
     b.cause[DP_CAUSE_EYE] = eye * (sine * v.vertex_ray + cosine);
-    b.cause[DP_CAUSE_SNAPPING] = 2.0 * v.pixel * z * hypot(snap, snap) * sine;
+    b.cause[DP_CAUSE_SNAPPING] = 2.0 * v.pixel * z * dp_hypot(snap, snap) * sine;
     b.cause[DP_CAUSE_SETUP] = 0.0;
     for (int i = 0; i < DP_CAUSE_COUNT; i++)
         rest -= b.cause[i];
     b.cause[DP_CAUSE_SETUP] = larger(rest, 0.0);
     b.window = b.separation * slope / (along * z * z);
-    if (!(b.separation < (sin(longest) * v.ray + cos(longest)) * run.lo) || slope < least_window * z * t->depth)
+    if (!(b.separation < (dp_sin(longest) * v.ray + dp_cos(longest)) * run.lo) || slope < least_window * z * t->depth)
         b.separation = HUGE_VAL;
     return b;
 }
@@ -270,7 +271,7 @@ dp_status dp_coplanar_over(const dp_setup *setup, double lo, double hi, dp_copla
     const double snap = snapping(t);
     const double beside = DP_UNIT * (t->width + t->height + 2.0 * t->pixels);
     const double moved = 2.0 * snap + of.dx + of.dy + beside;
-    const double box = 0.5 + 0.5 * hypot(t->slim, 1.0);
+    const double box = 0.5 + 0.5 * dp_hypot(t->slim, 1.0);
     out->window = 2.0 * off * second_order;
     out->pixels = 2.0 * moved * second_order;
     out->lost = (2.0 * moved + DP_UNIT * (6.0 * box * t->slim + 2.0 * box + 2.0)) * second_order;

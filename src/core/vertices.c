@@ -4,6 +4,7 @@
 
 #include <math.h>
 
+#include "core/elementary.h"
 #include "core/extremes.h"
 
 static const double most_depth = 1e6, least_beyond = 0x1p-48;
@@ -27,8 +28,8 @@ static dp_vertex_error error_of(const dp_setup *setup, double z, double depth) {
     } else {
         const double c = setup->spec.log_c, scale = c / (c * z + 1.0);
         const double chord =
-            rounded_up(part * z1 / before * log1p(-scale * before), part * z2 / behind * log1p(scale * behind));
-        e.eye = expm1(chord) / scale * (1.0 + 0x1p-50);
+            rounded_up(part * z1 / before * dp_log1p(-scale * before), part * z2 / behind * dp_log1p(scale * behind));
+        e.eye = dp_expm1(chord) / scale * (1.0 + 0x1p-50);
         e.window = chord / setup->kappa * (1.0 + 0x1p-50);
     }
     return e;

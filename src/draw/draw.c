@@ -6,6 +6,7 @@
 #include <string.h>
 
 #include "core/bits.h"
+#include "core/elementary.h"
 
 /* ---- The camera -------------------------------------------------------------------------------------------------- */
 
@@ -24,7 +25,7 @@ bool draw_arith(const raster_row *row, bool ndc_signed, dp_arith *out) {
 
 raster_status draw_camera_init(draw_camera *camera, const raster_row *row, const dp_setup *setup) {
     const dp_triangles *view = &setup->spec.triangles;
-    const double half = tan(view->fov_y * M_PI / 360.0);
+    const double half = dp_tan(view->fov_y * M_PI / 360.0);
     size_t index = 0;
     while (raster_get(index) != NULL && raster_get(index) != row)
         index++;
@@ -84,6 +85,12 @@ void draw_buffer_clear(draw_buffer *buffer, draw_area area) {
     memset(buffer->seen, 0, count);
 }
 
+/* Who draws into what. */
+typedef struct drawing {
+    draw_buffer *buffer;
+    unsigned who;
+} drawing;
+
 /* Of a span: codes to what the test compares, which is never that of an empty pixel. Depths may be below 0. */
 static void keys_of(const draw_camera *camera, int count, uint32_t *code) {
     const uint32_t most = camera->target.format.code_max;
@@ -95,8 +102,13 @@ static void keys_of(const draw_camera *camera, int count, uint32_t *code) {
         code[i] = most - code[i];
 }
 
-static void test_depths(const uint32_t *key, int count, unsigned who, uint32_t *stored, uint8_t *winner,
-                        uint8_t *seen) {
+static void test_depths(void *context, int x, int y, int count, const uint32_t *key) {
+    const drawing *d = context;
+    const draw_area *area = &d->buffer->area;
+    const size_t at = (size_t)(y - area->y) * (size_t)area->width + (size_t)(x - area->x);
+    uint32_t *stored = d->buffer->key + at;
+    uint8_t *winner = d->buffer->winner + at, *seen = d->buffer->seen + at;
+    const unsigned who = d->who;
     for (int i = 0; i < count; i++) {
         const bool nearer = key[i] < stored[i];
         stored[i] = nearer ? key[i] : stored[i];
@@ -105,26 +117,31 @@ static void test_depths(const uint32_t *key, int count, unsigned who, uint32_t *
     }
 }
 
-static void draw_row(draw_buffer *buffer, const draw_camera *camera, const raster_piece *piece, int y, unsigned who) {
-    enum { SOME = 256 };
-    const draw_area *area = &buffer->area;
-    uint32_t key[SOME];
+bool draw_triangle(draw_buffer *buffer, const draw_camera *camera, const double place[3][3], unsigned who) {
+    drawing d = {buffer, who};
+    return draw_keys(camera, &buffer->area, place, test_depths, &d);
+}
+
+/* ---- Rows of pixels ---------------------------------------------------------------------------------------------- */
+
+static void draw_row(const draw_camera *camera, const draw_area *area, const raster_piece *piece, int y,
+                     draw_take *take, void *context) {
+    uint32_t key[DRAW_ROW];
     int from, to;
     if (!raster_span(&camera->target, piece, y, &from, &to))
         return;
     from = from > area->x ? from : area->x;
     to = to < area->x + area->width ? to : area->x + area->width;
     for (int x = from, count; x < to; x += count) {
-        const size_t at = (size_t)(y - area->y) * (size_t)area->width + (size_t)(x - area->x);
-        count = to - x < SOME ? to - x : SOME;
+        count = to - x < DRAW_ROW ? to - x : DRAW_ROW;
         raster_codes(&camera->target, piece, y, x, x + count, key);
         keys_of(camera, count, key);
-        test_depths(key, count, who, buffer->key + at, buffer->winner + at, buffer->seen + at);
+        take(context, x, y, count, key);
     }
 }
 
-bool draw_triangle(draw_buffer *buffer, const draw_camera *camera, const double place[3][3], unsigned who) {
-    const draw_area *area = &buffer->area;
+bool draw_keys(const draw_camera *camera, const draw_area *area, const double place[3][3], draw_take *take,
+               void *context) {
     raster_triangle drawn;
     raster_vertex clip[3];
     for (int i = 0; i < 3; i++)
@@ -136,7 +153,7 @@ bool draw_triangle(draw_buffer *buffer, const draw_camera *camera, const double 
         const int first = piece->y0 > area->y ? piece->y0 : area->y;
         const int end = piece->y1 < area->y + area->height ? piece->y1 : area->y + area->height;
         for (int y = first; y < end; y++)
-            draw_row(buffer, camera, piece, y, who);
+            draw_row(camera, area, piece, y, take, context);
     }
     return true;
 }

@@ -28,7 +28,7 @@
 #include "raster/raster.h"
 
 /** Who may draw: 1 to DRAW_SURFACES. */
-enum { DRAW_NOBODY = 0, DRAW_SURFACES = 8 };
+enum { DRAW_NOBODY = 0, DRAW_SURFACES = 8, DRAW_ROW = 256 };
 
 typedef struct draw_camera {
     raster_target target;
@@ -87,5 +87,15 @@ void draw_buffer_clear(draw_buffer *buffer, draw_area area);
  * @return false where the rasterizer draws nothing of it
  */
 bool draw_triangle(draw_buffer *buffer, const draw_camera *camera, const double place[3][3], unsigned who);
+
+/**
+ * Told of the pixels x to x + count - 1 of row y, at most DRAW_ROW, that a triangle covers, and what the depth test
+ * compares there: the nearer, the less, and below UINT32_MAX.
+ */
+typedef void draw_take(void *context, int x, int y, int count, const uint32_t *key);
+
+/** What draw_triangle() stands on: the pixels of an area inside the target, for a depth test of the caller's own. */
+bool draw_keys(const draw_camera *camera, const draw_area *area, const double place[3][3], draw_take *take,
+               void *context);
 
 #endif

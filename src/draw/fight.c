@@ -6,6 +6,7 @@
 #include <omp.h>
 #endif
 
+#include "core/elementary.h"
 #include "draw/mesh.h"
 
 enum { FARTHER = 1, NEARER = 2, BOTH = 3 };
@@ -41,7 +42,7 @@ static draw_mesh random_mesh(const draw_fight_request *r, const double window[2]
     const double high = fmax(wide / draw_log_uniform(state, 1.0, 0.5 * r->setup->spec.triangles.slim), 1.0);
     const double turn = 2.0 * M_PI * draw_uniform(state);
     const double u = CELLS / 2 + draw_uniform(state), v = CELLS / 2 + draw_uniform(state);
-    draw_mesh mesh = {.side = {{wide * cos(turn), wide * sin(turn)}, {-high * sin(turn), high * cos(turn)}},
+    draw_mesh mesh = {.side = {{wide * dp_cos(turn), wide * dp_sin(turn)}, {-high * dp_sin(turn), high * dp_cos(turn)}},
                       .cells = {CELLS, CELLS}};
     for (int axis = 0; axis < 2; axis++)
         mesh.corner[axis] = window[axis] - u * mesh.side[0][axis] - v * mesh.side[1][axis];
@@ -61,7 +62,7 @@ static int at_least(int x, int least) {
 static draw_area area_about(const draw_camera *camera, int x, int y, const draw_mesh mesh[2]) {
     const double reach =
         0.5 * CELLS *
-        fmax(hypot(mesh[0].side[0][0], mesh[0].side[0][1]), hypot(mesh[1].side[0][0], mesh[1].side[0][1]));
+        fmax(dp_hypot(mesh[0].side[0][0], mesh[0].side[0][1]), dp_hypot(mesh[1].side[0][0], mesh[1].side[0][1]));
     const int off = at_most(reach, REACH);
     const int left = at_least(x - off, 0), low = at_least(y - off, 0);
     return (draw_area){left, low, at_most(x + off + 1, camera->target.width) - left,
@@ -88,7 +89,8 @@ static bool random_pair(const draw_fight_request *r, const draw_fight_band *band
     const double azimuth = (isnan(r->azimuth) ? any : r->azimuth) * M_PI / 180.0;
     out->slant = t->slant_lo + (t->slant_hi - t->slant_lo) * draw_uniform(state);
     const double angle = out->slant * M_PI / 180.0, z = draw_log_uniform(state, band->lo, band->hi);
-    out->plane = (draw_plane){.normal = {sin(angle) * cos(azimuth), sin(angle) * sin(azimuth), cos(angle)}};
+    out->plane =
+        (draw_plane){.normal = {dp_sin(angle) * dp_cos(azimuth), dp_sin(angle) * dp_sin(azimuth), dp_cos(angle)}};
     for (int k = 0; k < 2; k++)
         out->mesh[k] = random_mesh(r, window, state);
     out->area = area_about(r->camera, x, y, out->mesh);

@@ -4,6 +4,7 @@
 #include <math.h>
 
 #include "core/bits.h"
+#include "core/elementary.h"
 
 /* How far the subpixel grid moves a vertex at most, pixels; and a pixel's centre beyond an edge. */
 static const double moved = 0.0625;
@@ -19,7 +20,7 @@ double draw_uniform(uint64_t *state) {
 }
 
 double draw_log_uniform(uint64_t *state, double lo, double hi) {
-    return lo * pow(hi / lo, draw_uniform(state));
+    return lo * dp_pow(hi / lo, draw_uniform(state));
 }
 
 /* ---- The mesh ---------------------------------------------------------------------------------------------------- */
@@ -49,7 +50,7 @@ static bool has_shape(const double v[3][2], const dp_triangles *class) {
     for (int i = 0; i < 3; i++) {
         const double *next = v[(i + 1) % 3];
         const double x = fabs(next[0] - v[i][0]), y = fabs(next[1] - v[i][1]);
-        longest = fmax(longest, hypot(x, y));
+        longest = fmax(longest, dp_hypot(x, y));
         widest = fmax(widest, fmax(x, y));
     }
     return widest + 4.0 * moved <= class->pixels &&

@@ -11,6 +11,7 @@
 #include <gsl/gsl_spline.h>
 
 #include "core/bits.h"
+#include "core/elementary.h"
 #include "method/estimate.h"
 #include "method/truth.h"
 
@@ -309,7 +310,8 @@ static double spline_claim(double ratio, double a, double b) {
 
 static double chebyshev_claim(double ratio, double a, double b) {
     const double root = sqrt(ratio);
-    const double error = 1 / cosh((ORDER + 1) * log1p(2 / (root - 1)));
+    const double growth = dp_exp((ORDER + 1) * dp_log1p(2 / (root - 1)));
+    const double error = 2 / (growth + 1 / growth);
     (void)a, (void)b;
     return error + DP_UNIT * (1 + error) + 0x1p-36;
 }

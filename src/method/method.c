@@ -6,6 +6,8 @@
 
 #include <gsl/gsl_errno.h>
 
+#include "core/elementary.h"
+
 void method_start(void) {
     gsl_set_error_handler_off();
 }
@@ -79,14 +81,14 @@ void method_depths(const dp_setup *setup, method_inputs *in) {
         stress[stressed++] = dp_eye(setup, ldexp(1.0, -i), 1 - ldexp(1.0, -i)); /* the binades of a float end there */
         stress[stressed++] = n * (1 + ldexp(1.0, -3 * i));
         stress[stressed++] = f * (1 - ldexp(1.0, -3 * i));
-        stress[stressed++] = n * pow(f / n, (double)i / (STEPS + 1));
+        stress[stressed++] = n * dp_pow(f / n, (double)i / (STEPS + 1));
     }
     /* Few inputs: the planes and depths over the whole of the view, not only the planes' neighbourhood. */
     size_t step = count < stressed ? (stressed + count - 1) / count : 1;
     for (size_t i = 0; i < stressed && used < count; i += step)
         z[used++] = fmin(fmax(stress[i], n), f);
     for (; used < count; used++)
-        z[used] = fmin(fmax(n * pow(f / n, method_unit(5, used)), n), f);
+        z[used] = fmin(fmax(n * dp_pow(f / n, method_unit(5, used)), n), f);
 }
 
 /* Both ends and their neighbours, subnormals, powers of two from either end; then depths spread evenly over z, over d,
@@ -106,7 +108,7 @@ void method_windows(const dp_setup *setup, method_inputs *in) {
         d[used++] = 1.0f - ldexpf(1.0f, i < 24 ? -i : -24);
     }
     for (; used < count; used++) {
-        double u = method_unit(3, used), t = pow(phi, u); /* t = n/z */
+        double u = method_unit(3, used), t = dp_pow(phi, u); /* t = n/z */
         double away = (t - phi) / (1 - phi);
         const double kinds[4] = {u, away, 1 - away, t * t};
         d[used] = (float)fmin(fmax(kinds[used % 4], 0), 1);

@@ -9,6 +9,7 @@
 #include <math.h>
 #include <stdlib.h>
 
+#include "core/elementary.h"
 #include "method/method.h"
 
 enum { WIDTH = 1920, HEIGHT = 1080, LINE = METHOD_STRIP_LINE, LINES = METHOD_STRIP_EYES / LINE };
@@ -46,7 +47,7 @@ static void normal_of(const texture_camera *camera, const strip *s, size_t index
     const double sight[3] = {x / length, y / length, 1 / length}, right[3] = {1 / aside, 0, -x / aside};
     const double up[3] = {-x * y / length / aside, aside / length, -y / length / aside};
     for (int i = 0; i < 3; i++)
-        normal[i] = sin(tilt) * (cos(turn) * right[i] + sin(turn) * up[i]) - cos(tilt) * sight[i];
+        normal[i] = dp_sin(tilt) * (dp_cos(turn) * right[i] + dp_sin(turn) * up[i]) - dp_cos(tilt) * sight[i];
 }
 
 /* A depth for the middle of a strip with which all of it is between the planes: at far, at near, or by chance. */
@@ -64,7 +65,7 @@ static double depth_of(const dp_setup *setup, const texture_camera *camera, cons
         farthest = fmax(farthest, z);
     }
     const double lo = n / nearest, hi = f / farthest, share = method_unit(25, index);
-    return index % 4 == 0 ? hi : index % 4 == 1 ? lo : lo * pow(hi / lo, share);
+    return index % 4 == 0 ? hi : index % 4 == 1 ? lo : lo * dp_pow(hi / lo, share);
 }
 
 static void fill(const dp_setup *setup, method_inputs *in) {
@@ -139,9 +140,9 @@ static void run(const method_call *c) {
 
 /* The angle that errors of depth can make next to each other, `off` of the depth itself, pixels `step` apart. */
 static double angle_of(double step, double off) {
-    const double y = tan(M_PI / 6), x = y * WIDTH / HEIGHT, apart = 2 * step * y / HEIGHT;
-    const double most = 1.01 * (2 * (hypot(1, x) + hypot(1, y)) / apart + 1) * sqrt(1 + x * x + y * y) * off;
-    return most < 1 ? asin(most) + 1e-6 : M_PI;
+    const double y = dp_tan(M_PI / 6), x = y * WIDTH / HEIGHT, apart = 2 * step * y / HEIGHT;
+    const double most = 1.01 * (2 * (dp_hypot(1, x) + dp_hypot(1, y)) / apart + 1) * sqrt(1 + x * x + y * y) * off;
+    return most < 1 ? dp_asin(most) + 1e-6 : M_PI;
 }
 
 /* Half a step of 24 bits, and reading; depths at far are the worst. */

@@ -3,6 +3,8 @@
 
 #include <math.h>
 
+#include "core/elementary.h"
+
 /* Near planes: tiny units, common ones, and the hugest for which 1e12 times as far is still a far plane. */
 static const double units[] = {1e-12, 0.1, 1e6};
 static const double ortho_ratio = 1e4;
@@ -104,13 +106,13 @@ static void walk_ratios(walk *w) {
     stability_result *r = w->result;
     const method_claim *c = &r->row->claims[r->which];
     const int per_decade = w->family->per_decade;
-    const double decades = log10(METHOD_RATIO_HI / METHOD_RATIO_LO);
+    const double decades = dp_log10(METHOD_RATIO_HI / METHOD_RATIO_LO);
     place where;
     double most = -1; /* of the share of a claim that an error takes */
     r->breaks = (double)INFINITY;
     r->steps = (int)(decades * per_decade + 0.5) + 1;
     for (int k = 0; k < r->steps; k++) {
-        r->ratio[k] = fmin(METHOD_RATIO_LO * pow(10, (double)k / per_decade), METHOD_RATIO_HI);
+        r->ratio[k] = fmin(METHOD_RATIO_LO * dp_pow(10, (double)k / per_decade), METHOD_RATIO_HI);
         r->error[k] = error_at(w, r->ratio[k], k, false, &where);
         const double claim = claim_beyond(c, r->ratio[k]);
         const double share = isinf(claim) ? 0 : r->error[k] / (isnan(claim) ? 1 : claim);

@@ -2,13 +2,14 @@
 /* The worst z-fighting interval over a range of depths. */
 #include <math.h>
 
+#include "core/elementary.h"
 #include "method/truth.h"
 
 /* Log-spaced by chance: a sample never finds more than there is. */
 static double sampled(const dp_setup *setup, double lo, double hi, size_t count, uint64_t seed) {
     double worst = 0;
     for (size_t k = 0; k < count; k++) {
-        double z = fmin(fmax(lo * pow(hi / lo, method_unit(seed, k)), lo), hi);
+        double z = fmin(fmax(lo * dp_pow(hi / lo, method_unit(seed, k)), lo), hi);
         worst = fmax(worst, dp_cell_of(setup, dp_code(setup, z)).width);
     }
     return worst;
@@ -50,7 +51,7 @@ static void certified_run(const method_call *c) {
 /* Of `count` depths: one range in a hundred may exceed it. */
 static double sampled_claim(double ratio, double count, double b) {
     (void)b;
-    return 1 - pow(ratio, -2 * log(100) / count);
+    return 1 - dp_pow(ratio, -2 * dp_log(100) / count);
 }
 
 #define ANY (METHOD_INFINITE | METHOD_ORTHO)
@@ -80,7 +81,7 @@ static void fill(const dp_setup *setup, method_inputs *in) {
     const double f = isinf(setup->spec.zfar) ? n * METHOD_INFINITE_FAR : setup->spec.zfar;
     method_depths(setup, in);
     for (size_t i = 0; i < in->count; i++) {
-        double other = n * pow(f / n, method_unit(11, i));
+        double other = n * dp_pow(f / n, method_unit(11, i));
         double lo = i % 4 == 0 ? n : fmin(in->z[i], other), hi = i % 4 <= 1 ? f : fmax(in->z[i], other);
         in->z[i] = fmin(fmax(lo, n), f);
         in->hi[i] = fmin(fmax(hi, in->z[i]), f);

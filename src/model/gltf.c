@@ -16,6 +16,7 @@ typedef struct placed {
     const json_t *mesh;
     const char *node, *mesh_name;
     transform world;
+    size_t *shared; /* null, or the next surface of what all instances of the node share */
 } placed;
 
 /* ---- Containers -------------------------------------------------------------------------------------------------- */
@@ -138,6 +139,10 @@ static bool add_surface(const placed *p, const json_t *primitive, uint32_t *surf
     gltf *g = p->g;
     const json_t *materials = gltf_rows(g, "materials");
     long material;
+    if (p->shared != NULL && (*p->shared)++ < g->source->out->surfaces) {
+        *surface = (uint32_t)(*p->shared - 1);
+        return true;
+    }
     if (!gltf_index(g, primitive, "material", json_array_size(materials), -1, &material))
         return false;
     const json_t *row = material < 0 ? NULL : json_array_get(materials, (size_t)material);
@@ -189,6 +194,7 @@ static bool add_instances(const placed *p, const json_t *attributes) {
     gltf *g = p->g;
     gltf_accessor of[3];
     bool given[3];
+    const size_t first = g->source->out->surfaces;
     size_t count = 0;
     for (int k = 0; k < 3; k++) {
         long index;
@@ -207,6 +213,8 @@ static bool add_instances(const placed *p, const json_t *attributes) {
                 gltf_get(&of[k], i, part[k]);
         const transform own = transform_of_parts(p->world.kind, part[0], part[1], part[2]);
         placed instance = *p;
+        size_t surface = first;
+        instance.shared = &surface;
         instance.world = transform_times(&p->world, &own);
         if (!add_mesh(&instance))
             return false;

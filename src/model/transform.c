@@ -1,6 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "model/transform.h"
 
+#include "core/elementary.h"
+
 /* ---- Numbers of either kind -------------------------------------------------------------------------------------- */
 
 static dp_pair number(model_transforms kind, double x) {
@@ -83,7 +85,7 @@ void transform_point(const transform *t, const double from[3], double to[3]) {
 }
 
 void transform_axis(const transform *t, int k, double to[3]) {
-    const double length = hypot(hypot(t->m[0][k].hi, t->m[1][k].hi), t->m[2][k].hi);
+    const double length = dp_hypot(dp_hypot(t->m[0][k].hi, t->m[1][k].hi), t->m[2][k].hi);
     for (int row = 0; row < 3; row++)
         to[row] = length > 0.0 ? t->m[row][k].hi / length : 0.0;
 }

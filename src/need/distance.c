@@ -4,6 +4,8 @@
 #include <math.h>
 #include <stdlib.h>
 
+#include "core/elementary.h"
+
 enum { STEPS = 400 };
 
 static const double farthest = 1e18;
@@ -54,7 +56,7 @@ static void extend(ruler *r, double end) {
 
 /* Whether every depth from the one to just before the other is the same, rounded down to that many digits. */
 static bool is_settled(double holds, double fails, int digits) {
-    const double unit = pow(10.0, floor(log10(fmin(fabs(holds), fabs(fails)))) + 1.0 - digits);
+    const double unit = dp_pow(10.0, floor(dp_log10(fmin(fabs(holds), fabs(fails)))) + 1.0 - digits);
     return floor(holds / unit) == ceil(fails / unit) - 1.0;
 }
 
@@ -168,7 +170,7 @@ static int ascending(const void *a, const void *b) {
 
 static void choose_depths(trials *t) {
     for (int i = 1; i <= OCTAVES * EACH; i++)
-        try_depth(t, t->after * exp2((double)i / EACH));
+        try_depth(t, t->after * dp_exp2((double)i / EACH));
     const double d = dp_window(t->setup, t->after);
     for (int i = 0; i < OCTAVES && d > 0.0; i++) {
         const double edge = ldexp(1.0, ilogb(d) + (t->setup->reversed ? -i : i + 1));

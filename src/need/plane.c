@@ -3,6 +3,8 @@
 
 #include <math.h>
 
+#include "core/elementary.h"
+
 /*
  * RUN binary32 values in a row stand for a place: one of them passes where about every RUNth does. REGION of them are
  * a part in a thousand; LOOKS bounds how often it is begun again because a value in it passes.
@@ -76,7 +78,7 @@ static double gallop(const hunt *h, double *fails) {
 
 /* What that leapt over: from the inner end outwards, in small steps. */
 static double comb(const hunt *h, double *fails) {
-    const double ratio = exp2(h->inward_is_up ? -1.0 / PER_OCTAVE : 1.0 / PER_OCTAVE);
+    const double ratio = dp_exp2(h->inward_is_up ? -1.0 / PER_OCTAVE : 1.0 / PER_OCTAVE);
     double found = (double)NAN;
     for (double x = h->inner; is_inside(h, x); x *= ratio) {
         const double here = first_of_run(h, x, RUN_OF_PLACE);
@@ -191,7 +193,7 @@ static void survey(hunt *h) {
     double good = from;
     double bad = (double)NAN; /* the first place behind `good` where none passes */
     for (int i = 1; i <= places; i++) {
-        const double x = i == places ? h->inner : (double)(float)(from * pow(h->inner / from, (double)i / places));
+        const double x = i == places ? h->inner : (double)(float)(from * dp_pow(h->inner / from, (double)i / places));
         if (try_run(h, x, i == places ? 1 : run)) {
             kept = *a;
             failed = h->failed;

@@ -4,6 +4,7 @@
 #include <math.h>
 
 #include "core/bits.h"
+#include "core/elementary.h"
 
 bool plane_fails_at_ends(const solve_problem *p, const dp_setup *setup) {
     return p->lo < p->hi && p->kind == MEASURE_SEPARATION &&
@@ -169,7 +170,7 @@ static void try_places(const solve_problem *p, plane_answer *a) {
     const double from = isinf(a->value) ? 1e18 : a->value;
     double good = from;
     for (int i = 1; i <= PLACES; i++) {
-        double x = i == PLACES ? a->until : from * pow(a->until / from, (double)i / PLACES);
+        double x = i == PLACES ? a->until : from * dp_pow(a->until / from, (double)i / PLACES);
         if (!aligned_anyhow(p, x)) {
             for (int k = 0; k < 64 && fabs(x / good - 1.0) > 0x1p-40; k++) {
                 const double middle = sqrt(good) * sqrt(x);

@@ -8,6 +8,7 @@
 #include <gsl/gsl_roots.h>
 
 #include "core/bits.h"
+#include "core/elementary.h"
 
 enum { BREAKS_MAX = 3 * 260, ITERATIONS = 200, EXTEND_MOST = 4096 };
 
@@ -81,7 +82,7 @@ static double unknown_of(const dp_setup *setup, solve_unknown unknown, double z,
     const double c = setup->spec.log_c;
     const int r = setup->reversed;
     if (setup->curve == DP_CURVE_LOG)
-        return expm1(log1p(c * z) / v) / c;
+        return dp_expm1(dp_log1p(c * z) / v) / c;
     if (setup->curve == DP_CURVE_LINEAR && !setup->spec.ortho)
         return z / v;
     if (setup->curve == DP_CURVE_LINEAR && unknown == SOLVE_NEAR)
@@ -168,7 +169,7 @@ typedef struct equation {
 /* Bounded, also where the measure is infinite; in the logarithm of the unknown. */
 static double residual(double t, void *context) {
     const equation *e = context;
-    const double x = fmin(fmax(exp(t), e->s->least), e->s->most);
+    const double x = fmin(fmax(dp_exp(t), e->s->least), e->s->most);
     const double value = measure(e->s, e->which, x);
     const double target = e->balance ? measure(e->s, PART_RISING, x) : e->s->problem->limit / (1.0 + e->s->margin);
     return isinf(value) ? 1.0 : (value - target) / (value + target);
@@ -177,7 +178,7 @@ static double residual(double t, void *context) {
 static double find_root(equation *e, double a, double b) {
     gsl_root_fsolver *brent = e->s->brent;
     gsl_function curve = {residual, e};
-    if (gsl_root_fsolver_set(brent, &curve, log(a), log(b)) != GSL_SUCCESS)
+    if (gsl_root_fsolver_set(brent, &curve, dp_log(a), dp_log(b)) != GSL_SUCCESS)
         return a;
     for (int i = 0; i < ITERATIONS; i++) {
         if (gsl_root_fsolver_iterate(brent) != GSL_SUCCESS)
@@ -187,7 +188,7 @@ static double find_root(equation *e, double a, double b) {
         if (hi - lo <= 0x1p-50)
             break;
     }
-    return exp(gsl_root_fsolver_root(brent));
+    return dp_exp(gsl_root_fsolver_root(brent));
 }
 
 /*

@@ -10,6 +10,7 @@
 #include <strings.h>
 #include <time.h>
 
+#include "core/elementary.h"
 #include "plot/pixels.h"
 
 /* Points per px in a PDF: CSS has 96 px to the inch, PDF 72 points. */
@@ -178,7 +179,7 @@ void canvas_segment(canvas *c, double x0, double y0, double x1, double y1, const
 }
 
 void canvas_disc(canvas *c, double x, double y, double radius, canvas_colour fill, const canvas_pen *rim) {
-    cairo_arc(c->cr, reach(x), reach(y), radius, 0, 8 * atan(1));
+    cairo_arc(c->cr, reach(x), reach(y), radius, 0, 8 * dp_atan(1));
     use_colour(c, fill);
     cairo_fill_preserve(c->cr);
     canvas_path_end(c, rim);

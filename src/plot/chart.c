@@ -7,6 +7,8 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "core/elementary.h"
+
 /* A chain of blocks: the link, then the caller's bytes. */
 typedef union block {
     union block *next;
@@ -91,13 +93,14 @@ double chart_axis_at(const chart_axis *axis, double t) {
     if (axis->scale == CHART_DOWN)
         return axis->hi + t * (axis->lo - axis->hi);
     if (axis->scale == CHART_LOG)
-        return exp(log(axis->lo) + t * (log(axis->hi) - log(axis->lo)));
+        return dp_exp(dp_log(axis->lo) + t * (dp_log(axis->hi) - dp_log(axis->lo)));
     return axis->lo + t * (axis->hi - axis->lo);
 }
 
 double chart_axis_share(const chart_axis *axis, double value) {
     if (axis->scale == CHART_LOG)
-        return value > 0 ? (log(value) - log(axis->lo)) / (log(axis->hi) - log(axis->lo)) : (double)-INFINITY;
+        return value > 0 ? (dp_log(value) - dp_log(axis->lo)) / (dp_log(axis->hi) - dp_log(axis->lo))
+                         : (double)-INFINITY;
     const double share = (value - axis->lo) / (axis->hi - axis->lo);
     return axis->scale == CHART_DOWN ? 1 - share : share;
 }
@@ -117,7 +120,7 @@ static void fit(chart_axis *axis, chart_extent e, bool air) {
     if (!(e.lo <= e.hi))
         e = (chart_extent){axis->scale == CHART_LOG ? 0.1 : 0, 1};
     if (axis->scale == CHART_LOG) {
-        double step = air ? fmax(pow(e.hi / e.lo, 0.04), 1.05) : e.lo < e.hi ? 1 : 1.05;
+        double step = air ? fmax(dp_pow(e.hi / e.lo, 0.04), 1.05) : e.lo < e.hi ? 1 : 1.05;
         axis->lo = fmax(e.lo / step, 1e-300);
         axis->hi = fmin(e.hi * step, 1e300);
     } else {

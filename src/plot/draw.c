@@ -6,6 +6,7 @@
 #include <stdlib.h>
 
 #include "core/append.h"
+#include "core/elementary.h"
 #include "plot/area.h"
 #include "plot/heat.h"
 #include "plot/legend.h"
@@ -31,6 +32,7 @@ typedef struct grid {
     canvas_rect area; /* of all frames and the headings above them */
     double heading;   /* height above each frame; 0: there are none */
     double gap_x, gap_y;
+    double share[CHART_PANELS]; /* of each row in the height of all frames */
 } grid;
 
 static int columns_for(size_t count, canvas_rect area) {
@@ -39,7 +41,7 @@ static int columns_for(size_t count, canvas_rect area) {
     for (int columns = 1; columns <= (int)count; columns++) {
         int rows = ((int)count + columns - 1) / columns;
         double empty = columns * rows - (double)count;
-        double score = fabs(log(area.w / columns / (area.h / rows) / PANEL_SHAPE)) + 0.25 * empty;
+        double score = fabs(dp_log(area.w / columns / (area.h / rows) / PANEL_SHAPE)) + 0.25 * empty;
         if (score < best_score) {
             best_score = score;
             best = columns;
@@ -48,13 +50,29 @@ static int columns_for(size_t count, canvas_rect area) {
     return best;
 }
 
+/* Rows are alike, but for panels that share x: these have one scale. */
+static void share_height(grid *g, const chart *c) {
+    double sum = 0;
+    for (int row = 0; row < g->rows; row++) {
+        const chart_axis *y = &c->panels[row].y;
+        g->share[row] = c->stacked ? y->hi - y->lo : 1;
+        sum += g->share[row];
+    }
+    for (int row = 0; row < g->rows; row++)
+        g->share[row] /= sum;
+}
+
+/* Of all rows together. */
+static double frames_height(const grid *g) {
+    return g->area.h - g->gap_y * (g->rows - 1) - g->heading * g->rows;
+}
+
 static canvas_rect panel_frame(const grid *g, int index) {
-    double w = (g->area.w - g->gap_x * (g->columns - 1)) / g->columns;
-    double h = (g->area.h - g->gap_y * (g->rows - 1)) / g->rows;
-    canvas_rect frame = {g->area.x + index % g->columns * (w + g->gap_x),
-                         g->area.y + index / g->columns * (h + g->gap_y), w, h};
-    frame.y += g->heading;
-    frame.h -= g->heading;
+    const int row = index / g->columns;
+    const double w = (g->area.w - g->gap_x * (g->columns - 1)) / g->columns, h = frames_height(g);
+    canvas_rect frame = {g->area.x + index % g->columns * (w + g->gap_x), g->area.y + g->heading, w, h * g->share[row]};
+    for (int above = 0; above < row; above++)
+        frame.y += h * g->share[above] + g->gap_y + g->heading;
     return frame;
 }
 
@@ -72,11 +90,11 @@ static double draw_head(const pencil *p, const chart *c, double width) {
 }
 
 /* Panels of a given shape: as large as the area lets them be, in its middle. */
-static void keep_shape(grid *g, double shape, double left) {
-    const canvas_rect cell = panel_frame(g, 0);
-    const double w = fmin(cell.w, cell.h * shape), h = w / shape, width = g->area.w;
+static void keep_shape(grid *g, const chart *c, double left) {
+    const double rows = c->stacked ? 1 : g->rows, width = g->area.w, all = frames_height(g);
+    const double w = fmin(panel_frame(g, 0).w, all / rows * c->shape);
     g->area.w = w * g->columns + g->gap_x * (g->columns - 1);
-    g->area.h = (h + g->heading) * g->rows + g->gap_y * (g->rows - 1);
+    g->area.h += w / c->shape * rows - all;
     g->area.x += fmax(0, (width - g->area.w) / 2 - left / 4);
 }
 
@@ -164,15 +182,24 @@ static bool draw_panel(const pencil *p, const chart *c, const grid *g, int index
     return true;
 }
 
+/* Of the tick labels on the left of all panels. */
+static double widest_y(const pencil *p, const chart *c, int labels) {
+    double widest = 0;
+    for (size_t i = 0; i < c->panel_count; i++)
+        widest = fmax(widest, axes_widest_label(p, &c->panels[i].y, labels));
+    return widest;
+}
+
 static bool draw_page(const pencil *p, const chart *c, double width, double height) {
     const chart_axis *x = &c->panels[0].x, *y = &c->panels[0].y, *second = &c->panels[0].second;
     double s = p->scale, caption = words_height(&p->text), label = words_height(&p->small);
     canvas_fill(p->c, (canvas_rect){0, 0, width, height}, p->theme->background);
     double top = draw_head(p, c, width) + caption;
     double bottom = height - 0.75 * MARGIN * s - caption - label - TICK_ROOM * s;
-    grid g = {1, 1, {MARGIN * s, top, width - 2 * MARGIN * s, fmax(bottom - top, 40 * s)}, 0, 0, 0};
-    g.columns = columns_for(c->panel_count, g.area);
+    grid g = {1, 1, {MARGIN * s, top, width - 2 * MARGIN * s, fmax(bottom - top, 40 * s)}, 0, 0, 0, {1}};
+    g.columns = c->stacked ? 1 : columns_for(c->panel_count, g.area);
     g.rows = ((int)c->panel_count + g.columns - 1) / g.columns;
+    share_height(&g, c);
     g.heading = c->panel_count > 1 ? heading_height(p, 1) : 0; /* so far */
     /* The topmost tick label rises half its height above the frame; the caption stays clear of it. */
     double clear = g.heading > 0 ? 0.75 * SPACE * s : 0.5 * p->small.size + 0.75 * SPACE * s;
@@ -181,7 +208,7 @@ static bool draw_page(const pencil *p, const chart *c, double width, double heig
 
     /* Tick labels stand to the left of the panels, and half of the last one to their right. */
     const int labels = axes_room_y(p, g.area.h / g.rows - g.heading);
-    double left = axes_widest_label(p, y, labels) + TICK_ROOM * s;
+    double left = widest_y(p, c, labels) + TICK_ROOM * s;
     double x_label = axes_widest_label(p, x, axes_room_x(p, g.area.w / g.columns)), right = x_label / 2;
     g.gap_x = fmax(PANEL_GAP * s, x_label + SPACE * s); /* two neighbours' end labels meet there */
     g.gap_y = PANEL_GAP * s;
@@ -198,7 +225,7 @@ static bool draw_page(const pencil *p, const chart *c, double width, double heig
         g.heading = common_heading(p, c, &g);
     const double end = g.area.x + g.area.w;
     if (c->shape > 0)
-        keep_shape(&g, c->shape, left);
+        keep_shape(&g, c, left);
     const double shift = end - g.area.x - g.area.w, side = c->shape > 0 ? g.area.x - left : MARGIN * s;
     const double foot =
         c->shape > 0 ? g.area.y + g.area.h + label + TICK_ROOM * s + caption : height - 0.75 * MARGIN * s;

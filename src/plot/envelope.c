@@ -5,6 +5,7 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "core/elementary.h"
 #include "plot/ticks.h"
 
 /* The greatest error that any depth of z's cell has. */
@@ -219,7 +220,7 @@ chart_panel *envelope_curves(const figure_request *request, chart *out, chart_ax
     for (size_t i = 0; i < request->count; i++) {
         /* What the axis cannot show in any case need not be computed exactly: half of it is left to the line. */
         const bool unsaid = isnan(request->tolerance);
-        const double tolerance = unsaid ? expm1(refine_half_pixel(&refined[i], 0) / 2) : request->tolerance;
+        const double tolerance = unsaid ? dp_expm1(refine_half_pixel(&refined[i], 0) / 2) : request->tolerance;
         curves[i].by_way = interval && envelope_way(curves[i].setup, tolerance, &curves[i].way);
         add_curve(request, out, panel, i, &curves[i], &refined[i]);
     }

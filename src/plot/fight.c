@@ -8,6 +8,7 @@
 #include <stdio.h>
 
 #include "core/append.h"
+#include "core/elementary.h"
 #include "draw/fight.h"
 #include "draw/mesh.h"
 #include "plot/figure.h"
@@ -74,9 +75,10 @@ static void set_stage(stage *s, const figure_request *request) {
     const int columns = at_most(COLUMNS, (width + 1) / 2), rows = at_most(ROWS, (height + 1) / 2);
     s->z = isnan(request->at) ? sqrt(s->setup->spec.znear * fmin(s->setup->spec.zfar, 1e6 * s->setup->spec.znear))
                               : request->at;
-    s->wall = (draw_plane){{sin(slant) * cos(azimuth), sin(slant) * sin(azimuth), cos(slant)}, s->z * cos(slant)};
-    const double along[2][3] = {{-sin(azimuth), cos(azimuth), 0.0},
-                                {cos(slant) * cos(azimuth), cos(slant) * sin(azimuth), -sin(slant)}};
+    s->wall = (draw_plane){{dp_sin(slant) * dp_cos(azimuth), dp_sin(slant) * dp_sin(azimuth), dp_cos(slant)},
+                           s->z * dp_cos(slant)};
+    const double along[2][3] = {{-dp_sin(azimuth), dp_cos(azimuth), 0.0},
+                                {dp_cos(slant) * dp_cos(azimuth), dp_cos(slant) * dp_sin(azimuth), -dp_sin(slant)}};
     for (int k = 0; k < 2; k++)
         for (int axis = 0; axis < 3; axis++)
             s->along[k][axis] = along[k][axis];
@@ -116,7 +118,7 @@ static shot draw(stage *s, double share, chart_map *m) {
             const size_t i = (size_t)row * (size_t)a->width + (size_t)column;
             double at[2];
             place_at(s, a->x + column + 0.5, a->y + row + 0.5, at);
-            const bool covered = hypot(at[0], at[1]) < s->radius && (s->buffer.seen[i] & 1U << (DECAL - 1)) != 0;
+            const bool covered = dp_hypot(at[0], at[1]) < s->radius && (s->buffer.seen[i] & 1U << (DECAL - 1)) != 0;
             const bool wall = (s->buffer.seen[i] & 1U << (WALL - 1)) != 0;
             const bool shows_wall = wall && (!covered || s->buffer.winner[i] == WALL);
             out.covered += covered && wall;

@@ -29,13 +29,14 @@ typedef struct figure_request {
     uint64_t census;                   /**< most depths that a census may visit for the figure; 0: none is made */
     const struct shadow_cascade *maps; /**< for the figures of shadow maps, map_count of them, at most CHART_PANELS */
     size_t map_count;
-    const raster_row *raster;        /**< for the figures that draw */
-    double slant, azimuth;           /**< the normal of what they draw, see draw/fight.h; degrees */
-    const struct need_file *file;    /**< for the figures that take a file, else null */
-    const method_family_row *family; /**< for the figures that show methods, else null */
-    size_t which;                    /**< its case, where times are measured, */
-    const char *where;               /**< and in words at which planes, on which machine */
-    int columns, rows;               /**< how finely to compute: pixels of the figure; see refine.h */
+    const raster_row *raster;          /**< for the figures that draw */
+    double slant, azimuth;             /**< the normal of what they draw, see draw/fight.h; degrees */
+    const struct need_file *file;      /**< for the figures that take a file, else null */
+    const struct fights_asked *fights; /**< for the figures of a model, else null: see fights.h */
+    const method_family_row *family;   /**< for the figures that show methods, else null */
+    size_t which;                      /**< its case, where times are measured, */
+    const char *where;                 /**< and in words at which planes, on which machine */
+    int columns, rows;                 /**< how finely to compute: pixels of the figure; see refine.h */
 } figure_request;
 
 /** What a figure can make something of. */
@@ -49,6 +50,7 @@ enum {
     FIGURE_FILE = 1 << 5,      /**< a requirement file, which brings its own set-ups, with planes of their own */
     FIGURE_DRAWN = 1 << 8,     /**< what a rasterizer draws: the set-ups have a view, and its arithmetic */
     FIGURE_SLANTED = 1 << 9,   /**< set-ups with triangles */
+    FIGURE_MODEL = 1 << 10,    /**< a model and what was found in it; the camera is that of the command scene */
     FIGURE_SHADOW = 1 << 7,    /**< shadow maps, whose cameras are not that of the view */
 };
 
@@ -85,7 +87,7 @@ void figure_range(const figure_request *request, double *lo, double *hi);
 chart_panel *figure_panel(const figure_request *request, chart *out, chart_axis y);
 
 figure_build distribution_build, share_build, error_build, interval_build, budget_build, scene_build, map_build,
-    pareto_build, stability_build, normals_build, shadow_build, fight_build;
+    pareto_build, stability_build, normals_build, shadow_build, fight_build, fights_build;
 
 /** Figures whose measuring takes long or differs from run to run, drawn of what was measured. */
 const char *pareto_draw(const method_family_row *family, const bench_result *results, size_t count, chart *out);

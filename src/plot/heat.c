@@ -4,6 +4,7 @@
 #include <math.h>
 #include <stdlib.h>
 
+#include "core/elementary.h"
 #include "plot/area.h"
 #include "plot/ticks.h"
 
@@ -91,9 +92,9 @@ static bool draw_pixels(const pencil *p, canvas_rect f, const chart *c, const ch
 /* Where the value crosses the level between two grid points, as a share of the way; NaN when it does not. */
 static double crossing(double from, double to, double level, chart_scale scale) {
     if (scale == CHART_LOG) {
-        from = log(from);
-        to = log(to);
-        level = log(level);
+        from = dp_log(from);
+        to = dp_log(to);
+        level = dp_log(level);
     }
     return (from < level) != (to < level) && isfinite(from) && isfinite(to) ? (level - from) / (to - from)
                                                                             : (double)NAN;
@@ -198,7 +199,7 @@ bool heat_draw(const pencil *p, const axes *a, const chart_panel *panel, const c
     boxes taken = {0};
     const double half = 8 * p->scale;
     const chart_map *m = &panel->map;
-    if (heat_has_holes(m))
+    if (!c->bare && heat_has_holes(m))
         draw_hatch(p, a->frame);
     if (!draw_pixels(p, a->frame, c, panel))
         return false;

@@ -2,6 +2,7 @@
 #include <math.h>
 #include <stdio.h>
 
+#include "core/elementary.h"
 #include "plot/figure.h"
 #include "plot/notes.h"
 
@@ -88,8 +89,8 @@ static void add_points(const field *f, chart *out, chart_panel *panel, int front
 
 /* Whole decades round the data, with room for the names. */
 static void fit(chart_axis *axis, chart_extent e) {
-    axis->lo = pow(10, floor(log10(e.lo) - 0.1));
-    axis->hi = pow(10, ceil(log10(fmax(e.lo, e.hi)) + 0.1));
+    axis->lo = dp_pow(10, floor(dp_log10(e.lo) - 0.1));
+    axis->hi = dp_pow(10, ceil(dp_log10(fmax(e.lo, e.hi)) + 0.1));
 }
 
 const char *pareto_draw(const method_family_row *family, const bench_result *results, size_t count, chart *out) {

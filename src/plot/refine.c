@@ -9,6 +9,8 @@
 
 #include <math.h>
 
+#include "core/elementary.h"
+
 /* A log axis is fitted with this much air at least: see chart_fit(). */
 static const double least_air = 1.05;
 
@@ -34,7 +36,7 @@ static double place_x(const refine *r, int i) {
 
 /* Along the axis, where half a pixel is as long everywhere. */
 static double along(const refine *r, int value, double y) {
-    return r->request.axis[value].scale == CHART_LOG ? log(y) : y;
+    return r->request.axis[value].scale == CHART_LOG ? dp_log(y) : y;
 }
 
 static double along_at(const refine *r, int value, int place) {
@@ -105,7 +107,7 @@ double refine_half_pixel(const refine *r, int value) {
     const double lo = fitted ? axis->lo : seen->lo, hi = fitted ? axis->hi : seen->hi;
     if (!(lo <= hi))
         return 0;
-    const double length = axis->scale == CHART_LOG ? fmax(log(hi / lo), 2 * log(least_air)) : hi - lo;
+    const double length = axis->scale == CHART_LOG ? fmax(dp_log(hi / lo), 2 * dp_log(least_air)) : hi - lo;
     return 0.5 * length / r->request.rows;
 }
 

@@ -8,6 +8,7 @@
 #include <string.h>
 
 #include "core/append.h"
+#include "core/elementary.h"
 #include "need/check.h"
 #include "need/model.h"
 #include "plot/envelope.h"
@@ -73,9 +74,9 @@ static void find_range(scene *s) {
         lo = fmin(lo, n->lo);
         hi = fmax(hi, isinf(n->hi) ? 100 * n->lo : n->hi);
     }
-    const double margin = pow(hi / lo, 0.05) * 1.2;
+    const double margin = dp_pow(hi / lo, 0.05) * 1.2;
     s->request.lo = lo / margin;
-    s->request.hi = hi * pow(margin, 5);
+    s->request.hi = hi * dp_pow(margin, 5);
 }
 
 static void error_of(const void *context, double from, double to, refine_sample *out) {

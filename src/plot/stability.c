@@ -4,6 +4,7 @@
 #include <string.h>
 
 #include "core/append.h"
+#include "core/elementary.h"
 #include "plot/figure.h"
 
 static const double most_digits = 16;
@@ -36,12 +37,12 @@ static double digits_of_format(const method_family_row *family, size_t which) {
     dp_format format[2];
     if (!family->steps || dp_format_parse(family->cases[which].format, format) == 0)
         return 0;
-    return log10(2) * (format[0].kind == DP_FORMAT_FLOAT ? format[0].mantissa_bits + 1 : format[0].bits);
+    return dp_log10(2) * (format[0].kind == DP_FORMAT_FLOAT ? format[0].mantissa_bits + 1 : format[0].bits);
 }
 
 /* Decimal digits that an error leaves: 0 where it is as large as the answer. */
 static double digits(double error, double of_format) {
-    return error > 0 ? fmin(fmax(of_format - log10(error), 0), most_digits) : error == 0 ? most_digits : 0;
+    return error > 0 ? fmin(fmax(of_format - dp_log10(error), 0), most_digits) : error == 0 ? most_digits : 0;
 }
 
 static double claimed(const stability_result *r) {

@@ -5,6 +5,7 @@
 #include <stdio.h>
 
 #include "core/append.h"
+#include "core/elementary.h"
 
 /* Plain decades lie in [10^PLAIN_LO, 10^PLAIN_HI]. */
 enum { PLAIN_LO = -3, PLAIN_HI = 4 };
@@ -33,8 +34,8 @@ void ticks_label(double value, bool powers, char out[TICKS_TEXT]) {
         snprintf(out, TICKS_TEXT, fabs(value) >= 1e3 && fabs(value) < 1e6 ? "%.6g" : "%.3g", value);
         return;
     }
-    int power = (int)floor(log10(fabs(value)) + 1e-9);
-    double factor = value / pow(10, power);
+    int power = (int)floor(dp_log10(fabs(value)) + 1e-9);
+    double factor = value / dp_pow(10, power);
     char raised[16];
     superscript(raised, sizeof raised, power);
     if (fabs(factor - 1) < 1e-6)
@@ -44,7 +45,7 @@ void ticks_label(double value, bool powers, char out[TICKS_TEXT]) {
 }
 
 static void linear(const chart_axis *axis, int room, ticks *out) {
-    double span = axis->hi - axis->lo, step = pow(10, floor(log10(span / room)));
+    double span = axis->hi - axis->lo, step = dp_pow(10, floor(dp_log10(span / room)));
     static const double factors[] = {1, 2, 5, 10, 20};
     for (size_t i = 0; i < sizeof factors / sizeof *factors; i++) {
         double finer = i > 0 ? factors[i - 1] : 1, next = step * factors[i];
@@ -58,7 +59,7 @@ static void linear(const chart_axis *axis, int room, ticks *out) {
     for (int i = 0; i < TICKS_MAX && (first + i) * step <= axis->hi + 1e-9 * span; i++) {
         double at = (first + i) * step;
         double largest = fmax(fabs(axis->lo), fabs(axis->hi));
-        int digits = (int)fmin(17, fmax(3, floor(log10(largest / step)) + 2));
+        int digits = (int)fmin(17, fmax(3, floor(dp_log10(largest / step)) + 2));
         char text[TICKS_TEXT];
         if (fabs(at) < step * 1e-6)
             at = 0;
@@ -69,7 +70,7 @@ static void linear(const chart_axis *axis, int room, ticks *out) {
 }
 
 static void decades(const chart_axis *axis, int room, ticks *out) {
-    int first = (int)ceil(log10(axis->lo) - 1e-9), last = (int)floor(log10(axis->hi) + 1e-9);
+    int first = (int)ceil(dp_log10(axis->lo) - 1e-9), last = (int)floor(dp_log10(axis->hi) + 1e-9);
     bool powers = first < PLAIN_LO || last > PLAIN_HI;
     int stride = 1;
     while ((last - first) / stride + 1 > room)
@@ -78,7 +79,7 @@ static void decades(const chart_axis *axis, int room, ticks *out) {
      */
     int origin = floor((double)last / stride) - ceil((double)first / stride) < 1 ? first : 0;
     for (int power = first - 1; power <= last; power++) {
-        double decade = pow(10, power);
+        double decade = dp_pow(10, power);
         char text[TICKS_TEXT] = "";
         if ((power - origin) % stride == 0)
             ticks_label(decade, powers, text);

@@ -7,6 +7,8 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "core/elementary.h"
+
 /*
  * strtod and printf follow LC_NUMERIC, which stays "C" in a program that never calls setlocale. strtod alone is too
  * kind: it skips leading space, stops at the first thing it does not know, and reads "nan".
@@ -118,7 +120,8 @@ size_t number_quick(double value, char out[NUMBER_SIZE]) {
     const uint64_t m = (uint64_t)ldexp(frexp(magnitude, &exponent2), 53);
     if ((m & (m - 1)) == 0) /* a power of two: its neighbour below is nearer, which the test below does not know */
         return 0;
-    const int exponent = (int)floor(log10(magnitude)); /* next to a power of ten maybe wrong: then x is out of range */
+    const int exponent =
+        (int)floor(dp_log10(magnitude)); /* next to a power of ten maybe wrong: then x is out of range */
     const uint64_t scaled = scale(m, exponent2 - 53, 16 - exponent);
     if (scaled < least << POINT_BITS || scaled + SLACK >= (least * 10) << POINT_BITS)
         return 0;
@@ -181,7 +184,7 @@ static number_text bound_of(double value, int digits, bool upward) {
         return out;
     }
     const double shown = strtod(out.text, NULL);
-    const double unit = pow(10.0, floor(log10(shown)) - (digits - 1));
+    const double unit = dp_pow(10.0, floor(dp_log10(shown)) - (digits - 1));
     return (upward ? shown < value : shown > value) ? number_of(shown + (upward ? unit : -unit), digits) : out;
 }
 
@@ -196,7 +199,7 @@ number_text number_down(double value, int digits) {
 int number_digits_within(double at, double step, int least, int most) {
     if (!isfinite(at) || !isfinite(step) || at == 0.0 || step == 0.0)
         return least;
-    const double digits = floor(log10(fabs(at))) - floor(log10(fabs(step))) + 2.0;
+    const double digits = floor(dp_log10(fabs(at))) - floor(dp_log10(fabs(step))) + 2.0;
     return (int)fmin(fmax(digits, least), most);
 }
 

@@ -9,6 +9,7 @@
 #include <omp.h>
 #endif
 
+#include "core/elementary.h"
 #include "scene/body.h"
 #include "scene/hidden.h"
 #include "scene/pairs.h"
@@ -190,7 +191,7 @@ finder_status finder_find(const model *m, const finder_asked *asked, finder_foun
     if (!in_range(asked->gap, FINDER_COORDINATE_MAX) || !in_range(asked->angle, FINDER_ANGLE_MAX) ||
         !in_range(asked->width, FINDER_COORDINATE_MAX) || !measure(&s))
         return FINDER_RANGE;
-    s.sine = sin(asked->angle * (M_PI / 180.0));
+    s.sine = dp_sin(asked->angle * (M_PI / 180.0));
     s.found.extent = s.extent;
     finder_status status = pairs_find(&s);
     if (status == FINDER_DONE && s.found.pairs > 0 && (asked->off >> FINDER_HIDDEN & 1) == 0)

@@ -32,8 +32,11 @@ static double largest(const double x[3]) {
     return fmax(fmax(fabs(x[0]), fabs(x[1])), fabs(x[2]));
 }
 
+/* What is no part of a closed body hides nothing, and uncovers nothing: terrain that runs through a slab, say. */
 static void meet(ray *r, uint32_t triangle) {
     const model *m = r->among->m;
+    if (r->among->body[triangle] == BODY_NONE)
+        return;
     double p[3][3];
     double size = 0.0;
     for (int i = 0; i < 3; i++) {
@@ -67,8 +70,7 @@ static bool visit(void *context, uint32_t leaf) {
     ray *r = context;
     const tree *t = r->among->t;
     for (uint32_t i = tree_first(t, leaf); i < tree_first(t, leaf + 1) && !r->grazes; i++)
-        if (!r->among->m->surface[r->among->m->of[t->item[i]]].blended)
-            meet(r, t->item[i]);
+        meet(r, t->item[i]);
     return !r->grazes;
 }
 

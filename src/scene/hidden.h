@@ -1,10 +1,10 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /*
- * Whether closed bodies hide an overlap: from every point of it that is tried, a little before its surfaces, a ray
- * first meets the inside of a closed body (body.h), and leaves this body oftener than it enters it. Tried are the
- * corners, moved inward by 2^-10, the middles of the sides and the centroid. "A little" is the gap asked for, but at
- * most 2^-10 of the overlap's longest diagonal: a body that lies against the overlap hides it, too, although a slit as
- * flat as that may show it.
+ * Whether closed bodies hide an overlap: from every point of it that is tried, a little before its surfaces, of all
+ * closed bodies (body.h) a ray first meets the inside of one, and leaves this one oftener than it enters it. Tried are
+ * the corners, moved inward by 2^-10, the middles of the sides and the centroid. "A little" is the gap asked for, but
+ * at most 2^-10 of the overlap's longest diagonal: a body that lies against the overlap hides it, too, although a slit
+ * as flat as that may show it.
  *
  * What hides nothing: a body with a hole in it, or whose neighbours' corners are not at the same coordinates, bodies of
  * blended or two-sided materials, and walls that face into their room. What is hidden wrongly: an overlap that shows

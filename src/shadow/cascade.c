@@ -2,6 +2,7 @@
 /* Cascades: parts of a view, and the light's box about each. */
 #include <math.h>
 
+#include "core/elementary.h"
 #include "shadow/shadow.h"
 
 shadow_split shadow_split_default(void) {
@@ -30,17 +31,17 @@ static double split_at(const shadow_split *s, int index) {
     const double part = (double)index / s->count;
     if (index == s->count)
         return s->zfar;
-    return s->lambda * s->znear * pow(s->zfar / s->znear, part) +
+    return s->lambda * s->znear * dp_pow(s->zfar / s->znear, part) +
            (1.0 - s->lambda) * (s->znear + (s->zfar - s->znear) * part);
 }
 
 /* The smallest sphere about the eight corners: its centre is where near and far ones are equally far, or at the far
  * end. */
 static void bound(const shadow_split *s, shadow_cascade *c) {
-    const double tangent = tan(s->fov_y * (3.14159265358979323846 / 360.0));
-    const double corner = tangent * hypot(s->aspect, 1.0);
+    const double tangent = dp_tan(s->fov_y * (3.14159265358979323846 / 360.0));
+    const double corner = tangent * dp_hypot(s->aspect, 1.0);
     c->centre = fmin(0.5 * (c->from + c->to) * (1.0 + corner * corner), c->to);
-    c->radius = hypot(c->to - c->centre, c->to * corner);
+    c->radius = dp_hypot(c->to - c->centre, c->to * corner);
 }
 
 /* The light's box, `behind` beyond the sphere. */

@@ -3,6 +3,7 @@
 #include <math.h>
 
 #include "core/bits.h"
+#include "core/elementary.h"
 #include "shadow/shadow.h"
 
 static const double eps = 0x1p-24;
@@ -43,17 +44,17 @@ static ground ground_of(const shadow_light *light) {
     ground g = {.depth = light->setup.kappa, .reach = t->pixels};
     g.texel_x = light->width / t->width;
     g.texel_y = light->height / t->height;
-    g.diagonal = hypot(g.texel_x, g.texel_y);
+    g.diagonal = dp_hypot(g.texel_x, g.texel_y);
     g.size = fmax(t->width, t->height);
     /* The length of positions, and of those to the middle of the box, which the matrix takes off. */
     const double position =
-        light->world > 0.0 ? sqrt(3.0) * light->world : 0.5 * hypot(hypot(light->width, light->height), g.depth);
+        light->world > 0.0 ? sqrt(3.0) * light->world : 0.5 * dp_hypot(dp_hypot(light->width, light->height), g.depth);
     const double middle = light->world > 0.0 ? position : 0.0;
     g.place = eps * position;
     g.turned = 4.0 * eps * (position + middle);
     g.turned_depth = 4.0 * eps * ((position + middle) / g.depth + 0.5) + eps;
     g.vertex = g.turned / fmin(g.texel_x, g.texel_y) + eps * (2.0 * g.size + 4.0 * g.reach);
-    g.box = 0.5 * (1.0 + hypot(t->slim, 1.0));
+    g.box = 0.5 * (1.0 + dp_hypot(t->slim, 1.0));
     return g;
 }
 
@@ -90,7 +91,7 @@ static void parts_of(const shadow_light *light, const ground *g, shadow_part par
 
 double shadow_part_at(const shadow_light *light, const shadow_part *part, double slant) {
     const ground g = ground_of(light);
-    return part->texels * tan(degrees(slant)) * g.diagonal / g.depth + part->window;
+    return part->texels * dp_tan(degrees(slant)) * g.diagonal / g.depth + part->window;
 }
 
 /* ---- The three biases -------------------------------------------------------------------------------------------- */
@@ -107,23 +108,23 @@ static double factor_of(const shadow_light *light, const ground *g, double texel
 
 static double curvature_of(const shadow_light *light, const ground *g, double slope, double texels) {
     const double off = texels * g->diagonal;
-    const double bend = pow(1.0 + slope * slope, 1.5) / light->radius;
+    const double bend = dp_pow(1.0 + slope * slope, 1.5) / light->radius;
     return isinf(light->radius) ? 0.0 : bend * off * (0.5 * off + 2.0 * light->facet) / g->depth;
 }
 
 /* a sin x + b cos x at its largest, 0 <= x <= most. */
 static double largest_wave(double a, double b, double most) {
-    const double x = fmin(atan2(a, b), most);
-    return a * sin(x) + b * cos(x);
+    const double x = fmin(dp_atan2(a, b), most);
+    return a * dp_sin(x) + b * dp_cos(x);
 }
 
 void shadow_gap_at(const shadow_light *light, const shadow_bias *bias, double slant, double *along_light,
                    double *along_normal) {
     const ground g = ground_of(light);
-    const double slope = tan(degrees(slant));
+    const double slope = dp_tan(degrees(slant));
     const double scaled = isinf(bias->factor) ? bias->factor : bias->factor * slope * fmax(g.texel_x, g.texel_y);
     *along_light = bias->window * g.depth + scaled + bias->offset * slope;
-    *along_normal = *along_light * cos(degrees(slant));
+    *along_normal = *along_light * dp_cos(degrees(slant));
 }
 
 /* What of the bias is slope times filter radius, at the azimuth that needs most. */
@@ -139,7 +140,7 @@ void shadow_need_of(const shadow_light *light, shadow_need *need) {
     const double slant = light->triangles.slant_hi;
     double absolute;
     *need = (shadow_need){.texel_x = g.texel_x, .texel_y = g.texel_y, .texel = fmax(g.texel_x, g.texel_y)};
-    need->slope = tan(degrees(slant));
+    need->slope = dp_tan(degrees(slant));
     parts_of(light, &g, need->part);
     for (int i = 0; i < SHADOW_CAUSE_COUNT; i++) {
         need->texels += need->part[i].texels;
@@ -150,7 +151,7 @@ void shadow_need_of(const shadow_light *light, shadow_need *need) {
     need->curvature = curvature_of(light, &g, need->slope, need->texels) * outward;
     need->offset_only = largest_wave(across * (1.0 + sine_error), rest * g.depth, degrees(slant)) * outward;
     shadow_bias *b = need->bias;
-    const double steepest = tan(degrees(slant) + turned_light);
+    const double steepest = dp_tan(degrees(slant) + turned_light);
     b[SHADOW_CONSTANT] = (shadow_bias){.window = across * steepest / g.depth * outward + rest};
     const double factor = factor_of(light, &g, need->texels, &absolute);
     const double small = isfinite(factor) ? factor * absolute * outward : 0.0;

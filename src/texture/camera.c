@@ -4,6 +4,8 @@
 #include <math.h>
 #include <stddef.h>
 
+#include "core/elementary.h"
+
 static const double DEGREE = M_PI / 180;
 
 camera_spec camera_spec_default(void) {
@@ -58,9 +60,9 @@ const char *camera_init(texture_camera *camera, const dp_setup *setup, const cam
     const char *error = wrong(spec, ortho);
     if (error != NULL)
         return error;
-    const double half_height = ortho ? spec->half_height : tan(spec->fov_y * DEGREE / 2);
-    const double sy = sin(spec->yaw * DEGREE), cy = cos(spec->yaw * DEGREE);
-    const double sp = sin(spec->pitch * DEGREE), cp = cos(spec->pitch * DEGREE);
+    const double half_height = ortho ? spec->half_height : dp_tan(spec->fov_y * DEGREE / 2);
+    const double sy = dp_sin(spec->yaw * DEGREE), cy = dp_cos(spec->yaw * DEGREE);
+    const double sp = dp_sin(spec->pitch * DEGREE), cp = dp_cos(spec->pitch * DEGREE);
     *camera = (texture_camera){
         .setup = *setup,
         .width = spec->width,

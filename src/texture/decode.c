@@ -3,6 +3,7 @@
 
 #include <math.h>
 
+#include "core/elementary.h"
 #include "core/engine.h"
 #include "texture/clones.h"
 
@@ -51,7 +52,7 @@ static decode_constants w_eye(const dp_setup *setup) {
 
 static decode_constants log_eye(const dp_setup *setup) {
     const double c = setup->spec.log_c;
-    return (decode_constants){DECODE_EXP2, 0, 1, (float)(log1p(c * setup->spec.zfar) / M_LN2), (float)c};
+    return (decode_constants){DECODE_EXP2, 0, 1, (float)(dp_log1p(c * setup->spec.zfar) / M_LN2), (float)c};
 }
 
 /* All terms positive: q is the share of the way from the far plane, 1 - d or d itself. */
@@ -59,7 +60,7 @@ static decode_constants complement(const dp_setup *setup) {
     const double n = setup->spec.znear, f = setup->spec.zfar, c = setup->spec.log_c;
     const bool r = setup->reversed != 0;
     if (setup->curve == DP_CURVE_LOG)
-        return (decode_constants){DECODE_EXPM1, 0, 1, (float)log1p(c * f), (float)c};
+        return (decode_constants){DECODE_EXPM1, 0, 1, (float)dp_log1p(c * f), (float)c};
     if (setup->curve == DP_CURVE_PERSPECTIVE)
         return (decode_constants){DECODE_RECIPROCAL, r ? 0.0f : 1.0f, r ? 1.0f : -1.0f, (float)excess_by_far(setup),
                                   (float)(1 / f)};
@@ -146,12 +147,12 @@ TEXTURE_CLONES static void quotient_loop(const decode_constants c, const float *
 
 static void exp2_loop(const decode_constants c, const float *d, float *out, size_t count) {
     for (size_t i = 0; i < count; i++)
-        out[i] = (exp2f(c.scale * (c.from + c.sign * d[i])) - 1.0f) / c.base;
+        out[i] = (dp_exp2f(c.scale * (c.from + c.sign * d[i])) - 1.0f) / c.base;
 }
 
 static void expm1_loop(const decode_constants c, const float *d, float *out, size_t count) {
     for (size_t i = 0; i < count; i++)
-        out[i] = expm1f(c.scale * (c.from + c.sign * d[i])) / c.base;
+        out[i] = dp_expm1f(c.scale * (c.from + c.sign * d[i])) / c.base;
 }
 
 void decode_apply(const decode_constants *c, const float *d, float *out, size_t count) {
@@ -172,7 +173,7 @@ void decode_run(const decode_row *row, const dp_setup *setup, const float *d, fl
 
 /* (C f + 1)^d - 1: the exponent needs more digits than a double has, because its error is multiplied by itself. */
 static double exact_power(const dp_setup *setup, double d) {
-    const double hi = d * setup->log_hi, lo = fma(d, setup->log_hi, -hi) + d * setup->log_lo, power = expm1(hi);
+    const double hi = d * setup->log_hi, lo = fma(d, setup->log_hi, -hi) + d * setup->log_lo, power = dp_expm1(hi);
     return power + lo * (power + 1);
 }
 
@@ -200,7 +201,7 @@ double decode_exact(const dp_setup *setup, decode_quantity quantity, double d) {
         if (z > 4 * n) /* far enough for a plain difference */
             return (z - n) / (f - n);
         const dp_pair top = {setup->log_hi, setup->log_lo};
-        return (n + 1 / c) * expm1(dp_scaled_difference(d, 1, top, dp_log1p_product(c, n))) / (f - n);
+        return (n + 1 / c) * dp_expm1(dp_scaled_difference(d, 1, top, dp_log1p_product(c, n))) / (f - n);
     }
     if (setup->curve == DP_CURVE_LINEAR && !setup->spec.ortho)
         return quantity == DECODE_EYE ? f * d : quantity == DECODE_01 ? d : fma(f, d, -n) / (f - n);
@@ -268,7 +269,7 @@ double decode_bound(const decode_row *row, const dp_setup *setup, double d) {
         /* the exponent is rounded relative to itself, its product by half a unit in the last place */
         const double away = setup->spec.log_c * exact, steep = (away + 1) / away;
         const double per = c.form == DECODE_EXP2 ? M_LN2 : 1, product = dp_half_ulp((double)c.scale * d) / DP_UNIT;
-        const double power = log1p(away) + per * product;
+        const double power = dp_log1p(away) + per * product;
         /* exp2f within 0.55 ulp, as today's C libraries have it (0.51; tests/test_decode.c looks), expm1f within 1 ulp;
          * the difference with 1, exact below 2^24; then quotient and C */
         off = c.form == DECODE_EXP2 ? (power + 1.1) * steep + (away < 0x1.fffp23 ? 0 : 1) + 2 : power * steep + 4;

@@ -4,6 +4,8 @@
 #include <math.h>
 #include <string.h>
 
+#include "core/elementary.h"
+
 /* ---- The pixel --------------------------------------------------------------------------------------------------- */
 
 static double dot(const double a[3], const double b[3]) {
@@ -68,11 +70,11 @@ static double gain_limit(const cell_case *at, const double *p, double share) {
 }
 
 static double decay_error(const cell_case *at, const double *p) {
-    return -expm1(-change(at, p) * p[at->row->wanted]);
+    return -dp_expm1(-change(at, p) * p[at->row->wanted]);
 }
 
 static double decay_limit(const cell_case *at, const double *p, double share) {
-    return -log1p(-share) / change(at, p);
+    return -dp_log1p(-share) / change(at, p);
 }
 
 /*

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Effects that need the eye depth, and another one to compare it with. */
+#include "core/elementary.h"
 #include "texture/effect_rows.h"
 
 double eye_apart(const effect_view *view, const double *p, double z, double other) {
@@ -83,11 +84,11 @@ double along_ray(const effect_view *view, const double *p, double z, double othe
 }
 
 double water_depth(const effect_view *view, const double *p, double z, double reference) {
-    return -expm1(-p[0] * view->stretch * fmax(minus(z, reference), 0));
+    return -dp_expm1(-p[0] * view->stretch * fmax(minus(z, reference), 0));
 }
 
 float water_depth_shader(const effect_pixel *pixel, const float *p, const effect_pixel *reference) {
-    return 1.0f - expf(-p[0] * (fmaxf(pixel->eye - reference->eye, 0.0f) * pixel->stretch));
+    return 1.0f - dp_expf(-p[0] * (fmaxf(pixel->eye - reference->eye, 0.0f) * pixel->stretch));
 }
 
 /* ---- Shadows ----------------------------------------------------------------------------------------------------- */

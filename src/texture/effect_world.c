@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Effects that need the world position of the pixel. */
+#include "core/elementary.h"
 #include "texture/effect_rows.h"
 
 /* ---- Height ------------------------------------------------------------------------------------------------------ */
@@ -58,7 +59,7 @@ static double last_ndc(const effect_view *view, int k, double z) {
 
 double velocity(const effect_view *view, const double *p, double z, double reference) {
     (void)reference;
-    return p[0] / 2 * hypot(view->ndc[0] - last_ndc(view, 0, z), view->ndc[1] - last_ndc(view, 1, z));
+    return p[0] / 2 * dp_hypot(view->ndc[0] - last_ndc(view, 0, z), view->ndc[1] - last_ndc(view, 1, z));
 }
 
 /* A quotient of two linear functions moves by (from w_per - per w)(z' - z)/(w(z) w(z')): nothing cancels. */
@@ -73,7 +74,7 @@ double velocity_apart(const effect_view *view, const double *p, double z, double
         isinf(far) && view->last.w_per != 0 ? 1 / (w[0] * view->last.w_per) : minus(far, near) / (w[0] * w[1]);
     for (int k = 0; k < 2; k++)
         moved[k] = times(view->last.from[k] * view->last.w_per - view->last.per[k] * view->last.w, way);
-    return hypot(moved[0], moved[1]) / 2;
+    return dp_hypot(moved[0], moved[1]) / 2;
 }
 
 float velocity_shader(const effect_pixel *pixel, const float *p, const effect_pixel *reference) {
@@ -91,7 +92,7 @@ float velocity_shader(const effect_pixel *pixel, const float *p, const effect_pi
 
 /* The decal's matrix: from world places to its unit box. Row k is its axis over its size there. */
 static void decal_matrix(const double p[TEXTURE_PARAMETERS], double m[3][4]) {
-    const double turn = p[DECAL_YAW] * (M_PI / 180), c = cos(turn), s = sin(turn);
+    const double turn = p[DECAL_YAW] * (M_PI / 180), c = dp_cos(turn), s = dp_sin(turn);
     const double axes[3][3] = {{c, 0, -s}, {0, 1, 0}, {s, 0, c}};
     for (int k = 0; k < 3; k++) {
         m[k][3] = 0;

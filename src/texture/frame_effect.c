@@ -4,6 +4,7 @@
 #include <string.h>
 
 #include "core/bits.h"
+#include "core/elementary.h"
 #include "texture/frame_rows.h"
 #include "texture/packing.h"
 
@@ -198,7 +199,7 @@ static double normal_reach(const work *w, const tap *at) {
     const frame_normals *normals = w->in->frame->normals;
     const size_t pixel = pixel_of(w, at);
     const double off = normals->off != NULL ? normals->off[pixel] * M_PI / 180 / FRAME_NORMAL_DEGREE : 0;
-    return packing_normal_reach(normals->texels + 2 * pixel, normals->truncated) + M_SQRT2 * 2 * sin(off / 2);
+    return packing_normal_reach(normals->texels + 2 * pixel, normals->truncated) + M_SQRT2 * 2 * dp_sin(off / 2);
 }
 
 /* What of |x| + |y| between two normals an image leaves open, as views whose normals differ by the least and the most.

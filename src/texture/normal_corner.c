@@ -3,6 +3,8 @@
 
 #include <math.h>
 
+#include "core/elementary.h"
+
 typedef struct vector {
     double x, y, z;
 } vector;
@@ -30,7 +32,7 @@ static double place_off(const normal_row *method, vector place, double reading) 
 }
 
 static double angle_of(double off, double whole) {
-    return off < whole ? asin(off / whole) : M_PI;
+    return off < whole ? dp_asin(off / whole) : M_PI;
 }
 
 double normal_corner_bound(const texture_camera *camera, const normal_row *method, const normal_tap taps[3],

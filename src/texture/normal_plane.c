@@ -3,6 +3,7 @@
 #include <math.h>
 #include <string.h>
 
+#include "core/elementary.h"
 #include "core/engine.h"
 #include "texture/clones.h"
 #include "texture/normal.h"
@@ -29,7 +30,7 @@ DP_INLINE void diagonals(const double a[3], const double b[3], double *apart, do
 double normal_angle(const double a[3], const double b[3]) {
     double apart, along;
     diagonals(a, b, &apart, &along);
-    return 2 * atan2(apart, along);
+    return 2 * dp_atan2(apart, along);
 }
 
 /* What multiplies the eye depth and what does not: a pixel's place is direction z + place. */

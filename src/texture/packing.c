@@ -7,6 +7,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "core/elementary.h"
 #include "texture/pack.h"
 
 enum { BYTE = 255 };
@@ -107,7 +108,7 @@ double packing_normal_reach(const uint8_t *texel, bool truncated) {
     const double diagonal = M_SQRT2 * PACK_STEREO_SCALE / BYTE * (truncated ? 2 : 1);
     double normal[3];
     packing_normal(texel, normal);
-    const double least = fmax(hypot(normal[0], normal[1]) / (normal[2] + 1) - diagonal, 0);
+    const double least = fmax(dp_hypot(normal[0], normal[1]) / (normal[2] + 1) - diagonal, 0);
     return M_SQRT2 * diagonal * 2 / (1 + least * least);
 }
 

@@ -11,6 +11,7 @@
 
 #include "core/append.h"
 #include "core/bits.h"
+#include "core/elementary.h"
 #include "texture/clones.h"
 #include "texture/image_depths.h"
 #include "texture/recognise_lattice.h"
@@ -193,7 +194,7 @@ static void count_new(tally *s, const finding *f, double d) {
     const double chance = lattice_chance(f->which, f->single, d);
     s->expected += chance;
     s->telling += chance < 1;
-    s->bits -= log2(chance);
+    s->bits -= dp_log2(chance);
 }
 
 /* Of at most BLOCK depths, which are NaN or in [0, 1] and so are ordered as their bits are. */

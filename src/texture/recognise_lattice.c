@@ -6,6 +6,7 @@
 #include <string.h>
 
 #include "core/bits.h"
+#include "core/elementary.h"
 #include "texture/clones.h"
 #include "texture/recognise.h"
 
@@ -161,7 +162,7 @@ static double agreement(const distinct_set *set, const grid_source *s, double st
         const double k = d * steps, most = shifted ? 0x1p-20 : tolerance(s, d, steps);
         if (fabs(k - rint(k)) > most)
             return -1;
-        bits -= fmin(log2(s->top > 0 ? steps / s->top : 2 * most), 0);
+        bits -= fmin(dp_log2(s->top > 0 ? steps / s->top : 2 * most), 0);
     }
     return bits;
 }
@@ -192,7 +193,7 @@ grid grid_find(const distinct_set *set, const grid_source *s) {
             break;
         if ((!s->dyadic || n == BITS_LEAST) && better(&best, set, s, power, false))
             break;
-        if (s->top > power && better(&best, set, s, s->top / exp2(ceil(log2(s->top + 1)) - n), true))
+        if (s->top > power && better(&best, set, s, s->top / dp_exp2(ceil(dp_log2(s->top + 1)) - n), true))
             break;
     }
     return best;

@@ -3,6 +3,8 @@
 
 #include <math.h>
 
+#include "core/elementary.h"
+
 #define LENGTH "scene units", 1e-9, 1e15
 
 static const double DEGREE = M_PI / 180;
@@ -20,7 +22,7 @@ static void face(const texture_camera *camera, double z, int surface, scene_hit 
 
 /* Depth `index` of `count` from lo to hi, both exact, in equal ratios. */
 static double spaced(double lo, double hi, double index, double count) {
-    return index <= 0 ? lo : index >= count - 1 ? hi : lo * pow(hi / lo, index / (count - 1));
+    return index <= 0 ? lo : index >= count - 1 ? hi : lo * dp_pow(hi / lo, index / (count - 1));
 }
 
 /* Which of `count` equal parts of `length` pixels a place lies in. */
@@ -35,7 +37,7 @@ enum { PLANE_DISTANCE, PLANE_TILT, PLANE_TURN };
 /* The plane goes through (0, 0, distance): n . p = n_z distance. */
 static void plane_hit(const texture_camera *c, const double *p, double column, double row, scene_hit *out) {
     const double tilt = p[PLANE_TILT] * DEGREE, turn = p[PLANE_TURN] * DEGREE;
-    const double n[3] = {cos(tilt) * sin(turn), sin(tilt), -cos(tilt) * cos(turn)};
+    const double n[3] = {dp_cos(tilt) * dp_sin(turn), dp_sin(tilt), -dp_cos(tilt) * dp_cos(turn)};
     const double side = n[0] * camera_slope_x(c, column) + n[1] * camera_slope_y(c, row);
     const double z = c->ortho ? p[PLANE_DISTANCE] - side / n[2] : n[2] * p[PLANE_DISTANCE] / (side + n[2]);
     *out = SKY;

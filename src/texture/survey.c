@@ -4,6 +4,7 @@
 #include <math.h>
 #include <stdlib.h>
 
+#include "core/elementary.h"
 #include "core/engine.h"
 #include "texture/oblique.h"
 #include "texture/strips.h"
@@ -42,9 +43,9 @@ static uint32_t rank_from(const dp_setup *setup, double z, uint32_t most) {
 /* Where even powers of ten are too many (a float stores depths up to 1e44), the last band takes what is left. */
 static size_t edges_between(double lo, double hi, const int *factors, size_t factor_count, double *edge) {
     size_t count = 0;
-    for (int power = (int)floor(log10(lo)); power <= (int)ceil(log10(hi)); power++)
+    for (int power = (int)floor(dp_log10(lo)); power <= (int)ceil(dp_log10(hi)); power++)
         for (size_t i = 0; i < factor_count; i++) {
-            const double at = power < 0 ? factors[i] / pow(10, -power) : factors[i] * pow(10, power);
+            const double at = power < 0 ? factors[i] / dp_pow(10, -power) : factors[i] * dp_pow(10, power);
             if (at > lo && at < hi) {
                 if (edge != NULL && count < SURVEY_BANDS - 1)
                     edge[count] = at;
@@ -58,11 +59,11 @@ static size_t edges_between(double lo, double hi, const int *factors, size_t fac
 static size_t edges_about_0(double lo, double hi, double *edge) {
     enum { DECADES = 5 };
     const double most = fmax(fabs(lo), fabs(hi));
-    const int top = (int)floor(log10(most));
+    const int top = (int)floor(dp_log10(most));
     size_t count = 0;
     for (int i = -DECADES; i <= DECADES; i++) {
         const int power = top - DECADES + abs(i);
-        const double size = power < 0 ? 1 / pow(10, -power) : pow(10, power);
+        const double size = power < 0 ? 1 / dp_pow(10, -power) : dp_pow(10, power);
         const double at = i < 0 ? -size : size;
         if (i != 0 && at > lo && at < hi)
             edge[count++] = at;

@@ -10,6 +10,7 @@
 #endif
 
 #include "core/bits.h"
+#include "core/elementary.h"
 #include "core/engine.h"
 
 /* ---- Vertices ---------------------------------------------------------------------------------------------------- */
@@ -55,9 +56,9 @@ static void across(const double n[3], double s[3], double t[3]) {
 static void place_in_view(const vertex_request *r, uint64_t i, vertex_drawn *v) {
     const double beside = sqrt(draw(r->seed, i, ACROSS));
     const double angle = tau * draw(r->seed, i, AROUND);
-    const double x = beside * cos(angle), y = beside * sin(angle);
+    const double x = beside * dp_cos(angle), y = beside * dp_sin(angle);
     double s[3], t[3];
-    v->z = r->lo * exp(draw(r->seed, i, DEPTH) * log(r->hi / r->lo));
+    v->z = r->lo * dp_exp(draw(r->seed, i, DEPTH) * dp_log(r->hi / r->lo));
     across(v->axis, s, t);
     for (int k = 0; k < 3; k++)
         v->position[k] = (float)(v->place[k] + v->z * (v->axis[k] + x * s[k] + y * t[k]));
@@ -77,8 +78,8 @@ bool vertex_draw(const vertex_request *r, uint64_t i, vertex_drawn *v) {
     const double angle = tau * draw(r->seed, i, TURN);
     const double up = 2.0 * draw(r->seed, i, TILT) - 1.0;
     const double level = sqrt(1.0 - up * up);
-    v->axis[0] = level * cos(angle);
-    v->axis[1] = level * sin(angle);
+    v->axis[0] = level * dp_cos(angle);
+    v->axis[1] = level * dp_sin(angle);
     v->axis[2] = up;
     for (int k = 0; k < 3; k++)
         v->place[k] = r->world * (2.0 * draw(r->seed, i, CAMERA_X + k) - 1.0);

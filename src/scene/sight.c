@@ -1,0 +1,272 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "scene/sight.h"
+
+#include <math.h>
+#include <string.h>
+
+#include "core/elementary.h"
+#include "depthprec/bounds.h"
+#include "need/distance.h"
+#include "scene/exact.h"
+
+enum { DIGITS = 6, SIDES = 6, POLYGON = FINDER_CORNERS + SIDES };
+
+/* Of coordinates and depths in double, relative; and how far a triangle may be turned away, its sine. */
+static const double outward = 0x1p-40;
+static const double turned = 0x1p-8;
+static const double degrees = 180.0 / 3.14159265358979323846;
+
+/* How far the subpixel grid moves a vertex at most, and a pixel's centre beyond an edge, pixels. */
+static const double moved = 0.0625;
+
+/* ---- The view ---------------------------------------------------------------------------------------------------- */
+
+/* Tangents of half the view, to the right and upwards. */
+typedef struct view {
+    double across, up;
+} view;
+
+static view view_of(const dp_triangles *t) {
+    const double up = dp_tan(0.5 * t->fov_y / degrees);
+    return (view){up * t->width / t->height, up};
+}
+
+typedef struct polygon {
+    double at[POLYGON][3];
+    int corners;
+} polygon;
+
+static void keep(polygon *p, const double at[3]) {
+    if (p->corners < POLYGON) /* a side adds one at most, but for rounding */
+        memcpy(p->at[p->corners++], at, sizeof p->at[0]);
+}
+
+/* What of a polygon lies where n . p >= c. */
+static void cut(polygon *p, const double n[3], double c) {
+    const polygon from = *p;
+    double side[POLYGON];
+    for (int i = 0; i < from.corners; i++)
+        side[i] = n[0] * from.at[i][0] + n[1] * from.at[i][1] + n[2] * from.at[i][2] - c;
+    p->corners = 0;
+    for (int i = 0; i < from.corners; i++) {
+        const int next = (i + 1) % from.corners;
+        if (side[i] >= 0.0)
+            keep(p, from.at[i]);
+        if ((side[i] >= 0.0) == (side[next] >= 0.0))
+            continue;
+        const double t = side[i] / (side[i] - side[next]);
+        double at[3];
+        for (int k = 0; k < 3; k++)
+            at[k] = from.at[i][k] + t * (from.at[next][k] - from.at[i][k]);
+        keep(p, at);
+    }
+}
+
+/* Cuts it to the view, and widens the depths that are seen by those that are left. */
+static void see_polygon(polygon *p, const dp_setup *setup, scene_sight *out) {
+    const view v = view_of(&setup->spec.triangles);
+    const double sides[SIDES][3] = {{0, 0, 1},         {0, 0, -1},   {1, 0, v.across},
+                                    {-1, 0, v.across}, {0, 1, v.up}, {0, -1, v.up}};
+    const double least[SIDES] = {setup->spec.znear, -setup->spec.zfar};
+    for (int i = 0; i < SIDES; i++)
+        if (isfinite(least[i]))
+            cut(p, sides[i], least[i]);
+    for (int i = 0; i < p->corners; i++) {
+        out->seen_from = fmin(out->seen_from, p->at[i][2]);
+        out->seen_to = fmax(out->seen_to, p->at[i][2]);
+    }
+}
+
+/* ---- Two triangles ----------------------------------------------------------------------------------------------- */
+
+/* A pair as all eyes have it: its overlap on the first triangle, and both normals, of length 1. */
+typedef struct pair {
+    const finder_pair *of;
+    double corner[FINDER_CORNERS][3];
+    int corners;
+    const double *vertex[2][3];
+    double normal[2][3];
+    bool two_sided[2];
+} pair;
+
+static double dot(const double a[3], const double b[3]) {
+    return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+}
+
+static pair pair_of(const sight_asked *asked, const finder_pair *of) {
+    const model *m = asked->m;
+    pair p = {.of = of};
+    p.corners = finder_corners(m, of->triangle, asked->gap, p.corner);
+    for (int i = 0; i < 2; i++) {
+        for (int k = 0; k < 3; k++)
+            p.vertex[i][k] = m->position[m->triangle[of->triangle[i]][k]];
+        exact_normal(p.vertex[i], p.normal[i]);
+        const double length = dp_hypot(dp_hypot(p.normal[i][0], p.normal[i][1]), p.normal[i][2]);
+        for (int k = 0; k < 3; k++)
+            p.normal[i][k] /= length;
+        p.two_sided[i] = asked->any_side || m->surface[m->of[of->triangle[i]]].two_sided;
+    }
+    return p;
+}
+
+static bool is_drawn(const pair *p, int i, const scene_eye *eye) {
+    if (p->two_sided[i])
+        return true;
+    for (int c = 0; c < p->corners; c++) {
+        double from[3], above[3];
+        for (int k = 0; k < 3; k++) {
+            from[k] = eye->place[k] - p->corner[c][k];
+            above[k] = eye->place[k] - p->vertex[i][0][k];
+        }
+        if (dot(above, p->normal[i]) >= -turned * dp_hypot(dp_hypot(from[0], from[1]), from[2]))
+            return true;
+    }
+    return false;
+}
+
+/* The depths of the overlap in view, on both surfaces. */
+static bool see_pair(const pair *p, const dp_setup *setup, const scene_eye *eye, scene_sight *out) {
+    const double off[3] = {0.0, p->of->gap_lo, p->of->gap_hi};
+    *out = (scene_sight){.seen_from = HUGE_VAL, .seen_to = -HUGE_VAL, .fights_from = (double)NAN};
+    if (!is_drawn(p, 0, eye) || !is_drawn(p, 1, eye))
+        return false;
+    for (int s = 0; s < 3; s++) {
+        polygon seen = {.corners = p->corners};
+        for (int c = 0; c < p->corners; c++) {
+            double at[3];
+            for (int k = 0; k < 3; k++)
+                at[k] = p->corner[c][k] + off[s] * p->normal[0][k];
+            scene_eye_sees(eye, at, seen.at[c]);
+        }
+        see_polygon(&seen, setup, out);
+    }
+    if (!(out->seen_from <= out->seen_to))
+        return false;
+    out->seen_from = fmax(out->seen_from * (1.0 - outward), setup->spec.znear);
+    out->seen_to = fmin(out->seen_to * (1.0 + outward), setup->spec.zfar);
+    return true;
+}
+
+/* ---- What is guaranteed of them ---------------------------------------------------------------------------------- */
+
+/* Widens a class by one of the triangles; false where it cannot hold it. */
+static bool include(const pair *p, int i, const dp_setup *setup, const scene_eye *eye, const scene_sight *seen,
+                    dp_triangles *t) {
+    const view v = view_of(t);
+    double window[3][2], longest = 0.0, widest = 0.0;
+    for (int k = 0; k < 3; k++) {
+        double at[3];
+        scene_eye_sees(eye, p->vertex[i][k], at);
+        if (!(at[2] >= setup->spec.znear && at[2] <= setup->spec.zfar))
+            return false;
+        window[k][0] = 0.5 * t->width * at[0] / (v.across * at[2]);
+        window[k][1] = 0.5 * t->height * at[1] / (v.up * at[2]);
+        if (t->plane.origin > 0.0 && !(fabs(window[k][0]) < 0.5 * t->width && fabs(window[k][1]) < 0.5 * t->height))
+            return false;
+        t->depth = fmax(t->depth, (1.0 + outward) * fmax(at[2] / seen->seen_from, seen->seen_to / at[2]));
+    }
+    for (int k = 0; k < 3; k++) {
+        const double *next = window[(k + 1) % 3];
+        const double x = fabs(next[0] - window[k][0]), y = fabs(next[1] - window[k][1]);
+        longest = fmax(longest, dp_hypot(x, y));
+        widest = fmax(widest, fmax(x, y));
+    }
+    const double area = fabs((window[1][0] - window[0][0]) * (window[2][1] - window[0][1]) -
+                             (window[2][0] - window[0][0]) * (window[1][1] - window[0][1]));
+    const double upright = fmin(fabs(dot(p->normal[i], eye->ahead)), 1.0);
+    const double slant = dp_atan2(sqrt(1.0 - upright * upright), upright) * degrees;
+    t->pixels = fmax(t->pixels, widest + 4.0 * moved);
+    t->slim = fmax(t->slim, longest * longest / area * (1.0 + 8.0 * moved / sqrt(area)));
+    t->slant_lo = fmin(t->slant_lo, fmax(slant - 0.001, 0.0));
+    t->slant_hi = fmax(t->slant_hi, fmin(slant + 0.001, 90.0));
+    return true;
+}
+
+/* The set-up of the very triangles; false: there is none. */
+static bool setup_of(const pair *p, const dp_setup *setup, const scene_eye *eye, const scene_sight *seen,
+                     dp_setup *out) {
+    dp_spec spec = setup->spec;
+    dp_triangles *t = &spec.triangles;
+    t->slant_lo = 90.0;
+    t->slant_hi = 0.0;
+    t->depth = t->pixels = 1.0;
+    t->slim = 2.0;
+    return spec.model == DP_MODEL_FP32 && include(p, 0, setup, eye, seen, t) && include(p, 1, setup, eye, seen, t) &&
+           dp_setup_init(out, &spec) == DP_OK;
+}
+
+/* What is lacking, at the depths that are seen and asked for. */
+static double lift_of(const dp_setup *setup, const scene_sight *seen, double within, double least) {
+    const double to = within > 0.0 ? fmin(seen->seen_to, within) : seen->seen_to;
+    dp_separation_worst worst = {.bound = HUGE_VAL};
+    if (to < seen->seen_from)
+        return 0.0;
+    dp_separation_over(setup, seen->seen_from, to, 0.0, &worst);
+    return fmax(worst.bound - least, 0.0);
+}
+
+/* Where it is not guaranteed, at the depths that are seen. */
+static void judge_pair(const pair *p, const sight_asked *asked, const scene_eye *eye, scene_sight *seen) {
+    const dp_setup *setup = asked->setup;
+    const double lo = p->of->gap_lo, hi = p->of->gap_hi;
+    const double least = lo <= 0.0 && hi >= 0.0 ? 0.0 : fmin(fabs(lo), fabs(hi));
+    dp_setup own;
+    seen->covered = setup_of(p, setup, eye, seen, &own);
+    seen->lift = lift_of(seen->covered ? &own : setup, seen, asked->within, least);
+    if (least == 0.0) {
+        seen->covered = true; /* no guarantee could be missed */
+        seen->fights_from = seen->seen_from;
+        return;
+    }
+    const double to = distance_about(seen->covered ? &own : setup, seen->seen_from, seen->seen_to, least, DIGITS);
+    if (isnan(to))
+        seen->fights_from = seen->seen_from;
+    else if (to < seen->seen_to)
+        seen->fights_from = to;
+}
+
+/* ---- A finding --------------------------------------------------------------------------------------------------- */
+
+static double or_far(double depth) {
+    return isnan(depth) ? HUGE_VAL : depth;
+}
+
+static void add(scene_sight *to, const scene_sight *from) {
+    to->seen_from = fmin(to->seen_from, from->seen_from);
+    to->seen_to = fmax(to->seen_to, from->seen_to);
+    to->fights_from = fmin(to->fights_from, from->fights_from);
+    to->lift = fmax(to->lift, from->lift);
+    to->covered = to->covered && from->covered;
+}
+
+static bool is_worse(const scene_sight *a, const scene_sight *b) {
+    if (or_far(a->fights_from) != or_far(b->fights_from))
+        return or_far(a->fights_from) < or_far(b->fights_from);
+    if (a->covered != b->covered)
+        return b->covered;
+    return or_far(a->seen_from) < or_far(b->seen_from);
+}
+
+scene_sight scene_sight_worst(const sight_asked *asked, const finder_finding *f, scene_sight *sight) {
+    const double nan = (double)NAN;
+    for (size_t e = 0; e < asked->eyes; e++)
+        sight[e] = (scene_sight){nan, nan, nan, 0.0, true, e};
+    for (size_t i = 0; i < f->pairs && !(asked->stop != NULL && asked->stop()); i++) {
+        const pair p = pair_of(asked, &asked->found->pair[f->first + i]);
+        for (size_t e = 0; e < asked->eyes; e++) {
+            scene_sight seen;
+            if (!see_pair(&p, asked->setup, &asked->eye[e], &seen))
+                continue;
+            judge_pair(&p, asked, &asked->eye[e], &seen);
+            add(&sight[e], &seen);
+        }
+    }
+    size_t worst = 0;
+    double lift = sight[0].lift;
+    for (size_t e = 1; e < asked->eyes; e++) {
+        worst = is_worse(&sight[e], &sight[worst]) ? e : worst;
+        lift = fmax(lift, sight[e].lift);
+    }
+    sight[worst].lift = lift;
+    return sight[worst];
+}

@@ -1,0 +1,288 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* What scene writes for machines: JUnit XML as libxml reads it, requirements as check judges them, and its bias. */
+#include <jansson.h>
+#include <libxml/parser.h>
+#include <libxml/tree.h>
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "api/bias.h"
+#include "depthprec/depthprec.h"
+#include "printed.h"
+#include "support.h"
+
+#define HOUSE  "tests/models/house.gltf"
+#define CAMERA "-n 0.05 -F d24 -m d3d --viewport 1280x720 --fov 23"
+
+static json_t *printed_json(const char *command) {
+    printed p = print_of("%s --json", command);
+    json_t *root = json_of(p.out);
+    printed_free(&p);
+    return root;
+}
+
+static double number(const json_t *object, const char *key) {
+    const json_t *value = json_object_get(object, key);
+    return json_is_number(value) ? json_number_value(value) : (double)NAN;
+}
+
+static const char *name_of(const json_t *finding, const char *side) {
+    return json_string_value(json_object_get(json_object_get(finding, side), "node"));
+}
+
+/* ---- JUnit ------------------------------------------------------------------------------------------------------- */
+
+static bool attribute_is(xmlNode *node, const char *name, const char *want) {
+    xmlChar *value = xmlGetProp(node, (const xmlChar *)name);
+    const bool same = value != NULL && strcmp((const char *)value, want) == 0;
+    xmlFree(value);
+    return same;
+}
+
+static bool attribute_has(xmlNode *node, const char *name, const char *part) {
+    xmlChar *value = xmlGetProp(node, (const xmlChar *)name);
+    const bool found = value != NULL && strstr((const char *)value, part) != NULL;
+    xmlFree(value);
+    return found;
+}
+
+static bool is(const xmlNode *node, const char *name) {
+    return node->type == XML_ELEMENT_NODE && strcmp((const char *)node->name, name) == 0;
+}
+
+/* The element `name` below, which has to be there. */
+static xmlNode *below(xmlNode *node, const char *name) {
+    for (xmlNode *n = node->children; n != NULL; n = n->next)
+        if (is(n, name))
+            return n;
+    fail_msg("no <%s>", name);
+    return NULL;
+}
+
+/* A case for each finding of JSON in its order; what fights fails. */
+static void junit(void **state) {
+    static const struct {
+        const char *options;
+        int status;
+        size_t fewest;
+    } rows[] = {
+        {CAMERA " --within 60", 1, 17}, {CAMERA " --within 10", 1, 10}, {"-F fp32 -m reversed --within 10", 1, 2}};
+    (void)state;
+    for (size_t i = 0; i < sizeof rows / sizeof rows[0]; i++) {
+        char command[512], text[32];
+        size_t fails = 0, k = 0;
+        snprintf(command, sizeof command, "scene " HOUSE " %s", rows[i].options);
+        json_t *root = printed_json(command);
+        const json_t *list = json_object_get(root, "findings");
+        printed p = print_of("%s --report junit", command);
+        assert_int_equal(p.status, rows[i].status);
+        xmlDoc *doc = xmlReadMemory(p.out, (int)strlen(p.out), NULL, NULL, XML_PARSE_NONET);
+        assert_non_null(doc);
+        xmlNode *suite = below(xmlDocGetRootElement(doc), "testsuite");
+        for (xmlNode *n = suite->children; n != NULL; n = n->next) {
+            if (!is(n, "testcase"))
+                continue;
+            const json_t *f = json_array_get(list, k++);
+            assert_true(attribute_has(n, "name", name_of(f, "a")) && attribute_has(n, "name", name_of(f, "b")));
+            assert_true(attribute_is(n, "file", HOUSE));
+            const bool fights = json_is_true(json_object_get(f, "fights"));
+            fails += fights;
+            if (!fights) {
+                assert_null(n->children);
+                continue;
+            }
+            const double to = number(f, "certain_to");
+            double said = 0.0;
+            xmlNode *failure = below(n, "failure");
+            xmlChar *message = xmlGetProp(failure, (const xmlChar *)"message");
+            assert_true(attribute_is(failure, "type", "fights"));
+            assert_int_equal(sscanf((const char *)message, "certain up to %lf", &said), isnan(to) ? 0 : 1);
+            assert_true(isnan(to) ? strstr((const char *)message, "certain nowhere") != NULL
+                                  : said <= to && said > to - 1e-3 * to);
+            xmlFree(message);
+        }
+        assert_true(k == json_array_size(list) && k >= rows[i].fewest && fails >= 1);
+        snprintf(text, sizeof text, "%zu", k);
+        assert_true(attribute_is(suite, "tests", text) && attribute_is(suite, "name", HOUSE));
+        snprintf(text, sizeof text, "%zu", fails);
+        assert_true(attribute_is(suite, "failures", text));
+        xmlFreeDoc(doc);
+        printed_free(&p);
+        json_decref(root);
+    }
+}
+
+/* No finding is one case that passes; a name with what XML has a use for is text. */
+static void junit_edges(void **state) {
+    static const char lone[] = "v 0 0 0\nv 1 0 0\nv 0 1 0\ng lone\nf 1 2 3\n";
+    static const char odd[] = "v 0 0 0\nv 1 0 0\nv 0 1 0\ng a<\"&>'\nf 1 2 3\ng b]]>\nf 1 2 3\n";
+    (void)state;
+    for (int i = 0; i < 2; i++) {
+        char path[512];
+        snprintf(path, sizeof path, "%s", scratch_file("junit.obj"));
+        FILE *file = fopen(path, "w");
+        assert_non_null(file);
+        assert_true(fputs(i == 0 ? lone : odd, file) >= 0 && fclose(file) == 0);
+        printed p = print_of("scene %s --within 10 --report junit", path);
+        xmlDoc *doc = xmlReadMemory(p.out, (int)strlen(p.out), NULL, NULL, XML_PARSE_NONET);
+        assert_non_null(doc);
+        assert_int_equal(p.status, i);
+        xmlNode *suite = below(xmlDocGetRootElement(doc), "testsuite"), *one = below(suite, "testcase");
+        assert_true(attribute_is(suite, "tests", "1") && attribute_is(suite, "failures", i == 0 ? "0" : "1"));
+        assert_true(i == 0 ? attribute_has(one, "name", "no surfaces within ")
+                           : attribute_is(one, "name", "'a<\"&>'' and 'b]]>'"));
+        xmlFreeDoc(doc);
+        printed_free(&p);
+    }
+}
+
+/* ---- Requirements ------------------------------------------------------------------------------------------------ */
+
+/* By check: each pair that is not in one plane is a requirement with its gap, and fails exactly where it fights. */
+static void needs(void **state) {
+    static const char *const cameras[] = {
+        CAMERA " --within 60",
+        CAMERA " --within 12 --raster swiftshader --slant 10:80 --triangle depth=1.5,pixels=100,slim=8",
+        "-n 0.05 -F d24 -m d3d --within 60",
+        "-n 1 -f inf -F fp32 -m reversed --gap 0.01 --within 90 --unit m",
+        "-F fp16 -m d3d --within 30 --rounding zero",
+        "-m log -F d24 --log-c 0.5 --within 90 --gap 0.01"};
+    (void)state;
+    for (size_t i = 0; i < sizeof cameras / sizeof cameras[0]; i++) {
+        char command[1024], path[512];
+        size_t at = 0, failed = 0;
+        snprintf(path, sizeof path, "%s", scratch_file("house.need"));
+        snprintf(command, sizeof command, "scene " HOUSE " %s --emit-need %s", cameras[i], path);
+        json_t *root = printed_json(command);
+        snprintf(command, sizeof command, "check %s", path);
+        json_t *judged = printed_json(command);
+        const json_t *list = json_object_get(root, "findings"), *asked = json_object_get(judged, "requirements");
+        for (size_t k = 0; k < json_array_size(list); k++) {
+            const json_t *f = json_array_get(list, k);
+            if (number(f, "gap_min") < 1e-9)
+                continue;
+            const json_t *need = json_array_get(asked, at++);
+            const bool passed = json_is_true(json_object_get(need, "passed"));
+            if (passed == json_is_true(json_object_get(f, "fights")) || number(need, "limit") != number(f, "gap_min"))
+                fail_msg("%s: %s", cameras[i], name_of(f, "b"));
+            failed += !passed;
+        }
+        const json_t *others = json_array_get(asked, at);
+        assert_int_equal(json_array_size(asked), at + 1);
+        assert_true(number(others, "limit") == number(root, "gap"));
+        assert_true(json_is_true(json_object_get(others, "passed")) ==
+                    (i != 4)); /* a gap of 1 % of the extent at most */
+        assert_true(i == 3 || i == 5 || failed > 0);
+        json_decref(root);
+        json_decref(judged);
+    }
+}
+
+/* From an eye the range is what it sees, and what it does not see is not asked for. */
+static void needs_of_an_eye(void **state) {
+    char command[1024], path[512];
+    size_t at = 0;
+    (void)state;
+    snprintf(path, sizeof path, "%s", scratch_file("eye.need"));
+    snprintf(command, sizeof command, "scene " HOUSE " " CAMERA " --camera street --within 70 --emit-need %s", path);
+    json_t *root = printed_json(command);
+    snprintf(command, sizeof command, "check %s", path);
+    json_t *judged = printed_json(command);
+    const json_t *list = json_object_get(root, "findings"), *asked = json_object_get(judged, "requirements");
+    for (size_t k = 0; k < json_array_size(list); k++) {
+        const json_t *f = json_array_get(list, k);
+        if (number(f, "gap_min") < 1e-9 || isnan(number(f, "seen_from")))
+            continue;
+        const json_t *need = json_array_get(asked, at++);
+        assert_true(number(need, "lo") == number(f, "seen_from"));
+        assert_true(number(need, "hi") == fmin(number(f, "seen_to"), 70.0));
+    }
+    assert_true(at > 5 && json_array_size(asked) == at + 1);
+    json_decref(root);
+    json_decref(judged);
+}
+
+/* ---- The bias ---------------------------------------------------------------------------------------------------- */
+
+static void bias(void **state) {
+    static const struct {
+        const char *options, *api;
+        double znear, within;
+        bool drawn;
+    } rows[] = {{CAMERA " --within 60", "d3d11", 0.05, 60.0, true},
+                {"-n 0.05 -F d24 -m d3d --within 60 --api vulkan", "vulkan", 0.05, 60.0, false},
+                {"-n 1 -f 1000 -F d24 -m d3d --within 90 --api gl", "gl", 1.0, 90.0, false}};
+    (void)state;
+    for (size_t i = 0; i < sizeof rows / sizeof rows[0]; i++) {
+        char command[512];
+        dp_spec spec = dp_spec_default();
+        dp_setup setup;
+        dp_format formats[2];
+        double z;
+        const bias_api *api = NULL;
+        snprintf(command, sizeof command, "scene " HOUSE " %s", rows[i].options);
+        json_t *root = printed_json(command);
+        const json_t *said = json_object_get(root, "bias");
+        spec.znear = rows[i].znear;
+        spec.zfar = 1000.0;
+        spec.model = DP_MODEL_FP32;
+        assert_int_equal(dp_format_parse("d24", formats), 1);
+        spec.format = formats[0];
+        if (rows[i].drawn) {
+            spec.triangles = dp_triangles_default();
+            spec.triangles.width = 1280;
+            spec.triangles.height = 720;
+            spec.triangles.fov_y = 23.0;
+        }
+        assert_int_equal(dp_setup_init(&setup, &spec), DP_OK);
+        for (size_t k = 0; bias_api_get(k) != NULL; k++)
+            if (strcmp(bias_api_get(k)->name, rows[i].api) == 0)
+                api = bias_api_get(k);
+        assert_non_null(api);
+        const bias_goal goal = {.api = api, .factor = bias_factor_least(&setup)};
+        const double units = bias_needed_over(&setup, &goal, rows[i].znear, rows[i].within, &z);
+        assert_string_equal(json_string_value(json_object_get(said, "api")), rows[i].api);
+        assert_true(units >= 1.0 && number(said, "units") == -units && number(said, "factor") == -goal.factor);
+        json_decref(root);
+        printed p = print_of("%s", command);
+        assert_non_null(strstr(p.out, "Or, for what is drawn second: "));
+        printed_free(&p);
+    }
+    printed p = print_of("scene " HOUSE " -F fp32 -m reversed --api gl");
+    assert_non_null(strstr(p.out, "glPolygonOffset(0, ")); /* and reversed depths grow towards the camera */
+    assert_null(strstr(p.out, "glPolygonOffset(0, -"));
+    printed_free(&p);
+}
+
+static void refused(void **state) {
+    static const struct {
+        const char *options;
+        int status;
+        const char *said;
+    } rows[] = {
+        {"--report junit", 2, "--report: junit needs --within: what fights nearer fails"},
+        {"--report junit --within 5 --csv", 2, "--report: cannot be combined with --json or --csv"},
+        {"--emit-need none/x.need", 3, "cannot write 'none/x.need': No such file or directory"},
+        {"--emit-need x.need --gap 0", 2, "--emit-need: needs a --gap above 0"},
+        {"--emit-need " HOUSE, 2, "--emit-need: must be another file than the model"},
+        {"--api all", 2, "--api: must name one here, got 'all'"},
+    };
+    (void)state;
+    for (size_t i = 0; i < sizeof rows / sizeof rows[0]; i++) {
+        printed p = print_of("scene " HOUSE " %s", rows[i].options);
+        if (p.status != rows[i].status || strstr(p.errors, rows[i].said) == NULL)
+            fail_msg("%s: %d: %s", rows[i].options, p.status, p.errors);
+        printed_free(&p);
+    }
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {cmocka_unit_test(junit), cmocka_unit_test(junit_edges),
+                                       cmocka_unit_test(needs), cmocka_unit_test(needs_of_an_eye),
+                                       cmocka_unit_test(bias),  cmocka_unit_test(refused)};
+    const int status = run_tap(tests);
+    xmlCleanupParser();
+    return status;
+}
