@@ -61,6 +61,39 @@ static void topologies(void **state) {
     }
 }
 
+/* What a material says of its sides and of blending: masked ones write depths where they are there at all. */
+static void materials(void **state) {
+    static const struct {
+        const char *json;
+        bool two_sided, blended;
+    } rows[] = {
+        {"{}", false, false},
+        {"{\"alphaMode\":\"OPAQUE\",\"doubleSided\":false}", false, false},
+        {"{\"alphaMode\":\"MASK\",\"alphaCutoff\":0.25}", false, false},
+        {"{\"alphaMode\":\"BLEND\"}", false, true},
+        {"{\"alphaMode\":\"MASK\",\"doubleSided\":true}", true, false},
+        {"{\"extensions\":{\"KHR_materials_transmission\":{\"transmissionFactor\":1}}}", false, false},
+    };
+    (void)state;
+    for (size_t k = 0; k < sizeof rows / sizeof rows[0]; k++) {
+        static made f;
+        model m;
+        f = (made){.used = 0};
+        put_five(&f);
+        add(&f,
+            ASSET "\"nodes\":[{\"mesh\":0}],\"meshes\":[{\"primitives\":[{\"attributes\":{\"POSITION\":0},"
+                  "\"material\":0}]}],\"materials\":[%s],\"accessors\":[{\"bufferView\":0,\"componentType\":5126,"
+                  "\"count\":5,\"type\":\"VEC3\"}],\"bufferViews\":[{\"buffer\":0,\"byteLength\":60}],",
+            rows[k].json);
+        add_buffer(&f);
+        add(&f, "}");
+        must_read(&f, &m);
+        assert_int_equal(m.surface[0].two_sided, rows[k].two_sided);
+        assert_int_equal(m.surface[0].blended, rows[k].blended);
+        model_free(&m);
+    }
+}
+
 /* Quantized, interleaved and sparse positions. */
 static void positions(void **state) {
     static const struct {
@@ -422,8 +455,9 @@ static void cameras(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(topologies),        cmocka_unit_test(positions), cmocka_unit_test(nodes_are_exact),
-        cmocka_unit_test(nodes_in_binary32), cmocka_unit_test(instances), cmocka_unit_test(cameras),
+        cmocka_unit_test(topologies),      cmocka_unit_test(materials),         cmocka_unit_test(positions),
+        cmocka_unit_test(nodes_are_exact), cmocka_unit_test(nodes_in_binary32), cmocka_unit_test(instances),
+        cmocka_unit_test(cameras),
     };
     return run_tap(tests);
 }

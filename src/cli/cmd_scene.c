@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* scene: which surfaces of a model fight, from where on, and what mends it. */
 #include <math.h>
+#include <omp.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -11,10 +12,9 @@
 #include "cli/scene.h"
 #include "cli/setups.h"
 #include "cli/stop.h"
-#include "core/elementary.h"
 #include "report/number.h"
 
-enum { STEPS = 1000 };
+enum { STEPS = 1000, AT_ONCE = 256 /* findings that are judged before an interrupt is seen */ };
 
 /* ---- Reading and finding ----------------------------------------------------------------------------------------- */
 
@@ -86,21 +86,8 @@ typedef struct box {
     double lo[3], hi[3];
 } box;
 
-/* Of the triangles: a file may have vertices that none of them uses. */
-static box box_of(const model *m) {
-    box b = {{HUGE_VAL, HUGE_VAL, HUGE_VAL}, {-HUGE_VAL, -HUGE_VAL, -HUGE_VAL}};
-    for (size_t i = 0; i < 3 * m->triangles; i++) {
-        const double *x = m->position[m->triangle[i / 3][i % 3]];
-        for (int k = 0; k < 3; k++) {
-            b.lo[k] = fmin(b.lo[k], x[k]);
-            b.hi[k] = fmax(b.hi[k], x[k]);
-        }
-    }
-    return b;
-}
-
 /* As far as the model reaches, of every eye that was asked for; without one, across. */
-static double farthest(const scene *s, const box *b) {
+static double farthest(const scene *s, const model_box *b) {
     double reach = s->eyes.count > 0 ? 0.0 : s->extent;
     for (size_t i = 0; i < 8 * s->eyes.count; i++) {
         const double corner[3] = {i & 1 ? b->hi[0] : b->lo[0], i & 2 ? b->hi[1] : b->lo[1],
@@ -115,9 +102,9 @@ static double farthest(const scene *s, const box *b) {
 /* What was not said: as far as the model reaches, and the largest distance that is not told apart there. */
 static int take_limits(scene *s) {
     const double znear = s->setup.spec.znear, zfar = s->setup.spec.zfar;
-    const box b = box_of(&s->model);
+    const model_box b = model_box_of(&s->model);
     dp_separation_worst worst = {.bound = HUGE_VAL};
-    s->extent = dp_hypot(dp_hypot(b.hi[0] - b.lo[0], b.hi[1] - b.lo[1]), b.hi[2] - b.lo[2]);
+    s->extent = model_box_diagonal(&b);
     s->within = option_given(&s->o, OPTION_WITHIN) ? s->o.within : fmin(fmax(farthest(s, &b), 2.0 * znear), zfar);
     if (!(s->within >= znear && s->within <= zfar))
         return option_error(OPTION_WITHIN, "must lie between near and far, got '%s'", number_full(s->within).text);
@@ -181,29 +168,52 @@ static int compare(const void *one, const void *other) {
     return a->of < b->of ? -1 : 1;
 }
 
+/* Findings come in the order of their distances. */
+static bool is_as_before(const finder_finding *f, size_t i) {
+    return i > 0 && f[i].gap_min == f[i - 1].gap_min && f[i].gap_max == f[i - 1].gap_max;
+}
+
+/* Each distance once, however many findings have it. */
+static void judge_distances(scene *s) {
+    const finder_finding *f = s->found.finding;
+    const size_t count = s->found.findings;
+    const int threads = s->o.threads > 0 ? s->o.threads : omp_get_max_threads();
+    progress bar = progress_start("findings judged", count, s->o.quiet);
+    for (size_t first = 0; first < count && !stop_asked(); first += AT_ONCE) {
+        const size_t end = first + AT_ONCE < count ? first + AT_ONCE : count;
+#pragma omp parallel for schedule(dynamic, 4) num_threads(threads)
+        for (size_t i = first; i < end; i++)
+            if (!is_as_before(f, i))
+                s->findings[i].verdict = scene_judge(&s->setup, f[i].gap_min, f[i].gap_max, s->within);
+        progress_step(&bar, end);
+    }
+    progress_end(&bar);
+    for (size_t i = 0; i < count; i++) {
+        if (is_as_before(f, i))
+            s->findings[i].verdict = s->findings[i - 1].verdict;
+        s->findings[i].fights = !(s->findings[i].verdict.certain_to >= s->within);
+    }
+}
+
 static int judge(scene *s) {
     s->findings = calloc(s->found.findings + 1, sizeof *s->findings);
     if (s->findings == NULL)
         return usage_error("%s: no memory for %zu findings", s->file, s->found.findings);
     for (size_t i = 0; i < s->found.findings; i++) {
         const finder_finding *f = &s->found.finding[i];
-        const bool again = i > 0 && f->gap_min == f[-1].gap_min && f->gap_max == f[-1].gap_max;
-        scene_finding *out = &s->findings[i];
-        *out = (scene_finding){.of = f,
-                               .a = name_of(&s->model.surface[f->a]),
-                               .b = name_of(&s->model.surface[f->b]),
-                               .gap_min = f->gap_min,
-                               .gap_max = f->gap_max,
-                               .area = f->area,
-                               .place = {f->place[0], f->place[1], f->place[2]},
-                               .pairs = f->pairs,
-                               .wrong_pixels = (double)NAN,
-                               .sight = {.covered = true},
-                               .line = (double)NAN,
-                               .verdict =
-                                   again ? out[-1].verdict : scene_judge(&s->setup, f->gap_min, f->gap_max, s->within)};
-        out->fights = !(out->verdict.certain_to >= s->within);
+        s->findings[i] = (scene_finding){.of = f,
+                                         .a = name_of(&s->model.surface[f->a]),
+                                         .b = name_of(&s->model.surface[f->b]),
+                                         .gap_min = f->gap_min,
+                                         .gap_max = f->gap_max,
+                                         .area = f->area,
+                                         .place = {f->place[0], f->place[1], f->place[2]},
+                                         .pairs = f->pairs,
+                                         .wrong_pixels = (double)NAN,
+                                         .sight = {.covered = true},
+                                         .line = (double)NAN};
     }
+    judge_distances(s);
     const int status = s->eyes.count > 0 ? scene_eyes_judge(s) : EXIT_FINE;
     s->passed = true;
     for (size_t i = 0; i < s->found.findings; i++)
@@ -242,6 +252,7 @@ int scene_look(scene *s, output *out) {
     stop_end(out);
     if (status == EXIT_FINE)
         status = judge(s);
+    stop_end(out);
     scene_bias_take(s);
     return status;
 }

@@ -6,6 +6,7 @@
 #include <string.h>
 #include <strings.h>
 
+#include "core/elementary.h"
 #include "model/source.h"
 
 static bool no_memory(model_error *error) {
@@ -55,4 +56,20 @@ bool model_read(const char *path, const model_asked *asked, model *out, model_er
     }
     free(folder);
     return read;
+}
+
+model_box model_box_of(const model *m) {
+    model_box box = {{0.0}, {0.0}};
+    for (size_t i = 0; i < 3 * m->triangles; i++) {
+        const double *x = m->position[m->triangle[i / 3][i % 3]];
+        for (int k = 0; k < 3; k++) {
+            box.lo[k] = i == 0 || x[k] < box.lo[k] ? x[k] : box.lo[k];
+            box.hi[k] = i == 0 || x[k] > box.hi[k] ? x[k] : box.hi[k];
+        }
+    }
+    return box;
+}
+
+double model_box_diagonal(const model_box *box) {
+    return dp_hypot(dp_hypot(box->hi[0] - box->lo[0], box->hi[1] - box->lo[1]), box->hi[2] - box->lo[2]);
 }

@@ -80,4 +80,13 @@ bool model_parse(const void *bytes, size_t size, bool obj, const char *folder, c
 
 void model_free(model *m);
 
+/** Of the triangles, scene units: vertices that none of them uses do not count. All 0 where there are none. */
+typedef struct model_box {
+    double lo[3], hi[3];
+} model_box;
+
+model_box model_box_of(const model *m);
+
+double model_box_diagonal(const model_box *box);
+
 #endif

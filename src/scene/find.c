@@ -37,25 +37,13 @@ static bool in_range(double x, double hi) {
 
 /* The middle and the diagonal of the model's box; false: a coordinate is out of range. */
 static bool measure(search *s) {
-    const model *m = s->m;
-    double squares = 0.0;
+    const model_box b = model_box_of(s->m);
     for (int k = 0; k < 3; k++) {
-        double lo = INFINITY;
-        double hi = -INFINITY;
-        for (size_t i = 0; i < m->triangles; i++)
-            for (int c = 0; c < 3; c++) {
-                const double x = m->position[m->triangle[i][c]][k];
-                lo = x < lo ? x : lo;
-                hi = x > hi ? x : hi;
-            }
-        if (m->triangles == 0)
-            break;
-        if (lo < -FINDER_COORDINATE_MAX || hi > FINDER_COORDINATE_MAX)
+        if (b.lo[k] < -FINDER_COORDINATE_MAX || b.hi[k] > FINDER_COORDINATE_MAX)
             return false;
-        s->origin[k] = 0.5 * lo + 0.5 * hi;
-        squares += (hi - lo) * (hi - lo);
+        s->origin[k] = 0.5 * b.lo[k] + 0.5 * b.hi[k];
     }
-    s->extent = sqrt(squares);
+    s->extent = model_box_diagonal(&b);
     return true;
 }
 
@@ -169,6 +157,8 @@ static finder_status group(search *s) {
         return FINDER_NO_MEMORY;
     for (size_t i = 0; i < f->pairs; i++) {
         const finder_pair *p = &f->pair[i];
+        if (i % TELL == 0 && !pairs_progress(s, 1.0))
+            return FINDER_STOPPED;
         if (i == 0 || !same_surfaces(m, p - 1, p))
             f->finding[f->findings++] = (finder_finding){.a = m->of[p->triangle[0]],
                                                          .b = m->of[p->triangle[1]],

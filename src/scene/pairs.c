@@ -243,30 +243,32 @@ static void set_normal(search *s, uint32_t at) {
         s->normal[at][k] = (float)(n[k] / length);
 }
 
-static bool build(search *s) {
+/* Each step is a second of millions of triangles: between them it may be stopped. */
+static finder_status build(search *s) {
     uint32_t *triangle = malloc(s->m->triangles * sizeof *triangle);
     tree_box *box = malloc(s->m->triangles * sizeof *box);
-    bool built = triangle != NULL && box != NULL;
-    const uint32_t items = built ? fill(s, triangle, box) : 0;
+    finder_status status = triangle != NULL && box != NULL ? FINDER_DONE : FINDER_NO_MEMORY;
+    const uint32_t items = status == FINDER_DONE ? fill(s, triangle, box) : 0;
     if (items > 0)
-        built = tree_build(&s->t, box, items, s->threads);
+        status = !pairs_progress(s, 0.0)                     ? FINDER_STOPPED
+                 : tree_build(&s->t, box, items, s->threads) ? FINDER_DONE
+                                                             : FINDER_NO_MEMORY;
     free(box);
-    if (built && items > 0) {
+    if (status == FINDER_DONE && items > 0) {
         s->normal = malloc(items * sizeof *s->normal);
-        built = s->normal != NULL;
+        status = s->normal == NULL ? FINDER_NO_MEMORY : pairs_progress(s, 0.0) ? FINDER_DONE : FINDER_STOPPED;
     }
-    for (uint32_t i = 0; built && i < items; i++) {
+    for (uint32_t i = 0; status == FINDER_DONE && i < items; i++) {
         s->t.item[i] = triangle[s->t.item[i]];
         set_normal(s, i);
     }
     free(triangle);
-    return built;
+    return status;
 }
 
 finder_status pairs_find(search *s) {
     if (s->m->triangles == 0)
         return FINDER_DONE;
-    if (!build(s))
-        return FINDER_NO_MEMORY;
-    return s->t.items > 0 ? run(s) : FINDER_DONE;
+    const finder_status status = build(s);
+    return status == FINDER_DONE && s->t.items > 0 ? run(s) : status;
 }
