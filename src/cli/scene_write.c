@@ -31,7 +31,7 @@ void scene_junit(const scene *s, output *out) {
                                      .name = scene_surfaces(f, name, sizeof name),
                                      .file = s->file,
                                      .type = f->fights ? "fights" : NULL,
-                                     .message = scene_sentence(s, f, text, sizeof text),
+                                     .message = scene_message(s, f, text, sizeof text),
                                      .detail = full});
     }
     if (count == 0) {
