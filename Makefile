@@ -31,10 +31,11 @@ TESTS := $(wildcard tests/test_*.c)
 BENCHES := $(wildcard tests/bench_*.c)
 SUPPORT := $(filter-out $(TESTS) $(BENCHES),$(wildcard tests/*.c))
 FUZZ := $(wildcard tests/fuzz/fuzz_*.c)
+WEB := $(wildcard tests/web/*.c)
 MAN := $(wildcard man/*.[1-9])
 TOOLS := tests/run.sh tests/tap.sh tests/coverage.sh tests/cross.sh tests/linked.sh
 SCRIPTS := $(wildcard src/*.sh tests/*.sh tests/models/*.sh plots/*.sh man/*.sh .ci/*.sh)
-ALL_C := $(CORE) $(ROOMS) $(TESTS) $(BENCHES) $(SUPPORT) $(FUZZ)
+ALL_C := $(CORE) $(ROOMS) $(TESTS) $(BENCHES) $(SUPPORT) $(FUZZ) $(WEB)
 ALL_H := $(HEADERS) $(wildcard src/*/*.h tests/*.h tests/*/*.h)
 
 objects = $(patsubst %.c,$(B)/obj/%.o,$(1))
@@ -131,6 +132,35 @@ $(B)/libdepthprec.so.0: $(CORE_O)
 $(B)/depthprec: $(ROOMS_O) $(B)/libdepthprec.a | $(B)/build.libs
 	$(call say,LD)
 	$(Q)$(LINK) -o $@ $^ @$(B)/build.libs -lm
+
+# ---- For the web -------------------------------------------------------------------------------------------------
+
+# The core as WebAssembly: the same files, with the same bits. `samples` prints them, here and there; see tests/web.sh.
+.PHONY: web
+web:
+	@sh src/packages.sh web
+	@$(MAKE) $(PARALLEL) $(B)/web/core.wasm
+
+WEB_CC ?= clang --target=wasm32-wasi
+WEB_FLAGS := -O2 $(EXACT) -Wno-pass-failed -fvisibility=hidden
+WEB_O := $(patsubst %.c,$(B)/web/obj/%.o,$(CORE))
+$(B)/web/obj/%.o: %.c Makefile
+	@mkdir -p $(@D)
+	$(call say,WEB)
+	$(Q)$(WEB_CC) -std=gnu11 $(INCLUDES) $(WEB_FLAGS) -MMD -MP -c -o $@ $<
+
+$(B)/web/core.wasm: $(WEB_O)
+	$(call say,WEB)
+	$(Q)$(WEB_CC) -mexec-model=reactor -Wl,--export-dynamic -Wl,--gc-sections -s -o $@ $^
+
+$(B)/web/samples.wasm: $(B)/web/obj/tests/web/samples.o $(WEB_O)
+	$(call say,WEB)
+	$(Q)$(WEB_CC) -o $@ $^
+
+$(B)/web/samples: $(B)/obj/tests/web/samples.o $(B)/libdepthprec.a
+	@mkdir -p $(@D)
+	$(call say,LD)
+	$(Q)$(LINK) -o $@ $^ -lm
 
 # ---- Tests -------------------------------------------------------------------------------------------------------
 
@@ -308,6 +338,7 @@ help:
 ## make lint        format, warnings of gcc and clang, cppcheck, manual pages, spelling, scripts, licences
 ## make plots       draw the gallery in plots/ again
 ## make bench       measure the speed of the engine and the methods, redraw the charts of both
+## make web         the core as WebAssembly, build/web/core.wasm
 ## make packages    install what building and testing need
 ## make install     to PREFIX=/usr/local (DESTDIR, bindir, libdir, ... as usual); uninstall, installcheck
 ## make dist        a source archive in build/; make clean removes build/
@@ -315,4 +346,4 @@ help:
 ##
 ## CONF=release|asan|coverage|fuzz  V=1 shows the commands  CC, CFLAGS, CPPFLAGS, LDFLAGS as usual
 
--include $(patsubst %.o,%.d,$(CORE_O) $(ROOMS_O) $(TESTS_O) $(SUPPORT_O) $(FUZZ_O))
+-include $(patsubst %.o,%.d,$(CORE_O) $(ROOMS_O) $(TESTS_O) $(SUPPORT_O) $(FUZZ_O) $(WEB_O))

@@ -18,8 +18,8 @@ B=build/$machine
 root=$PWD/$B/root
 
 # Those that an instruction, a byte order or a C library could break, and that an emulator ends within a minute.
-tests='batch code depth format mapping setup model separation quotient published rasterizers estimate bias decode effect
-effects_pixels image image_damage image_depths image_raw normal position recognise scene number report requirement options'
+tests='batch elementary code depth format mapping setup model separation quotient published rasterizers estimate bias
+decode effect effects_pixels image image_damage image_depths image_raw normal position recognise scene number report requirement options'
 
 # ---- The other machine's libraries -------------------------------------------------------------------------------
 

@@ -196,13 +196,15 @@ static void say_bias(page *p, const scene *s) {
 
 static void say_picture(page *p, const scene *s) {
     const scene_rendered *r = s->picture;
-    char others[64] = "";
+    char others[64] = "", from[128] = "";
     if (r->wrong_found < r->wrong_pixels)
         snprintf(others, sizeof others, ", %llu of them of no pair above",
                  (unsigned long long)(r->wrong_pixels - r->wrong_found));
-    page_text(p, "%s: %d x %d pixels as %s draws them, %llu wrong%s; from %s %s %s.", r->file, r->width, r->height,
-              r->raster, (unsigned long long)r->wrong_pixels, others, number_of(r->eye.x, DIGITS).text,
-              number_of(r->eye.y, DIGITS).text, number_of(r->eye.z, DIGITS).text);
+    if (s->eyes.count == 0) /* else it stands above */
+        snprintf(from, sizeof from, "; from %s %s %s", number_of(r->eye.x, DIGITS).text,
+                 number_of(r->eye.y, DIGITS).text, number_of(r->eye.z, DIGITS).text);
+    page_text(p, "%s: %d x %d pixels as %s draws them, %llu wrong%s%s.", r->file, r->width, r->height, r->raster,
+              (unsigned long long)r->wrong_pixels, others, from);
 }
 
 static void say_notes(page *p, void *of) {

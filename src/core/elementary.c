@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: MIT */
 /*
  * Each function reduces its argument by a table or a multiple until a Taylor series is short, and keeps as unevaluated
- * sums of two doubles what the series begins with. What is left to plain doubles is 2^-8 of the result or less, but
- * 2^-5 for cosines, and so are its roundings.
+ * sums of two doubles what the series begins with. What is left to plain doubles is 2^-7 of the result or less, and so
+ * its roundings are that of a unit. depthprec(7) counts them.
  */
 #include "core/elementary.h"
 
@@ -312,15 +312,19 @@ static dp_pair sine(dp_pair r) {
     return dp_quick_two_sum(s.hi, s.lo + (rest + r.lo * (1.0 - 0.5 * square.hi)));
 }
 
-/* cos(r) = 1 - r^2/2 + r^4/24 - ..., |r| <= pi/4. Good to 2^-56. */
+/* cos(r) = 1 - r^2/2 + r^4/24 - ..., |r| <= pi/4. Good to 2^-60. */
 static dp_pair cosine(dp_pair r) {
     static const double c[] = {
-        1.0 / 24.0,        -1.0 / 720.0,         1.0 / 40320.0,          -1.0 / 3628800.0,
-        1.0 / 479001600.0, -1.0 / 87178291200.0, 1.0 / 20922789888000.0, -1.0 / 6402373705728000.0};
+        -1.0 / 720.0,         1.0 / 40320.0,          -1.0 / 3628800.0,         1.0 / 479001600.0,
+        -1.0 / 87178291200.0, 1.0 / 20922789888000.0, -1.0 / 6402373705728000.0};
     const dp_pair square = product(r.hi, r.hi);
+    const dp_pair fourth = pair_product(square, square);
+    const dp_pair part = pair_product(fourth, (dp_pair){0x1.5555555555555p-5, 0x1.5555555555555p-59});
     const dp_pair s = dp_quick_two_sum(1.0, -0.5 * square.hi);
-    const double rest = square.hi * square.hi * series(c, SIZE(c), square.hi) - 0.5 * square.lo - r.lo * r.hi;
-    return dp_quick_two_sum(s.hi, s.lo + rest);
+    const dp_pair t = dp_quick_two_sum(s.hi, part.hi);
+    const double rest = fourth.hi * square.hi * series(c, SIZE(c), square.hi) + part.lo - 0.5 * square.lo;
+    const double moved = r.lo * r.hi * (1.0 - square.hi * (1.0 / 6.0));
+    return dp_quick_two_sum(t.hi, t.lo + (s.lo + (rest - moved)));
 }
 
 /* sin(x + turns pi/2) */

@@ -24,12 +24,12 @@ double dp_exp2(double x);
 /* x^y for x >= 0, NaN below: 0.51 + |y log x|/256 units, so powers of ten are exact from 1 to 1e22. */
 double dp_pow(double x, double y);
 
-/* Angles in radians, up to 1e6 of either sign; beyond, NaN. 0.62 units, dp_tan() 0.69 */
+/* Angles in radians, up to 1e6 of either sign; beyond, NaN. 0.54 units */
 double dp_sin(double x);
 double dp_cos(double x);
 double dp_tan(double x);
 
-/* 0.53 units; dp_asin() 2 */
+/* 0.54 units; dp_asin() 3.1 */
 double dp_atan(double x);
 double dp_atan2(double y, double x);
 double dp_asin(double x);

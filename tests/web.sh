@@ -1,0 +1,48 @@
+#!/bin/sh
+# SPDX-License-Identifier: GPL-3.0-or-later
+# The core as WebAssembly: what it gives at a million depths, in every mapping, format and arithmetic, is what it gives
+# here, bit for bit; and the module of the page needs nothing from outside.
+. tests/tap.sh
+
+blocks=20000 # of 50 depths
+[ -z "${DEPTHPREC_QUICK-}" ] || blocks=1000
+
+lacking() { # prints what is not here of what the tests need
+    echo 'int main(void) { return 0; }' | ${WEB_CC:-clang --target=wasm32-wasi} -x c -o "$scratch/probe.wasm" - >"$scratch/log" 2>&1 ||
+        echo "clang, lld, wasi-libc and libclang-rt for wasm32"
+    node -e 'require("node:wasi")' >"$scratch/log" 2>&1 || echo "node 20"
+}
+
+there() { # there BLOCKS: what the module prints
+    node --no-warnings --input-type=module -e '
+        import { WASI } from "node:wasi";
+        import { readFileSync } from "node:fs";
+        const [file, ...more] = process.argv.slice(1);
+        const wasi = new WASI({ version: "preview1", args: [file, ...more], returnOnExit: true });
+        const { instance } = await WebAssembly.instantiate(readFileSync(file), wasi.getImportObject());
+        process.exitCode = wasi.start(instance);' "$B/web/samples.wasm" "$@"
+}
+
+same() {
+    "$B/web/samples" $blocks >"$scratch/here" && there $blocks >"$scratch/there" || return
+    [ "$(wc -l <"$scratch/here")" -gt 200 ] && diff "$scratch/here" "$scratch/there" | head -n 10
+    cmp "$scratch/here" "$scratch/there"
+}
+
+self_contained() {
+    node -e '
+        const module = new WebAssembly.Module(require("fs").readFileSync(process.argv[1]));
+        const imports = WebAssembly.Module.imports(module), exports = WebAssembly.Module.exports(module).map((e) => e.name);
+        console.log(imports, exports.length);
+        process.exitCode = imports.length === 0 && exports.includes("dp_setup_init") ? 0 : 1;' "$B/web/core.wasm"
+}
+
+missing=$(lacking | paste -sd ';')
+if [ -n "$missing" ]; then
+    skip "the core as WebAssembly" "missing: $missing"
+else
+    check "it is built" make --no-print-directory B="$B" CC="$CC" "$B/web/core.wasm" "$B/web/samples.wasm" "$B/web/samples"
+    check "the same bits as here" same
+    check "the module imports nothing" self_contained
+fi
+finish
