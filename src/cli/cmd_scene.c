@@ -16,7 +16,7 @@
 #include "cli/stop.h"
 #include "report/number.h"
 
-enum { STEPS = 1000, AT_ONCE = 256 /* findings that are judged before an interrupt is seen */ };
+enum { STEPS = 1000, AT_ONCE = 128 /* findings that a thread judges before an interrupt is seen */ };
 
 /* ---- Reading and finding ----------------------------------------------------------------------------------------- */
 
@@ -189,9 +189,10 @@ static void judge_distances(scene *s) {
     const finder_finding *f = s->found.finding;
     const size_t count = s->found.findings;
     const int threads = threads_of(s);
+    const size_t round = AT_ONCE * (size_t)threads;
     progress bar = progress_start("findings judged", count, s->o.quiet);
-    for (size_t first = 0; first < count && !stop_asked(); first += AT_ONCE) {
-        const size_t end = first + AT_ONCE < count ? first + AT_ONCE : count;
+    for (size_t first = 0; first < count && !stop_asked(); first += round) {
+        const size_t end = first + round < count ? first + round : count;
 #pragma omp parallel for schedule(dynamic, 4) num_threads(threads)
         for (size_t i = first; i < end; i++)
             if (!is_as_before(f, i))
