@@ -150,7 +150,7 @@ static void add_verdict(const page *p, const scene_verdict *v, char *out, size_t
         append(out, size, ", ties from %s", safe_length(p, v->ties_from, true).text);
 }
 
-char *scene_sentence(const scene *s, const scene_finding *f, char *out, size_t size) {
+static char *sentence(const scene *s, const scene_finding *f, char *out, size_t size) {
     const page p = {.unit = s->unit};
     out[0] = '\0';
     if (s->eyes.count > 0)
@@ -162,21 +162,43 @@ char *scene_sentence(const scene *s, const scene_finding *f, char *out, size_t s
     return out;
 }
 
+static void add_place(const scene_finding *f, char *out, size_t size) {
+    append(out, size, "area %s, near %s %s %s", number_brief(number_of(f->area, DIGITS)).text,
+           number_of(f->place.x, DIGITS).text, number_of(f->place.y, DIGITS).text, number_of(f->place.z, DIGITS).text);
+}
+
+/* Nothing where that is enough as it is, or no distance is. */
+static void add_lift(const page *p, const scene *s, const scene_finding *f, char *out, size_t size) {
+    const double lift = f->verdict.lift;
+    if (lift > 0.0 && isfinite(lift))
+        append(out, size, "%s more between them are enough %sup to %s", safe_length(p, lift, true).text,
+               s->eyes.count > 1 ? "from there " : "", length(p, s->within).text);
+}
+
+char *scene_message(const scene *s, const scene_finding *f, char *out, size_t size) {
+    const page p = {.unit = s->unit};
+    char lift[LINE_SIZE] = "";
+    sentence(s, f, out, size);
+    append(out, size, "; ");
+    add_place(f, out, size);
+    add_lift(&p, s, f, lift, sizeof lift);
+    append(out, size, "%s%s", *lift != '\0' ? "; " : "", lift);
+    return out;
+}
+
 static void say_finding(page *p, const scene *s, size_t i) {
     const scene_finding *f = &s->findings[i];
-    const scene_verdict *v = &f->verdict;
-    char label[16], text[LINE_SIZE];
+    char label[16], text[LINE_SIZE], place[LINE_SIZE] = "", lift[LINE_SIZE] = "";
     snprintf(label, sizeof label, "%zu", i + 1);
     page_note(p, label, "%s", scene_surfaces(f, text, sizeof text));
-    page_note(p, "", "%s", scene_sentence(s, f, text, sizeof text));
-    page_note(p, "", "area %s, near %s %s %s", number_brief(number_of(f->area, DIGITS)).text,
-              number_of(f->place.x, DIGITS).text, number_of(f->place.y, DIGITS).text,
-              number_of(f->place.z, DIGITS).text);
+    page_note(p, "", "%s", sentence(s, f, text, sizeof text));
+    add_place(f, place, sizeof place);
+    page_note(p, "", "%s", place);
     if (f->wrong_pixels > 0.0)
         page_note(p, "", "%.0f pixel%s wrong", f->wrong_pixels, f->wrong_pixels == 1.0 ? "" : "s");
-    if (v->lift > 0.0 && isfinite(v->lift))
-        page_note(p, "", "%s more between them are enough %sup to %s", safe_length(p, v->lift, true).text,
-                  s->eyes.count > 1 ? "from there " : "", length(p, s->within).text);
+    add_lift(p, s, f, lift, sizeof lift);
+    if (*lift != '\0')
+        page_note(p, "", "%s", lift);
 }
 
 void scene_bias_take(scene *s) {
