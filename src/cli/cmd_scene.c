@@ -78,15 +78,14 @@ static int take_setup(scene *s) {
 static int read_model(scene *s) {
     const model_asked asked = {.transforms = s->o.transforms == 0 ? MODEL_EXACT : MODEL_BINARY32};
     model_error error;
-    if (model_read(s->file, &asked, &s->model, &error))
+    if (model_read(s->file, &asked, &s->model, &error)) {
+        if (s->model.metres > 0.0 && s->o.unit != NULL) /* both say what theirs is */
+            model_scale(&s->model, s->model.metres * 1e9 / s->o.unit->nanometres);
         return EXIT_FINE;
+    }
     const int status = usage_error("%s: %s", s->file, error.text);
     return error.unreadable ? EXIT_IO : status;
 }
-
-typedef struct box {
-    double lo[3], hi[3];
-} box;
 
 /* As far as the model reaches, of every eye that was asked for; without one, across. */
 static double farthest(const scene *s, const model_box *b) {

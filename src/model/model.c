@@ -64,6 +64,8 @@ bool model_read(const char *path, const model_asked *asked, model *out, model_er
 }
 
 void model_scale(model *m, double factor) {
+    if (factor == 1.0)
+        return;
     for (size_t i = 0; i < m->vertices; i++)
         for (int k = 0; k < 3; k++)
             m->position[i][k] *= factor;

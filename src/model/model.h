@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /**
- * @file model.h  The triangles of a model, in the world, in double: glTF 2.0 (.glb, .gltf), OBJ, and by libassimp others.
+ * @file model.h  The triangles of a model, in the world, in double: glTF 2.0 (.glb, .gltf) and OBJ; others by
+ * libassimp, see assimp.c.
  *
  * Nodes are placed in their rest pose: skins, animations and morph targets do not move anything, and are counted.
  *

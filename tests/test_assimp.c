@@ -1,0 +1,156 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Models that libassimp reads, from files put together here: places, names, units; damage has a sentence. */
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "model/model.h"
+#include "opened/library.h"
+#include "printed.h"
+#include "support.h"
+
+static const char stl[] = "solid wall\n"
+                          "facet normal 0 0 1\nouter loop\nvertex 0 0 0.1\nvertex 4 0 0.1\nvertex 4 3 0.1\nendloop\n"
+                          "endfacet\nfacet normal 0 0 1\nouter loop\nvertex 0 0 0.1\nvertex 4 3 0.1\nvertex 0 3 0.1\n"
+                          "endloop\nendfacet\nendsolid wall\n";
+
+/* A square as one face, and a point that it does not use. */
+static const char ply[] = "ply\nformat ascii 1.0\nelement vertex 5\nproperty float x\nproperty float y\n"
+                          "property float z\nelement face 1\nproperty list uchar int vertex_indices\nend_header\n"
+                          "0 0 0\n2 0 0\n2 2 0\n0 2 0\n9 9 9\n4 0 1 2 3\n";
+
+static const char off[] = "OFF\n3 1 3\n0 0 0\n1 0 0\n0 1 0.25\n3 0 1 2\n";
+
+/* In centimetres, z up: a triangle at two nodes of one name, one of them mirrored, and at a third within another. */
+static const char collada[] =
+    "<?xml version=\"1.0\" encoding=\"utf-8\"?>\n"
+    "<COLLADA xmlns=\"http://www.collada.org/2005/11/COLLADASchema\" version=\"1.4.1\">\n"
+    "<asset><unit meter=\"0.01\" name=\"centimeter\"/><up_axis>Z_UP</up_axis></asset>\n"
+    "<library_effects><effect id=\"e\"><profile_COMMON><technique sid=\"c\"><lambert><diffuse>"
+    "<color>1 1 1 1</color></diffuse></lambert></technique></profile_COMMON></effect></library_effects>\n"
+    "<library_materials><material id=\"m\" name=\"oak\"><instance_effect url=\"#e\"/></material></library_materials>\n"
+    "<library_geometries><geometry id=\"g\" name=\"leaf\"><mesh><source id=\"p\">"
+    "<float_array id=\"pa\" count=\"9\">0 0 0 100 0 0 0 0 100</float_array><technique_common>"
+    "<accessor source=\"#pa\" count=\"3\" stride=\"3\"><param name=\"X\" type=\"float\"/>"
+    "<param name=\"Y\" type=\"float\"/><param name=\"Z\" type=\"float\"/></accessor></technique_common></source>"
+    "<vertices id=\"v\"><input semantic=\"POSITION\" source=\"#p\"/></vertices>"
+    "<triangles material=\"s\" count=\"1\"><input semantic=\"VERTEX\" source=\"#v\" offset=\"0\"/><p>0 1 2</p>"
+    "</triangles></mesh></geometry></library_geometries>\n"
+    "<library_visual_scenes><visual_scene id=\"w\">"
+    "<node id=\"door\" name=\"door\"><translate>100 0 0</translate>" /* the bind is the same for each */
+    "<instance_geometry url=\"#g\"><bind_material><technique_common><instance_material symbol=\"s\" target=\"#m\"/>"
+    "</technique_common></bind_material></instance_geometry></node>"
+    "<node id=\"gate\" name=\"gate\"><scale>-1 1 1</scale><node id=\"wing\" name=\"wing\"><translate>0 0 "
+    "200</translate>"
+    "<instance_geometry url=\"#g\"><bind_material><technique_common><instance_material symbol=\"s\" target=\"#m\"/>"
+    "</technique_common></bind_material></instance_geometry></node></node>"
+    "</visual_scene></library_visual_scenes><scene><instance_visual_scene url=\"#w\"/></scene></COLLADA>\n";
+
+static const char *written(const char *name, const char *text) {
+    const char *path = scratch_file(name);
+    FILE *file = fopen(path, "w");
+    assert_non_null(file);
+    assert_true(fputs(text, file) >= 0 && fclose(file) == 0);
+    return path;
+}
+
+static void must_read(const char *path, model *m) {
+    static const model_asked asked = {.transforms = MODEL_EXACT};
+    model_error error;
+    if (!model_read(path, &asked, m, &error))
+        fail_msg("%s: %s", path, error.text);
+}
+
+static void corners_are(const model *m, size_t triangle, const double want[3][3]) {
+    for (int k = 0; k < 3; k++)
+        for (int c = 0; c < 3; c++) {
+            const double got = m->position[m->triangle[triangle][k]][c];
+            if (!(fabs(got - want[k][c]) <= 0x1p-22)) /* of a unit: the library's matrices are binary32 */
+                fail_msg("triangle %zu, corner %d: %.9g is not %.9g", triangle, k, got, want[k][c]);
+        }
+}
+
+static void plain(void **state) {
+    static const struct {
+        const char *name, *text;
+        size_t triangles;
+        double first[3][3];
+    } rows[] = {{"a.stl", stl, 2, {{0, 0, 0.1}, {4, 0, 0.1}, {4, 3, 0.1}}},
+                {"b.PLY", ply, 2, {{0, 0, 0}, {2, 0, 0}, {2, 2, 0}}},
+                {"c.off", off, 1, {{0, 0, 0}, {1, 0, 0}, {0, 1, 0.25}}}};
+    (void)state;
+    for (size_t i = 0; i < sizeof rows / sizeof rows[0]; i++) {
+        model m;
+        must_read(written(rows[i].name, rows[i].text), &m);
+        assert_int_equal(m.triangles, rows[i].triangles);
+        assert_true(m.metres == 0.0);
+        corners_are(&m, 0, rows[i].first);
+        model_free(&m);
+    }
+}
+
+/* (x, y, z) up z becomes (x, z, -y) up y. A mirrored triangle turns round, so that its front stays its front. */
+static void nodes(void **state) {
+    static const double door[3][3] = {{1, 0, 0}, {2, 0, 0}, {1, 1, 0}}, wing[3][3] = {{0, 2, 0}, {0, 3, 0}, {-1, 2, 0}};
+    model m;
+    (void)state;
+    must_read(written("d.dae", collada), &m);
+    assert_int_equal(m.triangles, 2);
+    assert_int_equal(m.surfaces, 2);
+    assert_true(m.metres == 1.0);
+    assert_string_equal(m.surface[m.of[0]].node, "door");
+    assert_string_equal(m.surface[m.of[1]].node, "wing");
+    assert_string_equal(m.surface[m.of[0]].material, "oak");
+    assert_false(m.surface[m.of[0]].blended || m.surface[m.of[0]].two_sided);
+    corners_are(&m, 0, door);
+    corners_are(&m, 1, wing);
+    model_free(&m);
+}
+
+/* Where both the file and the command say what a unit is, the model is told in the command's. */
+static void units(void **state) {
+    static const struct {
+        const char *name, *text, *options, *said;
+    } rows[] = {{"e.dae", collada, "", "surfaces, 4.243 across"},
+                {"e.dae", collada, "--unit m", "surfaces, 4.243 m across"},
+                {"e.dae", collada, "--unit cm", "surfaces, 424.3 cm across"},
+                {"e.stl", stl, "--unit cm", "surface, 5 cm across"}, /* which says nothing of its own */
+                {"e.gltf", NULL, "--unit mm", "surfaces, 99780 mm across"},
+                {"e.gltf", NULL, "--preset unreal --gap 1", "surfaces, 9978 cm across"}};
+    (void)state;
+    for (size_t i = 0; i < sizeof rows / sizeof rows[0]; i++) {
+        const char *path = rows[i].text != NULL ? written(rows[i].name, rows[i].text) : "tests/models/house.gltf";
+        printed p = print_of("scene %s %s", path, rows[i].options);
+        if (p.status != 0 || strstr(p.out, rows[i].said) == NULL)
+            fail_msg("%s: %s%s", rows[i].options, p.out, p.errors);
+        printed_free(&p);
+    }
+    printed p = print_of("scene tests/models/house.gltf --camera street --unit cm"); /* cameras move along */
+    assert_non_null(strstr(p.out, "from camera 'street' at -2000 1700 5000"));
+    assert_non_null(strstr(p.out, "near 5, far "));
+    printed_free(&p);
+}
+
+static void refused(void **state) {
+    static const struct {
+        const char *name, *text, *said;
+    } rows[] = {{"f.xyz", "hello", "must be glTF, OBJ or a kind that libassimp reads, got '.xyz'"},
+                {"f.stl", "", "is neither glTF 2.0 (.glb, .gltf) nor, by its name, OBJ"},
+                {"f.dae", "<COLLADA", "libassimp does not read it: "},
+                {"f.ply", "ply\nformat ascii 1.0\nelement vertex 2\nproperty float x\nend_header\n1\n2\n", ": "},
+                {"f.ifc", "ISO-10303-21;\nHEADER;\n", "libassimp does not read it: "}};
+    (void)state;
+    for (size_t i = 0; i < sizeof rows / sizeof rows[0]; i++) {
+        printed p = print_of("scene %s", written(rows[i].name, rows[i].text));
+        if (p.status != 2 || strstr(p.errors, rows[i].said) == NULL || strlen(p.out) > 0)
+            fail_msg("%s: %d: %s", rows[i].name, p.status, p.errors);
+        printed_free(&p);
+    }
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {cmocka_unit_test(plain), cmocka_unit_test(nodes), cmocka_unit_test(units),
+                                       cmocka_unit_test(refused)};
+    return run_tap(tests);
+}
