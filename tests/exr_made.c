@@ -7,8 +7,8 @@
 
 #if __has_include(<openexr.h>)
 
+#include "opened/library.h"
 #include "texture/image_exr.h"
-#include "texture/image_library.h"
 
 #define FUNCTIONS(X)                                                                                                   \
     X(exr_start_write)                                                                                                 \
@@ -26,9 +26,9 @@
     X(exr_encoding_run)                                                                                                \
     X(exr_encoding_destroy)                                                                                            \
     X(exr_get_default_error_message)
-IMAGE_LIBRARY_FUNCTIONS(FUNCTIONS)
+LIBRARY_FUNCTIONS(FUNCTIONS)
 
-static const image_library library = {"EXR", {IMAGE_EXR_FILE, NULL}, IMAGE_EXR_PACKAGE, symbols};
+static const library openexr = {"EXR", {IMAGE_EXR_FILE, NULL}, IMAGE_EXR_PACKAGE, symbols};
 
 static exr_result_t write_chunk(const functions *call, exr_context_t file, const exr_made *of, int x, int y) {
     const size_t size = image_type_size(of->type), row = (size_t)of->width * size;
@@ -81,7 +81,7 @@ const char *exr_make(const char *path, const exr_made *of) {
     functions call;
     int32_t lines = of->tile;
     how.error_handler_fn = say_nothing;
-    if (!image_library_open(&library, &source, call.all))
+    if (!source_library(&source, &openexr, call.all))
         return error.text;
     exr_result_t code = call.exr_start_write(&file, path, EXR_WRITE_FILE_DIRECTLY, &how);
     if (code == EXR_ERR_SUCCESS)

@@ -14,10 +14,11 @@ src/raster        | depthprec core raster
 src/vertex        | depthprec core vertex
 src/draw          | depthprec core raster draw
 src/shadow        | depthprec core api shadow
-src/texture       | depthprec core texture
+src/opened        | opened
+src/texture       | depthprec core opened texture
 src/method        | depthprec core texture census method
 src/need          | depthprec core api raster need
-src/model         | core model
+src/model         | core opened model
 src/scene         | depthprec core raster model draw need scene
 src/report        | depthprec core report
 src/plot          | depthprec core api census raster draw shadow texture method need model scene plot

@@ -3,6 +3,8 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/resource.h>
+#include <unistd.h>
 
 #include "gltf_made.h"
 #include "printed.h"
@@ -80,6 +82,49 @@ static void refused(void **state) {
         assert_string_equal(error.text, damaged[i].sentence);
     }
 }
+
+#ifndef __SANITIZE_ADDRESS__
+/* What a small file says that it has: with room for 64 MiB more it is refused for what it lacks, not for want of it. */
+static void claims(void **state) {
+    static const struct {
+        const char *json, *sentence;
+    } rows[] = {
+        {ASSET "\"buffers\":[{\"byteLength\":1073741824,\"uri\":\"data:;base64,AAAA\"}]}",
+         "glTF: cut short: buffer 0 has 3 bytes of 1073741824"},
+        {ASSET MESH ",\"accessors\":[{\"componentType\":5126,\"count\":89478485,\"type\":\"VEC3\"}]}",
+         "glTF: accessor 0 has 89478485 elements, more than the file has bytes"},
+        {ASSET MESH ",\"accessors\":[{\"bufferView\":0,\"componentType\":5126,\"count\":1,\"type\":\"VEC3\","
+                    "\"sparse\":{\"count\":268435456,\"indices\":{\"bufferView\":0,\"componentType\":5125},"
+                    "\"values\":{\"bufferView\":0}}}]," VIEWS "}",
+         "glTF: an accessor of 268435456 elements reaches beyond bufferView 0"},
+        {ASSET MESH ",\"accessors\":[{\"bufferView\":0,\"componentType\":5126,\"count\":1,\"type\":\"VEC3\"}],"
+                    "\"bufferViews\":[{\"buffer\":0,\"byteLength\":1073741824,\"byteStride\":252}],"
+                    "\"buffers\":[{\"byteLength\":12,\"uri\":\"data:;base64,AAAAAAAAAAAAAAAA\"}]}",
+         "glTF: bufferView 0 reaches beyond its buffer"},
+    };
+    struct rlimit before, less;
+    unsigned long pages = 0;
+    (void)state;
+    FILE *in = fopen("/proc/self/statm", "r");
+    if (in == NULL)
+        skip();
+    assert_int_equal(fscanf(in, "%lu", &pages), 1);
+    fclose(in);
+    assert_int_equal(getrlimit(RLIMIT_AS, &before), 0);
+    less = before;
+    less.rlim_cur = (rlim_t)pages * (rlim_t)sysconf(_SC_PAGESIZE) + (64 << 20);
+    for (size_t i = 0; i < sizeof rows / sizeof rows[0]; i++) {
+        const model_asked asked = {0};
+        model m;
+        model_error error;
+        assert_int_equal(setrlimit(RLIMIT_AS, &less), 0);
+        const bool read = model_parse(rows[i].json, strlen(rows[i].json), false, NULL, &asked, &m, &error);
+        assert_int_equal(setrlimit(RLIMIT_AS, &before), 0);
+        assert_false(read);
+        assert_string_equal(error.text, rows[i].sentence);
+    }
+}
+#endif
 
 /* A .glb is what its .gltf is; cut anywhere it is refused, and whatever byte is changed it is read or refused. */
 static void containers(void **state) {
@@ -165,7 +210,10 @@ static void files_beside(void **state) {
 }
 
 int main(void) {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(refused), cmocka_unit_test(containers),
-                                       cmocka_unit_test(files_beside)};
+    const struct CMUnitTest tests[] = {cmocka_unit_test(refused),
+#ifndef __SANITIZE_ADDRESS__
+                                       cmocka_unit_test(claims),
+#endif
+                                       cmocka_unit_test(containers), cmocka_unit_test(files_beside)};
     return run_tap(tests);
 }

@@ -6,9 +6,9 @@
 #include <string.h>
 
 #include "handmade.h"
+#include "opened/library.h"
 #include "printed.h"
 #include "texture/image.h"
-#include "texture/image_library.h"
 
 enum { ACROSS = 23, DOWN = 11, ALL = ACROSS * DOWN };
 
@@ -388,17 +388,15 @@ static void damaged_files(void **state) {
 static void missing_libraries(void **state) {
     (void)state;
     static const char *const symbols[] = {"exit", "no_such_function_of_it", NULL};
-    const image_library absent = {"EXR", {"libnothing-of-that-name.so.7", NULL}, "libnothing7", symbols};
-    const image_library present = {"EXR", {"libnothing-of-that-name.so.7", "libc.so.6", NULL}, "libc6", symbols};
-    image_error error;
-    image_source source = {.error = &error};
-    image_function *found[2];
-    assert_false(image_library_open(&absent, &source, found));
-    assert_string_equal(error.text,
-                        "EXR is read by a library that is not there, libnothing-of-that-name.so.7: Debian's "
-                        "package libnothing7 has it");
-    assert_false(image_library_open(&present, &source, found));
-    assert_string_equal(error.text, "EXR: libnothing-of-that-name.so.7 has no no_such_function_of_it");
+    const library absent = {"EXR", {"libnothing-of-that-name.so.7", NULL}, "libnothing7", symbols};
+    const library present = {"EXR", {"libnothing-of-that-name.so.7", "libc.so.6", NULL}, "libc6", symbols};
+    char error[LIBRARY_ERROR_SIZE];
+    library_function *found[2];
+    assert_false(library_open(&absent, found, error));
+    assert_string_equal(error, "EXR is read by a library that is not there, libnothing-of-that-name.so.7: Debian's "
+                               "package libnothing7 has it");
+    assert_false(library_open(&present, found, error));
+    assert_string_equal(error, "EXR: libnothing-of-that-name.so.7 has no no_such_function_of_it");
 }
 
 /* ---- Tools --------------------------------------------------------------------------------------------------------*/

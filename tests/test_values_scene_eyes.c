@@ -147,6 +147,7 @@ static void forms(void **state) {
     json_t *root = object_of(0, "scene " STREET " -m d3d -F d16 --from 0,4,20 --look 0,0,0");
     const json_t *sign = finding_of(root, "wall"), *paint = finding_of(root, "road");
     (void)state;
+    assert_ptr_equal(json_array_get(json_object_get(root, "findings"), 0), paint); /* what is seen comes first */
     assert_true(json_is_null(json_object_get(sign, "seen_from")) && json_is_null(json_object_get(sign, "seen_to")));
     assert_true(json_is_false(json_object_get(sign, "fights")) && json_is_true(json_object_get(paint, "fights")));
     assert_true(json_is_true(json_object_get(sign, "covered")) && json_is_false(json_object_get(root, "passed")));

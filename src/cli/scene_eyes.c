@@ -124,7 +124,7 @@ static int read_line(scene *s, const char *text, size_t length, size_t line) {
     for (size_t at = 0; at < length && text[at] != '#';) {
         size_t word = 0;
         char shown[SHOWN + 4];
-        double extra;
+        double extra = 0.0;
         if (is_between(text[at])) {
             at++;
             continue;
@@ -174,15 +174,15 @@ static int read_lines(scene *s, const char *text, size_t size) {
 
 static int take_path(scene *s) {
     char *text = malloc(FILE_MOST + 1);
+    if (text == NULL)
+        return usage_error("%s: no memory to read it", s->o.path);
     FILE *in = fopen(s->o.path, "rb");
-    const size_t size = in != NULL && text != NULL ? fread(text, 1, FILE_MOST + 1, in) : 0;
+    const size_t size = in != NULL ? fread(text, 1, FILE_MOST + 1, in) : 0;
     const int error = errno;
     int status = EXIT_FINE;
     if (in == NULL || ferror(in)) {
         option_error(OPTION_PATH, "%s: %s", s->o.path, strerror(error));
         status = EXIT_IO;
-    } else if (text == NULL) {
-        status = usage_error("--path: %s: no memory to read it", s->o.path);
     } else if (size > FILE_MOST) {
         status = option_error(OPTION_PATH, "%s: must be at most %d bytes", s->o.path, FILE_MOST);
     }

@@ -170,8 +170,8 @@ static void say_finding(page *p, const scene *s, size_t i) {
     if (f->wrong_pixels > 0.0)
         page_note(p, "", "%.0f pixel%s wrong", f->wrong_pixels, f->wrong_pixels == 1.0 ? "" : "s");
     if (v->lift > 0.0 && isfinite(v->lift))
-        page_note(p, "", "%s more between them are enough up to %s", safe_length(p, v->lift, true).text,
-                  length(p, s->within).text);
+        page_note(p, "", "%s more between them are enough %sup to %s", safe_length(p, v->lift, true).text,
+                  s->eyes.count > 1 ? "from there " : "", length(p, s->within).text);
 }
 
 void scene_bias_take(scene *s) {

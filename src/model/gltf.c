@@ -431,6 +431,7 @@ static bool read_root(gltf *g) {
 
 bool model_read_gltf(model_source *s) {
     gltf g = {.source = s};
+    s->out->metres = 1.0;
     file_bytes json = s->file;
     json_error_t error;
     if (s->file.size >= 4 && memcmp(s->file.at, "glTF", 4) == 0) {

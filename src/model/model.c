@@ -14,12 +14,19 @@ static bool no_memory(model_error *error) {
     return false;
 }
 
-static bool parse(file_bytes file, bool obj, const char *folder, const model_asked *asked, model *out,
+/* A file, and what its name ends in, from the dot on; "" where it has none. */
+static bool parse(file_bytes file, const char *extension, const char *folder, const model_asked *asked, model *out,
                   model_error *error) {
     model made = {0};
     model_source s = {.file = file, .folder = folder, .asked = *asked, .out = &made, .error = error};
+    const size_t blanks = strspn((const char *)file.at, " \t\r\n");
+    const bool gltf = memcmp(file.at, "glTF", file.size < 4 ? file.size : 4) == 0 || file.at[blanks] == '{' ||
+                      strcasecmp(extension, ".gltf") == 0 || strcasecmp(extension, ".glb") == 0 || *extension == '\0';
     *error = (model_error){0};
-    if (obj ? model_read_obj(&s) : model_read_gltf(&s)) {
+    const bool read = strcasecmp(extension, ".obj") == 0 ? model_read_obj(&s)
+                      : gltf                             ? model_read_gltf(&s)
+                                                         : model_read_other(&s, extension);
+    if (read) {
         *out = made;
         return true;
     }
@@ -35,27 +42,40 @@ bool model_parse(const void *bytes, size_t size, bool obj, const char *folder, c
         return no_memory(error);
     memcpy(file.at, bytes, size);
     file.at[size] = '\0';
-    const bool parsed = parse(file, obj, folder, asked, out, error);
+    const bool parsed = parse(file, obj ? ".obj" : "", folder, asked, out, error);
     free(file.at);
     return parsed;
 }
 
 bool model_read(const char *path, const model_asked *asked, model *out, model_error *error) {
-    const size_t length = strlen(path);
-    const char *slash = strrchr(path, '/');
-    const bool obj = length > 4 && strcasecmp(path + length - 4, ".obj") == 0;
-    char *folder = strndup(path, slash != NULL ? (size_t)(slash - path) + 1 : 0);
+    const char *slash = strrchr(path, '/'), *name = slash != NULL ? slash + 1 : path, *dot = strrchr(name, '.');
+    char *folder = strndup(path, (size_t)(name - path));
     file_bytes file;
     *error = (model_error){0};
     if (folder == NULL)
         return no_memory(error);
     bool read = model_file_read(path, &file, error);
     if (read) {
-        read = parse(file, obj, folder, asked, out, error);
+        read = parse(file, dot != NULL ? dot : "", folder, asked, out, error);
         free(file.at);
     }
     free(folder);
     return read;
+}
+
+void model_scale(model *m, double factor) {
+    for (size_t i = 0; i < m->vertices; i++)
+        for (int k = 0; k < 3; k++)
+            m->position[i][k] *= factor;
+    for (size_t i = 0; i < m->cameras; i++) {
+        model_camera *c = &m->camera[i];
+        for (int k = 0; k < 3; k++)
+            c->eye[k] *= factor;
+        c->height *= factor;
+        c->znear *= factor;
+        c->zfar *= factor;
+    }
+    m->metres /= factor;
 }
 
 model_box model_box_of(const model *m) {

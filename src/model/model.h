@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /**
- * @file model.h  The triangles of a model, in the world, in double: glTF 2.0 (.glb, .gltf) and OBJ.
+ * @file model.h  The triangles of a model, in the world, in double: glTF 2.0 (.glb, .gltf), OBJ, and by libassimp others.
  *
  * Nodes are placed in their rest pose: skins, animations and morph targets do not move anything, and are counted.
  *
@@ -51,7 +51,8 @@ typedef struct model_notes {
 
 typedef struct model {
     size_t vertices, triangles, surfaces, cameras;
-    double (*position)[3];   /**< scene units, finite */
+    double metres;           /**< in a unit of the coordinates; 0 where the file does not say */
+    double (*position)[3];   /**< units, finite */
     uint32_t (*triangle)[3]; /**< of `position`, counter-clockwise seen from the front */
     uint32_t *of;            /**< the surface of each triangle */
     model_surface *surface;
@@ -71,12 +72,18 @@ typedef struct model_error {
     char text[MODEL_ERROR_SIZE]; /**< one sentence without the path */
 } model_error;
 
-/** Reads a file; the kind is told from its first bytes, of OBJ from its name. *out is untouched on failure. */
+/**
+ * Reads a file. glTF is told from its first bytes or its name, OBJ from its name; any other name that ends in a kind is
+ * left to libassimp, which is opened then. *out is untouched on failure.
+ */
 bool model_read(const char *path, const model_asked *asked, model *out, model_error *error);
 
 /** The same from memory; `obj` says that it is OBJ. Files beside it are refused where `folder` is null. */
 bool model_parse(const void *bytes, size_t size, bool obj, const char *folder, const model_asked *asked, model *out,
                  model_error *error);
+
+/** Multiplies all lengths, each rounded once. @param factor  positive */
+void model_scale(model *m, double factor);
 
 void model_free(model *m);
 

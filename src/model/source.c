@@ -46,6 +46,9 @@ bool model_fail(model_source *s, const char *format, ...) {
     if (s->error->text[0] == '\0')
         vsnprintf(s->error->text, sizeof s->error->text, format, arguments);
     va_end(arguments);
+    for (char *c = s->error->text; *c != '\0'; c++)
+        if ((unsigned char)*c < 0x20 || *c == 0x7f)
+            *c = '?';
     return false;
 }
 

@@ -44,5 +44,6 @@ bool model_add_camera(model_source *s, const model_camera *row);
 /* The kinds. */
 bool model_read_gltf(model_source *s);
 bool model_read_obj(model_source *s);
+bool model_read_other(model_source *s, const char *extension); /* by libassimp; ".ifc" */
 
 #endif

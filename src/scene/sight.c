@@ -44,7 +44,7 @@ static void keep(polygon *p, const double at[3]) {
 /* What of a polygon lies where n . p >= c. */
 static void cut(polygon *p, const double n[3], double c) {
     const polygon from = *p;
-    double side[POLYGON];
+    double side[POLYGON] = {0};
     for (int i = 0; i < from.corners; i++)
         side[i] = n[0] * from.at[i][0] + n[1] * from.at[i][1] + n[2] * from.at[i][2] - c;
     p->corners = 0;
@@ -118,7 +118,8 @@ static bool is_drawn(const pair *p, int i, const scene_eye *eye) {
             from[k] = eye->place[k] - p->corner[c][k];
             above[k] = eye->place[k] - p->vertex[i][0][k];
         }
-        if (dot(above, p->normal[i]) >= -turned * dp_hypot(dp_hypot(from[0], from[1]), from[2]))
+        const double height = dot(above, p->normal[i]);
+        if (height >= 0.0 || height * height <= turned * turned * dot(from, from))
             return true;
     }
     return false;
@@ -127,7 +128,7 @@ static bool is_drawn(const pair *p, int i, const scene_eye *eye) {
 /* The depths of the overlap in view, on both surfaces. */
 static bool see_pair(const pair *p, const dp_setup *setup, const scene_eye *eye, scene_sight *out) {
     const double off[3] = {0.0, p->of->gap_lo, p->of->gap_hi};
-    *out = (scene_sight){.seen_from = HUGE_VAL, .seen_to = -HUGE_VAL, .fights_from = (double)NAN};
+    *out = (scene_sight){.seen_from = HUGE_VAL, .seen_to = -HUGE_VAL, .fights_from = (double)NAN, .covered = true};
     if (!is_drawn(p, 0, eye) || !is_drawn(p, 1, eye))
         return false;
     for (int s = 0; s < 3; s++) {
@@ -195,30 +196,33 @@ static bool setup_of(const pair *p, const dp_setup *setup, const scene_eye *eye,
            dp_setup_init(out, &spec) == DP_OK;
 }
 
-/* What is lacking, at the depths that are seen and asked for. */
-static double lift_of(const dp_setup *setup, const scene_sight *seen, double within, double least) {
-    const double to = within > 0.0 ? fmin(seen->seen_to, within) : seen->seen_to;
+/* The distance that is enough at these depths. */
+static double enough(const dp_setup *setup, double from, double to, double limit) {
     dp_separation_worst worst = {.bound = HUGE_VAL};
-    if (to < seen->seen_from)
+    if (to < from)
         return 0.0;
-    dp_separation_over(setup, seen->seen_from, to, 0.0, &worst);
-    return fmax(worst.bound - least, 0.0);
+    dp_separation_over(setup, from, to, limit, &worst);
+    return worst.bound;
 }
 
-/* Where it is not guaranteed, at the depths that are seen. */
+/* Where it is not guaranteed, at the depths that are seen, and what is lacking. */
 static void judge_pair(const pair *p, const sight_asked *asked, const scene_eye *eye, scene_sight *seen) {
-    const dp_setup *setup = asked->setup;
     const double lo = p->of->gap_lo, hi = p->of->gap_hi;
     const double least = lo <= 0.0 && hi >= 0.0 ? 0.0 : fmin(fabs(lo), fabs(hi));
     dp_setup own;
-    seen->covered = setup_of(p, setup, eye, seen, &own);
-    seen->lift = lift_of(seen->covered ? &own : setup, seen, asked->within, least);
+    const bool covered = setup_of(p, asked->setup, eye, seen, &own);
+    const dp_setup *by = covered ? &own : asked->setup;
+    const double all = enough(by, seen->seen_from, seen->seen_to, least);
+    const bool farther = asked->within > 0.0 && asked->within < seen->seen_to;
+    seen->lift = fmax((farther ? enough(by, seen->seen_from, asked->within, least) : all) - least, 0.0);
     if (least == 0.0) {
-        seen->covered = true; /* no guarantee could be missed */
         seen->fights_from = seen->seen_from;
         return;
     }
-    const double to = distance_about(seen->covered ? &own : setup, seen->seen_from, seen->seen_to, least, DIGITS);
+    seen->covered = covered;
+    if (all <= least)
+        return;
+    const double to = distance_about(by, seen->seen_from, seen->seen_to, least, DIGITS);
     if (isnan(to))
         seen->fights_from = seen->seen_from;
     else if (to < seen->seen_to)
@@ -247,8 +251,10 @@ static bool is_worse(const scene_sight *a, const scene_sight *b) {
     return or_far(a->seen_from) < or_far(b->seen_from);
 }
 
-scene_sight scene_sight_worst(const sight_asked *asked, const finder_finding *f, scene_sight *sight) {
+/* All eyes, or what of them tells which is the worst. */
+static void judge_eyes(const sight_asked *asked, const finder_finding *f, scene_sight *sight) {
     const double nan = (double)NAN;
+    double nearest = HUGE_VAL; /* that any fights */
     for (size_t e = 0; e < asked->eyes; e++)
         sight[e] = (scene_sight){nan, nan, nan, 0.0, true, e};
     for (size_t i = 0; i < f->pairs && !(asked->stop != NULL && asked->stop()); i++) {
@@ -257,16 +263,26 @@ scene_sight scene_sight_worst(const sight_asked *asked, const finder_finding *f,
             scene_sight seen;
             if (!see_pair(&p, asked->setup, &asked->eye[e], &seen))
                 continue;
-            judge_pair(&p, asked, &asked->eye[e], &seen);
+            if (asked->eyes == 1 || seen.seen_from <= nearest) /* else it is not what is worst */
+                judge_pair(&p, asked, &asked->eye[e], &seen);
+            nearest = fmin(nearest, seen.fights_from);
             add(&sight[e], &seen);
         }
     }
+}
+
+scene_sight scene_sight_worst(const sight_asked *asked, const finder_finding *f, scene_sight *sight) {
     size_t worst = 0;
-    double lift = sight[0].lift;
-    for (size_t e = 1; e < asked->eyes; e++) {
+    judge_eyes(asked, f, sight);
+    for (size_t e = 1; e < asked->eyes; e++)
         worst = is_worse(&sight[e], &sight[worst]) ? e : worst;
-        lift = fmax(lift, sight[e].lift);
+    if (asked->eyes > 1) {
+        sight_asked alone = *asked;
+        alone.eye += worst;
+        alone.eyes = 1;
+        judge_eyes(&alone, f, sight);
     }
-    sight[worst].lift = lift;
-    return sight[worst];
+    sight[0].eye = worst;
+    sight[0].covered = sight[0].covered || !isnan(sight[0].fights_from);
+    return sight[0];
 }

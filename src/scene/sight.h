@@ -11,7 +11,7 @@
  * The guarantee is that of the very triangles: dp_triangles with their own slants, depths, pixels and slimness as this
  * eye has them. Where there is none, because a vertex lies before near or beyond far, or the triangle is slimmer or
  * larger than the library takes, or a side of the view cuts it and the rasterizer's depth is anchored at the window's
- * origin, the class of the set-up stands for them, and the sight is not *covered*.
+ * origin, the class of the set-up stands for them; what is told apart that way alone is not *covered*.
  *
  * What is judged are pixels whose ray meets both surfaces within the overlap. Beside its edge a ray may meet the one
  * and, behind it, more of the other.
@@ -33,7 +33,7 @@ typedef struct scene_sight {
                                     NaN where all is */
     double lift;               /**< what would have to be added to their distance so that all that is seen nearer than
                                     asked is told apart; 0 where it is; INFINITY where no distance is enough */
-    bool covered;              /**< by the guarantee of the triangles themselves; true where nothing is seen */
+    bool covered;              /**< false: all is told apart, but some of it only in triangles of the class */
     size_t eye;                /**< its index */
 } scene_sight;
 
@@ -51,7 +51,7 @@ typedef struct sight_asked {
 
 /**
  * Judges a finding from the eye from which it is worst: where it fights nearest; else where it is not covered; else
- * where it is seen from nearest. Of several that are alike the first. The lift is enough for all eyes.
+ * where it is seen from nearest. Of several that are alike the first.
  * @param sight  room for asked->eyes, to work in
  */
 scene_sight scene_sight_worst(const sight_asked *asked, const finder_finding *f, scene_sight *sight);

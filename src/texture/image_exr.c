@@ -17,7 +17,7 @@
 
 #if __has_include(<openexr.h>)
 
-#include "texture/image_library.h"
+#include "opened/library.h"
 
 /* What is called of it. */
 #define FUNCTIONS(X)                                                                                                   \
@@ -39,9 +39,9 @@
     X(exr_decoding_choose_default_routines)                                                                            \
     X(exr_decoding_run)                                                                                                \
     X(exr_decoding_destroy)
-IMAGE_LIBRARY_FUNCTIONS(FUNCTIONS)
+LIBRARY_FUNCTIONS(FUNCTIONS)
 
-static const image_library openexr = {"EXR", {IMAGE_EXR_FILE, NULL}, IMAGE_EXR_PACKAGE, symbols};
+static const library openexr = {"EXR", {IMAGE_EXR_FILE, NULL}, IMAGE_EXR_PACKAGE, symbols};
 
 /* Everything of a file. */
 typedef struct reading {
@@ -291,7 +291,7 @@ static bool read_file(reading *r) {
 
 static bool read_exr(image_source *source, image *out) {
     reading r = {.source = source, .out = out, .decode = EXR_DECODE_PIPELINE_INITIALIZER};
-    if (!image_library_open(&openexr, source, r.call.all) || !source_all(source, &r.bytes, &r.size))
+    if (!source_library(source, &openexr, r.call.all) || !source_all(source, &r.bytes, &r.size))
         return false;
     const bool good = read_file(&r);
     if (r.decoding)

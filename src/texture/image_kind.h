@@ -5,6 +5,7 @@
 #ifndef TEXTURE_IMAGE_KIND_H
 #define TEXTURE_IMAGE_KIND_H
 
+#include "opened/library.h"
 #include "texture/image.h"
 
 /** Bytes to read: what is ready first, then the stream. */
@@ -20,6 +21,9 @@ typedef struct image_source {
 
 /** Writes the sentence, in which control characters become '?'. @return false */
 bool source_fail(image_source *source, const char *format, ...) __attribute__((format(printf, 2, 3)));
+
+/** Opens a library for a file of its kind. @return false after its sentence */
+bool source_library(image_source *source, const library *l, library_function *functions[]);
 
 /** @return how many bytes there were */
 size_t source_read(image_source *source, void *to, size_t size);

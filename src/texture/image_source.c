@@ -36,6 +36,11 @@ bool source_fail(image_source *source, const char *format, ...) {
     return false;
 }
 
+bool source_library(image_source *source, const library *l, library_function *functions[]) {
+    char error[LIBRARY_ERROR_SIZE];
+    return library_open(l, functions, error) || source_fail(source, "%s", error);
+}
+
 size_t source_read(image_source *source, void *to, size_t size) {
     const size_t ready = size < source->ready_size ? size : source->ready_size;
     if (ready > 0)

@@ -13,7 +13,7 @@
 
 #include <tiffio.h>
 
-#include "texture/image_library.h"
+#include "opened/library.h"
 
 /* What is called of it. */
 #define FUNCTIONS(X)                                                                                                   \
@@ -29,8 +29,8 @@
     X(TIFFTileSize64)                                                                                                  \
     X(TIFFReadTile)                                                                                                    \
     X(TIFFReadDirectory)
-IMAGE_LIBRARY_FUNCTIONS(FUNCTIONS)
-static const image_library libtiff = {"TIFF", {"libtiff.so.6", "libtiff.so.5", NULL}, "libtiff6", symbols};
+LIBRARY_FUNCTIONS(FUNCTIONS)
+static const library libtiff = {"TIFF", {"libtiff.so.6", "libtiff.so.5", NULL}, "libtiff6", symbols};
 
 /* Everything of a file. */
 typedef struct reading {
@@ -208,7 +208,7 @@ static bool read_file(reading *r) {
 
 static bool read_tiff(image_source *source, image *out) {
     reading r = {.source = source, .out = out};
-    if (!image_library_open(&libtiff, source, r.call.all) || !source_all(source, &r.bytes, &r.size))
+    if (!source_library(source, &libtiff, r.call.all) || !source_all(source, &r.bytes, &r.size))
         return false;
     const bool good = read_file(&r);
     if (r.file != NULL)
