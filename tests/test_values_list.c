@@ -87,6 +87,13 @@ static bool preset_row(size_t i, listed *l) {
     return r != NULL;
 }
 
+static bool platform_row(size_t i, listed *l) {
+    const platform *r = platform_get(i);
+    if (r != NULL)
+        *l = (listed){r->name, "", r->note, r->source, {0}, 0};
+    return r != NULL;
+}
+
 static bool api(size_t i, listed *l) {
     const bias_api *r = bias_api_get(i);
     if (r != NULL)
@@ -204,6 +211,7 @@ static const struct {
               {"arithmetic", "bound", arith},
               {"causes", "bound", cause},
               {"presets", "camera", preset_row},
+              {"platforms", "stored", platform_row},
               {"apis", "rule", api},
               {"rasterizers", "arithmetic", rasterizer},
               {"encodings", "bound", encoding},
