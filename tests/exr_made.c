@@ -9,6 +9,7 @@
 
 #include "opened/library.h"
 #include "texture/image_exr.h"
+#include "texture/image_kind.h"
 
 #define FUNCTIONS(X)                                                                                                   \
     X(exr_start_write)                                                                                                 \

@@ -246,7 +246,7 @@ static void refused(void **state) {
         {"--annotate ''", 2, "--annotate: must be a file name, got ''"},
         {"--annotate none/x.glb", 3, "cannot write 'none/x.glb': No such file or directory"},
         {"--annotate tests/models/street.obj", 2, "--annotate: must be another file than the model, got 'tests/mod"},
-        {"--annotate x.glb --render x.glb", 2, "--annotate: must be another file than --render, got 'x.glb'"},
+        {"--annotate x.png --render x.png", 2, "--annotate: must be another file than --render, got 'x.png'"},
         {"--annotate x.glb -o x.glb", 2, "--annotate: must be another file than --output, got 'x.glb'"},
     };
     (void)state;

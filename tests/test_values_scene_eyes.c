@@ -179,6 +179,9 @@ static void forms(void **state) {
         strstr(p.out, "1 seen, 0 can fight.\n1 more is told apart only if cut into the triangles above.\n"));
     assert_non_null(strstr(p.out, ": told apart only if cut into the triangles"));
     printed_free(&p);
+    p = print_of("scene " STREET " --from 0,4,20 --look 0,0,0 -m log");
+    assert_non_null(strstr(p.out, "1 seen, 0 can fight.\n1 more is told apart only facing the camera.\n"));
+    printed_free(&p);
 }
 
 /* ---- Several ----------------------------------------------------------------------------------------------------- */

@@ -61,6 +61,18 @@ static xmlNode *below(xmlNode *node, const char *name) {
     return NULL;
 }
 
+/* The message of a failure says where, to 4 digits, and what mends it: the lift, rounded up. */
+static void remedy_is(const char *message, const json_t *place, double lift) {
+    static const char *const axes[] = {"x", "y", "z"};
+    const char *near = strstr(message, ", near "), *more = strstr(message, " more between them");
+    double at[3], said = 0.0;
+    assert_true(near != NULL && more != NULL);
+    assert_int_equal(sscanf(near, ", near %lf %lf %lf; %lf", &at[0], &at[1], &at[2], &said), 4);
+    for (int k = 0; k < 3; k++)
+        assert_true(fabs(at[k] - number(place, axes[k])) <= 5.1e-4 * fabs(at[k]));
+    assert_true(said >= lift && said <= lift + 1e-3 * lift);
+}
+
 /* A case for each finding of JSON in its order; what fights fails. */
 static void junit(void **state) {
     static const struct {
@@ -93,7 +105,7 @@ static void junit(void **state) {
                 assert_null(n->children);
                 continue;
             }
-            const double to = number(f, "certain_to");
+            const double to = number(f, "certain_to"), lift = number(f, "lift");
             double said = 0.0;
             xmlNode *failure = below(n, "failure");
             xmlChar *message = xmlGetProp(failure, (const xmlChar *)"message");
@@ -101,6 +113,7 @@ static void junit(void **state) {
             assert_int_equal(sscanf((const char *)message, "certain up to %lf", &said), isnan(to) ? 0 : 1);
             assert_true(isnan(to) ? strstr((const char *)message, "certain nowhere") != NULL
                                   : said <= to && said > to - 1e-3 * to);
+            remedy_is((const char *)message, json_object_get(f, "place"), lift);
             xmlFree(message);
         }
         assert_true(k == json_array_size(list) && k >= rows[i].fewest && fails >= 1);
@@ -180,6 +193,34 @@ static void needs(void **state) {
     }
 }
 
+/* The mapping of the camera is put right in the file: then nothing fails, and nothing of the model was needed. */
+static void mended(void **state) {
+    char command[1024], path[512], text[1 << 15];
+    (void)state;
+    snprintf(path, sizeof path, "%s", scratch_file("mended.need"));
+    snprintf(command, sizeof command, "scene " HOUSE " -n 0.05 -F fp32 -m d3d --within 60 --emit-need %s", path);
+    json_decref(printed_json(command));
+    snprintf(command, sizeof command, "check %s", path);
+    printed p = print_of("%s", command);
+    assert_int_equal(p.status, 1);
+    printed_free(&p);
+    FILE *file = fopen(path, "r");
+    assert_non_null(file);
+    const size_t size = fread(text, 1, sizeof text - 1, file);
+    assert_true(fclose(file) == 0 && size < sizeof text - 1);
+    text[size] = '\0';
+    char *mapping = strstr(text, "\"d3d\"");
+    assert_non_null(mapping);
+    file = fopen(path, "w");
+    assert_non_null(file);
+    assert_true(fprintf(file, "%.*s\"reversed\"%s", (int)(mapping - text), text, mapping + 5) > 0);
+    assert_true(fclose(file) == 0);
+    p = print_of("%s", command);
+    assert_int_equal(p.status, 0);
+    assert_null(strstr(p.out, "FAIL"));
+    printed_free(&p);
+}
+
 /* From an eye the range is what it sees, and what it does not see is not asked for. */
 static void needs_of_an_eye(void **state) {
     char command[1024], path[512];
@@ -256,6 +297,28 @@ static void bias(void **state) {
     printed_free(&p);
 }
 
+/* Triangles so wide that their set-up loses more than any slope brings back: so the library says, too. */
+static void no_bias(void **state) {
+    dp_spec spec = dp_spec_default();
+    dp_setup setup;
+    (void)state;
+    spec.zfar = 1000.0;
+    spec.triangles = dp_triangles_default();
+    spec.triangles.width = 1280;
+    spec.triangles.height = 720;
+    spec.triangles.pixels = 60000.0;
+    assert_int_equal(dp_setup_init(&setup, &spec), DP_OK);
+    assert_true(isinf(bias_factor_least(&setup)));
+    json_t *root = printed_json("scene " HOUSE " -F d24 -m d3d --viewport 1280x720 --triangle pixels=60000");
+    const json_t *said = json_object_get(root, "bias");
+    assert_true(json_is_null(json_object_get(said, "units")) && json_is_null(json_object_get(said, "factor")));
+    json_decref(root);
+    printed p = print_of("scene " HOUSE " -F d24 -m d3d --viewport 1280x720 --triangle pixels=60000");
+    assert_non_null(strstr(p.out, "No bias of d3d11 brings one of two surfaces in front up to "));
+    assert_null(strstr(p.out, "drawn second"));
+    printed_free(&p);
+}
+
 static void refused(void **state) {
     static const struct {
         const char *options;
@@ -279,9 +342,10 @@ static void refused(void **state) {
 }
 
 int main(void) {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(junit), cmocka_unit_test(junit_edges),
-                                       cmocka_unit_test(needs), cmocka_unit_test(needs_of_an_eye),
-                                       cmocka_unit_test(bias),  cmocka_unit_test(refused)};
+    const struct CMUnitTest tests[] = {cmocka_unit_test(junit),           cmocka_unit_test(junit_edges),
+                                       cmocka_unit_test(needs),           cmocka_unit_test(mended),
+                                       cmocka_unit_test(needs_of_an_eye), cmocka_unit_test(bias),
+                                       cmocka_unit_test(no_bias),         cmocka_unit_test(refused)};
     const int status = run_tap(tests);
     xmlCleanupParser();
     return status;

@@ -1,10 +1,12 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* scene: which surfaces of a model fight, from where on, and what mends it. */
 #include <math.h>
-#include <omp.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#ifdef _OPENMP
+#include <omp.h>
+#endif
 
 #include "cli/option_rows.h"
 #include "cli/progress.h"
@@ -14,7 +16,7 @@
 #include "cli/stop.h"
 #include "report/number.h"
 
-enum { STEPS = 1000, AT_ONCE = 256 /* findings that are judged before an interrupt is seen */ };
+enum { STEPS = 1000, AT_ONCE = 128 /* findings that a thread judges before an interrupt is seen */ };
 
 /* ---- Reading and finding ----------------------------------------------------------------------------------------- */
 
@@ -173,14 +175,24 @@ static bool is_as_before(const finder_finding *f, size_t i) {
     return i > 0 && f[i].gap_min == f[i - 1].gap_min && f[i].gap_max == f[i - 1].gap_max;
 }
 
+static int threads_of(const scene *s) {
+#ifdef _OPENMP
+    return s->o.threads > 0 ? s->o.threads : omp_get_max_threads();
+#else
+    (void)s;
+    return 1;
+#endif
+}
+
 /* Each distance once, however many findings have it. */
 static void judge_distances(scene *s) {
     const finder_finding *f = s->found.finding;
     const size_t count = s->found.findings;
-    const int threads = s->o.threads > 0 ? s->o.threads : omp_get_max_threads();
+    const int threads = threads_of(s);
+    const size_t round = AT_ONCE * (size_t)threads;
     progress bar = progress_start("findings judged", count, s->o.quiet);
-    for (size_t first = 0; first < count && !stop_asked(); first += AT_ONCE) {
-        const size_t end = first + AT_ONCE < count ? first + AT_ONCE : count;
+    for (size_t first = 0; first < count && !stop_asked(); first += round) {
+        const size_t end = first + round < count ? first + round : count;
 #pragma omp parallel for schedule(dynamic, 4) num_threads(threads)
         for (size_t i = first; i < end; i++)
             if (!is_as_before(f, i))

@@ -114,8 +114,8 @@ void scene_bias_take(scene *s);
 /** The two surfaces, "'wall' (brick) and 'sign' (tin)". @return out */
 char *scene_surfaces(const scene_finding *f, char *out, size_t size);
 
-/** How far they are certain, and how far apart, as text has it. @return out */
-char *scene_sentence(const scene *s, const scene_finding *f, char *out, size_t size);
+/** How far they are certain, how far apart, where, and what mends it, as text has it, in one line. @return out */
+char *scene_message(const scene *s, const scene_finding *f, char *out, size_t size);
 
 /** Writes the findings as JUnit XML: those fail that fight nearer than --within. */
 void scene_junit(const scene *s, output *out);

@@ -63,6 +63,11 @@ static void say_eyes(page *p, const scene *s) {
                    number_of(e->ahead.y, DIGITS).text, number_of(e->ahead.z, DIGITS).text);
 }
 
+/* Of what is not covered; a mapping that is not affine on the screen has no guarantee of slanted triangles. */
+static const char *condition_of(const scene *s) {
+    return s->setup.spec.model == DP_MODEL_FP32 ? "if cut into the triangles above" : "facing the camera";
+}
+
 static void say_seen(page *p, const scene *s) {
     const size_t count = s->found.findings, fights = scene_fighting(s), cut = uncovered(s);
     size_t seen = 0;
@@ -71,7 +76,7 @@ static void say_seen(page *p, const scene *s) {
     page_text(p, "%zu pair%s of surfaces lie%s within %s of each other: %zu seen, %zu can fight.", count,
               count == 1 ? "" : "s", count == 1 ? "s" : "", length(p, s->gap).text, seen, fights);
     if (cut > 0)
-        page_text(p, "%zu more %s told apart only if cut into the triangles above.", cut, cut == 1 ? "is" : "are");
+        page_text(p, "%zu more %s told apart only %s.", cut, cut == 1 ? "is" : "are", condition_of(s));
 }
 
 static void say_head(page *p, void *of) {
@@ -122,12 +127,12 @@ static void add_gap(const page *p, const scene *s, const scene_finding *f, char 
 }
 
 /* "seen from 3 m to 9 m: can fight from 5 m on". */
-static void add_sight(const page *p, const scene_finding *f, char *out, size_t size) {
+static void add_sight(const page *p, const scene *s, const scene_finding *f, char *out, size_t size) {
     const scene_sight *e = &f->sight;
     append(out, size, "seen from %s to %s: ", safe_length(p, e->seen_from, false).text,
            safe_length(p, e->seen_to, true).text);
     if (isnan(e->fights_from))
-        append(out, size, "told apart only if cut into the triangles above");
+        append(out, size, "told apart only %s", condition_of(s));
     else if (e->fights_from > e->seen_from)
         append(out, size, "can fight from %s on", safe_length(p, e->fights_from, false).text);
     else
@@ -145,11 +150,11 @@ static void add_verdict(const page *p, const scene_verdict *v, char *out, size_t
         append(out, size, ", ties from %s", safe_length(p, v->ties_from, true).text);
 }
 
-char *scene_sentence(const scene *s, const scene_finding *f, char *out, size_t size) {
+static char *sentence(const scene *s, const scene_finding *f, char *out, size_t size) {
     const page p = {.unit = s->unit};
     out[0] = '\0';
     if (s->eyes.count > 0)
-        add_sight(&p, f, out, size);
+        add_sight(&p, s, f, out, size);
     else
         add_verdict(&p, &f->verdict, out, size);
     append(out, size, "; ");
@@ -157,21 +162,43 @@ char *scene_sentence(const scene *s, const scene_finding *f, char *out, size_t s
     return out;
 }
 
+static void add_place(const scene_finding *f, char *out, size_t size) {
+    append(out, size, "area %s, near %s %s %s", number_brief(number_of(f->area, DIGITS)).text,
+           number_of(f->place.x, DIGITS).text, number_of(f->place.y, DIGITS).text, number_of(f->place.z, DIGITS).text);
+}
+
+/* Nothing where that is enough as it is, or no distance is. */
+static void add_lift(const page *p, const scene *s, const scene_finding *f, char *out, size_t size) {
+    const double lift = f->verdict.lift;
+    if (lift > 0.0 && isfinite(lift))
+        append(out, size, "%s more between them are enough %sup to %s", safe_length(p, lift, true).text,
+               s->eyes.count > 1 ? "from there " : "", length(p, s->within).text);
+}
+
+char *scene_message(const scene *s, const scene_finding *f, char *out, size_t size) {
+    const page p = {.unit = s->unit};
+    char lift[LINE_SIZE] = "";
+    sentence(s, f, out, size);
+    append(out, size, "; ");
+    add_place(f, out, size);
+    add_lift(&p, s, f, lift, sizeof lift);
+    append(out, size, "%s%s", *lift != '\0' ? "; " : "", lift);
+    return out;
+}
+
 static void say_finding(page *p, const scene *s, size_t i) {
     const scene_finding *f = &s->findings[i];
-    const scene_verdict *v = &f->verdict;
-    char label[16], text[LINE_SIZE];
+    char label[16], text[LINE_SIZE], place[LINE_SIZE] = "", lift[LINE_SIZE] = "";
     snprintf(label, sizeof label, "%zu", i + 1);
     page_note(p, label, "%s", scene_surfaces(f, text, sizeof text));
-    page_note(p, "", "%s", scene_sentence(s, f, text, sizeof text));
-    page_note(p, "", "area %s, near %s %s %s", number_brief(number_of(f->area, DIGITS)).text,
-              number_of(f->place.x, DIGITS).text, number_of(f->place.y, DIGITS).text,
-              number_of(f->place.z, DIGITS).text);
+    page_note(p, "", "%s", sentence(s, f, text, sizeof text));
+    add_place(f, place, sizeof place);
+    page_note(p, "", "%s", place);
     if (f->wrong_pixels > 0.0)
         page_note(p, "", "%.0f pixel%s wrong", f->wrong_pixels, f->wrong_pixels == 1.0 ? "" : "s");
-    if (v->lift > 0.0 && isfinite(v->lift))
-        page_note(p, "", "%s more between them are enough %sup to %s", safe_length(p, v->lift, true).text,
-                  s->eyes.count > 1 ? "from there " : "", length(p, s->within).text);
+    add_lift(p, s, f, lift, sizeof lift);
+    if (*lift != '\0')
+        page_note(p, "", "%s", lift);
 }
 
 void scene_bias_take(scene *s) {

@@ -31,7 +31,7 @@ void scene_junit(const scene *s, output *out) {
                                      .name = scene_surfaces(f, name, sizeof name),
                                      .file = s->file,
                                      .type = f->fights ? "fights" : NULL,
-                                     .message = scene_sentence(s, f, text, sizeof text),
+                                     .message = scene_message(s, f, text, sizeof text),
                                      .detail = full});
     }
     if (count == 0) {
@@ -79,7 +79,7 @@ static void put_view(output *out, const scene *s) {
         output_format(out, " subpixel = %d;", t->subpixel);
     output_text(out, "\n           ");
     put_pair(out, "slant", t->slant_lo + 0.0, t->slant_hi + 0.0);
-    output_text(out, " triangle = {");
+    output_text(out, "\n            triangle = {");
     put_number(out, "depth", t->depth);
     put_number(out, "pixels", t->pixels);
     put_number(out, "slim", t->slim);
@@ -114,7 +114,7 @@ static void put_name(output *out, const scene_finding *f, size_t i) {
         for (size_t n = 0; of[n] != '\0' && n < NAME_MOST / 4; n++)
             append(name, sizeof name, "%c", isascii(of[n]) && isalnum((unsigned char)of[n]) ? of[n] : '_');
     }
-    output_format(out, "  %s = {", name);
+    output_format(out, "  %s =\n    {", name);
 }
 
 /* A comment ends with its line. */
@@ -175,7 +175,7 @@ int scene_need(scene *s) {
         put_name(&out, f, i);
         put_need(&out, lo, hi, f->gap_min);
     }
-    output_text(&out, "  # all others are at least so far apart\n  others = {");
+    output_text(&out, "  # all others are at least so far apart\n  others =\n    {");
     put_need(&out, s->setup.spec.znear, s->within, s->gap);
     output_text(&out, "};\n");
     return output_close(&out);

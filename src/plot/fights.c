@@ -231,14 +231,23 @@ static chart_axis depths_of(const fights_asked *a) {
     return axis;
 }
 
+/* What a direction without extent has: enough for an axis. */
+static double least_of(const box *all, double extent) {
+    double least = 1e-6 * extent;
+    for (int k = 0; k < 3; k++)
+        least = fmax(least, 1e-9 * fmax(fabs(all->lo[k]), fabs(all->hi[k])));
+    return least > 0.0 ? least : 1.0;
+}
+
 const char *fights_build(const figure_request *request, chart *out) {
     const fights_asked *a = request->fights;
     const box all = box_of(a);
     double size[3], height[2];
     if (a->m->triangles == 0)
         return "plot scene-fights: the model has no triangles";
+    const double least = least_of(&all, a->found->extent);
     for (int k = 0; k < 3; k++)
-        size[k] = fmax(all.hi[k] - all.lo[k], 1e-6 * a->found->extent);
+        size[k] = fmax(all.hi[k] - all.lo[k], least);
     const view *both = views[size[2] > size[0]];
     const double width = fmax(size[both[0].across], narrowest * fmax(size[both[0].up], size[both[1].up]));
     const double around = 2.0 * margin * width;

@@ -46,7 +46,7 @@ typedef struct rendering {
     uint32_t *stored; /* what the depth test compares */
     double *depth;    /* 1 over that of what is shown; infinite: nothing is nearer */
     uint32_t who;     /* is being drawn, */
-    const seen *what;
+    seen what;
 } rendering;
 
 /* False where it is not drawn: it shows its back, or its edge. */
@@ -111,10 +111,10 @@ static void compare(void *context, int x, int y, int count, const uint32_t *key)
         const size_t at = row + (size_t)i;
         vector ray;
         ray_of(r, i, y, ray);
-        const double inverse = dot(r->what->inverse, ray), shown = r->depth[at];
-        if (inverse < shown * (1.0 - same_most) || r->out->shown[at] == r->who || !meets(r->what, ray))
+        const double inverse = dot(r->what.inverse, ray), shown = r->depth[at];
+        if (inverse < shown * (1.0 - same_most) || r->out->shown[at] == r->who || !meets(&r->what, ray))
             continue;
-        if (r->out->nearer[at] == RENDER_NOTHING && inverse >= shown * (1.0 - unsure(r, r->what, ray, inverse)))
+        if (r->out->nearer[at] == RENDER_NOTHING && inverse >= shown * (1.0 - unsure(r, &r->what, ray, inverse)))
             r->out->wrong++;
         else if (!(r->out->nearer[at] != RENDER_NOTHING && inverse > shown))
             continue;
@@ -126,12 +126,10 @@ static void compare(void *context, int x, int y, int count, const uint32_t *key)
 static render_status pass(rendering *r, draw_take *take, double done) {
     const model *m = r->asked->m;
     const draw_area all = {0, 0, r->out->width, r->out->height};
-    seen what;
-    r->what = &what;
     for (uint32_t t = 0; t < m->triangles; t++) {
         r->who = t;
-        if (look_at(r, t, &what))
-            draw_keys(r->asked->camera, &all, (const double(*)[3])what.place, take, r);
+        if (look_at(r, t, &r->what))
+            draw_keys(r->asked->camera, &all, (const double(*)[3])r->what.place, take, r);
         if (t % TOLD_EVERY == 0 && r->asked->progress != NULL &&
             r->asked->progress(r->asked->context, done + 0.5 * t / (double)m->triangles) != 0)
             return RENDER_STOPPED;
