@@ -6,6 +6,7 @@
 #include <string.h>
 
 #include "api/bias.h"
+#include "api/platform.h"
 #include "api/presets.h"
 #include "method/choose.h"
 #include "plot/figure.h"
