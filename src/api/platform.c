@@ -4,7 +4,7 @@
 #define DAWN   "2026-08"
 #define ANGLE  "2026-08"
 #define WEBKIT "2026-08"
-#define WGPU   "2024-10"
+#define WGPU   "2024-10, over a year old"
 
 /* clang-format off */
 static const platform rows[] = {
