@@ -180,6 +180,7 @@ check "depthprec.1: every format" documented 1 aliases formats
 check "depthprec.1: every mapping" documented 1 aliases mappings
 check "depthprec.1: every figure" documented 1 aliases figures
 check "depthprec.1: every preset" documented 1 aliases presets
+check "depthprec.1: every platform" documented 1 aliases platforms
 check "depthprec.1: every API of depth bias" documented 1 aliases apis
 check "depthprec.1: every model" documented 1 aliases models
 check "depthprec.1: every arithmetic" documented 1 aliases arithmetic

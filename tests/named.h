@@ -6,6 +6,7 @@
 #include <string.h>
 
 #include "api/bias.h"
+#include "api/platform.h"
 #include "api/presets.h"
 #include "method/method.h"
 #include "plot/figure.h"
@@ -25,6 +26,7 @@
     }
 
 BY_NAME(preset, preset_find, preset_get)
+BY_NAME(platform, platform_find, platform_get)
 BY_NAME(bias_api, bias_api_find, bias_api_get)
 BY_NAME(method_family_row, method_family_find, method_family_get)
 BY_NAME(figure_row, figure_find, figure_get)

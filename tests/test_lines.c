@@ -143,6 +143,48 @@ static void test_no_units(void **state) {
     tally_end(&t);
 }
 
+/* What a browser stores takes the place of a preset's format, not of what is given. */
+static void test_platforms(void **state) {
+    static const struct {
+        const char *line, *formats, *mapping, *arith, *api, *raster;
+    } rows[] = {
+        {"table|--platform|safari", "fp32", "d3d", "ieee", NULL, NULL},
+        {"table|--platform|firefox-vulkan", "unorm24 fp32", "d3d", "ieee", NULL, NULL},
+        {"bias|--platform|chrome-gl", "fp32", "d3d", "ieee", "webgpu", NULL},
+        {"bias|--platform|webgl-d3d", "unorm24", "gl", "ieee-remap", "gl", NULL},
+        {"bias|--platform|webgl-d3d|--api|metal", "unorm24", "gl", "ieee-remap", "metal", NULL},
+        {"budget|--platform|webgl-metal|-F|fp16|-m|reversed|--arith|mesa", "fp16", "reversed", "mesa", NULL, NULL},
+        {"table|--platform|safari|--preset|three", "fp32", "gl", "ieee", NULL, NULL},
+        {"table|--platform|firefox-d3d|--preset|bevy", "unorm24", "reversed", "ieee", NULL, NULL},
+        {"table|--platform|webgl-d3d|--viewport|100x100", "unorm24", "gl", "ieee-remap", NULL, "spec-d3d"},
+        {"table|--platform|webgl-d3d|--viewport|100x100|--raster|llvmpipe", "unorm24", "gl", "ieee-remap", NULL,
+         "llvmpipe"},
+        {"table|--platform|webgl-d3d|--preset|bevy|--viewport|100x100", "unorm24", "reversed", "ieee-remap", NULL,
+         "spec-d3d"},
+    };
+    tally t = {.name = "platforms"};
+    (void)state;
+    for (size_t i = 0; i < sizeof rows / sizeof rows[0]; i++) {
+        char line[1024], formats[64] = "";
+        dp_arith arith;
+        options o;
+        dp_arith_parse(rows[i].arith, &arith);
+        TALLY(&t, parse_line(&o, rows[i].line, line) == EXIT_FINE, "%s: %s", rows[i].line, line);
+        for (size_t f = 0; f < o.format_count && f < 3; f++)
+            snprintf(formats + strlen(formats), sizeof formats - strlen(formats), "%s%s", f > 0 ? " " : "",
+                     o.formats[f].name);
+        TALLY(&t, strcmp(formats, rows[i].formats) == 0, "%s: %s", rows[i].line, formats);
+        TALLY(&t, o.mapping_count == 1 && strcmp(dp_mapping_get(o.mappings[0])->name, rows[i].mapping) == 0,
+              "%s: mapping", rows[i].line);
+        TALLY(&t, o.arith == arith, "%s: arithmetic", rows[i].line);
+        TALLY(&t, rows[i].api == NULL || strcmp(o.api->name, rows[i].api) == 0, "%s: API", rows[i].line);
+        TALLY(&t, rows[i].raster == NULL ? o.raster == NULL : strcmp(o.raster->name, rows[i].raster) == 0,
+              "%s: rasterizer", rows[i].line);
+        options_release(&o);
+    }
+    tally_end(&t);
+}
+
 /* ---- The command line as a whole --------------------------------------------------------------------------------- */
 
 /* An option with an argument is given once; which one would count, nobody can see. */
@@ -210,6 +252,7 @@ static void test_order(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {cmocka_unit_test(test_units), cmocka_unit_test(test_no_units),
-                                       cmocka_unit_test(test_twice), cmocka_unit_test(test_order)};
+                                       cmocka_unit_test(test_platforms), cmocka_unit_test(test_twice),
+                                       cmocka_unit_test(test_order)};
     return run_tap(tests);
 }

@@ -317,6 +317,7 @@ static void test_rows(void **state) {
         const char *near, *meant;
     } rows[] = {
         {"table", OPTION_PRESET, AT(presets), "unreal", "unreal", offsetof(preset, name), "unrael", "unreal"},
+        {"table", OPTION_PLATFORM, AT(platform), "SAFARI", "safari", offsetof(platform, name), "safary", "safari"},
         {"bias", OPTION_API, AT(api), "Vulkan", "vulkan", offsetof(bias_api, name), "wegbpu", "webgpu"},
         {"bias", OPTION_API, AT(api), "all", NULL, 0, "metall", "metal"},
         {"bias", OPTION_API, AT(api), "d3d12", "d3d11", offsetof(bias_api, name), "d3d14", "d3d11"},

@@ -6,6 +6,7 @@
 #include <string.h>
 
 #include "api/bias.h"
+#include "api/platform.h"
 #include "api/presets.h"
 #include "method/choose.h"
 #include "plot/figure.h"
@@ -84,6 +85,13 @@ static bool preset_row(size_t i, listed *l) {
                       r->source,
                       {r->znear, isinf(r->zfar) ? r->fov : r->zfar, r->fov},
                       isinf(r->zfar) ? 2 : 3};
+    return r != NULL;
+}
+
+static bool platform_row(size_t i, listed *l) {
+    const platform *r = platform_get(i);
+    if (r != NULL)
+        *l = (listed){r->name, "", r->note, r->source, {0}, 0};
     return r != NULL;
 }
 
@@ -204,6 +212,7 @@ static const struct {
               {"arithmetic", "bound", arith},
               {"causes", "bound", cause},
               {"presets", "camera", preset_row},
+              {"platforms", "stored", platform_row},
               {"apis", "rule", api},
               {"rasterizers", "arithmetic", rasterizer},
               {"encodings", "bound", encoding},

@@ -5,6 +5,7 @@
 #include <stdio.h>
 
 #include "api/bias.h"
+#include "api/platform.h"
 #include "api/presets.h"
 #include "api/unit.h"
 #include "core/append.h"
@@ -103,6 +104,29 @@ bool list_preset(size_t index, list_item *item) {
              number_full(row->znear).text, number_full(row->zfar).text, dp_mapping_get(row->mapping)->name, row->format,
              number_full(row->fov).text, axes[row->axis], row->raster, row->unit, row->checked,
              confirmed ? "confirmed" : "not confirmed: ", row->unconfirmed);
+    return true;
+}
+
+/* A format that the device decides on, as it is shown: "unorm24 or fp32". */
+static void append_stored(list_item *item, const char *asked, const char *name) {
+    dp_format formats[2];
+    const size_t count = dp_format_parse(name, formats);
+    append(item->bound, sizeof item->bound, "%s: ", asked);
+    for (size_t i = 0; i < count; i++)
+        append(item->bound, sizeof item->bound, "%s%s", i > 0 ? " or " : "", formats[i].name);
+}
+
+bool list_platform(size_t index, list_item *item) {
+    static const char *const remaps[] = {[PLATFORM_REMAPS_NOT] = "",
+                                         [PLATFORM_REMAPS] = "; [-1, 1] remapped in the vertex shader",
+                                         [PLATFORM_MAY_REMAP] = "; [-1, 1] may be remapped in the vertex shader"};
+    const platform *row = platform_get(index);
+    if (row == NULL)
+        return false;
+    *item = (list_item){.name = row->name, .note = row->note, .source = row->source, .row = row};
+    append_stored(item, row->asks, row->stored);
+    append_stored(item, "; with stencil", row->stencil);
+    append(item->bound, sizeof item->bound, "%s; %s; sources up to %s", remaps[row->remap], row->raster, row->newest);
     return true;
 }
 
@@ -281,6 +305,7 @@ static const topic topics[] = {
     {"transforms", "how world positions become clip coordinates", list_composition, .bound = "bound"},
     {"causes", "the parts of the separation, for budget", list_cause, .bound = "bound"},
     {"presets", "cameras as engines set them, for --preset", list_preset, .bound = "camera"},
+    {"platforms", "which depth buffer browsers give a page that asks for 24 bits", list_platform, .bound = "stored"},
     {"apis", "what one unit of depth bias is, for bias --api", list_api, .bound = "rule"},
     {"rasterizers", "how rasterizers snap vertices and step depth across triangles", list_rasterizer,
      .bound = "arithmetic"},

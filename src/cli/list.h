@@ -40,6 +40,7 @@ bool list_model_word(size_t index, list_item *item); /**< the same, fp32 as text
 bool list_arith(size_t index, list_item *item);
 bool list_composition(size_t index, list_item *item);
 bool list_preset(size_t index, list_item *item);
+bool list_platform(size_t index, list_item *item);
 bool list_unit(size_t index, list_item *item); /**< of name alone */
 bool list_api(size_t index, list_item *item);
 bool list_rasterizer(size_t index, list_item *item);

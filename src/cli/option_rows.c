@@ -13,6 +13,7 @@ static const name_list mappings = {.words = (const char *const[]){"all", NULL},
                                    .get = list_mapping,
                                    .more = " (or a name from 'depthprec list mappings')"};
 static const name_list presets = {.get = list_preset};
+static const name_list platforms = {.get = list_platform};
 static const name_list units = {.get = list_unit};
 static const name_list roundings = {.get = list_rounding};
 static const name_list models = {.get = list_model_word};
@@ -126,6 +127,10 @@ const option_row option_rows[OPTION_COUNT] = {
         "an engine's near, far, mapping and format, for those that are not given, and with --viewport its field of "
         "view and rasterizer: @; table compares several; see 'depthprec list presets'",
         .parse = parse_presets, .names = &presets},
+    [OPTION_PLATFORM] = {"platform", 0, "NAME", VERB_TABLE | VERB_BUDGET | VERB_ZFIGHT | VERB_BIAS,
+        "what a browser stores for a page that asks for 24 bits: formats, mapping, arithmetic, for bias the API, and "
+        "with --viewport the rasterizer, where they are not given; of presets it replaces all but the mapping: @; see "
+        "'depthprec list platforms'", ROW(platform, platforms)},
     [OPTION_UNIT] = {"unit", 0, NULL, PLACED | MAPPED,
         "what a scene unit is; presets are converted to it; any length may carry a unit: 10cm",
         .parse = parse_unit, .names = &units, .without = "that of the preset, or m where a length has a unit",

@@ -72,6 +72,8 @@ int slant_complete(options *o);
 
 /** With --viewport: a preset's field of view and rasterizer, where none were given. */
 void slant_take_preset(options *o, const preset *p);
+/** With --viewport: the rasterizer of a name of raster_find(), where none was given. */
+void slant_take_raster(options *o, const char *name);
 
 /** The field of a row. */
 void *option_field(options *o, const option_row *row);

@@ -105,14 +105,18 @@ int slant_complete(options *o) {
     return o->drawn ? take_drawn(o) : take_raster(o);
 }
 
+void slant_take_raster(options *o, const char *name) {
+    if (o->triangles.width == 0 || o->drawn || option_given(o, OPTION_RASTER) || option_given(o, OPTION_SUBPIXEL))
+        return;
+    o->raster = raster_find(name);
+    raster_describe(o->raster, &o->triangles);
+}
+
 void slant_take_preset(options *o, const preset *p) {
     dp_triangles *t = &o->triangles;
     if (t->width == 0)
         return;
     if (!option_given(o, OPTION_FOV) && !option_given(o, OPTION_HFOV))
         t->fov_y = preset_fov_y(p, t->width, t->height);
-    if (o->drawn || option_given(o, OPTION_RASTER) || option_given(o, OPTION_SUBPIXEL))
-        return;
-    o->raster = raster_find(p->raster);
-    raster_describe(o->raster, t);
+    slant_take_raster(o, p->raster);
 }

@@ -157,6 +157,23 @@ static void take_preset(options *o, const preset *p) {
     slant_take_preset(o, p);
 }
 
+/* What is stored; a preset's format and rasterizer give way to it, its mapping stays. */
+static void take_platform(options *o) {
+    const platform *p = o->platform;
+    if (p == NULL)
+        return;
+    const bool webgl = p->remap != PLATFORM_REMAPS_NOT;
+    if (!option_given(o, OPTION_FORMAT))
+        parse_formats(o, &option_rows[OPTION_FORMAT], p->stored);
+    if (!option_given(o, OPTION_MAPPING) && o->preset_count == 0)
+        parse_mappings(o, &option_rows[OPTION_MAPPING], webgl ? "gl" : "d3d");
+    if (!option_given(o, OPTION_ARITH) && webgl) /* of mappings to [-1, 1] alone */
+        dp_arith_parse("ieee-remap", &o->arith);
+    if (!option_given(o, OPTION_API))
+        parse_row(o, &option_rows[OPTION_API], webgl ? "gl" : "webgpu");
+    slant_take_raster(o, p->raster);
+}
+
 void options_of(const options *o, size_t camera, options *out) {
     *out = *o;
     if (o->preset_count < 2)
@@ -173,6 +190,7 @@ void options_of(const options *o, size_t camera, options *out) {
     out->at.from = o->unit;
     out->at.to = out->unit;
     take_preset(out, p);
+    take_platform(out);
 }
 
 /* What follows from other options. */
@@ -189,6 +207,7 @@ static int complete(options *o) {
     const int status = slant_complete(o);
     if (o->preset_count == 1)
         take_preset(o, o->presets[0]);
+    take_platform(o);
     return status;
 }
 

@@ -14,6 +14,7 @@
 #include <stdint.h>
 
 #include "api/bias.h"
+#include "api/platform.h"
 #include "api/presets.h"
 #include "api/unit.h"
 #include "cli/depths.h"
@@ -39,6 +40,7 @@ typedef enum option_id {
     OPTION_LOG_C,
     OPTION_ORTHO,
     OPTION_PRESET,
+    OPTION_PLATFORM,
     OPTION_UNIT,
     OPTION_ROUNDING,
     OPTION_MODEL,
@@ -203,11 +205,12 @@ typedef struct options {
 
     const unit_row *unit; /**< what a scene unit is; null where nothing says it: lengths are converted already */
     const preset *presets[OPTIONS_PRESETS_MAX]; /**< --preset, in the order given, each once */
-    size_t preset_count;  /**< of one, what the user did not give is already filled in; of several see options_of() */
-    const bias_api *api;  /**< --api; null for all */
-    double units, factor; /**< of a bias */
-    double clamp;         /**< of a bias, window depth; 0 is none */
-    double slope;         /**< scene units per pixel, not negative */
+    size_t preset_count; /**< of one, what the user did not give is already filled in; of several see options_of() */
+    const platform *platform; /**< --platform; null when not given, and what the user did not give is filled in */
+    const bias_api *api;      /**< --api; null for all */
+    double units, factor;     /**< of a bias */
+    double clamp;             /**< of a bias, window depth; 0 is none */
+    double slope;             /**< scene units per pixel, not negative */
 
     double gap;               /**< scene units; 0 when not given */
     double within;            /**< eye depth; 0 when not given */

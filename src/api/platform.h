@@ -1,0 +1,32 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/**
+ * @file platform.h  Which depth buffer a web page gets: what it asks for against what is stored, by browser and
+ * graphics API, one row each. Adding a platform is adding a row to platform.c.
+ *
+ * WebGPU's depth24plus leaves the choice to the browser, and WebGL's 24 bits are stored as what the API below has.
+ */
+#ifndef API_PLATFORM_H
+#define API_PLATFORM_H
+
+#include <stdbool.h>
+#include <stddef.h>
+
+/** Whether a browser's vertex shader takes clip z from [-1, 1] to [0, 1] by z = (z + w)/2. */
+typedef enum platform_remap { PLATFORM_REMAPS_NOT = 0, PLATFORM_REMAPS, PLATFORM_MAY_REMAP } platform_remap;
+
+typedef struct platform {
+    const char *name;
+    const char *asks;     /**< what the page asks for */
+    const char *stored;   /**< for dp_format_parse(): depth24plus where the device decides between two formats */
+    const char *stencil;  /**< likewise, where a stencil of 8 bits is asked for too */
+    platform_remap remap; /**< unless the page asks for zero to one, where it can */
+    const char *raster;   /**< a name of `list rasterizers`: what the API below promises at least; Metal: as Vulkan */
+    const char *note;     /**< one line */
+    const char *source;
+    const char *newest; /**< year and month of the newest source, ISO 8601, and whether it was old when it was read */
+} platform;
+
+/** The rows in order; null for an index that is not below their number. */
+const platform *platform_get(size_t index);
+
+#endif

@@ -1,0 +1,69 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* What browsers store for a page that asks for 24 bits, against what their sources say. */
+#include <string.h>
+
+#include "depthprec/depthprec.h"
+#include "named.h"
+#include "raster/raster.h"
+#include "support.h"
+
+enum { D24 = 1, F32 = 2, EITHER = 3 };
+
+/* The formats behind a name, as a set. */
+static int stored(const char *name) {
+    dp_format formats[2];
+    int set = 0;
+    const size_t count = dp_format_parse(name, formats);
+    assert_true(count >= 1);
+    for (size_t i = 0; i < count; i++)
+        set |= formats[i].kind == DP_FORMAT_UNORM ? D24 : F32;
+    return set;
+}
+
+static void test_published(void **state) {
+    static const struct {
+        const char *name;
+        int depth, stencil;
+        platform_remap remap;
+    } published[] = {
+        {"chrome-d3d", F32, EITHER, PLATFORM_REMAPS_NOT},
+        {"chrome-vulkan", F32, F32, PLATFORM_REMAPS_NOT},
+        {"chrome-metal", F32, F32, PLATFORM_REMAPS_NOT},
+        {"chrome-gl", F32, F32, PLATFORM_REMAPS_NOT},
+        {"firefox-d3d", D24, EITHER, PLATFORM_REMAPS_NOT},
+        {"firefox-vulkan", EITHER, EITHER, PLATFORM_REMAPS_NOT},
+        {"firefox-metal", EITHER, EITHER, PLATFORM_REMAPS_NOT},
+        {"firefox-gl", D24, EITHER, PLATFORM_REMAPS_NOT},
+        {"safari", F32, F32, PLATFORM_REMAPS_NOT},
+        {"webgl-d3d", D24, D24, PLATFORM_REMAPS},
+        {"webgl-metal", F32, EITHER, PLATFORM_REMAPS},
+        {"webgl-vulkan", EITHER, EITHER, PLATFORM_MAY_REMAP},
+    };
+    (void)state;
+    for (size_t i = 0; i < sizeof published / sizeof published[0]; i++) {
+        const platform *row = platform_find(published[i].name);
+        assert_non_null(row);
+        assert_int_equal(stored(row->stored), published[i].depth);
+        assert_int_equal(stored(row->stencil), published[i].stencil);
+        assert_int_equal(row->remap, published[i].remap);
+    }
+    assert_null(platform_get(sizeof published / sizeof published[0]));
+}
+
+static void test_rows(void **state) {
+    (void)state;
+    for (size_t i = 0; platform_get(i) != NULL; i++) {
+        const platform *row = platform_get(i);
+        assert_true(platform_find(row->name) == row); /* no name twice */
+        assert_non_null(raster_find(row->raster));
+        assert_true(row->asks[0] != '\0' && row->note[0] != '\0' && row->source[0] != '\0');
+        assert_true(strspn(row->newest, "0123456789-") == 7 && row->newest[4] == '-');
+        /* what was read in 2026-11 is old from 2025-11 on backwards */
+        assert_int_equal(strstr(row->newest, "over a year old") != NULL, strncmp(row->newest, "2025-11", 7) < 0);
+    }
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {cmocka_unit_test(test_published), cmocka_unit_test(test_rows)};
+    return run_tap(tests);
+}
