@@ -137,6 +137,7 @@ static void refused(void **state) {
         const char *name, *text, *said;
     } rows[] = {{"f.xyz", "hello", "must be glTF, OBJ or a kind that libassimp reads, got '.xyz'"},
                 {"f.stl", "", "is neither glTF 2.0 (.glb, .gltf) nor, by its name, OBJ"},
+                {"f.off", "OFF\n3 1 3\n0 0 071 0 0\n0 1 0.25\n3 0 1 2\n", "could not be read: libassimp broke down"},
                 {"f.dae", "<COLLADA", "libassimp does not read it: "},
                 {"f.ply", "ply\nformat ascii 1.0\nelement vertex 2\nproperty float x\nend_header\n1\n2\n", ": "},
                 {"f.ifc", "ISO-10303-21;\nHEADER;\n", "libassimp does not read it: "}};

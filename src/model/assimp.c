@@ -21,6 +21,7 @@
 #include <string.h>
 #include <strings.h>
 
+#include "model/apart.h"
 #include "model/transform.h"
 #include "opened/library.h"
 
@@ -235,7 +236,7 @@ static bool read_scene(reading *r, const char *extension) {
            (m->triangles > 0 || model_fail(r->source, "has no triangles"));
 }
 
-bool model_read_other(model_source *s, const char *extension) {
+static bool read_by_library(model_source *s, const char *extension) {
     static const library assimp = {"this kind of model", {"libassimp.so.5", NULL}, "libassimp5", symbols};
     reading r = {.source = s};
     char error[LIBRARY_ERROR_SIZE];
@@ -259,6 +260,11 @@ bool model_read_other(model_source *s, const char *extension) {
     }
     r.call.aiReleaseImport(r.scene);
     return read;
+}
+
+/* It has been seen to crash and to loop on damaged files. */
+bool model_read_other(model_source *s, const char *extension) {
+    return model_apart(s, read_by_library, extension);
 }
 
 #else
