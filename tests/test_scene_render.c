@@ -49,6 +49,7 @@ typedef struct hit {
     bool drawn;
     uint32_t key;
     long double depth, inside; /* the least of the barycentric coordinates */
+    long double corner[4];     /* 1 over the depth of its plane at those of the pixel */
 } hit;
 
 static long double dot(const long double a[3], const long double b[3]) {
@@ -127,11 +128,20 @@ static void draw_truth(const stage *s, const render_asked *asked) {
             const long double x = (2 * (i % WIDTH) + 1.0L - WIDTH) / WIDTH / (long double)s->camera.p00;
             const long double y = (2 * (i / WIDTH) + 1.0L - HEIGHT) / HEIGHT / (long double)s->camera.p11;
             long double ray[3];
+            hit beside;
             *h = (hit){.drawn = drawn && b.seen[i] != 0, .key = b.key[i]};
             for (int k = 0; k < 3; k++)
                 ray[k] = x * axis[0][k] + y * axis[1][k] + axis[2][k];
             if (h->drawn)
                 meet(asked->eye.place, ray, (const double(*)[3])corner, h);
+            for (int c = 0; c < 4 && h->drawn; c++) {
+                const long double u = x + (c % 2 == 0 ? -1 : 1) / (long double)WIDTH / (long double)s->camera.p00;
+                const long double v = y + (c / 2 == 0 ? -1 : 1) / (long double)HEIGHT / (long double)s->camera.p11;
+                for (int k = 0; k < 3; k++)
+                    ray[k] = u * axis[0][k] + v * axis[1][k] + axis[2][k];
+                meet(asked->eye.place, ray, (const double(*)[3])corner, &beside);
+                h->corner[c] = 1.0L / beside.depth;
+            }
         }
     }
     draw_buffer_close(&b);
@@ -140,7 +150,19 @@ static void draw_truth(const stage *s, const render_asked *asked) {
 /* Two depths that differ by less than `same` are one, by more than `apart` two; between the two nothing is expected. */
 static const long double unsure = 1e-11L, same = 1e-14L, apart = 1e-8L;
 
-/* What is seen, and whether another triangle is as near, RENDER_NOTHING where that is not to be told. */
+/* Whether plane s is before plane h at a corner of the pixel. *doubt: that is not to be told. */
+static bool before_somewhere(const hit *s, const hit *h, bool *doubt) {
+    bool before = false;
+    for (int c = 0; c < 4; c++) {
+        const long double more = s->corner[c] - h->corner[c], size = fabsl(s->corner[c]) + fabsl(h->corner[c]);
+        *doubt = *doubt || (fabsl(more) > 4.0L * same * size && fabsl(more) < apart * size);
+        before = before || more > 4.0L * same * size;
+    }
+    return before;
+}
+
+/* What is seen, and whether another triangle is as near and does not cross it there, RENDER_NOTHING where that is not
+ * to be told. */
 static uint32_t judge(int i, size_t triangles, bool *wrong, long double *nearest) {
     uint32_t shown = RENDER_NOTHING;
     bool edge = false;
@@ -154,7 +176,7 @@ static uint32_t judge(int i, size_t triangles, bool *wrong, long double *nearest
             continue;
         const long double far_off = fabsl(h->depth - s->depth) / s->depth;
         edge = edge || fabsl(h->inside) < unsure || (far_off > same && far_off < apart);
-        if (k != shown && h->inside > 0.0L)
+        if (k != shown && h->inside > 0.0L && !before_somewhere(s, h, &edge))
             *nearest = fminl(*nearest, h->depth);
     }
     *wrong =

@@ -111,7 +111,7 @@ static void put_name(output *out, const scene_finding *f, size_t i) {
     for (int k = 0; k < 2; k++) {
         const char *of = both[k]->node != NULL ? both[k]->node : both[k]->mesh != NULL ? both[k]->mesh : "";
         append(name, sizeof name, "%s", *of != '\0' ? "_" : "");
-        for (size_t n = 0; of[n] != '\0' && n < NAME_MOST / 4; n++)
+        for (size_t n = 0; n < NAME_MOST / 4 && of[n] != '\0'; n++)
             append(name, sizeof name, "%c", isascii(of[n]) && isalnum((unsigned char)of[n]) ? of[n] : '_');
     }
     output_format(out, "  %s =\n    {", name);

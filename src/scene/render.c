@@ -102,6 +102,22 @@ static void show(void *context, int x, int y, int count, const uint32_t *key) {
         }
 }
 
+/* Whether the planes of what is drawn and of what is shown cross within the pixel: each is in front in a part of it. */
+static bool crosses(const rendering *r, int x, int y, uint32_t shown) {
+    seen other;
+    if (!look_at(r, shown, &other))
+        return false;
+    for (int k = 0; k < 4; k++) {
+        const double window[2] = {x + k % 2, y + k / 2};
+        vector ray;
+        draw_ray(r->asked->camera, window, ray);
+        const double inverse = dot(r->what.inverse, ray);
+        if (dot(other.inverse, ray) > inverse * (1.0 + unsure(r, &r->what, ray, inverse)))
+            return true;
+    }
+    return false;
+}
+
 /* Who would be seen, so far: the depth is then that one's. */
 static void compare(void *context, int x, int y, int count, const uint32_t *key) {
     const rendering *r = context;
@@ -114,10 +130,11 @@ static void compare(void *context, int x, int y, int count, const uint32_t *key)
         const double inverse = dot(r->what.inverse, ray), shown = r->depth[at];
         if (inverse < shown * (1.0 - same_most) || r->out->shown[at] == r->who || !meets(&r->what, ray))
             continue;
-        if (r->out->nearer[at] == RENDER_NOTHING && inverse >= shown * (1.0 - unsure(r, &r->what, ray, inverse)))
-            r->out->wrong++;
-        else if (!(r->out->nearer[at] != RENDER_NOTHING && inverse > shown))
+        const bool first = r->out->nearer[at] == RENDER_NOTHING;
+        if (!(first ? inverse >= shown * (1.0 - unsure(r, &r->what, ray, inverse)) : inverse > shown) ||
+            crosses(r, i, y, r->out->shown[at]))
             continue;
+        r->out->wrong += first;
         r->out->nearer[at] = r->who;
         r->depth[at] = inverse;
     }

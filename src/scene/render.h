@@ -12,7 +12,8 @@
  * double, and each coordinate is rounded once to binary32, as draw.h has it.
  *
  * A pixel is *wrong* where it shows a triangle, and another one that was drawn there is in truth nearer to the eye, or
- * just as near: then the order of drawing decides. The truth is what the ray through the pixel's centre meets, in
+ * just as near: then the order of drawing decides. Where the planes of the two cross within the pixel, so that each is
+ * in front in a part of it, either is right. The truth is what the ray through the pixel's centre meets, in
  * double, of the model as it was read; two depths are the same where they differ by less than the rounding errors of
  * their computation, some 2^-46 of the largest coordinate over the cosine of the slant, at most 2^-30 of the depth. A
  * triangle that the ray passes by, though the rasterizer's grid gave it the pixel, is neither right nor wrong.
