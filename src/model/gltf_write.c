@@ -213,10 +213,9 @@ static char *describe(writer *w) {
             json_pack("{s:i, s:I, s:i, s:i}", "buffer", 0, "byteLength", (json_int_t)bytes, "byteStride", VERTEX,
                       "target", 34962));
     }
-    if (json_array_size(roots) > 0)
-        add(w, "scenes", json_pack("{s:o}", "nodes", roots));
-    else
-        add(w, "scenes", json_object());
+    const size_t count = json_array_size(roots);
+    add(w, "scenes", count > 0 ? json_pack("{s:O}", "nodes", roots) : json_object());
+    json_decref(roots);
     char *text = w->failed ? NULL : json_dumps(w->root, JSON_COMPACT);
     json_decref(w->index);
     json_decref(w->root);
