@@ -47,6 +47,17 @@ static const char collada[] =
     "</technique_common></bind_material></instance_geometry></node></node>"
     "</visual_scene></library_visual_scenes><scene><instance_visual_scene url=\"#w\"/></scene></COLLADA>\n";
 
+/* 30 by 40 of a unit of 10 cm. */
+static const char fbx[] = "; FBX 7.4.0 project file\nFBXHeaderExtension:  {\n\tFBXVersion: 7400\n}\n"
+                          "GlobalSettings:  {\n\tVersion: 1000\n\tProperties70:  {\n"
+                          "\t\tP: \"UpAxis\", \"int\", \"Integer\", \"\",1\n"
+                          "\t\tP: \"UnitScaleFactor\", \"double\", \"Number\", \"\",10\n\t}\n}\n"
+                          "Objects:  {\n\tGeometry: 1, \"Geometry::g\", \"Mesh\" {\n"
+                          "\t\tVertices: *9 {\n\t\t\ta: 0,0,0,30,0,0,0,40,0\n\t\t}\n"
+                          "\t\tPolygonVertexIndex: *3 {\n\t\t\ta: 0,1,-3\n\t\t}\n\t\tGeometryVersion: 124\n\t}\n"
+                          "\tModel: 2, \"Model::leaf\", \"Mesh\" {\n\t\tVersion: 232\n\t}\n}\n"
+                          "Connections:  {\n\tC: \"OO\",2,0\n\tC: \"OO\",1,2\n}\n";
+
 static const char *written(const char *name, const char *text) {
     const char *path = scratch_file(name);
     FILE *file = fopen(path, "w");
@@ -115,6 +126,8 @@ static void units(void **state) {
     } rows[] = {{"e.dae", collada, "", "surfaces, 4.243 across"},
                 {"e.dae", collada, "--unit m", "surfaces, 4.243 m across"},
                 {"e.dae", collada, "--unit cm", "surfaces, 424.3 cm across"},
+                {"e.fbx", fbx, "", "1 surface, 5 across"},
+                {"e.fbx", fbx, "--unit cm", "1 surface, 500 cm across"},
                 {"e.stl", stl, "--unit cm", "surface, 5 cm across"}, /* which says nothing of its own */
                 {"e.gltf", NULL, "--unit mm", "surfaces, 99780 mm across"},
                 {"e.gltf", NULL, "--preset unreal --gap 1", "surfaces, 9978 cm across"}};
