@@ -168,6 +168,35 @@ static void buildings(void **state) {
     model_free(&m);
 }
 
+/* Axes of FBX: to the right, upwards, to the one who looks; a mirrored world keeps its fronts. */
+static void axes(void **state) {
+    static const struct {
+        const char *said;
+        double corner[3]; /* of (30, 40, 50), 10 cm each */
+    } rows[] = {{"P: \"UpAxis\", \"int\", \"Integer\", \"\",1", {3, 4, 5}},
+                {"P: \"UpAxis\", \"int\", \"Integer\", \"\",2\n\t\tP: \"FrontAxis\", \"int\", \"Integer\", \"\",1\n"
+                 "\t\tP: \"FrontAxisSign\", \"int\", \"Integer\", \"\",-1",
+                 {3, 5, -4}},
+                {"P: \"UpAxis\", \"int\", \"Integer\", \"\",2", {4, 5, 3}}, /* front is 2, too */
+                {"P: \"UpAxis\", \"int\", \"Integer\", \"\",1\n\t\tP: \"CoordAxisSign\", \"int\", \"Integer\", \"\",-1",
+                 {-3, 4, 5}}};
+    static const char up[] = "P: \"UpAxis\", \"int\", \"Integer\", \"\",1", last[] = "0,40,0\n";
+    (void)state;
+    for (size_t i = 0; i < sizeof rows / sizeof rows[0]; i++) {
+        char text[2048];
+        const char *at = strstr(fbx, up), *corner = strstr(fbx, last);
+        model m;
+        snprintf(text, sizeof text, "%.*s%s%.*s30,40,50\n%s", (int)(at - fbx), fbx, rows[i].said,
+                 (int)(corner - at) - (int)strlen(up), at + strlen(up), corner + strlen(last));
+        must_read(written("h.fbx", text), &m);
+        const double *got = m.position[m.triangle[0][i == 3 ? 1 : 2]];
+        for (int k = 0; k < 3; k++)
+            if (!(fabs(got[k] - rows[i].corner[k]) < 1e-6))
+                fail_msg("row %zu: %g %g %g", i, got[0], got[1], got[2]);
+        model_free(&m);
+    }
+}
+
 /* Where both the file and the command say what a unit is, the model is told in the command's. */
 static void units(void **state) {
     static const struct {
@@ -215,6 +244,6 @@ static void refused(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {cmocka_unit_test(plain), cmocka_unit_test(nodes), cmocka_unit_test(buildings),
-                                       cmocka_unit_test(units), cmocka_unit_test(refused)};
+                                       cmocka_unit_test(axes),  cmocka_unit_test(units), cmocka_unit_test(refused)};
     return run_tap(tests);
 }

@@ -4,8 +4,8 @@
  * nodes in binary32, whatever the file has; matrices are multiplied here, as those of glTF are. Vertices are neither
  * joined nor moved. What it says is not trusted: a count or an index may be anything.
  *
- * Units: IFC and Collada come in metres. FBX says how many centimetres its unit has, and is turned into metres. The
- * others say nothing. Y is up where the file says what is.
+ * Units: IFC and Collada come in metres, y up; FBX says its unit and its axes and is turned into that. The others say
+ * nothing.
  */
 #include "model/source.h"
 
@@ -198,36 +198,63 @@ static bool count_animated(const reading *r) {
     return true;
 }
 
-/* ---- Units ------------------------------------------------------------------------------------------------------- */
+/* ---- Units and axes ---------------------------------------------------------------------------------------------- */
 
-/* Centimetres in a unit, where the file says them; 0 where not. */
-static double centimetres(const struct aiScene *scene) {
-    const struct aiMetadata *said = scene->mMetaData;
-    for (unsigned i = 0; said != NULL && i < said->mNumProperties; i++) {
-        const struct aiMetadataEntry *e = &said->mValues[i];
-        if (strcmp(said->mKeys[i].data, "UnitScaleFactor") != 0 || e->mData == NULL)
+/* What a file says of itself by a name; `without` where it does not. */
+static double said(const struct aiScene *scene, const char *name, double without) {
+    const struct aiMetadata *all = scene->mMetaData;
+    for (unsigned i = 0; all != NULL && i < all->mNumProperties; i++) {
+        const struct aiMetadataEntry *e = &all->mValues[i];
+        if (strcmp(all->mKeys[i].data, name) != 0 || e->mData == NULL)
             continue;
-        const double value = e->mType == AI_DOUBLE  ? *(const double *)e->mData
-                             : e->mType == AI_FLOAT ? (double)*(const float *)e->mData
-                                                    : 0.0;
-        return value > 0.0 && isfinite(value) ? value : 0.0;
+        return e->mType == AI_DOUBLE  ? *(const double *)e->mData
+               : e->mType == AI_FLOAT ? (double)*(const float *)e->mData
+               : e->mType == AI_INT32 ? (double)*(const int32_t *)e->mData
+                                      : without;
     }
-    return 0.0;
+    return without;
+}
+
+/*
+ * FBX says which of its axes points to the right, upwards and to the one who looks, and how many centimetres its unit
+ * has. Where the three are not different ones, upwards alone counts, and the others follow by a turn.
+ */
+static bool root_of(const struct aiScene *scene, double root[16]) {
+    static const char *const names[3][2] = {
+        {"CoordAxis", "CoordAxisSign"}, {"UpAxis", "UpAxisSign"}, {"FrontAxis", "FrontAxisSign"}};
+    const double unit = said(scene, "UnitScaleFactor", 0.0) / 100.0;
+    double sign[3];
+    int axis[3];
+    for (int k = 0; k < 3; k++) {
+        const double at = said(scene, names[k][0], k);
+        axis[k] = at == 0.0 || at == 1.0 || at == 2.0 ? (int)at : k;
+        sign[k] = said(scene, names[k][1], 1.0) < 0.0 ? -1.0 : 1.0;
+    }
+    if (axis[0] == axis[1] || axis[1] == axis[2] || axis[2] == axis[0]) {
+        axis[2] = (axis[1] + 1) % 3;
+        axis[0] = (axis[1] + 2) % 3;
+        sign[0] = 1.0;
+        sign[2] = sign[1];
+    }
+    memset(root, 0, 16 * sizeof *root);
+    for (int k = 0; k < 3; k++)
+        root[4 * axis[k] + k] = sign[k] * unit;
+    root[15] = 1.0;
+    return unit > 0.0 && isfinite(unit);
 }
 
 /* ---- Files ------------------------------------------------------------------------------------------------------- */
 
 static bool read_scene(reading *r, const char *extension) {
     static const char *const in_metres[] = {".ifc", ".ifczip", ".dae", NULL};
-    const double unit = centimetres(r->scene);
     transform root = transform_identity(r->source->asked.transforms);
+    double columns[16];
     model *m = r->source->out;
     for (size_t i = 0; in_metres[i] != NULL; i++)
         if (strcasecmp(extension, in_metres[i]) == 0)
             m->metres = 1.0;
-    if (unit > 0.0) {
-        const double scale[16] = {unit / 100.0, 0, 0, 0, 0, unit / 100.0, 0, 0, 0, 0, unit / 100.0, 0, 0, 0, 0, 1};
-        root = transform_of_matrix(r->source->asked.transforms, scale);
+    if (root_of(r->scene, columns)) {
+        root = transform_of_matrix(r->source->asked.transforms, columns);
         m->metres = 1.0;
     }
     if (r->scene->mRootNode == NULL || r->scene->mNumMeshes == 0)
