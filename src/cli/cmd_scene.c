@@ -4,9 +4,6 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#ifdef _OPENMP
-#include <omp.h>
-#endif
 
 #include "cli/option_rows.h"
 #include "cli/progress.h"
@@ -15,6 +12,7 @@
 #include "cli/setups.h"
 #include "cli/stop.h"
 #include "report/number.h"
+#include "texture/strips.h"
 
 enum { STEPS = 1000, AT_ONCE = 128 /* findings that a thread judges before an interrupt is seen */ };
 
@@ -31,27 +29,32 @@ static options scene_options(const options *given) {
     return o;
 }
 
-/* What is written goes into a file each, and none of them is the model. */
+/* What is written goes into a file each, and none of them is the model; that it can be written is known before the
+ * search. */
 static int check_files(const scene *s) {
     const options *o = &s->o;
+    int status = EXIT_FINE;
     const struct {
         option_id id;
         const char *path;
-    } files[] = {{OPTION_OUTPUT, o->output},
+    } files[] = {{OPTION_OUTPUT, o->output != NULL ? o->output : "-"},
                  {OPTION_RENDER, o->render},
                  {OPTION_ANNOTATE, o->annotate},
                  {OPTION_EMIT_NEED, o->emit_need}};
     for (size_t i = 0; i < sizeof files / sizeof files[0]; i++) {
         if (files[i].path == NULL)
             continue;
-        if (output_same_file(files[i].path, s->file))
+        if (strcmp(files[i].path, "-") != 0 && output_same_file(files[i].path, s->file))
             return option_error(files[i].id, "must be another file than the model, got '%s'", files[i].path);
         for (size_t k = 0; k < i; k++)
             if (files[k].path != NULL && output_same_file(files[i].path, files[k].path))
                 return option_error(files[i].id, "must be another file than --%s, got '%s'",
                                     option_rows[files[k].id].name, files[i].path);
     }
-    return EXIT_FINE;
+    for (size_t i = 1; i < sizeof files / sizeof files[0] && status == EXIT_FINE; i++)
+        if (files[i].path != NULL)
+            status = output_check(files[i].path);
+    return status;
 }
 
 /* One camera: its fullest model. */
@@ -174,20 +177,11 @@ static bool is_as_before(const finder_finding *f, size_t i) {
     return i > 0 && f[i].gap_min == f[i - 1].gap_min && f[i].gap_max == f[i - 1].gap_max;
 }
 
-static int threads_of(const scene *s) {
-#ifdef _OPENMP
-    return s->o.threads > 0 ? s->o.threads : omp_get_max_threads();
-#else
-    (void)s;
-    return 1;
-#endif
-}
-
 /* Each distance once, however many findings have it. */
 static void judge_distances(scene *s) {
     const finder_finding *f = s->found.finding;
     const size_t count = s->found.findings;
-    const int threads = threads_of(s);
+    const int threads = strips_threads(s->o.threads);
     const size_t round = AT_ONCE * (size_t)threads;
     progress bar = progress_start("findings judged", count, s->o.quiet);
     for (size_t first = 0; first < count && !stop_asked(); first += round) {
@@ -264,7 +258,8 @@ int scene_look(scene *s, output *out) {
     if (status == EXIT_FINE)
         status = judge(s);
     stop_end(out);
-    scene_bias_take(s);
+    if (status == EXIT_FINE)
+        scene_bias_take(s);
     return status;
 }
 

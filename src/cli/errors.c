@@ -25,3 +25,11 @@ int usage_error(const char *format, ...) {
     va_end(arguments);
     return status;
 }
+
+const char *error_word(const char *word, size_t length, char out[ERROR_WORD_SIZE]) {
+    const size_t shown = length < ERROR_WORD_SHOWN ? length : ERROR_WORD_SHOWN;
+    for (size_t i = 0; i < shown; i++)
+        out[i] = word[i] > ' ' && word[i] < 0x7f ? word[i] : '?';
+    snprintf(out + shown, 4, "%s", length > shown ? "..." : "");
+    return out;
+}

@@ -89,7 +89,7 @@ const option_row option_rows[OPTION_COUNT] = {
         "near plane; with --ortho also 0 or negative", .parse = parse_near, FIELD(double, znear),
         LIMITS(1e-12, 1e12, "scene units"), .standard = "0.1",
         .except = {BUT(VERB_SOLVE, NULL, "what is solved for, or 0.1 where --for names another", NULL),
-                   BUT(VERB_BENCH, "0.1", NULL, "near plane"),
+                   BUT(VERB_BENCH | VERB_DISOCCLUSION | VERB_SCENE, "0.1", NULL, "near plane"),
                    BUT(VERB_SHADOW, "0.1", NULL, "near plane of the view")},
         .group = "The camera"},
     [OPTION_FAR] = {"far", 'f', "Z|inf", PLACED | MAPPED,
@@ -323,7 +323,7 @@ const option_row option_rows[OPTION_COUNT] = {
         FILE_NAME(path)},
     [OPTION_CAMERA] = {"camera", 0, "NAME", SEARCHED,
         "judge from a camera of the model, by its name; near, far and field of view are its own where they are not "
-        "given", FILE_NAME(model_camera)},
+        "given", TEXT(model_camera)},
     [OPTION_TRANSFORMS] = {"transforms", 0, NULL, SEARCHED,
         "how nodes are placed: exactly, or rounded at each step as an engine does",
         WORD(transforms, transforms), .standard = "exact"},

@@ -2,21 +2,21 @@
 /* The eyes of `scene`: --from and --look, a file of them, or a camera of the model. */
 #include <errno.h>
 #include <math.h>
-#include <omp.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
+#include "cli/errors.h"
 #include "cli/progress.h"
 #include "cli/scene.h"
 #include "cli/stop.h"
 #include "report/number.h"
+#include "texture/strips.h"
 
 enum {
     FILE_MOST = 1 << 23, /* bytes */
     EYES_MOST = 1 << 16,
-    NUMBERS = 6,
-    SHOWN = 24
+    NUMBERS = 6
 };
 
 static const double upwards[3] = {0.0, 1.0, 0.0};
@@ -63,7 +63,7 @@ static int take_view(scene *s, const model_camera *camera) {
 
 /* One without a name is called by its number, from 1. */
 typedef struct camera_name {
-    char text[SHOWN];
+    char text[24];
 } camera_name;
 
 /* The index of the camera that was asked for. */
@@ -108,22 +108,13 @@ static bool is_between(char c) {
     return c == ' ' || c == '\t' || c == '\r' || c == ',';
 }
 
-/* A word of anybody's file, fit to be printed. */
-static const char *printable(const char *word, size_t length, char out[SHOWN + 4]) {
-    const size_t shown = length < SHOWN ? length : SHOWN;
-    for (size_t i = 0; i < shown; i++)
-        out[i] = word[i] > ' ' && word[i] < 0x7f ? word[i] : '?';
-    snprintf(out + shown, 4, "%s", length > SHOWN ? "..." : "");
-    return out;
-}
-
 /* The eye of a line, if it has any; # begins a comment. */
 static int read_line(scene *s, const char *text, size_t length, size_t line) {
     double number[NUMBERS];
     size_t count = 0;
     for (size_t at = 0; at < length && text[at] != '#';) {
         size_t word = 0;
-        char shown[SHOWN + 4];
+        char shown[ERROR_WORD_SIZE];
         double extra = 0.0;
         if (is_between(text[at])) {
             at++;
@@ -134,7 +125,7 @@ static int read_line(scene *s, const char *text, size_t length, size_t line) {
         double *const to = count < NUMBERS ? &number[count] : &extra;
         if (!number_parse_part(text + at, word, NUMBER_FINITE, to) || !(fabs(*to) <= 1e12))
             return option_error(OPTION_PATH, "%s: line %zu: must be numbers from -1e12 to 1e12, got '%s'", s->o.path,
-                                line, printable(text + at, word, shown));
+                                line, error_word(text + at, word, shown));
         count++;
         at += word;
     }
@@ -247,22 +238,31 @@ int scene_eyes_judge(scene *s) {
                                .eyes = s->eyes.count,
                                .stop = stop_asked};
     const double nearer_than = option_given(&s->o, OPTION_WITHIN) ? s->within : HUGE_VAL;
-    const int threads = s->o.threads > 0 ? s->o.threads : omp_get_max_threads();
-    scene_sight *room = malloc((size_t)threads * s->eyes.count * sizeof *room);
-    progress bar = progress_start("findings judged", s->found.findings, s->o.quiet);
-    uint64_t done = 0;
+    const int threads = strips_threads(s->o.threads);
+    scene_sight *room = malloc((size_t)threads * s->eyes.count * sizeof *room), *next = room;
     if (room == NULL)
         return usage_error("%s: no memory to judge it from %zu eyes", s->file, s->eyes.count);
-#pragma omp parallel for schedule(dynamic) num_threads(threads)
-    for (size_t i = 0; i < s->found.findings; i++) {
-        scene_finding *f = &s->findings[i];
-        f->sight = scene_sight_worst(&asked, f->of, room + (size_t)omp_get_thread_num() * s->eyes.count);
-        f->fights = f->sight.fights_from < nearer_than;
-        f->verdict.lift = f->sight.lift;
-        f->line =
-            s->o.path != NULL && !isnan(f->sight.seen_from) ? (double)s->eyes.eye[f->sight.eye].line : (double)NAN;
+    progress bar = progress_start("findings judged", s->found.findings, s->o.quiet);
+    uint64_t done = 0;
+#pragma omp parallel num_threads(threads)
+    {
+        scene_sight *own;
+#pragma omp critical(scene_room)
+        {
+            own = next;
+            next += s->eyes.count;
+        }
+#pragma omp for schedule(dynamic)
+        for (size_t i = 0; i < s->found.findings; i++) {
+            scene_finding *f = &s->findings[i];
+            f->sight = scene_sight_worst(&asked, f->of, own);
+            f->fights = f->sight.fights_from < nearer_than;
+            f->verdict.lift = f->sight.lift;
+            f->line =
+                s->o.path != NULL && !isnan(f->sight.seen_from) ? (double)s->eyes.eye[f->sight.eye].line : (double)NAN;
 #pragma omp critical(scene_progress)
-        progress_step(&bar, ++done);
+            progress_step(&bar, ++done);
+        }
     }
     progress_end(&bar);
     free(room);

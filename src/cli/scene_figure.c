@@ -27,9 +27,9 @@ static double fights_from(const scene *s, const scene_finding *f) {
 }
 
 static void describe(const scene *s, const fights_asked *a, chart *c) {
-    char label[SETUP_LABEL_SIZE], subtitle[sizeof c->subtitle];
+    char label[SETUP_LABEL_SIZE], subtitle[sizeof c->subtitle], name[61]; /* cut between characters */
     const char *slash = strrchr(s->file, '/');
-    snprintf(subtitle, sizeof subtitle, "%.60s: ", slash != NULL ? slash + 1 : s->file);
+    snprintf(subtitle, sizeof subtitle, "%s: ", notes_clean(name, sizeof name, slash != NULL ? slash + 1 : s->file));
     if (a->count == 0)
         append(subtitle, sizeof subtitle, "no surfaces can fight before the far plane");
     else

@@ -7,10 +7,11 @@
 
 #include "cli/bias_all.h"
 #include "core/append.h"
+#include "plot/notes.h"
 #include "report/number.h"
 #include "report/page.h"
 
-enum { DIGITS = 4, SHOWN_MOST = 20, LABEL = 4, NAME_SIZE = 128, LINE_SIZE = 2 * NAME_SIZE + 8 };
+enum { DIGITS = 4, SHOWN_MOST = 20, LABEL = 4, WORD_SIZE = 41, NAME_SIZE = 128, LINE_SIZE = 2 * NAME_SIZE + 8 };
 
 /* ---- Text -------------------------------------------------------------------------------------------------------- */
 
@@ -19,10 +20,11 @@ static number_text length(const page *p, double value) {
 }
 
 static const char *called(const scene_named *n, char out[NAME_SIZE]) {
-    out[0] = '\0';
-    append(out, NAME_SIZE, "'%.40s'", n->node != NULL ? n->node : n->mesh != NULL ? n->mesh : "(no name)");
+    const char *name = n->node != NULL ? n->node : n->mesh != NULL ? n->mesh : "(no name)";
+    char word[WORD_SIZE]; /* cut between characters */
+    snprintf(out, NAME_SIZE, "'%s'", notes_clean(word, sizeof word, name));
     if (n->material != NULL)
-        append(out, NAME_SIZE, " (%.40s)", n->material);
+        append(out, NAME_SIZE, " (%s)", notes_clean(word, sizeof word, n->material));
     return out;
 }
 

@@ -5,11 +5,12 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "cli/errors.h"
 #include "cli/texture.h"
 #include "core/elementary.h"
 #include "report/number.h"
 
-enum { ENTRIES = 16, FILE_MOST = 1 << 16, SHOWN = 24 };
+enum { ENTRIES = 16, FILE_MOST = 1 << 16 };
 
 static const double DEGREE = M_PI / 180;
 
@@ -19,21 +20,12 @@ static bool is_between(char c) {
     return c == ',' || c == ' ' || (c >= '\t' && c <= '\r');
 }
 
-/* A word of anybody's file, fit to be printed. */
-static const char *printable(const char *word, size_t length, char out[SHOWN + 4]) {
-    const size_t shown = length < SHOWN ? length : SHOWN;
-    for (size_t i = 0; i < shown; i++)
-        out[i] = word[i] > ' ' && word[i] < 0x7f ? word[i] : '?';
-    snprintf(out + shown, 4, "%s", length > SHOWN ? "..." : "");
-    return out;
-}
-
 /* Sixteen numbers between white space and commas; # begins a comment. */
 static int parse_entries(const char *path, const char *text, size_t size, double m[ENTRIES]) {
     size_t count = 0, line = 1;
     for (size_t at = 0; at < size;) {
         size_t length = 0;
-        char shown[SHOWN + 4];
+        char shown[ERROR_WORD_SIZE];
         double extra;
         if (text[at] == '#')
             while (at < size && text[at] != '\n')
@@ -47,7 +39,7 @@ static int parse_entries(const char *path, const char *text, size_t size, double
             length++;
         if (!number_parse_part(text + at, length, NUMBER_FINITE, count < ENTRIES ? &m[count] : &extra))
             return option_error(OPTION_MATRIX, "%s: line %zu: must be a finite number, got '%s'", path, line,
-                                printable(text + at, length, shown));
+                                error_word(text + at, length, shown));
         count++;
         at += length;
     }

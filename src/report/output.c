@@ -100,6 +100,18 @@ int output_open(output *out, const char *path) {
     return cannot_write(path, error);
 }
 
+int output_check(const char *path) {
+    output out;
+    struct stat old;
+    const bool exists = stat(path, &old) == 0;
+    if (exists ? !S_ISREG(old.st_mode) && !S_ISDIR(old.st_mode) : lstat(path, &old) == 0)
+        return EXIT_FINE;
+    const int status = output_open(&out, path);
+    if (status == EXIT_FINE)
+        output_abandon(&out);
+    return status;
+}
+
 /* What a path would name, though the file may not be there: its folder's identity and the name in it. */
 static bool name_in_folder(const char *path, struct stat *folder, const char **name) {
     const char *slash = strrchr(path, '/');

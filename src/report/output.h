@@ -55,6 +55,12 @@ typedef struct output {
  */
 int output_open(output *out, const char *path);
 
+/**
+ * Whether a file could be opened, for one that is written after long work; nothing is left behind. Devices, fifos and
+ * links that point nowhere are not tried. @return as output_open()
+ */
+int output_check(const char *path);
+
 /** Adds bytes. Failures are remembered for output_close(); a loop may ask output_failed() to stop early. */
 void output_bytes(output *out, const void *bytes, size_t size);
 void output_text(output *out, const char *text);
