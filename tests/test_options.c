@@ -467,7 +467,7 @@ static void test_texts(void **state) {
                  {"texture", OPTION_HISTOGRAM, AT(histogram), true},
                  {"scene m.obj", OPTION_RENDER, AT(render), true},
                  {"scene m.obj", OPTION_PATH, AT(path), true},
-                 {"scene m.obj", OPTION_CAMERA, AT(model_camera), true},
+                 {"scene m.obj", OPTION_CAMERA, AT(model_camera), false},
                  {"scene m.obj", OPTION_ANNOTATE, AT(annotate), true},
                  {"scene m.obj", OPTION_EMIT_NEED, AT(emit_need), true}};
     tally t = {.name = "texts"};
