@@ -146,6 +146,30 @@ static void what_is_asked(void **state) {
     }
 }
 
+/* Without --gap: the largest distance that is not told apart up to --within, at most 1 % of the extent. */
+static void default_gap(void **state) {
+    static const struct {
+        const char *options, *format;
+        dp_mapping mapping;
+        double within, share;
+    } rows[] = {{"", "fp32", DP_MAPPING_REVERSED, 36, 0},
+                {"-F d24 -m d3d --within 100", "unorm24", DP_MAPPING_D3D, 100, 0},
+                {"-F d16 -m d3d --within 100", "unorm16", DP_MAPPING_D3D, 100, 0.01}};
+    (void)state;
+    for (size_t i = 0; i < sizeof rows / sizeof rows[0]; i++) {
+        const dp_setup setup = setup_of(rows[i].format, rows[i].mapping, false);
+        dp_separation_worst worst;
+        printed p = print_of("scene %s %s --json", STREET, rows[i].options);
+        json_t *root = json_loads(p.out, 0, NULL);
+        assert_non_null(root);
+        assert_int_equal(dp_separation_over(&setup, 0.1, rows[i].within, 0, &worst), DP_OK);
+        assert_int_equal(worst.bound > 0.36, rows[i].share > 0);
+        assert_relative(number(root, "gap"), rows[i].share > 0 ? rows[i].share * 36 : worst.bound, 1e-12);
+        json_decref(root);
+        printed_free(&p);
+    }
+}
+
 /* The text has the same numbers, rounded to the safe side; CSV those of JSON. */
 static void other_forms(void **state) {
     json_t *root = object_of("--gap 0.02 -F d24 -m d3d --within 50 --unit m", 1);
@@ -242,8 +266,8 @@ static void refused(void **state) {
 }
 
 int main(void) {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(findings), cmocka_unit_test(what_is_asked),
-                                       cmocka_unit_test(other_forms), cmocka_unit_test(stray_vertex),
-                                       cmocka_unit_test(refused)};
+    const struct CMUnitTest tests[] = {cmocka_unit_test(findings),     cmocka_unit_test(what_is_asked),
+                                       cmocka_unit_test(default_gap),  cmocka_unit_test(other_forms),
+                                       cmocka_unit_test(stray_vertex), cmocka_unit_test(refused)};
     return run_tap(tests);
 }

@@ -123,9 +123,15 @@ static void one_eye(void **state) {
         assert_relative(number(f, "seen_to"), depth[1], 1e-9);
         assert_int_equal(json_is_number(from), must);
         told[must]++;
-        if (must)
+        if (must) {
+            const double to = fmin(depth[1], nearer_than), lift = number(f, "lift");
             assert_true(json_number_value(from) >= number(f, "seen_from") &&
                         json_number_value(from) < number(f, "seen_to"));
+            if (to < depth[0])
+                assert_true(lift == 0);
+            else
+                assert_true(lift + 0x1p-6 >= bound_of(rows[i].format, depth[0], to, 1000, true));
+        }
         assert_true(json_is_true(json_object_get(f, "covered")) && json_is_null(json_object_get(f, "line")));
         assert_int_equal(json_is_true(json_object_get(f, "fights")), must && json_number_value(from) < nearer_than);
         for (int k = 0; k < 3; k++) {
@@ -139,6 +145,56 @@ static void one_eye(void **state) {
         json_decref(root);
     }
     assert_true(told[0] > 0 && told[1] > 0);
+}
+
+/* What only a cut road would tell apart comes before what is told apart, however close that is; and is counted. */
+static void what_comes_first(void **state) {
+    const char *path = scratch_file("order.obj");
+    const char *eye = "--gap 0.02 --from 0,1.7,2 --look 0,0,-10";
+    char line[256];
+    (void)state;
+    write_file(path, "o road\nv -8 0 -8\nv 8 0 -8\nv 8 0 8\nv -8 0 8\nf 4 3 2 1\n" /* also behind the eye */
+                     "o paint\nv -1 0.002 -4\nv 1 0.002 -4\nv 1 0.002 4\nv -1 0.002 4\nf 8 7 6 5\n"
+                     "o wall\nv -1 0.5 -7\nv 1 0.5 -7\nv 1 1.5 -7\nv -1 1.5 -7\nf 9 10 11 12\n"
+                     "o sign\nv -0.5 0.7 -6.999\nv 0.5 0.7 -6.999\nv 0.5 1.2 -6.999\nf 13 14 15\n");
+    snprintf(line, sizeof line, "scene %s %s", path, eye);
+    json_t *root = object_of(0, line);
+    const json_t *list = json_object_get(root, "findings");
+    assert_int_equal(json_array_size(list), 2);
+    assert_ptr_equal(json_array_get(list, 0), finding_of(root, "road"));
+    assert_true(json_is_false(json_object_get(json_array_get(list, 0), "covered")));
+    assert_true(json_is_true(json_object_get(json_array_get(list, 1), "covered")));
+    assert_true(json_is_number(json_object_get(json_array_get(list, 1), "seen_from")));
+    assert_true(number(json_array_get(list, 1), "certain_to") < number(json_array_get(list, 0), "certain_to"));
+    json_decref(root);
+    printed p = print_of("%s", line);
+    assert_non_null(strstr(p.out, "2 seen, 0 can fight.\n1 more is told apart only"));
+    assert_non_null(strstr(p.out, "  1   'road' and 'paint'\n"));
+    assert_null(strstr(p.out, "'wall'"));
+    printed_free(&p);
+}
+
+/* Two parts of one surface, the nearer one first or last: the distance that mends it is that of the farther one. */
+static void lift_of_parts(void **state) {
+    static const char *const parts[] = {"v -1 1 -190\nv 1 1 -190\nv 0 2 -190\nf -3 -2 -1\n",
+                                        "v -1 -2 -9\nv 1 -2 -9\nv 0 -1 -9\nf -3 -2 -1\n"};
+    (void)state;
+    for (int first = 0; first < 2; first++) {
+        const char *path = scratch_file("parts.obj"); /* which ends with the next one */
+        char text[512], line[256];
+        snprintf(text, sizeof text,
+                 "o far\nv -2 0 -190.0625\nv 2 0 -190.0625\nv 0 4 -190.0625\nf -3 -2 -1\n"
+                 "v -2 -3 -9.0625\nv 2 -3 -9.0625\nv 0 1 -9.0625\nf -3 -2 -1\no near\n%s%s",
+                 parts[first], parts[1 - first]);
+        write_file(path, text);
+        snprintf(line, sizeof line, "scene %s --gap 0.1 -F d16 -m d3d --from 0,0,0 --look 0,0,-1", path);
+        json_t *root = object_of(0, line);
+        const json_t *f = json_array_get(json_object_get(root, "findings"), 0);
+        assert_int_equal(json_array_size(json_object_get(root, "findings")), 1);
+        assert_relative(number(f, "seen_from"), 9, 1e-9);
+        assert_true(number(f, "lift") + 0x1p-4 >= bound_of("unorm16", 190, 190.0625, 1000, true));
+        json_decref(root);
+    }
 }
 
 /* The sign, not in view; what hides behind the eye; text and CSV. */
@@ -327,7 +383,8 @@ static void refused(void **state) {
 }
 
 int main(void) {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(one_eye),       cmocka_unit_test(forms),
+    const struct CMUnitTest tests[] = {cmocka_unit_test(one_eye),       cmocka_unit_test(what_comes_first),
+                                       cmocka_unit_test(lift_of_parts), cmocka_unit_test(forms),
                                        cmocka_unit_test(path),          cmocka_unit_test(damaged_paths),
                                        cmocka_unit_test(model_cameras), cmocka_unit_test(refused)};
     return run_tap(tests);
