@@ -144,6 +144,7 @@ web:
 WEB_CC ?= clang --target=wasm32-wasi
 WEB_FLAGS := -O2 $(EXACT) -Wno-pass-failed -fvisibility=hidden
 WEB_O := $(patsubst %.c,$(B)/web/obj/%.o,$(CORE))
+SAMPLES_O := $(B)/web/obj/tests/web/samples.o $(B)/obj/tests/web/samples.o
 $(B)/web/obj/%.o: %.c Makefile
 	@mkdir -p $(@D)
 	$(call say,WEB)
@@ -153,11 +154,11 @@ $(B)/web/core.wasm: $(WEB_O)
 	$(call say,WEB)
 	$(Q)$(WEB_CC) -mexec-model=reactor -Wl,--export-dynamic -Wl,--gc-sections -s -o $@ $^
 
-$(B)/web/samples.wasm: $(B)/web/obj/tests/web/samples.o $(WEB_O)
+$(B)/web/samples.wasm: $(word 1,$(SAMPLES_O)) $(WEB_O)
 	$(call say,WEB)
 	$(Q)$(WEB_CC) -o $@ $^
 
-$(B)/web/samples: $(B)/obj/tests/web/samples.o $(B)/libdepthprec.a
+$(B)/web/samples: $(word 2,$(SAMPLES_O)) $(B)/libdepthprec.a
 	@mkdir -p $(@D)
 	$(call say,LD)
 	$(Q)$(LINK) -o $@ $^ -lm
@@ -346,4 +347,4 @@ help:
 ##
 ## CONF=release|asan|coverage|fuzz  V=1 shows the commands  CC, CFLAGS, CPPFLAGS, LDFLAGS as usual
 
--include $(patsubst %.o,%.d,$(CORE_O) $(ROOMS_O) $(TESTS_O) $(SUPPORT_O) $(FUZZ_O) $(WEB_O))
+-include $(patsubst %.o,%.d,$(CORE_O) $(ROOMS_O) $(TESTS_O) $(SUPPORT_O) $(FUZZ_O) $(WEB_O) $(SAMPLES_O))

@@ -90,23 +90,31 @@ missing=$(
 [ -n "$missing" ] || exit 0
 
 names() { echo "$missing" | cut -d'|' -f"$1" | sed '/^-$/d' | sort -u | tr '\n' ' ' | sed 's/ $//'; }
+unknown() { echo "$missing" | awk -F'|' -v column="$1" '$column == "-" { print $1 }' | sort -u | paste -sd ' ' -; }
 
 [ "$how" != libraries ] || { names 1 && exit; }
 
 if command -v apt-get >/dev/null 2>&1; then
     names=$(names 1)
+    unknown=
     install="apt-get install -y --no-install-recommends"
     refresh="apt-get update"
 elif command -v dnf >/dev/null 2>&1; then
     names=$(names 2)
+    unknown=$(unknown 2)
     install="dnf install -y"
     refresh='dnf makecache'
 elif command -v pacman >/dev/null 2>&1; then
     names=$(names 3)
+    unknown=$(unknown 3)
     install="pacman -S --needed --noconfirm"
     refresh="pacman -Sy"
 else
     echo "depthprec: no apt-get, dnf or pacman here: missing (Debian's names): $(names 1)" >&2
+    exit 1
+fi
+if [ -n "$unknown" ]; then
+    echo "depthprec: missing, and of no package known here: $unknown (Debian's names). Install them by hand." >&2
     exit 1
 fi
 

@@ -167,6 +167,24 @@ statuses() {
     sed -n 's/^ *\(DP_\(OK\|ERROR_[A-Z_]*\)\)[, ].*/\1/p' include/depthprec/status.h
 }
 
+# What README.md says that a page gets, as "api browser: format", is what `list platforms` says, no more and no less.
+pages() {
+    awk -F ' *[|] *' '
+        /^## / { here = /What your page really gets/ }
+        !here || !/^[|]/ || /---/ { next }
+        !columns { columns = NF - 1; for (i = 3; i <= columns; i++) browser[i] = $i; next }
+        { for (i = 3; i <= columns; i++) if ($i != "") print $2, browser[i] ": " $i }' README.md | sort >"$scratch/said"
+    "$DEPTHPREC" list platforms --json >"$scratch/platforms" && jq -r '
+        {chrome: "WebGPU, Chrome", firefox: "WebGPU, Firefox", safari: "WebGPU, Safari", webgl: "WebGL (ANGLE)"} as $browsers |
+        {d3d: "Direct3D", vulkan: "Vulkan", metal: "Metal", gl: "OpenGL", null: "Metal"} as $apis |
+        .items[] | (.name | split("-")) as $name | (.stored | split("; ")) as $stored |
+        $apis[$name[1] // "null"] + " " + $browsers[$name[0]] + ": " + ($stored[0] | split(": ")[1]) +
+        if ($stored | any(startswith("[-1, 1] remapped"))) then ", remapped"
+        elif ($stored | any(startswith("[-1, 1] may be"))) then ", may be remapped" else "" end' "$scratch/platforms" |
+        sort >"$scratch/stored"
+    [ -s "$scratch/stored" ] && diff "$scratch/stored" "$scratch/said"
+}
+
 documented() { # documented SECTION LIST...: no name of a list that is not empty is missing
     section=$1
     shift
@@ -186,6 +204,7 @@ check "depthprec.1: every model" documented 1 aliases models
 check "depthprec.1: every arithmetic" documented 1 aliases arithmetic
 check "depthprec.1: every composition" documented 1 aliases transforms
 check "depthprec.1: every cause" documented 1 aliases causes
+check "README.md: what a page gets is what the platforms store" pages
 check "depthprec.3: every function" documented 3 functions
 check "depthprec.3: every status" documented 3 statuses
 check "depthprec.7: every test it names exists" sh -c '

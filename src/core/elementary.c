@@ -359,7 +359,7 @@ double dp_tan(double x) {
     return t.hi + t.lo;
 }
 
-/* atan(y/x), 0 <= y <= x, x > 0: from the nearest of 0, 1/4, ..., 1. Good to 2^-60. */
+/* atan(y/x), 0 <= y <= x, x > 0: from the nearest of 0, 1/4, ..., 1. Good to 2^-57. */
 static dp_pair slope_angle(double y, double x) {
     static const dp_pair known[] = {{0.0, 0.0},
                                     {0x1.f5b75f92c80ddp-3, 0x1.8ab6e3cf7afbdp-57},

@@ -4,7 +4,6 @@
 #include <math.h>
 
 #include "core/bits.h"
-#include "core/elementary.h"
 #include "need/judge.h"
 
 /* What the exact lattice refuses by this factor, no arithmetic in front of it can save: see check.h. */
@@ -69,7 +68,7 @@ static bool never_ties(const dp_setup *setup, double lo, double hi) {
     if (lo <= 0.0)
         return false;
     while (lo < hi) {
-        const double power = dp_exp2(floor(dp_log2(lo)));
+        const double power = ldexp(1.0, ilogb(lo));
         const double step = 0x1p-23 * power;
         const double next = fmin(2.0 * power, hi);
         dp_separation_worst worst;

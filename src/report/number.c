@@ -120,8 +120,8 @@ size_t number_quick(double value, char out[NUMBER_SIZE]) {
     const uint64_t m = (uint64_t)ldexp(frexp(magnitude, &exponent2), 53);
     if ((m & (m - 1)) == 0) /* a power of two: its neighbour below is nearer, which the test below does not know */
         return 0;
-    const int exponent =
-        (int)floor(dp_log10(magnitude)); /* next to a power of ten maybe wrong: then x is out of range */
+    /* Next to a power of ten maybe wrong: then x is out of range. */
+    const int exponent = (int)floor(dp_log10(magnitude));
     const uint64_t scaled = scale(m, exponent2 - 53, 16 - exponent);
     if (scaled < least << POINT_BITS || scaled + SLACK >= (least * 10) << POINT_BITS)
         return 0;
