@@ -175,6 +175,24 @@ static void test_views(void **state) {
     check(turned_street(), &drawn_dark, along_z, "z (m)", "x above, y below (m)");
 }
 
+/* What fights at every depth, a door in its wall, is darker than the nearest that is certain up to some depth, a
+ * path. */
+static void test_darkest(void **state) {
+    static const double path[] = {10, 8.5}, door[] = {-4.49, 0.7};
+    (void)state;
+    drawn *d = drawn_run(&drawn_light, "plot scene-fights tests/models/house.gltf -F d24 -m d3d --unit m");
+    const drawn_panel *p = d->panels, *q = d->panels + 1;
+    const uint32_t near = drawn_map_shown(d, p, (svg_point){drawn_px(&p->x, path[0]), drawn_px(&p->y, path[1]), false});
+    const uint32_t always =
+        drawn_map_shown(d, q, (svg_point){drawn_px(&q->x, door[0]), drawn_px(&q->y, door[1]), false});
+    assert_non_null(strstr(d->subtitle, ", the darkest at every depth"));
+    assert_true(!is_grey(near) && !is_grey(always));
+    assert_true(drawn_at(&d->value, drawn_bar_px(d, always)) < 0.95 * drawn_at(&d->value, drawn_bar_px(d, near)));
+    for (int n = 0; n < 18; n++) /* the numbers of both views, which test_views judges */
+        assert_non_null(drawn_words(d, (svg_box){0, 0, 9999, 9999}, (char[]){(char)('1' + n / 2), '\0'}));
+    drawn_close(d);
+}
+
 /* Fields that have a value, and they alone. */
 static void test_numbers(void **state) {
     char *csv = drawn_output("plot scene-fights %s %s --csv", STREET, CAMERA);
@@ -205,6 +223,7 @@ static void test_numbers(void **state) {
 }
 
 int main(void) {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(test_views), cmocka_unit_test(test_numbers)};
+    const struct CMUnitTest tests[] = {cmocka_unit_test(test_views), cmocka_unit_test(test_darkest),
+                                       cmocka_unit_test(test_numbers)};
     return run_tap(tests);
 }

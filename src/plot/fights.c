@@ -220,14 +220,18 @@ static box box_of(const fights_asked *a) {
 static chart_axis depths_of(const fights_asked *a) {
     chart_axis axis = {.label = "can fight from", .key = "fights_from", .unit = "scene units", .scale = CHART_LOG};
     axis.lo = (double)INFINITY;
+    bool always = false;
     for (size_t i = 0; i < a->count; i++) {
+        always = always || isnan(a->item[i].from);
         axis.lo = fmin(axis.lo, a->item[i].from); /* without NaN */
         axis.hi = fmax(axis.hi, a->item[i].from);
     }
     if (!(axis.lo <= axis.hi)) /* nothing to show, or nothing that is ever certain */
         axis.lo = axis.hi = 1.0;
     axis.hi = fmax(axis.hi, 2.0 * axis.lo);
-    axis.hi *= dp_pow(axis.hi / axis.lo, 0.2);
+    const double beyond = dp_pow(axis.hi / axis.lo, 0.2);
+    axis.hi *= beyond;
+    axis.lo /= always ? beyond : 1.0; /* the darkest is then of nothing that is certain up to some depth */
     return axis;
 }
 
