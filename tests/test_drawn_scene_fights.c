@@ -171,8 +171,8 @@ static void test_views(void **state) {
     static const side along_z[2] = {{0, 2, -1, "From above: z to the right, x upwards", PARTS},
                                     {0, 1, 1, "From the side: z to the right, y upwards", PARTS}};
     (void)state;
-    check(STREET, &drawn_light, along_x, "x (m)", "z above, y below (m)");
-    check(turned_street(), &drawn_dark, along_z, "z (m)", "x above, y below (m)");
+    check(STREET, &drawn_light, along_x, "x (m)", "z, y (m)");
+    check(turned_street(), &drawn_dark, along_z, "z (m)", "x, y (m)");
 }
 
 /* What fights at every depth, a door in its wall, is darker than the nearest that is certain up to some depth, a

@@ -182,7 +182,7 @@ static void add_view(const figure_request *r, const view *v, const box *all, dou
     panel->x = axis_about(all, v->across, width, "across");
     panel->x.label = names[v->across];
     panel->y = axis_about(all, v->up, height, "up");
-    panel->y.label = v->across == 0 ? "z above, y below" : "x above, y below";
+    panel->y.label = v->across == 0 ? "z, y" : "x, y";
     panel->y.scale = v->down ? CHART_DOWN : CHART_LINEAR;
     snprintf(panel->title, sizeof panel->title, "%s", v->title);
     if (!chart_add_map(out, panel, columns, (int)fmax(columns * height / width, 1.0)))

@@ -111,8 +111,8 @@ static bool crosses(const rendering *r, int x, int y, uint32_t shown) {
         const double window[2] = {x + k % 2, y + k / 2};
         vector ray;
         draw_ray(r->asked->camera, window, ray);
-        const double inverse = dot(r->what.inverse, ray);
-        if (dot(other.inverse, ray) > inverse * (1.0 + unsure(r, &r->what, ray, inverse)))
+        const double inverse = dot(r->what.inverse, ray), shows = dot(other.inverse, ray);
+        if (shows > inverse * (1.0 + fmax(unsure(r, &r->what, ray, inverse), unsure(r, &other, ray, shows))))
             return true;
     }
     return false;
