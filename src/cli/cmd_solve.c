@@ -7,8 +7,6 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include <gsl/gsl_errno.h>
-
 #include "cli/setups.h"
 #include "cli/solve_report.h"
 #include "report/number.h"
@@ -328,7 +326,6 @@ int cmd_solve(const options *o) {
     solve_result result;
     solve_candidate items[SOLVE_CANDIDATES_MAX];
     solve_report r = {.o = o, .items = items};
-    gsl_set_error_handler_off();
     int status = check_target(o, &r);
     if (status == EXIT_FINE)
         status = check_depths(o, &r);
