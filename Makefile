@@ -26,7 +26,8 @@ PKGS_check := cmocka mpfr gmp jansson libxml-2.0 cairo
 
 HEADERS := $(wildcard include/depthprec/*.h)
 CORE := $(wildcard src/core/*.c)
-ROOMS := $(filter-out $(CORE),$(wildcard src/*/*.c))
+PAGE := $(wildcard src/web/*.c)
+ROOMS := $(filter-out $(CORE) $(PAGE),$(wildcard src/*/*.c))
 TESTS := $(wildcard tests/test_*.c)
 BENCHES := $(wildcard tests/bench_*.c)
 SUPPORT := $(filter-out $(TESTS) $(BENCHES),$(wildcard tests/*.c))
@@ -35,7 +36,7 @@ WEB := $(wildcard tests/web/*.c)
 MAN := $(wildcard man/*.[1-9])
 TOOLS := tests/run.sh tests/tap.sh tests/coverage.sh tests/cross.sh tests/linked.sh
 SCRIPTS := $(wildcard src/*.sh tests/*.sh tests/models/*.sh plots/*.sh man/*.sh .ci/*.sh)
-ALL_C := $(CORE) $(ROOMS) $(TESTS) $(BENCHES) $(SUPPORT) $(FUZZ) $(WEB)
+ALL_C := $(CORE) $(ROOMS) $(PAGE) $(TESTS) $(BENCHES) $(SUPPORT) $(FUZZ) $(WEB)
 ALL_H := $(HEADERS) $(wildcard src/*/*.h tests/*.h tests/*/*.h)
 
 objects = $(patsubst %.c,$(B)/obj/%.o,$(1))
@@ -135,26 +136,46 @@ $(B)/depthprec: $(ROOMS_O) $(B)/libdepthprec.a | $(B)/build.libs
 
 # ---- For the web -------------------------------------------------------------------------------------------------
 
-# The core as WebAssembly: the same files, with the same bits. `samples` prints them, here and there; see tests/web.sh.
+# The program as WebAssembly, for the page: the same files, with the same bits; src/web stands in for what needs files,
+# threads, cairo, GSL, libconfig or jansson. And the core alone: `samples` prints its bits, here and there (tests/web.sh).
 .PHONY: web
 web:
 	@sh src/packages.sh web
-	@$(MAKE) $(PARALLEL) $(B)/web/core.wasm
+	@$(MAKE) $(PARALLEL) $(B)/web/core.wasm $(B)/web/depthprec.wasm
+
+WEB_ROOMS := $(wildcard $(patsubst %,src/%/*.c,web core raster draw vertex api census shadow report need plot cli))
+WEB_METHODS := $(patsubst %,src/method/%.c,choose estimate families interval limit method truth ways) src/texture/decode.c
+WEB_NOT := report/output_file report/terminal need/camera need/reader need/requirement need/view need/check \
+    plot/canvas plot/fights plot/normals plot/pareto plot/stability plot/scene plot/pixels \
+    cli/texture_% cli/cmd_texture cli/cmd_bench cli/cmd_stability cli/cmd_check cli/check_report cli/cmd_shadow \
+    cli/shadow_rows cli/cmd_scene cli/scene_% cli/cmd_disocclusion cli/completions cli/stop cli/junit
+WEB_SOURCES := $(filter-out $(patsubst %,src/%.c,$(WEB_NOT)),$(WEB_ROOMS)) $(WEB_METHODS)
 
 WEB_CC ?= clang --target=wasm32-wasi
-WEB_FLAGS := -O2 $(EXACT) -Wno-pass-failed -fvisibility=hidden
-WEB_O := $(patsubst %.c,$(B)/web/obj/%.o,$(CORE))
+WEB_FLAGS := $(WARN) -Wno-double-promotion $(EXACT) -Wno-pass-failed -fvisibility=hidden -ffunction-sections -fdata-sections
+# The stack below all else: what overflows it ends, and overwrites nothing.
+WEB_LINK = $(WEB_CC) -mexec-model=reactor -Wl,--gc-sections,--stack-first,-z,stack-size=1048576 -s
+web_objects = $(patsubst %.c,$(B)/web/obj/%.o,$(1))
+WEB_CORE_O := $(call web_objects,$(CORE))
+WEB_O := $(call web_objects,$(WEB_SOURCES))
 SAMPLES_O := $(B)/web/obj/tests/web/samples.o $(B)/obj/tests/web/samples.o
+# Fast where numbers are made, small elsewhere.
+$(B)/web/obj/src/core/%.o $(B)/web/obj/src/raster/%.o $(B)/web/obj/src/draw/%.o: WEB_OPTIMIZE := -O2
+$(B)/web/obj/%.o: WEB_OPTIMIZE ?= -Oz
 $(B)/web/obj/%.o: %.c Makefile
 	@mkdir -p $(@D)
 	$(call say,WEB)
-	$(Q)$(WEB_CC) -std=gnu11 $(INCLUDES) $(WEB_FLAGS) -MMD -MP -c -o $@ $<
+	$(Q)$(WEB_CC) -std=gnu11 $(INCLUDES) $(WEB_OPTIMIZE) $(WEB_FLAGS) -MMD -MP -c -o $@ $<
 
-$(B)/web/core.wasm: $(WEB_O)
+$(B)/web/depthprec.wasm: $(WEB_O)
 	$(call say,WEB)
-	$(Q)$(WEB_CC) -mexec-model=reactor -Wl,--export-dynamic -Wl,--gc-sections -s -o $@ $^
+	$(Q)$(WEB_LINK) -o $@ $^
 
-$(B)/web/samples.wasm: $(word 1,$(SAMPLES_O)) $(WEB_O)
+$(B)/web/core.wasm: $(WEB_CORE_O)
+	$(call say,WEB)
+	$(Q)$(WEB_LINK) -Wl,--export-dynamic -o $@ $^
+
+$(B)/web/samples.wasm: $(word 1,$(SAMPLES_O)) $(WEB_CORE_O)
 	$(call say,WEB)
 	$(Q)$(WEB_CC) -o $@ $^
 
@@ -251,7 +272,7 @@ lint-gcc:
 # clang takes every INFINITY and NAN for a promoted float; gcc, which does not, judges promotions alone.
 lint-clang: $(B)/build.cflags $(B)/check.cflags
 	$(Q)clang -fsyntax-only -std=gnu11 $(INCLUDES) $(WARN) -Wno-double-promotion -Werror $(EXACT) \
-	    @$(B)/build.cflags @$(B)/check.cflags $(ALL_C)
+	    @$(B)/build.cflags @$(B)/check.cflags $(filter-out $(PAGE),$(ALL_C))
 
 lint-cppcheck:
 	$(Q)cppcheck -q --std=c11 --error-exitcode=1 --inline-suppr --enable=warning,performance,portability \
@@ -347,4 +368,4 @@ help:
 ##
 ## CONF=release|asan|coverage|fuzz  V=1 shows the commands  CC, CFLAGS, CPPFLAGS, LDFLAGS as usual
 
--include $(patsubst %.o,%.d,$(CORE_O) $(ROOMS_O) $(TESTS_O) $(SUPPORT_O) $(FUZZ_O) $(WEB_O) $(SAMPLES_O))
+-include $(patsubst %.o,%.d,$(CORE_O) $(ROOMS_O) $(TESTS_O) $(SUPPORT_O) $(FUZZ_O) $(WEB_CORE_O) $(WEB_O) $(SAMPLES_O))

@@ -23,6 +23,7 @@ src/scene         | depthprec core raster model draw need scene
 src/report        | depthprec core report
 src/plot          | depthprec core api census raster draw shadow texture method need model scene plot
 src/cli           | depthprec core api census raster vertex draw shadow texture method need model scene report plot cli
+src/web           | depthprec core draw texture method need scene report plot cli web
 '
 
 strangers() { # strangers FOLDER LAYER...: prints the quoted includes that name another layer, or none
@@ -49,6 +50,10 @@ core_inside() {
     lines -vE '^src/core/|"core/(append|bits|elementary|engine|expansion)\.h"' "$scratch/core"
 }
 
+objects() { # those of the program: the page's stand-ins (src/web) have the names of what they stand in for
+    for source in src/*/*.c; do echo "$B/obj/${source%.c}.o"; done | grep -v /obj/src/web/
+}
+
 echo "$layers" >"$scratch/layers"
 while IFS='|' read -r folder allowed; do
     folder=${folder%% *}
@@ -67,7 +72,7 @@ inexact() {
     libm=$(${CC:-cc} -print-file-name=libm.so.6)
     nm -D --defined-only "$libm" >"$scratch/symbols" && grep -q ' log1p' "$scratch/symbols" || return
     sed 's/^.* //; s/@.*//' "$scratch/symbols" | sort -u >"$scratch/libm"
-    for source in src/*/*.c; do echo "$B/obj/${source%.c}.o"; done >"$scratch/objects"
+    objects >"$scratch/objects"
     xargs nm -A -u <"$scratch/objects" >"$scratch/open" && grep -q ' fmax$' "$scratch/open" || return
     awk 'NR == FNR { libm[$1] = 1; next } $NF in libm { sub(/:.*/, "", $1); print $NF, $1 }' "$scratch/libm" "$scratch/open" |
         lines -vE "^($exact) "
@@ -105,7 +110,7 @@ check "every global name of the library begins with dp_" empty global
 
 # Who needs whom, as the linker sees it: "user used", from what each object defines and what it leaves open.
 uses() {
-    for source in src/*/*.c; do echo "$B/obj/${source%.c}.o"; done >"$scratch/objects"
+    objects >"$scratch/objects"
     xargs nm -A -g --defined-only <"$scratch/objects" >"$scratch/defined" || return
     xargs nm -A -u <"$scratch/objects" >"$scratch/open" || return
     awk '{ split($1, file, ":"); sub(/^.*\/obj\/src\//, "", file[1]); sub(/\.o$/, "", file[1]) }

@@ -239,14 +239,14 @@ static int read_option(options *o, option_id id, const char *argument) {
     const option_row *row = &option_rows[id];
     if ((row->commands & o->verb->bit) == 0)
         return wrong_command(o, id);
-    if (o->given[id] && (takes_argument(row) || argument != NULL) && id != OPTION_PARAMETER)
+    if (o->given[id] != NULL && (takes_argument(row) || argument != NULL) && id != OPTION_PARAMETER)
         return option_error(id, "must not be given twice, got '%s' too", argument);
-    o->given[id] = true;
+    o->given[id] = argument != NULL ? argument : "";
     return row->parse(o, row, argument);
 }
 
 static int ask_for_help(options *o, option_id id, const verb *asked) {
-    o->given[id] = true;
+    o->given[id] = "";
     o->operand_row = asked;
     o->version = id == OPTION_VERSION;
     o->verb = verb_find("help");

@@ -173,7 +173,7 @@ typedef struct options {
     char **operands; /**< what is neither option nor command; operand_count is within the verb's bounds */
     int operand_count;
     const void *operand_row;  /**< the row that the first operand names where the verb has a table of them, else null */
-    bool given[OPTION_COUNT]; /**< by the user: see option_given() */
+    const char *given[OPTION_COUNT]; /**< the argument as the user gave it, "" of none; see option_given() */
 
     double znear; /**< scene units */
     double zfar;  /**< scene units or INFINITY */
@@ -313,7 +313,7 @@ void options_release(options *o);
 
 /** Did the user give this option? */
 static inline bool option_given(const options *o, option_id id) {
-    return o->given[id];
+    return o->given[id] != NULL;
 }
 
 /**
