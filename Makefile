@@ -152,7 +152,7 @@ WEB_NOT := report/output_file report/terminal need/camera need/reader need/requi
 WEB_SOURCES := $(filter-out $(patsubst %,src/%.c,$(WEB_NOT)),$(WEB_ROOMS)) $(WEB_METHODS)
 
 WEB_CC ?= clang --target=wasm32-wasi
-WEB_FLAGS := $(WARN) -Wno-double-promotion $(EXACT) -Wno-pass-failed -fvisibility=hidden -ffunction-sections -fdata-sections
+WEB_FLAGS := $(WARN) -Wno-double-promotion -Wno-shorten-64-to-32 $(EXACT) -Wno-pass-failed -fvisibility=hidden -ffunction-sections -fdata-sections
 # The stack below all else: what overflows it ends, and overwrites nothing.
 WEB_LINK = $(WEB_CC) -mexec-model=reactor -Wl,--gc-sections,--stack-first,-z,stack-size=1048576 -s
 web_objects = $(patsubst %.c,$(B)/web/obj/%.o,$(1))
