@@ -3,8 +3,13 @@
 #ifndef WEB_PAGE_H
 #define WEB_PAGE_H
 
+#ifdef __wasm__
 #define PAGE_IMPORT(name) __attribute__((import_module("page"), import_name(name)))
 #define PAGE_EXPORT(name) __attribute__((export_name(name)))
+#else /* in a test */
+#define PAGE_IMPORT(name)
+#define PAGE_EXPORT(name)
+#endif
 
 /** How far `length` bytes of UTF-8 reach in the page's font, px. */
 PAGE_IMPORT("measure") double page_measure(const char *text, int length, double size, int bold);
