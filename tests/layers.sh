@@ -63,6 +63,12 @@ done <"$scratch/layers"
 check "every folder of src has its row" empty sh -c 'for d in src/*/; do grep -q "^${d%/} " "$1" || echo "$d"; done' - "$scratch/layers"
 check "of the core's own headers other rooms include append.h, bits.h, elementary.h, engine.h and expansion.h alone" empty core_inside
 check "cairo is included in src/plot/canvas.c alone" empty cairo_elsewhere
+web_elsewhere() {
+    lines -rnE '__(wasm|wasi|EMSCRIPTEN)' include src >"$scratch/web"
+    grep -q '^src/web/page\.h:' "$scratch/web" || return
+    lines -v '^src/web/page\.h:' "$scratch/web"
+}
+check "what is otherwise in WebAssembly stands in src/web/page.h alone" empty web_elsewhere
 check "GSL is not in the library" empty includes gsl/ include src/core
 
 # Of libm, what has one answer; for the others there is core/elementary.h.
