@@ -131,6 +131,7 @@ typedef enum option_id {
     OPTION_WIDTH,
     OPTION_HEIGHT,
     OPTION_TITLE,
+    OPTION_PAGE,
     OPTION_REPORT,
     OPTION_JSON,
     OPTION_CSV,
@@ -266,6 +267,8 @@ typedef struct options {
     unsigned theme;    /**< index of theme_get() */
     int width, height; /**< px; 0 when not given, so that each figure has its own default */
     const char *title; /**< null when not given */
+
+    const char *page; /**< of a link */
 
     report_form report;
     output_form form;
