@@ -141,7 +141,7 @@ $(B)/depthprec: $(ROOMS_O) $(B)/libdepthprec.a | $(B)/build.libs
 .PHONY: web
 web:
 	@sh src/packages.sh web
-	@$(MAKE) $(PARALLEL) $(B)/web/core.wasm $(B)/web/depthprec.wasm
+	@$(MAKE) $(PARALLEL) $(B)/web/core.wasm $(B)/depthprec.html
 
 WEB_ROOMS := $(wildcard $(patsubst %,src/%/*.c,web core raster draw vertex api census shadow report need plot cli))
 WEB_METHODS := $(patsubst %,src/method/%.c,choose estimate families interval limit method truth ways) src/texture/decode.c
@@ -170,6 +170,11 @@ $(B)/web/obj/%.o: %.c Makefile
 $(B)/web/depthprec.wasm: $(WEB_O)
 	$(call say,WEB)
 	$(Q)$(WEB_LINK) -o $@ $^
+
+# One file: no import works from file://, and no static host has to know WebAssembly.
+$(B)/depthprec.html: $(B)/web/depthprec.wasm $(wildcard src/web/*.html src/web/*.css src/web/*.js src/web/*.mjs)
+	$(call say,WEB)
+	$(Q)node src/web/bundle.mjs $< $@
 
 $(B)/web/core.wasm: $(WEB_CORE_O)
 	$(call say,WEB)
@@ -360,7 +365,7 @@ help:
 ## make lint        format, warnings of gcc and clang, cppcheck, manual pages, spelling, scripts, licences
 ## make plots       draw the gallery in plots/ again
 ## make bench       measure the speed of the engine and the methods, redraw the charts of both
-## make web         the core as WebAssembly, build/web/core.wasm
+## make web         the page for the browser, build/depthprec.html, and the core as WebAssembly, build/web/core.wasm
 ## make packages    install what building and testing need
 ## make install     to PREFIX=/usr/local (DESTDIR, bindir, libdir, ... as usual); uninstall, installcheck
 ## make dist        a source archive in build/; make clean removes build/

@@ -1,0 +1,438 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The page: two set-ups as lists of options, and panels that show what the commands say of them. It computes no number
+// that is shown: each comes out of the module, see engine.js.
+import { load } from "./engine.js";
+import { commands, fromFragment, join, split, toFragment } from "./command.js";
+import { createPicture } from "./picture.js";
+
+const $ = (selector, root = document) => root.querySelector(selector);
+
+function make(name, attributes = {}, ...children) {
+    const element = document.createElement(name);
+    for (const [key, value] of Object.entries(attributes)) element.setAttribute(key, value);
+    element.append(...children);
+    return element;
+}
+
+// ---- What there is ------------------------------------------------------------------------------------------------
+
+const VERBS = ["table", "plot", "solve", "bias", "budget", "zfight"];
+const FIGURES = ["interval", "error", "distribution", "budget", "share", "map"];
+const LETTERS = { near: "-n", far: "-f", format: "-F", mapping: "-m" };
+// Options of the panels, and of a picture, are not those of a set-up.
+const ASKED = {
+    solve: ["for", "separation", "error", "at", "range"],
+    bias: ["gap", "at", "range", "api", "units", "factor", "clamp", "slope"],
+    zfight: ["gap", "sample", "seed", "triangles", "against", "program", "vertices", "plane"],
+    table: [], plot: [], budget: [],
+};
+const NEVER = ["output", "help", "version", "json", "csv", "type", "theme", "width", "height", "threads", "quiet", "verbose", "color"];
+// A figure does not refuse what it has no use for: it leaves it out.
+const VIEW = ["viewport", "fov", "hfov", "raster", "subpixel", "slant", "triangle"];
+const UNUSED = {
+    interval: ["at"], error: ["at", "tolerance", ...VIEW], distribution: ["at", "tolerance", ...VIEW], budget: ["at", "model"],
+    share: ["at", "tolerance", ...VIEW], map: ["tolerance", ...VIEW],
+};
+const STANDARD = "table -n 0.1 -f 1000 -F unorm24 -m d3d --unit m";
+const SECOND = "table -n 0.1 -f 1000 -F fp32 -m reversed --unit m";
+
+let engine, picture;
+const takes = {}; // options of each command
+const state = { setups: [], asked: {}, figure: "interval", shown: new Set(["table", "plot", "solve", "bias"]) };
+const fields = []; // of each set-up: its controls by option
+
+// ---- Commands -----------------------------------------------------------------------------------------------------
+
+const words = (options) =>
+    [...options].flatMap(([name, value]) => [LETTERS[name] ?? `--${name}`, ...(value === "" ? [] : [value])]);
+
+function commandOf(verb, setup) {
+    const without = verb === "plot" ? UNUSED[state.figure] : [], asked = state.asked[verb] ?? new Map();
+    const options = new Map([...setup].filter(([name]) =>
+        takes[verb].has(name) && !without.includes(name) && !asked.has(name) &&
+        !(verb === "solve" && (name === "at" || name === "range" || name === asked.get("for"))) &&
+        !(verb === "bias" && (name === "at" || name === "range"))));
+    return [verb, ...(verb === "plot" ? [state.figure] : []), ...words(options), ...words(asked)];
+}
+
+// All that the page shows, as commands: those of B are its tables alone, for the rest follows.
+function shown() {
+    const [a, b] = state.setups;
+    const all = [commandOf("table", a)];
+    if (b !== undefined) all.push(commandOf("table", b));
+    for (const verb of VERBS.slice(1)) if (state.shown.has(verb)) all.push(commandOf(verb, a));
+    return all;
+}
+
+// ---- Setting the page ---------------------------------------------------------------------------------------------
+
+// What commands say, put together before anything is taken: one that is refused leaves the page as it was.
+function understand(all) {
+    const next = { setups: [], asked: { ...state.asked }, figure: state.figure, shown: new Set(["table"]) };
+    if (all.length === 0) throw new Error("there is no command in it: table -n 0.1 -f 1000 is one");
+    if (all.length > VERBS.length + 1) throw new Error(`the page shows at most ${VERBS.length + 1} commands`);
+    for (const line of all) {
+        const read = engine.parse(line);
+        if (read.status !== 0) throw new Error(read.err.trim());
+        const { verb, operands } = read, panel = ASKED[verb];
+        if (panel === undefined) throw new Error(`${verb} is not in the page, which has ${VERBS.join(", ")}: the program has it`);
+        const given = new Map(read.options.map(({ name, value }) => [name, value]));
+        for (const name of NEVER) {
+            if (name === "help" || name === "version") { if (given.has(name)) throw new Error(`--${name} is for the command line`); }
+            given.delete(name);
+        }
+        if (verb === "plot") {
+            if (!FIGURES.includes(operands[0])) throw new Error(`the page draws ${FIGURES.join(", ")}, not ${operands[0]}: the program does`);
+            next.figure = operands[0];
+        }
+        next.shown.add(verb);
+        if (panel.length > 0) {
+            next.asked[verb] = new Map([...given].filter(([name]) => panel.includes(name)));
+            for (const name of panel) given.delete(name);
+        }
+        if (verb === "table" && next.setups.length < 2) next.setups.push(given);
+        else if (next.setups.length === 0) next.setups.push(given);
+    }
+    if (all.length === 1) for (const verb of ["plot", "solve", "bias"]) next.shown.add(verb);
+    return next;
+}
+
+function refuse(error) {
+    const at = $("#error");
+    at.textContent = error === null ? "" : String(error.message ?? error);
+    at.hidden = error === null;
+}
+
+function set(all) {
+    let next;
+    try {
+        next = understand(typeof all === "function" ? all() : all);
+    } catch (error) {
+        refuse(error);
+        count();
+        return false;
+    }
+    Object.assign(state, next);
+    refuse(null);
+    fill();
+    update();
+    return true;
+}
+
+// ---- Controls -----------------------------------------------------------------------------------------------------
+
+const names = (what) => JSON.parse(engine.run(["list", what, "--json"]).out).items.map((item) => item.name);
+const choices = (option) => takes.table.get(option).split("|");
+
+// Sliders are logarithmic; the last step of far is infinity. A slider writes a plain number of three digits.
+const SLIDERS = { near: [-3, 2], far: [0, 7] }, STEPS = 500;
+
+function slide(option, step) {
+    const [lo, hi] = SLIDERS[option];
+    if (option === "far" && step === STEPS) return "inf";
+    return String(Number((10 ** (lo + (step / STEPS) * (hi - lo))).toPrecision(3)));
+}
+
+function stepOf(option, text) {
+    const [lo, hi] = SLIDERS[option], value = Number.parseFloat(text);
+    if (/^inf/i.test(text)) return STEPS;
+    return Number.isNaN(value) ? 0 : Math.max(0, Math.min(STEPS - (option === "far"), Math.round(((Math.log10(value) - lo) / (hi - lo)) * STEPS)));
+}
+
+function buildSetup(index) {
+    const letter = "AB"[index], root = $(index === 0 ? "#a" : "#b"), own = {};
+    const change = (option, value, flag = false) => {
+        const to = state.setups[index];
+        if (value === "" && !flag) to.delete(option);
+        else to.set(option, value);
+        later();
+    };
+    const text = (option, label, hint = "") => {
+        const input = make("input", { "data-option": option, id: `${option}-${letter}`, size: 8, placeholder: hint, spellcheck: "false", autocomplete: "off" });
+        input.addEventListener("input", () => {
+            if (option in SLIDERS) own[`${option}-slider`].value = stepOf(option, input.value);
+            change(option, input.value.trim());
+        });
+        own[option] = input;
+        return [make("label", { for: input.id }, label), input];
+    };
+    const select = (option, label, list) => {
+        const input = make("select", { "data-option": option, id: `${option}-${letter}` }, ...list.map((name) => make("option", {}, name)));
+        input.addEventListener("change", () => change(option, input.value));
+        own[option] = input;
+        return make("span", {}, make("label", { for: input.id }, `${label} `), input);
+    };
+    const length = (option, label) => {
+        const slider = make("input", { type: "range", min: 0, max: STEPS, "data-slider": option, "aria-label": `${label}, set-up ${letter}` });
+        own[`${option}-slider`] = slider;
+        slider.addEventListener("input", () => {
+            own[option].value = slide(option, Number(slider.value));
+            slider.setAttribute("aria-valuetext", own[option].value);
+            change(option, own[option].value);
+        });
+        return make("div", { class: "length" }, ...text(option, label), slider);
+    };
+    const ortho = make("input", { type: "checkbox", "data-option": "ortho", id: `ortho-${letter}` });
+    ortho.addEventListener("change", () => {
+        if (ortho.checked) change("ortho", "", true);
+        else (state.setups[index].delete("ortho"), later());
+    });
+    own.ortho = ortho;
+    const more = make("input", { class: "more", id: `more-${letter}`, spellcheck: "false", autocomplete: "off", placeholder: "--rounding zero" });
+    more.addEventListener("change", () => {
+        try {
+            const base = new Map([...state.setups[index]].filter(([name]) => name in own));
+            const read = engine.parse(["table", ...words(base), ...split(more.value)]);
+            if (read.status !== 0) throw new Error(read.err.trim());
+            state.setups[index] = new Map(read.options.map(({ name, value }) => [name, value]));
+            refuse(null);
+            fill();
+            later();
+        } catch (error) {
+            refuse(error);
+        }
+    });
+    own.more = more;
+    fields[index] = own;
+    root.append(make("fieldset", {}, make("legend", {}, `Set-up ${letter}`),
+        length("near", "Near"), length("far", "Far"),
+        make("div", { class: "row" }, select("format", "Format", names("formats")), select("mapping", "Mapping", names("mappings")),
+            make("span", {}, ortho, make("label", { for: ortho.id }, " orthographic"))),
+        make("div", { class: "row" }, select("model", "Model", choices("model")), select("arith", "Arithmetic", names("arithmetic")), select("unit", "Unit", ["", ...choices("unit")])),
+        make("div", { class: "row" }, ...text("viewport", "Viewport", "1920x1080"), ...text("slant", "Slant", "0:90"), ...text("at", "Depths", "1,10,100")),
+        make("label", { for: more.id }, "Further options"), more));
+}
+
+function show(input, value) {
+    if (input.tagName === "SELECT" && ![...input.options].some((option) => option.value === value)) input.append(make("option", {}, value));
+    if (document.activeElement !== input || input.tagName === "SELECT") input.value = value;
+}
+
+const STARTS = { near: "0.1", far: "1000", format: "all", mapping: "all", model: "exact", arith: "ieee", unit: "", viewport: "", slant: "", at: "" };
+
+// The controls show the state.
+function fill() {
+    state.setups.forEach((setup, index) => {
+        const own = fields[index], rest = new Map(setup);
+        for (const [option, start] of Object.entries(STARTS)) {
+            show(own[option], setup.get(option) ?? start);
+            rest.delete(option);
+        }
+        for (const option of ["near", "far"]) own[`${option}-slider`].value = stepOf(option, own[option].value);
+        own.ortho.checked = setup.has("ortho");
+        rest.delete("ortho");
+        own.more.value = join(words(rest));
+    });
+    const two = state.setups.length > 1;
+    $("#b").hidden = !two;
+    $("#add-b").setAttribute("aria-pressed", two);
+    for (const form of document.querySelectorAll("[data-asks]"))
+        for (const input of form.querySelectorAll("[data-option]")) {
+            const value = state.asked[form.dataset.asks].get(input.dataset.option);
+            if (value !== undefined) show(input, value);
+            else if (input.tagName !== "SELECT") input.value = "";
+        }
+    for (const input of document.querySelectorAll("[name=figure]")) input.checked = input.value === state.figure;
+}
+
+// ---- What the panels show -----------------------------------------------------------------------------------------
+
+// The sentences of a report, put together again where they were wrapped: lines from the margin on that end in a full stop.
+function answers(text) {
+    const all = [];
+    let open = false;
+    for (const line of text.split("\n")) {
+        if (/^[^\s-]/.test(line)) all.push(line);
+        else if (open && /^ {2}\S/.test(line)) all[all.length - 1] += line.slice(1);
+        open = all.length > 0 && line !== "" && !all.at(-1).endsWith(".");
+    }
+    return all.filter((line) => line.endsWith(".") && !/ {2}/.test(line)).join(" ");
+}
+
+const dark = () => {
+    const chosen = document.documentElement.dataset.theme;
+    return chosen !== undefined ? chosen === "dark" : matchMedia("(prefers-color-scheme: dark)").matches;
+};
+
+function save(name, text, type) {
+    const link = make("a", { href: URL.createObjectURL(new Blob([text], { type })), download: name });
+    link.click();
+    setTimeout(() => URL.revokeObjectURL(link.href), 1000);
+}
+
+const RUN = { json: ["--json"], csv: ["--csv"] }, TYPE = { json: "application/json", csv: "text/csv", svg: "image/svg+xml" };
+
+// One output of a panel: of set-up A or B.
+function outputOf(panel, index) {
+    const place = $(".outputs", panel), verb = panel.dataset.panel;
+    while (place.children.length <= index) {
+        const letter = "AB"[place.children.length];
+        const body = verb === "plot" ? make("img", { alt: "" }) : make("pre", { tabindex: 0, "data-output": "text", role: "region", "aria-label": `${verb}, set-up ${letter}` });
+        const saves = make("div", { class: "saves" });
+        const one = make("div", verb === "plot" ? { class: "figure" } : {}, make("p", { class: "answer", ...(letter === "A" && verb === "table" ? { role: "status" } : {}) }), body, make("p", { class: "refused", hidden: "" }), saves);
+        for (const kind of verb === "plot" ? ["svg", "csv", "json"] : ["csv", "json"]) {
+            const button = make("button", { type: "button", "data-export": kind, "aria-label": `Save ${verb} of set-up ${letter} as ${kind.toUpperCase()}` }, kind.toUpperCase());
+            button.addEventListener("click", () => {
+                const run = split(one.dataset.run);
+                save(`depthprec-${run[0]}-${letter}.${kind}`, kind === "svg" ? one.svg : engine.run([...run, ...RUN[kind]]).out, TYPE[kind]);
+            });
+            saves.append(button);
+        }
+        place.append(one);
+    }
+    return place.children[index];
+}
+
+const unescaped = (text) => text.replaceAll("&lt;", "<").replaceAll("&gt;", ">").replaceAll("&amp;", "&");
+
+function showFigure(one, run) {
+    const image = $("img", one), width = Math.max(320, Math.min(1200, Math.round(one.clientWidth || 640)));
+    const drawing = ["--type", "svg", "-o", "-", "--theme", dark() ? "dark" : "light", "--width", String(width), "--height", String(Math.max(240, Math.round(width * 0.62)))];
+    const said = engine.run([...run, ...drawing]);
+    if (said.status === 0) {
+        const old = image.src;
+        one.svg = said.out;
+        image.src = URL.createObjectURL(new Blob([said.out], { type: TYPE.svg }));
+        image.alt = unescaped(/<desc[^>]*>([^<]*)/.exec(said.out)?.[1] ?? "");
+        if (old !== "") setTimeout(() => URL.revokeObjectURL(old), 200);
+    }
+    return said;
+}
+
+function showText(one, run) {
+    const said = engine.run(run);
+    $("pre", one).textContent = said.out;
+    $("pre", one).hidden = said.out === "";
+    $(".answer", one).textContent = answers(said.out);
+    return said;
+}
+
+function showPanel(panel) {
+    const verb = panel.dataset.panel;
+    state.setups.forEach((setup, index) => {
+        const run = commandOf(verb, setup), one = outputOf(panel, index);
+        one.hidden = false;
+        one.dataset.run = join(run);
+        const said = (verb === "plot" ? showFigure : showText)(one, run), refused = $(".refused", one);
+        refused.textContent = said.err.trim();
+        refused.hidden = said.err === "";
+        for (const part of one.querySelectorAll("img, .saves")) part.hidden = said.status !== 0 && (verb === "plot" || said.out === "");
+    });
+    for (const one of [...$(".outputs", panel).children].slice(state.setups.length)) one.hidden = true;
+}
+
+function count() {
+    const { dataset } = document.documentElement;
+    dataset.updates = Number(dataset.updates ?? 0) + 1;
+}
+
+function update() {
+    for (const panel of document.querySelectorAll("[data-panel]")) {
+        const verb = panel.dataset.panel;
+        if (verb === "view") continue;
+        panel.hidden = !state.shown.has(verb);
+        if (!panel.hidden) showPanel(panel);
+    }
+    const all = shown(), fragment = toFragment(all);
+    $("#link").textContent = all.map((line) => `depthprec ${join(line)}`).join("\n");
+    if (location.hash.slice(1) !== fragment) history.replaceState(null, "", `#${fragment}`);
+    picture?.set(commandOf("table", state.setups[0]));
+    count();
+}
+
+let waiting = false;
+function later() {
+    if (waiting) return;
+    waiting = true;
+    requestAnimationFrame(() => {
+        waiting = false;
+        refuse(null);
+        update();
+    });
+}
+
+// ---- The page's own controls --------------------------------------------------------------------------------------
+
+const SCHEMES = ["system", "light", "dark"];
+
+function listen() {
+    $("#line").addEventListener("submit", (event) => {
+        event.preventDefault();
+        set(() => commands($("#command").value));
+    });
+    $("#add-b").addEventListener("click", () => {
+        if (state.setups.length > 1) state.setups.pop();
+        else state.setups.push(new Map(engine.parse(split(SECOND)).options.map(({ name, value }) => [name, value])));
+        fill();
+        later();
+    });
+    $("#theme").addEventListener("click", () => {
+        const { dataset } = document.documentElement, next = SCHEMES[(SCHEMES.indexOf(dataset.theme ?? "system") + 1) % 3];
+        if (next === "system") delete dataset.theme;
+        else dataset.theme = next;
+        $("#theme").textContent = `Colours: ${next}`;
+        $("#theme").setAttribute("aria-label", `Colours: ${next === "system" ? "as the system has them" : next}`);
+        later();
+    });
+    $("#copy").addEventListener("click", async () => {
+        try {
+            await navigator.clipboard.writeText(location.href);
+            $("#copied").textContent = "Copied.";
+        } catch {
+            $("#copied").textContent = "The browser does not let a page copy: the address line has the link.";
+        }
+    });
+    for (const form of document.querySelectorAll("[data-asks]")) {
+        form.addEventListener("submit", (event) => event.preventDefault());
+        form.addEventListener("input", (event) => {
+            const asked = state.asked[form.dataset.asks], { option } = event.target.dataset;
+            if (event.target.value.trim() === "") asked.delete(option);
+            else asked.set(option, event.target.value.trim());
+            later();
+        });
+    }
+    for (const name of FIGURES) {
+        const input = make("input", { type: "radio", name: "figure", value: name, id: `figure-${name}` });
+        input.addEventListener("change", () => {
+            state.figure = name;
+            later();
+        });
+        $("#figures").append(make("span", {}, input, make("label", { for: input.id }, ` ${name}`)));
+    }
+    addEventListener("hashchange", () => set(() => fromFragment(location.hash.slice(1))));
+    addEventListener("resize", later);
+    matchMedia("(prefers-color-scheme: dark)").addEventListener("change", later);
+}
+
+// Letters of the figures are measured as the page draws them.
+function measurer() {
+    const context = document.createElement("canvas").getContext("2d");
+    return (text, size, bold) => {
+        context.font = `${bold ? "bold " : ""}${size}px "DejaVu Sans", Verdana, sans-serif`;
+        return context.measureText(text).width;
+    };
+}
+
+async function begin() {
+    const packed = Uint8Array.from(atob($("#module").textContent), (c) => c.charCodeAt(0));
+    const stream = new Blob([packed]).stream().pipeThrough(new DecompressionStream("gzip"));
+    engine = await load(new Uint8Array(await new Response(stream).arrayBuffer()));
+    engine.measure = measurer();
+    for (const verb of VERBS) takes[verb] = engine.takes(verb);
+    $("#version").textContent = engine.run(["--version"]).out.trim().replace(/^depthprec /, "");
+    for (const name of names("apis")) $("[data-option=api]").append(make("option", {}, name));
+    state.asked = { solve: new Map([["for", "near"], ["separation", "1cm"], ["at", "500m"]]), bias: new Map([["gap", "2cm"], ["at", "100m"], ["api", "all"]]), zfight: new Map() };
+    buildSetup(0);
+    buildSetup(1);
+    listen();
+    if (location.hash.length < 2 || !set(() => fromFragment(location.hash.slice(1)))) {
+        const said = $("#error").textContent;
+        set(commands(STANDARD));
+        if (said !== "") refuse(said);
+    }
+    picture = createPicture?.({ canvas: $("#view"), engine, slider: $("#gap"), onStatus: (text) => ($("#view-says").textContent = text) });
+    window.depthprec = { engine, state: () => shown().map(join), set: (fragment) => set(() => fromFragment(fragment)) };
+    document.documentElement.dataset.ready = "";
+}
+
+begin().catch((error) => refuse(`The page cannot run here: ${error.message}. It needs WebAssembly and DecompressionStream, which browsers have since 2023.`));
