@@ -12,6 +12,7 @@ libdir ?= $(exec_prefix)/lib
 includedir ?= $(prefix)/include
 datarootdir ?= $(prefix)/share
 mandir ?= $(datarootdir)/man
+docdir ?= $(datarootdir)/doc/depthprec
 INSTALL ?= install
 INSTALL_PROGRAM ?= $(INSTALL) -m 755
 INSTALL_DATA ?= $(INSTALL) -m 644
@@ -314,6 +315,7 @@ install: all
 	$(Q)for m in $(MAN); do s=$(D)$(mandir)/man$${m##*.}; $(INSTALL) -d $$s && $(INSTALL_DATA) $$m $$s || exit 1; done
 	$(Q)for f in $(COMPLETIONS); do $(INSTALL) -d $(D)$(datarootdir)/$${f%/*} && \
 	    $(B)/depthprec completions $$(expr $$f : '\([a-z]*\)') >$(D)$(datarootdir)/$$f || exit 1; done
+	$(if $(wildcard $(B)/depthprec.html),$(Q)$(INSTALL) -d $(D)$(docdir) && $(INSTALL_DATA) $(B)/depthprec.html $(D)$(docdir))
 	$(if $(D),,@sh src/loader.sh $(libdir))
 
 uninstall:
@@ -321,6 +323,7 @@ uninstall:
 	    $(D)$(libdir)/libdepthprec.a $(D)$(libdir)/pkgconfig/depthprec.pc
 	$(Q)for m in $(notdir $(MAN)); do rm -f $(D)$(mandir)/man$${m##*.}/$$m; done
 	$(Q)rm -rf $(D)$(includedir)/depthprec
+	$(Q)rm -f $(D)$(docdir)/depthprec.html
 	$(Q)rm -f $(addprefix $(D)$(datarootdir)/,$(COMPLETIONS))
 
 installcheck:
@@ -367,7 +370,8 @@ help:
 ## make bench       measure the speed of the engine and the methods, redraw the charts of both
 ## make web         the page for the browser, build/depthprec.html, and the core as WebAssembly, build/web/core.wasm
 ## make packages    install what building and testing need
-## make install     to PREFIX=/usr/local (DESTDIR, bindir, libdir, ... as usual); uninstall, installcheck
+## make install     to PREFIX=/usr/local (DESTDIR, bindir, libdir, ... as usual), with the page once `make web` has made it;
+##                  uninstall, installcheck
 ## make dist        a source archive in build/; make clean removes build/
 ## make deb         Debian's source package and three packages in build/deb/, judged by lintian (Debian)
 ##
