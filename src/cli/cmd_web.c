@@ -80,6 +80,8 @@ static size_t encode(const char *text, char out[TEXT_SIZE]) {
 
 int cmd_web(const options *o) {
     char text[TEXT_SIZE] = "", fragment[TEXT_SIZE];
+    if (o->page[strcspn(o->page, "# \n")] != '\0')
+        return option_error(OPTION_PAGE, "must be a URL without '#' and blanks, got '%s'", o->page);
     const int status = read_commands(o, text);
     if (status != EXIT_FINE)
         return status;
@@ -87,6 +89,9 @@ int cmd_web(const options *o) {
         return usage_error("web: a link holds at most %d characters of UTF-8 without control characters", FRAGMENT_MAX);
     output out;
     output_open(&out, NULL);
-    output_format(&out, "%s#%s\n", o->page, fragment);
+    output_text(&out, o->page);
+    output_char(&out, '#');
+    output_text(&out, fragment);
+    output_char(&out, '\n');
     return output_close(&out);
 }

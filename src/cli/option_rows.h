@@ -65,7 +65,7 @@ int option_refuse(const option_row *row, const char *format, ...) __attribute__(
 
 /** Reads WIDTHxHEIGHT, each from 1 to `most`, or N for both where `square`. @return an exit status, after one line on
  *  stderr */
-int option_read_sides(const option_row *row, const char *value, unsigned most, bool square, unsigned long sides[2]);
+int option_read_sides(const option_row *row, const char *value, unsigned most, bool square, uint64_t sides[2]);
 
 /** What the options of slanted triangles say together; without --viewport surfaces face the camera. @return as above */
 int slant_complete(options *o);

@@ -265,12 +265,14 @@ static int read_options(options *o, int argc, char **argv, const verb *asked, bo
     optind = 0; /* start anew, also when an earlier call stopped half-way */
     for (int value; (value = getopt_long(argc, argv, letters, longs, NULL)) != -1;) {
         const int id = id_of_value(value == ':' ? optopt : value);
-        const bool ends = value == '?' || value == ':' || id == OPTION_HELP || id == OPTION_VERSION;
+        /* An argument that is missing behind a word: musl's getopt returns the option itself, without one. */
+        const bool lacks = value == ':' || (value != '?' && takes_argument(&option_rows[id]) && optarg == NULL);
+        const bool ends = value == '?' || lacks || id == OPTION_HELP || id == OPTION_VERSION;
         if (early && ends)
             return EXIT_FINE;
         if (value == '?')
             return unknown_option(o, optopt, argv[optind > 1 ? optind - 1 : 1]);
-        if (value == ':')
+        if (lacks)
             return option_error((option_id)id, "needs an argument, %s", option_argument(&option_rows[id], text));
         if (ends)
             return ask_for_help(o, (option_id)id, asked);

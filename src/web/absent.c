@@ -30,6 +30,7 @@ ABSENT(cmd_scene)
 ABSENT(cmd_shadow)
 ABSENT(cmd_stability)
 ABSENT(cmd_texture)
+ABSENT(cmd_web)
 
 #define ABSENT_FIGURE(name)                                                                                            \
     const char *name(const figure_request *request, chart *out) {                                                      \
