@@ -20,7 +20,7 @@ INSTALL_DATA ?= $(INSTALL) -m 644
 # What pkg-config is asked for: by the full program, and by the tests. src/packages.sh knows who has them.
 PKGS_build := cairo gsl jansson libconfig libpng zlib
 # Whose headers are used where they are there, as those of libtiff are; the libraries are opened when a file needs them.
-PKGS_opened := OpenEXR assimp
+PKGS_opened := OpenEXR assimp vulkan
 PKGS_check := cmocka mpfr gmp jansson libxml-2.0 cairo
 
 # ---- Rooms: a new file in a layer's folder is picked up ----------------------------------------------------------
@@ -149,7 +149,7 @@ WEB_METHODS := $(patsubst %,src/method/%.c,choose estimate families interval lim
 WEB_NOT := report/output_file report/terminal need/camera need/reader need/requirement need/view need/check \
     plot/canvas plot/fights plot/normals plot/pareto plot/stability plot/scene plot/pixels \
     cli/texture_% cli/cmd_texture cli/cmd_bench cli/cmd_stability cli/cmd_check cli/check_report cli/cmd_shadow \
-    cli/shadow_rows cli/cmd_scene cli/scene_% cli/cmd_disocclusion cli/cmd_web cli/completions cli/stop cli/junit
+    cli/shadow_rows cli/cmd_scene cli/scene_% cli/cmd_disocclusion cli/cmd_probe cli/cmd_web cli/completions cli/stop cli/junit
 WEB_SOURCES := $(filter-out $(patsubst %,src/%.c,$(WEB_NOT)),$(WEB_ROOMS)) $(WEB_METHODS)
 
 WEB_CC ?= clang --target=wasm32-wasi

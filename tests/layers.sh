@@ -15,6 +15,7 @@ src/vertex        | depthprec core vertex
 src/draw          | depthprec core raster draw
 src/shadow        | depthprec core api shadow
 src/opened        | opened
+src/probe         | depthprec core opened raster probe
 src/texture       | depthprec core opened texture
 src/method        | depthprec core texture census method
 src/need          | depthprec core api raster need
@@ -22,8 +23,8 @@ src/model         | core opened model
 src/scene         | depthprec core raster model draw need scene
 src/report        | depthprec core report
 src/plot          | depthprec core api census raster draw shadow texture method need model scene plot
-src/cli           | depthprec core api census raster vertex draw shadow texture method need model scene report plot cli
 src/web           | depthprec core draw texture method need scene report plot cli web
+src/cli           | depthprec core api census raster vertex draw shadow texture method need model scene probe report plot cli
 '
 
 strangers() { # strangers FOLDER LAYER...: prints the quoted includes that name another layer, or none

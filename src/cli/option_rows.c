@@ -57,7 +57,7 @@ enum {
     SEARCHED = VERB_SCENE | VERB_PLOT,
     SPREAD = COUNTED | VERB_CHECK | VERB_TEXTURE | SEARCHED,
     DRAWN = VERB_PLOT | VERB_TEXTURE,
-    WRITTEN = PLACED | MAPPED | VERB_STABILITY | VERB_LIST | VERB_CHECK,
+    WRITTEN = PLACED | MAPPED | VERB_STABILITY | VERB_LIST | VERB_CHECK | VERB_PROBE,
     EVERY = ~0
 };
 
@@ -357,6 +357,11 @@ const option_row option_rows[OPTION_COUNT] = {
         "last frame's turn upwards", NUMBER(last.pitch, -90, 90, "degrees"), .without = "that of this frame"},
     [OPTION_LAST_ORIGIN] = {"last-origin", 0, "X,Y,Z", VERB_TEXTURE,
         "the camera's position in the last frame", ORIGIN(last.origin), .without = "that of this frame"},
+    [OPTION_DEVICE] = {"device", 0, "N|NAME", VERB_PROBE,
+        "the GPU: its number, or a part of its name", .parse = parse_file, FIELD(const char *, device),
+        .without = "the first that is no processor"},
+    [OPTION_KEEP] = {"keep", 0, "FILE", VERB_PROBE,
+        "write every code that was stored, with what was drawn: CSV", FILE_NAME(keep)},
     [OPTION_SCENE] = {"scene", 0, "NAME", VERB_TEXTURE,
         "a synthetic scene in place of FILE: @; 'depthprec list scenes' has their parameters", ROW(scene, scenes)},
     [OPTION_SIZE] = {"size", 0, "WxH|N", VERB_TEXTURE | SHADOWED,

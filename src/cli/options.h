@@ -104,6 +104,8 @@ typedef enum option_id {
     OPTION_LAST_YAW,
     OPTION_LAST_PITCH,
     OPTION_LAST_ORIGIN,
+    OPTION_DEVICE,
+    OPTION_KEEP,
     OPTION_SCENE,
     OPTION_SIZE,
     OPTION_PARAMETER,
@@ -231,6 +233,9 @@ typedef struct options {
     unsigned vertices;                            /**< how they are drawn: a vertex_spread */
     bool drawn;                                   /**< --triangles: the surfaces are drawn */
     int threads;                                  /**< 0 when not given: as many as there are cores */
+
+    const char *device; /**< of probe; null when not given */
+    const char *keep;   /**< file of raw codes; null when not given */
 
     unsigned cascades;   /**< of a shadow map */
     double lambda;       /**< of their split: 0 even, 1 logarithmic */
