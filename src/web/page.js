@@ -326,16 +326,27 @@ function count() {
     dataset.updates = Number(dataset.updates ?? 0) + 1;
 }
 
-function update() {
+const SLOW = 6, REST = 80; // ms
+let resting;
+
+// Redraws what is shown; of `moving` controls, what takes long follows when the hand rests.
+function update(moving = false) {
+    clearTimeout(resting);
     for (const panel of document.querySelectorAll("[data-panel]")) {
         const verb = panel.dataset.panel;
         if (verb === "view") continue;
         panel.hidden = !state.shown.has(verb);
-        if (!panel.hidden) showPanel(panel);
+        if (panel.hidden) continue;
+        const waits = moving && panel.cost > SLOW, start = performance.now();
+        panel.setAttribute("aria-busy", waits);
+        if (waits) continue;
+        showPanel(panel);
+        panel.cost = performance.now() - start;
     }
+    if (moving) resting = setTimeout(update, REST);
     const all = shown(), fragment = toFragment(all);
     $("#link").textContent = all.map((line) => `depthprec ${join(line)}`).join("\n");
-    if (location.hash.slice(1) !== fragment) history.replaceState(null, "", `#${fragment}`);
+    if (!moving && location.hash.slice(1) !== fragment) history.replaceState(null, "", `#${fragment}`); // not at each step: browsers count
     picture?.set(commandOf("table", state.setups[0]));
     count();
 }
@@ -347,7 +358,7 @@ function later() {
     requestAnimationFrame(() => {
         waiting = false;
         refuse(null);
-        update();
+        update(true);
     });
 }
 
