@@ -331,6 +331,7 @@ let resting;
 
 // Redraws what is shown; of `moving` controls, what takes long follows when the hand rests.
 function update(moving = false) {
+    const begun = performance.now();
     clearTimeout(resting);
     for (const panel of document.querySelectorAll("[data-panel]")) {
         const verb = panel.dataset.panel;
@@ -348,6 +349,7 @@ function update(moving = false) {
     $("#link").textContent = all.map((line) => `depthprec ${join(line)}`).join("\n");
     if (!moving && location.hash.slice(1) !== fragment) history.replaceState(null, "", `#${fragment}`); // not at each step: browsers count
     picture?.set(commandOf("table", state.setups[0]));
+    document.documentElement.dataset.took = (performance.now() - begun).toFixed(2);
     count();
 }
 
