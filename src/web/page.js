@@ -326,7 +326,8 @@ function count() {
     dataset.updates = Number(dataset.updates ?? 0) + 1;
 }
 
-const SLOW = 6, REST = 80; // ms
+const REST = 80; // ms
+const long = (verb) => verb === "solve" || (verb === "plot" && state.figure === "map");
 let resting;
 
 // Redraws what is shown; of `moving` controls, what takes long follows when the hand rests.
@@ -338,11 +339,9 @@ function update(moving = false) {
         if (verb === "view") continue;
         panel.hidden = !state.shown.has(verb);
         if (panel.hidden) continue;
-        const waits = moving && panel.cost > SLOW, start = performance.now();
+        const waits = moving && long(verb);
         panel.setAttribute("aria-busy", waits);
-        if (waits) continue;
-        showPanel(panel);
-        panel.cost = performance.now() - start;
+        if (!waits) showPanel(panel);
     }
     if (moving) resting = setTimeout(update, REST);
     const all = shown(), fragment = toFragment(all);
