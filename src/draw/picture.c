@@ -156,6 +156,8 @@ static const char *set_up(draw_picture *p, const dp_spec *asked, const raster_ro
     const dp_mapping_row *mapping = dp_mapping_get(spec.mapping);
     if (spec.ortho)
         return "the picture is a perspective, not an orthographic view";
+    if (mapping == NULL || mapping->curve != DP_CURVE_PERSPECTIVE)
+        return "the picture needs one of the mappings " DP_MAPPING_NAMES_PERSPECTIVE;
     if (row->model == NULL)
         return raster_status_text(RASTER_MODEL);
     if (!raster_draws(row, &spec.format))
@@ -166,7 +168,7 @@ static const char *set_up(draw_picture *p, const dp_spec *asked, const raster_ro
     spec.triangles.height = DRAW_PICTURE_HEIGHT;
     spec.triangles.fov_y = DRAW_PICTURE_FOV;
     raster_describe(row, &spec.triangles);
-    if (mapping == NULL || !draw_arith(row, mapping->ndc_signed, &spec.arith))
+    if (!draw_arith(row, mapping->ndc_signed, &spec.arith))
         return "the rasterizer draws mappings to [0, 1] alone: d3d and reversed";
     const dp_status status = dp_setup_init(&p->setup, &spec);
     if (status != DP_OK)

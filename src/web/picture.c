@@ -9,7 +9,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 
-#include "cli/options.h"
+#include "cli/setups.h"
 #include "report/number.h"
 #include "web/page.h"
 
@@ -27,18 +27,21 @@ static void let_go(void) {
     picture = (draw_picture){0};
 }
 
-/* Of several cameras, formats and mappings the first; of depths, too. */
+/* Of several cameras, mappings and depths the first; of formats the first that the rasterizer draws. */
 static int make(const options *all) {
     options o;
+    size_t format = 0;
     options_of(all, 0, &o);
+    const raster_row *row = o.raster != NULL ? o.raster : raster_find("llvmpipe");
+    while (format + 1 < o.format_count && !raster_draws(row, &o.formats[format]))
+        format++;
     const dp_spec spec = {.znear = o.znear,
                           .zfar = o.zfar,
                           .ortho = o.ortho,
                           .mapping = o.mappings[0],
-                          .format = o.formats[0],
+                          .format = o.formats[format],
                           .rounding = o.rounding,
                           .log_c = o.log_c};
-    const raster_row *row = o.raster != NULL ? o.raster : raster_find("llvmpipe");
     const double z = o.at.count > 0 ? depths_get(&o.at, 0) : (double)NAN;
     const char *wrong = draw_picture_open(&picture, &spec, row, z);
     unit = options_unit(&o);
@@ -79,32 +82,40 @@ PAGE_EXPORT("picture_marked") int picture_marked(void) {
     return picture.z > 0.0 && draw_picture_marked(&picture);
 }
 
+/* Rounded up, as the guarantee is, where it is the guarantee. */
+static number_text gap_text(double gap) {
+    return number_brief(gap == picture.guaranteed ? number_up(gap, DIGITS) : number_of(gap, DIGITS));
+}
+
 static void say_guarantee(void) {
-    const number_text from = number_brief(number_up(picture.guaranteed, DIGITS));
+    const number_text from = number_in(gap_text(picture.guaranteed), unit);
     if (draw_picture_marked(&picture))
-        printf("From %s on nothing flickers: guaranteed.\n", number_in(from, unit).text);
+        printf("Nothing flickers from %s on: guaranteed.\n", from.text);
     else if (isfinite(picture.guaranteed))
-        printf("Only from %s on is it guaranteed that nothing flickers, more than this scene has room for.\n",
-               number_in(from, unit).text);
+        printf("A gap is safe for sure from %s on, more than there is room for.\n", from.text);
     else
-        printf("At this depth no gap is certain.\n");
+        printf("No gap is safe for sure at this depth.\n");
 }
 
 /** Says the gap at a place of the slider, and what it does, as the last frame was; `quiet`: none was wrong lately. */
 PAGE_EXPORT("picture_say") void picture_say(double place, int quiet) {
     const double gap = draw_picture_gap(&picture, place);
+    const double share = 100.0 * (double)count.wrong / fmax((double)count.covered, 1.0);
+    char label[SETUP_LABEL_SIZE];
     if (!(picture.z > 0.0))
         return;
-    printf("%s\n", number_in(number_brief(number_of(gap, DIGITS)), unit).text);
-    if (gap >= picture.guaranteed)
-        printf("Nothing flickers. ");
-    else if (quiet != 0)
+    printf("%s\n", number_in(gap_text(gap), unit).text);
+    if (gap < picture.guaranteed && quiet != 0)
         printf("No pixel is wrong just now. ");
-    else
-        printf("Of sign, poster and marks %s %% is wrong. ",
-               number_of(100.0 * (double)count.wrong / fmax((double)count.covered, 1.0), 2).text);
+    else if (gap < picture.guaranteed)
+        printf("%s %% of sign, poster and marks shows what is behind. ", number_brief(number_of(share, 2)).text);
     say_guarantee();
-    printf("Depth %s, drawn by the model of %s.\n", number_in(number_brief(number_of(picture.z, DIGITS)), unit).text,
-           picture.camera.target.row->name);
+    printf("%s, things about %s away, drawn by the model of %s\n", setup_label(&picture.setup, false, label),
+           number_in(number_brief(number_of(picture.z, DIGITS)), unit).text, picture.camera.target.row->name);
     fflush(NULL);
+}
+
+/** Whether the guarantee holds at a place of the slider. */
+PAGE_EXPORT("picture_safe") int picture_safe(double place) {
+    return picture.z > 0.0 && draw_picture_gap(&picture, place) >= picture.guaranteed;
 }

@@ -6,7 +6,8 @@
 //   play    button, pressed while the camera moves (aria-pressed); its text may stay
 //   gapIs   output beside the slider
 //   onStatus(text, state)  text for a polite live region: told when set-up, gap or what is seen changes, not each frame.
-//           state: { error, gap, hasMark, guaranteed }; error is the refusal of a set-up that cannot be drawn, or ""
+//           state: { error, gap, drawn, hasMark, guaranteed }; error is the refusal of a set-up that cannot be drawn, or "";
+//           drawn says what is drawn by what: for the caption
 // slider, play and gapIs may be missing. set(words, place) takes a command and, where given, a place of 0 to 1 on the
 // slider; start(), stop() move the camera, still() draws one frame, marks(on) paints wrong pixels yellow.
 export function createPicture({ canvas, engine, slider, play, gapIs, onStatus = () => {} }) {
@@ -34,10 +35,10 @@ export function createPicture({ canvas, engine, slider, play, gapIs, onStatus = 
 
     function say() {
         if (error === "") exports.picture_say(place, quietFor > LATELY ? 1 : 0);
-        const [gap = "", text = error] = told(1).split("\n"), guaranteed = text.startsWith("Nothing flickers");
+        const [gap = "", text = error, drawn = ""] = told(1).split("\n"), guaranteed = exports.picture_safe(place) !== 0;
         if (gapIs) gapIs.textContent = gap;
         if (slider) slider.setAttribute("aria-valuetext", gap);
-        onStatus(text, { error, gap, guaranteed, hasMark: exports.picture_marked() !== 0 });
+        onStatus(text, { error, gap, drawn, guaranteed, hasMark: exports.picture_marked() !== 0 });
     }
 
     function draw() {
