@@ -336,10 +336,10 @@ function showText(one, verb, text) {
 
 // A set-up that is refused as a whole says so beside its controls; what was shown of it stays, paler.
 function showPanel(panel) {
-    const verb = panel.dataset.panel, drawn = verb === "plot";
+    const verb = panel.dataset.panel, drawn = verb === "plot", ones = state.setups.map((_, index) => outputOf(panel, index));
+    for (const one of $(".outputs", panel).children) one.hidden = !ones.includes(one);
     state.setups.forEach((setup, index) => {
-        const line = commandOf(verb, setup), one = outputOf(panel, index);
-        one.hidden = false;
+        const line = commandOf(verb, setup), one = ones[index];
         const said = run(drawn ? [...line, ...drawing(one)] : line);
         if (said === one.said) return;
         const refused = said.status === REFUSED ? errorOf(said) : "", known = refused === fields[index].refused.textContent;
@@ -352,7 +352,6 @@ function showPanel(panel) {
         $(".refused", one).textContent = refused;
         for (const part of one.querySelectorAll("pre, img, .saves")) part.hidden = refused !== "";
     });
-    for (const one of [...$(".outputs", panel).children].slice(state.setups.length)) one.hidden = true;
 }
 
 function showSetups() {
@@ -450,7 +449,6 @@ function listen() {
         if (next === "system") delete dataset.theme;
         else dataset.theme = next;
         $("#theme").textContent = `Colours: ${next}`;
-        $("#theme").setAttribute("aria-label", `Colours: ${next === "system" ? "as the system has them" : next}`);
         later();
     });
     const copies = (id, text) =>
