@@ -276,7 +276,7 @@ static int compare_alternatives(const void *a, const void *b) {
     if (x->possible && price != 0)
         return price;
     const int value = compare_numbers(x->reached.value, y->reached.value);
-    return value != 0 ? value : price;
+    return value != 0 ? value : price != 0 ? price : x->place < y->place ? -1 : x->place > y->place;
 }
 
 /* More room for the plane that was solved for, a larger distance, or a smaller separation. */
@@ -313,6 +313,8 @@ static void arrange(solve_report *r, solve_result *result) {
     for (size_t i = 1; i < r->count; i++)
         if (asks_for_choice(r->target))
             try_other_near(r, &r->items[i], result);
+    for (size_t i = 0; i < r->count; i++)
+        r->items[i].place = i;
     if (r->count > 1)
         qsort(r->items + 1, r->count - 1, sizeof r->items[0], compare_alternatives);
     if (!answer.solved)

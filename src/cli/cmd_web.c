@@ -1,7 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /*
- * web: the link that opens a command in the page. The page's state is the command itself: the words as a shell takes
- * them are the link's fragment, and a second set-up follows behind a word ';'. What the program refuses has no link.
+ * web: the link that opens commands in the page. The page's state is the commands themselves: the words as a shell
+ * takes them are the link's fragment. Each but the first stands behind a word ';': a second set-up, what is asked of
+ * the first. What the program refuses has no link.
  */
 #include <string.h>
 
@@ -15,7 +16,7 @@ enum { SHOWN = VERB_TABLE | VERB_PLOT | VERB_ZFIGHT | VERB_BUDGET | VERB_SOLVE |
 static const name_list figures = {
     .words = (const char *const[]){"distribution", "share", "error", "interval", "budget", "map", NULL}};
 
-enum { SETUPS_MAX = 2, WORDS_MAX = 1000, FRAGMENT_MAX = 4096, TEXT_SIZE = FRAGMENT_MAX + 2 };
+enum { COMMANDS_MAX = 7, WORDS_MAX = 1000, FRAGMENT_MAX = 4096, TEXT_SIZE = FRAGMENT_MAX + 2 };
 
 static int check_shown(const options *o) {
     char text[NAMES_SIZE];
@@ -50,13 +51,13 @@ static int add_command(char **words, int count, char text[TEXT_SIZE]) {
 }
 
 static int read_commands(const options *o, char text[TEXT_SIZE]) {
-    int setups = 0, status = EXIT_FINE;
+    int commands = 0, status = EXIT_FINE;
     for (int first = 0, last; status == EXIT_FINE && first <= o->operand_count; first = last + 1) {
         for (last = first; last < o->operand_count && strcmp(o->operands[last], ";") != 0; last++)
             ;
-        if (++setups > SETUPS_MAX)
-            return usage_error("web: the page has room for %d set-ups", SETUPS_MAX);
-        if (setups > 1)
+        if (++commands > COMMANDS_MAX)
+            return usage_error("web: the page shows at most %d commands", COMMANDS_MAX);
+        if (commands > 1)
             append(text, TEXT_SIZE, " ;");
         status = add_command(o->operands + first, last - first, text);
     }

@@ -290,11 +290,9 @@ function showFigure(one, run) {
     const drawing = ["--type", "svg", "-o", "-", "--theme", dark() ? "dark" : "light", "--width", String(width), "--height", String(Math.max(240, Math.round(width * 0.62)))];
     const said = engine.run([...run, ...drawing]);
     if (said.status === 0) {
-        const old = image.src;
         one.svg = said.out;
-        image.src = URL.createObjectURL(new Blob([said.out], { type: TYPE.svg }));
+        image.src = `data:${TYPE.svg},${encodeURIComponent(said.out)}`;
         image.alt = unescaped(/<desc[^>]*>([^<]*)/.exec(said.out)?.[1] ?? "");
-        if (old !== "") setTimeout(() => URL.revokeObjectURL(old), 200);
     }
     return said;
 }
@@ -416,6 +414,14 @@ function listen() {
     matchMedia("(prefers-color-scheme: dark)").addEventListener("change", later);
 }
 
+// What the picture says of itself: the guarantee's mark is at three quarters of the slider.
+function showPicture(text, { drawn, hasMark, error }) {
+    $("#view-says").textContent = text;
+    $("#view-drawn").textContent = drawn;
+    $("#mark").hidden = !hasMark;
+    $("#view").hidden = error !== "";
+}
+
 // Letters of the figures are measured as the page draws them.
 function measurer() {
     const context = document.createElement("canvas").getContext("2d");
@@ -442,7 +448,8 @@ async function begin() {
         set(commands(STANDARD));
         if (said !== "") refuse(said);
     }
-    picture = createPicture?.({ canvas: $("#view"), engine, slider: $("#gap"), onStatus: (text) => ($("#view-says").textContent = text) });
+    picture = createPicture({ canvas: $("#view"), engine, slider: $("#gap"), play: $("#play"), gapIs: $("#gap-is"), onStatus: showPicture });
+    picture.set(commandOf("table", state.setups[0]));
     window.depthprec = { engine, state: () => shown().map(join), set: (fragment) => set(() => fromFragment(fragment)) };
     document.documentElement.dataset.ready = "";
 }
