@@ -337,5 +337,6 @@ int options_open(const options *o, output *out) {
     const int status = output_open(out, o->output);
     out->width = o->full ? OUTPUT_UNLIMITED : 0;
     out->colour = (output_colour)o->colour;
+    out->measured = o->measured[0] != '\0' ? o->measured : NULL;
     return status;
 }

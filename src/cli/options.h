@@ -162,7 +162,7 @@ typedef enum solve_target {
 /** Values of --report. */
 typedef enum report_form { REPORT_TEXT = 0, REPORT_JSON, REPORT_JUNIT } report_form;
 
-enum { OPTIONS_FORMATS_MAX = 64, OPTIONS_PARAMETERS_MAX = 16, OPTIONS_PRESETS_MAX = 16 };
+enum { OPTIONS_FORMATS_MAX = 64, OPTIONS_PARAMETERS_MAX = 16, OPTIONS_PRESETS_MAX = 16, OPTIONS_MEASURED_SIZE = 512 };
 
 /** One --parameter NAME=VALUE; whose it is, and whether there is such a one, is for the command to see. */
 typedef struct named_number {
@@ -189,7 +189,8 @@ typedef struct options {
     dp_model model;
     bool model_auto; /**< --model auto: see choice.h; `model` is then exact */
     dp_arith arith;
-    double tolerance; /**< of the choice, a share */
+    char measured[OPTIONS_MEASURED_SIZE]; /**< the GPUs of the profiles of --arith and --raster, "" of none */
+    double tolerance;                     /**< of the choice, a share */
     double log_c;
 
     depths at;                 /**< what --at said; count is 0 when it was not given. See depths_resolve() */

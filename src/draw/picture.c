@@ -29,7 +29,7 @@ typedef struct polygon {
 #define ROOT_THREE 1.73205080756887729353
 
 static const double sway[2] = {0.02, 0.1};       /* sideways, and to and fro */
-static const double least = 0.54, most = 2.5;    /* depths of all that is drawn, gaps and sway included */
+static const double least = 0.54, most = 1.61;   /* depths of all that is drawn, gaps and sway included */
 static const double steps = 1e-3, beyond = 10.0; /* of the slider: its least and its largest gap, in guarantees */
 
 static const plane planes[PLANES] = {
@@ -46,14 +46,11 @@ static const polygon polygons[] = {
                      {0.51, 0.113}, {0.38, 0.243}, {0.20, 0.243}, {0.07, 0.113}}},
     {RIGHT, RIGHT_WALL, BOX(0.0, -0.22, 0.58, 0.31)},
     {RIGHT, POSTER, BOX(0.06, -0.13, 0.52, 0.25)},
-    {GROUND, ROAD, BOX(-0.13, 0.66, 0.15, 1.03)},
-    {GROUND, ROAD, BOX(-0.13, 1.03, 0.15, 1.56)},
-    {GROUND, ROAD, BOX(-0.13, 1.56, 0.15, 2.40)},
-    {GROUND, ROAD_MARKS, BOX(-0.02, 0.70, 0.04, 0.82)},
-    {GROUND, ROAD_MARKS, BOX(-0.02, 0.92, 0.04, 1.08)},
-    {GROUND, ROAD_MARKS, BOX(-0.02, 1.20, 0.04, 1.42)},
-    {GROUND, ROAD_MARKS, BOX(-0.02, 1.58, 0.04, 1.88)},
-    {GROUND, ROAD_MARKS, BOX(-0.02, 2.06, 0.04, 2.36)},
+    {GROUND, ROAD, BOX(-0.13, 0.66, 0.15, 1.00)},
+    {GROUND, ROAD, BOX(-0.13, 1.00, 0.15, 1.50)},
+    {GROUND, ROAD_MARKS, BOX(-0.02, 0.70, 0.04, 0.80)},
+    {GROUND, ROAD_MARKS, BOX(-0.02, 0.88, 0.04, 1.02)},
+    {GROUND, ROAD_MARKS, BOX(-0.02, 1.13, 0.04, 1.31)},
 };
 /* clang-format on */
 enum { POLYGONS = sizeof polygons / sizeof polygons[0] };
@@ -159,6 +156,8 @@ static const char *set_up(draw_picture *p, const dp_spec *asked, const raster_ro
     const dp_mapping_row *mapping = dp_mapping_get(spec.mapping);
     if (spec.ortho)
         return "the picture is a perspective, not an orthographic view";
+    if (mapping == NULL || mapping->curve != DP_CURVE_PERSPECTIVE)
+        return "the picture needs one of the mappings " DP_MAPPING_NAMES_PERSPECTIVE;
     if (row->model == NULL)
         return raster_status_text(RASTER_MODEL);
     if (!raster_draws(row, &spec.format))
@@ -169,7 +168,7 @@ static const char *set_up(draw_picture *p, const dp_spec *asked, const raster_ro
     spec.triangles.height = DRAW_PICTURE_HEIGHT;
     spec.triangles.fov_y = DRAW_PICTURE_FOV;
     raster_describe(row, &spec.triangles);
-    if (mapping == NULL || !draw_arith(row, mapping->ndc_signed, &spec.arith))
+    if (!draw_arith(row, mapping->ndc_signed, &spec.arith))
         return "the rasterizer draws mappings to [0, 1] alone: d3d and reversed";
     const dp_status status = dp_setup_init(&p->setup, &spec);
     if (status != DP_OK)
@@ -179,8 +178,8 @@ static const char *set_up(draw_picture *p, const dp_spec *asked, const raster_ro
         return raster_status_text(drawn);
     p->z = depth_of(p, z);
     if (!(p->z > 0.0))
-        return isnan(z) ? "the scene does not fit between the planes: far must be at least five times near"
-                        : "the scene does not fit between the planes: it reaches from 0.54 to 2.5 of its depth";
+        return isnan(z) ? "the scene does not fit between the planes: far must be at least 3.1 times near"
+                        : "the scene does not fit between the planes: it reaches from 0.54 to 1.61 of its depth";
     return NULL;
 }
 

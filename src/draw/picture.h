@@ -32,7 +32,7 @@ typedef struct draw_picture {
     dp_setup setup; /**< as it is drawn: model fp32, the rasterizer's arithmetic, any slant */
     draw_camera camera;
     draw_buffer buffer;
-    double z;          /**< depth of the scene, scene units: things lie from 0.54 to 2.5 of it */
+    double z;          /**< depth of the scene, scene units: things lie from 0.54 to 1.61 of it */
     double guaranteed; /**< the gap from which on no pixel is wrong, scene units; INFINITY where there is none */
 } draw_picture;
 

@@ -7,7 +7,7 @@
 #include "core/elementary.h"
 #include "probe/judge.h"
 
-enum { ACROSS = SHOT_SIZE / PLAN_TILE, AROUND = 9, FACTORS = 3, REACH = 6 /* pixels from the middle to a corner */ };
+enum { ACROSS = SHOT_SIZE / PLAN_TILE, AROUND = 9, FACTORS = 3 };
 
 static const double factors[FACTORS] = {1.0, 2.0, 0.5};
 
@@ -25,10 +25,33 @@ static bool is_flat(int tile) {
 
 /* ---- fp32 -------------------------------------------------------------------------------------------------------- */
 
-/* The largest depth of a triangle, at one of its corners. */
-static double largest_of(const plan_tile *t) {
-    const double side = fabs((double)t->slope_x) * REACH - (double)t->slope_y * REACH;
-    return (double)t->z + fmax(side, (double)t->slope_y * REACH);
+/* Whose depth has the exponent n. DIFFERENCES is what SwiftShader 5 takes for the largest depth: that of the vertex
+ * where it anchors the plane, of the tiles the second, and the differences of the other two from it. */
+typedef enum source { LARGEST, PIXEL, DIFFERENCES } source;
+
+#define N_OF(what) ", 2^n the power of two at or below " what
+static const struct {
+    const char *words;
+    source source;
+    int factor; /* index of factors */
+} steps[] = {
+    {"r = 2^(n-23)" N_OF("the largest depth of the triangle"), LARGEST, 0},
+    {"r = 2^(n-22)" N_OF("the largest depth of the triangle"), LARGEST, 1},
+    {"r = 2^(n-24)" N_OF("the largest depth of the triangle"), LARGEST, 2},
+    {"r = 2^(n-23)" N_OF("the depth of the pixel"), PIXEL, 0},
+    {"r = 2^(n-22)" N_OF("the depth of the pixel"), PIXEL, 1},
+    {"r = 2^(n-24)" N_OF("the depth of the pixel"), PIXEL, 2},
+    {"r = 2^(n-23)" N_OF("the anchor's depth and the others' differences from it"), DIFFERENCES, 0},
+};
+enum { STEPS = sizeof steps / sizeof steps[0] };
+
+static double depth_of(const shot *s, int tile, source of, double pixel) {
+    double z[3];
+    for (int i = 0; i < 3; i++)
+        z[i] = (double)s->vertex[3 * tile + i][2];
+    if (of == DIFFERENCES)
+        return fmax(z[1], fmax(fabs(z[0] - z[1]), fabs(z[2] - z[1])));
+    return of == LARGEST ? fmax(z[0], fmax(z[1], z[2])) : pixel;
 }
 
 /* Whether a pixel moved by `PLAN_BIAS` steps of factor 2^(n - 23), 2^n the power of two at or below `depth`. */
@@ -39,28 +62,21 @@ static bool stepped(double before, double after, double depth, double factor, bo
 }
 
 static void judge_float(probe_result *r) {
-    static const char *const words[2 * FACTORS] = {"r = 2^(n-23), largest depth of the primitive in [2^n, 2^(n+1))",
-                                                   "r = 2^(n-22), largest depth of the primitive in [2^n, 2^(n+1))",
-                                                   "r = 2^(n-24), largest depth of the primitive in [2^n, 2^(n+1))",
-                                                   "r = 2^(n-23), depth of the pixel in [2^n, 2^(n+1))",
-                                                   "r = 2^(n-22), depth of the pixel in [2^n, 2^(n+1))",
-                                                   "r = 2^(n-24), depth of the pixel in [2^n, 2^(n+1))"};
     const shot *without = judge_shot(r, PLAN_UNBIASED, SHOT_D32F), *with = judge_shot(r, PLAN_CONSTANT, SHOT_D32F);
-    guess all[2 * FACTORS];
+    guess all[STEPS];
     if (without == NULL || with == NULL)
         return;
-    for (int g = 0; g < 2 * FACTORS; g++) {
-        all[g] = (guess){words[g], 0};
+    for (int g = 0; g < STEPS; g++) {
+        all[g] = (guess){steps[g].words, 0};
         for (int i = 0; i < PLAN_TILES * AROUND; i++) {
             const int tile = i / AROUND, pixel = pixel_of(tile, i % AROUND);
-            const plan_tile t = plan_tile_of(SHOT_D32F, tile);
             const double before = (double)dp_float32(without->code[pixel]);
             const double after = (double)dp_float32(with->code[pixel]);
-            const double depth = g < FACTORS ? largest_of(&t) : before;
-            all[g].hits += stepped(before, after, depth, factors[g % FACTORS], is_flat(tile));
+            all[g].hits += stepped(before, after, depth_of(with, tile, steps[g].source, before),
+                                   factors[steps[g].factor], is_flat(tile));
         }
     }
-    judge_guesses(r, "bias", "d32f", all, 2 * FACTORS, (uint64_t)PLAN_TILES * AROUND);
+    judge_guesses(r, "bias", "d32f", all, STEPS, (uint64_t)PLAN_TILES * AROUND);
 }
 
 /* ---- UNORM ------------------------------------------------------------------------------------------------------- */

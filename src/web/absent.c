@@ -7,6 +7,7 @@
 
 #include "cli/check_report.h"
 #include "cli/methods.h"
+#include "cli/option_rows.h"
 #include "cli/scene_figure.h"
 #include "need/check.h"
 #include "plot/figure.h"
@@ -109,4 +110,14 @@ int scene_figure_height(const chart *c, int width) {
 
 void scene_end(scene *s) {
     (void)s;
+}
+
+/* ---- Names alone where the program reads the profile of a GPU, too ------------------------------------------------ */
+
+int parse_arith(options *o, const option_row *row, const char *value) {
+    return parse_word(o, row, value);
+}
+
+int parse_raster(options *o, const option_row *row, const char *value) {
+    return parse_row(o, row, value);
 }

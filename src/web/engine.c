@@ -19,6 +19,7 @@ int main(int argc, char **argv);
 
 /** Room for the words of a command line in so many bytes; null when out of memory. */
 PAGE_EXPORT("words") char *words_room(size_t size) {
+    free(text);
     text = calloc(size + 1, 1);
     return text;
 }
@@ -32,6 +33,11 @@ static int take(int count) {
     for (int i = 1; i <= count; i++, at += strlen(at) + 1)
         words[i] = at;
     return count + 1;
+}
+
+int page_words(int count, char ***out) {
+    *out = words;
+    return take(count);
 }
 
 /** Runs the command of `count` words. @return its exit status */

@@ -14,4 +14,7 @@
 /** How far `length` bytes of UTF-8 reach in the page's font, px. */
 PAGE_IMPORT("measure") double page_measure(const char *text, int length, double size, int bold);
 
+/** The words that the page has written, the program's name before them. @return how many; 0 where they are too many */
+int page_words(int count, char ***words);
+
 #endif

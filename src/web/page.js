@@ -26,7 +26,8 @@ const ASKED = {
     zfight: ["gap", "sample", "seed", "triangles", "against", "program", "vertices", "plane"],
     table: [], plot: [], budget: [],
 };
-const NEVER = ["output", "help", "version", "json", "csv", "type", "theme", "width", "height", "threads", "quiet", "verbose", "color"];
+const REFUSED = 2; // the exit status of a command
+const NEVER = ["output", "json", "csv", "type", "theme", "width", "height", "threads", "quiet", "verbose", "color"];
 // A figure does not refuse what it has no use for: it leaves it out.
 const VIEW = ["viewport", "fov", "hfov", "raster", "subpixel", "slant", "triangle"];
 const UNUSED = {
@@ -41,10 +42,24 @@ const takes = {}; // options of each command
 const state = { setups: [], asked: {}, figure: "interval", shown: new Set(["table", "plot", "solve", "bias"]) };
 const fields = []; // of each set-up: its controls by option
 
+// What the last commands said, so that none is asked twice.
+const REMEMBERED = 12, last = new Map();
+function run(line) {
+    const key = line.join("\0"), said = last.get(key) ?? engine.run(line);
+    last.delete(key);
+    last.set(key, said);
+    if (last.size > REMEMBERED) last.delete(last.keys().next().value);
+    return said;
+}
+
+const errorOf = ({ err }) => err.trim().replace(/^depthprec: /, "");
+
 // ---- Commands -----------------------------------------------------------------------------------------------------
 
 const words = (options) =>
     [...options].flatMap(([name, value]) => [LETTERS[name] ?? `--${name}`, ...(value === "" ? [] : [value])]);
+
+const mapOf = (read) => new Map(read.options.map(({ name, value }) => [name, value]));
 
 function commandOf(verb, setup) {
     const without = verb === "plot" ? UNUSED[state.figure] : [], asked = state.asked[verb] ?? new Map();
@@ -68,22 +83,24 @@ function shown() {
 
 // What commands say, put together before anything is taken: one that is refused leaves the page as it was.
 function understand(all) {
-    const next = { setups: [], asked: { ...state.asked }, figure: state.figure, shown: new Set(["table"]) };
+    const next = { setups: [], asked: { ...state.asked }, figure: state.figure, shown: new Set(["table", "plot"]) };
     if (all.length === 0) throw new Error("there is no command in it: table -n 0.1 -f 1000 is one");
     if (all.length > VERBS.length + 1) throw new Error(`the page shows at most ${VERBS.length + 1} commands`);
     for (const line of all) {
         const read = engine.parse(line);
-        if (read.status !== 0) throw new Error(read.err.trim());
+        if (read.status !== 0) throw new Error(errorOf(read));
         const { verb, operands } = read, panel = ASKED[verb];
         if (panel === undefined) throw new Error(`${verb} is not in the page, which has ${VERBS.join(", ")}: the program has it`);
-        const given = new Map(read.options.map(({ name, value }) => [name, value]));
-        for (const name of NEVER) {
-            if (name === "help" || name === "version") { if (given.has(name)) throw new Error(`--${name} is for the command line`); }
-            given.delete(name);
-        }
+        const given = mapOf(read);
+        for (const name of ["help", "version"]) if (given.has(name)) throw new Error(`--${name} is for the command line`);
+        for (const name of NEVER) given.delete(name);
         if (verb === "plot") {
             if (!FIGURES.includes(operands[0])) throw new Error(`the page draws ${FIGURES.join(", ")}, not ${operands[0]}: the program does`);
             next.figure = operands[0];
+        }
+        else {
+            const said = run([verb, ...words(given)]);
+            if (said.status === REFUSED) throw new Error(errorOf(said));
         }
         next.shown.add(verb);
         if (panel.length > 0) {
@@ -93,7 +110,8 @@ function understand(all) {
         if (verb === "table" && next.setups.length < 2) next.setups.push(given);
         else if (next.setups.length === 0) next.setups.push(given);
     }
-    if (all.length === 1) for (const verb of ["plot", "solve", "bias"]) next.shown.add(verb);
+    if (all.length === 1) for (const verb of state.shown) next.shown.add(verb);
+    if (next.shown.size === 2) for (const verb of ["solve", "bias"]) next.shown.add(verb);
     return next;
 }
 
@@ -121,7 +139,7 @@ function set(all) {
 
 // ---- Controls -----------------------------------------------------------------------------------------------------
 
-const names = (what) => JSON.parse(engine.run(["list", what, "--json"]).out).items.map((item) => item.name);
+const names = (what) => JSON.parse(run(["list", what, "--json"]).out).items.map((item) => item.name);
 const choices = (option) => takes.table.get(option).split("|");
 
 // Sliders are logarithmic; the last step of far is infinity. A slider writes a plain number of three digits.
@@ -141,24 +159,24 @@ function stepOf(option, text) {
 
 function buildSetup(index) {
     const letter = "AB"[index], root = $(index === 0 ? "#a" : "#b"), own = {};
-    const change = (option, value, flag = false) => {
+    const change = (option, value) => {
         const to = state.setups[index];
-        if (value === "" && !flag) to.delete(option);
+        if (value === null) to.delete(option);
         else to.set(option, value);
         later();
     };
-    const text = (option, label, hint = "") => {
+    const text = (option, label, hint) => {
         const input = make("input", { "data-option": option, id: `${option}-${letter}`, size: 8, placeholder: hint, spellcheck: "false", autocomplete: "off" });
         input.addEventListener("input", () => {
-            if (option in SLIDERS) own[`${option}-slider`].value = stepOf(option, input.value);
-            change(option, input.value.trim());
+            change(option, input.value.trim() || null);
+            showSliders(index);
         });
         own[option] = input;
-        return [make("label", { for: input.id }, label), input];
+        return make("span", {}, make("label", { for: input.id }, `${label} `), input);
     };
     const select = (option, label, list) => {
         const input = make("select", { "data-option": option, id: `${option}-${letter}` }, ...list.map((name) => make("option", {}, name)));
-        input.addEventListener("change", () => change(option, input.value));
+        input.addEventListener("change", () => change(option, input.value || null));
         own[option] = input;
         return make("span", {}, make("label", { for: input.id }, `${label} `), input);
     };
@@ -170,37 +188,37 @@ function buildSetup(index) {
             slider.setAttribute("aria-valuetext", own[option].value);
             change(option, own[option].value);
         });
-        return make("div", { class: "length" }, ...text(option, label), slider);
+        return make("div", { class: "length" }, text(option, label, STARTS[option]), slider);
     };
     const ortho = make("input", { type: "checkbox", "data-option": "ortho", id: `ortho-${letter}` });
-    ortho.addEventListener("change", () => {
-        if (ortho.checked) change("ortho", "", true);
-        else (state.setups[index].delete("ortho"), later());
-    });
+    ortho.addEventListener("change", () => change("ortho", ortho.checked ? "" : null));
     own.ortho = ortho;
     const more = make("input", { class: "more", id: `more-${letter}`, spellcheck: "false", autocomplete: "off", placeholder: "--rounding zero" });
     more.addEventListener("change", () => {
         try {
             const base = new Map([...state.setups[index]].filter(([name]) => name in own));
             const read = engine.parse(["table", ...words(base), ...split(more.value)]);
-            if (read.status !== 0) throw new Error(read.err.trim());
-            state.setups[index] = new Map(read.options.map(({ name, value }) => [name, value]));
-            refuse(null);
+            if (read.status !== 0) throw new Error(errorOf(read));
+            state.setups[index] = mapOf(read);
             fill();
             later();
         } catch (error) {
-            refuse(error);
+            refuseSetup(index, error.message);
         }
     });
     own.more = more;
+    own.refused = make("p", { class: "refused", role: "status" });
     fields[index] = own;
-    root.append(make("fieldset", {}, make("legend", {}, `Set-up ${letter}`),
-        length("near", "Near"), length("far", "Far"),
+    const details = make("details", {}, make("summary", {}, "Arithmetic, viewport and more"),
+        make("div", { class: "row" }, select("model", "Model", choices("model")), select("arith", "Arithmetic", names("arithmetic"))),
+        make("div", { class: "row" }, text("viewport", "Viewport", "1920x1080"), text("slant", "Slant", "0:90"), text("at", "Depths", "1,10,100"),
+            select("unit", "Unit", ["", ...choices("unit")])),
+        make("label", { for: more.id }, "Further options, as the command has them"), more);
+    details.open = matchMedia("(min-width: 60rem)").matches;
+    root.append(make("fieldset", {}, make("legend", {}, `Set-up ${letter}`), length("near", "Near"), length("far", "Far"),
         make("div", { class: "row" }, select("format", "Format", names("formats")), select("mapping", "Mapping", names("mappings")),
             make("span", {}, ortho, make("label", { for: ortho.id }, " orthographic"))),
-        make("div", { class: "row" }, select("model", "Model", choices("model")), select("arith", "Arithmetic", names("arithmetic")), select("unit", "Unit", ["", ...choices("unit")])),
-        make("div", { class: "row" }, ...text("viewport", "Viewport", "1920x1080"), ...text("slant", "Slant", "0:90"), ...text("at", "Depths", "1,10,100")),
-        make("label", { for: more.id }, "Further options"), more));
+        details, own.refused));
 }
 
 function show(input, value) {
@@ -208,17 +226,31 @@ function show(input, value) {
     if (document.activeElement !== input || input.tagName === "SELECT") input.value = value;
 }
 
+// What a command takes where it is given nothing. A preset gives something else.
 const STARTS = { near: "0.1", far: "1000", format: "all", mapping: "all", model: "exact", arith: "ieee", unit: "", viewport: "", slant: "", at: "" };
+
+function showSliders(index) {
+    for (const option of Object.keys(SLIDERS)) {
+        const given = state.setups[index].get(option) ?? STARTS[option], slider = fields[index][`${option}-slider`];
+        slider.value = stepOf(option, given);
+        slider.setAttribute("aria-valuetext", given);
+    }
+}
+
+function refuseSetup(index, text) {
+    const { refused } = fields[index];
+    if (refused.textContent !== text) refused.textContent = text;
+}
 
 // The controls show the state.
 function fill() {
     state.setups.forEach((setup, index) => {
         const own = fields[index], rest = new Map(setup);
         for (const [option, start] of Object.entries(STARTS)) {
-            show(own[option], setup.get(option) ?? start);
+            show(own[option], setup.get(option) ?? (own[option].tagName === "SELECT" && !setup.has("preset") ? start : ""));
             rest.delete(option);
         }
-        for (const option of ["near", "far"]) own[`${option}-slider`].value = stepOf(option, own[option].value);
+        showSliders(index);
         own.ortho.checked = setup.has("ortho");
         rest.delete("ortho");
         own.more.value = join(words(rest));
@@ -229,10 +261,10 @@ function fill() {
     for (const form of document.querySelectorAll("[data-asks]"))
         for (const input of form.querySelectorAll("[data-option]")) {
             const value = state.asked[form.dataset.asks].get(input.dataset.option);
-            if (value !== undefined) show(input, value);
-            else if (input.tagName !== "SELECT") input.value = "";
+            if (value !== undefined || input.tagName !== "SELECT") show(input, value ?? "");
         }
     for (const input of document.querySelectorAll("[name=figure]")) input.checked = input.value === state.figure;
+    for (const input of document.querySelectorAll("[data-shows]")) input.checked = state.shown.has(input.dataset.shows);
 }
 
 // ---- What the panels show -----------------------------------------------------------------------------------------
@@ -249,10 +281,11 @@ function answers(text) {
     return all.filter((line) => line.endsWith(".") && !/ {2}/.test(line)).join(" ");
 }
 
-const dark = () => {
-    const chosen = document.documentElement.dataset.theme;
-    return chosen !== undefined ? chosen === "dark" : matchMedia("(prefers-color-scheme: dark)").matches;
-};
+let printing = false;
+function theme() {
+    const chosen = document.documentElement.dataset.theme, system = matchMedia("(prefers-color-scheme: dark)").matches ? "dark" : "light";
+    return printing ? "print" : (chosen ?? system);
+}
 
 function save(name, text, type) {
     const link = make("a", { href: URL.createObjectURL(new Blob([text], { type })), download: name });
@@ -264,17 +297,17 @@ const RUN = { json: ["--json"], csv: ["--csv"] }, TYPE = { json: "application/js
 
 // One output of a panel: of set-up A or B.
 function outputOf(panel, index) {
-    const place = $(".outputs", panel), verb = panel.dataset.panel;
+    const place = $(".outputs", panel), verb = panel.dataset.panel, drawn = verb === "plot";
     while (place.children.length <= index) {
-        const letter = "AB"[place.children.length];
-        const body = verb === "plot" ? make("img", { alt: "" }) : make("pre", { tabindex: 0, "data-output": "text", role: "region", "aria-label": `${verb}, set-up ${letter}` });
+        const letter = "AB"[place.children.length], title = `${verb}, set-up ${letter}`;
+        const body = drawn ? make("img", { alt: "" }) : make("pre", { tabindex: 0, "data-output": "text", role: "region", "aria-label": title });
         const saves = make("div", { class: "saves" });
-        const one = make("div", verb === "plot" ? { class: "figure" } : {}, make("p", { class: "answer", ...(letter === "A" && verb === "table" ? { role: "status" } : {}) }), body, make("p", { class: "refused", hidden: "" }), saves);
-        for (const kind of verb === "plot" ? ["svg", "csv", "json"] : ["csv", "json"]) {
-            const button = make("button", { type: "button", "data-export": kind, "aria-label": `Save ${verb} of set-up ${letter} as ${kind.toUpperCase()}` }, kind.toUpperCase());
+        const one = make("div", { class: drawn ? "figure" : "text" }, make("p", { class: "answer" }), body, make("p", { class: "refused", role: "status" }), saves);
+        for (const kind of drawn ? ["svg", "csv", "json"] : ["csv", "json"]) {
+            const button = make("button", { type: "button", "data-export": kind, "aria-label": `${kind.toUpperCase()} of ${title}` }, kind.toUpperCase());
             button.addEventListener("click", () => {
-                const run = split(one.dataset.run);
-                save(`depthprec-${run[0]}-${letter}.${kind}`, kind === "svg" ? one.svg : engine.run([...run, ...RUN[kind]]).out, TYPE[kind]);
+                const line = split(one.dataset.run);
+                save(`depthprec-${line[0]}-${letter}.${kind}`, kind === "svg" ? one.said.out : run([...line, ...RUN[kind]]).out, TYPE[kind]);
             });
             saves.append(button);
         }
@@ -285,40 +318,53 @@ function outputOf(panel, index) {
 
 const unescaped = (text) => text.replaceAll("&lt;", "<").replaceAll("&gt;", ">").replaceAll("&amp;", "&");
 
-function showFigure(one, run) {
-    const image = $("img", one), width = Math.max(320, Math.min(1200, Math.round(one.clientWidth || 640)));
-    const drawing = ["--type", "svg", "-o", "-", "--theme", dark() ? "dark" : "light", "--width", String(width), "--height", String(Math.max(240, Math.round(width * 0.62)))];
-    const said = engine.run([...run, ...drawing]);
-    if (said.status === 0) {
-        const old = image.src;
-        one.svg = said.out;
-        image.src = URL.createObjectURL(new Blob([said.out], { type: TYPE.svg }));
-        image.alt = unescaped(/<desc[^>]*>([^<]*)/.exec(said.out)?.[1] ?? "");
-        if (old !== "") setTimeout(() => URL.revokeObjectURL(old), 200);
-    }
-    return said;
+function drawing(one) {
+    const width = Math.max(320, Math.min(1200, Math.round(one.clientWidth || 640))), height = Math.max(240, Math.round(width * 0.55));
+    return ["--type", "svg", "-o", "-", "--theme", theme(), "--width", String(width), "--height", String(height)];
 }
 
-function showText(one, run) {
-    const said = engine.run(run);
-    $("pre", one).textContent = said.out;
-    $("pre", one).hidden = said.out === "";
-    $(".answer", one).textContent = answers(said.out);
-    return said;
+function showFigure(one, svg) {
+    const image = $("img", one);
+    image.src = `data:${TYPE.svg},${encodeURIComponent(svg)}`;
+    image.alt = unescaped(/<desc[^>]*>([^<]*)/.exec(svg)?.[1] ?? "");
 }
 
+function showText(one, verb, text) {
+    $("pre", one).textContent = text;
+    if (verb !== "table") $(".answer", one).textContent = answers(text);
+}
+
+// A set-up that is refused as a whole says so beside its controls; what was shown of it stays, paler.
 function showPanel(panel) {
-    const verb = panel.dataset.panel;
+    const verb = panel.dataset.panel, drawn = verb === "plot", ones = state.setups.map((_, index) => outputOf(panel, index));
+    for (const one of $(".outputs", panel).children) one.hidden = !ones.includes(one);
     state.setups.forEach((setup, index) => {
-        const run = commandOf(verb, setup), one = outputOf(panel, index);
-        one.hidden = false;
-        one.dataset.run = join(run);
-        const said = (verb === "plot" ? showFigure : showText)(one, run), refused = $(".refused", one);
-        refused.textContent = said.err.trim();
-        refused.hidden = said.err === "";
-        for (const part of one.querySelectorAll("img, .saves")) part.hidden = said.status !== 0 && (verb === "plot" || said.out === "");
+        const line = commandOf(verb, setup), one = ones[index];
+        const said = run(drawn ? [...line, ...drawing(one)] : line);
+        if (said === one.said) return;
+        const refused = said.status === REFUSED ? errorOf(said) : "", known = refused === fields[index].refused.textContent;
+        one.classList.toggle("stale", refused !== "" && known);
+        if (refused !== "" && known && one.said !== undefined) return;
+        one.said = said;
+        one.dataset.run = join(line);
+        if (!drawn) showText(one, verb, said.out);
+        else if (refused === "") showFigure(one, said.out);
+        $(".refused", one).textContent = refused;
+        for (const part of one.querySelectorAll("pre, img, .saves")) part.hidden = refused !== "";
     });
-    for (const one of [...$(".outputs", panel).children].slice(state.setups.length)) one.hidden = true;
+}
+
+function showSetups() {
+    const place = $("#verdicts");
+    state.setups.forEach((setup, index) => {
+        const said = run(commandOf("table", setup));
+        refuseSetup(index, said.status === REFUSED ? errorOf(said) : "");
+        if (place.children.length <= index) place.append(make("p", {}));
+        const one = place.children[index];
+        if (said.status !== REFUSED) one.replaceChildren(...(state.setups.length > 1 ? [make("b", {}, "AB"[index]), " "] : []), answers(said.out));
+        one.classList.toggle("stale", said.status === REFUSED);
+    });
+    while (place.children.length > state.setups.length) place.lastChild.remove();
 }
 
 function count() {
@@ -326,18 +372,47 @@ function count() {
     dataset.updates = Number(dataset.updates ?? 0) + 1;
 }
 
-function update() {
+// While something is dragged, a frame shows what is on the screen and quick; the rest follows when the hand rests.
+const FRAME_MS = 12, FIGURE_MS = 80, REST_MS = 200;
+const onScreen = new Set(), late = new Set(), cost = {};
+let resting;
+
+function update(dragged = false) {
+    const begun = performance.now();
+    showSetups();
     for (const panel of document.querySelectorAll("[data-panel]")) {
-        const verb = panel.dataset.panel;
+        const verb = panel.dataset.panel, start = performance.now();
         if (verb === "view") continue;
         panel.hidden = !state.shown.has(verb);
-        if (!panel.hidden) showPanel(panel);
+        late.delete(panel);
+        const allowed = verb === "plot" ? FIGURE_MS : FRAME_MS - (start - begun);
+        if (panel.hidden) continue;
+        if (dragged && (!onScreen.has(panel) || (cost[verb] ?? 0) > allowed)) late.add(panel);
+        else showPanel(panel);
+        cost[verb] = Math.max(performance.now() - start, 0.9 * (cost[verb] ?? 0));
+        panel.classList.toggle("stale", late.has(panel));
     }
-    const all = shown(), fragment = toFragment(all);
-    $("#link").textContent = all.map((line) => `depthprec ${join(line)}`).join("\n");
-    if (location.hash.slice(1) !== fragment) history.replaceState(null, "", `#${fragment}`);
+    $("#link").textContent = shown().map((line) => `depthprec ${join(line)}`).join("\n");
     picture?.set(commandOf("table", state.setups[0]));
+    clearTimeout(resting);
+    resting = setTimeout(rest, REST_MS);
+    document.documentElement.dataset.took = (performance.now() - begun).toFixed(2);
     count();
+}
+
+function rest() {
+    const [panel] = late;
+    if (panel !== undefined) {
+        late.delete(panel);
+        showPanel(panel);
+        panel.classList.remove("stale");
+        resting = setTimeout(rest);
+        return;
+    }
+    const fragment = toFragment(shown()), said = $("#verdicts").textContent;
+    if (location.hash.slice(1) !== fragment && $("#error").hidden) history.replaceState(null, "", `#${fragment}`);
+    if ($("#said").textContent !== said) $("#said").textContent = said;
+    document.documentElement.dataset.settled = document.documentElement.dataset.updates;
 }
 
 let waiting = false;
@@ -347,7 +422,7 @@ function later() {
     requestAnimationFrame(() => {
         waiting = false;
         refuse(null);
-        update();
+        update(true);
     });
 }
 
@@ -358,11 +433,14 @@ const SCHEMES = ["system", "light", "dark"];
 function listen() {
     $("#line").addEventListener("submit", (event) => {
         event.preventDefault();
-        set(() => commands($("#command").value));
+        set(() => {
+            const all = commands($("#command").value), second = state.setups[1];
+            return all.length === 1 && second !== undefined ? [...all, commandOf("table", second)] : all;
+        });
     });
     $("#add-b").addEventListener("click", () => {
         if (state.setups.length > 1) state.setups.pop();
-        else state.setups.push(new Map(engine.parse(split(SECOND)).options.map(({ name, value }) => [name, value])));
+        else state.setups.push(mapOf(engine.parse(split(SECOND))));
         fill();
         later();
     });
@@ -371,17 +449,25 @@ function listen() {
         if (next === "system") delete dataset.theme;
         else dataset.theme = next;
         $("#theme").textContent = `Colours: ${next}`;
-        $("#theme").setAttribute("aria-label", `Colours: ${next === "system" ? "as the system has them" : next}`);
         later();
     });
-    $("#copy").addEventListener("click", async () => {
-        try {
-            await navigator.clipboard.writeText(location.href);
-            $("#copied").textContent = "Copied.";
-        } catch {
-            $("#copied").textContent = "The browser does not let a page copy: the address line has the link.";
-        }
-    });
+    const copies = (id, text) =>
+        $(id).addEventListener("click", async () => {
+            try {
+                await navigator.clipboard.writeText(text());
+                $("#copied").textContent = "Copied.";
+            } catch {
+                $("#copied").textContent = "The browser does not let this page copy.";
+            }
+        });
+    copies("#copy", () => `${location.href.split("#")[0]}#${toFragment(shown())}`);
+    copies("#copy-commands", () => $("#link").textContent);
+    for (const input of document.querySelectorAll("[data-shows]"))
+        input.addEventListener("change", () => {
+            if (input.checked) state.shown.add(input.dataset.shows);
+            else state.shown.delete(input.dataset.shows);
+            later();
+        });
     for (const form of document.querySelectorAll("[data-asks]")) {
         form.addEventListener("submit", (event) => event.preventDefault());
         form.addEventListener("input", (event) => {
@@ -401,7 +487,24 @@ function listen() {
     }
     addEventListener("hashchange", () => set(() => fromFragment(location.hash.slice(1))));
     addEventListener("resize", later);
+    for (const [when, is] of [["beforeprint", true], ["afterprint", false]])
+        addEventListener(when, () => {
+            printing = is;
+            update();
+        });
+    const watch = new IntersectionObserver((entries) => {
+        for (const { target, isIntersecting } of entries) onScreen[isIntersecting ? "add" : "delete"](target);
+    });
+    for (const panel of document.querySelectorAll("[data-panel]")) watch.observe(panel);
     matchMedia("(prefers-color-scheme: dark)").addEventListener("change", later);
+}
+
+// What the picture says of itself: the guarantee's mark is at three quarters of the slider.
+function showPicture(text, { drawn, hasMark, error }) {
+    $("#view-says").textContent = text;
+    $("#view-drawn").textContent = drawn;
+    $("#mark").hidden = !hasMark;
+    $("#view").hidden = error !== "";
 }
 
 // Letters of the figures are measured as the page draws them.
@@ -419,7 +522,7 @@ async function begin() {
     engine = await load(new Uint8Array(await new Response(stream).arrayBuffer()));
     engine.measure = measurer();
     for (const verb of VERBS) takes[verb] = engine.takes(verb);
-    $("#version").textContent = engine.run(["--version"]).out.trim().replace(/^depthprec /, "");
+    $("#version").textContent = engine.run(["--version"]).out.split("\n")[0].replace(/^depthprec /, "");
     for (const name of names("apis")) $("[data-option=api]").append(make("option", {}, name));
     state.asked = { solve: new Map([["for", "near"], ["separation", "1cm"], ["at", "500m"]]), bias: new Map([["gap", "2cm"], ["at", "100m"], ["api", "all"]]), zfight: new Map() };
     buildSetup(0);
@@ -430,7 +533,9 @@ async function begin() {
         set(commands(STANDARD));
         if (said !== "") refuse(said);
     }
-    picture = createPicture?.({ canvas: $("#view"), engine, slider: $("#gap"), onStatus: (text) => ($("#view-says").textContent = text) });
+    picture = createPicture({ canvas: $("#view"), engine, slider: $("#gap"), play: $("#play"), gapIs: $("#gap-is"), onStatus: showPicture });
+    $("#marks").addEventListener("change", () => picture.marks($("#marks").checked));
+    picture.set(commandOf("table", state.setups[0]));
     window.depthprec = { engine, state: () => shown().map(join), set: (fragment) => set(() => fromFragment(fragment)) };
     document.documentElement.dataset.ready = "";
 }
