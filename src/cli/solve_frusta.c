@@ -8,7 +8,7 @@
 #include "need/frusta.h"
 
 static const double fixed_ratio =
-    1000.0; /* CesiumJS, Scene.farToNearRatio: its default where depth is not logarithmic */
+    1000.0; /* CesiumJS, updateFrustums() of View.js; without logarithmic depth */
 
 typedef struct frustum_line {
     frustum found;
