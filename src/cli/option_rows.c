@@ -34,7 +34,7 @@ static const name_list packings = {.get = list_packing};
 static const name_list effects = {.get = list_effect};
 /* In the order of their enumerators. */
 static const name_list targets = {
-    .words = (const char *const[]){"near", "far", "format", "mapping", "separation", "distance", NULL}};
+    .words = (const char *const[]){"near", "far", "format", "mapping", "separation", "distance", "frusta", NULL}};
 static const name_list themes = {.words = (const char *const[]){"light", "dark", "print", NULL}};
 static const name_list types = {.words = (const char *const[]){"svg", "pdf", "png", NULL}};
 static const name_list colours = {.words = (const char *const[]){"auto", "always", "never", NULL}};
@@ -182,7 +182,8 @@ const option_row option_rows[OPTION_COUNT] = {
         "the same for stored codes, decimal or 0x...; the code of a float is its bits",
         SEVERAL(parse_codes, looked_up, 0, 4294967295)},
     [OPTION_FOR] = {"for", 0, NULL, VERB_SOLVE,
-        "what to solve for; distance is the depth up to which --separation or --error holds", WORD(target, targets),
+        "what to solve for; distance is the depth up to which --separation or --error holds, frusta the "
+        "least number of frusta that keep --separation from near to far", WORD(target, targets),
         .without = "the first of near, far, format and mapping that is not given", .group = "What is wanted"},
     [OPTION_SEPARATION] = {"separation", 0, "S", VERB_SOLVE,
         "surfaces S scene units apart must be told apart, whatever their alignment", POSITIVE(wanted_separation)},

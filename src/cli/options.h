@@ -156,6 +156,7 @@ typedef enum solve_target {
     SOLVE_FOR_MAPPING,
     SOLVE_FOR_SEPARATION,
     SOLVE_FOR_DISTANCE,
+    SOLVE_FOR_FRUSTA,
     SOLVE_FOR_ANY
 } solve_target;
 
