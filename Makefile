@@ -159,7 +159,8 @@ WEB_LINK = $(WEB_CC) -mexec-model=reactor -Wl,--gc-sections,--stack-first,-z,sta
 web_objects = $(patsubst %.c,$(B)/web/obj/%.o,$(1))
 WEB_CORE_O := $(call web_objects,$(CORE))
 WEB_O := $(call web_objects,$(WEB_SOURCES))
-SAMPLES_O := $(B)/web/obj/tests/web/samples.o $(B)/obj/tests/web/samples.o
+WEB_DRAW_O := $(call web_objects,$(wildcard src/raster/*.c) src/draw/draw.c src/draw/picture.c)
+SAMPLES_O := $(foreach p,samples frames,$(B)/web/obj/tests/web/$p.o $(B)/obj/tests/web/$p.o)
 # Fast where numbers are made, small elsewhere.
 $(B)/web/obj/src/core/%.o $(B)/web/obj/src/raster/%.o $(B)/web/obj/src/draw/%.o: WEB_OPTIMIZE := -O2
 $(B)/web/obj/%.o: WEB_OPTIMIZE ?= -Oz
@@ -181,14 +182,16 @@ $(B)/web/core.wasm: $(WEB_CORE_O)
 	$(call say,WEB)
 	$(Q)$(WEB_LINK) -Wl,--export-dynamic -o $@ $^
 
-$(B)/web/samples.wasm: $(word 1,$(SAMPLES_O)) $(WEB_CORE_O)
+$(B)/web/frames.wasm: $(WEB_DRAW_O)
+$(B)/web/samples.wasm $(B)/web/frames.wasm: $(B)/web/%.wasm: $(B)/web/obj/tests/web/%.o $(WEB_CORE_O)
 	$(call say,WEB)
 	$(Q)$(WEB_CC) -o $@ $^
 
-$(B)/web/samples: $(word 2,$(SAMPLES_O)) $(B)/libdepthprec.a
+$(B)/web/frames: $(B)/librooms.a
+$(B)/web/samples $(B)/web/frames: $(B)/web/%: $(B)/obj/tests/web/%.o $(B)/libdepthprec.a
 	@mkdir -p $(@D)
 	$(call say,LD)
-	$(Q)$(LINK) -o $@ $^ -lm
+	$(Q)$(LINK) -o $@ $(filter %.o,$^) $(filter %rooms.a,$^) $(B)/libdepthprec.a -lm
 
 # ---- Tests -------------------------------------------------------------------------------------------------------
 

@@ -50,6 +50,7 @@ worst=1 all_named check tests/needs/slopes.need
 all_named solve -f 1000 -F unorm24 -m d3d --separation 0.01 --at 100
 all_named solve -f 1000 -F unorm24 -m d3d --error 0.01 --at 100
 all_named solve --for distance -n 0.1 -f 1000 -F unorm24 -m d3d --separation 0.01
+all_named solve --for frusta -n 0.1 -f 1000 -F unorm24 -m d3d --separation 0.001
 all_named solve --for distance -n 0.1 -f 1000 -F unorm24 -m d3d --separation 0.01 --viewport 640x480
 all_named solve --for distance -n 0.1 -f 1000 -F fp16 -m reversed --separation 0.01
 all_named table --at 10 --range 5:50

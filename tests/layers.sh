@@ -9,6 +9,7 @@ layers='
 include/depthprec | depthprec
 src/core          | depthprec core
 src/api           | depthprec core api
+src/world         | depthprec core world
 src/census        | depthprec core census
 src/raster        | depthprec core raster
 src/vertex        | depthprec core vertex
@@ -22,9 +23,9 @@ src/need          | depthprec core api raster need
 src/model         | core opened model
 src/scene         | depthprec core raster model draw need scene
 src/report        | depthprec core report
-src/plot          | depthprec core api census raster draw shadow texture method need model scene plot
+src/plot          | depthprec core api world census raster draw shadow texture method need model scene plot
+src/cli           | depthprec core api world census raster vertex draw shadow texture method need model scene probe report plot cli
 src/web           | depthprec core draw texture method need scene report plot cli web
-src/cli           | depthprec core api census raster vertex draw shadow texture method need model scene probe report plot cli
 '
 
 strangers() { # strangers FOLDER LAYER...: prints the quoted includes that name another layer, or none

@@ -346,6 +346,8 @@ static void slider(void **state) {
     open_standard(&p);
     assert_true(draw_picture_marked(&p));
     assert_true(draw_picture_gap(&p, DRAW_PICTURE_MARK) == p.guaranteed);
+    assert_relative(draw_picture_gap(&p, DRAW_PICTURE_MARK - 1e-9), p.guaranteed, 1e-7);
+    assert_relative(draw_picture_gap(&p, DRAW_PICTURE_MARK + 1e-9), p.guaranteed, 1e-7);
     assert_relative(draw_picture_gap(&p, 1e-12), 1e-3 * p.guaranteed, 1e-9);
     assert_relative(draw_picture_gap(&p, 1.0), 10.0 * p.guaranteed, 1e-12);
     for (int round = 0; round < 2; round++) {

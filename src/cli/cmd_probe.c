@@ -187,6 +187,19 @@ static int keep(const probe_result *r, const char *path) {
 
 /* ---- The command ------------------------------------------------------------------------------------------------- */
 
+/* A device that is not there is the user's to put right; the rest is the machine's. */
+static int refuse(const options *o, probe_result *r, const char *error) {
+    const shot_machine *m = &r->machine;
+    char names[4 * SHOT_NAME_SIZE] = "";
+    probe_free(r);
+    for (size_t i = 0; i < m->count; i++)
+        append(names, sizeof names, "%s%zu (%s)", i > 0 ? ", " : "", i, m->device[i].name);
+    if (o->device != NULL && m->count > 0 && m->chosen == m->count)
+        return option_error(OPTION_DEVICE, "must be a number or a part of a name of %s, got '%s'", names, o->device);
+    usage_error("probe: %s", error);
+    return EXIT_IO;
+}
+
 int cmd_probe(const options *o) {
     static probe_result result; /* too large for a stack */
     char error[SHOT_ERROR_SIZE];
@@ -196,11 +209,9 @@ int cmd_probe(const options *o) {
         output_abandon(&out);
     if (status != EXIT_FINE)
         return status;
-    if (!probe_run(o->device, true, o->seed, &result, error)) {
+    if (!probe_run(o->device, o->seed, &result, error)) {
         output_abandon(&out);
-        probe_free(&result);
-        usage_error("probe: %s", error);
-        return EXIT_IO;
+        return refuse(o, &result, error);
     }
     probing p = {.result = &result,
                  .device = &result.machine.device[result.machine.chosen],

@@ -328,6 +328,8 @@ int cmd_solve(const options *o) {
     solve_result result;
     solve_candidate items[SOLVE_CANDIDATES_MAX];
     solve_report r = {.o = o, .items = items};
+    if (o->target == SOLVE_FOR_FRUSTA)
+        return solve_frusta(o);
     int status = check_target(o, &r);
     if (status == EXIT_FINE)
         status = check_depths(o, &r);

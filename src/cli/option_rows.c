@@ -34,7 +34,7 @@ static const name_list packings = {.get = list_packing};
 static const name_list effects = {.get = list_effect};
 /* In the order of their enumerators. */
 static const name_list targets = {
-    .words = (const char *const[]){"near", "far", "format", "mapping", "separation", "distance", NULL}};
+    .words = (const char *const[]){"near", "far", "format", "mapping", "separation", "distance", "frusta", NULL}};
 static const name_list themes = {.words = (const char *const[]){"light", "dark", "print", NULL}};
 static const name_list types = {.words = (const char *const[]){"svg", "pdf", "png", NULL}};
 static const name_list colours = {.words = (const char *const[]){"auto", "always", "never", NULL}};
@@ -182,7 +182,8 @@ const option_row option_rows[OPTION_COUNT] = {
         "the same for stored codes, decimal or 0x...; the code of a float is its bits",
         SEVERAL(parse_codes, looked_up, 0, 4294967295)},
     [OPTION_FOR] = {"for", 0, NULL, VERB_SOLVE,
-        "what to solve for; distance is the depth up to which --separation or --error holds", WORD(target, targets),
+        "what to solve for; distance is the depth up to which --separation or --error holds, frusta the "
+        "least number of frusta that keep --separation from near to far", WORD(target, targets),
         .without = "the first of near, far, format and mapping that is not given", .group = "What is wanted"},
     [OPTION_SEPARATION] = {"separation", 0, "S", VERB_SOLVE,
         "surfaces S scene units apart must be told apart, whatever their alignment", POSITIVE(wanted_separation)},
@@ -222,8 +223,8 @@ const option_row option_rows[OPTION_COUNT] = {
                        "the pixels of the viewport; budget and interval then count slanted triangles")}},
     [OPTION_RASTER] = {"raster", 0, "NAME|FILE", VIEWED,
         "the rasterizer, its subpixel grid and how it sets up depth: @; of the specifications the worst that they "
-        "allow; see 'depthprec list rasterizers'; or as 'depthprec probe --json -o FILE' found it", .parse = parse_raster,
-        FIELD(const raster_row *, raster), .names = &rasters,
+        "allow; see 'depthprec list rasterizers'; or as 'depthprec probe --json -o FILE' found it",
+        .parse = parse_raster, FIELD(const raster_row *, raster), .names = &rasters,
         .without = "--subpixel, and a plane anchored at a vertex",
         .except = {BUT(VERB_ZFIGHT, "llvmpipe", "with --triangles", "the rasterizer or specification, as in "
                        "'depthprec list rasterizers'; with --triangles one that draws: llvmpipe, lavapipe, softpipe "
@@ -337,6 +338,11 @@ const option_row option_rows[OPTION_COUNT] = {
         "write the model as .glb, with the triangles that fight in materials of their own", FILE_NAME(annotate)},
     [OPTION_EMIT_NEED] = {"emit-need", 0, "FILE", VERB_SCENE,
         "write what the camera must tell apart up to --within as a requirement file of check", FILE_NAME(emit_need)},
+    [OPTION_DEVICE] = {"device", 0, "N|NAME", VERB_PROBE,
+        "the GPU: its number, or a part of its name", .parse = parse_file, FIELD(const char *, device),
+        .without = "the first that is no processor", .group = "The GPU"},
+    [OPTION_KEEP] = {"keep", 0, "FILE", VERB_PROBE,
+        "write every code that was stored, with what was drawn: CSV", FILE_NAME(keep)},
     [OPTION_HALF_HEIGHT] = {"half-height", 0, "H", VERB_TEXTURE,
         "with --ortho: half the height of the view", LENGTH(camera.half_height, 1e-12, 1e12, "scene units"),
         .standard = "5", .group = "The depth texture"},
@@ -360,11 +366,6 @@ const option_row option_rows[OPTION_COUNT] = {
         "last frame's turn upwards", NUMBER(last.pitch, -90, 90, "degrees"), .without = "that of this frame"},
     [OPTION_LAST_ORIGIN] = {"last-origin", 0, "X,Y,Z", VERB_TEXTURE,
         "the camera's position in the last frame", ORIGIN(last.origin), .without = "that of this frame"},
-    [OPTION_DEVICE] = {"device", 0, "N|NAME", VERB_PROBE,
-        "the GPU: its number, or a part of its name", .parse = parse_file, FIELD(const char *, device),
-        .without = "the first that is no processor"},
-    [OPTION_KEEP] = {"keep", 0, "FILE", VERB_PROBE,
-        "write every code that was stored, with what was drawn: CSV", FILE_NAME(keep)},
     [OPTION_SCENE] = {"scene", 0, "NAME", VERB_TEXTURE,
         "a synthetic scene in place of FILE: @; 'depthprec list scenes' has their parameters", ROW(scene, scenes)},
     [OPTION_SIZE] = {"size", 0, "WxH|N", VERB_TEXTURE | SHADOWED,

@@ -95,6 +95,8 @@ typedef enum option_id {
     OPTION_RENDER,
     OPTION_ANNOTATE,
     OPTION_EMIT_NEED,
+    OPTION_DEVICE,
+    OPTION_KEEP,
     OPTION_HALF_HEIGHT,
     OPTION_MATRIX,
     OPTION_YAW,
@@ -104,8 +106,6 @@ typedef enum option_id {
     OPTION_LAST_YAW,
     OPTION_LAST_PITCH,
     OPTION_LAST_ORIGIN,
-    OPTION_DEVICE,
-    OPTION_KEEP,
     OPTION_SCENE,
     OPTION_SIZE,
     OPTION_PARAMETER,
@@ -156,6 +156,7 @@ typedef enum solve_target {
     SOLVE_FOR_MAPPING,
     SOLVE_FOR_SEPARATION,
     SOLVE_FOR_DISTANCE,
+    SOLVE_FOR_FRUSTA,
     SOLVE_FOR_ANY
 } solve_target;
 

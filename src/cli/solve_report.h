@@ -57,6 +57,9 @@ typedef struct solve_report {
     distance_span again[SOLVE_AGAIN_MAX]; /**< where it holds again beyond that distance */
 } solve_report;
 
+/** solve --for frusta, all of it. @return an exit status */
+int solve_frusta(const options *o);
+
 /** Fills in `fight` and `again` of the answer. */
 void solve_look_beyond(solve_report *r);
 

@@ -28,7 +28,7 @@ typedef struct polygon {
 #define ROOT_HALF  0.70710678118654752440
 #define ROOT_THREE 1.73205080756887729353
 
-static const double sway[2] = {0.02, 0.1};       /* sideways, and to and fro */
+static const double sway[2] = {0.02, 0.1};       /* sideways, and forth and back */
 static const double least = 0.54, most = 1.61;   /* depths of all that is drawn, gaps and sway included */
 static const double steps = 1e-3, beyond = 10.0; /* of the slider: its least and its largest gap, in guarantees */
 

@@ -9,7 +9,6 @@
 
 typedef struct job {
     const char *device;
-    bool draw;
     shot_plan *plan;
     shot_machine *machine;
 } job;
@@ -19,9 +18,9 @@ typedef struct job {
 static bool work(void *of, FILE *out) {
     const job *j = of;
     j->machine->error[0] = '\0';
-    shot_vulkan(j->device, j->draw, j->plan, j->machine);
+    shot_vulkan(j->device, j->plan, j->machine);
     fwrite(j->machine, sizeof *j->machine, 1, out);
-    for (size_t i = 0; j->draw && i < j->plan->count; i++) {
+    for (size_t i = 0; i < j->plan->count; i++) {
         const shot *s = &j->plan->shot[i];
         const uint64_t head[2] = {s->drawn, s->passed};
         fwrite(head, sizeof head, 1, out);
@@ -50,7 +49,7 @@ static bool take(const job *j, FILE *in) {
         for (int f = 0; f < SHOT_FORMATS; f++)
             end_text(d->format[f], sizeof d->format[f]);
     }
-    for (size_t i = 0; j->draw && i < j->plan->count; i++) {
+    for (size_t i = 0; i < j->plan->count; i++) {
         shot *s = &j->plan->shot[i];
         uint64_t head[2];
         if (fread(head, sizeof head, 1, in) != 1 || fread(s->code, sizeof *s->code, SHOT_PIXELS, in) != SHOT_PIXELS)
@@ -66,11 +65,11 @@ static bool fail(char error[SHOT_ERROR_SIZE], const char *text, const char *why)
     return false;
 }
 
-bool probe_run(const char *device, bool draw, uint64_t seed, probe_result *r, char error[SHOT_ERROR_SIZE]) {
+bool probe_run(const char *device, uint64_t seed, probe_result *r, char error[SHOT_ERROR_SIZE]) {
     FILE *made = NULL;
     *r = (probe_result){0};
-    job j = {device, draw, &r->plan, &r->machine};
-    if (draw && !plan_make(&r->plan, seed))
+    job j = {device, &r->plan, &r->machine};
+    if (!plan_make(&r->plan, seed))
         return fail(error, "there is no memory for it", "");
     const apart_end end = apart_run(work, &j, (apart_limits){.wall = PROBE_SECONDS}, &made);
     bool good = false;
@@ -89,7 +88,7 @@ bool probe_run(const char *device, bool draw, uint64_t seed, probe_result *r, ch
     else
         good = true;
     apart_close(made);
-    if (good && draw)
+    if (good)
         probe_judge(r);
     return good;
 }

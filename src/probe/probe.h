@@ -47,13 +47,13 @@ typedef struct probe_result {
 } probe_result;
 
 /**
- * Draws and judges; or lists the devices, where not `draw`. The driver runs in a process of its own.
+ * Draws and judges. The driver runs in a process of its own, and is given up after PROBE_SECONDS.
  *
  * @param device  a number, or a part of a name in either case; null: the first that is no processor, else the first
  * @param seed    of the scene that is predicted
- * @param error   receives a sentence where it failed
+ * @param error   receives a sentence where it failed; result->machine then has the devices that were found
  */
-bool probe_run(const char *device, bool draw, uint64_t seed, probe_result *result, char error[SHOT_ERROR_SIZE]);
+bool probe_run(const char *device, uint64_t seed, probe_result *result, char error[SHOT_ERROR_SIZE]);
 
 /** Null is allowed. */
 void probe_free(probe_result *result);

@@ -82,6 +82,6 @@ typedef struct shot_machine {
  * the first); formats that it lacks are left out. Never returns where a driver hangs: see probe.h.
  * @return false with machine->error
  */
-bool shot_vulkan(const char *wanted, bool draw, shot_plan *plan, shot_machine *machine);
+bool shot_vulkan(const char *wanted, shot_plan *plan, shot_machine *machine);
 
 #endif

@@ -496,15 +496,15 @@ static bool take_shot(gpu *g, shot *s) {
     return true;
 }
 
-bool shot_vulkan(const char *wanted, bool drawing, shot_plan *plan, shot_machine *machine) {
+bool shot_vulkan(const char *wanted, shot_plan *plan, shot_machine *machine) {
     static const library loader = {"a GPU", {"libvulkan.so.1", NULL}, "libvulkan1", symbols};
     char unused[LIBRARY_ERROR_SIZE];
     gpu g = {.machine = machine};
     if (!library_open(&loader, g.call.all, unused))
         return fail(&g, "the Vulkan loader, libvulkan.so.1, is not there: Debian's package libvulkan1 has it, and "
                         "mesa-vulkan-drivers has drivers");
-    if (!list(&g, wanted) || !drawing)
-        return machine->error[0] == '\0';
+    if (!list(&g, wanted))
+        return false;
     const shot_device *device = &machine->device[machine->chosen];
     char name[SHOT_NAME_SIZE];
     if (!open_device(&g) || !make_tools(&g))
@@ -522,9 +522,8 @@ bool shot_vulkan(const char *wanted, bool drawing, shot_plan *plan, shot_machine
 
 #else
 
-bool shot_vulkan(const char *wanted, bool drawing, shot_plan *plan, shot_machine *machine) {
+bool shot_vulkan(const char *wanted, shot_plan *plan, shot_machine *machine) {
     (void)wanted;
-    (void)drawing;
     (void)plan;
     snprintf(machine->error, sizeof machine->error,
              "this build has no Vulkan: build it where Debian's package libvulkan-dev is installed");

@@ -112,7 +112,7 @@ void scene_end(scene *s) {
     (void)s;
 }
 
-/* ---- Names alone where the program reads the profile of a GPU, too ------------------------------------------------ */
+/* ---- Names alone, where the program reads the profile of a GPU too --------------------------------------------- */
 
 int parse_arith(options *o, const option_row *row, const char *value) {
     return parse_word(o, row, value);

@@ -61,12 +61,17 @@ const words = (options) =>
 
 const mapOf = (read) => new Map(read.options.map(({ name, value }) => [name, value]));
 
+// Options of a set-up that a command does not want although it takes them, and of a question that another one replaces.
+function unwanted(verb, asked) {
+    if (verb === "plot") return UNUSED[state.figure];
+    if (verb === "solve") return ["at", "range", asked.get("for")];
+    return verb === "bias" ? ["at", "range"] : [];
+}
+
 function commandOf(verb, setup) {
-    const without = verb === "plot" ? UNUSED[state.figure] : [], asked = state.asked[verb] ?? new Map();
-    const options = new Map([...setup].filter(([name]) =>
-        takes[verb].has(name) && !without.includes(name) && !asked.has(name) &&
-        !(verb === "solve" && (name === "at" || name === "range" || name === asked.get("for"))) &&
-        !(verb === "bias" && (name === "at" || name === "range"))));
+    const asked = new Map(state.asked[verb] ?? []), without = unwanted(verb, asked);
+    if (asked.get("for") === "distance") asked.delete("at");
+    const options = new Map([...setup].filter(([name]) => takes[verb].has(name) && !without.includes(name) && !asked.has(name)));
     return [verb, ...(verb === "plot" ? [state.figure] : []), ...words(options), ...words(asked)];
 }
 
@@ -98,10 +103,8 @@ function understand(all) {
             if (!FIGURES.includes(operands[0])) throw new Error(`the page draws ${FIGURES.join(", ")}, not ${operands[0]}: the program does`);
             next.figure = operands[0];
         }
-        else {
-            const said = run([verb, ...words(given)]);
-            if (said.status === REFUSED) throw new Error(errorOf(said));
-        }
+        const said = run([verb, ...operands, ...words(given), ...(verb === "plot" ? ["--csv"] : [])]);
+        if (said.status === REFUSED) throw new Error(errorOf(said));
         next.shown.add(verb);
         if (panel.length > 0) {
             next.asked[verb] = new Map([...given].filter(([name]) => panel.includes(name)));
@@ -151,10 +154,13 @@ function slide(option, step) {
     return String(Number((10 ** (lo + (step / STEPS) * (hi - lo))).toPrecision(3)));
 }
 
-function stepOf(option, text) {
-    const [lo, hi] = SLIDERS[option], value = Number.parseFloat(text);
-    if (/^inf/i.test(text)) return STEPS;
-    return Number.isNaN(value) ? 0 : Math.max(0, Math.min(STEPS - (option === "far"), Math.round(((Math.log10(value) - lo) / (hi - lo)) * STEPS)));
+// Where a slider stands for a text. This places the thumb alone: the command reads the text itself.
+const METRES = { nm: 1e-9, um: 1e-6, mm: 1e-3, cm: 1e-2, in: 0.0254, ft: 0.3048, m: 1, km: 1e3 };
+function stepOf(option, text, unit) {
+    const [lo, hi] = SLIDERS[option], [, number, of] = /^\s*([-+.\de]+)\s*([a-z]*)/i.exec(text) ?? [];
+    if (/^\s*inf/i.test(text)) return STEPS;
+    const value = Number(number) * (of in METRES ? METRES[of] / (METRES[unit] ?? 1) : 1), top = STEPS - (option === "far");
+    return value > 0 ? Math.max(0, Math.min(top, Math.round(((Math.log10(value) - lo) / (hi - lo)) * STEPS))) : 0;
 }
 
 function buildSetup(index) {
@@ -175,7 +181,7 @@ function buildSetup(index) {
         return make("span", {}, make("label", { for: input.id }, `${label} `), input);
     };
     const select = (option, label, list) => {
-        const input = make("select", { "data-option": option, id: `${option}-${letter}` }, ...list.map((name) => make("option", {}, name)));
+        const input = make("select", { "data-option": option, id: `${option}-${letter}` }, ...list.map((name) => make("option", { value: name }, name || "scene units")));
         input.addEventListener("change", () => change(option, input.value || null));
         own[option] = input;
         return make("span", {}, make("label", { for: input.id }, `${label} `), input);
@@ -232,10 +238,13 @@ const STARTS = { near: "0.1", far: "1000", format: "all", mapping: "all", model:
 function showSliders(index) {
     for (const option of Object.keys(SLIDERS)) {
         const given = state.setups[index].get(option) ?? STARTS[option], slider = fields[index][`${option}-slider`];
-        slider.value = stepOf(option, given);
+        slider.value = stepOf(option, given, state.setups[index].get("unit"));
         slider.setAttribute("aria-valuetext", given);
     }
 }
+
+// Each question has the fields that its command takes.
+const fitQuestions = () => ($("[data-asks=solve] [data-option=at]").disabled = state.asked.solve.get("for") === "distance");
 
 function refuseSetup(index, text) {
     const { refused } = fields[index];
@@ -261,7 +270,7 @@ function fill() {
     for (const form of document.querySelectorAll("[data-asks]"))
         for (const input of form.querySelectorAll("[data-option]")) {
             const value = state.asked[form.dataset.asks].get(input.dataset.option);
-            if (value !== undefined || input.tagName !== "SELECT") show(input, value ?? "");
+            show(input, value ?? "");
         }
     for (const input of document.querySelectorAll("[name=figure]")) input.checked = input.value === state.figure;
     for (const input of document.querySelectorAll("[data-shows]")) input.checked = state.shown.has(input.dataset.shows);
@@ -302,7 +311,7 @@ function outputOf(panel, index) {
         const letter = "AB"[place.children.length], title = `${verb}, set-up ${letter}`;
         const body = drawn ? make("img", { alt: "" }) : make("pre", { tabindex: 0, "data-output": "text", role: "region", "aria-label": title });
         const saves = make("div", { class: "saves" });
-        const one = make("div", { class: drawn ? "figure" : "text" }, make("p", { class: "answer" }), body, make("p", { class: "refused", role: "status" }), saves);
+        const one = make("div", { class: drawn ? "figure" : "text" }, make("h3", {}, `Set-up ${letter}`), make("p", { class: "answer" }), body, make("p", { class: "refused", role: "status" }), saves);
         for (const kind of drawn ? ["svg", "csv", "json"] : ["csv", "json"]) {
             const button = make("button", { type: "button", "data-export": kind, "aria-label": `${kind.toUpperCase()} of ${title}` }, kind.toUpperCase());
             button.addEventListener("click", () => {
@@ -338,6 +347,7 @@ function showText(one, verb, text) {
 function showPanel(panel) {
     const verb = panel.dataset.panel, drawn = verb === "plot", ones = state.setups.map((_, index) => outputOf(panel, index));
     for (const one of $(".outputs", panel).children) one.hidden = !ones.includes(one);
+    $("h3", ones[0]).hidden = ones.length === 1;
     state.setups.forEach((setup, index) => {
         const line = commandOf(verb, setup), one = ones[index];
         const said = run(drawn ? [...line, ...drawing(one)] : line);
@@ -380,6 +390,7 @@ let resting;
 function update(dragged = false) {
     const begun = performance.now();
     showSetups();
+    fitQuestions();
     for (const panel of document.querySelectorAll("[data-panel]")) {
         const verb = panel.dataset.panel, start = performance.now();
         if (verb === "view") continue;
@@ -410,7 +421,8 @@ function rest() {
         return;
     }
     const fragment = toFragment(shown()), said = $("#verdicts").textContent;
-    if (location.hash.slice(1) !== fragment && $("#error").hidden) history.replaceState(null, "", `#${fragment}`);
+    const fine = $("#error").hidden && fields.every(({ refused }) => refused.textContent === "");
+    if (fine && location.hash.slice(1) !== fragment) history.replaceState(null, "", `#${fragment}`);
     if ($("#said").textContent !== said) $("#said").textContent = said;
     document.documentElement.dataset.settled = document.documentElement.dataset.updates;
 }

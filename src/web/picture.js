@@ -8,7 +8,7 @@
 //   onStatus(text, state)  text for a polite live region: told when set-up, gap or what is seen changes, not each frame.
 //           state: { error, gap, drawn, hasMark, guaranteed }; error is the refusal of a set-up that cannot be drawn, or "";
 //           drawn says what is drawn by what: for the caption
-// slider, play and gapIs may be missing. set(words, place) takes a command and, where given, a place of 0 to 1 on the
+// slider, play and gapIs may be missing; the canvas may be hidden while there is an error. set(words, place) takes a command and, where given, a place of 0 to 1 on the
 // slider; start(), stop() move the camera, still() draws one frame, marks(on) paints wrong pixels yellow.
 export function createPicture({ canvas, engine, slider, play, gapIs, onStatus = () => {} }) {
     const { exports, memory, streams } = engine.instance();
@@ -29,7 +29,6 @@ export function createPicture({ canvas, engine, slider, play, gapIs, onStatus = 
         error = exports.picture_set(asked.length) === 0 ? "" : told(2).replace(/^depthprec: /, "").trim();
         words = asked;
         said = "";
-        quietFor = 0;
         if (error !== "") context.clearRect(0, 0, canvas.width, canvas.height);
     }
 
@@ -62,11 +61,11 @@ export function createPicture({ canvas, engine, slider, play, gapIs, onStatus = 
             frame = moves ? next : frame;
             draw();
         }
-        if (moves) soon();
+        if (moves && error === "") soon();
     }
 
     function soon() {
-        if (waiting === 0 && seen && asked !== null) waiting = requestAnimationFrame(step);
+        if (waiting === 0 && (seen || error !== "") && asked !== null) waiting = requestAnimationFrame(step);
     }
 
     function move(on) {
@@ -76,10 +75,13 @@ export function createPicture({ canvas, engine, slider, play, gapIs, onStatus = 
         soon();
     }
 
-    function slide() {
-        place = Number(slider.value) / Number(slider.max);
+    function put(at) {
+        place = at;
+        quietFor = LATELY + 1; // what the last gap did counts no more
         soon();
     }
+
+    const slide = () => put(Number(slider.value) / Number(slider.max));
 
     slider?.addEventListener("input", slide);
     play?.addEventListener("click", () => move(!moves));
@@ -95,8 +97,8 @@ export function createPicture({ canvas, engine, slider, play, gapIs, onStatus = 
     return {
         set(command, at) {
             asked = [...command];
-            if (at !== undefined) place = at;
-            soon();
+            if (at !== undefined && slider) slider.value = at * Number(slider.max);
+            put(at ?? place);
         },
         start: () => move(true),
         stop: () => move(false),
