@@ -35,7 +35,7 @@ SUPPORT := $(filter-out $(TESTS) $(BENCHES),$(wildcard tests/*.c))
 FUZZ := $(wildcard tests/fuzz/fuzz_*.c)
 WEB := $(wildcard tests/web/*.c)
 MAN := $(wildcard man/*.[1-9])
-TOOLS := tests/run.sh tests/tap.sh tests/coverage.sh tests/cross.sh tests/linked.sh
+TOOLS := tests/run.sh tests/tap.sh tests/coverage.sh tests/cross.sh tests/linked.sh tests/page.sh
 SCRIPTS := $(wildcard src/*.sh tests/*.sh tests/models/*.sh plots/*.sh man/*.sh .ci/*.sh)
 ALL_C := $(CORE) $(ROOMS) $(PAGE) $(TESTS) $(BENCHES) $(SUPPORT) $(FUZZ) $(WEB)
 ALL_H := $(HEADERS) $(wildcard src/*/*.h tests/*.h tests/*/*.h)
@@ -195,7 +195,7 @@ $(B)/web/samples $(B)/web/frames: $(B)/web/%: $(B)/obj/tests/web/%.o $(B)/libdep
 
 # ---- Tests -------------------------------------------------------------------------------------------------------
 
-.PHONY: check check-full check-programs check-clang check-baseline asan fuzz coverage mutants cross
+.PHONY: check check-full check-programs check-clang check-baseline check-web asan fuzz coverage mutants cross
 SHELL_TESTS := $(filter-out $(TOOLS),$(wildcard tests/*.sh))
 ONCE := tests/layers.sh tests/headers.sh tests/install.sh
 RUN_TESTS = $(TEST_PROGRAMS) $(if $(filter release,$(CONF)),$(SHELL_TESTS),$(filter-out $(ONCE),$(SHELL_TESTS)))
@@ -223,6 +223,12 @@ check-clang:
 
 check-baseline:
 	@GLIBC_TUNABLES=glibc.cpu.hwcaps=-AVX2,-FMA,-FMA4 $(VARIANT) B=build/baseline CPPFLAGS='$(CPPFLAGS) -DDP_BASELINE' check
+
+# The page in a browser, which page.sh installs where it can.
+check-web: web
+	@sh src/packages.sh build
+	@$(MAKE) $(PARALLEL) programs
+	@B=$(B) CC='$(CC)' DEPTHPREC=$(CURDIR)/$(B)/depthprec sh tests/run.sh tests/page.sh
 
 MACHINES ?= aarch64 s390x
 cross:

@@ -1,6 +1,6 @@
 #!/bin/sh
 # SPDX-License-Identifier: GPL-3.0-or-later
-# Installs the packages that a job needs and this machine lacks:  packages.sh build|check|clang|lint|fuzz|web|cross|deb
+# Installs the packages that a job needs and this machine lacks:  packages.sh build|check|clang|lint|fuzz|web|browser|cross|deb
 # Silent and quick when nothing is missing, so that every `make` may call it.
 # packages.sh --missing JOB installs nothing: it names what is missing and the one command that installs it.
 # packages.sh --libraries JOB prints Debian's names of the libraries of a job.
@@ -48,6 +48,8 @@ web   | command wasm-ld                               | lld                   | 
 web   | file lib/wasm32-wasi/libc.a                   | wasi-libc             | -                  | -
 web   | file lib/llvm*/lib/clang/*/lib/wasi/*wasm32.a | libclang-rt-dev-wasm32 | -                 | -
 web   | command node                                  | nodejs                | nodejs             | nodejs
+browser | command chromium                            | chromium              | chromium           | chromium
+browser | command npm                                 | npm                   | nodejs-npm         | npm
 cross | command aarch64-linux-gnu-gcc                 | gcc-aarch64-linux-gnu | -                  | -
 cross | command s390x-linux-gnu-gcc                   | gcc-s390x-linux-gnu   | -                  | -
 cross | command qemu-s390x                            | qemu-user             | qemu-user          | qemu-user
@@ -63,10 +65,11 @@ clang) jobs=' build check clang ' ;;
 lint) jobs=' build check clang lint ' ;;
 fuzz) jobs=' build clang fuzz ' ;;
 web) jobs=' web ' ;;
+browser) jobs=' web browser ' ;;
 cross) jobs=' build check cross ' ;;
 deb) jobs=' build check deb ' ;;
 *)
-    echo "packages.sh: the job must be build, check, clang, lint, fuzz, web, cross or deb, got '$job'" >&2
+    echo "packages.sh: the job must be build, check, clang, lint, fuzz, web, browser, cross or deb, got '$job'" >&2
     exit 2
     ;;
 esac

@@ -8,15 +8,16 @@ const plain = /^[A-Za-z0-9_=+,.:\/%@-]+$/;
 export function split(line) {
     const words = [];
     let word = null, quote = "";
+    if (!line.isWellFormed()) throw new Error("a command has no halves of characters in it");
+    if (/[\0-\x1f\x7f]/.test(line)) throw new Error("a command has no control characters in it");
     for (let i = 0; i < line.length; i++) {
         const c = line[i];
-        if (c < " " || c === "\x7f") throw new Error("a command has no control characters in it");
         if (quote !== "" ? c === quote : c === '"' || c === "'") {
             quote = quote === "" ? c : "";
             word ??= "";
         } else if (c === "\\" && quote !== "'") {
             if (++i === line.length) throw new Error("a command does not end in a backslash");
-            word = (word ?? "") + line[i];
+            word = (word ?? "") + (quote === '"' && !'"\\$`'.includes(line[i]) ? "\\" : "") + line[i];
         } else if (c === " " && quote === "") {
             if (word !== null) words.push(word);
             word = null;

@@ -49,10 +49,15 @@ export const shown = (page) => page.evaluate(() => {
             panel: one.closest("[data-panel]").dataset.panel,
             run: one.dataset.run,
             text: one.querySelector("[data-output=text]")?.textContent ?? null,
-            svg: one.svg ?? null,
             refused: one.querySelector(".refused")?.textContent ?? "",
         })),
     };
+});
+
+// Until all panels have followed, and the address.
+export const settled = (page) => page.waitForFunction(() => {
+    const { updates, settled } = document.documentElement.dataset;
+    return updates === settled;
 });
 
 // Goes to a fragment as a person does who changes the address, and waits for the update.

@@ -1,0 +1,40 @@
+#!/bin/sh
+# SPDX-License-Identifier: GPL-3.0-or-later
+# The page in a browser (make check-web): Chromium without a window, driven by playwright-core, judged by axe-core.
+# Both are npm's packages, pinned by version and digest in tests/web/package-lock.json; nothing of them is run on install.
+# What is seen of the page is left in $B/web/shots. ONLY=redraw,people,bad,shots,states takes a part; DEPTHPREC_QUICK=1
+# takes few states.
+. tests/tap.sh
+
+addresses=1000000
+[ -z "${DEPTHPREC_QUICK-}" ] || addresses=20000
+
+# prints why there is no browser, or no driver for it
+lacking() {
+    sh src/packages.sh browser >"$scratch/log" 2>&1 || { tail -n 1 "$scratch/log" && return; }
+    if ! cmp -s tests/web/package-lock.json "$B/web/package-lock.json" || [ ! -d "$B/web/node_modules/playwright-core" ]; then
+        cp tests/web/package.json tests/web/package-lock.json "$B/web"
+        (cd "$B/web" && npm ci --ignore-scripts --no-audit --no-fund) >"$scratch/log" 2>&1 ||
+            { rm -f "$B/web/package-lock.json" && echo "npm ci could not fetch playwright-core and axe-core" && return; }
+    fi
+    chromium --version >"$scratch/log" 2>&1 || echo "chromium does not start here"
+}
+
+# Nothing in the file names another: what it links to, imports or calls.
+alone() {
+    ! grep -oE '(src|href)="[^"]{1,80}|@import|url\([^)]{1,80}' "$B/depthprec.html"
+}
+
+check "the page names no other file" alone
+
+cp src/web/command.js "$scratch/command.mjs"
+node --no-warnings tests/web/fuzz.mjs "$scratch/command.mjs" $addresses || failures=$((failures + 1))
+
+why=$(lacking)
+if [ -n "$why" ]; then
+    skip "the page in a browser" "no browser can be installed: $why"
+else
+    mkdir -p "$B/web/shots"
+    node --no-warnings tests/web/page.mjs || failures=$((failures + 1))
+fi
+finish
