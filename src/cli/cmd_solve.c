@@ -328,6 +328,8 @@ int cmd_solve(const options *o) {
     solve_result result;
     solve_candidate items[SOLVE_CANDIDATES_MAX];
     solve_report r = {.o = o, .items = items};
+    if (o->target == SOLVE_FOR_WORLD)
+        return solve_world(o);
     gsl_set_error_handler_off();
     int status = check_target(o, &r);
     if (status == EXIT_FINE)

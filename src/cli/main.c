@@ -22,6 +22,7 @@ static const struct {
     {VERB_SHADOW, cmd_shadow},
     {VERB_SCENE, cmd_scene},
     {VERB_DISOCCLUSION, cmd_disocclusion},
+    {VERB_WORLD, cmd_world},
     {VERB_LIST, cmd_list},
     {VERB_HELP, cmd_help},
     {VERB_COMPLETIONS, cmd_completions},

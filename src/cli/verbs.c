@@ -87,6 +87,11 @@ const verb verb_rows[] = {
      "how far apart two samples are surely of two surfaces",
      "  depthprec disocclusion -n 0.1 -f inf -m reversed --hfov 90\n"
      "  depthprec disocclusion --preset bevy --at 1,10,100\n", 0},
+    {"world", VERB_WORLD, "", 0, 0, NULL,
+     "large worlds: safe gap and jitter so far from the origin",
+     "  depthprec world --distance 100km --gap 1cm --at 10m\n"
+     "  depthprec world --scheme camera-float,split --at 1m\n"
+     "  depthprec solve --for world --separation 1cm --at 10m\n", 0},
     {"list", VERB_LIST, "WHAT", 0, 1, &topics,
      "formats, mappings, presets, methods: 'list' names all",
      "  depthprec list\n"

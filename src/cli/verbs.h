@@ -29,7 +29,8 @@ enum {
     VERB_COMPLETIONS = 1u << 12,
     VERB_SHADOW = 1u << 13,
     VERB_DISOCCLUSION = 1u << 14,
-    VERB_SCENE = 1u << 15
+    VERB_SCENE = 1u << 15,
+    VERB_WORLD = 1u << 16
 };
 
 typedef struct verb {
@@ -61,6 +62,8 @@ int cmd_check(const struct options *o);
 int cmd_solve(const struct options *o);
 int cmd_texture(const struct options *o);
 int cmd_disocclusion(const struct options *o);
+int cmd_world(const struct options *o);
+int solve_world(const struct options *o); /**< of cmd_world.c: solve --for world */
 int cmd_help(const struct options *o);
 int cmd_completions(const struct options *o);
 
