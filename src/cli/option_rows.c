@@ -208,15 +208,19 @@ const option_row option_rows[OPTION_COUNT] = {
     [OPTION_DISTANCE] = {"distance", 0, "D[,D...]|LO:HI:log|lin:COUNT", VERB_WORLD,
         "how far the camera is from the world's origin, at most 1e12 scene units", parse_at,
         FIELD(depths, distances), .without = "how far each scheme reaches"},
-    [OPTION_SCHEME] = {"scheme", 0, "NAME[:SIZE][,NAME...]|all", VERB_WORLD | VERB_SOLVE,
+    [OPTION_SCHEME] = {"scheme", 0, "NAME[:SIZE][,NAME...]|all", VERB_WORLD | VERB_SOLVE | VERB_BUDGET,
         "how vertices come before the camera: @; the size of a split, tile or cell in scene units; see 'depthprec "
         "list schemes'", parse_schemes, .names = &schemes_or_all, .standard = "all",
-        .except = {BUT(VERB_SOLVE, "all", NULL, "with --for world: how vertices come before the camera, see "
+        .except = {BUT(VERB_BUDGET, NULL, "world: as --composition says", "with --world: how vertices come before the "
+                       "camera, one scheme, see 'depthprec list schemes'"),
+                   BUT(VERB_SOLVE, "all", NULL, "with --for world: how vertices come before the camera, see "
                        "'depthprec list schemes'")}},
-    [OPTION_SHARE] = {"share", 0, NULL, VERB_WORLD | VERB_SOLVE,
+    [OPTION_SHARE] = {"share", 0, NULL, VERB_WORLD | VERB_SOLVE | VERB_BUDGET,
         "both surfaces are of meshes about one origin, whose rounding they share", FLAG(shared_origin),
         .without = "each has its own",
-        .except = {BUT(VERB_SOLVE, NULL, "each has its own", "with --for world: both surfaces are of meshes about one "
+        .except = {BUT(VERB_BUDGET, NULL, "each has its own", "with --scheme: both surfaces are of meshes about one "
+                       "origin"),
+                   BUT(VERB_SOLVE, NULL, "each has its own", "with --for world: both surfaces are of meshes about one "
                        "origin")}},
     [OPTION_LINEARIZE] = {"linearize", 0, NULL, BUDGETED,
         "also count the loss of reading eye depth back in a binary32 shader", FLAG(terms.linearize)},

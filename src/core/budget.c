@@ -138,7 +138,7 @@ static dp_composed displaced_by(const dp_displaced *d) {
 }
 
 static dp_composed_vertex displaced_vertex(const dp_displaced *d) {
-    return (dp_composed_vertex){.position = 1.7320509 * d->own, .turn = 2.0 * d->turn};
+    return (dp_composed_vertex){.position = 1.7320509 * d->own, .turn = 4.0 * d->turn};
 }
 
 /* World positions: what their separation is more than without, that of `plain`, is the composition's part. */

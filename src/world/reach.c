@@ -20,24 +20,26 @@ static dp_displaced displaced(const world_scheme *s, const world_asked *a, doubl
     return (dp_displaced){own, world_all(&e) - own, WORLD_TURN * a->lean};
 }
 
-dp_status world_budget(const world_scheme *s, const world_asked *a, double distance, const dp_budget_terms *terms,
+dp_status world_budget(const world_scheme *s, const world_asked *a, double distance, dp_budget_terms *terms,
                        dp_budget *out) {
     const double settled = 1.0 + 0x1p-40;
-    dp_budget_terms with = terms != NULL ? *terms : (dp_budget_terms){0};
-    double end = a->z;
-    with.world = 0.0;
+    const dp_triangles *t = &a->setup->spec.triangles;
+    const double vertices = t->width > 0 ? t->depth : 1.0; /* those of a triangle are farther away than its pixels */
+    double end = a->z * vertices;
+    terms->world = 0.0;
     for (;;) { /* what is behind is farther away: until it no longer makes the separation larger */
-        with.displaced = displaced(s, a, distance, end);
-        const dp_status status = dp_budget_at(a->setup, a->z, &with, out);
-        if (status != DP_OK || a->z + out->separation <= end * settled || isinf(out->separation))
+        terms->displaced = displaced(s, a, distance, end);
+        const dp_status status = dp_budget_at(a->setup, a->z, terms, out);
+        if (status != DP_OK || (a->z + out->separation) * vertices <= end * settled || isinf(out->separation))
             return status;
-        end = (a->z + out->separation) * settled;
+        end = (a->z + out->separation) * vertices * settled;
     }
 }
 
 double world_separation(const world_scheme *s, const world_asked *a, double distance) {
+    dp_budget_terms terms = {0};
     dp_budget b;
-    return world_budget(s, a, distance, NULL, &b) == DP_OK ? b.separation : (double)INFINITY;
+    return world_budget(s, a, distance, &terms, &b) == DP_OK ? b.separation : (double)INFINITY;
 }
 
 double world_jitter(const world_scheme *s, const world_asked *a, double distance) {

@@ -9,8 +9,8 @@
 
 /** Who looks at what, but for the distance from the origin. */
 typedef struct world_asked {
-    const dp_setup *setup; /**< perspective; surfaces face the camera, whatever its triangles say */
-    double z;              /**< eye depth in [near, far], finite */
+    const dp_setup *setup; /**< perspective, or a box no wider than `lean` says */
+    double z;              /**< eye depth in [near, far], finite and positive */
     double lean;           /**< no place is farther from the camera than this times its eye depth; from 1 to 10 */
     double pixels;         /**< of the picture's height that a tangent of 1 takes: height/(2 tan(fov/2)) */
     bool shared_origin;    /**< both surfaces are of meshes about one origin */
@@ -24,9 +24,12 @@ double world_off(const world_scheme *s, const world_asked *a, double distance);
 
 /**
  * The budget of the set-up at that depth, with the scheme in front of it: the separation is that of surfaces that are
- * surely stored in the right order. @return as dp_budget_at(); where terms is not null its displacement is replaced
+ * surely stored in the right order.
+ *
+ * @param terms  what else is added; its displacement becomes that of the scheme, its world 0
+ * @return as dp_budget_at()
  */
-dp_status world_budget(const world_scheme *s, const world_asked *a, double distance, const dp_budget_terms *terms,
+dp_status world_budget(const world_scheme *s, const world_asked *a, double distance, dp_budget_terms *terms,
                        dp_budget *out);
 
 /** Its separation; INFINITY where none is certain. */
