@@ -153,16 +153,16 @@ static void say_reach(page *p, void *item) {
 static const column line_columns[] = {
     {FIELD(line, name, "scheme", "")},
     {FIELD(line, size, "size", "scene")},
-    {TEXT_FIELD(line, label, "scheme", -15, 0)},
+    {TEXT_FIELD(line, label, "scheme", -14, 0)},
     {FIELD(line, off, "view_z_error", "scene"), SHOWN("view z", 9, DIGITS), .upward = true, .brief = true,
      .when = AT_DISTANCE},
     {FIELD(line, gap, "safe_gap", "scene"), SHOWN("safe gap", 10, DIGITS), .upward = true, .brief = true,
      .when = AT_DISTANCE},
-    {FIELD(line, jitter, "jitter", "pixels"), SHOWN("jitter px", 11, DIGITS), .upward = true, .brief = true,
+    {FIELD(line, jitter, "jitter", "pixels"), SHOWN("jitter", 8, DIGITS), .upward = true, .brief = true,
      .when = AT_DISTANCE},
-    {FIELD(line, safe_to, "safe_to", "scene"), SHOWN("safe to", 10, DIGITS), .downward = true, .brief = true},
+    {FIELD(line, safe_to, "safe_to", "scene"), SHOWN("safe to", 9, DIGITS), .downward = true, .brief = true},
     {FIELD(line, still_to, "still_to", "scene"), SHOWN("1 px from", 11, DIGITS), .downward = true, .brief = true},
-    {FIELD(line, verdict, "verdict", ""), SHOWN("  verdict", -18, 0), .when = AT_DISTANCE},
+    {FIELD(line, verdict, "verdict", ""), SHOWN("  verdict", -17, 0), .when = AT_DISTANCE},
     {.kind = COLUMN_END}};
 
 static const column distance_columns[] = {{FIELD(world, distance, "distance", "scene"), .when = AT_DISTANCE},
@@ -246,7 +246,7 @@ static int report_worlds(const options *o, bool solving) {
         status = options_open(o, &out);
     if (status == EXIT_FINE) {
         const unsigned when = w.distances.count > 0 ? AT_DISTANCE : 0;
-        report_write(&(report_spec){o->verb->name, columns, &w, .when = when, .label = 10}, &out, o->form);
+        report_write(&(report_spec){"world", columns, &w, .when = when, .label = 10}, &out, o->form);
         status = output_close(&out);
     }
     setups_release(&w.all);
