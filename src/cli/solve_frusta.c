@@ -7,8 +7,7 @@
 #include "cli/solve_report.h"
 #include "need/frusta.h"
 
-static const double fixed_ratio =
-    1000.0; /* CesiumJS, updateFrustums() of View.js; without logarithmic depth */
+static const double fixed_ratio = 1000.0; /* CesiumJS, updateFrustums() of View.js; without logarithmic depth */
 
 typedef struct frustum_line {
     frustum found;
@@ -86,8 +85,8 @@ static void say_plan(page *p, void *item) {
         page_text(p, "No plan: %d frusta of %s %s do not suffice to tell surfaces %s apart from z = %s to %s.",
                   FRUSTA_MAX, format, mapping, limit.text, near.text, far.text);
     else if (!x->possible)
-        page_text(p, "No plan was found: %s %s does not tell surfaces %s apart at z = %s, whatever the near plane.",
-                  format, mapping, limit.text, number_in(number_full(x->stuck), unit).text);
+        page_text(p, "No plan was found: with far %s no near that was tried lets %s %s tell surfaces %s apart.",
+                  number_in(number_full(x->stuck), unit).text, format, mapping, limit.text);
     else
         page_text(p, "%llu %s of %s %s %s surfaces %s apart from z = %s to %s%s.", count,
                   count == 1 ? "frustum" : "frusta", format, mapping, count == 1 ? "tells" : "tell", limit.text,
