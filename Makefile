@@ -12,6 +12,7 @@ libdir ?= $(exec_prefix)/lib
 includedir ?= $(prefix)/include
 datarootdir ?= $(prefix)/share
 mandir ?= $(datarootdir)/man
+docdir ?= $(datarootdir)/doc/depthprec
 INSTALL ?= install
 INSTALL_PROGRAM ?= $(INSTALL) -m 755
 INSTALL_DATA ?= $(INSTALL) -m 644
@@ -19,14 +20,15 @@ INSTALL_DATA ?= $(INSTALL) -m 644
 # What pkg-config is asked for: by the full program, and by the tests. src/packages.sh knows who has them.
 PKGS_build := cairo gsl jansson libconfig libpng zlib
 # Whose headers are used where they are there, as those of libtiff are; the libraries are opened when a file needs them.
-PKGS_opened := OpenEXR assimp
+PKGS_opened := OpenEXR assimp vulkan
 PKGS_check := cmocka mpfr gmp jansson libxml-2.0 cairo
 
 # ---- Rooms: a new file in a layer's folder is picked up ----------------------------------------------------------
 
 HEADERS := $(wildcard include/depthprec/*.h)
 CORE := $(wildcard src/core/*.c)
-ROOMS := $(filter-out $(CORE),$(wildcard src/*/*.c))
+PAGE := $(wildcard src/web/*.c)
+ROOMS := $(filter-out $(CORE) $(PAGE),$(wildcard src/*/*.c))
 TESTS := $(wildcard tests/test_*.c)
 BENCHES := $(wildcard tests/bench_*.c)
 SUPPORT := $(filter-out $(TESTS) $(BENCHES),$(wildcard tests/*.c))
@@ -35,7 +37,7 @@ WEB := $(wildcard tests/web/*.c)
 MAN := $(wildcard man/*.[1-9])
 TOOLS := tests/run.sh tests/tap.sh tests/coverage.sh tests/cross.sh tests/linked.sh
 SCRIPTS := $(wildcard src/*.sh tests/*.sh tests/models/*.sh plots/*.sh man/*.sh .ci/*.sh)
-ALL_C := $(CORE) $(ROOMS) $(TESTS) $(BENCHES) $(SUPPORT) $(FUZZ) $(WEB)
+ALL_C := $(CORE) $(ROOMS) $(PAGE) $(TESTS) $(BENCHES) $(SUPPORT) $(FUZZ) $(WEB)
 ALL_H := $(HEADERS) $(wildcard src/*/*.h tests/*.h tests/*/*.h)
 
 objects = $(patsubst %.c,$(B)/obj/%.o,$(1))
@@ -135,33 +137,61 @@ $(B)/depthprec: $(ROOMS_O) $(B)/libdepthprec.a | $(B)/build.libs
 
 # ---- For the web -------------------------------------------------------------------------------------------------
 
-# The core as WebAssembly: the same files, with the same bits. `samples` prints them, here and there; see tests/web.sh.
+# The program as WebAssembly, for the page: the same files, with the same bits; src/web stands in for what needs files,
+# threads, cairo, GSL, libconfig or jansson. And the core alone: `samples` prints its bits, here and there (tests/web.sh).
 .PHONY: web
 web:
 	@sh src/packages.sh web
-	@$(MAKE) $(PARALLEL) $(B)/web/core.wasm
+	@$(MAKE) $(PARALLEL) $(B)/web/core.wasm $(B)/depthprec.html
+
+WEB_ROOMS := $(wildcard $(patsubst %,src/%/*.c,web core raster draw vertex api census shadow report need plot cli))
+WEB_METHODS := $(patsubst %,src/method/%.c,choose estimate families interval limit method truth ways) src/texture/decode.c
+WEB_NOT := report/output_file report/terminal need/camera need/reader need/requirement need/view need/check \
+    plot/canvas plot/fights plot/normals plot/pareto plot/stability plot/scene plot/pixels \
+    cli/texture_% cli/cmd_texture cli/cmd_bench cli/cmd_stability cli/cmd_check cli/check_report cli/cmd_shadow \
+    cli/shadow_rows cli/cmd_scene cli/scene_% cli/cmd_disocclusion cli/cmd_probe cli/cmd_web cli/completions cli/stop cli/junit cli/option_profile
+WEB_SOURCES := $(filter-out $(patsubst %,src/%.c,$(WEB_NOT)),$(WEB_ROOMS)) $(WEB_METHODS)
 
 WEB_CC ?= clang --target=wasm32-wasi
-WEB_FLAGS := -O2 $(EXACT) -Wno-pass-failed -fvisibility=hidden
-WEB_O := $(patsubst %.c,$(B)/web/obj/%.o,$(CORE))
-SAMPLES_O := $(B)/web/obj/tests/web/samples.o $(B)/obj/tests/web/samples.o
+WEB_FLAGS := $(WARN) -Wno-double-promotion -Wno-shorten-64-to-32 $(EXACT) -Wno-pass-failed -fvisibility=hidden -ffunction-sections -fdata-sections
+# The stack below all else: what overflows it ends, and overwrites nothing.
+WEB_LINK = $(WEB_CC) -mexec-model=reactor -Wl,--gc-sections,--stack-first,-z,stack-size=1048576 -s
+web_objects = $(patsubst %.c,$(B)/web/obj/%.o,$(1))
+WEB_CORE_O := $(call web_objects,$(CORE))
+WEB_O := $(call web_objects,$(WEB_SOURCES))
+WEB_DRAW_O := $(call web_objects,$(wildcard src/raster/*.c) src/draw/draw.c src/draw/picture.c)
+SAMPLES_O := $(foreach p,samples frames,$(B)/web/obj/tests/web/$p.o $(B)/obj/tests/web/$p.o)
+# Fast where numbers are made, small elsewhere.
+$(B)/web/obj/src/core/%.o $(B)/web/obj/src/raster/%.o $(B)/web/obj/src/draw/%.o: WEB_OPTIMIZE := -O2
+$(B)/web/obj/%.o: WEB_OPTIMIZE ?= -Oz
 $(B)/web/obj/%.o: %.c Makefile
 	@mkdir -p $(@D)
 	$(call say,WEB)
-	$(Q)$(WEB_CC) -std=gnu11 $(INCLUDES) $(WEB_FLAGS) -MMD -MP -c -o $@ $<
+	$(Q)$(WEB_CC) -std=gnu11 $(INCLUDES) $(WEB_OPTIMIZE) $(WEB_FLAGS) -MMD -MP -c -o $@ $<
 
-$(B)/web/core.wasm: $(WEB_O)
+$(B)/web/depthprec.wasm: $(WEB_O)
 	$(call say,WEB)
-	$(Q)$(WEB_CC) -mexec-model=reactor -Wl,--export-dynamic -Wl,--gc-sections -s -o $@ $^
+	$(Q)$(WEB_LINK) -o $@ $^
 
-$(B)/web/samples.wasm: $(word 1,$(SAMPLES_O)) $(WEB_O)
+# One file: no import works from file://, and no static host has to know WebAssembly.
+$(B)/depthprec.html: $(B)/web/depthprec.wasm $(wildcard src/web/*.html src/web/*.css src/web/*.js src/web/*.mjs)
+	$(call say,WEB)
+	$(Q)node src/web/bundle.mjs $< $@
+
+$(B)/web/core.wasm: $(WEB_CORE_O)
+	$(call say,WEB)
+	$(Q)$(WEB_LINK) -Wl,--export-dynamic -o $@ $^
+
+$(B)/web/frames.wasm: $(WEB_DRAW_O)
+$(B)/web/samples.wasm $(B)/web/frames.wasm: $(B)/web/%.wasm: $(B)/web/obj/tests/web/%.o $(WEB_CORE_O)
 	$(call say,WEB)
 	$(Q)$(WEB_CC) -o $@ $^
 
-$(B)/web/samples: $(word 2,$(SAMPLES_O)) $(B)/libdepthprec.a
+$(B)/web/frames: $(B)/librooms.a
+$(B)/web/samples $(B)/web/frames: $(B)/web/%: $(B)/obj/tests/web/%.o $(B)/libdepthprec.a
 	@mkdir -p $(@D)
 	$(call say,LD)
-	$(Q)$(LINK) -o $@ $^ -lm
+	$(Q)$(LINK) -o $@ $(filter %.o,$^) $(filter %rooms.a,$^) $(B)/libdepthprec.a -lm
 
 # ---- Tests -------------------------------------------------------------------------------------------------------
 
@@ -251,7 +281,7 @@ lint-gcc:
 # clang takes every INFINITY and NAN for a promoted float; gcc, which does not, judges promotions alone.
 lint-clang: $(B)/build.cflags $(B)/check.cflags
 	$(Q)clang -fsyntax-only -std=gnu11 $(INCLUDES) $(WARN) -Wno-double-promotion -Werror $(EXACT) \
-	    @$(B)/build.cflags @$(B)/check.cflags $(ALL_C)
+	    @$(B)/build.cflags @$(B)/check.cflags $(filter-out $(PAGE),$(ALL_C))
 
 lint-cppcheck:
 	$(Q)cppcheck -q --std=c11 --error-exitcode=1 --inline-suppr --enable=warning,performance,portability \
@@ -288,6 +318,7 @@ install: all
 	$(Q)for m in $(MAN); do s=$(D)$(mandir)/man$${m##*.}; $(INSTALL) -d $$s && $(INSTALL_DATA) $$m $$s || exit 1; done
 	$(Q)for f in $(COMPLETIONS); do $(INSTALL) -d $(D)$(datarootdir)/$${f%/*} && \
 	    $(B)/depthprec completions $$(expr $$f : '\([a-z]*\)') >$(D)$(datarootdir)/$$f || exit 1; done
+	$(if $(wildcard $(B)/depthprec.html),$(Q)$(INSTALL) -d $(D)$(docdir) && $(INSTALL_DATA) $(B)/depthprec.html $(D)$(docdir))
 	$(if $(D),,@sh src/loader.sh $(libdir))
 
 uninstall:
@@ -295,6 +326,7 @@ uninstall:
 	    $(D)$(libdir)/libdepthprec.a $(D)$(libdir)/pkgconfig/depthprec.pc
 	$(Q)for m in $(notdir $(MAN)); do rm -f $(D)$(mandir)/man$${m##*.}/$$m; done
 	$(Q)rm -rf $(D)$(includedir)/depthprec
+	$(Q)rm -f $(D)$(docdir)/depthprec.html
 	$(Q)rm -f $(addprefix $(D)$(datarootdir)/,$(COMPLETIONS))
 
 installcheck:
@@ -339,12 +371,13 @@ help:
 ## make lint        format, warnings of gcc and clang, cppcheck, manual pages, spelling, scripts, licences
 ## make plots       draw the gallery in plots/ again
 ## make bench       measure the speed of the engine and the methods, redraw the charts of both
-## make web         the core as WebAssembly, build/web/core.wasm
+## make web         the page for the browser, build/depthprec.html, and the core as WebAssembly, build/web/core.wasm
 ## make packages    install what building and testing need
-## make install     to PREFIX=/usr/local (DESTDIR, bindir, libdir, ... as usual); uninstall, installcheck
+## make install     to PREFIX=/usr/local (DESTDIR, bindir, libdir, ... as usual), with the page once `make web` has made it;
+##                  uninstall, installcheck
 ## make dist        a source archive in build/; make clean removes build/
 ## make deb         Debian's source package and three packages in build/deb/, judged by lintian (Debian)
 ##
 ## CONF=release|asan|coverage|fuzz  V=1 shows the commands  CC, CFLAGS, CPPFLAGS, LDFLAGS as usual
 
--include $(patsubst %.o,%.d,$(CORE_O) $(ROOMS_O) $(TESTS_O) $(SUPPORT_O) $(FUZZ_O) $(WEB_O) $(SAMPLES_O))
+-include $(patsubst %.o,%.d,$(CORE_O) $(ROOMS_O) $(TESTS_O) $(SUPPORT_O) $(FUZZ_O) $(WEB_CORE_O) $(WEB_O) $(SAMPLES_O))

@@ -25,6 +25,7 @@ build | library libpng                                | libpng-dev            | 
 build | library zlib                                  | zlib1g-dev            | zlib-devel         | zlib
 build | library OpenEXR                               | libopenexr-dev        | openexr-devel      | openexr
 build | library assimp                                | libassimp-dev         | assimp-devel       | assimp
+build | library vulkan                                | libvulkan-dev         | vulkan-headers     | vulkan-headers
 build | library libtiff-4                             | libtiff-dev           | libtiff-devel      | libtiff
 build | file share/fonts/*/*/DejaVuSans.ttf           | fonts-dejavu-core     | dejavu-sans-fonts  | ttf-dejavu
 check | library cmocka                                | libcmocka-dev         | libcmocka-devel    | cmocka

@@ -77,6 +77,12 @@ completions() {
 }
 check "the manual pages are installed" pages
 check "the completions are installed" completions
+# The page is made by `make web`, of more than the program needs; it is installed where it has been.
+page() {
+    installed=$stage/usr/share/doc/depthprec/depthprec.html
+    if [ -e "$B/depthprec.html" ]; then cmp "$B/depthprec.html" "$installed"; else [ ! -e "$installed" ]; fi
+}
+check "the page is installed if it has been made" page
 check "the installed program prints the right code" table
 check "and draws" figure
 

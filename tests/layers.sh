@@ -9,20 +9,23 @@ layers='
 include/depthprec | depthprec
 src/core          | depthprec core
 src/api           | depthprec core api
+src/world         | depthprec core world
 src/census        | depthprec core census
 src/raster        | depthprec core raster
 src/vertex        | depthprec core vertex
 src/draw          | depthprec core raster draw
 src/shadow        | depthprec core api shadow
 src/opened        | opened
+src/probe         | depthprec core opened raster probe
 src/texture       | depthprec core opened texture
 src/method        | depthprec core texture census method
 src/need          | depthprec core api raster need
 src/model         | core opened model
 src/scene         | depthprec core raster model draw need scene
 src/report        | depthprec core report
-src/plot          | depthprec core api census raster draw shadow texture method need model scene plot
-src/cli           | depthprec core api census raster vertex draw shadow texture method need model scene report plot cli
+src/plot          | depthprec core api world census raster draw shadow texture method need model scene plot
+src/cli           | depthprec core api world census raster vertex draw shadow texture method need model scene probe report plot cli
+src/web           | depthprec core draw texture method need scene report plot cli web
 '
 
 strangers() { # strangers FOLDER LAYER...: prints the quoted includes that name another layer, or none
@@ -49,6 +52,10 @@ core_inside() {
     lines -vE '^src/core/|"core/(append|bits|elementary|engine|expansion)\.h"' "$scratch/core"
 }
 
+objects() { # those of the program: the page's stand-ins (src/web) have the names of what they stand in for
+    for source in src/*/*.c; do echo "$B/obj/${source%.c}.o"; done | grep -v /obj/src/web/
+}
+
 echo "$layers" >"$scratch/layers"
 while IFS='|' read -r folder allowed; do
     folder=${folder%% *}
@@ -58,6 +65,12 @@ done <"$scratch/layers"
 check "every folder of src has its row" empty sh -c 'for d in src/*/; do grep -q "^${d%/} " "$1" || echo "$d"; done' - "$scratch/layers"
 check "of the core's own headers other rooms include append.h, bits.h, elementary.h, engine.h and expansion.h alone" empty core_inside
 check "cairo is included in src/plot/canvas.c alone" empty cairo_elsewhere
+web_elsewhere() {
+    lines -rnE '__(wasm|wasi|EMSCRIPTEN)' include src >"$scratch/web"
+    grep -q '^src/web/page\.h:' "$scratch/web" || return
+    lines -v '^src/web/page\.h:' "$scratch/web"
+}
+check "what is otherwise in WebAssembly stands in src/web/page.h alone" empty web_elsewhere
 check "GSL is not in the library" empty includes gsl/ include src/core
 
 # Of libm, what has one answer; for the others there is core/elementary.h.
@@ -67,7 +80,7 @@ inexact() {
     libm=$(${CC:-cc} -print-file-name=libm.so.6)
     nm -D --defined-only "$libm" >"$scratch/symbols" && grep -q ' log1p' "$scratch/symbols" || return
     sed 's/^.* //; s/@.*//' "$scratch/symbols" | sort -u >"$scratch/libm"
-    for source in src/*/*.c; do echo "$B/obj/${source%.c}.o"; done >"$scratch/objects"
+    objects >"$scratch/objects"
     xargs nm -A -u <"$scratch/objects" >"$scratch/open" && grep -q ' fmax$' "$scratch/open" || return
     awk 'NR == FNR { libm[$1] = 1; next } $NF in libm { sub(/:.*/, "", $1); print $NF, $1 }' "$scratch/libm" "$scratch/open" |
         lines -vE "^($exact) "
@@ -105,7 +118,7 @@ check "every global name of the library begins with dp_" empty global
 
 # Who needs whom, as the linker sees it: "user used", from what each object defines and what it leaves open.
 uses() {
-    for source in src/*/*.c; do echo "$B/obj/${source%.c}.o"; done >"$scratch/objects"
+    objects >"$scratch/objects"
     xargs nm -A -g --defined-only <"$scratch/objects" >"$scratch/defined" || return
     xargs nm -A -u <"$scratch/objects" >"$scratch/open" || return
     awk '{ split($1, file, ":"); sub(/^.*\/obj\/src\//, "", file[1]); sub(/\.o$/, "", file[1]) }

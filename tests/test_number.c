@@ -124,7 +124,7 @@ static void reading(void **unused) {
         assert_int_equal(number_parse(cases[i].text, cases[i].kind, &value), cases[i].good);
         assert_true(value == (cases[i].good ? cases[i].value : -7.0));
     }
-    unsigned long count = 0;
+    uint64_t count = 0;
     assert_true(number_parse_count("1000000", 1000000, &count) && count == 1000000);
     assert_false(number_parse_count("1000001", 1000000, &count));
     assert_false(number_parse_count("99999999999999999999999999", 1000000, &count));

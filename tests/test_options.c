@@ -577,6 +577,9 @@ static void test_own(void **state) {
     assert_true(strcmp(o.unit->name, "cm") == 0 && o.znear == 0.1);
     assert_int_equal(parse(&o, "table", OPTION_CSV, NULL, line), EXIT_FINE);
     assert_true(o.form == FORM_CSV);
+    assert_int_equal(parse(&o, "web table", OPTION_PAGE, "a.html", line), EXIT_FINE);
+    assert_true(strcmp(o.page, "a.html") == 0 && o.operand_count == 1 && strcmp(o.operands[0], "table") == 0);
+    assert_int_equal(parse(&o, "web table", OPTION_PAGE, "", line), EXIT_USAGE);
     assert_int_equal(parse(&o, "plot", OPTION_HELP, NULL, line), EXIT_FINE);
     assert_true(strcmp(o.verb->name, "help") == 0 && strcmp(((const verb *)o.operand_row)->name, "plot") == 0);
 }

@@ -5,8 +5,6 @@
  */
 #include <stdio.h>
 
-#include <gsl/gsl_errno.h>
-
 #include "need/plane.h"
 #include "support.h"
 
@@ -410,7 +408,6 @@ static void test_infinite_far(void **state) {
 }
 
 int main(void) {
-    gsl_set_error_handler_off();
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_fp32),          cmocka_unit_test(test_staged),
         cmocka_unit_test(test_exact),         cmocka_unit_test(test_error),

@@ -7,8 +7,6 @@
 #include <stdio.h>
 #include <string.h>
 
-#include <gsl/gsl_errno.h>
-
 #include "api/cost.h"
 #include "depthprec/depthprec.h"
 #include "need/solve.h"
@@ -392,6 +390,5 @@ int main(void) {
         cmocka_unit_test(test_error), cmocka_unit_test(test_range),       cmocka_unit_test(test_door),
         cmocka_unit_test(test_cost),  cmocka_unit_test(test_infinite),
     };
-    gsl_set_error_handler_off();
     return run_tap(tests);
 }

@@ -7,8 +7,6 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include <gsl/gsl_errno.h>
-
 #include "api/cost.h"
 #include "need/distance.h"
 #include "need/plane.h"
@@ -590,7 +588,6 @@ static void test_solve(void **state) {
 }
 
 int main(void) {
-    gsl_set_error_handler_off();
     const struct CMUnitTest tests[] = {cmocka_unit_test(test_solve), cmocka_unit_test(check_apart)};
     return run_tap(tests);
 }

@@ -13,20 +13,24 @@ lacking() { # prints what is not here of what the tests need
     node -e 'require("node:wasi")' >"$scratch/log" 2>&1 || echo "node 20"
 }
 
-there() { # there BLOCKS: what the module prints
+there() { # there PROGRAM WORD...: what it prints as a module
+    program=$1
+    shift
     node --no-warnings --input-type=module -e '
         import { WASI } from "node:wasi";
         import { readFileSync } from "node:fs";
         const [file, ...more] = process.argv.slice(1);
         const wasi = new WASI({ version: "preview1", args: [file, ...more], returnOnExit: true });
         const { instance } = await WebAssembly.instantiate(readFileSync(file), wasi.getImportObject());
-        process.exitCode = wasi.start(instance);' "$B/web/samples.wasm" "$@"
+        process.exitCode = wasi.start(instance);' "$B/web/$program.wasm" "$@"
 }
 
-same() {
-    "$B/web/samples" $blocks >"$scratch/here" && there $blocks >"$scratch/there" || return
+same() { # same LINES PROGRAM WORD...: it prints the same here and there, more lines than that
+    least=$1
+    shift
+    "$B/web/$@" >"$scratch/here" && there "$@" >"$scratch/there" || return
     diff "$scratch/here" "$scratch/there" | head -n 10
-    [ "$(wc -l <"$scratch/here")" -gt 200 ] && cmp "$scratch/here" "$scratch/there"
+    [ "$(wc -l <"$scratch/here")" -gt "$least" ] && cmp "$scratch/here" "$scratch/there"
 }
 
 self_contained() {
@@ -41,8 +45,10 @@ missing=$(lacking | paste -sd ';')
 if [ -n "$missing" ]; then
     skip "the core as WebAssembly" "missing: $missing"
 else
-    check "it is built" make --no-print-directory B="$B" CC="$CC" "$B/web/core.wasm" "$B/web/samples.wasm" "$B/web/samples"
-    check "the same bits as here" same
+    check "it is built" make --no-print-directory B="$B" CC="$CC" "$B/web/core.wasm" "$B/web/samples.wasm" "$B/web/samples" \
+        "$B/web/frames.wasm" "$B/web/frames"
+    check "the same bits as here" same 200 samples $blocks
+    check "the same frames of the flickering picture" same 30 frames
     check "the module imports nothing" self_contained
 fi
 finish

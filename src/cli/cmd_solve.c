@@ -7,8 +7,6 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include <gsl/gsl_errno.h>
-
 #include "cli/setups.h"
 #include "cli/solve_report.h"
 #include "report/number.h"
@@ -278,7 +276,7 @@ static int compare_alternatives(const void *a, const void *b) {
     if (x->possible && price != 0)
         return price;
     const int value = compare_numbers(x->reached.value, y->reached.value);
-    return value != 0 ? value : price;
+    return value != 0 ? value : price != 0 ? price : x->place < y->place ? -1 : x->place > y->place;
 }
 
 /* More room for the plane that was solved for, a larger distance, or a smaller separation. */
@@ -315,6 +313,8 @@ static void arrange(solve_report *r, solve_result *result) {
     for (size_t i = 1; i < r->count; i++)
         if (asks_for_choice(r->target))
             try_other_near(r, &r->items[i], result);
+    for (size_t i = 0; i < r->count; i++)
+        r->items[i].place = i;
     if (r->count > 1)
         qsort(r->items + 1, r->count - 1, sizeof r->items[0], compare_alternatives);
     if (!answer.solved)
@@ -330,7 +330,6 @@ int cmd_solve(const options *o) {
     solve_report r = {.o = o, .items = items};
     if (o->target == SOLVE_FOR_FRUSTA)
         return solve_frusta(o);
-    gsl_set_error_handler_off();
     int status = check_target(o, &r);
     if (status == EXIT_FINE)
         status = check_depths(o, &r);

@@ -4,19 +4,9 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "core/append.h"
+#include "cli/shell_word.h"
 
 enum { COMMAND_LINE_SIZE = 4096 };
-
-/* In quotes where a shell would see more in it than a word. */
-static void append_word(char *out, const char *word) {
-    static const char plain[] = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789-_=+,.:/%@";
-    const bool quoted = *word == '\0' || word[strspn(word, plain)] != '\0';
-    append(out, COMMAND_LINE_SIZE, quoted ? " '" : " ");
-    for (; *word != '\0'; word++)
-        append(out, COMMAND_LINE_SIZE, *word == '\'' ? "'\\''" : "%c", *word);
-    append(out, COMMAND_LINE_SIZE, quoted ? "'" : "");
-}
 
 /*
  * The words of the command, for the metadata, quoted where a shell would see more in one than a word, without where the
@@ -26,12 +16,12 @@ static void command_line(const options *o, const char *written, char out[COMMAND
     const char *first = o->operand_count > 0 ? o->operands[0] : NULL;
     snprintf(out, COMMAND_LINE_SIZE, "depthprec %s", o->verb->name);
     if (first != NULL)
-        append_word(out, first);
+        append_shell_word(out, COMMAND_LINE_SIZE, first);
     for (char **word = o->argv + 2; *word != NULL; word++) {
         bool next_is_written = word[1] != NULL && word[1] == written;
         bool holds_written = written != NULL && written >= *word && written <= *word + strlen(*word);
         if (*word != first && strcmp(*word, "--") != 0 && !next_is_written && !holds_written)
-            append_word(out, *word);
+            append_shell_word(out, COMMAND_LINE_SIZE, *word);
     }
 }
 

@@ -22,6 +22,8 @@ static const struct {
     {VERB_SHADOW, cmd_shadow},
     {VERB_SCENE, cmd_scene},
     {VERB_DISOCCLUSION, cmd_disocclusion},
+    {VERB_WEB, cmd_web},
+    {VERB_PROBE, cmd_probe},
     {VERB_LIST, cmd_list},
     {VERB_HELP, cmd_help},
     {VERB_COMPLETIONS, cmd_completions},
@@ -42,7 +44,8 @@ static int refuse_overwriting(const options *o) {
     } written[] = {{OPTION_OUTPUT, o->output},
                    {OPTION_FIGURE, o->figure},
                    {OPTION_ERROR_MAP, o->error_file},
-                   {OPTION_HISTOGRAM, o->histogram}};
+                   {OPTION_HISTOGRAM, o->histogram},
+                   {OPTION_KEEP, o->keep}};
     for (size_t i = 0; i < sizeof written / sizeof written[0]; i++) {
         const char *path = written[i].path;
         if (path == NULL || strcmp(path, "-") == 0)

@@ -140,7 +140,7 @@ static int parse_spaced(lengths *seen, const option_row *row, const char *text, 
     static const char *const ends[] = {"LO", "HI"};
     const char *part = text;
     size_t length = strcspn(part, ":");
-    unsigned long count;
+    uint64_t count;
     double z[2];
     for (int i = 0; i < 2; i++, part += length + 1, length = strcspn(part, ":")) {
         if (part[length] == '\0')

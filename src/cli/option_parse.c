@@ -106,8 +106,8 @@ int parse_number(options *o, const option_row *row, const char *value) {
 
 int parse_whole(options *o, const option_row *row, const char *value) {
     char limits[OPTION_TEXT_SIZE];
-    unsigned long whole;
-    if (!number_parse_count(value, (unsigned long)row->most, &whole) || (double)whole < row->least)
+    uint64_t whole;
+    if (!number_parse_count(value, (uint64_t)row->most, &whole) || (double)whole < row->least)
         return option_refuse(row, "must be a whole number from %s, got '%s'", option_limits(row, limits), value);
     set_whole(o, row, whole);
     return EXIT_FINE;
@@ -263,7 +263,7 @@ int parse_tolerance(options *o, const option_row *row, const char *value) {
     return EXIT_FINE;
 }
 
-int option_read_sides(const option_row *row, const char *value, unsigned most, bool square, unsigned long sides[2]) {
+int option_read_sides(const option_row *row, const char *value, unsigned most, bool square, uint64_t sides[2]) {
     const size_t length = strcspn(value, "x");
     const char *const height = square ? value : value + length + 1;
     char width[16];
@@ -276,7 +276,7 @@ int option_read_sides(const option_row *row, const char *value, unsigned most, b
 }
 
 int parse_size(options *o, const option_row *row, const char *value) {
-    unsigned long sides[2];
+    uint64_t sides[2];
     const bool square = strchr(value, 'x') == NULL && o->verb->bit != VERB_TEXTURE;
     const int status = option_read_sides(row, value, TEXTURE_SIDE_MAX, square, sides);
     if (status != EXIT_FINE)

@@ -57,7 +57,7 @@ enum {
     SEARCHED = VERB_SCENE | VERB_PLOT,
     SPREAD = COUNTED | VERB_CHECK | VERB_TEXTURE | SEARCHED,
     DRAWN = VERB_PLOT | VERB_TEXTURE,
-    WRITTEN = PLACED | MAPPED | VERB_STABILITY | VERB_LIST | VERB_CHECK,
+    WRITTEN = PLACED | MAPPED | VERB_STABILITY | VERB_LIST | VERB_CHECK | VERB_PROBE,
     EVERY = ~0
 };
 
@@ -146,8 +146,9 @@ const option_row option_rows[OPTION_COUNT] = {
         .except = {BUT(VERB_SOLVE, "float", "the guarantee; staged for an error, and for linear and log", NULL),
                    BUT(VERB_PLOT, "exact", "float in figures of its pipeline", NULL),
                    BUT(VERB_TABLE, "exact", "of several set-ups the fullest that each has", NULL)}},
-    [OPTION_ARITH] = {"arith", 0, "NAME", CAMERA | VERB_SOLVE,
-        "the binary32 arithmetic: @", WORD(arith, ariths), .standard = "ieee"},
+    [OPTION_ARITH] = {"arith", 0, "NAME|FILE", CAMERA | VERB_SOLVE,
+        "the binary32 arithmetic: @; or as 'depthprec probe --json -o FILE' found it", .parse = parse_arith,
+        SIZED(arith), .names = &ariths, .standard = "ieee"},
     [OPTION_TOLERANCE] = {"tolerance", 0, "SHARE", ASKED | VERB_BENCH | VERB_LIST,
         "the error allowed, 0.05 or 5%: a model is enough if it neglects no more of the separation; and the "
         "cheapest method that claims no more is used", parse_tolerance, .standard = "5%",
@@ -220,9 +221,10 @@ const option_row option_rows[OPTION_COUNT] = {
                    BUT(VERB_SHADOW, "1920x1080", NULL, "pixels of the view, which say how wide it is"),
                    BUT(VERB_PLOT, NULL, "1920x1080 in fight and shadow, else surfaces face the camera",
                        "the pixels of the viewport; budget and interval then count slanted triangles")}},
-    [OPTION_RASTER] = {"raster", 0, "NAME", VIEWED,
+    [OPTION_RASTER] = {"raster", 0, "NAME|FILE", VIEWED,
         "the rasterizer, its subpixel grid and how it sets up depth: @; of the specifications the worst that they "
-        "allow; see 'depthprec list rasterizers'", ROW(raster, rasters),
+        "allow; see 'depthprec list rasterizers'; or as 'depthprec probe --json -o FILE' found it",
+        .parse = parse_raster, FIELD(const raster_row *, raster), .names = &rasters,
         .without = "--subpixel, and a plane anchored at a vertex",
         .except = {BUT(VERB_ZFIGHT, "llvmpipe", "with --triangles", "the rasterizer or specification, as in "
                        "'depthprec list rasterizers'; with --triangles one that draws: llvmpipe, lavapipe, softpipe "
@@ -295,8 +297,9 @@ const option_row option_rows[OPTION_COUNT] = {
         "draw N pairs at random", WHOLE(sample, 1, 1e12, NULL),
         .without = "visit every depth; about 500 pairs of planes with --triangles, 1000000 vertices "
                     "with --against"},
-    [OPTION_SEED] = {"seed", 0, "S", COUNTED, /* JSON holds it exactly */
-        "seed of --sample: the same pairs for the same seed", WHOLE(seed, 0, 0x1p53, NULL), .standard = "0"},
+    [OPTION_SEED] = {"seed", 0, "S", COUNTED | VERB_PROBE, /* JSON holds it exactly */
+        "seed of --sample: the same pairs for the same seed", WHOLE(seed, 0, 0x1p53, NULL), .standard = "0",
+        .except = {BUT(VERB_PROBE, "0", NULL, "seed of the random scene that is predicted")}},
     [OPTION_TRIANGLES] = {"triangles", 0, NULL, VERB_ZFIGHT,
         "draw pairs of slanted planes as random triangles: how near they come before a pixel is wrong, against what "
         "is guaranteed", FLAG(drawn)},
@@ -335,6 +338,11 @@ const option_row option_rows[OPTION_COUNT] = {
         "write the model as .glb, with the triangles that fight in materials of their own", FILE_NAME(annotate)},
     [OPTION_EMIT_NEED] = {"emit-need", 0, "FILE", VERB_SCENE,
         "write what the camera must tell apart up to --within as a requirement file of check", FILE_NAME(emit_need)},
+    [OPTION_DEVICE] = {"device", 0, "N|NAME", VERB_PROBE,
+        "the GPU: its number, or a part of its name", .parse = parse_file, FIELD(const char *, device),
+        .without = "the first that is no processor", .group = "The GPU"},
+    [OPTION_KEEP] = {"keep", 0, "FILE", VERB_PROBE,
+        "write every code that was stored, with what was drawn: CSV", FILE_NAME(keep)},
     [OPTION_HALF_HEIGHT] = {"half-height", 0, "H", VERB_TEXTURE,
         "with --ortho: half the height of the view", LENGTH(camera.half_height, 1e-12, 1e12, "scene units"),
         .standard = "5", .group = "The depth texture"},
@@ -429,9 +437,12 @@ const option_row option_rows[OPTION_COUNT] = {
         .without = "as suits the figure"},
     [OPTION_TITLE] = {"title", 0, "TEXT", DRAWN,
         "title of the figure", TEXT(title)},
+    [OPTION_PAGE] = {"page", 0, "URL", VERB_WEB,
+        "where the page is; before COMMAND, whose own options follow it", FILE_NAME(page),
+        .standard = "depthprec.html", .group = "Output"},
     [OPTION_REPORT] = {"report", 0, NULL, VERB_CHECK | VERB_SCENE,
         "how to write verdicts: text, JSON, or JUnit XML",
-        WORD(report, reports), .standard = "text", .group = "Output"},
+        WORD(report, reports), .standard = "text"},
     [OPTION_JSON] = {"json", 0, NULL, WRITTEN,
         "write JSON, one object, schema depthprec/1", parse_form, .least = FORM_JSON},
     [OPTION_CSV] = {"csv", 0, NULL, WRITTEN,

@@ -65,7 +65,7 @@ int option_refuse(const option_row *row, const char *format, ...) __attribute__(
 
 /** Reads WIDTHxHEIGHT, each from 1 to `most`, or N for both where `square`. @return an exit status, after one line on
  *  stderr */
-int option_read_sides(const option_row *row, const char *value, unsigned most, bool square, unsigned long sides[2]);
+int option_read_sides(const option_row *row, const char *value, unsigned most, bool square, uint64_t sides[2]);
 
 /** What the options of slanted triangles say together; without --viewport surfaces face the camera. @return as above */
 int slant_complete(options *o);
@@ -97,6 +97,7 @@ option_parser parse_pixels; /**< the same, pairs of them with a semicolon in bet
 option_parser parse_unit, parse_presets, parse_near, parse_far, parse_formats, parse_mappings, parse_tolerance,
     parse_at, parse_range, parse_origin, parse_error_map;
 option_parser parse_size, parse_parameter, parse_form, parse_against, parse_gap, parse_also;
+option_parser parse_arith, parse_raster; /**< a name, or the profile of a GPU */
 option_parser parse_viewport, parse_slant, parse_plane, parse_triangle, parse_light_box;
 
 #endif

@@ -8,7 +8,7 @@
 enum { VIEWPORT_MAX = 32768 };
 
 int parse_viewport(options *o, const option_row *row, const char *value) {
-    unsigned long sides[2];
+    uint64_t sides[2];
     const int status = option_read_sides(row, value, VIEWPORT_MAX, false, sides);
     if (status != EXIT_FINE)
         return status;

@@ -239,14 +239,14 @@ static int read_option(options *o, option_id id, const char *argument) {
     const option_row *row = &option_rows[id];
     if ((row->commands & o->verb->bit) == 0)
         return wrong_command(o, id);
-    if (o->given[id] && (takes_argument(row) || argument != NULL) && id != OPTION_PARAMETER)
+    if (o->given[id] != NULL && (takes_argument(row) || argument != NULL) && id != OPTION_PARAMETER)
         return option_error(id, "must not be given twice, got '%s' too", argument);
-    o->given[id] = true;
+    o->given[id] = argument != NULL ? argument : "";
     return row->parse(o, row, argument);
 }
 
 static int ask_for_help(options *o, option_id id, const verb *asked) {
-    o->given[id] = true;
+    o->given[id] = "";
     o->operand_row = asked;
     o->version = id == OPTION_VERSION;
     o->verb = verb_find("help");
@@ -261,16 +261,18 @@ static int read_options(options *o, int argc, char **argv, const verb *asked, bo
     char letters[2 * OPTION_COUNT + 2];
     struct option longs[OPTION_COUNT + 1];
     char text[OPTION_TEXT_SIZE];
-    make_getopt_arrays("", letters, longs);
+    make_getopt_arrays(o->verb->bit == VERB_WEB ? "+" : "", letters, longs); /* behind its operand all is another's */
     optind = 0; /* start anew, also when an earlier call stopped half-way */
     for (int value; (value = getopt_long(argc, argv, letters, longs, NULL)) != -1;) {
         const int id = id_of_value(value == ':' ? optopt : value);
-        const bool ends = value == '?' || value == ':' || id == OPTION_HELP || id == OPTION_VERSION;
+        /* An argument that is missing behind a word: musl's getopt returns the option itself, without one. */
+        const bool lacks = value == ':' || (value != '?' && takes_argument(&option_rows[id]) && optarg == NULL);
+        const bool ends = value == '?' || lacks || id == OPTION_HELP || id == OPTION_VERSION;
         if (early && ends)
             return EXIT_FINE;
         if (value == '?')
             return unknown_option(o, optopt, argv[optind > 1 ? optind - 1 : 1]);
-        if (value == ':')
+        if (lacks)
             return option_error((option_id)id, "needs an argument, %s", option_argument(&option_rows[id], text));
         if (ends)
             return ask_for_help(o, (option_id)id, asked);
@@ -335,5 +337,6 @@ int options_open(const options *o, output *out) {
     const int status = output_open(out, o->output);
     out->width = o->full ? OUTPUT_UNLIMITED : 0;
     out->colour = (output_colour)o->colour;
+    out->measured = o->measured[0] != '\0' ? o->measured : NULL;
     return status;
 }

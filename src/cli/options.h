@@ -95,6 +95,8 @@ typedef enum option_id {
     OPTION_RENDER,
     OPTION_ANNOTATE,
     OPTION_EMIT_NEED,
+    OPTION_DEVICE,
+    OPTION_KEEP,
     OPTION_HALF_HEIGHT,
     OPTION_MATRIX,
     OPTION_YAW,
@@ -131,6 +133,7 @@ typedef enum option_id {
     OPTION_WIDTH,
     OPTION_HEIGHT,
     OPTION_TITLE,
+    OPTION_PAGE,
     OPTION_REPORT,
     OPTION_JSON,
     OPTION_CSV,
@@ -160,7 +163,7 @@ typedef enum solve_target {
 /** Values of --report. */
 typedef enum report_form { REPORT_TEXT = 0, REPORT_JSON, REPORT_JUNIT } report_form;
 
-enum { OPTIONS_FORMATS_MAX = 64, OPTIONS_PARAMETERS_MAX = 16, OPTIONS_PRESETS_MAX = 16 };
+enum { OPTIONS_FORMATS_MAX = 64, OPTIONS_PARAMETERS_MAX = 16, OPTIONS_PRESETS_MAX = 16, OPTIONS_MEASURED_SIZE = 512 };
 
 /** One --parameter NAME=VALUE; whose it is, and whether there is such a one, is for the command to see. */
 typedef struct named_number {
@@ -174,7 +177,7 @@ typedef struct options {
     char **operands; /**< what is neither option nor command; operand_count is within the verb's bounds */
     int operand_count;
     const void *operand_row;  /**< the row that the first operand names where the verb has a table of them, else null */
-    bool given[OPTION_COUNT]; /**< by the user: see option_given() */
+    const char *given[OPTION_COUNT]; /**< the argument as the user gave it, "" of none; see option_given() */
 
     double znear; /**< scene units */
     double zfar;  /**< scene units or INFINITY */
@@ -187,7 +190,8 @@ typedef struct options {
     dp_model model;
     bool model_auto; /**< --model auto: see choice.h; `model` is then exact */
     dp_arith arith;
-    double tolerance; /**< of the choice, a share */
+    char measured[OPTIONS_MEASURED_SIZE]; /**< the GPUs of the profiles of --arith and --raster, "" of none */
+    double tolerance;                     /**< of the choice, a share */
     double log_c;
 
     depths at;                 /**< what --at said; count is 0 when it was not given. See depths_resolve() */
@@ -232,6 +236,9 @@ typedef struct options {
     bool drawn;                                   /**< --triangles: the surfaces are drawn */
     int threads;                                  /**< 0 when not given: as many as there are cores */
 
+    const char *device; /**< of probe; null when not given */
+    const char *keep;   /**< file of raw codes; null when not given */
+
     unsigned cascades;   /**< of a shadow map */
     double lambda;       /**< of their split: 0 even, 1 logarithmic */
     double light_box[3]; /**< width, height, depth, scene units; 0 when not given */
@@ -267,6 +274,8 @@ typedef struct options {
     unsigned theme;    /**< index of theme_get() */
     int width, height; /**< px; 0 when not given, so that each figure has its own default */
     const char *title; /**< null when not given */
+
+    const char *page; /**< of a link */
 
     report_form report;
     output_form form;
@@ -314,7 +323,7 @@ void options_release(options *o);
 
 /** Did the user give this option? */
 static inline bool option_given(const options *o, option_id id) {
-    return o->given[id];
+    return o->given[id] != NULL;
 }
 
 /**

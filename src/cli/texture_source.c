@@ -156,7 +156,7 @@ static int take_note(options *o, texture_source *s) {
             const int status = row->parse(o, row, value);
             if (status != EXIT_FINE)
                 return status;
-            o->given[known[i]] = true;
+            o->given[known[i]] = "";
             s->noted = s->noted || known[i] == OPTION_MAPPING;
         }
     }

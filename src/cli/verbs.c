@@ -87,6 +87,16 @@ const verb verb_rows[] = {
      "how far apart two samples are surely of two surfaces",
      "  depthprec disocclusion -n 0.1 -f inf -m reversed --hfov 90\n"
      "  depthprec disocclusion --preset bevy --at 1,10,100\n", 0},
+    {"web", VERB_WEB, "COMMAND...", 1, 1000, NULL,
+     "the link that opens a command in the page depthprec.html",
+     "  depthprec web table -n 0.1 -f 1000 -F d24 -m d3d\n"
+     "  depthprec web table -F d24 -m d3d ';' table -F fp32 -m reversed\n"
+     "  depthprec web --page https://example.org/depth.html plot error -F d24\n", 0},
+    {"probe", VERB_PROBE, "", 0, 0, NULL,
+     "what the GPU of this machine does to depth, measured",
+     "  depthprec probe\n"
+     "  depthprec probe --device 1 --keep codes.csv\n"
+     "  depthprec probe --json -o gpu.json\n", 0},
     {"list", VERB_LIST, "WHAT", 0, 1, &topics,
      "formats, mappings, presets, methods: 'list' names all",
      "  depthprec list\n"

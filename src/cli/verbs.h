@@ -29,7 +29,9 @@ enum {
     VERB_COMPLETIONS = 1u << 12,
     VERB_SHADOW = 1u << 13,
     VERB_DISOCCLUSION = 1u << 14,
-    VERB_SCENE = 1u << 15
+    VERB_SCENE = 1u << 15,
+    VERB_WEB = 1u << 16,
+    VERB_PROBE = 1u << 17
 };
 
 typedef struct verb {
@@ -52,6 +54,8 @@ int cmd_budget(const struct options *o);
 int cmd_bias(const struct options *o);
 int cmd_shadow(const struct options *o);
 int cmd_scene(const struct options *o);
+int cmd_web(const struct options *o);
+int cmd_probe(const struct options *o);
 int cmd_list(const struct options *o);
 int cmd_plot(const struct options *o);
 int cmd_zfight(const struct options *o);

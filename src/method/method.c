@@ -4,13 +4,7 @@
 #include <math.h>
 #include <stdlib.h>
 
-#include <gsl/gsl_errno.h>
-
 #include "core/elementary.h"
-
-void method_start(void) {
-    gsl_set_error_handler_off();
-}
 
 dp_status method_setup(const method_family_row *family, size_t which, double znear, double zfar, bool ortho,
                        dp_setup *out) {

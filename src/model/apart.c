@@ -3,13 +3,11 @@
 
 #include <errno.h>
 #include <math.h>
-#include <signal.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <sys/resource.h>
-#include <sys/wait.h>
-#include <unistd.h>
+
+#include "opened/apart.h"
 
 enum { NAME_MOST = 1 << 12 };
 
@@ -52,22 +50,25 @@ static void put_model(FILE *out, const model *m, const char *error) {
     fwrite(m->of, sizeof *m->of, m->triangles, out);
 }
 
-/* Its messages are for nobody: the sentence says what happened. */
-_Noreturn static void be_child(const model_source *s, bool (*read)(model_source *, const char *), const char *extension,
-                               FILE *out) {
-    const struct rlimit most = {APART_SECONDS, APART_SECONDS + 5};
+/* What the child is given. */
+typedef struct reading {
+    const model_source *source;
+    bool (*read)(model_source *, const char *);
+    const char *extension;
+} reading;
+
+static bool read_apart(void *of, FILE *out) {
+    const reading *r = of;
     model made = {0};
     model_error error = {0};
-    model_source own = *s;
+    model_source own = *r->source;
     own.out = &made;
     own.error = &error;
-    setrlimit(RLIMIT_CPU, &most);
-    const bool quiet = freopen("/dev/null", "w", stderr) != NULL;
-    const bool done = quiet && read(&own, extension);
+    const bool done = r->read(&own, r->extension);
     if (!done && error.text[0] == '\0')
         snprintf(error.text, sizeof error.text, "there is no memory for it");
     put_model(out, &made, done ? "" : error.text);
-    _exit(fflush(out) == 0 ? 0 : 1);
+    return true;
 }
 
 /* ---- The parent -------------------------------------------------------------------------------------------------- */
@@ -128,7 +129,6 @@ static bool take_triangles(model_source *s, FILE *in, size_t count) {
 
 static bool take_model(model_source *s, FILE *in) {
     head h;
-    rewind(in);
     if (fread(&h, sizeof h, 1, in) != 1)
         return lost(s);
     h.error[sizeof h.error - 1] = '\0';
@@ -142,25 +142,20 @@ static bool take_model(model_source *s, FILE *in) {
 }
 
 bool model_apart(model_source *s, bool (*read)(model_source *s, const char *extension), const char *extension) {
-    FILE *between = tmpfile();
-    int status = 0;
-    if (between == NULL)
-        return model_fail(s, "needs a file for a while, which cannot be made: %s", strerror(errno));
-    fflush(NULL);
-    const pid_t child = fork();
-    if (child == 0)
-        be_child(s, read, extension, between);
-    while (child > 0 && waitpid(child, &status, 0) < 0 && errno == EINTR)
-        ;
+    reading r = {s, read, extension};
+    FILE *between;
+    const apart_end end = apart_run(read_apart, &r, (apart_limits){.processor = APART_SECONDS}, &between);
     bool good = false;
-    if (child < 0)
+    if (end == APART_NO_FILE)
+        model_fail(s, "needs a file for a while, which cannot be made: %s", strerror(errno));
+    else if (end == APART_NO_PROCESS)
         model_fail(s, "needs a process of its own, which cannot be made: %s", strerror(errno));
-    else if (WIFSIGNALED(status) && WTERMSIG(status) == SIGXCPU)
+    else if (end == APART_ENDLESS)
         model_fail(s, "could not be read: libassimp does not come to an end in %d s", APART_SECONDS);
-    else if (!WIFEXITED(status) || WEXITSTATUS(status) != 0)
+    else if (end == APART_BROKEN)
         model_fail(s, "could not be read: libassimp broke down");
     else
         good = take_model(s, between);
-    fclose(between);
+    apart_close(between);
     return good;
 }

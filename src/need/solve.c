@@ -4,13 +4,11 @@
 #include <math.h>
 #include <stdlib.h>
 
-#include <gsl/gsl_errno.h>
-#include <gsl/gsl_roots.h>
-
 #include "core/bits.h"
 #include "core/elementary.h"
+#include "need/root.h"
 
-enum { BREAKS_MAX = 3 * 260, ITERATIONS = 200, EXTEND_MOST = 4096 };
+enum { BREAKS_MAX = 3 * 260, EXTEND_MOST = 4096 };
 
 static const double near_least = 1e-12, near_most = 1e12, far_most = 1e18, planes_apart = 1e-6;
 
@@ -20,7 +18,6 @@ typedef enum part { PART_FALLING = 0, PART_RISING } part;
 typedef struct search {
     const solve_problem *problem;
     solve_result *result;
-    gsl_root_fsolver *brent;
     double margin;      /* a measure this much below the limit stays there whatever the rounding errors */
     bool inert;         /* the unknown has no influence */
     double least, most; /* finite */
@@ -176,24 +173,12 @@ static double residual(double t, void *context) {
 }
 
 static double find_root(equation *e, double a, double b) {
-    gsl_root_fsolver *brent = e->s->brent;
-    gsl_function curve = {residual, e};
-    if (gsl_root_fsolver_set(brent, &curve, dp_log(a), dp_log(b)) != GSL_SUCCESS)
-        return a;
-    for (int i = 0; i < ITERATIONS; i++) {
-        if (gsl_root_fsolver_iterate(brent) != GSL_SUCCESS)
-            break;
-        const double lo = gsl_root_fsolver_x_lower(brent);
-        const double hi = gsl_root_fsolver_x_upper(brent);
-        if (hi - lo <= 0x1p-50)
-            break;
-    }
-    return dp_exp(gsl_root_fsolver_root(brent));
+    return dp_exp(root_find(residual, e, dp_log(a), dp_log(b), 0x1p-50));
 }
 
 /*
- * Where the part begins to pass, from the end that does: `inside` passes surely, `outside` does not. Brent's root, then
- * the exact double: first the last that passes surely, then those beyond that pass as they are.
+ * Where the part begins to pass, from the end that does: `inside` passes surely, `outside` does not. The root, then the
+ * exact double: first the last that passes surely, then those beyond that pass as they are.
  */
 static uint64_t edge(const search *s, part which, uint64_t inside, uint64_t outside) {
     const bool down = outside < inside;
@@ -365,9 +350,6 @@ dp_status solve(const solve_problem *problem, solve_result *result) {
     const dp_status status = limits(&s);
     if (status != DP_OK)
         return status;
-    s.brent = gsl_root_fsolver_alloc(gsl_root_fsolver_brent);
-    if (s.brent == NULL)
-        return DP_ERROR_NULL;
     const dp_mapping_row *mapping = dp_mapping_get(problem->spec.mapping);
     s.margin = mapping->curve == DP_CURVE_LOG ? 0x1p-44 : 0x1p-48;
     s.inert = problem->unknown == SOLVE_NEAR && !problem->spec.ortho && mapping->curve != DP_CURVE_PERSPECTIVE;
@@ -378,6 +360,5 @@ dp_status solve(const solve_problem *problem, solve_result *result) {
     solve_pieces(&s);
     add_infinity(&s);
     conclude(&s);
-    gsl_root_fsolver_free(s.brent);
     return DP_OK;
 }

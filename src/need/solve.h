@@ -4,10 +4,8 @@
  *
  * As near or far moves, the measure (measure.h) is monotone except where it jumps because d(z) crosses a power of two
  * of a FLOAT. The crossings are known in closed form, and placed exactly by the exact codes; between two of them a
- * bracketed root finder (Brent's, of GSL) finds where the requirement begins to hold. What is reported has been
- * evaluated: an end of an island passes.
- *
- * GSL's error handler must be off: gsl_set_error_handler_off().
+ * bracketed root finder (root.h) finds where the requirement begins to hold. What is reported has been evaluated: an
+ * end of an island passes.
  */
 #ifndef NEED_SOLVE_H
 #define NEED_SOLVE_H

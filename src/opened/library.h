@@ -16,14 +16,14 @@ typedef struct library {
 /** A function of some library. */
 typedef void library_function(void);
 
-/** From a list of at most 32 functions, LIST(X) with X(name) for each: `functions`, to call them by name, and
+/** From a list of at most 64 functions, LIST(X) with X(name) for each: `functions`, to call them by name, and
  * `symbols`, their names in the same order. */
 #define LIBRARY_FUNCTIONS(LIST)                                                                                        \
     typedef union functions {                                                                                          \
         struct {                                                                                                       \
             LIST(LIBRARY_MEMBER)                                                                                       \
         };                                                                                                             \
-        library_function *all[32];                                                                                     \
+        library_function *all[64];                                                                                     \
     } functions;                                                                                                       \
     static const char *const symbols[] = {LIST(LIBRARY_NAME) NULL};
 #define LIBRARY_MEMBER(name) __typeof__(name) *name;

@@ -5,7 +5,7 @@
 
 #include "core/append.h"
 
-static void escaped(FILE *out, const char *s) {
+void notes_write_escaped(FILE *out, const char *s) {
     for (; *s != '\0'; s++) {
         if (*s == '&')
             fputs("&amp;", out);
@@ -20,7 +20,7 @@ static void escaped(FILE *out, const char *s) {
 
 static void element(FILE *out, const char *open, const char *content, const char *close) {
     fputs(open, out);
-    escaped(out, content);
+    notes_write_escaped(out, content);
     fputs(close, out);
 }
 

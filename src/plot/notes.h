@@ -17,6 +17,9 @@ typedef struct notes {
 /** Writes an SVG with <title>, <desc> and <metadata> as the first children of its root, and its role and label. */
 void notes_write_svg(FILE *out, const char *svg, size_t size, const notes *words);
 
+/** Writes text as the content of an element. */
+void notes_write_escaped(FILE *out, const char *text);
+
 /** Copies text into out as valid UTF-8 without control characters; what is neither becomes '?'. @return out */
 char *notes_clean(char *out, size_t size, const char *text);
 

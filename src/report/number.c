@@ -40,10 +40,10 @@ bool number_parse_part(const char *text, size_t length, number_kind kind, double
     return number_parse(part, kind, out);
 }
 
-bool number_parse_count(const char *text, unsigned long max, unsigned long *out) {
+bool number_parse_count(const char *text, uint64_t max, uint64_t *out) {
     const size_t digits = strspn(text, "0123456789");
     errno = 0;
-    const unsigned long value = strtoul(text, NULL, 10);
+    const uint64_t value = strtoull(text, NULL, 10);
     if (digits == 0 || text[digits] != '\0' || errno == ERANGE || value > max)
         return false;
     *out = value;

@@ -26,7 +26,7 @@ bool number_parse(const char *text, number_kind kind, double *out);
 bool number_parse_part(const char *text, size_t length, number_kind kind, double *out);
 
 /** Reads a whole number of decimal digits, nothing else, at most `max`. */
-bool number_parse_count(const char *text, unsigned long max, unsigned long *out);
+bool number_parse_count(const char *text, uint64_t max, uint64_t *out);
 
 /** A whole number. @return length */
 size_t number_count(uint64_t value, char out[NUMBER_SIZE]);

@@ -6,8 +6,9 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <sys/ioctl.h>
 #include <unistd.h>
+
+#include "report/terminal.h"
 
 enum {
     PAGE_WIDTH = 80, /* where nothing says how wide it is */
@@ -16,12 +17,12 @@ enum {
 };
 
 static int width_of(const output *out) {
-    struct winsize size;
     if (out->width > 0)
         return out->width;
-    if (ioctl(out->fd, TIOCGWINSZ, &size) != 0 || size.ws_col == 0)
+    const int columns = terminal_columns(out->fd);
+    if (columns == 0)
         return PAGE_WIDTH;
-    return size.ws_col > PAGE_LEAST ? size.ws_col : PAGE_LEAST;
+    return columns > PAGE_LEAST ? columns : PAGE_LEAST;
 }
 
 page page_start(output *out, int label) {

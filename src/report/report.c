@@ -213,6 +213,8 @@ static void report_text(const report_spec *spec, output *out) {
     put_lists(&w, spec->columns, spec->item);
     if (spec->notes != NULL)
         spec->notes(&w.page, spec->item);
+    if (out->measured != NULL)
+        page_text(&w.page, "Measured on %s.", out->measured);
 }
 
 /* ---- JSON -------------------------------------------------------------------------------------------------------- */
@@ -349,6 +351,8 @@ static void report_json(const report_spec *spec, output *out) {
     json_word(&w, "schema", "depthprec/1");
     json_word(&w, "command", spec->command);
     json_word(&w, "version", dp_version());
+    if (out->measured != NULL)
+        json_word(&w, "measured", out->measured);
     json_columns(&w, spec->columns, spec->item);
     output_text(out, "}\n");
 }

@@ -1,0 +1,160 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Depth bias: the step r of a constant, the exponent it follows in fp32, and the rule of the slope. */
+#include <math.h>
+#include <stddef.h>
+
+#include "core/bits.h"
+#include "core/elementary.h"
+#include "probe/judge.h"
+
+enum { ACROSS = SHOT_SIZE / PLAN_TILE, AROUND = 9, FACTORS = 3 };
+
+static const double factors[FACTORS] = {1.0, 2.0, 0.5};
+
+/* Pixels about the middle of a tile, all inside its triangle. */
+static int pixel_of(int tile, int which) {
+    const int half = PLAN_TILE / 2;
+    const int x = tile % ACROSS * PLAN_TILE + half - 1 + which % 3,
+              y = tile / ACROSS * PLAN_TILE + half - 2 + which / 3;
+    return y * SHOT_SIZE + x;
+}
+
+static bool is_flat(int tile) {
+    return tile % 4 < PLAN_FLAT;
+}
+
+/* ---- fp32 -------------------------------------------------------------------------------------------------------- */
+
+/* Whose depth has the exponent n. DIFFERENCES is what SwiftShader 5 takes for the largest depth: that of the vertex
+ * where it anchors the plane, of the tiles the second, and the differences of the other two from it. */
+typedef enum source { LARGEST, PIXEL, DIFFERENCES } source;
+
+#define N_OF(what) ", 2^n the power of two at or below " what
+static const struct {
+    const char *words;
+    source source;
+    int factor; /* index of factors */
+} steps[] = {
+    {"r = 2^(n-23)" N_OF("the largest depth of the triangle"), LARGEST, 0},
+    {"r = 2^(n-22)" N_OF("the largest depth of the triangle"), LARGEST, 1},
+    {"r = 2^(n-24)" N_OF("the largest depth of the triangle"), LARGEST, 2},
+    {"r = 2^(n-23)" N_OF("the depth of the pixel"), PIXEL, 0},
+    {"r = 2^(n-22)" N_OF("the depth of the pixel"), PIXEL, 1},
+    {"r = 2^(n-24)" N_OF("the depth of the pixel"), PIXEL, 2},
+    {"r = 2^(n-23)" N_OF("the anchor's depth and the others' differences from it"), DIFFERENCES, 0},
+};
+enum { STEPS = sizeof steps / sizeof steps[0] };
+
+static double depth_of(const shot *s, int tile, source of, double pixel) {
+    double z[3];
+    for (int i = 0; i < 3; i++)
+        z[i] = (double)s->vertex[3 * tile + i][2];
+    if (of == DIFFERENCES)
+        return fmax(z[1], fmax(fabs(z[0] - z[1]), fabs(z[2] - z[1])));
+    return of == LARGEST ? fmax(z[0], fmax(z[1], z[2])) : pixel;
+}
+
+/* Whether a pixel moved by `PLAN_BIAS` steps of factor 2^(n - 23), 2^n the power of two at or below `depth`. */
+static bool stepped(double before, double after, double depth, double factor, bool flat) {
+    const double step = ldexp(factor * PLAN_BIAS, ilogb(depth) - 23);
+    const double error = flat ? 0.0 : 0x1p-24; /* one rounding of the sum */
+    return fabs(after - before - step) <= error;
+}
+
+static void judge_float(probe_result *r) {
+    const shot *without = judge_shot(r, PLAN_UNBIASED, SHOT_D32F), *with = judge_shot(r, PLAN_CONSTANT, SHOT_D32F);
+    guess all[STEPS];
+    if (without == NULL || with == NULL)
+        return;
+    for (int g = 0; g < STEPS; g++) {
+        all[g] = (guess){steps[g].words, 0};
+        for (int i = 0; i < PLAN_TILES * AROUND; i++) {
+            const int tile = i / AROUND, pixel = pixel_of(tile, i % AROUND);
+            const double before = (double)dp_float32(without->code[pixel]);
+            const double after = (double)dp_float32(with->code[pixel]);
+            all[g].hits += stepped(before, after, depth_of(with, tile, steps[g].source, before),
+                                   factors[steps[g].factor], is_flat(tile));
+        }
+    }
+    judge_guesses(r, "bias", "d32f", all, STEPS, (uint64_t)PLAN_TILES * AROUND);
+}
+
+/* ---- UNORM ------------------------------------------------------------------------------------------------------- */
+
+static double code_step(const shot *without, const shot *with, int pixel) {
+    return (double)with->code[pixel] - (double)without->code[pixel];
+}
+
+/* Codes that were moved, within one: where they were before in their cell is not seen. */
+static int judge_unorm(probe_result *r, shot_format format) {
+    static const char *const words[FACTORS] = {"r = one code", "r = two codes", "r = half a code"};
+    const shot *without = judge_shot(r, PLAN_UNBIASED, format), *with = judge_shot(r, PLAN_CONSTANT, format);
+    guess all[FACTORS];
+    uint64_t cases = 0;
+    if (without == NULL || with == NULL)
+        return JUDGE_NONE;
+    for (int g = 0; g < FACTORS; g++) {
+        all[g] = (guess){words[g], 0};
+        cases = 0;
+        for (int i = 0; i < PLAN_TILES * AROUND; i++) {
+            const int pixel = pixel_of(i / AROUND, i % AROUND);
+            if (!is_flat(i / AROUND))
+                continue;
+            cases++;
+            all[g].hits += fabs(code_step(without, with, pixel) - factors[g] * PLAN_BIAS) <= 1.0;
+        }
+    }
+    return judge_guesses(r, "bias", probe_format_name(format), all, FACTORS, cases);
+}
+
+/* Tiles lie a quarter above a code: 8 1/2 steps carry them over the next tie, 8 do not. */
+static void judge_fraction(probe_result *r, int factor) {
+    const shot *without = judge_shot(r, PLAN_UNBIASED, SHOT_D16), *with = judge_shot(r, PLAN_FRACTION, SHOT_D16);
+    guess all[2] = {{"fractions of a constant count", 0}, {"fractions of a constant are cut", 0}};
+    uint64_t cases = 0;
+    if (without == NULL || with == NULL || factor == JUDGE_NONE)
+        return;
+    for (int i = 0; i < PLAN_TILES * AROUND; i++) {
+        if (!is_flat(i / AROUND))
+            continue;
+        const double step = code_step(without, with, pixel_of(i / AROUND, i % AROUND));
+        cases++;
+        all[0].hits += step == floor(0.75 + factors[factor] * (PLAN_BIAS + 0.5));
+        all[1].hits += step == floor(0.75 + factors[factor] * PLAN_BIAS);
+    }
+    judge_guesses(r, "fraction", "d16", all, 2, cases);
+}
+
+/* ---- Slope ------------------------------------------------------------------------------------------------------- */
+
+static void judge_slope(probe_result *r) {
+    const shot *without = judge_shot(r, PLAN_UNBIASED, SHOT_D32F), *with = judge_shot(r, PLAN_SLOPED, SHOT_D32F);
+    guess all[3] = {{"slope m = max(|dz/dx|, |dz/dy|)", 0},
+                    {"slope m = sqrt((dz/dx)^2 + (dz/dy)^2)", 0},
+                    {"slope m = |dz/dx| + |dz/dy|", 0}};
+    const double error = 0x1p-20; /* of a step of some 2^-6: a few roundings of slopes and sums in binary32 */
+    uint64_t cases = 0;
+    if (without == NULL || with == NULL)
+        return;
+    for (int i = 0; i < PLAN_TILES * AROUND; i++) {
+        const int pixel = pixel_of(i / AROUND, i % AROUND);
+        const plan_tile t = plan_tile_of(SHOT_D32F, i / AROUND);
+        const double x = fabs((double)t.slope_x), y = fabs((double)t.slope_y);
+        const double m[3] = {fmax(x, y), dp_hypot(x, y), x + y};
+        const double step = (double)dp_float32(with->code[pixel]) - (double)dp_float32(without->code[pixel]);
+        if (is_flat(i / AROUND))
+            continue;
+        cases++;
+        for (int g = 0; g < 3; g++)
+            all[g].hits += fabs(step - m[g]) <= error;
+    }
+    judge_guesses(r, "slope", NULL, all, 3, cases);
+}
+
+void judge_bias(probe_result *r) {
+    const int d16 = judge_unorm(r, SHOT_D16);
+    judge_unorm(r, SHOT_D24);
+    judge_float(r);
+    judge_fraction(r, d16);
+    judge_slope(r);
+}

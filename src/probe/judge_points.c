@@ -1,0 +1,261 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Points: what becomes of one vertex. */
+#include <math.h>
+#include <stddef.h>
+
+#include "core/bits.h"
+#include "core/elementary.h"
+#include "depthprec/arith.h"
+#include "depthprec/format.h"
+#include "probe/judge.h"
+
+/* ---- The format that is stored ----------------------------------------------------------------------------------- */
+
+/* Two depths of one code are equal in the buffer if it holds codes, and differ if it holds more. */
+static void judge_stored(probe_result *r, shot_format format) {
+    const shot *s = judge_shot(r, PLAN_STORED, format);
+    const bool whole = plan_scale(format) > 0.0;
+    uint64_t same = 0;
+    if (s == NULL)
+        return;
+    for (uint32_t i = 0; i < s->count; i++)
+        same += s->code[i] == dp_bits32(s->vertex[i][2]);
+    const uint64_t hits = !whole ? same : s->passed <= s->count ? s->passed : 0;
+    const bool all = whole ? hits == s->count || (hits > 0 && !r->machine.counts) : same == s->count && s->passed == 0;
+    probe_finding *f = judge_say(r, "stored", probe_format_name(format), all ? PROBE_SURE : PROBE_NO_ROW, "%s: %s",
+                                 r->machine.device[r->machine.chosen].format[format],
+                                 all && whole         ? "codes of that many bits, nothing finer"
+                                 : all                ? "every bit of binary32"
+                                 : whole && hits == 0 ? "finer than its codes: depths of one code are told apart"
+                                                      : "neither its codes nor finer ones throughout");
+    f->cases = s->count;
+    f->hits = hits;
+}
+
+/* ---- Rounding ---------------------------------------------------------------------------------------------------- */
+
+/* The conversions that rows of core/arith.c have, then others. */
+enum { EXACT_UP, PRODUCT_EVEN, PRODUCT_ZERO, EXACT_EVEN, EXACT_ZERO, PRODUCT_HALF, CONVERSIONS };
+
+static const char *const conversion_words[CONVERSIONS] = {
+    [EXACT_UP] = "the exact d (2^N - 1), to nearest, ties up",
+    [PRODUCT_EVEN] = "the binary32 product d (2^N - 1), to nearest even",
+    [PRODUCT_ZERO] = "the binary32 product d (2^N - 1), truncated",
+    [EXACT_EVEN] = "the exact d (2^N - 1), to nearest even",
+    [EXACT_ZERO] = "the exact d (2^N - 1), truncated",
+    [PRODUCT_HALF] = "the binary32 product d (2^N - 1) plus 1/2, truncated",
+};
+
+static uint32_t converted(const dp_format *format, int conversion, float d) {
+    const float product = d * (float)format->code_max, moved = product + 0.5F;
+    const float whole =
+        conversion == PRODUCT_EVEN ? rintf(product) : truncf(conversion == PRODUCT_HALF ? moved : product);
+    switch (conversion) {
+    case EXACT_UP:
+        return dp_format_encode(format, DP_ROUND_NEAREST, (double)d);
+    case EXACT_EVEN:
+        return dp_format_encode(format, DP_ROUND_EVEN, (double)d);
+    case EXACT_ZERO:
+        return dp_format_encode(format, DP_ROUND_ZERO, (double)d);
+    default:
+        return whole < (float)format->code_max ? (uint32_t)whole : format->code_max;
+    }
+}
+
+static int judge_rounding(probe_result *r, shot_format format) {
+    const shot *s = judge_shot(r, PLAN_ROUNDING, format);
+    guess all[CONVERSIONS];
+    dp_format f[2];
+    if (s == NULL || dp_format_parse(probe_format_name(format), f) != 1)
+        return JUDGE_NONE;
+    for (int c = 0; c < CONVERSIONS; c++) {
+        all[c] = (guess){conversion_words[c], 0};
+        for (uint32_t i = 0; i < s->count; i++)
+            all[c].hits += converted(&f[0], c, s->vertex[i][2]) == s->code[i];
+    }
+    return judge_guesses(r, "rounding", probe_format_name(format), all, CONVERSIONS, s->count);
+}
+
+/* ---- Division and projection ------------------------------------------------------------------------------------- */
+
+enum { DIVIDED, RECIPROCAL, DIVISIONS };
+
+static float window(int division, float z, float w) {
+    return division == DIVIDED ? z / w : z * (1.0F / w);
+}
+
+static int judge_division(probe_result *r) {
+    const shot *s = judge_shot(r, PLAN_DIVISION, SHOT_D32F);
+    guess all[DIVISIONS] = {{"clip z / w, rounded once", 0}, {"clip z times the rounded 1 / w", 0}};
+    if (s == NULL)
+        return JUDGE_NONE;
+    for (int d = 0; d < DIVISIONS; d++)
+        for (uint32_t i = 0; i < s->count; i++)
+            all[d].hits += dp_bits32(window(d, s->vertex[i][2], s->vertex[i][3])) == s->code[i];
+    return judge_guesses(r, "division", NULL, all, DIVISIONS, s->count);
+}
+
+/* a z + b rounded once: the product of two binary32 numbers is exact in double, and the sum is rounded to odd there. */
+static float fused(float a, float z, float b) {
+    return fmaf(a, z, b);
+}
+
+static int judge_projection(probe_result *r, int division) {
+    const shot *s = judge_shot(r, PLAN_PROJECTION, SHOT_D32F);
+    guess all[2] = {{"A z, then + B, each rounded", 0}, {"A z + B fused, rounded once", 0}};
+    if (s == NULL || division == JUDGE_NONE)
+        return JUDGE_NONE;
+    for (uint32_t i = 0; i < s->count; i++) {
+        const float z = s->vertex[i][2], w = s->vertex[i][3], product = s->a * z;
+        all[0].hits += dp_bits32(window(division, product + s->b, w)) == s->code[i];
+        all[1].hits += dp_bits32(window(division, fused(s->a, z, s->b), w)) == s->code[i];
+    }
+    return judge_guesses(r, "projection", NULL, all, 2, s->count);
+}
+
+/* ---- Planes ------------------------------------------------------------------------------------------------------ */
+
+static bool is_drawn(const shot *s, uint32_t i) {
+    return s->code[i] != dp_bits32(SHOT_CLEAR);
+}
+
+static void judge_planes(probe_result *r) {
+    const shot *s = judge_shot(r, PLAN_PLANES, SHOT_D32F);
+    guess clip[] = {{"drawn where 0 <= z <= w, exactly", 0},
+                    {"drawn where 0 < z <= w", 0},
+                    {"drawn where 0 <= z < w", 0},
+                    {"drawn everywhere, clamped", 0}};
+    guess tiny[] = {{"kept", 0}, {"flushed to zero", 0}, {"not drawn", 0}};
+    uint64_t normal = 0, subnormal = 0;
+    if (s == NULL)
+        return;
+    for (uint32_t i = 0; i < s->count; i++) {
+        const float z = s->vertex[i][2], w = s->vertex[i][3];
+        if (z > 0.0F && z < 0x1p-126F) {
+            subnormal++;
+            tiny[0].hits += s->code[i] == dp_bits32(z);
+            tiny[1].hits += s->code[i] == 0;
+            tiny[2].hits += !is_drawn(s, i);
+            continue;
+        }
+        normal++;
+        clip[0].hits += is_drawn(s, i) == (0.0F <= z && z <= w);
+        clip[1].hits += is_drawn(s, i) == (0.0F < z && z <= w);
+        clip[2].hits += is_drawn(s, i) == (0.0F <= z && z < w);
+        clip[3].hits += is_drawn(s, i);
+    }
+    judge_guesses(r, "clipping", NULL, clip, sizeof clip / sizeof clip[0], normal);
+    judge_guesses(r, "subnormal", NULL, tiny, sizeof tiny / sizeof tiny[0], subnormal);
+}
+
+/* ---- Two pipelines, and functions of the language ---------------------------------------------------------------- */
+
+static void judge_invariance(probe_result *r) {
+    const shot *s = judge_shot(r, PLAN_INVARIANCE, SHOT_D32F);
+    if (s == NULL)
+        return;
+    const bool same = s->passed == s->count;
+    probe_finding *f = judge_say(r, "invariance", NULL,
+                                 same                ? PROBE_SURE
+                                 : r->machine.counts ? PROBE_NO_ROW
+                                                     : PROBE_OPEN,
+                                 "%s",
+                                 same                ? "two pipelines of one expression store the same depths"
+                                 : r->machine.counts ? "two pipelines of one expression store other depths"
+                                                     : "the device does not count how many depths are the same");
+    f->cases = s->count;
+    f->hits = s->passed;
+}
+
+/* The greatest error of what was stored, in units of the last place of the true value, or absolute. */
+static double worst(const shot *s, double (*truth)(const float *v), double scale, bool (*taken)(const float *v),
+                    bool absolute, uint64_t *cases) {
+    double most = 0.0;
+    *cases = 0;
+    for (uint32_t i = 0; i < s->count; i++) {
+        if (!taken(s->vertex[i]))
+            continue;
+        const double true_value = truth(s->vertex[i]);
+        const double off = fabs((double)dp_float32(s->code[i]) / scale - true_value);
+        ++*cases;
+        most = fmax(most, absolute ? off : off / ldexp(1.0, ilogb(true_value) - 23));
+    }
+    return most;
+}
+
+static double log2_of(const float *v) {
+    return dp_log2((double)v[2]);
+}
+
+static double quotient_of(const float *v) {
+    return (double)v[2] / (double)v[3];
+}
+
+static bool is_small(const float *v) {
+    return v[2] <= 2.0F;
+}
+
+static bool is_large(const float *v) {
+    return v[2] > 2.0F;
+}
+
+static bool is_any(const float *v) {
+    (void)v;
+    return true;
+}
+
+static void judge_functions(probe_result *r) {
+    static const struct {
+        plan_shot shot;
+        const char *key, *words, *unit;
+        double (*truth)(const float *);
+        bool (*taken)(const float *);
+        double scale;
+        bool absolute;
+    } all[] = {
+        {PLAN_LOG2, "log2", "log2(x), x in [1, 2], absolute; Vulkan allows 2^-21 = 4.8e-07", "", log2_of, is_small,
+         (double)PLAN_LOG2_SCALE, true},
+        {PLAN_LOG2, "log2", "log2(x), x in [2, 2^64]; Vulkan allows 3 ulp", "ulp", log2_of, is_large,
+         (double)PLAN_LOG2_SCALE, false},
+        {PLAN_QUOTIENT, "quotient", "x / y of the language; Vulkan allows 2.5 ulp", "ulp", quotient_of, is_any, 1.0,
+         false},
+    };
+    for (size_t i = 0; i < sizeof all / sizeof all[0]; i++) {
+        const shot *s = judge_shot(r, all[i].shot, SHOT_D32F);
+        if (s == NULL)
+            continue;
+        probe_finding *f = judge_say(r, all[i].key, NULL, PROBE_MEASURED, "%s", all[i].words);
+        f->value = worst(s, all[i].truth, all[i].scale, all[i].taken, all[i].absolute, &f->cases);
+        f->unit = all[i].unit;
+    }
+}
+
+/* ---- The row ----------------------------------------------------------------------------------------------------- */
+
+static const char *row_of(int conversion, int division, int is_fused) {
+    static const dp_conversion known[] = {[EXACT_UP] = DP_CONVERT_EXACT,
+                                          [PRODUCT_EVEN] = DP_CONVERT_PRODUCT_EVEN,
+                                          [PRODUCT_ZERO] = DP_CONVERT_PRODUCT_ZERO};
+    if (conversion == JUDGE_NONE || conversion > PRODUCT_ZERO || division == JUDGE_NONE || is_fused == JUDGE_NONE)
+        return NULL;
+    for (dp_arith i = 0; i < dp_arith_count(); i++) {
+        const dp_arith_row *row = dp_arith_get(i);
+        if (!row->remap && row->fused == is_fused && row->reciprocal == (division == RECIPROCAL) &&
+            row->conversion == known[conversion])
+            return row->name;
+    }
+    return NULL;
+}
+
+void judge_points(probe_result *r) {
+    for (int f = 0; f < SHOT_FORMATS; f++)
+        judge_stored(r, (shot_format)f);
+    const int d16 = judge_rounding(r, SHOT_D16), d24 = judge_rounding(r, SHOT_D24);
+    const bool one = judge_shot(r, PLAN_ROUNDING, SHOT_D24) == NULL || d24 == d16;
+    const int division = judge_division(r);
+    const int is_fused = judge_projection(r, division);
+    r->arith = row_of(one ? d16 : JUDGE_NONE, division, is_fused);
+    judge_planes(r);
+    judge_invariance(r);
+    judge_functions(r);
+}

@@ -1,0 +1,165 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Triangles: the grids of coverage and depth, the rows of src/raster, and whether one of them predicts a scene. */
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "core/bits.h"
+#include "probe/judge.h"
+#include "raster/raster.h"
+
+enum {
+    ACROSS = SHOT_SIZE / PLAN_TILE,
+    BITS_LEAST = 4,
+    BITS_MOST = 10,
+    GRIDS = BITS_MOST - BITS_LEAST + 2,
+    ROWS_MAX = 16
+};
+
+/* Depths of a tile differ by the rounding of its plane, a few 2^-24, which is this much of a pixel where it is steep.
+ */
+static const double shift_error = 0x1p-13;
+
+/* "unsnapped" first, then the grids of 4 bits and more. */
+static const char *const plane_words[GRIDS] = {"the plane of depth through unsnapped vertices",
+                                               "the plane of depth on 1/16 pixel",
+                                               "the plane of depth on 1/32 pixel",
+                                               "the plane of depth on 1/64 pixel",
+                                               "the plane of depth on 1/128 pixel",
+                                               "the plane of depth on 1/256 pixel",
+                                               "the plane of depth on 1/512 pixel",
+                                               "the plane of depth on 1/1024 pixel"};
+static const char *const coverage_words[GRIDS] = {
+    "coverage of unsnapped edges", "coverage on 1/16 pixel",  "coverage on 1/32 pixel",  "coverage on 1/64 pixel",
+    "coverage on 1/128 pixel",     "coverage on 1/256 pixel", "coverage on 1/512 pixel", "coverage on 1/1024 pixel"};
+
+static int middle_of(int tile) {
+    const int half = PLAN_TILE / 2;
+    return (tile / ACROSS * PLAN_TILE + half) * SHOT_SIZE + tile % ACROSS * PLAN_TILE + half;
+}
+
+/* Whether moving by `at` shows as moved by `seen`; halfway between two points of the grid either will do. */
+static bool moved(int grid, double at, double seen) {
+    if (grid == 0)
+        return fabs(seen - at) <= shift_error;
+    const double steps = ldexp(at, BITS_LEAST + grid - 1), shown = ldexp(seen, BITS_LEAST + grid - 1);
+    const double error = ldexp(shift_error, BITS_LEAST + grid - 1);
+    return fabs(shown - rint(shown)) <= error && fabs(rint(shown) - steps) <= 0.5;
+}
+
+static void judge_plane(probe_result *r) {
+    const shot *s = judge_shot(r, PLAN_PLANE, SHOT_D32F);
+    guess all[GRIDS];
+    if (s == NULL)
+        return;
+    for (int g = 0; g < GRIDS; g++) {
+        all[g] = (guess){plane_words[g], 0};
+        for (int i = 0; i < PLAN_TILES; i++) {
+            const double depth = (double)dp_float32(s->code[middle_of(i)]);
+            all[g].hits += moved(g, (double)i / PLAN_STEPS, (0.5 - depth) / (double)PLAN_STEEP);
+        }
+    }
+    judge_guesses(r, "plane", NULL, all, GRIDS, PLAN_TILES);
+}
+
+/* An edge covers the centre to its left once it is snapped to the right of it. */
+static void judge_coverage(probe_result *r) {
+    const shot *s = judge_shot(r, PLAN_COVERAGE, SHOT_D32F);
+    guess all[GRIDS];
+    if (s == NULL)
+        return;
+    for (int g = 0; g < GRIDS; g++) {
+        all[g] = (guess){coverage_words[g], 0};
+        for (int i = 0; i < PLAN_TILES; i++) {
+            const double at = (double)(i - PLAN_TILES / 2) / PLAN_STEPS;
+            const double half = g == 0 ? 0.0 : ldexp(0.5, -(BITS_LEAST + g - 1));
+            const bool covered = s->code[middle_of(i)] != dp_bits32(SHOT_CLEAR);
+            all[g].hits += at == half || covered == (at > half);
+        }
+    }
+    judge_guesses(r, "coverage", NULL, all, GRIDS, PLAN_TILES);
+}
+
+/* ---- The rows ---------------------------------------------------------------------------------------------------- */
+
+static bool predict(size_t row, const shot *s, uint32_t *code) {
+    raster_target target;
+    dp_format format[2];
+    if (dp_format_parse(probe_format_name(s->format), format) != 1 ||
+        raster_target_init(&target, row, SHOT_SIZE, SHOT_SIZE, &format[0], dp_path_best()) != RASTER_OK)
+        return false;
+    const uint32_t clear = dp_format_encode(&format[0], DP_ROUND_NEAREST, (double)SHOT_CLEAR);
+    for (int i = 0; i < SHOT_PIXELS; i++)
+        code[i] = clear;
+    for (uint32_t i = 0; i + 2 < s->count; i += 3) {
+        raster_vertex v[3];
+        raster_triangle drawn;
+        memcpy(v, s->vertex[i], sizeof v);
+        if (raster_set_up(&target, v, &drawn) != RASTER_OK)
+            continue;
+        for (int p = 0; p < drawn.count; p++)
+            for (int y = drawn.piece[p].y0, x0, x1; y < drawn.piece[p].y1; y++)
+                if (raster_span(&target, &drawn.piece[p], y, &x0, &x1))
+                    raster_codes(&target, &drawn.piece[p], y, x0, x1, &code[y * SHOT_SIZE + x0]);
+    }
+    return true;
+}
+
+/* Pixels as the row predicts them; none where it has not the format. */
+static uint64_t hits_of(size_t row, const shot *s) {
+    uint32_t *code = calloc(SHOT_PIXELS, sizeof *code);
+    uint64_t hits = 0;
+    if (code != NULL && predict(row, s, code))
+        for (int i = 0; i < SHOT_PIXELS; i++)
+            hits += code[i] == s->code[i];
+    free(code);
+    return hits;
+}
+
+/* The row that draws the scene in every format; null where none does. */
+static const char *judge_rows(probe_result *r) {
+    const char *found = NULL;
+    bool one = true;
+    for (int f = 0; f < SHOT_FORMATS; f++) {
+        const shot *s = judge_shot(r, PLAN_SCENE, (shot_format)f);
+        guess all[ROWS_MAX];
+        size_t count = 0;
+        for (size_t i = 0; s != NULL && raster_get(i) != NULL && count < ROWS_MAX; i++)
+            if (raster_get(i)->model != NULL)
+                all[count++] = (guess){raster_get(i)->name, hits_of(i, s)};
+        if (s == NULL)
+            continue;
+        const int sure = judge_guesses(r, "rasterizer", probe_format_name((shot_format)f), all, count, SHOT_PIXELS);
+        const char *here = sure == JUDGE_NONE ? NULL : all[sure].words;
+        one = one && here != NULL && (found == NULL || found == here);
+        found = here;
+    }
+    return one ? found : NULL;
+}
+
+static void judge_prediction(probe_result *r, const char *row) {
+    size_t index = 0;
+    while (raster_get(index) != NULL && raster_get(index)->name != row)
+        index++;
+    for (int f = 0; f < SHOT_FORMATS; f++) {
+        const shot *s = judge_shot(r, PLAN_PREDICTED, (shot_format)f);
+        if (s == NULL)
+            continue;
+        const uint64_t hits = hits_of(index, s);
+        probe_finding *found = judge_say(r, "prediction", probe_format_name((shot_format)f),
+                                         hits == SHOT_PIXELS ? PROBE_SURE : PROBE_NO_ROW,
+                                         "another random scene as row %s predicts it", row);
+        found->cases = SHOT_PIXELS;
+        found->hits = hits;
+        if (hits != SHOT_PIXELS)
+            r->raster = NULL;
+    }
+}
+
+void judge_triangles(probe_result *r) {
+    judge_coverage(r);
+    judge_plane(r);
+    r->raster = judge_rows(r);
+    if (r->raster != NULL)
+        judge_prediction(r, r->raster);
+}

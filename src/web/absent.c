@@ -1,0 +1,123 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/*
+ * What the page has not: the commands and figures that need files, threads, GSL, libconfig or jansson, and the rows
+ * that their options name. Each refuses in a sentence; the program has them all.
+ */
+#include <stdio.h>
+
+#include "cli/check_report.h"
+#include "cli/methods.h"
+#include "cli/option_rows.h"
+#include "cli/scene_figure.h"
+#include "need/check.h"
+#include "plot/figure.h"
+#include "scene/find.h"
+#include "texture/pack.h"
+
+static int absent(const options *o) {
+    return usage_error("%s is not in the page: the program has it", o->verb->name);
+}
+
+#define ABSENT(name)                                                                                                   \
+    int name(const options *o) {                                                                                       \
+        return absent(o);                                                                                              \
+    }
+
+ABSENT(cmd_bench)
+ABSENT(cmd_check)
+ABSENT(cmd_completions)
+ABSENT(cmd_disocclusion)
+ABSENT(cmd_probe)
+ABSENT(cmd_scene)
+ABSENT(cmd_shadow)
+ABSENT(cmd_stability)
+ABSENT(cmd_texture)
+ABSENT(cmd_web)
+
+#define ABSENT_FIGURE(name)                                                                                            \
+    const char *name(const figure_request *request, chart *out) {                                                      \
+        (void)request;                                                                                                 \
+        (void)out;                                                                                                     \
+        return "plot: this figure is not in the page: the program has it";                                             \
+    }
+
+ABSENT_FIGURE(fights_build)
+ABSENT_FIGURE(normals_build)
+ABSENT_FIGURE(pareto_build)
+ABSENT_FIGURE(scene_build)
+ABSENT_FIGURE(stability_build)
+
+/* ---- Rows that options of those commands name ---------------------------------------------------------------------
+ */
+
+#define ABSENT_ROWS(type, name)                                                                                        \
+    const type *name(size_t index) {                                                                                   \
+        (void)index;                                                                                                   \
+        return NULL;                                                                                                   \
+    }
+
+ABSENT_ROWS(effect_row, effect_get)
+ABSENT_ROWS(finder_filter_row, finder_filter_get)
+ABSENT_ROWS(normal_row, normal_get)
+ABSENT_ROWS(pack_row, pack_get)
+ABSENT_ROWS(packing, packing_get)
+ABSENT_ROWS(position_row, position_get)
+ABSENT_ROWS(scene_row, scene_get)
+
+/* Families of methods but interval, which figures are drawn by. */
+static const size_t none;
+const method_family_row linearize_family = {.method_count = &none}, encode_family = {.method_count = &none},
+                        worst_family = {.method_count = &none}, position_family = {.method_count = &none},
+                        normal_family = {.method_count = &none};
+
+void method_start(void) {}
+
+/* ---- What the figures of those commands call ----------------------------------------------------------------------
+ */
+
+int check_read(const char *path, need_file *file) {
+    (void)path;
+    (void)file;
+    return EXIT_USAGE;
+}
+
+void need_release(need_file *file) {
+    (void)file;
+}
+
+int scene_figure_begin(scene *s, const options *o) {
+    (void)s;
+    return absent(o);
+}
+
+int scene_look(scene *s, output *out) {
+    (void)s;
+    (void)out;
+    return EXIT_USAGE;
+}
+
+bool scene_figure_take(const scene *s, fights_asked *out, chart *c) {
+    (void)s;
+    (void)out;
+    (void)c;
+    return false;
+}
+
+int scene_figure_height(const chart *c, int width) {
+    (void)c;
+    return width;
+}
+
+void scene_end(scene *s) {
+    (void)s;
+}
+
+/* ---- Names alone, where the program reads the profile of a GPU too --------------------------------------------- */
+
+int parse_arith(options *o, const option_row *row, const char *value) {
+    return parse_word(o, row, value);
+}
+
+int parse_raster(options *o, const option_row *row, const char *value) {
+    return parse_row(o, row, value);
+}

@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Words, command lines and the fragment of the address. What a command means only the module knows.
+
+export const LONGEST = 4096; // characters of a fragment
+const plain = /^[A-Za-z0-9_=+,.:\/%@-]+$/;
+
+// The words of a line, in which quotes and backslashes are those of a shell. Throws a sentence.
+export function split(line) {
+    const words = [];
+    let word = null, quote = "";
+    for (let i = 0; i < line.length; i++) {
+        const c = line[i];
+        if (c < " " || c === "\x7f") throw new Error("a command has no control characters in it");
+        if (quote !== "" ? c === quote : c === '"' || c === "'") {
+            quote = quote === "" ? c : "";
+            word ??= "";
+        } else if (c === "\\" && quote !== "'") {
+            if (++i === line.length) throw new Error("a command does not end in a backslash");
+            word = (word ?? "") + line[i];
+        } else if (c === " " && quote === "") {
+            if (word !== null) words.push(word);
+            word = null;
+        } else {
+            word = (word ?? "") + c;
+        }
+    }
+    if (quote !== "") throw new Error(`a quote is open: ${quote}`);
+    if (word !== null) words.push(word);
+    return words;
+}
+
+// The line that a shell takes for these words.
+export const join = (words) =>
+    words.map((word) => (plain.test(word) ? word : `'${word.replaceAll("'", "'\\''")}'`)).join(" ");
+
+// The commands of a line: its words between those that are ";", each without "depthprec" in front.
+export function commands(line) {
+    const all = [[]];
+    for (const word of split(line))
+        if (word === ";") all.push([]);
+        else all.at(-1).push(word);
+    return all.map((words) => (words[0] === "depthprec" ? words.slice(1) : words)).filter((words) => words.length > 0);
+}
+
+// The same of what stands behind the # of an address.
+export function fromFragment(fragment) {
+    if (fragment.length > LONGEST)
+        throw new Error(`an address has at most ${LONGEST} characters behind the #, this one ${fragment.length}`);
+    let line;
+    try {
+        line = decodeURIComponent(fragment);
+    } catch {
+        throw new Error("the address is damaged: a % in it is not followed by two digits of a character");
+    }
+    return commands(line);
+}
+
+export const toFragment = (all) => encodeURIComponent(all.map(join).join(" ; "));

@@ -1,0 +1,91 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/*
+ * The door of the module: the program's own main() on words that the page has written, what the program makes of such
+ * words, and which options a command takes. engine.js is the other side; each call has an instance of its own.
+ */
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "cli/option_rows.h"
+#include "web/page.h"
+
+enum { WORDS_MAX = 1024 };
+
+static char *text;                 /* words, each ended by 0, the command's name first */
+static char *words[WORDS_MAX + 2]; /* the program's name before them, null behind them */
+
+int main(int argc, char **argv);
+
+/** Room for the words of a command line in so many bytes; null when out of memory. */
+PAGE_EXPORT("words") char *words_room(size_t size) {
+    free(text);
+    text = calloc(size + 1, 1);
+    return text;
+}
+
+/* How many words there are with the program's name; 0 where they are too many. */
+static int take(int count) {
+    char *at = text;
+    if (count < 0 || count > WORDS_MAX)
+        return 0;
+    words[0] = "depthprec";
+    for (int i = 1; i <= count; i++, at += strlen(at) + 1)
+        words[i] = at;
+    return count + 1;
+}
+
+int page_words(int count, char ***out) {
+    *out = words;
+    return take(count);
+}
+
+/** Runs the command of `count` words. @return its exit status */
+PAGE_EXPORT("run") int run_words(int count) {
+    const int argc = take(count);
+    const int status = argc > 0 ? main(argc, words) : usage_error("at most %d words make a command", WORDS_MAX);
+    fflush(NULL);
+    return status;
+}
+
+static void say(const char *word) {
+    fwrite(word, 1, strlen(word) + 1, stdout);
+}
+
+/**
+ * What the program makes of the words, as words each ended by 0: the command, how many operands, the operands, then
+ * each option that was given and its argument, "" of none, as the option table has them in order. @return exit status
+ */
+PAGE_EXPORT("parse") int parse_words(int count) {
+    static options o;
+    const int argc = take(count);
+    const int status = argc > 0 ? options_parse(&o, argc, words) : usage_error("at most %d words", WORDS_MAX);
+    if (status == EXIT_FINE) {
+        char number[16];
+        snprintf(number, sizeof number, "%d", o.operand_count);
+        say(o.verb->name);
+        say(number);
+        for (int i = 0; i < o.operand_count; i++)
+            say(o.operands[i]);
+        for (int id = 0; id < OPTION_COUNT; id++)
+            if (option_given(&o, (option_id)id)) {
+                say(option_rows[id].name);
+                say(o.given[id]);
+            }
+    }
+    fflush(NULL);
+    return status;
+}
+
+/** The options of the command that is the first word: name and argument ("" of none) of each. @return exit status */
+PAGE_EXPORT("takes") int taken_by_words(int count) {
+    char argument[OPTION_TEXT_SIZE];
+    const verb *v = take(count) > 1 ? verb_find(words[1]) : NULL;
+    for (int id = 0; v != NULL && id < OPTION_COUNT; id++)
+        if ((option_rows[id].commands & v->bit) != 0) {
+            say(option_rows[id].name);
+            say(option_argument(&option_rows[id], argument));
+        }
+    fflush(NULL);
+    return v != NULL ? EXIT_FINE : EXIT_USAGE;
+}

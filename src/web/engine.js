@@ -1,0 +1,116 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The module and the page: words go in, text comes out. engine.c is the other side. Each command runs in an instance of
+// its own, so that nothing is left of the one before.
+
+const NO_FILE = 44, BAD_HANDLE = 8; // WASI's errno
+const encoder = new TextEncoder();
+
+class Streams {
+    bytes = [[], [], []];
+    text(fd) {
+        const decoder = new TextDecoder();
+        return this.bytes[fd].map((piece) => decoder.decode(piece, { stream: true })).join("") + decoder.decode();
+    }
+}
+
+// What the module asks of a system: two streams to write to, and a clock.
+function system(memory, streams) {
+    const view = () => new DataView(memory().buffer);
+    const none = (count, size) => (view().setUint32(count, 0, true), view().setUint32(size, 0, true), 0);
+    return {
+        environ_get: () => 0,
+        environ_sizes_get: none,
+        args_get: () => 0,
+        args_sizes_get: none,
+        clock_time_get(_id, _precision, out) {
+            view().setBigUint64(out, BigInt(Date.now()) * 1000000n, true);
+            return 0;
+        },
+        fd_close: () => 0,
+        fd_fdstat_get(fd, out) {
+            if (fd > 2) return BAD_HANDLE;
+            new Uint8Array(memory().buffer, out, 24).fill(0);
+            view().setUint8(out, 4); // a file: not a terminal
+            view().setBigUint64(out + 8, 0xffffn, true);
+            return 0;
+        },
+        fd_fdstat_set_flags: () => 0,
+        fd_prestat_get: () => BAD_HANDLE,
+        fd_prestat_dir_name: () => BAD_HANDLE,
+        fd_read(_fd, _pieces, _count, out) {
+            view().setUint32(out, 0, true);
+            return 0;
+        },
+        fd_seek: () => 70, // a pipe
+        fd_write(fd, pieces, count, out) {
+            if (fd !== 1 && fd !== 2) return BAD_HANDLE;
+            let size = 0;
+            for (let i = 0; i < count; i++) {
+                const at = view().getUint32(pieces + 8 * i, true), length = view().getUint32(pieces + 8 * i + 4, true);
+                streams.bytes[fd].push(new Uint8Array(memory().buffer, at, length).slice());
+                size += length;
+            }
+            view().setUint32(out, size, true);
+            return 0;
+        },
+        path_open: () => NO_FILE,
+        proc_exit(status) {
+            throw new Error(`the command ended with status ${status}`);
+        },
+    };
+}
+
+export async function load(bytes) {
+    const module = await WebAssembly.compile(bytes);
+
+    function begin() {
+        let instance;
+        const memory = () => instance.exports.memory, streams = new Streams(), decoder = new TextDecoder();
+        instance = new WebAssembly.Instance(module, {
+            wasi_snapshot_preview1: system(memory, streams),
+            page: {
+                measure: (text, length, size, bold) =>
+                    engine.measure(decoder.decode(new Uint8Array(memory().buffer, text, length)), size, bold !== 0),
+            },
+        });
+        instance.exports._initialize();
+        return { exports: instance.exports, memory: instance.exports.memory, streams };
+    }
+
+    function call(name, words) {
+        const { exports, memory, streams } = begin();
+        const bytes = encoder.encode(words.map((word) => word.replaceAll("\0", "\ufffd") + "\0").join(""));
+        const room = exports.words(bytes.length);
+        new Uint8Array(memory.buffer, room, bytes.length).set(bytes);
+        const status = exports[name](words.length);
+        return { status, out: streams.text(1), err: streams.text(2) };
+    }
+
+    const engine = {
+        // How far text reaches, px; the page has a better one.
+        measure: (text, size, bold) => text.length * size * (bold ? 0.65 : 0.58),
+
+        // The command's exit status and what it wrote.
+        run: (words) => call("run", words),
+
+        // What the program makes of the words: { status, err, verb, operands, options: [{ name, value }] }.
+        parse(words) {
+            const { status, out, err } = call("parse", words);
+            const [verb, count, ...rest] = out.split("\0").slice(0, -1);
+            const operands = rest.slice(0, Number(count)), options = [];
+            for (let i = operands.length; i < rest.length; i += 2) options.push({ name: rest[i], value: rest[i + 1] });
+            return { status, err, verb, operands, options };
+        },
+
+        // The options that a command takes: a Map from long name to how its argument is written, "" of none.
+        takes(verb) {
+            const words = call("takes", [verb]).out.split("\0").slice(0, -1), taken = new Map();
+            for (let i = 0; i < words.length; i += 2) taken.set(words[i], words[i + 1]);
+            return taken;
+        },
+
+        // An instance that stays: { exports, memory }.
+        instance: begin,
+    };
+    return engine;
+}

@@ -1,0 +1,47 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* The page in place of report/output_file.c, report/terminal.c and cli/stop.c: no files, no terminal, no signals. */
+#include <stdio.h>
+#include <string.h>
+#include <unistd.h>
+
+#include "cli/stop.h"
+#include "report/output.h"
+#include "report/terminal.h"
+
+int output_open(output *out, const char *path) {
+    *out = (output){.fd = STDOUT_FILENO};
+    if (path == NULL || strcmp(path, "-") == 0)
+        return EXIT_FINE;
+    fprintf(stderr, "depthprec: the page writes no files, got '%s': leave --output out\n", path);
+    return EXIT_IO;
+}
+
+int output_close(output *out) {
+    output_flush(out);
+    return out->error == 0 ? EXIT_FINE : EXIT_IO;
+}
+
+void output_abandon(output *out) {
+    out->used = 0;
+}
+
+bool output_same_file(const char *a, const char *b) {
+    return strcmp(a, b) == 0;
+}
+
+void output_reserve_streams(void) {}
+
+int terminal_columns(int fd) {
+    (void)fd;
+    return 0;
+}
+
+void stop_watch(void) {}
+
+bool stop_asked(void) {
+    return false;
+}
+
+void stop_end(output *out) {
+    (void)out;
+}

@@ -1,0 +1,555 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The page: two set-ups as lists of options, and panels that show what the commands say of them. It computes no number
+// that is shown: each comes out of the module, see engine.js.
+import { load } from "./engine.js";
+import { commands, fromFragment, join, split, toFragment } from "./command.js";
+import { createPicture } from "./picture.js";
+
+const $ = (selector, root = document) => root.querySelector(selector);
+
+function make(name, attributes = {}, ...children) {
+    const element = document.createElement(name);
+    for (const [key, value] of Object.entries(attributes)) element.setAttribute(key, value);
+    element.append(...children);
+    return element;
+}
+
+// ---- What there is ------------------------------------------------------------------------------------------------
+
+const VERBS = ["table", "plot", "solve", "bias", "budget", "zfight"];
+const FIGURES = ["interval", "error", "distribution", "budget", "share", "map"];
+const LETTERS = { near: "-n", far: "-f", format: "-F", mapping: "-m" };
+// Options of the panels, and of a picture, are not those of a set-up.
+const ASKED = {
+    solve: ["for", "separation", "error", "at", "range"],
+    bias: ["gap", "at", "range", "api", "units", "factor", "clamp", "slope"],
+    zfight: ["gap", "sample", "seed", "triangles", "against", "program", "vertices", "plane"],
+    table: [], plot: [], budget: [],
+};
+const REFUSED = 2; // the exit status of a command
+const NEVER = ["output", "json", "csv", "type", "theme", "width", "height", "threads", "quiet", "verbose", "color"];
+// A figure does not refuse what it has no use for: it leaves it out.
+const VIEW = ["viewport", "fov", "hfov", "raster", "subpixel", "slant", "triangle"];
+const UNUSED = {
+    interval: ["at"], error: ["at", "tolerance", ...VIEW], distribution: ["at", "tolerance", ...VIEW], budget: ["at", "model"],
+    share: ["at", "tolerance", ...VIEW], map: ["tolerance", ...VIEW],
+};
+const STANDARD = "table -n 0.1 -f 1000 -F unorm24 -m d3d --unit m";
+const SECOND = "table -n 0.1 -f 1000 -F fp32 -m reversed --unit m";
+
+let engine, picture;
+const takes = {}; // options of each command
+const state = { setups: [], asked: {}, figure: "interval", shown: new Set(["table", "plot", "solve", "bias"]) };
+const fields = []; // of each set-up: its controls by option
+
+// What the last commands said, so that none is asked twice.
+const REMEMBERED = 12, last = new Map();
+function run(line) {
+    const key = line.join("\0"), said = last.get(key) ?? engine.run(line);
+    last.delete(key);
+    last.set(key, said);
+    if (last.size > REMEMBERED) last.delete(last.keys().next().value);
+    return said;
+}
+
+const errorOf = ({ err }) => err.trim().replace(/^depthprec: /, "");
+
+// ---- Commands -----------------------------------------------------------------------------------------------------
+
+const words = (options) =>
+    [...options].flatMap(([name, value]) => [LETTERS[name] ?? `--${name}`, ...(value === "" ? [] : [value])]);
+
+const mapOf = (read) => new Map(read.options.map(({ name, value }) => [name, value]));
+
+// Options of a set-up that a command does not want although it takes them, and of a question that another one replaces.
+function unwanted(verb, asked) {
+    if (verb === "plot") return UNUSED[state.figure];
+    if (verb === "solve") return ["at", "range", asked.get("for")];
+    return verb === "bias" ? ["at", "range"] : [];
+}
+
+function commandOf(verb, setup) {
+    const asked = new Map(state.asked[verb] ?? []), without = unwanted(verb, asked);
+    if (asked.get("for") === "distance") asked.delete("at");
+    const options = new Map([...setup].filter(([name]) => takes[verb].has(name) && !without.includes(name) && !asked.has(name)));
+    return [verb, ...(verb === "plot" ? [state.figure] : []), ...words(options), ...words(asked)];
+}
+
+// All that the page shows, as commands: those of B are its tables alone, for the rest follows.
+function shown() {
+    const [a, b] = state.setups;
+    const all = [commandOf("table", a)];
+    if (b !== undefined) all.push(commandOf("table", b));
+    for (const verb of VERBS.slice(1)) if (state.shown.has(verb)) all.push(commandOf(verb, a));
+    return all;
+}
+
+// ---- Setting the page ---------------------------------------------------------------------------------------------
+
+// What commands say, put together before anything is taken: one that is refused leaves the page as it was.
+function understand(all) {
+    const next = { setups: [], asked: { ...state.asked }, figure: state.figure, shown: new Set(["table", "plot"]) };
+    if (all.length === 0) throw new Error("there is no command in it: table -n 0.1 -f 1000 is one");
+    if (all.length > VERBS.length + 1) throw new Error(`the page shows at most ${VERBS.length + 1} commands`);
+    for (const line of all) {
+        const read = engine.parse(line);
+        if (read.status !== 0) throw new Error(errorOf(read));
+        const { verb, operands } = read, panel = ASKED[verb];
+        if (panel === undefined) throw new Error(`${verb} is not in the page, which has ${VERBS.join(", ")}: the program has it`);
+        const given = mapOf(read);
+        for (const name of ["help", "version"]) if (given.has(name)) throw new Error(`--${name} is for the command line`);
+        for (const name of NEVER) given.delete(name);
+        if (verb === "plot") {
+            if (!FIGURES.includes(operands[0])) throw new Error(`the page draws ${FIGURES.join(", ")}, not ${operands[0]}: the program does`);
+            next.figure = operands[0];
+        }
+        const said = run([verb, ...operands, ...words(given), ...(verb === "plot" ? ["--csv"] : [])]);
+        if (said.status === REFUSED) throw new Error(errorOf(said));
+        next.shown.add(verb);
+        if (panel.length > 0) {
+            next.asked[verb] = new Map([...given].filter(([name]) => panel.includes(name)));
+            for (const name of panel) given.delete(name);
+        }
+        if (verb === "table" && next.setups.length < 2) next.setups.push(given);
+        else if (next.setups.length === 0) next.setups.push(given);
+    }
+    if (all.length === 1) for (const verb of state.shown) next.shown.add(verb);
+    if (next.shown.size === 2) for (const verb of ["solve", "bias"]) next.shown.add(verb);
+    return next;
+}
+
+function refuse(error) {
+    const at = $("#error");
+    at.textContent = error === null ? "" : String(error.message ?? error);
+    at.hidden = error === null;
+}
+
+function set(all) {
+    let next;
+    try {
+        next = understand(typeof all === "function" ? all() : all);
+    } catch (error) {
+        refuse(error);
+        count();
+        return false;
+    }
+    Object.assign(state, next);
+    refuse(null);
+    fill();
+    update();
+    return true;
+}
+
+// ---- Controls -----------------------------------------------------------------------------------------------------
+
+const names = (what) => JSON.parse(run(["list", what, "--json"]).out).items.map((item) => item.name);
+const choices = (option) => takes.table.get(option).split("|");
+
+// Sliders are logarithmic; the last step of far is infinity. A slider writes a plain number of three digits.
+const SLIDERS = { near: [-3, 2], far: [0, 7] }, STEPS = 500;
+
+function slide(option, step) {
+    const [lo, hi] = SLIDERS[option];
+    if (option === "far" && step === STEPS) return "inf";
+    return String(Number((10 ** (lo + (step / STEPS) * (hi - lo))).toPrecision(3)));
+}
+
+// Where a slider stands for a text. This places the thumb alone: the command reads the text itself.
+const METRES = { nm: 1e-9, um: 1e-6, mm: 1e-3, cm: 1e-2, in: 0.0254, ft: 0.3048, m: 1, km: 1e3 };
+function stepOf(option, text, unit) {
+    const [lo, hi] = SLIDERS[option], [, number, of] = /^\s*([-+.\de]+)\s*([a-z]*)/i.exec(text) ?? [];
+    if (/^\s*inf/i.test(text)) return STEPS;
+    const value = Number(number) * (of in METRES ? METRES[of] / (METRES[unit] ?? 1) : 1), top = STEPS - (option === "far");
+    return value > 0 ? Math.max(0, Math.min(top, Math.round(((Math.log10(value) - lo) / (hi - lo)) * STEPS))) : 0;
+}
+
+function buildSetup(index) {
+    const letter = "AB"[index], root = $(index === 0 ? "#a" : "#b"), own = {};
+    const change = (option, value) => {
+        const to = state.setups[index];
+        if (value === null) to.delete(option);
+        else to.set(option, value);
+        later();
+    };
+    const text = (option, label, hint) => {
+        const input = make("input", { "data-option": option, id: `${option}-${letter}`, size: 8, placeholder: hint, spellcheck: "false", autocomplete: "off" });
+        input.addEventListener("input", () => {
+            change(option, input.value.trim() || null);
+            showSliders(index);
+        });
+        own[option] = input;
+        return make("span", {}, make("label", { for: input.id }, `${label} `), input);
+    };
+    const select = (option, label, list) => {
+        const input = make("select", { "data-option": option, id: `${option}-${letter}` }, ...list.map((name) => make("option", { value: name }, name || "scene units")));
+        input.addEventListener("change", () => change(option, input.value || null));
+        own[option] = input;
+        return make("span", {}, make("label", { for: input.id }, `${label} `), input);
+    };
+    const length = (option, label) => {
+        const slider = make("input", { type: "range", min: 0, max: STEPS, "data-slider": option, "aria-label": `${label}, set-up ${letter}` });
+        own[`${option}-slider`] = slider;
+        slider.addEventListener("input", () => {
+            own[option].value = slide(option, Number(slider.value));
+            slider.setAttribute("aria-valuetext", own[option].value);
+            change(option, own[option].value);
+        });
+        return make("div", { class: "length" }, text(option, label, STARTS[option]), slider);
+    };
+    const ortho = make("input", { type: "checkbox", "data-option": "ortho", id: `ortho-${letter}` });
+    ortho.addEventListener("change", () => change("ortho", ortho.checked ? "" : null));
+    own.ortho = ortho;
+    const more = make("input", { class: "more", id: `more-${letter}`, spellcheck: "false", autocomplete: "off", placeholder: "--rounding zero" });
+    more.addEventListener("change", () => {
+        try {
+            const base = new Map([...state.setups[index]].filter(([name]) => name in own));
+            const read = engine.parse(["table", ...words(base), ...split(more.value)]);
+            if (read.status !== 0) throw new Error(errorOf(read));
+            state.setups[index] = mapOf(read);
+            fill();
+            later();
+        } catch (error) {
+            refuseSetup(index, error.message);
+        }
+    });
+    own.more = more;
+    own.refused = make("p", { class: "refused", role: "status" });
+    fields[index] = own;
+    const details = make("details", {}, make("summary", {}, "Arithmetic, viewport and more"),
+        make("div", { class: "row" }, select("model", "Model", choices("model")), select("arith", "Arithmetic", names("arithmetic"))),
+        make("div", { class: "row" }, text("viewport", "Viewport", "1920x1080"), text("slant", "Slant", "0:90"), text("at", "Depths", "1,10,100"),
+            select("unit", "Unit", ["", ...choices("unit")])),
+        make("label", { for: more.id }, "Further options, as the command has them"), more);
+    details.open = matchMedia("(min-width: 60rem)").matches;
+    root.append(make("fieldset", {}, make("legend", {}, `Set-up ${letter}`), length("near", "Near"), length("far", "Far"),
+        make("div", { class: "row" }, select("format", "Format", names("formats")), select("mapping", "Mapping", names("mappings")),
+            make("span", {}, ortho, make("label", { for: ortho.id }, " orthographic"))),
+        details, own.refused));
+}
+
+function show(input, value) {
+    if (input.tagName === "SELECT" && ![...input.options].some((option) => option.value === value)) input.append(make("option", {}, value));
+    if (document.activeElement !== input || input.tagName === "SELECT") input.value = value;
+}
+
+// What a command takes where it is given nothing. A preset gives something else.
+const STARTS = { near: "0.1", far: "1000", format: "all", mapping: "all", model: "exact", arith: "ieee", unit: "", viewport: "", slant: "", at: "" };
+
+function showSliders(index) {
+    for (const option of Object.keys(SLIDERS)) {
+        const given = state.setups[index].get(option) ?? STARTS[option], slider = fields[index][`${option}-slider`];
+        slider.value = stepOf(option, given, state.setups[index].get("unit"));
+        slider.setAttribute("aria-valuetext", given);
+    }
+}
+
+// Each question has the fields that its command takes.
+const fitQuestions = () => ($("[data-asks=solve] [data-option=at]").disabled = state.asked.solve.get("for") === "distance");
+
+function refuseSetup(index, text) {
+    const { refused } = fields[index];
+    if (refused.textContent !== text) refused.textContent = text;
+}
+
+// The controls show the state.
+function fill() {
+    state.setups.forEach((setup, index) => {
+        const own = fields[index], rest = new Map(setup);
+        for (const [option, start] of Object.entries(STARTS)) {
+            show(own[option], setup.get(option) ?? (own[option].tagName === "SELECT" && !setup.has("preset") ? start : ""));
+            rest.delete(option);
+        }
+        showSliders(index);
+        own.ortho.checked = setup.has("ortho");
+        rest.delete("ortho");
+        own.more.value = join(words(rest));
+    });
+    const two = state.setups.length > 1;
+    $("#b").hidden = !two;
+    $("#add-b").setAttribute("aria-pressed", two);
+    for (const form of document.querySelectorAll("[data-asks]"))
+        for (const input of form.querySelectorAll("[data-option]")) {
+            const value = state.asked[form.dataset.asks].get(input.dataset.option);
+            show(input, value ?? "");
+        }
+    for (const input of document.querySelectorAll("[name=figure]")) input.checked = input.value === state.figure;
+    for (const input of document.querySelectorAll("[data-shows]")) input.checked = state.shown.has(input.dataset.shows);
+}
+
+// ---- What the panels show -----------------------------------------------------------------------------------------
+
+// The sentences of a report, put together again where they were wrapped: lines from the margin on that end in a full stop.
+function answers(text) {
+    const all = [];
+    let open = false;
+    for (const line of text.split("\n")) {
+        if (/^[^\s-]/.test(line)) all.push(line);
+        else if (open && /^ {2}\S/.test(line)) all[all.length - 1] += line.slice(1);
+        open = all.length > 0 && line !== "" && !all.at(-1).endsWith(".");
+    }
+    return all.filter((line) => line.endsWith(".") && !/ {2}/.test(line)).join(" ");
+}
+
+let printing = false;
+function theme() {
+    const chosen = document.documentElement.dataset.theme, system = matchMedia("(prefers-color-scheme: dark)").matches ? "dark" : "light";
+    return printing ? "print" : (chosen ?? system);
+}
+
+function save(name, text, type) {
+    const link = make("a", { href: URL.createObjectURL(new Blob([text], { type })), download: name });
+    link.click();
+    setTimeout(() => URL.revokeObjectURL(link.href), 1000);
+}
+
+const RUN = { json: ["--json"], csv: ["--csv"] }, TYPE = { json: "application/json", csv: "text/csv", svg: "image/svg+xml" };
+
+// One output of a panel: of set-up A or B.
+function outputOf(panel, index) {
+    const place = $(".outputs", panel), verb = panel.dataset.panel, drawn = verb === "plot";
+    while (place.children.length <= index) {
+        const letter = "AB"[place.children.length], title = `${verb}, set-up ${letter}`;
+        const body = drawn ? make("img", { alt: "" }) : make("pre", { tabindex: 0, "data-output": "text", role: "region", "aria-label": title });
+        const saves = make("div", { class: "saves" });
+        const one = make("div", { class: drawn ? "figure" : "text" }, make("h3", {}, `Set-up ${letter}`), make("p", { class: "answer" }), body, make("p", { class: "refused", role: "status" }), saves);
+        for (const kind of drawn ? ["svg", "csv", "json"] : ["csv", "json"]) {
+            const button = make("button", { type: "button", "data-export": kind, "aria-label": `${kind.toUpperCase()} of ${title}` }, kind.toUpperCase());
+            button.addEventListener("click", () => {
+                const line = split(one.dataset.run);
+                save(`depthprec-${line[0]}-${letter}.${kind}`, kind === "svg" ? one.said.out : run([...line, ...RUN[kind]]).out, TYPE[kind]);
+            });
+            saves.append(button);
+        }
+        place.append(one);
+    }
+    return place.children[index];
+}
+
+const unescaped = (text) => text.replaceAll("&lt;", "<").replaceAll("&gt;", ">").replaceAll("&amp;", "&");
+
+function drawing(one) {
+    const width = Math.max(320, Math.min(1200, Math.round(one.clientWidth || 640))), height = Math.max(240, Math.round(width * 0.55));
+    return ["--type", "svg", "-o", "-", "--theme", theme(), "--width", String(width), "--height", String(height)];
+}
+
+function showFigure(one, svg) {
+    const image = $("img", one);
+    image.src = `data:${TYPE.svg},${encodeURIComponent(svg)}`;
+    image.alt = unescaped(/<desc[^>]*>([^<]*)/.exec(svg)?.[1] ?? "");
+}
+
+function showText(one, verb, text) {
+    $("pre", one).textContent = text;
+    if (verb !== "table") $(".answer", one).textContent = answers(text);
+}
+
+// A set-up that is refused as a whole says so beside its controls; what was shown of it stays, paler.
+function showPanel(panel) {
+    const verb = panel.dataset.panel, drawn = verb === "plot", ones = state.setups.map((_, index) => outputOf(panel, index));
+    for (const one of $(".outputs", panel).children) one.hidden = !ones.includes(one);
+    $("h3", ones[0]).hidden = ones.length === 1;
+    state.setups.forEach((setup, index) => {
+        const line = commandOf(verb, setup), one = ones[index];
+        const said = run(drawn ? [...line, ...drawing(one)] : line);
+        if (said === one.said) return;
+        const refused = said.status === REFUSED ? errorOf(said) : "", known = refused === fields[index].refused.textContent;
+        one.classList.toggle("stale", refused !== "" && known);
+        if (refused !== "" && known && one.said !== undefined) return;
+        one.said = said;
+        one.dataset.run = join(line);
+        if (!drawn) showText(one, verb, said.out);
+        else if (refused === "") showFigure(one, said.out);
+        $(".refused", one).textContent = refused;
+        for (const part of one.querySelectorAll("pre, img, .saves")) part.hidden = refused !== "";
+    });
+}
+
+function showSetups() {
+    const place = $("#verdicts");
+    state.setups.forEach((setup, index) => {
+        const said = run(commandOf("table", setup));
+        refuseSetup(index, said.status === REFUSED ? errorOf(said) : "");
+        if (place.children.length <= index) place.append(make("p", {}));
+        const one = place.children[index];
+        if (said.status !== REFUSED) one.replaceChildren(...(state.setups.length > 1 ? [make("b", {}, "AB"[index]), " "] : []), answers(said.out));
+        one.classList.toggle("stale", said.status === REFUSED);
+    });
+    while (place.children.length > state.setups.length) place.lastChild.remove();
+}
+
+function count() {
+    const { dataset } = document.documentElement;
+    dataset.updates = Number(dataset.updates ?? 0) + 1;
+}
+
+// While something is dragged, a frame shows what is on the screen and quick; the rest follows when the hand rests.
+const FRAME_MS = 12, FIGURE_MS = 80, REST_MS = 200;
+const onScreen = new Set(), late = new Set(), cost = {};
+let resting;
+
+function update(dragged = false) {
+    const begun = performance.now();
+    showSetups();
+    fitQuestions();
+    for (const panel of document.querySelectorAll("[data-panel]")) {
+        const verb = panel.dataset.panel, start = performance.now();
+        if (verb === "view") continue;
+        panel.hidden = !state.shown.has(verb);
+        late.delete(panel);
+        const allowed = verb === "plot" ? FIGURE_MS : FRAME_MS - (start - begun);
+        if (panel.hidden) continue;
+        if (dragged && (!onScreen.has(panel) || (cost[verb] ?? 0) > allowed)) late.add(panel);
+        else showPanel(panel);
+        cost[verb] = Math.max(performance.now() - start, 0.9 * (cost[verb] ?? 0));
+        panel.classList.toggle("stale", late.has(panel));
+    }
+    $("#link").textContent = shown().map((line) => `depthprec ${join(line)}`).join("\n");
+    picture?.set(commandOf("table", state.setups[0]));
+    clearTimeout(resting);
+    resting = setTimeout(rest, REST_MS);
+    document.documentElement.dataset.took = (performance.now() - begun).toFixed(2);
+    count();
+}
+
+function rest() {
+    const [panel] = late;
+    if (panel !== undefined) {
+        late.delete(panel);
+        showPanel(panel);
+        panel.classList.remove("stale");
+        resting = setTimeout(rest);
+        return;
+    }
+    const fragment = toFragment(shown()), said = $("#verdicts").textContent;
+    const fine = $("#error").hidden && fields.every(({ refused }) => refused.textContent === "");
+    if (fine && location.hash.slice(1) !== fragment) history.replaceState(null, "", `#${fragment}`);
+    if ($("#said").textContent !== said) $("#said").textContent = said;
+    document.documentElement.dataset.settled = document.documentElement.dataset.updates;
+}
+
+let waiting = false;
+function later() {
+    if (waiting) return;
+    waiting = true;
+    requestAnimationFrame(() => {
+        waiting = false;
+        refuse(null);
+        update(true);
+    });
+}
+
+// ---- The page's own controls --------------------------------------------------------------------------------------
+
+const SCHEMES = ["system", "light", "dark"];
+
+function listen() {
+    $("#line").addEventListener("submit", (event) => {
+        event.preventDefault();
+        set(() => {
+            const all = commands($("#command").value), second = state.setups[1];
+            return all.length === 1 && second !== undefined ? [...all, commandOf("table", second)] : all;
+        });
+    });
+    $("#add-b").addEventListener("click", () => {
+        if (state.setups.length > 1) state.setups.pop();
+        else state.setups.push(mapOf(engine.parse(split(SECOND))));
+        fill();
+        later();
+    });
+    $("#theme").addEventListener("click", () => {
+        const { dataset } = document.documentElement, next = SCHEMES[(SCHEMES.indexOf(dataset.theme ?? "system") + 1) % 3];
+        if (next === "system") delete dataset.theme;
+        else dataset.theme = next;
+        $("#theme").textContent = `Colours: ${next}`;
+        later();
+    });
+    const copies = (id, text) =>
+        $(id).addEventListener("click", async () => {
+            try {
+                await navigator.clipboard.writeText(text());
+                $("#copied").textContent = "Copied.";
+            } catch {
+                $("#copied").textContent = "The browser does not let this page copy.";
+            }
+        });
+    copies("#copy", () => `${location.href.split("#")[0]}#${toFragment(shown())}`);
+    copies("#copy-commands", () => $("#link").textContent);
+    for (const input of document.querySelectorAll("[data-shows]"))
+        input.addEventListener("change", () => {
+            if (input.checked) state.shown.add(input.dataset.shows);
+            else state.shown.delete(input.dataset.shows);
+            later();
+        });
+    for (const form of document.querySelectorAll("[data-asks]")) {
+        form.addEventListener("submit", (event) => event.preventDefault());
+        form.addEventListener("input", (event) => {
+            const asked = state.asked[form.dataset.asks], { option } = event.target.dataset;
+            if (event.target.value.trim() === "") asked.delete(option);
+            else asked.set(option, event.target.value.trim());
+            later();
+        });
+    }
+    for (const name of FIGURES) {
+        const input = make("input", { type: "radio", name: "figure", value: name, id: `figure-${name}` });
+        input.addEventListener("change", () => {
+            state.figure = name;
+            later();
+        });
+        $("#figures").append(make("span", {}, input, make("label", { for: input.id }, ` ${name}`)));
+    }
+    addEventListener("hashchange", () => set(() => fromFragment(location.hash.slice(1))));
+    addEventListener("resize", later);
+    for (const [when, is] of [["beforeprint", true], ["afterprint", false]])
+        addEventListener(when, () => {
+            printing = is;
+            update();
+        });
+    const watch = new IntersectionObserver((entries) => {
+        for (const { target, isIntersecting } of entries) onScreen[isIntersecting ? "add" : "delete"](target);
+    });
+    for (const panel of document.querySelectorAll("[data-panel]")) watch.observe(panel);
+    matchMedia("(prefers-color-scheme: dark)").addEventListener("change", later);
+}
+
+// What the picture says of itself: the guarantee's mark is at three quarters of the slider.
+function showPicture(text, { drawn, hasMark, error }) {
+    $("#view-says").textContent = text;
+    $("#view-drawn").textContent = drawn;
+    $("#mark").hidden = !hasMark;
+    $("#view").hidden = error !== "";
+}
+
+// Letters of the figures are measured as the page draws them.
+function measurer() {
+    const context = document.createElement("canvas").getContext("2d");
+    return (text, size, bold) => {
+        context.font = `${bold ? "bold " : ""}${size}px "DejaVu Sans", Verdana, sans-serif`;
+        return context.measureText(text).width;
+    };
+}
+
+async function begin() {
+    const packed = Uint8Array.from(atob($("#module").textContent), (c) => c.charCodeAt(0));
+    const stream = new Blob([packed]).stream().pipeThrough(new DecompressionStream("gzip"));
+    engine = await load(new Uint8Array(await new Response(stream).arrayBuffer()));
+    engine.measure = measurer();
+    for (const verb of VERBS) takes[verb] = engine.takes(verb);
+    $("#version").textContent = engine.run(["--version"]).out.split("\n")[0].replace(/^depthprec /, "");
+    for (const name of names("apis")) $("[data-option=api]").append(make("option", {}, name));
+    state.asked = { solve: new Map([["for", "near"], ["separation", "1cm"], ["at", "500m"]]), bias: new Map([["gap", "2cm"], ["at", "100m"], ["api", "all"]]), zfight: new Map() };
+    buildSetup(0);
+    buildSetup(1);
+    listen();
+    if (location.hash.length < 2 || !set(() => fromFragment(location.hash.slice(1)))) {
+        const said = $("#error").textContent;
+        set(commands(STANDARD));
+        if (said !== "") refuse(said);
+    }
+    picture = createPicture({ canvas: $("#view"), engine, slider: $("#gap"), play: $("#play"), gapIs: $("#gap-is"), onStatus: showPicture });
+    $("#marks").addEventListener("change", () => picture.marks($("#marks").checked));
+    picture.set(commandOf("table", state.setups[0]));
+    window.depthprec = { engine, state: () => shown().map(join), set: (fragment) => set(() => fromFragment(fragment)) };
+    document.documentElement.dataset.ready = "";
+}
+
+begin().catch((error) => refuse(`The page cannot run here: ${error.message}. It needs WebAssembly and DecompressionStream, which browsers have since 2023.`));

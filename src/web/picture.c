@@ -1,0 +1,121 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/*
+ * The flickering picture's door: a command's words make it, each frame is one call. What is said about it is written
+ * to stdout, a line for the gap and one for the rest. picture.js is the other side; all calls have the same instance.
+ */
+#include "draw/picture.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+
+#include "cli/setups.h"
+#include "report/number.h"
+#include "web/page.h"
+
+enum { DIGITS = 3 };
+enum { PIXELS = DRAW_PICTURE_WIDTH * DRAW_PICTURE_HEIGHT };
+
+static draw_picture picture; /* z is 0: there is none */
+static uint32_t *pixels;
+static const char *unit;
+static draw_picture_count count;
+
+static void let_go(void) {
+    if (picture.z > 0.0)
+        draw_picture_close(&picture);
+    picture = (draw_picture){0};
+}
+
+/* Of several cameras, mappings and depths the first; of formats the first that the rasterizer draws. */
+static int make(const options *all) {
+    options o;
+    size_t format = 0;
+    options_of(all, 0, &o);
+    const raster_row *row = o.raster != NULL ? o.raster : raster_find("llvmpipe");
+    while (format + 1 < o.format_count && !raster_draws(row, &o.formats[format]))
+        format++;
+    const dp_spec spec = {.znear = o.znear,
+                          .zfar = o.zfar,
+                          .ortho = o.ortho,
+                          .mapping = o.mappings[0],
+                          .format = o.formats[format],
+                          .rounding = o.rounding,
+                          .log_c = o.log_c};
+    const double z = o.at.count > 0 ? depths_get(&o.at, 0) : (double)NAN;
+    const char *wrong = draw_picture_open(&picture, &spec, row, z);
+    unit = options_unit(&o);
+    return wrong == NULL ? EXIT_FINE : usage_error("%s: %s", row->name, wrong);
+}
+
+/** Makes the picture of the command of `n` words. @return its exit status; EXIT_FINE: there is one */
+PAGE_EXPORT("picture_set") int picture_set(int n) {
+    static options o;
+    char **words;
+    const int argc = page_words(n, &words);
+    let_go();
+    pixels = pixels != NULL ? pixels : malloc(PIXELS * sizeof *pixels);
+    int status = argc > 0 ? options_parse(&o, argc, words) : usage_error("too many words");
+    if (status == EXIT_FINE)
+        status = pixels != NULL ? make(&o) : usage_error("no memory for a picture");
+    if (argc > 0)
+        options_release(&o);
+    fflush(NULL);
+    return status;
+}
+
+/** Draws a frame; `place` is that of the slider. @return how many pixels are wrong */
+PAGE_EXPORT("picture_draw") int picture_draw(double place, unsigned frame, int marks) {
+    if (!(picture.z > 0.0))
+        return 0;
+    count = draw_picture_frame(&picture, draw_picture_gap(&picture, place), frame, marks != 0, pixels);
+    return (int)count.wrong;
+}
+
+/** What was drawn: 640 x 360 pixels of red, green, blue and alpha, row by row from the top. */
+PAGE_EXPORT("picture_pixels") const uint32_t *picture_pixels(void) {
+    return pixels;
+}
+
+/** Whether the guarantee is on the slider, at 0.75. */
+PAGE_EXPORT("picture_marked") int picture_marked(void) {
+    return picture.z > 0.0 && draw_picture_marked(&picture);
+}
+
+/* Rounded up, as the guarantee is, where it is the guarantee. */
+static number_text gap_text(double gap) {
+    return number_brief(gap == picture.guaranteed ? number_up(gap, DIGITS) : number_of(gap, DIGITS));
+}
+
+static void say_guarantee(void) {
+    const number_text from = number_in(gap_text(picture.guaranteed), unit);
+    if (draw_picture_marked(&picture))
+        printf("Nothing flickers from %s on: guaranteed.\n", from.text);
+    else if (isfinite(picture.guaranteed))
+        printf("A gap is safe for sure from %s on, more than there is room for.\n", from.text);
+    else
+        printf("No gap is safe for sure at this depth.\n");
+}
+
+/** Says the gap at a place of the slider, and what it does, as the last frame was; `quiet`: none was wrong lately. */
+PAGE_EXPORT("picture_say") void picture_say(double place, int quiet) {
+    const double gap = draw_picture_gap(&picture, place);
+    const double share = 100.0 * (double)count.wrong / fmax((double)count.covered, 1.0);
+    char label[SETUP_LABEL_SIZE];
+    if (!(picture.z > 0.0))
+        return;
+    printf("%s\n", number_in(gap_text(gap), unit).text);
+    if (gap < picture.guaranteed && quiet != 0)
+        printf("No pixel is wrong just now. ");
+    else if (gap < picture.guaranteed)
+        printf("%s %% of sign, poster and marks shows what is behind. ", number_brief(number_of(share, 2)).text);
+    say_guarantee();
+    printf("%s, things about %s away, drawn by the model of %s\n", setup_label(&picture.setup, false, label),
+           number_in(number_brief(number_of(picture.z, DIGITS)), unit).text, picture.camera.target.row->name);
+    fflush(NULL);
+}
+
+/** Whether the guarantee holds at a place of the slider. */
+PAGE_EXPORT("picture_safe") int picture_safe(double place) {
+    return picture.z > 0.0 && draw_picture_gap(&picture, place) >= picture.guaranteed;
+}

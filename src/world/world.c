@@ -1,0 +1,152 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* The rows, and their bounds: depthprec(7), "Large worlds", derives every line. */
+#include "world/world.h"
+
+#include <math.h>
+
+#include "world/arithmetic.h"
+
+static const double unit = 0x1p-24;
+static const double root3 = 1.73205081;
+static const double turn = WORLD_TURN;
+
+/* Terms of second order; what is formed in double first; and numbers that may be flushed. */
+static const double outward = 1.0 + 0x1p-16, in_double = 0x1p-50, flushed = 0x1p-120;
+
+/* Half a unit in the last place of the largest binary32 number that is not above x. */
+static double half_ulp(double x) {
+    int exponent;
+    frexp(x, &exponent);
+    return ldexp(unit, exponent - 1);
+}
+
+/* The same of those below a power of two. */
+static double half_ulp_below(double x) {
+    return half_ulp(x * (1.0 - 0x1p-30));
+}
+
+/* A vector of `length` through three entries, to a coordinate of `result`: products, one sum on the way, the last. */
+static double turned(const world_where *at) {
+    return unit * (2.0 * at->length + at->result);
+}
+
+/* Four products up to `length`, of which the sum is `result`: with two sums on the way, in any order. */
+static double summed(double length, double result) {
+    return unit * (length + 2.0 * (length + result) + result);
+}
+
+static world_error of_world(const world_scheme *s, const world_where *at) {
+    (void)s;
+    const double far_off = at->distance + at->length;
+    return (world_error){.vertex = unit * far_off + summed(far_off, at->result),
+                         .camera = turn * far_off + unit * at->distance};
+}
+
+static world_error of_local(const world_scheme *s, const world_where *at) {
+    (void)s;
+    const double origin = at->distance + 2.0 * at->length;
+    return (world_error){.vertex = unit * at->length + summed(at->length, at->result),
+                         .mesh = unit * origin + summed(origin, 2.0 * at->length),
+                         .camera = turn * (at->distance + at->length) + unit * at->distance};
+}
+
+static world_error of_camera_float(const world_scheme *s, const world_where *at) {
+    (void)s;
+    return (world_error){.vertex = unit * (at->distance + 2.0 * at->length) + turned(at),
+                         .camera = unit * at->distance + turn * at->length};
+}
+
+static world_error of_camera_double(const world_scheme *s, const world_where *at) {
+    (void)s;
+    return (world_error){.vertex = unit * at->length + turned(at), .camera = turn * at->length};
+}
+
+static world_error of_split(const world_scheme *s, const world_where *at) {
+    const double far_off = at->distance + at->length;
+    const double low = root3 * half_ulp_below(s->size);
+    const double high = far_off > 0x1p24 * s->size ? unit * far_off : 0.0; /* no longer a binary32 number */
+    return (world_error){.vertex = (far_off < s->size ? unit * far_off : 2.0 * low) + 2.0 * high +
+                                   unit * 3.0 * at->length + turned(at),
+                         .camera = (at->distance < s->size ? unit * at->distance : low) + high + turn * at->length};
+}
+
+static world_error of_tile(const world_scheme *s, const world_where *at) {
+    const double half = 0.5 * s->size, away = 2.0 * at->length, origin = at->distance + away;
+    const double off = root3 * unit * 0.5 * half; /* a tile is a power of two there */
+    return (world_error){.vertex = unit * 2.0 * at->length + turned(at),
+                         .mesh = (origin < half ? unit * origin : 3.0 * off) + 2.0 * unit * away,
+                         .camera = (at->distance < half ? unit * at->distance : off) + turn * at->length};
+}
+
+static world_error of_two_sum(const world_scheme *s, const world_where *at) {
+    (void)s;
+    const double away = 2.0 * at->length;
+    return (world_error){.vertex = unit * 2.0 * at->length + turned(at),
+                         .mesh = unit * away + 0x1.8p-48 * (2.0 * at->distance + away),
+                         .camera = turn * at->length};
+}
+
+static world_error of_cell(const world_scheme *s, const world_where *at) {
+    const double most = WORLD_CELL_MOST * s->size;
+    const double eye = fmin(at->distance, root3 * most), away = 2.0 * at->length;
+    const double off = root3 * half_ulp(most), far_off = eye + at->length;
+    return (world_error){.vertex = unit * (at->length + far_off) + summed(far_off, at->result),
+                         .mesh = fmin(unit * (at->distance + away), off) + unit * (eye + away),
+                         .camera = fmin(unit * at->distance, off) + turn * far_off + unit * eye};
+}
+
+/* clang-format off */
+static const world_row rows[WORLD_ROWS] = {
+    {"world", "vertices in the world, one matrix of view and projection", NULL, 0.0, false,
+     "common", arithmetic_world, of_world},
+    {"local", "vertices about an origin, whose matrix and the view's are multiplied in binary32", NULL, 0.0, false,
+     "common", arithmetic_local, of_local},
+    {"camera-float", "vertices less the camera, both in binary32, then a view without translation", NULL, 0.0, false,
+     "deck.gl before 64-bit shaders; Filament, issue 913", arithmetic_camera_float, of_camera_float},
+    {"split", "each coordinate a multiple of the size and a rest, subtracted part by part", "the multiples",
+     65536.0, true, "Cesium, EncodedCartesian3.js and translateRelativeToEye.glsl", arithmetic_split, of_split},
+    {"tile", "tile and offset of each mesh's origin, subtracted part by part", "the edge of a tile",
+     20971.52, false, "Unreal Engine 5.0 manual, Large World Coordinates: 2097152 units of 1 cm",
+     arithmetic_tile, of_tile},
+    {"cell", "cell and offset of each mesh's origin, about the camera's cell; there as world", "the edge of a cell",
+     2000.0, false, "big_space, src/grid/cell.rs: edge 2000, threshold 100", arithmetic_cell, of_cell},
+    {"two-sum", "origins of meshes and camera as two binary32 numbers each, added without loss", NULL, 0.0, false,
+     "Godot with double precision, scene_forward_clustered.glsl, PR 66178", arithmetic_two_sum, of_two_sum},
+    {"camera-double", "vertices less the camera in double, then rounded", NULL, 0.0, false,
+     "common; Filament, issue 913", arithmetic_camera_double, of_camera_double},
+};
+/* clang-format on */
+
+const world_row *world_get(size_t index) {
+    return index < WORLD_ROWS ? &rows[index] : NULL;
+}
+
+bool world_size_fits(const world_row *row, double size) {
+    int exponent;
+    return row->size != NULL && size >= 1e-3 && size <= 1e12 && (!row->power2 || frexp(size, &exponent) == 0.5);
+}
+
+void world_view(const world_scheme *s, const world_camera *camera, const world_place *place, float out[3]) {
+    s->row->view(s, camera, place, out);
+}
+
+world_error world_bound(const world_scheme *s, const world_where *at) {
+    world_error e = s->row->bound(s, at);
+    e.vertex = e.vertex * outward + in_double * (at->distance + 2.0 * at->length) + flushed;
+    e.mesh *= outward;
+    e.camera = e.camera * outward + in_double * at->distance;
+    return e;
+}
+
+double world_gap(const world_scheme *s, double distance, double z, double lean, bool shared_origin) {
+    const double settled = 1.0 + 0x1p-30;
+    double gap = 0.0;
+    for (double before = -1.0; gap > before * settled && gap < 1e18;) {
+        const double end = z + gap;
+        const world_where near_one = {distance, lean * z, z}, far_one = {distance, lean * end, end};
+        const world_error a = world_bound(s, &near_one), b = world_bound(s, &far_one);
+        before = gap;
+        gap = (world_own(&a, shared_origin) + world_own(&b, shared_origin)) / (1.0 - turn * lean) * outward;
+    }
+    return gap < 1e18 ? gap * outward : (double)INFINITY;
+}

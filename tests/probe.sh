@@ -1,0 +1,152 @@
+#!/bin/sh
+# SPDX-License-Identifier: GPL-3.0-or-later
+# The probe on the drivers that are here, against what is known of each; a loader that is damaged, hangs or is not there;
+# the table of its shader. `make check-probe` installs a driver first.
+. tests/tap.sh
+
+# name | where Debian has its file | the driver that was recorded | arithmetic | rasterizer | grid of coverage | plane
+drivers='
+lavapipe    | /usr/share/vulkan/icd.d/lvp_icd*.json             | Mesa 22.3.6 | mesa | lavapipe    | 1/256 | unsnapped
+swiftshader | /usr/lib/chromium/vk_swiftshader_icd.json         | 5.0.0       | mesa | swiftshader | 1/16  | on 1/16 pixel
+'
+
+found() { # found FILE ICD: draws, and writes the profile
+    VK_ICD_FILENAMES=$2 "$DEPTHPREC" probe --json -o "$1"
+}
+
+# Every hypothesis is decided, the counts of hits are whole, and the second scene was predicted to the last pixel.
+decided() {
+    jq -e '[.findings[] | select(.sure == "open" or .sure == "no row")] == [] and
+           ([.findings[] | select(.sure == "sure") | .cases == .hits] | all) and
+           ([.findings[] | select(.key == "prediction") | .cases == 65536 and .hits == 65536] | length >= 2 and all)' "$1"
+}
+
+known() { # known FILE ARITH RASTER COVERAGE PLANE
+    jq -e --arg arith "$2" --arg raster "$3" --arg coverage "$4" --arg plane "$5" '
+        .arith == $arith and .raster == $raster and
+        ([.findings[] | select(.key == "coverage") | .found | contains($coverage)] == [true]) and
+        ([.findings[] | select(.key == "plane") | .found | contains($plane)] == [true]) and
+        ([.findings[] | select(.key == "rounding") | .found | endswith("to nearest even")] | length >= 1 and all) and
+        ([.findings[] | select(.key == "division") | .found | contains("rounded 1 / w")] == [true]) and
+        ([.findings[] | select(.key == "clipping") | .found | contains("0 <= z <= w, exactly")] == [true])' "$1"
+}
+
+as_kept() { # as_kept FILE PROFILE: the findings of the profile in the tree
+    for f in "$1" "$2"; do jq -S '[.arith, .raster, .subpixel_reported, .findings]' "$f" >"$scratch/findings.${f##*/}"; done
+    diff "$scratch/findings.${1##*/}" "$scratch/findings.${2##*/}"
+}
+
+seeds() { # another scene is predicted as well
+    VK_ICD_FILENAMES=$1 "$DEPTHPREC" probe --json --seed 7 -o "$scratch/seeded.json" && decided "$scratch/seeded.json"
+}
+
+# Every pixel of every shot.
+keeps() {
+    VK_ICD_FILENAMES=$1 "$DEPTHPREC" probe --json -o "$scratch/of.json" --keep "$scratch/codes.csv" || return
+    awk -F, 'NR > 1 { shots[$1 "," $2]++ } END { for (s in shots) if (shots[s] != 65536) exit 1; exit !length(shots) }' \
+        "$scratch/codes.csv"
+}
+
+while IFS='|' read -r driver files version arith raster coverage plane; do
+    driver=$(echo $driver) version=$(echo $version) arith=$(echo $arith) raster=$(echo $raster)
+    coverage=$(echo $coverage) plane=$(echo $plane)
+    [ -n "$driver" ] || continue
+    icd=$(ls $files 2>/dev/null | head -n 1)
+    [ "$driver" != swiftshader ] || icd=${SWIFTSHADER_ICD:-$icd}
+    if [ -z "$icd" ]; then
+        skip "$driver is found as it was recorded" "its driver is not here"
+    elif ! grep -q ' fma ' /proc/cpuinfo 2>/dev/null; then
+        skip "$driver is found as it was recorded" "recorded on a processor with FMA, which this one has not"
+    elif ! found "$scratch/$driver.json" "$icd"; then
+        check "$driver draws" found "$scratch/$driver.json" "$icd"
+    elif ! jq -r .device.driver "$scratch/$driver.json" | grep -qF "$version"; then
+        skip "$driver is found as it was recorded" "its driver is $(jq -r .device.driver "$scratch/$driver.json")"
+    else
+        check "$driver: every finding is decided, a random scene predicted to the last pixel" decided "$scratch/$driver.json"
+        check "$driver is found as it was recorded" known "$scratch/$driver.json" "$arith" "$raster" "$coverage" "$plane"
+        check "$driver: the profile in the tree" as_kept "$scratch/$driver.json" "tests/profiles/$driver.json"
+        check "$driver: another scene" seeds "$icd"
+        check "$driver: raw codes" keeps "$icd"
+    fi
+done <<END
+$drivers
+END
+
+# ---- Profiles ----------------------------------------------------------------------------------------------------
+
+# What is promised with a profile is what is promised with its rows, and says of which GPU.
+promises() {
+    camera="-n 0.1 -f 1000 -F d16 -m d3d --viewport 1920x1080"
+    "$DEPTHPREC" table $camera --model fp32 --arith "$1" --raster "$1" >"$scratch/by_profile" || return
+    "$DEPTHPREC" table $camera --model fp32 --arith "$(jq -r .arith "$1")" --raster "$(jq -r .raster "$1")" >"$scratch/by_name"
+    head -n "$(wc -l <"$scratch/by_name")" "$scratch/by_profile" | diff - "$scratch/by_name" || return
+    tail -n +"$(($(wc -l <"$scratch/by_name") + 1))" "$scratch/by_profile" | tr '\n' ' ' | tr -s ' ' >"$scratch/told"
+    grep -qF "Measured on $(jq -r .device.name "$1"), driver $(jq -r .device.driver "$1")." "$scratch/told" &&
+        "$DEPTHPREC" table $camera --arith "$1" --json | jq -e --slurpfile p "$1" \
+            '.measured == "\($p[0].device.name), driver \($p[0].device.driver)"'
+}
+for profile in tests/profiles/*.json; do
+    check "${profile##*/}: promises with it are those of its rows, and name the GPU" promises "$profile"
+done
+
+refuses() { # refuses WORDS ARGUMENTS...
+    words=$1
+    shift
+    "$DEPTHPREC" "$@" >"$scratch/out" 2>"$scratch/said"
+    status=$?
+    cat "$scratch/said"
+    [ "$status" -eq "${expected:-2}" ] && [ ! -s "$scratch/out" ] && [ "$(wc -l <"$scratch/said")" -eq 1 ] &&
+        grep -qF -- "$words" "$scratch/said"
+}
+jq '.raster = null' tests/profiles/swiftshader.json >"$scratch/unknown.json"
+jq '.arith = "made-up"' tests/profiles/swiftshader.json >"$scratch/strange.json"
+jq '.device.name = "a\nb\u001b[31m"' tests/profiles/swiftshader.json >"$scratch/rude.json"
+echo '{"command":"table"}' >"$scratch/other.json"
+check "a GPU without a row" refuses "no row predicts" table --viewport 9x9 --raster "$scratch/unknown.json"
+check "a row that is not known" refuses "'made-up'" table --arith "$scratch/strange.json"
+check "JSON of another command" refuses "must be a profile" table --arith "$scratch/other.json"
+check "no JSON" refuses "cannot be read" table --arith README.md
+check "no file" refuses "cannot be read" table --arith "$scratch/none.json"
+check "control characters of a driver are not printed" sh -c \
+    '! "$1" table -F d16 --arith "$2" | grep -q "$(printf "\033")"' - "$DEPTHPREC" "$scratch/rude.json"
+
+# ---- Loaders that are none ---------------------------------------------------------------------------------------
+
+fake() { # fake NAME CODE: a folder with a libvulkan.so.1
+    mkdir -p "$scratch/$1" && printf '%s\n' "$2" >"$scratch/$1/fake.c" &&
+        ${CC:-cc} -shared -fPIC -w -o "$scratch/$1/libvulkan.so.1" "$scratch/$1/fake.c"
+}
+under() { # under NAME WORDS
+    expected=3
+    export LD_LIBRARY_PATH="$scratch/$1"
+    refuses "$2" probe
+    result=$?
+    unset LD_LIBRARY_PATH expected
+    return $result
+}
+mkdir "$scratch/damaged" && echo "no library" >"$scratch/damaged/libvulkan.so.1"
+fake empty 'int nothing;' && fake crash '#include <stdlib.h>
+__attribute__((constructor)) static void start(void) { abort(); }' && fake leaves '#include <unistd.h>
+__attribute__((constructor)) static void start(void) { _exit(0); }'
+if "$DEPTHPREC" probe 2>&1 | grep -q "this build has no Vulkan"; then
+    skip "loaders that are none" "built without Vulkan's headers"
+else
+    check "no loader: the package is named" under damaged "Debian's package libvulkan1"
+    check "a loader without functions" under empty "Debian's package libvulkan1"
+    check "a driver that breaks down" under crash "the driver broke down"
+    check "a driver that ends early" under leaves "damaged"
+fi
+
+# ---- The shader --------------------------------------------------------------------------------------------------
+
+generated() {
+    sh src/probe/spirv.sh >"$scratch/spirv.h" && diff src/probe/spirv.h "$scratch/spirv.h"
+}
+if ! command -v glslangValidator >/dev/null 2>&1; then
+    skip "the table of the shader is made from its source" "glslangValidator is not here"
+elif ! glslangValidator --version | grep -q '^Glslang Version: 11:12'; then
+    skip "the table of the shader is made from its source" "made by another version of glslang"
+else
+    check "the table of the shader is made from its source" generated
+fi
+finish

@@ -1,0 +1,455 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/*
+ * The picture whose decals flicker: none does from the guarantee on, over whole loops of the camera; below it they do.
+ * Which surface is nearer is judged by the planes of the triangles in double, who covers a pixel by src/draw's keys.
+ */
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <time.h>
+
+#include "draw/picture.h"
+#include "support.h"
+
+enum { W = DRAW_PICTURE_WIDTH, H = DRAW_PICTURE_HEIGHT, SURFACES = 6, TRIANGLES = 64 };
+
+static const double pi = 3.14159265358979323846;
+
+static dp_spec spec_of(const char *format, dp_mapping mapping, double znear, double zfar) {
+    dp_spec spec = dp_spec_default();
+    dp_format found[2];
+    assert_int_equal(dp_format_parse(format, found), 1);
+    spec.format = found[0];
+    spec.mapping = mapping;
+    spec.znear = znear;
+    spec.zfar = zfar;
+    return spec;
+}
+
+static void open_standard(draw_picture *p) {
+    const dp_spec spec = spec_of("unorm24", DP_MAPPING_D3D, 0.1, 1000.0);
+    assert_null(draw_picture_open(p, &spec, raster_find("llvmpipe"), NAN));
+}
+
+/* ---- The triangles of a frame ------------------------------------------------------------------------------------ */
+
+typedef struct triangles {
+    int count;
+    unsigned who[TRIANGLES];
+    double place[TRIANGLES][3][3], normal[TRIANGLES][3], distance[TRIANGLES]; /* normal . X = distance > 0 */
+} triangles;
+
+static void note(void *context, const double place[3][3], unsigned who) {
+    triangles *t = context;
+    double side[2][3], *n = t->normal[t->count];
+    assert_in_range(t->count, 0, TRIANGLES - 1);
+    assert_in_range(who, 1, SURFACES);
+    memcpy(t->place[t->count], place, sizeof t->place[0]);
+    for (int i = 0; i < 2; i++)
+        for (int k = 0; k < 3; k++)
+            side[i][k] = place[i + 1][k] - place[0][k];
+    for (int k = 0; k < 3; k++)
+        n[k] = side[0][(k + 1) % 3] * side[1][(k + 2) % 3] - side[0][(k + 2) % 3] * side[1][(k + 1) % 3];
+    const double length = sqrt(n[0] * n[0] + n[1] * n[1] + n[2] * n[2]);
+    const double towards = n[0] * place[0][0] + n[1] * place[0][1] + n[2] * place[0][2];
+    for (int k = 0; k < 3; k++)
+        n[k] /= towards > 0.0 ? length : -length;
+    t->distance[t->count] = fabs(towards) / length;
+    t->who[t->count++] = who;
+}
+
+static triangles triangles_of(const draw_picture *p, double gap, unsigned frame) {
+    triangles t = {0};
+    draw_picture_triangles(p, gap, frame, note, &t);
+    return t;
+}
+
+/* The class of dp_triangles_default(), in pixels of the picture, with an eighth of a pixel to spare. */
+static void judge_class(tally *y, const triangles *t, int i, double z) {
+    const double half = tan(DRAW_PICTURE_FOV * pi / 360.0), spare = 0.125;
+    double x[3][2], lo = INFINITY, hi = 0.0, longest = 0.0, widest = 0.0;
+    for (int c = 0; c < 3; c++) {
+        const double *at = t->place[i][c];
+        x[c][0] = W / 2.0 + at[0] / at[2] / half * H / 2.0;
+        x[c][1] = H / 2.0 + at[1] / at[2] / half * H / 2.0;
+        lo = fmin(lo, at[2]);
+        hi = fmax(hi, at[2]);
+        TALLY(y, x[c][0] > spare && x[c][0] < W - spare && x[c][1] > spare && x[c][1] < H - spare,
+              "a vertex of %u at %g, %g", t->who[i], x[c][0], x[c][1]);
+    }
+    for (int c = 0; c < 3; c++) {
+        const double dx = x[(c + 1) % 3][0] - x[c][0], dy = x[(c + 1) % 3][1] - x[c][1];
+        longest = fmax(longest, hypot(dx, dy));
+        widest = fmax(widest, fmax(fabs(dx), fabs(dy)));
+    }
+    const double area = fabs((x[1][0] - x[0][0]) * (x[2][1] - x[0][1]) - (x[2][0] - x[0][0]) * (x[1][1] - x[0][1]));
+    TALLY(y, lo > 0.54 * z && hi < 1.61 * z && hi < 1.98 * lo, "%u lies from %g to %g", t->who[i], lo / z, hi / z);
+    TALLY(y, widest < 512.0 - spare, "%u is %g pixels wide", t->who[i], widest);
+    TALLY(y, longest * longest / area < 14.0, "%u is as slim as 1:%g", t->who[i], longest * longest / area);
+}
+
+static void within_the_class(void **state) {
+    tally y = {.name = "triangles in the class"};
+    draw_picture p;
+    (void)state;
+    open_standard(&p);
+    for (unsigned frame = 0; frame < DRAW_PICTURE_FRAMES; frame += 5)
+        for (int g = 0; g <= 4; g++) {
+            const triangles t = triangles_of(&p, g / 4.0 * DRAW_PICTURE_GAP * p.z, frame);
+            for (int i = 0; i < t.count; i++)
+                judge_class(&y, &t, i, p.z);
+        }
+    draw_picture_close(&p);
+    tally_end(&y);
+}
+
+/* All triangles of a surface lie in one plane, and what lies upon it in one that is the gap nearer. */
+static void a_gap_apart(void **state) {
+    static const double slants[] = {0.0, 45.0, 45.0, 30.0, 30.0, 90.0, 90.0};
+    tally y = {.name = "planes"};
+    draw_picture p;
+    rng r = rng_make("a gap apart");
+    (void)state;
+    open_standard(&p);
+    for (unsigned frame = 0; frame < DRAW_PICTURE_FRAMES; frame += 7) {
+        const double gap = rng_log(&r, 1e-5, DRAW_PICTURE_GAP) * p.z;
+        const triangles t = triangles_of(&p, gap, frame);
+        double plane[SURFACES + 1] = {0};
+        for (int i = 0; i < t.count; i++) {
+            const unsigned who = t.who[i];
+            plane[who] = plane[who] > 0.0 ? plane[who] : t.distance[i];
+            TALLY(&y, fabs(t.distance[i] - plane[who]) < 1e-13 * p.z, "%u: %g off", who, t.distance[i] - plane[who]);
+            TALLY(&y, fabs(acos(fmin(t.normal[i][2], 1.0)) * 180.0 / pi - slants[who]) < 1e-6, "slant of %u", who);
+        }
+        for (int below = 1; below <= SURFACES; below += 2)
+            TALLY(&y, fabs(plane[below] - plane[below + 1] - gap) < 1e-13 * p.z, "gap %.17g, drawn %.17g", gap,
+                  plane[below] - plane[below + 1]);
+    }
+    draw_picture_close(&p);
+    tally_end(&y);
+}
+
+/* ---- A frame, pixel by pixel ------------------------------------------------------------------------------------- */
+
+typedef struct truth {
+    const draw_picture *p;
+    const triangles *t;
+    int at; /* the triangle that is drawn */
+    uint32_t key[W * H];
+    int shown[W * H]; /* triangle, or -1 */
+    double depth[SURFACES + 1][W * H];
+} truth;
+
+static void take(void *context, int x, int y, int count, const uint32_t *key) {
+    truth *s = context;
+    for (int i = 0; i < count; i++) {
+        const int at = y * W + x + i;
+        const double window[2] = {x + i + 0.5, y + 0.5}, *n = s->t->normal[s->at];
+        double ray[3];
+        draw_ray(&s->p->camera, window, ray);
+        s->depth[s->t->who[s->at]][at] = s->t->distance[s->at] / (n[0] * ray[0] + n[1] * ray[1] + n[2] * ray[2]);
+        if (key[i] < s->key[at]) {
+            s->key[at] = key[i];
+            s->shown[at] = s->at;
+        }
+    }
+}
+
+static void draw_truth(truth *s, const draw_picture *p, const triangles *t) {
+    const draw_area all = {0, 0, W, H};
+    memset(s->key, 0xFF, sizeof s->key);
+    memset(s->depth, 0, sizeof s->depth);
+    s->p = p;
+    s->t = t;
+    for (int i = 0; i < W * H; i++)
+        s->shown[i] = -1;
+    for (s->at = 0; s->at < t->count; s->at++)
+        draw_keys(&p->camera, &all, (const double(*)[3])t->place[s->at], take, s);
+}
+
+/* The surface that should be seen where `who` is: what lies upon it, if that is there and nearer. */
+static bool is_wrong(const truth *s, int at) {
+    const unsigned who = s->shown[at] >= 0 ? s->t->who[s->shown[at]] : 0;
+    if (who % 2 == 0)
+        return false;
+    const double upper = s->depth[who + 1][at];
+    return upper > 0.0 && upper < s->depth[who][at];
+}
+
+static void each_pixel(void **state) {
+    static const char *const names[] = {"llvmpipe", "softpipe", "swiftshader"};
+    static uint32_t plain[W * H], marked[W * H];
+    truth *s = malloc(sizeof *s);
+    tally y = {.name = "pixels"};
+    (void)state;
+    assert_non_null(s);
+    for (int i = 0; i < 3; i++) {
+        const dp_spec spec =
+            spec_of(i == 1 ? "unorm24" : "fp32", i == 1 ? DP_MAPPING_REVERSED : DP_MAPPING_D3D, 0.1, 1000.0);
+        draw_picture p;
+        uint32_t colour[SURFACES + 1] = {0};
+        size_t wrong = 0, covered = 0;
+        assert_null(draw_picture_open(&p, &spec, raster_find(names[i]), NAN));
+        const double gap = 0.03 * p.guaranteed;
+        const unsigned frame = 77U * (unsigned)i + 20U;
+        const triangles t = triangles_of(&p, gap, frame);
+        const draw_picture_count count = draw_picture_frame(&p, gap, frame, false, plain);
+        draw_picture_frame(&p, gap, frame, true, marked);
+        draw_truth(s, &p, &t);
+        for (int at = 0; at < W * H; at++) {
+            const int seen = (H - 1 - at / W) * W + at % W;
+            const unsigned who = s->shown[at] >= 0 ? t.who[s->shown[at]] : 0;
+            const bool is = is_wrong(s, at);
+            wrong += is;
+            covered += s->depth[2][at] > 0.0 || s->depth[4][at] > 0.0 || s->depth[6][at] > 0.0;
+            if (who != 0 && colour[who] == 0)
+                colour[who] = plain[seen];
+            TALLY(&y, who == 0 || plain[seen] == colour[who], "%s: pixel %d of %u has another colour", names[i], at,
+                  who);
+            TALLY(&y, is == (plain[seen] != marked[seen]), "%s: pixel %d is %s", names[i], at, is ? "wrong" : "right");
+        }
+        print_message("# %s: %zu of %zu wrong\n", names[i], wrong, covered);
+        assert_true(wrong > 100 && covered > 20000);
+        assert_int_equal(count.wrong, wrong);
+        assert_int_equal(count.covered, covered);
+        for (int a = 1; a <= SURFACES; a++)
+            for (int b = 1; b < a; b++)
+                assert_true(colour[a] != 0 && colour[a] != colour[b]);
+        draw_picture_close(&p);
+    }
+    free(s);
+    tally_end(&y);
+}
+
+/* ---- The guarantee ----------------------------------------------------------------------------------------------- */
+
+/* What is guaranteed at the farthest depths of the three planes, by the budget. */
+static double by_budget(const draw_picture *p) {
+    static const double farthest[3][2] = {{45.0, 1.56}, {30.0, 1.6}, {90.0, 1.6}};
+    double worst = 0.0;
+    for (int i = 0; i < 3; i++) {
+        dp_setup setup = p->setup;
+        dp_budget budget;
+        setup.spec.triangles.slant_lo = setup.spec.triangles.slant_hi = farthest[i][0];
+        assert_int_equal(dp_budget_at(&setup, farthest[i][1] * p->z, NULL, &budget), DP_OK);
+        worst = fmax(worst, budget.separation);
+    }
+    return worst;
+}
+
+typedef struct camera {
+    double znear, zfar, z;
+} camera;
+
+static void judge_loop(tally *y, draw_picture *p, double gap, unsigned step, const char *name) {
+    for (unsigned frame = 0; frame < DRAW_PICTURE_FRAMES; frame += step) {
+        const draw_picture_count count = draw_picture_frame(p, gap, frame, false, NULL);
+        TALLY(y, count.wrong == 0 && count.covered > 20000, "%s: gap %.17g of %.17g, frame %u: %zu of %zu pixels wrong",
+              name, gap, p->guaranteed, frame, count.wrong, count.covered);
+    }
+}
+
+static void none_from_the_guarantee_on(void **state) {
+    static const char *const names[] = {"llvmpipe", "lavapipe", "softpipe", "swiftshader"};
+    static const char *const formats[] = {"fp32", "unorm24", "unorm16"};
+    static const camera cameras[] = {{0.1, 1000.0, NAN}, {1.0, 30.0, NAN}, {0.01, INFINITY, 50.0}};
+    tally y = {.name = "from the guarantee on"};
+    (void)state;
+    for (size_t i = 0; i < sizeof names / sizeof names[0] * 3; i++)
+        for (dp_mapping m = DP_MAPPING_D3D; m <= DP_MAPPING_GL_REVERSED; m++)
+            for (int c = 0; c < 3; c++) {
+                const dp_spec spec = spec_of(formats[i % 3], m, cameras[c].znear, cameras[c].zfar);
+                draw_picture p;
+                char name[80];
+                if (draw_picture_open(&p, &spec, raster_find(names[i / 3]), cameras[c].z) != NULL)
+                    continue;
+                snprintf(name, sizeof name, "%s %s %s %d", names[i / 3], formats[i % 3], dp_mapping_get(m)->name, c);
+                if (draw_picture_marked(&p)) {
+                    const double budget = by_budget(&p);
+                    TALLY(&y, p.guaranteed >= 0.99 * budget && p.guaranteed <= 1.06 * budget, "%s: %.17g, budget %.17g",
+                          name, p.guaranteed, budget);
+                    judge_loop(&y, &p, p.guaranteed, (unsigned)test_cases(100, 12, 1), name);
+                    judge_loop(&y, &p, fmin(3.0 * p.guaranteed, DRAW_PICTURE_GAP * p.z), 75, name);
+                } else
+                    y.skipped++;
+                draw_picture_close(&p);
+            }
+    tally_end(&y);
+}
+
+/* The standard one, every frame; how far below the guarantee the last wrong pixel is. */
+static void below_they_fight(void **state) {
+    draw_picture p;
+    double highest = 0.0;
+    tally y = {.name = "every frame"};
+    (void)state;
+    open_standard(&p);
+    judge_loop(&y, &p, p.guaranteed, 1, "standard");
+    for (double share = 0.9; share > 1e-3 && highest == 0.0; share *= 0.9)
+        for (unsigned frame = 0; frame < DRAW_PICTURE_FRAMES && highest == 0.0; frame += 20)
+            if (draw_picture_frame(&p, share * p.guaranteed, frame, false, NULL).wrong > 0)
+                highest = share;
+    print_message("# guaranteed %g at depth %g; wrong up to %g of it\n", p.guaranteed, p.z, highest);
+    assert_true(highest > 0.1);
+    for (unsigned frame = 0; frame < DRAW_PICTURE_FRAMES; frame += 50) {
+        const draw_picture_count none = draw_picture_frame(&p, 0.0, frame, false, NULL);
+        const draw_picture_count little = draw_picture_frame(&p, 0.02 * p.guaranteed, frame, false, NULL);
+        TALLY(&y, none.wrong > none.covered / 10, "gap 0: %zu of %zu wrong", none.wrong, none.covered);
+        TALLY(&y, little.wrong > little.covered / 100, "%zu of %zu wrong", little.wrong, little.covered);
+    }
+    draw_picture_close(&p);
+    tally_end(&y);
+}
+
+static void flickers(void **state) {
+    static uint32_t one[W * H], next[W * H];
+    draw_picture p;
+    (void)state;
+    open_standard(&p);
+    const double gap = 0.02 * p.guaranteed;
+    draw_picture_frame(&p, gap, 100, false, one);
+    const draw_picture_count count = draw_picture_frame(&p, gap, 101, false, next);
+    size_t changed = 0;
+    for (int i = 0; i < W * H; i++)
+        changed += one[i] != next[i];
+    print_message("# from a frame to the next %zu pixels change, %zu are wrong\n", changed, count.wrong);
+    assert_true(changed > count.wrong / 10);
+    draw_picture_close(&p);
+}
+
+static void the_same_again(void **state) {
+    static uint32_t one[W * H], again[W * H];
+    draw_picture p, q;
+    (void)state;
+    open_standard(&p);
+    open_standard(&q);
+    for (unsigned frame = 0; frame < DRAW_PICTURE_FRAMES; frame += 97) {
+        const draw_picture_count a = draw_picture_frame(&p, 1e-4, frame, frame % 2 != 0, one);
+        draw_picture_frame(&q, 1e-3, frame + 5, false, again);
+        const draw_picture_count b = draw_picture_frame(&q, 1e-4, frame + DRAW_PICTURE_FRAMES, frame % 2 != 0, again);
+        assert_true(a.wrong == b.wrong && a.covered == b.covered);
+        assert_memory_equal(one, again, sizeof one);
+    }
+    draw_picture_close(&p);
+    draw_picture_close(&q);
+}
+
+/* ---- The slider, and what is refused ----------------------------------------------------------------------------- */
+
+static void slider(void **state) {
+    static const double places[] = {0.0, 1e-6, 0.2, 0.5, 0.7499, 0.75, 0.7501, 0.9, 1.0};
+    enum { PLACES = sizeof places / sizeof places[0] };
+    const dp_spec coarse = spec_of("unorm16", DP_MAPPING_D3D, 0.001, 1000.0);
+    draw_picture p;
+    (void)state;
+    open_standard(&p);
+    assert_true(draw_picture_marked(&p));
+    assert_true(draw_picture_gap(&p, DRAW_PICTURE_MARK) == p.guaranteed);
+    assert_relative(draw_picture_gap(&p, DRAW_PICTURE_MARK - 1e-9), p.guaranteed, 1e-7);
+    assert_relative(draw_picture_gap(&p, DRAW_PICTURE_MARK + 1e-9), p.guaranteed, 1e-7);
+    assert_relative(draw_picture_gap(&p, 1e-12), 1e-3 * p.guaranteed, 1e-9);
+    assert_relative(draw_picture_gap(&p, 1.0), 10.0 * p.guaranteed, 1e-12);
+    for (int round = 0; round < 2; round++) {
+        const double largest = DRAW_PICTURE_GAP * p.z;
+        assert_true(draw_picture_gap(&p, NAN) == 0.0 && draw_picture_gap(&p, -1.0) == 0.0);
+        assert_true(draw_picture_gap(&p, 2.0) == draw_picture_gap(&p, 1.0) && draw_picture_gap(&p, 1.0) <= largest);
+        for (int i = 1; i < PLACES; i++)
+            assert_true(draw_picture_gap(&p, places[i]) > draw_picture_gap(&p, places[i - 1]));
+        draw_picture_close(&p);
+        assert_null(draw_picture_open(&p, &coarse, raster_find("llvmpipe"), 30.0));
+    }
+    assert_false(draw_picture_marked(&p));
+    assert_true(draw_picture_gap(&p, 1.0) == DRAW_PICTURE_GAP * p.z);
+    draw_picture_close(&p);
+}
+
+static void refused(void **state) {
+    static const struct {
+        const char *raster, *format;
+        dp_mapping mapping;
+        camera view;
+        int ortho;
+        const char *says;
+    } cases[] = {
+        {"llvmpipe", "unorm24", DP_MAPPING_D3D, {0.1, 1000, NAN}, 1, "perspective"},
+        {"llvmpipe", "fp16", DP_MAPPING_D3D, {0.1, 1000, NAN}, 0, "format"},
+        {"swiftshader", "unorm24", DP_MAPPING_D3D, {0.1, 1000, NAN}, 0, "format"},
+        {"softpipe", "unorm16", DP_MAPPING_D3D, {0.1, 1000, NAN}, 0, "format"},
+        {"softpipe", "fp32", DP_MAPPING_GL, {0.1, 1000, NAN}, 0, "d3d"},
+        {"spec-d3d", "fp32", DP_MAPPING_D3D, {0.1, 1000, NAN}, 0, "not a rasterizer"},
+        {"llvmpipe", "fp32", DP_MAPPING_LOG, {0.1, 1000, NAN}, 0, "mappings"},
+        {"llvmpipe", "fp32", DP_MAPPING_LINEAR, {0.1, 1000, NAN}, 0, "mappings"},
+        {"llvmpipe", "fp32", DP_MAPPING_D3D, {1, 2.5, NAN}, 0, "between the planes"},
+        {"llvmpipe", "fp32", DP_MAPPING_D3D, {0.1, 1000, 0.1}, 0, "between the planes"},
+        {"llvmpipe", "fp32", DP_MAPPING_D3D, {0.1, 1000, 900}, 0, "between the planes"},
+        {"llvmpipe", "fp32", DP_MAPPING_D3D, {0.1, 1000, -5}, 0, "between the planes"},
+        {"llvmpipe", "fp32", DP_MAPPING_D3D, {0.1, 1000, INFINITY}, 0, "between the planes"},
+        {"llvmpipe", "fp32", DP_MAPPING_D3D, {NAN, 1000, NAN}, 0, ""},
+        {"llvmpipe", "fp32", DP_MAPPING_D3D, {1000, 0.1, NAN}, 0, ""},
+    };
+    (void)state;
+    for (size_t i = 0; i < sizeof cases / sizeof cases[0]; i++) {
+        dp_spec spec = spec_of(cases[i].format, cases[i].mapping, cases[i].view.znear, cases[i].view.zfar);
+        draw_picture p;
+        spec.ortho = cases[i].ortho;
+        const char *wrong = draw_picture_open(&p, &spec, raster_find(cases[i].raster), cases[i].view.z);
+        assert_non_null(wrong);
+        print_message("# %s\n", wrong);
+        assert_non_null(strstr(wrong, cases[i].says));
+        draw_picture_close(&p);
+    }
+}
+
+/* Any planes at all: refused or drawn, the scene between them. */
+static void any_planes(void **state) {
+    rng r = rng_make("any planes");
+    tally y = {.name = "planes"};
+    (void)state;
+    for (uint64_t i = 0; i < test_cases(50, 400, 4000); i++) {
+        const double znear = rng_log(&r, 1e-12, 1e12), zfar = znear * rng_log(&r, 1.00001, 1e20);
+        dp_spec spec = spec_of("fp32", (dp_mapping)(DP_MAPPING_D3D + rng_below(&r, 4)), znear, zfar);
+        draw_picture p;
+        if (draw_picture_open(&p, &spec, raster_find("llvmpipe"), NAN) != NULL)
+            continue;
+        const draw_picture_count count = draw_picture_frame(&p, draw_picture_gap(&p, 0.75), (unsigned)i, false, NULL);
+        TALLY(&y, 0.54 * p.z >= znear && 1.6 * p.z <= zfar && count.covered > 20000,
+              "near %g, far %g: at %g, %zu pixels", znear, zfar, p.z, count.covered);
+        TALLY(&y, !draw_picture_marked(&p) || count.wrong == 0, "near %g, far %g: %zu wrong", znear, zfar, count.wrong);
+        draw_picture_close(&p);
+    }
+    tally_end(&y);
+}
+
+static void fast(void **state) {
+    static uint32_t pixel[W * H];
+    struct timespec from, to;
+    draw_picture p;
+    (void)state;
+    open_standard(&p);
+    clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &from);
+    for (unsigned frame = 0; frame < DRAW_PICTURE_FRAMES; frame++)
+        draw_picture_frame(&p, 0.02 * p.guaranteed, frame, false, pixel);
+    clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &to);
+    const double ms = 1e3 * (double)(to.tv_sec - from.tv_sec) + 1e-6 * (double)(to.tv_nsec - from.tv_nsec);
+    print_message("# %.3f ms a frame, %.2f ns a pixel\n", ms / DRAW_PICTURE_FRAMES,
+                  1e6 * ms / DRAW_PICTURE_FRAMES / (W * H));
+    draw_picture_close(&p);
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(within_the_class),
+        cmocka_unit_test(a_gap_apart),
+        cmocka_unit_test(each_pixel),
+        cmocka_unit_test(none_from_the_guarantee_on),
+        cmocka_unit_test(below_they_fight),
+        cmocka_unit_test(flickers),
+        cmocka_unit_test(the_same_again),
+        cmocka_unit_test(slider),
+        cmocka_unit_test(refused),
+        cmocka_unit_test(any_planes),
+        cmocka_unit_test(fast),
+    };
+    return run_tap(tests);
+}

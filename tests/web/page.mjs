@@ -1,0 +1,19 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The page in a browser:  B=build DEPTHPREC=build/depthprec node page.mjs
+import { asked, browser, dialogs, said } from "./browser.mjs";
+import { bad } from "./page_bad.mjs";
+import { people } from "./page_people.mjs";
+import { redraw } from "./page_redraw.mjs";
+import { shots } from "./page_shots.mjs";
+import { states } from "./page_states.mjs";
+import { seed } from "./states.mjs";
+import { demand, finish, test } from "./tap.mjs";
+
+const quick = process.env.DEPTHPREC_QUICK ? 0.05 : 1, parts = { redraw, people, bad, shots, states: () => states(seed(), quick) };
+const only = process.env.ONLY?.split(",") ?? Object.keys(parts);
+for (const name of only) await parts[name]();
+await test("nothing was said on the console", () => demand(said.length === 0, [...new Set(said)].slice(0, 20).join("\n")));
+await test("nothing but the page itself was asked for", () => demand(asked.length === 0, asked.join("\n")));
+await test("no script of a fragment ran", () => demand(dialogs.length === 0, dialogs.join("\n")));
+await browser.close();
+finish();

@@ -1,0 +1,141 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// What the page says is what the program says, to the byte: random commands in the browser's own WebAssembly, and by the
+// way of a person: a link opened, a command pasted, a number read, a file saved.
+import { readFileSync } from "node:fs";
+import { address, close, go, open, shown } from "./browser.mjs";
+import { difference, native } from "./native.mjs";
+import { named, random, state } from "./states.mjs";
+import { demand, note, test } from "./tap.mjs";
+
+const FORMS = ["--json", "--csv", "--full", "-v"]; // what the page leaves to its own buttons, or to the program
+
+// The words of a shell's line as `depthprec web` and the page write it.
+export const words = (line) => line.match(/(?:'[^']*'|\\.|[^\s'\\])+/g).map((word) => word.replace(/'([^']*)'|\\(.)/g, "$1$2"));
+
+async function namesOf(page) {
+    const lists = {};
+    for (const topic of ["presets", "arithmetic", "apis", "rasterizers", "platforms"])
+        lists[topic] = await page.evaluate((what) => window.depthprec.engine.run(["list", what, "--json"]).out, topic);
+    named((list) => ({ out: lists[list[1]] }));
+}
+
+async function engines(page, r, count) {
+    let fine = 0, different = 0;
+    const first = [];
+    for (let done = 0; done < count;) {
+        const batch = Array.from({ length: Math.min(250, count - done) }, () => state(r));
+        const [there, here] = await Promise.all([native(batch),
+            page.evaluate((list) => list.map((line) => window.depthprec.engine.run(line)), batch)]);
+        batch.forEach((line, i) => {
+            const what = difference(there[i], here[i]);
+            fine += there[i].status < 2 ? 1 : 0;
+            if (what !== "" && different++ < 5) first.push(`depthprec ${line.join(" ")}\n    ${what}`);
+        });
+        done += batch.length;
+    }
+    demand(different === 0, `${different} of ${count} differ:\n${first.join("\n")}`);
+    demand(fine > count / 3, `only ${fine} of ${count} run`);
+    return `${count} commands, ${fine} of them run, the others are refused alike`;
+}
+
+// Each text that is shown is what the program prints for the words beside it; so is what it refuses.
+async function compareShown(page, what) {
+    const now = await shown(page), runs = now.runs.filter((one) => one.panel !== "plot");
+    const there = await native(runs.map((one) => words(one.run)));
+    runs.forEach((one, i) => {
+        const { out, err } = there[i];
+        demand(one.text === out && one.refused === err.trim(), `${what}: depthprec ${one.run}\n    ${difference({ out, err: err.trim() }, { out: one.text, err: one.refused })}`);
+    });
+    return { now, count: runs.length };
+}
+
+async function people(page, r, count) {
+    const commands = Array.from({ length: count }, () => state(r).filter((word) => !FORMS.includes(word)));
+    const links = await native(commands.map((line) => ["web", "--page", address, ...line]));
+    const plain = await native(commands);
+    let set = 0, refused = 0, compared = 0;
+    for (let i = 0; i < count; i++) {
+        const [verb] = commands[i], what = commands[i].join(" "), before = await shown(page);
+        if (links[i].status !== 0) {
+            await paste(page, commands[i]);
+            const now = await shown(page);
+            demand(now.error !== "" && now.link === before.link, `refused by the program, not by the page: ${what}`);
+            if (links[i].err.startsWith("depthprec: web:") === false) demand(now.error === links[i].err.trim(), `${what}: ${now.error}`);
+            refused++;
+            continue;
+        }
+        await (i % 2 ? go(page, links[i].out.trim().split("#")[1]) : paste(page, commands[i]));
+        const { now, count: some } = await compareShown(page, what);
+        demand(now.error === "", `${what}: ${now.error}`);
+        const own = now.runs.find((one) => one.panel === verb);
+        demand(own !== undefined, `${what}: there is no panel ${verb}`);
+        if (verb !== "plot") demand(own.text === plain[i].out, `${what}: shown is ${own.run}`);
+        compared += some;
+        set++;
+    }
+    return `${set} commands set the page, ${refused} are refused; ${compared} texts compared`;
+}
+
+const quoted = (line) => line.map((word) => (/^[\w.,:=%+-]+$/.test(word) ? word : `'${word.replaceAll("'", "'\\''")}'`)).join(" ");
+
+export async function paste(page, line) {
+    await page.evaluate((text) => new Promise((done) => {
+        const field = document.querySelector("#command"), { dataset } = document.documentElement, before = dataset.updates;
+        field.value = text;
+        field.form.requestSubmit();
+        const wait = () => (dataset.updates !== before ? done() : setTimeout(wait, 1));
+        wait();
+    }), typeof line === "string" ? line : quoted(line));
+}
+
+// The link and the commands that the page shows bring it back, and the program takes them.
+async function thereAndBack(page, r, count) {
+    for (let i = 0; i < count; i++) {
+        const line = state(r).filter((word) => !FORMS.includes(word));
+        await paste(page, line);
+        const before = await shown(page), hash = new URL(page.url()).hash;
+        const other = await open({ fragment: hash.slice(1) });
+        const after = await shown(other);
+        await close(other);
+        demand(JSON.stringify(before.runs) === JSON.stringify(after.runs) && before.link === after.link, `${hash}\n${before.link}\n${after.link}`);
+        const taken = await native(before.link.split("\n").map((text) => ["web", ...words(text).slice(1)]));
+        demand(taken.every((one) => one.status === 0), `${before.link}: ${taken.map((one) => one.err).join("")}`);
+    }
+    return `${count} links`;
+}
+
+// What is saved: the bytes that the program prints.
+async function files(page, r, count) {
+    let saved = 0;
+    for (let i = 0; i < count; i++) {
+        await paste(page, state(r).filter((word) => !FORMS.includes(word)));
+        for (const button of await page.locator("[data-export]:visible").all()) {
+            const kind = await button.getAttribute("data-export");
+            const run = await button.evaluate((one) => one.closest("[data-run]").dataset.run);
+            const [download] = await Promise.all([page.waitForEvent("download"), button.click()]);
+            const bytes = readFileSync(await download.path(), "utf8");
+            if (kind === "svg") {
+                const root = await page.evaluate((text) => new DOMParser().parseFromString(text, "image/svg+xml").documentElement.nodeName, bytes);
+                demand(root === "svg" && bytes.length > 1000, `${run}: no SVG`);
+            } else {
+                const [there] = await native([[...words(run), `--${kind}`]]);
+                demand(there.out === bytes, `${run} --${kind}: ${difference(there, { ...there, out: bytes })}`);
+            }
+            demand(download.suggestedFilename().endsWith(`.${kind}`), download.suggestedFilename());
+            saved++;
+        }
+    }
+    demand(saved > 3 * count, `only ${saved} files`);
+    return `${saved} files`;
+}
+
+export async function states(seed, scale) {
+    const page = await open(), r = random(seed);
+    await namesOf(page);
+    note(`seed ${seed}`);
+    await test("random commands in the browser are the program's, to the byte", () => engines(page, r, Math.round(10000 * scale)));
+    await test("a link or a command sets the page, and what is shown is what the program prints", () => people(page, r, Math.round(300 * scale)));
+    await test("the page's own link and commands bring it back", () => thereAndBack(page, r, Math.round(20 * scale)));
+    await test("what is saved is what the program prints", () => files(page, r, Math.round(15 * scale)));
+    await close(page);
+}

@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Tests that print as those of tests/tap.sh do:  await test("what holds", async () => { throws where it does not });
+let tests = 0, failures = 0;
+
+export const note = (text) => console.log(String(text).replaceAll(/^/gm, "# "));
+
+// What the check returns, if anything, is noted: what was measured.
+export async function test(name, check) {
+    tests++;
+    try {
+        const said = await check();
+        console.log(`ok ${tests} - ${name}`);
+        if (said !== undefined) note(said);
+    } catch (error) {
+        failures++;
+        console.log(`not ok ${tests} - ${name}`);
+        note(error.message.slice(0, 4000));
+        if (!(error instanceof Refusal)) note(error.stack.split("\n").slice(1, 4).join("\n"));
+    }
+}
+
+class Refusal extends Error {}
+
+export function demand(truth, message) {
+    if (!truth) throw new Refusal(message);
+}
+
+export function finish() {
+    console.log(`1..${tests}`);
+    process.exitCode = failures === 0 ? 0 : 1;
+}
