@@ -22,6 +22,7 @@ typedef struct planning {
     uint64_t count, at_least, fixed_count; /* fixed_count is 0 where there is no such plan */
     double limit, ratio, fixed_value, fixed_z, stuck;
     bool possible;
+    const char *target;
     frustum_line line;
 } planning;
 
@@ -121,7 +122,8 @@ static void write_plan(planning *x, output *out) {
                                            {FIELD(planning, fixed_value, "separation", "scene")},
                                            {FIELD(planning, fixed_z, "z", "scene")},
                                            {.kind = COLUMN_END}};
-    const column columns[] = {{PART(planning, fields, NULL, setup_columns), .only = AS_JSON},
+    const column columns[] = {{FIELD(planning, target, "for", ""), .only = AS_JSON},
+                              {PART(planning, fields, NULL, setup_columns), .only = AS_JSON},
                               {FIELD(planning, limit, "limit", "scene"), .only = AS_JSON},
                               {FIELD(planning, possible, "possible", ""), .only = AS_JSON},
                               {FIELD(planning, count, "count", ""), .only = AS_JSON},
@@ -149,6 +151,7 @@ int solve_frusta(const options *o) {
         return setup_refused(o, &spec, solved);
     x.setup = (dp_setup){.spec = spec};
     x.fields = setup_fields_of(&x.setup, options_unit(o));
+    x.target = option_word(OPTION_FOR, SOLVE_FOR_FRUSTA);
     x.possible = x.plan.possible;
     x.count = x.plan.count;
     x.stuck = x.plan.stuck;
