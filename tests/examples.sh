@@ -177,7 +177,7 @@ pages() {
     "$DEPTHPREC" list platforms --json >"$scratch/platforms" && jq -r '
         {chrome: "WebGPU, Chrome", firefox: "WebGPU, Firefox", safari: "WebGPU, Safari", webgl: "WebGL (ANGLE)"} as $browsers |
         {d3d: "Direct3D", vulkan: "Vulkan", metal: "Metal", gl: "OpenGL", null: "Metal"} as $apis |
-        .items[] | (.name | split("-")) as $name | (.stored | split("; ")) as $stored |
+        .items[] | (.name | split("-")) as $name | select($browsers[$name[0]]) | (.stored | split("; ")) as $stored |
         $apis[$name[1] // "null"] + " " + $browsers[$name[0]] + ": " + ($stored[0] | split(": ")[1]) +
         if ($stored | any(startswith("[-1, 1] remapped"))) then ", remapped"
         elif ($stored | any(startswith("[-1, 1] may be"))) then ", may be remapped"

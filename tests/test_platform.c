@@ -39,6 +39,9 @@ static void test_published(void **state) {
         {"webgl-metal", F32, EITHER, PLATFORM_REMAPS},
         {"webgl-vulkan", EITHER, EITHER, PLATFORM_MAY_REMAP},
         {"webgl-gl", D24, D24, PLATFORM_REMAPS_NOT},
+        {"vulkan", EITHER, EITHER, PLATFORM_REMAPS_NOT},
+        {"d3d12", D24, D24, PLATFORM_REMAPS_NOT},
+        {"metal", EITHER, EITHER, PLATFORM_REMAPS_NOT},
     };
     (void)state;
     for (size_t i = 0; i < sizeof published / sizeof published[0]; i++) {
@@ -69,7 +72,8 @@ static void test_bias(void **state) {
         {"firefox-metal", n, n, false, true}, {"firefox-gl", n, 2 * n, false, false},
         {"safari", n, n, false, true},        {"webgl-d3d", n, n, true, true},
         {"webgl-metal", n, n, false, true},   {"webgl-vulkan", n, 4 * n, false, true},
-        {"webgl-gl", n / 2, n, false, true},
+        {"webgl-gl", n / 2, n, false, true},  {"vulkan", n, 2 * n, false, true},
+        {"d3d12", n, n, false, true},         {"metal", n, n, false, true},
     };
     dp_format fp32[2];
     size_t i;
@@ -84,8 +88,8 @@ static void test_bias(void **state) {
         assert_int_equal(row->cuts, published[i].cuts);
         assert_int_equal(here.whole, api->whole || published[i].cuts);
         assert_int_equal(here.clamps, published[i].clamps);
-        assert_true(strncmp(row->name, "webgl", 5) == 0 ? strcmp(row->api, "gl") == 0
-                                                        : strcmp(row->api, "webgpu") == 0);
+        assert_true((strncmp(row->name, "webgl", 5) == 0) == (strcmp(row->api, "gl") == 0));
+        assert_non_null(bias_api_find(row->below));
         assert_memory_equal(&other, bias_api_find("d3d9"), sizeof other); /* another API is not the platform's */
         assert_int_equal(row->bias[0] != '\0', row->cuts || row->drops_clamp || row->scale_least > 0);
     }

@@ -28,7 +28,8 @@ typedef struct platform {
     const char *stored;   /**< for dp_format_parse(): depth24plus where the device decides between two formats */
     const char *stencil;  /**< likewise, where a stencil of 8 bits is asked for too */
     platform_remap remap; /**< unless the page asks for zero to one, where it can */
-    const char *api;      /**< a name of bias.h: what the page's bias is given to */
+    const char *api;      /**< a name of `list apis`: what the program writes its bias for, */
+    const char *below;    /**< and whose r is added in the end */
     const char *raster;   /**< a name of `list rasterizers`: what the API below promises at least; Metal: as Vulkan */
     const char *note;     /**< one line */
     const char *source;

@@ -154,6 +154,9 @@ bool list_api(size_t index, list_item *item) {
     *item =
         (list_item){.name = row->name, .aliases = row->aliases, .note = row->note, .source = row->source, .row = row};
     snprintf(item->bound, sizeof item->bound, "unorm: r = %s; fp32: r = %s", rules[row->unorm], rules[row->real]);
+    if (row->real == BIAS_EXPONENT)
+        append(item->bound, sizeof item->bound, "; in [2^n, 2^(n+1)) e is %s",
+               row->exponent == BIAS_EXPONENT_N ? "n" : "n or n+1, which is open");
     return true;
 }
 

@@ -168,7 +168,10 @@ static void take_platform(options *o) {
         parse_formats(o, &option_rows[OPTION_FORMAT], p->stored);
     if (!option_given(o, OPTION_MAPPING) && o->preset_count == 0)
         parse_mappings(o, &option_rows[OPTION_MAPPING], webgl ? "gl" : "d3d");
-    if (!option_given(o, OPTION_ARITH) && p->remap != PLATFORM_REMAPS_NOT) /* of mappings to [-1, 1] alone */
+    bool remapped = false;
+    for (size_t i = 0; i < o->mapping_count && p->remap != PLATFORM_REMAPS_NOT; i++)
+        remapped = remapped || dp_mapping_get(o->mappings[i])->ndc_signed;
+    if (!option_given(o, OPTION_ARITH) && remapped)
         dp_arith_parse("ieee-remap", &o->arith);
     if (!option_given(o, OPTION_API))
         parse_row(o, &option_rows[OPTION_API], p->api);
