@@ -165,7 +165,7 @@ $(B)/web/samples: $(word 2,$(SAMPLES_O)) $(B)/libdepthprec.a
 
 # ---- Tests -------------------------------------------------------------------------------------------------------
 
-.PHONY: check check-full check-programs check-clang check-baseline asan fuzz coverage mutants cross
+.PHONY: check check-full check-programs check-clang check-baseline check-probe asan fuzz coverage mutants cross
 SHELL_TESTS := $(filter-out $(TOOLS),$(wildcard tests/*.sh))
 ONCE := tests/layers.sh tests/headers.sh tests/install.sh
 RUN_TESTS = $(TEST_PROGRAMS) $(if $(filter release,$(CONF)),$(SHELL_TESTS),$(filter-out $(ONCE),$(SHELL_TESTS)))
@@ -193,6 +193,12 @@ check-clang:
 
 check-baseline:
 	@GLIBC_TUNABLES=glibc.cpu.hwcaps=-AVX2,-FMA,-FMA4 $(VARIANT) B=build/baseline CPPFLAGS='$(CPPFLAGS) -DDP_BASELINE' check
+
+# A driver without a GPU, and the probe on it.
+check-probe:
+	@sh src/packages.sh probe
+	@$(MAKE) $(PARALLEL) all
+	@B=$(B) CC='$(CC)' DEPTHPREC=$(CURDIR)/$(B)/depthprec sh tests/run.sh tests/probe.sh
 
 MACHINES ?= aarch64 s390x
 cross:
@@ -331,6 +337,7 @@ help:
 ## make check       install what is missing, build, run the quick tests
 ## make check-full  the exhaustive tests too
 ## make check-clang     built by clang, the quick tests; check-baseline: without AVX
+## make check-probe  a Vulkan driver without a GPU, and what the probe finds there (Debian)
 ## make cross       built for MACHINES="aarch64 s390x" and run, emulated: the tests, and the same bytes as here (Debian)
 ## make asan        the tests under the address and undefined-behaviour sanitizers
 ## make fuzz        each fuzz target for FUZZ_SECONDS=20 (needs clang)

@@ -1,6 +1,6 @@
 #!/bin/sh
 # SPDX-License-Identifier: GPL-3.0-or-later
-# Installs the packages that a job needs and this machine lacks:  packages.sh build|check|clang|lint|fuzz|web|cross|deb
+# Installs the packages that a job needs and this machine lacks:  packages.sh build|check|clang|lint|fuzz|web|cross|deb|probe
 # Silent and quick when nothing is missing, so that every `make` may call it.
 # packages.sh --missing JOB installs nothing: it names what is missing and the one command that installs it.
 # packages.sh --libraries JOB prints Debian's names of the libraries of a job.
@@ -54,6 +54,9 @@ cross | command qemu-s390x                            | qemu-user             | 
 deb   | command dpkg-buildpackage                     | dpkg-dev              | -                  | -
 deb   | command dh                                    | debhelper             | -                  | -
 deb   | command lintian                               | lintian               | -                  | -
+probe | file lib*/*/libvulkan.so.1                    | libvulkan1            | vulkan-loader      | vulkan-icd-loader
+probe | file share/vulkan/icd.d/lvp_icd*.json         | mesa-vulkan-drivers   | mesa-vulkan-drivers | vulkan-swrast
+probe | command glslangValidator                      | glslang-tools         | glslang            | glslang
 '
 
 case $job in
@@ -65,8 +68,9 @@ fuzz) jobs=' build clang fuzz ' ;;
 web) jobs=' web ' ;;
 cross) jobs=' build check cross ' ;;
 deb) jobs=' build check deb ' ;;
+probe) jobs=' build check probe ' ;;
 *)
-    echo "packages.sh: the job must be build, check, clang, lint, fuzz, web, cross or deb, got '$job'" >&2
+    echo "packages.sh: the job must be build, check, clang, lint, fuzz, web, cross, deb or probe, got '$job'" >&2
     exit 2
     ;;
 esac

@@ -55,6 +55,11 @@ all_named solve --for distance -n 0.1 -f 1000 -F fp16 -m reversed --separation 0
 all_named table --at 10 --range 5:50
 all_named table --depth 0.5
 all_named disocclusion
+section probe | sort -u >"$scratch/known_probe"
+for profile in tests/profiles/*.json; do
+    check "depthprec.5: ${profile##*/}" empty sh -c '
+        jq -r "[.. | objects | keys[]] | unique[]" "$1" | sort -u | comm -23 - "$2"' - "$profile" "$scratch/known_probe"
+done
 all_named bias --at 10 --units 1
 all_named bias --range 1:10 --gap 0.01
 all_named bias --at 10 --viewport 640x480

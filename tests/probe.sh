@@ -40,6 +40,10 @@ seeds() { # another scene is predicted as well
     VK_ICD_FILENAMES=$1 "$DEPTHPREC" probe --json --seed 7 -o "$scratch/seeded.json" && decided "$scratch/seeded.json"
 }
 
+same_seed() {
+    VK_ICD_FILENAMES=$1 "$DEPTHPREC" probe --json --seed 0 -o "$scratch/zero.json" && cmp "$scratch/zero.json" "$2"
+}
+
 # Every pixel of every shot.
 keeps() {
     VK_ICD_FILENAMES=$1 "$DEPTHPREC" probe --json -o "$scratch/of.json" --keep "$scratch/codes.csv" || return
@@ -66,6 +70,7 @@ while IFS='|' read -r driver files version arith raster coverage plane; do
         check "$driver is found as it was recorded" known "$scratch/$driver.json" "$arith" "$raster" "$coverage" "$plane"
         check "$driver: the profile in the tree" as_kept "$scratch/$driver.json" "tests/profiles/$driver.json"
         check "$driver: another scene" seeds "$icd"
+        check "$driver: the seed that is meant without one" same_seed "$icd" "$scratch/$driver.json"
         check "$driver: raw codes" keeps "$icd"
     fi
 done <<END

@@ -71,7 +71,7 @@ static void judge_coverage(probe_result *r) {
     for (int g = 0; g < GRIDS; g++) {
         all[g] = (guess){coverage_words[g], 0};
         for (int i = 0; i < PLAN_TILES; i++) {
-            const double at = (double)(i - PLAN_TILES / 2) / PLAN_STEPS;
+            const double at = plan_edge(i);
             const double half = g == 0 ? 0.0 : ldexp(0.5, -(BITS_LEAST + g - 1));
             const bool covered = s->code[middle_of(i)] != dp_bits32(SHOT_CLEAR);
             all[g].hits += at == half || covered == (at > half);
