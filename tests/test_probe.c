@@ -156,103 +156,104 @@ static void says(const probe_result *r, const char *key, const char *format, con
                  (unsigned long)f->cases, words);
 }
 
+static const struct {
+    device is;
+    const char *rounding, *division, *projection, *subnormal, *plane, *coverage, *bias, *code, *fraction, *slope;
+    const char *arith;
+} devices[] = {
+    {{0, .float_step = 1, .code_step = 1},
+     "exact d (2^N - 1), to nearest",
+     "z / w",
+     "each rounded",
+     "kept",
+     "unsnapped",
+     "unsnapped",
+     "r = 2^(n-23), 2^n the power of two at or below the largest",
+     "one code",
+     "count",
+     "max(",
+     "ieee"},
+    {{1, .reciprocal = true, .flushes = true, .plane_bits = 4, .coverage_bits = 4, .float_step = 2, .code_step = 2,
+      .slope = 1},
+     "product d (2^N - 1), to nearest even",
+     "1 / w",
+     "each rounded",
+     "flushed",
+     "1/16 pixel",
+     "1/16 pixel",
+     "r = 2^(n-22), 2^n the power of two at or below the largest",
+     "two codes",
+     "count",
+     "sqrt(",
+     "mesa"},
+    {{2, .reciprocal = true, .plane_bits = 8, .coverage_bits = 8, .float_step = 0.5, .code_step = 0.5, .slope = 2},
+     "product d (2^N - 1), truncated",
+     "1 / w",
+     "each rounded",
+     "kept",
+     "1/256 pixel",
+     "1/256 pixel",
+     "r = 2^(n-24), 2^n the power of two at or below the largest",
+     "half a code",
+     NULL,
+     "|dz/dx| + |dz/dy|",
+     "softpipe"},
+    {{0, .fused = true, .plane_bits = 6, .coverage_bits = 9, .float_step = 1, .code_step = 1, .of_pixel = true,
+      .cuts = true},
+     "exact d (2^N - 1), to nearest",
+     "z / w",
+     "fused",
+     "kept",
+     "1/64 pixel",
+     "1/512 pixel",
+     "r = 2^(n-23), 2^n the power of two at or below the depth of the pixel",
+     "one code",
+     "cut",
+     "max(",
+     "fused"},
+    {{3, .fused = true, .reciprocal = true, .float_step = 1, .code_step = 1},
+     "exact d (2^N - 1), truncated",
+     "1 / w",
+     "fused",
+     "kept",
+     "unsnapped",
+     "unsnapped",
+     "largest",
+     "one code",
+     NULL,
+     "max(",
+     NULL},
+};
+
 static void test_found(void **state) {
-    static const struct {
-        device is;
-        const char *rounding, *division, *projection, *subnormal, *plane, *coverage, *bias, *code, *fraction, *slope;
-        const char *arith;
-    } all[] = {
-        {{0, .float_step = 1, .code_step = 1},
-         "exact d (2^N - 1), to nearest",
-         "z / w",
-         "each rounded",
-         "kept",
-         "unsnapped",
-         "unsnapped",
-         "r = 2^(n-23), 2^n the power of two at or below the largest",
-         "one code",
-         "count",
-         "max(",
-         "ieee"},
-        {{1, .reciprocal = true, .flushes = true, .plane_bits = 4, .coverage_bits = 4, .float_step = 2, .code_step = 2,
-          .slope = 1},
-         "product d (2^N - 1), to nearest even",
-         "1 / w",
-         "each rounded",
-         "flushed",
-         "1/16 pixel",
-         "1/16 pixel",
-         "r = 2^(n-22), 2^n the power of two at or below the largest",
-         "two codes",
-         "count",
-         "sqrt(",
-         "mesa"},
-        {{2, .reciprocal = true, .plane_bits = 8, .coverage_bits = 8, .float_step = 0.5, .code_step = 0.5, .slope = 2},
-         "product d (2^N - 1), truncated",
-         "1 / w",
-         "each rounded",
-         "kept",
-         "1/256 pixel",
-         "1/256 pixel",
-         "r = 2^(n-24), 2^n the power of two at or below the largest",
-         "half a code",
-         NULL,
-         "|dz/dx| + |dz/dy|",
-         "softpipe"},
-        {{0, .fused = true, .plane_bits = 6, .coverage_bits = 9, .float_step = 1, .code_step = 1, .of_pixel = true,
-          .cuts = true},
-         "exact d (2^N - 1), to nearest",
-         "z / w",
-         "fused",
-         "kept",
-         "1/64 pixel",
-         "1/512 pixel",
-         "r = 2^(n-23), 2^n the power of two at or below the depth of the pixel",
-         "one code",
-         "cut",
-         "max(",
-         "fused"},
-        {{3, .fused = true, .reciprocal = true, .float_step = 1, .code_step = 1},
-         "exact d (2^N - 1), truncated",
-         "1 / w",
-         "fused",
-         "kept",
-         "unsnapped",
-         "unsnapped",
-         "largest",
-         "one code",
-         NULL,
-         "max(",
-         NULL},
-    };
     (void)state;
-    for (size_t i = 0; i < sizeof all / sizeof all[0]; i++) {
+    for (size_t i = 0; i < sizeof devices / sizeof devices[0]; i++) {
         static probe_result r;
-        make(&r, &all[i].is);
+        make(&r, &devices[i].is);
         probe_judge(&r);
         says(&r, "stored", "d24", "codes");
         says(&r, "stored", "d32f", "every bit");
-        says(&r, "rounding", "d16", all[i].rounding);
-        if (all[i].is.conversion < 2)
-            says(&r, "rounding", "d24", all[i].rounding);
+        says(&r, "rounding", "d16", devices[i].rounding);
+        if (devices[i].is.conversion < 2)
+            says(&r, "rounding", "d24", devices[i].rounding);
         else /* two ways of one function */
             assert_int_equal(find(&r, "rounding", "d24")->sure, PROBE_OPEN);
-        says(&r, "division", NULL, all[i].division);
-        says(&r, "projection", NULL, all[i].projection);
+        says(&r, "division", NULL, devices[i].division);
+        says(&r, "projection", NULL, devices[i].projection);
         says(&r, "clipping", NULL, "0 <= z <= w");
-        says(&r, "subnormal", NULL, all[i].subnormal);
-        says(&r, "plane", NULL, all[i].plane);
-        says(&r, "coverage", NULL, all[i].coverage);
-        says(&r, "bias", "d32f", all[i].bias);
-        says(&r, "bias", "d16", all[i].code);
-        says(&r, "slope", NULL, all[i].slope);
+        says(&r, "subnormal", NULL, devices[i].subnormal);
+        says(&r, "plane", NULL, devices[i].plane);
+        says(&r, "coverage", NULL, devices[i].coverage);
+        says(&r, "bias", "d32f", devices[i].bias);
+        says(&r, "bias", "d16", devices[i].code);
+        says(&r, "slope", NULL, devices[i].slope);
         says(&r, "invariance", NULL, "same");
-        if (all[i].fraction != NULL)
-            says(&r, "fraction", NULL, all[i].fraction);
-        if (all[i].arith == NULL)
+        if (devices[i].fraction != NULL)
+            says(&r, "fraction", NULL, devices[i].fraction);
+        if (devices[i].arith == NULL)
             assert_null(r.arith);
         else
-            assert_string_equal(r.arith, all[i].arith);
+            assert_string_equal(r.arith, devices[i].arith);
         assert_null(r.raster);
         probe_free(&r);
     }

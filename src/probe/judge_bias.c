@@ -129,9 +129,8 @@ static void judge_fraction(probe_result *r, int factor) {
 
 static void judge_slope(probe_result *r) {
     const shot *without = judge_shot(r, PLAN_UNBIASED, SHOT_D32F), *with = judge_shot(r, PLAN_SLOPED, SHOT_D32F);
-    guess all[3] = {{"slope m = max(|dz/dx|, |dz/dy|)", 0},
-                    {"slope m = sqrt((dz/dx)^2 + (dz/dy)^2)", 0},
-                    {"slope m = |dz/dx| + |dz/dy|", 0}};
+    guess all[3] = {
+        {"m = max(|dz/dx|, |dz/dy|)", 0}, {"m = sqrt((dz/dx)^2 + (dz/dy)^2)", 0}, {"m = |dz/dx| + |dz/dy|", 0}};
     const double error = 0x1p-20; /* of a step of some 2^-6: a few roundings of slopes and sums in binary32 */
     uint64_t cases = 0;
     if (without == NULL || with == NULL)

@@ -216,12 +216,11 @@ static void judge_functions(probe_result *r) {
         double scale;
         bool absolute;
     } all[] = {
-        {PLAN_LOG2, "log2", "log2(x), x in [1, 2], absolute; Vulkan allows 2^-21 = 4.8e-07", "", log2_of, is_small,
+        {PLAN_LOG2, "log2", "x in [1, 2], absolute; Vulkan allows 2^-21 = 4.8e-07", "", log2_of, is_small,
          (double)PLAN_LOG2_SCALE, true},
-        {PLAN_LOG2, "log2", "log2(x), x in [2, 2^64]; Vulkan allows 3 ulp", "ulp", log2_of, is_large,
-         (double)PLAN_LOG2_SCALE, false},
-        {PLAN_QUOTIENT, "quotient", "x / y of the language; Vulkan allows 2.5 ulp", "ulp", quotient_of, is_any, 1.0,
+        {PLAN_LOG2, "log2", "x in [2, 2^64]; Vulkan allows 3 ulp", "ulp", log2_of, is_large, (double)PLAN_LOG2_SCALE,
          false},
+        {PLAN_QUOTIENT, "quotient", "x / y in a shader; Vulkan allows 2.5 ulp", "ulp", quotient_of, is_any, 1.0, false},
     };
     for (size_t i = 0; i < sizeof all / sizeof all[0]; i++) {
         const shot *s = judge_shot(r, all[i].shot, SHOT_D32F);
