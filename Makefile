@@ -19,7 +19,7 @@ INSTALL_DATA ?= $(INSTALL) -m 644
 # What pkg-config is asked for: by the full program, and by the tests. src/packages.sh knows who has them.
 PKGS_build := cairo gsl jansson libconfig libpng zlib
 # Whose headers are used where they are there, as those of libtiff are; the libraries are opened when a file needs them.
-PKGS_opened := OpenEXR assimp vulkan
+PKGS_opened := OpenEXR assimp vulkan egl gl
 PKGS_check := cmocka mpfr gmp jansson libxml-2.0 cairo
 
 # ---- Rooms: a new file in a layer's folder is picked up ----------------------------------------------------------

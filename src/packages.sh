@@ -25,6 +25,8 @@ build | library libpng                                | libpng-dev            | 
 build | library zlib                                  | zlib1g-dev            | zlib-devel         | zlib
 build | library OpenEXR                               | libopenexr-dev        | openexr-devel      | openexr
 build | library assimp                                | libassimp-dev         | assimp-devel       | assimp
+build | library egl                                   | libegl-dev            | libglvnd-devel     | libglvnd
+build | library gl                                    | libgl-dev             | libglvnd-devel     | libglvnd
 build | library vulkan                                | libvulkan-dev         | vulkan-headers     | vulkan-headers
 build | library libtiff-4                             | libtiff-dev           | libtiff-devel      | libtiff
 build | file share/fonts/*/*/DejaVuSans.ttf           | fonts-dejavu-core     | dejavu-sans-fonts  | ttf-dejavu
@@ -56,6 +58,8 @@ deb   | command dh                                    | debhelper             | 
 deb   | command lintian                               | lintian               | -                  | -
 probe | file lib*/*/libvulkan.so.1                    | libvulkan1            | vulkan-loader      | vulkan-icd-loader
 probe | file share/vulkan/icd.d/lvp_icd*.json         | mesa-vulkan-drivers   | mesa-vulkan-drivers | vulkan-swrast
+probe | file lib*/*/libEGL_mesa.so.0                  | libegl-mesa0          | mesa-libEGL        | mesa
+probe | file lib*/*/libEGL.so.1                       | libegl1               | libglvnd-egl       | libglvnd
 probe | command glslangValidator                      | glslang-tools         | glslang            | glslang
 '
 

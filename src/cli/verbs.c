@@ -91,6 +91,7 @@ const verb verb_rows[] = {
      "what the GPU of this machine does to depth, measured",
      "  depthprec probe\n"
      "  depthprec probe --device 1 --keep codes.csv\n"
+     "  depthprec probe --device gl\n"
      "  depthprec probe --json -o gpu.json\n", 0},
     {"list", VERB_LIST, "WHAT", 0, 1, &topics,
      "formats, mappings, presets, methods: 'list' names all",

@@ -31,7 +31,7 @@ enum {
     PLAN_TILES = (SHOT_SIZE / PLAN_TILE) * (SHOT_SIZE / PLAN_TILE),
     PLAN_STEPS = 2048, /**< of a pixel, by which tiles of PLAN_PLANE are moved */
     PLAN_FLAT = 3,     /**< of four tiles without slope */
-    PLAN_BIAS = 8      /**< constant of PLAN_CONSTANT; PLAN_FRACTION has 1/2 more */
+    PLAN_BIAS = 64     /**< constant of PLAN_CONSTANT; PLAN_FRACTION has 1/2 more */
 };
 
 #define PLAN_STEEP      0.05F /**< depth a pixel of PLAN_PLANE */

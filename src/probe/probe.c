@@ -18,7 +18,10 @@ typedef struct job {
 static bool work(void *of, FILE *out) {
     const job *j = of;
     j->machine->error[0] = '\0';
-    shot_vulkan(j->device, j->plan, j->machine);
+    if (j->device != NULL && strcmp(j->device, PROBE_OPENGL) == 0)
+        shot_opengl(j->plan, j->machine);
+    else
+        shot_vulkan(j->device, j->plan, j->machine);
     fwrite(j->machine, sizeof *j->machine, 1, out);
     for (size_t i = 0; i < j->plan->count; i++) {
         const shot *s = &j->plan->shot[i];
