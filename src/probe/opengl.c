@@ -127,7 +127,11 @@ static void describe(context *g) {
 
 static bool use_program(context *g, const shot *s, shot_program which) {
     char head[128];
-    snprintf(head, sizeof head, "#version 330\n#define program %d\nin vec4 given;\nuniform float a, b;\n", (int)which);
+    snprintf(head, sizeof head,
+             "#version 330\n#define program %d\n"
+             "in vec4 given;\n"
+             "uniform float a, b;\n",
+             (int)which);
     const char *const text[2] = {head, probe_glsl};
     const GLuint shader = g->glCreateShader(GL_VERTEX_SHADER), made = g->glCreateProgram();
     GLint linked = 0;

@@ -216,7 +216,7 @@ static const struct {
     [PLAN_STORED] = {"stored", EACH, .point = point_stored, .again = true},
     [PLAN_ROUNDING] = {"rounding", D16 | D24, .point = point_rounding},
     [PLAN_DIVISION] = {"division", D32F, .point = point_division},
-    [PLAN_PROJECTION] = {"projection", D32F, SHOT_PROJECT, 100.0F / 99.9F, -10.0F / 99.9F, point_projection},
+    [PLAN_PROJECTION] = {"projection", D32F, SHOT_PROJECT, 100.0F / 99.9F, -10.0F / 99.9F, .point = point_projection},
     [PLAN_PLANE] = {"plane", D32F, .count = PLAN_TILES},
     [PLAN_COVERAGE] = {"coverage", D32F, .count = PLAN_TILES},
     [PLAN_UNBIASED] = {"unbiased", EACH, .count = PLAN_TILES},
