@@ -98,11 +98,6 @@ static int judge_division(probe_result *r) {
     return judge_guesses(r, "division", NULL, all, DIVISIONS, s->count);
 }
 
-/* a z + b rounded once: the product of two binary32 numbers is exact in double, and the sum is rounded to odd there. */
-static float fused(float a, float z, float b) {
-    return fmaf(a, z, b);
-}
-
 static int judge_projection(probe_result *r, int division) {
     const shot *s = judge_shot(r, PLAN_PROJECTION, SHOT_D32F);
     guess all[2] = {{"A z, then + B, each rounded", 0}, {"A z + B fused, rounded once", 0}};
@@ -111,7 +106,7 @@ static int judge_projection(probe_result *r, int division) {
     for (uint32_t i = 0; i < s->count; i++) {
         const float z = s->vertex[i][2], w = s->vertex[i][3], product = s->a * z;
         all[0].hits += dp_bits32(window(division, product + s->b, w)) == s->code[i];
-        all[1].hits += dp_bits32(window(division, fused(s->a, z, s->b), w)) == s->code[i];
+        all[1].hits += dp_bits32(window(division, fmaf(s->a, z, s->b), w)) == s->code[i];
     }
     return judge_guesses(r, "projection", NULL, all, 2, s->count);
 }

@@ -81,7 +81,7 @@ bool probe_run(const char *device, uint64_t seed, probe_result *r, char error[SH
     else if (end == APART_NO_PROCESS)
         fail(error, "needs a process of its own, which cannot be made: ", strerror(errno));
     else if (end == APART_ENDLESS)
-        fail(error, "the driver does not come to an end in 60 s", "");
+        snprintf(error, SHOT_ERROR_SIZE, "the driver does not come to an end in %d s", PROBE_SECONDS);
     else if (end == APART_BROKEN)
         fail(error, "the driver broke down", "");
     else if (!take(&j, made))
