@@ -140,7 +140,8 @@ under() { # under NAME WORDS
 mkdir "$scratch/damaged" && echo "no library" >"$scratch/damaged/libvulkan.so.1"
 fake empty 'int nothing;' && fake crash '#include <stdlib.h>
 __attribute__((constructor)) static void start(void) { abort(); }' && fake leaves '#include <unistd.h>
-__attribute__((constructor)) static void start(void) { _exit(0); }'
+__attribute__((constructor)) static void start(void) { _exit(0); }' && fake hang '#include <unistd.h>
+__attribute__((constructor)) static void start(void) { for (;;) pause(); }'
 if "$DEPTHPREC" probe 2>&1 | grep -q "this build has no Vulkan"; then
     skip "loaders that are none" "built without Vulkan's headers"
 else
@@ -148,6 +149,11 @@ else
     check "a loader without functions" under empty "Debian's package libvulkan1"
     check "a driver that breaks down" under crash "the driver broke down"
     check "a driver that ends early" under leaves "damaged"
+    if [ -n "${DEPTHPREC_FULL-}" ]; then
+        check "a driver that hangs" under hang "does not come to an end in 60 s"
+    else
+        skip "a driver that hangs" "takes a minute: in make check-full"
+    fi
 fi
 
 # ---- The shader --------------------------------------------------------------------------------------------------
