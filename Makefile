@@ -20,7 +20,7 @@ INSTALL_DATA ?= $(INSTALL) -m 644
 # What pkg-config is asked for: by the full program, and by the tests. src/packages.sh knows who has them.
 PKGS_build := cairo gsl jansson libconfig libpng zlib
 # Whose headers are used where they are there, as those of libtiff are; the libraries are opened when a file needs them.
-PKGS_opened := OpenEXR assimp vulkan
+PKGS_opened := OpenEXR assimp vulkan egl gl
 PKGS_check := cmocka mpfr gmp jansson libxml-2.0 cairo
 
 # ---- Rooms: a new file in a layer's folder is picked up ----------------------------------------------------------
@@ -195,7 +195,7 @@ $(B)/web/samples $(B)/web/frames: $(B)/web/%: $(B)/obj/tests/web/%.o $(B)/libdep
 
 # ---- Tests -------------------------------------------------------------------------------------------------------
 
-.PHONY: check check-full check-programs check-clang check-baseline check-web asan fuzz coverage mutants cross
+.PHONY: check check-full check-programs check-clang check-baseline check-probe check-web asan fuzz coverage mutants cross
 SHELL_TESTS := $(filter-out $(TOOLS),$(wildcard tests/*.sh))
 ONCE := tests/layers.sh tests/headers.sh tests/install.sh
 RUN_TESTS = $(TEST_PROGRAMS) $(if $(filter release,$(CONF)),$(SHELL_TESTS),$(filter-out $(ONCE),$(SHELL_TESTS)))
@@ -229,6 +229,12 @@ check-web: web
 	@sh src/packages.sh build
 	@$(MAKE) $(PARALLEL) programs
 	@B=$(B) CC='$(CC)' DEPTHPREC=$(CURDIR)/$(B)/depthprec sh tests/run.sh tests/page.sh
+
+# A driver without a GPU, and the probe on it.
+check-probe:
+	@sh src/packages.sh probe
+	@$(MAKE) $(PARALLEL) all
+	@B=$(B) CC='$(CC)' DEPTHPREC=$(CURDIR)/$(B)/depthprec sh tests/run.sh tests/probe.sh
 
 MACHINES ?= aarch64 s390x
 cross:
@@ -369,6 +375,7 @@ help:
 ## make check       install what is missing, build, run the quick tests
 ## make check-full  the exhaustive tests too
 ## make check-clang     built by clang, the quick tests; check-baseline: without AVX
+## make check-probe  a Vulkan driver without a GPU, and what the probe finds there (Debian)
 ## make cross       built for MACHINES="aarch64 s390x" and run, emulated: the tests, and the same bytes as here (Debian)
 ## make asan        the tests under the address and undefined-behaviour sanitizers
 ## make fuzz        each fuzz target for FUZZ_SECONDS=20 (needs clang)

@@ -1,6 +1,6 @@
 #!/bin/sh
 # SPDX-License-Identifier: GPL-3.0-or-later
-# Installs the packages that a job needs and this machine lacks:  packages.sh build|check|clang|lint|fuzz|web|browser|cross|deb
+# Installs the packages that a job needs and this machine lacks:  packages.sh build|check|clang|lint|fuzz|web|browser|cross|deb|probe
 # Silent and quick when nothing is missing, so that every `make` may call it.
 # packages.sh --missing JOB installs nothing: it names what is missing and the one command that installs it.
 # packages.sh --libraries JOB prints Debian's names of the libraries of a job.
@@ -25,6 +25,8 @@ build | library libpng                                | libpng-dev            | 
 build | library zlib                                  | zlib1g-dev            | zlib-devel         | zlib
 build | library OpenEXR                               | libopenexr-dev        | openexr-devel      | openexr
 build | library assimp                                | libassimp-dev         | assimp-devel       | assimp
+build | library egl                                   | libegl-dev            | libglvnd-devel     | libglvnd
+build | library gl                                    | libgl-dev             | libglvnd-devel     | libglvnd
 build | library vulkan                                | libvulkan-dev         | vulkan-headers     | vulkan-headers
 build | library libtiff-4                             | libtiff-dev           | libtiff-devel      | libtiff
 build | file share/fonts/*/*/DejaVuSans.ttf           | fonts-dejavu-core     | dejavu-sans-fonts  | ttf-dejavu
@@ -56,6 +58,11 @@ cross | command qemu-s390x                            | qemu-user             | 
 deb   | command dpkg-buildpackage                     | dpkg-dev              | -                  | -
 deb   | command dh                                    | debhelper             | -                  | -
 deb   | command lintian                               | lintian               | -                  | -
+probe | file lib*/*/libvulkan.so.1                    | libvulkan1            | vulkan-loader      | vulkan-icd-loader
+probe | file share/vulkan/icd.d/lvp_icd*.json         | mesa-vulkan-drivers   | mesa-vulkan-drivers | vulkan-swrast
+probe | file lib*/*/libEGL_mesa.so.0                  | libegl-mesa0          | mesa-libEGL        | mesa
+probe | file lib*/*/libEGL.so.1                       | libegl1               | libglvnd-egl       | libglvnd
+probe | command glslangValidator                      | glslang-tools         | glslang            | glslang
 '
 
 case $job in
@@ -68,8 +75,9 @@ web) jobs=' web ' ;;
 browser) jobs=' web browser ' ;;
 cross) jobs=' build check cross ' ;;
 deb) jobs=' build check deb ' ;;
+probe) jobs=' build check probe ' ;;
 *)
-    echo "packages.sh: the job must be build, check, clang, lint, fuzz, web, browser, cross or deb, got '$job'" >&2
+    echo "packages.sh: the job must be build, check, clang, lint, fuzz, web, browser, cross, deb or probe, got '$job'" >&2
     exit 2
     ;;
 esac

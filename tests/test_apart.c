@@ -3,6 +3,7 @@
 #include <signal.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/wait.h>
 #include <time.h>
 #include <unistd.h>
 
@@ -75,6 +76,7 @@ static void is_ended(void **state) {
     assert_int_equal(run(sleeps_on, (apart_limits){.wall = 1}, text), APART_ENDLESS);
     clock_gettime(CLOCK_MONOTONIC, &to);
     assert_in_range(to.tv_sec - from.tv_sec, 1, 20);
+    assert_int_equal(waitpid(-1, NULL, WNOHANG), -1); /* none is left running */
     assert_int_equal(run(spins, (apart_limits){.processor = 1}, text), APART_ENDLESS);
 }
 

@@ -467,6 +467,8 @@ static void test_texts(void **state) {
                  {"texture", OPTION_FIGURE, AT(figure), true},
                  {"texture", OPTION_HISTOGRAM, AT(histogram), true},
                  {"scene m.obj", OPTION_RENDER, AT(render), true},
+                 {"probe", OPTION_KEEP, AT(keep), true},
+                 {"probe", OPTION_DEVICE, AT(device), true},
                  {"scene m.obj", OPTION_PATH, AT(path), true},
                  {"scene m.obj", OPTION_CAMERA, AT(model_camera), false},
                  {"scene m.obj", OPTION_ANNOTATE, AT(annotate), true},

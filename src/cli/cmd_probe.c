@@ -120,8 +120,8 @@ static uint64_t least_hits(const probe_finding *f, size_t count) {
 static void say_finding(page *p, const probe_finding *f, const char *label, const char *formats, size_t count) {
     const char *of = formats[0] != '\0' ? ": " : "";
     if (f->sure == PROBE_MEASURED)
-        page_note(p, label, "%s; off by at most %s%s%s", f->words, number_of(f->value, DIGITS).text,
-                  f->unit[0] != '\0' ? " " : "", f->unit);
+        page_note(p, label, "at most %s%s%s off, %s", number_of(f->value, DIGITS).text, f->unit[0] != '\0' ? " " : "",
+                  f->unit, f->words);
     else if (f->sure == PROBE_SURE)
         page_note(p, label, "%s%s%s", formats, of, f->words);
     else
@@ -143,16 +143,16 @@ static void say_probe(page *p, void *item) {
     page_title(p, "%s", b->device->name);
     page_note(p, "driver", "%s; %s", b->device->driver, b->device->api);
     say_devices(p, b);
+    page_note(p, "rows", "--arith %s, --raster %s", r->arith != NULL ? r->arith : "(no row)",
+              r->raster != NULL ? r->raster : "(no row)");
     for (size_t i = 0, count; i < r->count; i += count) {
         const probe_finding *f = &r->finding[i];
         count = alike(r, i, formats);
         say_finding(p, f, strcmp(before, f->key) != 0 ? f->key : "", formats, count);
         before = f->key;
     }
-    page_note(p, "rows", "--arith %s, --raster %s", r->arith != NULL ? r->arith : "(no row)",
-              r->raster != NULL ? r->raster : "(no row)");
-    page_text(p, "Each line predicts every pixel that was compared, and nothing else that is known does, unless it "
-                 "says how many. Not measured: clip z from -w, multisampling, clamped biases.");
+    page_text(p, "Each finding predicts every pixel that was compared, where nothing else that is known does, unless "
+                 "it says otherwise. Not measured: clip z from -w, several samples a pixel, the clamp of a bias.");
 }
 
 static const column no_columns[] = {{.kind = COLUMN_END}};

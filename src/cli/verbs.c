@@ -96,6 +96,7 @@ const verb verb_rows[] = {
      "what the GPU of this machine does to depth, measured",
      "  depthprec probe\n"
      "  depthprec probe --device 1 --keep codes.csv\n"
+     "  depthprec probe --device gl\n"
      "  depthprec probe --json -o gpu.json\n", 0},
     {"world", VERB_WORLD, "", 0, 0, NULL,
      "large worlds: safe gap and jitter so far from the origin",

@@ -57,7 +57,7 @@ static double depth_of(const shot *s, int tile, source of, double pixel) {
 /* Whether a pixel moved by `PLAN_BIAS` steps of factor 2^(n - 23), 2^n the power of two at or below `depth`. */
 static bool stepped(double before, double after, double depth, double factor, bool flat) {
     const double step = ldexp(factor * PLAN_BIAS, ilogb(depth) - 23);
-    const double error = flat ? 0.0 : 0x1p-24; /* one rounding of the sum */
+    const double error = flat ? 0.0 : 0x1p-22; /* a few roundings of both planes */
     return fabs(after - before - step) <= error;
 }
 
@@ -107,7 +107,7 @@ static int judge_unorm(probe_result *r, shot_format format) {
     return judge_guesses(r, "bias", probe_format_name(format), all, FACTORS, cases);
 }
 
-/* Tiles lie a quarter above a code: 8 1/2 steps carry them over the next tie, 8 do not. */
+/* Tiles lie a quarter above a code: half a step more carries them over the next tie. */
 static void judge_fraction(probe_result *r, int factor) {
     const shot *without = judge_shot(r, PLAN_UNBIASED, SHOT_D16), *with = judge_shot(r, PLAN_FRACTION, SHOT_D16);
     guess all[2] = {{"fractions of a constant count", 0}, {"fractions of a constant are cut", 0}};
@@ -129,9 +129,8 @@ static void judge_fraction(probe_result *r, int factor) {
 
 static void judge_slope(probe_result *r) {
     const shot *without = judge_shot(r, PLAN_UNBIASED, SHOT_D32F), *with = judge_shot(r, PLAN_SLOPED, SHOT_D32F);
-    guess all[3] = {{"slope m = max(|dz/dx|, |dz/dy|)", 0},
-                    {"slope m = sqrt((dz/dx)^2 + (dz/dy)^2)", 0},
-                    {"slope m = |dz/dx| + |dz/dy|", 0}};
+    guess all[3] = {
+        {"m = max(|dz/dx|, |dz/dy|)", 0}, {"m = sqrt((dz/dx)^2 + (dz/dy)^2)", 0}, {"m = |dz/dx| + |dz/dy|", 0}};
     const double error = 0x1p-20; /* of a step of some 2^-6: a few roundings of slopes and sums in binary32 */
     uint64_t cases = 0;
     if (without == NULL || with == NULL)

@@ -34,14 +34,14 @@ static void judge_stored(probe_result *r, shot_format format) {
 
 /* ---- Rounding ---------------------------------------------------------------------------------------------------- */
 
-/* The conversions that rows of core/arith.c have, then others. */
-enum { EXACT_UP, PRODUCT_EVEN, PRODUCT_ZERO, EXACT_EVEN, EXACT_ZERO, PRODUCT_HALF, CONVERSIONS };
+/* The conversions that rows of core/arith.c have, then others. The only tie, d = 1/2, goes to 2^(N-1), which is both up
+ * and even. */
+enum { EXACT, PRODUCT_EVEN, PRODUCT_ZERO, EXACT_ZERO, PRODUCT_HALF, CONVERSIONS };
 
 static const char *const conversion_words[CONVERSIONS] = {
-    [EXACT_UP] = "the exact d (2^N - 1), to nearest, ties up",
+    [EXACT] = "the exact d (2^N - 1), to nearest",
     [PRODUCT_EVEN] = "the binary32 product d (2^N - 1), to nearest even",
     [PRODUCT_ZERO] = "the binary32 product d (2^N - 1), truncated",
-    [EXACT_EVEN] = "the exact d (2^N - 1), to nearest even",
     [EXACT_ZERO] = "the exact d (2^N - 1), truncated",
     [PRODUCT_HALF] = "the binary32 product d (2^N - 1) plus 1/2, truncated",
 };
@@ -51,10 +51,8 @@ static uint32_t converted(const dp_format *format, int conversion, float d) {
     const float whole =
         conversion == PRODUCT_EVEN ? rintf(product) : truncf(conversion == PRODUCT_HALF ? moved : product);
     switch (conversion) {
-    case EXACT_UP:
+    case EXACT:
         return dp_format_encode(format, DP_ROUND_NEAREST, (double)d);
-    case EXACT_EVEN:
-        return dp_format_encode(format, DP_ROUND_EVEN, (double)d);
     case EXACT_ZERO:
         return dp_format_encode(format, DP_ROUND_ZERO, (double)d);
     default:
@@ -62,18 +60,23 @@ static uint32_t converted(const dp_format *format, int conversion, float d) {
     }
 }
 
-static int judge_rounding(probe_result *r, shot_format format) {
+/* The conversions that predict every code, a bit each; all of them where the device has not the format. In 24 bits the
+ * two that truncate are one function: d (2^24 - 1) = 2^24 d - d never rounds up to a whole number. */
+static unsigned judge_rounding(probe_result *r, shot_format format) {
     const shot *s = judge_shot(r, PLAN_ROUNDING, format);
     guess all[CONVERSIONS];
     dp_format f[2];
+    unsigned perfect = 0;
     if (s == NULL || dp_format_parse(probe_format_name(format), f) != 1)
-        return JUDGE_NONE;
+        return (1U << CONVERSIONS) - 1U;
     for (int c = 0; c < CONVERSIONS; c++) {
         all[c] = (guess){conversion_words[c], 0};
         for (uint32_t i = 0; i < s->count; i++)
             all[c].hits += converted(&f[0], c, s->vertex[i][2]) == s->code[i];
+        perfect |= all[c].hits == s->count ? 1U << c : 0U;
     }
-    return judge_guesses(r, "rounding", probe_format_name(format), all, CONVERSIONS, s->count);
+    judge_guesses(r, "rounding", probe_format_name(format), all, CONVERSIONS, s->count);
+    return perfect;
 }
 
 /* ---- Division and projection ------------------------------------------------------------------------------------- */
@@ -95,11 +98,6 @@ static int judge_division(probe_result *r) {
     return judge_guesses(r, "division", NULL, all, DIVISIONS, s->count);
 }
 
-/* a z + b rounded once: the product of two binary32 numbers is exact in double, and the sum is rounded to odd there. */
-static float fused(float a, float z, float b) {
-    return fmaf(a, z, b);
-}
-
 static int judge_projection(probe_result *r, int division) {
     const shot *s = judge_shot(r, PLAN_PROJECTION, SHOT_D32F);
     guess all[2] = {{"A z, then + B, each rounded", 0}, {"A z + B fused, rounded once", 0}};
@@ -108,7 +106,7 @@ static int judge_projection(probe_result *r, int division) {
     for (uint32_t i = 0; i < s->count; i++) {
         const float z = s->vertex[i][2], w = s->vertex[i][3], product = s->a * z;
         all[0].hits += dp_bits32(window(division, product + s->b, w)) == s->code[i];
-        all[1].hits += dp_bits32(window(division, fused(s->a, z, s->b), w)) == s->code[i];
+        all[1].hits += dp_bits32(window(division, fmaf(s->a, z, s->b), w)) == s->code[i];
     }
     return judge_guesses(r, "projection", NULL, all, 2, s->count);
 }
@@ -213,12 +211,11 @@ static void judge_functions(probe_result *r) {
         double scale;
         bool absolute;
     } all[] = {
-        {PLAN_LOG2, "log2", "log2(x), x in [1, 2], absolute; Vulkan allows 2^-21 = 4.8e-07", "", log2_of, is_small,
+        {PLAN_LOG2, "log2", "x in [1, 2], absolute; Vulkan allows 2^-21 = 4.8e-07", "", log2_of, is_small,
          (double)PLAN_LOG2_SCALE, true},
-        {PLAN_LOG2, "log2", "log2(x), x in [2, 2^64]; Vulkan allows 3 ulp", "ulp", log2_of, is_large,
-         (double)PLAN_LOG2_SCALE, false},
-        {PLAN_QUOTIENT, "quotient", "x / y of the language; Vulkan allows 2.5 ulp", "ulp", quotient_of, is_any, 1.0,
+        {PLAN_LOG2, "log2", "x in [2, 2^64]; Vulkan allows 3 ulp", "ulp", log2_of, is_large, (double)PLAN_LOG2_SCALE,
          false},
+        {PLAN_QUOTIENT, "quotient", "x / y in a shader; Vulkan allows 2.5 ulp", "ulp", quotient_of, is_any, 1.0, false},
     };
     for (size_t i = 0; i < sizeof all / sizeof all[0]; i++) {
         const shot *s = judge_shot(r, all[i].shot, SHOT_D32F);
@@ -232,17 +229,18 @@ static void judge_functions(probe_result *r) {
 
 /* ---- The row ----------------------------------------------------------------------------------------------------- */
 
-static const char *row_of(int conversion, int division, int is_fused) {
-    static const dp_conversion known[] = {[EXACT_UP] = DP_CONVERT_EXACT,
-                                          [PRODUCT_EVEN] = DP_CONVERT_PRODUCT_EVEN,
-                                          [PRODUCT_ZERO] = DP_CONVERT_PRODUCT_ZERO};
-    if (conversion == JUDGE_NONE || conversion > PRODUCT_ZERO || division == JUDGE_NONE || is_fused == JUDGE_NONE)
+/* Where one conversion alone is right of every format. */
+static const char *row_of(unsigned conversions, int division, int is_fused) {
+    static const dp_conversion known[] = {
+        [EXACT] = DP_CONVERT_EXACT, [PRODUCT_EVEN] = DP_CONVERT_PRODUCT_EVEN, [PRODUCT_ZERO] = DP_CONVERT_PRODUCT_ZERO};
+    if (division == JUDGE_NONE || is_fused == JUDGE_NONE)
         return NULL;
     for (dp_arith i = 0; i < dp_arith_count(); i++) {
         const dp_arith_row *row = dp_arith_get(i);
-        if (!row->remap && row->fused == is_fused && row->reciprocal == (division == RECIPROCAL) &&
-            row->conversion == known[conversion])
-            return row->name;
+        for (int c = EXACT; c <= PRODUCT_ZERO; c++)
+            if (conversions == 1U << c && !row->remap && row->fused == is_fused &&
+                row->reciprocal == (division == RECIPROCAL) && row->conversion == known[c])
+                return row->name;
     }
     return NULL;
 }
@@ -250,11 +248,10 @@ static const char *row_of(int conversion, int division, int is_fused) {
 void judge_points(probe_result *r) {
     for (int f = 0; f < SHOT_FORMATS; f++)
         judge_stored(r, (shot_format)f);
-    const int d16 = judge_rounding(r, SHOT_D16), d24 = judge_rounding(r, SHOT_D24);
-    const bool one = judge_shot(r, PLAN_ROUNDING, SHOT_D24) == NULL || d24 == d16;
+    const unsigned d16 = judge_rounding(r, SHOT_D16), d24 = judge_rounding(r, SHOT_D24);
     const int division = judge_division(r);
     const int is_fused = judge_projection(r, division);
-    r->arith = row_of(one ? d16 : JUDGE_NONE, division, is_fused);
+    r->arith = row_of(d16 & d24, division, is_fused);
     judge_planes(r);
     judge_invariance(r);
     judge_functions(r);

@@ -21,17 +21,12 @@ enum {
 static const double shift_error = 0x1p-13;
 
 /* "unsnapped" first, then the grids of 4 bits and more. */
-static const char *const plane_words[GRIDS] = {"the plane of depth through unsnapped vertices",
-                                               "the plane of depth on 1/16 pixel",
-                                               "the plane of depth on 1/32 pixel",
-                                               "the plane of depth on 1/64 pixel",
-                                               "the plane of depth on 1/128 pixel",
-                                               "the plane of depth on 1/256 pixel",
-                                               "the plane of depth on 1/512 pixel",
-                                               "the plane of depth on 1/1024 pixel"};
+static const char *const plane_words[GRIDS] = {
+    "unsnapped vertices",      "vertices on 1/16 pixel",  "vertices on 1/32 pixel",  "vertices on 1/64 pixel",
+    "vertices on 1/128 pixel", "vertices on 1/256 pixel", "vertices on 1/512 pixel", "vertices on 1/1024 pixel"};
 static const char *const coverage_words[GRIDS] = {
-    "coverage of unsnapped edges", "coverage on 1/16 pixel",  "coverage on 1/32 pixel",  "coverage on 1/64 pixel",
-    "coverage on 1/128 pixel",     "coverage on 1/256 pixel", "coverage on 1/512 pixel", "coverage on 1/1024 pixel"};
+    "unsnapped edges",      "edges on 1/16 pixel",  "edges on 1/32 pixel",  "edges on 1/64 pixel",
+    "edges on 1/128 pixel", "edges on 1/256 pixel", "edges on 1/512 pixel", "edges on 1/1024 pixel"};
 
 static int middle_of(int tile) {
     const int half = PLAN_TILE / 2;
@@ -71,7 +66,7 @@ static void judge_coverage(probe_result *r) {
     for (int g = 0; g < GRIDS; g++) {
         all[g] = (guess){coverage_words[g], 0};
         for (int i = 0; i < PLAN_TILES; i++) {
-            const double at = (double)(i - PLAN_TILES / 2) / PLAN_STEPS;
+            const double at = plan_edge(i);
             const double half = g == 0 ? 0.0 : ldexp(0.5, -(BITS_LEAST + g - 1));
             const bool covered = s->code[middle_of(i)] != dp_bits32(SHOT_CLEAR);
             all[g].hits += at == half || covered == (at > half);

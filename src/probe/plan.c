@@ -55,14 +55,14 @@ static void point_stored(const shot *s, draws *d, int i, float *z, float *w) {
     put_point(s->second[i], i, scale > 0.0 ? (float)((k + 0.4) / scale) : nextafterf(*z, 1.0F), 1.0F);
 }
 
-/* Around each tie; 1/2 is the only one that binary32 has. */
+/* Around each tie and each code, where truncation steps; 1/2 is the only tie that binary32 has. */
 static void point_rounding(const shot *s, draws *d, int i, float *z, float *w) {
+    static const double fractions[8] = {0.5, 0.5, 0.5, 0.25, 0.75, 0.0, 0.0, 0.0};
     const double scale = plan_scale(s->format);
     const double k = floor(uniform(d, 0.0, scale));
-    const int part = (int)(drawn(d) % 8);
     *w = 1.0F;
-    *z = (float)((k + (part == 5 ? 0.25 : part == 6 ? 0.75 : part == 7 ? 0.0 : 0.5)) / scale);
-    for (int j = 0; j < part % 5; j++)
+    *z = (float)((k + fractions[drawn(d) % 8]) / scale);
+    for (uint64_t left = drawn(d) % 5; left > 0; left--)
         *z = nextafterf(*z, (drawn(d) & 1) != 0 ? 2.0F : -1.0F);
     *z = i < 16 ? 0.5F : i < 32 ? 1.0F : i < 48 ? 0.0F : fminf(fmaxf(*z, 0.0F), 1.0F);
 }
@@ -163,6 +163,11 @@ plan_tile plan_tile_of(shot_format format, int tile) {
     return (plan_tile){0.5F, (float)uniform(&d, -0.03, 0.03), (float)uniform(&d, -0.03, 0.03)};
 }
 
+double plan_edge(int tile) {
+    const double k = tile - PLAN_TILES / 2;
+    return rint(k * fabs(k) / 32.0) / 8192.0;
+}
+
 static void tiles(shot *s, plan_shot kind) {
     for (int i = 0; i < PLAN_TILES; i++) {
         const plan_tile steep = {0.5F, PLAN_STEEP, 0.0F}, flat = {0.5F, 0.0F, 0.0F};
@@ -170,7 +175,7 @@ static void tiles(shot *s, plan_shot kind) {
         if (kind == PLAN_PLANE)
             put_tile(&s->vertex[3 * i], i, wide, (float)i / PLAN_STEPS, &steep);
         else if (kind == PLAN_COVERAGE)
-            put_tile(&s->vertex[3 * i], i, beside, (float)(i - PLAN_TILES / 2) / PLAN_STEPS, &flat);
+            put_tile(&s->vertex[3 * i], i, beside, (float)plan_edge(i), &flat);
         else
             put_tile(&s->vertex[3 * i], i, wide, 0.0F, &own);
     }
@@ -211,7 +216,7 @@ static const struct {
     [PLAN_STORED] = {"stored", EACH, .point = point_stored, .again = true},
     [PLAN_ROUNDING] = {"rounding", D16 | D24, .point = point_rounding},
     [PLAN_DIVISION] = {"division", D32F, .point = point_division},
-    [PLAN_PROJECTION] = {"projection", D32F, SHOT_PROJECT, 100.0F / 99.9F, -10.0F / 99.9F, point_projection},
+    [PLAN_PROJECTION] = {"projection", D32F, SHOT_PROJECT, 100.0F / 99.9F, -10.0F / 99.9F, .point = point_projection},
     [PLAN_PLANE] = {"plane", D32F, .count = PLAN_TILES},
     [PLAN_COVERAGE] = {"coverage", D32F, .count = PLAN_TILES},
     [PLAN_UNBIASED] = {"unbiased", EACH, .count = PLAN_TILES},

@@ -29,9 +29,9 @@ typedef enum plan_shot {
 enum {
     PLAN_TILE = 16, /**< pixels */
     PLAN_TILES = (SHOT_SIZE / PLAN_TILE) * (SHOT_SIZE / PLAN_TILE),
-    PLAN_STEPS = 2048, /**< of a pixel, by which tiles are moved */
+    PLAN_STEPS = 2048, /**< of a pixel, by which tiles of PLAN_PLANE are moved */
     PLAN_FLAT = 3,     /**< of four tiles without slope */
-    PLAN_BIAS = 8      /**< constant of PLAN_CONSTANT; PLAN_FRACTION has 1/2 more */
+    PLAN_BIAS = 64     /**< constant of PLAN_CONSTANT; PLAN_FRACTION has 1/2 more */
 };
 
 #define PLAN_STEEP      0.05F /**< depth a pixel of PLAN_PLANE */
@@ -50,6 +50,10 @@ typedef struct plan_tile {
     float z, slope_x, slope_y;
 } plan_tile;
 plan_tile plan_tile_of(shot_format format, int tile);
+
+/** How far the edge of a tile of PLAN_COVERAGE lies beyond the centre, pixels: within 1/16, close to 0 in steps of
+ * 1/8192, which clip coordinates still hold exactly. */
+double plan_edge(int tile);
 
 /** 1 of UNORM in codes; 0 of fp32. */
 double plan_scale(shot_format format);

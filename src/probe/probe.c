@@ -18,7 +18,10 @@ typedef struct job {
 static bool work(void *of, FILE *out) {
     const job *j = of;
     j->machine->error[0] = '\0';
-    shot_vulkan(j->device, j->plan, j->machine);
+    if (j->device != NULL && strcmp(j->device, PROBE_OPENGL) == 0)
+        shot_opengl(j->plan, j->machine);
+    else
+        shot_vulkan(j->device, j->plan, j->machine);
     fwrite(j->machine, sizeof *j->machine, 1, out);
     for (size_t i = 0; i < j->plan->count; i++) {
         const shot *s = &j->plan->shot[i];
@@ -78,7 +81,7 @@ bool probe_run(const char *device, uint64_t seed, probe_result *r, char error[SH
     else if (end == APART_NO_PROCESS)
         fail(error, "needs a process of its own, which cannot be made: ", strerror(errno));
     else if (end == APART_ENDLESS)
-        fail(error, "the driver does not come to an end in 60 s", "");
+        snprintf(error, SHOT_ERROR_SIZE, "the driver does not come to an end in %d s", PROBE_SECONDS);
     else if (end == APART_BROKEN)
         fail(error, "the driver broke down", "");
     else if (!take(&j, made))

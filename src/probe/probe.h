@@ -12,6 +12,9 @@
 
 enum { PROBE_SECONDS = 60 /**< for all draws, after which the driver is given up */, PROBE_FINDINGS_MAX = 40 };
 
+/** The device that stands for OpenGL; all others are Vulkan's. */
+#define PROBE_OPENGL "gl"
+
 typedef enum probe_certainty {
     PROBE_SURE = 0, /**< one hypothesis predicts every case, no other does */
     PROBE_OPEN,     /**< several predict every case: these draws do not tell them apart */

@@ -84,4 +84,7 @@ typedef struct shot_machine {
  */
 bool shot_vulkan(const char *wanted, shot_plan *plan, shot_machine *machine);
 
+/** The same on the one device that OpenGL finds without a window, with clip z from 0 to w. */
+bool shot_opengl(shot_plan *plan, shot_machine *machine);
+
 #endif

@@ -174,6 +174,30 @@ static const uint32_t probe_spirv[] = {
     0x00000065, 0x0000000f, 0x0003003e, 0x0000006a,
     0x00000053, 0x000100fd, 0x00010038,
 };
+
+/* The same program for OpenGL, behind declarations of `program`, `given`, a and b. */
+static const char probe_glsl[] =
+    "void main() {\n"
+    "    vec4 at = given;\n"
+    "    if (program == 1)\n"
+    "        at.z = a * given.z + b;\n"
+    "    if (program == 2) {\n"
+    "        // As 1 for what is drawn; the rest is there to be compiled with it.\n"
+    "        float length = sqrt(dot(given, given));\n"
+    "        at.z = a * given.z + b;\n"
+    "        at.x = length < 0.0 ? at.z * length : at.x;\n"
+    "    }\n"
+    "    if (program == 3) {\n"
+    "        at.z = log2(given.z) * a;\n"
+    "        at.w = 1.0;\n"
+    "    }\n"
+    "    if (program == 4) {\n"
+    "        at.z = given.z / given.w;\n"
+    "        at.w = 1.0;\n"
+    "    }\n"
+    "    gl_Position = at;\n"
+    "    gl_PointSize = 1.0;\n"
+    "}\n";
 /* clang-format on */
 
 #endif

@@ -21,6 +21,12 @@ END
 od -An -v -tx4 "$made" | sed 's/ \([0-9a-f]\{8\}\)/ 0x\1,/g; s/^ /    /'
 cat <<'END'
 };
+
+/* The same program for OpenGL, behind declarations of `program`, `given`, a and b. */
+static const char probe_glsl[] =
+END
+sed -n '/^void main/,$p' "$folder/shaders.glsl" | sed 's/.*/    "&\\n"/; $s/$/;/'
+cat <<'END'
 /* clang-format on */
 
 #endif
