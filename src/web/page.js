@@ -52,7 +52,7 @@ function run(line) {
     return said;
 }
 
-const errorOf = ({ err }) => err.trim().replace(/^depthprec: /, "");
+const errorOf = ({ err }) => err.trim();
 
 // ---- Commands -----------------------------------------------------------------------------------------------------
 
@@ -71,8 +71,9 @@ function unwanted(verb, asked) {
 function commandOf(verb, setup) {
     const asked = new Map(state.asked[verb] ?? []), without = unwanted(verb, asked);
     if (asked.get("for") === "distance") asked.delete("at");
-    const options = new Map([...setup].filter(([name]) => takes[verb].has(name) && !without.includes(name) && !asked.has(name)));
-    return [verb, ...(verb === "plot" ? [state.figure] : []), ...words(options), ...words(asked)];
+    const given = new Map([...[...setup].filter(([name]) => !without.includes(name)), ...asked]);
+    const options = [...takes[verb].keys()].filter((name) => given.has(name)).map((name) => [name, given.get(name)]); // in one order
+    return [verb, ...(verb === "plot" ? [state.figure] : []), ...words(options)];
 }
 
 // All that the page shows, as commands: those of B are its tables alone, for the rest follows.
@@ -103,8 +104,10 @@ function understand(all) {
             if (!FIGURES.includes(operands[0])) throw new Error(`the page draws ${FIGURES.join(", ")}, not ${operands[0]}: the program does`);
             next.figure = operands[0];
         }
-        const said = run([verb, ...operands, ...words(given), ...(verb === "plot" ? ["--csv"] : [])]);
-        if (said.status === REFUSED) throw new Error(errorOf(said));
+        if (verb === "table" || all.length === 1) {
+            const said = run([verb, ...operands, ...words(given), ...(verb === "plot" ? ["--csv"] : [])]);
+            if (said.status === REFUSED) throw new Error(errorOf(said));
+        }
         next.shown.add(verb);
         if (panel.length > 0) {
             next.asked[verb] = new Map([...given].filter(([name]) => panel.includes(name)));
@@ -137,6 +140,7 @@ function set(all) {
     refuse(null);
     fill();
     update();
+    showAddress();
     return true;
 }
 
@@ -411,6 +415,12 @@ function update(dragged = false) {
     count();
 }
 
+// Not at each step of a drag: browsers count, and a set-up that is refused is no link.
+function showAddress() {
+    const fragment = toFragment(shown()), fine = $("#error").hidden && fields.every(({ refused }) => refused.textContent === "");
+    if (fine && location.hash.slice(1) !== fragment) history.replaceState(null, "", `#${fragment}`);
+}
+
 function rest() {
     const [panel] = late;
     if (panel !== undefined) {
@@ -420,9 +430,8 @@ function rest() {
         resting = setTimeout(rest);
         return;
     }
-    const fragment = toFragment(shown()), said = $("#verdicts").textContent;
-    const fine = $("#error").hidden && fields.every(({ refused }) => refused.textContent === "");
-    if (fine && location.hash.slice(1) !== fragment) history.replaceState(null, "", `#${fragment}`);
+    const said = $("#verdicts").textContent;
+    showAddress();
     if ($("#said").textContent !== said) $("#said").textContent = said;
     document.documentElement.dataset.settled = document.documentElement.dataset.updates;
 }
