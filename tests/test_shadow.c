@@ -279,7 +279,9 @@ static void test_states(void **state) {
                   "%s %s: %.17g times %.17g for %.17g", api->name, format->name, s.units, smallest, b->window);
             const double deep = (light.setup.reversed ? light.receiver_lo : light.receiver_hi) - n0;
             const double top = light.setup.reversed ? 1 - deep / depth : deep / depth;
-            const bool bound = format->kind == DP_FORMAT_UNORM && api->unorm == BIAS_BOUND;
+            const bool is_float = format->kind == DP_FORMAT_FLOAT;
+            const bool bound = is_float ? api->real == BIAS_EXPONENT && strchr("gv", api->name[0]) != NULL /* n + 1 */
+                                        : api->unorm == BIAS_BOUND;
             const double wide =
                 s.units * worth(api, format, top) * (bound ? 2 : 1) * depth + b->gap_light - b->window * depth;
             TALLY(&gaps,

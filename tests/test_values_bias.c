@@ -167,6 +167,18 @@ static double shift_with(const bias_case *c, const dp_setup *setup, double units
     return isnan(units) ? NAN : bias_at(setup, &s, c->slope, z).shift;
 }
 
+/* With the exponent n + 1, which GL and Vulkan leave open: what half the worth of a unit needs. */
+static double with_next(const bias_case *c, const dp_setup *setup, double gap, double lo) {
+    const bias_goal goal = goal_of(c, setup, gap);
+    bias_api next = *goal.api;
+    double z;
+    if (setup->spec.format.kind != DP_FORMAT_FLOAT || next.real != BIAS_EXPONENT || strchr("gv", next.name[0]) == NULL)
+        return NAN;
+    next.exponent = BIAS_EXPONENT_NEXT;
+    const bias_goal other = {&next, goal.factor, goal.slope, goal.gap};
+    return signed_units(setup, bias_needed_over(setup, &other, lo, c->hi, &z));
+}
+
 static void want_range(values *v, const bias_case *c, const dp_setup *setup) {
     const bias_goal apart = goal_of(c, setup, 0), gap = goal_of(c, setup, c->gap);
     const double gap_lo = fmax(c->lo, setup->spec.znear + c->gap);
@@ -180,7 +192,9 @@ static void want_range(values *v, const bias_case *c, const dp_setup *setup) {
     bias_enough_over(setup, &apart, c->lo, c->hi, &from, &to);
     want_number(v, "apart_from", from);
     want_number(v, "apart_to", to);
+    want_number(v, "units_apart_next", with_next(c, setup, 0, c->lo));
     if (c->gap > 0) {
+        want_number(v, "units_gap_next", with_next(c, setup, c->gap, gap_lo));
         want_number(v, "gap_lo", gap_lo);
         want_number(v, "units_gap", with_gap);
         want_number(v, "units_gap_z", gap_z);

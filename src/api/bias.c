@@ -6,45 +6,47 @@
 #include "core/bits.h"
 #include "core/elementary.h"
 
+#define UNSCALED 0.0, 0.0
+
 /* clang-format off */
 static const bias_api rows[] = {
-    {"d3d11", "d3d10 d3d12 direct3d11 direct3d12", BIAS_CODE, BIAS_EXPONENT, true, true, true, false,
+    {"d3d11", "d3d10 d3d12 direct3d11 direct3d12", BIAS_CODE, BIAS_EXPONENT, BIAS_EXPONENT_N, true, true, true, false,
      "D3D11_RASTERIZER_DESC.DepthBias = U", ", SlopeScaledDepthBias = F",
      "DepthBias is an integer; all is computed in binary32, at the vertices, after clipping",
-     "Direct3D 11 programming guide, output merger stage, Depth Bias"},
-    {"webgpu", "wgpu", BIAS_CODE, BIAS_EXPONENT, true, true, false, false,
+     "Direct3D 11 programming guide, output merger stage, Depth Bias", UNSCALED},
+    {"webgpu", "wgpu", BIAS_CODE, BIAS_EXPONENT, BIAS_EXPONENT_N, true, true, false, false,
      "depthBias: U", ", depthBiasSlopeScale: F",
      "depthBias is an integer; depth24plus may follow either rule (gpuweb/gpuweb#6350)",
-     "WebGPU, biased fragment depth; gpuweb/cts depth_bias.spec.ts"},
-    {"metal", "mtl", BIAS_CODE, BIAS_EXPONENT, false, true, false, false,
+     "WebGPU, biased fragment depth; gpuweb/cts depth_bias.spec.ts", UNSCALED},
+    {"metal", "mtl", BIAS_CODE, BIAS_EXPONENT, BIAS_EXPONENT_N, false, true, false, false,
      "setDepthBias(U, slopeScale: F, clamp: 0)", "",
      "depthBias is a float; for integer buffers r is the smallest positive value that the buffer holds",
-     "Metal, MTLRenderCommandEncoder, setDepthBias(_:slopeScale:clamp:)"},
-    {"vulkan", "vk", BIAS_BOUND, BIAS_EXPONENT, false, true, false, true,
+     "Metal, MTLRenderCommandEncoder, setDepthBias(_:slopeScale:clamp:)", UNSCALED},
+    {"vulkan", "vk", BIAS_BOUND, BIAS_EXPONENT, BIAS_EXPONENT_OPEN, false, true, false, true,
      "depthBiasConstantFactor = U", ", depthBiasSlopeFactor = F",
      "for integer buffers r is the implementation's choice, at most 2 x 2^-N",
-     "Vulkan specification, Depth Bias Computation"},
-    {"vulkan-exact", "vk-exact", BIAS_POWER, BIAS_EXPONENT, false, true, false, false,
+     "Vulkan specification, Depth Bias Computation", UNSCALED},
+    {"vulkan-exact", "vk-exact", BIAS_POWER, BIAS_EXPONENT, BIAS_EXPONENT_OPEN, false, true, false, false,
      "depthBiasConstantFactor = U", ", depthBiasSlopeFactor = F",
      "VK_EXT_depth_bias_control with depthBiasExact: r = 2^-N, less than the distance of two codes",
-     "Vulkan specification, Depth Bias Computation; VK_EXT_depth_bias_control"},
-    {"vulkan-unorm", "vk-unorm", BIAS_POWER, BIAS_MANTISSA, false, true, false, false,
+     "Vulkan specification, Depth Bias Computation; VK_EXT_depth_bias_control", UNSCALED},
+    {"vulkan-unorm", "vk-unorm", BIAS_POWER, BIAS_MANTISSA, BIAS_EXPONENT_OPEN, false, true, false, false,
      "depthBiasConstantFactor = U", ", depthBiasSlopeFactor = F",
      "representation LEAST_REPRESENTABLE_VALUE_FORCE_UNORM with depthBiasExact: one r for all depths of a float buffer",
-     "Vulkan specification, Depth Bias Computation; VK_EXT_depth_bias_control"},
-    {"vulkan-float", "vk-float", BIAS_ONE, BIAS_ONE, false, true, false, false,
+     "Vulkan specification, Depth Bias Computation; VK_EXT_depth_bias_control", UNSCALED},
+    {"vulkan-float", "vk-float", BIAS_ONE, BIAS_ONE, BIAS_EXPONENT_OPEN, false, true, false, false,
      "depthBiasConstantFactor = U", ", depthBiasSlopeFactor = F",
      "representation FLOAT: r = 1, units are window depth, as in d3d9",
-     "Vulkan specification, Depth Bias Computation; VK_EXT_depth_bias_control"},
-    {"gl", "opengl gles webgl", BIAS_FREE, BIAS_EXPONENT, false, true, false, true,
+     "Vulkan specification, Depth Bias Computation; VK_EXT_depth_bias_control", UNSCALED},
+    {"gl", "opengl gles webgl", BIAS_FREE, BIAS_EXPONENT, BIAS_EXPONENT_OPEN, false, true, false, true,
      "glPolygonOffset(F, U)", "",
      "glPolygonOffset(factor, units); the clamp is EXT_polygon_offset_clamp or GL 4.6; for integer buffers r is the "
      "implementation's choice, 2^-N is assumed",
-     "OpenGL specification, Depth Offset; EXT_polygon_offset_clamp"},
-    {"d3d9", "direct3d9 d3d8to9", BIAS_ONE, BIAS_ONE, false, false, false, false,
+     "OpenGL specification, Depth Offset; EXT_polygon_offset_clamp", UNSCALED},
+    {"d3d9", "direct3d9 d3d8to9", BIAS_ONE, BIAS_ONE, BIAS_EXPONENT_OPEN, false, false, false, false,
      "D3DRS_DEPTHBIAS = U", ", D3DRS_SLOPESCALEDEPTHBIAS = F",
      "D3DRS_DEPTHBIAS is a window depth; there is no clamp",
-     "Direct3D 9, Depth Bias: Offset = m D3DRS_SLOPESCALEDEPTHBIAS + D3DRS_DEPTHBIAS"},
+     "Direct3D 9, Depth Bias: Offset = m D3DRS_SLOPESCALEDEPTHBIAS + D3DRS_DEPTHBIAS", UNSCALED},
 };
 /* clang-format on */
 enum { ROW_COUNT = sizeof rows / sizeof rows[0] };
@@ -73,8 +75,8 @@ static int exponent_of(const dp_format *format, double d) {
     return e - 1 > lowest ? e - 1 : lowest;
 }
 
-/* r.least when the greatest depth has the exponent e. */
-static double unit_of(const bias_api *api, const dp_format *format, int e) {
+/* The worth of a unit, before anything multiplies it, when the greatest depth has the exponent e. */
+static double worth_of(const bias_api *api, const dp_format *format, int e) {
     const bool is_float = format->kind == DP_FORMAT_FLOAT;
     switch (is_float ? api->real : api->unorm) {
     case BIAS_CODE:
@@ -84,13 +86,28 @@ static double unit_of(const bias_api *api, const dp_format *format, int e) {
     case BIAS_FREE:
         return ldexp(1.0, -format->bits);
     case BIAS_EXPONENT:
-        return ldexp(1.0, e - format->mantissa_bits);
+        return ldexp(1.0, e + (api->exponent == BIAS_EXPONENT_NEXT) - format->mantissa_bits);
     case BIAS_MANTISSA:
         return ldexp(1.0, -(format->mantissa_bits + 1));
     case BIAS_ONE:
         break;
     }
     return 1.0;
+}
+
+/* r.least. */
+static double unit_of(const bias_api *api, const dp_format *format, int e) {
+    return worth_of(api, format, e) * (api->scale_least > 0.0 ? api->scale_least : 1.0);
+}
+
+bool bias_is_open(const bias_api *api, const dp_format *format) {
+    return format->kind == DP_FORMAT_FLOAT && api->real == BIAS_EXPONENT && api->exponent == BIAS_EXPONENT_OPEN;
+}
+
+bias_api bias_next(const bias_api *api) {
+    bias_api next = *api;
+    next.exponent = BIAS_EXPONENT_NEXT;
+    return next;
 }
 
 bias_unit bias_unit_at(const bias_api *api, const dp_format *format, double d) {
@@ -101,7 +118,9 @@ bias_unit bias_unit_at(const bias_api *api, const dp_format *format, double d) {
         most = 2.0 * least;
     else if (is_unorm && api->unorm == BIAS_FREE)
         most = (double)INFINITY;
-    return (bias_unit){least, most};
+    else if (bias_is_open(api, format))
+        most = 2.0 * least;
+    return (bias_unit){least, api->scale_least > 0.0 ? most * (api->scale_most / api->scale_least) : most};
 }
 
 double bias_offset(const bias_state *state, double r, double m) {
@@ -213,7 +232,7 @@ static double needed_with(const dp_setup *setup, const bias_goal *goal, double z
     const dp_format *format = &setup->spec.format;
     const double r = unit_of(goal->api, format, e);
     const double m = bias_window_slope(setup, z, goal->slope);
-    const double step = certain_step(goal, format, e, r, m);
+    const double step = certain_step(goal, format, e, worth_of(goal->api, format, e), m);
     const double gap = window_of_gap(setup, z, goal->gap);
     const double window = fmax(step, gap) - goal->factor * m;
     /* Covers the roundings above and, where o itself is rounded to binary32, those; a single step is exact. */
@@ -257,11 +276,12 @@ static double needed_slanted(const dp_setup *setup, const bias_goal *goal, doubl
         return (double)INFINITY;
     const double off = apart.window + apart.pixels * steepest;
     const int here = exponent_of(format, fmin(d_hi + off, 1.0));
-    const double least_step = certain_step(goal, format, here, unit_of(goal->api, format, here), 0.0);
+    const double least_step = certain_step(goal, format, here, worth_of(goal->api, format, here), 0.0);
     const double beyond = goal->slope == 0.0 ? fmin(256.0 * (least_step + apart.window) / d_lo, 1.0) : 0.0;
-    const double r = unit_of(goal->api, format, exponent_of(format, fmax(d_lo * (1.0 - beyond) - off, 0.0)));
+    const int below = exponent_of(format, fmax(d_lo * (1.0 - beyond) - off, 0.0));
+    const double r = unit_of(goal->api, format, below);
     const int above = exponent_of(format, fmin(d_hi * (1.0 + beyond) + off, 1.0));
-    const double step = certain_step(goal, format, above, r, 0.0) + apart.window;
+    const double step = certain_step(goal, format, above, worth_of(goal->api, format, below), 0.0) + apart.window;
     double needed = -1.0;
     for (int i = 0; i < 2; i++) {
         const double m = bias_window_slope(setup, ends[i], goal->slope);

@@ -15,6 +15,7 @@
  *     BOUND     the implementation's choice, at most 2 2^-N; taken to be at least 2^-N
  *     FREE      the implementation's choice; taken to be at least 2^-N
  *     EXPONENT  2^(e - M), e the exponent of the greatest window depth in the primitive, M the mantissa bits (23)
+ *               by the row's convention: of a depth in [2^n, 2^(n+1)) it is n, n + 1, or left open
  *     MANTISSA  2^-(M + 1)
  *
  * Bias is applied to the depth that the hardware holds, a binary32 number, and the result is clamped to [0, 1].
@@ -36,20 +37,35 @@ typedef enum bias_rule {
     BIAS_MANTISSA
 } bias_rule;
 
+/** What specification and drivers call the exponent of a depth in [2^n, 2^(n+1)). */
+typedef enum bias_exponent {
+    BIAS_EXPONENT_OPEN = 0, /**< n or n + 1: r is at least that of n, and twice that at most */
+    BIAS_EXPONENT_N,
+    BIAS_EXPONENT_NEXT /**< n + 1 */
+} bias_exponent;
+
 typedef struct bias_api {
     const char *name;
-    const char *aliases; /**< other accepted spellings, separated by one space */
-    bias_rule unorm;     /**< r of an integer buffer */
-    bias_rule real;      /**< r of a float buffer */
-    bool whole;          /**< units are a 32-bit integer, not a float */
-    bool clamps;         /**< has a clamp */
-    bool binary32;       /**< the specification says that o is computed in binary32 */
-    bool guaranteed;     /**< r is by definition a difference that polygons with the same vertices keep apart */
-    const char *call;    /**< how a program sets it: U stands for the units, F for the factor */
-    const char *sloped;  /**< what follows where there is a factor, likewise; "" where `call` has it */
+    const char *aliases;    /**< other accepted spellings, separated by one space */
+    bias_rule unorm;        /**< r of an integer buffer */
+    bias_rule real;         /**< r of a float buffer */
+    bias_exponent exponent; /**< of EXPONENT */
+    bool whole;             /**< units are a 32-bit integer, not a float */
+    bool clamps;            /**< has a clamp */
+    bool binary32;          /**< the specification says that o is computed in binary32 */
+    bool guaranteed;        /**< r is by definition a difference that polygons with the same vertices keep apart */
+    const char *call;       /**< how a program sets it: U stands for the units, F for the factor */
+    const char *sloped;     /**< what follows where there is a factor, likewise; "" where `call` has it */
     const char *note;
     const char *source;
+    double scale_least, scale_most; /**< what the units are multiplied by on the way, at least and at most; 0, 0: 1 */
 } bias_api;
+
+/** Whether the convention of the exponent is open for that format. */
+bool bias_is_open(const bias_api *api, const dp_format *format);
+
+/** The same row where the convention is n + 1. */
+bias_api bias_next(const bias_api *api);
 
 /** The rows in order; null for an index that is not below their number. */
 const bias_api *bias_api_get(size_t index);

@@ -1,6 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "api/platform.h"
 
+#include <string.h>
+
 #define DAWN   "2026-08"
 #define ANGLE  "2026-08"
 #define WEBKIT "2026-08"
@@ -8,38 +10,65 @@
 
 /* clang-format off */
 static const platform rows[] = {
-    {"chrome-d3d", "depth24plus", "fp32", "depth24plus-stencil8", PLATFORM_REMAPS_NOT, "spec-d3d",
+    {"chrome-d3d", "depth24plus", "fp32", "depth24plus-stencil8", PLATFORM_REMAPS_NOT, "webgpu", "spec-d3d",
      "WebGPU on Direct3D: D32_FLOAT; with stencil a 32-bit float too, but D24_UNORM_S8 on Qualcomm's D3D12",
-     "Dawn, src/dawn/native/d3d/UtilsD3D.cpp", DAWN},
-    {"chrome-vulkan", "depth24plus", "fp32", "fp32", PLATFORM_REMAPS_NOT, "spec-vulkan",
-     "WebGPU on Vulkan: D32_SFLOAT", "Dawn, src/dawn/native/vulkan/TextureVk.cpp", DAWN},
-    {"chrome-metal", "depth24plus", "fp32", "fp32", PLATFORM_REMAPS_NOT, "spec-vulkan",
-     "WebGPU on Metal: Depth32Float", "Dawn, src/dawn/native/metal/UtilsMetal.mm", DAWN},
-    {"chrome-gl", "depth24plus", "fp32", "fp32", PLATFORM_REMAPS_NOT, "spec-gl",
-     "WebGPU on OpenGL: DEPTH_COMPONENT32F", "Dawn, OpenGL back end", DAWN},
-    {"firefox-d3d", "depth24plus", "unorm24", "depth24plus-stencil8", PLATFORM_REMAPS_NOT, "spec-d3d",
-     "WebGPU on Direct3D: D24_UNORM_S8", "wgpu, wgpu-hal/src/auxil/dxgi/conv.rs", WGPU},
-    {"firefox-vulkan", "depth24plus", "depth24plus", "depth24plus-stencil8", PLATFORM_REMAPS_NOT, "spec-vulkan",
+     "Dawn, src/dawn/native/d3d/UtilsD3D.cpp",
+     BIAS_EXPONENT_N, 0, 0, false, false, "", DAWN},
+    {"chrome-vulkan", "depth24plus", "fp32", "fp32", PLATFORM_REMAPS_NOT, "webgpu", "spec-vulkan",
+     "WebGPU on Vulkan: D32_SFLOAT", "Dawn, src/dawn/native/vulkan/TextureVk.cpp",
+     BIAS_EXPONENT_OPEN, 0, 0, false, false, "", DAWN},
+    {"chrome-metal", "depth24plus", "fp32", "fp32", PLATFORM_REMAPS_NOT, "webgpu", "spec-vulkan",
+     "WebGPU on Metal: Depth32Float", "Dawn, src/dawn/native/metal/UtilsMetal.mm",
+     BIAS_EXPONENT_N, 0, 0, false, false, "", DAWN},
+    {"chrome-gl", "depth24plus", "fp32", "fp32", PLATFORM_REMAPS_NOT, "webgpu", "spec-gl",
+     "WebGPU on OpenGL: DEPTH_COMPONENT32F", "Dawn, OpenGL back end",
+     BIAS_EXPONENT_OPEN, 0.5, 0.5, false, false,
+     "halves the constant of a bias on desktop GL, where drivers take n+1", DAWN},
+    {"firefox-d3d", "depth24plus", "unorm24", "depth24plus-stencil8", PLATFORM_REMAPS_NOT, "webgpu", "spec-d3d",
+     "WebGPU on Direct3D: D24_UNORM_S8", "wgpu, wgpu-hal/src/auxil/dxgi/conv.rs",
+     BIAS_EXPONENT_N, 0, 0, false, false, "", WGPU},
+    {"firefox-vulkan", "depth24plus", "depth24plus", "depth24plus-stencil8", PLATFORM_REMAPS_NOT, "webgpu", "spec-vulkan",
      "WebGPU on Vulkan: X8_D24_UNORM where the device has it, else D32_SFLOAT", "wgpu, wgpu-hal/src/vulkan/conv.rs",
-     WGPU},
-    {"firefox-metal", "depth24plus", "depth24plus", "depth24plus-stencil8", PLATFORM_REMAPS_NOT, "spec-vulkan",
+     BIAS_EXPONENT_OPEN, 0, 0, false, false, "", WGPU},
+    {"firefox-metal", "depth24plus", "depth24plus", "depth24plus-stencil8", PLATFORM_REMAPS_NOT, "webgpu", "spec-vulkan",
      "WebGPU on Metal: Depth24Unorm_Stencil8 where the Mac has it, else Depth32Float", "wgpu-hal, Metal back end",
-     WGPU},
-    {"firefox-gl", "depth24plus", "unorm24", "depth24plus-stencil8", PLATFORM_REMAPS_NOT, "spec-gl",
-     "WebGPU on OpenGL: DEPTH_COMPONENT24", "wgpu-hal, GLES back end", WGPU},
-    {"safari", "depth24plus", "fp32", "fp32", PLATFORM_REMAPS_NOT, "spec-vulkan",
-     "WebGPU on Metal: Depth32Float", "WebKit, WebGPU/Texture.mm", WEBKIT},
-    {"webgl-d3d", "DEPTH_COMPONENT24", "unorm24", "unorm24", PLATFORM_REMAPS, "spec-d3d",
-     "WebGL through ANGLE on D3D11: D24_UNORM_S8", "ANGLE, libANGLE/renderer, format tables", ANGLE},
-    {"webgl-metal", "DEPTH_COMPONENT24", "fp32", "depth24plus-stencil8", PLATFORM_REMAPS, "spec-vulkan",
+     BIAS_EXPONENT_N, 0, 0, false, false, "", WGPU},
+    {"firefox-gl", "depth24plus", "unorm24", "depth24plus-stencil8", PLATFORM_REMAPS_NOT, "webgpu", "spec-gl",
+     "WebGPU on OpenGL: DEPTH_COMPONENT24", "wgpu-hal, GLES back end",
+     BIAS_EXPONENT_OPEN, 0, 0, false, true, "drops the clamp of a bias", WGPU},
+    {"safari", "depth24plus", "fp32", "fp32", PLATFORM_REMAPS_NOT, "webgpu", "spec-vulkan",
+     "WebGPU on Metal: Depth32Float", "WebKit, WebGPU/Texture.mm",
+     BIAS_EXPONENT_N, 0, 0, false, false, "", WEBKIT},
+    {"webgl-d3d", "DEPTH_COMPONENT24", "unorm24", "unorm24", PLATFORM_REMAPS, "gl", "spec-d3d",
+     "WebGL through ANGLE on D3D11: D24_UNORM_S8", "ANGLE, libANGLE/renderer, format tables",
+     BIAS_EXPONENT_N, 0, 0, true, false, "cuts fractions of a bias's units: 0.5 becomes 0", ANGLE},
+    {"webgl-metal", "DEPTH_COMPONENT24", "fp32", "depth24plus-stencil8", PLATFORM_REMAPS, "gl", "spec-vulkan",
      "WebGL through ANGLE on Metal: always 32-bit float, with stencil on most devices; 24 bits are reported all the "
-     "same", "ANGLE, libANGLE/renderer, format tables", ANGLE},
-    {"webgl-vulkan", "DEPTH_COMPONENT24", "depth24plus", "depth24plus-stencil8", PLATFORM_MAY_REMAP, "spec-vulkan",
+     "same", "ANGLE, libANGLE/renderer, format tables",
+     BIAS_EXPONENT_N, 0, 0, false, false, "", ANGLE},
+    {"webgl-vulkan", "DEPTH_COMPONENT24", "depth24plus", "depth24plus-stencil8", PLATFORM_MAY_REMAP, "gl", "spec-vulkan",
      "WebGL through ANGLE on Vulkan: X8_D24, D24_UNORM_S8 or a 32-bit float, as the device has it; remapped only "
-     "without VK_EXT_depth_clip_control", "ANGLE, libANGLE/renderer, format tables", ANGLE},
+     "without VK_EXT_depth_clip_control", "ANGLE, libANGLE/renderer, format tables",
+     BIAS_EXPONENT_OPEN, 1, 2, false, false,
+     "doubles the units of a bias for Intel (not on Windows), PanVK, RADV and NVIDIA", ANGLE},
+    {"webgl-gl", "DEPTH_COMPONENT24", "unorm24", "unorm24", PLATFORM_REMAPS_NOT, "gl", "spec-gl",
+     "WebGL through ANGLE on OpenGL: as OpenGL has it", "ANGLE, libANGLE/renderer/gl",
+     BIAS_EXPONENT_OPEN, 0.5, 0.5, false, false, "halves the units of a bias", ANGLE},
 };
 /* clang-format on */
 
 const platform *platform_get(size_t index) {
     return index < sizeof rows / sizeof rows[0] ? &rows[index] : NULL;
+}
+
+bias_api platform_bias(const platform *p, const bias_api *api) {
+    bias_api out = *api;
+    if (p == NULL || strcmp(p->api, api->name) != 0)
+        return out;
+    out.exponent = p->exponent;
+    out.scale_least = p->scale_least;
+    out.scale_most = p->scale_most;
+    out.clamps = api->clamps && !p->drops_clamp;
+    out.whole = api->whole || p->cuts;
+    return out;
 }

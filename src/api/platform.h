@@ -11,6 +11,8 @@
 #include <stdbool.h>
 #include <stddef.h>
 
+#include "api/bias.h"
+
 /** Whether a browser's vertex shader takes clip z from [-1, 1] to [0, 1] by z = (z + w)/2. */
 typedef enum platform_remap { PLATFORM_REMAPS_NOT = 0, PLATFORM_REMAPS, PLATFORM_MAY_REMAP } platform_remap;
 
@@ -20,13 +22,22 @@ typedef struct platform {
     const char *stored;   /**< for dp_format_parse(): depth24plus where the device decides between two formats */
     const char *stencil;  /**< likewise, where a stencil of 8 bits is asked for too */
     platform_remap remap; /**< unless the page asks for zero to one, where it can */
+    const char *api;      /**< a name of bias.h: what the page's bias is given to */
     const char *raster;   /**< a name of `list rasterizers`: what the API below promises at least; Metal: as Vulkan */
     const char *note;     /**< one line */
     const char *source;
+    bias_exponent exponent;         /**< of a float buffer's bias */
+    double scale_least, scale_most; /**< what the browser multiplies a bias by; 0, 0: nothing */
+    bool cuts;                      /**< fractions of a constant bias are cut: 0.5 becomes 0 */
+    bool drops_clamp;
+    const char *bias;   /**< one line on these; "" where the API is followed */
     const char *newest; /**< year and month of the newest source, ISO 8601, and whether it was old when it was read */
 } platform;
 
 /** The rows in order; null for an index that is not below their number. */
 const platform *platform_get(size_t index);
+
+/** A bias of that API as it arrives there: its own API's row as the platform has it; any other, and null, unchanged. */
+bias_api platform_bias(const platform *p, const bias_api *api);
 
 #endif

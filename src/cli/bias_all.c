@@ -114,8 +114,9 @@ static void write_short(double units, char out[NUMBER_SIZE]) {
     append(out, NUMBER_SIZE, "%s%s", units < 0.0 ? "-" : "", text.text);
 }
 
-static void measure(const all *a, const bias_api *api, const dp_setup *setup, double z, row *r) {
+static void measure(const all *a, const bias_api *named, const dp_setup *setup, double z, row *r) {
     const options *o = &a->walk.here;
+    const bias_api here = platform_bias(o->platform, named), *api = &here;
     const bias_goal goal = goal_of(o, api, setup);
     *r = (row){.api = api->name, .label = api->name, .z = z, .lo = (double)NAN, .hi = (double)NAN, .units_z = z};
     r->factor = goal.factor * bias_sign(setup) + 0.0; /* no -0 */
@@ -207,6 +208,9 @@ static void say_setup(page *p, void *item) {
 static void say_choice(page *p, const dp_format *format) {
     if (format->kind == DP_FORMAT_UNORM)
         page_line(p, "vulkan and gl: r is the implementation's choice, 2^-%d is assumed", format->bits);
+    else
+        page_line(p, "vulkan and gl: the exponent of a depth is the driver's to read, r may be twice as much: these "
+                     "units are enough with both, half of them with that");
 }
 
 static void say_notes(page *p, void *item) {

@@ -30,13 +30,15 @@ typedef struct needs {
     double lo, hi, gap_lo;
     double apart, apart_z, apart_from, apart_to; /* and where a bias is enough at all */
     double gap, gap_z, gap_from, gap_to;
-    double shift_lo, shift_hi; /* what the units of the gap do at the ends, or those that tell apart without a gap */
+    double apart_next, gap_next; /* where the exponent is n + 1; NaN where that is not open */
+    double shift_lo, shift_hi;   /* what the units of the gap do at the ends, or those that tell apart without a gap */
 } needs;
 
 /* What is asked; below `range_lo`, what belongs to the set-up at hand. */
 typedef struct biasing {
     walk walk;
     const char *api;
+    bias_api row_here; /* as the platform has it */
     bias_state state;
     bias_goal goal;
     bool inverse; /* no bias was given: one is asked for */
@@ -95,6 +97,21 @@ static double shift_with(const biasing *b, double units, double z) {
     return isnan(units) || isinf(z) ? (double)NAN : bias_at(b->walk.setup, &state, b->goal.slope, z).shift;
 }
 
+/* The same where drivers take the greater of two exponents that the specification leaves open. */
+static void next_over_range(const biasing *b, needs *n) {
+    const dp_setup *setup = b->walk.setup;
+    const bias_api next = bias_next(b->state.api);
+    bias_goal apart = goal_of(b, 0.0), gap = goal_of(b, b->goal.gap);
+    double z;
+    n->apart_next = n->gap_next = (double)NAN;
+    if (!bias_is_open(b->state.api, &setup->spec.format))
+        return;
+    apart.api = gap.api = &next;
+    n->apart_next = bias_signed(setup, bias_needed_over(setup, &apart, n->lo, n->hi, &z));
+    if (b->goal.gap > 0.0 && n->gap_lo < n->hi)
+        n->gap_next = bias_signed(setup, bias_needed_over(setup, &gap, n->gap_lo, n->hi, &z));
+}
+
 static needs over_range(const biasing *b) {
     const dp_setup *setup = b->walk.setup;
     const double lo = b->range_lo, hi = b->range_hi;
@@ -108,6 +125,7 @@ static needs over_range(const biasing *b) {
         bias_enough_over(setup, &gap, n.gap_lo, hi, &n.gap_from, &n.gap_to);
     if (b->goal.gap > 0.0 && n.gap_lo < hi)
         n.gap = bias_signed(setup, bias_needed_over(setup, &gap, n.gap_lo, hi, &n.gap_z));
+    next_over_range(b, &n);
     const double units = b->goal.gap > 0.0 ? n.gap : n.apart;
     n.shift_lo = shift_with(b, units, n.gap_lo);
     n.shift_hi = shift_with(b, units, hi);
@@ -180,6 +198,10 @@ static void say_range(page *p, const biasing *b) {
     const double units = b->goal.gap > 0.0 ? r->gap : r->apart;
     if (!isnan(units))
         page_note(p, "to write", "%s", bias_call(b->state.api, units, b->state.factor).text);
+    const double next = b->goal.gap > 0.0 ? r->gap_next : r->apart_next;
+    if (!isnan(units) && !isnan(next))
+        page_note(p, "", "where drivers take the exponent n + 1, %s would do; these are enough with both",
+                  number_of(next, DIGITS_Z).text);
     if (b->goal.gap == 0.0)
         return;
     if (!isnan(r->shift_hi))
@@ -207,8 +229,13 @@ static void say_notes(page *p, void *item) {
         page_line(p, "a biased depth that leaves [0, 1] is held at the plane");
     if (isinf(unit.most))
         page_line(p, "r is the implementation's choice: the value shown is assumed");
+    else if (bias_is_open(b->state.api, &b->walk.setup->spec.format))
+        page_line(p, "drivers take the exponent of a depth in [2^n, 2^(n+1)) as n or n+1: r is up to %s times this",
+                  number_of(unit.most / unit.least, DIGITS_SHORT).text);
     else if (unit.most > unit.least)
         page_line(p, "r is the implementation's choice: up to twice the value shown");
+    if (b->walk.o->platform != NULL && b->walk.o->platform->bias[0] != '\0')
+        page_line(p, "%s %s", b->walk.o->platform->name, b->walk.o->platform->bias);
 }
 
 /* ---- Columns ----------------------------------------------------------------------------------------------------- */
@@ -253,8 +280,10 @@ static const column needs_columns[] = {{FIELD(needs, lo, "lo", "scene")},
                                        {FIELD(needs, apart_z, "units_apart_z", "scene")},
                                        {FIELD(needs, apart_from, "apart_from", "scene")},
                                        {FIELD(needs, apart_to, "apart_to", "scene")},
+                                       {FIELD(needs, apart_next, "units_apart_next", "")},
                                        {FIELD(needs, gap_lo, "gap_lo", "scene"), .when = WITH_GAP},
                                        {FIELD(needs, gap, "units_gap", ""), .when = WITH_GAP},
+                                       {FIELD(needs, gap_next, "units_gap_next", ""), .when = WITH_GAP},
                                        {FIELD(needs, gap_z, "units_gap_z", "scene"), .when = WITH_GAP},
                                        {FIELD(needs, gap_from, "gap_from", "scene"), .when = WITH_GAP},
                                        {FIELD(needs, gap_to, "gap_to", "scene"), .when = WITH_GAP},
@@ -288,11 +317,13 @@ static int check_states(const options *o, const bias_api *api) {
         return option_error(OPTION_VIEWPORT, "cannot be combined with --units: it says how many are enough");
     if (given && option_given(o, OPTION_GAP))
         return option_error(OPTION_UNITS, "cannot be combined with --gap, which solves for them");
-    if (given && api->whole && !(o->units == nearbyint(o->units) && fabs(o->units) <= 0x1.fffffffcp30))
+    if (given && api->whole && !(o->units == nearbyint(o->units) && fabs(o->units) <= 0x1.fffffffcp30) &&
+        (o->platform == NULL || !o->platform->cuts))
         return option_error(OPTION_UNITS, "must be a whole number from -2147483647 to 2147483647 for %s, got %s",
                             api->name, number_full(o->units).text);
     if (option_given(o, OPTION_CLAMP) && !api->clamps)
-        return option_error(OPTION_CLAMP, "must not be given for %s, which has no clamp", api->name);
+        return option_error(OPTION_CLAMP, "must not be given for %s, which has no clamp",
+                            o->platform != NULL && o->platform->drops_clamp ? o->platform->name : api->name);
     if (option_given(o, OPTION_CLAMP) && !given)
         return option_error(OPTION_CLAMP, "must be given together with --units");
     return EXIT_FINE;
@@ -318,13 +349,17 @@ int cmd_bias(const options *given) {
     biasing b = {.state = {api, o.units, o.factor, o.clamp},
                  .goal = {.api = api, .slope = o.slope, .gap = o.gap},
                  .inverse = !option_given(&o, OPTION_UNITS),
-                 .api = api->name};
+                 .api = api->name,
+                 .row_here = platform_bias(o.platform, api)};
+    b.state.api = b.goal.api = &b.row_here;
+    if (o.platform != NULL && o.platform->cuts)
+        b.state.units = trunc(o.units);
     b.units = b.inverse ? (double)NAN : o.units;
     b.gap = b.inverse ? o.gap : (double)NAN;
     b.triangles = slant_fields_of(&o, &b.slant);
     b.chosen = bias_chooses_factor(&o);
     b.factor = b.chosen ? (double)NAN : o.factor;
-    int status = check_states(&o, api);
+    int status = check_states(&o, &b.row_here);
     if (status != EXIT_FINE)
         return status;
     status = walk_start(&b.walk, &o);

@@ -126,7 +126,8 @@ bool list_platform(size_t index, list_item *item) {
     *item = (list_item){.name = row->name, .note = row->note, .source = row->source, .row = row};
     append_stored(item, row->asks, row->stored);
     append_stored(item, "; with stencil", row->stencil);
-    append(item->bound, sizeof item->bound, "%s; %s; sources up to %s", remaps[row->remap], row->raster, row->newest);
+    append(item->bound, sizeof item->bound, "%s; %s%s%s; sources up to %s", remaps[row->remap], row->raster,
+           row->bias[0] != '\0' ? "; " : "", row->bias, row->newest);
     return true;
 }
 

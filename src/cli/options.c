@@ -162,15 +162,15 @@ static void take_platform(options *o) {
     const platform *p = o->platform;
     if (p == NULL)
         return;
-    const bool webgl = p->remap != PLATFORM_REMAPS_NOT;
+    const bool webgl = strcmp(p->api, "gl") == 0;
     if (!option_given(o, OPTION_FORMAT))
         parse_formats(o, &option_rows[OPTION_FORMAT], p->stored);
     if (!option_given(o, OPTION_MAPPING) && o->preset_count == 0)
         parse_mappings(o, &option_rows[OPTION_MAPPING], webgl ? "gl" : "d3d");
-    if (!option_given(o, OPTION_ARITH) && webgl) /* of mappings to [-1, 1] alone */
+    if (!option_given(o, OPTION_ARITH) && p->remap != PLATFORM_REMAPS_NOT) /* of mappings to [-1, 1] alone */
         dp_arith_parse("ieee-remap", &o->arith);
     if (!option_given(o, OPTION_API))
-        parse_row(o, &option_rows[OPTION_API], webgl ? "gl" : "webgpu");
+        parse_row(o, &option_rows[OPTION_API], p->api);
     slant_take_raster(o, p->raster);
 }
 
