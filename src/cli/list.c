@@ -21,6 +21,7 @@
 #include "texture/position.h"
 #include "texture/scene.h"
 #include "vertex/compare.h"
+#include "world/world.h"
 
 bool list_format(size_t index, list_item *item) {
     const dp_format_row *row = dp_format_get(index);
@@ -187,6 +188,17 @@ bool list_program(size_t index, list_item *item) {
            list_fill(item, (list_item){.name = row->name, .note = row->note, .source = row->source, .row = row});
 }
 
+bool list_scheme(size_t index, list_item *item) {
+    const world_row *row = world_get(index);
+    if (row == NULL)
+        return false;
+    *item = (list_item){.name = row->name, .note = row->note, .source = row->source, .row = row};
+    if (row->size != NULL)
+        append(item->bound, sizeof item->bound, "%s: %s unless %s:SIZE says another, scene units%s", row->size,
+               number_full(row->standard).text, row->name, row->power2 ? ", a power of two" : "");
+    return true;
+}
+
 bool list_vertices(size_t index, list_item *item) {
     const char *name = vertex_spread_name((vertex_spread)index);
     return name != NULL && list_fill(item, (list_item){.name = name, .note = vertex_spread_note((vertex_spread)index)});
@@ -311,6 +323,7 @@ static const topic topics[] = {
     {"rasterizers", "how rasterizers snap vertices and step depth across triangles", list_rasterizer,
      .bound = "arithmetic"},
     {"programs", "how a vertex program makes clip coordinates, for zfight --against", list_program, .bound = "bound"},
+    {"schemes", "ways to bring a large world before the camera, for world --scheme", list_scheme, .bound = "size"},
     {"encodings", "depth and normals in the channels of a texture, and their error bounds", list_encoding,
      .bound = "bound"},
     {"packings", "textures with a depth in several channels, for texture --packing and --pack", list_packing,

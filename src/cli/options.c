@@ -43,7 +43,8 @@ void options_release(options *o) {
     free(o->at.list);
     free(o->looked_up.list);
     free(o->pixels.list);
-    o->at.list = o->looked_up.list = o->pixels.list = NULL;
+    free(o->distances.list);
+    o->at.list = o->looked_up.list = o->pixels.list = o->distances.list = NULL;
 }
 
 /* getopt's names for an option: its letter, or a number that no letter has. */
