@@ -7,8 +7,9 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "depthprec/depthprec.h"
 #include "support.h"
-#include "world/world.h"
+#include "world/reach.h"
 
 /* ---- What is drawn ----------------------------------------------------------------------------------------------- */
 
@@ -174,7 +175,7 @@ static double share_of(const world_scheme *s, const pose *p, double distance, do
     return most;
 }
 
-static const double distances[] = {0.0, 3.0, 1e3, 8.2e3, 1.1e4, 4.1e4, 1e5, 1e6, 6.4e6, 1e8};
+static const double distances[] = {0.0, 3.0, 1e3, 8.2e3, 1.1e4, 4.1e4, 1e5, 1e6, 6.4e6, 2e7};
 enum { DISTANCES = sizeof distances / sizeof distances[0] };
 
 static world_scheme standard(size_t i) {
@@ -298,8 +299,8 @@ static void order_is_kept(void **state) {
 
 /*
  * 40,000 cameras of random place and orientation at each distance, surfaces 10 m and 1 cm more ahead, a reversed
- * infinite binary32 buffer with near 0.1: wrong order or tie, %, and largest error of view z, m. What it drew for
- * `local`, whose order depends on where origins lie, is not known: of that the largest error alone.
+ * infinite binary32 buffer with near 0.1: wrong order or tie, %, and largest error of view z, m. It has `local`, too,
+ * but where the origins lay, on which that depends, is not known.
  */
 static const struct {
     const char *scheme;
@@ -308,7 +309,6 @@ static const struct {
     } at[5];
 } simulated[] = {
     {"world", {{0, 1.2e-3}, {0, 2.7e-3}, {3.3, 0.016}, {76, 0.13}, {96, 1}}},
-    {"local", {{NAN, 9.8e-4}, {NAN, 2e-3}, {NAN, 0.011}, {NAN, 0.13}, {NAN, 1}}},
     {"camera-float", {{0, 6e-4}, {0, 1.3e-3}, {0, 8.5e-3}, {46, 0.072}, {86, 0.54}}},
     {"split", {{0, 6e-4}, {0, 1.2e-3}, {0, 4.4e-3}, {0, 5.2e-3}, {0, 5e-3}}},
     {"tile", {{0, 6.4e-4}, {0, 1.2e-3}, {0, 1.1e-3}, {0, 1.2e-3}, {0, 1.2e-3}}},
@@ -359,21 +359,108 @@ static void as_simulated(void **state) {
             const double want = simulated[i].at[d].wrong, got = 100.0 * bad / count;
             const double step = want >= 10.0 ? 0.5 : 0.05;
             const double off = 4.0 * 100.0 * sqrt(2.0 * want / 100.0 * (1.0 - want / 100.0) / count) + step;
-            TALLY(&wrong, isnan(want) || fabs(got - want) <= off, "%s, %g m: %g %%, not %g +- %g", s.row->name,
-                  from_origin[d], got, want, off);
-            TALLY(&largest, most > simulated[i].at[d].off / 1.4 && most < simulated[i].at[d].off * 1.4,
+            TALLY(&wrong, fabs(got - want) <= off, "%s, %g m: %g %%, not %g +- %g", s.row->name, from_origin[d], got,
+                  want, off);
+            /* The largest of so many hangs on the few cameras next to an axis, where coordinates pass a power of two.
+             */
+            TALLY(&largest, most > simulated[i].at[d].off / 1.7 && most < simulated[i].at[d].off * 1.7,
                   "%s, %g m: %g, not %g", s.row->name, from_origin[d], most, simulated[i].at[d].off);
         }
     tally_end(&wrong);
     tally_end(&largest);
 }
 
+/* ---- By hand ----------------------------------------------------------------------------------------------------- */
+
+/* The bounds as depthprec(7) has them, at D = 10^6, L = 16, r = 10: v, m, c in units of 2^-24. */
+static void as_derived(void **state) {
+    (void)state;
+    const double d = 1e6, l = 16.0, r = 10.0, x = d + l, o = d + 2.0 * l, k = sqrt(3.0) / 2.0;
+    const double turned = 2.0 * l + r, s = 65536.0, t = 20971.52, q = sqrt(3.0) * 1024.0, e = sqrt(3.0) * 1100.0;
+    const struct {
+        const char *scheme;
+        double part[3];
+    } want[] = {
+        {"world", {x + x + 2.0 * (x + r) + r, 0, k * x + d}},
+        {"local", {l + l + 2.0 * (l + r) + r, o + o + 2.0 * (o + 2.0 * l) + 2.0 * l, k * x + d}},
+        {"camera-float", {d + 2.0 * l + turned, 0, d + k * l}},
+        {"split", {sqrt(3.0) * s + 3.0 * l + turned, 0, sqrt(3.0) * s / 2.0 + k * l}},
+        {"tile", {2.0 * l + turned, 3.0 * sqrt(3.0) * t / 4.0 + 4.0 * l, sqrt(3.0) * t / 4.0 + k * l}},
+        {"cell", {l + (e + l) + (e + l) + 2.0 * (e + l + r) + r, q + e + 2.0 * l, q + k * (e + l) + e}},
+        {"two-sum", {2.0 * l + turned, 2.0 * l + 1.5 * 0x1p-23 * (d + l), k * l}},
+        {"camera-double", {l + turned, 0, k * l}},
+    };
+    for (size_t i = 0; i < WORLD_ROWS; i++) {
+        const world_scheme scheme = standard(i);
+        const world_where at = {d, l, r};
+        const world_error got = world_bound(&scheme, &at);
+        assert_string_equal(scheme.row->name, want[i].scheme);
+        assert_scene(got.vertex, want[i].part[0] * 0x1p-24, 1e-4 * want[i].part[0] * 0x1p-24 + 0x1.1p-50 * d);
+        assert_scene(got.mesh, want[i].part[1] * 0x1p-24, 1e-4 * want[i].part[1] * 0x1p-24);
+        assert_scene(got.camera, want[i].part[2] * 0x1p-24, 1e-4 * want[i].part[2] * 0x1p-24 + 0x1.1p-50 * d);
+    }
+    assert_null(world_get(WORLD_ROWS));
+}
+
+/* ---- In the buffer ----------------------------------------------------------------------------------------------- */
+
+/* The codes of two surfaces at the safe gap are in order, in random cameras, formats and mappings. */
+static void codes_are_in_order(void **state) {
+    (void)state;
+    rng r = rng_make("world codes");
+    tally ordered = {.name = "codes at the gap"};
+    tally near_it = {.name = "some a quarter of it"};
+    for (size_t i = 0; i < WORLD_ROWS; i++) {
+        double ties = 0.0;
+        for (uint64_t n = test_cases(300, 20000, 1000000); n > 0; n--) {
+            dp_spec spec = dp_spec_default();
+            dp_format formats[2];
+            dp_setup setup;
+            dp_pipeline pipeline;
+            const world_scheme s = standard(i);
+            const double distance = rng_log(&r, 10.0, 1e7), z = rng_log(&r, 0.3, 500.0);
+            dp_format_parse((const char *[]){"fp32", "unorm24", "unorm16"}[rng_below(&r, 3)], formats);
+            spec.znear = 0.25;
+            spec.zfar = rng_below(&r, 2) ? INFINITY : 2000.0;
+            spec.format = formats[0];
+            spec.mapping = (dp_mapping)rng_below(&r, 4);
+            spec.model = DP_MODEL_FP32;
+            assert_int_equal(dp_setup_init(&setup, &spec), DP_OK);
+            assert_int_equal(dp_pipeline_init(&pipeline, &setup), DP_OK);
+            const bool shared = rng_below(&r, 2);
+            const world_asked a = {.setup = &setup, .z = z, .lean = lean, .pixels = 1.0, .shared_origin = shared};
+            const double gap = world_separation(&s, &a, distance);
+            world_camera c;
+            const pose p = draw(&r, &s, distance, z);
+            if (!(z + gap < 0.9 * fmin(spec.zfar, 1e9)) || !camera_of(&p, distance, &c))
+                continue;
+            bool in_order[2];
+            for (int k = 0; k < 2; k++) {
+                const double end = z + gap * (k == 0 ? 1.0 : 0.25);
+                const world_place places[2] = {place_of(&p, &c, z, z, 0),
+                                               place_of(&p, &c, end, shared ? z : end, !shared)};
+                uint32_t code[2];
+                for (int j = 0; j < 2; j++) {
+                    float view[3];
+                    world_view(&s, &c, &places[j], view);
+                    code[j] = dp_pipeline_code(&pipeline, view[2]);
+                }
+                in_order[k] = setup.reversed ? code[0] > code[1] : code[0] < code[1];
+            }
+            ties += !in_order[1];
+            TALLY(&ordered, in_order[0], "%s, %s %s, far %g, distance %a, z %a, gap %a", s.row->name,
+                  dp_mapping_get(spec.mapping)->name, spec.format.name, spec.zfar, distance, z, gap);
+        }
+        TALLY(&near_it, ties > 0.0 || test_effort() == EFFORT_QUICK, "%s: none", world_get(i)->name);
+    }
+    tally_end(&ordered);
+    tally_end(&near_it);
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(never_below),
-        cmocka_unit_test(within_three_times),
-        cmocka_unit_test(order_is_kept),
-        cmocka_unit_test(as_simulated),
+        cmocka_unit_test(never_below),  cmocka_unit_test(within_three_times), cmocka_unit_test(order_is_kept),
+        cmocka_unit_test(as_simulated), cmocka_unit_test(as_derived),         cmocka_unit_test(codes_are_in_order),
     };
     return run_tap(tests);
 }

@@ -50,12 +50,22 @@ typedef struct dp_composition_row {
 /** The row of a composition; null when out of range. */
 DP_API const dp_composition_row *dp_composition_get(dp_composition composition);
 
+/** What view z of a place may be off by before the projection, scene units; found for all places that are asked about.
+ */
+typedef struct dp_displaced {
+    double own;    /**< by itself, and so each coordinate of view space */
+    double shared; /**< as all others, but for `turn` of what lies between two places, a share of it */
+    double turn;   /**< below 1 */
+} dp_displaced;
+
 /** What may be added to the pipeline. All zero: what the separation of DP_MODEL_FP32 counts. */
 typedef struct dp_budget_terms {
     double interpolation; /**< error of an interpolated window depth, in units of 2^-24 of d; at least 0 */
     double world;         /**< largest |coordinate| of world positions and camera, scene units; 0: eye depth is given */
     int linearize;        /**< nonzero: the depth is read back by 1/(z d + w) in binary32 */
     dp_composition composition; /**< of view and projection; read where `world` is positive */
+    dp_displaced displaced;     /**< in place of a composition: the projection is applied to places in view space; read
+                                     where `world` is 0 */
 } dp_budget_terms;
 
 /** A separation and its parts. */

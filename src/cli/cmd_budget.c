@@ -10,7 +10,9 @@
 #include "cli/remedy.h"
 #include "cli/slant.h"
 #include "cli/walk.h"
+#include "core/elementary.h"
 #include "report/number.h"
+#include "world/reach.h"
 
 enum { DIGITS_PART = 2, DIGITS = 4, DIGITS_MORE = 6, DIGITS_Z = 9 };
 
@@ -37,7 +39,9 @@ typedef struct budget {
     dp_budget_terms terms;
     slant_fields slant;
     const slant_fields *triangles; /* null: surfaces face the camera */
-    const char *composition;       /* how positions are composed; null where eye depth is given */
+    const char *composition;       /* how positions are composed; null where eye depth is given, or a scheme */
+    const world_scheme *scheme;    /* how they come before the camera; null where view and projection are composed */
+    const char *scheme_name;
     bool linearize;
     dp_setup facing; /* without the triangles */
     row row, largest;
@@ -48,12 +52,54 @@ typedef struct budget {
     choice_fields chosen;
 } budget;
 
-enum { WITH_WORLD = 1, WITH_INTERPOLATION = 2, WITH_LINEARIZE = 4, WITH_TRIANGLES = 8 };
+enum {
+    WITH_WORLD = 1,
+    WITH_INTERPOLATION = 2,
+    WITH_LINEARIZE = 4,
+    WITH_TRIANGLES = 8,
+    COMPOSED = 16,
+    WITH_SCHEME = 32
+};
 
 /* The terms that are asked for. */
 static unsigned conditions(const budget *b) {
-    return (b->terms.world > 0.0 ? WITH_WORLD : 0) | (b->terms.interpolation > 0.0 ? WITH_INTERPOLATION : 0) |
-           (b->linearize ? WITH_LINEARIZE : 0) | (b->triangles != NULL ? WITH_TRIANGLES : 0);
+    return (b->terms.world > 0.0 ? WITH_WORLD : 0) | (b->scheme != NULL ? WITH_SCHEME : COMPOSED) |
+           (b->terms.interpolation > 0.0 ? WITH_INTERPOLATION : 0) | (b->linearize ? WITH_LINEARIZE : 0) |
+           (b->triangles != NULL ? WITH_TRIANGLES : 0);
+}
+
+/* ---- Schemes ----------------------------------------------------------------------------------------------------- */
+
+/* No place is farther from the camera than this times its eye depth: within 60 degrees of the axis, and all vertices of
+ * triangles that the picture shows some of. */
+static double lean_of(const dp_triangles *t) {
+    static const double degree = 0.017453292519943295;
+    const double pixel = t->width > 0 ? 2.0 * dp_tan(0.5 * degree * t->fov_y) / t->height : 0.0;
+    return fmax(2.0, dp_hypot(1.0, pixel * dp_hypot(0.5 * t->width + t->pixels, 0.5 * t->height + t->pixels)));
+}
+
+/* No coordinate exceeds the world's size: no place is farther from the origin than a corner of that box. */
+static void budget_by(const budget *b, const world_scheme *scheme, const dp_setup *setup, double z,
+                      dp_budget_terms *terms, dp_budget *out) {
+    static const double root3 = 1.7320508075688774;
+    const world_asked a = {
+        .setup = setup, .z = z, .lean = lean_of(&setup->spec.triangles), .shared_origin = b->walk.o->shared_origin};
+    *terms = b->terms;
+    if (scheme != NULL)
+        world_budget(scheme, &a, root3 * b->terms.world, terms, out);
+    else
+        dp_budget_at(setup, z, terms, out); /* cannot fail: depths_resolve() has seen to it */
+}
+
+/* Another scheme, where positions take most. */
+static remedy_result remedy_by_scheme(const budget *b, double z, const remedy_result *other) {
+    static const double about_as_well = 0.95;
+    const world_scheme best = {world_get(WORLD_ROWS - 1), 0.0};
+    dp_budget_terms terms;
+    dp_budget out;
+    budget_by(b, &best, b->walk.setup, z, &terms, &out);
+    return out.separation < about_as_well * other->separation ? (remedy_result){"camera-double", out.separation}
+                                                              : *other;
 }
 
 /* ---- What is reported -------------------------------------------------------------------------------------------- */
@@ -78,10 +124,16 @@ static const worst *find_worst(budget *b) {
             cause = i;
     if (isnan(r->z))
         return NULL;
-    const remedy_result remedy = remedy_find(b->walk.setup, &b->terms, r->z, (dp_cause)cause);
+    const bool position = b->scheme != NULL && cause == DP_CAUSE_COMPOSITION;
+    dp_budget_terms terms;
+    dp_budget again;
+    budget_by(b, b->scheme, b->walk.setup, r->z, &terms, &again);
+    remedy_result remedy = remedy_find(b->walk.setup, &terms, r->z, (dp_cause)cause);
+    if (position)
+        remedy = remedy_by_scheme(b, r->z, &remedy);
     b->found = (worst){.z = r->z,
                        .separation = r->parts.separation,
-                       .cause = dp_cause_name((dp_cause)cause),
+                       .cause = position ? "position" : dp_cause_name((dp_cause)cause),
                        .share = share_of(r, cause),
                        .remedy = remedy,
                        .remedy_separation = remedy.text != NULL ? remedy.separation : (double)NAN};
@@ -107,11 +159,12 @@ static void *next_row(void *of, size_t index) {
         b->worst = find_worst(b);
         return NULL;
     }
-    dp_budget_at(b->walk.setup, r->z, &b->terms, &r->parts); /* cannot fail: depths_resolve() has seen to it */
+    dp_budget_terms terms;
+    budget_by(b, b->scheme, b->walk.setup, r->z, &terms, &r->parts);
     r->facing = r->parts.separation;
     if (b->triangles != NULL) {
         dp_budget facing = {0};
-        dp_budget_at(&b->facing, r->z, &b->terms, &facing);
+        budget_by(b, b->scheme, &b->facing, r->z, &terms, &facing);
         r->facing = facing.separation;
     }
     for (int i = 0; i < DP_CAUSE_COUNT && b->walk.o->form == FORM_TEXT; i++)
@@ -135,7 +188,11 @@ static void *next_setup(void *of, size_t i) {
 static void say_setup(page *p, void *item) {
     const budget *b = item;
     walk_title(p, item);
-    if (b->composition != NULL)
+    if (b->scheme != NULL)
+        page_title(p, "world %s, scheme %s%s%s", number_in(number_full(b->terms.world), p->unit).text, b->scheme_name,
+                   b->scheme->row->size != NULL ? ":" : "",
+                   b->scheme->row->size != NULL ? number_full(b->scheme->size).text : "");
+    else if (b->composition != NULL)
         page_title(p, "world %s, composition %s", number_in(number_full(b->terms.world), p->unit).text, b->composition);
     slant_say(p, page_title, b->walk.o, b->walk.setup);
 }
@@ -164,7 +221,7 @@ static void say_notes(page *p, void *item) {
                   b->triangles != NULL ? "nearer" : "farther");
     if (b->worst != NULL)
         say_worst(p, b->worst);
-    page_line(p, "%s%s", conditions(b) != 0 ? "without the added terms " : "",
+    page_line(p, "%s%s", (conditions(b) & ~(unsigned)COMPOSED) != 0 ? "without the added terms " : "",
               choice_sentence(&b->choice, p->unit).text);
 }
 
@@ -179,16 +236,20 @@ static void say_notes(page *p, void *item) {
     {FIELD(row, parts.cause[id], name, "scene"), .when = WITH_TRIANGLES}, {                                            \
         TEXT_FIELD(row, cause[id], name, 14, 0), .when = WITH_TRIANGLES                                                \
     }
-static const column cause_columns[] = {CAUSE(DP_CAUSE_EYE, "eye", 0, 3),
-                                       CAUSE(DP_CAUSE_COMPOSITION, "composition", WITH_WORLD, 0),
-                                       CAUSE(DP_CAUSE_PROJECTION, "projection", 0, 4),
-                                       CAUSE(DP_CAUSE_NDC, "ndc", 0, 1),
-                                       SLANT_CAUSE(DP_CAUSE_SNAPPING, "snapping"),
-                                       SLANT_CAUSE(DP_CAUSE_SETUP, "set-up"),
-                                       CAUSE(DP_CAUSE_INTERPOLATION, "interpolation", WITH_INTERPOLATION, 0),
-                                       CAUSE(DP_CAUSE_FORMAT, "format", 0, 2),
-                                       CAUSE(DP_CAUSE_LINEARIZATION, "linearization", WITH_LINEARIZE, 0),
-                                       {.kind = COLUMN_END}};
+static const column cause_columns[] = {
+    CAUSE(DP_CAUSE_EYE, "eye", 0, 3),
+    {FIELD(row, parts.cause[DP_CAUSE_COMPOSITION], "composition", "scene"), .when = COMPOSED},
+    {TEXT_FIELD(row, cause[DP_CAUSE_COMPOSITION], "composition", 14, 0), .when = COMPOSED | WITH_WORLD},
+    {FIELD(row, parts.cause[DP_CAUSE_COMPOSITION], "position", "scene"), .when = WITH_SCHEME},
+    {TEXT_FIELD(row, cause[DP_CAUSE_COMPOSITION], "position", 14, 0), .when = WITH_SCHEME},
+    CAUSE(DP_CAUSE_PROJECTION, "projection", 0, 4),
+    CAUSE(DP_CAUSE_NDC, "ndc", 0, 1),
+    SLANT_CAUSE(DP_CAUSE_SNAPPING, "snapping"),
+    SLANT_CAUSE(DP_CAUSE_SETUP, "set-up"),
+    CAUSE(DP_CAUSE_INTERPOLATION, "interpolation", WITH_INTERPOLATION, 0),
+    CAUSE(DP_CAUSE_FORMAT, "format", 0, 2),
+    CAUSE(DP_CAUSE_LINEARIZATION, "linearization", WITH_LINEARIZE, 0),
+    {.kind = COLUMN_END}};
 
 static const column row_columns[] = {
     {FIELD(row, z, "z", "scene"), SHOWN("z", 11, DIGITS_Z)},
@@ -211,6 +272,7 @@ static const column setup_report[] = {{PART(budget, walk.fields, NULL, setup_col
                                       {FIELD(budget, walk.fields.arith, "arith", ""), .only = AS_CSV},
                                       {LIST("rows", row_columns, next_row)},
                                       {FIELD(budget, composition, "composition", ""), .only = AS_CSV},
+                                      {FIELD(budget, scheme_name, "scheme", ""), .only = AS_CSV, .when = WITH_SCHEME},
                                       {PART(budget, worst, "worst", worst_columns), .only = AS_JSON, .pointed = true},
                                       {PART(budget, chosen, "auto", choice_columns), .only = AS_JSON},
                                       {.kind = COLUMN_END}};
@@ -218,6 +280,7 @@ static const column setup_report[] = {{PART(budget, walk.fields, NULL, setup_col
 static const column term_columns[] = {{FIELD(budget, terms.interpolation, "interpolation", "")},
                                       {FIELD(budget, terms.world, "world", "scene")},
                                       {FIELD(budget, composition, "composition", "")},
+                                      {FIELD(budget, scheme_name, "scheme", ""), .when = WITH_SCHEME},
                                       {FIELD(budget, linearize, "linearize", "")},
                                       {.kind = COLUMN_END}};
 
@@ -227,16 +290,38 @@ static const column columns[] = {
     {LIST("setups", setup_report, next_setup), .head = say_setup, .notes = say_notes},
     {.kind = COLUMN_END}};
 
+/* One scheme; `world` is what --world means without. */
+static int take_scheme(budget *b, const options *o) {
+    if (!(o->terms.world > 0.0))
+        return option_error(OPTION_SCHEME, "needs --world: eye depth is given");
+    if (o->scheme_count != 1)
+        return option_error(OPTION_SCHEME, "must be one scheme for budget, got %zu", o->scheme_count);
+    if (o->schemes[0].row == world_get(0))
+        return EXIT_FINE;
+    if (o->ortho)
+        return option_error(OPTION_SCHEME, "does not apply with --ortho: --composition does");
+    if (option_given(o, OPTION_COMPOSITION))
+        return option_error(OPTION_COMPOSITION, "cannot be combined with --scheme %s", o->schemes[0].row->name);
+    b->scheme = &o->schemes[0];
+    b->scheme_name = b->scheme->row->name;
+    return EXIT_FINE;
+}
+
 int cmd_budget(const options *o) {
     budget b = {.terms = o->terms, .linearize = o->terms.linearize != 0};
     options in_binary32 = *o;
     in_binary32.model = DP_MODEL_FP32;
+    int status = EXIT_FINE;
     b.triangles = slant_fields_of(o, &b.slant);
-    if (o->terms.world > 0.0)
+    if (option_given(o, OPTION_SCHEME))
+        status = take_scheme(&b, o);
+    if (status != EXIT_FINE)
+        return status;
+    if (o->terms.world > 0.0 && b.scheme == NULL)
         b.composition = dp_composition_get(o->terms.composition)->name;
-    else if (option_given(o, OPTION_COMPOSITION))
+    else if (option_given(o, OPTION_COMPOSITION) && b.scheme == NULL)
         return option_error(OPTION_COMPOSITION, "needs --world: eye depth is given");
-    int status = walk_start(&b.walk, &in_binary32);
+    status = walk_start(&b.walk, &in_binary32);
     if (status == EXIT_FINE)
         status = depths_in_binary32(&b.walk.at);
     const report_spec spec = {"budget", columns, &b, .when = conditions(&b)};

@@ -330,6 +330,8 @@ int cmd_solve(const options *o) {
     solve_report r = {.o = o, .items = items};
     if (o->target == SOLVE_FOR_FRUSTA)
         return solve_frusta(o);
+    if (o->target == SOLVE_FOR_WORLD)
+        return solve_world(o);
     int status = check_target(o, &r);
     if (status == EXIT_FINE)
         status = check_depths(o, &r);

@@ -21,6 +21,7 @@
 #include "texture/position.h"
 #include "texture/scene.h"
 #include "vertex/compare.h"
+#include "world/world.h"
 
 bool list_format(size_t index, list_item *item) {
     const dp_format_row *row = dp_format_get(index);
@@ -119,7 +120,8 @@ static void append_stored(list_item *item, const char *asked, const char *name) 
 bool list_platform(size_t index, list_item *item) {
     static const char *const remaps[] = {[PLATFORM_REMAPS_NOT] = "",
                                          [PLATFORM_REMAPS] = "; [-1, 1] remapped in the vertex shader",
-                                         [PLATFORM_MAY_REMAP] = "; [-1, 1] may be remapped in the vertex shader"};
+                                         [PLATFORM_MAY_REMAP] = "; [-1, 1] may be remapped in the vertex shader",
+                                         [PLATFORM_SPREADS] = "; [0, 1] spread to [-1, 1] in the vertex shader"};
     const platform *row = platform_get(index);
     if (row == NULL)
         return false;
@@ -185,6 +187,17 @@ bool list_program(size_t index, list_item *item) {
     const vertex_program *row = vertex_program_get(index);
     return row != NULL &&
            list_fill(item, (list_item){.name = row->name, .note = row->note, .source = row->source, .row = row});
+}
+
+bool list_scheme(size_t index, list_item *item) {
+    const world_row *row = world_get(index);
+    if (row == NULL)
+        return false;
+    *item = (list_item){.name = row->name, .note = row->note, .source = row->source, .row = row};
+    if (row->size != NULL)
+        append(item->bound, sizeof item->bound, "%s: %s unless %s:SIZE says another, scene units%s", row->size,
+               number_full(row->standard).text, row->name, row->power2 ? ", a power of two" : "");
+    return true;
 }
 
 bool list_vertices(size_t index, list_item *item) {
@@ -311,6 +324,7 @@ static const topic topics[] = {
     {"rasterizers", "how rasterizers snap vertices and step depth across triangles", list_rasterizer,
      .bound = "arithmetic"},
     {"programs", "how a vertex program makes clip coordinates, for zfight --against", list_program, .bound = "bound"},
+    {"schemes", "ways to bring a large world before the camera, for world --scheme", list_scheme, .bound = "size"},
     {"encodings", "depth and normals in the channels of a texture, and their error bounds", list_encoding,
      .bound = "bound"},
     {"packings", "textures with a depth in several channels, for texture --packing and --pack", list_packing,

@@ -45,6 +45,7 @@ bool list_unit(size_t index, list_item *item); /**< of name alone */
 bool list_api(size_t index, list_item *item);
 bool list_rasterizer(size_t index, list_item *item);
 bool list_program(size_t index, list_item *item);
+bool list_scheme(size_t index, list_item *item);
 bool list_vertices(size_t index, list_item *item);
 bool list_filter(size_t index, list_item *item);
 bool list_effect(size_t index, list_item *item);

@@ -24,6 +24,7 @@ static const struct {
     {VERB_DISOCCLUSION, cmd_disocclusion},
     {VERB_WEB, cmd_web},
     {VERB_PROBE, cmd_probe},
+    {VERB_WORLD, cmd_world},
     {VERB_LIST, cmd_list},
     {VERB_HELP, cmd_help},
     {VERB_COMPLETIONS, cmd_completions},

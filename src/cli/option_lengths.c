@@ -216,10 +216,11 @@ int parse_pixels(options *o, const option_row *row, const char *value) {
 }
 
 int parse_at(options *o, const option_row *row, const char *value) {
+    depths *out = option_field(o, row);
     lengths seen = {.o = o};
     const int status = strchr(value, ':') != NULL
-                           ? parse_spaced(&seen, row, value, &o->at)
-                           : parse_listed(&seen, row, value, "Z[,Z...] or LO:HI:log|lin:COUNT", &o->at);
+                           ? parse_spaced(&seen, row, value, out)
+                           : parse_listed(&seen, row, value, "Z[,Z...] or LO:HI:log|lin:COUNT", out);
     return status == EXIT_FINE ? check_mixed(&seen, row, value) : status;
 }
 

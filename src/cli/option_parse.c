@@ -237,6 +237,42 @@ int parse_against(options *o, const option_row *row, const char *value) {
     return parse_names(o, row, value, add_program);
 }
 
+/* NAME, or NAME:SIZE. */
+static int add_scheme(options *o, const option_row *row, const char *text) {
+    char name[64];
+    list_item found;
+    const size_t length = strcspn(text, ":");
+    snprintf(name, sizeof name, "%.*s", (int)length, text);
+    if (!names_find(row->names, name, NULL, &found))
+        return unknown_name(row, name);
+    if (found.row == NULL && text[length] == '\0') {
+        for (size_t i = 0; i < WORLD_ROWS; i++)
+            add_scheme(o, row, world_get(i)->name);
+        return EXIT_FINE;
+    }
+    world_scheme s = {.row = found.row};
+    s.size = s.row != NULL ? s.row->standard : 0.0;
+    if (text[length] != '\0' &&
+        (s.row == NULL || !number_parse(text + length + 1, NUMBER_FINITE, &s.size) || !world_size_fits(s.row, s.size)))
+        return option_refuse(row,
+                             s.row == NULL || s.row->size == NULL ? "%s has no size, got '%s'"
+                             : s.row->power2 ? "%s:SIZE must be a power of two from 1e-3 to 1e12, got '%s'"
+                                             : "%s:SIZE must be a number from 1e-3 to 1e12, got '%s'",
+                             name, text);
+    for (size_t i = 0; i < o->scheme_count; i++)
+        if (o->schemes[i].row == s.row && o->schemes[i].size == s.size)
+            return EXIT_FINE;
+    if (o->scheme_count == OPTIONS_SCHEMES_MAX)
+        return option_refuse(row, "must be at most %d schemes", OPTIONS_SCHEMES_MAX);
+    o->schemes[o->scheme_count++] = s;
+    return EXIT_FINE;
+}
+
+int parse_schemes(options *o, const option_row *row, const char *value) {
+    o->scheme_count = 0;
+    return parse_names(o, row, value, add_scheme);
+}
+
 static int add_filter(options *o, const option_row *row, const char *name) {
     list_item found;
     if (!names_find(row->names, name, NULL, &found))

@@ -22,6 +22,7 @@ static const name_list compositions = {.get = list_composition};
 static const name_list apis = {.words = (const char *const[]){"all", NULL}, .get = list_api};
 static const name_list programs = {.get = list_program};
 static const name_list programs_or_all = {.words = (const char *const[]){"all", NULL}, .get = list_program};
+static const name_list schemes_or_all = {.words = (const char *const[]){"all", NULL}, .get = list_scheme};
 static const name_list spreads = {.get = list_vertices};
 static const name_list rasters = {.get = list_rasterizer};
 static const name_list filters_or_all = {.words = (const char *const[]){"all", NULL}, .get = list_filter};
@@ -33,8 +34,8 @@ static const name_list normal_formats = {.words = (const char *const[]){"opengl"
 static const name_list packings = {.get = list_packing};
 static const name_list effects = {.get = list_effect};
 /* In the order of their enumerators. */
-static const name_list targets = {
-    .words = (const char *const[]){"near", "far", "format", "mapping", "separation", "distance", "frusta", NULL}};
+static const name_list targets = {.words = (const char *const[]){"near", "far", "format", "mapping", "separation",
+                                                                 "distance", "frusta", "world", NULL}};
 static const name_list themes = {.words = (const char *const[]){"light", "dark", "print", NULL}};
 static const name_list types = {.words = (const char *const[]){"svg", "pdf", "png", NULL}};
 static const name_list colours = {.words = (const char *const[]){"auto", "always", "never", NULL}};
@@ -49,7 +50,7 @@ enum {
     SHADOWED = VERB_SHADOW | VERB_PLOT,
     VIEWED = SLANTED | SHADOWED,
     ASKED = MODELLED | VERB_BUDGET,
-    CAMERA = ASKED | VERB_ZFIGHT | VERB_DISOCCLUSION | VERB_SCENE,
+    CAMERA = ASKED | VERB_ZFIGHT | VERB_DISOCCLUSION | VERB_SCENE | VERB_WORLD,
     PLACED = CAMERA | VERB_BENCH,
     TAKEN = VERB_TEXTURE | VERB_BIAS | VERB_SOLVE,
     MAPPED = TAKEN | VERB_SHADOW,
@@ -96,6 +97,7 @@ const option_row option_rows[OPTION_COUNT] = {
         "far plane, up to 1e18 scene units and at least 1e-6 of near beyond it, or inf",
         parse_far, .standard = "1000",
         .except = {BUT(VERB_SOLVE, NULL, "inf; solved for where only near is given", NULL),
+                   BUT(VERB_WORLD, "inf", NULL, NULL),
                    BUT(VERB_SHADOW, "1000", NULL, "how far the view sees shadows, greater than near and at most 1e12 "
                        "scene units")}},
     [OPTION_FORMAT] = {"format", 'F', "NAME[,NAME...]|all", PLACED | MAPPED,
@@ -104,7 +106,7 @@ const option_row option_rows[OPTION_COUNT] = {
         .except = {BUT(VERB_TEXTURE, NULL, "as the image has it; unorm24 with --scene; all with --effect alone", NULL),
                    BUT(VERB_BENCH, NULL, "that of the family's first case", NULL),
                    BUT(VERB_BIAS, "fp32,unorm16,unorm24", "the depth buffers", NULL),
-                   BUT(VERB_SHADOW | VERB_SCENE, "fp32", NULL, NULL),
+                   BUT(VERB_SHADOW | VERB_SCENE | VERB_WORLD, "fp32", NULL, NULL),
                    BUT(VERB_SOLVE, NULL, "solved for where near and far are given, else all", NULL)}},
     [OPTION_MAPPING] = {"mapping", 'm', "NAME[,NAME...]|all", PLACED | MAPPED,
         "mappings: @; all means d3d and reversed",
@@ -115,12 +117,13 @@ const option_row option_rows[OPTION_COUNT] = {
                    BUT(VERB_SHADOW, "d3d", NULL, "mappings: " DP_MAPPING_NAMES_PERSPECTIVE
                        "; all are d3d and reversed"),
                    BUT(VERB_SCENE, "reversed", NULL, NULL),
+                   BUT(VERB_WORLD, "reversed", NULL, "mappings: " DP_MAPPING_NAMES_PERSPECTIVE),
                    BUT(VERB_ZFIGHT | VERB_BUDGET | VERB_DISOCCLUSION, "all", NULL,
                        "mappings: " DP_MAPPING_NAMES_PERSPECTIVE
                        "; all are d3d and reversed")}},
     [OPTION_LOG_C] = {"log-c", 0, "C", MODELLED | TAKEN | VERB_SCENE,
         "constant of the log mapping", NUMBER(log_c, 1e-12, 1e12, NULL), .standard = "1"},
-    [OPTION_ORTHO] = {"ortho", 0, NULL, (CAMERA & ~(VERB_DISOCCLUSION | VERB_SCENE)) | TAKEN,
+    [OPTION_ORTHO] = {"ortho", 0, NULL, (CAMERA & ~(VERB_DISOCCLUSION | VERB_SCENE | VERB_WORLD)) | TAKEN,
         "orthographic projection; not with linear and log", FLAG(ortho), .without = "perspective",
         .except = {BUT(VERB_ZFIGHT | VERB_BUDGET, NULL, "perspective", "orthographic projection")}},
     [OPTION_PRESET] = {"preset", 0, "NAME[,NAME...]", CAMERA | TAKEN,
@@ -159,11 +162,12 @@ const option_row option_rows[OPTION_COUNT] = {
                    BUT(VERB_BENCH, NULL, "none", "the cheapest method that claims no more than 0.05, or 5%, is marked"),
                    BUT(VERB_LIST, NULL, NULL, "list methods: the cases for which each is the cheapest that claims no "
                        "more than 0.05, or 5%")}},
-    [OPTION_AT] = {"at", 0, "Z[,Z...]|LO:HI:log|lin:COUNT", ASKED | TAKEN | VERB_DISOCCLUSION,
-        "the depths asked about, at most 1000000, within [near, far]", parse_at,
+    [OPTION_AT] = {"at", 0, "Z[,Z...]|LO:HI:log|lin:COUNT", ASKED | TAKEN | VERB_DISOCCLUSION | VERB_WORLD,
+        "the depths asked about, at most 1000000, within [near, far]", parse_at, FIELD(depths, at),
         .without = "nine, log-spaced from near to far, or to 1e6 times near; evenly where near is not above 0",
         .except = {BUT(VERB_DISOCCLUSION, NULL, "the middle of near and far, logarithmically", NULL),
                    BUT(VERB_SOLVE, NULL, NULL, "the depth asked about"),
+                   BUT(VERB_WORLD, NULL, "10 m, or 10", "how far ahead of the camera the surfaces are"),
                    BUT(VERB_PLOT, NULL, NULL, "the depth asked about, in figures of a single one"),
                    BUT(VERB_TABLE, NULL, "nine, log-spaced from near to far, or to 1e6 times near; evenly where near "
                        "is not above 0; of several set-ups powers of ten", NULL)},
@@ -203,20 +207,37 @@ const option_row option_rows[OPTION_COUNT] = {
         "how they become clip coordinates: by one binary32 matrix of view and projection, multiplied in double and "
         "rounded, or in binary32; or after the camera's position is subtracted in double",
         WORD(terms.composition, compositions), .standard = "once"},
+    [OPTION_DISTANCE] = {"distance", 0, "D[,D...]|LO:HI:log|lin:COUNT", VERB_WORLD,
+        "how far the camera is from the world's origin, at most 1e12 scene units", parse_at,
+        FIELD(depths, distances), .without = "how far each scheme reaches"},
+    [OPTION_SCHEME] = {"scheme", 0, "NAME[:SIZE][,NAME...]|all", VERB_WORLD | VERB_SOLVE | VERB_BUDGET,
+        "how vertices come before the camera: @; the size of a split, tile or cell in scene units; see 'depthprec "
+        "list schemes'", parse_schemes, .names = &schemes_or_all, .standard = "all",
+        .except = {BUT(VERB_BUDGET, NULL, "world: as --composition says", "with --world: how vertices come before the "
+                       "camera, one scheme, see 'depthprec list schemes'"),
+                   BUT(VERB_SOLVE, "all", NULL, "with --for world: how vertices come before the camera, see "
+                       "'depthprec list schemes'")}},
+    [OPTION_SHARE] = {"share", 0, NULL, VERB_WORLD | VERB_SOLVE | VERB_BUDGET,
+        "both surfaces are of meshes about one origin, whose rounding they share", FLAG(shared_origin),
+        .without = "each has its own",
+        .except = {BUT(VERB_BUDGET, NULL, "each has its own", "with --scheme: both surfaces are of meshes about one "
+                       "origin"),
+                   BUT(VERB_SOLVE, NULL, "each has its own", "with --for world: both surfaces are of meshes about one "
+                       "origin")}},
     [OPTION_LINEARIZE] = {"linearize", 0, NULL, BUDGETED,
         "also count the loss of reading eye depth back in a binary32 shader", FLAG(terms.linearize)},
-    [OPTION_FOV] = {"fov", 0, "DEG", VIEWED | VERB_TEXTURE,
+    [OPTION_FOV] = {"fov", 0, "DEG", VIEWED | VERB_TEXTURE | VERB_WORLD,
         "vertical field of view", NUMBER(camera.fov_y, 0.01, 179, "degrees"), .standard = "60", .group = "The view"},
-    [OPTION_HFOV] = {"hfov", 0, "DEG", VIEWED | VERB_TEXTURE,
+    [OPTION_HFOV] = {"hfov", 0, "DEG", VIEWED | VERB_TEXTURE | VERB_WORLD,
         "horizontal field of view, in place of --fov", NUMBER(fov_x, 0.01, 179, "degrees"), .without = "as --fov says"},
-    [OPTION_VIEWPORT] = {"viewport", 0, "WxH", VIEWED,
+    [OPTION_VIEWPORT] = {"viewport", 0, "WxH", VIEWED | VERB_WORLD,
         "count what a rasterizer does to slanted triangles in a viewport of these pixels; z is then the depth of the "
         "farther surface, and the separation is along the normal",
         .parse = parse_viewport, .without = "surfaces face the camera",
         .except = {BUT(VERB_ZFIGHT, NULL, "1920x1080 with --triangles, else surfaces face the camera",
                        "the pixels of the viewport; without --triangles what is guaranteed at any slant stands beside "
                        "the census"),
-                   BUT(VERB_DISOCCLUSION, "1920x1080", NULL, "pixels of the view"),
+                   BUT(VERB_DISOCCLUSION | VERB_WORLD, "1920x1080", NULL, "pixels of the view"),
                    BUT(VERB_SCENE, NULL, "1920x1080 from an eye, else surfaces face the camera", NULL),
                    BUT(VERB_SHADOW, "1920x1080", NULL, "pixels of the view, which say how wide it is"),
                    BUT(VERB_PLOT, NULL, "1920x1080 in fight and shadow, else surfaces face the camera",
@@ -286,11 +307,12 @@ const option_row option_rows[OPTION_COUNT] = {
     [OPTION_SLOPE] = {"slope", 0, "S", VERB_BIAS,
         "eye depth changes by S from one pixel to the next", LENGTH(slope, 0, 1e12, "scene units per pixel"),
         .standard = "0", .without = "facing the camera"},
-    [OPTION_GAP] = {"gap", 0, "G", COUNTED | VERB_BIAS | SEARCHED,
+    [OPTION_GAP] = {"gap", 0, "G", COUNTED | VERB_BIAS | SEARCHED | VERB_WORLD,
         "where surfaces G scene units apart tie and swap", .parse = parse_gap, FIELD(double, gap),
         .without = "neighbouring binary32 depths",
         .except = {BUT(SEARCHED, NULL, "what is not told apart up to --within, at most 1 % of the model's extent",
                        "surfaces at most G scene units apart; 0: exactly in one plane"),
+                   BUT(VERB_WORLD, NULL, "1 cm, or 0.01", "how far apart along the view surfaces are"),
                    BUT(VERB_BIAS, NULL, "told apart", "how much nearer a layer must come, in scene units")},
         .group = "Pairs of surfaces"},
     [OPTION_SAMPLE] = {"sample", 0, "N", COUNTED,

@@ -30,6 +30,7 @@
 #include "texture/position.h"
 #include "texture/scene.h"
 #include "vertex/compare.h"
+#include "world/world.h"
 
 /** The options, in the order in which help lists them. The index of an option's row is its id. */
 typedef enum option_id {
@@ -56,6 +57,9 @@ typedef enum option_id {
     OPTION_INTERPOLATION,
     OPTION_WORLD,
     OPTION_COMPOSITION,
+    OPTION_DISTANCE,
+    OPTION_SCHEME,
+    OPTION_SHARE,
     OPTION_LINEARIZE,
     OPTION_FOV,
     OPTION_HFOV,
@@ -157,13 +161,20 @@ typedef enum solve_target {
     SOLVE_FOR_SEPARATION,
     SOLVE_FOR_DISTANCE,
     SOLVE_FOR_FRUSTA,
+    SOLVE_FOR_WORLD,
     SOLVE_FOR_ANY
 } solve_target;
 
 /** Values of --report. */
 typedef enum report_form { REPORT_TEXT = 0, REPORT_JSON, REPORT_JUNIT } report_form;
 
-enum { OPTIONS_FORMATS_MAX = 64, OPTIONS_PARAMETERS_MAX = 16, OPTIONS_PRESETS_MAX = 16, OPTIONS_MEASURED_SIZE = 512 };
+enum {
+    OPTIONS_FORMATS_MAX = 64,
+    OPTIONS_PARAMETERS_MAX = 16,
+    OPTIONS_PRESETS_MAX = 16,
+    OPTIONS_MEASURED_SIZE = 512,
+    OPTIONS_SCHEMES_MAX = 16
+};
 
 /** One --parameter NAME=VALUE; whose it is, and whether there is such a one, is for the command to see. */
 typedef struct named_number {
@@ -176,7 +187,7 @@ typedef struct options {
     char **argv;     /**< the whole command line, for metadata */
     char **operands; /**< what is neither option nor command; operand_count is within the verb's bounds */
     int operand_count;
-    const void *operand_row;  /**< the row that the first operand names where the verb has a table of them, else null */
+    const void *operand_row; /**< the row that the first operand names where the verb has a table of them, else null */
     const char *given[OPTION_COUNT]; /**< the argument as the user gave it, "" of none; see option_given() */
 
     double znear; /**< scene units */
@@ -201,7 +212,11 @@ typedef struct options {
     solve_target target;                    /**< --for */
     double wanted_separation, wanted_error; /**< positive, scene units; 0 when not given */
 
-    dp_budget_terms terms;    /**< --interpolation, --world, --composition, --linearize; zero when not given */
+    dp_budget_terms terms; /**< --interpolation, --world, --composition, --linearize; zero when not given */
+    depths distances;      /**< of the camera from the world's origin; count is 0 when not given */
+    world_scheme schemes[OPTIONS_SCHEMES_MAX]; /**< in the order given, each once */
+    size_t scheme_count;
+    bool shared_origin;       /**< both surfaces are of meshes with one origin */
     dp_triangles triangles;   /**< --viewport, --fov, --hfov, --raster, --subpixel, --slant, --triangle; width 0
                                    without the first */
     double fov_x;             /**< --hfov, degrees */

@@ -97,6 +97,11 @@ const verb verb_rows[] = {
      "  depthprec probe\n"
      "  depthprec probe --device 1 --keep codes.csv\n"
      "  depthprec probe --json -o gpu.json\n", 0},
+    {"world", VERB_WORLD, "", 0, 0, NULL,
+     "large worlds: safe gap and jitter so far from the origin",
+     "  depthprec world --distance 100km --gap 1cm --at 10m\n"
+     "  depthprec world --scheme camera-float,split --at 1m\n"
+     "  depthprec solve --for world --separation 1cm --at 10m\n", 0},
     {"list", VERB_LIST, "WHAT", 0, 1, &topics,
      "formats, mappings, presets, methods: 'list' names all",
      "  depthprec list\n"

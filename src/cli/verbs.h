@@ -31,7 +31,8 @@ enum {
     VERB_DISOCCLUSION = 1u << 14,
     VERB_SCENE = 1u << 15,
     VERB_WEB = 1u << 16,
-    VERB_PROBE = 1u << 17
+    VERB_PROBE = 1u << 17,
+    VERB_WORLD = 1u << 18
 };
 
 typedef struct verb {
@@ -65,6 +66,8 @@ int cmd_check(const struct options *o);
 int cmd_solve(const struct options *o);
 int cmd_texture(const struct options *o);
 int cmd_disocclusion(const struct options *o);
+int cmd_world(const struct options *o);
+int solve_world(const struct options *o); /**< of cmd_world.c: solve --for world */
 int cmd_help(const struct options *o);
 int cmd_completions(const struct options *o);
 

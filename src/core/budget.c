@@ -127,6 +127,20 @@ static void add_triangles(const dp_setup *setup, const dp_chain *c, double z, co
     dp_triangles_add(c, at, t, part, moved, out);
 }
 
+/* Do places come from a world. */
+static int is_moved(const dp_budget_terms *terms) {
+    return terms->world > 0.0 || terms->displaced.own > 0.0 || terms->displaced.shared > 0.0;
+}
+
+/* What view z is off by, where that is known already. */
+static dp_composed displaced_by(const dp_displaced *d) {
+    return (dp_composed){.own = d->own, .shared = d->shared, .loss = d->turn, .reach = d->own + d->shared};
+}
+
+static dp_composed_vertex displaced_vertex(const dp_displaced *d) {
+    return (dp_composed_vertex){.position = 1.7320509 * d->own, .turn = 4.0 * d->turn};
+}
+
 /* World positions: what their separation is more than without, that of `plain`, is the composition's part. */
 static void add_composition(const dp_setup *setup, const dp_chain *c, double z, const dp_budget_terms *terms,
                             const double asked[DP_CAUSE_COUNT], const dp_budget *plain, dp_budget *out) {
@@ -137,7 +151,7 @@ static void add_composition(const dp_setup *setup, const dp_chain *c, double z, 
     double until = HUGE_VAL;
     for (double before = HUGE_VAL; isinf(before) || separation < 0.97 * before;) {
         before = separation;
-        const dp_composed m = dp_composition_at(&in, z, until);
+        const dp_composed m = terms->world > 0.0 ? dp_composition_at(&in, z, until) : displaced_by(&terms->displaced);
         separation = smaller(separation, composed_separation(setup, c, &m, z, extra));
         if (isinf(separation))
             break;
@@ -148,7 +162,8 @@ static void add_composition(const dp_setup *setup, const dp_chain *c, double z, 
     out->window = c->pipeline.ortho ? slope : slope / z * (isinf(separation) ? 1.0 : separation / (z + separation));
     out->separation = separation;
     if (setup->spec.triangles.width != 0) {
-        const dp_composed_vertex moved = composed_vertex(setup, c, z, terms);
+        const dp_composed_vertex moved =
+            terms->world > 0.0 ? composed_vertex(setup, c, z, terms) : displaced_vertex(&terms->displaced);
         add_triangles(setup, c, z, asked, &moved, out);
     }
     const double part = out->separation - plain->separation;
@@ -203,7 +218,7 @@ dp_status dp_budget_at(const dp_setup *setup, double z, const dp_budget_terms *t
     dp_budget plain = *out;
     if (setup->spec.triangles.width != 0)
         add_triangles(setup, &c, z, part, NULL, &plain);
-    if (terms != NULL && terms->world > 0.0)
+    if (terms != NULL && is_moved(terms))
         add_composition(setup, &c, z, terms, part, &plain, out);
     else
         *out = plain;

@@ -87,7 +87,7 @@ void figure_range(const figure_request *request, double *lo, double *hi);
 chart_panel *figure_panel(const figure_request *request, chart *out, chart_axis y);
 
 figure_build distribution_build, share_build, error_build, interval_build, budget_build, scene_build, map_build,
-    pareto_build, stability_build, normals_build, shadow_build, fight_build, fights_build;
+    pareto_build, stability_build, normals_build, shadow_build, world_build, fight_build, fights_build;
 
 /** Figures whose measuring takes long or differs from run to run, drawn of what was measured. */
 const char *pareto_draw(const method_family_row *family, const bench_result *results, size_t count, chart *out);

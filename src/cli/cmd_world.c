@@ -1,0 +1,262 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/*
+ * world: how far from the origin a world may reach: what each scheme costs in view z, in the gap that is safe and in
+ * pixels of jitter, and which is enough. solve --for world asks how far each reaches.
+ */
+#include <math.h>
+#include <stdio.h>
+
+#include "cli/option_rows.h"
+#include "cli/setups.h"
+#include "core/append.h"
+#include "core/elementary.h"
+#include "report/number.h"
+#include "world/reach.h"
+
+enum { DIGITS = 3 };
+enum { AT_DISTANCE = 1, LABEL_SIZE = 48 };
+
+static const double degree = 0.017453292519943295, one_pixel = 1.0;
+
+/* A scheme, at the distance at hand where there is one. */
+typedef struct line {
+    char label[LABEL_SIZE]; /* "split:65536" */
+    const char *name;
+    double size;              /* NaN: it has none */
+    double off, gap, jitter;  /* NaN: no distance was asked about */
+    bool safe, still;         /* the gap; less than a pixel */
+    const char *verdict;      /* null: no distance */
+    double safe_to, still_to; /* scene units; INFINITY: as far as is asked */
+} line;
+
+/* What is asked. */
+typedef struct world {
+    options o; /* camera, view, gap and depth filled in */
+    double wanted, z;
+    depths distances; /* count is 0 when not asked about any */
+    setups all;
+    const dp_setup *setup; /* the one at hand */
+    setup_fields fields;
+    world_asked asked;
+    double distance;   /* the one at hand; NaN: none */
+    const char *least; /* the first scheme that is enough there; null: none, or no distance */
+    char least_label[LABEL_SIZE];
+    int width, height;
+    double fov;
+    line line;
+} world;
+
+/* ---- What is measured -------------------------------------------------------------------------------------------- */
+
+static void label_of(const world_scheme *s, char out[LABEL_SIZE]) {
+    snprintf(out, LABEL_SIZE, "%s%s%s", s->row->name, s->row->size != NULL ? ":" : "",
+             s->row->size != NULL ? number_full(s->size).text : "");
+}
+
+static bool is_enough(const world *w, const world_scheme *s) {
+    return world_separation(s, &w->asked, w->distance) <= w->wanted &&
+           world_jitter(s, &w->asked, w->distance) < one_pixel;
+}
+
+static double reach_or_inf(world_loss *loss, const world_scheme *s, const world_asked *a, double limit) {
+    const double to = world_reach(loss, s, a, limit);
+    return to >= WORLD_FARTHEST ? (double)INFINITY : to;
+}
+
+static void measure(world *w, const world_scheme *s) {
+    static const char *const verdicts[2][2] = {{"fights, jitters", "fights"}, {"jitters", "holds"}};
+    line *l = &w->line;
+    *l = (line){.name = s->row->name, .size = s->row->size != NULL ? s->size : (double)NAN};
+    label_of(s, l->label);
+    l->safe_to = reach_or_inf(world_separation, s, &w->asked, w->wanted);
+    l->still_to = reach_or_inf(world_jitter, s, &w->asked, one_pixel);
+    l->off = l->gap = l->jitter = (double)NAN;
+    if (isnan(w->distance))
+        return;
+    l->off = world_off(s, &w->asked, w->distance);
+    l->gap = world_separation(s, &w->asked, w->distance);
+    l->jitter = world_jitter(s, &w->asked, w->distance);
+    l->safe = l->gap <= w->wanted;
+    l->still = l->jitter < one_pixel;
+    l->verdict = verdicts[l->safe][l->still];
+}
+
+static void *next_setup(void *of, size_t i) {
+    world *w = of;
+    if (i == w->all.count)
+        return NULL;
+    w->setup = &w->all.items[i];
+    w->asked.setup = w->setup;
+    w->fields = setup_fields_of(w->setup, options_unit(&w->o));
+    return w;
+}
+
+static void *next_distance(void *of, size_t i) {
+    world *w = of;
+    if (i == (w->distances.count > 0 ? w->distances.count : 1))
+        return NULL;
+    w->distance = w->distances.count > 0 ? depths_get(&w->distances, i) : (double)NAN;
+    w->least = NULL;
+    for (size_t k = 0; k < w->o.scheme_count && w->distances.count > 0 && w->least == NULL; k++)
+        if (is_enough(w, &w->o.schemes[k])) {
+            label_of(&w->o.schemes[k], w->least_label);
+            w->least = w->least_label;
+        }
+    return w;
+}
+
+static void *next_line(void *of, size_t i) {
+    world *w = of;
+    if (i == w->o.scheme_count)
+        return NULL;
+    measure(w, &w->o.schemes[i]);
+    return &w->line;
+}
+
+/* ---- Text -------------------------------------------------------------------------------------------------------- */
+
+static void say_setup(page *p, void *item) {
+    world *w = item;
+    setup_title(p, w->setup, &w->fields);
+    page_text(p, "%s apart and %s ahead, %s; a picture of %dx%d, fov %s",
+              number_in(number_full(w->wanted), p->unit).text, number_in(number_full(w->z), p->unit).text,
+              w->asked.shared_origin ? "of meshes with one origin" : "of meshes with origins of their own", w->width,
+              w->height, number_of(w->fov, 4).text);
+}
+
+static void say_distance(page *p, void *item) {
+    const world *w = item;
+    if (isnan(w->distance))
+        return;
+    output_char(p->out, '\n');
+    page_title(p, "%s from the origin: %s%s", number_in(number_full(w->distance), p->unit).text,
+               w->least != NULL ? w->least : "none", w->least != NULL ? " is enough" : " of them is enough");
+}
+
+/* Of a single scheme, and no distance: the answer is a sentence. */
+static void say_reach(page *p, void *item) {
+    world *w = item;
+    if (!isnan(w->distance) || w->o.scheme_count != 1)
+        return;
+    const line *l = &w->line;
+    const number_text gap = number_in(number_full(w->wanted), p->unit);
+    if (isinf(l->safe_to))
+        page_text(p, "%s: %s is safe everywhere", l->label, gap.text);
+    else
+        page_text(p, "%s: %s is safe to %s", l->label, gap.text,
+                  number_in(number_brief(number_down(l->safe_to, DIGITS)), p->unit).text);
+    if (isfinite(l->still_to))
+        page_text(p, "Jitter of a pixel at %s from %s on", number_in(number_full(w->z), p->unit).text,
+                  number_in(number_brief(number_down(l->still_to, DIGITS)), p->unit).text);
+}
+
+static const column line_columns[] = {
+    {FIELD(line, name, "scheme", "")},
+    {FIELD(line, size, "size", "scene")},
+    {TEXT_FIELD(line, label, "scheme", -14, 0)},
+    {FIELD(line, off, "view_z_error", "scene"), SHOWN("view z", 9, DIGITS), .upward = true, .brief = true,
+     .when = AT_DISTANCE},
+    {FIELD(line, gap, "safe_gap", "scene"), SHOWN("safe gap", 10, DIGITS), .upward = true, .brief = true,
+     .when = AT_DISTANCE},
+    {FIELD(line, jitter, "jitter", "pixels"), SHOWN("jitter", 8, DIGITS), .upward = true, .brief = true,
+     .when = AT_DISTANCE},
+    {FIELD(line, safe_to, "safe_to", "scene"), SHOWN("safe to", 9, DIGITS), .downward = true, .brief = true},
+    {FIELD(line, still_to, "still_to", "scene"), SHOWN("1 px from", 11, DIGITS), .downward = true, .brief = true},
+    {FIELD(line, verdict, "verdict", ""), SHOWN("  verdict", -17, 0), .when = AT_DISTANCE},
+    {.kind = COLUMN_END}};
+
+static const column distance_columns[] = {{FIELD(world, distance, "distance", "scene"), .when = AT_DISTANCE},
+                                          {FIELD(world, least, "enough", ""), .when = AT_DISTANCE},
+                                          {LIST("schemes", line_columns, next_line), .notes = say_reach, .indent = 2},
+                                          {.kind = COLUMN_END}};
+
+static const column setup_report[] = {{PART(world, fields, NULL, setup_columns)},
+                                      {FIELD(world, fields.arith, "arith", ""), .only = AS_CSV},
+                                      {LIST("distances", distance_columns, next_distance), .head = say_distance},
+                                      {.kind = COLUMN_END}};
+
+static const column columns[] = {{FIELD(world, wanted, "gap", "scene")},
+                                 {FIELD(world, z, "z", "scene")},
+                                 {FIELD(world, asked.shared_origin, "share", "")},
+                                 {FIELD(world, width, "width", "pixels"), .only = AS_JSON},
+                                 {FIELD(world, height, "height", "pixels"), .only = AS_JSON},
+                                 {FIELD(world, fov, "fov", "degrees"), .only = AS_JSON},
+                                 {LIST("setups", setup_report, next_setup), .head = say_setup},
+                                 {.kind = COLUMN_END}};
+
+/* ---- The command ------------------------------------------------------------------------------------------------- */
+
+static double length_or(bool given, double value, double metres, const unit_row *unit) {
+    return given ? value : unit_convert(metres, unit_find("m"), unit);
+}
+
+/* What was left open: a reversed infinite binary32 buffer is what a large world has. */
+static int complete(world *w, const options *o, bool solving) {
+    options *c = &w->o;
+    const bool camera = o->preset_count > 0, stored = camera || o->platform != NULL;
+    *c = *o;
+    c->model = DP_MODEL_FP32;
+    if (!option_given(o, OPTION_FAR) && !camera)
+        c->zfar = (double)INFINITY;
+    if (!option_given(o, OPTION_FORMAT) && !stored)
+        parse_formats(c, &option_rows[OPTION_FORMAT], "fp32");
+    if (!option_given(o, OPTION_MAPPING) && !stored)
+        parse_mappings(c, &option_rows[OPTION_MAPPING], "reversed");
+    if (o->at.count > 1)
+        return option_error(OPTION_AT, "must be one depth, got %zu", o->at.count);
+    w->z = length_or(o->at.count > 0, o->at.lo, 10.0, o->unit);
+    if (!(w->z >= c->znear && w->z <= c->zfar))
+        return option_error(OPTION_AT, "must lie between near and far, got %s", number_full(w->z).text);
+    w->wanted = solving ? length_or(o->wanted_separation > 0.0, o->wanted_separation, 0.01, o->unit)
+                        : length_or(option_given(o, OPTION_GAP), o->gap, 0.01, o->unit);
+    w->distances = solving ? (depths){0} : o->distances;
+    if (w->distances.count > 0 && !(w->distances.lo >= 0.0 && w->distances.hi <= WORLD_FARTHEST))
+        return option_error(OPTION_DISTANCE, "must be from 0 to 1e12 scene units, got %s",
+                            number_full(w->distances.lo < 0.0 ? w->distances.lo : w->distances.hi).text);
+    if (w->distances.kind == DEPTHS_LOG && w->distances.count > 0 && !(w->distances.lo > 0.0))
+        return option_error(OPTION_DISTANCE, "log spacing needs LO greater than 0, got %s: lin has equal steps",
+                            number_full(w->distances.lo).text);
+    return EXIT_FINE;
+}
+
+/* Surfaces face the camera; of the view there is left how many pixels it has and how far its corners are. */
+static void take_view(world *w) {
+    const dp_triangles standard = dp_triangles_default();
+    dp_triangles *t = &w->o.triangles;
+    w->width = t->width > 0 ? t->width : standard.width;
+    w->height = t->width > 0 ? t->height : standard.height;
+    w->fov = t->width > 0 ? t->fov_y : standard.fov_y;
+    *t = (dp_triangles){0};
+    const double half = dp_tan(0.5 * degree * w->fov);
+    w->asked = (world_asked){.z = w->z,
+                             .lean = fmin(dp_hypot(1.0, half * dp_hypot(1.0, (double)w->width / w->height)), 10.0),
+                             .pixels = 0.5 * w->height / half,
+                             .shared_origin = w->o.shared_origin};
+}
+
+static int report_worlds(const options *o, bool solving) {
+    output out;
+    world w = {.distance = (double)NAN};
+    int status = complete(&w, o, solving);
+    if (status != EXIT_FINE)
+        return status;
+    take_view(&w);
+    status = setups_make(&w.o, &w.all);
+    if (status == EXIT_FINE)
+        status = options_open(o, &out);
+    if (status == EXIT_FINE) {
+        const unsigned when = w.distances.count > 0 ? AT_DISTANCE : 0;
+        report_write(&(report_spec){"world", columns, &w, .when = when, .label = 10}, &out, o->form);
+        status = output_close(&out);
+    }
+    setups_release(&w.all);
+    return status;
+}
+
+int cmd_world(const options *o) {
+    return report_worlds(o, false);
+}
+
+int solve_world(const options *o) {
+    return report_worlds(o, true);
+}

@@ -1,0 +1,75 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/*
+ * Large worlds: the gap that is safe and the jitter of a picture, against the distance from the world's origin, a curve
+ * for each scheme. One panel each.
+ */
+#include <math.h>
+#include <stdio.h>
+
+#include "core/append.h"
+#include "core/elementary.h"
+#include "plot/figure.h"
+#include "world/reach.h"
+
+enum { POINTS = 241 };
+
+static const double ahead = 10.0, nearest = 100.0, farthest = 1e8, degree = 0.017453292519943295;
+
+static void add(chart *out, chart_panel *panel, const world_asked *a, world_loss *loss) {
+    for (size_t k = 0; k < WORLD_ROWS; k++) {
+        const world_scheme s = {world_get(k), world_get(k)->standard};
+        chart_series *line = chart_add_series(out, panel, CHART_LINE, POINTS);
+        if (line == NULL)
+            return;
+        line->style = (chart_style){(int)k, (int)(k / 4), -1, false};
+        snprintf(line->name, sizeof line->name, "%s", s.row->name);
+        if (s.row->size != NULL)
+            append(line->name, sizeof line->name, ":%.7g", s.size);
+        for (int i = 0; i < POINTS; i++) {
+            line->x[i] = nearest * dp_pow(farthest / nearest, i / (double)(POINTS - 1));
+            line->y[i] = loss(&s, a, line->x[i]);
+        }
+    }
+}
+
+static chart_panel *add_panel(chart *out, const char *title) {
+    chart_panel *panel = chart_add_panel(out);
+    panel->x = (chart_axis){.scale = CHART_LOG,
+                            .lo = nearest,
+                            .hi = farthest,
+                            .label = "distance of the camera from the origin",
+                            .key = "distance",
+                            .unit = "scene units"};
+    /* One scale for both: what each counts stands in its title. */
+    panel->y = (chart_axis){.scale = CHART_LOG, .lo = 1e-6, .hi = 1e3, .label = "at most", .key = "most", .unit = ""};
+    snprintf(panel->title, sizeof panel->title, "%s", title);
+    return panel;
+}
+
+const char *world_build(const figure_request *request, chart *out) {
+    const dp_triangles view = dp_triangles_default();
+    const dp_setup facing = dp_setup_facing(&request->setups[0]);
+    const double half = dp_tan(0.5 * degree * view.fov_y), z = isnan(request->at) ? ahead : request->at;
+    const world_asked a = {.setup = &facing,
+                           .z = z,
+                           .lean = dp_hypot(1.0, half * dp_hypot(1.0, (double)view.width / view.height)),
+                           .pixels = 0.5 * view.height / half};
+    char in_units[64];
+    snprintf(in_units, sizeof in_units, "Gap that is safe, %s", out->unit != NULL ? out->unit : "scene units");
+    if (!isnan(request->lo))
+        return "plot world: --range does not apply: distances are from 100 to 1e8 scene units";
+    if (facing.spec.ortho)
+        return "plot world: --ortho has no perspective";
+    if (!(z >= facing.spec.znear && z <= facing.spec.zfar))
+        return "plot world: --at must lie between near and far";
+    chart_panel *gap = add_panel(out, in_units);
+    add(out, gap, &a, world_separation);
+    chart_panel *jitter = add_panel(out, "Jitter, pixels");
+    jitter->y =
+        (chart_axis){.scale = CHART_LOG, .lo = 1e-4, .hi = 1e4, .label = "jitter", .key = "jitter", .unit = "pixels"};
+    add(out, jitter, &a, world_jitter);
+    append(out->subtitle, sizeof out->subtitle, "%s%.4g ahead, %dx%d, fov %.4g, meshes with origins of their own",
+           *out->subtitle != '\0' ? "; " : "", z, view.width, view.height, view.fov_y);
+    chart_fit(out);
+    return NULL;
+}
