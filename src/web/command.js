@@ -36,6 +36,7 @@ export const join = (words) =>
 
 // The commands of a line: its words between those that are ";", each without "depthprec" in front.
 export function commands(line) {
+    if (line.length > LONGEST) throw new Error(`a line of commands has at most ${LONGEST} characters, this one ${line.length}`);
     const all = [[]];
     for (const word of split(line))
         if (word === ";") all.push([]);

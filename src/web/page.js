@@ -31,7 +31,8 @@ const NEVER = ["output", "json", "csv", "type", "theme", "width", "height", "thr
 // A figure does not refuse what it has no use for: it leaves it out.
 const VIEW = ["viewport", "fov", "hfov", "raster", "subpixel", "slant", "triangle"];
 const UNUSED = {
-    interval: ["at"], error: ["at", "tolerance", ...VIEW], distribution: ["at", "tolerance", ...VIEW], budget: ["at", "model"],
+    interval: ["at"], error: ["at", "tolerance", ...VIEW], distribution: ["at", "tolerance", ...VIEW],
+    budget: ["at", "model"],
     share: ["at", "tolerance", ...VIEW], map: ["tolerance", ...VIEW],
 };
 const STANDARD = "table -n 0.1 -f 1000 -F unorm24 -m d3d --unit m";
@@ -71,8 +72,10 @@ function unwanted(verb, asked) {
 function commandOf(verb, setup) {
     const asked = new Map(state.asked[verb] ?? []), without = unwanted(verb, asked);
     if (asked.get("for") === "distance") asked.delete("at");
-    const options = new Map([...setup].filter(([name]) => takes[verb].has(name) && !without.includes(name) && !asked.has(name)));
-    return [verb, ...(verb === "plot" ? [state.figure] : []), ...words(options), ...words(asked)];
+    const given = new Map([...[...setup].filter(([name]) => !without.includes(name)), ...asked]);
+    const inOrder = [...takes[verb].keys()].filter((name) => given.has(name));
+    const options = inOrder.map((name) => [name, given.get(name)]);
+    return [verb, ...(verb === "plot" ? [state.figure] : []), ...words(options)];
 }
 
 // All that the page shows, as commands: those of B are its tables alone, for the rest follows.
@@ -95,19 +98,25 @@ function understand(all) {
         const read = engine.parse(line);
         if (read.status !== 0) throw new Error(errorOf(read));
         const { verb, operands } = read, panel = ASKED[verb];
-        if (panel === undefined) throw new Error(`${verb} is not in the page, which has ${VERBS.join(", ")}: the program has it`);
+        if (panel === undefined)
+            throw new Error(`${verb} is not in the page, which has ${VERBS.join(", ")}: the program has it`);
         const given = mapOf(read);
-        for (const name of ["help", "version"]) if (given.has(name)) throw new Error(`--${name} is for the command line`);
+        for (const name of ["help", "version"])
+            if (given.has(name)) throw new Error(`--${name} is for the command line`);
         for (const name of NEVER) given.delete(name);
         if (verb === "plot") {
-            if (!FIGURES.includes(operands[0])) throw new Error(`the page draws ${FIGURES.join(", ")}, not ${operands[0]}: the program does`);
+            if (!FIGURES.includes(operands[0]))
+                throw new Error(`the page draws ${FIGURES.join(", ")}, not ${operands[0]}: the program does`);
             next.figure = operands[0];
         }
-        const said = run([verb, ...operands, ...words(given), ...(verb === "plot" ? ["--csv"] : [])]);
-        if (said.status === REFUSED) throw new Error(errorOf(said));
+        if (verb === "table" || (verb !== "plot" && all.length === 1)) {
+            const said = run([verb, ...words(given)]);
+            if (said.status === REFUSED) throw new Error(errorOf(said));
+        }
         next.shown.add(verb);
         if (panel.length > 0) {
-            next.asked[verb] = new Map([...given].filter(([name]) => panel.includes(name)));
+            const wanted = given.get("for"); // what is solved for may be given, too: to choose from
+            next.asked[verb] = new Map([...given].filter(([name]) => panel.includes(name) || name === wanted));
             for (const name of panel) given.delete(name);
         }
         if (verb === "table" && next.setups.length < 2) next.setups.push(given);
@@ -137,6 +146,7 @@ function set(all) {
     refuse(null);
     fill();
     update();
+    showAddress();
     return true;
 }
 
@@ -159,7 +169,8 @@ const METRES = { nm: 1e-9, um: 1e-6, mm: 1e-3, cm: 1e-2, in: 0.0254, ft: 0.3048,
 function stepOf(option, text, unit) {
     const [lo, hi] = SLIDERS[option], [, number, of] = /^\s*([-+.\de]+)\s*([a-z]*)/i.exec(text) ?? [];
     if (/^\s*inf/i.test(text)) return STEPS;
-    const value = Number(number) * (of in METRES ? METRES[of] / (METRES[unit] ?? 1) : 1), top = STEPS - (option === "far");
+    const value = Number(number) * (of in METRES ? METRES[of] / (METRES[unit] ?? 1) : 1);
+    const top = STEPS - (option === "far");
     return value > 0 ? Math.max(0, Math.min(top, Math.round(((Math.log10(value) - lo) / (hi - lo)) * STEPS))) : 0;
 }
 
@@ -171,8 +182,10 @@ function buildSetup(index) {
         else to.set(option, value);
         later();
     };
+    const plain = { spellcheck: "false", autocomplete: "off" };
     const text = (option, label, hint) => {
-        const input = make("input", { "data-option": option, id: `${option}-${letter}`, size: 8, placeholder: hint, spellcheck: "false", autocomplete: "off" });
+        const id = `${option}-${letter}`;
+        const input = make("input", { "data-option": option, id, size: 8, placeholder: hint, ...plain });
         input.addEventListener("input", () => {
             change(option, input.value.trim() || null);
             showSliders(index);
@@ -181,13 +194,15 @@ function buildSetup(index) {
         return make("span", {}, make("label", { for: input.id }, `${label} `), input);
     };
     const select = (option, label, list) => {
-        const input = make("select", { "data-option": option, id: `${option}-${letter}` }, ...list.map((name) => make("option", { value: name }, name || "scene units")));
+        const items = list.map((name) => make("option", { value: name }, name || "scene units"));
+        const input = make("select", { "data-option": option, id: `${option}-${letter}` }, ...items);
         input.addEventListener("change", () => change(option, input.value || null));
         own[option] = input;
         return make("span", {}, make("label", { for: input.id }, `${label} `), input);
     };
     const length = (option, label) => {
-        const slider = make("input", { type: "range", min: 0, max: STEPS, "data-slider": option, "aria-label": `${label}, set-up ${letter}` });
+        const named = { "data-slider": option, "aria-label": `${label}, set-up ${letter}` };
+        const slider = make("input", { type: "range", min: 0, max: STEPS, ...named });
         own[`${option}-slider`] = slider;
         slider.addEventListener("input", () => {
             own[option].value = slide(option, Number(slider.value));
@@ -199,7 +214,7 @@ function buildSetup(index) {
     const ortho = make("input", { type: "checkbox", "data-option": "ortho", id: `ortho-${letter}` });
     ortho.addEventListener("change", () => change("ortho", ortho.checked ? "" : null));
     own.ortho = ortho;
-    const more = make("input", { class: "more", id: `more-${letter}`, spellcheck: "false", autocomplete: "off", placeholder: "--rounding zero" });
+    const more = make("input", { class: "more", id: `more-${letter}`, placeholder: "--rounding zero", ...plain });
     more.addEventListener("change", () => {
         try {
             const base = new Map([...state.setups[index]].filter(([name]) => name in own));
@@ -216,24 +231,31 @@ function buildSetup(index) {
     own.refused = make("p", { class: "refused", role: "status" });
     fields[index] = own;
     const details = make("details", {}, make("summary", {}, "Arithmetic, viewport and more"),
-        make("div", { class: "row" }, select("model", "Model", choices("model")), select("arith", "Arithmetic", names("arithmetic"))),
-        make("div", { class: "row" }, text("viewport", "Viewport", "1920x1080"), text("slant", "Slant", "0:90"), text("at", "Depths", "1,10,100"),
-            select("unit", "Unit", ["", ...choices("unit")])),
+        make("div", { class: "row" }, select("model", "Model", choices("model")),
+            select("arith", "Arithmetic", names("arithmetic"))),
+        make("div", { class: "row" }, text("viewport", "Viewport", "1920x1080"), text("slant", "Slant", "0:90"),
+            text("at", "Depths", "1,10,100"), select("unit", "Unit", ["", ...choices("unit")])),
         make("label", { for: more.id }, "Further options, as the command has them"), more);
     details.open = matchMedia("(min-width: 60rem)").matches;
-    root.append(make("fieldset", {}, make("legend", {}, `Set-up ${letter}`), length("near", "Near"), length("far", "Far"),
-        make("div", { class: "row" }, select("format", "Format", names("formats")), select("mapping", "Mapping", names("mappings")),
+    root.append(make("fieldset", {}, make("legend", {}, `Set-up ${letter}`),
+        length("near", "Near"), length("far", "Far"),
+        make("div", { class: "row" }, select("format", "Format", names("formats")),
+            select("mapping", "Mapping", names("mappings")),
             make("span", {}, ortho, make("label", { for: ortho.id }, " orthographic"))),
         details, own.refused));
 }
 
 function show(input, value) {
-    if (input.tagName === "SELECT" && ![...input.options].some((option) => option.value === value)) input.append(make("option", {}, value));
+    if (input.tagName === "SELECT" && ![...input.options].some((option) => option.value === value))
+        input.append(make("option", {}, value));
     if (document.activeElement !== input || input.tagName === "SELECT") input.value = value;
 }
 
 // What a command takes where it is given nothing. A preset gives something else.
-const STARTS = { near: "0.1", far: "1000", format: "all", mapping: "all", model: "exact", arith: "ieee", unit: "", viewport: "", slant: "", at: "" };
+const STARTS = {
+    near: "0.1", far: "1000", format: "all", mapping: "all", model: "exact", arith: "ieee",
+    unit: "", viewport: "", slant: "", at: "",
+};
 
 function showSliders(index) {
     for (const option of Object.keys(SLIDERS)) {
@@ -244,7 +266,9 @@ function showSliders(index) {
 }
 
 // Each question has the fields that its command takes.
-const fitQuestions = () => ($("[data-asks=solve] [data-option=at]").disabled = state.asked.solve.get("for") === "distance");
+function fitQuestions() {
+    $("[data-asks=solve] [data-option=at]").disabled = state.asked.solve.get("for") === "distance";
+}
 
 function refuseSetup(index, text) {
     const { refused } = fields[index];
@@ -256,7 +280,8 @@ function fill() {
     state.setups.forEach((setup, index) => {
         const own = fields[index], rest = new Map(setup);
         for (const [option, start] of Object.entries(STARTS)) {
-            show(own[option], setup.get(option) ?? (own[option].tagName === "SELECT" && !setup.has("preset") ? start : ""));
+            const unsaid = own[option].tagName === "SELECT" && !setup.has("preset") ? start : "";
+            show(own[option], setup.get(option) ?? unsaid);
             rest.delete(option);
         }
         showSliders(index);
@@ -278,7 +303,7 @@ function fill() {
 
 // ---- What the panels show -----------------------------------------------------------------------------------------
 
-// The sentences of a report, put together again where they were wrapped: lines from the margin on that end in a full stop.
+// The sentences of a report, put together again where they were wrapped: lines from the margin that end in a full stop.
 function answers(text) {
     const all = [];
     let open = false;
@@ -292,8 +317,8 @@ function answers(text) {
 
 let printing = false;
 function theme() {
-    const chosen = document.documentElement.dataset.theme, system = matchMedia("(prefers-color-scheme: dark)").matches ? "dark" : "light";
-    return printing ? "print" : (chosen ?? system);
+    const chosen = document.documentElement.dataset.theme, dark = matchMedia("(prefers-color-scheme: dark)").matches;
+    return printing ? "print" : (chosen ?? (dark ? "dark" : "light"));
 }
 
 function save(name, text, type) {
@@ -302,21 +327,25 @@ function save(name, text, type) {
     setTimeout(() => URL.revokeObjectURL(link.href), 1000);
 }
 
-const RUN = { json: ["--json"], csv: ["--csv"] }, TYPE = { json: "application/json", csv: "text/csv", svg: "image/svg+xml" };
+const RUN = { json: ["--json"], csv: ["--csv"] };
+const TYPE = { json: "application/json", csv: "text/csv", svg: "image/svg+xml" };
 
 // One output of a panel: of set-up A or B.
 function outputOf(panel, index) {
     const place = $(".outputs", panel), verb = panel.dataset.panel, drawn = verb === "plot";
     while (place.children.length <= index) {
         const letter = "AB"[place.children.length], title = `${verb}, set-up ${letter}`;
-        const body = drawn ? make("img", { alt: "" }) : make("pre", { tabindex: 0, "data-output": "text", role: "region", "aria-label": title });
+        const body = drawn ? make("img", { alt: "" })
+            : make("pre", { tabindex: 0, "data-output": "text", role: "region", "aria-label": title });
         const saves = make("div", { class: "saves" });
-        const one = make("div", { class: drawn ? "figure" : "text" }, make("h3", {}, `Set-up ${letter}`), make("p", { class: "answer" }), body, make("p", { class: "refused", role: "status" }), saves);
+        const one = make("div", { class: drawn ? "figure" : "text" }, make("h3", {}, `Set-up ${letter}`),
+            make("p", { class: "answer" }), body, make("p", { class: "refused", role: "status" }), saves);
         for (const kind of drawn ? ["svg", "csv", "json"] : ["csv", "json"]) {
-            const button = make("button", { type: "button", "data-export": kind, "aria-label": `${kind.toUpperCase()} of ${title}` }, kind.toUpperCase());
+            const name = kind.toUpperCase(), told = { "data-export": kind, "aria-label": `${name} of ${title}` };
+            const button = make("button", { type: "button", ...told }, name);
             button.addEventListener("click", () => {
-                const line = split(one.dataset.run);
-                save(`depthprec-${line[0]}-${letter}.${kind}`, kind === "svg" ? one.said.out : run([...line, ...RUN[kind]]).out, TYPE[kind]);
+                const line = split(one.dataset.run), said = kind === "svg" ? one.said : run([...line, ...RUN[kind]]);
+                save(`depthprec-${verb}-${letter}.${kind}`, said.out, TYPE[kind]);
             });
             saves.append(button);
         }
@@ -328,7 +357,8 @@ function outputOf(panel, index) {
 const unescaped = (text) => text.replaceAll("&lt;", "<").replaceAll("&gt;", ">").replaceAll("&amp;", "&");
 
 function drawing(one) {
-    const width = Math.max(320, Math.min(1200, Math.round(one.clientWidth || 640))), height = Math.max(240, Math.round(width * 0.55));
+    const width = Math.max(320, Math.min(1200, Math.round(one.clientWidth || 640)));
+    const height = Math.max(240, Math.round(width * 0.55));
     return ["--type", "svg", "-o", "-", "--theme", theme(), "--width", String(width), "--height", String(height)];
 }
 
@@ -345,14 +375,16 @@ function showText(one, verb, text) {
 
 // A set-up that is refused as a whole says so beside its controls; what was shown of it stays, paler.
 function showPanel(panel) {
-    const verb = panel.dataset.panel, drawn = verb === "plot", ones = state.setups.map((_, index) => outputOf(panel, index));
+    const verb = panel.dataset.panel, drawn = verb === "plot";
+    const ones = state.setups.map((_, index) => outputOf(panel, index));
     for (const one of $(".outputs", panel).children) one.hidden = !ones.includes(one);
     $("h3", ones[0]).hidden = ones.length === 1;
     state.setups.forEach((setup, index) => {
         const line = commandOf(verb, setup), one = ones[index];
         const said = run(drawn ? [...line, ...drawing(one)] : line);
         if (said === one.said) return;
-        const refused = said.status === REFUSED ? errorOf(said) : "", known = refused === fields[index].refused.textContent;
+        const refused = said.status === REFUSED ? errorOf(said) : "";
+        const known = refused === fields[index].refused.textContent;
         one.classList.toggle("stale", refused !== "" && known);
         if (refused !== "" && known && one.said !== undefined) return;
         one.said = said;
@@ -371,7 +403,8 @@ function showSetups() {
         refuseSetup(index, said.status === REFUSED ? errorOf(said) : "");
         if (place.children.length <= index) place.append(make("p", {}));
         const one = place.children[index];
-        if (said.status !== REFUSED) one.replaceChildren(...(state.setups.length > 1 ? [make("b", {}, "AB"[index]), " "] : []), answers(said.out));
+        const letter = state.setups.length > 1 ? [make("b", {}, "AB"[index]), " "] : [];
+        if (said.status !== REFUSED) one.replaceChildren(...letter, answers(said.out));
         one.classList.toggle("stale", said.status === REFUSED);
     });
     while (place.children.length > state.setups.length) place.lastChild.remove();
@@ -411,6 +444,13 @@ function update(dragged = false) {
     count();
 }
 
+// Not at each step of a drag: browsers count, and a set-up that is refused is no link.
+function showAddress() {
+    const fragment = toFragment(shown());
+    const fine = $("#error").hidden && fields.every(({ refused }) => refused.textContent === "");
+    if (fine && location.hash.slice(1) !== fragment) history.replaceState(null, "", `#${fragment}`);
+}
+
 function rest() {
     const [panel] = late;
     if (panel !== undefined) {
@@ -420,9 +460,8 @@ function rest() {
         resting = setTimeout(rest);
         return;
     }
-    const fragment = toFragment(shown()), said = $("#verdicts").textContent;
-    const fine = $("#error").hidden && fields.every(({ refused }) => refused.textContent === "");
-    if (fine && location.hash.slice(1) !== fragment) history.replaceState(null, "", `#${fragment}`);
+    const said = $("#verdicts").textContent;
+    showAddress();
     if ($("#said").textContent !== said) $("#said").textContent = said;
     document.documentElement.dataset.settled = document.documentElement.dataset.updates;
 }
@@ -457,7 +496,8 @@ function listen() {
         later();
     });
     $("#theme").addEventListener("click", () => {
-        const { dataset } = document.documentElement, next = SCHEMES[(SCHEMES.indexOf(dataset.theme ?? "system") + 1) % 3];
+        const { dataset } = document.documentElement;
+        const next = SCHEMES[(SCHEMES.indexOf(dataset.theme ?? "system") + 1) % 3];
         if (next === "system") delete dataset.theme;
         else dataset.theme = next;
         $("#theme").textContent = `Colours: ${next}`;
@@ -484,6 +524,7 @@ function listen() {
         form.addEventListener("submit", (event) => event.preventDefault());
         form.addEventListener("input", (event) => {
             const asked = state.asked[form.dataset.asks], { option } = event.target.dataset;
+            if (option === "for") asked.delete(asked.get("for"));
             if (event.target.value.trim() === "") asked.delete(option);
             else asked.set(option, event.target.value.trim());
             later();
@@ -536,7 +577,11 @@ async function begin() {
     for (const verb of VERBS) takes[verb] = engine.takes(verb);
     $("#version").textContent = engine.run(["--version"]).out.split("\n")[0].replace(/^depthprec /, "");
     for (const name of names("apis")) $("[data-option=api]").append(make("option", {}, name));
-    state.asked = { solve: new Map([["for", "near"], ["separation", "1cm"], ["at", "500m"]]), bias: new Map([["gap", "2cm"], ["at", "100m"], ["api", "all"]]), zfight: new Map() };
+    state.asked = {
+        solve: new Map([["for", "near"], ["separation", "1cm"], ["at", "500m"]]),
+        bias: new Map([["gap", "2cm"], ["at", "100m"], ["api", "all"]]),
+        zfight: new Map(),
+    };
     buildSetup(0);
     buildSetup(1);
     listen();
@@ -545,11 +590,13 @@ async function begin() {
         set(commands(STANDARD));
         if (said !== "") refuse(said);
     }
-    picture = createPicture({ canvas: $("#view"), engine, slider: $("#gap"), play: $("#play"), gapIs: $("#gap-is"), onStatus: showPicture });
+    const controls = { canvas: $("#view"), slider: $("#gap"), play: $("#play"), gapIs: $("#gap-is") };
+    picture = createPicture({ ...controls, engine, onStatus: showPicture });
     $("#marks").addEventListener("change", () => picture.marks($("#marks").checked));
     picture.set(commandOf("table", state.setups[0]));
     window.depthprec = { engine, state: () => shown().map(join), set: (fragment) => set(() => fromFragment(fragment)) };
     document.documentElement.dataset.ready = "";
 }
 
-begin().catch((error) => refuse(`The page cannot run here: ${error.message}. It needs WebAssembly and DecompressionStream, which browsers have since 2023.`));
+const NEEDED = "It needs WebAssembly and DecompressionStream, which browsers have since 2023.";
+begin().catch((error) => refuse(`The page cannot run here: ${error.message}. ${NEEDED}`));

@@ -91,11 +91,11 @@ const quoted = (line) => line.map((word) => (/^[\w.,:=%+-]+$/.test(word) ? word 
 export async function paste(page, line) {
     await page.evaluate((text) => new Promise((done) => {
         const field = document.querySelector("#command"), { dataset } = document.documentElement, before = dataset.updates;
-        field.value = text;
+        field.value = JSON.parse(text); // halves of characters, too
         field.form.requestSubmit();
         const wait = () => (dataset.updates !== before ? done() : setTimeout(wait, 1));
         wait();
-    }), typeof line === "string" ? line : quoted(line));
+    }), JSON.stringify(typeof line === "string" ? line : quoted(line)));
 }
 
 // The link and the commands that the page shows bring it back, and the program takes them.
