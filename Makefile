@@ -144,7 +144,7 @@ web:
 	@sh src/packages.sh web
 	@$(MAKE) $(PARALLEL) $(B)/web/core.wasm $(B)/depthprec.html
 
-WEB_ROOMS := $(wildcard $(patsubst %,src/%/*.c,web core raster draw vertex api census shadow report need plot cli))
+WEB_ROOMS := $(wildcard $(patsubst %,src/%/*.c,web core raster draw vertex api world census shadow report need plot cli))
 WEB_METHODS := $(patsubst %,src/method/%.c,choose estimate families interval limit method truth ways) src/texture/decode.c
 WEB_NOT := report/output_file report/terminal need/camera need/reader need/requirement need/view need/check \
     plot/canvas plot/fights plot/normals plot/pareto plot/stability plot/scene plot/pixels \

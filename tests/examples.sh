@@ -180,7 +180,8 @@ pages() {
         .items[] | (.name | split("-")) as $name | (.stored | split("; ")) as $stored |
         $apis[$name[1] // "null"] + " " + $browsers[$name[0]] + ": " + ($stored[0] | split(": ")[1]) +
         if ($stored | any(startswith("[-1, 1] remapped"))) then ", remapped"
-        elif ($stored | any(startswith("[-1, 1] may be"))) then ", may be remapped" else "" end' "$scratch/platforms" |
+        elif ($stored | any(startswith("[-1, 1] may be"))) then ", may be remapped"
+        elif ($stored | any(startswith("[0, 1] spread"))) then ", spread" else "" end' "$scratch/platforms" |
         sort >"$scratch/stored"
     [ -s "$scratch/stored" ] && diff "$scratch/stored" "$scratch/said"
 }

@@ -150,7 +150,7 @@ static void test_platforms(void **state) {
     } rows[] = {
         {"table|--platform|safari", "fp32", "d3d", "ieee", NULL, NULL},
         {"table|--platform|firefox-vulkan", "unorm24 fp32", "d3d", "ieee", NULL, NULL},
-        {"bias|--platform|chrome-gl", "fp32", "d3d", "ieee", "webgpu", NULL},
+        {"bias|--platform|chrome-metal", "fp32", "d3d", "ieee", "webgpu", NULL},
         {"bias|--platform|webgl-d3d", "unorm24", "gl", "ieee-remap", "gl", NULL},
         {"bias|--platform|webgl-d3d|--api|metal", "unorm24", "gl", "ieee-remap", "metal", NULL},
         {"budget|--platform|webgl-metal|-F|fp16|-m|reversed|--arith|mesa", "fp16", "reversed", "mesa", NULL, NULL},

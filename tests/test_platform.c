@@ -27,13 +27,13 @@ static void test_published(void **state) {
         platform_remap remap;
     } published[] = {
         {"chrome-d3d", F32, EITHER, PLATFORM_REMAPS_NOT},
-        {"chrome-vulkan", F32, F32, PLATFORM_REMAPS_NOT},
+        {"chrome-vulkan", F32, EITHER, PLATFORM_REMAPS_NOT},
         {"chrome-metal", F32, F32, PLATFORM_REMAPS_NOT},
-        {"chrome-gl", F32, F32, PLATFORM_REMAPS_NOT},
-        {"firefox-d3d", D24, EITHER, PLATFORM_REMAPS_NOT},
+        {"chrome-gl", F32, F32, PLATFORM_SPREADS},
+        {"firefox-d3d", D24, D24, PLATFORM_REMAPS_NOT},
         {"firefox-vulkan", EITHER, EITHER, PLATFORM_REMAPS_NOT},
         {"firefox-metal", EITHER, EITHER, PLATFORM_REMAPS_NOT},
-        {"firefox-gl", D24, EITHER, PLATFORM_REMAPS_NOT},
+        {"firefox-gl", D24, D24, PLATFORM_SPREADS},
         {"safari", F32, F32, PLATFORM_REMAPS_NOT},
         {"webgl-d3d", D24, D24, PLATFORM_REMAPS},
         {"webgl-metal", F32, EITHER, PLATFORM_REMAPS},

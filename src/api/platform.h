@@ -13,8 +13,14 @@
 
 #include "api/bias.h"
 
-/** Whether a browser's vertex shader takes clip z from [-1, 1] to [0, 1] by z = (z + w)/2. */
-typedef enum platform_remap { PLATFORM_REMAPS_NOT = 0, PLATFORM_REMAPS, PLATFORM_MAY_REMAP } platform_remap;
+/** What a browser's vertex shader does to clip z before it leaves. */
+typedef enum platform_remap {
+    PLATFORM_REMAPS_NOT = 0,
+    PLATFORM_REMAPS,    /**< from [-1, 1] to [0, 1], by (z + w)/2 */
+    PLATFORM_MAY_REMAP, /**< the same on some devices */
+    PLATFORM_SPREADS    /**< from [0, 1] to [-1, 1], by 2 z - w: a small z loses its digits to w. No arithmetic of
+                             depthprec/arith.h knows this, so there is no guarantee */
+} platform_remap;
 
 typedef struct platform {
     const char *name;

@@ -120,7 +120,8 @@ static void append_stored(list_item *item, const char *asked, const char *name) 
 bool list_platform(size_t index, list_item *item) {
     static const char *const remaps[] = {[PLATFORM_REMAPS_NOT] = "",
                                          [PLATFORM_REMAPS] = "; [-1, 1] remapped in the vertex shader",
-                                         [PLATFORM_MAY_REMAP] = "; [-1, 1] may be remapped in the vertex shader"};
+                                         [PLATFORM_MAY_REMAP] = "; [-1, 1] may be remapped in the vertex shader",
+                                         [PLATFORM_SPREADS] = "; [0, 1] spread to [-1, 1] in the vertex shader"};
     const platform *row = platform_get(index);
     if (row == NULL)
         return false;

@@ -203,6 +203,12 @@ static int complete(options *o) {
         if (strcmp(o->presets[i]->unit, "extents") == 0)
             return option_error(OPTION_UNIT, "must be given: %s measures in %s", o->presets[i]->name,
                                 o->presets[i]->unit);
+    if (o->platform != NULL && o->platform->remap == PLATFORM_SPREADS)
+        return option_error(
+            OPTION_PLATFORM,
+            "has no guarantee for %s, whose vertex shader spreads [0, 1] to [-1, 1] by 2 z - w: a small "
+            "z loses its digits; -F %s tells of the format alone",
+            o->platform->name, o->platform->stored);
     if (o->preset_count > 1 && o->verb->bit != VERB_TABLE)
         return option_error(OPTION_PRESET, "must be one preset for %s, got %zu", o->verb->name, o->preset_count);
     const int status = slant_complete(o);

@@ -7,8 +7,7 @@
 #include "cli/solve_report.h"
 #include "need/frusta.h"
 
-static const double fixed_ratio =
-    1000.0; /* CesiumJS, updateFrustums() of View.js; without logarithmic depth */
+static const double fixed_ratio = 1000.0; /* CesiumJS, updateFrustums() of View.js; without logarithmic depth */
 
 typedef struct frustum_line {
     frustum found;
@@ -23,6 +22,7 @@ typedef struct planning {
     uint64_t count, at_least, fixed_count; /* fixed_count is 0 where there is no such plan */
     double limit, ratio, fixed_value, fixed_z, stuck;
     bool possible;
+    const char *target;
     frustum_line line;
 } planning;
 
@@ -86,8 +86,8 @@ static void say_plan(page *p, void *item) {
         page_text(p, "No plan: %d frusta of %s %s do not suffice to tell surfaces %s apart from z = %s to %s.",
                   FRUSTA_MAX, format, mapping, limit.text, near.text, far.text);
     else if (!x->possible)
-        page_text(p, "No plan was found: %s %s does not tell surfaces %s apart at z = %s, whatever the near plane.",
-                  format, mapping, limit.text, number_in(number_full(x->stuck), unit).text);
+        page_text(p, "No plan was found: with far %s no near that was tried lets %s %s tell surfaces %s apart.",
+                  number_in(number_full(x->stuck), unit).text, format, mapping, limit.text);
     else
         page_text(p, "%llu %s of %s %s %s surfaces %s apart from z = %s to %s%s.", count,
                   count == 1 ? "frustum" : "frusta", format, mapping, count == 1 ? "tells" : "tell", limit.text,
@@ -122,7 +122,8 @@ static void write_plan(planning *x, output *out) {
                                            {FIELD(planning, fixed_value, "separation", "scene")},
                                            {FIELD(planning, fixed_z, "z", "scene")},
                                            {.kind = COLUMN_END}};
-    const column columns[] = {{PART(planning, fields, NULL, setup_columns), .only = AS_JSON},
+    const column columns[] = {{FIELD(planning, target, "for", ""), .only = AS_JSON},
+                              {PART(planning, fields, NULL, setup_columns), .only = AS_JSON},
                               {FIELD(planning, limit, "limit", "scene"), .only = AS_JSON},
                               {FIELD(planning, possible, "possible", ""), .only = AS_JSON},
                               {FIELD(planning, count, "count", ""), .only = AS_JSON},
@@ -150,6 +151,7 @@ int solve_frusta(const options *o) {
         return setup_refused(o, &spec, solved);
     x.setup = (dp_setup){.spec = spec};
     x.fields = setup_fields_of(&x.setup, options_unit(o));
+    x.target = option_word(OPTION_FOR, SOLVE_FOR_FRUSTA);
     x.possible = x.plan.possible;
     x.count = x.plan.count;
     x.stuck = x.plan.stuck;

@@ -52,7 +52,7 @@ function run(line) {
     return said;
 }
 
-const errorOf = ({ err }) => err.trim();
+const errorOf = ({ err }) => err.trim().replace(/^depthprec: /, "");
 
 // ---- Commands -----------------------------------------------------------------------------------------------------
 
@@ -104,13 +104,14 @@ function understand(all) {
             if (!FIGURES.includes(operands[0])) throw new Error(`the page draws ${FIGURES.join(", ")}, not ${operands[0]}: the program does`);
             next.figure = operands[0];
         }
-        if (verb === "table" || all.length === 1) {
-            const said = run([verb, ...operands, ...words(given), ...(verb === "plot" ? ["--csv"] : [])]);
+        if (verb === "table" || (verb !== "plot" && all.length === 1)) {
+            const said = run([verb, ...words(given)]);
             if (said.status === REFUSED) throw new Error(errorOf(said));
         }
         next.shown.add(verb);
         if (panel.length > 0) {
-            next.asked[verb] = new Map([...given].filter(([name]) => panel.includes(name)));
+            const wanted = given.get("for"); // what is solved for may be given, too: to choose from
+            next.asked[verb] = new Map([...given].filter(([name]) => panel.includes(name) || name === wanted));
             for (const name of panel) given.delete(name);
         }
         if (verb === "table" && next.setups.length < 2) next.setups.push(given);
@@ -493,6 +494,7 @@ function listen() {
         form.addEventListener("submit", (event) => event.preventDefault());
         form.addEventListener("input", (event) => {
             const asked = state.asked[form.dataset.asks], { option } = event.target.dataset;
+            if (option === "for") asked.delete(asked.get("for"));
             if (event.target.value.trim() === "") asked.delete(option);
             else asked.set(option, event.target.value.trim());
             later();
