@@ -384,6 +384,7 @@ help:
 ## make lint        format, warnings of gcc and clang, cppcheck, manual pages, spelling, scripts, licences
 ## make plots       draw the gallery in plots/ again
 ## make bench       measure the speed of the engine and the methods, redraw the charts of both
+## make check-web       the page in Chromium, which it installs: what it shows against the program, keyboard, speed
 ## make web         the page for the browser, build/depthprec.html, and the core as WebAssembly, build/web/core.wasm
 ## make packages    install what building and testing need
 ## make install     to PREFIX=/usr/local (DESTDIR, bindir, libdir, ... as usual), with the page once `make web` has made it;

@@ -1,11 +1,14 @@
 #!/bin/sh
 # SPDX-License-Identifier: GPL-3.0-or-later
 # The core as WebAssembly: what it gives at a million depths, in every mapping, format and arithmetic, is what it gives
-# here, bit for bit; and the module of the page needs nothing from outside.
+# here, bit for bit; and the module of the core needs nothing from outside. The program as WebAssembly: random commands
+# print what they print here, to the byte. Addresses of the page, and pasted lines, whatever stands there. page.sh goes on
+# in a browser.
 . tests/tap.sh
 
 blocks=20000 # of 50 depths
-[ -z "${DEPTHPREC_QUICK-}" ] || blocks=1000
+commands=600 addresses=100000
+[ -z "${DEPTHPREC_QUICK-}" ] || blocks=1000 commands=150 addresses=10000
 
 lacking() { # prints what is not here of what the tests need
     echo 'int main(void) { return 0; }' | ${WEB_CC:-clang --target=wasm32-wasi} -x c -o "$scratch/probe.wasm" - >"$scratch/log" 2>&1 ||
@@ -41,6 +44,16 @@ self_contained() {
         process.exitCode = imports.length === 0 && exports.includes("dp_setup_init") ? 0 : 1;' "$B/web/core.wasm"
 }
 
+commands() {
+    cp src/web/engine.js "$scratch/engine.mjs"
+    node --no-warnings tests/web/same.mjs "$B/web/depthprec.wasm" "$scratch/engine.mjs" $commands
+}
+
+addresses() {
+    cp src/web/command.js "$scratch/command.mjs"
+    node --no-warnings tests/web/fuzz.mjs "$scratch/command.mjs" $addresses
+}
+
 missing=$(lacking | paste -sd ';')
 if [ -n "$missing" ]; then
     skip "the core as WebAssembly" "missing: $missing"
@@ -50,5 +63,8 @@ else
     check "the same bits as here" same 200 samples $blocks
     check "the same frames of the flickering picture" same 30 frames
     check "the module imports nothing" self_contained
+    check "the program is built" make --no-print-directory B="$B" CC="$CC" "$B/web/depthprec.wasm"
+    check "random commands print the same" commands
+    check "any address is commands or a sentence" addresses
 fi
 finish

@@ -89,8 +89,8 @@ async function keys() {
     }
     await page.locator("#a input[type=text][data-option=near], #a [data-option=near]").first().focus();
     await page.keyboard.press("Control+A");
-    await waitFor(page, "typing near", () => page.keyboard.type("25cm"));
-    demand((await link()).includes("-n 25cm"), await link());
+    await page.keyboard.type("25cm");
+    await page.waitForFunction(() => document.querySelector("#link").textContent.includes("-n 25cm"), null, { timeout: 5000 });
     await close(page);
 }
 
