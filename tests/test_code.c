@@ -32,10 +32,8 @@ static const pair pairs[] = {
     {"infinite d3d", DP_MAPPING_D3D, 0, 1, 0},
     {"infinite reversed", DP_MAPPING_REVERSED, 0, 1, 0},
     {"log", DP_MAPPING_LOG, 0, 0, 0},
-    {"three-webgl", DP_MAPPING_THREE_WEBGL, 0, 0, 0},
     {"three-webgpu", DP_MAPPING_THREE_WEBGPU, 0, 0, 0},
     {"cesium", DP_MAPPING_CESIUM, 0, 0, 0},
-    {"osgearth", DP_MAPPING_OSGEARTH, 0, 0, 0},
 };
 enum { PAIRS = sizeof pairs / sizeof *pairs };
 
@@ -317,6 +315,29 @@ static void random_codes(void **state) {
     tally_end(&t);
 }
 
+/* Every boundary of the 16-bit formats, of what browsers and globes write. */
+static void every_boundary(void **state) {
+    (void)state;
+    tally t = {.name = "every boundary of 16 bits"};
+    static const dp_mapping written[] = {DP_MAPPING_THREE_WEBGL, DP_MAPPING_THREE_WEBGPU, DP_MAPPING_CESIUM,
+                                         DP_MAPPING_OSGEARTH};
+    const dp_format format[] = {oracle_unorm(16), oracle_float(5, 10, 15)};
+    const uint32_t step = (uint32_t)test_cases(61, 1, 1);
+    for (int i = 0; i < 8; i++) {
+        bench b = {.spec = dp_spec_default()};
+        b.spec.mapping = written[i / 2];
+        b.spec.format = format[i % 2];
+        b.spec.znear = 0.1;
+        b.spec.zfar = 1e9;
+        assert_true(open_bench(&b, &t));
+        for (uint32_t code = 1; code <= b.spec.format.code_max; code += step)
+            check_boundary(&b, code);
+        assert_true(b.cases >= b.spec.format.code_max / step / 2);
+        close_bench(&b);
+    }
+    tally_end(&t);
+}
+
 static void exact_ties(void **state) {
     (void)state;
     rng r = rng_make("ties");
@@ -355,8 +376,9 @@ static void clamped(void **state) {
 }
 
 int main(void) {
-    struct CMUnitTest tests[PAIRS + 2] = {cmocka_unit_test(exact_ties), cmocka_unit_test(clamped)};
+    struct CMUnitTest tests[PAIRS + 3] = {cmocka_unit_test(exact_ties), cmocka_unit_test(clamped),
+                                          cmocka_unit_test(every_boundary)};
     for (int k = 0; k < PAIRS; k++)
-        tests[k + 2] = (struct CMUnitTest){pairs[k].name, random_codes, NULL, NULL, (void *)(uintptr_t)&pairs[k]};
+        tests[k + 3] = (struct CMUnitTest){pairs[k].name, random_codes, NULL, NULL, (void *)(uintptr_t)&pairs[k]};
     return run_tap(tests);
 }
