@@ -62,7 +62,8 @@ typedef struct dp_mapping_row {
 } dp_mapping_row;
 
 /** The names of all rows, and of those with a projection matrix (PERSPECTIVE), as messages list them. */
-#define DP_MAPPING_NAMES             DP_MAPPING_NAMES_PERSPECTIVE ", linear, log, three-webgl, three-webgpu, cesium, osgearth"
+#define DP_MAPPING_NAMES             DP_MAPPING_NAMES_PERSPECTIVE ", linear, " DP_MAPPING_NAMES_LOG
+#define DP_MAPPING_NAMES_LOG         "log, three-webgl, three-webgpu, cesium, osgearth"
 #define DP_MAPPING_NAMES_PERSPECTIVE "d3d, gl, reversed, gl-reversed"
 
 /** The row of a mapping; null when out of range. */
