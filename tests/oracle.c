@@ -128,10 +128,25 @@ uint32_t oracle_encode(const dp_format *format, dp_rounding rounding, double d) 
 
 /* ---- mappings ---- */
 
+/* What the logarithm is taken of, of the depth in o->x: C z + 1, C (z - n) + 1 or z/n. */
+static void argument(oracle *o) {
+    if (o->over_near) {
+        mpfr_div_d(o->x, o->x, o->spec.znear, MPFR_RNDN);
+        return;
+    }
+    if (o->from_near)
+        mpfr_sub_d(o->x, o->x, o->spec.znear, MPFR_RNDN);
+    mpfr_mul(o->x, o->x, o->log_c, MPFR_RNDN);
+    mpfr_add_ui(o->x, o->x, 1, MPFR_RNDN);
+}
+
 void oracle_init(oracle *o, const dp_spec *spec) {
     memset(o, 0, sizeof *o);
     o->spec = *spec;
-    o->log = spec->mapping == DP_MAPPING_LOG;
+    o->over_near = spec->mapping == DP_MAPPING_THREE_WEBGPU;
+    o->from_near = o->over_near || spec->mapping == DP_MAPPING_CESIUM;
+    o->log = o->from_near || spec->mapping == DP_MAPPING_LOG || spec->mapping == DP_MAPPING_THREE_WEBGL ||
+             spec->mapping == DP_MAPPING_OSGEARTH;
     o->reversed = spec->mapping == DP_MAPPING_REVERSED || spec->mapping == DP_MAPPING_GL_REVERSED;
     o->perspective = !spec->ortho && !o->log && spec->mapping != DP_MAPPING_LINEAR;
     o->infinite = isinf(spec->zfar);
@@ -155,8 +170,8 @@ void oracle_init(oracle *o, const dp_spec *spec) {
     mpz_set(f, mpq_numref(t));
     if (o->log) {
         mpfr_set_d(o->log_c, spec->log_c, MPFR_RNDN);
-        mpfr_mul_d(o->x, o->log_c, spec->zfar, MPFR_RNDN); /* exact: 106 bits */
-        mpfr_add_ui(o->x, o->x, 1, MPFR_RNDN);             /* exact: at most 106 + 80 bits */
+        mpfr_set_d(o->x, spec->zfar, MPFR_RNDN);
+        argument(o);
         mpfr_log(o->log_far, o->x, MPFR_RNDN);
     } else if (spec->mapping == DP_MAPPING_LINEAR) { /* z/f */
         mpz_set_ui(o->a, 1);
@@ -202,9 +217,9 @@ static void window_z(oracle *o, const mpz_t z, const mpz_t scale) {
     mpz_addmul(o->den, o->h, scale);
 }
 
-/* num/den = log(C z + 1)/log(C f + 1), with C z in o->x */
+/* num/den = log(C z + 1)/log(C f + 1), or as the mapping has it, with z in o->x */
 static void window_log(oracle *o) {
-    mpfr_add_ui(o->x, o->x, 1, MPFR_RNDN);
+    argument(o);
     mpfr_log(o->x, o->x, MPFR_RNDN);
     mpfr_div(o->x, o->x, o->log_far, MPFR_RNDN);
     mpfr_exp_t e = mpfr_get_z_2exp(o->num, o->x);
@@ -220,7 +235,7 @@ static void window_d(oracle *o, double z) {
         mpz_set_ui(o->num, o->reversed ? 0 : 1);
         mpz_set_ui(o->den, 1);
     } else if (o->log) {
-        mpfr_mul_d(o->x, o->log_c, z, MPFR_RNDN);
+        mpfr_set_d(o->x, z, MPFR_RNDN);
         window_log(o);
     } else {
         int exponent;
@@ -234,7 +249,7 @@ static void window_d(oracle *o, double z) {
 
 static void window_q(oracle *o, const mpq_t z) {
     if (o->log) {
-        mpfr_mul_q(o->x, o->log_c, z, MPFR_RNDN);
+        mpfr_set_q(o->x, z, MPFR_RNDN);
         window_log(o);
     } else {
         mpz_mul_2exp(o->t1, mpq_numref(z), o->shift);
@@ -276,7 +291,12 @@ static int eye_quotient(oracle *o, const mpz_t p, const mpz_t r) {
 static void eye_log(oracle *o) {
     mpfr_mul(o->x, o->y, o->log_far, MPFR_RNDN);
     mpfr_expm1(o->x, o->x, MPFR_RNDN);
-    mpfr_div(o->x, o->x, o->log_c, MPFR_RNDN);
+    if (o->over_near)
+        mpfr_mul_d(o->x, o->x, o->spec.znear, MPFR_RNDN);
+    else
+        mpfr_div(o->x, o->x, o->log_c, MPFR_RNDN);
+    if (o->from_near)
+        mpfr_add_d(o->x, o->x, o->spec.znear, MPFR_RNDN);
 }
 
 int oracle_eye(oracle *o, mpq_t z, const mpq_t d) {
@@ -462,7 +482,8 @@ double oracle_relative(double got, const mpq_t want) {
 }
 
 const char *oracle_describe(const dp_spec *spec, char *text, size_t size) {
-    static const char *const mapping[] = {"d3d", "gl", "reversed", "gl-reversed", "linear", "log"};
+    static const char *const mapping[] = {"d3d", "gl",          "reversed",     "gl-reversed", "linear",
+                                          "log", "three-webgl", "three-webgpu", "cesium",      "osgearth"};
     static const char *const rounding[] = {"nearest", "even", "zero"};
     snprintf(text, size, "%s %s%s %s near=%a far=%a C=%a", spec->format.name, spec->ortho ? "ortho " : "",
              mapping[spec->mapping], rounding[spec->rounding], spec->znear, spec->zfar, spec->log_c);

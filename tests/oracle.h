@@ -26,6 +26,7 @@ enum { ORACLE_BITS = 384 };
 typedef struct oracle {
     dp_spec spec;
     int log, perspective, reversed, infinite;
+    int from_near, over_near; /* LOG: what the logarithm is taken of is 1 at near; it is z/n */
     mp_bitcnt_t shift;
     mpz_t a, b, g, h;
     mpq_t znear, zfar;

@@ -176,7 +176,8 @@ void want_setup(values *v, const dp_setup *setup) {
     want_text(v, "model", dp_model_name(spec->model));
     if (spec->model == DP_MODEL_FP32)
         want_text(v, "arith", dp_arith_get(spec->arith)->name);
-    if (spec->mapping == DP_MAPPING_LOG)
+    if (spec->mapping == DP_MAPPING_LOG || spec->mapping == DP_MAPPING_THREE_WEBGL ||
+        spec->mapping == DP_MAPPING_CESIUM || spec->mapping == DP_MAPPING_OSGEARTH)
         want_number(v, "log_c", spec->log_c);
     want_text(v, "unit", v->unit);
 }

@@ -180,7 +180,7 @@ static fast prepare(const oracle *o) {
     x.phi = o->infinite ? 0 : spec->znear / spec->zfar;
     if (o->log) {
         x.scale = mpfr_get_d(o->log_far, MPFR_RNDN);
-        x.reach = 1 / spec->log_c;
+        x.reach = o->over_near ? spec->znear : 1 / spec->log_c;
     } else if (o->perspective) {
         x.reach = o->infinite ? spec->znear : spec->znear * ((spec->zfar - spec->znear) / spec->zfar);
     } else {

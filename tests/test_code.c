@@ -32,6 +32,8 @@ static const pair pairs[] = {
     {"infinite d3d", DP_MAPPING_D3D, 0, 1, 0},
     {"infinite reversed", DP_MAPPING_REVERSED, 0, 1, 0},
     {"log", DP_MAPPING_LOG, 0, 0, 0},
+    {"three-webgpu", DP_MAPPING_THREE_WEBGPU, 0, 0, 0},
+    {"cesium", DP_MAPPING_CESIUM, 0, 0, 0},
 };
 enum { PAIRS = sizeof pairs / sizeof *pairs };
 
@@ -306,10 +308,33 @@ static void random_codes(void **state) {
     tally t = {.name = p->name};
     dp_format format[6];
     formats(format);
-    int slow = p->mapping == DP_MAPPING_LOG || p->either_sign;
+    int slow = p->mapping >= DP_MAPPING_LOG || p->either_sign;
     uint64_t cases = slow ? test_cases(2000, 100000, 1000000) : test_cases(10000, 1000000, 1000000);
     for (int i = 0; i < 6; i++)
         random_cases(&r, p, &format[i], i < 4 ? cases : cases / 50, &t);
+    tally_end(&t);
+}
+
+/* Boundaries of the 16-bit formats, all at full effort, of what browsers and globes write. */
+static void small_boundaries(void **state) {
+    (void)state;
+    tally t = {.name = "boundaries of 16 bits"};
+    static const dp_mapping written[] = {DP_MAPPING_THREE_WEBGL, DP_MAPPING_THREE_WEBGPU, DP_MAPPING_CESIUM,
+                                         DP_MAPPING_OSGEARTH};
+    const dp_format format[] = {oracle_unorm(16), oracle_float(5, 10, 15)};
+    const uint32_t step = (uint32_t)test_cases(61, 7, 1);
+    for (int i = 0; i < 8; i++) {
+        bench b = {.spec = dp_spec_default()};
+        b.spec.mapping = written[i / 2];
+        b.spec.format = format[i % 2];
+        b.spec.znear = 0.1;
+        b.spec.zfar = 1e9;
+        assert_true(open_bench(&b, &t));
+        for (uint32_t code = 1; code <= b.spec.format.code_max; code += step)
+            check_boundary(&b, code);
+        assert_true(b.cases >= b.spec.format.code_max / step / 2);
+        close_bench(&b);
+    }
     tally_end(&t);
 }
 
@@ -320,7 +345,7 @@ static void exact_ties(void **state) {
     dp_format format[6];
     formats(format);
     for (int k = 0; k < PAIRS; k++) {
-        if (pairs[k].mapping == DP_MAPPING_LOG)
+        if (pairs[k].mapping >= DP_MAPPING_LOG)
             continue;
         for (int i = 0; i < 6; i++)
             ties_of(&r, &pairs[k], &format[i], test_cases(20, 2000, 20000), &t);
@@ -351,8 +376,9 @@ static void clamped(void **state) {
 }
 
 int main(void) {
-    struct CMUnitTest tests[PAIRS + 2] = {cmocka_unit_test(exact_ties), cmocka_unit_test(clamped)};
+    struct CMUnitTest tests[PAIRS + 3] = {cmocka_unit_test(exact_ties), cmocka_unit_test(clamped),
+                                          cmocka_unit_test(small_boundaries)};
     for (int k = 0; k < PAIRS; k++)
-        tests[k + 2] = (struct CMUnitTest){pairs[k].name, random_codes, NULL, NULL, (void *)(uintptr_t)&pairs[k]};
+        tests[k + 3] = (struct CMUnitTest){pairs[k].name, random_codes, NULL, NULL, (void *)(uintptr_t)&pairs[k]};
     return run_tap(tests);
 }

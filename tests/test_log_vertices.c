@@ -129,6 +129,17 @@ static void known_numbers(void **state) {
 static void test_none(void **state) {
     dp_vertex_error e = {1, 1};
     double k = 0;
+    const dp_setup osg = setup_of(DP_MAPPING_OSGEARTH, 0.1, 1000, 1), one = setup_of(DP_MAPPING_LOG, 0.1, 1000, 1);
+    const dp_mapping fragment[] = {DP_MAPPING_THREE_WEBGL, DP_MAPPING_THREE_WEBGPU, DP_MAPPING_CESIUM};
+    dp_vertex_error a, b;
+    assert_int_equal(dp_vertex_error_at(&osg, 10, 2, &a), DP_OK);
+    assert_int_equal(dp_vertex_error_at(&one, 10, 2, &b), DP_OK);
+    assert_true(a.eye == b.eye && a.window == b.window && a.eye > 0);
+    for (int i = 0; i < 3; i++) {
+        const dp_setup s = setup_of(fragment[i], 0.1, 1000, 1);
+        assert_int_equal(dp_vertex_error_at(&s, 10, 2, &a), DP_OK);
+        assert_true(a.eye == 0 && a.window == 0);
+    }
     const dp_setup d3d = setup_of(DP_MAPPING_D3D, 0.1, 1000, 1), log_depth = setup_of(DP_MAPPING_LOG, 0.1, 1000, 1);
     (void)state;
     assert_int_equal(dp_vertex_error_at(&d3d, 10, 5, &e), DP_OK);

@@ -21,6 +21,10 @@ static const known rows[DP_MAPPING_COUNT] = {
     [DP_MAPPING_GL_REVERSED] = {"gl-reversed", DP_CURVE_PERSPECTIVE, 1, 1, 1, 1},
     [DP_MAPPING_LINEAR] = {"linear", DP_CURVE_LINEAR, 0, 0, 0, 0},
     [DP_MAPPING_LOG] = {"log", DP_CURVE_LOG, 0, 0, 0, 0},
+    [DP_MAPPING_THREE_WEBGL] = {"three-webgl", DP_CURVE_LOG, 0, 0, 0, 0},
+    [DP_MAPPING_THREE_WEBGPU] = {"three-webgpu", DP_CURVE_LOG, 0, 0, 0, 0},
+    [DP_MAPPING_CESIUM] = {"cesium", DP_CURVE_LOG, 0, 0, 0, 0},
+    [DP_MAPPING_OSGEARTH] = {"osgearth", DP_CURVE_LOG, 0, 1, 0, 0},
 };
 
 /* The names that depthprec(1) and the pages of APIs and libraries give them. */
@@ -38,6 +42,10 @@ static const struct {
     {DP_MAPPING_GL_REVERSED, {"reversed-gl", "glrev", "gl_reversed", "reversed_no"}},
     {DP_MAPPING_LINEAR, {"w", "w-buffer", "wbuffer", "linear01"}},
     {DP_MAPPING_LOG, {"logarithmic", "logdepth"}},
+    {DP_MAPPING_THREE_WEBGL, {"three", "threejs", "three.js"}},
+    {DP_MAPPING_THREE_WEBGPU, {"ulrich"}},
+    {DP_MAPPING_CESIUM, {"cesiumjs"}},
+    {DP_MAPPING_OSGEARTH, {"osgearth-vertex"}},
 };
 
 static void check_parse(const char *name, dp_mapping want) {
@@ -94,9 +102,9 @@ static void names(void **state) {
 
 static void random_spec(rng *r, dp_spec *spec) {
     *spec = dp_spec_default();
-    int kind = (int)rng_below(r, 12); /* 6 mappings, 4 orthographic, 2 infinite */
-    spec->mapping = (dp_mapping)(kind < 6 ? kind : kind < 10 ? kind - 6 : (kind - 10) * 2);
-    spec->ortho = kind >= 6 && kind < 10;
+    int kind = (int)rng_below(r, 16); /* 10 mappings, 4 orthographic, 2 infinite */
+    spec->mapping = (dp_mapping)(kind < 10 ? kind : kind < 14 ? kind - 10 : (kind - 14) * 2);
+    spec->ortho = kind >= 10 && kind < 14;
     if (rng_below(r, 2)) {
         spec->znear = rng_log(r, 0.01, 10);
         spec->zfar = spec->znear * rng_log(r, 2, 1e6);
@@ -104,7 +112,7 @@ static void random_spec(rng *r, dp_spec *spec) {
         spec->znear = rng_log(r, 1e-12, 1e12);
         spec->zfar = fmin(1e18, spec->znear * (1 + rng_log(r, 1.1e-6, 1e30)));
     }
-    if (kind >= 10)
+    if (kind >= 14)
         spec->zfar = INFINITY;
     if (spec->ortho && rng_below(r, 2))
         rng_planes(r, &spec->znear, &spec->zfar);

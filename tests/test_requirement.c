@@ -154,7 +154,7 @@ static const struct {
     {"cameras = { a = { near = 1; far = 2; mapping = \"log\"; format = \"fp32\"; model = \"fp32\"; }; };" NEEDS(""), 1,
      "float needs one of the mappings"},
     {"cameras = { a = { near = 1; far = 2; mapping = \"d3d\"; format = \"fp32\"; log_c = 1.0; }; };" NEEDS(""), 1,
-     "log_c: is for the mapping log"},
+     "log_c: is for the mappings with a constant C"},
     {"cameras = { a = { near = 1; far = 2; mapping = \"d3d\"; format = \"fp32\"; model = \"real\"; }; };" NEEDS(""), 1,
      "model: must be one of exact, staged, float, auto"},
     {"cameras = { a = { near = 1; far = 2; mapping = \"d3d\"; format = \"fp32\"; arith = 3; }; };" NEEDS(""), 1,

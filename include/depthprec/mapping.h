@@ -9,7 +9,11 @@
  *     d3d, gl                 d = (1 - n/z) / (1 - phi)       orthographic  (z - n) / (f - n)
  *     reversed, gl-reversed   d = (n/z - phi) / (1 - phi)     orthographic  (f - z) / (f - n)
  *     linear                  d = z / f
- *     log                     d = log(C z + 1) / log(C f + 1)
+ *     log                     d = log(C z + 1) / log(C f + 1); three-webgl and osgearth are this with C = 1
+ *     three-webgpu            d = log(z/n) / log(f/n)
+ *     cesium                  d = log(C (z - n) + 1) / log(C (f - n) + 1) with C = 1
+ *
+ * C is 1 per unit of the program: 0.001 for depths in metres of a program that counts in kilometres.
  *
  * gl and d3d are the same real number and differ only in what is rounded before the buffer.
  */
@@ -29,6 +33,10 @@ typedef enum dp_mapping {
     DP_MAPPING_GL_REVERSED,
     DP_MAPPING_LINEAR,
     DP_MAPPING_LOG,
+    DP_MAPPING_THREE_WEBGL,
+    DP_MAPPING_THREE_WEBGPU,
+    DP_MAPPING_CESIUM,
+    DP_MAPPING_OSGEARTH,
     DP_MAPPING_COUNT
 } dp_mapping;
 
@@ -44,6 +52,9 @@ typedef struct dp_mapping_row {
     int ndc_signed;     /**< NDC depth runs over [-1, 1] and is mapped to [0, 1] afterwards */
     int far_infinite;   /**< far may be infinite */
     int ortho;          /**< has an orthographic form */
+    int log_from_near;  /**< LOG: near is stored as 0 */
+    int log_over_near;  /**< LOG: the logarithm is that of z/n, and has no C */
+    int per_fragment;   /**< never written by a vertex shader and interpolated, as vertices.h has it */
     int rank;           /**< how much it asks of a renderer: 0 nothing */
     const char *effort; /**< what that is; "" when nothing */
     const char *note;
@@ -51,7 +62,8 @@ typedef struct dp_mapping_row {
 } dp_mapping_row;
 
 /** The names of all rows, and of those with a projection matrix (PERSPECTIVE), as messages list them. */
-#define DP_MAPPING_NAMES             DP_MAPPING_NAMES_PERSPECTIVE ", linear, log"
+#define DP_MAPPING_NAMES             DP_MAPPING_NAMES_PERSPECTIVE ", linear, " DP_MAPPING_NAMES_LOG
+#define DP_MAPPING_NAMES_LOG         "log, three-webgl, three-webgpu, cesium, osgearth"
 #define DP_MAPPING_NAMES_PERSPECTIVE "d3d, gl, reversed, gl-reversed"
 
 /** The row of a mapping; null when out of range. */

@@ -35,7 +35,7 @@ typedef struct dp_spec {
     dp_rounding rounding;
     dp_model model;
     dp_arith arith;         /**< the arithmetic of DP_MODEL_FP32 and of dp_pipeline_init() */
-    double log_c;           /**< constant C of the logarithmic mapping, in [1e-12, 1e12]; read for log only */
+    double log_c;           /**< constant C of the logarithmic mappings, in [1e-12, 1e12]; not read for three-webgpu */
     dp_triangles triangles; /**< surfaces slant as this says, under a perspective: what DP_MODEL_FP32 guarantees then is
                                in triangles.h, and z is the depth of the farther one. Width 0: they face the camera */
 } dp_spec;
@@ -48,12 +48,14 @@ typedef struct dp_setup {
     dp_spec spec;
     dp_curve curve; /**< the curve in force: an orthographic projection turns PERSPECTIVE into LINEAR */
     int reversed;
-    double anchor; /**< the depth that a LINEAR curve sends to its near end: near (orthographic) or 0 (linear) */
+    double anchor; /**< the depth that a LINEAR or LOG curve sends to its near end: near or 0 */
+    double log_c;  /**< LOG: C, or 1/n, rounded, where the logarithm is that of z/n */
+    double log_by; /**< LOG: C, or 0 where the logarithm is that of z/n */
     int astride;   /**< depth 0 lies between the planes: eye depths are differences, and take the exact way */
-    double kappa;  /**< PERSPECTIVE: 1/n - 1/f; LINEAR: f - anchor; LOG: log(C f + 1) */
-    double scale;  /**< d is this times (z - n)/z, (f - z)/z, z - n, f - z, z or log(C z + 1) */
+    double kappa;  /**< PERSPECTIVE: 1/n - 1/f; LINEAR: f - anchor; LOG: the logarithm at far */
+    double scale;  /**< d is this times (z - n)/z, (f - z)/z, z - n, f - z, z or the logarithm */
     double den;    /**< lattice points and rounding boundaries are num/den: UNORM 2 (2^N - 1); FLOAT 1 */
-    double log_hi; /**< LOG: log(C f + 1) as an unevaluated sum of two doubles */
+    double log_hi; /**< LOG: the logarithm at far as an unevaluated sum of two doubles */
     double log_lo;
     uint32_t code_near; /**< the codes of the two planes */
     uint32_t code_far;

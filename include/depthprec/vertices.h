@@ -29,7 +29,7 @@ typedef struct dp_vertex_error {
  *     window = (l log(C z/depth + 1) + (1 - l) log(C z depth + 1) - log(C z + 1)) / log(C f + 1)
  *
  * and eye = (z + 1/C) (e^(window log(C f + 1)) - 1); for linear eye = z (depth - 1)^2/depth = far window. 0 for the
- * other mappings, which are affine on the screen, at a plane, and where depth is 1.
+ * other mappings, which are affine on the screen or written per fragment, at a plane, and where depth is 1.
  *
  * @param z      eye depth in [near, far], finite
  * @param depth  1 to 1e6, as in dp_triangles

@@ -141,26 +141,26 @@ int bias_sign(const dp_setup *setup) {
 }
 
 double bias_window_slope(const dp_setup *setup, double z, double slope) {
-    const double c = setup->spec.log_c;
+    const double c = setup->log_c;
     if (isinf(z) || slope == 0.0)
         return 0.0;
     return setup->curve == DP_CURVE_PERSPECTIVE ? slope / (setup->kappa * z * z)
            : setup->curve == DP_CURVE_LINEAR    ? slope / setup->kappa
-                                                : slope * c / ((c * z + 1.0) * setup->kappa);
+                                                : slope * c / ((c * (z - setup->anchor) + 1.0) * setup->kappa);
 }
 
 /* How far z moves when its window depth moves by t towards far; the result lies between the planes. */
 static double shift_of(const dp_setup *setup, double z, double t) {
-    const double c = setup->spec.log_c;
+    const double c = setup->log_c;
     /* perspective: 1/z' = 1/z - t kappa */
     return setup->curve == DP_CURVE_PERSPECTIVE ? t * setup->kappa * z * (z / (1.0 - t * setup->kappa * z))
            : setup->curve == DP_CURVE_LINEAR    ? t * setup->kappa
-                                                : (c * z + 1.0) / c * dp_expm1(t * setup->kappa);
+                                                : (c * (z - setup->anchor) + 1.0) / c * dp_expm1(t * setup->kappa);
 }
 
 /* The window distance from z to z - gap; INFINITY when that lies before the near plane. */
 static double window_of_gap(const dp_setup *setup, double z, double gap) {
-    const double c = setup->spec.log_c;
+    const double c = setup->log_c;
     const double to = fmax(z - gap, setup->spec.znear);
     if (gap == 0.0)
         return 0.0;
@@ -168,7 +168,7 @@ static double window_of_gap(const dp_setup *setup, double z, double gap) {
         return (double)INFINITY;
     return setup->curve == DP_CURVE_PERSPECTIVE ? gap / (setup->kappa * z * to)
            : setup->curve == DP_CURVE_LINEAR    ? gap / setup->kappa
-                                                : -dp_log1p(-c * gap / (c * z + 1.0)) / setup->kappa;
+                                                : -dp_log1p(-c * gap / (c * (z - setup->anchor) + 1.0)) / setup->kappa;
 }
 
 bias_effect bias_at(const dp_setup *setup, const bias_state *state, double slope, double z) {

@@ -122,7 +122,7 @@ const option_row option_rows[OPTION_COUNT] = {
                        "mappings: " DP_MAPPING_NAMES_PERSPECTIVE
                        "; all are d3d and reversed")}},
     [OPTION_LOG_C] = {"log-c", 0, "C", MODELLED | TAKEN | VERB_SCENE,
-        "constant of the log mapping", NUMBER(log_c, 1e-12, 1e12, NULL), .standard = "1"},
+        "constant C of the logarithmic mappings", NUMBER(log_c, 1e-12, 1e12, NULL), .standard = "1"},
     [OPTION_ORTHO] = {"ortho", 0, NULL, (CAMERA & ~(VERB_DISOCCLUSION | VERB_SCENE | VERB_WORLD)) | TAKEN,
         "orthographic projection; not with linear and log", FLAG(ortho), .without = "perspective",
         .except = {BUT(VERB_ZFIGHT | VERB_BUDGET, NULL, "perspective", "orthographic projection")}},

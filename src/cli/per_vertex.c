@@ -8,7 +8,8 @@
 enum { DIGITS = 4, DIGITS_Z = 9 };
 
 bool per_vertex_matters(const dp_setup *setup) {
-    return dp_mapping_get(setup->spec.mapping)->curve != DP_CURVE_PERSPECTIVE;
+    const dp_mapping_row *row = dp_mapping_get(setup->spec.mapping);
+    return row->curve != DP_CURVE_PERSPECTIVE && !row->per_fragment;
 }
 
 per_vertex per_vertex_at(const dp_setup *setup, double z, double depth, double separation) {

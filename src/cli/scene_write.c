@@ -97,7 +97,7 @@ static void put_camera(output *out, const scene *s) {
     put_word(out, "model", option_word(OPTION_MODEL, spec->model));
     put_word(out, "arith", dp_arith_get(spec->arith)->name);
     put_word(out, "rounding", dp_rounding_name(spec->rounding));
-    if (spec->mapping == DP_MAPPING_LOG)
+    if (s->setup.curve == DP_CURVE_LOG && s->setup.log_by > 0)
         put_number(out, "log_c", spec->log_c);
     put_view(out, s);
     output_text(out, " };\n};\n\n");

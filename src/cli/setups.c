@@ -98,7 +98,7 @@ setup_fields setup_fields_of(const dp_setup *setup, const char *unit) {
     const dp_spec *spec = &setup->spec;
     return (setup_fields){.znear = spec->znear,
                           .zfar = spec->zfar,
-                          .log_c = spec->mapping == DP_MAPPING_LOG ? spec->log_c : (double)NAN,
+                          .log_c = setup->curve == DP_CURVE_LOG && setup->log_by > 0 ? spec->log_c : (double)NAN,
                           .projection = spec->ortho ? "orthographic" : "perspective",
                           .mapping = dp_mapping_get(spec->mapping)->name,
                           .format = spec->format.name,

@@ -261,6 +261,9 @@ static int choose_mapping(const options *o, texture_source *s, dp_mapping *out) 
                         : told && s->found.direction ? ORIGIN_FOUND
                                                      : ORIGIN_ASSUMED;
     *out = given ? o->mappings[0] : told && s->found.reversed == 1 ? DP_MAPPING_REVERSED : DP_MAPPING_D3D;
+    if (dp_mapping_get(*out)->log_from_near)
+        return option_error(OPTION_MAPPING, "must not be %s: no image of it can be read here; got %s",
+                            dp_mapping_get(*out)->name, dp_mapping_get(*out)->name);
     return EXIT_FINE;
 }
 

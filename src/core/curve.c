@@ -15,6 +15,11 @@ static double divisor(const dp_setup *setup, dp_point p) {
     return isinf(setup->spec.zfar) ? to_near : setup->spec.zfar * to_near + setup->spec.znear * to_far;
 }
 
+/* LOG: how far behind its anchor a point lies; the sum with a far anchor loses bits that a distance needs. */
+static double beyond_anchor(const dp_setup *setup, dp_point p) {
+    return dp_expm1(p.num / p.den * setup->kappa) / setup->log_c;
+}
+
 double dp_curve_eye(const dp_setup *setup, dp_point p) {
     const double n = setup->spec.znear;
     const double f = setup->spec.zfar;
@@ -27,7 +32,7 @@ double dp_curve_eye(const dp_setup *setup, dp_point p) {
         const double to_far = setup->reversed ? p.comp : p.num;
         return (setup->anchor * to_near + f * to_far) / p.den;
     }
-    return dp_expm1(p.num / p.den * setup->kappa) / setup->spec.log_c;
+    return setup->anchor + beyond_anchor(setup, p);
 }
 
 double dp_curve_gap(const dp_setup *setup, dp_point p, double z) {
@@ -35,9 +40,9 @@ double dp_curve_gap(const dp_setup *setup, dp_point p, double z) {
     const double f = setup->spec.zfar;
     const double sign = setup->reversed ? -1.0 : 1.0;
     if (setup->curve == DP_CURVE_LOG) {
-        const double c = setup->spec.log_c;
         const dp_pair top = {setup->log_hi, setup->log_lo};
-        return (z + 1.0 / c) * dp_expm1(dp_scaled_difference(p.num, p.den, top, dp_log1p_product(c, z)));
+        return (z - setup->anchor + 1.0 / setup->log_c) *
+               dp_expm1(dp_scaled_difference(p.num, p.den, top, dp_log1p_excess(z, setup->anchor, setup->log_by)));
     }
     if (setup->curve == DP_CURVE_LINEAR) {
         const double a = setup->anchor;
@@ -73,14 +78,14 @@ double dp_curve_span(const dp_setup *setup, dp_point a, dp_point b) {
         return step == 0.0 ? 0.0 : dp_curve_eye(setup, a) * dp_curve_eye(setup, b) * (step * setup->kappa);
     if (setup->curve == DP_CURVE_LINEAR)
         return step * setup->kappa;
-    return (dp_curve_eye(setup, a) + 1.0 / setup->spec.log_c) * dp_expm1(step * setup->kappa);
+    return (beyond_anchor(setup, a) + 1.0 / setup->log_c) * dp_expm1(step * setup->kappa);
 }
 
 double dp_curve_reach(const dp_setup *setup, double z, double step) {
     const double change = step * setup->kappa;
     return setup->curve == DP_CURVE_PERSPECTIVE ? z * z * change
            : setup->curve == DP_CURVE_LINEAR    ? change
-                                                : (z + 1.0 / setup->spec.log_c) * dp_expm1(change);
+                                                : (z - setup->anchor + 1.0 / setup->log_c) * dp_expm1(change);
 }
 
 double dp_curve_ahead(const dp_setup *setup, double num, double den, double z) {

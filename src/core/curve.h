@@ -6,7 +6,7 @@
  *
  *     PERSPECTIVE   1/z = s/n + t/f
  *     LINEAR        z = s anchor + t f
- *     LOG           C z + 1 = (C f + 1)^t
+ *     LOG           C (z - anchor) + 1 = (C (f - anchor) + 1)^t, C = 1/n where that is z/n = (f/n)^t
  */
 #ifndef CORE_CURVE_H
 #define CORE_CURVE_H
@@ -35,10 +35,11 @@ double dp_curve_ahead(const dp_setup *setup, double num, double den, double z);
 
 /*
  * A factor that outweighs the rounding errors of any width, error or separation computed here: some 19 units of 2^-53,
- * or 214 for the exponentials of LOG, whose arguments reach 70.
+ * or 214 for the exponentials of LOG, whose arguments reach 70; and a depth far behind which a LOG curve begins holds
+ * less of its distance from there.
  */
 static inline double dp_curve_outward(const dp_setup *setup) {
-    return setup->curve == DP_CURVE_LOG ? 1.0 + 0x1p-44 : 1.0 + 0x1p-48;
+    return setup->curve == DP_CURVE_LOG ? 1.0 + 0x1p-44 + 0x1p-50 * (setup->anchor * setup->log_c) : 1.0 + 0x1p-48;
 }
 
 #endif

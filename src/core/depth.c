@@ -14,7 +14,7 @@ double dp_window(const dp_setup *setup, double z) {
     if (setup->reversed ? z <= n : z >= f)
         return 1.0;
     if (setup->curve == DP_CURVE_LOG)
-        d = dp_log1p(setup->spec.log_c * z) / setup->kappa;
+        d = dp_log1p(setup->log_c * (z - setup->anchor)) / setup->kappa;
     else if (setup->curve == DP_CURVE_LINEAR)
         d = (setup->reversed ? f - z : z - setup->anchor) / setup->kappa;
     else if (isinf(f))

@@ -45,8 +45,7 @@ static dp_pair log1p_series(dp_pair u) {
     return dp_pair_product(sum, u);
 }
 
-dp_pair dp_log1p_product(double c, double z) {
-    dp_pair u = dp_two_product(c, z);
+static dp_pair log1p_pair(dp_pair u) {
     if (u.hi < 0x1p-10)
         return log1p_series(u);
     /* One Newton step from the double y: log(x) = y + log(x e^-y), and x e^-y is within 2^-50 of 1. */
@@ -60,6 +59,11 @@ dp_pair dp_log1p_product(double c, double z) {
     dp_pair t = dp_pair_sum(ratio, (dp_pair){-1.0, 0.0});
     t = dp_pair_sum(t, (dp_pair){-0.5 * t.hi * t.hi, 0.0});
     return dp_pair_sum((dp_pair){y, 0.0}, t);
+}
+
+dp_pair dp_log1p_excess(double z, double anchor, double c) {
+    const dp_pair beyond = dp_two_sum(z, -anchor);
+    return log1p_pair(c > 0.0 ? pair_scale(beyond, c) : pair_divide(beyond, anchor));
 }
 
 double dp_scaled_difference(double num, double den, dp_pair a, dp_pair b) {

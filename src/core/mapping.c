@@ -49,6 +49,34 @@ static const dp_mapping_row rows[DP_MAPPING_COUNT] = {
         .note = "logarithmic depth, log(C z + 1)/log(C f + 1)",
         .source = "Kemen, Logarithmic depth buffer, 2009 (Outerra)",
     },
+    [DP_MAPPING_THREE_WEBGL] = {
+        .name = "three-webgl", .aliases = "three threejs three.js",
+        .curve = DP_CURVE_LOG, .per_fragment = 1,
+        .rank = 4, .effort = "logarithmicDepthBuffer: the fragment shader writes depth",
+        .note = "three.js, WebGLRenderer: log2(1 + w)/log2(far + 1), near ignored",
+        .source = "three.js, logdepthbuf_fragment.glsl.js and WebGLRenderer's logDepthBufFC",
+    },
+    [DP_MAPPING_THREE_WEBGPU] = {
+        .name = "three-webgpu", .aliases = "ulrich",
+        .curve = DP_CURVE_LOG, .log_from_near = 1, .log_over_near = 1, .per_fragment = 1,
+        .rank = 4, .effort = "logarithmicDepthBuffer: the fragment shader writes depth",
+        .note = "three.js, WebGPURenderer: log2(w/near)/log2(far/near), near at least 1e-6",
+        .source = "three.js, ViewportDepthNode.js, viewZToLogarithmicDepth; Ulrich",
+    },
+    [DP_MAPPING_CESIUM] = {
+        .name = "cesium", .aliases = "cesiumjs",
+        .curve = DP_CURVE_LOG, .log_from_near = 1, .per_fragment = 1,
+        .rank = 4, .effort = "the fragment shader writes depth",
+        .note = "log2(1 + w - near)/log2(far - near + 1), per fragment",
+        .source = "CesiumJS, vertexLogDepth.glsl and writeLogDepth.glsl",
+    },
+    [DP_MAPPING_OSGEARTH] = {
+        .name = "osgearth", .aliases = "osgearth-vertex",
+        .curve = DP_CURVE_LOG, .ndc_signed = 1,
+        .rank = 4, .effort = "the vertex shader writes depth: triangles must be small",
+        .note = "osgEarth without fragment depth: log2(1 + w)/log2(far + 1), interpolated",
+        .source = "osgEarth, LogDepthBuffer.VertOnly.vert.glsl",
+    },
 };
 /* clang-format on */
 

@@ -63,7 +63,7 @@ static dp_status check(const dp_spec *spec) {
         {!spec->ortho || row->ortho, DP_ERROR_ORTHO},
         {!isinf(spec->zfar) || (row->far_infinite && !spec->ortho), DP_ERROR_INFINITE},
         {spec->model != DP_MODEL_FP32 || row->curve == DP_CURVE_PERSPECTIVE, DP_ERROR_MODEL},
-        {row->curve != DP_CURVE_LOG || within(spec->log_c, 1e-12, 1e12), DP_ERROR_LOG_C},
+        {row->curve != DP_CURVE_LOG || row->log_over_near || within(spec->log_c, 1e-12, 1e12), DP_ERROR_LOG_C},
         {spec->triangles.width == 0 || (!spec->ortho && dp_triangles_check(&spec->triangles) == DP_OK),
          DP_ERROR_TRIANGLES},
     };
@@ -103,14 +103,17 @@ dp_status dp_setup_init(dp_setup *setup, const dp_spec *spec) {
         setup->anchor = spec->ortho ? n : 0.0;
         setup->kappa = f - setup->anchor;
     } else {
-        const dp_pair top = dp_log1p_product(spec->log_c, f);
+        setup->anchor = row->log_from_near ? n : 0.0;
+        setup->log_c = row->log_over_near ? 1.0 / n : spec->log_c;
+        setup->log_by = row->log_over_near ? 0.0 : spec->log_c;
+        const dp_pair top = dp_log1p_excess(f, setup->anchor, setup->log_by);
         setup->kappa = top.hi;
         setup->log_hi = top.hi;
         setup->log_lo = top.lo;
     }
     const uint32_t code_max = spec->format.code_max;
     const uint32_t near_end = row->reversed ? code_max : 0;
-    /* Only the linear and logarithmic mappings store near as something else than an end of [0, 1]. */
+    /* Only linear and logarithmic mappings can store near as something else than an end of [0, 1]. */
     setup->code_near = near_end;
     if (!spec->ortho && row->curve != DP_CURVE_PERSPECTIVE) {
         int certain;

@@ -19,14 +19,15 @@ static dp_vertex_error error_of(const dp_setup *setup, double z, double depth) {
     const double z2 = smaller(z * depth, setup->spec.zfar);
     const double before = z - z1, behind = z2 - z;
     dp_vertex_error e = {0};
-    if (setup->curve == DP_CURVE_PERSPECTIVE || setup->spec.ortho || !(before > 0.0 && behind > 0.0))
+    const int affine = setup->curve == DP_CURVE_PERSPECTIVE || setup->spec.ortho;
+    if (affine || dp_mapping_get(setup->spec.mapping)->per_fragment || !(before > 0.0 && behind > 0.0))
         return e;
     const double part = behind * (before / (z * (z2 - z1))); /* the weights are part z1/before and part z2/behind */
     if (setup->curve == DP_CURVE_LINEAR) {
         e.eye = rounded_up(before * (behind / z), 0.0) + 0x1p-51 * (before + behind); /* of z/depth and z depth */
         e.window = e.eye / setup->kappa * (1.0 + 0x1p-50);
     } else {
-        const double c = setup->spec.log_c, scale = c / (c * z + 1.0);
+        const double c = setup->log_c, scale = c / (c * (z - setup->anchor) + 1.0);
         const double chord =
             rounded_up(part * z1 / before * dp_log1p(-scale * before), part * z2 / behind * dp_log1p(scale * behind));
         e.eye = dp_expm1(chord) / scale * (1.0 + 0x1p-50);

@@ -185,9 +185,9 @@ bool reader_camera(reader *r, config_setting_t *group, need_camera *out) {
         (found[KEY_MAPPING] == NULL || read_mapping(r, found[KEY_MAPPING], &d)) &&
         (found[KEY_FORMAT] == NULL || read_format(r, found[KEY_FORMAT], &d)) && read_words(r, found, &d) &&
         (found[KEY_LOG_C] == NULL || reader_length(r, found[KEY_LOG_C], "log_c", READER_POSITIVE, &d.spec.log_c));
-    if (good && found[KEY_LOG_C] != NULL && d.spec.mapping != DP_MAPPING_LOG)
-        return reader_fail(r, found[KEY_LOG_C], "log_c: is for the mapping log only, got %s",
-                           dp_mapping_get(d.spec.mapping)->name);
+    const dp_mapping_row *row = dp_mapping_get(d.spec.mapping);
+    if (good && found[KEY_LOG_C] != NULL && (row->curve != DP_CURVE_LOG || row->log_over_near))
+        return reader_fail(r, found[KEY_LOG_C], "log_c: is for the mappings with a constant C only, got %s", row->name);
     if (good && found[KEY_LOG_C] != NULL && config_setting_type(found[KEY_LOG_C]) == CONFIG_TYPE_STRING)
         return reader_fail(r, found[KEY_LOG_C], "log_c: must be a number per scene unit, got %s",
                            reader_shown(r, found[KEY_LOG_C]));

@@ -10,7 +10,7 @@
 static double half_of(const dp_setup *setup, double z, double s) {
     return setup->curve == DP_CURVE_PERSPECTIVE ? s * z / (2.0 * z + s)
            : setup->curve == DP_CURVE_LINEAR    ? 0.5 * s
-                                                : s / (1.0 + sqrt(1.0 + s / (z + 1.0 / setup->spec.log_c)));
+                                                : s / (1.0 + sqrt(1.0 + s / (z - setup->anchor + 1.0 / setup->log_c)));
 }
 
 /*

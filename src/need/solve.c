@@ -76,10 +76,11 @@ static uint32_t field_at(const search *s, double z, double x) {
 static double unknown_of(const dp_setup *setup, solve_unknown unknown, double z, double v) {
     const double n = setup->spec.znear;
     const double f = setup->spec.zfar;
-    const double c = setup->spec.log_c;
+    const double c = setup->log_c;
     const int r = setup->reversed;
     if (setup->curve == DP_CURVE_LOG)
-        return dp_expm1(dp_log1p(c * z) / v) / c;
+        return unknown == SOLVE_NEAR ? z * (1.0 - v) /* a guess: one of these has no such formula */
+                                     : setup->anchor + dp_expm1(dp_log1p(c * (z - setup->anchor)) / v) / c;
     if (setup->curve == DP_CURVE_LINEAR && !setup->spec.ortho)
         return z / v;
     if (setup->curve == DP_CURVE_LINEAR && unknown == SOLVE_NEAR)
@@ -352,7 +353,8 @@ dp_status solve(const solve_problem *problem, solve_result *result) {
         return status;
     const dp_mapping_row *mapping = dp_mapping_get(problem->spec.mapping);
     s.margin = mapping->curve == DP_CURVE_LOG ? 0x1p-44 : 0x1p-48;
-    s.inert = problem->unknown == SOLVE_NEAR && !problem->spec.ortho && mapping->curve != DP_CURVE_PERSPECTIVE;
+    s.inert = problem->unknown == SOLVE_NEAR && !problem->spec.ortho && mapping->curve != DP_CURVE_PERSPECTIVE &&
+              !mapping->log_from_near;
     result->least = s.least;
     result->most = s.most;
     result->island_count = 0;

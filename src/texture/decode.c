@@ -51,13 +51,13 @@ static decode_constants w_eye(const dp_setup *setup) {
 }
 
 static decode_constants log_eye(const dp_setup *setup) {
-    const double c = setup->spec.log_c;
+    const double c = setup->log_c;
     return (decode_constants){DECODE_EXP2, 0, 1, (float)(dp_log1p(c * setup->spec.zfar) / M_LN2), (float)c};
 }
 
 /* All terms positive: q is the share of the way from the far plane, 1 - d or d itself. */
 static decode_constants complement(const dp_setup *setup) {
-    const double n = setup->spec.znear, f = setup->spec.zfar, c = setup->spec.log_c;
+    const double n = setup->spec.znear, f = setup->spec.zfar, c = setup->log_c;
     const bool r = setup->reversed != 0;
     if (setup->curve == DP_CURVE_LOG)
         return (decode_constants){DECODE_EXPM1, 0, 1, (float)dp_log1p(c * f), (float)c};
@@ -195,13 +195,14 @@ double decode_exact(const dp_setup *setup, decode_quantity quantity, double d) {
     if (infinite && quantity != DECODE_EYE)
         return 0;
     if (setup->curve == DP_CURVE_LOG) {
-        const double c = setup->spec.log_c, z = exact_power(setup, d) / c;
+        const double c = setup->log_c, z = exact_power(setup, d) / c;
         if (quantity != DECODE_01_NEAR)
             return quantity == DECODE_EYE ? z : z / f;
         if (z > 4 * n) /* far enough for a plain difference */
             return (z - n) / (f - n);
         const dp_pair top = {setup->log_hi, setup->log_lo};
-        return (n + 1 / c) * dp_expm1(dp_scaled_difference(d, 1, top, dp_log1p_product(c, n))) / (f - n);
+        return (n + 1 / c) *
+               dp_expm1(dp_scaled_difference(d, 1, top, dp_log1p_excess(n, setup->anchor, setup->log_by))) / (f - n);
     }
     if (setup->curve == DP_CURVE_LINEAR && !setup->spec.ortho)
         return quantity == DECODE_EYE ? f * d : quantity == DECODE_01 ? d : fma(f, d, -n) / (f - n);
@@ -267,7 +268,7 @@ double decode_bound(const decode_row *row, const dp_setup *setup, double d) {
         off = big * exact / q + 2 + q_off;
     else {
         /* the exponent is rounded relative to itself, its product by half a unit in the last place */
-        const double away = setup->spec.log_c * exact, steep = (away + 1) / away;
+        const double away = setup->log_c * exact, steep = (away + 1) / away;
         const double per = c.form == DECODE_EXP2 ? M_LN2 : 1, product = dp_half_ulp((double)c.scale * d) / DP_UNIT;
         const double power = dp_log1p(away) + per * product;
         /* exp2f within 0.55 ulp and expm1f within 1, as C libraries have them and ours (0.501; tests/test_decode.c
