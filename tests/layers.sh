@@ -18,9 +18,9 @@ src/shadow        | depthprec core api shadow
 src/opened        | opened
 src/texture       | depthprec core opened texture
 src/method        | depthprec core texture census method
-src/need          | depthprec core api raster need
+src/need          | depthprec core api raster world need
 src/model         | core opened model
-src/scene         | depthprec core raster model draw need scene
+src/scene         | depthprec core raster world model draw need scene
 src/report        | depthprec core report
 src/plot          | depthprec core api world census raster draw shadow texture method need model scene plot
 src/cli           | depthprec core api world census raster vertex draw shadow texture method need model scene report plot cli

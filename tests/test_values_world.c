@@ -141,10 +141,55 @@ static void test_budget(void **state) {
     printed_free(&named);
 }
 
+/* check: the same of a camera in a file. */
+static void test_check(void **state) {
+    (void)state;
+    static const char *const wrong[] = {"world = 5.0;",
+                                        "scheme = \"split\";",
+                                        "world = 5.0; scheme = \"splt\";",
+                                        "world = 5.0; scheme = \"split:3\";",
+                                        "world = -5.0; scheme = \"split\";",
+                                        "world = 5.0; scheme = \"tile\"; model = \"exact\";"};
+    static const char head[] = "unit = \"m\"; cameras = { a = { near = 0.1; far = \"inf\"; mapping = \"reversed\"; "
+                               "format = \"fp32\"; ";
+    static const char tail[] =
+        "}; }; requirements = { r = { camera = \"a\"; at = \"30 m\"; separation = \"1 cm\"; }; };";
+    char path[512];
+    snprintf(path, sizeof path, "%s", scratch_file("world.need"));
+    printed shown = print_of("budget -n 0.1 -f inf -F fp32 -m reversed --world 1e5 --scheme split --at 30 --json");
+    FILE *file = fopen(path, "w");
+    assert_non_null(file);
+    fprintf(file, "%sworld = \"100 km\"; scheme = \"split\"; %s", head, tail);
+    fclose(file);
+    printed p = print_of("check --report json %s", path);
+    assert_int_equal(p.status, 1); /* 1.4 cm, not 1 */
+    json_error_t error;
+    json_t *root = json_loads(p.out, 0, &error), *asked = json_loads(shown.out, 0, &error);
+    json_t *row = json_array_get(json_object_get(json_array_get(json_object_get(asked, "setups"), 0), "rows"), 0);
+    json_t *verdict = json_array_get(json_object_get(root, "requirements"), 0);
+    assert_relative(json_number_value(json_object_get(verdict, "value")),
+                    json_number_value(json_object_get(row, "separation")), 1e-12);
+    json_decref(root);
+    json_decref(asked);
+    printed_free(&p);
+    printed_free(&shown);
+    for (size_t i = 0; i < sizeof wrong / sizeof wrong[0]; i++) {
+        file = fopen(path, "w");
+        assert_non_null(file);
+        fprintf(file, "%s%s%s", head, wrong[i], tail);
+        fclose(file);
+        p = print_of("check %s", path);
+        assert_int_equal(p.status, 2);
+        assert_non_null(strstr(p.errors, "world.need"));
+        printed_free(&p);
+    }
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_world),
         cmocka_unit_test(test_budget),
+        cmocka_unit_test(test_check),
     };
     return run_tap(tests);
 }
