@@ -19,9 +19,9 @@ src/opened        | opened
 src/probe         | depthprec core opened raster probe
 src/texture       | depthprec core opened texture
 src/method        | depthprec core texture census method
-src/need          | depthprec core api raster need
+src/need          | depthprec core api raster world need
 src/model         | core opened model
-src/scene         | depthprec core raster model draw need scene
+src/scene         | depthprec core raster world model draw need scene
 src/report        | depthprec core report
 src/plot          | depthprec core api world census raster draw shadow texture method need model scene plot
 src/cli           | depthprec core api world census raster vertex draw shadow texture method need model scene probe report plot cli

@@ -23,6 +23,7 @@ static const struct {
     {VERB_STABILITY, "stability encode"},
     {VERB_SHADOW, "shadow"},
     {VERB_DISOCCLUSION, "disocclusion"},
+    {VERB_WORLD, "world --distance 1e5"},
     {VERB_SCENE, "scene tests/models/street.obj --gap 0.02"},
     {VERB_LIST, "list scenes"},
 };
@@ -65,6 +66,7 @@ static const struct {
     {VERB_TABLE, IDS(OPTION_MODEL), "table -F d24 -m d3d", ""},
     {VERB_TABLE, IDS(OPTION_ARITH), NULL, "--model float"},
     {VERB_TABLE | VERB_PLOT | VERB_TEXTURE | VERB_BIAS | VERB_SCENE, IDS(OPTION_LOG_C), NULL, "-m log"},
+    {VERB_SOLVE, IDS(OPTION_SCHEME), "solve --for world", ""},
     {VERB_SOLVE, IDS(OPTION_LOG_C), "solve -f 1000 -F d24 -m log --separation 0.01 --at 50", ""},
 };
 

@@ -255,11 +255,12 @@ static void test_words(void **state) {
         {"solve",
          OPTION_FOR,
          WORD_AT(target),
-         "near, far, format, mapping, separation, distance or frusta",
+         "near, far, format, mapping, separation, distance, frusta or world",
          {{"near", SOLVE_FOR_NEAR},
           {"far", SOLVE_FOR_FAR},
           {"format", SOLVE_FOR_FORMAT},
           {"mapping", SOLVE_FOR_MAPPING},
+          {"world", SOLVE_FOR_WORLD},
           {"separation", SOLVE_FOR_SEPARATION},
           {"distance", SOLVE_FOR_DISTANCE},
           {"frusta", SOLVE_FOR_FRUSTA}}},
@@ -556,6 +557,14 @@ static void test_own(void **state) {
     assert_int_equal(parse(&o, "table", OPTION_AT, "3,1,2", line), EXIT_FINE);
     assert_true(o.at.count == 3 && o.at.lo == 1 && o.at.hi == 3);
     options_release(&o);
+    assert_int_equal(parse(&o, "world", OPTION_DISTANCE, "8km,200m", line), EXIT_FINE);
+    assert_true(o.distances.count == 2 && o.distances.lo == 200 && o.distances.hi == 8000 && o.at.count == 0);
+    options_release(&o);
+    assert_int_equal(parse(&o, "world", OPTION_SCHEME, "Split:1024,two-sum,split:1024,tile", line), EXIT_FINE);
+    assert_true(o.scheme_count == 3 && o.schemes[0].size == 1024 && o.schemes[2].size == 20971.52);
+    assert_string_equal(o.schemes[1].row->name, "two-sum");
+    assert_int_equal(parse(&o, "world", OPTION_SHARE, NULL, line), EXIT_FINE);
+    assert_true(o.shared_origin && o.scheme_count == WORLD_ROWS && o.triangles.width == 1920);
     assert_int_equal(parse(&o, "table", OPTION_RANGE, "2:5", line), EXIT_FINE);
     assert_true(o.range_lo == 2 && o.range_hi == 5);
     assert_int_equal(parse(&o, "texture", OPTION_ORIGIN, "1,-2,3e4", line), EXIT_FINE);

@@ -202,11 +202,13 @@ static int complete(world *w, const options *o, bool solving) {
         parse_formats(c, &option_rows[OPTION_FORMAT], "fp32");
     if (!option_given(o, OPTION_MAPPING) && !stored)
         parse_mappings(c, &option_rows[OPTION_MAPPING], "reversed");
+    for (size_t m = 0; m < c->mapping_count; m++)
+        if (dp_mapping_get(c->mappings[m])->curve != DP_CURVE_PERSPECTIVE)
+            return option_error(OPTION_MAPPING, "must be one of " DP_MAPPING_NAMES_PERSPECTIVE ", got %s",
+                                dp_mapping_get(c->mappings[m])->name);
     if (o->at.count > 1)
         return option_error(OPTION_AT, "must be one depth, got %zu", o->at.count);
     w->z = length_or(o->at.count > 0, o->at.lo, 10.0, o->unit);
-    if (!(w->z >= c->znear && w->z <= c->zfar))
-        return option_error(OPTION_AT, "must lie between near and far, got %s", number_full(w->z).text);
     w->wanted = solving ? length_or(o->wanted_separation > 0.0, o->wanted_separation, 0.01, o->unit)
                         : length_or(option_given(o, OPTION_GAP), o->gap, 0.01, o->unit);
     w->distances = solving ? (depths){0} : o->distances;
@@ -242,6 +244,8 @@ static int report_worlds(const options *o, bool solving) {
         return status;
     take_view(&w);
     status = setups_make(&w.o, &w.all);
+    if (status == EXIT_FINE && !(w.z >= w.o.znear && w.z <= w.o.zfar))
+        status = option_error(OPTION_AT, "must lie between near and far, got %s", number_full(w.z).text);
     if (status == EXIT_FINE)
         status = options_open(o, &out);
     if (status == EXIT_FINE) {

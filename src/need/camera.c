@@ -18,12 +18,14 @@ enum {
     KEY_MODEL,
     KEY_ARITH,
     KEY_LOG_C,
+    KEY_WORLD,
+    KEY_SCHEME,
     KEY_VIEW,
     KEY_COUNT = KEY_VIEW + VIEW_COUNT
 };
 
-static const char *const keys[KEY_COUNT + 1] = {"preset",   "near",  "far",   "mapping", "format",  "ortho",
-                                                "rounding", "model", "arith", "log_c",   VIEW_KEYS, NULL};
+static const char *const keys[KEY_COUNT + 1] = {"preset", "near",  "far",   "mapping", "format", "ortho",   "rounding",
+                                                "model",  "arith", "log_c", "world",   "scheme", VIEW_KEYS, NULL};
 
 typedef struct draft {
     dp_spec spec;
@@ -161,6 +163,33 @@ static bool make_setups(reader *r, const config_setting_t *group, const draft *d
     return true;
 }
 
+/* Places of a world: both keys, and a pipeline of depths at a point. */
+static bool read_world(reader *r, config_setting_t *const *found, const draft *d, need_camera *out) {
+    config_setting_t *const world = found[KEY_WORLD], *const scheme = found[KEY_SCHEME];
+    const char *text;
+    if (world == NULL && scheme == NULL)
+        return true;
+    if (world == NULL || scheme == NULL)
+        return reader_fail(r, world != NULL ? world : scheme, "camera '%s': world and scheme need each other",
+                           out->name);
+    if (!reader_length(r, world, "world", READER_POSITIVE, &out->world) || !reader_string(r, scheme, &text))
+        return false;
+    if (!world_parse(text, &out->scheme)) {
+        for (size_t i = 0; i < WORLD_ROWS; i++)
+            reader_known(r, text, world_get(i)->name);
+        return reader_fail(r, scheme,
+                           "scheme: must be NAME or NAME:SIZE as 'depthprec list schemes' has them, got '%.40s'", text);
+    }
+    if (d->spec.ortho || dp_mapping_get(d->spec.mapping)->curve != DP_CURVE_PERSPECTIVE)
+        return reader_fail(r, world,
+                           "world: needs a perspective and one of the mappings " DP_MAPPING_NAMES_PERSPECTIVE);
+    if (!d->automatic && d->spec.model != DP_MODEL_FP32)
+        return reader_fail(r, world, "world: needs the model auto or float");
+    if (found[KEY_VIEW] != NULL)
+        return reader_fail(r, world, "world: is of surfaces that face the camera, not with viewport");
+    return true;
+}
+
 /* An orthographic camera may have planes at its place and behind it. */
 static unsigned planes_of(const draft *d) {
     return d->spec.ortho ? READER_SIGNED : READER_POSITIVE;
@@ -192,6 +221,6 @@ bool reader_camera(reader *r, config_setting_t *group, need_camera *out) {
         return reader_fail(r, found[KEY_LOG_C], "log_c: must be a number per scene unit, got %s",
                            reader_shown(r, found[KEY_LOG_C]));
     out->automatic = d.automatic;
-    return good && reader_view(r, found + KEY_VIEW, d.preset, out, &d.spec) &&
+    return good && read_world(r, found, &d, out) && reader_view(r, found + KEY_VIEW, d.preset, out, &d.spec) &&
            raster_suits(r, found[KEY_VIEW + VIEW_RASTER], &d, out) && make_setups(r, group, &d, out);
 }

@@ -5,6 +5,7 @@
 
 #include "core/bits.h"
 #include "need/judge.h"
+#include "world/reach.h"
 
 /* What the exact lattice refuses by this factor, no arithmetic in front of it can save: see check.h. */
 static const double refusal_factor = 4.0;
@@ -41,8 +42,25 @@ static void judge_in(const need *n, const dp_setup *setup, check_verdict *v) {
     v->code = j.code;
 }
 
+/* From a world of places: no farther from its origin than a corner of its box, seen within 60 degrees of the axis. */
+static void judge_world(const need *n, const need_camera *camera, const dp_setup *asked, check_verdict *v) {
+    static const double root3 = 1.7320508075688774;
+    with_model(asked, DP_MODEL_FP32, &v->setup); /* need_read() has refused mappings that have none */
+    const world_asked a = {.setup = &v->setup, .z = n->hi, .lean = 2.0};
+    const double distance = root3 * camera->world;
+    v->method = CHECK_GUARANTEE;
+    v->z = n->hi;
+    v->value = n->lo < n->hi ? world_separation_over(&camera->scheme, &a, distance, n->lo, n->hi)
+                             : world_separation(&camera->scheme, &a, distance);
+    v->passed = v->value <= n->limit;
+}
+
 static void judge_separation(const need *n, const need_camera *camera, const dp_setup *asked, check_verdict *v) {
     dp_setup setup;
+    if (camera->world > 0.0) {
+        judge_world(n, camera, asked, v);
+        return;
+    }
     const bool heavy = camera->automatic || asked->spec.model == DP_MODEL_FP32;
     if (!heavy || !with_model(asked, DP_MODEL_EXACT, &setup)) {
         judge_in(n, asked, v);

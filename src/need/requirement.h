@@ -16,6 +16,7 @@
 
 #include "depthprec/depthprec.h"
 #include "raster/raster.h"
+#include "world/world.h"
 
 /** What a requirement limits; the index of its row in need_kind_get(). */
 typedef enum need_kind {
@@ -40,6 +41,8 @@ typedef struct need_camera {
     int line;
     size_t count;                     /**< 1; 2 where the format (depth24plus) may be either of two */
     dp_setup setups[NEED_SETUPS_MAX]; /**< in the model asked for; exact where `automatic` */
+    double world;                     /**< largest |coordinate| of places and camera; 0: eye depth is given */
+    world_scheme scheme;              /**< where `world` is positive */
     bool automatic;                   /**< model "auto": the simplest model that can decide */
     const raster_row *raster; /**< whose grid and set-up the set-ups' triangles have; null where none is named */
 } need_camera;

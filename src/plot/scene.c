@@ -166,6 +166,9 @@ static void write_subtitle(const scene *s, chart *out) {
 
 const char *scene_build(const figure_request *request, chart *out) {
     scene s = {.request = *request};
+    for (size_t i = 0; i < request->file->camera_count; i++)
+        if (request->file->cameras[i].world > 0.0)
+            return "plot scene: a camera with a world has no curve: check judges it";
     judge(&s, out);
     if (s.count == 0 && !chart_failed(out)) {
         snprintf(out->subtitle, sizeof out->subtitle, "plot scene: %s limits no separation and no error",

@@ -42,6 +42,25 @@ double world_separation(const world_scheme *s, const world_asked *a, double dist
     return world_budget(s, a, distance, &terms, &b) == DP_OK ? b.separation : (double)INFINITY;
 }
 
+/* Of all of them what is lost at the farthest, and what the buffer needs wherever places may be moved to. */
+double world_separation_over(const world_scheme *s, const world_asked *a, double distance, double lo, double hi) {
+    const double settled = 1.0 + 0x1p-40, outward = 1.0 + 0x1p-16;
+    const dp_spec *spec = &a->setup->spec;
+    for (double end = hi;;) {
+        const dp_displaced d = displaced(s, a, distance, end);
+        const double reach = d.own + d.shared;
+        dp_separation_worst worst;
+        if (!(reach < lo) || dp_separation_over(a->setup, fmax(lo - reach, spec->znear), fmin(hi + reach, spec->zfar),
+                                                0.0, &worst) != DP_OK)
+            return (double)INFINITY;
+        const double need = d.own + fmax(d.own, d.shared) + worst.bound;
+        const double separation = need / (1.0 - d.turn) * outward;
+        if (isinf(separation) || hi + separation <= end * settled)
+            return separation;
+        end = (hi + separation) * settled;
+    }
+}
+
 double world_jitter(const world_scheme *s, const world_asked *a, double distance) {
     const world_where ahead = {distance, a->z, a->z}, beside = {distance, a->z, 0.0};
     const world_error along = world_bound(s, &ahead), across = world_bound(s, &beside);

@@ -4,7 +4,7 @@
 #ifndef WORLD_REACH_H
 #define WORLD_REACH_H
 
-#include "depthprec/budget.h"
+#include "depthprec/depthprec.h"
 #include "world/world.h"
 
 /** Who looks at what, but for the distance from the origin. */
@@ -34,6 +34,9 @@ dp_status world_budget(const world_scheme *s, const world_asked *a, double dista
 
 /** Its separation; INFINITY where none is certain. */
 double world_separation(const world_scheme *s, const world_asked *a, double distance);
+
+/** The same for each depth of [lo, hi], in [near, far] and finite; a->z is not read. */
+double world_separation_over(const world_scheme *s, const world_asked *a, double distance, double lo, double hi);
 
 /**
  * By how many pixels a place in the middle of the picture is off at most, along either axis, before it moves to a

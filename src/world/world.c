@@ -3,6 +3,8 @@
 #include "world/world.h"
 
 #include <math.h>
+#include <stdlib.h>
+#include <string.h>
 
 #include "world/arithmetic.h"
 
@@ -124,6 +126,21 @@ const world_row *world_get(size_t index) {
 bool world_size_fits(const world_row *row, double size) {
     int exponent;
     return row->size != NULL && size >= 1e-3 && size <= 1e12 && (!row->power2 || frexp(size, &exponent) == 0.5);
+}
+
+bool world_parse(const char *text, world_scheme *out) {
+    const size_t length = strcspn(text, ":");
+    for (size_t i = 0; i < WORLD_ROWS; i++) {
+        char *end;
+        if (strlen(rows[i].name) != length || strncmp(rows[i].name, text, length) != 0)
+            continue;
+        const double size = text[length] == '\0' ? rows[i].standard : strtod(text + length + 1, &end);
+        if (text[length] != '\0' && (*end != '\0' || !world_size_fits(&rows[i], size)))
+            return false;
+        *out = (world_scheme){&rows[i], size};
+        return true;
+    }
+    return false;
 }
 
 void world_view(const world_scheme *s, const world_camera *camera, const world_place *place, float out[3]) {

@@ -73,6 +73,9 @@ const world_row *world_get(size_t index);
 /** Is it a size of the row: from 1e-3 to 1e12, a power of two where it must be. */
 bool world_size_fits(const world_row *row, double size);
 
+/** NAME, or NAME:SIZE, scene units. @return false, and *out as it was, where it is none */
+bool world_parse(const char *text, world_scheme *out);
+
 /** The place in view space (right, up, ahead), in binary32 as the scheme does it. Coordinates at most 1e12. */
 void world_view(const world_scheme *s, const world_camera *camera, const world_place *place, float out[3]);
 
