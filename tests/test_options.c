@@ -525,6 +525,20 @@ static void test_boxes(void **state) {
     tally_end(&t);
 }
 
+static void test_worlds(void **state) {
+    options o;
+    char line[1024] = "";
+    (void)state;
+    assert_int_equal(parse(&o, "world", OPTION_DISTANCE, "8km,200m", line), EXIT_FINE);
+    assert_true(o.distances.count == 2 && o.distances.lo == 200 && o.distances.hi == 8000 && o.at.count == 0);
+    options_release(&o);
+    assert_int_equal(parse(&o, "world", OPTION_SCHEME, "Split:1024,two-sum,split:1024,tile", line), EXIT_FINE);
+    assert_true(o.scheme_count == 3 && o.schemes[0].size == 1024 && o.schemes[2].size == 20971.52);
+    assert_string_equal(o.schemes[1].row->name, "two-sum");
+    assert_int_equal(parse(&o, "world", OPTION_SHARE, NULL, line), EXIT_FINE);
+    assert_true(o.shared_origin && o.scheme_count == WORLD_ROWS && o.triangles.width == 1920);
+}
+
 static void test_own(void **state) {
     char line[1024] = "";
     options o;
@@ -557,14 +571,6 @@ static void test_own(void **state) {
     assert_int_equal(parse(&o, "table", OPTION_AT, "3,1,2", line), EXIT_FINE);
     assert_true(o.at.count == 3 && o.at.lo == 1 && o.at.hi == 3);
     options_release(&o);
-    assert_int_equal(parse(&o, "world", OPTION_DISTANCE, "8km,200m", line), EXIT_FINE);
-    assert_true(o.distances.count == 2 && o.distances.lo == 200 && o.distances.hi == 8000 && o.at.count == 0);
-    options_release(&o);
-    assert_int_equal(parse(&o, "world", OPTION_SCHEME, "Split:1024,two-sum,split:1024,tile", line), EXIT_FINE);
-    assert_true(o.scheme_count == 3 && o.schemes[0].size == 1024 && o.schemes[2].size == 20971.52);
-    assert_string_equal(o.schemes[1].row->name, "two-sum");
-    assert_int_equal(parse(&o, "world", OPTION_SHARE, NULL, line), EXIT_FINE);
-    assert_true(o.shared_origin && o.scheme_count == WORLD_ROWS && o.triangles.width == 1920);
     assert_int_equal(parse(&o, "table", OPTION_RANGE, "2:5", line), EXIT_FINE);
     assert_true(o.range_lo == 2 && o.range_hi == 5);
     assert_int_equal(parse(&o, "texture", OPTION_ORIGIN, "1,-2,3e4", line), EXIT_FINE);
@@ -692,7 +698,8 @@ int main(void) {
 
         cmocka_unit_test(test_whole),   cmocka_unit_test(test_words),   cmocka_unit_test(test_rows),
         cmocka_unit_test(test_flags),   cmocka_unit_test(test_texts),   cmocka_unit_test(test_optional),
-        cmocka_unit_test(test_own),     cmocka_unit_test(test_boxes),   cmocka_unit_test(test_slanted),
-        cmocka_unit_test(test_formats), cmocka_unit_test(test_lists),   cmocka_unit_test(test_all)};
+        cmocka_unit_test(test_own),     cmocka_unit_test(test_worlds),  cmocka_unit_test(test_boxes),
+        cmocka_unit_test(test_slanted), cmocka_unit_test(test_formats), cmocka_unit_test(test_lists),
+        cmocka_unit_test(test_all)};
     return run_tap(tests);
 }

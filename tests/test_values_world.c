@@ -27,6 +27,7 @@ static double farthest(world_loss *loss, const world_scheme *s, const world_aske
     return to;
 }
 
+/* Long: one report, read from the outside in. */
 static void test_world(void **state) {
     (void)state;
     for (int shared = 0; shared < 2; shared++) {

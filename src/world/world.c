@@ -99,7 +99,8 @@ static world_error of_cell(const world_scheme *s, const world_where *at) {
 
 /* clang-format off */
 static const world_row rows[WORLD_ROWS] = {
-    {"world", "vertices in the world through a view matrix; of a reversed infinite projection through one of both, too", NULL, 0.0, false,
+    {"world", "vertices in the world through a view matrix; of a reversed infinite projection through one of both, too",
+     NULL, 0.0, false,
      "common", arithmetic_world, of_world},
     {"local", "vertices about an origin, whose matrix and the view's are multiplied in binary32", NULL, 0.0, false,
      "common", arithmetic_local, of_local},
