@@ -13,6 +13,7 @@
 #include "api/cost.h"
 #include "cli/reach.h"
 #include "cli/slant.h"
+#include "cli/stored.h"
 #include "core/append.h"
 #include "core/elementary.h"
 #include "report/number.h"
@@ -182,6 +183,7 @@ static void say_notes(page *p, void *item) {
             page_text(p, "No API has %s as a depth buffer.", c->rows[i].setup->spec.format.name);
             break;
         }
+    stored_say(p, c->walk->o);
     page_text(p, "--full prints the tables: codes, errors, intervals, worst cases.");
 }
 

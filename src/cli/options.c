@@ -7,6 +7,7 @@
 #include <string.h>
 
 #include "cli/option_rows.h"
+#include "cli/stored.h"
 #include "core/append.h"
 #include "report/number.h"
 
@@ -164,8 +165,9 @@ static void take_platform(options *o) {
     if (p == NULL)
         return;
     const bool webgl = strcmp(p->api, "gl") == 0;
-    if (!option_given(o, OPTION_FORMAT))
-        parse_formats(o, &option_rows[OPTION_FORMAT], p->stored);
+    const char *stored = stored_on(p, o->given[OPTION_FORMAT]);
+    if (!option_given(o, OPTION_FORMAT) || stored != NULL)
+        parse_formats(o, &option_rows[OPTION_FORMAT], stored != NULL ? stored : p->stored);
     if (!option_given(o, OPTION_MAPPING) && o->preset_count == 0)
         parse_mappings(o, &option_rows[OPTION_MAPPING], webgl ? "gl" : "d3d");
     bool remapped = false;
@@ -218,6 +220,9 @@ static int complete(options *o) {
     if (o->preset_count == 1)
         take_preset(o, o->presets[0]);
     take_platform(o);
+    if (status == EXIT_FINE && o->platform != NULL && o->verb->bit == VERB_SOLVE && o->format_count > 1)
+        return option_error(OPTION_PLATFORM, "stores unorm24 or fp32 on %s, as the device has it: -F says for which",
+                            o->platform->name);
     return status;
 }
 
