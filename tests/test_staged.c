@@ -20,7 +20,8 @@ static float to_binary32(const mpq_t x) {
 }
 
 static int is_signed(const dp_spec *spec) {
-    return spec->mapping == DP_MAPPING_GL || spec->mapping == DP_MAPPING_GL_REVERSED;
+    return spec->mapping == DP_MAPPING_GL || spec->mapping == DP_MAPPING_GL_REVERSED ||
+           spec->mapping == DP_MAPPING_OSGEARTH; /* gl_Position.z = (2 d - 1) w */
 }
 
 static uint32_t staged_code(oracle *o, double z) {

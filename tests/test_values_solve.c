@@ -93,7 +93,7 @@ static dp_setup setup_in(const json_t *o) {
     for (int m = 0; m < DP_MODEL_COUNT; m++)
         if (strcmp(dp_model_name((dp_model)m), text_in(o, "model")) == 0)
             spec.model = (dp_model)m;
-    spec.log_c = spec.mapping == DP_MAPPING_LOG ? number_in(o, "log_c") : 1;
+    spec.log_c = json_is_number(json_object_get(o, "log_c")) ? number_in(o, "log_c") : 1;
     assert_int_equal(dp_setup_init(&setup, &spec), DP_OK);
     return setup;
 }

@@ -114,13 +114,13 @@ bool decode_applies(const decode_row *row, const dp_setup *setup) {
     const bool curve = setup->spec.ortho                      ? row->ortho
                        : setup->curve == DP_CURVE_PERSPECTIVE ? row->perspective
                        : setup->curve == DP_CURVE_LINEAR      ? row->w
-                                                              : row->log;
+                                                              : row->log && setup->anchor == 0;
     return curve && (row->far_infinite || !isinf(setup->spec.zfar));
 }
 
 const decode_row *decode_usual(const dp_setup *setup) {
-    const decode_row *row = decode_rows;
-    while (row->quantity != DECODE_EYE || !decode_applies(row, setup)) /* the last applies to all */
+    const decode_row *row = decode_rows, *const last = &decode_rows[DECODE_COMPLEMENT];
+    while (row < last && (row->quantity != DECODE_EYE || !decode_applies(row, setup)))
         row++;
     return row;
 }
@@ -195,9 +195,11 @@ double decode_exact(const dp_setup *setup, decode_quantity quantity, double d) {
     if (infinite && quantity != DECODE_EYE)
         return 0;
     if (setup->curve == DP_CURVE_LOG) {
-        const double c = setup->log_c, z = exact_power(setup, d) / c;
+        const double c = setup->log_c, beyond = exact_power(setup, d) / c, z = setup->anchor + beyond;
         if (quantity != DECODE_01_NEAR)
             return quantity == DECODE_EYE ? z : z / f;
+        if (setup->anchor == n)
+            return beyond / (f - n);
         if (z > 4 * n) /* far enough for a plain difference */
             return (z - n) / (f - n);
         const dp_pair top = {setup->log_hi, setup->log_lo};

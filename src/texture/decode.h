@@ -52,7 +52,7 @@ typedef struct decode_row {
     decode_constants (*constants)(const dp_setup *setup);
 } decode_row;
 
-/** The rows in their order; the last applies to all. */
+/** The rows in their order; the last applies to all but logarithms that begin at near. */
 enum {
     DECODE_LINEAR_EYE = 0,
     DECODE_LINEAR_01,
