@@ -60,9 +60,13 @@ all_named world
 all_named world --distance 1km,1e6m
 all_named budget --at 10 --world 1e5 --scheme split
 section probe | sort -u >"$scratch/known_probe"
+profile_fields() { # what of a profile is not in the page, or that it is none
+    jq -r '[.. | objects | keys[]] | unique[]' "$1" | sort -u >"$scratch/keys"
+    "$DEPTHPREC" table --arith "$1" --json | grep -q '"measured"' && [ -s "$scratch/keys" ] || echo "no profile"
+    comm -23 "$scratch/keys" "$scratch/known_probe"
+}
 for profile in tests/profiles/*.json; do
-    check "depthprec.5: ${profile##*/}" empty sh -c '
-        jq -r "[.. | objects | keys[]] | unique[]" "$1" | sort -u | comm -23 - "$2"' - "$profile" "$scratch/known_probe"
+    check "depthprec.5: ${profile##*/}" empty profile_fields "$profile"
 done
 all_named bias --at 10 --units 1
 all_named bias --range 1:10 --gap 0.01

@@ -96,9 +96,10 @@ const column setup_columns[] = {{FIELD(setup_fields, znear, "near", "scene")},
 
 setup_fields setup_fields_of(const dp_setup *setup, const char *unit) {
     const dp_spec *spec = &setup->spec;
+    const dp_mapping_row *row = dp_mapping_get(spec->mapping); /* of alternatives the rest of the set-up may be open */
     return (setup_fields){.znear = spec->znear,
                           .zfar = spec->zfar,
-                          .log_c = setup->curve == DP_CURVE_LOG && setup->log_by > 0 ? spec->log_c : (double)NAN,
+                          .log_c = row->curve == DP_CURVE_LOG && !row->log_over_near ? spec->log_c : (double)NAN,
                           .projection = spec->ortho ? "orthographic" : "perspective",
                           .mapping = dp_mapping_get(spec->mapping)->name,
                           .format = spec->format.name,

@@ -52,7 +52,7 @@ static void judge_world(const need *n, const need_camera *camera, const dp_setup
     v->z = n->hi;
     v->value = n->lo < n->hi ? world_separation_over(&camera->scheme, &a, distance, n->lo, n->hi)
                              : world_separation(&camera->scheme, &a, distance);
-    v->passed = v->value <= n->limit;
+    v->passed = n->limit >= v->value;
 }
 
 static void judge_separation(const need *n, const need_camera *camera, const dp_setup *asked, check_verdict *v) {
