@@ -446,10 +446,12 @@ static const char *lossy_in(const char *command) {
     return strstr(command, "-c lerc") != NULL ? "LERC" : strstr(command, "-c jpeg") != NULL ? "JPEG" : NULL;
 }
 
+/* Of that name, and ImageMagick's where several programs have it. */
 static bool has(const char *tool) {
     char command[128];
     snprintf(command, sizeof command, "command -v %s >/dev/null 2>&1", tool);
-    return system(command) == 0;
+    return system(command) == 0 &&
+           (strcmp(tool, "convert") != 0 || system("convert -version 2>&1 | grep -q 'Version: ImageMagick'") == 0);
 }
 
 static void in_folder(char folder[256]) {
