@@ -28,7 +28,7 @@ void canvas_text(canvas *c, double x, double y, const char *text, const canvas_f
     const double width = canvas_text_width(c, text, font);
     assert_true(written_count < WORDS_MAX);
     written[written_count++] =
-        (canvas_rect){x - width * align / 2 - 2, y - font->size, width * 1.03 + 4, font->size * 1.3};
+        (canvas_rect){x - width * (double)align / 2 - 2, y - font->size, width * 1.03 + 4, font->size * 1.3};
     page_canvas_text(c, x, y, text, font, align);
 }
 

@@ -211,7 +211,9 @@ static int complete(world *w, const options *o, bool solving) {
     w->z = length_or(o->at.count > 0, o->at.lo, 10.0, o->unit);
     w->wanted = solving ? length_or(o->wanted_separation > 0.0, o->wanted_separation, 0.01, o->unit)
                         : length_or(option_given(o, OPTION_GAP), o->gap, 0.01, o->unit);
-    w->distances = solving ? (depths){0} : o->distances;
+    w->distances = o->distances;
+    if (solving)
+        w->distances.count = 0;
     if (w->distances.count > 0 && !(w->distances.lo >= 0.0 && w->distances.hi <= WORLD_FARTHEST))
         return option_error(OPTION_DISTANCE, "must be from 0 to 1e12 scene units, got %s",
                             number_full(w->distances.lo < 0.0 ? w->distances.lo : w->distances.hi).text);

@@ -24,7 +24,7 @@ typedef struct solve_candidate {
     bool possible;
     judgement reached; /**< with `spec` */
     cost price;
-    size_t place; /**< before they are put in order: which of two that are alike comes first */
+    size_t place;          /**< before they are put in order: which of two that are alike comes first */
     solve_unknown unknown; /**< the plane that was solved for, where one was */
     bool solved;           /**< one was */
     double least, most;    /**< see solve_result */
