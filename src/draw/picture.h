@@ -10,8 +10,8 @@
  *
  * Three planes, each with something upon it: a wall at 45 degrees with an octagonal sign, a wall at 30 degrees with a
  * poster, and the ground with a road and its marks; sign, poster and marks lie one gap in front, along the normal. They
- * are few large triangles, drawn as draw.h has it: the farther surface first, depth test LESS. The camera sways to and
- * fro and a little sideways, so that slants stay, in a loop of DRAW_PICTURE_FRAMES frames.
+ * are few large triangles, drawn as draw.h has it: the farther surface first, depth test LESS. The camera sways back
+ * and forth and a little sideways, so that slants stay, in a loop of DRAW_PICTURE_FRAMES frames.
  *
  * Every triangle of every frame lies within the view and in the class of dp_triangles_default(), gaps up to
  * DRAW_PICTURE_GAP included, so what triangles.h promises holds here: with a gap of `guaranteed` or more no pixel is
