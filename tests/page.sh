@@ -25,7 +25,12 @@ alone() {
     ! grep -oE '(src|href)="[^"]{1,80}|@import|url\([^)]{1,80}' "$B/depthprec.html"
 }
 
+small() {
+    [ "$(wc -c <"$B/depthprec.html")" -le 327680 ]
+}
+
 check "the page names no other file" alone
+check "the page has at most 320 KiB" small
 
 cp src/web/command.js "$scratch/command.mjs"
 node --no-warnings tests/web/fuzz.mjs "$scratch/command.mjs" $addresses || failures=$((failures + 1))
