@@ -228,7 +228,7 @@ check-baseline:
 check-web: web
 	@sh src/packages.sh build
 	@$(MAKE) $(PARALLEL) programs
-	@B=$(B) CC='$(CC)' DEPTHPREC=$(CURDIR)/$(B)/depthprec sh tests/run.sh tests/page.sh
+	@B=$(B) CC='$(CC)' DEPTHPREC=$(CURDIR)/$(B)/depthprec TEST_SECONDS=1500 sh tests/run.sh tests/page.sh
 
 # A driver without a GPU, and the probe on it.
 check-probe:

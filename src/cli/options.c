@@ -272,7 +272,7 @@ static int ask_for_help(options *o, option_id id, const verb *asked) {
  * Those that are early, or the others; what is wrong with the line is told with the others. argv[0] is the program, or
  * the command in its place.
  */
-static int read_options(options *o, int argc, char **argv, const verb *asked, bool early) {
+static int read_words(options *o, int argc, char **argv, const verb *asked, bool early) {
     char letters[2 * OPTION_COUNT + 2];
     struct option longs[OPTION_COUNT + 1];
     char text[OPTION_TEXT_SIZE];
@@ -298,6 +298,20 @@ static int read_options(options *o, int argc, char **argv, const verb *asked, bo
     o->operands = argv + optind;
     o->operand_count = argc - optind;
     return EXIT_FINE;
+}
+
+/* getopt puts words into another order, and C libraries differ in when: of a line that ends half-way, too. So the pass
+ * for the early ones has words of its own. */
+static int read_options(options *o, int argc, char **argv, const verb *asked, bool early) {
+    char **words = early ? malloc(((size_t)argc + 1) * sizeof *words) : argv;
+    if (words == NULL)
+        return usage_error("no memory for %d words", argc);
+    if (early)
+        memcpy(words, argv, ((size_t)argc + 1) * sizeof *words);
+    const int status = read_words(o, argc, words, asked, early);
+    if (early)
+        free(words);
+    return status;
 }
 
 /* Puts the command before all options where the first word that belongs to no option is one. */

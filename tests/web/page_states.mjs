@@ -151,8 +151,8 @@ export async function states(seed, scale) {
     await namesOf(page);
     note(`seed ${seed}`);
     await test("random commands in the browser are the program's, to the byte", () => engines(page, r, Math.round(10000 * scale)));
-    await test("a link or a command sets the page, and what is shown is what the program prints", () => people(page, r, Math.round(300 * scale)));
-    await test("the page's own link and commands bring it back", () => thereAndBack(page, r, Math.round(20 * scale)));
-    await test("what is saved is what the program prints", () => files(page, r, Math.round(15 * scale)));
+    await test("a link or a command sets the page, and what is shown is what the program prints", () => people(page, r, Math.round(100 * scale)));
+    await test("the page's own link and commands bring it back", () => thereAndBack(page, r, Math.round(10 * scale)));
+    await test("what is saved is what the program prints", () => files(page, r, Math.round(8 * scale)));
     await close(page);
 }

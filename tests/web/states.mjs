@@ -32,7 +32,7 @@ function written(r, x, unit) {
 const FORMATS = ["fp16", "fp32", "unorm16", "unorm24", "d24", "d16", "d32f", "depth24plus", "unorm8", "unorm31",
     "float5.10", "float6.9b40", "all", "unorm24,fp32"];
 const MAPPINGS = ["d3d", "reversed", "gl", "linear", "log", "all", "d3d,reversed", "gl-reversed"];
-const FIGURES = ["distribution", "share", "error", "interval", "budget", "map"];
+const QUICK = ["distribution", "share", "error", "interval", "budget"], FIGURES = [...QUICK, ...QUICK, ...QUICK, "map"]; // which takes long
 const APIS = ["gl", "vulkan", "d3d11", "d3d12", "webgpu", "metal", "all"];
 const RASTERS = ["llvmpipe", "swiftshader", "warp", "spec-d3d", "spec-vulkan"];
 
@@ -126,7 +126,8 @@ function spoil(r, words) {
 
 // A random command line, as words.
 export function state(r) {
-    const verb = r.of(["table", "table", "table", "budget", "budget", "solve", "solve", "bias", "bias", "plot", "zfight"]);
+    const verb = r.chance(0.03) ? "zfight" // which takes seconds
+        : r.of(["table", "table", "table", "budget", "budget", "solve", "solve", "bias", "bias", "plot"]);
     const words = [verb, ...commands[verb](r, camera(r)), ...(verb === "plot" ? [] : form(r))];
     return r.chance(0.06) ? spoil(r, words) : words;
 }
