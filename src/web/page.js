@@ -121,6 +121,7 @@ function understand(all) {
         }
         if (verb === "table" && next.setups.length < 2) next.setups.push(given);
         else if (next.setups.length === 0) next.setups.push(given);
+        else for (const [name, value] of given) if (!takes.table.has(name)) next.setups[0].set(name, value);
     }
     if (all.length === 1) for (const verb of state.shown) next.shown.add(verb);
     if (next.shown.size === 2) for (const verb of ["solve", "bias"]) next.shown.add(verb);
