@@ -220,9 +220,6 @@ static int complete(options *o) {
     if (o->preset_count == 1)
         take_preset(o, o->presets[0]);
     take_platform(o);
-    if (status == EXIT_FINE && o->platform != NULL && o->verb->bit == VERB_SOLVE && o->format_count > 1)
-        return option_error(OPTION_PLATFORM, "stores unorm24 or fp32 on %s, as the device has it: -F says for which",
-                            o->platform->name);
     return status;
 }
 
