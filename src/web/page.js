@@ -445,10 +445,11 @@ function update(dragged = false) {
     count();
 }
 
-// Not at each step of a drag: browsers count, and a set-up that is refused is no link.
+// Not at each step of a drag: browsers count, and a set-up or a command that is refused is no link.
 function showAddress() {
-    const fragment = toFragment(shown());
-    const fine = $("#error").hidden && fields.every(({ refused }) => refused.textContent === "");
+    const all = shown(), fragment = toFragment(all);
+    const fine = $("#error").hidden && fields.every(({ refused }) => refused.textContent === "") &&
+        all.every((line) => engine.parse(line).status === 0);
     if (fine && location.hash.slice(1) !== fragment) history.replaceState(null, "", `#${fragment}`);
 }
 

@@ -21,7 +21,11 @@ export function random(seed) {
     };
 }
 
-export const seed = () => Number(process.env.DEPTHPREC_SEED ?? Date.now() % 1000000);
+// As tests/support.h has it: a fixed one, DEPTHPREC_SEED, or "time".
+export function seed() {
+    const { DEPTHPREC_SEED: given } = process.env;
+    return given === "time" ? Date.now() % 1000000 : Number(given || 20150707);
+}
 
 // A number as people write it: few digits, many, with an exponent, with a unit.
 function written(r, x, unit) {
