@@ -9,7 +9,7 @@ import { states } from "./page_states.mjs";
 import { seed } from "./states.mjs";
 import { demand, finish, test } from "./tap.mjs";
 
-const quick = process.env.DEPTHPREC_QUICK ? 0.05 : 1, parts = { redraw, people, bad, shots, states: () => states(seed(), quick) };
+const parts = { redraw, people, bad, shots, states: () => states(seed()) };
 const only = process.env.ONLY?.split(",") ?? Object.keys(parts);
 for (const name of only) await parts[name]();
 await test("nothing was said on the console", () => demand(said.length === 0, [...new Set(said)].slice(0, 20).join("\n")));
