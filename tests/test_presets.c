@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The cameras of engines: each row makes set-ups, says where it comes from and what is not confirmed. */
 #include <ctype.h>
+#include <math.h>
 #include <string.h>
 
 #include "api/presets.h"
@@ -81,10 +82,25 @@ static void test_known_values(void **state) {
     assert_true(isinf(preset_find("unreal")->zfar) && isinf(preset_find("bevy")->zfar));
     assert_int_equal(preset_find("unity")->mapping, DP_MAPPING_REVERSED);
     assert_int_equal(preset_find("unity-gl")->mapping, DP_MAPPING_GL);
-    assert_int_equal(preset_find("cesium")->mapping, DP_MAPPING_LOG);
+    assert_int_equal(preset_find("cesium")->mapping, DP_MAPPING_CESIUM);
     assert_true(strstr(preset_find("mujoco")->unconfirmed, "near") != NULL);
     dp_format_parse(preset_find("godot-mobile")->format, formats);
     assert_string_equal(formats[0].name, "unorm24");
+}
+
+/* The shader writes log2(1 + z - near)/log2(1 + far - near): 0 at the near plane, and 10 behind it log(11)/log(5e8). */
+static void test_cesium_codes(void **state) {
+    (void)state;
+    const preset *p = preset_find("cesium");
+    dp_format formats[2];
+    dp_format_parse(p->format, formats);
+    dp_spec spec = dp_spec_default();
+    spec.znear = p->znear, spec.zfar = p->zfar, spec.mapping = p->mapping, spec.format = formats[0];
+    dp_setup setup;
+    assert_int_equal(dp_setup_init(&setup, &spec), DP_OK);
+    assert_int_equal(dp_code(&setup, 1), 0);
+    assert_int_equal(dp_code(&setup, 11), lrint(0xFFFFFF * (log(11) / log(5e8))));
+    assert_int_equal(dp_code(&setup, 5e8), 0xFFFFFF);
 }
 
 /* Vertical, horizontal, and of the larger side. */
@@ -102,8 +118,8 @@ static void test_view(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_required),     cmocka_unit_test(test_rows), cmocka_unit_test(test_unconfirmed),
-        cmocka_unit_test(test_known_values), cmocka_unit_test(test_view),
+        cmocka_unit_test(test_required),     cmocka_unit_test(test_rows),         cmocka_unit_test(test_unconfirmed),
+        cmocka_unit_test(test_known_values), cmocka_unit_test(test_cesium_codes), cmocka_unit_test(test_view),
     };
     return run_tap(tests);
 }

@@ -43,9 +43,8 @@ static const preset rows[] = {
      "infinite reversed projection; the camera's far of 1000 only culls",
      "",
      "bevy_camera/src/projection.rs (perspective_infinite_reverse_rh); CORE_3D_DEPTH_FORMAT", CHECKED},
-    {"cesium", 1.0, 5e8, DP_MAPPING_LOG, "unorm24", "m", 60, PRESET_LARGER, "spec-gl",
-     "writes log(z - near + 1)/log(far - near + 1): log with C = 1 differs from it only within a few metres of near; "
-     "ratios beyond 1e9 take several frusta",
+    {"cesium", 1.0, 5e8, DP_MAPPING_CESIUM, "unorm24", "m", 60, PRESET_LARGER, "spec-gl",
+     "logarithmic depth, written per fragment; ratios beyond 1e9 take several frusta",
      "format",
      "CesiumJS, PerspectiveFrustum.js (near, far), Camera.js (fov, of the larger side), writeLogDepth.glsl", CHECKED},
     {"mujoco", 0.01, 50.0, DP_MAPPING_REVERSED, "fp32", "extents", 45, PRESET_VERTICAL, "spec-gl",
