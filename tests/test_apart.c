@@ -43,6 +43,29 @@ static bool crashes(void *of, FILE *out) {
     abort();
 }
 
+/* As a driver that closes whatever it finds open, and then hangs. */
+static bool closes_all(void *of, FILE *out) {
+    for (int fd = 0; fd < 64; fd++)
+        if (fd != fileno(out))
+            close(fd);
+    return sleeps(of, out);
+}
+
+/* As a driver that leaves a process of its own behind, with all that is open. */
+static bool leaves_one(void *of, FILE *out) {
+    if (fork() == 0) {
+        sleep(20);
+        _exit(0);
+    }
+    return writes(of, out);
+}
+
+static bool prints(void *of, FILE *out) {
+    const bool said = printf("%s\n", "a driver's words") > 0 && fflush(stdout) == 0;
+    fprintf(stderr, "a driver's words\n");
+    return said && writes(of, out);
+}
+
 static bool gives_up(void *of, FILE *out) {
     (void)of;
     (void)out;
@@ -80,6 +103,66 @@ static void is_ended(void **state) {
     assert_int_equal(run(spins, (apart_limits){.processor = 1}, text), APART_ENDLESS);
 }
 
+static void cannot_hide(void **state) {
+    char text[32];
+    (void)state;
+    assert_int_equal(run(closes_all, (apart_limits){.wall = 1}, text), APART_ENDLESS);
+    const time_t from = time(NULL);
+    assert_int_equal(run(leaves_one, (apart_limits){.wall = 15}, text), APART_DONE);
+    assert_string_equal(text, "a word");
+    assert_true(time(NULL) - from < 10);
+}
+
+/* Where SIGCHLD is ignored the kernel would keep no status. */
+static void signals_ignored(void **state) {
+    char text[32];
+    (void)state;
+    signal(SIGCHLD, SIG_IGN);
+    assert_int_equal(run(crashes, (apart_limits){.wall = 30}, text), APART_BROKEN);
+}
+
+static void says_nothing(void **state) {
+    char text[32];
+    (void)state;
+    FILE *said = tmpfile();
+    assert_non_null(said);
+    fflush(NULL);
+    const int streams[2] = {dup(STDOUT_FILENO), dup(STDERR_FILENO)};
+    dup2(fileno(said), STDOUT_FILENO);
+    dup2(fileno(said), STDERR_FILENO);
+    const apart_end end = run(prints, (apart_limits){.wall = 30}, text);
+    dup2(streams[0], STDOUT_FILENO);
+    dup2(streams[1], STDERR_FILENO);
+    close(streams[0]);
+    close(streams[1]);
+    assert_int_equal(end, APART_DONE);
+    assert_int_equal(lseek(fileno(said), 0, SEEK_END), 0);
+    fclose(said);
+}
+
+/* The parent is killed: the child ends by itself, soon after its limit. */
+static void outlives_nobody(void **state) {
+    int ends[2];
+    char byte;
+    (void)state;
+    assert_int_equal(pipe(ends), 0);
+    const pid_t parent = fork();
+    if (parent == 0) {
+        FILE *made;
+        close(ends[0]);
+        apart_run(sleeps, "a word", (apart_limits){.wall = 2}, &made);
+        _exit(0);
+    }
+    close(ends[1]);
+    sleep(1);
+    kill(parent, SIGKILL);
+    waitpid(parent, NULL, 0);
+    alarm(60);
+    assert_int_equal(read(ends[0], &byte, 1), 0); /* which both held open */
+    alarm(0);
+    close(ends[0]);
+}
+
 static void is_told(void **state) {
     char text[32];
     (void)state;
@@ -89,9 +172,9 @@ static void is_told(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(comes_back),
-        cmocka_unit_test(is_ended),
-        cmocka_unit_test(is_told),
+        cmocka_unit_test(comes_back),      cmocka_unit_test(is_ended),        cmocka_unit_test(is_told),
+        cmocka_unit_test(cannot_hide),     cmocka_unit_test(signals_ignored), cmocka_unit_test(says_nothing),
+        cmocka_unit_test(outlives_nobody),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -2,7 +2,7 @@
 #include "opened/apart.h"
 
 #include <errno.h>
-#include <poll.h>
+#include <fcntl.h>
 #include <signal.h>
 #include <sys/resource.h>
 #include <sys/wait.h>
@@ -11,11 +11,15 @@
 
 enum { GRACE = 5 /* seconds between the limit of processor time and the end without mercy */ };
 
-_Noreturn static void be_child(bool (*work)(void *, FILE *), void *of, unsigned processor, FILE *out) {
-    const struct rlimit most = {processor, processor + GRACE};
-    if (processor > 0)
+/* Neither what a driver prints may be among what we print, nor may it outlive a parent that was killed. */
+_Noreturn static void be_child(bool (*work)(void *, FILE *), void *of, apart_limits limits, FILE *out) {
+    const struct rlimit most = {limits.processor, limits.processor + GRACE};
+    if (limits.processor > 0)
         setrlimit(RLIMIT_CPU, &most);
-    const bool quiet = freopen("/dev/null", "w", stderr) != NULL;
+    if (limits.wall > 0)
+        alarm(limits.wall + GRACE);
+    const int nowhere = open("/dev/null", O_WRONLY);
+    const bool quiet = nowhere >= 0 && dup2(nowhere, STDOUT_FILENO) >= 0 && dup2(nowhere, STDERR_FILENO) >= 0;
     const bool done = quiet && work(of, out) && fflush(out) == 0;
     _exit(done ? 0 : 1);
 }
@@ -26,61 +30,46 @@ static double now(void) {
     return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
 }
 
-/* Whether the child closed its end of the pipe, as its end does, before so many seconds are over; 0: however long. */
-static bool ended(int pipe, unsigned seconds) {
+/*
+ * Whether the child ended within so many seconds; 0: however long. It is asked for again and again: a pipe that its end
+ * closes could be closed before by a driver, or be held open by what a driver starts.
+ */
+static bool ended(pid_t child, unsigned seconds, int *status) {
     const double until = now() + (double)seconds;
     for (;;) {
-        struct pollfd wait = {.fd = pipe, .events = POLLIN};
-        const double left = until - now();
-        const int timeout = seconds == 0 ? -1 : left > 0.0 ? (int)(left * 1e3) + 1 : 0;
-        const int found = poll(&wait, 1, timeout);
-        if (found != 0 && !(found < 0 && errno == EINTR))
+        const pid_t found = waitpid(child, status, seconds > 0 ? WNOHANG : 0);
+        if (found == child || (found < 0 && errno != EINTR))
             return true;
-        if (found == 0)
+        if (found == 0 && now() >= until)
             return false;
-    }
-}
-
-/* Not waited for where the kernel cannot end it: a driver may hang in there. */
-static int reap(pid_t child, bool killed) {
-    int status = 0;
-    for (int i = 0; i < 100; i++) {
-        const pid_t found = waitpid(child, &status, killed ? WNOHANG : 0);
-        if (found == child)
-            break;
         if (found == 0)
-            nanosleep(&(struct timespec){0, 10000000}, NULL);
+            nanosleep(&(struct timespec){0, 1000000}, NULL);
     }
-    return status;
 }
 
-static apart_end wait_for(pid_t child, int pipe, unsigned seconds) {
-    const bool in_time = ended(pipe, seconds);
-    if (!in_time)
+static apart_end wait_for(pid_t child, unsigned seconds) {
+    int status = 0;
+    const bool in_time = ended(child, seconds, &status);
+    if (!in_time) {
         kill(child, SIGKILL);
-    const int status = reap(child, !in_time);
+        ended(child, 1, &status); /* no longer: a driver may hang in the kernel, which cannot end it */
+    }
     if (!in_time || (WIFSIGNALED(status) && WTERMSIG(status) == SIGXCPU))
         return APART_ENDLESS;
     return WIFEXITED(status) && WEXITSTATUS(status) == 0 ? APART_DONE : APART_BROKEN;
 }
 
 apart_end apart_run(bool (*work)(void *of, FILE *out), void *of, apart_limits limits, FILE **made) {
-    int ends[2];
     *made = tmpfile();
     if (*made == NULL)
         return APART_NO_FILE;
-    if (pipe(ends) != 0)
-        return APART_NO_PROCESS;
     fflush(NULL);
+    signal(SIGCHLD, SIG_DFL); /* where a parent had it ignored, nobody could ask how the child ended */
     const pid_t child = fork();
-    if (child == 0) {
-        close(ends[0]);
-        be_child(work, of, limits.processor, *made);
-    }
+    if (child == 0)
+        be_child(work, of, limits, *made);
     const int error = errno;
-    close(ends[1]);
-    const apart_end end = child < 0 ? APART_NO_PROCESS : wait_for(child, ends[0], limits.wall);
-    close(ends[0]);
+    const apart_end end = child < 0 ? APART_NO_PROCESS : wait_for(child, limits.wall);
     rewind(*made);
     errno = error;
     return end;

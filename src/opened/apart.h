@@ -29,7 +29,8 @@ typedef enum apart_end {
 } apart_end;
 
 /**
- * Runs work(of, out) in a child whose messages on stderr are for nobody, and waits for it.
+ * Runs work(of, out) in a child whose stdout and stderr are for nobody, and waits for it. Where this process is killed,
+ * the child ends soon after its limits.
  *
  * @param made  receives the file that `out` is, at its beginning; null where there is none
  */
