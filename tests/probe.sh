@@ -114,7 +114,27 @@ refuses() { # refuses WORDS ARGUMENTS...
 jq '.raster = null' tests/profiles/swiftshader.json >"$scratch/unknown.json"
 jq '.arith = "made-up"' tests/profiles/swiftshader.json >"$scratch/strange.json"
 jq '.device.name = "a\nb\u001b[31m"' tests/profiles/swiftshader.json >"$scratch/rude.json"
+jq '.findings = []' tests/profiles/swiftshader.json >"$scratch/bare.json"
 echo '{"command":"table"}' >"$scratch/other.json"
+# SwiftShader has no 24 bits: nothing is promised for them, whoever names them, and nothing else is left out.
+stored() { # stored COMMAND...: the formats of the set-ups with its profile
+    "$DEPTHPREC" "$@" --raster tests/profiles/swiftshader.json --json | jq -r '[.. | .format? // empty] | unique | join(" ")'
+}
+lacking='--format: must be fp32 or unorm16 with a profile of a GPU that stores no other depth, got unorm24'
+for command in "table -F d24" "table -F d16,d24" "table -F depth24plus" "table --preset three" "table --preset unity,three" \
+    "budget -F d24" "zfight -F d24 --gap 1" "bias -F d24 --viewport 9x9" "solve -F d24 --separation 1 --at 5" "plot budget -F d24" \
+    "scene tests/models/house.gltf -F d24" "shadow --light-box 40x40x100 -F d24 --api d3d11" \
+    "world --distance 1e5 -F d24 --at 9"; do
+    case $command in
+    bias* | shadow*) option=--raster ;;
+    *) option=--arith ;;
+    esac
+    check "a format that the GPU has not: $command" refuses "$lacking" $command $option tests/profiles/swiftshader.json
+done
+only() { [ "$(stored "$@" --viewport 9x9)" = "fp32 unorm16" ]; }
+check "formats that nobody named are those of the GPU" only table
+check "so are all of them" only table -F all
+check "a profile without a format" refuses "must be nothing with a profile" table --arith "$scratch/bare.json"
 check "a GPU without a row" refuses "no row predicts" table --viewport 9x9 --raster "$scratch/unknown.json"
 check "a row that is not known" refuses "'made-up'" table --arith "$scratch/strange.json"
 check "JSON of another command" refuses "must be a profile" table --arith "$scratch/other.json"
@@ -154,6 +174,62 @@ else
     else
         skip "a driver that hangs" "takes a minute: in make check-full"
     fi
+fi
+
+# ---- A device that fails -----------------------------------------------------------------------------------------
+
+# A driver that is lavapipe but for one function, which gives its result without doing anything; and which says so.
+failing() { # failing FUNCTION RESULT: the file that chooses it
+    cat >"$scratch/$1.c" <<'C'
+#include <dlfcn.h>
+#include <stdio.h>
+#include <string.h>
+typedef void (*any)(void);
+typedef any (*finder)(void *, const char *);
+static void *driver(void) {
+    static void *handle;
+    return handle = handle ? handle : dlopen(DRIVER, RTLD_NOW | RTLD_LOCAL);
+}
+static int fails(void) { return RESULT; }
+static any choose(void *of, const char *name, const char *by);
+static any of_device(void *device, const char *name) { return choose(device, name, NULL); }
+static finder devices;
+static any choose(void *of, const char *name, const char *by) {
+    if (strcmp(name, FUNCTION) == 0) return (any)fails;
+    any found = by ? ((finder)dlsym(driver(), by))(of, name) : devices(of, name);
+    if (strcmp(name, "vkGetDeviceProcAddr") == 0 && found) return devices = (finder)found, (any)of_device;
+    return found;
+}
+any vk_icdGetInstanceProcAddr(void *of, const char *name) { return choose(of, name, "vk_icdGetInstanceProcAddr"); }
+any vk_icdGetPhysicalDeviceProcAddr(void *of, const char *name) { return choose(of, name, "vk_icdGetPhysicalDeviceProcAddr"); }
+int vk_icdNegotiateLoaderICDInterfaceVersion(unsigned *version) {
+    puts("a driver's words"), fflush(stdout);
+    return ((int (*)(unsigned *))dlsym(driver(), "vk_icdNegotiateLoaderICDInterfaceVersion"))(version);
+}
+C
+    ${CC:-cc} -shared -fPIC -w -DDRIVER="\"$lavapipe\"" -DFUNCTION="\"$1\"" -DRESULT="$2" -o "$scratch/$1.so" \
+        "$scratch/$1.c" -ldl &&
+        echo "{\"file_format_version\":\"1.0.0\",\"ICD\":{\"library_path\":\"$scratch/$1.so\",\"api_version\":\"1.3.0\"}}" \
+            >"$scratch/$1.json"
+}
+when() { # when FUNCTION RESULT WORDS
+    failing "$1" "$2" && (expected=3 && export VK_ICD_FILENAMES="$scratch/$1.json" && refuses "$3" probe --json)
+}
+unharmed() { # the same driver, of which no function fails
+    failing vkNoFunction 0 && VK_ICD_FILENAMES="$scratch/vkNoFunction.json" "$DEPTHPREC" probe --json >"$scratch/whole" &&
+        jq -e '.raster == "lavapipe"' "$scratch/whole"
+}
+lavapipe=$(ls /usr/lib/*/libvulkan_lvp.so 2>/dev/null | head -n 1)
+if [ -z "$lavapipe" ] || "$DEPTHPREC" probe 2>&1 | grep -q "this build has no Vulkan"; then
+    skip "devices that fail" "lavapipe or Vulkan's headers are not here"
+else
+    check "what a driver prints is not among what is printed" unharmed
+    check "a device that is lost" when vkWaitForFences -4 "the device was lost"
+    check "a draw that does not end" when vkWaitForFences 2 "the device does not come to an end"
+    check "a device that is lost before a draw" when vkQueueSubmit -4 "the device was lost"
+    check "a device without memory" when vkAllocateMemory -2 "the device has no memory for it"
+    check "a machine without memory" when vkCreateGraphicsPipelines -1 "there is no memory for it"
+    check "a device that does not begin" when vkCreateDevice -3 "the driver refuses"
 fi
 
 # ---- The shader --------------------------------------------------------------------------------------------------

@@ -28,6 +28,31 @@ static void remember(options *o, const json_t *device) {
         append(o->measured, sizeof o->measured, "%s%s", o->measured[0] != '\0' ? "; " : "", text);
 }
 
+static bool stores(const json_t *root, const dp_format *format) {
+    size_t i;
+    json_t *finding;
+    json_array_foreach(json_object_get(root, "findings"), i, finding) {
+        const char *key = word(finding, "key"), *name = word(finding, "format");
+        dp_format is[2];
+        if (key != NULL && strcmp(key, "stored") == 0 && name != NULL && dp_format_parse(name, is) == 1 &&
+            strcmp(is[0].name, format->name) == 0)
+            return true;
+    }
+    return false;
+}
+
+/* Which of its depth formats were measured; of two GPUs those of both. */
+static void remember_formats(options *o, const json_t *root, bool first) {
+    size_t kept = 0;
+    for (size_t i = 0; first && dp_format_get(i) != NULL && o->stored_count < OPTIONS_STORED_MAX; i++)
+        if (dp_format_get(i)->buffer)
+            o->stored[o->stored_count++] = dp_format_get(i)->format;
+    for (size_t i = 0; i < o->stored_count; i++)
+        if (stores(root, &o->stored[i]))
+            o->stored[kept++] = o->stored[i];
+    o->stored_count = kept;
+}
+
 /* Looks up the name that the profile has of the option, as if the user had given it. */
 static int take(options *o, const option_row *row, const char *path, const json_t *root, option_parser *parse) {
     const char *command = word(root, "command"), *name = word(root, row->name);
@@ -37,6 +62,7 @@ static int take(options *o, const option_row *row, const char *path, const json_
         return option_refuse(row, "the GPU of '%s' is none that is known: no row predicts all its codes", path);
     if (!names_find(row->names, name, NULL, NULL))
         return option_refuse(row, "'%s' names what is not known here, '%.40s'", path, name);
+    remember_formats(o, root, o->measured[0] == '\0');
     remember(o, json_object_get(root, "device"));
     return parse(o, row, name);
 }

@@ -199,6 +199,38 @@ void options_of(const options *o, size_t camera, options *out) {
     take_platform(out);
 }
 
+bool options_stored(const options *o, const dp_format *format) {
+    bool found = o->measured[0] == '\0';
+    for (size_t i = 0; i < o->stored_count && !found; i++)
+        found = strcmp(o->stored[i].name, format->name) == 0;
+    return found;
+}
+
+int options_check_stored(const options *o, const dp_format *format) {
+    char names[OPTION_TEXT_SIZE] = "";
+    if (options_stored(o, format))
+        return EXIT_FINE;
+    for (size_t i = 0; i < o->stored_count; i++)
+        append(names, sizeof names, "%s%s", i == 0 ? "" : i + 1 < o->stored_count ? ", " : " or ", o->stored[i].name);
+    return option_error(OPTION_FORMAT, "must be %s with a profile of a GPU that stores no other depth, got %s",
+                        o->stored_count > 0 ? names : "nothing", format->name);
+}
+
+/* Of formats that nobody named those that the GPUs of the profiles store; one that was named has to be among them. */
+static int keep_stored(options *o) {
+    const bool given = option_given(o, OPTION_FORMAT);
+    const bool any = given ? strcmp(o->given[OPTION_FORMAT], "all") == 0 : o->preset_count == 0 && o->platform == NULL;
+    size_t kept = 0;
+    for (size_t i = 0; i < o->format_count; i++) {
+        if (options_stored(o, &o->formats[i]))
+            o->formats[kept++] = o->formats[i];
+        else if (!any || (i + 1 == o->format_count && kept == 0))
+            return options_check_stored(o, &o->formats[i]);
+    }
+    o->format_count = kept;
+    return EXIT_FINE;
+}
+
 /* What follows from other options. */
 static int complete(options *o) {
     o->model_auto = o->model == DP_MODEL_COUNT;
@@ -216,11 +248,11 @@ static int complete(options *o) {
             o->platform->name, o->platform->stored);
     if (o->preset_count > 1 && o->verb->bit != VERB_TABLE)
         return option_error(OPTION_PRESET, "must be one preset for %s, got %zu", o->verb->name, o->preset_count);
-    const int status = slant_complete(o);
+    int status = slant_complete(o);
     if (o->preset_count == 1)
         take_preset(o, o->presets[0]);
     take_platform(o);
-    return status;
+    return status == EXIT_FINE && o->preset_count < 2 ? keep_stored(o) : status;
 }
 
 /* An orthographic camera may begin at its place or behind it. */

@@ -173,6 +173,7 @@ enum {
     OPTIONS_PARAMETERS_MAX = 16,
     OPTIONS_PRESETS_MAX = 16,
     OPTIONS_MEASURED_SIZE = 512,
+    OPTIONS_STORED_MAX = 8, /**< depth formats of a GPU */
     OPTIONS_SCHEMES_MAX = 16
 };
 
@@ -202,7 +203,9 @@ typedef struct options {
     bool model_auto; /**< --model auto: see choice.h; `model` is then exact */
     dp_arith arith;
     char measured[OPTIONS_MEASURED_SIZE]; /**< the GPUs of the profiles of --arith and --raster, "" of none */
-    double tolerance;                     /**< of the choice, a share */
+    dp_format stored[OPTIONS_STORED_MAX]; /**< what the GPUs of all those profiles store; see options_stored() */
+    size_t stored_count;
+    double tolerance; /**< of the choice, a share */
     double log_c;
 
     depths at;                 /**< what --at said; count is 0 when it was not given. See depths_resolve() */
@@ -311,6 +314,12 @@ int options_parse(options *o, int argc, char **argv);
 static inline size_t options_cameras(const options *o) {
     return o->preset_count > 1 ? o->preset_count : 1;
 }
+
+/** Whether the GPUs of the profiles store depth in that format; true without a profile. */
+bool options_stored(const options *o, const dp_format *format);
+
+/** The same; where they do not, one line on stderr says what they store. @return EXIT_FINE or EXIT_USAGE */
+int options_check_stored(const options *o, const dp_format *format);
 
 /**
  * The options as they would be with the preset of that index alone, all lengths in its own unit where that is known and

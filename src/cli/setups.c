@@ -49,7 +49,7 @@ static int add_setups(const options *o, size_t camera, setups *out) {
         for (size_t m = 0; m < o->mapping_count; m++) {
             spec.format = o->formats[f];
             spec.mapping = o->mappings[m];
-            if (setup_undrawn(o, &spec.format) != EXIT_FINE)
+            if (options_check_stored(o, &spec.format) != EXIT_FINE || setup_undrawn(o, &spec.format) != EXIT_FINE)
                 return EXIT_USAGE;
             out->cameras[out->count] = camera;
             const dp_status status = dp_setup_init(&out->items[out->count++], &spec);
