@@ -221,6 +221,8 @@ static void say_notes(page *p, void *item) {
         page_line(p, "F, the factor of the slope, is %s", number_full(a->row.factor).text);
     if (a->triangles != NULL)
         page_line(p, "%s", BIAS_DRAWN_TWICE);
+    if (bias_is_missed(a->walk.setup))
+        page_line(p, "%s", BIAS_MISSED);
     say_choice(p, &a->walk.setup->spec.format);
 }
 
@@ -241,6 +243,11 @@ static void say_calls(page *p, void *item) {
     const all *a = item;
     if (a->fails)
         page_line(p, "-: no bias is enough; give that format and mapping alone to see where one is");
+    for (size_t k = 0; k < a->walk.all.count; k++)
+        if (bias_is_missed(&a->walk.all.items[k])) {
+            page_line(p, "%s", BIAS_MISSED);
+            break;
+        }
     for (size_t k = 0; k < a->walk.all.count; k++)
         if (a->walk.all.items[k].spec.format.kind == DP_FORMAT_UNORM) {
             page_line(p, "vulkan and gl: in integer formats r is the implementation's choice, 2^-N is assumed");

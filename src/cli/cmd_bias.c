@@ -217,6 +217,8 @@ static void say_notes(page *p, void *item) {
         say_range(p, b);
     else
         page_line(p, "a %s bias brings a layer nearer", bias_sign(b->walk.setup) < 0 ? "negative" : "positive");
+    if (bias_is_missed(b->walk.setup))
+        page_line(p, "%s", BIAS_MISSED);
     if (b->triangles != NULL)
         page_line(p, "%s", BIAS_DRAWN_TWICE);
     const double least = bias_factor_least(b->walk.setup); /* 0 without triangles */
