@@ -11,7 +11,6 @@
 #include "cli/scene.h"
 #include "cli/setups.h"
 #include "cli/stop.h"
-#include "cli/stored.h"
 #include "report/number.h"
 #include "texture/strips.h"
 
@@ -283,7 +282,7 @@ static int check_asked(const scene *s) {
         return option_error(OPTION_EMIT_NEED, "needs a --gap above 0: no camera tells one plane apart");
     if (o->api == NULL)
         return option_error(OPTION_API, "must name one here, got 'all'");
-    const int status = stored_decided(o);
+    const int status = setup_decided(o);
     return status == EXIT_FINE ? check_files(s) : status;
 }
 

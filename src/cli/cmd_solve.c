@@ -9,7 +9,6 @@
 
 #include "cli/setups.h"
 #include "cli/solve_report.h"
-#include "cli/stored.h"
 #include "report/number.h"
 
 /* ---- What is asked ----------------------------------------------------------------------------------------------- */
@@ -335,7 +334,7 @@ int cmd_solve(const options *o) {
         return solve_frusta(o);
     if (o->target == SOLVE_FOR_WORLD)
         return solve_world(o);
-    int status = stored_decided(o);
+    int status = setup_decided(o);
     if (status == EXIT_FINE)
         status = check_target(o, &r);
     if (status == EXIT_FINE)

@@ -27,13 +27,6 @@ static void name_all(const char *given, const char *format, char *out, size_t si
         append(out, size, "%s%s", i == 0 ? "" : i + 1 == count ? " and " : ", ", names[i]);
 }
 
-int stored_decided(const options *o) {
-    if (o->platform == NULL || option_given(o, OPTION_FORMAT) || o->format_count < 2)
-        return EXIT_FINE;
-    return option_error(OPTION_PLATFORM, "stores unorm24 or fp32 on %s, as the device has it: -F says for which",
-                        o->platform->name);
-}
-
 void stored_say(page *p, const options *o) {
     static const struct {
         const char *stored, *said;

@@ -9,12 +9,6 @@
 /** The format of that platform for the name that was given with --format; null where it is no such name. */
 const char *stored_on(const platform *p, const char *given);
 
-/**
- * Refuses a platform that stores one of two formats, as the device has it, where neither was named.
- * @return EXIT_FINE or EXIT_USAGE
- */
-int stored_decided(const options *o);
-
 /** A sentence where --format names depth24plus or depth24plus-stencil8 and no platform is named; else nothing. */
 void stored_say(page *p, const options *o);
 

@@ -7,7 +7,6 @@
 #include "cli/names.h"
 #include "cli/option_rows.h"
 #include "cli/setups.h"
-#include "cli/stored.h"
 #include "cli/texture.h"
 #include "report/number.h"
 #include "texture/frame_normals.h"
@@ -244,7 +243,7 @@ static int choose_format(const options *o, texture_source *s, dp_format *out) {
             *out = o->formats[i];
             told = s->found.certain;
         }
-    if (given && !told && stored_decided(o) != EXIT_FINE)
+    if (given && !told && setup_decided(o) != EXIT_FINE)
         return EXIT_USAGE;
     if (out->bits > BITS_MAX)
         return option_error(OPTION_FORMAT, "must have at most %d bits in an image, got %s", BITS_MAX, out->name);
