@@ -40,8 +40,10 @@ static void test_published(void **state) {
         {"webgl-vulkan", EITHER, EITHER, PLATFORM_MAY_REMAP},
         {"webgl-gl", D24, D24, PLATFORM_REMAPS_NOT},
         {"vulkan", EITHER, EITHER, PLATFORM_REMAPS_NOT},
+        {"d3d11", D24, D24, PLATFORM_REMAPS_NOT},
         {"d3d12", D24, D24, PLATFORM_REMAPS_NOT},
         {"metal", EITHER, EITHER, PLATFORM_REMAPS_NOT},
+        {"gl", D24, D24, PLATFORM_REMAPS_NOT},
     };
     (void)state;
     for (size_t i = 0; i < sizeof published / sizeof published[0]; i++) {
@@ -74,6 +76,7 @@ static void test_bias(void **state) {
         {"webgl-metal", n, n, false, true},   {"webgl-vulkan", n, 4 * n, false, true},
         {"webgl-gl", n / 2, n, false, true},  {"vulkan", n, 2 * n, false, true},
         {"d3d12", n, n, false, true},         {"metal", n, n, false, true},
+        {"d3d11", n, n, false, true},         {"gl", n, 2 * n, false, true},
     };
     dp_format fp32[2];
     size_t i;
