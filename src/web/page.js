@@ -2,7 +2,7 @@
 // The page: two set-ups as lists of options, and panels that show what the commands say of them. It computes no number
 // that is shown: each comes out of the module, see engine.js.
 import { load } from "./engine.js";
-import { commands, fromFragment, join, split, toFragment } from "./command.js";
+import { commands, fromFragment, join, LONGEST, split, toFragment, written } from "./command.js";
 import { createPicture } from "./picture.js";
 
 const $ = (selector, root = document) => root.querySelector(selector);
@@ -588,9 +588,10 @@ async function begin() {
     buildSetup(1);
     listen();
     if (location.hash.length < 2 || !set(() => fromFragment(location.hash.slice(1)))) {
-        const said = $("#error").textContent;
+        const said = $("#error").textContent, asked = location.hash.slice(1);
         set(commands(STANDARD));
-        if (said !== "") refuse(said);
+        if (said !== "") refuse(`The link is refused, so the standard set-up is shown. ${said}`);
+        if (asked.length <= LONGEST) $("#command").value = written(asked); // to be mended: the address is no longer it
     }
     const controls = { canvas: $("#view"), slider: $("#gap"), play: $("#play"), gapIs: $("#gap-is") };
     picture = createPicture({ ...controls, engine, onStatus: showPicture });
