@@ -47,7 +47,9 @@ async function walk(page, key, stops) {
 }
 
 async function tabs(options) {
-    const page = await open(options), names = await mark(page), there = await walk(page, "Tab", names.length);
+    const page = await open(options);
+    await settled(page); // what comes from the worker moves what is below it
+    const names = await mark(page), there = await walk(page, "Tab", names.length);
     const missed = names.filter((_, i) => !there.includes(i));
     demand(missed.length === 0, `Tab never reaches ${missed.join(", ")}`);
     demand(there.length === names.length, `${there.length} stops for ${names.length} controls`);
