@@ -8,6 +8,7 @@
 #include <string.h>
 
 #include "api/bias.h"
+#include "cli/bias_all.h"
 #include "cli/names.h"
 #include "support.h"
 
@@ -537,7 +538,7 @@ static void test_impossible(void **state) {
 
 /* An orthographic bias is as long everywhere, on both sides of 0, and ends at a plane behind the camera. */
 static void test_either_sign(void **state) {
-    static const double depths[] = {-99.0, -1.0, 0.0, 1.0, 400.0};
+    static const double places[] = {-99.0, -1.0, 0.0, 1.0, 400.0};
     const bias_state three = {.api = called("d3d11"), .units = -3.0};
     const bias_goal goal = {.api = called("d3d11"), .gap = 0.5};
     dp_spec spec = dp_spec_default();
@@ -549,15 +550,31 @@ static void test_either_sign(void **state) {
     spec.format = format_of("unorm16");
     assert_int_equal(dp_setup_init(&setup, &spec), DP_OK);
     const double unit = (double)(float)(1.0 / 65535.0) * 600.0; /* r is code 1 in binary32 */
-    for (size_t i = 0; i < sizeof depths / sizeof depths[0]; i++) {
-        const bias_effect e = bias_at(&setup, &three, 0.0, depths[i]);
+    for (size_t i = 0; i < sizeof places / sizeof places[0]; i++) {
+        const bias_effect e = bias_at(&setup, &three, 0.0, places[i]);
         assert_relative(e.shift, -3.0 * unit, 1e-14);
-        assert_scene(e.to, depths[i] - 3.0 * unit, 1e-12);
-        const double units = bias_needed(&setup, &goal, depths[i]);
+        assert_scene(e.to, places[i] - 3.0 * unit, 1e-12);
+        const double units = bias_needed(&setup, &goal, places[i]);
         assert_true(units * unit >= 0.5 && (units - 1.0) * unit < 0.5);
     }
     const bias_effect at_near = bias_at(&setup, &three, 0.0, -100.0);
     assert_true(at_near.limited && at_near.to == -100.0);
+}
+
+/* A bias is lost where the row says that the fragment shader writes depth; an orthographic depth is always
+ * interpolated. */
+static void is_lost_in_fragments(void **state) {
+    int lost = 0;
+    (void)state;
+    for (dp_mapping m = 0; m < DP_MAPPING_COUNT; m++) {
+        dp_setup setup = setup_of(0.1, 1000, m, "unorm24");
+        const bool written = strstr(dp_mapping_get(m)->effort, "the fragment shader writes depth") != NULL;
+        assert_int_equal(bias_is_missed(&setup), written);
+        lost += written;
+        setup.spec.ortho = 1;
+        assert_false(bias_is_missed(&setup));
+    }
+    assert_int_equal(lost, 5); /* linear, log, three.js twice, Cesium */
 }
 
 int main(void) {
@@ -578,6 +595,7 @@ int main(void) {
         cmocka_unit_test(test_longest_cells),
         cmocka_unit_test(test_impossible),
         cmocka_unit_test(test_either_sign),
+        cmocka_unit_test(is_lost_in_fragments),
     };
     return run_tap(tests);
 }

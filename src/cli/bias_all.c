@@ -239,20 +239,25 @@ static void say_beside(page *p, void *item) {
     output_format(p->out, "%s\n", p->plain);
 }
 
+static bool is_integer(const dp_setup *setup) {
+    return setup->spec.format.kind == DP_FORMAT_UNORM;
+}
+
+static bool is_any(const all *a, bool (*is)(const dp_setup *setup)) {
+    size_t k = 0;
+    while (k < a->walk.all.count && !is(&a->walk.all.items[k]))
+        k++;
+    return k < a->walk.all.count;
+}
+
 static void say_calls(page *p, void *item) {
     const all *a = item;
     if (a->fails)
         page_line(p, "-: no bias is enough; give that format and mapping alone to see where one is");
-    for (size_t k = 0; k < a->walk.all.count; k++)
-        if (bias_is_missed(&a->walk.all.items[k])) {
-            page_line(p, "%s", BIAS_MISSED);
-            break;
-        }
-    for (size_t k = 0; k < a->walk.all.count; k++)
-        if (a->walk.all.items[k].spec.format.kind == DP_FORMAT_UNORM) {
-            page_line(p, "vulkan and gl: in integer formats r is the implementation's choice, 2^-N is assumed");
-            break;
-        }
+    if (is_any(a, bias_is_missed))
+        page_line(p, "%s", BIAS_MISSED);
+    if (is_any(a, is_integer))
+        page_line(p, "vulkan and gl: in integer formats r is the implementation's choice, 2^-N is assumed");
     output_char(p->out, '\n');
     for (size_t i = 0; bias_api_get(i) != NULL; i++)
         page_note(p, bias_api_get(i)->name, "%s",

@@ -23,11 +23,13 @@ double bias_signed(const dp_setup *setup, double units);
 /** Where the least factor that is enough at any slant is INFINITY. */
 #define BIAS_NO_FACTOR "at any slant no factor is enough; --slope says how steep they are"
 
-/** Where the curve is one that a fragment shader writes: the bias went to the interpolated depth that it replaces. */
+/** Where a fragment shader writes the depth: the bias went to the interpolated one, which that replaces. */
 #define BIAS_MISSED "no API biases depth that a fragment shader writes: there, add units times r"
 
+/** Whether it may: an orthographic depth is interpolated, and so is the clip z that osgearth's vertices have. */
 static inline bool bias_is_missed(const dp_setup *setup) {
-    return setup->curve != DP_CURVE_PERSPECTIVE && !setup->spec.ortho;
+    return setup->curve != DP_CURVE_PERSPECTIVE && !setup->spec.ortho &&
+           !dp_mapping_get(setup->spec.mapping)->ndc_signed;
 }
 
 /** Whether each set-up's factor is the least that is enough at any slant: a viewport, and neither factor nor slope. */

@@ -266,10 +266,8 @@ static int choose_mapping(const options *o, texture_source *s, dp_mapping *out) 
                         : given                      ? ORIGIN_GIVEN
                         : told && s->found.direction ? ORIGIN_FOUND
                                                      : ORIGIN_ASSUMED;
-    *out = given                            ? o->mappings[0]
-           : told && s->found.reversed == 1 ? DP_MAPPING_REVERSED
-           : o->platform != NULL            ? o->mappings[0]
-                                            : DP_MAPPING_D3D;
+    const dp_mapping usual = o->platform != NULL ? o->mappings[0] : DP_MAPPING_D3D;
+    *out = given ? o->mappings[0] : told && s->found.reversed == 1 ? DP_MAPPING_REVERSED : usual;
     if (dp_mapping_get(*out)->log_from_near)
         return option_error(OPTION_MAPPING, "must not be %s: no image of it can be read here; got %s",
                             dp_mapping_get(*out)->name, dp_mapping_get(*out)->name);
