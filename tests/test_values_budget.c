@@ -289,7 +289,7 @@ static void choice_in(const char *at, const dp_setup *setup, const budget_case *
                                                    : ": model float is needed\n");
 }
 
-/* "  table and solve leave the shader out (model staged): with it this is 3.06 times worse at z = 1000" */
+/* "  model staged leaves the shader out: with it this is 3.06 times worse at z = 1000" */
 static void staged_in(const char *at, const dp_setup *setup, const budget_case *c) {
     double worst = 0, z = 0;
     dp_setup staged;
@@ -304,7 +304,7 @@ static void staged_in(const char *at, const dp_setup *setup, const budget_case *
             z = c->z[k];
         }
     }
-    at = words_in(at, "  table and solve leave the shader out (model staged): with it this is ");
+    at = words_in(at, "  model staged leaves the shader out: with it this is ");
     at = words_in(number_in(at, worst, 3, false), " times worse at z = ");
     words_in(length_in(at, c, z, 6, false), "\n");
 }

@@ -257,7 +257,7 @@ static void say_worst(page *p, const worst *w) {
 }
 
 static void say_staged(page *p, const budget *b) {
-    page_line(p, "table and solve leave the shader out (model staged): with it this is %s times worse at z = %s",
+    page_line(p, "model staged leaves the shader out: with it this is %s times worse at z = %s",
               number_of(b->staged_share + 1.0, 3).text, number_in(number_of(b->staged_z, DIGITS_MORE), p->unit).text);
 }
 
