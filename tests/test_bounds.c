@@ -151,6 +151,8 @@ static const camera cameras[] = {
     {DP_MAPPING_LOG, 0, 1e-3, 1e5, 0.001, DP_ROUND_NEAREST, 0.7, 5e4},
     {DP_MAPPING_THREE_WEBGPU, 0, 0.1, 1e6, 1, DP_ROUND_NEAREST, 0, 0},
     {DP_MAPPING_CESIUM, 0, 2, 1e7, 1, DP_ROUND_NEAREST, 0, 0},
+    {DP_MAPPING_CESIUM, 0, 1e12, 1e15, 1, DP_ROUND_NEAREST, 0, 0},
+    {DP_MAPPING_CESIUM, 0, 1e12, 1.000001e12, 1000, DP_ROUND_EVEN, 0, 0},
     {DP_MAPPING_D3D, 0, 0.1, INFINITY, 1, DP_ROUND_NEAREST, 0.1, 5000},
     {DP_MAPPING_REVERSED, 0, 0.25, INFINITY, 1, DP_ROUND_NEAREST, 0.25, 1e6},
     {DP_MAPPING_D3D, 0, 1e-12, 1e18, 1, DP_ROUND_NEAREST, 1e-11, 1e-3},
@@ -214,14 +216,14 @@ static void random_ranges(void **state) {
     uint64_t count = test_cases(60, 3000, 10000);
     for (uint64_t i = 0; i < count; i++) {
         dp_spec spec = dp_spec_default();
-        int kind = (int)rng_below(&r, 14); /* 6 mappings, 4 orthographic, 4 infinite */
-        spec.mapping = (dp_mapping)(kind < 6 ? kind : kind < 10 ? kind - 6 : kind - 10);
-        spec.ortho = kind >= 6 && kind < 10;
+        int kind = (int)rng_below(&r, DP_MAPPING_COUNT + 8) - 8; /* all mappings, 4 orthographic, 4 infinite */
+        spec.mapping = (dp_mapping)(kind >= 0 ? kind : kind >= -4 ? kind + 4 : kind + 8);
+        spec.ortho = kind < -4;
         spec.rounding = (dp_rounding)rng_below(&r, DP_ROUNDING_COUNT);
         spec.znear = rng_below(&r, 2) ? rng_log(&r, 0.01, 10) : rng_log(&r, 1e-12, 1e12);
         spec.zfar = rng_below(&r, 2) ? spec.znear * rng_log(&r, 2, 1e6)
                                      : fmin(1e18, spec.znear * (1 + rng_log(&r, 1.0001e-6, 1e30)));
-        if (kind >= 10)
+        if (kind >= -4 && kind < 0)
             spec.zfar = INFINITY;
         if (spec.ortho && rng_below(&r, 2))
             rng_planes(&r, &spec.znear, &spec.zfar);

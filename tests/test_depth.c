@@ -239,6 +239,8 @@ static void check_error(scene *s, uint32_t code, double z, double got, tally *t)
             off = 0;
         TALLY(t, off <= bound, "%s: error of code %u at %a is %.17g, should be %.17g: off by %.3g of the interval %g",
               s->text, code, z, got, oracle_double(want), off, interval);
+        TALLY(t, mpq_sgn(want) != 0 || got == 0, "%s: error of code %u at %a is %g, which it stores exactly", s->text,
+              code, z, got);
     }
     mpq_clears(want, at, NULL);
 }

@@ -40,8 +40,10 @@ static void test_published(void **state) {
         {"webgl-vulkan", EITHER, EITHER, PLATFORM_MAY_REMAP},
         {"webgl-gl", D24, D24, PLATFORM_REMAPS_NOT},
         {"vulkan", EITHER, EITHER, PLATFORM_REMAPS_NOT},
+        {"d3d11", D24, D24, PLATFORM_REMAPS_NOT},
         {"d3d12", D24, D24, PLATFORM_REMAPS_NOT},
         {"metal", EITHER, EITHER, PLATFORM_REMAPS_NOT},
+        {"gl", D24, D24, PLATFORM_REMAPS_NOT},
     };
     (void)state;
     for (size_t i = 0; i < sizeof published / sizeof published[0]; i++) {
@@ -74,6 +76,7 @@ static void test_bias(void **state) {
         {"webgl-metal", n, n, false, true},   {"webgl-vulkan", n, 4 * n, false, true},
         {"webgl-gl", n / 2, n, false, true},  {"vulkan", n, 2 * n, false, true},
         {"d3d12", n, n, false, true},         {"metal", n, n, false, true},
+        {"d3d11", n, n, false, true},         {"gl", n, 2 * n, false, true},
     };
     dp_format fp32[2];
     size_t i;
@@ -88,7 +91,8 @@ static void test_bias(void **state) {
         assert_int_equal(row->cuts, published[i].cuts);
         assert_int_equal(here.whole, api->whole || published[i].cuts);
         assert_int_equal(here.clamps, published[i].clamps);
-        assert_true((strncmp(row->name, "webgl", 5) == 0) == (strcmp(row->api, "gl") == 0));
+        const bool gl = strncmp(row->name, "webgl", 5) == 0 || strcmp(row->name, "gl") == 0;
+        assert_true(gl == (strcmp(row->api, "gl") == 0));
         assert_non_null(bias_api_find(row->below));
         assert_memory_equal(&other, bias_api_find("d3d9"), sizeof other); /* another API is not the platform's */
         assert_int_equal(row->bias[0] != '\0', row->cuts || row->drops_clamp || row->scale_least > 0);

@@ -71,6 +71,10 @@ static const platform rows[] = {
      "a device has X8_D24_UNORM_PACK32 or D32_SFLOAT, with stencil D24_UNORM_S8_UINT or D32_SFLOAT_S8_UINT, or both",
      "Khronos, Vulkan Guide, Depth, Depth Formats",
      BIAS_EXPONENT_OPEN, 0, 0, false, false, "", READ},
+    {"d3d11", "D24_UNORM_S8_UINT", "unorm24", "unorm24", PLATFORM_REMAPS_NOT, "d3d11", "d3d11", "spec-d3d",
+     "D24_UNORM_S8_UINT is required, and so is D32_FLOAT",
+     "Microsoft, Format support for Direct3D Feature Level 11.0 hardware",
+     BIAS_EXPONENT_N, 0, 0, false, false, "", READ},
     {"d3d12", "D24_UNORM_S8_UINT", "unorm24", "unorm24", PLATFORM_REMAPS_NOT, "d3d11", "d3d11", "spec-d3d",
      "D24_UNORM_S8_UINT is required from feature level 12.0 on",
      "Microsoft, Format support for Direct3D Feature Level 12.0 hardware",
@@ -79,6 +83,10 @@ static const platform rows[] = {
      "spec-vulkan", "depth24Unorm_stencil8 where isDepth24Stencil8PixelFormatSupported says so, else depth32Float",
      "Apple, Metal, MTLDevice, isDepth24Stencil8PixelFormatSupported",
      BIAS_EXPONENT_N, 0, 0, false, false, "", READ},
+    {"gl", "DEPTH_COMPONENT24", "unorm24", "unorm24", PLATFORM_REMAPS_NOT, "gl", "gl", "spec-gl",
+     "DEPTH_COMPONENT24 and DEPTH24_STENCIL8 are required, of at least 24 bits and never a float",
+     "OpenGL 4.6, 8.5.1, Required Texture Formats",
+     BIAS_EXPONENT_OPEN, 0, 0, false, false, "", READ},
 };
 /* clang-format on */
 

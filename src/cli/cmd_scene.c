@@ -20,9 +20,10 @@ enum { STEPS = 1000, AT_ONCE = 128 /* findings that a thread judges before an in
 
 static options scene_options(const options *given) {
     options o = *given;
-    if (!option_given(given, OPTION_FORMAT) && given->preset_count == 0)
+    const bool chosen = given->preset_count > 0 || given->platform != NULL;
+    if (!option_given(given, OPTION_FORMAT) && !chosen)
         parse_formats(&o, &option_rows[OPTION_FORMAT], "fp32");
-    if (!option_given(given, OPTION_MAPPING) && given->preset_count == 0)
+    if (!option_given(given, OPTION_MAPPING) && !chosen)
         parse_mappings(&o, &option_rows[OPTION_MAPPING], "reversed");
     if (!option_given(given, OPTION_ANGLE))
         o.angle = FINDER_ANGLE;
@@ -281,7 +282,8 @@ static int check_asked(const scene *s) {
         return option_error(OPTION_EMIT_NEED, "needs a --gap above 0: no camera tells one plane apart");
     if (o->api == NULL)
         return option_error(OPTION_API, "must name one here, got 'all'");
-    return check_files(s);
+    const int status = setup_decided(o);
+    return status == EXIT_FINE ? check_files(s) : status;
 }
 
 /* The files beside the report, each after the one before, so that an interrupt leaves whole ones alone. */

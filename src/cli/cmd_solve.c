@@ -334,10 +334,9 @@ int cmd_solve(const options *o) {
         return solve_frusta(o);
     if (o->target == SOLVE_FOR_WORLD)
         return solve_world(o);
-    if (o->platform != NULL && !option_given(o, OPTION_FORMAT) && o->format_count > 1)
-        return option_error(OPTION_PLATFORM, "stores unorm24 or fp32 on %s, as the device has it: -F says for which",
-                            o->platform->name);
-    int status = check_target(o, &r);
+    int status = setup_decided(o);
+    if (status == EXIT_FINE)
+        status = check_target(o, &r);
     if (status == EXIT_FINE)
         status = check_depths(o, &r);
     if (status == EXIT_FINE)

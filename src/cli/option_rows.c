@@ -133,7 +133,8 @@ const option_row option_rows[OPTION_COUNT] = {
         "view and rasterizer: @; table compares several; see 'depthprec list presets'",
         .parse = parse_presets, .names = &presets},
     [OPTION_PLATFORM] = {"platform", 0, "NAME",
-        VERB_TABLE | VERB_BUDGET | VERB_ZFIGHT | VERB_BIAS | VERB_PLOT | VERB_SOLVE | VERB_DISOCCLUSION,
+        VERB_TABLE | VERB_BUDGET | VERB_ZFIGHT | VERB_BIAS | VERB_PLOT | VERB_SOLVE | VERB_DISOCCLUSION |
+            VERB_SCENE | VERB_TEXTURE,
         "what a browser stores for a page that asks for 24 bits: formats, mapping, arithmetic, for bias the API, and "
         "with --viewport the rasterizer, where they are not given; of presets it replaces all but the mapping: @; see "
         "'depthprec list platforms'", ROW(platform, platforms)},

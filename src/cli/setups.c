@@ -57,6 +57,13 @@ static int check_budget(const options *o, const dp_spec *spec) {
     return EXIT_FINE;
 }
 
+int setup_decided(const options *o) {
+    if (o->platform == NULL || option_given(o, OPTION_FORMAT) || o->format_count < 2)
+        return EXIT_FINE;
+    return option_error(OPTION_PLATFORM, "stores unorm24 or fp32 on %s, as the device has it: -F says for which",
+                        o->platform->name);
+}
+
 static int add_setups(const options *o, size_t camera, setups *out) {
     dp_spec spec = {.znear = o->znear,
                     .zfar = o->zfar,

@@ -36,6 +36,12 @@ int setup_refused(const options *o, const dp_spec *spec, dp_status status);
 /** The same where the rasterizer that was named draws a format without a bound. @return EXIT_FINE or EXIT_USAGE */
 int setup_undrawn(const options *o, const dp_format *format);
 
+/**
+ * Refuses a platform that stores one of two formats, as the device has it, where neither was named and one is wanted.
+ * @return EXIT_FINE or EXIT_USAGE
+ */
+int setup_decided(const options *o);
+
 /** The room that setup_label() needs, with the terminating null. */
 enum { SETUP_LABEL_SIZE = 160 };
 

@@ -226,7 +226,8 @@ static int read_image(options *o, texture_source *s) {
 
 /* What the user gave, which may leave a choice; else what was found, else what is usual. */
 static int choose_format(const options *o, texture_source *s, dp_format *out) {
-    const bool given = texture_is_window(o) && (option_given(o, OPTION_FORMAT) || o->preset_count > 0);
+    const bool chosen = o->preset_count > 0 || o->platform != NULL;
+    const bool given = texture_is_window(o) && (option_given(o, OPTION_FORMAT) || chosen);
     s->format_from = given ? ORIGIN_GIVEN : s->path != NULL && s->found.certain ? ORIGIN_FOUND : ORIGIN_ASSUMED;
     if (!given && s->path != NULL && !s->found.depth)
         return usage_error("%s: cannot be window depth: %s; --format NAME reads it all the same", s->path,
@@ -236,9 +237,14 @@ static int choose_format(const options *o, texture_source *s, dp_format *out) {
     dp_format usual[2];
     dp_format_parse("unorm24", usual);
     *out = given ? o->formats[0] : s->path != NULL ? s->found.format : usual[0];
-    for (size_t i = 1; given && s->path != NULL && i < o->format_count; i++) /* a preset with two */
-        if (strcmp(o->formats[i].name, s->found.format.name) == 0)
+    bool told = false; /* of two formats of a preset or a platform */
+    for (size_t i = 0; given && s->path != NULL && i < o->format_count && !told; i++)
+        if (strcmp(o->formats[i].name, s->found.format.name) == 0) {
             *out = o->formats[i];
+            told = s->found.certain;
+        }
+    if (given && !told && setup_decided(o) != EXIT_FINE)
+        return EXIT_USAGE;
     if (out->bits > BITS_MAX)
         return option_error(OPTION_FORMAT, "must have at most %d bits in an image, got %s", BITS_MAX, out->name);
     return EXIT_FINE;
@@ -260,7 +266,10 @@ static int choose_mapping(const options *o, texture_source *s, dp_mapping *out) 
                         : given                      ? ORIGIN_GIVEN
                         : told && s->found.direction ? ORIGIN_FOUND
                                                      : ORIGIN_ASSUMED;
-    *out = given ? o->mappings[0] : told && s->found.reversed == 1 ? DP_MAPPING_REVERSED : DP_MAPPING_D3D;
+    *out = given                            ? o->mappings[0]
+           : told && s->found.reversed == 1 ? DP_MAPPING_REVERSED
+           : o->platform != NULL            ? o->mappings[0]
+                                            : DP_MAPPING_D3D;
     if (dp_mapping_get(*out)->log_from_near)
         return option_error(OPTION_MAPPING, "must not be %s: no image of it can be read here; got %s",
                             dp_mapping_get(*out)->name, dp_mapping_get(*out)->name);

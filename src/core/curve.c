@@ -83,14 +83,19 @@ double dp_curve_span(const dp_setup *setup, dp_point a, dp_point b) {
 
 double dp_curve_reach(const dp_setup *setup, double z, double step) {
     const double change = step * setup->kappa;
-    return setup->curve == DP_CURVE_PERSPECTIVE ? z * z * change
-           : setup->curve == DP_CURVE_LINEAR    ? change
-                                                : (z - setup->anchor + 1.0 / setup->log_c) * dp_expm1(change);
+    if (setup->curve == DP_CURVE_PERSPECTIVE)
+        return z * z * change;
+    if (setup->curve == DP_CURVE_LINEAR)
+        return change;
+    const double lost = 0x1p-52 * setup->anchor; /* at most, of what lies behind the anchor, when z was rounded */
+    return (z - setup->anchor + lost + 1.0 / setup->log_c) * dp_expm1(change);
 }
 
 double dp_curve_ahead(const dp_setup *setup, double num, double den, double z) {
-    if (setup->curve != DP_CURVE_PERSPECTIVE)
-        return dp_curve_reach(setup, z, num / den);
+    if (setup->curve == DP_CURVE_LINEAR)
+        return num / den * setup->kappa;
+    if (setup->curve == DP_CURVE_LOG)
+        return (z - setup->anchor + 1.0 / setup->log_c) * dp_expm1(num / den * setup->kappa);
     /* z h / (1 - h) with h = z kappa num/den; 1 - h cancels where one step reaches far beyond z */
     const double n = setup->spec.znear;
     const double f = setup->spec.zfar;

@@ -27,19 +27,21 @@ double dp_curve_gap(const dp_setup *setup, dp_point point, double z);
 /* The distance between two points, a not farther than b; few units of 2^-53 relative. */
 double dp_curve_span(const dp_setup *setup, dp_point a, dp_point b);
 
-/* An upper bound of the distance from z to the depth that lies `step` of d nearer to the camera. */
+/*
+ * An upper bound of the distance from z to the depth that lies `step` of d nearer to the camera, for z as
+ * dp_curve_eye() rounds it, too.
+ */
 double dp_curve_reach(const dp_setup *setup, double z, double step);
 
-/* z(d + step) - z for a step of num/den in d towards far; INFINITY where there is no such depth. */
+/* z(d + step) - z for a step of num/den in d towards far, z as it is given; INFINITY where there is no such depth. */
 double dp_curve_ahead(const dp_setup *setup, double num, double den, double z);
 
 /*
  * A factor that outweighs the rounding errors of any width, error or separation computed here: some 19 units of 2^-53,
- * or 214 for the exponentials of LOG, whose arguments reach 70; and a depth far behind which a LOG curve begins holds
- * less of its distance from there.
+ * or 214 for each of the exponentials of LOG, whose arguments reach 70.
  */
 static inline double dp_curve_outward(const dp_setup *setup) {
-    return setup->curve == DP_CURVE_LOG ? 1.0 + 0x1p-44 + 0x1p-50 * (setup->anchor * setup->log_c) : 1.0 + 0x1p-48;
+    return setup->curve == DP_CURVE_LOG ? 1.0 + 0x1p-44 : 1.0 + 0x1p-48;
 }
 
 #endif

@@ -67,7 +67,7 @@ dp_pair dp_log1p_excess(double z, double anchor, double c) {
 }
 
 double dp_scaled_difference(double num, double den, dp_pair a, dp_pair b) {
-    dp_pair d = pair_divide(pair_scale(a, num), den);
+    dp_pair d = num == den ? a : pair_divide(pair_scale(a, num), den); /* at an end nothing is rounded */
     d = dp_pair_sum(d, (dp_pair){-b.hi, -b.lo});
     return d.hi + d.lo;
 }

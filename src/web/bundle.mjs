@@ -27,7 +27,7 @@ const code = `\n${short(script("page.js"))}\n`;
 const hash = (text) => `'sha256-${createHash("sha256").update(text).digest("base64")}'`;
 const parts = {
     policy: ["default-src 'none'", `script-src ${hash(code)} 'wasm-unsafe-eval'`, `style-src ${hash(style)}`,
-        "img-src data: blob:", "base-uri 'none'", "form-action 'none'"].join("; "),
+        "worker-src blob:", "img-src data: blob:", "base-uri 'none'", "form-action 'none'"].join("; "),
     style,
     script: code,
     module: gzipSync(readFileSync(wasm), { level: 9 }).toString("base64"),

@@ -57,4 +57,13 @@ export function fromFragment(fragment) {
     return commands(line);
 }
 
+// What stands behind the # as a person reads it, even where it is no command.
+export function written(fragment) {
+    try {
+        return decodeURIComponent(fragment);
+    } catch {
+        return fragment;
+    }
+}
+
 export const toFragment = (all) => encodeURIComponent(all.map(join).join(" ; "));

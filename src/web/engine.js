@@ -60,8 +60,9 @@ function system(memory, streams) {
     };
 }
 
-export async function load(bytes) {
-    const module = await WebAssembly.compile(bytes);
+// Of the module's bytes, or of the module that another thread has compiled.
+export async function load(from) {
+    const module = from instanceof WebAssembly.Module ? from : await WebAssembly.compile(from);
 
     function begin() {
         let instance;
@@ -87,6 +88,8 @@ export async function load(bytes) {
     }
 
     const engine = {
+        module,
+
         // How far text reaches, px; the page has a better one.
         measure: (text, size, bold) => text.length * size * (bold ? 0.65 : 0.58),
 

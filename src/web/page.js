@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The page: two set-ups as lists of options, and panels that show what the commands say of them. It computes no number
 // that is shown: each comes out of the module, see engine.js.
+import { createAside, inWorker, serve } from "./aside.js";
 import { load } from "./engine.js";
-import { commands, fromFragment, join, split, toFragment } from "./command.js";
+import { commands, fromFragment, join, LONGEST, split, toFragment, written } from "./command.js";
 import { createPicture } from "./picture.js";
 
 const $ = (selector, root = document) => root.querySelector(selector);
@@ -38,20 +39,23 @@ const UNUSED = {
 const STANDARD = "table -n 0.1 -f 1000 -F unorm24 -m d3d --unit m";
 const SECOND = "table -n 0.1 -f 1000 -F fp32 -m reversed --unit m";
 
-let engine, picture;
+let engine, aside, picture;
 const takes = {}; // options of each command
 const state = { setups: [], asked: {}, figure: "interval", shown: new Set(["table", "plot", "solve", "bias"]) };
 const fields = []; // of each set-up: its controls by option
 
 // What the last commands said, so that none is asked twice.
 const REMEMBERED = 12, last = new Map();
-function run(line) {
-    const key = line.join("\0"), said = last.get(key) ?? engine.run(line);
+function remember(line, said) {
+    const key = line.join("\0");
     last.delete(key);
     last.set(key, said);
     if (last.size > REMEMBERED) last.delete(last.keys().next().value);
     return said;
 }
+
+const known = (line) => last.get(line.join("\0"));
+const run = (line) => remember(line, known(line) ?? engine.run(line));
 
 const errorOf = ({ err }) => err.trim().replace(/^depthprec: /, "");
 
@@ -374,22 +378,31 @@ function showText(one, verb, text) {
     if (verb !== "table") $(".answer", one).textContent = answers(text);
 }
 
-// A set-up that is refused as a whole says so beside its controls; what was shown of it stays, paler.
-function showPanel(panel) {
-    const verb = panel.dataset.panel, drawn = verb === "plot";
+// The outputs of a panel, those of set-ups that there are, and the command of one.
+function outputsOf(panel) {
     const ones = state.setups.map((_, index) => outputOf(panel, index));
     for (const one of $(".outputs", panel).children) one.hidden = !ones.includes(one);
     $("h3", ones[0]).hidden = ones.length === 1;
-    state.setups.forEach((setup, index) => {
-        const line = commandOf(verb, setup), one = ones[index];
-        const said = run(drawn ? [...line, ...drawing(one)] : line);
+    return ones;
+}
+
+function lineOf(verb, setup, one) {
+    const line = commandOf(verb, setup);
+    return verb === "plot" ? [...line, ...drawing(one)] : line;
+}
+
+// A set-up that is refused as a whole says so beside its controls; what was shown of it stays, paler.
+function showPanel(panel) {
+    const verb = panel.dataset.panel, drawn = verb === "plot";
+    outputsOf(panel).forEach((one, index) => {
+        const setup = state.setups[index], said = run(lineOf(verb, setup, one));
         if (said === one.said) return;
         const refused = said.status === REFUSED ? errorOf(said) : "";
-        const known = refused === fields[index].refused.textContent;
-        one.classList.toggle("stale", refused !== "" && known);
-        if (refused !== "" && known && one.said !== undefined) return;
+        const saidAbove = refused === fields[index].refused.textContent;
+        one.classList.toggle("stale", refused !== "" && saidAbove);
+        if (refused !== "" && saidAbove && one.said !== undefined) return;
         one.said = said;
-        one.dataset.run = join(line);
+        one.dataset.run = join(commandOf(verb, setup));
         if (!drawn) showText(one, verb, said.out);
         else if (refused === "") showFigure(one, said.out);
         $(".refused", one).textContent = refused;
@@ -416,6 +429,10 @@ function count() {
     dataset.updates = Number(dataset.updates ?? 0) + 1;
 }
 
+// Commands that take tenths of a second never hold the page: they run aside. On paper all has to be there at once.
+const slow = (verb) => !printing && (verb === "zfight" || (verb === "plot" && state.figure === "map"));
+const unknown = (panel, verb) => outputsOf(panel).some((one, i) => !known(lineOf(verb, state.setups[i], one)));
+
 // While something is dragged, a frame shows what is on the screen and quick; the rest follows when the hand rests.
 const FRAME_MS = 12, FIGURE_MS = 80, REST_MS = 200;
 const onScreen = new Set(), late = new Set(), cost = {};
@@ -423,6 +440,7 @@ let resting;
 
 function update(dragged = false) {
     const begun = performance.now();
+    aside.stop();
     showSetups();
     fitQuestions();
     for (const panel of document.querySelectorAll("[data-panel]")) {
@@ -432,7 +450,8 @@ function update(dragged = false) {
         late.delete(panel);
         const allowed = verb === "plot" ? FIGURE_MS : FRAME_MS - (start - begun);
         if (panel.hidden) continue;
-        if (dragged && (!onScreen.has(panel) || (cost[verb] ?? 0) > allowed)) late.add(panel);
+        const later = slow(verb) ? unknown(panel, verb) : dragged && (cost[verb] ?? 0) > allowed;
+        if (later || (dragged && !onScreen.has(panel))) late.add(panel);
         else showPanel(panel);
         cost[verb] = Math.max(performance.now() - start, 0.9 * (cost[verb] ?? 0));
         panel.classList.toggle("stale", late.has(panel));
@@ -453,9 +472,22 @@ function showAddress() {
     if (fine && location.hash.slice(1) !== fragment) history.replaceState(null, "", `#${fragment}`);
 }
 
-function rest() {
-    const [panel] = late;
+// Has the commands of a panel run, as long as nothing changes.
+async function prepare(panel, current) {
+    const verb = panel.dataset.panel;
+    for (const [index, one] of outputsOf(panel).entries()) {
+        const line = lineOf(verb, state.setups[index], one);
+        const said = known(line) ?? (await aside.run(line));
+        if (!current()) return;
+        if (said !== null) remember(line, said);
+    }
+}
+
+async function rest() {
+    const [panel] = late, mine = resting;
     if (panel !== undefined) {
+        if (slow(panel.dataset.panel)) await prepare(panel, () => resting === mine);
+        if (resting !== mine) return; // an update has come, and rests later
         late.delete(panel);
         showPanel(panel);
         panel.classList.remove("stale");
@@ -564,7 +596,7 @@ function showPicture(text, { drawn, hasMark, error }) {
 
 // Letters of the figures are measured as the page draws them.
 function measurer() {
-    const context = document.createElement("canvas").getContext("2d");
+    const context = (inWorker ? new OffscreenCanvas(1, 1) : document.createElement("canvas")).getContext("2d");
     return (text, size, bold) => {
         context.font = `${bold ? "bold " : ""}${size}px "DejaVu Sans", Verdana, sans-serif`;
         return context.measureText(text).width;
@@ -576,6 +608,7 @@ async function begin() {
     const stream = new Blob([packed]).stream().pipeThrough(new DecompressionStream("gzip"));
     engine = await load(new Uint8Array(await new Response(stream).arrayBuffer()));
     engine.measure = measurer();
+    aside = createAside(engine.module);
     for (const verb of VERBS) takes[verb] = engine.takes(verb);
     $("#version").textContent = engine.run(["--version"]).out.split("\n")[0].replace(/^depthprec /, "");
     for (const name of names("apis")) $("[data-option=api]").append(make("option", {}, name));
@@ -588,9 +621,10 @@ async function begin() {
     buildSetup(1);
     listen();
     if (location.hash.length < 2 || !set(() => fromFragment(location.hash.slice(1)))) {
-        const said = $("#error").textContent;
+        const said = $("#error").textContent, asked = location.hash.slice(1);
         set(commands(STANDARD));
-        if (said !== "") refuse(said);
+        if (said !== "") refuse(`The link is refused, so the standard set-up is shown. ${said}`);
+        if (asked.length <= LONGEST) $("#command").value = written(asked); // to be mended: the address is no longer it
     }
     const controls = { canvas: $("#view"), slider: $("#gap"), play: $("#play"), gapIs: $("#gap-is") };
     picture = createPicture({ ...controls, engine, onStatus: showPicture });
@@ -601,4 +635,5 @@ async function begin() {
 }
 
 const NEEDED = "It needs WebAssembly and DecompressionStream, which browsers have since 2023.";
-begin().catch((error) => refuse(`The page cannot run here: ${error.message}. ${NEEDED}`));
+if (inWorker) serve(measurer());
+else begin().catch((error) => refuse(`The page cannot run here: ${error.message}. ${NEEDED}`));

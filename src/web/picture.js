@@ -3,7 +3,8 @@
 //   canvas  640 x 360, role="img" and a label
 //   slider  input type=range: its ends are no gap and the largest one; the guarantee is at three quarters of it, where
 //           `hasMark` of a state says that it is there (for a datalist or a line)
-//   play    button, pressed while the camera moves (aria-pressed); its text may stay
+//   play    button, pressed while the camera moves (aria-pressed); its text may stay. The camera begins still: what
+//           flickers fills much of a screen, and flashes more than three times a second (WCAG 2.2, 2.3.1)
 //   gapIs   output beside the slider
 //   onStatus(text, state)  text for a polite live region: told when set-up, gap or what is seen changes, not each frame.
 //           state: { error, gap, drawn, hasMark, guaranteed }; error is the refusal of a set-up that cannot be drawn, or "";
@@ -14,7 +15,7 @@ export function createPicture({ canvas, engine, slider, play, gapIs, onStatus = 
     const { exports, memory, streams } = engine.instance();
     const context = canvas.getContext("2d"), reduced = matchMedia("(prefers-reduced-motion: reduce)");
     const LATELY = 120; // frames: as long as one of them was wrong, it flickers
-    let words = null, asked = null, place = 0.4, painted = false, moves = !reduced.matches, seen = true, error = "";
+    let words = null, asked = null, place = 0.4, painted = false, moves = false, seen = true, error = "";
     let image = null, frame = 0, quietFor = 0, begun = 0, waiting = 0, said = "";
 
     function told(number) {
@@ -85,14 +86,14 @@ export function createPicture({ canvas, engine, slider, play, gapIs, onStatus = 
 
     slider?.addEventListener("input", slide);
     play?.addEventListener("click", () => move(!moves));
-    reduced.addEventListener("change", () => move(!reduced.matches));
+    reduced.addEventListener("change", () => reduced.matches && move(false));
     new IntersectionObserver((entries) => {
         seen = entries.at(-1).isIntersecting;
         begun = performance.now() - frame / 0.06;
         soon();
     }).observe(canvas);
     if (slider) slide();
-    move(moves);
+    move(false);
 
     return {
         set(command, at) {

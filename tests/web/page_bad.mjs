@@ -93,6 +93,22 @@ export async function bad() {
             await close(other);
         }
     });
+    await test("a link that is refused at the start: said, and left in the field to be mended", async () => {
+        for (const [line, ends] of [["table -n 0.1 -f 0.05", "far 0.05"], ["table -F d25", "'d24'?"], ["check x", "the program has it"]]) {
+            const other = await open({ fragment: text(line) });
+            const { error, link } = await shown(other), field = await other.inputValue("#command");
+            demand(error.startsWith("The link is refused, so the standard set-up is shown. ") && error.endsWith(ends), `${line}: ${error}`);
+            demand(field === line && !link.includes(line), `${line}: the field has ${field}`);
+            await other.fill("#command", "table -n 3");
+            await other.keyboard.press("Enter");
+            const now = await shown(other);
+            demand(now.error === "" && now.link.startsWith("depthprec table -n 3\n"), `mended: ${now.error}`);
+            await close(other);
+        }
+        const other = await open({ fragment: "table%2" });
+        demand((await other.inputValue("#command")) === "table%2", "half a % is not in the field");
+        await close(other);
+    });
     await test("a title with a script is text", async () => {
         const other = await open({ fragment: text("plot error -F d24 --title '<script>alert(1)</script><img src=x onerror=alert(2)>'") });
         const { error, link } = await shown(other);

@@ -1,0 +1,66 @@
+#!/bin/sh
+# SPDX-License-Identifier: GPL-3.0-or-later
+# A model and a depth image with --platform: what is said is what is said with the options that the platform stands for.
+. tests/tap.sh
+
+model="scene tests/models/house.gltf --camera street --within 60 --unit m --viewport 960x540"
+
+alike() { # alike PLATFORM OPTIONS -- COMMAND...: with --platform as with the options
+    platform=$1 options=
+    shift
+    while [ "$1" != -- ]; do options="$options $1" && shift; done
+    shift
+    "$DEPTHPREC" "$@" --platform "$platform" | sed 's/ assumed$/ given/' >"$scratch/by_platform"
+    "$DEPTHPREC" "$@" $options >"$scratch/by_options"
+    [ -s "$scratch/by_platform" ] && diff "$scratch/by_platform" "$scratch/by_options"
+}
+refuses() { # refuses WORDS COMMAND...
+    words=$1
+    shift
+    "$DEPTHPREC" "$@" >"$scratch/out" 2>"$scratch/said"
+    [ $? -eq 2 ] && [ ! -s "$scratch/out" ] && cat "$scratch/said" && grep -qF -- "$words" "$scratch/said"
+}
+found() { # found FILE PLATFORM FORMAT: the format of the two that the image has
+    "$DEPTHPREC" texture "$1" --platform "$2" >"$scratch/found" && cat "$scratch/found" && grep -q "^  format  *$3" "$scratch/found"
+}
+
+while IFS='|' read -r platform options; do
+    platform=$(echo $platform)
+    check "scene: $platform" alike "$platform" $options -- $model
+    check "texture: $platform" alike "$platform" $(echo "$options" | sed 's/--arith.*//') -- texture --scene decals
+done <<'END'
+safari      | -F fp32 -m d3d --arith ieee --raster spec-vulkan --api webgpu
+chrome-d3d  | -F fp32 -m d3d --arith ieee --raster spec-d3d --api webgpu
+webgl-d3d   | -F unorm24 -m gl --arith ieee-remap --raster spec-d3d --api gl
+webgl-metal | -F fp32 -m gl --arith ieee-remap --raster spec-vulkan --api gl
+END
+
+# What the browser does to the constant of a bias is counted: ANGLE on OpenGL halves it.
+halved() {
+    "$DEPTHPREC" $model --platform webgl-gl -F d24 | tr '\n' ' ' | tr -s ' ' >"$scratch/halved"
+    "$DEPTHPREC" $model -F d24 -m gl --arith ieee --raster spec-gl --api gl | tr '\n' ' ' | tr -s ' ' >"$scratch/whole"
+    units='s/.*glPolygonOffset([^,]*, \(-*[0-9]*\)).*/\1/'
+    echo "$(sed "$units" "$scratch/halved") for $(sed "$units" "$scratch/whole")"
+    whole=$((2 * $(sed "$units" "$scratch/whole"))) half=$(sed "$units" "$scratch/halved") # both whole numbers, away from 0
+    [ "$half" -eq $whole ] || [ "$half" -eq $((whole + 1)) ]
+}
+check "scene: a bias that the browser halves is doubled" halved
+
+either="stores unorm24 or fp32 on firefox-vulkan, as the device has it: -F says for which"
+check "scene: of two formats one is asked for" refuses "$either" $model --platform firefox-vulkan
+check "texture: so it is" refuses "$either" texture --scene decals --platform firefox-vulkan
+# The constant is that of the API below WebGPU, where one unit tells two depths apart by definition.
+named() {
+    "$DEPTHPREC" $model --platform firefox-vulkan -F d24 | sed 's/depthBias:/depthBiasConstantFactor =/' >"$scratch/by_platform"
+    "$DEPTHPREC" $model -F d24 -m d3d --raster spec-vulkan --api vulkan >"$scratch/by_options"
+    for by in platform options; do
+        tr '\n' ' ' <"$scratch/by_$by" | tr -s ' ' | sed 's/, *depthBiasSlope[^;]*;/;/' >"$scratch/line_$by"
+    done
+    diff "$scratch/line_platform" "$scratch/line_options"
+}
+check "scene: one of them" named
+"$DEPTHPREC" texture --scene decals -F fp32 -m reversed --raw -o "$scratch/told.npy" >"$scratch/out" 2>&1
+"$DEPTHPREC" texture --scene decals -F unorm24 -m d3d --raw -o "$scratch/open.npy" >"$scratch/out" 2>&1
+check "texture: of two formats an image has one" found "$scratch/told.npy" firefox-vulkan fp32
+check "texture: where an image does not tell, one is asked for" refuses "$either" texture "$scratch/open.npy" --platform firefox-vulkan
+finish
