@@ -25,7 +25,8 @@ static const dp_arith_row rows[] = {
 static const dp_log2_row log2_rows[] = {
     {"vulkan", "spirv glsl webgl wgsl webgpu", 0x1p-21, 3.0, 0.0,
      "3 units in the last place, 2^-21 from 0.5 to 2: Vulkan, GLSL, WGSL",
-     "Vulkan 1.3 specification, Precision and Operation of SPIR-V Instructions; GLSL ES 3.20 4.7.1; WGSL 15.7.4"},
+     "Vulkan 1.3 specification, Precision and Operation of SPIR-V Instructions; GLSL, Range and Precision; WGSL, "
+     "accuracy of builtin functions"},
     {"d3d", "hlsl direct3d", 0x1p-21, 0.0, 0x1p-21,
      "2^-21 of the result, absolute from 0.5 to 2: Direct3D",
      "Microsoft Learn, log (sm4 - asm)"},

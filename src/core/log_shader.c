@@ -11,7 +11,7 @@ static const double outward = 1.0 + 0x1p-40;
 
 static const double ln2 = 0.69314718055994531;
 
-/* A division of GLSL ES 3.00 (4.5.1), Vulkan 1.3 (SPIR-V environment) and WGSL (15.7.4), in units in the last place. */
+/* A division of Vulkan, GLSL and WGSL, in units in the last place: where they say what log2 may be off by. */
 static const double division = 2.5;
 
 /* No computed argument or logarithm is farther than this from what it stands for: relative, and of the logarithm. */
