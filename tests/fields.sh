@@ -42,6 +42,7 @@ all_named scene tests/models/street.obj --gap 0.02 --from 0,2,10 --look 0,0,0
 all_named zfight -n 1 -f 1.5 -F unorm16 -m d3d --viewport 640x480
 all_named scene tests/models/street.obj --gap 0.02 --viewport 640x480
 all_named budget --at 10
+all_named budget -m three-webgl --at 10
 all_named budget --at 10 --viewport 640x480
 all_named table --at 10 --viewport 640x480
 all_named table -m log --at 10 --viewport 640x480

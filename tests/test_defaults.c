@@ -42,6 +42,8 @@ static const struct {
     {VERB_PLOT, IDS(OPTION_PLANE), "plot fight --csv", ""},
     {VERB_PLOT, IDS(OPTION_INTERPOLATION, OPTION_WORLD), "plot budget -F d24 -m d3d --csv", ""},
     {VERB_PLOT, IDS(OPTION_COMPOSITION), "plot budget -F d24 -m d3d --csv", "--world 100"},
+    {VERB_PLOT, IDS(OPTION_LOG2), "plot budget -F d24 -m log --csv", ""},
+    {VERB_BUDGET, IDS(OPTION_LOG2), "budget -F d24 -m log", ""},
     {VERB_PLOT, IDS(OPTION_SLANT), "plot budget -F d24 -m d3d --csv", "--viewport 640x480"},
     {VERB_PLOT,
      IDS(OPTION_FOV, OPTION_SUBPIXEL, OPTION_TRIANGLE, OPTION_CASCADES, OPTION_LAMBDA, OPTION_CASTERS, OPTION_KERNEL,

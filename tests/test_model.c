@@ -340,7 +340,18 @@ static void budget_refusals(void **state) {
     assert_int_equal(dp_budget_at(&setup, 1.0, NULL, NULL), DP_ERROR_NULL);
     assert_int_equal(dp_budget_at(&setup, 0.09, NULL, &b), DP_ERROR_DEPTH);
     assert_int_equal(dp_budget_at(&setup, NAN, NULL, &b), DP_ERROR_DEPTH);
-    assert_int_equal(dp_budget_at(&log_setup, 1.0, NULL, &b), DP_ERROR_MODEL);
+    const dp_setup linear = make("unorm24", DP_MAPPING_LINEAR, 0.1, 1000);
+    assert_int_equal(dp_budget_at(&linear, 1.0, NULL, &b), DP_ERROR_MODEL);
+    /* terms that the shader of a logarithmic depth has not */
+    const dp_budget_terms none[] = {{.world = 10}, {.linearize = 1}, {.displaced = {.own = 1e-3}}, {.log2 = 3}};
+    for (size_t i = 0; i < sizeof none / sizeof none[0]; i++)
+        assert_int_equal(dp_budget_at(&log_setup, 1.0, &none[i], &b), DP_ERROR_MODEL);
+    dp_spec spec = log_setup.spec;
+    dp_setup slanted;
+    spec.triangles = (dp_triangles){800, 600, 60, 4, {5, 11, 2, 5}, 0, 90, 2, 512, 16};
+    assert_int_equal(dp_setup_init(&slanted, &spec), DP_OK);
+    assert_int_equal(dp_budget_at(&slanted, 1.0, NULL, &b), DP_ERROR_MODEL);
+    assert_int_equal(dp_budget_at(&log_setup, 1.0, NULL, &b), DP_OK);
 }
 
 int main(void) {

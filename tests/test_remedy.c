@@ -46,7 +46,7 @@ static bool do_it(const char *words, dp_spec *spec, dp_budget_terms *terms) {
 /* Each change, and the causes that it is against. */
 static const struct {
     const char *words;
-    dp_cause causes[3];
+    dp_cause causes[6];
     int cause_count;
 } changes[] = {
     {"positions relative to the camera", {DP_CAUSE_COMPOSITION}, 1},
@@ -58,7 +58,9 @@ static const struct {
     {"an infinite far plane", {DP_CAUSE_PROJECTION, DP_CAUSE_NDC}, 2},
     {"reversed depth", {DP_CAUSE_PROJECTION, DP_CAUSE_NDC, DP_CAUSE_FORMAT}, 3},
     {"reversed depth and an infinite far plane", {DP_CAUSE_PROJECTION, DP_CAUSE_NDC}, 2},
-    {"reversed depth in fp32", {DP_CAUSE_PROJECTION, DP_CAUSE_NDC, DP_CAUSE_FORMAT}, 3},
+    {"reversed depth in fp32",
+     {DP_CAUSE_PROJECTION, DP_CAUSE_NDC, DP_CAUSE_FORMAT, DP_CAUSE_ARGUMENT, DP_CAUSE_LOG2, DP_CAUSE_SCALE},
+     6},
 };
 enum { CHANGES = sizeof changes / sizeof changes[0] };
 
@@ -91,11 +93,11 @@ static dp_setup any_setup(rng *r) {
         spec.znear = rng_log(r, 0.01, 100);
         spec.zfar = rng_below(r, 4) == 0 ? INFINITY : spec.znear * rng_log(r, 2, 1e6);
         spec.ortho = rng_below(r, 4) == 0;
-        spec.mapping = (dp_mapping)rng_below(r, DP_MAPPING_LINEAR);
+        spec.mapping = (dp_mapping)rng_below(r, DP_MAPPING_COUNT);
         spec.arith = rng_below(r, dp_arith_count());
         dp_format_parse(formats[rng_below(r, 5)], format);
         spec.format = format[0];
-        spec.model = DP_MODEL_FP32;
+        spec.model = dp_mapping_get(spec.mapping)->curve == DP_CURVE_LOG ? DP_MODEL_EXACT : DP_MODEL_FP32;
     } while (dp_setup_init(&setup, &spec) != DP_OK);
     return setup;
 }

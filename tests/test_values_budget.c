@@ -14,25 +14,26 @@ typedef struct budget_case {
     double z[DEPTHS];
     dp_budget_terms terms;
     const char *options;
+    bool shader, matrix, divided; /* some mapping is logarithmic; and beside it one is not; or is written as clip z */
 } budget_case;
 
 static const budget_case budgets[] = {
     {{0.3, 1000, {"unorm24", "fp16"}, {"d3d", "gl-reversed"}, .implied = true, .model = DP_MODEL_FP32, .unit = "in"},
      {0.3, 1.7, 55, 321.5, 900, 990},
      {.world = 0},
-     ""},
+     .options = ""},
     {{0.1, INFINITY, {"fp32", "unorm16"}, {"reversed", "gl"}, .implied = true, .model = DP_MODEL_FP32, .arith = "mesa"},
      {0.1, 3, 4e2, 1e4, 1e6, 3e9},
      {.interpolation = 1.5, .world = 700, .linearize = 1},
-     " --interpolation 1.5 --world 700 --linearize"},
+     .options = " --interpolation 1.5 --world 700 --linearize"},
     {{0.5, 400, {"fp32", "unorm24"}, {"reversed"}, .implied = true, .model = DP_MODEL_FP32},
      {0.5, 2, 9, 33, 150, 390},
      {.interpolation = 2, .world = 30, .composition = DP_COMPOSITION_RELATIVE},
-     " --interpolation 2 --world 30 --composition relative"},
+     .options = " --interpolation 2 --world 30 --composition relative"},
     {{0.5, 400, {"unorm24"}, {"gl-reversed", "d3d"}, .implied = true, .model = DP_MODEL_FP32},
      {0.6, 2, 9, 33, 150, 390},
      {.world = 5000, .composition = DP_COMPOSITION_PRODUCTS},
-     " --world 5000 --composition products"},
+     .options = " --world 5000 --composition products"},
     {{2,
       90,
       {"unorm24"},
@@ -43,8 +44,31 @@ static const budget_case budgets[] = {
       .rounding = DP_ROUND_ZERO},
      {2, 3, 5, 7, 60, 90},
      {.interpolation = 0.25, .linearize = 1},
-     " --interpolation 0.25 --linearize --tolerance 3%"},
+     .options = " --interpolation 0.25 --linearize --tolerance 3%"},
+    {{0.2, 5e6, {"unorm24", "fp16"}, {"three-webgpu", "cesium"}, .implied = true, .unit = "m"},
+     {0.2, 0.9, 16, 3e3, 7e5, 4e6},
+     {.world = 0},
+     .options = "",
+     .shader = true},
+    {{0.3, 1e9, {"fp32"}, {"log", "osgearth"}, .implied = true, .log_c = 0.03, .arith = "mesa-remap"},
+     {0.3, 3, 4e2, 1e4, 1e6, 8e8},
+     {.interpolation = 1.5, .log2 = 1},
+     .options = " --interpolation 1.5 --log2 d3d",
+     .shader = true,
+     .divided = true},
+    {{0.1, 1000, {"unorm24"}, {"reversed", "three-webgl"}, .implied = true},
+     {0.3, 1.7, 55, 321.5, 900, 990},
+     {.log2 = 2},
+     .options = " --log2 rounded",
+     .shader = true,
+     .matrix = true,
+     .divided = true},
 };
+
+static const char *log2_of(const budget_case *c) {
+    static const char *const names[] = {"vulkan", "d3d", "rounded"};
+    return names[c->terms.log2];
+}
 
 /* As the options spell it; none where eye depth is given. */
 static const char *composition_of(const budget_case *c) {
@@ -54,8 +78,9 @@ static const char *composition_of(const budget_case *c) {
 }
 
 /* Those of triangles are there only where these are asked for: see test_values_slant. */
-static bool has_cause(int cause) {
-    return cause != DP_CAUSE_SNAPPING && cause != DP_CAUSE_SETUP;
+static bool has_cause(const budget_case *c, int cause) {
+    const bool shader = cause == DP_CAUSE_ARGUMENT || cause == DP_CAUSE_LOG2 || cause == DP_CAUSE_SCALE;
+    return cause != DP_CAUSE_SNAPPING && cause != DP_CAUSE_SETUP && (!shader || c->shader);
 }
 
 static const char *cause_path(int cause) {
@@ -64,14 +89,14 @@ static const char *cause_path(int cause) {
     return path;
 }
 
-static void want_budget_row(values *v, const dp_budget *b, double z) {
+static void want_budget_row(values *v, const budget_case *c, const dp_budget *b, double z) {
     const bool some = isfinite(b->separation);
     want_number(v, "z", z);
     want_number(v, "separation", b->separation);
     want_number(v, "window", b->window);
     for (int i = 0; i < DP_CAUSE_COUNT; i++) {
         char derived[96];
-        if (!has_cause(i))
+        if (!has_cause(c, i))
             continue;
         want_number(v, cause_path(i), b->cause[i]);
         snprintf(derived, sizeof derived, "part.%s", dp_cause_name((dp_cause)i));
@@ -111,19 +136,25 @@ static void want_budget_worst(values *v, const dp_setup *setup, const budget_cas
 static void want_budget(values *v, const budget_case *c, const dp_setup *setup, size_t i, line_places *lines) {
     char inner[32], under[PATH_SIZE];
     values_under(v, "setups[%zu].", i);
-    want_setup(v, setup);
+    dp_setup in_binary32 = *setup; /* as it is said of logarithmic mappings, too */
+    in_binary32.spec.model = DP_MODEL_FP32;
+    want_setup(v, &in_binary32);
     for (int k = 0; k < DEPTHS; k++) {
         dp_budget b;
         assert_int_equal(dp_budget_at(setup, c->z[k], &c->terms, &b), DP_OK);
         values_under(v, "setups[%zu].rows[%d].", i, k);
-        want_budget_row(v, &b, c->z[k]);
+        want_budget_row(v, c, &b, c->z[k]);
         snprintf(inner, sizeof inner, "rows[%d].", k);
         place_add(lines, inner, "setups[%zu].", i);
     }
     values_under(v, "setups[%zu].", i);
     want_budget_worst(v, setup, c);
+    values_under(v, "setups[%zu].", i);
     snprintf(under, sizeof under, "setups[%zu].auto.", i);
-    want_choice(v, under, setup, c->z, DEPTHS, strstr(c->options, "3%") != NULL ? 0.03 : 0.05);
+    if (setup->curve == DP_CURVE_LOG)
+        want_text(v, "auto", NULL);
+    else
+        want_choice(v, under, setup, c->z, DEPTHS, strstr(c->options, "3%") != NULL ? 0.03 : 0.05);
 }
 
 /* The causes that the text leaves out are those of terms that were not given. */
@@ -132,7 +163,8 @@ static size_t budget_text_columns(const budget_case *c, char text[2 * DP_CAUSE_C
     out[count++] = (text_column){"z", 9};
     out[count++] = (text_column){"separation", 6};
     for (int i = 0; i < DP_CAUSE_COUNT; i++) {
-        if (!has_cause(i) || (i == DP_CAUSE_COMPOSITION && c->terms.world == 0) ||
+        if (!has_cause(c, i) || (i == DP_CAUSE_PROJECTION && c->shader && !c->matrix) ||
+            (i == DP_CAUSE_NDC && c->shader && !c->divided) || (i == DP_CAUSE_COMPOSITION && c->terms.world == 0) ||
             (i == DP_CAUSE_LINEARIZATION && !c->terms.linearize) ||
             (i == DP_CAUSE_INTERPOLATION && c->terms.interpolation == 0))
             continue;
@@ -144,7 +176,7 @@ static size_t budget_text_columns(const budget_case *c, char text[2 * DP_CAUSE_C
     return count;
 }
 
-static size_t budget_columns(char text[2 * DP_CAUSE_COUNT][64], csv_column *out) {
+static size_t budget_columns(const budget_case *c, char text[2 * DP_CAUSE_COUNT][64], csv_column *out) {
     static const csv_column before[] = {SETUP_COLUMNS,
                                         {"arith", "^arith"},
                                         {"z [scene]", "z"},
@@ -153,13 +185,15 @@ static size_t budget_columns(char text[2 * DP_CAUSE_COUNT][64], csv_column *out)
     size_t count = sizeof before / sizeof before[0];
     memcpy(out, before, sizeof before);
     for (int i = 0; i < DP_CAUSE_COUNT; i++) {
-        if (!has_cause(i))
+        if (!has_cause(c, i))
             continue;
         snprintf(text[2 * i], 64, "%s [scene]", dp_cause_name((dp_cause)i));
         snprintf(text[2 * i + 1], 64, "%s", cause_path(i));
         out[count++] = (csv_column){text[2 * i], text[2 * i + 1]};
     }
     out[count++] = (csv_column){"composition", "/terms.composition"};
+    if (c->shader)
+        out[count++] = (csv_column){"log2", "/terms.log2"};
     return count;
 }
 
@@ -255,13 +289,33 @@ static void choice_in(const char *at, const dp_setup *setup, const budget_case *
                                                    : ": model float is needed\n");
 }
 
+/* "  model staged leaves the shader out: with it this is 3.06 times worse at z = 1000" */
+static void staged_in(const char *at, const dp_setup *setup, const budget_case *c) {
+    double worst = 0, z = 0;
+    dp_setup staged;
+    dp_spec spec = setup->spec;
+    dp_budget b;
+    spec.model = DP_MODEL_STAGED;
+    assert_int_equal(dp_setup_init(&staged, &spec), DP_OK);
+    for (int k = 0; k < DEPTHS; k++) {
+        assert_int_equal(dp_budget_at(setup, c->z[k], &c->terms, &b), DP_OK);
+        if (b.separation / dp_separation(&staged, c->z[k]) > worst) {
+            worst = b.separation / dp_separation(&staged, c->z[k]);
+            z = c->z[k];
+        }
+    }
+    at = words_in(at, "  model staged leaves the shader out: with it this is ");
+    at = words_in(number_in(at, worst, 3, false), " times worse at z = ");
+    words_in(length_in(at, c, z, 6, false), "\n");
+}
+
 /* They stand below each table, the only lines that begin with two blanks and a word. */
 static void check_sentences(const char *text, const budget_case *c, const dp_setup *setups, size_t count) {
     for (size_t i = 0; i < count; i++) {
         while (*text != '\0' && !(strncmp(text, "  ", 2) == 0 && text[2] >= 'a' && text[2] <= 'z'))
             text += strcspn(text, "\n") + 1;
         text = advice_in(text, &setups[i], c);
-        choice_in(text, &setups[i], c);
+        (setups[i].curve == DP_CURVE_LOG ? staged_in : choice_in)(text, &setups[i], c);
         text += strcspn(text, "\n") + 1;
     }
 }
@@ -275,7 +329,7 @@ static void test_budget(void **state) {
         line_places lines = {0};
         dp_setup setups[CAMERA_SETUPS];
         char options[512], arguments[1024], heads[2 * DP_CAUSE_COUNT][64], texts[2 * DP_CAUSE_COUNT][64];
-        csv_column columns[16 + DP_CAUSE_COUNT];
+        csv_column columns[17 + DP_CAUSE_COUNT];
         text_column shown[2 + 2 * DP_CAUSE_COUNT];
         size_t used =
             (size_t)snprintf(arguments, 1024, "budget %s%s --at ", camera_options(&c->camera, options), c->options);
@@ -286,11 +340,13 @@ static void test_budget(void **state) {
         want_number(&v, "world", c->terms.world);
         want_bool(&v, "linearize", c->terms.linearize);
         want_text(&v, "composition", composition_of(c));
+        if (c->shader)
+            want_text(&v, "log2", log2_of(c));
         const size_t n = camera_setups(&c->camera, setups);
         for (size_t k = 0; k < n; k++)
             want_budget(&v, c, &setups[k], k, &lines);
         check_json(&v, 0, arguments);
-        check_csv(&v, 0, arguments, columns, budget_columns(heads, columns), &lines);
+        check_csv(&v, 0, arguments, columns, budget_columns(c, heads, columns), &lines);
         printed p = print_of("%s --full", arguments);
         check_text_table(&v, p.out, shown, budget_text_columns(c, texts, shown), &lines);
         check_sentences(p.out, c, setups, n);

@@ -1,5 +1,8 @@
 /* SPDX-License-Identifier: MIT */
-/** @file arith.h  Variants of the binary32 arithmetic between a vertex and the depth buffer, a row each. */
+/**
+ * @file arith.h  Variants of the binary32 arithmetic between a vertex and the depth buffer, and of the log2 that a
+ * shader has, a row each.
+ */
 #ifndef DEPTHPREC_ARITH_H
 #define DEPTHPREC_ARITH_H
 
@@ -36,6 +39,26 @@ DP_API const dp_arith_row *dp_arith_get(dp_arith index);
 
 /** Finds a variant by name, letter case ignored. @return DP_OK; DP_ERROR_ARITH or DP_ERROR_NULL and *out unchanged */
 DP_API dp_status dp_arith_parse(const char *name, dp_arith *out);
+
+/**
+ * What a shader's log2 of x may be off by: `inside` where x is in [0.5, 2] and that is not 0; else `ulps` units in the
+ * last place of log2(x) and `relative` of its size, together. The index of a row is its dp_log2_rule.
+ */
+typedef struct dp_log2_row {
+    const char *name;
+    const char *aliases; /**< other accepted spellings, separated by one space */
+    double inside;       /**< absolute */
+    double ulps;
+    double relative;
+    const char *note;
+    const char *source;
+} dp_log2_row;
+
+/** An index into the rows. */
+typedef size_t dp_log2_rule;
+
+/** The rules, the first being the default `vulkan`; null when out of range. */
+DP_API const dp_log2_row *dp_log2_get(dp_log2_rule index);
 
 DP_END
 #endif

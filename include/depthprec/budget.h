@@ -6,6 +6,9 @@
  * enters the pipeline is each depth rounded to binary32. Forward error analysis of the operations in pipeline.h;
  * depthprec(7) derives each term. Never below the separation of DP_MODEL_EXACT.
  *
+ * Of a logarithmic mapping, which a shader writes, the codes are in order for every log2 that the language allows; what
+ * enters is the eye depth w in binary32 as a fragment has it.
+ *
  * This speaks of depths computed at a point, and so of surfaces that face the camera. Across a slanted triangle a
  * rasterizer interpolates: what is promised there needs the set-up's `triangles`, or its error as `interpolation`.
  */
@@ -25,6 +28,9 @@ typedef enum dp_cause {
     DP_CAUSE_EYE = 0,       /**< eye depth rounded to binary32: surfaces are real, what enters is not */
     DP_CAUSE_COMPOSITION,   /**< world positions through view and projection */
     DP_CAUSE_PROJECTION,    /**< A z + B in binary32 (and the remap, if any) */
+    DP_CAUSE_ARGUMENT,      /**< of a logarithmic depth: 1 + C w, in the shader */
+    DP_CAUSE_LOG2,          /**< of it: log2 within what the language allows */
+    DP_CAUSE_SCALE,         /**< of it: the product with 1/log2(C f + 1), or the quotient */
     DP_CAUSE_NDC,           /**< the divide and the viewport */
     DP_CAUSE_SNAPPING,      /**< vertices moved to the subpixel grid, of slanted triangles */
     DP_CAUSE_SETUP,         /**< the plane of a slanted triangle: set up and evaluated in binary32 */
@@ -66,6 +72,7 @@ typedef struct dp_budget_terms {
     dp_composition composition; /**< of view and projection; read where `world` is positive */
     dp_displaced displaced;     /**< in place of a composition: the projection is applied to places in view space; read
                                      where `world` is 0 */
+    dp_log2_rule log2;          /**< what a shader's log2 may be off by; read where the mapping is logarithmic */
 } dp_budget_terms;
 
 /** A separation and its parts. */
@@ -85,7 +92,8 @@ DP_API const char *dp_cause_name(dp_cause cause);
  * @param z      eye depth in [near, far]; rounded to binary32 as a shader has it
  * @param terms  null for none
  * @return DP_OK, DP_ERROR_NULL, DP_ERROR_DEPTH, DP_ERROR_BINARY32 where z rounds to infinity, or DP_ERROR_MODEL for
- *         linear and log, which have no pipeline, and for a composition out of range
+ *         linear, which has no pipeline, for a composition or a rule of log2 out of range, and for logarithmic mappings
+ *         with triangles, a world, displaced places or reading back, which they have no terms for
  *
  * Where the set-up has triangles z is the eye depth of the farther plane and the separation is along the normal. It is
  * never less than that of dp_setup_facing(), and the same where slant_hi is 0; INFINITY where nothing in front of z is
@@ -97,7 +105,8 @@ DP_API const char *dp_cause_name(dp_cause cause);
  * triangles: of two planes that are parallel in the world, all vertices in the world box; depths and the class are then
  * as the rounded matrix makes them, pixels and slimness as they are drawn, and the cone is that of the class.
  *
- * Bound: never violated by the pipeline of pipeline.h with depth clamp. Cost: some 300 operations.
+ * Bound: never violated by the pipeline of pipeline.h with depth clamp, nor by a shader of depthprec(7), "The budget of
+ * a logarithmic depth". Cost: some 300 operations; logarithmic some 20 logarithms.
  */
 DP_API dp_status dp_budget_at(const dp_setup *setup, double z, const dp_budget_terms *terms, dp_budget *out);
 

@@ -42,14 +42,18 @@ typedef struct budget {
     const char *composition;       /* how positions are composed; null where eye depth is given, or a scheme */
     const world_scheme *scheme;    /* how they come before the camera; null where view and projection are composed */
     const char *scheme_name;
+    const char *log2; /* what a shader's log2 may be off by */
     bool linearize;
     dp_setup facing; /* without the triangles */
     row row, largest;
     double hopeless; /* the nearest depth where no separation is certain; NaN when there is none such */
     worst found;
     const worst *worst; /* null where there is none */
+    bool shader; /* of a logarithmic mapping, which has no model to choose: what it adds to the model staged is said */
+    double staged_share, staged_z;
     choosing choice;
-    choice_fields chosen;
+    choice_fields chosen_fields;
+    const choice_fields *chosen; /* null of a shader */
 } budget;
 
 enum {
@@ -58,14 +62,28 @@ enum {
     WITH_LINEARIZE = 4,
     WITH_TRIANGLES = 8,
     COMPOSED = 16,
-    WITH_SCHEME = 32
+    WITH_SCHEME = 32,
+    WITH_LOG = 64,
+    WITH_MATRIX = 128, /* some set-up has a projection matrix */
+    WITH_DIVIDE = 256  /* or is written as clip z */
 };
+
+/* What the set-ups have. */
+static unsigned conditions_of_setups(const setups *all) {
+    unsigned when = 0;
+    for (size_t i = 0; i < all->count; i++) {
+        const bool shader = all->items[i].curve == DP_CURVE_LOG;
+        const bool divided = !shader || dp_mapping_get(all->items[i].spec.mapping)->ndc_signed;
+        when |= (shader ? WITH_LOG : WITH_MATRIX) | (divided ? WITH_DIVIDE : 0);
+    }
+    return when;
+}
 
 /* The terms that are asked for. */
 static unsigned conditions(const budget *b) {
     return (b->terms.world > 0.0 ? WITH_WORLD : 0) | (b->scheme != NULL ? WITH_SCHEME : COMPOSED) |
            (b->terms.interpolation > 0.0 ? WITH_INTERPOLATION : 0) | (b->linearize ? WITH_LINEARIZE : 0) |
-           (b->triangles != NULL ? WITH_TRIANGLES : 0);
+           (b->triangles != NULL ? WITH_TRIANGLES : 0) | conditions_of_setups(&b->walk.all);
 }
 
 /* ---- Schemes ----------------------------------------------------------------------------------------------------- */
@@ -108,12 +126,29 @@ static double share_of(const row *r, int cause) {
     return r->parts.cause[cause] / r->parts.separation;
 }
 
+/* How much more the shader needs than the model staged says, which leaves it out. */
+static void note_staged(budget *b, const row *r) {
+    dp_spec spec = b->walk.setup->spec;
+    dp_setup staged;
+    spec.model = DP_MODEL_STAGED;
+    if (dp_setup_init(&staged, &spec) != DP_OK)
+        return;
+    const double share = r->parts.separation / dp_separation(&staged, r->z) - 1.0;
+    if (!(share <= b->staged_share)) {
+        b->staged_share = share;
+        b->staged_z = r->z;
+    }
+}
+
 static void note(budget *b, const row *r) {
     if (isinf(r->parts.separation))
         b->hopeless = fmin(b->hopeless, r->z); /* the other one where one is NaN */
     else if (!(r->parts.separation <= b->largest.parts.separation))
         b->largest = *r;
-    choosing_add(&b->choice, r->z);
+    if (b->shader)
+        note_staged(b, r);
+    else
+        choosing_add(&b->choice, r->z);
 }
 
 static const worst *find_worst(budget *b) {
@@ -154,8 +189,10 @@ static void *next_row(void *of, size_t index) {
     budget *b = of;
     row *r = &b->row;
     if (!walk_depth(&b->walk, index, &r->z)) {
-        choosing_finish(&b->choice);
-        choice_fields_of(&b->choice, &b->chosen);
+        if (!b->shader) {
+            choosing_finish(&b->choice);
+            choice_fields_of(&b->choice, &b->chosen_fields);
+        }
         b->worst = find_worst(b);
         return NULL;
     }
@@ -177,6 +214,10 @@ static void *next_setup(void *of, size_t i) {
     budget *b = of;
     if (!walk_setup(&b->walk, i))
         return NULL;
+    setup_fields_budget(b->walk.setup, &b->walk.fields);
+    b->shader = b->walk.setup->curve == DP_CURVE_LOG;
+    b->chosen = b->shader ? NULL : &b->chosen_fields;
+    b->staged_share = (double)NAN;
     b->facing = dp_setup_facing(b->walk.setup);
     b->choice = choosing_start(&b->facing, b->walk.o->tolerance);
     b->hopeless = b->largest.z = b->largest.parts.separation = (double)NAN;
@@ -194,6 +235,8 @@ static void say_setup(page *p, void *item) {
                    b->scheme->row->size != NULL ? number_full(b->scheme->size).text : "");
     else if (b->composition != NULL)
         page_title(p, "world %s, composition %s", number_in(number_full(b->terms.world), p->unit).text, b->composition);
+    if (b->shader)
+        page_title(p, "log2 %s: %s", dp_log2_get(b->terms.log2)->name, dp_log2_get(b->terms.log2)->note);
     slant_say(p, page_title, b->walk.o, b->walk.setup);
 }
 
@@ -213,6 +256,11 @@ static void say_worst(page *p, const worst *w) {
         page_line(p, "%sno other format or mapping helps", taken);
 }
 
+static void say_staged(page *p, const budget *b) {
+    page_line(p, "model staged leaves the shader out: with it this is %s times worse at z = %s",
+              number_of(b->staged_share + 1.0, 3).text, number_in(number_of(b->staged_z, DIGITS_MORE), p->unit).text);
+}
+
 static void say_notes(page *p, void *item) {
     const budget *b = item;
     if (!isnan(b->hopeless))
@@ -221,7 +269,14 @@ static void say_notes(page *p, void *item) {
                   b->triangles != NULL ? "nearer" : "farther");
     if (b->worst != NULL)
         say_worst(p, b->worst);
-    page_line(p, "%s%s", (conditions(b) & ~(unsigned)COMPOSED) != 0 ? "without the added terms " : "",
+    if (b->shader) {
+        say_staged(p, b);
+        return;
+    }
+    page_line(p, "%s%s",
+              (conditions(b) & ~(unsigned)(COMPOSED | WITH_LOG | WITH_MATRIX | WITH_DIVIDE)) != 0
+                  ? "without the added terms "
+                  : "",
               choice_sentence(&b->choice, p->unit).text);
 }
 
@@ -236,14 +291,21 @@ static void say_notes(page *p, void *item) {
     {FIELD(row, parts.cause[id], name, "scene"), .when = WITH_TRIANGLES}, {                                            \
         TEXT_FIELD(row, cause[id], name, 14, 0), .when = WITH_TRIANGLES                                                \
     }
+#define LOG_CAUSE(id, name, its_spare)                                                                                 \
+    {FIELD(row, parts.cause[id], name, "scene"), .when = WITH_LOG}, {                                                  \
+        TEXT_FIELD(row, cause[id], name, 14, 0), .when = WITH_LOG, .spare = (its_spare)                                \
+    }
 static const column cause_columns[] = {
     CAUSE(DP_CAUSE_EYE, "eye", 0, 3),
     {FIELD(row, parts.cause[DP_CAUSE_COMPOSITION], "composition", "scene"), .when = COMPOSED},
     {TEXT_FIELD(row, cause[DP_CAUSE_COMPOSITION], "composition", 14, 0), .when = COMPOSED | WITH_WORLD},
     {FIELD(row, parts.cause[DP_CAUSE_COMPOSITION], "position", "scene"), .when = WITH_SCHEME},
     {TEXT_FIELD(row, cause[DP_CAUSE_COMPOSITION], "position", 14, 0), .when = WITH_SCHEME},
-    CAUSE(DP_CAUSE_PROJECTION, "projection", 0, 4),
-    CAUSE(DP_CAUSE_NDC, "ndc", 0, 1),
+    CAUSE(DP_CAUSE_PROJECTION, "projection", WITH_MATRIX, 4),
+    LOG_CAUSE(DP_CAUSE_ARGUMENT, "argument", 0),
+    LOG_CAUSE(DP_CAUSE_LOG2, "log2", 0),
+    LOG_CAUSE(DP_CAUSE_SCALE, "scale", 5),
+    CAUSE(DP_CAUSE_NDC, "ndc", WITH_DIVIDE, 1),
     SLANT_CAUSE(DP_CAUSE_SNAPPING, "snapping"),
     SLANT_CAUSE(DP_CAUSE_SETUP, "set-up"),
     CAUSE(DP_CAUSE_INTERPOLATION, "interpolation", WITH_INTERPOLATION, 0),
@@ -273,8 +335,9 @@ static const column setup_report[] = {{PART(budget, walk.fields, NULL, setup_col
                                       {LIST("rows", row_columns, next_row)},
                                       {FIELD(budget, composition, "composition", ""), .only = AS_CSV},
                                       {FIELD(budget, scheme_name, "scheme", ""), .only = AS_CSV, .when = WITH_SCHEME},
+                                      {FIELD(budget, log2, "log2", ""), .only = AS_CSV, .when = WITH_LOG},
                                       {PART(budget, worst, "worst", worst_columns), .only = AS_JSON, .pointed = true},
-                                      {PART(budget, chosen, "auto", choice_columns), .only = AS_JSON},
+                                      {PART(budget, chosen, "auto", choice_columns), .only = AS_JSON, .pointed = true},
                                       {.kind = COLUMN_END}};
 
 static const column term_columns[] = {{FIELD(budget, terms.interpolation, "interpolation", "")},
@@ -282,6 +345,7 @@ static const column term_columns[] = {{FIELD(budget, terms.interpolation, "inter
                                       {FIELD(budget, composition, "composition", "")},
                                       {FIELD(budget, scheme_name, "scheme", ""), .when = WITH_SCHEME},
                                       {FIELD(budget, linearize, "linearize", "")},
+                                      {FIELD(budget, log2, "log2", ""), .when = WITH_LOG},
                                       {.kind = COLUMN_END}};
 
 static const column columns[] = {
@@ -308,9 +372,10 @@ static int take_scheme(budget *b, const options *o) {
 }
 
 int cmd_budget(const options *o) {
-    budget b = {.terms = o->terms, .linearize = o->terms.linearize != 0};
+    budget b = {.terms = o->terms, .log2 = dp_log2_get(o->terms.log2)->name, .linearize = o->terms.linearize != 0};
     options in_binary32 = *o;
     in_binary32.model = DP_MODEL_FP32;
+    in_binary32.budgeted = true;
     int status = EXIT_FINE;
     b.triangles = slant_fields_of(o, &b.slant);
     if (option_given(o, OPTION_SCHEME))

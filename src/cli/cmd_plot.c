@@ -92,6 +92,7 @@ static const struct {
             {OPTION_WORLD, FIGURE_TERMS | FIGURE_SHADOW, "budget and shadow"},
             {OPTION_COMPOSITION, FIGURE_TERMS, "budget"},
             {OPTION_LINEARIZE, FIGURE_TERMS, "budget"},
+            {OPTION_LOG2, FIGURE_TERMS, "budget"},
             {OPTION_FOV, VIEWED, VIEWED_FIGURES},
             {OPTION_HFOV, VIEWED, VIEWED_FIGURES},
             {OPTION_VIEWPORT, VIEWED, VIEWED_FIGURES},
@@ -170,9 +171,12 @@ static void name_setups(plotting *p) {
 }
 
 /* What holds for all set-ups: the full label without the name in front. */
-static void subtitle_of(const options *o, const figure_request *request, char *out, size_t size) {
+static void subtitle_of(const options *o, const figure_request *request, bool budgeted, char *out, size_t size) {
     char full[SETUP_LABEL_SIZE];
-    setup_label(&request->setups[0], true, full);
+    setup_fields fields = setup_fields_of(&request->setups[0], NULL);
+    if (budgeted)
+        setup_fields_budget(&request->setups[0], &fields);
+    setup_label_as(&request->setups[0], &fields, full);
     char *last = strrchr(full, ',');
     if (o->model_auto && request->count > 1 && last != NULL)
         *last = '\0'; /* the names say it */
@@ -249,6 +253,7 @@ static int resolve_setups(plotting *p) {
     choose_setups(&in_model, p->row);
     if ((p->row->takes & FIGURE_BINARY32) != 0)
         in_model.model = DP_MODEL_FP32;
+    in_model.budgeted = (p->row->takes & FIGURE_TERMS) != 0;
     if (status == EXIT_FINE)
         status = (p->row->takes & FIGURE_SLANTED) != 0 ? slant_view(&in_model) : EXIT_FINE;
     if (status == EXIT_FINE)
@@ -268,7 +273,7 @@ static int resolve_setups(plotting *p) {
     status = choose_models(p);
     name_setups(p);
     p->chart->unit = options_unit(p->o);
-    subtitle_of(p->o, &p->request, p->chart->subtitle, sizeof p->chart->subtitle);
+    subtitle_of(p->o, &p->request, in_model.budgeted, p->chart->subtitle, sizeof p->chart->subtitle);
     return status == EXIT_FINE && p->row->family != NULL ? resolve_methods(p) : status;
 }
 

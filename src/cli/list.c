@@ -72,6 +72,13 @@ bool list_arith(size_t index, list_item *item) {
     return row != NULL && list_fill(item, (list_item){.name = row->name, .note = row->note, .source = row->source});
 }
 
+bool list_log2(size_t index, list_item *item) {
+    const dp_log2_row *row = dp_log2_get(index);
+    return row != NULL &&
+           list_fill(item,
+                     (list_item){.name = row->name, .aliases = row->aliases, .note = row->note, .source = row->source});
+}
+
 bool list_composition(size_t index, list_item *item) {
     const dp_composition_row *row = dp_composition_get((dp_composition)index);
     return row != NULL && list_fill(item, (list_item){.name = row->name, .note = row->note});
@@ -82,6 +89,9 @@ static bool list_cause(size_t index, list_item *item) {
         [DP_CAUSE_EYE] = "rounding the eye depth itself to binary32: surfaces lie anywhere",
         [DP_CAUSE_COMPOSITION] = "world positions through view and projection, with --world and --composition",
         [DP_CAUSE_PROJECTION] = "A z + B in binary32, and the remap if there is one",
+        [DP_CAUSE_ARGUMENT] = "what a shader takes the logarithm of, 1 + C w, of logarithmic mappings",
+        [DP_CAUSE_LOG2] = "of them: log2, as wrong as the language allows, see --log2",
+        [DP_CAUSE_SCALE] = "of them: the product with 1/log2(C far + 1), or the quotient",
         [DP_CAUSE_NDC] = "the divide and the viewport",
         [DP_CAUSE_SNAPPING] = "vertices of slanted triangles moved to the subpixel grid, with --viewport",
         [DP_CAUSE_SETUP] = "the plane of a slanted triangle set up and evaluated in binary32, with --viewport",

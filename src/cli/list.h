@@ -38,6 +38,7 @@ bool list_family(size_t index, list_item *item);
 bool list_model(size_t index, list_item *item);
 bool list_model_word(size_t index, list_item *item); /**< the same, fp32 as text and options call it: float */
 bool list_arith(size_t index, list_item *item);
+bool list_log2(size_t index, list_item *item);
 bool list_composition(size_t index, list_item *item);
 bool list_preset(size_t index, list_item *item);
 bool list_platform(size_t index, list_item *item);

@@ -18,6 +18,7 @@ static const name_list units = {.get = list_unit};
 static const name_list roundings = {.get = list_rounding};
 static const name_list models = {.get = list_model_word};
 static const name_list ariths = {.get = list_arith};
+static const name_list log2_rules = {.get = list_log2};
 static const name_list compositions = {.get = list_composition};
 static const name_list apis = {.words = (const char *const[]){"all", NULL}, .get = list_api};
 static const name_list programs = {.get = list_program};
@@ -118,10 +119,11 @@ const option_row option_rows[OPTION_COUNT] = {
                        "; all are d3d and reversed"),
                    BUT(VERB_SCENE, "reversed", NULL, NULL),
                    BUT(VERB_WORLD, "reversed", NULL, "mappings: " DP_MAPPING_NAMES_PERSPECTIVE),
-                   BUT(VERB_ZFIGHT | VERB_BUDGET | VERB_DISOCCLUSION, "all", NULL,
-                       "mappings: " DP_MAPPING_NAMES_PERSPECTIVE
+                   BUT(VERB_BUDGET, "all", NULL, "mappings: " DP_MAPPING_NAMES_PERSPECTIVE ", " DP_MAPPING_NAMES_LOG
+                       "; all are d3d and reversed"),
+                   BUT(VERB_ZFIGHT | VERB_DISOCCLUSION, "all", NULL, "mappings: " DP_MAPPING_NAMES_PERSPECTIVE
                        "; all are d3d and reversed")}},
-    [OPTION_LOG_C] = {"log-c", 0, "C", MODELLED | TAKEN | VERB_SCENE,
+    [OPTION_LOG_C] = {"log-c", 0, "C", MODELLED | TAKEN | VERB_SCENE | VERB_BUDGET,
         "constant C of the logarithmic mappings", NUMBER(log_c, 1e-12, 1e12, NULL), .standard = "1"},
     [OPTION_ORTHO] = {"ortho", 0, NULL, (CAMERA & ~(VERB_DISOCCLUSION | VERB_SCENE | VERB_WORLD)) | TAKEN,
         "orthographic projection; not with linear and log", FLAG(ortho), .without = "perspective",
@@ -228,6 +230,10 @@ const option_row option_rows[OPTION_COUNT] = {
                        "origin")}},
     [OPTION_LINEARIZE] = {"linearize", 0, NULL, BUDGETED,
         "also count the loss of reading eye depth back in a binary32 shader", FLAG(terms.linearize)},
+    [OPTION_LOG2] = {"log2", 0, NULL, BUDGETED,
+        "what the log2 of a shader may be off by, for logarithmic mappings: 3 units in the last place and 2^-21 from "
+        "0.5 to 2, as Vulkan, GLSL and WGSL say; 2^-21, as Direct3D says; or rounded once",
+        WORD(terms.log2, log2_rules), .standard = "vulkan"},
     [OPTION_FOV] = {"fov", 0, "DEG", VIEWED | VERB_TEXTURE | VERB_WORLD,
         "vertical field of view", NUMBER(camera.fov_y, 0.01, 179, "degrees"), .standard = "60", .group = "The view"},
     [OPTION_HFOV] = {"hfov", 0, "DEG", VIEWED | VERB_TEXTURE | VERB_WORLD,

@@ -13,7 +13,7 @@
 
 struct option_row;
 
-enum { OPTION_EXCEPTIONS = 7 };
+enum { OPTION_EXCEPTIONS = 8 };
 
 /** Reads an argument of the option of that row. @return EXIT_FINE, or EXIT_USAGE after one line on stderr */
 typedef int option_parser(options *o, const struct option_row *row, const char *value);

@@ -61,6 +61,7 @@ typedef enum option_id {
     OPTION_SCHEME,
     OPTION_SHARE,
     OPTION_LINEARIZE,
+    OPTION_LOG2,
     OPTION_FOV,
     OPTION_HFOV,
     OPTION_VIEWPORT,
@@ -202,6 +203,7 @@ typedef struct options {
     dp_model model;
     bool model_auto; /**< --model auto: see choice.h; `model` is then exact */
     dp_arith arith;
+    bool budgeted; /**< only budgets are asked for: of logarithmic mappings, too, which have no codes in binary32 */
     char measured[OPTIONS_MEASURED_SIZE]; /**< the GPUs of the profiles of --arith and --raster, "" of none */
     dp_format stored[OPTIONS_STORED_MAX]; /**< what the GPUs of all those profiles store; see options_stored() */
     size_t stored_count;
@@ -215,7 +217,7 @@ typedef struct options {
     solve_target target;                    /**< --for */
     double wanted_separation, wanted_error; /**< positive, scene units; 0 when not given */
 
-    dp_budget_terms terms; /**< --interpolation, --world, --composition, --linearize; zero when not given */
+    dp_budget_terms terms; /**< --interpolation, --world, --composition, --linearize, --log2; zero when not given */
     depths distances;      /**< of the camera from the world's origin; count is 0 when not given */
     world_scheme schemes[OPTIONS_SCHEMES_MAX]; /**< in the order given, each once */
     size_t scheme_count;

@@ -10,6 +10,7 @@ enum {
     AGAINST_ROUNDING = 1 << DP_CAUSE_PROJECTION | 1 << DP_CAUSE_NDC,
     AGAINST_PROJECTION = 1 << DP_CAUSE_PROJECTION,
     AGAINST_FORMAT = 1 << DP_CAUSE_FORMAT,
+    AGAINST_SHADER = 1 << DP_CAUSE_ARGUMENT | 1 << DP_CAUSE_LOG2 | 1 << DP_CAUSE_SCALE,
     AGAINST_LINEARIZATION = 1 << DP_CAUSE_LINEARIZATION
 };
 
@@ -31,7 +32,7 @@ static const remedy remedies[] = {
     {AGAINST_ROUNDING, "an infinite far plane", .infinite = true},
     {AGAINST_ROUNDING | AGAINST_FORMAT | AGAINST_LINEARIZATION, "reversed depth", .reversed = true},
     {AGAINST_ROUNDING, "reversed depth and an infinite far plane", .reversed = true, .infinite = true},
-    {AGAINST_ROUNDING | AGAINST_FORMAT, "reversed depth in fp32", .reversed = true, .format = "fp32"},
+    {AGAINST_ROUNDING | AGAINST_FORMAT | AGAINST_SHADER, "reversed depth in fp32", .reversed = true, .format = "fp32"},
 };
 
 /* False where depth is reversed already: to leave [-1, 1] is a change of its own. */

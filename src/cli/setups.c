@@ -36,6 +36,27 @@ int setup_undrawn(const options *o, const dp_format *format) {
                         o->raster->name, format->name);
 }
 
+/* What has a budget: a logarithmic mapping without the terms that its shader has not. */
+static int check_budget(const options *o, const dp_spec *spec) {
+    static const struct {
+        option_id id;
+        const char *why;
+    } others[] = {{OPTION_WORLD, "its budget begins with eye depth"},
+                  {OPTION_LINEARIZE, "its budget ends with the code"},
+                  {OPTION_VIEWPORT, "its budget is of surfaces that face the camera"}};
+    const dp_mapping_row *row = dp_mapping_get(spec->mapping);
+    if (row->curve == DP_CURVE_LINEAR)
+        return option_error(OPTION_MAPPING,
+                            "a budget needs one of the mappings " DP_MAPPING_NAMES_PERSPECTIVE ", " DP_MAPPING_NAMES_LOG
+                            ", got %s",
+                            row->name);
+    for (size_t i = 0; i < sizeof others / sizeof others[0] && row->curve == DP_CURVE_LOG; i++)
+        if (option_given(o, others[i].id))
+            return option_error(others[i].id, "does not apply to the logarithmic mapping %s: %s", row->name,
+                                others[i].why);
+    return EXIT_FINE;
+}
+
 int setup_decided(const options *o) {
     if (o->platform == NULL || option_given(o, OPTION_FORMAT) || o->format_count < 2)
         return EXIT_FINE;
@@ -56,6 +77,10 @@ static int add_setups(const options *o, size_t camera, setups *out) {
         for (size_t m = 0; m < o->mapping_count; m++) {
             spec.format = o->formats[f];
             spec.mapping = o->mappings[m];
+            const bool shader = dp_mapping_get(spec.mapping)->curve == DP_CURVE_LOG;
+            spec.model = o->budgeted && shader ? DP_MODEL_EXACT : o->model;
+            if (o->budgeted && check_budget(o, &spec) != EXIT_FINE)
+                return EXIT_USAGE;
             if (options_check_stored(o, &spec.format) != EXIT_FINE || setup_undrawn(o, &spec.format) != EXIT_FINE)
                 return EXIT_USAGE;
             out->cameras[out->count] = camera;
@@ -64,6 +89,13 @@ static int add_setups(const options *o, size_t camera, setups *out) {
                 return setup_refused(o, &spec, status);
         }
     return EXIT_FINE;
+}
+
+bool setups_have_log(const setups *all) {
+    for (size_t i = 0; i < all->count; i++)
+        if (all->items[i].curve == DP_CURVE_LOG)
+            return true;
+    return false;
 }
 
 int setups_make(const options *o, setups *out) {
@@ -77,6 +109,8 @@ int setups_make(const options *o, setups *out) {
         options_of(o, i, &one);
         status = add_setups(&one, i, out);
     }
+    if (status == EXIT_FINE && o->budgeted && option_given(o, OPTION_LOG2) && !setups_have_log(out))
+        status = option_error(OPTION_LOG2, "needs one of the mappings " DP_MAPPING_NAMES_LOG);
     if (status != EXIT_FINE)
         setups_release(out);
     return status;
@@ -116,15 +150,26 @@ setup_fields setup_fields_of(const dp_setup *setup, const char *unit) {
                           .unit = unit};
 }
 
+void setup_fields_budget(const dp_setup *setup, setup_fields *fields) {
+    fields->model = dp_model_name(DP_MODEL_FP32);
+    fields->arith = dp_arith_get(setup->spec.arith)->name;
+}
+
+const char *setup_label_as(const dp_setup *setup, const setup_fields *f, char out[SETUP_LABEL_SIZE]) {
+    const bool has_log_c = !isnan(f->log_c), has_arith = f->arith != NULL; /* only the model float has one */
+    snprintf(out, SETUP_LABEL_SIZE, "%s %s%s%s, near %s, far %s, %s, %s, %s%s%s", f->format, f->mapping,
+             has_log_c ? " C " : "", has_log_c ? number_full(f->log_c).text : "", number_full(f->znear).text,
+             number_full(f->zfar).text, f->projection, f->rounding,
+             option_word(OPTION_MODEL, has_arith ? DP_MODEL_FP32 : setup->spec.model), has_arith ? " " : "",
+             has_arith ? f->arith : "");
+    return out;
+}
+
 const char *setup_label(const dp_setup *setup, bool full, char out[SETUP_LABEL_SIZE]) {
     const setup_fields f = setup_fields_of(setup, NULL);
-    const int length = snprintf(out, SETUP_LABEL_SIZE, "%s %s", f.format, f.mapping);
-    const bool has_log_c = !isnan(f.log_c), has_arith = f.arith != NULL;
     if (full)
-        snprintf(out + length, SETUP_LABEL_SIZE - (size_t)length, "%s%s, near %s, far %s, %s, %s, %s%s%s",
-                 has_log_c ? " C " : "", has_log_c ? number_full(f.log_c).text : "", number_full(f.znear).text,
-                 number_full(f.zfar).text, f.projection, f.rounding, option_word(OPTION_MODEL, setup->spec.model),
-                 has_arith ? " " : "", has_arith ? f.arith : "");
+        return setup_label_as(setup, &f, out);
+    snprintf(out, SETUP_LABEL_SIZE, "%s %s", f.format, f.mapping);
     return out;
 }
 
@@ -133,7 +178,7 @@ void setup_title(page *p, const dp_setup *setup, const setup_fields *fields) {
     const char *engine = fields->preset, *unit = fields->unit;
     p->unit = unit;
     page_title(p, "%s%s%s%s%s", engine != NULL ? engine : "", engine != NULL ? ": " : "",
-               setup_label(setup, true, label), unit != NULL ? ", lengths in " : "", unit != NULL ? unit : "");
+               setup_label_as(setup, fields, label), unit != NULL ? ", lengths in " : "", unit != NULL ? unit : "");
 }
 
 clipping clipping_of(const dp_setup *setup) {

@@ -16,13 +16,18 @@ typedef struct setups {
 
 /**
  * Expands formats x mappings of each camera, format-major in the order given (fp16 d3d, fp16 reversed, fp32 d3d, ...),
- * and checks each with dp_setup_init(). depth24plus stands for two formats, so it gives two set-ups per mapping.
+ * and checks each with dp_setup_init(); where only budgets are asked for, those of logarithmic mappings are in the
+ * model exact, for they have no codes in binary32. depth24plus stands for two formats, so it gives two set-ups per
+ * mapping.
  *
  * @return EXIT_FINE, or EXIT_USAGE after one line on stderr that names the option at fault
  */
 int setups_make(const options *o, setups *out);
 
 void setups_release(setups *s);
+
+/** Whether one of them has a logarithmic mapping. */
+bool setups_have_log(const setups *all);
 
 /** Says why a set-up cannot be made, by the option at fault; near and the like are in their ranges. @return EXIT_USAGE
  */
@@ -62,6 +67,12 @@ extern const column setup_columns[];
 
 /** Points into the set-up, which must stay where it is. The unit is that of its lengths, or null. */
 setup_fields setup_fields_of(const dp_setup *setup, const char *unit);
+
+/** The same of a budget: that of a logarithmic mapping is of binary32 arithmetic, too, though it has no codes there. */
+void setup_fields_budget(const dp_setup *setup, setup_fields *fields);
+
+/** The label as such fields have model and arithmetic. @return out */
+const char *setup_label_as(const dp_setup *setup, const setup_fields *fields, char out[SETUP_LABEL_SIZE]);
 
 /** What text says above a set-up: its label and the unit, which is that of the page from here on. */
 void setup_title(page *p, const dp_setup *setup, const setup_fields *fields);

@@ -22,6 +22,16 @@ static const dp_arith_row rows[] = {
     {"mesa-remap", 0, 1, 1, DP_CONVERT_PRODUCT_EVEN, "as mesa, [-1, 1] remapped in the vertex shader",
      "stored codes of lavapipe and SwiftShader with the remap"},
 };
+static const dp_log2_row log2_rows[] = {
+    {"vulkan", "spirv glsl webgl wgsl webgpu", 0x1p-21, 3.0, 0.0,
+     "3 units in the last place, 2^-21 from 0.5 to 2: Vulkan, GLSL, WGSL",
+     "Vulkan 1.3 specification, Precision and Operation of SPIR-V Instructions; GLSL, Range and Precision; WGSL, "
+     "accuracy of builtin functions"},
+    {"d3d", "hlsl direct3d", 0x1p-21, 0.0, 0x1p-21,
+     "2^-21 of the result, absolute from 0.5 to 2: Direct3D",
+     "Microsoft Learn, log (sm4 - asm)"},
+    {"rounded", "", 0.0, 0.5, 0.0, "rounded once: no log2 in binary32 does better", "IEEE 754-2019 9.2"},
+};
 /* clang-format on */
 
 enum { ROW_COUNT = sizeof rows / sizeof rows[0] };
@@ -43,4 +53,8 @@ dp_status dp_arith_parse(const char *name, dp_arith *out) {
             return DP_OK;
         }
     return DP_ERROR_ARITH;
+}
+
+const dp_log2_row *dp_log2_get(dp_log2_rule index) {
+    return index < sizeof log2_rows / sizeof log2_rows[0] ? &log2_rows[index] : NULL;
 }

@@ -7,6 +7,7 @@
 #include "core/elementary.h"
 #include "core/engine.h"
 #include "core/extremes.h"
+#include "core/log_shader.h"
 #include "core/rounding.h"
 #include "core/triangles.h"
 #include "depthprec/depth.h"
@@ -18,6 +19,9 @@ static const char *const names[DP_CAUSE_COUNT] = {
     [DP_CAUSE_EYE] = "eye",
     [DP_CAUSE_COMPOSITION] = "composition",
     [DP_CAUSE_PROJECTION] = "projection",
+    [DP_CAUSE_ARGUMENT] = "argument",
+    [DP_CAUSE_LOG2] = "log2",
+    [DP_CAUSE_SCALE] = "scale",
     [DP_CAUSE_NDC] = "ndc",
     [DP_CAUSE_SNAPPING] = "snapping",
     [DP_CAUSE_SETUP] = "set-up",
@@ -173,28 +177,41 @@ static void add_composition(const dp_setup *setup, const dp_chain *c, double z, 
 }
 
 /* What of the terms has no budget. */
-static dp_status check_terms(const dp_budget_terms *terms) {
-    return terms != NULL && dp_composition_get(terms->composition) == NULL ? DP_ERROR_MODEL : DP_OK;
+static dp_status check_terms(const dp_setup *setup, const dp_budget_terms *terms) {
+    const int logarithmic = setup->curve == DP_CURVE_LOG;
+    if (logarithmic && setup->spec.triangles.width != 0)
+        return DP_ERROR_MODEL;
+    if (terms == NULL)
+        return DP_OK;
+    if (dp_composition_get(terms->composition) == NULL || dp_log2_get(terms->log2) == NULL)
+        return DP_ERROR_MODEL;
+    return logarithmic && (is_moved(terms) || terms->linearize) ? DP_ERROR_MODEL : DP_OK;
 }
 
-dp_status dp_budget_at(const dp_setup *setup, double z, const dp_budget_terms *terms, dp_budget *out) {
-    if (setup == NULL || out == NULL)
-        return DP_ERROR_NULL;
-    if (!(z >= setup->spec.znear && z <= setup->spec.zfar))
-        return DP_ERROR_DEPTH;
+/* A separation of surfaces whose binary32 depths may be `longest` apart and out of order, and its parts, which are
+ * shares of the window depth that the pair must differ by. */
+static void share_out(const dp_setup *setup, double z, double longest, double window, const double part[DP_CAUSE_COUNT],
+                      dp_budget *out) {
+    const double z1 = (double)(float)z;
+    const double apart = last_within(z1, longest) - z1;
+    const double eye = dp_eye_rounding(z1, z1 + apart);
+    const double pipeline_needs = (apart + eye) * outward;
+    out->separation = larger(pipeline_needs, lattice_separation(setup, z));
+    out->window = window;
+    for (int i = 0; i < DP_CAUSE_COUNT; i++)
+        out->cause[i] = part[i] > 0.0 ? apart * outward * (part[i] / window) : 0.0;
+    out->cause[DP_CAUSE_EYE] = eye * outward;
+    out->cause[DP_CAUSE_FORMAT] += out->separation > pipeline_needs ? out->separation - pipeline_needs : 0.0;
+}
+
+/* The budget of a depth that a pipeline computes from its matrix. */
+static dp_status matrix_budget(const dp_setup *setup, double z, const dp_budget_terms *terms, dp_budget *out) {
     dp_pipeline pipeline;
-    dp_status status = check_terms(terms);
-    if (status == DP_OK)
-        status = dp_pipeline_init(&pipeline, setup);
+    const dp_status status = dp_pipeline_init(&pipeline, setup);
     if (status != DP_OK)
         return status;
-    const double z1 = (double)(float)z;
-    if (isinf(z1) && !isinf(z))
-        return DP_ERROR_BINARY32;
-    *out = (dp_budget){.separation = HUGE_VAL, .window = 1.0};
-    if (isinf(z1))
-        return DP_OK;
     const dp_chain c = dp_chain_make(setup, &pipeline);
+    const double z1 = (double)(float)z;
     double part[DP_CAUSE_COUNT] = {0};
     if (terms != NULL) {
         part[DP_CAUSE_INTERPOLATION] = 2.0 * terms->interpolation * DP_UNIT;
@@ -202,19 +219,11 @@ dp_status dp_budget_at(const dp_setup *setup, double z, const dp_budget_terms *t
     }
     const double extra = part[DP_CAUSE_INTERPOLATION] + part[DP_CAUSE_LINEARIZATION];
     dp_demand d;
-    const double z2 = last_within(z1, dp_demand_longest(&c, entered(z1), extra, &d));
-    const double longest = z2 - z1;
-    const double eye = dp_eye_rounding(z1, z2);
-    const double pipeline_needs = (longest + eye) * outward;
-    out->separation = larger(pipeline_needs, lattice_separation(setup, z));
-    out->window = d.window;
+    const double longest = dp_demand_longest(&c, entered(z1), extra, &d);
     part[DP_CAUSE_PROJECTION] = d.projection;
     part[DP_CAUSE_FORMAT] = d.format;
     part[DP_CAUSE_NDC] = d.window - extra - d.projection - d.format; /* with what clamping takes */
-    for (int i = 0; i < DP_CAUSE_COUNT; i++)
-        out->cause[i] = part[i] > 0.0 ? longest * outward * (part[i] / d.window) : 0.0;
-    out->cause[DP_CAUSE_EYE] = eye * outward;
-    out->cause[DP_CAUSE_FORMAT] += out->separation > pipeline_needs ? out->separation - pipeline_needs : 0.0;
+    share_out(setup, z, longest, d.window, part, out);
     dp_budget plain = *out;
     if (setup->spec.triangles.width != 0)
         add_triangles(setup, &c, z, part, NULL, &plain);
@@ -223,6 +232,35 @@ dp_status dp_budget_at(const dp_setup *setup, double z, const dp_budget_terms *t
     else
         *out = plain;
     return DP_OK;
+}
+
+/* The budget of a logarithmic depth that a shader writes. */
+static dp_status log_budget(const dp_setup *setup, double z, const dp_budget_terms *terms, dp_budget *out) {
+    const dp_log_shader s = dp_log_shader_make(setup, dp_log2_get(terms != NULL ? terms->log2 : 0));
+    const double extra = terms != NULL ? 2.0 * terms->interpolation * DP_UNIT : 0.0;
+    dp_log_demand d;
+    const double longest = dp_log_longest(&s, (double)(float)z, extra, &d);
+    const double part[DP_CAUSE_COUNT] = {
+        [DP_CAUSE_ARGUMENT] = d.argument, [DP_CAUSE_LOG2] = d.log2,         [DP_CAUSE_SCALE] = d.scale,
+        [DP_CAUSE_NDC] = d.ndc,           [DP_CAUSE_INTERPOLATION] = extra, [DP_CAUSE_FORMAT] = d.format};
+    share_out(setup, z, longest, d.window, part, out);
+    return DP_OK;
+}
+
+dp_status dp_budget_at(const dp_setup *setup, double z, const dp_budget_terms *terms, dp_budget *out) {
+    if (setup == NULL || out == NULL)
+        return DP_ERROR_NULL;
+    if (!(z >= setup->spec.znear && z <= setup->spec.zfar))
+        return DP_ERROR_DEPTH;
+    const dp_mapping_row *row = dp_mapping_get(setup->spec.mapping);
+    if (check_terms(setup, terms) != DP_OK || row->curve == DP_CURVE_LINEAR)
+        return DP_ERROR_MODEL;
+    if (isinf((float)z) && !isinf(z))
+        return DP_ERROR_BINARY32;
+    *out = (dp_budget){.separation = HUGE_VAL, .window = 1.0};
+    if (isinf(z))
+        return DP_OK;
+    return (row->curve == DP_CURVE_LOG ? log_budget : matrix_budget)(setup, z, terms, out);
 }
 
 /*
@@ -250,6 +288,12 @@ double dp_budget_bound(const dp_setup *setup, float nearest, float farthest) {
     return b.separation;
 }
 
+/* The codes of a window depth that is off by so much. */
+static void range_of(const dp_pipeline *p, double low, double high, uint32_t *lowest, uint32_t *highest) {
+    *lowest = dp_pipeline_convert(p, nextafterf((float)low, -2.0F));
+    *highest = dp_pipeline_convert(p, nextafterf((float)high, 2.0F));
+}
+
 dp_status dp_code_range(const dp_setup *setup, double z, uint32_t *lowest, uint32_t *highest) {
     if (setup == NULL || lowest == NULL || highest == NULL)
         return DP_ERROR_NULL;
@@ -257,15 +301,22 @@ dp_status dp_code_range(const dp_setup *setup, double z, uint32_t *lowest, uint3
         return DP_ERROR_DEPTH;
     if (isinf((float)z))
         return DP_ERROR_BINARY32;
+    const dp_span at = {(double)(float)z, (double)(float)z};
+    if (setup->curve == DP_CURVE_LOG) {
+        const dp_log_shader s = dp_log_shader_make(setup, dp_log2_get(0));
+        const dp_log_steps a = dp_log_shader_steps(&s, at);
+        const double off = (a.argument + a.log2) * outward;
+        const double rest = (a.scale + a.ndc) * outward + 0x1p-149;
+        range_of(&s.pipeline, (a.lo - off) * s.k_lo - rest, (a.hi + off) * s.k_hi + rest, lowest, highest);
+        return DP_OK;
+    }
     dp_pipeline pipeline;
     const dp_status status = dp_pipeline_init(&pipeline, setup);
     if (status != DP_OK)
         return status;
     const dp_chain c = dp_chain_make(setup, &pipeline);
-    const dp_span at = {(double)(float)z, (double)(float)z};
     const double error = dp_chain_steps(&c, at).full * outward + 0x1p-149;
     const double g = dp_chain_window(&c, at.lo);
-    *lowest = dp_pipeline_convert(&pipeline, nextafterf((float)(g - error), -2.0F));
-    *highest = dp_pipeline_convert(&pipeline, nextafterf((float)(g + error), 2.0F));
+    range_of(&pipeline, g - error, g + error, lowest, highest);
     return DP_OK;
 }

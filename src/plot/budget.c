@@ -10,17 +10,23 @@
 
 /* From the axis upwards: first what no arithmetic could do without. */
 static const dp_cause stack[DP_CAUSE_COUNT] = {
-    DP_CAUSE_FORMAT,        DP_CAUSE_EYE,           DP_CAUSE_NDC,      DP_CAUSE_PROJECTION, DP_CAUSE_COMPOSITION,
-    DP_CAUSE_INTERPOLATION, DP_CAUSE_LINEARIZATION, DP_CAUSE_SNAPPING, DP_CAUSE_SETUP,
+    DP_CAUSE_FORMAT,      DP_CAUSE_EYE,           DP_CAUSE_NDC,           DP_CAUSE_PROJECTION,
+    DP_CAUSE_COMPOSITION, DP_CAUSE_INTERPOLATION, DP_CAUSE_LINEARIZATION, DP_CAUSE_SNAPPING,
+    DP_CAUSE_SETUP,       DP_CAUSE_SCALE,         DP_CAUSE_LOG2,          DP_CAUSE_ARGUMENT,
 };
 
 /* A cause that nobody asked to count takes no part anywhere. */
 static bool counts(const dp_setup *setup, const dp_budget_terms *terms, dp_cause cause) {
-    return cause == DP_CAUSE_SNAPPING || cause == DP_CAUSE_SETUP ? setup->spec.triangles.width > 0
-           : cause == DP_CAUSE_COMPOSITION                       ? terms->world > 0
-           : cause == DP_CAUSE_INTERPOLATION                     ? terms->interpolation > 0
-           : cause == DP_CAUSE_LINEARIZATION                     ? terms->linearize != 0
-                                                                 : true;
+    const bool logarithmic = setup->curve == DP_CURVE_LOG;
+    const bool divided = !logarithmic || dp_mapping_get(setup->spec.mapping)->ndc_signed;
+    return cause == DP_CAUSE_ARGUMENT || cause == DP_CAUSE_LOG2 || cause == DP_CAUSE_SCALE ? logarithmic
+           : cause == DP_CAUSE_PROJECTION                                                  ? !logarithmic
+           : cause == DP_CAUSE_NDC                                                         ? divided
+           : cause == DP_CAUSE_SNAPPING || cause == DP_CAUSE_SETUP ? setup->spec.triangles.width > 0
+           : cause == DP_CAUSE_COMPOSITION                         ? terms->world > 0
+           : cause == DP_CAUSE_INTERPOLATION                       ? terms->interpolation > 0
+           : cause == DP_CAUSE_LINEARIZATION                       ? terms->linearize != 0
+                                                                   : true;
 }
 
 /* The bands that take part, from the axis upwards, and behind them the separation. */
@@ -47,6 +53,14 @@ static void sample(const void *context, double from, double to, refine_sample *o
     out->flicker[s->count] = INFINITY;
 }
 
+/* What only a logarithmic depth has takes the colour of what it has not. */
+static dp_cause lender_of(dp_cause cause) {
+    return cause == DP_CAUSE_ARGUMENT ? DP_CAUSE_PROJECTION
+           : cause == DP_CAUSE_LOG2   ? DP_CAUSE_COMPOSITION
+           : cause == DP_CAUSE_SCALE  ? DP_CAUSE_LINEARIZATION
+                                      : cause;
+}
+
 /*
  * There are eight colours: the set-up of triangles, on top, has that of a cause that is not counted, first of an
  * interpolation, for which it stands; where all are counted that of the band at the bottom.
@@ -57,6 +71,9 @@ static int colour_of(const stacked *s, int layer) {
         for (int k = 0; k < DP_CAUSE_COUNT && !counts(s->setup, s->terms, lenders[i]); k++)
             if (stack[k] == lenders[i])
                 return k;
+    for (int k = 0; k < DP_CAUSE_COUNT; k++)
+        if (stack[k] == lender_of(stack[layer]))
+            return k;
     return layer;
 }
 

@@ -19,7 +19,7 @@
 
 #include "plot/chart.h"
 
-enum { REFINE_VALUES = 10, REFINE_KNOTS = 1024 };
+enum { REFINE_VALUES = 13, REFINE_KNOTS = 1024 };
 
 /** What a curve is at one place. */
 typedef struct refine_sample {
