@@ -477,7 +477,7 @@ static void check_text_alternative(values *v, const solve_case *c, const char *t
     snprintf(at[1], PATH_SIZE, "%.60smapping", under);
     snprintf(at[2], PATH_SIZE, "%.60smodel", under);
     const char *model = value_at(v, at[2])->text;
-    snprintf(label, sizeof label, "%-10.40s %-11.40s %-6.20s ", value_at(v, at[0])->text, value_at(v, at[1])->text,
+    snprintf(label, sizeof label, "%-9.40s %-12.40s %-6.20s ", value_at(v, at[0])->text, value_at(v, at[1])->text,
              strcmp(model, "fp32") == 0 ? "float" : model);
     snprintf(at[3], PATH_SIZE, "%.60slattice.possible", under);
     const bool ideal = value_at(v, at[3])->number != 0 || by_value || reached;

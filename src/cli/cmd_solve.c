@@ -243,17 +243,21 @@ static bool is_covered(const solve_report *r, const dp_spec *spec) {
            (has_pipeline(spec->mapping) && (raster == NULL || raster_bounded(raster, &spec->format)));
 }
 
-/* What else there is: the real depth buffers with the mappings that an engine can choose. */
+/*
+ * What else there is: the real depth buffers with the mappings that an engine can choose. Of the logarithms it is the
+ * one that was asked about: the others are those of other renderers, and `log` stands for what a shader may write.
+ */
 static void add_others(solve_report *r, solve_result *result) {
-    static const dp_mapping mappings[] = {DP_MAPPING_D3D, DP_MAPPING_REVERSED, DP_MAPPING_LOG};
+    const dp_mapping asked = r->o->mappings[0];
+    const dp_mapping mappings[] = {DP_MAPPING_D3D, DP_MAPPING_REVERSED,
+                                   dp_mapping_get(asked)->curve == DP_CURVE_LOG ? asked : DP_MAPPING_LOG};
     dp_spec spec = spec_of(r->o);
     for (size_t f = 0; f < dp_format_count(); f++)
         for (size_t m = 0; m < sizeof mappings / sizeof mappings[0] && dp_format_get(f)->buffer; m++) {
             spec.format = dp_format_get(f)->format;
             spec.mapping = mappings[m];
             spec.model = model_of(r, spec.mapping, false);
-            if (listed(r, &spec) || !is_covered(r, &spec) ||
-                (spec.mapping == DP_MAPPING_D3D && r->o->mappings[0] == DP_MAPPING_GL))
+            if (listed(r, &spec) || !is_covered(r, &spec) || (spec.mapping == DP_MAPPING_D3D && asked == DP_MAPPING_GL))
                 continue;
             if (try_candidate(r, add(r, &spec, false), result) != DP_OK)
                 r->count--;

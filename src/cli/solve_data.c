@@ -215,8 +215,8 @@ void solve_report_write(const solve_report *r, output *out) {
                             {FIELD(candidate, found.price.effort, "effort", "")},
                             {.kind = COLUMN_END}};
     const column beside[] = {
-        {TEXT_FIELD(candidate, setup.format, "format", -10, 0)},
-        {TEXT_FIELD(candidate, setup.mapping, "mapping", -11, 0)},
+        {TEXT_FIELD(candidate, setup.format, "format", -9, 0)},
+        {TEXT_FIELD(candidate, setup.mapping, "mapping", -12, 0)},
         {TEXT_FIELD(candidate, model, "model", -6, 0)},
         {TEXT_FIELD(candidate, plane_text, heads[r->target], 13, 0), .when = OF_OTHERS},
         {TEXT_FIELD(candidate, ideal_text, "lattice", 13, 0), .when = OF_OTHERS},

@@ -117,6 +117,7 @@ static void add_reading(texture_source *s, const char *what, const char *name, c
         s->readings[s->reading_count++] = (texture_reading){what, name, dp_eye(&setup, d, 1 - d)};
 }
 
+/* Of the logarithms three-webgl and osgearth have the depths of log; those that begin at near are not read. */
 static void mappings_of(texture_source *s, double d) {
     static const dp_mapping others[] = {DP_MAPPING_D3D, DP_MAPPING_REVERSED, DP_MAPPING_LINEAR, DP_MAPPING_LOG};
     dp_spec spec = s->setup.spec;

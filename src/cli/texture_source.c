@@ -269,8 +269,10 @@ static int choose_mapping(const options *o, texture_source *s, dp_mapping *out) 
     const dp_mapping usual = o->platform != NULL ? o->mappings[0] : DP_MAPPING_D3D;
     *out = given ? o->mappings[0] : told && s->found.reversed == 1 ? DP_MAPPING_REVERSED : usual;
     if (dp_mapping_get(*out)->log_from_near)
-        return option_error(OPTION_MAPPING, "must not be %s: no image of it can be read here; got %s",
-                            dp_mapping_get(*out)->name, dp_mapping_get(*out)->name);
+        return option_error(option_given(o, OPTION_MAPPING) ? OPTION_MAPPING : OPTION_PRESET,
+                            "texture reads logarithms that begin at the eye (log, three-webgl, osgearth), none that "
+                            "begins at near; got %s",
+                            dp_mapping_get(*out)->name);
     return EXIT_FINE;
 }
 
