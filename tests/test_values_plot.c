@@ -203,7 +203,7 @@ static const char *cause_of(const json_t *series, int *cause) {
 static void check_budget(const char *options, const dp_setup *setup, const dp_budget_terms *terms, size_t causes) {
     tally t = {.name = options};
     char command[256];
-    snprintf(command, sizeof command, "budget -F fp32 -m d3d -n 0.5 -f 300 %s", options);
+    snprintf(command, sizeof command, "budget -F fp32 -n 0.5 -f 300 -m %s", options);
     json_t *root = plot(command), *series, *point;
     size_t s, i, seen = 0;
     check_axis(root, "x", "z", "eye depth z", "scene units", "log");
@@ -234,10 +234,14 @@ static void test_budget(void **state) {
     dp_setup setup = setup_of(0.5, 300, "fp32", DP_MAPPING_D3D, DP_MODEL_FP32);
     const dp_budget_terms terms = {.interpolation = 2, .world = 50, .linearize = 1};
     (void)state;
-    check_budget("--interpolation 2 --world 50 --linearize", &setup, &terms, DP_CAUSE_COUNT - 2);
+    check_budget("d3d --interpolation 2 --world 50 --linearize", &setup, &terms, 7);
     setup.spec.triangles = (dp_triangles){640, 480, 50, 0, {3, 10, 2, 4}, 20, 90, 2, 100, 16};
-    check_budget("--viewport 640x480 --fov 50 --raster llvmpipe --slant 20:90 --triangle pixels=100", &setup,
-                 &(dp_budget_terms){0}, DP_CAUSE_COUNT - 3);
+    check_budget("d3d --viewport 640x480 --fov 50 --raster llvmpipe --slant 20:90 --triangle pixels=100", &setup,
+                 &(dp_budget_terms){0}, 6);
+    setup = setup_of(0.5, 300, "fp32", DP_MAPPING_LOG, DP_MODEL_EXACT);
+    check_budget("log --log2 d3d", &setup, &(dp_budget_terms){.log2 = 1}, 5);
+    setup = setup_of(0.5, 300, "fp32", DP_MAPPING_OSGEARTH, DP_MODEL_EXACT);
+    check_budget("osgearth --interpolation 3", &setup, &(dp_budget_terms){.interpolation = 3}, 7);
 }
 
 /* An envelope is above the value at each point, and not above the worst between its neighbours. */

@@ -113,9 +113,11 @@ static void want_separation(values *v, const dp_setup *setup, double lo, double 
     want_number(v, "z", w.z);
 }
 
+/* Of what a pipeline computes: a logarithm's shader has a budget of its own. */
 static double in_binary32(const dp_setup *setup, double z) {
     dp_budget b;
-    return dp_budget_at(setup, z, NULL, &b) == DP_OK ? b.separation : NAN;
+    const bool computed = setup->curve != DP_CURVE_LOG && dp_budget_at(setup, z, NULL, &b) == DP_OK;
+    return computed ? b.separation : (double)NAN;
 }
 
 /* The interval by the method that --tolerance takes, or of the exact cell; none where it would end beyond far. */
