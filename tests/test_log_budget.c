@@ -421,10 +421,55 @@ static void codes_at_1e9(void **state) {
     assert_true(most > 0.9 * codes && most <= codes * (1 + 1e-6));
 }
 
+/* ---- Over a range ------------------------------------------------------------------------------------------------ */
+
+/*
+ * What is guaranteed over a range is never violated at any depth of it, is hardly more than what the worst depth found
+ * needs, and is what the budget says there; that of another depth may be above it by 4 % and a step of binary32.
+ */
+static void over_ranges(void **state) {
+    tally never = {.name = "never violated over a range"};
+    tally tight = {.name = "hardly above the worst depth"};
+    tally about = {.name = "not far below any depth"};
+    rng r = rng_make("log ranges");
+    (void)state;
+    for (uint64_t i = test_cases(100, 500, 50000); i > 0; i--) {
+        const dp_spec spec = random_spec(&r, i);
+        const shader s = shader_of(&spec, 0, (int)rng_below(&r, 3) - 1);
+        const dp_setup full = dp_setup_guaranteed(&s.setup);
+        const double a = random_depth(&r, &spec), b = fmin(a * rng_log(&r, 1.0 + 1e-6, 1e3), spec.zfar);
+        dp_separation_worst w;
+        dp_spec staged = spec; /* whose codes it keeps */
+        dp_setup lattice;
+        staged.model = DP_MODEL_STAGED;
+        assert_int_equal(dp_setup_init(&lattice, &staged), DP_OK);
+        assert_int_equal(dp_code(&full, a), dp_code(&lattice, a));
+        assert_int_equal(dp_separation_over(&full, a, b, 0.0, &w), DP_OK);
+        TALLY(&tight, w.bound <= w.separation * (1.0 + 0x1p-9), "%.17g to %.17g: %g above %g", a, b, w.bound,
+              w.separation);
+        assert_true(dp_separation(&full, w.z) == budget_of(&s, w.z).separation);
+        for (int k = 0; k < 12; k++) {
+            const double z = k < 2 ? (k == 0 ? a : b) : fmin(fmax(random_depth(&r, &spec), a), b);
+            const double inside = k < 6 ? z : rng_uniform(&r, a, b);
+            const double behind = inside + w.bound * (k % 2 ? 1.0 : 1.0 + rng_log(&r, 1e-7, 30.0));
+            const double step = (double)nextafterf((float)b, HUGE_VALF) - (double)(float)b;
+            TALLY(&about, budget_of(&s, inside).separation <= w.bound * 1.04 + step, "%s at %.17g: %g, not %g",
+                  dp_mapping_get(spec.mapping)->name, inside, budget_of(&s, inside).separation, w.bound);
+            if (behind <= spec.zfar)
+                TALLY(&never, !fails(&s, (float)inside, (float)behind), "%s %s C %.17g near %.17g far %.17g: %.17g, %g",
+                      dp_mapping_get(spec.mapping)->name, spec.format.name, spec.log_c, spec.znear, spec.zfar, inside,
+                      w.bound);
+        }
+    }
+    tally_end(&never);
+    tally_end(&tight);
+    tally_end(&about);
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(never_violated), cmocka_unit_test(not_slack),    cmocka_unit_test(each_needed),
-        cmocka_unit_test(code_range),     cmocka_unit_test(codes_at_1e9),
+        cmocka_unit_test(code_range),     cmocka_unit_test(codes_at_1e9), cmocka_unit_test(over_ranges),
     };
     return run_tap(tests);
 }

@@ -215,18 +215,19 @@ static void test_sentence(void **state) {
     const dp_setup s = setup_of(DP_MAPPING_LOG, 0.1, 1000, 1);
     dp_spec full = s.spec;
     dp_format found[2];
-    dp_setup staged;
+    dp_setup stored;
+    dp_budget b;
     dp_vertex_error e;
     double least = INFINITY, said;
     (void)state;
-    full.model = DP_MODEL_STAGED;
     assert_int_equal(dp_format_parse("unorm24", found), 1);
     full.format = found[0];
-    assert_int_equal(dp_setup_init(&staged, &full), DP_OK);
+    assert_int_equal(dp_setup_init(&stored, &full), DP_OK);
     for (int i = 0; i < 3; i++) {
         const double z = (double[]){5, 50, 900}[i];
         double k;
-        assert_int_equal(dp_vertex_depth_at(&s, z, dp_separation(&staged, z), &k), DP_OK);
+        assert_int_equal(dp_budget_at(&stored, z, NULL, &b), DP_OK);
+        assert_int_equal(dp_vertex_depth_at(&s, z, b.separation, &k), DP_OK);
         least = fmin(least, k - 1);
     }
     assert_int_equal(dp_vertex_error_at(&s, 5, 2, &e), DP_OK);

@@ -84,9 +84,8 @@ static dp_setup full_setup(const camera *c, const char *format, const char *mapp
     assert_int_equal(dp_format_parse(format, formats), 1);
     spec.format = formats[0];
     assert_int_equal(dp_mapping_parse(mapping, &spec.mapping), DP_OK);
-    spec.model = spec.mapping == DP_MAPPING_LOG ? DP_MODEL_STAGED : DP_MODEL_FP32;
     assert_int_equal(dp_setup_init(&setup, &spec), DP_OK);
-    return setup;
+    return dp_setup_guaranteed(&setup);
 }
 
 /* Rounded up in the second digit: not below, and less than a unit above. */

@@ -93,19 +93,15 @@ static void want_worst(values *v, const dp_setup *setup, double lo, double hi) {
     want_number(v, "blind_from", w.blind_from);
 }
 
-/* In the fullest model that the set-up has, whatever the rows are in. */
+/* What is guaranteed of the set-up, whatever the rows are in: of linear it is a lattice. */
 static void want_separation(values *v, const dp_setup *setup, double lo, double hi) {
     dp_separation_worst w;
-    dp_setup full;
-    dp_spec spec = setup->spec;
-    const bool lattice = spec.mapping == DP_MAPPING_LOG || spec.mapping == DP_MAPPING_LINEAR; /* no pipeline */
-    spec.model = lattice ? DP_MODEL_STAGED : DP_MODEL_FP32;
-    assert_int_equal(dp_setup_init(&full, &spec), DP_OK);
+    const dp_setup full = dp_setup_guaranteed(setup);
     assert_int_equal(dp_separation_over(&full, lo, hi, 0, &w), DP_OK);
     assert_true(w.lo == lo && w.hi == hi && w.z >= lo && w.z <= hi);
     assert_true(w.separation == dp_separation(&full, w.z) && w.separation <= w.bound);
     values_under(v, "%.60sworst_separation.", v->prefix);
-    want_text(v, "model", lattice ? "staged" : "fp32");
+    want_text(v, "model", setup->spec.mapping == DP_MAPPING_LINEAR ? "staged" : "fp32");
     want_number(v, "lo", lo);
     want_number(v, "hi", hi);
     want_number(v, "bound", w.bound);
@@ -113,11 +109,9 @@ static void want_separation(values *v, const dp_setup *setup, double lo, double 
     want_number(v, "z", w.z);
 }
 
-/* Of what a pipeline computes: a logarithm's shader has a budget of its own. */
 static double in_binary32(const dp_setup *setup, double z) {
     dp_budget b;
-    const bool computed = setup->curve != DP_CURVE_LOG && dp_budget_at(setup, z, NULL, &b) == DP_OK;
-    return computed ? b.separation : (double)NAN;
+    return dp_budget_at(setup, z, NULL, &b) == DP_OK ? b.separation : NAN;
 }
 
 /* The interval by the method that --tolerance takes, or of the exact cell; none where it would end beyond far. */
@@ -150,12 +144,10 @@ static void want_row(values *v, const dp_setup *setup, const method_row *method,
     spec.model = DP_MODEL_EXACT;
     assert_int_equal(dp_setup_init(&other, &spec), DP_OK);
     want_number(v, "lattice", dp_separation(&other, z));
-    spec.model = DP_MODEL_FP32;
-    if (dp_setup_init(&other, &spec) != DP_OK) { /* a mapping without a pipeline */
-        spec.model = DP_MODEL_STAGED;
-        assert_int_equal(dp_setup_init(&other, &spec), DP_OK);
-    }
-    want_number(v, "guaranteed", dp_separation(&other, z));
+    spec.model = DP_MODEL_STAGED; /* of linear, which has no arithmetic */
+    assert_int_equal(dp_setup_init(&other, &spec), DP_OK);
+    const double computed = in_binary32(setup, z);
+    want_number(v, "guaranteed", isnan(computed) ? dp_separation(&other, z) : computed);
 }
 
 /* What --tolerance takes for a set-up: the cheapest claim for these planes, in the pipeline or on its lattice. */

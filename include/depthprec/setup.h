@@ -48,6 +48,7 @@ typedef struct dp_setup {
     dp_spec spec;
     dp_curve curve; /**< the curve in force: an orthographic projection turns PERSPECTIVE into LINEAR */
     int reversed;
+    int shader;    /**< LOG: the separation is that of the shader, see dp_setup_guaranteed() */
     double anchor; /**< the depth that a LINEAR or LOG curve sends to its near end: near or 0 */
     double log_c;  /**< LOG: C, or 1/n, rounded, where the logarithm is that of z/n */
     double log_by; /**< LOG: C, or 0 where the logarithm is that of z/n */
@@ -69,6 +70,14 @@ DP_API dp_status dp_setup_init(dp_setup *setup, const dp_spec *spec);
 
 /** The same set-up for surfaces that face the camera. */
 DP_API dp_setup dp_setup_facing(const dp_setup *setup);
+
+/**
+ * The same set-up as dp_separation() and dp_separation_over() know most of it: in fp32 where a pipeline computes depth;
+ * in staged for the others, and where a shader writes a logarithm these two functions, and only they, then give the
+ * guarantee of dp_budget_at(), for every log2 that Vulkan, GLSL and WGSL allow, of surfaces that face the camera. Of
+ * linear it is still a lattice.
+ */
+DP_API dp_setup dp_setup_guaranteed(const dp_setup *setup);
 
 /** "exact", ...; null when out of range. */
 DP_API const char *dp_model_name(dp_model model);

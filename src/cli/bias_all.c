@@ -199,7 +199,7 @@ static void say_goal(page *p, const all *a) {
 
 static void say_setup(page *p, void *item) {
     const all *a = item;
-    const dp_setup full = reach_model(a->walk.setup);
+    const dp_setup full = dp_setup_guaranteed(a->walk.setup);
     walk_title(p, item);
     slant_say(p, page_title, &a->walk.here, &full);
     say_goal(p, a);

@@ -4,6 +4,7 @@
 #include <math.h>
 #include <stdio.h>
 
+#include "cli/reach.h"
 #include "report/number.h"
 
 /* The fullest model that the set-up has: what the others are measured by. */
@@ -20,7 +21,19 @@ static dp_model simplest(const dp_choice *choice, double tolerance) {
 }
 
 choosing choosing_start(const dp_setup *setup, double tolerance) {
-    return (choosing){.setup = setup, .tolerance = tolerance};
+    return (choosing){.setup = setup,
+                      .tolerance = tolerance,
+                      .exact = reach_in(setup, DP_MODEL_EXACT),
+                      .full = dp_setup_guaranteed(setup)};
+}
+
+/* A shader is no model: it has no codes. */
+static void add_shader(choosing *c, double z) {
+    const double share = dp_separation(&c->full, z) / dp_separation(&c->exact, z) - 1.0;
+    if (share > c->shader_share) {
+        c->shader_share = share;
+        c->shader_z = z;
+    }
 }
 
 /* The worst of what the blocks say. */
@@ -42,6 +55,8 @@ void choosing_finish(choosing *c) {
 
 void choosing_add(choosing *c, double z) {
     c->z[c->waiting++] = z;
+    if (c->full.shader)
+        add_shader(c, z);
     if (c->waiting == CHOICE_BLOCK)
         choosing_finish(c);
 }
@@ -73,7 +88,19 @@ static void effect(double share, number_text depth, bool at_most, char *out, siz
         snprintf(out, size, "makes this %s%s %% worse at z = %s", most, number_of(100.0 * share, 3).text, depth.text);
 }
 
+static choice_words shader_sentence(const choosing *c, const char *unit) {
+    const bool enough = c->shader_share <= c->tolerance;
+    char what[sizeof(choice_words) / 2];
+    choice_words out;
+    effect(c->shader_share, number_in(number_of(c->shader_z, 6), unit), enough, what, sizeof what);
+    snprintf(out.text, sizeof out.text, "the arithmetic of the shader %s: %s", what,
+             enough ? "the lattice is enough" : "'depthprec budget' says of what");
+    return out;
+}
+
 choice_words choice_sentence(const choosing *c, const char *unit) {
+    if (c->full.shader)
+        return shader_sentence(c, unit);
     const dp_choice *choice = &c->choice;
     const bool arithmetic = fullest(choice) == DP_MODEL_FP32;
     const double share = choice->share[DP_MODEL_EXACT];

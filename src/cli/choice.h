@@ -26,6 +26,8 @@ typedef struct choosing {
     size_t waiting;
     double z[CHOICE_BLOCK];
     bool begun;
+    dp_setup exact, full;          /* of a logarithm: without any arithmetic, and with that of its shader */
+    double shader_share, shader_z; /* by how much more the latter needs, at most, and where */
 } choosing;
 
 choosing choosing_start(const dp_setup *setup, double tolerance);

@@ -66,7 +66,7 @@ static bool depth_of(const disocclusion *d, size_t i, double *z) {
 
 static void measure(disocclusion *d, double z) {
     row *r = &d->row;
-    const dp_setup full = reach_model(d->walk.setup);
+    const dp_setup full = dp_setup_guaranteed(d->walk.setup);
     setup_label(d->walk.setup, false, r->label);
     r->z = z;
     r->separation = dp_separation(&full, z);

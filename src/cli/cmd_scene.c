@@ -71,7 +71,7 @@ static int take_setup(scene *s) {
     if (status != EXIT_FINE)
         return status;
     const size_t count = all.count;
-    s->setup = reach_model(&all.items[0]);
+    s->setup = dp_setup_guaranteed(&all.items[0]);
     setups_release(&all);
     if (count != 1)
         return option_error(OPTION_FORMAT, "and --mapping must name one camera here, got %zu", count);

@@ -14,6 +14,7 @@
 #include "cli/slant.h"
 #include "cli/walk.h"
 #include "core/append.h"
+#include "core/engine.h"
 #include "method/ways.h"
 #include "report/number.h"
 
@@ -84,7 +85,8 @@ static int digits_to_see(double at, double step) {
 
 /* The separation of a row in another model, or in its own. */
 static double separation_in(const dp_setup *other, const dp_setup *setup, const dp_sample *here) {
-    return other->spec.model == setup->spec.model ? here->separation : dp_separation(other, here->z);
+    return other->spec.model == setup->spec.model && other->shader == setup->shader ? here->separation
+                                                                                    : dp_separation(other, here->z);
 }
 
 /* NaN where there is no pipeline, or no slant is asked for. */
@@ -112,7 +114,7 @@ static void *next_row(void *of, size_t i) {
     dp_sample_at(&t->setup, z, &r->sample); /* cannot fail: depths_resolve() has seen to it */
     r->lattice = separation_in(&t->exact, &t->setup, &r->sample);
     r->guaranteed = separation_in(&t->full, &t->setup, &r->sample);
-    r->binary32 = t->full.spec.model == DP_MODEL_FP32 ? r->guaranteed : (double)NAN;
+    r->binary32 = dp_is_computed(&t->full) ? r->guaranteed : (double)NAN;
     r->slanted = slanted_at(t, z);
     r->written = per_vertex_at(&t->setup, z, t->slant.triangles.depth, r->guaranteed); /* no depth of 0 is one */
     per_vertex_add(&t->written, &r->written, z);
@@ -126,7 +128,7 @@ static void *next_row(void *of, size_t i) {
 }
 
 static const guarantee *guarantee_over(const table *t, const dp_setup *full, guarantee *g) {
-    g->model = dp_model_name(full->spec.model);
+    g->model = dp_model_name(setup_model(full));
     return option_given(t->walk.o, OPTION_RANGE) && dp_separation_over(full, t->lo, t->hi, 0.0, &g->worst) == DP_OK
                ? g
                : NULL;
@@ -140,10 +142,10 @@ static void *next_setup(void *of, size_t i) {
     const options *o = t->walk.o;
     t->triangles = slant_fields_of(&t->walk.here, &t->slant);
     t->setup = dp_setup_facing(t->walk.setup);
-    t->slanted = reach_model(t->walk.setup);
+    t->slanted = dp_setup_guaranteed(t->walk.setup);
     range_resolve(&t->walk.here, &t->lo, &t->hi);
     t->exact = reach_in(setup, DP_MODEL_EXACT);
-    t->full = reach_model(setup);
+    t->full = dp_setup_guaranteed(setup);
     t->written = per_vertex_none();
     t->choice = choosing_start(setup, o->tolerance);
     if (option_given(o, OPTION_TOLERANCE))
@@ -244,7 +246,9 @@ static void say_notes(page *p, void *item) {
     const table *t = item;
     say_worst(p, t->worst);
     say_guarantee(p, t->guarantee, "worst separation",
-                  t->full.spec.model == DP_MODEL_FP32 ? "guaranteed in binary32 (model float)" : "in the model staged");
+                  t->full.shader             ? "guaranteed for every log2 that the shader may have"
+                  : dp_is_computed(&t->full) ? "guaranteed in binary32 (model float)"
+                                             : "in the model staged");
     say_guarantee(p, t->guarantee_slanted, "at any slant", "of the farther surface");
     say_drawn(p, &t->planes);
     per_vertex_say(p, &t->written, t->slant.triangles.depth);

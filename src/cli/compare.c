@@ -58,7 +58,7 @@ typedef struct comparison {
 
 static void measure(const comparison *c, compared *r) {
     const unit_row *unit = c->walk->o->unit;
-    const dp_setup full = reach_model(r->setup);
+    const dp_setup full = dp_setup_guaranteed(r->setup);
     for (size_t i = 0; i < c->depth_count; i++) {
         const double z = unit_convert(c->depths[i], unit, r->unit);
         r->separation[i] = z >= full.spec.znear && z <= full.spec.zfar && !r->unbounded
@@ -168,16 +168,19 @@ static void say_notes(page *p, void *item) {
     const comparison *c = item;
     const number_text limit = reach_limit_text(MIDDLE, c->walk->o->unit);
     const bool slanted = c->walk->o->triangles.width > 0;
-    bool staged = false;
+    bool bent = false, linear = false;
     output_char(p->out, '\n');
     say_farthest(p, c, limit.text);
     say_reversing(p, c, limit.text);
-    for (size_t i = 0; i < c->walk->all.count; i++)
-        staged = staged || dp_mapping_get(c->rows[i].setup->spec.mapping)->curve != DP_CURVE_PERSPECTIVE;
-    if (staged)
-        page_text(p, "%s",
-                  slanted ? "linear and log are not affine on the screen: no guarantee at a slant."
-                          : "linear and log are judged without the arithmetic of their shader (model staged).");
+    for (size_t i = 0; i < c->walk->all.count; i++) {
+        const dp_curve curve = dp_mapping_get(c->rows[i].setup->spec.mapping)->curve;
+        bent = bent || curve != DP_CURVE_PERSPECTIVE;
+        linear = linear || curve == DP_CURVE_LINEAR;
+    }
+    if (slanted && bent)
+        page_text(p, "linear and log are not affine on the screen: no guarantee at a slant.");
+    else if (linear)
+        page_text(p, "linear is judged without the arithmetic of its shader (model staged).");
     for (size_t i = 0; i < c->walk->all.count; i++)
         if (c->rows[i].cost.buffer == 0) {
             page_text(p, "No API has %s as a depth buffer.", c->rows[i].setup->spec.format.name);

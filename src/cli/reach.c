@@ -28,11 +28,6 @@ dp_setup reach_in(const dp_setup *setup, dp_model model) {
     return out;
 }
 
-dp_setup reach_model(const dp_setup *setup) {
-    const dp_curve curve = dp_mapping_get(setup->spec.mapping)->curve;
-    return reach_in(setup, curve == DP_CURVE_PERSPECTIVE ? DP_MODEL_FP32 : DP_MODEL_STAGED);
-}
-
 /* What is guaranteed of a smaller separation is so of a larger one: each is sought behind the one before. */
 void reach_of(const dp_setup *full, const unit_row *unit, double up_to[REACH_LIMITS]) {
     double from = full->spec.znear;

@@ -15,13 +15,7 @@ number_text reach_limit_text(size_t i, const unit_row *unit);
 /** The same set-up in another model. */
 dp_setup reach_in(const dp_setup *setup, dp_model model);
 
-/**
- * In the fullest model that it has, whose separation can be relied on: every operation in binary32; staged for mappings
- * that have no such pipeline.
- */
-dp_setup reach_model(const dp_setup *setup);
-
-/** Of a set-up in that model: the depth up to which each separation is guaranteed; NaN: not even at near. */
+/** Of dp_setup_guaranteed(): the depth up to which each separation is guaranteed; NaN: not even at near. */
 void reach_of(const dp_setup *full, const unit_row *unit, double up_to[REACH_LIMITS]);
 
 /** "82800 m", "the far plane" where nothing is beyond it, rounded to the safe side; the unit may be null. @return out

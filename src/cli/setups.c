@@ -6,6 +6,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "core/engine.h"
 #include "report/number.h"
 
 int setup_refused(const options *o, const dp_spec *spec, dp_status status) {
@@ -135,24 +136,30 @@ const column setup_columns[] = {{FIELD(setup_fields, znear, "near", "scene")},
                                 {FIELD(setup_fields, preset, "preset", ""), .only = AS_JSON, .optional = true},
                                 {.kind = COLUMN_END}};
 
-setup_fields setup_fields_of(const dp_setup *setup, const char *unit) {
-    const dp_spec *spec = &setup->spec;
-    const dp_mapping_row *row = dp_mapping_get(spec->mapping); /* of alternatives the rest of the set-up may be open */
-    return (setup_fields){.znear = spec->znear,
-                          .zfar = spec->zfar,
-                          .log_c = row->curve == DP_CURVE_LOG && !row->log_over_near ? spec->log_c : (double)NAN,
-                          .projection = spec->ortho ? "orthographic" : "perspective",
-                          .mapping = dp_mapping_get(spec->mapping)->name,
-                          .format = spec->format.name,
-                          .rounding = dp_rounding_name(spec->rounding),
-                          .model = dp_model_name(spec->model),
-                          .arith = spec->model == DP_MODEL_FP32 ? dp_arith_get(spec->arith)->name : NULL,
-                          .unit = unit};
+dp_model setup_model(const dp_setup *setup) {
+    return dp_is_computed(setup) ? DP_MODEL_FP32 : setup->spec.model;
 }
 
 void setup_fields_budget(const dp_setup *setup, setup_fields *fields) {
     fields->model = dp_model_name(DP_MODEL_FP32);
     fields->arith = dp_arith_get(setup->spec.arith)->name;
+}
+
+setup_fields setup_fields_of(const dp_setup *setup, const char *unit) {
+    const dp_spec *spec = &setup->spec;
+    const dp_mapping_row *row = dp_mapping_get(spec->mapping); /* of alternatives the rest of the set-up may be open */
+    setup_fields f = {.znear = spec->znear,
+                      .zfar = spec->zfar,
+                      .log_c = row->curve == DP_CURVE_LOG && !row->log_over_near ? spec->log_c : (double)NAN,
+                      .projection = spec->ortho ? "orthographic" : "perspective",
+                      .mapping = dp_mapping_get(spec->mapping)->name,
+                      .format = spec->format.name,
+                      .rounding = dp_rounding_name(spec->rounding),
+                      .model = dp_model_name(spec->model),
+                      .unit = unit};
+    if (setup_model(setup) == DP_MODEL_FP32)
+        setup_fields_budget(setup, &f);
+    return f;
 }
 
 const char *setup_label_as(const dp_setup *setup, const setup_fields *f, char out[SETUP_LABEL_SIZE]) {

@@ -68,6 +68,9 @@ extern const column setup_columns[];
 /** Points into the set-up, which must stay where it is. The unit is that of its lengths, or null. */
 setup_fields setup_fields_of(const dp_setup *setup, const char *unit);
 
+/** What its separations are in: a shader's are in binary32, too. */
+dp_model setup_model(const dp_setup *setup);
+
 /** The same of a budget: that of a logarithmic mapping is of binary32 arithmetic, too, though it has no codes there. */
 void setup_fields_budget(const dp_setup *setup, setup_fields *fields);
 

@@ -239,7 +239,7 @@ static dp_status log_budget(const dp_setup *setup, double z, const dp_budget_ter
     const dp_log_shader s = dp_log_shader_make(setup, dp_log2_get(terms != NULL ? terms->log2 : 0));
     const double extra = terms != NULL ? 2.0 * terms->interpolation * DP_UNIT : 0.0;
     dp_log_demand d;
-    const double longest = dp_log_longest(&s, (double)(float)z, extra, &d);
+    const double longest = dp_log_longest(&s, (dp_span){(double)(float)z, (double)(float)z}, extra, &d);
     const double part[DP_CAUSE_COUNT] = {
         [DP_CAUSE_ARGUMENT] = d.argument, [DP_CAUSE_LOG2] = d.log2,         [DP_CAUSE_SCALE] = d.scale,
         [DP_CAUSE_NDC] = d.ndc,           [DP_CAUSE_INTERPOLATION] = extra, [DP_CAUSE_FORMAT] = d.format};
@@ -264,25 +264,39 @@ dp_status dp_budget_at(const dp_setup *setup, double z, const dp_budget_terms *t
 }
 
 /*
- * The same for a run of depths at once: every rounding at the largest value that it meets anywhere in it. All that the
- * demands are made of rises with the range that they are taken over, so this is a separation of each depth of the run.
+ * The separation of surfaces whose binary32 depths may be `longest` apart and out of order: of all of a run, and of
+ * those behind it, what is apart is apart by whole steps. Towards 0 they shrink.
  */
-double dp_budget_bound(const dp_setup *setup, float nearest, float farthest) {
-    dp_pipeline pipeline;
-    if (dp_pipeline_init(&pipeline, setup) != DP_OK || isinf(farthest))
-        return HUGE_VAL;
-    const dp_chain c = dp_chain_make(setup, &pipeline);
-    const dp_span run = {entered((double)nearest).lo, entered((double)farthest).hi};
-    dp_demand d;
-    const double longest = dp_demand_longest(&c, run, 0.0, &d);
-    /* Of all depths of the run, and of those behind it: what is apart is apart by whole ones. Towards 0 they shrink. */
+static double apart_over(dp_span run, double longest) {
     const double nearest_to_0 = larger(larger(run.lo, -(run.hi + longest)), 0.0);
     const double step = 2.0 * dp_half_ulp(nearest_to_0);
     const double whole = longest < 0x1p45 * step ? floor(longest / step) * step : longest;
     const double nearest_size = fabs(run.lo); /* the larger one of a negative run */
     const double eye = dp_eye_rounding(larger(nearest_size, run.hi), larger(nearest_size, run.hi + whole));
+    return (eye + whole) * outward;
+}
+
+/*
+ * The same for a run of depths at once: every rounding at the largest value that it meets anywhere in it. All that the
+ * demands are made of rises with the range that they are taken over, so this is a separation of each depth of the run.
+ */
+double dp_budget_bound(const dp_setup *setup, float nearest, float farthest) {
+    if (isinf(farthest))
+        return HUGE_VAL;
+    if (setup->curve == DP_CURVE_LOG) {
+        const dp_log_shader s = dp_log_shader_make(setup, dp_log2_get(0));
+        const dp_span run = {(double)nearest, (double)farthest};
+        dp_log_demand d;
+        return apart_over(run, dp_log_longest(&s, run, 0.0, &d));
+    }
+    dp_pipeline pipeline;
+    if (dp_pipeline_init(&pipeline, setup) != DP_OK)
+        return HUGE_VAL;
+    const dp_chain c = dp_chain_make(setup, &pipeline);
+    const dp_span run = {entered((double)nearest).lo, entered((double)farthest).hi};
+    dp_demand d;
     static const double asked[DP_CAUSE_COUNT] = {0};
-    dp_budget b = {.separation = (eye + whole) * outward};
+    dp_budget b = {.separation = apart_over(run, dp_demand_longest(&c, run, 0.0, &d))};
     if (setup->spec.triangles.width != 0)
         dp_triangles_add(&c, run, &setup->spec.triangles, asked, NULL, &b);
     return b.separation;

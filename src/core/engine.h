@@ -25,6 +25,11 @@ uint32_t dp_code_quick(const dp_setup *setup, double z, int *certain);
 /* The right code, decided exactly from any stored code to start from. */
 uint32_t dp_code_exact(const dp_setup *setup, double z, uint32_t start);
 
+/* Is the separation that of depths computed in binary32, by dp_budget_at(), and not one of a lattice. */
+static inline int dp_is_computed(const dp_setup *setup) {
+    return setup->spec.model == DP_MODEL_FP32 || setup->shader;
+}
+
 /*
  * A separation that dp_budget_at() guarantees at every binary32 depth from `nearest` to `farthest`, two depths of one
  * binade: as good as the worst of them when the run is short. INFINITY where there is none.

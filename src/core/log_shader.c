@@ -142,12 +142,12 @@ static double distance(const dp_log_shader *s, double z, double growth) {
 }
 
 /*
- * The demand of z and any depth of z..hi, as growth of the logarithm. Where one of the two may leave [0, 1] it is
- * clamped: then what the other is off by counts, and how far the logarithm itself goes beyond.
+ * The demand of any depth of a run and any behind it up to hi, as growth of the logarithm. Where one of the two may
+ * leave [0, 1] it is clamped: then what the other is off by counts, and how far the logarithm itself goes beyond.
  */
-static double demand_of(const dp_log_shader *s, double z, double hi, double extra, dp_log_demand *out) {
-    const dp_log_steps a = dp_log_shader_steps(s, (dp_span){z, z});
-    const dp_log_steps b = dp_log_shader_steps(s, (dp_span){z, hi});
+static double demand_of(const dp_log_shader *s, dp_span run, double hi, double extra, dp_log_demand *out) {
+    const dp_log_steps a = dp_log_shader_steps(s, run);
+    const dp_log_steps b = dp_log_shader_steps(s, (dp_span){run.lo, hi});
     const double off[2] = {a.argument + a.log2, b.argument + b.log2};
     const double ends[2] = {a.scale + a.ndc, b.scale + b.ndc};
     const double low = smaller((a.lo - off[0]) * s->k_lo, (a.lo - off[0]) * s->k_hi) - ends[0];
@@ -169,20 +169,20 @@ static double demand_of(const dp_log_shader *s, double z, double hi, double extr
 }
 
 /* First what holds against all depths behind; then only those nearer than that need a demand, which is smaller. */
-double dp_log_longest(const dp_log_shader *s, double z, double extra, dp_log_demand *out) {
+double dp_log_longest(const dp_log_shader *s, dp_span run, double extra, dp_log_demand *out) {
     double longest = HUGE_VAL;
-    double hi = larger(s->zfar, z);
+    double hi = larger(s->zfar, run.hi);
     for (int i = 0; i < 8; i++) {
         dp_log_demand d;
-        const double next = distance(s, z, demand_of(s, z, hi, extra, &d));
+        const double next = distance(s, run.hi, demand_of(s, run, hi, extra, &d));
         if (i > 0 && !(next < longest))
             break;
         const double gain = longest - next;
         longest = next;
         *out = d;
-        if (z + next >= hi || gain <= 0x1p-6 * next)
+        if (run.hi + next >= hi || gain <= 0x1p-6 * next)
             break;
-        hi = z + next;
+        hi = run.hi + next;
     }
     return longest;
 }

@@ -45,7 +45,10 @@ typedef struct dp_log_demand {
     double argument, log2, scale, ndc, format, window;
 } dp_log_demand;
 
-/* How far behind a binary32 depth another can lie at most without being stored strictly behind it; see demand.h. */
-double dp_log_longest(const dp_log_shader *s, double z, double extra, dp_log_demand *out);
+/*
+ * How far behind any depth of a run of binary32 depths another can lie at most without being stored strictly behind it;
+ * see demand.h.
+ */
+double dp_log_longest(const dp_log_shader *s, dp_span run, double extra, dp_log_demand *out);
 
 #endif

@@ -10,9 +10,10 @@ double dp_separation(const dp_setup *setup, double z) {
     dp_budget budget;
     if (isinf(z))
         return HUGE_VAL;
-    if (setup->spec.model != DP_MODEL_FP32)
+    if (!dp_is_computed(setup))
         return dp_lattice_separation(setup, z);
-    return dp_budget_at(setup, z, NULL, &budget) == DP_OK ? budget.separation : HUGE_VAL;
+    const dp_setup facing = dp_setup_facing(setup); /* of slanted triangles a shader's knows as little as a lattice's */
+    return dp_budget_at(setup->shader ? &facing : setup, z, NULL, &budget) == DP_OK ? budget.separation : HUGE_VAL;
 }
 
 dp_status dp_sample_at(const dp_setup *setup, double z, dp_sample *out) {

@@ -13,7 +13,7 @@ enum { PARTS_MAX = 512, EVALUATIONS_MAX = 1 << 16 };
 /* The search stops refining what is no more than this above what was found. */
 static const double slack = 1.0 + 0x1p-10;
 
-/* A part of the range. fp32: its ends are binary32 depths, and it holds these only. */
+/* A part of the range. In binary32 its ends are binary32 depths, and it holds these only. */
 typedef struct part {
     double lo, hi;
     double bound;
@@ -28,7 +28,7 @@ typedef struct search {
     part parts[PARTS_MAX]; /* a stack */
 } search;
 
-/* fp32: the binary32 depth nearest to an end of the range may lie just outside, and is meant by that end. */
+/* In binary32 the depth nearest to an end of the range may lie just outside, and is meant by that end. */
 static void look(dp_separation_worst *worst, const dp_setup *setup, double depth) {
     const double z = smaller(larger(depth, worst->lo), worst->hi);
     const double s = dp_separation(setup, z);
@@ -51,13 +51,14 @@ static double with_eye(const dp_setup *setup, double lo, double hi, double ahead
 }
 
 /*
- * An upper bound of the separation at every depth of the part. In fp32 that of the lattice is a floor: its bound is
+ * An upper bound of the separation at every depth of the part. In binary32 that of the lattice is a floor: its bound is
  * that of the same part in the model exact.
  */
 static double bound_of(const dp_setup *setup, double lo, double hi) {
-    if (setup->spec.model == DP_MODEL_FP32) {
+    if (dp_is_computed(setup)) {
         dp_setup exact = *setup;
         exact.spec.model = DP_MODEL_EXACT;
+        exact.shader = 0;
         return larger(dp_budget_bound(setup, (float)lo, (float)hi), bound_of(&exact, lo, hi));
     }
     const double step = dp_separation_step(setup, lo, hi) * (1.0 + 0x1p-50);
@@ -66,7 +67,7 @@ static double bound_of(const dp_setup *setup, double lo, double hi) {
 
 /* Nothing lies between the ends of the part. */
 static int is_single(const dp_setup *setup, const part *p) {
-    if (setup->spec.model == DP_MODEL_FP32)
+    if (dp_is_computed(setup))
         return (double)nextafterf((float)p->lo, HUGE_VALF) >= p->hi;
     return nextafter(p->lo, HUGE_VAL) >= p->hi;
 }
@@ -104,7 +105,7 @@ static double middle_of(double lo, double hi) {
 /* The depths of a part that lie on either side of its middle; binary32 depths have no depth between them. */
 static void divide(search *s, const part *p) {
     const double middle = middle_of(p->lo, p->hi);
-    if (s->setup->spec.model == DP_MODEL_FP32) {
+    if (dp_is_computed(s->setup)) {
         float m = (float)middle;
         if ((double)m >= p->hi)
             m = nextafterf(m, -HUGE_VALF);
@@ -138,10 +139,10 @@ static double next_binade(double z, double tiny) {
     return smaller(-z > power ? -power : -0.5 * power, -tiny);
 }
 
-/* fp32: parts within one binade, the nearest first, so that the farthest is looked at first. */
+/* In binary32 parts within one binade, the nearest first, so that the farthest is looked at first. */
 static void begin(search *s) {
     const dp_separation_worst *w = s->worst;
-    if (s->setup->spec.model != DP_MODEL_FP32) {
+    if (!dp_is_computed(s->setup)) {
         offer(s, w->lo, w->hi);
         return;
     }
@@ -192,8 +193,8 @@ dp_status dp_separation_over(const dp_setup *setup, double lo, double hi, double
     dp_separation_worst worst = {.lo = lo, .hi = hi, .z = hi};
     look(&worst, setup, hi);
     look(&worst, setup, lo);
-    const int exact = setup->spec.model == DP_MODEL_EXACT ||
-                      (setup->spec.model == DP_MODEL_STAGED && dp_staged_is_exact(setup) && lo >= 0.0);
+    const int exact =
+        !dp_is_computed(setup) && (setup->spec.model == DP_MODEL_EXACT || (dp_staged_is_exact(setup) && lo >= 0.0));
     if (isinf(worst.separation)) {
         worst.bound = worst.separation;
     } else if (exact) {

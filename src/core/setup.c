@@ -79,6 +79,16 @@ dp_setup dp_setup_facing(const dp_setup *setup) {
     return facing;
 }
 
+dp_setup dp_setup_guaranteed(const dp_setup *setup) {
+    dp_setup out = *setup;
+    dp_spec spec = setup->spec;
+    spec.model = dp_mapping_get(spec.mapping)->curve == DP_CURVE_PERSPECTIVE ? DP_MODEL_FP32 : DP_MODEL_STAGED;
+    if (spec.model != setup->spec.model)
+        dp_setup_init(&out, &spec); /* cannot fail: the set-up was made, and the model is one that its mapping has */
+    out.shader = out.curve == DP_CURVE_LOG;
+    return out;
+}
+
 dp_status dp_setup_init(dp_setup *setup, const dp_spec *spec) {
     if (setup == NULL || spec == NULL)
         return DP_ERROR_NULL;

@@ -35,7 +35,7 @@ static void judge_in(const need *n, const dp_setup *setup, check_verdict *v) {
     const measure_kind kind = n->kind == NEED_ERROR ? MEASURE_ERROR : MEASURE_SEPARATION;
     const judgement j = judge(kind, setup, n->lo, n->hi, n->limit);
     v->setup = *setup;
-    v->method = methods[setup->spec.model];
+    v->method = setup->shader ? CHECK_GUARANTEE : methods[setup->spec.model];
     v->passed = j.passed;
     v->value = j.value;
     v->z = j.z;
@@ -69,8 +69,8 @@ static void judge_separation(const need *n, const need_camera *camera, const dp_
     judge_in(n, &setup, v);
     if (v->value > (camera->automatic ? 1.0 : refusal_factor) * n->limit)
         return;
-    if (with_model(asked, DP_MODEL_FP32, &setup) || with_model(asked, DP_MODEL_STAGED, &setup))
-        judge_in(n, &setup, v);
+    setup = dp_setup_guaranteed(asked);
+    judge_in(n, &setup, v);
 }
 
 static void judge_error(const need *n, const need_camera *camera, const dp_setup *asked, check_verdict *v) {

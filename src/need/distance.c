@@ -5,6 +5,7 @@
 #include <stdlib.h>
 
 #include "core/elementary.h"
+#include "core/engine.h"
 
 enum { STEPS = 400 };
 
@@ -96,7 +97,7 @@ static ruler ruler_of(measure_kind kind, const dp_setup *setup, double lo, doubl
     return (ruler){.kind = kind,
                    .setup = setup,
                    .limit = limit,
-                   .whole = setup->spec.model == DP_MODEL_FP32,
+                   .whole = dp_is_computed(setup),
                    .lo = lo,
                    .holds = lo,
                    .fails = fmin(hi, farthest)};
@@ -157,7 +158,7 @@ typedef struct trials {
 } trials;
 
 static void try_depth(trials *t, double z) {
-    if (t->setup->spec.model == DP_MODEL_FP32)
+    if (dp_is_computed(t->setup))
         z = (double)(float)z;
     if (t->count < TRIED && z > t->after && z <= t->end)
         t->z[t->count++] = z;
@@ -195,7 +196,7 @@ size_t distance_again(const dp_setup *setup, double after, double hi, double lim
             fails = t.z[i];
             continue;
         }
-        ruler r = {.whole = setup->spec.model == DP_MODEL_FP32, .holds = fails, .fails = t.z[i]};
+        ruler r = {.whole = dp_is_computed(setup), .holds = fails, .fails = t.z[i]};
         for (double middle = between(&r); !isnan(middle); middle = between(&r))
             *(judge(MEASURE_SEPARATION, setup, middle, middle, limit).passed ? &r.fails : &r.holds) = middle;
         distance_answer answer;
