@@ -119,10 +119,37 @@ static void the_default_is_a_guarantee(void **state) {
         assert_true(j.verdicts[0].value == dp_separation(&setup, 5000.0));
         done(&j);
     }
-    judged j =
-        judge_one("near = 0.1; far = 1000; mapping = \"log\"; format = \"unorm24\";", "at = 100; separation = 1;");
-    assert_true(j.verdicts[0].passed && j.verdicts[0].setup.spec.model == DP_MODEL_STAGED);
-    done(&j);
+}
+
+/* Of a logarithmic depth that of the shader: 5 m at 1000 km are enough for the model staged, not for a shader's log2.
+ */
+static void of_a_shader(void **state) {
+    (void)state;
+    static const char camera[] = "near = 1; far = 1e9; mapping = \"log\"; format = \"unorm24\";";
+    static const struct {
+        const char *model, *what;
+        check_method method;
+        bool passed;
+    } cases[] = {
+        {"", "at = 1e6; separation = 1;", CHECK_LATTICE, false},
+        {"", "at = 1e6; separation = 5;", CHECK_GUARANTEE, false},
+        {"", "at = 1e6; separation = 10;", CHECK_GUARANTEE, true},
+        {" model = \"staged\";", "at = 1e6; separation = 5;", CHECK_STAGED, true},
+        {" model = \"auto\";", "range = [10.0, 1e6]; separation = 5;", CHECK_GUARANTEE, false},
+        {" model = \"auto\";", "range = [10.0, 1e6]; separation = 10;", CHECK_GUARANTEE, true},
+    };
+    for (size_t i = 0; i < sizeof cases / sizeof cases[0]; i++) {
+        char text[256];
+        dp_budget b;
+        snprintf(text, sizeof text, "%s%s", camera, cases[i].model);
+        judged j = judge_one(text, cases[i].what);
+        const check_verdict *v = &j.verdicts[0];
+        assert_int_equal(dp_budget_at(&v->setup, 1e6, NULL, &b), DP_OK);
+        if (v->method != cases[i].method || v->passed != cases[i].passed)
+            fail_msg("%s, %s: %s, %g", cases[i].model, cases[i].what, check_method_name(v->method), v->value);
+        assert_true(v->method != CHECK_GUARANTEE || v->value == b.separation);
+        done(&j);
+    }
 }
 
 static const char *const mappings[] = {"d3d", "gl", "reversed", "gl-reversed", "linear", "log"};
@@ -159,7 +186,7 @@ static void ranges_against_single_depths(void **state) {
         }
         for (int k = 0; k < 100 && v->passed; k++) {
             const double z = fmin(fmax(k % 2 == 0 ? rng_log(&r, lo, hi) : rng_uniform(&r, lo, hi), lo), hi);
-            TALLY(&holds, dp_separation(&v->setup, z) <= limit * (v->setup.spec.model == DP_MODEL_FP32 ? 1.031 : 1.0),
+            TALLY(&holds, dp_separation(&v->setup, z) <= limit * (v->method == CHECK_GUARANTEE ? 1.031 : 1.0),
                   "%s %s: %g at %g", camera, what, dp_separation(&v->setup, z), z);
         }
         done(&j);
@@ -291,6 +318,7 @@ int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(known_answers),
         cmocka_unit_test(the_default_is_a_guarantee),
+        cmocka_unit_test(of_a_shader),
         cmocka_unit_test(ranges_against_single_depths),
         cmocka_unit_test(errors_at_single_depths),
         cmocka_unit_test(the_quick_model_first),

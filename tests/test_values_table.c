@@ -312,6 +312,43 @@ static void test_table_worst_lines(void **state) {
     printed_free(&p);
 }
 
+/* "the arithmetic of the shader makes this 7.44 times worse at z = 1e+06": 3 digits, against the lattice. */
+static void test_shader_line(void **state) {
+    static const char *const formats[] = {"unorm24", "unorm12"};
+    const double depths[] = {2, 1e6, 3e8};
+    (void)state;
+    for (int i = 0; i < 2; i++) {
+        dp_spec spec = {.znear = 1, .zfar = 1e9, .mapping = DP_MAPPING_LOG, .log_c = 1};
+        dp_format found[2];
+        dp_setup setup;
+        double worst = 0, z = 0;
+        assert_int_equal(dp_format_parse(formats[i], found), 1);
+        spec.format = found[0];
+        assert_int_equal(dp_setup_init(&setup, &spec), DP_OK);
+        for (int k = 0; k < 3; k++) {
+            const double times = in_binary32(&setup, depths[k]) / dp_separation(&setup, depths[k]);
+            z = times > worst ? depths[k] : z;
+            worst = fmax(worst, times);
+        }
+        printed p = print_of("table --full -m log -n 1 -f 1e9 --at 2,1e6,3e8 -F %s", formats[i]);
+        const char *at = strstr(p.out, "the arithmetic of the shader makes this ");
+        assert_non_null(at);
+        at += strlen("the arithmetic of the shader makes this ");
+        double said, where;
+        char end[64];
+        const bool enough = worst <= 1.05;
+        assert_int_equal(enough, i == 1);
+        assert_int_equal(
+            sscanf(at, enough ? "at most %lf %% worse at z = %lf: %63[^\n]" : "%lf times worse at z = %lf: %63[^\n]",
+                   &said, &where, end),
+            3);
+        assert_relative(said, enough ? 100 * (worst - 1) : worst, 0.005);
+        assert_relative(where, z, 1e-5);
+        assert_string_equal(end, enough ? "the lattice is enough" : "'depthprec budget' says of what");
+        printed_free(&p);
+    }
+}
+
 /* ---- The comparison ---------------------------------------------------------------------------------------------- */
 
 enum { LIMITS = 3 };
@@ -431,9 +468,8 @@ static void test_presets(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_table),      cmocka_unit_test(test_table_worst_lines),
-        cmocka_unit_test(test_comparison), cmocka_unit_test(test_presets),
-        cmocka_unit_test(check_apart),
+        cmocka_unit_test(test_table),      cmocka_unit_test(test_table_worst_lines), cmocka_unit_test(test_shader_line),
+        cmocka_unit_test(test_comparison), cmocka_unit_test(test_presets),           cmocka_unit_test(check_apart),
     };
     return run_tap(tests);
 }
