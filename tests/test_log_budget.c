@@ -27,6 +27,11 @@ static float product(float a, float b) {
     return r;
 }
 
+/* a b + c, which a compiler may fuse. */
+static float product_sum(float a, float b, float c, bool fused) {
+    return fused ? fmaf(a, b, c) : sum(product(a, b), c);
+}
+
 static float quotient(float a, float b) {
     volatile float r = a / b;
     return r;
@@ -92,7 +97,8 @@ typedef struct shader {
     const dp_arith_row *arith;
     int rule;
     float near, far, c, k;
-    float top; /* three-webgpu: what it makes of log2(far/near) */
+    float top;     /* three-webgpu: what it makes of log2(far/near) */
+    bool fused[2]; /* does it fuse, for the nearer surface and for the farther one: two materials are two shaders */
 } shader;
 
 /* 1/log2 of the argument at far, rounded once; per vertex twice that, which is exact. */
@@ -128,10 +134,11 @@ static float written(const shader *s, float w, int sign) {
     if (m == DP_MAPPING_THREE_WEBGPU)
         return divided(log2_by(s->rule, divided(w, s->near, sign), sign), s->top, sign);
     const float from = m == DP_MAPPING_CESIUM ? sum(w, -s->near) : w;
-    const float l = log2_by(s->rule, sum(1.0F, product(s->c, from)), sign);
+    const bool fused = s->fused[sign < 0];
+    const float l = log2_by(s->rule, product_sum(s->c, from, 1.0F, fused), sign);
     if (m != DP_MAPPING_OSGEARTH)
         return product(l, s->k);
-    float clip = product(sum(product(l, 2.0F * s->k), -1.0F), w);
+    float clip = product(product_sum(l, 2.0F * s->k, -1.0F, fused), w);
     if (s->arith->remap)
         clip = product(sum(clip, w), 0.5F);
     const float ndc = s->arith->reciprocal ? product(clip, quotient(1.0F, w)) : quotient(clip, w);
@@ -235,7 +242,9 @@ static void never_violated(void **state) {
     (void)state;
     for (uint64_t i = test_cases(300, 1500, 200000); i > 0; i--) {
         const dp_spec spec = random_spec(&r, i);
-        const shader s = shader_of(&spec, (int)rng_below(&r, RULES), (int)rng_below(&r, 3) - 1);
+        shader s = shader_of(&spec, (int)rng_below(&r, RULES), (int)rng_below(&r, 3) - 1);
+        s.fused[0] = rng_below(&r, 2) == 0;
+        s.fused[1] = rng_below(&r, 2) == 0;
         for (int k = 0; k < 5; k++)
             check_pairs(&r, &t, &s, random_depth(&r, &spec));
     }
