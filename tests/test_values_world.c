@@ -186,11 +186,32 @@ static void test_check(void **state) {
     }
 }
 
+/* A view so wide that its corners are 47 times as far away as its middle: they are seen, too. */
+static void test_wide(void **state) {
+    (void)state;
+    const double pi = 3.14159265358979323846, half = tan(87.5 * pi / 180.0);
+    dp_spec spec = dp_spec_default();
+    dp_setup setup;
+    assert_int_equal(dp_setup_init(&setup, &spec), DP_OK);
+    const world_asked a = {.setup = &setup, .z = 10.0, .lean = hypot(1.0, half * hypot(1.0, 1920.0 / 1080.0))};
+    const world_scheme s = scheme_of(2);
+    printed p = print_of("world --fov 175 --at 10 --distance 1e3 --scheme two-sum --json");
+    json_error_t error;
+    json_t *root = json_loads(p.out, 0, &error);
+    json_t *distance =
+        json_array_get(json_object_get(json_array_get(json_object_get(root, "setups"), 0), "distances"), 0);
+    json_t *line = json_array_get(json_object_get(distance, "schemes"), 0);
+    assert_relative(json_number_value(json_object_get(line, "view_z_error")), world_off(&s, &a, 1e3), 1e-9);
+    json_decref(root);
+    printed_free(&p);
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_world),
         cmocka_unit_test(test_budget),
         cmocka_unit_test(test_check),
+        cmocka_unit_test(test_wide),
     };
     return run_tap(tests);
 }

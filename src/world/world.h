@@ -88,7 +88,7 @@ world_error world_bound(const world_scheme *s, const world_where *at);
 /**
  * How far behind a surface at eye depth z another one, on a ray from the camera, surely has the larger view z: at this
  * or more. Before anything else is rounded. @param lean  no surface is farther than this times its eye depth, at most
- * 10
+ * 1e7
  */
 double world_gap(const world_scheme *s, double distance, double z, double lean, bool shared_origin);
 
