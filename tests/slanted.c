@@ -2,6 +2,9 @@
 #include "slanted.h"
 
 #include <math.h>
+#include <string.h>
+
+#include "world/reach.h"
 
 static const double pi = 3.14159265358979323846;
 
@@ -15,7 +18,7 @@ bool slanted_draw_camera(rng *r, slanted *s, const slanted_kind *kind, const cha
         return false;
     s->kind = kind;
     s->cut = RASTER_CLIP_ANY;
-    s->world.terms = (dp_budget_terms){0};
+    s->world = (slanted_world){0};
     spec.format = found[0];
     spec.mapping = reversed ? DP_MAPPING_REVERSED : DP_MAPPING_D3D;
     spec.znear = rng_log(r, 0.01, 10.0);
@@ -169,8 +172,9 @@ static void fit_one(slanted *s, int which, double c) {
     int sides;
     const int count = left_of(s, which, polygon, &sides);
     for (int i = 0; i < 3; i++) {
-        const double z = c / slanted_along(s, s->at[which][i][0], s->at[which][i][1]);
-        t->depth = fmax(t->depth, z > 0.0 ? fmax(z / s->z, s->z / z) : INFINITY);
+        const double z = c / slanted_along(s, s->at[which][i][0], s->at[which][i][1]) - s->world.shift[2];
+        const double at = s->z - s->world.shift[2];
+        t->depth = fmax(t->depth, z > 0.0 ? fmax(z / at, at / z) : INFINITY);
     }
     for (int i = 2; i < count; i++)
         fit_piece(t, (const spot[3]){polygon[0], polygon[i - 1], polygon[i]});
@@ -202,7 +206,7 @@ bool slanted_fit(slanted *s, const double c[2]) {
     for (int k = 0; k < 2; k++)
         fit_one(s, k, c[k]);
     t->depth *= 1.0 + 1e-6;
-    if (s->world.terms.world > 0.0) { /* where it is drawn its vertices are elsewhere: see slanted_in_class() */
+    if (slanted_is_moved(s)) { /* where it is drawn its vertices are elsewhere: see slanted_in_class() */
         t->pixels *= 1.2;
         t->slim = fmin(1.5 * t->slim, 1024.0);
     }
@@ -213,6 +217,14 @@ bool slanted_budget(const slanted *s, const dp_triangles *class, dp_budget *out)
     dp_spec spec = s->setup.spec;
     dp_setup setup;
     spec.triangles = *class;
+    if (s->world.scheme != NULL && dp_setup_init(&setup, &spec) == DP_OK) {
+        const world_asked a = {.setup = &setup,
+                               .z = s->z - s->world.shift[2],
+                               .lean = s->world.lean,
+                               .shared_origin = s->world.shared_origin};
+        dp_budget_terms terms = {0};
+        return world_budget(s->world.scheme, &a, s->world.distance, &terms, out) == DP_OK;
+    }
     return dp_setup_init(&setup, &spec) == DP_OK && dp_budget_at(&setup, s->z, &s->world.terms, out) == DP_OK;
 }
 
@@ -302,6 +314,53 @@ void slanted_draw_world(rng *r, slanted *s) {
     compose(s, (const double(*)[3])v);
 }
 
+bool slanted_is_moved(const slanted *s) {
+    return s->world.terms.world > 0.0 || s->world.scheme != NULL;
+}
+
+/* The place in the world that is seen there but for what it is moved by. */
+static world_place place_seen_at(const slanted *s, int which, const double seen[3]) {
+    const slanted_world *w = &s->world;
+    world_place place;
+    memcpy(place.origin, w->origin[which], sizeof place.origin);
+    for (int i = 0; i < 3; i++) {
+        long double at = (long double)w->seen_by.eye[i] - (long double)place.origin[i];
+        for (int k = 0; k < 3; k++)
+            at += (long double)w->seen_by.axis[k][i] * ((long double)seen[k] - (long double)w->shift[k]);
+        place.local[i] = (double)at;
+    }
+    return place;
+}
+
+bool slanted_draw_scheme(rng *r, slanted *s, const world_scheme *scheme) {
+    slanted_world *w = &s->world;
+    const double part = (rng_below(r, 2) == 0 ? rng_log(r, 1e2, 1e7) : rng_log(r, 2e5, 2e6)) * s->z / sqrt(3.0);
+    double ray[3], seen[3];
+    float got[3];
+    long double want[3];
+    ray_of(s, s->px, s->py, ray);
+    *w = (slanted_world){.scheme = scheme, .distance = part * sqrt(3.0), .shared_origin = rng_below(r, 2) == 0};
+    w->seen_by.order = (unsigned)rng_below(r, WORLD_ORDERS);
+    w->seen_by.fused = rng_below(r, 2) == 0;
+    draw_rotation(r, w->seen_by.axis);
+    for (int i = 0; i < 3; i++) {
+        w->seen_by.eye[i] = rng_uniform(r, -part, part);
+        seen[i] = ray[i] * s->z;
+    }
+    for (int i = 0; i < 6; i++)
+        w->origin[i / 3][i % 3] = w->seen_by.eye[i % 3] + 0.2 * s->z * rng_uniform(r, -1.0, 1.0);
+    if (w->shared_origin)
+        memcpy(w->origin[0], w->origin[1], sizeof w->origin[0]);
+    const world_place place = place_seen_at(s, 1, seen);
+    world_view(scheme, &w->seen_by, &place, got);
+    world_exact(&w->seen_by, &place, want);
+    for (int k = 0; k < 3; k++)
+        w->shift[k] = (double)((long double)got[k] - want[k]);
+    const double z = s->z - w->shift[2], tangent = tan(s->class.fov_y * pi / 360.0) / s->camera.height;
+    w->lean = fmax(2.0, hypot(1.0, tangent * hypot(s->camera.width + 800.0, s->camera.height + 800.0)));
+    return z > s->setup.spec.znear && z < s->setup.spec.zfar;
+}
+
 static float multiply_add(bool fused, float x, float y, float sum) {
     const float product = x * y;
     return fused ? fmaf(x, y, sum) : product + sum;
@@ -365,7 +424,16 @@ bool slanted_clip(const slanted *s, int which, double c, raster_vertex clip[3]) 
                 return false;
             continue;
         }
-        const float place[3] = {(float)(ray[0] * z), (float)(ray[1] * z), (float)z};
+        float place[3] = {(float)(ray[0] * z), (float)(ray[1] * z), (float)z};
+        if (s->world.scheme != NULL) {
+            const world_place in_world = place_seen_at(s, which, (const double[3]){ray[0] * z, ray[1] * z, z});
+            const double *shift = s->world.shift, real = z - shift[2];
+            if (!(hypot(hypot(ray[0] * z - shift[0], ray[1] * z - shift[1]), real) <= s->world.lean * real))
+                return false;
+            world_view(s->world.scheme, &s->world.seen_by, &in_world, place);
+            if (!(place[2] > 0.0F))
+                return false;
+        }
         const float product = of->a * place[2];
         clip[i] = (raster_vertex){of->p00 * place[0], of->p11 * place[1], product + of->b, place[2]};
     }

@@ -8,6 +8,7 @@
 #include "depthprec/depthprec.h"
 #include "raster/raster.h"
 #include "support.h"
+#include "world/world.h"
 
 /** What draws them. */
 typedef struct slanted_kind {
@@ -32,6 +33,13 @@ typedef struct slanted_world {
     double eye[3];
     int order[4];
     bool paired, fused;
+    const world_scheme *scheme; /* in place of the rows: how places come before `seen_by`; null: not at all */
+    world_camera seen_by;
+    double distance;     /* of the camera from the origin, at most */
+    double origin[2][3]; /* of the meshes that the triangles are of */
+    bool shared_origin;
+    double shift[3]; /* where the pixel's place of the farther plane is seen, less where it is */
+    double lean;     /* no vertex is farther away than this times its depth */
 } slanted_world;
 
 typedef struct slanted {
@@ -55,6 +63,15 @@ bool slanted_draw_planes(rng *r, slanted *s);
  * Draws a camera in a world about the planes. Depths and planes are then those that the rounded matrix makes of places.
  */
 void slanted_draw_world(rng *r, slanted *s);
+
+/**
+ * Draws a camera in a world about the planes, and meshes. Depths and planes are where they are seen; the guarantee is
+ * that of where they are. False when that is not between the planes of the camera.
+ */
+bool slanted_draw_scheme(rng *r, slanted *s, const world_scheme *scheme);
+
+/** Whether they come from a world, so that vertices are not drawn exactly where they were put. */
+bool slanted_is_moved(const slanted *s);
 
 /** Depth times this is the plane's distance along its normal: the normal along the ray of a place on the screen. */
 double slanted_along(const slanted *s, double x, double y);

@@ -113,7 +113,7 @@ static bool stored(const slanted *s, plane_order *value, int which, double c, do
         at[i][0] = (double)v[i].x;
         at[i][1] = (double)v[i].y;
     }
-    if (!holds(v, s->px, s->py) || (s->world.terms.world > 0.0 && !slanted_in_class(s, at)))
+    if (!holds(v, s->px, s->py) || (slanted_is_moved(s) && !slanted_in_class(s, at)))
         return false;
     if (value == NULL)
         return modelled(s, clip, code);
@@ -292,6 +292,68 @@ static void test_world(void **state) {
     tally_end(&t);
 }
 
+/* The same through the schemes for large worlds; where they are seen is off by up to as much as they are far away. */
+static void test_schemes(void **state) {
+    tally t = {.name = "schemes"};
+    (void)state;
+    for (int kind = 0; kind < KINDS && kinds[kind].value != NULL; kind++)
+        for (size_t row = 0; row < WORLD_ROWS; row++) {
+            const world_scheme scheme = {world_get(row), world_get(row)->standard};
+            rng r = rng_make(kinds[kind].of.name);
+            double used = 0.0;
+            uint64_t judged = 0;
+            for (uint64_t i = test_cases(500, 4000, 500000); i > 0; i--) {
+                slanted s;
+                bool right;
+                assert_true(slanted_draw_camera(&r, &s, &kinds[kind].of, rng_below(&r, 2) == 0 ? "fp32" : "unorm24"));
+                const double share = rng_below(&r, 2) == 0 ? 1.0 : rng_log(&r, 0.2, 1.0);
+                if (!slanted_draw_planes(&r, &s) || !slanted_draw_scheme(&r, &s, &scheme))
+                    continue;
+                if (i % 10 == 0 && s.setup.spec.format.kind == DP_FORMAT_FLOAT)
+                    used = fmax(used, wrong_share(&r, &s, kinds[kind].value, fmax(used, 0.1)));
+                if (!judge(&s, kinds[kind].value, share, &right))
+                    continue;
+                judged++;
+                if (!right)
+                    used = fmax(used, share);
+                TALLY(&t, right || share < 1.0, "%s, %s: z %.17g, seen %.17g farther away, distance %g",
+                      kinds[kind].of.name, scheme.row->name, s.z - s.world.shift[2], s.world.shift[2],
+                      s.world.distance);
+            }
+            print_message("# %s, %s: %llu pairs; wrong ones up to %.3f of the guarantee\n", kinds[kind].of.name,
+                          scheme.row->name, (unsigned long long)judged, used);
+            TALLY(&t, used < 1.0, "%s, %s: wrong at %.3f", kinds[kind].of.name, scheme.row->name, used);
+        }
+    tally_end(&t);
+}
+
+/*
+ * Of meshes about one origin both surfaces are seen farther away than they are, by a share of their depth that their
+ * guarantee must count, where the grid takes most of it.
+ */
+static void test_seen_farther(void **state) {
+    tally t = {.name = "seen farther away"};
+    rng r = rng_make("seen farther away");
+    const world_scheme scheme = {world_get(1), 0.0};
+    double used = 0.0;
+    (void)state;
+    assert_string_equal(scheme.row->name, "local");
+    for (uint64_t i = test_cases(20000, 200000, 5000000); i > 0; i--) {
+        slanted s;
+        dp_budget b;
+        double nearer;
+        assert_true(slanted_draw_camera(&r, &s, &kinds[0].of, "fp32"));
+        if (!slanted_draw_planes(&r, &s) || !slanted_draw_scheme(&r, &s, &scheme) || !s.world.shared_origin ||
+            s.world.shift[2] < 0.03 * s.z || !slanted_apart(&s, 1.0, &b, &nearer) ||
+            b.cause[DP_CAUSE_SNAPPING] < 0.8 * b.separation)
+            continue;
+        used = fmax(used, wrong_share(&r, &s, kinds[0].value, fmax(used, 0.5)));
+    }
+    print_message("# wrong pairs up to %.3f of the guarantee\n", used);
+    TALLY(&t, used > 0.5 && used <= 1.0, "wrong at %.3f", used);
+    tally_end(&t);
+}
+
 /* ---- Snapping alone ---------------------------------------------------------------------------------------------- */
 
 /* 1/z at the pixel of the plane through vertices that were moved, without rounding. */
@@ -341,10 +403,8 @@ static void test_snapping(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_snapping),
-        cmocka_unit_test(test_guarantee),
-        cmocka_unit_test(test_used),
-        cmocka_unit_test(test_world),
+        cmocka_unit_test(test_snapping), cmocka_unit_test(test_guarantee), cmocka_unit_test(test_used),
+        cmocka_unit_test(test_world),    cmocka_unit_test(test_schemes),   cmocka_unit_test(test_seen_farther),
     };
     return run_tap(tests);
 }

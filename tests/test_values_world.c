@@ -186,11 +186,72 @@ static void test_check(void **state) {
     }
 }
 
+/* A view so wide that its corners are 47 times as far away as its middle: they are seen, too. */
+static void test_wide(void **state) {
+    (void)state;
+    const double pi = 3.14159265358979323846, half = tan(87.5 * pi / 180.0);
+    dp_spec spec = dp_spec_default();
+    dp_setup setup;
+    assert_int_equal(dp_setup_init(&setup, &spec), DP_OK);
+    const world_asked a = {.setup = &setup, .z = 10.0, .lean = hypot(1.0, half * hypot(1.0, 1920.0 / 1080.0))};
+    const world_scheme s = scheme_of(2);
+    printed p = print_of("world --fov 175 --at 10 --distance 1e3 --scheme two-sum --json");
+    json_error_t error;
+    json_t *root = json_loads(p.out, 0, &error);
+    json_t *distance =
+        json_array_get(json_object_get(json_array_get(json_object_get(root, "setups"), 0), "distances"), 0);
+    json_t *line = json_array_get(json_object_get(distance, "schemes"), 0);
+    assert_relative(json_number_value(json_object_get(line, "view_z_error")), world_off(&s, &a, 1e3), 1e-9);
+    json_decref(root);
+    printed_free(&p);
+}
+
+/* Unreal's tile is 2097152 of its units, which are centimetres; what others count in is not said. */
+static void test_sizes(void **state) {
+    (void)state;
+    static const struct {
+        const char *arguments, *first, *second;
+    } rows[] = {{"--preset unreal", "tile:2097152", "split:65536"},
+                {"--unit mm", "tile:20971520", "cell:2000"},
+                {"--unit m --scheme tile", "tile:20971.52", "tile:20971.52"},
+                {"--unit cm --scheme tile:20971.52,tile", "tile:20971.52 ", "tile:2097152"},
+                {"", "tile:20971.52", "split:65536"}};
+    for (size_t i = 0; i < sizeof rows / sizeof rows[0]; i++) {
+        printed p = print_of("world %s", rows[i].arguments);
+        assert_int_equal(p.status, 0);
+        assert_non_null(strstr(p.out, rows[i].first));
+        assert_non_null(strstr(p.out, rows[i].second));
+        printed_free(&p);
+    }
+    static const char *const written[] = {"", ":2097152"};
+    double value[2];
+    for (int i = 0; i < 2; i++) {
+        char path[512];
+        snprintf(path, sizeof path, "%s", scratch_file("tile.need"));
+        FILE *file = fopen(path, "w");
+        assert_non_null(file);
+        fprintf(file,
+                "unit = \"cm\"; cameras = { a = { near = 10.0; far = \"inf\"; mapping = \"reversed\"; format = "
+                "\"fp32\"; world = \"100 km\"; scheme = \"tile%s\"; }; }; requirements = { r = { camera = \"a\"; "
+                "at = \"30 m\"; separation = \"1 cm\"; }; };",
+                written[i]);
+        fclose(file);
+        printed p = print_of("check --report json %s", path);
+        json_error_t error;
+        json_t *root = json_loads(p.out, 0, &error);
+        value[i] =
+            json_number_value(json_object_get(json_array_get(json_object_get(root, "requirements"), 0), "value"));
+        json_decref(root);
+        printed_free(&p);
+    }
+    assert_true(value[0] > 0.1); /* not of a tile of 210 m, 100 times smaller */
+    assert_relative(value[0], value[1], 1e-12);
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_world),
-        cmocka_unit_test(test_budget),
-        cmocka_unit_test(test_check),
+        cmocka_unit_test(test_world), cmocka_unit_test(test_budget), cmocka_unit_test(test_check),
+        cmocka_unit_test(test_wide),  cmocka_unit_test(test_sizes),
     };
     return run_tap(tests);
 }

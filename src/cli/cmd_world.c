@@ -233,7 +233,7 @@ static void take_view(world *w) {
     *t = (dp_triangles){0};
     const double half = dp_tan(0.5 * degree * w->fov);
     w->asked = (world_asked){.z = w->z,
-                             .lean = fmin(dp_hypot(1.0, half * dp_hypot(1.0, (double)w->width / w->height)), 10.0),
+                             .lean = dp_hypot(1.0, half * dp_hypot(1.0, (double)w->width / w->height)),
                              .pixels = 0.5 * w->height / half,
                              .shared_origin = w->o.shared_origin};
 }

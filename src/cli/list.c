@@ -208,8 +208,9 @@ bool list_scheme(size_t index, list_item *item) {
         return false;
     *item = (list_item){.name = row->name, .note = row->note, .source = row->source, .row = row};
     if (row->size != NULL)
-        append(item->bound, sizeof item->bound, "%s: %s unless %s:SIZE says another, scene units%s", row->size,
-               number_full(row->standard).text, row->name, row->power2 ? ", a power of two" : "");
+        append(item->bound, sizeof item->bound, "%s: %s%s unless %s:SIZE says another, scene units%s", row->size,
+               number_full(row->standard).text, row->metres ? " m" : "", row->name,
+               row->power2 ? ", a power of two" : "");
     return true;
 }
 

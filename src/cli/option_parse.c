@@ -251,7 +251,8 @@ static int add_scheme(options *o, const option_row *row, const char *text) {
         return EXIT_FINE;
     }
     world_scheme s = {.row = found.row};
-    s.size = s.row != NULL ? s.row->standard : 0.0;
+    if (s.row != NULL)
+        s.size = s.row->metres ? unit_convert(s.row->standard, unit_find("m"), o->unit) : s.row->standard;
     if (text[length] != '\0' &&
         (s.row == NULL || !number_parse(text + length + 1, NUMBER_FINITE, &s.size) || !world_size_fits(s.row, s.size)))
         return option_refuse(row,

@@ -252,6 +252,8 @@ static int complete(options *o) {
     if (o->preset_count == 1)
         take_preset(o, o->presets[0]);
     take_platform(o);
+    if (!option_given(o, OPTION_SCHEME)) /* sizes in what a scene unit is, now that it is known */
+        parse_schemes(o, &option_rows[OPTION_SCHEME], option_rows[OPTION_SCHEME].standard);
     return status == EXIT_FINE && o->preset_count < 2 ? keep_stored(o) : status;
 }
 

@@ -104,23 +104,33 @@ static dp_composing composing_of(const dp_setup *setup, const dp_chain *c, const
 }
 
 /* What a composition does to the vertices of pixels at a depth. */
-static dp_composed_vertex composed_vertex(const dp_setup *setup, const dp_chain *c, double z,
+static dp_composed_vertex composed_vertex(const dp_setup *setup, const dp_chain *c, double z, double shared,
                                           const dp_budget_terms *terms) {
     const dp_triangles *t = &setup->spec.triangles;
     const dp_composed_view view = dp_triangles_view(t);
     dp_composing in = composing_of(setup, c, terms);
     in.lean = larger(in.lean, dp_hypot(1.0, dp_hypot(view.ray[0], view.ray[1])));
-    const double farthest = dp_triangles_depths(c, (dp_span){z, z}, t, NULL).hi;
+    const double farthest = dp_triangles_depths(c, (dp_span){z, z}, t, NULL).hi + shared;
     const dp_composed_vertex v = dp_composition_vertex(&in, &view, farthest);
     return dp_composition_vertex(&in, &view, farthest + 2.0 * (v.position + v.along)); /* as it is when moved */
 }
 
-/* Slanted triangles, moved as said (null: not at all); the nearer one may be read back anywhere between its vertices.
+/*
+ * Slanted triangles, moved as said (null: not at all), and by up to `shared` all alike. The nearer one may be read back
+ * anywhere between its vertices.
  */
-static void add_triangles(const dp_setup *setup, const dp_chain *c, double z, const double asked[DP_CAUSE_COUNT],
-                          const dp_composed_vertex *moved, dp_budget *out) {
-    const dp_triangles *t = &setup->spec.triangles;
-    const dp_span at = {z, z};
+static void add_triangles(const dp_setup *setup, const dp_chain *c, double z, double shared,
+                          const double asked[DP_CAUSE_COUNT], const dp_composed_vertex *moved, dp_budget *out) {
+    dp_triangles class = setup->spec.triangles;
+    const dp_triangles *t = &class;
+    const dp_span at = {z - shared, z + shared};
+    const double vertex = z / t->depth - shared;
+    if (!(vertex > 0.0)) {
+        *out = (dp_budget){.separation = HUGE_VAL, .window = 1.0};
+        return;
+    }
+    if (shared > 0.0)
+        class.depth = at.lo / vertex;
     const double nearest = dp_triangles_depths(c, at, t, moved).lo;
     double part[DP_CAUSE_COUNT] = {0};
     part[DP_CAUSE_INTERPOLATION] = asked[DP_CAUSE_INTERPOLATION];
@@ -153,10 +163,12 @@ static void add_composition(const dp_setup *setup, const dp_chain *c, double z, 
     /* As below: first a separation from all that is behind, then from what is nearer than that. */
     double separation = HUGE_VAL;
     double until = HUGE_VAL;
+    double shared = 0.0;
     for (double before = HUGE_VAL; isinf(before) || separation < 0.97 * before;) {
         before = separation;
         const dp_composed m = terms->world > 0.0 ? dp_composition_at(&in, z, until) : displaced_by(&terms->displaced);
         separation = smaller(separation, composed_separation(setup, c, &m, z, extra));
+        shared = m.shared;
         if (isinf(separation))
             break;
         until = smaller(z + separation, setup->spec.zfar);
@@ -167,8 +179,8 @@ static void add_composition(const dp_setup *setup, const dp_chain *c, double z, 
     out->separation = separation;
     if (setup->spec.triangles.width != 0) {
         const dp_composed_vertex moved =
-            terms->world > 0.0 ? composed_vertex(setup, c, z, terms) : displaced_vertex(&terms->displaced);
-        add_triangles(setup, c, z, asked, &moved, out);
+            terms->world > 0.0 ? composed_vertex(setup, c, z, shared, terms) : displaced_vertex(&terms->displaced);
+        add_triangles(setup, c, z, shared, asked, &moved, out);
     }
     const double part = out->separation - plain->separation;
     for (int i = 0; i < DP_CAUSE_COUNT; i++)
@@ -226,7 +238,7 @@ static dp_status matrix_budget(const dp_setup *setup, double z, const dp_budget_
     share_out(setup, z, longest, d.window, part, out);
     dp_budget plain = *out;
     if (setup->spec.triangles.width != 0)
-        add_triangles(setup, &c, z, part, NULL, &plain);
+        add_triangles(setup, &c, z, 0.0, part, NULL, &plain);
     if (terms != NULL && is_moved(terms))
         add_composition(setup, &c, z, terms, part, &plain, out);
     else

@@ -3,6 +3,7 @@
 #include <math.h>
 #include <string.h>
 
+#include "api/unit.h"
 #include "core/append.h"
 #include "need/model.h"
 #include "need/reader.h"
@@ -180,6 +181,8 @@ static bool read_world(reader *r, config_setting_t *const *found, const draft *d
         return reader_fail(r, scheme,
                            "scheme: must be NAME or NAME:SIZE as 'depthprec list schemes' has them, got '%.40s'", text);
     }
+    if (out->scheme.row->metres && strchr(text, ':') == NULL)
+        out->scheme.size = unit_convert(out->scheme.size, unit_find("m"), r->unit);
     if (d->spec.ortho || dp_mapping_get(d->spec.mapping)->curve != DP_CURVE_PERSPECTIVE)
         return reader_fail(r, world,
                            "world: needs a perspective and one of the mappings " DP_MAPPING_NAMES_PERSPECTIVE);

@@ -105,7 +105,7 @@ void arithmetic_camera_double(const world_scheme *s, const world_camera *c, cons
     (void)s;
     float seen[3];
     for (int i = 0; i < 3; i++)
-        seen[i] = (float)(place->origin[i] - c->eye[i] + place->local[i]);
+        seen[i] = (float)(place->origin[i] + place->local[i] - c->eye[i]);
     turn_round(c, seen, out);
 }
 
@@ -131,19 +131,22 @@ void arithmetic_split(const world_scheme *s, const world_camera *c, const world_
 /* The whole number of sizes next to v, or almost so, and what is left, as so many parts of a size. */
 static double nearest(double size, double v, double lag, double parts, float *offset) {
     const double index = rint(v / size + lag);
-    *offset = (float)((v - index * size) * (parts / size));
+    *offset = (float)(fma(-index, size, v) * (parts / size));
     return index;
 }
 
-/* In a unit in which a tile is a power of two: in metres Unreal's has no binary32 number. */
+/*
+ * In a unit in which a tile is a power of two: in metres Unreal's has no binary32 number. The number of a tile has one
+ * up to 2^24 (TLargeWorldRenderScalar::MakeTile).
+ */
 void arithmetic_tile(const world_scheme *s, const world_camera *c, const world_place *place, float out[3]) {
     static const double parts = 0x1p21;
     float seen[3];
     for (int i = 0; i < 3; i++) {
         float offset, camera_offset;
-        const double tile = nearest(s->size, place->origin[i], 0.0, parts, &offset);
-        const double camera_tile = nearest(s->size, c->eye[i], 0.0, parts, &camera_offset);
-        const float tiles = (float)(tile - camera_tile) * (float)parts, offsets = offset - camera_offset;
+        const float tile = (float)nearest(s->size, place->origin[i], 0.0, parts, &offset);
+        const float camera_tile = (float)nearest(s->size, c->eye[i], 0.0, parts, &camera_offset);
+        const float tiles = (tile - camera_tile) * (float)parts, offsets = offset - camera_offset;
         const float origin = tiles + offsets;
         seen[i] = origin + (float)(place->local[i] * (parts / s->size));
     }

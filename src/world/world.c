@@ -12,8 +12,11 @@ static const double unit = 0x1p-24;
 static const double root3 = 1.73205081;
 static const double turn = WORLD_TURN;
 
-/* Terms of second order; what is formed in double first; and numbers that may be flushed. */
-static const double outward = 1.0 + 0x1p-16, in_double = 0x1p-50, flushed = 0x1p-120;
+/* Terms of second order, and what is formed in double on the way to a binary32 number; and numbers that are flushed. */
+static const double outward = 1.0 + 0x1p-16, flushed = 0x1p-120;
+
+/* Half a unit of a double in the world, and of the second of two binary32 numbers. */
+static const double in_double = 0x1p-53, low_part = 0x1p-49;
 
 /* Half a unit in the last place of the largest binary32 number that is not above x. */
 static double half_ulp(double x) {
@@ -44,12 +47,19 @@ static world_error of_world(const world_scheme *s, const world_where *at) {
                          .camera = turn * far_off + unit * at->distance};
 }
 
+/* Where it seems to be, once mesh and camera are off by so much: what comes after is rounded there. */
+static world_where seen(const world_where *at, double mesh, double camera) {
+    const double off = mesh + camera;
+    return (world_where){at->distance, at->length + off, at->result + off};
+}
+
 static world_error of_local(const world_scheme *s, const world_where *at) {
     (void)s;
     const double origin = at->distance + 2.0 * at->length;
-    return (world_error){.vertex = unit * at->length + summed(at->length, at->result),
-                         .mesh = unit * origin + summed(origin, 2.0 * at->length),
-                         .camera = turn * (at->distance + at->length) + unit * at->distance};
+    world_error e = {.mesh = unit * origin + summed(origin, 2.0 * at->length),
+                     .camera = turn * (at->distance + at->length) + unit * at->distance};
+    e.vertex = unit * at->length + summed(at->length, seen(at, e.mesh, e.camera).result);
+    return e;
 }
 
 static world_error of_camera_float(const world_scheme *s, const world_where *at) {
@@ -60,63 +70,77 @@ static world_error of_camera_float(const world_scheme *s, const world_where *at)
 
 static world_error of_camera_double(const world_scheme *s, const world_where *at) {
     (void)s;
-    return (world_error){.vertex = unit * at->length + turned(at), .camera = turn * at->length};
+    return (world_error){.vertex = in_double * (at->distance + at->length) + unit * at->length + turned(at),
+                         .camera = turn * at->length};
+}
+
+/* What multiples of the size are off by, up to x: 2^24 of them are binary32 numbers. */
+static double multiple(const world_scheme *s, double x) {
+    return x > 0x1p24 * s->size ? unit * x : 0.0;
 }
 
 static world_error of_split(const world_scheme *s, const world_where *at) {
     const double far_off = at->distance + at->length;
     const double low = root3 * half_ulp_below(s->size);
-    const double high = far_off > 0x1p24 * s->size ? unit * far_off : 0.0; /* no longer a binary32 number */
-    return (world_error){.vertex = (far_off < s->size ? unit * far_off : 2.0 * low) + 2.0 * high +
-                                   unit * 3.0 * at->length + turned(at),
-                         .camera = (at->distance < s->size ? unit * at->distance : low) + high + turn * at->length};
+    return (world_error){.vertex = (far_off < s->size ? unit * far_off : 2.0 * low) + multiple(s, far_off) +
+                                   in_double * far_off + unit * 3.0 * at->length + turned(at),
+                         .camera = (at->distance < s->size ? unit * at->distance : low) + multiple(s, at->distance) +
+                                   turn * at->length};
 }
 
 static world_error of_tile(const world_scheme *s, const world_where *at) {
     const double half = 0.5 * s->size, away = 2.0 * at->length, origin = at->distance + away;
     const double off = root3 * unit * 0.5 * half; /* a tile is a power of two there */
-    return (world_error){.vertex = unit * 2.0 * at->length + turned(at),
-                         .mesh = (origin < half ? unit * origin : 3.0 * off) + 2.0 * unit * away,
-                         .camera = (at->distance < half ? unit * at->distance : off) + turn * at->length};
+    world_error e = {.mesh = (origin < half ? unit * origin : 3.0 * off) + multiple(s, origin) + 2.0 * unit * away,
+                     .camera = (at->distance < half ? unit * at->distance : off) + multiple(s, at->distance) +
+                               turn * at->length};
+    const world_where there = seen(at, e.mesh, e.camera);
+    e.vertex = unit * (at->length + there.length) + turned(&there);
+    return e;
 }
 
 static world_error of_two_sum(const world_scheme *s, const world_where *at) {
     (void)s;
     const double away = 2.0 * at->length;
-    return (world_error){.vertex = unit * 2.0 * at->length + turned(at),
-                         .mesh = unit * away + 0x1.8p-48 * (2.0 * at->distance + away),
-                         .camera = turn * at->length};
+    world_error e = {.mesh = unit * away + low_part * (at->distance + away),
+                     .camera = low_part * at->distance + turn * at->length};
+    const world_where there = seen(at, e.mesh, e.camera);
+    e.vertex = unit * (at->length + there.length) + turned(&there);
+    return e;
 }
 
 static world_error of_cell(const world_scheme *s, const world_where *at) {
     const double most = WORLD_CELL_MOST * s->size;
-    const double eye = fmin(at->distance, root3 * most), away = 2.0 * at->length;
+    const double eye = fmin(at->distance, root3 * most), away = 2.0 * at->length, origin = at->distance + away;
     const double off = root3 * half_ulp(most), far_off = eye + at->length;
-    return (world_error){.vertex = unit * (at->length + far_off) + summed(far_off, at->result),
-                         .mesh = fmin(unit * (at->distance + away), off) + unit * (eye + away),
-                         .camera = fmin(unit * at->distance, off) + turn * far_off + unit * eye};
+    world_error e = {.mesh = fmin(unit * origin, off) + unit * (eye + away),
+                     .camera = fmin(unit * at->distance, off) + turn * far_off + unit * eye};
+    const world_where there = seen(at, e.mesh, e.camera);
+    e.vertex = unit * (there.length + eye + at->length) + summed(there.length + eye, there.result);
+    return e;
 }
 
 /* clang-format off */
 static const world_row rows[WORLD_ROWS] = {
     {"world", "vertices in the world through a view matrix; of a reversed infinite projection through one of both, too",
-     NULL, 0.0, false,
-     "common", arithmetic_world, of_world},
-    {"local", "vertices about an origin, whose matrix and the view's are multiplied in binary32", NULL, 0.0, false,
-     "common", arithmetic_local, of_local},
-    {"camera-float", "vertices less the camera, both in binary32, then a view without translation", NULL, 0.0, false,
-     "deck.gl before 64-bit shaders; Filament, issue 913", arithmetic_camera_float, of_camera_float},
+     NULL, 0.0,
+     false, false, "common", arithmetic_world, of_world},
+    {"local", "vertices about an origin, whose matrix and the view's are multiplied in binary32", NULL, 0.0,
+     false, false, "common", arithmetic_local, of_local},
+    {"camera-float", "vertices less the camera, both in binary32, then a view without translation", NULL, 0.0,
+     false, false, "deck.gl before 64-bit shaders; Filament, issue 913", arithmetic_camera_float, of_camera_float},
     {"split", "each coordinate a multiple of the size and a rest, subtracted part by part", "the multiples",
-     65536.0, true, "Cesium, EncodedCartesian3.js and translateRelativeToEye.glsl", arithmetic_split, of_split},
+     65536.0, true, false, "Cesium, EncodedCartesian3.js and translateRelativeToEye.glsl", arithmetic_split, of_split},
     {"tile", "tile and offset of each mesh's origin, subtracted part by part", "the edge of a tile",
-     20971.52, false, "Unreal Engine 5.0 manual, Large World Coordinates: 2097152 units of 1 cm",
+     20971.52, false, true, "Unreal Engine 5.0 manual, Large World Coordinates: 2097152 units of 1 cm",
      arithmetic_tile, of_tile},
     {"cell", "cell and offset of each mesh's origin, about the camera's cell; there as world", "the edge of a cell",
-     2000.0, false, "big_space, src/grid/cell.rs: edge 2000, threshold 100", arithmetic_cell, of_cell},
-    {"two-sum", "origins of meshes and camera as two binary32 numbers each, added without loss", NULL, 0.0, false,
-     "Godot with double precision, scene_forward_clustered.glsl, PR 66178", arithmetic_two_sum, of_two_sum},
-    {"camera-double", "vertices less the camera in double, then rounded", NULL, 0.0, false,
-     "common; Filament, issue 913", arithmetic_camera_double, of_camera_double},
+     2000.0, false, false, "big_space, src/grid/cell.rs: edge 2000, threshold 100", arithmetic_cell, of_cell},
+    {"two-sum", "origins of meshes and camera as two binary32 numbers each, added without loss", NULL, 0.0,
+     false, false, "Godot with double precision, scene_forward_clustered.glsl, PR 66178",
+     arithmetic_two_sum, of_two_sum},
+    {"camera-double", "vertices less the camera in double, then rounded", NULL, 0.0,
+     false, false, "common; Filament, issue 913", arithmetic_camera_double, of_camera_double},
 };
 /* clang-format on */
 
@@ -150,9 +174,9 @@ void world_view(const world_scheme *s, const world_camera *camera, const world_p
 
 world_error world_bound(const world_scheme *s, const world_where *at) {
     world_error e = s->row->bound(s, at);
-    e.vertex = e.vertex * outward + in_double * (at->distance + 2.0 * at->length) + flushed;
+    e.vertex = e.vertex * outward + flushed;
     e.mesh *= outward;
-    e.camera = e.camera * outward + in_double * at->distance;
+    e.camera *= outward;
     return e;
 }
 

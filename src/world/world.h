@@ -57,6 +57,7 @@ struct world_row {
     const char *size;   /**< what the number behind the name is; null where there is none */
     double standard;    /**< the size where none is given */
     bool power2;        /**< the size is a power of two */
+    bool metres;        /**< `standard` is of metres; else of scene units, whatever they are */
     const char *source; /**< who does so */
     void (*view)(const world_scheme *s, const world_camera *camera, const world_place *place, float out[3]);
     world_error (*bound)(const world_scheme *s, const world_where *at);
@@ -88,7 +89,7 @@ world_error world_bound(const world_scheme *s, const world_where *at);
 /**
  * How far behind a surface at eye depth z another one, on a ray from the camera, surely has the larger view z: at this
  * or more. Before anything else is rounded. @param lean  no surface is farther than this times its eye depth, at most
- * 10
+ * 1e7
  */
 double world_gap(const world_scheme *s, double distance, double z, double lean, bool shared_origin);
 
