@@ -13,6 +13,8 @@
 #include <stdbool.h>
 #include <stddef.h>
 
+#include "api/bias.h"
+#include "api/platform.h"
 #include "depthprec/depthprec.h"
 
 enum {
@@ -23,11 +25,20 @@ enum {
     PROFILE_FORMATS_SIZE = 256
 };
 
+/** A depth format, and r of a bias in it: 2^-N of a UNORM format and 2^(n - M) of a float one, times at least `least`
+ * and at most `most`; 0, 0 where not each of the GPUs was measured for sure. */
+typedef struct profile_format {
+    dp_format format;
+    double least, most;
+    bool cuts; /**< fractions of a constant are cut: 0.5 becomes 0 */
+} profile_format;
+
 /** What holds on each of the GPUs whose profiles were added; all zero: no profile. */
 typedef struct profile {
-    char measured[PROFILE_MEASURED_SIZE];  /**< "NAME, driver DRIVER", each once; "" without a profile */
-    dp_format stored[PROFILE_FORMATS_MAX]; /**< the depth formats that all of them store; see profile_stores() */
+    char measured[PROFILE_MEASURED_SIZE];       /**< "NAME, driver DRIVER", each once; "" without a profile */
+    profile_format stored[PROFILE_FORMATS_MAX]; /**< what all of them store; see profile_stores() */
     size_t stored_count;
+    const char *api; /**< of list apis: what they were asked by, "vulkan" or "gl"; null where by several */
 } profile;
 
 /** Whether a text means a file: it has a point or a slash, which no name of a row has. */
@@ -47,5 +58,13 @@ bool profile_stores(const profile *p, const dp_format *format);
 
 /** The names of what they store, "fp32 or unorm16"; "nothing". @return out */
 const char *profile_formats(const profile *p, char out[PROFILE_FORMATS_SIZE]);
+
+/** r as it was measured of an API's bias in that format, as it arrives by a platform, or null; null where it was not.
+ */
+const profile_format *profile_biased(const profile *p, const platform *by, const bias_api *api,
+                                     const dp_format *format);
+
+/** platform_bias() with the r that was measured, where one was; the convention of the exponent is then not open. */
+bias_api profile_bias(const profile *p, const platform *by, const bias_api *api, const dp_format *format);
 
 #endif
