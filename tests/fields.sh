@@ -48,6 +48,11 @@ all_named table --at 10 --viewport 640x480
 all_named table -m log --at 10 --viewport 640x480
 worst=1 all_named check tests/needs/village.need
 worst=1 all_named check tests/needs/slopes.need
+cat >"$scratch/measured.need" <<END
+cameras = { a = { near = 0.1; far = 9; mapping = "d3d"; format = "fp32"; arith = "$PWD/tests/profiles/lavapipe.json"; }; };
+requirements = { r = { camera = "a"; at = 5; separation = 1; }; };
+END
+all_named check "$scratch/measured.need"
 all_named solve -f 1000 -F unorm24 -m d3d --separation 0.01 --at 100
 all_named solve -f 1000 -F unorm24 -m d3d --error 0.01 --at 100
 all_named solve --for distance -n 0.1 -f 1000 -F unorm24 -m d3d --separation 0.01

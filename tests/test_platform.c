@@ -57,6 +57,33 @@ static void test_published(void **state) {
 }
 
 /*
+ * The same of 24 bits: one code on D3D and Metal, as binary32; Vulkan's choice up to two of 2^-24, which ANGLE may
+ * double; GL's without a bound, 2^-24 taken, which Dawn and ANGLE halve.
+ */
+static void test_bias_of_codes(void **state) {
+    static const double code = 0x1.000002p-24, power = 0x1p-24;
+    static const struct {
+        const char *name;
+        double least, most;
+    } published[] = {
+        {"chrome-d3d", code, code},          {"firefox-d3d", code, code},       {"safari", code, code},
+        {"chrome-vulkan", power, 2 * power}, {"vulkan", power, 2 * power},      {"webgl-vulkan", power, 4 * power},
+        {"chrome-gl", power / 2, INFINITY},  {"webgl-gl", power / 2, INFINITY}, {"gl", power, INFINITY},
+        {"webgl-d3d", code, code},           {"webgl-metal", code, code},       {"firefox-gl", power, INFINITY},
+    };
+    dp_format unorm24[2];
+    (void)state;
+    assert_int_equal(dp_format_parse("unorm24", unorm24), 1);
+    for (size_t i = 0; i < sizeof published / sizeof published[0]; i++) {
+        const platform *row = platform_find(published[i].name);
+        const bias_api here = platform_bias(row, bias_api_find(row->api));
+        const bias_unit unit = bias_unit_at(&here, &unorm24[0], 0.3);
+        if (unit.least != published[i].least || unit.most != published[i].most)
+            fail_msg("%s: r from %a to %a", row->name, unit.least, unit.most);
+    }
+}
+
+/*
  * What arrives of a bias. r of 0.3 in a float buffer: 2^(n - 23) by the WebGPU CTS and on D3D; GL and Vulkan leave n or
  * n + 1 open (vk-gl-cts issue 4169). Dawn halves on desktop GL, ANGLE on GL; ANGLE doubles for some Vulkan devices, and
  * cuts fractions on D3D11; wgpu's GL drops the clamp.
@@ -115,6 +142,6 @@ static void test_rows(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {cmocka_unit_test(test_published), cmocka_unit_test(test_bias),
-                                       cmocka_unit_test(test_rows)};
+                                       cmocka_unit_test(test_bias_of_codes), cmocka_unit_test(test_rows)};
     return run_tap(tests);
 }

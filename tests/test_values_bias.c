@@ -308,7 +308,35 @@ static void test_bias(void **state) {
     }
 }
 
+/* What a browser does to units before they arrive, times what fp32 makes of one at a depth of 0.01: 2^(-7 - 23). */
+static void test_platforms(void **state) {
+    static const struct {
+        const char *platform, *units;
+        double times;
+    } cases_of[] = {
+        {"webgl-d3d", "1.5", 1},    {"webgl-d3d", "-2.75", -2}, {"webgl-d3d", "0.5", 0}, {"webgl-metal", "1.5", 1.5},
+        {"webgl-gl", "3", 1.5},     {"webgl-gl", "-5", -2.5},   {"gl", "3", 3},          {"gl", "0.5", 0.5},
+        {"webgl-vulkan", "3", 3},   {"vulkan", "3.25", 3.25},   {"safari", "3", 3},      {"metal", "-1.25", -1.25},
+        {"firefox-vulkan", "7", 7}, {"chrome-d3d", "-2", -2},
+    };
+    (void)state;
+    for (size_t i = 0; i < sizeof cases_of / sizeof cases_of[0]; i++) {
+        printed p = print_of("bias --platform %s -F fp32 -m reversed -n 0.1 -f inf --at 10 --units=%s --json",
+                             cases_of[i].platform, cases_of[i].units);
+        assert_int_equal(p.status, 0);
+        json_t *root = json_of(p.out);
+        json_t *setup = json_array_get(json_object_get(root, "setups"), 0);
+        json_t *row = json_array_get(json_object_get(setup, "rows"), 0);
+        const double bias = json_number_value(json_object_get(row, "bias"));
+        if (bias != ldexp(cases_of[i].times, -30))
+            fail_msg("%s, %s units: %g steps", cases_of[i].platform, cases_of[i].units, ldexp(bias, 30));
+        json_decref(root);
+        printed_free(&p);
+    }
+}
+
 int main(void) {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(test_bias), cmocka_unit_test(check_apart)};
+    const struct CMUnitTest tests[] = {cmocka_unit_test(test_bias), cmocka_unit_test(test_platforms),
+                                       cmocka_unit_test(check_apart)};
     return run_tap(tests);
 }

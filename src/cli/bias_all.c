@@ -50,6 +50,22 @@ bias_call_text bias_call(const bias_api *api, double units, double factor) {
     return call_of(api, units_text(units).text, number_full(factor).text);
 }
 
+const char *bias_of_gpu(const options *o, const bias_api *api, const dp_format *format, char out[BIAS_CALL_SIZE]) {
+    const profile_format *of = profile_biased(&o->gpu, o->platform, api, format);
+    out[0] = '\0';
+    if (of == NULL)
+        return out;
+    append(out, BIAS_CALL_SIZE, "on this GPU r is %s", number_full(of->least).text);
+    if (format->kind == DP_FORMAT_UNORM) {
+        append(out, BIAS_CALL_SIZE, " code%s", of->least == 1.0 ? "" : "s");
+        return out;
+    }
+    if (of->least < of->most)
+        append(out, BIAS_CALL_SIZE, " to %s", number_full(of->most).text);
+    append(out, BIAS_CALL_SIZE, " times 2^(n-%d), for a depth in [2^n, 2^(n+1))", format->mantissa_bits);
+    return out;
+}
+
 int bias_check_slant(const options *o) {
     for (size_t i = 0; i < o->mapping_count && o->triangles.width > 0; i++)
         if (dp_mapping_get(o->mappings[i])->curve != DP_CURVE_PERSPECTIVE)
@@ -116,7 +132,7 @@ static void write_short(double units, char out[NUMBER_SIZE]) {
 
 static void measure(const all *a, const bias_api *named, const dp_setup *setup, double z, row *r) {
     const options *o = &a->walk.here;
-    const bias_api here = platform_bias(o->platform, named), *api = &here;
+    const bias_api here = profile_bias(&o->gpu, o->platform, named, &setup->spec.format), *api = &here;
     const bias_goal goal = goal_of(o, api, setup);
     *r = (row){.api = api->name, .label = api->name, .z = z, .lo = (double)NAN, .hi = (double)NAN, .units_z = z};
     r->factor = goal.factor * bias_sign(setup) + 0.0; /* no -0 */
@@ -205,12 +221,33 @@ static void say_setup(page *p, void *item) {
     say_goal(p, a);
 }
 
-static void say_choice(page *p, const dp_format *format) {
+static const char *const chosen_by_drivers[] = {"vulkan", "gl"};
+
+static const bias_api *api_named(const char *name) {
+    size_t i = 0;
+    while (strcmp(bias_api_get(i)->name, name) != 0)
+        i++;
+    return bias_api_get(i);
+}
+
+/* "vulkan and gl", or which of them was not measured; what was measured is told. */
+static const char *say_measured(page *p, const options *o, const dp_format *format) {
+    char text[2][BIAS_CALL_SIZE];
+    for (int i = 0; i < 2; i++)
+        if (bias_of_gpu(o, api_named(chosen_by_drivers[i]), format, text[i])[0] != '\0')
+            page_line(p, "%s: %s", chosen_by_drivers[i], text[i]);
+    return text[0][0] != '\0' ? "gl" : text[1][0] != '\0' ? "vulkan" : "vulkan and gl";
+}
+
+static void say_choice(page *p, const options *o, const dp_format *format) {
+    const char *const open = say_measured(p, o, format);
     if (format->kind == DP_FORMAT_UNORM)
-        page_line(p, "vulkan and gl: r is the implementation's choice, 2^-%d is assumed", format->bits);
+        page_line(p, "%s: r is the implementation's choice, 2^-%d is assumed", open, format->bits);
     else
-        page_line(p, "vulkan and gl: the exponent of a depth is the driver's to read, r may be twice as much: these "
-                     "units are enough with both, half of them with that");
+        page_line(p,
+                  "%s: the exponent of a depth is the driver's to read, r may be twice as much: these units are "
+                  "enough with both, half of them with that",
+                  open);
 }
 
 static void say_notes(page *p, void *item) {
@@ -223,7 +260,7 @@ static void say_notes(page *p, void *item) {
         page_line(p, "%s", BIAS_DRAWN_TWICE);
     if (bias_is_missed(a->walk.setup))
         page_line(p, "%s", BIAS_MISSED);
-    say_choice(p, &a->walk.setup->spec.format);
+    say_choice(p, &a->walk.here, &a->walk.setup->spec.format);
 }
 
 /* Formats above mappings, and below what is written in place of U. */
@@ -327,7 +364,8 @@ int bias_all_write(const options *o) {
     if (status == EXIT_FINE)
         status = range_resolve(o, &a.lo, &a.hi);
     const bool beside = o->form == FORM_TEXT && !o->full && a.walk.all.count > 1 && a.walk.all.count <= BESIDE &&
-                        (a.by_range || a.walk.at.count == 1) && a.triangles == NULL;
+                        (a.by_range || a.walk.at.count == 1) && a.triangles == NULL &&
+                        o->gpu.measured[0] == '\0'; /* what was measured is told of each format */
     const unsigned when = (a.by_range ? OF_RANGE : OF_DEPTHS) | (!a.by_range && a.walk.at.count > 1 ? OF_SEVERAL : 0) |
                           (a.triangles != NULL ? WITH_TRIANGLES : 0);
     if (beside)

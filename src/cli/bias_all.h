@@ -37,6 +37,10 @@ static inline bool bias_chooses_factor(const options *o) {
     return o->triangles.width > 0 && !option_given(o, OPTION_FACTOR) && !option_given(o, OPTION_SLOPE);
 }
 
+/** What was measured of an API's r in that format on the GPU of a profile: a sentence, "" where nothing was. @return
+ * out */
+const char *bias_of_gpu(const options *o, const bias_api *api, const dp_format *format, char out[BIAS_CALL_SIZE]);
+
 /** Refuses what no bias can be about: a viewport with a mapping that is not affine. @return an exit status */
 int bias_check_slant(const options *o);
 

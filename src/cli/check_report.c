@@ -51,6 +51,15 @@ static const char *sentence(const check_file *f, const check_verdict *v, char ou
     return out;
 }
 
+/* Which GPU the promises for a camera are for. */
+static void say_measured(page *p, const check_file *f) {
+    for (size_t i = 0; i < f->file.camera_count; i++) {
+        const need_camera *camera = &f->file.cameras[i];
+        if (camera->gpu.measured[0] != '\0')
+            page_text(p, "%s: camera %s: measured on %s", f->file.path, camera->name, camera->gpu.measured);
+    }
+}
+
 static void write_text(const options *o, bool failures, output *out, const check_file *files, size_t count) {
     char text[SENTENCE_SIZE], label[SETUP_LABEL_SIZE];
     page p = page_start(out, 4); /* where what decided is indented to */
@@ -68,6 +77,8 @@ static void write_text(const options *o, bool failures, output *out, const check
                           setup_label(&v->setup, true, label));
         }
         if (!failures)
+            say_measured(&p, f);
+        if (!failures)
             page_text(&p, "%s: %ld passed, %ld failed", f->file.path, (long)f->count - f->failed, f->failed);
     }
 }
@@ -75,17 +86,21 @@ static void write_text(const options *o, bool failures, output *out, const check
 /* ---- JUnit ------------------------------------------------------------------------------------------------------- */
 
 static void say_case(output *out, const check_file *f, const check_verdict *v) {
-    char text[SENTENCE_SIZE], name[SENTENCE_SIZE], label[SETUP_LABEL_SIZE], full[SETUP_LABEL_SIZE], line[16];
+    char text[SENTENCE_SIZE], name[SENTENCE_SIZE], label[SETUP_LABEL_SIZE], line[16];
+    char full[SETUP_LABEL_SIZE], detail[SETUP_LABEL_SIZE + PROFILE_MEASURED_SIZE + 16];
+    const char *const measured = v->camera->gpu.measured;
     snprintf(line, sizeof line, "%d", v->asked->line);
     snprintf(name, sizeof name, "%s (%s%s)", v->asked->name, setup_label(&v->setup, false, label),
              check_is_slanted(v) ? ", any slant" : "");
+    snprintf(detail, sizeof detail, "%s%s%s", setup_label(&v->setup, true, full),
+             measured[0] != '\0' ? ", measured on " : "", measured);
     junit_case(out, &(junit_row){.classname = v->camera->name,
                                  .name = name,
                                  .file = f->file.path,
                                  .line = line,
                                  .type = v->passed ? NULL : need_kind_get(v->asked->kind)->name,
                                  .message = v->passed ? NULL : sentence(f, v, text),
-                                 .detail = setup_label(&v->setup, true, full)});
+                                 .detail = detail});
 }
 
 static void write_junit(output *out, const check_file *files, size_t count) {
@@ -104,6 +119,7 @@ static void write_junit(output *out, const check_file *files, size_t count) {
 /* A verdict, and what of it is named elsewhere. */
 typedef struct verdict {
     const char *file, *name, *camera, *kind, *unit, *method; /* unit: null where the file does not say */
+    const char *measured;                                    /* null without a profile */
     need asked;
     check_verdict found;
     setup_fields setup;
@@ -135,6 +151,7 @@ static void *next_verdict(void *of, size_t i) {
                   .kind = need_kind_get(v->asked->kind)->name,
                   .unit = f->file.unit[0] != '\0' ? f->file.unit : NULL,
                   .method = check_method_name(v->method),
+                  .measured = v->camera->gpu.measured[0] != '\0' ? v->camera->gpu.measured : NULL,
                   .asked = *v->asked,
                   .setup = setup_fields_of(&v->setup, f->file.unit[0] != '\0' ? f->file.unit : NULL),
                   .found = *v,
@@ -162,6 +179,7 @@ static const column verdict_columns[] = {
     {FIELD(verdict, method, "method", "")},
     {FIELD(verdict, found.passed, "passed", "")},
     {FIELD(verdict, surfaces, "surfaces", "")},
+    {FIELD(verdict, measured, "measured", ""), .only = AS_JSON, .optional = true},
     {PART(verdict, triangles, "triangles", slant_columns), .only = AS_JSON, .pointed = true, .optional = true},
     {.kind = COLUMN_END}};
 

@@ -38,7 +38,10 @@ typedef struct needs {
 typedef struct biasing {
     walk walk;
     const char *api;
-    bias_api row_here; /* as the platform has it */
+    const bias_api *named;
+    double units_sent; /* as the platform sends them */
+    bool cuts;         /* the GPU cuts fractions of them */
+    bias_api row_here; /* as the platform has it, and the GPU that was measured in the set-up's format */
     bias_state state;
     bias_goal goal;
     bool inverse; /* no bias was given: one is asked for */
@@ -132,11 +135,22 @@ static needs over_range(const biasing *b) {
     return n;
 }
 
+/* The API as the platform and the GPU have it in the format of this set-up. */
+static void take_measured(biasing *b) {
+    const options *o = b->walk.o;
+    const dp_format *format = &b->walk.setup->spec.format;
+    const profile_format *found = profile_biased(&o->gpu, o->platform, b->named, format);
+    b->row_here = profile_bias(&o->gpu, o->platform, b->named, format);
+    b->cuts = found != NULL && found->cuts;
+    b->state.units = b->cuts ? trunc(b->units_sent) : b->units_sent;
+}
+
 static void *next_setup(void *of, size_t i) {
     biasing *b = of;
     if (!walk_setup(&b->walk, i))
         return NULL;
     b->limited = false;
+    take_measured(b);
     if (b->triangles != NULL) {
         b->slanted = reach_in(b->walk.setup, DP_MODEL_FP32);
         b->facing = dp_setup_facing(&b->slanted);
@@ -210,9 +224,34 @@ static void say_range(page *p, const biasing *b) {
                   number_in(number_of(r->hi, DIGITS_Z), p->unit).text);
 }
 
+/* What of r was measured. @return whether there is nothing more to say of it */
+static bool say_measured(page *p, const biasing *b) {
+    const options *o = b->walk.o;
+    char text[BIAS_CALL_SIZE];
+    if (o->gpu.measured[0] == '\0')
+        return false;
+    bias_of_gpu(o, b->named, &b->walk.setup->spec.format, text);
+    if (text[0] == '\0')
+        page_line(p, "of this GPU r was not measured for %s", b->named->name);
+    else
+        page_line(p, "%s%s", text, b->cuts ? "; fractions of units are cut: 0.5 becomes 0" : "");
+    return text[0] != '\0';
+}
+
+/* What the API leaves open. */
+static void say_open(page *p, const biasing *b) {
+    const bias_unit unit = bias_unit_at(b->state.api, &b->walk.setup->spec.format, 1.0);
+    if (isinf(unit.most))
+        page_line(p, "r is the implementation's choice: the value shown is assumed");
+    else if (bias_is_open(b->state.api, &b->walk.setup->spec.format))
+        page_line(p, "drivers take the exponent of a depth in [2^n, 2^(n+1)) as n or n+1: r is up to %s times this",
+                  number_of(unit.most / unit.least, DIGITS_SHORT).text);
+    else if (unit.most > unit.least)
+        page_line(p, "r is the implementation's choice: up to twice the value shown");
+}
+
 static void say_notes(page *p, void *item) {
     const biasing *b = item;
-    const bias_unit unit = bias_unit_at(b->state.api, &b->walk.setup->spec.format, 1.0);
     if (b->inverse)
         say_range(p, b);
     else
@@ -229,13 +268,8 @@ static void say_notes(page *p, void *item) {
                   number_full(least).text);
     if (b->limited && !b->inverse)
         page_line(p, "a biased depth that leaves [0, 1] is held at the plane");
-    if (isinf(unit.most))
-        page_line(p, "r is the implementation's choice: the value shown is assumed");
-    else if (bias_is_open(b->state.api, &b->walk.setup->spec.format))
-        page_line(p, "drivers take the exponent of a depth in [2^n, 2^(n+1)) as n or n+1: r is up to %s times this",
-                  number_of(unit.most / unit.least, DIGITS_SHORT).text);
-    else if (unit.most > unit.least)
-        page_line(p, "r is the implementation's choice: up to twice the value shown");
+    if (!say_measured(p, b))
+        say_open(p, b);
     if (b->walk.o->platform != NULL && b->walk.o->platform->bias[0] != '\0')
         page_line(p, "%s %s", b->walk.o->platform->name, b->walk.o->platform->bias);
 }
@@ -352,10 +386,12 @@ int cmd_bias(const options *given) {
                  .goal = {.api = api, .slope = o.slope, .gap = o.gap},
                  .inverse = !option_given(&o, OPTION_UNITS),
                  .api = api->name,
+                 .named = api,
                  .row_here = platform_bias(o.platform, api)};
     b.state.api = b.goal.api = &b.row_here;
     if (o.platform != NULL && o.platform->cuts)
         b.state.units = trunc(o.units);
+    b.units_sent = b.state.units;
     b.units = b.inverse ? (double)NAN : o.units;
     b.gap = b.inverse ? o.gap : (double)NAN;
     b.triangles = slant_fields_of(&o, &b.slant);

@@ -237,7 +237,7 @@ static int add_asked(solve_report *r, solve_result *result) {
 /* Whether there is a guarantee of what is asked about. */
 static bool is_covered(const solve_report *r, const dp_spec *spec) {
     const raster_row *raster = r->o->raster;
-    if (!options_stored(r->o, &spec->format))
+    if (!profile_stores(&r->o->gpu, &spec->format))
         return false;
     return spec->triangles.width == 0 ||
            (has_pipeline(spec->mapping) && (raster == NULL || raster_bounded(raster, &spec->format)));

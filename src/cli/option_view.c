@@ -72,9 +72,10 @@ int slant_view(options *o) {
                                        OPTION_SLANT, OPTION_PLANE, OPTION_TRIANGLE};
     enum { OF_PICTURES = 3 }; /* the first of them, which a picture takes, too: see view_drawn() */
     const bool slanted = o->triangles.width > 0;
+    const bool measured = o->verb->bit == VERB_BIAS && o->gpu.measured[0] != '\0'; /* of r, at any slant */
     const bool by_preset = o->preset_count == 1 && !option_given(o, OPTION_FOV) && !option_given(o, OPTION_HFOV);
     for (size_t i = o->render != NULL ? OF_PICTURES : 0; i < sizeof beside / sizeof beside[0]; i++)
-        if (option_given(o, beside[i]) && !slanted)
+        if (option_given(o, beside[i]) && !slanted && !(beside[i] == OPTION_RASTER && measured))
             return option_refuse(&option_rows[beside[i]], "needs --viewport: surfaces face the camera");
     if (!slanted)
         return EXIT_FINE;

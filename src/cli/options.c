@@ -199,21 +199,12 @@ void options_of(const options *o, size_t camera, options *out) {
     take_platform(out);
 }
 
-bool options_stored(const options *o, const dp_format *format) {
-    bool found = o->measured[0] == '\0';
-    for (size_t i = 0; i < o->stored_count && !found; i++)
-        found = strcmp(o->stored[i].name, format->name) == 0;
-    return found;
-}
-
 int options_check_stored(const options *o, const dp_format *format) {
-    char names[OPTION_TEXT_SIZE] = "";
-    if (options_stored(o, format))
+    char names[PROFILE_FORMATS_SIZE];
+    if (profile_stores(&o->gpu, format))
         return EXIT_FINE;
-    for (size_t i = 0; i < o->stored_count; i++)
-        append(names, sizeof names, "%s%s", i == 0 ? "" : i + 1 < o->stored_count ? ", " : " or ", o->stored[i].name);
     return option_error(OPTION_FORMAT, "must be %s with a profile of a GPU that stores no other depth, got %s",
-                        o->stored_count > 0 ? names : "nothing", format->name);
+                        profile_formats(&o->gpu, names), format->name);
 }
 
 /* Of formats that nobody named those that the GPUs of the profiles store; one that was named has to be among them. */
@@ -222,7 +213,7 @@ static int keep_stored(options *o) {
     const bool any = given ? strcmp(o->given[OPTION_FORMAT], "all") == 0 : o->preset_count == 0 && o->platform == NULL;
     size_t kept = 0;
     for (size_t i = 0; i < o->format_count; i++) {
-        if (options_stored(o, &o->formats[i]))
+        if (profile_stores(&o->gpu, &o->formats[i]))
             o->formats[kept++] = o->formats[i];
         else if (!any || (i + 1 == o->format_count && kept == 0))
             return options_check_stored(o, &o->formats[i]);
@@ -397,6 +388,6 @@ int options_open(const options *o, output *out) {
     const int status = output_open(out, o->output);
     out->width = o->full ? OUTPUT_UNLIMITED : 0;
     out->colour = (output_colour)o->colour;
-    out->measured = o->measured[0] != '\0' ? o->measured : NULL;
+    out->measured = o->gpu.measured[0] != '\0' ? o->gpu.measured : NULL;
     return status;
 }

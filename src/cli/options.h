@@ -16,6 +16,7 @@
 #include "api/bias.h"
 #include "api/platform.h"
 #include "api/presets.h"
+#include "api/profile.h"
 #include "api/unit.h"
 #include "cli/depths.h"
 #include "cli/errors.h"
@@ -169,14 +170,7 @@ typedef enum solve_target {
 /** Values of --report. */
 typedef enum report_form { REPORT_TEXT = 0, REPORT_JSON, REPORT_JUNIT } report_form;
 
-enum {
-    OPTIONS_FORMATS_MAX = 64,
-    OPTIONS_PARAMETERS_MAX = 16,
-    OPTIONS_PRESETS_MAX = 16,
-    OPTIONS_MEASURED_SIZE = 512,
-    OPTIONS_STORED_MAX = 8, /**< depth formats of a GPU */
-    OPTIONS_SCHEMES_MAX = 16
-};
+enum { OPTIONS_FORMATS_MAX = 64, OPTIONS_PARAMETERS_MAX = 16, OPTIONS_PRESETS_MAX = 16, OPTIONS_SCHEMES_MAX = 16 };
 
 /** One --parameter NAME=VALUE; whose it is, and whether there is such a one, is for the command to see. */
 typedef struct named_number {
@@ -203,10 +197,8 @@ typedef struct options {
     dp_model model;
     bool model_auto; /**< --model auto: see choice.h; `model` is then exact */
     dp_arith arith;
-    bool budgeted; /**< only budgets are asked for: of logarithmic mappings, too, which have no codes in binary32 */
-    char measured[OPTIONS_MEASURED_SIZE]; /**< the GPUs of the profiles of --arith and --raster, "" of none */
-    dp_format stored[OPTIONS_STORED_MAX]; /**< what the GPUs of all those profiles store; see options_stored() */
-    size_t stored_count;
+    bool budgeted;    /**< only budgets are asked for: of logarithmic mappings, too, which have no codes in binary32 */
+    profile gpu;      /**< of --arith and --raster */
     double tolerance; /**< of the choice, a share */
     double log_c;
 
@@ -317,10 +309,8 @@ static inline size_t options_cameras(const options *o) {
     return o->preset_count > 1 ? o->preset_count : 1;
 }
 
-/** Whether the GPUs of the profiles store depth in that format; true without a profile. */
-bool options_stored(const options *o, const dp_format *format);
-
-/** The same; where they do not, one line on stderr says what they store. @return EXIT_FINE or EXIT_USAGE */
+/** Whether the GPUs of the profiles store depth in that format; where not, one line on stderr says what they store.
+ * @return EXIT_FINE or EXIT_USAGE */
 int options_check_stored(const options *o, const dp_format *format);
 
 /**

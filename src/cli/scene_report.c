@@ -206,7 +206,7 @@ static void say_finding(page *p, const scene *s, size_t i) {
 void scene_bias_take(scene *s) {
     const dp_setup *setup = &s->setup;
     const double least = bias_factor_least(setup), znear = setup->spec.znear;
-    const bias_api api = platform_bias(s->o.platform, s->o.api);
+    const bias_api api = profile_bias(&s->o.gpu, s->o.platform, s->o.api, &setup->spec.format);
     const bias_goal goal = {.api = &api, .factor = least};
     double units = HUGE_VAL, z;
     if (isfinite(least) && s->within > znear)

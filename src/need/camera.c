@@ -36,14 +36,19 @@ typedef struct draft {
     const preset *preset; /* null: none */
 } draft;
 
-/* A word among names; its index, or -1 after an error that lists them. */
-static int word_among(reader *r, const config_setting_t *s, const char *(*name)(size_t)) {
-    const char *text;
-    if (!reader_string(r, s, &text))
-        return -1;
+/* The index of a name, or -1. */
+static int index_of(const char *text, const char *(*name)(size_t)) {
     for (size_t i = 0; name(i) != NULL; i++)
         if (strcmp(name(i), text) == 0)
             return (int)i;
+    return -1;
+}
+
+/* The same after an error that lists the names. */
+static int among(reader *r, const config_setting_t *s, const char *text, const char *(*name)(size_t)) {
+    const int index = index_of(text, name);
+    if (index >= 0)
+        return index;
     char all[NEED_TEXT_SIZE / 2] = "";
     for (size_t i = 0; name(i) != NULL; i++) {
         reader_known(r, text, name(i));
@@ -53,12 +58,26 @@ static int word_among(reader *r, const config_setting_t *s, const char *(*name)(
     return -1;
 }
 
+static int word_among(reader *r, const config_setting_t *s, const char *(*name)(size_t)) {
+    const char *text;
+    return reader_string(r, s, &text) ? among(r, s, text, name) : -1;
+}
+
 static const char *rounding_name(size_t i) {
     return dp_rounding_name((dp_rounding)i);
 }
 
 static const char *arith_name(size_t i) {
     return i < dp_arith_count() ? dp_arith_get(i)->name : NULL;
+}
+
+static bool has_arith(const char *name) {
+    return index_of(name, arith_name) >= 0;
+}
+
+static int read_arith(reader *r, const config_setting_t *s, need_camera *out) {
+    char name[PROFILE_NAME_SIZE];
+    return reader_row(r, s, has_arith, out, name) ? among(r, s, name, arith_name) : -1;
 }
 
 static const char *preset_name(size_t i) {
@@ -122,17 +141,28 @@ static int read_model(reader *r, const config_setting_t *s) {
                                                                            : word_among(r, s, model_word);
 }
 
-static bool read_words(reader *r, config_setting_t *const *found, draft *d) {
+static bool read_words(reader *r, config_setting_t *const *found, draft *d, need_camera *out) {
     const int rounding = found[KEY_ROUNDING] != NULL ? word_among(r, found[KEY_ROUNDING], rounding_name) : 0;
     const int model = rounding >= 0 && found[KEY_MODEL] != NULL ? read_model(r, found[KEY_MODEL]) : DP_MODEL_COUNT;
     const int arith =
-        rounding >= 0 && model >= 0 && found[KEY_ARITH] != NULL ? word_among(r, found[KEY_ARITH], arith_name) : 0;
+        rounding >= 0 && model >= 0 && found[KEY_ARITH] != NULL ? read_arith(r, found[KEY_ARITH], out) : 0;
     if (rounding < 0 || model < 0 || arith < 0)
         return false;
     d->automatic = model == DP_MODEL_COUNT;
     d->spec.rounding = (dp_rounding)rounding;
     d->spec.model = d->automatic ? DP_MODEL_EXACT : (dp_model)model;
     d->spec.arith = (dp_arith)arith;
+    return true;
+}
+
+/* Of a GPU whose profile is named, nothing is known of the formats that it does not store. */
+static bool gpu_suits(reader *r, config_setting_t *const *found, const draft *d, const need_camera *camera) {
+    char names[PROFILE_FORMATS_SIZE];
+    for (size_t i = 0; i < d->format_count; i++)
+        if (!profile_stores(&camera->gpu, &d->formats[i]))
+            return reader_fail(r, found[KEY_FORMAT] != NULL ? found[KEY_FORMAT] : found[KEY_PRESET],
+                               "format: must be %s with a profile of a GPU that stores no other depth, got %s",
+                               profile_formats(&camera->gpu, names), d->formats[i].name);
     return true;
 }
 
@@ -215,7 +245,7 @@ bool reader_camera(reader *r, config_setting_t *group, need_camera *out) {
         (found[KEY_FAR] == NULL ||
          reader_length(r, found[KEY_FAR], "far", planes_of(&d) | READER_INFINITE, &d.spec.zfar)) &&
         (found[KEY_MAPPING] == NULL || read_mapping(r, found[KEY_MAPPING], &d)) &&
-        (found[KEY_FORMAT] == NULL || read_format(r, found[KEY_FORMAT], &d)) && read_words(r, found, &d) &&
+        (found[KEY_FORMAT] == NULL || read_format(r, found[KEY_FORMAT], &d)) && read_words(r, found, &d, out) &&
         (found[KEY_LOG_C] == NULL || reader_length(r, found[KEY_LOG_C], "log_c", READER_POSITIVE, &d.spec.log_c));
     const dp_mapping_row *row = dp_mapping_get(d.spec.mapping);
     if (good && found[KEY_LOG_C] != NULL && (row->curve != DP_CURVE_LOG || row->log_over_near))
@@ -225,5 +255,6 @@ bool reader_camera(reader *r, config_setting_t *group, need_camera *out) {
                            reader_shown(r, found[KEY_LOG_C]));
     out->automatic = d.automatic;
     return good && read_world(r, found, &d, out) && reader_view(r, found + KEY_VIEW, d.preset, out, &d.spec) &&
-           raster_suits(r, found[KEY_VIEW + VIEW_RASTER], &d, out) && make_setups(r, group, &d, out);
+           gpu_suits(r, found, &d, out) && raster_suits(r, found[KEY_VIEW + VIEW_RASTER], &d, out) &&
+           make_setups(r, group, &d, out);
 }

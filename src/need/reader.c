@@ -7,6 +7,8 @@
 #include <stdlib.h>
 #include <string.h>
 
+enum { PATH_SIZE = 4096 };
+
 bool reader_fail(reader *r, const config_setting_t *s, const char *format, ...) {
     va_list arguments;
     va_start(arguments, format);
@@ -76,6 +78,28 @@ bool reader_string(reader *r, const config_setting_t *s, const char **out) {
         return reader_fail(r, s, "%s: must be a word in quotes, got %s", config_setting_name(s), reader_shown(r, s));
     *out = config_setting_get_string(s);
     return true;
+}
+
+/* Where the requirement file lies; an absolute path stays. */
+static void beside(const reader *r, const char *name, char *out, size_t size) {
+    const char *slash = name[0] != '/' ? strrchr(r->file->path, '/') : NULL;
+    snprintf(out, size, "%.*s%s", slash != NULL ? (int)(slash + 1 - r->file->path) : 0, r->file->path, name);
+}
+
+bool reader_row(reader *r, const config_setting_t *s, bool (*known)(const char *name), need_camera *camera,
+                char name[PROFILE_NAME_SIZE]) {
+    const char *text = "", *key = config_setting_name(s);
+    char path[PATH_SIZE], error[PROFILE_ERROR_SIZE];
+    if (!reader_string(r, s, &text))
+        return false;
+    if (!profile_is_file(text)) {
+        snprintf(name, PROFILE_NAME_SIZE, "%s", text);
+        return true;
+    }
+    beside(r, text, path, sizeof path);
+    if (!profile_add(&camera->gpu, path, key, name, error))
+        return reader_fail(r, s, "%s: %s", key, error);
+    return known(name) || reader_fail(r, s, "%s: '%.120s' names what is not known here, '%.40s'", key, path, name);
 }
 
 bool reader_name(reader *r, const config_setting_t *s, const char *name) {

@@ -14,6 +14,7 @@
 
 #include <stdbool.h>
 
+#include "api/profile.h"
 #include "depthprec/depthprec.h"
 #include "raster/raster.h"
 #include "world/world.h"
@@ -45,6 +46,7 @@ typedef struct need_camera {
     world_scheme scheme;              /**< where `world` is positive */
     bool automatic;                   /**< model "auto": the simplest model that can decide */
     const raster_row *raster; /**< whose grid and set-up the set-ups' triangles have; null where none is named */
+    profile gpu;              /**< of `arith` and `raster` */
 } need_camera;
 
 /** Lengths are in scene units. */

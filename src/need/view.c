@@ -85,12 +85,16 @@ static bool read_class(reader *r, config_setting_t *group, dp_triangles *t) {
     return true;
 }
 
+static bool has_raster(const char *name) {
+    return raster_find(name) != NULL;
+}
+
 /* The rasterizer's grid and set-up; the bits of those that have at least so many may be said, too. */
 static bool read_raster(reader *r, config_setting_t *s, const config_setting_t *bits, need_camera *out,
                         dp_triangles *t) {
     const int asked = t->subpixel;
-    const char *name;
-    if (!reader_string(r, s, &name))
+    char name[PROFILE_NAME_SIZE];
+    if (!reader_row(r, s, has_raster, out, name))
         return false;
     out->raster = raster_find(name);
     if (out->raster == NULL) {
