@@ -317,6 +317,8 @@ static void not_slack(void **state) {
         const bool vertex = mappings[m] == DP_MAPPING_OSGEARTH;
         printf("# %s: bound over found %.3f on average, at most %.3f; log2 rounded at most %.3f\n",
                dp_mapping_get(mappings[m])->name, all[m].total / (double)all[m].count, all[m].worst, all[m].rounded);
+        if (test_effort() == EFFORT_QUICK) /* an average of few */
+            continue;
         assert_true(all[m].worst <= worst[vertex] && all[m].total <= average[vertex] * (double)all[m].count);
         assert_true(all[m].rounded <= rounded);
     }

@@ -344,13 +344,13 @@ static void test_seen_farther(void **state) {
         double nearer;
         assert_true(slanted_draw_camera(&r, &s, &kinds[0].of, "fp32"));
         if (!slanted_draw_planes(&r, &s) || !slanted_draw_scheme(&r, &s, &scheme) || !s.world.shared_origin ||
-            s.world.shift[2] < 0.03 * s.z || !slanted_apart(&s, 1.0, &b, &nearer) ||
-            b.cause[DP_CAUSE_SNAPPING] < 0.8 * b.separation)
+            s.world.shift[2] < 0.01 * s.z || !slanted_apart(&s, 1.0, &b, &nearer) ||
+            b.cause[DP_CAUSE_SNAPPING] < 0.75 * b.separation)
             continue;
         used = fmax(used, wrong_share(&r, &s, kinds[0].value, fmax(used, 0.5)));
     }
     print_message("# wrong pairs up to %.3f of the guarantee\n", used);
-    TALLY(&t, used > 0.5 && used <= 1.0, "wrong at %.3f", used);
+    TALLY(&t, used <= 1.0 && (used > 0.75 || test_effort() == EFFORT_QUICK), "wrong at %.3f", used);
     tally_end(&t);
 }
 
