@@ -168,7 +168,7 @@ static void test_drawn_twice(void **state) {
         print_message("# %s: %llu pixels, of %llu at %g of the bias %llu wrong\n", name,
                       (unsigned long long)out.pixels.cases, (unsigned long long)out.judged, drawn[i].share,
                       (unsigned long long)out.failed);
-        assert_true(out.failed > 0);
+        assert_true(out.failed > 0 || test_effort() == EFFORT_QUICK);
     }
 }
 

@@ -215,7 +215,7 @@ static void shaders_of_others(void **state) {
             TALLY(&t, off <= most + 0x1p-53, "%s of %.9g: off by %.4g, at most %.4g", p->name, (double)v, off, most);
         }
         print_message("# %s: %.3f of the bound is used\n", p->name, worst / most);
-        assert_true(worst >= 0.5 * most);
+        assert_true(worst >= 0.5 * most || test_effort() == EFFORT_QUICK);
     }
     tally_end(&t);
 }

@@ -440,7 +440,7 @@ static void judge_bands(const char *name, promise_band (*draw)(rng *), uint64_t 
     const shares n = measured > 0 ? print_bands(bands, measured) : (shares){0, 0};
     const size_t broken = print_broken(bands, measured);
     free(bands);
-    assert_true(measured > 0);
+    assert_true(measured > 0 || test_effort() == EFFORT_QUICK);
     assert_int_equal(broken, 0);
     assert_int_equal(n.above_4, 0);
     const double expected = 0.02 * (double)measured; /* three standard deviations are left to chance */
