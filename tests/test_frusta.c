@@ -67,6 +67,36 @@ static void test_plans(void **state) {
     check_plan("unorm16", 65535, DP_MODEL_FP32, 1000, 0.05);
 }
 
+/* Of a depth that a shader writes every frustum keeps the separation whatever log2 is, at any depth of it. */
+static void test_logarithmic(void **state) {
+    (void)state;
+    static frusta_plan plan;
+    dp_spec spec = dp_spec_default();
+    dp_format formats[2];
+    const double limit = 0.003;
+    rng r = rng_make("logarithmic frusta");
+    assert_int_not_equal(dp_format_parse("unorm24", formats), 0);
+    spec.format = formats[0];
+    spec.mapping = DP_MAPPING_THREE_WEBGPU;
+    spec.model = DP_MODEL_FP32;
+    spec.zfar = 1000;
+    assert_int_equal(frusta_solve(&spec, limit, &plan), DP_OK);
+    assert_true(plan.possible && plan.count > 1);
+    spec.model = DP_MODEL_STAGED;
+    for (size_t i = 0; i < plan.count; i++) {
+        dp_setup setup;
+        spec.znear = plan.frusta[i].znear;
+        spec.zfar = plan.frusta[i].zfar;
+        assert_int_equal(dp_setup_init(&setup, &spec), DP_OK);
+        for (int k = 0; k < 2000; k++) {
+            dp_budget b;
+            const double z = rng_log(&r, spec.znear, spec.zfar);
+            assert_int_equal(dp_budget_at(&setup, fmin(fmax(z, spec.znear), spec.zfar), NULL, &b), DP_OK);
+            assert_true(b.separation <= limit);
+        }
+    }
+}
+
 static void test_refused(void **state) {
     (void)state;
     static frusta_plan plan;
@@ -81,6 +111,7 @@ static void test_refused(void **state) {
 }
 
 int main(void) {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(test_plans), cmocka_unit_test(test_refused)};
+    const struct CMUnitTest tests[] = {cmocka_unit_test(test_plans), cmocka_unit_test(test_logarithmic),
+                                       cmocka_unit_test(test_refused)};
     return run_tap(tests);
 }

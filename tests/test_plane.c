@@ -17,6 +17,18 @@ static const char *describe(const solve_problem *p, char text[320]) {
     return text;
 }
 
+/* In the model fp32 a logarithmic depth has the guarantee of its shader, and the codes of the model staged. */
+static dp_status set_up(const dp_spec *of, dp_setup *out) {
+    dp_spec spec = *of;
+    const int shader = spec.model == DP_MODEL_FP32 && dp_mapping_get(spec.mapping)->curve == DP_CURVE_LOG;
+    if (shader)
+        spec.model = DP_MODEL_STAGED;
+    const dp_status status = dp_setup_init(out, &spec);
+    if (shader && status == DP_OK)
+        *out = dp_setup_guaranteed(out);
+    return status;
+}
+
 /* As check.h says it of one depth and of a range, written once more. */
 static int meets(const solve_problem *p, double value) {
     dp_spec spec = p->spec;
@@ -24,7 +36,7 @@ static int meets(const solve_problem *p, double value) {
     dp_separation_worst worst;
     dp_worst error;
     *(p->unknown == SOLVE_NEAR ? &spec.znear : &spec.zfar) = value;
-    if (dp_setup_init(&setup, &spec) != DP_OK)
+    if (set_up(&spec, &setup) != DP_OK)
         return 0;
     if (p->kind == MEASURE_SEPARATION)
         return p->lo == p->hi
@@ -43,7 +55,9 @@ static int draw(rng *r, dp_model model, measure_kind kind, solve_problem *p) {
     dp_format_parse(formats[rng_below(r, sizeof formats / sizeof formats[0])], found);
     p->spec.format = found[0];
     p->spec.model = model;
-    p->spec.mapping = (dp_mapping)rng_below(r, model == DP_MODEL_FP32 ? 4 : DP_MAPPING_COUNT);
+    do
+        p->spec.mapping = (dp_mapping)rng_below(r, DP_MAPPING_COUNT);
+    while (model == DP_MODEL_FP32 && dp_mapping_get(p->spec.mapping)->curve == DP_CURVE_LINEAR);
     p->spec.ortho = dp_mapping_get(p->spec.mapping)->ortho && rng_below(r, 5) == 0;
     p->spec.rounding = (dp_rounding)rng_below(r, DP_ROUNDING_COUNT);
     p->spec.arith = (dp_arith)rng_below(r, dp_arith_count());
@@ -54,7 +68,7 @@ static int draw(rng *r, dp_model model, measure_kind kind, solve_problem *p) {
     const double far_end = fmin(p->spec.zfar, 1e5 * p->spec.znear);
     p->hi = fmin(rng_log(r, p->spec.znear, far_end), far_end);
     p->lo = rng_below(r, 4) == 0 ? fmin(fmax(rng_log(r, p->spec.znear, p->hi), p->spec.znear), p->hi) : p->hi;
-    if (dp_setup_init(&setup, &p->spec) != DP_OK)
+    if (set_up(&p->spec, &setup) != DP_OK)
         return 0;
     const judgement j = judge(kind, &setup, p->lo, p->hi, NAN);
     p->limit = j.value * rng_log(r, 0.5, 2.0);
@@ -104,7 +118,7 @@ static void judge_lattice(const solve_problem *p, const plane_answer *a, const s
         dp_spec spec = p->spec;
         dp_setup full, exact;
         *(znear ? &spec.znear : &spec.zfar) = x;
-        if (dp_setup_init(&full, &spec) != DP_OK)
+        if (set_up(&spec, &full) != DP_OK)
             continue;
         spec.model = DP_MODEL_EXACT;
         dp_setup_init(&exact, &spec);
@@ -276,7 +290,7 @@ static void test_half_code(void **state) {
     assert_int_equal(plane_solve(&p, PLANE_PROVE, &lattice, &a), DP_ERROR_MODEL);
     assert_int_equal(plane_solve(NULL, PLANE_PROVE, &lattice, &a), DP_ERROR_NULL);
     p.kind = MEASURE_SEPARATION;
-    p.spec.mapping = DP_MAPPING_LOG;
+    p.spec.mapping = DP_MAPPING_LINEAR;
     p.spec.zfar = 1e4;
     assert_int_equal(plane_solve(&p, PLANE_PROVE, &lattice, &a), DP_ERROR_MODEL);
 }

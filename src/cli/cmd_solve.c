@@ -108,7 +108,7 @@ static bool asks_for_choice(solve_target target) {
 static dp_model model_of(const solve_report *r, dp_mapping mapping, bool asked) {
     const options *o = r->o;
     const bool given = option_given(o, OPTION_MODEL) && !o->model_auto;
-    const bool has_fp32 = r->kind == MEASURE_SEPARATION && has_pipeline(mapping);
+    const bool has_fp32 = r->kind == MEASURE_SEPARATION && dp_mapping_get(mapping)->curve != DP_CURVE_LINEAR;
     if (given && (asked || o->model != DP_MODEL_FP32))
         return o->model;
     return has_fp32 ? DP_MODEL_FP32 : DP_MODEL_STAGED;
@@ -145,7 +145,7 @@ static dp_status solve_plane(const solve_report *r, solve_candidate *c, solve_un
 /* With the planes as they are: how far it holds, or whether it does. */
 static dp_status answer_as_is(const solve_report *r, const dp_spec *spec, distance_answer *out) {
     dp_setup setup;
-    const dp_status status = dp_setup_init(&setup, spec);
+    const dp_status status = judge_setup(spec, &setup);
     if (status != DP_OK)
         return status;
     if (r->target == SOLVE_FOR_DISTANCE)

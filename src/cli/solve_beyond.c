@@ -38,7 +38,7 @@ void solve_look_beyond(solve_report *r) {
     const solve_candidate *c = &r->items[0];
     dp_setup setup;
     r->fight = (solve_fight){(double)NAN, (double)NAN};
-    if (r->target != SOLVE_FOR_DISTANCE || dp_setup_init(&setup, &c->spec) != DP_OK)
+    if (r->target != SOLVE_FOR_DISTANCE || judge_setup(&c->spec, &setup) != DP_OK)
         return;
     const double from = c->possible ? c->distance.value : r->lo;
     if (setup.spec.model == DP_MODEL_FP32 && setup.spec.triangles.width == 0) /* the census knows depths at a point */

@@ -47,7 +47,7 @@ static int check_frusta(const options *o) {
 
 static dp_spec spec_of(const options *o) {
     const bool chosen = option_given(o, OPTION_MODEL) && !o->model_auto;
-    const bool perspective = dp_mapping_get(o->mappings[0])->curve == DP_CURVE_PERSPECTIVE;
+    const bool linear = dp_mapping_get(o->mappings[0])->curve == DP_CURVE_LINEAR;
     return (dp_spec){.znear = o->znear,
                      .zfar = o->zfar,
                      .ortho = o->ortho,
@@ -57,9 +57,9 @@ static dp_spec spec_of(const options *o) {
                      .format = o->formats[0],
                      .mapping = o->mappings[0],
                      .triangles = o->triangles,
-                     .model = chosen        ? o->model
-                              : perspective ? DP_MODEL_FP32
-                                            : DP_MODEL_STAGED};
+                     .model = chosen   ? o->model
+                              : linear ? DP_MODEL_STAGED
+                                       : DP_MODEL_FP32};
 }
 
 /* ---- The report -------------------------------------------------------------------------------------------------- */

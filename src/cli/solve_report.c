@@ -20,7 +20,7 @@ double solve_in_binary32(const solve_report *r, const solve_candidate *c, bool s
     dp_budget budget;
     if (!slanted)
         spec.triangles.width = 0;
-    return r->kind == MEASURE_SEPARATION && dp_setup_init(&setup, &spec) == DP_OK &&
+    return r->kind == MEASURE_SEPARATION && judge_setup(&spec, &setup) == DP_OK &&
                    dp_budget_at(&setup, c->reached.z, NULL, &budget) == DP_OK
                ? budget.separation
                : (double)NAN;
@@ -270,7 +270,11 @@ static void say_model(const solve_report *r, const solve_candidate *c, page *p) 
     else if (c->spec.model == DP_MODEL_STAGED && chosen)
         more = r->kind == MEASURE_ERROR ? "; model float has no cells, so no error"
                                         : "; model float does not cover this mapping";
-    page_note(p, "model", "%s%s%s", words[c->spec.model], more, is_slanted(r) ? ", at any slant" : "");
+    const bool shader = c->spec.model == DP_MODEL_FP32 && dp_mapping_get(c->spec.mapping)->curve == DP_CURVE_LOG;
+    page_note(p, "model", "%s%s%s", words[c->spec.model], more,
+              shader          ? ", for every log2 that the shader may have"
+              : is_slanted(r) ? ", at any slant"
+                              : "");
 }
 
 /* The lattice beside a fuller model, and the guarantee beside the lattice. */

@@ -14,7 +14,7 @@ static judgement judged(const dp_spec *whole, double znear, double zfar, double 
     dp_setup setup;
     spec.znear = znear;
     spec.zfar = zfar;
-    if (dp_setup_init(&setup, &spec) != DP_OK)
+    if (judge_setup(&spec, &setup) != DP_OK)
         return (judgement){.value = HUGE_VAL, .z = zfar};
     return judge(MEASURE_SEPARATION, &setup, znear, zfar, limit);
 }
@@ -71,7 +71,7 @@ static dp_status check(const dp_spec *spec, double limit) {
         return DP_ERROR_NULL;
     if (!(limit > 0.0) || isinf(spec->zfar))
         return DP_ERROR_RANGE;
-    return dp_setup_init(&setup, spec);
+    return judge_setup(spec, &setup);
 }
 
 static void find_worst(frusta_plan *plan) {

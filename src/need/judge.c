@@ -27,6 +27,17 @@ static judgement of_error(const dp_setup *setup, double lo, double hi, double li
         .value = worst.error, .z = worst.error_z, .code = worst.error_code, .passed = worst.error <= limit};
 }
 
+dp_status judge_setup(const dp_spec *spec, dp_setup *out) {
+    dp_spec own = *spec;
+    const bool shader = spec->model == DP_MODEL_FP32 && dp_mapping_get(spec->mapping)->curve == DP_CURVE_LOG;
+    if (shader)
+        own.model = DP_MODEL_STAGED;
+    const dp_status status = dp_setup_init(out, &own);
+    if (status == DP_OK && shader)
+        *out = dp_setup_guaranteed(out);
+    return status;
+}
+
 judgement judge(measure_kind kind, const dp_setup *setup, double lo, double hi, double limit) {
     return kind == MEASURE_ERROR ? of_error(setup, lo, hi, limit) : of_separation(setup, lo, hi, limit);
 }

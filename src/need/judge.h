@@ -17,6 +17,14 @@ typedef struct judgement {
 } judgement;
 
 /**
+ * The set-up in which a spec is judged. That is dp_setup_init()'s, but in the model fp32, which knows only the
+ * pipeline, a logarithmic depth is what its shader computes: dp_setup_guaranteed().
+ *
+ * @return what dp_setup_init() has against it
+ */
+dp_status judge_setup(const dp_spec *spec, dp_setup *out);
+
+/**
  * Judges a set-up in its own model over [lo, hi], near <= lo <= hi <= far, or at lo = hi.
  *
  *     separation  dp_separation() at one depth, the bound of dp_separation_over() over more

@@ -6,6 +6,7 @@
 
 #include "core/bits.h"
 #include "core/elementary.h"
+#include "need/judge.h"
 #include "need/root.h"
 
 enum { BREAKS_MAX = 3 * 260, EXTEND_MOST = 4096 };
@@ -32,7 +33,7 @@ typedef struct search {
 dp_status solve_setup(const solve_problem *p, double x, dp_setup *setup) {
     dp_spec spec = p->spec;
     *(p->unknown == SOLVE_NEAR ? &spec.znear : &spec.zfar) = x;
-    return dp_setup_init(setup, &spec);
+    return judge_setup(&spec, setup);
 }
 
 static measure_worst whole(const search *s, double x) {
