@@ -394,6 +394,15 @@ static void test_nearest_miss(void **state) {
         assert_relative(dp_separation(&setup, 5000.0), 0x1p-11, 1e-11);
         assert_relative(a.reached.value, 0x1p-11, 1e-11);
     }
+    /* Near has no influence on log, so that none will do is certain; three-webgpu begins at it. */
+    for (int i = 0; i < 2; i++) {
+        solve_problem p = camera(SOLVE_NEAR, "unorm24", i == 0 ? DP_MAPPING_LOG : DP_MAPPING_THREE_WEBGPU, 1e4);
+        p.spec.model = DP_MODEL_FP32;
+        p.limit = i == 0 ? 0.0008 : 0.0004;
+        p.lo = p.hi = 1000.0;
+        assert_int_equal(plane_solve(&p, PLANE_PROVE, &lattice, &a), DP_OK);
+        assert_true(lattice.possible && !a.possible && a.certain == (i == 0));
+    }
 }
 
 /*
