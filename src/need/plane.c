@@ -258,8 +258,8 @@ static void answer_of_lattice(const solve_problem *p, const solve_result *lattic
 /* Nothing was found although the lattice has an answer: the inner end of its answer comes near. */
 static void nearest_miss(const solve_problem *p, const solve_result *lattice, plane_answer *a) {
     const dp_mapping_row *mapping = dp_mapping_get(p->spec.mapping);
-    const bool inert = p->unknown == SOLVE_NEAR && !p->spec.ortho && mapping->curve != DP_CURVE_PERSPECTIVE &&
-                       !mapping->log_from_near;
+    const bool inert =
+        p->unknown == SOLVE_NEAR && !p->spec.ortho && mapping->curve != DP_CURVE_PERSPECTIVE && !mapping->log_from_near;
     a->value = a->until = a->steady = lattice->possible ? lattice->until : lattice->value;
     a->certain = !lattice->possible || inert;
 }
