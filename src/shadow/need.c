@@ -17,6 +17,8 @@ static const double turned_light = 4.0 * 0x1p-24;
 /* What a sine that a shader takes of a cosine may be off by. */
 static const double sine_error = 0x1p-10;
 
+static const double root2 = 1.4142135623730951;
+
 /* Of texture coordinates: Direct3D allows 0.6 of a step. */
 static const double rounded_step = 0.6;
 
@@ -96,14 +98,21 @@ double shadow_part_at(const shadow_light *light, const shadow_part *part, double
 
 /* ---- The three biases -------------------------------------------------------------------------------------------- */
 
-/* The factor, and in *absolute what the window depth of small triangles takes of the slope, a texel. */
-static double factor_of(const shadow_light *light, const ground *g, double texels, double *absolute) {
+/* How far the slope of a triangle as drawn may be off on each axis: by a part of that on both, and whatever it is. */
+typedef struct drawn_slope {
+    double relative, absolute; /* the second in window depth, a texel */
+} drawn_slope;
+
+static drawn_slope drawn_slope_of(const shadow_light *light, const ground *g) {
     const dp_triangles *t = &light->triangles;
     const double snap = t->subpixel > 0 ? ldexp(1.0, -t->subpixel - 1) : 0.0;
     const double moved = snap + g->vertex + g->place / fmin(g->texel_x, g->texel_y);
-    const double lost = 2.0 * moved / light->small + eps * (6.0 * g->box * t->slim + 2.0 * g->box + 2.0);
-    *absolute = 2.0 * (g->turned_depth + g->place / g->depth) / light->small;
-    return lost < 0.5 ? texels / (0.5 - lost) * outward : (double)INFINITY;
+    return (drawn_slope){.relative = 2.0 * moved / light->small + eps * (6.0 * g->box * t->slim + 2.0 * g->box + 2.0),
+                         .absolute = 2.0 * (g->turned_depth + g->place / g->depth) / light->small};
+}
+
+static double factor_of(const drawn_slope *drawn, double texels) {
+    return drawn->relative < 0.5 ? texels / (0.5 - drawn->relative) * outward : (double)INFINITY;
 }
 
 static double curvature_of(const shadow_light *light, const ground *g, double slope, double texels) {
@@ -122,7 +131,10 @@ void shadow_gap_at(const shadow_light *light, const shadow_bias *bias, double sl
                    double *along_normal) {
     const ground g = ground_of(light);
     const double slope = dp_tan(degrees(slant));
-    const double scaled = isinf(bias->factor) ? bias->factor : bias->factor * slope * fmax(g.texel_x, g.texel_y);
+    const drawn_slope drawn = drawn_slope_of(light, &g);
+    const double off = drawn.relative * slope * g.diagonal + drawn.absolute * g.depth; /* on either axis */
+    const double steepest = slope * fmax(g.texel_x, g.texel_y) + root2 * off;
+    const double scaled = isinf(bias->factor) ? bias->factor : bias->factor * steepest;
     *along_light = bias->window * g.depth + scaled + bias->offset * slope;
     *along_normal = *along_light * dp_cos(degrees(slant));
 }
@@ -138,7 +150,7 @@ static double share_of(const shadow_light *light, const ground *g, const shadow_
 void shadow_need_of(const shadow_light *light, shadow_need *need) {
     const ground g = ground_of(light);
     const double slant = light->triangles.slant_hi;
-    double absolute;
+    const drawn_slope drawn = drawn_slope_of(light, &g);
     *need = (shadow_need){.texel_x = g.texel_x, .texel_y = g.texel_y, .texel = fmax(g.texel_x, g.texel_y)};
     need->slope = dp_tan(degrees(slant));
     parts_of(light, &g, need->part);
@@ -153,8 +165,8 @@ void shadow_need_of(const shadow_light *light, shadow_need *need) {
     shadow_bias *b = need->bias;
     const double steepest = dp_tan(degrees(slant) + turned_light);
     b[SHADOW_CONSTANT] = (shadow_bias){.window = across * steepest / g.depth * outward + rest};
-    const double factor = factor_of(light, &g, need->texels, &absolute);
-    const double small = isfinite(factor) ? factor * absolute * outward : 0.0;
+    const double factor = factor_of(&drawn, need->texels);
+    const double small = isfinite(factor) ? factor * drawn.absolute * outward : 0.0;
     b[SHADOW_SLOPE] = (shadow_bias){.window = fmin(rest + need->curvature + small, b->window), .factor = factor};
     b[SHADOW_NORMAL] = (shadow_bias){.window = rest + across * sine_error / g.depth, .offset = across * outward};
     for (int way = 0; way < SHADOW_WAY_COUNT; way++) {
