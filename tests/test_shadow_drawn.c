@@ -199,7 +199,11 @@ static bool fit_class(shadow_stage *s) {
 
 static void draw_plan(rng *r, shadow_stage *s, plan *p, bool sphere) {
     *p = (plan){.sphere = sphere};
-    p->slope = tan((rng_below(r, 3) == 0 ? rng_uniform(r, 60.0, 85.0) : rng_uniform(r, 1.0, 80.0)) * pi / 180.0);
+    const uint64_t which = rng_below(r, 6); /* steep; so flat that positions decide how it is drawn; any */
+    p->slope = tan((which < 2               ? rng_uniform(r, 60.0, 85.0)
+                    : which == 2 && !sphere ? rng_log(r, 0.01, 1.0)
+                                            : rng_uniform(r, 1.0, 80.0)) *
+                   pi / 180.0);
     p->azimuth = rng_below(r, 4) != 0 ? pi / 4.0 * (double)(2 * rng_below(r, 4) + 1) : rng_uniform(r, -pi, pi);
     p->size = rng_log(r, 2.0, 0.25 * s->target.width);
     p->thin = rng_below(r, 2) ? 1.0 : rng_log(r, 0.1, 1.0);
