@@ -275,10 +275,11 @@ static void one_image(tally *t, rng *r, const file_kind *k, bool either_sign, us
             lo = depth < lo ? depth : lo;
             hi = depth > hi ? depth : hi;
         }
-        /* Half a grey of the product on top of the map in binary32, and rounded up. */
+        /* Half a grey of the product, of 65535 from 0 or of 65534 from lo, on top of the map, and rounded up. */
+        const double half = lo > 0 ? hi / 131070 : (hi - lo) / 131068;
         for (int i = 0; i < PIXELS; i++)
-            TALLY(t, isnan(bound[i]) || bound[i] >= (double)map[i] + (hi - lo) / 131068, "%s: %.9g in a PNG of %.9g",
-                  k->name, bound[i], (double)map[i]);
+            TALLY(t, isnan(bound[i]) || bound[i] >= (double)map[i] + half, "%s: %.9g in a PNG of %.9g", k->name,
+                  bound[i], (double)map[i]);
         for (int i = 0; i < PIXELS; i++)
             got[i] = isnan(bound[i]) ? NAN : got[i];
         judge(t, k, &c, pictures[picture], z, got, bound, &other);
