@@ -282,6 +282,37 @@ static void test_truth(void **state) {
     tally_end(&t);
 }
 
+/* Two sheets in one plane, seen almost along it: the horizon lies inside pixels, some of whose corners see neither. */
+static void test_horizon(void **state) {
+    tally t = {.name = "pixels of a horizon"};
+    rng r = rng_make("horizon");
+    size_t wrong = 0;
+    (void)state;
+    for (uint64_t i = 0; i < test_cases(4, 12, 400); i++) {
+        const stage s = stage_of("llvmpipe", "unorm24", DP_MAPPING_D3D, 0.1, 100);
+        const double place[3] = {rng_uniform(&r, -0.1, 0.1), rng_log(&r, 0.01, 0.1), 0}, tilt = rng_uniform(&r, -1, 1);
+        const render_asked asked = {.m = &made.m,
+                                    .camera = &s.camera,
+                                    .eye = {.place = {place[0], place[1], place[2]},
+                                            .right = {cos(tilt), sin(tilt), 0},
+                                            .up = {-sin(tilt), cos(tilt), 0},
+                                            .ahead = {0, 0, -1}}};
+        render_picture p;
+        scene_made_begin(&made);
+        for (int k = 0; k < 2; k++) {
+            made.surface[scene_made_surface(&made, "sheet", "")].two_sided = true;
+            scene_made_quad(&made, (const double[3]){-3 - k, 0, -5}, (const double[3]){6, 0, 0},
+                            (const double[3]){0, 0, -60 - k});
+        }
+        assert_int_equal(render_draw(&asked, &p), RENDER_DONE);
+        draw_truth(&s, &asked);
+        compare(&p, made.m.triangles, &t, &wrong);
+        render_free(&p);
+    }
+    assert_true(wrong > 100);
+    tally_end(&t);
+}
+
 /* ---- A decal ----------------------------------------------------------------------------------------------------- */
 
 static scene_eye ahead_from(double z) {
@@ -431,8 +462,8 @@ static void test_refused(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_truth),    cmocka_unit_test(test_decal),   cmocka_unit_test(test_drawn),
-        cmocka_unit_test(test_overview), cmocka_unit_test(test_refused),
+        cmocka_unit_test(test_truth), cmocka_unit_test(test_horizon),  cmocka_unit_test(test_decal),
+        cmocka_unit_test(test_drawn), cmocka_unit_test(test_overview), cmocka_unit_test(test_refused),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

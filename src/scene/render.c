@@ -112,7 +112,8 @@ static bool crosses(const rendering *r, int x, int y, uint32_t shown) {
         vector ray;
         draw_ray(r->asked->camera, window, ray);
         const double inverse = dot(r->what.inverse, ray), shows = dot(other.inverse, ray);
-        if (shows > inverse * (1.0 + fmax(unsure(r, &r->what, ray, inverse), unsure(r, &other, ray, shows))))
+        const double share = fmax(unsure(r, &r->what, ray, inverse), unsure(r, &other, ray, shows));
+        if (shows > inverse + share * fabs(inverse)) /* both are below 0 at a corner beyond the plane's horizon */
             return true;
     }
     return false;
