@@ -42,9 +42,10 @@ static int check_budget(const options *o, const dp_spec *spec) {
     static const struct {
         option_id id;
         const char *why;
-    } others[] = {{OPTION_WORLD, "its budget begins with eye depth"},
-                  {OPTION_LINEARIZE, "its budget ends with the code"},
-                  {OPTION_VIEWPORT, "its budget is of surfaces that face the camera"}};
+    } others[] = {{OPTION_WORLD, "budget begins with eye depth"},
+                  {OPTION_LINEARIZE, "budget ends with the code"},
+                  {OPTION_VIEWPORT, "budget is of surfaces that face the camera"}};
+    static const char leave[] = "leave it out, or take one of " DP_MAPPING_NAMES_PERSPECTIVE;
     const dp_mapping_row *row = dp_mapping_get(spec->mapping);
     if (row->curve == DP_CURVE_LINEAR)
         return option_error(OPTION_MAPPING,
@@ -53,8 +54,8 @@ static int check_budget(const options *o, const dp_spec *spec) {
                             row->name);
     for (size_t i = 0; i < sizeof others / sizeof others[0] && row->curve == DP_CURVE_LOG; i++)
         if (option_given(o, others[i].id))
-            return option_error(others[i].id, "does not apply to the logarithmic mapping %s: %s", row->name,
-                                others[i].why);
+            return option_error(others[i].id, "does not apply to the logarithmic mapping %s, whose %s: %s", row->name,
+                                others[i].why, leave);
     return EXIT_FINE;
 }
 

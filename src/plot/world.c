@@ -6,6 +6,7 @@
 #include <math.h>
 #include <stdio.h>
 
+#include "api/unit.h"
 #include "core/append.h"
 #include "core/elementary.h"
 #include "plot/figure.h"
@@ -13,11 +14,18 @@
 
 enum { POINTS = 241 };
 
-static const double ahead = 10.0, nearest = 100.0, farthest = 1e8, degree = 0.017453292519943295;
+static const double ahead = 10.0; /* metres, where it is known what a scene unit is */
+static const double nearest = 100.0, farthest = 1e8, degree = 0.017453292519943295;
+
+/* A length in metres, in scene units; as it is where nobody says what they are. */
+static double of_metres(const chart *c, double length) {
+    return c->unit != NULL ? unit_convert(length, unit_find("m"), unit_find(c->unit)) : length;
+}
 
 static void add(chart *out, chart_panel *panel, const world_asked *a, world_loss *loss) {
     for (size_t k = 0; k < WORLD_ROWS; k++) {
-        const world_scheme s = {world_get(k), world_get(k)->standard};
+        const world_row *row = world_get(k);
+        const world_scheme s = {row, row->metres ? of_metres(out, row->standard) : row->standard};
         chart_series *line = chart_add_series(out, panel, CHART_LINE, POINTS);
         if (line == NULL)
             return;
@@ -40,8 +48,8 @@ static chart_panel *add_panel(chart *out, const char *title) {
                             .label = "distance of the camera from the origin",
                             .key = "distance",
                             .unit = "scene units"};
-    /* One scale for both: what each counts stands in its title. */
-    panel->y = (chart_axis){.scale = CHART_LOG, .lo = 1e-6, .hi = 1e3, .label = "at most", .key = "most", .unit = ""};
+    /* One scale, whose labels stand beside the first: what each counts stands in its title. */
+    panel->y = (chart_axis){.scale = CHART_LOG, .lo = 1e-6, .hi = 1e4, .label = "at most", .key = "most", .unit = ""};
     snprintf(panel->title, sizeof panel->title, "%s", title);
     return panel;
 }
@@ -49,7 +57,7 @@ static chart_panel *add_panel(chart *out, const char *title) {
 const char *world_build(const figure_request *request, chart *out) {
     const dp_triangles view = dp_triangles_default();
     const dp_setup facing = dp_setup_facing(&request->setups[0]);
-    const double half = dp_tan(0.5 * degree * view.fov_y), z = isnan(request->at) ? ahead : request->at;
+    const double half = dp_tan(0.5 * degree * view.fov_y), z = isnan(request->at) ? of_metres(out, ahead) : request->at;
     const world_asked a = {.setup = &facing,
                            .z = z,
                            .lean = dp_hypot(1.0, half * dp_hypot(1.0, (double)view.width / view.height)),
@@ -65,11 +73,11 @@ const char *world_build(const figure_request *request, chart *out) {
     chart_panel *gap = add_panel(out, in_units);
     add(out, gap, &a, world_separation);
     chart_panel *jitter = add_panel(out, "Jitter, pixels");
-    jitter->y =
-        (chart_axis){.scale = CHART_LOG, .lo = 1e-4, .hi = 1e4, .label = "jitter", .key = "jitter", .unit = "pixels"};
     add(out, jitter, &a, world_jitter);
-    append(out->subtitle, sizeof out->subtitle, "%s%.4g ahead, %dx%d, fov %.4g, meshes with origins of their own",
-           *out->subtitle != '\0' ? "; " : "", z, view.width, view.height, view.fov_y);
+    if (isnan(request->at)) /* else it is said */
+        append(out->subtitle, sizeof out->subtitle, ", %.4g ahead", z);
+    append(out->subtitle, sizeof out->subtitle, "; %dx%d, fov %.4g, meshes with origins of their own", view.width,
+           view.height, view.fov_y);
     chart_fit(out);
     return NULL;
 }

@@ -1,0 +1,87 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* The figure of large worlds, as drawn, against the room world: the gap and the jitter of each scheme. */
+#include <math.h>
+#include <stdio.h>
+
+#include "drawn.h"
+#include "support.h"
+#include "world/reach.h"
+
+typedef struct curve {
+    world_scheme scheme;
+    const world_asked *asked;
+    world_loss *loss;
+} curve;
+
+/* The arithmetic of a scheme changes where its size, or a part of it, is passed: there a curve jumps. */
+static bool true_loss(const void *context, double from, double to, double *lo, double *hi) {
+    const curve *c = context;
+    *lo = INFINITY;
+    *hi = 0.0;
+    for (int i = 0; i <= 8; i++) {
+        const double value = c->loss(&c->scheme, c->asked, from * pow(to / from, i / 8.0));
+        *lo = fmin(*lo, value);
+        *hi = fmax(*hi, value);
+    }
+    return *hi < 1e4; /* the top of the panel */
+}
+
+static void check_panel(const drawn *d, const drawn_panel *p, const world_asked *a, world_loss *loss, double metre) {
+    assert_true(p->x.log && p->y.log);
+    assert_px(drawn_px(&p->x, 1e2), p->frame.x0, 1);
+    assert_px(drawn_px(&p->x, 1e8), p->frame.x1, 1);
+    assert_px(drawn_px(&p->y, 1e-6), p->frame.y1, 1);
+    assert_px(drawn_px(&p->y, 1e4), p->frame.y0, 1);
+    for (size_t k = 0; k < WORLD_ROWS; k++) {
+        const world_row *row = world_get(k);
+        const double size = row->metres ? row->standard * metre : row->standard;
+        const curve c = {{row, size}, a, loss};
+        char name[64];
+        snprintf(name, sizeof name, row->size != NULL ? "%s:%.7g" : "%s", row->name, size);
+        const drawn_entry *e = drawn_legend(d, name);
+        drawn_follows(p, &p->y, drawn_curve(d, p, e), true_loss, &c, 80, 4);
+        drawn_style_is(d, e, (int)k, (int)(k / 4), DRAWN_NONE, false);
+    }
+}
+
+static void check_figure(const char *options, const char *format, const char *mapping, double zfar, double z,
+                         double metre, const char *title, const char *camera) {
+    dp_spec spec = dp_spec_default();
+    dp_setup setup;
+    dp_format found[2];
+    const double half = tan(30.0 * 3.14159265358979323846 / 180.0);
+    assert_int_equal(dp_format_parse(format, found), 1);
+    spec.format = found[0];
+    assert_int_equal(dp_mapping_parse(mapping, &spec.mapping), DP_OK);
+    spec.zfar = zfar;
+    spec.model = DP_MODEL_FP32;
+    assert_int_equal(dp_setup_init(&setup, &spec), DP_OK);
+    const world_asked a = {
+        .setup = &setup, .z = z, .lean = hypot(1.0, half * hypot(1.0, 1920.0 / 1080.0)), .pixels = 540.0 / half};
+    drawn *d = drawn_run(&drawn_light, "plot world %s", options);
+    assert_int_equal(d->panel_count, 2);
+    char said[256];
+    snprintf(said, sizeof said, "%s; 1920x1080, fov 60, meshes with origins of their own", camera);
+    assert_string_equal(d->subtitle, said);
+    assert_string_equal(d->panels[0].heading, title);
+    assert_string_equal(d->panels[1].heading, "Jitter, pixels");
+    check_panel(d, &d->panels[0], &a, world_separation, metre);
+    check_panel(d, &d->panels[1], &a, world_jitter, metre);
+    drawn_close(d);
+}
+
+static void test_figure(void **state) {
+    (void)state;
+    check_figure("-F fp32 -m reversed -f inf", "fp32", "reversed", INFINITY, 10, 1, "Gap that is safe, scene units",
+                 "fp32 reversed, near 0.1, far inf, perspective, nearest, float ieee, 10 ahead");
+    check_figure("-F d24 -m d3d -f 5000 --at 300", "unorm24", "d3d", 5000, 300, 1, "Gap that is safe, scene units",
+                 "unorm24 d3d, near 0.1, far 5000, perspective, nearest, float ieee, at depth 300");
+    check_figure("-F fp32 -m reversed -f inf --unit cm", "fp32", "reversed", INFINITY, 1000, 100,
+                 "Gap that is safe, cm",
+                 "fp32 reversed, near 0.1, far inf, perspective, nearest, float ieee, lengths in cm, 1000 ahead");
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {cmocka_unit_test(test_figure)};
+    return run_tap(tests);
+}
