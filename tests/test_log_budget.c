@@ -193,12 +193,21 @@ static dp_spec random_spec(rng *r, uint64_t i) {
     return spec;
 }
 
-/* A depth: anywhere, at the near plane, or where the logarithm passes a power of 2 and its units double. */
+/* Where the logarithm's argument is that. */
+static double depth_of(const dp_spec *s, double argument) {
+    const double from = s->mapping == DP_MAPPING_CESIUM ? s->znear : 0.0;
+    return s->mapping == DP_MAPPING_THREE_WEBGPU ? argument * s->znear : (argument - 1.0) / s->log_c + from;
+}
+
+/* One where the logarithm is a power of 2, where its units double. */
+static double random_power(rng *r) {
+    return ldexp(1.0, 1 << rng_below(r, 6));
+}
+
+/* A depth: anywhere, at the near plane, or next to such an argument. */
 static double random_depth(rng *r, const dp_spec *s) {
     const double z = rng_log(r, s->znear, s->zfar);
-    const double from = s->mapping == DP_MAPPING_CESIUM ? s->znear : 0.0;
-    const double power = ldexp(1.0, 1 << rng_below(r, 6)) * (1.0 + rng_uniform(r, -1e-5, 1e-7));
-    const double there = s->mapping == DP_MAPPING_THREE_WEBGPU ? power * s->znear : (power - 1.0) / s->log_c + from;
+    const double there = depth_of(s, random_power(r) * (1.0 + rng_uniform(r, -1e-5, 1e-7)));
     switch (rng_below(r, 4)) {
     case 0:
         return there >= s->znear && there <= s->zfar ? there : z;
@@ -247,6 +256,13 @@ static void never_violated(void **state) {
         s.fused[1] = rng_below(&r, 2) == 0;
         for (int k = 0; k < 5; k++)
             check_pairs(&r, &t, &s, random_depth(&r, &spec));
+        const double there = depth_of(&spec, random_power(&r));
+        if (!(there > spec.znear && there < spec.zfar))
+            continue;
+        /* Where all that is behind by less than the separation lies on either side of it. */
+        const double wide = budget_of(&s, there).separation;
+        for (int k = 0; k < 5; k++)
+            check_pairs(&r, &t, &s, fmax(there - rng_uniform(&r, 0.3, 1.0) * wide, spec.znear));
     }
     tally_end(&t);
 }
