@@ -193,7 +193,10 @@ static const struct {
                {"r8-linear01", shader_byte}};
 
 static float any_depth(rng *r, uint64_t k) {
-    return (float)(k % 2 == 0 ? rng_unit(r) : 1 - rng_log(r, 1e-8, 1)) * (1 - 0x1p-24F);
+    return (float)(k % 3 == 0   ? rng_unit(r)
+                   : k % 3 == 1 ? 1 - rng_log(r, 1e-8, 1)
+                                : rng_log(r, 1e-9, 1)) *
+           (1 - 0x1p-24F);
 }
 
 /* What a shader made of a depth decodes to it within half a step and what the row says that binary32 adds. */
