@@ -32,7 +32,7 @@ static const packing rows[] = {
      .note = "window depth as three.js packs it from r167 on, red first: 24 bits in rgb, the rest in alpha",
      .source = THREE "r167"},
     {.name = "rgba-r166", .channels = 4, .weight = {1, 256, 65536, 16777216}, .steps = 0x1p32,
-     .format = "fp32", .off = 0x1p-33, .cut = 0x1.0101p-8, /* red's last half step has no byte of its own: it gets 255 */
+     .format = "fp32", .off = 0x1p-33, .cut = 0x1.0101p-8, /* the last half of red gets 255 */
      .note = "window depth as three.js packed it up to r166, alpha first: steps of 2^-32; 1 becomes 1 - 2^-32",
      .source = THREE "r166"},
     {.name = "rgb24", .channels = 3, .weight = {65536, 256, 1}, .steps = 16777215, .format = "unorm24",
