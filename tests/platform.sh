@@ -64,3 +64,61 @@ check "scene: one of them" named
 check "texture: of two formats an image has one" found "$scratch/told.npy" firefox-vulkan fp32
 check "texture: where an image does not tell, one is asked for" refuses "$either" texture "$scratch/open.npy" --platform firefox-vulkan
 finish
+
+# ---- What a rasterizer brings ------------------------------------------------------------------------------------
+
+# Every command that takes --raster counts with the arithmetic that 'depthprec list arithmetic' has beside its name, says
+# so, and does not where another one is given. The camera is one whose signed NDC tells two arithmetics apart.
+bent="-F fp32 -m gl-reversed -n 0.333 -f inf --viewport 3047x492 --fov 87.12"
+counts() { # counts WORD ARITH OTHER COMMAND...: WORD is the option, a rasterizer or a profile of one
+    option=$1 own=$2 other=$3
+    shift 3
+    "$DEPTHPREC" "$@" $option >"$scratch/alone" && "$DEPTHPREC" "$@" $option --arith "$own" >"$scratch/spelled" &&
+        "$DEPTHPREC" "$@" $option --arith "$other" >"$scratch/otherwise" || return
+    tr '\n' ' ' <"$scratch/alone" | tr -s ' ' | grep -Eq ", (arithmetic )?$own\>" || return
+    diff "$scratch/alone" "$scratch/spelled" && ! cmp -s "$scratch/alone" "$scratch/otherwise"
+}
+while IFS='|' read -r command; do
+    for raster in llvmpipe tests/profiles/lavapipe.json; do
+        check "$raster brings mesa: $(echo ${command%% -*})" counts "--raster $raster" mesa ieee $command
+    done
+done <<END
+table $bent --at 447
+budget $bent --at 447
+bias $bent --api vulkan-float --triangle depth=2,pixels=14,slim=16 --at 447
+zfight $bent --range 100:1000
+disocclusion $bent --at 447
+solve --for distance $bent --separation 1
+scene tests/models/house.gltf $bent
+shadow --light-box 40x40x200 -F fp32
+END
+check "softpipe brings its own" counts "--raster softpipe" softpipe ieee budget -F fp32 -m d3d --viewport 640x480 --at 10
+# Where two presets are compared each has its view, and all the one rasterizer.
+compared() {
+    "$DEPTHPREC" table --preset unity,godot-forward --viewport 640x480 --raster llvmpipe --at 10 >"$scratch/alone" &&
+        "$DEPTHPREC" table --preset unity,godot-forward --viewport 640x480 --raster llvmpipe --arith mesa --at 10 |
+        diff "$scratch/alone" -
+}
+check "so it is of two presets" compared
+# The curves of a figure, and the requirements of a file.
+drawn() {
+    "$DEPTHPREC" plot interval $bent --model float --raster llvmpipe --csv >"$scratch/alone" &&
+        "$DEPTHPREC" plot interval $bent --model float --raster llvmpipe --arith mesa --csv | grep -v '^#' >"$scratch/spelled" &&
+        grep -v '^#' "$scratch/alone" | diff - "$scratch/spelled"
+}
+check "figures" drawn
+needed() { # needed KEYS: the separations that check finds
+    cat >"$scratch/bent.need" <<END
+cameras = { a = { near = 0.333; far = "inf"; mapping = "gl-reversed"; format = "fp32"; viewport = [3047, 492]; fov = 87.12; $1 }; };
+requirements = { r = { camera = "a"; at = 447.5; separation = 1; }; };
+END
+    "$DEPTHPREC" check "$scratch/bent.need" --json | jq -c '[.. | .value? // empty]'
+}
+alike_needs() {
+    other=$(needed 'raster = "llvmpipe"; arith = "ieee";')
+    for keys in 'raster = "llvmpipe";' 'raster = "llvmpipe"; arith = "mesa";' "raster = \"$PWD/tests/profiles/llvmpipe.json\";"; do
+        [ "${first=$(needed "$keys")}" = "$(needed "$keys")" ] && [ "$first" != "$other" ] || return
+    done
+    echo "$first, with ieee $other"
+}
+check "requirement files" alike_needs

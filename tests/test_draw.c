@@ -48,7 +48,7 @@ static raster_status try_scene(scene *s, const char *raster, const char *format,
     spec.mapping = mapping;
     spec.model = DP_MODEL_FP32;
     spec.zfar = 50.0;
-    if (!draw_arith(row, dp_mapping_get(mapping)->ndc_signed, &spec.arith))
+    if (!raster_arith(row, dp_mapping_get(mapping)->ndc_signed, &spec.arith))
         return RASTER_MODEL;
     assert_int_equal(dp_setup_init(&s->setup, &spec), DP_OK);
     own_matrix(s);

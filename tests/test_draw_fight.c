@@ -30,7 +30,7 @@ static bool set_stage(stage *s, const char *raster, const char *format, dp_mappi
     spec.zfar = zfar;
     spec.triangles = dp_triangles_default();
     raster_describe(row, &spec.triangles);
-    if (!raster_draws(row, found) || !draw_arith(row, dp_mapping_get(mapping)->ndc_signed, &spec.arith))
+    if (!raster_draws(row, found) || !raster_arith(row, dp_mapping_get(mapping)->ndc_signed, &spec.arith))
         return false;
     assert_int_equal(dp_setup_init(&s->setup, &spec), DP_OK);
     s->request = (draw_fight_request){.camera = &s->camera, .setup = &s->setup, .azimuth = NAN, .seed = 1};

@@ -145,7 +145,7 @@ static bool set_camera(rng *r, stage *s, const char *raster, const char *format)
     raster_describe(s->row, &spec.triangles);
     do
         spec.mapping = mappings[rng_below(r, 3)];
-    while (!draw_arith(s->row, dp_mapping_get(spec.mapping)->ndc_signed, &spec.arith));
+    while (!raster_arith(s->row, dp_mapping_get(spec.mapping)->ndc_signed, &spec.arith));
     assert_int_equal(dp_setup_init(&s->setup, &spec), DP_OK);
     assert_int_equal(draw_camera_init(&s->camera, s->row, &s->setup), RASTER_OK);
     return true;

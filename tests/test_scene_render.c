@@ -37,7 +37,7 @@ static stage stage_of(const char *raster, const char *format, dp_mapping mapping
     spec.model = DP_MODEL_FP32;
     spec.znear = znear;
     spec.zfar = zfar;
-    assert_true(draw_arith(row, false, &spec.arith));
+    assert_true(raster_arith(row, false, &spec.arith));
     assert_int_equal(dp_setup_init(&s.setup, &spec), DP_OK);
     assert_int_equal(draw_camera_init(&s.camera, row, &s.setup), RASTER_OK);
     return s;

@@ -155,7 +155,8 @@ static void *next_verdict(void *of, size_t i) {
                   .asked = *v->asked,
                   .setup = setup_fields_of(&v->setup, f->file.unit[0] != '\0' ? f->file.unit : NULL),
                   .found = *v,
-                  .slant = {v->setup.spec.triangles, v->camera->raster != NULL ? v->camera->raster->name : NULL},
+                  .slant = {v->setup.spec.triangles, v->camera->raster != NULL ? v->camera->raster->name : NULL,
+                            dp_arith_get(v->setup.spec.arith)->name},
                   .surfaces = surfaces(v),
                   .code = has_code(v) ? v->code : (double)NAN};
     all->verdict.triangles = check_is_slanted(v) ? &all->verdict.slant : NULL;

@@ -19,7 +19,7 @@ typedef struct shadow {
     const char *api_name, *unit;
     const shadow_split *view; /* null where there is a box */
     size_t setup_count;
-    const char *format, *mapping;
+    const char *format, *mapping, *arith;
     shadow_maps maps;
     shadow_row row;
     shadow_whole whole;
@@ -66,6 +66,7 @@ static void *next_setup(void *of, size_t i) {
     const dp_mapping mapping = o->mappings[i % o->mapping_count];
     shadow_maps_make(o, format, mapping, &s->maps); /* cannot fail: cmd_shadow() has tried */
     s->format = format->name;
+    s->arith = dp_arith_get(o->arith)->name;
     s->mapping = dp_mapping_get(mapping)->name;
     return s;
 }
@@ -91,8 +92,8 @@ static void say_maps(page *p, void *item) {
         page_title(p, "box %s x %s, %s deep along the light, texel %s", number_full(o->light_box[0]).text,
                    number_full(o->light_box[1]).text, number_full(o->light_box[2]).text, number_of(texel, DIGITS).text);
     }
-    page_title(p, "%d subpixel bit%s, triangles from 1 to %s texels, no slimmer than 1:%s", t->subpixel,
-               t->subpixel == 1 ? "" : "s", number_full(t->pixels).text, number_full(t->slim).text);
+    page_title(p, "%d subpixel bit%s, triangles from 1 to %s texels, no slimmer than 1:%s, %s", t->subpixel,
+               t->subpixel == 1 ? "" : "s", number_full(t->pixels).text, number_full(t->slim).text, s->arith);
     if (option_given(o, OPTION_CURVATURE))
         page_title(p, "receivers bend away with a radius of at least %s, triangles in circles of %s",
                    number_full(o->curvature).text, number_full(o->facet).text);
@@ -304,6 +305,7 @@ static const column columns[] = {{FIELD(shadow, api_name, "api", ""), .only = AS
                                  {FIELD(shadow, o.triangles.subpixel, "subpixel", ""), .only = AS_JSON},
                                  {FIELD(shadow, o.triangles.pixels, "pixels", ""), .only = AS_JSON},
                                  {FIELD(shadow, o.triangles.slim, "slim", ""), .only = AS_JSON},
+                                 {FIELD(shadow, arith, "arith", ""), .only = AS_JSON},
                                  {FIELD(shadow, o.terms.world, "world", "scene"), .only = AS_JSON},
                                  {FIELD(shadow, o.curvature, "curvature", "scene"), .only = AS_JSON},
                                  {FIELD(shadow, o.facet, "facet", "scene"), .only = AS_JSON},

@@ -23,7 +23,7 @@ int drawn_setups(const options *o, setups *out) {
     for (size_t i = 0; status == EXIT_FINE && i < out->count; i++) {
         dp_spec spec = out->items[i].spec;
         const dp_mapping_row *mapping = dp_mapping_get(spec.mapping);
-        if (!draw_arith(o->raster, mapping->ndc_signed, &spec.arith)) {
+        if (!raster_arith(o->raster, mapping->ndc_signed, &spec.arith)) {
             setups_release(out);
             return option_error(OPTION_MAPPING, "must be d3d or reversed with --raster %s, got %s", o->raster->name,
                                 mapping->name);

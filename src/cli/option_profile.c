@@ -18,6 +18,12 @@ int parse_arith(options *o, const option_row *row, const char *value) {
     return parse_profile(o, row, value, parse_word);
 }
 
+/* A profile names the arithmetic beside the rasterizer: see take_arith() of options.c. */
 int parse_raster(options *o, const option_row *row, const char *value) {
-    return parse_profile(o, row, value, parse_row);
+    char name[PROFILE_NAME_SIZE], error[PROFILE_ERROR_SIZE];
+    const int status = parse_profile(o, row, value, parse_row);
+    if (status == EXIT_FINE && !names_find(row->names, value, NULL, NULL))
+        o->has_raster_arith =
+            profile_add(&o->gpu, value, "arith", name, error) && dp_arith_parse(name, &o->raster_arith) == DP_OK;
+    return status;
 }

@@ -153,8 +153,9 @@ const option_row option_rows[OPTION_COUNT] = {
         .except = {BUT(VERB_SOLVE, "float", "the guarantee; staged for an error, and for linear and log", NULL),
                    BUT(VERB_PLOT, "exact", "float in figures of its pipeline", NULL),
                    BUT(VERB_TABLE, "exact", "of several set-ups the fullest that each has", NULL)}},
-    [OPTION_ARITH] = {"arith", 0, "NAME|FILE", CAMERA | VERB_SOLVE,
-        "the binary32 arithmetic: @; or as 'depthprec probe --json -o FILE' found it", .parse = parse_arith,
+    [OPTION_ARITH] = {"arith", 0, "NAME|FILE", CAMERA | VERB_SOLVE | VERB_BIAS | VERB_SHADOW,
+        "the binary32 arithmetic: @; or as 'depthprec probe --json -o FILE' found it; that of --raster or --platform "
+        "where one is known", .parse = parse_arith,
         SIZED(arith), .names = &ariths, .standard = "ieee"},
     [OPTION_TOLERANCE] = {"tolerance", 0, "SHARE", ASKED | VERB_BENCH | VERB_LIST,
         "the error allowed, 0.05 or 5%: a model is enough if it neglects no more of the separation; and the "

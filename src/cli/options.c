@@ -180,6 +180,22 @@ static void take_platform(options *o) {
     slant_take_raster(o, p->raster);
 }
 
+/* Of a rasterizer that is known its own arithmetic, with the remap of the platform. */
+static int take_arith(options *o) {
+    const bool known = o->has_raster_arith || (o->raster != NULL && o->raster->model != NULL);
+    if (!known || option_given(o, OPTION_ARITH))
+        return EXIT_FINE;
+    const bool remapped = dp_arith_get(o->arith)->remap;
+    if (o->has_raster_arith && dp_arith_get(o->raster_arith)->remap == remapped)
+        o->arith = o->raster_arith;
+    else if (o->raster->model != NULL && !raster_arith(o->raster, remapped, &o->arith))
+        return option_error(OPTION_RASTER,
+                            "%s was not measured with [-1, 1] remapped in the vertex shader, as on %s: name its "
+                            "arithmetic with --arith",
+                            o->raster->name, o->platform != NULL ? o->platform->name : "the platform");
+    return EXIT_FINE;
+}
+
 void options_of(const options *o, size_t camera, options *out) {
     *out = *o;
     if (o->preset_count < 2)
@@ -197,6 +213,7 @@ void options_of(const options *o, size_t camera, options *out) {
     out->at.to = out->unit;
     take_preset(out, p);
     take_platform(out);
+    take_arith(out); /* not refused: complete() asked it of the same rasterizer and platform */
 }
 
 int options_check_stored(const options *o, const dp_format *format) {
@@ -243,6 +260,8 @@ static int complete(options *o) {
     if (o->preset_count == 1)
         take_preset(o, o->presets[0]);
     take_platform(o);
+    if (status == EXIT_FINE)
+        status = take_arith(o);
     if (!option_given(o, OPTION_SCHEME)) /* sizes in what a scene unit is, now that it is known */
         parse_schemes(o, &option_rows[OPTION_SCHEME], option_rows[OPTION_SCHEME].standard);
     return status == EXIT_FINE && o->preset_count < 2 ? keep_stored(o) : status;

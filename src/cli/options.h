@@ -197,6 +197,8 @@ typedef struct options {
     dp_model model;
     bool model_auto; /**< --model auto: see choice.h; `model` is then exact */
     dp_arith arith;
+    dp_arith raster_arith; /**< of the GPU whose profile --raster names */
+    bool has_raster_arith;
     bool budgeted;    /**< only budgets are asked for: of logarithmic mappings, too, which have no codes in binary32 */
     profile gpu;      /**< of --arith and --raster */
     double tolerance; /**< of the choice, a share */

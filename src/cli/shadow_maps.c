@@ -45,9 +45,8 @@ static int check_together(const options *o) {
 /* What all maps share; of a box, also its sides and planes. */
 static shadow_light light_of(const options *o, const dp_format *format, dp_mapping mapping) {
     const bool box = option_given(o, OPTION_LIGHT_BOX);
-    dp_spec spec = {.zfar = box ? o->light_box[2] : 1.0, .ortho = true, .format = *format, .mapping = mapping};
-    if (o->raster != NULL && o->raster->arith != NULL)
-        dp_arith_parse(o->raster->arith, &spec.arith);
+    dp_spec spec = {
+        .zfar = box ? o->light_box[2] : 1.0, .ortho = true, .format = *format, .mapping = mapping, .arith = o->arith};
     shadow_light light = shadow_light_default();
     light.triangles = o->triangles;
     light.triangles.width = (int)o->camera.width;

@@ -8,21 +8,22 @@
 
 enum { DIGITS = 4 };
 
-/* Its grid and how it sets up depth. */
-static void say_rasterizer(page *p, slant_line *line, const raster_row *row, int bits) {
+/* Its grid, how it sets up depth, and the arithmetic of its vertices and conversions. */
+static void say_rasterizer(page *p, slant_line *line, const raster_row *row, int bits, const char *arith) {
     const dp_anchor_row *anchor = dp_anchor_get(row->anchor);
     char grid[64];
     if (bits == 0)
         snprintf(grid, sizeof grid, "depth from unsnapped vertices");
     else
         snprintf(grid, sizeof grid, "%s%d subpixel bits", row->at_least ? "at least " : "", bits);
-    line(p, "%s: %s, %s%s", row->name, grid, anchor != NULL ? "anchor " : "any anchor: the worst is counted",
-         anchor != NULL ? anchor->name : "");
+    line(p, "%s: %s, %s%s, arithmetic %s", row->name, grid,
+         anchor != NULL ? "anchor " : "any anchor: the worst is counted", anchor != NULL ? anchor->name : "", arith);
 }
 
 void slant_say(page *p, slant_line *line, const options *o, const dp_setup *setup) {
     const dp_triangles *t = &o->triangles;
     const bool theirs = setup == NULL && o->preset_count > 1; /* each has its own view and rasterizer */
+    const char *const arith = dp_arith_get(setup != NULL ? setup->spec.arith : o->arith)->name;
     char view[64] = "";
     if (t->width == 0)
         return;
@@ -34,10 +35,10 @@ void slant_say(page *p, slant_line *line, const options *o, const dp_setup *setu
         append(view, sizeof view, " fov %s,", number_of(t->fov_y, DIGITS).text);
     if (!theirs && o->raster == NULL)
         append(view, sizeof view, " %d subpixel bits,", t->subpixel);
-    line(p, "viewport %dx%d,%s slant %s to %s degrees", t->width, t->height, view, number_full(t->slant_lo).text,
-         number_full(t->slant_hi).text);
+    line(p, "viewport %dx%d,%s slant %s to %s degrees%s%s", t->width, t->height, view, number_full(t->slant_lo).text,
+         number_full(t->slant_hi).text, o->raster == NULL ? ", " : "", o->raster == NULL ? arith : "");
     if (!theirs && o->raster != NULL)
-        say_rasterizer(p, line, o->raster, t->subpixel);
+        say_rasterizer(p, line, o->raster, t->subpixel, arith);
     line(p, "triangles from z/%s to %s z, at most %s pixels, no slimmer than 1:%s", number_full(t->depth).text,
          number_full(t->depth).text, number_full(t->pixels).text, number_full(t->slim).text);
 }
@@ -45,7 +46,7 @@ void slant_say(page *p, slant_line *line, const options *o, const dp_setup *setu
 const slant_fields *slant_fields_of(const options *o, slant_fields *out) {
     if (o->triangles.width == 0)
         return NULL;
-    *out = (slant_fields){o->triangles, o->raster != NULL ? o->raster->name : NULL};
+    *out = (slant_fields){o->triangles, o->raster != NULL ? o->raster->name : NULL, dp_arith_get(o->arith)->name};
     return out;
 }
 
@@ -53,6 +54,7 @@ const column slant_columns[] = {{FIELD(slant_fields, triangles.width, "width", "
                                 {FIELD(slant_fields, triangles.height, "height", "")},
                                 {FIELD(slant_fields, triangles.fov_y, "fov", "degrees")},
                                 {FIELD(slant_fields, raster, "raster", "")},
+                                {FIELD(slant_fields, arith, "arith", "")},
                                 {FIELD(slant_fields, triangles.subpixel, "subpixel", "")},
                                 {FIELD(slant_fields, triangles.slant_lo, "slant_lo", "degrees")},
                                 {FIELD(slant_fields, triangles.slant_hi, "slant_hi", "degrees")},

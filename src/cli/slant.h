@@ -10,6 +10,7 @@
 typedef struct slant_fields {
     dp_triangles triangles;
     const char *raster; /**< null when none was named */
+    const char *arith;
 } slant_fields;
 
 extern const column slant_columns[];

@@ -10,19 +10,6 @@
 
 /* ---- The camera -------------------------------------------------------------------------------------------------- */
 
-bool draw_arith(const raster_row *row, bool ndc_signed, dp_arith *out) {
-    static const struct {
-        const char *raster, *arith, *remapped;
-    } known[] = {{"llvmpipe", "mesa", "mesa-remap"},
-                 {"lavapipe", "mesa", "mesa-remap"},
-                 {"softpipe", "softpipe", NULL},
-                 {"swiftshader", "mesa", "mesa-remap"}};
-    for (size_t i = 0; i < sizeof known / sizeof known[0]; i++)
-        if (strcmp(known[i].raster, row->name) == 0)
-            return dp_arith_parse(ndc_signed ? known[i].remapped : known[i].arith, out) == DP_OK;
-    return false;
-}
-
 raster_status draw_camera_init(draw_camera *camera, const raster_row *row, const dp_setup *setup) {
     const dp_triangles *view = &setup->spec.triangles;
     const double half = dp_tan(view->fov_y * M_PI / 360.0);

@@ -55,15 +55,10 @@ typedef struct draw_buffer {
 } draw_buffer;
 
 /**
- * The arithmetic that a rasterizer has, for dp_spec.arith; where NDC runs over [-1, 1] with the remap in the vertex
- * shader, for the models take clip z from 0 to w. @return false where there is no such row
- */
-bool draw_arith(const raster_row *row, bool ndc_signed, dp_arith *out);
-
-/**
  * A camera of square pixels.
  * @param row    one of raster_get()
- * @param setup  a perspective in the arithmetic of draw_arith(); its triangles say the viewport and the field of view
+ * @param setup  a perspective in the arithmetic of raster_arith(), of GL's [-1, 1] with the remap in the vertex shader,
+ * for the models take clip z from 0 to w; its triangles say the viewport and the field of view
  * @return RASTER_OK, or as raster_target_init(); RASTER_MODEL also where the set-up is no such one
  */
 raster_status draw_camera_init(draw_camera *camera, const raster_row *row, const dp_setup *setup);

@@ -168,7 +168,7 @@ static const char *set_up(draw_picture *p, const dp_spec *asked, const raster_ro
     spec.triangles.height = DRAW_PICTURE_HEIGHT;
     spec.triangles.fov_y = DRAW_PICTURE_FOV;
     raster_describe(row, &spec.triangles);
-    if (!draw_arith(row, mapping->ndc_signed, &spec.arith))
+    if (!raster_arith(row, mapping->ndc_signed, &spec.arith))
         return "the rasterizer draws mappings to [0, 1] alone: d3d and reversed";
     const dp_status status = dp_setup_init(&p->setup, &spec);
     if (status != DP_OK)

@@ -7,6 +7,7 @@
 #include "core/append.h"
 #include "need/model.h"
 #include "need/reader.h"
+#include "raster/raster.h"
 
 enum {
     KEY_PRESET,
@@ -77,7 +78,7 @@ static bool has_arith(const char *name) {
 
 static int read_arith(reader *r, const config_setting_t *s, need_camera *out) {
     char name[PROFILE_NAME_SIZE];
-    return reader_row(r, s, has_arith, out, name) ? among(r, s, name, arith_name) : -1;
+    return reader_row(r, s, "arith", has_arith, out, name) ? among(r, s, name, arith_name) : -1;
 }
 
 static const char *preset_name(size_t i) {
@@ -163,6 +164,22 @@ static bool gpu_suits(reader *r, config_setting_t *const *found, const draft *d,
             return reader_fail(r, found[KEY_FORMAT] != NULL ? found[KEY_FORMAT] : found[KEY_PRESET],
                                "format: must be %s with a profile of a GPU that stores no other depth, got %s",
                                profile_formats(&camera->gpu, names), d->formats[i].name);
+    return true;
+}
+
+/* Of a rasterizer that is known its own arithmetic; a GPU's profile in its place has both. */
+static bool take_arith(reader *r, config_setting_t *const *found, draft *d, need_camera *out) {
+    const config_setting_t *const named = found[KEY_VIEW + VIEW_RASTER];
+    char name[PROFILE_NAME_SIZE];
+    if (found[KEY_ARITH] != NULL || out->raster == NULL)
+        return true;
+    if (named == NULL || !profile_is_file(config_setting_get_string(named))) {
+        raster_arith(out->raster, false, &d->spec.arith); /* a specification leaves it as it is */
+        return true;
+    }
+    if (!reader_row(r, named, "arith", has_arith, out, name))
+        return false;
+    d->spec.arith = (dp_arith)index_of(name, arith_name);
     return true;
 }
 
@@ -255,6 +272,6 @@ bool reader_camera(reader *r, config_setting_t *group, need_camera *out) {
                            reader_shown(r, found[KEY_LOG_C]));
     out->automatic = d.automatic;
     return good && read_world(r, found, &d, out) && reader_view(r, found + KEY_VIEW, d.preset, out, &d.spec) &&
-           gpu_suits(r, found, &d, out) && raster_suits(r, found[KEY_VIEW + VIEW_RASTER], &d, out) &&
-           make_setups(r, group, &d, out);
+           take_arith(r, found, &d, out) && gpu_suits(r, found, &d, out) &&
+           raster_suits(r, found[KEY_VIEW + VIEW_RASTER], &d, out) && make_setups(r, group, &d, out);
 }

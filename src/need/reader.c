@@ -86,9 +86,9 @@ static void beside(const reader *r, const char *name, char *out, size_t size) {
     snprintf(out, size, "%.*s%s", slash != NULL ? (int)(slash + 1 - r->file->path) : 0, r->file->path, name);
 }
 
-bool reader_row(reader *r, const config_setting_t *s, bool (*known)(const char *name), need_camera *camera,
-                char name[PROFILE_NAME_SIZE]) {
-    const char *text = "", *key = config_setting_name(s);
+bool reader_row(reader *r, const config_setting_t *s, const char *key, bool (*known)(const char *name),
+                need_camera *camera, char name[PROFILE_NAME_SIZE]) {
+    const char *text = "";
     char path[PATH_SIZE], error[PROFILE_ERROR_SIZE];
     if (!reader_string(r, s, &text))
         return false;

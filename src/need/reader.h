@@ -33,11 +33,11 @@ bool reader_keys(reader *r, const config_setting_t *group, const char *what, con
                  config_setting_t **found);
 
 bool reader_string(reader *r, const config_setting_t *s, const char **out);
-/* The name of a row, or of that which a profile has under the same key, a file beside the requirement file: its GPU is
+/* The name of a row, or of that which a profile has under `key`, a file beside the requirement file: its GPU is
  * then added to the camera's. `known` says whether a row has that name; one that the file spells out is not asked for.
  */
-bool reader_row(reader *r, const config_setting_t *s, bool (*known)(const char *name), need_camera *camera,
-                char name[PROFILE_NAME_SIZE]);
+bool reader_row(reader *r, const config_setting_t *s, const char *key, bool (*known)(const char *name),
+                need_camera *camera, char name[PROFILE_NAME_SIZE]);
 bool reader_name(reader *r, const config_setting_t *s, const char *name); /* fit for a line of a report */
 bool reader_unit(reader *r, const config_setting_t *s);
 bool reader_length(reader *r, const config_setting_t *s, const char *key, unsigned allowed, double *out);

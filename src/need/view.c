@@ -94,7 +94,7 @@ static bool read_raster(reader *r, config_setting_t *s, const config_setting_t *
                         dp_triangles *t) {
     const int asked = t->subpixel;
     char name[PROFILE_NAME_SIZE];
-    if (!reader_row(r, s, has_raster, out, name))
+    if (!reader_row(r, s, "raster", has_raster, out, name))
         return false;
     out->raster = raster_find(name);
     if (out->raster == NULL) {

@@ -25,6 +25,7 @@
 #include <stddef.h>
 #include <stdint.h>
 
+#include "depthprec/arith.h"
 #include "depthprec/batch.h"
 #include "depthprec/format.h"
 #include "depthprec/triangles.h"
@@ -69,8 +70,9 @@ typedef struct raster_row {
     const char *note;
     const char *source;
     const struct raster_model *model; /**< null of a specification */
-    const char *arith;                /**< the arithmetic of its vertices and conversions, for dp_arith_parse(); null of
-                                           a specification */
+    /** The arithmetic of its vertices and conversions, for dp_arith_parse(), and the same with [-1, 1] remapped in the
+     *  vertex shader; null where none is known. */
+    const char *arith, *remapped;
 } raster_row;
 
 /** The rows; index below raster_count(), else null. */
@@ -85,6 +87,9 @@ const raster_row *raster_find(const char *name);
  * the anchor where it is largest, and of one that says "at least" the grid is the coarsest that it allows.
  */
 void raster_describe(const raster_row *row, dp_triangles *triangles);
+
+/** Its arithmetic, or that with [-1, 1] remapped in the vertex shader; false where none is known, *out is as it was. */
+bool raster_arith(const raster_row *row, bool remapped, dp_arith *out);
 
 /** Whether it draws into the format, with codes within the bound of triangles.h; false of specifications. */
 bool raster_draws(const raster_row *row, const dp_format *format);
