@@ -66,7 +66,6 @@ static void *next_setup(void *of, size_t i) {
     const dp_mapping mapping = o->mappings[i % o->mapping_count];
     shadow_maps_make(o, format, mapping, &s->maps); /* cannot fail: cmd_shadow() has tried */
     s->format = format->name;
-    s->arith = dp_arith_get(o->arith)->name;
     s->mapping = dp_mapping_get(mapping)->name;
     return s;
 }
@@ -317,7 +316,10 @@ static const column columns[] = {{FIELD(shadow, api_name, "api", ""), .only = AS
 
 int cmd_shadow(const options *given) {
     output out;
-    shadow s = {.o = shadow_options(given), .api = given->api, .unit = options_unit(given)};
+    shadow s = {.o = shadow_options(given),
+                .api = given->api,
+                .unit = options_unit(given),
+                .arith = dp_arith_get(given->arith)->name};
     const options *o = &s.o;
     s.api_name = s.api != NULL ? s.api->name : "all";
     s.setup_count = o->format_count * o->mapping_count;
