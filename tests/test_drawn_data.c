@@ -156,6 +156,51 @@ static int check_map(const json_t *series, const dp_setup *like) {
     return seen;
 }
 
+/* The codes that a real format of so many bits of mantissa has from NDC up to `last`: from every binary32 NDC >= -1 up
+ * to -1/4 one by one, and all of them above, where half of a step of NDC is no wider than one of the format. */
+static double codes_up_to(float last, int mantissa) {
+    double count = 0;
+    float before = -1;
+    for (float ndc = -1.0f; ndc <= fminf(last, -0.25f); ndc = nextafterf(ndc, 1.0f)) {
+        const float depth = 0.5f * ndc + 0.5f;
+        const float step = ldexpf(1.0f, (depth > 0 ? ilogbf(depth) : -126) - mantissa);
+        const float code = mantissa < 23 ? step * nearbyintf(depth / step) : depth;
+        count += code != before;
+        before = code;
+    }
+    for (double to = 0.5 + 0.5 * (double)last, from = 0.375; from < to; from = from < 0.5 ? 0.5 : to) {
+        const double end = from < 0.5 ? fmin(0.5, to) : to;
+        count += (end - from) * ldexp(1.0, mantissa + (from < 0.5 ? 2 : 1));
+    }
+    return count;
+}
+
+/* In binary32 a share is of the codes that [-1, 1] reaches, which is a few of those of reversed depth near 0. */
+static void share_counts_what_is_reached(void **state) {
+    (void)state;
+    static const struct {
+        const char *format, *model;
+        int mantissa;
+    } cases[] = {{"fp32", "float", 23}, {"fp32", "staged", 23}, {"float8.18", "staged", 18}};
+    for (size_t i = 0; i < sizeof cases / sizeof cases[0]; i++) {
+        char *text = drawn_output("plot share -n 0.1 -f 1000 -F %s -m gl-reversed --model %s --csv", cases[i].format,
+                                  cases[i].model);
+        const double all = codes_up_to(1.0f, cases[i].mantissa);
+        size_t seen = 0;
+        for (char *line = strtok(strchr(text, '\n') + 1, "\n"); line != NULL; line = strtok(NULL, "\n")) {
+            double z, share;
+            if (sscanf(line, ",%*[^,],%lf,%lf", &z, &share) != 2 || z < 1 || z > 999)
+                continue;
+            const double depth = 0.1 * (1000 - z) / (z * 999.9);
+            const double expected = 100 * codes_up_to((float)(2 * depth - 1), cases[i].mantissa) / all;
+            assert_relative(share, expected, z < 900 ? 0.01 : 0.1);
+            seen++;
+        }
+        assert_true(seen > 20);
+        free(text);
+    }
+}
+
 typedef struct data_case {
     const char *arguments;
     bool curves, map, second;
@@ -214,6 +259,7 @@ static void numbers_are_those_shown(void **state) {
 }
 
 int main(void) {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(numbers_are_those_shown)};
+    const struct CMUnitTest tests[] = {cmocka_unit_test(share_counts_what_is_reached),
+                                       cmocka_unit_test(numbers_are_those_shown)};
     return run_tap(tests);
 }

@@ -4,9 +4,26 @@
 
 #include "plot/envelope.h"
 
+/*
+ * The codes below one that are reached. Behind NDC of [-1, 1] in binary32 depth is (1 + ndc)/2, which comes in steps of
+ * 2^-25 below 1/4 and in those of binary32 above, where -1/2 <= ndc: no code of a real format that is finer than that
+ * is reached.
+ */
+static double reached(const dp_setup *setup, uint32_t code) {
+    const dp_format *f = &setup->spec.format;
+    const bool stepped = setup->spec.model != DP_MODEL_EXACT && dp_mapping_get(setup->spec.mapping)->ndc_signed &&
+                         f->kind == DP_FORMAT_FLOAT;
+    if (!stepped)
+        return code;
+    const double from = ldexp(1.0, f->mantissa_bits - 25); /* where codes become as wide as steps */
+    const double depth = dp_format_value(f, code), steps = ldexp(fmin(depth, from), 25);
+    const uint32_t at = dp_format_encode(f, DP_ROUND_NEAREST, from);
+    return fmin(code < at ? code : at, steps) + (code > at ? code - at : 0);
+}
+
 /* Codes are ordered as depths are, forwards or backwards, so the distance of two codes counts what lies between. */
-static double distance(uint32_t a, uint32_t b) {
-    return fabs((double)a - (double)b);
+static double distance(const dp_setup *setup, uint32_t a, uint32_t b) {
+    return fabs(reached(setup, a) - reached(setup, b));
 }
 
 typedef struct counted {
@@ -18,7 +35,7 @@ typedef struct counted {
 static void sample(const void *context, double from, double to, refine_sample *out) {
     const counted *c = context;
     (void)to;
-    const double left = distance(dp_code(c->setup, from), c->last);
+    const double left = distance(c->setup, dp_code(c->setup, from), c->last);
     *out = (refine_sample){.y = {c->all > 0 ? 100 * left / c->all : 0}, .step = {left > 0 ? 1 / left : 0}};
 }
 
@@ -29,7 +46,7 @@ const char *share_build(const figure_request *request, chart *out) {
     for (size_t i = 0; i < request->count; i++) {
         const dp_setup *setup = &request->setups[i];
         const uint32_t last = dp_code(setup, setup->spec.zfar);
-        const counted c = {setup, last, distance(dp_code(setup, setup->spec.znear), last)};
+        const counted c = {setup, last, distance(setup, dp_code(setup, setup->spec.znear), last)};
         const refine_request q = envelope_request(request, setup, out, panel, sample, &c);
         chart_series *s = envelope_curve(out, panel, &q);
         if (s == NULL)
