@@ -35,7 +35,7 @@ SUPPORT := $(filter-out $(TESTS) $(BENCHES),$(wildcard tests/*.c))
 FUZZ := $(wildcard tests/fuzz/fuzz_*.c)
 WEB := $(wildcard tests/web/*.c)
 MAN := $(wildcard man/*.[1-9])
-TOOLS := tests/run.sh tests/tap.sh tests/coverage.sh tests/cross.sh tests/linked.sh tests/page.sh
+TOOLS := tests/run.sh tests/tap.sh tests/coverage.sh tests/cross.sh tests/linked.sh tests/page.sh tests/bench.sh
 SCRIPTS := $(wildcard src/*.sh tests/*.sh tests/models/*.sh plots/*.sh man/*.sh .ci/*.sh)
 ALL_C := $(CORE) $(ROOMS) $(PAGE) $(TESTS) $(BENCHES) $(SUPPORT) $(FUZZ) $(WEB)
 ALL_H := $(HEADERS) $(wildcard src/*/*.h tests/*.h tests/*/*.h)
@@ -350,10 +350,11 @@ installcheck:
 plots: all
 	@sh plots/draw.sh $(B)/depthprec plots
 
+BENCHED := interval linearize encode worst position normal
 bench: all $(BENCH_PROGRAMS)
-	@for b in $(filter-out %/bench_empty,$(BENCH_PROGRAMS)); do $$b $(B)/depthprec || exit 1; done
-	@for f in interval linearize encode worst position normal; do echo && $(B)/depthprec bench $$f || exit 1; done
-	@sh plots/draw.sh $(B)/depthprec plots pareto-interval pareto-linearize
+	@sh tests/bench.sh $(foreach b,$(filter-out %/bench_empty,$(BENCH_PROGRAMS)),'$b $(B)/depthprec') \
+	    $(foreach f,$(BENCHED),'echo && $(B)/depthprec bench $f') \
+	    'sh plots/draw.sh $(B)/depthprec plots pareto-interval pareto-linearize'
 
 clean distclean:
 	$(Q)rm -rf build
@@ -383,7 +384,7 @@ help:
 ## make coverage    the lines that the tests reach, per file
 ## make lint        format, warnings of gcc and clang, cppcheck, manual pages, spelling, scripts, licences
 ## make plots       draw the gallery in plots/ again
-## make bench       measure the speed of the engine and the methods, redraw the charts of both
+## make bench       measure the speed of the engine and the methods, redraw the charts of both; last, which aims are met
 ## make check-web       the page in Chromium, which it installs: what it shows against the program, keyboard, speed
 ## make web         the page for the browser, build/depthprec.html, and the core as WebAssembly, build/web/core.wasm
 ## make packages    install what building and testing need

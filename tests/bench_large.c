@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /*
  * The array kernels where memory is the limit: 64 million elements, or as many as a quarter of the free memory holds;
- * on one thread and on all, beside a loop that moves the same bytes on as many. All take turns; medians.
+ * on one thread and on all, beside a loop that moves the same bytes on as many. All take turns; the least counts.
  */
 #include <math.h>
 #include <omp.h>
@@ -9,12 +9,12 @@
 #include <stdlib.h>
 #include <string.h>
 #include <sys/mman.h>
-#include <time.h>
 #include <unistd.h>
 
 #include "depthprec/depthprec.h"
 #include "parallel.h"
 #include "texture/clones.h"
+#include "timing.h"
 
 enum { RUNS = 7, WAYS = 4 };
 
@@ -34,18 +34,6 @@ static const row rows[] = {
     {"unorm24 -> eye depth", "unorm24", DP_TASK_EYE, DP_REAL_FLOAT, DP_WORD_32},
     {"unorm24 -> width, double", "unorm24", DP_TASK_WIDTH, DP_REAL_DOUBLE, DP_WORD_32},
 };
-
-static double now(void) {
-    struct timespec t;
-    clock_gettime(CLOCK_MONOTONIC, &t);
-    return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
-}
-
-static int ascending(const void *a, const void *b) {
-    const double x = *(const double *)a;
-    const double y = *(const double *)b;
-    return (x > y) - (x < y);
-}
 
 #define MOVE(NAME, IN, OUT)                                                                                            \
     TEXTURE_CLONES static void NAME(const void *in, void *out, size_t first, size_t last) {                            \
@@ -89,7 +77,7 @@ static void fill(const dp_batch *b, unsigned char *in, size_t count) {
 }
 
 static void measure(const row *r, unsigned char *in, unsigned char *out, size_t count, int threads) {
-    double sample[WAYS][RUNS];
+    timing taken[WAYS] = {{.count = 0}};
     double ns[WAYS];
     dp_format format[2];
     dp_spec spec = dp_spec_default();
@@ -106,18 +94,16 @@ static void measure(const row *r, unsigned char *in, unsigned char *out, size_t 
     for (int run = -1; run < RUNS; run++)
         for (int w = 0; w < WAYS; w++) {
             const int on = w % 2 == 0 ? 1 : threads;
-            const double start = now();
+            const double start = timing_now();
             if (w < 2)
                 move(&b, in, out, count, on);
             else
                 parallel_batch(&b, in, out, count, on);
             if (run >= 0)
-                sample[w][run] = (now() - start) * 1e9 / (double)count;
+                timing_add(&taken[w], (timing_now() - start) * 1e9 / (double)count);
         }
-    for (int w = 0; w < WAYS; w++) {
-        qsort(sample[w], RUNS, sizeof sample[w][0], ascending);
-        ns[w] = sample[w][RUNS / 2];
-    }
+    for (int w = 0; w < WAYS; w++)
+        ns[w] = timing_least(&taken[w]);
     printf("%-31s %8.3f %8.3f %7.2f %9.3f %8.3f %7.2f %9.2f %8.2f\n", r->what, ns[0], ns[2], ns[2] / ns[0], ns[1],
            ns[3], ns[3] / ns[1], ns[2] / ns[3], ns[0] / ns[1]);
 }

@@ -1,10 +1,10 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /*
  * Maps as whole processes: a depth image of 3840 x 2160 codes of unorm24 is read from .npy, and what is made of it
- * written to .npy, beside a process that reads and writes as many bytes and does nothing else. All take turns; medians.
- * Then the same on one thread and on all while another process keeps a core busy: nobody may wait for a thread that
- * lost its core. Memory is what a process held at most beyond its images, the one that was read and those written,
- * which it holds a strip at a time. A missed aim is a word in a table, never a failure.
+ * written to .npy, beside a process that reads and writes as many bytes and does nothing else. All take turns; the
+ * least counts. Then the same on one thread and on all while another process keeps a core busy: nobody may wait for a
+ * thread that lost its core. Memory is what a process held at most beyond its images, the one that was read and those
+ * written, which it holds a strip at a time.
  */
 #include <fcntl.h>
 #include <math.h>
@@ -14,10 +14,11 @@
 #include <string.h>
 #include <sys/resource.h>
 #include <sys/wait.h>
-#include <time.h>
 #include <unistd.h>
 
+#include "aims.h"
 #include "texture/image.h"
+#include "timing.h"
 
 enum { WIDTH = 3840, HEIGHT = 2160, RUNS = 5, BLOCK = 1 << 16, WORDS = 32 };
 
@@ -28,18 +29,18 @@ static const char *program;
 typedef struct way {
     const char *name, *words;
     int planes; /* written, of 4 bytes a pixel */
-    double aim; /* seconds, 0: none */
+    aim_id aim; /* AIM_COUNT: none */
 } way;
 
 static const way ways[] = {
-    {"eye depth", "--eye -o out.npy", 1, 0},
-    {"  and its error", "--eye -o out.npy --error-map=error.npy", 2, 0.3},
-    {"places", "--position view -o out.npy", 3, 0},
-    {"  and their errors", "--position view -o out.npy --error-map=error.npy", 4, 0.6},
-    {"normals", "--normal projective -o out.npy", 3, 0},
-    {"  and their errors", "--normal projective -o out.npy --error-map=error.npy", 4, 0.8},
-    {"statistics", "-o out.txt", 0, 0.5},
-    {"a figure of 3840 px", "--figure out.png --width 3840", 0, 1},
+    {"eye depth", "--eye -o out.npy", 1, AIM_COUNT},
+    {"  and its error", "--eye -o out.npy --error-map=error.npy", 2, AIM_EYE_MAP},
+    {"places", "--position view -o out.npy", 3, AIM_COUNT},
+    {"  and their errors", "--position view -o out.npy --error-map=error.npy", 4, AIM_PLACES_MAP},
+    {"normals", "--normal projective -o out.npy", 3, AIM_COUNT},
+    {"  and their errors", "--normal projective -o out.npy --error-map=error.npy", 4, AIM_NORMALS_MAP},
+    {"statistics", "-o out.txt", 0, AIM_STATISTICS},
+    {"a figure of 3840 px", "--figure out.png --width 3840", 0, AIM_FIGURE},
 };
 enum { WAYS = sizeof ways / sizeof ways[0] };
 
@@ -47,12 +48,6 @@ enum { WAYS = sizeof ways / sizeof ways[0] };
 typedef struct cost {
     double wall, cpu, memory;
 } cost;
-
-static double now(void) {
-    struct timespec t;
-    clock_gettime(CLOCK_MONOTONIC, &t);
-    return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
-}
 
 static double seconds(struct timeval t) {
     return (double)t.tv_sec + 1e-6 * (double)t.tv_usec;
@@ -92,7 +87,7 @@ static void run_program(const char *words, int threads) {
 static cost measure(const char *words, int planes, int threads) {
     struct rusage used;
     int status;
-    const double start = now();
+    const double start = timing_now();
     const pid_t child = fork();
     if (child == 0 && words == NULL)
         move_bytes(planes);
@@ -102,60 +97,53 @@ static cost measure(const char *words, int planes, int threads) {
         fprintf(stderr, "bench_maps: %s failed\n", words != NULL ? words : "copying");
         exit(2);
     }
-    return (cost){now() - start, seconds(used.ru_utime) + seconds(used.ru_stime), 1024.0 * (double)used.ru_maxrss};
-}
-
-static int ascending(const void *a, const void *b) {
-    const double x = *(const double *)a, y = *(const double *)b;
-    return (x > y) - (x < y);
-}
-
-static double median(double values[RUNS]) {
-    qsort(values, RUNS, sizeof values[0], ascending);
-    return values[RUNS / 2];
+    return (cost){timing_now() - start, seconds(used.ru_utime) + seconds(used.ru_stime),
+                  1024.0 * (double)used.ru_maxrss};
 }
 
 static void compare_with_floor(int threads) {
-    static double wall[WAYS][2][RUNS], cpu[WAYS][2][RUNS], memory[WAYS];
+    static timing wall[WAYS][2], cpu[WAYS][2];
+    static double memory[WAYS];
     for (int run = -1; run < RUNS; run++)
         for (int i = 0; i < WAYS; i++)
             for (int floor = 0; floor < 2; floor++) {
                 const cost c = measure(floor ? NULL : ways[i].words, ways[i].planes, threads);
                 if (run < 0)
                     continue;
-                wall[i][floor][run] = c.wall;
-                cpu[i][floor][run] = c.cpu;
+                timing_add(&wall[i][floor], c.wall);
+                timing_add(&cpu[i][floor], c.cpu);
                 if (!floor)
                     memory[i] = fmax(memory[i], c.memory - image_bytes_each);
             }
     printf("\nmaps as processes, %d threads   s   moving   ratio  CPU s   ratio  MiB more   aim\n", threads);
     for (int i = 0; i < WAYS; i++) {
-        const double taken = median(wall[i][0]), floor = median(wall[i][1]);
-        const double used = median(cpu[i][0]), floor_used = median(cpu[i][1]);
+        const double taken = timing_least(&wall[i][0]), floor = timing_least(&wall[i][1]);
+        const double used = timing_least(&cpu[i][0]), floor_used = timing_least(&cpu[i][1]);
         printf("%-24s %8.3f %8.3f %7.1f %6.2f %7.1f %9.1f", ways[i].name, taken, floor, taken / floor, used,
                used / floor_used, memory[i] / 0x1p20);
-        if (ways[i].aim > 0)
-            printf("   <= %.1f s  %s", ways[i].aim, taken <= ways[i].aim ? "met" : "missed");
+        if (ways[i].aim != AIM_COUNT)
+            aim_judge(ways[i].aim, ways[i].words, taken);
         printf("\n");
     }
 }
 
 static void compare_under_load(int threads) {
-    double taken[2][RUNS];
     printf("\nbeside a process that keeps a core busy, s   1 thread  %d threads   ratio   aim\n", threads);
     for (int i = 1; i < WAYS; i += 2) {
+        timing taken[2] = {{.count = 0}};
         const pid_t busy = fork();
         if (busy == 0)
             for (volatile unsigned spin = 0;; spin++)
                 ;
         for (int run = 0; run < RUNS; run++)
             for (int t = 0; t < 2; t++)
-                taken[t][run] = measure(ways[i].words, 0, t == 0 ? 1 : threads).wall;
+                timing_add(&taken[t], measure(ways[i].words, 0, t == 0 ? 1 : threads).wall);
         kill(busy, SIGKILL);
         waitpid(busy, NULL, 0);
-        const double one = median(taken[0]), all = median(taken[1]);
-        printf("%-42s %8.3f %10.3f %7.2f   <= 2  %s\n", ways[i].name, one, all, all / one,
-               all <= 2 * one ? "met" : "missed");
+        const double one = timing_least(&taken[0]), all = timing_least(&taken[1]);
+        printf("%-42s %8.3f %10.3f %7.2f", ways[i].name, one, all, all / one);
+        aim_judge(AIM_LOADED, ways[i].words, all / one);
+        printf("\n");
     }
 }
 

@@ -1,16 +1,17 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /*
  * Triangles as rasterizers draw them, set-up and coverage included, beside a loop that fills the same pixels with one
- * depth. All take turns within one run; medians. A missed aim is a word in a table, never a failure.
+ * depth. All take turns within one run; the least counts.
  */
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <time.h>
 
+#include "aims.h"
 #include "raster/raster.h"
 #include "texture/clones.h"
+#include "timing.h"
 
 enum { SIZE = 512, TRIANGLES = 400, RUNS = 31 };
 
@@ -20,19 +21,6 @@ static raster_vertex triangles[TRIANGLES][3];
 /* The spans of all triangles, for the loop that fills them. */
 static struct span { int y, from, to; } spans[TRIANGLES * SIZE];
 static size_t span_count;
-
-/* Of this process, which has one thread: a shared machine puts long runs aside more often than short ones. */
-static double now(void) {
-    struct timespec t;
-    clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &t);
-    return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
-}
-
-static int ascending(const void *a, const void *b) {
-    const double x = *(const double *)a;
-    const double y = *(const double *)b;
-    return (x > y) - (x < y);
-}
 
 static double unit(uint64_t *state) {
     *state = *state * 6364136223846793005U + 1442695040888963407U;
@@ -88,31 +76,26 @@ TEXTURE_CLONES static void fill(float depth) {
 
 /* Seconds per run of the loop and of the target on its path and on the baseline. */
 static void measure(const raster_target way[2], double seconds[3]) {
-    static double sample[3][RUNS];
+    timing taken[3] = {{.count = 0}};
     for (int run = -2; run < RUNS; run++)
         for (int w = 0; w < 3; w++) {
-            const double start = now();
+            const double start = timing_cpu();
             if (w == 0)
                 fill((float)run);
             else
                 draw(&way[w - 1], false);
             if (run >= 0)
-                sample[w][run] = now() - start;
+                timing_add(&taken[w], timing_cpu() - start);
         }
-    for (int w = 0; w < 3; w++) {
-        qsort(sample[w], RUNS, sizeof sample[w][0], ascending);
-        seconds[w] = sample[w][RUNS / 2];
-    }
-}
-
-static const char *verdict(bool met) {
-    return met ? "met" : "missed";
+    for (int w = 0; w < 3; w++)
+        seconds[w] = timing_least(&taken[w]);
 }
 
 static void row(size_t index, double pixels, const dp_format *format) {
     const bool small = pixels < 1000;
     raster_target way[2];
     double seconds[3];
+    char what[64];
     for (int w = 0; w < 2; w++)
         if (raster_target_init(&way[w], index, SIZE, SIZE, format, w == 0 ? dp_path_best() : DP_PATH_BASELINE) !=
             RASTER_OK)
@@ -121,14 +104,16 @@ static void row(size_t index, double pixels, const dp_format *format) {
     const double drawn = draw(&way[0], true);
     measure(way, seconds);
     const double million = TRIANGLES / seconds[1] * 1e-6;
-    printf("%-12s %8.0f %9.0f %9.0f %9.0f %7.2f %9.2f   ", way[0].row->name, drawn / TRIANGLES,
-           drawn / seconds[0] * 1e-6, drawn / seconds[1] * 1e-6, drawn / seconds[2] * 1e-6, seconds[0] / seconds[1],
-           million);
+    printf("%-12s %8.0f %9.0f %9.0f %9.0f %7.2f %9.2f", way[0].row->name, drawn / TRIANGLES, drawn / seconds[0] * 1e-6,
+           drawn / seconds[1] * 1e-6, drawn / seconds[2] * 1e-6, seconds[0] / seconds[1], million);
+    snprintf(what, sizeof what, "%s %.0f", way[0].row->name, drawn / TRIANGLES);
     if (small)
-        printf(">= 3 million/s  %s\n", verdict(million >= 3));
-    else
-        printf(">= 0.25 L  %s; baseline >= 100 M/s  %s\n", verdict(seconds[0] / seconds[1] >= 0.25),
-               verdict(drawn / seconds[2] >= 1e8));
+        aim_judge(AIM_SMALL_TRIANGLES, what, million);
+    else {
+        aim_judge(AIM_TRIANGLES, what, seconds[0] / seconds[1]);
+        aim_judge(AIM_TRIANGLES_BASELINE, what, drawn / seconds[2] * 1e-6);
+    }
+    printf("\n");
 }
 
 int main(void) {

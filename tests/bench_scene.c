@@ -13,9 +13,9 @@
 #include <stdlib.h>
 #include <string.h>
 #include <sys/resource.h>
-#include <time.h>
 
 #include "scene/find.h"
+#include "timing.h"
 
 enum { THREADS = 2, FACES = 8, BLOCK = 16, BLOCK_TRIANGLES = 2 + 2 + 12 * FACES * FACES + 64 };
 
@@ -183,12 +183,6 @@ static bytes make_city(size_t triangles, city *c) {
 /* ---- The measurement -----------------------------------------------------------------------------------------------
  */
 
-static double now(void) {
-    struct timespec t;
-    clock_gettime(CLOCK_MONOTONIC, &t);
-    return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
-}
-
 /* The posters, each with the wall of its own house; every carpet is hidden; all houses stand on the ground. */
 static int judge(const city *c, const finder_found *f) {
     double area = 0.0;
@@ -215,19 +209,19 @@ static int measure(size_t triangles) {
     model m;
     model_error error;
     finder_found f = {0};
-    const double start = now();
+    const double start = timing_now();
     const bool read = model_read(name, &(model_asked){0}, &m, &error);
     remove(name);
     if (!read) {
         fprintf(stderr, "bench_scene: %s\n", error.text);
         return 1;
     }
-    const double middle = now();
-    const clock_t ticks = clock();
+    const double middle = timing_now();
+    const double before = timing_cpu();
     const finder_asked asked = {.gap = 0.01, .angle = FINDER_ANGLE, .threads = THREADS};
     const finder_status status = finder_find(&m, &asked, &f);
-    const double end = now();
-    const double cpu = (double)(clock() - ticks) / CLOCKS_PER_SEC;
+    const double end = timing_now();
+    const double cpu = timing_cpu() - before;
     struct rusage usage;
     getrusage(RUSAGE_SELF, &usage);
     const int right = status == FINDER_DONE && judge(&c, &f) && m.triangles == c.triangles;

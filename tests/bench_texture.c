@@ -2,7 +2,7 @@
 /*
  * A depth image of 3840 x 2160 in memory: eye depths, places and normals, each beside loops that move the same bytes,
  * with plain stores and with stores past the caches; then whole frames as the command makes them. All take turns, on
- * one thread and on all; medians. A missed aim is a word in a table, never a failure: the place by "matrix" divides
+ * one thread and on all; the least counts. The place by "matrix" divides
  * three times a pixel, because engines do, and that alone is two thirds of the floor.
  */
 #include <math.h>
@@ -11,14 +11,15 @@
 #include <stdlib.h>
 #include <string.h>
 #include <sys/mman.h>
-#include <time.h>
 #ifdef __SSE2__
 #include <emmintrin.h>
 #endif
 
+#include "aims.h"
 #include "named.h"
 #include "texture/clones.h"
 #include "texture/frame.h"
+#include "timing.h"
 
 enum { WIDTH = 3840, HEIGHT = 2160, STRIDE = WIDTH + 16, RUNS = 9, WAYS_MAX = 24 };
 
@@ -30,18 +31,6 @@ static dp_batch decoder;
 static float *window, *eyes, *plane[3], *slope;
 static uint32_t *codes;
 static int threads = 1;
-
-static double now(void) {
-    struct timespec t;
-    clock_gettime(CLOCK_MONOTONIC, &t);
-    return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
-}
-
-static int ascending(const void *a, const void *b) {
-    const double x = *(const double *)a;
-    const double y = *(const double *)b;
-    return (x > y) - (x < y);
-}
 
 static const float *eye_row(int64_t row) {
     const int64_t inside = row < 0 ? 0 : row >= HEIGHT ? HEIGHT - 1 : row;
@@ -70,7 +59,6 @@ struct way {
     void (*run)(const way *w, uint32_t row);
     int planes;    /* that are written: 1 or 3 */
     int streaming; /* 1: the floor of the others with as many planes */
-    double aim;    /* of the floor, 0: none */
     const void *method;
 };
 
@@ -117,21 +105,22 @@ static void whole(const way *w, int on) {
         w->run(w, row);
 }
 
-static void table(const char *title, const way *ways, size_t count) {
-    static double sample[2][WAYS_MAX][RUNS];
+/* @param aim  of the methods; AIM_COUNT: none */
+static void table(const char *title, const way *ways, size_t count, aim_id aim) {
+    static timing taken[2][WAYS_MAX];
     double ns[2][WAYS_MAX], floor_ns[2][4] = {{0}};
+    memset(taken, 0, sizeof taken);
     for (int run = -1; run < RUNS; run++)
         for (size_t i = 0; i < count; i++)
             for (int t = 0; t < 2; t++) {
-                const double start = now();
+                const double start = timing_now();
                 whole(&ways[i], t == 0 ? 1 : threads);
                 if (run >= 0)
-                    sample[t][i][run] = (now() - start) * 1e9 / (double)pixels;
+                    timing_add(&taken[t][i], (timing_now() - start) * 1e9 / (double)pixels);
             }
     for (size_t i = 0; i < count; i++)
         for (int t = 0; t < 2; t++) {
-            qsort(sample[t][i], RUNS, sizeof sample[t][i][0], ascending);
-            ns[t][i] = sample[t][i][RUNS / 2];
+            ns[t][i] = timing_least(&taken[t][i]);
             if (ways[i].streaming)
                 floor_ns[t][ways[i].planes] = ns[t][i];
         }
@@ -140,8 +129,8 @@ static void table(const char *title, const way *ways, size_t count) {
         const double ratio = ns[0][i] / floor_ns[0][ways[i].planes];
         printf("%-24s %9.3f %9.2f %7d %9.3f %9.2f", ways[i].name, ns[0][i], ratio, threads, ns[1][i],
                ns[1][i] / floor_ns[1][ways[i].planes]);
-        if (ways[i].aim > 0.0)
-            printf("   <= %.2f floor  %s", ways[i].aim, ratio <= ways[i].aim ? "met" : "missed");
+        if (ways[i].method != NULL && aim != AIM_COUNT)
+            aim_judge(aim, ways[i].name, ratio);
         printf("\n");
     }
 }
@@ -167,21 +156,19 @@ static void frames(void) {
     static const char *const names[] = {"eye depths", "places, view", "normals, high", "normals, projective"};
     printf("\n%-24s %9s %9s %9s\n", "whole frames, ns a pixel", "1 thread", "all", "speed-up");
     for (size_t i = 0; i < sizeof products / sizeof products[0]; i++) {
-        double sample[2][RUNS];
+        timing taken[2] = {{.count = 0}};
         for (int run = -1; run < RUNS; run++)
             for (int t = 0; t < 2; t++) {
                 const frame f = {
                     .camera = &camera, .image = &picture, .sky = FRAME_SKY, .threads = t == 0 ? 1 : threads};
-                const double start = now();
+                const double start = timing_now();
                 if (!frame_run(&f, &products[i], false, drop, NULL))
                     exit(2);
                 if (run >= 0)
-                    sample[t][run] = (now() - start) * 1e9 / (double)pixels;
+                    timing_add(&taken[t], (timing_now() - start) * 1e9 / (double)pixels);
             }
-        qsort(sample[0], RUNS, sizeof sample[0][0], ascending);
-        qsort(sample[1], RUNS, sizeof sample[1][0], ascending);
-        printf("%-24s %9.3f %9.3f %9.2f\n", names[i], sample[0][RUNS / 2], sample[1][RUNS / 2],
-               sample[0][RUNS / 2] / sample[1][RUNS / 2]);
+        const double one = timing_least(&taken[0]), all = timing_least(&taken[1]);
+        printf("%-24s %9.3f %9.3f %9.2f\n", names[i], one, all, one / all);
     }
 }
 
@@ -242,24 +229,24 @@ int main(void) {
     threads = omp_get_max_threads();
     fill();
     printf("\n%d x %d pixels in memory, ns a pixel; the floor streams the same bytes\n", WIDTH, HEIGHT);
-    ways[count++] = (way){"plain copy", run_copy, 1, 0, 0, NULL};
-    ways[count++] = (way){"streaming copy", run_stream, 1, 1, 0, NULL};
-    ways[count++] = (way){"batch, unorm24", run_batch, 1, 0, 0, NULL};
+    ways[count++] = (way){"plain copy", run_copy, 1, 0, NULL};
+    ways[count++] = (way){"streaming copy", run_stream, 1, 1, NULL};
+    ways[count++] = (way){"batch, unorm24", run_batch, 1, 0, NULL};
     for (size_t i = 0; decode_get(i) != NULL; i++)
         if (decode_get(i)->quantity == DECODE_EYE && decode_applies(decode_get(i), &camera.setup))
-            ways[count++] = (way){decode_get(i)->name, run_decode, 1, 0, 0, decode_get(i)};
-    table("eye depths", ways, count);
+            ways[count++] = (way){decode_get(i)->name, run_decode, 1, 0, decode_get(i)};
+    table("eye depths", ways, count, AIM_COUNT);
     count = 0;
-    ways[count++] = (way){"plain copy to 3 planes", run_copy, 3, 0, 0, NULL};
-    ways[count++] = (way){"streaming copy", run_stream, 3, 1, 0, NULL};
+    ways[count++] = (way){"plain copy to 3 planes", run_copy, 3, 0, NULL};
+    ways[count++] = (way){"streaming copy", run_stream, 3, 1, NULL};
     for (size_t i = 0; position_get(i) != NULL; i++)
         if (position_applies(position_get(i), &camera))
-            ways[count++] = (way){position_get(i)->name, run_position, 3, 0, 1.2, position_get(i)};
-    table("places", ways, count);
+            ways[count++] = (way){position_get(i)->name, run_position, 3, 0, position_get(i)};
+    table("places", ways, count, AIM_PLACES);
     count = 2;
     for (size_t i = 0; normal_get(i) != NULL; i++)
-        ways[count++] = (way){normal_get(i)->name, run_normal, 3, 0, 2.0, normal_get(i)};
-    table("normals", ways, count);
+        ways[count++] = (way){normal_get(i)->name, run_normal, 3, 0, normal_get(i)};
+    table("normals", ways, count, AIM_NORMALS);
     frames();
     return 0;
 }
