@@ -72,6 +72,7 @@ COMPILE = $(CC) -std=gnu11 $(INCLUDES) $(CPPFLAGS) $(WARN) $(CFLAGS) $(MODE) $(E
 LINK = $(CC) $(CFLAGS) $(MODE) $(LDFLAGS) -Wl,--as-needed
 
 Q := $(if $(filter 1,$(V)),,@)
+comma := ,
 say = @$(if $(Q),printf '  %-7s %s\n' $(1) $@,:)
 JOBS ?= $(shell nproc 2>/dev/null || echo 1)
 PARALLEL = --no-print-directory --output-sync=target $(if $(findstring -j,$(MAKEFLAGS)),,-j$(JOBS))
@@ -245,6 +246,9 @@ $(B)/tests/%: $(B)/obj/tests/%.o $(B)/libsupport.a $(B)/librooms.a $(B)/libdepth
 	@mkdir -p $(@D)
 	$(call say,LD)
 	$(Q)$(LINK) -o $@ $^ @$(B)/check.libs @$(B)/build.libs -lm
+
+# This one counts calls.
+$(B)/tests/test_once: LDFLAGS += $(patsubst %,-Wl$(comma)--wrap=dp_%,pipeline_prepare chain_make log_shader_make)
 
 mutants:
 	@sh src/packages.sh check

@@ -11,6 +11,7 @@ typedef enum aim_id {
     AIM_TABLE_SLANTED,
     AIM_MAP,
     AIM_CERTIFIED,
+    AIM_PIPELINE_CODE,
     AIM_CENSUS,
     AIM_CAMERA,
     AIM_HALVES,

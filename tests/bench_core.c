@@ -214,6 +214,36 @@ static void time_depth(const dp_setup *setup, const char *name) {
         printf("  %llu codes differ between the quick and the exact path\n", (unsigned long long)wrong);
 }
 
+/* A code of the model fp32 beside the arithmetic alone, whose pipeline is at hand. */
+static void bench_pipeline_code(void) {
+    dp_setup setup = make("fp32", DP_MAPPING_D3D);
+    dp_spec spec = setup.spec;
+    dp_pipeline pipeline;
+    double z[DEPTHS];
+    uint64_t state = 1;
+    uint32_t differ = 0;
+    timing whole = {0}, alone = {0};
+    spec.model = DP_MODEL_FP32;
+    if (dp_setup_init(&setup, &spec) != DP_OK || dp_pipeline_init(&pipeline, &setup) != DP_OK)
+        exit(2);
+    fill(&setup, z, &state);
+    for (int round = 0; round < TIMED_ROUNDS; round++) {
+        const double start = timing_now();
+        for (int i = 0; i < DEPTHS; i++)
+            differ += dp_code(&setup, z[i]);
+        const double middle = timing_now();
+        for (int i = 0; i < DEPTHS; i++)
+            differ -= dp_pipeline_code(&pipeline, (float)z[i]);
+        timing_add(&whole, (middle - start) / DEPTHS);
+        timing_add(&alone, (timing_now() - middle) / DEPTHS);
+    }
+    if (differ != 0)
+        exit(2);
+    measured("fp32 d3d: one depth in the model fp32", 1e9 * timing_least(&whole), "ns", timing_spread(&whole));
+    aimed("  as many times its arithmetic alone", timing_least(&whole) / timing_least(&alone), "x",
+          timing_spread(&alone), AIM_PIPELINE_CODE, "");
+}
+
 static void bench_depth(void) {
     static const struct {
         const char *name, *format;
@@ -323,5 +353,6 @@ int main(int argc, char **argv) {
     bench_map(program);
     bench_worst();
     bench_depth();
+    bench_pipeline_code();
     return 0;
 }

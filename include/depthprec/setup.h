@@ -60,6 +60,8 @@ typedef struct dp_setup {
     double log_lo;
     uint32_t code_near; /**< the codes of the two planes */
     uint32_t code_far;
+    float matrix[2]; /**< where a pipeline computes depth: z_clip = matrix[0] z + matrix[1], see pipeline.h */
+    float inside[2]; /**< and the binary32 depths nearest to the planes from inside */
 } dp_setup;
 
 /**

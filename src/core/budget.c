@@ -7,7 +7,7 @@
 #include "core/elementary.h"
 #include "core/engine.h"
 #include "core/extremes.h"
-#include "core/log_shader.h"
+#include "core/guarantee.h"
 #include "core/rounding.h"
 #include "core/triangles.h"
 #include "depthprec/depth.h"
@@ -68,10 +68,8 @@ static double moved(double z, double share) {
 }
 
 /* What the lattice alone asks for: no arithmetic before it makes two surfaces easier to tell apart. */
-static double lattice_separation(const dp_setup *setup, double z) {
-    dp_setup exact = *setup;
-    exact.spec.model = DP_MODEL_EXACT;
-    return isinf(z) ? HUGE_VAL : dp_lattice_separation(&exact, z);
+static double lattice_separation(const dp_guarantee *g, double z) {
+    return isinf(z) ? HUGE_VAL : dp_lattice_separation(&g->exact, z);
 }
 
 /* The separation of depths that a composition moves: that of any depth which a surface at z may be moved to. */
@@ -202,13 +200,13 @@ static dp_status check_terms(const dp_setup *setup, const dp_budget_terms *terms
 
 /* A separation of surfaces whose binary32 depths may be `longest` apart and out of order, and its parts, which are
  * shares of the window depth that the pair must differ by. */
-static void share_out(const dp_setup *setup, double z, double longest, double window, const double part[DP_CAUSE_COUNT],
+static void share_out(const dp_guarantee *g, double z, double longest, double window, const double part[DP_CAUSE_COUNT],
                       dp_budget *out) {
     const double z1 = (double)(float)z;
     const double apart = last_within(z1, longest) - z1;
     const double eye = dp_eye_rounding(z1, z1 + apart);
     const double pipeline_needs = (apart + eye) * outward;
-    out->separation = larger(pipeline_needs, lattice_separation(setup, z));
+    out->separation = larger(pipeline_needs, lattice_separation(g, z));
     out->window = window;
     for (int i = 0; i < DP_CAUSE_COUNT; i++)
         out->cause[i] = part[i] > 0.0 ? apart * outward * (part[i] / window) : 0.0;
@@ -217,46 +215,74 @@ static void share_out(const dp_setup *setup, double z, double longest, double wi
 }
 
 /* The budget of a depth that a pipeline computes from its matrix. */
-static dp_status matrix_budget(const dp_setup *setup, double z, const dp_budget_terms *terms, dp_budget *out) {
-    dp_pipeline pipeline;
-    const dp_status status = dp_pipeline_init(&pipeline, setup);
-    if (status != DP_OK)
-        return status;
-    const dp_chain c = dp_chain_make(setup, &pipeline);
+static void matrix_budget(const dp_guarantee *g, double z, const dp_budget_terms *terms, dp_budget *out) {
+    const dp_setup *setup = g->setup;
+    const dp_chain *c = &g->chain;
     const double z1 = (double)(float)z;
     double part[DP_CAUSE_COUNT] = {0};
     if (terms != NULL) {
         part[DP_CAUSE_INTERPOLATION] = 2.0 * terms->interpolation * DP_UNIT;
-        part[DP_CAUSE_LINEARIZATION] = terms->linearize ? 2.0 * linearization_error(setup, &c, z1) : 0.0;
+        part[DP_CAUSE_LINEARIZATION] = terms->linearize ? 2.0 * linearization_error(setup, c, z1) : 0.0;
     }
     const double extra = part[DP_CAUSE_INTERPOLATION] + part[DP_CAUSE_LINEARIZATION];
     dp_demand d;
-    const double longest = dp_demand_longest(&c, entered(z1), extra, &d);
+    const double longest = dp_demand_longest(c, entered(z1), extra, &d);
     part[DP_CAUSE_PROJECTION] = d.projection;
     part[DP_CAUSE_FORMAT] = d.format;
     part[DP_CAUSE_NDC] = d.window - extra - d.projection - d.format; /* with what clamping takes */
-    share_out(setup, z, longest, d.window, part, out);
+    share_out(g, z, longest, d.window, part, out);
     dp_budget plain = *out;
     if (setup->spec.triangles.width != 0)
-        add_triangles(setup, &c, z, 0.0, part, NULL, &plain);
+        add_triangles(setup, c, z, 0.0, part, NULL, &plain);
     if (terms != NULL && is_moved(terms))
-        add_composition(setup, &c, z, terms, part, &plain, out);
+        add_composition(setup, c, z, terms, part, &plain, out);
     else
         *out = plain;
-    return DP_OK;
 }
 
 /* The budget of a logarithmic depth that a shader writes. */
-static dp_status log_budget(const dp_setup *setup, double z, const dp_budget_terms *terms, dp_budget *out) {
-    const dp_log_shader s = dp_log_shader_make(setup, dp_log2_get(terms != NULL ? terms->log2 : 0));
+static void log_budget(const dp_guarantee *g, double z, const dp_budget_terms *terms, dp_budget *out) {
     const double extra = terms != NULL ? 2.0 * terms->interpolation * DP_UNIT : 0.0;
     dp_log_demand d;
-    const double longest = dp_log_longest(&s, (dp_span){(double)(float)z, (double)(float)z}, extra, &d);
+    const double longest = dp_log_longest(&g->shader, (dp_span){(double)(float)z, (double)(float)z}, extra, &d);
     const double part[DP_CAUSE_COUNT] = {
         [DP_CAUSE_ARGUMENT] = d.argument, [DP_CAUSE_LOG2] = d.log2,         [DP_CAUSE_SCALE] = d.scale,
         [DP_CAUSE_NDC] = d.ndc,           [DP_CAUSE_INTERPOLATION] = extra, [DP_CAUSE_FORMAT] = d.format};
-    share_out(setup, z, longest, d.window, part, out);
-    return DP_OK;
+    share_out(g, z, longest, d.window, part, out);
+}
+
+/* Of a mapping that computes depth. */
+static dp_guarantee guarantee_of(const dp_setup *setup, const dp_log2_row *log2) {
+    dp_guarantee g = {.setup = setup, .exact = *setup};
+    g.exact.spec.model = DP_MODEL_EXACT;
+    g.exact.shader = 0;
+    if (setup->curve == DP_CURVE_LOG) {
+        g.shader = dp_log_shader_make(setup, log2);
+        return g;
+    }
+    dp_pipeline pipeline;
+    dp_pipeline_init(&pipeline, setup);
+    g.chain = dp_chain_make(setup, &pipeline);
+    return g;
+}
+
+dp_guarantee dp_guarantee_make(const dp_setup *setup) {
+    return guarantee_of(setup, dp_log2_get(0));
+}
+
+/* `out` is what it is at infinity where there is no binary32 depth. */
+static void budget_of(const dp_guarantee *g, double z, const dp_budget_terms *terms, dp_budget *out) {
+    *out = (dp_budget){.separation = HUGE_VAL, .window = 1.0};
+    if (!isinf((float)z))
+        (g->setup->curve == DP_CURVE_LOG ? log_budget : matrix_budget)(g, z, terms, out);
+}
+
+double dp_guarantee_at(const dp_guarantee *g, double z) {
+    dp_budget budget;
+    if (!(z >= g->setup->spec.znear && z <= g->setup->spec.zfar))
+        return HUGE_VAL;
+    budget_of(g, z, NULL, &budget);
+    return budget.separation;
 }
 
 dp_status dp_budget_at(const dp_setup *setup, double z, const dp_budget_terms *terms, dp_budget *out) {
@@ -269,10 +295,9 @@ dp_status dp_budget_at(const dp_setup *setup, double z, const dp_budget_terms *t
         return DP_ERROR_MODEL;
     if (isinf((float)z) && !isinf(z))
         return DP_ERROR_BINARY32;
-    *out = (dp_budget){.separation = HUGE_VAL, .window = 1.0};
-    if (isinf(z))
-        return DP_OK;
-    return (row->curve == DP_CURVE_LOG ? log_budget : matrix_budget)(setup, z, terms, out);
+    const dp_guarantee g = guarantee_of(setup, dp_log2_get(terms != NULL ? terms->log2 : 0));
+    budget_of(&g, z, terms, out);
+    return DP_OK;
 }
 
 /*
@@ -292,25 +317,20 @@ static double apart_over(dp_span run, double longest) {
  * The same for a run of depths at once: every rounding at the largest value that it meets anywhere in it. All that the
  * demands are made of rises with the range that they are taken over, so this is a separation of each depth of the run.
  */
-double dp_budget_bound(const dp_setup *setup, float nearest, float farthest) {
+double dp_guarantee_bound(const dp_guarantee *g, float nearest, float farthest) {
     if (isinf(farthest))
         return HUGE_VAL;
-    if (setup->curve == DP_CURVE_LOG) {
-        const dp_log_shader s = dp_log_shader_make(setup, dp_log2_get(0));
+    if (g->setup->curve == DP_CURVE_LOG) {
         const dp_span run = {(double)nearest, (double)farthest};
         dp_log_demand d;
-        return apart_over(run, dp_log_longest(&s, run, 0.0, &d));
+        return apart_over(run, dp_log_longest(&g->shader, run, 0.0, &d));
     }
-    dp_pipeline pipeline;
-    if (dp_pipeline_init(&pipeline, setup) != DP_OK)
-        return HUGE_VAL;
-    const dp_chain c = dp_chain_make(setup, &pipeline);
     const dp_span run = {entered((double)nearest).lo, entered((double)farthest).hi};
     dp_demand d;
     static const double asked[DP_CAUSE_COUNT] = {0};
-    dp_budget b = {.separation = apart_over(run, dp_demand_longest(&c, run, 0.0, &d))};
-    if (setup->spec.triangles.width != 0)
-        dp_triangles_add(&c, run, &setup->spec.triangles, asked, NULL, &b);
+    dp_budget b = {.separation = apart_over(run, dp_demand_longest(&g->chain, run, 0.0, &d))};
+    if (g->setup->spec.triangles.width != 0)
+        dp_triangles_add(&g->chain, run, &g->setup->spec.triangles, asked, NULL, &b);
     return b.separation;
 }
 

@@ -22,6 +22,9 @@ uint32_t dp_code_quick(const dp_setup *setup, double z, int *certain);
 /* d(z) as dp_window() computes it is within 6 units of 2^-53; this leaves room for the product with a scale. */
 #define DP_WINDOW_ERROR 0x1p-49
 
+/* Fills in what dp_pipeline_init() takes from a set-up whose mapping has a pipeline. */
+void dp_pipeline_prepare(dp_setup *setup);
+
 /* The right code, decided exactly from any stored code to start from. */
 uint32_t dp_code_exact(const dp_setup *setup, double z, uint32_t start);
 
@@ -29,12 +32,6 @@ uint32_t dp_code_exact(const dp_setup *setup, double z, uint32_t start);
 static inline int dp_is_computed(const dp_setup *setup) {
     return setup->spec.model == DP_MODEL_FP32 || setup->shader;
 }
-
-/*
- * A separation that dp_budget_at() guarantees at every binary32 depth from `nearest` to `farthest`, two depths of one
- * binade: as good as the worst of them when the run is short. INFINITY where there is none.
- */
-double dp_budget_bound(const dp_setup *setup, float nearest, float farthest);
 
 /* dp_separation() of the models exact and staged, at a finite depth. */
 double dp_lattice_separation(const dp_setup *setup, double z);

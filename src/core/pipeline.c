@@ -11,6 +11,7 @@
 
 #include "core/bits.h"
 #include "core/clip.h"
+#include "core/engine.h"
 
 _Static_assert(FLT_EVAL_METHOD == 0, "binary32 operations must be rounded to binary32");
 
@@ -41,6 +42,17 @@ static entries orthographic(double n, double f, int ndc_signed, int reversed) {
     return reversed ? (entries){1.0 / (n - f), f / (f - n)} : (entries){1.0 / (f - n), -n / (f - n)};
 }
 
+void dp_pipeline_prepare(dp_setup *setup) {
+    const dp_spec *spec = &setup->spec;
+    const dp_mapping_row *row = dp_mapping_get(spec->mapping);
+    const entries e =
+        (spec->ortho ? orthographic : perspective)(spec->znear, spec->zfar, row->ndc_signed, row->reversed);
+    setup->matrix[0] = (float)e.a;
+    setup->matrix[1] = (float)e.b;
+    setup->inside[0] = dp_float_up(spec->znear); /* no plane is stepped over */
+    setup->inside[1] = dp_float_down(spec->zfar);
+}
+
 dp_status dp_pipeline_init(dp_pipeline *pipeline, const dp_setup *setup) {
     if (pipeline == NULL || setup == NULL)
         return DP_ERROR_NULL;
@@ -49,18 +61,16 @@ dp_status dp_pipeline_init(dp_pipeline *pipeline, const dp_setup *setup) {
     const dp_arith_row *arith = dp_arith_get(spec->arith);
     if (row == NULL || arith == NULL || row->curve != DP_CURVE_PERSPECTIVE)
         return DP_ERROR_MODEL;
-    const entries e =
-        (spec->ortho ? orthographic : perspective)(spec->znear, spec->zfar, row->ndc_signed, row->reversed);
     *pipeline = (dp_pipeline){.format = spec->format,
                               .rounding = spec->rounding,
                               .arith = arith,
-                              .a = (float)e.a,
-                              .b = (float)e.b,
+                              .a = setup->matrix[0],
+                              .b = setup->matrix[1],
                               .reversed = row->reversed,
                               .ndc_signed = row->ndc_signed,
                               .ortho = spec->ortho != 0,
-                              .znear = dp_float_up(spec->znear), /* no plane is stepped over */
-                              .zfar = dp_float_down(spec->zfar)};
+                              .znear = setup->inside[0],
+                              .zfar = setup->inside[1]};
     return DP_OK;
 }
 

@@ -3,17 +3,16 @@
 #include <math.h>
 
 #include "core/engine.h"
-#include "depthprec/budget.h"
+#include "core/guarantee.h"
 #include "depthprec/depth.h"
 
 double dp_separation(const dp_setup *setup, double z) {
-    dp_budget budget;
     if (isinf(z))
         return HUGE_VAL;
     if (!dp_is_computed(setup))
         return dp_lattice_separation(setup, z);
-    const dp_setup facing = dp_setup_facing(setup); /* of slanted triangles a shader's knows as little as a lattice's */
-    return dp_budget_at(setup->shader ? &facing : setup, z, NULL, &budget) == DP_OK ? budget.separation : HUGE_VAL;
+    const dp_guarantee g = dp_guarantee_make(setup);
+    return dp_guarantee_at(&g, z);
 }
 
 dp_status dp_sample_at(const dp_setup *setup, double z, dp_sample *out) {

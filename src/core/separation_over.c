@@ -4,6 +4,7 @@
 #include "core/curve.h"
 #include "core/engine.h"
 #include "core/extremes.h"
+#include "core/guarantee.h"
 #include "core/rounding.h"
 #include "depthprec/bounds.h"
 #include "depthprec/depth.h"
@@ -21,6 +22,7 @@ typedef struct part {
 
 typedef struct search {
     const dp_setup *setup;
+    const dp_guarantee *guarantee; /* null: the separation is that of a lattice */
     dp_separation_worst *worst;
     double limit;
     int evaluations;
@@ -29,11 +31,12 @@ typedef struct search {
 } search;
 
 /* In binary32 the depth nearest to an end of the range may lie just outside, and is meant by that end. */
-static void look(dp_separation_worst *worst, const dp_setup *setup, double depth) {
+static void look(const search *s, double depth) {
+    dp_separation_worst *worst = s->worst;
     const double z = smaller(larger(depth, worst->lo), worst->hi);
-    const double s = dp_separation(setup, z);
-    if (s > worst->separation) {
-        worst->separation = s;
+    const double separation = s->guarantee != NULL ? dp_guarantee_at(s->guarantee, z) : dp_separation(s->setup, z);
+    if (separation > worst->separation) {
+        worst->separation = separation;
         worst->z = z;
     }
 }
@@ -54,15 +57,11 @@ static double with_eye(const dp_setup *setup, double lo, double hi, double ahead
  * An upper bound of the separation at every depth of the part. In binary32 that of the lattice is a floor: its bound is
  * that of the same part in the model exact.
  */
-static double bound_of(const dp_setup *setup, double lo, double hi) {
-    if (dp_is_computed(setup)) {
-        dp_setup exact = *setup;
-        exact.spec.model = DP_MODEL_EXACT;
-        exact.shader = 0;
-        return larger(dp_budget_bound(setup, (float)lo, (float)hi), bound_of(&exact, lo, hi));
-    }
-    const double step = dp_separation_step(setup, lo, hi) * (1.0 + 0x1p-50);
-    return with_eye(setup, lo, hi, dp_curve_ahead(setup, step, 1.0, hi));
+static double bound_of(const search *s, double lo, double hi) {
+    const dp_setup *lattice = s->guarantee != NULL ? &s->guarantee->exact : s->setup;
+    const double step = dp_separation_step(lattice, lo, hi) * (1.0 + 0x1p-50);
+    const double bound = with_eye(lattice, lo, hi, dp_curve_ahead(lattice, step, 1.0, hi));
+    return s->guarantee != NULL ? larger(dp_guarantee_bound(s->guarantee, (float)lo, (float)hi), bound) : bound;
 }
 
 /* Nothing lies between the ends of the part. */
@@ -78,14 +77,14 @@ static void raise_bound(dp_separation_worst *worst, double bound) {
 
 /* A part is of no interest when it cannot be worse than what is known; then its bound is the range's, too. */
 static void offer(search *s, double lo, double hi) {
-    look(s->worst, s->setup, lo);
-    look(s->worst, s->setup, hi);
+    look(s, lo);
+    look(s, hi);
     part p = {lo, hi, 0.0};
     if (is_single(s->setup, &p)) {
         raise_bound(s->worst, s->worst->separation);
         return;
     }
-    p.bound = bound_of(s->setup, lo, hi);
+    p.bound = bound_of(s, lo, hi);
     s->evaluations++;
     if (s->count == PARTS_MAX)
         raise_bound(s->worst, p.bound);
@@ -158,19 +157,22 @@ static void begin(search *s) {
         offer(s, lo, hi);
 }
 
-static void branch_and_bound(const dp_setup *setup, double limit, dp_separation_worst *out) {
-    search s = {.setup = setup, .worst = out, .limit = limit};
-    out->bound = out->separation;
-    begin(&s);
-    refine(&s);
-    out->bound = larger(out->bound, out->separation);
+static void branch_and_bound(search *s, double limit) {
+    s->limit = limit;
+    s->evaluations = 0;
+    s->worst->bound = s->worst->separation;
+    begin(s);
+    refine(s);
+    s->worst->bound = larger(s->worst->bound, s->worst->separation);
 }
 
 /*
  * exact, reversed floats: with depth the steps only become finer, so the far end of each binade has its largest
  * separation. The step from a binade's end is its own, the larger one.
  */
-static void over_binades(const dp_setup *setup, dp_separation_worst *out) {
+static void over_binades(const search *s) {
+    const dp_setup *setup = s->setup;
+    dp_separation_worst *out = s->worst;
     const dp_format *format = &setup->spec.format;
     const int lowest = 1 - format->bias;
     for (int e = dp_binade(format, dp_window(setup, out->lo)) + 1; e >= lowest; e--) {
@@ -179,7 +181,7 @@ static void over_binades(const dp_setup *setup, dp_separation_worst *out) {
             continue;
         const double z = smaller(end * (1.0 + 0x1p-46), out->hi);
         raise_bound(out, with_eye(setup, z, z, dp_curve_ahead(setup, dp_step_num(format, e), 1.0, z)));
-        look(out, setup, smaller(larger(end * (1.0 - 0x1p-46), out->lo), out->hi));
+        look(s, smaller(larger(end * (1.0 - 0x1p-46), out->lo), out->hi));
         if (end * (1.0 - 0x1p-46) > out->hi)
             break;
     }
@@ -191,20 +193,26 @@ dp_status dp_separation_over(const dp_setup *setup, double lo, double hi, double
     if (!(lo >= setup->spec.znear && lo <= hi && hi <= setup->spec.zfar) || isinf(lo))
         return DP_ERROR_RANGE;
     dp_separation_worst worst = {.lo = lo, .hi = hi, .z = hi};
-    look(&worst, setup, hi);
-    look(&worst, setup, lo);
+    dp_guarantee guarantee;
+    search s = {.setup = setup, .worst = &worst};
+    if (dp_is_computed(setup)) {
+        guarantee = dp_guarantee_make(setup);
+        s.guarantee = &guarantee;
+    }
+    look(&s, hi);
+    look(&s, lo);
     const int exact =
-        !dp_is_computed(setup) && (setup->spec.model == DP_MODEL_EXACT || (dp_staged_is_exact(setup) && lo >= 0.0));
+        s.guarantee == NULL && (setup->spec.model == DP_MODEL_EXACT || (dp_staged_is_exact(setup) && lo >= 0.0));
     if (isinf(worst.separation)) {
         worst.bound = worst.separation;
     } else if (exact) {
         if (setup->reversed && setup->spec.format.kind == DP_FORMAT_FLOAT)
-            over_binades(setup, &worst);
+            over_binades(&s);
         worst.bound = larger(worst.bound, worst.separation) * dp_curve_outward(setup);
     } else {
-        branch_and_bound(setup, 0.0, &worst);
+        branch_and_bound(&s, 0.0);
         if (worst.separation <= limit && worst.bound > limit)
-            branch_and_bound(setup, limit, &worst);
+            branch_and_bound(&s, limit);
     }
     *out = worst;
     return DP_OK;

@@ -121,6 +121,8 @@ dp_status dp_setup_init(dp_setup *setup, const dp_spec *spec) {
         setup->log_hi = top.hi;
         setup->log_lo = top.lo;
     }
+    if (row->curve == DP_CURVE_PERSPECTIVE)
+        dp_pipeline_prepare(setup);
     const uint32_t code_max = spec->format.code_max;
     const uint32_t near_end = row->reversed ? code_max : 0;
     /* Only linear and logarithmic mappings can store near as something else than an end of [0, 1]. */

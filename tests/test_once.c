@@ -1,0 +1,100 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/*
+ * What computes a depth is prepared once: for all codes of a set-up, and for all depths of a search. The linker hands
+ * the calls that prepare it to this file, which counts them.
+ */
+#include "core/engine.h"
+#include "core/log_shader.h"
+#include "depthprec/depthprec.h"
+#include "support.h"
+
+static int matrices, chains, shaders;
+
+/* The names that the linker makes of those that it wraps. */
+void __real_dp_pipeline_prepare(dp_setup *setup);
+void __wrap_dp_pipeline_prepare(dp_setup *setup);
+dp_chain __real_dp_chain_make(const dp_setup *setup, const dp_pipeline *pipeline);
+dp_chain __wrap_dp_chain_make(const dp_setup *setup, const dp_pipeline *pipeline);
+dp_log_shader __real_dp_log_shader_make(const dp_setup *setup, const dp_log2_row *log2);
+dp_log_shader __wrap_dp_log_shader_make(const dp_setup *setup, const dp_log2_row *log2);
+
+void __wrap_dp_pipeline_prepare(dp_setup *setup) {
+    matrices++;
+    __real_dp_pipeline_prepare(setup);
+}
+
+dp_chain __wrap_dp_chain_make(const dp_setup *setup, const dp_pipeline *pipeline) {
+    chains++;
+    return __real_dp_chain_make(setup, pipeline);
+}
+
+dp_log_shader __wrap_dp_log_shader_make(const dp_setup *setup, const dp_log2_row *log2) {
+    shaders++;
+    return __real_dp_log_shader_make(setup, log2);
+}
+
+static dp_setup make(dp_mapping mapping, dp_model model) {
+    dp_spec spec = dp_spec_default();
+    dp_setup setup;
+    spec.mapping = mapping;
+    spec.model = model;
+    assert_int_equal(dp_setup_init(&setup, &spec), DP_OK);
+    return setup;
+}
+
+static void test_codes(void **state) {
+    (void)state;
+    matrices = 0;
+    const dp_setup setup = make(DP_MAPPING_D3D, DP_MODEL_FP32);
+    assert_int_equal(matrices, 1); /* this file sees the calls */
+    for (int i = 0; i < 1000; i++)
+        dp_code(&setup, 0.1 + i);
+    dp_pipeline pipeline;
+    assert_int_equal(dp_pipeline_init(&pipeline, &setup), DP_OK);
+    assert_int_equal(matrices, 1);
+}
+
+/* A search over the camera, with a limit so tight that it has to go on. */
+static void search(const dp_setup *setup, int limited) {
+    dp_separation_worst w, free;
+    assert_int_equal(dp_separation_over(setup, 0.1, 1000, 0.0, &free), DP_OK);
+    matrices = chains = shaders = 0;
+    assert_int_equal(dp_separation_over(setup, 0.1, 1000, limited ? free.separation : 0.0, &w), DP_OK);
+}
+
+static void test_matrix(void **state) {
+    static const dp_mapping mappings[] = {DP_MAPPING_D3D, DP_MAPPING_GL, DP_MAPPING_REVERSED};
+    (void)state;
+    for (int i = 0; i < 3; i++)
+        for (int limited = 0; limited < 2; limited++) {
+            const dp_setup setup = make(mappings[i], DP_MODEL_FP32);
+            search(&setup, limited);
+            assert_int_equal(chains, 1);
+            assert_int_equal(matrices, 0);
+        }
+}
+
+static void test_slanted(void **state) {
+    (void)state;
+    dp_spec spec = dp_spec_default();
+    dp_setup setup;
+    spec.model = DP_MODEL_FP32;
+    spec.triangles = dp_triangles_default();
+    assert_int_equal(dp_setup_init(&setup, &spec), DP_OK);
+    search(&setup, 1);
+    assert_int_equal(chains, 1);
+}
+
+static void test_shader(void **state) {
+    (void)state;
+    const dp_setup lattice = make(DP_MAPPING_LOG, DP_MODEL_STAGED), setup = dp_setup_guaranteed(&lattice);
+    search(&setup, 1);
+    assert_int_equal(shaders, 1);
+    assert_int_equal(chains, 0);
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {cmocka_unit_test(test_codes), cmocka_unit_test(test_matrix),
+                                       cmocka_unit_test(test_slanted), cmocka_unit_test(test_shader)};
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
