@@ -8,7 +8,7 @@
 layers='
 include/depthprec | depthprec
 src/core          | depthprec core
-src/api           | depthprec core api
+src/api           | depthprec core opened api
 src/world         | depthprec core world
 src/census        | depthprec core census
 src/raster        | depthprec core raster
@@ -19,13 +19,13 @@ src/opened        | opened
 src/probe         | depthprec core opened raster probe
 src/texture       | depthprec core opened texture
 src/method        | depthprec core texture census method
-src/need          | depthprec core api raster world need
+src/need          | depthprec core opened api raster world need
 src/model         | core opened model
 src/scene         | depthprec core raster world model draw need scene
-src/report        | depthprec core report
+src/report        | depthprec core opened report
 src/plot          | depthprec core api world census raster draw shadow texture method need model scene plot
-src/cli           | depthprec core api world census raster vertex draw shadow texture method need model scene probe report plot cli
-src/web           | depthprec core draw texture method need scene report plot cli web
+src/cli           | depthprec core opened api world census raster vertex draw shadow texture method need model scene probe report plot cli
+src/web           | depthprec core opened draw texture method need scene report plot cli web
 '
 
 strangers() { # strangers FOLDER LAYER...: prints the quoted includes that name another layer, or none
@@ -45,6 +45,13 @@ includes() { # includes WHAT FOLDER...: prints the includes of <WHAT...>
 cairo_elsewhere() {
     includes cairo include src >"$scratch/cairo" && grep -q '^src/plot/canvas\.c:' "$scratch/cairo" || return
     lines -v '^src/plot/canvas\.c:' "$scratch/cairo"
+}
+
+# What is opened to be read is remembered there, so that no output is written over it. Of the system's own files none is.
+read_elsewhere() {
+    lines -rnE '\<(fopen|fopen64|freopen|json_load_file|config_read_file|gzopen)\(' src >"$scratch/read"
+    grep -q '^src/opened/input\.c:' "$scratch/read" || return
+    lines -vE '^src/opened/input\.c:|"/proc/' "$scratch/read"
 }
 
 core_inside() {
@@ -71,6 +78,7 @@ web_elsewhere() {
     lines -v '^src/web/page\.h:' "$scratch/web"
 }
 check "what is otherwise in WebAssembly stands in src/web/page.h alone" empty web_elsewhere
+check "files are opened to be read in src/opened/input.c alone" empty read_elsewhere
 check "GSL is not in the library" empty includes gsl/ include src/core
 
 # Of libm, what has one answer; for the others there is core/elementary.h.

@@ -11,6 +11,9 @@ fields.sh                    | jq        | 0 | all
 fields.sh                    | comm      | 1 | all
 fields.sh                    | depthprec | 1 | all
 fields.sh                    | depthprec | 0 | all
+inputs.sh                    | depthprec | 1 | all
+inputs.sh                    | depthprec | 0 | all
+inputs.sh                    | jq        | 1 | 1
 layers.sh                    | nm        | 1 | 2
 layers.sh                    | nm        | 0 | 2
 layers.sh                    | objdump   | 1 | 1

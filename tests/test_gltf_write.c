@@ -245,9 +245,9 @@ static void refused(void **state) {
     } rows[] = {
         {"--annotate ''", 2, "--annotate: must be a file name, got ''"},
         {"--annotate none/x.glb", 3, "cannot write 'none/x.glb': No such file or directory"},
-        {"--annotate tests/models/street.obj", 2, "--annotate: must be another file than the model, got 'tests/mod"},
-        {"--annotate x.png --render x.png", 2, "--annotate: must be another file than --render, got 'x.png'"},
-        {"--annotate x.glb -o x.glb", 2, "--annotate: must be another file than --output, got 'x.glb'"},
+        {"--annotate tests/models/street.obj", 2, "--annotate: must not be a file that is read, got 'tests/mod"},
+        {"--annotate x.png --render x.png", 2, "--annotate: must not be the file of --render, got 'x.png'"},
+        {"--annotate x.glb -o x.glb", 2, "--annotate: must not be the file of --output, got 'x.glb'"},
     };
     (void)state;
     for (size_t i = 0; i < sizeof rows / sizeof rows[0]; i++) {

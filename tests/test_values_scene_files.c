@@ -329,7 +329,7 @@ static void refused(void **state) {
         {"--report junit --within 5 --csv", 2, "--report: cannot be combined with --json or --csv"},
         {"--emit-need none/x.need", 3, "cannot write 'none/x.need': No such file or directory"},
         {"--emit-need x.need --gap 0", 2, "--emit-need: needs a --gap above 0"},
-        {"--emit-need " HOUSE, 2, "--emit-need: must be another file than the model"},
+        {"--emit-need " HOUSE, 2, "--emit-need: must not be a file that is read"},
         {"--api all", 2, "--api: must name one here, got 'all'"},
     };
     (void)state;

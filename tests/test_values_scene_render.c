@@ -99,7 +99,7 @@ static void refused(void **state) {
         {"--render x.png --viewport 16384x16384", 2, "--viewport: must be of at most 33554432 pixels with --render"},
         {"--render x.png --slant 0:10", 2, "--slant: needs --viewport"},
         {"--render x.png --path x.txt", 2, "--render: cannot be combined with --path: a picture has one eye"},
-        {"--render x.png -o x.png", 2, "--render: must be another file than --output, got 'x.png'"},
+        {"--render x.png -o x.png", 2, "--render: must not be the file of --output, got 'x.png'"},
         {"--fov 40", 2, "--fov: needs --viewport"},
     };
     (void)state;

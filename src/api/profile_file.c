@@ -1,11 +1,13 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Profiles as files. */
+#include <errno.h>
 #include <jansson.h>
 #include <math.h>
 #include <string.h>
 
 #include "api/profile.h"
 #include "core/append.h"
+#include "opened/input.h"
 
 bool profile_is_file(const char *text) {
     return strpbrk(text, "./") != NULL;
@@ -142,9 +144,12 @@ static bool add(profile *to, const char *path, const json_t *root, const char *k
 bool profile_add(profile *to, const char *path, const char *key, char name[PROFILE_NAME_SIZE],
                  char error[PROFILE_ERROR_SIZE]) {
     json_error_t why;
-    json_t *root = json_load_file(path, 0, &why);
+    FILE *in = input_open(path);
+    json_t *root = in != NULL ? json_loadf(in, 0, &why) : NULL;
+    const char *reason = in != NULL ? why.text : strerror(errno);
+    input_close(in);
     if (root == NULL) {
-        snprintf(error, PROFILE_ERROR_SIZE, "'%s' cannot be read: %s", path, why.text);
+        snprintf(error, PROFILE_ERROR_SIZE, "'%s' cannot be read: %s", path, reason);
         return false;
     }
     const bool good = add(to, path, root, key, name, error);

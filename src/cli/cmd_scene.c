@@ -30,32 +30,24 @@ static options scene_options(const options *given) {
     return o;
 }
 
-/* What is written goes into a file each, and none of them is the model; that it can be written is known before the
- * search. */
+/* The report is on stdout without -o; that the files beside it can be written is known before the search. */
 static int check_files(const scene *s) {
+    static const option_id files[] = {OPTION_RENDER, OPTION_ANNOTATE, OPTION_EMIT_NEED};
     const options *o = &s->o;
-    int status = EXIT_FINE;
-    const struct {
-        option_id id;
-        const char *path;
-    } files[] = {{OPTION_OUTPUT, o->output != NULL ? o->output : "-"},
-                 {OPTION_RENDER, o->render},
-                 {OPTION_ANNOTATE, o->annotate},
-                 {OPTION_EMIT_NEED, o->emit_need}};
+    option_id on_stdout = o->output == NULL || strcmp(o->output, "-") == 0 ? OPTION_OUTPUT : OPTION_COUNT;
     for (size_t i = 0; i < sizeof files / sizeof files[0]; i++) {
-        if (files[i].path == NULL)
+        const char *path = option_written(o, files[i]);
+        if (path == NULL)
             continue;
-        if (strcmp(files[i].path, "-") != 0 && output_same_file(files[i].path, s->file))
-            return option_error(files[i].id, "must be another file than the model, got '%s'", files[i].path);
-        for (size_t k = 0; k < i; k++)
-            if (files[k].path != NULL && output_same_file(files[i].path, files[k].path))
-                return option_error(files[i].id, "must be another file than --%s, got '%s'",
-                                    option_rows[files[k].id].name, files[i].path);
+        if (strcmp(path, "-") == 0 && on_stdout != OPTION_COUNT)
+            return option_error(files[i], "must not be the file of --%s, got '-'", option_name(on_stdout));
+        if (strcmp(path, "-") == 0)
+            on_stdout = files[i];
+        const int status = output_check(path);
+        if (status != EXIT_FINE)
+            return status;
     }
-    for (size_t i = 1; i < sizeof files / sizeof files[0] && status == EXIT_FINE; i++)
-        if (files[i].path != NULL)
-            status = output_check(files[i].path);
-    return status;
+    return EXIT_FINE;
 }
 
 /* One camera: its fullest model. */

@@ -4,6 +4,7 @@
 
 #include "cli/options.h"
 #include "method/method.h"
+#include "opened/input.h"
 
 static const struct {
     unsigned bit;
@@ -39,25 +40,21 @@ static int run(const options *o) {
 
 /* An option's file is written: it may be no other option's and none that the command reads. "-" is no file. */
 static int refuse_overwriting(const options *o) {
-    const struct {
-        option_id id;
-        const char *path;
-    } written[] = {{OPTION_OUTPUT, o->output},
-                   {OPTION_FIGURE, o->figure},
-                   {OPTION_ERROR_MAP, o->error_file},
-                   {OPTION_HISTOGRAM, o->histogram},
-                   {OPTION_KEEP, o->keep}};
-    for (size_t i = 0; i < sizeof written / sizeof written[0]; i++) {
-        const char *path = written[i].path;
+    for (int k = o->verb->files_from; k > 0 && k <= o->operand_count; k++)
+        input_expect(o->operands[k - 1]);
+    for (int id = 0; id < OPTION_COUNT; id++) {
+        const char *path = option_written(o, (option_id)id);
         if (path == NULL || strcmp(path, "-") == 0)
             continue;
-        for (int k = o->verb->files_from; k > 0 && k <= o->operand_count; k++)
-            if (output_same_file(path, o->operands[k - 1]))
-                return option_error(written[i].id, "must not be a file that is read, got '%s'", path);
-        for (size_t other = 0; other < i; other++)
-            if (written[other].path != NULL && output_same_file(path, written[other].path))
-                return option_error(written[i].id, "must not be the file of --%s, got '%s'",
-                                    option_name(written[other].id), path);
+        if (input_is_read(path))
+            return option_error((option_id)id, "must not be a file that is read, got '%s'", path);
+        for (int other = 0; other < id; other++) {
+            const char *also = option_written(o, (option_id)other);
+            const bool beside = id == OPTION_OUTPUT; /* the file beside the output is at fault */
+            if (also != NULL && output_same_file(path, also))
+                return option_error((option_id)(beside ? other : id), "must not be the file of --%s, got '%s'",
+                                    option_name((option_id)(beside ? id : other)), beside ? also : path);
+        }
     }
     return EXIT_FINE;
 }

@@ -7,6 +7,7 @@
 
 #include "api/unit.h"
 #include "core/append.h"
+#include "opened/input.h"
 #include "report/number.h"
 #include "scene/find.h"
 
@@ -54,8 +55,18 @@ int parse_text(options *o, const option_row *row, const char *value) {
     return EXIT_FINE;
 }
 
-int parse_file(options *o, const option_row *row, const char *value) {
+int parse_some(options *o, const option_row *row, const char *value) {
+    return *value != '\0' ? parse_text(o, row, value) : option_refuse(row, "must not be empty, got ''");
+}
+
+int parse_written(options *o, const option_row *row, const char *value) {
     return *value != '\0' ? parse_text(o, row, value) : option_refuse(row, "must be a file name, got ''");
+}
+
+int parse_read(options *o, const option_row *row, const char *value) {
+    if (*value != '\0')
+        input_expect(value);
+    return parse_written(o, row, value);
 }
 
 /* 1e12 and 1e-9, where printf writes 1e+12 and 1e-09; no power of ten in whole numbers, which are read without. */

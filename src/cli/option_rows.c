@@ -70,7 +70,9 @@ enum {
 
 #define FLAG(field)                  .parse = parse_flag, SIZED(field)
 #define TEXT(field)                  .parse = parse_text, FIELD(const char *, field)
-#define FILE_NAME(field)             .parse = parse_file, FIELD(const char *, field)
+#define SOME_TEXT(field)             .parse = parse_some, FIELD(const char *, field)
+#define FILE_READ(field)             .parse = parse_read, FIELD(const char *, field)
+#define FILE_WRITTEN(field)          .parse = parse_written, FIELD(const char *, field)
 #define LIMITS(lo, hi, of)           .least = (lo), .most = (hi), .unit = (of)
 #define POSITIVE(field)              .parse = parse_length, FIELD(double, field)
 #define LENGTH(field, ...)           POSITIVE(field), LIMITS(__VA_ARGS__)
@@ -355,7 +357,7 @@ const option_row option_rows[OPTION_COUNT] = {
         "the place that the eye of --from looks at, y upwards", ORIGIN(look)},
     [OPTION_PATH] = {"path", 0, "FILE", SEARCHED,
         "judge from several eyes: a line for each, its place and the place that it looks at, six numbers",
-        FILE_NAME(path)},
+        FILE_READ(path)},
     [OPTION_CAMERA] = {"camera", 0, "NAME", SEARCHED,
         "judge from a camera of the model, by its name; near, far and field of view are its own where they are not "
         "given", TEXT(model_camera)},
@@ -364,24 +366,24 @@ const option_row option_rows[OPTION_COUNT] = {
         WORD(transforms, transforms), .standard = "exact"},
     [OPTION_RENDER] = {"render", 0, "FILE", VERB_SCENE,
         "draw what the camera sees, as --raster draws it, with the pixels in red that show the wrong surface: PNG",
-        FILE_NAME(render)},
+        FILE_WRITTEN(render)},
     [OPTION_ANNOTATE] = {"annotate", 0, "FILE", VERB_SCENE,
-        "write the model as .glb, with the triangles that fight in materials of their own", FILE_NAME(annotate)},
+        "write the model as .glb, with the triangles that fight in materials of their own", FILE_WRITTEN(annotate)},
     [OPTION_EMIT_NEED] = {"emit-need", 0, "FILE", VERB_SCENE,
-        "write what the camera must tell apart up to --within as a requirement file of check", FILE_NAME(emit_need)},
+        "write what the camera must tell apart up to --within as a requirement file of check", FILE_WRITTEN(emit_need)},
     [OPTION_DEVICE] = {"device", 0, "N|NAME|gl", VERB_PROBE,
         "the GPU: its number, or a part of its name, of those that Vulkan has; gl: that of OpenGL, by EGL",
-        FILE_NAME(device),
+        SOME_TEXT(device),
         .without = "Vulkan's first that is no processor", .group = "The GPU"},
     [OPTION_KEEP] = {"keep", 0, "FILE", VERB_PROBE,
-        "write every code that was stored, with what was drawn: CSV", FILE_NAME(keep)},
+        "write every code that was stored, with what was drawn: CSV", FILE_WRITTEN(keep)},
     [OPTION_HALF_HEIGHT] = {"half-height", 0, "H", VERB_TEXTURE,
         "with --ortho: half the height of the view", LENGTH(camera.half_height, 1e-12, 1e12, "scene units"),
         .standard = "5", .group = "The depth texture"},
     [OPTION_MATRIX] = {"matrix", 0, "FILE", VERB_TEXTURE,
         "a projection matrix, 16 numbers row by row, for column vectors: says the planes and the field of view, which "
         "need not be centred; its near plane may be oblique; NDC depth is as --mapping has it",
-        FILE_NAME(matrix), .without = "--near, --far and --fov say it"},
+        FILE_READ(matrix), .without = "--near, --far and --fov say it"},
     [OPTION_YAW] = {"yaw", 0, "DEG", VERB_TEXTURE,
         "the camera's turn to the right", NUMBER(camera.yaw, -360, 360, "degrees"), .standard = "0",
         .without = "along world z"},
@@ -450,13 +452,13 @@ const option_row option_rows[OPTION_COUNT] = {
         .parse = parse_error_map, SIZED(error_map), .optional = "FILE"},
     [OPTION_FIGURE] = {"figure", 0, "FILE", VERB_TEXTURE,
         "draw the product: SVG, PDF or PNG; up to 256 surfaces of a scene that share a code with what is behind are "
-        "marked", FILE_NAME(figure)},
+        "marked", FILE_WRITTEN(figure)},
     [OPTION_OVERLAY] = {"overlay", 0, "E", VERB_TEXTURE,
         "with --figure: depth in grey, and in colour where eye depth is, or can be, off by more than E scene units",
         POSITIVE(overlay)},
     [OPTION_HISTOGRAM] = {"histogram", 0, "FILE", VERB_TEXTURE,
         "draw how many pixels lie at which eye depth, and how many codes there are for them: SVG, PDF or PNG",
-        FILE_NAME(histogram)},
+        FILE_WRITTEN(histogram)},
     [OPTION_TYPE] = {"type", 0, NULL, DRAWN,
         "type of the figure, for stdout or a file name that does not end in one", WORD(type, types),
         .standard = "svg", .group = "The figure"},
@@ -470,7 +472,7 @@ const option_row option_rows[OPTION_COUNT] = {
     [OPTION_TITLE] = {"title", 0, "TEXT", DRAWN,
         "title of the figure", TEXT(title)},
     [OPTION_PAGE] = {"page", 0, "URL", VERB_WEB,
-        "where the page is; before COMMAND, whose own options follow it", FILE_NAME(page),
+        "where the page is; before COMMAND, whose own options follow it", SOME_TEXT(page),
         .standard = "depthprec.html", .group = "Output"},
     [OPTION_REPORT] = {"report", 0, NULL, VERB_CHECK | VERB_SCENE,
         "how to write verdicts: text, JSON, or JUnit XML",
@@ -480,7 +482,7 @@ const option_row option_rows[OPTION_COUNT] = {
     [OPTION_CSV] = {"csv", 0, NULL, WRITTEN,
         "write CSV (RFC 4180) with units in the header row", parse_form, .least = FORM_CSV},
     [OPTION_OUTPUT] = {"output", 'o', "FILE", WRITTEN,
-        "write to FILE once complete; - is stdout", FILE_NAME(output), .without = "stdout",
+        "write to FILE once complete; - is stdout", FILE_WRITTEN(output), .without = "stdout",
         .except = {BUT(VERB_PLOT, NULL, NULL, "draw to FILE: SVG, PDF or PNG by its ending; - is stdout, as --type "
                        "says; the numbers of --json and --csv go there too, or to stdout"),
                    BUT(VERB_TEXTURE, NULL, "stdout", "write the product to FILE: PNG, PFM or NPY by its ending; else "

@@ -80,10 +80,12 @@ void *option_field(options *o, const option_row *row);
 
 /* ---- Kinds ------------------------------------------------------------------------------------------------------- */
 
-option_parser parse_flag;   /**< bool, no argument */
-option_parser parse_text;   /**< const char * */
-option_parser parse_file;   /**< the same, not empty */
-option_parser parse_number; /**< double, finite, from least to most */
+option_parser parse_flag;    /**< bool, no argument */
+option_parser parse_text;    /**< const char * */
+option_parser parse_some;    /**< the same, not empty */
+option_parser parse_read;    /**< the name of a file that is read */
+option_parser parse_written; /**< the name of a file that is written */
+option_parser parse_number;  /**< double, finite, from least to most */
 option_parser parse_length; /**< double: scene units, or with a unit behind; from least to most, or positive */
 option_parser parse_whole;  /**< unsigned or 64 bits wide, from least to most */
 option_parser parse_word;   /**< the same: the index of one of `names` */

@@ -25,6 +25,13 @@ const char *options_unit(const options *o) {
     return o->unit != NULL ? o->unit->name : NULL;
 }
 
+const char *option_written(const options *o, option_id id) {
+    const option_row *row = &option_rows[id];
+    if (row->parse == parse_error_map)
+        return o->error_file;
+    return row->parse == parse_written ? *(const char *const *)((const char *)o + row->place) : NULL;
+}
+
 int option_error(option_id id, const char *format, ...) {
     va_list arguments;
     va_start(arguments, format);

@@ -357,6 +357,9 @@ const char *options_unit(const options *o);
 /** The long name of an option without its dashes. */
 const char *option_name(option_id id);
 
+/** The file that an option has written, "-" for stdout; null where it has none. */
+const char *option_written(const options *o, option_id id);
+
 /** Word `index` of an option that takes one of a few. */
 const char *option_word(option_id id, size_t index);
 

@@ -10,6 +10,7 @@
 #include "cli/progress.h"
 #include "cli/scene.h"
 #include "cli/stop.h"
+#include "opened/input.h"
 #include "report/number.h"
 #include "texture/strips.h"
 
@@ -167,7 +168,7 @@ static int take_path(scene *s) {
     char *text = malloc(FILE_MOST + 1);
     if (text == NULL)
         return usage_error("%s: no memory to read it", s->o.path);
-    FILE *in = fopen(s->o.path, "rb");
+    FILE *in = input_open(s->o.path);
     const size_t size = in != NULL ? fread(text, 1, FILE_MOST + 1, in) : 0;
     const int error = errno;
     int status = EXIT_FINE;
@@ -177,8 +178,7 @@ static int take_path(scene *s) {
     } else if (size > FILE_MOST) {
         status = option_error(OPTION_PATH, "%s: must be at most %d bytes", s->o.path, FILE_MOST);
     }
-    if (in != NULL)
-        fclose(in);
+    input_close(in);
     if (status == EXIT_FINE)
         status = read_lines(s, text, size);
     free(text);

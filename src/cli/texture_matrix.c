@@ -8,6 +8,7 @@
 #include "cli/errors.h"
 #include "cli/texture.h"
 #include "core/elementary.h"
+#include "opened/input.h"
 #include "report/number.h"
 
 enum { ENTRIES = 16, FILE_MOST = 1 << 16 };
@@ -49,12 +50,11 @@ static int parse_entries(const char *path, const char *text, size_t size, double
 
 static int read_entries(const char *path, double m[ENTRIES]) {
     char text[FILE_MOST + 1];
-    FILE *in = fopen(path, "rb");
+    FILE *in = input_open(path);
     const size_t size = in != NULL ? fread(text, 1, sizeof text, in) : 0;
     const int error = errno;
     const bool failed = in == NULL || ferror(in) != 0;
-    if (in != NULL)
-        fclose(in);
+    input_close(in);
     if (failed) {
         option_error(OPTION_MATRIX, "%s: %s", path, strerror(error));
         return EXIT_IO;

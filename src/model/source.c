@@ -8,6 +8,7 @@
 #include <string.h>
 
 #include "core/append.h"
+#include "opened/input.h"
 
 /* ---- Names: a chain of blocks that stay where they are ----------------------------------------------------------- */
 
@@ -158,15 +159,11 @@ static bool read_stream(FILE *in, file_bytes *out) {
 }
 
 bool model_file_read(const char *path, file_bytes *out, model_error *error) {
-    const bool is_stdin = strcmp(path, "-") == 0;
-    FILE *in = is_stdin ? stdin : fopen(path, "rb");
+    FILE *in = input_open(path);
     if (in == NULL)
         return unreadable(error);
     const bool read = read_stream(in, out);
-    const int reason = errno;
-    if (!is_stdin)
-        fclose(in);
-    errno = reason;
+    input_close(in);
     return read || unreadable(error);
 }
 

@@ -9,6 +9,7 @@
 
 #include "need/model.h"
 #include "need/reader.h"
+#include "opened/input.h"
 
 static const need_kind_row kinds[NEED_KIND_COUNT] = {
     [NEED_SEPARATION] = {"separation", "separation", true},
@@ -299,22 +300,19 @@ static char *slurp(FILE *in, size_t *size) {
 }
 
 bool need_read(const char *path, need_file *out, need_error *error) {
-    const bool from_stdin = strcmp(path, "-") == 0;
     *out = (need_file){.path = path, .unit = ""};
     *error = (need_error){.unreadable = true};
     errno = 0;
-    FILE *in = from_stdin ? stdin : fopen(path, "rb");
+    FILE *in = input_open(path);
     size_t size = 0;
     char *text = in != NULL ? slurp(in, &size) : NULL;
     if (text == NULL || ferror(in)) {
         snprintf(error->text, sizeof error->text, "cannot read: %s", strerror(errno));
         free(text);
-        if (in != NULL && !from_stdin)
-            fclose(in);
+        input_close(in);
         return false;
     }
-    if (!from_stdin)
-        fclose(in);
+    input_close(in);
     const bool good = need_parse(path, text, size, out, error);
     free(text);
     return good;

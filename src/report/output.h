@@ -52,7 +52,7 @@ typedef struct output {
  * Opens an output. Call it after all options are checked and before long work, so that a missing folder is told at
  * once.
  * @param path  null or "-" for stdout; not the empty string
- * @return EXIT_FINE, or EXIT_IO after one line on stderr
+ * @return EXIT_FINE; after one line on stderr EXIT_IO, or EXIT_USAGE of a file that is read (opened/input.h)
  */
 int output_open(output *out, const char *path);
 
@@ -78,8 +78,7 @@ static inline bool output_failed(const output *out) {
     return out->error != 0;
 }
 
-/** Writes what waits, closes, renames. @return EXIT_FINE, or EXIT_IO after one line on stderr (a closed pipe is quiet)
- */
+/** Writes what waits, closes, renames. @return as output_open() (a closed pipe is quiet) */
 int output_close(output *out);
 
 /** Do two paths name one regular file, or one that would be made? */

@@ -10,6 +10,8 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include "opened/input.h"
+
 /* The temporary files, for the signal handler: empty where there is none. */
 typedef char temporary_path[4096 + 64];
 static temporary_path temporaries[OUTPUTS_MAX];
@@ -44,6 +46,11 @@ static int cannot_write(const char *path, int error) {
     return EXIT_IO;
 }
 
+static int refuse_input(const char *path) {
+    fprintf(stderr, "depthprec: '%s' is a file that is read, and is not overwritten\n", path);
+    return EXIT_USAGE;
+}
+
 /* Opens the target's temporary neighbour, which is named after the process and not after it: no name too long. */
 static int open_temporary(output *out, const struct stat *old) {
     const char *target = out->target, *slash = strrchr(target, '/');
@@ -74,6 +81,8 @@ int output_open(output *out, const char *path) {
     if (path == NULL || strcmp(path, "-") == 0)
         return EXIT_FINE;
     out->path = path;
+    if (input_is_read(path))
+        return refuse_input(path);
     struct stat old;
     struct stat standard;
     bool exists = stat(path, &old) == 0;
@@ -147,8 +156,22 @@ static void drop_temporary(output *out) {
     out->target = NULL;
 }
 
+void output_abandon(output *out) {
+    if (out->fd != STDOUT_FILENO)
+        close(out->fd);
+    drop_temporary(out);
+}
+
+/* A file that was opened to be read after this one was to be written. */
+static int give_up_on_input(output *out) {
+    output_abandon(out);
+    return refuse_input(out->path);
+}
+
 int output_close(output *out) {
     output_flush(out);
+    if (out->target != NULL && input_is_read(out->target))
+        return give_up_on_input(out);
     if (close(out->fd) != 0 && out->error == 0 && errno != EINTR)
         out->error = errno;
     if (out->target != NULL && out->error == 0) {
@@ -161,10 +184,4 @@ int output_close(output *out) {
     if (out->error == EPIPE) /* the reader has seen enough */
         return EXIT_IO;
     return out->error == 0 ? EXIT_FINE : cannot_write(out->path, out->error);
-}
-
-void output_abandon(output *out) {
-    if (out->fd != STDOUT_FILENO)
-        close(out->fd);
-    drop_temporary(out);
 }

@@ -9,6 +9,7 @@
 #include <unistd.h>
 
 #include "core/append.h"
+#include "opened/input.h"
 #include "texture/camera.h"
 #include "texture/image_kind.h"
 
@@ -122,8 +123,7 @@ bool image_read(const char *path, image *out, image_error *error) {
 }
 
 bool image_read_as(const char *path, const image_asked *asked, image *out, image_error *error) {
-    const bool from_stdin = strcmp(path, "-") == 0;
-    FILE *stream = from_stdin ? stdin : fopen(path, "rb");
+    FILE *stream = input_open(path);
     image_source source = {.stream = stream, .asked = *asked, .error = error};
     if (stream == NULL)
         return unreadable(&source, errno);
@@ -137,8 +137,7 @@ bool image_read_as(const char *path, const image_asked *asked, image *out, image
                : ends(path, ".raw") || ends(path, ".bin") ? read_kind(&source, IMAGE_RAW, out)
                                                           : read_source(&source, out);
     }
-    if (!from_stdin)
-        fclose(stream);
+    input_close(stream);
     return good;
 }
 
