@@ -335,8 +335,34 @@ static void test_platforms(void **state) {
     }
 }
 
+/* What is asked at a depth is answered for it: the units of its row, which bring the layer nearer by the gap, are what
+ * is to be written. One unit is 2^-24 of window depth, f/(f - n) (1 - n/z) with near 0.1 and far 1000. */
+static void one_answer(void **state) {
+    (void)state;
+    for (double z = 0.5; z < 1000; z *= 1.7)
+        for (double gap = 1e-3; gap < z / 4; gap *= 7) {
+            printed json = print_of("bias --api gl -F d24 -m gl --gap %.17g --at %.17g --json", gap, z);
+            printed text = print_of("bias --api gl -F d24 -m gl --gap %.17g --at %.17g", gap, z);
+            json_t *root = json_of(json.out);
+            json_t *setup = json_array_get(json_object_get(root, "setups"), 0);
+            json_t *row = json_array_get(json_object_get(setup, "rows"), 0), *range = json_object_get(setup, "range");
+            const double units = json_number_value(json_object_get(row, "units_gap"));
+            const double window = 1000 / 999.9 * 0.1 * gap / ((z - gap) * z);
+            char call[64];
+            assert_true(-units >= ldexp(window, 24) * (1 - 1e-9) && -units <= ldexp(window, 24) * (1 + 1e-9) + 1);
+            assert_true(json_number_value(json_object_get(range, "units_gap")) == units);
+            assert_true(json_number_value(json_object_get(range, "lo")) == z);
+            assert_true(json_number_value(json_object_get(range, "hi")) == z);
+            snprintf(call, sizeof call, "glPolygonOffset(0, %.0f)", units);
+            assert_non_null(strstr(text.out, call));
+            json_decref(root);
+            printed_free(&json);
+            printed_free(&text);
+        }
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {cmocka_unit_test(test_bias), cmocka_unit_test(test_platforms),
-                                       cmocka_unit_test(check_apart)};
+                                       cmocka_unit_test(one_answer), cmocka_unit_test(check_apart)};
     return run_tap(tests);
 }

@@ -100,6 +100,21 @@ static double shift_with(const biasing *b, double units, double z) {
     return isnan(units) || isinf(z) ? (double)NAN : bias_at(b->walk.setup, &state, b->goal.slope, z).shift;
 }
 
+/* bias_needed_over() and bias_enough_over(), at a depth where the range is one. */
+static double needed(const dp_setup *setup, const bias_goal *goal, double lo, double hi, double *worst) {
+    if (lo < hi)
+        return bias_needed_over(setup, goal, lo, hi, worst);
+    *worst = lo;
+    return bias_needed(setup, goal, lo);
+}
+
+static void enough(const dp_setup *setup, const bias_goal *goal, double lo, double hi, double *from, double *to) {
+    if (lo < hi)
+        bias_enough_over(setup, goal, lo, hi, from, to);
+    else
+        *from = *to = isfinite(bias_needed(setup, goal, lo)) ? lo : (double)NAN;
+}
+
 /* The same where drivers take the greater of two exponents that the specification leaves open. */
 static void next_over_range(const biasing *b, needs *n) {
     const dp_setup *setup = b->walk.setup;
@@ -110,9 +125,9 @@ static void next_over_range(const biasing *b, needs *n) {
     if (!bias_is_open(b->state.api, &setup->spec.format))
         return;
     apart.api = gap.api = &next;
-    n->apart_next = bias_signed(setup, bias_needed_over(setup, &apart, n->lo, n->hi, &z));
-    if (b->goal.gap > 0.0 && n->gap_lo < n->hi)
-        n->gap_next = bias_signed(setup, bias_needed_over(setup, &gap, n->gap_lo, n->hi, &z));
+    n->apart_next = bias_signed(setup, needed(setup, &apart, n->lo, n->hi, &z));
+    if (b->goal.gap > 0.0 && n->gap_lo <= n->hi)
+        n->gap_next = bias_signed(setup, needed(setup, &gap, n->gap_lo, n->hi, &z));
 }
 
 static needs over_range(const biasing *b) {
@@ -121,13 +136,13 @@ static needs over_range(const biasing *b) {
     needs n = {.lo = lo, .hi = hi, .gap_lo = fmax(lo, setup->spec.znear + b->goal.gap)};
     const bias_goal apart = goal_of(b, 0.0);
     const bias_goal gap = goal_of(b, b->goal.gap);
-    n.apart = bias_signed(setup, bias_needed_over(setup, &apart, lo, hi, &n.apart_z));
-    bias_enough_over(setup, &apart, lo, hi, &n.apart_from, &n.apart_to);
+    n.apart = bias_signed(setup, needed(setup, &apart, lo, hi, &n.apart_z));
+    enough(setup, &apart, lo, hi, &n.apart_from, &n.apart_to);
     n.gap = n.gap_z = n.gap_from = n.gap_to = (double)NAN;
-    if (b->goal.gap > 0.0 && n.gap_lo < hi)
-        bias_enough_over(setup, &gap, n.gap_lo, hi, &n.gap_from, &n.gap_to);
-    if (b->goal.gap > 0.0 && n.gap_lo < hi)
-        n.gap = bias_signed(setup, bias_needed_over(setup, &gap, n.gap_lo, hi, &n.gap_z));
+    if (b->goal.gap > 0.0 && n.gap_lo <= hi)
+        enough(setup, &gap, n.gap_lo, hi, &n.gap_from, &n.gap_to);
+    if (b->goal.gap > 0.0 && n.gap_lo <= hi)
+        n.gap = bias_signed(setup, needed(setup, &gap, n.gap_lo, hi, &n.gap_z));
     next_over_range(b, &n);
     const double units = b->goal.gap > 0.0 ? n.gap : n.apart;
     n.shift_lo = shift_with(b, units, n.gap_lo);
@@ -188,7 +203,12 @@ static void say_needed(page *p, const char *what, double units, const double ran
     const number_text hi = number_in(number_of(range[1], DIGITS_Z), p->unit);
     const number_text from = number_in(number_up(enough[0], DIGITS_Z), p->unit);
     const number_text to = number_in(number_down(enough[1], DIGITS_Z), p->unit);
-    if (!isnan(units))
+    if (range[0] == range[1] && isnan(units))
+        page_note(p, what, "no bias is enough at z = %s", lo.text);
+    else if (range[0] == range[1])
+        page_note(p, what, "%s unit%s at z = %s", number_of(units, DIGITS_Z).text, fabs(units) == 1.0 ? "" : "s",
+                  lo.text);
+    else if (!isnan(units))
         page_note(p, what, "%s unit%s from %s to %s (needed at z = %s)", number_of(units, DIGITS_Z).text,
                   fabs(units) == 1.0 ? "" : "s", lo.text, hi.text, number_in(number_of(z, DIGITS_Z), p->unit).text);
     else if (isnan(enough[0]))
@@ -374,6 +394,20 @@ static void drop_fp16(options *o) {
     o->format_count = kept;
 }
 
+/* The range that is asked for, else that of the depths that are. */
+static int resolve(biasing *b, const options *o) {
+    const depths *at = &b->walk.at;
+    const int status = range_resolve(o, &b->range_lo, &b->range_hi);
+    if (status != EXIT_FINE || option_given(o, OPTION_RANGE) || !option_given(o, OPTION_AT))
+        return status;
+    b->range_lo = b->range_hi = depths_get(at, 0);
+    for (size_t i = 1; i < at->count; i++) {
+        b->range_lo = fmin(b->range_lo, depths_get(at, i));
+        b->range_hi = fmax(b->range_hi, depths_get(at, i));
+    }
+    return status;
+}
+
 int cmd_bias(const options *given) {
     options o = *given;
     const bias_api *api = o.api;
@@ -402,7 +436,7 @@ int cmd_bias(const options *given) {
         return status;
     status = walk_start(&b.walk, &o);
     if (status == EXIT_FINE)
-        status = range_resolve(&o, &b.range_lo, &b.range_hi);
+        status = resolve(&b, &o);
     const report_spec spec = {"bias", columns, &b, .when = conditions(&b), .label = 12};
     return walk_write(&b.walk, &spec, status);
 }
