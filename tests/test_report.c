@@ -4,6 +4,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include <iconv.h>
 #include <jansson.h>
 
 #include "report/number.h"
@@ -183,6 +184,53 @@ static void any_text_in_json(void **unused) {
     json_t *all = json_of(0, 1);
     assert_string_equal(json_string_value(json_object_get(fruit_of(all, 0), "word")), text);
     json_decref(all);
+    apple.word = before;
+}
+
+/* Length of what begins the text and is UTF-8 by iconv, 0 where nothing does. */
+static size_t iconv_utf8(const char *text) {
+    for (size_t length = 1; length <= 4 && length <= strlen(text); length++) {
+        char in[4], out[8], *from = in, *to = out;
+        size_t left = length, room = sizeof out;
+        memcpy(in, text, length);
+        iconv_t of = iconv_open("UTF-16LE", "UTF-8");
+        assert_true(of != (iconv_t)-1);
+        const bool whole = iconv(of, &from, &left, &to, &room) != (size_t)-1 && left == 0;
+        iconv_close(of);
+        if (whole)
+            return length;
+    }
+    return 0;
+}
+
+/* Random bytes, often the first of several: JSON is what jansson reads, and U+FFFD stands for each byte that is no
+ * UTF-8; so it does in CSV. */
+static void bytes_that_are_no_text(void **unused) {
+    (void)unused;
+    static const unsigned char seams[] = {0x7F, 0x80, 0x8F, 0x90, 0x9F, 0xA0, 0xBF, 0xC0, 0xC1, 0xC2, 0xDF,
+                                          0xE0, 0xED, 0xEF, 0xF0, 0xF4, 0xF5, 0xF8, 0xFF, 'a',  '"'};
+    const char *const before = apple.word;
+    rng random = rng_make("bytes");
+    for (int n = 0; n < 500; n++) {
+        char text[16] = "", expected[64] = "";
+        const size_t length = 1 + rng_below(&random, sizeof text - 1);
+        for (size_t i = 0; i < length; i++)
+            text[i] = (char)(rng_below(&random, 4) > 0 ? seams[rng_below(&random, sizeof seams)]
+                                                       : 1 + rng_below(&random, 255));
+        text[length] = '\0';
+        for (size_t at = 0, size; text[at] != '\0'; at += size > 0 ? size : 1) {
+            size = iconv_utf8(text + at);
+            snprintf(expected + strlen(expected), 5, "%.*s", size > 0 ? (int)size : 3,
+                     size > 0 ? text + at : "\xEF\xBF\xBD");
+        }
+        apple.word = text;
+        json_t *all = json_of(0, 1);
+        assert_string_equal(json_string_value(json_object_get(fruit_of(all, 0), "word")), expected);
+        json_decref(all);
+        const char *csv = written(FORM_CSV, 0, 1);
+        for (size_t size; *csv != '\0'; csv += size)
+            assert_true((size = iconv_utf8(csv)) > 0);
+    }
     apple.word = before;
 }
 
@@ -429,10 +477,16 @@ static void brief(void **unused) {
 
 int main(void) {
     setenv("NO_COLOR", "1", 1);
-    const struct CMUnitTest tests[] = {cmocka_unit_test(kinds_in_json),   cmocka_unit_test(any_text_in_json),
-                                       cmocka_unit_test(nothing_in_json), cmocka_unit_test(conditions),
-                                       cmocka_unit_test(kinds_in_csv),    cmocka_unit_test(kinds_in_text),
-                                       cmocka_unit_test(pointed),         cmocka_unit_test(wrapped),
-                                       cmocka_unit_test(spared),          cmocka_unit_test(brief)};
+    const struct CMUnitTest tests[] = {cmocka_unit_test(kinds_in_json),
+                                       cmocka_unit_test(any_text_in_json),
+                                       cmocka_unit_test(bytes_that_are_no_text),
+                                       cmocka_unit_test(nothing_in_json),
+                                       cmocka_unit_test(conditions),
+                                       cmocka_unit_test(kinds_in_csv),
+                                       cmocka_unit_test(kinds_in_text),
+                                       cmocka_unit_test(pointed),
+                                       cmocka_unit_test(wrapped),
+                                       cmocka_unit_test(spared),
+                                       cmocka_unit_test(brief)};
     return run_tap(tests);
 }

@@ -7,6 +7,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "core/append.h"
 #include "depthprec/depthprec.h"
 #include "report/number.h"
 
@@ -225,6 +226,16 @@ static void put_digits(output *out, const column_value *v) {
     output_bytes(out, text, v->is_count ? number_count(v->count, text) : number_shortest(v->number, text));
 }
 
+/* Writes a character; a byte that is no UTF-8, as paths may hold, as U+FFFD. @return how many bytes it took */
+static size_t utf8(output *out, const char *text) {
+    const size_t length = text_utf8(text);
+    if (length == 0)
+        output_text(out, "\uFFFD");
+    for (size_t i = 0; i < length; i++)
+        output_char(out, text[i]);
+    return length > 0 ? length : 1;
+}
+
 typedef struct json_walk {
     output *out;
     unsigned when;
@@ -233,14 +244,14 @@ typedef struct json_walk {
 
 static void quoted(output *out, const char *text, size_t length) {
     output_char(out, '"');
-    for (size_t i = 0; i < length; i++) {
+    for (size_t i = 0; i < length;) {
         if ((unsigned char)text[i] < 0x20) {
-            output_format(out, "\\u%04x", text[i]);
+            output_format(out, "\\u%04x", text[i++]);
             continue;
         }
         if (text[i] == '"' || text[i] == '\\')
             output_char(out, '\\');
-        output_char(out, text[i]);
+        i += utf8(out, text + i);
     }
     output_char(out, '"');
 }
@@ -378,10 +389,10 @@ typedef struct csv_walk {
 static void csv_word(output *out, const char *word) {
     const char *quote = strpbrk(word, ",\"\r\n") != NULL ? "\"" : "";
     output_text(out, quote);
-    for (; *word != '\0'; word++) {
+    while (*word != '\0') {
         if (*word == '"')
             output_char(out, '"');
-        output_char(out, *word);
+        word += utf8(out, word);
     }
     output_text(out, quote);
 }
