@@ -12,12 +12,14 @@ cd "$scratch/work" || exit 1
 cp "$profiles/llvmpipe.json" gpu.json
 cp "$models/house.gltf" "$models/street.obj" .
 printf '1.5 0 0 0\n0 2 0 0\n0 0 1.001 -0.1001\n0 0 1 0\n' >m.npy
+cp m.npy m.txt
 printf '0 2 30 0 2 0\n' >eyes.txt
 echo 'cameras = { a = { near = 0.1; far = 1000; format = "fp32"; mapping = "reversed"; arith = "gpu.json"; }; };
 requirements = { b = { camera = "a"; range = [1.0, 10.0]; separation = 1.0; }; };' >a.need
 cp gpu.json folder
 sed 's|gpu.json|folder/gpu.json|' a.need >b.need
 "$DEPTHPREC" texture --scene plane -F unorm16 -m d3d -n 0.1 -f 10 --size 8x8 --raw -o depth.png 2>/dev/null
+cp depth.png depth.img
 jq -r '.buffers[0].uri' house.gltf | sed 's/^[^,]*,//' | base64 -d >folder/house.bin
 jq -c '.buffers[0].uri = "house.bin"' house.gltf >folder/house.gltf
 printf 'newmtl a\nd 1\n' >folder/a.mtl
@@ -39,11 +41,11 @@ a.need | check a.need -o @
 a.need | check - -o @ <a.need
 a.need | plot scene a.need --type svg -o @
 m.npy | texture depth.png -F unorm16 --matrix m.npy --eye -o @
-m.npy | texture depth.png -F unorm16 --matrix m.npy --json -o @
+m.txt | texture depth.png -F unorm16 --matrix m.txt --json -o @
 m.npy | texture depth.png -F unorm16 --matrix m.npy --type svg --figure @
 m.npy | texture depth.png -F unorm16 --matrix m.npy --type svg --histogram @
-depth.png | texture depth.png -n 0.1 -f 10 -F unorm16 -m d3d --json -o @
-depth.png | texture - -n 0.1 -f 10 -F unorm16 -m d3d --json -o @ <depth.png
+depth.img | texture depth.img -n 0.1 -f 10 -F unorm16 -m d3d --json -o @
+depth.img | texture - -n 0.1 -f 10 -F unorm16 -m d3d --json -o @ <depth.img
 depth.png | texture depth.png -n 0.1 -f 10 -F unorm16 -m d3d --figure @
 depth.png | texture depth.png -n 0.1 -f 10 -F unorm16 -m d3d --histogram @
 depth.png | texture depth.png -n 0.1 -f 10 -F unorm16 -m d3d --eye -o new.npy --error-map=@

@@ -352,11 +352,24 @@ static int height_of(const plotting *p) {
     return own ? scene_figure_height(p->chart, p->request.columns) : p->request.rows;
 }
 
+/* To stdout, where the file is that of the figure. */
+static int write_numbers(const plotting *p) {
+    options beside = *p->o;
+    output out;
+    beside.output = NULL;
+    const int status = options_open(&beside, &out);
+    if (status != EXIT_FINE)
+        return status;
+    figure_data_write(&out, beside.form, "plot", p->row->name, p->chart);
+    return output_close(&out);
+}
+
 static int write_figure(plotting *p) {
     const options *o = p->o;
+    const bool drawn = figure_file_wanted(o);
     chart *c = p->chart;
     output out;
-    int status = options_open(o, &out);
+    int status = drawn ? output_open(&out, o->output) : options_open(o, &out);
     if (status != EXIT_FINE)
         return status;
     if ((p->row->takes & FIGURE_MODEL) != 0)
@@ -373,15 +386,19 @@ static int write_figure(plotting *p) {
     if (c->title[0] == '\0')
         snprintf(c->title, sizeof c->title, "%s", p->row->title);
     bool good = !chart_failed(c);
-    if (good && o->form == FORM_TEXT)
+    if (good && drawn)
         good = figure_file_write(o, o->output, c, p->request.columns, height_of(p), &out);
     else if (good)
         figure_data_write(&out, o->form, "plot", p->row->name, c);
     if (good && o->verbose)
         say_evaluations(p->row, c);
-    if (good)
+    if (good && drawn && o->form != FORM_TEXT)
+        status = write_numbers(p);
+    if (good && status == EXIT_FINE)
         return output_close(&out);
     output_abandon(&out);
+    if (good)
+        return status;
     fprintf(stderr, "depthprec: no memory for the figure\n");
     return EXIT_IO;
 }
@@ -390,7 +407,7 @@ static int check_output(const options *o) {
     if (o->form == FORM_TEXT && o->output == NULL)
         return usage_error("plot: needs -o FILE that ends in .svg, .pdf or .png, or --csv or --json for the numbers");
     canvas_format type;
-    return o->form == FORM_TEXT ? figure_file_type(o, OPTION_OUTPUT, o->output, &type) : EXIT_FINE;
+    return figure_file_wanted(o) ? figure_file_type(o, OPTION_OUTPUT, o->output, &type) : EXIT_FINE;
 }
 
 int cmd_plot(const options *o) {

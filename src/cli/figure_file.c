@@ -38,6 +38,12 @@ int figure_file_type(const options *o, option_id id, const char *path, canvas_fo
     return EXIT_FINE;
 }
 
+bool figure_file_wanted(const options *o) {
+    const bool file = o->output != NULL && strcmp(o->output, "-") != 0;
+    return o->form == FORM_TEXT ||
+           (file && (option_given(o, OPTION_TYPE) || canvas_format_of(o->output) != CANVAS_FORMAT_COUNT));
+}
+
 bool figure_file_write(const options *o, const char *path, const chart *c, int width, int height, output *out) {
     char command[COMMAND_LINE_SIZE];
     canvas_bytes bytes;

@@ -11,6 +11,10 @@
  */
 int figure_file_type(const options *o, option_id id, const char *path, canvas_format *out);
 
+/** Is a figure drawn into --output? With --json and --csv only where the name of the file, or --type, is a figure's;
+ * the numbers then go to stdout. */
+bool figure_file_wanted(const options *o);
+
 /** Draws into the file, the argument of an option, whose figure_file_type() is known. @return false without memory */
 bool figure_file_write(const options *o, const char *path, const chart *c, int width, int height, output *out);
 

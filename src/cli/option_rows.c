@@ -484,7 +484,7 @@ const option_row option_rows[OPTION_COUNT] = {
     [OPTION_OUTPUT] = {"output", 'o', "FILE", WRITTEN,
         "write to FILE once complete; - is stdout", FILE_WRITTEN(output), .without = "stdout",
         .except = {BUT(VERB_PLOT, NULL, NULL, "draw to FILE: SVG, PDF or PNG by its ending; - is stdout, as --type "
-                       "says; the numbers of --json and --csv go there too, or to stdout"),
+                       "says; the numbers of --json and --csv go to stdout, or to a FILE of another ending"),
                    BUT(VERB_TEXTURE, NULL, "stdout", "write the product to FILE: PNG, PFM or NPY by its ending; else "
                        "what is printed")}},
     [OPTION_THREADS] = {"threads", 0, "N", SPREAD,

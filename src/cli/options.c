@@ -5,6 +5,7 @@
 #include <stdarg.h>
 #include <stdlib.h>
 #include <string.h>
+#include <strings.h>
 
 #include "cli/option_rows.h"
 #include "cli/stored.h"
@@ -410,7 +411,21 @@ int options_parse(options *o, int argc, char **argv) {
     return status == EXIT_FINE ? check_operands(o) : status;
 }
 
+/* The ending of a file that holds a picture or a model, which no text is written into; null of others. */
+static const char *ending_of_picture(const char *path) {
+    static const char *const endings[] = {".svg", ".pdf", ".png", ".pfm", ".npy", ".exr", ".glb"};
+    const size_t length = strlen(path);
+    for (size_t i = 0; i < sizeof endings / sizeof endings[0]; i++)
+        if (length > 4 && strcasecmp(path + length - 4, endings[i]) == 0)
+            return endings[i];
+    return NULL;
+}
+
 int options_open(const options *o, output *out) {
+    const char *ending = o->output != NULL ? ending_of_picture(o->output) : NULL;
+    if (ending != NULL)
+        return option_error(OPTION_OUTPUT, "must not end in %s where no picture is written, got '%s'", ending,
+                            o->output);
     const int status = output_open(out, o->output);
     out->width = o->full ? OUTPUT_UNLIMITED : 0;
     out->colour = (output_colour)o->colour;

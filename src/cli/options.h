@@ -332,8 +332,8 @@ int slant_view(options *o);
  * the formats those that it has. @return EXIT_FINE, or EXIT_USAGE after one line on stderr */
 int view_drawn(options *o);
 
-/** Opens what --output names, as wide as --full makes it, as --color wants it dressed. @return EXIT_FINE, or EXIT_IO
- * after one line on stderr */
+/** Opens what --output names, which is no picture's, for text, JSON or CSV, as wide as --full makes it, as --color
+ * wants it dressed. @return EXIT_FINE, or EXIT_USAGE or EXIT_IO after one line on stderr */
 int options_open(const options *o, output *out);
 
 /** Frees what options_parse() allocated, whatever it returned. */
