@@ -96,5 +96,5 @@ static void test_shader(void **state) {
 int main(void) {
     const struct CMUnitTest tests[] = {cmocka_unit_test(test_codes), cmocka_unit_test(test_matrix),
                                        cmocka_unit_test(test_slanted), cmocka_unit_test(test_shader)};
-    return cmocka_run_group_tests(tests, NULL, NULL);
+    return run_tap(tests);
 }

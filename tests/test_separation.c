@@ -3,6 +3,7 @@
 #include <stdio.h>
 
 #include "census/census.h"
+#include "core/engine.h"
 #include "depthprec/depthprec.h"
 #include "support.h"
 
@@ -246,6 +247,31 @@ static void known_answers(void **state) {
     assert_true(isinf(w.bound) && isinf(w.separation));
 }
 
+/* What decides whether the lattice has to be asked exactly: never below it, and not so far above that it always is. */
+static void what_the_lattice_is_not_above(void **state) {
+    (void)state;
+    tally above = {.name = "the quick estimate is never below the separation of the lattice"};
+    tally near = {.name = "nor above it by more than two steps where one is little of the depth"};
+    rng r = rng_make("lattice above");
+    const uint64_t cases = test_cases(1000, 20000, 500000);
+    for (uint64_t i = 0; i < cases; i++) {
+        dp_setup s;
+        double lo, hi;
+        if (!random_setup(&r, POSITIVE, DP_MODEL_EXACT, &s))
+            continue;
+        random_range(&r, &s, &lo, &hi);
+        for (int k = 0; k < 20; k++) {
+            const double z = fmin(fmax(probe(&r, &s, lo, hi), lo), hi);
+            const double quick = dp_lattice_above(&s, z), exactly = dp_separation(&s, z);
+            TALLY(&above, exactly <= quick, "%s: at %a: %a, estimated %a", name_of(&s), z, exactly, quick);
+            if (s.curve == DP_CURVE_PERSPECTIVE && exactly < 1e-3 * z)
+                TALLY(&near, quick <= 2.01 * exactly, "%s: at %a: %a, estimated %a", name_of(&s), z, exactly, quick);
+        }
+    }
+    tally_end(&above);
+    tally_end(&near);
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(exact),
@@ -255,6 +281,7 @@ int main(void) {
         cmocka_unit_test(census_keeps_the_bound),
         cmocka_unit_test(a_depth_above_the_bound),
         cmocka_unit_test(known_answers),
+        cmocka_unit_test(what_the_lattice_is_not_above),
     };
     return run_tap(tests);
 }

@@ -68,8 +68,10 @@ static double moved(double z, double share) {
 }
 
 /* What the lattice alone asks for: no arithmetic before it makes two surfaces easier to tell apart. */
-static double lattice_separation(const dp_guarantee *g, double z) {
-    return isinf(z) ? HUGE_VAL : dp_lattice_separation(&g->exact, z);
+static double with_lattice(const dp_setup *setup, double z, double needs) {
+    if (dp_lattice_above(setup, z) <= needs)
+        return needs;
+    return larger(needs, isinf(z) ? HUGE_VAL : dp_lattice_exact(setup, z));
 }
 
 /* The separation of depths that a composition moves: that of any depth which a surface at z may be moved to. */
@@ -206,7 +208,7 @@ static void share_out(const dp_guarantee *g, double z, double longest, double wi
     const double apart = last_within(z1, longest) - z1;
     const double eye = dp_eye_rounding(z1, z1 + apart);
     const double pipeline_needs = (apart + eye) * outward;
-    out->separation = larger(pipeline_needs, lattice_separation(g, z));
+    out->separation = with_lattice(g->setup, z, pipeline_needs);
     out->window = window;
     for (int i = 0; i < DP_CAUSE_COUNT; i++)
         out->cause[i] = part[i] > 0.0 ? apart * outward * (part[i] / window) : 0.0;
@@ -253,9 +255,8 @@ static void log_budget(const dp_guarantee *g, double z, const dp_budget_terms *t
 
 /* Of a mapping that computes depth. */
 static dp_guarantee guarantee_of(const dp_setup *setup, const dp_log2_row *log2) {
-    dp_guarantee g = {.setup = setup, .exact = *setup};
-    g.exact.spec.model = DP_MODEL_EXACT;
-    g.exact.shader = 0;
+    dp_guarantee g;
+    g.setup = setup;
     if (setup->curve == DP_CURVE_LOG) {
         g.shader = dp_log_shader_make(setup, log2);
         return g;

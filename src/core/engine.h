@@ -36,6 +36,10 @@ static inline int dp_is_computed(const dp_setup *setup) {
 /* dp_separation() of the models exact and staged, at a finite depth. */
 double dp_lattice_separation(const dp_setup *setup, double z);
 
+/* The same of the model exact, whatever the set-up's; and, in a fraction of the time, what it is not above. */
+double dp_lattice_exact(const dp_setup *setup, double z);
+double dp_lattice_above(const dp_setup *setup, double z);
+
 /* The models exact and staged: the steps of d that dp_separation() takes at the depths of [nearest, farthest], at most.
  */
 double dp_separation_step(const dp_setup *setup, double nearest, double farthest);

@@ -7,7 +7,6 @@
 
 typedef struct dp_guarantee {
     const dp_setup *setup;
-    dp_setup exact; /* the lattice that it stores on */
     union {
         dp_chain chain;       /* of a matrix */
         dp_log_shader shader; /* of a logarithm */

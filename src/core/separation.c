@@ -86,9 +86,22 @@ double dp_separation_step(const dp_setup *setup, double nearest, double farthest
     return wide + ndc + (dp_mapping_get(setup->spec.mapping)->ndc_signed ? window : 0.0);
 }
 
+double dp_lattice_exact(const dp_setup *setup, double z) {
+    return dp_curve_ahead(setup, exact_step(setup, z), setup->den, z) * dp_curve_outward(setup);
+}
+
+/* z h / (1 - h), as dp_curve_ahead() has it, where 1 - h does not cancel. */
+double dp_lattice_above(const dp_setup *setup, double z) {
+    if (setup->curve != DP_CURVE_PERSPECTIVE)
+        return HUGE_VAL;
+    const double step = largest_code_step(setup, dp_window(setup, z) * (1.0 + 2.0 * DP_WINDOW_ERROR));
+    const double h = z * step * setup->kappa * (1.0 + 0x1p-40);
+    return h < 0.5 ? z * h / (1.0 - h) * (1.0 + 0x1p-40) : HUGE_VAL;
+}
+
 double dp_lattice_separation(const dp_setup *setup, double z) {
     if (setup->spec.model == DP_MODEL_EXACT)
-        return dp_curve_ahead(setup, exact_step(setup, z), setup->den, z) * dp_curve_outward(setup);
+        return dp_lattice_exact(setup, z);
     const double s = dp_staged_is_exact(setup) ? dp_curve_ahead(setup, exact_step(setup, z), setup->den, z)
                                                : dp_curve_ahead(setup, staged_step(setup, z), 1.0, z);
     return (s + dp_eye_rounding(z, z + s)) * dp_curve_outward(setup);

@@ -23,6 +23,7 @@ typedef struct part {
 typedef struct search {
     const dp_setup *setup;
     const dp_guarantee *guarantee; /* null: the separation is that of a lattice */
+    dp_setup lattice;
     dp_separation_worst *worst;
     double limit;
     int evaluations;
@@ -58,9 +59,8 @@ static double with_eye(const dp_setup *setup, double lo, double hi, double ahead
  * that of the same part in the model exact.
  */
 static double bound_of(const search *s, double lo, double hi) {
-    const dp_setup *lattice = s->guarantee != NULL ? &s->guarantee->exact : s->setup;
-    const double step = dp_separation_step(lattice, lo, hi) * (1.0 + 0x1p-50);
-    const double bound = with_eye(lattice, lo, hi, dp_curve_ahead(lattice, step, 1.0, hi));
+    const double step = dp_separation_step(&s->lattice, lo, hi) * (1.0 + 0x1p-50);
+    const double bound = with_eye(&s->lattice, lo, hi, dp_curve_ahead(&s->lattice, step, 1.0, hi));
     return s->guarantee != NULL ? larger(dp_guarantee_bound(s->guarantee, (float)lo, (float)hi), bound) : bound;
 }
 
@@ -194,10 +194,12 @@ dp_status dp_separation_over(const dp_setup *setup, double lo, double hi, double
         return DP_ERROR_RANGE;
     dp_separation_worst worst = {.lo = lo, .hi = hi, .z = hi};
     dp_guarantee guarantee;
-    search s = {.setup = setup, .worst = &worst};
+    search s = {.setup = setup, .lattice = *setup, .worst = &worst};
     if (dp_is_computed(setup)) {
         guarantee = dp_guarantee_make(setup);
         s.guarantee = &guarantee;
+        s.lattice.spec.model = DP_MODEL_EXACT;
+        s.lattice.shader = 0;
     }
     look(&s, hi);
     look(&s, lo);
