@@ -92,6 +92,15 @@ static const shadow_case given[] = {
      .box = {10, 10, 40},
      .lo = 10,
      .hi = 30},
+    {.options = "--light-box 40x40x404", /* away from window depth 0, where a unit is worth nothing: 404/256 */
+     .api = "d3d11",
+     .box = {40, 40, 404},
+     .lo = 1.578125,
+     .hi = 404},
+    {.options = "--light-box 40x40x404 -m reversed --api all",
+     .mappings = {DP_MAPPING_REVERSED},
+     .box = {40, 40, 404},
+     .hi = 404 - 1.578125},
     {.options = "--light-box 40x40x0.2 -F d16", /* flatter than a gap is long */
      .formats = {"unorm16"},
      .api = "d3d11",
@@ -321,6 +330,7 @@ static void want_answer(values *v, const shadow_case *c, const char *format, dp_
 
 static void want_head(values *v, const shadow_case *c) {
     want_text(v, "api", c->api != NULL ? c->api : "all");
+    want_text(v, "arith", c->arith != NULL ? c->arith : "ieee");
     want_number(v, "size.width", c->width);
     want_number(v, "size.height", c->height);
     want_number(v, "kernel", c->kernel);
@@ -356,6 +366,8 @@ static void want_setup_of(values *v, const shadow_case *c, size_t k, line_places
     want_text(v, "format", format);
     want_text(v, "mapping", dp_mapping_get(mapping)->name);
     want_text(v, "unit", c->unit);
+    want_number(v, "lit_from", c->box[2] > 0 ? c->lo : NAN);
+    want_number(v, "lit_to", c->box[2] > 0 ? c->hi : NAN);
     for (size_t i = 0; i < apis; i++) {
         values_under(v, "setups[%zu].answers[%zu].", k, i);
         want_answer(v, c, format, mapping, api_of(c, i));

@@ -19,6 +19,9 @@ typedef struct shadow {
     const char *api_name, *unit;
     const shadow_split *view; /* null where there is a box */
     size_t setup_count;
+    struct {
+        double lo, hi; /* of the box: what is lit */
+    } lit;
     const char *format, *mapping, *arith;
     shadow_maps maps;
     shadow_row row;
@@ -67,6 +70,9 @@ static void *next_setup(void *of, size_t i) {
     shadow_maps_make(o, format, mapping, &s->maps); /* cannot fail: cmd_shadow() has tried */
     s->format = format->name;
     s->mapping = dp_mapping_get(mapping)->name;
+    const shadow_light *light = &s->maps.items[0].light;
+    s->lit.lo = s->maps.view.count == 0 ? light->receiver_lo : (double)NAN;
+    s->lit.hi = s->maps.view.count == 0 ? light->receiver_hi : (double)NAN;
     return s;
 }
 
@@ -90,6 +96,10 @@ static void say_maps(page *p, void *item) {
         const double texel = fmax(o->light_box[0] / o->camera.width, o->light_box[1] / o->camera.height);
         page_title(p, "box %s x %s, %s deep along the light, texel %s", number_full(o->light_box[0]).text,
                    number_full(o->light_box[1]).text, number_full(o->light_box[2]).text, number_of(texel, DIGITS).text);
+        if (s->lit.lo > 0.0 || s->lit.hi < o->light_box[2])
+            page_title(p, "lit from %s to %s along the light%s", number_up(s->lit.lo, DIGITS).text,
+                       number_down(s->lit.hi, DIGITS).text,
+                       option_given(o, OPTION_RANGE) ? "" : ": units are worth nothing at depth 0");
     }
     page_title(p, "%d subpixel bit%s, triangles from 1 to %s texels, no slimmer than 1:%s, %s", t->subpixel,
                t->subpixel == 1 ? "" : "s", number_full(t->pixels).text, number_full(t->slim).text, s->arith);
@@ -281,6 +291,8 @@ static const column setup_report[] = {
     {FIELD(shadow, format, "format", "")},
     {FIELD(shadow, mapping, "mapping", "")},
     {FIELD(shadow, unit, "unit", ""), .only = AS_JSON},
+    {FIELD(shadow, lit.lo, "lit_from", "scene"), .only = AS_JSON},
+    {FIELD(shadow, lit.hi, "lit_to", "scene"), .only = AS_JSON},
     {LIST("answers", whole_columns, next_whole), .only = AS_JSON},
     {LIST(NULL, whole_columns, next_whole), .only = AS_TEXT, .when = ALL_APIS, .notes = say_calls},
     {LIST(NULL, place_columns, next_row), .only = AS_TEXT, .when = ONE_API | SPLIT, .head = say_blank},

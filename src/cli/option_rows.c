@@ -182,8 +182,8 @@ const option_row option_rows[OPTION_COUNT] = {
     [OPTION_RANGE] = {"range", 0, "LO:HI", MODELLED | VERB_ZFIGHT | VERB_BIAS | VERB_SOLVE | VERB_SHADOW,
         "the depths over which worst cases are taken", parse_range, .without = "near to far",
         .except = {BUT(VERB_SOLVE, NULL, "near to far for a distance, else --at", "the depths at which it must hold"),
-                   BUT(VERB_SHADOW, NULL, "all of the box", "with --light-box: how far along the light what is lit "
-                       "lies, from the front of the box"),
+                   BUT(VERB_SHADOW, NULL, "all of the box, less 1/256 where units are worth nothing at window depth 0",
+                       "with --light-box: how far along the light what is lit lies, from the front of the box"),
                    BUT(VERB_ZFIGHT, NULL, "near to far; needed where far is inf", "the depths that are visited"),
                    BUT(VERB_PLOT, NULL, "near to far, or to 1e6 times near", "the depths that are shown")}},
     [OPTION_DEPTH] = {"depth", 0, "D[,D...]", VERB_TABLE,

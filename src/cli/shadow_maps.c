@@ -42,6 +42,27 @@ static int check_together(const options *o) {
     return EXIT_FINE;
 }
 
+/*
+ * Where units follow the exponent of a depth they are worth nothing at window depth 0, so no bias is enough for what is
+ * lit there. Where nobody said where that is, it lies farther from there than 1/256 of the box, and farther than twice
+ * the way that a constant bias covers.
+ */
+static void keep_off_zero(shadow_light *light, const bias_api *api) {
+    const dp_format *format = &light->setup.spec.format;
+    const double depth = light->setup.spec.zfar;
+    shadow_need need;
+    if (!(bias_unit_at(api, format, 0.0).least < bias_unit_at(api, format, 1.0).least))
+        return;
+    shadow_need_of(light, &need);
+    const double away = fmax(depth / 256.0, 2.0 * need.bias[SHADOW_CONSTANT].gap_light);
+    if (!(away < depth / 2.0))
+        return;
+    if (dp_mapping_get(light->setup.spec.mapping)->reversed)
+        light->receiver_hi = depth - away;
+    else
+        light->receiver_lo = away;
+}
+
 /* What all maps share; of a box, also its sides and planes. */
 static shadow_light light_of(const options *o, const dp_format *format, dp_mapping mapping) {
     const bool box = option_given(o, OPTION_LIGHT_BOX);
@@ -69,6 +90,8 @@ static shadow_light light_of(const options *o, const dp_format *format, dp_mappi
         light.receiver_hi = o->range_hi;
     }
     dp_setup_init(&light.setup, &spec); /* cannot fail: mapping and depth have been checked */
+    if (box && !option_given(o, OPTION_RANGE) && shadow_light_check(&light) == SHADOW_OK)
+        keep_off_zero(&light, o->api != NULL ? o->api : bias_api_get(0));
     return light;
 }
 
