@@ -324,7 +324,7 @@ static void test_enough(void **state) {
         const int reversed = (int)rng_below(&r, 2);
         const char *format = formats[rng_below(&r, 4)];
         const dp_setup setup = setup_of(0.1, 1000.0, reversed ? DP_MAPPING_REVERSED : DP_MAPPING_D3D, format);
-        bias_goal goal = {.api = bias_api_get(rng_below(&r, 9))};
+        bias_goal goal = {.api = bias_api_get(rng_below(&r, 10))};
         if (goal.api->guaranteed && setup.spec.format.kind == DP_FORMAT_UNORM) {
             t.skipped++; /* there r is what the implementation found to be enough */
             continue;
@@ -367,7 +367,7 @@ static void test_gap(void **state) {
     for (uint64_t i = 0; i < test_cases(200, 5000, 50000); i++) {
         double lo, hi, worst;
         const dp_setup setup = any_setup(&r, rng_below(&r, 2) ? "unorm24" : "fp32", &lo, &hi);
-        bias_goal goal = {.api = bias_api_get(rng_below(&r, 9)), .gap = lo * rng_log(&r, 1e-4, 1.0)};
+        bias_goal goal = {.api = bias_api_get(rng_below(&r, 10)), .gap = lo * rng_log(&r, 1e-4, 1.0)};
         lo += goal.gap;
         if (!(lo * 1.01 < hi))
             continue;
@@ -409,7 +409,7 @@ static void test_enough_over(void **state) {
     for (uint64_t i = 0; i < test_cases(300, 3000, 30000); i++) {
         double lo, hi, from, to;
         const dp_setup setup = any_setup(&r, rng_below(&r, 2) ? "unorm24" : "fp32", &lo, &hi);
-        bias_goal goal = {.api = bias_api_get(rng_below(&r, 9)), .gap = rng_below(&r, 2) ? lo * 0.01 : 0};
+        bias_goal goal = {.api = bias_api_get(rng_below(&r, 10)), .gap = rng_below(&r, 2) ? lo * 0.01 : 0};
         goal.slope = rng_below(&r, 2) ? rng_log(&r, 1e-4, 0.1) : 0;
         lo += goal.gap;
         if (!(lo * 1.01 < hi))

@@ -102,12 +102,13 @@ static void want_row(values *v, const disocclusion_case *c, const dp_setup *setu
     }
 }
 
-static void want_triangles(values *v, const dp_triangles *t) {
+static void want_triangles(values *v, const dp_triangles *t, const char *arith) {
     values_under(v, "triangles.");
     want_number(v, "width", t->width);
     want_number(v, "height", t->height);
     want_number(v, "fov", t->fov_y);
     want_text(v, "raster", NULL);
+    want_text(v, "arith", arith);
     want_number(v, "subpixel", t->subpixel);
     want_number(v, "slant_lo", t->slant_lo);
     want_number(v, "slant_hi", t->slant_hi);
@@ -167,7 +168,7 @@ static void test_printed(void **state) {
             used += (size_t)snprintf(arguments + used, sizeof arguments - used, "%s%g", j == 0 ? " --at " : ",",
                                      c->depths[j]);
         const size_t n = camera_setups(&c->camera, setups);
-        want_triangles(&v, &c->triangles);
+        want_triangles(&v, &c->triangles, c->camera.arith != NULL ? c->camera.arith : "ieee");
         for (size_t i = 0; i < n; i++) {
             values_under(&v, "setups[%zu].", i);
             want_setup(&v, &setups[i]);

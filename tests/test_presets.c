@@ -38,6 +38,7 @@ static void test_rows(void **state) {
         assert_true(preset_find(row->name) == row); /* no name twice */
         for (const char *c = row->name; *c != '\0'; c++)
             assert_true(islower((unsigned char)*c) || isdigit((unsigned char)*c) || *c == '-');
+        assert_non_null(bias_api_find(row->api));
         assert_true(raster_find(row->raster) != NULL && row->fov > 0 && row->fov < 180);
         assert_true(row->unit[0] != '\0' && row->note[0] != '\0' && row->source[0] != '\0');
         assert_int_equal(strlen(row->checked), 10);

@@ -110,6 +110,7 @@ static void want_view(values *v, size_t i) {
     want_count(v, "height", 360);
     want_number(v, "fov", dp_fov_vertical(75.5, 640, 360));
     want_text(v, "raster", "spec-vulkan");
+    want_text(v, "arith", "ieee");
     want_count(v, "subpixel", 7);
     want_number(v, "slant_lo", 5);
     want_number(v, "slant_hi", 65);

@@ -85,6 +85,7 @@ static void want_view(values *v, const fight_case *c) {
     want_number(v, "triangles.height", c->view.height);
     want_number(v, "triangles.fov", c->view.fov_y);
     want_text(v, "triangles.raster", c->raster);
+    want_text(v, "triangles.arith", strcmp(c->raster, "softpipe") == 0 ? "softpipe" : "mesa");
     want_number(v, "triangles.subpixel", c->view.subpixel);
     want_number(v, "triangles.slant_lo", c->view.slant_lo);
     want_number(v, "triangles.slant_hi", c->view.slant_hi);

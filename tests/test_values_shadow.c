@@ -12,7 +12,7 @@
 
 static const char *const ways[SHADOW_WAY_COUNT] = {"constant", "slope", "normal"};
 
-enum { FORMATS = 2, MAPPINGS = 2, APIS = 9 };
+enum { FORMATS = 2, MAPPINGS = 2, APIS = 10 };
 
 /* What is left out is as the help has it, see filled(). */
 typedef struct shadow_case {

@@ -93,6 +93,15 @@ static const slant_case cases[] = {
      "spec-gl"},
 };
 
+/* As 'depthprec list arithmetic' has it beside the rasterizers' names. */
+static const char *arith_of(const char *raster) {
+    static const char *const known[][2] = {{"llvmpipe", "mesa"}, {"swiftshader", "mesa"}, {"softpipe", "softpipe"}};
+    for (size_t i = 0; i < sizeof known / sizeof known[0]; i++)
+        if (raster != NULL && strcmp(known[i][0], raster) == 0)
+            return known[i][1];
+    return "ieee";
+}
+
 static dp_budget budget_of(const slant_case *c, double z, bool slanted) {
     dp_spec spec = dp_spec_default();
     dp_setup setup;
@@ -101,6 +110,7 @@ static dp_budget budget_of(const slant_case *c, double z, bool slanted) {
     spec.znear = c->znear;
     spec.zfar = c->zfar;
     spec.mapping = c->mapping;
+    assert_int_equal(dp_arith_parse(arith_of(c->raster), &spec.arith), DP_OK);
     if (slanted)
         spec.triangles = t;
     assert_int_equal(dp_setup_init(&setup, &spec), DP_OK);
@@ -118,6 +128,7 @@ static double at(const json_t *object, const char *key) {
 static void check_triangles(const json_t *root, const dp_triangles *t, const char *raster) {
     const json_t *got = json_object_get(root, "triangles"), *named = json_object_get(got, "raster");
     assert_true(raster == NULL ? json_is_null(named) : strcmp(json_string_value(named), raster) == 0);
+    assert_string_equal(json_string_value(json_object_get(got, "arith")), arith_of(raster));
     assert_true(at(got, "width") == t->width && at(got, "height") == t->height && at(got, "fov") == t->fov_y);
     assert_true(at(got, "subpixel") == t->subpixel && at(got, "slant_lo") == t->slant_lo);
     assert_true(at(got, "slant_hi") == t->slant_hi && at(got, "depth") == t->depth);
@@ -251,7 +262,7 @@ static void test_text(void **state) {
         end--;
     const double got = strtod(end, NULL), want = budget_of(c, 700, true).separation;
     assert_true(got >= want && got <= want * (1 + 1e-4));
-    assert_non_null(strstr(p.out, "viewport 1920x1080, fov 40, 8 subpixel bits, slant 0 to 90 degrees\n"));
+    assert_non_null(strstr(p.out, "viewport 1920x1080, fov 40, 8 subpixel bits, slant 0 to 90 degrees, ieee\n"));
     assert_non_null(strstr(p.out, "triangles from z/2 to 2 z, at most 512 pixels, no slimmer than 1:16\n"));
     assert_non_null(strstr(p.out, "told apart, facing the camera: surfaces"));
     printed_free(&p);
@@ -262,10 +273,10 @@ static void test_rasterizer(void **state) {
     static const struct {
         const char *options, *line;
     } said[] = {
-        {"--raster llvmpipe", "llvmpipe: depth from unsnapped vertices, anchor origin\n"},
-        {"--raster swiftshader", "swiftshader: 4 subpixel bits, anchor vertex\n"},
-        {"--raster spec-d3d", "spec-d3d: 8 subpixel bits, any anchor: the worst is counted\n"},
-        {"--raster spec-gl --subpixel 5", "spec-gl: at least 5 subpixel bits, any anchor: the worst is counted\n"}};
+        {"--raster llvmpipe", "llvmpipe: depth from unsnapped vertices, anchor origin, arithmetic mesa\n"},
+        {"--raster swiftshader", "swiftshader: 4 subpixel bits, anchor vertex, arithmetic mesa\n"},
+        {"--raster spec-d3d", "spec-d3d: 8 subpixel bits, any anchor: the worst is counted, arithmetic ieee\n"},
+        {"--raster spec-gl --subpixel 5", "spec-gl: at least 5 subpixel bits, any anchor: the worst is counted,\n"}};
     (void)state;
     for (size_t i = 0; i < sizeof said / sizeof said[0]; i++) {
         printed p = print_of("budget -F fp32 -m reversed --viewport 640x480 --at 10 %s", said[i].options);

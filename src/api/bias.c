@@ -43,6 +43,10 @@ static const bias_api rows[] = {
      "glPolygonOffset(factor, units); the clamp is EXT_polygon_offset_clamp or GL 4.6; for integer buffers r is the "
      "implementation's choice, 2^-N is assumed",
      "OpenGL specification, Depth Offset; EXT_polygon_offset_clamp", UNSCALED},
+    {"three", "threejs three.js", BIAS_FREE, BIAS_EXPONENT, BIAS_EXPONENT_OPEN, false, false, false, true,
+     "polygonOffsetFactor = F, polygonOffsetUnits = U", "",
+     "of a material with polygonOffset = true, handed to gl.polygonOffset(): see gl; WebGL has no clamp",
+     "three.js, src/renderers/webgl/WebGLState.js (setPolygonOffset)", UNSCALED},
     {"d3d9", "direct3d9 d3d8to9", BIAS_ONE, BIAS_ONE, BIAS_EXPONENT_OPEN, false, false, false, false,
      "D3DRS_DEPTHBIAS = U", ", D3DRS_SLOPESCALEDEPTHBIAS = F",
      "D3DRS_DEPTHBIAS is a window depth; there is no clamp",

@@ -23,6 +23,7 @@ typedef struct preset {
     double fov;              /**< degrees */
     preset_axis axis;        /**< of `fov` */
     const char *raster;      /**< a name of `list rasterizers`: what the APIs it runs on promise at least */
+    const char *api;         /**< a name of `list apis`: what its users, or the engine itself, write a bias for */
     const char *note;        /**< one line */
     const char *unconfirmed; /**< the values without a source of first hand, "near, fov"; "" when there are none */
     const char *source;

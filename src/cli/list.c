@@ -111,9 +111,10 @@ bool list_preset(size_t index, list_item *item) {
         return false;
     *item = (list_item){.name = row->name, .note = row->note, .source = row->source, .row = row};
     const bool confirmed = row->unconfirmed[0] == '\0';
-    snprintf(item->bound, sizeof item->bound, "near %s, far %s, %s, %s, fov %s %s, %s, scene in %s; checked %s, %s%s",
+    snprintf(item->bound, sizeof item->bound,
+             "near %s, far %s, %s, %s, fov %s %s, %s, bias of %s, scene in %s; checked %s, %s%s",
              number_full(row->znear).text, number_full(row->zfar).text, dp_mapping_get(row->mapping)->name, row->format,
-             number_full(row->fov).text, axes[row->axis], row->raster, row->unit, row->checked,
+             number_full(row->fov).text, axes[row->axis], row->raster, row->api, row->unit, row->checked,
              confirmed ? "confirmed" : "not confirmed: ", row->unconfirmed);
     return true;
 }

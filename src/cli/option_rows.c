@@ -131,8 +131,9 @@ const option_row option_rows[OPTION_COUNT] = {
         "orthographic projection; not with linear and log", FLAG(ortho), .without = "perspective",
         .except = {BUT(VERB_ZFIGHT | VERB_BUDGET, NULL, "perspective", "orthographic projection")}},
     [OPTION_PRESET] = {"preset", 0, "NAME[,NAME...]", CAMERA | TAKEN,
-        "an engine's near, far, mapping and format, for those that are not given, and with --viewport its field of "
-        "view and rasterizer: @; table compares several; see 'depthprec list presets'",
+        "an engine's near, far, mapping and format, for those that are not given, for a bias the API that its users "
+        "write, and with --viewport its field of view and rasterizer: @; table compares several; see 'depthprec list "
+        "presets'",
         .parse = parse_presets, .names = &presets},
     [OPTION_PLATFORM] = {"platform", 0, "NAME",
         VERB_TABLE | VERB_BUDGET | VERB_ZFIGHT | VERB_BIAS | VERB_PLOT | VERB_SOLVE | VERB_DISOCCLUSION |

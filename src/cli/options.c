@@ -10,6 +10,7 @@
 #include "cli/option_rows.h"
 #include "cli/stored.h"
 #include "core/append.h"
+#include "opened/input.h"
 #include "report/number.h"
 
 const char *option_name(option_id id) {
@@ -164,6 +165,8 @@ static void take_preset(options *o, const preset *p) {
         parse_formats(o, &option_rows[OPTION_FORMAT], p->format);
     if (!option_given(o, OPTION_MAPPING))
         parse_mappings(o, &option_rows[OPTION_MAPPING], dp_mapping_get(p->mapping)->name);
+    if (!option_given(o, OPTION_API))
+        parse_row(o, &option_rows[OPTION_API], p->api);
     slant_take_preset(o, p);
 }
 
@@ -382,6 +385,7 @@ static void put_command_first(int argc, char **argv) {
 }
 
 int options_parse(options *o, int argc, char **argv) {
+    input_forget();
     set_defaults(o);
     o->argv = argv;
     o->verb = verb_find("table");

@@ -58,6 +58,10 @@ void input_close(FILE *in) {
     errno = reason;
 }
 
+void input_forget(void) {
+    known_count = 0;
+}
+
 void input_expect(const char *path) {
     struct stat of;
     if ((is_stdin(path) ? fstat(fileno(stdin), &of) : stat(path, &of)) == 0)
