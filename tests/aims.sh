@@ -34,7 +34,7 @@ check "a benchmark that fails is named, the others run" last 1 '2 aims met, 0 mi
 check "what a benchmark prints is shown" grep -q 'a table of quick' "$scratch/said"
 
 runs() {
-    make -n bench B="$B" 2>/dev/null | sed -n ':a;/\\$/{N;s/\\\n//;ba};$p' >"$scratch/recipe" &&
+    make -n --no-print-directory bench B="$B" 2>/dev/null | sed -n ':a;/\\$/{N;s/\\\n//;ba};$p' >"$scratch/recipe" &&
         grep -q '^sh tests/bench.sh ' "$scratch/recipe"
 }
 check "make bench ends with it" runs

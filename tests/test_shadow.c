@@ -293,7 +293,7 @@ static void test_states(void **state) {
             const double deep = (light.setup.reversed ? light.receiver_lo : light.receiver_hi) - n0;
             const double top = light.setup.reversed ? 1 - deep / depth : deep / depth;
             const bool is_float = format->kind == DP_FORMAT_FLOAT;
-            const bool bound = is_float ? api->real == BIAS_EXPONENT && strchr("gv", api->name[0]) != NULL /* n + 1 */
+            const bool bound = is_float ? api->real == BIAS_EXPONENT && strchr("gvt", api->name[0]) != NULL /* n + 1 */
                                         : api->unorm == BIAS_BOUND;
             const double wide =
                 s.units * worth(api, format, top) * (bound ? 2 : 1) * depth + b->gap_light - b->window * depth;

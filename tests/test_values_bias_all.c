@@ -7,7 +7,7 @@
 #include "named.h"
 #include "printed.h"
 
-enum { APIS = 9, DEPTHS = 2 };
+enum { APIS = 10, DEPTHS = 2 };
 
 /* As the reference of each API has it, U and F in their places. */
 static const struct {
@@ -23,6 +23,8 @@ static const struct {
     {"vulkan-unorm", "depthBiasConstantFactor = %s", "depthBiasConstantFactor = %s, depthBiasSlopeFactor = %s", false},
     {"vulkan-float", "depthBiasConstantFactor = %s", "depthBiasConstantFactor = %s, depthBiasSlopeFactor = %s", false},
     {"gl", "glPolygonOffset(0, %s)", "glPolygonOffset(%s, %s)", true},
+    {"three", "polygonOffsetFactor = 0, polygonOffsetUnits = %s", "polygonOffsetFactor = %s, polygonOffsetUnits = %s",
+     true},
     {"d3d9", "D3DRS_DEPTHBIAS = %s", "D3DRS_DEPTHBIAS = %s, D3DRS_SLOPESCALEDEPTHBIAS = %s", false},
 };
 

@@ -79,6 +79,8 @@ static dp_setup full_setup(const camera *c, const char *format, const char *mapp
     dp_spec spec = {.znear = c->znear, .zfar = c->zfar, .ortho = c->ortho, .log_c = 1};
     if (c->triangles != NULL)
         spec.triangles = *c->triangles;
+    if (c->triangles == &mesa)
+        assert_int_equal(dp_arith_parse("mesa", &spec.arith), DP_OK); /* its rasterizer brings it */
     dp_format formats[2];
     dp_setup setup;
     assert_int_equal(dp_format_parse(format, formats), 1);

@@ -272,11 +272,11 @@ static void test_text(void **state) {
 static void test_rasterizer(void **state) {
     static const struct {
         const char *options, *line;
-    } said[] = {
-        {"--raster llvmpipe", "llvmpipe: depth from unsnapped vertices, anchor origin, arithmetic mesa\n"},
-        {"--raster swiftshader", "swiftshader: 4 subpixel bits, anchor vertex, arithmetic mesa\n"},
-        {"--raster spec-d3d", "spec-d3d: 8 subpixel bits, any anchor: the worst is counted, arithmetic ieee\n"},
-        {"--raster spec-gl --subpixel 5", "spec-gl: at least 5 subpixel bits, any anchor: the worst is counted, arithmetic\n"}};
+    } said[] = {{"--raster llvmpipe", "llvmpipe: depth from unsnapped vertices, anchor origin, arithmetic mesa\n"},
+                {"--raster swiftshader", "swiftshader: 4 subpixel bits, anchor vertex, arithmetic mesa\n"},
+                {"--raster spec-d3d", "spec-d3d: 8 subpixel bits, any anchor: the worst is counted, arithmetic ieee\n"},
+                {"--raster spec-gl --subpixel 5",
+                 "spec-gl: at least 5 subpixel bits, any anchor: the worst is counted, arithmetic\n"}};
     (void)state;
     for (size_t i = 0; i < sizeof said / sizeof said[0]; i++) {
         printed p = print_of("budget -F fp32 -m reversed --viewport 640x480 --at 10 %s", said[i].options);

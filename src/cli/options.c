@@ -152,6 +152,12 @@ static int check_operands(options *o) {
     return status;
 }
 
+/* The rule under which the bias is written. */
+static void take_api(options *o, const char *api) {
+    if (!option_given(o, OPTION_API))
+        parse_row(o, &option_rows[OPTION_API], api);
+}
+
 /* A preset gives what the user did not. */
 static void take_preset(options *o, const preset *p) {
     const unit_row *own = unit_find(p->unit);
@@ -165,8 +171,7 @@ static void take_preset(options *o, const preset *p) {
         parse_formats(o, &option_rows[OPTION_FORMAT], p->format);
     if (!option_given(o, OPTION_MAPPING))
         parse_mappings(o, &option_rows[OPTION_MAPPING], dp_mapping_get(p->mapping)->name);
-    if (!option_given(o, OPTION_API))
-        parse_row(o, &option_rows[OPTION_API], p->api);
+    take_api(o, p->api);
     slant_take_preset(o, p);
 }
 
@@ -186,8 +191,7 @@ static void take_platform(options *o) {
         remapped = remapped || dp_mapping_get(o->mappings[i])->ndc_signed;
     if (!option_given(o, OPTION_ARITH) && remapped)
         dp_arith_parse("ieee-remap", &o->arith);
-    if (!option_given(o, OPTION_API))
-        parse_row(o, &option_rows[OPTION_API], p->api);
+    take_api(o, p->api);
     slant_take_raster(o, p->raster);
 }
 
