@@ -32,6 +32,10 @@ static const camera cameras[] = {
     {"-n 0.3 -f 5000 -F d24,fp32,d16 -m gl,gl-reversed,log", 0.3, 5000, 0, 4, {1, 10, 100, 1000}, 9, NULL},
     {"-n 0.01 -f inf -F all -m reversed,d3d --at 0.5,7,900", 0.01, INFINITY, 0, 3, {0.5, 7, 900}, 8, NULL},
     {"--ortho -n 2 -f 700 -F unorm16,fp32 -m d3d", 2, 700, 1, 2, {10, 100}, 2, NULL},
+    {"--ortho -n -500 -f -5 -F d16,d24 -m d3d", -500, -5, 1, 5, {-500, -400, -300, -200, -100}, 2, NULL},
+    {"--ortho -n 0 -f 5 -F d16,fp32 -m d3d,reversed", 0, 5, 1, 3, {0, 2, 4}, 4, NULL},
+    {"--ortho -n -3 -f 7 -F d16,fp32 -m gl", -3, 7, 1, 5, {-2, 0, 2, 4, 6}, 2, NULL},
+    {"--ortho -n -0.3 -f 0.1 -F d24,fp32 -m d3d", -0.3, 0.1, 1, 4, {-0.2, -0.1, 0, 0.1}, 2, NULL},
     {"-n 0.05 -f 2e7 -F d24,fp32 -m reversed", 0.05, 2e7, 0, 5, {0.1, 10, 1000, 1e5, 1e7}, 2, NULL},
     {"-n 3 -f 5 -F d24,fp32 -m reversed", 3, 5, 0, 1, {5}, 2, NULL},
     {"--viewport 1920x1080", 0.1, 1000, 0, 5, {0.1, 1, 10, 100, 1000}, 8, &hd},
@@ -112,9 +116,10 @@ static void check_reach(tally *t, const dp_setup *setup, double limit, const cha
               limit);
         return;
     }
-    TALLY(t, z >= setup->spec.znear * 0.99 && holds(setup, fmax(z, setup->spec.znear), limit),
+    TALLY(t, z >= setup->spec.znear - 0.01 * fabs(setup->spec.znear) && holds(setup, fmax(z, setup->spec.znear), limit),
           "%s %d: %g does not hold up to %s", setup->spec.format.name, setup->spec.mapping, limit, word);
-    TALLY(t, z >= setup->spec.zfar * 0.99 || !holds(setup, fmin(more, setup->spec.zfar), limit),
+    TALLY(t,
+          z >= setup->spec.zfar - 0.01 * fabs(setup->spec.zfar) || !holds(setup, fmin(more, setup->spec.zfar), limit),
           "%s %d: %g holds beyond %s", setup->spec.format.name, setup->spec.mapping, limit, word);
 }
 
@@ -148,7 +153,7 @@ static void check_verdicts(tally *t, const camera *c, const char *text, const ch
     const words best = split(rows);
     const char *slant = c->triangles != NULL ? " at any slant" : "";
     const char *reach = best.word[2 + c->depths + 1];
-    const bool to_far = strtod(reach, NULL) >= c->zfar * 0.99;
+    const bool to_far = strtod(reach, NULL) >= c->zfar - 0.01 * fabs(c->zfar);
     char want[128];
     snprintf(want, sizeof want, "%s %s", best.word[0], best.word[1]);
     TALLY(t, strncmp(text, want, strlen(want)) == 0 || strstr(text, want) != NULL, "the best is %s: %s", want, text);

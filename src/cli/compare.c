@@ -83,10 +83,24 @@ static int better(const void *a, const void *b) {
     return cheaper != 0 ? cheaper : first->setup < second->setup ? -1 : 1;
 }
 
+/* From a near plane that has no power of ten: multiples of 1, 2 or 5 times one, as many as there is room for. */
+static void choose_multiples(comparison *c, double near, double far, double most) {
+    static const double of[] = {1.0, 2.0, 5.0};
+    const double power = floor(dp_log10(far - near)) - 1.0;
+    double step = far - near;
+    for (size_t i = 0; i < 2 * sizeof of / sizeof of[0]; i++) {
+        step = of[i % 3] * dp_pow(10.0, power + (double)(i / 3));
+        if (floor(far / step) - ceil(near / step) < most)
+            break;
+    }
+    for (double k = ceil(near / step); k <= floor(far / step) && c->depth_count < DEPTHS; k++)
+        c->depths[c->depth_count++] = fmin(fmax(k * step + 0.0, near), far); /* 0 is not -0 */
+}
+
 /* At most five of the depths asked about, else powers of ten: those that a reader looks for. */
 static void choose_depths(comparison *c) {
     const options *o = c->walk->o;
-    double near = INFINITY, far = 0;
+    double near = INFINITY, far = -INFINITY;
     for (size_t i = 0; i < c->walk->all.count; i++) {
         near = fmin(near, c->rows[i].znear);
         far = fmax(far, isinf(c->rows[i].zfar) ? 1e6 * c->rows[i].znear : c->rows[i].zfar);
@@ -96,8 +110,13 @@ static void choose_depths(comparison *c) {
             c->depths[c->depth_count] = depths_get(&o->at, c->depth_count);
         return;
     }
+    const int most = o->preset_count > 1 ? DEPTHS_OF_PRESETS : DEPTHS;
+    if (!(near > 0)) {
+        choose_multiples(c, near, far, most);
+        return;
+    }
     const int first = (int)ceil(dp_log10(near) - 1e-9), last = (int)floor(dp_log10(far) + 1e-9);
-    const int most = o->preset_count > 1 ? DEPTHS_OF_PRESETS : DEPTHS, step = (last - first) / most + 1;
+    const int step = (last - first) / most + 1;
     for (int e = last - (last - first) / step * step; e <= last && c->depth_count < DEPTHS; e += step)
         c->depths[c->depth_count++] = fmin(fmax(dp_pow(10.0, e), near), far);
     if (c->depth_count == 0)

@@ -178,7 +178,7 @@ const option_row option_rows[OPTION_COUNT] = {
                    BUT(VERB_WORLD, NULL, "10 m, or 10", "how far ahead of the camera the surfaces are"),
                    BUT(VERB_PLOT, NULL, NULL, "the depth asked about, in figures of a single one"),
                    BUT(VERB_TABLE, NULL, "nine, log-spaced from near to far, or to 1e6 times near; evenly where near "
-                       "is not above 0; of several set-ups powers of ten", NULL)},
+                       "is not above 0; of several set-ups round ones", NULL)},
         .group = "The depths"},
     [OPTION_RANGE] = {"range", 0, "LO:HI", MODELLED | VERB_ZFIGHT | VERB_BIAS | VERB_SOLVE | VERB_SHADOW,
         "the depths over which worst cases are taken", parse_range, .without = "near to far",
