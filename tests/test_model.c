@@ -85,6 +85,8 @@ static dp_setup random_setup(rng *r, bool with_pipeline) {
 }
 
 static double depth_in(rng *r, const dp_setup *setup) {
+    if (setup->spec.znear <= 0)
+        return rng_depth(r, setup->spec.znear, setup->spec.zfar);
     const double hi = isinf(setup->spec.zfar) ? 1e5 * setup->spec.znear : setup->spec.zfar;
     return fmin(fmax(rng_log(r, setup->spec.znear, hi), setup->spec.znear), hi);
 }
@@ -102,7 +104,12 @@ static double share_at(const dp_setup *setup, int model, double z) {
     spec.model = (dp_model)model;
     if (dp_setup_init(&part, &spec) != DP_OK)
         return (double)NAN;
-    const double some = dp_separation(&part, z);
+    const float plane = (float)fmax(-setup->spec.znear, fabs(setup->spec.zfar)), least = ldexpf(plane, -24);
+    float depth = setup->spec.znear > 0 ? (float)z : fmaxf(fabsf((float)z), least);
+    if ((double)depth > fabs(z) && depth > least)
+        depth = nextafterf(depth, 0);
+    const double step = (double)nextafterf(depth, HUGE_VALF) - (double)depth; /* of the depths themselves */
+    const double some = fmax(dp_separation(&part, z), step / 2);
     const double all = dp_separation(&whole, z);
     return isinf(some) || all <= some ? 0.0 : all / some - 1.0;
 }
@@ -112,7 +119,12 @@ static void shares_are_those_of_the_separations(void **state) {
     rng r = rng_make("shares");
     tally t = {.name = "shares"};
     for (uint64_t n = test_cases(200, 3000, 30000); n > 0; n--) {
-        const dp_setup setup = random_setup(&r, false);
+        dp_setup setup = random_setup(&r, false);
+        if (setup.spec.ortho && n % 2 == 0) {
+            dp_spec around = setup.spec; /* the camera's own place */
+            rng_planes(&r, &around.znear, &around.zfar);
+            assert_int_equal(dp_setup_init(&setup, &around), DP_OK);
+        }
         const double z[3] = {depth_in(&r, &setup), depth_in(&r, &setup), depth_in(&r, &setup)};
         dp_choice c;
         assert_int_equal(dp_model_choose(&setup, z, 3, 0.05, &c), DP_OK);
@@ -128,6 +140,30 @@ static void shares_are_those_of_the_separations(void **state) {
         }
     }
     tally_end(&t);
+}
+
+/* A plane whose code is 0 has a cell of 1e-46 that no two depths share: nothing is 10^37 times worse than it. */
+static void planes_are_no_measure(void **state) {
+    (void)state;
+    static const struct {
+        dp_mapping mapping;
+        double znear, zfar, z;
+        int ortho;
+    } planes[] = {{DP_MAPPING_D3D, 0.1, INFINITY, 0.1, 0}, {DP_MAPPING_D3D, 0.1, 1000, 0.1, 0},
+                  {DP_MAPPING_D3D, 0, 500, 0, 1},          {DP_MAPPING_D3D, -100, 500, -100, 1},
+                  {DP_MAPPING_REVERSED, -500, 0, 0, 1},    {DP_MAPPING_REVERSED, 1, 1000, 1000, 0}};
+    for (size_t i = 0; i < sizeof planes / sizeof planes[0]; i++) {
+        dp_spec spec = make("fp32", planes[i].mapping, 1, 2).spec;
+        dp_setup setup;
+        dp_choice c;
+        spec.znear = planes[i].znear;
+        spec.zfar = planes[i].zfar;
+        spec.ortho = planes[i].ortho;
+        assert_int_equal(dp_setup_init(&setup, &spec), DP_OK);
+        assert_int_equal(dp_model_choose(&setup, &planes[i].z, 1, 0.05, &c), DP_OK);
+        if (!(c.share[DP_MODEL_EXACT] < 10))
+            fail_msg("at z = %g the lattice lacks %g", planes[i].z, c.share[DP_MODEL_EXACT]);
+    }
 }
 
 static void the_simplest_within_the_tolerance(void **state) {
@@ -357,6 +393,7 @@ static void budget_refusals(void **state) {
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(each_model_is_needed),
+        cmocka_unit_test(planes_are_no_measure),
         cmocka_unit_test(shares_are_those_of_the_separations),
         cmocka_unit_test(the_simplest_within_the_tolerance),
         cmocka_unit_test(the_set_ups_own_model_does_not_matter),

@@ -3,6 +3,7 @@
 #include <math.h>
 
 #include "core/lattice.h"
+#include "core/rounding.h"
 #include "depthprec/budget.h"
 #include "depthprec/depth.h"
 
@@ -13,8 +14,19 @@ static int with_model(const dp_setup *setup, dp_model model, dp_setup *out) {
     return dp_setup_init(out, &spec) == DP_OK;
 }
 
-/* What is missing from `part`, in units of it. */
-static double missing_share(double part, double whole) {
+/*
+ * By so much a depth itself is rounded: a cell below it, as at a plane whose code is 0, tells no two apart. Around an
+ * orthographic camera's own place it is that of depths 2^24 times nearer than a plane.
+ */
+static double rounding_of(const dp_spec *spec, double z) {
+    const double plane = -spec->znear > fabs(spec->zfar) ? -spec->znear : fabs(spec->zfar);
+    const double least = spec->znear > 0.0 ? 0x1p-126 : 0x1p-24 * plane;
+    return dp_half_ulp(fabs(z) < least ? least : fabs(z));
+}
+
+/* What is missing from `part`, in units of it, or of the rounding of the depths where that is larger. */
+static double missing_share(double part, double rounding, double whole) {
+    part = part < rounding ? rounding : part;
     return isinf(part) || whole <= part ? 0.0 : whole / part - 1.0;
 }
 
@@ -38,7 +50,7 @@ dp_status dp_model_choose(const dp_setup *setup, const double *z, size_t count, 
     for (size_t i = 0; i < count; i++) {
         const double whole = dp_separation(&model[fullest], z[i]);
         for (int m = 0; m < fullest; m++) {
-            const double share = missing_share(dp_separation(&model[m], z[i]), whole);
+            const double share = missing_share(dp_separation(&model[m], z[i]), rounding_of(&setup->spec, z[i]), whole);
             if (share > choice.share[m]) {
                 choice.share[m] = share;
                 choice.share_z[m] = z[i];
