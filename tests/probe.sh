@@ -131,6 +131,7 @@ for command in "table -F d24" "table -F d16,d24" "table -F depth24plus" "table -
     esac
     check "a format that the GPU has not: $command" refuses "$lacking" $command $option tests/profiles/swiftshader.json
 done
+check "who chose the format is said" refuses "$lacking; --preset three chose it" table --preset three --arith tests/profiles/swiftshader.json
 only() { [ "$(stored "$@" --viewport 9x9)" = "fp32 unorm16" ]; }
 check "formats that nobody named are those of the GPU" only table
 check "so are all of them" only table -F all

@@ -138,7 +138,8 @@ static void test_mistakes(void **state) {
         {CAMERA("a", "unorm16", "arith = \"one.json\"; raster = \"../two.json\"; " VIEW), 2,
          "format: must be fp32 with a profile"},
         {CAMERA("a", "fp32", "arith = \"nothing.json\";"), 2, "format: must be nothing with a profile"},
-        {"a = { preset = \"three\"; arith = \"one.json\"; };\n", 2, "format: must be fp32 or unorm16 with a profile"},
+        {"a = { preset = \"three\"; arith = \"one.json\"; };\n", 2,
+         "no other depth, got unorm24; preset three chose it"},
         {CAMERA("a", "fp32", "arith = \"ieeee\";"), 3, "arith: must be one of ieee, "},
     };
     tally told = {.name = "each profile that cannot be used is told with its line"};

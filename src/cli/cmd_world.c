@@ -238,6 +238,17 @@ static void take_view(world *w) {
                              .shared_origin = w->o.shared_origin};
 }
 
+/* The default is in metres, near and far may be of scene units: who gave no depth is told both. */
+static int refuse_depth(const world *w) {
+    const char *unit = options_unit(&w->o);
+    const number_text z = number_in(number_full(w->z), unit), lo = number_in(number_full(w->o.znear), unit);
+    const number_text hi = number_in(number_full(w->o.zfar), unit);
+    if (option_given(&w->o, OPTION_AT))
+        return option_error(OPTION_AT, "must lie between near and far, %s and %s, got %s", lo.text, hi.text, z.text);
+    return option_error(OPTION_AT, "must be given: 10 m ahead, %s here, is not between near and far, %s and %s", z.text,
+                        lo.text, hi.text);
+}
+
 static int report_worlds(const options *o, bool solving) {
     output out;
     world w = {.distance = (double)NAN};
@@ -247,7 +258,7 @@ static int report_worlds(const options *o, bool solving) {
     take_view(&w);
     status = setups_make(&w.o, &w.all);
     if (status == EXIT_FINE && !(w.z >= w.o.znear && w.z <= w.o.zfar))
-        status = option_error(OPTION_AT, "must lie between near and far, got %s", number_full(w.z).text);
+        status = refuse_depth(&w);
     if (status == EXIT_FINE)
         status = options_open(o, &out);
     if (status == EXIT_FINE) {

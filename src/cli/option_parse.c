@@ -266,11 +266,12 @@ static int add_scheme(options *o, const option_row *row, const char *text) {
         s.size = s.row->metres ? unit_convert(s.row->standard, unit_find("m"), o->unit) : s.row->standard;
     if (text[length] != '\0' &&
         (s.row == NULL || !number_parse(text + length + 1, NUMBER_FINITE, &s.size) || !world_size_fits(s.row, s.size)))
-        return option_refuse(row,
-                             s.row == NULL || s.row->size == NULL ? "%s has no size, got '%s'"
-                             : s.row->power2 ? "%s:SIZE must be a power of two from 1e-3 to 1e12, got '%s'"
-                                             : "%s:SIZE must be a number from 1e-3 to 1e12, got '%s'",
-                             name, text);
+        return option_refuse(
+            row,
+            s.row == NULL || s.row->size == NULL ? "%s has no size, got '%s'"
+            : s.row->power2 ? "%s:SIZE must be a power of two from 1e-3 to 1e12 scene units, got '%s'"
+                            : "%s:SIZE must be a number of scene units from 1e-3 to 1e12, without a unit, got '%s'",
+            name, text);
     for (size_t i = 0; i < o->scheme_count; i++)
         if (o->schemes[i].row == s.row && o->schemes[i].size == s.size)
             return EXIT_FINE;

@@ -34,7 +34,14 @@ const char *option_written(const options *o, option_id id) {
     return row->parse == parse_written ? *(const char *const *)((const char *)o + row->place) : NULL;
 }
 
-int option_error(option_id id, const char *format, ...) {
+/* What gave an option its value in place of the user: a preset or a platform; its own option and name. */
+static struct chooser {
+    option_id by;
+    const char *name; /* null where the user or the default did */
+} choosers[OPTION_COUNT];
+
+static int error_of(option_id id, const char *format, ...) __attribute__((format(printf, 2, 3)));
+static int error_of(option_id id, const char *format, ...) {
     va_list arguments;
     va_start(arguments, format);
     int status = named_error(option_name(id), format, arguments);
@@ -42,7 +49,20 @@ int option_error(option_id id, const char *format, ...) {
     return status;
 }
 
+/* Who did not name what is refused is told where it comes from. */
+int option_error(option_id id, const char *format, ...) {
+    const struct chooser *c = &choosers[id];
+    char text[1024];
+    va_list arguments;
+    va_start(arguments, format);
+    vsnprintf(text, sizeof text, format, arguments);
+    va_end(arguments);
+    return c->name != NULL ? error_of(id, "%s; --%s %s chose it", text, option_name(c->by), c->name)
+                           : error_of(id, "%s", text);
+}
+
 static void set_defaults(options *o) {
+    memset(choosers, 0, sizeof choosers);
     *o = (options){.target = SOLVE_FOR_ANY, .triangles = dp_triangles_default(), .azimuth = (double)NAN};
     for (int id = 0; id < OPTION_COUNT; id++)
         if (option_rows[id].standard != NULL)
@@ -158,9 +178,17 @@ static void take_api(options *o, const char *api) {
         parse_row(o, &option_rows[OPTION_API], api);
 }
 
+static void chose(const options *o, option_id by, const char *name, const option_id *ids, size_t count) {
+    for (size_t i = 0; i < count; i++)
+        if (!option_given(o, ids[i]))
+            choosers[ids[i]] = (struct chooser){by, name};
+}
+
 /* A preset gives what the user did not. */
 static void take_preset(options *o, const preset *p) {
+    static const option_id chosen[] = {OPTION_NEAR, OPTION_FAR, OPTION_FORMAT, OPTION_MAPPING};
     const unit_row *own = unit_find(p->unit);
+    chose(o, OPTION_PRESET, p->name, chosen, sizeof chosen / sizeof chosen[0]);
     if (!option_given(o, OPTION_NEAR))
         o->znear = unit_convert(p->znear, own, o->unit);
     if (!option_given(o, OPTION_FAR))
@@ -181,7 +209,9 @@ static void take_platform(options *o) {
     if (p == NULL)
         return;
     const bool webgl = strcmp(p->api, "gl") == 0;
+    static const option_id chosen[] = {OPTION_FORMAT, OPTION_MAPPING};
     const char *stored = stored_on(p, o->given[OPTION_FORMAT]);
+    chose(o, OPTION_PLATFORM, p->name, chosen, o->preset_count == 0 ? 2 : 1); /* a preset's mapping stays */
     if (!option_given(o, OPTION_FORMAT) || stored != NULL)
         parse_formats(o, &option_rows[OPTION_FORMAT], stored != NULL ? stored : p->stored);
     if (!option_given(o, OPTION_MAPPING) && o->preset_count == 0)

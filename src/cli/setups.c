@@ -9,14 +9,25 @@
 #include "core/engine.h"
 #include "report/number.h"
 
+/* Depth that a shader writes goes through no pipeline; where table is asked, what is counted of that shader is said. */
+static int refuse_float(const options *o, dp_mapping mapping) {
+    const dp_mapping_row *row = dp_mapping_get(mapping);
+    const bool counted = o->verb->bit == VERB_TABLE && row->curve == DP_CURVE_LOG;
+    if (option_given(o, OPTION_MODEL))
+        return option_error(OPTION_MODEL,
+                            "float is a pipeline's arithmetic, and a shader writes the depth of %s: leave it out%s, or "
+                            "take one of the mappings " DP_MAPPING_NAMES_PERSPECTIVE,
+                            row->name, counted ? " ('guaranteed' counts that shader's log2)" : "");
+    return option_error(OPTION_MAPPING,
+                        "must be one of " DP_MAPPING_NAMES_PERSPECTIVE
+                        ", which have a pipeline's arithmetic, got %s, whose depth a shader writes",
+                        row->name);
+}
+
 int setup_refused(const options *o, const dp_spec *spec, dp_status status) {
     const char *mapping = dp_mapping_get(spec->mapping)->name;
-    if (status == DP_ERROR_MODEL) { /* of the models that have a name, fp32 alone is not for all */
-        const bool given = option_given(o, OPTION_MODEL);
-        return option_error(given ? OPTION_MODEL : OPTION_MAPPING,
-                            "%s needs one of the mappings " DP_MAPPING_NAMES_PERSPECTIVE ", got %s",
-                            given ? option_word(OPTION_MODEL, DP_MODEL_FP32) : "binary32 arithmetic", mapping);
-    }
+    if (status == DP_ERROR_MODEL) /* of the models that have a name, float alone is not for all */
+        return refuse_float(o, spec->mapping);
     /* "--far: must be ..." rather than "--far: far must be ...". */
     const char *text = dp_status_text(status);
     if (strncmp(text, "far ", 4) == 0)

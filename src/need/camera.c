@@ -158,12 +158,14 @@ static bool read_words(reader *r, config_setting_t *const *found, draft *d, need
 
 /* Of a GPU whose profile is named, nothing is known of the formats that it does not store. */
 static bool gpu_suits(reader *r, config_setting_t *const *found, const draft *d, const need_camera *camera) {
-    char names[PROFILE_FORMATS_SIZE];
+    char names[PROFILE_FORMATS_SIZE], chosen[64] = "";
+    if (found[KEY_FORMAT] == NULL)
+        snprintf(chosen, sizeof chosen, "; preset %s chose it", d->preset->name);
     for (size_t i = 0; i < d->format_count; i++)
         if (!profile_stores(&camera->gpu, &d->formats[i]))
             return reader_fail(r, found[KEY_FORMAT] != NULL ? found[KEY_FORMAT] : found[KEY_PRESET],
-                               "format: must be %s with a profile of a GPU that stores no other depth, got %s",
-                               profile_formats(&camera->gpu, names), d->formats[i].name);
+                               "format: must be %s with a profile of a GPU that stores no other depth, got %s%s",
+                               profile_formats(&camera->gpu, names), d->formats[i].name, chosen);
     return true;
 }
 

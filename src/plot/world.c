@@ -69,7 +69,8 @@ const char *world_build(const figure_request *request, chart *out) {
     if (facing.spec.ortho)
         return "plot world: --ortho has no perspective";
     if (!(z >= facing.spec.znear && z <= facing.spec.zfar))
-        return "plot world: --at must lie between near and far";
+        return isnan(request->at) ? "plot world: needs --at: 10 m ahead, the default, is not between near and far"
+                                  : "plot world: --at must lie between near and far";
     chart_panel *gap = add_panel(out, in_units);
     add(out, gap, &a, world_separation);
     chart_panel *jitter = add_panel(out, "Jitter, pixels");
