@@ -86,13 +86,13 @@ option_parser parse_some;    /**< the same, not empty */
 option_parser parse_read;    /**< the name of a file that is read */
 option_parser parse_written; /**< the name of a file that is written */
 option_parser parse_number;  /**< double, finite, from least to most */
-option_parser parse_length; /**< double: scene units, or with a unit behind; from least to most, or positive */
-option_parser parse_whole;  /**< unsigned or 64 bits wide, from least to most */
-option_parser parse_word;   /**< the same: the index of one of `names` */
-option_parser parse_row;    /**< a pointer to the row of one of `names` */
-option_parser parse_list;   /**< depths: numbers from least to most, separated by commas */
-option_parser parse_codes;  /**< the same, whole ones */
-option_parser parse_pixels; /**< the same, pairs of them with a semicolon in between */
+option_parser parse_length;  /**< double: scene units, or with a unit behind; from least to most, or positive */
+option_parser parse_whole;   /**< unsigned or 64 bits wide, from least to most */
+option_parser parse_word;    /**< the same: the index of one of `names` */
+option_parser parse_row;     /**< a pointer to the row of one of `names` */
+option_parser parse_list;    /**< depths: numbers from least to most, separated by commas */
+option_parser parse_codes;   /**< the same, whole ones */
+option_parser parse_pixels;  /**< the same, pairs of them with a semicolon in between */
 
 /* ---- Languages of their own -------------------------------------------------------------------------------------- */
 
