@@ -72,24 +72,90 @@ static const struct {
     {VERB_SOLVE, IDS(OPTION_LOG_C), "solve -f 1000 -F d24 -m log --separation 0.01 --at 50", ""},
 };
 
+#define ALL (~0U)
+
+/* Defaults that help tells in words: the value that they mean, in a line where it holds; null where no value means the
+ * same (what is left undone, or depends on what is found). */
+static const struct {
+    unsigned verbs;
+    const option_id *ids;
+    const char *value, *line, *more; /* line null: the command's */
+} meant[] = {
+    {ALL & ~(unsigned)VERB_TEXTURE, IDS(OPTION_OUTPUT), "-", NULL, ""},
+    {VERB_TEXTURE, IDS(OPTION_OUTPUT), "-", NULL, "--csv"},
+    {ALL & ~(unsigned)VERB_PLOT, IDS(OPTION_THREADS), "1", NULL, ""},
+    {VERB_PLOT, IDS(OPTION_THREADS), "1", "plot scene-fights tests/models/street.obj --gap 0.02 --csv", ""},
+    {VERB_TABLE, IDS(OPTION_AT), "0.1:1000:log:9", "table -F d24 -m d3d", ""},
+    {VERB_TABLE, IDS(OPTION_AT), "0.1:1e5:log:9", "table -F d24 -m d3d -f inf", ""},
+    {VERB_TABLE, IDS(OPTION_AT), "-3:7:lin:9", "table -F d24 -m d3d --ortho -n -3 -f 7", ""},
+    {VERB_TABLE, IDS(OPTION_AT), "0.1,1,10,100,1000", NULL, ""},
+    {VERB_TABLE, IDS(OPTION_AT), "-400,-200,0", "table -F d16,d24 -m d3d --ortho -n -500 -f 0", ""},
+    {VERB_BUDGET | VERB_BIAS, IDS(OPTION_AT), "0.1:1000:log:9", NULL, ""},
+    {VERB_TEXTURE, IDS(OPTION_AT), "0.1:1000:log:9", "texture --effect fog -F d16 -m d3d", ""},
+    {VERB_DISOCCLUSION, IDS(OPTION_AT), "10", NULL, "-n 0.1 -f 1000"},
+    {VERB_WORLD, IDS(OPTION_AT), "10", NULL, ""},
+    {VERB_WORLD, IDS(OPTION_AT), "10m", NULL, "--unit cm"},
+    {VERB_WORLD, IDS(OPTION_GAP), "0.01", NULL, ""},
+    {VERB_WORLD, IDS(OPTION_GAP), "1cm", NULL, "--unit m"},
+    {VERB_SOLVE, IDS(OPTION_FAR), "inf", NULL, "--csv"},
+    {VERB_SOLVE, IDS(OPTION_FOR), "near", NULL, ""},
+    {VERB_SOLVE, IDS(OPTION_FOR), "far", "solve -n 0.1 --separation 0.01 --at 50 -F d24 -m d3d", ""},
+    {VERB_SOLVE, IDS(OPTION_FOR), "format", "solve -n 0.1 -f 1000 --separation 0.01 --at 50 -m d3d", ""},
+    {VERB_SOLVE, IDS(OPTION_FOR), "mapping", "solve -n 0.1 -f 1000 --separation 0.01 --at 50 -F d24", ""},
+    {VERB_SOLVE, IDS(OPTION_NEAR), "0.1", "solve --for far -F d24 -m d3d --separation 0.01 --at 50 --csv", ""},
+    {VERB_SOLVE, IDS(OPTION_FORMAT), "all", "solve -m d3d --separation 0.01 --at 50", ""},
+    {VERB_SOLVE, IDS(OPTION_MAPPING), "all", "solve -F d24 --separation 0.01 --at 50", ""},
+    {VERB_SOLVE, IDS(OPTION_RANGE), "0.1:1000", "solve --for distance -n 0.1 -f 1000 -F d24 -m d3d --separation 0.01",
+     ""},
+    {VERB_BENCH, IDS(OPTION_FORMAT), "unorm24", NULL, ""},
+    {VERB_BENCH, IDS(OPTION_MAPPING), "d3d", NULL, ""},
+    {VERB_TEXTURE, IDS(OPTION_FORMAT), "unorm24", NULL, "--pixel 9,9 --csv"},
+    {VERB_TEXTURE, IDS(OPTION_FORMAT, OPTION_MAPPING), "all", "texture --effect fog", ""},
+    {VERB_TEXTURE, IDS(OPTION_MAPPING), "d3d", NULL, "--pixel 9,9 --csv"},
+    {VERB_PLOT, IDS(OPTION_RANGE), "0.1:1000", NULL, ""},
+    {VERB_PLOT, IDS(OPTION_RANGE), "0.1:1e5", NULL, "-f inf"},
+    {VERB_ZFIGHT, IDS(OPTION_RANGE), "1:1.0078125", "zfight -n 1 -f 1.0078125 -F d24 -m d3d --csv", ""},
+    {VERB_BUDGET, IDS(OPTION_SCHEME), "world", NULL, "--world 100"},
+    {VERB_PLOT, IDS(OPTION_VIEWPORT), "1920x1080", "plot fight --csv", ""},
+    {VERB_PLOT, IDS(OPTION_VIEWPORT), "1920x1080", "plot shadow --csv", ""},
+    {VERB_SCENE, IDS(OPTION_VIEWPORT), "1920x1080", "scene tests/models/house.gltf --from 0,2,30 --look 0,2,0", ""},
+    {VERB_ZFIGHT, IDS(OPTION_VIEWPORT), "1920x1080", "zfight -F fp32 -m d3d --triangles --sample 20", ""},
+    {ALL & ~(unsigned)VERB_SOLVE, IDS(OPTION_UNIT), "m", NULL, "-n 10cm"},
+    {VERB_SOLVE, IDS(OPTION_UNIT), "m", "solve --for far -n 10cm -F d24 -m d3d --separation 0.01 --at 50", ""},
+    {VERB_WORLD | VERB_TABLE | VERB_BUDGET, IDS(OPTION_UNIT), "cm", NULL, "--preset unreal"},
+    /* what no value means */
+    {ALL, IDS(OPTION_ORTHO, OPTION_SHARE, OPTION_HFOV, OPTION_MATRIX, OPTION_LIGHT_BOX, OPTION_CURVATURE), NULL, NULL,
+     ""},
+    {ALL, IDS(OPTION_WIDTH, OPTION_HEIGHT, OPTION_RASTER, OPTION_CHANNEL, OPTION_DEVICE, OPTION_FROM), NULL, NULL, ""},
+    {ALL, IDS(OPTION_LAST_FOV, OPTION_LAST_ORIGIN, OPTION_LAST_PITCH, OPTION_LAST_YAW, OPTION_SAMPLE), NULL, NULL, ""},
+    {ALL, IDS(OPTION_TOLERANCE, OPTION_WITHIN, OPTION_UNITS, OPTION_DISTANCE), NULL, NULL, ""},
+    {VERB_ZFIGHT | VERB_BIAS | VERB_PLOT | VERB_SCENE, IDS(OPTION_GAP), NULL, NULL, ""},
+    {VERB_TABLE | VERB_BIAS | VERB_SHADOW, IDS(OPTION_RANGE), NULL, NULL, ""}, /* given, more is said of it */
+    {VERB_TABLE | VERB_BUDGET | VERB_BIAS | VERB_SOLVE, IDS(OPTION_VIEWPORT), NULL, NULL, ""},
+    {VERB_ZFIGHT, IDS(OPTION_PLANE), NULL, NULL, ""},
+};
+
 static bool among(const option_id *ids, option_id id) {
     while (*ids != OPTION_COUNT && *ids != id)
         ids++;
     return *ids == id;
 }
 
-static void line_of(const verb *v, option_id id, char out[256]) {
-    const char *line = NULL, *more = "";
+static const char *line_of_verb(const verb *v) {
     for (size_t i = 0; i < sizeof lines / sizeof lines[0]; i++)
         if (lines[i].verb == v->bit)
-            line = lines[i].line;
+            return lines[i].line;
+    fail_msg("%s has no line in this test", v->name);
+    return NULL;
+}
+
+static void line_of(const verb *v, option_id id, char out[256]) {
+    const char *line = line_of_verb(v), *more = "";
     for (size_t i = 0; i < sizeof besides / sizeof besides[0]; i++)
         if ((besides[i].verbs & v->bit) != 0 && among(besides[i].ids, id)) {
             line = besides[i].line != NULL ? besides[i].line : line;
             more = besides[i].more;
         }
-    if (line == NULL)
-        fail_msg("%s has no line in this test", v->name);
     snprintf(out, 256, "%s %s", line, more);
 }
 
@@ -108,6 +174,19 @@ static void keep_setup(char *text) {
     json_decref(root);
 }
 
+static void same_with(tally *t, const verb *v, const char *line, const option_row *row, const char *value) {
+    printed without = print_of("%s", line), with = print_of("%s --%s %s", line, row->name, value);
+    if (v->bit == VERB_BENCH) {
+        keep_setup(without.out);
+        keep_setup(with.out);
+    }
+    TALLY(t, without.status <= 1 && with.status == without.status && without.out[0] != '\0', "%s --%s %s: %s%s", line,
+          row->name, value, without.errors, with.errors);
+    TALLY(t, strcmp(with.out, without.out) == 0, "%s: --%s %s is not the default", line, row->name, value);
+    printed_free(&without);
+    printed_free(&with);
+}
+
 static void test_spelled_out(void **state) {
     tally t = {.name = "defaults"};
     int tried = 0;
@@ -124,19 +203,40 @@ static void test_spelled_out(void **state) {
                 continue;
             char line[256];
             line_of(v, (option_id)id, line);
-            printed without = print_of("%s", line), with = print_of("%s --%s %s", line, row->name, standard);
-            if (v->bit == VERB_BENCH) {
-                keep_setup(without.out);
-                keep_setup(with.out);
-            }
-            TALLY(&t, without.status <= 1 && with.status == without.status && without.out[0] != '\0',
-                  "%s --%s %s: %s%s", line, row->name, standard, without.errors, with.errors);
-            TALLY(&t, strcmp(with.out, without.out) == 0, "%s: --%s %s is not the default", line, row->name, standard);
-            printed_free(&without);
-            printed_free(&with);
+            same_with(&t, v, line, row, standard);
             tried++;
         }
     assert_true(tried >= 60);
+    tally_end(&t);
+}
+
+/* Each default in words is one of `meant`, and each of `meant` is told of an option. */
+static void test_in_words(void **state) {
+    tally t = {.name = "defaults in words"};
+    (void)state;
+    for (size_t i = 0; i < verb_count; i++)
+        for (int id = 0; id < OPTION_COUNT; id++) {
+            const verb *v = &verb_rows[i];
+            const option_row *row = &option_rows[id];
+            const struct option_exception *e = option_exception_of(row, v);
+            const bool told =
+                e != NULL ? e->standard == NULL && e->without != NULL : row->standard == NULL && row->without != NULL;
+            size_t found = 0;
+            for (size_t k = 0; k < sizeof meant / sizeof meant[0] && (row->commands & v->bit) != 0 && told; k++) {
+                char line[256];
+                if ((meant[k].verbs & v->bit) == 0 || !among(meant[k].ids, (option_id)id))
+                    continue;
+                found++;
+                if (meant[k].value == NULL || v->bit == VERB_PROBE)
+                    continue;
+                snprintf(line, sizeof line, "%s %s", meant[k].line != NULL ? meant[k].line : line_of_verb(v),
+                         meant[k].more);
+                same_with(&t, v, line, row, meant[k].value);
+            }
+            TALLY(&t, found > 0 || !told || (row->commands & v->bit) == 0, "%s --%s: '%s' is not tried here", v->name,
+                  row->name, e != NULL ? e->without : row->without);
+        }
+    TALLY(&t, t.cases > 300, "few cases");
     tally_end(&t);
 }
 
@@ -170,6 +270,7 @@ static void test_theme(void **state) {
 }
 
 int main(void) {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(test_spelled_out), cmocka_unit_test(test_theme)};
+    const struct CMUnitTest tests[] = {cmocka_unit_test(test_spelled_out), cmocka_unit_test(test_in_words),
+                                       cmocka_unit_test(test_theme)};
     return run_tap(tests);
 }
