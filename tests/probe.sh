@@ -22,10 +22,13 @@ found() { # found FILE: draws, and writes the profile
 }
 
 # Every hypothesis is decided but the two that truncate to 24 bits, which are one function; the counts of hits are whole,
-# and the second scene was predicted to the last pixel.
+# of what is measured half of the pixels (log2 on either side of 2) or all, and no hits; and the second scene was
+# predicted to the last pixel.
 decided() {
     jq -e '[.findings[] | select(.sure == "no row" or (.sure == "open" and .key + .format != "roundingd24"))] == [] and
            ([.findings[] | select(.sure == "sure") | .cases == .hits] | all) and
+           ([.findings[] | select(.sure == "measured") | [.key, .cases, .hits]] ==
+            [["log2", 32768, null], ["log2", 32768, null], ["quotient", 65536, null]]) and
            ([.findings[] | select(.key == "prediction") | .cases == 65536 and .hits == 65536] | length >= 2 and all)' "$1"
 }
 

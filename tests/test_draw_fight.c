@@ -112,22 +112,27 @@ static void one_code(void **state) {
     }
 }
 
-/* SwiftShader's grid, 1/16 pixel: vertices are moved by half of it along x and y, towards each other. */
+/* SwiftShader's grid, 1/16 pixel: vertices are moved by half of it along x and y, towards each other;
+ * where the plane rises along one of them alone, the other does nothing. */
 static void moved_vertices(void **state) {
-    static const double slants[] = {20.0, 45.0, 70.0};
+    static const double slants[] = {20.0, 45.0, 70.0, 70.0, 70.0, 70.0};
+    static const double azimuths[] = {45.0, 45.0, 45.0, 0.0, -90.0, 180.0};
+    double found[6];
     stage s;
     (void)state;
-    for (int i = 0; i < 3; i++) {
+    for (int i = 0; i < 6; i++) {
         assert_true(set_stage(&s, "swiftshader", "fp32", DP_MAPPING_REVERSED, INFINITY));
         slant(&s, slants[i], slants[i]);
-        s.request.azimuth = 45.0;
+        s.request.azimuth = azimuths[i];
         assert_int_equal(fight(&s, 16.0, 32.0, 100), DRAW_FIGHT_DONE);
         const draw_fight_band *band = &s.result.bands[0];
         const double pixel = 2.0 * tan(30.0 * pi / 180.0) / 1080.0 * band->z;
-        const double most = 2.0 * pixel * hypot(1.0 / 32.0, 1.0 / 32.0) * sin(slants[i] * pi / 180.0);
+        const double most = 2.0 * pixel / 32.0 * (i < 3 ? sqrt(2.0) : 1.0) * sin(slants[i] * pi / 180.0);
         print_message("# slant %g: %.3f of what snapping takes\n", slants[i], band->separation / most);
         assert_in_range((int)(1000.0 * band->separation / most), 500, 1050);
+        found[i] = band->separation;
     }
+    assert_true(found[3] != found[4]); /* of the same pairs of meshes: the azimuth decides */
 }
 
 /* ---- Work -------------------------------------------------------------------------------------------------------- */

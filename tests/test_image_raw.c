@@ -122,7 +122,97 @@ static void what_is_refused(void **state) {
     }
 }
 
+/* A pixel of `edge` among those of `rest`, on either side of what a depth can be. */
+static uint32_t edge, rest;
+
+static uint64_t around(uint32_t i) {
+    return i == 300 ? edge : rest;
+}
+
+static void limits_of_depths(void **state) {
+    static const struct {
+        uint32_t edge, rest;
+        const char *says;
+    } rows[] = {
+        {0x2B800000, 0, "fp32"},             /* 2^-40 */
+        {0x2B7FFFFF, 0, "unorm24"},          /* the float below */
+        {0x3F800000, 0, "fp32"},             /* 1 */
+        {0x3F800000, 0x3F800000, "fp32"},    /* a cleared buffer */
+        {0x3F800001, 0x3F000000, "unorm24"}, /* the float above 1 */
+        {0x80000000, 0x3F000000, "fp32"},    /* -0 */
+        {0x80000001, 0x3F000000, "unorm24"}, /* below it */
+        {0x7FC00000, 0x3F000000, "unorm24"}, /* NaN */
+        {0, 0, "unorm24"},
+    };
+    (void)state;
+    for (size_t k = 0; k < sizeof rows / sizeof rows[0]; k++) {
+        const image_asked asked = {.width = 20, .height = 20};
+        image img;
+        image_error error;
+        edge = rows[k].edge;
+        rest = rows[k].rest;
+        if (!image_read_as(write_raw("e.raw", 400, 4, around), &asked, &img, &error))
+            fail_msg("row %zu: %s", k, error.text);
+        assert_string_equal(img.says, rows[k].says);
+        image_free(&img);
+    }
+}
+
+/* Sizes of screens by their names, and of square maps. */
+static const struct {
+    const char *name;
+    uint32_t width, height;
+} screens[] = {
+    {"VGA", 640, 480},      {"XGA", 1024, 768},     {"HD", 1280, 720},      {"WXGA", 1280, 800},
+    {"SXGA", 1280, 1024},   {"FWXGA", 1366, 768},   {"WXGA+", 1440, 900},   {"HD+", 1600, 900},
+    {"UXGA", 1600, 1200},   {"WSXGA+", 1680, 1050}, {"FHD", 1920, 1080},    {"WUXGA", 1920, 1200},
+    {"UWFHD", 2560, 1080},  {"QHD", 2560, 1440},    {"WQXGA", 2560, 1600},  {"Retina 15", 2880, 1800},
+    {"UWQHD", 3440, 1440},  {"UWQHD+", 3840, 1600}, {"4K UHD", 3840, 2160}, {"5K", 5120, 2880},
+    {"8K UHD", 7680, 4320}, {"2^8", 256, 256},      {"2^9", 512, 512},      {"2^10", 1024, 1024},
+    {"2^11", 2048, 2048},   {"2^12", 4096, 4096},   {"2^13", 8192, 8192},
+};
+enum { SCREENS = sizeof screens / sizeof screens[0] };
+
+/* Zeros, as long as pixels of two bytes are. */
+static const char *zeros(uint64_t bytes) {
+    const char *path = scratch_file("z.raw");
+    FILE *out = fopen(path, "wb");
+    assert_non_null(out);
+    assert_int_equal(fseek(out, (long)bytes - 1, SEEK_SET), 0);
+    putc(0, out);
+    assert_int_equal(fclose(out), 0);
+    return path;
+}
+
+static void usual_sizes(void **state) {
+    const image_asked asked = {.width = 0};
+    (void)state;
+    for (int k = 0; k < SCREENS; k++) {
+        const uint64_t bytes = (uint64_t)screens[k].width * screens[k].height * 2;
+        int other = -1; /* that has as many bytes in wider pixels */
+        for (int i = 0; i < SCREENS; i++)
+            for (uint64_t wide = 4; wide <= 8; wide *= 2)
+                other = (uint64_t)screens[i].width * screens[i].height * wide == bytes ? i : other;
+        image img;
+        image_error error;
+        const bool is_read = image_read_as(zeros(bytes), &asked, &img, &error);
+        if (is_read != (other < 0))
+            fail_msg("%s: %s", screens[k].name, is_read ? "is read, and may be another" : error.text);
+        if (is_read && (img.width != screens[k].width || img.height != screens[k].height || !img.size_assumed))
+            fail_msg("%s: read as %u x %u", screens[k].name, (unsigned)img.width, (unsigned)img.height);
+        if (is_read) {
+            image_free(&img);
+            continue;
+        }
+        char sentence[128];
+        snprintf(sentence, sizeof sentence, "raw: may be %u x %u or %u x %u pixels: --size says which",
+                 screens[k].width, screens[k].height, screens[other].width, screens[other].height);
+        assert_string_equal(error.text, sentence);
+    }
+}
+
 int main(void) {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(what_is_read), cmocka_unit_test(what_is_refused)};
+    const struct CMUnitTest tests[] = {cmocka_unit_test(what_is_read), cmocka_unit_test(limits_of_depths),
+                                       cmocka_unit_test(usual_sizes), cmocka_unit_test(what_is_refused)};
     return run_tap(tests);
 }

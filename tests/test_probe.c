@@ -336,8 +336,41 @@ static void test_functions(void **state) {
     probe_free(&r);
 }
 
+/* Of hypotheses whose hits are known: which is found, what is said of it, and which comes next. */
+static void test_guesses(void **state) {
+    static const struct {
+        uint64_t hits[3], cases;
+        probe_certainty sure;
+        const char *words, *next;
+        uint64_t best, second;
+        int found;
+    } rows[] = {
+        {{64, 10, 63}, 64, PROBE_SURE, "one", "three", 64, 63, 0},
+        {{10, 63, 64}, 64, PROBE_SURE, "three", "two", 64, 63, 2},
+        {{64, 64, 3}, 64, PROBE_OPEN, "one; or two", "two", 64, 64, JUDGE_NONE},
+        {{3, 64, 64}, 64, PROBE_OPEN, "two; or three", "three", 64, 64, JUDGE_NONE},
+        {{64, 5, 64}, 64, PROBE_OPEN, "one; or three", "three", 64, 64, JUDGE_NONE},
+        {{64, 64, 64}, 64, PROBE_OPEN, "one; or two; or three", "two", 64, 64, JUDGE_NONE},
+        {{7, 62, 9}, 64, PROBE_NO_ROW, "nothing known; nearest: two", "three", 62, 9, JUDGE_NONE},
+        {{0, 0, 0}, 0, PROBE_NO_ROW, "nothing known; nearest: one", "two", 0, 0, JUDGE_NONE},
+    };
+    static probe_result r;
+    (void)state;
+    for (size_t i = 0; i < sizeof rows / sizeof rows[0]; i++) {
+        const guess all[] = {{"one", rows[i].hits[0]}, {"two", rows[i].hits[1]}, {"three", rows[i].hits[2]}};
+        r.count = 0;
+        assert_int_equal(judge_guesses(&r, "rounding", "d16", all, 3, rows[i].cases), rows[i].found);
+        const probe_finding *f = find(&r, "rounding", "d16");
+        assert_int_equal(f->sure, rows[i].sure);
+        assert_string_equal(f->words, rows[i].words);
+        assert_string_equal(f->next, rows[i].next);
+        assert_true(f->cases == rows[i].cases && f->hits == rows[i].best && f->next_hits == rows[i].second);
+    }
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {cmocka_unit_test(test_found), cmocka_unit_test(test_not_found),
-                                       cmocka_unit_test(test_other_states), cmocka_unit_test(test_functions)};
+                                       cmocka_unit_test(test_other_states), cmocka_unit_test(test_functions),
+                                       cmocka_unit_test(test_guesses)};
     return run_tap(tests);
 }
