@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The page in place of report/output_file.c, opened/input.c, report/terminal.c and cli/stop.c: no files, no terminal, no signals. */
+/* The page in place of report/output_file.c, opened/input.c, report/terminal.c and cli/stop.c: no files, no terminal,
+ * no signals. */
 #include <stdio.h>
 #include <string.h>
 #include <unistd.h>
