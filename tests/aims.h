@@ -13,6 +13,7 @@ typedef enum aim_id {
     AIM_CERTIFIED,
     AIM_PIPELINE_CODE,
     AIM_CENSUS,
+    AIM_ZFIGHT,
     AIM_CAMERA,
     AIM_HALVES,
     AIM_UNORM,

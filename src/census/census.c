@@ -15,63 +15,26 @@
 #include <math.h>
 #include <stdlib.h>
 
-#include "census/range.h"
+#include "census/ground.h"
+#include "census/parts.h"
 
 enum { SEGMENT = 1 << 18, SEGMENT_RUNS = SEGMENT / CENSUS_RUN };
-
-typedef struct segment {
-    uint32_t first, count; /* depths by rank */
-    size_t block;          /* its first block, in the list of all */
-    int band;
-    census_band found; /* pairs and bounds are not filled in */
-} segment;
-
-typedef struct census {
-    const census_request *request;
-    const census_level *level;
-    census_plan plan;
-    census_range range;
-    segment *segments;
-    size_t segment_count, block_count;
-    uint32_t *block_first;
-    int32_t *least, *greatest;      /* of each block; least becomes the least from there on to the end */
-    double known[CENSUS_BANDS_MAX]; /* longest so far of each band: a segment need not look for less */
-} census;
-
-/* The last of from..end, runs or blocks, whose keys or those behind come down to v: from itself does. */
-static size_t last_down_to(const int32_t *least, size_t from, size_t end, int32_t v) {
-    while (from < end) {
-        const size_t middle = end - (end - from) / 2;
-        if (least[middle] <= v)
-            from = middle;
-        else
-            end = middle - 1;
-    }
-    return from;
-}
-
-/* Whether the guarantee falls on the way to a farther depth, by more than is worth telling. */
-static int falls(double here, double farther) {
-    return farther < 0.9995 * here;
-}
-
-static double bound_of(const census *c, uint32_t rank) {
-    const census_request *r = c->request;
-    return r->bound != NULL ? r->bound(r->setup, (double)dp_ranked32(rank)) : HUGE_VAL;
-}
 
 /* ---- A segment --------------------------------------------------------------------------------------------------- */
 
 typedef struct sweep {
-    const census *c;
-    segment *s;
+    const census_parts *c;
+    census_segment *s;
     uint32_t last;                    /* of the segment */
     uint32_t runs;                    /* with those that fill the last block up */
     double step;                      /* of the segment */
     double halves;                    /* steps that the surfaces may be farther apart than the depths they round to */
     double steps_known;               /* what is not above it tells nothing new */
+    double slack_known;               /* the same of shares; HUGE_VAL: they are not asked about */
+    census_ground ground;             /* of the guarantee */
     double bound;                     /* the least guaranteed separation in the block at hand */
-    double bound_above;               /* at the far end of the block at hand */
+    uint32_t edge;                    /* where it was asked for last: the near end of a block */
+    double bound_edge;                /* and what it is there */
     int falling;                      /* it is less than at the near end */
     int32_t beyond[SEGMENT_RUNS + 1]; /* least key from a run on to the end */
     int32_t peak[SEGMENT_RUNS];       /* greatest key of a run */
@@ -92,7 +55,9 @@ static void run_keys(const sweep *w, uint32_t run, int32_t key[CENSUS_RUN]) {
 /* Only intervals of more than this many steps tell anything new. */
 static uint32_t known_steps(const sweep *w) {
     double steps = fmax(w->s->found.longest / w->step, w->steps_known);
-    const double by_slack = fmax(w->s->found.slack * w->bound / w->step - w->halves + 1e-6, 0.0);
+    const double per_slack = w->bound / w->step;
+    const double by_slack =
+        fmax(fmax(w->s->found.slack * per_slack + 1e-6, w->slack_known * per_slack - 1e-6) - w->halves, 0.0);
     if (by_slack < steps)
         steps = floor(by_slack);
     return steps < SEGMENT ? (uint32_t)steps : SEGMENT;
@@ -105,7 +70,7 @@ static void look_at_run(sweep *w, uint32_t run) {
     int32_t away[CENSUS_RUN];
     uint32_t away_run = UINT32_MAX;
     int64_t highest = INT64_MIN; /* below all keys */
-    segment *s = w->s;
+    census_segment *s = w->s;
     uint32_t known = known_steps(w);
     run_keys(w, run, home);
     for (uint32_t i = 0; i < CENSUS_RUN; i++) {
@@ -117,7 +82,7 @@ static void look_at_run(sweep *w, uint32_t run) {
         if ((v <= highest && !w->falling) || w->beyond[from / CENSUS_RUN] > v)
             continue;
         highest = v;
-        const uint32_t other = (uint32_t)last_down_to(w->beyond, from / CENSUS_RUN, w->runs - 1, v);
+        const uint32_t other = (uint32_t)census_down_to(w->beyond, from / CENSUS_RUN, w->runs - 1, v);
         if (other != away_run)
             run_keys(w, away_run = other, away);
         uint32_t end = CENSUS_RUN - 1;
@@ -158,11 +123,27 @@ static uint32_t suspects(sweep *w, uint32_t base) {
     return mask;
 }
 
+/* The guarantee in a block, which begins with the depth `first`. */
 static void update_bound(sweep *w, uint32_t first) {
-    const double here = bound_of(w->c, first);
-    w->falling = falls(here, w->bound_above);
-    w->bound = here < w->bound_above ? here : w->bound_above;
-    w->bound_above = here;
+    const uint32_t end = w->last - first < CENSUS_BLOCK ? w->last : first + CENSUS_BLOCK;
+    const double above = end == w->edge ? w->bound_edge : census_bound_at(w->c->request, end);
+    const double here = census_bound_at(w->c->request, first);
+    w->falling = census_falls(here, above);
+    w->bound = here < above ? here : above;
+    w->edge = first;
+    w->bound_edge = here;
+}
+
+/* Those that may hold something new; the guarantee is asked for only where what it is not below leaves some. */
+static uint32_t suspects_of_block(sweep *w, uint32_t base) {
+    const uint32_t first = w->s->first + base * CENSUS_RUN;
+    if (w->slack_known == HUGE_VAL)
+        return suspects(w, base);
+    w->bound = census_ground_at(&w->ground, first);
+    if (known_steps(w) + 1 >= CENSUS_RUN && suspects(w, base) == 0)
+        return 0;
+    update_bound(w, first);
+    return suspects(w, base);
 }
 
 static void count_block(sweep *w, const census_sight *sight, uint32_t offset) {
@@ -177,11 +158,11 @@ static void count_block(sweep *w, const census_sight *sight, uint32_t offset) {
 }
 
 /*
- * Finds the segment's longest interval if it is at least as long as `longest`, and its greatest slack. As long, and not
- * only longer: so whichever segment of a band comes first, all that reach the band's longest know it in the end, and
- * the nearest can be named.
+ * Finds the segment's longest interval if it is at least as long as what is known, and its greatest slack likewise. As
+ * long, and not only longer: so whichever segment of a band comes first, all that reach the band's longest know it in
+ * the end, and the nearest can be named.
  */
-static void sweep_segment(const census *c, segment *s, double longest, sweep *w) {
+static void sweep_segment(const census_parts *c, census_segment *s, const census_band *known, sweep *w) {
     const uint32_t blocks = (s->count + CENSUS_BLOCK - 1) / CENSUS_BLOCK;
     w->c = c;
     w->s = s;
@@ -189,8 +170,12 @@ static void sweep_segment(const census *c, segment *s, double longest, sweep *w)
     w->runs = blocks * CENSUS_RUNS;
     w->step = census_step(s->first);
     w->halves = 0.5 * (census_ulp(dp_ranked32(s->first)) + census_ulp(dp_ranked32(w->last))) / w->step;
-    w->steps_known = longest / w->step - 1.0;
-    w->bound = w->bound_above = bound_of(c, w->last);
+    w->steps_known = known->longest / w->step - 1.0;
+    w->slack_known = c->request->bound == NULL ? HUGE_VAL : known->slack * (1.0 - 1e-9);
+    w->ground = census_ground_make(c->request, s->first, w->last);
+    w->bound = HUGE_VAL;
+    w->edge = UINT32_MAX;
+    w->falling = 0;
     w->beyond[w->runs] = INT32_MAX;
     for (uint32_t i = 0; i < CENSUS_RUN; i++)
         w->before[i] = INT32_MAX;
@@ -218,8 +203,7 @@ static void sweep_segment(const census *c, segment *s, double longest, sweep *w)
         c->greatest[s->block + b] = greatest;
         c->least[s->block + b] = least;
         c->block_first[s->block + b] = s->first + b * CENSUS_BLOCK;
-        update_bound(w, s->first + b * CENSUS_BLOCK);
-        uint32_t mask = suspects(w, base);
+        uint32_t mask = suspects_of_block(w, base);
         for (uint32_t i = 0; mask != 0; i++, mask >>= 1)
             if (mask & 1)
                 look_at_run(w, base + CENSUS_RUNS - 1 - i);
@@ -230,11 +214,10 @@ static void sweep_segment(const census *c, segment *s, double longest, sweep *w)
  * The sweep met the farthest of the longest intervals first; the nearest is wanted. With what the sweep has left, a
  * walk from the near end stops at the first run that has one.
  */
-static double nearest_longest(const census *c, segment *s, sweep *w) {
+static double nearest_longest(const census_parts *c, census_segment *s, sweep *w) {
     const census_band found = s->found;
-    sweep_segment(c, s, found.longest, w);
+    sweep_segment(c, s, &(census_band){.longest = found.longest, .slack = HUGE_VAL}, w);
     s->found.longest = 0.0;
-    s->found.slack = HUGE_VAL; /* not asked about */
     for (uint32_t run = 0; run < w->runs && s->found.longest < found.longest; run++) {
         const uint32_t other = run + (known_steps(w) + 1) / CENSUS_RUN;
         if (w->beyond[other < w->runs ? other : w->runs] <= w->peak[run])
@@ -245,89 +228,9 @@ static double nearest_longest(const census *c, segment *s, sweep *w) {
     return z;
 }
 
-/* ---- Across segments --------------------------------------------------------------------------------------------- */
-
-static uint32_t block_last(const census *c, size_t block) {
-    return block + 1 < c->block_count ? c->block_first[block + 1] - 1 : c->range.last;
-}
-
-static void keys_of_block(const census *c, size_t block, int32_t key[CENSUS_BLOCK]) {
-    float z[CENSUS_BLOCK];
-    const uint32_t first = c->block_first[block];
-    const uint32_t last = block_last(c, block);
-    for (uint32_t i = 0; i < CENSUS_BLOCK; i++)
-        z[i] = dp_ranked32(first + i < last ? first + i : last);
-    c->level->keys(&c->plan, z, CENSUS_BLOCK, key);
-}
-
-static size_t last_block(const census *c, size_t from, int32_t v) {
-    return last_down_to(c->least, from, c->block_count - 1, v);
-}
-
-/* The intervals that begin in a block and end in or behind block `from`; keys up to `highest` were met nearer, with a
- * guarantee that was no greater. */
-static void look_at_block(const census *c, size_t block, size_t from, int64_t highest, int falling, census_band *band) {
-    int32_t home[CENSUS_BLOCK];
-    int32_t away[CENSUS_BLOCK];
-    size_t away_block = SIZE_MAX;
-    const uint32_t count = block_last(c, block) - c->block_first[block] + 1;
-    keys_of_block(c, block, home);
-    for (uint32_t i = 0; i < count; i++) {
-        const int32_t v = home[i];
-        if ((v <= highest && !falling) || c->least[from] > v)
-            continue;
-        highest = v;
-        const size_t other = last_block(c, from, v);
-        if (other != away_block)
-            keys_of_block(c, away_block = other, away);
-        uint32_t end = block_last(c, other) - c->block_first[other];
-        while (end > 0 && away[end] > v)
-            end--;
-        census_note(c->request, band, dp_ranked32(c->block_first[block] + i), dp_ranked32(c->block_first[other] + end));
-    }
-}
-
-/* @param least_bound  the smaller guarantee of the block's ends */
-static int worth_a_look(const census *c, size_t block, size_t from, double least_bound, const census_band *band) {
-    const double z1 = (double)dp_ranked32(c->block_first[block]);
-    const double most = (double)dp_ranked32(block_last(c, last_block(c, from, c->greatest[block]))) - z1;
-    const double halves = fmax(census_ulp((float)z1), census_ulp((float)(z1 + most)));
-    return most >= band->longest || most + halves >= band->slack * least_bound;
-}
-
-/* Intervals from one segment into a later one. Needs `least` to run on to the end. */
-static void bridge(const census *c, census_result *result) {
-    int band = -1;
-    int64_t highest = INT64_MIN;
-    double highest_bound = 0.0; /* where it was met */
-    for (size_t i = 0; i + 1 < c->segment_count; i++) {
-        const segment *s = &c->segments[i];
-        const size_t from = c->segments[i + 1].block;
-        if (s->band != band) {
-            band = s->band;
-            highest = INT64_MIN;
-        }
-        for (size_t block = s->block; block < from; block++) {
-            const int32_t top = c->greatest[block];
-            if (top < c->least[from])
-                continue;
-            const double here = bound_of(c, c->block_first[block]);
-            const double last = bound_of(c, block_last(c, block));
-            if (falls(highest_bound, fmin(here, last)))
-                highest = INT64_MIN;
-            if (top <= highest)
-                continue;
-            if (worth_a_look(c, block, from, fmin(here, last), &result->bands[band]))
-                look_at_block(c, block, from, highest, falls(here, last), &result->bands[band]);
-            highest = top;
-            highest_bound = here;
-        }
-    }
-}
-
 /* ---- The whole --------------------------------------------------------------------------------------------------- */
 
-static size_t cut(census *c, segment *segments) {
+static size_t cut(census_parts *c, census_segment *segments) {
     const uint32_t asked = c->request->segment;
     const uint32_t longest = asked > 0 && asked < SEGMENT ? asked : SEGMENT;
     size_t count = 0, block = 0;
@@ -338,10 +241,10 @@ static size_t cut(census *c, segment *segments) {
         if (end - first > longest)
             end = first + longest;
         if (segments != NULL)
-            segments[count] = (segment){.first = (uint32_t)first,
-                                        .count = (uint32_t)(end - first),
-                                        .block = block,
-                                        .band = census_band_of(&c->range, (uint32_t)first)};
+            segments[count] = (census_segment){.first = (uint32_t)first,
+                                               .count = (uint32_t)(end - first),
+                                               .block = block,
+                                               .band = census_band_of(&c->range, (uint32_t)first)};
         block += (end - first + CENSUS_BLOCK - 1) / CENSUS_BLOCK;
         first = end;
     }
@@ -350,7 +253,7 @@ static size_t cut(census *c, segment *segments) {
     return count;
 }
 
-static int allocate(census *c) {
+static int allocate(census_parts *c) {
     c->segments = malloc(cut(c, NULL) * sizeof *c->segments);
     c->block_first = malloc(c->block_count * sizeof *c->block_first);
     c->least = malloc(c->block_count * sizeof *c->least);
@@ -361,7 +264,7 @@ static int allocate(census *c) {
     return good;
 }
 
-static void release(census *c) {
+static void release(census_parts *c) {
     free(c->segments);
     free(c->block_first);
     free(c->least);
@@ -369,7 +272,7 @@ static void release(census *c) {
 }
 
 /* @return whether it was stopped */
-static int sweep_all(census *c) {
+static int sweep_all(census_parts *c) {
     const census_request *r = c->request;
     uint64_t done = 0;
     int stop = 0;
@@ -378,20 +281,21 @@ static int sweep_all(census *c) {
         sweep w;
 #pragma omp for schedule(dynamic)
         for (size_t i = 0; i < c->segment_count; i++) {
-            segment *s = &c->segments[c->segment_count - 1 - i];
+            census_segment *s = &c->segments[c->segment_count - 1 - i];
             int stopped;
-            double longest;
+            census_band known;
 #pragma omp critical(census_progress)
             {
                 stopped = stop;
-                longest = c->known[s->band];
+                known = c->known[s->band];
+                known.slack = isinf(known.slack) ? 0.0 : known.slack;
             }
             if (stopped)
                 continue;
-            sweep_segment(c, s, longest, &w);
+            sweep_segment(c, s, &known, &w);
 #pragma omp critical(census_progress)
             {
-                c->known[s->band] = fmax(c->known[s->band], s->found.longest);
+                census_add(&c->known[s->band], &s->found);
                 done += s->count;
                 if (r->progress != NULL && r->progress(r->context, done))
                     stop = 1;
@@ -401,9 +305,9 @@ static int sweep_all(census *c) {
     return stop;
 }
 
-static void gather(census *c, census_result *result) {
+static void gather(census_parts *c, census_result *result) {
     for (size_t i = 0; i < c->segment_count; i++) {
-        const segment *s = &c->segments[i];
+        const census_segment *s = &c->segments[i];
         census_band *band = &result->bands[s->band];
         band->pairs += s->count;
         census_add(band, &s->found);
@@ -412,15 +316,15 @@ static void gather(census *c, census_result *result) {
     for (size_t i = c->block_count - 1; i-- > 0;)
         if (c->least[i + 1] < c->least[i])
             c->least[i] = c->least[i + 1];
-    bridge(c, result);
+    census_bridge(c, result);
 }
 
 /* Where a band's longest interval is inside a segment, the first such segment knows the nearest. */
-static void locate(census *c, census_result *result) {
+static void locate(census_parts *c, census_result *result) {
     sweep w;
     int band = -1;
     for (size_t i = 0; i < c->segment_count; i++) {
-        segment *s = &c->segments[i];
+        census_segment *s = &c->segments[i];
         census_band *b = &result->bands[s->band];
         if (s->band == band || b->longest <= 0.0 || s->found.longest < b->longest)
             continue;
@@ -431,7 +335,7 @@ static void locate(census *c, census_result *result) {
 }
 
 census_status census_run(const census_request *request, census_result *result) {
-    census c = {.request = request, .level = request->level != NULL ? request->level : census_level_best()};
+    census_parts c = {.request = request, .level = request->level != NULL ? request->level : census_level_best()};
     census_status status = census_open(request, &c.plan, result, &c.range);
     if (status != CENSUS_DONE)
         return status;

@@ -21,6 +21,7 @@
 #include "depthprec/setup.h"
 
 enum { CENSUS_BANDS_MAX = 256 };
+#define CENSUS_CALM 0x1p-7
 
 /** One band, or all of them together. */
 typedef struct census_band {
@@ -63,12 +64,19 @@ typedef struct census_request {
     int threads;           /**< 0: as many as OpenMP would take */
     /** The guaranteed separation, or null. Taken to be monotone over 1024 neighbouring depths. */
     double (*bound)(const dp_setup *setup, double z);
+    /** How many neighbouring depths, a multiple of 1024, the bound is calm over, so that the census asks for it only
+     * where it may decide. In a binade of depths above 0, but for so many at its beginning, it is nowhere below what it
+     * is at both ends of so many by more than two steps of binary32 and CENSUS_CALM of it. 0: nothing is known. */
+    uint32_t calm;
     /** Told now and then, by one thread at a time, how many depths are done; nonzero stops the census. May be null. */
     int (*progress)(void *context, uint64_t done);
     void *context;
     const census_level *level; /**< null: the fastest */
     uint32_t segment; /**< depths swept as one, at most 2^18; 0: that many. Tests take fewer, to have more borders */
 } census_request;
+
+/** What zfight asks of a set-up: its guaranteed separation, which is calm. */
+census_request census_of_guarantee(const dp_setup *setup, double lo, double hi);
 
 /** How many depths the census will visit. */
 uint64_t census_count(double lo, double hi);

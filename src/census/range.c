@@ -44,7 +44,7 @@ static double greatest_bound(const census_request *request, const census_band *b
     enum { LOOKS = 1024 };
     const double end = last ? band->hi : (double)nextafterf((float)band->hi, -HUGE_VALF);
     double greatest = bound_at(request, end);
-    for (int i = 0; i < LOOKS; i++)
+    for (int i = 0; i < LOOKS && band->lo < end; i++)
         greatest = fmax(greatest, bound_at(request, band->lo + (end - band->lo) * i / LOOKS));
     return greatest;
 }

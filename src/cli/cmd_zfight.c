@@ -51,16 +51,13 @@ static uint64_t visits(const zfight *z) {
 }
 
 static census_status work(zfight *z, const dp_setup *setup, census_result *result) {
-    const census_sample_request q = {.common = {.setup = setup,
-                                                .lo = z->lo,
-                                                .hi = z->hi,
-                                                .threads = z->walk.o->threads,
-                                                .bound = dp_separation,
-                                                .progress = tick,
-                                                .context = z},
-                                     .count = z->walk.o->sample,
-                                     .seed = z->walk.o->seed,
-                                     .gap = z->walk.o->gap};
+    census_sample_request q = {.common = census_of_guarantee(setup, z->lo, z->hi),
+                               .count = z->walk.o->sample,
+                               .seed = z->walk.o->seed,
+                               .gap = z->walk.o->gap};
+    q.common.threads = z->walk.o->threads;
+    q.common.progress = tick;
+    q.common.context = z;
     if (z->walk.o->sample > 0 || z->walk.o->gap > 0.0)
         return census_sample(&q, result);
     return census_run(&q.common, result);
