@@ -248,7 +248,7 @@ $(B)/tests/%: $(B)/obj/tests/%.o $(B)/libsupport.a $(B)/librooms.a $(B)/libdepth
 	$(Q)$(LINK) -o $@ $^ @$(B)/check.libs @$(B)/build.libs -lm
 
 # This one counts calls.
-$(B)/tests/test_once: LDFLAGS += $(patsubst %,-Wl$(comma)--wrap=dp_%,pipeline_prepare chain_make log_shader_make)
+$(B)/tests/test_once: LDFLAGS += $(patsubst %,-Wl$(comma)--wrap=dp_%,pipeline_prepare chain_make slant_make log_shader_make)
 
 mutants:
 	@sh src/packages.sh check

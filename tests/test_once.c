@@ -6,9 +6,10 @@
 #include "core/engine.h"
 #include "core/log_shader.h"
 #include "depthprec/depthprec.h"
+#include "need/distance.h"
 #include "support.h"
 
-static int matrices, chains, shaders;
+static int matrices, chains, shaders, slants;
 
 /* The names that the linker makes of those that it wraps. */
 void __real_dp_pipeline_prepare(dp_setup *setup);
@@ -17,6 +18,14 @@ dp_chain __real_dp_chain_make(const dp_setup *setup, const dp_pipeline *pipeline
 dp_chain __wrap_dp_chain_make(const dp_setup *setup, const dp_pipeline *pipeline);
 dp_log_shader __real_dp_log_shader_make(const dp_setup *setup, const dp_log2_row *log2);
 dp_log_shader __wrap_dp_log_shader_make(const dp_setup *setup, const dp_log2_row *log2);
+
+dp_slant __real_dp_slant_make(const dp_triangles *t);
+dp_slant __wrap_dp_slant_make(const dp_triangles *t);
+
+dp_slant __wrap_dp_slant_make(const dp_triangles *t) {
+    slants++;
+    return __real_dp_slant_make(t);
+}
 
 void __wrap_dp_pipeline_prepare(dp_setup *setup) {
     matrices++;
@@ -58,7 +67,7 @@ static void test_codes(void **state) {
 static void search(const dp_setup *setup, int limited) {
     dp_separation_worst w, free;
     assert_int_equal(dp_separation_over(setup, 0.1, 1000, 0.0, &free), DP_OK);
-    matrices = chains = shaders = 0;
+    matrices = chains = shaders = slants = 0;
     assert_int_equal(dp_separation_over(setup, 0.1, 1000, limited ? free.separation : 0.0, &w), DP_OK);
 }
 
@@ -74,15 +83,30 @@ static void test_matrix(void **state) {
         }
 }
 
-static void test_slanted(void **state) {
-    (void)state;
+static dp_setup make_slanted(void) {
     dp_spec spec = dp_spec_default();
     dp_setup setup;
     spec.model = DP_MODEL_FP32;
     spec.triangles = dp_triangles_default();
     assert_int_equal(dp_setup_init(&setup, &spec), DP_OK);
+    return setup;
+}
+
+static void test_slanted(void **state) {
+    (void)state;
+    const dp_setup setup = make_slanted();
     search(&setup, 1);
     assert_int_equal(chains, 1);
+    assert_int_equal(slants, 1);
+}
+
+/* How far a separation is kept: depths one by one, and a search now and then. */
+static void test_distance(void **state) {
+    (void)state;
+    const dp_setup setup = make_slanted();
+    chains = slants = 0;
+    assert_true(distance_about(&setup, 0.1, 1000, 0.01, 3) > 1);
+    assert_true(chains <= 6 && slants == chains);
 }
 
 static void test_shader(void **state) {
@@ -95,6 +119,7 @@ static void test_shader(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {cmocka_unit_test(test_codes), cmocka_unit_test(test_matrix),
-                                       cmocka_unit_test(test_slanted), cmocka_unit_test(test_shader)};
+                                       cmocka_unit_test(test_slanted), cmocka_unit_test(test_distance),
+                                       cmocka_unit_test(test_shader)};
     return run_tap(tests);
 }

@@ -104,10 +104,12 @@ static dp_composing composing_of(const dp_setup *setup, const dp_chain *c, const
 }
 
 /* What a composition does to the vertices of pixels at a depth. */
-static dp_composed_vertex composed_vertex(const dp_setup *setup, const dp_chain *c, double z, double shared,
+static dp_composed_vertex composed_vertex(const dp_guarantee *g, double z, double shared,
                                           const dp_budget_terms *terms) {
+    const dp_setup *setup = g->setup;
+    const dp_chain *c = &g->chain;
     const dp_triangles *t = &setup->spec.triangles;
-    const dp_composed_view view = dp_triangles_view(t);
+    const dp_composed_view view = dp_triangles_view(t, &g->slant);
     dp_composing in = composing_of(setup, c, terms);
     in.lean = larger(in.lean, dp_hypot(1.0, dp_hypot(view.ray[0], view.ray[1])));
     const double farthest = dp_triangles_depths(c, (dp_span){z, z}, t, NULL).hi + shared;
@@ -119,9 +121,10 @@ static dp_composed_vertex composed_vertex(const dp_setup *setup, const dp_chain 
  * Slanted triangles, moved as said (null: not at all), and by up to `shared` all alike. The nearer one may be read back
  * anywhere between its vertices.
  */
-static void add_triangles(const dp_setup *setup, const dp_chain *c, double z, double shared,
-                          const double asked[DP_CAUSE_COUNT], const dp_composed_vertex *moved, dp_budget *out) {
-    dp_triangles class = setup->spec.triangles;
+static void add_triangles(const dp_guarantee *g, double z, double shared, const double asked[DP_CAUSE_COUNT],
+                          const dp_composed_vertex *moved, dp_budget *out) {
+    const dp_chain *c = &g->chain;
+    dp_triangles class = g->setup->spec.triangles;
     const dp_triangles *t = &class;
     const dp_span at = {z - shared, z + shared};
     const double vertex = z / t->depth - shared;
@@ -137,8 +140,8 @@ static void add_triangles(const dp_setup *setup, const dp_chain *c, double z, do
     part[DP_CAUSE_LINEARIZATION] = asked[DP_CAUSE_LINEARIZATION];
     if (part[DP_CAUSE_LINEARIZATION] > 0.0 && nearest > 0.0)
         part[DP_CAUSE_LINEARIZATION] =
-            larger(part[DP_CAUSE_LINEARIZATION], 2.0 * linearization_error(setup, c, nearest));
-    dp_triangles_add(c, at, t, part, moved, out);
+            larger(part[DP_CAUSE_LINEARIZATION], 2.0 * linearization_error(g->setup, c, nearest));
+    dp_triangles_add(c, at, t, &g->slant, part, moved, out);
 }
 
 /* Do places come from a world. */
@@ -156,8 +159,10 @@ static dp_composed_vertex displaced_vertex(const dp_displaced *d) {
 }
 
 /* World positions: what their separation is more than without, that of `plain`, is the composition's part. */
-static void add_composition(const dp_setup *setup, const dp_chain *c, double z, const dp_budget_terms *terms,
+static void add_composition(const dp_guarantee *g, double z, const dp_budget_terms *terms,
                             const double asked[DP_CAUSE_COUNT], const dp_budget *plain, dp_budget *out) {
+    const dp_setup *setup = g->setup;
+    const dp_chain *c = &g->chain;
     const dp_composing in = composing_of(setup, c, terms);
     const double extra = asked[DP_CAUSE_INTERPOLATION] + asked[DP_CAUSE_LINEARIZATION];
     /* As below: first a separation from all that is behind, then from what is nearer than that. */
@@ -179,8 +184,8 @@ static void add_composition(const dp_setup *setup, const dp_chain *c, double z, 
     out->separation = separation;
     if (setup->spec.triangles.width != 0) {
         const dp_composed_vertex moved =
-            terms->world > 0.0 ? composed_vertex(setup, c, z, shared, terms) : displaced_vertex(&terms->displaced);
-        add_triangles(setup, c, z, shared, asked, &moved, out);
+            terms->world > 0.0 ? composed_vertex(g, z, shared, terms) : displaced_vertex(&terms->displaced);
+        add_triangles(g, z, shared, asked, &moved, out);
     }
     const double part = out->separation - plain->separation;
     for (int i = 0; i < DP_CAUSE_COUNT; i++)
@@ -235,9 +240,9 @@ static void matrix_budget(const dp_guarantee *g, double z, const dp_budget_terms
     share_out(g, z, longest, d.window, part, out);
     dp_budget plain = *out;
     if (setup->spec.triangles.width != 0)
-        add_triangles(setup, c, z, 0.0, part, NULL, &plain);
+        add_triangles(g, z, 0.0, part, NULL, &plain);
     if (terms != NULL && is_moved(terms))
-        add_composition(setup, c, z, terms, part, &plain, out);
+        add_composition(g, z, terms, part, &plain, out);
     else
         *out = plain;
 }
@@ -257,6 +262,7 @@ static void log_budget(const dp_guarantee *g, double z, const dp_budget_terms *t
 static dp_guarantee guarantee_of(const dp_setup *setup, const dp_log2_row *log2) {
     dp_guarantee g;
     g.setup = setup;
+    g.computed = 1;
     if (setup->curve == DP_CURVE_LOG) {
         g.shader = dp_log_shader_make(setup, log2);
         return g;
@@ -264,11 +270,13 @@ static dp_guarantee guarantee_of(const dp_setup *setup, const dp_log2_row *log2)
     dp_pipeline pipeline;
     dp_pipeline_init(&pipeline, setup);
     g.chain = dp_chain_make(setup, &pipeline);
+    if (setup->spec.triangles.width != 0)
+        g.slant = dp_slant_make(&setup->spec.triangles);
     return g;
 }
 
 dp_guarantee dp_guarantee_make(const dp_setup *setup) {
-    return guarantee_of(setup, dp_log2_get(0));
+    return dp_is_computed(setup) ? guarantee_of(setup, dp_log2_get(0)) : (dp_guarantee){.setup = setup};
 }
 
 /* `out` is what it is at infinity where there is no binary32 depth. */
@@ -280,6 +288,10 @@ static void budget_of(const dp_guarantee *g, double z, const dp_budget_terms *te
 
 double dp_guarantee_at(const dp_guarantee *g, double z) {
     dp_budget budget;
+    if (isinf(z))
+        return HUGE_VAL;
+    if (!g->computed)
+        return dp_lattice_separation(g->setup, z);
     if (!(z >= g->setup->spec.znear && z <= g->setup->spec.zfar))
         return HUGE_VAL;
     budget_of(g, z, NULL, &budget);
@@ -331,7 +343,7 @@ double dp_guarantee_bound(const dp_guarantee *g, float nearest, float farthest) 
     static const double asked[DP_CAUSE_COUNT] = {0};
     dp_budget b = {.separation = apart_over(run, dp_demand_longest(&g->chain, run, 0.0, &d))};
     if (g->setup->spec.triangles.width != 0)
-        dp_triangles_add(&g->chain, run, &g->setup->spec.triangles, asked, NULL, &b);
+        dp_triangles_add(&g->chain, run, &g->setup->spec.triangles, &g->slant, asked, NULL, &b);
     return b.separation;
 }
 

@@ -42,6 +42,19 @@ static inline double whole(double x) {
     return (x + 0x1.8p52) - 0x1.8p52;
 }
 
+/* x 2^e, rounded once, and the e of x in [2^(e-1), 2^e), which are calls in general */
+static inline double scaled(double x, int e) {
+    return e >= -1022 && e <= 1023 ? x * dp_power2(e) : ldexp(x, e);
+}
+
+static inline int exponent_above(double x) {
+    int e;
+    if (x >= 0x1p-1022)
+        return dp_exponent(x) + 1;
+    frexp(x, &e);
+    return e;
+}
+
 /* The sum of c[i] x^i: even and odd powers apart, for processors that do both at once */
 static inline double series(const double *c, int count, double x) {
     const double square = x * x;
@@ -370,9 +383,9 @@ static dp_pair slope_angle(double y, double x) {
                                1.0 / 13.0, -1.0 / 15.0, 1.0 / 17.0, -1.0 / 19.0};
     if (y < 0x1p-30 * x)
         return (dp_pair){y / x, 0.0};
-    int e;
-    x = frexp(x, &e);
-    y = ldexp(y, -e);
+    const int e = exponent_above(x);
+    x = scaled(x, -e);
+    y = scaled(y, -e);
     const int nearest = (int)(4.0 * y / x + 0.5);
     const dp_pair to_x = product(-0.25 * nearest, x);
     const dp_pair to_y = product(0.25 * nearest, y);
@@ -418,14 +431,13 @@ double dp_hypot(double x, double y) {
         return x + y;
     if (longer == 0.0)
         return 0.0;
-    int e;
-    frexp(longer, &e);
-    x = ldexp(x, -e);
-    y = ldexp(y, -e);
+    const int e = exponent_above(longer);
+    x = scaled(x, -e);
+    y = scaled(y, -e);
     const dp_pair a = product(x, x);
     const dp_pair b = product(y, y);
     const dp_pair sum = dp_two_sum(a.hi, b.hi);
     const double root = sqrt(sum.hi);
     const dp_pair back = product(root, root);
-    return ldexp(root + 0.5 * (((sum.hi - back.hi) - back.lo) + (sum.lo + (a.lo + b.lo))) / root, e);
+    return scaled(root + 0.5 * (((sum.hi - back.hi) - back.lo) + (sum.lo + (a.lo + b.lo))) / root, e);
 }

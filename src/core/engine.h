@@ -8,6 +8,7 @@
 
 #include "core/curve.h"
 #include "core/expansion.h"
+#include "core/guarantee.h"
 #include "core/lattice.h"
 #include "core/logarithm.h"
 #include "core/rounding.h"

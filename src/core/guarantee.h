@@ -1,28 +1,30 @@
 /* SPDX-License-Identifier: MIT */
-/* The guaranteed separation of a set-up at many depths: what computes them is prepared once. */
+/* dp_separation() of a set-up at many depths: what computes them is prepared once. */
 #ifndef CORE_GUARANTEE_H
 #define CORE_GUARANTEE_H
 
 #include "core/log_shader.h"
+#include "core/triangles.h"
 
 typedef struct dp_guarantee {
     const dp_setup *setup;
+    int computed; /* dp_is_computed(); else it is of the lattice, and nothing below is there */
     union {
         dp_chain chain;       /* of a matrix */
         dp_log_shader shader; /* of a logarithm */
     };
+    dp_slant slant; /* where there are triangles */
 } dp_guarantee;
 
-/* Of a set-up whose separation is that of computed depths, dp_is_computed(). */
 dp_guarantee dp_guarantee_make(const dp_setup *setup);
 
-/* The separation at a depth; of slanted triangles a shader's knows as little as a lattice's. INFINITY: there is none.
+/* The separation at a depth; INFINITY: there is none. Of slanted triangles a shader's knows as little as a lattice's.
  */
 double dp_guarantee_at(const dp_guarantee *g, double z);
 
 /*
- * A separation that is guaranteed at every binary32 depth from `nearest` to `farthest`, two depths of one binade: as
- * good as the worst of them when the run is short. INFINITY where there is none.
+ * Of computed depths: a separation that is guaranteed at every binary32 depth from `nearest` to `farthest`, two depths
+ * of one binade: as good as the worst of them when the run is short. INFINITY where there is none.
  */
 double dp_guarantee_bound(const dp_guarantee *g, float nearest, float farthest);
 

@@ -7,10 +7,6 @@
 #include "depthprec/depth.h"
 
 double dp_separation(const dp_setup *setup, double z) {
-    if (isinf(z))
-        return HUGE_VAL;
-    if (!dp_is_computed(setup))
-        return dp_lattice_separation(setup, z);
     const dp_guarantee g = dp_guarantee_make(setup);
     return dp_guarantee_at(&g, z);
 }

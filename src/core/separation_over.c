@@ -22,7 +22,7 @@ typedef struct part {
 
 typedef struct search {
     const dp_setup *setup;
-    const dp_guarantee *guarantee; /* null: the separation is that of a lattice */
+    dp_guarantee guarantee;
     dp_setup lattice;
     dp_separation_worst *worst;
     double limit;
@@ -35,7 +35,7 @@ typedef struct search {
 static void look(const search *s, double depth) {
     dp_separation_worst *worst = s->worst;
     const double z = smaller(larger(depth, worst->lo), worst->hi);
-    const double separation = s->guarantee != NULL ? dp_guarantee_at(s->guarantee, z) : dp_separation(s->setup, z);
+    const double separation = dp_guarantee_at(&s->guarantee, z);
     if (separation > worst->separation) {
         worst->separation = separation;
         worst->z = z;
@@ -61,7 +61,7 @@ static double with_eye(const dp_setup *setup, double lo, double hi, double ahead
 static double bound_of(const search *s, double lo, double hi) {
     const double step = dp_separation_step(&s->lattice, lo, hi) * (1.0 + 0x1p-50);
     const double bound = with_eye(&s->lattice, lo, hi, dp_curve_ahead(&s->lattice, step, 1.0, hi));
-    return s->guarantee != NULL ? larger(dp_guarantee_bound(s->guarantee, (float)lo, (float)hi), bound) : bound;
+    return s->guarantee.computed ? larger(dp_guarantee_bound(&s->guarantee, (float)lo, (float)hi), bound) : bound;
 }
 
 /* Nothing lies between the ends of the part. */
@@ -193,18 +193,15 @@ dp_status dp_separation_over(const dp_setup *setup, double lo, double hi, double
     if (!(lo >= setup->spec.znear && lo <= hi && hi <= setup->spec.zfar) || isinf(lo))
         return DP_ERROR_RANGE;
     dp_separation_worst worst = {.lo = lo, .hi = hi, .z = hi};
-    dp_guarantee guarantee;
-    search s = {.setup = setup, .lattice = *setup, .worst = &worst};
-    if (dp_is_computed(setup)) {
-        guarantee = dp_guarantee_make(setup);
-        s.guarantee = &guarantee;
+    search s = {.setup = setup, .guarantee = dp_guarantee_make(setup), .lattice = *setup, .worst = &worst};
+    if (s.guarantee.computed) {
         s.lattice.spec.model = DP_MODEL_EXACT;
         s.lattice.shader = 0;
     }
     look(&s, hi);
     look(&s, lo);
     const int exact =
-        s.guarantee == NULL && (setup->spec.model == DP_MODEL_EXACT || (dp_staged_is_exact(setup) && lo >= 0.0));
+        !s.guarantee.computed && (setup->spec.model == DP_MODEL_EXACT || (dp_staged_is_exact(setup) && lo >= 0.0));
     if (isinf(worst.separation)) {
         worst.bound = worst.separation;
     } else if (exact) {

@@ -73,6 +73,39 @@ dp_status dp_triangles_check(const dp_triangles *t) {
     return plane && view && slant && class ? DP_OK : DP_ERROR_TRIANGLES;
 }
 
+/* ---- What is the same at every depth ----------------------------------------------------------------------------- */
+
+/* The angle of those asked for at which `per_sine` sin + `per_cosine` cos, neither negative, is largest. */
+static double worst_slant(const dp_slant *s, double per_sine, double per_cosine) {
+    return smaller(larger(dp_atan2(per_sine, per_cosine), s->lo), s->hi);
+}
+
+dp_slant dp_slant_make(const dp_triangles *t) {
+    const double y = half_tangent(t->fov_y);
+    const double pixel = 2.0 * y / t->height;
+    const double x = 0.5 * pixel * t->width;
+    const double off = pixel * t->pixels;
+    const double snap = t->subpixel > 0 ? dp_power2(-t->subpixel - 1) : 0.0;
+    dp_slant s = {.pixel = pixel,
+                  .ray = dp_hypot(x, y),
+                  .vertex_ray = dp_hypot(x + off, y + off),
+                  .vertex_x = x + off,
+                  .vertex_y = y + off,
+                  .box = 0.5 + 0.5 * dp_hypot(t->slim, 1.0),
+                  .snap = snap,
+                  .snapped = dp_hypot(snap, snap),
+                  .lo = t->slant_lo * degree,
+                  .hi = t->slant_hi * degree};
+    const double longest = worst_slant(&s, s.ray, 1.0);
+    s.longest = dp_sin(longest) * s.ray + dp_cos(longest);
+    return s;
+}
+
+dp_composed_view dp_triangles_view(const dp_triangles *t, const dp_slant *v) {
+    return (dp_composed_view){.scale = {2.0 / (v->pixel * t->width), 2.0 / (v->pixel * t->height)},
+                              .ray = {v->vertex_x, v->vertex_y}};
+}
+
 /* ---- What both triangles lose ------------------------------------------------------------------------------------ */
 
 /* The depths at which vertices lie. */
@@ -125,7 +158,7 @@ typedef struct loss {
  * `by_slope`, from the plane's slope and the width of the box: then it acts as if the plane were displaced. `stray` is
  * what a composition moves a vertex by in window depth.
  */
-static loss loss_of(const dp_chain *c, dp_span at, own_error own, const dp_triangles *t,
+static loss loss_of(const dp_chain *c, dp_span at, own_error own, const dp_triangles *t, const dp_slant *slant,
                     const double asked[DP_CAUSE_COUNT], double stray, int by_slope) {
     const double full = own.projection + own.ndc;
     const double g1 = dp_chain_window(c, at.lo);
@@ -133,9 +166,8 @@ static loss loss_of(const dp_chain *c, dp_span at, own_error own, const dp_trian
     const double most = smaller(larger(g1, g2) + full, 1.0);
     const double far_x = t->width + t->pixels;
     const double far_y = t->height + t->pixels;
-    const double box = 0.5 + 0.5 * dp_hypot(t->slim, 1.0);
     const double gradients = 1.0 + t->plane.origin * DP_UNIT * (far_x + far_y);
-    const double per_range = (t->plane.box * box + t->plane.range) * gradients * second_order;
+    const double per_range = (t->plane.box * slant->box + t->plane.range) * gradients * second_order;
     const double range = (by_slope ? 0.0 : fabs(g1 - g2)) + 2.0 * (full + stray);
     const double setup = DP_UNIT * (t->plane.value * most * second_order + per_range * range) + underflow;
     const double slope = by_slope ? per_range * t->pixels : 0.0;
@@ -155,43 +187,12 @@ static loss loss_of(const dp_chain *c, dp_span at, own_error own, const dp_trian
 
 /* ---- The worst slant --------------------------------------------------------------------------------------------- */
 
-/* Scene units a pixel at z = 1; and how far beside the axis rays lie at z = 1, those of pixels and of vertices. */
-typedef struct view {
-    double pixel, ray, vertex_ray;
-    double vertex_x, vertex_y; /* the latter on each axis */
-} view;
-
-static view view_of(const dp_triangles *t) {
-    const double y = half_tangent(t->fov_y);
-    const double pixel = 2.0 * y / t->height;
-    const double x = 0.5 * pixel * t->width;
-    const double off = pixel * t->pixels;
-    return (view){pixel, dp_hypot(x, y), dp_hypot(x + off, y + off), x + off, y + off};
-}
-
-dp_composed_view dp_triangles_view(const dp_triangles *t) {
-    const view v = view_of(t);
-    return (dp_composed_view){.scale = {2.0 / (v.pixel * t->width), 2.0 / (v.pixel * t->height)},
-                              .ray = {v.vertex_x, v.vertex_y}};
-}
-
-/* By how much a coordinate of a vertex moves, pixels. */
-static double snapping(const dp_triangles *t) {
-    return t->subpixel > 0 ? dp_power2(-t->subpixel - 1) : 0.0;
-}
-
-/* The angle of those asked for at which `per_sine` sin + `per_cosine` cos, neither negative, is largest. */
-static double worst_slant(const dp_triangles *t, double per_sine, double per_cosine) {
-    return smaller(larger(dp_atan2(per_sine, per_cosine), t->slant_lo * degree), t->slant_hi * degree);
-}
-
 /*
  * The budget at the slant where it is largest, and at the farthest depth of the run: each term grows with depth.
  * INFINITY where nothing in front of the nearest one is certain, whatever its slant: such a surface is behind the eye.
  */
-static dp_budget at_worst(const dp_chain *c, dp_span run, const dp_triangles *t, const loss *of,
+static dp_budget at_worst(const dp_chain *c, dp_span run, const dp_triangles *t, const dp_slant *v, const loss *of,
                           const dp_composed_vertex *moved) {
-    const view v = view_of(t);
     const double both = (1.0 + t->depth) * second_order; /* of a vertex moved: that of the nearer plane counts for k */
     const double z = run.hi;
     const double slope = c->half * fabs(c->b);
@@ -199,35 +200,33 @@ static dp_budget at_worst(const dp_chain *c, dp_span run, const dp_triangles *t,
     for (int i = 0; i < DP_CAUSE_COUNT; i++)
         window += of->cause[i];
     const double facing = (window * z * z / slope + 2.0 * moved->tilt * z) / (1.0 - moved->shared);
-    const double snap = snapping(t);
     const double eye = 2.0 * DP_UNIT * second_order * z;
-    const double per_sine = 2.0 * v.pixel * z * dp_hypot(snap + of->dx, snap + of->dy) + eye * v.vertex_ray +
+    const double per_sine = 2.0 * v->pixel * z * dp_hypot(v->snap + of->dx, v->snap + of->dy) + eye * v->vertex_ray +
                             both * dp_hypot(moved->across[0], moved->across[1]);
     const double per_cosine = eye + both * moved->along;
-    const double angle = worst_slant(t, per_sine + facing * v.ray, per_cosine + facing);
-    const double longest = worst_slant(t, v.ray, 1.0);
+    const double angle = worst_slant(v, per_sine + facing * v->ray, per_cosine + facing);
     const double sine = dp_sin(angle);
     const double cosine = dp_cos(angle);
-    const double along = sine * v.ray + cosine; /* of the normal, along the ray */
+    const double along = sine * v->ray + cosine; /* of the normal, along the ray */
     const double sum = sine * per_sine + cosine * per_cosine + along * facing + both * moved->position;
     dp_budget b = {.separation = sum / (1.0 - moved->turn) * outward};
     double rest = b.separation;
     for (int i = 0; i < DP_CAUSE_COUNT; i++)
         b.cause[i] = along * of->cause[i] * z * z / slope;
-    b.cause[DP_CAUSE_EYE] = eye * (sine * v.vertex_ray + cosine);
-    b.cause[DP_CAUSE_SNAPPING] = 2.0 * v.pixel * z * dp_hypot(snap, snap) * sine;
+    b.cause[DP_CAUSE_EYE] = eye * (sine * v->vertex_ray + cosine);
+    b.cause[DP_CAUSE_SNAPPING] = 2.0 * v->pixel * z * v->snapped * sine;
     b.cause[DP_CAUSE_SETUP] = 0.0;
     for (int i = 0; i < DP_CAUSE_COUNT; i++)
         rest -= b.cause[i];
     b.cause[DP_CAUSE_SETUP] = larger(rest, 0.0);
     b.window = b.separation * slope / (along * z * z);
-    if (!(b.separation < (dp_sin(longest) * v.ray + dp_cos(longest)) * run.lo) || slope < least_window * z * t->depth)
+    if (!(b.separation < v->longest * run.lo) || slope < least_window * z * t->depth)
         b.separation = HUGE_VAL;
     return b;
 }
 
-void dp_triangles_add(const dp_chain *c, dp_span run, const dp_triangles *t, const double asked[DP_CAUSE_COUNT],
-                      const dp_composed_vertex *moved, dp_budget *out) {
+void dp_triangles_add(const dp_chain *c, dp_span run, const dp_triangles *t, const dp_slant *slant,
+                      const double asked[DP_CAUSE_COUNT], const dp_composed_vertex *moved, dp_budget *out) {
     static const dp_composed_vertex none = {0};
     const dp_span at = dp_triangles_depths(c, run, t, moved);
     if (t->slant_hi == 0.0)
@@ -238,10 +237,10 @@ void dp_triangles_add(const dp_chain *c, dp_span run, const dp_triangles *t, con
     }
     const double stray = fabs(dp_chain_window(c, at.lo) - dp_chain_window(c, depths_of(c, run, t).lo));
     const own_error own = own_error_over(c, at);
-    const loss by_class = loss_of(c, at, own, t, asked, stray, 0);
-    const loss by_slope = loss_of(c, at, own, t, asked, stray, 1);
-    const dp_budget first = at_worst(c, run, t, &by_class, moved != NULL ? moved : &none);
-    const dp_budget second = at_worst(c, run, t, &by_slope, moved != NULL ? moved : &none);
+    const loss by_class = loss_of(c, at, own, t, slant, asked, stray, 0);
+    const loss by_slope = loss_of(c, at, own, t, slant, asked, stray, 1);
+    const dp_budget first = at_worst(c, run, t, slant, &by_class, moved != NULL ? moved : &none);
+    const dp_budget second = at_worst(c, run, t, slant, &by_slope, moved != NULL ? moved : &none);
     const dp_budget *lesser = second.separation < first.separation ? &second : &first;
     if (lesser->separation > out->separation)
         *out = *lesser;
@@ -265,16 +264,15 @@ dp_status dp_coplanar_over(const dp_setup *setup, double lo, double hi, dp_copla
     const dp_chain c = dp_chain_make(setup, &pipeline);
     const dp_span run = {larger(smaller(lo, c.reach.hi), c.reach.lo), larger(smaller(hi, c.reach.hi), c.reach.lo)};
     const dp_span at = depths_of(&c, run, t);
-    const loss of = loss_of(&c, at, own_error_over(&c, at), t, none, 0.0, 1);
+    const dp_slant slant = dp_slant_make(t);
+    const loss of = loss_of(&c, at, own_error_over(&c, at), t, &slant, none, 0.0, 1);
     const double eye = DP_UNIT * c.half * fabs(c.b) / run.lo;
     const double off = 0.5 * (of.cause[DP_CAUSE_PROJECTION] + of.cause[DP_CAUSE_NDC] + of.cause[DP_CAUSE_SETUP]) + eye;
-    const double snap = snapping(t);
     const double beside = DP_UNIT * (t->width + t->height + 2.0 * t->pixels);
-    const double moved = 2.0 * snap + of.dx + of.dy + beside;
-    const double box = 0.5 + 0.5 * dp_hypot(t->slim, 1.0);
+    const double moved = 2.0 * slant.snap + of.dx + of.dy + beside;
     out->window = 2.0 * off * second_order;
     out->pixels = 2.0 * moved * second_order;
-    out->lost = (2.0 * moved + DP_UNIT * (6.0 * box * t->slim + 2.0 * box + 2.0)) * second_order;
+    out->lost = (2.0 * moved + DP_UNIT * (6.0 * slant.box * t->slim + 2.0 * slant.box + 2.0)) * second_order;
     out->lost_window = out->window;
     return DP_OK;
 }

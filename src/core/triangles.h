@@ -7,8 +7,21 @@
 #include "core/composition.h"
 #include "depthprec/budget.h"
 
+/* What view, rasterizer and class are at every depth. */
+typedef struct dp_slant {
+    double pixel, ray, vertex_ray; /* scene units a pixel at z = 1; how far beside the axis rays lie there, of pixels
+                                      and of vertices */
+    double vertex_x, vertex_y;     /* the latter on each axis */
+    double box;                    /* the area of the box around a triangle over twice its own, at most */
+    double snap, snapped;          /* by how much a coordinate of a vertex moves, and a vertex; pixels */
+    double lo, hi;                 /* the slants, radians */
+    double longest;                /* along a ray, of a normal's length, at the slant where that is most */
+} dp_slant;
+
+dp_slant dp_slant_make(const dp_triangles *t);
+
 /* The rows of clip x and y, and the rays of vertices. */
-dp_composed_view dp_triangles_view(const dp_triangles *t);
+dp_composed_view dp_triangles_view(const dp_triangles *t, const dp_slant *slant);
 
 /*
  * The depths of the vertices of pixels at the depths of a run: from z/k to z k, between the planes, and then as far as
@@ -21,7 +34,7 @@ dp_span dp_triangles_depths(const dp_chain *c, dp_span run, const dp_triangles *
  * less. `asked` is window depth for interpolation and linearization, the other causes are not read. `moved` is what a
  * composition does to vertices, null for none; what that adds counts as set-up.
  */
-void dp_triangles_add(const dp_chain *c, dp_span run, const dp_triangles *t, const double asked[DP_CAUSE_COUNT],
-                      const dp_composed_vertex *moved, dp_budget *out);
+void dp_triangles_add(const dp_chain *c, dp_span run, const dp_triangles *t, const dp_slant *slant,
+                      const double asked[DP_CAUSE_COUNT], const dp_composed_vertex *moved, dp_budget *out);
 
 #endif

@@ -14,6 +14,7 @@ static const double farthest = 1e18;
 typedef struct ruler {
     measure_kind kind;
     const dp_setup *setup;
+    dp_guarantee guarantee;
     double limit;
     bool whole; /* binary32 depths alone are of interest */
     double lo;
@@ -42,14 +43,15 @@ static double between(const ruler *r) {
  */
 static void extend(ruler *r, double end) {
     const double begin = r->kind == MEASURE_ERROR ? r->lo : r->holds;
-    if (r->kind == MEASURE_SEPARATION && dp_separation(r->setup, end) > r->limit) { /* cheaper than to judge them all */
+    if (r->kind == MEASURE_SEPARATION &&
+        dp_guarantee_at(&r->guarantee, end) > r->limit) { /* cheaper than to judge them all */
         r->fails = end;
         return;
     }
     const judgement j = judge(r->kind, r->setup, begin, end, r->limit);
     if (j.passed)
         r->holds = end;
-    else if (r->kind == MEASURE_SEPARATION && j.z > r->holds && dp_separation(r->setup, j.z) > r->limit)
+    else if (r->kind == MEASURE_SEPARATION && j.z > r->holds && dp_guarantee_at(&r->guarantee, j.z) > r->limit)
         r->fails = j.z;
     else
         r->fails = end;
@@ -71,7 +73,7 @@ static void aim(ruler *r, int digits) {
         const double middle = between(&by_depths);
         if (isnan(middle))
             break;
-        *(dp_separation(r->setup, middle) > r->limit ? &by_depths.fails : &by_depths.holds) = middle;
+        *(dp_guarantee_at(&r->guarantee, middle) > r->limit ? &by_depths.fails : &by_depths.holds) = middle;
     }
     r->fails = by_depths.fails;
     if (by_depths.holds > r->holds)
@@ -96,6 +98,7 @@ static void search(ruler *r, int digits) {
 static ruler ruler_of(measure_kind kind, const dp_setup *setup, double lo, double hi, double limit) {
     return (ruler){.kind = kind,
                    .setup = setup,
+                   .guarantee = dp_guarantee_make(setup),
                    .limit = limit,
                    .whole = dp_is_computed(setup),
                    .lo = lo,
@@ -105,7 +108,7 @@ static ruler ruler_of(measure_kind kind, const dp_setup *setup, double lo, doubl
 
 double distance_about(const dp_setup *setup, double lo, double hi, double limit, int digits) {
     ruler r = ruler_of(MEASURE_SEPARATION, setup, lo, hi, limit);
-    if (!(dp_separation(setup, lo) <= limit))
+    if (!(dp_guarantee_at(&r.guarantee, lo) <= limit))
         return (double)NAN;
     search(&r, digits);
     return r.holds;
