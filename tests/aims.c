@@ -32,6 +32,7 @@ static const aim aims[AIM_COUNT] = {
     [AIM_NORMALS_MAP] = {"map", "<=", 0.8, "s"},
     [AIM_STATISTICS] = {"map", "<=", 0.5, "s"},
     [AIM_FIGURE] = {"map", "<=", 1, "s"},
+    [AIM_FIGURE_MEMORY] = {"memory", "<=", 128, "MiB more"},
     [AIM_LOADED] = {"map beside a busy core", "<=", 2, "times one thread"},
     [AIM_SMALL_TRIANGLES] = {"small triangles", ">=", 3, "million/s"},
     [AIM_TRIANGLES] = {"triangles", ">=", 0.25, "L"},

@@ -123,6 +123,8 @@ static void compare_with_floor(int threads) {
                used / floor_used, memory[i] / 0x1p20);
         if (ways[i].aim != AIM_COUNT)
             aim_judge(ways[i].aim, ways[i].words, taken);
+        if (ways[i].aim == AIM_FIGURE)
+            aim_judge(AIM_FIGURE_MEMORY, ways[i].words, memory[i] / 0x1p20);
         printf("\n");
     }
 }

@@ -229,20 +229,12 @@ static void attach_png(cairo_surface_t *image, const pixels *p) {
     free(bytes); /* then cairo writes its own */
 }
 
-void canvas_image(canvas *c, canvas_rect area, int columns, int rows, const uint32_t *at) {
+void canvas_image(canvas *c, canvas_rect area, int columns, int rows, uint32_t *at) {
     pixels p = {.at = at, .stride = (size_t)columns, .width = columns, .height = rows};
     for (size_t i = 0; i < (size_t)columns * (size_t)rows && !p.holes; i++)
         p.holes = at[i] >> 24 == 0;
-    cairo_surface_t *image =
-        cairo_image_surface_create(p.holes ? CAIRO_FORMAT_ARGB32 : CAIRO_FORMAT_RGB24, columns, rows);
-    unsigned char *data = cairo_image_surface_get_data(image);
-    if (data != NULL) {
-        cairo_surface_flush(image);
-        for (int row = 0; row < rows; row++)
-            memcpy(data + (ptrdiff_t)row * cairo_image_surface_get_stride(image), at + (ptrdiff_t)row * columns,
-                   (size_t)columns * sizeof *at);
-        cairo_surface_mark_dirty(image);
-    }
+    cairo_surface_t *image = cairo_image_surface_create_for_data(
+        (unsigned char *)at, p.holes ? CAIRO_FORMAT_ARGB32 : CAIRO_FORMAT_RGB24, columns, rows, 4 * columns);
     if (c->format == CANVAS_SVG)
         attach_png(image, &p);
     cairo_save(c->cr);
@@ -254,6 +246,7 @@ void canvas_image(canvas *c, canvas_rect area, int columns, int rows, const uint
     cairo_rectangle(c->cr, 0, 0, columns, rows);
     cairo_fill(c->cr);
     cairo_restore(c->cr);
+    cairo_surface_finish(image); /* who still needs the pixels copies them now */
     cairo_surface_destroy(image);
 }
 

@@ -89,8 +89,8 @@ void canvas_text(canvas *c, double x, double y, const char *text, const canvas_f
 /** How far the text reaches, px. */
 double canvas_text_width(canvas *c, const char *text, const canvas_font *font);
 
-/** Pixels 0xFFRRGGBB, or 0 where there is nothing, row by row from the top, stretched over the area. */
-void canvas_image(canvas *c, canvas_rect area, int columns, int rows, const uint32_t *at);
+/** Pixels 0xFFRRGGBB, or 0 where there is nothing, row by row from the top, stretched over the area; they stay. */
+void canvas_image(canvas *c, canvas_rect area, int columns, int rows, uint32_t *at);
 
 /** Everything until canvas_unclip() is cut at the area. Clips do not nest. */
 void canvas_clip(canvas *c, canvas_rect area);

@@ -74,12 +74,12 @@ chart_series *chart_add_series(chart *c, chart_panel *panel, chart_kind kind, si
     return s;
 }
 
-bool chart_add_map(chart *c, chart_panel *panel, int columns, int rows) {
-    chart_map m = {.columns = columns, .rows = rows};
+bool chart_add_rows(chart *c, chart_panel *panel, int columns, int rows, chart_rows values) {
+    chart_map m = {.columns = columns, .rows = rows, .values = values};
     m.x = chart_memory(c, (size_t)columns, sizeof *m.x);
     m.y = chart_memory(c, (size_t)rows, sizeof *m.y);
-    m.value = chart_memory(c, (size_t)columns * (size_t)rows, sizeof *m.value);
-    if (m.x == NULL || m.y == NULL || m.value == NULL)
+    m.room = chart_memory(c, (size_t)columns, sizeof *m.room);
+    if (m.x == NULL || m.y == NULL || m.room == NULL)
         return false;
     for (int i = 0; i < columns; i++)
         m.x[i] = chart_axis_at(&panel->x, (i + 0.5) / columns);
@@ -87,6 +87,30 @@ bool chart_add_map(chart *c, chart_panel *panel, int columns, int rows) {
         m.y[i] = chart_axis_at(&panel->y, (i + 0.5) / rows);
     panel->map = m;
     return true;
+}
+
+bool chart_add_map(chart *c, chart_panel *panel, int columns, int rows) {
+    if (!chart_add_rows(c, panel, columns, rows, (chart_rows){.make = NULL}))
+        return false;
+    panel->map.value = chart_memory(c, (size_t)columns * (size_t)rows, sizeof *panel->map.value);
+    return panel->map.value != NULL;
+}
+
+static const double *row_of(const double *held, const chart_rows *made, int columns, int row, double *room) {
+    if (held != NULL)
+        return held + (size_t)row * (size_t)columns;
+    if (made->make == NULL)
+        return NULL;
+    made->make(made->of, made->channel, row, room);
+    return room;
+}
+
+const double *chart_value_row(const chart_map *m, int row, double *room) {
+    return row_of(m->value, &m->values, m->columns, row, room);
+}
+
+const double *chart_under_row(const chart_map *m, int row, double *room) {
+    return row_of(m->under, &m->grounds, m->columns, row, room);
 }
 
 double chart_axis_at(const chart_axis *axis, double t) {
@@ -145,7 +169,8 @@ void chart_fit(chart *c) {
             widen(&x, panel->series[s].x, panel->series[s].count, panel->x.scale);
         widen_y(&y, panel, false, panel->y.scale);
         widen_y(&second, panel, true, panel->second.scale);
-        widen(&value, panel->map.value, (size_t)panel->map.columns * (size_t)panel->map.rows, c->value.scale);
+        if (panel->map.value != NULL)
+            widen(&value, panel->map.value, (size_t)panel->map.columns * (size_t)panel->map.rows, c->value.scale);
     }
     for (size_t p = 0; p < c->panel_count; p++) {
         fit(&c->panels[p].x, x, false);
@@ -183,6 +208,14 @@ static void mix_numbers(uint64_t *h, const double *values, size_t count) {
     }
 }
 
+/* Values, then what is under them. */
+static void mix_map(uint64_t *h, const chart_map *m) {
+    for (int row = 0; row < m->rows; row++)
+        mix_numbers(h, chart_value_row(m, row, m->room), (size_t)m->columns);
+    for (int row = 0; row < m->rows && (m->under != NULL || m->grounds.make != NULL); row++)
+        mix_numbers(h, chart_under_row(m, row, m->room), (size_t)m->columns);
+}
+
 static void mix_axis(uint64_t *h, const chart_axis *axis) {
     mix(h, axis->key != NULL ? axis->key : "");
     mix(h, axis->unit != NULL ? axis->unit : "");
@@ -207,9 +240,7 @@ void chart_digest(const chart *c, char out[17]) {
         }
         mix_numbers(&h, panel->map.x, (size_t)panel->map.columns);
         mix_numbers(&h, panel->map.y, (size_t)panel->map.rows);
-        mix_numbers(&h, panel->map.value, (size_t)panel->map.columns * (size_t)panel->map.rows);
-        if (panel->map.under != NULL)
-            mix_numbers(&h, panel->map.under, (size_t)panel->map.columns * (size_t)panel->map.rows);
+        mix_map(&h, &panel->map);
     }
     snprintf(out, 17, "%016" PRIx64, h);
 }

@@ -67,13 +67,22 @@ typedef struct chart_series {
     char (*labels)[CHART_TEXT]; /**< CHART_POINTS: a label each, or null */
 } chart_series;
 
+/** Numbers of a grid that are made, a row at a time, when they are wanted: of large ones, so that no copy is held. */
+typedef struct chart_rows {
+    void (*make)(const void *of, int channel, int row, double *out); /**< null: there are none */
+    const void *of;
+    int channel;
+} chart_rows;
+
 /** A grid of values, colour-coded: value[row * columns + column], row 0 at the bottom. NaN is left empty. */
 typedef struct chart_map {
     int columns, rows;
     double *x, *y; /**< centres, evenly spaced on the panel's axes */
     double *value;
     double *under; /**< null, or of as many fields what shows in grey where there is no value; NaN is left empty */
-    size_t by_way; /**< how many were computed by another way than the exact engine */
+    chart_rows values, grounds; /**< in place of `value` and `under` where those are null */
+    double *room;               /**< for a row of them */
+    size_t by_way;              /**< how many were computed by another way than the exact engine */
 } chart_map;
 
 typedef struct chart_panel {
@@ -127,7 +136,14 @@ void chart_fit(chart *c);
 /** A map of columns x rows, centred on the panel's axes (which must be set); false when out of memory. */
 bool chart_add_map(chart *c, chart_panel *panel, int columns, int rows);
 
-/** The field of a map in row i, column k. */
+/** The same, of values that are made when they are wanted. */
+bool chart_add_rows(chart *c, chart_panel *panel, int columns, int rows, chart_rows values);
+
+/** A row of a map's values, and of what is under them, null where nothing is; `room` is for one row. */
+const double *chart_value_row(const chart_map *m, int row, double *room);
+const double *chart_under_row(const chart_map *m, int row, double *room);
+
+/** The field of a map in row i, column k, whose values are held. */
 static inline double *chart_field(const chart_map *m, int i, int k) {
     return &m->value[(size_t)i * (size_t)m->columns + (size_t)k];
 }

@@ -3,6 +3,7 @@
 
 #include <math.h>
 #include <stdlib.h>
+#include <string.h>
 
 #include "core/elementary.h"
 #include "plot/area.h"
@@ -10,16 +11,35 @@
 
 enum { BAR_STEPS = 256 };
 
+/* A row of fields. */
+typedef struct fields {
+    const double *value, *under; /* under: null where nothing is */
+} fields;
+
+/* Room for two rows, of values and of what is under them. */
+static fields fields_of(const chart_map *m, int row, double *room) {
+    return (fields){chart_value_row(m, row, room), chart_under_row(m, row, room + m->columns)};
+}
+
+static double *room_of(const chart_map *m) {
+    return malloc(2 * (size_t)m->columns * sizeof(double));
+}
+
 /* Neither a value nor anything under it. */
-static bool is_hole(const chart_map *m, size_t i) {
-    return isnan(m->value[i]) && (m->under == NULL || isnan(m->under[i]));
+static bool is_hole(const fields *f, int column) {
+    return isnan(f->value[column]) && (f->under == NULL || isnan(f->under[column]));
 }
 
 bool heat_has_holes(const chart_map *m) {
-    for (size_t i = 0; i < (size_t)m->columns * (size_t)m->rows; i++)
-        if (is_hole(m, i))
-            return true;
-    return false;
+    bool found = false;
+    double *room = room_of(m);
+    for (int row = 0; row < m->rows && !found && room != NULL; row++) {
+        const fields f = fields_of(m, row, room);
+        for (int column = 0; column < m->columns && !found; column++)
+            found = is_hole(&f, column);
+    }
+    free(room);
+    return found;
 }
 
 static void draw_hatch(const pencil *p, canvas_rect f) {
@@ -39,29 +59,42 @@ static canvas_colour grey_of(const chart_axis *ground, double v) {
 }
 
 /* The colour of a field that is no hole. */
-static canvas_colour colour_of(const pencil *p, const chart *c, const chart_panel *panel, size_t i) {
-    const chart_map *m = &panel->map;
-    const double v = m->value[i];
+static canvas_colour colour_of(const pencil *p, const chart *c, const chart_panel *panel, const fields *f, int column) {
+    const double v = f->value[column];
     if (c->classes)
         return area_tint(p->theme, panel->series[(size_t)v].style.colour);
     if (isnan(v))
-        return grey_of(&c->ground, m->under[i]);
+        return grey_of(&c->ground, f->under[column]);
     const uint32_t rgb = c->colours ? (uint32_t)v : 0;
     return c->colours ? (canvas_colour){(rgb >> 16 & 255) / 255.0, (rgb >> 8 & 255) / 255.0, (rgb & 255) / 255.0, 1}
                       : theme_viridis(chart_axis_share(&c->value, v));
 }
 
 /* Few fields: each a rectangle, for an image as small as that is blurred by those who show it. */
-static void draw_fields(const pencil *p, canvas_rect f, const chart *c, const chart_panel *panel) {
+static bool draw_fields(const pencil *p, canvas_rect f, const chart *c, const chart_panel *panel) {
     const chart_map *m = &panel->map;
     const double w = f.w / m->columns, h = f.h / m->rows, seam = 0.5;
-    for (int row = m->rows - 1; row >= 0; row--)
-        for (int column = 0; column < m->columns; column++) {
-            const size_t i = (size_t)row * (size_t)m->columns + (size_t)column;
-            if (!is_hole(m, i))
+    double *room = room_of(m);
+    for (int row = m->rows - 1; row >= 0 && room != NULL; row--) {
+        const fields of = fields_of(m, row, room);
+        for (int column = 0; column < m->columns; column++)
+            if (!is_hole(&of, column))
                 canvas_fill(p->c, (canvas_rect){f.x + column * w, f.y + f.h - (row + 1) * h, w + seam, h + seam},
-                            colour_of(p, c, panel, i));
-        }
+                            colour_of(p, c, panel, &of, column));
+    }
+    free(room);
+    return room != NULL;
+}
+
+/* A row of fields as `each` rows of pixels, from `to` on. */
+static void colour_row(const pencil *p, const chart *c, const chart_panel *panel, const fields *of, int each,
+                       uint32_t *to) {
+    const int columns = panel->map.columns * each;
+    for (int column = 0; column < columns; column++)
+        if (!is_hole(of, column / each))
+            to[column] = theme_pixel(colour_of(p, c, panel, of, column / each));
+    for (int copy = 1; copy < each; copy++)
+        memcpy(to + (size_t)copy * (size_t)columns, to, (size_t)columns * sizeof *to);
 }
 
 /* Fields that stand for pixels of a screen are several pixels of the image each, and so stay sharp. */
@@ -69,24 +102,27 @@ static bool draw_pixels(const pencil *p, canvas_rect f, const chart *c, const ch
     enum { FEW = 4096, SHARP = 4 };
     const chart_map *m = &panel->map;
     const int each = c->classes ? SHARP : 1, columns = m->columns * each, rows = m->rows * each;
-    if (m->columns * m->rows < FEW) {
-        draw_fields(p, f, c, panel);
-        return true;
-    }
+    if (m->columns * m->rows < FEW)
+        return draw_fields(p, f, c, panel);
     uint32_t *pixels = calloc((size_t)columns * (size_t)rows, sizeof *pixels);
-    if (pixels == NULL)
-        return false;
-#pragma omp parallel for schedule(static)
-    for (int row = 0; row < rows; row++) {
-        const size_t from = (size_t)(row / each) * (size_t)m->columns;
-        uint32_t *to = pixels + (size_t)(rows - 1 - row) * (size_t)columns;
-        for (int column = 0; column < columns; column++)
-            if (!is_hole(m, from + (size_t)(column / each)))
-                to[column] = theme_pixel(colour_of(p, c, panel, from + (size_t)(column / each)));
+    bool good = pixels != NULL;
+#pragma omp parallel reduction(&& : good)
+    {
+        double *room = room_of(m);
+        good = good && room != NULL;
+#pragma omp for schedule(static)
+        for (int row = 0; row < m->rows; row++) {
+            if (!good)
+                continue;
+            const fields of = fields_of(m, row, room);
+            colour_row(p, c, panel, &of, each, pixels + (size_t)(m->rows - 1 - row) * (size_t)each * (size_t)columns);
+        }
+        free(room);
     }
-    canvas_image(p->c, f, columns, rows, pixels);
+    if (good)
+        canvas_image(p->c, f, columns, rows, pixels);
     free(pixels);
-    return true;
+    return good;
 }
 
 /* Where the value crosses the level between two grid points, as a share of the way; NaN when it does not. */

@@ -85,15 +85,16 @@ static double field(const picture *in, const float *at, int channel) {
 }
 
 /* A map's rows begin at the bottom. */
-static void fill_fields(const picture *in, int channel, double *out) {
-    const size_t channels = (size_t)in->channels, row_values = (size_t)in->columns * channels;
-#pragma omp parallel for schedule(static)
-    for (int row = 0; row < in->rows; row++) {
-        double *to = out + (size_t)(in->rows - 1 - row) * (size_t)in->columns;
-        const float *from = in->values + (size_t)row * row_values;
-        for (int column = 0; column < in->columns; column++)
-            to[column] = field(in, from + (size_t)column * channels, channel);
-    }
+static void make_row(const void *of, int channel, int row, double *out) {
+    const picture *in = of;
+    const size_t channels = (size_t)in->channels;
+    const float *from = in->values + (size_t)(in->rows - 1 - row) * (size_t)in->columns * channels;
+    for (int column = 0; column < in->columns; column++)
+        out[column] = field(in, from + (size_t)column * channels, channel);
+}
+
+static chart_rows rows_of(const picture *in, int channel) {
+    return (chart_rows){.make = make_row, .of = in, .channel = channel};
 }
 
 static void add_panel(const picture *in, chart *out, int channel) {
@@ -102,9 +103,7 @@ static void add_panel(const picture *in, chart *out, int channel) {
     panel->y = (chart_axis){.scale = CHART_DOWN, .hi = in->height, .label = "row", .key = "row", .unit = "px"};
     if (in->names != NULL)
         snprintf(panel->title, sizeof panel->title, "%s", in->names[channel]);
-    if (!chart_add_map(out, panel, in->columns, in->rows))
-        return;
-    fill_fields(in, channel, panel->map.value);
+    chart_add_rows(out, panel, in->columns, in->rows, rows_of(in, channel));
 }
 
 /* The least and greatest finite number; of magnitudes the least above 0. */
@@ -164,11 +163,8 @@ void picture_build(const picture *in, chart *out) {
 }
 
 void picture_lay_under(const picture *ground, chart *out) {
-    chart_map *m = &out->panels[0].map;
-    m->under = chart_memory(out, (size_t)m->columns * (size_t)m->rows, sizeof *m->under);
+    out->panels[0].map.grounds = rows_of(ground, 0);
     out->ground = scale_of(ground);
-    if (m->under != NULL)
-        fill_fields(ground, 0, m->under);
 }
 
 void picture_mark(chart *out, size_t count, const double (*at)[2], const char *name) {

@@ -38,7 +38,8 @@ void picture_mark(chart *out, size_t count, const double (*at)[2], const char *n
 /** Shows another picture of one channel, of the same size, in grey under the built chart, where that has no value. */
 void picture_lay_under(const picture *ground, chart *out);
 
-/** Fills in an empty chart whose title and subtitle are set. chart_failed() tells of memory. */
+/** Fills in an empty chart whose title and subtitle are set; the chart reads the picture. chart_failed() tells of
+ * memory. */
 void picture_build(const picture *in, chart *out);
 
 #endif

@@ -201,7 +201,7 @@ void canvas_text(canvas *c, double x, double y, const char *text, const canvas_f
 }
 
 /* As runs of one colour in a row: maps have large areas of it. */
-void canvas_image(canvas *c, canvas_rect area, int columns, int rows, const uint32_t *at) {
+void canvas_image(canvas *c, canvas_rect area, int columns, int rows, uint32_t *at) {
     const double w = area.w / columns, h = area.h / rows;
     fputs("<g shape-rendering=\"crispEdges\">\n", c->stream);
     for (int row = 0; row < rows; row++)
