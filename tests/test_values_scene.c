@@ -96,7 +96,7 @@ static void findings(void **state) {
     for (size_t i = 0; i < sizeof rows / sizeof rows[0]; i++) {
         const dp_setup setup = setup_of(rows[i].format, rows[i].mapping, rows[i].slanted);
         const double extent = sqrt(32.0 * 32 + 16 * 16 + 4 * 4);
-        const double within = rows[i].within > 0 ? rows[i].within : extent;
+        const double within = rows[i].within > 0 ? rows[i].within : 10 * extent;
         json_t *root = object_of(rows[i].options, rows[i].within > 0 ? 1 : 0);
         const json_t *list = json_object_get(root, "findings");
         assert_int_equal(json_array_size(list), 2);
@@ -118,7 +118,7 @@ static void findings(void **state) {
             passed = check_finding(f, k, &setup, within) && passed;
         }
         assert_int_equal(seen, 3);
-        assert_int_equal(json_is_true(json_object_get(root, "passed")), passed);
+        assert_int_equal(json_is_true(json_object_get(root, "passed")), passed && rows[i].within > 0);
         json_decref(root);
     }
 }
@@ -146,28 +146,64 @@ static void what_is_asked(void **state) {
     }
 }
 
-/* Without --gap: the largest distance that is not told apart up to --within, at most 1 % of the extent. */
+/* Unasked, a model is judged up to ten times its size, or as far as a hundredth of it is told apart; what is asked for
+ * is judged, whatever it takes. All that may fight up to there is looked at. */
 static void default_gap(void **state) {
     static const struct {
         const char *options, *format;
         dp_mapping mapping;
-        double within, share;
-    } rows[] = {{"", "fp32", DP_MAPPING_REVERSED, 36, 0},
-                {"-F d24 -m d3d --within 100", "unorm24", DP_MAPPING_D3D, 100, 0},
-                {"-F d16 -m d3d --within 100", "unorm16", DP_MAPPING_D3D, 100, 0.01}};
+        double within; /* 0: less than 360 */
+    } rows[] = {{"", "fp32", DP_MAPPING_REVERSED, 360},
+                {"-f 300", "fp32", DP_MAPPING_REVERSED, 300},
+                {"-F d24 -m d3d --within 100", "unorm24", DP_MAPPING_D3D, 100},
+                {"-F d16 -m d3d --within 100", "unorm16", DP_MAPPING_D3D, 100},
+                {"-F d16 -m d3d", "unorm16", DP_MAPPING_D3D, 0}};
     (void)state;
     for (size_t i = 0; i < sizeof rows / sizeof rows[0]; i++) {
-        const dp_setup setup = setup_of(rows[i].format, rows[i].mapping, false);
         dp_separation_worst worst;
         printed p = print_of("scene %s %s --json", STREET, rows[i].options);
         json_t *root = json_loads(p.out, 0, NULL);
         assert_non_null(root);
-        assert_int_equal(dp_separation_over(&setup, 0.1, rows[i].within, 0, &worst), DP_OK);
-        assert_int_equal(worst.bound > 0.36, rows[i].share > 0);
-        assert_relative(number(root, "gap"), rows[i].share > 0 ? rows[i].share * 36 : worst.bound, 1e-12);
+        dp_spec spec = setup_of(rows[i].format, rows[i].mapping, false).spec;
+        dp_setup setup;
+        spec.zfar = number(json_object_get(root, "setup"), "far");
+        assert_int_equal(dp_setup_init(&setup, &spec), DP_OK);
+        const double within = number(root, "within"), gap = number(root, "gap");
+        assert_int_equal(dp_separation_over(&setup, 0.1, within, 0, &worst), DP_OK);
+        if (rows[i].within > 0) {
+            assert_true(within == rows[i].within);
+            assert_relative(gap, worst.bound, 1e-12);
+        } else {
+            assert_true(gap == 0.36 && within > 0.1 && within < 360);
+            assert_int_equal(dp_separation_over(&setup, 0.1, within, gap, &worst), DP_OK);
+            assert_true(worst.bound <= gap);
+            assert_int_equal(dp_separation_over(&setup, 0.1, within * (1 + 1e-5), gap, &worst), DP_OK);
+            assert_true(worst.bound > gap);
+        }
+        const bool asked = strstr(rows[i].options, "--within") != NULL; /* else nothing was to pass */
+        assert_int_equal(json_object_get(root, "passed") != NULL, asked);
+        assert_true(!asked || json_is_true(json_object_get(root, "passed")) == (p.status == 0));
+        char head[64];
+        snprintf(head, sizeof head, " across; judged up to %.4g\n", within);
         json_decref(root);
         printed_free(&p);
+        p = print_of("scene %s %s", STREET, rows[i].options);
+        if (strstr(p.out, head) == NULL || strstr(p.out, head) > strchr(p.out, '\n'))
+            fail_msg("'%s' is not in the first line of %s", head, p.out);
+        printed_free(&p);
     }
+}
+
+/* Without a view what is printed to write holds for surfaces that face the camera, and says so. */
+static void facing_bias(void **state) {
+    (void)state;
+    printed p = print_of("scene %s --gap 0.02 -F d24 -m d3d", STREET);
+    assert_non_null(strstr(p.out, "where they face"));
+    printed_free(&p);
+    p = print_of("scene %s --gap 0.02 -F d24 -m d3d --viewport 1920x1080", STREET);
+    assert_non_null(strstr(p.out, "drawn second"));
+    assert_null(strstr(p.out, "where they face"));
+    printed_free(&p);
 }
 
 /* The text has the same numbers, rounded to the safe side; CSV those of JSON. */
@@ -179,7 +215,7 @@ static void other_forms(void **state) {
     printed p = print_of("scene %s --gap 0.02 -F d24 -m d3d --within 50 --unit m", STREET);
     assert_int_equal(p.status, 1);
     assert_non_null(strstr(p.out, "10 triangles, 5 surfaces, 36 m across"));
-    assert_non_null(strstr(p.out, "2 pairs of surfaces lie within 0.02 m of each other: 2 can fight"));
+    assert_non_null(strstr(p.out, "2 pairs of surfaces lie within 0.02 m of each other: 1 can fight"));
     assert_non_null(strstr(p.out, "FAIL  surfaces can fight nearer than 50 m."));
     assert_non_null(strstr(p.out, "  1   'wall' (brick) and 'sign' (tin)\n"));
     snprintf(want, sizeof want, "certain up to %.4g m, ties from %.4g m; 9.766e-4 m apart",
@@ -190,7 +226,7 @@ static void other_forms(void **state) {
     printed_free(&p);
     p = print_of("scene %s --gap 0.02 --within 20", STREET);
     assert_int_equal(p.status, 0);
-    assert_non_null(strstr(p.out, "of each other: none can fight before the far"));
+    assert_non_null(strstr(p.out, "of each other: none can fight up to 20."));
     assert_non_null(strstr(p.out, "pass  none fights nearer than 20."));
     assert_null(strstr(p.out, "'wall'"));
     printed_free(&p);
@@ -228,7 +264,7 @@ static void stray_vertex(void **state) {
     json_t *root = json_loads(p.out, 0, NULL);
     assert_int_equal(p.status, 0);
     assert_non_null(root);
-    assert_true(number(root, "extent") == 5 && number(root, "within") == 5);
+    assert_true(number(root, "extent") == 5 && number(root, "within") == 50);
     json_decref(root);
     printed_free(&p);
 }
@@ -266,8 +302,9 @@ static void refused(void **state) {
 }
 
 int main(void) {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(findings),     cmocka_unit_test(what_is_asked),
-                                       cmocka_unit_test(default_gap),  cmocka_unit_test(other_forms),
-                                       cmocka_unit_test(stray_vertex), cmocka_unit_test(refused)};
+    const struct CMUnitTest tests[] = {cmocka_unit_test(findings),    cmocka_unit_test(what_is_asked),
+                                       cmocka_unit_test(default_gap), cmocka_unit_test(facing_bias),
+                                       cmocka_unit_test(other_forms), cmocka_unit_test(stray_vertex),
+                                       cmocka_unit_test(refused)};
     return run_tap(tests);
 }

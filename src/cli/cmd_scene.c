@@ -11,10 +11,14 @@
 #include "cli/scene.h"
 #include "cli/setups.h"
 #include "cli/stop.h"
+#include "need/distance.h"
 #include "report/number.h"
 #include "texture/strips.h"
 
-enum { STEPS = 1000, AT_ONCE = 128 /* findings that a thread judges before an interrupt is seen */ };
+enum { STEPS = 1000, DIGITS = 6, AT_ONCE = 128 /* findings that a thread judges before an interrupt is seen */ };
+
+/* The largest distance that is looked for unasked, a share of the model. */
+#define COARSEST 0.01
 
 /* ---- Reading and finding ----------------------------------------------------------------------------------------- */
 
@@ -83,9 +87,9 @@ static int read_model(scene *s) {
     return error.unreadable ? EXIT_IO : status;
 }
 
-/* As far as the model reaches, of every eye that was asked for; without one, across. */
+/* As far as the model reaches, of every eye that was asked for; without one, where it looks small. */
 static double farthest(const scene *s, const model_box *b) {
-    double reach = s->eyes.count > 0 ? 0.0 : s->extent;
+    double reach = s->eyes.count > 0 ? 0.0 : SCENE_FAR_AWAY * s->extent;
     for (size_t i = 0; i < 8 * s->eyes.count; i++) {
         const double corner[3] = {i & 1 ? b->hi[0] : b->lo[0], i & 2 ? b->hi[1] : b->lo[1],
                                   i & 4 ? b->hi[2] : b->lo[2]};
@@ -94,6 +98,17 @@ static double farthest(const scene *s, const model_box *b) {
         reach = fmax(reach, seen[2]);
     }
     return reach;
+}
+
+/* Where a camera tells apart no detail of the model nothing is asked of it: judged is up to where it tells apart `gap`.
+ */
+static void shorten(scene *s, double gap) {
+    const double znear = s->setup.spec.znear;
+    const double to = s->gap > gap ? distance_about(&s->setup, znear, s->within, gap, DIGITS) : (double)NAN;
+    if (!(to > znear))
+        return;
+    s->within = to;
+    s->gap = gap;
 }
 
 /* What was not said: as far as the model reaches, and the largest distance that is not told apart there. */
@@ -106,7 +121,9 @@ static int take_limits(scene *s) {
     if (!(s->within >= znear && s->within <= zfar))
         return option_error(OPTION_WITHIN, "must lie between near and far, got '%s'", number_full(s->within).text);
     dp_separation_over(&s->setup, znear, s->within, 0.0, &worst);
-    s->gap = option_given(&s->o, OPTION_GAP) ? s->o.gap : fmin(worst.bound, 0.01 * s->extent);
+    s->gap = option_given(&s->o, OPTION_GAP) ? s->o.gap : worst.bound;
+    if (!option_given(&s->o, OPTION_GAP) && !option_given(&s->o, OPTION_WITHIN) && s->eyes.count == 0)
+        shorten(s, COARSEST * s->extent);
     return EXIT_FINE;
 }
 
@@ -193,7 +210,7 @@ static void judge_distances(scene *s) {
     }
 }
 
-static int judge(scene *s) {
+static int judge_findings(scene *s) {
     s->findings = calloc(s->found.findings + 1, sizeof *s->findings);
     if (s->findings == NULL)
         return usage_error("%s: no memory for %zu findings", s->file, s->found.findings);
@@ -212,7 +229,10 @@ static int judge(scene *s) {
                                          .line = (double)NAN};
     }
     judge_distances(s);
+    for (size_t i = 0; i < s->found.findings; i++) /* once each distance is judged */
+        s->findings[i].verdict.lift += scene_crossing(&s->model, &s->found, s->findings[i].of);
     const int status = s->eyes.count > 0 ? scene_eyes_judge(s) : EXIT_FINE;
+    s->required = option_given(&s->o, OPTION_WITHIN);
     s->passed = true;
     for (size_t i = 0; i < s->found.findings; i++)
         s->passed = s->passed && !s->findings[i].fights;
@@ -249,7 +269,7 @@ int scene_look(scene *s, output *out) {
         status = find(s);
     stop_end(out);
     if (status == EXIT_FINE)
-        status = judge(s);
+        status = judge_findings(s);
     stop_end(out);
     if (status == EXIT_FINE)
         scene_bias_take(s);
@@ -320,7 +340,7 @@ int cmd_scene(const options *given) {
         status = write_report(&s, &out);
     else
         output_abandon(&out);
-    if (status == EXIT_FINE && option_given(&s.o, OPTION_WITHIN) && !s.passed)
+    if (status == EXIT_FINE && s.required && !s.passed)
         status = EXIT_FAILED;
     scene_end(&s);
     return status;

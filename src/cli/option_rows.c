@@ -322,7 +322,7 @@ const option_row option_rows[OPTION_COUNT] = {
     [OPTION_GAP] = {"gap", 0, "G", COUNTED | VERB_BIAS | SEARCHED | VERB_WORLD,
         "where surfaces G scene units apart tie and swap", .parse = parse_gap, FIELD(double, gap),
         .without = "neighbouring binary32 depths",
-        .except = {BUT(SEARCHED, NULL, "what is not told apart up to --within, at most 1 % of the model's extent",
+        .except = {BUT(SEARCHED, NULL, "what is not told apart as far as is judged",
                        "surfaces at most G scene units apart; 0: exactly in one plane"),
                    BUT(VERB_WORLD, NULL, "1 cm, or 0.01", "how far apart along the view surfaces are"),
                    BUT(VERB_BIAS, NULL, "told apart", "how much nearer a layer must come, in scene units")},
@@ -348,7 +348,8 @@ const option_row option_rows[OPTION_COUNT] = {
         "box of --world", WORD(vertices, spreads), .standard = "eye-log"},
     [OPTION_WITHIN] = {"within", 0, "Z", SEARCHED,
         "exit 1 where surfaces can fight nearer than this depth; and the distance that mends it", POSITIVE(within),
-        .without = "as far as the model reaches, from an eye or across", .group = "The model"},
+        .without = "10 times the model's extent, or as far as the camera tells 1 % of it apart; from eyes, as far as "
+                   "the model reaches", .group = "The model"},
     [OPTION_ALSO] = {"also", 0, "NAME[,NAME...]|all", SEARCHED,
         "pairs of triangles that are else left out: @", .parse = parse_also, .names = &filters_or_all},
     [OPTION_FROM] = {"from", 0, "X,Y,Z", SEARCHED,

@@ -78,7 +78,7 @@ typedef struct scene {
     const scene_rendered *picture; /* null without --render */
     double gap, angle, within, extent;
     uint64_t triangle_count, surface_count, finding_count, left_out[FINDER_FILTERS], degenerate;
-    bool passed;
+    bool required, passed; /* nothing fights nearer than --within; asked only with it */
 } scene;
 
 /** Takes what was asked of the model in a file. @return EXIT_FINE, or EXIT_USAGE after one line on stderr */
@@ -90,7 +90,7 @@ int scene_look(scene *s, output *out);
 /** Frees what was read and found. */
 void scene_end(scene *s);
 
-/** How many of the findings can fight before the far plane, from an eye there; they come first. */
+/** How many of the findings can fight up to `within`, from an eye where it sees them; they come first. */
 size_t scene_fighting(const scene *s);
 
 /** Whether --from, --look, --path and --camera go together. @return EXIT_FINE, or EXIT_USAGE after one line */
@@ -107,6 +107,9 @@ int scene_eyes_judge(scene *s);
 
 /** Distances are measured to this share of the model's extent: what is less is none. */
 #define SCENE_NO_GAP 1e-12
+
+/** Unasked, a model is judged up to so many times its extent: there it is a tenth of the picture's height. */
+#define SCENE_FAR_AWAY 10.0
 
 /** Finds the bias of --api that brings one of two coplanar surfaces before the other up to `within`. */
 void scene_bias_take(scene *s);

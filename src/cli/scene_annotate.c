@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* scene --annotate: the model as .glb, its triangles that fight in materials of their own. */
+#include <math.h>
 #include <stdlib.h>
 
 #include "cli/errors.h"
@@ -12,9 +13,14 @@ enum { NEARER = 1, FARTHER };
 static const gltf_mark marks[] = {[NEARER - 1] = {"depthprec: fights", {0.8, 0.0, 0.0}},
                                   [FARTHER - 1] = {"depthprec: fights farther off", {0.9, 0.4, 0.0}}};
 
+/* At any distance. */
+static bool can_fight(const scene *s, const scene_finding *f) {
+    return s->eyes.count > 0 ? !isnan(f->sight.fights_from) : !(f->verdict.certain_to >= s->setup.spec.zfar);
+}
+
 /* The findings come with the nearest fight first, so the first mark of a triangle stands. */
 static void mark_triangles(const scene *s, unsigned char *mark) {
-    for (size_t i = 0; i < scene_fighting(s); i++) {
+    for (size_t i = 0; i < s->found.findings && can_fight(s, &s->findings[i]); i++) {
         const scene_finding *f = &s->findings[i];
         for (size_t k = f->of->first; k < f->of->first + f->of->pairs; k++)
             for (int side = 0; side < 2; side++) {

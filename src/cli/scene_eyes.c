@@ -234,6 +234,7 @@ int scene_eyes_judge(scene *s) {
                                .within = s->within,
                                .gap = s->gap,
                                .any_side = (s->o.filters_off >> FINDER_FACING & 1U) != 0,
+                               .classes = s->o.emit_need != NULL,
                                .eye = s->eyes.eye,
                                .eyes = s->eyes.count,
                                .stop = stop_asked};

@@ -36,8 +36,8 @@ char *scene_surfaces(const scene_finding *f, char *out, size_t size) {
 
 size_t scene_fighting(const scene *s) {
     size_t n = 0;
-    while (n < s->found.findings && (s->eyes.count > 0 ? !isnan(s->findings[n].sight.fights_from)
-                                                       : !(s->findings[n].verdict.certain_to >= s->setup.spec.zfar)))
+    while (n < s->found.findings &&
+           (s->eyes.count > 0 ? !isnan(s->findings[n].sight.fights_from) : s->findings[n].fights))
         n++;
     return n;
 }
@@ -89,9 +89,9 @@ static void say_head(page *p, void *of) {
     if (fights > 0)
         snprintf(how_many, sizeof how_many, "%zu", fights);
     p->unit = s->unit;
-    page_title(p, "%s: %zu triangle%s, %zu surface%s, %s across", s->file, s->model.triangles,
+    page_title(p, "%s: %zu triangle%s, %zu surface%s, %s across; judged up to %s", s->file, s->model.triangles,
                s->model.triangles == 1 ? "" : "s", s->model.surfaces, s->model.surfaces == 1 ? "" : "s",
-               length(p, s->extent).text);
+               length(p, s->extent).text, length(p, s->within).text);
     setup_title(p, &s->setup, &s->fields);
     slant_say(p, page_title, &s->o, &s->setup);
     say_eyes(p, s);
@@ -103,9 +103,10 @@ static void say_head(page *p, void *of) {
     else if (s->eyes.count > 0)
         say_seen(p, s);
     else
-        page_text(p, "%zu pair%s of surfaces lie%s within %s of each other: %s can fight before the far plane.", count,
-                  count == 1 ? "" : "s", count == 1 ? "s" : "", length(p, s->gap).text, how_many);
-    if (option_given(&s->o, OPTION_WITHIN))
+        page_text(p, "%zu pair%s of surfaces lie%s within %s of each other: %s can fight up to %s.", count,
+                  count == 1 ? "" : "s", count == 1 ? "s" : "", length(p, s->gap).text, how_many,
+                  length(p, s->within).text);
+    if (s->required)
         page_text(p, "%s%s%s  %s nearer than %s.", s->passed ? p->good : p->bad, s->passed ? "pass" : "FAIL", p->plain,
                   s->passed ? "none fights" : "surfaces can fight", length(p, s->within).text);
 }
@@ -220,8 +221,9 @@ static void say_bias(page *p, const scene *s) {
         page_text(p, "No bias of %s brings one of two surfaces in front up to %s.", s->bias.api,
                   length(p, s->within).text);
     else
-        page_text(p, "Or, for what is drawn second: %s; enough up to %s.",
-                  bias_call(s->o.api, s->bias.units, s->bias.factor).text, length(p, s->within).text);
+        page_text(p, "Or, for what is drawn second: %s; enough up to %s%s.",
+                  bias_call(s->o.api, s->bias.units, s->bias.factor).text, length(p, s->within).text,
+                  s->triangles != NULL ? "" : " where they face the camera; --viewport counts slants, too");
 }
 
 static void say_picture(page *p, const scene *s) {
@@ -282,7 +284,7 @@ static const column bias_columns[] = {{FIELD(scene_bias, api, "api", "")},
                                       {.kind = COLUMN_END}};
 
 /* Conditions. */
-enum { FROM_EYES = 1 };
+enum { FROM_EYES = 1, REQUIRED = 2 };
 
 static const column eyes_columns[] = {
     {FIELD(scene_eyes, camera, "camera", "")},         {FIELD(scene_eyes, path, "path", "")},
@@ -343,7 +345,7 @@ static const column columns[] = {
     {FIELD(scene, angle, "angle", "degrees"), .only = AS_JSON},
     {FIELD(scene, within, "within", "scene"), .only = AS_JSON},
     {PART(scene, eyes, "eyes", eyes_columns), .only = AS_JSON, .when = FROM_EYES},
-    {FIELD(scene, passed, "passed", ""), .only = AS_JSON},
+    {FIELD(scene, passed, "passed", ""), .only = AS_JSON, .when = REQUIRED},
     {FIELD(scene, found.cut, "cut", ""), .only = AS_JSON},
     {PART(scene, bias, "bias", bias_columns), .only = AS_JSON},
     {GROUP("left_out", left_columns), .only = AS_JSON},
@@ -362,6 +364,6 @@ static void count(scene *s) {
 
 report_spec scene_report(scene *s) {
     count(s);
-    return (report_spec){"scene",          columns,           s, s->eyes.count > 0 ? FROM_EYES : 0, .label = LABEL,
-                         .head = say_head, .notes = say_notes};
+    const unsigned when = (s->eyes.count > 0 ? FROM_EYES : 0U) | (s->required ? REQUIRED : 0U);
+    return (report_spec){"scene", columns, s, when, .label = LABEL, .head = say_head, .notes = say_notes};
 }

@@ -11,7 +11,7 @@
 #include "core/append.h"
 #include "report/number.h"
 
-enum { NAME_MOST = 64, TEXT_SIZE = 512 };
+enum { NAME_MOST = 64, TEXT_SIZE = 512, CAMERA_SIZE = 32 };
 
 /* ---- JUnit ------------------------------------------------------------------------------------------------------- */
 
@@ -67,15 +67,14 @@ static void put_pair(output *out, const char *key, double lo, double hi) {
 }
 
 /* The view, and how triangles are drawn. */
-static void put_view(output *out, const scene *s) {
-    const dp_triangles *t = &s->setup.spec.triangles;
+static void put_view(output *out, const scene *s, const dp_triangles *t) {
     if (t->width == 0)
         return;
     output_format(out, "\n            viewport = [%d, %d];", t->width, t->height);
     put_number(out, "fov", t->fov_y);
-    if (option_given(&s->o, OPTION_RASTER))
+    if (s->o.raster != NULL)
         put_word(out, "raster", s->o.raster->name);
-    if (!option_given(&s->o, OPTION_RASTER) || s->o.raster->at_least)
+    if (s->o.raster == NULL || s->o.raster->at_least)
         output_format(out, " subpixel = %d;", t->subpixel);
     output_text(out, "\n           ");
     put_pair(out, "slant", t->slant_lo + 0.0, t->slant_hi + 0.0);
@@ -86,9 +85,9 @@ static void put_view(output *out, const scene *s) {
     output_text(out, " };");
 }
 
-static void put_camera(output *out, const scene *s) {
+static void put_camera(output *out, const scene *s, const dp_triangles *t) {
     const dp_spec *spec = &s->setup.spec;
-    output_text(out, "cameras = {\n  scene = {");
+    output_text(out, " = {");
     put_number(out, "near", spec->znear);
     put_number(out, "far", spec->zfar);
     put_word(out, "mapping", dp_mapping_get(spec->mapping)->name);
@@ -99,8 +98,49 @@ static void put_camera(output *out, const scene *s) {
     put_word(out, "rounding", dp_rounding_name(spec->rounding));
     if (s->setup.curve == DP_CURVE_LOG && s->setup.log_by > 0)
         put_number(out, "log_c", spec->log_c);
-    put_view(out, s);
-    output_text(out, " };\n};\n\n");
+    put_view(out, s, t);
+    output_text(out, " };\n");
+}
+
+/* From eyes, a pair is judged by the class of its own triangles, and so has a camera of its own. */
+static bool has_camera(const scene *s, const scene_finding *f) {
+    dp_spec spec = s->setup.spec;
+    dp_setup setup;
+    spec.triangles = f->sight.triangles;
+    return s->eyes.count > 0 && spec.triangles.width > 0 && dp_setup_init(&setup, &spec) == DP_OK;
+}
+
+/* The eye depths at which a pair is looked at: from one eye where it is seen. @return false where at none */
+static bool looked_at(const scene *s, const scene_finding *f, double *lo, double *hi) {
+    *lo = s->setup.spec.znear;
+    *hi = s->within;
+    if (s->eyes.count == 0)
+        return true;
+    if (isnan(f->sight.seen_from))
+        return false;
+    if (s->eyes.count == 1) {
+        *lo = fmax(*lo, f->sight.seen_from);
+        *hi = fmin(*hi, f->sight.seen_to);
+    }
+    return *lo <= *hi;
+}
+
+static bool is_touching(const scene *s, const scene_finding *f) {
+    return !(f->gap_min > SCENE_NO_GAP * s->extent);
+}
+
+static void put_cameras(output *out, const scene *s) {
+    output_text(out, "cameras = {\n  scene");
+    put_camera(out, s, &s->setup.spec.triangles);
+    for (size_t i = 0; i < s->found.findings; i++) {
+        const scene_finding *f = &s->findings[i];
+        double lo, hi;
+        if (!looked_at(s, f, &lo, &hi) || is_touching(s, f) || !has_camera(s, f))
+            continue;
+        output_format(out, "  scene_p%zu", i + 1);
+        put_camera(out, s, &f->sight.triangles);
+    }
+    output_text(out, "};\n\n");
 }
 
 /* "p3_front_wall_poster": a name that is one word, from those of both nodes. */
@@ -127,23 +167,8 @@ static void put_comment(output *out, const scene_finding *f, const char *what) {
     output_format(out, "  # %s%s\n", name, what);
 }
 
-/* The eye depths at which a pair is looked at: from one eye where it is seen. @return false where at none */
-static bool looked_at(const scene *s, const scene_finding *f, double *lo, double *hi) {
-    *lo = s->setup.spec.znear;
-    *hi = s->within;
-    if (s->eyes.count == 0)
-        return true;
-    if (isnan(f->sight.seen_from))
-        return false;
-    if (s->eyes.count == 1) {
-        *lo = fmax(*lo, f->sight.seen_from);
-        *hi = fmin(*hi, f->sight.seen_to);
-    }
-    return *lo <= *hi;
-}
-
-static void put_need(output *out, double lo, double hi, double separation) {
-    put_word(out, "camera", "scene");
+static void put_need(output *out, const char *camera, double lo, double hi, double separation) {
+    put_word(out, "camera", camera);
     if (lo < hi)
         put_pair(out, "range", lo, hi);
     else
@@ -160,23 +185,25 @@ int scene_need(scene *s) {
     output_text(&out, "# What a camera must tell apart in a model: `depthprec check` of this file.\n");
     if (s->unit != NULL)
         output_format(&out, "unit = \"%s\";\n\n", s->unit);
-    put_camera(&out, s);
+    put_cameras(&out, s);
     output_text(&out, "requirements = {\n");
     for (size_t i = 0; i < s->found.findings; i++) {
         const scene_finding *f = &s->findings[i];
+        char camera[CAMERA_SIZE];
         double lo, hi;
         if (!looked_at(s, f, &lo, &hi))
             continue;
-        if (!(f->gap_min > SCENE_NO_GAP * s->extent)) {
+        if (is_touching(s, f)) {
             put_comment(&out, f, " touch: there no camera tells them apart");
             continue;
         }
         put_comment(&out, f, "");
         put_name(&out, f, i);
-        put_need(&out, lo, hi, f->gap_min);
+        snprintf(camera, sizeof camera, has_camera(s, f) ? "scene_p%zu" : "scene", i + 1);
+        put_need(&out, camera, lo, hi, f->gap_min);
     }
     output_text(&out, "  # all others are at least so far apart\n  others =\n    {");
-    put_need(&out, s->setup.spec.znear, s->within, s->gap);
+    put_need(&out, "scene", s->setup.spec.znear, s->within, s->gap);
     output_text(&out, "};\n");
     return output_close(&out);
 }

@@ -8,12 +8,17 @@
 #include "depthprec/bounds.h"
 #include "need/distance.h"
 #include "scene/exact.h"
+#include "scene/pairs.h"
 
-enum { DIGITS = 6, SIDES = 6, POLYGON = FINDER_CORNERS + SIDES };
+enum { DIGITS = 6, SIDES = 6, POLYGON = FINDER_CORNERS + SIDES, ROUNDS = 12 };
 
 /* Of coordinates and depths in double, relative; and how far a triangle may be turned away, its sine. */
 static const double outward = 0x1p-40;
 static const double turned = 0x1p-8;
+
+/* By which share of what it lacks a lift grows beyond that. */
+static const double spare = 0x1p-7;
+
 static const double degrees = 180.0 / 3.14159265358979323846;
 
 /* How far the subpixel grid moves a vertex at most, and a pixel's centre beyond an edge, pixels. */
@@ -81,10 +86,10 @@ static void see_polygon(polygon *p, const dp_setup *setup, scene_sight *out) {
 
 /* A pair as all eyes have it: its overlap on the first triangle, and both normals, of length 1. */
 typedef struct pair {
-    const finder_pair *of;
+    double gap_lo, gap_hi; /* along the first one's normal */
     double corner[FINDER_CORNERS][3];
     int corners;
-    const double *vertex[2][3];
+    double vertex[2][3][3];
     double normal[2][3];
     bool two_sided[2];
 } pair;
@@ -95,12 +100,12 @@ static double dot(const double a[3], const double b[3]) {
 
 static pair pair_of(const sight_asked *asked, const finder_pair *of) {
     const model *m = asked->m;
-    pair p = {.of = of};
+    pair p = {.gap_lo = of->gap_lo, .gap_hi = of->gap_hi};
     p.corners = finder_corners(m, of->triangle, asked->gap, p.corner);
     for (int i = 0; i < 2; i++) {
         for (int k = 0; k < 3; k++)
-            p.vertex[i][k] = m->position[m->triangle[of->triangle[i]][k]];
-        exact_normal(p.vertex[i], p.normal[i]);
+            memcpy(p.vertex[i][k], m->position[m->triangle[of->triangle[i]][k]], sizeof p.vertex[i][k]);
+        exact_normal((const double *[]){p.vertex[i][0], p.vertex[i][1], p.vertex[i][2]}, p.normal[i]);
         const double length = dp_hypot(dp_hypot(p.normal[i][0], p.normal[i][1]), p.normal[i][2]);
         for (int k = 0; k < 3; k++)
             p.normal[i][k] /= length;
@@ -127,7 +132,7 @@ static bool is_drawn(const pair *p, int i, const scene_eye *eye) {
 
 /* The depths of the overlap in view, on both surfaces. */
 static bool see_pair(const pair *p, const dp_setup *setup, const scene_eye *eye, scene_sight *out) {
-    const double off[3] = {0.0, p->of->gap_lo, p->of->gap_hi};
+    const double off[3] = {0.0, p->gap_lo, p->gap_hi};
     *out = (scene_sight){.seen_from = HUGE_VAL, .seen_to = -HUGE_VAL, .fights_from = (double)NAN, .covered = true};
     if (!is_drawn(p, 0, eye) || !is_drawn(p, 1, eye))
         return false;
@@ -205,24 +210,40 @@ static double enough(const dp_setup *setup, double from, double to, double limit
     return worst.bound;
 }
 
+/* What tells a pair apart from an eye. */
+typedef struct standard {
+    dp_setup own;
+    bool covered; /* else by the class of the set-up */
+    double least; /* its distance */
+} standard;
+
+static const dp_setup *standard_of(const pair *p, const sight_asked *asked, const scene_eye *eye,
+                                   const scene_sight *seen, standard *out) {
+    out->covered = setup_of(p, asked->setup, eye, seen, &out->own);
+    out->least = p->gap_lo <= 0.0 && p->gap_hi >= 0.0 ? 0.0 : fmin(fabs(p->gap_lo), fabs(p->gap_hi));
+    return out->covered ? &out->own : asked->setup;
+}
+
+/* How much more it would have to be, where it is seen nearer than asked. */
+static double lack_of(const sight_asked *asked, const dp_setup *by, const scene_sight *seen, double least) {
+    const bool farther = asked->within > 0.0 && asked->within < seen->seen_to;
+    return fmax(enough(by, seen->seen_from, farther ? asked->within : seen->seen_to, least) - least, 0.0);
+}
+
 /* Where it is not guaranteed, at the depths that are seen, and what is lacking. */
 static void judge_pair(const pair *p, const sight_asked *asked, const scene_eye *eye, scene_sight *seen) {
-    const double lo = p->of->gap_lo, hi = p->of->gap_hi;
-    const double least = lo <= 0.0 && hi >= 0.0 ? 0.0 : fmin(fabs(lo), fabs(hi));
-    dp_setup own;
-    const bool covered = setup_of(p, asked->setup, eye, seen, &own);
-    const dp_setup *by = covered ? &own : asked->setup;
-    const double all = enough(by, seen->seen_from, seen->seen_to, least);
-    const bool farther = asked->within > 0.0 && asked->within < seen->seen_to;
-    seen->lift = fmax((farther ? enough(by, seen->seen_from, asked->within, least) : all) - least, 0.0);
-    if (least == 0.0) {
+    standard of;
+    const dp_setup *by = standard_of(p, asked, eye, seen, &of);
+    seen->triangles = by->spec.triangles;
+    seen->lift = lack_of(asked, by, seen, of.least);
+    if (of.least == 0.0) {
         seen->fights_from = seen->seen_from;
         return;
     }
-    seen->covered = covered;
-    if (all <= least)
+    seen->covered = of.covered;
+    if (enough(by, seen->seen_from, seen->seen_to, of.least) <= of.least)
         return;
-    const double to = distance_about(by, seen->seen_from, seen->seen_to, least, DIGITS);
+    const double to = distance_about(by, seen->seen_from, seen->seen_to, of.least, DIGITS);
     if (isnan(to))
         seen->fights_from = seen->seen_from;
     else if (to < seen->seen_to)
@@ -235,11 +256,25 @@ static double or_far(double depth) {
     return isnan(depth) ? HUGE_VAL : depth;
 }
 
+/* The class of both; of one without a view it is the other. */
+static void widen(dp_triangles *to, const dp_triangles *by) {
+    if (to->width == 0) {
+        *to = *by;
+    } else if (by->width > 0) {
+        to->slant_lo = fmin(to->slant_lo, by->slant_lo);
+        to->slant_hi = fmax(to->slant_hi, by->slant_hi);
+        to->depth = fmax(to->depth, by->depth);
+        to->pixels = fmax(to->pixels, by->pixels);
+        to->slim = fmax(to->slim, by->slim);
+    }
+}
+
 static void add(scene_sight *to, const scene_sight *from) {
     to->seen_from = fmin(to->seen_from, from->seen_from);
     to->seen_to = fmax(to->seen_to, from->seen_to);
     to->fights_from = fmin(to->fights_from, from->fights_from);
     to->lift = fmax(to->lift, from->lift);
+    widen(&to->triangles, &from->triangles);
     to->covered = to->covered && from->covered;
 }
 
@@ -256,7 +291,7 @@ static void judge_eyes(const sight_asked *asked, const finder_finding *f, scene_
     const double nan = (double)NAN;
     double nearest = HUGE_VAL; /* that any fights */
     for (size_t e = 0; e < asked->eyes; e++)
-        sight[e] = (scene_sight){nan, nan, nan, 0.0, true, e};
+        sight[e] = (scene_sight){.seen_from = nan, .seen_to = nan, .fights_from = nan, .covered = true, .eye = e};
     for (size_t i = 0; i < f->pairs && !(asked->stop != NULL && asked->stop()); i++) {
         const pair p = pair_of(asked, &asked->found->pair[f->first + i]);
         for (size_t e = 0; e < asked->eyes; e++) {
@@ -265,23 +300,121 @@ static void judge_eyes(const sight_asked *asked, const finder_finding *f, scene_
                 continue;
             if (asked->eyes == 1 || seen.seen_from <= nearest) /* else it is not what is worst */
                 judge_pair(&p, asked, &asked->eye[e], &seen);
+            else if (asked->classes)
+                seen.triangles = standard_of(&p, asked, &asked->eye[e], &seen, &(standard){0})->spec.triangles;
             nearest = fmin(nearest, seen.fights_from);
             add(&sight[e], &seen);
         }
     }
 }
 
+/* ---- What mends it ----------------------------------------------------------------------------------------------- */
+
+/* All of their overlap, however far apart. */
+static overlap whole_overlap(const model *m, const finder_pair *of) {
+    overlap o;
+    pairs_overlap(m, of->triangle, FINDER_COORDINATE_MAX, &o);
+    return o;
+}
+
+static pair whole_pair_of(const sight_asked *asked, const finder_pair *of) {
+    pair p = pair_of(asked, of);
+    const overlap o = whole_overlap(asked->m, of);
+    if (o.corners > 0) {
+        p.corners = o.corners;
+        memcpy(p.corner, o.corner, (size_t)o.corners * sizeof *o.corner);
+        p.gap_lo = o.lo;
+        p.gap_hi = o.hi;
+    }
+    return p;
+}
+
+/* One of the triangles moved along the first one's normal, so that their distance grows by `by`. */
+static pair moved_apart(const pair *p, int which, double by) {
+    pair to = *p;
+    const double step = which == 0 ? -by : by;
+    for (int c = 0; c < 3; c++)
+        for (int k = 0; k < 3; k++)
+            to.vertex[which][c][k] += step * p->normal[0][k];
+    for (int c = 0; which == 0 && c < p->corners; c++)
+        for (int k = 0; k < 3; k++)
+            to.corner[c][k] += step * p->normal[0][k];
+    to.gap_lo += by;
+    to.gap_hi += by;
+    return to;
+}
+
+/* What a pair still lacks once it is moved. */
+static double lack_moved(const sight_asked *asked, const pair *p, double by) {
+    double lack = 0.0;
+    for (int which = 0; which < 2; which++) {
+        const pair to = moved_apart(p, which, by);
+        scene_sight seen;
+        standard of;
+        if (!see_pair(&to, asked->setup, asked->eye, &seen))
+            continue;
+        const dp_setup *used = standard_of(&to, asked, asked->eye, &seen, &of);
+        lack = fmax(lack, lack_of(asked, used, &seen, of.least));
+    }
+    return lack;
+}
+
+static double lack_of_all(const sight_asked *asked, const finder_finding *f, double lift) {
+    double lack = 0.0;
+    for (size_t i = 0; i < f->pairs && !(asked->stop != NULL && asked->stop()); i++) {
+        const pair p = whole_pair_of(asked, &asked->found->pair[f->first + i]);
+        if (p.gap_hi >= 0.0)
+            lack = fmax(lack, lack_moved(asked, &p, lift));
+        if (p.gap_lo <= 0.0)
+            lack = fmax(lack, lack_moved(asked, &p, -lift));
+    }
+    return lack;
+}
+
+double scene_crossing(const model *m, const finder_found *found, const finder_finding *f) {
+    double most = 0.0;
+    for (size_t i = 0; i < f->pairs; i++) {
+        const finder_pair *p = &found->pair[f->first + i];
+        if (!(p->gap_lo < 0.0 && p->gap_hi > 0.0))
+            continue;
+        const overlap o = whole_overlap(m, p);
+        most = fmax(most, fmax(-o.lo, o.hi));
+    }
+    return most;
+}
+
+/* Moved, triangles are seen elsewhere, and are of another class: what is proposed is judged again until it is enough.
+ */
+static double enough_lift(const sight_asked *asked, const finder_finding *f, double lift) {
+    if (!(lift > 0.0))
+        return lift;
+    lift += scene_crossing(asked->m, asked->found, f);
+    for (int round = 0; round < ROUNDS && isfinite(lift); round++) {
+        const double lack = lack_of_all(asked, f, lift);
+        if (lack == 0.0)
+            return lift;
+        lift += (1.0 + spare) * lack;
+    }
+    return HUGE_VAL;
+}
+
+/* ---- The worst eye ----------------------------------------------------------------------------------------------- */
+
 scene_sight scene_sight_worst(const sight_asked *asked, const finder_finding *f, scene_sight *sight) {
     size_t worst = 0;
+    dp_triangles all = {0};
+    sight_asked alone = *asked;
     judge_eyes(asked, f, sight);
-    for (size_t e = 1; e < asked->eyes; e++)
+    for (size_t e = 0; e < asked->eyes; e++) {
         worst = is_worse(&sight[e], &sight[worst]) ? e : worst;
-    if (asked->eyes > 1) {
-        sight_asked alone = *asked;
-        alone.eye += worst;
-        alone.eyes = 1;
-        judge_eyes(&alone, f, sight);
+        widen(&all, &sight[e].triangles);
     }
+    alone.eye += worst;
+    alone.eyes = 1;
+    if (asked->eyes > 1)
+        judge_eyes(&alone, f, sight);
+    sight[0].lift = enough_lift(&alone, f, sight[0].lift);
+    sight[0].triangles = asked->classes ? all : sight[0].triangles;
     sight[0].eye = worst;
     sight[0].covered = sight[0].covered || !isnan(sight[0].fights_from);
     return sight[0];

@@ -32,7 +32,9 @@ typedef struct scene_sight {
     double fights_from;        /**< the least depth at which they can fight: nearer, all that is seen is told apart;
                                     NaN where all is */
     double lift;               /**< what would have to be added to their distance so that all that is seen nearer than
-                                    asked is told apart; 0 where it is; INFINITY where no distance is enough */
+                                    asked is told apart, judged again with either of them moved, and where they touch
+                                    or cross either way; 0 where it is; INFINITY where no distance was found */
+    dp_triangles triangles;    /**< the class of all triangles by which it was judged; width 0: none was */
     bool covered;              /**< false: all is told apart, but some of it only in triangles of the class */
     size_t eye;                /**< its index */
 } scene_sight;
@@ -44,10 +46,14 @@ typedef struct sight_asked {
     double within;         /**< eye depth up to which a lift is wanted; 0: as far as they are seen */
     double gap;            /**< of the search, see finder_corners() */
     bool any_side;         /**< triangles are drawn whichever way they face */
+    bool classes;          /**< the class of the answer is that of all eyes, not of the worst alone */
     const scene_eye *eye;
     size_t eyes;        /**< at least one */
     bool (*stop)(void); /**< asked at each pair; true ends it, and the answer is then of no use. May be null */
 } sight_asked;
+
+/** By how much the triangles of a finding reach through each other, scene units; 0 where none does. */
+double scene_crossing(const model *m, const finder_found *found, const finder_finding *f);
 
 /**
  * Judges a finding from the eye from which it is worst: where it fights nearest; else where it is not covered; else

@@ -1,0 +1,189 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/*
+ * What `scene` proposes, done to the model and judged again: the distance that is enough is; and a file of requirements
+ * fails where two surfaces can fight. Two triangles a model, in random planes, also tilted against each other, through
+ * each other and slim, seen by an eye or from everywhere.
+ */
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+#include "printed.h"
+#include "support.h"
+
+typedef struct two {
+    double at[2][3][3], normal[3];
+} two;
+
+static void random_unit(rng *r, double v[3]) {
+    double length;
+    do {
+        for (int k = 0; k < 3; k++)
+            v[k] = rng_uniform(r, -1, 1);
+        length = sqrt(v[0] * v[0] + v[1] * v[1] + v[2] * v[2]);
+    } while (!(length > 0.1 && length <= 1));
+    for (int k = 0; k < 3; k++)
+        v[k] /= length;
+}
+
+static void cross(const double a[3], const double b[3], double out[3]) {
+    for (int k = 0; k < 3; k++)
+        out[k] = a[(k + 1) % 3] * b[(k + 2) % 3] - a[(k + 2) % 3] * b[(k + 1) % 3];
+}
+
+/* The second lies above the first, its corners at distances of their own. */
+static void make_two(rng *r, double size, double gap, double slimmest, two *out) {
+    double other[3], u[3], v[3];
+    const double slim = rng_below(r, 2) == 0 ? 1.0 : rng_log(r, slimmest, 1), turn = rng_uniform(r, 0, 6.28);
+    const uint64_t kind = rng_below(r, 4); /* parallel twice, tilted, through each other */
+    random_unit(r, out->normal);
+    random_unit(r, other);
+    cross(out->normal, other, u);
+    const double length = sqrt(u[0] * u[0] + u[1] * u[1] + u[2] * u[2]);
+    for (int k = 0; k < 3; k++)
+        u[k] /= length;
+    cross(out->normal, u, v);
+    for (int c = 0; c < 3; c++) {
+        const double angle = turn + (c + rng_uniform(r, -0.2, 0.2)) * 2.0943951, far = size * rng_uniform(r, 0.6, 1);
+        const double x = far * cos(angle), y = slim * far * sin(angle);
+        const double above = kind < 2 ? gap : (kind == 3 && c == 1 ? -gap : gap) * rng_uniform(r, 0.3, 2);
+        for (int k = 0; k < 3; k++) {
+            out->at[0][c][k] = x * u[k] + y * v[k];
+            out->at[1][c][k] = x * u[k] + y * v[k] + above * out->normal[k];
+        }
+    }
+}
+
+static void write_two(const two *t, const double lift[2], const char *path) {
+    FILE *out = fopen(path, "w");
+    assert_non_null(out);
+    for (int i = 0; i < 2; i++) {
+        fprintf(out, "o %s\n", i == 0 ? "below" : "above");
+        for (int c = 0; c < 3; c++)
+            fprintf(out, "v %.17g %.17g %.17g\n", t->at[i][c][0] + lift[i] * t->normal[0],
+                    t->at[i][c][1] + lift[i] * t->normal[1], t->at[i][c][2] + lift[i] * t->normal[2]);
+        fprintf(out, "f %d %d %d\n", 3 * i + 1, 3 * i + 2, 3 * i + 3);
+    }
+    assert_int_equal(fclose(out), 0);
+}
+
+typedef struct said {
+    bool is_seen, fights;
+    double lift, within; /* NaN: none */
+    bool touches;
+} said;
+
+static double number_or_nan(const json_t *object, const char *key) {
+    const json_t *value = json_object_get(object, key);
+    return json_is_number(value) ? json_number_value(value) : (double)NAN;
+}
+
+/* What the one finding says; nothing where there is none. */
+static said ask(const char *path, const char *options) {
+    said s = {.lift = (double)NAN};
+    printed p = print_of("scene %s --also all --json -q %s", path, options);
+    if (p.status > 1)
+        fail_msg("scene %s: %s", options, p.errors);
+    json_t *root = json_of(p.out);
+    const json_t *f = json_array_get(json_object_get(root, "findings"), 0);
+    s.within = number_or_nan(root, "within");
+    if (f != NULL) {
+        const bool eye = strstr(options, "--from") != NULL;
+        const double from = eye ? number_or_nan(f, "fights_from") : (double)NAN;
+        s.is_seen = !eye || !isnan(number_or_nan(f, "seen_from"));
+        s.fights = eye ? from < s.within : json_is_true(json_object_get(f, "fights"));
+        s.lift = number_or_nan(f, "lift");
+        s.touches = !(number_or_nan(f, "gap_min") > 1e-12);
+    }
+    json_decref(root);
+    printed_free(&p);
+    return s;
+}
+
+/* A set-up, and an eye about the model or none. */
+static void random_options(rng *r, double size, bool eye, char out[512]) {
+    static const char *const cameras[] = {"-F fp32 -m reversed", "-F d24 -m d3d", "-F d16 -m d3d",
+                                          "-F d24 -m reversed"};
+    static const char *const rasters[] = {"", "--raster llvmpipe", "--raster swiftshader", "--raster spec-vulkan"};
+    size_t used = (size_t)snprintf(out, 512, "%s -n 0.1 -f 1000", cameras[rng_below(r, 4)]);
+    if (eye || rng_below(r, 2) == 0)
+        used += (size_t)snprintf(out + used, 512 - used, " --viewport 1280x720 --fov %.4g %s", rng_uniform(r, 20, 90),
+                                 rasters[rng_below(r, 4)]);
+    if (!eye)
+        return;
+    double from[3];
+    const double away = size * rng_log(r, 1.2, 40);
+    random_unit(r, from);
+    snprintf(out + used, 512 - used, " --from=%.9g,%.9g,%.9g --look 0,0,0", away * from[0], away * from[1],
+             away * from[2]);
+}
+
+/* Either is moved; where they touch or cross, either way. */
+static void lifts(void **state) {
+    rng r = rng_make("mended models");
+    tally t = {.name = "enough"}, said_some = {.name = "said"};
+    (void)state;
+    for (uint64_t run = 0; run < test_cases(60, 200, 4000); run++) {
+        const bool eye = run % 4 != 0;
+        const double size = rng_log(&r, 0.3, 10), gap = rng_below(&r, 5) == 0 ? 0 : size * rng_log(&r, 1e-6, 1e-3);
+        char path[512], options[512];
+        snprintf(path, sizeof path, "%s", scratch_file("two.obj"));
+        two made;
+        make_two(&r, size, gap, 0.05, &made);
+        random_options(&r, size, eye, options);
+        write_two(&made, (const double[2]){0, 0}, path);
+        const said before = ask(path, options);
+        if (!before.fights || !(before.lift > 0))
+            continue;
+        TALLY(&said_some, isfinite(before.lift), "%s: no distance is enough", options);
+        const double by = before.lift * (1 + 1e-9);
+        char again[640];
+        snprintf(again, sizeof again, "%s --gap %.17g --within %.17g", options, 4 * by + 4 * gap, before.within);
+        write_two(&made, (const double[2]){0, by}, path);
+        said after = ask(path, again);
+        TALLY(&t, !after.fights || after.lift == 0, "%s, %g apart, lifted by %g: lacks %g", options, gap, by,
+              after.lift);
+        write_two(&made, (const double[2]){-by, 0}, path);
+        after = ask(path, again);
+        TALLY(&t, !after.fights || after.lift == 0, "%s, %g apart, lowered by %g: lacks %g", options, gap, by,
+              after.lift);
+        if (!before.touches)
+            continue;
+        write_two(&made, (const double[2]){0, -by}, path);
+        after = ask(path, again);
+        TALLY(&t, !after.fights || after.lift == 0, "%s, touching, the other way by %g: lacks %g", options, by,
+              after.lift);
+    }
+    tally_end(&said_some);
+    tally_end(&t);
+}
+
+/* What can fight fails, by the same camera in the file. */
+static void requirements(void **state) {
+    rng r = rng_make("requirements of models");
+    tally t = {.name = "fails"};
+    (void)state;
+    for (uint64_t run = 0; run < test_cases(100, 400, 10000); run++) {
+        const double size = rng_log(&r, 0.3, 10), gap = size * rng_log(&r, 1e-4, 1e-1);
+        char path[512], options[512], need[512], line[1280];
+        snprintf(path, sizeof path, "%s", scratch_file("asked.obj"));
+        two made;
+        make_two(&r, size, gap, 0.0005, &made);
+        random_options(&r, size, run % 4 != 0, options);
+        snprintf(need, sizeof need, "%s", scratch_file("asked.need"));
+        snprintf(line, sizeof line, "%s --emit-need %s", options, need);
+        write_two(&made, (const double[2]){0, 0}, path);
+        const said s = ask(path, line);
+        printed p = print_of("check %s", need);
+        assert_true(p.status == 0 || p.status == 1);
+        if (s.is_seen && s.fights && !s.touches)
+            TALLY(&t, p.status == 1, "%s, %g apart: check passes", options, gap);
+        printed_free(&p);
+    }
+    tally_end(&t);
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {cmocka_unit_test(lifts), cmocka_unit_test(requirements)};
+    return run_tap(tests);
+}
