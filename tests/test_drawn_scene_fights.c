@@ -50,7 +50,7 @@ static const char *turned_street(void) {
     return path;
 }
 
-static void depths_of(const char *file, double certain[2], double place[2][3]) {
+static double depths_of(const char *file, double certain[2], double place[2][3]) {
     static const char *const axes[] = {"x", "y", "z"};
     char *text = drawn_output("scene %s %s --json", file, CAMERA);
     json_t *root = json_loads(text, 0, NULL);
@@ -61,8 +61,10 @@ static void depths_of(const char *file, double certain[2], double place[2][3]) {
         for (int k = 0; k < 3; k++)
             place[i][k] = json_number_value(json_object_get(json_object_get(f, "place"), axes[k]));
     }
+    const double within = json_number_value(json_object_get(root, "within"));
     json_decref(root);
     free(text);
+    return within;
 }
 
 /* How far a place is within a rectangle of a view, negative outside; a flat one is as thick as a field. */
@@ -132,12 +134,12 @@ static void check(const char *file, const drawn_theme *look, const side sides[2]
         drawn_run(look, "plot scene-fights %s %s --unit m%s", file, CAMERA, look == &drawn_dark ? " --theme dark" : "");
     double certain[2], place[2][3];
     char subtitle[256];
-    depths_of(file, certain, place);
+    const double within = depths_of(file, certain, place);
     assert_string_equal(d->title, "Which surfaces of the model fight, and from where on");
     snprintf(subtitle, sizeof subtitle,
-             "%s: 2 pairs of surfaces can fight before the far plane; unorm16 d3d, near 0.1, far 1000, perspective, "
+             "%s: 2 pairs of surfaces can fight up to %.4g m; unorm16 d3d, near 0.1, far 1000, perspective, "
              "nearest, float ieee, lengths in m",
-             strrchr(file, '/') + 1);
+             strrchr(file, '/') + 1, within);
     assert_string_equal(d->subtitle, subtitle);
     drawn_legend_is(d, 1, (const char *const[]){"the nearest fights, as scene numbers them"});
     assert_int_equal(d->panel_count, 2);

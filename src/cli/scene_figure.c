@@ -11,6 +11,8 @@
 #include "plot/notes.h"
 #include "report/number.h"
 
+enum { WITHIN_DIGITS = 4 };
+
 int scene_figure_begin(scene *s, const options *o) {
     static const option_id others[] = {OPTION_AT, OPTION_RANGE, OPTION_ORTHO, OPTION_MODEL, OPTION_TOLERANCE};
     options view = *o;
@@ -31,10 +33,11 @@ static void describe(const scene *s, const fights_asked *a, chart *c) {
     const char *slash = strrchr(s->file, '/');
     snprintf(subtitle, sizeof subtitle, "%s: ", notes_clean(name, sizeof name, slash != NULL ? slash + 1 : s->file));
     if (a->count == 0)
-        append(subtitle, sizeof subtitle, "no surfaces can fight before the far plane");
+        append(subtitle, sizeof subtitle, "no surfaces can fight");
     else
-        append(subtitle, sizeof subtitle, "%zu pair%s of surfaces can fight before the far plane", a->count,
-               a->count == 1 ? "" : "s");
+        append(subtitle, sizeof subtitle, "%zu pair%s of surfaces can fight", a->count, a->count == 1 ? "" : "s");
+    append(subtitle, sizeof subtitle, " up to %s",
+           number_in(number_brief(number_of(s->within, WITHIN_DIGITS)), s->unit).text);
     if (a->count > 0 && isnan(a->item[0].from))
         append(subtitle, sizeof subtitle, ", the darkest at every depth");
     append(subtitle, sizeof subtitle, "; %s", setup_label(&s->setup, true, label));
