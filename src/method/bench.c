@@ -8,6 +8,8 @@
 #include <gsl/gsl_sort_double.h>
 #include <gsl/gsl_statistics_double.h>
 
+#include "method/bound.h"
+
 /* What one timing should last: long enough for the clock, short enough that the machine stays in one mood. */
 static const double slice = 4e5; /* ns */
 enum { REPETITIONS_MAX = 99 };
@@ -59,6 +61,11 @@ double method_claimed(const method_row *row, size_t which, const dp_setup *setup
     if (setup->spec.ortho)
         covered = covered && (row->domain & METHOD_ORTHO) != 0;
     return method_speaks(row, which) && covered ? method_claim_at(c, ratio) : (double)NAN;
+}
+
+double method_bound(const method_row *row, const dp_setup *setup) {
+    const bool covered = !isinf(setup->spec.zfar) || (row->domain & METHOD_INFINITE) != 0;
+    return row->bound != NULL && covered && !setup->spec.ortho ? bound_over(row->bound, setup) : (double)NAN;
 }
 
 /* ---- Times ------------------------------------------------------------------------------------------------------- */
@@ -155,6 +162,7 @@ static bool prepare(const method_family_row *family, size_t which, const dp_setu
     result->at_relative = input_at(family, in, result->measured.relative_at);
     result->at_ulp = input_at(family, in, result->measured.ulp_at);
     result->claim = method_claimed(row, which, setup);
+    result->bound = method_bound(row, setup);
     result->ns = result->spread = result->limit = (double)NAN;
     return true;
 }

@@ -35,6 +35,7 @@ typedef struct bench_result {
     measured measured;
     double at_absolute, at_relative, at_ulp; /**< the inputs that reach the worst: eye or window depths */
     double claim;                            /**< for this set-up; NaN where the row claims nothing of it */
+    double bound;                            /**< for this set-up; NaN where nothing is proven of it */
     bool front; /**< no other method with the same reference is both faster and more exact */
 } bench_result;
 
@@ -49,6 +50,9 @@ bench_times bench_statistics(double *times, size_t count);
 
 /** The claim of a row for a set-up of a case; NaN where it makes none. */
 double method_claimed(const method_row *row, size_t which, const dp_setup *setup);
+
+/** What is proven of a row for this very set-up, in the family's measure (bound.h); NaN where nothing is. */
+double method_bound(const method_row *row, const dp_setup *setup);
 
 /**
  * @param repetitions  of the timing, interleaved; 0 leaves the times NaN and marks no front

@@ -124,7 +124,8 @@ struct method_row {
      * instruction that promises an error, not bits, each maker has another. It keeps the row's claims. Null: run.
      */
     method_run *timed;
-    bool (*available)(void); /**< null: on every processor */
+    bool (*available)(void);         /**< null: on every processor */
+    const struct bound_steps *bound; /**< linearize: what is proven for the camera at hand; null: nothing is */
     /** What is measured, where it is a row of the room texture. */
     const decode_row *decode;
     const position_row *position;

@@ -1,0 +1,98 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "method/bound.h"
+
+#include <math.h>
+
+#include "core/bits.h"
+
+/* Octaves of d, those of 1 - d, the two ends, and what halving adds. */
+enum { HALVINGS = 128, PIECES = 149 + 24 + 2 + HALVINGS };
+
+/* Binary32 window depths from a to b, and the worst error there. */
+typedef struct piece {
+    float a, b;
+    double worst;
+} piece;
+
+typedef struct search {
+    const bound_steps *steps;
+    bool reversed;
+    double slope, base; /* 1/z = slope near + base */
+    float least, most;  /* window depths */
+    term k[BOUND_CONSTANTS];
+    piece heap[PIECES]; /* the worst first */
+    int count;
+} search;
+
+static double worst_of(const search *s, float a, float b) {
+    bound_piece p = {.reversed = s->reversed, .d = term_any(a, b)};
+    const range rest = range_outward(1 - (double)b, 1 - (double)a);
+    p.near = s->reversed ? p.d.exact : rest;
+    p.inverse = range_outward((s->slope * p.near.lo + s->base) * (1 - 0x1p-49),
+                              (s->slope * p.near.hi + s->base) * (1 + 0x1p-49));
+    if (!(p.inverse.lo > 0))
+        return (double)INFINITY;
+    p.eye = range_quotient((range){1, 1}, p.inverse);
+    const term z = s->steps->run(s->k, &p);
+    const double worst = fmax(-z.share.lo, z.share.hi);
+    return worst <= 1 ? worst : (double)INFINITY; /* NaN, too */
+}
+
+static void add(search *s, float a, float b) {
+    piece p = {a, b, worst_of(s, a, b)};
+    int at = s->count++;
+    for (; at > 0 && s->heap[(at - 1) / 2].worst < p.worst; at = (at - 1) / 2)
+        s->heap[at] = s->heap[(at - 1) / 2];
+    s->heap[at] = p;
+}
+
+static piece take(search *s) {
+    const piece worst = s->heap[0], last = s->heap[--s->count];
+    int at = 0;
+    for (int next = 1; next < s->count; at = next, next = 2 * at + 1) {
+        if (next + 1 < s->count && s->heap[next + 1].worst > s->heap[next].worst)
+            next++;
+        if (s->heap[next].worst <= last.worst)
+            break;
+        s->heap[at] = s->heap[next];
+    }
+    s->heap[at] = last;
+    return worst;
+}
+
+/* From below 1/2 the octaves of d, above it those of 1 - d, to where depths are what they are at the plane, or to the
+ * last number. */
+static void first_pieces(search *s) {
+    const double turn = s->reversed ? s->base / (s->base + s->slope) * 0x1p-4 : 0x1p-26;
+    float b = 0.5f;
+    for (; b > s->least && (double)b > turn && b > 0x1p-149f; b /= 2)
+        add(s, fmaxf(b / 2, s->least), b);
+    if (b > s->least)
+        add(s, s->least, b);
+    for (float rest = 0.5f; rest >= 0x1p-24f; rest /= 2)
+        if (1 - rest <= s->most)
+            add(s, 1 - rest, fminf(rest > 0x1p-24f ? 1 - rest / 2 : 1 - rest, s->most));
+    if (s->most == 1)
+        add(s, 1, 1);
+}
+
+double bound_over(const bound_steps *steps, const dp_setup *setup) {
+    const double n = setup->spec.znear, f = setup->spec.zfar;
+    const bool infinite = isinf(f), reversed = setup->reversed != 0;
+    search s = {.steps = steps, .reversed = reversed, .least = 0, .most = 1};
+    s.slope = infinite ? 1 / n : (f - n) / n / f;
+    s.base = 1 / f;
+    if (infinite && reversed)
+        s.least = dp_float_up(fmax(n * 0x1p-127, 0x1p-149));
+    else if (infinite)
+        s.most = 1 - 0x1p-24f;
+    steps->constants(setup, s.k);
+    first_pieces(&s);
+    for (int i = 0; i < HALVINGS && s.heap[0].a < s.heap[0].b; i++) {
+        const piece worst = take(&s);
+        const float middle = dp_float_down(((double)worst.a + (double)worst.b) / 2);
+        add(&s, worst.a, middle);
+        add(&s, dp_ranked32(dp_rank32(middle) + 1U), worst.b);
+    }
+    return s.heap[0].worst * (1 + 0x1p-40) + 0x1p-48;
+}
