@@ -14,7 +14,7 @@ case ${1-} in
 esac
 job=${1:-build}
 
-# job | how to see that it is there                   | Debian, Ubuntu        | Fedora             | Arch   ('-': not there)
+# job | how to see that it is there                   | Debian, Ubuntu        | Fedora             | Arch   ('-': not there, '+': done without)
 rows='
 build | command pkg-config                            | pkg-config            | pkgconf-pkg-config | pkgconf
 build | library cairo                                 | libcairo2-dev         | cairo-devel        | cairo
@@ -39,6 +39,7 @@ check | command rsvg-convert                          | librsvg2-bin          | 
 check | command g++                                   | g++                   | gcc-c++            | gcc
 check | command xmllint                               | libxml2-utils         | libxml2            | libxml2
 check | command jq                                    | jq                    | jq                 | jq
+check | command gappa                                 | gappa                 | gappa              | +
 clang | command clang                                 | clang                 | clang              | clang
 clang | header omp.h                                  | libomp-dev            | libomp-devel       | openmp
 lint  | command clang-format                          | clang-format          | clang-tools-extra  | clang
@@ -101,7 +102,7 @@ missing=$(
 )
 [ -n "$missing" ] || exit 0
 
-names() { echo "$missing" | cut -d'|' -f"$1" | sed '/^-$/d' | sort -u | tr '\n' ' ' | sed 's/ $//'; }
+names() { echo "$missing" | cut -d'|' -f"$1" | sed '/^[-+]$/d' | sort -u | tr '\n' ' ' | sed 's/ $//'; }
 unknown() { echo "$missing" | awk -F'|' -v column="$1" '$column == "-" { print $1 }' | sort -u | paste -sd ' ' -; }
 
 [ "$how" != libraries ] || { names 1 && exit; }
@@ -125,6 +126,7 @@ else
     echo "depthprec: no apt-get, dnf or pacman here: missing (Debian's names): $(names 1)" >&2
     exit 1
 fi
+[ -n "$names$unknown" ] || exit 0
 if [ -n "$unknown" ]; then
     echo "depthprec: missing, and of no package known here: $unknown (Debian's names). Install them by hand." >&2
     exit 1

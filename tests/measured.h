@@ -70,6 +70,7 @@ size_t bench_run(const method_family_row *family, size_t which, const dp_setup *
                                         .at_relative = next_number(),
                                         .at_ulp = next_number(),
                                         .claim = count % 4 == 2 ? NAN : next_number(),
+                                        .bound = count % 4 == 1 ? NAN : next_number(),
                                         .front = count % 2 == 0};
         timed[count] = results[count];
         count++;

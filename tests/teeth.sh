@@ -35,6 +35,8 @@ plots.sh                     | depthprec | 1 | 110
 plots.sh                     | depthprec | 0 | 110
 same.sh                      | depthprec | 1 | 1
 same.sh                      | depthprec | 0 | 1
+gappa.sh                     | depthprec | 1 | all
+gappa.sh                     | gappa     | 0 | all
 cli.sh tests/cli/help.txt    | depthprec | 1 | all
 cli.sh tests/cli/help.txt    | depthprec | 0 | all
 cli.sh tests/cli/solve.txt   | jq        | 1 | 1

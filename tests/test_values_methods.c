@@ -29,6 +29,7 @@ static void want_method(values *v, const method_family_row *family, const bench_
     want_number(v, "ulp", r->measured.worst.ulp);
     want_number(v, "ulp_at", r->at_ulp);
     want_number(v, "claim", r->claim);
+    want_number(v, "bound", r->bound);
     want_bool(v, "pareto", r->front);
     want_derived(v, "percent", 100 * r->spread);
     want_derived(v, "preparing", r->setup > 0 ? r->setup : NAN);
@@ -74,19 +75,19 @@ static const char *place_of(const char *text, size_t i, const method_row *choice
 static void check_bench_text(const values *v, const method_family_row *family, const method_row *choice,
                              const char *text, size_t count) {
     static const char *const fields[] = {"ns",       "limits", "percent", "preparing", "relative",
-                                         "absolute", "ulp",    "at",      "claim"};
+                                         "absolute", "ulp",    "at",      "bound",     "claim"};
     static const char *const planes[] = {"near", "far", NULL}, *const limit[] = {"limit_ns", NULL};
-    char label[64], at[9][PATH_SIZE];
+    char label[64], at[10][PATH_SIZE];
     check_text_numbers(v, text, family->cases[asked_which].name, 15, planes);
     check_text_numbers(v, text, "ns: per element, the median; x memory: multiple of the", 3, limit);
     for (size_t i = 0; i < count; i++) {
-        const char *paths[10] = {NULL};
+        const char *paths[11] = {NULL};
         snprintf(label, sizeof label, "%s%s%-19s ", timed[i].front ? "*" : "",
                  timed[i].row == choice ? ">"
                  : timed[i].front       ? " "
                                         : "",
                  timed[i].row->name);
-        for (size_t k = 0; k < 9; k++) {
+        for (size_t k = 0; k < 10; k++) {
             snprintf(at[k], PATH_SIZE, "methods[%zu].%s", i, fields[k]);
             paths[k] = at[k];
         }
@@ -113,7 +114,8 @@ static void check_bench(const char *name, const char *line, size_t which, double
                                          {"claim", "claim"},
                                          {"pareto", "pareto"},
                                          {"chosen", "chosen"},
-                                         {"limit [ns]", "/limit_ns"}};
+                                         {"limit [ns]", "/limit_ns"},
+                                         {"bound", "bound"}};
     static const char *const forms[] = {"--json", "--csv", "--full"};
     for (int form = 0; form < 3; form++) {
         char arguments[256];

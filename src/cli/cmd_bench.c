@@ -62,10 +62,22 @@ static void say_inputs(page *p, void *item) {
               number_full(b->o->zfar).text, b->machine);
 }
 
+/* Families count in steps of a code or in units in the last place, and of some methods bounds are proven. */
+enum { IN_STEPS = 1, IN_ULP = 2, BOUNDED = 4 };
+
+static unsigned shown(const benching *b) {
+    unsigned when = b->asked.family->steps ? IN_STEPS : IN_ULP;
+    for (size_t i = 0; i < b->count; i++)
+        when |= isnan(b->results[i].bound) ? 0 : BOUNDED;
+    return when;
+}
+
 static void say_marks(page *p, void *item) {
     const benching *b = item;
     page_line(p, "ns: per element, the median; x memory: multiple of the %.3g ns that moving the same bytes takes",
               b->limit);
+    if ((shown(b) & BOUNDED) != 0)
+        page_line(p, "bound: of any depth of this camera, proven; claim: of any camera with this far/near");
     page_line(p, "* Pareto front: no other method is both faster and more exact");
     for (size_t i = 0; i < b->count; i++)
         if (b->results[i].row->timed != NULL)
@@ -89,9 +101,6 @@ static void order(benching *b) {
     }
 }
 
-/* Families count in steps of a code or in units in the last place. */
-enum { IN_STEPS = 1, IN_ULP = 2 };
-
 static const column line_columns[] = {
     {FIELD(line, name, "name", ""), .only = AS_JSON},
     {FIELD(line, name, "method", ""), .only = AS_CSV},
@@ -107,7 +116,7 @@ static const column line_columns[] = {
     {FIELD(line, error, "error", "")},
     {FIELD(line, of.measured.worst.relative, "relative", ""), SHOWN("relative", 10, 3)},
     {FIELD(line, of.at_relative, "relative_at", "")},
-    {FIELD(line, of.measured.worst.absolute, "absolute", ""), SHOWN("absolute", 10, 3)},
+    {FIELD(line, of.measured.worst.absolute, "absolute", ""), SHOWN("absolute", 10, 3), .spare = 4},
     {FIELD(line, of.at_absolute, "absolute_at", "")},
     {FIELD(line, of.measured.worst.ulp, "ulp", "")},
     {TEXT_FIELD(line, of.measured.worst.ulp, "steps", 10, 3), .when = IN_STEPS},
@@ -115,11 +124,14 @@ static const column line_columns[] = {
     {TEXT_FIELD(line, of.measured.worst.ulp, "ulp", 10, 3), .when = IN_ULP},
     {TEXT_FIELD(line, of.at_relative, "worst at", 14, 9), .when = IN_ULP, .spare = 3},
     {FIELD(line, of.at_ulp, "ulp_at", "")},
+    {TEXT_FIELD(line, of.bound, "bound", 10, 3), .when = BOUNDED},
     {FIELD(line, of.claim, "claim", ""), SHOWN("claim", 10, 3)},
+    {FIELD(line, of.bound, "bound", ""), .only = AS_JSON},
     {FIELD(line, of.front, "pareto", ""), .only = AS_JSON},
     {FIELD(line, front, "pareto", ""), .only = AS_CSV},
     {FIELD(line, chosen, "chosen", ""), .only = AS_CSV},
     {FIELD(line, of.limit, "limit", "ns"), .only = AS_CSV},
+    {FIELD(line, of.bound, "bound", ""), .only = AS_CSV},
     {.kind = COLUMN_END}};
 
 static const column columns[] = {{FIELD(benching, family, "family", "")},
@@ -156,8 +168,7 @@ int cmd_bench(const options *o) {
     b.fields = setup_fields_of(&b.asked.setup, options_unit(o));
     b.limit = b.results[0].limit;
     order(&b);
-    report_write(&(report_spec){"bench", columns, &b, .when = b.asked.family->steps ? IN_STEPS : IN_ULP,
-                                .head = say_inputs, .notes = say_marks},
-                 &out, o->form);
+    report_write(&(report_spec){"bench", columns, &b, .when = shown(&b), .head = say_inputs, .notes = say_marks}, &out,
+                 o->form);
     return output_close(&out);
 }
