@@ -18,6 +18,7 @@ static const char *const names[METHODS] = {"alpha", "beta",    "gamma", "delta",
                                            "wrong", "crowded", "close", "closest"};
 static const double ns[METHODS] = {2, 300, 40, 5000, NAN, 70, 900, 930, 960};
 static const double errors[METHODS] = {1e-2, 1e-9, 0.3, 0, 1e-5, INFINITY, 1e-6, 1.1e-6, 1.05e-6};
+static const double bounds[METHODS] = {4e-2, NAN, NAN, NAN, 1e-5, 1, NAN, 3.3e-6, NAN};
 static const bool front[METHODS] = {true, true, false, true, false, false, true, false, true};
 static const int group[METHODS] = {0, 0, 0, 0, 0, 0, 1, 1, 1};
 static const double ratios[STEPS] = {10, 100, 1000, 10000};
@@ -52,8 +53,11 @@ static drawn *draw_own(const char *figure, const drawn_theme *look) {
     if (strcmp(figure, "pareto") == 0) {
         bench_result results[METHODS] = {0};
         for (size_t i = 0; i < METHODS; i++)
-            results[i] = (bench_result){
-                .row = &own[i], .ns = ns[i], .measured = {.worst = {.relative = errors[i]}}, .front = front[i]};
+            results[i] = (bench_result){.row = &own[i],
+                                        .ns = ns[i],
+                                        .measured = {.worst = {.relative = errors[i]}},
+                                        .bound = bounds[i],
+                                        .front = front[i]};
         assert_null(pareto_draw(&family, results, METHODS, c));
     } else {
         static stability_result results[METHODS];
@@ -106,14 +110,34 @@ static void check_fronts(const drawn *d, const drawn_panel *p) {
     }
 }
 
+/* A bar from each worst error to its bound, which has a stroke across. */
+static void check_bars(const drawn *d, const drawn_panel *p) {
+    static const size_t barred[] = {0, 7};
+    svg_mark pen = {.stroke = {0, 0x9E / 255.0, 0x73 / 255.0, 1}, .width = 2.0 * d->scale};
+    const svg_mark *lines[4];
+    assert_int_equal(drawn_strokes(d, p, &pen, lines, 4), 1);
+    assert_int_equal(lines[0]->count, 4 * 2);
+    for (size_t i = 0; i < 2; i++) {
+        const svg_point *bar = &lines[0]->points[4 * i];
+        const svg_point from = place_of(p, ns[barred[i]], errors[barred[i]]);
+        const svg_point to = place_of(p, ns[barred[i]], bounds[barred[i]]);
+        assert_px(bar[0].x, from.x, 1.2);
+        assert_px(bar[0].y, from.y, 1.2);
+        for (int k = 1; k < 4; k++)
+            assert_px(bar[k].y, to.y, 1.2);
+        assert_true(bar[1].x == bar[0].x && bar[2].x < to.x - 5 * d->scale && bar[3].x > to.x + 5 * d->scale);
+    }
+}
+
 static void check_pareto_words(const drawn *d) {
-    static const char *const texts[] = {"dominated", "on the Pareto front (without error: at 10\u207b\u00b9\u2077)"};
+    static const char *const texts[] = {"from the worst found to the bound", "dominated",
+                                        "on the Pareto front (without error: at 10\u207b\u00b9\u2077)"};
     assert_string_equal(d->title, "Speed against accuracy");
     assert_string_equal(d->x_caption->text, "time per element (ns)");
     assert_string_equal(d->y_caption->text, "worst error (relative error)");
     assert_null(d->right_caption);
-    drawn_legend_is(d, 2, texts);
-    const drawn_marker *behind = &d->entries[0].marker, *on = &d->entries[1].marker;
+    drawn_legend_is(d, 3, texts);
+    const drawn_marker *behind = &d->entries[1].marker, *on = &d->entries[2].marker;
     assert_true(behind->shape == DRAWN_SQUARE && on->shape == DRAWN_DISC);
     assert_int_equal(on->inside, d->theme->palette[0]); /* filled */
     assert_int_equal(behind->inside, d->theme->background);
@@ -138,7 +162,7 @@ static void pareto_of_the_test(void **state) {
         if (!is_shown(i))
             continue;
         const svg_point at = place_of(p, ns[i], errors[i]);
-        if (!marked(all, count, &d->entries[front[i]].marker, at))
+        if (!marked(all, count, &d->entries[1 + front[i]].marker, at))
             fail_msg("'%s' is not marked as it should be", names[i]);
         char name[64];
         snprintf(name, sizeof name, "%s%s", names[i], group[i] == 1 ? " (pipeline)" : "");
@@ -149,7 +173,8 @@ static void pareto_of_the_test(void **state) {
     }
     assert_int_equal(count, shown);
     check_fronts(d, p);
-    drawn_description_is(d, " Shown: front; front; dominated; on the Pareto front.");
+    check_bars(d, p);
+    drawn_description_is(d, " Shown: front; front; from the worst found to the bound; dominated; on the Pareto front.");
     drawn_close(d);
 }
 

@@ -40,6 +40,7 @@ typedef enum chart_kind {
     CHART_LINE = 0, /**< through the points; a point at y = INFINITY ends it with an arrow to the top */
     CHART_DROPS,    /**< each point joined to both axes: the codes of a small format */
     CHART_LEVELS,   /**< broad lines below all others, each from one point to the next of equal y */
+    CHART_BARS,     /**< from each point to the next of equal x, which has a cross stroke wider than a marker */
     CHART_POINTS,   /**< markers; their labels where given, each where it is free of points, lines and other labels */
     CHART_AREA,     /**< a band as thick as y, standing on the bands before it; its name is written into it */
     CHART_KIND_COUNT

@@ -40,8 +40,8 @@ static double crossed(const ground *g, canvas_rect box) {
     double length = 0;
     for (size_t s = 0; s < g->panel->series_count; s++) {
         const chart_series *line = &g->panel->series[s];
-        const bool levels = line->kind == CHART_LEVELS;
-        for (size_t i = 1; i < line->count && (levels || line->kind == CHART_LINE); i += 1 + levels)
+        const bool pairs = line->kind == CHART_LEVELS || line->kind == CHART_BARS;
+        for (size_t i = 1; i < line->count && (pairs || line->kind == CHART_LINE); i += 1 + pairs)
             length += crossed_by(box, axes_x(g->a, line->x[i - 1]), axes_y(g->a, line->y[i - 1]),
                                  axes_x(g->a, line->x[i]), axes_y(g->a, line->y[i]));
     }

@@ -77,7 +77,8 @@ static bool has_blind(const chart *c) {
 static void list(legend *l, const chart *c, const chart_panel *panel, bool marks) {
     for (size_t k = 0; k < panel->series_count && l->count < LEGEND_MAX; k++) {
         const chart_series *s = &panel->series[k];
-        if (s->unlisted || listed(l, s) || (s->kind == CHART_POINTS || s->kind == CHART_LEVELS) != marks)
+        if (s->unlisted || listed(l, s) ||
+            (s->kind == CHART_POINTS || s->kind == CHART_LEVELS || s->kind == CHART_BARS) != marks)
             continue;
         write_text(c, panel, k, l->text[l->count]);
         l->entries[l->count++] = s;

@@ -36,6 +36,8 @@ static field gather(const method_family_row *family, const bench_result *results
         f.methods[f.count++] = (timed){r, error, is};
         f.time = (chart_extent){fmin(f.time.lo, r->ns), fmax(f.time.hi, r->ns)};
         f.error = (chart_extent){fmin(f.error.lo, fmax(error, exact)), fmax(f.error.hi, error)};
+        if (isfinite(r->bound))
+            f.error.hi = fmax(f.error.hi, r->bound);
     }
     return f;
 }
@@ -72,6 +74,26 @@ static void add_front(const field *f, chart *out, chart_panel *panel, int pipeli
     snprintf(s->name, sizeof s->name, "front");
 }
 
+/* From the worst error found to what is proven, a bar each. */
+static void add_bars(const field *f, chart *out, chart_panel *panel) {
+    size_t count = 0;
+    for (size_t i = 0; i < f->count; i++)
+        count += isfinite(f->methods[i].of->bound);
+    chart_series *s = count > 0 ? chart_add_series(out, panel, CHART_BARS, 2 * count) : NULL;
+    if (s == NULL)
+        return;
+    s->style = (chart_style){2, 0, -1, false};
+    snprintf(s->name, sizeof s->name, "from the worst found to the bound");
+    for (size_t i = 0, k = 0; i < f->count; i++) {
+        const timed *t = &f->methods[i];
+        if (!isfinite(t->of->bound))
+            continue;
+        s->x[k] = s->x[k + 1] = t->of->ns;
+        s->y[k++] = fmax(t->error, exact);
+        s->y[k++] = t->of->bound;
+    }
+}
+
 static void add_points(const field *f, chart *out, chart_panel *panel, int front) {
     chart_series *s = add(f, out, panel, CHART_POINTS, FRONT, front);
     if (s == NULL)
@@ -102,6 +124,7 @@ const char *pareto_draw(const method_family_row *family, const bench_result *res
     panel->y = (chart_axis){.scale = CHART_LOG, .label = "worst error", .key = "error", .unit = family->measure};
     add_front(&f, out, panel, 0);
     add_front(&f, out, panel, PIPELINE);
+    add_bars(&f, out, panel);
     add_points(&f, out, panel, 0);
     add_points(&f, out, panel, FRONT);
     fit(&panel->x, f.time);

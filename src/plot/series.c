@@ -10,6 +10,7 @@
 #define MARKER_SPACING 120.0 /* along x */
 #define LEVEL_WIDTH    6.0
 #define LEVEL_LENGTH   22.0 /* at least */
+#define BAR_END        9.0  /* to either side */
 
 static canvas_pen pen_of(const pencil *p, const chart_series *s) {
     return theme_pen(p->theme, s->style.colour, s->style.stroke, s->style.thin ? 0.5 * p->scale : p->scale);
@@ -129,11 +130,31 @@ static void draw_levels(const pencil *p, const axes *a, const chart_panel *panel
     }
 }
 
+static void draw_bars(const pencil *p, const axes *a, const chart_panel *panel, size_t index) {
+    const chart_series *s = &panel->series[index];
+    const canvas_pen pen = pen_of(p, s);
+    const double half = BAR_END * p->scale;
+    for (size_t i = 0; i + 1 < s->count; i += 2) {
+        const double x = axes_x(a, s->x[i]), y = axes_y(a, s->y[i + 1]);
+        canvas_path_segment(p->c, x, axes_y(a, s->y[i]), x, y);
+        canvas_path_segment(p->c, x - half, y, x + half, y);
+    }
+    canvas_path_end(p->c, &pen);
+}
+
 static void swatch_line(const pencil *p, const chart_series *s, double x, double y, double width) {
     canvas_pen pen = pen_of(p, s);
     canvas_segment(p->c, x, y, x + width, y, &pen);
     if (s->style.marker >= 0)
         draw_marker(p, s, x + width / 2, y, 1);
+}
+
+static void swatch_bars(const pencil *p, const chart_series *s, double x, double y, double width) {
+    const canvas_pen pen = pen_of(p, s);
+    const double middle = x + width / 2, half = BAR_END * p->scale, top = y - 5 * p->scale;
+    canvas_path_segment(p->c, middle, y + 5 * p->scale, middle, top);
+    canvas_path_segment(p->c, middle - half, top, middle + half, top);
+    canvas_path_end(p->c, &pen);
 }
 
 static void swatch_drops(const pencil *p, const chart_series *s, double x, double y, double width) {
@@ -162,7 +183,7 @@ static const struct {
 } kinds[CHART_KIND_COUNT] = {
     [CHART_LINE] = {draw_line, swatch_line},       [CHART_DROPS] = {draw_drops, swatch_drops},
     [CHART_POINTS] = {draw_points, swatch_points}, [CHART_LEVELS] = {draw_levels, swatch_levels},
-    [CHART_AREA] = {area_draw, swatch_area},
+    [CHART_AREA] = {area_draw, swatch_area},       [CHART_BARS] = {draw_bars, swatch_bars},
 };
 
 void series_draw(const pencil *p, const axes *a, const chart_panel *panel, size_t index) {
