@@ -342,6 +342,19 @@ static bool accepted(const uint8_t *texels, uint32_t side, unpacked *out) {
     return good;
 }
 
+/* Enlarged to twice the size, each channel by itself. */
+static void enlarge(const uint8_t *given, uint8_t *larger) {
+    for (int y = 0; y < 2 * SIDE; y++)
+        for (int x = 0; x < 2 * SIDE; x++)
+            for (int k = 0; k < 2; k++) {
+                const int x0 = x / 2, x1 = x0 + x % 2 < SIDE ? x0 + x % 2 : x0;
+                const int y0 = y / 2, y1 = y0 + y % 2 < SIDE ? y0 + y % 2 : y0;
+                const int sum = given[2 * (y0 * SIDE + x0) + k] + given[2 * (y0 * SIDE + x1) + k] +
+                                given[2 * (y1 * SIDE + x0) + k] + given[2 * (y1 * SIDE + x1) + k];
+                larger[2 * (y * 2 * SIDE + x) + k] = (uint8_t)((sum + 2) / 4);
+            }
+}
+
 static void resampled(void **state) {
     (void)state;
     static const double slopes[] = {1e-5, 1e-4, 3e-4, 7e-4, 1e-3};
@@ -349,14 +362,11 @@ static void resampled(void **state) {
     unpacked out;
     for (size_t i = 0; i < sizeof slopes / sizeof slopes[0]; i++) {
         draw(given, SIDE, false, slopes[i]);
+        enlarge(given, larger);
         for (int y = 0; y < 2 * SIDE; y++)
             for (int x = 0; x < 2 * SIDE; x++)
                 for (int k = 0; k < 2; k++) {
-                    const int x0 = x / 2, x1 = x0 + x % 2 < SIDE ? x0 + x % 2 : x0;
-                    const int y0 = y / 2, y1 = y0 + y % 2 < SIDE ? y0 + y % 2 : y0;
-                    const int sum = given[2 * (y0 * SIDE + x0) + k] + given[2 * (y0 * SIDE + x1) + k] +
-                                    given[2 * (y1 * SIDE + x0) + k] + given[2 * (y1 * SIDE + x1) + k];
-                    larger[2 * (y * 2 * SIDE + x) + k] = (uint8_t)((sum + 2) / 4);
+                    const int x0 = x / 2, y0 = y / 2;
                     doubled[2 * (y * 2 * SIDE + x) + k] = given[2 * (y0 * SIDE + x0) + k];
                     if (x % 2 == 0 && y % 2 == 0 && x < 2 * SIDE - 2 && y < 2 * SIDE - 2 && x / 2 % 2 == 0 &&
                         y / 2 % 2 == 0)
@@ -377,6 +387,61 @@ static void resampled(void **state) {
     }
     draw(given, SIDE, true, 0);
     assert_true(accepted(given, SIDE, &out));
+}
+
+/* Thin things before a slope, as near to it as a coarse step or much nearer to the eye: fences whose pales are a pixel
+ * wide, wire meshes, grass. They are what they are; enlarged, what stands apart is refused. */
+static void thin_things(void **state) {
+    static const double slopes[] = {3e-4, 7e-4, 1e-3}, nearer[] = {0.0012, 0.003, 0.05};
+    uint8_t given[SIDE * SIDE * 2], larger[4 * SIDE * SIDE * 2];
+    rng r = rng_make("thin things");
+    unpacked out;
+    (void)state;
+    for (int kind = 0; kind < 5; kind++)
+        for (size_t i = 0; i < 9; i++) {
+            const double by = nearer[i / 3];
+            for (int y = 0; y < SIDE; y++)
+                for (int x = 0; x < SIDE; x++) {
+                    const bool thin = kind == 0   ? x % 2 == 1
+                                      : kind == 1 ? x % 3 == 0
+                                      : kind == 2 ? x % 5 == 0 || y % 4 == 0
+                                      : kind == 3 ? rng_below(&r, 3) == 0
+                                                  : (x + y) % 4 == 0;
+                    const double away = kind == 3 ? rng_unit(&r) * by : by,
+                                 behind = 0.1 + (x + 0.37 * y) * slopes[i % 3];
+                    packing_texel(row_of("rg"), packing_nearest(row_of("rg"), behind - (thin ? away : 0)),
+                                  given + 2 * (y * SIDE + x));
+                }
+            if (!accepted(given, SIDE, &out))
+                fail_msg("kind %d, slope %g, %g nearer: %s", kind, slopes[i % 3], by, out.wrong);
+            enlarge(given, larger);
+            if (kind == 2 && by == 0.05)
+                assert_false(accepted(larger, 2 * SIDE, &out));
+        }
+}
+
+/* A truncated fine channel is full where the coarse one is a step short: that is counted. */
+static void truncated(void **state) {
+    const packing *p = row_of("rg");
+    uint8_t given[SIDE * SIDE * 2];
+    unpacked out;
+    rng r = rng_make("truncated texels");
+    (void)state;
+    for (int i = 0; i < SIDE * SIDE; i++) {
+        const double v = 0.1 + (i % SIDE + 0.37 * (i / SIDE)) * 1e-3, fine = 255 * v - floor(255 * v);
+        const double rounded = rng_below(&r, 2) == 0 ? 1 - 1e-9 : 1 + 1e-9; /* as binary32 leaves it */
+        given[2 * i] = (uint8_t)floor(255 * (v - fine / 255) * rounded);
+        given[2 * i + 1] = (uint8_t)floor(255 * fine);
+    }
+    image img = {.width = SIDE, .height = SIDE, .channels = 2, .type = IMAGE_U8, .data = malloc(sizeof given)};
+    memcpy(img.data, given, sizeof given);
+    assert_true(packing_convert(p, true, &img, &out));
+    assert_true(out.grain.margin >= p->off + p->cut);
+    for (int i = 0; i < SIDE * SIDE; i++) {
+        const double v = 0.1 + (i % SIDE + 0.37 * (i / SIDE)) * 1e-3, got = (double)((const float *)img.data)[i];
+        assert_true(v - got >= -1e-7 && v - got <= out.grain.margin + 1 / p->steps + 1e-7);
+    }
+    image_free(&img);
 }
 
 static void wider_samples(void **state) {
@@ -649,6 +714,8 @@ int main(void) {
         cmocka_unit_test(shaders_of_others),
         cmocka_unit_test(packed_normals),
         cmocka_unit_test(resampled),
+        cmocka_unit_test(thin_things),
+        cmocka_unit_test(truncated),
         cmocka_unit_test(wider_samples),
         cmocka_unit_test(premultiplied),
         cmocka_unit_test(there_and_back),

@@ -170,34 +170,45 @@ static bool coarse_and_fine(const packing *p, uint32_t *coarse, uint32_t *fine) 
 /*
  * Where a surface passes from one coarse code to the next, the fine channel jumps by nearly all of its range. Whoever
  * averages channels apart from each other makes numbers of that jump which no surface has: a quarter of a coarse step
- * or more beside both ends of a row of three or four pixels, whose ends are closer together than that.
+ * or more beside both ends of a row of three or four pixels, whose ends are closer together than that; and each channel
+ * lies between its neighbours. A fence or grass stands as far out where no coarse code steps.
  */
-typedef struct crossings {
-    uint64_t whole, broken;
-} crossings;
+typedef struct row_counts {
+    uint64_t even, out;
+} row_counts;
 
-static void count_crossing(const packing *p, const uint8_t *at, size_t step, size_t length, const uint32_t channel[2],
-                           crossings *seen) {
-    const double unit = p->weight[channel[0]], part = p->weight[channel[1]], quarter = unit / 4;
-    const uint8_t *end = at + (length - 1) * step;
-    const double first = unit * at[channel[0]] + part * at[channel[1]];
-    const double last = unit * end[channel[0]] + part * end[channel[1]];
-    if (abs(end[channel[0]] - at[channel[0]]) != 1 || fabs(last - first) >= quarter)
-        return;
-    bool good = true;
-    for (const uint8_t *within = at + step; within < end; within += step) {
-        const double k = unit * within[channel[0]] + part * within[channel[1]];
-        good = good && k >= fmin(first, last) - quarter && k <= fmax(first, last) + quarter;
-    }
-    seen->whole += good ? 1 : 0;
-    seen->broken += good ? 0 : 1;
+static bool is_between(int k, int one, int other) {
+    return k >= (one < other ? one : other) && k <= (one > other ? one : other);
 }
 
+/* By whether the coarse code steps from end to end. */
+static void count_row(const packing *p, const uint8_t *at, size_t step, size_t length, const uint32_t channel[2],
+                      row_counts seen[2]) {
+    const uint32_t coarse = channel[0], fine = channel[1];
+    const double unit = p->weight[coarse], part = p->weight[fine], quarter = unit / 4;
+    const uint8_t *end = at + (length - 1) * step;
+    const double first = unit * at[coarse] + part * at[fine];
+    const double last = unit * end[coarse] + part * end[fine];
+    const int steps = abs(end[coarse] - at[coarse]);
+    if (steps > 1 || fabs(last - first) >= quarter)
+        return;
+    bool even = true, between = true;
+    for (const uint8_t *within = at + step; within < end; within += step) {
+        const double k = unit * within[coarse] + part * within[fine];
+        even = even && k >= fmin(first, last) - quarter && k <= fmax(first, last) + quarter;
+        between = between && is_between(within[coarse], at[coarse], end[coarse]) &&
+                  is_between(within[fine], at[fine], end[fine]);
+    }
+    seen[steps].even += even ? 1 : 0;
+    seen[steps].out += !even && (steps == 0 || between) ? 1 : 0;
+}
+
+/* Averages stand out where the coarse code steps far more often than surfaces do elsewhere. */
 static bool was_resampled(const packing *p, const uint8_t *bytes, const image *img) {
-    enum { LEAST = 8 };
+    enum { LEAST = 8, OFTEN = 8, MORE = 4 };
     const size_t width = img->width, height = img->height, own = p->channels;
     uint32_t channel[2];
-    crossings seen = {0, 0};
+    row_counts seen[2] = {{0, 0}, {0, 0}};
     if (!coarse_and_fine(p, &channel[0], &channel[1]))
         return false;
     for (size_t y = 0; y < height; y++)
@@ -205,12 +216,15 @@ static bool was_resampled(const packing *p, const uint8_t *bytes, const image *i
             const uint8_t *at = bytes + (y * width + x) * own;
             for (size_t length = 3; length <= 4; length++) {
                 if (x + length <= width)
-                    count_crossing(p, at, own, length, channel, &seen);
+                    count_row(p, at, own, length, channel, seen);
                 if (y + length <= height)
-                    count_crossing(p, at, width * own, length, channel, &seen);
+                    count_row(p, at, width * own, length, channel, seen);
             }
         }
-    return seen.broken >= LEAST && 8 * seen.broken > seen.whole;
+    const row_counts *plain = &seen[0], *crossing = &seen[1];
+    const double rough = (double)plain->out / fmax((double)(plain->even + plain->out), 1.0);
+    const double torn = (double)crossing->out / fmax((double)(crossing->even + crossing->out), 1.0);
+    return crossing->out >= LEAST && OFTEN * crossing->out > crossing->even && torn > MORE * rough;
 }
 
 /* With alpha premultiplied no channel is above it. By chance that is so in a share of less than a half of the pixels.
@@ -268,7 +282,8 @@ bool packing_convert(const packing *p, bool zero, image *img, unpacked *out) {
     uint8_t *bytes = bytes_of(p, img, out);
     if (bytes == NULL)
         return false;
-    bool good = !was_resampled(p, bytes, img) ||
+    const bool may_tear = zero && p->cut > 0; /* truncation does to the fine channel what averages do */
+    bool good = may_tear || !was_resampled(p, bytes, img) ||
                 refuse(out, "was resampled: channels were averaged where the coarse one steps; take the texture as it "
                             "was rendered, or resize it by nearest neighbours");
     out->premultiplied = p->channels == 4 && is_premultiplied(bytes, (size_t)img->width * img->height);

@@ -59,8 +59,9 @@ typedef struct unpacked {
 /**
  * Converts the image, of u1, or of u2, f4 or f8 whose samples are those of 8 bits, which becomes one channel of f4 or
  * f8. Refused are fewer channels, and what was resampled: samples between those of 8 bits, or neighbours where the
- * coarse channel steps by one and the finer one has been averaged over its jump.
- * @param zero  channels were truncated
+ * coarse channel steps by one and the finer one has been averaged over its jump, far more often than surfaces stand out
+ * elsewhere.
+ * @param zero  channels were truncated; what that tears apart is in the margin of the grain, and nothing is refused
  * @return false after the sentence; the image is then as it was
  */
 bool packing_convert(const packing *p, bool zero, image *img, unpacked *out);
