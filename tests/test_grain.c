@@ -10,7 +10,7 @@
 #include "support.h"
 #include "texture/grain.h"
 
-enum { COUNT = 700, GRAINS = 8 };
+enum { COUNT = 700, GRAINS = 9 };
 
 static const grain grains[GRAINS] = {
     {.kind = GRAIN_CODES},
@@ -20,6 +20,7 @@ static const grain grains[GRAINS] = {
     {.kind = GRAIN_FLOATS, .bits = 11, .margin = 0x1p-24, .least = 0x1p-24},
     {.kind = GRAIN_STEPS, .steps = 255, .buffer = true},
     {.kind = GRAIN_STEPS, .steps = 65535, .margin = 0x1p-24, .rounding = GRAIN_NEAREST},
+    {.kind = GRAIN_STEPS, .steps = 65535 / 256.0, .own = 65535, .whole = 255, .margin = 0x1p-24},
     {.kind = GRAIN_STEPS, .steps = 1023, .own = 65535, .margin = 0x1p-24, .bits = 24, .least = 0x1p-149},
 };
 

@@ -89,6 +89,9 @@ static double high_byte(real v, real d, int mode) {
     (void)d, (void)mode;
     return floor((double)(v * 65535 + 0.25L) / 256) * 256;
 }
+static double byte_up(real v, real d, int mode) {
+    return byte_of(v, d, mode) * 256; /* k/255, shifted up */
+}
 static double ten_bits(real v, real d, int mode) {
     (void)d;
     return floor((double)(rounded(v * 1023, mode) * 65535 / 1023 + 0.5L));
@@ -122,6 +125,7 @@ static const file_kind kinds[] = {
     {"8 bits", IMAGE_U8, IMAGE_PNG, NULL, false, byte_of},
     {"16 bits", IMAGE_U16, IMAGE_PNG, NULL, false, word_of},
     {"16 of 24 bits", IMAGE_U16, IMAGE_PNG, "unorm24", false, shifted},
+    {"8 bits times 256", IMAGE_U16, IMAGE_PNG, NULL, false, byte_up},
     {"8 bits twice", IMAGE_U16, IMAGE_PNG, NULL, false, repeated},
     {"8 of 16 bits", IMAGE_U16, IMAGE_PNG, "unorm16", false, high_byte},
     {"10 bits in 16", IMAGE_U16, IMAGE_PNG, NULL, false, ten_bits},

@@ -439,6 +439,7 @@ static void want_samples(values *v, const grain *g, bool coarser) {
     values_under(v, "samples.");
     want_number(v, "step", NAN);
     want_number(v, "steps", g->kind == GRAIN_STEPS ? g->steps : NAN);
+    want_number(v, "steps_or", NAN); /* test_image_truth has what is shifted up */
     want_number(v, "bits", g->kind == GRAIN_FLOATS ? g->bits : NAN);
     want_bool(v, "coarser", coarser);
     want_text(v, "rounded",
@@ -648,12 +649,32 @@ static void test_nothing_but_sky(void **state) {
     printed_free(&p);
 }
 
+/* 8 bits times 256: shares of 65535/256, or of 255. */
+static void test_shifted_up(void **state) {
+    uint16_t samples[64];
+    char path[512];
+    (void)state;
+    for (unsigned i = 0; i < 64; i++)
+        samples[i] = (uint16_t)((7 * i % 256) << 8);
+    snprintf(path, sizeof path, "%s", scratch_file("up.npy"));
+    FILE *file = fopen(path, "wb");
+    assert_non_null(file);
+    image_writer *w = image_writer_open(file, IMAGE_NPY, IMAGE_U16, 8, 8, 1, NULL);
+    assert_non_null(w);
+    image_writer_rows(w, samples, 8);
+    assert_true(image_writer_close(w) && fclose(file) == 0);
+    printed p = print_of("texture %s -n 0.1 -f 100 -F d24 -m d3d --json", path);
+    json_t *root = json_of(p.out), *said = json_object_get(root, "samples");
+    assert_relative(json_number_value(json_object_get(said, "steps")), 65535.0 / 256.0, 1e-15);
+    assert_true(json_number_value(json_object_get(said, "steps_or")) == 255);
+    json_decref(root);
+    printed_free(&p);
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_nothing_but_sky),
-        cmocka_unit_test(test_scenes),
-        cmocka_unit_test(test_images),
-        cmocka_unit_test(check_apart),
+        cmocka_unit_test(test_nothing_but_sky), cmocka_unit_test(test_scenes), cmocka_unit_test(test_images),
+        cmocka_unit_test(test_shifted_up),      cmocka_unit_test(check_apart),
     };
     return run_tap(tests);
 }

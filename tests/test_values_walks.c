@@ -43,6 +43,21 @@ static size_t want_times(values *v, size_t series, const char *name, int front, 
     return series + 1;
 }
 
+/* Of those that are proven: from the worst error found to the bound. */
+static size_t want_bars(values *v, size_t series, size_t count) {
+    size_t n = 0;
+    for (size_t i = 0; i < count; i++) {
+        const bench_result *r = &timed[i];
+        if (isnan(r->bound))
+            continue;
+        want_point(v, 0, series, n++, "time", r->ns, "error", fmax(r->measured.worst.relative, 1e-17));
+        want_point(v, 0, series, n++, "time", r->ns, "error", r->bound);
+    }
+    values_under(v, "panels[0].series[%zu].", series);
+    want_text(v, "name", "from the worst found to the bound");
+    return series + 1;
+}
+
 static int by_time(const void *a, const void *b) {
     const double x = timed[*(const size_t *)a].ns, y = timed[*(const size_t *)b].ns;
     return (x > y) - (x < y);
@@ -68,6 +83,7 @@ static void test_pareto(void **state) {
     want_axis(&v, "x", "time", "time per element", "ns", "log");
     want_axis(&v, "y", "error", "worst error", family->measure, "log");
     size_t series = want_times(&v, 0, "front", -1, order, fronts);
+    series = want_bars(&v, series, count);
     series = want_times(&v, series, "dominated", 0, NULL, count);
     want_times(&v, series, "on the Pareto front", 1, NULL, count);
     check_json_text(&v, text);

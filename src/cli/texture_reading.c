@@ -45,6 +45,11 @@ static double found_steps(const texture_source *s) {
     return codes && coarser && looks_like->kind == DP_FORMAT_UNORM ? looks_like->code_max : 0;
 }
 
+/* Of bits that were shifted up, which make steps that are not whole; 0 of others. */
+static double whole_steps(double steps) {
+    return steps == floor(steps) ? 0 : floor(steps);
+}
+
 /* Integers of the file, or what all samples are multiples of besides; the format behind that may be only assumed. */
 static grain steps_grain(const texture_source *s, double found, double own) {
     const dp_format *format = &s->setup.spec.format;
@@ -55,6 +60,7 @@ static grain steps_grain(const texture_source *s, double found, double own) {
     return (grain){.kind = GRAIN_STEPS,
                    .steps = steps,
                    .own = steps != own ? own : 0,
+                   .whole = whole_steps(steps),
                    .buffer = buffer,
                    .margin = buffer   ? 0
                              : coarse ? FINER + 0.5 / 65535

@@ -51,10 +51,13 @@ static const column parameter_columns[] = {{FIELD(statistics, parameter, "name",
                                            {FIELD(statistics, parameter_value, "value", "")},
                                            {.kind = COLUMN_END}};
 
-static const column sample_columns[] = {
-    {FIELD(statistics, named.step, "step", "scene")},  {FIELD(statistics, named.steps, "steps", "")},
-    {FIELD(statistics, named.bits, "bits", "")},       {FIELD(statistics, named.coarser, "coarser", "")},
-    {FIELD(statistics, named.rounded, "rounded", "")}, {.kind = COLUMN_END}};
+static const column sample_columns[] = {{FIELD(statistics, named.step, "step", "scene")},
+                                        {FIELD(statistics, named.steps, "steps", "")},
+                                        {FIELD(statistics, named.steps_or, "steps_or", "")},
+                                        {FIELD(statistics, named.bits, "bits", "")},
+                                        {FIELD(statistics, named.coarser, "coarser", "")},
+                                        {FIELD(statistics, named.rounded, "rounded", "")},
+                                        {.kind = COLUMN_END}};
 
 static const column recognised_columns[] = {{FIELD(statistics, named.format, "format", "")},
                                             {FIELD(statistics, source.found.certain, "certain", "")},
@@ -187,6 +190,7 @@ static void name_all(statistics *r) {
     r->named.metric = is_metric ? r->o->metric : none;
     r->named.step = is_metric && s->metric.step > 0 ? s->metric.step : none;
     r->named.steps = !is_metric && has_steps ? g->steps : none;
+    r->named.steps_or = !is_metric && has_steps && g->whole > 0 ? g->whole : none;
     r->named.bits = g->kind == GRAIN_FLOATS ? g->bits : none;
     r->named.fov = s->camera.ortho ? none : s->matrix.path != NULL ? s->matrix.fov[1] : s->fov_y;
     r->named.half_height = s->camera.ortho ? s->camera.half[1] : none;

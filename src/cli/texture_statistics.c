@@ -26,9 +26,12 @@ static void say_grain(const statistics *r, page *p) {
     const char *by = g->rounding == GRAIN_ANY       ? "rounded or truncated"
                      : g->rounding == GRAIN_NEAREST ? "rounded to nearest"
                                                     : "truncated";
+    char other[64] = "";
+    if (g->whole > 0)
+        snprintf(other, sizeof other, ", or of 1/%s shifted up", number_of(g->whole, 9).text);
     if (g->kind == GRAIN_STEPS)
-        page_note(p, "samples", "steps of 1/%s%s, %s: counted in what depths can be off by",
-                  number_of(g->steps, 9).text,
+        page_note(p, "samples", "steps of 1/%s%s%s, %s: counted in what depths can be off by",
+                  number_of(g->steps, 9).text, other,
                   r->named.coarser                        ? ", coarser than the format"
                   : r->source.format_from == ORIGIN_GIVEN ? ""
                                                           : ", of a buffer that may be finer",

@@ -36,7 +36,7 @@ typedef struct statistics {
     setup_fields setup;
     struct {
         const char *scene, *truth, *packing, *type, *rounded, *format, *format_from, *mapping_from, *direction_from;
-        double metric, step, steps, bits, fov, half_height;
+        double metric, step, steps, steps_or, bits, fov, half_height;
         bool coarser;
         const bool *reversed;
         const survey_pairs *pairs;

@@ -38,10 +38,16 @@ static span steps_span_of(const grain *g, double steps, double v) {
 
 static span steps_span(const grain *g, double v) {
     const span s = steps_span_of(g, g->steps, v);
-    if (g->own == 0)
+    span all = {s.lo / s.den, s.hi / s.den, 1};
+    if (g->own == 0 && g->whole == 0)
         return s;
-    const span own = steps_span_of(g, g->own, v);
-    return (span){fmin(s.lo / s.den, own.lo / own.den), fmax(s.hi / s.den, own.hi / own.den), 1};
+    if (g->own > 0) {
+        const span own = steps_span_of(g, g->own, v);
+        all = (span){fmin(all.lo, own.lo / own.den), fmax(all.hi, own.hi / own.den), 1};
+    }
+    if (g->whole > 0)
+        all = (span){fmin(all.lo, s.lo / g->whole), fmax(all.hi, s.hi / g->whole), 1};
+    return all;
 }
 
 static span floats_span(const grain *g, double v) {

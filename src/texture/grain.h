@@ -8,6 +8,8 @@
  *
  *     min(k - 1/2, k M/(M + 1))/M <= v < (k + 1)/M        sample k of steps of 1/M
  *
+ * Bits that were shifted up may have been k/2^N or k/(2^N - 1): then v lies within either.
+ *
  * Ranges end where window depth does, at 0 and 1, and not at the camera's near plane: that of a linear or logarithmic
  * mapping is no more than what somebody said about the image.
  */
@@ -33,8 +35,9 @@ typedef struct grain {
     grain_kind kind;
     grain_rounding rounding;
     double steps; /**< GRAIN_STEPS: M, at least 1; need not be whole where bits were shifted out */
-    double own;  /**< GRAIN_STEPS: what they are multiples of in any case, where steps may be chance; 0: nothing more */
-    bool buffer; /**< behind the image lies a buffer of the set-up's format; else the depth itself, or */
+    double own; /**< GRAIN_STEPS: what they are multiples of in any case, where steps may be chance; 0: nothing more */
+    double whole;  /**< GRAIN_STEPS: k may as well be k/whole: 2^N - 1 where N bits were shifted up; 0: not so */
+    bool buffer;   /**< behind the image lies a buffer of the set-up's format; else the depth itself, or */
     double margin; /**< ... a finer buffer, whose cells reach so far beyond its numbers, window depth */
     int bits; /**< GRAIN_FLOATS: significant bits, 11, 24 or 53; GRAIN_STEPS: 0, or those that steps were rounded to */
     double least; /**< the least subnormal */
