@@ -70,9 +70,7 @@ typedef struct dp_separation_worst {
  *
  * Bound: `bound` is never below the truth; `exact`: at most 1e-12 relative above it, else as above unless 2^16
  * evaluations are not enough. In `fp32` it is a guarantee of its own, found with the error analysis of dp_budget_at()
- * over parts of the range. dp_separation() at a single depth is another one and may be above it: by 4 % and one step of
- * binary32, and where d is within 2^-20 of a power of two, relatively, by less than the bound itself; not where slanted
- * triangles decide.
+ * over parts of the range, and never below that of a depth in it.
  */
 DP_API dp_status dp_separation_over(const dp_setup *setup, double lo, double hi, double limit,
                                     dp_separation_worst *out);

@@ -279,6 +279,23 @@ dp_guarantee dp_guarantee_make(const dp_setup *setup) {
     return dp_is_computed(setup) ? guarantee_of(setup, dp_log2_get(0)) : (dp_guarantee){.setup = setup};
 }
 
+/* Normal numbers of one sign, or 0 both of them. */
+static int are_alike(float x, float y) {
+    return (x == 0.0F && y == 0.0F) || ((x < 0.0F) == (y < 0.0F) && fabsf(x) >= 0x1p-126F && fabsf(y) >= 0x1p-126F);
+}
+
+int dp_guarantee_between(const dp_setup *one, const dp_setup *other, dp_guarantee *out) {
+    dp_pipeline pipeline;
+    const int infinite = isinf(one->spec.zfar) || isinf(other->spec.zfar);
+    if (dp_pipeline_init(&pipeline, one) != DP_OK || !are_alike(one->matrix[1], other->matrix[1]) ||
+        one->matrix[1] == 0.0F || !(infinite || are_alike(one->matrix[0], other->matrix[0])))
+        return 0;
+    *out = (dp_guarantee){.setup = one, .computed = 1, .chain = dp_chain_between(one, other, &pipeline)};
+    if (one->spec.triangles.width > 0)
+        out->slant = dp_slant_make(&one->spec.triangles);
+    return 1;
+}
+
 /* `out` is what it is at infinity where there is no binary32 depth. */
 static void budget_of(const dp_guarantee *g, double z, const dp_budget_terms *terms, dp_budget *out) {
     *out = (dp_budget){.separation = HUGE_VAL, .window = 1.0};

@@ -11,6 +11,11 @@ static double clip_of(const dp_chain *c, double z) {
     return c->a * z + c->b;
 }
 
+/* By how much more or less that may be in a run of cameras. */
+static double clip_more(const dp_chain *c, double z) {
+    return c->a_more * fabs(z) + c->b_more;
+}
+
 /* The clip w of a depth. */
 static double w_of(const dp_chain *c, double z) {
     return c->pipeline.ortho ? 1.0 : z;
@@ -19,6 +24,10 @@ static double w_of(const dp_chain *c, double z) {
 double dp_chain_window(const dp_chain *c, double z) {
     const double ndc = clip_of(c, z) / w_of(c, z);
     return c->pipeline.ndc_signed ? 0.5 * ndc + 0.5 : ndc;
+}
+
+double dp_chain_window_more(const dp_chain *c, double z) {
+    return c->half * clip_more(c, z) / w_of(c, z);
 }
 
 /* What is divided by w: the clip depth, or what the shader's remap makes of it. A sum of the same shape, a z + b. */
@@ -43,6 +52,10 @@ static double excess_above(const dp_chain *c, double z) {
     return past > 0.0 ? c->half * past / w * (1.0 + 0x1p-50) : 0.0;
 }
 
+static double reach_of(double zfar) {
+    return isinf(zfar) ? (double)FLT_MAX : (double)(float)zfar;
+}
+
 dp_chain dp_chain_make(const dp_setup *setup, const dp_pipeline *p) {
     dp_chain c = {.pipeline = *p, .a = (double)p->a, .b = (double)p->b};
     c.a_granule = dp_granule(p->a);
@@ -55,9 +68,53 @@ dp_chain dp_chain_make(const dp_setup *setup, const dp_pipeline *p) {
     c.a_exact = c.a == 0.0 || c.a_granule == fabs(c.a);
     c.fused = p->arith->fused && !c.a_exact;
     c.reach.lo = (double)(float)setup->spec.znear;
-    c.reach.hi = isinf(setup->spec.zfar) ? (double)FLT_MAX : (double)(float)setup->spec.zfar;
+    c.reach.hi = reach_of(setup->spec.zfar);
     c.below = larger(excess_below(&c, c.reach.lo), excess_below(&c, c.reach.hi));
     c.above = larger(excess_above(&c, c.reach.lo), excess_above(&c, c.reach.hi));
+    return c;
+}
+
+/*
+ * A and B as they are rounded: each rises or falls evenly with each plane, so it lies between those of the two, or one
+ * step beside them where the entries are rounded in double before.
+ */
+static void span_of(float x, float y, double *least, double *more) {
+    const float lo = x < y ? x : y;
+    const float hi = x < y ? y : x;
+    const double below = (double)nextafterf(lo, -HUGE_VALF);
+    const double above = (double)nextafterf(hi, HUGE_VALF);
+    const double nearer = below > 0.0 ? below : smaller(above, 0.0); /* to 0 */
+    *least = nearer;
+    *more = fabs(below > 0.0 ? above : below) - fabs(nearer);
+}
+
+/* A plane is where g is 0 or 1 but for the roundings of A, B and the plane itself. */
+static double excess_at(const dp_chain *c, double z) {
+    const double a = (fabs(c->a) + c->a_more) * fabs(z);
+    const double b = fabs(c->b) + c->b_more;
+    return c->half * (a + b + (c->pipeline.ortho ? a : b)) / w_of(c, z) * DP_UNIT * (1.0 + 0x1p-20);
+}
+
+dp_chain dp_chain_between(const dp_setup *one, const dp_setup *other, const dp_pipeline *p) {
+    dp_chain c = dp_chain_make(one, p);
+    c.run = 1;
+    span_of(one->matrix[1], other->matrix[1], &c.b, &c.b_more);
+    const int finite = !isinf(one->spec.zfar) || !isinf(other->spec.zfar);
+    if (finite) {
+        span_of(one->matrix[0], other->matrix[0], &c.a, &c.a_more);
+        c.a_exact = 0;
+    }
+    c.fused = p->arith->fused && !c.a_exact;
+    c.a_granule = c.a_exact ? c.a_granule : 2.0 * dp_half_ulp(fabs(c.a));
+    c.b_granule = 2.0 * dp_half_ulp(fabs(c.b));
+    const double hi = reach_of(other->spec.zfar);
+    const double nearest_far = smaller(c.reach.hi, hi);
+    c.reach.lo = smaller(c.reach.lo, (double)(float)other->spec.znear);
+    c.reach.hi = larger(c.reach.hi, hi);
+    const double at_near = excess_at(&c, c.reach.lo);
+    const double at_far = finite ? excess_at(&c, nearest_far) : 0x1p-51; /* no depth comes as far as infinity */
+    c.below = p->reversed ? at_far : at_near;
+    c.above = p->reversed ? at_near : at_far;
     return c;
 }
 
@@ -71,6 +128,10 @@ static const double lowered = 1.0 - 0x1p-50;
 typedef struct magnitude {
     double most, least;
 } magnitude;
+
+static int has_product(const dp_chain *c) {
+    return c->a != 0.0 || c->a_more != 0.0;
+}
 
 static magnitude magnitude_of(double v1, double v2, double error) {
     const double small = smaller(fabs(v1), fabs(v2)) * lowered - error;
@@ -96,7 +157,7 @@ static dp_step scaled(dp_step s, double factor) {
 /* fl(A z), in clip depth. Orthographic depths may be so small that it is subnormal, whatever A is. */
 static dp_step product_of(const dp_chain *c, dp_span r) {
     const magnitude z = size_of(r);
-    const magnitude product = {fabs(c->a) * z.most, fabs(c->a) * z.least};
+    const magnitude product = {(fabs(c->a) + c->a_more) * z.most, fabs(c->a) * z.least};
     const int subnormal = c->pipeline.ortho && product.least < 0x1p-126;
     if (c->fused || (c->a_exact && !subnormal))
         return (dp_step){0.0, 0.0};
@@ -106,10 +167,29 @@ static dp_step product_of(const dp_chain *c, dp_span r) {
     return s;
 }
 
+/* By how much more or less the clip depths of a span may be. */
+static double clip_more_over(const dp_chain *c, dp_span r) {
+    return c->run ? clip_more(c, size_of(r).most) : 0.0;
+}
+
+/* Before the sum is rounded; `error` is that of the products. */
+static magnitude clip_over(const dp_chain *c, dp_span r, double error) {
+    return magnitude_of(clip_of(c, r.lo), clip_of(c, r.hi), error + clip_more_over(c, r));
+}
+
 /* What all computed products of a span, and with B all sums, are multiples of. */
 static double product_granule(const dp_chain *c, dp_span r) {
     const double least = size_of(r).least;
     return c->a_exact ? c->a_granule * 2.0 * dp_half_ulp(least) : 2.0 * dp_half_ulp(fabs(c->a) * least);
+}
+
+/* The same for the other end of a run's B: whether all of them are rounded to one multiple. */
+static int last_kept(const dp_chain *c, double ulp, double *lo, double *hi) {
+    const double b = c->b + (c->b < 0.0 ? -c->b_more : c->b_more);
+    const double kept = rint(b / ulp) * ulp - b;
+    *lo = smaller(*lo, c->pipeline.reversed ? kept : -kept);
+    *hi = larger(*hi, c->pipeline.reversed ? kept : -kept);
+    return fabs(kept) != 0.5 * ulp && rint(b / ulp) == rint(c->b / ulp);
 }
 
 /*
@@ -119,7 +199,7 @@ static double product_granule(const dp_chain *c, dp_span r) {
  */
 static dp_step add_b(const dp_chain *c, dp_span r, magnitude m, double *lo, double *hi) {
     *lo = *hi = 0.0;
-    if (c->a == 0.0 || (c->b == 0.0 && !c->fused))
+    if (!has_product(c) || (c->b == 0.0 && !c->fused))
         return (dp_step){0.0, 0.0};
     if (c->fused) {
         *hi = dp_result_error(m.least, m.most);
@@ -138,6 +218,8 @@ static dp_step add_b(const dp_chain *c, dp_span r, magnitude m, double *lo, doub
         alike = fabs(kept) != 0.5 * ulp[i];
         *lo = smaller(*lo, c->pipeline.reversed ? kept : -kept);
         *hi = larger(*hi, c->pipeline.reversed ? kept : -kept);
+        if (c->run)
+            alike = alike && last_kept(c, ulp[i], lo, hi);
     }
     if (!alike) {
         *hi = dp_half_ulp(m.most);
@@ -150,7 +232,7 @@ static dp_step add_b(const dp_chain *c, dp_span r, magnitude m, double *lo, doub
 /* What all computed clip depths of a span are multiples of; 0 when unknown. */
 static double clip_granule(const dp_chain *c, dp_span r, magnitude clip) {
     const double common = smaller(product_granule(c, r), c->b_granule);
-    const double exact = c->a == 0.0 ? c->b_granule : clip.most < 0x1p24 * common && !c->fused ? common : 0.0;
+    const double exact = !has_product(c) ? c->b_granule : clip.most < 0x1p24 * common && !c->fused ? common : 0.0;
     const double least = clip.least - dp_half_ulp(clip.most);
     return larger(exact, least > 0.0 ? 2.0 * dp_half_ulp(least) : 0.0);
 }
@@ -162,9 +244,14 @@ static double w_granule(const dp_chain *c, dp_span r) {
 /* The shader's clip + w: exact where both are multiples of a granule and the sum has fewer than 25 bits above it. */
 static dp_step add_w(const dp_chain *c, dp_span r, magnitude clip, double error) {
     const magnitude m = magnitude_of(clip_of(c, r.lo) + w_of(c, r.lo), clip_of(c, r.hi) + w_of(c, r.hi),
-                                     error + dp_half_ulp(clip.most));
+                                     error + clip_more_over(c, r) + dp_half_ulp(clip.most));
     const double granule = smaller(clip_granule(c, r, clip), w_granule(c, r));
     return m.most < 0x1p24 * granule ? (dp_step){0.0, 0.0} : step_of(m);
+}
+
+/* By how much more or less the quotients of a span may be in a run of cameras. */
+static double ndc_more(const dp_chain *c, dp_span r) {
+    return clip_more_over(c, r) / w_of(c, r.lo);
 }
 
 /* ---- All operations ---------------------------------------------------------------------------------------------- */
@@ -197,19 +284,20 @@ static void divide(const dp_chain *c, dp_span r, double q1, double q2, double er
 dp_steps dp_chain_steps(const dp_chain *c, dp_span r) {
     const double w = w_of(c, r.lo);
     dp_steps s = {.product = product_of(c, r)};
-    const magnitude clip = magnitude_of(clip_of(c, r.lo), clip_of(c, r.hi), s.product.error);
+    const magnitude clip = clip_over(c, r, s.product.error);
     s.sum = add_b(c, r, clip, &s.kept_lo, &s.kept_hi);
     double error = s.product.error + larger(s.kept_hi, -s.kept_lo);
     if (c->remap)
         s.remap = add_w(c, r, clip, s.product.error);
     error += s.remap.error;
     const double off = c->per_clip * error / w; /* of NDC */
+    const double unknown = off + (c->run ? c->per_clip * ndc_more(c, r) : 0.0);
     const double q1 = dividend(c, r.lo) / w;
     const double q2 = dividend(c, r.hi) / w_of(c, r.hi);
     if (!c->pipeline.ortho)
-        divide(c, r, q1, q2, off, &s);
+        divide(c, r, q1, q2, unknown, &s);
     if (c->two_stage)
-        s.viewport = viewport_of(q1, q2, off + s.inverse.error + s.quotient.error);
+        s.viewport = viewport_of(q1, q2, unknown + s.inverse.error + s.quotient.error);
     const double per = c->per_ndc * c->per_clip / w;
     s.product = scaled(s.product, per);
     s.sum = scaled(s.sum, per);
@@ -226,18 +314,20 @@ dp_steps dp_chain_steps_beyond(const dp_chain *c, double z) {
     const double w1 = w_of(c, z);
     const double w2 = w_of(c, zfar);
     const double up = 1.0 + 0x1p-20;
-    const double g = up * larger(fabs(clip_of(c, z)) / w1, fabs(clip_of(c, zfar)) / w2);
-    const double q = up * larger(fabs(dividend(c, z)) / w1, fabs(dividend(c, zfar)) / w2);
+    const double more = c->run ? larger(clip_more(c, z) / w1, clip_more(c, zfar) / w2) : 0.0;
+    const double g = up * (larger(fabs(clip_of(c, z)) / w1, fabs(clip_of(c, zfar)) / w2) + more);
+    const double q = up * (larger(fabs(dividend(c, z)) / w1, fabs(dividend(c, zfar)) / w2) + more);
     const int rounded = !c->a_exact && !c->fused;
     const double flushed = c->pipeline.ortho && c->reach.lo <= 0.0 ? 0x1p-126 : 0.0;
-    double clip = rounded ? DP_UNIT * fabs(c->a) * (c->pipeline.ortho ? larger(fabs(z), fabs(zfar)) : 1.0) : 0.0;
+    double clip =
+        rounded ? DP_UNIT * (fabs(c->a) + c->a_more) * (c->pipeline.ortho ? larger(fabs(z), fabs(zfar)) : 1.0) : 0.0;
     clip = larger(clip, flushed);
-    clip += c->a == 0.0 ? 0.0 : larger(DP_UNIT * (g + clip), flushed);
+    clip += has_product(c) ? larger(DP_UNIT * (g + clip), flushed) : 0.0;
     if (c->remap)
         clip = 0.5 * clip + DP_UNIT * (q + clip);
     double ndc = 0.0;
     if (!c->pipeline.ortho) {
-        const double subnormal = zfar > 0x1p126 ? fabs(dividend(c, zfar)) * 0x1p-150 : 0.0;
+        const double subnormal = zfar > 0x1p126 ? (fabs(dividend(c, zfar)) + more * w2) * 0x1p-150 : 0.0;
         const double inverse = c->pipeline.arith->reciprocal ? DP_UNIT * (q + clip) + subnormal : 0.0;
         ndc = inverse + dp_half_ulp(smaller(q + clip + inverse, 1.0 - DP_UNIT_BELOW_ONE));
     }
@@ -258,7 +348,7 @@ static double product_lag(const dp_chain *c, double hi) {
     if (c->a_exact || c->fused)
         return 0.0;
     const double u = 2.0 * dp_half_ulp(hi);
-    const double ulp = 2.0 * dp_half_ulp(fabs(c->a) * hi);
+    const double ulp = 2.0 * dp_half_ulp((fabs(c->a) + c->a_more) * hi);
     return ulp <= fabs(c->a) * u ? 0.0 : ulp - u;
 }
 
@@ -266,7 +356,7 @@ static double product_lag(const dp_chain *c, double hi) {
 static double sum_lag(const dp_chain *c, dp_span r, magnitude clip, double kept) {
     const double most = dp_half_ulp(clip.most);
     const double least = dp_half_ulp(clip.least);
-    if (!c->fused || clip.least <= 0.0 || most > 2.0 * least)
+    if (!c->fused || c->run || clip.least <= 0.0 || most > 2.0 * least)
         return kept;
     return most == least && most <= dp_half_ulp(r.lo) ? 0.0 : most + least;
 }
@@ -281,12 +371,12 @@ static double on_lattice(double least, double granule) {
 dp_numerator dp_chain_numerator(const dp_chain *c, dp_span r) {
     const int plain = c->pipeline.reversed && !c->pipeline.ndc_signed; /* t is the clip depth itself: A <= 0 */
     const dp_step product = product_of(c, r);
-    const magnitude clip = magnitude_of(clip_of(c, r.lo), clip_of(c, r.hi), product.error);
+    const magnitude clip = clip_over(c, r, product.error);
     double lo, hi;
     add_b(c, r, clip, &lo, &hi);
     const double end = clip_of(c, r.hi);
     const double t = plain ? end : c->pipeline.reversed ? r.hi + end : r.hi - end;
-    const double error = product.error + larger(hi, -lo) + (fabs(end) + r.hi) * 0x1p-52;
+    const double error = product.error + larger(hi, -lo) + (fabs(end) + r.hi) * 0x1p-52 + clip_more_over(c, r);
     const double granule = clip_granule(c, r, clip);
     if (plain)
         return (dp_numerator){.least = on_lattice(t - error, granule), .rise = 0.0};

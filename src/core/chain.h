@@ -15,11 +15,16 @@ typedef struct dp_span {
     double lo, hi;
 } dp_span;
 
-/* The pipeline's real function g(z), with the rounded A and B that both surfaces share. */
+/*
+ * The pipeline's real function g(z), with the rounded A and B that both surfaces share. Or of a run of cameras: then a
+ * and b are the least that A and B are in any of them, whatever their bits, and all that follows holds in each.
+ */
 typedef struct dp_chain {
     dp_pipeline pipeline;
     double a, b;
-    double a_granule; /* A is a multiple of it, and B of its own; infinity where they are 0 */
+    double a_more, b_more; /* of a run of cameras: how much larger the magnitudes may be; else 0 */
+    int run;               /* of cameras: the bits of A and B are unknown */
+    double a_granule;      /* A is a multiple of it, and B of its own; infinity where they are 0 */
     double b_granule;
     double half;         /* window depth per NDC depth, 1/2 where NDC is signed */
     double per_clip;     /* what the shader's remap leaves of the clip depth, 1/2 or 1 */
@@ -34,8 +39,15 @@ typedef struct dp_chain {
 
 dp_chain dp_chain_make(const dp_setup *setup, const dp_pipeline *pipeline);
 
-/* g(z), not clamped */
+/*
+ * Of all cameras whose planes lie between those of two set-ups that are alike but for near or far. Every demand made of
+ * it is at least that made of each camera's own, in one of which A or B may not be 0 unless it is in all.
+ */
+dp_chain dp_chain_between(const dp_setup *one, const dp_setup *other, const dp_pipeline *pipeline);
+
+/* g(z), not clamped; and by how much more that may be in a run of cameras. */
 double dp_chain_window(const dp_chain *c, double z);
+double dp_chain_window_more(const dp_chain *c, double z);
 
 /*
  * One operation: the most that it changes a result by, and the lattice on which all its results lie. An exact operation

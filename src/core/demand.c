@@ -51,7 +51,8 @@ double dp_format_loss(const dp_pipeline *p, double low, double high) {
         return 1.0 / levels;
     /* The product is rounded to binary32, then to a whole number, which changes nothing where it is one. */
     const double ulp = 2.0 * dp_half_ulp(top * levels);
-    return (ulp < 1.0 ? 1.0 + ulp : ulp) / levels;
+    const int whole = 2.0 * dp_half_ulp(bottom * levels) >= 1.0; /* every product is */
+    return (whole ? ulp : larger(1.0 + smaller(ulp, 0.5), ulp)) / levels;
 }
 
 /* ---- A pair ------------------------------------------------------------------------------------------------------ */
@@ -68,12 +69,16 @@ static void keep_larger(dp_demand *d, double window, double slope) {
  * Where the window depth of one of the two leaves [0, 1] it is clamped, and its own errors count no more: the other
  * one's do, all of them, and how far g itself goes beyond.
  */
-static void clamp_either(const dp_chain *c, dp_demand *d, double full1, double full2, double g1, double g2) {
+static void clamp_either(const dp_chain *c, dp_demand *d, double full1, double full2, dp_span at) {
+    const double g1 = dp_chain_window(c, at.lo);
+    const double g2 = dp_chain_window(c, at.hi);
+    const double off1 = full1 + dp_chain_window_more(c, at.lo);
+    const double off2 = full2 + dp_chain_window_more(c, at.hi);
     const double slope = fabs(c->pipeline.ortho ? c->a : c->b);
     const int reversed = c->pipeline.reversed;
-    if (reversed ? g2 - full2 <= 0.0 : g2 + full2 >= 1.0)
+    if (reversed ? g2 - off2 <= 0.0 : g2 + off2 >= 1.0)
         keep_larger(d, (reversed ? c->below : c->above) + full1 + d->rest, slope);
-    if (reversed ? g1 + full1 >= 1.0 : g1 - full1 <= 0.0)
+    if (reversed ? g1 + off1 >= 1.0 : g1 - off1 <= 0.0)
         keep_larger(d, (reversed ? c->above : c->below) + full2 + d->rest, slope);
 }
 
@@ -93,7 +98,8 @@ static dp_demand demand_free(const dp_chain *c, const dp_steps *s1, const dp_ste
     if (c->pipeline.ortho) {
         const int alike = s1->sum.error == 0.0 && s2->sum.error == 0.0;
         const double clip = before_rounding(s1->remap, s2->remap, need);
-        const double sum = alike ? clip + loss : before_rounding(s1->sum, s2->sum, clip);
+        const double sum = alike || c->run ? clip + larger(loss, s1->sum.error + s2->sum.error)
+                                           : before_rounding(s1->sum, s2->sum, clip);
         const double window = before_rounding(s1->product, s2->product, sum);
         return (dp_demand){.projection = window - need, .window = window, .slope = fabs(c->a)};
     }
@@ -114,7 +120,7 @@ static dp_demand demand_falling(const dp_chain *c, dp_span range, const dp_steps
     if (!(t.least > 0.0) || isinf(t.rise))
         return (dp_demand){.window = 1.0, .slope = 0.0};
     const int multiplied = c->pipeline.reversed && !c->two_stage;
-    const double factor = multiplied ? c->half * t.least : 0.0;
+    const double factor = multiplied && !c->run ? c->half * t.least : 0.0;
     const double projection = c->half * t.rise / range.lo * (1.0 + DP_UNIT);
     const double window =
         before_rounding((dp_step){s1->inverse.error, factor * s1->inverse.grid},
@@ -122,13 +128,18 @@ static dp_demand demand_falling(const dp_chain *c, dp_span range, const dp_steps
     return (dp_demand){.projection = projection, .window = window, .slope = t.least};
 }
 
+/* What the format loses of depths of a span, whose window depths are off by so much. */
+static double format_of(const dp_chain *c, dp_span r, double error) {
+    const double g1 = dp_chain_window(c, r.lo);
+    const double g2 = dp_chain_window(c, r.hi);
+    error += larger(dp_chain_window_more(c, r.lo), dp_chain_window_more(c, r.hi));
+    return dp_format_loss(&c->pipeline, smaller(g1, g2) - error, larger(g1, g2) + error);
+}
+
 /* The demand of a depth of `first` and one of `second`, not nearer. */
 static dp_demand demand_of(const dp_chain *c, const dp_steps *s1, dp_span first, dp_span second, double extra) {
     const dp_steps s2 = dp_chain_steps(c, second);
-    const double g1 = dp_chain_window(c, first.lo);
-    const double g2 = dp_chain_window(c, second.hi);
-    const double error = larger(s1->full, s2.full);
-    const double format = dp_format_loss(&c->pipeline, smaller(g1, g2) - error, larger(g1, g2) + error);
+    const double format = format_of(c, (dp_span){first.lo, second.hi}, larger(s1->full, s2.full));
     const double rest = format + extra;
     const double window = before_rounding(s1->viewport, s2.viewport, rest);
     const double quotient = before_rounding(s1->quotient, s2.quotient, window);
@@ -142,24 +153,21 @@ static dp_demand demand_of(const dp_chain *c, const dp_steps *s1, dp_span first,
     }
     d.format = format;
     d.rest = rest;
-    clamp_either(c, &d, s1->full, s2.full, g1, g2);
+    clamp_either(c, &d, s1->full, s2.full, (dp_span){first.lo, second.hi});
     return d;
 }
 
 /* The demand of a depth of `first` and any depth behind it. */
 static dp_demand demand_beyond(const dp_chain *c, const dp_steps *s1, dp_span first, double extra) {
     const dp_steps s2 = dp_chain_steps_beyond(c, first.lo);
-    const double g1 = dp_chain_window(c, first.lo);
-    const double g2 = dp_chain_window(c, c->reach.hi);
-    const double error = larger(s1->full, s2.full);
-    const double format = dp_format_loss(&c->pipeline, smaller(g1, g2) - error, larger(g1, g2) + error);
+    const double format = format_of(c, (dp_span){first.lo, c->reach.hi}, larger(s1->full, s2.full));
     dp_demand d = {.projection =
                        s1->full - s1->inverse.error - s1->quotient.error - s1->viewport.error + s2.product.error,
                    .format = format,
                    .rest = format + extra,
                    .window = s1->full + s2.full + format + extra,
                    .slope = fabs(c->pipeline.ortho ? c->a : c->b)};
-    clamp_either(c, &d, s1->full, s2.full, g1, g2);
+    clamp_either(c, &d, s1->full, s2.full, (dp_span){first.lo, c->reach.hi});
     return d;
 }
 
@@ -190,6 +198,8 @@ static double longest_within(const dp_chain *c, const dp_steps *s1, dp_span firs
         *out = d;
         if (first.hi + s >= second.hi || first.hi + s < second.lo || gain <= 0x1p-6 * s)
             break;
+        if (i > 0 && c->run) /* a camera of the run may end here, where it gains little */
+            break;
         second.hi = first.hi + s;
     }
     return best;
@@ -209,7 +219,8 @@ static double binade_begin(double hi, double tiny) {
  * Beyond 2^126 the reciprocal of w is subnormal: hardware that makes 0 of it tells nothing apart there.
  *
  * First a distance that holds against every depth behind. Then, from there back to `first`, binade by binade of z: the
- * farthest binade that may hold a depth out of order has the answer.
+ * farthest binade that may hold a depth out of order has the answer. Of a run of depths a nearer binade may have a
+ * longer distance, from another depth of the run: there it is the longest of all.
  */
 double dp_demand_longest(const dp_chain *c, dp_span first, double extra, dp_demand *out) {
     const dp_steps s1 = dp_chain_steps(c, first);
@@ -221,18 +232,20 @@ double dp_demand_longest(const dp_chain *c, dp_span first, double extra, dp_dema
     if (hi <= first.lo)
         hi = first.hi;
     const double tiny = first.lo > 0.0 ? 0.0 : larger(0x1p-24 * larger(-first.lo, fabs(hi)), 0x1p-126);
+    double longest = 0.0;
     for (double end = HUGE_VAL;; end = hi) {
         double lo = binade_begin(hi, tiny);
         if (lo < first.hi)
             lo = first.lo;
         dp_demand d;
         const double s = longest_within(c, &s1, first, (dp_span){lo, larger(hi, first.hi)}, extra, &d);
-        if (first.hi + s >= lo) {
-            const double longest = smaller(s, end - first.lo);
-            if (longest < any)
-                *out = d;
+        const int met = first.hi + s >= lo;
+        const double here = met ? smaller(s, end - first.lo) : 0.0;
+        if (met && here >= longest && here < any)
+            *out = d;
+        longest = larger(longest, here);
+        if (met && (first.lo == first.hi || lo <= first.lo))
             return smaller(longest, any);
-        }
         hi = lo;
     }
 }

@@ -41,6 +41,13 @@ double dp_lattice_separation(const dp_setup *setup, double z);
 double dp_lattice_exact(const dp_setup *setup, double z);
 double dp_lattice_above(const dp_setup *setup, double z);
 
+/*
+ * Whether dp_separation() is at most `limit` at every depth of [lo, hi] in every camera whose near and far lie between
+ * those of two set-ups, which are alike but for one of the two, where that of the model exact is. Model fp32 of a
+ * mapping that has a matrix; 0 also where it could not be shown. A bound, not samples.
+ */
+int dp_separation_within(const dp_setup *one, const dp_setup *other, double lo, double hi, double limit);
+
 /* The models exact and staged: the steps of d that dp_separation() takes at the depths of [nearest, farthest], at most.
  */
 double dp_separation_step(const dp_setup *setup, double nearest, double farthest);

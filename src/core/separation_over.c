@@ -187,6 +187,19 @@ static void over_binades(const search *s) {
     }
 }
 
+int dp_separation_within(const dp_setup *one, const dp_setup *other, double lo, double hi, double limit) {
+    dp_separation_worst worst = {.lo = lo, .hi = hi, .z = hi};
+    search s = {.setup = one, .lattice = *one, .worst = &worst};
+    s.lattice.spec.model = DP_MODEL_EXACT;
+    if (one->spec.model != DP_MODEL_FP32 || !dp_guarantee_between(one, other, &s.guarantee))
+        return 0;
+    look(&s, hi);
+    look(&s, lo);
+    if (worst.separation <= limit && lo < hi)
+        branch_and_bound(&s, limit);
+    return larger(worst.separation, worst.bound) <= limit;
+}
+
 dp_status dp_separation_over(const dp_setup *setup, double lo, double hi, double limit, dp_separation_worst *out) {
     if (setup == NULL || out == NULL)
         return DP_ERROR_NULL;

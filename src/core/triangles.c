@@ -163,15 +163,16 @@ static loss loss_of(const dp_chain *c, dp_span at, own_error own, const dp_trian
     const double full = own.projection + own.ndc;
     const double g1 = dp_chain_window(c, at.lo);
     const double g2 = dp_chain_window(c, at.hi);
-    const double most = smaller(larger(g1, g2) + full, 1.0);
+    const double more = larger(dp_chain_window_more(c, at.lo), dp_chain_window_more(c, at.hi));
+    const double most = smaller(larger(g1, g2) + full + more, 1.0);
     const double far_x = t->width + t->pixels;
     const double far_y = t->height + t->pixels;
     const double gradients = 1.0 + t->plane.origin * DP_UNIT * (far_x + far_y);
     const double per_range = (t->plane.box * slant->box + t->plane.range) * gradients * second_order;
-    const double range = (by_slope ? 0.0 : fabs(g1 - g2)) + 2.0 * (full + stray);
+    const double range = (by_slope ? 0.0 : fabs(g1 - g2) + 2.0 * more) + 2.0 * (full + stray);
     const double setup = DP_UNIT * (t->plane.value * most * second_order + per_range * range) + underflow;
     const double slope = by_slope ? per_range * t->pixels : 0.0;
-    const double room = full + stray + setup;
+    const double room = full + stray + setup + more;
     loss out = {.dx = 3.0 * t->width + 6.0 * t->pixels + t->plane.origin * far_x + slope,
                 .dy = 3.0 * t->height + 6.0 * t->pixels + t->plane.origin * far_y + slope};
     out.dx *= DP_UNIT * second_order;
