@@ -114,6 +114,12 @@ static bool same_bits(float a, float b) {
     return memcmp(&a, &b, sizeof a) == 0 || (isnan(a) && isnan(b));
 }
 
+/* How far what is written is off from the truth, rounded up to binary32. */
+static bool is_error(float error, float written, long double truth) {
+    const long double off = fabsl((long double)written - truth), spare = 0x1p-49L * fabsl(truth);
+    return (long double)error >= off - spare / 4 && (long double)error <= (off + spare) * (1 + 0x1p-22L) + 0x1p-148L;
+}
+
 /* Long: every product of a pixel, and how each is made by hand. */
 static void frames_equal_plain_pixels(void **state) {
     static const struct {
@@ -141,13 +147,18 @@ static void frames_equal_plain_pixels(void **state) {
         s.frame.threads = 3;
         const frame_product eyes = {.kind = FRAME_EYE}, far = {.kind = FRAME_EYE, .radial = true},
                             off = {.kind = FRAME_EYE, .error = true}, exact = {.kind = FRAME_POSITION},
-                            view = {.kind = FRAME_POSITION, .position = position_find("view")};
+                            view = {.kind = FRAME_POSITION, .position = position_find("view")},
+                            far_off = {.kind = FRAME_EYE, .radial = true, .error = true},
+                            shares = {.kind = FRAME_LINEAR01}, shares_off = {.kind = FRAME_LINEAR01, .error = true};
         const bool placed = frame_refuses(&s.frame, &view) == NULL;
         position_state state_of;
         if (placed)
             position_prepare(&state_of, c);
         float *eye = frame_made(&s.frame, &eyes, false), *radial = frame_made(&s.frame, &far, true),
-              *error = frame_made(&s.frame, &off, false), *place = frame_made(&s.frame, &exact, false),
+              *error = frame_made(&s.frame, &off, false), *radial_error = frame_made(&s.frame, &far_off, false),
+              *share = isinf(c->setup.spec.zfar) ? NULL : frame_made(&s.frame, &shares, false),
+              *share_error = isinf(c->setup.spec.zfar) ? NULL : frame_made(&s.frame, &shares_off, false),
+              *place = frame_made(&s.frame, &exact, false),
               *method = placed ? frame_made(&s.frame, &view, false) : NULL;
         for (uint32_t y = 0; y < 61; y++)
             for (uint32_t x = 0; x < 97; x++) {
@@ -171,9 +182,11 @@ static void frames_equal_plain_pixels(void **state) {
                 TALLY(&t, fabs((double)eye[i] - z) <= DP_BATCH_EYE_ERROR * fabs(z), "%zu: eye %g, not %g", k,
                       (double)eye[i], z);
                 TALLY(&t, same_bits(radial[i], (float)((double)eye[i] * camera_radial(c, x, y))), "%zu: radial", k);
-                const double wrong = fabs(dp_error(&c->setup, code, h.z));
-                TALLY(&t, (double)error[i] >= wrong && (double)error[i] <= wrong * (1 + 0x1p-22) + 0x1p-148,
-                      "%zu: error", k);
+                const long double along = (long double)camera_radial(c, x, y), end = (long double)c->setup.spec.zfar;
+                TALLY(&t, is_error(error[i], eye[i], (long double)h.z), "%zu: error", k);
+                TALLY(&t, is_error(radial_error[i], radial[i], (long double)h.z * along), "%zu: radial error", k);
+                TALLY(&t, isinf(c->setup.spec.zfar) || is_error(share_error[i], share[i], (long double)h.z / end),
+                      "%zu: error of linear01", k);
                 for (int a = 0; a < 3; a++)
                     TALLY(&t, fabs((double)place[3 * i + (size_t)a] - world[a]) <= 1.01 * 0x1p-24 * fabs(world[a]),
                           "%zu: place %g, not %g", k, (double)place[3 * i + (size_t)a], world[a]);
@@ -190,6 +203,9 @@ static void frames_equal_plain_pixels(void **state) {
         free(eye);
         free(radial);
         free(error);
+        free(radial_error);
+        free(share);
+        free(share_error);
         free(place);
         free(method);
     }

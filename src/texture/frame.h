@@ -85,8 +85,8 @@ typedef enum frame_kind {
 typedef struct frame_product {
     frame_kind kind;
     /**
-     * The error in place of the product, one number a pixel. For a scene what is off from the truth; for an image,
-     * whose truth is not known, what it can be off:
+     * The error in place of the product, one number a pixel. For a scene what is off from the truth, with the
+     * rounding to binary32; for an image, whose truth is not known, what it can be off:
      *
      *     eye       |product - z|; image: |product - stored|, and from there to the farther end of its range
      *     linear01  the same over far

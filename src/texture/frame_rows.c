@@ -103,19 +103,19 @@ TEXTURE_CLONES static void linear01_errors(const float *restrict eyes, const gra
     }
 }
 
-/* Of a scene: how far what is stored is off, times a factor. */
-static void stored_errors(const frame_row *in, double factor) {
-    const texture_camera *c = camera_of(in);
-    for (uint32_t x = 0; x < c->width; x++) {
-        const double along = in->product->radial ? stretch(in, x) : factor, z = frame_truth(in, x).z;
-        in->out[x] = frame_upwards(isnan(z) ? (double)NAN : fabs(dp_error(&c->setup, in->codes[x], z)) * along);
+/* Of a scene, whose depths are known: how far the row of the product is off from them, times a factor. */
+static void replace_by_errors(const frame_row *in, double factor) {
+    for (uint32_t x = 0; x < camera_of(in)->width; x++) {
+        const double along = in->product->radial ? stretch(in, x) : factor, truth = frame_truth(in, x).z * along;
+        in->out[x] = frame_upwards(fabs((double)in->out[x] - truth) + 0x1p-50 * fabs(truth));
     }
 }
 
-/* What the product has lost in binary32, and how far what is stored is off: of a scene the latter alone, exactly. */
+/* What the product has lost in binary32, and how far what is stored is off. */
 static void make_eye_error(const frame_row *in) {
     if (in->frame->scene != NULL) {
-        stored_errors(in, 1);
+        make_eye(in);
+        replace_by_errors(in, 1);
         return;
     }
     const grain_rows ranges = ranges_in(in);
@@ -124,7 +124,8 @@ static void make_eye_error(const frame_row *in) {
 
 static void make_linear01_error(const frame_row *in) {
     if (in->frame->scene != NULL) {
-        stored_errors(in, 1 / far_of(in));
+        make_linear01(in);
+        replace_by_errors(in, 1 / far_of(in));
         return;
     }
     const grain_rows ranges = ranges_in(in);
