@@ -76,8 +76,8 @@ static int draw(rng *r, dp_model model, measure_kind kind, solve_problem *p) {
 }
 
 typedef struct sides {
-    tally answer, steady, beyond, until, lattice, nothing;
-    uint64_t certain, possible;
+    tally answer, proof, steady, beyond, until, lattice, nothing;
+    uint64_t certain, possible, proven;
 } sides;
 
 /* A value between the answer and where it is said to fail. */
@@ -128,6 +128,25 @@ static void judge_lattice(const solve_problem *p, const plane_answer *a, const s
     }
 }
 
+/* From the one to use on all pass for certain: those of few bits, too, which are rounded to even. */
+static void judge_chosen(const solve_problem *p, const plane_answer *a, rng *r, sides *s) {
+    char text[320];
+    const double lo = fmin(a->chosen, a->until), hi = fmax(a->chosen, a->until);
+    TALLY(&s->answer,
+          meets(p, a->chosen) && a->chosen >= fmin(a->value, a->until) && a->chosen <= fmax(a->value, a->until),
+          "%s: %.17g fails", describe(p, text), a->chosen);
+    s->proven += a->proven;
+    const int ends = (a->tried == 0) == (a->proven && a->chosen == a->value);
+    TALLY(&s->proof, p->kind == MEASURE_ERROR || ends, "%s: %d tried", describe(p, text), (int)a->tried);
+    for (int i = 0; i < (p->lo < p->hi ? 20 : 100) && a->proven; i++) {
+        const double x = rng_log(r, lo, fmin(hi, 1e18)), grid = ldexp(1.0, ilogb(x) - (int)rng_below(r, 24));
+        const double coarse = rint(x / grid) * grid,
+                     value = i % 2 == 0 || coarse < lo || coarse > fmin(hi, 1e18) ? x : coarse;
+        TALLY(&s->proof, meets(p, value), "%s: %.17g fails between %.17g and %.17g", describe(p, text), value,
+              a->chosen, a->until);
+    }
+}
+
 static void judge_answer(const solve_problem *p, const plane_answer *a, const solve_result *lattice, rng *r, sides *s) {
     char text[320];
     s->possible += a->possible;
@@ -147,6 +166,7 @@ static void judge_answer(const solve_problem *p, const plane_answer *a, const so
     }
     TALLY(&s->answer, meets(p, a->value) && a->reached.passed && a->reached.value <= p->limit, "%s: %.17g fails",
           describe(p, text), a->value);
+    judge_chosen(p, a, r, s);
     TALLY(&s->until, p->spec.model == DP_MODEL_EXACT || meets(p, a->until), "%s: the other end %.17g of %.17g fails",
           describe(p, text), a->until, a->value);
     if (a->tried == 0 && isfinite(a->value))
@@ -168,6 +188,7 @@ static void in_model(dp_model model, measure_kind kind, uint64_t cases) {
     static solve_result lattice;
     rng r = rng_make(kind == MEASURE_ERROR ? "plane error" : dp_model_name(model));
     sides s = {.answer = {.name = "the answer passes as check judges"},
+               .proof = {.name = "all that is said to pass for certain passes"},
                .steady = {.name = "what is said to pass passes"},
                .beyond = {.name = "what is said to fail beyond the answer fails"},
                .until = {.name = "the other end passes"},
@@ -185,9 +206,11 @@ static void in_model(dp_model model, measure_kind kind, uint64_t cases) {
         else
             judge_answer(&p, &a, &lattice, &r, &s);
     }
-    printf("# %s: %llu problems, %llu with an answer, %llu of these certain\n", dp_model_name(model),
-           (unsigned long long)cases, (unsigned long long)s.possible, (unsigned long long)s.certain);
+    printf("# %s: %llu problems, %llu with an answer, %llu of these certain, %llu proven\n", dp_model_name(model),
+           (unsigned long long)cases, (unsigned long long)s.possible, (unsigned long long)s.certain,
+           (unsigned long long)s.proven);
     tally_end(&s.answer);
+    tally_end(&s.proof);
     tally_end(&s.until);
     tally_end(&s.steady);
     tally_end(&s.beyond);
@@ -311,6 +334,11 @@ static void test_sweep(void **state) {
         p.spec.model = DP_MODEL_FP32;
         assert_int_equal(plane_solve(&p, PLANE_PROVE, &lattice, &a), DP_OK);
         assert_true(a.possible && a.certain && meets(&p, a.value) && a.value >= lattice.value);
+        assert_true(a.proven && a.chosen >= a.value && a.until == 5000.0);
+        uint64_t failing = 0; /* and next below the one to use some do fail: it is not far too large */
+        for (float x = (float)a.chosen; (double)x > a.chosen * 0.998; x = nextafterf(x, 0.0F))
+            failing += (uint64_t)!meets(&p, (double)x);
+        assert_true(failing > 0);
         uint64_t passing = 0;
         for (float x = (float)(a.value * 0.999025); (double)x < a.value; x = nextafterf(x, 1e9F))
             passing += (uint64_t)meets(&p, (double)x);
@@ -331,6 +359,21 @@ static solve_problem camera(solve_unknown unknown, const char *format, dp_mappin
     p.spec.mapping = mapping;
     *(unknown == SOLVE_NEAR ? &p.spec.zfar : &p.spec.znear) = plane;
     return p;
+}
+
+/* Far 16542.5 has an A and a B of few bits and fails; hundreds of values that are tried round it do not. */
+static void test_what_samples_miss(void **state) {
+    (void)state;
+    static solve_result lattice;
+    plane_answer a;
+    solve_problem p = camera(SOLVE_FAR, "unorm24", DP_MAPPING_D3D, 1.0);
+    p.spec.ortho = 1;
+    p.spec.model = DP_MODEL_FP32;
+    p.limit = 0.002;
+    p.lo = p.hi = 5000.0;
+    assert_int_equal(plane_solve(&p, PLANE_PROVE, &lattice, &a), DP_OK);
+    assert_true(!meets(&p, 16542.5) && a.tried > 500 && a.passed == a.tried && a.value > 26000.0);
+    assert_true(a.proven && a.chosen < 16542.5 && a.chosen > 16384.0);
 }
 
 /* Planes that do by the thousand, though neither the lattice's own ends nor the places next to its outer one do. */
@@ -431,11 +474,16 @@ static void test_infinite_far(void **state) {
 }
 
 int main(void) {
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_fp32),          cmocka_unit_test(test_staged),
-        cmocka_unit_test(test_exact),         cmocka_unit_test(test_error),
-        cmocka_unit_test(test_error_by_hand), cmocka_unit_test(test_half_code),
-        cmocka_unit_test(test_sweep),         cmocka_unit_test(test_far_from_the_lattice),
-        cmocka_unit_test(test_nearest_miss),  cmocka_unit_test(test_infinite_far)};
+    const struct CMUnitTest tests[] = {cmocka_unit_test(test_fp32),
+                                       cmocka_unit_test(test_staged),
+                                       cmocka_unit_test(test_exact),
+                                       cmocka_unit_test(test_error),
+                                       cmocka_unit_test(test_error_by_hand),
+                                       cmocka_unit_test(test_half_code),
+                                       cmocka_unit_test(test_what_samples_miss),
+                                       cmocka_unit_test(test_sweep),
+                                       cmocka_unit_test(test_far_from_the_lattice),
+                                       cmocka_unit_test(test_nearest_miss),
+                                       cmocka_unit_test(test_infinite_far)};
     return run_tap(tests);
 }

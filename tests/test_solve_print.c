@@ -160,7 +160,43 @@ static void test_printed(void **state) {
     tally_end(&few);
 }
 
+/* The number that leads is the one to use: no plane between it and the depth fails, many of few bits among them. */
+static void test_all_beyond(void **state) {
+    (void)state;
+    rng r = rng_make("solve beyond");
+    tally all = {.name = "every plane on the safe side of what is printed first passes"};
+    char path[] = "/tmp/depthprec-beyond-XXXXXX", line[512];
+    const int file = mkstemp(path);
+    assert_true(file >= 0);
+    close(file);
+    const uint64_t cases = test_cases(30, 300, 3000);
+    for (uint64_t i = 0; i < cases; i++) {
+        asked a = {"unorm24", "d3d", "fp32", 0, 0, i == 0 ? 10000 : INFINITY,
+                   5000,      0.01}; /* the examples of README.md */
+        if (i > 1)
+            a = draw(&r);
+        a.model = "fp32";
+        if (a.target == 2 || isinf(a.separation) || ask(&a, path, line) != EXIT_FINE || strncmp(line, "Any ", 4) == 0)
+            continue;
+        const double value = printed(line);
+        assert_true(i > 1 || strstr(line, ", and so is any larger one up to 5000.") != NULL);
+        const char *until = strstr(line, a.target == 0 ? "one up to " : "one down to ");
+        const double end = until != NULL ? strtod(strstr(until, " to ") + 4, NULL) : NAN;
+        for (int k = 0; k < 400 && strstr(line, "and so is any") != NULL; k++) {
+            const double x = value * pow(end / value, rng_unit(&r)), grid = ldexp(1.0, ilogb(x) - k % 20);
+            const double coarse = fmin(fmax(rint(x / grid) * grid, fmin(value, end)), fmax(value, end));
+            const double plane = k % 2 == 0 ? x : coarse;
+            const dp_setup setup = setup_of(&a, plane);
+            TALLY(&all, dp_separation(&setup, a.z) <= a.separation,
+                  "%s %s near %.17g far %.17g z %.17g: %.17g fails: %s", a.format, a.mapping, a.znear, a.zfar, a.z,
+                  plane, line);
+        }
+    }
+    unlink(path);
+    tally_end(&all);
+}
+
 int main(void) {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(test_printed)};
+    const struct CMUnitTest tests[] = {cmocka_unit_test(test_printed), cmocka_unit_test(test_all_beyond)};
     return run_tap(tests);
 }

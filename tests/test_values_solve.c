@@ -182,20 +182,26 @@ static bool passes_at(const solve_case *c, const dp_setup *setup, double plane) 
     return judge_setup(&spec, &other) == DP_OK && judge(c->kind, &other, c->lo, c->hi, c->limit).passed;
 }
 
-/* Its own ends pass, as does what is between them where all do; what is said to fail does. */
+/*
+ * Its own ends pass, as does all between them where that is proven, planes of few bits among them, and the first one;
+ * what is said to fail does.
+ */
 static void check_plane(const solve_case *c, const dp_setup *setup, double plane, const plane_answer *p) {
-    assert_true(passes_at(c, setup, plane) && passes_at(c, setup, p->until) && p->passed <= p->tried);
+    const double first = p->value;
+    assert_true(passes_at(c, setup, plane) && passes_at(c, setup, p->until) && passes_at(c, setup, first));
+    assert_true(p->passed <= p->tried && (near_is_asked(c) ? first <= plane : first >= plane));
     if (p->tried == 0)
-        assert_true(p->steady == plane);
-    if (!isnan(p->steady))
-        assert_true(passes_at(c, setup, p->steady) && (p->passed == p->tried) == (p->steady == plane));
+        assert_true(p->proven && first == plane);
+    for (int i = 0; i < 2000 && p->proven && isfinite(plane) && isfinite(p->until); i++) {
+        const double x = plane * pow(p->until / plane, i / 1999.0), grid = ldexp(1.0, ilogb(x) - i % 16);
+        const double tried[] = {x, rint(x / grid) * grid};
+        for (int k = 0; k < 2; k++)
+            if (tried[k] >= fmin(plane, p->until) && tried[k] <= fmax(plane, p->until) && (k == 0 || c->lo == c->hi))
+                assert_true(passes_at(c, setup, tried[k]));
+    }
     for (int i = 0; i < 32; i++) {
-        const double share = i / 31.0;
-        if (!isnan(p->steady) && isfinite(p->until) && p->tried == 0)
-            assert_true(
-                passes_at(c, setup, fmax(fmin(p->steady, p->until), p->steady + share * (p->until - p->steady))));
-        const float outward = (float)(plane + share * (p->fails_to - plane));
-        if (!isnan(p->fails_to) && (near_is_asked(c) ? (double)outward < plane : (double)outward > plane))
+        const float outward = (float)(first + i / 31.0 * (p->fails_to - first));
+        if (!isnan(p->fails_to) && (near_is_asked(c) ? (double)outward < first : (double)outward > first))
             assert_false(passes_at(c, setup, (double)outward));
     }
 }
@@ -203,14 +209,15 @@ static void check_plane(const solve_case *c, const dp_setup *setup, double plane
 static void want_plane(values *v, const solve_case *c, const dp_setup *setup, double plane, bool is_answer) {
     const plane_answer p = solve_again(c, setup, is_answer);
     want_number(v, "until", p.until);
-    want_number(v, "steady", p.steady);
+    want_number(v, "first", p.value);
+    want_bool(v, "proven", p.proven);
     want_count(v, "tried", p.tried);
     want_count(v, "passed", p.passed);
     want_bool(v, "certain", p.certain);
     want_number(v, "fails_to", p.fails_to);
     want_derived(v, "from", fmin(plane, p.until));
     want_derived(v, "to", fmax(plane, p.until));
-    assert_true(p.possible && p.value == plane);
+    assert_true(p.possible && p.chosen == plane);
     check_plane(c, setup, plane, &p);
     if (setup->spec.model == DP_MODEL_EXACT && c->kind == MEASURE_SEPARATION)
         check_island(c, setup, near_is_asked(c), fmin(plane, p.until), fmax(plane, p.until));
@@ -417,7 +424,7 @@ static void check_lines(values *v, int status, const char *arguments, line_place
                                          {"to [scene]", "to"},
                                          {"bytes", "^bytes"},
                                          {"available", "^available"},
-                                         {"steady [scene]", "?steady"},
+                                         {"first [scene]", "?first"},
                                          {"lattice [scene]", "^lattice.plane"},
                                          {"lattice value [scene]", "^lattice.value"}};
     for (size_t i = 0; i < lines->count; i++) {
@@ -533,13 +540,36 @@ static void check_text_distance(values *v, const solve_case *c, const char *text
     assert_true((strstr(text, "  assumed  ") != NULL) == (strstr(c->arguments, "-f ") == NULL));
 }
 
+/* Which values pass: all, for certain or of those tried; and the first one that does, where others beside it do not. */
+static void check_text_passing(values *v, const solve_case *c, const char *text) {
+    static const char *const every[] = {"answer.shown_from", "answer.shown_to", NULL};
+    static const char *const some[] = {"answer.passed", "answer.tried", "answer.shown_from", "answer.shown_to", NULL};
+    static const char *const scattered[] = {"answer.shown_first", "answer.failed", "answer.tried", NULL};
+    static const char *const steady[] = {"answer.shown_first", "answer.tried", NULL};
+    const char *label = near_is_asked(c) ? "smaller" : "larger";
+    const double count = value_at(v, "answer.tried")->number, good = value_at(v, "answer.passed")->number;
+    const double first = value_at(v, "answer.first")->number;
+    const bool two = first != value_at(v, "answer.plane")->number;
+    const bool all = two || value_at(v, "answer.proven")->number != 0;
+    values_under(v, "answer.");
+    want_shown(v, c, "shown_from", value_at(v, "answer.from")->number, number_shown(text, "passes ", all ? 0 : 2));
+    want_shown(v, c, "shown_to", value_at(v, "answer.to")->number, number_shown(text, "passes ", all ? 1 : 3));
+    check_text_numbers(v, text, "passes ", 6, all ? every : some);
+    assert_true((strstr(text, "that was tried from") != NULL) == (two && value_at(v, "answer.proven")->number == 0));
+    assert_true((strstr(text, two && near_is_asked(c) ? "\n  smaller " : "\n  larger ") != NULL) == two);
+    if (!two)
+        return;
+    const double shown = number_shown(text, label, 0);
+    const dp_setup setup = setup_again(v);
+    assert_true(fabs(shown / first - 1) < 9e-5 && passes_at(c, &setup, shown));
+    want_derived(v, "shown_first", shown);
+    want_derived(v, "failed", count - good);
+    check_text_numbers(v, text, label, 6, good < count ? scattered : steady);
+}
+
 static void check_text(values *v, const solve_case *c, const char *arguments, const line_places *lines) {
     const char *const worst[] = {"answer.value", "answer.z", isnan(c->limit) ? NULL : "limit", NULL};
     static const char *const plane[] = {"answer.plane", NULL};
-    static const char *const passes[] = {"answer.shown_from", "answer.shown_to", NULL};
-    static const char *const tried[] = {"answer.shown_from", "answer.shown_to", "answer.tried", NULL};
-    static const char *const scattered[] = {"answer.passed", "answer.tried", "answer.shown_from", "answer.shown_to",
-                                            NULL};
     static const char *const fails[] = {"answer.fails_to", NULL}, *const ideal[] = {"answer.lattice.plane", NULL};
     static const char *const certain[] = {"answer.separation_fp32", NULL};
     const bool in_fp32 = strcmp(value_at(v, "answer.model")->text, "fp32") == 0;
@@ -556,12 +586,7 @@ static void check_text(values *v, const solve_case *c, const char *arguments, co
         snprintf(label, sizeof label, "%-14s ", c->target);
         if (c->possible) {
             check_text_numbers(v, p.out, label, 15, plane);
-            const double count = value_at(v, "answer.tried")->number, good = value_at(v, "answer.passed")->number;
-            const int before = count > good ? 2 : 0;
-            values_under(v, "answer.");
-            want_shown(v, c, "shown_from", value_at(v, "answer.from")->number, number_shown(p.out, "passes ", before));
-            want_shown(v, c, "shown_to", value_at(v, "answer.to")->number, number_shown(p.out, "passes ", before + 1));
-            check_text_numbers(v, p.out, "passes ", 6, count == 0 ? passes : count == good ? tried : scattered);
+            check_text_passing(v, c, p.out);
             if (isfinite(value_at(v, "answer.fails_to")->number))
                 check_text_numbers(v, p.out, "fails ", 6, fails);
         }

@@ -70,7 +70,7 @@ static double largest(const dp_setup *setup, double lo, double hi) {
 
 /* Beyond the plane that was found, where it is said to fail, it does. */
 static void check_plane(const solve_case *c, const json_t *answer) {
-    const double plane = at(answer, c->target), fails = at(answer, "fails_to");
+    const double plane = at(answer, "first"), fails = at(answer, "fails_to");
     const dp_setup setup = setup_of(answer, true, c->target, NAN);
     assert_true(largest(&setup, c->lo, c->hi) <= c->limit);
     if (!json_is_true(json_object_get(answer, "certain")) || json_is_null(json_object_get(answer, "fails_to")))

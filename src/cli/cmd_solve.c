@@ -121,7 +121,7 @@ static dp_status solve_plane(const solve_report *r, solve_candidate *c, solve_un
     const dp_status status = plane_solve(&p, effort, result, &c->plane);
     if (status != DP_OK)
         return status;
-    *(unknown == SOLVE_NEAR ? &c->spec.znear : &c->spec.zfar) = c->plane.value;
+    *(unknown == SOLVE_NEAR ? &c->spec.znear : &c->spec.zfar) = c->plane.chosen;
     c->solved = true;
     c->unknown = unknown;
     c->possible = c->plane.possible;

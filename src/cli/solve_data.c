@@ -18,7 +18,7 @@ typedef struct candidate {
     double distance, lattice_distance;        /* NaN where it does not hold at all */
     char plane_text[NUMBER_SIZE], ideal_text[NUMBER_SIZE];
     const char *role;
-    double from, to, steady;
+    double from, to, first;
 } candidate;
 
 typedef struct solving {
@@ -38,7 +38,7 @@ static void take_candidate(solving *s, const solve_candidate *c) {
                      .slanted = solve_in_binary32(&s->report, c, true),
                      .distance = c->possible ? c->distance.value : (double)NAN,
                      .lattice_distance = c->lattice.possible ? c->lattice.value : (double)NAN,
-                     .steady = solved ? c->plane.steady : (double)NAN};
+                     .first = solved ? c->plane.value : (double)NAN};
     x->plane = solved ? &x->found.plane : NULL;
     *(c->unknown == SOLVE_NEAR ? &x->lattice_near : &x->lattice_far) = c->solved ? &x->found.lattice.value : NULL;
     s->setup = (dp_setup){.spec = c->spec};
@@ -128,7 +128,7 @@ static void *next_line(void *of, size_t i) {
         x->setup = setup_fields_of(&s->setup, options_unit(r->o));
         x->from = r->islands[i - 1].lo;
         x->to = r->islands[i - 1].hi;
-        x->steady = (double)NAN;
+        x->first = (double)NAN;
         return s;
     }
     const bool holds = r->target == SOLVE_FOR_DISTANCE && x->found.possible;
@@ -143,13 +143,11 @@ static void *next_line(void *of, size_t i) {
 
 enum { OF_SEPARATION = 1, OF_OTHERS = 2, OF_DISTANCE = 4, WITH_TRIANGLES = 8 };
 
-static const column plane_columns[] = {{FIELD(plane_answer, until, "until", "scene")},
-                                       {FIELD(plane_answer, steady, "steady", "scene")},
-                                       {FIELD(plane_answer, tried, "tried", "")},
-                                       {FIELD(plane_answer, passed, "passed", "")},
-                                       {FIELD(plane_answer, certain, "certain", "")},
-                                       {FIELD(plane_answer, fails_to, "fails_to", "scene")},
-                                       {.kind = COLUMN_END}};
+static const column plane_columns[] = {
+    {FIELD(plane_answer, until, "until", "scene")},       {FIELD(plane_answer, proven, "proven", "")},
+    {FIELD(plane_answer, value, "first", "scene")},       {FIELD(plane_answer, tried, "tried", "")},
+    {FIELD(plane_answer, passed, "passed", "")},          {FIELD(plane_answer, certain, "certain", "")},
+    {FIELD(plane_answer, fails_to, "fails_to", "scene")}, {.kind = COLUMN_END}};
 
 static const column island_columns[] = {
     {FIELD(solve_island, lo, "lo", "scene")}, {FIELD(solve_island, hi, "hi", "scene")}, {.kind = COLUMN_END}};
@@ -167,7 +165,7 @@ static const column line_columns[] = {
     {FIELD(solving, candidate.to, "to", "scene")},
     {FIELD(solving, candidate.found.price.bytes, "bytes", "")},
     {FIELD(solving, candidate.found.price.available, "available", "")},
-    {FIELD(solving, candidate.steady, "steady", "scene")},
+    {FIELD(solving, candidate.first, "first", "scene")},
     {FIELD(solving, candidate.found.lattice.value, "lattice", "scene")},
     {FIELD(solving, candidate.found.lattice.reached.value, "lattice value", "scene")},
     {FIELD(solving, candidate.separation_fp32, "guarantee_facing", "scene"), .when = WITH_TRIANGLES},

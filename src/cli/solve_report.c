@@ -184,18 +184,24 @@ static void sentence_of_nothing(const solve_report *r, const solve_candidate *c,
                       what, plane.text, best.text);
 }
 
+/* "larger one up to 5000", on the safe side of the answer */
+static phrase beyond_phrase(const solve_report *r, const solve_candidate *c) {
+    phrase out;
+    snprintf(out.text, PHRASE_SIZE, "%s one %s to %s", is_near(c) ? "larger" : "smaller", is_near(c) ? "up" : "down",
+             passing(r, c, !is_near(c)).text);
+    return out;
+}
+
 static void sentence_of_plane(const solve_report *r, const solve_candidate *c, output *out) {
     const phrase given = given_phrase(r, c), goal = goal_phrase(r, r->limit, "");
     const plane_answer *p = &c->plane;
     const double value = solve_plane_of(c);
-    const bool scattered = p->passed < p->tried;
     const number_text safe = safe_digits(r, c, value, p->until);
     const char *name = is_near(c) ? "Near" : "Far";
-    if (scattered && !isnan(p->steady))
-        output_format(out, "%s %s is enough for %s to %s; %s %s on every value tried passes.\n", name, safe.text,
-                      given.text, goal.text, is_near(c) ? "from" : "down from",
-                      safe_digits(r, c, p->steady, p->until).text);
-    else if (scattered || !p->certain)
+    if (p->chosen != p->value)
+        output_format(out, "%s %s is enough for %s to %s, and so %s %s.\n", name, safe.text, given.text, goal.text,
+                      p->proven ? "is any" : "was any tried", beyond_phrase(r, c).text);
+    else if (p->passed < p->tried || !p->certain)
         output_format(out, "%s %s is enough for %s to %s.\n", name, safe.text, given.text, goal.text);
     else if (value == (is_near(c) ? c->least : c->most))
         output_format(out, "Any %s from %s to %s will do for %s to %s.\n", target_name(r), passing(r, c, true).text,
@@ -233,23 +239,46 @@ static void say_islands(const solve_report *r, const solve_candidate *c, page *p
         page_note(p, "", "and %d more ranges further down; --json lists them", before - ISLANDS_SHOWN);
 }
 
-/* Which values pass, beside the answer: all of them, or those that were tried. */
-static void say_plane(const solve_report *r, const solve_candidate *c, page *p) {
-    const char *what = target_name(r);
+/* Which values pass with the answer: all of them, or those that were tried. */
+static void say_passing(const solve_report *r, const solve_candidate *c, page *p) {
     const plane_answer *a = &c->plane;
     const number_text lo = passing(r, c, true), hi = passing(r, c, false);
     const unsigned long long tried = a->tried, passed = a->passed;
-    page_note(p, what, "%s exactly%s", whole(r, solve_plane_of(c)).text,
-              a->certain   ? ""
-              : is_near(c) ? "; a smaller one may be enough"
-                           : "; a larger one may be enough");
-    if (tried == 0)
-        page_note(p, "passes", "every %s from %s to %s", what, lo.text, hi.text);
-    else if (passed == tried)
-        page_note(p, "passes", "every %s tried from %s to %s, %llu of them", what, lo.text, hi.text, tried);
+    if (a->proven || a->chosen != a->value)
+        page_note(p, "passes", "every %s %sfrom %s to %s", target_name(r), a->proven ? "" : "that was tried ", lo.text,
+                  hi.text);
     else
-        page_note(p, "passes", "%llu of %llu tried from %s to %s: it depends on how the matrix is rounded", passed,
-                  tried, lo.text, hi.text);
+        page_note(p, "passes", "%llu of %llu tried from %s to %s%s", passed, tried, lo.text, hi.text,
+                  passed < tried ? ": each is rounded in its own way" : "");
+}
+
+/* A value that passes beyond the answer, and those in between of which some may not. */
+static void say_first(const solve_report *r, const solve_candidate *c, page *p) {
+    const plane_answer *a = &c->plane;
+    const number_text first = safe_digits(r, c, a->value, a->chosen);
+    const unsigned long long tried = a->tried, passed = a->passed;
+    const char *label = is_near(c) ? "smaller" : "larger";
+    if (passed == tried)
+        page_note(p, label, "%s passes, too, and so do all %llu tried from there on; others may not", first.text,
+                  tried);
+    else
+        page_note(p, label,
+                  "%s passes, too, but %llu of %llu tried from there on do not: each is rounded in its own way",
+                  first.text, tried - passed, tried);
+}
+
+/* The answer and what is beside it. */
+static void say_plane(const solve_report *r, const solve_candidate *c, page *p) {
+    const char *what = target_name(r);
+    const plane_answer *a = &c->plane;
+    const bool two = a->chosen != a->value;
+    page_note(p, what, "%s exactly%s", whole(r, solve_plane_of(c)).text,
+              a->certain || two ? ""
+              : is_near(c)      ? "; a smaller one may be enough"
+                                : "; a larger one may be enough");
+    say_passing(r, c, p);
+    if (two)
+        say_first(r, c, p);
     if (!isnan(a->fails_to))
         page_note(p, "fails", "every binary32 %s from there %s to %s", what, is_near(c) ? "down" : "up",
                   bound(r, a->fails_to, is_near(c)).text);

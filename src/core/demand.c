@@ -92,14 +92,25 @@ static double before_rounding(dp_step s1, dp_step s2, double rest) {
     return errors == 0.0 || grid == 0.0 ? rest + errors : smaller(rest, floor(rest / grid * outward) * grid) + errors;
 }
 
+/*
+ * What cameras of a run lose whose sums are rounded alike, though not those of all: nothing where every sum has one
+ * last place, else the difference of two roundings of one B.
+ */
+static double run_loss(const dp_steps *s1, const dp_steps *s2, double loss) {
+    if (s1->sum.error == 0.0 || s2->sum.error == 0.0)
+        return loss;
+    const int one = s1->sum.error == s2->sum.error && s1->sum.grid == s2->sum.grid;
+    return one && s1->sum.grid == 2.0 * s1->sum.error ? 0.0 : larger(s1->sum.error, s2->sum.error);
+}
+
 /* A demand where numerator or product is followed: what the other operations take, and the slope. */
 static dp_demand demand_free(const dp_chain *c, const dp_steps *s1, const dp_steps *s2, double w, double need) {
     const double loss = larger(s2->kept_hi - s1->kept_lo, 0.0) * c->per_ndc * c->per_clip / w;
     if (c->pipeline.ortho) {
         const int alike = s1->sum.error == 0.0 && s2->sum.error == 0.0;
         const double clip = before_rounding(s1->remap, s2->remap, need);
-        const double sum = alike || c->run ? clip + larger(loss, s1->sum.error + s2->sum.error)
-                                           : before_rounding(s1->sum, s2->sum, clip);
+        const double rounded = alike ? clip + loss : before_rounding(s1->sum, s2->sum, clip);
+        const double sum = c->run ? larger(rounded, clip + run_loss(s1, s2, loss)) : rounded;
         const double window = before_rounding(s1->product, s2->product, sum);
         return (dp_demand){.projection = window - need, .window = window, .slope = fabs(c->a)};
     }

@@ -4,6 +4,7 @@
 #include <math.h>
 
 #include "core/elementary.h"
+#include "core/engine.h"
 
 /*
  * RUN binary32 values in a row stand for a place: one of them passes where about every RUNth does. REGION of them are
@@ -209,6 +210,70 @@ static void survey(hunt *h) {
     a->until = isnan(bad) ? h->inner : other_end(h, good, bad);
 }
 
+/* ---- The value from which on all pass for certain ---------------------------------------------------------------- */
+
+/* Near has no influence at all: what one value does all do. */
+static bool is_inert(const solve_problem *p) {
+    const dp_mapping_row *mapping = dp_mapping_get(p->spec.mapping);
+    return p->unknown == SOLVE_NEAR && !p->spec.ortho && mapping->curve != DP_CURVE_PERSPECTIVE &&
+           !mapping->log_from_near && !mapping->log_over_near;
+}
+
+/* Whether all values between two that pass in the lattice do, the outer one first. */
+static bool all_pass(const solve_problem *p, double outer, double inner) {
+    dp_setup one, other;
+    return solve_setup(p, outer, &one) == DP_OK && solve_setup(p, inner, &other) == DP_OK &&
+           dp_separation_within(&one, &other, p->lo, p->hi, p->limit);
+}
+
+/* A value moved outwards by a ratio, at most to the answer; of fars, past the finite ones. */
+static double outwards(const hunt *h, double x, double ratio) {
+    const double end = h->out->value;
+    if (h->inward_is_up)
+        return fmax(x / ratio, end);
+    return x * ratio > farthest ? end : fmin(x * ratio, end);
+}
+
+/* From a value outwards, in stretches as long as can be shown to pass, to where the shortest cannot. */
+static double reach_from(const hunt *h, double start) {
+    static const double shortest = 1.0 + 0x1p-13;
+    double end = start;
+    for (double ratio = 2.0; end != h->out->value && ratio > shortest;) {
+        const double x = outwards(h, end, ratio);
+        const bool all = all_pass(h->problem, x, end);
+        end = all ? x : end;
+        ratio = all ? fmin(ratio * ratio, 0x1p64) : sqrt(ratio);
+    }
+    return end;
+}
+
+/* The inner end is where values begin to fail, too, so the bound may begin to hold a little before it. */
+static void prove(const hunt *h) {
+    enum { HOPS = 12 };
+    plane_answer *a = h->out;
+    double start = a->until;
+    for (int hop = 0; hop < HOPS && !a->proven; hop++) {
+        const double end = reach_from(h, start);
+        a->proven = end != start || a->until == a->value;
+        if (a->proven) {
+            a->chosen = end;
+            a->until = start;
+        }
+        start = outwards(h, start, 1.0 + dp_power2(hop - 10));
+    }
+}
+
+static void choose(const hunt *h) {
+    plane_answer *a = h->out;
+    a->chosen = isnan(a->steady) ? a->value : a->steady;
+    if (is_inert(h->problem))
+        a->proven = true;
+    else
+        prove(h);
+    if (a->proven && a->chosen == a->value)
+        a->tried = a->passed = 0;
+}
+
 /* ---- The model's answer, inside the lattice's -------------------------------------------------------------------- */
 
 static bool hunt_island(hunt *h, const solve_island *island) {
@@ -235,6 +300,7 @@ static bool hunt_island(hunt *h, const solve_island *island) {
     a->possible = true;
     a->until = h->inner;
     survey(h);
+    choose(h);
     return true;
 }
 
@@ -257,11 +323,8 @@ static void answer_of_lattice(const solve_problem *p, const solve_result *lattic
 
 /* Nothing was found although the lattice has an answer: the inner end of its answer comes near. */
 static void nearest_miss(const solve_problem *p, const solve_result *lattice, plane_answer *a) {
-    const dp_mapping_row *mapping = dp_mapping_get(p->spec.mapping);
-    const bool inert =
-        p->unknown == SOLVE_NEAR && !p->spec.ortho && mapping->curve != DP_CURVE_PERSPECTIVE && !mapping->log_from_near;
     a->value = a->until = a->steady = lattice->possible ? lattice->until : lattice->value;
-    a->certain = !lattice->possible || inert;
+    a->certain = !lattice->possible || is_inert(p);
 }
 
 dp_status plane_solve(const solve_problem *problem, plane_effort effort, solve_result *lattice, plane_answer *out) {
@@ -294,6 +357,10 @@ dp_status plane_solve(const solve_problem *problem, plane_effort effort, solve_r
         if (!out->possible)
             nearest_miss(problem, lattice, out);
     }
-    out->reached = reached_at(problem, out->value);
+    if (!out->possible || problem->kind == MEASURE_ERROR || problem->spec.model == DP_MODEL_EXACT) {
+        out->chosen = out->value;
+        out->proven = out->possible && out->tried == 0;
+    }
+    out->reached = reached_at(problem, out->chosen);
     return DP_OK;
 }

@@ -3,9 +3,9 @@
  * @file plane.h  The near or far plane that meets a requirement in any model, judged as `check` judges.
  *
  * No model has a separation below that of the lattice, so the lattice's answer (solve.h) bounds all others. In fp32 the
- * measure is not monotone: whether a plane will do hangs on how its matrix entries are rounded to binary32. So the
- * answer is a plane that passes, beyond which every binary32 value fails for 2^-10 of itself at least; and those on its
- * safe side are tried, because some may fail.
+ * measure is not monotone: whether a plane will do hangs on how its matrix entries are rounded to binary32. So there
+ * are two answers: the first value that passes, beyond which every binary32 value fails for 2^-10 of itself at least;
+ * and the one to use, on whose safe side all pass, which a bound over all cameras in between proves.
  */
 #ifndef NEED_PLANE_H
 #define NEED_PLANE_H
@@ -19,6 +19,8 @@ typedef enum plane_effort { PLANE_FIND = 0, PLANE_PROVE } plane_effort;
 typedef struct plane_answer {
     bool possible;
     double value;      /**< the least near, or the largest far; impossible: one that comes near */
+    double chosen;     /**< the one to use: from here to `until` all pass, or all that were tried */
+    bool proven;       /**< all of them do, not only those that were tried */
     double until;      /**< the other end of the values that pass; between the two some may fail */
     double steady;     /**< from here to `until` all that were tried pass; NaN where the last that was tried fails */
     uint64_t tried;    /**< values tried from `value` to `until`; 0 where all of them pass for certain */
@@ -26,7 +28,7 @@ typedef struct plane_answer {
     bool certain;      /**< nothing passes next beyond `value`: see `fails_to` */
     double fails_to;   /**< every binary32 value from here to `value` fails; NaN: the very next double does, or none is
                             left to look at */
-    judgement reached; /**< at `value`, in the model asked about */
+    judgement reached; /**< at `chosen`, in the model asked about */
 } plane_answer;
 
 /**
