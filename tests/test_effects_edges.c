@@ -202,8 +202,72 @@ static void test_refracted_scene(void **state) {
     assert_true(shifted > 20);
 }
 
+static double dimmed(double z, double surface, double ray) {
+    return 1 - exp(-0.05 * fmax(z - surface, 0) * ray);
+}
+
+/* The worst of all that may be, at one surface: the pixel beside anywhere in its cell, or the pixel itself. */
+static double worst_through(uint32_t own, uint32_t beside, double surface, double ray) {
+    const double seen = dimmed(eye_of(eye_of(beside) >= surface ? beside : own), surface, ray);
+    double worst = 0;
+    for (int i = 0; i <= 200; i++) {
+        const double there = eye_of(beside - 0.5 + i / 200.0), here = eye_of(own - 0.5 + i / 200.0);
+        const double one = dimmed(there, surface, ray);
+        if (there >= surface)
+            worst = fmax(worst, fabs(one - seen));
+        if (eye_of(beside - 0.5) < surface)
+            worst = fmax(worst, fabs(dimmed(here, surface, ray) - seen));
+    }
+    return worst;
+}
+
+/* A surface inside the cell of the pixel beside, or anywhere: then the effect may look at either. */
+static void test_refraction_unsure(void **state) {
+    static float off[PIXELS];
+    rng r = rng_make("refraction unsure");
+    tally t = {.name = "where it may look at either"};
+    double at[TEXTURE_PARAMETERS], largest = 0;
+    stage s;
+    (void)state;
+    stage_make(&s);
+    parameter_defaults(effect_find("water-depth")->parameters, at);
+    stage_set("water-depth", at, "density", 0.05);
+    stage_set("water-depth", at, "refraction", 3);
+    const uint32_t middle = code_of(20);
+    for (uint64_t i = 0; i < test_cases(20, 200, 2000); i++) {
+        const bool known = i % 2 == 0;
+        const double surface = known ? eye_of(middle + rng_unit(&r) - 0.5) : 0;
+        for (int k = 0; k < PIXELS; k++)
+            s.codes[k] = rng_below(&r, 2) == 0 ? middle + (uint32_t)rng_below(&r, 3) - 1
+                                               : code_of(rng_log(&r, 5, 60));
+        stage_effect(&s, "water-depth", at, surface, true, off);
+        for (int k = 0; k < PIXELS; k++) {
+            const uint32_t own = s.codes[k], beside_it = s.codes[beside(k, 3, 0)];
+            double slope[2], want = 0;
+            stage_slopes(k, slope);
+            const double ray = sqrt(slope[0] * slope[0] + slope[1] * slope[1] + 1);
+            if (beside(k, 3, 0) == k)
+                continue;
+            for (int n = 0; n <= 40 && !known; n++) {
+                want = fmax(want, worst_through(own, beside_it, eye_of(beside_it - 0.5 + n / 40.0), ray));
+                want = fmax(want, worst_through(own, beside_it, eye_of(own - 0.5 + n / 40.0), ray));
+            }
+            for (int n = 0; n < 2 && !known; n++)
+                want = fmax(want, worst_through(own, beside_it, eye_of(beside_it + 1e-3 * n), ray));
+            if (known)
+                want = worst_through(own, beside_it, surface, ray);
+            TALLY(&t, (double)off[k] >= 255 * want - 2e-3 && (double)off[k] <= 255 * want * 1.02 + 2e-3,
+                  "pixel %d: %g levels, not %g; %u beside %u, surface %g", k, (double)off[k], 255 * want, own,
+                  beside_it, surface);
+            largest = fmax(largest, 255 * want);
+        }
+    }
+    assert_true(largest > 100);
+    tally_end(&t);
+}
+
 int main(void) {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(test_edges), cmocka_unit_test(test_sky),
+    const struct CMUnitTest tests[] = {cmocka_unit_test(test_refraction_unsure), cmocka_unit_test(test_edges), cmocka_unit_test(test_sky),
                                        cmocka_unit_test(test_occlusion), cmocka_unit_test(test_refraction),
                                        cmocka_unit_test(test_refracted_scene)};
     return run_tap(tests);

@@ -132,6 +132,7 @@ const column choice_columns[] = {{FIELD(choice_fields, model, "model", "")},
                                  {PART(choice_fields, of_model, NULL, share_columns)},
                                  {FIELD(choice_fields, tolerance, "tolerance", "")},
                                  {GROUP("neglected", neglected_columns)},
+                                 {PART(choice_fields, shader, "shader", share_columns), .pointed = true, .optional = true},
                                  {.kind = COLUMN_END}};
 
 static choice_share share_of(const dp_choice *choice, int model) {
@@ -144,6 +145,8 @@ void choice_fields_of(const choosing *c, choice_fields *out) {
                            .of_model = share_of(&c->choice, (int)c->choice.model),
                            .tolerance = c->tolerance,
                            .exact = share_of(&c->choice, DP_MODEL_EXACT),
-                           .staged_share = share_of(&c->choice, DP_MODEL_STAGED)};
+                           .staged_share = share_of(&c->choice, DP_MODEL_STAGED),
+                           .shader_share = {c->shader_share, c->shader_share > 0.0 ? c->shader_z : (double)NAN}};
     out->staged = fullest(&c->choice) > DP_MODEL_STAGED ? &out->staged_share : NULL;
+    out->shader = c->full.shader ? &out->shader_share : NULL;
 }

@@ -63,6 +63,8 @@ typedef struct choice_fields {
     double tolerance;
     choice_share exact, staged_share;
     const choice_share *staged; /**< null where it is the fullest model that there is */
+    choice_share shader_share;
+    const choice_share *shader; /**< what all models neglect of the arithmetic of a shader; null where it is none */
 } choice_fields;
 
 extern const column choice_columns[];

@@ -243,6 +243,14 @@ static bool is_covered(const solve_report *r, const dp_spec *spec) {
            (has_pipeline(spec->mapping) && (raster == NULL || raster_bounded(raster, &spec->format)));
 }
 
+/* Whether every mapping of a format was asked about. */
+static bool leaves_open(const solve_report *r, const dp_format *format) {
+    bool asked = false;
+    for (size_t f = 0; f < r->o->format_count; f++)
+        asked = asked || strcmp(r->o->formats[f].name, format->name) == 0;
+    return asked && r->target == SOLVE_FOR_MAPPING && !option_given(r->o, OPTION_MAPPING);
+}
+
 /*
  * What else there is: the real depth buffers with the mappings that an engine can choose. Of the logarithms it is the
  * one that was asked about: the others are those of other renderers, and `log` stands for what a shader may write.
@@ -259,7 +267,7 @@ static void add_others(solve_report *r, solve_result *result) {
             spec.model = model_of(r, spec.mapping, false);
             if (listed(r, &spec) || !is_covered(r, &spec) || (spec.mapping == DP_MAPPING_D3D && asked == DP_MAPPING_GL))
                 continue;
-            if (try_candidate(r, add(r, &spec, false), result) != DP_OK)
+            if (try_candidate(r, add(r, &spec, leaves_open(r, &spec.format)), result) != DP_OK)
                 r->count--;
         }
 }

@@ -348,18 +348,54 @@ static double true_output(const work *w, const effect_view *view, uint32_t x) {
     return w->row->output(view, w->parameters, beside >= w->reference ? beside : own, w->reference);
 }
 
+/* How far from what is seen the truth may be: beside the pixel if what is there lies no nearer than the surface. */
+static double refracted_error(const work *w, const effect_view *view, double seen, double surface,
+                              const grain_range ranges[2]) {
+    const grain_range *own = &ranges[0], *beside = &ranges[1];
+    const double ends[4] = {own->lo, own->hi, fmax(beside->lo, surface), beside->hi};
+    double error = 0;
+    for (int i = beside->lo < surface ? 0 : 2; i < (beside->hi >= surface ? 4 : 2); i++)
+        error = fmax(error, LEVELS * fabs(w->row->output(view, w->parameters, ends[i], surface) - seen));
+    return error;
+}
+
+/* Of a pixel that looks through the one beside it. Where the surface is not known it may lie where the choice between
+ * the two turns, or where the error of one is largest: at an end of what either may be, at what is seen, or next to it. */
+static double through_error(const work *w, const effect_view *view, uint32_t x, uint32_t beside) {
+    frame_ranges last = frame_no_range();
+    grain_range ranges[2];
+    ranges[0] = *frame_range_of(w->in, &last, x);
+    ranges[1] = *frame_range_of(w->in, &last, beside);
+    if (!isnan(w->reference))
+        return refracted_error(w, view, (double)output_at(w, x), w->reference, ranges);
+    const double seen[2] = {(double)seen_as(w, w->in->depth[x]).eye, (double)seen_as(w, w->in->depth[beside]).eye};
+    const double depth = w->row->apart(view, w->parameters, fmax(seen[0], seen[1]), 0);
+    double error = 0;
+    for (int i = 0; i < 12; i++) {
+        const grain_range *range = &ranges[i / 6];
+        const double at = i / 2 % 3 == 0 ? range->lo : i / 2 % 3 == 1 ? range->hi : seen[i / 6];
+        const double surface = i % 2 == 0 ? at : nextafter(at, HUGE_VAL);
+        const double output = w->row->output(view, w->parameters, seen[seen[1] >= surface], surface);
+        error = fmax(error, refracted_error(w, view, output, surface, ranges));
+    }
+    return error + LEVELS * DP_UNIT * (8 + 4 * depth * w->parameters[w->row->wanted]);
+}
+
 static double error_at(const work *w, frame_ranges *last, uint32_t x) {
     const effect_view view = view_at(w, x);
-    if (w->row->given && isnan(w->reference)) {
+    const uint32_t beside = aside_of(w, x);
+    const bool anywhere = w->row->given && isnan(w->reference);
+    if (beside != x && !isnan(w->in->eyes[NORMAL_REACH][beside]) && (anywhere || w->in->frame->scene == NULL))
+        return through_error(w, &view, x, beside);
+    if (anywhere) {
         const effect_pixel pixel = pixel_at(w, x);
         return worst_error(w, &view, &pixel, frame_range_of(w->in, last, x));
     }
     const double seen = (double)output_at(w, x);
     if (w->in->frame->scene != NULL)
         return isnan(frame_truth(w->in, x).z) ? (double)NAN : LEVELS * fabs(seen - true_output(w, &view, x));
-    const uint32_t at = looks_at(w, x);
-    const double stored = dp_stored(&w->camera->setup, w->in->codes[at]);
-    return LEVELS * fabs(seen - exact_at(w, &view, x)) + range_error(w, &view, stored, frame_range_of(w->in, last, at));
+    const double stored = dp_stored(&w->camera->setup, w->in->codes[x]);
+    return LEVELS * fabs(seen - exact_at(w, &view, x)) + range_error(w, &view, stored, frame_range_of(w->in, last, x));
 }
 
 /* ---- Rows -------------------------------------------------------------------------------------------------------- */
@@ -389,7 +425,7 @@ void frame_effect_error(const frame_row *in) {
             error = corners_error(&w, x);
         else if (isnan(in->eyes[NORMAL_REACH][x]))
             error = NAN;
-        else if (alike && x > 0 && in->codes[x] == in->codes[x - 1])
+        else if (alike && x > 0 && in->codes[x] == in->codes[x - 1] && aside_of(&w, x) == x)
             error = (double)in->out[x - 1];
         else
             error = error_at(&w, &last, x);
