@@ -196,6 +196,24 @@ void want_choice(values *v, const char *under, const dp_setup *setup, const doub
         want_number(v, "share", c.share[model]);
         want_number(v, "z", c.share[model] > 0 ? c.share_z[model] : NAN);
     }
+    if (dp_mapping_get(setup->spec.mapping)->curve == DP_CURVE_LOG) {
+        double share = 0, there = NAN;
+        dp_spec spec = setup->spec;
+        dp_setup exact;
+        spec.model = DP_MODEL_EXACT;
+        assert_int_equal(dp_setup_init(&exact, &spec), DP_OK);
+        for (size_t i = 0; i < count; i++) {
+            dp_budget b;
+            assert_int_equal(dp_budget_at(&exact, z[i], NULL, &b), DP_OK);
+            if (b.separation / dp_separation(&exact, z[i]) - 1 > share) {
+                share = b.separation / dp_separation(&exact, z[i]) - 1;
+                there = z[i];
+            }
+        }
+        values_under(v, "%.60sshader.", under);
+        want_number(v, "share", share);
+        want_number(v, "z", there);
+    }
     values_under(v, "%s", under);
     want_text(v, "model", dp_model_name(c.model));
     want_number(v, "tolerance", tolerance);

@@ -238,8 +238,7 @@ static void test_refraction_unsure(void **state) {
         const bool known = i % 2 == 0;
         const double surface = known ? eye_of(middle + rng_unit(&r) - 0.5) : 0;
         for (int k = 0; k < PIXELS; k++)
-            s.codes[k] = rng_below(&r, 2) == 0 ? middle + (uint32_t)rng_below(&r, 3) - 1
-                                               : code_of(rng_log(&r, 5, 60));
+            s.codes[k] = rng_below(&r, 2) == 0 ? middle + (uint32_t)rng_below(&r, 3) - 1 : code_of(rng_log(&r, 5, 60));
         stage_effect(&s, "water-depth", at, surface, true, off);
         for (int k = 0; k < PIXELS; k++) {
             const uint32_t own = s.codes[k], beside_it = s.codes[beside(k, 3, 0)];
@@ -267,8 +266,11 @@ static void test_refraction_unsure(void **state) {
 }
 
 int main(void) {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(test_refraction_unsure), cmocka_unit_test(test_edges), cmocka_unit_test(test_sky),
-                                       cmocka_unit_test(test_occlusion), cmocka_unit_test(test_refraction),
+    const struct CMUnitTest tests[] = {cmocka_unit_test(test_edges),
+                                       cmocka_unit_test(test_sky),
+                                       cmocka_unit_test(test_occlusion),
+                                       cmocka_unit_test(test_refraction),
+                                       cmocka_unit_test(test_refraction_unsure),
                                        cmocka_unit_test(test_refracted_scene)};
     return run_tap(tests);
 }

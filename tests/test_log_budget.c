@@ -12,6 +12,7 @@
 #include <mpfr.h>
 
 #include "depthprec/depthprec.h"
+#include "need/judge.h"
 #include "support.h"
 
 enum { BITS = 256, RULES = 3 };
@@ -396,6 +397,68 @@ static void each_needed(void **state) {
     tally_end(&t);
 }
 
+/* ---- The error --------------------------------------------------------------------------------------------------- */
+
+/* What a depth is read back as, with the constants that wrote it; three-webgpu's ratio as it really is. */
+static long double read_back(const shader *s, double code) {
+    const dp_format *f = &s->setup.spec.format;
+    const long double d = (long double)code / (f->kind == DP_FORMAT_FLOAT ? 1 : (long double)f->code_max);
+    if (s->setup.spec.mapping == DP_MAPPING_THREE_WEBGPU)
+        return (long double)s->near * exp2l(d * log2l((long double)s->far / (long double)s->near));
+    const long double from = s->setup.spec.mapping == DP_MAPPING_CESIUM ? (long double)s->near : 0;
+    return from + expm1l(d / (long double)s->k * logl(2)) / (long double)s->c;
+}
+
+/* The worst that any log2 does to the depths next to z. */
+static double worst_read(const shader *s, double z, double wide, rng *r, int tries) {
+    double worst = 0;
+    for (int i = 0; i < tries; i++) {
+        const double real = fmin(fmax(z + (i == 0 ? 0 : rng_uniform(r, -wide, 0)), s->setup.spec.znear), z);
+        for (int sign = -1; sign <= 1; sign += 2)
+            worst =
+                fmax(worst, fabs((double)(read_back(s, stored(s, written(s, (float)real, sign))) - (long double)real)));
+    }
+    return worst;
+}
+
+/* No depth of a range is read back farther off than is said, and some nearly as far. */
+static void errors(void **state) {
+    tally never = {.name = "no error above the bound"};
+    rng r = rng_make("log errors");
+    double closest[MAPPINGS] = {0};
+    (void)state;
+    for (uint64_t i = test_cases(100, 600, 20000); i > 0; i--) {
+        const dp_spec spec = random_spec(&r, i);
+        const double z = random_depth(&r, &spec), lo = fmax(spec.znear, z / rng_log(&r, 1.0001, 100.0));
+        dp_setup asked;
+        dp_spec model = spec;
+        model.model = DP_MODEL_FP32;
+        assert_int_equal(judge_setup(&model, &asked), DP_OK);
+        const judgement range = judge(MEASURE_ERROR, &asked, lo, z, NAN),
+                        here = judge(MEASURE_ERROR, &asked, z, z, NAN);
+        for (int top = -1; top <= 1; top++) {
+            shader s = shader_of(&spec, 0, top);
+            s.fused[0] = s.fused[1] = rng_below(&r, 2) == 0;
+            const double at = worst_read(&s, z, 0, &r, 1), next = worst_read(&s, z, fmin(1e-3 * z, z - lo), &r, 40);
+            TALLY(&never, at <= here.value && next <= range.value && here.value <= range.value * (1 + 1e-9),
+                  "%s %s C %.17g near %.17g far %.17g %s: %.17g off at %.17g, not %.17g; %.17g over a range, not %.17g",
+                  dp_mapping_get(spec.mapping)->name, spec.format.name, spec.log_c, spec.znear, spec.zfar,
+                  s.arith->name, at, z, here.value, next, range.value);
+            if (here.value < 0.1 * z)
+                closest[i % MAPPINGS] = fmax(closest[i % MAPPINGS], next / here.value);
+        }
+        TALLY(&never,
+              range.z >= lo && range.z <= z &&
+                  judge(MEASURE_ERROR, &asked, range.z, range.z, NAN).value <= range.value * (1 + 1e-9),
+              "%.17g to %.17g: worst at %.17g", lo, z, range.z);
+    }
+    for (size_t m = 0; m < MAPPINGS; m++) {
+        printf("# %s: found up to %.3f of the bound\n", dp_mapping_get(mappings[m])->name, closest[m]);
+        assert_true(closest[m] > 0.7);
+    }
+    tally_end(&never);
+}
+
 /* ---- Codes ------------------------------------------------------------------------------------------------------- */
 
 /* Whatever log2 stores is among the codes that are said, and those are hardly more. */
@@ -495,8 +558,9 @@ static void over_ranges(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(never_violated), cmocka_unit_test(not_slack),    cmocka_unit_test(each_needed),
-        cmocka_unit_test(code_range),     cmocka_unit_test(codes_at_1e9), cmocka_unit_test(over_ranges),
+        cmocka_unit_test(never_violated), cmocka_unit_test(not_slack),  cmocka_unit_test(each_needed),
+        cmocka_unit_test(errors),         cmocka_unit_test(code_range), cmocka_unit_test(codes_at_1e9),
+        cmocka_unit_test(over_ranges),
     };
     return run_tap(tests);
 }

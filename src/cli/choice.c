@@ -128,12 +128,13 @@ static const column neglected_columns[] = {
     {PART(choice_fields, staged, "staged", share_columns), .pointed = true, .optional = true},
     {.kind = COLUMN_END}};
 
-const column choice_columns[] = {{FIELD(choice_fields, model, "model", "")},
-                                 {PART(choice_fields, of_model, NULL, share_columns)},
-                                 {FIELD(choice_fields, tolerance, "tolerance", "")},
-                                 {GROUP("neglected", neglected_columns)},
-                                 {PART(choice_fields, shader, "shader", share_columns), .pointed = true, .optional = true},
-                                 {.kind = COLUMN_END}};
+const column choice_columns[] = {
+    {FIELD(choice_fields, model, "model", "")},
+    {PART(choice_fields, of_model, NULL, share_columns)},
+    {FIELD(choice_fields, tolerance, "tolerance", "")},
+    {GROUP("neglected", neglected_columns)},
+    {PART(choice_fields, shader, "shader", share_columns), .pointed = true, .optional = true},
+    {.kind = COLUMN_END}};
 
 static choice_share share_of(const dp_choice *choice, int model) {
     const double share = choice->share[model];

@@ -17,6 +17,10 @@ static bool has_pipeline(dp_mapping mapping) {
     return dp_mapping_get(mapping)->curve == DP_CURVE_PERSPECTIVE;
 }
 
+static bool is_logarithm(dp_mapping mapping) {
+    return dp_mapping_get(mapping)->curve == DP_CURVE_LOG;
+}
+
 static bool is_known(const options *o, option_id id) {
     return option_given(o, id) || o->preset_count > 0;
 }
@@ -64,8 +68,12 @@ static int check_target(const options *o, solve_report *r) {
     if (r->target <= SOLVE_FOR_FAR && option_given(o, givens[r->target - SOLVE_FOR_NEAR]))
         return option_error(OPTION_FOR, "solves for %s: leave out --%s", option_word(OPTION_FOR, r->target),
                             option_word(OPTION_FOR, r->target));
-    if (r->kind == MEASURE_ERROR && option_given(o, OPTION_MODEL) && o->model == DP_MODEL_FP32)
-        return option_error(OPTION_MODEL, "must be exact or staged for an error, got 'float', which has no cells");
+    for (size_t m = 0; m < o->mapping_count; m++)
+        if (r->kind == MEASURE_ERROR && option_given(o, OPTION_MODEL) && o->model == DP_MODEL_FP32 &&
+            !is_logarithm(o->mappings[m]))
+            return option_error(OPTION_MODEL,
+                                "must be exact or staged for an error of %s, got 'float', which has no cells",
+                                dp_mapping_get(o->mappings[m])->name);
     return o->triangles.width > 0 ? check_slanted(o, r) : EXIT_FINE;
 }
 
@@ -108,7 +116,7 @@ static bool asks_for_choice(solve_target target) {
 static dp_model model_of(const solve_report *r, dp_mapping mapping, bool asked) {
     const options *o = r->o;
     const bool given = option_given(o, OPTION_MODEL) && !o->model_auto;
-    const bool has_fp32 = r->kind == MEASURE_SEPARATION && dp_mapping_get(mapping)->curve != DP_CURVE_LINEAR;
+    const bool has_fp32 = is_logarithm(mapping) || (r->kind == MEASURE_SEPARATION && has_pipeline(mapping));
     if (given && (asked || o->model != DP_MODEL_FP32))
         return o->model;
     return has_fp32 ? DP_MODEL_FP32 : DP_MODEL_STAGED;
@@ -257,8 +265,7 @@ static bool leaves_open(const solve_report *r, const dp_format *format) {
  */
 static void add_others(solve_report *r, solve_result *result) {
     const dp_mapping asked = r->o->mappings[0];
-    const dp_mapping mappings[] = {DP_MAPPING_D3D, DP_MAPPING_REVERSED,
-                                   dp_mapping_get(asked)->curve == DP_CURVE_LOG ? asked : DP_MAPPING_LOG};
+    const dp_mapping mappings[] = {DP_MAPPING_D3D, DP_MAPPING_REVERSED, is_logarithm(asked) ? asked : DP_MAPPING_LOG};
     dp_spec spec = spec_of(r->o);
     for (size_t f = 0; f < dp_format_count(); f++)
         for (size_t m = 0; m < sizeof mappings / sizeof mappings[0] && dp_format_get(f)->buffer; m++) {

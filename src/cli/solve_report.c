@@ -356,8 +356,8 @@ void solve_report_answer(page *p, void *item) {
         say_plane(r, c, p);
     if (!isnan(r->limit))
         snprintf(wanted, sizeof wanted, ", wanted %s", digits(r, r->limit).text);
-    page_note(p, solve_measure_name(r), "%s at z = %s%s", up(r, c->reached.value).text, digits(r, c->reached.z).text,
-              wanted);
+    page_note(p, solve_measure_name(r), "%s at z = %s%s", up(r, c->reached.value).text,
+              (r->target == SOLVE_FOR_DISTANCE ? bound(r, c->reached.z, false) : digits(r, c->reached.z)).text, wanted);
     if (is_slanted(r))
         page_note(p, "facing", "%s there", up(r, solve_in_binary32(r, c, false)).text);
     say_model(r, c, p);

@@ -63,7 +63,7 @@ static double argument_error(const dp_log_shader *s, dp_span r) {
     const double lo = argument_of(s, r.lo);
     const double hi = argument_of(s, r.hi);
     if (s->by == 0.0)
-        return division * 2.0 * relative_error(lo, hi) / ln2 * (1.0 + beside);
+        return division * 2.0 * relative_error(lo * (1.0 - beside), hi * (1.0 + beside)) / ln2 * (1.0 + beside);
     const double x = (r.hi - s->from) * (1.0 + beside);
     const double left = larger(lo * (1.0 - beside), 1.0 - beside);
     const double taken = r.hi <= 2.0 * s->from || s->from == 0.0 ? 0.0 : s->by * dp_half_ulp(x);
@@ -185,4 +185,53 @@ double dp_log_longest(const dp_log_shader *s, dp_span run, double extra, dp_log_
         hi = run.hi + next;
     }
     return longest;
+}
+
+/* ---- The error --------------------------------------------------------------------------------------------------- */
+
+/* The most that storing a window depth changes it by, which is a binary32 number. */
+static double stored_error(const dp_pipeline *p, double high) {
+    const dp_format *format = &p->format;
+    const double share = p->rounding == DP_ROUND_ZERO || p->arith->conversion == DP_CONVERT_PRODUCT_ZERO ? 1.0 : 0.5;
+    const double top = smaller(larger(high, 0.0), 1.0 - DP_UNIT_BELOW_ONE);
+    if (format->kind == DP_FORMAT_FLOAT && format->mantissa_bits < 23)
+        return dp_step_num(format, dp_binade(format, top)) * (p->rounding == DP_ROUND_ZERO ? 1.0 : 0.5);
+    if (format->kind == DP_FORMAT_FLOAT)
+        return share * dp_step_num(format, 1 - format->bias); /* of subnormals */
+    const double levels = (double)format->code_max;
+    /* Where half a unit of the product is 1/2 it is whole; above 24 bits the factor is off by 1, which is a level. */
+    const double product = p->arith->conversion == DP_CONVERT_EXACT ? 0.0
+                           : format->bits > 24                      ? 1.0
+                                                                    : smaller(dp_half_ulp(top * levels), 0.25);
+    return (share + product) / levels;
+}
+
+static double error_in(const dp_log_shader *s, dp_span span) {
+    const dp_log_steps a = dp_log_shader_steps(s, span);
+    const double off = a.argument + a.log2, ends = a.scale + a.ndc;
+    const double low = smaller((a.lo - off) * s->k_lo, (a.lo - off) * s->k_hi) - ends;
+    const double high = (a.hi + off) * s->k_hi + ends;
+    double growth = off + (ends + stored_error(&s->pipeline, high)) / s->k_lo;
+    growth += fabs(a.hi) * (s->k_hi / s->k_lo - 1.0); /* who decodes has a k of his own */
+    growth += larger(low <= 0.0 ? s->below : 0.0, high >= 1.0 ? s->above : 0.0);
+    return distance(s, span.hi, growth) + dp_half_ulp(span.hi); /* the depth enters as a binary32 number */
+}
+
+/* Errors grow with z but for steps in what rounds, so the search goes down from hi until nothing nearer can be worse.
+ */
+double dp_log_error_over(const dp_log_shader *s, double lo, double hi, double *z) {
+    static const double stretch = 1.0 + 0x1p-5;
+    double worst = 0.0;
+    *z = hi;
+    for (double top = hi;;) {
+        const double bottom = larger(top / stretch, lo);
+        const double error = error_in(s, (dp_span){(double)(float)bottom, (double)(float)top});
+        if (error > worst) {
+            worst = error;
+            *z = top;
+        }
+        if (bottom <= lo || error_in(s, (dp_span){(double)(float)lo, (double)(float)bottom}) <= worst)
+            return worst;
+        top = bottom;
+    }
 }

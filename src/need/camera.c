@@ -5,6 +5,7 @@
 
 #include "api/unit.h"
 #include "core/append.h"
+#include "need/judge.h"
 #include "need/model.h"
 #include "need/reader.h"
 #include "raster/raster.h"
@@ -199,11 +200,10 @@ static bool make_setups(reader *r, const config_setting_t *group, const draft *d
     for (size_t i = 0; i < d->format_count; i++) {
         dp_spec spec = d->spec;
         spec.format = d->formats[i];
-        const dp_status status = dp_setup_init(&out->setups[i], &spec);
+        const dp_status status = judge_setup(&spec, &out->setups[i]);
         if (status == DP_ERROR_MODEL)
             return reader_fail(r, group,
-                               "camera '%s': the model float needs one of the mappings " DP_MAPPING_NAMES_PERSPECTIVE
-                               ", got %s",
+                               "camera '%s': model: must be exact, staged or auto with the mapping %s, got float",
                                out->name, dp_mapping_get(spec.mapping)->name);
         if (status != DP_OK)
             return reader_fail(r, group, "camera '%s': %s, got near %.15g, far %.15g, %s, %s", out->name,

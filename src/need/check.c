@@ -4,6 +4,7 @@
 #include <math.h>
 
 #include "core/bits.h"
+#include "core/engine.h"
 #include "need/judge.h"
 #include "world/reach.h"
 
@@ -61,7 +62,7 @@ static void judge_separation(const need *n, const need_camera *camera, const dp_
         judge_world(n, camera, asked, v);
         return;
     }
-    const bool heavy = camera->automatic || asked->spec.model == DP_MODEL_FP32;
+    const bool heavy = camera->automatic || dp_is_computed(asked);
     if (!heavy || !with_model(asked, DP_MODEL_EXACT, &setup)) {
         judge_in(n, asked, v);
         return;
@@ -76,7 +77,10 @@ static void judge_separation(const need *n, const need_camera *camera, const dp_
 static void judge_error(const need *n, const need_camera *camera, const dp_setup *asked, check_verdict *v) {
     dp_setup setup;
     judge_in(n, asked, v);
-    if (camera->automatic && v->passed && with_model(asked, DP_MODEL_STAGED, &setup))
+    if (!camera->automatic || !v->passed)
+        return;
+    setup = dp_setup_guaranteed(asked);
+    if (setup.shader || with_model(asked, DP_MODEL_STAGED, &setup))
         judge_in(n, &setup, v);
 }
 

@@ -3,6 +3,8 @@
 
 #include <math.h>
 
+#include "core/log_shader.h"
+
 static judgement of_separation(const dp_setup *setup, double lo, double hi, double limit) {
     dp_separation_worst worst = {.bound = HUGE_VAL, .separation = HUGE_VAL, .z = hi};
     if (lo == hi)
@@ -14,7 +16,19 @@ static judgement of_separation(const dp_setup *setup, double lo, double hi, doub
         .value = passed || worst.separation > limit ? worst.separation : worst.bound, .z = worst.z, .passed = passed};
 }
 
+/* Of what a shader writes, whatever its log2. */
+static judgement of_written_error(const dp_setup *setup, double lo, double hi, double limit) {
+    const dp_log_shader shader = dp_log_shader_make(setup, dp_log2_get(0));
+    judgement out;
+    out.value = dp_log_error_over(&shader, lo, hi, &out.z);
+    out.code = dp_code(setup, out.z);
+    out.passed = out.value <= limit;
+    return out;
+}
+
 static judgement of_error(const dp_setup *setup, double lo, double hi, double limit) {
+    if (setup->shader)
+        return of_written_error(setup, lo, hi, limit);
     dp_worst worst = {.error = HUGE_VAL, .error_z = hi};
     if (lo == hi) {
         worst.error_code = dp_code(setup, lo);

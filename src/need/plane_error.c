@@ -148,8 +148,8 @@ static bool go(walk *w, int most) {
 /* staged: what the lattice needs may not do; then farther in, where the bound of a staged error will. */
 static bool aligned_anyhow(const solve_problem *p, double x) {
     dp_setup setup;
-    return solve_setup(p, x, &setup) == DP_OK && measure_over(p->kind, &setup, p->lo, p->hi).value <= p->limit &&
-           plane_passes(p, x);
+    return solve_setup(p, x, &setup) == DP_OK &&
+           (setup.shader || measure_over(p->kind, &setup, p->lo, p->hi).value <= p->limit) && plane_passes(p, x);
 }
 
 static double start_of(const solve_problem *p, double outer, double inner) {
@@ -191,7 +191,7 @@ static void try_places(const solve_problem *p, plane_answer *a) {
 static bool is_decided_at(const solve_problem *p, double x, double *z) {
     enum { CELLS = 16 };
     dp_setup setup;
-    if (solve_setup(p, x, &setup) != DP_OK)
+    if (solve_setup(p, x, &setup) != DP_OK || setup.shader)
         return false;
     *z = measure_governing(&setup, p->lo, p->hi);
     const double cells = fabs((double)dp_code(&setup, p->lo) - (double)dp_code(&setup, p->hi));
@@ -212,7 +212,7 @@ void plane_error_solve(const solve_problem *p, const solve_result *lattice, plan
         start = out->until = znear ? lattice->most : lattice->least;
     out->possible = !isnan(start);
     out->value = out->steady = out->possible ? start : lattice->value;
-    if (out->possible && p->spec.model == DP_MODEL_STAGED && start != out->until)
+    if (out->possible && p->spec.model != DP_MODEL_EXACT && start != out->until)
         try_places(p, out);
     if (!out->possible || isinf(out->value)) {
         out->until = out->possible ? out->until : out->value;

@@ -76,13 +76,13 @@ static bool suits(reader *r, const config_setting_t *s, const need *n) {
                            camera->name, model_word(spec->model));
     if (n->kind != NEED_TIES)
         return true;
-    if (spec->model != DP_MODEL_FP32 && !camera->automatic)
-        return reader_fail(r, s, "ties: needs the model float or auto, and the camera '%s' has %s", camera->name,
-                           model_word(spec->model));
     if (dp_mapping_get(spec->mapping)->curve != DP_CURVE_PERSPECTIVE)
         return reader_fail(
             r, s, "ties: needs one of the mappings " DP_MAPPING_NAMES_PERSPECTIVE ", and the camera '%s' has %s",
             camera->name, dp_mapping_get(spec->mapping)->name);
+    if (spec->model != DP_MODEL_FP32 && !camera->automatic)
+        return reader_fail(r, s, "ties: needs the model float or auto, and the camera '%s' has %s", camera->name,
+                           model_word(spec->model));
     if (!(n->lo < n->hi) || isinf(n->hi))
         return reader_fail(r, s, "ties: needs a range with a finite far end");
     if (isinf((float)n->hi))

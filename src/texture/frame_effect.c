@@ -269,16 +269,20 @@ static double corners_error(const work *w, uint32_t x) {
 
 /* ---- One pixel --------------------------------------------------------------------------------------------------- */
 
-/* Where what it is compared with is not known, it lies where the error is largest. What binary32 adds is then bounded:
- * a few roundings of an output of 1, and one of each depth. */
+/* What binary32 adds at most: a few roundings of an output of 1, and one of each depth. */
+static double rounding_error(const work *w, const effect_view *view, double seen) {
+    const double p = w->parameters[w->row->wanted], depth = w->row->apart(view, w->parameters, seen, 0);
+    return LEVELS * DP_UNIT * (8 + 4 * (w->row->kind == EFFECT_FADE ? depth / p : depth * p));
+}
+
+/* Where what it is compared with is not known, it lies where the error is largest. */
 static double worst_error(const work *w, const effect_view *view, const effect_pixel *pixel, const grain_range *range) {
     const double seen = w->row->eye01 ? (double)pixel->eye01 * w->planes->spec.zfar : (double)pixel->eye;
     const effect_depths depths = {.seen = seen, .lo = range->lo, .hi = range->hi};
-    const double p = w->parameters[w->row->wanted], error = effect_error_within(w->row, view, w->parameters, &depths);
+    const double error = effect_error_within(w->row, view, w->parameters, &depths);
     if (w->row->apart == NULL)
         return isnan(error) ? LEVELS : error;
-    const double depth = w->row->apart(view, w->parameters, depths.seen, 0);
-    return error + LEVELS * DP_UNIT * (8 + 4 * (w->row->kind == EFFECT_FADE ? depth / p : depth * p));
+    return error + rounding_error(w, view, depths.seen);
 }
 
 /* A ramp of a concave quantity, which is least at an end of the range. */
@@ -360,7 +364,8 @@ static double refracted_error(const work *w, const effect_view *view, double see
 }
 
 /* Of a pixel that looks through the one beside it. Where the surface is not known it may lie where the choice between
- * the two turns, or where the error of one is largest: at an end of what either may be, at what is seen, or next to it. */
+ * the two turns, or where the error of one is largest: at an end of what either may be, at what is seen, or next to it.
+ */
 static double through_error(const work *w, const effect_view *view, uint32_t x, uint32_t beside) {
     frame_ranges last = frame_no_range();
     grain_range ranges[2];
@@ -369,7 +374,6 @@ static double through_error(const work *w, const effect_view *view, uint32_t x, 
     if (!isnan(w->reference))
         return refracted_error(w, view, (double)output_at(w, x), w->reference, ranges);
     const double seen[2] = {(double)seen_as(w, w->in->depth[x]).eye, (double)seen_as(w, w->in->depth[beside]).eye};
-    const double depth = w->row->apart(view, w->parameters, fmax(seen[0], seen[1]), 0);
     double error = 0;
     for (int i = 0; i < 12; i++) {
         const grain_range *range = &ranges[i / 6];
@@ -378,7 +382,7 @@ static double through_error(const work *w, const effect_view *view, uint32_t x, 
         const double output = w->row->output(view, w->parameters, seen[seen[1] >= surface], surface);
         error = fmax(error, refracted_error(w, view, output, surface, ranges));
     }
-    return error + LEVELS * DP_UNIT * (8 + 4 * depth * w->parameters[w->row->wanted]);
+    return error + rounding_error(w, view, fmax(seen[0], seen[1]));
 }
 
 static double error_at(const work *w, frame_ranges *last, uint32_t x) {
