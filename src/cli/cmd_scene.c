@@ -230,7 +230,7 @@ static int judge_findings(scene *s) {
     }
     judge_distances(s);
     for (size_t i = 0; i < s->found.findings; i++) /* once each distance is judged */
-        s->findings[i].verdict.lift += scene_crossing(&s->model, &s->found, s->findings[i].of);
+        s->findings[i].verdict.lift = scene_lift(&s->model, &s->found, s->findings[i].of, s->findings[i].verdict.lift);
     const int status = s->eyes.count > 0 ? scene_eyes_judge(s) : EXIT_FINE;
     s->required = option_given(&s->o, OPTION_WITHIN);
     s->passed = true;

@@ -105,9 +105,6 @@ int scene_eyes_take(scene *s);
 /** Judges the findings from them. @return EXIT_FINE, also where it was interrupted, or EXIT_USAGE after one line */
 int scene_eyes_judge(scene *s);
 
-/** Distances are measured to this share of the model's extent: what is less is none. */
-#define SCENE_NO_GAP 1e-12
-
 /** Unasked, a model is judged up to so many times its extent: there it is a tenth of the picture's height. */
 #define SCENE_FAR_AWAY 10.0
 

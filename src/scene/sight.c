@@ -98,6 +98,14 @@ static double dot(const double a[3], const double b[3]) {
     return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
 }
 
+static void unit_normal(const model *m, uint32_t triangle, double out[3]) {
+    const uint32_t *of = m->triangle[triangle];
+    exact_normal((const double *[]){m->position[of[0]], m->position[of[1]], m->position[of[2]]}, out);
+    const double length = dp_hypot(dp_hypot(out[0], out[1]), out[2]);
+    for (int k = 0; k < 3; k++)
+        out[k] /= length;
+}
+
 static pair pair_of(const sight_asked *asked, const finder_pair *of) {
     const model *m = asked->m;
     pair p = {.gap_lo = of->gap_lo, .gap_hi = of->gap_hi};
@@ -105,10 +113,7 @@ static pair pair_of(const sight_asked *asked, const finder_pair *of) {
     for (int i = 0; i < 2; i++) {
         for (int k = 0; k < 3; k++)
             memcpy(p.vertex[i][k], m->position[m->triangle[of->triangle[i]][k]], sizeof p.vertex[i][k]);
-        exact_normal((const double *[]){p.vertex[i][0], p.vertex[i][1], p.vertex[i][2]}, p.normal[i]);
-        const double length = dp_hypot(dp_hypot(p.normal[i][0], p.normal[i][1]), p.normal[i][2]);
-        for (int k = 0; k < 3; k++)
-            p.normal[i][k] /= length;
+        unit_normal(m, of->triangle[i], p.normal[i]);
         p.two_sided[i] = asked->any_side || m->surface[m->of[of->triangle[i]]].two_sided;
     }
     return p;
@@ -329,8 +334,19 @@ static pair whole_pair_of(const sight_asked *asked, const finder_pair *of) {
     return p;
 }
 
-/* One of the triangles moved along the first one's normal, so that their distance grows by `by`. */
+/* What a distance along the normal of either grows by where it is added along that of the other: its share. */
+static double parallel(const double a[3], const double b[3]) {
+    double sine = 0.0;
+    for (int k = 0; k < 3; k++) {
+        const double c = a[k] * b[(k + 1) % 3] - a[(k + 1) % 3] * b[k];
+        sine += c * c;
+    }
+    return sqrt(1.0 - sine);
+}
+
+/* One of the triangles moved by `by` along the first one's normal, away from the other where that is above 0. */
 static pair moved_apart(const pair *p, int which, double by) {
+    const double grown = by * parallel(p->normal[0], p->normal[1]);
     pair to = *p;
     const double step = which == 0 ? -by : by;
     for (int c = 0; c < 3; c++)
@@ -339,8 +355,8 @@ static pair moved_apart(const pair *p, int which, double by) {
     for (int c = 0; which == 0 && c < p->corners; c++)
         for (int k = 0; k < 3; k++)
             to.corner[c][k] += step * p->normal[0][k];
-    to.gap_lo += by;
-    to.gap_hi += by;
+    to.gap_lo += grown;
+    to.gap_hi += grown;
     return to;
 }
 
@@ -359,28 +375,67 @@ static double lack_moved(const sight_asked *asked, const pair *p, double by) {
     return lack;
 }
 
-static double lack_of_all(const sight_asked *asked, const finder_finding *f, double lift) {
-    double lack = 0.0;
-    for (size_t i = 0; i < f->pairs && !(asked->stop != NULL && asked->stop()); i++) {
-        const pair p = whole_pair_of(asked, &asked->found->pair[f->first + i]);
-        if (p.gap_hi >= 0.0)
-            lack = fmax(lack, lack_moved(asked, &p, lift));
-        if (p.gap_lo <= 0.0)
-            lack = fmax(lack, lack_moved(asked, &p, -lift));
-    }
-    return lack;
-}
-
-double scene_crossing(const model *m, const finder_found *found, const finder_finding *f) {
-    double most = 0.0;
+/* Whether the triangles that face as the finding does lie on both sides of each other, together or one of them. */
+static bool is_crossing(const model *m, const finder_found *found, const finder_finding *f) {
+    const double none = SCENE_NO_GAP * found->extent;
+    bool above = false, below = false;
     for (size_t i = 0; i < f->pairs; i++) {
         const finder_pair *p = &found->pair[f->first + i];
-        if (!(p->gap_lo < 0.0 && p->gap_hi > 0.0))
+        const bool up = p->gap_hi > none, down = p->gap_lo < -none;
+        double n[3];
+        if ((above || !up) && (below || !down))
             continue;
-        const overlap o = whole_overlap(m, p);
+        unit_normal(m, p->triangle[0], n);
+        const bool alike = dot(n, f->normal) > 0.5;
+        above = above || (up && (alike || down));
+        below = below || (down && (alike || up));
+    }
+    return above && below;
+}
+
+/* By how much the triangles reach through each other; 0 where none does. */
+static double crossing(const model *m, const finder_found *found, const finder_finding *f) {
+    double most = 0.0;
+    if (!is_crossing(m, found, f))
+        return 0.0;
+    for (size_t i = 0; i < f->pairs; i++) {
+        const overlap o = whole_overlap(m, &found->pair[f->first + i]);
         most = fmax(most, fmax(-o.lo, o.hi));
     }
     return most;
+}
+
+double scene_lift(const model *m, const finder_found *found, const finder_finding *f, double lift) {
+    double share = 1.0;
+    for (size_t i = 0; i < f->pairs && lift > 0.0; i++) {
+        double n[2][3];
+        for (int k = 0; k < 2; k++)
+            unit_normal(m, found->pair[f->first + i].triangle[k], n[k]);
+        share = fmin(share, parallel(n[0], n[1]));
+    }
+    return lift > 0.0 ? (lift + crossing(m, found, f)) / share : lift;
+}
+
+/* Of what touches or crosses neither side is the one to which it is moved. */
+static bool has_no_side(const finder_found *found, const finder_finding *f) {
+    const double none = SCENE_NO_GAP * found->extent;
+    for (size_t i = 0; i < f->pairs; i++)
+        if (found->pair[f->first + i].gap_lo <= none && found->pair[f->first + i].gap_hi >= -none)
+            return true;
+    return false;
+}
+
+static double lack_of_all(const sight_asked *asked, const finder_finding *f, double lift) {
+    const bool either = has_no_side(asked->found, f);
+    double lack = 0.0;
+    for (size_t i = 0; i < f->pairs && !(asked->stop != NULL && asked->stop()); i++) {
+        const pair p = whole_pair_of(asked, &asked->found->pair[f->first + i]);
+        if (either || p.gap_hi >= 0.0)
+            lack = fmax(lack, lack_moved(asked, &p, lift));
+        if (either || p.gap_hi < 0.0)
+            lack = fmax(lack, lack_moved(asked, &p, -lift));
+    }
+    return lack;
 }
 
 /* Moved, triangles are seen elsewhere, and are of another class: what is proposed is judged again until it is enough.
@@ -388,7 +443,7 @@ double scene_crossing(const model *m, const finder_found *found, const finder_fi
 static double enough_lift(const sight_asked *asked, const finder_finding *f, double lift) {
     if (!(lift > 0.0))
         return lift;
-    lift += scene_crossing(asked->m, asked->found, f);
+    lift += crossing(asked->m, asked->found, f);
     for (int round = 0; round < ROUNDS && isfinite(lift); round++) {
         const double lack = lack_of_all(asked, f, lift);
         if (lack == 0.0)

@@ -26,6 +26,9 @@
 #include "scene/eye.h"
 #include "scene/find.h"
 
+/** Distances are measured to this share of the model's extent: what is less is none. */
+#define SCENE_NO_GAP 1e-12
+
 /** Eye depths, scene units. */
 typedef struct scene_sight {
     double seen_from, seen_to; /**< of the overlaps in view; NaN where none is */
@@ -52,8 +55,11 @@ typedef struct sight_asked {
     bool (*stop)(void); /**< asked at each pair; true ends it, and the answer is then of no use. May be null */
 } sight_asked;
 
-/** By how much the triangles of a finding reach through each other, scene units; 0 where none does. */
-double scene_crossing(const model *m, const finder_found *found, const finder_finding *f);
+/**
+ * What has to be added to the distance of a finding, along any of its normals, so that it grows by `lift` everywhere:
+ * more where triangles are tilted against each other, and where they reach through each other.
+ */
+double scene_lift(const model *m, const finder_found *found, const finder_finding *f, double lift);
 
 /**
  * Judges a finding from the eye from which it is worst: where it fights nearest; else where it is not covered; else
