@@ -83,8 +83,8 @@ all_named bias --api all --range 1:10
 all_named shadow -f 50 --api all
 all_named shadow --light-box 5x5x5 --range 1:4
 all_named plot shadow
-all_named bench worst --tolerance 0.1
-all_named stability encode
+all_named methods worst --tolerance 0.1
+all_named methods
 all_named texture --scene decals --size 64x36
 all_named texture --scene decals --size 64x36 --pixel 1,2
 all_named texture --effect intersection --at 10

@@ -16,11 +16,10 @@ static const struct {
     {VERB_ZFIGHT, "zfight --range 1:1.01"},
     {VERB_BUDGET, "budget"},
     {VERB_TEXTURE, "texture --scene steps --size 64x36"},
-    {VERB_BENCH, "bench interval --json"},
+    {VERB_METHODS, "methods interval --json"},
     {VERB_CHECK, "check tests/needs/village.need"},
     {VERB_SOLVE, "solve -F d24 -m d3d --separation 0.01 --at 50"},
     {VERB_BIAS, "bias --units -1"},
-    {VERB_STABILITY, "stability encode"},
     {VERB_SHADOW, "shadow"},
     {VERB_DISOCCLUSION, "disocclusion"},
     {VERB_WORLD, "world --distance 1e5"},
@@ -107,8 +106,8 @@ static const struct {
     {VERB_SOLVE, IDS(OPTION_MAPPING), "all", "solve -F d24 --separation 0.01 --at 50", ""},
     {VERB_SOLVE, IDS(OPTION_RANGE), "0.1:1000", "solve --for distance -n 0.1 -f 1000 -F d24 -m d3d --separation 0.01",
      ""},
-    {VERB_BENCH, IDS(OPTION_FORMAT), "unorm24", NULL, ""},
-    {VERB_BENCH, IDS(OPTION_MAPPING), "d3d", NULL, ""},
+    {VERB_METHODS, IDS(OPTION_FORMAT), "unorm24", NULL, ""},
+    {VERB_METHODS, IDS(OPTION_MAPPING), "d3d", NULL, ""},
     {VERB_TEXTURE, IDS(OPTION_FORMAT), "unorm24", NULL, "--pixel 9,9 --csv"},
     {VERB_TEXTURE, IDS(OPTION_FORMAT, OPTION_MAPPING), "all", "texture --effect fog", ""},
     {VERB_TEXTURE, IDS(OPTION_MAPPING), "d3d", NULL, "--pixel 9,9 --csv"},
@@ -176,7 +175,7 @@ static void keep_setup(char *text) {
 
 static void same_with(tally *t, const verb *v, const char *line, const option_row *row, const char *value) {
     printed without = print_of("%s", line), with = print_of("%s --%s %s", line, row->name, value);
-    if (v->bit == VERB_BENCH) {
+    if (v->bit == VERB_METHODS) {
         keep_setup(without.out);
         keep_setup(with.out);
     }

@@ -52,14 +52,14 @@ enum {
     VIEWED = SLANTED | SHADOWED,
     ASKED = MODELLED | VERB_BUDGET,
     CAMERA = ASKED | VERB_ZFIGHT | VERB_DISOCCLUSION | VERB_SCENE | VERB_WORLD,
-    PLACED = CAMERA | VERB_BENCH,
+    PLACED = CAMERA | VERB_METHODS,
     TAKEN = VERB_TEXTURE | VERB_BIAS | VERB_SOLVE,
     MAPPED = TAKEN | VERB_SHADOW,
     COUNTED = VERB_ZFIGHT,
     SEARCHED = VERB_SCENE | VERB_PLOT,
     SPREAD = COUNTED | VERB_CHECK | VERB_TEXTURE | SEARCHED,
     DRAWN = VERB_PLOT | VERB_TEXTURE,
-    WRITTEN = PLACED | MAPPED | VERB_STABILITY | VERB_LIST | VERB_CHECK | VERB_PROBE,
+    WRITTEN = PLACED | MAPPED | VERB_LIST | VERB_CHECK | VERB_PROBE,
     EVERY = ~0
 };
 
@@ -93,7 +93,7 @@ const option_row option_rows[OPTION_COUNT] = {
         "near plane; with --ortho also 0 or negative", .parse = parse_near, FIELD(double, znear),
         LIMITS(1e-12, 1e12, "scene units"), .standard = "0.1",
         .except = {BUT(VERB_SOLVE, NULL, "what is solved for, or 0.1 where --for names another", NULL),
-                   BUT(VERB_BENCH | VERB_DISOCCLUSION | VERB_SCENE, "0.1", NULL, "near plane"),
+                   BUT(VERB_METHODS | VERB_DISOCCLUSION | VERB_SCENE, "0.1", NULL, "near plane"),
                    BUT(VERB_SHADOW, "0.1", NULL, "near plane of the view")},
         .group = "The camera"},
     [OPTION_FAR] = {"far", 'f', "Z|inf", PLACED | MAPPED,
@@ -107,7 +107,7 @@ const option_row option_rows[OPTION_COUNT] = {
         "depth formats: @, names as the APIs write them, unormN, floatE.M[bB]; all means those of "
         "'depthprec list formats'", parse_formats, .names = &formats, .standard = "all",
         .except = {BUT(VERB_TEXTURE, NULL, "as the image has it; unorm24 with --scene; all with --effect alone", NULL),
-                   BUT(VERB_BENCH, NULL, "that of the family's first case", NULL),
+                   BUT(VERB_METHODS, NULL, "that of the family's first case", NULL),
                    BUT(VERB_BIAS, "fp32,unorm16,unorm24", "the depth buffers", NULL),
                    BUT(VERB_SHADOW | VERB_SCENE | VERB_WORLD, "fp32", NULL, NULL),
                    BUT(VERB_SOLVE, NULL, "solved for where near and far are given, else all", NULL)}},
@@ -115,7 +115,7 @@ const option_row option_rows[OPTION_COUNT] = {
         "mappings: @; all means d3d and reversed",
         parse_mappings, .names = &mappings, .standard = "all",
         .except = {BUT(VERB_TEXTURE, NULL, "as the image has it; d3d with --scene; all with --effect alone", NULL),
-                   BUT(VERB_BENCH, NULL, "that of the family's first case", NULL),
+                   BUT(VERB_METHODS, NULL, "that of the family's first case", NULL),
                    BUT(VERB_SOLVE, NULL, "solved for where near, far and format are given, else all", NULL),
                    BUT(VERB_SHADOW, "d3d", NULL, "mappings: " DP_MAPPING_NAMES_PERSPECTIVE
                        "; all are d3d and reversed"),
@@ -144,7 +144,7 @@ const option_row option_rows[OPTION_COUNT] = {
     [OPTION_UNIT] = {"unit", 0, NULL, PLACED | MAPPED,
         "what a scene unit is; presets are converted to it; any length may carry a unit: 10cm",
         .parse = parse_unit, .names = &units, .without = "that of the preset, or m where a length has a unit",
-        .except = {BUT(VERB_BENCH, NULL, "m where a length has a unit",
+        .except = {BUT(VERB_METHODS, NULL, "m where a length has a unit",
                        "what a scene unit is; any length may carry a unit: 10cm")}},
     [OPTION_ROUNDING] = {"rounding", 0, NULL, CAMERA | TAKEN,
         "how a depth between two codes is rounded: ties upwards in unorm formats and to even in floats, as the APIs "
@@ -160,14 +160,15 @@ const option_row option_rows[OPTION_COUNT] = {
         "the binary32 arithmetic: @; or as 'depthprec probe --json -o FILE' found it; that of --raster or --platform "
         "where one is known", .parse = parse_arith,
         SIZED(arith), .names = &ariths, .standard = "ieee"},
-    [OPTION_TOLERANCE] = {"tolerance", 0, "SHARE", ASKED | VERB_BENCH | VERB_LIST,
+    [OPTION_TOLERANCE] = {"tolerance", 0, "SHARE", ASKED | VERB_METHODS | VERB_LIST,
         "the error allowed, 0.05 or 5%: a model is enough if it neglects no more of the separation; and the "
         "cheapest method that claims no more is used", parse_tolerance, .standard = "5%",
         .except = {BUT(VERB_TABLE, NULL, "5% for the model; intervals are exact", NULL),
                    BUT(VERB_PLOT, NULL, "5% for the model; intervals are as exact as the picture shows", NULL),
                    BUT(VERB_BUDGET, "5%", NULL, "a model is enough if it neglects no more of the separation, 0.05 or "
                        "5%"),
-                   BUT(VERB_BENCH, NULL, "none", "the cheapest method that claims no more than 0.05, or 5%, is marked"),
+                   BUT(VERB_METHODS, NULL, "none", "the cheapest method that claims no more than 0.05, or 5%, is "
+                       "marked"),
                    BUT(VERB_LIST, NULL, NULL, "list methods: the cases for which each is the cheapest that claims no "
                        "more than 0.05, or 5%")}},
     [OPTION_AT] = {"at", 0, "Z[,Z...]|LO:HI:log|lin:COUNT", ASKED | TAKEN | VERB_DISOCCLUSION | VERB_WORLD,

@@ -45,14 +45,12 @@ const verb verb_rows[] = {
      "  depthprec texture depth.png -n 0.3 -f 1000 --pixel 320,180\n"
      "  depthprec texture depth.png -n 0.3 -f 1000 --normal high -o normals.npy\n"
      "  depthprec texture --scene decals --parameter gap=0.01 -F d24 -m reversed\n", 1},
-    {"bench", VERB_BENCH, "FAMILY", 1, 1, &families,
-     "methods of a family: time against worst error",
-     "  depthprec bench linearize -n 0.1 -f 1000\n"
-     "  depthprec bench interval -F fp32 -m reversed --tolerance 1e-6\n"
-     "  depthprec plot pareto linearize -o pareto.svg\n", 0},
-    {"stability", VERB_STABILITY, "FAMILY", 1, 1, &families,
-     "where the methods of a family lose what they claim",
-     "  depthprec stability linearize\n"
+    {"methods", VERB_METHODS, "FAMILY", 0, 1, &families,
+     "ways to a quantity: time, worst error, where they fail",
+     "  depthprec methods\n"
+     "  depthprec methods linearize -n 0.1 -f 1000\n"
+     "  depthprec methods interval -F fp32 -m reversed --tolerance 1e-6\n"
+     "  depthprec plot pareto linearize -o pareto.svg\n"
      "  depthprec plot stability interval -o stability.svg\n", 0},
     {"check", VERB_CHECK, "FILE...", 1, 1000, NULL,
      "cameras against requirement files; exit 1 if one is missed",

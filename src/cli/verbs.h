@@ -23,8 +23,7 @@ enum {
     VERB_CHECK = 1u << 6,
     VERB_SOLVE = 1u << 7,
     VERB_BIAS = 1u << 8,
-    VERB_BENCH = 1u << 9,
-    VERB_STABILITY = 1u << 10,
+    VERB_METHODS = 1u << 9,
     VERB_TEXTURE = 1u << 11,
     VERB_COMPLETIONS = 1u << 12,
     VERB_SHADOW = 1u << 13,
@@ -60,8 +59,7 @@ int cmd_probe(const struct options *o);
 int cmd_list(const struct options *o);
 int cmd_plot(const struct options *o);
 int cmd_zfight(const struct options *o);
-int cmd_bench(const struct options *o);
-int cmd_stability(const struct options *o);
+int cmd_methods(const struct options *o);
 int cmd_check(const struct options *o);
 int cmd_solve(const struct options *o);
 int cmd_texture(const struct options *o);

@@ -23,14 +23,13 @@ static int absent(const options *o) {
         return absent(o);                                                                                              \
     }
 
-ABSENT(cmd_bench)
 ABSENT(cmd_check)
 ABSENT(cmd_completions)
 ABSENT(cmd_disocclusion)
+ABSENT(cmd_methods)
 ABSENT(cmd_probe)
 ABSENT(cmd_scene)
 ABSENT(cmd_shadow)
-ABSENT(cmd_stability)
 ABSENT(cmd_texture)
 ABSENT(cmd_web)
 
