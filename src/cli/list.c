@@ -338,7 +338,7 @@ static const topic topics[] = {
     {"apis", "what one unit of depth bias is, for bias --api", list_api, .bound = "rule"},
     {"rasterizers", "how rasterizers snap vertices and step depth across triangles", list_rasterizer,
      .bound = "arithmetic"},
-    {"programs", "how a vertex program makes clip coordinates, for zfight --against", list_program, .bound = "bound"},
+    {"programs", "how a vertex program makes clip coordinates, for prepass", list_program, .bound = "bound"},
     {"schemes", "ways to bring a large world before the camera, for world --scheme", list_scheme, .bound = "size"},
     {"encodings", "depth and normals in the channels of a texture, and their error bounds", list_encoding,
      .bound = "bound"},

@@ -13,6 +13,7 @@ static const struct {
     {VERB_TABLE, cmd_table},
     {VERB_PLOT, cmd_plot},
     {VERB_ZFIGHT, cmd_zfight},
+    {VERB_PREPASS, cmd_prepass},
     {VERB_BUDGET, cmd_budget},
     {VERB_TEXTURE, cmd_texture},
     {VERB_METHODS, cmd_methods},

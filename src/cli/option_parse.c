@@ -245,6 +245,7 @@ static int add_program(options *o, const option_row *row, const char *name) {
 }
 
 int parse_against(options *o, const option_row *row, const char *value) {
+    o->against_count = 0;
     return parse_names(o, row, value, add_program);
 }
 

@@ -51,11 +51,11 @@ enum {
     SHADOWED = VERB_SHADOW | VERB_PLOT,
     VIEWED = SLANTED | SHADOWED,
     ASKED = MODELLED | VERB_BUDGET,
-    CAMERA = ASKED | VERB_ZFIGHT | VERB_DISOCCLUSION | VERB_SCENE | VERB_WORLD,
+    CAMERA = ASKED | VERB_ZFIGHT | VERB_PREPASS | VERB_DISOCCLUSION | VERB_SCENE | VERB_WORLD,
     PLACED = CAMERA | VERB_METHODS,
     TAKEN = VERB_TEXTURE | VERB_BIAS | VERB_SOLVE,
     MAPPED = TAKEN | VERB_SHADOW,
-    COUNTED = VERB_ZFIGHT,
+    COUNTED = VERB_ZFIGHT | VERB_PREPASS,
     SEARCHED = VERB_SCENE | VERB_PLOT,
     SPREAD = COUNTED | VERB_CHECK | VERB_TEXTURE | SEARCHED,
     DRAWN = VERB_PLOT | VERB_TEXTURE,
@@ -123,21 +123,21 @@ const option_row option_rows[OPTION_COUNT] = {
                    BUT(VERB_WORLD, "reversed", NULL, "mappings: " DP_MAPPING_NAMES_PERSPECTIVE),
                    BUT(VERB_BUDGET, "all", NULL, "mappings: " DP_MAPPING_NAMES_PERSPECTIVE ", " DP_MAPPING_NAMES_LOG
                        "; all are d3d and reversed"),
-                   BUT(VERB_ZFIGHT | VERB_DISOCCLUSION, "all", NULL, "mappings: " DP_MAPPING_NAMES_PERSPECTIVE
+                   BUT(VERB_ZFIGHT | VERB_PREPASS | VERB_DISOCCLUSION, "all", NULL, "mappings: " DP_MAPPING_NAMES_PERSPECTIVE
                        "; all are d3d and reversed")}},
     [OPTION_LOG_C] = {"log-c", 0, "C", MODELLED | TAKEN | VERB_SCENE | VERB_BUDGET,
         "constant C of the logarithmic mappings", NUMBER(log_c, 1e-12, 1e12, NULL), .standard = "1"},
     [OPTION_ORTHO] = {"ortho", 0, NULL, (CAMERA & ~(VERB_DISOCCLUSION | VERB_SCENE | VERB_WORLD)) | TAKEN,
         "orthographic projection; not with linear and log", FLAG(ortho), .without = "perspective",
-        .except = {BUT(VERB_ZFIGHT | VERB_BUDGET, NULL, "perspective", "orthographic projection")}},
+        .except = {BUT(VERB_ZFIGHT | VERB_PREPASS | VERB_BUDGET, NULL, "perspective", "orthographic projection")}},
     [OPTION_PRESET] = {"preset", 0, "NAME[,NAME...]", CAMERA | TAKEN,
         "an engine's near, far, mapping and format, for those that are not given, for a bias the API that its users "
         "write, and with --viewport its field of view and rasterizer: @; table compares several; see 'depthprec list "
         "presets'",
         .parse = parse_presets, .names = &presets},
     [OPTION_PLATFORM] = {"platform", 0, "NAME",
-        VERB_TABLE | VERB_BUDGET | VERB_ZFIGHT | VERB_BIAS | VERB_PLOT | VERB_SOLVE | VERB_DISOCCLUSION |
-            VERB_SCENE | VERB_TEXTURE,
+        VERB_TABLE | VERB_BUDGET | VERB_ZFIGHT | VERB_PREPASS | VERB_BIAS | VERB_PLOT | VERB_SOLVE |
+            VERB_DISOCCLUSION | VERB_SCENE | VERB_TEXTURE,
         "what a browser stores for a page that asks for 24 bits: formats, mapping, arithmetic, for bias the API, and "
         "with --viewport the rasterizer, where they are not given; of presets it replaces all but the mapping: @; see "
         "'depthprec list platforms'", ROW(platform, platforms)},
@@ -181,12 +181,13 @@ const option_row option_rows[OPTION_COUNT] = {
                    BUT(VERB_TABLE, NULL, "nine, log-spaced from near to far, or to 1e6 times near; evenly where near "
                        "is not above 0; of several set-ups round ones", NULL)},
         .group = "The depths"},
-    [OPTION_RANGE] = {"range", 0, "LO:HI", MODELLED | VERB_ZFIGHT | VERB_BIAS | VERB_SOLVE | VERB_SHADOW,
+    [OPTION_RANGE] = {"range", 0, "LO:HI", MODELLED | COUNTED | VERB_BIAS | VERB_SOLVE | VERB_SHADOW,
         "the depths over which worst cases are taken", parse_range, .without = "near to far",
         .except = {BUT(VERB_SOLVE, NULL, "near to far for a distance, else --at", "the depths at which it must hold"),
                    BUT(VERB_SHADOW, NULL, "all of the box, less 1/256 where units are worth nothing at window depth 0",
                        "with --light-box: how far along the light what is lit lies, from the front of the box"),
                    BUT(VERB_ZFIGHT, NULL, "near to far; needed where far is inf", "the depths that are visited"),
+                   BUT(VERB_PREPASS, NULL, "near to far; needed where far is inf", "the eye depths of the vertices"),
                    BUT(VERB_PLOT, NULL, "near to far, or to 1e6 times near", "the depths that are shown")}},
     [OPTION_DEPTH] = {"depth", 0, "D[,D...]", VERB_TABLE,
         "the reverse: the eye depths of these window depths, each with its cell",
@@ -206,12 +207,12 @@ const option_row option_rows[OPTION_COUNT] = {
     [OPTION_INTERPOLATION] = {"interpolation", 0, "E", BUDGETED,
         "error of a window depth interpolated across a triangle",
         NUMBER(terms.interpolation, 0, 0x1p24, "units of 2^-24"), .standard = "0", .group = "The budget"},
-    [OPTION_WORLD] = {"world", 0, "R", BUDGETED | VERB_SHADOW | VERB_ZFIGHT,
+    [OPTION_WORLD] = {"world", 0, "R", BUDGETED | VERB_SHADOW | VERB_PREPASS,
         "start from world positions; no coordinate of theirs or of the camera exceeds R",
         LENGTH(terms.world, 0, 1e18, "scene units"), .standard = "0", .without = "eye depth is given",
         .except = {BUT(VERB_SHADOW, "0", "positions about the middle of the light's box",
                        "no coordinate of positions exceeds R"),
-                   BUT(VERB_ZFIGHT, "100", NULL, "with --against: no coordinate of a camera exceeds R")}},
+                   BUT(VERB_PREPASS, "100", NULL, "no coordinate of a camera exceeds R")}},
     [OPTION_COMPOSITION] = {"composition", 0, NULL, BUDGETED,
         "how they become clip coordinates: by one binary32 matrix of view and projection, multiplied in double and "
         "rounded, or in binary32; or after the camera's position is subtracted in double",
@@ -320,7 +321,7 @@ const option_row option_rows[OPTION_COUNT] = {
     [OPTION_SLOPE] = {"slope", 0, "S", VERB_BIAS,
         "eye depth changes by S from one pixel to the next", LENGTH(slope, 0, 1e12, "scene units per pixel"),
         .standard = "0", .without = "facing the camera"},
-    [OPTION_GAP] = {"gap", 0, "G", COUNTED | VERB_BIAS | SEARCHED | VERB_WORLD,
+    [OPTION_GAP] = {"gap", 0, "G", VERB_ZFIGHT | VERB_BIAS | SEARCHED | VERB_WORLD,
         "where surfaces G scene units apart tie and swap", .parse = parse_gap, FIELD(double, gap),
         .without = "neighbouring binary32 depths",
         .except = {BUT(SEARCHED, NULL, "what is not told apart as far as is judged",
@@ -330,21 +331,21 @@ const option_row option_rows[OPTION_COUNT] = {
         .group = "Pairs of surfaces"},
     [OPTION_SAMPLE] = {"sample", 0, "N", COUNTED,
         "draw N pairs at random", WHOLE(sample, 1, 1e12, NULL),
-        .without = "visit every depth; about 500 pairs of planes with --triangles, 1000000 vertices "
-                    "with --against"},
+        .without = "visit every depth; about 500 pairs of planes with --triangles",
+        .except = {BUT(VERB_PREPASS, "1000000", NULL, "draw N vertices at random")}},
     [OPTION_SEED] = {"seed", 0, "S", COUNTED | VERB_PROBE, /* JSON holds it exactly */
         "seed of --sample: the same pairs for the same seed", WHOLE(seed, 0, 0x1p53, NULL), .standard = "0",
-        .except = {BUT(VERB_PROBE, "0", NULL, "seed of the random scene that is predicted")}},
+        .except = {BUT(VERB_PROBE, "0", NULL, "seed of the random scene that is predicted"),
+                   BUT(VERB_PREPASS, "0", NULL, "seed of the vertices: the same for the same seed")}},
     [OPTION_TRIANGLES] = {"triangles", 0, NULL, VERB_ZFIGHT,
         "draw pairs of slanted planes as random triangles: how near they come before a pixel is wrong, against what "
         "is guaranteed", FLAG(drawn)},
-    [OPTION_AGAINST] = {"against", 0, "PROGRAM[,PROGRAM...]|all", VERB_ZFIGHT,
-        "send the same vertices through two vertex programs, --program and each of these: @; how many codes differ, "
-        "and what bias makes up for it", .parse = parse_against, .names = &programs_or_all,
+    [OPTION_AGAINST] = {"against", 0, "PROGRAM[,PROGRAM...]|all", VERB_PREPASS,
+        "the vertex programs of the main pass: @", .parse = parse_against, .names = &programs_or_all, .standard = "all",
         .group = "Two vertex programs"},
-    [OPTION_PROGRAM] = {"program", 0, "PROGRAM", VERB_ZFIGHT,
-        "what they are compared with", ROW(program, programs), .standard = "once"},
-    [OPTION_VERTICES] = {"vertices", 0, NULL, VERB_ZFIGHT,
+    [OPTION_PROGRAM] = {"program", 0, "PROGRAM", VERB_PREPASS,
+        "the vertex program of the depth prepass", ROW(program, programs), .standard = "once"},
+    [OPTION_VERTICES] = {"vertices", 0, NULL, VERB_PREPASS,
         "how vertices are drawn: eye depth log-uniform over --range, in a round view of 90 degrees; or uniform in the "
         "box of --world", WORD(vertices, spreads), .standard = "eye-log"},
     [OPTION_WITHIN] = {"within", 0, "Z", SEARCHED,

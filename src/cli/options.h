@@ -244,7 +244,7 @@ typedef struct options {
     uint64_t sample;          /**< pairs to draw; 0 when not given */
     uint64_t seed;
     const vertex_program *against[VERTEX_OTHERS]; /**< in the order given, each once */
-    size_t against_count;                         /**< 0: --against was not given */
+    size_t against_count;
     const vertex_program *program;                /**< what they are compared with */
     unsigned vertices;                            /**< how they are drawn: a vertex_spread */
     bool drawn;                                   /**< --triangles: the surfaces are drawn */

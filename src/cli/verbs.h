@@ -24,6 +24,7 @@ enum {
     VERB_SOLVE = 1u << 7,
     VERB_BIAS = 1u << 8,
     VERB_METHODS = 1u << 9,
+    VERB_PREPASS = 1u << 10,
     VERB_TEXTURE = 1u << 11,
     VERB_COMPLETIONS = 1u << 12,
     VERB_SHADOW = 1u << 13,
@@ -59,6 +60,7 @@ int cmd_probe(const struct options *o);
 int cmd_list(const struct options *o);
 int cmd_plot(const struct options *o);
 int cmd_zfight(const struct options *o);
+int cmd_prepass(const struct options *o);
 int cmd_methods(const struct options *o);
 int cmd_check(const struct options *o);
 int cmd_solve(const struct options *o);
