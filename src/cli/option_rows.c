@@ -123,8 +123,8 @@ const option_row option_rows[OPTION_COUNT] = {
                    BUT(VERB_WORLD, "reversed", NULL, "mappings: " DP_MAPPING_NAMES_PERSPECTIVE),
                    BUT(VERB_BUDGET, "all", NULL, "mappings: " DP_MAPPING_NAMES_PERSPECTIVE ", " DP_MAPPING_NAMES_LOG
                        "; all are d3d and reversed"),
-                   BUT(VERB_ZFIGHT | VERB_PREPASS | VERB_DISOCCLUSION, "all", NULL, "mappings: " DP_MAPPING_NAMES_PERSPECTIVE
-                       "; all are d3d and reversed")}},
+                   BUT(VERB_ZFIGHT | VERB_PREPASS | VERB_DISOCCLUSION, "all", NULL,
+                       "mappings: " DP_MAPPING_NAMES_PERSPECTIVE "; all are d3d and reversed")}},
     [OPTION_LOG_C] = {"log-c", 0, "C", MODELLED | TAKEN | VERB_SCENE | VERB_BUDGET,
         "constant C of the logarithmic mappings", NUMBER(log_c, 1e-12, 1e12, NULL), .standard = "1"},
     [OPTION_ORTHO] = {"ortho", 0, NULL, (CAMERA & ~(VERB_DISOCCLUSION | VERB_SCENE | VERB_WORLD)) | TAKEN,
