@@ -22,7 +22,6 @@ static const struct {
     {VERB_BIAS, cmd_bias},
     {VERB_SHADOW, cmd_shadow},
     {VERB_SCENE, cmd_scene},
-    {VERB_DISOCCLUSION, cmd_disocclusion},
     {VERB_WEB, cmd_web},
     {VERB_PROBE, cmd_probe},
     {VERB_WORLD, cmd_world},

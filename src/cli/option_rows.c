@@ -46,12 +46,12 @@ static const name_list reports = {.words = (const char *const[]){"text", "json",
 enum {
     MODELLED = VERB_TABLE | VERB_PLOT,
     BUDGETED = VERB_BUDGET | VERB_PLOT,
-    SLANTED = VERB_TABLE | VERB_BUDGET | VERB_SOLVE | VERB_ZFIGHT | VERB_BIAS | VERB_DISOCCLUSION | VERB_SCENE,
+    SLANTED = VERB_TABLE | VERB_BUDGET | VERB_SOLVE | VERB_ZFIGHT | VERB_BIAS | VERB_SCENE,
     DRAWS = VERB_ZFIGHT | VERB_PLOT,
     SHADOWED = VERB_SHADOW | VERB_PLOT,
     VIEWED = SLANTED | SHADOWED,
     ASKED = MODELLED | VERB_BUDGET,
-    CAMERA = ASKED | VERB_ZFIGHT | VERB_PREPASS | VERB_DISOCCLUSION | VERB_SCENE | VERB_WORLD,
+    CAMERA = ASKED | VERB_ZFIGHT | VERB_PREPASS | VERB_SCENE | VERB_WORLD,
     PLACED = CAMERA | VERB_METHODS,
     TAKEN = VERB_TEXTURE | VERB_BIAS | VERB_SOLVE,
     MAPPED = TAKEN | VERB_SHADOW,
@@ -93,7 +93,7 @@ const option_row option_rows[OPTION_COUNT] = {
         "near plane; with --ortho also 0 or negative", .parse = parse_near, FIELD(double, znear),
         LIMITS(1e-12, 1e12, "scene units"), .standard = "0.1",
         .except = {BUT(VERB_SOLVE, NULL, "what is solved for, or 0.1 where --for names another", NULL),
-                   BUT(VERB_METHODS | VERB_DISOCCLUSION | VERB_SCENE, "0.1", NULL, "near plane"),
+                   BUT(VERB_METHODS | VERB_SCENE, "0.1", NULL, "near plane"),
                    BUT(VERB_SHADOW, "0.1", NULL, "near plane of the view")},
         .group = "The camera"},
     [OPTION_FAR] = {"far", 'f', "Z|inf", PLACED | MAPPED,
@@ -123,11 +123,11 @@ const option_row option_rows[OPTION_COUNT] = {
                    BUT(VERB_WORLD, "reversed", NULL, "mappings: " DP_MAPPING_NAMES_PERSPECTIVE),
                    BUT(VERB_BUDGET, "all", NULL, "mappings: " DP_MAPPING_NAMES_PERSPECTIVE ", " DP_MAPPING_NAMES_LOG
                        "; all are d3d and reversed"),
-                   BUT(VERB_ZFIGHT | VERB_PREPASS | VERB_DISOCCLUSION, "all", NULL,
-                       "mappings: " DP_MAPPING_NAMES_PERSPECTIVE "; all are d3d and reversed")}},
+                   BUT(VERB_ZFIGHT | VERB_PREPASS, "all", NULL, "mappings: " DP_MAPPING_NAMES_PERSPECTIVE
+                       "; all are d3d and reversed")}},
     [OPTION_LOG_C] = {"log-c", 0, "C", MODELLED | TAKEN | VERB_SCENE | VERB_BUDGET,
         "constant C of the logarithmic mappings", NUMBER(log_c, 1e-12, 1e12, NULL), .standard = "1"},
-    [OPTION_ORTHO] = {"ortho", 0, NULL, (CAMERA & ~(VERB_DISOCCLUSION | VERB_SCENE | VERB_WORLD)) | TAKEN,
+    [OPTION_ORTHO] = {"ortho", 0, NULL, (CAMERA & ~(VERB_SCENE | VERB_WORLD)) | TAKEN,
         "orthographic projection; not with linear and log", FLAG(ortho), .without = "perspective",
         .except = {BUT(VERB_ZFIGHT | VERB_PREPASS | VERB_BUDGET, NULL, "perspective", "orthographic projection")}},
     [OPTION_PRESET] = {"preset", 0, "NAME[,NAME...]", CAMERA | TAKEN,
@@ -137,7 +137,7 @@ const option_row option_rows[OPTION_COUNT] = {
         .parse = parse_presets, .names = &presets},
     [OPTION_PLATFORM] = {"platform", 0, "NAME",
         VERB_TABLE | VERB_BUDGET | VERB_ZFIGHT | VERB_PREPASS | VERB_BIAS | VERB_PLOT | VERB_SOLVE |
-            VERB_DISOCCLUSION | VERB_SCENE | VERB_TEXTURE,
+            VERB_SCENE | VERB_TEXTURE,
         "what a browser stores for a page that asks for 24 bits: formats, mapping, arithmetic, for bias the API, and "
         "with --viewport the rasterizer, where they are not given; of presets it replaces all but the mapping: @; see "
         "'depthprec list platforms'", ROW(platform, platforms)},
@@ -171,11 +171,10 @@ const option_row option_rows[OPTION_COUNT] = {
                        "marked"),
                    BUT(VERB_LIST, NULL, NULL, "list methods: the cases for which each is the cheapest that claims no "
                        "more than 0.05, or 5%")}},
-    [OPTION_AT] = {"at", 0, "Z[,Z...]|LO:HI:log|lin:COUNT", ASKED | TAKEN | VERB_DISOCCLUSION | VERB_WORLD,
+    [OPTION_AT] = {"at", 0, "Z[,Z...]|LO:HI:log|lin:COUNT", ASKED | TAKEN | VERB_WORLD,
         "the depths asked about, at most 1000000, within [near, far]", parse_at, FIELD(depths, at),
         .without = "nine, log-spaced from near to far, or to 1e6 times near; evenly where near is not above 0",
-        .except = {BUT(VERB_DISOCCLUSION, NULL, "the middle of near and far, logarithmically", NULL),
-                   BUT(VERB_SOLVE, NULL, NULL, "the depth asked about"),
+        .except = {BUT(VERB_SOLVE, NULL, NULL, "the depth asked about"),
                    BUT(VERB_WORLD, NULL, "10 m, or 10", "how far ahead of the camera the surfaces are"),
                    BUT(VERB_PLOT, NULL, NULL, "the depth asked about, in figures of a single one"),
                    BUT(VERB_TABLE, NULL, "nine, log-spaced from near to far, or to 1e6 times near; evenly where near "
@@ -251,7 +250,7 @@ const option_row option_rows[OPTION_COUNT] = {
         .except = {BUT(VERB_ZFIGHT, NULL, "1920x1080 with --triangles, else surfaces face the camera",
                        "the pixels of the viewport; without --triangles what is guaranteed at any slant stands beside "
                        "the census"),
-                   BUT(VERB_DISOCCLUSION | VERB_WORLD, "1920x1080", NULL, "pixels of the view"),
+                   BUT(VERB_WORLD, "1920x1080", NULL, "pixels of the view"),
                    BUT(VERB_SCENE, NULL, "1920x1080 from an eye, else surfaces face the camera", NULL),
                    BUT(VERB_SHADOW, "1920x1080", NULL, "pixels of the view, which say how wide it is"),
                    BUT(VERB_PLOT, NULL, "1920x1080 in fight and shadow, else surfaces face the camera",

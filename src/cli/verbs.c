@@ -85,10 +85,6 @@ const verb verb_rows[] = {
      "  depthprec scene house.glb --viewport 1920x1080 --within 50\n"
      "  depthprec scene house.glb --from 0,2,30 --look 0,2,0 --render seen.png\n"
      "  depthprec scene city.obj -F d24 -m d3d --gap 0.001 --json\n", 1},
-    {"disocclusion", VERB_DISOCCLUSION, "", 0, 0, NULL,
-     "how far apart two samples are surely of two surfaces",
-     "  depthprec disocclusion -n 0.1 -f inf -m reversed --hfov 90\n"
-     "  depthprec disocclusion --preset bevy --at 1,10,100\n", 0},
     {"web", VERB_WEB, "COMMAND...", 1, 1000, NULL,
      "the link that opens a command in the page depthprec.html",
      "  depthprec web table -n 0.1 -f 1000 -F d24 -m d3d\n"

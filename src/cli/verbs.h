@@ -28,7 +28,6 @@ enum {
     VERB_TEXTURE = 1u << 11,
     VERB_COMPLETIONS = 1u << 12,
     VERB_SHADOW = 1u << 13,
-    VERB_DISOCCLUSION = 1u << 14,
     VERB_SCENE = 1u << 15,
     VERB_WEB = 1u << 16,
     VERB_PROBE = 1u << 17,
@@ -65,7 +64,6 @@ int cmd_methods(const struct options *o);
 int cmd_check(const struct options *o);
 int cmd_solve(const struct options *o);
 int cmd_texture(const struct options *o);
-int cmd_disocclusion(const struct options *o);
 int cmd_world(const struct options *o);
 int solve_world(const struct options *o); /**< of cmd_world.c: solve --for world */
 int cmd_help(const struct options *o);

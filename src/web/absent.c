@@ -25,7 +25,6 @@ static int absent(const options *o) {
 
 ABSENT(cmd_check)
 ABSENT(cmd_completions)
-ABSENT(cmd_disocclusion)
 ABSENT(cmd_methods)
 ABSENT(cmd_probe)
 ABSENT(cmd_scene)
