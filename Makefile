@@ -150,7 +150,7 @@ WEB_METHODS := $(patsubst %,src/method/%.c,choose estimate families interval lim
 WEB_NOT := report/output_file report/terminal need/camera need/reader need/requirement need/view need/check \
     plot/canvas plot/fights plot/normals plot/pareto plot/stability plot/scene plot/pixels \
     cli/texture_% cli/cmd_texture cli/cmd_methods cli/cmd_check cli/check_report cli/cmd_shadow \
-    cli/shadow_rows cli/cmd_scene cli/scene_% cli/cmd_probe cli/cmd_web cli/completions cli/stop cli/junit cli/option_profile api/profile_file
+    cli/shadow_rows cli/cmd_scene cli/scene_% cli/cmd_probe cli/link cli/completions cli/stop cli/junit cli/option_profile api/profile_file
 WEB_SOURCES := $(filter-out $(patsubst %,src/%.c,$(WEB_NOT)),$(WEB_ROOMS)) $(WEB_METHODS)
 
 WEB_CC ?= clang --target=wasm32-wasi

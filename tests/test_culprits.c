@@ -34,6 +34,8 @@ static const struct {
               {"-n -5 -f 10", "near"}};
 
 static const refusal refusals[] = {
+    {"table --link=a#b", "link", 2},
+    {"plot fight --link", "link", 2},
     {"table --at 0.01", "at", 2},
     {"table --at 2000", "at", 2},
     {"table --range 0.01:5", "range", 2},

@@ -196,7 +196,7 @@ static void test_spelled_out(void **state) {
             const struct option_exception *e = option_exception_of(row, v);
             const char *standard = e != NULL ? e->standard : row->standard;
             if ((row->commands & v->bit) == 0 || standard == NULL || id == OPTION_THEME || id == OPTION_TYPE ||
-                id == OPTION_NORMAL_FORMAT || id == OPTION_PAGE || v->bit == VERB_PROBE)
+                id == OPTION_NORMAL_FORMAT || v->bit == VERB_PROBE)
                 /* test_png_out, cli/web.txt and probe.sh have these */
                 continue;
             char line[256];

@@ -508,6 +508,12 @@ static void test_optional(void **state) {
     assert_string_equal(o.error_file, "a.npy");
     assert_int_equal(options_parse(&o, 4, (char *[]){"depthprec", "texture", "--error-map", "a.npy", NULL}), EXIT_FINE);
     assert_true(o.error_map && o.error_file == NULL && o.operand_count == 1);
+    assert_int_equal(parse(&o, "table", OPTION_LINK, NULL, line), EXIT_FINE);
+    assert_string_equal(o.link, "depthprec.html");
+    assert_int_equal(options_parse(&o, 3, (char *[]){"depthprec", "bias", "--link=a.html", NULL}), EXIT_FINE);
+    assert_string_equal(o.link, "a.html");
+    assert_int_equal(parse(&o, "table", OPTION_QUIET, NULL, line), EXIT_FINE);
+    assert_null(o.link);
 }
 
 /* ---- Languages of their own, and all rows ------------------------------------------------------------------------ */
@@ -599,9 +605,6 @@ static void test_own(void **state) {
     assert_true(strcmp(o.unit->name, "cm") == 0 && o.znear == 0.1);
     assert_int_equal(parse(&o, "table", OPTION_CSV, NULL, line), EXIT_FINE);
     assert_true(o.form == FORM_CSV);
-    assert_int_equal(parse(&o, "web table", OPTION_PAGE, "a.html", line), EXIT_FINE);
-    assert_true(strcmp(o.page, "a.html") == 0 && o.operand_count == 1 && strcmp(o.operands[0], "table") == 0);
-    assert_int_equal(parse(&o, "web table", OPTION_PAGE, "", line), EXIT_USAGE);
     assert_int_equal(parse(&o, "plot", OPTION_HELP, NULL, line), EXIT_FINE);
     assert_true(strcmp(o.verb->name, "help") == 0 && strcmp(((const verb *)o.operand_row)->name, "plot") == 0);
 }

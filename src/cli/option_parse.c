@@ -363,6 +363,13 @@ int parse_error_map(options *o, const option_row *row, const char *value) {
     return value == NULL || *value != '\0' ? EXIT_FINE : option_refuse(row, "must be a file name, got ''");
 }
 
+int parse_link(options *o, const option_row *row, const char *value) {
+    o->link = value != NULL ? value : "depthprec.html";
+    if (*o->link == '\0' || o->link[strcspn(o->link, "# \n")] != '\0')
+        return option_refuse(row, "must be a URL without '#' and blanks, got '%s'", value);
+    return EXIT_FINE;
+}
+
 int parse_form(options *o, const option_row *row, const char *value) {
     const output_form form = (output_form)row->least;
     (void)value;

@@ -60,6 +60,7 @@ enum {
     SPREAD = COUNTED | VERB_CHECK | VERB_TEXTURE | SEARCHED,
     DRAWN = VERB_PLOT | VERB_TEXTURE,
     WRITTEN = PLACED | MAPPED | VERB_LIST | VERB_CHECK | VERB_PROBE,
+    PAGED = VERB_TABLE | VERB_PLOT | VERB_ZFIGHT | VERB_PREPASS | VERB_BUDGET | VERB_SOLVE | VERB_BIAS,
     EVERY = ~0
 };
 
@@ -474,9 +475,9 @@ const option_row option_rows[OPTION_COUNT] = {
         .without = "as suits the figure"},
     [OPTION_TITLE] = {"title", 0, "TEXT", DRAWN,
         "title of the figure", TEXT(title)},
-    [OPTION_PAGE] = {"page", 0, "URL", VERB_WEB,
-        "where the page is; before COMMAND, whose own options follow it", SOME_TEXT(page),
-        .standard = "depthprec.html", .group = "Output"},
+    [OPTION_LINK] = {"link", 0, NULL, PAGED,
+        "print the link that opens this command in the page depthprec.html, or where =URL says the page is",
+        .parse = parse_link, FIELD(const char *, link), .optional = "URL", .group = "Output"},
     [OPTION_REPORT] = {"report", 0, NULL, VERB_CHECK | VERB_SCENE,
         "how to write verdicts: text, JSON, or JUnit XML",
         WORD(report, reports), .standard = "text"},

@@ -139,7 +139,7 @@ typedef enum option_id {
     OPTION_WIDTH,
     OPTION_HEIGHT,
     OPTION_TITLE,
-    OPTION_PAGE,
+    OPTION_LINK,
     OPTION_REPORT,
     OPTION_JSON,
     OPTION_CSV,
@@ -289,7 +289,7 @@ typedef struct options {
     int width, height; /**< px; 0 when not given, so that each figure has its own default */
     const char *title; /**< null when not given */
 
-    const char *page; /**< of a link */
+    const char *link; /**< where the page is that the link opens; null when none is asked for */
 
     report_form report;
     output_form form;

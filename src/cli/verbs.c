@@ -17,7 +17,8 @@ const verb verb_rows[] = {
      "  depthprec table -n 0.1 -f inf -F fp32 -m reversed --at 1,10,100,1000\n"
      "  depthprec table -n 0.1 -f inf -F fp32 -m reversed --viewport 1920x1080\n"
      "  depthprec table -F unorm24 -m d3d --depth 0.9987\n"
-     "  depthprec table -F d32f --at 1:1000:log:10000 --csv -o depths.csv\n", 0},
+     "  depthprec table -F d32f --at 1:1000:log:10000 --csv -o depths.csv\n"
+     "  depthprec table -n 0.1 -f 1000 -F d24 -m d3d --link\n", 0},
     {"plot", VERB_PLOT, "FIGURE [FILE|FAMILY]", 1, 2, &figures,
      "a figure: SVG, PDF or PNG by the ending of -o, or --type",
      "  depthprec plot error -F all -m d3d,reversed -o error.svg\n"
@@ -85,11 +86,6 @@ const verb verb_rows[] = {
      "  depthprec scene house.glb --viewport 1920x1080 --within 50\n"
      "  depthprec scene house.glb --from 0,2,30 --look 0,2,0 --render seen.png\n"
      "  depthprec scene city.obj -F d24 -m d3d --gap 0.001 --json\n", 1},
-    {"web", VERB_WEB, "COMMAND...", 1, 1000, NULL,
-     "the link that opens a command in the page depthprec.html",
-     "  depthprec web table -n 0.1 -f 1000 -F d24 -m d3d\n"
-     "  depthprec web table -F d24 -m d3d ';' table -F fp32 -m reversed\n"
-     "  depthprec web --page https://example.org/depth.html plot error -F d24\n", 0},
     {"probe", VERB_PROBE, "", 0, 0, NULL,
      "what the GPU of this machine does to depth, measured",
      "  depthprec probe\n"

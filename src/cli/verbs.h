@@ -29,7 +29,6 @@ enum {
     VERB_COMPLETIONS = 1u << 12,
     VERB_SHADOW = 1u << 13,
     VERB_SCENE = 1u << 15,
-    VERB_WEB = 1u << 16,
     VERB_PROBE = 1u << 17,
     VERB_WORLD = 1u << 18
 };
@@ -54,7 +53,6 @@ int cmd_budget(const struct options *o);
 int cmd_bias(const struct options *o);
 int cmd_shadow(const struct options *o);
 int cmd_scene(const struct options *o);
-int cmd_web(const struct options *o);
 int cmd_probe(const struct options *o);
 int cmd_list(const struct options *o);
 int cmd_plot(const struct options *o);

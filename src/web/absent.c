@@ -6,6 +6,7 @@
 #include <stdio.h>
 
 #include "cli/check_report.h"
+#include "cli/link.h"
 #include "cli/methods.h"
 #include "cli/option_rows.h"
 #include "cli/scene_figure.h"
@@ -30,7 +31,7 @@ ABSENT(cmd_probe)
 ABSENT(cmd_scene)
 ABSENT(cmd_shadow)
 ABSENT(cmd_texture)
-ABSENT(cmd_web)
+ABSENT(link_write)
 
 #define ABSENT_FIGURE(name)                                                                                            \
     const char *name(const figure_request *request, chart *out) {                                                      \

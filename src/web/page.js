@@ -29,7 +29,7 @@ const ASKED = {
     table: [], plot: [], budget: [],
 };
 const REFUSED = 2; // the exit status of a command
-const NEVER = ["output", "json", "csv", "type", "theme", "width", "height", "threads", "quiet", "verbose", "color"];
+const NEVER = ["link", "output", "json", "csv", "type", "theme", "width", "height", "threads", "quiet", "verbose", "color"];
 // A figure does not refuse what it has no use for: it leaves it out.
 const VIEW = ["viewport", "fov", "hfov", "raster", "subpixel", "slant", "triangle"];
 const UNUSED = {
