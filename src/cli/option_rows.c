@@ -53,8 +53,10 @@ enum {
     ASKED = MODELLED | VERB_BUDGET,
     CAMERA = ASKED | VERB_ZFIGHT | VERB_PREPASS | VERB_SCENE | VERB_WORLD,
     PLACED = CAMERA | VERB_METHODS,
+    HOSTED = SLANTED | VERB_PREPASS | VERB_PLOT | VERB_TEXTURE,
     TAKEN = VERB_TEXTURE | VERB_BIAS | VERB_SOLVE,
     MAPPED = TAKEN | VERB_SHADOW,
+    ORTHO = (CAMERA & ~(VERB_SCENE | VERB_WORLD)) | TAKEN,
     COUNTED = VERB_ZFIGHT | VERB_PREPASS,
     SEARCHED = VERB_SCENE | VERB_PLOT,
     SPREAD = COUNTED | VERB_CHECK | VERB_TEXTURE | SEARCHED,
@@ -91,11 +93,11 @@ enum {
 /* clang-format off */
 const option_row option_rows[OPTION_COUNT] = {
     [OPTION_NEAR] = {"near", 'n', "Z", PLACED | MAPPED,
-        "near plane; with --ortho also 0 or negative", .parse = parse_near, FIELD(double, znear),
+        "near plane", .parse = parse_near, FIELD(double, znear),
         LIMITS(1e-12, 1e12, "scene units"), .standard = "0.1",
         .except = {BUT(VERB_SOLVE, NULL, "what is solved for, or 0.1 where --for names another", NULL),
-                   BUT(VERB_METHODS | VERB_SCENE, "0.1", NULL, "near plane"),
                    BUT(VERB_SHADOW, "0.1", NULL, "near plane of the view")},
+        .adds = {{ORTHO, "with --ortho also 0 or negative"}},
         .group = "The camera"},
     [OPTION_FAR] = {"far", 'f', "Z|inf", PLACED | MAPPED,
         "far plane, up to 1e18 scene units and at least 1e-6 of near beyond it, or inf",
@@ -128,24 +130,24 @@ const option_row option_rows[OPTION_COUNT] = {
                        "; all are d3d and reversed")}},
     [OPTION_LOG_C] = {"log-c", 0, "C", MODELLED | TAKEN | VERB_SCENE | VERB_BUDGET,
         "constant C of the logarithmic mappings", NUMBER(log_c, 1e-12, 1e12, NULL), .standard = "1"},
-    [OPTION_ORTHO] = {"ortho", 0, NULL, (CAMERA & ~(VERB_SCENE | VERB_WORLD)) | TAKEN,
+    [OPTION_ORTHO] = {"ortho", 0, NULL, ORTHO,
         "orthographic projection; not with linear and log", FLAG(ortho), .without = "perspective",
         .except = {BUT(VERB_ZFIGHT | VERB_PREPASS | VERB_BUDGET, NULL, "perspective", "orthographic projection")}},
     [OPTION_PRESET] = {"preset", 0, "NAME[,NAME...]", CAMERA | TAKEN,
-        "an engine's near, far, mapping and format, for those that are not given, for a bias the API that its users "
-        "write, and with --viewport its field of view and rasterizer: @; table compares several; see 'depthprec list "
-        "presets'",
-        .parse = parse_presets, .names = &presets},
+        "an engine's near, far, mapping and format, for those that are not given: @; see 'depthprec list presets'",
+        .parse = parse_presets, .names = &presets,
+        .adds = {{VERB_BIAS | VERB_SCENE, "for a bias the API that its users write"},
+                 {VIEWED, "with --viewport its field of view and rasterizer"}, {VERB_TABLE, "table compares several"}}},
     [OPTION_PLATFORM] = {"platform", 0, "NAME",
-        VERB_TABLE | VERB_BUDGET | VERB_ZFIGHT | VERB_PREPASS | VERB_BIAS | VERB_PLOT | VERB_SOLVE |
-            VERB_SCENE | VERB_TEXTURE,
-        "what a browser stores for a page that asks for 24 bits: formats, mapping, arithmetic, for bias the API, and "
-        "with --viewport the rasterizer, where they are not given; of presets it replaces all but the mapping: @; see "
-        "'depthprec list platforms'", ROW(platform, platforms)},
+        HOSTED,
+        "what a browser stores for a page that asks for 24 bits: formats, mapping, arithmetic, where they are not "
+        "given; of presets it replaces all but the mapping: @; see 'depthprec list platforms'",
+        ROW(platform, platforms),
+        .adds = {{VERB_BIAS | VERB_SCENE, "for a bias the API"}, {VIEWED, "with --viewport the rasterizer"}}},
     [OPTION_UNIT] = {"unit", 0, NULL, PLACED | MAPPED,
         "what a scene unit is; presets are converted to it; any length may carry a unit: 10cm",
         .parse = parse_unit, .names = &units, .without = "that of the preset, or m where a length has a unit",
-        .except = {BUT(VERB_METHODS, NULL, "m where a length has a unit",
+        .except = {BUT(VERB_METHODS | VERB_SHADOW, NULL, "m where a length has a unit",
                        "what a scene unit is; any length may carry a unit: 10cm")}},
     [OPTION_ROUNDING] = {"rounding", 0, NULL, CAMERA | TAKEN,
         "how a depth between two codes is rounded: ties upwards in unorm formats and to even in floats, as the APIs "
@@ -158,9 +160,9 @@ const option_row option_rows[OPTION_COUNT] = {
                    BUT(VERB_PLOT, "exact", "float in figures of its pipeline", NULL),
                    BUT(VERB_TABLE, "exact", "of several set-ups the fullest that each has", NULL)}},
     [OPTION_ARITH] = {"arith", 0, "NAME|FILE", CAMERA | VERB_SOLVE | VERB_BIAS | VERB_SHADOW,
-        "the binary32 arithmetic: @; or as 'depthprec probe --json -o FILE' found it; that of --raster or --platform "
-        "where one is known", .parse = parse_arith,
-        SIZED(arith), .names = &ariths, .standard = "ieee"},
+        "the binary32 arithmetic: @; or as 'depthprec probe --json -o FILE' found it", .parse = parse_arith,
+        SIZED(arith), .names = &ariths, .standard = "ieee",
+        .adds = {{VIEWED, "that of --raster where it is known"}, {HOSTED, "that of --platform where it is known"}}},
     [OPTION_TOLERANCE] = {"tolerance", 0, "SHARE", ASKED | VERB_METHODS | VERB_LIST,
         "the error allowed, 0.05 or 5%: a model is enough if it neglects no more of the separation; and the "
         "cheapest method that claims no more is used", parse_tolerance, .standard = "5%",

@@ -42,6 +42,7 @@ typedef struct verb {
     const char *summary;          /**< one line for `depthprec --help` */
     const char *example;          /**< command lines for the command's own help, one a line */
     int files_from;               /**< operands from this one on are files that it reads, counted from 1; 0: none */
+    const char *group;            /**< the heading above this row and those behind it; null where the last goes on */
 } verb;
 
 extern const verb verb_rows[];
