@@ -506,7 +506,9 @@ const option_row option_rows[OPTION_COUNT] = {
     [OPTION_FULL] = {"full", 0, NULL, WRITTEN & ~VERB_PLOT,
         "all columns, however wide", FLAG(full),
         .except = {BUT(VERB_TABLE, NULL, NULL, "all columns, however wide; and a table for each set-up in place of a "
-                       "comparison")}},
+                       "comparison"),
+                   BUT(VERB_METHODS, NULL, NULL, "all columns, however wide; and the methods to which another is "
+                       "faster and more exact")}},
     [OPTION_COLOR] = {"color", 0, NULL, WRITTEN,
         "bold headings and coloured verdicts in text; auto: on a terminal where NO_COLOR is not set",
         WORD(colour, colours), .standard = "auto"},
