@@ -617,7 +617,7 @@ async function begin() {
         solve: new Map([["for", "near"], ["separation", "1cm"], ["at", "500m"]]),
         bias: new Map([["gap", "2cm"], ["at", "100m"], ["api", "all"]]),
         zfight: new Map(),
-        prepass: new Map(),
+        prepass: new Map([["sample", "100000"]]),
     };
     buildSetup(0);
     buildSetup(1);
